@@ -1,0 +1,76 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace poise {
+
+using RowMajorMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// How many rows a level can hold.
+struct LevelCapacity {
+  int equalities = 0;
+  int inequalities = 0;
+};
+
+/// A block of rows B y + b = 0, in the least-squares sense with a weight a row:
+/// the level's cost gains 1/2 sum_i weight_i (B_i y + b_i)^2.
+struct EqualityBlock {
+  Eigen::Map<RowMajorMatrix> B;
+  Eigen::Map<Eigen::VectorXd> b;
+  Eigen::Map<Eigen::VectorXd> weight;
+};
+
+/// A block of rows lower <= C y <= upper; an infinite side is absent. A y + a
+/// <= 0 is C = A, lower = -inf, upper = -a. The violation of a row, max(lower -
+/// C y, C y - upper, 0), is its slack; the level's cost gains half its square.
+struct InequalityBlock {
+  Eigen::Map<RowMajorMatrix> C;
+  Eigen::Map<Eigen::VectorXd> lower;
+  Eigen::Map<Eigen::VectorXd> upper;
+};
+
+/// A stack of levels of rows, highest priority first: the problem of the paper,
+/// (1)-(6). All is allocated by the constructor; each tick clears it and adds
+/// its blocks anew.
+class Hierarchy {
+ public:
+  Hierarchy(int num_variables, const std::vector<LevelCapacity>& capacity);
+
+  int num_variables() const { return num_variables_; }
+  int num_levels() const { return static_cast<int>(levels_.size()); }
+
+  /// Removes all rows; with fewer levels than the capacity if told.
+  void Clear(int num_levels) noexcept;
+
+  /// The next rows of a level: B and C zero, weights 1, bounds infinite. Valid
+  /// until Clear(). pre: the level's capacity is not exceeded (asserted).
+  EqualityBlock AddEqualities(int level, int rows) noexcept;
+  InequalityBlock AddInequalities(int level, int rows) noexcept;
+
+  int num_equalities(int level) const;
+  int num_inequalities(int level) const;
+
+  /// The rows of a level.
+  Eigen::Map<const RowMajorMatrix> B(int level) const;
+  Eigen::Map<const Eigen::VectorXd> b(int level) const;
+  Eigen::Map<const Eigen::VectorXd> weight(int level) const;
+  Eigen::Map<const RowMajorMatrix> C(int level) const;
+  Eigen::Map<const Eigen::VectorXd> lower(int level) const;
+  Eigen::Map<const Eigen::VectorXd> upper(int level) const;
+
+ private:
+  int num_variables_;
+  struct Level {
+    int equalities = 0;
+    int inequalities = 0;
+    RowMajorMatrix B, C;
+    Eigen::VectorXd b, weight, lower, upper;
+  };
+  std::vector<Level> levels_;
+  int used_levels_;
+};
+
+}  // namespace poise

@@ -1,0 +1,79 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "dynamics/tree.h"
+#include "math/pose.h"
+
+namespace poise {
+
+/// The limits of one joint; infinite where the file gives none.
+struct JointLimits {
+  double lower;         ///< rad or m.
+  double upper;         ///< rad or m.
+  double velocity;      ///< rad/s or m/s.
+  double effort;        ///< N m or N.
+  double damping = 0;   ///< N m s/rad or N s/m.
+  double friction = 0;  ///< N m or N.
+};
+
+/// q[joint] = multiplier q[source] + offset; indices into Tree::joints().
+struct MimicCoupling {
+  int joint;
+  int source;
+  double multiplier;
+  double offset;
+};
+
+struct Sphere {
+  double radius;
+};
+struct Box {
+  Eigen::Vector3d size;  ///< Full edge lengths.
+};
+struct Cylinder {
+  double radius;
+  double length;  ///< Along z, centered.
+};
+struct Mesh {
+  std::string file;
+  Eigen::Vector3d scale;
+};
+using Geometry = std::variant<Sphere, Box, Cylinder, Mesh>;
+
+/// A geometry fixed in a link.
+struct Shape {
+  int frame;  ///< The link, an index into Tree::frames().
+  Pose X_FS;  ///< Shape in the link.
+  Geometry geometry;
+  Eigen::Vector4d rgba{0.7, 0.7, 0.7, 1};
+};
+
+/// What a URDF says of a robot: the tree, and what control and drawing need.
+struct RobotModel {
+  std::string name;
+  Tree tree;
+  std::vector<JointLimits> limits;  ///< By joint of the tree.
+  std::vector<MimicCoupling> mimics;
+  std::vector<Shape> visuals;
+  std::vector<Shape> collisions;
+  int root_frame;  ///< The link that carries the base.
+};
+
+/// A flat sole. The contact frame C lies at the center of the largest rectangle
+/// in the sole polygon, z out of the ground, x forward.
+struct Foot {
+  std::string name;           ///< "left_foot", "right_foot".
+  int body;                   ///< Body of the tree.
+  int frame;                  ///< The link it belongs to, in Tree::frames().
+  Pose X_BC;                  ///< Contact frame in the body.
+  Eigen::Vector2d half_size;  ///< Of the rectangle, along x and y of C, m.
+  std::vector<Eigen::Vector2d> polygon_C;  ///< Convex, counterclockwise, m.
+};
+
+}  // namespace poise

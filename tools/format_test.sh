@@ -1,0 +1,10 @@
+#!/bin/bash
+# Usage: format_test.sh SOURCE...
+# Fails if clang-format would change a SOURCE.
+set -eu
+if ! command -v clang-format > /dev/null; then
+  echo "clang-format is not installed: run tools/setup.sh" >&2
+  exit 1
+fi
+# Runfiles are links, and clang-format looks for its style next to the target.
+clang-format --style="file:.clang-format" --dry-run --Werror "$@"
