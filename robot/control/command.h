@@ -1,0 +1,22 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace poise {
+
+/// How a tick ended.
+enum class TickStatus {
+  kOk,
+  kLimitRelaxed,  ///< Solved; a torque or joint limit has slack.
+  kTruncated,     ///< A rank was not solved in its budget: those above hold.
+  kFailSafe,      ///< Gravity compensation and damping, inside the limits.
+};
+
+/// What the controller asks of the robot.
+struct Command {
+  Eigen::VectorXd tau;  ///< By joint, N m or N; inside the effort limits.
+  TickStatus status = TickStatus::kOk;
+};
+
+}  // namespace poise

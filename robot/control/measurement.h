@@ -1,0 +1,43 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "math/pose.h"
+
+namespace poise {
+
+/// What the force/torque sensor of one foot says, about and in the axes of its
+/// contact frame C.
+struct FootMeasurement {
+  Eigen::Matrix<double, 6, 1> F_Co_C;  ///< [torque; force] of the ground on it.
+  bool in_contact = true;
+};
+
+/// What a robot, or a plant in its place, senses at one instant. Sized once.
+struct Measurement {
+  double time = 0;           ///< Of the sensors' own clock, s.
+  Eigen::VectorXd q_joints;  ///< By joint of the tree, rad or m.
+  Eigen::VectorXd v_joints;  ///< rad/s or m/s.
+
+  /// Base pose and twist, as a simulator or motion capture gives them.
+  Pose X_WB;
+  Eigen::Matrix<double, 6, 1> V_WB_W;  ///< [w; v of the base's origin].
+
+  /// Inertial measurement unit at the base's origin, in the base's axes.
+  Eigen::Vector3d w_WB_B;               ///< Gyroscope, rad/s.
+  Eigen::Vector3d specific_force_Bo_B;  ///< Accelerometer: a - g, m/s2.
+  Eigen::Matrix3d R_WB_imu;             ///< Its orientation estimate.
+
+  std::vector<FootMeasurement> feet;  ///< In the order of the robot's feet.
+};
+
+/// The robot's state as the controller believes it, see dynamics/tree.h.
+struct State {
+  double time = 0;    ///< s.
+  Eigen::VectorXd q;  ///< nq.
+  Eigen::VectorXd v;  ///< nv.
+};
+
+}  // namespace poise
