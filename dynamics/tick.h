@@ -47,6 +47,19 @@ struct Tick {
   Vector6d H_G_bias;
   Vector6d L_G;
   std::vector<FrameTick> frames;
+
+ private:
+  friend void ComputeTick(const Tree& tree,
+                          const Eigen::Ref<const Eigen::VectorXd>& q,
+                          const Eigen::Ref<const Eigen::VectorXd>& v,
+                          Tick* tick) noexcept;
+
+  // About the base's origin, in world axes, by joint or by body.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> S_;
+  std::vector<Vector6d> V_;
+  std::vector<Vector6d> A_;
+  std::vector<Eigen::Matrix<double, 6, 6>> I_;
+  std::vector<Vector6d> F_;
 };
 
 /// Fills tick for the state (q, v), see Tree. Does not allocate, does not

@@ -1,0 +1,242 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <Eigen/Geometry>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "dynamics/tree.h"
+
+namespace poise {
+namespace {
+
+// How far from orthonormal the rotation of a joint's frame may be; a matrix
+// typed with six digits passes, one that scales or mirrors does not.
+constexpr double kRotationTolerance = 1e-5;
+
+template <typename Value>
+[[noreturn]] void Refuse(const std::string& thing, const std::string& what,
+                         const Value& value, const std::string& wanted) {
+  std::ostringstream message;
+  message << thing << ": " << what << " is " << value << ", must be " << wanted;
+  throw std::invalid_argument(message.str());
+}
+
+void CheckFinite(const std::string& thing, const std::string& what,
+                 const Eigen::Ref<const Eigen::MatrixXd>& value) {
+  for (const double entry : value.reshaped()) {
+    if (!std::isfinite(entry)) Refuse(thing, what, entry, "finite");
+  }
+}
+
+std::string Quote(const char* kind, const std::string& name) {
+  return std::string(kind) + " '" + name + "'";
+}
+
+// The inertia of two bodies welded together, in the axes and about the origin
+// of the first, from their centers of mass: no large terms that cancel.
+Inertia Weld(const Inertia& M_A, const Inertia& M_B, const Pose& X_AB) {
+  const Eigen::Vector3d p_AoGb_A = X_AB * M_B.p_BoG_B;
+  const double mass = M_A.mass + M_B.mass;
+  Inertia M{mass, M_A.p_BoG_B,
+            M_A.I_G_B + X_AB.R * M_B.I_G_B * X_AB.R.transpose()};
+  if (mass > 0) {
+    const Eigen::Vector3d d = p_AoGb_A - M_A.p_BoG_B;
+    M.p_BoG_B += M_B.mass / mass * d;
+    M.I_G_B +=
+        M_A.mass * M_B.mass / mass *
+        (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());
+  }
+  return M;
+}
+
+Pose Displacement(const JointSpec& joint, double value) {
+  if (joint.type == JointType::kPrismatic) {
+    return {Eigen::Matrix3d::Identity(), value * joint.axis_F};
+  }
+  return {Eigen::AngleAxisd(value, joint.axis_F).toRotationMatrix(),
+          Eigen::Vector3d::Zero()};
+}
+
+void CheckLink(const std::string& name, const Inertia& M) {
+  if (name.empty()) throw std::invalid_argument("a link has no name");
+  const std::string link = Quote("link", name);
+  CheckFinite(link, "mass", Eigen::Matrix<double, 1, 1>(M.mass));
+  if (M.mass < 0) Refuse(link, "mass", M.mass, "zero or positive");
+  CheckFinite(link, "center of mass", M.p_BoG_B);
+  CheckFinite(link, "inertia", M.I_G_B);
+  if (M.I_G_B != M.I_G_B.transpose()) {
+    throw std::invalid_argument(link + ": inertia must be symmetric");
+  }
+}
+
+// Checks a joint by itself, and normalizes its axis.
+void CheckJoint(JointSpec* joint) {
+  if (joint->name.empty()) throw std::invalid_argument("a joint has no name");
+  const std::string thing = Quote("joint", joint->name);
+  CheckFinite(thing, "rotation", joint->X_PF.R);
+  CheckFinite(thing, "position", joint->X_PF.p);
+  const Eigen::Matrix3d& R = joint->X_PF.R;
+  if (!R.isUnitary(kRotationTolerance) || R.determinant() < 0) {
+    throw std::invalid_argument(thing + ": rotation must be orthonormal");
+  }
+  if (joint->type == JointType::kFixed) return;
+  CheckFinite(thing, "axis", joint->axis_F);
+  if (joint->axis_F.isZero(0)) {
+    Refuse(thing, "axis", "(0, 0, 0)", "another vector");
+  }
+  joint->axis_F.stableNormalize();
+  CheckFinite(thing, "armature", Eigen::Matrix<double, 1, 1>(joint->armature));
+  if (joint->armature < 0) {
+    Refuse(thing, "armature", joint->armature, "zero or positive");
+  }
+}
+
+using Index = std::unordered_map<std::string, int>;
+
+// The position of a name, or a complaint that thing refers to none.
+int Find(const Index& index, const std::string& thing, const char* kind,
+         const std::string& name) {
+  const auto found = index.find(name);
+  if (found == index.end()) {
+    throw std::invalid_argument(thing + ": there is no " + Quote(kind, name));
+  }
+  return found->second;
+}
+
+template <typename Item>
+Index MakeIndex(const std::vector<Item>& items, const char* kind) {
+  Index index;
+  for (const Item& item : items) {
+    if (!index.emplace(item.name, static_cast<int>(index.size())).second) {
+      throw std::invalid_argument(Quote(kind, item.name) + " is there twice");
+    }
+  }
+  return index;
+}
+
+}  // namespace
+
+TreeBuilder& TreeBuilder::AddLink(std::string name, const Inertia& M_L) {
+  CheckLink(name, M_L);
+  links_.push_back({std::move(name), M_L});
+  return *this;
+}
+
+TreeBuilder& TreeBuilder::AddJoint(JointSpec joint) {
+  CheckJoint(&joint);
+  joints_.push_back(std::move(joint));
+  return *this;
+}
+
+TreeBuilder& TreeBuilder::Lock(std::string joint, double value) {
+  CheckFinite(Quote("joint", joint), "locked value",
+              Eigen::Matrix<double, 1, 1>(value));
+  locks_.push_back({std::move(joint), value});
+  return *this;
+}
+
+TreeBuilder& TreeBuilder::SetGravity(const Eigen::Vector3d& gravity_W) {
+  CheckFinite("tree", "gravity", gravity_W);
+  gravity_W_ = gravity_W;
+  return *this;
+}
+
+Tree TreeBuilder::Build(BaseType base) const {
+  const Index links = MakeIndex(links_, "link");
+  const Index joint_index = MakeIndex(joints_, "joint");
+
+  // Locked joints become fixed ones.
+  std::vector<JointSpec> joints = joints_;
+  for (const LockedJoint& lock : locks_) {
+    const std::string thing = Quote("joint", lock.name);
+    JointSpec& joint = joints[Find(joint_index, "lock", "joint", lock.name)];
+    if (joint.type == JointType::kFixed) {
+      throw std::invalid_argument(thing + ": it is fixed, or locked twice");
+    }
+    joint.X_PF = joint.X_PF * Displacement(joint, lock.value);
+    joint.type = JointType::kFixed;
+  }
+
+  // Who hangs on whom.
+  std::vector<std::vector<int>> joints_of(links_.size());  // By parent link.
+  std::vector<int> joint_above(links_.size(), -1);
+  std::vector<int> child_of(joints.size());
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const std::string thing = Quote("joint", joints[j].name);
+    const int parent = Find(links, thing, "link", joints[j].parent);
+    const int child = Find(links, thing, "link", joints[j].child);
+    if (joint_above[child] >= 0) {
+      throw std::invalid_argument(
+          Quote("link", joints[j].child) + " has two parents, by " +
+          Quote("joint", joints[joint_above[child]].name) + " and " + thing);
+    }
+    joint_above[child] = static_cast<int>(j);
+    child_of[j] = child;
+    joints_of[parent].push_back(static_cast<int>(j));
+  }
+  int root = -1;
+  for (size_t i = 0; i < links_.size(); ++i) {
+    if (joint_above[i] >= 0) continue;
+    if (root >= 0) {
+      throw std::invalid_argument("two roots, " +
+                                  Quote("link", links_[root].name) + " and " +
+                                  Quote("link", links_[i].name));
+    }
+    root = static_cast<int>(i);
+  }
+  if (root < 0) {
+    throw std::invalid_argument(links_.empty()
+                                    ? "there is no link"
+                                    : "no root: every link has a parent");
+  }
+
+  // Depth first, without recursion: files may be deeper than the stack.
+  Tree tree;
+  tree.base_ = base;
+  tree.gravity_W_ = gravity_W_;
+  std::vector<int> frame_of(links_.size(), -1);
+  std::vector<int> stack{root};
+  while (!stack.empty()) {
+    const int link = stack.back();
+    stack.pop_back();
+    Frame frame{links_[link].name, 0, {}};
+    const int above = joint_above[link];
+    if (above < 0) {
+      tree.inertias_.push_back(links_[link].M);
+    } else {
+      const JointSpec& joint = joints[above];
+      const Frame& parent = tree.frames_[frame_of[links.at(joint.parent)]];
+      const Pose X_BF = parent.X_BF * joint.X_PF;
+      if (joint.type == JointType::kFixed) {
+        frame.body = parent.body;
+        frame.X_BF = X_BF;
+        Inertia& M_B = tree.inertias_[parent.body];
+        M_B = Weld(M_B, links_[link].M, X_BF);
+      } else {
+        frame.body = static_cast<int>(tree.inertias_.size());
+        tree.inertias_.push_back(links_[link].M);
+        tree.joints_.push_back({joint.name, joint.type, parent.body, X_BF,
+                                joint.axis_F, joint.armature});
+      }
+    }
+    frame_of[link] = static_cast<int>(tree.frames_.size());
+    tree.frames_.push_back(std::move(frame));
+    tree.total_mass_ += links_[link].M.mass;
+    const std::vector<int>& below = joints_of[link];
+    for (auto j = below.rbegin(); j != below.rend(); ++j) {
+      stack.push_back(child_of[*j]);
+    }
+  }
+
+  for (size_t i = 0; i < links_.size(); ++i) {
+    if (frame_of[i] < 0) {
+      throw std::invalid_argument(
+          Quote("link", links_[i].name) + " is not connected to the root, " +
+          Quote("link", links_[root].name) + ": it is in or below a cycle");
+    }
+  }
+  return tree;
+}
+
+}  // namespace poise
