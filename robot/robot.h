@@ -76,4 +76,12 @@ struct Foot {
   std::vector<Eigen::Vector2d> polygon_C;  ///< Convex, counterclockwise, m.
 };
 
+/// A robot as control and simulation see it: what its file says, and what its
+/// profile adds.
+struct Robot {
+  RobotModel model;
+  std::vector<Foot> feet;
+  Eigen::VectorXd q_nominal;  ///< nq, standing: see Tree.
+};
+
 }  // namespace poise
