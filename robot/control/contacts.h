@@ -1,0 +1,40 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "dynamics/tick.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// What a tick needs of one foot, in the axes of its contact frame C.
+struct ContactTick {
+  Pose X_WC;
+  Vector6d V_WC_C;                                  ///< [w; v of C's origin].
+  Eigen::Matrix<double, 6, Eigen::Dynamic> J_WC_C;  ///< V_WC_C = J_WC_C v.
+  Vector6d Jdot_v_C;  ///< Its classical acceleration at v̇ = 0.
+
+  bool in_contact = true;  ///< If not, its λ is zero.
+  /// What its normal force may not exceed: less than infinite while the
+  /// contact is faded in or out, N.
+  double max_normal_force = std::numeric_limits<double>::infinity();
+};
+
+/// Moves the motion of the foot's link, frame F, to its contact frame C:
+///     V_WC_C  = blkdiag(R', R') [ I 0; -[p]x I ] V_WF_W,  p = p_FC_W, R =
+///     R_WC,
+/// likewise its Jacobian; and the classical acceleration
+///     a_C = a_F + alpha x p + w x (w x p).
+/// Leaves in_contact and max_normal_force. pre: out->J_WC_C has frame's size.
+/// Does not allocate.
+void ComputeContact(const FrameTick& frame, const Pose& X_FC,
+                    ContactTick* out) noexcept;
+
+/// The frame amid the feet in contact (all, if none is): its origin the mean of
+/// theirs, z up, x along their mean heading. Does not allocate.
+Pose MidFeet(const std::vector<ContactTick>& contacts) noexcept;
+
+}  // namespace poise

@@ -1,0 +1,168 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/controller.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "robot/control/default_stack.h"
+#include "robot/control/fail_safe.h"
+#include "robot/control/torque.h"
+
+namespace poise {
+namespace {
+
+// A state whose time stamp stands still for longer than this is not believed.
+constexpr double kFrozenAfter = 0.010;  // s.
+
+// Slack of a limit above this is reported; in its own scale, where 1 is the
+// limit.
+constexpr double kLimitSlack = 1e-6;
+
+// Of the fail-safe command.
+constexpr double kFailSafeDamping = 10;  // 1/s.
+
+const Robot& Checked(const Robot& robot) {
+  if (robot.feet.empty()) {
+    throw std::invalid_argument("robot '" + robot.model.name +
+                                "': has no foot, must have one or more");
+  }
+  if (robot.q_nominal.size() != robot.model.tree.nq()) {
+    throw std::invalid_argument(
+        "robot '" + robot.model.name + "': nominal posture has size " +
+        std::to_string(robot.q_nominal.size()) + ", must be " +
+        std::to_string(robot.model.tree.nq()));
+  }
+  return robot;
+}
+
+std::vector<int> FootFrames(const Robot& robot) {
+  std::vector<int> frames;
+  for (const Foot& foot : robot.feet) frames.push_back(foot.frame);
+  return frames;
+}
+
+int NumVariables(const Robot& robot) {
+  return robot.model.tree.nv() + 6 * static_cast<int>(robot.feet.size());
+}
+
+}  // namespace
+
+Controller::Controller(const Robot& robot, const ControllerOptions& options)
+    : robot_(Checked(robot)),
+      options_(options),
+      stack_(MakeDefaultStack(robot_)),
+      tick_(robot_.model.tree, FootFrames(robot_)),
+      contacts_(robot_.feet.size()),
+      hierarchy_(NumVariables(robot_), stack_.capacity()),
+      solver_(NumVariables(robot_), stack_.capacity()),
+      solution_(NumVariables(robot_), stack_.capacity()),
+      last_time_(-std::numeric_limits<double>::infinity()) {
+  if (!(options.dt > 0 && options.dt < 1)) {
+    throw std::invalid_argument("control period is " +
+                                std::to_string(options.dt) +
+                                " s, must be above 0 and below 1");
+  }
+  if (!stack_.SetParameter("friction", "mu", options.friction) ||
+      !stack_.SetParameter("yaw", "mu", options.friction)) {
+    throw std::invalid_argument("friction is " +
+                                std::to_string(options.friction) +
+                                ", must be 0 to 10");
+  }
+  (void)stack_.SetParameter("friction", "inscribed", options.inscribed);
+  (void)stack_.SetParameter("momentum", "feedforward", options.feedforward);
+  stack_.set_weighted(options.weighted);
+  stack_.Resize(&report_);
+
+  const Tree& tree = robot_.model.tree;
+  for (ContactTick& contact : contacts_) contact.J_WC_C.setZero(6, tree.nv());
+  const State nominal{0, robot_.q_nominal, Eigen::VectorXd::Zero(tree.nv())};
+  ComputeModel(nominal);
+  const Pose X_MidW = MidFeet(contacts_).Inverse();
+  X_MidB_ = X_MidW * tick_.X_WB[0];
+  p_MidG_ = X_MidW * tick_.p_WG;
+  Start(nominal);
+}
+
+void Controller::ComputeModel(const State& state) noexcept {
+  ComputeTick(robot_.model.tree, state.q, state.v, &tick_);
+  for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
+    const Foot& foot = robot_.feet[i];
+    const Pose& X_BF = robot_.model.tree.frames()[foot.frame].X_BF;
+    ComputeContact(tick_.frames[i], X_BF.Inverse() * foot.X_BC, &contacts_[i]);
+  }
+}
+
+void Controller::Start(const State& state) noexcept {
+  ComputeModel(state);
+  const Pose X_WMid = MidFeet(contacts_);
+  reference_.p_WG = X_WMid * p_MidG_;
+  reference_.v_WG.setZero();
+  reference_.a_WG.setZero();
+  reference_.R_WB = X_WMid.R * X_MidB_.R;
+  reference_.posture = robot_.q_nominal.tail(robot_.model.tree.num_joints());
+  reference_.ground_z = X_WMid.p.z();
+}
+
+void Controller::Update(const State& state, Command* command) noexcept {
+  report_.status = TickStatus::kOk;
+  if (!IsUsable(state)) {
+    FailSafe(state, command);
+    return;
+  }
+  ComputeModel(state);
+  stack_.Write({state, tick_, contacts_, reference_}, &hierarchy_);
+  const Status solved = solver_.Solve(hierarchy_, &solution_);
+  stack_.Report(solution_, &report_);
+
+  const bool is_truncated =
+      solved == Status::kIterationLimit && report_.failed_rank > 1;
+  if (solved != Status::kOptimal && !is_truncated) {
+    FailSafe(state, command);
+    return;
+  }
+  if (is_truncated) report_.status = TickStatus::kTruncated;
+  ComputeTorque(tick_, contacts_, solution_.y, &command->tau);
+  LimitTorque(command);
+  command->status = report_.status;
+}
+
+bool Controller::IsUsable(const State& state) noexcept {
+  const bool moves = state.time > last_time_;
+  frozen_for_ = moves ? 0 : frozen_for_ + options_.dt;
+  if (moves) last_time_ = state.time;
+  // Rounding: ten periods of 1 ms are 10 ms, and no more.
+  const bool frozen = frozen_for_ > kFrozenAfter + 1e-9;
+  return !frozen && std::isfinite(state.time) && state.q.allFinite() &&
+         state.v.allFinite();
+}
+
+void Controller::FailSafe(const State& state, Command* command) noexcept {
+  report_.status = TickStatus::kFailSafe;
+  const int n = robot_.model.tree.num_joints();
+  ComputeFailSafeTorque(tick_, contacts_, state.v.tail(n), kFailSafeDamping,
+                        &command->tau);
+  LimitTorque(command);
+  command->status = report_.status;
+}
+
+void Controller::LimitTorque(Command* command) noexcept {
+  const double scale =
+      stack_.GetParameter("torque_limits", "scale").value_or(1);
+  bool relaxed = false;
+  for (Eigen::Index j = 0; j < command->tau.size(); ++j) {
+    const double limit = scale * robot_.model.limits[j].effort;
+    if (!(limit > 0)) continue;  // The file gives none.
+    double& tau = command->tau[j];
+    relaxed |= std::abs(tau) > limit * (1 + kLimitSlack);
+    tau = std::clamp(tau, -limit, limit);
+  }
+  const auto joint_limits = stack_.Find("joint_limits");
+  relaxed |= report_.tasks[*joint_limits].slack > kLimitSlack;
+  if (relaxed && report_.status == TickStatus::kOk) {
+    report_.status = TickStatus::kLimitRelaxed;
+  }
+}
+
+}  // namespace poise

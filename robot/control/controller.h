@@ -1,0 +1,99 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "dynamics/tick.h"
+#include "hqp/cascade.h"
+#include "hqp/hierarchy.h"
+#include "hqp/solution.h"
+#include "robot/control/command.h"
+#include "robot/control/contacts.h"
+#include "robot/control/measurement.h"
+#include "robot/control/reference.h"
+#include "robot/control/stack.h"
+#include "robot/control/tick_report.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// What a controller is told when it is made.
+struct ControllerOptions {
+  double dt = 1e-3;          ///< From one Update() to the next, s.
+  double friction = 0.5;     ///< mu of the tasks friction and yaw.
+  bool inscribed = false;    ///< The friction pyramid; else circumscribed.
+  bool feedforward = false;  ///< The reference's v_WG and a_WG are used.
+  bool weighted = false;     ///< One weighted QP instead of the hierarchy.
+};
+
+/// Momentum control with hierarchical inverse dynamics: a robot's state in, its
+/// joint torques out.
+///
+///     Controller controller(robot);
+///     controller.Start(state);
+///     for (;;) {
+///       controller.reference().p_WG = ...;  // If it is to move.
+///       controller.Update(state, &command);
+///     }
+///
+/// The default hierarchy, any task of which stack() switches, moves and tunes
+/// by name between two ticks (those in brackets are off):
+///
+/// | rank | tasks |
+/// | 1 | newton_euler, no_contact |
+/// | 2 | torque_limits, joint_limits |
+/// | 3 | contact, cop, friction, unilateral, yaw, (zmp, zmp_literal,
+/// yaw_constant) | | 4 | momentum | | 5 | posture, force_regularizer |
+class Controller {
+ public:
+  /// Throws std::invalid_argument if the robot has no foot, or an option is out
+  /// of its range.
+  explicit Controller(const Robot& robot,
+                      const ControllerOptions& options = {});
+
+  /// Makes reference() that of standing in the nominal posture on the feet
+  /// where they are in this state. Does not allocate.
+  void Start(const State& state) noexcept;
+
+  Reference& reference() { return reference_; }
+  const Reference& reference() const { return reference_; }
+  Stack& stack() { return stack_; }
+  const Stack& stack() const { return stack_; }
+
+  /// One tick. Never throws, allocates or waits; whatever the state holds, the
+  /// torques are finite and inside the effort limits, see TickStatus.
+  /// pre: command->tau has the size of the joints.
+  void Update(const State& state, Command* command) noexcept;
+
+  /// What the last Update() did, and what it found.
+  const TickReport& report() const { return report_; }
+  const Tick& tick() const { return tick_; }
+  const std::vector<ContactTick>& contacts() const { return contacts_; }
+  const Robot& robot() const { return robot_; }
+
+ private:
+  void ComputeModel(const State& state) noexcept;
+  bool IsUsable(const State& state) noexcept;
+  void FailSafe(const State& state, Command* command) noexcept;
+  void LimitTorque(Command* command) noexcept;
+
+  Robot robot_;
+  ControllerOptions options_;
+  Reference reference_;
+  Stack stack_;
+  Tick tick_;
+  std::vector<ContactTick> contacts_;
+  Hierarchy hierarchy_;
+  Cascade solver_;
+  Solution solution_;
+  TickReport report_;
+
+  Pose X_MidB_;             ///< Nominal base, in the mid-feet frame.
+  Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.
+  double last_time_;        ///< Of the last state, s.
+  double frozen_for_ = 0;   ///< How long it has been the same, s.
+};
+
+}  // namespace poise

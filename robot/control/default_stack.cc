@@ -1,0 +1,63 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/default_stack.h"
+
+#include <memory>
+
+#include "robot/control/tasks/contact.h"
+#include "robot/control/tasks/cop.h"
+#include "robot/control/tasks/force_regularizer.h"
+#include "robot/control/tasks/friction.h"
+#include "robot/control/tasks/joint_limits.h"
+#include "robot/control/tasks/momentum.h"
+#include "robot/control/tasks/newton_euler.h"
+#include "robot/control/tasks/no_contact.h"
+#include "robot/control/tasks/posture.h"
+#include "robot/control/tasks/torque_limits.h"
+#include "robot/control/tasks/unilateral.h"
+#include "robot/control/tasks/yaw.h"
+#include "robot/control/tasks/yaw_constant.h"
+#include "robot/control/tasks/zmp.h"
+#include "robot/control/tasks/zmp_literal.h"
+
+namespace poise {
+namespace {
+
+constexpr bool kOn = true;
+constexpr bool kOff = false;
+
+// Momentum and posture leave the internal forces free; the regularizer shall
+// not compete with the posture where they do meet.
+constexpr double kRegularizerWeight = 1e-2;
+
+}  // namespace
+
+Stack MakeDefaultStack(const Robot& robot) {
+  const RobotModel& model = robot.model;
+  const Tree& tree = model.tree;
+  const std::vector<Foot>& feet = robot.feet;
+  Stack stack(tree.nv() + 6 * static_cast<int>(feet.size()));
+
+  stack.Add(std::make_unique<NewtonEulerTask>(tree), {kOn, 1, 1});
+  stack.Add(std::make_unique<NoContactTask>(tree, feet), {kOn, 1, 1});
+
+  stack.Add(std::make_unique<TorqueLimitsTask>(model), {kOn, 2, 1});
+  stack.Add(std::make_unique<JointLimitsTask>(model), {kOn, 2, 1});
+
+  stack.Add(std::make_unique<ContactTask>(feet), {kOn, 3, 1});
+  stack.Add(std::make_unique<CopTask>(tree, feet), {kOn, 3, 1});
+  stack.Add(std::make_unique<FrictionTask>(tree, feet), {kOn, 3, 1});
+  stack.Add(std::make_unique<UnilateralTask>(tree, feet), {kOn, 3, 1});
+  stack.Add(std::make_unique<YawTask>(tree, feet), {kOn, 3, 1});
+  stack.Add(std::make_unique<YawConstantTask>(tree, feet), {kOff, 3, 1});
+  stack.Add(std::make_unique<ZmpTask>(tree, feet), {kOff, 3, 1});
+  stack.Add(std::make_unique<ZmpLiteralTask>(tree, feet), {kOff, 3, 1});
+
+  stack.Add(std::make_unique<MomentumTask>(tree), {kOn, 4, 1});
+
+  stack.Add(std::make_unique<PostureTask>(tree), {kOn, 5, 1});
+  stack.Add(std::make_unique<ForceRegularizerTask>(tree, feet),
+            {kOn, 5, kRegularizerWeight});
+  return stack;
+}
+
+}  // namespace poise

@@ -1,0 +1,218 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/stack.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace poise {
+namespace {
+
+// How much heavier a rank counts than the next, as one weighted QP.
+constexpr double kRankRatio = 100;
+
+// Multipliers and slacks below this are rounding.
+constexpr double kNoticeable = 1e-9;
+
+bool IsValidWeight(double weight) {
+  return std::isfinite(weight) && weight > 0;
+}
+
+}  // namespace
+
+void Stack::Add(std::unique_ptr<Task> task, const TaskSettings& settings) {
+  const std::string what = "task '" + task->name() + "': ";
+  if (Find(task->name())) {
+    throw std::invalid_argument(what + "is there already");
+  }
+  if (settings.rank < 1 || settings.rank > kMaxRank) {
+    throw std::invalid_argument(what + "rank is " +
+                                std::to_string(settings.rank) +
+                                ", must be 1 to " + std::to_string(kMaxRank));
+  }
+  if (!IsValidWeight(settings.weight)) {
+    throw std::invalid_argument(what + "weight is " +
+                                std::to_string(settings.weight) +
+                                ", must be positive");
+  }
+  Entry entry;
+  entry.task = std::move(task);
+  entry.settings = settings;
+  entries_.push_back(std::move(entry));
+}
+
+std::optional<int> Stack::Find(std::string_view name) const noexcept {
+  for (int i = 0; i < num_tasks(); ++i) {
+    if (entries_[i].task->name() == name) return i;
+  }
+  return std::nullopt;
+}
+
+bool Stack::Enable(std::string_view name, bool enabled) noexcept {
+  const auto i = Find(name);
+  if (!i) return false;
+  entries_[*i].settings.enabled = enabled;
+  return true;
+}
+
+bool Stack::SetRank(std::string_view name, int rank) noexcept {
+  const auto i = Find(name);
+  if (!i || rank < 1 || rank > kMaxRank) return false;
+  entries_[*i].settings.rank = rank;
+  return true;
+}
+
+bool Stack::SetWeight(std::string_view name, double weight) noexcept {
+  const auto i = Find(name);
+  if (!i || !IsValidWeight(weight)) return false;
+  entries_[*i].settings.weight = weight;
+  return true;
+}
+
+bool Stack::SetParameter(std::string_view name, std::string_view parameter,
+                         double value) noexcept {
+  const auto i = Find(name);
+  if (!i) return false;
+  for (const Parameter& each : entries_[*i].task->parameters()) {
+    if (each.name != parameter) continue;
+    if (!(value >= each.lower && value <= each.upper)) return false;
+    *each.value = value;
+    return true;
+  }
+  return false;
+}
+
+std::optional<double> Stack::GetParameter(
+    std::string_view name, std::string_view parameter) const noexcept {
+  const auto i = Find(name);
+  if (!i) return std::nullopt;
+  for (const Parameter& each : entries_[*i].task->parameters()) {
+    if (each.name == parameter) return *each.value;
+  }
+  return std::nullopt;
+}
+
+std::vector<LevelCapacity> Stack::capacity() const {
+  LevelCapacity all;
+  for (const Entry& entry : entries_) {
+    all.equalities += static_cast<int>(entry.task->equality_names().size());
+    all.inequalities += static_cast<int>(entry.task->inequality_names().size());
+  }
+  return std::vector<LevelCapacity>(kMaxRank, all);
+}
+
+double Stack::RowWeight(const Entry& entry) const noexcept {
+  if (!weighted_ || entry.settings.rank == 1) return entry.settings.weight;
+  int below = 0;
+  for (int rank = entry.settings.rank + 1; rank <= kMaxRank; ++rank) {
+    below += std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) {
+      return e.settings.enabled && e.settings.rank == rank;
+    });
+  }
+  return entry.settings.weight * std::pow(kRankRatio, below);
+}
+
+void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
+  // One level a rank in use; as one weighted QP, rank 1 and the rest.
+  num_levels_ = 0;
+  for (int rank = 1; rank <= kMaxRank; ++rank) {
+    bool used = false;
+    for (Entry& entry : entries_) {
+      if (entry.settings.rank != rank) continue;
+      if (!entry.settings.enabled) continue;
+      entry.level = weighted_ ? std::min(num_levels_, 1) : num_levels_;
+      used = true;
+    }
+    if (!used || (weighted_ && num_levels_ == 2)) continue;
+    rank_of_level_[num_levels_++] = rank;
+  }
+
+  hierarchy->Clear(num_levels_);
+  for (Entry& entry : entries_) {
+    if (!entry.settings.enabled) {
+      entry.level = -1;
+      continue;
+    }
+    const Task& task = *entry.task;
+    entry.equality_start = hierarchy->num_equalities(entry.level);
+    entry.inequality_start = hierarchy->num_inequalities(entry.level);
+    EqualityBlock equalities = hierarchy->AddEqualities(
+        entry.level, static_cast<int>(task.equality_names().size()));
+    InequalityBlock inequalities = hierarchy->AddInequalities(
+        entry.level, static_cast<int>(task.inequality_names().size()));
+    task.Write(input, &equalities, &inequalities);
+
+    const double weight = RowWeight(entry);
+    if (weight == 1) continue;
+    equalities.weight *= weight;
+    // A slack has no weight of its own: its row is scaled.
+    const double scale = std::sqrt(weight);
+    inequalities.C *= scale;
+    inequalities.lower *= scale;
+    inequalities.upper *= scale;
+  }
+}
+
+void Stack::Resize(TickReport* report) const {
+  int equalities = 0;
+  int inequalities = 0;
+  for (const Entry& entry : entries_) {
+    equalities += static_cast<int>(entry.task->equality_names().size());
+    inequalities += static_cast<int>(entry.task->inequality_names().size());
+  }
+  report->y = Eigen::VectorXd::Zero(num_variables_);
+  report->tasks.assign(num_tasks(), {});
+  report->active.clear();
+  report->active.reserve(inequalities);
+}
+
+void Stack::Report(const Solution& solution,
+                   TickReport* report) const noexcept {
+  report->y = solution.y;
+  report->solver_status = solution.status;
+  report->iterations = solution.iterations;
+  report->failed_rank =
+      solution.failed_level < 0 ? 0 : rank_of_level_[solution.failed_level];
+  report->active.clear();
+  for (int i = 0; i < num_tasks(); ++i) {
+    const Entry& entry = entries_[i];
+    TaskReport& out = report->tasks[i];
+    out = {entry.settings.enabled, entry.settings.rank, 0, 0};
+    if (!entry.settings.enabled) continue;
+    const int rows = static_cast<int>(entry.task->equality_names().size());
+    out.residual = solution.levels[entry.level]
+                       .equality_residual.segment(entry.equality_start, rows)
+                       .norm();
+    ReportInequalities(i, solution, report);
+  }
+}
+
+void Stack::ReportInequalities(int i, const Solution& solution,
+                               TickReport* report) const noexcept {
+  const Entry& entry = entries_[i];
+  const LevelSolution& level = solution.levels[entry.level];
+  const double scale = std::sqrt(RowWeight(entry));
+  const int rows = static_cast<int>(entry.task->inequality_names().size());
+  for (int row = 0; row < rows; ++row) {
+    const int index = entry.inequality_start + row;
+    // A level's own multiplier on its row is the slack.
+    ActiveRow active{i,
+                     row,
+                     level.active[index],
+                     entry.settings.rank,
+                     level.slack[index],
+                     level.slack[index] / scale};
+    for (int k = entry.level + 1; k < num_levels_; ++k) {
+      const double multiplier =
+          solution.levels[k].multipliers[entry.level].inequality[index];
+      if (std::abs(multiplier) <= active.multiplier) continue;
+      active.multiplier = std::abs(multiplier);
+      active.pressing_rank = rank_of_level_[k];
+      active.side = multiplier > 0 ? Side::kUpper : Side::kLower;
+    }
+    report->tasks[i].slack = std::max(report->tasks[i].slack, active.slack);
+    if (active.multiplier > kNoticeable) report->active.push_back(active);
+  }
+}
+
+}  // namespace poise

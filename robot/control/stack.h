@@ -1,0 +1,95 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hqp/hierarchy.h"
+#include "hqp/solution.h"
+#include "robot/control/task.h"
+#include "robot/control/tick_report.h"
+
+namespace poise {
+
+/// How a task takes part in the hierarchy.
+struct TaskSettings {
+  bool enabled = true;
+  int rank = 1;       ///< 1 is the highest; at most Stack::kMaxRank.
+  double weight = 1;  ///< Among the tasks of its rank, > 0.
+};
+
+/// The tasks of a controller in their order of priority. Any of them may be
+/// switched, moved to another rank, weighted or tuned by name between two
+/// ticks: that takes effect at the next Write(), and does not allocate.
+class Stack {
+ public:
+  static constexpr int kMaxRank = 8;
+
+  /// For rows in num_variables variables.
+  explicit Stack(int num_variables) : num_variables_(num_variables) {}
+
+  /// Adds a task; before the first tick only. Throws std::invalid_argument if
+  /// its name is taken, or a setting out of range.
+  void Add(std::unique_ptr<Task> task, const TaskSettings& settings);
+
+  int num_tasks() const { return static_cast<int>(entries_.size()); }
+  const Task& task(int i) const { return *entries_[i].task; }
+  const TaskSettings& settings(int i) const { return entries_[i].settings; }
+  std::optional<int> Find(std::string_view name) const noexcept;
+
+  /// False, and nothing happens, if there is no such task or parameter, or the
+  /// value is out of its range.
+  [[nodiscard]] bool Enable(std::string_view name, bool enabled) noexcept;
+  [[nodiscard]] bool SetRank(std::string_view name, int rank) noexcept;
+  [[nodiscard]] bool SetWeight(std::string_view name, double weight) noexcept;
+  [[nodiscard]] bool SetParameter(std::string_view name,
+                                  std::string_view parameter,
+                                  double value) noexcept;
+  std::optional<double> GetParameter(std::string_view name,
+                                     std::string_view parameter) const noexcept;
+
+  /// One weighted QP below rank 1 instead of a hierarchy: each rank counts a
+  /// hundred times the next.
+  void set_weighted(bool weighted) { weighted_ = weighted; }
+
+  /// What a Hierarchy, and its solver, must hold for every setting of the
+  /// tasks.
+  std::vector<LevelCapacity> capacity() const;
+
+  /// Clears the hierarchy and writes the rows of the tasks that are on.
+  void Write(const TaskInput& input, Hierarchy* hierarchy) noexcept;
+
+  /// Sizes the members of a report that depend on the tasks.
+  void Resize(TickReport* report) const;
+
+  /// Copies into the report what became of the rows of the last Write().
+  void Report(const Solution& solution, TickReport* report) const noexcept;
+
+  /// The rank whose rows the last Write() put into a level.
+  int rank_of_level(int level) const { return rank_of_level_[level]; }
+
+ private:
+  struct Entry {
+    std::unique_ptr<Task> task;
+    TaskSettings settings;
+    // Where its rows are, since the last Write().
+    int level = -1;
+    int equality_start = 0;
+    int inequality_start = 0;
+  };
+
+  double RowWeight(const Entry& entry) const noexcept;
+  void ReportInequalities(int i, const Solution& solution,
+                          TickReport* report) const noexcept;
+
+  int num_variables_;
+  bool weighted_ = false;
+  std::vector<Entry> entries_;
+  int rank_of_level_[kMaxRank] = {};
+  int num_levels_ = 0;
+};
+
+}  // namespace poise

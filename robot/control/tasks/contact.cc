@@ -1,0 +1,37 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/contact.h"
+
+#include <Eigen/Geometry>
+
+#include "robot/control/tasks/row_names.h"
+
+namespace poise {
+
+ContactTask::ContactTask(const std::vector<Foot>& feet)
+    : Task("contact",
+           FootRowNames(feet, "contact", {"wx", "wy", "wz", "vx", "vy", "vz"}),
+           {}) {
+  AddParameter("kp", &kp_, 0, 1e4);
+  AddParameter("kd", &kd_, 0, 1e3);
+}
+
+void ContactTask::Write(const TaskInput& input, EqualityBlock* equalities,
+                        InequalityBlock*) const noexcept {
+  for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
+    const ContactTick& contact = input.contacts[i];
+    if (!contact.in_contact) continue;
+    const Eigen::Matrix3d& R_WC = contact.X_WC.R;
+    // z_C x z_W turns z_C upright; R' of a vector along z_W is its last row.
+    const Eigen::Vector3d up_C = R_WC.row(2).transpose();
+    const double height = contact.X_WC.p.z() - input.reference.ground_z;
+    Vector6d e_C;
+    e_C << Eigen::Vector3d::UnitZ().cross(up_C), -height * up_C;
+
+    const auto nv = contact.J_WC_C.cols();
+    equalities->B.block(6 * i, 0, 6, nv) = contact.J_WC_C;
+    equalities->b.segment<6>(6 * i) =
+        contact.Jdot_v_C + kd_ * contact.V_WC_C - kp_ * e_C;
+  }
+}
+
+}  // namespace poise

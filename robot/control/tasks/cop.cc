@@ -1,0 +1,36 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/cop.h"
+
+#include <algorithm>
+
+#include "robot/control/tasks/row_names.h"
+#include "robot/control/tasks/scale.h"
+
+namespace poise {
+
+CopTask::CopTask(const Tree& tree, const std::vector<Foot>& feet)
+    : Task("cop", {},
+           FootRowNames(feet, "cop", {"x_max", "x_min", "y_max", "y_min"})),
+      nv_(tree.nv()),
+      scale_(1 / ForceScale(tree)),
+      feet_(feet) {
+  AddParameter("margin", &margin_, 0, 1);
+}
+
+void CopTask::Write(const TaskInput& input, EqualityBlock*,
+                    InequalityBlock* inequalities) const noexcept {
+  for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
+    if (!input.contacts[i].in_contact) continue;
+    const double X = scale_ * std::max(0.0, feet_[i].half_size.x() - margin_);
+    const double Y = scale_ * std::max(0.0, feet_[i].half_size.y() - margin_);
+    auto C = inequalities->C.block<4, 6>(4 * i, nv_ + 6 * i);
+    // Columns: m_x, m_y, m_z, f_x, f_y, f_z.
+    C << 0, -scale_, 0, 0, 0, -X,  //
+        0, scale_, 0, 0, 0, -X,    //
+        scale_, 0, 0, 0, 0, -Y,    //
+        -scale_, 0, 0, 0, 0, -Y;
+    inequalities->upper.segment<4>(4 * i).setZero();
+  }
+}
+
+}  // namespace poise

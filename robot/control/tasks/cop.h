@@ -1,0 +1,30 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <vector>
+
+#include "robot/control/task.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// Keeps the center of pressure of each foot inside its sole (table in section
+/// 3 of the seed). With λ = [m; f] about the sole's center,
+///     CoP = (-m_y, m_x) / f_z,   |CoP_x| <= X - margin,  |CoP_y| <= Y -
+///     margin,
+/// times f_z, over a quarter of the robot's weight.
+class CopTask final : public Task {
+ public:
+  /// Parameter: margin (0.005 m).
+  CopTask(const Tree& tree, const std::vector<Foot>& feet);
+  void Write(const TaskInput& input, EqualityBlock* equalities,
+             InequalityBlock* inequalities) const noexcept override;
+
+ private:
+  int nv_;
+  double scale_;
+  std::vector<Foot> feet_;
+  double margin_ = 0.005;
+};
+
+}  // namespace poise

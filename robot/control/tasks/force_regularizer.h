@@ -1,0 +1,24 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <vector>
+
+#include "robot/control/task.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// Keeps the contact forces small (section 3.7 of the seed): lambda = 0, over a
+/// quarter of the robot's weight. Settles the internal forces.
+class ForceRegularizerTask final : public Task {
+ public:
+  ForceRegularizerTask(const Tree& tree, const std::vector<Foot>& feet);
+  void Write(const TaskInput& input, EqualityBlock* equalities,
+             InequalityBlock* inequalities) const noexcept override;
+
+ private:
+  int nv_;
+  double scale_;
+};
+
+}  // namespace poise

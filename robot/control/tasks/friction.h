@@ -1,0 +1,30 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <vector>
+
+#include "robot/control/task.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// Keeps each foot from sliding, (13) and (14): a square stands for the
+/// friction circle of radius mu f_z, circumscribed as in the seed (up to √2 mu
+/// on the diagonal),
+///     |f_x| <= mu f_z,  |f_y| <= mu f_z,
+/// or inscribed, with mu / √2; over a quarter of the robot's weight.
+class FrictionTask final : public Task {
+ public:
+  /// Parameters: mu (0.5); inscribed (0), 1 for the inscribed square.
+  FrictionTask(const Tree& tree, const std::vector<Foot>& feet);
+  void Write(const TaskInput& input, EqualityBlock* equalities,
+             InequalityBlock* inequalities) const noexcept override;
+
+ private:
+  int nv_;
+  double scale_;
+  double mu_ = 0.5;
+  double inscribed_ = 0;
+};
+
+}  // namespace poise

@@ -1,0 +1,48 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/joint_limits.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "robot/control/tasks/row_names.h"
+
+namespace poise {
+
+JointLimitsTask::JointLimitsTask(const RobotModel& model)
+    : Task("joint_limits", {}, JointRowNames(model.tree, "joint")),
+      q_start_(model.tree.q_start()),
+      v_start_(model.tree.v_start()),
+      lower_(model.tree.num_joints()),
+      upper_(model.tree.num_joints()),
+      velocity_(model.tree.num_joints()) {
+  for (int j = 0; j < model.tree.num_joints(); ++j) {
+    const JointLimits& limits = model.limits[j];
+    lower_[j] = limits.lower;
+    upper_[j] = limits.upper;
+    velocity_[j] = limits.velocity > 0
+                       ? limits.velocity
+                       : std::numeric_limits<double>::infinity();
+  }
+  AddParameter("omega", &omega_, 1, 1000);
+  AddParameter("margin", &margin_, 0, 1);
+}
+
+void JointLimitsTask::Write(const TaskInput& input, EqualityBlock*,
+                            InequalityBlock* inequalities) const noexcept {
+  const double w = omega_;
+  const double scale = 1 / (w * w);
+  for (int j = 0; j < static_cast<int>(lower_.size()); ++j) {
+    const double q = input.state.q[q_start_ + j];
+    const double v = input.state.v[v_start_ + j];
+    const double lower = std::max(w * w * (lower_[j] + margin_ - q) - 2 * w * v,
+                                  w * (-velocity_[j] - v));
+    const double upper = std::min(w * w * (upper_[j] - margin_ - q) - 2 * w * v,
+                                  w * (velocity_[j] - v));
+    inequalities->C(j, v_start_ + j) = scale;
+    // Where the two ends contradict each other, the nearer limit wins.
+    inequalities->lower[j] = scale * std::min(lower, std::max(upper, lower));
+    inequalities->upper[j] = scale * std::max(upper, lower);
+  }
+}
+
+}  // namespace poise

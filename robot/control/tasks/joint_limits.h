@@ -1,0 +1,34 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "robot/control/task.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// Keeps each joint inside its position limits, by bounds on its acceleration:
+///     w² (lower - q) - 2 w q̇ <= q̈ <= w² (upper - q) - 2 w q̇,
+/// along which it comes to rest at the limit, critically damped; and inside its
+/// velocity limits, which are approached as exp(-w t):
+///     w (-q̇_max - q̇) <= q̈ <= w (q̇_max - q̇).
+/// Rows are divided by w² rad.
+class JointLimitsTask final : public Task {
+ public:
+  /// Parameters: omega (20 1/s); margin (0 rad), kept from each limit.
+  explicit JointLimitsTask(const RobotModel& model);
+  void Write(const TaskInput& input, EqualityBlock* equalities,
+             InequalityBlock* inequalities) const noexcept override;
+
+ private:
+  int q_start_;
+  int v_start_;
+  Eigen::VectorXd lower_;
+  Eigen::VectorXd upper_;
+  Eigen::VectorXd velocity_;
+  double omega_ = 20;
+  double margin_ = 0;
+};
+
+}  // namespace poise

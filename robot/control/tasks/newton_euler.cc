@@ -1,0 +1,29 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/newton_euler.h"
+
+#include "robot/control/tasks/row_names.h"
+#include "robot/control/tasks/scale.h"
+
+namespace poise {
+
+NewtonEulerTask::NewtonEulerTask(const Tree& tree)
+    : Task("newton_euler",
+           AxisRowNames("newton_euler", {"mx", "my", "mz", "fx", "fy", "fz"}),
+           {}),
+      scale_(1 / ForceScale(tree)) {}
+
+void NewtonEulerTask::Write(const TaskInput& input, EqualityBlock* equalities,
+                            InequalityBlock*) const noexcept {
+  const Tick& tick = input.tick;
+  const int nv = static_cast<int>(tick.M.rows());
+  equalities->B.leftCols(nv) = scale_ * tick.M.topRows<6>();
+  equalities->b = scale_ * tick.N.head<6>();
+  for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
+    const ContactTick& contact = input.contacts[i];
+    if (!contact.in_contact) continue;
+    equalities->B.middleCols<6>(nv + 6 * i) =
+        -scale_ * contact.J_WC_C.leftCols<6>().transpose();
+  }
+}
+
+}  // namespace poise

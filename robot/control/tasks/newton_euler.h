@@ -1,0 +1,23 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include "dynamics/tree.h"
+#include "robot/control/task.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// The six rows of the dynamics that no motor acts on, (9):
+///     M_l v̇ + N_l - J_{c,l}' lambda = 0,
+/// divided by a quarter of the robot's weight. It can always be met.
+class NewtonEulerTask final : public Task {
+ public:
+  explicit NewtonEulerTask(const Tree& tree);
+  void Write(const TaskInput& input, EqualityBlock* equalities,
+             InequalityBlock* inequalities) const noexcept override;
+
+ private:
+  double scale_;
+};
+
+}  // namespace poise

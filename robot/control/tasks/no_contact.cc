@@ -1,0 +1,27 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/no_contact.h"
+
+#include "robot/control/tasks/row_names.h"
+#include "robot/control/tasks/scale.h"
+
+namespace poise {
+
+NoContactTask::NoContactTask(const Tree& tree, const std::vector<Foot>& feet)
+    : Task("no_contact",
+           FootRowNames(feet, "no_contact",
+                        {"mx", "my", "mz", "fx", "fy", "fz"}),
+           {}),
+      nv_(tree.nv()),
+      scale_(1 / ForceScale(tree)) {}
+
+void NoContactTask::Write(const TaskInput& input, EqualityBlock* equalities,
+                          InequalityBlock*) const noexcept {
+  for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
+    if (input.contacts[i].in_contact) continue;
+    equalities->B.block<6, 6>(6 * i, nv_ + 6 * i)
+        .diagonal()
+        .setConstant(scale_);
+  }
+}
+
+}  // namespace poise

@@ -1,0 +1,27 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/posture.h"
+
+#include "robot/control/tasks/row_names.h"
+
+namespace poise {
+
+PostureTask::PostureTask(const Tree& tree)
+    : Task("posture", JointRowNames(tree, "posture"), {}),
+      q_start_(tree.q_start()),
+      v_start_(tree.v_start()) {
+  AddParameter("kp", &kp_, 0, 1e4);
+  AddParameter("kd", &kd_, 0, 1e3);
+}
+
+void PostureTask::Write(const TaskInput& input, EqualityBlock* equalities,
+                        InequalityBlock*) const noexcept {
+  const int n = static_cast<int>(equalities->b.size());
+  for (int j = 0; j < n; ++j) {
+    const double q = input.state.q[q_start_ + j];
+    const double v = input.state.v[v_start_ + j];
+    equalities->B(j, v_start_ + j) = 1;
+    equalities->b[j] = -kp_ * (input.reference.posture[j] - q) + kd_ * v;
+  }
+}
+
+}  // namespace poise

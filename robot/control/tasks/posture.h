@@ -1,0 +1,25 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include "dynamics/tree.h"
+#include "robot/control/task.h"
+
+namespace poise {
+
+/// Brings each joint to its place in the reference posture, (21):
+///     q̈ = kp (q_ref - q) - kd q̇.
+class PostureTask final : public Task {
+ public:
+  /// Parameters: kp (60 1/s2), kd (15 1/s).
+  explicit PostureTask(const Tree& tree);
+  void Write(const TaskInput& input, EqualityBlock* equalities,
+             InequalityBlock* inequalities) const noexcept override;
+
+ private:
+  int q_start_;
+  int v_start_;
+  double kp_ = 60;
+  double kd_ = 15;
+};
+
+}  // namespace poise

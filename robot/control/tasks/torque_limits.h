@@ -1,0 +1,26 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "robot/control/task.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// Keeps each torque of (10) inside the effort limit of its joint:
+///     -1 <= (M_u v̇ + N_u - J_{c,u}' lambda) / (scale tau_max) <= 1.
+/// A joint without a limit has no bound.
+class TorqueLimitsTask final : public Task {
+ public:
+  /// Parameter: scale (1), on all limits.
+  explicit TorqueLimitsTask(const RobotModel& model);
+  void Write(const TaskInput& input, EqualityBlock* equalities,
+             InequalityBlock* inequalities) const noexcept override;
+
+ private:
+  Eigen::VectorXd inverse_effort_;  // 0 without a limit.
+  double scale_ = 1;
+};
+
+}  // namespace poise

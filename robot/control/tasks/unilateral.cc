@@ -1,0 +1,24 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/unilateral.h"
+
+#include "robot/control/tasks/row_names.h"
+#include "robot/control/tasks/scale.h"
+
+namespace poise {
+
+UnilateralTask::UnilateralTask(const Tree& tree, const std::vector<Foot>& feet)
+    : Task("unilateral", {}, FootRowNames(feet, "unilateral", {"fz"})),
+      nv_(tree.nv()),
+      scale_(1 / ForceScale(tree)) {}
+
+void UnilateralTask::Write(const TaskInput& input, EqualityBlock*,
+                           InequalityBlock* inequalities) const noexcept {
+  for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
+    if (!input.contacts[i].in_contact) continue;
+    inequalities->C(i, nv_ + 6 * i + 5) = scale_;
+    inequalities->lower[i] = 0;
+    inequalities->upper[i] = scale_ * input.contacts[i].max_normal_force;
+  }
+}
+
+}  // namespace poise

@@ -1,0 +1,24 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <vector>
+
+#include "robot/control/task.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// The ground pushes and never pulls: 0 <= f_z <= ContactTick::max_normal_force
+/// for each foot, over a quarter of the robot's weight.
+class UnilateralTask final : public Task {
+ public:
+  UnilateralTask(const Tree& tree, const std::vector<Foot>& feet);
+  void Write(const TaskInput& input, EqualityBlock* equalities,
+             InequalityBlock* inequalities) const noexcept override;
+
+ private:
+  int nv_;
+  double scale_;
+};
+
+}  // namespace poise

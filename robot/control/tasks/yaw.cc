@@ -1,0 +1,44 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/yaw.h"
+
+#include "robot/control/tasks/row_names.h"
+#include "robot/control/tasks/scale.h"
+
+namespace poise {
+
+YawTask::YawTask(const Tree& tree, const std::vector<Foot>& feet)
+    : Task("yaw", {},
+           FootRowNames(feet, "yaw",
+                        {"max_pp", "max_pm", "max_mp", "max_mm", "min_pp",
+                         "min_pm", "min_mp", "min_mm"})),
+      nv_(tree.nv()),
+      scale_(1 / ForceScale(tree)),
+      feet_(feet) {
+  AddParameter("mu", &mu_, 0, 10);
+}
+
+void YawTask::Write(const TaskInput& input, EqualityBlock*,
+                    InequalityBlock* inequalities) const noexcept {
+  for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
+    if (!input.contacts[i].in_contact) continue;
+    const double X = feet_[i].half_size.x();
+    const double Y = feet_[i].half_size.y();
+    int row = 8 * i;
+    for (const double side : {1.0, -1.0}) {
+      for (const double s : {1.0, -1.0}) {
+        for (const double t : {1.0, -1.0}) {
+          // side m_z + s (Y f_x + side mu m_x) + t (X f_y + side mu m_y)
+          //     - mu (X + Y) f_z <= 0.
+          Eigen::Matrix<double, 1, 6> c;
+          c << s * side * mu_, t * side * mu_, side, s * Y, t * X,
+              -mu_ * (X + Y);
+          inequalities->C.block<1, 6>(row, nv_ + 6 * i) = scale_ * c;
+          inequalities->upper[row] = 0;
+          ++row;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace poise

@@ -1,0 +1,30 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/yaw_constant.h"
+
+#include "robot/control/tasks/row_names.h"
+#include "robot/control/tasks/scale.h"
+
+namespace poise {
+
+YawConstantTask::YawConstantTask(const Tree& tree,
+                                 const std::vector<Foot>& feet)
+    : Task("yaw_constant", {},
+           FootRowNames(feet, "yaw_constant", {"max", "min"})),
+      nv_(tree.nv()),
+      scale_(1 / ForceScale(tree)) {
+  AddParameter("radius", &radius_, 0, 1);
+}
+
+void YawConstantTask::Write(const TaskInput& input, EqualityBlock*,
+                            InequalityBlock* inequalities) const noexcept {
+  for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
+    if (!input.contacts[i].in_contact) continue;
+    auto C = inequalities->C.block<2, 4>(2 * i, nv_ + 6 * i + 2);
+    // Columns: m_z, f_x, f_y, f_z.
+    C << scale_, 0, 0, -scale_ * radius_,  //
+        -scale_, 0, 0, -scale_ * radius_;
+    inequalities->upper.segment<2>(2 * i).setZero();
+  }
+}
+
+}  // namespace poise

@@ -1,0 +1,27 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <vector>
+
+#include "robot/control/task.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// Bounds the yaw moment of each foot by its load, |m_z| <= r f_z, over a
+/// quarter of the robot's weight. Plainer than YawTask and, near an edge of the
+/// sole, wrong: the robot can pivot there.
+class YawConstantTask final : public Task {
+ public:
+  /// Parameter: radius (0.05 m), r.
+  YawConstantTask(const Tree& tree, const std::vector<Foot>& feet);
+  void Write(const TaskInput& input, EqualityBlock* equalities,
+             InequalityBlock* inequalities) const noexcept override;
+
+ private:
+  int nv_;
+  double scale_;
+  double radius_ = 0.05;
+};
+
+}  // namespace poise

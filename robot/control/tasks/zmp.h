@@ -1,0 +1,31 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "robot/control/task.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// Keeps the center of pressure of all feet together inside a box in the
+/// mid-feet frame (12): its origin amid the feet in contact, z up, x along
+/// their mean heading. With [m; f] the sum of their wrenches about that origin,
+///     CoP = (-m_y, m_x) / f_z,   |CoP_x| <= dx,  |CoP_y| <= dy,
+/// times f_z, over a quarter of the robot's weight.
+class ZmpTask final : public Task {
+ public:
+  /// Parameters: dx (half a sole's length), dy (0.1), m.
+  ZmpTask(const Tree& tree, const std::vector<Foot>& feet);
+  void Write(const TaskInput& input, EqualityBlock* equalities,
+             InequalityBlock* inequalities) const noexcept override;
+
+ private:
+  int nv_;
+  double scale_;
+  double dx_ = 0.1;
+  double dy_ = 0.1;
+};
+
+}  // namespace poise

@@ -1,0 +1,37 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/zmp_literal.h"
+
+#include "robot/control/tasks/row_names.h"
+#include "robot/control/tasks/scale.h"
+
+namespace poise {
+
+ZmpLiteralTask::ZmpLiteralTask(const Tree& tree, const std::vector<Foot>& feet)
+    : Task("zmp_literal", {},
+           AxisRowNames("zmp_literal", {"x_max", "x_min", "y_max", "y_min"})),
+      nv_(tree.nv()),
+      scale_(1 / ForceScale(tree)) {
+  if (!feet.empty()) {
+    dx_ = feet.front().half_size.x();
+    dy_ = feet.front().half_size.y();
+  }
+  AddParameter("dx", &dx_, 0, 10);
+  AddParameter("dy", &dy_, 0, 10);
+}
+
+void ZmpLiteralTask::Write(const TaskInput& input, EqualityBlock*,
+                           InequalityBlock* inequalities) const noexcept {
+  for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
+    if (!input.contacts[i].in_contact) continue;
+    auto C = inequalities->C.middleCols<6>(nv_ + 6 * i);
+    // Columns: m_x, m_y, m_z, f_x, f_y, f_z.
+    C << 0, -1, 0, 0, 0, -dx_,  //
+        0, 1, 0, 0, 0, -dx_,    //
+        1, 0, 0, 0, 0, -dy_,    //
+        -1, 0, 0, 0, 0, -dy_;
+    C *= scale_;
+    inequalities->upper.setZero();
+  }
+}
+
+}  // namespace poise

@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "hqp/solution.h"
+#include "robot/control/command.h"
+
+namespace poise {
+
+/// A row that acts at the solution of a tick. Stack::RowName() names it.
+struct ActiveRow {
+  int task;           ///< Index into Stack::tasks().
+  int row;            ///< Index into Task::inequality_names().
+  Side side;          ///< Where it acts.
+  int pressing_rank;  ///< The rank that presses hardest on it.
+  double multiplier;  ///< Of that rank's optimum on the row, always >= 0.
+  double slack;       ///< By how much the row is violated, in its own scale.
+};
+
+/// What became of one task in a tick.
+struct TaskReport {
+  bool enabled = false;
+  int rank = 0;
+  double residual = 0;  ///< Norm of its equality residuals, in their own scale.
+  double slack = 0;     ///< Largest slack of its inequalities.
+};
+
+/// What the controller can say of its last tick. Of fixed size: filling it does
+/// not allocate.
+struct TickReport {
+  TickStatus status = TickStatus::kOk;
+  Status solver_status = Status::kOptimal;
+  int failed_rank = 0;  ///< The rank that was not solved; 0 if all were.
+  int iterations = 0;   ///< Of the solver.
+  Eigen::VectorXd y;    ///< [v̇; λ], λ by foot, about and in the axes of C.
+  std::vector<TaskReport> tasks;  ///< By task of the stack.
+  std::vector<ActiveRow> active;  ///< Its capacity is the number of all rows.
+
+  /// λ of a foot, [moment; force]; nv is Tree::nv().
+  Eigen::Matrix<double, 6, 1> foot_wrench(int nv, int foot) const {
+    return y.segment<6>(nv + 6 * foot);
+  }
+};
+
+}  // namespace poise
