@@ -42,10 +42,12 @@ struct ControllerOptions {
 /// by name between two ticks (those in brackets are off):
 ///
 /// | rank | tasks |
+/// | --- | --- |
 /// | 1 | newton_euler, no_contact |
 /// | 2 | torque_limits, joint_limits |
-/// | 3 | contact, cop, friction, unilateral, yaw, (zmp, zmp_literal,
-/// yaw_constant) | | 4 | momentum | | 5 | posture, force_regularizer |
+/// | 3 | contact, cop, friction, unilateral, yaw (zmp, zmp_literal, yaw_constant) |
+/// | 4 | momentum |
+/// | 5 | posture, force_regularizer |
 class Controller {
  public:
   /// Throws std::invalid_argument if the robot has no foot, or an option is out
