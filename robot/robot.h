@@ -80,8 +80,14 @@ struct Foot {
 /// profile adds.
 struct Robot {
   RobotModel model;
-  std::vector<Foot> feet;
-  Eigen::VectorXd q_nominal;  ///< nq, standing: see Tree.
+  std::vector<Foot> feet;  ///< Left, right.
+  /// The nominal posture: soles on the ground (z = 0), the middle between them
+  /// at the world's origin, facing +x; for the layout see Tree.
+  Eigen::VectorXd q_nominal;
+  /// Whether q_nominal is known to be a posture to stand in. If not, its joints
+  /// are at zero or their nearest limit, its base is at the origin, and
+  /// robot/control can look for a better one.
+  bool can_stand = false;
 };
 
 }  // namespace poise

@@ -1,0 +1,120 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/feet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace poise {
+namespace {
+
+using Eigen::Vector2d;
+
+double Cross(const Vector2d& a, const Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+// The extent in y of a convex polygon at x, (lowest, highest).
+std::pair<double, double> ExtentAt(const std::vector<Vector2d>& polygon,
+                                   double x) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Vector2d& a = polygon[i];
+    const Vector2d& b = polygon[(i + 1) % polygon.size()];
+    if (x < std::min(a.x(), b.x()) || x > std::max(a.x(), b.x())) continue;
+    const double t = a.x() == b.x() ? 0 : (x - a.x()) / (b.x() - a.x());
+    const double y = a.y() + t * (b.y() - a.y());
+    low = std::min({low, y, a.x() == b.x() ? b.y() : y});
+    high = std::max({high, y, a.x() == b.x() ? b.y() : y});
+  }
+  return {low, high};
+}
+
+// Where a function with a single peak has it.
+template <typename Function>
+double ArgMax(double low, double high, const Function& f) {
+  constexpr int kSteps = 100;  // (2/3)^100 is below rounding.
+  for (int i = 0; i < kSteps; ++i) {
+    const double a = low + (high - low) / 3;
+    const double b = high - (high - low) / 3;
+    (f(a) < f(b) ? low : high) = f(a) < f(b) ? a : b;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+std::vector<Vector2d> ConvexHull(std::vector<Vector2d> points) {
+  std::sort(
+      points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
+        return std::make_pair(a.x(), a.y()) < std::make_pair(b.x(), b.y());
+      });
+  // Andrew's monotone chain: the lower side, then the upper one.
+  std::vector<Vector2d> hull;
+  for (const int side : {0, 1}) {
+    const size_t start = hull.size();
+    for (const Vector2d& point : points) {
+      while (hull.size() >= start + 2 &&
+             Cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <=
+                 0) {
+        hull.pop_back();
+      }
+      hull.push_back(point);
+    }
+    if (!hull.empty()) hull.pop_back();  // The next side starts there.
+    if (side == 0) std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+Rectangle LargestRectangle(const std::vector<Vector2d>& polygon) {
+  double left = polygon[0].x();
+  double right = left;
+  for (const Vector2d& corner : polygon) {
+    left = std::min(left, corner.x());
+    right = std::max(right, corner.x());
+  }
+  const auto extent = [&](double x1, double x2) {
+    const auto [low1, high1] = ExtentAt(polygon, x1);
+    const auto [low2, high2] = ExtentAt(polygon, x2);
+    return std::make_pair(std::max(low1, low2), std::min(high1, high2));
+  };
+  // The logarithms of width and height are concave in (x1, x2), so the area has
+  // one peak along either.
+  const auto area = [&](double x1, double x2) {
+    const auto [low, high] = extent(x1, x2);
+    return (x2 - x1) * (high - low);
+  };
+  const auto best_end = [&](double x1) {
+    return ArgMax(x1, right, [&](double x2) { return area(x1, x2); });
+  };
+  const double x1 =
+      ArgMax(left, right, [&](double x) { return area(x, best_end(x)); });
+  const double x2 = best_end(x1);
+  const auto [low, high] = extent(x1, x2);
+  return {{0.5 * (x1 + x2), 0.5 * (low + high)},
+          {0.5 * (x2 - x1), 0.5 * (high - low)}};
+}
+
+Foot MakeFoot(const RobotModel& model, std::string name, int frame,
+              const Pose& X_FS, const std::vector<Vector2d>& sole_S) {
+  std::vector<Vector2d> polygon = ConvexHull(sole_S);
+  const Rectangle rectangle =
+      polygon.size() < 3 ? Rectangle{} : LargestRectangle(polygon);
+  if (polygon.size() < 3 || !(rectangle.half_size.minCoeff() > 0)) {
+    throw std::invalid_argument("foot '" + name +
+                                "': its sole spans no area, must have three "
+                                "corners that are not on a line");
+  }
+  for (Vector2d& corner : polygon) corner -= rectangle.center;
+  const Frame& link = model.tree.frames()[frame];
+  const Pose X_SC{Eigen::Matrix3d::Identity(),
+                  {rectangle.center.x(), rectangle.center.y(), 0}};
+  return {std::move(name),         link.body,           frame,
+          link.X_BF * X_FS * X_SC, rectangle.half_size, std::move(polygon)};
+}
+
+}  // namespace poise

@@ -1,0 +1,290 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/find_feet.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "robot/feet.h"
+
+namespace poise {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// Corners this close to a plane lie in it, m: drawings are rounded to 1 mm.
+constexpr double kFlat = 2e-3;
+// Bodies this close to the lowest one stand on the ground too, m.
+constexpr double kLevel = 0.03;
+// A sole's steepest normal and most turned axis at q = 0, rad.
+constexpr double kSteepest = 0.6;
+constexpr double kMostTurned = 0.3;
+
+// What of a body may touch the ground.
+struct Corner {
+  int frame;
+  Vector3d p;     // In the body.
+  double radius;  // Of a ball about it.
+};
+
+struct Outline {
+  std::vector<Corner> corners;
+  std::vector<Vector3d> axes;  // Of the shapes and of the body, in the body.
+};
+
+// A flat underside of a body.
+struct Sole {
+  int frame = 0;
+  Vector3d normal;               // In the body, out of the ground.
+  std::vector<Vector3d> points;  // In the body, all in one plane.
+};
+
+// Curved rims become 16 points.
+void AddShape(const Shape& shape, const Pose& X_BF, Outline* outline) {
+  const Pose X_BS = X_BF * shape.X_FS;
+  const auto add = [&](const Vector3d& p_S, double radius) {
+    outline->corners.push_back({shape.frame, X_BS * p_S, radius});
+  };
+  if (const auto* box = std::get_if<Box>(&shape.geometry)) {
+    for (int i = 0; i < 8; ++i) {
+      const Vector3d sign(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+      add(0.5 * box->size.cwiseProduct(sign), 0);
+    }
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) {
+    constexpr int kPoints = 16;
+    for (int i = 0; i < kPoints; ++i) {
+      const double angle = 2 * M_PI * i / kPoints;
+      for (const double end : {-0.5, 0.5}) {
+        add({cylinder->radius * std::cos(angle),
+             cylinder->radius * std::sin(angle), end * cylinder->length},
+            0);
+      }
+    }
+  } else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
+    add(Vector3d::Zero(), sphere->radius);
+    return;  // Any axis is as good.
+  } else {
+    return;  // A mesh is not opened.
+  }
+  for (int i = 0; i < 3; ++i) outline->axes.push_back(X_BS.R.col(i));
+}
+
+// Of each body, by its collision shapes or, where it has none that say
+// anything, by its visual ones.
+std::vector<Outline> MakeOutlines(const RobotModel& model) {
+  const std::vector<Frame>& frames = model.tree.frames();
+  std::vector<Outline> outlines(model.tree.num_bodies());
+  for (const std::vector<Shape>* shapes : {&model.collisions, &model.visuals}) {
+    std::vector<bool> done;
+    for (const Outline& outline : outlines) {
+      done.push_back(!outline.corners.empty());
+    }
+    for (const Shape& shape : *shapes) {
+      const Frame& frame = frames[shape.frame];
+      if (!done[frame.body]) {
+        AddShape(shape, frame.X_BF, &outlines[frame.body]);
+      }
+    }
+  }
+  for (Outline& outline : outlines) {
+    for (int i = 0; i < 3; ++i) outline.axes.push_back(Vector3d::Unit(i));
+  }
+  return outlines;
+}
+
+// The bodies' poses in the base's axes, with the joints as near 0 as they go.
+std::vector<Pose> RestPoses(const RobotModel& model) {
+  const Tree& tree = model.tree;
+  std::vector<Pose> X_WB(1);
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    const Joint& joint = tree.joints()[j];
+    const double q =
+        std::max(model.limits[j].lower, std::min(0.0, model.limits[j].upper));
+    const Pose X_FB =
+        joint.type == JointType::kPrismatic
+            ? Pose{Eigen::Matrix3d::Identity(), q * joint.axis_F}
+            : Pose{Eigen::AngleAxisd(q, joint.axis_F).toRotationMatrix(),
+                   Vector3d::Zero()};
+    X_WB.push_back(X_WB[joint.parent] * joint.X_PF * X_FB);
+  }
+  return X_WB;
+}
+
+// How far down each body reaches, with its shapes and its links' origins.
+std::vector<double> Reach(const RobotModel& model,
+                          const std::vector<Outline>& outlines,
+                          const std::vector<Pose>& X_WB) {
+  std::vector<double> low(X_WB.size());
+  for (size_t b = 0; b < X_WB.size(); ++b) {
+    low[b] = X_WB[b].p.z();
+    for (const Corner& corner : outlines[b].corners) {
+      low[b] = std::min(low[b], (X_WB[b] * corner.p).z() - corner.radius);
+    }
+  }
+  for (const Frame& frame : model.tree.frames()) {
+    low[frame.body] =
+        std::min(low[frame.body], (X_WB[frame.body] * frame.X_BF.p).z());
+  }
+  return low;
+}
+
+double Area(const Sole& sole) {
+  const Eigen::Quaterniond R_SB =
+      Eigen::Quaterniond::FromTwoVectors(sole.normal, Vector3d::UnitZ());
+  std::vector<Vector2d> points;
+  for (const Vector3d& p : sole.points) points.push_back((R_SB * p).head<2>());
+  const std::vector<Vector2d> hull = ConvexHull(std::move(points));
+  double area = 0;
+  for (size_t i = 2; i < hull.size(); ++i) {
+    const Vector2d a = hull[i - 1] - hull[0];
+    const Vector2d b = hull[i] - hull[0];
+    area += 0.5 * (a.x() * b.y() - a.y() * b.x());
+  }
+  return area;
+}
+
+// The largest flat underside; without points where there is none.
+Sole FindSole(const Outline& outline, const Vector3d& up) {
+  std::vector<Vector3d> normals = outline.axes;
+  normals.push_back(up);
+  Sole best;
+  for (Vector3d normal : normals) {
+    if (normal.dot(up) < 0) normal = -normal;
+    if (normal.dot(up) < std::cos(kSteepest)) continue;
+    double height = std::numeric_limits<double>::infinity();
+    for (const Corner& corner : outline.corners) {
+      height = std::min(height, normal.dot(corner.p) - corner.radius);
+    }
+    Sole sole;
+    sole.normal = normal;
+    for (const Corner& corner : outline.corners) {
+      const double above = normal.dot(corner.p) - height;
+      if (above - corner.radius > kFlat) continue;
+      sole.frame = corner.frame;
+      sole.points.push_back(corner.p - above * normal);
+    }
+    // The same plane again, up to rounding, is no better.
+    if (Area(sole) > 1.01 * Area(best)) best = sole;
+  }
+  if (best.points.empty() || !(Area(best) > kFlat * kFlat)) return {};
+  return best;
+}
+
+// The frame at the body's origin with z along the sole's normal and x forward:
+// along an axis of the foot if one is near.
+Pose MakeSoleAxes(const Sole& sole, const Outline& outline,
+                  const Vector3d& forward) {
+  const Vector3d z = sole.normal;
+  const auto in_plane = [&](const Vector3d& a) -> Vector3d {
+    return (a - a.dot(z) * z).normalized();
+  };
+  const Vector3d wanted = in_plane(forward);
+  Vector3d x = wanted;
+  double best = std::cos(kMostTurned);
+  for (const Vector3d& axis : outline.axes) {
+    if (std::abs(axis.dot(z)) > 0.5) continue;  // Not in the plane.
+    const double along = in_plane(axis).dot(wanted);
+    if (std::abs(along) > best + 1e-9) {
+      best = std::abs(along);
+      x = along > 0 ? in_plane(axis) : -in_plane(axis);
+    }
+  }
+  Pose X_BS;
+  X_BS.R << x, z.cross(x), z;
+  X_BS.p = sole.points[0].dot(z) * z;
+  return X_BS;
+}
+
+// The bodies on the ground: of each chain of them, the one with a sole.
+std::vector<int> BodiesOnGround(const RobotModel& model,
+                                const std::vector<double>& low,
+                                const std::vector<Sole>& soles) {
+  const double ground = *std::min_element(low.begin(), low.end());
+  std::vector<int> chain(low.size(), -1);  // Index into bodies.
+  std::vector<int> bodies;
+  for (int b = 0; b < static_cast<int>(low.size()); ++b) {
+    if (low[b] > ground + kLevel) continue;
+    const int parent = b > 0 ? model.tree.joints()[b - 1].parent : -1;
+    if (parent >= 0 && chain[parent] >= 0) {
+      chain[b] = chain[parent];
+      int& body = bodies[chain[b]];
+      if (Area(soles[b]) > Area(soles[body])) body = b;
+    } else {
+      chain[b] = static_cast<int>(bodies.size());
+      bodies.push_back(b);
+    }
+  }
+  return bodies;
+}
+
+std::string LinkOf(const RobotModel& model, int body) {
+  for (const Frame& frame : model.tree.frames()) {
+    if (frame.body == body) return frame.name;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<Foot> FindFeet(const RobotModel& model) {
+  const std::vector<Outline> outlines = MakeOutlines(model);
+  const std::vector<Pose> X_WB = RestPoses(model);
+  const std::vector<double> low = Reach(model, outlines, X_WB);
+  std::vector<Sole> soles;
+  for (size_t b = 0; b < X_WB.size(); ++b) {
+    soles.push_back(FindSole(outlines[b], X_WB[b].R.row(2).transpose()));
+  }
+  const std::vector<int> bodies = BodiesOnGround(model, low, soles);
+  if (bodies.size() != 2) {
+    throw std::invalid_argument(
+        "robot '" + model.name + "' reaches the ground with " +
+        std::to_string(bodies.size()) + " bodies, must be two feet");
+  }
+  for (const int body : bodies) {
+    if (!soles[body].points.empty()) continue;
+    throw std::invalid_argument(
+        "link '" + LinkOf(model, body) +
+        "' is a foot without a flat sole made of boxes, cylinders or "
+        "spheres: a profile must give it");
+  }
+
+  // The feet stand side by side: along y or, in some robots, along x.
+  const Vector3d across = X_WB[bodies[1]].p - X_WB[bodies[0]].p;
+  Vector3d forward = std::abs(across.y()) >= std::abs(across.x())
+                         ? Vector3d::UnitX()
+                         : Vector3d::UnitY();
+  double toes = 0;
+  for (const int body : bodies) {
+    double front = -std::numeric_limits<double>::infinity();
+    double back = -front;
+    for (const Vector3d& p : soles[body].points) {
+      const double along = (X_WB[body].R * p).dot(forward);
+      front = std::max(front, along);
+      back = std::min(back, along);
+    }
+    toes += front + back;
+  }
+  if (toes < -kFlat) forward = -forward;
+
+  std::vector<Foot> feet;
+  const bool first_is_left = across.dot(Vector3d::UnitZ().cross(forward)) < 0;
+  for (const bool left : {true, false}) {
+    const int body = bodies[left == first_is_left ? 0 : 1];
+    const Sole& sole = soles[body];
+    const Pose X_BS =
+        MakeSoleAxes(sole, outlines[body], X_WB[body].R.transpose() * forward);
+    std::vector<Vector2d> points;
+    for (const Vector3d& p : sole.points) {
+      points.push_back((X_BS.Inverse() * p).head<2>());
+    }
+    const Pose& X_BF = model.tree.frames()[sole.frame].X_BF;
+    feet.push_back(MakeFoot(model, left ? "left_foot" : "right_foot",
+                            sole.frame, X_BF.Inverse() * X_BS, points));
+  }
+  return feet;
+}
+
+}  // namespace poise
