@@ -1,20 +1,53 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <Eigen/Core>
+#include <vector>
+
 #include "hqp/hierarchy.h"
+#include "hqp/level_qp.h"
+#include "hqp/row_space.h"
 #include "hqp/solution.h"
 
 namespace poise {
 
 /// The paper's algorithm, literally: a cascade of QPs (5), (6), each in the
-/// nullspace (3) that the levels above leave, found by an SVD. The reference:
-/// readable, not fast.
+/// nullspace (3) that the levels above leave. The reference: readable, not
+/// fast.
+///
+/// Two things are done that the paper does not say. Rows that are violated at
+/// their own optimum are equalities for all lower levels: they are counted into
+/// Z. And v* is evaluated at the y that is returned, never below zero, so that
+/// u = 0 is feasible in the next QP.
 class Cascade {
  public:
-  Cascade(int num_variables, const std::vector<LevelCapacity>& capacity);
+  /// @param nullspace  kSvd as in the paper; kCod, a complete orthogonal
+  ///                   decomposition, is the cheaper usual choice.
+  Cascade(int num_variables, const std::vector<LevelCapacity>& capacity,
+          RowSpaceMethod nullspace = RowSpaceMethod::kSvd);
 
+  /// Minimises the levels one after the other; the y of minimum norm where
+  /// freedom is left after the last.
   [[nodiscard]] Status Solve(const Hierarchy& hierarchy,
                              Solution* solution) noexcept;
+
+  /// The iterations that a solve may take in all; the levels above the one
+  /// where they are spent then hold.
+  int max_iterations = 10000;
+
+ private:
+  struct RowIndex {
+    int level, row;
+  };
+  bool SolveLevel(const Hierarchy& hierarchy, int level, Solution* solution);
+  void FixLevel(const Hierarchy& hierarchy, int level, Solution* solution);
+  void FindMultipliers(const Hierarchy& hierarchy, int level,
+                       Solution* solution);
+
+  RowSpaceMethod method_;
+  Eigen::MatrixXd Z_;  ///< Orthonormal columns: what the levels above leave.
+  std::vector<std::vector<Side>> violated_;  ///< By level, at its optimum.
+  std::vector<RowIndex> rows_, active_;      ///< Of the QP at hand.
 };
 
 }  // namespace poise

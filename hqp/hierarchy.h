@@ -40,7 +40,7 @@ class Hierarchy {
   Hierarchy(int num_variables, const std::vector<LevelCapacity>& capacity);
 
   int num_variables() const { return num_variables_; }
-  int num_levels() const { return static_cast<int>(levels_.size()); }
+  int num_levels() const { return used_levels_; }
 
   /// Removes all rows; with fewer levels than the capacity if told.
   void Clear(int num_levels) noexcept;

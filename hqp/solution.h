@@ -43,11 +43,23 @@ struct Solution {
   explicit Solution(int num_variables,
                     const std::vector<LevelCapacity>& capacity);
 
+  /// As constructed: y zero, no multipliers.
+  void Reset() noexcept;
+
   Status status;
   int failed_level;  ///< Where status came from; -1 if optimal.
   int iterations;
   Eigen::VectorXd y;
   std::vector<LevelSolution> levels;
 };
+
+/// Fills cost, residual and slack of a level at solution->y.
+void EvaluateLevel(const Hierarchy& hierarchy, int level,
+                   Solution* solution) noexcept;
+
+/// kNotFinite if a number is NaN, or infinite where only a bound may be (and a
+/// lower one only to -inf); kBadInput if lower > upper or a weight is negative;
+/// else kOptimal. The first level with an error, or -1.
+Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept;
 
 }  // namespace poise

@@ -1,0 +1,241 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/cascade.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+namespace poise {
+namespace {
+
+// A row violated by less than this, relative to what it is added up from, is at
+// its bound.
+constexpr double kAtBound = 1e-9;
+
+// What rounding in row i of C y is relative to.
+double Size(const Hierarchy& hierarchy, int level, int i, double bound,
+            const Eigen::VectorXd& y) {
+  return hierarchy.C(level).row(i).norm() * y.norm() +
+         (std::isinf(bound) ? 0 : std::abs(bound));
+}
+
+Side SideOf(const Hierarchy& hierarchy, int level, int i, double margin,
+            const Eigen::VectorXd& y) {
+  const double value = hierarchy.C(level).row(i).dot(y);
+  const double lower = hierarchy.lower(level)[i];
+  const double upper = hierarchy.upper(level)[i];
+  if (value - upper > margin * Size(hierarchy, level, i, upper, y)) {
+    return Side::kUpper;
+  }
+  if (lower - value > margin * Size(hierarchy, level, i, lower, y)) {
+    return Side::kLower;
+  }
+  return Side::kNone;
+}
+
+}  // namespace
+
+Cascade::Cascade(int num_variables, const std::vector<LevelCapacity>& capacity,
+                 RowSpaceMethod nullspace)
+    : method_(nullspace), Z_(num_variables, num_variables) {
+  violated_.resize(capacity.size());
+  for (size_t level = 0; level < capacity.size(); ++level) {
+    violated_[level].assign(capacity[level].inequalities, Side::kNone);
+  }
+}
+
+Status Cascade::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
+  const int n = hierarchy.num_variables();
+  solution->Reset();
+  solution->status = CheckInput(hierarchy, &solution->failed_level);
+  if (solution->status != Status::kOptimal) return solution->status;
+  Z_.setIdentity(n, n);
+  // One level more than there are: y itself, for its minimum norm.
+  for (int level = 0; level <= hierarchy.num_levels(); ++level) {
+    if (!SolveLevel(hierarchy, level, solution)) {
+      solution->status = Status::kIterationLimit;
+      solution->failed_level = level;
+      break;
+    }
+    if (level < hierarchy.num_levels()) FixLevel(hierarchy, level, solution);
+  }
+  for (int level = 0; level < hierarchy.num_levels(); ++level) {
+    const double solved_to = solution->levels[level].cost;
+    EvaluateLevel(hierarchy, level, solution);
+    if (solution->failed_level < 0 || level < solution->failed_level) {
+      solution->levels[level].cost = solved_to;
+    }
+    // What was at work in a QP, and is still at its bound.
+    std::vector<Side>& active = solution->levels[level].active;
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+      if (active[i] == Side::kNone) continue;
+      active[i] = SideOf(hierarchy, level, i, -kAtBound, solution->y);
+    }
+  }
+  return solution->status;
+}
+
+bool Cascade::SolveLevel(const Hierarchy& hierarchy, int level,
+                         Solution* solution) {
+  const int n = hierarchy.num_variables();
+  const bool least_norm = level == hierarchy.num_levels();
+  Eigen::VectorXd& y = solution->y;
+
+  // (5) and (6) in z, y + Z z: the level's own equalities ...
+  LevelQp qp;
+  qp.z.setZero(Z_.cols());
+  if (least_norm) {
+    qp.M = Z_;
+    qp.m = y;
+    qp.M_norm.setOnes(n);
+  } else {
+    const Eigen::VectorXd root = hierarchy.weight(level).cwiseSqrt();
+    const Eigen::MatrixXd B = root.asDiagonal() * hierarchy.B(level);
+    qp.M = B * Z_;
+    qp.m = B * y + root.cwiseProduct(hierarchy.b(level));
+    qp.M_norm = B.rowwise().norm();
+  }
+
+  // ... its inequalities, soft, and the inherited ones that are not equalities
+  // by now, hard. Rows of zeros, for lack of any freedom left, are dropped.
+  rows_.clear();
+  for (int from = 0; from <= level && from < hierarchy.num_levels(); ++from) {
+    for (int i = 0; i < hierarchy.num_inequalities(from); ++i) {
+      const auto C_i = hierarchy.C(from).row(i);
+      if ((from < level && violated_[from][i] != Side::kNone) ||
+          (C_i * Z_).norm() <= kRankTolerance * C_i.norm()) {
+        continue;
+      }
+      rows_.push_back({from, i});
+    }
+  }
+  const int rows = static_cast<int>(rows_.size());
+  qp.P.resize(rows, Z_.cols());
+  for (Eigen::VectorXd* column :
+       {&qp.value, &qp.lower, &qp.upper, &qp.P_norm, &qp.size}) {
+    column->resize(rows);
+  }
+  for (int r = 0; r < rows; ++r) {
+    const auto [from, i] = rows_[r];
+    const auto C_i = hierarchy.C(from).row(i);
+    const double lower = hierarchy.lower(from)[i];
+    const double upper = hierarchy.upper(from)[i];
+    const double value = C_i.dot(y);
+    qp.P.row(r) = C_i * Z_;
+    qp.P_norm[r] = C_i.norm();
+    qp.size[r] = std::max(Size(hierarchy, from, i, lower, y),
+                          Size(hierarchy, from, i, upper, y));
+    qp.value[r] = value;
+    const bool soft = from == level;
+    qp.soft.push_back(soft);
+    qp.side.push_back(soft ? SideOf(hierarchy, from, i, 0, y) : Side::kNone);
+    // v* at this y, so that z = 0 is feasible.
+    qp.lower[r] = soft ? lower : std::min(lower, value);
+    qp.upper[r] = soft ? upper : std::max(upper, value);
+  }
+
+  const int iterations =
+      SolveLevelQp(method_, max_iterations - solution->iterations, &qp);
+  solution->iterations += std::max(iterations, 0);
+  if (iterations < 0) {
+    solution->iterations = max_iterations;
+    return false;
+  }
+  y += Z_ * qp.z;
+  active_.clear();
+  for (int r = 0; r < rows; ++r) {
+    if (qp.side[r] == Side::kNone) continue;
+    active_.push_back({rows_[r].level, rows_[r].row});
+    solution->levels[rows_[r].level].active[rows_[r].row] = qp.side[r];
+  }
+  return true;
+}
+
+void Cascade::FixLevel(const Hierarchy& hierarchy, int level,
+                       Solution* solution) {
+  EvaluateLevel(hierarchy, level, solution);
+  FindMultipliers(hierarchy, level, solution);
+
+  // (3): Z <- Z null(B Z), the violated rows counted into B.
+  const int equalities = hierarchy.num_equalities(level);
+  std::vector<int> violated;
+  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    violated_[level][i] = SideOf(hierarchy, level, i, kAtBound, solution->y);
+    if (violated_[level][i] != Side::kNone) violated.push_back(i);
+  }
+  Eigen::MatrixXd B(equalities + violated.size(), hierarchy.num_variables());
+  B.topRows(equalities) = hierarchy.B(level);
+  for (int i = 0; i < equalities; ++i) {
+    if (hierarchy.weight(level)[i] == 0) B.row(i).setZero();
+  }
+  for (size_t i = 0; i < violated.size(); ++i) {
+    B.row(equalities + i) = hierarchy.C(level).row(violated[i]);
+  }
+  B.rowwise().normalize();
+  const RowSpace space = MakeRowSpace(B * Z_, method_);
+  Z_ = (Z_ * space.V.rightCols(Z_.cols() - space.rank)).eval();
+  solution->levels[level].nullity = static_cast<int>(Z_.cols());
+}
+
+void Cascade::FindMultipliers(const Hierarchy& hierarchy, int level,
+                              Solution* solution) {
+  // The rows of the levels above that can carry one, to unit length: all
+  // equalities, violated rows, and the active ones of this level's QP.
+  const int n = hierarchy.num_variables();
+  const LevelSolution& own = solution->levels[level];
+  std::vector<RowIndex> carriers;
+  std::vector<bool> is_equality;
+  for (int from = 0; from < level; ++from) {
+    for (int i = 0; i < hierarchy.num_equalities(from); ++i) {
+      carriers.push_back({from, i});
+      is_equality.push_back(true);
+    }
+    for (int i = 0; i < hierarchy.num_inequalities(from); ++i) {
+      const bool active =
+          std::find_if(active_.begin(), active_.end(), [&](RowIndex row) {
+            return row.level == from && row.row == i;
+          }) != active_.end();
+      if (active || violated_[from][i] != Side::kNone) {
+        carriers.push_back({from, i});
+        is_equality.push_back(false);
+      }
+    }
+  }
+  if (carriers.empty()) return;
+  const int count = static_cast<int>(carriers.size());
+  Eigen::MatrixXd E(n, count);
+  Eigen::VectorXd norms(count);
+  for (int c = 0; c < count; ++c) {
+    const auto [from, i] = carriers[c];
+    if (is_equality[c]) {
+      E.col(c) = hierarchy.B(from).row(i).transpose();
+    } else {
+      E.col(c) = hierarchy.C(from).row(i).transpose();
+    }
+    norms[c] = E.col(c).norm();
+    if (norms[c] > 0) E.col(c) /= norms[c];
+  }
+  Eigen::VectorXd gradient =
+      hierarchy.B(level).transpose() *
+      hierarchy.weight(level).cwiseProduct(
+          own.equality_residual.head(hierarchy.num_equalities(level)));
+  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    const Side side = SideOf(hierarchy, level, i, 0, solution->y);
+    gradient += static_cast<double>(side) * own.slack[i] *
+                hierarchy.C(level).row(i).transpose();
+  }
+
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod;
+  cod.setThreshold(kRankTolerance);
+  cod.compute(E);
+  Eigen::VectorXd multipliers = cod.solve(-gradient);
+  multipliers -= cod.solve(gradient + E * multipliers);
+  for (int c = 0; c < count; ++c) {
+    const auto [from, i] = carriers[c];
+    LevelMultipliers& out = solution->levels[level].multipliers[from];
+    const double value = norms[c] > 0 ? multipliers[c] / norms[c] : 0;
+    (is_equality[c] ? out.equality : out.inequality)[i] = value;
+  }
+}
+
+}  // namespace poise

@@ -1,0 +1,158 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/certificate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace poise {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kAtBound = 1e-9;
+
+double Ratio(double error, double size) {
+  return error == 0 ? 0 : std::abs(error) / size;
+}
+
+// The larger; infinity if either is NaN.
+double Worse(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? kInfinity : std::max(a, b);
+}
+
+}  // namespace
+
+double Certificate::worst() const {
+  return Worse(Worse(stationarity, feasibility),
+               Worse(complementarity, priority));
+}
+
+Certifier::Certifier(int num_variables,
+                     const std::vector<LevelCapacity>& capacity)
+    : abs_y_(num_variables),
+      gradient_(num_variables),
+      gradient_size_(num_variables),
+      norm_y_(0) {
+  for (const LevelCapacity& level : capacity) {
+    LevelRows rows;
+    rows.residual.resize(level.equalities);
+    rows.violation.resize(level.inequalities);
+    rows.size.resize(level.inequalities);
+    rows.side.resize(level.inequalities);
+    rows_.push_back(std::move(rows));
+  }
+}
+
+Certificate Certifier::Certify(const Hierarchy& hierarchy,
+                               const Solution& solution) noexcept {
+  Certificate certificate;
+  abs_y_ = solution.y.cwiseAbs();
+  norm_y_ = solution.y.norm();
+  const int levels = solution.failed_level < 0 ? hierarchy.num_levels()
+                                               : solution.failed_level;
+  for (int level = 0; level < levels; ++level) {
+    JudgeRows(hierarchy, level, solution, &certificate);
+    JudgeMultipliers(hierarchy, level, solution, &certificate);
+  }
+  return certificate;
+}
+
+void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
+                          const Solution& solution, Certificate* certificate) {
+  const auto B = hierarchy.B(level), C = hierarchy.C(level);
+  const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
+  const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
+  const LevelSolution& answer = solution.levels[level];
+  LevelRows& rows = rows_[level];
+  gradient_.setZero();
+  gradient_size_.setZero();
+  double cost = 0, cost_size = 0, feasibility = certificate->feasibility;
+  for (int i = 0; i < B.rows(); ++i) {
+    const double residual = B.row(i).dot(solution.y) + b[i];
+    const double size =
+        B.row(i).cwiseAbs().dot(abs_y_.transpose()) + std::abs(b[i]);
+    rows.residual[i] = residual;
+    feasibility =
+        Worse(feasibility, Ratio(residual - answer.equality_residual[i], size));
+    cost += weight[i] * residual * residual / 2;
+    cost_size += weight[i] * size * size / 2;
+    gradient_ += weight[i] * residual * B.row(i).transpose();
+    gradient_size_ += weight[i] * size * B.row(i).cwiseAbs().transpose();
+  }
+  for (int i = 0; i < C.rows(); ++i) {
+    const double value = C.row(i).dot(solution.y);
+    const bool at_upper = value - upper[i] >= lower[i] - value;
+    const double bound = at_upper ? upper[i] : lower[i];
+    const double violation = at_upper ? value - bound : bound - value;
+    const double size =
+        std::isinf(bound)
+            ? 0
+            : C.row(i).cwiseAbs().dot(abs_y_.transpose()) + std::abs(bound);
+    rows.side[i] = at_upper ? Side::kUpper : Side::kLower;
+    rows.violation[i] = violation;
+    rows.size[i] =
+        std::isinf(bound) ? 0 : C.row(i).norm() * norm_y_ + std::abs(bound);
+    const double slack = std::max(violation, 0.0);
+    feasibility = Worse(feasibility, Ratio(slack - answer.slack[i], size));
+    cost += slack * slack / 2;
+    cost_size += size * size / 2;
+    if (violation > 0) {
+      const double sign = at_upper ? 1 : -1;
+      gradient_ += sign * violation * C.row(i).transpose();
+      gradient_size_ += size * C.row(i).cwiseAbs().transpose();
+    }
+  }
+  certificate->feasibility = feasibility;
+  certificate->priority =
+      Worse(certificate->priority, Ratio(cost - answer.cost, cost_size));
+}
+
+void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
+                                 const Solution& solution,
+                                 Certificate* certificate) {
+  double worst = 0;  // Multiplier against complementarity.
+  for (int above = 0; above < level; ++above) {
+    const LevelMultipliers& multipliers =
+        solution.levels[level].multipliers[above];
+    const LevelRows& rows = rows_[above];
+    const auto B = hierarchy.B(above), C = hierarchy.C(above);
+    for (int i = 0; i < B.rows(); ++i) {
+      const double lambda = multipliers.equality[i];
+      if (lambda == 0) continue;
+      gradient_ += lambda * B.row(i).transpose();
+      gradient_size_ += std::abs(lambda) * B.row(i).cwiseAbs().transpose();
+    }
+    for (int i = 0; i < C.rows(); ++i) {
+      const double mu = multipliers.inequality[i];
+      if (mu == 0) continue;
+      gradient_ += mu * C.row(i).transpose();
+      gradient_size_ += std::abs(mu) * C.row(i).cwiseAbs().transpose();
+      const double margin = kAtBound * rows.size[i];
+      double wrong;
+      if (rows.violation[i] > margin) {
+        wrong = 0;
+      } else if (rows.violation[i] < -margin) {
+        wrong = std::abs(mu);
+      } else if (hierarchy.upper(above)[i] - hierarchy.lower(above)[i] <=
+                 margin) {
+        wrong = 0;  // At both bounds: an equality.
+      } else {
+        wrong = rows.side[i] == Side::kUpper ? -mu : mu;
+      }
+      if (std::isnan(mu)) wrong = kInfinity;
+      worst =
+          Worse(worst, std::max(wrong, 0.0) * C.row(i).cwiseAbs().maxCoeff());
+    }
+  }
+  const double size = gradient_size_.size() > 0 ? gradient_size_.maxCoeff() : 0;
+  const double gradient =
+      gradient_.size() > 0
+          ? gradient_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>()
+          : 0;
+  certificate->stationarity =
+      Worse(certificate->stationarity, Ratio(gradient, size));
+  certificate->complementarity =
+      Worse(certificate->complementarity, Ratio(worst, size));
+}
+
+}  // namespace poise

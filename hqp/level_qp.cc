@@ -1,0 +1,188 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/level_qp.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace poise {
+namespace {
+
+// Of a multiplier or a step, relative to what it is added up from.
+constexpr double kNegligible = 1e-12;
+
+// The least-squares solution x of L x + l = 0 of minimum norm. `norms` are
+// those of the rows before any projection: a row below kRankTolerance of its
+// own is a row of zeros.
+Eigen::VectorXd LeastSquares(const Eigen::MatrixXd& L, const Eigen::VectorXd& l,
+                             const Eigen::VectorXd& norms,
+                             RowSpaceMethod method) {
+  const Eigen::VectorXd scale =
+      (norms.array() > 0).select(norms.cwiseInverse(), 0);
+  const Eigen::MatrixXd unit = scale.asDiagonal() * L;
+  const RowSpace space = MakeRowSpace(unit, method);
+  const auto range = space.V.leftCols(space.rank);
+  if (space.rank == 0) return Eigen::VectorXd::Zero(L.cols());
+  // With all rows independent each can be met, so their scales do not matter.
+  // Else they do; rows in the order of their scales, and pivoting, keep the
+  // small ones accurate.
+  const bool met = space.rank == L.rows();
+  std::vector<int> order(L.rows());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int i, int j) { return norms[i] > norms[j]; });
+  Eigen::MatrixXd reduced(L.rows(), space.rank);
+  Eigen::VectorXd right(L.rows());
+  for (int i = 0; i < L.rows(); ++i) {
+    const double factor = met ? scale[order[i]] : 1;
+    reduced.row(i) = factor * L.row(order[i]) * range;
+    right[i] = -factor * l[order[i]];
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(reduced);
+  Eigen::VectorXd x = qr.solve(right);
+  x += qr.solve(right - reduced * x);
+  return range * x;
+}
+
+class ActiveSet {
+ public:
+  ActiveSet(RowSpaceMethod method, LevelQp* qp) : method_(method), qp_(*qp) {}
+
+  // One iteration. Returns whether the optimum is reached.
+  bool Iterate() {
+    Collect();
+    const Eigen::VectorXd step = Step();
+    const int blocking = Advance(step);
+    if (blocking >= 0) return false;
+    const int leaving = FindLeaving();
+    if (leaving >= 0) qp_.side[leaving] = Side::kNone;
+    return leaving < 0;
+  }
+
+ private:
+  int rows() const { return static_cast<int>(qp_.P.rows()); }
+
+  double Bound(int i) const {
+    return qp_.side[i] == Side::kUpper ? qp_.upper[i] : qp_.lower[i];
+  }
+
+  // Gathers the rows of the equality-constrained problem.
+  void Collect() {
+    hard_.clear();
+    soft_.clear();
+    for (int i = 0; i < rows(); ++i) {
+      if (qp_.side[i] != Side::kNone)
+        (qp_.soft[i] ? soft_ : hard_).push_back(i);
+    }
+    const int met = static_cast<int>(qp_.M.rows());
+    L_.resize(met + soft_.size(), qp_.M.cols());
+    l_.resize(L_.rows());
+    norms_.resize(L_.rows());
+    L_.topRows(met) = qp_.M;
+    l_.head(met) = qp_.M * qp_.z + qp_.m;
+    norms_.head(met) = qp_.M_norm;
+    for (size_t s = 0; s < soft_.size(); ++s) {
+      const int i = soft_[s];
+      L_.row(met + s) = qp_.P.row(i);
+      l_[met + s] = qp_.P.row(i).dot(qp_.z) + qp_.value[i] - Bound(i);
+      norms_[met + s] = qp_.P_norm[i];
+    }
+    A_.resize(hard_.size(), qp_.M.cols());
+    for (size_t h = 0; h < hard_.size(); ++h) {
+      A_.row(h) = qp_.P.row(hard_[h]) / qp_.P_norm[hard_[h]];
+    }
+  }
+
+  // To the optimum of the active rows.
+  Eigen::VectorXd Step() const {
+    const RowSpace space = MakeRowSpace(A_, RowSpaceMethod::kCod);
+    const Eigen::MatrixXd N = space.V.rightCols(A_.cols() - space.rank);
+    return N * LeastSquares(L_ * N, l_, norms_, method_);
+  }
+
+  // Goes as far along the step as inactive rows allow. Returns the row that is
+  // in the way, now active, or -1.
+  int Advance(const Eigen::VectorXd& step) {
+    int blocking = -1;
+    double length = 1;
+    for (int i = 0; i < rows(); ++i) {
+      if (qp_.side[i] != Side::kNone) continue;
+      const double slope = qp_.P.row(i).dot(step);
+      if (std::abs(slope) <= kNegligible * qp_.P_norm[i] * step.norm()) {
+        continue;
+      }
+      const double value = qp_.P.row(i).dot(qp_.z) + qp_.value[i];
+      const double gap =
+          slope > 0 ? qp_.upper[i] - value : qp_.lower[i] - value;
+      const double to_bound = std::max(gap / slope, 0.0);
+      if (to_bound < length) {
+        length = to_bound;
+        blocking = i;
+      }
+    }
+    qp_.z += length * step;
+    zero_steps_ = length > 0 ? 0 : zero_steps_ + 1;
+    if (blocking >= 0) {
+      qp_.side[blocking] =
+          qp_.P.row(blocking).dot(step) > 0 ? Side::kUpper : Side::kLower;
+    }
+    return blocking;
+  }
+
+  // The active row that holds the optimum back most, or -1.
+  int FindLeaving() {
+    const Eigen::VectorXd residual = L_.topRows(qp_.M.rows()) * qp_.z + qp_.m;
+    Eigen::VectorXd weighted(L_.rows());
+    weighted.head(qp_.M.rows()) = residual;
+    int leaving = -1;
+    double worst = 0;
+    const auto consider = [&](int i, double multiplier, double size) {
+      const double signed_ratio =
+          (qp_.side[i] == Side::kUpper ? multiplier : -multiplier) / size;
+      if (size == 0 || signed_ratio >= -kNegligible) return;
+      const bool bland = zero_steps_ > rows();
+      if (bland ? leaving < 0 || i < leaving : signed_ratio < worst) {
+        worst = signed_ratio;
+        leaving = i;
+      }
+    };
+    for (size_t s = 0; s < soft_.size(); ++s) {
+      const int i = soft_[s];
+      const double violation =
+          qp_.P.row(i).dot(qp_.z) + qp_.value[i] - Bound(i);
+      weighted[qp_.M.rows() + s] = violation;
+      consider(i, violation, qp_.size[i]);
+    }
+    if (!hard_.empty()) {
+      const Eigen::VectorXd gradient = L_.transpose() * weighted;
+      const double size = norms_.dot(weighted.cwiseAbs()) +
+                          norms_.cwiseAbs().dot(l_.cwiseAbs());
+      const Eigen::VectorXd multipliers =
+          A_.transpose().colPivHouseholderQr().solve(-gradient);
+      for (size_t h = 0; h < hard_.size(); ++h) {
+        consider(hard_[h], multipliers[h], size);
+      }
+    }
+    return leaving;
+  }
+
+  RowSpaceMethod method_;
+  LevelQp& qp_;
+  std::vector<int> hard_, soft_;  // Active rows.
+  Eigen::MatrixXd L_, A_;
+  Eigen::VectorXd l_, norms_;
+  int zero_steps_ = 0;
+};
+
+}  // namespace
+
+int SolveLevelQp(RowSpaceMethod method, int max_iterations, LevelQp* qp) {
+  ActiveSet active_set(method, qp);
+  for (int iteration = 1; iteration <= max_iterations; ++iteration) {
+    if (active_set.Iterate()) return iteration;
+  }
+  return -1;
+}
+
+}  // namespace poise

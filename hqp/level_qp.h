@@ -1,0 +1,37 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "hqp/row_space.h"
+#include "hqp/solution.h"
+
+namespace poise {
+
+/// The QP of one level of the cascade, (5), (6), in the coordinates z of what
+/// the levels above leave:
+///     min 1/2 |M z + m|^2 + 1/2 |s|^2
+///     lower - s <= P z + value <= upper + s   for the level's own rows (soft)
+///     lower     <= P z + value <= upper       for inherited rows
+/// with s = 0 wherever it can be. z = 0 must satisfy the inherited rows.
+struct LevelQp {
+  Eigen::MatrixXd M;
+  Eigen::VectorXd m;
+  Eigen::VectorXd M_norm;  ///< Norms of the rows before projection.
+  Eigen::MatrixXd P;
+  Eigen::VectorXd value, lower, upper;
+  Eigen::VectorXd P_norm;
+  Eigen::VectorXd size;  ///< By row: rounding is relative to this.
+  std::vector<bool> soft;
+
+  std::vector<Side> side;  ///< In: a first guess for soft rows. Out: active.
+  Eigen::VectorXd z;
+};
+
+/// Solves it by a primal active-set method; if lengths of steps are zero for
+/// long, by Bland's rule, which cannot cycle. Returns the iterations, or -1 if
+/// more than max_iterations were needed: z is then feasible, not optimal.
+int SolveLevelQp(RowSpaceMethod method, int max_iterations, LevelQp* qp);
+
+}  // namespace poise
