@@ -1,0 +1,256 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/bullet_plant.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "dynamics/tick.h"
+#include "tests/util/random_tree.h"
+#include "tests/util/simple_robots.h"
+
+namespace poise {
+namespace {
+
+// Two dynamics that share no code agree to what rounding leaves of a velocity
+// of 1 / s that changes within 1 ms, amplified by the condition of M.
+constexpr double kAgreement = 1e-9;
+
+TEST(BulletPlant, ReturnsTheStateItWasGiven) {
+  std::mt19937 draw(1);
+  const Tree tree = MakeRandomTree(12, &draw);
+  BulletPlant plant(MakeRobot(tree));
+  const Eigen::VectorXd q = MakeRandomConfiguration(tree, &draw);
+  const Eigen::VectorXd v = MakeRandomVector(tree.nv(), &draw);
+  plant.Reset(q, v);
+  EXPECT_EQ(plant.Sense().q, q);
+  EXPECT_EQ(plant.Sense().v, v);
+  EXPECT_EQ(plant.Sense().time, 0);
+}
+
+// M v̇ + N = S' tau + J' F, with v̇ from Bullet and all else from dynamics.
+TEST(BulletPlant, AgreesWithDynamicsInFreeFlight) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 draw(seed);
+    const Tree tree = MakeRandomTree(50, &draw);
+    BulletPlant plant(MakeRobot(tree));
+    const Eigen::VectorXd q = MakeRandomConfiguration(tree, &draw);
+    const Eigen::VectorXd v = MakeRandomVector(tree.nv(), &draw);
+    const Eigen::VectorXd tau = 10 * MakeRandomVector(50, &draw);
+    const int frame = *tree.FindFrame("link30");
+    const AppliedForce push{
+        tree.frames()[frame].body, MakeRandomVector(3, &draw),
+        5 * MakeRandomVector(3, &draw), 20 * MakeRandomVector(3, &draw)};
+    const AppliedForce base_push{0, MakeRandomVector(3, &draw),
+                                 5 * MakeRandomVector(3, &draw),
+                                 20 * MakeRandomVector(3, &draw)};
+    Eigen::VectorXd high = q;
+    high.z() += 100;  // Nothing to touch.
+    plant.Reset(high, v);
+    plant.Apply(push);
+    plant.Apply(base_push);
+    plant.Step(tau);
+
+    Tick tick(tree, {*tree.FindFrame("link0"), frame});
+    ComputeTick(tree, high, v, &tick);
+    Eigen::VectorXd force = -tick.N;
+    force.tail(50) += tau;
+    const AppliedForce* pushes[] = {&base_push, &push};
+    for (int i = 0; i < 2; ++i) {
+      const FrameTick& at = tick.frames[i];
+      Eigen::Matrix<double, 6, 1> F_Bo_W;
+      F_Bo_W << pushes[i]->torque_W +
+                    (at.X_WF.R * pushes[i]->p_BoQ_B).cross(pushes[i]->force_W),
+          pushes[i]->force_W;
+      force += at.J_WF_W.transpose() * F_Bo_W;
+    }
+    const Eigen::VectorXd expected = tick.M.ldlt().solve(force);
+    const Eigen::VectorXd& actual = plant.Sense().vdot;
+    EXPECT_LE((actual - expected).norm(), kAgreement * expected.norm());
+    EXPECT_LE((tick.M * actual - force).norm(), kAgreement * tick.N.norm());
+  }
+}
+
+TEST(BulletPlant, MomentumRateInFreeFlightIsGravity) {
+  std::mt19937 draw(2);
+  const Tree tree = MakeRandomTree(50, &draw);
+  BulletPlant plant(MakeRobot(tree));
+  Eigen::VectorXd q = MakeRandomConfiguration(tree, &draw);
+  q.z() += 100;
+  const Eigen::VectorXd v = MakeRandomVector(tree.nv(), &draw);
+  plant.Reset(q, v);
+  plant.Step(10 * MakeRandomVector(50, &draw));
+  Tick tick(tree, {});
+  ComputeTick(tree, q, v, &tick);
+  Vector6d weight = Vector6d::Zero();
+  weight.tail<3>() = tree.total_mass() * tree.gravity_W();
+  EXPECT_LE((tick.H_G * plant.Sense().vdot + tick.H_G_bias - weight).norm(),
+            kAgreement * tick.H_G_bias.norm());
+}
+
+// Semi-implicit Euler falls as z_k = z_0 - g dt^2 k (k + 1) / 2.
+TEST(BulletPlant, FallsByItsIntegratorsOwnRecursion) {
+  std::mt19937 draw(3);
+  const Tree tree = MakeRandomTree(20, &draw);
+  BulletPlant plant(MakeRobot(tree));
+  Eigen::VectorXd q = MakeRandomConfiguration(tree, &draw);
+  q.z() += 100;
+  plant.Reset(q, Eigen::VectorXd::Zero(tree.nv()));
+  Tick tick(tree, {});
+  ComputeTick(tree, q, plant.Sense().v, &tick);
+  const Eigen::Vector3d start = tick.p_WG;
+  const Eigen::VectorXd tau = Eigen::VectorXd::Zero(20);
+  for (int k = 0; k < 1000; ++k) plant.Step(tau);
+  ComputeTick(tree, plant.Sense().q, plant.Sense().v, &tick);
+  const Eigen::Vector3d fallen = tree.gravity_W() * 1e-6 * 1000 * 1001 / 2;
+  EXPECT_LE((tick.p_WG - start - fallen).norm(), 1e-6);  // The bar.
+  EXPECT_DOUBLE_EQ(plant.Sense().time, 1.0);
+}
+
+struct Drift {
+  double momentum;  // Relative, angular about the center of mass.
+  double energy;    // Relative to the kinetic energy.
+};
+
+// What a second of free flight without gravity loses.
+Drift MeasureDrift(double dt) {
+  std::mt19937 draw(4);
+  const Tree tree =
+      MakeRandomTree(8, &draw, BaseType::kFloating, Eigen::Vector3d::Zero());
+  PlantSettings settings;
+  settings.dt = dt;
+  BulletPlant plant(MakeRobot(tree), settings);
+  plant.Reset(MakeRandomConfiguration(tree, &draw),
+              0.5 * MakeRandomVector(tree.nv(), &draw));
+  Tick tick(tree, {});
+  const auto energy = [&] {
+    ComputeTick(tree, plant.Sense().q, plant.Sense().v, &tick);
+    return plant.Sense().v.dot(tick.M * plant.Sense().v) / 2;
+  };
+  const double energy_before = energy();
+  const Vector6d momentum_before = tick.L_G;
+  for (int k = 0; k < 1 / dt - 0.5; ++k) plant.Step(Eigen::VectorXd::Zero(8));
+  const double energy_after = energy();
+  return {(tick.L_G - momentum_before).norm() / momentum_before.norm(),
+          std::abs(energy_after / energy_before - 1)};
+}
+
+TEST(BulletPlant, DriftsLittleInFreeFlightAndHalfAsMuchInHalfTheStep) {
+  const Drift coarse = MeasureDrift(1e-3), fine = MeasureDrift(0.5e-3);
+  EXPECT_LT(coarse.momentum, 3e-3);  // The bars.
+  EXPECT_LT(coarse.energy, 3e-3);
+  // First order, up to the second: to a tenth.
+  EXPECT_NEAR(coarse.momentum / fine.momentum, 2, 0.2);
+  EXPECT_NEAR(coarse.energy / fine.energy, 2, 0.2);
+}
+
+TEST(BulletPlant, RepeatsToTheBitAfterReset) {
+  std::mt19937 draw(5);
+  Robot robot = MakeBlock({0.2, 0.1, 0.3}, 5);
+  BulletPlant plant(robot);
+  const auto run = [&plant] {
+    Eigen::VectorXd q = plant.Sense().q, v = Eigen::VectorXd::Zero(6);
+    q << 0, 0, 0.2, 0, 0, 0, 1;
+    v << 1, 2, 0, 0.5, 0.1, 0;
+    plant.Reset(q, v);
+    for (int k = 0; k < 500; ++k) plant.Step(Eigen::VectorXd());
+    return plant.Sense().q;
+  };
+  const Eigen::VectorXd once = run();
+  EXPECT_EQ(run(), once);
+  BulletPlant another(robot);
+  EXPECT_EQ(run(), once);
+}
+
+// A pendulum of one joint, for the limits.
+Robot MakePendulum() {
+  Inertia M;
+  M.mass = 2;
+  M.p_BoG_B = {0, 0, -0.3};
+  M.I_G_B = 0.01 * Eigen::Matrix3d::Identity();
+  JointSpec hinge;
+  hinge.name = "hinge";
+  hinge.type = JointType::kRevolute;
+  hinge.parent = "base";
+  hinge.child = "rod";
+  hinge.axis_F = Eigen::Vector3d::UnitY();
+  Inertia base;
+  base.mass = 1;
+  base.I_G_B = Eigen::Matrix3d::Identity();
+  return MakeRobot(TreeBuilder()
+                       .AddLink("base", base)
+                       .AddLink("rod", M)
+                       .AddJoint(hinge)
+                       .Build(BaseType::kFixed));
+}
+
+TEST(BulletPlant, CutsTorquesOffAtTheEffortLimit) {
+  Robot robot = MakePendulum();
+  robot.model.limits[0].effort = 3;
+  PlantSettings settings;
+  settings.torque_scale = 0.5;
+  BulletPlant plant(robot, settings);
+  plant.Step(Eigen::VectorXd::Constant(1, 10));
+  EXPECT_EQ(plant.Sense().tau[0], 1.5);
+  // I = 0.01 + 2 * 0.3^2; hanging, gravity has no moment.
+  EXPECT_NEAR(plant.Sense().vdot[0], 1.5 / 0.19, 1e-12);
+  plant.Step(Eigen::VectorXd::Constant(1, -10));
+  EXPECT_EQ(plant.Sense().tau[0], -1.5);
+}
+
+TEST(BulletPlant, StopsJointsAtTheirLimits) {
+  for (const double sign : {-1, 1}) {
+    SCOPED_TRACE(sign);
+    Robot robot = MakePendulum();
+    robot.model.limits[0].lower = -0.5;
+    robot.model.limits[0].upper = 0.5;
+    BulletPlant plant(robot);
+    double farthest = 0;
+    for (int k = 0; k < 2000; ++k) {
+      plant.Step(Eigen::VectorXd::Constant(1, 8 * sign));
+      farthest = std::max(farthest, sign * plant.Sense().q[0]);
+    }
+    EXPECT_NEAR(sign * plant.Sense().q[0], 0.5, 1e-4);
+    // A step at the speed of the impact, 4 rad/s.
+    EXPECT_LE(farthest, 0.5 + 5e-3);
+  }
+}
+
+TEST(BulletPlant, LetsJointsPassTheirLimitsIfTold) {
+  Robot robot = MakePendulum();
+  robot.model.limits[0].upper = 0.5;
+  PlantSettings settings;
+  settings.joint_limits = false;
+  BulletPlant plant(robot, settings);
+  for (int k = 0; k < 2000; ++k) plant.Step(Eigen::VectorXd::Constant(1, 8));
+  EXPECT_GT(plant.Sense().q[0], 1);
+}
+
+TEST(BulletPlant, RefusesArmature) {
+  JointSpec hinge;
+  hinge.name = "hinge";
+  hinge.type = JointType::kRevolute;
+  hinge.parent = "a";
+  hinge.child = "b";
+  hinge.armature = 0.25;
+  Inertia M;
+  M.mass = 1;
+  M.I_G_B = Eigen::Matrix3d::Identity();
+  const Tree tree =
+      TreeBuilder().AddLink("a", M).AddLink("b", M).AddJoint(hinge).Build();
+  try {
+    BulletPlant plant(MakeRobot(tree));
+    FAIL() << "not refused";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "joint 'hinge': armature is 0.250000, must be 0 in a Bullet "
+                 "plant");
+  }
+}
+
+}  // namespace
+}  // namespace poise

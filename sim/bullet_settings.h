@@ -1,0 +1,20 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+namespace poise {
+
+/// How Bullet is run. These defaults have measured physics, which most of
+/// Bullet's own have not; bullet_settings_test.cc shows what each one does.
+struct BulletSettings {
+  int solver_iterations = 50;           ///< Bullet's 10 let the feet creep.
+  double linear_damping = 0;            ///< Bullet's 0.04 eats energy.
+  double angular_damping = 0;           ///< The same.
+  bool gyroscopic_term = true;          ///< Off, angular momentum drifts.
+  bool rk4 = false;                     ///< On, it is not the RK4 of the book.
+  bool global_velocities = false;       ///< On, the accelerations are wrong.
+  double max_velocity = 1e9;            ///< Bullet's 100 rad/s clamps fingers.
+  bool two_friction_directions = true;  ///< One lets a foot drift sideways.
+  double sole_radius = 0.005;  ///< Of the spheres at a sole's corners, m.
+};
+
+}  // namespace poise

@@ -1,0 +1,270 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/bullet_world.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <variant>
+
+namespace poise {
+
+namespace {
+
+// The user index of what belongs to the ground; that of a link is its body.
+constexpr int kGround = -1;
+
+std::unique_ptr<btCollisionShape> MakeShape(const Geometry& geometry) {
+  if (const auto* sphere = std::get_if<Sphere>(&geometry)) {
+    return std::make_unique<btSphereShape>(sphere->radius);
+  }
+  if (const auto* box = std::get_if<Box>(&geometry)) {
+    return std::make_unique<btBoxShape>(ToBullet(box->size / 2));
+  }
+  if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
+    return std::make_unique<btCylinderShapeZ>(
+        btVector3(cylinder->radius, cylinder->radius, cylinder->length / 2));
+  }
+  return nullptr;  // A mesh: drawn, but never touched.
+}
+
+bool IsGround(const btCollisionObject* object) {
+  return object->getUserIndex() == kGround;
+}
+
+// The force over a step that a manifold point puts on its object A.
+btVector3 ForceOnA(const btManifoldPoint& point, double dt) {
+  return (point.m_appliedImpulse * point.m_normalWorldOnB +
+          point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
+          point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2) /
+         dt;
+}
+
+}  // namespace
+
+void BulletWorld::PairFilter::Exclude(int body_a, int body_b) {
+  excluded_[body_a * num_bodies_ + body_b] = true;
+  excluded_[body_b * num_bodies_ + body_a] = true;
+}
+
+bool BulletWorld::PairFilter::needBroadphaseCollision(
+    btBroadphaseProxy* a, btBroadphaseProxy* b) const {
+  // What has no shape of its own belongs to no group.
+  if (a->m_collisionFilterGroup == 0 || b->m_collisionFilterGroup == 0) {
+    return false;
+  }
+  const int body_a =
+      static_cast<btCollisionObject*>(a->m_clientObject)->getUserIndex();
+  const int body_b =
+      static_cast<btCollisionObject*>(b->m_clientObject)->getUserIndex();
+  if (body_a == kGround || body_b == kGround) return body_a != body_b;
+  return !excluded_[body_a * num_bodies_ + body_b];
+}
+
+BulletWorld::BulletWorld(const Robot& robot, const PlantSettings& settings,
+                         const BulletSettings& bullet)
+    : body_(robot.model.tree),
+      dispatcher_(&configuration_),
+      filter_(robot.model.tree.num_bodies()),
+      world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+  world_.setGravity(ToBullet(robot.model.tree.gravity_W()));
+  world_.getPairCache()->setOverlapFilterCallback(&filter_);
+  btContactSolverInfo& info = world_.getSolverInfo();
+  info.m_numIterations = bullet.solver_iterations;
+  info.m_leastSquaresResidualThreshold = 0;
+  if (bullet.two_friction_directions) {
+    info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+  } else {
+    info.m_solverMode &= ~SOLVER_USE_2_FRICTION_DIRECTIONS;
+  }
+
+  btMultiBody& body = body_.body();
+  body.setLinearDamping(bullet.linear_damping);
+  body.setAngularDamping(bullet.angular_damping);
+  body.setUseGyroTerm(bullet.gyroscopic_term);
+  body.useRK4Integration(bullet.rk4);
+  body.useGlobalVelocities(bullet.global_velocities);
+  body.setMaxCoordinateVelocity(bullet.max_velocity);
+  body.setCanSleep(false);
+  body.setHasSelfCollision(settings.self_collision);
+  world_.addMultiBody(&body);
+
+  AddGround(settings);
+  AddColliders(robot, settings, bullet.sole_radius);
+  if (settings.joint_limits) AddLimits(robot.model);
+}
+
+BulletWorld::~BulletWorld() {
+  for (const auto& limit : limits_) world_.removeMultiBodyConstraint(&*limit);
+  for (const auto& collider : colliders_) {
+    world_.removeCollisionObject(&*collider);
+  }
+  for (const auto& object : ground_) world_.removeCollisionObject(&*object);
+  world_.removeMultiBody(&body_.body());
+}
+
+void BulletWorld::AddGround(const PlantSettings& settings) {
+  const auto add = [this, &settings](std::unique_ptr<btCollisionShape> shape,
+                                     const Pose& X_WS) {
+    auto object = std::make_unique<btCollisionObject>();
+    object->setCollisionShape(shape.get());
+    object->setWorldTransform(ToBullet(X_WS));
+    // Bullet multiplies the friction, and the restitution, of the two.
+    object->setFriction(1);
+    object->setRestitution(1);
+    object->setUserIndex(kGround);
+    world_.addCollisionObject(object.get(), btBroadphaseProxy::StaticFilter,
+                              btBroadphaseProxy::DefaultFilter);
+    shapes_.push_back(std::move(shape));
+    ground_.push_back(std::move(object));
+  };
+  const Eigen::Vector3d normal_W = GroundNormal(settings.ground);
+  add(std::make_unique<btStaticPlaneShape>(ToBullet(normal_W), 0), Pose{});
+  for (const Board& board : settings.ground.boards) {
+    const Eigen::Matrix3d R_WS =
+        Eigen::AngleAxisd(board.yaw, Eigen::Vector3d::UnitZ())
+            .toRotationMatrix();
+    add(std::make_unique<btBoxShape>(ToBullet(board.size / 2)),
+        {R_WS, board.center_W});
+  }
+}
+
+void BulletWorld::AddColliders(const Robot& robot,
+                               const PlantSettings& settings,
+                               double sole_radius) {
+  const Tree& tree = robot.model.tree;
+  std::vector<bool> is_foot(tree.num_bodies(), false);
+  std::vector<std::unique_ptr<btCompoundShape>> compounds(tree.num_bodies());
+  const auto add = [&](int body, const Pose& X_BS,
+                       std::unique_ptr<btCollisionShape> shape) {
+    if (compounds[body] == nullptr) {
+      compounds[body] = std::make_unique<btCompoundShape>();
+    }
+    compounds[body]->addChildShape(ToBullet(body_.X_BL(body).Inverse() * X_BS),
+                                   shape.get());
+    shapes_.push_back(std::move(shape));
+  };
+  for (const Foot& foot : robot.feet) {
+    is_foot[foot.body] = true;
+    for (const Eigen::Vector2d& corner : foot.polygon_C) {
+      const Pose X_CS{Eigen::Matrix3d::Identity(),
+                      {corner.x(), corner.y(), sole_radius}};
+      add(foot.body, foot.X_BC * X_CS,
+          std::make_unique<btSphereShape>(sole_radius));
+    }
+  }
+  for (const Shape& shape : robot.model.collisions) {
+    const Frame& frame = tree.frames()[shape.frame];
+    // Box on box is where Bullet is bad: a foot touches with its sole alone.
+    if (is_foot[frame.body]) continue;
+    if (auto made = MakeShape(shape.geometry)) {
+      add(frame.body, frame.X_BF * shape.X_FS, std::move(made));
+    }
+  }
+
+  // A link without a collider would be without its joint limits, too.
+  auto nothing = std::make_unique<btSphereShape>(1e-3);
+  for (int i = 0; i < tree.num_bodies(); ++i) {
+    auto collider =
+        std::make_unique<btMultiBodyLinkCollider>(&body_.body(), i - 1);
+    const bool touches = compounds[i] != nullptr;
+    if (touches) {
+      collider->setCollisionShape(compounds[i].get());
+      shapes_.push_back(std::move(compounds[i]));
+    } else {
+      collider->setCollisionShape(nothing.get());
+    }
+    collider->setFriction(settings.friction);
+    collider->setRestitution(settings.restitution);
+    collider->setUserIndex(i);
+    world_.addCollisionObject(collider.get(),
+                              touches ? btBroadphaseProxy::DefaultFilter : 0,
+                              touches ? btBroadphaseProxy::AllFilter : 0);
+    if (i == 0) {
+      body_.body().setBaseCollider(collider.get());
+    } else {
+      body_.body().getLink(i - 1).m_collider = collider.get();
+      filter_.Exclude(i, tree.joints()[i - 1].parent);
+    }
+    colliders_.push_back(std::move(collider));
+  }
+  shapes_.push_back(std::move(nothing));
+}
+
+void BulletWorld::AddLimits(const RobotModel& model) {
+  for (int j = 0; j < model.tree.num_joints(); ++j) {
+    const JointLimits& limits = model.limits[j];
+    if (!std::isfinite(limits.lower) && !std::isfinite(limits.upper)) continue;
+    limits_.push_back(std::make_unique<btMultiBodyJointLimitConstraint>(
+        &body_.body(), j, limits.lower, limits.upper));
+    world_.addMultiBodyConstraint(limits_.back().get());
+  }
+}
+
+void BulletWorld::Place() {
+  btAlignedObjectArray<btQuaternion> rotations;
+  btAlignedObjectArray<btVector3> origins;
+  body_.body().forwardKinematics(rotations, origins);
+  body_.body().updateCollisionObjectWorldTransforms(rotations, origins);
+
+  world_.performDiscreteCollisionDetection();
+  std::set<std::pair<int, int>> touching;
+  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+    const btPersistentManifold* pair =
+        dispatcher_.getManifoldByIndexInternal(i);
+    if (IsGround(pair->getBody0()) || IsGround(pair->getBody1())) continue;
+    for (int k = 0; k < pair->getNumContacts(); ++k) {
+      if (pair->getContactPoint(k).getDistance() > 0) continue;
+      touching.emplace(pair->getBody0()->getUserIndex(),
+                       pair->getBody1()->getUserIndex());
+    }
+  }
+  for (const auto& [a, b] : touching) {
+    filter_.Exclude(a, b);
+    world_.getPairCache()->removeOverlappingPair(
+        colliders_[a]->getBroadphaseHandle(),
+        colliders_[b]->getBroadphaseHandle(), &dispatcher_);
+  }
+}
+
+const std::vector<GroundContact>& BulletWorld::FindGroundContacts(double dt) {
+  contacts_.clear();
+  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+    const btPersistentManifold* pair =
+        dispatcher_.getManifoldByIndexInternal(i);
+    const bool robot_is_a = IsGround(pair->getBody1());
+    if (!robot_is_a && !IsGround(pair->getBody0())) continue;
+    const int body =
+        (robot_is_a ? pair->getBody0() : pair->getBody1())->getUserIndex();
+    for (int k = 0; k < pair->getNumContacts(); ++k) {
+      const btManifoldPoint& point = pair->getContactPoint(k);
+      if (point.m_appliedImpulse <= 0) continue;
+      const Eigen::Vector3d force_A_W = FromBullet(ForceOnA(point, dt));
+      contacts_.push_back(
+          {body,
+           FromBullet(robot_is_a ? point.getPositionWorldOnA()
+                                 : point.getPositionWorldOnB()),
+           robot_is_a ? force_A_W : Eigen::Vector3d(-force_A_W)});
+    }
+  }
+  return contacts_;
+}
+
+int BulletWorld::CountSelfContacts() const {
+  int count = 0;
+  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+    const btPersistentManifold* pair =
+        const_cast<btCollisionDispatcher&>(dispatcher_)
+            .getManifoldByIndexInternal(i);
+    if (IsGround(pair->getBody0()) || IsGround(pair->getBody1())) continue;
+    for (int k = 0; k < pair->getNumContacts(); ++k) {
+      if (pair->getContactPoint(k).m_appliedImpulse > 0) {
+        ++count;
+        break;
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace poise

@@ -1,0 +1,42 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace poise {
+
+/// A box that is part of the ground.
+struct Board {
+  Eigen::Vector3d center_W;  ///< m.
+  Eigen::Vector3d size;      ///< Full edge lengths, m.
+  double yaw = 0;            ///< About z, rad.
+};
+
+/// The ground: a plane through the world's origin, and boards.
+struct Ground {
+  double roll = 0;   ///< Of the plane about x, rad.
+  double pitch = 0;  ///< Of the plane about y, then, rad.
+  std::vector<Board> boards;
+};
+
+/// What a scenario may say of any plant.
+struct PlantSettings {
+  double dt = 1e-3;         ///< s.
+  double friction = 0.8;    ///< Of robot on ground.
+  double restitution = 0;   ///< Of robot on ground; 1 loses nothing.
+  double torque_scale = 1;  ///< On the effort limits.
+  bool joint_limits = true;
+  bool joint_damping = true;   ///< The model's damping and friction.
+  bool self_collision = true;  ///< Links that touch push each other away.
+  Ground ground;
+};
+
+/// The plane's normal, out of the ground.
+Eigen::Vector3d GroundNormal(const Ground& ground);
+
+/// Throws std::invalid_argument that names the setting, its value and what was
+/// wanted.
+void Validate(const PlantSettings& settings);
+
+}  // namespace poise

@@ -1,0 +1,21 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/tree.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// A robot of a tree alone: no limits, no shapes, no feet.
+Robot MakeRobot(const Tree& tree);
+
+/// A homogeneous box as a robot without joints, its frame at its center; its
+/// underside is its one sole.
+Robot MakeBlock(const Eigen::Vector3d& size, double mass);
+
+/// A homogeneous ball as a robot without joints and without feet.
+Robot MakeBall(double radius, double mass);
+
+}  // namespace poise
