@@ -72,6 +72,7 @@ BulletWorld::BulletWorld(const Robot& robot, const PlantSettings& settings,
   btContactSolverInfo& info = world_.getSolverInfo();
   info.m_numIterations = bullet.solver_iterations;
   info.m_leastSquaresResidualThreshold = 0;
+  if (settings.restitution > 0) info.m_erp2 = 0;
   if (bullet.two_friction_directions) {
     info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
   } else {
@@ -176,6 +177,10 @@ void BulletWorld::AddColliders(const Robot& robot,
     }
     collider->setFriction(settings.friction);
     collider->setRestitution(settings.restitution);
+    // Bullet stops what will touch within a step, short of the ground; then
+    // nothing is left to bounce. So what bounces sinks in first, by up to a
+    // step's way, and is not pushed out, which would add to its speed.
+    if (settings.restitution > 0) collider->setContactProcessingThreshold(0);
     collider->setUserIndex(i);
     world_.addCollisionObject(collider.get(),
                               touches ? btBroadphaseProxy::DefaultFilter : 0,

@@ -1,0 +1,159 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "sim/bullet_plant.h"
+#include "tests/util/simple_robots.h"
+
+namespace poise {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+// The rotation that lays a body on the ground.
+Eigen::Quaterniond GroundRotation(const Ground& ground) {
+  return Eigen::AngleAxisd(ground.pitch, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(ground.roll, Eigen::Vector3d::UnitX());
+}
+
+// Puts a body down, its center `height` above the ground.
+void PutDown(const Ground& ground, double height, Plant* plant) {
+  Eigen::VectorXd q(7);
+  q << height * GroundNormal(ground), GroundRotation(ground).coeffs();
+  plant->Reset(q, Eigen::VectorXd::Zero(6));
+}
+
+void Simulate(double duration, Plant* plant) {
+  const Eigen::VectorXd none;
+  for (double t = 0; t < duration - plant->dt() / 2; t += plant->dt()) {
+    plant->Step(none);
+  }
+}
+
+// How far a block slides down a slope of a given pitch within a second.
+double Slide(double friction, double pitch) {
+  PlantSettings settings;
+  settings.friction = friction;
+  settings.ground.pitch = pitch;
+  BulletPlant plant(MakeBlock({0.3, 0.3, 0.02}, 5), settings);
+  PutDown(settings.ground, 0.01, &plant);
+  const Eigen::Vector3d start = plant.Sense().q.head<3>();
+  Simulate(1, &plant);
+  return (plant.Sense().q.head<3>() - start).norm();
+}
+
+TEST(Ground, BlockSlidesAtTheFrictionAngleWithinOnePercent) {
+  for (const double friction : {0.3, 0.8}) {
+    SCOPED_TRACE(friction);
+    const double angle = std::atan(friction);
+    EXPECT_LT(Slide(friction, 0.99 * angle), 1e-4);
+    EXPECT_LT(Slide(friction, -0.99 * angle), 1e-4);
+    // g (sin - friction cos) t^2 / 2, less what Bullet needs to get it going.
+    // s = g (sin - friction cos) t^2 / 2, solved for the friction.
+    const double way = Slide(friction, 1.01 * angle);
+    EXPECT_NEAR(std::tan(1.01 * angle) -
+                    2 * way / (kGravity * std::cos(1.01 * angle)),
+                friction, 0.005 * friction);
+    EXPECT_NEAR(Slide(friction, -1.01 * angle), way, 1e-3 * way);
+  }
+}
+
+// How far a tall block on a rough slope leans over within a second.
+double Tip(double roll) {
+  PlantSettings settings;
+  settings.friction = 2;
+  settings.ground.roll = roll;
+  BulletPlant plant(MakeBlock({0.2, 0.2, 0.8}, 5), settings);
+  PutDown(settings.ground, 0.4, &plant);
+  Simulate(3, &plant);
+  return Eigen::Quaterniond(plant.Sense().q.segment<4>(3))
+      .angularDistance(GroundRotation(settings.ground));
+}
+
+TEST(Ground, TallBlockTipsAtItsGeometricLimitWithinOnePercent) {
+  const double limit = std::atan(0.2 / 0.8);
+  EXPECT_LT(Tip(0.99 * limit), 1e-3);
+  EXPECT_LT(Tip(-0.99 * limit), 1e-3);
+  EXPECT_GT(Tip(1.01 * limit), 0.1);
+  EXPECT_GT(Tip(-1.01 * limit), 0.1);
+}
+
+// How high a ball comes back that falls from rest over 0.5 m.
+double Rebound(double restitution) {
+  PlantSettings settings;
+  settings.restitution = restitution;
+  BulletPlant plant(MakeBall(0.1, 2), settings);
+  PutDown({}, 0.6, &plant);
+  Simulate(0.35, &plant);  // It lands after 0.319 s.
+  double top = 0;
+  for (int k = 0; k < 500; ++k) {
+    Simulate(1e-3, &plant);
+    top = std::max(top, plant.Sense().q.z() - 0.1);
+  }
+  return top;
+}
+
+TEST(Ground, BallBouncesToTheSquareOfItsRestitution) {
+  // The impact is seen up to a step too soon, at 3 m/s and 1 ms.
+  constexpr double kStep = 6e-3;
+  EXPECT_NEAR(Rebound(0.8), 0.5 * 0.64, kStep);
+  EXPECT_NEAR(Rebound(0.5), 0.5 * 0.25, kStep);
+  EXPECT_NEAR(Rebound(0), 0, 1e-3);
+}
+
+TEST(Ground, BallRollsDownASlopeAtFiveSevenths) {
+  PlantSettings settings;
+  settings.ground.pitch = 0.2;
+  BulletPlant plant(MakeBall(0.1, 2), settings);
+  PutDown(settings.ground, 0.1, &plant);
+  const Eigen::Vector3d start = plant.Sense().q.head<3>();
+  Simulate(1, &plant);
+  const double way = (plant.Sense().q.head<3>() - start).norm();
+  const double free = 5.0 / 7 * kGravity * std::sin(0.2) / 2;
+  EXPECT_NEAR(way, free, 0.01 * free);
+  // It rolls: no slip.
+  EXPECT_NEAR(plant.Sense().v.head<3>().norm() * 0.1,
+              plant.Sense().v.tail<3>().norm(), 1e-3);
+}
+
+TEST(Ground, BlockAtRestPressesWithItsWeightAtItsCenter) {
+  Robot robot = MakeBlock({0.3, 0.2, 0.1}, 5);
+  BulletPlant plant(robot);
+  PutDown({}, 0.05, &plant);
+  plant.Apply({0, {0.02, 0, 0}, {0, 0, 0}, {0, 0, -10}});
+  Simulate(1, &plant);
+  for (int k = 0; k < 200; ++k) {
+    plant.Apply({0, {0.06, 0.03, 0}, {0, 0, 0}, {0, 0, -10}});
+    Simulate(1e-3, &plant);
+  }
+  const auto& F_Co_C = plant.Sense().F_Co_C[0];
+  const double weight = 5 * kGravity;
+  // What 50 iterations leave of a load that they share out among 4 points.
+  EXPECT_NEAR(F_Co_C[5], weight + 10, 1e-3);
+  EXPECT_NEAR(F_Co_C[0], 0.03 * 10, 1e-3);   // m_x = y f_z.
+  EXPECT_NEAR(F_Co_C[1], -0.06 * 10, 1e-3);  // m_y = -x f_z.
+  EXPECT_NEAR(F_Co_C.segment<3>(2).head<1>()[0], 0, 1e-3);
+  EXPECT_EQ(plant.Sense().contact_points[0], 4);
+  EXPECT_EQ(plant.Sense().other_force_W, Eigen::Vector3d::Zero());
+}
+
+TEST(Ground, BallWithoutAFootPressesOnTheGroundToo) {
+  BulletPlant plant(MakeBall(0.1, 2));
+  PutDown({}, 0.1, &plant);
+  Simulate(0.5, &plant);
+  EXPECT_NEAR(plant.Sense().other_force_W.z(), 2 * kGravity, 1e-6);
+}
+
+TEST(Ground, BoardCarriesAtItsHeight) {
+  PlantSettings settings;
+  settings.ground.boards.push_back({{0, 0, 0.01}, {1, 1, 0.04}, 0.3});
+  BulletPlant plant(MakeBlock({0.3, 0.2, 0.1}, 5), settings);
+  PutDown({}, 0.08, &plant);
+  Simulate(1, &plant);
+  EXPECT_NEAR(plant.Sense().q.z(), 0.03 + 0.05, 1e-4);
+}
+
+}  // namespace
+}  // namespace poise
