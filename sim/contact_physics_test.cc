@@ -53,9 +53,9 @@ TEST(Ground, BlockSlidesAtTheFrictionAngleWithinOnePercent) {
     // g (sin - friction cos) t^2 / 2, less what Bullet needs to get it going.
     // s = g (sin - friction cos) t^2 / 2, solved for the friction.
     const double way = Slide(friction, 1.01 * angle);
-    EXPECT_NEAR(std::tan(1.01 * angle) -
-                    2 * way / (kGravity * std::cos(1.01 * angle)),
-                friction, 0.005 * friction);
+    EXPECT_NEAR(
+        std::tan(1.01 * angle) - 2 * way / (kGravity * std::cos(1.01 * angle)),
+        friction, 0.005 * friction);
     EXPECT_NEAR(Slide(friction, -1.01 * angle), way, 1e-3 * way);
   }
 }
