@@ -171,7 +171,10 @@ void Cascade::FixLevel(const Hierarchy& hierarchy, int level,
   for (size_t i = 0; i < violated.size(); ++i) {
     B.row(equalities + i) = hierarchy.C(level).row(violated[i]);
   }
-  B.rowwise().normalize();
+  for (int i = 0; i < B.rows(); ++i) {
+    const double norm = B.row(i).norm();
+    if (norm > 0) B.row(i) /= norm;
+  }
   const RowSpace space = MakeRowSpace(B * Z_, method_);
   Z_ = (Z_ * space.V.rightCols(Z_.cols() - space.rank)).eval();
   solution->levels[level].nullity = static_cast<int>(Z_.cols());

@@ -24,7 +24,8 @@ struct Reference {
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();  ///< Base orientation.
   Eigen::VectorXd posture;                             ///< By joint, rad or m.
   double ground_z = 0;                 ///< Height of the floor, m.
-  std::vector<FrameReference> frames;  ///< By Controller::FindFrame().
+  std::vector<FrameReference> feet;    ///< Of the feet in the air.
+  std::vector<FrameReference> frames;  ///< By ControllerOptions::frames.
 };
 
 }  // namespace poise

@@ -106,20 +106,23 @@ double Stack::RowWeight(const Entry& entry) const noexcept {
   int below = 0;
   for (int rank = entry.settings.rank + 1; rank <= kMaxRank; ++rank) {
     below += std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) {
-      return e.settings.enabled && e.settings.rank == rank;
+      return e.takes_part && e.settings.rank == rank;
     });
   }
   return entry.settings.weight * std::pow(kRankRatio, below);
 }
 
 void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
+  for (Entry& entry : entries_) {
+    entry.level = -1;
+    entry.takes_part = entry.settings.enabled && entry.task->HasRows(input);
+  }
   // One level a rank in use; as one weighted QP, rank 1 and the rest.
   num_levels_ = 0;
   for (int rank = 1; rank <= kMaxRank; ++rank) {
     bool used = false;
     for (Entry& entry : entries_) {
-      if (entry.settings.rank != rank) continue;
-      if (!entry.settings.enabled) continue;
+      if (entry.settings.rank != rank || !entry.takes_part) continue;
       entry.level = weighted_ ? std::min(num_levels_, 1) : num_levels_;
       used = true;
     }
@@ -129,10 +132,7 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
 
   hierarchy->Clear(num_levels_);
   for (Entry& entry : entries_) {
-    if (!entry.settings.enabled) {
-      entry.level = -1;
-      continue;
-    }
+    if (!entry.takes_part) continue;
     const Task& task = *entry.task;
     entry.equality_start = hierarchy->num_equalities(entry.level);
     entry.inequality_start = hierarchy->num_inequalities(entry.level);
@@ -178,7 +178,7 @@ void Stack::Report(const Solution& solution,
     const Entry& entry = entries_[i];
     TaskReport& out = report->tasks[i];
     out = {entry.settings.enabled, entry.settings.rank, 0, 0};
-    if (!entry.settings.enabled) continue;
+    if (!entry.takes_part) continue;
     const int rows = static_cast<int>(entry.task->equality_names().size());
     out.residual = solution.levels[entry.level]
                        .equality_residual.segment(entry.equality_start, rows)

@@ -75,7 +75,8 @@ class Stack {
   struct Entry {
     std::unique_ptr<Task> task;
     TaskSettings settings;
-    // Where its rows are, since the last Write().
+    // Whether and where it has rows, since the last Write().
+    bool takes_part = false;
     int level = -1;
     int equality_start = 0;
     int inequality_start = 0;

@@ -49,6 +49,9 @@ class Task {
   }
   const std::vector<Parameter>& parameters() const { return parameters_; }
 
+  /// Whether it has rows at all in this tick; if not, Write() is left out.
+  virtual bool HasRows(const TaskInput&) const noexcept { return true; }
+
   /// Writes the rows B y + b = 0 and lower <= C y <= upper of this tick.
   /// @param equalities    as many rows as equality_names(), B and b zero.
   /// @param inequalities  as many rows as inequality_names(), C zero,

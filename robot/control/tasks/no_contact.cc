@@ -14,6 +14,13 @@ NoContactTask::NoContactTask(const Tree& tree, const std::vector<Foot>& feet)
       nv_(tree.nv()),
       scale_(1 / ForceScale(tree)) {}
 
+bool NoContactTask::HasRows(const TaskInput& input) const noexcept {
+  for (const ContactTick& contact : input.contacts) {
+    if (!contact.in_contact) return true;
+  }
+  return false;
+}
+
 void NoContactTask::Write(const TaskInput& input, EqualityBlock* equalities,
                           InequalityBlock*) const noexcept {
   for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {

@@ -14,6 +14,7 @@ namespace poise {
 class NoContactTask final : public Task {
  public:
   NoContactTask(const Tree& tree, const std::vector<Foot>& feet);
+  bool HasRows(const TaskInput& input) const noexcept override;
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 

@@ -1,0 +1,23 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include "dynamics/tree.h"
+#include "robot/control/task.h"
+
+namespace poise {
+
+/// Brings the angular momentum k about the center of mass to rest:
+///     (H_G v̇ + bias)_angular / m = -kd k / m.
+class AngularMomentumTask final : public Task {
+ public:
+  /// Parameter: kd (10 1/s).
+  explicit AngularMomentumTask(const Tree& tree);
+  void Write(const TaskInput& input, EqualityBlock* equalities,
+             InequalityBlock* inequalities) const noexcept override;
+
+ private:
+  double mass_;
+  double kd_ = 10;
+};
+
+}  // namespace poise

@@ -1,0 +1,65 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/capture_point.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "robot/control/tasks/row_names.h"
+
+namespace poise {
+namespace {
+
+// Lower than this above its soles, a robot has fallen: no pendulum.
+constexpr double kMinHeight = 0.05;  // m.
+
+}  // namespace
+
+CapturePointTask::CapturePointTask(const Tree& tree,
+                                   const std::vector<Foot>& feet)
+    : Task("capture_point", {},
+           AxisRowNames("capture_point", {"x_max", "x_min", "y_max", "y_min"})),
+      mass_(tree.total_mass() > 0 ? tree.total_mass() : 1),
+      gravity_(tree.gravity_W().norm()),
+      feet_(feet) {
+  AddParameter("horizon", &horizon_, 1e-3, 10);
+  AddParameter("margin", &margin_, 0, 1);
+}
+
+void CapturePointTask::Write(const TaskInput& input, EqualityBlock*,
+                             InequalityBlock* inequalities) const noexcept {
+  const Tick& tick = input.tick;
+  const Pose X_WMid = MidFeet(input.contacts);
+  const Pose X_MidW = X_WMid.Inverse();
+  const Eigen::Vector3d p_G = X_MidW * tick.p_WG;
+  const Eigen::Vector3d v_G = X_MidW.R * tick.v_WG;
+  const double w = std::sqrt(gravity_ / std::max(kMinHeight, p_G.z()));
+
+  for (int axis = 0; axis < 2; ++axis) {
+    for (const int side : {1, -1}) {
+      // The farthest corner of a sole this way.
+      double bound = -1;
+      for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
+        if (!input.contacts[i].in_contact) continue;
+        const Pose X_MidC = X_MidW * input.contacts[i].X_WC;
+        const Eigen::Vector2d& half = feet_[i].half_size;
+        bound = std::max(bound, side * X_MidC.p[axis] +
+                                    std::abs(X_MidC.R(axis, 0)) * half.x() +
+                                    std::abs(X_MidC.R(axis, 1)) * half.y());
+      }
+      if (bound < 0) continue;  // Nothing to stand on.
+      bound -= margin_;
+
+      const int row = 2 * axis + (side > 0 ? 0 : 1);
+      const double xi = side * (p_G[axis] + v_G[axis] / w);
+      // In units of length: T / w a_G <= d - xi - T v_G.
+      const Eigen::RowVector3d n_W =
+          side * horizon_ / (w * mass_) * X_MidW.R.row(axis);
+      inequalities->C.row(row).head(tick.H_G.cols()).noalias() =
+          n_W * tick.H_G.bottomRows<3>();
+      inequalities->upper[row] = bound - xi - side * horizon_ * v_G[axis] -
+                                 n_W.dot(tick.H_G_bias.tail<3>());
+    }
+  }
+}
+
+}  // namespace poise

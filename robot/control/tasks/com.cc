@@ -1,0 +1,25 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/com.h"
+
+#include "robot/control/tasks/row_names.h"
+
+namespace poise {
+
+ComTask::ComTask(const Tree& tree)
+    : Task("com", AxisRowNames("com", {"x", "y", "z"}), {}),
+      mass_(tree.total_mass() > 0 ? tree.total_mass() : 1) {
+  AddParameter("kp", &kp_, 0, 1e4);
+  AddParameter("kd", &kd_, 0, 1e3);
+}
+
+void ComTask::Write(const TaskInput& input, EqualityBlock* equalities,
+                    InequalityBlock*) const noexcept {
+  const Tick& tick = input.tick;
+  const Reference& reference = input.reference;
+  equalities->B.leftCols(tick.H_G.cols()) = tick.H_G.bottomRows<3>() / mass_;
+  equalities->b = tick.H_G_bias.tail<3>() / mass_ -
+                  kp_ * (reference.p_WG - tick.p_WG) -
+                  kd_ * (reference.v_WG - tick.v_WG) - reference.a_WG;
+}
+
+}  // namespace poise

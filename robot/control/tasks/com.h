@@ -1,0 +1,25 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include "dynamics/tree.h"
+#include "robot/control/task.h"
+
+namespace poise {
+
+/// Brings the center of mass G to its reference, the linear half of
+/// MomentumTask:
+///     (H_G v̇ + bias)_linear / m = kp (p_ref - p_G) + kd (v_ref - v_G) + a_ref.
+class ComTask final : public Task {
+ public:
+  /// Parameters: kp (30 1/s2), kd (10 1/s).
+  explicit ComTask(const Tree& tree);
+  void Write(const TaskInput& input, EqualityBlock* equalities,
+             InequalityBlock* inequalities) const noexcept override;
+
+ private:
+  double mass_;
+  double kp_ = 30;
+  double kd_ = 10;
+};
+
+}  // namespace poise

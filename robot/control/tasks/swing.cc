@@ -1,0 +1,40 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/swing.h"
+
+#include "math/so3.h"
+#include "robot/control/tasks/row_names.h"
+
+namespace poise {
+
+SwingTask::SwingTask(const Foot& foot, int index)
+    : Task("frame." + foot.name,
+           AxisRowNames("frame." + foot.name,
+                        {"wx", "wy", "wz", "vx", "vy", "vz"}),
+           {}),
+      index_(index) {
+  AddParameter("kp", &kp_, 0, 1e4);
+  AddParameter("kd", &kd_, 0, 1e3);
+}
+
+bool SwingTask::HasRows(const TaskInput& input) const noexcept {
+  return !input.contacts[index_].in_contact;
+}
+
+void SwingTask::Write(const TaskInput& input, EqualityBlock* equalities,
+                      InequalityBlock*) const noexcept {
+  const ContactTick& foot = input.contacts[index_];
+  const FrameReference& reference = input.reference.feet[index_];
+  const Eigen::Matrix3d R_CW = foot.X_WC.R.transpose();
+  Vector6d e_W;
+  e_W << LogSo3(reference.X_WF.R * foot.X_WC.R.transpose()),
+      reference.X_WF.p - foot.X_WC.p;
+  const Vector6d wanted_W =
+      reference.A_WF_W + kd_ * reference.V_WF_W + kp_ * e_W;
+  Vector6d wanted_C;
+  wanted_C << R_CW * wanted_W.head<3>(), R_CW * wanted_W.tail<3>();
+
+  equalities->B.leftCols(foot.J_WC_C.cols()) = foot.J_WC_C;
+  equalities->b = foot.Jdot_v_C + kd_ * foot.V_WC_C - wanted_C;
+}
+
+}  // namespace poise

@@ -1,0 +1,23 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "robot/control/task.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// Makes the torques of (10) small, each by its effort limit:
+///     (M_u v̇ + N_u - J_{c,u}' lambda) / tau_max = 0.
+class TorqueMinimizationTask final : public Task {
+ public:
+  explicit TorqueMinimizationTask(const RobotModel& model);
+  void Write(const TaskInput& input, EqualityBlock* equalities,
+             InequalityBlock* inequalities) const noexcept override;
+
+ private:
+  Eigen::VectorXd inverse_effort_;
+};
+
+}  // namespace poise
