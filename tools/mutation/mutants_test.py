@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+
+import unittest
+
+import mutants
+from cpp_source import Source
+
+_CODE = """// Copyright: a + b, and -1.
+#include "math/a+b.h"
+
+namespace poise {
+namespace {
+
+constexpr double kSmall = 1e-8;
+
+// A comment - with a minus.
+double Half(double x) {
+  return 0.5 * x;
+}
+
+}  // namespace
+
+Thing::Thing(int n) : n_(n + 1), names_{"a - b"} {}
+
+int Thing::Count(const std::vector<int>& v, int i) const {
+  assert(i < n_ && "i - n");
+  static_assert(sizeof(int) > 3);
+  if (i <= 0) throw std::invalid_argument("i is " + std::to_string(i - 1));
+  const Eigen::Matrix<double, 6, 6>* M = Get<3>(v);
+  total_ += v[i] - Cross(i, n_);
+  for (int k = 0; k < i; ++k) Add(k);
+  return v[2] - M->rows();
+}
+
+}  // namespace poise
+"""
+
+
+class MutantsTest(unittest.TestCase):
+    def setUp(self):
+        self.mutants = mutants.make_mutants("a.cc", _CODE)
+
+    def after(self, text):
+        return [m.after for m in self.mutants if m.before == text]
+
+    def test_finds_functions_and_scopes(self):
+        functions = [(f.name, f.is_local) for f in Source(_CODE).functions]
+        self.assertEqual(
+            functions,
+            [("Half", True), ("Thing::Thing", False), ("Thing::Count", False)],
+        )
+
+    def test_finds_what_a_header_declares(self):
+        header = Source(
+            "class Tree final : public Base {\n public:\n  explicit Tree(int n);\n"
+            "  Tree(const Tree&) = delete;\n"
+            "  int nv() const { return nv_; }\n"
+            "  Pose operator*(const Pose& b) const;\n"
+            " private:\n  void Hide(int a = 1);\n  int nv_ = 6;\n};\n"
+            "double Rounding(double scale, int n, double condition = 1);\n"
+            "inline constexpr double kPi = 3.14;\n"
+            "enum class Status { kOk, kBad };\n"
+        )
+        self.assertEqual(
+            [(f.qualified, f.is_public) for f in header.functions],
+            [
+                ("Tree::Tree", True), ("Tree::nv", True), ("Tree::operator*", True),
+                ("Tree::Hide", False), ("Rounding", True),
+            ],
+        )
+
+    def test_leaves_comments_strings_includes_and_checks_alone(self):
+        for mutant in self.mutants:
+            for word in ("//", "#include", "assert(", "throw", "namespace"):
+                if mutant.before.startswith(word):
+                    self.fail(mutant.describe())
+            self.assertEqual(
+                mutant.before.count('"a - b"'), mutant.after.count('"a - b"')
+            )
+
+    def test_leaves_templates_and_types_alone(self):
+        self.assertEqual(
+            self.after("const Eigen::Matrix<double, 6, 6>* M = Get<3>(v);"), []
+        )
+
+    def test_flips_a_sum_and_takes_out_a_term_and_the_statement(self):
+        self.assertEqual(
+            self.after("total_ += v[i] - Cross(i, n_);"),
+            [
+                ";",
+                "total_ -= v[i] - Cross(i, n_);",
+                "total_ += v[i + 1] - Cross(i, n_);",
+                "total_ += v[i] + Cross(i, n_);",
+                "total_ += v[i] ;",
+                "total_ += v[i] - Cross(n_, i);",
+            ],
+        )
+
+    def test_mutates_initialisers_constants_loops_and_returns(self):
+        self.assertIn(
+            'Thing::Thing(int n) : n_(n - 1), names_{"a - b"} {}',
+            [m.after for m in self.mutants],
+        )
+        self.assertEqual(
+            self.after("constexpr double kSmall = 1e-8;"),
+            [
+                "constexpr double kSmall = 1e-7;",
+                "constexpr double kSmall = 1e-9;",
+            ],
+        )
+        self.assertIn(
+            "for (int k = 0; k <= i; ++k) Add(k);",
+            self.after("for (int k = 0; k < i; ++k) Add(k);"),
+        )
+        self.assertEqual(
+            self.after("return 0.5 * x;"),
+            ["return 1.0 * x;", "return -(0.5 * x);", "return 0.5 / x;"],
+        )
+        self.assertIn("return v[3] - M->rows();", self.after("return v[2] - M->rows();"))
+        self.assertIn("return v[2] - M->cols();", self.after("return v[2] - M->rows();"))
+
+    def test_applies_one_slip_and_moves_no_line(self):
+        for mutant in self.mutants:
+            changed = mutants.apply(mutant, _CODE)
+            self.assertEqual(changed.count("\n"), _CODE.count("\n"))
+            different = [
+                i for i, (a, b) in enumerate(
+                    zip(_CODE.split("\n"), changed.split("\n")), start=1
+                ) if a != b
+            ]
+            self.assertIn(mutant.line, different)
+            self.assertLessEqual(len(different), 3)  # Line 1 quiets warnings.
+
+    def test_an_id_outlives_changes_elsewhere(self):
+        moved = _CODE.replace("// A comment", "// Longer.\n// A comment").replace(
+            "0.5", "0.25"
+        )
+        ids = {m.id for m in self.mutants if m.function == "Thing::Count"}
+        self.assertGreater(len(ids), 10)
+        self.assertLessEqual(ids, {m.id for m in mutants.make_mutants("a.cc", moved)})
+        self.assertEqual(len({m.id for m in self.mutants}), len(self.mutants))
+
+
+if __name__ == "__main__":
+    unittest.main()
