@@ -1,20 +1,19 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "robot/urdf.h"
 
+#include <console_bridge/console.h>
+#include <tinyxml2.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <fstream>
-#include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <unordered_map>
 
+#include "robot/urdf_check.h"
+#include "robot/xml_file.h"
+
 namespace poise {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Eigen::Vector3d FromUrdf(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
@@ -51,23 +50,6 @@ JointType FromUrdf(const urdf::Joint& joint) {
                                   "': its type is floating or planar, must be "
                                   "revolute, continuous, prismatic or fixed");
   }
-}
-
-JointLimits LimitsOf(const urdf::Joint& joint) {
-  JointLimits limits{-kInfinity, kInfinity, kInfinity, kInfinity};
-  if (joint.limits != nullptr) {
-    limits.velocity = joint.limits->velocity;
-    limits.effort = joint.limits->effort;
-    if (joint.type != urdf::Joint::CONTINUOUS) {
-      limits.lower = joint.limits->lower;
-      limits.upper = joint.limits->upper;
-    }
-  }
-  if (joint.dynamics != nullptr) {
-    limits.damping = joint.dynamics->damping;
-    limits.friction = joint.dynamics->friction;
-  }
-  return limits;
 }
 
 Geometry FromUrdf(const urdf::Geometry& geometry) {
@@ -112,53 +94,142 @@ const urdf::Link& BaseOf(const urdf::ModelInterface& urdf) {
   return stands_for_the_world ? *root.child_links[0] : root;
 }
 
+// Keeps urdfdom from printing, and from using names as formats to print with.
+class Silence {
+ public:
+  Silence() : level_(console_bridge::getLogLevel()) {
+    console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);
+  }
+  ~Silence() { console_bridge::setLogLevel(level_); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  console_bridge::LogLevel level_;
+};
+
+// urdfdom's own tree, which it would take down by recursion, link by link: far
+// deeper than the stack for a long chain.
+class UrdfdomTree {
+ public:
+  explicit UrdfdomTree(const std::string& xml) {
+    const Silence silence;
+    model_ = urdf::parseURDF(xml);
+  }
+  ~UrdfdomTree() {
+    if (model_ == nullptr) return;
+    for (const auto& [name, link] : model_->links_) {
+      link->child_links.clear();
+    }
+  }
+  UrdfdomTree(const UrdfdomTree&) = delete;
+  UrdfdomTree& operator=(const UrdfdomTree&) = delete;
+
+  const urdf::ModelInterface* get() const { return model_.get(); }
+
+ private:
+  urdf::ModelInterfaceSharedPtr model_;
+};
+
+// What urdfdom is given: the pruned document, without what was read already and
+// what it is stricter about than it need be.
+std::string XmlForUrdfdom(tinyxml2::XMLDocument* document) {
+  for (tinyxml2::XMLElement* joint =
+           document->RootElement()->FirstChildElement("joint");
+       joint != nullptr; joint = joint->NextSiblingElement("joint")) {
+    if (auto* dynamics = joint->FirstChildElement("dynamics")) {
+      joint->DeleteChild(dynamics);
+    }
+    if (auto* limit = joint->FirstChildElement("limit")) {
+      for (const char* name : {"lower", "upper", "effort", "velocity"}) {
+        limit->SetAttribute(name, "0");
+      }
+    }
+  }
+  tinyxml2::XMLPrinter printer(nullptr, /*compact=*/true);
+  document->Print(&printer);
+  return {printer.CStr(), static_cast<size_t>(printer.CStrSize() - 1)};
+}
+
+Tree MakeTree(const urdf::ModelInterface& urdf, const UrdfFacts& facts,
+              const std::map<std::string, double>& locked) {
+  const urdf::Link& base = BaseOf(urdf);
+  const bool drops_root = &base != urdf.getRoot().get();
+  TreeBuilder builder;
+  for (const std::string& name : facts.links) {
+    if (drops_root && name == urdf.getRoot()->name) continue;
+    const auto& inertial = urdf.links_.at(name)->inertial;
+    builder.AddLink(name,
+                    inertial != nullptr ? FromUrdf(*inertial) : Inertia{});
+  }
+  for (const std::string& name : facts.joints) {
+    const urdf::Joint& joint = *urdf.joints_.at(name);
+    if (drops_root && &joint == base.parent_joint.get()) continue;
+    builder.AddJoint({name, FromUrdf(joint), joint.parent_link_name,
+                      joint.child_link_name,
+                      FromUrdf(joint.parent_to_joint_origin_transform),
+                      FromUrdf(joint.axis)});
+  }
+  for (const auto& [name, value] : locked) builder.Lock(name, value);
+  return builder.Build();
+}
+
+void AddMimics(const urdf::ModelInterface& urdf, RobotModel* model) {
+  std::unordered_map<std::string, int> joint_of;
+  for (const Joint& joint : model->tree.joints()) {
+    joint_of.emplace(joint.name, static_cast<int>(joint_of.size()));
+  }
+  for (const Joint& joint : model->tree.joints()) {
+    const auto& mimic = urdf.joints_.at(joint.name)->mimic;
+    if (mimic == nullptr) continue;
+    const auto source = joint_of.find(mimic->joint_name);
+    if (source == joint_of.end()) continue;  // It does not move.
+    model->mimics.push_back({joint_of.at(joint.name), source->second,
+                             mimic->multiplier, mimic->offset});
+  }
+}
+
+// Throws the first finding that rejects the file.
+void ThrowIfRejected(const std::string& file,
+                     const std::vector<Finding>& findings) {
+  for (const Finding& finding : findings) {
+    if (finding.severity != Severity::kReject) continue;
+    throw std::invalid_argument(Message(file, finding));
+  }
+}
+
 }  // namespace
 
 RobotModel LoadUrdf(const std::filesystem::path& file,
-                    const std::map<std::string, double>& locked) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  const urdf::ModelInterfaceSharedPtr urdf = urdf::parseURDF(text.str());
-  if (!stream || urdf == nullptr) {
-    throw std::invalid_argument(file.string() + ": is no URDF");
-  }
-  const urdf::Link& base = BaseOf(*urdf);
-  const bool drops_root = &base != urdf->getRoot().get();
+                    const std::map<std::string, double>& locked,
+                    std::vector<Finding>* findings) {
+  return ParseUrdf(ReadFile(file), file.string(), locked, findings);
+}
 
-  TreeBuilder builder;
-  for (const auto& [name, link] : urdf->links_) {
-    if (drops_root && link == urdf->getRoot()) continue;
-    builder.AddLink(name, link->inertial != nullptr ? FromUrdf(*link->inertial)
-                                                    : Inertia{});
+RobotModel ParseUrdf(std::string_view text, const std::string& source,
+                     const std::map<std::string, double>& locked,
+                     std::vector<Finding>* findings) {
+  std::vector<Finding> unasked;
+  if (findings == nullptr) findings = &unasked;
+  const auto document = ParseXml(text, source);
+  const UrdfFacts facts = CheckUrdf(document.get(), findings);
+  ThrowIfRejected(source, *findings);
+  const UrdfdomTree urdfdom(XmlForUrdfdom(document.get()));
+  if (urdfdom.get() == nullptr) {
+    throw std::invalid_argument(source + ": urdfdom cannot read it");
   }
-  for (const auto& [name, joint] : urdf->joints_) {
-    if (drops_root && joint == base.parent_joint) continue;
-    builder.AddJoint({name, FromUrdf(*joint), joint->parent_link_name,
-                      joint->child_link_name,
-                      FromUrdf(joint->parent_to_joint_origin_transform),
-                      FromUrdf(joint->axis)});
-  }
-  for (const auto& [name, value] : locked) builder.Lock(name, value);
+  const urdf::ModelInterface& urdf = *urdfdom.get();
 
-  RobotModel model{urdf->getName(), builder.Build(), {}, {}, {}, {}, 0};
-  std::unordered_map<std::string, int> joint_of;
+  RobotModel model{
+      urdf.getName(), MakeTree(urdf, facts, locked), {}, {}, {}, {}, 0};
   for (const Joint& joint : model.tree.joints()) {
-    joint_of[joint.name] = static_cast<int>(model.limits.size());
-    model.limits.push_back(LimitsOf(*urdf->joints_.at(joint.name)));
+    model.limits.push_back(facts.limits.at(joint.name));
   }
-  for (const Joint& joint : model.tree.joints()) {
-    const auto& mimic = urdf->joints_.at(joint.name)->mimic;
-    if (mimic == nullptr) continue;
-    const auto source = joint_of.find(mimic->joint_name);
-    if (source == joint_of.end()) continue;  // Locked.
-    model.mimics.push_back({joint_of.at(joint.name), source->second,
-                            mimic->multiplier, mimic->offset});
-  }
+  AddMimics(urdf, &model);
   for (int i = 0; i < static_cast<int>(model.tree.frames().size()); ++i) {
     const std::string& name = model.tree.frames()[i].name;
-    if (name == base.name) model.root_frame = i;
-    AddShapes(*urdf->links_.at(name), i, &model);
+    if (name == BaseOf(urdf).name) model.root_frame = i;
+    AddShapes(*urdf.links_.at(name), i, &model);
   }
   return model;
 }

@@ -4,7 +4,10 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "robot/finding.h"
 #include "robot/robot.h"
 
 namespace poise {
@@ -21,9 +24,21 @@ namespace poise {
 /// @param locked  joints to fix, by name, at a value in rad or m: the tree is
 ///                the reduced one, their links stay as frames.
 ///
+/// @param findings  where not null, all that is odd about the file is added, and
+///                  all that is wrong before it is thrown.
+///
 /// Throws std::invalid_argument with one line that names the file, the element,
-/// its value and what was wanted.
+/// its value and what was wanted. Any file takes less than 10 s and 1 GiB.
+/// Costs O(n log n) in the length of the file.
 RobotModel LoadUrdf(const std::filesystem::path& file,
-                    const std::map<std::string, double>& locked = {});
+                    const std::map<std::string, double>& locked = {},
+                    std::vector<Finding>* findings = nullptr);
+
+/// The same from a URDF's text.
+///
+/// @param source  what to call it in a message.
+RobotModel ParseUrdf(std::string_view text, const std::string& source,
+                     const std::map<std::string, double>& locked = {},
+                     std::vector<Finding>* findings = nullptr);
 
 }  // namespace poise

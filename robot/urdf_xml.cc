@@ -1,0 +1,76 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/urdf_xml.h"
+
+#include <charconv>
+#include <locale>
+#include <sstream>
+
+namespace poise {
+
+using tinyxml2::XMLElement;
+
+std::optional<std::vector<double>> ParseNumbers(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  std::vector<double> numbers;
+  while (true) {
+    const size_t start = text.find_first_not_of(kBlank);
+    if (start == std::string_view::npos) return numbers;
+    text.remove_prefix(start);
+    std::string_view token = text.substr(0, text.find_first_of(kBlank));
+    text.remove_prefix(token.size());
+    if (token.size() > 1 && token[0] == '+' && token[1] != '-') {
+      token.remove_prefix(1);
+    }
+    double number = 0;
+    const char* end = token.data() + token.size();
+    const auto [stop, error] = std::from_chars(token.data(), end, number);
+    if (error != std::errc() || stop != end) return std::nullopt;
+    numbers.push_back(number);
+  }
+}
+
+std::string PrintNumber(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << value;
+  return text.str();
+}
+
+std::string Text(const XMLElement& element, const char* attribute) {
+  const char* text = element.Attribute(attribute);
+  return text != nullptr ? text : "";
+}
+
+double Number(const XMLElement& element, const char* attribute,
+              double otherwise) {
+  const char* text = element.Attribute(attribute);
+  return text != nullptr ? ParseNumbers(text).value().at(0) : otherwise;
+}
+
+Eigen::Vector3d Vector(const XMLElement& element, const char* attribute) {
+  const char* text = element.Attribute(attribute);
+  if (text == nullptr) return Eigen::Vector3d::Zero();
+  return Eigen::Vector3d(ParseNumbers(text).value().data());
+}
+
+bool IsMoving(const XMLElement& joint) {
+  const std::string type = Text(joint, "type");
+  return type == "revolute" || type == "continuous" || type == "prismatic";
+}
+
+void Critic::Add(Severity severity, const XMLElement& element, std::string what,
+                 std::string why) const {
+  std::string where = std::string("<") + element.Name() + ">";
+  const tinyxml2::XMLNode* robot = element.GetDocument()->RootElement();
+  const tinyxml2::XMLNode* top = &element;  // To be the link or joint.
+  while (top != robot && top->Parent() != robot) top = top->Parent();
+  const char* name = top->ToElement()->Attribute("name");
+  if (top != robot && name != nullptr) {
+    where = std::string(top->Value()) + " " + Quoted(name) +
+            (top == &element ? "" : " " + where);
+  }
+  findings_->push_back(
+      {severity, where, std::move(what), std::move(why), element.GetLineNum()});
+}
+
+}  // namespace poise

@@ -1,0 +1,20 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tests/util/shared_data.h"
+
+#include <cstdlib>
+#include <iostream>
+
+namespace poise {
+
+std::optional<std::filesystem::path> SharedData(std::string_view sub) {
+  const char* shared = std::getenv("POISE_SHARED");
+  if (shared != nullptr && *shared != '\0') {
+    const std::filesystem::path path = std::filesystem::path(shared) / sub;
+    if (std::filesystem::exists(path)) return path;
+  }
+  std::cout << "Without " << sub
+            << ", as POISE_SHARED does not name a folder that has it.\n";
+  return std::nullopt;
+}
+
+}  // namespace poise
