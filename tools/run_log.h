@@ -1,0 +1,33 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace poise {
+
+/// What a page shows of a log.csv, thinned so that it stays small:
+///
+///     rows     of the log.
+///     motion   {rows, time, channels}: base, joints, CoM, foot wrenches and
+///              push, every so many ticks, for the replay.
+///     signals  the same shape, for the plots, with com_error = com - com_ref.
+///     torques  the same shape.
+///     active   [{name, peak, spans: [[from, to, multiplier], ...]}]: when each
+///              row of the hierarchy was active, in s, the largest multiplier.
+///     status   [[status, from, to], ...]: where it was not "ok".
+///     notes    [sentence, ...]: what is wrong with the log.
+///
+/// See EncodeChannel() for channels, EncodeFloats() for time. Where plots are
+/// thinned, 2 n rows give two points, their least and greatest value in the
+/// order they came in: a peak of one tick stays visible.
+///
+/// An empty log, or one cut short, is read as far as it goes and noted. Throws
+/// std::invalid_argument if there is none. Two passes, memory of the result.
+nlohmann::json ReadRunLog(const std::filesystem::path& log_csv);
+
+/// The same for timing.csv: {rows, time, channels} with us and iterations; the
+/// time is that of the tick number, given the control period dt, s.
+nlohmann::json ReadTiming(const std::filesystem::path& timing_csv, double dt);
+
+}  // namespace poise

@@ -1,0 +1,13 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <string_view>
+
+namespace poise {
+
+/// The built pages of dist/, inside the program that fills them: no data file
+/// has to be found when it runs.
+extern const std::string_view kReportPage;
+extern const std::string_view kMapPage;
+
+}  // namespace poise

@@ -1,0 +1,113 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+
+const TRAIL = 0.5;  // s.
+
+/**
+ * The ground from above, forward up: soles, support polygon, and on it CoM, CoP
+ * and capture point. Drawn on a small canvas over a stage.
+ */
+export class GroundMap {
+  constructor(canvas, stage, palette) {
+    this.canvas = canvas;
+    this.stage = stage;
+    this.palette = palette;
+    this.center = null;
+  }
+
+  setPalette(palette) {
+    this.palette = palette;
+  }
+
+  // Shows what is under the robot's first stance, and all that is near it.
+  #fit(contacts) {
+    const points = contacts.feet.flatMap((foot) => foot.sole);
+    if (points.length === 0) return;
+    const xs = points.map((point) => point[0]);
+    const ys = points.map((point) => point[1]);
+    this.center = [(Math.min(...xs) + Math.max(...xs)) / 2,
+                   (Math.min(...ys) + Math.max(...ys)) / 2];
+    this.span = 1.5 * Math.max(Math.max(...xs) - Math.min(...xs),
+                               Math.max(...ys) - Math.min(...ys), 0.05);
+  }
+
+  draw(time) {
+    const {canvas, stage, palette} = this;
+    const {contacts} = stage;
+    const ratio = Math.min(2, window.devicePixelRatio);
+    const size = canvas.clientWidth;
+    if (!contacts || !size) return;
+    if (!this.center) this.#fit(contacts);
+    if (!this.center) return;
+    if (canvas.width !== Math.round(size * ratio)) {
+      canvas.width = canvas.height = Math.round(size * ratio);
+    }
+    const context = canvas.getContext('2d');
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, size, size);
+    const scale = size / this.span;
+    // Forward is up, left is left.
+    const to = ([x, y]) => [size / 2 - (y - this.center[1]) * scale,
+                            size / 2 - (x - this.center[0]) * scale];
+    const path = (points, close) => {
+      context.beginPath();
+      points.map(to).forEach(([x, y], i) =>
+        i ? context.lineTo(x, y) : context.moveTo(x, y));
+      if (close) context.closePath();
+    };
+    for (const foot of contacts.feet) {
+      path(foot.sole, true);
+      context.fillStyle = palette.ink;
+      context.globalAlpha = foot.point ? 0.16 : 0.05;
+      context.fill();
+      context.globalAlpha = 0.35;
+      context.strokeStyle = palette.ink;
+      context.lineWidth = 1;
+      context.stroke();
+    }
+    if (contacts.support.length > 2) {
+      path(contacts.support, true);
+      context.globalAlpha = 0.12;
+      context.fillStyle = palette.support;
+      context.fill();
+      context.globalAlpha = 1;
+      context.lineWidth = 1.5;
+      context.strokeStyle = palette.support;
+      context.stroke();
+    }
+    const trail = (color, at) => {
+      const points = [];
+      for (let t = Math.max(stage.run.start, time - TRAIL); t < time; t += 0.01) {
+        points.push(at(t));
+      }
+      if (points.length < 2) return;
+      path(points, false);
+      context.globalAlpha = 0.5;
+      context.strokeStyle = color;
+      context.lineWidth = 1.5;
+      context.stroke();
+    };
+    trail(palette.capture, (t) => stage.run.capturePoint(t));
+    trail(palette.com, (t) => stage.run.vector('com.', t));
+    context.globalAlpha = 1;
+    const spot = (point, color, draw) => {
+      if (!point) return;
+      const [x, y] = to(point);
+      context.beginPath();
+      draw(x, y);
+      context.fillStyle = color;
+      context.fill();
+      context.lineWidth = 1.5;
+      context.strokeStyle = palette.surface;
+      context.stroke();
+    };
+    spot(contacts.capture, palette.capture, (x, y) => {
+      context.moveTo(x, y - 6);
+      context.lineTo(x + 6, y);
+      context.lineTo(x, y + 6);
+      context.lineTo(x - 6, y);
+      context.closePath();
+    });
+    spot(contacts.com, palette.com, (x, y) => context.arc(x, y, 4.5, 0, 7));
+    spot(contacts.cop, palette.cop, (x, y) => context.rect(x - 4, y - 4, 8, 8));
+  }
+}

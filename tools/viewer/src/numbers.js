@@ -1,0 +1,171 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+import {escapeHtml, formatNumber} from './format.js';
+
+const horizontal = (vector) => Math.hypot(vector[0], vector[1]);
+
+/**
+ * The numbers of summary.json worth a tile. `value` gives what is shown, in
+ * `unit`; `limit` what it is judged by; `why` says what it means.
+ */
+const NUMBERS = [
+  {
+    title: 'CoM error at the end',
+    unit: 'mm',
+    value: (s) => 1e3 * horizontal(s.com_error_final),
+    limit: () => 20,
+    why: 'Horizontal, mean of the last half second. Recovered: under 20 mm.',
+  },
+  {
+    title: 'CoM error, peak',
+    unit: 'mm',
+    value: (s) => 1e3 * Math.max(...s.com_error_peak.slice(0, 2).map(Math.abs)),
+    why: 'How far the push moved the center of mass off its reference.',
+  },
+  {
+    title: 'Impulse',
+    unit: 'N·s',
+    value: (s) => s.impulse_Ns,
+    limit: (s) => s.lipm_Ns,
+    why: (s) => s.lipm_Ns ? `${Math.round(100 * s.impulse_Ns / s.lipm_Ns)} % of ` +
+        `${formatNumber(s.lipm_Ns)} N·s, the most that an inverted pendulum ` +
+        'with feet in place can take.' :
+        'Force times time of the push.',
+  },
+  {
+    title: 'CoP, peak in y',
+    unit: 'mm',
+    value: (s) => 1e3 * Math.abs(s.cop_peak[1]),
+    why: 'How far the center of pressure went sideways between the feet.',
+  },
+  {
+    title: 'Foot tilt, peak',
+    unit: 'mrad',
+    value: (s) => 1e3 * s.foot_tilt_peak,
+    limit: () => 100,
+    why: 'Of a foot that should stay flat. Recovered: under 100 mrad.',
+  },
+  {
+    title: 'Foot slide, peak',
+    unit: 'mm',
+    value: (s) => 1e3 * s.foot_slide_peak,
+    limit: () => 30,
+    why: 'Since it was put down. Recovered: under 30 mm.',
+  },
+  {
+    title: 'Control tick, median',
+    unit: 'µs',
+    value: (s) => s.tick_us.median,
+    limit: (s) => 1e6 * s.control_dt,
+    why: (s) => `99 % in ${formatNumber(s.tick_us.p99)}, all in ` +
+        `${formatNumber(s.tick_us.max)} µs, of ` +
+        `${formatNumber(1e6 * s.control_dt)} µs a tick.`,
+  },
+  {
+    title: 'KKT residual, worst',
+    unit: '',
+    value: (s) => s.hqp.certificate_max,
+    why: (s) => `Every solution is checked. At most ${s.hqp.iterations_max} ` +
+        `iterations, ${s.hqp.failures || 'no'} ` +
+        `failure${s.hqp.failures === 1 ? '' : 's'}.`,
+  },
+];
+
+/** Those that are worth a line, but no place at the top. */
+const MORE_NUMBERS = [
+  {
+    title: 'Joint limit overrun',
+    unit: 'mrad',
+    value: (s) => 1e3 * s.joint_limit_violation_peak,
+    why: 'How far any joint went beyond its range.',
+  },
+  {
+    title: 'Torque limit overrun',
+    unit: 'N·m',
+    value: (s) => s.torque_limit_violation_peak,
+    why: 'How far any torque went beyond its limit.',
+  },
+  {
+    title: 'Speed',
+    unit: '× real time',
+    value: (s) => s.real_time_factor,
+    why: 'Of controller and physics together on this computer.',
+  },
+  {
+    title: 'Height of the yardstick',
+    unit: 'N·s',
+    value: (s) => s.lipm_height_Ns,
+    why: 'What the pendulum takes when pushed as high as this robot was.',
+  },
+];
+
+// A summary may lack any key: what cannot be computed is not shown.
+function tryValue(compute, summary) {
+  try {
+    const value = compute(summary);
+    return typeof value === 'string' || Number.isFinite(value) ? value : null;
+  } catch {
+    return null;
+  }
+}
+
+function meter(value, limit) {
+  if (value === null || !limit) return '';
+  const part = Math.min(1, value / limit);
+  return `<div class="meter"><i${value > limit ? ' class="over"' : ''}
+    style="width:${(100 * part).toFixed(1)}%"></i></div>`;
+}
+
+function valueHtml(value, unit, over) {
+  return `<dd class="value${over ? ' over' : ''}">${formatNumber(value)}` +
+      `<small>${unit}</small></dd>`;
+}
+
+function tilesHtml(numbers, runs) {
+  const tiles = [];
+  for (const number of numbers) {
+    const shown = runs.map(({summary}) => {
+      const value = tryValue(number.value, summary);
+      const limit = number.limit ? tryValue(number.limit, summary) : null;
+      return {value, limit, over: limit !== null && value > limit};
+    });
+    if (shown.every(({value}) => value === null)) continue;
+    const why = typeof number.why === 'string' ?
+        number.why : tryValue(number.why, runs[0].summary) ?? '';
+    let body;
+    if (runs.length === 1) {
+      const [{value, limit, over}] = shown;
+      body = valueHtml(value, number.unit, over) + meter(value, limit) +
+          `<dd class="why">${escapeHtml(why)}</dd>`;
+    } else {
+      body = shown.map(({value, over}, i) => `<div class="pair">
+        <span class="tag ${'ab'[i]}">${'AB'[i]}</span>
+        ${valueHtml(value, number.unit, over)}</div>`).join('') +
+          (typeof number.why === 'string' ?
+              `<dd class="why">${escapeHtml(why)}</dd>` : '');
+    }
+    tiles.push(`<dl class="tile"><dt>${number.title}</dt>${body}</dl>`);
+  }
+  return tiles.length ? `<div class="tiles">${tiles.join('')}</div>` : '';
+}
+
+/** The tiles of one run or, in pairs, of two. Empty without a summary. */
+export function numbersHtml(runs) {
+  return tilesHtml(NUMBERS, runs);
+}
+
+export function moreNumbersHtml(runs) {
+  return tilesHtml(MORE_NUMBERS, runs);
+}
+
+/** How a run ended, as a badge. */
+export function verdictHtml({summary}) {
+  if (summary.recovered === true) {
+    return '<span class="verdict">Recovered</span>';
+  }
+  if (summary.recovered === false) {
+    const when = Number.isFinite(summary.fell_at) ?
+        `Fell at ${summary.fell_at.toFixed(2)} s` : 'Not recovered at the end';
+    return `<span class="verdict bad">${when}</span>`;
+  }
+  return '<span class="verdict none">No verdict</span>';
+}

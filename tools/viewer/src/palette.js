@@ -1,0 +1,57 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+
+const NAMES = ['ink', 'faint', 'line', 'surface', 'limit', 'c1', 'c2', 'c3',
+               'c4', 'com', 'cop', 'capture', 'support', 'force', 'push'];
+const KEY = 'poise-theme';
+
+/** The colors of style.css as they are now, for what CSS does not draw. */
+export function readPalette() {
+  const style = getComputedStyle(document.documentElement);
+  const palette = {dark: document.documentElement.dataset.theme === 'dark'};
+  for (const name of NAMES) {
+    palette[name] = style.getPropertyValue(`--${name}`).trim();
+  }
+  return palette;
+}
+
+// A page from disk may have no storage, and throws when asked for it.
+function remembered() {
+  try {
+    return localStorage.getItem(KEY);
+  } catch {
+    return null;
+  }
+}
+
+/**
+ * Sets the theme that was chosen last, or else follows the system's; calls back
+ * when it changes.
+ */
+export class Theme {
+  #changed;
+
+  constructor(changed) {
+    const system = matchMedia('(prefers-color-scheme: dark)');
+    const follow = () => {
+      this.#set(remembered() ?? (system.matches ? 'dark' : 'light'));
+    };
+    follow();
+    this.#changed = changed;
+    system.addEventListener('change', follow);
+  }
+
+  #set(theme) {
+    document.documentElement.dataset.theme = theme;
+    this.#changed?.(readPalette());
+  }
+
+  toggle() {
+    const theme = readPalette().dark ? 'light' : 'dark';
+    try {
+      localStorage.setItem(KEY, theme);
+    } catch {
+      // It then lasts as long as the page.
+    }
+    this.#set(theme);
+  }
+}

@@ -1,0 +1,109 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+import * as THREE from 'three';
+
+// three.js has the axes of cylinders along y, URDF along z.
+const Y_TO_Z = new THREE.Quaternion().setFromAxisAngle(
+    new THREE.Vector3(1, 0, 0), Math.PI / 2);
+
+function geometryOf({kind, size}) {
+  if (kind === 'box') return new THREE.BoxGeometry(...size);
+  if (kind === 'ellipsoid') {
+    return new THREE.SphereGeometry(1, 32, 20).scale(...size);
+  }
+  const [radius, length] = size;
+  const geometry = kind === 'capsule' ?
+      new THREE.CapsuleGeometry(radius, length, 8, 20) :
+      new THREE.CylinderGeometry(radius, radius, length, 36);
+  return geometry.applyQuaternion(Y_TO_Z);
+}
+
+function place(object, {p, quat}) {
+  object.position.set(...p);
+  object.quaternion.set(...quat);
+  return object;
+}
+
+/**
+ * A robot to look at, from robot.json: one group a body, moved by the channels
+ * base.* and q.JOINT of a run.
+ */
+export class RobotView {
+  #joints = [];
+  #materials = new Map();
+
+  constructor(robot) {
+    this.root = new THREE.Group();
+    this.bodies = [];
+    for (const body of robot.bodies) this.#addBody(body);
+    for (const shape of robot.shapes) {
+      const mesh = new THREE.Mesh(geometryOf(shape), this.#material(shape.rgba));
+      mesh.castShadow = true;
+      mesh.receiveShadow = true;
+      this.bodies[shape.body].add(place(mesh, shape));
+    }
+    this.links = new Map();
+    for (const link of robot.links) {
+      this.links.set(link.name, this.#frame(link));
+    }
+    this.feet = robot.feet.map((foot) => ({...foot, frame: this.#frame(foot)}));
+  }
+
+  #addBody(body) {
+    const moved = new THREE.Group();
+    this.bodies.push(moved);
+    if (body.parent < 0) {
+      this.root.add(moved);
+      return;
+    }
+    const fixed = place(new THREE.Group(), body);
+    fixed.add(moved);
+    this.bodies[body.parent].add(fixed);
+    this.#joints.push({
+      channel: `q.${body.joint}`,
+      moved,
+      axis: new THREE.Vector3(...body.axis).normalize(),
+      slides: body.type === 'prismatic',
+    });
+  }
+
+  #frame(fixed) {
+    const frame = place(new THREE.Object3D(), fixed);
+    this.bodies[fixed.body].add(frame);
+    return frame;
+  }
+
+  #material(rgba) {
+    const key = rgba.join();
+    if (!this.#materials.has(key)) {
+      const [r, g, b, a] = rgba;
+      this.#materials.set(key, new THREE.MeshStandardMaterial({
+        color: new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace),
+        roughness: 0.55,
+        metalness: 0.05,
+        transparent: a < 1,
+        opacity: a,
+      }));
+    }
+    return this.#materials.get(key);
+  }
+
+  /** Takes the posture of a run at a time, between its rows. */
+  pose(run, time) {
+    const {motion} = run;
+    const [x, y, z] = run.vector('base.', time);
+    const base = this.bodies[0];
+    base.position.set(x, y, z);
+    if (motion.rows > 0 && motion.has('base.qw')) {
+      const {i, j, part} = motion.between(time);
+      const at = (row) => new THREE.Quaternion(
+          ...['qx', 'qy', 'qz', 'qw'].map((c) => motion.values(`base.${c}`)[row]));
+      base.quaternion.slerpQuaternions(at(i), at(j), part).normalize();
+    }
+    for (const joint of this.#joints) {
+      const q = motion.at(joint.channel, time, 0);
+      if (joint.slides) joint.moved.position.copy(joint.axis).multiplyScalar(q);
+      else joint.moved.quaternion.setFromAxisAngle(joint.axis, q);
+    }
+    this.root.updateMatrixWorld(true);
+  }
+}

@@ -1,0 +1,386 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+import * as THREE from 'three';
+import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+import {contactsAt} from './contacts.js';
+import {RobotView} from './robot_view.js';
+
+THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
+
+// Lengths of arrows, as parts of the robot's height: of a force on a foot, and
+// of a push, that equals the robot's weight.
+const FOOT_FORCE_LENGTH = 0.4;
+const PUSH_LENGTH = 1.15;
+
+const MOST_CORNERS = 64;
+
+const VIEWS = {
+  three_quarter: [0.78, -0.62, 0.3],
+  front: [1, 0, 0.08],
+  side: [0.0, -1, 0.08],
+  top: [0.02, 0, 1],
+};
+
+const GRID_VERTEX = `
+varying vec2 place;
+void main() {
+  place = position.xy;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
+// Lines every 0.1 m and 1 m, as thin as a pixel, fading with distance.
+const GRID_FRAGMENT = `
+varying vec2 place;
+uniform vec3 line;
+uniform vec2 center;
+float grid(float step) {
+  vec2 cell = place / step;
+  vec2 away = abs(fract(cell - 0.5) - 0.5) / fwidth(cell);
+  return 1.0 - min(min(away.x, away.y), 1.0);
+}
+void main() {
+  float far = distance(place, center);
+  float fade = 1.0 - smoothstep(0.5, 4.0, far);
+  float fine = 1.0 - smoothstep(0.2, 1.6, far);
+  float strength = max(0.34 * grid(1.0) * fade, 0.13 * grid(0.1) * fine);
+  gl_FragColor = vec4(line, strength);
+}`;
+
+/** The geometry of at most `capacity` points that change. */
+function pointsGeometry(capacity) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(
+      new Float32Array(3 * capacity), 3));
+  return geometry;
+}
+
+function setPoints(object, points) {
+  const {position} = object.geometry.attributes;
+  const count = Math.min(points.length, position.count);
+  for (let i = 0; i < count; ++i) position.setXYZ(i, ...points[i]);
+  position.needsUpdate = true;
+  return count;
+}
+
+/** An arrow from a point along a vector, in meters; or seen through bodies. */
+class Arrow {
+  constructor(seenThrough) {
+    this.group = new THREE.Group();
+    this.material = new THREE.MeshStandardMaterial(
+        {roughness: 0.4, emissiveIntensity: 0.35,
+         transparent: true, opacity: seenThrough ? 0.85 : 1,
+         depthTest: !seenThrough});
+    this.shaft = new THREE.Mesh(
+        new THREE.CylinderGeometry(1, 1, 1, 20).translate(0, 0.5, 0),
+        this.material);
+    this.head = new THREE.Mesh(
+        new THREE.ConeGeometry(2.6, 6, 24).translate(0, -3, 0), this.material);
+    this.setThickness(0.01);
+    this.shaft.renderOrder = this.head.renderOrder = seenThrough ? 3 : 0;
+    this.group.add(this.shaft, this.head);
+    this.group.visible = false;
+  }
+
+  setThickness(radius) {
+    this.radius = radius;
+  }
+
+  set(from, vector) {
+    const length = vector.length();
+    this.group.visible = length > 0.01;
+    if (!this.group.visible) return;
+    const direction = vector.clone().divideScalar(length);
+    this.group.position.copy(from);
+    this.group.quaternion.setFromUnitVectors(
+        new THREE.Vector3(0, 1, 0), direction);
+    const head = Math.min(6 * this.radius, 0.6 * length);
+    this.head.scale.setScalar(head / 6);
+    this.head.position.set(0, length, 0);
+    this.shaft.scale.set(this.radius, length - 0.9 * head, this.radius);
+  }
+}
+
+/** The 3D replay of one run, in an element of the page. */
+export class Stage {
+  #listeners = [];
+
+  constructor(element, run, palette) {
+    this.element = element;
+    this.run = run;
+    this.renderer = new THREE.WebGLRenderer({antialias: true, alpha: true});
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.canvas = this.renderer.domElement;
+    this.canvas.setAttribute('aria-label', `3D replay of ${run.name}`);
+    element.prepend(this.canvas);
+
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(30, 1, 0.05, 60);
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.enableDamping = false;
+    this.controls.minDistance = 0.3;
+    this.controls.maxDistance = 20;
+    this.controls.maxPolarAngle = 0.53 * Math.PI;
+    this.controls.addEventListener('change', () => {
+      for (const listener of this.#listeners) listener(this);
+    });
+
+    this.robot = run.robot ? new RobotView(run.robot) : null;
+    if (this.robot) this.scene.add(this.robot.root);
+    this.#addLight();
+    this.#addGround();
+    this.#addMarks();
+    this.setPalette(palette);
+    this.update(run.start);
+    this.#frameRobot();
+    this.setView('three_quarter');
+    new ResizeObserver(() => this.resize()).observe(element);
+  }
+
+  #addLight() {
+    this.sky = new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.5);
+    this.sun = new THREE.DirectionalLight(0xffffff, 2.1);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.radius = 4;
+    this.sun.shadow.bias = -0.0004;
+    this.sun.shadow.normalBias = 0.01;
+    this.fill = new THREE.DirectionalLight(0xdfe8ff, 0.7);
+    this.scene.add(this.sky, this.sun, this.sun.target, this.fill);
+  }
+
+  #addGround() {
+    const plane = new THREE.PlaneGeometry(16, 16);
+    this.shadow = new THREE.Mesh(plane, new THREE.ShadowMaterial({opacity: 0.25}));
+    this.shadow.receiveShadow = true;
+    this.grid = new THREE.Mesh(plane, new THREE.ShaderMaterial({
+      vertexShader: GRID_VERTEX,
+      fragmentShader: GRID_FRAGMENT,
+      uniforms: {line: {value: new THREE.Color()},
+                 center: {value: new THREE.Vector2()}},
+      transparent: true,
+      depthWrite: false,
+      side: THREE.DoubleSide,
+    }));
+    this.grid.position.z = 0.0005;
+    this.scene.add(this.shadow, this.grid);
+  }
+
+  // Marks are seen through the feet that stand on them.
+  #addMarks() {
+    const flat = (geometry, opacity = 1) => {
+      const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({
+        transparent: true, opacity, depthTest: false, side: THREE.DoubleSide,
+      }));
+      mesh.renderOrder = 5;
+      mesh.position.z = 0.002;
+      this.scene.add(mesh);
+      return mesh;
+    };
+    this.supportFill = new THREE.Mesh(
+        pointsGeometry(MOST_CORNERS),
+        new THREE.MeshBasicMaterial(
+            {transparent: true, opacity: 0.16, depthWrite: false,
+             side: THREE.DoubleSide}));
+    this.supportEdge = new THREE.LineLoop(
+        pointsGeometry(MOST_CORNERS),
+        new THREE.LineBasicMaterial({transparent: true, depthTest: false,
+                                     opacity: 0.9}));
+    const fan = [];
+    for (let i = 2; i < MOST_CORNERS; ++i) fan.push(0, i - 1, i);
+    this.supportFill.geometry.setIndex(fan);
+    // Their points move: they are never out of sight by a stale bound.
+    this.supportFill.frustumCulled = this.supportEdge.frustumCulled = false;
+    this.scene.add(this.supportFill, this.supportEdge);
+    this.comRing = flat(new THREE.RingGeometry(0.013, 0.019, 32));
+    this.comBall = flat(new THREE.SphereGeometry(0.018, 24, 16), 0.9);
+    this.copDot = flat(new THREE.CircleGeometry(0.014, 32));
+    this.captureMark = flat(new THREE.RingGeometry(0.011, 0.02, 4, 1));
+    this.plumb = new THREE.Line(
+        pointsGeometry(2),
+        new THREE.LineBasicMaterial({transparent: true, opacity: 0.6,
+                                     depthTest: false}));
+    this.plumb.renderOrder = 4;
+    this.plumb.frustumCulled = false;
+    this.scene.add(this.plumb);
+    this.footArrows = (this.robot?.feet ?? []).map(() => new Arrow(true));
+    this.pushArrow = new Arrow(false);
+    for (const arrow of [...this.footArrows, this.pushArrow]) {
+      this.scene.add(arrow.group);
+    }
+  }
+
+  setPalette(palette) {
+    const color = (name) => new THREE.Color(palette[name]);
+    this.grid.material.uniforms.line.value = color('ink');
+    this.shadow.material.opacity = palette.dark ? 0.5 : 0.2;
+    this.sky.intensity = palette.dark ? 1.1 : 1.5;
+    this.supportFill.material.color = color('support');
+    this.supportEdge.material.color = color('support');
+    this.comRing.material.color = color('com');
+    this.comBall.material.color = color('com');
+    this.plumb.material.color = color('com');
+    this.copDot.material.color = color('cop');
+    this.captureMark.material.color = color('capture');
+    for (const arrow of this.footArrows) {
+      arrow.material.color = arrow.material.emissive = color('force');
+    }
+    this.pushArrow.material.color = color('push');
+    this.pushArrow.material.emissive = color('push');
+    this.dirty = true;
+  }
+
+  // Its size and middle at the start, for the camera.
+  #frameRobot() {
+    const box = new THREE.Box3(new THREE.Vector3(-0.3, -0.3, 0),
+                               new THREE.Vector3(0.3, 0.3, 1));
+    if (this.robot) box.setFromObject(this.robot.root);
+    this.middle = box.getCenter(new THREE.Vector3());
+    this.height = Math.max(0.2, box.max.z, box.max.x - box.min.x,
+                           box.max.y - box.min.y);
+    this.followed = this.middle.clone();
+    const size = this.height;
+    this.sun.shadow.camera.left = this.sun.shadow.camera.bottom = -1.3 * size;
+    this.sun.shadow.camera.right = this.sun.shadow.camera.top = 1.3 * size;
+    this.sun.shadow.camera.near = 0.1;
+    this.sun.shadow.camera.far = 10 * size;
+    const scale = size / 1.5;
+    this.pushArrow.setThickness(0.013 * scale);
+    for (const arrow of this.footArrows) arrow.setThickness(0.008 * scale);
+    for (const mark of [this.comRing, this.comBall, this.copDot,
+                        this.captureMark]) {
+      mark.scale.setScalar(Math.min(1.4, Math.max(0.5, scale)));
+    }
+  }
+
+  /** Looks from one of VIEWS. */
+  setView(name) {
+    const direction = new THREE.Vector3(...VIEWS[name]).normalize();
+    this.controls.target.copy(this.followed);
+    this.controls.target.z = 0.5 * this.height;
+    this.camera.position.copy(this.controls.target)
+        .addScaledVector(direction, 2.55 * this.height);
+    this.controls.update();
+    this.dirty = true;
+  }
+
+  /** Calls back when the user moved the camera. */
+  onCamera(listener) {
+    this.#listeners.push(listener);
+  }
+
+  /** Looks as another stage does. */
+  copyCamera(other) {
+    const offset = other.camera.position.clone().sub(other.controls.target);
+    const target = other.controls.target.clone().sub(other.followed);
+    this.controls.target.copy(this.followed).add(target);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.camera.lookAt(this.controls.target);
+    this.dirty = true;
+  }
+
+  update(time) {
+    this.dirty = true;
+    if (!this.robot) return;
+    const {run} = this;
+    this.robot.pose(run, Math.min(time, run.end));
+    this.#follow();
+    const com = run.vector('com.', time);
+    const contacts = contactsAt(run, this.robot, time);
+    const capture = run.capturePoint(time);
+    this.contacts = {...contacts, com, capture};
+    this.#drawSupport(contacts.support);
+    this.comRing.position.set(com[0], com[1], 0.002);
+    this.comBall.position.set(...com);
+    setPoints(this.plumb, [com, [com[0], com[1], 0]]);
+    this.copDot.visible = contacts.cop !== null;
+    if (contacts.cop) this.copDot.position.set(...contacts.cop, 0.002);
+    this.captureMark.position.set(...capture, 0.002);
+    contacts.feet.forEach((foot, i) => {
+      this.footArrows[i].set(
+          foot.point ?? new THREE.Vector3(),
+          foot.force.multiplyScalar(
+              foot.point ? FOOT_FORCE_LENGTH * this.#lengthPerNewton : 0));
+    });
+    this.#drawPush(time);
+  }
+
+  // Height of the robot over its weight.
+  get #lengthPerNewton() {
+    return (this.height ?? 1) / ((this.run.robot.mass || 1) * 9.81);
+  }
+
+  // The camera goes with the robot when that walks off; sway it shows.
+  #follow() {
+    const at = this.robot.bodies[0].position;
+    if (!this.followed) return;
+    const away = new THREE.Vector3(at.x - this.followed.x,
+                                   at.y - this.followed.y, 0);
+    const free = 0.6 * this.height;
+    if (away.length() > free) {
+      away.setLength(away.length() - free);
+      this.followed.add(away);
+      this.controls.target.add(away);
+      this.camera.position.add(away);
+    }
+    this.grid.material.uniforms.center.value.set(at.x, at.y);
+    this.sun.position.set(at.x + 1.4 * this.height, at.y - 1.1 * this.height,
+                          3.2 * this.height);
+    this.sun.target.position.set(at.x, at.y, 0.4 * this.height);
+    this.fill.position.set(at.x - 2, at.y + 2, 1.5);
+  }
+
+  #drawSupport(polygon) {
+    const shown = polygon.length > 2;
+    this.supportFill.visible = this.supportEdge.visible = shown;
+    if (!shown) return;
+    const points = polygon.map(([x, y]) => [x, y, 0.001]);
+    const count = setPoints(this.supportEdge, points);
+    setPoints(this.supportFill, points);
+    this.supportEdge.geometry.setDrawRange(0, count);
+    this.supportFill.geometry.setDrawRange(0, 3 * (count - 2));
+  }
+
+  #drawPush(time) {
+    const force = new THREE.Vector3(...this.run.push(time));
+    const link = this.robot.links.get(this.run.summary.push_link);
+    const point = link ?
+        new THREE.Vector3(...(this.run.summary.push_point ?? [0, 0, 0]))
+            .applyMatrix4(link.matrixWorld) :
+        new THREE.Vector3(...this.run.vector('com.', time));
+    // Drawn up to the surface it pushes on, from outside.
+    const vector = force.clone().multiplyScalar(
+        PUSH_LENGTH * this.#lengthPerNewton);
+    vector.clampLength(0, 1.2 * this.height);
+    const outside = vector.clone().setLength(0.06 * this.height);
+    this.pushArrow.set(point.clone().sub(vector).sub(outside), vector);
+    this.pushForce = force.length();
+    this.pushTail = point.clone().sub(vector).sub(outside);
+  }
+
+  /** Where a point of the world is on the canvas, in CSS pixels. */
+  project(point) {
+    const on = point.clone().project(this.camera);
+    return [(on.x + 1) / 2 * this.element.clientWidth,
+            (1 - on.y) / 2 * this.element.clientHeight];
+  }
+
+  resize() {
+    const {clientWidth: width, clientHeight: height} = this.element;
+    if (!width || !height) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    // Upright canvases need a wider angle to hold the arms.
+    this.camera.fov = width < 0.75 * height ?
+        2 * Math.atan(Math.tan(Math.PI / 12) * 0.75 * height / width) * 180 /
+            Math.PI :
+        30;
+    this.camera.updateProjectionMatrix();
+    this.dirty = true;
+  }
+
+  render() {
+    if (!this.dirty) return;
+    this.dirty = false;
+    this.renderer.render(this.scene, this.camera);
+  }
+}

@@ -1,0 +1,211 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+import {escapeHtml} from './format.js';
+
+const ROW = 18;  // CSS pixels a row.
+
+/**
+ * Rows of bars on the page's time, each with a name: a canvas that is as wide
+ * as the plots and ends where they end. `spec` is {title, hint, rows: [{name,
+ * draw(context, toX, y, height)}], few, onPick, empty}.
+ */
+export class Strip {
+  #cursor;
+  #all = false;
+
+  constructor(parent, spec, {palette, xRange, onSeek}) {
+    this.spec = spec;
+    this.palette = palette;
+    this.xRange = xRange;
+    this.onSeek = onSeek;
+    this.element = document.createElement('section');
+    this.element.className = 'plot strip';
+    this.element.innerHTML = `
+      <header><h3>${spec.title}</h3><p class="hint"></p></header>
+      <div class="rows"><ol></ol><div class="lane"><canvas></canvas>
+      <div class="time-cursor"></div></div></div>
+      <button class="more" hidden></button>`;
+    this.element.querySelector('.hint').textContent = spec.hint ?? '';
+    this.canvas = this.element.querySelector('canvas');
+    this.lane = this.element.querySelector('.lane');
+    this.#cursor = this.element.querySelector('.time-cursor');
+    this.more = this.element.querySelector('.more');
+    this.more.addEventListener('click', () => {
+      this.#all = !this.#all;
+      this.#build();
+    });
+    parent.append(this.element);
+    this.#listen();
+    this.#build();
+    new ResizeObserver(() => this.draw()).observe(this.lane);
+  }
+
+  get #shown() {
+    return this.#all ? this.spec.rows : this.spec.rows.slice(0, this.spec.few);
+  }
+
+  #build() {
+    const {spec} = this;
+    const list = this.element.querySelector('ol');
+    list.innerHTML = this.#shown.map((row) =>
+      `<li title="${escapeHtml(row.name)}">${escapeHtml(row.label ?? row.name)}</li>`)
+        .join('');
+    if (spec.onPick) {
+      [...list.children].forEach((item, i) => {
+        item.classList.add('pick');
+        item.addEventListener('click', () => spec.onPick(this.#shown[i].name));
+      });
+    }
+    if (spec.rows.length === 0) list.innerHTML = `<li class="none">${spec.empty}</li>`;
+    this.more.hidden = spec.rows.length <= spec.few;
+    this.more.textContent =
+        this.#all ? 'Show fewer' : `Show all ${spec.rows.length}`;
+    this.draw();
+  }
+
+  #listen() {
+    const seek = (event) => {
+      const box = this.lane.getBoundingClientRect();
+      const [from, to] = this.xRange();
+      this.onSeek(from + (event.clientX - box.left) / box.width * (to - from));
+    };
+    this.lane.style.touchAction = 'pan-y';
+    this.lane.addEventListener('pointerdown', (event) => {
+      this.lane.setPointerCapture(event.pointerId);
+      seek(event);
+    });
+    this.lane.addEventListener('pointermove', (event) => {
+      if (this.lane.hasPointerCapture(event.pointerId)) seek(event);
+    });
+  }
+
+  setPalette(palette) {
+    this.palette = palette;
+    this.draw();
+  }
+
+  rescale() {
+    this.draw();
+  }
+
+  draw() {
+    const width = this.lane.clientWidth;
+    const height = Math.max(1, this.#shown.length) * ROW;
+    const ratio = window.devicePixelRatio || 1;
+    this.canvas.width = Math.max(1, Math.round(width * ratio));
+    this.canvas.height = Math.round(height * ratio);
+    this.canvas.style.height = `${height}px`;
+    const context = this.canvas.getContext('2d');
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const [from, to] = this.xRange();
+    const toX = (time) => (time - from) / (to - from || 1) * width;
+    this.#shown.forEach((row, i) => {
+      context.globalAlpha = 1;
+      context.fillStyle = this.palette.line;
+      context.fillRect(0, i * ROW + ROW / 2, width, 1);
+      row.draw(context, toX, i * ROW + 3, ROW - 6, this.palette);
+    });
+    if (this.time !== undefined) this.update(this.time);
+  }
+
+  update(time) {
+    this.time = time;
+    const [from, to] = this.xRange();
+    const x = (time - from) / (to - from || 1) * this.lane.clientWidth;
+    this.#cursor.style.display =
+        x >= -1 && x <= this.lane.clientWidth + 1 ? '' : 'none';
+    this.#cursor.style.transform = `translateX(${x}px)`;
+  }
+}
+
+/** What a row of the hierarchy is about, by its name: a color of the palette. */
+export function kindOf(name) {
+  if (/(^|\.)(cop|zmp|zmp_literal)\./.test(name)) return 'cop';
+  if (/(^|\.)yaw(_constant)?(\.|$)/.test(name)) return 'c4';
+  if (/friction|unilateral/.test(name)) return 'force';
+  if (/torque/.test(name)) return 'push';
+  if (/joint_limit/.test(name)) return 'capture';
+  return 'c1';
+}
+
+/** Rows of a strip: when each constraint was active, darker where it cost more. */
+export function activeRows(run) {
+  return run.active.map(({name, peak, spans}) => ({
+    name,
+    draw(context, toX, y, height, palette) {
+      context.fillStyle = palette[kindOf(name)];
+      for (const [from, to, multiplier] of spans) {
+        const left = toX(from);
+        context.globalAlpha =
+            0.35 + 0.65 * Math.sqrt(Math.abs(multiplier) / (peak || 1));
+        context.fillRect(left, y, Math.max(1.5, toX(to) - left), height);
+      }
+    },
+  }));
+}
+
+/** Rows of a strip: how much of its limit each joint's torque used. */
+export function torqueRows(run) {
+  const limits = run.robot?.limits ?? {};
+  const rows = [];
+  for (const channel of run.torques.names) {
+    const joint = channel.slice('tau.'.length);
+    const effort = limits[joint]?.effort;
+    if (!effort) continue;
+    const [low, high] = run.torques.range(channel);
+    rows.push({name: joint, channel, effort,
+               peak: Math.max(-low, high) / effort});
+  }
+  rows.sort((a, b) => b.peak - a.peak);
+  for (const row of rows) {
+    row.label = `${row.name} ${Math.round(100 * row.peak)} %`;
+    row.draw = (context, toX, y, height, palette) => {
+      const values = run.torques.values(row.channel);
+      const {time} = run.torques;
+      const width = context.canvas.width;
+      let at = -1;
+      let most = 0;
+      const paint = () => {
+        if (at < 0 || at > width) return;
+        context.fillStyle = palette[most > 0.995 ? 'push' : 'c1'];
+        context.globalAlpha = Math.min(1, most);
+        context.fillRect(at, y, 1.2, height);
+      };
+      for (let i = 0; i < time.length; ++i) {
+        const x = Math.floor(toX(time[i]));
+        const use = Math.abs(values[i]) / row.effort;
+        if (x !== at) {
+          paint();
+          // A pixel without a row of its own keeps the last one's color.
+          for (let gap = at + 1; at >= 0 && gap < Math.min(x, width); ++gap) {
+            at = gap;
+            paint();
+          }
+          at = x;
+          most = 0;
+        }
+        most = Math.max(most, use);
+      }
+      paint();
+    };
+  }
+  return rows;
+}
+
+/** Rows of a strip: where the controller's status was not "ok". */
+export function statusRows(run) {
+  const byStatus = new Map();
+  for (const [status, from, to] of run.status) {
+    if (!byStatus.has(status)) byStatus.set(status, []);
+    byStatus.get(status).push([from, to]);
+  }
+  return [...byStatus].map(([name, spans]) => ({
+    name,
+    draw(context, toX, y, height, palette) {
+      context.fillStyle = palette[name === 'fail_safe' ? 'push' : 'capture'];
+      for (const [from, to] of spans) {
+        context.fillRect(toX(from), y, Math.max(1.5, toX(to) - toX(from)),
+                         height);
+      }
+    },
+  }));
+}
