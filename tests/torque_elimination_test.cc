@@ -1,0 +1,195 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "hqp/cascade.h"
+#include "hqp/hierarchy.h"
+#include "hqp/solution.h"
+#include "robot/control/controller.h"
+#include "robot/profile.h"
+#include "tests/util/random_tree.h"
+
+namespace poise {
+namespace {
+
+// The controller's problem before torques are eliminated by (10): variables
+//     x = [v̇ (n + 6); lambda (12); tau (n)],
+// all n + 6 rows of the dynamics in rank 1, and effort limits as bounds on tau.
+// It shares the tasks' other rows with the controller, but neither (9), (10)
+// nor the rows of torque limits.
+class UneliminatedProblem {
+ public:
+  explicit UneliminatedProblem(const Controller& controller)
+      : controller_(controller),
+        tree_(controller.robot().model.tree),
+        nv_(tree_.nv()),
+        n_(tree_.num_joints()),
+        ny_(static_cast<int>(controller.report().y.size())),
+        capacity_(Stack::kMaxRank, {nv_ + 200, n_ + 1000}),
+        hierarchy_(ny_ + n_, capacity_) {}
+
+  int num_variables() const { return ny_ + n_; }
+
+  Solution Solve(const State& state) {
+    hierarchy_.Clear(5);
+    AddDynamics();
+    AddTorqueLimits();
+    const Stack& stack = controller_.stack();
+    const TaskInput input{state, controller_.tick(), controller_.contacts(),
+                          controller_.reference()};
+    for (int i = 0; i < stack.num_tasks(); ++i) {
+      const Task& task = stack.task(i);
+      if (!stack.settings(i).enabled || !task.HasRows(input)) continue;
+      if (task.name() == "newton_euler" || task.name() == "torque_limits") {
+        continue;
+      }
+      AddTask(task, stack.settings(i), input);
+    }
+    Solution solution(num_variables(), capacity_);
+    Cascade cascade(num_variables(), capacity_);
+    EXPECT_EQ(cascade.Solve(hierarchy_, &solution), Status::kOptimal);
+    return solution;
+  }
+
+ private:
+  // M v̇ + N = S' tau + J' lambda.
+  void AddDynamics() {
+    const Tick& tick = controller_.tick();
+    EqualityBlock rows = hierarchy_.AddEqualities(0, nv_);
+    rows.B.leftCols(nv_) = tick.M;
+    for (int i = 0; i < static_cast<int>(controller_.contacts().size()); ++i) {
+      rows.B.middleCols<6>(nv_ + 6 * i) =
+          -controller_.contacts()[i].J_WC_C.transpose();
+    }
+    rows.B.bottomRightCorner(n_, n_).diagonal().setConstant(-1);
+    rows.b = tick.N;
+  }
+
+  // In rank 2, in the unit of the limit.
+  void AddTorqueLimits() {
+    InequalityBlock rows = hierarchy_.AddInequalities(1, n_);
+    for (int j = 0; j < n_; ++j) {
+      const double effort = controller_.robot().model.limits[j].effort;
+      rows.C(j, ny_ + j) = 1 / effort;
+      rows.lower[j] = -1;
+      rows.upper[j] = 1;
+    }
+  }
+
+  // The rows of a task that does not know of tau.
+  void AddTask(const Task& task, const TaskSettings& settings,
+               const TaskInput& input) {
+    const int level = settings.rank - 1;
+    const int equalities = static_cast<int>(task.equality_names().size());
+    const int inequalities = static_cast<int>(task.inequality_names().size());
+    Hierarchy narrow(ny_, {{equalities, inequalities}});
+    narrow.Clear(1);
+    EqualityBlock from = narrow.AddEqualities(0, equalities);
+    InequalityBlock from_bounds = narrow.AddInequalities(0, inequalities);
+    task.Write(input, &from, &from_bounds);
+    EqualityBlock to = hierarchy_.AddEqualities(level, equalities);
+    to.B.leftCols(ny_) = from.B;
+    to.b = from.b;
+    to.weight = settings.weight * from.weight;
+    InequalityBlock bounds = hierarchy_.AddInequalities(level, inequalities);
+    const double scale = std::sqrt(settings.weight);
+    bounds.C.leftCols(ny_) = scale * from_bounds.C;
+    bounds.lower = scale * from_bounds.lower;
+    bounds.upper = scale * from_bounds.upper;
+  }
+
+  const Controller& controller_;
+  const Tree& tree_;
+  int nv_, n_, ny_;
+  std::vector<LevelCapacity> capacity_;
+  Hierarchy hierarchy_;
+};
+
+class TorqueEliminationTest : public testing::Test {
+ protected:
+  TorqueEliminationTest() {
+    state_ = {0, robot_.q_nominal, Eigen::VectorXd::Zero(tree().nv())};
+    MakeController();
+    command_.tau.setZero(tree().num_joints());
+  }
+
+  const Tree& tree() const { return robot_.model.tree; }
+
+  void MakeController() {
+    controller_ = std::make_unique<Controller>(robot_);
+    controller_->Start(state_);
+  }
+
+  // Compares v̇, lambda and tau of one tick.
+  void ExpectSameAnswer() {
+    state_.time += 1e-3;
+    controller_->Update(state_, &command_);
+    ASSERT_NE(command_.status, TickStatus::kFailSafe);
+    UneliminatedProblem problem(*controller_);
+    ASSERT_EQ(problem.num_variables(), 2 * tree().num_joints() + 6 + 12);
+    const Eigen::VectorXd x = problem.Solve(state_).y;
+
+    const Eigen::VectorXd& y = controller_->report().y;
+    const int nv = tree().nv();
+    // The bar, relative to the largest entry of each kind.
+    const auto expect_near = [](const Eigen::VectorXd& a,
+                                const Eigen::VectorXd& b, const char* what) {
+      const double scale = std::max(1.0, b.lpNorm<Eigen::Infinity>());
+      EXPECT_LT((a - b).lpNorm<Eigen::Infinity>(), 1e-9 * scale) << what;
+    };
+    expect_near(y.head(nv), x.head(nv), "v̇");
+    expect_near(y.segment(nv, 12), x.segment(nv, 12), "lambda");
+    expect_near(command_.tau, x.tail(tree().num_joints()), "tau");
+  }
+
+  int num_active() const {
+    return static_cast<int>(controller_->report().active.size());
+  }
+
+  Robot robot_ = LoadRobot("robot/models/humanoid.urdf",
+                           LoadProfile("robot/profiles/humanoid.yaml"));
+  std::unique_ptr<Controller> controller_;
+  State state_;
+  Command command_;
+};
+
+TEST_F(TorqueEliminationTest, StandingStill) { ExpectSameAnswer(); }
+
+TEST_F(TorqueEliminationTest, MovingInAnyPosture) {
+  std::mt19937 draw(1);
+  for (int i = 0; i < 3; ++i) {
+    SCOPED_TRACE(i);
+    state_.q = robot_.q_nominal;
+    state_.q.tail(tree().num_joints()) +=
+        0.05 * MakeRandomVector(tree().num_joints(), &draw);
+    state_.v = 0.2 * MakeRandomVector(tree().nv(), &draw);
+    ExpectSameAnswer();
+  }
+}
+
+TEST_F(TorqueEliminationTest, PushedSoThatInequalitiesAreActive) {
+  state_.v[4] = 0.35;  // m/s, to the left: a strong push.
+  ExpectSameAnswer();
+  EXPECT_GT(num_active(), 0);
+}
+
+TEST_F(TorqueEliminationTest, WithTorqueLimitsActive) {
+  for (JointLimits& limits : robot_.model.limits) limits.effort *= 0.3;
+  MakeController();
+  state_.v[4] = 0.25;
+  ExpectSameAnswer();
+  const int limits = *controller_->stack().Find("torque_limits");
+  int active_limits = 0;
+  for (const ActiveRow& row : controller_->report().active) {
+    active_limits += row.task == limits;
+  }
+  EXPECT_GT(active_limits, 0);
+}
+
+}  // namespace
+}  // namespace poise
