@@ -4,32 +4,20 @@
 #include <Eigen/Geometry>
 #include <cassert>
 
+#include "dynamics/crba.h"
 #include "math/so3.h"
 
 namespace poise {
-namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Vector6d Stack(const Vector3d& angular, const Vector3d& linear) {
-  Vector6d result;
-  result << angular, linear;
-  return result;
-}
+namespace {
 
-// Motion vectors' cross product.
-Vector6d CrossMotion(const Vector6d& V, const Vector6d& S) {
-  const Vector3d w = V.head<3>(), v = V.tail<3>();
-  const Vector3d w_S = S.head<3>(), v_S = S.tail<3>();
-  return Stack(w.cross(w_S), w.cross(v_S) + v.cross(w_S));
-}
-
-// The rate of a momentum L carried along by a motion V.
-Vector6d CrossMomentum(const Vector6d& V, const Vector6d& L) {
-  const Vector3d w = V.head<3>(), v = V.tail<3>();
-  const Vector3d n = L.head<3>(), f = L.tail<3>();
-  return Stack(w.cross(n) + v.cross(f), w.cross(f));
+void Store(const Vec3& v, double* out) {
+  out[0] = v.x;
+  out[1] = v.y;
+  out[2] = v.z;
 }
 
 }  // namespace
@@ -40,11 +28,7 @@ Tick::Tick(const Tree& tree, const std::vector<int>& frame_indices)
       c(Eigen::VectorXd::Zero(tree.nv())),
       X_WB(tree.num_bodies()),
       H_G(6, tree.nv()),
-      S_(6, tree.num_joints()),
-      V_(tree.num_bodies()),
-      A_(tree.num_bodies()),
-      I_(tree.num_bodies()),
-      F_(tree.num_bodies()) {
+      recursion_(tree) {
   for (const int frame : frame_indices) {
     frames.push_back({frame, Pose(), Vector6d::Zero(),
                       Eigen::MatrixXd::Zero(6, tree.nv()), Vector6d::Zero()});
@@ -54,121 +38,88 @@ Tick::Tick(const Tree& tree, const std::vector<int>& frame_indices)
 void ComputeTick(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
                  const Eigen::Ref<const Eigen::VectorXd>& v,
                  Tick* tick) noexcept {
-  assert(q.size() == tree.nq() && v.size() == tree.nv());
   const int num_bodies = tree.num_bodies();
-  const int n = tree.num_joints();
+  const JointMaps& joints = tree.joint_maps();
   const int v0 = tree.v_start();
-  const int q0 = tree.q_start();
+  Recursion& r = tick->recursion_;
 
-  // All spatial quantities have world axes and are about one point O, the
-  // origin of the base, taken as fixed in the world.
-  tick->X_WB[0] = Pose();
-  tick->V_[0].setZero();
-  tick->A_[0].setZero();
-  if (tree.is_floating()) {
-    tick->X_WB[0].R = Eigen::Quaterniond(q[6], q[3], q[4], q[5])
-                          .normalized()
-                          .toRotationMatrix();
-    tick->X_WB[0].p = q.head<3>();
-    tick->V_[0] = v.head<6>();
-    const Vector3d w_WB = v.head<3>(), v_WB = v.segment<3>(3);
-    tick->A_[0].tail<3>() = -w_WB.cross(v_WB);
-  }
-  const Vector3d p_WO = tick->X_WB[0].p;
+  SweepPoses(tree, q, &r);
+  SweepAccelerations(tree, v, r.zero, Vector3d::Zero(), &r);
+  SweepInertias(tree, &r);
+  SweepForces(tree, &r);
+  SumInertias(tree, &r);
+  SumForces(tree, &r);
+  SweepMomenta(tree, &r);
+  FillMassMatrix(tree, r, tick->M);
+  ProjectForces(tree, r, tick->c);
 
-  for (int j = 0; j < n; ++j) {
-    const Joint& joint = tree.joints()[j];
-    const int parent = joint.parent;
-    const Pose X_WF = tick->X_WB[parent] * joint.X_PF;
-    const Vector3d axis_W = X_WF.R * joint.axis_F;
-    Pose& X_WB = tick->X_WB[j + 1];
-    X_WB = X_WF;
-    if (joint.type == JointType::kPrismatic) {
-      X_WB.p += q[q0 + j] * axis_W;
-      tick->S_.col(j) = Stack(Vector3d::Zero(), axis_W);
-    } else {
-      X_WB.R = X_WF.R *
-               Eigen::AngleAxisd(q[q0 + j], joint.axis_F).toRotationMatrix();
-      tick->S_.col(j) = Stack(axis_W, (X_WF.p - p_WO).cross(axis_W));
-    }
-    const Vector6d S_qd = tick->S_.col(j) * v[v0 + j];
-    tick->V_[j + 1] = tick->V_[parent] + S_qd;
-    tick->A_[j + 1] = tick->A_[parent] + CrossMotion(tick->V_[parent], S_qd);
-  }
-
+  const Vec3 p_WO = tree.is_floating() ? ToVec3(q.head<3>()) : Vec3{0, 0, 0};
   for (int b = 0; b < num_bodies; ++b) {
-    const Inertia& M_B = tree.inertias()[b];
-    const Pose& X_WB = tick->X_WB[b];
-    const Vector3d p_OG = X_WB * M_B.p_BoG_B - p_WO;
-    const Matrix3d P = Hat(p_OG);
-    auto& I = tick->I_[b];
-    I.topLeftCorner<3, 3>() =
-        X_WB.R * M_B.I_G_B * X_WB.R.transpose() - M_B.mass * P * P;
-    I.topRightCorner<3, 3>() = M_B.mass * P;
-    I.bottomLeftCorner<3, 3>() = -M_B.mass * P;
-    I.bottomRightCorner<3, 3>() = M_B.mass * Matrix3d::Identity();
-    tick->F_[b] = I * tick->A_[b] + CrossMomentum(tick->V_[b], I * tick->V_[b]);
+    const Mat3 R = r.R_WB[b];
+    double* R_out = tick->X_WB[b].R.data();
+    Store({R.x.x, R.y.x, R.z.x}, R_out);
+    Store({R.x.y, R.y.y, R.z.y}, R_out + 3);
+    Store({R.x.z, R.y.z, R.z.z}, R_out + 6);
+    Store(p_WO + r.p_OB_W[b], tick->X_WB[b].p.data());
   }
 
-  const Vector3d g_W = tree.gravity_W();
-  Eigen::Matrix<double, 6, Eigen::Dynamic>& H = tick->H_G;  // About O first.
-  for (int j = n - 1; j >= 0; --j) {
-    const Vector6d S = tick->S_.col(j);
-    const Vector6d F = tick->I_[j + 1] * S;
-    H.col(v0 + j) = F;
-    tick->c[v0 + j] = S.dot(tick->F_[j + 1]);
-    for (int k = j; k >= 0; k = tree.joints()[k].parent - 1) {
-      const double entry = tick->S_.col(k).dot(F);
-      tick->M(v0 + k, v0 + j) = entry;
-      tick->M(v0 + j, v0 + k) = entry;
-    }
-    tick->M(v0 + j, v0 + j) += tree.joints()[j].armature;
-    const int parent = tree.joints()[j].parent;
-    tick->I_[parent] += tick->I_[j + 1];
-    tick->F_[parent] += tick->F_[j + 1];
-  }
-
-  const auto& I_O = tick->I_[0];
-  if (tree.is_floating()) {
-    H.leftCols<6>() = I_O.selfadjointView<Eigen::Upper>();
-    tick->c.head<6>() = tick->F_[0];
-    tick->M.topRows<6>() = H;
-    tick->M.leftCols<6>() = H.transpose();
-  }
-  tick->N = tick->c;
-  tick->N.noalias() -= H.bottomRows<3>().transpose() * g_W;
-
-  // Equations (16)-(19), from O to G.
+  // Equations (16)-(19), from the base's origin O to G.
+  const MassMoments M_O = r.M_W[0];
+  const Wrench F_O = r.F_W[0];
   const double mass = tree.total_mass();
-  const Vector3d p_OG = mass > 0
-                            ? Vector3d(Vee(I_O.topRightCorner<3, 3>()) / mass)
-                            : Vector3d(Vector3d::Zero());
-  H.topRows<3>().noalias() -= Hat(p_OG) * H.bottomRows<3>();
-  tick->H_G_bias = tick->F_[0];
-  tick->H_G_bias.head<3>() -= p_OG.cross(Vector3d(tick->F_[0].tail<3>()));
-  tick->L_G.noalias() = H * v;
-  tick->p_WG = p_WO + p_OG;
-  tick->v_WG = mass > 0 ? Vector3d(tick->L_G.tail<3>() / mass)
-                        : Vector3d(Vector3d::Zero());
+  const Vec3 p_OG = mass > 0 ? (1 / mass) * M_O.h : Vec3{0, 0, 0};
+  const Vec3 p_GO = -1 * p_OG;
+  auto& H = tick->H_G;
+  const Vec3 g = ToVec3(tree.gravity_W());
+  Vec3 n{0, 0, 0}, f{0, 0, 0};
+  if (tree.is_floating()) {
+    H.leftCols<6>() = tick->M.topLeftCorner<6, 6>();
+    H.topLeftCorner<3, 6>() += Hat(ToEigen(p_GO)) * H.bottomLeftCorner<3, 6>();
+    Vector6d L = H.leftCols<6>() * v.head<6>();
+    n = ToVec3(L.head<3>());
+    f = ToVec3(L.tail<3>());
+    const Wrench g_O{Cross(M_O.h, g), M_O.mass * g};
+    Store(F_O.n - g_O.n, tick->N.data());
+    Store(F_O.f - g_O.f, tick->N.data() + 3);
+  }
+  for (int b = 1; b < num_bodies; ++b) {
+    const Wrench H_G = Shift(p_GO + r.p_OB_W[b], r.H_W[b]);
+    const double rate = v[v0 + b - 1];
+    n = n + rate * H_G.n;
+    f = f + rate * H_G.f;
+    Store(H_G.n, &H(0, v0 + b - 1));
+    Store(H_G.f, &H(3, v0 + b - 1));
+    tick->N[v0 + b - 1] = tick->c[v0 + b - 1] - Dot(H_G.f, g);
+  }
+  Store(n, tick->L_G.data());
+  Store(f, tick->L_G.data() + 3);
+  Store(F_O.n + Cross(p_GO, F_O.f), tick->H_G_bias.data());
+  Store(F_O.f, tick->H_G_bias.data() + 3);
+  Store(p_WO + p_OG, tick->p_WG.data());
+  Store((mass > 0 ? 1 / mass : 0) * f, tick->v_WG.data());
 
   for (FrameTick& frame : tick->frames) {
     const Frame& F = tree.frames()[frame.frame];
-    frame.X_WF = tick->X_WB[F.body] * F.X_BF;
-    const Vector3d p_OF = frame.X_WF.p - p_WO;
-    const auto shift = [&p_OF](const Vector6d& V) {
-      return Stack(V.head<3>(), V.tail<3>() + V.head<3>().cross(p_OF));
-    };
-    frame.V_WF_W = shift(tick->V_[F.body]);
-    frame.Jdot_v = shift(tick->A_[F.body]);
-    frame.Jdot_v.tail<3>() +=
-        frame.V_WF_W.head<3>().cross(frame.V_WF_W.tail<3>());
-    for (int k = F.body - 1; k >= 0; k = tree.joints()[k].parent - 1) {
-      frame.J_WF_W.col(v0 + k) = shift(tick->S_.col(k));
+    const int body = F.body;
+    const Mat3 R_WB = r.R_WB[body];
+    const Vec3 p_BF_W = R_WB * ToVec3(F.X_BF.p);
+    frame.X_WF.R = ToEigen(R_WB) * F.X_BF.R;
+    frame.X_WF.p = tick->X_WB[body].p + ToEigen(p_BF_W);
+    const Vec3 alpha = r.alpha_WB[body];
+    const Vec3 p_OF = p_BF_W + r.p_OB_W[body];
+    Store(alpha, frame.Jdot_v.data());
+    Store(r.a_WB[body] + AccelerationGradient(alpha, r.w_WB[body]) * p_BF_W,
+          frame.Jdot_v.data() + 3);
+    for (int k = body; k > 0; k = joints.parent[k]) {
+      Store(r.turn_W[k], &frame.J_WF_W(0, v0 + k - 1));
+      Store(r.slide_W[k] + Cross(r.turn_W[k], p_OF - r.p_OB_W[k]),
+            &frame.J_WF_W(3, v0 + k - 1));
     }
     if (tree.is_floating()) {
       frame.J_WF_W.leftCols<6>().setIdentity();
-      frame.J_WF_W.block<3, 3>(3, 0) = -Hat(p_OF);
+      frame.J_WF_W.block<3, 3>(3, 0) = -Hat(ToEigen(p_OF));
     }
+    frame.V_WF_W.noalias() = frame.J_WF_W * v;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "dynamics/recursion.h"
 #include "dynamics/tree.h"
 #include "math/pose.h"
 
@@ -54,12 +55,7 @@ struct Tick {
                           const Eigen::Ref<const Eigen::VectorXd>& v,
                           Tick* tick) noexcept;
 
-  // About the base's origin, in world axes, by joint or by body.
-  Eigen::Matrix<double, 6, Eigen::Dynamic> S_;
-  std::vector<Vector6d> V_;
-  std::vector<Vector6d> A_;
-  std::vector<Eigen::Matrix<double, 6, 6>> I_;
-  std::vector<Vector6d> F_;
+  Recursion recursion_;
 };
 
 /// Fills tick for the state (q, v), see Tree. Does not allocate, does not

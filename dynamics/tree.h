@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "dynamics/joint_maps.h"
+#include "dynamics/mass_moments.h"
 #include "math/inertia.h"
 #include "math/pose.h"
 
@@ -73,6 +75,10 @@ class Tree {
   const std::vector<Inertia>& inertias() const { return inertias_; }
   const std::vector<Frame>& frames() const { return frames_; }
 
+  /// joints() and inertias() again, as the recursions take them.
+  const JointMaps& joint_maps() const { return joint_maps_; }
+  const MassMomentsArray& mass_moments() const { return mass_moments_; }
+
   std::optional<int> FindJoint(std::string_view name) const;
   std::optional<int> FindFrame(std::string_view name) const;
 
@@ -91,6 +97,8 @@ class Tree {
   std::vector<Joint> joints_;
   std::vector<Inertia> inertias_;
   std::vector<Frame> frames_;
+  JointMaps joint_maps_;
+  MassMomentsArray mass_moments_;
   double total_mass_ = 0;
   Eigen::Vector3d gravity_W_{0, 0, -9.81};
 };

@@ -1,11 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <unordered_map>
 
 #include "dynamics/tree.h"
+#include "math/so3.h"
 
 namespace poise {
 namespace {
@@ -68,6 +70,37 @@ void CheckLink(const std::string& name, const Inertia& M) {
   if (M.I_G_B != M.I_G_B.transpose()) {
     throw std::invalid_argument(link + ": inertia must be symmetric");
   }
+}
+
+JointMaps MakeJointMaps(const std::vector<Joint>& joints) {
+  const int num_bodies = static_cast<int>(joints.size()) + 1;
+  JointMaps maps(num_bodies);
+  maps.R_constant.Set(0, ToMat3(Eigen::Matrix3d::Identity()));
+  for (int b = 1; b < num_bodies; ++b) {
+    const Joint& joint = joints[b - 1];
+    const Eigen::Matrix3d& R_PF = joint.X_PF.R;
+    const Eigen::Vector3d axis_P = R_PF * joint.axis_F;
+    maps.parent[b] = joint.parent;
+    maps.p_PF.Set(b, ToVec3(joint.X_PF.p));
+    maps.armature[b] = joint.armature;
+    if (joint.type == JointType::kPrismatic) {
+      maps.slide_P.Set(b, ToVec3(axis_P));
+      maps.R_constant.Set(b, ToMat3(R_PF));
+    } else {
+      // Rodrigues: R_FB = a a' + sin q [a]x + cos q (1 - a a').
+      const Eigen::Matrix3d aa = joint.axis_F * joint.axis_F.transpose();
+      maps.turn_P.Set(b, ToVec3(axis_P));
+      maps.R_constant.Set(b, ToMat3(R_PF * aa));
+      maps.R_sine.Set(b, ToMat3(R_PF * Hat(joint.axis_F)));
+      maps.R_cosine.Set(b, ToMat3(R_PF * (Eigen::Matrix3d::Identity() - aa)));
+    }
+  }
+  for (int b = num_bodies - 1; b >= 0; --b) {
+    maps.end[b] = std::max(maps.end[b], b + 1);
+    int& end_of_parent = maps.end[maps.parent[b]];
+    end_of_parent = std::max(end_of_parent, maps.end[b]);
+  }
+  return maps;
 }
 
 // Checks a joint by itself, and normalizes its axis.
@@ -235,6 +268,11 @@ Tree TreeBuilder::Build(BaseType base) const {
           Quote("link", links_[i].name) + " is not connected to the root, " +
           Quote("link", links_[root].name) + ": it is in or below a cycle");
     }
+  }
+  tree.joint_maps_ = MakeJointMaps(tree.joints_);
+  tree.mass_moments_ = MassMomentsArray(tree.num_bodies());
+  for (int b = 0; b < tree.num_bodies(); ++b) {
+    tree.mass_moments_.Set(b, MakeMassMoments(tree.inertias_[b]));
   }
   return tree;
 }

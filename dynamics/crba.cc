@@ -1,0 +1,73 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "dynamics/crba.h"
+
+#include <cassert>
+
+#include "math/so3.h"
+
+namespace poise {
+
+void FillMassMatrix(const Tree& tree, const Recursion& r,
+                    Eigen::Ref<Eigen::MatrixXd> M) noexcept {
+  assert(M.rows() == tree.nv() && M.cols() == tree.nv());
+  const JointMaps& joints = tree.joint_maps();
+  const int num_bodies = tree.num_bodies();
+  const int v0 = tree.v_start();
+
+  // The base's rows: its momentum [n; f] about its origin.
+  if (tree.is_floating()) {
+    const MassMoments M_O = r.M_W[0];
+    const Eigen::Matrix3d Sigma = ToEigen(M_O.Sigma);
+    M.topLeftCorner<3, 3>() =
+        Sigma.trace() * Eigen::Matrix3d::Identity() - Sigma;
+    M.block<3, 3>(0, 3) = Hat(ToEigen(M_O.h));
+    M.block<3, 3>(3, 0) = -Hat(ToEigen(M_O.h));
+    M.block<3, 3>(3, 3) = M_O.mass * Eigen::Matrix3d::Identity();
+    double* n_x = M.col(0).data() + v0 - 1;
+    double* n_y = M.col(1).data() + v0 - 1;
+    double* n_z = M.col(2).data() + v0 - 1;
+    double* f_x = M.col(3).data() + v0 - 1;
+    double* f_y = M.col(4).data() + v0 - 1;
+    double* f_z = M.col(5).data() + v0 - 1;
+    POISE_LANES
+    for (int b = 1; b < num_bodies; ++b) {
+      const Wrench H_O = Shift(r.p_OB_W[b], r.H_W[b]);
+      n_x[b] = H_O.n.x;
+      n_y[b] = H_O.n.y;
+      n_z[b] = H_O.n.z;
+      f_x[b] = H_O.f.x;
+      f_y[b] = H_O.f.y;
+      f_z[b] = H_O.f.z;
+    }
+    M.topRightCorner(6, num_bodies - 1) =
+        M.bottomLeftCorner(num_bodies - 1, 6).transpose();
+  }
+
+  // Column k below the diagonal: the momenta of all subtrees in k's, about k.
+  for (int k = 1; k < num_bodies; ++k) {
+    const Vec3 turn_W = r.turn_W[k], slide_W = r.slide_W[k];
+    const Vec3 p_OK_W = r.p_OB_W[k];
+    const int end = joints.end[k];
+    double* M_k = M.col(v0 + k - 1).data() + v0 - 1;
+    POISE_LANES
+    for (int b = k; b < end; ++b) {
+      const Wrench H = r.H_W[b];
+      const Vec3 v_W = slide_W + Cross(turn_W, r.p_OB_W[b] - p_OK_W);
+      M_k[b] = Dot(turn_W, H.n) + Dot(v_W, H.f);
+    }
+    for (int b = k + 1; b < end; ++b) M(v0 + k - 1, v0 + b - 1) = M_k[b];
+    M_k[k] += joints.armature[k];
+  }
+}
+
+void ComputeCrba(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
+                 Recursion* scratch, Eigen::Ref<Eigen::MatrixXd> M) noexcept {
+  SweepPoses(tree, q, scratch);
+  SweepInertias(tree, scratch);
+  SumInertias(tree, scratch);
+  SweepMomenta(tree, scratch);
+  M.setZero();
+  FillMassMatrix(tree, *scratch, M);
+}
+
+}  // namespace poise

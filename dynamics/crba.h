@@ -1,0 +1,29 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/recursion.h"
+#include "dynamics/tree.h"
+
+namespace poise {
+
+/// Computes the joint-space inertia M of M v̇ + N = S' tau + J' lambda, by
+/// composite rigid bodies: M_jk is the velocity of joint j at unit rate times
+/// the momentum that the subtree of joint k has at unit rate.
+///
+/// @param q        nq, see Tree.
+/// @param scratch  made for this tree.
+/// @param M        nv x nv, symmetric to the bit; the joints' armatures are on
+///                 its diagonal. All of it is written.
+/// Costs O(n depth). Does not allocate, does not throw.
+/// Source: Featherstone, "Rigid body dynamics algorithms", 2008, table 6.2.
+void ComputeCrba(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
+                 Recursion* scratch, Eigen::Ref<Eigen::MatrixXd> M) noexcept;
+
+/// The entries of M that are not zero for every q, from the momenta of
+/// SweepMomenta(). For ComputeCrba() and ComputeTick().
+void FillMassMatrix(const Tree& tree, const Recursion& recursion,
+                    Eigen::Ref<Eigen::MatrixXd> M) noexcept;
+
+}  // namespace poise
