@@ -6,11 +6,10 @@
 
 #include "dynamics/recursion.h"
 #include "dynamics/tree.h"
+#include "dynamics/vector6.h"
 #include "math/pose.h"
 
 namespace poise {
-
-using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 /// What a control tick needs of one frame F, in world axes.
 struct FrameTick {

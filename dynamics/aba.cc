@@ -1,0 +1,227 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "dynamics/aba.h"
+
+#include <Eigen/Cholesky>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace poise {
+namespace {
+
+// What rounding may leave of an inertia that is zero, as a part of the one with
+// locked joints; measured up to 3e-15 on long chains of massless bodies.
+constexpr double kRounding = 1e-13;
+
+// An acceleration field, at a body's origin.
+struct Motion {
+  Vec3 alpha;
+  Vec3 a;
+};
+
+Motion operator+(const Motion& A, const Motion& B) {
+  return {A.alpha + B.alpha, A.a + B.a};
+}
+
+double Dot(const Motion& A, const Wrench& F) {
+  return Dot(A.alpha, F.n) + Dot(A.a, F.f);
+}
+
+Vec3 TransposeTimes(const Mat3& A, const Vec3& v) { return RowTimes(v, A); }
+
+Mat3 Transpose(const Mat3& A) {
+  return {{A.x.x, A.y.x, A.z.x}, {A.x.y, A.y.y, A.z.y}, {A.x.z, A.y.z, A.z.z}};
+}
+
+// [d]x A.
+Mat3 CrossTimes(const Vec3& d, const Mat3& A) {
+  return {d.y * A.z + -d.z * A.y, d.z * A.x + -d.x * A.z,
+          d.x * A.y + -d.y * A.x};
+}
+
+// The symmetric part of a matrix that is symmetric but for rounding.
+Sym3 Symmetric(const Mat3& A) {
+  return {A.x.x, A.y.y, A.z.z, A.x.y, A.x.z, A.y.z};
+}
+
+// a b' / D, where it is symmetric and where it is not.
+Sym3 Square(const Vec3& a, double D) {
+  return {a.x * a.x / D, a.y * a.y / D, a.z * a.z / D,
+          a.x * a.y / D, a.x * a.z / D, a.y * a.z / D};
+}
+
+Mat3 Outer(const Vec3& a, const Vec3& b, double D) {
+  return {(a.x / D) * b, (a.y / D) * b, (a.z / D) * b};
+}
+
+Sym3 operator-(const Sym3& S, const Sym3& T) {
+  return {S.xx - T.xx, S.yy - T.yy, S.zz - T.zz,
+          S.xy - T.xy, S.xz - T.xz, S.yz - T.yz};
+}
+
+Mat3 operator-(const Mat3& A, const Mat3& B) {
+  return {A.x - B.x, A.y - B.y, A.z - B.z};
+}
+
+using Body = AbaScratch::Body;
+
+// [J H; H' M] A.
+Wrench operator*(const Body& body, const Motion& A) {
+  return {body.J * A.alpha + body.H * A.a,
+          TransposeTimes(body.H, A.alpha) + body.M * A.a};
+}
+
+// The resistance of a single body: that of its mass moments.
+Body MakeBody(const MassMoments& M) {
+  const double trace = M.Sigma.xx + M.Sigma.yy + M.Sigma.zz;
+  const Vec3& h = M.h;
+  return {{trace - M.Sigma.xx, trace - M.Sigma.yy, trace - M.Sigma.zz,
+           -M.Sigma.xy, -M.Sigma.xz, -M.Sigma.yz},
+          {{0, -h.z, h.y}, {h.z, 0, -h.x}, {-h.y, h.x, 0}},
+          {M.mass, M.mass, M.mass, 0, 0, 0},
+          {{0, 0, 0}, {0, 0, 0}}};
+}
+
+// Adds to the parent's resistance, about P, that of a body at p_PB. With
+// a_B = a_P - [d]x alpha, n_P = n_B + [d]x f_B:
+//     H_P = H + [d]x M,   J_P = J - H [d]x + [d]x H_P'.
+void AddShifted(const Body& B, const Vec3& d, Body* P) {
+  const Mat3 H_P = B.H + CrossTimes(d, Full(B.M));
+  const Mat3 minus_H_d = Transpose(CrossTimes(d, Transpose(B.H)));
+  P->J = P->J + B.J + Symmetric(minus_H_d + CrossTimes(d, Transpose(H_P)));
+  P->H = P->H + H_P;
+  P->M = P->M + B.M;
+  P->bias = P->bias + Shift(d, B.bias);
+}
+
+// The acceleration of a floating base, A = -[J H; H' M]^-1 bias. Scaled to unit
+// diagonal by the locked robot's inertia, so that kg m2 and kg compare.
+bool SolveBase(const Body& base, const Body& locked, const Wrench& push,
+               Vector6d* A) {
+  Matrix6d I;
+  I << ToEigen(base.J), ToEigen(base.H), ToEigen(base.H).transpose(),
+      ToEigen(base.M);
+  Vector6d diagonal;
+  diagonal << locked.J.xx, locked.J.yy, locked.J.zz, locked.M.xx, locked.M.yy,
+      locked.M.zz;
+  if (!(diagonal.minCoeff() > 0)) return false;
+  const Vector6d scale = diagonal.cwiseSqrt().cwiseInverse();
+  I = scale.asDiagonal() * I * scale.asDiagonal();
+  const Eigen::LDLT<Matrix6d> ldlt(I);
+  if (!(ldlt.vectorD().minCoeff() > kRounding)) return false;
+  Vector6d F;
+  F << ToEigen(push.n), ToEigen(push.f);
+  *A = scale.cwiseProduct(ldlt.solve(scale.cwiseProduct(F)));
+  return true;
+}
+
+}  // namespace
+
+AbaScratch::AbaScratch(const Tree& tree)
+    : recursion(tree),
+      bodies(tree.num_bodies()),
+      U(tree.num_bodies()),
+      D(tree.num_bodies()),
+      u(tree.num_bodies()) {}
+
+AbaStatus ComputeAba(const Tree& tree,
+                     const Eigen::Ref<const Eigen::VectorXd>& q,
+                     const Eigen::Ref<const Eigen::VectorXd>& v,
+                     const Eigen::Ref<const Eigen::VectorXd>& tau,
+                     const std::vector<Vector6d>& F_Bo_W, AbaScratch* scratch,
+                     Eigen::Ref<Eigen::VectorXd> vdot) noexcept {
+  assert(tau.size() == tree.nv() && vdot.size() == tree.nv());
+  assert(F_Bo_W.empty() ||
+         static_cast<int>(F_Bo_W.size()) == tree.num_bodies());
+  const JointMaps& joints = tree.joint_maps();
+  const int num_bodies = tree.num_bodies();
+  const int v0 = tree.v_start();
+  Recursion& r = scratch->recursion;
+  std::vector<Body>& bodies = scratch->bodies;
+  const auto fail = [&vdot, &q, &v, &tau] {
+    vdot.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return q.allFinite() && v.allFinite() && tau.allFinite()
+               ? AbaStatus::kSingular
+               : AbaStatus::kNotFinite;
+  };
+
+  SweepPoses(tree, q, &r);
+  SweepInertias(tree, &r);
+  for (int b = 0; b < num_bodies; ++b) bodies[b] = MakeBody(r.M_W[b]);
+
+  // The motion with all joints held at their rates, and what it takes.
+  SweepAccelerations(tree, v, r.zero, Eigen::Vector3d::Zero(), &r);
+  for (int b = 0; b < num_bodies; ++b) {
+    const Wrench gyroscopic = Accelerate(
+        r.M_W[b], AccelerationGradient({0, 0, 0}, r.w_WB[b]), {0, 0, 0});
+    bodies[b].bias = gyroscopic;
+    if (!F_Bo_W.empty()) {
+      const Vector6d& F = F_Bo_W[b];
+      bodies[b].bias =
+          gyroscopic + Wrench{{-F[0], -F[1], -F[2]}, {-F[3], -F[4], -F[5]}};
+    }
+  }
+  SumInertias(tree, &r);  // Of the locked subtrees, to judge D by.
+
+  // A_B = (A_P, shifted) + bias + S v̇; r.alpha_WB - r.alpha_WP is the bias's
+  // angular part, and the linear one is what turns with the parent.
+  const auto bias_of = [&r, &v, v0](int b) {
+    const Vec3 w_WP = r.w_WP[b], p_PB_W = r.p_PB_W[b];
+    const double v_j = v[v0 + b - 1];
+    return Motion{v_j * Cross(w_WP, r.turn_W[b]),
+                  Cross(w_WP, Cross(w_WP, p_PB_W) + 2 * v_j * r.slide_W[b])};
+  };
+
+  for (int b = num_bodies - 1; b > 0; --b) {
+    const Motion S{r.turn_W[b], r.slide_W[b]};
+    Body& body = bodies[b];
+    const Wrench U = body * S;
+    const double D = Dot(S, U) + joints.armature[b];
+    const double locked =
+        Dot(S, Momentum(r.M_W[b], S.alpha, S.a)) + joints.armature[b];
+    if (!(D > kRounding * locked)) return fail();
+    const double u = tau[v0 + b - 1] - Dot(S, body.bias);
+    scratch->U[b] = U;
+    scratch->D[b] = D;
+    scratch->u[b] = u;
+
+    body.J = body.J - Square(U.n, D);
+    body.H = body.H - Outer(U.n, U.f, D);
+    body.M = body.M - Square(U.f, D);
+    body.bias =
+        body.bias + body * bias_of(b) + Wrench{(u / D) * U.n, (u / D) * U.f};
+    AddShifted(body, r.p_PB_W[b], &bodies[joints.parent[b]]);
+  }
+
+  // Everything falls: the base's acceleration here is that less gravity.
+  const Vec3 g_W = ToVec3(tree.gravity_W());
+  Motion A_0{{0, 0, 0}, -1 * g_W};
+  if (tree.is_floating()) {
+    const Wrench& bias = bodies[0].bias;
+    const Wrench push{ToVec3(tau.head<3>()) - bias.n,
+                      ToVec3(tau.segment<3>(3)) - bias.f};
+    Vector6d A;
+    if (!SolveBase(bodies[0], MakeBody(r.M_W[0]), push, &A)) return fail();
+    A_0 = {ToVec3(A.head<3>()), ToVec3(A.tail<3>())};
+    vdot.head<3>() = A.head<3>();
+    vdot.segment<3>(3) = A.tail<3>() + tree.gravity_W();
+  }
+  r.alpha_WB.Set(0, A_0.alpha);
+  r.a_WB.Set(0, A_0.a);
+  for (int b = 1; b < num_bodies; ++b) {
+    const int parent = joints.parent[b];
+    const Vec3 alpha_WP = r.alpha_WB[parent];
+    const Motion A =
+        Motion{alpha_WP, r.a_WB[parent] + Cross(alpha_WP, r.p_PB_W[b])} +
+        bias_of(b);
+    const double vdot_j =
+        (scratch->u[b] - Dot(A, scratch->U[b])) / scratch->D[b];
+    vdot[v0 + b - 1] = vdot_j;
+    r.alpha_WB.Set(b, A.alpha + vdot_j * r.turn_W[b]);
+    r.a_WB.Set(b, A.a + vdot_j * r.slide_W[b]);
+  }
+  if (!vdot.allFinite()) return fail();
+  return AbaStatus::kOk;
+}
+
+}  // namespace poise

@@ -1,0 +1,32 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/recursion.h"
+#include "dynamics/tree.h"
+
+namespace poise {
+
+/// The center of mass G of a robot, world axes:
+///     v_WG = J_WG v,     a_WG = J_WG v̇ + bias.
+/// All zero, but for p_WG = p_WB, for a tree without mass.
+struct CenterOfMass {
+  explicit CenterOfMass(const Tree& tree)
+      : J_WG(Eigen::Matrix3Xd::Zero(3, tree.nv())) {}
+
+  Eigen::Vector3d p_WG = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_WG = Eigen::Vector3d::Zero();
+  Eigen::Matrix3Xd J_WG;                           ///< 3 x nv.
+  Eigen::Vector3d bias = Eigen::Vector3d::Zero();  ///< J̇v, m/s2.
+};
+
+/// Computes it at (q, v), see Tree. A fixed base counts with its mass.
+/// @param scratch  made for this tree.
+/// Costs O(n). Does not allocate, does not throw.
+void ComputeCenterOfMass(const Tree& tree,
+                         const Eigen::Ref<const Eigen::VectorXd>& q,
+                         const Eigen::Ref<const Eigen::VectorXd>& v,
+                         Recursion* scratch, CenterOfMass* out) noexcept;
+
+}  // namespace poise

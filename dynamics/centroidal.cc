@@ -1,0 +1,38 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "dynamics/centroidal.h"
+
+#include <cassert>
+
+#include "math/so3.h"
+
+namespace poise {
+
+void ComputeCentroidalMomentum(const Eigen::Ref<const Eigen::MatrixXd>& M,
+                               const Eigen::Ref<const Eigen::VectorXd>& c,
+                               const Eigen::Vector3d& p_BoG_W,
+                               CentroidalMomentum* out) noexcept {
+  assert(M.cols() == out->H_G.cols() && M.rows() >= 6 && c.size() >= 6);
+  out->H_G = M.topRows<6>();
+  out->bias = c.head<6>();
+  out->H_G.topRows<3>().noalias() -= Hat(p_BoG_W) * M.middleRows<3>(3);
+  out->bias.head<3>().noalias() -= Hat(p_BoG_W) * c.segment<3>(3);
+}
+
+Inertia CompositeInertia(const Tree& tree,
+                         const std::vector<Pose>& X_WB) noexcept {
+  Inertia composite;
+  composite.mass = tree.total_mass();
+  for (int b = 0; b < tree.num_bodies() && composite.mass > 0; ++b) {
+    const Inertia& M_B = tree.inertias()[b];
+    composite.p_BoG_B += M_B.mass / composite.mass * (X_WB[b] * M_B.p_BoG_B);
+  }
+  for (int b = 0; b < tree.num_bodies(); ++b) {
+    const Inertia& M_B = tree.inertias()[b];
+    const Eigen::Matrix3d P = Hat(X_WB[b] * M_B.p_BoG_B - composite.p_BoG_B);
+    composite.I_G_B +=
+        X_WB[b].R * M_B.I_G_B * X_WB[b].R.transpose() - M_B.mass * P * P;
+  }
+  return composite;
+}
+
+}  // namespace poise

@@ -1,0 +1,56 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dynamics/tree.h"
+#include "dynamics/vector6.h"
+#include "math/inertia.h"
+#include "math/pose.h"
+
+namespace poise {
+
+/// The momentum of a whole robot about its center of mass G, world axes, angular
+/// first:
+///     L_G = H_G v,     d/dt L_G = H_G v̇ + bias.
+struct CentroidalMomentum {
+  explicit CentroidalMomentum(const Tree& tree)
+      : H_G(Matrix6Xd::Zero(6, tree.nv())), bias(Vector6d::Zero()) {}
+
+  Matrix6Xd H_G;  ///< 6 x nv, the centroidal momentum matrix (CMM).
+  Vector6d bias;  ///< The momentum's rate at v̇ = 0, and so without gravity.
+};
+
+/// Computes the centroidal momentum matrix and its bias from the first six rows
+/// of the joint-space dynamics: a shift of the floating base's equation to the
+/// center of mass, instead of a second recursion over the bodies. The base's
+/// rates in v are V_WB_W, so Phi of (16) is the identity, and with p = p_BoG_W
+///     H_G = X M_l,   bias = X c_l,   X = [ 1  -[p]x ]   (6 x 6).
+///                                        [ 0    1   ]
+/// The lower three rows of H_G are the mass times the Jacobian of G.
+///
+/// @param M        nv x nv joint-space inertia, from ComputeCrba(); rows 0-5 are
+///                 read.
+/// @param c        nv bias forces *without gravity*, from ComputeCoriolis();
+///                 entries 0-5 are read.
+/// @param p_BoG_W  position of G from the base's origin, in m.
+/// @param out      sized for nv by its constructor.
+///
+/// @pre The tree has a floating base; M and c belong to one state (q, v), and
+/// p_BoG_W to its q.
+/// Costs 12 (nv + 1) flops. Does not allocate, does not throw.
+///
+/// Source: the paper, eqs. (15)-(19); Wensing and Orin, "Improved computation of
+/// the humanoid centroidal dynamics ...", IJHR 13(1), 2016.
+void ComputeCentroidalMomentum(const Eigen::Ref<const Eigen::MatrixXd>& M,
+                               const Eigen::Ref<const Eigen::VectorXd>& c,
+                               const Eigen::Vector3d& p_BoG_W,
+                               CentroidalMomentum* out) noexcept;
+
+/// The inertia of the whole robot as if its joints were locked, about its center
+/// of mass and in world axes: mass, p_WoG_W and I_G_W.
+Inertia CompositeInertia(const Tree& tree,
+                         const std::vector<Pose>& X_WB) noexcept;
+
+}  // namespace poise

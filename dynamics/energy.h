@@ -1,0 +1,25 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dynamics/tree.h"
+#include "dynamics/vector6.h"
+#include "math/pose.h"
+
+namespace poise {
+
+/// The kinetic energy in J, v' M v / 2, as the sum over the bodies and, with
+/// their armatures, the joints.
+/// @param X_WB    from ComputePoses().
+/// @param V_WB_W  from ComputeVelocities() at v.
+double KineticEnergy(const Tree& tree, const std::vector<Pose>& X_WB,
+                     const std::vector<Vector6d>& V_WB_W,
+                     const Eigen::Ref<const Eigen::VectorXd>& v) noexcept;
+
+/// The potential energy in J, - mass g_W' p_WG: zero with G at the origin.
+double PotentialEnergy(const Tree& tree,
+                       const std::vector<Pose>& X_WB) noexcept;
+
+}  // namespace poise

@@ -1,0 +1,41 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dynamics/tree.h"
+#include "dynamics/vector6.h"
+#include "math/pose.h"
+
+namespace poise {
+
+/// The axes in which the velocity of a frame is expressed; it is that of the
+/// frame's own origin in either.
+enum class Axes {
+  kWorld,  ///< [w_WF_W; v_WF_W].
+  kFrame   ///< [w_WF_F; v_WF_F].
+};
+
+/// Computes the Jacobian of a frame,
+///     V_WF = J_WF v,   [w; v of its origin].
+/// The columns of joints that do not carry the frame are zero.
+///
+/// @param X_WB   by body, from ComputePoses() or a Tick.
+/// @param frame  index into Tree::frames().
+/// @param J_WF   6 x nv. All of it is written.
+/// Does not allocate, does not throw.
+void ComputeFrameJacobian(const Tree& tree, const std::vector<Pose>& X_WB,
+                          int frame, Axes axes,
+                          Eigen::Ref<Matrix6Xd> J_WF) noexcept;
+
+/// The bias J̇v of a frame, the rate of [w; v] at v̇ = 0. In the frame's axes
+/// these turn with it: d/dt (R' V) = R' (V̇ - [w x w; w x v]).
+///
+/// @param A_WF_W  its classical acceleration at v̇ = 0, from FrameAcceleration().
+/// @param V_WF_W  its velocity, from FrameVelocity().
+/// @param R_WF    its orientation, from FramePose().
+Vector6d FrameBias(const Vector6d& A_WF_W, const Vector6d& V_WF_W,
+                   const Eigen::Matrix3d& R_WF, Axes axes) noexcept;
+
+}  // namespace poise

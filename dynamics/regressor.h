@@ -1,0 +1,33 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/recursion.h"
+#include "dynamics/tree.h"
+
+namespace poise {
+
+/// Computes the joint-space regressor, which says how the generalized forces of
+/// a motion depend on the inertias:
+///     Y(q, v, v̇) pi = tau = M v̇ + N,
+/// with pi = [10 numbers of each body; armature of each joint], and of a body B,
+/// about its origin and in its axes,
+///     [m; m p_BoG (3); Ixx; Iyy; Izz; Ixy; Ixz; Iyz].
+/// Fixed links count with the body that carries them.
+///
+/// @param q, v, vdot  see Tree.
+/// @param scratch     made for this tree.
+/// @param Y           nv x (10 bodies + joints). All of it is written.
+/// Does not allocate, does not throw.
+void ComputeRegressor(const Tree& tree,
+                      const Eigen::Ref<const Eigen::VectorXd>& q,
+                      const Eigen::Ref<const Eigen::VectorXd>& v,
+                      const Eigen::Ref<const Eigen::VectorXd>& vdot,
+                      Recursion* scratch,
+                      Eigen::Ref<Eigen::MatrixXd> Y) noexcept;
+
+/// The pi of a tree.
+Eigen::VectorXd MakeInertialParameters(const Tree& tree);
+
+}  // namespace poise
