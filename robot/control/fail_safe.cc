@@ -10,7 +10,6 @@ void ComputeFailSafeTorque(const Tick& tick,
                            const std::vector<ContactTick>& contacts,
                            const Eigen::Ref<const Eigen::VectorXd>& v_joints,
                            double damping, Eigen::VectorXd* tau) noexcept {
-  using Matrix6d = Eigen::Matrix<double, 6, 6>;
   const auto n = tau->size();
   const auto start = tick.M.rows() - n;
   *tau = (tick.N - tick.c).tail(n);
