@@ -17,7 +17,10 @@ namespace {
 
 using Path = std::filesystem::path;
 
-[[noreturn]] void Refuse(const Path& file, int line, const std::string& what) {
+// In one line, whatever a key or a scalar of the file holds.
+[[noreturn]] void Refuse(const Path& file, int line, std::string what) {
+  const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
+  std::replace_if(what.begin(), what.end(), is_control, ' ');
   throw std::invalid_argument(file.string() + ":" + std::to_string(line) +
                               ": " + what);
 }

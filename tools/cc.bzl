@@ -20,14 +20,21 @@ def poise_cc_library(name, copts = [], **kwargs):
 def poise_cc_binary(name, copts = [], **kwargs):
     native.cc_binary(name = name, copts = _COPTS + copts, **kwargs)
 
-def poise_cc_test(name, size = "small", srcs = None, copts = [], deps = [], **kwargs):
+def poise_cc_test(
+        name,
+        size = "small",
+        srcs = None,
+        copts = [],
+        deps = [],
+        with_main = True,
+        **kwargs):
     """A GoogleTest with the stock main(); the source defaults to <name>.cc."""
     native.cc_test(
         name = name,
         size = size,
         srcs = srcs or [name + ".cc"],
         copts = _COPTS + copts,
-        deps = deps + ["@gtest_main"],
+        deps = deps + (["@gtest_main"] if with_main else []),
         **kwargs
     )
 

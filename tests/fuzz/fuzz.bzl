@@ -1,0 +1,21 @@
+"""poise_fuzz_test(): a libFuzzer target, and a test of its seeds."""
+
+load("//tools:cc.bzl", "poise_cc_test")
+
+def poise_fuzz_test(name, seeds, deps):
+    """Tests <name>.cc, which defines LLVMFuzzerTestOneInput(), on its seeds.
+
+    As it is, the seeds are replayed, whole and with slips; with --config=fuzz
+    the same target is a fuzzer, which tools/fuzz.sh runs.
+    """
+    poise_cc_test(
+        name = name,
+        args = ["$(rootpath {})".format(seed) for seed in seeds],
+        data = seeds,
+        tags = ["fuzzer"],
+        deps = deps + [":fuzzing"] + select({
+            ":fuzz": [],
+            "//conditions:default": [":replay_main"],
+        }),
+        with_main = False,
+    )

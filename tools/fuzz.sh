@@ -1,0 +1,66 @@
+#!/bin/bash
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+# Usage: tools/fuzz.sh SECONDS [TARGET...]
+# Runs the fuzzers of tests/fuzz (all, or urdf, profile, ...) for so long each.
+# What they learn is kept in ~/.cache/poise/fuzz, where a run goes on from. An
+# input that crashes, hangs for 10 s or takes 1 GiB is kept as
+# ~/.cache/poise/fuzz/TARGET/crashes/*; replay it by giving the file to the
+# fuzzer that the summary names. Exit code 1 if there was one, 2 for bad usage.
+set -uo pipefail
+cd "${BUILD_WORKSPACE_DIRECTORY:-$(dirname "$0")/..}"
+
+usage() {
+  sed -n '3,9s/^# \?//p' tools/fuzz.sh >&2
+  exit 2
+}
+[[ ${1:-} =~ ^[1-9][0-9]*$ ]] || usage
+seconds=$1
+shift
+mapfile -t all < <(sed -n 's/^    name = "\(.*\)_fuzzer",/\1/p' tests/fuzz/BUILD)
+targets=("$@")
+[ ${#targets[@]} -gt 0 ] || targets=("${all[@]}")
+labels=()
+for target in "${targets[@]}"; do
+  if [[ " ${all[*]} " != *" $target "* ]]; then
+    echo "tools/fuzz.sh: no fuzzer '$target', want one of: ${all[*]}" >&2
+    exit 2
+  fi
+  labels+=("//tests/fuzz:${target}_fuzzer")
+done
+
+home=${POISE_FUZZ:-$HOME/.cache/poise/fuzz}
+mkdir -p "$home"
+bazel=(bazel "--output_base=$home/output")
+"${bazel[@]}" build --config=fuzz --noshow_progress "${labels[@]}" || exit 1
+bin=$("${bazel[@]}" info --config=fuzz bazel-bin 2> /dev/null)/tests/fuzz
+"${bazel[@]}" shutdown
+
+failures=0
+printf '%-10s %12s %9s %9s %9s\n' fuzzer runs corpus coverage crashes
+for target in "${targets[@]}"; do
+  folder=$home/$target
+  mkdir -p "$folder/corpus" "$folder/crashes"
+  arguments=(-max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048
+    -malloc_limit_mb=1024 -print_final_stats=1
+    -artifact_prefix="$folder/crashes/")
+  dictionary=tests/fuzz/dictionaries/$target.txt
+  [ -f "$dictionary" ] && arguments+=(-dict="$dictionary")
+  seeds=()
+  [ -d "tests/fuzz/seeds/$target" ] && seeds+=("tests/fuzz/seeds/$target")
+  ASAN_OPTIONS=detect_leaks=1 "$bin/${target}_fuzzer" "${arguments[@]}" \
+    "$folder/corpus" "${seeds[@]}" > "$folder/log" 2>&1
+  status=$?
+  crashes=$(find "$folder/crashes" -type f | wc -l)
+  printf '%-10s %12s %9s %9s %9s\n' "$target" \
+    "$(sed -n 's/^stat::number_of_executed_units: *//p' "$folder/log")" \
+    "$(find "$folder/corpus" -type f | wc -l)" \
+    "$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$folder/log" | tail -n 1)" \
+    "$crashes"
+  if [ "$status" != 0 ] || [ "$crashes" != 0 ]; then
+    failures=$((failures + 1))
+    echo "  replay: $bin/${target}_fuzzer $folder/crashes/*"
+    grep -m 3 -E '^(==[0-9]+==)?ERROR|does not hold|SUMMARY|runtime error' \
+      "$folder/log" | sed 's/^/  /'
+  fi
+done
+[ "$failures" = 0 ]
