@@ -12,6 +12,9 @@ namespace {
 // its bound.
 constexpr double kAtBound = 1e-9;
 
+// Of a gradient, relative to what it is added up from.
+constexpr double kNegligible = 1e-12;
+
 // What rounding in row i of C y is relative to.
 double Size(const Hierarchy& hierarchy, int level, int i, double bound,
             const Eigen::VectorXd& y) {
@@ -227,6 +230,21 @@ void Cascade::FindMultipliers(const Hierarchy& hierarchy, int level,
     gradient += static_cast<double>(side) * own.slack[i] *
                 hierarchy.C(level).row(i).transpose();
   }
+
+  // What rounding leaves of a level that is met asks for nothing.
+  double size = 0;
+  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+    const double norm = hierarchy.B(level).row(i).norm();
+    size = std::max(size, hierarchy.weight(level)[i] * norm *
+                              (norm * solution->y.norm() +
+                               std::abs(hierarchy.b(level)[i])));
+  }
+  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    if (own.slack[i] == 0) continue;
+    const double norm = hierarchy.C(level).row(i).norm();
+    size = std::max(size, norm * (norm * solution->y.norm() + own.slack[i]));
+  }
+  if (gradient.norm() <= kNegligible * size) return;
 
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod;
   cod.setThreshold(kRankTolerance);

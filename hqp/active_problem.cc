@@ -1,0 +1,183 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/active_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hqp/kernels.h"
+
+namespace poise {
+namespace {
+
+int NumRows(const std::vector<LevelCapacity>& capacity) {
+  int rows = 0;
+  for (const LevelCapacity& level : capacity) {
+    rows += level.equalities + level.inequalities;
+  }
+  return rows;
+}
+
+double Norm(const double* row, int n) {
+  double squared;
+  kernels::Dots(row, 0, 1, row, n, &squared);
+  return std::sqrt(squared);
+}
+
+}  // namespace
+
+ActiveProblem::ActiveProblem(int num_variables,
+                             const std::vector<LevelCapacity>& capacity)
+    : n_(num_variables),
+      head_(num_variables, NumRows(capacity),
+            static_cast<int>(capacity.size())),
+      tail_(num_variables, static_cast<int>(capacity.size())),
+      rows_(NumRows(capacity)),
+      multipliers_(capacity.size() + 1),
+      y_(num_variables),
+      gradient_(num_variables) {
+  for (const LevelCapacity& level : capacity) {
+    norm_.emplace_back(level.inequalities);
+    B_norm_.emplace_back(level.equalities);
+    selected_.emplace_back(level.equalities, 0);
+  }
+  for (Multipliers& multipliers : multipliers_) {
+    multipliers.nu.resize(rows_.size());
+    multipliers.left.resize(num_variables);
+  }
+}
+
+Status ActiveProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (int level = 0; level < hierarchy.num_levels(); ++level) {
+    *failed_level = level;
+    const auto B = hierarchy.B(level), C = hierarchy.C(level);
+    const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
+    const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
+    double zero = 0;  // Times what is not finite it is NaN.
+    bool in_order = true;
+    for (int i = 0; i < B.rows(); ++i) {
+      B_norm_[level][i] = kernels::AbsoluteSum(B.data() + i * n_, n_);
+      zero += (B_norm_[level][i] + b[i] + weight[i]) * 0;
+      in_order &= !(weight[i] < 0);
+    }
+    for (int i = 0; i < C.rows(); ++i) {
+      norm_[level][i] = kernels::AbsoluteSum(C.data() + i * n_, n_);
+      zero += norm_[level][i] * 0;
+      if (!(lower[i] < kInfinity && upper[i] > -kInfinity)) {
+        return Status::kNotFinite;
+      }
+      in_order &= lower[i] <= upper[i];
+    }
+    if (zero != 0) return Status::kNotFinite;
+    if (!in_order) return Status::kBadInput;
+  }
+  *failed_level = -1;
+  return Status::kOptimal;
+}
+
+void ActiveProblem::Plan(const Hierarchy& hierarchy, int num_levels) {
+  num_levels_ = num_levels;
+  num_head_ = num_levels;
+  head_.Truncate(0);
+  tail_.Clear();
+  // The tail: last levels without inequalities whose rows have one variable.
+  for (int level = num_levels - 1; level >= 0; --level) {
+    if (hierarchy.num_inequalities(level) > 0) break;
+    const auto B = hierarchy.B(level);
+    bool selects = n_ > 0;
+    for (int i = 0; i < B.rows() && selects; ++i) {
+      // Mostly the same one as in the last tick.
+      const double* row = B.data() + i * n_;
+      int& variable = selected_[level][i];
+      if (std::abs(row[variable]) == B_norm_[level][i]) continue;
+      variable =
+          static_cast<int>(std::max_element(row, row + n_,
+                                            [](double x, double y) {
+                                              return std::abs(x) < std::abs(y);
+                                            }) -
+                           row);
+      selects = std::abs(row[variable]) == B_norm_[level][i];
+    }
+    if (!selects) break;
+    num_head_ = level;
+  }
+  for (int level = num_head_; level < num_levels; ++level) {
+    tail_.AddLevel();
+    for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+      const double scale = hierarchy.B(level)(i, selected_[level][i]);
+      if (scale == 0) continue;
+      tail_.Add(selected_[level][i], hierarchy.weight(level)[i] * scale * scale,
+                -hierarchy.b(level)[i] / scale);
+    }
+  }
+  tail_.Finish();
+}
+
+void ActiveProblem::AddRow(const Row& row, const double* from, double metric) {
+  const int a = head_.AddRow(row.bound / row.norm, metric * row.norm);
+  rows_[a] = row;
+  double* to = head_.row(a);
+  for (int j = 0; j < n_; ++j) to[j] = from[j] / row.norm;
+}
+
+void ActiveProblem::Solve(const Hierarchy& hierarchy,
+                          const std::vector<std::vector<Side>>& side,
+                          int from_level) {
+  head_.Truncate(from_level);
+  for (int level = from_level; level < num_head_; ++level) {
+    for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+      const double weight = hierarchy.weight(level)[i];
+      if (weight == 0 || B_norm_[level][i] == 0) continue;
+      const double* row = hierarchy.B(level).data() + i * n_;
+      AddRow({level, i, false, Norm(row, n_), -hierarchy.b(level)[i]}, row,
+             std::sqrt(weight));
+    }
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+      if (side[level][i] == Side::kNone || norm_[level][i] == 0) continue;
+      const double* row = hierarchy.C(level).data() + i * n_;
+      const double bound = side[level][i] == Side::kUpper
+                               ? hierarchy.upper(level)[i]
+                               : hierarchy.lower(level)[i];
+      AddRow({level, i, true, Norm(row, n_), bound}, row, 1);
+    }
+    head_.FactorLevel();
+  }
+  // The tail has at least the norm of y.
+  tail_.Solve(head_, y_.data());
+}
+
+void ActiveProblem::FindMultipliers() {
+  for (int level = 0; level <= num_levels_; ++level) {
+    Multipliers& out = multipliers_[level];
+    const int rows =
+        level < num_head_ ? head_.first_row(level) : head_.num_rows();
+    if (level < num_head_) {
+      out.size = head_.Gradient(level, gradient_.data());
+      out.any = out.size > 0;
+      if (!out.any) continue;
+      for (double& entry : gradient_) entry = -entry;
+      head_.SolveDual(level, gradient_.data(), out.nu.data());
+    } else {
+      out.size =
+          tail_.Dual(level - num_head_, gradient_.data(), out.left.data());
+      out.any = out.size > 0;
+      if (!out.any) continue;
+      head_.SolveDual(num_head_, gradient_.data(), out.nu.data());
+    }
+    for (int a = 0; a < rows; ++a) {
+      out.size = std::max(out.size, std::abs(out.nu[a]));
+    }
+  }
+}
+
+double ActiveProblem::Price(int a, int level, Side side,
+                            double tolerance) const {
+  const double sign = static_cast<double>(side);
+  if (level == rows_[a].level) return sign * head_.residual(a);
+  const Multipliers& of = multipliers_[level];
+  if (!of.any || std::abs(of.nu[a]) <= tolerance * of.size) return 0;
+  return sign * of.nu[a];
+}
+
+}  // namespace poise

@@ -1,0 +1,85 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <vector>
+
+#include "hqp/hierarchy.h"
+#include "hqp/row_stack.h"
+#include "hqp/selection_tail.h"
+#include "hqp/solution.h"
+
+namespace poise {
+
+/// A hierarchy with a guess of its active rows taken as equalities of their own
+/// levels: solved by one orthogonalisation (RowStack), and a few small problems
+/// for last levels that select variables (SelectionTail). Below the last level
+/// there is one more, the norm of y.
+class ActiveProblem {
+ public:
+  ActiveProblem(int num_variables, const std::vector<LevelCapacity>& capacity);
+
+  /// A row of the head, as it is in the hierarchy.
+  struct Row {
+    int level, index;
+    bool is_inequality;
+    double norm;   ///< |row|_2.
+    double bound;  ///< -b, or the bound at work.
+  };
+
+  /// What a level, or the norm of y, asks of the rows before it.
+  struct Multipliers {
+    bool any = false;          ///< Whether its gradient is not zero.
+    double size = 0;           ///< Of what they are added up from.
+    std::vector<double> nu;    ///< By row of the head, for unit length.
+    std::vector<double> left;  ///< SelectionTail::Dual(): by variable.
+  };
+
+  /// Reads a hierarchy's sizes and norms; all are told if a number is not
+  /// finite, a bound is on the wrong side, or a weight negative.
+  Status Read(const Hierarchy& hierarchy, int* failed_level);
+
+  /// Takes the first num_levels levels, and no others.
+  void Plan(const Hierarchy& hierarchy, int num_levels);
+
+  /// Solves for rows active on these sides, by level. What is above from_level
+  /// must be as in the last solve.
+  void Solve(const Hierarchy& hierarchy,
+             const std::vector<std::vector<Side>>& side, int from_level);
+
+  /// Finds the multipliers of all levels at the last solve.
+  void FindMultipliers();
+
+  /// The price of an inequality row of the head on a level: positive if the
+  /// level is held back by it, negative if it is drawn along, 0 if below
+  /// tolerance, relative. On its own level that is its violation.
+  double Price(int row, int level, Side side, double tolerance) const;
+
+  int num_levels() const { return num_levels_; }
+  int num_head() const { return num_head_; }  ///< Levels before the tail.
+  const RowStack& head() const { return head_; }
+  SelectionTail& tail() { return tail_; }
+  const Row& row(int a) const { return rows_[a]; }
+  const Multipliers& multipliers(int level) const {
+    return multipliers_[level];
+  }
+  const std::vector<double>& y() const { return y_; }
+
+  /// |C_i|_1, and the only variable of row i of B in the tail.
+  double norm(int level, int i) const { return norm_[level][i]; }
+  int selected(int level, int i) const { return selected_[level][i]; }
+
+ private:
+  void AddRow(const Row& row, const double* from, double metric);
+
+  int n_;
+  int num_levels_ = 0, num_head_ = 0;
+  RowStack head_;
+  SelectionTail tail_;
+  std::vector<Row> rows_;
+  std::vector<Multipliers> multipliers_;
+  std::vector<double> y_, gradient_;
+  std::vector<std::vector<double>> norm_, B_norm_;
+  std::vector<std::vector<int>> selected_;
+};
+
+}  // namespace poise

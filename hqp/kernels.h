@@ -1,0 +1,23 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+/// The inner loops of the fast solver, on rows that lie `stride` apart. Four
+/// rows at a time, in vectors of four; chosen at load time for the processor.
+namespace poise::kernels {
+
+/// out_i = row_i . x, for i < count.
+void Dots(const double* rows, int stride, int count, const double* x, int n,
+          double* out);
+
+/// x += sum_i factor_i row_i.
+void AddRows(const double* rows, int stride, int count, const double* factor,
+             int n, double* x);
+
+/// row_i += factor_i x.
+void AddToRows(double* rows, int stride, int count, const double* factor,
+               const double* x, int n);
+
+/// sum_i |x_i|: NaN or infinite if an entry is.
+double AbsoluteSum(const double* x, int n);
+
+}  // namespace poise::kernels

@@ -1,0 +1,206 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/report.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace poise {
+namespace {
+
+// A row violated by less than this, relative to what it is added up from, is at
+// its bound.
+constexpr double kAtBound = 1e-9;
+
+int NumRows(const std::vector<LevelCapacity>& capacity) {
+  int rows = 0;
+  for (const LevelCapacity& level : capacity) {
+    rows += level.equalities + level.inequalities;
+  }
+  return rows;
+}
+
+double Sign(Side side) { return static_cast<double>(side); }
+
+}  // namespace
+
+Reporter::Reporter(int num_variables,
+                   const std::vector<LevelCapacity>& capacity)
+    : n_(num_variables),
+      equalities_(num_variables, NumRows(capacity),
+                  static_cast<int>(capacity.size())),
+      left_(num_variables) {}
+
+void Reporter::Report(const Hierarchy& hierarchy,
+                      const std::vector<std::vector<Side>>& side,
+                      double tolerance, ActiveProblem* problem,
+                      Solution* solution) {
+  std::copy(problem->y().begin(), problem->y().end(), solution->y.data());
+  norm_y_ = solution->y.norm();
+  for (int level = 0; level < hierarchy.num_levels(); ++level) {
+    EvaluateLevel(hierarchy, level, solution);
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+      Side& active = solution->levels[level].active[i];
+      active = side[level][i];
+      // Of a row with lower = upper, the one that is violated, if any.
+      if (hierarchy.lower(level)[i] == hierarchy.upper(level)[i]) {
+        active = hierarchy.C(level).row(i).dot(solution->y) <
+                         hierarchy.lower(level)[i]
+                     ? Side::kLower
+                     : Side::kUpper;
+      }
+    }
+  }
+  ReportMultipliers(hierarchy, *problem, solution);
+  for (int level = problem->num_head() + 1; level < problem->num_levels();
+       ++level) {
+    ReportTailMultipliers(hierarchy, level, problem, solution);
+  }
+  MakeNonnegative(hierarchy, tolerance, *problem, solution);
+  ReportNullity(hierarchy, problem, solution);
+}
+
+bool Reporter::IsViolated(const ActiveProblem::Row& row,
+                          const Solution& solution) const {
+  return solution.levels[row.level].slack[row.index] >
+         kAtBound * (row.norm * norm_y_ + std::abs(row.bound));
+}
+
+void Reporter::ReportMultipliers(const Hierarchy& hierarchy,
+                                 const ActiveProblem& problem,
+                                 Solution* solution) {
+  (void)hierarchy;
+  for (int level = 1; level < problem.num_levels(); ++level) {
+    const ActiveProblem::Multipliers& from = problem.multipliers(level);
+    if (!from.any) continue;
+    const int rows = level < problem.num_head()
+                         ? problem.head().first_row(level)
+                         : problem.head().num_rows();
+    for (int a = 0; a < rows; ++a) {
+      const ActiveProblem::Row& row = problem.row(a);
+      LevelMultipliers& to = solution->levels[level].multipliers[row.level];
+      (row.is_inequality ? to.inequality : to.equality)[row.index] =
+          from.nu[a] / row.norm;
+    }
+  }
+}
+
+// A level of the tail leaves something on variables that levels of the tail
+// before it have fixed: one row of these cancels it.
+void Reporter::ReportTailMultipliers(const Hierarchy& hierarchy, int level,
+                                     ActiveProblem* problem,
+                                     Solution* solution) {
+  const int num_head = problem->num_head();
+  const auto fixed_by = [&](int variable) {
+    return problem->tail().level(variable) + num_head;
+  };
+  const ActiveProblem::Multipliers& of = problem->multipliers(level);
+  std::fill(left_.begin(), left_.end(), 0);
+  if (of.any) std::copy(of.left.begin(), of.left.end(), left_.begin());
+  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+    const int j = problem->selected(level, i);
+    if (fixed_by(j) >= level) continue;
+    left_[j] += hierarchy.weight(level)[i] * hierarchy.B(level)(i, j) *
+                solution->levels[level].equality_residual[i];
+  }
+  for (int above = num_head; above < level; ++above) {
+    Eigen::VectorXd& to = solution->levels[level].multipliers[above].equality;
+    for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
+      const int j = problem->selected(above, i);
+      if (left_[j] == 0 || fixed_by(j) != above ||
+          hierarchy.weight(above)[i] == 0 || hierarchy.B(above)(i, j) == 0) {
+        continue;
+      }
+      to[i] = -left_[j] / hierarchy.B(above)(i, j);
+      left_[j] = 0;
+    }
+  }
+}
+
+// A multiplier may be negative where that of a level before is positive. A
+// multiple of that level's own equation, which adds up to zero, makes it right.
+void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
+                               const ActiveProblem& problem,
+                               Solution* solution) {
+  for (int level = 1; level < problem.num_levels(); ++level) {
+    if (!problem.multipliers(level).any) continue;
+    LevelSolution& to = solution->levels[level];
+    const int rows = level < problem.num_head()
+                         ? problem.head().first_row(level)
+                         : problem.head().num_rows();
+    for (int a = 0; a < rows; ++a) {
+      const ActiveProblem::Row& row = problem.row(a);
+      if (!row.is_inequality || IsViolated(row, *solution) ||
+          hierarchy.lower(row.level)[row.index] ==
+              hierarchy.upper(row.level)[row.index]) {
+        continue;
+      }
+      const Side side = solution->levels[row.level].active[row.index];
+      const double sign = Sign(side);
+      const double mu = sign * to.multipliers[row.level].inequality[row.index];
+      if (mu >= 0 || problem.Price(a, level, side, tolerance) == 0) continue;
+      int first = row.level;
+      while (problem.Price(a, first, side, tolerance) == 0) ++first;
+      if (first == level) continue;
+      const LevelSolution& from = solution->levels[first];
+      const double price =
+          first == row.level
+              ? from.slack[row.index]
+              : sign * from.multipliers[row.level].inequality[row.index];
+      if (price <= 0) continue;
+      const double factor = -mu / price;
+      const int equalities = hierarchy.num_equalities(first);
+      LevelMultipliers& own = to.multipliers[first];
+      own.equality.head(equalities) +=
+          factor * hierarchy.weight(first).cwiseProduct(
+                       from.equality_residual.head(equalities));
+      for (int i = 0; i < hierarchy.num_inequalities(first); ++i) {
+        own.inequality[i] += factor * Sign(from.active[i]) * from.slack[i];
+      }
+      for (int above = 0; above < first; ++above) {
+        to.multipliers[above].equality +=
+            factor * from.multipliers[above].equality;
+        to.multipliers[above].inequality +=
+            factor * from.multipliers[above].inequality;
+      }
+    }
+  }
+}
+
+// Counts only equalities and violated rows, so that with rows at their bounds
+// it takes a factorisation without them.
+void Reporter::ReportNullity(const Hierarchy& hierarchy, ActiveProblem* problem,
+                             Solution* solution) {
+  const RowStack& head = problem->head();
+  const auto counts = [&](int a) {
+    return !problem->row(a).is_inequality ||
+           IsViolated(problem->row(a), *solution);
+  };
+  const RowStack* stack = &head;
+  bool all_count = true;
+  for (int a = 0; a < head.num_rows(); ++a) all_count &= counts(a);
+  if (!all_count) {
+    equalities_.Truncate(0);
+    for (int level = 0; level < problem->num_head(); ++level) {
+      for (int a = head.first_row(level); a < head.end_row(level); ++a) {
+        if (!counts(a)) continue;
+        const ActiveProblem::Row& row = problem->row(a);
+        const double* from = row.is_inequality
+                                 ? hierarchy.C(level).row(row.index).data()
+                                 : hierarchy.B(level).row(row.index).data();
+        double* to = equalities_.row(equalities_.AddRow(0, 1));
+        for (int j = 0; j < n_; ++j) to[j] = from[j] / row.norm;
+      }
+      equalities_.FactorLevel();
+    }
+    stack = &equalities_;
+    problem->tail().Tie(equalities_);
+  }
+  for (int level = 0; level < problem->num_levels(); ++level) {
+    solution->levels[level].nullity =
+        level < problem->num_head()
+            ? n_ - stack->rank(level)
+            : problem->tail().Nullity(level - problem->num_head());
+  }
+}
+
+}  // namespace poise

@@ -1,0 +1,44 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <vector>
+
+#include "hqp/active_problem.h"
+#include "hqp/hierarchy.h"
+#include "hqp/row_stack.h"
+#include "hqp/solution.h"
+
+namespace poise {
+
+/// Writes what the fast solver found, as a Solution: the multipliers by level
+/// and row, none of them negative where a certificate forbids it, and the
+/// nullities.
+class Reporter {
+ public:
+  Reporter(int num_variables, const std::vector<LevelCapacity>& capacity);
+
+  /// @param tolerance  below it, relative, a multiplier is zero.
+  /// @param problem    solved; its tail is used up by this.
+  void Report(const Hierarchy& hierarchy,
+              const std::vector<std::vector<Side>>& side, double tolerance,
+              ActiveProblem* problem, Solution* solution);
+
+ private:
+  void ReportMultipliers(const Hierarchy& hierarchy,
+                         const ActiveProblem& problem, Solution* solution);
+  void ReportTailMultipliers(const Hierarchy& hierarchy, int level,
+                             ActiveProblem* problem, Solution* solution);
+  void MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
+                       const ActiveProblem& problem, Solution* solution);
+  void ReportNullity(const Hierarchy& hierarchy, ActiveProblem* problem,
+                     Solution* solution);
+  bool IsViolated(const ActiveProblem::Row& row,
+                  const Solution& solution) const;
+
+  int n_;
+  RowStack equalities_;
+  std::vector<double> left_;
+  double norm_y_ = 0;
+};
+
+}  // namespace poise

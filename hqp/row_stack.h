@@ -1,0 +1,94 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace poise {
+
+/// The lexicographic least-squares solution of levels of rows: with rows r_a of
+/// unit length, targets t_a and metrics d_a, each level minimises
+///     1/2 sum_a d_a^2 (r_a y - t_a)^2
+/// among the optima of the levels before it.
+///
+/// The rows are orthogonalised as they come (Gram-Schmidt, twice where needed,
+/// pivoted inside a level): R = L Q, with Q orthonormal. A row whose rest is
+/// below kRankTolerance depends on those before. A level of independent rows is
+/// met whatever its metric; one with dependent rows is reduced further, by
+/// reflections among its rows, to as many "effective" rows as its rank. So L,
+/// of all effective rows, is lower triangular, and y = Q' z.
+///
+/// Levels can be dropped from the end and added again. Nothing allocates after
+/// construction.
+class RowStack {
+ public:
+  RowStack(int num_variables, int max_rows, int max_levels);
+
+  /// Drops the levels from this one on.
+  void Truncate(int level);
+
+  /// A new row of the level about to be factored: to be filled with
+  /// num_variables numbers, not all zero. Returns its number, a.
+  int AddRow(double target, double metric);
+  double* row(int a) { return &work_[static_cast<std::size_t>(a) * stride_]; }
+
+  /// Factors the rows added since the last level; row(a) is overwritten.
+  void FactorLevel();
+
+  int num_levels() const { return static_cast<int>(levels_.size()); }
+  int num_rows() const { return num_rows_; }
+  int rank() const { return rank_; }
+  int rank(int level) const { return levels_[level].rank_end; }
+  int first_row(int level) const { return levels_[level].first_row; }
+  int end_row(int level) const { return levels_[level].end_row; }
+
+  /// Whether some row of the level depends on others, or on levels above: only
+  /// then its residual need not be zero.
+  bool is_deficient(int level) const;
+
+  /// r_a y - t_a; exactly 0 where all rows of the level are independent.
+  double residual(int a) const { return residual_[a]; }
+
+  /// Q, rank x num_variables, its rows `stride` apart; and y = Q' z.
+  const double* basis() const { return q_.data(); }
+  int stride() const { return stride_; }
+  const double* z() const { return z_.data(); }
+
+  /// The level's gradient in z, sum_a d_a^2 residual_a (row a of L), its first
+  /// rank(level - 1) entries. Returns the size of what it is added up from: 0,
+  /// and nothing else, if it is zero.
+  double Gradient(int level, double* gradient) const;
+
+  /// The multipliers nu, by row, that rows of the levels < level need for
+  /// sum_a nu_a r_a = Q' rhs. rhs, of rank(level - 1) entries, is overwritten.
+  void SolveDual(int level, double* rhs, double* nu);
+
+  double norm_z() const;
+
+ private:
+  struct Level {
+    int first_row, end_row, rank_begin, rank_end;
+    bool deficient;  ///< rank_end - rank_begin < end_row - first_row.
+    int first_reflection;
+  };
+  void ProjectOut(int a);
+  void PivotRows(Level* level);
+  void Reduce(Level* level);
+  void SolveLevel(const Level& level);
+
+  int n_, stride_, num_rows_ = 0, rank_ = 0;
+  std::vector<Level> levels_;
+  std::vector<double> work_;     ///< max_rows x stride: rows, then their rests.
+  std::vector<double> l_;        ///< max_rows x stride: rows of L.
+  std::vector<double> reduced_;  ///< max_rows x stride: one level's, reduced.
+  std::vector<double> q_;        ///< n x stride.
+  std::vector<double> effective_;  ///< n x stride: effective rows of L.
+  std::vector<double> effective_target_, z_;
+  std::vector<double> target_, metric_, residual_, rest_, fresh_;
+  std::vector<int> carrier_;  ///< Effective row: the row it is, or replaces.
+  std::vector<double> reflection_;  ///< n x max_rows.
+  std::vector<double> factor_, scratch_;
+  std::vector<bool> chosen_;
+};
+
+}  // namespace poise

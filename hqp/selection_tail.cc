@@ -1,0 +1,254 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/selection_tail.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hqp/kernels.h"
+#include "hqp/row_space.h"
+
+namespace poise {
+namespace {
+
+using kernels::AddRows;
+using kernels::AddToRows;
+using kernels::Dots;
+
+// A gradient below this, relative to what it is added up from, is zero.
+constexpr double kZeroGradient = 1e-13;
+
+double SquaredNorm(const double* x, int n) {
+  double sum;
+  Dots(x, 0, 1, x, n, &sum);
+  return sum;
+}
+
+}  // namespace
+
+SelectionTail::SelectionTail(int num_variables, int max_levels)
+    : n_(num_variables), stride_((num_variables + 3) / 4 * 4) {
+  const size_t square = static_cast<size_t>(n_) * stride_;
+  level_of_.resize(n_);
+  order_.resize(n_);
+  blocks_.resize(max_levels + 1);
+  for (std::vector<double>* matrix : {&t_, &reflection_, &q_, &l_}) {
+    matrix->resize(square);
+  }
+  for (std::vector<double>* vector :
+       {&weight_, &target_, &start_, &step_, &ideal_, &scale_, &nu_, &scratch_,
+        &factor_}) {
+    vector->resize(stride_);
+  }
+  Clear();
+}
+
+void SelectionTail::Clear() {
+  num_levels_ = 0;
+  std::fill(level_of_.begin(), level_of_.end(), -1);
+}
+
+void SelectionTail::Add(int variable, double weight, double target) {
+  int& level = level_of_[variable];
+  if (weight == 0 || (level >= 0 && level != num_levels_ - 1)) return;
+  if (level < 0) {
+    level = num_levels_ - 1;
+    weight_[variable] = weight;
+    target_[variable] = target;
+    return;
+  }
+  // Two rows of one level: the sum of squares has its minimum between them.
+  const double sum = weight_[variable] + weight;
+  target_[variable] += weight / sum * (target - target_[variable]);
+  weight_[variable] = sum;
+}
+
+void SelectionTail::Finish() {
+  AddLevel();
+  for (int j = 0; j < n_; ++j) {
+    if (level_of_[j] < 0) Add(j, 1, 0);
+  }
+  int position = 0;
+  for (int level = num_levels_ - 1; level >= 0; --level) {
+    blocks_[level].begin = position;
+    for (int j = 0; j < n_; ++j) {
+      if (level_of_[j] == level) order_[position++] = j;
+    }
+    blocks_[level].end = position;
+  }
+  for (int p = 0; p < n_; ++p) scale_[p] = std::sqrt(weight_[order_[p]]);
+}
+
+void SelectionTail::Tie(const RowStack& head) {
+  Gather(head);
+  num_reflections_ = 0;
+  int row = 0;
+  for (int level = num_levels_ - 1; level >= 0; --level) {
+    blocks_[level].row_begin = row;
+    blocks_[level].row_end = level == 0 ? rank_ : row;
+    if (level > 0) Eliminate(level);
+    row = blocks_[level].row_end;
+  }
+}
+
+void SelectionTail::Solve(const RowStack& head, double* y) {
+  Tie(head);
+  for (int level = 0; level < num_levels_; ++level) SolveLevel(level);
+  for (int p = 0; p < n_; ++p) y[order_[p]] = start_[p] + step_[p];
+}
+
+void SelectionTail::Gather(const RowStack& head) {
+  rank_ = head.rank();
+  for (int p = 0; p < n_;) {
+    // Variables in a row are copied in one go.
+    int run = 1;
+    while (p + run < n_ && order_[p + run] == order_[p] + run) ++run;
+    const double* from = head.basis() + order_[p];
+    for (int i = 0; i < rank_; ++i) {
+      std::copy_n(from + static_cast<size_t>(i) * head.stride(), run,
+                  &t_[static_cast<size_t>(i) * stride_ + p]);
+    }
+    p += run;
+  }
+  std::fill(start_.begin(), start_.end(), 0);
+  AddRows(t_.data(), stride_, rank_, head.z(), n_, start_.data());
+  for (int p = 0; p < n_; ++p) ideal_[p] = target_[order_[p]] - start_[p];
+}
+
+// Reflects rows until the level's variables are in as few of them as can be.
+void SelectionTail::Eliminate(int level) {
+  Block& block = blocks_[level];
+  for (int steps = block.end - block.begin; steps > 0; --steps) {
+    const int row = block.row_end, rows = rank_ - row;
+    if (rows == 0) return;
+    double* first = &t_[static_cast<size_t>(row) * stride_];
+    // The largest column of what is left.
+    double* squares = scratch_.data();
+    std::fill_n(squares, n_, 0);
+    for (int i = 0; i < rows; ++i) {
+      const double* t = first + static_cast<size_t>(i) * stride_;
+      for (int p = block.begin; p < block.end; ++p) squares[p] += t[p] * t[p];
+    }
+    const int pivot = static_cast<int>(
+        std::max_element(squares + block.begin, squares + block.end) - squares);
+    if (squares[pivot] <= kRankTolerance * kRankTolerance) return;
+    // H = I - v v' moves it into the first row.
+    double* v = &reflection_[static_cast<size_t>(num_reflections_) * stride_];
+    std::fill_n(v, row, 0);
+    for (int i = 0; i < rows; ++i) {
+      v[row + i] = first[static_cast<size_t>(i) * stride_ + pivot];
+    }
+    const double squared = SquaredNorm(v + row, rows);
+    const double alpha = v[row] > 0 ? -std::sqrt(squared) : std::sqrt(squared);
+    const double root = std::sqrt(squared - alpha * v[row]);
+    v[row] -= alpha;
+    for (int i = row; i < rank_; ++i) {
+      v[i] /= root;
+      factor_[i] = -v[i];
+    }
+    const int columns = n_ - block.begin;
+    std::fill_n(scratch_.data(), columns, 0);
+    AddRows(first + block.begin, stride_, rows, v + row, columns,
+            scratch_.data());
+    AddToRows(first + block.begin, stride_, rows, factor_.data() + row,
+              scratch_.data(), columns);
+    ++num_reflections_;
+    ++block.row_end;
+  }
+}
+
+// With x = d (step - ideal): minimum |x|^2 where (T/d) x = -T ideal - (what
+// earlier levels have moved).
+void SelectionTail::SolveLevel(int level) {
+  Block& block = blocks_[level];
+  const int columns = block.end - block.begin, rest = n_ - block.end;
+  const int rows = block.row_end - block.row_begin;
+  const double* t = &t_[static_cast<size_t>(block.row_begin) * stride_];
+  std::vector<double>& z = factor_;
+  Dots(t + block.begin, stride_, rows, &ideal_[block.begin], columns, z.data());
+  Dots(t + block.end, stride_, rows, &step_[block.end], rest, scratch_.data());
+  for (int i = 0; i < rows; ++i) z[i] = -z[i] - scratch_[i];
+  // T/d = L Q, and L z = right-hand side on the way.
+  for (int i = 0; i < rows; ++i) {
+    double* q = &q_[static_cast<size_t>(i) * stride_];
+    double* l = &l_[static_cast<size_t>(i) * stride_];
+    const double* from = t + static_cast<size_t>(i) * stride_ + block.begin;
+    for (int p = 0; p < columns; ++p) q[p] = from[p] / scale_[block.begin + p];
+    const double before = SquaredNorm(q, columns);
+    double after = before;
+    std::fill_n(l, i + 1, 0);
+    for (int pass = 0; pass < 2 && i > 0; ++pass) {
+      Dots(q_.data(), stride_, i, q, columns, scratch_.data());
+      for (int k = 0; k < i; ++k) {
+        l[k] += scratch_[k];
+        scratch_[k] = -scratch_[k];
+      }
+      AddRows(q_.data(), stride_, i, scratch_.data(), columns, q);
+      after = SquaredNorm(q, columns);
+      if (after > before / 4) break;
+    }
+    double value;
+    Dots(l, 0, 1, z.data(), i, &value);
+    if (after <= kRankTolerance * kRankTolerance * before) {
+      std::fill_n(q, columns, 0);
+      l[i] = 1;
+      z[i] = 0;
+      continue;
+    }
+    l[i] = std::sqrt(after);
+    for (int p = 0; p < columns; ++p) q[p] /= l[i];
+    z[i] = (z[i] - value) / l[i];
+  }
+  double* x = scratch_.data();
+  std::fill_n(x, columns, 0);
+  AddRows(q_.data(), stride_, rows, z.data(), columns, x);
+  double gradient = 0, size = 0;
+  for (int p = 0; p < columns; ++p) {
+    const int at = block.begin + p;
+    step_[at] = ideal_[at] + x[p] / scale_[at];
+    gradient = std::max(gradient, scale_[at] * std::abs(x[p]));
+    size = std::max(size,
+                    scale_[at] * scale_[at] *
+                        (std::abs(start_[at]) + std::abs(target_[order_[at]])));
+  }
+  block.size = gradient > kZeroGradient * size ? size : 0;
+  // L' nu = -z.
+  for (int i = rows - 1; i >= 0; --i) {
+    const double* l = &l_[static_cast<size_t>(i) * stride_];
+    const double value = z[i] / l[i], minus = -value;
+    AddRows(l, 0, 1, &minus, i, z.data());
+    nu_[block.row_begin + i] = minus;
+  }
+}
+
+double SelectionTail::Dual(int level, double* on_head, double* left) {
+  const Block& block = blocks_[level];
+  if (block.size == 0) return 0;
+  const int rows = block.row_end - block.row_begin;
+  std::fill_n(on_head, rank_, 0);
+  std::copy_n(&nu_[block.row_begin], rows, on_head + block.row_begin);
+  for (int k = num_reflections_ - 1; k >= 0; --k) {
+    const double* v = &reflection_[static_cast<size_t>(k) * stride_];
+    double dot;
+    Dots(v, 0, 1, on_head, rank_, &dot);
+    dot = -dot;
+    AddRows(v, 0, 1, &dot, rank_, on_head);
+  }
+  std::fill(scratch_.begin(), scratch_.end(), 0);
+  AddRows(&t_[static_cast<size_t>(block.row_begin) * stride_] + block.end,
+          stride_, rows, &nu_[block.row_begin], n_ - block.end,
+          &scratch_[block.end]);
+  for (int p = block.end; p < n_; ++p) left[order_[p]] = scratch_[p];
+  return block.size;
+}
+
+int SelectionTail::Nullity(int level) const {
+  // Variables of later levels, less the rows that tie them.
+  int nullity = 0;
+  for (int later = level + 1; later < num_levels_; ++later) {
+    const Block& block = blocks_[later];
+    nullity += block.end - block.begin - (block.row_end - block.row_begin);
+  }
+  return nullity;
+}
+
+}  // namespace poise

@@ -1,0 +1,295 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hqp/kernels.h"
+
+namespace poise {
+namespace {
+
+// A violation or multiplier below this, relative to what it is added up from,
+// is zero. Where rounding alone keeps rows going in and out it is raised, up to
+// what a certificate allows.
+constexpr double kTolerance = 1e-11;
+constexpr double kLargestTolerance = 3e-10;
+
+// With the most violated row enter those violated at least this share of it;
+// after so many iterations it enters alone: the proof needs that.
+constexpr double kShare = 0.3;
+constexpr int kBlockIterations = 30;
+
+constexpr double kFar = 2;  // Of steps that are at most 1 long.
+
+}  // namespace
+
+Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity)
+    : n_(num_variables),
+      problem_(num_variables, capacity),
+      reporter_(num_variables, capacity) {
+  size_t rows = 0, most = 0;
+  for (const LevelCapacity& level : capacity) {
+    const size_t inequalities = level.inequalities;
+    side_.emplace_back(inequalities, Side::kNone);
+    is_fixed_.emplace_back(inequalities, false);
+    RowState state;
+    state.price.resize(capacity.size() + 1);
+    state_.emplace_back(inequalities, state);
+    rows += inequalities;
+    most = std::max(most, inequalities);
+  }
+  best_side_ = side_;
+  value_.resize(most);
+  violated_.reserve(rows);
+}
+
+void Solver::Forget() noexcept {
+  for (std::vector<Side>& side : side_) {
+    std::fill(side.begin(), side.end(), Side::kNone);
+  }
+}
+
+Status Solver::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
+  start_ = now ? now() : 0;
+  iterations_ = 0;
+  solution->Reset();
+  solution->status = problem_.Read(hierarchy, &solution->failed_level);
+  if (solution->status != Status::kOptimal) return solution->status;
+  Prepare(hierarchy);
+  if (!Search(hierarchy, hierarchy.num_levels(), max_iterations / 2) &&
+      !SearchByLevel(hierarchy, solution)) {
+    solution->status = Status::kIterationLimit;
+  }
+  solution->iterations = iterations_;
+  reporter_.Report(hierarchy, side_, kTolerance, &problem_, solution);
+  return solution->status;
+}
+
+// The sides at work, as far as there are still such.
+void Solver::Prepare(const Hierarchy& hierarchy) {
+  for (int level = 0; level < hierarchy.num_levels(); ++level) {
+    const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+      Side& side = side_[level][i];
+      is_fixed_[level][i] = lower[i] == upper[i];
+      if (is_fixed_[level][i]) {
+        side = Side::kUpper;
+      } else if ((side == Side::kUpper && std::isinf(upper[i])) ||
+                 (side == Side::kLower && std::isinf(lower[i]))) {
+        side = Side::kNone;
+      }
+    }
+  }
+}
+
+bool Solver::IsOutOfBudget(int max) const {
+  return iterations_ >= max ||
+         (now && max_seconds > 0 && now() - start_ > max_seconds);
+}
+
+// The optimum of the first num_levels levels.
+bool Solver::Search(const Hierarchy& hierarchy, int num_levels, int max) {
+  problem_.Plan(hierarchy, num_levels);
+  tolerance_ = kTolerance;
+  const int start = iterations_;
+  bool is_priced = false;  // Whether no price is negative.
+  int from_level = 0;
+  while (!IsOutOfBudget(max)) {
+    ++iterations_;
+    problem_.Solve(hierarchy, side_, from_level);
+    problem_.FindMultipliers();
+    from_level = is_priced ? Advance(hierarchy) : DropWrong();
+    if (from_level < num_levels) continue;
+    is_priced = true;
+    FindViolated(hierarchy);
+    if (violated_.empty()) return true;
+    from_level =
+        EnterViolated(iterations_ - start < kBlockIterations ? kShare : 1);
+  }
+  return false;
+}
+
+// Level by level, so that what the budget leaves unsolved is at the bottom.
+bool Solver::SearchByLevel(const Hierarchy& hierarchy, Solution* solution) {
+  Forget();
+  Prepare(hierarchy);
+  for (int levels = 1; levels <= hierarchy.num_levels(); ++levels) {
+    best_side_ = side_;
+    if (Search(hierarchy, levels, max_iterations)) continue;
+    side_ = best_side_;
+    solution->failed_level = levels - 1;
+    problem_.Plan(hierarchy, levels - 1);
+    problem_.Solve(hierarchy, side_, 0);
+    problem_.FindMultipliers();
+    return false;
+  }
+  return true;
+}
+
+Solver::RowState& Solver::state(int a) {
+  return state_[problem_.row(a).level][problem_.row(a).index];
+}
+
+const Solver::RowState& Solver::state(int a) const {
+  return state_[problem_.row(a).level][problem_.row(a).index];
+}
+
+bool Solver::CanLeave(int a) const {
+  const ActiveProblem::Row& row = problem_.row(a);
+  return row.is_inequality && !is_fixed_[row.level][row.index];
+}
+
+double Solver::Price(int a, int level) const {
+  const ActiveProblem::Row& row = problem_.row(a);
+  return problem_.Price(a, level, side_[row.level][row.index], tolerance_);
+}
+
+bool Solver::IsWrong(int a) const {
+  int level = problem_.row(a).level;
+  while (level < problem_.num_levels() && Price(a, level) == 0) ++level;
+  return Price(a, level) < 0;
+}
+
+int Solver::Drop(int a) {
+  const ActiveProblem::Row& row = problem_.row(a);
+  side_[row.level][row.index] = Side::kNone;
+  return row.level;
+}
+
+void Solver::MovePrices(double length) {
+  for (int a = 0; a < problem_.head().num_rows(); ++a) {
+    if (!CanLeave(a)) continue;
+    std::vector<double>& price = state(a).price;
+    for (int l = problem_.row(a).level; l <= problem_.num_levels(); ++l) {
+      price[l] += length * (Price(a, l) - price[l]);
+    }
+  }
+}
+
+// To begin with: whatever is left has no negative price.
+int Solver::DropWrong() {
+  int from_level = problem_.num_levels();
+  for (int a = 0; a < problem_.head().num_rows(); ++a) {
+    if (CanLeave(a) && IsWrong(a)) from_level = std::min(from_level, Drop(a));
+  }
+  if (from_level == problem_.num_levels()) {
+    for (int a = 0; a < problem_.head().num_rows(); ++a) {
+      if (CanLeave(a)) {
+        std::fill(state(a).price.begin(), state(a).price.end(), 0);
+      }
+    }
+    MovePrices(1);
+    ForgetNew();
+  }
+  return from_level;
+}
+
+// How far the prices can go until that of row a is zero; kFar if it never is.
+double Solver::LengthTo(int a) const {
+  if (!CanLeave(a) || state(a).is_new || !IsWrong(a)) return kFar;
+  const std::vector<double>& price = state(a).price;
+  int l = problem_.row(a).level;
+  while (Price(a, l) == 0 && price[l] == 0) ++l;
+  const double to = Price(a, l), from = std::max(price[l], 0.0);
+  return to >= 0 ? 1 : from / (from - to);
+}
+
+// Moves the prices towards those of the last solve. Returns the first level
+// that lost a row, or the number of levels if the prices have arrived.
+int Solver::Advance(const Hierarchy& hierarchy) {
+  (void)hierarchy;
+  const int rows = problem_.head().num_rows();
+  int from_level = problem_.num_levels();
+
+  // New rows that are not wanted beside the others leave. The champion is
+  // wanted at least alone, so if it is not, the others leave.
+  int champion = -1;
+  for (int a = 0; a < rows; ++a) {
+    const ActiveProblem::Row& row = problem_.row(a);
+    if (CanLeave(a) && state(a).is_new && row.level == champion_.level &&
+        row.index == champion_.index) {
+      champion = a;
+    }
+  }
+  const bool is_champion_wrong = champion >= 0 && IsWrong(champion);
+  for (int a = 0; a < rows; ++a) {
+    if (a == champion || !CanLeave(a) || !state(a).is_new) continue;
+    if (is_champion_wrong || IsWrong(a)) {
+      from_level = std::min(from_level, Drop(a));
+    }
+  }
+  if (from_level < problem_.num_levels()) return from_level;
+  if (is_champion_wrong) {
+    // Only rounding does that.
+    tolerance_ = std::min(10 * tolerance_, kLargestTolerance);
+    return Drop(champion);
+  }
+
+  double length = kFar;
+  for (int a = 0; a < rows; ++a) length = std::min(length, LengthTo(a));
+  for (int a = 0; a < rows && length < kFar; ++a) {
+    if (LengthTo(a) <= length) from_level = std::min(from_level, Drop(a));
+  }
+  MovePrices(std::min(length, 1.0));
+  if (length > 0) ForgetNew();
+  return from_level;
+}
+
+void Solver::ForgetNew() {
+  for (std::vector<RowState>& level : state_) {
+    for (RowState& state : level) state.is_new = false;
+  }
+}
+
+void Solver::FindViolated(const Hierarchy& hierarchy) {
+  violated_.clear();
+  const std::vector<double>& y = problem_.y();
+  double largest = 0;
+  for (double entry : y) largest = std::max(largest, std::abs(entry));
+  for (int level = 0; level < problem_.num_levels(); ++level) {
+    const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
+    const int rows = hierarchy.num_inequalities(level);
+    kernels::Dots(hierarchy.C(level).data(), n_, rows, y.data(), n_,
+                  value_.data());
+    for (int i = 0; i < rows; ++i) {
+      const double above = value_[i] - upper[i], below = lower[i] - value_[i];
+      const double norm = problem_.norm(level, i);
+      if ((above <= 0 && below <= 0) || norm == 0 ||
+          side_[level][i] != Side::kNone) {
+        continue;
+      }
+      const Side side = above > 0 ? Side::kUpper : Side::kLower;
+      const double violation = std::max(above, below);
+      const double bound = above > 0 ? upper[i] : lower[i];
+      if (violation > tolerance_ * (norm * largest + std::abs(bound))) {
+        violated_.push_back({level, i, side, violation / norm});
+      }
+    }
+  }
+}
+
+// Lets in the most violated row, and those violated at least a share of it.
+// Returns the first level that changes.
+int Solver::EnterViolated(double share) {
+  champion_ = violated_.front();
+  for (const Violation& row : violated_) {
+    if (row.size > champion_.size) champion_ = row;
+  }
+  int from_level = problem_.num_levels();
+  for (const Violation& row : violated_) {
+    const bool is_champion =
+        row.level == champion_.level && row.index == champion_.index;
+    if (!is_champion && (share == 1 || row.size < share * champion_.size)) {
+      continue;
+    }
+    side_[row.level][row.index] = row.side;
+    RowState& state = state_[row.level][row.index];
+    state.is_new = true;
+    std::fill(state.price.begin(), state.price.end(), 0);
+    from_level = std::min(from_level, row.level);
+  }
+  return from_level;
+}
+
+}  // namespace poise

@@ -1,0 +1,45 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hqp/hierarchy.h"
+
+namespace poise {
+
+/// What a random hierarchy is drawn from.
+struct RandomHierarchyOptions {
+  int max_variables = 12;
+  int max_levels = 5;
+  int max_equalities = 6;    ///< A level.
+  int max_inequalities = 8;  ///< A level.
+
+  /// Chance, in percent, that a row is not drawn afresh but is a row of zeros, a
+  /// copy of one before, scaled or combined with another: of its own level or
+  /// of one above, met with it or in conflict.
+  int degenerate = 25;
+
+  /// Chance that the bound of a row is where a certain y is: many rows then
+  /// meet in one point.
+  int planted = 30;
+
+  /// Chance that a hierarchy has rows of scales from 1e-3 to 1e6.
+  int scaled = 20;
+
+  /// Chance that the last levels only select variables.
+  int selecting = 50;
+};
+
+/// A hierarchy and the sizes to solve it with.
+struct HierarchyCase {
+  std::vector<LevelCapacity> capacity;
+  Hierarchy hierarchy;
+};
+
+/// Draws one; the same from the same seed everywhere. Numbers are whole
+/// hundredths, so that files of it are short.
+HierarchyCase MakeRandomHierarchy(std::uint64_t seed,
+                                  const RandomHierarchyOptions& options = {});
+
+}  // namespace poise
