@@ -37,9 +37,19 @@ const Robot& Checked(const Robot& robot) {
   return robot;
 }
 
-std::vector<int> FootFrames(const Robot& robot) {
+// Those of the feet, then those of the links with a task of their own.
+std::vector<int> TickFrames(const Robot& robot,
+                            const std::vector<std::string>& links) {
   std::vector<int> frames;
   for (const Foot& foot : robot.feet) frames.push_back(foot.frame);
+  for (const std::string& link : links) {
+    const auto frame = robot.model.tree.FindFrame(link);
+    if (!frame) {
+      throw std::invalid_argument("frame '" + link + "': robot '" +
+                                  robot.model.name + "' has no such link");
+    }
+    frames.push_back(*frame);
+  }
   return frames;
 }
 
@@ -52,8 +62,11 @@ int NumVariables(const Robot& robot) {
 Controller::Controller(const Robot& robot, const ControllerOptions& options)
     : robot_(Checked(robot)),
       options_(options),
-      stack_(MakeDefaultStack(robot_)),
-      tick_(robot_.model.tree, FootFrames(robot_)),
+      stack_(MakeDefaultStack(robot_, options.frames)),
+      stance_(static_cast<int>(robot_.feet.size()),
+              robot_.model.tree.total_mass() *
+                  robot_.model.tree.gravity_W().norm()),
+      tick_(robot_.model.tree, TickFrames(robot_, options.frames)),
       contacts_(robot_.feet.size()),
       hierarchy_(NumVariables(robot_), stack_.capacity()),
       solver_(NumVariables(robot_), stack_.capacity()),
@@ -74,6 +87,9 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
   (void)stack_.SetParameter("momentum", "feedforward", options.feedforward);
   stack_.set_weighted(options.weighted);
   stack_.Resize(&report_);
+  normal_force_.setZero(robot_.feet.size());
+  reference_.feet.resize(robot_.feet.size());
+  reference_.frames.resize(options.frames.size());
 
   const Tree& tree = robot_.model.tree;
   for (ContactTick& contact : contacts_) contact.J_WC_C.setZero(6, tree.nv());
@@ -96,6 +112,7 @@ void Controller::ComputeModel(const State& state) noexcept {
 
 void Controller::Start(const State& state) noexcept {
   ComputeModel(state);
+  for (ContactTick& contact : contacts_) contact.in_contact = true;
   const Pose X_WMid = MidFeet(contacts_);
   reference_.p_WG = X_WMid * p_MidG_;
   reference_.v_WG.setZero();
@@ -103,6 +120,10 @@ void Controller::Start(const State& state) noexcept {
   reference_.R_WB = X_WMid.R * X_MidB_.R;
   reference_.posture = robot_.q_nominal.tail(robot_.model.tree.num_joints());
   reference_.ground_z = X_WMid.p.z();
+  for (size_t i = 0; i < reference_.frames.size(); ++i) {
+    reference_.frames[i].X_WF = tick_.frames[contacts_.size() + i].X_WF;
+  }
+  stance_.Reset();
 }
 
 void Controller::Update(const State& state, Command* command) noexcept {
@@ -112,6 +133,7 @@ void Controller::Update(const State& state, Command* command) noexcept {
     return;
   }
   ComputeModel(state);
+  stance_.Update(options_.dt, normal_force_, &contacts_, &reference_);
   stack_.Write({state, tick_, contacts_, reference_}, &hierarchy_);
   const Status solved = solver_.Solve(hierarchy_, &solution_);
   stack_.Report(solution_, &report_);
@@ -123,6 +145,10 @@ void Controller::Update(const State& state, Command* command) noexcept {
     return;
   }
   if (is_truncated) report_.status = TickStatus::kTruncated;
+  const int nv = robot_.model.tree.nv();
+  for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
+    normal_force_[i] = solution_.y[nv + 6 * i + 5];
+  }
   ComputeTorque(tick_, contacts_, solution_.y, &command->tau);
   LimitTorque(command);
   command->status = report_.status;

@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "dynamics/tick.h"
-#include "hqp/cascade.h"
 #include "hqp/hierarchy.h"
 #include "hqp/solution.h"
+#include "hqp/solver.h"
 #include "robot/control/command.h"
 #include "robot/control/contacts.h"
 #include "robot/control/measurement.h"
 #include "robot/control/reference.h"
 #include "robot/control/stack.h"
+#include "robot/control/stance.h"
 #include "robot/control/tick_report.h"
 #include "robot/robot.h"
 
@@ -26,6 +27,7 @@ struct ControllerOptions {
   bool inscribed = false;    ///< The friction pyramid; else circumscribed.
   bool feedforward = false;  ///< The reference's v_WG and a_WG are used.
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
+  std::vector<std::string> frames;  ///< Links with a task frame.NAME.
 };
 
 /// Momentum control with hierarchical inverse dynamics: a robot's state in, its
@@ -46,8 +48,9 @@ struct ControllerOptions {
 /// | 1 | newton_euler, no_contact |
 /// | 2 | torque_limits, joint_limits |
 /// | 3 | contact, cop, friction, unilateral, yaw (zmp, zmp_literal, yaw_constant) |
-/// | 4 | momentum |
-/// | 5 | posture, force_regularizer |
+/// | 4 | momentum, frame.FOOT of a foot in the air, (frame.LINK, com,
+/// linear_momentum, angular_momentum) |
+/// | 5 | posture, force_regularizer, (torque_minimization) |
 class Controller {
  public:
   /// Throws std::invalid_argument if the robot has no foot, or an option is out
@@ -63,6 +66,9 @@ class Controller {
   const Reference& reference() const { return reference_; }
   Stack& stack() { return stack_; }
   const Stack& stack() const { return stack_; }
+  /// Which feet are in contact: to lift one, shift the weight off it before.
+  Stance& stance() { return stance_; }
+  const Stance& stance() const { return stance_; }
 
   /// One tick. Never throws, allocates or waits; whatever the state holds, the
   /// torques are finite and inside the effort limits, see TickStatus.
@@ -85,12 +91,14 @@ class Controller {
   ControllerOptions options_;
   Reference reference_;
   Stack stack_;
+  Stance stance_;
   Tick tick_;
   std::vector<ContactTick> contacts_;
   Hierarchy hierarchy_;
-  Cascade solver_;
+  Solver solver_;
   Solution solution_;
   TickReport report_;
+  Eigen::VectorXd normal_force_;  ///< By foot, of the last solution, N.
 
   Pose X_MidB_;             ///< Nominal base, in the mid-feet frame.
   Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.

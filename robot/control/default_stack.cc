@@ -3,16 +3,23 @@
 
 #include <memory>
 
+#include "robot/control/tasks/angular_momentum.h"
+#include "robot/control/tasks/capture_point.h"
+#include "robot/control/tasks/com.h"
 #include "robot/control/tasks/contact.h"
 #include "robot/control/tasks/cop.h"
 #include "robot/control/tasks/force_regularizer.h"
+#include "robot/control/tasks/frame.h"
 #include "robot/control/tasks/friction.h"
 #include "robot/control/tasks/joint_limits.h"
+#include "robot/control/tasks/linear_momentum.h"
 #include "robot/control/tasks/momentum.h"
 #include "robot/control/tasks/newton_euler.h"
 #include "robot/control/tasks/no_contact.h"
 #include "robot/control/tasks/posture.h"
+#include "robot/control/tasks/swing.h"
 #include "robot/control/tasks/torque_limits.h"
+#include "robot/control/tasks/torque_minimization.h"
 #include "robot/control/tasks/unilateral.h"
 #include "robot/control/tasks/yaw.h"
 #include "robot/control/tasks/yaw_constant.h"
@@ -31,7 +38,8 @@ constexpr double kRegularizerWeight = 1e-2;
 
 }  // namespace
 
-Stack MakeDefaultStack(const Robot& robot) {
+Stack MakeDefaultStack(const Robot& robot,
+                       const std::vector<std::string>& frames) {
   const RobotModel& model = robot.model;
   const Tree& tree = model.tree;
   const std::vector<Foot>& feet = robot.feet;
@@ -52,11 +60,25 @@ Stack MakeDefaultStack(const Robot& robot) {
   stack.Add(std::make_unique<ZmpTask>(tree, feet), {kOff, 3, 1});
   stack.Add(std::make_unique<ZmpLiteralTask>(tree, feet), {kOff, 3, 1});
 
+  stack.Add(std::make_unique<CapturePointTask>(tree, feet), {kOff, 3, 1});
+
   stack.Add(std::make_unique<MomentumTask>(tree), {kOn, 4, 1});
+  stack.Add(std::make_unique<ComTask>(tree), {kOff, 4, 1});
+  stack.Add(std::make_unique<LinearMomentumTask>(tree), {kOff, 4, 1});
+  stack.Add(std::make_unique<AngularMomentumTask>(tree), {kOff, 4, 1});
+  for (int i = 0; i < static_cast<int>(feet.size()); ++i) {
+    stack.Add(std::make_unique<SwingTask>(feet[i], i), {kOn, 4, 1});
+  }
+  for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
+    const int tick_frame = static_cast<int>(feet.size()) + i;
+    stack.Add(std::make_unique<FrameTask>(frames[i], tick_frame, i),
+              {kOff, 4, 1});
+  }
 
   stack.Add(std::make_unique<PostureTask>(tree), {kOn, 5, 1});
   stack.Add(std::make_unique<ForceRegularizerTask>(tree, feet),
             {kOn, 5, kRegularizerWeight});
+  stack.Add(std::make_unique<TorqueMinimizationTask>(model), {kOff, 5, 1});
   return stack;
 }
 

@@ -1,12 +1,19 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "robot/control/stack.h"
 #include "robot/robot.h"
 
 namespace poise {
 
-/// Every task of this folder, in the ranks and switched as Controller says.
-Stack MakeDefaultStack(const Robot& robot);
+/// Every task of tasks/, in the ranks and switched as Controller says.
+///
+/// @param frames  links that get a task frame.NAME, the i-th by
+///                Tick::frames[feet + i] and Reference::frames[i].
+Stack MakeDefaultStack(const Robot& robot,
+                       const std::vector<std::string>& frames);
 
 }  // namespace poise

@@ -1,0 +1,173 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/stance.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace poise {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A foot is put down to a little below the ground, so that it gets there.
+constexpr double kReach = 0.005;  // m.
+
+// Faster than this upwards, a sole is leaving the ground.
+constexpr double kSeparating = 0.02;  // m/s.
+
+// How fast a foot looks for ground that it has lost.
+constexpr double kSearchSpeed = 0.2;  // m/s.
+
+// A foot fades in up to this many times the robot's weight.
+constexpr double kFullLoad = 1.5;
+
+// From 0 to 1 for t from 0 to 1, at rest at both ends, of least jerk; its first
+// and second derivatives.
+struct Smooth {
+  explicit Smooth(double t)
+      : value(t * t * t * (10 + t * (-15 + 6 * t))),
+        rate(30 * t * t * (1 - t) * (1 - t)),
+        acceleration(60 * t * (1 - t) * (1 - 2 * t)) {}
+  double value, rate, acceleration;
+};
+
+// Upright, with the heading of R_WC.
+Eigen::Matrix3d Upright(const Eigen::Matrix3d& R_WC) {
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  Eigen::Matrix3d R;
+  R.col(1) = z.cross(R_WC.col(0)).normalized();
+  R.col(0) = R.col(1).cross(z);
+  R.col(2) = z;
+  return R;
+}
+
+}  // namespace
+
+Stance::Stance(int num_feet, double weight)
+    : weight_(weight), feet_(num_feet) {}
+
+void Stance::Reset() noexcept {
+  for (FootState& foot : feet_) foot = FootState();
+}
+
+void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {
+  foot->phase = phase;
+  foot->since = 0;
+}
+
+void Stance::Lift(int i, double height) noexcept {
+  FootState& foot = feet_[i];
+  switch (foot.phase) {
+    case ContactPhase::kDown:
+    case ContactPhase::kLoading:
+      Enter(&foot, ContactPhase::kUnloading);
+      foot.force = -1;  // Not known yet.
+      foot.to = height;
+      return;
+    case ContactPhase::kUnloading:
+      foot.to = height;
+      return;
+    default: {
+      const double reached =
+          foot.from + (foot.to - foot.from) *
+                          Smooth(std::min(1.0, foot.since / swing_time)).value;
+      foot.from = reached;
+      foot.to = height;
+      Enter(&foot, ContactPhase::kUp);
+    }
+  }
+}
+
+void Stance::PutDown(int i) noexcept {
+  FootState& foot = feet_[i];
+  if (foot.phase == ContactPhase::kUnloading) {
+    Enter(&foot, ContactPhase::kLoading);
+    foot.force = weight_;
+  } else if (foot.phase == ContactPhase::kUp) {
+    Lift(i, -kReach);
+    Enter(&foot, ContactPhase::kLanding);
+  }
+}
+
+bool Stance::is_meant_down(int i) const {
+  const ContactPhase phase = feet_[i].phase;
+  return phase == ContactPhase::kDown || phase == ContactPhase::kLost ||
+         phase == ContactPhase::kLoading;
+}
+
+void Stance::TakeOff(FootState* foot, const ContactTick& contact,
+                     const Reference& reference) noexcept {
+  foot->X_WC.R = Upright(contact.X_WC.R);
+  foot->X_WC.p = contact.X_WC.p;
+  foot->X_WC.p.z() = reference.ground_z;
+  foot->from = contact.X_WC.p.z() - reference.ground_z;
+}
+
+void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
+                    std::vector<ContactTick>* contacts,
+                    Reference* reference) noexcept {
+  for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
+    FootState& foot = feet_[i];
+    ContactTick& contact = (*contacts)[i];
+    const double height = contact.X_WC.p.z() - reference->ground_z;
+    const double rising = contact.X_WC.R.row(2).dot(contact.V_WC_C.tail<3>());
+    foot.since += dt;
+
+    // What ends a phase.
+    if (is_meant_down(i) && foot.phase != ContactPhase::kLost &&
+        (height > 2 * lost_above ||
+         (height > lost_above && rising > kSeparating))) {
+      TakeOff(&foot, contact, *reference);
+      foot.to = -kReach;
+      Enter(&foot, ContactPhase::kLost);
+    } else if ((foot.phase == ContactPhase::kLost ||
+                foot.phase == ContactPhase::kLanding) &&
+               height < found_below && rising < kSeparating) {
+      Enter(&foot, ContactPhase::kLoading);
+      foot.force = 0;
+    } else if (foot.phase == ContactPhase::kUnloading &&
+               foot.since > fade_time) {
+      TakeOff(&foot, contact, *reference);
+      Enter(&foot, ContactPhase::kUp);
+    } else if (foot.phase == ContactPhase::kLoading && foot.since > fade_time) {
+      Enter(&foot, ContactPhase::kDown);
+    }
+
+    // What it means.
+    const double fade = std::min(1.0, foot.since / fade_time);
+    contact.in_contact = true;
+    contact.max_normal_force = kInfinity;
+    switch (foot.phase) {
+      case ContactPhase::kDown:
+        continue;
+      case ContactPhase::kUnloading:
+        if (foot.force < 0) foot.force = normal_force[i];
+        contact.max_normal_force = (1 - fade) * foot.force;
+        continue;
+      case ContactPhase::kLoading:
+        contact.max_normal_force =
+            foot.force + fade * (kFullLoad * weight_ - foot.force);
+        continue;
+      default:
+        break;
+    }
+    contact.in_contact = false;
+    const double duration =
+        foot.phase == ContactPhase::kLost
+            ? std::max(0.05, (foot.from - foot.to) / kSearchSpeed)
+            : swing_time;
+    const Smooth way(std::min(1.0, foot.since / duration));
+    const double travel = foot.to - foot.from;
+    FrameReference& target = reference->feet[i];
+    target.X_WF = foot.X_WC;
+    target.X_WF.p.z() += foot.from + travel * way.value;
+    target.V_WF_W.setZero();
+    target.V_WF_W[5] = travel / duration * way.rate;
+    target.A_WF_W.setZero();
+    target.A_WF_W[5] = travel / (duration * duration) * way.acceleration;
+  }
+}
+
+}  // namespace poise

@@ -1,0 +1,76 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "robot/control/contacts.h"
+#include "robot/control/reference.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// How a foot and the ground stand to each other.
+enum class ContactPhase {
+  kDown,       ///< In contact.
+  kUnloading,  ///< In contact; its force fades out, then it is up.
+  kUp,         ///< In the air, on purpose.
+  kLanding,    ///< In the air, on its way down.
+  kLoading,    ///< In contact; its force fades in, then it is down.
+  kLost,       ///< Meant to be in contact, but the ground is not there.
+};
+
+/// Decides which feet are in contact: on command, a foot's force fades out
+/// before it is lifted, and fades in once it is put down; and, unasked, by
+/// geometry with hysteresis, never by force, as a foot that is not loaded
+/// because it is thought to be in the air would stay so for ever.
+class Stance {
+ public:
+  double fade_time = 0.3;      ///< For a force to fade in or out, s.
+  double swing_time = 0.8;     ///< To lift a foot, or to put it down, s.
+  double lost_above = 0.01;    ///< Height of a sole that goes up, m.
+  double found_below = 0.004;  ///< Height of a sole that comes down, m.
+
+  /// All feet down. weight is the robot's, N.
+  Stance(int num_feet, double weight);
+
+  /// All feet down, at once.
+  void Reset() noexcept;
+
+  /// Fades the force of a foot out and then lifts it by height, m; where it is
+  /// in the air already, brings it to that height.
+  void Lift(int foot, double height) noexcept;
+
+  /// Puts a foot down where it is.
+  void PutDown(int foot) noexcept;
+
+  ContactPhase phase(int foot) const { return feet_[foot].phase; }
+  /// Whether the foot is meant to be in contact.
+  bool is_meant_down(int foot) const;
+
+  /// Advances by dt: writes in_contact and max_normal_force of the contacts,
+  /// and moves the references of the feet in the air.
+  /// @param normal_force  by foot, of the last solution, N.
+  /// Does not allocate.
+  void Update(double dt, const Eigen::VectorXd& normal_force,
+              std::vector<ContactTick>* contacts,
+              Reference* reference) noexcept;
+
+ private:
+  struct FootState {
+    ContactPhase phase = ContactPhase::kDown;
+    double since = 0;         // How long in this phase, s.
+    double force = 0;         // At the beginning of the phase, N.
+    Pose X_WC;                // Where it took off, upright.
+    double from = 0, to = 0;  // Heights that it swings between, m.
+  };
+
+  void Enter(FootState* foot, ContactPhase phase) noexcept;
+  void TakeOff(FootState* foot, const ContactTick& contact,
+               const Reference& reference) noexcept;
+
+  double weight_;
+  std::vector<FootState> feet_;
+};
+
+}  // namespace poise
