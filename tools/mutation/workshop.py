@@ -7,8 +7,11 @@ import re
 import subprocess
 import time
 
+import quick
+
 KILLED, SURVIVED, INVALID, SAME = "killed", "survived", "invalid", "same code"
-_LEFT_OUT = "lint|benchmark|local|browser|manual|slow"
+_LEFT_OUT = "lint|benchmark|local|browser|manual|slow|fuzzer"
+_MEMORY = 8 << 30  # Bytes; a mutant may allocate for ever.
 
 
 class BazelError(Exception):
@@ -29,7 +32,8 @@ class Workshop:
         self.log = self.folder / "bazel.log"
         self._flags = list(bazel_flags)
         self._stages = {}
-        self._objects = {}
+        self._quick = (None, None)  # The source that is ready, and its build.
+        self._commands = {}
         self.folder.mkdir(parents=True, exist_ok=True)
 
     def copy(self):
@@ -87,53 +91,92 @@ class Workshop:
                 )
             times = re.findall(r"PASSED in ([\d.]+)s", output)
             slowest = max([slowest] + [float(t) for t in times])
-        self._objects[path] = self._find_objects(path)
         return slowest
 
     def attempt(self, path, text, reach, limit):
         """Tests the tree with the file replaced: (verdict, by whom, seconds)."""
-        file = self.tree / path
-        original = file.read_text()
         start = time.monotonic()
-        try:
-            file.write_text(text)
-            verdict, by = self._judge(path, reach, limit)
-        finally:
-            file.write_text(original)
+        build = self._quick_build(path, reach, limit)
+        if build is not None:
+            verdict, by = self._judge_quickly(build, path, text, reach, limit)
+        else:
+            verdict, by = self._judge(path, text, reach, limit)
         return verdict, by, time.monotonic() - start
 
-    def _judge(self, path, reach, limit):
-        first = True
+    def _quick_build(self, path, reach, limit):
+        """For a .cc file, if its tests pass in this way without a mutant."""
+        if not path.endswith(".cc"):
+            return None
+        ready, build = self._quick
+        if ready != path:
+            if build is not None:
+                build.close()
+            build = None
+            package = os.path.dirname(path)
+            if package not in self._commands:
+                self._commands[package] = quick.parse_commands(self._bazel(
+                    "aquery", f'mnemonic("CppCompile", //{package}:all)'
+                )[1])
+            command = self._commands[package].get(path)
+            if command is not None:
+                build = quick.QuickBuild(
+                    self.tree / "bazel-out/..", path, command,
+                    (self.tree / path).read_text(), self._test_environment(),
+                )
+                if not build.works or not all(
+                    build.passes(test, limit)
+                    for tests in self.stages(path, reach) for test in tests
+                ):
+                    build.close()
+                    build = None
+            self._quick = (path, build)
+        return build
+
+    def _test_environment(self):
+        """What .bazelrc and the flags set, but failures need not shrink."""
+        words = (self.tree / ".bazelrc").read_text().split() + self._flags
+        found = {}
+        for word in words:
+            match = re.match(r"--test_env=(\w+)(?:=(.*))?$", word)
+            if match and match.group(1) in ("RC_PARAMS", "POISE_SHARED"):
+                name, value = match.groups()
+                found[name] = os.environ.get(name, "") if value is None else value
+        found["RC_PARAMS"] = found.get("RC_PARAMS", "") + " noshrink=1"
+        return found
+
+    def _judge_quickly(self, build, path, text, reach, limit):
+        built = build.build(text)
+        if built is None:
+            return INVALID, ""
+        if not built:
+            return SAME, ""
         for tests in self.stages(path, reach):
-            code, output = self._bazel(
-                "test", *tests, "--notest_keep_going", f"--test_timeout={limit}",
-                "--run_under=prlimit --as=8589934592",
-            )
-            if code == 1:
-                return INVALID, ""
-            if code == 3:
-                failed = re.search(r"^(//\S+) .*(FAILED|TIMEOUT)", output, re.M)
-                return KILLED, failed.group(1) if failed else tests[0]
-            if code != 0:
-                raise BazelError(f"bazel ended with {code}; see {self.log}")
-            if first and self._is_same_code(path):
-                return SAME, ""
-            first = False
+            for test in tests:
+                if not build.passes(test, limit):
+                    return KILLED, test
         return SURVIVED, ""
 
-    def _find_objects(self, path):
-        """What the compiler made of a source; {} for a header."""
-        package, name = os.path.split(path)
-        if not name.endswith(".cc"):
-            return {}
-        folder = self.tree / "bazel-bin" / package / "_objs"
-        return {
-            str(o): o.read_bytes() for o in folder.glob(f"*/{name[:-3]}*.o")
-        }
-
-    def _is_same_code(self, path):
-        objects = self._objects.get(path)
-        return bool(objects) and objects == self._find_objects(path)
+    def _judge(self, path, text, reach, limit):
+        file = self.tree / path
+        original = file.read_text()
+        try:
+            file.write_text(text)
+            for tests in self.stages(path, reach):
+                code, output = self._bazel(
+                    "test", *tests, "--notest_keep_going",
+                    f"--test_timeout={limit}",
+                    f"--run_under=prlimit --as={_MEMORY}",
+                )
+                if code == 1:
+                    return INVALID, ""
+                if code == 3:
+                    failed = re.search(r"^(//\S+) .*(FAILED|TIMEOUT)", output, re.M)
+                    return KILLED, failed.group(1) if failed else tests[0]
+                if code != 0:
+                    raise BazelError(f"bazel ended with {code}; see {self.log}")
+        finally:
+            file.write_text(original)
+        return SURVIVED, ""
 
     def _query(self, expression):
         code, output = self._bazel("query", expression, "--keep_going")
@@ -162,6 +205,8 @@ class Workshop:
         return process.returncode, process.stdout
 
     def close(self):
+        if self._quick[1] is not None:
+            self._quick[1].close()
         subprocess.run(
             ["bazel", f"--output_base={self.folder / 'output'}", "shutdown"],
             cwd=self.tree, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
