@@ -232,19 +232,21 @@ void Cascade::FindMultipliers(const Hierarchy& hierarchy, int level,
   }
 
   // What rounding leaves of a level that is met asks for nothing.
-  double size = 0;
+  const Eigen::VectorXd abs_y = solution->y.cwiseAbs();
+  Eigen::VectorXd size = Eigen::VectorXd::Zero(n);
   for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
-    const double norm = hierarchy.B(level).row(i).norm();
-    size = std::max(size, hierarchy.weight(level)[i] * norm *
-                              (norm * solution->y.norm() +
-                               std::abs(hierarchy.b(level)[i])));
+    const Eigen::VectorXd row =
+        hierarchy.B(level).row(i).cwiseAbs().transpose();
+    size += hierarchy.weight(level)[i] *
+            (row.dot(abs_y) + std::abs(hierarchy.b(level)[i])) * row;
   }
   for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
     if (own.slack[i] == 0) continue;
-    const double norm = hierarchy.C(level).row(i).norm();
-    size = std::max(size, norm * (norm * solution->y.norm() + own.slack[i]));
+    const Eigen::VectorXd row =
+        hierarchy.C(level).row(i).cwiseAbs().transpose();
+    size += (row.dot(abs_y) + own.slack[i]) * row;
   }
-  if (gradient.norm() <= kNegligible * size) return;
+  if (gradient.norm() <= kNegligible * size.norm()) return;
 
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod;
   cod.setThreshold(kRankTolerance);

@@ -1,0 +1,98 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Solves hierarchies from files: bazel run //tools:hqp -- FILE.json ...
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "hqp/cascade.h"
+#include "hqp/certificate.h"
+#include "hqp/solver.h"
+#include "tools/hqp_file.h"
+#include "tools/user_path.h"
+
+namespace poise {
+namespace {
+
+std::string ReadFile(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  if (!file) throw std::invalid_argument("cannot be read");
+  return text.str();
+}
+
+Status Solve(const std::string& method, const HqpProblem& problem,
+             Solution* solution) {
+  const int n = problem.hierarchy.num_variables();
+  if (method == "fast") {
+    return Solver(n, problem.capacity).Solve(problem.hierarchy, solution);
+  }
+  return Cascade(n, problem.capacity,
+                 method == "svd" ? RowSpaceMethod::kSvd : RowSpaceMethod::kCod)
+      .Solve(problem.hierarchy, solution);
+}
+
+void Print(const std::string& name, const Solution& solution,
+           const Certificate& certificate, double microseconds) {
+  std::cout << name << ": " << Name(solution.status) << ", "
+            << solution.iterations << " iterations, " << microseconds
+            << " us, certificate " << certificate.worst() << "\n";
+  for (size_t level = 0; level < solution.levels.size(); ++level) {
+    std::cout << "  level " << level << ": cost " << solution.levels[level].cost
+              << ", nullity " << solution.levels[level].nullity << "\n";
+  }
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app("Solves hierarchies of rows (format hqp-1).", "hqp");
+  std::vector<std::string> files;
+  std::string method = "fast";
+  bool json = false;
+  app.add_option("files", files, "Files in the format hqp-1")->required();
+  app.add_option("--method", method, "svd or cod: the paper's cascade; or fast")
+      ->check(CLI::IsMember({"svd", "cod", "fast"}))
+      ->capture_default_str();
+  app.add_flag("--json", json, "Print one JSON document");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::cerr << "hqp: " << error.what() << "\n";
+    return 2;
+  }
+  bool all_optimal = true;
+  std::string document;
+  for (const std::string& name : files) {
+    try {
+      const HqpProblem problem = ReadHqp(ReadFile(UserPath(name)));
+      const int n = problem.hierarchy.num_variables();
+      Solution solution(n, problem.capacity);
+      const auto start = std::chrono::steady_clock::now();
+      all_optimal &= Solve(method, problem, &solution) == Status::kOptimal;
+      const double microseconds = std::chrono::duration<double, std::micro>(
+                                      std::chrono::steady_clock::now() - start)
+                                      .count();
+      const Certificate certificate =
+          Certifier(n, problem.capacity).Certify(problem.hierarchy, solution);
+      if (!json) Print(name, solution, certificate, microseconds);
+      document += (document.empty() ? "" : ",") +
+                  WriteHqpSolution(problem.hierarchy, solution, certificate,
+                                   microseconds);
+    } catch (const std::exception& error) {
+      std::cerr << name << ": " << error.what() << "\n";
+      return 2;
+    }
+  }
+  if (json) {
+    std::cout << (files.size() == 1 ? document : "[" + document + "]") << "\n";
+  }
+  return all_optimal ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace poise
+
+int main(int argc, char** argv) { return poise::Main(argc, argv); }

@@ -1,0 +1,40 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hqp/certificate.h"
+#include "hqp/hierarchy.h"
+#include "hqp/solution.h"
+
+namespace poise {
+
+/// A hierarchy from a file, with the sizes to solve it with.
+struct HqpProblem {
+  std::vector<LevelCapacity> capacity;
+  Hierarchy hierarchy;
+};
+
+/// Reads the format hqp-1: {"format": "hqp-1", "variables": n, "levels": [{"B",
+/// "b", "weight", "A", "a", "C", "lower", "upper"}, ...], "y_lower", "y_upper",
+/// "y_bounds_level"}, where all but the first three may be absent. The
+/// inequalities of a level are those of A, of C, then the bounds on y.
+///
+/// Throws std::invalid_argument with one line: which entry, and what is wrong.
+HqpProblem ReadHqp(const std::string& text);
+
+/// The same, of a hierarchy: what a running controller dumps, to be replayed.
+/// Reading it gives the same numbers to the last bit.
+std::string WriteHqp(const Hierarchy& hierarchy);
+
+/// An answer, as `//tools:hqp -- --json` prints it.
+std::string WriteHqpSolution(const Hierarchy& hierarchy,
+                             const Solution& solution,
+                             const Certificate& certificate,
+                             double microseconds);
+
+/// "optimal", "iteration_limit", "not_finite" or "bad_input".
+std::string Name(Status status);
+
+}  // namespace poise
