@@ -15,12 +15,14 @@ reaches --threshold, 1 if not, 2 for bad input.
 
 import argparse
 import collections
+import fcntl
 import fnmatch
 import hashlib
 import json
 import math
 import os
 import pathlib
+import signal
 import sys
 import time
 
@@ -294,6 +296,14 @@ def main():
         folder = pathlib.Path(
             os.environ.get("BUILD_WORKING_DIRECTORY") or os.getcwd()
         ) / folder
+    folder.mkdir(parents=True, exist_ok=True)
+    lock = open(folder / "lock", "w")
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        fail(f"{folder}: another run is at work there; give --work DIR")
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     shop = workshop.Workshop(workspace, folder, arguments.bazel_flag)
     state = State(folder / "results.jsonl")
     shop.copy()
