@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "dynamics/tree.h"
-#include "dynamics/vector6.h"
 #include "math/inertia.h"
 #include "math/pose.h"
+#include "math/vector6.h"
 
 namespace poise {
 

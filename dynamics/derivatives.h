@@ -6,7 +6,7 @@
 
 #include "dynamics/recursion.h"
 #include "dynamics/tree.h"
-#include "dynamics/vector6.h"
+#include "math/vector6.h"
 
 namespace poise {
 

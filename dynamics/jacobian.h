@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "dynamics/tree.h"
-#include "dynamics/vector6.h"
 #include "math/pose.h"
+#include "math/vector6.h"
 
 namespace poise {
 

@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <cassert>
 
-#include "dynamics/vector6.h"
 #include "math/so3.h"
+#include "math/vector6.h"
 
 namespace poise {
 

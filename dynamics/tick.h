@@ -6,8 +6,8 @@
 
 #include "dynamics/recursion.h"
 #include "dynamics/tree.h"
-#include "dynamics/vector6.h"
 #include "math/pose.h"
+#include "math/vector6.h"
 
 namespace poise {
 

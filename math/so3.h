@@ -1,9 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 namespace poise {
+
+// SO(3): R_AB, composed by R_AC = R_AB R_BC, inverted by transposition, acting
+// by R_AB v_B = v_A. Its adjoint, and the dual of that, is R itself.
 
 /// The matrix of the cross product: Hat(w) v = w x v.
 inline Eigen::Matrix3d Hat(const Eigen::Vector3d& w) noexcept {
@@ -12,16 +15,42 @@ inline Eigen::Matrix3d Hat(const Eigen::Vector3d& w) noexcept {
   return W;
 }
 
-/// The inverse of Hat(); reads the antisymmetric part of W.
+/// The inverse of Hat(); of any W it reads the antisymmetric part (W - W')/2.
 inline Eigen::Vector3d Vee(const Eigen::Matrix3d& W) noexcept {
   return 0.5 * Eigen::Vector3d(W(2, 1) - W(1, 2), W(0, 2) - W(2, 0),
                                W(1, 0) - W(0, 1));
 }
 
-/// The rotation by |w| about w: exp(Hat(w)).
+/// The rotation by |w| about w, for any |w|:
+///     exp(Hat(w)) = I + c1 Hat(w) + c2 Hat(w)²,   with Stumpff's c1, c2.
+///
+/// Error at most 4 eps max(1, |w|), in the norm of the result; that of the
+/// antisymmetric part also relative to |w|, down to 1e-300. See
+/// docs/accuracy.md. A NaN, an infinity or |w| > 1e154 gives NaN in all.
 Eigen::Matrix3d ExpSo3(const Eigen::Vector3d& w) noexcept;
 
-/// The inverse of ExpSo3(), of norm at most pi.
+/// The inverse of ExpSo3(): the rotation vector of R, of norm at most π. At π
+/// two are right, and this is one of them.
+///
+/// pre: R is a rotation; one that is off by e gives a vector off by O(e).
+/// Error at most 4 eps |w|, for |w| from 1e-300 to π. A NaN or an infinity
+/// gives NaN in all.
 Eigen::Vector3d LogSo3(const Eigen::Matrix3d& R) noexcept;
+
+/// The rotation at fraction t of the way from R_0 (t = 0) to R_1 (t = 1), at a
+/// constant angular velocity and along the shorter arc:
+///     R_0 exp(t log(R_0' R_1)).
+Eigen::Matrix3d InterpolateSo3(const Eigen::Matrix3d& R_0,
+                               const Eigen::Matrix3d& R_1, double t) noexcept;
+
+/// The rotation that is nearest to A in the Frobenius norm: of A = U S V', the
+/// matrix U diag(1, 1, det(U V')) V'.
+///
+/// pre: A is nearly a rotation (the result is unique where A is not singular
+/// and, if det A < 0, its two smallest singular values differ). A NaN or an
+/// infinity gives NaN in all. An iterative SVD, about 2 us: for borders.
+///
+/// Source: Kabsch, Acta Cryst. A34, 1978.
+Eigen::Matrix3d ProjectToSo3(const Eigen::Matrix3d& A) noexcept;
 
 }  // namespace poise

@@ -1,0 +1,137 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "math/pose.h"
+#include "math/vector6.h"
+
+namespace poise {
+
+/// The three kinds of spatial vector: what moves, what acts, what is carried.
+enum class SpatialKind { kMotion, kForce, kMomentum };
+
+/// A spatial vector at a point and in the axes of a frame, both of which its
+/// name says: V_WB_E is the motion of B in W, at B's origin, in E's axes. Only
+/// those of one kind add; only those of one point and one frame should, and
+/// then their names match.
+///
+/// | kind | angular | linear | name |
+/// | motion | velocity w, rad/s | velocity of the point, m/s | V_WB_E |
+/// | force | moment about the point, N m | force, N | F_Bo_E |
+/// | momentum | about the point, kg m2/s | kg m/s | L_G_E |
+///
+/// A motion may be an acceleration as well, in rad/s2 and m/s2; then Shift()
+/// and Pose * shift the spatial one. All functions are inline, allocate nothing
+/// and throw nothing; NaN and infinity propagate.
+template <SpatialKind kind>
+struct SpatialVector {
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
+
+  SpatialVector() = default;
+  SpatialVector(const Eigen::Vector3d& angular_part,
+                const Eigen::Vector3d& linear_part) noexcept
+      : angular(angular_part), linear(linear_part) {}
+  /// From [angular; linear], which says nothing of its kind: the name must.
+  explicit SpatialVector(const Vector6d& x) noexcept
+      : angular(x.head<3>()), linear(x.tail<3>()) {}
+
+  /// [angular; linear].
+  Vector6d vector() const noexcept {
+    return (Vector6d() << angular, linear).finished();
+  }
+};
+
+using SpatialMotion = SpatialVector<SpatialKind::kMotion>;
+using SpatialForce = SpatialVector<SpatialKind::kForce>;
+using SpatialMomentum = SpatialVector<SpatialKind::kMomentum>;
+
+template <SpatialKind kind>
+SpatialVector<kind> operator+(const SpatialVector<kind>& x,
+                              const SpatialVector<kind>& y) noexcept {
+  return {x.angular + y.angular, x.linear + y.linear};
+}
+
+template <SpatialKind kind>
+SpatialVector<kind> operator-(const SpatialVector<kind>& x,
+                              const SpatialVector<kind>& y) noexcept {
+  return {x.angular - y.angular, x.linear - y.linear};
+}
+
+template <SpatialKind kind>
+SpatialVector<kind> operator-(const SpatialVector<kind>& x) noexcept {
+  return {-x.angular, -x.linear};
+}
+
+template <SpatialKind kind>
+SpatialVector<kind> operator*(double factor,
+                              const SpatialVector<kind>& x) noexcept {
+  return {factor * x.angular, factor * x.linear};
+}
+
+/// The same vector at the same point, in the axes of A: R_AB x_B.
+template <SpatialKind kind>
+SpatialVector<kind> operator*(const Eigen::Matrix3d& R_AB,
+                              const SpatialVector<kind>& x_B) noexcept {
+  return {R_AB * x_B.angular, R_AB * x_B.linear};
+}
+
+/// The same vector at another point Q of the same axes: p_BQ_E leads from the
+/// point it is at to Q. Of a motion the velocity changes, v_Q = v_B + w x p_BQ;
+/// of a force or momentum the moment, m_Q = m_B - p_BQ x f.
+template <SpatialKind kind>
+SpatialVector<kind> Shift(const SpatialVector<kind>& x_Bo_E,
+                          const Eigen::Vector3d& p_BQ_E) noexcept {
+  if constexpr (kind == SpatialKind::kMotion) {
+    return {x_Bo_E.angular, x_Bo_E.linear + x_Bo_E.angular.cross(p_BQ_E)};
+  } else {
+    return {x_Bo_E.angular - p_BQ_E.cross(x_Bo_E.linear), x_Bo_E.linear};
+  }
+}
+
+/// The same vector at the origin and in the axes of A, from those of B:
+/// Adjoint(X_AB) for motions, DualAdjoint(X_AB) for forces and momenta.
+template <SpatialKind kind>
+SpatialVector<kind> operator*(const Pose& X_AB,
+                              const SpatialVector<kind>& x_Bo_B) noexcept {
+  // p_BA_A = -p_AB_A.
+  return Shift(X_AB.R * x_Bo_B, -X_AB.p);
+}
+
+/// The power of a force along a motion of the same point and axes, W.
+inline double Dot(const SpatialMotion& V_B, const SpatialForce& F_B) noexcept {
+  return V_B.angular.dot(F_B.angular) + V_B.linear.dot(F_B.linear);
+}
+
+/// V'L, of the same point and axes: twice the kinetic energy if L is the
+/// momentum of a rigid body that moves with V, J.
+inline double Dot(const SpatialMotion& V_B,
+                  const SpatialMomentum& L_B) noexcept {
+  return V_B.angular.dot(L_B.angular) + V_B.linear.dot(L_B.linear);
+}
+
+/// The rate of change of a motion y fixed in what moves with V: ad(V) y =
+///     [w x y.angular; w x y.linear + v x y.angular].
+inline SpatialMotion Cross(const SpatialMotion& V,
+                           const SpatialMotion& y) noexcept {
+  return {V.angular.cross(y.angular),
+          V.angular.cross(y.linear) + V.linear.cross(y.angular)};
+}
+
+/// The rate of change of a force y fixed in what moves with V: -ad(V)' y =
+///     [w x y.angular + v x y.linear; w x y.linear].
+inline SpatialForce Cross(const SpatialMotion& V,
+                          const SpatialForce& y) noexcept {
+  return {V.angular.cross(y.angular) + V.linear.cross(y.linear),
+          V.angular.cross(y.linear)};
+}
+
+/// The rate of change, a force, of a momentum y fixed in what moves with V: as
+/// of a force. M A + Cross(V, M V) is the equation of motion of a rigid body.
+inline SpatialForce Cross(const SpatialMotion& V,
+                          const SpatialMomentum& y) noexcept {
+  return Cross(V, SpatialForce(y.angular, y.linear));
+}
+
+}  // namespace poise

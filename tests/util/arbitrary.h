@@ -1,0 +1,51 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <rapidcheck.h>
+
+#include <Eigen/Core>
+#include <iosfwd>
+
+#include "math/inertia.h"
+#include "math/pose.h"
+#include "math/spatial.h"
+
+namespace poise {
+
+// What properties are tried on. Numbers are drawn as integers and divided, so
+// that they shrink towards 0 and print short.
+
+/// A number in [-bound, bound], a multiple of bound/1000.
+rc::Gen<double> Numbers(double bound);
+
+/// A vector of `size` Numbers(bound).
+rc::Gen<Eigen::VectorXd> VectorsXd(int size, double bound);
+
+/// A vector of three Numbers(10).
+rc::Gen<Eigen::Vector3d> Vectors();
+
+/// A rotation vector of norm at most `bound`, often a nasty one: 0, of norm
+/// 1e-300, 1e-160, 1e-8, sqrt(2) +- a little, π - 1e-8, along an axis or not.
+rc::Gen<Eigen::Vector3d> RotationVectors(double bound);
+
+/// ExpSo3() of RotationVectors(π), so of norm π as well.
+rc::Gen<Eigen::Matrix3d> Rotations();
+
+/// Rotations() and Vectors().
+rc::Gen<Pose> Poses();
+
+/// Vectors() and Vectors().
+rc::Gen<SpatialMotion> Motions();
+rc::Gen<SpatialForce> Forces();
+
+/// The inertia of a body that could exist, mass 0.01 to 10 kg; sometimes a
+/// point's or a rod's.
+rc::Gen<Inertia> Inertias();
+
+// How a failure prints them.
+void showValue(const Pose& X, std::ostream& os);
+void showValue(const SpatialMotion& V, std::ostream& os);
+void showValue(const SpatialForce& F, std::ostream& os);
+void showValue(const Inertia& M, std::ostream& os);
+
+}  // namespace poise
