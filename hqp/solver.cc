@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hqp/kernels.h"
 
@@ -20,7 +21,9 @@ constexpr double kLargestTolerance = 3e-10;
 constexpr double kShare = 0.3;
 constexpr int kBlockIterations = 30;
 
-constexpr double kFar = 2;  // Of steps that are at most 1 long.
+// Orders of steps farther than any, and of none at all.
+constexpr int kFar = -1;
+constexpr int kNowhere = std::numeric_limits<int>::max();
 
 }  // namespace
 
@@ -57,8 +60,7 @@ Status Solver::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
   solution->status = problem_.Read(hierarchy, &solution->failed_level);
   if (solution->status != Status::kOptimal) return solution->status;
   Prepare(hierarchy);
-  if (!Search(hierarchy, hierarchy.num_levels(), max_iterations / 2) &&
-      !SearchByLevel(hierarchy, solution)) {
+  if (!SearchAnyOrder(hierarchy) && !SearchByLevel(hierarchy, solution)) {
     solution->status = Status::kIterationLimit;
   }
   solution->iterations = iterations_;
@@ -110,6 +112,24 @@ bool Solver::Search(const Hierarchy& hierarchy, int num_levels, int max) {
   return false;
 }
 
+// From the last active set; and should rounding make rows go round in circles,
+// from none, with the rows entering in other orders.
+bool Solver::SearchAnyOrder(const Hierarchy& hierarchy) {
+  const int levels = hierarchy.num_levels();
+  order_ = Order::kMostViolated;
+  if (Search(hierarchy, levels, max_iterations / 3)) return true;
+  for (const Order order : {Order::kFirst, Order::kLast}) {
+    order_ = order;
+    Forget();
+    Prepare(hierarchy);
+    const int allowed =
+        order == Order::kFirst ? max_iterations / 2 : 2 * max_iterations / 3;
+    if (Search(hierarchy, levels, allowed)) return true;
+  }
+  order_ = Order::kMostViolated;
+  return false;
+}
+
 // Level by level, so that what the budget leaves unsolved is at the bottom.
 bool Solver::SearchByLevel(const Hierarchy& hierarchy, Solution* solution) {
   Forget();
@@ -157,12 +177,18 @@ int Solver::Drop(int a) {
   return row.level;
 }
 
-void Solver::MovePrices(double length) {
+// By a step of length.factor eps^length.order, where eps^l is what a price on
+// level l counts.
+void Solver::MovePrices(const Length& length) {
+  const int levels = problem_.num_levels();
   for (int a = 0; a < problem_.head().num_rows(); ++a) {
     if (!CanLeave(a)) continue;
+    const int own = problem_.row(a).level;
     std::vector<double>& price = state(a).price;
-    for (int l = problem_.row(a).level; l <= problem_.num_levels(); ++l) {
-      price[l] += length * (Price(a, l) - price[l]);
+    // From the last level, as each reads the ones before it.
+    for (int l = levels; l >= own + length.order; --l) {
+      const int from = l - length.order;
+      price[l] += length.factor * (Price(a, from) - price[from]);
     }
   }
 }
@@ -179,20 +205,25 @@ int Solver::DropWrong() {
         std::fill(state(a).price.begin(), state(a).price.end(), 0);
       }
     }
-    MovePrices(1);
+    MovePrices({0, 1});
     ForgetNew();
   }
   return from_level;
 }
 
-// How far the prices can go until that of row a is zero; kFar if it never is.
-double Solver::LengthTo(int a) const {
-  if (!CanLeave(a) || state(a).is_new || !IsWrong(a)) return kFar;
+// How far the prices can go until that of row a is zero. With eps^l for what a
+// price on level l counts, the first price that is not zero leads; one that is
+// smaller by k levels before the step than after it lasts for eps^k.
+Solver::Length Solver::LengthTo(int a) const {
+  if (!CanLeave(a) || state(a).is_new || !IsWrong(a)) return {kFar, 1};
   const std::vector<double>& price = state(a).price;
-  int l = problem_.row(a).level;
-  while (Price(a, l) == 0 && price[l] == 0) ++l;
-  const double to = Price(a, l), from = std::max(price[l], 0.0);
-  return to >= 0 ? 1 : from / (from - to);
+  int to = problem_.row(a).level, from = to;
+  while (Price(a, to) == 0) ++to;
+  while (from <= problem_.num_levels() && price[from] <= 0) ++from;
+  if (from > problem_.num_levels()) return {kNowhere, 0};
+  if (from < to) return {0, 1};
+  const double ratio = price[from] / -Price(a, to);
+  return {from - to, from == to ? ratio / (1 + ratio) : ratio};
 }
 
 // Moves the prices towards those of the last solve. Returns the first level
@@ -226,14 +257,26 @@ int Solver::Advance(const Hierarchy& hierarchy) {
     return Drop(champion);
   }
 
-  double length = kFar;
-  for (int a = 0; a < rows; ++a) length = std::min(length, LengthTo(a));
-  for (int a = 0; a < rows && length < kFar; ++a) {
-    if (LengthTo(a) <= length) from_level = std::min(from_level, Drop(a));
+  Length length = {kFar, 1};
+  int leaving = -1;
+  for (int a = 0; a < rows; ++a) {
+    const Length to = LengthTo(a);
+    if (to.order > length.order ||
+        (to.order == length.order && to.factor < length.factor)) {
+      length = to;
+      leaving = a;
+    }
   }
-  MovePrices(std::min(length, 1.0));
-  if (length > 0) ForgetNew();
-  return from_level;
+  if (leaving < 0) {
+    MovePrices({0, 1});
+    ForgetNew();
+    return from_level;
+  }
+  if (length.order != kNowhere) {
+    MovePrices(length);
+    ForgetNew();
+  }
+  return Drop(leaving);
 }
 
 void Solver::ForgetNew() {
@@ -253,7 +296,8 @@ void Solver::FindViolated(const Hierarchy& hierarchy) {
     kernels::Dots(hierarchy.C(level).data(), n_, rows, y.data(), n_,
                   value_.data());
     for (int i = 0; i < rows; ++i) {
-      const double above = value_[i] - upper[i], below = lower[i] - value_[i];
+      const double above = value_[i] - upper[i];
+      const double below = lower[i] - value_[i];
       const double norm = problem_.norm(level, i);
       if ((above <= 0 && below <= 0) || norm == 0 ||
           side_[level][i] != Side::kNone) {
@@ -274,8 +318,12 @@ void Solver::FindViolated(const Hierarchy& hierarchy) {
 int Solver::EnterViolated(double share) {
   champion_ = violated_.front();
   for (const Violation& row : violated_) {
-    if (row.size > champion_.size) champion_ = row;
+    if (order_ == Order::kLast ||
+        (order_ == Order::kMostViolated && row.size > champion_.size)) {
+      champion_ = row;
+    }
   }
+  if (order_ != Order::kMostViolated) share = 1;
   int from_level = problem_.num_levels();
   for (const Violation& row : violated_) {
     const bool is_champion =

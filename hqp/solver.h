@@ -43,10 +43,17 @@ class Solver {
   std::function<double()> now;
 
  private:
+  /// Of violated rows, which enter.
+  enum class Order { kMostViolated, kFirst, kLast };
   struct Violation {
     int level, index;
     Side side;
     double size;
+  };
+  /// factor eps^order, with eps as small as you like.
+  struct Length {
+    int order;
+    double factor;
   };
   /// What the search knows of an inequality row.
   struct RowState {
@@ -56,6 +63,7 @@ class Solver {
 
   void Prepare(const Hierarchy& hierarchy);
   bool Search(const Hierarchy& hierarchy, int num_levels, int max_iterations);
+  bool SearchAnyOrder(const Hierarchy& hierarchy);
   bool SearchByLevel(const Hierarchy& hierarchy, Solution* solution);
   bool IsOutOfBudget(int max_iterations) const;
   void FindViolated(const Hierarchy& hierarchy);
@@ -67,8 +75,8 @@ class Solver {
   bool CanLeave(int a) const;
   bool IsWrong(int a) const;
   double Price(int a, int level) const;
-  double LengthTo(int a) const;
-  void MovePrices(double length);
+  Length LengthTo(int a) const;
+  void MovePrices(const Length& length);
   int Drop(int a);
   RowState& state(int a);
   const RowState& state(int a) const;
@@ -82,6 +90,7 @@ class Solver {
   std::vector<double> value_;
   std::vector<Violation> violated_;
   Violation champion_;  ///< The most violated of the rows that entered.
+  Order order_ = Order::kMostViolated;
   int iterations_ = 0;
   double tolerance_ = 0, start_ = 0;
 };
