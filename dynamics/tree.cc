@@ -22,6 +22,17 @@ std::optional<int> Tree::FindFrame(std::string_view name) const {
   return Find(frames_, name);
 }
 
+Tree Tree::WithScaledInertias(double factor) const {
+  Tree scaled = *this;
+  for (Inertia& M : scaled.inertias_) {
+    M.mass *= factor;
+    M.I_G_B *= factor;
+  }
+  for (Joint& joint : scaled.joints_) joint.armature *= factor;
+  scaled.total_mass_ *= factor;
+  return scaled;
+}
+
 Eigen::VectorXd Tree::MakeNeutral() const {
   Eigen::VectorXd q = Eigen::VectorXd::Zero(nq());
   if (is_floating()) q[6] = 1;

@@ -89,6 +89,10 @@ class Tree {
   /// All joints zero, the base at the world's origin.
   Eigen::VectorXd MakeNeutral() const;
 
+  /// The same tree with all masses and moments of inertia, armature too, times
+  /// a positive factor: what an error in the masses is tried with.
+  Tree WithScaledInertias(double factor) const;
+
  private:
   friend class TreeBuilder;
   Tree() = default;

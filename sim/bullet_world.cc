@@ -189,11 +189,24 @@ void BulletWorld::AddColliders(const Robot& robot,
       body_.body().setBaseCollider(collider.get());
     } else {
       body_.body().getLink(i - 1).m_collider = collider.get();
-      filter_.Exclude(i, tree.joints()[i - 1].parent);
     }
     colliders_.push_back(std::move(collider));
   }
   shapes_.push_back(std::move(nothing));
+  ExcludeNeighbors(tree);
+}
+
+void BulletWorld::ExcludeNeighbors(const Tree& tree) {
+  const auto parent = [&tree](int body) {
+    return body == 0 ? 0 : tree.joints()[body - 1].parent;
+  };
+  for (int i = 1; i < tree.num_bodies(); ++i) {
+    filter_.Exclude(i, parent(i));
+    filter_.Exclude(i, parent(parent(i)));
+    for (int k = 1; k < i; ++k) {
+      if (parent(k) == parent(i)) filter_.Exclude(i, k);
+    }
+  }
 }
 
 void BulletWorld::AddLimits(const RobotModel& model) {

@@ -68,6 +68,10 @@ class Stack {
   /// Copies into the report what became of the rows of the last Write().
   void Report(const Solution& solution, TickReport* report) const noexcept;
 
+  /// An inequality row by name; of a row with two sides, which one:
+  /// "left_foot.cop.x_max", "torque.l_knee.min". Allocates.
+  std::string RowName(const ActiveRow& row) const;
+
   /// The rank whose rows the last Write() put into a level.
   int rank_of_level(int level) const { return rank_of_level_[level]; }
 

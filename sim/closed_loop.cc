@@ -1,0 +1,168 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/closed_loop.h"
+
+#include <Eigen/Geometry>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "sim/make_plant.h"
+#include "sim/start_state.h"
+
+namespace poise {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Seeds of the streams of one scenario, far enough apart.
+constexpr unsigned kSensorSeed = 0x5eed;
+
+// What the controller takes the robot for.
+Robot MakeBelievedRobot(const Robot& robot, const Scenario& scenario) {
+  Robot believed = robot;
+  believed.model.tree =
+      robot.model.tree.WithScaledInertias(1 + scenario.control.mass_error);
+  for (JointLimits& limits : believed.model.limits) {
+    limits.effort *= scenario.plant.torque_scale;
+  }
+  return believed;
+}
+
+void Switch(const std::vector<std::string>& tasks, bool on, Stack* stack) {
+  for (const std::string& task : tasks) {
+    if (stack->Enable(task, on)) continue;
+    std::string known;
+    for (int i = 0; i < stack->num_tasks(); ++i) {
+      known += (i == 0 ? "" : ", ") + std::string(stack->task(i).name());
+    }
+    throw std::invalid_argument("task '" + task +
+                                "' is unknown, must be one of " + known);
+  }
+}
+
+std::unique_ptr<Controller> MakeController(const Robot& robot,
+                                           const ControlSettings& settings) {
+  ControllerOptions options;
+  options.dt = settings.dt;
+  options.friction = settings.friction;
+  options.inscribed = settings.inscribed;
+  options.feedforward = settings.feedforward;
+  options.weighted = settings.weighted;
+  auto controller = std::make_unique<Controller>(robot, options);
+  Switch(settings.without, false, &controller->stack());
+  Switch(settings.with, true, &controller->stack());
+  return controller;
+}
+
+State ToState(const Measurement& measurement) {
+  const int n = static_cast<int>(measurement.q_joints.size());
+  State state{measurement.time, Eigen::VectorXd(n + 7), Eigen::VectorXd(n + 6)};
+  state.q << measurement.X_WB.p,
+      Eigen::Quaterniond(measurement.X_WB.R).coeffs(), measurement.q_joints;
+  state.v << measurement.V_WB_W, measurement.v_joints;
+  return state;
+}
+
+std::vector<PushOnRobot> Aim(const std::vector<Push>& pushes,
+                             const Robot& robot) {
+  std::vector<PushOnRobot> aimed;
+  for (const Push& push : pushes) aimed.emplace_back(robot, push);
+  return aimed;
+}
+
+}  // namespace
+
+ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
+    : robot_(robot),
+      scenario_(scenario),
+      plant_(MakePlant(robot, scenario.plant_kind, scenario.plant)),
+      controller_(
+          MakeController(MakeBelievedRobot(robot, scenario), scenario.control)),
+      sensors_(robot, scenario.sensors, scenario.seed ^ kSensorSeed),
+      observer_(robot, scenario.plant.ground),
+      pushes_(Aim(scenario.pushes, robot)),
+      steps_per_tick_(static_cast<int>(
+          std::lround(scenario.control.dt / scenario.plant.dt))),
+      delay_steps_(static_cast<int>(
+          std::lround(scenario.control.delay / scenario.plant.dt))) {
+  Validate(scenario);
+  const State start = MakeStartState(robot, scenario.start,
+                                     scenario.plant.ground, scenario.seed);
+  plant_->Reset(start.q, start.v);
+  state_ = ToState(sensors_.Measure(plant_->Sense()));
+  controller_->Start(state_);
+  com_start_ = controller_->reference().p_WG;
+  command_.tau.setZero(robot.model.tree.num_joints());
+  start_ = plant_->Sense();
+  during_ = start_;
+}
+
+void ClosedLoop::MoveReference() {
+  const ComMotion& com = scenario_.com;
+  const double w = 2 * kPi / com.period, t = time();
+  const double s = std::sin(w * t), c = std::cos(w * t);
+  Reference& reference = controller_->reference();
+  reference.p_WG = com_start_ + s * com.sine + c * com.cosine;
+  reference.v_WG = w * (c * com.sine - s * com.cosine);
+  reference.a_WG = -w * w * (s * com.sine + c * com.cosine);
+}
+
+void ClosedLoop::Tick() {
+  using Clock = std::chrono::steady_clock;
+  start_ = plant_->Sense();
+  MoveReference();
+  const Measurement& measurement = sensors_.Measure(start_);
+  state_ = ToState(measurement);
+  const auto before = Clock::now();
+  controller_->Update(state_, &command_);
+  microseconds_ =
+      std::chrono::duration<double, std::micro>(Clock::now() - before).count();
+  observer_.ObserveState(start_, {}, controller_->reference().p_WG);
+  StepPlant();
+  observer_.ObserveForces(during_.F_Co_C);
+  ++ticks_;
+}
+
+void ClosedLoop::StepPlant() {
+  // The first command finds no older one to wait for.
+  while (static_cast<int>(torques_.size()) < delay_steps_ + steps_per_tick_) {
+    torques_.push_back(command_.tau);
+  }
+  const double share = 1.0 / steps_per_tick_;
+  const int num_feet = static_cast<int>(robot_.feet.size());
+  std::vector<Eigen::Matrix<double, 6, 1>> F_Co_C(
+      num_feet, Eigen::Matrix<double, 6, 1>::Zero());
+  push_force_W_.setZero();
+  for (int step = 0; step < steps_per_tick_; ++step) {
+    for (const PushOnRobot& push : pushes_) {
+      const auto force =
+          push.At(time(), plant_->dt(), observer_.R_WB(push.body()));
+      if (!force) continue;
+      plant_->Apply(*force);
+      push_force_W_ += share * force->force_W;
+    }
+    plant_->Step(torques_.front());
+    torques_.pop_front();
+    for (int i = 0; i < num_feet; ++i) {
+      F_Co_C[i] += share * plant_->Sense().F_Co_C[i];
+    }
+  }
+  during_ = plant_->Sense();
+  during_.F_Co_C = F_Co_C;
+}
+
+TickRecord ClosedLoop::record() const {
+  return {ticks_ - 1,
+          observer_.observation(),
+          start_,
+          during_,
+          command_.tau,
+          push_force_W_,
+          controller_->stack(),
+          controller_->report(),
+          robot_.model.tree.nv(),
+          microseconds_};
+}
+
+}  // namespace poise

@@ -1,0 +1,71 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "robot/control/command.h"
+#include "robot/control/controller.h"
+#include "robot/control/measurement.h"
+#include "robot/robot.h"
+#include "sim/observation.h"
+#include "sim/plant.h"
+#include "sim/push.h"
+#include "sim/scenario.h"
+#include "sim/sensors.h"
+#include "sim/tick_record.h"
+
+namespace poise {
+
+/// A robot, its plant and its controller, tick by tick:
+///
+///     plant -> sensors -> controller -> (delay) -> plant, pushed.
+///
+/// Two loops of the same robot and scenario do the same to the bit, whatever
+/// runs beside them: all that is random comes from the scenario's seed.
+class ClosedLoop {
+ public:
+  /// Throws std::invalid_argument about what the scenario asks for and cannot
+  /// have: a task that is not there, a link, a plant.
+  ClosedLoop(const Robot& robot, const Scenario& scenario);
+
+  /// Runs one control tick.
+  void Tick();
+
+  double time() const { return plant_->Sense().time; }
+
+  /// Of the last tick. Valid until the next one.
+  TickRecord record() const;
+  const Observation& observation() const { return observer_.observation(); }
+  Controller& controller() { return *controller_; }
+  const Controller& controller() const { return *controller_; }
+  const Plant& plant() const { return *plant_; }
+
+ private:
+  void MoveReference();
+  void StepPlant();
+
+  Robot robot_;
+  Scenario scenario_;
+  std::unique_ptr<Plant> plant_;
+  std::unique_ptr<Controller> controller_;
+  Sensors sensors_;
+  Observer observer_;
+  std::vector<PushOnRobot> pushes_;
+  int steps_per_tick_;
+  int delay_steps_;
+
+  State state_;                          // As the controller is told.
+  PlantState start_;                     // Of the tick, as it was.
+  Command command_;                      // The newest.
+  std::deque<Eigen::VectorXd> torques_;  // By step of the plant, to come.
+  Eigen::Vector3d com_start_;
+  PlantState during_;  // The end of the tick; what acted is its mean.
+  Eigen::Vector3d push_force_W_ = Eigen::Vector3d::Zero();
+  long ticks_ = 0;
+  double microseconds_ = 0;
+};
+
+}  // namespace poise

@@ -1,0 +1,60 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <optional>
+
+#include "sim/observation.h"
+
+namespace poise {
+
+/// What a run came to.
+struct Verdict {
+  bool recovered = false;
+  /// When it first became not recovered; nothing where it did so at the end.
+  std::optional<double> fell_at;
+  Eigen::Vector3d com_error_peak = Eigen::Vector3d::Zero();   ///< m.
+  Eigen::Vector3d com_error_final = Eigen::Vector3d::Zero();  ///< Signed, m.
+  Eigen::Vector2d cop_peak = Eigen::Vector2d::Zero();         ///< m.
+  double foot_tilt_peak = 0;                                  ///< rad.
+  double foot_slide_peak = 0;                                 ///< m.
+};
+
+/// Judges by the plant's truth whether a robot recovered: its base was never
+/// below 60 % of where it stood nor tilted over 60 degrees, no foot that is
+/// meant to be down tilted by more than 0.1 rad or slid by more than 30 mm, and
+/// the mean of com - com_ref over the last half second is less than 20 mm, in
+/// the plane.
+class Judge {
+ public:
+  static constexpr double kLowestBase = 0.6;
+  static constexpr double kLargestTilt = 1.0471975511965976;  // 60 degrees.
+  static constexpr double kLargestFootTilt = 0.1;
+  static constexpr double kLargestSlide = 0.03;
+  static constexpr double kLargestComError = 0.02;
+  static constexpr double kEnd = 0.5;
+
+  /// `standing_height` is that of the base above the ground.
+  explicit Judge(double standing_height) : standing_height_(standing_height) {}
+
+  void Look(const Observation& now);
+
+  /// The robot lies, or is about to: there is nothing more to see.
+  bool is_down() const { return down_; }
+
+  Verdict Conclude() const;
+
+ private:
+  struct ComError {
+    double time;
+    Eigen::Vector3d error;
+  };
+
+  double standing_height_;
+  bool down_ = false;
+  Verdict verdict_;
+  std::deque<ComError> last_errors_;
+};
+
+}  // namespace poise

@@ -1,0 +1,133 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/judge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace poise {
+namespace {
+
+// A robot that stands still at a time.
+Observation Standing(double time) {
+  Observation now;
+  now.time = time;
+  now.base_height = 1;
+  now.feet.resize(2);
+  return now;
+}
+
+// The verdict over two seconds of which `spoil` changes some.
+template <typename Spoil>
+Verdict Over(Spoil spoil) {
+  Judge judge(1);
+  for (int k = 0; k < 2000; ++k) {
+    Observation now = Standing(k * 1e-3);
+    spoil(&now);
+    judge.Look(now);
+  }
+  return judge.Conclude();
+}
+
+// From one second on, one field has a value; it is back after a tick.
+template <typename Set>
+Verdict Once(Set set) {
+  return Over([&set](Observation* now) {
+    if (now->time == 1.0) set(now);
+  });
+}
+
+TEST(Judge, StandingStillIsRecovered) {
+  const Verdict verdict = Over([](Observation*) {});
+  EXPECT_TRUE(verdict.recovered);
+  EXPECT_FALSE(verdict.fell_at);
+}
+
+TEST(Judge, NothingSeenIsNotRecovered) {
+  EXPECT_FALSE(Judge(1).Conclude().recovered);
+}
+
+TEST(Judge, LowBaseIsAFall) {
+  EXPECT_TRUE(Once([](auto* now) { now->base_height = 0.601; }).recovered);
+  const Verdict verdict = Once([](auto* now) { now->base_height = 0.599; });
+  EXPECT_FALSE(verdict.recovered);
+  EXPECT_EQ(*verdict.fell_at, 1);
+}
+
+TEST(Judge, TiltedBaseIsAFall) {
+  EXPECT_TRUE(Once([](auto* now) { now->base_tilt = 1.047; }).recovered);
+  EXPECT_FALSE(Once([](auto* now) { now->base_tilt = 1.048; }).recovered);
+}
+
+TEST(Judge, NoNumberIsAFall) {
+  EXPECT_FALSE(Once([](auto* now) {
+                 now->base_height = std::numeric_limits<double>::quiet_NaN();
+               }).recovered);
+}
+
+TEST(Judge, RolledOrSlidFootIsAFallThatIsNotTheEnd) {
+  EXPECT_TRUE(Once([](auto* now) { now->feet[1].tilt = 0.099; }).recovered);
+  EXPECT_TRUE(Once([](auto* now) { now->feet[1].slide = 0.0299; }).recovered);
+  const Verdict tilted = Once([](auto* now) { now->feet[1].tilt = 0.101; });
+  EXPECT_FALSE(tilted.recovered);
+  EXPECT_EQ(*tilted.fell_at, 1);
+  EXPECT_EQ(tilted.foot_tilt_peak, 0.101);
+  const Verdict slid = Once([](auto* now) { now->feet[0].slide = 0.0301; });
+  EXPECT_FALSE(slid.recovered);
+  EXPECT_EQ(slid.foot_slide_peak, 0.0301);
+  Judge judge(1);
+  Observation now = Standing(0);
+  now.feet[0].slide = 1;
+  judge.Look(now);
+  EXPECT_FALSE(judge.is_down());
+  now.base_height = 0.1;
+  judge.Look(now);
+  EXPECT_TRUE(judge.is_down());
+}
+
+TEST(Judge, OnlyTheMeanErrorAtTheEndCounts) {
+  // A transient, however large, does not.
+  EXPECT_TRUE(Once([](auto* now) { now->com.x() = 0.3; }).recovered);
+  // 25 mm to and fro has no mean; 25 mm to one side has.
+  EXPECT_TRUE(Over([](auto* now) {
+                now->com.x() = static_cast<int>(now->time * 1000 + 0.5) % 2
+                                   ? 0.025
+                                   : -0.025;
+              }).recovered);
+  const Verdict away = Over([](auto* now) { now->com_ref.y() = 0.0201; });
+  EXPECT_FALSE(away.recovered);
+  EXPECT_FALSE(away.fell_at);
+  EXPECT_NEAR(away.com_error_final.y(), -0.0201, 1e-12);  // A sum of 500.
+  EXPECT_EQ(away.com_error_peak.y(), 0.0201);
+  // In the plane: x and y together, z not at all.
+  EXPECT_FALSE(
+      Over([](auto* now) { now->com.x() = now->com.y() = 0.0142; }).recovered);
+  EXPECT_TRUE(Over([](auto* now) {
+                now->com.x() = now->com.y() = 0.0141;
+                now->com.z() = 1;
+              }).recovered);
+}
+
+TEST(Judge, OnlyTheLastHalfSecondIsTheEnd) {
+  const auto until = [](double time) {
+    return Over([time](auto* now) {
+      if (now->time < time) now->com.x() = 1;
+    });
+  };
+  EXPECT_TRUE(until(1.499).recovered);
+  EXPECT_FALSE(until(1.52).recovered);
+}
+
+TEST(Judge, KeepsThePeaks) {
+  const Verdict verdict = Over([](auto* now) {
+    if (now->time == 0.5) now->cop = {-0.03, 0.02};
+    if (now->time == 0.7) now->cop.setConstant(std::nan(""));
+    if (now->time == 0.6) now->com = {0.1, -0.2, 0.3};
+  });
+  EXPECT_EQ(verdict.cop_peak, Eigen::Vector2d(0.03, 0.02));
+  EXPECT_EQ(verdict.com_error_peak, Eigen::Vector3d(0.1, 0.2, 0.3));
+}
+
+}  // namespace
+}  // namespace poise

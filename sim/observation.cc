@@ -1,0 +1,103 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/observation.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+namespace poise {
+
+namespace {
+
+// Below this normal force, in N, a CoP has no meaning.
+constexpr double kNoForce = 1;
+
+// Of two unit vectors; acos() loses all digits where they agree.
+double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+std::vector<int> FootFrames(const Robot& robot) {
+  std::vector<int> frames;
+  for (const Foot& foot : robot.feet) frames.push_back(foot.frame);
+  return frames;
+}
+
+}  // namespace
+
+Pose MidFeet(const std::vector<Pose>& X_WC, const Eigen::Vector3d& normal_W) {
+  Eigen::Vector3d p_WM = Eigen::Vector3d::Zero();
+  Eigen::Vector3d x_W = Eigen::Vector3d::Zero();
+  for (const Pose& X : X_WC) {
+    p_WM += X.p / static_cast<double>(X_WC.size());
+    x_W += X.R.col(0);
+  }
+  Pose X_WM;
+  X_WM.p = p_WM;
+  X_WM.R.col(2) = normal_W;
+  X_WM.R.col(0) = (x_W - normal_W.dot(x_W) * normal_W).normalized();
+  X_WM.R.col(1) = normal_W.cross(X_WM.R.col(0));
+  return X_WM;
+}
+
+Observer::Observer(const Robot& robot, const Ground& ground)
+    : robot_(robot),
+      normal_W_(GroundNormal(ground)),
+      tick_(robot.model.tree, FootFrames(robot)),
+      put_down_(robot.feet.size()),
+      was_down_(robot.feet.size(), false) {
+  observation_.feet.resize(robot.feet.size());
+}
+
+void Observer::ObserveState(const PlantState& state,
+                            const std::vector<bool>& down,
+                            const Eigen::Vector3d& com_ref) {
+  ComputeTick(robot_.model.tree, state.q, state.v, &tick_);
+  Observation& now = observation_;
+  now.time = state.time;
+  now.X_WB = tick_.X_WB[0];
+  if (first_) standing_z_B_ = now.X_WB.R.transpose() * normal_W_;
+  first_ = false;
+  now.base_height = normal_W_.dot(now.X_WB.p);
+  now.base_tilt = AngleBetween(now.X_WB.R * standing_z_B_, normal_W_);
+  now.com = tick_.p_WG;
+  now.com_ref = com_ref;
+  for (size_t i = 0; i < robot_.feet.size(); ++i) {
+    FootObservation& foot = now.feet[i];
+    foot.X_WC = tick_.X_WB[robot_.feet[i].body] * robot_.feet[i].X_BC;
+    foot.down = down.empty() || down[i];
+    if (foot.down && !was_down_[i]) put_down_[i] = foot.X_WC;
+    was_down_[i] = foot.down;
+    foot.tilt = 0;
+    foot.slide = 0;
+    if (!foot.down) continue;
+    const Eigen::Vector3d way = foot.X_WC.p - put_down_[i].p;
+    foot.tilt = AngleBetween(foot.X_WC.R.col(2), put_down_[i].R.col(2));
+    foot.slide = (way - normal_W_.dot(way) * normal_W_).norm();
+  }
+}
+
+void Observer::ObserveForces(
+    const std::vector<Eigen::Matrix<double, 6, 1>>& F_Co_C) {
+  Observation& now = observation_;
+  std::vector<Pose> X_WC;
+  for (const FootObservation& foot : now.feet) X_WC.push_back(foot.X_WC);
+  const Pose X_WM = MidFeet(X_WC, normal_W_);
+  // The whole wrench about M's origin, in its axes.
+  Eigen::Vector3d moment_M = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force_M = Eigen::Vector3d::Zero();
+  for (size_t i = 0; i < now.feet.size(); ++i) {
+    now.feet[i].F_Co_C = F_Co_C[i];
+    const Pose X_MC = X_WM.Inverse() * now.feet[i].X_WC;
+    const Eigen::Vector3d force = X_MC.R * F_Co_C[i].tail<3>();
+    moment_M += X_MC.R * F_Co_C[i].head<3>() + X_MC.p.cross(force);
+    force_M += force;
+  }
+  if (force_M.z() > kNoForce) {
+    now.cop = {-moment_M.y() / force_M.z(), moment_M.x() / force_M.z()};
+  } else {
+    now.cop.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+}  // namespace poise

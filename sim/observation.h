@@ -1,0 +1,72 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dynamics/tick.h"
+#include "robot/robot.h"
+#include "sim/plant.h"
+#include "sim/plant_settings.h"
+
+namespace poise {
+
+/// What is true of one foot.
+struct FootObservation {
+  Pose X_WC;         ///< Of its contact frame.
+  bool down = true;  ///< It is meant to be in contact.
+  double tilt = 0;   ///< Of the sole against where it was put down, rad.
+  double slide = 0;  ///< Along the ground since it was put down, m.
+  Eigen::Matrix<double, 6, 1> F_Co_C =
+      Eigen::Matrix<double, 6, 1>::Zero();  ///< Over the tick that follows.
+};
+
+/// What is true of the robot at the start of a tick, and of the forces on it
+/// during the tick: what the log holds and the judge judges by.
+struct Observation {
+  double time = 0;
+  Pose X_WB;
+  double base_height = 0;  ///< Above the ground, m.
+  double base_tilt = 0;    ///< Of the base's z from where it stood, rad.
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();
+  Eigen::Vector3d com_ref = Eigen::Vector3d::Zero();
+  std::vector<FootObservation> feet;
+  /// Center of pressure of all feet together in the mid-feet frame; NaN where
+  /// they bear nothing.
+  Eigen::Vector2d cop = Eigen::Vector2d::Zero();
+};
+
+/// Computes observations from the plant's truth, with the true model.
+class Observer {
+ public:
+  Observer(const Robot& robot, const Ground& ground);
+
+  /// Takes the start of a tick; `down` says which feet are meant to be in
+  /// contact, nothing being all. A foot counts from where it is put down.
+  void ObserveState(const PlantState& state, const std::vector<bool>& down,
+                    const Eigen::Vector3d& com_ref);
+
+  /// Takes what acted during the tick.
+  void ObserveForces(const std::vector<Eigen::Matrix<double, 6, 1>>& F_Co_C);
+
+  const Observation& observation() const { return observation_; }
+
+  /// The orientation of a body at the start of the tick.
+  const Eigen::Matrix3d& R_WB(int body) const { return tick_.X_WB[body].R; }
+
+ private:
+  Robot robot_;
+  Eigen::Vector3d normal_W_;
+  Tick tick_;
+  Observation observation_;
+  std::vector<Pose> put_down_;  // Each foot's pose when it was put down.
+  std::vector<bool> was_down_;
+  Eigen::Vector3d standing_z_B_ = Eigen::Vector3d::UnitZ();
+  bool first_ = true;
+};
+
+/// The mid-feet frame M of poses of contact frames: in the middle, x along the
+/// mean of their x axes in the ground, z out of it.
+Pose MidFeet(const std::vector<Pose>& X_WC, const Eigen::Vector3d& normal_W);
+
+}  // namespace poise

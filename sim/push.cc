@@ -1,0 +1,100 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/push.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace poise {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// The integral of the profile from its start to a fraction x of its duration,
+// as a fraction of the duration.
+double IntegralTo(PushProfile profile, double x) {
+  x = std::clamp(x, 0.0, 1.0);
+  return profile == PushProfile::kHalfSine ? (1 - std::cos(kPi * x)) / kPi : x;
+}
+
+}  // namespace
+
+double ProfileIntegral(const Push& push) {
+  return push.duration * IntegralTo(push.profile, 1);
+}
+
+double MeanOfProfile(const Push& push, double time, double dt) {
+  if (push.profile == PushProfile::kImpulse) {
+    // In the step that holds its start; rounding must not lose it to the two
+    // sides of a step's end.
+    const double begin = time - dt / 2, end = time + dt / 2;
+    return begin <= push.start && push.start < end ? push.duration / dt : 0;
+  }
+  if (push.duration <= 0) return 0;
+  const auto integral = [&push](double t) {
+    return IntegralTo(push.profile, (t - push.start) / push.duration);
+  };
+  return push.duration * (integral(time + dt) - integral(time)) / dt;
+}
+
+int FindTorso(const Robot& robot) {
+  const Tree& tree = robot.model.tree;
+  std::vector<bool> is_leg(tree.num_bodies(), false);
+  for (const Foot& foot : robot.feet) {
+    for (int i = foot.body; i != 0; i = tree.joints()[i - 1].parent) {
+      is_leg[i] = true;
+    }
+  }
+  int torso = 0;
+  for (int i = 1; i < tree.num_bodies(); ++i) {
+    if (!is_leg[i] && tree.inertias()[i].mass > tree.inertias()[torso].mass) {
+      torso = i;
+    }
+  }
+  return torso;
+}
+
+PushOnRobot::PushOnRobot(const Robot& robot, const Push& push)
+    : push_(push), R_BF_(Eigen::Matrix3d::Identity()) {
+  const Tree& tree = robot.model.tree;
+  if (!push.force.allFinite() || !push.moment.allFinite() ||
+      !std::isfinite(push.start) || !std::isfinite(push.duration) ||
+      (push.point && !push.point->allFinite())) {
+    throw std::invalid_argument("push: has a number that is not finite");
+  }
+  if (push.duration < 0) {
+    throw std::invalid_argument("push: duration is " +
+                                std::to_string(push.duration) +
+                                ", must be at least 0");
+  }
+  Pose X_BF;
+  if (push.link.empty()) {
+    body_ = FindTorso(robot);
+  } else {
+    const auto frame = tree.FindFrame(push.link);
+    if (!frame) {
+      throw std::invalid_argument("push: link '" + push.link +
+                                  "' is unknown, must be a link of robot '" +
+                                  robot.model.name + "'");
+    }
+    body_ = tree.frames()[*frame].body;
+    X_BF = tree.frames()[*frame].X_BF;
+  }
+  R_BF_ = X_BF.R;
+  p_BoQ_B_ = push.point ? X_BF * *push.point : tree.inertias()[body_].p_BoG_B;
+}
+
+std::optional<AppliedForce> PushOnRobot::At(double time, double dt,
+                                            const Eigen::Matrix3d& R_WB) const {
+  const double mean = MeanOfProfile(push_, time, dt);
+  if (mean == 0) return std::nullopt;
+  const Eigen::Matrix3d R_W = push_.frame == PushFrame::kWorld
+                                  ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
+                                  : Eigen::Matrix3d(R_WB * R_BF_);
+  return AppliedForce{body_, p_BoQ_B_, R_W * push_.moment * mean,
+                      R_W * push_.force * mean};
+}
+
+}  // namespace poise

@@ -1,0 +1,125 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/push.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/util/simple_robots.h"
+#include "tests/util/tolerance.h"
+
+namespace poise {
+namespace {
+
+// The impulse that a push gives in steps of dt over ten seconds.
+double Impulse(const Push& push, double dt) {
+  double impulse = 0;
+  const int steps = static_cast<int>(std::lround(10 / dt));
+  for (int k = 0; k < steps; ++k) {
+    impulse += dt * MeanOfProfile(push, k * dt, dt);
+  }
+  return impulse;
+}
+
+TEST(Push, ImpulseIsTheProfilesIntegralWhateverTheStep) {
+  for (const PushProfile profile :
+       {PushProfile::kBox, PushProfile::kHalfSine, PushProfile::kImpulse}) {
+    Push push;
+    push.profile = profile;
+    push.start = 1.00037;
+    push.duration = 0.1537;
+    for (const double dt : {1e-3, 5e-3, 1e-2}) {
+      SCOPED_TRACE(dt);
+      EXPECT_NEAR(Impulse(push, dt), ProfileIntegral(push), Rounding(1, 10000));
+    }
+  }
+}
+
+TEST(Push, IntegralsAreThoseOfTheProfiles) {
+  Push push;
+  push.duration = 0.2;
+  EXPECT_DOUBLE_EQ(ProfileIntegral(push), 0.2);
+  push.profile = PushProfile::kImpulse;
+  EXPECT_DOUBLE_EQ(ProfileIntegral(push), 0.2);
+  push.profile = PushProfile::kHalfSine;
+  EXPECT_DOUBLE_EQ(ProfileIntegral(push), 0.4 / M_PI);
+}
+
+TEST(Push, HalfSinePeaksInTheMiddle) {
+  Push push;
+  push.profile = PushProfile::kHalfSine;
+  push.start = 1;
+  push.duration = 0.2;
+  // The mean over dt about the peak: 1 - (pi dt / T)^2 / 24.
+  EXPECT_NEAR(MeanOfProfile(push, 1.1 - 5e-4, 1e-3), 1, 1.1e-5);
+  EXPECT_NEAR(MeanOfProfile(push, 1.05 - 5e-4, 1e-3), std::sqrt(0.5), 1.1e-5);
+  EXPECT_EQ(MeanOfProfile(push, 0.9, 0.05), 0);
+  EXPECT_EQ(MeanOfProfile(push, 1.25, 0.05), 0);
+}
+
+TEST(Push, ImpulseFallsIntoOneStep) {
+  Push push;
+  push.profile = PushProfile::kImpulse;
+  push.start = 0.3;  // 300 * 1e-3 is not 0.3 in binary.
+  push.duration = 0.1;
+  int steps = 0;
+  for (int k = 0; k < 1000; ++k) {
+    if (MeanOfProfile(push, k * 1e-3, 1e-3) > 0) ++steps;
+  }
+  EXPECT_EQ(steps, 1);
+}
+
+TEST(Push, ActsAtTheCenterOfMassInTheWorldsAxes) {
+  Robot robot = MakeBlock({0.1, 0.2, 0.3}, 5);
+  Push push;
+  push.force = {1, 2, 3};
+  push.moment = {4, 5, 6};
+  push.start = 0;
+  const PushOnRobot aimed(robot, push);
+  const Eigen::Matrix3d R_WB =
+      Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const auto force = aimed.At(0, 1e-3, R_WB);
+  ASSERT_TRUE(force);
+  EXPECT_EQ(force->body, 0);
+  EXPECT_TRUE(force->p_BoQ_B.isZero());
+  EXPECT_TRUE(force->force_W.isApprox(Eigen::Vector3d(1, 2, 3)));
+  EXPECT_TRUE(force->torque_W.isApprox(Eigen::Vector3d(4, 5, 6)));
+  EXPECT_FALSE(aimed.At(1, 1e-3, R_WB));
+}
+
+TEST(Push, TurnsWithItsLinkIfTold) {
+  Robot robot = MakeBlock({0.1, 0.2, 0.3}, 5);
+  Push push;
+  push.link = "block";
+  push.point = Eigen::Vector3d(0.1, 0, 0);
+  push.frame = PushFrame::kLink;
+  push.force = {1, 2, 3};
+  push.moment = {4, 5, 6};
+  push.start = 0;
+  const Eigen::Matrix3d R_WB =
+      Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const auto force = PushOnRobot(robot, push).At(0, 1e-3, R_WB);
+  ASSERT_TRUE(force);
+  EXPECT_TRUE(force->p_BoQ_B.isApprox(Eigen::Vector3d(0.1, 0, 0)));
+  EXPECT_TRUE(force->force_W.isApprox(Eigen::Vector3d(-2, 1, 3)));
+  EXPECT_TRUE(force->torque_W.isApprox(Eigen::Vector3d(-5, 4, 6)));
+}
+
+TEST(Push, RefusesWhatItCannotDo) {
+  const Robot robot = MakeBall(0.1, 1);
+  Push push;
+  push.link = "elbow";
+  EXPECT_THROW(PushOnRobot(robot, push), std::invalid_argument);
+  push.link = "";
+  push.duration = -1;
+  EXPECT_THROW(PushOnRobot(robot, push), std::invalid_argument);
+  push.duration = 1;
+  push.force.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(PushOnRobot(robot, push), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace poise

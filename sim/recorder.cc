@@ -1,0 +1,184 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/recorder.h"
+
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+namespace poise {
+
+namespace {
+
+constexpr int kRowsAtOnce = 50;
+constexpr const char* kWrench[] = {"mx[Nm]", "my[Nm]", "mz[Nm]",
+                                   "fx[N]",  "fy[N]",  "fz[N]"};
+
+std::vector<std::string> Columns(const Robot& robot, const Stack& stack) {
+  std::vector<std::string> columns = {
+      "time[s]",  "base.x[m]", "base.y[m]",    "base.z[m]",      "base.qx",
+      "base.qy",  "base.qz",   "base.qw",      "base.tilt[rad]", "com.x[m]",
+      "com.y[m]", "com.z[m]",  "com_ref.x[m]", "com_ref.y[m]",   "com_ref.z[m]",
+      "cop.x[m]", "cop.y[m]"};
+  for (const Foot& foot : robot.feet) {
+    columns.push_back(foot.name + ".contact");
+    columns.push_back(foot.name + ".tilt[rad]");
+    columns.push_back(foot.name + ".slide[m]");
+    for (const char* part : kWrench) columns.push_back(foot.name + "." + part);
+  }
+  for (const char* part :
+       {"push.fx[N]", "push.fy[N]", "push.fz[N]", "other.fx[N]", "other.fy[N]",
+        "other.fz[N]", "self_contacts"}) {
+    columns.push_back(part);
+  }
+  for (const Joint& joint : robot.model.tree.joints()) {
+    columns.push_back("tau." + joint.name + "[Nm]");
+  }
+  for (const Joint& joint : robot.model.tree.joints()) {
+    columns.push_back("q." + joint.name + "[rad]");
+  }
+  for (const Foot& foot : robot.feet) {
+    for (const char* part : kWrench) {
+      columns.push_back("lambda." + foot.name + "." + part);
+    }
+  }
+  for (int i = 0; i < stack.num_tasks(); ++i) {
+    columns.push_back("residual." + std::string(stack.task(i).name()));
+  }
+  columns.push_back("status");
+  columns.push_back("active");
+  return columns;
+}
+
+std::ofstream Open(const std::filesystem::path& file) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  if (!stream) {
+    throw std::invalid_argument(file.string() + ": cannot be written");
+  }
+  return stream;
+}
+
+}  // namespace
+
+std::string_view StatusName(TickStatus status) {
+  switch (status) {
+    case TickStatus::kOk:
+      return "ok";
+    case TickStatus::kLimitRelaxed:
+      return "limit_relaxed";
+    case TickStatus::kTruncated:
+      return "truncated";
+    case TickStatus::kFailSafe:
+      return "fail_safe";
+  }
+  return "";
+}
+
+Recorder::Recorder(const std::filesystem::path& folder, const Robot& robot,
+                   const Stack& stack) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw std::invalid_argument(folder.string() +
+                                ": cannot be made: " + error.message());
+  }
+  log_ = Open(folder / "log.csv");
+  timing_ = Open(folder / "timing.csv");
+  for (const std::string& column : Columns(robot, stack)) Text(column);
+  EndRow();
+  timing_rows_ = "tick,us,iterations\n";
+  Flush();
+}
+
+void Recorder::Number(double value) {
+  // Nine digits: a nanometer on a meter, a millionth of a newton on the weight.
+  char digits[32];
+  const auto end = std::isnan(value)
+                       ? std::to_chars_result{digits, std::errc()}
+                       : std::to_chars(digits, digits + sizeof(digits), value,
+                                       std::chars_format::general, 9);
+  if (end.ptr == digits) {
+    Text("nan");
+  } else {
+    Text({digits, static_cast<size_t>(end.ptr - digits)});
+  }
+}
+
+void Recorder::Text(std::string_view text) {
+  if (!row_.empty()) row_ += ',';
+  row_ += text;
+}
+
+void Recorder::EndRow() {
+  row_ += '\n';
+  hash_.Update(row_);
+  log_rows_ += row_;
+  row_.clear();
+}
+
+void Recorder::ActiveRows(const TickRecord& record) {
+  row_ += ',';
+  bool first = true;
+  for (const ActiveRow& active : record.report.active) {
+    if (!first) row_ += ';';
+    first = false;
+    row_ += record.stack.RowName(active);
+    char digits[32];
+    const auto end =
+        std::to_chars(digits, digits + sizeof(digits), active.multiplier,
+                      std::chars_format::general, 4);
+    row_ += '=';
+    row_.append(digits, end.ptr);
+  }
+}
+
+void Recorder::Record(const TickRecord& record) {
+  const Observation& now = record.observation;
+  const auto vector = [this](const auto& v) {
+    for (const double x : v) Number(x);
+  };
+  Number(now.time);
+  vector(record.start.q.head<7>());
+  Number(now.base_tilt);
+  vector(now.com);
+  vector(now.com_ref);
+  vector(now.cop);
+  for (const FootObservation& foot : now.feet) {
+    Text(foot.down ? "1" : "0");
+    Number(foot.tilt);
+    Number(foot.slide);
+    vector(foot.F_Co_C);
+  }
+  vector(record.push_force_W);
+  vector(record.end.other_force_W);
+  Number(record.end.self_contacts);
+  vector(record.end.tau);
+  vector(record.start.q.tail(record.end.tau.size()));
+  for (size_t i = 0; i < now.feet.size(); ++i) {
+    vector(record.report.foot_wrench(record.nv, static_cast<int>(i)));
+  }
+  for (const TaskReport& task : record.report.tasks) Number(task.residual);
+  Text(StatusName(record.report.status));
+  ActiveRows(record);
+  EndRow();
+
+  timing_rows_ += std::to_string(record.tick) + ',';
+  char digits[32];
+  const auto end =
+      std::to_chars(digits, digits + sizeof(digits), record.microseconds,
+                    std::chars_format::fixed, 2);
+  timing_rows_.append(digits, end.ptr);
+  timing_rows_ += ',' + std::to_string(record.report.iterations) + '\n';
+  if (++rows_waiting_ >= kRowsAtOnce) Flush();
+}
+
+void Recorder::Flush() {
+  log_ << log_rows_ << std::flush;
+  timing_ << timing_rows_ << std::flush;
+  log_rows_.clear();
+  timing_rows_.clear();
+  rows_waiting_ = 0;
+}
+
+}  // namespace poise

@@ -1,0 +1,59 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "robot/robot.h"
+#include "sim/sha256.h"
+#include "sim/tick_record.h"
+
+namespace poise {
+
+/// Writes a run into a folder:
+///
+///     log.csv     a row a tick: what was true, then what the controller said.
+///                 The same run gives the same bytes, on any machine's locale.
+///     timing.csv  tick, us, iterations: what is never twice the same.
+///
+/// Only whole rows reach the files, every 50 ticks, so that a run that is cut
+/// short by a crash leaves files that can be read.
+class Recorder {
+ public:
+  /// Makes the folder, and writes over what is in it. Throws
+  /// std::invalid_argument if it cannot.
+  Recorder(const std::filesystem::path& folder, const Robot& robot,
+           const Stack& stack);
+  ~Recorder() { Flush(); }
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  void Record(const TickRecord& record);
+
+  /// Brings all rows to the files.
+  void Flush();
+
+  /// The SHA-256 of log.csv so far.
+  std::string log_sha256() const { return hash_.Digest(); }
+
+ private:
+  void Number(double value);
+  void Text(std::string_view text);
+  void EndRow();
+  void ActiveRows(const TickRecord& record);
+
+  std::ofstream log_;
+  std::ofstream timing_;
+  std::string row_;       // Of log.csv, growing.
+  std::string log_rows_;  // Whole rows, not yet in the file.
+  std::string timing_rows_;
+  int rows_waiting_ = 0;
+  Sha256 hash_;
+};
+
+/// "ok", "limit_relaxed", "truncated" or "fail_safe".
+std::string_view StatusName(TickStatus status);
+
+}  // namespace poise

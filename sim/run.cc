@@ -1,0 +1,129 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "sim/closed_loop.h"
+
+namespace poise {
+
+namespace {
+
+// The value below which a fraction of them lies, the nearest above.
+double Quantile(std::vector<float>* values, double fraction) {
+  const auto rank = static_cast<size_t>(
+      std::ceil(fraction * static_cast<double>(values->size())));
+  const auto at = values->begin() + (rank > 0 ? rank - 1 : 0);
+  std::nth_element(values->begin(), at, values->end());
+  return *at;
+}
+
+TickTimes Summarize(std::vector<float> us) {
+  if (us.empty()) return {};
+  return {Quantile(&us, 0.5), Quantile(&us, 0.99), Quantile(&us, 0.999),
+          Quantile(&us, 1)};
+}
+
+// How far a joint is past a limit, the worst of all.
+double JointViolation(const RobotModel& model, const Eigen::VectorXd& q) {
+  double worst = 0;
+  for (int j = 0; j < model.tree.num_joints(); ++j) {
+    const double q_j = q[model.tree.q_start() + j];
+    worst = std::max(
+        {worst, model.limits[j].lower - q_j, q_j - model.limits[j].upper});
+  }
+  return worst;
+}
+
+double TorqueViolation(const RobotModel& model, double scale,
+                       const Eigen::VectorXd& tau) {
+  double worst = 0;
+  for (int j = 0; j < model.tree.num_joints(); ++j) {
+    worst = std::max(worst, std::abs(tau[j]) - scale * model.limits[j].effort);
+  }
+  return worst;
+}
+
+// The largest push, beside what a pendulum in this robot's place could take.
+void MeasurePushes(const Robot& robot, const Scenario& scenario,
+                   const Eigen::VectorXd& q_start, RunResult* result) {
+  for (const Push& push : scenario.pushes) {
+    const double impulse = ProfileIntegral(push) * push.force.norm();
+    if (impulse <= result->impulse_Ns) continue;
+    result->impulse_Ns = impulse;
+    result->push_duration = push.duration;
+    const bool has_direction =
+        push.frame == PushFrame::kWorld && !push.force.head<2>().isZero();
+    result->yardstick.reset();
+    if (!has_direction) continue;
+    const PushOnRobot aimed(robot, push);
+    result->yardstick =
+        ComputeYardstick(robot, q_start, push.force.head<2>(), push.duration,
+                         aimed.body(), aimed.p_BoQ_B());
+  }
+}
+
+}  // namespace
+
+RunResult Run(const Robot& robot, const Scenario& scenario,
+              const std::filesystem::path& folder,
+              const std::function<bool(double)>& progress) {
+  using Clock = std::chrono::steady_clock;
+  ClosedLoop loop(robot, scenario);
+  std::unique_ptr<Recorder> recorder;
+  if (!folder.empty()) {
+    recorder =
+        std::make_unique<Recorder>(folder, robot, loop.controller().stack());
+  }
+  // The nominal posture stands on the ground.
+  Judge judge(robot.q_nominal.z());
+  const long ticks = std::lround(scenario.duration / scenario.control.dt);
+  const long between = std::max(1L, ticks / 100);
+  std::vector<float> us;
+  us.reserve(ticks);
+  RunResult result;
+  const auto before = Clock::now();
+  while (result.ticks < ticks && !judge.is_down() && !result.interrupted) {
+    loop.Tick();
+    const TickRecord record = loop.record();
+    if (result.ticks == 0) {
+      MeasurePushes(robot, scenario, record.start.q, &result);
+    }
+    ++result.ticks;
+    judge.Look(record.observation);
+    if (recorder != nullptr) recorder->Record(record);
+    us.push_back(static_cast<float>(record.microseconds));
+    result.iterations_max =
+        std::max(result.iterations_max, record.report.iterations);
+    if (record.report.status == TickStatus::kTruncated ||
+        record.report.status == TickStatus::kFailSafe) {
+      ++result.failures;
+    }
+    result.joint_limit_violation_peak =
+        std::max(result.joint_limit_violation_peak,
+                 JointViolation(robot.model, record.end.q));
+    result.torque_limit_violation_peak = std::max(
+        result.torque_limit_violation_peak,
+        TorqueViolation(robot.model, scenario.plant.torque_scale, record.tau));
+    if (record.end.self_contacts > 0) ++result.self_contact_ticks;
+    if (progress && result.ticks % between == 0) {
+      result.interrupted = !progress(static_cast<double>(result.ticks) /
+                                     static_cast<double>(ticks));
+    }
+  }
+  result.wall_seconds =
+      std::chrono::duration<double>(Clock::now() - before).count();
+  result.duration = static_cast<double>(result.ticks) * scenario.control.dt;
+  result.verdict = judge.Conclude();
+  result.tick_us = Summarize(std::move(us));
+  if (recorder != nullptr) {
+    recorder->Flush();
+    result.log_sha256 = recorder->log_sha256();
+  }
+  return result;
+}
+
+}  // namespace poise

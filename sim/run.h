@@ -1,0 +1,56 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "robot/robot.h"
+#include "sim/judge.h"
+#include "sim/recorder.h"
+#include "sim/scenario.h"
+#include "sim/yardstick.h"
+
+namespace poise {
+
+/// The distribution of the controller's times over a run, us.
+struct TickTimes {
+  double median = 0;
+  double p99 = 0;
+  double p999 = 0;
+  double max = 0;
+};
+
+/// What a run came to, and what it took.
+struct RunResult {
+  Verdict verdict;
+  double duration = 0;  ///< Simulated, s; less than asked for after a fall.
+  bool interrupted = false;
+  long ticks = 0;
+  TickTimes tick_us;
+  int iterations_max = 0;
+  double certificate_max = 0;  ///< Of all ticks, see hqp/certificate.h.
+  int failures = 0;            ///< Ticks that were not solved to the last rank.
+  double joint_limit_violation_peak = 0;   ///< rad or m.
+  double torque_limit_violation_peak = 0;  ///< N m or N.
+  int self_contact_ticks = 0;
+  double impulse_Ns = 0;               ///< Of the largest push.
+  double push_duration = 0;            ///< Of the largest push, s.
+  std::optional<Yardstick> yardstick;  ///< In that push's direction.
+  double wall_seconds = 0;
+  std::string log_sha256;  ///< Empty if nothing was recorded.
+};
+
+/// Runs a scenario to its end, or until the robot lies.
+///
+/// @param folder    where a Recorder writes; empty: nothing is written.
+/// @param progress  called a hundred times or so with the fraction done; stops
+///                  the run by returning false. May be empty.
+///
+/// Throws std::invalid_argument, see ClosedLoop and Recorder.
+RunResult Run(const Robot& robot, const Scenario& scenario,
+              const std::filesystem::path& folder = {},
+              const std::function<bool(double)>& progress = {});
+
+}  // namespace poise

@@ -1,0 +1,96 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/plant_settings.h"
+#include "sim/push.h"
+#include "sim/sensor_settings.h"
+
+namespace poise {
+
+enum class PlantKind { kBullet, kMujoco };
+
+/// How far from equilibrium the robot starts.
+struct StartSettings {
+  double joints = 0;   ///< Joints outside the legs, each drawn in +- this, rad.
+  double drop = 0;     ///< Height of the soles above the ground, m.
+  double heading = 0;  ///< Of the robot in the world, rad.
+};
+
+/// How the desired center of mass moves about where it starts:
+///     sine sin(2 pi t / period) + cosine cos(2 pi t / period).
+struct ComMotion {
+  Eigen::Vector3d sine = Eigen::Vector3d::Zero();    ///< m.
+  Eigen::Vector3d cosine = Eigen::Vector3d::Zero();  ///< m.
+  double period = 10;                                ///< s.
+};
+
+/// What the controller is told, beside its robot.
+struct ControlSettings {
+  double dt = 1e-3;          ///< s.
+  double delay = 0;          ///< From measurement to torque, s.
+  double friction = 0.5;     ///< Its mu.
+  double mass_error = 0;     ///< Of all links in its model, a fraction.
+  bool inscribed = false;    ///< Its friction pyramid.
+  bool feedforward = false;  ///< Of the reference's motion.
+  bool weighted = false;     ///< One weighted QP.
+  bool estimator = false;    ///< The base from sensors, not from the truth.
+  std::string tasks = "default";     ///< A task set, by name or file.
+  std::vector<std::string> with;     ///< Tasks switched on in it.
+  std::vector<std::string> without;  ///< Tasks switched off in it.
+};
+
+/// One experiment, as data: what main() would else hide. As YAML, every key
+/// with what stands where it is left out (SI, rad):
+///
+///     name: strong_push          # the file's
+///     duration: 5
+///     seed: 1
+///     start: {joints: 0, drop: 0, heading: 0}
+///     pushes:                    # none
+///       - link: torso            # the heaviest body outside the legs
+///         point: [0, 0, 0]       # in the link's frame; its center of mass
+///         frame: world           # or link: axes of force and moment
+///         force: [0, 100, 0]     # 0
+///         moment: [0, 0, 0]
+///         profile: box           # or half_sine, impulse
+///         at: 1
+///         duration: 0.15
+///     com: {sine: [0, 0, 0], cosine: [0, 0, 0], period: 10}
+///     tasks: {set: default, with: [], without: []}
+///     control: {rate: 1000, delay: 0, friction: 0.5, mass_error: 0,
+///               inscribed: false, feedforward: false, weighted: false,
+///               estimator: false}
+///     plant: {kind: bullet, rate: 1000, friction: 0.8, torque_scale: 1,
+///             roll: 0, pitch: 0, boards: [{center: [0, 0, 0.01],
+///             size: [1, 1, 0.02], yaw: 0}], joint_limits: true,
+///             joint_damping: true, self_collision: true}
+///     sensors: see SensorSettings
+struct Scenario {
+  std::string name;
+  double duration = 5;
+  unsigned seed = 1;
+  StartSettings start;
+  std::vector<Push> pushes;
+  ComMotion com;
+  ControlSettings control;
+  PlantKind plant_kind = PlantKind::kBullet;
+  PlantSettings plant;
+  SensorSettings sensors;
+};
+
+/// Reads a scenario. Throws std::invalid_argument("FILE:LINE: ...") with the
+/// key, its value and what was wanted; an unknown key is refused.
+Scenario LoadScenario(const std::filesystem::path& file);
+
+/// Reads a list of pushes from a file whose one key is `pushes`.
+std::vector<Push> LoadPushes(const std::filesystem::path& file);
+
+/// Throws std::invalid_argument about what is out of range.
+void Validate(const Scenario& scenario);
+
+}  // namespace poise

@@ -1,0 +1,176 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/scenario.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace poise {
+namespace {
+
+std::filesystem::path Write(const std::string& text) {
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / "trial.yaml";
+  std::ofstream(file) << text;
+  return file;
+}
+
+Scenario Read(const std::string& text) { return LoadScenario(Write(text)); }
+
+// What is wrong with a scenario, after the folder's name.
+std::string Complaint(const std::string& text) {
+  try {
+    Read(text);
+  } catch (const std::invalid_argument& error) {
+    const std::string what = error.what();
+    const size_t start = what.find("trial.yaml");
+    return start == std::string::npos ? what : what.substr(start);
+  }
+  return "none";
+}
+
+TEST(Scenario, OursAreReadByName) {
+  for (const char* name : {"stand", "posture_off", "com_sinusoid", "weak_push",
+                           "strong_push_without_zmp", "strong_push"}) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(LoadScenario("sim/scenarios/" + std::string(name) + ".yaml").name,
+              name);
+  }
+}
+
+TEST(Scenario, EveryKeyIsRead) {
+  const Scenario s = Read(R"(
+name: all
+duration: 7
+seed: 3
+start: {joints: 0.1, drop: 0.01, heading: 0.5}
+pushes:
+  - {link: torso, point: [1, 2, 3], frame: link, force: [4, 5, 6],
+     moment: [7, 8, 9], profile: half_sine, at: 2, duration: 0.3}
+  - {profile: impulse}
+com: {sine: [1, 2, 3], cosine: [4, 5, 6], period: 4}
+tasks: {set: paper, with: [zmp], without: [cop, yaw]}
+control: {rate: 500, delay: 0.002, friction: 0.4, mass_error: -0.1,
+          inscribed: true, feedforward: true, weighted: true, estimator: true}
+plant: {kind: mujoco, rate: 2000, friction: 0.7, torque_scale: 0.5, roll: 0.1,
+        pitch: 0.2, boards: [{center: [1, 2, 3], size: [4, 5, 6], yaw: 1}],
+        joint_limits: false, joint_damping: false, self_collision: false}
+sensors: {noise: 1, joint_position: 1.1, joint_velocity: 1.2,
+          base_orientation: 1.3, base_rate: 1.4, foot_force: 1.5,
+          foot_moment: 1.6, accelerometer: 1.7, gyroscope: 1.8, joint_bias: 1.9,
+          gyroscope_bias: 2.1, force_bias: 2.2, joint_resolution: 2.3,
+          force_resolution: 2.4, dropout: 0.5, contact_threshold: 2.6}
+)");
+  EXPECT_EQ(s.name, "all");
+  EXPECT_EQ(s.duration, 7);
+  EXPECT_EQ(s.seed, 3u);
+  EXPECT_EQ(s.start.joints, 0.1);
+  EXPECT_EQ(s.start.drop, 0.01);
+  EXPECT_EQ(s.start.heading, 0.5);
+  ASSERT_EQ(s.pushes.size(), 2u);
+  EXPECT_EQ(s.pushes[0].link, "torso");
+  EXPECT_EQ(*s.pushes[0].point, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(s.pushes[0].frame, PushFrame::kLink);
+  EXPECT_EQ(s.pushes[0].force, Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(s.pushes[0].moment, Eigen::Vector3d(7, 8, 9));
+  EXPECT_EQ(s.pushes[0].profile, PushProfile::kHalfSine);
+  EXPECT_EQ(s.pushes[0].start, 2);
+  EXPECT_EQ(s.pushes[0].duration, 0.3);
+  EXPECT_EQ(s.pushes[1].profile, PushProfile::kImpulse);
+  EXPECT_FALSE(s.pushes[1].point);
+  EXPECT_EQ(s.com.sine, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(s.com.cosine, Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(s.com.period, 4);
+  EXPECT_EQ(s.control.tasks, "paper");
+  EXPECT_EQ(s.control.with, std::vector<std::string>{"zmp"});
+  EXPECT_EQ(s.control.without, (std::vector<std::string>{"cop", "yaw"}));
+  EXPECT_EQ(s.control.dt, 0.002);
+  EXPECT_EQ(s.control.delay, 0.002);
+  EXPECT_EQ(s.control.friction, 0.4);
+  EXPECT_EQ(s.control.mass_error, -0.1);
+  EXPECT_TRUE(s.control.inscribed && s.control.feedforward &&
+              s.control.weighted && s.control.estimator);
+  EXPECT_EQ(s.plant_kind, PlantKind::kMujoco);
+  EXPECT_EQ(s.plant.dt, 0.0005);
+  EXPECT_EQ(s.plant.friction, 0.7);
+  EXPECT_EQ(s.plant.torque_scale, 0.5);
+  EXPECT_EQ(s.plant.ground.roll, 0.1);
+  EXPECT_EQ(s.plant.ground.pitch, 0.2);
+  ASSERT_EQ(s.plant.ground.boards.size(), 1u);
+  EXPECT_EQ(s.plant.ground.boards[0].center_W, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(s.plant.ground.boards[0].size, Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(s.plant.ground.boards[0].yaw, 1);
+  EXPECT_FALSE(s.plant.joint_limits || s.plant.joint_damping ||
+               s.plant.self_collision);
+  const SensorSettings& n = s.sensors;
+  const double sum = n.noise + n.joint_position + 2 * n.joint_velocity +
+                     3 * n.base_orientation + 4 * n.base_rate +
+                     5 * n.foot_force + 6 * n.foot_moment +
+                     7 * n.accelerometer + 8 * n.gyroscope + 9 * n.joint_bias;
+  EXPECT_NEAR(sum, 1 + 1.1 + 2.4 + 3.9 + 5.6 + 7.5 + 9.6 + 11.9 + 14.4 + 17.1,
+              1e-9);  // Decimal fractions, in binary.
+  EXPECT_EQ(n.gyroscope_bias, 2.1);
+  EXPECT_EQ(n.force_bias, 2.2);
+  EXPECT_EQ(n.joint_resolution, 2.3);
+  EXPECT_EQ(n.force_resolution, 2.4);
+  EXPECT_EQ(n.dropout, 0.5);
+  EXPECT_EQ(n.contact_threshold, 2.6);
+}
+
+TEST(Scenario, BadKeyIsRefusedWithItsLine) {
+  EXPECT_EQ(Complaint("duration: 5\nstart:\n  joint: 0.1\n"),
+            "trial.yaml:3: key 'joint' is unknown, must be one of joints, "
+            "drop, heading");
+}
+
+TEST(Scenario, BadValueIsRefusedWithItsLine) {
+  EXPECT_EQ(Complaint("\nduration: long\n"),
+            "trial.yaml:2: 'duration' is 'long', must be a number");
+  EXPECT_EQ(Complaint("duration: .inf\n"),
+            "trial.yaml:1: 'duration' is '.inf', must be a number");
+  EXPECT_EQ(Complaint("pushes:\n - force: [1, 2]\n"),
+            "trial.yaml:2: 'force' is a list, must be a list of 3 numbers");
+  EXPECT_EQ(Complaint("pushes:\n - profile: bang\n"),
+            "trial.yaml:2: 'profile' is 'bang', must be box, half_sine or "
+            "impulse");
+  EXPECT_EQ(Complaint("plant: {kind: mars}\n"),
+            "trial.yaml:1: 'kind' is 'mars', must be bullet or mujoco");
+  EXPECT_EQ(Complaint("control: {inscribed: 3}\n"),
+            "trial.yaml:1: 'inscribed' is '3', must be true or false");
+  EXPECT_EQ(Complaint("start: 3\n"),
+            "trial.yaml:1: 'start' is '3', must be a map");
+  EXPECT_EQ(Complaint("- 3\n"), "trial.yaml:1: is a list, must be a map");
+}
+
+TEST(Scenario, BadNumbersAreRefused) {
+  EXPECT_NE(Complaint("duration: -1\n"), "none");
+  EXPECT_NE(Complaint("control: {rate: 0}\n"), "none");
+  EXPECT_NE(Complaint("control: {rate: 300}\n"), "none");  // 1000 / 300.
+  EXPECT_NE(Complaint("control: {rate: 2000}\n"), "none");
+  EXPECT_NE(Complaint("control: {delay: -0.001}\n"), "none");
+  EXPECT_NE(Complaint("control: {mass_error: -1}\n"), "none");
+  EXPECT_NE(Complaint("plant: {friction: -1}\n"), "none");
+  EXPECT_NE(Complaint("plant: {pitch: 2}\n"), "none");
+  EXPECT_NE(Complaint("sensors: {noise: -1}\n"), "none");
+  EXPECT_NE(Complaint("com: {period: 0}\n"), "none");
+  EXPECT_EQ(Complaint("control: {rate: 250}\n"), "none");
+}
+
+TEST(Scenario, WhatIsNoYamlIsRefusedWithItsLine) {
+  EXPECT_EQ(Complaint("a: 1\nb: [1,\n").substr(0, 11), "trial.yaml:");
+  EXPECT_THROW(LoadScenario("nowhere.yaml"), std::invalid_argument);
+}
+
+TEST(Scenario, PushesComeFromAFileOfTheirOwn) {
+  const auto pushes =
+      LoadPushes(Write("pushes: [{force: [1, 0, 0]}, {force: [0, 2, 0]}]\n"));
+  ASSERT_EQ(pushes.size(), 2u);
+  EXPECT_EQ(pushes[1].force, Eigen::Vector3d(0, 2, 0));
+  EXPECT_THROW(LoadPushes(Write("push: []\n")), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,142 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/summary.h"
+
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <vector>
+
+namespace poise {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no infinity and no NaN.
+Json Number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+template <typename Vector>
+Json Numbers(const Vector& values) {
+  Json list = Json::array();
+  for (const double x : values) list.push_back(Number(x));
+  return list;
+}
+
+const char* NameOf(PlantKind kind) {
+  return kind == PlantKind::kMujoco ? "mujoco" : "bullet";
+}
+
+// A line of the table: a label, then what printf() makes of the rest.
+__attribute__((format(printf, 2, 3))) std::string Line(const char* label,
+                                                       const char* format,
+                                                       ...) {
+  char text[160], line[200];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof(text), format, arguments);
+  va_end(arguments);
+  std::snprintf(line, sizeof(line), "  %-22s %s\n", label, text);
+  return line;
+}
+
+}  // namespace
+
+Json ToJson(const Robot& robot, const Scenario& scenario,
+            const RunResult& result) {
+  const Verdict& verdict = result.verdict;
+  const double simulated = result.duration;
+  Json json;
+  json["scenario"] = scenario.name;
+  json["robot"] = robot.model.name;
+  json["seed"] = scenario.seed;
+  json["plant"] = NameOf(scenario.plant_kind);
+  json["control_dt"] = scenario.control.dt;
+  json["plant_dt"] = scenario.plant.dt;
+  json["duration"] = simulated;
+  json["push_duration"] = result.push_duration;
+  json["recovered"] = verdict.recovered;
+  json["fell_at"] = verdict.fell_at ? Json(*verdict.fell_at) : Json(nullptr);
+  json["interrupted"] = result.interrupted;
+  json["com_error_peak"] = Numbers(verdict.com_error_peak);
+  json["com_error_final"] = Numbers(verdict.com_error_final);
+  json["cop_peak"] = Numbers(verdict.cop_peak);
+  json["foot_tilt_peak"] = Number(verdict.foot_tilt_peak);
+  json["foot_slide_peak"] = Number(verdict.foot_slide_peak);
+  json["joint_limit_violation_peak"] =
+      Number(result.joint_limit_violation_peak);
+  json["torque_limit_violation_peak"] =
+      Number(result.torque_limit_violation_peak);
+  json["self_contact_ticks"] = result.self_contact_ticks;
+  json["impulse_Ns"] = result.impulse_Ns;
+  json["lipm_Ns"] =
+      result.yardstick ? Number(result.yardstick->lipm_Ns) : Json(nullptr);
+  json["lipm_height_Ns"] = result.yardstick
+                               ? Number(result.yardstick->lipm_height_Ns)
+                               : Json(nullptr);
+  json["ticks"] = result.ticks;
+  json["tick_us"] = {{"median", result.tick_us.median},
+                     {"p99", result.tick_us.p99},
+                     {"p999", result.tick_us.p999},
+                     {"max", result.tick_us.max}};
+  json["hqp"] = {{"iterations_max", result.iterations_max},
+                 {"failures", result.failures},
+                 {"certificate_max", Number(result.certificate_max)}};
+  json["real_time_factor"] = Number(simulated / result.wall_seconds);
+  json["log_sha256"] = result.log_sha256;
+  return json;
+}
+
+std::string ToTable(const Robot& robot, const Scenario& scenario,
+                    const RunResult& result) {
+  const Verdict& verdict = result.verdict;
+  const Eigen::Vector3d peak = 1e3 * verdict.com_error_peak;
+  const Eigen::Vector3d last = 1e3 * verdict.com_error_final;
+  std::string table = scenario.name + ": ";
+  char text[80];
+  if (verdict.recovered) {
+    table += "recovered";
+  } else if (verdict.fell_at) {
+    std::snprintf(text, sizeof(text), "fell at %.3f s", *verdict.fell_at);
+    table += text;
+  } else {
+    table += "did not come back";
+  }
+  table += result.interrupted ? " (interrupted)\n\n" : "\n\n";
+  table += Line("robot", "%s, %d joints, %.1f kg", robot.model.name.c_str(),
+                robot.model.tree.num_joints(), robot.model.tree.total_mass());
+  table +=
+      Line("simulated", "%.2f s in %s, control at %.0f Hz", result.duration,
+           NameOf(scenario.plant_kind), 1 / scenario.control.dt);
+  if (result.impulse_Ns > 0) {
+    table += Line("push", "%.2f N s over %.3f s", result.impulse_Ns,
+                  result.push_duration);
+  }
+  if (result.yardstick) {
+    table += Line("pendulum takes", "%.2f N s (%.2f N s pushed so high)",
+                  result.yardstick->lipm_Ns, result.yardstick->lipm_height_Ns);
+  }
+  table += Line("CoM error, peak", "%6.1f %6.1f %6.1f mm", peak.x(), peak.y(),
+                peak.z());
+  table += Line("CoM error, at the end", "%6.2f %6.2f %6.2f mm", last.x(),
+                last.y(), last.z());
+  table += Line("CoP, peak", "%6.1f %6.1f mm from mid-feet",
+                1e3 * verdict.cop_peak.x(), 1e3 * verdict.cop_peak.y());
+  table += Line("feet, peak", "tilt %.4f rad, slide %.2f mm",
+                verdict.foot_tilt_peak, 1e3 * verdict.foot_slide_peak);
+  table += Line("limits passed by", "joints %.2g rad, torques %.2g N m",
+                result.joint_limit_violation_peak,
+                result.torque_limit_violation_peak);
+  if (result.self_contact_ticks > 0) {
+    table += Line("links touched", "in %d ticks", result.self_contact_ticks);
+  }
+  table += Line("ticks", "%ld, of which %d not solved to the last rank",
+                result.ticks, result.failures);
+  table += Line("a tick took", "%.0f us (99 %%: %.0f, 99.9 %%: %.0f, max %.0f)",
+                result.tick_us.median, result.tick_us.p99, result.tick_us.p999,
+                result.tick_us.max);
+  table +=
+      Line("speed", "%.1f x real time", result.duration / result.wall_seconds);
+  return table;
+}
+
+}  // namespace poise

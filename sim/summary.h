@@ -1,0 +1,21 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "robot/robot.h"
+#include "sim/run.h"
+#include "sim/scenario.h"
+
+namespace poise {
+
+/// A run as summary.json: SI units, radians; what has no value is null.
+nlohmann::ordered_json ToJson(const Robot& robot, const Scenario& scenario,
+                              const RunResult& result);
+
+/// The same as a table for people, some twenty lines.
+std::string ToTable(const Robot& robot, const Scenario& scenario,
+                    const RunResult& result);
+
+}  // namespace poise

@@ -1,0 +1,162 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/yaml_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace poise {
+
+namespace {
+
+[[noreturn]] void Throw(const std::string& file, const YAML::Mark& mark,
+                        const std::string& what) {
+  throw std::invalid_argument(file + ":" + std::to_string(mark.line + 1) +
+                              ": " + what);
+}
+
+// What stands in the file, as far as one line can show it.
+std::string Shown(const YAML::Node& node) {
+  if (node.IsScalar()) return "'" + node.Scalar() + "'";
+  if (node.IsNull()) return "empty";
+  return node.IsSequence() ? "a list" : "a map";
+}
+
+std::optional<double> ToNumber(const YAML::Node& node) {
+  double value;
+  if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) ||
+      !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+}  // namespace
+
+YamlFields::YamlFields(const YAML::Node& node, std::string file)
+    : node_(node), file_(std::move(file)) {
+  if (!node_.IsMap()) {
+    Throw(file_, node_.Mark(), "is " + Shown(node_) + ", must be a map");
+  }
+}
+
+bool YamlFields::Has(const std::string& key) const {
+  return static_cast<bool>(node_[key]);
+}
+
+YAML::Node YamlFields::Find(const std::string& key) {
+  known_.push_back(key);
+  return node_[key];
+}
+
+void YamlFields::Refuse(const std::string& key, const std::string& why) const {
+  const YAML::Node value = node_[key];
+  Throw(file_, value.Mark(), "'" + key + "' is " + Shown(value) + ", " + why);
+}
+
+double YamlFields::Number(const std::string& key, double otherwise) {
+  const YAML::Node value = Find(key);
+  if (!value) return otherwise;
+  const auto number = ToNumber(value);
+  if (!number) Refuse(key, "must be a number");
+  return *number;
+}
+
+bool YamlFields::Flag(const std::string& key, bool otherwise) {
+  const YAML::Node value = Find(key);
+  if (!value) return otherwise;
+  bool flag;
+  if (!value.IsScalar() || !YAML::convert<bool>::decode(value, flag)) {
+    Refuse(key, "must be true or false");
+  }
+  return flag;
+}
+
+std::string YamlFields::Text(const std::string& key,
+                             const std::string& otherwise) {
+  const YAML::Node value = Find(key);
+  if (!value) return otherwise;
+  if (!value.IsScalar()) Refuse(key, "must be a word");
+  return value.Scalar();
+}
+
+std::vector<std::string> YamlFields::Words(const std::string& key) {
+  const YAML::Node value = Find(key);
+  std::vector<std::string> words;
+  if (!value) return words;
+  if (!value.IsSequence()) Refuse(key, "must be a list of words");
+  for (const YAML::Node& word : value) {
+    if (!word.IsScalar()) Refuse(key, "must be a list of words");
+    words.push_back(word.Scalar());
+  }
+  return words;
+}
+
+std::vector<double> YamlFields::Numbers(const std::string& key) {
+  const YAML::Node value = Find(key);
+  std::vector<double> numbers;
+  if (!value) return numbers;
+  if (!value.IsSequence()) Refuse(key, "must be a list of numbers");
+  for (const YAML::Node& item : value) {
+    const auto number = ToNumber(item);
+    if (!number) Refuse(key, "must be a list of numbers");
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+Eigen::Vector3d YamlFields::Vector(const std::string& key,
+                                   const Eigen::Vector3d& otherwise) {
+  if (!Has(key)) {
+    known_.push_back(key);
+    return otherwise;
+  }
+  const std::vector<double> numbers = Numbers(key);
+  if (numbers.size() != 3) Refuse(key, "must be a list of 3 numbers");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+std::optional<YamlFields> YamlFields::Map(const std::string& key) {
+  const YAML::Node value = Find(key);
+  if (!value) return std::nullopt;
+  if (!value.IsMap()) Refuse(key, "must be a map");
+  return YamlFields(value, file_);
+}
+
+std::vector<YamlFields> YamlFields::Maps(const std::string& key) {
+  const YAML::Node value = Find(key);
+  std::vector<YamlFields> maps;
+  if (!value) return maps;
+  if (!value.IsSequence()) Refuse(key, "must be a list of maps");
+  for (const YAML::Node& item : value) {
+    if (!item.IsMap()) Refuse(key, "must be a list of maps");
+    maps.emplace_back(item, file_);
+  }
+  return maps;
+}
+
+void YamlFields::Finish() const {
+  for (const auto& entry : node_) {
+    const std::string key = entry.first.Scalar();
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    std::string known;
+    for (const std::string& name : known_) {
+      known += (known.empty() ? "" : ", ") + name;
+    }
+    Throw(file_, entry.first.Mark(),
+          "key '" + key + "' is unknown, must be one of " + known);
+  }
+}
+
+YamlFields ReadYaml(const std::string& file) {
+  try {
+    return YamlFields(YAML::LoadFile(file), file);
+  } catch (const YAML::BadFile&) {
+    throw std::invalid_argument(file + ": cannot be read");
+  } catch (const YAML::ParserException& error) {
+    Throw(file, error.mark, "is no YAML: " + error.msg);
+  }
+}
+
+}  // namespace poise

@@ -1,0 +1,75 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/yardstick.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/tick.h"
+#include "robot/feet.h"
+
+namespace poise {
+
+namespace {
+
+double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+// How far p can go along the unit vector u inside a convex polygon; 0 if p is
+// outside.
+double DistanceToEdge(const std::vector<Eigen::Vector2d>& polygon,
+                      const Eigen::Vector2d& p, const Eigen::Vector2d& u) {
+  double distance = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    // Counterclockwise: inside is to the left of each edge.
+    const double inside = Cross(edge, p - polygon[i]);
+    if (inside < 0) return 0;
+    const double approach = -Cross(edge, u);
+    if (approach > 0) distance = std::min(distance, inside / approach);
+  }
+  return distance;
+}
+
+}  // namespace
+
+Yardstick ComputeYardstick(double mass, double gravity,
+                           const Eigen::Vector3d& com,
+                           const std::vector<Eigen::Vector2d>& soles,
+                           const Eigen::Vector2d& u, double duration,
+                           double push_height) {
+  const double omega = std::sqrt(gravity / com.z());
+  const double rho =
+      DistanceToEdge(ConvexHull(soles), com.head<2>(), u.normalized());
+  const double x = omega * duration;
+  const double stretch = x > 0 ? x / -std::expm1(-x) : 1;
+  const double lipm_Ns = mass * omega * rho * stretch;
+  return {lipm_Ns, lipm_Ns * com.z() / push_height};
+}
+
+Yardstick ComputeYardstick(const Robot& robot, const Eigen::VectorXd& q,
+                           const Eigen::Vector2d& u, double duration, int body,
+                           const Eigen::Vector3d& p_BoQ_B) {
+  const Tree& tree = robot.model.tree;
+  Tick tick(tree, {});
+  ComputeTick(tree, q, Eigen::VectorXd::Zero(tree.nv()), &tick);
+  std::vector<Eigen::Vector2d> soles;
+  double ground = std::numeric_limits<double>::infinity();
+  for (const Foot& foot : robot.feet) {
+    const Pose X_WC = tick.X_WB[foot.body] * foot.X_BC;
+    ground = std::min(ground, X_WC.p.z());
+    for (const Eigen::Vector2d& corner : foot.polygon_C) {
+      const Eigen::Vector3d p_WQ =
+          X_WC * Eigen::Vector3d(corner.x(), corner.y(), 0);
+      soles.push_back(p_WQ.head<2>());
+    }
+  }
+  const Eigen::Vector3d up = ground * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d p_WQ = tick.X_WB[body] * p_BoQ_B;
+  return ComputeYardstick(tree.total_mass(), tree.gravity_W().norm(),
+                          tick.p_WG - up, soles, u, duration,
+                          p_WQ.z() - ground);
+}
+
+}  // namespace poise

@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "robot/robot.h"
+
+namespace poise {
+
+/// What a linear inverted pendulum on the same feet can take: the measure for
+/// the pushes that a robot survives without a step.
+struct Yardstick {
+  double lipm_Ns;         ///< Pushed at the center of mass.
+  double lipm_height_Ns;  ///< Pushed at its height, without turning.
+};
+
+/// With omega = sqrt(g / h), h the height of the center of mass above the
+/// soles, and rho the distance from its projection to the edge of the support
+/// polygon along the push u,
+///     lipm_Ns = m omega rho omega T / (1 - exp(-omega T)),
+///     lipm_height_Ns = lipm_Ns h / z_p.
+///
+/// @param mass      m, kg.
+/// @param gravity   g > 0, m/s2.
+/// @param com       center of mass, z above the soles, m.
+/// @param soles     corners of all soles on the ground, m, in any order.
+/// @param u         horizontal direction of the push, of any length but 0.
+/// @param duration  T of a constant force, s; 0 for an impulse.
+/// @param push_height  z_p, where the force acts, above the soles, m.
+///
+/// Both are 0 where the center of mass lies outside the soles' hull.
+/// Source: Koolen et al., "Capturability-based analysis ...", IJRR 31(9), 2012,
+/// with the force of a push in the pendulum's own equation.
+Yardstick ComputeYardstick(double mass, double gravity,
+                           const Eigen::Vector3d& com,
+                           const std::vector<Eigen::Vector2d>& soles,
+                           const Eigen::Vector2d& u, double duration,
+                           double push_height);
+
+/// The same for a robot in the configuration q, pushed at the point Q of a
+/// body; heights are above its lowest sole.
+Yardstick ComputeYardstick(const Robot& robot, const Eigen::VectorXd& q,
+                           const Eigen::Vector2d& u, double duration, int body,
+                           const Eigen::Vector3d& p_BoQ_B);
+
+}  // namespace poise

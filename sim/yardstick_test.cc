@@ -1,0 +1,76 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/yardstick.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/util/simple_robots.h"
+
+namespace poise {
+namespace {
+
+const std::vector<Eigen::Vector2d> kSoles = {
+    {0.1, 0.05}, {-0.1, 0.15}, {0.1, -0.15}, {-0.1, -0.15},
+    {0.1, 0.15}, {0, 0},       {-0.1, 0.05}};
+
+// Whether the pendulum x'' = w^2 (x - p) + F / m, its CoP p always at the edge
+// it can reach, comes back from a force over T: by integration, without the
+// formula of the yardstick.
+bool Survives(double mass, double height, double edge, double force, double T) {
+  const double w2 = 9.81 / height, dt = 1e-5;
+  double x = 0, v = 0;
+  for (double t = 0; t < 3; t += dt) {
+    const double u = t < T ? force / mass : 0;
+    v += dt * (w2 * (x - edge) + u);
+    x += dt * v;
+    if (v < 0) return true;
+  }
+  return false;
+}
+
+TEST(Yardstick, IsWhereAnIntegratedPendulumTurnsOver) {
+  for (const double T : {0.1, 0.3}) {
+    SCOPED_TRACE(T);
+    const Yardstick yardstick =
+        ComputeYardstick(40, 9.81, {0, 0, 0.8}, kSoles, {1, 0}, T, 1.2);
+    const double force = yardstick.lipm_Ns / T;
+    EXPECT_TRUE(Survives(40, 0.8, 0.1, 0.999 * force, T));
+    EXPECT_FALSE(Survives(40, 0.8, 0.1, 1.001 * force, T));
+    EXPECT_DOUBLE_EQ(yardstick.lipm_height_Ns, yardstick.lipm_Ns * 0.8 / 1.2);
+  }
+}
+
+TEST(Yardstick, OfAnImpulseIsTheLimitOfShortPushes) {
+  const auto lipm = [](double T) {
+    return ComputeYardstick(40, 9.81, {0, 0, 0.8}, kSoles, {0, -1}, T, 1)
+        .lipm_Ns;
+  };
+  EXPECT_NEAR(lipm(0), lipm(1e-9), 1e-6);
+  EXPECT_DOUBLE_EQ(lipm(0), 40 * std::sqrt(9.81 / 0.8) * 0.15);
+}
+
+TEST(Yardstick, GoesAlongThePush) {
+  const auto rho = [](const Eigen::Vector3d& com, const Eigen::Vector2d& u) {
+    return ComputeYardstick(40, 9.81, com, kSoles, u, 0, 1).lipm_Ns /
+           (40 * std::sqrt(9.81 / com.z()));
+  };
+  EXPECT_NEAR(rho({0.02, 0, 0.8}, {1, 0}), 0.08, 1e-15);
+  EXPECT_NEAR(rho({0.02, 0, 0.8}, {-2, 0}), 0.12, 1e-15);
+  EXPECT_NEAR(rho({0, 0.05, 0.8}, {0, 3}), 0.1, 1e-15);
+  EXPECT_NEAR(rho({0, 0, 0.8}, {1, 1}), 0.1 * std::sqrt(2), 1e-15);
+  EXPECT_EQ(rho({0.2, 0, 0.8}, {-1, 0}), 0);
+}
+
+TEST(Yardstick, OfARobotTakesItsSolesWhereTheyAre) {
+  const Robot robot = MakeBlock({0.2, 0.3, 1}, 10);
+  Eigen::VectorXd q(7);
+  q << 3, 4, 5, 0, 0, 0, 1;
+  const Yardstick yardstick =
+      ComputeYardstick(robot, q, {0, 1}, 0, 0, {0, 0, 0.25});
+  EXPECT_NEAR(yardstick.lipm_Ns, 10 * std::sqrt(9.81 / 0.5) * 0.15, 1e-12);
+  EXPECT_NEAR(yardstick.lipm_height_Ns, yardstick.lipm_Ns * 0.5 / 0.75, 1e-12);
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,66 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+#include "sim/run.h"
+#include "sim/summary.h"
+#include "tools/push_options.h"
+#include "tools/report_page.h"
+#include "tools/robot_json.h"
+
+namespace {
+
+volatile std::sig_atomic_t g_interrupted = 0;
+
+bool ShowProgress(double fraction) {
+  if (isatty(STDERR_FILENO) != 0) {
+    std::fprintf(stderr, "\r  simulated %3.0f %%%s", 100 * fraction,
+                 fraction < 1 ? "" : "\r                  \r");
+  }
+  return g_interrupted == 0;
+}
+
+int Push(const poise::PushOptions& options) {
+  const poise::RunResult result =
+      poise::Run(options.robot, options.scenario, options.out, ShowProgress);
+  const auto summary =
+      poise::ToJson(options.robot, options.scenario, result).dump(2);
+  std::ofstream(options.out / "summary.json") << summary << '\n';
+  poise::WriteRobotJson(options.robot, options.out / "robot.json");
+  if (options.report) {
+    poise::WriteReport({options.out}, options.out / "report.html");
+  }
+  if (options.json) {
+    std::cout << summary << '\n';
+  } else {
+    std::cout << poise::ToTable(options.robot, options.scenario, result)
+              << "\nWritten into " << options.out.string() << '\n';
+  }
+  return result.verdict.recovered && !result.interrupted ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string help;
+  try {
+    const poise::PushOptions options =
+        poise::ReadPushOptions(argc, argv, &help);
+    std::signal(SIGINT, [](int) { g_interrupted = 1; });
+    std::signal(SIGTERM, [](int) { g_interrupted = 1; });
+    return Push(options);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << help;
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "push: " << error.what() << '\n';
+    return 2;
+  }
+}

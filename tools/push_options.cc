@@ -1,0 +1,193 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/push_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "robot/profile.h"
+#include "tools/user_path.h"
+
+namespace poise {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr const char* kRobot = "robot/models/humanoid.urdf";
+constexpr const char* kProfile = "robot/profiles/humanoid.yaml";
+
+// The options that go over a scenario; those not given change nothing.
+struct Overrides {
+  std::optional<double> force, direction, duration, at, time, control_rate,
+      plant_rate, mu_plant, mass_error, torque_scale, noise, delay;
+  std::optional<std::string> link, tasks, friction, plant, pushes;
+  std::vector<double> point;
+  std::vector<std::string> with, without;
+  bool weighted = false, feedforward = false, estimator = false;
+  std::optional<unsigned> seed;
+};
+
+void AddOptions(CLI::App* app, Overrides* o) {
+  app->add_option("--force", o->force, "N");
+  app->add_option("--direction", o->direction,
+                  "deg: 0 is +x, forward; 90 is +y, left");
+  app->add_option("--duration", o->duration, "of the push, s");
+  app->add_option("--at", o->at, "when the push begins, s");
+  app->add_option("--link", o->link,
+                  "where it acts, at the center of mass (the torso)");
+  app->add_option("--point", o->point, "where on the link, X,Y,Z in m")
+      ->delimiter(',')
+      ->expected(3);
+  app->add_option("--pushes", o->pushes, "a YAML file of pushes, instead");
+  app->add_option("--time", o->time, "to simulate, s");
+  app->add_option("--tasks", o->tasks, "task set: a name or a YAML file");
+  app->add_option("--with", o->with, "tasks to switch on")->delimiter(',');
+  app->add_option("--without", o->without, "tasks to switch off")
+      ->delimiter(',');
+  app->add_flag("--weighted", o->weighted,
+                "one weighted QP instead of the hierarchy");
+  app->add_option("--friction", o->friction, "pyramid of the controller")
+      ->check(CLI::IsMember({"circumscribed", "inscribed"}));
+  app->add_flag("--feedforward", o->feedforward, "of the reference's motion");
+  app->add_option("--control-rate", o->control_rate, "Hz (1000)");
+  app->add_option("--plant", o->plant)
+      ->check(CLI::IsMember({"bullet", "mujoco"}));
+  app->add_option("--plant-rate", o->plant_rate, "Hz (1000)");
+  app->add_flag("--estimator", o->estimator,
+                "the base from sensors, not from the simulator");
+  app->add_option("--mu-plant", o->mu_plant, "friction of the ground (0.8)");
+  app->add_option("--mass-error", o->mass_error,
+                  "of all links in the controller's model, a fraction");
+  app->add_option("--torque-scale", o->torque_scale,
+                  "on the limits, on both sides");
+  app->add_option("--noise", o->noise,
+                  "1 is 2 mrad and 0.1 rad/s a joint, 4 mrad and 0.02 rad/s "
+                  "on the base");
+  app->add_option("--delay", o->delay, "from measurement to torque, s");
+  app->add_option("--seed", o->seed);
+}
+
+template <typename T>
+void Take(const std::optional<T>& from, T* to) {
+  if (from) *to = *from;
+}
+
+void TakeRate(const std::optional<double>& rate, const char* name, double* dt) {
+  if (!rate) return;
+  if (!(*rate > 0) || !std::isfinite(*rate)) {
+    throw std::invalid_argument(std::string(name) + " is " +
+                                std::to_string(*rate) + ", must be positive");
+  }
+  *dt = 1 / *rate;
+}
+
+// The first push of the scenario, or a new one, as the options want it.
+void TakePush(const Overrides& o, Scenario* scenario) {
+  if (o.pushes) scenario->pushes = LoadPushes(UserPath(*o.pushes));
+  if (!o.force && !o.direction && !o.duration && !o.at && !o.link &&
+      o.point.empty()) {
+    return;
+  }
+  if (scenario->pushes.empty()) {
+    scenario->pushes.emplace_back();
+    scenario->pushes[0].force = {0, 50, 0};
+  }
+  Push& push = scenario->pushes[0];
+  const double force = o.force.value_or(push.force.norm());
+  if (o.direction) {
+    const double angle = *o.direction * kPi / 180;
+    push.force = force * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+  } else if (o.force) {
+    push.force = push.force.isZero() ? Eigen::Vector3d(0, force, 0)
+                                     : force * push.force.normalized();
+  }
+  Take(o.duration, &push.duration);
+  Take(o.at, &push.start);
+  Take(o.link, &push.link);
+  if (!o.point.empty()) {
+    push.point = Eigen::Vector3d(o.point[0], o.point[1], o.point[2]);
+  }
+}
+
+void Apply(const Overrides& o, Scenario* scenario) {
+  TakePush(o, scenario);
+  ControlSettings& control = scenario->control;
+  PlantSettings& plant = scenario->plant;
+  Take(o.time, &scenario->duration);
+  Take(o.seed, &scenario->seed);
+  Take(o.tasks, &control.tasks);
+  control.with.insert(control.with.end(), o.with.begin(), o.with.end());
+  control.without.insert(control.without.end(), o.without.begin(),
+                         o.without.end());
+  control.weighted |= o.weighted;
+  control.feedforward |= o.feedforward;
+  control.estimator |= o.estimator;
+  if (o.friction) control.inscribed = *o.friction == "inscribed";
+  TakeRate(o.control_rate, "--control-rate", &control.dt);
+  TakeRate(o.plant_rate, "--plant-rate", &plant.dt);
+  if (o.plant) {
+    scenario->plant_kind =
+        *o.plant == "mujoco" ? PlantKind::kMujoco : PlantKind::kBullet;
+  }
+  Take(o.mu_plant, &plant.friction);
+  Take(o.mass_error, &control.mass_error);
+  Take(o.torque_scale, &plant.torque_scale);
+  Take(o.noise, &scenario->sensors.noise);
+  Take(o.delay, &control.delay);
+}
+
+// A scenario of ours by name, else a file of the user's.
+Scenario FindScenario(const std::string& name) {
+  const std::filesystem::path ours = "sim/scenarios/" + name + ".yaml";
+  if (name.find('/') == std::string::npos && std::filesystem::exists(ours)) {
+    return LoadScenario(ours);
+  }
+  const std::filesystem::path theirs = UserPath(name);
+  if (std::filesystem::is_regular_file(theirs)) return LoadScenario(theirs);
+  throw std::invalid_argument(
+      "scenario '" + name +
+      "' is unknown, must be a file or one of stand, posture_off, "
+      "com_sinusoid, weak_push, strong_push_without_zmp, strong_push, one_leg");
+}
+
+}  // namespace
+
+PushOptions ReadPushOptions(int argc, char** argv, std::string* help) {
+  Overrides overrides;
+  std::string scenario_name = "strong_push", robot, profile, out;
+  bool no_report = false, json = false;
+  CLI::App app("Pushes a humanoid in a simulation: does it recover?", "push");
+  app.add_option("--scenario", scenario_name, "a name or a YAML file")
+      ->capture_default_str();
+  app.add_option("--robot", robot, "a URDF file (our humanoid)");
+  app.add_option("--profile", profile, "feet, posture, tasks of a robot");
+  AddOptions(&app, &overrides);
+  app.add_option("--out", out, "folder to write into (push-out/SCENARIO)");
+  app.add_flag("--no-report", no_report, "write no report.html");
+  app.add_flag("--json", json, "print summary.json");
+  *help = app.help();
+  app.parse(argc, argv);
+
+  Scenario scenario = FindScenario(scenario_name);
+  Apply(overrides, &scenario);
+  Validate(scenario);
+  const std::filesystem::path robot_file =
+      robot.empty() ? kRobot : UserPath(robot);
+  Profile feet_and_posture;
+  if (!profile.empty()) {
+    feet_and_posture = LoadProfile(UserPath(profile));
+  } else if (robot.empty()) {
+    feet_and_posture = LoadProfile(kProfile);
+  }
+  return {LoadRobot(robot_file, feet_and_posture),
+          scenario,
+          robot_file,
+          UserPath(out.empty() ? "push-out/" + scenario.name : out),
+          !no_report,
+          json};
+}
+
+}  // namespace poise

@@ -1,0 +1,28 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "robot/robot.h"
+#include "sim/scenario.h"
+
+namespace poise {
+
+/// What `push` was told.
+struct PushOptions {
+  Robot robot;
+  Scenario scenario;
+  std::filesystem::path robot_file;
+  std::filesystem::path out;
+  bool report = true;
+  bool json = false;
+};
+
+/// Reads the command line of `push`, the robot and the scenario.
+///
+/// Throws CLI::CallForHelp where help was asked for, CLI::ParseError about the
+/// command line and std::invalid_argument about what it names.
+PushOptions ReadPushOptions(int argc, char** argv, std::string* help);
+
+}  // namespace poise
