@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include "sim/neighbors.h"
+
 namespace poise {
 
 namespace {
@@ -193,20 +195,7 @@ void BulletWorld::AddColliders(const Robot& robot,
     colliders_.push_back(std::move(collider));
   }
   shapes_.push_back(std::move(nothing));
-  ExcludeNeighbors(tree);
-}
-
-void BulletWorld::ExcludeNeighbors(const Tree& tree) {
-  const auto parent = [&tree](int body) {
-    return body == 0 ? 0 : tree.joints()[body - 1].parent;
-  };
-  for (int i = 1; i < tree.num_bodies(); ++i) {
-    filter_.Exclude(i, parent(i));
-    filter_.Exclude(i, parent(parent(i)));
-    for (int k = 1; k < i; ++k) {
-      if (parent(k) == parent(i)) filter_.Exclude(i, k);
-    }
-  }
+  for (const auto& [a, b] : FindNeighbors(tree)) filter_.Exclude(a, b);
 }
 
 void BulletWorld::AddLimits(const RobotModel& model) {

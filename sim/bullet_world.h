@@ -76,8 +76,6 @@ class BulletWorld {
   void AddGround(const PlantSettings& settings);
   void AddColliders(const Robot& robot, const PlantSettings& settings,
                     double sole_radius);
-  // The shapes of links that at most two joints part overlap at the joints.
-  void ExcludeNeighbors(const Tree& tree);
   void AddLimits(const RobotModel& model);
 
   BulletBody body_;
