@@ -33,38 +33,36 @@ void SinCos(const double* x, int n, double* sine, double* cosine) noexcept {
     const double y = c - quarter * kHalfPi3;
     const double z = ((a - c) - b) + ((c - y) - quarter * kHalfPi3);
 
-    // Taylor's series; the first terms left out are below 2e-18.
+    // Taylor's series, of which the terms left out are below 2e-18:
+    //     sin y = y + y^3 odd(y^2),   cos y = 1 - y^2/2 + y^4 even(y^2).
     const double yy = y * y;
-    const double s =
-        y +
-        (z +
-         y * yy *
-             (-1 / 6. +
-              yy * (1 / 120. +
-                    yy * (-1 / 5040. +
-                          yy * (1 / 362880. +
-                                yy * (-1 / 39916800. +
-                                      yy * (1 / 6227020800. +
-                                            yy * (-1 / 1307674368000.))))))));
+    double odd = 1 / 355687428096000.;
+    odd = odd * yy - 1 / 1307674368000.;
+    odd = odd * yy + 1 / 6227020800.;
+    odd = odd * yy - 1 / 39916800.;
+    odd = odd * yy + 1 / 362880.;
+    odd = odd * yy - 1 / 5040.;
+    odd = odd * yy + 1 / 120.;
+    odd = odd * yy - 1 / 6.;
+    double even = 1 / 20922789888000.;
+    even = even * yy - 1 / 87178291200.;
+    even = even * yy + 1 / 479001600.;
+    even = even * yy - 1 / 3628800.;
+    even = even * yy + 1 / 40320.;
+    even = even * yy - 1 / 720.;
+    even = even * yy + 1 / 24.;
+
+    // At y + z, the small terms added up first.
     const double half = 0.5 * yy;
     const double one = 1 - half;
-    const double co =
-        one +
-        (((1 - one) - half) - y * z +
-         yy * yy *
-             (1 / 24. +
-              yy * (-1 / 720. +
-                    yy * (1 / 40320. +
-                          yy * (-1 / 3628800. +
-                                yy * (1 / 479001600. +
-                                      yy * (-1 / 87178291200. +
-                                            yy * (1 / 20922789888000.))))))));
+    const double sine_y = y + (one * z + y * yy * odd);
+    const double cosine_y = one + (((1 - one) - half) - y * z + yy * yy * even);
 
     // By the quarter turn, 0, 1, -2 or 2, -1.
     const double turn = quarter - 4 * ((0.25 * quarter + kRound) - kRound);
-    const bool odd = turn * turn == 1;
-    const double sine_size = odd ? co : s;
-    const double cosine_size = odd ? s : co;
+    const bool swap = turn * turn == 1;
+    const double sine_size = swap ? cosine_y : sine_y;
+    const double cosine_size = swap ? sine_y : cosine_y;
     sine[i] = turn * turn == 4 || turn == -1 ? -sine_size : sine_size;
     cosine[i] = turn * turn == 4 || turn == 1 ? -cosine_size : cosine_size;
   }

@@ -35,23 +35,6 @@ std::string Quote(const char* kind, const std::string& name) {
   return std::string(kind) + " '" + name + "'";
 }
 
-// The inertia of two bodies welded together, in the axes and about the origin
-// of the first, from their centers of mass: no large terms that cancel.
-Inertia Weld(const Inertia& M_A, const Inertia& M_B, const Pose& X_AB) {
-  const Eigen::Vector3d p_AoGb_A = X_AB * M_B.p_BoG_B;
-  const double mass = M_A.mass + M_B.mass;
-  Inertia M{mass, M_A.p_BoG_B,
-            M_A.I_G_B + X_AB.R * M_B.I_G_B * X_AB.R.transpose()};
-  if (mass > 0) {
-    const Eigen::Vector3d d = p_AoGb_A - M_A.p_BoG_B;
-    M.p_BoG_B += M_B.mass / mass * d;
-    M.I_G_B +=
-        M_A.mass * M_B.mass / mass *
-        (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());
-  }
-  return M;
-}
-
 Pose Displacement(const JointSpec& joint, double value) {
   if (joint.type == JointType::kPrismatic) {
     return {Eigen::Matrix3d::Identity(), value * joint.axis_F};
@@ -245,7 +228,7 @@ Tree TreeBuilder::Build(BaseType base) const {
         frame.body = parent.body;
         frame.X_BF = X_BF;
         Inertia& M_B = tree.inertias_[parent.body];
-        M_B = Weld(M_B, links_[link].M, X_BF);
+        M_B = M_B + X_BF * links_[link].M;
       } else {
         frame.body = static_cast<int>(tree.inertias_.size());
         tree.inertias_.push_back(links_[link].M);

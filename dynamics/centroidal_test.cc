@@ -1,0 +1,147 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "dynamics/centroidal.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "dynamics/center_of_mass.h"
+#include "dynamics/crba.h"
+#include "dynamics/integrate.h"
+#include "dynamics/kinematics.h"
+#include "dynamics/rnea.h"
+#include "tests/util/count_malloc.h"
+#include "tests/util/ridders.h"
+#include "tests/util/tolerance.h"
+#include "tests/util/tree_cases.h"
+
+namespace poise {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+CentroidalMomentum CentroidalMomentumAt(const Tree& tree, const VectorXd& q,
+                                        const VectorXd& v) {
+  Recursion scratch(tree);
+  MatrixXd M(tree.nv(), tree.nv());
+  VectorXd c(tree.nv());
+  CenterOfMass G(tree);
+  ComputeCrba(tree, q, &scratch, M);
+  ComputeCoriolis(tree, q, v, &scratch, c);
+  ComputeCenterOfMass(tree, q, v, &scratch, &G);
+  CentroidalMomentum out(tree);
+  ComputeCentroidalMomentum(M, c, G.p_WG - q.head<3>(), &out);
+  return out;
+}
+
+// The second derivation: the sum of the bodies' momenta about G.
+Vector6d MomentumOf(const Tree& tree, const VectorXd& q, const VectorXd& v) {
+  std::vector<Pose> X_WB(tree.num_bodies());
+  std::vector<Vector6d> V(tree.num_bodies());
+  ComputePoses(tree, q, &X_WB);
+  ComputeVelocities(tree, X_WB, v, &V);
+  const Vector3d p_WG = CompositeInertia(tree, X_WB).p_BoG_B;
+  Vector6d L = Vector6d::Zero();
+  for (int b = 0; b < tree.num_bodies(); ++b) {
+    const Inertia& M_B = tree.inertias()[b];
+    const Vector3d w = V[b].head<3>();
+    const Vector3d p_GB = X_WB[b] * M_B.p_BoG_B - p_WG;
+    const Vector3d f =
+        M_B.mass * (V[b].tail<3>() + w.cross(X_WB[b].R * M_B.p_BoG_B));
+    L.head<3>() +=
+        X_WB[b].R * M_B.I_G_B * X_WB[b].R.transpose() * w + p_GB.cross(f);
+    L.tail<3>() += f;
+  }
+  return L;
+}
+
+// On trees with a floating base.
+bool HoldsForFloatingTrees(
+    const std::string& property,
+    const std::function<Residual(const TreeMotion&)>& residual_of) {
+  return HoldsForTrees(property, [&residual_of](const TreeMotion& m) {
+    return m.tree.is_floating() ? residual_of(m) : Residual{0, 0};
+  });
+}
+
+TEST(CentroidalMomentum, IsTheSumOfTheBodiesMomenta) {
+  EXPECT_TRUE(HoldsForFloatingTrees("H_G", [](const TreeMotion& m) {
+    const Matrix6Xd H_G = CentroidalMomentumAt(m.tree, m.q, m.v).H_G;
+    Matrix6Xd sums(6, m.tree.nv());
+    for (int j = 0; j < m.tree.nv(); ++j) {
+      sums.col(j) = MomentumOf(m.tree, m.q, VectorXd::Unit(m.tree.nv(), j));
+    }
+    return Compare(H_G, sums, Rounding(H_G.norm() * 5, m.tree.nv() + 10));
+  }));
+}
+
+TEST(CentroidalMomentum, BiasIsTheRateOfMomentumAtConstantV) {
+  EXPECT_TRUE(HoldsForFloatingTrees("bias", [](const TreeMotion& m) {
+    const Vector6d bias = CentroidalMomentumAt(m.tree, m.q, m.v).bias;
+    const VectorXd rate = RiddersRate([&](double t) {
+      VectorXd q(m.tree.nq());
+      Integrate(m.tree, m.q, m.v, t, q);
+      return VectorXd(MomentumOf(m.tree, q, m.v));
+    });
+    return Compare(bias, rate, kRiddersPrecision * (300 + bias.norm()));
+  }));
+}
+
+TEST(CentroidalMomentum, RatesAddUp) {
+  EXPECT_TRUE(HoldsForFloatingTrees("H v̇ + bias", [](const TreeMotion& m) {
+    const CentroidalMomentum H = CentroidalMomentumAt(m.tree, m.q, m.v);
+    const Vector6d expected = H.H_G * m.vdot + H.bias;
+    const VectorXd rate = RiddersRate([&](double t) {
+      VectorXd q(m.tree.nq());
+      Integrate(m.tree, m.q, m.v + 0.5 * t * m.vdot, t, q);
+      return VectorXd(CentroidalMomentumAt(m.tree, q, m.v).H_G *
+                      (m.v + t * m.vdot));
+    });
+    return Compare(expected, rate, kRiddersPrecision * (300 + expected.norm()));
+  }));
+}
+
+TEST(CompositeInertia, IsTheMomentumOfTheLockedRobot) {
+  EXPECT_TRUE(HoldsForFloatingTrees("I_G w", [](const TreeMotion& m) {
+    std::vector<Pose> X_WB(m.tree.num_bodies());
+    ComputePoses(m.tree, m.q, &X_WB);
+    const Inertia composite = CompositeInertia(m.tree, X_WB);
+    const Matrix6Xd H_G = CentroidalMomentumAt(m.tree, m.q, m.v).H_G;
+    Matrix6d locked = Matrix6d::Zero();
+    locked.topLeftCorner<3, 3>() = composite.I_G_B;
+    locked.bottomRightCorner<3, 3>() = composite.mass * Matrix3d::Identity();
+    Matrix6d ours = H_G.leftCols<6>();
+    // v_WG = v_WB + w x p_BoG: to a pure rotation about G.
+    const Vector3d p = composite.p_BoG_B - m.q.head<3>();
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d v = Vector3d::Unit(k).cross(p);
+      ours.col(k) -= ours.rightCols<3>() * v;
+    }
+    return Compare(ours, locked, Rounding(10 * H_G.norm(), m.tree.nv() + 10));
+  }));
+}
+
+TEST(CompositeInertia, OfATreeWithoutMassIsZero) {
+  const Tree tree = TreeBuilder().AddLink("nothing").Build();
+  const Inertia composite = CompositeInertia(tree, std::vector<Pose>(1));
+  EXPECT_EQ(composite.mass, 0);
+  EXPECT_TRUE(composite.p_BoG_B.isZero(0));
+  EXPECT_TRUE(composite.I_G_B.isZero(0));
+}
+
+TEST(CentroidalMomentum, DoesNotAllocate) {
+  const TreeMotion m =
+      MakeTreeMotion({TreeShape::kAny, BaseType::kFloating, 12, 1});
+  const MatrixXd M = MatrixXd::Identity(m.tree.nv(), m.tree.nv());
+  CentroidalMomentum out(m.tree);
+  const Vector3d p(1, 2, 3);
+  CountMalloc count;
+  ComputeCentroidalMomentum(M, m.v, p, &out);
+  EXPECT_EQ(count.allocations(), 0);
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,65 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tests/util/ridders.h"
+
+#include <ceres/dynamic_numeric_diff_cost_function.h>
+
+#include <stdexcept>
+
+namespace poise {
+namespace {
+
+using Function = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
+
+struct Functor {
+  const Function& function;
+  Eigen::Index size;
+
+  bool operator()(double const* const* x, double* y) const {
+    Eigen::VectorXd copy = Eigen::Map<const Eigen::VectorXd>(x[0], size);
+    const Eigen::VectorXd value = function(copy);
+    Eigen::Map<Eigen::VectorXd>(y, value.size()) = value;
+    return true;
+  }
+};
+
+// Ridders' method judges itself by how far its estimates differ, and is fooled
+// where two bad ones happen to agree; so the median of three steps is taken.
+Eigen::MatrixXd JacobianFrom(double step, const Function& function,
+                             const Eigen::VectorXd& x) {
+  const Eigen::Index rows = function(x).size();
+  ceres::NumericDiffOptions options;
+  options.ridders_relative_initial_step_size = step;
+  ceres::DynamicNumericDiffCostFunction<Functor, ceres::RIDDERS> cost(
+      new Functor{function, x.size()}, ceres::TAKE_OWNERSHIP, options);
+  cost.AddParameterBlock(static_cast<int>(x.size()));
+  cost.SetNumResiduals(static_cast<int>(rows));
+  Eigen::VectorXd y(rows);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J(
+      rows, x.size());
+  const double* blocks[] = {x.data()};
+  double* jacobians[] = {J.data()};
+  if (!cost.Evaluate(blocks, y.data(), jacobians)) {
+    throw std::runtime_error("the function cannot be evaluated");
+  }
+  return J;
+}
+
+}  // namespace
+
+Eigen::MatrixXd RiddersJacobian(const Function& function,
+                                const Eigen::VectorXd& x) {
+  const Eigen::MatrixXd A = JacobianFrom(0.01, function, x);
+  const Eigen::MatrixXd B = JacobianFrom(0.008, function, x);
+  const Eigen::MatrixXd C = JacobianFrom(0.006, function, x);
+  return A.cwiseMin(B).cwiseMax(A.cwiseMax(B).cwiseMin(C));
+}
+
+Eigen::VectorXd RiddersRate(
+    const std::function<Eigen::VectorXd(double)>& function) {
+  // Around 1, so that the relative steps are absolute ones.
+  return RiddersJacobian(
+      [&function](const Eigen::VectorXd& t) { return function(t[0] - 1); },
+      Eigen::VectorXd::Ones(1));
+}
+
+}  // namespace poise
