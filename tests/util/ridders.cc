@@ -22,13 +22,14 @@ struct Functor {
   }
 };
 
-// Ridders' method judges itself by how far its estimates differ, and is fooled
-// where two bad ones happen to agree; so the median of three steps is taken.
-Eigen::MatrixXd JacobianFrom(double step, const Function& function,
-                             const Eigen::VectorXd& x) {
+}  // namespace
+
+Eigen::MatrixXd RiddersJacobian(const Function& function,
+                                const Eigen::VectorXd& x) {
   const Eigen::Index rows = function(x).size();
   ceres::NumericDiffOptions options;
-  options.ridders_relative_initial_step_size = step;
+  // Ceres begins with steps 32 times as long and halves them nine times.
+  options.ridders_relative_initial_step_size = 1e-3;
   ceres::DynamicNumericDiffCostFunction<Functor, ceres::RIDDERS> cost(
       new Functor{function, x.size()}, ceres::TAKE_OWNERSHIP, options);
   cost.AddParameterBlock(static_cast<int>(x.size()));
@@ -42,16 +43,6 @@ Eigen::MatrixXd JacobianFrom(double step, const Function& function,
     throw std::runtime_error("the function cannot be evaluated");
   }
   return J;
-}
-
-}  // namespace
-
-Eigen::MatrixXd RiddersJacobian(const Function& function,
-                                const Eigen::VectorXd& x) {
-  const Eigen::MatrixXd A = JacobianFrom(0.01, function, x);
-  const Eigen::MatrixXd B = JacobianFrom(0.008, function, x);
-  const Eigen::MatrixXd C = JacobianFrom(0.006, function, x);
-  return A.cwiseMin(B).cwiseMax(A.cwiseMax(B).cwiseMin(C));
 }
 
 Eigen::VectorXd RiddersRate(

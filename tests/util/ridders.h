@@ -7,7 +7,7 @@
 namespace poise {
 
 /// The relative precision to expect of RiddersJacobian(), for functions that are
-/// smooth over a hundredth and evaluated to rounding.
+/// smooth over three hundredths and evaluated to rounding.
 inline constexpr double kRiddersPrecision = 1e-9;
 
 /// The Jacobian of a function at x, by Ceres' numeric differentiation with
