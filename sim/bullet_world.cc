@@ -165,6 +165,10 @@ void BulletWorld::AddColliders(const Robot& robot,
     }
   }
 
+  // Before the colliders come: Bullet asks about a pair once, when its boxes
+  // first overlap, and here all of them still lie at the origin.
+  for (const auto& [a, b] : FindNeighbors(tree)) filter_.Exclude(a, b);
+
   // A link without a collider would be without its joint limits, too.
   auto nothing = std::make_unique<btSphereShape>(1e-3);
   for (int i = 0; i < tree.num_bodies(); ++i) {
@@ -195,7 +199,6 @@ void BulletWorld::AddColliders(const Robot& robot,
     colliders_.push_back(std::move(collider));
   }
   shapes_.push_back(std::move(nothing));
-  for (const auto& [a, b] : FindNeighbors(tree)) filter_.Exclude(a, b);
 }
 
 void BulletWorld::AddLimits(const RobotModel& model) {
