@@ -1,0 +1,66 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// The dynamics of a robot: bazel run //tools:dynamics -- --urdf FILE ...
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+
+#include "dynamics/tree.h"
+#include "robot/urdf.h"
+#include "tools/dynamics_file.h"
+#include "tools/user_path.h"
+
+namespace poise {
+namespace {
+
+nlohmann::json ReadJson(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) throw std::invalid_argument("cannot be read");
+  try {
+    return nlohmann::json::parse(file);
+  } catch (const nlohmann::json::exception& error) {
+    throw std::invalid_argument(std::string("not JSON: ") + error.what());
+  }
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app(
+      "Mass matrix, bias forces, inverse dynamics, centroidal momentum and "
+      "frame Jacobians of a robot in given states.",
+      "dynamics");
+  std::string urdf, states;
+  std::vector<std::string> frames;
+  bool json = false;
+  app.add_option("--urdf", urdf, "The robot")->required();
+  app.add_option("--states", states, "The states, JSON")->required();
+  app.add_option("--frames", frames,
+                 "Links, a,b,...; default: those that the states name")
+      ->delimiter(',');
+  app.add_flag("--json", json, "Print one JSON document");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::cerr << "dynamics: " << error.what() << "\n";
+    return 2;
+  }
+  try {
+    const RobotModel robot = LoadUrdf(UserPath(urdf));
+    try {
+      const nlohmann::json result =
+          ComputeDynamics(robot.tree, ReadJson(UserPath(states)), frames);
+      std::cout << (json ? result.dump() + "\n" : FormatDynamics(result));
+    } catch (const std::exception& error) {
+      throw std::invalid_argument(states + ": " + error.what());
+    }
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 2;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace poise
+
+int main(int argc, char** argv) { return poise::Main(argc, argv); }
