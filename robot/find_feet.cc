@@ -5,13 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <locale>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "robot/feet.h"
+#include "robot/knee.h"
 
 namespace poise {
 namespace {
 
+using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
@@ -22,6 +27,10 @@ constexpr double kLevel = 0.03;
 // A sole's steepest normal and most turned axis at q = 0, rad.
 constexpr double kSteepest = 0.6;
 constexpr double kMostTurned = 0.3;
+// To lay a sole flat anywhere takes six.
+constexpr int kMotorsOfALeg = 6;
+// Of a body with very many shapes, the first ones' axes will do.
+constexpr size_t kMostAxes = 64;
 
 // What of a body may touch the ground.
 struct Corner {
@@ -32,7 +41,7 @@ struct Corner {
 
 struct Outline {
   std::vector<Corner> corners;
-  std::vector<Vector3d> axes;  // Of the shapes and of the body, in the body.
+  std::vector<Vector3d> axes;  // Of the body and of the shapes, in the body.
 };
 
 // A flat underside of a body.
@@ -69,6 +78,7 @@ void AddShape(const Shape& shape, const Pose& X_BF, Outline* outline) {
   } else {
     return;  // A mesh is not opened.
   }
+  if (outline->axes.size() >= kMostAxes) return;
   for (int i = 0; i < 3; ++i) outline->axes.push_back(X_BS.R.col(i));
 }
 
@@ -77,6 +87,9 @@ void AddShape(const Shape& shape, const Pose& X_BF, Outline* outline) {
 std::vector<Outline> MakeOutlines(const RobotModel& model) {
   const std::vector<Frame>& frames = model.tree.frames();
   std::vector<Outline> outlines(model.tree.num_bodies());
+  for (Outline& outline : outlines) {
+    for (int i = 0; i < 3; ++i) outline.axes.push_back(Vector3d::Unit(i));
+  }
   for (const std::vector<Shape>* shapes : {&model.collisions, &model.visuals}) {
     std::vector<bool> done;
     for (const Outline& outline : outlines) {
@@ -88,9 +101,6 @@ std::vector<Outline> MakeOutlines(const RobotModel& model) {
         AddShape(shape, frame.X_BF, &outlines[frame.body]);
       }
     }
-  }
-  for (Outline& outline : outlines) {
-    for (int i = 0; i < 3; ++i) outline.axes.push_back(Vector3d::Unit(i));
   }
   return outlines;
 }
@@ -198,7 +208,17 @@ Pose MakeSoleAxes(const Sole& sole, const Outline& outline,
   return X_BS;
 }
 
-// The bodies on the ground: of each chain of them, the one with a sole.
+// The joints between the base and a body that have a motor.
+int NumMotors(const RobotModel& model, int body) {
+  int motors = 0;
+  for (int b = body; b > 0; b = model.tree.joints()[b - 1].parent) {
+    motors += model.limits[b - 1].effort > 0;
+  }
+  return motors;
+}
+
+// The bodies on the ground: of each chain of them, the one with the largest
+// sole or, if none has any, the first with six motors.
 std::vector<int> BodiesOnGround(const RobotModel& model,
                                 const std::vector<double>& low,
                                 const std::vector<Sole>& soles) {
@@ -211,7 +231,11 @@ std::vector<int> BodiesOnGround(const RobotModel& model,
     if (parent >= 0 && chain[parent] >= 0) {
       chain[b] = chain[parent];
       int& body = bodies[chain[b]];
-      if (Area(soles[b]) > Area(soles[body])) body = b;
+      if (Area(soles[b]) > Area(soles[body]) ||
+          (soles[body].points.empty() &&
+           NumMotors(model, body) < kMotorsOfALeg)) {
+        body = b;
+      }
     } else {
       chain[b] = static_cast<int>(bodies.size());
       bodies.push_back(b);
@@ -220,6 +244,7 @@ std::vector<int> BodiesOnGround(const RobotModel& model,
   return bodies;
 }
 
+// The first link of a body.
 std::string LinkOf(const RobotModel& model, int body) {
   for (const Frame& frame : model.tree.frames()) {
     if (frame.body == body) return frame.name;
@@ -227,28 +252,110 @@ std::string LinkOf(const RobotModel& model, int body) {
   return "";
 }
 
+// How far below the body's origin the sole is likely to be, along up.
+double EstimateDepth(const RobotModel& model, int body, const Vector3d& up,
+                     double leg, int* frame) {
+  constexpr double kNone = 0.01;  // A link at the ankle says nothing, m.
+  double depth = 0;
+  for (int i = 0; i < static_cast<int>(model.tree.frames().size()); ++i) {
+    const Frame& link = model.tree.frames()[i];
+    if (link.body != body) continue;
+    const double below = -up.dot(link.X_BF.p);
+    const bool is_sole = link.name.find("sole") != std::string::npos;
+    if (below > std::max(depth, kNone) || (is_sole && below > kNone)) {
+      depth = below;
+      *frame = i;
+      if (is_sole) return depth;
+    }
+  }
+  return depth > 0 ? depth : 0.1 * leg;
+}
+
+// A small sole where the file has only meshes; see FindFeet().
+Sole EstimateSole(const RobotModel& model, int body,
+                  const std::vector<Pose>& X_WB, const Vector3d& forward,
+                  std::vector<Finding>* findings) {
+  const std::string link = LinkOf(model, body);
+  const int motors = NumMotors(model, body);
+  if (motors < kMotorsOfALeg) {
+    throw std::invalid_argument("robot '" + model.name +
+                                "' has no flat sole on link '" + link +
+                                "', nor motors to lay one flat: the leg has " +
+                                std::to_string(motors) + ", must have 6");
+  }
+  int hip = body;
+  while (model.tree.joints()[hip - 1].parent > 0) {
+    hip = model.tree.joints()[hip - 1].parent;
+  }
+  const double leg = X_WB[hip].p.z() - X_WB[body].p.z();
+  const Matrix3d R_BW = X_WB[body].R.transpose();
+  const Vector3d up = R_BW.col(2);
+  Sole sole;
+  sole.frame = model.tree.FindFrame(link).value();
+  sole.normal = up;
+  const double depth = EstimateDepth(model, body, up, leg, &sole.frame);
+  const Vector3d side = up.cross(R_BW * forward);
+  for (const double x : {-0.07, 0.15}) {
+    for (const double y : {-0.06, 0.06}) {
+      sole.points.push_back(leg * (x * (R_BW * forward) + y * side) -
+                            depth * up);
+    }
+  }
+  if (findings != nullptr) {
+    std::ostringstream size;
+    size.imbue(std::locale::classic());
+    size << "is taken for " << 0.22 * leg << " x " << 0.12 * leg << " m, "
+         << depth << " m below the ankle";
+    findings->push_back({Severity::kWarn, "sole of link " + Quoted(link),
+                         size.str(),
+                         "as the file has only meshes: give it in a profile"});
+  }
+  return sole;
+}
+
+// How far the sole reaches before its ankle, less how far behind, m.
+double Toes(const Sole& sole, const Vector3d& forward_B) {
+  if (sole.points.empty()) return 0;
+  double front = -std::numeric_limits<double>::infinity();
+  double back = -front;
+  for (const Vector3d& p : sole.points) {
+    front = std::max(front, p.dot(forward_B));
+    back = std::min(back, p.dot(forward_B));
+  }
+  return front + back;
+}
+
+// How far the knee above a foot goes forward, less how far backward, rad. To
+// turn about the left moves what is below backward: the knee forward.
+double KneeRange(const RobotModel& model, int body,
+                 const std::vector<Pose>& X_WB, const Vector3d& forward) {
+  const auto knee =
+      FindKnee(model.tree, body, X_WB, Vector3d::UnitZ().cross(forward));
+  if (!knee) return 0;
+  const JointLimits& limits = model.limits[knee->joint];
+  const double range = knee->sign * (limits.lower + limits.upper);
+  return std::isfinite(range) ? range : 0;
+}
+
 }  // namespace
 
-std::vector<Foot> FindFeet(const RobotModel& model) {
+std::vector<Foot> FindFeet(const RobotModel& model,
+                           std::vector<Finding>* findings) {
   const std::vector<Outline> outlines = MakeOutlines(model);
   const std::vector<Pose> X_WB = RestPoses(model);
   const std::vector<double> low = Reach(model, outlines, X_WB);
-  std::vector<Sole> soles;
+  const double ground = *std::min_element(low.begin(), low.end());
+  std::vector<Sole> soles(X_WB.size());
   for (size_t b = 0; b < X_WB.size(); ++b) {
-    soles.push_back(FindSole(outlines[b], X_WB[b].R.row(2).transpose()));
+    if (low[b] > ground + kLevel) continue;
+    soles[b] = FindSole(outlines[b], X_WB[b].R.row(2).transpose());
   }
   const std::vector<int> bodies = BodiesOnGround(model, low, soles);
   if (bodies.size() != 2) {
     throw std::invalid_argument(
         "robot '" + model.name + "' reaches the ground with " +
-        std::to_string(bodies.size()) + " bodies, must be two feet");
-  }
-  for (const int body : bodies) {
-    if (!soles[body].points.empty()) continue;
-    throw std::invalid_argument(
-        "link '" + LinkOf(model, body) +
-        "' is a foot without a flat sole made of boxes, cylinders or "
-        "spheres: a profile must give it");
+        std::to_string(bodies.size()) +
+        (bodies.size() == 1 ? " body" : " bodies") + ", must be two feet");
   }
 
   // The feet stand side by side: along y or, in some robots, along x.
@@ -257,23 +364,20 @@ std::vector<Foot> FindFeet(const RobotModel& model) {
                          ? Vector3d::UnitX()
                          : Vector3d::UnitY();
   double toes = 0;
+  double knees = 0;
   for (const int body : bodies) {
-    double front = -std::numeric_limits<double>::infinity();
-    double back = -front;
-    for (const Vector3d& p : soles[body].points) {
-      const double along = (X_WB[body].R * p).dot(forward);
-      front = std::max(front, along);
-      back = std::min(back, along);
-    }
-    toes += front + back;
+    toes += Toes(soles[body], X_WB[body].R.transpose() * forward);
+    knees += KneeRange(model, body, X_WB, forward);
   }
-  if (toes < -kFlat) forward = -forward;
+  if (std::abs(toes) > kFlat ? toes < 0 : knees < 0) forward = -forward;
 
   std::vector<Foot> feet;
   const bool first_is_left = across.dot(Vector3d::UnitZ().cross(forward)) < 0;
   for (const bool left : {true, false}) {
     const int body = bodies[left == first_is_left ? 0 : 1];
-    const Sole& sole = soles[body];
+    const Sole sole = soles[body].points.empty()
+                          ? EstimateSole(model, body, X_WB, forward, findings)
+                          : soles[body];
     const Pose X_BS =
         MakeSoleAxes(sole, outlines[body], X_WB[body].R.transpose() * forward);
     std::vector<Vector2d> points;

@@ -127,12 +127,10 @@ struct Reader {
 void ReadPosture(const Reader& reader, const YAML::Node& node,
                  Profile* profile) {
   reader.ExpectMap(node, "posture", {"base", "found", "joints"});
-  profile->has_posture = true;
   if (const YAML::Node base = node["base"]) {
     reader.ExpectMap(base, "posture.base", {"rpy", "xyz"});
-    if (base["xyz"]) {
-      profile->base_xyz = reader.Numbers<3>(base["xyz"], "posture.base.xyz");
-    }
+    if (!base["xyz"]) reader.Refuse(base, "posture.base: must have xyz");
+    profile->base_xyz = reader.Numbers<3>(base["xyz"], "posture.base.xyz");
     if (base["rpy"]) {
       profile->base_rpy = reader.Numbers<3>(base["rpy"], "posture.base.rpy");
     }
@@ -208,8 +206,10 @@ Profile LoadProfile(const Path& file) {
   return profile;
 }
 
-Robot LoadRobot(const Path& urdf, const Profile& profile) {
-  Robot robot{LoadUrdf(urdf, LockedJoints(urdf, profile)), {}, {}, false};
+Robot LoadRobot(const Path& urdf, const Profile& profile,
+                std::vector<Finding>* findings) {
+  Robot robot{
+      LoadUrdf(urdf, LockedJoints(urdf, profile), findings), {}, {}, false};
   const Tree& tree = robot.model.tree;
   if (profile.mimic != MimicPolicy::kCoupled) robot.model.mimics.clear();
 
@@ -223,11 +223,12 @@ Robot LoadRobot(const Path& urdf, const Profile& profile) {
     robot.feet.push_back(
         MakeFoot(robot.model, sole.name, *frame, sole.X_FS, sole.sole_S));
   }
-  if (robot.feet.empty()) robot.feet = FindFeet(robot.model);
+  if (robot.feet.empty()) robot.feet = FindFeet(robot.model, findings);
 
-  robot.can_stand = profile.has_posture;
+  robot.can_stand = profile.base_xyz.has_value();
   robot.q_nominal = tree.MakeNeutral();
-  robot.q_nominal.head<3>() = profile.base_xyz;
+  robot.q_nominal.head<3>() =
+      profile.base_xyz.value_or(Eigen::Vector3d::Zero());
   const Eigen::Quaterniond orientation(RotationFromRpy(profile.base_rpy));
   robot.q_nominal.segment<4>(3) = orientation.coeffs();
   for (int j = 0; j < tree.num_joints(); ++j) {

@@ -6,10 +6,12 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "math/pose.h"
+#include "robot/finding.h"
 #include "robot/robot.h"
 
 namespace poise {
@@ -43,21 +45,21 @@ struct JointValue {
 ///         rpy: [0, 0, 0]         # x forward. Zero where left out.
 ///         size: [0.23, 0.13]     # Or polygon: [[x, y], ...], in m.
 ///       right_foot: ...
-///     posture:                   # Nominal. Found, where left out.
+///     posture:                   # Nominal.
 ///       found: how
 ///       base: {xyz: [0, 0, 0.75], rpy: [0, 0, 0]}
 ///       joints: {l_knee: 0.7}    # The others rest near 0.
+///                                # Without base, it is found near the joints.
 ///     locked: {neck_yaw: 0}      # Joints that the model does without.
 ///     mimic: coupled             # Or locked, or free, as where left out.
 ///     tasks: ...                 # For robot/control to read.
 struct Profile {
   std::filesystem::path file;
   std::vector<SoleProfile> feet;
-  Eigen::Vector3d base_xyz = Eigen::Vector3d::Zero();
-  Eigen::Vector3d base_rpy = Eigen::Vector3d::Zero();
+  std::optional<Eigen::Vector3d> base_xyz;  ///< The nominal posture is known
+  Eigen::Vector3d base_rpy = Eigen::Vector3d::Zero();  ///< if this is.
   std::map<std::string, JointValue> joints;  ///< The others rest near 0.
   std::string posture_found;                 ///< How, in words.
-  bool has_posture = false;
   std::map<std::string, JointValue> locked;
   MimicPolicy mimic = MimicPolicy::kFree;
   YAML::Node tasks;  ///< Undefined where there is none; knows its lines.
@@ -70,8 +72,11 @@ Profile LoadProfile(const std::filesystem::path& file);
 /// A robot from its URDF and a profile; an empty Profile will do for a biped
 /// whose feet can be found.
 ///
+/// @param findings  as LoadUrdf()'s and FindFeet()'s.
+///
 /// Throws std::invalid_argument as LoadUrdf(), LoadProfile() and FindFeet(),
 /// and where the profile names what the URDF does not have.
-Robot LoadRobot(const std::filesystem::path& urdf, const Profile& profile = {});
+Robot LoadRobot(const std::filesystem::path& urdf, const Profile& profile = {},
+                std::vector<Finding>* findings = nullptr);
 
 }  // namespace poise

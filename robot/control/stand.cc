@@ -1,0 +1,297 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/stand.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "dynamics/integrate.h"
+#include "dynamics/tick.h"
+#include "hqp/cascade.h"
+#include "hqp/hierarchy.h"
+#include "hqp/solution.h"
+#include "math/so3.h"
+#include "robot/knee.h"
+
+namespace poise {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+// Of a joint's range, and at most in rad or m, to stay away from its ends.
+constexpr double kMarginFraction = 0.05;
+constexpr double kLargestMargin = 0.05;
+constexpr double kKneeBend = 0.6;     // rad.
+constexpr double kKneeWeight = 100;   // Hip and ankle follow the knee.
+constexpr double kFootGap = 0.02;     // Between the soles at least, m.
+constexpr double kLongestStep = 0.3;  // rad or m an iteration.
+constexpr int kFullSteps = 30;  // Then each is shorter, so that none cycle.
+constexpr double kShrink = 0.9;
+// What is left of an error that can be met, m or rad.
+constexpr double kConverged = 1e-9;
+// The center of mass is over the middle, m; soles lie flat, m and rad.
+constexpr double kCentered = 5e-3;
+constexpr double kFlat = 1e-6;
+
+// A foot as seen from the world.
+struct FootState {
+  Pose X_WC;
+  MatrixXd J_WC_W;  // 6 x nv.
+};
+
+std::vector<int> FeetFrames(const Robot& robot) {
+  return {robot.feet[0].frame, robot.feet[1].frame};
+}
+
+FootState StateOf(const Robot& robot, const Tick& tick, int i) {
+  const FrameTick& F = tick.frames[i];
+  const Foot& foot = robot.feet[i];
+  const Pose X_WC = tick.X_WB[foot.body] * foot.X_BC;
+  FootState state{X_WC, F.J_WF_W};
+  state.J_WC_W.bottomRows<3>() -=
+      Hat(X_WC.p - F.X_WF.p) * F.J_WF_W.topRows<3>();
+  return state;
+}
+
+// The axis of the base that is nearest to v, or v if none is near.
+Vector3d Snap(const Vector3d& v) {
+  constexpr double kNear = 0.35;  // rad.
+  int i = 0;
+  v.cwiseAbs().maxCoeff(&i);
+  const Vector3d axis = Vector3d::Unit(i) * (v[i] > 0 ? 1 : -1);
+  return axis.dot(v) > std::cos(kNear) * v.norm() ? axis : v.normalized();
+}
+
+// The problem: what stays the same from step to step.
+class Standing {
+ public:
+  // Knees are bent by `bend`, positive where they go forward.
+  Standing(const Robot& robot, double bend)
+      : robot_(robot),
+        tree_(robot.model.tree),
+        tick_(tree_, FeetFrames(robot)),
+        zero_(VectorXd::Zero(tree_.nv())) {
+    q_ = robot.q_nominal;
+    q_.head<7>() << 0, 0, 0, 0, 0, 0, 1;
+    SetLimits();
+    // Upright is how the soles say it is, the joints at rest.
+    Evaluate();
+    const Vector3d up = Snap(feet_[0].X_WC.R.col(2) + feet_[1].X_WC.R.col(2));
+    Vector3d front = feet_[0].X_WC.R.col(0) + feet_[1].X_WC.R.col(0);
+    front = Snap((front - front.dot(up) * up).normalized());
+    R_WB_.row(0) = front;
+    R_WB_.row(1) = up.cross(front);
+    R_WB_.row(2) = up;
+    q_.segment<4>(3) = Eigen::Quaterniond(R_WB_).coeffs();
+    Evaluate();
+    distance_ = std::max(
+        (feet_[0].X_WC.p - feet_[1].X_WC.p).y(),
+        robot.feet[0].half_size.y() + robot.feet[1].half_size.y() + kFootGap);
+    q_wanted_ = q_;
+    posture_weight_ = VectorXd::Ones(tree_.num_joints());
+    for (const Foot& foot : robot.feet) BendKnee(foot.body, bend);
+    q_ = q_wanted_;
+    Evaluate();
+    q_.head<3>() -= 0.5 * (feet_[0].X_WC.p + feet_[1].X_WC.p);
+    Evaluate();
+  }
+
+  // Goes on until nothing moves; the configuration found.
+  VectorXd Solve() {
+    const int n = tree_.num_joints();
+    const int nv = tree_.nv();
+    const std::vector<LevelCapacity> capacity = {
+        {static_cast<int>(robot_.model.mimics.size()), nv},
+        {11, 0},
+        {2, 0},
+        {4, 0},
+        {n, 0}};
+    Hierarchy hierarchy(nv, capacity);
+    Solution solution(nv, capacity);
+    Cascade solver(nv, capacity);
+    int i = 0;
+    for (double longest = kLongestStep; longest > kConverged; ++i) {
+      if (i >= kFullSteps) longest *= kShrink;
+      hierarchy.Clear(static_cast<int>(capacity.size()));
+      AddLimits(longest, &hierarchy);
+      AddFeet(&hierarchy);
+      AddBalance(&hierarchy);
+      AddPosture(&hierarchy);
+      if (solver.Solve(hierarchy, &solution) != Status::kOptimal) {
+        throw std::invalid_argument(
+            "robot '" + robot_.model.name +
+            "' cannot be stood up: a step of the search cannot be solved");
+      }
+      Integrate(tree_, q_, solution.y, 1, q_);
+      Evaluate();
+      if (solution.y.lpNorm<Eigen::Infinity>() < kConverged) break;
+    }
+    Check();
+    return q_;
+  }
+
+ private:
+  void Evaluate() {
+    ComputeTick(tree_, q_, zero_, &tick_);
+    for (const int i : {0, 1}) feet_[i] = StateOf(robot_, tick_, i);
+  }
+
+  // Where the joints may go; those at rest outside come in.
+  void SetLimits() {
+    const int n = tree_.num_joints();
+    lower_.resize(n);
+    upper_.resize(n);
+    for (int j = 0; j < n; ++j) {
+      const JointLimits& limits = robot_.model.limits[j];
+      const double margin = std::min(
+          kLargestMargin, kMarginFraction * (limits.upper - limits.lower));
+      lower_[j] = limits.lower + margin;
+      upper_[j] = limits.upper - margin;
+      double& q = q_[tree_.q_start() + j];
+      q = std::max(lower_[j], std::min(q, upper_[j]));
+    }
+  }
+
+  // Bends the knee above a foot, if it is straight.
+  void BendKnee(int body, double bend) {
+    const auto knee = FindKnee(tree_, body, tick_.X_WB, Vector3d::UnitY());
+    if (!knee) return;
+    const int j = knee->joint;
+    double& q = q_wanted_[tree_.q_start() + j];
+    if (std::abs(q) > 0.5 * kKneeBend) return;  // It is bent already.
+    q = std::max(lower_[j], std::min(knee->sign * bend, upper_[j]));
+    posture_weight_[j] = kKneeWeight;
+  }
+
+  void AddLimits(double longest, Hierarchy* hierarchy) const {
+    const int nv = tree_.nv();
+    InequalityBlock steps = hierarchy->AddInequalities(0, nv);
+    steps.C.setIdentity();
+    steps.lower.setConstant(-longest);
+    steps.upper.setConstant(longest);
+    for (int j = 0; j < tree_.num_joints(); ++j) {
+      const double q = q_[tree_.q_start() + j];
+      const int row = tree_.v_start() + j;
+      steps.lower[row] = std::max(-longest, std::min(0., lower_[j] - q));
+      steps.upper[row] = std::min(longest, std::max(0., upper_[j] - q));
+    }
+    for (const MimicCoupling& mimic : robot_.model.mimics) {
+      const auto q = [&](int j) { return q_[tree_.q_start() + j]; };
+      EqualityBlock coupling = hierarchy->AddEqualities(0, 1);
+      coupling.B(0, tree_.v_start() + mimic.joint) = 1;
+      coupling.B(0, tree_.v_start() + mimic.source) = -mimic.multiplier;
+      coupling.b[0] =
+          q(mimic.joint) - mimic.multiplier * q(mimic.source) - mimic.offset;
+    }
+  }
+
+  // Flat on the ground, facing +x, level with each other, one on each side.
+  void AddFeet(Hierarchy* hierarchy) const {
+    for (const FootState& foot : feet_) {
+      EqualityBlock rows = hierarchy->AddEqualities(1, 5);
+      rows.B.topRows<3>() = foot.J_WC_W.topRows<3>();
+      rows.b.head<3>() = LogSo3(foot.X_WC.R);
+      rows.B.row(3) = foot.J_WC_W.row(3);
+      rows.b[3] = foot.X_WC.p.x();
+      rows.B.row(4) = foot.J_WC_W.row(5);
+      rows.b[4] = foot.X_WC.p.z();
+    }
+    EqualityBlock middle = hierarchy->AddEqualities(1, 1);
+    middle.B.row(0) = feet_[0].J_WC_W.row(4) + feet_[1].J_WC_W.row(4);
+    middle.b[0] = feet_[0].X_WC.p.y() + feet_[1].X_WC.p.y();
+  }
+
+  void AddBalance(Hierarchy* hierarchy) const {
+    EqualityBlock com = hierarchy->AddEqualities(2, 2);
+    com.B = tick_.H_G.middleRows<2>(3) / tree_.total_mass();
+    com.b = tick_.p_WG.head<2>();
+    EqualityBlock lean = hierarchy->AddEqualities(3, 3);
+    lean.B.leftCols<3>().setIdentity();
+    lean.b = LogSo3(tick_.X_WB[0].R * R_WB_.transpose());
+    EqualityBlock apart = hierarchy->AddEqualities(3, 1);
+    apart.B.row(0) = feet_[0].J_WC_W.row(4) - feet_[1].J_WC_W.row(4);
+    apart.b[0] = feet_[0].X_WC.p.y() - feet_[1].X_WC.p.y() - distance_;
+  }
+
+  void AddPosture(Hierarchy* hierarchy) const {
+    const int n = tree_.num_joints();
+    EqualityBlock posture = hierarchy->AddEqualities(4, n);
+    posture.B.rightCols(n).setIdentity();
+    posture.b = q_.tail(n) - q_wanted_.tail(n);
+    posture.weight = posture_weight_;
+  }
+
+  void Check() const {
+    std::ostringstream reason;
+    for (const int i : {0, 1}) {
+      const Pose& X_WC = feet_[i].X_WC;
+      const double tilt = LogSo3(X_WC.R).norm();
+      if (tilt > kFlat) {
+        reason << robot_.feet[i].name << " stays turned by " << tilt << " rad";
+      } else if (std::hypot(X_WC.p.x(), X_WC.p.z()) > kFlat) {
+        reason << robot_.feet[i].name << " stays "
+               << std::hypot(X_WC.p.x(), X_WC.p.z()) << " m off its place";
+      }
+      if (reason.tellp() > 0) break;
+    }
+    const double off = tick_.p_WG.head<2>().norm();
+    if (reason.tellp() <= 0 && !(off <= kCentered)) {
+      reason << "the center of mass stays " << off
+             << " m off the middle of the soles";
+    }
+    if (reason.tellp() <= 0) return;
+    throw std::invalid_argument("robot '" + robot_.model.name +
+                                "' cannot be stood up inside its joint "
+                                "limits: " +
+                                reason.str());
+  }
+
+  const Robot& robot_;
+  const Tree& tree_;
+  Tick tick_;
+  const VectorXd zero_;
+  VectorXd q_, q_wanted_;
+  VectorXd lower_, upper_;
+  VectorXd posture_weight_;  // By joint.
+  FootState feet_[2];
+  Matrix3d R_WB_;
+  double distance_;
+};
+
+}  // namespace
+
+void StandUp(Robot* robot) {
+  if (robot->feet.size() != 2 || !(robot->model.tree.total_mass() > 0)) {
+    throw std::invalid_argument("robot '" + robot->model.name +
+                                "' cannot stand: it must have two feet and "
+                                "a mass");
+  }
+  // Knees forward; where that fails, as they are, or backward.
+  std::string reason;
+  for (const double bend : {kKneeBend, 0., -kKneeBend}) {
+    try {
+      robot->q_nominal = Standing(*robot, bend).Solve();
+      robot->can_stand = true;
+      return;
+    } catch (const std::invalid_argument& error) {
+      if (reason.empty()) reason = error.what();
+    }
+  }
+  throw std::invalid_argument(reason);
+}
+
+Robot LoadStandingRobot(const std::filesystem::path& urdf,
+                        const Profile& profile) {
+  Robot robot = LoadRobot(urdf, profile);
+  if (!robot.can_stand) StandUp(&robot);
+  return robot;
+}
+
+}  // namespace poise
