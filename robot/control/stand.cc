@@ -11,9 +11,9 @@
 
 #include "dynamics/integrate.h"
 #include "dynamics/tick.h"
-#include "hqp/cascade.h"
 #include "hqp/hierarchy.h"
 #include "hqp/solution.h"
+#include "hqp/solver.h"
 #include "math/so3.h"
 #include "robot/knee.h"
 
@@ -115,7 +115,7 @@ class Standing {
         {n, 0}};
     Hierarchy hierarchy(nv, capacity);
     Solution solution(nv, capacity);
-    Cascade solver(nv, capacity);
+    Solver solver(nv, capacity);
     int i = 0;
     for (double longest = kLongestStep; longest > kConverged; ++i) {
       if (i >= kFullSteps) longest *= kShrink;
@@ -124,7 +124,8 @@ class Standing {
       AddFeet(&hierarchy);
       AddBalance(&hierarchy);
       AddPosture(&hierarchy);
-      if (solver.Solve(hierarchy, &solution) != Status::kOptimal) {
+      const Status status = solver.Solve(hierarchy, &solution);
+      if (status != Status::kOptimal && status != Status::kIterationLimit) {
         throw std::invalid_argument(
             "robot '" + robot_.model.name +
             "' cannot be stood up: a step of the search cannot be solved");

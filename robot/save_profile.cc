@@ -1,0 +1,117 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/save_profile.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <fstream>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "robot/rpy.h"
+
+namespace poise {
+namespace {
+
+// Nine digits; what is zero but for rounding is zero.
+std::string Print(double value) {
+  constexpr double kZero = 1e-12;
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(9);
+  text << (std::abs(value) < kZero ? 0 : value);
+  return text.str();
+}
+
+template <typename Vector>
+std::string PrintAll(const Vector& values) {
+  std::string text = "[";
+  for (int i = 0; i < values.size(); ++i) {
+    text += (i > 0 ? ", " : "") + Print(values[i]);
+  }
+  return text + "]";
+}
+
+// A name as YAML writes it: quoted where it must be.
+std::string Name(const std::string& name) {
+  YAML::Emitter emitter;
+  emitter << name;
+  return emitter.c_str();
+}
+
+void WriteFeet(const Robot& robot, std::ostream* stream) {
+  *stream << "# The soles: the pose of the contact frame in a link, z out of\n"
+             "# the ground, x forward, and the corners in it, m and rad.\n"
+             "feet:\n";
+  for (const Foot& foot : robot.feet) {
+    const Frame& link = robot.model.tree.frames()[foot.frame];
+    const Pose X_FC = link.X_BF.Inverse() * foot.X_BC;
+    *stream << "  " << foot.name << ":\n    frame: " << Name(link.name)
+            << "\n    xyz: " << PrintAll(X_FC.p)
+            << "\n    rpy: " << PrintAll(RpyFromRotation(X_FC.R))
+            << "\n    polygon:\n";
+    for (const Eigen::Vector2d& corner : foot.polygon_C) {
+      *stream << "      - " << PrintAll(corner) << "\n";
+    }
+  }
+}
+
+void WritePosture(const Robot& robot, const Profile& profile,
+                  std::ostream* stream) {
+  const Tree& tree = robot.model.tree;
+  const Eigen::Vector3d xyz = robot.q_nominal.head<3>();
+  const Eigen::Quaterniond base(Eigen::Vector4d(robot.q_nominal.segment<4>(3)));
+  *stream << "\n# The nominal posture: on the ground, the middle between the "
+             "soles at the\n# origin. Joints that are not named rest at 0 or "
+             "their nearest limit.\nposture:\n  found: "
+          << Name(profile.posture_found.empty()
+                      ? "by standing up, see robot/control/stand.h"
+                      : profile.posture_found)
+          << "\n  base: {xyz: " << PrintAll(xyz)
+          << ", rpy: " << PrintAll(RpyFromRotation(base.toRotationMatrix()))
+          << "}\n  joints:\n";
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    *stream << "    " << Name(tree.joints()[j].name) << ": "
+            << Print(robot.q_nominal[tree.q_start() + j]) << "\n";
+  }
+}
+
+}  // namespace
+
+void WriteProfile(const Robot& robot, const Profile& profile,
+                  std::ostream* stream) {
+  *stream << "# A profile of the robot " << Name(robot.model.name) << ".\n\n";
+  WriteFeet(robot, stream);
+  if (robot.can_stand) WritePosture(robot, profile, stream);
+  if (!profile.locked.empty()) {
+    *stream << "\nlocked:\n";
+    for (const auto& [name, joint] : profile.locked) {
+      *stream << "  " << Name(name) << ": " << Print(joint.value) << "\n";
+    }
+  }
+  if (profile.mimic != MimicPolicy::kFree) {
+    *stream << "\nmimic: "
+            << (profile.mimic == MimicPolicy::kLocked ? "locked" : "coupled")
+            << "\n";
+  }
+  if (profile.tasks.IsDefined() && !profile.tasks.IsNull()) {
+    YAML::Emitter emitter;
+    emitter << YAML::BeginMap << YAML::Key << "tasks" << YAML::Value
+            << profile.tasks << YAML::EndMap;
+    *stream << "\n" << emitter.c_str() << "\n";
+  }
+}
+
+void SaveProfile(const Robot& robot, const Profile& profile,
+                 const std::filesystem::path& file) {
+  std::ofstream stream(file);
+  WriteProfile(robot, profile, &stream);
+  if (!stream.flush()) {
+    throw std::invalid_argument(file.string() + ": cannot be written");
+  }
+}
+
+}  // namespace poise
