@@ -33,7 +33,9 @@ constexpr double kKneeWeight = 100;   // Hip and ankle follow the knee.
 constexpr double kFootGap = 0.02;     // Between the soles at least, m.
 constexpr double kLongestStep = 0.3;  // rad or m an iteration.
 constexpr int kFullSteps = 30;  // Then each is shorter, so that none cycle.
-constexpr double kShrink = 0.9;
+constexpr double kShrink = 0.8;
+// A step that is not the best one will do.
+constexpr int kSolverIterations = 60;
 // What is left of an error that can be met, m or rad.
 constexpr double kConverged = 1e-9;
 // The center of mass is over the middle, m; soles lie flat, m and rad.
@@ -108,7 +110,7 @@ class Standing {
     const int n = tree_.num_joints();
     const int nv = tree_.nv();
     const std::vector<LevelCapacity> capacity = {
-        {static_cast<int>(robot_.model.mimics.size()), nv},
+        {static_cast<int>(robot_.model.mimics.size()) + n, nv},
         {11, 0},
         {2, 0},
         {4, 0},
@@ -116,6 +118,7 @@ class Standing {
     Hierarchy hierarchy(nv, capacity);
     Solution solution(nv, capacity);
     Solver solver(nv, capacity);
+    solver.max_iterations = kSolverIterations;
     int i = 0;
     for (double longest = kLongestStep; longest > kConverged; ++i) {
       if (i >= kFullSteps) longest *= kShrink;
@@ -182,6 +185,8 @@ class Standing {
       const int row = tree_.v_start() + j;
       steps.lower[row] = std::max(-longest, std::min(0., lower_[j] - q));
       steps.upper[row] = std::min(longest, std::max(0., upper_[j] - q));
+      if (lower_[j] < upper_[j]) continue;
+      hierarchy->AddEqualities(0, 1).B(0, row) = 1;  // It cannot move.
     }
     for (const MimicCoupling& mimic : robot_.model.mimics) {
       const auto q = [&](int j) { return q_[tree_.q_start() + j]; };

@@ -6,7 +6,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const poise::MemoryFile file(data, size);
   poise::ExpectReadsOrRefuses([&] {
     const poise::Profile profile = poise::LoadProfile(file.path());
-    poise::Require(profile.base_xyz.allFinite() && profile.base_rpy.allFinite(),
+    poise::Require((!profile.base_xyz || profile.base_xyz->allFinite()) &&
+                       profile.base_rpy.allFinite(),
                    "the base is finite");
     for (const poise::SoleProfile& sole : profile.feet) {
       for (const Eigen::Vector2d& corner : sole.sole_S) {
