@@ -53,7 +53,7 @@ void BulletPlant::Reset(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   for (auto& F_Co_C : state_.F_Co_C) F_Co_C.setZero();
   for (int& points : state_.contact_points) points = 0;
   state_.other_force_W.setZero();
-  state_.self_contacts = 0;
+  state_.self_contacts.clear();
   steps_ = 0;
 }
 
@@ -127,7 +127,7 @@ void BulletPlant::ReadContacts() {
     state_.F_Co_C[i].tail<3>() += force_C;
     ++state_.contact_points[i];
   }
-  state_.self_contacts = world_->CountSelfContacts();
+  world_->FindSelfContacts(&state_.self_contacts);
 }
 
 }  // namespace poise

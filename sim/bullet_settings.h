@@ -6,6 +6,7 @@ namespace poise {
 /// How Bullet is run. These defaults have measured physics, which most of
 /// Bullet's own have not; bullet_settings_test.cc shows what each one does.
 struct BulletSettings {
+  bool own_sweeps = true;               ///< See ContactSolver; else Bullet's.
   int solver_iterations = 50;           ///< Bullet's 10 let the feet creep.
   double linear_damping = 0;            ///< Bullet's 0.04 eats energy.
   double angular_damping = 0;           ///< The same.

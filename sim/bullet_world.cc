@@ -2,11 +2,13 @@
 #include "sim/bullet_world.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
 #include <variant>
 
+#include "sim/contact_solver.h"
 #include "sim/neighbors.h"
 
 namespace poise {
@@ -67,8 +69,11 @@ BulletWorld::BulletWorld(const Robot& robot, const PlantSettings& settings,
                          const BulletSettings& bullet)
     : body_(robot.model.tree),
       dispatcher_(&configuration_),
+      solver_(bullet.own_sweeps
+                  ? std::make_unique<ContactSolver>()
+                  : std::make_unique<btMultiBodyConstraintSolver>()),
       filter_(robot.model.tree.num_bodies()),
-      world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+      world_(&dispatcher_, &broadphase_, solver_.get(), &configuration_) {
   world_.setGravity(ToBullet(robot.model.tree.gravity_W()));
   world_.getPairCache()->setOverlapFilterCallback(&filter_);
   btContactSolverInfo& info = world_.getSolverInfo();
@@ -260,21 +265,19 @@ const std::vector<GroundContact>& BulletWorld::FindGroundContacts(double dt) {
   return contacts_;
 }
 
-int BulletWorld::CountSelfContacts() const {
-  int count = 0;
+void BulletWorld::FindSelfContacts(std::vector<std::pair<int, int>>* pairs) {
+  pairs->clear();
   for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
     const btPersistentManifold* pair =
-        const_cast<btCollisionDispatcher&>(dispatcher_)
-            .getManifoldByIndexInternal(i);
+        dispatcher_.getManifoldByIndexInternal(i);
     if (IsGround(pair->getBody0()) || IsGround(pair->getBody1())) continue;
     for (int k = 0; k < pair->getNumContacts(); ++k) {
-      if (pair->getContactPoint(k).m_appliedImpulse > 0) {
-        ++count;
-        break;
-      }
+      if (pair->getContactPoint(k).m_appliedImpulse <= 0) continue;
+      pairs->emplace_back(std::minmax(pair->getBody0()->getUserIndex(),
+                                      pair->getBody1()->getUserIndex()));
+      break;
     }
   }
-  return count;
 }
 
 }  // namespace poise

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "robot/robot.h"
@@ -55,8 +56,8 @@ class BulletWorld {
   /// Valid until the next call.
   const std::vector<GroundContact>& FindGroundContacts(double dt);
 
-  /// How many pairs of links pressed on each other in the last step.
-  int CountSelfContacts() const;
+  /// The pairs of bodies that pressed on each other in the last step.
+  void FindSelfContacts(std::vector<std::pair<int, int>>* pairs);
 
  private:
   // Lets Bullet try only the pairs of links that can meet.
@@ -82,7 +83,7 @@ class BulletWorld {
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;
-  btMultiBodyConstraintSolver solver_;
+  std::unique_ptr<btMultiBodyConstraintSolver> solver_;
   PairFilter filter_;
   btMultiBodyDynamicsWorld world_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;

@@ -90,8 +90,11 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
   const State start = MakeStartState(robot, scenario.start,
                                      scenario.plant.ground, scenario.seed);
   plant_->Reset(start.q, start.v);
-  state_ = ToState(sensors_.Measure(plant_->Sense()));
-  controller_->Start(state_);
+  // The controller is told where the floor is, not how far the robot falls.
+  StartSettings on_ground = scenario.start;
+  on_ground.drop = 0;
+  controller_->Start(MakeStartState(robot, on_ground, scenario.plant.ground,
+                                    scenario.seed));
   com_start_ = controller_->reference().p_WG;
   command_.tau.setZero(robot.model.tree.num_joints());
   start_ = plant_->Sense();

@@ -122,7 +122,7 @@ void MujocoPlant::Reset(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   for (auto& F_Co_C : state_.F_Co_C) F_Co_C.setZero();
   for (int& points : state_.contact_points) points = 0;
   state_.other_force_W.setZero();
-  state_.self_contacts = 0;
+  state_.self_contacts.clear();
   pushes_.setZero();
   steps_ = 0;
 }
@@ -196,7 +196,7 @@ void MujocoPlant::ReadContacts() {
     const int a = model_->geom_bodyid[contact.geom1];
     const int b = model_->geom_bodyid[contact.geom2];
     if (a != kWorld && b != kWorld) {
-      self_contacts.emplace(std::min(a, b), std::max(a, b));
+      self_contacts.emplace(std::min(a, b) - 1, std::max(a, b) - 1);
       continue;
     }
     // The rows of the contact's frame are its axes; its force is that on the
@@ -221,7 +221,7 @@ void MujocoPlant::ReadContacts() {
     state_.F_Co_C[at].tail<3>() += force_C;
     ++state_.contact_points[at];
   }
-  state_.self_contacts = static_cast<int>(self_contacts.size());
+  state_.self_contacts.assign(self_contacts.begin(), self_contacts.end());
 }
 
 }  // namespace poise

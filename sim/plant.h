@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 namespace poise {
@@ -29,8 +30,8 @@ struct PlantState {
   std::vector<int> contact_points;
   /// The ground's force on everything but the feet, N.
   Eigen::Vector3d other_force_W = Eigen::Vector3d::Zero();
-  /// Pairs of links that touch each other.
-  int self_contacts = 0;
+  /// The pairs of bodies that press on each other, the smaller index first.
+  std::vector<std::pair<int, int>> self_contacts;
 };
 
 /// A world with one robot in it: what stands in for the machine. A plant knows

@@ -46,9 +46,19 @@ std::vector<std::string> Columns(const Robot& robot, const Stack& stack) {
   for (int i = 0; i < stack.num_tasks(); ++i) {
     columns.push_back("residual." + std::string(stack.task(i).name()));
   }
+  columns.push_back("touching");
   columns.push_back("status");
   columns.push_back("active");
   return columns;
+}
+
+// Each body by the first link that is fixed in it.
+std::vector<std::string> BodyNames(const Tree& tree) {
+  std::vector<std::string> names(tree.num_bodies());
+  for (const Frame& frame : tree.frames()) {
+    if (names[frame.body].empty()) names[frame.body] = frame.name;
+  }
+  return names;
 }
 
 std::ofstream Open(const std::filesystem::path& file) {
@@ -76,7 +86,8 @@ std::string_view StatusName(TickStatus status) {
 }
 
 Recorder::Recorder(const std::filesystem::path& folder, const Robot& robot,
-                   const Stack& stack) {
+                   const Stack& stack)
+    : body_names_(BodyNames(robot.model.tree)) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
@@ -133,6 +144,16 @@ void Recorder::ActiveRows(const TickRecord& record) {
   }
 }
 
+void Recorder::SelfContacts(const PlantState& end) {
+  row_ += ',';
+  bool first = true;
+  for (const auto& [a, b] : end.self_contacts) {
+    row_ += first ? "" : ";";
+    first = false;
+    row_ += body_names_[a] + "|" + body_names_[b];
+  }
+}
+
 void Recorder::Record(const TickRecord& record) {
   const Observation& now = record.observation;
   const auto vector = [this](const auto& v) {
@@ -152,13 +173,14 @@ void Recorder::Record(const TickRecord& record) {
   }
   vector(record.push_force_W);
   vector(record.end.other_force_W);
-  Number(record.end.self_contacts);
+  Number(static_cast<double>(record.end.self_contacts.size()));
   vector(record.end.tau);
   vector(record.start.q.tail(record.end.tau.size()));
   for (size_t i = 0; i < now.feet.size(); ++i) {
     vector(record.report.foot_wrench(record.nv, static_cast<int>(i)));
   }
   for (const TaskReport& task : record.report.tasks) Number(task.residual);
+  SelfContacts(record.end);
   Text(StatusName(record.report.status));
   ActiveRows(record);
   EndRow();

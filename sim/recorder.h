@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "robot/robot.h"
 #include "sim/sha256.h"
@@ -43,7 +44,9 @@ class Recorder {
   void Text(std::string_view text);
   void EndRow();
   void ActiveRows(const TickRecord& record);
+  void SelfContacts(const PlantState& end);
 
+  std::vector<std::string> body_names_;
   std::ofstream log_;
   std::ofstream timing_;
   std::string row_;       // Of log.csv, growing.

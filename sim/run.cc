@@ -108,7 +108,7 @@ RunResult Run(const Robot& robot, const Scenario& scenario,
     result.torque_limit_violation_peak = std::max(
         result.torque_limit_violation_peak,
         TorqueViolation(robot.model, scenario.plant.torque_scale, record.tau));
-    if (record.end.self_contacts > 0) ++result.self_contact_ticks;
+    if (!record.end.self_contacts.empty()) ++result.self_contact_ticks;
     if (progress && result.ticks % between == 0) {
       result.interrupted = !progress(static_cast<double>(result.ticks) /
                                      static_cast<double>(ticks));

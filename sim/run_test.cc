@@ -1,0 +1,216 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "robot/profile.h"
+#include "sim/closed_loop.h"
+#include "sim/summary.h"
+
+namespace poise {
+namespace {
+
+const Robot& Humanoid() {
+  static const Robot robot =
+      LoadRobot("robot/models/humanoid.urdf",
+                LoadProfile("robot/profiles/humanoid.yaml"));
+  return robot;
+}
+
+// One of our scenarios, cut short.
+Scenario Ours(const std::string& name, double duration) {
+  Scenario scenario = LoadScenario("sim/scenarios/" + name + ".yaml");
+  scenario.duration = duration;
+  return scenario;
+}
+
+RunResult RunOurs(const std::string& name, double duration) {
+  return Run(Humanoid(), Ours(name, duration));
+}
+
+std::filesystem::path Folder(const std::string& name) {
+  return std::filesystem::path(testing::TempDir()) / name;
+}
+
+std::string Contents(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(Paper, StandsWhenStartedOffEquilibrium) {
+  const Verdict verdict = RunOurs("stand", 3).verdict;
+  EXPECT_TRUE(verdict.recovered);
+  EXPECT_LT(verdict.com_error_final.norm(), 1e-4);  // A tenth of a millimeter.
+  EXPECT_GT(verdict.com_error_peak.norm(), 1e-3);   // It was off equilibrium.
+}
+
+TEST(Paper, RecoversFromTheWeakPush) {
+  const RunResult result = RunOurs("weak_push", 4);
+  EXPECT_TRUE(result.verdict.recovered);
+  EXPECT_LT(result.verdict.com_error_final.norm(), 2e-3);  // The bar.
+  EXPECT_LT(result.verdict.foot_tilt_peak, 0.02);
+  EXPECT_NEAR(result.impulse_Ns, 7.5, 1e-12);
+  EXPECT_EQ(result.failures, 0);
+}
+
+TEST(Paper, FallsFromTheStrongPushWithoutCop) {
+  const RunResult result = RunOurs("strong_push_without_zmp", 4);
+  EXPECT_FALSE(result.verdict.recovered);
+  ASSERT_TRUE(result.verdict.fell_at);
+  EXPECT_GT(*result.verdict.fell_at, 1);
+  EXPECT_LT(result.duration, 4);  // The end was not waited for.
+}
+
+TEST(Paper, RecoversFromTheStrongPush) {
+  const RunResult result = RunOurs("strong_push", 4);
+  EXPECT_TRUE(result.verdict.recovered);
+  EXPECT_LT(result.verdict.foot_tilt_peak, 0.02);
+  EXPECT_EQ(result.torque_limit_violation_peak, 0);
+}
+
+TEST(Paper, CombinedBoxPinsTheCop) {
+  Scenario scenario = Ours("strong_push", 3);
+  scenario.pushes[0].duration = 0.12;
+  scenario.control.with = {"zmp"};
+  ClosedLoop loop(Humanoid(), scenario);
+  int pinned = 0, beyond = 0;
+  while (loop.time() < 1.3) {
+    loop.Tick();
+    const double y = loop.observation().cop.y();
+    if (std::abs(y - 0.1) < 1e-3) ++pinned;
+    if (y > 0.101) ++beyond;
+  }
+  // From 40 ms after the push began, until the test's end.
+  EXPECT_GT(pinned, 150);
+  EXPECT_LT(beyond, 10);
+}
+
+TEST(Paper, SinusoidLagsByTheGainsOrNotAtAll) {
+  Scenario scenario = Ours("com_sinusoid", 4);
+  const double w = 2 * M_PI / 10;
+  for (const bool feedforward : {false, true}) {
+    SCOPED_TRACE(feedforward);
+    scenario.control.feedforward = feedforward;
+    ClosedLoop loop(Humanoid(), scenario);
+    double worst = 0;
+    while (loop.time() < 4) {
+      loop.Tick();
+      const Observation& now = loop.observation();
+      if (now.time < 3) continue;
+      // K_d v / K_p with 10 / 30; the acceleration's share is a tenth of it.
+      const double lag =
+          feedforward ? 0 : -0.08 * w * std::cos(w * now.time) / 3;
+      worst = std::max(worst, std::abs(now.com.x() - now.com_ref.x() - lag));
+    }
+    EXPECT_LT(worst, feedforward ? 1e-4 : 2.5e-3);
+  }
+}
+
+TEST(Paper, ArmsDriftWithoutPostureAndComeBackWithIt) {
+  const auto drift = [](bool posture) {
+    Scenario scenario = Ours("posture_off", 4);
+    if (posture) scenario.control.without.clear();
+    ClosedLoop loop(Humanoid(), scenario);
+    while (loop.time() < 4) loop.Tick();
+    const int n = Humanoid().model.tree.num_joints();
+    return (loop.plant().Sense().q - Humanoid().q_nominal)
+        .tail(n)
+        .cwiseAbs()
+        .maxCoeff();
+  };
+  EXPECT_LT(drift(true), 0.02);
+  EXPECT_GT(drift(false), 0.2);
+}
+
+TEST(Standing, MeasuredWrenchIsTheCommandedOne) {
+  Scenario scenario = Ours("stand", 2);
+  scenario.start = {};
+  ClosedLoop loop(Humanoid(), scenario);
+  while (loop.time() < 2) loop.Tick();
+  const TickRecord record = loop.record();
+  const int nv = Humanoid().model.tree.nv();
+  double sum = 0;
+  for (int i = 0; i < 2; ++i) {
+    const auto measured = loop.observation().feet[i].F_Co_C;
+    const auto commanded = record.report.foot_wrench(nv, i);
+    EXPECT_LT((measured - commanded).tail<3>().norm(), 0.05);  // The bar, N.
+    EXPECT_NEAR(measured[1] / measured[5], commanded[1] / commanded[5], 1e-3);
+    EXPECT_NEAR(measured[0] / measured[5], commanded[0] / commanded[5], 1e-3);
+    sum += measured[5];
+  }
+  EXPECT_NEAR(sum, Humanoid().model.tree.total_mass() * 9.81, 1e-3);
+}
+
+TEST(Run, SameSeedGivesTheSameBytesInAnyOrderAndInParallel) {
+  Scenario scenario = Ours("strong_push", 1.3);
+  scenario.sensors.noise = 1;
+  const std::string once = Run(Humanoid(), scenario, Folder("once")).log_sha256;
+  RunOurs("weak_push", 0.2);
+  std::string again, beside;
+  std::thread thread([&scenario, &beside] {
+    beside = Run(Humanoid(), scenario, Folder("beside")).log_sha256;
+  });
+  again = Run(Humanoid(), scenario, Folder("again")).log_sha256;
+  thread.join();
+  EXPECT_EQ(once.size(), 64u);
+  EXPECT_EQ(again, once);
+  EXPECT_EQ(beside, once);
+  EXPECT_EQ(Contents(Folder("again") / "log.csv"),
+            Contents(Folder("once") / "log.csv"));
+  scenario.seed = 2;
+  EXPECT_NE(Run(Humanoid(), scenario, Folder("other")).log_sha256, once);
+}
+
+TEST(Run, WritesARowATickAndStopsWhenTold) {
+  Scenario scenario = Ours("weak_push", 2);
+  const RunResult result = Run(Humanoid(), scenario, Folder("stopped"),
+                               [](double done) { return done < 0.105; });
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.ticks, 220);
+  const std::string log = Contents(Folder("stopped") / "log.csv");
+  EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 221);
+  EXPECT_EQ(log.back(), '\n');
+  EXPECT_EQ(log.substr(0, 8), "time[s],");
+  const auto summary = ToJson(Humanoid(), scenario, result);
+  EXPECT_EQ(summary["ticks"], 220);
+  EXPECT_EQ(summary["log_sha256"], result.log_sha256);
+  EXPECT_EQ(summary["fell_at"], nullptr);
+}
+
+TEST(Run, RefusesTasksThatAreNotThere) {
+  Scenario scenario = Ours("stand", 1);
+  scenario.control.with = {"levitate"};
+  EXPECT_THROW(Run(Humanoid(), scenario), std::invalid_argument);
+}
+
+// A delay of three ticks: what acts is what was asked for three ticks ago.
+TEST(ClosedLoop, DelaysTorques) {
+  Scenario scenario = Ours("strong_push", 1);
+  scenario.control.delay = 3e-3;
+  ClosedLoop loop(Humanoid(), scenario);
+  std::vector<Eigen::VectorXd> asked;
+  for (int k = 0; k < 20; ++k) {
+    loop.Tick();
+    asked.push_back(loop.record().tau);
+    if (k >= 3) EXPECT_EQ(loop.plant().Sense().tau, asked[k - 3]);
+  }
+}
+
+TEST(ClosedLoop, ControlsSlowerThanThePlantSteps) {
+  Scenario scenario = Ours("strong_push", 1);
+  scenario.control.dt = 5e-3;
+  ClosedLoop loop(Humanoid(), scenario);
+  for (int k = 0; k < 10; ++k) loop.Tick();
+  EXPECT_NEAR(loop.time(), 0.05, 1e-12);
+  const Observation& now = loop.observation();
+  EXPECT_NEAR(now.time, 0.045, 1e-12);
+}
+
+}  // namespace
+}  // namespace poise
