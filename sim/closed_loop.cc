@@ -93,8 +93,8 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
   // The controller is told where the floor is, not how far the robot falls.
   StartSettings on_ground = scenario.start;
   on_ground.drop = 0;
-  controller_->Start(MakeStartState(robot, on_ground, scenario.plant.ground,
-                                    scenario.seed));
+  controller_->Start(
+      MakeStartState(robot, on_ground, scenario.plant.ground, scenario.seed));
   com_start_ = controller_->reference().p_WG;
   command_.tau.setZero(robot.model.tree.num_joints());
   start_ = plant_->Sense();

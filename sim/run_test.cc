@@ -31,7 +31,7 @@ Scenario Ours(const std::string& name, double duration) {
 }
 
 RunResult RunOurs(const std::string& name, double duration) {
-  return Run(Humanoid(), Ours(name, duration));
+  return poise::Run(Humanoid(), Ours(name, duration));
 }
 
 std::filesystem::path Folder(const std::string& name) {
@@ -150,13 +150,14 @@ TEST(Standing, MeasuredWrenchIsTheCommandedOne) {
 TEST(Run, SameSeedGivesTheSameBytesInAnyOrderAndInParallel) {
   Scenario scenario = Ours("strong_push", 1.3);
   scenario.sensors.noise = 1;
-  const std::string once = Run(Humanoid(), scenario, Folder("once")).log_sha256;
+  const std::string once =
+      poise::Run(Humanoid(), scenario, Folder("once")).log_sha256;
   RunOurs("weak_push", 0.2);
   std::string again, beside;
   std::thread thread([&scenario, &beside] {
-    beside = Run(Humanoid(), scenario, Folder("beside")).log_sha256;
+    beside = poise::Run(Humanoid(), scenario, Folder("beside")).log_sha256;
   });
-  again = Run(Humanoid(), scenario, Folder("again")).log_sha256;
+  again = poise::Run(Humanoid(), scenario, Folder("again")).log_sha256;
   thread.join();
   EXPECT_EQ(once.size(), 64u);
   EXPECT_EQ(again, once);
@@ -164,13 +165,13 @@ TEST(Run, SameSeedGivesTheSameBytesInAnyOrderAndInParallel) {
   EXPECT_EQ(Contents(Folder("again") / "log.csv"),
             Contents(Folder("once") / "log.csv"));
   scenario.seed = 2;
-  EXPECT_NE(Run(Humanoid(), scenario, Folder("other")).log_sha256, once);
+  EXPECT_NE(poise::Run(Humanoid(), scenario, Folder("other")).log_sha256, once);
 }
 
 TEST(Run, WritesARowATickAndStopsWhenTold) {
   Scenario scenario = Ours("weak_push", 2);
-  const RunResult result = Run(Humanoid(), scenario, Folder("stopped"),
-                               [](double done) { return done < 0.105; });
+  const RunResult result = poise::Run(Humanoid(), scenario, Folder("stopped"),
+                                      [](double done) { return done < 0.105; });
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(result.ticks, 220);
   const std::string log = Contents(Folder("stopped") / "log.csv");
@@ -186,7 +187,7 @@ TEST(Run, WritesARowATickAndStopsWhenTold) {
 TEST(Run, RefusesTasksThatAreNotThere) {
   Scenario scenario = Ours("stand", 1);
   scenario.control.with = {"levitate"};
-  EXPECT_THROW(Run(Humanoid(), scenario), std::invalid_argument);
+  EXPECT_THROW(poise::Run(Humanoid(), scenario), std::invalid_argument);
 }
 
 // A delay of three ticks: what acts is what was asked for three ticks ago.
@@ -198,7 +199,9 @@ TEST(ClosedLoop, DelaysTorques) {
   for (int k = 0; k < 20; ++k) {
     loop.Tick();
     asked.push_back(loop.record().tau);
-    if (k >= 3) EXPECT_EQ(loop.plant().Sense().tau, asked[k - 3]);
+    if (k >= 3) {
+      EXPECT_EQ(loop.plant().Sense().tau, asked[k - 3]);
+    }
   }
 }
 
