@@ -1,0 +1,341 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/diagnosis.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "dynamics/tick.h"
+#include "robot/control/stand.h"
+#include "robot/find_feet.h"
+#include "robot/urdf.h"
+#include "tools/parity.h"
+
+namespace poise {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kMostJointsForInertia = 500;
+constexpr int kMostJointsToStand = 100;
+constexpr size_t kMostFindings = 1000;
+// Of M with a unit diagonal: the smallest eigenvalue that is not rounding.
+constexpr double kSingular = 1e-13;
+// Where its inverse loses half the digits.
+constexpr double kIllConditioned = 1e-8;
+// Two dynamics of one robot agree to this, relative.
+constexpr double kParity = 1e-9;
+
+std::string Print(double value) {
+  std::ostringstream text;
+  text << std::setprecision(4) << value;
+  return text.str();
+}
+
+class Doctor {
+ public:
+  Doctor(const std::filesystem::path& urdf, const Profile& profile)
+      : urdf_(urdf), profile_(profile) {}
+
+  Diagnosis Examine() {
+    try {
+      Robot robot{LoadUrdf(urdf_, {}, &diagnosis_.findings), {}, {}};
+      Describe(robot.model);
+      CheckInertia(robot.model);
+      CheckStanding();
+      if (robot.model.tree.num_joints() <= kMostJointsToStand && is_regular_) {
+        CheckParity(robot);
+      }
+    } catch (const std::exception& error) {
+      // What LoadUrdf() found it has told already.
+      if (diagnosis_.worst() != Severity::kReject) {
+        Add(Severity::kReject, "", OneLine(error.what()), "");
+      }
+    }
+    std::stable_sort(diagnosis_.findings.begin(), diagnosis_.findings.end(),
+                     [](const Finding& a, const Finding& b) {
+                       return a.severity > b.severity;
+                     });
+    return std::move(diagnosis_);
+  }
+
+ private:
+  void Add(Severity severity, std::string where, std::string what,
+           std::string why) {
+    diagnosis_.findings.push_back(
+        {severity, std::move(where), std::move(what), std::move(why), 0});
+  }
+
+  // A message without the file's name, which the reader knows.
+  std::string OneLine(const std::string& message) const {
+    const std::string file = urdf_.string() + ":";
+    const bool names_file = message.compare(0, file.size(), file) == 0;
+    return message.substr(names_file ? file.size() + 1 : 0);
+  }
+
+  void Describe(const RobotModel& model) {
+    const Tree& tree = model.tree;
+    diagnosis_.robot = model.name;
+    diagnosis_.root = tree.frames()[model.root_frame].name;
+    diagnosis_.links = static_cast<int>(tree.frames().size());
+    diagnosis_.joints = tree.num_joints();
+    diagnosis_.mass = tree.total_mass();
+    for (const Inertia& M : tree.inertias()) {
+      diagnosis_.bodies.push_back({"", M.mass});
+    }
+    for (const Frame& frame : tree.frames()) {
+      std::string& link = diagnosis_.bodies[frame.body].link;
+      if (link.empty()) link = frame.name;
+    }
+  }
+
+  // What coordinate i of v moves.
+  std::string Coordinate(const RobotModel& model, int i) const {
+    const int j = i - model.tree.v_start();
+    if (j < 0) return "base " + Quoted(diagnosis_.root);
+    return "joint " + Quoted(model.tree.joints()[j].name);
+  }
+
+  void CheckInertia(const RobotModel& model) {
+    const Tree& tree = model.tree;
+    if (tree.num_joints() > kMostJointsForInertia) {
+      Add(Severity::kNote, "robot",
+          "has " + std::to_string(tree.num_joints()) + " joints",
+          "M was not computed, as there are more than 500");
+      return;
+    }
+    VectorXd q = tree.MakeNeutral();
+    for (int j = 0; j < tree.num_joints(); ++j) {
+      const JointLimits& limits = model.limits[j];
+      q[tree.q_start() + j] =
+          std::max(limits.lower, std::min(0., limits.upper));
+    }
+    Tick tick(tree, {});
+    ComputeTick(tree, q, VectorXd::Zero(tree.nv()), &tick);
+    if (!tick.M.allFinite()) {
+      Add(Severity::kWarn, "robot", "M is not finite",
+          "numbers this large cannot be computed with");
+      return;
+    }
+    const VectorXd diagonal = tick.M.diagonal();
+    for (int i = 0; i < tree.nv(); ++i) {
+      if (diagonal[i] > 0) continue;
+      const bool nothing = diagonal[i] == 0;
+      Add(Severity::kWarn, Coordinate(model, i),
+          nothing ? "moves no mass" : "has negative inertia",
+          "M is singular or worse: no acceleration can be computed");
+      return;
+    }
+    const VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
+        scale.asDiagonal() * tick.M * scale.asDiagonal());
+    const double smallest = eigen.eigenvalues()[0];
+    int i = 0;
+    eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&i);
+    if (smallest < -kSingular * tree.nv()) {
+      Add(Severity::kWarn, Coordinate(model, i), "makes M indefinite",
+          "kinetic energy can be negative: an inertia is unphysical");
+    } else if (smallest < kSingular * tree.nv()) {
+      Add(Severity::kWarn, Coordinate(model, i), "makes M singular",
+          "others move the same mass: no acceleration can be computed");
+    } else {
+      is_regular_ = true;
+      if (smallest < kIllConditioned) {
+        Add(Severity::kNote, Coordinate(model, i),
+            "makes M ill-conditioned, by " + Print(1 / smallest),
+            "accelerations lose as many digits");
+      }
+    }
+  }
+
+  void CheckStanding() {
+    std::string reason;
+    try {
+      Robot robot = LoadRobot(urdf_, profile_);
+      if (profile_.feet.empty()) {
+        FindFeet(robot.model, &diagnosis_.findings);
+      }
+      for (const Foot& foot : robot.feet) {
+        diagnosis_.soles.push_back(
+            {foot.name, robot.model.tree.frames()[foot.frame].name,
+             2 * foot.half_size.x(), 2 * foot.half_size.y()});
+      }
+      if (robot.model.tree.num_joints() > kMostJointsToStand) {
+        reason = "has over 100 joints, so it was not tried";
+      } else if (!is_regular_) {
+        reason = "as M is singular";
+      } else {
+        if (!robot.can_stand) StandUp(&robot);
+        CheckStrength(robot);
+        return;
+      }
+    } catch (const std::invalid_argument& error) {
+      reason = OneLine(error.what());
+    }
+    Add(Severity::kNote, "robot", "does not stand", reason);
+  }
+
+  // Whether the motors hold the robot up, with the forces of least norm.
+  void CheckStrength(const Robot& robot) {
+    const Tree& tree = robot.model.tree;
+    const int n = tree.num_joints();
+    std::vector<int> frames;
+    for (const Foot& foot : robot.feet) frames.push_back(foot.frame);
+    Tick tick(tree, frames);
+    ComputeTick(tree, robot.q_nominal, VectorXd::Zero(tree.nv()), &tick);
+    diagnosis_.com_height = tick.p_WG.z();
+    MatrixXd J(6 * frames.size(), tree.nv());
+    for (size_t i = 0; i < frames.size(); ++i) {
+      J.middleRows<6>(6 * i) = tick.frames[i].J_WF_W;
+    }
+    const VectorXd lambda =
+        J.leftCols<6>().transpose().completeOrthogonalDecomposition().solve(
+            tick.N.head<6>());
+    const VectorXd tau = tick.N.tail(n) - J.rightCols(n).transpose() * lambda;
+    for (int j = 0; j < n; ++j) {
+      const double effort = robot.model.limits[j].effort;
+      if (std::abs(tau[j]) <= effort || effort == 0) continue;
+      Add(Severity::kWarn, Coordinate(robot.model, j + 6),
+          "needs " + Print(std::abs(tau[j])) + " of " + Print(effort) +
+              " N m to stand",
+          "it cannot hold its nominal posture");
+    }
+  }
+
+  void CheckParity(const Robot& robot) {
+    try {
+      diagnosis_.parity = CompareWithBullet(robot).worst();
+    } catch (const std::invalid_argument& error) {
+      Add(Severity::kNote, "robot", "was not compared with Bullet",
+          OneLine(error.what()));
+      return;
+    }
+    if (*diagnosis_.parity <= kParity) return;
+    Add(Severity::kNote, "robot",
+        "differs from its Bullet plant by " + Print(*diagnosis_.parity),
+        "relative: simulation and control do not quite agree");
+  }
+
+  const std::filesystem::path urdf_;
+  const Profile profile_;
+  Diagnosis diagnosis_;
+  bool is_regular_ = false;  // M can be inverted.
+};
+
+const char* Name(Severity severity) {
+  switch (severity) {
+    case Severity::kReject:
+      return "reject";
+    case Severity::kWarn:
+      return "warn";
+    default:
+      return "note";
+  }
+}
+
+}  // namespace
+
+Severity Diagnosis::worst() const {
+  Severity worst = Severity::kNote;
+  for (const Finding& finding : findings) {
+    worst = std::max(worst, finding.severity);
+  }
+  return worst;
+}
+
+Diagnosis Diagnose(const std::filesystem::path& urdf, const Profile& profile) {
+  return Doctor(urdf, profile).Examine();
+}
+
+std::string Verdict(const Diagnosis& diagnosis) {
+  const Severity worst = diagnosis.worst();
+  return worst == Severity::kNote ? "ok" : Name(worst);
+}
+
+std::string WriteTable(const Diagnosis& diagnosis) {
+  std::ostringstream out;
+  out << std::setprecision(4);
+  if (diagnosis.worst() != Severity::kReject) {
+    out << "robot    " << Quoted(diagnosis.robot) << ", root "
+        << Quoted(diagnosis.root) << ", " << diagnosis.links << " links, "
+        << diagnosis.joints << " moving joints\nmass     " << diagnosis.mass
+        << " kg\n";
+    size_t shown = 0;
+    for (const Diagnosis::Body& body : diagnosis.bodies) {
+      if (++shown > kMostFindings) break;
+      out << "         " << std::setw(9) << body.mass << "  "
+          << Quoted(body.link) << "\n";
+    }
+    for (const Diagnosis::Sole& sole : diagnosis.soles) {
+      out << "sole     " << sole.name << ": " << sole.length << " x "
+          << sole.width << " m on " << Quoted(sole.link) << "\n";
+    }
+    if (diagnosis.com_height) {
+      out << "stands   with its center of mass at " << *diagnosis.com_height
+          << " m\n";
+    }
+    if (diagnosis.parity) {
+      out << "parity   with the Bullet plant: " << *diagnosis.parity << "\n";
+    }
+  }
+  size_t shown = 0;
+  for (const Finding& finding : diagnosis.findings) {
+    if (++shown > kMostFindings) {
+      out << "... and " << diagnosis.findings.size() - kMostFindings
+          << " more\n";
+      break;
+    }
+    out << std::left << std::setw(9) << Name(finding.severity);
+    if (finding.line > 0) out << "line " << finding.line << ": ";
+    if (!finding.where.empty()) out << finding.where << ": ";
+    out << finding.what;
+    if (!finding.why.empty()) out << ", " << finding.why;
+    out << "\n";
+  }
+  out << "verdict  " << Verdict(diagnosis) << "\n";
+  return out.str();
+}
+
+std::string WriteJson(const Diagnosis& diagnosis) {
+  nlohmann::json json;
+  json["verdict"] = Verdict(diagnosis);
+  json["findings"] = nlohmann::json::array();
+  for (const Finding& finding : diagnosis.findings) {
+    if (json["findings"].size() >= kMostFindings) break;
+    json["findings"].push_back({{"severity", Name(finding.severity)},
+                                {"where", finding.where},
+                                {"what", finding.what},
+                                {"why", finding.why},
+                                {"line", finding.line}});
+  }
+  nlohmann::json robot;
+  robot["name"] = diagnosis.robot;
+  robot["root_link"] = diagnosis.root;
+  robot["links"] = diagnosis.links;
+  robot["joints"] = diagnosis.joints;
+  robot["total_mass"] = diagnosis.mass;
+  robot["bodies"] = nlohmann::json::array();
+  for (const Diagnosis::Body& body : diagnosis.bodies) {
+    robot["bodies"].push_back({{"link", body.link}, {"mass", body.mass}});
+  }
+  robot["soles"] = nlohmann::json::array();
+  for (const Diagnosis::Sole& sole : diagnosis.soles) {
+    robot["soles"].push_back({{"name", sole.name},
+                              {"link", sole.link},
+                              {"length", sole.length},
+                              {"width", sole.width}});
+  }
+  robot["stands"] = diagnosis.com_height.has_value();
+  if (diagnosis.com_height) robot["com_height"] = *diagnosis.com_height;
+  if (diagnosis.parity) robot["bullet_parity"] = *diagnosis.parity;
+  json["robot"] = robot;
+  // Names need not be UTF-8; JSON must be.
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace poise

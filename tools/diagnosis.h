@@ -1,0 +1,55 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "robot/finding.h"
+#include "robot/profile.h"
+
+namespace poise {
+
+/// What a robot file says, and everything in it that would make control fail or
+/// lie.
+struct Diagnosis {
+  std::string robot;
+  std::string root;
+  int links = 0;
+  int joints = 0;  ///< That move.
+  double mass = 0;
+  struct Body {
+    std::string link;  ///< The link that carries it; fixed ones are merged.
+    double mass;
+  };
+  std::vector<Body> bodies;
+  struct Sole {
+    std::string name, link;
+    double length, width;
+  };
+  std::vector<Sole> soles;
+  std::optional<double> com_height;  ///< In its standing posture, if it stands.
+  std::optional<double> parity;      ///< With Bullet: the worst, relative.
+  std::vector<Finding> findings;     ///< The worst first.
+
+  Severity worst() const;
+};
+
+/// Looks a robot file over. Never throws for what a file may hold; takes less
+/// than 10 s and 1 GiB: above 500 joints M is not computed, above 100 the robot
+/// is not stood up.
+Diagnosis Diagnose(const std::filesystem::path& urdf,
+                   const Profile& profile = {});
+
+/// "ok", "warn" or "reject".
+std::string Verdict(const Diagnosis& diagnosis);
+
+/// For a person, at most 1000 findings.
+std::string WriteTable(const Diagnosis& diagnosis);
+
+/// For a script: {"verdict", "findings": [{"severity", "where", "what", "why",
+/// "line"}], "robot": {...}}, at most 1000 findings.
+std::string WriteJson(const Diagnosis& diagnosis);
+
+}  // namespace poise

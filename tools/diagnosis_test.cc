@@ -1,0 +1,146 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/diagnosis.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/util/shared_data.h"
+
+namespace poise {
+namespace {
+
+const char kInertial[] =
+    "<inertial><mass value='1'/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' "
+    "iyz='0' izz='0.1'/></inertial>";
+
+// A chain of links 0, 1, 2 ... on joints about the given axes, with the given
+// parts inside each link.
+std::string Chain(const std::vector<std::string>& parts,
+                  const std::vector<std::string>& axes) {
+  std::string text = "<robot name='chain'>";
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const std::string name = std::to_string(i);
+    text += "<link name='" + name + "'>" + parts[i] + "</link>";
+    if (i == 0) continue;
+    text += "<joint name='j" + name +
+            "' type='revolute'><origin xyz='0 0 0.1'/><parent link='" +
+            std::to_string(i - 1) + "'/><child link='" + name +
+            "'/><axis xyz='" + axes[i - 1] +
+            "'/><limit lower='-1' upper='1' effort='9' velocity='9'/></joint>";
+  }
+  return text + "</robot>";
+}
+
+Diagnosis Examine(const std::string& text) {
+  const std::filesystem::path file =
+      std::filesystem::path(std::getenv("TEST_TMPDIR")) / "robot.urdf";
+  std::ofstream(file) << text;
+  return Diagnose(file);
+}
+
+std::string Findings(const Diagnosis& diagnosis) {
+  std::string all;
+  for (const Finding& finding : diagnosis.findings) {
+    all += finding.where + ": " + finding.what + ", " + finding.why + "\n";
+  }
+  return all;
+}
+
+TEST(Diagnose, FindsTheHumanoidWell) {
+  const Diagnosis diagnosis =
+      Diagnose("robot/models/humanoid.urdf",
+               LoadProfile("robot/profiles/humanoid.yaml"));
+  EXPECT_EQ(Verdict(diagnosis), "ok") << Findings(diagnosis);
+  EXPECT_EQ(diagnosis.joints, 50);
+  EXPECT_EQ(diagnosis.soles.size(), 2u);
+  EXPECT_NEAR(diagnosis.soles[0].length, 0.23, 1e-9);
+  EXPECT_NEAR(diagnosis.com_height.value(), 0.79, 0.01);
+  double mass = 0;
+  for (const Diagnosis::Body& body : diagnosis.bodies) mass += body.mass;
+  EXPECT_NEAR(mass, diagnosis.mass, 1e-12);
+  // The parity that the plant is asked for.
+  EXPECT_LT(diagnosis.parity.value(), 1e-9);
+}
+
+TEST(Diagnose, WarnsOfASingularInertia) {
+  const Diagnosis leaf =
+      Examine(Chain({kInertial, kInertial, ""}, {"0 0 1", "0 1 0"}));
+  EXPECT_EQ(Verdict(leaf), "warn");
+  EXPECT_NE(Findings(leaf).find("joint 'j2': moves no mass"), std::string::npos)
+      << Findings(leaf);
+  const Diagnosis collinear =
+      Examine(Chain({kInertial, "", kInertial}, {"0 0 1", "0 0 1"}));
+  EXPECT_EQ(Verdict(collinear), "warn");
+  EXPECT_NE(Findings(collinear).find("makes M singular"), std::string::npos);
+  // About another axis, the link between may be massless.
+  EXPECT_EQ(
+      Verdict(Examine(Chain({kInertial, "", kInertial}, {"0 0 1", "1 0 0"}))),
+      "ok");
+}
+
+TEST(Diagnose, RejectsWithTheReason) {
+  const Diagnosis diagnosis = Examine(Chain({kInertial, kInertial}, {"0 0 0"}));
+  EXPECT_EQ(Verdict(diagnosis), "reject");
+  EXPECT_EQ(diagnosis.findings[0].where, "joint 'j1' <axis>");
+  EXPECT_EQ(diagnosis.findings[0].what, "xyz is '0 0 0'");
+  EXPECT_EQ(Verdict(Diagnose("no/such.urdf")), "reject");
+}
+
+TEST(Diagnose, LeavesLargeRobotsUncomputed) {
+  const Diagnosis diagnosis =
+      Examine(Chain(std::vector<std::string>(602, kInertial),
+                    std::vector<std::string>(601, "0 0 1")));
+  EXPECT_EQ(Verdict(diagnosis), "ok");
+  EXPECT_NE(Findings(diagnosis).find("M was not computed"), std::string::npos);
+}
+
+TEST(WriteJson, HasTheKeysOfTheFormatWhateverTheNames) {
+  const Diagnosis diagnosis =
+      Examine(std::string("<robot name='\"\\ \xff'><link name='a'>") +
+              kInertial + "</link></robot>");
+  const nlohmann::json json = nlohmann::json::parse(WriteJson(diagnosis));
+  EXPECT_EQ(json["verdict"], "ok");
+  EXPECT_EQ(json["robot"]["total_mass"], 1);
+  for (const auto& finding : json["findings"]) {
+    for (const char* key : {"severity", "where", "what", "why"}) {
+      EXPECT_TRUE(finding[key].is_string()) << key;
+    }
+  }
+}
+
+TEST(WriteTable, SaysWhatMatters) {
+  const std::string table =
+      WriteTable(Examine(Chain({kInertial, ""}, {"0 0 1"})));
+  EXPECT_NE(table.find("robot    'chain', root '0', 2 links, 1 moving joints"),
+            std::string::npos)
+      << table;
+  EXPECT_NE(table.find("warn     joint 'j1': moves no mass"),
+            std::string::npos);
+  EXPECT_NE(table.find("verdict  warn"), std::string::npos);
+}
+
+TEST(Diagnose, JudgesHostileFilesAsExpected) {
+  const auto folder = SharedData("urdf_hostile");
+  if (!folder) return;
+  std::ifstream stream(*folder / "EXPECTED.json");
+  const nlohmann::json all = nlohmann::json::parse(stream);
+  for (const auto& [name, expected] : all.items()) {
+    std::string verdict = Verdict(Diagnose(*folder / name));
+    if (verdict == "ok") verdict = "accept";
+    std::transform(verdict.begin(), verdict.end(), verdict.begin(),
+                   [](unsigned char c) { return std::toupper(c); });
+    const auto& verdicts = expected["verdict"];
+    EXPECT_NE(std::find(verdicts.begin(), verdicts.end(), verdict),
+              verdicts.end())
+        << name << " is " << verdict;
+  }
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,92 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/parity.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/tick.h"
+#include "sim/bullet_plant.h"
+#include "sim/plant_settings.h"
+
+namespace poise {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+// The plant's accelerations under a generalized force at rest.
+VectorXd Accelerations(const VectorXd& q, const VectorXd& force,
+                       BulletPlant* plant) {
+  const int n = static_cast<int>(force.size()) - 6;
+  plant->Reset(q, VectorXd::Zero(n + 6));
+  plant->Apply({0, Vector3d::Zero(), force.head<3>(), force.segment<3>(3)});
+  plant->Step(force.tail(n));
+  return plant->Sense().vdot;
+}
+
+// Where the center of mass is from the base's origin, as M has it.
+Vector3d CenterOfMass(const MatrixXd& M) {
+  const double mass = M(3, 3);
+  return Vector3d(M(2, 4), M(0, 5), M(1, 3)) / mass;
+}
+
+}  // namespace
+
+double Parity::worst() const {
+  return std::max({mass, center_of_mass, inertia, gravity});
+}
+
+Parity CompareWithBullet(const Robot& robot) {
+  // Nothing to touch, and nothing to cut a force off.
+  Robot free = robot;
+  free.feet.clear();
+  free.model.collisions.clear();
+  const Tree& tree = free.model.tree;
+  VectorXd q = tree.MakeNeutral();
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    JointLimits& limits = free.model.limits[j];
+    q[tree.q_start() + j] = std::max(limits.lower, std::min(0., limits.upper));
+    limits.effort = std::numeric_limits<double>::infinity();
+  }
+  PlantSettings settings;
+  settings.joint_limits = false;
+  settings.joint_damping = false;
+  settings.self_collision = false;
+  BulletPlant plant(free, settings);
+  const int nv = tree.nv();
+  const VectorXd fall = Accelerations(q, VectorXd::Zero(nv), &plant);
+  MatrixXd answers(nv, nv);
+  Tick tick(tree, {});
+  ComputeTick(tree, q, VectorXd::Zero(nv), &tick);
+  // Forces in proportion to what they move, so that no answer drowns.
+  const VectorXd unit = tick.M.diagonal();
+  for (int i = 0; i < nv; ++i) {
+    answers.col(i) =
+        Accelerations(q, unit[i] * VectorXd::Unit(nv, i), &plant) - fall;
+  }
+  // answers = M'^-1 diag(unit).
+  const MatrixXd M = unit.asDiagonal() * answers.partialPivLu().inverse();
+
+  const double mass = tick.M(3, 3);
+  const Vector3d p_G = CenterOfMass(tick.M);
+  Parity parity{};
+  parity.mass = std::abs(M(3, 3) - mass) / mass;
+  parity.center_of_mass =
+      (CenterOfMass(M) - p_G).norm() / std::max(p_G.norm(), 1.0);
+  for (int i = 0; i < nv; ++i) {
+    for (int j = 0; j < nv; ++j) {
+      parity.inertia =
+          std::max(parity.inertia, std::abs(M(i, j) - tick.M(i, j)) /
+                                       std::sqrt(unit[i] * unit[j]));
+    }
+  }
+  const VectorXd gravity = -M * fall;
+  parity.gravity = (gravity - tick.N).lpNorm<Eigen::Infinity>() /
+                   tick.N.lpNorm<Eigen::Infinity>();
+  return parity;
+}
+
+}  // namespace poise
