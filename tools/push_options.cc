@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "robot/control/stand.h"
 #include "robot/profile.h"
+#include "robot/save_profile.h"
 #include "tools/user_path.h"
 
 namespace poise {
@@ -157,13 +159,15 @@ Scenario FindScenario(const std::string& name) {
 
 PushOptions ReadPushOptions(int argc, char** argv, std::string* help) {
   Overrides overrides;
-  std::string scenario_name = "strong_push", robot, profile, out;
+  std::string scenario_name = "strong_push", robot, profile, save_profile, out;
   bool no_report = false, json = false;
   CLI::App app("Pushes a humanoid in a simulation: does it recover?", "push");
   app.add_option("--scenario", scenario_name, "a name or a YAML file")
       ->capture_default_str();
   app.add_option("--robot", robot, "a URDF file (our humanoid)");
   app.add_option("--profile", profile, "feet, posture, tasks of a robot");
+  app.add_option("--save-profile", save_profile,
+                 "write the profile that is used, found posture and all");
   AddOptions(&app, &overrides);
   app.add_option("--out", out, "folder to write into (push-out/SCENARIO)");
   app.add_flag("--no-report", no_report, "write no report.html");
@@ -182,7 +186,11 @@ PushOptions ReadPushOptions(int argc, char** argv, std::string* help) {
   } else if (robot.empty()) {
     feet_and_posture = LoadProfile(kProfile);
   }
-  return {LoadRobot(robot_file, feet_and_posture),
+  Robot standing = LoadStandingRobot(robot_file, feet_and_posture);
+  if (!save_profile.empty()) {
+    SaveProfile(standing, feet_and_posture, UserPath(save_profile));
+  }
+  return {std::move(standing),
           scenario,
           robot_file,
           UserPath(out.empty() ? "push-out/" + scenario.name : out),
