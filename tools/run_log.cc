@@ -38,7 +38,9 @@ bool EndsWith(std::string_view text, std::string_view end) {
          text.substr(text.size() - end.size()) == end;
 }
 
+// What the ground does to a foot; not what the controller wanted of it.
 bool IsFootWrench(std::string_view name) {
+  if (StartsWith(name, "lambda.")) return false;
   for (const char* end : {"contact", "mx", "my", "mz", "fx", "fy", "fz"}) {
     if (EndsWith(name, std::string(".") + end)) return true;
   }
@@ -47,18 +49,26 @@ bool IsFootWrench(std::string_view name) {
 
 enum class Table { kMotion, kSignals, kTorques };
 
+bool IsPlotted(std::string_view name) {
+  for (const char* start : {"com.", "com_ref.", "cop.", "push.", "residual."}) {
+    if (StartsWith(name, start)) return true;
+  }
+  for (const char* end : {".contact", ".tilt", ".slide"}) {
+    if (EndsWith(name, end)) return true;
+  }
+  return name == "base.z" || name == "self_contacts" ||
+         (IsFootWrench(name) && EndsWith(name, ".fz"));
+}
+
 bool BelongsTo(Table table, std::string_view name) {
-  if (name == "time" || name == "status" || name == "active") return false;
-  const bool is_joint = StartsWith(name, "q.");
-  const bool is_torque = StartsWith(name, "tau.");
   switch (table) {
     case Table::kMotion:
-      return is_joint || StartsWith(name, "base.") ||
+      return StartsWith(name, "q.") || StartsWith(name, "base.") ||
              StartsWith(name, "com.") || IsFootWrench(name);
     case Table::kSignals:
-      return !is_joint && !is_torque && !StartsWith(name, "base.q");
+      return IsPlotted(name);
     case Table::kTorques:
-      return is_torque;
+      return StartsWith(name, "tau.");
   }
   return false;
 }

@@ -47,6 +47,16 @@ TEST(RunLog, SortsColumnsIntoTheTablesThatNeedThem) {
   EXPECT_TRUE(log["notes"].empty());
 }
 
+TEST(RunLog, LeavesOutWhatThePageDoesNotShow) {
+  const json log = ReadRunLog(
+      Written("time[s],lambda.left_foot.fz[N],other.fx[N],push.fx[N],"
+              "right_foot.mx[Nm],residual.momentum,self_contacts,status\n"
+              "0,1,2,3,4,5,6,ok\n"));
+  EXPECT_EQ(Names(log["motion"]), json({"right_foot.mx"}));
+  EXPECT_EQ(Names(log["signals"]),
+            json({"push.fx", "residual.momentum", "self_contacts"}));
+}
+
 TEST(RunLog, SaysWhenEachConstraintWasActive) {
   const json log =
       ReadRunLog(Written(std::string(kHeader) +

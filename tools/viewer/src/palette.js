@@ -14,8 +14,11 @@ export function readPalette() {
   return palette;
 }
 
-// A page from disk may have no storage, and throws when asked for it.
+// What was chosen: by the page around this one, or before. A page from disk may
+// have no storage, and throws when asked for it.
 function remembered() {
+  const told = /theme=(light|dark)/.exec(location.hash);
+  if (told) return told[1];
   try {
     return localStorage.getItem(KEY);
   } catch {
@@ -33,7 +36,8 @@ export class Theme {
   constructor(changed) {
     const system = matchMedia('(prefers-color-scheme: dark)');
     const follow = () => {
-      this.#set(remembered() ?? (system.matches ? 'dark' : 'light'));
+      this.#set(remembered() ??
+                (system.matches ? 'dark' : 'light'));
     };
     follow();
     this.#changed = changed;

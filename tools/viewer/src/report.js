@@ -11,7 +11,7 @@ import {readPalette, Theme} from './palette.js';
 import {Plot} from './plots.js';
 import {fillPlots, plotsOf, timingPlot, torquePlot} from './specs.js';
 import {Stage} from './stage.js';
-import {activeRows, statusRows, Strip, torqueRows} from './strips.js';
+import {activeRows, residualRows, statusRows, Strip, torqueRows} from './strips.js';
 import style from './style.css';
 import {Transport} from './transport.js';
 
@@ -107,6 +107,8 @@ class Page {
     this.clock = new Clock(start, end);
     this.range = [start, end > start ? end : start + 1];
     root.classList.toggle('compare', runs.length > 1);
+    // Inside another page, which has its own head.
+    root.classList.toggle('embedded', /\bembed\b/.test(location.hash));
     root.innerHTML = `${headHtml(runs)}${notesHtml(runs)}${numbersHtml(runs)}
       <div class="work"><div class="left"><div class="stages"></div>
       <div class="under"><ul class="keys">${KEYS.map(([name, text]) =>
@@ -131,7 +133,7 @@ class Page {
     this.#addInstruments();
     this.#listenToZoom();
     this.clock.listen(() => this.#update());
-    const hash = /t=([\d.]+)/.exec(location.hash);
+    const hash = /\bt=([\d.]+)/.exec(location.hash);
     this.clock.seek(hash ? Number(hash[1]) : start);
     const frame = (now) => {
       this.clock.frame(now);
@@ -273,6 +275,15 @@ class Page {
             'where their multiplier is larger.',
         rows: activeRows(run), few: 14, empty: 'None was active.',
       });
+      const residuals = residualRows(run);
+      if (residuals.length) {
+        strip({
+          title: tagged('What each task lost', run),
+          hint: 'Residual of its rows, darkest where largest; the number is ' +
+              'the largest. Tasks that were met are left out.',
+          rows: residuals, few: 8,
+        });
+      }
       const status = statusRows(run);
       if (status.length) {
         strip({title: tagged('Status other than ok', run), rows: status, few: 6});

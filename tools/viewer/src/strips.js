@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-import {escapeHtml} from './format.js';
+import {escapeHtml, formatNumber} from './format.js';
 
 const ROW = 18;  // CSS pixels a row.
 
@@ -143,6 +143,58 @@ export function activeRows(run) {
   }));
 }
 
+// A channel as a bar: each pixel as dark as the most that falls on it, 0 to 1.
+function drawIntensity(context, toX, y, height, table, channel, of, colorOf) {
+  const values = table.values(channel);
+  const {time} = table;
+  const width = context.canvas.width;
+  let at = -1;
+  let most = 0;
+  const paint = (pixel) => {
+    if (pixel < 0 || pixel > width || !(most > 0)) return;
+    context.fillStyle = colorOf(most);
+    context.globalAlpha = Math.min(1, most);
+    context.fillRect(pixel, y, 1.2, height);
+  };
+  for (let i = 0; i < time.length; ++i) {
+    const x = Math.floor(toX(time[i]));
+    if (x !== at) {
+      paint(at);
+      // A pixel without a row of its own keeps the color of the last one.
+      for (let gap = Math.max(0, at + 1); at >= 0 && gap < Math.min(x, width);
+        ++gap) {
+        paint(gap);
+      }
+      at = x;
+      most = 0;
+    }
+    most = Math.max(most, of(values[i]) || 0);
+  }
+  paint(at);
+}
+
+/**
+ * Rows of a strip: what each task lost, against the most that it lost. Those
+ * that were met throughout are left out.
+ */
+export function residualRows(run) {
+  const rows = [];
+  for (const channel of run.signals.names) {
+    if (!channel.startsWith('residual.')) continue;
+    const [low, high] = run.signals.range(channel);
+    const peak = Math.max(-low, high);
+    if (!(peak > 1e-6)) continue;
+    const name = channel.slice('residual.'.length);
+    rows.push({
+      name, peak, label: `${name} ${formatNumber(peak)}`,
+      draw: (context, toX, y, height, palette) => drawIntensity(
+          context, toX, y, height, run.signals, channel,
+          (value) => Math.sqrt(Math.abs(value) / peak), () => palette.c4),
+    });
+  }
+  return rows;
+}
+
 /** Rows of a strip: how much of its limit each joint's torque used. */
 export function torqueRows(run) {
   const limits = run.robot?.limits ?? {};
@@ -158,35 +210,10 @@ export function torqueRows(run) {
   rows.sort((a, b) => b.peak - a.peak);
   for (const row of rows) {
     row.label = `${row.name} ${Math.round(100 * row.peak)} %`;
-    row.draw = (context, toX, y, height, palette) => {
-      const values = run.torques.values(row.channel);
-      const {time} = run.torques;
-      const width = context.canvas.width;
-      let at = -1;
-      let most = 0;
-      const paint = () => {
-        if (at < 0 || at > width) return;
-        context.fillStyle = palette[most > 0.995 ? 'push' : 'c1'];
-        context.globalAlpha = Math.min(1, most);
-        context.fillRect(at, y, 1.2, height);
-      };
-      for (let i = 0; i < time.length; ++i) {
-        const x = Math.floor(toX(time[i]));
-        const use = Math.abs(values[i]) / row.effort;
-        if (x !== at) {
-          paint();
-          // A pixel without a row of its own keeps the last one's color.
-          for (let gap = at + 1; at >= 0 && gap < Math.min(x, width); ++gap) {
-            at = gap;
-            paint();
-          }
-          at = x;
-          most = 0;
-        }
-        most = Math.max(most, use);
-      }
-      paint();
-    };
+    row.draw = (context, toX, y, height, palette) => drawIntensity(
+        context, toX, y, height, run.torques, row.channel,
+        (value) => Math.abs(value) / row.effort,
+        (use) => palette[use > 0.995 ? 'push' : 'c1']);
   }
   return rows;
 }
