@@ -1,0 +1,161 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/drawing/plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace poise {
+namespace {
+
+const Color kInk = HexColor(0x16191d);
+const Color kFaint = HexColor(0x767e88);
+const Color kGrid = HexColor(0xe3e6e9);
+const Color kLimit = HexColor(0xc4281c);
+constexpr double kFont = 9.5;
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void Take(double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  void Widen(double least) {
+    if (!(low <= high)) low = high = 0;
+    const double missing = std::max(0.0, least - (high - low));
+    low -= missing / 2;
+    high += missing / 2;
+    if (low == high) {
+      low -= 1;
+      high += 1;
+    }
+  }
+};
+
+std::string TickText(double value, double step) {
+  const int digits =
+      std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", digits, std::abs(value));
+  const bool negative = value < -step / 2;
+  return negative ? "\u2212" + std::string(text) : text;
+}
+
+// Points to draw: several of one pixel become its lowest and highest.
+std::vector<Eigen::Vector2d> Thin(const std::vector<Eigen::Vector2d>& points) {
+  std::vector<Eigen::Vector2d> thin;
+  for (std::size_t i = 0; i < points.size();) {
+    const double column = std::floor(2 * points[i].x());
+    std::size_t low = i, high = i, next = i;
+    for (; next < points.size() && std::floor(2 * points[next].x()) == column;
+         ++next) {
+      if (points[next].y() < points[low].y()) low = next;
+      if (points[next].y() > points[high].y()) high = next;
+    }
+    thin.push_back(points[std::min(low, high)]);
+    if (low != high) thin.push_back(points[std::max(low, high)]);
+    i = next;
+  }
+  return thin;
+}
+
+}  // namespace
+
+std::vector<double> RoundTicks(double low, double high, int most) {
+  const double rough = (high - low) / most;
+  double step = std::pow(10, std::floor(std::log10(rough)));
+  for (const double factor : {2.0, 2.5, 2.0}) {
+    const double count =
+        std::ceil(high / step - 1e-9) - std::floor(low / step + 1e-9);
+    if (count <= most) break;
+    step *= factor;
+  }
+  std::vector<double> ticks;
+  const double first = std::floor(low / step + 1e-9);
+  const double last = std::ceil(high / step - 1e-9);
+  for (double i = first; i <= last; ++i) ticks.push_back(i * step);
+  return ticks;
+}
+
+void DrawPlot(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
+              const PlotSpec& spec, Canvas* canvas) {
+  Range x, y;
+  for (const PlotLine& line : spec.lines) {
+    for (const double value : line.x) x.Take(value);
+    for (const double value : line.y) y.Take(value);
+  }
+  for (const auto& [value, name] : spec.limits) y.Take(value);
+  x.Widen(0);
+  y.Widen(spec.least_extent);
+  const std::vector<double> y_ticks = RoundTicks(y.low, y.high, 6);
+  const std::vector<double> x_ticks = RoundTicks(x.low, x.high, 10);
+  y = {y_ticks.front(), y_ticks.back()};
+
+  const Eigen::Vector2d at = corner + Eigen::Vector2d(46, 26);
+  const Eigen::Vector2d area = size - Eigen::Vector2d(58, 60);
+  const auto map = [&](double time, double value) {
+    return Eigen::Vector2d(
+        at.x() + area.x() * (time - x.low) / (x.high - x.low),
+        at.y() + area.y() * (y.high - value) / (y.high - y.low));
+  };
+  if (spec.band) {
+    const double left = map(spec.band->first, 0).x();
+    const double right = std::max(left + 1, map(spec.band->second, 0).x());
+    Color shade = HexColor(0xd92d20);
+    shade[3] = 0.13;
+    canvas->Polygon({{left, at.y()},
+                     {right, at.y()},
+                     {right, at.y() + area.y()},
+                     {left, at.y() + area.y()}},
+                    shade);
+  }
+  for (const double tick : y_ticks) {
+    canvas->Line({map(x.low, tick), map(x.high, tick)}, kGrid, 0.8);
+    canvas->Text(map(x.low, tick) + Eigen::Vector2d(-6, 3.3),
+                 TickText(tick, y_ticks[1] - y_ticks[0]), kFont, kFaint,
+                 Anchor::kRight);
+  }
+  for (const double tick : x_ticks) {
+    if (tick < x.low - 1e-9 || tick > x.high + 1e-9) continue;
+    canvas->Text(map(tick, y.low) + Eigen::Vector2d(0, 14),
+                 TickText(tick, x_ticks[1] - x_ticks[0]), kFont, kFaint,
+                 Anchor::kMiddle);
+  }
+  canvas->Text(at + area + Eigen::Vector2d(0, 27), spec.x_label, kFont, kFaint,
+               Anchor::kRight);
+  canvas->Clipped(at - Eigen::Vector2d(0, 2), area + Eigen::Vector2d(0, 4),
+                  [&] {
+                    for (const PlotLine& line : spec.lines) {
+                      std::vector<Eigen::Vector2d> points;
+                      for (std::size_t i = 0; i < line.x.size(); ++i) {
+                        if (std::isfinite(line.y[i])) {
+                          points.push_back(map(line.x[i], line.y[i]));
+                        }
+                      }
+                      canvas->Line(Thin(points), line.color, 1.5, line.dashed);
+                    }
+                    for (const auto& [value, name] : spec.limits) {
+                      canvas->Line({map(x.low, value), map(x.high, value)},
+                                   kLimit, 1, true);
+                      canvas->Text(map(x.high, value) + Eigen::Vector2d(-4, -4),
+                                   name, kFont - 1, kLimit, Anchor::kRight);
+                    }
+                  });
+  canvas->Text(corner + Eigen::Vector2d(12, 15), spec.title, 11, kInk,
+               Anchor::kLeft, /*bold=*/true);
+  double right = at.x() + area.x();
+  for (auto line = spec.lines.rbegin(); line != spec.lines.rend(); ++line) {
+    right -= canvas->TextWidth(line->name, kFont);
+    canvas->Text({right, corner.y() + 15}, line->name, kFont, kInk);
+    canvas->Line(
+        {{right - 20, corner.y() + 11.5}, {right - 5, corner.y() + 11.5}},
+        line->color, 2, line->dashed);
+    right -= 34;
+  }
+}
+
+}  // namespace poise

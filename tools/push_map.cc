@@ -1,0 +1,80 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "tools/push_map_options.h"
+#include "tools/push_map_run.h"
+
+namespace {
+
+volatile std::sig_atomic_t g_interrupted = 0;
+
+bool ShowProgress(const poise::PushMapProgress& progress) {
+  if (isatty(STDERR_FILENO) != 0) {
+    char left[40] = "";
+    if (progress.seconds_left >= 0) {
+      std::snprintf(left, sizeof left, ", %.0f min %02.0f s left",
+                    std::floor(progress.seconds_left / 60),
+                    std::fmod(progress.seconds_left, 60));
+    }
+    std::fprintf(stderr, "\r\033[K  %d of %d points, %d pushes tried%s",
+                 progress.points_done, progress.points, progress.trials, left);
+    if (progress.points_done == progress.points) std::fputc('\n', stderr);
+  }
+  return g_interrupted == 0;
+}
+
+void PrintTable(const poise::PushMapPlan& plan,
+                const poise::PushMapFiles& files) {
+  std::printf("%10s %9s %12s %12s %6s  %s\n", "direction", "duration",
+              "recovered", "pendulum", "eta", "tasks");
+  for (const auto& [point, value] : files.found()) {
+    std::printf("%8.1f deg %7.3f s %9.2f Ns %9.2f Ns %6.2f  %s\n",
+                point.direction_deg, point.duration, value.impulse, value.lipm,
+                value.impulse / value.lipm, point.tasks.c_str());
+  }
+  std::printf("\n%s\n", (plan.folder / "map.html").c_str());
+}
+
+int Map(const poise::PushMapOptions& options) {
+  const poise::PushMapPlan& plan = options.plan;
+  poise::PushMapFiles files(plan.folder, options.settings, options.header);
+  const bool all = poise::RunPushMap(plan, &files, ShowProgress);
+  poise::WriteMapPage(plan, files);
+  if (!all) {
+    std::cerr << "\npush_map: interrupted; the same command goes on\n";
+    return 1;
+  }
+  if (options.json) {
+    std::cout << poise::MapToJson(plan, files).dump(1) << '\n';
+  } else {
+    PrintTable(plan, files);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string help;
+  try {
+    const poise::PushMapOptions options =
+        poise::ReadPushMapOptions(argc, argv, &help);
+    std::signal(SIGINT, [](int) { g_interrupted = 1; });
+    std::signal(SIGTERM, [](int) { g_interrupted = 1; });
+    return Map(options);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << help;
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "push_map: " << error.what() << '\n';
+    return 2;
+  }
+}
