@@ -86,7 +86,8 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv, std::string* help) {
   std::string shard_text = "1/1", out;
   int threads = static_cast<int>(std::thread::hardware_concurrency());
   bool no_replays = false;
-  PushMapOptions options;
+  double step = 0.25;
+  bool json = false;
   CLI::App app(
       "The largest impulse that the robot recovers from, in each direction. "
       "Interrupted, the same command goes on where it was; a second set of "
@@ -102,7 +103,7 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv, std::string* help) {
       ->check(CLI::PositiveNumber);
   app.add_option("--with", with, "tasks to switch on")->delimiter(',');
   app.add_option("--without", without, "tasks to switch off")->delimiter(',');
-  app.add_option("--step", options.plan.step, "of impulses, N s")
+  app.add_option("--step", step, "of impulses, N s")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--shard", shard_text,
@@ -112,7 +113,7 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv, std::string* help) {
   app.add_option("--out", out,
                  "folder (push-map-out; of a shard push-map-out/shard-I-of-N)");
   app.add_flag("--no-replays", no_replays, "make no replays");
-  app.add_flag("--json", options.json, "print the map as JSON");
+  app.add_flag("--json", json, "print the map as JSON");
   *help = app.help();
   app.parse(argc, argv);
 
@@ -129,17 +130,12 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv, std::string* help) {
              std::to_string(shard.count);
     }
   }
-  options.plan.robot = std::move(push.robot);
-  options.plan.scenario = std::move(push.scenario);
-  options.plan.points =
-      Points(directions, durations, TaskSetName(with, without), shard);
-  options.plan.folder = UserPath(out);
-  options.plan.threads = std::max(1, threads);
-  options.plan.replays = !no_replays;
-  options.settings =
-      "step " + std::to_string(options.plan.step) + '\n' + Joined(rest);
-  options.header = shard.index == 1;
-  return options;
+  return {{std::move(push.robot), std::move(push.scenario),
+           Points(directions, durations, TaskSetName(with, without), shard),
+           UserPath(out), std::max(1, threads), step, !no_replays},
+          "step " + std::to_string(step) + '\n' + Joined(rest),
+          shard.index == 1,
+          json};
 }
 
 }  // namespace poise

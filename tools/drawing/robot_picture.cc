@@ -100,7 +100,7 @@ class Model {
 
 // A shaft and a head, its tip just before the point that it pushes.
 void AddArrow(const PushArrow& push, Model* model) {
-  constexpr double kRadius = 0.013, kHead = 0.085, kAway = 0.1;
+  constexpr double kRadius = 0.013, kHead = 0.085, kAway = 0.25;
   const Color red(0.85, 0.16, 0.12, 1);
   const double shaft = kMetersPerNewton * push.force.norm() - kHead;
   if (shaft < 0.02) return;

@@ -34,6 +34,14 @@ def add_default_repositories():
         debian_package = "nlohmann-json3-dev",
     )
     system_repository(
+        # cairo.pc adds its own folder to the search path; <cairo/cairo.h>
+        # needs none.
+        name = "cairo",
+        linkopts = ["-lcairo"],
+        header = "cairo/cairo.h",
+        debian_package = "libcairo2-dev",
+    )
+    system_repository(
         name = "cli11",
         pkg_config = "CLI11",
         debian_package = "libcli11-dev",

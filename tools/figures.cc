@@ -1,0 +1,83 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <future>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "robot/profile.h"
+#include "tools/figures_draw.h"
+#include "tools/record_run.h"
+#include "tools/user_path.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// All runs, on all cores; each into its folder.
+void RecordAll(const poise::Robot& robot,
+               const std::vector<poise::FigureRun>& runs,
+               const fs::path& folder) {
+  std::atomic<std::size_t> next{0}, done{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < runs.size(); i = next++) {
+      poise::RecordRun(robot, runs[i].scenario, folder / runs[i].name);
+      const std::size_t count = ++done;
+      if (isatty(STDERR_FILENO) != 0) {
+        std::fprintf(stderr, "\r  %zu of %zu runs%s", count, runs.size(),
+                     count == runs.size() ? "\n" : "");
+      }
+    }
+  };
+  std::vector<std::future<void>> workers;
+  for (unsigned i = 0; i < std::thread::hardware_concurrency(); ++i) {
+    workers.push_back(std::async(std::launch::async, work));
+  }
+  for (std::future<void>& worker : workers) worker.get();
+}
+
+// `bazel run` knows where the sources are; else the folder that we are in.
+fs::path DocsFolder() {
+  const char* workspace = std::getenv("BUILD_WORKSPACE_DIRECTORY");
+  return workspace ? fs::path(workspace) / "docs" : fs::path("docs");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Draws figures 3 to 12 of the paper, from fresh runs.",
+               "figures");
+  std::string out;
+  bool keep_runs = false;
+  app.add_option("--out", out,
+                 "Folder for results.md and figures/ [the workspace's docs]");
+  app.add_flag("--keep-runs", keep_runs, "Keep the runs, in OUT/figure-runs");
+  try {
+    app.parse(argc, argv);
+    const fs::path folder = out.empty() ? DocsFolder() : poise::UserPath(out);
+    fs::create_directories(folder);
+    const poise::Robot robot =
+        poise::LoadRobot("robot/models/humanoid.urdf",
+                         poise::LoadProfile("robot/profiles/humanoid.yaml"));
+    const fs::path runs = folder / "figure-runs";
+    RecordAll(robot, poise::MakeFigureRuns("sim/scenarios"), runs);
+    poise::WriteResults(poise::DrawFigures(robot, runs, folder / "figures"),
+                        folder / "results.md", "figures");
+    if (!keep_runs) fs::remove_all(runs);
+    std::cout << (folder / "results.md").string() << '\n';
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help();
+  } catch (const std::exception& error) {
+    std::cerr << "figures: " << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}
