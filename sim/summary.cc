@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "sim/push.h"
+
 namespace poise {
 
 namespace {
@@ -20,6 +22,15 @@ Json Numbers(const Vector& values) {
   Json list = Json::array();
   for (const double x : values) list.push_back(Number(x));
   return list;
+}
+
+// The link that a push acts on, also where the push left it to us.
+std::string LinkName(const Robot& robot, const PushOnRobot& push) {
+  if (!push.push().link.empty()) return push.push().link;
+  for (const Frame& frame : robot.model.tree.frames()) {
+    if (frame.body == push.body()) return frame.name;
+  }
+  return "";
 }
 
 const char* NameOf(PlantKind kind) {
@@ -54,6 +65,16 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
   json["plant_dt"] = scenario.plant.dt;
   json["duration"] = simulated;
   json["push_duration"] = result.push_duration;
+  if (!scenario.pushes.empty()) {
+    const PushOnRobot push(robot, scenario.pushes[0]);
+    json["push_link"] = LinkName(robot, push);
+    json["push_body"] = push.body();
+    json["push_point"] = Numbers(push.p_BoQ_B());
+  }
+  const ControlSettings& control = scenario.control;
+  json["tasks"] = {{"set", control.tasks},
+                   {"with", control.with},
+                   {"without", control.without}};
   json["recovered"] = verdict.recovered;
   json["fell_at"] = verdict.fell_at ? Json(*verdict.fell_at) : Json(nullptr);
   json["interrupted"] = result.interrupted;

@@ -38,9 +38,12 @@ bool EndsWith(std::string_view text, std::string_view end) {
          text.substr(text.size() - end.size()) == end;
 }
 
-// What the ground does to a foot; not what the controller wanted of it.
+// What the ground does to a foot; not what the controller wanted of it, nor
+// what others did to the robot.
 bool IsFootWrench(std::string_view name) {
-  if (StartsWith(name, "lambda.")) return false;
+  for (const char* start : {"lambda.", "push.", "other."}) {
+    if (StartsWith(name, start)) return false;
+  }
   for (const char* end : {"contact", "mx", "my", "mz", "fx", "fy", "fz"}) {
     if (EndsWith(name, std::string(".") + end)) return true;
   }

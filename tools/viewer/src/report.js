@@ -26,13 +26,14 @@ const KEYS = [
 const VIEW_NAMES = [['three_quarter', '3D'], ['front', 'Front'],
                     ['side', 'Side'], ['top', 'Top']];
 
-function describe({summary: s, robot, rows}) {
-  const push = Array.isArray(s.push_force) ? Math.hypot(...s.push_force) :
-      s.push_duration > 0 ? s.impulse_Ns / s.push_duration : 0;
+function describe(run) {
+  const {summary: s, robot, rows} = run;
+  const push = s.push_duration > 0 ? s.impulse_Ns / s.push_duration : 0;
   return [
     push > 0 && s.push_duration > 0 &&
         `${formatNumber(push)} N for ${formatNumber(s.push_duration)} s` +
         (s.push_link ? ` on ${s.push_link}` : ''),
+    changesOf(run),
     robot && `${robot.name}, ${robot.bodies.length - 1} joints, ` +
         `${formatNumber(robot.mass)} kg`,
     s.plant && `plant ${s.plant}`,
@@ -42,16 +43,13 @@ function describe({summary: s, robot, rows}) {
   ].filter(Boolean).join(' · ');
 }
 
-/** What the tasks of two runs differ in: "without cop, yaw". */
-function difference(run, other) {
-  const own = run.summary.tasks;
-  const others = other.summary.tasks;
-  if (!Array.isArray(own) || !Array.isArray(others)) return '';
-  const extra = own.filter((task) => !others.includes(task));
-  const lacking = others.filter((task) => !own.includes(task));
-  return [extra.length && `with ${extra.join(', ')}`,
-          lacking.length && `without ${lacking.join(', ')}`]
-      .filter(Boolean).join('; ');
+/** How a run's tasks differ from its set: "without cop, yaw". */
+function changesOf({summary: {tasks}}) {
+  if (!tasks) return '';
+  return [tasks.set !== 'default' && `tasks ${tasks.set}`,
+    tasks.with?.length && `with ${tasks.with.join(', ')}`,
+    tasks.without?.length && `without ${tasks.without.join(', ')}`]
+      .filter(Boolean).join(', ');
 }
 
 const nameOf = (run) => titleOf(run.summary.scenario ?? run.name);
@@ -69,10 +67,9 @@ function headHtml(runs) {
       <p class="what">${escapeHtml(describe(run))}</p></div>
       ${verdictHtml(run)}${theme}</header>`;
   }
-  const line = (run, i) => `<div class="run">${tagHtml(run)}<p class="what">
+  const line = (run) => `<div class="run">${tagHtml(run)}<p class="what">
     <b>${escapeHtml(nameOf(run))}</b>
-    ${escapeHtml([difference(run, runs[1 - i]), describe(run)]
-      .filter(Boolean).join(' · '))}</p></div>`;
+    ${escapeHtml(describe(run))}</p></div>`;
   return `<header class="head"><div class="titles"><p class="brand">Poise</p>
     <h1>Two runs on one clock</h1>${runs.map(line).join('')}</div>${theme}</header>`;
 }

@@ -41,10 +41,6 @@ export class RobotView {
       mesh.receiveShadow = true;
       this.bodies[shape.body].add(place(mesh, shape));
     }
-    this.links = new Map();
-    for (const link of robot.links) {
-      this.links.set(link.name, this.#frame(link));
-    }
     this.feet = robot.feet.map((foot) => ({...foot, frame: this.#frame(foot)}));
   }
 

@@ -25,14 +25,11 @@ function soleEdges(run) {
     {value: 1e3 * edges[axis][0], name: 'edge of the soles'},
     {value: 1e3 * edges[axis][1], name: 'edge of the soles'},
   ] : [];
-  const box = (run.summary.tasks ?? []).includes('zmp') ?
-      run.summary.zmp_box ?? [null, 0.1] : [null, null];
-  const boxMarks = (half) => half ? [
-    {value: 1e3 * half, name: 'zmp limit', always: true},
-    {value: -1e3 * half, name: '', always: true},
-  ] : [];
-  return {x: [...marks('x'), ...boxMarks(box[0])],
-          y: [...marks('y'), ...boxMarks(box[1])]};
+  // The combined box of equation (12), where it is on.
+  const half = run.summary.tasks?.with?.includes('zmp') ? 100 : null;
+  const box = half ? [{value: half, name: 'zmp limit', always: true},
+                      {value: -half, name: 'zmp limit', always: true}] : [];
+  return {x: marks('x'), y: [...marks('y'), ...box]};
 }
 
 /** The plots of a run, in the order in which one reads them. */

@@ -342,10 +342,10 @@ export class Stage {
 
   #drawPush(time) {
     const force = new THREE.Vector3(...this.run.push(time));
-    const link = this.robot.links.get(this.run.summary.push_link);
-    const point = link ?
-        new THREE.Vector3(...(this.run.summary.push_point ?? [0, 0, 0]))
-            .applyMatrix4(link.matrixWorld) :
+    const {push_body: index, push_point: at} = this.run.summary;
+    const body = this.robot.bodies[index];
+    const point = body && at ?
+        new THREE.Vector3(...at).applyMatrix4(body.matrixWorld) :
         new THREE.Vector3(...this.run.vector('com.', time));
     // Drawn up to the surface it pushes on, from outside.
     const vector = force.clone().multiplyScalar(

@@ -1,0 +1,126 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+//
+// What needs no browser: data, time, geometry, numbers as text.
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import {Clock} from '../src/clock.js';
+import {decodeChannel, decodeFloats, Run, Table} from '../src/feed.js';
+import {formatNumber, titleOf} from '../src/format.js';
+import {convexHull, copOf} from '../src/geometry.js';
+
+const base64 = (array) =>
+  Buffer.from(array.buffer, array.byteOffset, array.byteLength)
+      .toString('base64');
+
+const channel = (name, min, max, steps) =>
+  ({name, unit: '', min, max, data: base64(Uint16Array.from(steps))});
+
+const table = (time, ...channels) => ({
+  rows: time.length, time: base64(Float32Array.from(time)), channels,
+});
+
+test('a channel is decoded as tools/channel.h says', () => {
+  const values = decodeChannel(channel('q', -1, 3, [0, 65534, 32767, 65535]));
+  assert.deepEqual([...values.slice(0, 3)], [-1, 3, 1]);
+  assert.ok(Number.isNaN(values[3]));
+});
+
+test('floats keep their bits', () => {
+  assert.deepEqual([...decodeFloats('AACAPwAAgD8=')], [1, 1]);
+});
+
+test('a table is linear between its rows and level outside', () => {
+  const data = new Table(table([0, 1, 3], channel('a', 0, 4, [0, 32767, 65534])));
+  assert.equal(data.at('a', -5), 0);
+  assert.equal(data.at('a', 0.5), 1);
+  assert.equal(data.at('a', 1), 2);
+  assert.equal(data.at('a', 2), 3);
+  assert.equal(data.at('a', 9), 4);
+  assert.equal(data.at('b', 1, 7), 7);
+  assert.equal(data.row(0.999), 0);
+  assert.equal(data.row(1), 1);
+});
+
+test('an empty table has no rows and no values', () => {
+  const data = new Table(null);
+  assert.equal(data.rows, 0);
+  assert.equal(data.at('a', 1, 7), 7);
+});
+
+test('a run knows its pushes, and where a moving mass is caught', () => {
+  const still = (name) => channel(name, 0, 0, [0, 0, 0, 0]);
+  const run = new Run({
+    name: 'r', summary: null, robot: null, notes: [], timing: null,
+    log: {
+      rows: 4,
+      motion: table([0, 1, 2, 3],
+                    channel('com.x', 0, 3, [0, 21845, 43689, 65534]),
+                    still('com.y'), channel('com.z', 0.8, 0.8, [0, 0, 0, 0])),
+      signals: table([0, 1, 2, 3], still('push.fx'),
+                     channel('push.fy', 0, 100, [0, 65534, 65534, 0]),
+                     still('push.fz')),
+      torques: table([]), active: [], status: [],
+    },
+  }, 'A');
+  assert.deepEqual(run.pushes, [[1, 3]]);
+  assert.deepEqual(run.push(1.5), [0, 100, 0]);
+  assert.deepEqual(run.push(0.9), [0, 0, 0]);
+  assert.equal(run.start, 0);
+  assert.equal(run.end, 3);
+  // At 1 m/s and a height of 0.8 m: ahead by sqrt(0.8 / 9.81) s.
+  const [x, y] = run.capturePoint(1.5);
+  assert.ok(Math.abs(x - (1.5 + Math.sqrt(0.8 / 9.81))) < 1e-3, String(x));
+  assert.ok(Math.abs(y) < 1e-9);
+});
+
+test('a clock plays at its speed, stops at the end, and starts again', () => {
+  const clock = new Clock(0, 1);
+  let told = 0;
+  clock.listen(() => ++told);
+  clock.setSpeed(0.5);
+  clock.play();
+  clock.frame(1000);
+  clock.frame(1050);
+  assert.ok(Math.abs(clock.time - 0.025) < 1e-12);
+  // A page that slept does not jump.
+  clock.frame(60000);
+  assert.ok(Math.abs(clock.time - 0.075) < 1e-12);
+  clock.seek(0.99);
+  clock.frame(60100);
+  assert.equal(clock.time, 1);
+  assert.equal(clock.playing, false);
+  clock.toggle();
+  assert.equal(clock.time, 0);
+  assert.equal(clock.playing, true);
+  clock.seek(7);
+  assert.equal(clock.time, 1);
+  assert.ok(told > 5);
+});
+
+test('a clock without length does not play', () => {
+  const clock = new Clock(2, 2);
+  clock.play();
+  assert.equal(clock.playing, false);
+});
+
+test('a convex hull is counterclockwise and without inner points', () => {
+  const hull = convexHull(
+      [[0, 0], [1, 0], [0.5, 0.5], [1, 1], [0, 1], [0.5, 0]]);
+  assert.deepEqual(hull, [[0, 0], [1, 0], [1, 1], [0, 1]]);
+  assert.deepEqual(convexHull([[1, 2]]), [[1, 2]]);
+  assert.deepEqual(convexHull([]), []);
+});
+
+test('the center of pressure is where the force acts', () => {
+  // 100 N at (0.03, -0.02): m = p x f.
+  assert.deepEqual(copOf({mx: -2, my: -3, fz: 100}), [0.03, -0.02]);
+  assert.equal(copOf({mx: 0, my: 0, fz: 0}), null);
+});
+
+test('numbers are short, and say so when they are none', () => {
+  assert.deepEqual(
+      [0, 12.345, -0.4567, 123.4, 1234567, 3e-11, NaN, undefined, Infinity]
+          .map(formatNumber),
+      ['0', '12.3', '−0.46', '123', '1.2e6', '3.0e−11', '–', '–', '∞']);
+  assert.equal(titleOf('strong_push_without_zmp'), 'Strong push without zmp');
+});

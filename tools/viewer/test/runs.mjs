@@ -1,0 +1,116 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+//
+// Folders of runs for the browser test, made from a real one: what happens to
+// logs. And a robot that is no humanoid.
+import {once} from 'node:events';
+import {copyFileSync, createWriteStream, mkdirSync, readFileSync,
+  writeFileSync} from 'node:fs';
+import path from 'node:path';
+
+/** A copy of a run with another log. */
+function withLog(run, folder, log) {
+  mkdirSync(folder, {recursive: true});
+  for (const name of ['robot.json', 'summary.json']) {
+    copyFileSync(path.join(run, name), path.join(folder, name));
+  }
+  writeFileSync(path.join(folder, 'log.csv'), log);
+  return folder;
+}
+
+const linesOf = (run) =>
+  readFileSync(path.join(run, 'log.csv'), 'utf8').trimEnd().split('\n');
+
+export function emptyRun(run, folder) {
+  return withLog(run, folder, '');
+}
+
+/** Stopped by a full disk: in the middle of a number, of row 500. */
+export function cutRun(run, folder) {
+  const lines = linesOf(run);
+  return withLog(run, folder, lines.slice(0, 500).join('\n') + '\n' +
+      lines[500].slice(0, 99));
+}
+
+export function oneTickRun(run, folder) {
+  return withLog(run, folder, linesOf(run).slice(0, 2).join('\n') + '\n');
+}
+
+/** Ten minutes at the rate of the run: it, again and again. */
+export async function longRun(run, folder, seconds = 600) {
+  const [header, ...rows] = linesOf(run);
+  withLog(run, folder, '');
+  const tails = rows.map((row) => row.slice(row.indexOf(',')));
+  const [first, second] = rows.map((row) => Number(row.split(',', 1)[0]));
+  const dt = second - first;
+  const out = createWriteStream(path.join(folder, 'log.csv'));
+  out.write(header + '\n');
+  let block = '';
+  for (let tick = 0; tick * dt < seconds; ++tick) {
+    block += (tick * dt).toFixed(4) + tails[tick % tails.length] + '\n';
+    if (block.length > 1 << 20) {
+      if (!out.write(block)) await once(out, 'drain');
+      block = '';
+    }
+  }
+  out.end(block);
+  await once(out, 'finish');
+  return folder;
+}
+
+/** A hopper on one foot: every kind of shape, a sliding joint, no limits. */
+export function hopperRun(folder) {
+  mkdirSync(folder, {recursive: true});
+  const still = [0, 0, 0, 1];
+  const shape = (body, kind, size, p) =>
+    ({body, kind, size, p, quat: still, rgba: [0.4, 0.6, 0.9, 1]});
+  writeFileSync(path.join(folder, 'robot.json'), JSON.stringify({
+    format: 'poise-robot-1', name: 'hopper', mass: 6,
+    bodies: [
+      {name: 'trunk', parent: -1},
+      {name: 'thigh', parent: 0, joint: 'hip', type: 'revolute',
+        axis: [0, 1, 0], p: [0, 0, -0.1], quat: still},
+      {name: 'foot', parent: 1, joint: 'spring', type: 'prismatic',
+        axis: [0, 0, 1], p: [0, 0, -0.4], quat: still},
+    ],
+    links: [{name: 'trunk', body: 0, p: [0, 0, 0], quat: still}],
+    shapes: [shape(0, 'box', [0.2, 0.3, 0.2], [0, 0, 0]),
+      shape(1, 'capsule', [0.03, 0.3, 0], [0, 0, -0.2]),
+      shape(1, 'ellipsoid', [0.06, 0.05, 0.1], [0, 0, -0.1]),
+      shape(2, 'cylinder', [0.05, 0.04, 0], [0, 0, 0])],
+    feet: [{name: 'paw', body: 2, p: [0, 0, -0.02], quat: still,
+      half_size: [0.05, 0.05],
+      polygon: [[0.05, 0.05], [-0.05, 0.05], [-0.05, -0.05], [0.05, -0.05]]}],
+    limits: {},
+  }));
+  const names = ['time[s]', 'base.x[m]', 'base.y[m]', 'base.z[m]', 'base.qx',
+    'base.qy', 'base.qz', 'base.qw', 'com.x[m]', 'com.y[m]', 'com.z[m]',
+    'paw.contact', 'paw.mx[Nm]', 'paw.my[Nm]', 'paw.mz[Nm]', 'paw.fx[N]',
+    'paw.fy[N]', 'paw.fz[N]', 'q.hip[rad]', 'q.spring[rad]', 'status', 'active'];
+  let log = names.join(',') + '\n';
+  for (let tick = 0; tick < 800; ++tick) {
+    const t = tick / 200;
+    const hop = 0.1 * Math.abs(Math.sin(3 * t));
+    log += [t, 0.1 * t, 0, 0.52 + hop, 0, 0, 0, 1, 0.1 * t, 0, 0.5 + hop, 1,
+      0.1, 0.2, 0, 1, 0, hop < 0.03 ? 120 : 0, 0.3 * Math.sin(3 * t),
+      0.05 * Math.cos(3 * t), 'ok', ''].join(',') + '\n';
+  }
+  writeFileSync(path.join(folder, 'log.csv'), log);
+  return folder;
+}
+
+/** A push map of which one point of each ring has a replay. */
+export function mapPage(template, replay) {
+  const rows = [];
+  for (const [tasks, part] of [['default', 0.9],
+    ['-cop-yaw+yaw_constant', 0.3]]) {
+    for (let i = 0; i < 8; ++i) {
+      rows.push({
+        direction_deg: 45 * i, duration_s: 0.1, tasks, impulse_Ns: 20 * part,
+        lipm_Ns: 20, lipm_height_Ns: 14, eta: part,
+        ...(i === 2 ? {replay} : {}),
+      });
+    }
+  }
+  return template.replace('"POISE-DATA"', () => JSON.stringify(
+      {format: 'poise-map-1', robot: 'humanoid', scenario: 'strong_push', rows}));
+}
