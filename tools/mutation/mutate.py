@@ -272,7 +272,9 @@ def main():
         fail(f"no source matches {' '.join(arguments.files)}")
     pool = []
     for path in paths:
-        pool += mutants.make_mutants(path, (workspace / path).read_text())
+        text = (workspace / path).read_text()
+        if "\nint main(" not in text:  # A program is not what tests call.
+            pool += mutants.make_mutants(path, text)
     try:
         explained = survivors.explained(
             workspace / "tools/mutation/equivalent.txt", pool
