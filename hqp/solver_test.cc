@@ -61,5 +61,161 @@ TEST(Solver, AgreesWithTheCascade) {
   }
 }
 
+// y1 <= 1 and y2 >= 2 above y1 + y2 = 4 above y = (5, 0): y = (1, 3).
+class SolverTest : public testing::Test {
+ protected:
+  SolverTest() {
+    InequalityBlock bounds = hierarchy_.AddInequalities(0, 2);
+    bounds.C.setIdentity();
+    bounds.upper[0] = 1;
+    bounds.lower[1] = 2;
+    EqualityBlock sum = hierarchy_.AddEqualities(1, 1);
+    sum.B << 1, 1;
+    sum.b << -4;
+    EqualityBlock target = hierarchy_.AddEqualities(2, 2);
+    target.B.setIdentity();
+    target.b << -5, 0;
+    sum_ = sum.b.data();
+    bounds_lower_ = bounds.lower.data();
+    bounds_upper_ = bounds.upper.data();
+    weight_ = target.weight.data();
+    C_ = bounds.C.data();
+  }
+
+  const std::vector<LevelCapacity> capacity_{{0, 2}, {1, 0}, {2, 0}};
+  Hierarchy hierarchy_{2, capacity_};
+  double *sum_, *bounds_lower_, *bounds_upper_, *weight_, *C_;
+  Solver solver_{2, capacity_};
+  Solution solution_{2, capacity_};
+};
+
+TEST_F(SolverTest, SolvesByHand) {
+  ASSERT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
+  EXPECT_NEAR(solution_.y[0], 1, 1e-14);  // A few operations near 1.
+  EXPECT_NEAR(solution_.y[1], 3, 1e-14);
+  EXPECT_EQ(solution_.levels[0].active[0], Side::kUpper);
+  EXPECT_EQ(solution_.levels[0].active[1], Side::kNone);
+  EXPECT_EQ(solution_.levels[0].nullity, 2);
+  EXPECT_EQ(solution_.levels[1].nullity, 1);
+  EXPECT_EQ(solution_.levels[2].nullity, 0);
+  EXPECT_NEAR(solution_.levels[2].multipliers[1].equality[0], -3, 1e-13);
+  EXPECT_NEAR(solution_.levels[2].multipliers[0].inequality[0], 7, 1e-13);
+}
+
+TEST_F(SolverTest, StartsFromTheLastActiveSet) {
+  ASSERT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
+  EXPECT_GT(solution_.iterations, 1);
+  ASSERT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
+  EXPECT_EQ(solution_.iterations, 1);
+  solver_.Forget();
+  ASSERT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
+  EXPECT_GT(solution_.iterations, 1);
+}
+
+TEST_F(SolverTest, ForgetsARowWhoseBoundIsGone) {
+  ASSERT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
+  bounds_upper_[0] = INFINITY;
+  ASSERT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
+  EXPECT_NEAR(solution_.y[0], 2, 1e-14);
+  EXPECT_NEAR(solution_.y[1], 2, 1e-14);
+}
+
+TEST_F(SolverTest, ReportsWhatIsNotFinite) {
+  for (double* number : {sum_, weight_, C_}) {
+    for (const double bad : {double(NAN), double(INFINITY)}) {
+      const double good = *number;
+      *number = bad;
+      EXPECT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kNotFinite);
+      EXPECT_EQ(solution_.failed_level, number == sum_      ? 1
+                                        : number == weight_ ? 2
+                                                            : 0);
+      EXPECT_EQ(solution_.y, Eigen::Vector2d(0, 0));
+      *number = good;
+    }
+  }
+  bounds_upper_[0] = NAN;
+  EXPECT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kNotFinite);
+  bounds_upper_[0] = 1;
+  bounds_lower_[1] = INFINITY;
+  EXPECT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kNotFinite);
+}
+
+TEST_F(SolverTest, ReportsBadInput) {
+  bounds_lower_[0] = 1.5;  // Above upper = 1.
+  EXPECT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kBadInput);
+  EXPECT_EQ(solution_.failed_level, 0);
+  bounds_lower_[0] = -1;
+  weight_[1] = -1;
+  EXPECT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kBadInput);
+  EXPECT_EQ(solution_.failed_level, 2);
+}
+
+// What the budget leaves unsolved is at the bottom; the levels above hold.
+TEST_F(SolverTest, RespectsTheHierarchyWithinItsBudget) {
+  Certifier certifier(2, capacity_);
+  int truncated = 0;
+  for (int budget = 1; budget < 12; ++budget) {
+    SCOPED_TRACE(budget);
+    solver_.Forget();
+    solver_.max_iterations = budget;
+    const Status status = solver_.Solve(hierarchy_, &solution_);
+    EXPECT_EQ(status, solution_.status);
+    EXPECT_LE(solution_.iterations, budget);
+    EXPECT_LE(certifier.Certify(hierarchy_, solution_).worst(), 1e-14);
+    if (status == Status::kOptimal) continue;
+    EXPECT_EQ(status, Status::kIterationLimit);
+    ASSERT_GE(solution_.failed_level, 0);
+    ++truncated;
+  }
+  EXPECT_GT(truncated, 0);
+  EXPECT_EQ(solution_.status, Status::kOptimal);
+}
+
+TEST_F(SolverTest, StopsAtItsTime) {
+  double time = 0;
+  solver_.now = [&time] { return time += 1; };
+  solver_.max_seconds = 0.5;
+  EXPECT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kIterationLimit);
+  EXPECT_EQ(solution_.iterations, 0);
+  solver_.max_seconds = 1000;
+  EXPECT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
+}
+
+// A lower level never changes an upper one's optimum.
+TEST(Solver, KeepsTheOptimumOfUpperLevels) {
+  RandomHierarchyOptions options;
+  options.scaled = 0;
+  for (int seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    const HierarchyCase drawn = MakeRandomHierarchy(seed, options);
+    const Hierarchy& all = drawn.hierarchy;
+    const int n = all.num_variables(), levels = all.num_levels() - 1;
+    Hierarchy upper(n, drawn.capacity);
+    upper.Clear(levels);
+    for (int level = 0; level < levels; ++level) {
+      EqualityBlock equalities =
+          upper.AddEqualities(level, all.num_equalities(level));
+      equalities.B = all.B(level);
+      equalities.b = all.b(level);
+      equalities.weight = all.weight(level);
+      InequalityBlock inequalities =
+          upper.AddInequalities(level, all.num_inequalities(level));
+      inequalities.C = all.C(level);
+      inequalities.lower = all.lower(level);
+      inequalities.upper = all.upper(level);
+    }
+    Solver solver(n, drawn.capacity);
+    Solution whole(n, drawn.capacity), part(n, drawn.capacity);
+    ASSERT_EQ(solver.Solve(all, &whole), Status::kOptimal);
+    ASSERT_EQ(solver.Solve(upper, &part), Status::kOptimal);
+    for (int level = 0; level < levels; ++level) {
+      EXPECT_NEAR(
+          whole.levels[level].cost, part.levels[level].cost,
+          1e-9 * (CostSize(all, level, whole) + CostSize(all, level, part)));
+      EXPECT_EQ(whole.levels[level].nullity, part.levels[level].nullity);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace poise

@@ -1,0 +1,156 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// That the judge convicts: a right answer, made wrong in one place each.
+#include "hqp/certificate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace poise {
+namespace {
+
+constexpr double kRounding = 1e-15;  // Small whole numbers: almost exact.
+
+// y0 <= 1, y1 <= 8 and y0 + y1 <= 2 in conflict with 3 <= y1, above y = (5, 0)
+// with weights 2 and 1. Level 0: y1 = 3 - s, y0 + y1 = 2 + t; both can be met
+// with y0 <= -1, so that nothing is violated: the optimum below is y = (-1, 3).
+class CertificateTest : public testing::Test {
+ protected:
+  CertificateTest() {
+    InequalityBlock rows = hierarchy_.AddInequalities(0, 3);
+    rows.C << 1, 0, 0, 1, 1, 1;
+    rows.upper << 1, 8, 2;
+    rows.lower[1] = 3;
+    EqualityBlock target = hierarchy_.AddEqualities(1, 2);
+    target.B.setIdentity();
+    target.b << -5, 0;
+    target.weight << 2, 1;
+    solution_.y << -1, 3;
+    for (int level = 0; level < 2; ++level) {
+      EvaluateLevel(hierarchy_, level, &solution_);
+    }
+    // g = (2 * -6, 3) + mu_1 (0, 1) + mu_2 (1, 1) = 0.
+    solution_.levels[1].multipliers[0].inequality << 0, -15, 12;
+  }
+
+  Certificate Certify() { return certifier_.Certify(hierarchy_, solution_); }
+
+  const std::vector<LevelCapacity> capacity_{{0, 3}, {2, 0}};
+  Hierarchy hierarchy_{2, capacity_};
+  Solution solution_{2, capacity_};
+  Certifier certifier_{2, capacity_};
+};
+
+TEST_F(CertificateTest, AcquitsTheRightAnswer) {
+  EXPECT_LE(Certify().worst(), kRounding);
+  EXPECT_NEAR(solution_.levels[1].cost, 40.5, kRounding);
+}
+
+TEST_F(CertificateTest, FindsAWrongMultiplier) {
+  solution_.levels[1].multipliers[0].inequality[2] += 1e-6;
+  // By 1e-6 of 2 (1 + 5) + 13 = 25: |B|'W(|B||y| + |b|) + |C|'|mu| of y0 is
+  // 12 + 12, of y1 3 + 15 + 12.
+  EXPECT_NEAR(Certify().stationarity, 1e-6 / 30, 1e-12);
+  EXPECT_LE(Certify().feasibility, kRounding);
+  EXPECT_LE(Certify().complementarity, kRounding);
+}
+
+TEST_F(CertificateTest, FindsAMultiplierOfTheWrongSign) {
+  hierarchy_.Clear(2);
+  InequalityBlock rows = hierarchy_.AddInequalities(0, 3);
+  rows.C << 1, 0, 0, 1, -1, -1;  // The last row turned, not its multiplier.
+  rows.upper << 1, 3, 8;
+  rows.lower[2] = -8;
+  EqualityBlock target = hierarchy_.AddEqualities(1, 2);
+  target.B.setIdentity();
+  target.b << -5, 0;
+  target.weight << 2, 1;
+  // Row 1 is at its upper bound with a negative multiplier; row 2 has a gap.
+  EXPECT_NEAR(Certify().complementarity, 15. / 30, 1e-12);
+}
+
+TEST_F(CertificateTest, FindsAMultiplierOnARowWithAGap) {
+  solution_.levels[1].multipliers[0].inequality[0] = 1e-3;
+  EXPECT_NEAR(Certify().complementarity, 1e-3 / 30, 1e-9);
+}
+
+TEST_F(CertificateTest, FindsAResidualThatIsNotOfY) {
+  solution_.levels[1].equality_residual[0] += 6e-3;
+  EXPECT_NEAR(Certify().feasibility, 1e-3, 1e-12);  // Of |y0| + |b0| = 6.
+}
+
+TEST_F(CertificateTest, FindsASlackThatIsNotOfY) {
+  solution_.levels[0].slack[2] += 6e-3;
+  EXPECT_NEAR(Certify().feasibility, 1e-3, 1e-12);  // Of 1 + 3 + 2.
+}
+
+TEST_F(CertificateTest, FindsACostThatWasNotKept) {
+  solution_.levels[1].cost -= 1e-3;
+  // Of (2 (1 + 5)^2 + 3^2) / 2 = 40.5.
+  EXPECT_NEAR(Certify().priority, 1e-3 / 40.5, 1e-12);
+}
+
+TEST_F(CertificateTest, FindsNaN) {
+  solution_.levels[1].multipliers[0].inequality[0] = NAN;
+  EXPECT_EQ(Certify().worst(), INFINITY);
+}
+
+TEST_F(CertificateTest, FindsAWrongY) {
+  solution_.y[0] += 1e-3;
+  for (int level = 0; level < 2; ++level) {
+    EvaluateLevel(hierarchy_, level, &solution_);
+  }
+  EXPECT_GE(Certify().worst(), 1e-5);
+}
+
+TEST_F(CertificateTest, JudgesOnlyWhatWasSolved) {
+  solution_.levels[1].cost = 0;
+  solution_.failed_level = 1;
+  EXPECT_LE(Certify().worst(), kRounding);
+}
+
+TEST(Certificate, LeavesMultipliersOfViolatedRowsFree) {
+  // y <= -1 and y >= 1: violated by 1 both. Below, y = 2 pulls either way.
+  const std::vector<LevelCapacity> capacity{{0, 2}, {1, 0}};
+  Hierarchy hierarchy(1, capacity);
+  InequalityBlock rows = hierarchy.AddInequalities(0, 2);
+  rows.C << 1, 1;
+  rows.upper[0] = -1;
+  rows.lower[1] = 1;
+  EqualityBlock target = hierarchy.AddEqualities(1, 1);
+  target.B << 1;
+  target.b << -2;
+  Solution solution(1, capacity);
+  EvaluateLevel(hierarchy, 0, &solution);
+  EvaluateLevel(hierarchy, 1, &solution);
+  EXPECT_EQ(solution.levels[0].cost, 1);
+  Certifier certifier(1, capacity);
+  for (const double share : {-1., 0., 3.}) {
+    solution.levels[1].multipliers[0].inequality << 2 + share, -share;
+    EXPECT_LE(certifier.Certify(hierarchy, solution).worst(), kRounding);
+  }
+}
+
+TEST(Certificate, LeavesTheMultiplierOfATightPairFree) {
+  const std::vector<LevelCapacity> capacity{{0, 1}, {1, 0}};
+  for (const double target : {-3., 3.}) {
+    Hierarchy hierarchy(1, capacity);
+    InequalityBlock row = hierarchy.AddInequalities(0, 1);
+    row.C << 1;
+    row.lower << 1;
+    row.upper << 1;
+    EqualityBlock below = hierarchy.AddEqualities(1, 1);
+    below.B << 1;
+    below.b << -target;
+    Solution solution(1, capacity);
+    solution.y << 1;
+    EvaluateLevel(hierarchy, 0, &solution);
+    EvaluateLevel(hierarchy, 1, &solution);
+    solution.levels[1].multipliers[0].inequality << target - 1;
+    EXPECT_LE(Certifier(1, capacity).Certify(hierarchy, solution).worst(),
+              kRounding);
+  }
+}
+
+}  // namespace
+}  // namespace poise
