@@ -54,7 +54,7 @@ const ElementRule kGeometry{
 const ElementRule kColor{"color", {{"rgba", 4}}, {},
                          false,   false,         Severity::kWarn};
 const ElementRule kTexture{"texture", {{"filename", 0}}, {}, false,
-                           false,     Severity::kWarn};
+                           false,     Severity::kNote};
 const ElementRule kMaterial{"material", {{"name", 0}}, {&kColor, &kTexture},
                             false,      false,         Severity::kWarn};
 const ElementRule kVisual{"visual", {},   {&kOrigin, &kGeometry, &kMaterial},

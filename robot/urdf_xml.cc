@@ -60,6 +60,13 @@ bool IsMoving(const XMLElement& joint) {
 
 void Critic::Add(Severity severity, const XMLElement& element, std::string what,
                  std::string why) const {
+  // Enough to mend a file by; the first that rejects it is always there.
+  constexpr size_t kMostFindings = 10'000;
+  if (findings_->size() >= kMostFindings &&
+      (severity != Severity::kReject ||
+       findings_->back().severity == Severity::kReject)) {
+    return;
+  }
   std::string where = std::string("<") + element.Name() + ">";
   const tinyxml2::XMLNode* robot = element.GetDocument()->RootElement();
   const tinyxml2::XMLNode* top = &element;  // To be the link or joint.

@@ -23,6 +23,8 @@ using Eigen::VectorXd;
 
 constexpr int kMostJointsForInertia = 500;
 constexpr int kMostJointsToStand = 100;
+constexpr size_t kMostLinksToStand = 1000;
+constexpr size_t kMostShapesToStand = 10'000;
 constexpr size_t kMostFindings = 1000;
 // Of M with a unit diagonal: the smallest eigenvalue that is not rounding.
 constexpr double kSingular = 1e-13;
@@ -37,6 +39,13 @@ std::string Print(double value) {
   return text.str();
 }
 
+// Too large for what takes more time than reading it.
+bool IsLarge(const RobotModel& model) {
+  return model.tree.num_joints() > kMostJointsToStand ||
+         model.tree.frames().size() > kMostLinksToStand ||
+         model.visuals.size() + model.collisions.size() > kMostShapesToStand;
+}
+
 class Doctor {
  public:
   Doctor(const std::filesystem::path& urdf, const Profile& profile)
@@ -47,9 +56,12 @@ class Doctor {
       Robot robot{LoadUrdf(urdf_, {}, &diagnosis_.findings), {}, {}};
       Describe(robot.model);
       CheckInertia(robot.model);
-      CheckStanding();
-      if (robot.model.tree.num_joints() <= kMostJointsToStand && is_regular_) {
-        CheckParity(robot);
+      if (IsLarge(robot.model)) {
+        Add(Severity::kNote, "robot", "was not stood up",
+            "as it has over 100 joints, 1000 links or 10000 shapes");
+      } else {
+        CheckStanding();
+        if (is_regular_) CheckParity(robot);
       }
     } catch (const std::exception& error) {
       // What LoadUrdf() found it has told already.
@@ -165,9 +177,7 @@ class Doctor {
             {foot.name, robot.model.tree.frames()[foot.frame].name,
              2 * foot.half_size.x(), 2 * foot.half_size.y()});
       }
-      if (robot.model.tree.num_joints() > kMostJointsToStand) {
-        reason = "has over 100 joints, so it was not tried";
-      } else if (!is_regular_) {
+      if (!is_regular_) {
         reason = "as M is singular";
       } else {
         if (!robot.can_stand) StandUp(&robot);

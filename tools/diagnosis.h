@@ -37,8 +37,8 @@ struct Diagnosis {
 };
 
 /// Looks a robot file over. Never throws for what a file may hold; takes less
-/// than 10 s and 1 GiB: above 500 joints M is not computed, above 100 the robot
-/// is not stood up.
+/// than 10 s and 1 GiB: above 500 joints M is not computed; above 100, or 1000
+/// links or 10000 shapes, the robot is not stood up.
 Diagnosis Diagnose(const std::filesystem::path& urdf,
                    const Profile& profile = {});
 
