@@ -61,7 +61,7 @@ double SettledAfter(const RecordedRun& run, const std::vector<double>& values,
 // Poses side by side, each with its time.
 void DrawPoses(const Robot& robot, const RecordedRun& run,
                const std::vector<double>& times, const fs::path& stem) {
-  constexpr double kWidth = 270, kHeight = 400;
+  constexpr double kWidth = 310, kHeight = 400;
   WritePicture(stem, {kWidth * static_cast<double>(times.size()), kHeight + 28},
                [&](Canvas* canvas) {
                  double x = 0;
@@ -144,7 +144,7 @@ Figure ErrorPlots(const RecordedRun& run, int number,
         "It stays under 5 mm in y from %.2f s after the push on, and ends at "
         "%.2f mm.",
         SettledAfter(run, y, 5, push.second),
-        1e3 * run.summary()["com_error_final"][1].get<double>());
+        1e3 * std::abs(run.summary()["com_error_final"][1].get<double>()));
   } else {
     ours +=
         "It diverges: the robot " + Outcome(run) + ", where the run is ended.";

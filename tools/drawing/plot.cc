@@ -149,6 +149,7 @@ void DrawPlot(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
                Anchor::kLeft, /*bold=*/true);
   double right = at.x() + area.x();
   for (auto line = spec.lines.rbegin(); line != spec.lines.rend(); ++line) {
+    if (line->name.empty()) continue;
     right -= canvas->TextWidth(line->name, kFont);
     canvas->Text({right, corner.y() + 15}, line->name, kFont, kInk);
     canvas->Line(
