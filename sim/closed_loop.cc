@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "robot/control/task_set.h"
 #include "sim/make_plant.h"
 #include "sim/start_state.h"
 
@@ -50,6 +51,7 @@ std::unique_ptr<Controller> MakeController(const Robot& robot,
   options.feedforward = settings.feedforward;
   options.weighted = settings.weighted;
   auto controller = std::make_unique<Controller>(robot, options);
+  ApplyTaskSet(settings.tasks, &controller->stack());
   Switch(settings.without, false, &controller->stack());
   Switch(settings.with, true, &controller->stack());
   return controller;
@@ -95,6 +97,11 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
   on_ground.drop = 0;
   controller_->Start(
       MakeStartState(robot, on_ground, scenario.plant.ground, scenario.seed));
+  if (scenario.control.estimator) {
+    estimator_ = std::make_unique<Estimator>(robot);
+    estimator_->Start(sensors_.Measure(plant_->Sense()));
+    state_ = ToState(sensors_.measurement());
+  }
   com_start_ = controller_->reference().p_WG;
   command_.tau.setZero(robot.model.tree.num_joints());
   start_ = plant_->Sense();
@@ -116,8 +123,9 @@ void ClosedLoop::Tick() {
   start_ = plant_->Sense();
   MoveReference();
   const Measurement& measurement = sensors_.Measure(start_);
-  state_ = ToState(measurement);
+  if (estimator_ == nullptr) state_ = ToState(measurement);
   const auto before = Clock::now();
+  if (estimator_ != nullptr) estimator_->Update(measurement, &state_);
   controller_->Update(state_, &command_);
   microseconds_ =
       std::chrono::duration<double, std::micro>(Clock::now() - before).count();

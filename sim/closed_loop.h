@@ -8,6 +8,7 @@
 
 #include "robot/control/command.h"
 #include "robot/control/controller.h"
+#include "robot/control/estimator.h"
 #include "robot/control/measurement.h"
 #include "robot/robot.h"
 #include "sim/observation.h"
@@ -52,6 +53,7 @@ class ClosedLoop {
   std::unique_ptr<Plant> plant_;
   std::unique_ptr<Controller> controller_;
   Sensors sensors_;
+  std::unique_ptr<Estimator> estimator_;  // If the scenario wants one.
   Observer observer_;
   std::vector<PushOnRobot> pushes_;
   int steps_per_tick_;

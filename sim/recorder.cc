@@ -49,6 +49,7 @@ std::vector<std::string> Columns(const Robot& robot, const Stack& stack) {
   columns.push_back("touching");
   columns.push_back("status");
   columns.push_back("active");
+  columns.push_back("lost");
   return columns;
 }
 
@@ -154,6 +155,21 @@ void Recorder::SelfContacts(const PlantState& end) {
   }
 }
 
+void Recorder::LostRows(const TickRecord& record) {
+  row_ += ',';
+  bool first = true;
+  for (const LostRow& lost : record.report.lost) {
+    if (!first) row_ += ';';
+    first = false;
+    row_ += record.stack.task(lost.task).equality_names()[lost.row];
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof(digits), lost.amount,
+                                   std::chars_format::general, 4);
+    row_ += '=';
+    row_.append(digits, end.ptr);
+  }
+}
+
 void Recorder::Record(const TickRecord& record) {
   const Observation& now = record.observation;
   const auto vector = [this](const auto& v) {
@@ -183,6 +199,7 @@ void Recorder::Record(const TickRecord& record) {
   SelfContacts(record.end);
   Text(StatusName(record.report.status));
   ActiveRows(record);
+  LostRows(record);
   EndRow();
 
   timing_rows_ += std::to_string(record.tick) + ',';

@@ -45,6 +45,7 @@ class Recorder {
   void EndRow();
   void ActiveRows(const TickRecord& record);
   void SelfContacts(const PlantState& end);
+  void LostRows(const TickRecord& record);
 
   std::vector<std::string> body_names_;
   std::ofstream log_;

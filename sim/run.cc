@@ -98,6 +98,8 @@ RunResult Run(const Robot& robot, const Scenario& scenario,
     us.push_back(static_cast<float>(record.microseconds));
     result.iterations_max =
         std::max(result.iterations_max, record.report.iterations);
+    result.certificate_max =
+        std::max(result.certificate_max, record.report.certificate.worst());
     if (record.report.status == TickStatus::kTruncated ||
         record.report.status == TickStatus::kFailSafe) {
       ++result.failures;

@@ -32,6 +32,7 @@ class Sensors {
 
   /// What the sensors say of a state; in a drop-out, what they said last.
   const Measurement& Measure(const PlantState& state);
+  const Measurement& measurement() const { return measurement_; }
 
  private:
   double Noise(double deviation);

@@ -120,7 +120,10 @@ void Apply(const Overrides& o, Scenario* scenario) {
   PlantSettings& plant = scenario->plant;
   Take(o.time, &scenario->duration);
   Take(o.seed, &scenario->seed);
-  Take(o.tasks, &control.tasks);
+  if (o.tasks) {
+    const bool is_file = std::filesystem::exists(UserPath(*o.tasks));
+    control.tasks = is_file ? UserPath(*o.tasks).string() : *o.tasks;
+  }
   control.with.insert(control.with.end(), o.with.begin(), o.with.end());
   control.without.insert(control.without.end(), o.without.begin(),
                          o.without.end());
@@ -185,6 +188,11 @@ PushOptions ReadPushOptions(int argc, char** argv, std::string* help) {
     feet_and_posture = LoadProfile(UserPath(profile));
   } else if (robot.empty()) {
     feet_and_posture = LoadProfile(kProfile);
+  }
+  // The robot's own tasks, where none are asked for.
+  if (feet_and_posture.tasks.IsDefined() &&
+      scenario.control.tasks == "default") {
+    scenario.control.tasks = feet_and_posture.file.string();
   }
   Robot standing = LoadStandingRobot(robot_file, feet_and_posture);
   if (!save_profile.empty()) {

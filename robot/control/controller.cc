@@ -20,8 +20,22 @@ constexpr double kFrozenAfter = 0.010;  // s.
 // limit.
 constexpr double kLimitSlack = 1e-6;
 
+// The momentum follows its reference where it is met to this, m/s2.
+constexpr double kFollowing = 0.05;
+
+// Enough for a model that is wrong by a sixth of the robot's mass, m/s2.
+constexpr double kLargestCorrection = 1.6;
+
 // Of the fail-safe command.
 constexpr double kFailSafeDamping = 10;  // 1/s.
+
+// Finite, and no larger than what a robot can be or do: beyond, the dynamics
+// overflow.
+constexpr double kLargest = 1e6;  // m, rad, m/s, rad/s.
+
+bool IsBelievable(const Eigen::VectorXd& x) {
+  return x.allFinite() && x.lpNorm<Eigen::Infinity>() < kLargest;
+}
 
 const Robot& Checked(const Robot& robot) {
   if (robot.feet.empty()) {
@@ -71,6 +85,7 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
       hierarchy_(NumVariables(robot_), stack_.capacity()),
       solver_(NumVariables(robot_), stack_.capacity()),
       solution_(NumVariables(robot_), stack_.capacity()),
+      certifier_(NumVariables(robot_), stack_.capacity()),
       last_time_(-std::numeric_limits<double>::infinity()) {
   if (!(options.dt > 0 && options.dt < 1)) {
     throw std::invalid_argument("control period is " +
@@ -86,6 +101,12 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
   (void)stack_.SetParameter("friction", "inscribed", options.inscribed);
   (void)stack_.SetParameter("momentum", "feedforward", options.feedforward);
   stack_.set_weighted(options.weighted);
+  if (options.max_iterations < 1) {
+    throw std::invalid_argument("max_iterations is " +
+                                std::to_string(options.max_iterations) +
+                                ", must be positive");
+  }
+  solver_.max_iterations = options.max_iterations;
   stack_.Resize(&report_);
   normal_force_.setZero(robot_.feet.size());
   reference_.feet.resize(robot_.feet.size());
@@ -124,6 +145,7 @@ void Controller::Start(const State& state) noexcept {
     reference_.frames[i].X_WF = tick_.frames[contacts_.size() + i].X_WF;
   }
   stance_.Reset();
+  correction_W_.setZero();
 }
 
 void Controller::Update(const State& state, Command* command) noexcept {
@@ -134,9 +156,14 @@ void Controller::Update(const State& state, Command* command) noexcept {
   }
   ComputeModel(state);
   stance_.Update(options_.dt, normal_force_, &contacts_, &reference_);
-  stack_.Write({state, tick_, contacts_, reference_}, &hierarchy_);
+  stack_.Write({state, tick_, contacts_, reference_, correction_W_},
+               &hierarchy_);
   const Status solved = solver_.Solve(hierarchy_, &solution_);
   stack_.Report(solution_, &report_);
+
+  if (options_.certify) {
+    report_.certificate = certifier_.Certify(hierarchy_, solution_);
+  }
 
   const bool is_truncated =
       solved == Status::kIterationLimit && report_.failed_rank > 1;
@@ -149,9 +176,26 @@ void Controller::Update(const State& state, Command* command) noexcept {
   for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
     normal_force_[i] = solution_.y[nv + 6 * i + 5];
   }
+  CorrectHeight();
   ComputeTorque(tick_, contacts_, solution_.y, &command->tau);
   LimitTorque(command);
   command->status = report_.status;
+}
+
+// A model that is too light lets the robot hang below its reference: an
+// integral of the height's error finds what is missing. It stands still while
+// the momentum is not free to follow, as in a push.
+void Controller::CorrectHeight() noexcept {
+  const auto momentum = stack_.Find("momentum");
+  const double gain = stack_.GetParameter("momentum", "ki_height").value_or(0);
+  if (!stack_.settings(*momentum).enabled || gain == 0) {
+    correction_W_.setZero();
+    return;
+  }
+  if (report_.tasks[*momentum].residual > kFollowing) return;
+  const double error = reference_.p_WG.z() - tick_.p_WG.z();
+  correction_W_.z() = std::clamp(correction_W_.z() + options_.dt * gain * error,
+                                 -kLargestCorrection, kLargestCorrection);
 }
 
 bool Controller::IsUsable(const State& state) noexcept {
@@ -160,12 +204,14 @@ bool Controller::IsUsable(const State& state) noexcept {
   if (moves) last_time_ = state.time;
   // Rounding: ten periods of 1 ms are 10 ms, and no more.
   const bool frozen = frozen_for_ > kFrozenAfter + 1e-9;
-  return !frozen && std::isfinite(state.time) && state.q.allFinite() &&
-         state.v.allFinite();
+  return !frozen && std::isfinite(state.time) && IsBelievable(state.q) &&
+         IsBelievable(state.v);
 }
 
 void Controller::FailSafe(const State& state, Command* command) noexcept {
   report_.status = TickStatus::kFailSafe;
+  report_.active.clear();
+  report_.lost.clear();
   const int n = robot_.model.tree.num_joints();
   ComputeFailSafeTorque(tick_, contacts_, state.v.tail(n), kFailSafeDamping,
                         &command->tau);

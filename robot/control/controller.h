@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/tick.h"
+#include "hqp/certificate.h"
 #include "hqp/hierarchy.h"
 #include "hqp/solution.h"
 #include "hqp/solver.h"
@@ -27,6 +28,8 @@ struct ControllerOptions {
   bool inscribed = false;    ///< The friction pyramid; else circumscribed.
   bool feedforward = false;  ///< The reference's v_WG and a_WG are used.
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
+  bool certify = true;       ///< Each solution gets its certificate.
+  int max_iterations = 300;  ///< Of the solver, a tick; then truncated.
   std::vector<std::string> frames;  ///< Links with a task frame.NAME.
 };
 
@@ -79,6 +82,8 @@ class Controller {
   const TickReport& report() const { return report_; }
   const Tick& tick() const { return tick_; }
   const std::vector<ContactTick>& contacts() const { return contacts_; }
+  /// The problem of the last tick, for FindConflict().
+  const Hierarchy& hierarchy() const { return hierarchy_; }
   const Robot& robot() const { return robot_; }
 
  private:
@@ -86,6 +91,7 @@ class Controller {
   bool IsUsable(const State& state) noexcept;
   void FailSafe(const State& state, Command* command) noexcept;
   void LimitTorque(Command* command) noexcept;
+  void CorrectHeight() noexcept;
 
   Robot robot_;
   ControllerOptions options_;
@@ -97,13 +103,15 @@ class Controller {
   Hierarchy hierarchy_;
   Solver solver_;
   Solution solution_;
+  Certifier certifier_;
   TickReport report_;
   Eigen::VectorXd normal_force_;  ///< By foot, of the last solution, N.
 
   Pose X_MidB_;             ///< Nominal base, in the mid-feet frame.
   Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.
   double last_time_;        ///< Of the last state, s.
-  double frozen_for_ = 0;   ///< How long it has been the same, s.
+  Eigen::Vector3d correction_W_ = Eigen::Vector3d::Zero();
+  double frozen_for_ = 0;  ///< How long it has been the same, s.
 };
 
 }  // namespace poise

@@ -3,14 +3,25 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "dynamics/integrate.h"
+#include "math/so3.h"
+#include "robot/control/conflict.h"
+#include "robot/control/default_stack.h"
+#include "robot/control/task_set.h"
 #include "robot/profile.h"
+#include "tests/util/count_malloc.h"
 
 namespace poise {
 namespace {
+
+constexpr double kPi = 3.14159265358979323846;
 
 Robot Humanoid() {
   return LoadRobot("robot/models/humanoid.urdf",
@@ -158,6 +169,216 @@ TEST_F(ControllerTest, FailsSafeWhileTheClockOfTheStateStandsStill) {
   }
   Update();
   EXPECT_EQ(command_.status, TickStatus::kOk);
+}
+
+TEST_F(ControllerTest, FailsSafeWhereTheDynamicsWouldOverflow) {
+  Update();
+  state_.v.setConstant(1e200);
+  Update();
+  EXPECT_EQ(command_.status, TickStatus::kFailSafe);
+  EXPECT_TRUE(command_.tau.allFinite());
+  ExpectInsideLimits();
+}
+
+TEST_F(ControllerTest, TruncatesWhereItsBudgetIsSpent) {
+  ControllerOptions options;
+  options.max_iterations = 1;
+  Controller hasty(robot_, options);
+  hasty.Start(state_);
+  // A shove: rows come into play that were not so before.
+  state_.v.segment<3>(3) << 0, 0.6, 0;
+  state_.time = 1e-3;
+  hasty.Update(state_, &command_);
+  EXPECT_EQ(command_.status, TickStatus::kTruncated);
+  EXPECT_GT(hasty.report().failed_rank, 1);
+  ExpectInsideLimits();
+  const int newton_euler = *hasty.stack().Find("newton_euler");
+  EXPECT_LT(hasty.report().tasks[newton_euler].residual, 1e-9);
+}
+
+TEST_F(ControllerTest, NamesTheRowsOfAContradiction) {
+  // x <= -1 and x >= 1; y <= 5 has no part in it.
+  Hierarchy hierarchy(2, {{1, 3}});
+  hierarchy.Clear(1);
+  InequalityBlock rows = hierarchy.AddInequalities(0, 3);
+  rows.C << 1, 0, 1, 0, 0, 1;
+  rows.upper[0] = -1;
+  rows.lower[1] = 1;
+  rows.upper[2] = 5;
+  const std::vector<HierarchyRow> conflict = FindConflict(hierarchy, 0);
+  ASSERT_EQ(conflict.size(), 2u);
+  EXPECT_EQ(conflict[0].row, 0);
+  EXPECT_EQ(conflict[1].row, 1);
+}
+
+TEST_F(ControllerTest, FindsNoConflictWhereThereIsNone) {
+  Update();
+  EXPECT_TRUE(FindConflict(controller_.hierarchy(), 2).empty());
+}
+
+TEST_F(ControllerTest, SeesThatAFootHasLostTheGround) {
+  Update();
+  ASSERT_EQ(controller_.stance().phase(0), ContactPhase::kDown);
+  const double ground = controller_.reference().ground_z;
+  controller_.reference().ground_z = ground - 0.03;
+  Update();
+  EXPECT_EQ(controller_.stance().phase(0), ContactPhase::kLost);
+  EXPECT_FALSE(controller_.contacts()[0].in_contact);
+  EXPECT_NE(command_.status, TickStatus::kFailSafe);
+  EXPECT_LT(controller_.report().foot_wrench(tree().nv(), 0).norm(), 1e-9);
+  controller_.reference().ground_z = ground;
+  Update();
+  EXPECT_EQ(controller_.stance().phase(0), ContactPhase::kLoading);
+}
+
+TEST_F(ControllerTest, FadesAForceOutBeforeAFootIsLifted) {
+  Update();
+  controller_.stance().Lift(1, 0.05);
+  double last = std::numeric_limits<double>::infinity();
+  while (controller_.stance().phase(1) != ContactPhase::kUp) {
+    Update();
+    const double limit = controller_.contacts()[1].max_normal_force;
+    if (controller_.stance().phase(1) == ContactPhase::kUnloading) {
+      EXPECT_LT(limit, last);
+      last = limit;
+    }
+    ASSERT_LT(state_.time, 1);
+  }
+  EXPECT_LT(controller_.report().foot_wrench(tree().nv(), 1).norm(), 1e-9);
+}
+
+TEST_F(ControllerTest, DoesNotAllocate) {
+  if (!CountMalloc::IsSupported()) GTEST_SKIP() << "not under a sanitizer";
+  Update();
+  controller_.stance().Lift(0, 0.05);
+  state_.v.segment<3>(3) << 0.1, 0.3, 0;
+  CountMalloc count;
+  for (int i = 0; i < 1000; ++i) {
+    state_.v[3] = 1e-3 * i;
+    state_.q[20] = i % 100 == 99 ? std::numeric_limits<double>::quiet_NaN() : 0;
+    (void)controller_.stack().Enable("zmp", i % 7 == 0);
+    (void)controller_.stack().SetRank("posture", 5 + i % 2);
+    Update();
+  }
+  EXPECT_EQ(count.allocations(), 0);
+}
+
+TEST_F(ControllerTest, SaysTheSameTwiceToTheBit) {
+  Controller other(robot_);
+  other.Start(state_);
+  Command command = command_;
+  for (int i = 0; i < 50; ++i) {
+    state_.time += 1e-3;
+    state_.v.segment<3>(3) << 0.01 * i, 0.2, 0;
+    controller_.Update(state_, &command_);
+    other.Update(state_, &command);
+    ASSERT_EQ(command.tau, command_.tau) << i;
+  }
+}
+
+// The same robot elsewhere, turned about the vertical.
+TEST_F(ControllerTest, GivesTheSameTorquesElsewhereAndTurned) {
+  state_.v.segment<3>(3) << 0.05, 0.1, 0;
+  state_.v.segment<3>(0) << 0.1, -0.05, 0.02;
+  Update();
+  for (const double turn : {0.5, kPi / 2, 3.0}) {
+    const Eigen::Matrix3d R = ExpSo3(Eigen::Vector3d(0, 0, turn));
+    State moved = state_;
+    const Eigen::Vector3d p(1000, -20, 3);
+    moved.q.head<3>() = p + R * state_.q.head<3>();
+    const Eigen::Quaterniond q_WB(state_.q[6], state_.q[3], state_.q[4],
+                                  state_.q[5]);
+    moved.q.segment<4>(3) =
+        Eigen::Quaterniond(R * q_WB.toRotationMatrix()).coeffs();
+    moved.v.segment<3>(0) = R * state_.v.segment<3>(0);
+    moved.v.segment<3>(3) = R * state_.v.segment<3>(3);
+    Controller other(robot_);
+    State start = moved;
+    start.v.setZero();
+    other.Start(start);
+    Command command = command_;
+    other.Update(moved, &command);
+    // N m; a kilometer away positions are known to 1e-13 m, times kp.
+    EXPECT_LT((command.tau - command_.tau).norm(), 1e-7) << turn;
+  }
+}
+
+TEST_F(ControllerTest, GivesMirroredTorquesToAMirroredRobot) {
+  Controller other(robot_);
+  other.Start(state_);
+  State mirrored = state_;
+  state_.v.segment<3>(3) << 0.05, 0.1, 0;
+  state_.v.segment<3>(0) << 0.1, -0.05, 0.02;
+  mirrored.v.segment<3>(3) << 0.05, -0.1, 0;
+  mirrored.v.segment<3>(0) << -0.1, -0.05, -0.02;
+  Update();
+  mirrored.time = state_.time;
+  Command command = command_;
+  other.Update(mirrored, &command);
+  for (int j = 0; j < tree().num_joints(); ++j) {
+    std::string name = tree().joints()[j].name;
+    if (name[1] == '_') name[0] = name[0] == 'l' ? 'r' : 'l';
+    const Joint& joint = tree().joints()[j];
+    // A mirror turns the axes of roll and yaw over, not that of pitch.
+    const double sign = std::abs(joint.axis_F.y()) > 0.5 ? 1 : -1;
+    EXPECT_NEAR(command.tau[*tree().FindJoint(name)], sign * command_.tau[j],
+                1e-7)
+        << joint.name;
+  }
+}
+
+TEST_F(ControllerTest, IsCertified) {
+  state_.v.segment<3>(3) << 0.05, 0.1, 0;
+  Update();
+  // What hqp/certificate.h asks of an optimal answer.
+  const Certificate& certificate = controller_.report().certificate;
+  EXPECT_LT(certificate.stationarity, 1e-9);
+  EXPECT_LT(certificate.feasibility, 1e-9);
+  EXPECT_LT(certificate.priority, 1e-9);
+}
+
+TEST_F(ControllerTest, MeetsTheDynamicsAsOneWeightedQpToo) {
+  ControllerOptions options;
+  options.weighted = true;
+  Controller weighted(robot_, options);
+  weighted.Start(state_);
+  state_.time = 1e-3;
+  weighted.Update(state_, &command_);
+  EXPECT_EQ(command_.status, TickStatus::kOk);
+  const int newton_euler = *weighted.stack().Find("newton_euler");
+  EXPECT_LT(weighted.report().tasks[newton_euler].residual, 1e-9);
+}
+
+TEST(TaskSet, RefusesWhatIsNotThereByLine) {
+  Stack stack = MakeDefaultStack(Humanoid(), {});
+  const auto message = [&](const char* yaml) -> std::string {
+    try {
+      ApplyTasks(YAML::Load(yaml), "x.yaml", &stack);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message("yaw: off\ncop: {margin: 0.01, rank: 4}"), "");
+  EXPECT_FALSE(stack.settings(*stack.Find("yaw")).enabled);
+  EXPECT_EQ(stack.settings(*stack.Find("cop")).rank, 4);
+  EXPECT_EQ(*stack.GetParameter("cop", "margin"), 0.01);
+  EXPECT_EQ(message("yaw: off\nposturing: {kp: 1}").substr(0, 32),
+            "x.yaml:2: task 'posturing' is un");
+  EXPECT_EQ(message("cop: {kp: 1}").substr(0, 34),
+            "x.yaml:1: task 'cop' has no 'kp', ");
+  EXPECT_EQ(message("cop:\n  rank: 9"),
+            "x.yaml:2: task 'cop': rank is 9, must be 1 to 8");
+  EXPECT_EQ(message("cop: {margin: -1}"),
+            "x.yaml:1: task 'cop': margin is -1, which is out of its range");
+}
+
+TEST(TaskSet, KnowsThatOfThePaper) {
+  Stack stack = MakeDefaultStack(Humanoid(), {});
+  ApplyTaskSet("paper", &stack);
+  EXPECT_FALSE(stack.settings(*stack.Find("joint_limits")).enabled);
+  EXPECT_EQ(stack.settings(*stack.Find("posture")).rank, 4);
+  EXPECT_THROW(ApplyTaskSet("papers", &stack), std::invalid_argument);
 }
 
 TEST_F(ControllerTest, SwitchesATaskByName) {

@@ -13,6 +13,7 @@
 #include "robot/control/tasks/friction.h"
 #include "robot/control/tasks/joint_limits.h"
 #include "robot/control/tasks/linear_momentum.h"
+#include "robot/control/tasks/mimic.h"
 #include "robot/control/tasks/momentum.h"
 #include "robot/control/tasks/newton_euler.h"
 #include "robot/control/tasks/no_contact.h"
@@ -51,6 +52,9 @@ Stack MakeDefaultStack(const Robot& robot,
   stack.Add(std::make_unique<TorqueLimitsTask>(model), {kOn, 2, 1});
   stack.Add(std::make_unique<JointLimitsTask>(model), {kOn, 2, 1});
 
+  if (!model.mimics.empty()) {
+    stack.Add(std::make_unique<MimicTask>(model), {kOn, 3, 1});
+  }
   stack.Add(std::make_unique<ContactTask>(feet), {kOn, 3, 1});
   stack.Add(std::make_unique<CopTask>(tree, feet), {kOn, 3, 1});
   stack.Add(std::make_unique<FrictionTask>(tree, feet), {kOn, 3, 1});

@@ -14,6 +14,9 @@ constexpr double kRankRatio = 100;
 // Multipliers and slacks below this are rounding.
 constexpr double kNoticeable = 1e-9;
 
+// A residual below this has cost nothing, in the scale of its row.
+constexpr double kNoticeableLoss = 1e-4;
+
 bool IsValidWeight(double weight) {
   return std::isfinite(weight) && weight > 0;
 }
@@ -164,6 +167,8 @@ void Stack::Resize(TickReport* report) const {
   report->tasks.assign(num_tasks(), {});
   report->active.clear();
   report->active.reserve(inequalities);
+  report->lost.clear();
+  report->lost.reserve(equalities);
 }
 
 void Stack::Report(const Solution& solution,
@@ -174,6 +179,7 @@ void Stack::Report(const Solution& solution,
   report->failed_rank =
       solution.failed_level < 0 ? 0 : rank_of_level_[solution.failed_level];
   report->active.clear();
+  report->lost.clear();
   for (int i = 0; i < num_tasks(); ++i) {
     const Entry& entry = entries_[i];
     TaskReport& out = report->tasks[i];
@@ -184,6 +190,15 @@ void Stack::Report(const Solution& solution,
                        .equality_residual.segment(entry.equality_start, rows)
                        .norm();
     ReportInequalities(i, solution, report);
+    if (entry.level + 1 == num_levels_) continue;
+    for (int row = 0; row < rows; ++row) {
+      const double residual =
+          solution.levels[entry.level]
+              .equality_residual[entry.equality_start + row];
+      if (std::abs(residual) < kNoticeableLoss) continue;
+      report->lost.push_back(
+          {i, row, residual * entry.task->equality_scale(row)});
+    }
   }
 }
 

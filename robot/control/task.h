@@ -20,6 +20,9 @@ struct TaskInput {
   const Tick& tick;
   const std::vector<ContactTick>& contacts;  ///< By foot of the robot.
   const Reference& reference;
+  /// What the center of mass is to be accelerated beyond its reference, against
+  /// what the model does not know of, m/s2.
+  Eigen::Vector3d correction_W = Eigen::Vector3d::Zero();
 };
 
 /// A number of a task that may be set by name, in a profile or between two
@@ -51,6 +54,10 @@ class Task {
 
   /// Whether it has rows at all in this tick; if not, Write() is left out.
   virtual bool HasRows(const TaskInput&) const noexcept { return true; }
+
+  /// What the residual of an equality row is multiplied with to be in the unit
+  /// that a person thinks in: N for a momentum, say.
+  virtual double equality_scale(int) const noexcept { return 1; }
 
   /// Writes the rows B y + b = 0 and lower <= C y <= upper of this tick.
   /// @param equalities    as many rows as equality_names(), B and b zero.

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "hqp/certificate.h"
 #include "hqp/solution.h"
 #include "robot/control/command.h"
 
@@ -27,6 +28,13 @@ struct TaskReport {
   double slack = 0;     ///< Largest slack of its inequalities.
 };
 
+/// An equality row that had to give.
+struct LostRow {
+  int task;       ///< Index into Stack::tasks().
+  int row;        ///< Index into Task::equality_names().
+  double amount;  ///< Its residual, in the unit of Task::equality_scale().
+};
+
 /// What the controller can say of its last tick. Of fixed size: filling it does
 /// not allocate.
 struct TickReport {
@@ -37,6 +45,9 @@ struct TickReport {
   Eigen::VectorXd y;    ///< [v̇; λ], λ by foot, about and in the axes of C.
   std::vector<TaskReport> tasks;  ///< By task of the stack.
   std::vector<ActiveRow> active;  ///< Its capacity is the number of all rows.
+  /// Rows above the last rank that could not be met; the last one never is.
+  std::vector<LostRow> lost;
+  Certificate certificate;  ///< Of the solution, if asked for.
 
   /// λ of a foot, [moment; force]; nv is Tree::nv().
   Eigen::Matrix<double, 6, 1> foot_wrench(int nv, int foot) const {

@@ -14,6 +14,8 @@ MomentumTask::MomentumTask(const Tree& tree)
   AddParameter("kd", &kd_, 0, 1e3);
   AddParameter("kd_angular", &kd_angular_, 0, 1e3);
   AddParameter("k_orientation", &k_orientation_, 0, 1e4);
+  AddParameter("ki_height", &ki_height_, 0, 100);
+  AddParameter("angular_weight", &angular_weight_, 1e-6, 1e6);
   AddParameter("feedforward", &feedforward_, 0, 1);
 }
 
@@ -27,8 +29,10 @@ void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
   Vector6d wanted;
   wanted << (k_orientation_ * e_W - kd_angular_ * tick.L_G.head<3>()) / mass_,
       kp_ * (reference.p_WG - tick.p_WG) - kd_ * tick.v_WG +
+          input.correction_W +
           feedforward_ * (kd_ * reference.v_WG + reference.a_WG);
   equalities->B.leftCols(tick.H_G.cols()) = tick.H_G / mass_;
+  equalities->weight.head<3>().setConstant(angular_weight_);
   equalities->b = tick.H_G_bias / mass_ - wanted;
 }
 

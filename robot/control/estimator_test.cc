@@ -1,0 +1,123 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "dynamics/integrate.h"
+#include "math/so3.h"
+#include "robot/profile.h"
+#include "tests/util/count_malloc.h"
+
+namespace poise {
+namespace {
+
+// A robot that sways over feet that stand still: the base follows from one foot
+// by forward kinematics, differentiated numerically.
+class EstimatorTest : public testing::Test {
+ protected:
+  EstimatorTest() {
+    measurement_.q_joints = robot_.q_nominal.tail(n_);
+    measurement_.v_joints = Eigen::VectorXd::Zero(n_);
+    measurement_.feet.resize(2);
+    for (FootMeasurement& foot : measurement_.feet) {
+      foot.F_Co_C << 0, 0, 0, 0, 0, 190;
+    }
+    left_ankle_ = *robot_.model.tree.FindJoint("l_ankle_roll");
+    right_ankle_ = *robot_.model.tree.FindJoint("r_ankle_roll");
+  }
+
+  // Of the base, when the left ankle has rolled by angle, the foot at rest.
+  Pose BaseAt(double angle) {
+    Eigen::VectorXd q = robot_.q_nominal;
+    q[7 + left_ankle_] = angle;
+    Tick tick(robot_.model.tree, {robot_.feet[0].frame});
+    ComputeTick(robot_.model.tree, robot_.q_nominal,
+                Eigen::VectorXd::Zero(n_ + 6), &tick);
+    const Pose X_WF = tick.frames[0].X_WF;
+    ComputeTick(robot_.model.tree, q, Eigen::VectorXd::Zero(n_ + 6), &tick);
+    return X_WF * tick.frames[0].X_WF.Inverse() * tick.X_WB[0];
+  }
+
+  void MeasureAt(double t) {
+    const double h = 1e-5;
+    const auto angle = [](double at) { return 0.05 * std::sin(3 * at); };
+    const Pose now = BaseAt(angle(t));
+    const Pose next = BaseAt(angle(t + h)), last = BaseAt(angle(t - h));
+    measurement_.time = t;
+    measurement_.q_joints[left_ankle_] = angle(t);
+    measurement_.v_joints[left_ankle_] = 0.15 * std::cos(3 * t);
+    measurement_.X_WB = now;
+    const Eigen::Vector3d w_W = LogSo3(next.R * last.R.transpose()) / (2 * h);
+    measurement_.V_WB_W << w_W, (next.p - last.p) / (2 * h);
+    measurement_.w_WB_B = now.R.transpose() * w_W;
+    measurement_.R_WB_imu = now.R;
+    const Eigen::Vector3d a_W = (next.p - 2 * now.p + last.p) / (h * h);
+    measurement_.specific_force_Bo_B =
+        now.R.transpose() * (a_W - robot_.model.tree.gravity_W());
+    // The other foot swings along.
+    measurement_.feet[1].in_contact = false;
+    measurement_.feet[1].F_Co_C.setZero();
+  }
+
+  Robot robot_ = LoadRobot("robot/models/humanoid.urdf",
+                           LoadProfile("robot/profiles/humanoid.yaml"));
+  const int n_ = robot_.model.tree.num_joints();
+  Measurement measurement_;
+  int left_ankle_, right_ankle_;
+};
+
+TEST_F(EstimatorTest, FollowsTheBaseOverAFootThatStands) {
+  Estimator estimator(robot_);
+  MeasureAt(0);
+  estimator.Start(measurement_);
+  State state{0, Eigen::VectorXd(n_ + 7), Eigen::VectorXd(n_ + 6)};
+  for (int i = 1; i <= 500; ++i) {
+    MeasureAt(1e-3 * i);
+    const Pose X_WB = measurement_.X_WB;
+    const Eigen::Matrix<double, 6, 1> V_WB_W = measurement_.V_WB_W;
+    measurement_.X_WB.p.setConstant(7);  // Not to be looked at.
+    measurement_.V_WB_W.setConstant(7);
+    estimator.Update(measurement_, &state);
+    // The foot gives the position; the velocity is a filter of 10 ms.
+    ASSERT_LT((state.q.head<3>() - X_WB.p).norm(), 1e-9) << i;
+    ASSERT_LT((state.v.segment<3>(3) - V_WB_W.tail<3>()).norm(), 2e-3) << i;
+    ASSERT_LT((state.v.head<3>() - V_WB_W.head<3>()).norm(), 1e-6) << i;
+  }
+}
+
+TEST_F(EstimatorTest, FallsWithTheAccelerometerWhereNoFootStands) {
+  Estimator estimator(robot_);
+  MeasureAt(0);
+  measurement_.V_WB_W.setZero();
+  for (FootMeasurement& foot : measurement_.feet) foot.in_contact = false;
+  estimator.Start(measurement_);
+  measurement_.specific_force_Bo_B.setZero();
+  measurement_.R_WB_imu.setIdentity();
+  const Eigen::Vector3d start = measurement_.X_WB.p;
+  State state{0, Eigen::VectorXd(n_ + 7), Eigen::VectorXd(n_ + 6)};
+  for (int i = 1; i <= 100; ++i) {
+    measurement_.time = 1e-3 * i;
+    estimator.Update(measurement_, &state);
+  }
+  EXPECT_NEAR(state.v[5], -0.981, 1e-9);
+  // Half g t^2, and half a step more.
+  EXPECT_NEAR(state.q[2] - start.z(), -0.5 * 9.81 * 0.01, 1e-3);
+}
+
+TEST_F(EstimatorTest, DoesNotAllocate) {
+  if (!CountMalloc::IsSupported()) GTEST_SKIP() << "not under a sanitizer";
+  Estimator estimator(robot_);
+  MeasureAt(0);
+  estimator.Start(measurement_);
+  State state{0, Eigen::VectorXd(n_ + 7), Eigen::VectorXd(n_ + 6)};
+  estimator.Update(measurement_, &state);
+  CountMalloc count;
+  estimator.Update(measurement_, &state);
+  EXPECT_EQ(count.allocations(), 0);
+}
+
+}  // namespace
+}  // namespace poise

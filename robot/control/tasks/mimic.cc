@@ -1,0 +1,42 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/mimic.h"
+
+#include <string>
+
+namespace poise {
+namespace {
+
+std::vector<std::string> RowNames(const RobotModel& model) {
+  std::vector<std::string> names;
+  for (const MimicCoupling& coupling : model.mimics) {
+    names.push_back("mimic." + model.tree.joints()[coupling.joint].name);
+  }
+  return names;
+}
+
+}  // namespace
+
+MimicTask::MimicTask(const RobotModel& model)
+    : Task("mimic", RowNames(model), {}),
+      q_start_(model.tree.q_start()),
+      v_start_(model.tree.v_start()),
+      couplings_(model.mimics) {
+  AddParameter("kp", &kp_, 0, 1e4);
+  AddParameter("kd", &kd_, 0, 1e3);
+}
+
+void MimicTask::Write(const TaskInput& input, EqualityBlock* equalities,
+                      InequalityBlock*) const noexcept {
+  const auto q = input.state.q.tail(input.state.q.size() - q_start_);
+  const auto v = input.state.v.tail(input.state.v.size() - v_start_);
+  for (int i = 0; i < static_cast<int>(couplings_.size()); ++i) {
+    const MimicCoupling& c = couplings_[i];
+    const double e = c.multiplier * q[c.source] + c.offset - q[c.joint];
+    const double e_dot = c.multiplier * v[c.source] - v[c.joint];
+    equalities->B(i, v_start_ + c.joint) = 1;
+    equalities->B(i, v_start_ + c.source) -= c.multiplier;
+    equalities->b[i] = -kp_ * e - kd_ * e_dot;
+  }
+}
+
+}  // namespace poise

@@ -1,0 +1,403 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// What the rows of each task mean, on the humanoid: against forces that a sole
+// can and cannot give, and against the robot's own motion a moment later.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "dynamics/integrate.h"
+#include "robot/control/controller.h"
+#include "robot/control/tasks/angular_momentum.h"
+#include "robot/control/tasks/capture_point.h"
+#include "robot/control/tasks/com.h"
+#include "robot/control/tasks/contact.h"
+#include "robot/control/tasks/cop.h"
+#include "robot/control/tasks/force_regularizer.h"
+#include "robot/control/tasks/friction.h"
+#include "robot/control/tasks/joint_limits.h"
+#include "robot/control/tasks/linear_momentum.h"
+#include "robot/control/tasks/momentum.h"
+#include "robot/control/tasks/newton_euler.h"
+#include "robot/control/tasks/posture.h"
+#include "robot/control/tasks/torque_limits.h"
+#include "robot/control/tasks/torque_minimization.h"
+#include "robot/control/tasks/unilateral.h"
+#include "robot/control/tasks/yaw.h"
+#include "robot/control/tasks/yaw_constant.h"
+#include "robot/control/tasks/zmp.h"
+#include "robot/control/tasks/zmp_literal.h"
+#include "robot/control/torque.h"
+#include "robot/profile.h"
+
+namespace poise {
+namespace {
+
+class TaskTest : public testing::Test {
+ protected:
+  TaskTest() {
+    state_ = {0, robot_.q_nominal, Eigen::VectorXd(nv_)};
+    for (int i = 0; i < nv_; ++i) state_.v[i] = Uniform(-0.3, 0.3);
+    Command command;
+    command.tau.setZero(n_);
+    controller_.Start(state_);
+    state_.time = 1e-3;
+    controller_.Update(state_, &command);
+  }
+
+  double Uniform(double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random_);
+  }
+
+  TaskInput input() const {
+    return {state_, controller_.tick(), controller_.contacts(),
+            controller_.reference()};
+  }
+
+  // The rows of a task, read from a hierarchy of its own.
+  const Hierarchy& Write(const Task& task) {
+    const int equalities = static_cast<int>(task.equality_names().size());
+    const int inequalities = static_cast<int>(task.inequality_names().size());
+    hierarchy_ = Hierarchy(nv_ + 12, {{equalities, inequalities}});
+    hierarchy_.Clear(1);
+    EqualityBlock equal = hierarchy_.AddEqualities(0, equalities);
+    InequalityBlock unequal = hierarchy_.AddInequalities(0, inequalities);
+    task.Write(input(), &equal, &unequal);
+    return hierarchy_;
+  }
+
+  // By how much the worst row is violated; negative: the least gap.
+  double Violation(const Task& task, const Eigen::VectorXd& y) {
+    const Hierarchy& rows = Write(task);
+    const Eigen::VectorXd value = rows.C(0) * y;
+    return std::max((value - rows.upper(0)).maxCoeff(),
+                    (rows.lower(0) - value).maxCoeff());
+  }
+
+  Eigen::VectorXd Residual(const Task& task, const Eigen::VectorXd& y) {
+    const Hierarchy& rows = Write(task);
+    return rows.B(0) * y + rows.b(0);
+  }
+
+  // y of foot 0 loaded by a force f at a point of its sole, C's axes.
+  Eigen::VectorXd Loaded(const Eigen::Vector2d& at, const Eigen::Vector3d& f) {
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(nv_ + 12);
+    const Eigen::Vector3d p(at.x(), at.y(), 0);
+    y.segment<6>(nv_) << p.cross(f), f;
+    return y;
+  }
+
+  Eigen::VectorXd RandomY() {
+    Eigen::VectorXd y(nv_ + 12);
+    for (int i = 0; i < y.size(); ++i) y[i] = Uniform(-1, 1);
+    return y;
+  }
+
+  std::mt19937 random_{7};
+  Robot robot_ = LoadRobot("robot/models/humanoid.urdf",
+                           LoadProfile("robot/profiles/humanoid.yaml"));
+  const Tree& tree_ = robot_.model.tree;
+  const int nv_ = tree_.nv(), n_ = tree_.num_joints();
+  const Eigen::Vector2d half_ = robot_.feet[0].half_size;
+  Controller controller_{robot_};
+  State state_;
+  Hierarchy hierarchy_{1, {{1, 1}}};
+};
+
+TEST_F(TaskTest, CopIsInsideWhereTheForceIsOnTheSole) {
+  const CopTask cop(tree_, robot_.feet);
+  const double x = half_.x() - 0.005, y = half_.y() - 0.005;
+  const Eigen::Vector3d f(20, -10, 300);
+  EXPECT_LE(Violation(cop, Loaded({0.99 * x, 0.99 * y}, f)), 0);
+  EXPECT_LE(Violation(cop, Loaded({-0.99 * x, -0.99 * y}, f)), 0);
+  for (const Eigen::Vector2d& at :
+       {Eigen::Vector2d(1.01 * x, 0), Eigen::Vector2d(-1.01 * x, 0),
+        Eigen::Vector2d(0, 1.01 * y), Eigen::Vector2d(0, -1.01 * y)}) {
+    EXPECT_GT(Violation(cop, Loaded(at, f)), 0) << at.transpose();
+  }
+}
+
+TEST_F(TaskTest, CopRowsAreNamedForTheirEdges) {
+  const CopTask cop(tree_, robot_.feet);
+  const char* edges[] = {"x_max", "x_min", "y_max", "y_min"};
+  const Eigen::Vector2d at[] = {{0.2, 0}, {-0.2, 0}, {0, 0.2}, {0, -0.2}};
+  for (int i = 0; i < 4; ++i) {
+    const Hierarchy& rows = Write(cop);
+    const Eigen::VectorXd value =
+        rows.C(0) * Loaded(at[i], Eigen::Vector3d(0, 0, 100));
+    for (int row = 0; row < 4; ++row) {
+      EXPECT_EQ(value[row] > 0, row == i) << edges[i];
+    }
+    EXPECT_EQ(cop.inequality_names()[i],
+              std::string("left_foot.cop.") + edges[i]);
+  }
+}
+
+TEST_F(TaskTest, FrictionPyramidsTouchTheConeFromOutsideAndFromInside) {
+  FrictionTask friction(tree_, robot_.feet);
+  const double mu = 0.5, fz = 200;
+  const auto pulled = [&](double share, double angle) {
+    return Violation(
+        friction,
+        Loaded({0, 0}, Eigen::Vector3d(share * mu * fz * std::cos(angle),
+                                       share * mu * fz * std::sin(angle), fz)));
+  };
+  for (const double axis : {0.0, 0.5, 1.0, 1.5}) {
+    const double along = axis * 3.14159265358979, diagonal = along + 0.78539816;
+    EXPECT_LE(pulled(0.99, along), 0);
+    EXPECT_GT(pulled(1.01, along), 0);
+    EXPECT_LE(pulled(1.40, diagonal), 0);
+    EXPECT_GT(pulled(1.42, diagonal), 0);
+  }
+  *friction.parameters()[1].value = 1;
+  for (const double axis : {0.0, 0.5, 1.0, 1.5}) {
+    const double along = axis * 3.14159265358979, diagonal = along + 0.78539816;
+    EXPECT_LE(pulled(0.70, along), 0);
+    EXPECT_GT(pulled(0.72, along), 0);
+    EXPECT_LE(pulled(0.99, diagonal), 0);
+    EXPECT_GT(pulled(1.01, diagonal), 0);
+  }
+}
+
+// Four corner forces inside their pyramids are what a rectangular sole can
+// give: they meet all rows of the cone; and its corner cases meet one with
+// equality.
+TEST_F(TaskTest, YawConeHoldsWhatCornersCanGive) {
+  const YawTask yaw(tree_, robot_.feet);
+  const double mu = 0.5;
+  double closest = -1e9;
+  for (int trial = 0; trial < 500; ++trial) {
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(nv_ + 12);
+    const bool extreme = trial % 2 == 0;
+    const double spin = trial % 4 == 0 ? 1 : -1;
+    for (const int sx : {-1, 1}) {
+      for (const int sy : {-1, 1}) {
+        const double fz = Uniform(0, 100);
+        // Extreme: all corners push around the same way.
+        const double fx =
+            extreme ? -spin * sy * mu * fz : Uniform(-mu, mu) * fz;
+        const double fy = extreme ? spin * sx * mu * fz : Uniform(-mu, mu) * fz;
+        y += Loaded({sx * half_.x(), sy * half_.y()},
+                    Eigen::Vector3d(fx, fy, fz));
+      }
+    }
+    const double violation = Violation(yaw, y);
+    EXPECT_LT(violation, 1e-12);
+    if (extreme) closest = std::max(closest, violation);
+  }
+  EXPECT_NEAR(closest, 0, 1e-12);
+}
+
+TEST_F(TaskTest, YawConeRefusesMoreThanFrictionGives) {
+  const YawTask yaw(tree_, robot_.feet);
+  const double most = 0.5 * (half_.x() + half_.y()) * 100;
+  for (const double sign : {1.0, -1.0}) {
+    Eigen::VectorXd y = Loaded({0, 0}, Eigen::Vector3d(0, 0, 100));
+    y[nv_ + 2] = sign * 0.99 * most;
+    EXPECT_LE(Violation(yaw, y), 0);
+    y[nv_ + 2] = sign * 1.01 * most;
+    EXPECT_GT(Violation(yaw, y), 0);
+  }
+}
+
+TEST_F(TaskTest, YawConstantIsProportionalToTheLoad) {
+  const YawConstantTask yaw(tree_, robot_.feet);
+  for (const double sign : {1.0, -1.0}) {
+    Eigen::VectorXd y = Loaded({0, 0}, Eigen::Vector3d(0, 0, 100));
+    y[nv_ + 2] = sign * 4.9;
+    EXPECT_LE(Violation(yaw, y), 0);
+    y[nv_ + 2] = sign * 5.1;
+    EXPECT_GT(Violation(yaw, y), 0);
+  }
+}
+
+TEST_F(TaskTest, GroundDoesNotPull) {
+  const UnilateralTask unilateral(tree_, robot_.feet);
+  EXPECT_LE(Violation(unilateral, Loaded({0, 0}, {0, 0, 1})), 0);
+  EXPECT_GT(Violation(unilateral, Loaded({0, 0}, {0, 0, -1})), 0);
+}
+
+TEST_F(TaskTest, ZmpIsTheCopOfBothFeetInTheirMiddle) {
+  const ZmpTask zmp(tree_, robot_.feet);
+  const double foot_y = controller_.contacts()[0].X_WC.p.y();
+  // All weight on the left foot, at 0.099 and 0.101 m from the middle.
+  const Eigen::Vector3d f(0, 0, 300);
+  EXPECT_LE(Violation(zmp, Loaded({0, 0.099 - foot_y}, f)), 0);
+  EXPECT_GT(Violation(zmp, Loaded({0, 0.101 - foot_y}, f)), 0);
+  EXPECT_LE(Violation(zmp, Loaded({0.99 * half_.x(), 0}, f)), 0);
+  EXPECT_GT(Violation(zmp, Loaded({1.01 * half_.x(), 0}, f)), 0);
+  EXPECT_GT(Violation(zmp, Loaded({-1.01 * half_.x(), 0}, f)), 0);
+}
+
+TEST_F(TaskTest, ZmpReadLiterallyLetsFeetCancel) {
+  const ZmpLiteralTask literal(tree_, robot_.feet);
+  Eigen::VectorXd y = Loaded({0.3, 0}, Eigen::Vector3d(0, 0, 100));
+  EXPECT_GT(Violation(literal, y), 0);
+  y.tail<6>() = Loaded({-0.3, 0}, Eigen::Vector3d(0, 0, 100)).segment<6>(nv_);
+  EXPECT_LE(Violation(literal, y), 0);
+  y = Loaded({0, 0.3}, Eigen::Vector3d(0, 0, 100));
+  EXPECT_GT(Violation(literal, y), 0);
+  y = Loaded({0, -0.3}, Eigen::Vector3d(0, 0, 100));
+  EXPECT_GT(Violation(literal, y), 0);
+}
+
+TEST_F(TaskTest, JointLimitsBringAJointToRestAtItsStop) {
+  const JointLimitsTask task(robot_.model);
+  for (const double side : {1.0, -1.0}) {
+    const int j = *tree_.FindJoint("l_elbow");
+    const JointLimits& limits = robot_.model.limits[j];
+    const double stop = side > 0 ? limits.upper : limits.lower;
+    state_.q[7 + j] = stop - side * 0.2;
+    state_.v[6 + j] = side * 3.9;  // Just slow enough: w 0.2 rad.
+    double nearest = 1;
+    for (int i = 0; i < 1000; ++i) {
+      const Hierarchy& rows = Write(task);
+      const double bound = (side > 0 ? rows.upper(0)[j] : rows.lower(0)[j]) /
+                           rows.C(0)(j, 6 + j);
+      state_.v[6 + j] += 1e-3 * bound;
+      state_.q[7 + j] += 1e-3 * state_.v[6 + j];
+      nearest = std::min(nearest, side * (stop - state_.q[7 + j]));
+    }
+    EXPECT_GE(nearest, -1e-9);
+    EXPECT_LT(nearest, 1e-3);
+    EXPECT_LT(std::abs(state_.v[6 + j]), 1e-3);
+  }
+}
+
+TEST_F(TaskTest, JointLimitsHoldTheSpeed) {
+  const JointLimitsTask task(robot_.model);
+  const int j = *tree_.FindJoint("l_elbow");
+  const double fastest = robot_.model.limits[j].velocity;
+  state_.q[7 + j] = robot_.q_nominal[7 + j];
+  state_.v[6 + j] = fastest;
+  EXPECT_LE(Write(task).upper(0)[j], 1e-12);
+  state_.v[6 + j] = -fastest;
+  EXPECT_GE(Write(task).lower(0)[j], -1e-12);
+}
+
+TEST_F(TaskTest, TorqueRowsAreThoseOfTheSolution) {
+  const Eigen::VectorXd y = RandomY();
+  Eigen::VectorXd tau(n_);
+  ComputeTorque(controller_.tick(), controller_.contacts(), y, &tau);
+  const TorqueLimitsTask limits(robot_.model);
+  const Hierarchy& rows = Write(limits);
+  const Eigen::VectorXd value = rows.C(0) * y;
+  for (int j = 0; j < n_; ++j) {
+    const double effort = robot_.model.limits[j].effort;
+    // Where C y is at its upper bound, the torque is at the limit.
+    EXPECT_NEAR(1 - (rows.upper(0)[j] - value[j]), tau[j] / effort, 1e-9);
+    EXPECT_NEAR((value[j] - rows.lower(0)[j]) - 1, tau[j] / effort, 1e-9);
+  }
+  const Eigen::VectorXd small =
+      Residual(TorqueMinimizationTask(robot_.model), y);
+  for (int j = 0; j < n_; ++j) {
+    EXPECT_NEAR(small[j], tau[j] / robot_.model.limits[j].effort, 1e-9);
+  }
+}
+
+TEST_F(TaskTest, NewtonEulerIsTheBaseOfTheEquationOfMotion) {
+  const Eigen::VectorXd y = RandomY();
+  const Tick& tick = controller_.tick();
+  Eigen::VectorXd wanted = tick.M * y.head(nv_) + tick.N;
+  for (int i = 0; i < 2; ++i) {
+    wanted -= controller_.contacts()[i].J_WC_C.transpose() *
+              y.segment<6>(nv_ + 6 * i);
+  }
+  const Eigen::VectorXd residual = Residual(NewtonEulerTask(tree_), y);
+  const double weight = tree_.total_mass() * 9.81;
+  EXPECT_LT((residual * weight / 4 - wanted.head<6>()).norm(), 1e-9);
+}
+
+// Along v̇ the robot's own momentum, center of mass and feet change as the rows
+// say: by differences of the same state a moment later.
+TEST_F(TaskTest, RatesOfMomentumAndFeetAreThoseOfTheMotion) {
+  const double h = 1e-6;
+  const Eigen::VectorXd y = RandomY();
+  Controller probe(robot_);
+  const auto at = [&](double t) {
+    State state{1, robot_.q_nominal, state_.v + t * y.head(nv_)};
+    Integrate(tree_, state_.q, state_.v, t, state.q);
+    probe.Start(state);
+    return probe.tick();
+  };
+  const Tick before = at(-h), after = at(h);
+  const double m = tree_.total_mass();
+  const Vector6d rate = (after.L_G - before.L_G) / (2 * h);
+  const Reference& reference = controller_.reference();
+  const Eigen::Vector3d e = reference.p_WG - controller_.tick().p_WG;
+  const Eigen::Vector3d v_G = controller_.tick().v_WG;
+  const Vector6d L = controller_.tick().L_G;
+  // Central differences over 1e-6 s: good to 1e-5 of the rates.
+  const double tolerance = 1e-4;
+
+  const Eigen::VectorXd momentum = Residual(MomentumTask(tree_), y);
+  const Eigen::Vector3d linear = rate.tail<3>() / m - 30 * e + 10 * v_G;
+  EXPECT_LT((momentum.tail<3>() - linear).norm(), tolerance);
+  // The base is where it should be: no rotation to correct.
+  EXPECT_LT(
+      (momentum.head<3>() - (rate.head<3>() + 10 * L.head<3>()) / m).norm(),
+      tolerance);
+  EXPECT_LT((Residual(ComTask(tree_), y) - linear).norm(), tolerance);
+  EXPECT_LT(
+      (Residual(LinearMomentumTask(tree_), y) - (rate.tail<3>() / m + 10 * v_G))
+          .norm(),
+      tolerance);
+  EXPECT_LT(
+      (Residual(AngularMomentumTask(tree_), y) - momentum.head<3>()).norm(),
+      1e-12);
+}
+
+TEST_F(TaskTest, ContactPullsASoleUprightAndToTheGround) {
+  const ContactTask task(robot_.feet);
+  const ContactTick& contact = controller_.contacts()[0];
+  const Eigen::VectorXd y = RandomY();
+  const Eigen::VectorXd at_ground = Residual(task, y);
+  const Eigen::VectorXd expected =
+      (contact.J_WC_C * y.head(nv_) + contact.Jdot_v_C + 30 * contact.V_WC_C);
+  EXPECT_LT((at_ground.head<6>() - expected).norm(), 1e-9);
+  // A floor 1 cm lower: the foot shall accelerate down by kp 1 cm.
+  controller_.reference().ground_z -= 0.01;
+  const Eigen::VectorXd above = Residual(task, y);
+  EXPECT_NEAR((above - at_ground)[5], 100 * 0.01, 1e-9);
+}
+
+TEST_F(TaskTest, PostureIsAPdOnEachJoint) {
+  const Eigen::VectorXd y = RandomY();
+  controller_.reference().posture[3] += 0.1;
+  const Eigen::VectorXd residual = Residual(PostureTask(tree_), y);
+  for (int j = 0; j < n_; ++j) {
+    const double e = j == 3 ? 0.1 : 0;
+    EXPECT_NEAR(residual[j], y[6 + j] - 60 * e + 15 * state_.v[6 + j], 1e-12);
+  }
+}
+
+TEST_F(TaskTest, ForceRegularizerIsTheForceItself) {
+  const Eigen::VectorXd y = RandomY();
+  const double scale = tree_.total_mass() * 9.81 / 4;
+  const Eigen::VectorXd residual =
+      Residual(ForceRegularizerTask(tree_, robot_.feet), y);
+  EXPECT_LT((residual - y.tail<12>() / scale).norm(), 1e-12);
+}
+
+TEST_F(TaskTest, CapturePointStopsShortOfTheEdge) {
+  const CapturePointTask task(tree_, robot_.feet);
+  // Under the greatest acceleration that the row of the left allows, the
+  // capture point decays toward the bound with the horizon's time constant.
+  const Eigen::Vector3d p = controller_.tick().p_WG;
+  const Eigen::Vector3d v = controller_.tick().v_WG;
+  const double w = std::sqrt(9.81 / p.z());
+  const double edge = controller_.contacts()[0].X_WC.p.y() + half_.y() - 0.02;
+  const Hierarchy& rows = Write(task);
+  const Eigen::VectorXd y = RandomY();
+  const Tick& tick = controller_.tick();
+  const double a = (tick.H_G.row(4).dot(y.head(nv_)) + tick.H_G_bias[4]) /
+                   tree_.total_mass();
+  const double xi = p.y() + v.y() / w, rate = v.y() + a / w;
+  EXPECT_NEAR(rows.C(0).row(2).dot(y) - rows.upper(0)[2],
+              xi + 0.1 * rate - edge, 1e-6);
+  EXPECT_NEAR(rows.C(0).row(3).dot(y) - rows.upper(0)[3],
+              -xi - 0.1 * rate - edge, 1e-6);
+}
+
+}  // namespace
+}  // namespace poise

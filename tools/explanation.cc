@@ -1,0 +1,239 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/explanation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+
+#include "tools/csv_reader.h"
+
+namespace poise {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kGap = 0.020;      // s: shorter pauses join two spans.
+constexpr size_t kMostCauses = 3;   // Named for a loss.
+constexpr double kSmallLoss = 0.5;  // N, N m, m/s2: not worth a sentence.
+
+// While something was so, and the worst of it.
+struct Span {
+  std::string name;
+  double from, to, at, peak;
+  std::vector<std::pair<std::string, double>> causes;
+};
+
+using Values = std::vector<std::pair<std::string, double>>;
+
+// "a=1;b=-2", as the recorder writes it.
+Values Parse(std::string_view cell) {
+  Values values;
+  while (!cell.empty()) {
+    const size_t end = std::min(cell.find(';'), cell.size());
+    const std::string_view item = cell.substr(0, end);
+    const size_t equals = item.rfind('=');
+    if (equals != std::string_view::npos) {
+      values.emplace_back(
+          item.substr(0, equals),
+          std::strtod(std::string(item.substr(equals + 1)).c_str(), nullptr));
+    }
+    cell.remove_prefix(std::min(end + 1, cell.size()));
+  }
+  return values;
+}
+
+class Spans {
+ public:
+  void Add(const std::string& name, double time, double value,
+           const Values& causes) {
+    const auto [it, is_new] = open_.try_emplace(name, spans_.size());
+    if (!is_new && time - spans_[it->second].to > kGap) {
+      it->second = spans_.size();
+    }
+    if (it->second == spans_.size()) {
+      spans_.push_back({name, time, time, time, 0, {}});
+    }
+    Span& span = spans_[it->second];
+    span.to = time;
+    if (std::abs(value) < std::abs(span.peak)) return;
+    span.peak = value;
+    span.at = time;
+    span.causes = causes;
+  }
+  const std::vector<Span>& spans() const { return spans_; }
+
+ private:
+  std::vector<Span> spans_;
+  std::map<std::string, size_t> open_;
+};
+
+Values Hardest(Values rows) {
+  std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.second) > std::abs(b.second);
+  });
+  if (rows.size() > kMostCauses) rows.resize(kMostCauses);
+  return rows;
+}
+
+std::string Format(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+std::string UnitOfLoss(const std::string& name) {
+  const std::string row = name.substr(name.rfind('.') + 1);
+  if (name.rfind("momentum.", 0) == 0) return row[0] == 'k' ? "N m" : "N";
+  return row[0] == 'w' ? "rad/s2" : "m/s2";
+}
+
+std::string Spaced(std::string text) {
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+std::string Sentence(const Span& span) {
+  return Format("%.3f s: ", span.from) + DescribeRow(span.name) +
+         Format(" for %.0f ms", 1e3 * (span.to - span.from)) +
+         Format(" (multiplier %.3g", std::abs(span.peak)) +
+         Format(" at %.3f s).", span.at);
+}
+
+std::string LossSentence(const Span& span) {
+  std::string text = Format("%.3f s: ", span.from) + span.name + " gave up " +
+                     Format("%.3g ", std::abs(span.peak)) +
+                     UnitOfLoss(span.name) + Format(" (at %.3f s)", span.at);
+  for (size_t i = 0; i < span.causes.size(); ++i) {
+    text +=
+        (i == 0 ? ", because of " : ", ") + DescribeRow(span.causes[i].first);
+  }
+  return text + ".";
+}
+
+json ReadSummary(const std::filesystem::path& run) {
+  std::ifstream stream(run / "summary.json");
+  if (!stream) return json::object();
+  const json summary = json::parse(stream, nullptr, false);
+  return summary.is_object() ? summary : json::object();
+}
+
+std::string Ending(const json& summary) {
+  if (!summary.contains("recovered")) return "How it ended is not recorded.";
+  if (summary["recovered"] == true) return "The robot recovered.";
+  const json fell_at = summary.value("fell_at", json());
+  if (!fell_at.is_number()) {
+    return "The robot stayed up, but did not come back to its place.";
+  }
+  return "The robot fell at " + Format("%.3f s.", fell_at.get<double>());
+}
+
+}  // namespace
+
+std::string DescribeRow(const std::string& name) {
+  const size_t first = name.find('.');
+  const size_t last = name.rfind('.');
+  if (first == std::string::npos) return name;
+  const std::string head = name.substr(0, first);
+  const std::string end = name.substr(last + 1);
+  const std::string middle =
+      last > first ? name.substr(first + 1, last - first - 1) : "";
+  if (head == "torque" || head == "joint") {
+    return "the " + std::string(head == "torque" ? "torque" : "angle") +
+           " of " + Spaced(middle) + " at its " +
+           (end == "min" ? "lower" : "upper") + " limit";
+  }
+  if (head == "zmp" || head == "zmp_literal") {
+    return "the combined CoP at " + end + " of its box";
+  }
+  if (head == "capture_point") return "the capture point at " + end;
+  const std::string foot = "the " + Spaced(head);
+  if (middle == "cop") {
+    const bool is_left = head.rfind("left", 0) == 0;
+    const std::string edge = end == "x_max"                ? "front"
+                             : end == "x_min"              ? "rear"
+                             : (end == "y_max") == is_left ? "outer"
+                                                           : "inner";
+    return "the CoP of " + foot + " at its " + edge + " edge";
+  }
+  if (middle == "friction") return foot + " at its friction limit";
+  if (middle == "unilateral") return foot + " without load";
+  if (middle.rfind("yaw", 0) == 0) return "the yaw moment of " + foot;
+  return name;
+}
+
+json Explain(const std::filesystem::path& run) {
+  const std::filesystem::path log = run / "log.csv";
+  CsvReader reader(log);
+  const auto time = reader.Find("time"), status = reader.Find("status"),
+             active = reader.Find("active"), lost = reader.Find("lost");
+  if (!time || !status || !active) {
+    throw std::invalid_argument(log.string() +
+                                ": has no columns time, status and active");
+  }
+  Spans rows, losses, states;
+  while (reader.Next()) {
+    const double t = reader.Number(*time);
+    const Values acting = Parse(reader.cell(*active));
+    for (const auto& [name, value] : acting) rows.Add(name, t, value, {});
+    if (reader.cell(*status) != "ok") {
+      states.Add(std::string(reader.cell(*status)), t, 1, {});
+    }
+    if (!lost) continue;
+    for (const auto& [name, value] : Parse(reader.cell(*lost))) {
+      losses.Add(name, t, value, Hardest(acting));
+    }
+  }
+
+  const json summary = ReadSummary(run);
+  json out = {{"recovered", summary.value("recovered", json())},
+              {"fell_at", summary.value("fell_at", json())},
+              {"rows", json::array()},
+              {"losses", json::array()},
+              {"status", json::array()},
+              {"sentences", json::array()}};
+  std::vector<std::pair<double, std::string>> sentences;
+  for (const Span& span : rows.spans()) {
+    out["rows"].push_back({{"name", span.name},
+                           {"from", span.from},
+                           {"to", span.to},
+                           {"at", span.at},
+                           {"multiplier", std::abs(span.peak)}});
+    if (span.to > span.from) sentences.emplace_back(span.from, Sentence(span));
+  }
+  for (const Span& span : losses.spans()) {
+    json because = json::array();
+    for (const auto& [name, value] : span.causes) because.push_back(name);
+    out["losses"].push_back({{"name", span.name},
+                             {"from", span.from},
+                             {"to", span.to},
+                             {"at", span.at},
+                             {"amount", span.peak},
+                             {"unit", UnitOfLoss(span.name)},
+                             {"because", because}});
+    if (std::abs(span.peak) < kSmallLoss) continue;
+    sentences.emplace_back(span.from, LossSentence(span));
+  }
+  for (const Span& span : states.spans()) {
+    out["status"].push_back(
+        {{"name", span.name}, {"from", span.from}, {"to", span.to}});
+    sentences.emplace_back(
+        span.from, Format("%.3f s: ", span.from) + "the controller says " +
+                       Spaced(span.name) + Format(", until %.3f s.", span.to));
+  }
+  std::stable_sort(
+      sentences.begin(), sentences.end(),
+      [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [when, text] : sentences) out["sentences"].push_back(text);
+  if (sentences.empty()) {
+    out["sentences"].push_back("No row acted: every task got what it asked.");
+  }
+  out["sentences"].push_back(Ending(summary));
+  return out;
+}
+
+}  // namespace poise

@@ -1,0 +1,32 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace poise {
+
+/// Says of a recorded run when, what and why: which rows of the hierarchy came
+/// to act, what each task lost to them, how the ticks ended, and how the run
+/// did.
+///
+///     rows       [{name, from, to, at, multiplier}]: while a row acted (gaps
+///                below 20 ms are none), and when its multiplier was largest.
+///     losses     [{name, from, to, at, amount, unit, because}]: while a row of
+///                a task was not met, the worst of it, and the rows that pressed
+///                hardest at that time.
+///     status     [{name, from, to}]: where it was not "ok".
+///     recovered, fell_at   from summary.json; null where there is none.
+///     sentences  the same for a person, in the order of time.
+///
+/// Throws std::invalid_argument, naming the file, if there is no log.csv, or it
+/// does not hold what the controller said.
+nlohmann::json Explain(const std::filesystem::path& run);
+
+/// What a row's name means: "left_foot.cop.y_max" is "the CoP of the left foot
+/// at its outer edge".
+std::string DescribeRow(const std::string& name);
+
+}  // namespace poise

@@ -1,0 +1,81 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/explanation.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+
+namespace poise {
+namespace {
+
+std::filesystem::path MakeRun(const std::string& name, const std::string& log,
+                              const std::string& summary) {
+  const std::filesystem::path run =
+      std::filesystem::path(std::getenv("TEST_TMPDIR")) / name;
+  std::filesystem::create_directories(run);
+  std::ofstream(run / "log.csv") << log;
+  std::ofstream(run / "summary.json") << summary;
+  return run;
+}
+
+constexpr char kPushed[] =
+    "time[s],status,active,lost\n"
+    "0.61,ok,,\n"
+    "0.62,ok,left_foot.cop.y_max=12,momentum.ly=-3\n"
+    "0.63,limit_relaxed,left_foot.cop.y_max=41;right_foot.unilateral.fz=2,"
+    "momentum.ly=-12\n"
+    "0.64,ok,left_foot.cop.y_max=5,\n"
+    "0.90,ok,left_foot.cop.y_max=7,\n"
+    "0.91,ok,,\n";
+
+TEST(Explanation, SaysWhenWhatAndWhy) {
+  const nlohmann::json said =
+      Explain(MakeRun("pushed", kPushed, R"({"recovered": true})"));
+  ASSERT_EQ(said["rows"].size(), 3u);
+  EXPECT_EQ(said["rows"][0]["name"], "left_foot.cop.y_max");
+  EXPECT_EQ(said["rows"][0]["from"], 0.62);
+  EXPECT_EQ(said["rows"][0]["to"], 0.64);
+  EXPECT_EQ(said["rows"][0]["at"], 0.63);
+  EXPECT_EQ(said["rows"][0]["multiplier"], 41);
+  EXPECT_EQ(said["rows"][2]["from"], 0.90);
+  ASSERT_EQ(said["losses"].size(), 1u);
+  EXPECT_EQ(said["losses"][0]["amount"], -12);
+  EXPECT_EQ(said["losses"][0]["unit"], "N");
+  EXPECT_EQ(said["losses"][0]["because"][0], "left_foot.cop.y_max");
+  ASSERT_EQ(said["status"].size(), 1u);
+  EXPECT_EQ(said["status"][0]["name"], "limit_relaxed");
+  EXPECT_EQ(said["sentences"][0],
+            "0.620 s: the CoP of the left foot at its outer edge for 20 ms "
+            "(multiplier 41 at 0.630 s).");
+  EXPECT_EQ(said["sentences"].back(), "The robot recovered.");
+}
+
+TEST(Explanation, SaysThatTheRobotFell) {
+  const nlohmann::json said = Explain(
+      MakeRun("fell", kPushed, R"({"recovered": false, "fell_at": 1.25})"));
+  EXPECT_EQ(said["sentences"].back(), "The robot fell at 1.250 s.");
+}
+
+TEST(Explanation, RefusesWhatIsNoRun) {
+  EXPECT_THROW(Explain("nowhere"), std::invalid_argument);
+  EXPECT_THROW(Explain(MakeRun("other", "a,b\n1,2\n", "{}")),
+               std::invalid_argument);
+}
+
+TEST(Explanation, NamesEdgesAsAPersonDoes) {
+  EXPECT_EQ(DescribeRow("right_foot.cop.y_max"),
+            "the CoP of the right foot at its inner edge");
+  EXPECT_EQ(DescribeRow("right_foot.cop.y_min"),
+            "the CoP of the right foot at its outer edge");
+  EXPECT_EQ(DescribeRow("left_foot.cop.x_min"),
+            "the CoP of the left foot at its rear edge");
+  EXPECT_EQ(DescribeRow("torque.l_knee.max"),
+            "the torque of l knee at its upper limit");
+  EXPECT_EQ(DescribeRow("joint.l_knee.min"),
+            "the angle of l knee at its lower limit");
+}
+
+}  // namespace
+}  // namespace poise
