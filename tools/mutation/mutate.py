@@ -238,7 +238,12 @@ def summarize(pool, state, explained):
             row.setdefault("survivors", []).append(
                 {"before": mutant.before, "after": mutant.after}
             )
-    return files
+    return {
+        path: tried for path, rows in files.items() if (tried := {
+            name: row for name, row in rows.items()
+            if row["killed"] + row["survived"] + row["equivalent"]
+        })
+    }
 
 
 def show(results):

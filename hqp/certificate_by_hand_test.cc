@@ -1,0 +1,120 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "hqp/certificate.h"
+
+namespace poise {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// What the gradient is relative to: the residual of y_0 adds up |3| and |-3|.
+constexpr double kSize = 6;
+
+// Level 0 bounds y_1, level 1 asks for y = (3, target). What is optimal, with
+// its multiplier, is known by hand; each test spoils one number of it.
+class CertifierByHandTest : public testing::Test {
+ protected:
+  CertifierByHandTest() { Bound(0, 1, 2); }
+
+  void Bound(double lower, double upper, double target) {
+    hierarchy_.Clear(2);
+    InequalityBlock bound = hierarchy_.AddInequalities(0, 1);
+    bound.C << 0, 1;
+    bound.lower << lower;
+    bound.upper << upper;
+    EqualityBlock wish = hierarchy_.AddEqualities(1, 2);
+    wish.B.setIdentity();
+    wish.b << -3, -target;
+    const double y = std::min(std::max(target, lower), upper);
+    Answer(y, y - target, target - y);
+  }
+
+  // The answer y_1, with the residual that it leaves and a multiplier.
+  void Answer(double y, double residual, double multiplier) {
+    solution_.Reset();
+    solution_.y << 3, y;
+    solution_.levels[1].equality_residual << 0, residual;
+    solution_.levels[1].cost = residual * residual / 2;
+    solution_.levels[1].multipliers[0].inequality << multiplier;
+  }
+
+  Certificate Certify() { return certifier_.Certify(hierarchy_, solution_); }
+
+  const std::vector<LevelCapacity> capacity_{{0, 1}, {2, 0}};
+  Hierarchy hierarchy_{2, capacity_};
+  Solution solution_{2, capacity_};
+  Certifier certifier_{2, capacity_};
+};
+
+TEST_F(CertifierByHandTest, FindsNothingWrongWithTheOptimum) {
+  EXPECT_EQ(Certify().worst(), 0);  // At the upper bound.
+  Bound(0, 1, -2);                  // At the lower one.
+  EXPECT_EQ(Certify().worst(), 0);
+  Bound(0, 1, 0.5);  // At none.
+  EXPECT_EQ(Certify().worst(), 0);
+  Bound(1, 1, -2);  // At both: the multiplier may have either sign.
+  EXPECT_EQ(Certify().worst(), 0);
+  Bound(1, 1, 5);
+  EXPECT_EQ(Certify().worst(), 0);
+}
+
+TEST_F(CertifierByHandTest, FindsAGradientThatIsLeft) {
+  solution_.levels[1].multipliers[0].inequality << 0.5;
+  EXPECT_EQ(Certify().stationarity, (1 - 0.5) / kSize);
+  EXPECT_EQ(Certify().worst(), (1 - 0.5) / kSize);
+}
+
+TEST_F(CertifierByHandTest, FindsAMultiplierOfTheWrongSign) {
+  solution_.levels[1].multipliers[0].inequality << -1;
+  EXPECT_EQ(Certify().stationarity, 2 / kSize);
+  EXPECT_EQ(Certify().complementarity, 1 / kSize);
+  Bound(0, 1, -2);
+  solution_.levels[1].multipliers[0].inequality << 2;
+  EXPECT_EQ(Certify().complementarity, 2 / kSize);
+}
+
+TEST_F(CertifierByHandTest, FindsAMultiplierAcrossAGap) {
+  Answer(0.5, -1.5, 1.5);
+  const Certificate certificate = Certify();
+  EXPECT_EQ(certificate.stationarity, 0);
+  EXPECT_EQ(certificate.complementarity, 1.5 / kSize);
+}
+
+TEST_F(CertifierByHandTest, FindsAResidualACostOrASlackThatIsNotThatOfY) {
+  solution_.levels[1].equality_residual[1] = -0.5;
+  EXPECT_GT(Certify().feasibility, 0.01);
+  Bound(0, 1, 2);
+  solution_.levels[0].slack << 0.5;
+  EXPECT_GT(Certify().feasibility, 0.01);
+  Bound(0, 1, 2);
+  solution_.levels[1].cost = 0.25;
+  EXPECT_GT(Certify().priority, 0.01);
+  EXPECT_EQ(Certify().feasibility, 0);
+}
+
+TEST_F(CertifierByHandTest, JudgesTheLevelsAboveTheOneThatFailed) {
+  solution_.levels[1].multipliers[0].inequality << -1;
+  solution_.failed_level = 1;
+  EXPECT_EQ(Certify().worst(), 0);
+  solution_.levels[0].slack << 0.5;
+  EXPECT_GT(Certify().worst(), 0);
+  solution_.failed_level = 0;
+  EXPECT_EQ(Certify().worst(), 0);
+}
+
+TEST_F(CertifierByHandTest, IsInfiniteWhereAnythingIsNan) {
+  solution_.levels[1].multipliers[0].inequality << kNan;
+  EXPECT_EQ(Certify().worst(), kInfinity);
+  Bound(0, 1, 2);
+  solution_.y[1] = kNan;
+  EXPECT_EQ(Certify().worst(), kInfinity);
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,79 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/hierarchy.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+namespace poise {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Hierarchy, AddsRowsThatAskForNothingWhateverWasThere) {
+  Hierarchy hierarchy(3, {{2, 2}});
+  for (int round = 0; round < 2; ++round) {
+    SCOPED_TRACE(round);
+    hierarchy.Clear(1);
+    EqualityBlock equalities = hierarchy.AddEqualities(0, 2);
+    InequalityBlock inequalities = hierarchy.AddInequalities(0, 2);
+    EXPECT_TRUE(equalities.B.isZero(0));
+    EXPECT_TRUE(equalities.b.isZero(0));
+    EXPECT_TRUE((equalities.weight.array() == 1).all());
+    EXPECT_TRUE(inequalities.C.isZero(0));
+    EXPECT_TRUE((inequalities.lower.array() == -kInfinity).all());
+    EXPECT_TRUE((inequalities.upper.array() == kInfinity).all());
+    equalities.B.setConstant(7);
+    equalities.b.setConstant(7);
+    equalities.weight.setConstant(7);
+    inequalities.C.setConstant(7);
+    inequalities.lower.setConstant(7);
+    inequalities.upper.setConstant(7);
+  }
+}
+
+TEST(Hierarchy, KeepsBlocksInOrderAndLevelsApart) {
+  Hierarchy hierarchy(2, {{3, 1}, {1, 3}});
+  EXPECT_EQ(hierarchy.num_variables(), 2);
+  EXPECT_EQ(hierarchy.num_levels(), 2);
+  hierarchy.Clear(2);
+  hierarchy.AddEqualities(0, 1).B << 1, 2;
+  EqualityBlock second = hierarchy.AddEqualities(0, 2);
+  second.B << 3, 4, 5, 6;
+  second.b << -1, -2;
+  second.weight << 10, 20;
+  hierarchy.AddInequalities(1, 1).C << 7, 8;
+  InequalityBlock last = hierarchy.AddInequalities(1, 2);
+  last.C << 9, 10, 11, 12;
+  last.lower << 1, 2;
+  last.upper << 3, 4;
+
+  EXPECT_EQ(hierarchy.num_equalities(0), 3);
+  EXPECT_EQ(hierarchy.num_inequalities(0), 0);
+  EXPECT_EQ(hierarchy.num_equalities(1), 0);
+  EXPECT_EQ(hierarchy.num_inequalities(1), 3);
+  EXPECT_EQ(hierarchy.B(0),
+            (RowMajorMatrix(3, 2) << 1, 2, 3, 4, 5, 6).finished());
+  EXPECT_EQ(hierarchy.b(0), Eigen::Vector3d(0, -1, -2));
+  EXPECT_EQ(hierarchy.weight(0), Eigen::Vector3d(1, 10, 20));
+  EXPECT_EQ(hierarchy.C(1),
+            (RowMajorMatrix(3, 2) << 7, 8, 9, 10, 11, 12).finished());
+  EXPECT_EQ(hierarchy.lower(1), Eigen::Vector3d(-kInfinity, 1, 2));
+  EXPECT_EQ(hierarchy.upper(1), Eigen::Vector3d(kInfinity, 3, 4));
+
+  hierarchy.Clear(1);
+  EXPECT_EQ(hierarchy.num_levels(), 1);
+  EXPECT_EQ(hierarchy.num_equalities(0), 0);
+  EXPECT_EQ(hierarchy.num_inequalities(1), 0);
+}
+
+TEST(Hierarchy, RefusesSizesThatAreNone) {
+  EXPECT_THROW(Hierarchy(-1, {}), std::invalid_argument);
+  EXPECT_THROW(Hierarchy(1, {{-1, 0}}), std::invalid_argument);
+  EXPECT_THROW(Hierarchy(1, {{0, -1}}), std::invalid_argument);
+  EXPECT_NO_THROW(Hierarchy(0, {{0, 0}}));
+}
+
+}  // namespace
+}  // namespace poise

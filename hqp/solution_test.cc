@@ -1,0 +1,133 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/solution.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace poise {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+void ExpectAsConstructed(const Solution& solution, int num_variables) {
+  EXPECT_EQ(solution.status, Status::kOptimal);
+  EXPECT_EQ(solution.failed_level, -1);
+  EXPECT_EQ(solution.iterations, 0);
+  EXPECT_EQ(solution.y.size(), num_variables);
+  EXPECT_TRUE(solution.y.isZero(0));
+  for (const LevelSolution& level : solution.levels) {
+    EXPECT_EQ(level.cost, 0);
+    EXPECT_TRUE(level.equality_residual.isZero(0));
+    EXPECT_TRUE(level.slack.isZero(0));
+    for (const Side side : level.active) EXPECT_EQ(side, Side::kNone);
+    EXPECT_EQ(level.nullity, num_variables);
+    for (const LevelMultipliers& multipliers : level.multipliers) {
+      EXPECT_TRUE(multipliers.equality.isZero(0));
+      EXPECT_TRUE(multipliers.inequality.isZero(0));
+    }
+  }
+}
+
+TEST(Solution, ResetMakesItAsConstructed) {
+  Solution solution(3, {{1, 2}, {3, 4}});
+  ExpectAsConstructed(solution, 3);
+  ASSERT_EQ(solution.levels[1].multipliers.size(), 1u);
+  EXPECT_EQ(solution.levels[1].multipliers[0].equality.size(), 1);
+  EXPECT_EQ(solution.levels[1].multipliers[0].inequality.size(), 2);
+  EXPECT_EQ(solution.levels[1].equality_residual.size(), 3);
+  EXPECT_EQ(solution.levels[1].slack.size(), 4);
+  EXPECT_EQ(solution.levels[1].active.size(), 4u);
+
+  solution.status = Status::kBadInput;
+  solution.failed_level = 1;
+  solution.iterations = 9;
+  solution.y.setConstant(7);
+  for (LevelSolution& level : solution.levels) {
+    level.cost = 7;
+    level.equality_residual.setConstant(7);
+    level.slack.setConstant(7);
+    level.active.assign(level.active.size(), Side::kUpper);
+    level.nullity = 7;
+    for (LevelMultipliers& multipliers : level.multipliers) {
+      multipliers.equality.setConstant(7);
+      multipliers.inequality.setConstant(7);
+    }
+  }
+  solution.Reset();
+  ExpectAsConstructed(solution, 3);
+}
+
+TEST(EvaluateLevel, AgreesWithNumbersByHand) {
+  Hierarchy hierarchy(2, {{2, 3}});
+  EqualityBlock equalities = hierarchy.AddEqualities(0, 2);
+  equalities.B << 1, 2, 3, 4;
+  equalities.b << -4, 1;
+  equalities.weight << 1, 10;
+  InequalityBlock inequalities = hierarchy.AddInequalities(0, 3);
+  inequalities.C << 1, 0, 0, 1, 1, 1;
+  inequalities.lower << 3, -kInfinity, 0;
+  inequalities.upper << kInfinity, 1.5, 9;
+  Solution solution(2, {{2, 3}});
+  solution.y << 1, 2;
+  EvaluateLevel(hierarchy, 0, &solution);
+  const LevelSolution& level = solution.levels[0];
+  EXPECT_EQ(level.equality_residual, Eigen::Vector2d(1, 12));
+  EXPECT_EQ(level.slack, Eigen::Vector3d(2, 0.5, 0));
+  EXPECT_EQ(level.cost, (1 + 10 * 144) / 2.0 + (4 + 0.25) / 2);
+}
+
+class CheckInputTest : public testing::Test {
+ protected:
+  CheckInputTest()
+      : equalities_(hierarchy_.AddEqualities(1, 1)),
+        inequalities_(hierarchy_.AddInequalities(1, 1)) {
+    inequalities_.lower << -1;
+    inequalities_.upper << 1;
+  }
+
+  // What it says after one number has become another, which it takes back.
+  Status With(double* number, double value) {
+    const double good = *number;
+    *number = value;
+    const Status status = CheckInput(hierarchy_, &failed_level_);
+    EXPECT_EQ(failed_level_, status == Status::kOptimal ? -1 : 1);
+    *number = good;
+    return status;
+  }
+
+  Hierarchy hierarchy_{1, {{1, 1}, {1, 1}}};
+  EqualityBlock equalities_;
+  InequalityBlock inequalities_;
+  int failed_level_ = 7;
+};
+
+TEST_F(CheckInputTest, FindsWhatIsNotFinite) {
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    SCOPED_TRACE(bad);
+    EXPECT_EQ(With(equalities_.B.data(), bad), Status::kNotFinite);
+    EXPECT_EQ(With(equalities_.b.data(), bad), Status::kNotFinite);
+    EXPECT_EQ(With(equalities_.weight.data(), bad), Status::kNotFinite);
+    EXPECT_EQ(With(inequalities_.C.data(), bad), Status::kNotFinite);
+  }
+  EXPECT_EQ(With(inequalities_.lower.data(), kNan), Status::kNotFinite);
+  EXPECT_EQ(With(inequalities_.upper.data(), kNan), Status::kNotFinite);
+  EXPECT_EQ(With(inequalities_.lower.data(), kInfinity), Status::kNotFinite);
+  EXPECT_EQ(With(inequalities_.upper.data(), -kInfinity), Status::kNotFinite);
+}
+
+TEST_F(CheckInputTest, FindsBoundsAndWeightsThatAreNone) {
+  EXPECT_EQ(With(inequalities_.lower.data(), 1.5), Status::kBadInput);
+  EXPECT_EQ(With(equalities_.weight.data(), -1), Status::kBadInput);
+}
+
+TEST_F(CheckInputTest, LetsPassWhatIsAtTheEdge) {
+  EXPECT_EQ(With(inequalities_.lower.data(), 1), Status::kOptimal);
+  EXPECT_EQ(With(inequalities_.lower.data(), -kInfinity), Status::kOptimal);
+  EXPECT_EQ(With(inequalities_.upper.data(), kInfinity), Status::kOptimal);
+  EXPECT_EQ(With(equalities_.weight.data(), 0), Status::kOptimal);
+}
+
+}  // namespace
+}  // namespace poise
