@@ -10,13 +10,6 @@
 namespace poise {
 namespace {
 
-// Numbers in [-1, 1], the same each time.
-double Number() {
-  static unsigned state = 1;
-  state = state * 1664525u + 1013904223u;
-  return state / 2147483648.0 - 1;
-}
-
 // A hierarchy of the paper's shape: of n variables the last 12 are forces. 6
 // equalities; `limits` two-sided rows; 12 equalities and 16 inequalities; levels
 // of 6 equalities as many as wanted; posture; forces. The tighter the limits,
@@ -53,6 +46,13 @@ struct Problem {
     for (int i = 0; i < 12; ++i) forces.B(i, n - 12 + i) = 0.01;
   }
 
+  // Numbers in [-1, 1], the same each time.
+  double Number() {
+    state = state * 1664525u + 1013904223u;
+    return state / 2147483648.0 - 1;
+  }
+
+  unsigned state = 1;
   std::vector<LevelCapacity> capacity;
   Hierarchy hierarchy;
 };
