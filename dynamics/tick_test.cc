@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "dynamics/center_of_mass.h"
 #include "dynamics/centroidal.h"
@@ -48,6 +49,24 @@ TEST(Tick, HasTheMassMatrixToTheBit) {
     MatrixXd M(m.tree.nv(), m.tree.nv());
     ComputeCrba(m.tree, m.q, &scratch, M);
     return Compare(TickOf(m).M, M, 0);
+  }));
+}
+
+// Twice the mass everywhere: twice M and N to the bit, the same center of mass.
+TEST(Tick, OfAHeavierRobotIsHeavier) {
+  EXPECT_TRUE(HoldsForTrees("M, N, p_WG, scaled", [](const TreeMotion& m) {
+    const Tree heavy_tree = m.tree.WithScaledInertias(2);
+    const Tick tick = TickOf(m);
+    Tick heavy(heavy_tree, {});
+    ComputeTick(heavy_tree, m.q, m.v, &heavy);
+    MatrixXd ours(m.tree.nv(), m.tree.nv() + 2), expected = ours;
+    const VectorXd zero = VectorXd::Zero(m.tree.nv());
+    ours << heavy.M, heavy.N, zero;
+    expected << 2 * tick.M, 2 * tick.N, zero;
+    const int n = std::min(3, m.tree.nv());
+    ours.col(m.tree.nv() + 1).head(n) = heavy.p_WG.head(n);
+    expected.col(m.tree.nv() + 1).head(n) = tick.p_WG.head(n);
+    return Compare(ours, expected, 0);
   }));
 }
 

@@ -28,7 +28,11 @@ Tree Tree::WithScaledInertias(double factor) const {
     M.mass *= factor;
     M.I_G_B *= factor;
   }
+  for (int b = 0; b < num_bodies(); ++b) {
+    scaled.mass_moments_.Set(b, MakeMassMoments(scaled.inertias_[b]));
+  }
   for (Joint& joint : scaled.joints_) joint.armature *= factor;
+  for (double& armature : scaled.joint_maps_.armature) armature *= factor;
   scaled.total_mass_ *= factor;
   return scaled;
 }
