@@ -7,7 +7,7 @@
 #include "math/measure_accuracy.h"
 
 int main(int argc, char** argv) {
-  constexpr int kSamples = 1000;
+  constexpr int kSamples = 300;
   const char* workspace = std::getenv("BUILD_WORKSPACE_DIRECTORY");
   if (workspace == nullptr && argc < 2) {
     std::cerr << "usage: bazel run //math:accuracy, or accuracy FILE\n";
@@ -29,8 +29,8 @@ with what, and divided by which condition, is said in
 `//math:measure_accuracy_test`, with fewer arguments. The input of a logarithm
 is the exact rotation rounded to double, and its error includes that rounding.
 
-Where the maps switch from series to closed form, |w| = sqrt(2), and why, is
-derived in [math/stumpff.h](../math/stumpff.h).
+Where the maps switch from series to closed form, |w|² = 2.5, and why, is
+said in [math/stumpff.h](../math/stumpff.h).
 
 )";
   poise::WriteAccuracy(poise::MeasureAccuracy(kSamples), file);

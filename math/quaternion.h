@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
+
+#include "math/stumpff.h"
 
 namespace poise {
 
@@ -23,13 +26,27 @@ inline Eigen::Matrix3d MatrixFromQuaternion(
 /// The unit quaternion of the rotation by |w| about w, for any |w|:
 ///     [sin(|w|/2) w/|w|; cos(|w|/2)].
 /// Error as ExpSo3(). A NaN, an infinity or |w| > 1e154 gives NaN in all.
-Eigen::Quaterniond ExpQuaternion(const Eigen::Vector3d& w) noexcept;
+inline Eigen::Quaterniond ExpQuaternion(const Eigen::Vector3d& w) noexcept {
+  const Eigen::Vector3d half = 0.5 * w;
+  const Stumpff c = ComputeStumpff(half);
+  return {1 - c.c2 * half.squaredNorm(), c.c1 * half.x(), c.c1 * half.y(),
+          c.c1 * half.z()};
+}
 
 /// The rotation vector of norm at most π of q; q and -q have the same.
 ///
 /// q need not have norm 1 exactly: only its direction is used. Error as
 /// LogSo3(). A NaN or an infinity gives NaN in all.
-Eigen::Vector3d LogQuaternion(const Eigen::Quaterniond& q) noexcept;
+inline Eigen::Vector3d LogQuaternion(const Eigen::Quaterniond& q) noexcept {
+  const double sine = q.vec().norm();
+  const double cosine = std::abs(q.w());
+  // atan2(x, y) / x is good to the last digit for any x but 0: if the square
+  // of a tiny x was rounded, both x are the same.
+  const double scale =
+      2 * (sine == 0 ? 1 / cosine : std::atan2(sine, cosine) / sine) +
+      0 * (sine + cosine);  // Adds nothing, or NaN.
+  return (q.w() < 0 ? -scale : scale) * q.vec();
+}
 
 /// (w, x, y, z), the order of URDF tools, MuJoCo and most books. For borders.
 inline Eigen::Vector4d WxyzFromQuaternion(

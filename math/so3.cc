@@ -4,25 +4,7 @@
 #include <Eigen/SVD>
 #include <limits>
 
-#include "math/quaternion.h"
-#include "math/stumpff.h"
-
 namespace poise {
-
-Eigen::Matrix3d ExpSo3(const Eigen::Vector3d& w) noexcept {
-  const Stumpff c = ComputeStumpff(w);
-  const double x = w.x(), y = w.y(), z = w.z();
-  const double xy = c.c2 * x * y, xz = c.c2 * x * z, yz = c.c2 * y * z;
-  Eigen::Matrix3d R;
-  R << 1 - c.c2 * (y * y + z * z), xy - c.c1 * z, xz + c.c1 * y, xy + c.c1 * z,
-      1 - c.c2 * (x * x + z * z), yz - c.c1 * x, xz - c.c1 * y, yz + c.c1 * x,
-      1 - c.c2 * (x * x + y * y);
-  return R;
-}
-
-Eigen::Vector3d LogSo3(const Eigen::Matrix3d& R) noexcept {
-  return LogQuaternion(QuaternionFromMatrix(R));
-}
 
 Eigen::Matrix3d InterpolateSo3(const Eigen::Matrix3d& R_0,
                                const Eigen::Matrix3d& R_1, double t) noexcept {

@@ -3,6 +3,9 @@
 
 #include <Eigen/Core>
 
+#include "math/quaternion.h"
+#include "math/stumpff.h"
+
 namespace poise {
 
 // SO(3): R_AB, composed by R_AC = R_AB R_BC, inverted by transposition, acting
@@ -22,12 +25,21 @@ inline Eigen::Vector3d Vee(const Eigen::Matrix3d& W) noexcept {
 }
 
 /// The rotation by |w| about w, for any |w|:
-///     exp(Hat(w)) = I + c1 Hat(w) + c2 Hat(w)²,   with Stumpff's c1, c2.
+///     exp(Hat(w)) = I + sin θ / θ Hat(w) + (1 - cos θ) / θ² Hat(w)²,   θ = |w|.
 ///
 /// Error at most 4 eps max(1, |w|), in the norm of the result; that of the
 /// antisymmetric part also relative to |w|, down to 1e-300. See
 /// docs/accuracy.md. A NaN, an infinity or |w| > 1e154 gives NaN in all.
-Eigen::Matrix3d ExpSo3(const Eigen::Vector3d& w) noexcept;
+inline Eigen::Matrix3d ExpSo3(const Eigen::Vector3d& w) noexcept {
+  const Stumpff c = ComputeStumpff(w);
+  const double x = w.x(), y = w.y(), z = w.z();
+  const double xy = c.c2 * x * y, xz = c.c2 * x * z, yz = c.c2 * y * z;
+  Eigen::Matrix3d R;
+  R << 1 - c.c2 * (y * y + z * z), xy - c.c1 * z, xz + c.c1 * y, xy + c.c1 * z,
+      1 - c.c2 * (x * x + z * z), yz - c.c1 * x, xz - c.c1 * y, yz + c.c1 * x,
+      1 - c.c2 * (x * x + y * y);
+  return R;
+}
 
 /// The inverse of ExpSo3(): the rotation vector of R, of norm at most π. At π
 /// two are right, and this is one of them.
@@ -35,7 +47,9 @@ Eigen::Matrix3d ExpSo3(const Eigen::Vector3d& w) noexcept;
 /// pre: R is a rotation; one that is off by e gives a vector off by O(e).
 /// Error at most 4 eps |w|, for |w| from 1e-300 to π. A NaN or an infinity
 /// gives NaN in all.
-Eigen::Vector3d LogSo3(const Eigen::Matrix3d& R) noexcept;
+inline Eigen::Vector3d LogSo3(const Eigen::Matrix3d& R) noexcept {
+  return LogQuaternion(Eigen::Quaterniond(R));
+}
 
 /// The rotation at fraction t of the way from R_0 (t = 0) to R_1 (t = 1), at a
 /// constant angular velocity and along the shorter arc:

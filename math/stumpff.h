@@ -16,19 +16,61 @@ struct Stumpff {
   double dc1, dc2, dc3;
 };
 
-/// c1 to c6 by their series, for 0 <= s < 2.
+/// Where the ways to compute them change, of s = θ²; θ = 1.58.
+///
+/// Both ways must be good there. Above, c3 is (1 - c1) / s and dc3 (c2 - 3 c3)
+/// / s: an error e of c1 becomes e/s and 3 e/s², so s must not be below 1.
+/// Below, c1 is 1 - s c3, which loses nothing while s c3 < 1/2, that is s <
+/// 3.4. In between lies (π/2)² = 2.47, up to which the quaternion of a rotation
+/// by at most π asks for: it never needs a sine.
+constexpr double kStumpffSwitch = 2.5;
+
+/// c1 to c6 by their series, for 0 <= s < kStumpffSwitch.
 ///
 /// The series of c5 and c6 are summed, the others follow from cm = 1/m! - s
-/// c(m+2). The first term left out is at most 2e-16 of its sum.
+/// c(m+2). The first terms left out are at most 2e-17 of the sums.
 struct StumpffSeries {
   explicit StumpffSeries(double s) noexcept;
   double c1, c2, c3, c4, c5, c6;
 };
 
-/// The norm of w, as near + rest, and its square, right to the last digit: a
-/// relative error of an angle is, times the angle, one of its rotation. Found
-/// in long double (nothing else is); where that is no longer than double, the
-/// maps of angles near π err by 5 eps instead of 3. NaN where |w| > 1e154.
+/// Computes the Stumpff functions of s = |w|².
+///
+/// Below the switch by their series, and by the rule dcm = m c(m+2) - c(m+1);
+/// above, from sine and cosine, and by the rule dcm = (c(m-1) - m cm) / s.
+///
+/// A NaN, an infinity or |w| > 1e154 gives NaN in all. 40 flops below the
+/// switch. Inline, so that members which are not used cost nothing.
+///
+/// Source: Stumpff, Himmelsmechanik I, 1959, ch. V.
+inline Stumpff ComputeStumpff(const Eigen::Vector3d& w) noexcept {
+  const double s = w.squaredNorm();
+  if (s < kStumpffSwitch) {
+    const StumpffSeries c(s);
+    return {c.c1, c.c2, c.c3, c.c3 - c.c2, 2 * c.c4 - c.c3, 3 * c.c5 - c.c4};
+  }
+  const double angle = std::sqrt(s);
+  Stumpff c;
+  c.c1 = std::sin(angle) / angle;
+  c.c2 = (1 - std::cos(angle)) / s;
+  c.c3 = (1 - c.c1) / s;
+  c.dc1 = c.c3 - c.c2;
+  c.dc2 = (c.c1 - 2 * c.c2) / s;
+  c.dc3 = (c.c2 - 3 * c.c3) / s;
+  return c;
+}
+
+/// What the inverse Jacobians are made of: of s = θ²,
+///     e = θ/2 cot θ/2,   d = (1 - e) / s,
+/// and their derivatives de = 2 d/ds e and dd = 2 d/ds d.
+struct InverseStumpff {
+  double e, d, de, dd;
+};
+
+/// The norm of w, as near + rest, and its square, right to the last digit. The
+/// cotangent enlarges the angle's error, hence long double (nothing else is);
+/// where that is no longer than double, LogSe3() near π errs by 4 eps instead
+/// of 3. NaN where |w| > 1e154.
 struct AccurateAngle {
   explicit AccurateAngle(const Eigen::Vector3d& w) noexcept {
     const long double x = w.x(), y = w.y(), z = w.z();
@@ -42,53 +84,16 @@ struct AccurateAngle {
   double near, rest, square;
 };
 
-/// Computes the Stumpff functions of s = |w|².
-///
-/// Below s = 2 (θ = 1.41) by their series, and by the rule dcm = m c(m+2) -
-/// c(m+1); above, from sine and cosine, c3 = (1 - c1) / s, and the rule dcm =
-/// (c(m-1) - m cm) / s. The switch is where both ways are good: an error e of
-/// c1 becomes e/s in c3 and 3 e/s² in dc3, so s must not be below 1; of the
-/// series, c1 = 1 - s c3 loses nothing while s c3 < 1/2, that is s < 3.4.
-///
-/// A NaN, an infinity or |w| > 1e154 gives NaN in all. 40 flops below the
-/// switch. Inline, so that members which are not used cost nothing.
-///
-/// Source: Stumpff, Himmelsmechanik I, 1959, ch. V.
-inline Stumpff ComputeStumpff(const Eigen::Vector3d& w) noexcept {
-  const double s = w.squaredNorm();
-  if (s < 2) {
-    const StumpffSeries c(s);
-    return {c.c1, c.c2, c.c3, c.c3 - c.c2, 2 * c.c4 - c.c3, 3 * c.c5 - c.c4};
-  }
-  const AccurateAngle angle(w);
-  const double sine = std::sin(angle.near), cosine = std::cos(angle.near);
-  Stumpff c;
-  c.c1 = (sine + cosine * angle.rest) / angle.near;
-  c.c2 = (1 - (cosine - sine * angle.rest)) / angle.square;
-  c.c3 = (1 - c.c1) / angle.square;
-  c.dc1 = c.c3 - c.c2;
-  c.dc2 = (c.c1 - 2 * c.c2) / angle.square;
-  c.dc3 = (c.c2 - 3 * c.c3) / angle.square;
-  return c;
-}
-
-/// What the inverse Jacobians are made of: of s = θ²,
-///     e = θ/2 cot θ/2,   d = (1 - e) / s,
-/// and their derivatives de = 2 d/ds e and dd = 2 d/ds d.
-struct InverseStumpff {
-  double e, d, de, dd;
-};
-
 /// Computes InverseStumpff of s = |w|².
 ///
-/// Below s = 2 from Stumpff's functions, since e = c1 / (2 c2) and d = -c2' /
+/// Below the switch from Stumpff's functions, since e = c1 / (2 c2) and d = -c2' /
 /// (2 c2) with ' for 2 d/ds; above, where 1 - e is no longer small, from sine
 /// and cosine of θ/2. Singular where θ is a multiple of 2 π other than 0. A
 /// NaN, an infinity or |w| > 1e154 gives NaN in all.
 inline InverseStumpff ComputeInverseStumpff(const Eigen::Vector3d& w) noexcept {
   InverseStumpff inverse;
   const double s = w.squaredNorm();
-  if (s < 2) {
+  if (s < kStumpffSwitch) {
     const StumpffSeries c(s);
     const double dc2 = 2 * c.c4 - c.c3;
     const double ddc2 = c.c4 - 5 * c.c5 + 8 * c.c6;
@@ -119,14 +124,15 @@ inline StumpffSeries::StumpffSeries(double s) noexcept {
                                 s * (1 / 355687428096000.0 -
                                      s * (1 / 121645100408832000.0 -
                                           s / 51090942171709440000.0)))))));
-  c6 =
-      1 / 720.0 - s * (1 / 40320.0 -
-                       s * (1 / 3628800.0 -
-                            s * (1 / 479001600.0 -
-                                 s * (1 / 87178291200.0 -
-                                      s * (1 / 20922789888000.0 -
-                                           s * (1 / 6402373705728000.0 -
-                                                s / 2432902008176640000.0))))));
+  c6 = 1 / 720.0 -
+       s * (1 / 40320.0 -
+            s * (1 / 3628800.0 -
+                 s * (1 / 479001600.0 -
+                      s * (1 / 87178291200.0 -
+                           s * (1 / 20922789888000.0 -
+                                s * (1 / 6402373705728000.0 -
+                                     s * (1 / 2432902008176640000.0 -
+                                          s / 1124000727777607680000.0)))))));
   c4 = 1 / 24.0 - s * c6;
   c3 = 1 / 6.0 - s * c5;
   c2 = 0.5 - s * c4;

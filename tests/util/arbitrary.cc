@@ -49,7 +49,7 @@ rc::Gen<Eigen::Vector3d> Vectors() {
 
 rc::Gen<Eigen::Vector3d> RotationVectors(double bound) {
   const auto norms = rc::gen::oneOf(
-      rc::gen::element(0.0, 1e-300, 1e-160, 1e-8, 1e-4, 1.4142, 1.4143,
+      rc::gen::element(0.0, 1e-300, 1e-160, 1e-8, 1e-4, 1.5811, 1.5812,
                        M_PI - 1e-8, M_PI),
       rc::gen::map(rc::gen::inRange(0, 1001), [bound](int thousandths) {
         return bound * thousandths / 1000;

@@ -25,7 +25,7 @@ rc::Gen<Eigen::VectorXd> VectorsXd(int size, double bound);
 rc::Gen<Eigen::Vector3d> Vectors();
 
 /// A rotation vector of norm at most `bound`, often a nasty one: 0, of norm
-/// 1e-300, 1e-160, 1e-8, sqrt(2) +- a little, π - 1e-8, along an axis or not.
+/// 1e-300, 1e-160, 1e-8, sqrt(2.5) +- a little, π - 1e-8, along an axis or not.
 rc::Gen<Eigen::Vector3d> RotationVectors(double bound);
 
 /// ExpSo3() of RotationVectors(π), so of norm π as well.
