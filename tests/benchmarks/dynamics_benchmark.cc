@@ -1,0 +1,252 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// What the dynamics of the 50-joint humanoid cost, beside MuJoCo and KDL in the
+// same run; and how inverse dynamics grows with the number of bodies.
+//
+//     bazel run --config=native //tests/benchmarks:dynamics_benchmark --
+//         --benchmark_enable_random_interleaving --benchmark_repetitions=9
+//         --benchmark_report_aggregates_only
+//
+// Single core. For a ratio, compare medians of one run.
+
+#include <benchmark/benchmark.h>
+#include <mujoco/mujoco.h>
+
+#include <cstring>
+#include <kdl/treeidsolver_recursive_newton_euler.hpp>
+#include <memory>
+#include <random>
+#include <stdexcept>
+
+#include "dynamics/aba.h"
+#include "dynamics/crba.h"
+#include "dynamics/derivatives.h"
+#include "dynamics/rnea.h"
+#include "dynamics/tick.h"
+#include "robot/urdf.h"
+#include "sim/mujoco_model.h"
+#include "tests/util/kdl_tree.h"
+#include "tests/util/random_tree.h"
+#include "tests/util/simple_robots.h"
+
+namespace poise {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Another one each round, so that nothing is learned by heart.
+constexpr int kStates = 64;
+
+struct States {
+  explicit States(const Tree& tree) {
+    std::mt19937 draw(1);
+    for (int i = 0; i < kStates; ++i) {
+      q.push_back(MakeRandomConfiguration(tree, &draw));
+      v.push_back(MakeRandomVector(tree.nv(), &draw));
+    }
+  }
+  std::vector<VectorXd> q, v;
+};
+
+const Tree& Humanoid() {
+  static const Tree tree = LoadUrdf("robot/models/humanoid.urdf").tree;
+  return tree;
+}
+
+// Runs f(q, v) over the states of the humanoid.
+template <typename Function>
+void Run(benchmark::State& state, const Tree& tree, Function f) {
+  const States states(tree);
+  int i = 0;
+  for (auto _ : state) {
+    f(states.q[i], states.v[i]);
+    i = (i + 1) % kStates;
+  }
+}
+
+void BM_Tick(benchmark::State& state) {
+  const Tree& tree = Humanoid();
+  Tick tick(tree, {*tree.FindFrame("l_sole"), *tree.FindFrame("r_sole")});
+  Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
+    ComputeTick(tree, q, v, &tick);
+  });
+}
+BENCHMARK(BM_Tick);
+
+void BM_Bias(benchmark::State& state) {
+  const Tree& tree = Humanoid();
+  Recursion scratch(tree);
+  VectorXd N(tree.nv());
+  Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
+    ComputeBias(tree, q, v, &scratch, N);
+  });
+}
+BENCHMARK(BM_Bias);
+
+void BM_Rnea(benchmark::State& state) {
+  const Tree& tree = Humanoid();
+  Recursion scratch(tree);
+  VectorXd tau(tree.nv());
+  const std::vector<Vector6d> none;
+  Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
+    ComputeRnea(tree, q, v, v, none, &scratch, tau);
+  });
+}
+BENCHMARK(BM_Rnea);
+
+void BM_Crba(benchmark::State& state) {
+  const Tree& tree = Humanoid();
+  Recursion scratch(tree);
+  MatrixXd M(tree.nv(), tree.nv());
+  Run(state, tree, [&](const VectorXd& q, const VectorXd&) {
+    ComputeCrba(tree, q, &scratch, M);
+  });
+}
+BENCHMARK(BM_Crba);
+
+// The mass matrix, the Coriolis forces and the shift of their first rows.
+void BM_Cmm(benchmark::State& state) {
+  const Tree& tree = Humanoid();
+  Tick tick(tree, {});
+  Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
+    ComputeTick(tree, q, v, &tick);
+  });
+}
+BENCHMARK(BM_Cmm);
+
+void BM_Aba(benchmark::State& state) {
+  const Tree& tree = Humanoid();
+  AbaScratch scratch(tree);
+  VectorXd vdot(tree.nv());
+  const std::vector<Vector6d> none;
+  Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
+    benchmark::DoNotOptimize(ComputeAba(tree, q, v, v, none, &scratch, vdot));
+  });
+}
+BENCHMARK(BM_Aba);
+
+void BM_RneaDerivatives(benchmark::State& state) {
+  const Tree& tree = Humanoid();
+  RneaDerivatives out(tree);
+  Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
+    ComputeRneaDerivatives(tree, q, v, v, &out);
+  });
+}
+BENCHMARK(BM_RneaDerivatives);
+
+// Chains, stars and all between: time per body should not grow.
+void BM_RneaOfBodies(benchmark::State& state) {
+  std::mt19937 draw(1);
+  const Tree tree = MakeRandomTree(static_cast<int>(state.range(0)), &draw);
+  Recursion scratch(tree);
+  VectorXd tau(tree.nv());
+  const std::vector<Vector6d> none;
+  Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
+    ComputeRnea(tree, q, v, v, none, &scratch, tau);
+  });
+  state.SetComplexityN(state.range(0));
+}
+BENCHMARK(BM_RneaOfBodies)
+    ->RangeMultiplier(10)
+    ->Range(10, 1000)
+    ->Complexity(benchmark::oN);
+
+// MuJoCo's data of the humanoid.
+struct Mujoco {
+  Mujoco() {
+    const std::string xml =
+        MakeMujocoXml(MakeRobot(Humanoid()), PlantSettings(), {});
+    auto vfs = std::make_unique<mjVFS>();
+    mj_defaultVFS(vfs.get());
+    mj_makeEmptyFileVFS(vfs.get(), "robot.xml", static_cast<int>(xml.size()));
+    std::memcpy(vfs->filedata[0], xml.data(), xml.size());
+    char error[1000] = "";
+    model = mj_loadXML("robot.xml", vfs.get(), error, sizeof(error));
+    mj_deleteVFS(vfs.get());
+    if (model == nullptr) throw std::runtime_error(error);
+    data = mj_makeData(model);
+  }
+  ~Mujoco() {
+    mj_deleteData(data);
+    mj_deleteModel(model);
+  }
+
+  void Set(const VectorXd& q, const VectorXd& v) const {
+    std::memcpy(data->qpos, q.data(), sizeof(double) * model->nq);
+    std::memcpy(data->qvel, v.data(), sizeof(double) * model->nv);
+    std::swap(data->qpos[3], data->qpos[6]);  // Some unit quaternion.
+  }
+
+  mjModel* model;
+  mjData* data;
+};
+
+// As BM_Tick, less H_G, its bias and J̇v.
+void BM_MujocoTick(benchmark::State& state) {
+  const Mujoco mujoco;
+  const mjModel* m = mujoco.model;
+  mjData* d = mujoco.data;
+  const Tree& tree = Humanoid();
+  const int feet[] = {tree.frames()[*tree.FindFrame("l_sole")].body + 1,
+                      tree.frames()[*tree.FindFrame("r_sole")].body + 1};
+  std::vector<double> M(m->nv * m->nv), N(m->nv), J(12 * m->nv);
+  Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
+    mujoco.Set(q, v);
+    mj_kinematics(m, d);
+    mj_comPos(m, d);
+    mj_crb(m, d);
+    mj_fullM(m, M.data(), d->qM);
+    mj_comVel(m, d);
+    mj_rne(m, d, 0, N.data());
+    for (int k = 0; k < 2; ++k) {
+      mj_jacBody(m, d, &J[6 * k * m->nv], &J[(6 * k + 3) * m->nv], feet[k]);
+    }
+  });
+}
+BENCHMARK(BM_MujocoTick);
+
+void BM_MujocoBias(benchmark::State& state) {
+  const Mujoco mujoco;
+  const mjModel* m = mujoco.model;
+  mjData* d = mujoco.data;
+  std::vector<double> N(m->nv);
+  Run(state, Humanoid(), [&](const VectorXd& q, const VectorXd& v) {
+    mujoco.Set(q, v);
+    mj_kinematics(m, d);
+    mj_comPos(m, d);
+    mj_comVel(m, d);
+    mj_rne(m, d, 0, N.data());
+  });
+}
+BENCHMARK(BM_MujocoBias);
+
+void BM_MujocoMassMatrix(benchmark::State& state) {
+  const Mujoco mujoco;
+  const mjModel* m = mujoco.model;
+  mjData* d = mujoco.data;
+  std::vector<double> M(m->nv * m->nv);
+  Run(state, Humanoid(), [&](const VectorXd& q, const VectorXd& v) {
+    mujoco.Set(q, v);
+    mj_kinematics(m, d);
+    mj_comPos(m, d);
+    mj_crb(m, d);
+    mj_fullM(m, M.data(), d->qM);
+  });
+}
+BENCHMARK(BM_MujocoMassMatrix);
+
+void BM_KdlRnea(benchmark::State& state) {
+  const Tree& tree = Humanoid();
+  const KDL::Tree kdl = MakeKdlTree(tree);
+  KDL::TreeIdSolver_RNE solver(kdl, KDL::Vector(0, 0, -9.81));
+  KDL::JntArray q_kdl(tree.nv()), v_kdl(tree.nv()), tau(tree.nv());
+  Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
+    q_kdl.data = q.tail(tree.nv());
+    v_kdl.data = v;
+    solver.CartToJnt(q_kdl, v_kdl, v_kdl, {}, tau);
+  });
+}
+BENCHMARK(BM_KdlRnea);
+
+}  // namespace
+}  // namespace poise
