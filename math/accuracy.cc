@@ -7,7 +7,7 @@
 #include "math/measure_accuracy.h"
 
 int main(int argc, char** argv) {
-  constexpr int kSamples = 300;
+  constexpr int kSamples = 50;
   const char* workspace = std::getenv("BUILD_WORKSPACE_DIRECTORY");
   if (workspace == nullptr && argc < 2) {
     std::cerr << "usage: bazel run //math:accuracy, or accuracy FILE\n";
