@@ -27,7 +27,10 @@ Eigen::Matrix<double, 6, 1> BaseAcceleration(const Eigen::Vector3d& w_W,
 
 BulletPlant::BulletPlant(const Robot& robot, const PlantSettings& settings,
                          const BulletSettings& bullet)
-    : robot_(robot), settings_(settings), bullet_(bullet) {
+    : robot_(robot),
+      settings_(settings),
+      bullet_(bullet),
+      drag_(robot, settings.dt) {
   Validate(settings);
   const Tree& tree = robot_.model.tree;
   state_.q.resize(tree.nq());
@@ -81,6 +84,10 @@ void BulletPlant::Step(const Eigen::VectorXd& tau) {
     const double limit = settings_.torque_scale * robot_.model.limits[j].effort;
     state_.tau[j] = std::clamp(tau[j], -limit, limit);
     body.addJointTorque(j, state_.tau[j]);
+  }
+  if (settings_.joint_damping && drag_.exists()) {
+    const Eigen::VectorXd& drag = drag_.Compute(state_, state_.tau);
+    for (int j = 0; j < drag.size(); ++j) body.addJointTorque(j, drag[j]);
   }
   const btVector3 w_W = body.getBaseOmega();
   const btVector3 v_L_W = body.getBaseVel();

@@ -7,6 +7,7 @@
 #include "robot/robot.h"
 #include "sim/bullet_settings.h"
 #include "sim/bullet_world.h"
+#include "sim/joint_drag.h"
 #include "sim/plant.h"
 #include "sim/plant_settings.h"
 
@@ -39,6 +40,7 @@ class BulletPlant final : public Plant {
   Robot robot_;
   PlantSettings settings_;
   BulletSettings bullet_;
+  JointDrag drag_;
   PlantState state_;
   std::vector<Pose> X_WC_;  // Of each foot when the last step began.
   int steps_ = 0;

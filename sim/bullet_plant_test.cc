@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -228,6 +229,45 @@ TEST(BulletPlant, LetsJointsPassTheirLimitsIfTold) {
   BulletPlant plant(robot, settings);
   for (int k = 0; k < 2000; ++k) plant.Step(Eigen::VectorXd::Constant(1, 8));
   EXPECT_GT(plant.Sense().q[0], 1);
+}
+
+// w' = -d w / I on a hinge, I = 0.19, here without gravity's moment at rest.
+TEST(BulletPlant, DampsJointsHoweverLight) {
+  Robot robot = MakePendulum();
+  // Explicitly, 1 ms would multiply the speed by 1 - 1000 * 1e-3 / 0.19 = -4.
+  robot.model.limits[0].damping = 1000;
+  BulletPlant plant(robot);
+  plant.Reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
+  double last = 1;
+  for (int k = 0; k < 5; ++k) {
+    plant.Step(Eigen::VectorXd::Zero(1));
+    // Implicit Euler: by 1 / (1 + d dt / I) a step.
+    EXPECT_NEAR(plant.Sense().v[0], last / (1 + 1 / 0.19), 1e-4);
+    last = plant.Sense().v[0];
+  }
+  robot.model.limits[0].damping = 0.19;
+  BulletPlant slow(robot);
+  slow.Reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
+  for (int k = 0; k < 100; ++k) slow.Step(Eigen::VectorXd::Zero(1));
+  // exp(-d t / I), and gravity's pull back, w0^2 q / 2 with w0^2 = 31 / s^2.
+  EXPECT_NEAR(slow.Sense().v[0], std::exp(-0.1) * std::cos(0.557), 2e-2);
+  PlantSettings undamped;
+  undamped.joint_damping = false;
+  BulletPlant free(robot, undamped);
+  free.Reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
+  for (int k = 0; k < 100; ++k) free.Step(Eigen::VectorXd::Zero(1));
+  EXPECT_NEAR(free.Sense().v[0], std::cos(0.557), 2e-2);
+}
+
+TEST(BulletPlant, HoldsJointsByDryFrictionUpToItsForce) {
+  Robot robot = MakePendulum();
+  robot.model.limits[0].friction = 1;
+  BulletPlant plant(robot);
+  plant.Reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1));
+  for (int k = 0; k < 1000; ++k) plant.Step(Eigen::VectorXd::Constant(1, 0.9));
+  EXPECT_LT(plant.Sense().q[0], 2e-4);  // It creeps at 0.9e-4 rad/s.
+  for (int k = 0; k < 1000; ++k) plant.Step(Eigen::VectorXd::Constant(1, 1.5));
+  EXPECT_GT(plant.Sense().q[0], 0.05);
 }
 
 TEST(BulletPlant, RefusesArmature) {

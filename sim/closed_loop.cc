@@ -14,8 +14,6 @@ namespace poise {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // Seeds of the streams of one scenario, far enough apart.
 constexpr unsigned kSensorSeed = 0x5eed;
 
@@ -84,6 +82,7 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
       sensors_(robot, scenario.sensors, scenario.seed ^ kSensorSeed),
       observer_(robot, scenario.plant.ground),
       pushes_(Aim(scenario.pushes, robot)),
+      down_(robot.feet.size(), true),
       steps_per_tick_(static_cast<int>(
           std::lround(scenario.control.dt / scenario.plant.dt))),
       delay_steps_(static_cast<int>(
@@ -103,25 +102,55 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
     state_ = ToState(sensors_.measurement());
   }
   com_start_ = controller_->reference().p_WG;
+  com_path_ = {scenario.com, com_start_};
+  for (const StanceEvent& event : scenario.stance) {
+    if (!event.foot.empty()) FindFoot(event.foot);
+  }
   command_.tau.setZero(robot.model.tree.num_joints());
   start_ = plant_->Sense();
   during_ = start_;
 }
 
-void ClosedLoop::MoveReference() {
-  const ComMotion& com = scenario_.com;
-  const double w = 2 * kPi / com.period, t = time();
-  const double s = std::sin(w * t), c = std::cos(w * t);
-  Reference& reference = controller_->reference();
-  reference.p_WG = com_start_ + s * com.sine + c * com.cosine;
-  reference.v_WG = w * (c * com.sine - s * com.cosine);
-  reference.a_WG = -w * w * (s * com.sine + c * com.cosine);
+int ClosedLoop::FindFoot(const std::string& name) const {
+  for (size_t i = 0; i < robot_.feet.size(); ++i) {
+    if (robot_.feet[i].name == name) return static_cast<int>(i);
+  }
+  throw std::invalid_argument("stance: foot '" + name +
+                              "' is unknown, must be a foot of robot '" +
+                              robot_.model.name + "'");
+}
+
+void ClosedLoop::MoveFeet() {
+  const std::vector<StanceEvent>& events = scenario_.stance;
+  for (; next_event_ < events.size(); ++next_event_) {
+    const StanceEvent& event = events[next_event_];
+    // Half a step early, so that rounding does not delay it by a tick.
+    if (event.at > time() + plant_->dt() / 2) break;
+    switch (event.kind) {
+      case StanceEvent::Kind::kLift:
+        controller_->stance().Lift(FindFoot(event.foot), event.height);
+        break;
+      case StanceEvent::Kind::kPutDown:
+        controller_->stance().PutDown(FindFoot(event.foot));
+        break;
+      case StanceEvent::Kind::kShift:
+        Eigen::Vector3d place = com_start_;
+        if (!event.foot.empty()) {
+          place.head<2>() = observer_.observation()
+                                .feet[FindFoot(event.foot)]
+                                .X_WC.p.head<2>();
+        }
+        com_path_.ShiftTo(place, event.at, event.over);
+        break;
+    }
+  }
 }
 
 void ClosedLoop::Tick() {
   using Clock = std::chrono::steady_clock;
   start_ = plant_->Sense();
-  MoveReference();
+  MoveFeet();
+  com_path_.Write(time(), &controller_->reference());
   const Measurement& measurement = sensors_.Measure(start_);
   if (estimator_ == nullptr) state_ = ToState(measurement);
   const auto before = Clock::now();
@@ -129,7 +158,10 @@ void ClosedLoop::Tick() {
   controller_->Update(state_, &command_);
   microseconds_ =
       std::chrono::duration<double, std::micro>(Clock::now() - before).count();
-  observer_.ObserveState(start_, {}, controller_->reference().p_WG);
+  for (size_t i = 0; i < down_.size(); ++i) {
+    down_[i] = controller_->stance().is_meant_down(static_cast<int>(i));
+  }
+  observer_.ObserveState(start_, down_, controller_->reference().p_WG);
   StepPlant();
   observer_.ObserveForces(during_.F_Co_C);
   ++ticks_;

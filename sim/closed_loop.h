@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <deque>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "robot/control/command.h"
@@ -11,6 +12,7 @@
 #include "robot/control/estimator.h"
 #include "robot/control/measurement.h"
 #include "robot/robot.h"
+#include "sim/center_of_mass_path.h"
 #include "sim/observation.h"
 #include "sim/plant.h"
 #include "sim/push.h"
@@ -45,7 +47,8 @@ class ClosedLoop {
   const Plant& plant() const { return *plant_; }
 
  private:
-  void MoveReference();
+  int FindFoot(const std::string& name) const;
+  void MoveFeet();
   void StepPlant();
 
   Robot robot_;
@@ -56,6 +59,7 @@ class ClosedLoop {
   std::unique_ptr<Estimator> estimator_;  // If the scenario wants one.
   Observer observer_;
   std::vector<PushOnRobot> pushes_;
+  std::vector<bool> down_;  // By foot: it is meant to be.
   int steps_per_tick_;
   int delay_steps_;
 
@@ -64,7 +68,9 @@ class ClosedLoop {
   Command command_;                      // The newest.
   std::deque<Eigen::VectorXd> torques_;  // By step of the plant, to come.
   Eigen::Vector3d com_start_;
-  PlantState during_;  // The end of the tick; what acted is its mean.
+  CenterOfMassPath com_path_;
+  size_t next_event_ = 0;  // Of the scenario's stance.
+  PlantState during_;      // The end of the tick; what acted is its mean.
   Eigen::Vector3d push_force_W_ = Eigen::Vector3d::Zero();
   long ticks_ = 0;
   double microseconds_ = 0;

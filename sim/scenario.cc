@@ -57,6 +57,31 @@ ComMotion ReadCom(YamlFields fields) {
   return com;
 }
 
+StanceEvent ReadStanceEvent(YamlFields fields) {
+  StanceEvent event;
+  event.at = fields.Number("at", event.at);
+  const std::string lift = fields.Text("lift", "");
+  const std::string put_down = fields.Text("put_down", "");
+  const std::string shift = fields.Text("shift", "");
+  event.height = fields.Number("height", event.height);
+  event.over = fields.Number("over", event.over);
+  fields.Finish();
+  if (event.over <= 0) fields.Refuse("over", "must be positive");
+  if (event.height <= 0) fields.Refuse("height", "must be positive");
+  if (!lift.empty()) {
+    event.kind = StanceEvent::Kind::kLift;
+    event.foot = lift;
+  } else if (!put_down.empty()) {
+    event.kind = StanceEvent::Kind::kPutDown;
+    event.foot = put_down;
+  } else if (!shift.empty()) {
+    event.foot = shift == "middle" ? "" : shift;
+  } else {
+    fields.Refuse("at", "must go with lift, put_down or shift");
+  }
+  return event;
+}
+
 void ReadTasks(YamlFields fields, ControlSettings* control) {
   control->tasks = fields.Text("set", control->tasks);
   control->with = fields.Words("with");
@@ -167,6 +192,9 @@ Scenario LoadScenario(const std::filesystem::path& file) {
   scenario.seed = static_cast<unsigned>(fields.Number("seed", scenario.seed));
   if (auto start = fields.Map("start")) scenario.start = ReadStart(*start);
   scenario.pushes = ReadPushes(&fields);
+  for (const YamlFields& event : fields.Maps("stance")) {
+    scenario.stance.push_back(ReadStanceEvent(event));
+  }
   if (auto com = fields.Map("com")) scenario.com = ReadCom(*com);
   if (auto tasks = fields.Map("tasks")) ReadTasks(*tasks, &scenario.control);
   if (auto control = fields.Map("control")) {

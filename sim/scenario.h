@@ -29,6 +29,18 @@ struct ComMotion {
   double period = 10;                                ///< s.
 };
 
+/// What the feet do, from a time on. A foot is lifted or put down; or the
+/// desired center of mass goes over a foot, or back between the feet.
+struct StanceEvent {
+  enum class Kind { kLift, kPutDown, kShift };
+
+  Kind kind = Kind::kShift;
+  double at = 0;         ///< s.
+  std::string foot;      ///< By name; empty: between the feet, as it began.
+  double height = 0.05;  ///< To lift a foot by, m.
+  double over = 1.5;     ///< How long a shift takes, s.
+};
+
 /// What the controller is told, beside its robot.
 struct ControlSettings {
   double dt = 1e-3;          ///< s.
@@ -60,6 +72,10 @@ struct ControlSettings {
 ///         profile: box           # or half_sine, impulse
 ///         at: 1
 ///         duration: 0.15
+///     stance:                    # none; events in the order of time
+///       - {at: 1, shift: left_foot, over: 1.5}  # or middle
+///       - {at: 3, lift: right_foot, height: 0.05}
+///       - {at: 9, put_down: right_foot}
 ///     com: {sine: [0, 0, 0], cosine: [0, 0, 0], period: 10}
 ///     tasks: {set: default, with: [], without: []}
 ///     control: {rate: 1000, delay: 0, friction: 0.5, mass_error: 0,
@@ -76,6 +92,7 @@ struct Scenario {
   unsigned seed = 1;
   StartSettings start;
   std::vector<Push> pushes;
+  std::vector<StanceEvent> stance;
   ComMotion com;
   ControlSettings control;
   PlantKind plant_kind = PlantKind::kBullet;

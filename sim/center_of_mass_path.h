@@ -1,0 +1,35 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "robot/control/reference.h"
+#include "sim/scenario.h"
+
+namespace poise {
+
+/// Where the desired center of mass is: a place that it shifts to smoothly, as
+/// told, and a sinusoid about it.
+class CenterOfMassPath {
+ public:
+  CenterOfMassPath() = default;
+  CenterOfMassPath(const ComMotion& motion, const Eigen::Vector3d& start)
+      : motion_(motion), from_(start), to_(start) {}
+
+  /// From where it now is, or is going, to a place, in `over` seconds from
+  /// `time` on: with no jerk in the middle, and none of its first two
+  /// derivatives at the ends.
+  void ShiftTo(const Eigen::Vector3d& place, double time, double over);
+
+  /// Writes p_WG, v_WG and a_WG.
+  void Write(double time, Reference* reference) const;
+
+ private:
+  ComMotion motion_;
+  Eigen::Vector3d from_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d to_ = Eigen::Vector3d::Zero();
+  double start_ = 0;
+  double over_ = 1;
+};
+
+}  // namespace poise
