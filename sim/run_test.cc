@@ -11,6 +11,7 @@
 
 #include "robot/profile.h"
 #include "sim/closed_loop.h"
+#include "sim/judge.h"
 #include "sim/summary.h"
 
 namespace poise {
@@ -126,6 +127,23 @@ TEST(Paper, ArmsDriftWithoutPostureAndComeBackWithIt) {
   };
   EXPECT_LT(drift(true), 0.02);
   EXPECT_GT(drift(false), 0.2);
+}
+
+TEST(OneLeg, StandsOnOneFootIsPushedThereAndPutsTheOtherDown) {
+  ClosedLoop loop(Humanoid(), Ours("one_leg", 14));
+  Judge judge(Humanoid().q_nominal.z());
+  double in_the_air = 0;
+  while (loop.time() < 13.9995) {
+    loop.Tick();
+    judge.Look(loop.observation());
+    const FootObservation& right = loop.observation().feet[1];
+    if (right.down) continue;
+    if (right.F_Co_C[5] == 0) in_the_air += 1e-3;
+  }
+  EXPECT_TRUE(judge.Conclude().recovered);
+  EXPECT_GT(in_the_air, 5);
+  EXPECT_TRUE(loop.observation().feet[1].down);
+  EXPECT_GT(loop.observation().feet[1].F_Co_C[5], 150);  // 379 N on two feet.
 }
 
 TEST(Standing, MeasuredWrenchIsTheCommandedOne) {

@@ -33,8 +33,9 @@ std::string Complaint(const std::string& text) {
 }
 
 TEST(Scenario, OursAreReadByName) {
-  for (const char* name : {"stand", "posture_off", "com_sinusoid", "weak_push",
-                           "strong_push_without_zmp", "strong_push"}) {
+  for (const char* name :
+       {"stand", "posture_off", "com_sinusoid", "weak_push",
+        "strong_push_without_zmp", "strong_push", "one_leg"}) {
     SCOPED_TRACE(name);
     EXPECT_EQ(LoadScenario("sim/scenarios/" + std::string(name) + ".yaml").name,
               name);
@@ -51,6 +52,11 @@ pushes:
   - {link: torso, point: [1, 2, 3], frame: link, force: [4, 5, 6],
      moment: [7, 8, 9], profile: half_sine, at: 2, duration: 0.3}
   - {profile: impulse}
+stance:
+  - {at: 1, shift: left_foot, over: 2}
+  - {at: 3, lift: right_foot, height: 0.1}
+  - {at: 4, put_down: right_foot}
+  - {at: 5, shift: middle}
 com: {sine: [1, 2, 3], cosine: [4, 5, 6], period: 4}
 tasks: {set: paper, with: [zmp], without: [cop, yaw]}
 control: {rate: 500, delay: 0.002, friction: 0.4, mass_error: -0.1,
@@ -81,6 +87,17 @@ sensors: {noise: 1, joint_position: 1.1, joint_velocity: 1.2,
   EXPECT_EQ(s.pushes[0].duration, 0.3);
   EXPECT_EQ(s.pushes[1].profile, PushProfile::kImpulse);
   EXPECT_FALSE(s.pushes[1].point);
+  ASSERT_EQ(s.stance.size(), 4u);
+  EXPECT_EQ(s.stance[0].kind, StanceEvent::Kind::kShift);
+  EXPECT_EQ(s.stance[0].at, 1);
+  EXPECT_EQ(s.stance[0].foot, "left_foot");
+  EXPECT_EQ(s.stance[0].over, 2);
+  EXPECT_EQ(s.stance[1].kind, StanceEvent::Kind::kLift);
+  EXPECT_EQ(s.stance[1].foot, "right_foot");
+  EXPECT_EQ(s.stance[1].height, 0.1);
+  EXPECT_EQ(s.stance[2].kind, StanceEvent::Kind::kPutDown);
+  EXPECT_EQ(s.stance[2].foot, "right_foot");
+  EXPECT_EQ(s.stance[3].foot, "");
   EXPECT_EQ(s.com.sine, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(s.com.cosine, Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(s.com.period, 4);
@@ -143,6 +160,13 @@ TEST(Scenario, BadValueIsRefusedWithItsLine) {
   EXPECT_EQ(Complaint("start: 3\n"),
             "trial.yaml:1: 'start' is '3', must be a map");
   EXPECT_EQ(Complaint("- 3\n"), "trial.yaml:1: is a list, must be a map");
+}
+
+TEST(Scenario, StanceEventMustSayWhatHappens) {
+  EXPECT_EQ(Complaint("stance:\n  - {at: 3}\n"),
+            "trial.yaml:2: 'at' is '3', must go with lift, put_down or shift");
+  EXPECT_NE(Complaint("stance: [{at: 3, shift: middle, over: 0}]\n"), "none");
+  EXPECT_NE(Complaint("stance: [{at: 3, lift: a, height: -1}]\n"), "none");
 }
 
 TEST(Scenario, BadNumbersAreRefused) {

@@ -1,0 +1,81 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "robot/profile.h"
+#include "sim/closed_loop.h"
+#include "sim/judge.h"
+
+namespace poise {
+namespace {
+
+constexpr double kMinutes = 10;
+constexpr double kBetweenPushes = 3;  // s.
+
+// Pages that this process has in memory.
+long ResidentPages() {
+  long total = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> total >> resident;
+  return resident;
+}
+
+// Random pushes, every three seconds, up to a third of what the pendulum takes.
+std::vector<Push> MakePushes() {
+  std::vector<Push> pushes;
+  RandomStream random(1);
+  for (double at = 1; at < 60 * kMinutes - kBetweenPushes;
+       at += kBetweenPushes) {
+    const double angle = 2 * M_PI * random.Uniform();
+    const double force = 50 * random.Uniform();
+    Push push;
+    push.start = at;
+    push.duration = 0.05 + 0.1 * random.Uniform();
+    push.force = {force * std::cos(angle), force * std::sin(angle), 0};
+    push.profile =
+        random.Uniform() < 0.5 ? PushProfile::kBox : PushProfile::kHalfSine;
+    pushes.push_back(push);
+  }
+  return pushes;
+}
+
+TEST(Soak, TenMinutesOfRandomPushesLeaveTheRobotAsItWas) {
+  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
+                                LoadProfile("robot/profiles/humanoid.yaml"));
+  Scenario scenario = LoadScenario("sim/scenarios/stand.yaml");
+  scenario.duration = 60 * kMinutes;
+  scenario.pushes = MakePushes();
+  ClosedLoop loop(robot, scenario);
+  Judge judge(robot.q_nominal.z());
+  long pages = 0;
+  int not_solved = 0;
+  while (loop.time() < scenario.duration && !judge.is_down()) {
+    loop.Tick();
+    judge.Look(loop.observation());
+    const TickStatus status = loop.record().report.status;
+    not_solved +=
+        status == TickStatus::kTruncated || status == TickStatus::kFailSafe;
+    // By then everything has grown to its size.
+    if (pages == 0 && loop.time() > 60) pages = ResidentPages();
+  }
+  const Verdict verdict = judge.Conclude();
+  EXPECT_TRUE(verdict.recovered) << "at " << verdict.fell_at.value_or(-1);
+  EXPECT_LT(verdict.com_error_final.norm(), 1e-3);
+  EXPECT_EQ(not_solved, 0);
+  EXPECT_LT(ResidentPages() - pages, 256);  // 1 MiB.
+  EXPECT_LT((loop.plant().Sense().q - robot.q_nominal)
+                .tail(robot.model.tree.num_joints())
+                .cwiseAbs()
+                .maxCoeff(),
+            0.05);
+  RecordProperty("foot_slide_mm",
+                 std::to_string(1e3 * verdict.foot_slide_peak));
+  RecordProperty("com_error_peak_mm",
+                 std::to_string(1e3 * verdict.com_error_peak.norm()));
+}
+
+}  // namespace
+}  // namespace poise
