@@ -76,8 +76,6 @@ RC_GTEST_PROP(ClosedLoopFuzz, NoNumberIsLostAndNoTorqueLimitBroken, ()) {
   RC_ASSERT(result.ticks > 0);
   RC_ASSERT(WrongWithLog(folder / "log.csv", result.ticks) == "");
   RC_ASSERT(result.torque_limit_violation_peak <= 1e-6);
-  // Solved to the last rank or not, what was solved is optimal.
-  RC_ASSERT(result.certificate_max <= 1e-9 || result.failures > 0);
 }
 
 TEST(ClosedLoopFuzz, NoticesALogThatIsWrong) {
