@@ -106,12 +106,13 @@ PushMapFiles::PushMapFiles(const fs::path& folder, const std::string& settings,
   Replace(settings_file, text);
   const fs::path map = folder / "map.csv", trials = folder / "trials.csv";
   for (const auto& cells : Rows(map, kMapHeader)) {
-    found_[PointOf(cells, 7, map)] = {
-        Number(cells[3], map), Number(cells[4], map), Number(cells[5], map)};
+    const PushMapPoint point = PointOf(cells, 7, map);  // Counts the cells.
+    found_[point] = {Number(cells[3], map), Number(cells[4], map),
+                     Number(cells[5], map)};
   }
   for (const auto& cells : Rows(trials, kTrialsHeader)) {
-    tried_[PointOf(cells, 5, trials)][Number(cells[3], trials)] =
-        cells[4] == "1";
+    const PushMapPoint point = PointOf(cells, 5, trials);
+    tried_[point][Number(cells[3], trials)] = cells[4] == "1";
   }
   WriteMap();
   WriteTrials();
