@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -32,6 +33,16 @@ Shard ParseShard(const std::string& text) {
   }
   throw std::invalid_argument("--shard is '" + text +
                               "', must be I/N with 1 <= I <= N");
+}
+
+// CLI's own PositiveNumber lets infinity through, and spells its range out.
+std::string Positive(const std::string& text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, value);
+  const bool positive = read.ec == std::errc() && read.ptr == end &&
+                        std::isfinite(value) && value > 0;
+  return positive ? "" : "'" + text + "' must be a positive number";
 }
 
 // Every point, in the order of the map; then those of this shard.
@@ -100,12 +111,12 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv, std::string* help) {
   app.add_option("--durations", durations, "of the push, S,... in s")
       ->delimiter(',')
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(Positive);
   app.add_option("--with", with, "tasks to switch on")->delimiter(',');
   app.add_option("--without", without, "tasks to switch off")->delimiter(',');
   app.add_option("--step", step, "of impulses, N s")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(Positive);
   app.add_option("--shard", shard_text,
                  "I/N: every N-th point, beginning with the I-th");
   app.add_option("--jobs", threads, "pushes at once (all cores)")
