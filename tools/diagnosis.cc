@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <exception>
 #include <iomanip>
 #include <nlohmann/json.hpp>
@@ -66,7 +67,7 @@ class Doctor {
     } catch (const std::exception& error) {
       // What LoadUrdf() found it has told already.
       if (diagnosis_.worst() != Severity::kReject) {
-        Add(Severity::kReject, "", OneLine(error.what()), "");
+        diagnosis_.findings.push_back(Rejection(error.what()));
       }
     }
     std::stable_sort(diagnosis_.findings.begin(), diagnosis_.findings.end(),
@@ -83,11 +84,17 @@ class Doctor {
         {severity, std::move(where), std::move(what), std::move(why), 0});
   }
 
-  // A message without the file's name, which the reader knows.
-  std::string OneLine(const std::string& message) const {
+  // "FILE: what" or "FILE:LINE: what", without the file.
+  Finding Rejection(const std::string& message) const {
     const std::string file = urdf_.string() + ":";
-    const bool names_file = message.compare(0, file.size(), file) == 0;
-    return message.substr(names_file ? file.size() + 1 : 0);
+    if (message.compare(0, file.size(), file) != 0) {
+      return {Severity::kReject, "", message, "", 0};
+    }
+    const size_t colon = message.find(':', file.size());
+    const bool has_line = message[file.size()] != ' ' && colon < message.size();
+    const size_t start = (has_line ? colon + 1 : file.size()) + 1;
+    const int line = has_line ? std::atoi(&message[file.size()]) : 0;
+    return {Severity::kReject, "", message.substr(start), "", line};
   }
 
   void Describe(const RobotModel& model) {
@@ -185,7 +192,7 @@ class Doctor {
         return;
       }
     } catch (const std::invalid_argument& error) {
-      reason = OneLine(error.what());
+      reason = Rejection(error.what()).what;
     }
     Add(Severity::kNote, "robot", "does not stand", reason);
   }
@@ -222,7 +229,7 @@ class Doctor {
       diagnosis_.parity = CompareWithBullet(robot).worst();
     } catch (const std::invalid_argument& error) {
       Add(Severity::kNote, "robot", "was not compared with Bullet",
-          OneLine(error.what()));
+          Rejection(error.what()).what);
       return;
     }
     if (*diagnosis_.parity <= kParity) return;

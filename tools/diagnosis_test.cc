@@ -92,6 +92,14 @@ TEST(Diagnose, RejectsWithTheReason) {
   EXPECT_EQ(Verdict(Diagnose("no/such.urdf")), "reject");
 }
 
+TEST(Diagnose, NamesTheLineOfWhatIsNoXml) {
+  const Diagnosis diagnosis = Examine("<robot>\n<!DOCTYPE a></robot>");
+  ASSERT_EQ(Verdict(diagnosis), "reject");
+  EXPECT_EQ(diagnosis.findings[0].line, 2);
+  EXPECT_EQ(diagnosis.findings[0].what,
+            "has a document type or entity declaration, must have none");
+}
+
 TEST(Diagnose, LeavesLargeRobotsUncomputed) {
   const Diagnosis diagnosis =
       Examine(Chain(std::vector<std::string>(602, kInertial),
