@@ -33,14 +33,28 @@ std::pair<double, double> ExtentAt(const std::vector<Vector2d>& polygon,
   return {low, high};
 }
 
-// Where a function with a single peak has it.
+// Where a function with a single peak has it, by golden section: of the two
+// points inside, one serves the next step too.
 template <typename Function>
 double ArgMax(double low, double high, const Function& f) {
-  constexpr int kSteps = 100;  // (2/3)^100 is below rounding.
+  const double golden = (std::sqrt(5.0) - 1) / 2;
+  constexpr int kSteps = 80;  // golden^80 is below rounding.
+  double a = high - golden * (high - low), b = low + golden * (high - low);
+  double f_a = f(a), f_b = f(b);
   for (int i = 0; i < kSteps; ++i) {
-    const double a = low + (high - low) / 3;
-    const double b = high - (high - low) / 3;
-    (f(a) < f(b) ? low : high) = f(a) < f(b) ? a : b;
+    if (f_a < f_b) {
+      low = a;
+      a = b;
+      f_a = f_b;
+      b = low + golden * (high - low);
+      f_b = f(b);
+    } else {
+      high = b;
+      b = a;
+      f_b = f_a;
+      a = high - golden * (high - low);
+      f_a = f(a);
+    }
   }
   return 0.5 * (low + high);
 }

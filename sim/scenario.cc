@@ -2,6 +2,7 @@
 #include "sim/scenario.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sim/yaml_fields.h"
@@ -94,6 +95,15 @@ double ReadStep(YamlFields* fields, double otherwise) {
   const double rate = fields->Number("rate", 1 / otherwise);
   if (rate <= 0) fields->Refuse("rate", "must be positive");
   return 1 / rate;
+}
+
+unsigned ReadSeed(YamlFields* fields, unsigned otherwise) {
+  const double seed = fields->Number("seed", otherwise);
+  if (!(seed >= 0 && seed <= std::numeric_limits<unsigned>::max() &&
+        seed == std::floor(seed))) {
+    fields->Refuse("seed", "must be a whole number from 0 to 2^32 - 1");
+  }
+  return static_cast<unsigned>(seed);
 }
 
 void ReadControl(YamlFields fields, ControlSettings* control) {
@@ -189,7 +199,7 @@ Scenario LoadScenario(const std::filesystem::path& file) {
   Scenario scenario;
   scenario.name = fields.Text("name", file.stem().string());
   scenario.duration = fields.Number("duration", scenario.duration);
-  scenario.seed = static_cast<unsigned>(fields.Number("seed", scenario.seed));
+  scenario.seed = ReadSeed(&fields, scenario.seed);
   if (auto start = fields.Map("start")) scenario.start = ReadStart(*start);
   scenario.pushes = ReadPushes(&fields);
   for (const YamlFields& event : fields.Maps("stance")) {

@@ -160,11 +160,25 @@ TEST(Scenario, BadValueIsRefusedWithItsLine) {
   EXPECT_EQ(Complaint("start: 3\n"),
             "trial.yaml:1: 'start' is '3', must be a map");
   EXPECT_EQ(Complaint("- 3\n"), "trial.yaml:1: is a list, must be a map");
+  for (const char* seed : {"-1", "0.5", "4294967296"}) {
+    EXPECT_EQ(Complaint(std::string("seed: ") + seed + "\n"),
+              std::string("trial.yaml:1: 'seed' is '") + seed +
+                  "', must be a whole number from 0 to 2^32 - 1");
+  }
+  EXPECT_EQ(Complaint("seed: 4294967295\n"), "none");
+}
+
+TEST(Scenario, RefusalIsOneLineWhateverTheFileHolds) {
+  EXPECT_EQ(Complaint("seed: \"1\\n2\"\n"),
+            "trial.yaml:1: 'seed' is '1 2', must be a number");
 }
 
 TEST(Scenario, StanceEventMustSayWhatHappens) {
   EXPECT_EQ(Complaint("stance:\n  - {at: 3}\n"),
             "trial.yaml:2: 'at' is '3', must go with lift, put_down or shift");
+  EXPECT_EQ(Complaint("stance: [{height: 3}]\n"),
+            "trial.yaml:1: 'at' is missing, must go with lift, put_down or "
+            "shift");
   EXPECT_NE(Complaint("stance: [{at: 3, shift: middle, over: 0}]\n"), "none");
   EXPECT_NE(Complaint("stance: [{at: 3, lift: a, height: -1}]\n"), "none");
 }

@@ -10,8 +10,11 @@ namespace poise {
 
 namespace {
 
+// In one line, whatever a key or a scalar of the file holds.
 [[noreturn]] void Throw(const std::string& file, const YAML::Mark& mark,
-                        const std::string& what) {
+                        std::string what) {
+  const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
+  std::replace_if(what.begin(), what.end(), is_control, ' ');
   throw std::invalid_argument(file + ":" + std::to_string(mark.line + 1) +
                               ": " + what);
 }
@@ -52,6 +55,7 @@ YAML::Node YamlFields::Find(const std::string& key) {
 
 void YamlFields::Refuse(const std::string& key, const std::string& why) const {
   const YAML::Node value = node_[key];
+  if (!value) Throw(file_, node_.Mark(), "'" + key + "' is missing, " + why);
   Throw(file_, value.Mark(), "'" + key + "' is " + Shown(value) + ", " + why);
 }
 
@@ -154,7 +158,7 @@ YamlFields ReadYaml(const std::string& file) {
     return YamlFields(YAML::LoadFile(file), file);
   } catch (const YAML::BadFile&) {
     throw std::invalid_argument(file + ": cannot be read");
-  } catch (const YAML::ParserException& error) {
+  } catch (const YAML::Exception& error) {
     Throw(file, error.mark, "is no YAML: " + error.msg);
   }
 }

@@ -100,13 +100,18 @@ Motion ReadMotion(const json& state, const std::vector<int>& order,
     throw std::invalid_argument(where +
                                 ": 'base_quaternion_wxyz' must not be zero");
   }
+  // Read before they are put together: a refusal must not leave Eigen's comma
+  // list half done.
+  const VectorXd p = read("base_position", 3);
+  const VectorXd w = read("base_angular_velocity", 3);
+  const VectorXd v = read("base_linear_velocity", 3);
+  const VectorXd alpha = read("base_angular_acceleration", 3);
+  const VectorXd a = read("base_linear_acceleration", 3);
   Motion motion{VectorXd(n + 7), VectorXd(n + 6), VectorXd(n + 6)};
-  motion.q.head<7>() << read("base_position", 3), wxyz.tail<3>(), wxyz[0];
+  motion.q.head<7>() << p, wxyz.tail<3>(), wxyz[0];
   motion.q.segment<4>(3).stableNormalize();
-  motion.v.head<6>() << read("base_angular_velocity", 3),
-      read("base_linear_velocity", 3);
-  motion.vdot.head<6>() << read("base_angular_acceleration", 3),
-      read("base_linear_acceleration", 3);
+  motion.v.head<6>() << w, v;
+  motion.vdot.head<6>() << alpha, a;
   const VectorXd q = read("q", n), qd = read("qd", n), qdd = read("qdd", n);
   for (int i = 0; i < n; ++i) {
     motion.q[7 + order[i]] = q[i];

@@ -135,6 +135,9 @@ TEST(ComputeDynamics, SaysWhatIsWrong) {
   document["states"][0]["base_quaternion_wxyz"] = {0, 0, 0, 0};
   EXPECT_EQ(MessageOf(document),
             "state 0: 'base_quaternion_wxyz' must not be zero");
+  document = MakeDocument();
+  document["states"][0].erase("base_linear_velocity");
+  EXPECT_EQ(MessageOf(document), "state 0: there is no 'base_linear_velocity'");
   EXPECT_EQ(MessageOf(MakeDocument(), {"foot"}),
             "state 0: the robot has no link 'foot'");
 }

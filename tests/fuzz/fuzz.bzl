@@ -10,7 +10,7 @@ def poise_fuzz_test(name, seeds, deps):
     """
     poise_cc_test(
         name = name,
-        args = ["$(rootpath {})".format(seed) for seed in seeds],
+        args = ["$(rootpaths {})".format(seed) for seed in seeds],
         data = seeds,
         tags = ["fuzzer"],
         deps = deps + [":fuzzing"] + select({
