@@ -119,6 +119,15 @@ TEST(Wxyz, PutsWFirst) {
 
 // Of uniform rotations each entry of R has mean 0 and mean square 1/3, each
 // component of q mean 0 and mean square 1/4, and no two are correlated.
+RC_GTEST_PROP(Wxyz, ComesBackWhateverTheNumbers, ()) {
+  const Eigen::Vector3d a = *Vectors(), b = *Vectors();
+  const Eigen::Vector4d wxyz(a.x(), a.y(), a.z(), b.x());
+  const Quaterniond q = QuaternionFromWxyz(wxyz);
+  RC_ASSERT(q.w() == wxyz[0]);
+  RC_ASSERT(q.vec() == wxyz.tail<3>());
+  RC_ASSERT(WxyzFromQuaternion(q) == wxyz);
+}
+
 TEST(UniformQuaternion, HasTheMomentsOfTheUniformDistribution) {
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> uniform;
@@ -143,6 +152,16 @@ TEST(UniformQuaternion, HasTheMomentsOfTheUniformDistribution) {
             tolerance);
   EXPECT_LE((fourth.array() - 1.0 / 8).abs().maxCoeff(), tolerance);
   EXPECT_LE(mean.cwiseAbs().maxCoeff(), tolerance);
+}
+
+// The squares of its first two entries sum to 1 - u_0, of the others to u_0.
+RC_GTEST_PROP(UniformQuaternion, SplitsItsNormByTheFirstNumber, ()) {
+  Eigen::Vector3d u;
+  for (double& each : u) each = *rc::gen::inRange(0, 1000) / 1000.0;
+  const Quaterniond q = UniformQuaternion(u);
+  RC_ASSERT(std::abs(q.norm() - 1) <= kTolerance);
+  RC_ASSERT(std::abs(q.coeffs().head<2>().squaredNorm() - (1 - u[0])) <=
+            kTolerance);
 }
 
 TEST(UniformQuaternion, FollowsItsNumbers) {

@@ -74,6 +74,11 @@ TEST(HatSe3, HasTheEntriesOfATwist) {
   EXPECT_EQ(VeeSe3(expected + Eigen::Matrix4d::Identity()), x);
 }
 
+RC_GTEST_PROP(VeeSe3, InvertsHat, ()) {
+  const Vector6d x = *Twists(3);
+  RC_ASSERT(VeeSe3(HatSe3(x)) == x);
+}
+
 TEST(ExpSe3, OfATwistWithoutTurnIsAShift) {
   const Pose X = ExpSe3((Vector6d() << 0, 0, 0, 4, 5, 6).finished());
   EXPECT_EQ(X.R, Matrix3d::Identity());
