@@ -8,8 +8,7 @@
 namespace poise {
 
 /// Moves a configuration along a velocity that stays constant in world axes,
-///     q_out = q [+] v dt:   p_WB + v_WB dt,   exp(w_WB dt) R_WB,   joints + v
-///     dt.
+///     q_out = q [+] v dt = [p_WB + v_WB dt; exp(w_WB dt) R_WB; joints + v dt].
 ///
 /// @param q      nq configuration, see Tree; its quaternion need not be unit.
 /// @param v      nv velocity, see Tree.

@@ -22,15 +22,17 @@ namespace poise {
 /// | member | meaning | filled by |
 /// | sine, cosine | of the joint's angle | SweepPoses |
 /// | R_WB, R_WP | orientation, and the parent's | SweepPoses |
-/// | p_PB_W, p_OB_W | origin from the parent's, and from the base's | same |
-/// | turn_W, slide_W | velocity at unit joint rate, [turn; slide] | same |
+/// | p_PB_W, p_OB_W | origin, from the parent's and the base's | SweepPoses |
+/// | turn_W, slide_W | velocity [turn; slide] at unit joint rate | SweepPoses |
 /// | w_WB, w_WP | angular velocity, and the parent's | SweepAccelerations |
 /// | alpha_WB, alpha_WP | angular acceleration, and the parent's | same |
-/// | a_WB | classical acceleration of the origin, less gravity's | same |
-/// | M_W | mass moments; after SumInertias() those of the subtree |
-/// SweepInertias | | F_W | wrench to move it so; after SumForces() the subtree
-/// | SweepForces | | H_W | momentum of the subtree at unit joint rate |
-/// SweepMomenta | | zero | nv zeros | the constructor |
+/// | a_WB | classical acceleration of the origin, less gravity | same |
+/// | M_W | mass moments of the body | SweepInertias |
+/// |     | then of its subtree | SumInertias |
+/// | F_W | wrench to move the body so | SweepForces |
+/// |     | then its subtree | SumForces |
+/// | H_W | momentum of the subtree at unit joint rate | SweepMomenta |
+/// | zero | nv zeros | the constructor |
 struct Recursion {
   explicit Recursion(const Tree& tree);
 

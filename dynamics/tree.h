@@ -54,9 +54,11 @@ struct Frame {
 /// the parent of a body has a smaller index, and a subtree is contiguous.
 ///
 /// State, for a floating base (a fixed one has the joints alone):
-///     q = [p_WB_W (3); quaternion of R_WB (x, y, z, w); joints (n)], nq = n +
-///     7 v = [w_WB_W (3); v_WB_W (3); joint rates (n)],                 nv = n
-///     + 6
+///
+/// | | entries | size |
+/// | q | p_WB; quaternion of R_WB (x, y, z, w); joints | nq = n + 7 |
+/// | v | w_WB_W; v_WB_W; joint rates | nv = n + 6 |
+///
 /// p_WB and v_WB are those of the origin of the root link. v is not q's rate.
 class Tree {
  public:

@@ -1,10 +1,16 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // Inverse dynamics against another library's, Orocos KDL, on random trees.
+// Bullet's InverseDynamics is no second one: Debian has its library, but not
+// the headers.
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <kdl/treeidsolver_recursive_newton_euler.hpp>
+#include <map>
+#include <string>
 
+#include "dynamics/kinematics.h"
 #include "dynamics/rnea.h"
 #include "tests/util/kdl_tree.h"
 #include "tests/util/tolerance.h"
@@ -13,17 +19,40 @@
 namespace poise {
 namespace {
 
+using Eigen::AngleAxisd;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// KDL's inverse dynamics of the joints, in the tree's order, with the base at
-// the identity: KDL's rates of its base joints are then v and w.
-VectorXd KdlOf(const TreeMotion& m) {
+// The angles of KDL's base, about x, y and z, as a motion of ours has them:
+//     w = E rates,   w' = E rates' + E' rates.
+struct BaseAngles {
+  BaseAngles(const Vector3d& angles, const Vector3d& rates) {
+    const AngleAxisd R_x(angles.x(), Vector3d::UnitX());
+    const AngleAxisd R_y(angles.y(), Vector3d::UnitY());
+    const AngleAxisd R_z(angles.z(), Vector3d::UnitZ());
+    R_WB = R_x * R_y * R_z;
+    E << Vector3d::UnitX(), R_x * Vector3d::UnitY(),
+        R_x * (R_y * Vector3d::UnitZ());
+    const Vector3d w_x = rates.x() * E.col(0);
+    const Vector3d w_xy = w_x + rates.y() * E.col(1);
+    E_dot << Vector3d::Zero(), w_x.cross(E.col(1)), w_xy.cross(E.col(2));
+  }
+  Eigen::Quaterniond R_WB;
+  Matrix3d E, E_dot;
+};
+
+// KDL's inverse dynamics of a motion, in the tree's order. In v and v̇ of a
+// floating base stand the rates of the three angles, and theirs, first; and so
+// the forces that belong to them in the result.
+VectorXd KdlOf(const TreeMotion& m, const Vector3d& angles) {
   const Tree& tree = m.tree;
   const KDL::Tree kdl = MakeKdlTree(tree);
   const std::vector<int> numbers = KdlJoints(tree, kdl);
   const int offset = tree.is_floating() ? 6 : 0;
   KDL::JntArray q(tree.num_joints() + offset), qd = q, qdd = q, torques = q;
   for (int i = 0; i < offset; ++i) {
+    q(i) = i < 3 ? m.q[i] : angles[i - 3];
     qd(i) = m.v[(i + 3) % 6];
     qdd(i) = m.vdot[(i + 3) % 6];
   }
@@ -32,9 +61,19 @@ VectorXd KdlOf(const TreeMotion& m) {
     qd(numbers[j]) = m.v[tree.v_start() + j];
     qdd(numbers[j]) = m.vdot[tree.v_start() + j];
   }
-  const Eigen::Vector3d& g = tree.gravity_W();
+  // It wants the forces in the axes of the bodies.
+  std::vector<Pose> X_WB(tree.num_bodies());
+  ComputePoses(tree, m.q, &X_WB);
+  std::map<std::string, KDL::Wrench> forces;
+  for (int b = 0; b < tree.num_bodies(); ++b) {
+    const Vector3d n = X_WB[b].R.transpose() * m.F_Bo_W[b].head<3>();
+    const Vector3d f = X_WB[b].R.transpose() * m.F_Bo_W[b].tail<3>();
+    forces[KdlBodyName(b)] = KDL::Wrench(KDL::Vector(f.x(), f.y(), f.z()),
+                                         KDL::Vector(n.x(), n.y(), n.z()));
+  }
+  const Vector3d& g = tree.gravity_W();
   KDL::TreeIdSolver_RNE solver(kdl, KDL::Vector(g.x(), g.y(), g.z()));
-  EXPECT_EQ(solver.CartToJnt(q, qd, qdd, {}, torques), 0);
+  EXPECT_EQ(solver.CartToJnt(q, qd, qdd, forces, torques), 0);
   VectorXd tau(tree.nv());
   for (int i = 0; i < offset; ++i) tau[(i + 3) % 6] = torques(i);
   for (int j = 0; j < tree.num_joints(); ++j) {
@@ -45,17 +84,22 @@ VectorXd KdlOf(const TreeMotion& m) {
 
 TEST(Rnea, AgreesWithKdl) {
   EXPECT_TRUE(HoldsForTrees("tau", [](const TreeMotion& original) {
-    TreeMotion m = original;
-    if (m.tree.is_floating()) {
-      m.q.head<7>() = m.tree.MakeNeutral().head<7>();
-      // The rates of three angles are w, but their accelerations are w's
-      // derivative only where the base does not turn.
-      m.v.head<3>().setZero();
+    TreeMotion m = original, angular = original;
+    const bool floating = m.tree.is_floating();
+    const Vector3d angles =
+        floating ? Vector3d(m.q.segment<3>(3) * 3) : Vector3d::Zero();
+    const BaseAngles base(angles, floating ? Vector3d(m.v.head<3>()) : angles);
+    if (floating) {
+      m.q.segment<4>(3) = angular.q.segment<4>(3) = base.R_WB.coeffs();
+      m.v.head<3>() = base.E * angular.v.head<3>();
+      m.vdot.head<3>() =
+          base.E * angular.vdot.head<3>() + base.E_dot * angular.v.head<3>();
     }
     Recursion scratch(m.tree);
     VectorXd tau(m.tree.nv());
-    ComputeRnea(m.tree, m.q, m.v, m.vdot, {}, &scratch, tau);
-    return Compare(tau, KdlOf(m),
+    ComputeRnea(m.tree, m.q, m.v, m.vdot, m.F_Bo_W, &scratch, tau);
+    if (floating) tau.head<3>() = (base.E.transpose() * tau.head<3>()).eval();
+    return Compare(tau, KdlOf(angular, angles),
                    Rounding(1000 + 10 * tau.norm(), m.tree.nv() + 10));
   }));
 }

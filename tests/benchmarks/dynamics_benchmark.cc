@@ -18,10 +18,12 @@
 #include <stdexcept>
 
 #include "dynamics/aba.h"
+#include "dynamics/centroidal.h"
 #include "dynamics/crba.h"
 #include "dynamics/derivatives.h"
 #include "dynamics/rnea.h"
 #include "dynamics/tick.h"
+#include "math/so3.h"
 #include "robot/urdf.h"
 #include "sim/mujoco_model.h"
 #include "tests/util/kdl_tree.h"
@@ -31,6 +33,7 @@
 namespace poise {
 namespace {
 
+using Eigen::Map;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -104,15 +107,31 @@ void BM_Crba(benchmark::State& state) {
 }
 BENCHMARK(BM_Crba);
 
-// The mass matrix, the Coriolis forces and the shift of their first rows.
+// The centroidal momentum matrix alone: M and the shift of its first six rows.
 void BM_Cmm(benchmark::State& state) {
+  const Tree& tree = Humanoid();
+  Recursion scratch(tree);
+  MatrixXd M(tree.nv(), tree.nv());
+  const Vector6d c = Vector6d::Zero();  // And so without the bias.
+  CentroidalMomentum out(tree);
+  Run(state, tree, [&](const VectorXd& q, const VectorXd&) {
+    ComputeCrba(tree, q, &scratch, M);
+    // The block of M that is the mass times Hat(p_BoG_W).
+    const Eigen::Vector3d p_BoG_W = Vee(M.block<3, 3>(0, 3)) / M(3, 3);
+    ComputeCentroidalMomentum(M, c, p_BoG_W, &out);
+  });
+}
+BENCHMARK(BM_Cmm);
+
+// As BM_Tick, but without feet: M, N, the momentum matrix and its bias.
+void BM_TickWithoutFeet(benchmark::State& state) {
   const Tree& tree = Humanoid();
   Tick tick(tree, {});
   Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
     ComputeTick(tree, q, v, &tick);
   });
 }
-BENCHMARK(BM_Cmm);
+BENCHMARK(BM_TickWithoutFeet);
 
 void BM_Aba(benchmark::State& state) {
   const Tree& tree = Humanoid();
@@ -241,8 +260,10 @@ void BM_KdlRnea(benchmark::State& state) {
   KDL::TreeIdSolver_RNE solver(kdl, KDL::Vector(0, 0, -9.81));
   KDL::JntArray q_kdl(tree.nv()), v_kdl(tree.nv()), tau(tree.nv());
   Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
-    q_kdl.data = q.tail(tree.nv());
-    v_kdl.data = v;
+    // Through maps: Eigen takes KDL's vectors to stand at multiples of 32 bytes
+    // with AVX, but KDL's library was built without.
+    Map<VectorXd>(q_kdl.data.data(), tree.nv()) = q.tail(tree.nv());
+    Map<VectorXd>(v_kdl.data.data(), tree.nv()) = v;
     solver.CartToJnt(q_kdl, v_kdl, v_kdl, {}, tau);
   });
 }

@@ -20,9 +20,9 @@ KDL::RigidBodyInertia ToKdl(const Inertia& M) {
   return KDL::Frame(ToKdl(M.p_BoG_B)) * about_G;
 }
 
-std::string BodyName(int b) { return "body" + std::to_string(b); }
-
 }  // namespace
+
+std::string KdlBodyName(int body) { return "body" + std::to_string(body); }
 
 KDL::Tree MakeKdlTree(const Tree& tree) {
   KDL::Tree kdl("world");
@@ -36,7 +36,7 @@ KDL::Tree MakeKdlTree(const Tree& tree) {
       const bool last = i == 5;
       kdl.addSegment(
           KDL::Segment(
-              last ? BodyName(0) : name, KDL::Joint(name, types[i]),
+              last ? KdlBodyName(0) : name, KDL::Joint(name, types[i]),
               KDL::Frame::Identity(),
               last ? ToKdl(tree.inertias()[0]) : KDL::RigidBodyInertia::Zero()),
           base);
@@ -44,7 +44,7 @@ KDL::Tree MakeKdlTree(const Tree& tree) {
     }
   } else {
     kdl.addSegment(
-        KDL::Segment(BodyName(0), KDL::Joint("base"), KDL::Frame::Identity(),
+        KDL::Segment(KdlBodyName(0), KDL::Joint("base"), KDL::Frame::Identity(),
                      ToKdl(tree.inertias()[0])),
         base);
   }
@@ -60,9 +60,9 @@ KDL::Tree MakeKdlTree(const Tree& tree) {
                                 ? KDL::Joint::TransAxis
                                 : KDL::Joint::RotAxis,
                             1, 0, joint.armature);
-    if (!kdl.addSegment(KDL::Segment(BodyName(j + 1), moving, X_PF,
+    if (!kdl.addSegment(KDL::Segment(KdlBodyName(j + 1), moving, X_PF,
                                      ToKdl(tree.inertias()[j + 1])),
-                        BodyName(joint.parent))) {
+                        KdlBodyName(joint.parent))) {
       throw std::runtime_error("KDL refuses joint " + joint.name);
     }
   }
@@ -72,7 +72,7 @@ KDL::Tree MakeKdlTree(const Tree& tree) {
 std::vector<int> KdlJoints(const Tree& tree, const KDL::Tree& kdl) {
   std::vector<int> numbers;
   for (int j = 0; j < tree.num_joints(); ++j) {
-    const auto segment = kdl.getSegment(BodyName(j + 1));
+    const auto segment = kdl.getSegment(KdlBodyName(j + 1));
     numbers.push_back(static_cast<int>(GetTreeElementQNr(segment->second)));
   }
   return numbers;

@@ -3,6 +3,8 @@
 
 #include <kdl/jntarray.hpp>
 #include <kdl/tree.hpp>
+#include <string>
+#include <vector>
 
 #include "dynamics/tree.h"
 
@@ -14,6 +16,9 @@ namespace poise {
 /// follow as in the tree. The root of KDL's tree carries no inertia, so a fixed
 /// base hangs on a fixed joint.
 KDL::Tree MakeKdlTree(const Tree& tree);
+
+/// The name of a body's segment there.
+std::string KdlBodyName(int body);
 
 /// KDL's number of each joint of the tree, in the tree's order.
 std::vector<int> KdlJoints(const Tree& tree, const KDL::Tree& kdl);

@@ -114,10 +114,3 @@ def add_default_repositories():
         for_tests_only = True,
         deps = ["@eigen"],
     )
-    system_repository(
-        name = "bullet_inverse_dynamics",
-        pkg_config = "bullet-float64",
-        linkopts = ["-lBulletInverseDynamics-float64"],
-        debian_package = "libbullet-dev",
-        for_tests_only = True,
-    )

@@ -1,0 +1,213 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// What must not hang on how a robot is described, and what nature keeps.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include "dynamics/aba.h"
+#include "dynamics/energy.h"
+#include "dynamics/integrate.h"
+#include "dynamics/kinematics.h"
+#include "dynamics/tick.h"
+#include "tests/util/tolerance.h"
+#include "tests/util/tree_cases.h"
+
+namespace poise {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+// The same robot with body `root` as its base. A joint on the way is turned
+// round: its child becomes the parent, its axis points the other way, and the
+// origin of the body that was the parent moves to it.
+struct Rerooted {
+  Rerooted(const Tree& from, int root)
+      : X_NB(from.num_bodies()), tree(Build(from, root)) {
+    for (const Joint& joint : from.joints()) {
+      order.push_back(*tree.FindJoint(joint.name));
+    }
+  }
+
+  std::vector<Pose> X_NB;  // By body: its frame in the tree, in the new one.
+  Tree tree;
+  std::vector<int> order;  // Of each old joint: its new number.
+
+ private:
+  Tree Build(const Tree& from, int root) {
+    std::vector<bool> is_turned(from.num_bodies(), false);
+    for (int b = root; b > 0; b = from.joints()[b - 1].parent) {
+      const Joint& joint = from.joints()[b - 1];
+      is_turned[b] = true;
+      X_NB[joint.parent] = joint.X_PF.Inverse();
+    }
+    TreeBuilder builder;
+    builder.SetGravity(from.gravity_W());
+    for (int b = 0; b < from.num_bodies(); ++b) {
+      Inertia M = from.inertias()[b];
+      M.p_BoG_B = X_NB[b] * M.p_BoG_B;
+      const Matrix3d I = X_NB[b].R * M.I_G_B * X_NB[b].R.transpose();
+      M.I_G_B = (I + I.transpose()) / 2;
+      builder.AddLink(std::to_string(b), M);
+    }
+    for (int b = 1; b < from.num_bodies(); ++b) {
+      const Joint& joint = from.joints()[b - 1];
+      const bool turned = is_turned[b];
+      JointSpec spec;
+      spec.name = joint.name;
+      spec.type = joint.type;
+      spec.armature = joint.armature;
+      spec.parent = std::to_string(turned ? b : joint.parent);
+      spec.child = std::to_string(turned ? joint.parent : b);
+      spec.X_PF = turned ? X_NB[b] : X_NB[joint.parent] * joint.X_PF;
+      spec.axis_F = turned ? -joint.axis_F : joint.axis_F;
+      builder.AddJoint(spec);
+    }
+    return builder.Build();
+  }
+};
+
+// The accelerations of the bodies' origins at v̇.
+std::vector<Vector6d> AccelerationsOf(const TreeMotion& m,
+                                      const VectorXd& vdot) {
+  std::vector<Pose> X_WB(m.tree.num_bodies());
+  std::vector<Vector6d> V_WB_W(X_WB.size()), A_WB_W(X_WB.size());
+  ComputePoses(m.tree, m.q, &X_WB);
+  ComputeVelocities(m.tree, X_WB, m.v, &V_WB_W);
+  ComputeAccelerations(m.tree, X_WB, V_WB_W, m.v, vdot, &A_WB_W);
+  return A_WB_W;
+}
+
+// The state of a robot whose base is another one of its bodies.
+TreeMotion Move(const TreeMotion& m, int root, const Rerooted& rerooted) {
+  std::vector<Pose> X_WB(m.tree.num_bodies());
+  std::vector<Vector6d> V_WB_W(X_WB.size());
+  ComputePoses(m.tree, m.q, &X_WB);
+  ComputeVelocities(m.tree, X_WB, m.v, &V_WB_W);
+  TreeMotion moved{rerooted.tree, m.q, m.v, m.vdot, {}};
+  moved.q.head<3>() = X_WB[root].p;
+  moved.q.segment<4>(3) = Eigen::Quaterniond(X_WB[root].R).coeffs();
+  moved.v.head<6>() = V_WB_W[root];
+  moved.vdot.head<6>() = AccelerationsOf(m, m.vdot)[root];
+  for (int j = 0; j < m.tree.num_joints(); ++j) {
+    moved.q[7 + rerooted.order[j]] = m.q[7 + j];
+    moved.v[6 + rerooted.order[j]] = m.v[6 + j];
+    moved.vdot[6 + rerooted.order[j]] = m.vdot[6 + j];
+  }
+  return moved;
+}
+
+int LastBody(const TreeMotion& m) { return m.tree.num_bodies() - 1; }
+
+Tick TickOf(const TreeMotion& m) {
+  Tick tick(m.tree, {});
+  ComputeTick(m.tree, m.q, m.v, &tick);
+  return tick;
+}
+
+TEST(Dynamics, OfTheWholeDoesNotHangOnTheRoot) {
+  EXPECT_TRUE(HoldsForTrees(
+      "p_WG, v_WG, L_G and its rate, energy", [](const TreeMotion& m) {
+        if (!m.tree.is_floating()) return Residual{0, 0};
+        const Rerooted rerooted(m.tree, LastBody(m));
+        const TreeMotion moved = Move(m, LastBody(m), rerooted);
+        MatrixXd numbers(19, 2);
+        for (const TreeMotion* motion : {&m, &moved}) {
+          const Tick tick = TickOf(*motion);
+          numbers.col(motion == &m ? 0 : 1) << tick.p_WG, tick.v_WG, tick.L_G,
+              tick.H_G * motion->vdot + tick.H_G_bias,
+              motion->v.dot(tick.M * motion->v) / 2;
+        }
+        return Compare(numbers.col(0), numbers.col(1),
+                       Rounding(300 + numbers.norm(), m.tree.nv() + 10));
+      }));
+}
+
+TEST(Dynamics, OfTheJointsDoesNotHangOnTheRoot) {
+  // No wrench acts on either base, so the joints' torques are the same.
+  EXPECT_TRUE(HoldsForTrees("v̇ of the joints", [](const TreeMotion& m) {
+    if (!m.tree.is_floating()) return Residual{0, 0};
+    const Rerooted rerooted(m.tree, LastBody(m));
+    const TreeMotion moved = Move(m, LastBody(m), rerooted);
+    const int n = m.tree.num_joints();
+    VectorXd tau = VectorXd::Zero(m.tree.nv()), tau_moved = tau;
+    VectorXd vdot = tau, vdot_moved = tau;
+    tau.tail(n) = 10 * m.vdot.tail(n);
+    for (int j = 0; j < n; ++j) tau_moved[6 + rerooted.order[j]] = tau[6 + j];
+    AbaScratch scratch(m.tree), scratch_moved(moved.tree);
+    if (ComputeAba(m.tree, m.q, m.v, tau, {}, &scratch, vdot) !=
+            AbaStatus::kOk ||
+        ComputeAba(moved.tree, moved.q, moved.v, tau_moved, {}, &scratch_moved,
+                   vdot_moved) != AbaStatus::kOk) {
+      return Residual{1, 0};
+    }
+    VectorXd expected = vdot_moved;
+    expected.head<6>() = AccelerationsOf(m, vdot)[LastBody(m)];
+    for (int j = 0; j < n; ++j) expected[6 + rerooted.order[j]] = vdot[6 + j];
+    const Tick tick = TickOf(m), tick_moved = TickOf(moved);
+    const auto resistance = [](const MatrixXd& M) {
+      return Eigen::SelfAdjointEigenSolver<MatrixXd>(M).eigenvalues()[0];
+    };
+    const double least = std::min(resistance(tick.M), resistance(tick_moved.M));
+    const double scale = 100 + tau.norm() + tick.N.norm() +
+                         tick.M.norm() * vdot.norm() + tick_moved.N.norm() +
+                         tick_moved.M.norm() * vdot_moved.norm();
+    return Compare(vdot_moved, expected,
+                   Rounding(scale, m.tree.nv() + 10) / least);
+  }));
+}
+
+// What a robot keeps in free fall: [L_G turning; p_WG and v_WG with the fall
+// taken out; energy].
+VectorXd KeptOf(const TreeMotion& m, double time) {
+  std::vector<Pose> X_WB(m.tree.num_bodies());
+  ComputePoses(m.tree, m.q, &X_WB);
+  const Tick tick = TickOf(m);
+  const Vector3d g = m.tree.gravity_W();
+  VectorXd kept(10);
+  kept << tick.L_G.head<3>(), tick.v_WG - g * time,
+      tick.p_WG - tick.v_WG * time + g * (time * time / 2),
+      m.v.dot(tick.M * m.v) / 2 + PotentialEnergy(m.tree, X_WB);
+  return kept;
+}
+
+// The largest change of what is kept over half a second, by the midpoint rule.
+double DriftOf(TreeMotion m, int steps) {
+  const double dt = 0.5 / steps;
+  const VectorXd zero = VectorXd::Zero(m.tree.nv());
+  const VectorXd before = KeptOf(m, 0);
+  AbaScratch scratch(m.tree);
+  VectorXd vdot = zero, v_mid = zero, q_mid = m.q;
+  for (int i = 0; i < steps; ++i) {
+    EXPECT_EQ(ComputeAba(m.tree, m.q, m.v, zero, {}, &scratch, vdot),
+              AbaStatus::kOk);
+    v_mid = m.v + dt / 2 * vdot;
+    Integrate(m.tree, m.q, m.v, dt / 2, q_mid);
+    EXPECT_EQ(ComputeAba(m.tree, q_mid, v_mid, zero, {}, &scratch, vdot),
+              AbaStatus::kOk);
+    Integrate(m.tree, m.q, v_mid, dt, m.q);
+    m.v += dt * vdot;
+  }
+  return (KeptOf(m, 0.5) - before).cwiseAbs().maxCoeff();
+}
+
+TEST(Dynamics, OfFreeFallKeepsMomentumAboutTheCenterOfMass) {
+  for (const int seed : {1, 2, 3}) {
+    SCOPED_TRACE(seed);
+    const TreeMotion m =
+        MakeTreeMotion({TreeShape::kAny, BaseType::kFloating, 6, seed});
+    ASSERT_GT(TickOf(m).L_G.head<3>().norm(), 0.1);
+    // The rule is of second order: a step half as long, a quarter of the drift,
+    // but for terms of third order.
+    const double coarse = DriftOf(m, 1000), fine = DriftOf(m, 2000);
+    EXPECT_LT(fine, 1e-2);
+    EXPECT_NEAR(coarse / fine, 4, 0.2);
+  }
+}
+
+}  // namespace
+}  // namespace poise
