@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <mutex>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -19,6 +21,31 @@ namespace {
 
 // Past the push of each scenario, and what follows at once.
 constexpr double kDuration = 1.3;  // s.
+// A shift of the weight, a foot's way up or down take less.
+constexpr double kStanceTime = 1.5;  // s.
+
+// The scenario in a short time: what it does with the feet follows at once.
+double Hasten(Scenario* scenario) {
+  double end = kDuration;
+  for (size_t i = 1; i < scenario->stance.size(); ++i) {
+    scenario->stance[i].at = scenario->stance[i - 1].at + kStanceTime;
+    end = std::max(end, scenario->stance[i].at);
+  }
+  for (Push& push : scenario->pushes) push.start = std::min(push.start, 1.0);
+  return end;
+}
+
+// Lifts and puts down the feet that another stance begins to.
+void Follow(const Stance& leader, const Scenario& scenario, Stance* stance) {
+  for (int foot = 0; foot < 2; ++foot) {
+    if (leader.phase(foot) == stance->phase(foot)) continue;
+    if (leader.phase(foot) == ContactPhase::kUnloading) {
+      stance->Lift(foot, scenario.stance[0].height);
+    } else if (leader.phase(foot) == ContactPhase::kLanding) {
+      stance->PutDown(foot);
+    }
+  }
+}
 
 std::vector<std::string> ScenarioFiles() {
   std::vector<std::string> files;
@@ -35,7 +62,8 @@ class RealTimeTest : public testing::TestWithParam<std::string> {};
 TEST_P(RealTimeTest, TheControlLoopNeitherAllocatesNorThrowsNorLocksNorWrites) {
   const Robot robot = LoadRobot("robot/models/humanoid.urdf",
                                 LoadProfile("robot/profiles/humanoid.yaml"));
-  const Scenario scenario = LoadScenario(GetParam());
+  Scenario scenario = LoadScenario(GetParam());
+  const double duration = Hasten(&scenario);
   ClosedLoop loop(robot, scenario);
   Controller controller(robot);
   const PlantState& truth = loop.plant().Sense();
@@ -50,10 +78,12 @@ TEST_P(RealTimeTest, TheControlLoopNeitherAllocatesNorThrowsNorLocksNorWrites) {
     ASSERT_TRUE(controller.stack().Enable(task, true));
   }
 
-  while (loop.time() < kDuration) {
+  std::set<ContactPhase> phases;  // Of the foot that is lifted.
+  while (loop.time() < duration) {
     state = {truth.time, truth.q, truth.v};
     loop.Tick();
     controller.reference() = loop.controller().reference();
+    Follow(loop.controller().stance(), scenario, &controller.stance());
     const CountMalloc count;
     const ForbiddenCalls forbidden;
     controller.Update(state, &command);
@@ -62,6 +92,14 @@ TEST_P(RealTimeTest, TheControlLoopNeitherAllocatesNorThrowsNorLocksNorWrites) {
     ASSERT_EQ(forbidden.locks(), 0) << "at " << state.time << " s";
     ASSERT_EQ(forbidden.writes(), 0) << "at " << state.time << " s";
     ASSERT_TRUE(command.tau.allFinite());
+    phases.insert(controller.stance().phase(1));
+  }
+  if (!scenario.stance.empty()) {
+    for (const ContactPhase phase :
+         {ContactPhase::kDown, ContactPhase::kUnloading, ContactPhase::kUp,
+          ContactPhase::kLanding, ContactPhase::kLoading}) {
+      EXPECT_EQ(phases.count(phase), 1u) << static_cast<int>(phase);
+    }
   }
 }
 
