@@ -3,7 +3,7 @@
 # Usage: tools/fuzz.sh SECONDS [TARGET...]
 # Runs the fuzzers of tests/fuzz (all, or urdf, profile, ...) for so long each.
 # What they learn is kept in ~/.cache/poise/fuzz, where a run goes on from. An
-# input that crashes, hangs for 10 s or takes 1 GiB is kept as
+# input that crashes, hangs for 30 s or takes 1 GiB is kept as
 # ~/.cache/poise/fuzz/TARGET/crashes/*; replay it by giving the file to the
 # fuzzer that the summary names. Exit code 1 if there was one, 2 for bad usage.
 set -uo pipefail
@@ -40,7 +40,7 @@ printf '%-10s %12s %9s %9s %9s\n' fuzzer runs corpus coverage crashes
 for target in "${targets[@]}"; do
   folder=$home/$target
   mkdir -p "$folder/corpus" "$folder/crashes"
-  arguments=(-max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048
+  arguments=(-max_total_time="$seconds" -timeout=30 -rss_limit_mb=2048
     -malloc_limit_mb=1024 -print_final_stats=1
     -artifact_prefix="$folder/crashes/")
   # In CI a verdict is about the change, not about luck.
