@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "hqp/cascade.h"
 #include "hqp/certificate.h"
 #include "tests/util/count_malloc.h"
@@ -12,25 +10,6 @@
 
 namespace poise {
 namespace {
-
-// What the cost of a level is added up from at y, squared.
-double CostSize(const Hierarchy& hierarchy, int level,
-                const Solution& solution) {
-  const double norm = solution.y.norm();
-  double size = 0;
-  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
-    size += hierarchy.weight(level)[i] *
-            std::pow(hierarchy.B(level).row(i).norm() * norm +
-                         std::abs(hierarchy.b(level)[i]),
-                     2);
-  }
-  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-    size += std::pow(hierarchy.C(level).row(i).norm() * norm +
-                         solution.levels[level].slack[i],
-                     2);
-  }
-  return size;
-}
 
 TEST(Solver, AgreesWithTheCascade) {
   RandomHierarchyOptions options;

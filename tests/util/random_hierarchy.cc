@@ -157,4 +157,22 @@ HierarchyCase MakeRandomHierarchy(std::uint64_t seed,
   return Drawing(seed, options).Draw();
 }
 
+double CostSize(const Hierarchy& hierarchy, int level,
+                const Solution& solution) {
+  const double norm = solution.y.norm();
+  double size = 0;
+  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+    size += hierarchy.weight(level)[i] *
+            std::pow(hierarchy.B(level).row(i).norm() * norm +
+                         std::abs(hierarchy.b(level)[i]),
+                     2);
+  }
+  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    size += std::pow(hierarchy.C(level).row(i).norm() * norm +
+                         solution.levels[level].slack[i],
+                     2);
+  }
+  return size;
+}
+
 }  // namespace poise

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hqp/hierarchy.h"
+#include "hqp/solution.h"
 
 namespace poise {
 
@@ -41,5 +42,10 @@ struct HierarchyCase {
 /// hundredths, so that files of it are short.
 HierarchyCase MakeRandomHierarchy(std::uint64_t seed,
                                   const RandomHierarchyOptions& options = {});
+
+/// What the cost of a level is added up from at a solution's y: its rounding is
+/// a multiple of eps of that.
+double CostSize(const Hierarchy& hierarchy, int level,
+                const Solution& solution);
 
 }  // namespace poise

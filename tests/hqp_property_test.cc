@@ -1,0 +1,107 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Any hierarchy: two unlike solvers and the certificate agree, and the optimum
+// does not depend on what it must not depend on.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <Eigen/QR>
+
+#include "hqp/cascade.h"
+#include "hqp/certificate.h"
+#include "hqp/solver.h"
+#include "tests/util/random_hierarchy.h"
+
+namespace poise {
+namespace {
+
+// Shrinks to few variables, few levels, few rows.
+HierarchyCase DrawHierarchy() {
+  RandomHierarchyOptions options;
+  options.max_variables = *rc::gen::inRange(1, 13);
+  options.max_levels = *rc::gen::inRange(1, 6);
+  options.max_equalities = *rc::gen::inRange(1, 7);
+  options.max_inequalities = *rc::gen::inRange(1, 9);
+  options.degenerate = *rc::gen::inRange(0, 41);
+  options.planted = *rc::gen::inRange(0, 61);
+  options.selecting = *rc::gen::inRange(0, 101);
+  options.scaled = 0;
+  return MakeRandomHierarchy(*rc::gen::inRange(0, 1 << 30), options);
+}
+
+Solution Solve(const HierarchyCase& drawn) {
+  const int n = drawn.hierarchy.num_variables();
+  Solution solution(n, drawn.capacity);
+  RC_ASSERT(Solver(n, drawn.capacity).Solve(drawn.hierarchy, &solution) ==
+            Status::kOptimal);
+  return solution;
+}
+
+void ExpectSameCosts(const HierarchyCase& drawn, const Solution& solution,
+                     const Solution& reference, int num_levels) {
+  for (int level = 0; level < num_levels; ++level) {
+    RC_ASSERT(
+        std::abs(solution.levels[level].cost - reference.levels[level].cost) <=
+        1e-9 * CostSize(drawn.hierarchy, level, reference));
+    RC_ASSERT(solution.levels[level].nullity ==
+              reference.levels[level].nullity);
+  }
+}
+
+// The levels of a hierarchy with y = Q z, the last ones left out.
+HierarchyCase Transform(const HierarchyCase& drawn, const Eigen::MatrixXd& Q,
+                        int num_levels) {
+  const Hierarchy& from = drawn.hierarchy;
+  std::vector<LevelCapacity> capacity(drawn.capacity.begin(),
+                                      drawn.capacity.begin() + num_levels);
+  HierarchyCase result{capacity, Hierarchy(from.num_variables(), capacity)};
+  for (int k = 0; k < num_levels; ++k) {
+    EqualityBlock e = result.hierarchy.AddEqualities(k, from.num_equalities(k));
+    e.B = from.B(k) * Q;
+    e.b = from.b(k);
+    e.weight = from.weight(k);
+    InequalityBlock i =
+        result.hierarchy.AddInequalities(k, from.num_inequalities(k));
+    i.C = from.C(k) * Q;
+    i.lower = from.lower(k);
+    i.upper = from.upper(k);
+  }
+  return result;
+}
+
+RC_GTEST_PROP(AnyHierarchy, IsSolvedAlikeByTwoSolversAndCertified, ()) {
+  const HierarchyCase drawn = DrawHierarchy();
+  const int n = drawn.hierarchy.num_variables();
+  Solution reference(n, drawn.capacity);
+  RC_ASSERT(Cascade(n, drawn.capacity).Solve(drawn.hierarchy, &reference) ==
+            Status::kOptimal);
+  const Solution solution = Solve(drawn);
+  Certifier certifier(n, drawn.capacity);
+  RC_ASSERT(certifier.Certify(drawn.hierarchy, reference).worst() <= 1e-9);
+  RC_ASSERT(certifier.Certify(drawn.hierarchy, solution).worst() <= 1e-9);
+  ExpectSameCosts(drawn, solution, reference, drawn.hierarchy.num_levels());
+}
+
+RC_GTEST_PROP(AnyHierarchy, KeepsItsUpperLevelsWithoutTheLowerOnes, ()) {
+  const HierarchyCase drawn = DrawHierarchy();
+  const int n = drawn.hierarchy.num_variables();
+  const int num_levels = *rc::gen::inRange(1, drawn.hierarchy.num_levels() + 1);
+  const HierarchyCase upper =
+      Transform(drawn, Eigen::MatrixXd::Identity(n, n), num_levels);
+  ExpectSameCosts(upper, Solve(upper), Solve(drawn), num_levels);
+}
+
+RC_GTEST_PROP(AnyHierarchy, HasTheSameCostsInRotatedVariables, ()) {
+  const HierarchyCase drawn = DrawHierarchy();
+  const int n = drawn.hierarchy.num_variables();
+  Eigen::MatrixXd A(n, n);
+  for (double& entry : A.reshaped()) {
+    entry = *rc::gen::inRange(-100, 101) / 100.0;
+  }
+  const Eigen::MatrixXd Q = A.householderQr().householderQ();
+  const int num_levels = drawn.hierarchy.num_levels();
+  ExpectSameCosts(drawn, Solve(Transform(drawn, Q, num_levels)), Solve(drawn),
+                  num_levels);
+}
+
+}  // namespace
+}  // namespace poise
