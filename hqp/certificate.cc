@@ -99,8 +99,7 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     if (violation > 0) {
       const double sign = at_upper ? 1 : -1;
       gradient_ += sign * violation * C.row(i).transpose();
-      // An entry of y is no more exact than y is.
-      gradient_size_ += rows.size[i] * C.row(i).cwiseAbs().transpose();
+      gradient_size_ += size * C.row(i).cwiseAbs().transpose();
     }
   }
   certificate->feasibility = feasibility;

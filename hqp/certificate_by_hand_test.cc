@@ -116,22 +116,5 @@ TEST_F(CertifierByHandTest, IsInfiniteWhereAnythingIsNan) {
   EXPECT_EQ(Certify().worst(), kInfinity);
 }
 
-// y_0 >= 0, missed by what rounding leaves of 2.
-TEST(CertifierTest, MeasuresAnEntryOfYByAllOfIt) {
-  const std::vector<LevelCapacity> capacity{{0, 1}};
-  Hierarchy hierarchy(2, capacity);
-  InequalityBlock bound = hierarchy.AddInequalities(0, 1);
-  bound.C << 1, 0;
-  bound.lower << 0;
-  Solution solution(2, capacity);
-  solution.y << -1e-16, 2;
-  solution.levels[0].slack << 1e-16;
-  solution.levels[0].cost = 1e-16 * 1e-16 / 2;
-  const Certificate certificate =
-      Certifier(2, capacity).Certify(hierarchy, solution);
-  EXPECT_EQ(certificate.stationarity, 1e-16 / 2);
-  EXPECT_EQ(certificate.worst(), 1e-16 / 2);
-}
-
 }  // namespace
 }  // namespace poise
