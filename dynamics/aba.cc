@@ -72,14 +72,14 @@ Wrench operator*(const Body& body, const Motion& A) {
 }
 
 // The resistance of a single body: that of its mass moments.
-Body MakeBody(const MassMoments& M) {
+Body MakeBody(const MassMoments& M, const Wrench& bias) {
   const double trace = M.Sigma.xx + M.Sigma.yy + M.Sigma.zz;
   const Vec3& h = M.h;
   return {{trace - M.Sigma.xx, trace - M.Sigma.yy, trace - M.Sigma.zz,
            -M.Sigma.xy, -M.Sigma.xz, -M.Sigma.yz},
           {{0, -h.z, h.y}, {h.z, 0, -h.x}, {-h.y, h.x, 0}},
           {M.mass, M.mass, M.mass, 0, 0, 0},
-          {{0, 0, 0}, {0, 0, 0}}};
+          bias};
 }
 
 // Adds to the parent's resistance, about P, that of a body at p_PB. With
@@ -96,8 +96,9 @@ void AddShifted(const Body& B, const Vec3& d, Body* P) {
 
 // The acceleration of a floating base, A = -[J H; H' M]^-1 bias. Scaled to unit
 // diagonal by the locked robot's inertia, so that kg m2 and kg compare.
-bool SolveBase(const Body& base, const Body& locked, const Wrench& push,
-               Vector6d* A) {
+bool SolveBase(const Body& base, const MassMoments& M_locked,
+               const Wrench& push, Vector6d* A) {
+  const Body locked = MakeBody(M_locked, base.bias);
   Matrix6d I;
   I << ToEigen(base.J), ToEigen(base.H), ToEigen(base.H).transpose(),
       ToEigen(base.M);
@@ -148,19 +149,17 @@ AbaStatus ComputeAba(const Tree& tree,
 
   SweepPoses(tree, q, &r);
   SweepInertias(tree, &r);
-  for (int b = 0; b < num_bodies; ++b) bodies[b] = MakeBody(r.M_W[b]);
 
   // The motion with all joints held at their rates, and what it takes.
   SweepAccelerations(tree, v, r.zero, Eigen::Vector3d::Zero(), &r);
   for (int b = 0; b < num_bodies; ++b) {
-    const Wrench gyroscopic = Accelerate(
+    Wrench bias = Accelerate(
         r.M_W[b], AccelerationGradient({0, 0, 0}, r.w_WB[b]), {0, 0, 0});
-    bodies[b].bias = gyroscopic;
     if (!F_Bo_W.empty()) {
       const Vector6d& F = F_Bo_W[b];
-      bodies[b].bias =
-          gyroscopic + Wrench{{-F[0], -F[1], -F[2]}, {-F[3], -F[4], -F[5]}};
+      bias = bias + Wrench{{-F[0], -F[1], -F[2]}, {-F[3], -F[4], -F[5]}};
     }
+    bodies[b] = MakeBody(r.M_W[b], bias);
   }
   SumInertias(tree, &r);  // Of the locked subtrees, to judge D by.
 
@@ -202,7 +201,7 @@ AbaStatus ComputeAba(const Tree& tree,
     const Wrench push{ToVec3(tau.head<3>()) - bias.n,
                       ToVec3(tau.segment<3>(3)) - bias.f};
     Vector6d A;
-    if (!SolveBase(bodies[0], MakeBody(r.M_W[0]), push, &A))
+    if (!SolveBase(bodies[0], r.M_W[0], push, &A))
       return fail(AbaStatus::kSingular);
     A_0 = {ToVec3(A.head<3>()), ToVec3(A.tail<3>())};
     vdot.head<3>() = A.head<3>();

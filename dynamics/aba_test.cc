@@ -132,6 +132,37 @@ TEST(Aba, SeesThroughAMasslessLinkBetweenParallelAxes) {
   EXPECT_EQ(AtRest(builder.Build()).status, AbaStatus::kSingular);
 }
 
+TEST(Aba, DrawsTheLineBetweenInertiaAndRounding) {
+  // Wheels on one axis, each on the one before: of the inertia of x + 1 kg m2
+  // that the last but one has with the last, x is left with its joint free.
+  const auto wheel = [](double inertia) {
+    return Inertia{1, {0, 0, 0}, Vector3d(1, 1, inertia).asDiagonal()};
+  };
+  const auto status_of = [&wheel](double x, BaseType base) {
+    TreeBuilder builder;
+    JointSpec joint;
+    joint.type = JointType::kRevolute;
+    joint.axis_F = Vector3d::UnitZ();
+    if (base == BaseType::kFixed) {
+      builder.AddLink("ground");
+      joint.name = "1";
+      joint.parent = "ground";
+      joint.child = "wheel";
+      builder.AddJoint(joint);
+    }
+    builder.AddLink("wheel", wheel(x)).AddLink("last", wheel(1));
+    joint.name = "2";
+    joint.parent = "wheel";
+    joint.child = "last";
+    builder.AddJoint(joint);
+    return AtRest(builder.Build(base)).status;
+  };
+  for (const BaseType base : {BaseType::kFixed, BaseType::kFloating}) {
+    EXPECT_EQ(status_of(3e-13, base), AbaStatus::kOk);
+    EXPECT_EQ(status_of(3e-14, base), AbaStatus::kSingular);
+  }
+}
+
 TEST(Aba, SaysThatAMasslessBaseIsSingular) {
   // 7 coordinates move one body.
   TreeBuilder builder;

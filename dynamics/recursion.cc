@@ -7,6 +7,13 @@
 #include "dynamics/sin_cos.h"
 
 namespace poise {
+namespace {
+
+// Whether a sweep comes straight from the parent to a body. Then what it needs
+// of the parent is at hand, and nothing waits for what was just stored.
+bool IsNext(int parent, int b) { return parent == b - 1; }
+
+}  // namespace
 
 Recursion::Recursion(const Tree& tree)
     : sine(tree.num_bodies()),
@@ -53,7 +60,7 @@ void SweepPoses(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
   r.R_WB.Set(0, R_WB);
   for (int b = 1; b < num_bodies; ++b) {
     const int parent = joints.parent[b];
-    if (parent != b - 1) R_WB = r.R_WB[parent];
+    if (!IsNext(parent, b)) R_WB = r.R_WB[parent];
     r.R_WP.Set(b, R_WB);
     R_WB = R_WB * r.R_WB[b];
     r.R_WB.Set(b, R_WB);
@@ -72,7 +79,7 @@ void SweepPoses(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
   r.p_OB_W.Set(0, p_OB_W);
   for (int b = 1; b < num_bodies; ++b) {
     const int parent = joints.parent[b];
-    if (parent != b - 1) p_OB_W = r.p_OB_W[parent];
+    if (!IsNext(parent, b)) p_OB_W = r.p_OB_W[parent];
     p_OB_W = p_OB_W + r.p_PB_W[b];
     r.p_OB_W.Set(b, p_OB_W);
   }
@@ -103,7 +110,7 @@ void SweepAccelerations(const Tree& tree,
   r.w_WB.Set(0, w_WB);
   for (int b = 1; b < num_bodies; ++b) {
     const int parent = joints.parent[b];
-    if (parent != b - 1) w_WB = r.w_WB[parent];
+    if (!IsNext(parent, b)) w_WB = r.w_WB[parent];
     r.w_WP.Set(b, w_WB);
     w_WB = w_WB + v_joint[b - 1] * r.turn_W[b];
     r.w_WB.Set(b, w_WB);
@@ -119,7 +126,7 @@ void SweepAccelerations(const Tree& tree,
   r.alpha_WB.Set(0, alpha_WB);
   for (int b = 1; b < num_bodies; ++b) {
     const int parent = joints.parent[b];
-    if (parent != b - 1) alpha_WB = r.alpha_WB[parent];
+    if (!IsNext(parent, b)) alpha_WB = r.alpha_WB[parent];
     r.alpha_WP.Set(b, alpha_WB);
     alpha_WB = alpha_WB + r.alpha_WB[b];
     r.alpha_WB.Set(b, alpha_WB);
@@ -137,7 +144,7 @@ void SweepAccelerations(const Tree& tree,
   r.a_WB.Set(0, a_WB);
   for (int b = 1; b < num_bodies; ++b) {
     const int parent = joints.parent[b];
-    if (parent != b - 1) a_WB = r.a_WB[parent];
+    if (!IsNext(parent, b)) a_WB = r.a_WB[parent];
     a_WB = a_WB + r.a_WB[b];
     r.a_WB.Set(b, a_WB);
   }
@@ -171,7 +178,7 @@ void SumInertias(const Tree& tree, Recursion* recursion) noexcept {
   for (int b = tree.num_bodies() - 1; b > 0; --b) {
     const MassMoments M_P = M_W[parent[b]] + Shift(recursion->p_PB_W[b], M);
     M_W.Set(parent[b], M_P);
-    M = parent[b] == b - 1 ? M_P : M_W[b - 1];
+    M = IsNext(parent[b], b) ? M_P : M_W[b - 1];
   }
 }
 
@@ -182,7 +189,7 @@ void SumForces(const Tree& tree, Recursion* recursion) noexcept {
   for (int b = tree.num_bodies() - 1; b > 0; --b) {
     const Wrench F_P = F_W[parent[b]] + Shift(recursion->p_PB_W[b], F);
     F_W.Set(parent[b], F_P);
-    F = parent[b] == b - 1 ? F_P : F_W[b - 1];
+    F = IsNext(parent[b], b) ? F_P : F_W[b - 1];
   }
 }
 

@@ -292,6 +292,24 @@ TEST(Tree, SaysHowLargeItIs) {
   EXPECT_EQ(fixed.gravity_W(), Vector3d(1, 2, 3));
 }
 
+TEST(Tree, ScalesAllThatIsInertia) {
+  JointSpec joint = MakeJoint("hip", "a", "b");
+  joint.armature = 0.5;
+  const Inertia M{2, {1, 2, 3}, Matrix3d::Identity()};
+  const Tree tree =
+      TreeBuilder().AddLink("a", M).AddLink("b", M).AddJoint(joint).Build();
+  const Tree scaled = tree.WithScaledInertias(4);
+  EXPECT_EQ(scaled.total_mass(), 16);
+  EXPECT_EQ(scaled.joints()[0].armature, 2);
+  EXPECT_EQ(scaled.joint_maps().armature[1], 2);
+  for (const int b : {0, 1}) {
+    EXPECT_EQ(scaled.inertias()[b].mass, 8);
+    EXPECT_EQ(scaled.inertias()[b].p_BoG_B, M.p_BoG_B);
+    EXPECT_EQ(scaled.inertias()[b].I_G_B, 4 * M.I_G_B);
+    EXPECT_EQ(scaled.mass_moments()[b].mass, 8);
+  }
+}
+
 TEST(Tree, FindsByName) {
   const Tree tree = TreeBuilder()
                         .AddLink("a")

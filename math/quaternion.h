@@ -39,13 +39,15 @@ inline Eigen::Quaterniond ExpQuaternion(const Eigen::Vector3d& w) noexcept {
 /// LogSo3(). A NaN or an infinity gives NaN in all.
 inline Eigen::Vector3d LogQuaternion(const Eigen::Quaterniond& q) noexcept {
   const double sine = q.vec().norm();
-  const double cosine = std::abs(q.w());
-  // atan2(x, y) / x is good to the last digit for any x but 0: if the square
-  // of a tiny x was rounded, both x are the same.
-  const double scale =
-      2 * (sine == 0 ? 1 / cosine : std::atan2(sine, cosine) / sine) +
-      0 * (sine + cosine);  // Adds nothing, or NaN.
-  return (q.w() < 0 ? -scale : scale) * q.vec();
+  const double w = q.w();
+  // The square of a tiny x may have been rounded, but atan2(x, y) / x is the
+  // same for both. Only where it came to nothing is there nothing to divide by.
+  // What is added is nothing, or NaN.
+  if (sine == 0) return (2 / w + 0 * w) * q.vec();
+  const double inverse = 2 / sine + 0 * (sine + w);
+  const double half =
+      std::signbit(w) ? std::atan2(-sine, -w) : std::atan2(sine, w);
+  return inverse * half * q.vec();
 }
 
 /// (w, x, y, z), the order of URDF tools, MuJoCo and most books. For borders.

@@ -62,6 +62,12 @@ TEST(LogQuaternion, OfTheIdentityIsZero) {
   EXPECT_EQ(LogQuaternion(Quaterniond(-1, 0, 0, 0)), Vector3d::Zero());
 }
 
+TEST(LogQuaternion, OfAHalfTurnIsOneForBothQuaternions) {
+  const Quaterniond q(0.0, 0.6, 0, -0.8), minus_q(-0.0, -0.6, 0, 0.8);
+  EXPECT_LE((LogQuaternion(q) - M_PI * q.vec()).norm(), kTolerance);
+  EXPECT_EQ(LogQuaternion(q), LogQuaternion(minus_q));
+}
+
 TEST(LogQuaternion, OfTinyVectorsIsExact) {
   EXPECT_EQ(LogQuaternion(Quaterniond(1, 1e-300, 0, 0)),
             Vector3d(2e-300, 0, 0));

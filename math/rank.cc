@@ -44,7 +44,7 @@ void RankRevealing::Compute(const Eigen::Ref<const Eigen::MatrixXd>& A,
     return;
   }
   // Of a largest entry of 1, no square overflows.
-  const double largest = A.size() == 0 ? 0 : A.cwiseAbs().maxCoeff();
+  const double largest = A.lpNorm<Eigen::Infinity>();
   const double unit = largest == 0 ? 1 : largest;
   qr_.topLeftCorner(cols_, rows_) = A.transpose() / unit;
   FactorTransposed();

@@ -18,8 +18,9 @@ Eigen::Matrix3d ProjectToSo3(const Eigen::Matrix3d& A) noexcept {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
       A, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d U = svd.matrixU();
-  if (U.determinant() * svd.matrixV().determinant() < 0) U.col(2) *= -1;
-  return U * svd.matrixV().transpose();
+  const Eigen::Matrix3d V = svd.matrixV();
+  if ((U * V.transpose()).determinant() < 0) U.col(2) = -U.col(2);
+  return U * V.transpose();
 }
 
 }  // namespace poise
