@@ -17,10 +17,11 @@ namespace poise {
 ///
 /// Semi-implicit Euler: v' = v + dt a(q, v), contact impulses on v', then q
 /// moves with v'. Under gravity it loses m g^2 dt / 2 of energy a second. A
-/// foot stands on small spheres at the corners of its sole polygon; all other
-/// collision shapes of the model touch the ground too, and each other, except
-/// those that already do when Reset() puts the robot down, and neighbors: links
-/// that one joint parts, or several that are as one, or that share a parent.
+/// foot stands on small spheres at the corners of its sole polygon; the
+/// collision shapes of all other links touch the ground too. Links touch each
+/// other, feet with all their shapes, except those that already do when Reset()
+/// puts the robot down, and neighbors: links that one joint parts, or several
+/// that are as one, or that share a parent.
 class BulletPlant final : public Plant {
  public:
   /// Throws std::invalid_argument if Bullet cannot represent the model, see

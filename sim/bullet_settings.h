@@ -8,11 +8,13 @@ namespace poise {
 struct BulletSettings {
   bool own_sweeps = true;               ///< See ContactSolver; else Bullet's.
   int solver_iterations = 50;           ///< Bullet's 10 let the feet creep.
+  double residual_threshold = 0;        ///< More ends Bullet's sweeps early.
   double linear_damping = 0;            ///< Bullet's 0.04 eats energy.
   double angular_damping = 0;           ///< The same.
   bool gyroscopic_term = true;          ///< Off, angular momentum drifts.
   bool rk4 = false;                     ///< On, it is not the RK4 of the book.
   bool global_velocities = false;       ///< On, the accelerations are wrong.
+  bool can_sleep = false;               ///< What stands still ignores forces.
   double max_velocity = 1e9;            ///< Bullet's 100 rad/s clamps fingers.
   bool two_friction_directions = true;  ///< One lets a foot drift sideways.
   double sole_radius = 0.005;  ///< Of the spheres at a sole's corners, m.

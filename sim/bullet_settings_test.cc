@@ -114,6 +114,69 @@ TEST(BulletSettings, FewIterationsCreep) {
   EXPECT_GT(Creep(few), 5 * Creep({}));
 }
 
+// Bullet's own sweeps, ended as soon as little changes, leave the same.
+TEST(BulletSettings, ResidualThresholdEndsBulletsSweepsEarly) {
+  BulletSettings exact, early;
+  exact.own_sweeps = early.own_sweeps = false;
+  early.residual_threshold = 1e-3;
+  EXPECT_LT(Creep(exact), 1e-5);
+  EXPECT_GT(Creep(early), 5 * Creep(exact));
+}
+
+// The speed of a block that stood still for 3 s, Bullet's time to sleep being
+// 2 s, and is then pushed.
+double SpeedAfterRest(const BulletSettings& bullet) {
+  BulletPlant plant(MakeBlock({0.3, 0.3, 0.02}, 5), {}, bullet);
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(7);
+  q[2] = 0.01;
+  q[6] = 1;
+  plant.Reset(q, Eigen::VectorXd::Zero(6));
+  for (int k = 0; k < 3000; ++k) plant.Step({});
+  for (int k = 0; k < 100; ++k) {
+    plant.Apply({0, {0, 0, -0.01}, {0, 0, 0}, {45, 0, 0}});
+    plant.Step({});
+  }
+  return plant.Sense().v[3];
+}
+
+TEST(BulletSettings, WhatSleepsIgnoresForces) {
+  BulletSettings sleepy;
+  sleepy.can_sleep = true;
+  // (45 N - 0.8 m g) / m for 0.1 s.
+  EXPECT_NEAR(SpeedAfterRest({}), (45.0 / 5 - 0.8 * 9.81) * 0.1, 1e-3);
+  EXPECT_EQ(SpeedAfterRest(sleepy), 0);
+}
+
+// The height of the middle of a sole tilted by 0.5 rad at which it touches.
+double TouchingHeight(double sole_radius) {
+  BulletSettings bullet;
+  bullet.sole_radius = sole_radius;
+  for (double height = 0.2; height > 0; height -= 1e-4) {
+    BulletPlant plant(MakeBlock({0.2, 0.2, 0.2}, 5), {}, bullet);
+    const Eigen::Quaterniond R_WB(
+        Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()));
+    Eigen::VectorXd q(7);
+    q << Eigen::Vector3d(0, 0, height) - R_WB * Eigen::Vector3d(0, 0, -0.1),
+        R_WB.coeffs();
+    plant.Reset(q, Eigen::VectorXd::Zero(6));
+    plant.Step({});
+    if (plant.Sense().contact_points[0] > 0) return height;
+  }
+  return 0;
+}
+
+TEST(BulletSettings, SolesEndInSpheresOfTheirRadius) {
+  // The corner is at 0.1 sin; a sphere there of radius r, whose middle is r
+  // above the sole, reaches r (1 - cos) deeper.
+  const double corner = 0.1 * std::sin(0.5);
+  // Bullet stops what would touch within a step: 0.1 mm and a step's fall.
+  constexpr double kStep = 2e-4;
+  for (const double radius : {0.005, 0.05}) {
+    EXPECT_NEAR(TouchingHeight(radius), corner + radius * (1 - std::cos(0.5)),
+                kStep);
+  }
+}
+
 // How far a turned block slides off its line on a steep slope, m.
 double Sideways(const BulletSettings& bullet) {
   PlantSettings settings;

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 #include <variant>
 
@@ -17,6 +16,9 @@ namespace {
 
 // The user index of what belongs to the ground; that of a link is its body.
 constexpr int kGround = -1;
+
+// The collision group of what meets links, but not the ground.
+constexpr int kAboveGround = btBroadphaseProxy::CharacterFilter;
 
 std::unique_ptr<btCollisionShape> MakeShape(const Geometry& geometry) {
   if (const auto* sphere = std::get_if<Sphere>(&geometry)) {
@@ -61,7 +63,10 @@ bool BulletWorld::PairFilter::needBroadphaseCollision(
       static_cast<btCollisionObject*>(a->m_clientObject)->getUserIndex();
   const int body_b =
       static_cast<btCollisionObject*>(b->m_clientObject)->getUserIndex();
-  if (body_a == kGround || body_b == kGround) return body_a != body_b;
+  if (body_a == kGround || body_b == kGround) {
+    return body_a != body_b && a->m_collisionFilterGroup != kAboveGround &&
+           b->m_collisionFilterGroup != kAboveGround;
+  }
   return !excluded_[body_a * num_bodies_ + body_b];
 }
 
@@ -78,7 +83,7 @@ BulletWorld::BulletWorld(const Robot& robot, const PlantSettings& settings,
   world_.getPairCache()->setOverlapFilterCallback(&filter_);
   btContactSolverInfo& info = world_.getSolverInfo();
   info.m_numIterations = bullet.solver_iterations;
-  info.m_leastSquaresResidualThreshold = 0;
+  info.m_leastSquaresResidualThreshold = bullet.residual_threshold;
   if (settings.restitution > 0) info.m_erp2 = 0;
   if (bullet.two_friction_directions) {
     info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
@@ -93,7 +98,7 @@ BulletWorld::BulletWorld(const Robot& robot, const PlantSettings& settings,
   body.useRK4Integration(bullet.rk4);
   body.useGlobalVelocities(bullet.global_velocities);
   body.setMaxCoordinateVelocity(bullet.max_velocity);
-  body.setCanSleep(false);
+  body.setCanSleep(bullet.can_sleep);
   body.setHasSelfCollision(settings.self_collision);
   world_.addMultiBody(&body);
 
@@ -104,8 +109,8 @@ BulletWorld::BulletWorld(const Robot& robot, const PlantSettings& settings,
 
 BulletWorld::~BulletWorld() {
   for (const auto& limit : limits_) world_.removeMultiBodyConstraint(&*limit);
-  for (const auto& collider : colliders_) {
-    world_.removeCollisionObject(&*collider);
+  for (const auto* colliders : {&colliders_, &foot_colliders_}) {
+    for (const auto& each : *colliders) world_.removeCollisionObject(&*each);
   }
   for (const auto& object : ground_) world_.removeCollisionObject(&*object);
   world_.removeMultiBody(&body_.body());
@@ -137,73 +142,96 @@ void BulletWorld::AddGround(const PlantSettings& settings) {
   }
 }
 
+void BulletWorld::AddCollider(const PlantSettings& settings, int body,
+                              btCollisionShape* shape, int group,
+                              Colliders* colliders) {
+  auto collider =
+      std::make_unique<btMultiBodyLinkCollider>(&body_.body(), body - 1);
+  collider->setCollisionShape(shape);
+  collider->setFriction(settings.friction);
+  collider->setRestitution(settings.restitution);
+  // Bullet stops what will touch within a step, short of the ground; then
+  // nothing is left to bounce. So what bounces sinks in first, by up to a
+  // step's way, and is not pushed out, which would add to its speed.
+  if (settings.restitution > 0) collider->setContactProcessingThreshold(0);
+  collider->setUserIndex(body);
+  world_.addCollisionObject(collider.get(), group,
+                            group == 0 ? 0 : btBroadphaseProxy::AllFilter);
+  colliders->push_back(std::move(collider));
+}
+
 void BulletWorld::AddColliders(const Robot& robot,
                                const PlantSettings& settings,
                                double sole_radius) {
   const Tree& tree = robot.model.tree;
-  std::vector<bool> is_foot(tree.num_bodies(), false);
-  std::vector<std::unique_ptr<btCompoundShape>> compounds(tree.num_bodies());
+  using Compounds = std::vector<std::unique_ptr<btCompoundShape>>;
+  Compounds links(tree.num_bodies()), feet(tree.num_bodies());
   const auto add = [&](int body, const Pose& X_BS,
-                       std::unique_ptr<btCollisionShape> shape) {
-    if (compounds[body] == nullptr) {
-      compounds[body] = std::make_unique<btCompoundShape>();
-    }
-    compounds[body]->addChildShape(ToBullet(body_.X_BL(body).Inverse() * X_BS),
-                                   shape.get());
+                       std::unique_ptr<btCollisionShape> shape,
+                       Compounds* compounds) {
+    auto& compound = (*compounds)[body];
+    if (compound == nullptr) compound = std::make_unique<btCompoundShape>();
+    compound->addChildShape(ToBullet(body_.X_BL(body).Inverse() * X_BS),
+                            shape.get());
     shapes_.push_back(std::move(shape));
   };
+  std::vector<bool> is_foot(tree.num_bodies(), false);
   for (const Foot& foot : robot.feet) {
     is_foot[foot.body] = true;
     for (const Eigen::Vector2d& corner : foot.polygon_C) {
       const Pose X_CS{Eigen::Matrix3d::Identity(),
                       {corner.x(), corner.y(), sole_radius}};
       add(foot.body, foot.X_BC * X_CS,
-          std::make_unique<btSphereShape>(sole_radius));
+          std::make_unique<btSphereShape>(sole_radius), &links);
     }
   }
   for (const Shape& shape : robot.model.collisions) {
     const Frame& frame = tree.frames()[shape.frame];
-    // Box on box is where Bullet is bad: a foot touches with its sole alone.
-    if (is_foot[frame.body]) continue;
+    // Box on box is where Bullet is bad: a foot meets the ground with its sole
+    // alone, and with its shapes what else it may run into.
     if (auto made = MakeShape(shape.geometry)) {
-      add(frame.body, frame.X_BF * shape.X_FS, std::move(made));
+      add(frame.body, frame.X_BF * shape.X_FS, std::move(made),
+          is_foot[frame.body] ? &feet : &links);
     }
   }
 
   // Before the colliders come: Bullet asks about a pair once, when its boxes
   // first overlap, and here all of them still lie at the origin.
   for (const auto& [a, b] : FindNeighbors(tree)) filter_.Exclude(a, b);
+  for (int i = 0; i < tree.num_bodies(); ++i) filter_.Exclude(i, i);
 
   // A link without a collider would be without its joint limits, too.
   auto nothing = std::make_unique<btSphereShape>(1e-3);
   for (int i = 0; i < tree.num_bodies(); ++i) {
-    auto collider =
-        std::make_unique<btMultiBodyLinkCollider>(&body_.body(), i - 1);
-    const bool touches = compounds[i] != nullptr;
-    if (touches) {
-      collider->setCollisionShape(compounds[i].get());
-      shapes_.push_back(std::move(compounds[i]));
+    if (links[i] != nullptr) {
+      AddCollider(settings, i, links[i].get(), btBroadphaseProxy::DefaultFilter,
+                  &colliders_);
     } else {
-      collider->setCollisionShape(nothing.get());
+      AddCollider(settings, i, nothing.get(), /* group */ 0, &colliders_);
     }
-    collider->setFriction(settings.friction);
-    collider->setRestitution(settings.restitution);
-    // Bullet stops what will touch within a step, short of the ground; then
-    // nothing is left to bounce. So what bounces sinks in first, by up to a
-    // step's way, and is not pushed out, which would add to its speed.
-    if (settings.restitution > 0) collider->setContactProcessingThreshold(0);
-    collider->setUserIndex(i);
-    world_.addCollisionObject(collider.get(),
-                              touches ? btBroadphaseProxy::DefaultFilter : 0,
-                              touches ? btBroadphaseProxy::AllFilter : 0);
     if (i == 0) {
-      body_.body().setBaseCollider(collider.get());
+      body_.body().setBaseCollider(colliders_[i].get());
     } else {
-      body_.body().getLink(i - 1).m_collider = collider.get();
+      body_.body().getLink(i - 1).m_collider = colliders_[i].get();
     }
-    colliders_.push_back(std::move(collider));
+  }
+  for (int i = 0; i < tree.num_bodies(); ++i) {
+    if (feet[i] == nullptr) continue;
+    AddCollider(settings, i, feet[i].get(), kAboveGround, &foot_colliders_);
+  }
+  for (Compounds* compounds : {&links, &feet}) {
+    for (auto& compound : *compounds) {
+      if (compound != nullptr) shapes_.push_back(std::move(compound));
+    }
   }
   shapes_.push_back(std::move(nothing));
+}
+
+void BulletWorld::MoveFootColliders() {
+  for (const auto& collider : foot_colliders_) {
+    const auto& link = colliders_[collider->getUserIndex()];
+    collider->setWorldTransform(link->getWorldTransform());
+  }
 }
 
 void BulletWorld::AddLimits(const RobotModel& model) {
@@ -221,24 +249,28 @@ void BulletWorld::Place() {
   btAlignedObjectArray<btVector3> origins;
   body_.body().forwardKinematics(rotations, origins);
   body_.body().updateCollisionObjectWorldTransforms(rotations, origins);
+  MoveFootColliders();
 
   world_.performDiscreteCollisionDetection();
-  std::set<std::pair<int, int>> touching;
-  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+  for (int i = dispatcher_.getNumManifolds() - 1; i >= 0; --i) {
     const btPersistentManifold* pair =
         dispatcher_.getManifoldByIndexInternal(i);
     if (IsGround(pair->getBody0()) || IsGround(pair->getBody1())) continue;
+    bool touches = false;
     for (int k = 0; k < pair->getNumContacts(); ++k) {
-      if (pair->getContactPoint(k).getDistance() > 0) continue;
-      touching.emplace(pair->getBody0()->getUserIndex(),
-                       pair->getBody1()->getUserIndex());
+      touches = touches || pair->getContactPoint(k).getDistance() <= 0;
     }
+    if (!touches) continue;
+    filter_.Exclude(pair->getBody0()->getUserIndex(),
+                    pair->getBody1()->getUserIndex());
   }
-  for (const auto& [a, b] : touching) {
-    filter_.Exclude(a, b);
-    world_.getPairCache()->removeOverlappingPair(
-        colliders_[a]->getBroadphaseHandle(),
-        colliders_[b]->getBroadphaseHandle(), &dispatcher_);
+  // Pairs that are excluded by now, and those that Bullet had let in.
+  btBroadphasePairArray pairs =
+      world_.getPairCache()->getOverlappingPairArray();
+  for (int i = 0; i < pairs.size(); ++i) {
+    btBroadphaseProxy *a = pairs[i].m_pProxy0, *b = pairs[i].m_pProxy1;
+    if (filter_.needBroadphaseCollision(a, b)) continue;
+    world_.getPairCache()->removeOverlappingPair(a, b, &dispatcher_);
   }
 }
 
@@ -278,6 +310,9 @@ void BulletWorld::FindSelfContacts(std::vector<std::pair<int, int>>* pairs) {
       break;
     }
   }
+  // A foot has two colliders: its sole, and the rest of it.
+  std::sort(pairs->begin(), pairs->end());
+  pairs->erase(std::unique(pairs->begin(), pairs->end()), pairs->end());
 }
 
 }  // namespace poise

@@ -50,7 +50,10 @@ class BulletWorld {
   /// that touch there pass through each other from now on.
   void Place();
 
-  void Step(double dt) { world_.stepSimulation(dt, /* maxSubSteps */ 0); }
+  void Step(double dt) {
+    world_.stepSimulation(dt, /* maxSubSteps */ 0);
+    MoveFootColliders();
+  }
 
   /// The points of the ground that pressed on the robot in the last step.
   /// Valid until the next call.
@@ -74,10 +77,17 @@ class BulletWorld {
     std::vector<char> excluded_;
   };
 
+  using Colliders = std::vector<std::unique_ptr<btMultiBodyLinkCollider>>;
+
   void AddGround(const PlantSettings& settings);
+  void AddCollider(const PlantSettings& settings, int body,
+                   btCollisionShape* shape, int group, Colliders* colliders);
   void AddColliders(const Robot& robot, const PlantSettings& settings,
                     double sole_radius);
   void AddLimits(const RobotModel& model);
+
+  // Bullet moves the one collider that a link knows of.
+  void MoveFootColliders();
 
   BulletBody body_;
   btDefaultCollisionConfiguration configuration_;
@@ -88,7 +98,8 @@ class BulletWorld {
   btMultiBodyDynamicsWorld world_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btCollisionObject>> ground_;
-  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
+  Colliders colliders_;       // By body; feet with their soles.
+  Colliders foot_colliders_;  // What else there is of the feet.
   std::vector<std::unique_ptr<btMultiBodyConstraint>> limits_;
   std::vector<GroundContact> contacts_;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <string>
 
 #include "sim/make_plant.h"
 #include "tests/util/simple_robots.h"
@@ -179,6 +180,88 @@ TEST_P(GroundTest, BoardCarriesAtItsHeight) {
   PutDown({}, 0.08, plant.get());
   Simulate(1, plant.get());
   EXPECT_NEAR(plant->Sense().q.z(), 0.03 + 0.05, 1e-4);
+}
+
+// Two legs that slide out of a wall along x, each with a box of a foot that
+// slides along y: the left one is body 2, the right one body 4.
+Robot MakeTwoFeet() {
+  Inertia M;
+  M.mass = 1;
+  M.I_G_B = 0.01 * Eigen::Matrix3d::Identity();
+  TreeBuilder builder;
+  builder.AddLink("wall", M).SetGravity(Eigen::Vector3d::Zero());
+  for (const double side : {1, -1}) {
+    const std::string name = side > 0 ? "left" : "right";
+    JointSpec hip, ankle;
+    hip.name = name + "_hip";
+    hip.parent = "wall";
+    hip.child = name + "_leg";
+    hip.type = ankle.type = JointType::kPrismatic;
+    hip.axis_F = Eigen::Vector3d::UnitX();
+    hip.X_PF.p = {0, 0.15 * side, 1};
+    ankle.name = name + "_ankle";
+    ankle.parent = hip.child;
+    ankle.child = name + "_foot";
+    ankle.axis_F = Eigen::Vector3d::UnitY();
+    ankle.X_PF.p = {0, 0, -0.4};
+    builder.AddLink(hip.child, M).AddLink(ankle.child, M);
+    builder.AddJoint(hip).AddJoint(ankle);
+  }
+  Robot robot = MakeRobot(builder.Build(BaseType::kFixed));
+  for (const char* name : {"left_foot", "right_foot"}) {
+    const int frame = *robot.model.tree.FindFrame(name);
+    Foot foot{
+        name,        robot.model.tree.frames()[frame].body,
+        frame,       {},
+        {0.1, 0.04}, {{0.1, 0.04}, {-0.1, 0.04}, {-0.1, -0.04}, {0.1, -0.04}}};
+    foot.X_BC.p.z() = -0.02;
+    robot.feet.push_back(foot);
+    robot.model.collisions.push_back({frame, {}, Box{{0.2, 0.1, 0.04}}});
+  }
+  return robot;
+}
+
+// Presses the feet together for a second; they meet when each has gone 0.1 m.
+double PressFeetTogether(Plant* plant) {
+  const Robot robot = MakeTwoFeet();
+  Eigen::VectorXd tau = Eigen::VectorXd::Zero(4);
+  const int left = *robot.model.tree.FindFrame("left_foot");
+  const int right = *robot.model.tree.FindFrame("right_foot");
+  const int l = robot.model.tree.frames()[left].body - 1;
+  const int r = robot.model.tree.frames()[right].body - 1;
+  tau[l] = -1;
+  tau[r] = 1;
+  plant->Reset(Eigen::VectorXd::Zero(4), Eigen::VectorXd::Zero(4));
+  for (int k = 0; k < 1000; ++k) plant->Step(tau);
+  return (plant->Sense().q[r] - plant->Sense().q[l]) / 2;
+}
+
+TEST_P(GroundTest, FeetThatMeetAreHeldApartAndNamed) {
+  const auto plant = Make(MakeTwoFeet());
+  EXPECT_NEAR(PressFeetTogether(plant.get()), 0.1, 1e-3);
+  ASSERT_EQ(plant->Sense().self_contacts.size(), 1u);
+  const Tree tree = MakeTwoFeet().model.tree;
+  const auto [a, b] = plant->Sense().self_contacts[0];
+  EXPECT_EQ(a, tree.frames()[*tree.FindFrame("left_foot")].body);
+  EXPECT_EQ(b, tree.frames()[*tree.FindFrame("right_foot")].body);
+  EXPECT_EQ(plant->Sense().other_force_W, Eigen::Vector3d::Zero());
+
+  PlantSettings ghosts;
+  ghosts.self_collision = false;
+  // a t^2 / 2 with 1 m/s2.
+  EXPECT_NEAR(PressFeetTogether(Make(MakeTwoFeet(), ghosts).get()), 0.5, 1e-3);
+}
+
+// Its sole alone bears it: a foot's own shapes, which reach 10 mm deeper here,
+// pass through the ground.
+TEST_P(GroundTest, FootStandsOnItsSoleNotOnItsShapes) {
+  Robot robot = MakeBlock({0.3, 0.2, 0.1}, 5);
+  robot.model.collisions.push_back({0, {}, Box{{0.3, 0.2, 0.12}}});
+  const auto plant = Make(robot);
+  PutDown({}, 0.05, plant.get());
+  Simulate(0.5, plant.get());
+  EXPECT_NEAR(plant->Sense().q.z(), 0.05, 1e-4);
+  EXPECT_EQ(plant->Sense().contact_points[0], 4);
 }
 
 }  // namespace

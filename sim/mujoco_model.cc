@@ -20,6 +20,15 @@ constexpr double kSoleRadius = 0.005;
 // of two steps and more, and an impedance near 1.
 constexpr const char* kStiff = "solref=\"0.004 1\" solimp=\"0.95 0.99 0.001\"";
 
+// Geoms meet where one's contype shares a bit with the other's conaffinity. The
+// first bit is for the ground, the second for links among themselves. Without
+// and with self-collision:
+constexpr const char* kGround = " contype=\"1\" conaffinity=\"1\"";
+constexpr const char* kLink[] = {" contype=\"1\" conaffinity=\"0\"",
+                                 " contype=\"3\" conaffinity=\"2\""};
+constexpr const char* kAboveGround[] = {" contype=\"0\" conaffinity=\"0\"",
+                                        " contype=\"2\" conaffinity=\"2\""};
+
 class Xml {
  public:
   Xml() {
@@ -56,13 +65,13 @@ void WriteGround(const PlantSettings& settings, Xml* xml) {
       Eigen::Vector3d::UnitZ(), GroundNormal(settings.ground));
   // MuJoCo takes the larger friction of two; the robot says it.
   *xml << "<geom type=\"plane\" size=\"0 0 1\" quat=\"" << R_WS
-       << "\" friction=\"0 0 0\" contype=\"1\"/>\n";
+       << "\" friction=\"0 0 0\"" << kGround << "/>\n";
   for (const Board& board : settings.ground.boards) {
     const Pose X_WS{Eigen::AngleAxisd(board.yaw, Eigen::Vector3d::UnitZ())
                         .toRotationMatrix(),
                     board.center_W};
     *xml << "<geom type=\"box\" size=\"" << Eigen::Vector3d(board.size / 2)
-         << "\" " << X_WS << " friction=\"0 0 0\" contype=\"1\"/>\n";
+         << "\" " << X_WS << " friction=\"0 0 0\"" << kGround << "/>\n";
   }
 }
 
@@ -85,7 +94,7 @@ bool WriteGeometry(const Geometry& geometry, Xml* xml) {
   return false;
 }
 
-void WriteShapes(const Robot& robot, int body, Xml* xml) {
+void WriteShapes(const Robot& robot, int body, bool collides, Xml* xml) {
   bool is_foot = false;
   for (const Foot& foot : robot.feet) {
     if (foot.body != body) continue;
@@ -96,11 +105,13 @@ void WriteShapes(const Robot& robot, int body, Xml* xml) {
            << "\"/>\n";
     }
   }
-  if (is_foot) return;  // A foot touches with its sole alone.
   for (const Shape& shape : robot.model.collisions) {
     const Frame& frame = robot.model.tree.frames()[shape.frame];
     if (frame.body != body || !WriteGeometry(shape.geometry, xml)) continue;
-    *xml << frame.X_BF * shape.X_FS << "/>\n";
+    *xml << frame.X_BF * shape.X_FS;
+    // A foot meets the ground with its sole alone.
+    if (is_foot) *xml << kAboveGround[collides];
+    *xml << "/>\n";
   }
 }
 
@@ -140,7 +151,7 @@ void WriteBody(const Robot& robot, int body, const PlantSettings& settings,
   *xml << "<inertial pos=\"" << M.p_BoG_B << "\" mass=\"" << M.mass
        << "\" fullinertia=\"" << Eigen::Vector3d(I.diagonal()) << ' '
        << Eigen::Vector3d(I(0, 1), I(0, 2), I(1, 2)) << "\"/>\n";
-  WriteShapes(robot, body, xml);
+  WriteShapes(robot, body, settings.self_collision, xml);
   for (int child = body + 1; child < tree.num_bodies(); ++child) {
     if (tree.joints()[child - 1].parent == body) {
       WriteBody(robot, child, settings, xml);
@@ -161,10 +172,7 @@ std::string MakeMujocoXml(const Robot& robot, const PlantSettings& settings,
          "iterations=\"50\" tolerance=\"1e-12\"/>\n"
       << "<size nconmax=\"500\" njmax=\"2000\"/>\n"
       << "<default><geom " << kStiff << " condim=\"3\" friction=\""
-      << settings.friction << " 0 0\"";
-  // Geoms meet where one's contype shares a bit with the other's conaffinity:
-  // the ground's is set there.
-  xml << (settings.self_collision ? "" : " contype=\"0\"")
+      << settings.friction << " 0 0\"" << kLink[settings.self_collision]
       << "/></default>\n<worldbody>\n";
   WriteGround(settings, &xml);
   WriteBody(robot, 0, settings, &xml);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace poise {
@@ -17,6 +18,14 @@ constexpr double kPi = 3.14159265358979323846;
 double IntegralTo(PushProfile profile, double x) {
   x = std::clamp(x, 0.0, 1.0);
   return profile == PushProfile::kHalfSine ? (1 - std::cos(kPi * x)) / kPi : x;
+}
+
+void RequireFinite(const char* what, const Eigen::Vector3d& values) {
+  for (const double value : values) {
+    if (std::isfinite(value)) continue;
+    throw std::invalid_argument(std::string(what) + " of a push is " +
+                                std::to_string(value) + ", must be finite");
+  }
 }
 
 }  // namespace
@@ -59,15 +68,14 @@ int FindTorso(const Robot& robot) {
 PushOnRobot::PushOnRobot(const Robot& robot, const Push& push)
     : push_(push), R_BF_(Eigen::Matrix3d::Identity()) {
   const Tree& tree = robot.model.tree;
-  if (!push.force.allFinite() || !push.moment.allFinite() ||
-      !std::isfinite(push.start) || !std::isfinite(push.duration) ||
-      (push.point && !push.point->allFinite())) {
-    throw std::invalid_argument("push: has a number that is not finite");
-  }
-  if (push.duration < 0) {
-    throw std::invalid_argument("push: duration is " +
+  RequireFinite("force", push.force);
+  RequireFinite("moment", push.moment);
+  RequireFinite("point", push.point.value_or(Eigen::Vector3d::Zero()));
+  RequireFinite("start", Eigen::Vector3d::Constant(push.start));
+  if (!(push.duration >= 0) || std::isinf(push.duration)) {
+    throw std::invalid_argument("duration of a push is " +
                                 std::to_string(push.duration) +
-                                ", must be at least 0");
+                                ", must be at least 0 s");
   }
   Pose X_BF;
   if (push.link.empty()) {
@@ -75,7 +83,7 @@ PushOnRobot::PushOnRobot(const Robot& robot, const Push& push)
   } else {
     const auto frame = tree.FindFrame(push.link);
     if (!frame) {
-      throw std::invalid_argument("push: link '" + push.link +
+      throw std::invalid_argument("link '" + push.link +
                                   "' is unknown, must be a link of robot '" +
                                   robot.model.name + "'");
     }

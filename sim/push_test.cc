@@ -108,17 +108,44 @@ TEST(Push, TurnsWithItsLinkIfTold) {
   EXPECT_TRUE(force->torque_W.isApprox(Eigen::Vector3d(-5, 4, 6)));
 }
 
+std::string MessageFor(const Push& push) {
+  try {
+    PushOnRobot(MakeBall(0.1, 1), push);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(Push, RefusesWhatItCannotDo) {
-  const Robot robot = MakeBall(0.1, 1);
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(MessageFor({}), "");
   Push push;
   push.link = "elbow";
-  EXPECT_THROW(PushOnRobot(robot, push), std::invalid_argument);
-  push.link = "";
+  EXPECT_EQ(MessageFor(push),
+            "link 'elbow' is unknown, must be a link of robot 'simple'");
+  push = {};
   push.duration = -1;
-  EXPECT_THROW(PushOnRobot(robot, push), std::invalid_argument);
-  push.duration = 1;
-  push.force.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(PushOnRobot(robot, push), std::invalid_argument);
+  EXPECT_EQ(MessageFor(push),
+            "duration of a push is -1.000000, must be at least 0 s");
+  for (const double value : {kNan, kInfinity}) {
+    push = {};
+    push.duration = value;
+    EXPECT_NE(MessageFor(push), "");
+    push = {};
+    push.start = value;
+    EXPECT_NE(MessageFor(push), "");
+    push = {};
+    push.point = Eigen::Vector3d(0, value, 0);
+    EXPECT_NE(MessageFor(push), "");
+    push = {};
+    push.moment.z() = value;
+    EXPECT_NE(MessageFor(push), "");
+  }
+  push = {};
+  push.force.x() = kNan;
+  EXPECT_EQ(MessageFor(push), "force of a push is nan, must be finite");
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "sim/recorder.h"
 
 #include <charconv>
-#include <cmath>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
@@ -15,12 +14,12 @@ constexpr int kRowsAtOnce = 50;
 constexpr const char* kWrench[] = {"mx[Nm]", "my[Nm]", "mz[Nm]",
                                    "fx[N]",  "fy[N]",  "fz[N]"};
 
-std::vector<std::string> Columns(const Robot& robot, const Stack& stack) {
+std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
   std::vector<std::string> columns = {
-      "time[s]",  "base.x[m]", "base.y[m]",    "base.z[m]",      "base.qx",
-      "base.qy",  "base.qz",   "base.qw",      "base.tilt[rad]", "com.x[m]",
-      "com.y[m]", "com.z[m]",  "com_ref.x[m]", "com_ref.y[m]",   "com_ref.z[m]",
-      "cop.x[m]", "cop.y[m]"};
+      "base.x[m]",    "base.y[m]",    "base.z[m]", "base.qx",
+      "base.qy",      "base.qz",      "base.qw",   "base.tilt[rad]",
+      "com.x[m]",     "com.y[m]",     "com.z[m]",  "com_ref.x[m]",
+      "com_ref.y[m]", "com_ref.z[m]", "cop.x[m]",  "cop.y[m]"};
   for (const Foot& foot : robot.feet) {
     columns.push_back(foot.name + ".contact");
     columns.push_back(foot.name + ".tilt[rad]");
@@ -46,11 +45,13 @@ std::vector<std::string> Columns(const Robot& robot, const Stack& stack) {
   for (int i = 0; i < stack.num_tasks(); ++i) {
     columns.push_back("residual." + std::string(stack.task(i).name()));
   }
-  columns.push_back("touching");
-  columns.push_back("status");
-  columns.push_back("active");
-  columns.push_back("lost");
-  return columns;
+  using Kind = LogColumn::Kind;
+  std::vector<LogColumn> all = {{"time[s]", Kind::kTime}};
+  for (const std::string& name : columns) all.push_back({name, Kind::kNumber});
+  for (const char* name : {"touching", "status", "active", "lost"}) {
+    all.push_back({name, Kind::kText});
+  }
+  return all;
 }
 
 // Each body by the first link that is fixed in it.
@@ -87,120 +88,91 @@ std::string_view StatusName(TickStatus status) {
 }
 
 Recorder::Recorder(const std::filesystem::path& folder, const Robot& robot,
-                   const Stack& stack)
-    : body_names_(BodyNames(robot.model.tree)) {
+                   const Stack& stack, LogFormat format)
+    : body_names_(BodyNames(robot.model.tree)),
+      rows_(MakeLogRows(format, Columns(robot, stack))) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
     throw std::invalid_argument(folder.string() +
                                 ": cannot be made: " + error.message());
   }
-  log_ = Open(folder / "log.csv");
+  // What another run may have left would be taken for this one's.
+  for (const LogFormat other : {LogFormat::kCsv, LogFormat::kBinary}) {
+    std::filesystem::remove(folder / LogFileName(other), error);
+  }
+  log_ = Open(folder / LogFileName(format));
   timing_ = Open(folder / "timing.csv");
-  for (const std::string& column : Columns(robot, stack)) Text(column);
-  EndRow();
+  log_rows_ = rows_->Header();
+  hash_.Update(log_rows_);
   timing_rows_ = "tick,us,iterations\n";
   Flush();
 }
 
-void Recorder::Number(double value) {
-  // Nine digits: a nanometer on a meter, a millionth of a newton on the weight.
+void Recorder::EndEntries() {
+  rows_->Text(entries_);
+  entries_.clear();
+}
+
+void Recorder::Entry(std::string_view name, double value) {
   char digits[32];
-  const auto end = std::isnan(value)
-                       ? std::to_chars_result{digits, std::errc()}
-                       : std::to_chars(digits, digits + sizeof(digits), value,
-                                       std::chars_format::general, 9);
-  if (end.ptr == digits) {
-    Text("nan");
-  } else {
-    Text({digits, static_cast<size_t>(end.ptr - digits)});
+  const auto end = std::to_chars(digits, digits + sizeof(digits), value,
+                                 std::chars_format::general, 4);
+  if (!entries_.empty()) entries_ += ';';
+  entries_ += name;
+  entries_ += '=';
+  entries_.append(digits, end.ptr);
+}
+
+void Recorder::TextCells(const TickRecord& record) {
+  for (const auto& [a, b] : record.end.self_contacts) {
+    if (!entries_.empty()) entries_ += ';';
+    entries_ += body_names_[a] + "|" + body_names_[b];
   }
-}
-
-void Recorder::Text(std::string_view text) {
-  if (!row_.empty()) row_ += ',';
-  row_ += text;
-}
-
-void Recorder::EndRow() {
-  row_ += '\n';
-  hash_.Update(row_);
-  log_rows_ += row_;
-  row_.clear();
-}
-
-void Recorder::ActiveRows(const TickRecord& record) {
-  row_ += ',';
-  bool first = true;
+  EndEntries();
+  rows_->Text(StatusName(record.report.status));
   for (const ActiveRow& active : record.report.active) {
-    if (!first) row_ += ';';
-    first = false;
-    row_ += record.stack.RowName(active);
-    char digits[32];
-    const auto end =
-        std::to_chars(digits, digits + sizeof(digits), active.multiplier,
-                      std::chars_format::general, 4);
-    row_ += '=';
-    row_.append(digits, end.ptr);
+    Entry(record.stack.RowName(active), active.multiplier);
   }
-}
-
-void Recorder::SelfContacts(const PlantState& end) {
-  row_ += ',';
-  bool first = true;
-  for (const auto& [a, b] : end.self_contacts) {
-    row_ += first ? "" : ";";
-    first = false;
-    row_ += body_names_[a] + "|" + body_names_[b];
-  }
-}
-
-void Recorder::LostRows(const TickRecord& record) {
-  row_ += ',';
-  bool first = true;
+  EndEntries();
   for (const LostRow& lost : record.report.lost) {
-    if (!first) row_ += ';';
-    first = false;
-    row_ += record.stack.task(lost.task).equality_names()[lost.row];
-    char digits[32];
-    const auto end = std::to_chars(digits, digits + sizeof(digits), lost.amount,
-                                   std::chars_format::general, 4);
-    row_ += '=';
-    row_.append(digits, end.ptr);
+    Entry(record.stack.task(lost.task).equality_names()[lost.row], lost.amount);
   }
+  EndEntries();
 }
 
 void Recorder::Record(const TickRecord& record) {
   const Observation& now = record.observation;
   const auto vector = [this](const auto& v) {
-    for (const double x : v) Number(x);
+    for (const double x : v) rows_->Number(x);
   };
-  Number(now.time);
+  rows_->Number(now.time);
   vector(record.start.q.head<7>());
-  Number(now.base_tilt);
+  rows_->Number(now.base_tilt);
   vector(now.com);
   vector(now.com_ref);
   vector(now.cop);
   for (const FootObservation& foot : now.feet) {
-    Text(foot.down ? "1" : "0");
-    Number(foot.tilt);
-    Number(foot.slide);
+    rows_->Number(foot.down ? 1 : 0);
+    rows_->Number(foot.tilt);
+    rows_->Number(foot.slide);
     vector(foot.F_Co_C);
   }
   vector(record.push_force_W);
   vector(record.end.other_force_W);
-  Number(static_cast<double>(record.end.self_contacts.size()));
+  rows_->Number(static_cast<double>(record.end.self_contacts.size()));
   vector(record.end.tau);
   vector(record.start.q.tail(record.end.tau.size()));
   for (size_t i = 0; i < now.feet.size(); ++i) {
     vector(record.report.foot_wrench(record.nv, static_cast<int>(i)));
   }
-  for (const TaskReport& task : record.report.tasks) Number(task.residual);
-  SelfContacts(record.end);
-  Text(StatusName(record.report.status));
-  ActiveRows(record);
-  LostRows(record);
-  EndRow();
+  for (const TaskReport& task : record.report.tasks) {
+    rows_->Number(task.residual);
+  }
+  TextCells(record);
+  const size_t before = log_rows_.size();
+  rows_->EndRow(&log_rows_);
+  hash_.Update(std::string_view(log_rows_).substr(before));
 
   timing_rows_ += std::to_string(record.tick) + ',';
   char digits[32];

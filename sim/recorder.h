@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "robot/robot.h"
+#include "sim/log_rows.h"
 #include "sim/sha256.h"
 #include "sim/tick_record.h"
 
@@ -16,17 +18,18 @@ namespace poise {
 /// Writes a run into a folder:
 ///
 ///     log.csv     a row a tick: what was true, then what the controller said.
-///                 The same run gives the same bytes, on any machine's locale.
+///                 The same run gives the same bytes, in any locale. Or, if
+///                 told, log.bin: see LogRows.
 ///     timing.csv  tick, us, iterations: what is never twice the same.
 ///
-/// Only whole rows reach the files, every 50 ticks, so that a run that is cut
-/// short by a crash leaves files that can be read.
+/// Only whole rows are handed to the files, every 50 ticks, so that a run that
+/// is cut short, by a crash or a kill, leaves files that can be read.
 class Recorder {
  public:
   /// Makes the folder, and writes over what is in it. Throws
   /// std::invalid_argument if it cannot.
   Recorder(const std::filesystem::path& folder, const Robot& robot,
-           const Stack& stack);
+           const Stack& stack, LogFormat format = LogFormat::kCsv);
   ~Recorder() { Flush(); }
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -36,21 +39,19 @@ class Recorder {
   /// Brings all rows to the files.
   void Flush();
 
-  /// The SHA-256 of log.csv so far.
+  /// The SHA-256 of the log so far.
   std::string log_sha256() const { return hash_.Digest(); }
 
  private:
-  void Number(double value);
-  void Text(std::string_view text);
-  void EndRow();
-  void ActiveRows(const TickRecord& record);
-  void SelfContacts(const PlantState& end);
-  void LostRows(const TickRecord& record);
+  void Entry(std::string_view name, double value);
+  void EndEntries();
+  void TextCells(const TickRecord& record);
 
   std::vector<std::string> body_names_;
   std::ofstream log_;
   std::ofstream timing_;
-  std::string row_;       // Of log.csv, growing.
+  std::unique_ptr<LogRows> rows_;
+  std::string entries_;   // Of a cell that lists, growing: "a=1;b=2".
   std::string log_rows_;  // Whole rows, not yet in the file.
   std::string timing_rows_;
   int rows_waiting_ = 0;

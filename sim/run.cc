@@ -70,13 +70,13 @@ void MeasurePushes(const Robot& robot, const Scenario& scenario,
 
 RunResult Run(const Robot& robot, const Scenario& scenario,
               const std::filesystem::path& folder,
-              const std::function<bool(double)>& progress) {
+              const std::function<bool(double)>& progress, LogFormat format) {
   using Clock = std::chrono::steady_clock;
   ClosedLoop loop(robot, scenario);
   std::unique_ptr<Recorder> recorder;
   if (!folder.empty()) {
-    recorder =
-        std::make_unique<Recorder>(folder, robot, loop.controller().stack());
+    recorder = std::make_unique<Recorder>(folder, robot,
+                                          loop.controller().stack(), format);
   }
   // The nominal posture stands on the ground.
   Judge judge(robot.q_nominal.z());

@@ -8,6 +8,7 @@
 
 #include "robot/robot.h"
 #include "sim/judge.h"
+#include "sim/log_rows.h"
 #include "sim/recorder.h"
 #include "sim/scenario.h"
 #include "sim/yardstick.h"
@@ -45,12 +46,14 @@ struct RunResult {
 /// Runs a scenario to its end, or until the robot lies.
 ///
 /// @param folder    where a Recorder writes; empty: nothing is written.
+/// @param format    of the log, see Recorder.
 /// @param progress  called a hundred times or so with the fraction done; stops
 ///                  the run by returning false. May be empty.
 ///
 /// Throws std::invalid_argument, see ClosedLoop and Recorder.
 RunResult Run(const Robot& robot, const Scenario& scenario,
               const std::filesystem::path& folder = {},
-              const std::function<bool(double)>& progress = {});
+              const std::function<bool(double)>& progress = {},
+              LogFormat format = LogFormat::kCsv);
 
 }  // namespace poise

@@ -21,7 +21,12 @@ namespace {
 
 // What stands in the file, as far as one line can show it.
 std::string Shown(const YAML::Node& node) {
-  if (node.IsScalar()) return "'" + node.Scalar() + "'";
+  if (node.IsScalar()) {
+    constexpr size_t kLongest = 40;
+    const std::string& text = node.Scalar();
+    return text.size() <= kLongest ? "'" + text + "'"
+                                   : "'" + text.substr(0, kLongest) + "...'";
+  }
   if (node.IsNull()) return "empty";
   return node.IsSequence() ? "a list" : "a map";
 }

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "tools/csv_reader.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <stdexcept>
@@ -21,36 +22,14 @@ void Split(std::string_view line, std::vector<std::string_view>* cells) {
 
 }  // namespace
 
-std::string_view WithoutUnit(std::string_view column) {
-  return column.substr(0, column.find('['));
-}
-
-std::string_view UnitOf(std::string_view column) {
-  const std::size_t open = column.find('[');
-  const std::size_t close = column.rfind(']');
-  if (open == std::string_view::npos || close == std::string_view::npos ||
-      close < open) {
-    return {};
-  }
-  return column.substr(open + 1, close - open - 1);
-}
-
-CsvReader::CsvReader(const std::filesystem::path& file) : stream_(file) {
+CsvReader::CsvReader(const std::filesystem::path& file)
+    : file_(file), stream_(file) {
   if (!stream_ || std::filesystem::is_directory(file)) {
     throw std::invalid_argument(file.string() + ": cannot be opened");
   }
   if (!std::getline(stream_, line_)) return;
   Split(line_, &cells_);
   columns_.assign(cells_.begin(), cells_.end());
-}
-
-std::optional<int> CsvReader::Find(std::string_view name) const {
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
-    if (columns_[i] == name || WithoutUnit(columns_[i]) == name) {
-      return static_cast<int>(i);
-    }
-  }
-  return std::nullopt;
 }
 
 bool CsvReader::Next() {
@@ -69,6 +48,17 @@ double CsvReader::Number(int column) const {
   const bool is_number =
       error == std::errc() && end == text.data() + text.size();
   return is_number ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+long CsvReader::CountRows() const {
+  std::ifstream stream(file_, std::ios::binary);
+  std::vector<char> block(1 << 20);
+  long lines = 0;
+  do {
+    stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+    lines += std::count(block.begin(), block.begin() + stream.gcount(), '\n');
+  } while (stream);
+  return std::max(0l, lines - 1);
 }
 
 }  // namespace poise

@@ -7,10 +7,11 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string_view>
 
-#include "tools/csv_reader.h"
+#include "tools/open_log.h"
 
 namespace poise {
 namespace {
@@ -167,8 +168,9 @@ std::string DescribeRow(const std::string& name) {
 }
 
 json Explain(const std::filesystem::path& run) {
-  const std::filesystem::path log = run / "log.csv";
-  CsvReader reader(log);
+  const std::filesystem::path log = FindLog(run);
+  const std::unique_ptr<LogReader> opened = OpenLog(log);
+  LogReader& reader = *opened;
   const auto time = reader.Find("time"), status = reader.Find("status"),
              active = reader.Find("active"), lost = reader.Find("lost");
   if (!time || !status || !active) {

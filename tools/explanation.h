@@ -21,7 +21,7 @@ namespace poise {
 ///     recovered, fell_at   from summary.json; null where there is none.
 ///     sentences  the same for a person, in the order of time.
 ///
-/// Throws std::invalid_argument, naming the file, if there is no log.csv, or it
+/// Throws std::invalid_argument, naming the file, if there is no log, or it
 /// does not hold what the controller said.
 nlohmann::json Explain(const std::filesystem::path& run);
 

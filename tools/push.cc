@@ -5,15 +5,13 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <iostream>
 #include <string>
 
-#include "sim/run.h"
 #include "sim/summary.h"
 #include "tools/push_options.h"
+#include "tools/record_run.h"
 #include "tools/report_page.h"
-#include "tools/robot_json.h"
 
 namespace {
 
@@ -28,17 +26,14 @@ bool ShowProgress(double fraction) {
 }
 
 int Push(const poise::PushOptions& options) {
-  const poise::RunResult result =
-      poise::Run(options.robot, options.scenario, options.out, ShowProgress);
-  const auto summary =
-      poise::ToJson(options.robot, options.scenario, result).dump(2);
-  std::ofstream(options.out / "summary.json") << summary << '\n';
-  poise::WriteRobotJson(options.robot, options.out / "robot.json");
+  const poise::RunResult result = poise::RecordRun(
+      options.robot, options.scenario, options.out, ShowProgress, options.log);
   if (options.report) {
     poise::WriteReport({options.out}, options.out / "report.html");
   }
   if (options.json) {
-    std::cout << summary << '\n';
+    std::cout << poise::ToJson(options.robot, options.scenario, result).dump(2)
+              << '\n';
   } else {
     std::cout << poise::ToTable(options.robot, options.scenario, result)
               << "\nWritten into " << options.out.string() << '\n';

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -32,19 +33,27 @@ struct Overrides {
   std::optional<unsigned> seed;
 };
 
+// CLI11 reads "nan" and "inf" as numbers.
+std::string RefuseInfinite(std::string& text) {
+  const double value = std::strtod(text.c_str(), nullptr);
+  return std::isfinite(value) ? "" : "is " + text + ", must be finite";
+}
+
 void AddOptions(CLI::App* app, Overrides* o) {
-  app->add_option("--force", o->force, "N");
+  const CLI::Validator finite(RefuseInfinite, "", "finite");
+  app->add_option("--force", o->force, "N")->check(finite);
   app->add_option("--direction", o->direction,
-                  "deg: 0 is +x, forward; 90 is +y, left");
-  app->add_option("--duration", o->duration, "of the push, s");
-  app->add_option("--at", o->at, "when the push begins, s");
+                  "deg: 0 is +x, forward->check(finite); 90 is +y, left");
+  app->add_option("--duration", o->duration, "of the push, s")->check(finite);
+  app->add_option("--at", o->at, "when the push begins, s")->check(finite);
   app->add_option("--link", o->link,
                   "where it acts, at the center of mass (the torso)");
   app->add_option("--point", o->point, "where on the link, X,Y,Z in m")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->check(finite);
   app->add_option("--pushes", o->pushes, "a YAML file of pushes, instead");
-  app->add_option("--time", o->time, "to simulate, s");
+  app->add_option("--time", o->time, "to simulate, s")->check(finite);
   app->add_option("--tasks", o->tasks, "task set: a name or a YAML file");
   app->add_option("--with", o->with, "tasks to switch on")->delimiter(',');
   app->add_option("--without", o->without, "tasks to switch off")
@@ -54,21 +63,27 @@ void AddOptions(CLI::App* app, Overrides* o) {
   app->add_option("--friction", o->friction, "pyramid of the controller")
       ->check(CLI::IsMember({"circumscribed", "inscribed"}));
   app->add_flag("--feedforward", o->feedforward, "of the reference's motion");
-  app->add_option("--control-rate", o->control_rate, "Hz (1000)");
+  app->add_option("--control-rate", o->control_rate, "Hz (1000)")
+      ->check(finite);
   app->add_option("--plant", o->plant)
       ->check(CLI::IsMember({"bullet", "mujoco"}));
-  app->add_option("--plant-rate", o->plant_rate, "Hz (1000)");
+  app->add_option("--plant-rate", o->plant_rate, "Hz (1000)")->check(finite);
   app->add_flag("--estimator", o->estimator,
                 "the base from sensors, not from the simulator");
-  app->add_option("--mu-plant", o->mu_plant, "friction of the ground (0.8)");
+  app->add_option("--mu-plant", o->mu_plant, "friction of the ground (0.8)")
+      ->check(finite);
   app->add_option("--mass-error", o->mass_error,
-                  "of all links in the controller's model, a fraction");
+                  "of all links in the controller's model, a fraction")
+      ->check(finite);
   app->add_option("--torque-scale", o->torque_scale,
-                  "on the limits, on both sides");
+                  "on the limits, on both sides")
+      ->check(finite);
   app->add_option("--noise", o->noise,
                   "1 is 2 mrad and 0.1 rad/s a joint, 4 mrad and 0.02 rad/s "
-                  "on the base");
-  app->add_option("--delay", o->delay, "from measurement to torque, s");
+                  "on the base")
+      ->check(finite);
+  app->add_option("--delay", o->delay, "from measurement to torque, s")
+      ->check(finite);
   app->add_option("--seed", o->seed);
 }
 
@@ -162,7 +177,8 @@ Scenario FindScenario(const std::string& name) {
 
 PushOptions ReadPushOptions(int argc, char** argv, std::string* help) {
   Overrides overrides;
-  std::string scenario_name = "strong_push", robot, profile, save_profile, out;
+  std::string scenario_name = "strong_push", robot, profile, save_profile, out,
+              log = "csv";
   bool no_report = false, json = false;
   CLI::App app("Pushes a humanoid in a simulation: does it recover?", "push");
   app.add_option("--scenario", scenario_name, "a name or a YAML file")
@@ -173,6 +189,9 @@ PushOptions ReadPushOptions(int argc, char** argv, std::string* help) {
                  "write the profile that is used, found posture and all");
   AddOptions(&app, &overrides);
   app.add_option("--out", out, "folder to write into (push-out/SCENARIO)");
+  app.add_option("--log", log, "log.csv, or log.bin, for long runs")
+      ->check(CLI::IsMember({"csv", "binary"}))
+      ->capture_default_str();
   app.add_flag("--no-report", no_report, "write no report.html");
   app.add_flag("--json", json, "print summary.json");
   *help = app.help();
@@ -202,6 +221,7 @@ PushOptions ReadPushOptions(int argc, char** argv, std::string* help) {
           scenario,
           robot_file,
           UserPath(out.empty() ? "push-out/" + scenario.name : out),
+          log == "binary" ? LogFormat::kBinary : LogFormat::kCsv,
           !no_report,
           json};
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "robot/robot.h"
+#include "sim/log_rows.h"
 #include "sim/scenario.h"
 
 namespace poise {
@@ -15,6 +16,7 @@ struct PushOptions {
   Scenario scenario;
   std::filesystem::path robot_file;
   std::filesystem::path out;
+  LogFormat log = LogFormat::kCsv;
   bool report = true;
   bool json = false;
 };

@@ -11,8 +11,9 @@ namespace poise {
 
 RunResult RecordRun(const Robot& robot, const Scenario& scenario,
                     const std::filesystem::path& folder,
-                    const std::function<bool(double)>& progress) {
-  const RunResult result = Run(robot, scenario, folder, progress);
+                    const std::function<bool(double)>& progress,
+                    LogFormat format) {
+  const RunResult result = Run(robot, scenario, folder, progress, format);
   const std::filesystem::path file = folder / "summary.json";
   std::ofstream stream(file);
   stream << ToJson(robot, scenario, result).dump(2) << '\n';

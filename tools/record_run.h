@@ -5,17 +5,20 @@
 #include <functional>
 
 #include "robot/robot.h"
+#include "sim/log_rows.h"
 #include "sim/run.h"
 #include "sim/scenario.h"
 
 namespace poise {
 
 /// Runs a scenario into a folder that holds all that a report is made of:
-/// log.csv, timing.csv, summary.json, robot.json. See Run() for `progress`.
+/// log.csv or log.bin, timing.csv, summary.json, robot.json. See Run() for
+/// `progress` and `format`.
 ///
 /// Throws std::invalid_argument as Run() does, or if a file cannot be written.
 RunResult RecordRun(const Robot& robot, const Scenario& scenario,
                     const std::filesystem::path& folder,
-                    const std::function<bool(double)>& progress = {});
+                    const std::function<bool(double)>& progress = {},
+                    LogFormat format = LogFormat::kCsv);
 
 }  // namespace poise

@@ -7,6 +7,7 @@
 
 #include "dynamics/kinematics.h"
 #include "sim/push.h"
+#include "tools/open_log.h"
 
 namespace poise {
 namespace {
@@ -25,7 +26,7 @@ std::vector<std::string> ColumnNames(const RobotModel& robot) {
 
 RecordedRun::RecordedRun(const Robot& robot,
                          const std::filesystem::path& folder)
-    : robot_(robot), columns_(folder / "log.csv", ColumnNames(robot.model)) {
+    : robot_(robot), columns_(FindLog(folder), ColumnNames(robot.model)) {
   std::ifstream stream(folder / "summary.json");
   summary_ = nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
   if (!summary_.is_object()) {

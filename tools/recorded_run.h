@@ -18,7 +18,7 @@ namespace poise {
 /// A run's folder, as figures look at it.
 class RecordedRun {
  public:
-  /// Reads log.csv and summary.json. The robot must outlive it. Throws
+  /// Reads the log and summary.json. The robot must outlive it. Throws
   /// std::invalid_argument about what it cannot read.
   RecordedRun(const Robot& robot, const std::filesystem::path& folder);
 

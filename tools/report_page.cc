@@ -4,6 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "tools/open_log.h"
 #include "tools/run_log.h"
 #include "tools/viewer/pages.h"
 
@@ -51,7 +52,7 @@ json ReadRun(const path& run_dir) {
   if (!std::filesystem::is_directory(run_dir)) {
     throw std::invalid_argument(run_dir.string() + ": is not a run's folder");
   }
-  json log = ReadRunLog(run_dir / "log.csv");
+  json log = ReadRunLog(FindLog(run_dir));
   json notes = std::move(log["notes"]);
   log.erase("notes");
   json summary = ReadOptional(run_dir / "summary.json", &notes);

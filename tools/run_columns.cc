@@ -2,26 +2,28 @@
 #include "tools/run_columns.h"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 
-#include "tools/csv_reader.h"
+#include "tools/open_log.h"
 
 namespace poise {
 
-RunColumns::RunColumns(const std::filesystem::path& log_csv,
+RunColumns::RunColumns(const std::filesystem::path& file,
                        const std::vector<std::string>& names) {
-  CsvReader log(log_csv);
+  const std::unique_ptr<LogReader> reader = OpenLog(file);
+  LogReader& log = *reader;
   std::vector<std::pair<int, std::vector<double>*>> targets;
   for (const std::string& name : names) {
     const auto column = log.Find(name);
     if (!column) {
-      throw std::invalid_argument(log_csv.string() + ": has no column " + name);
+      throw std::invalid_argument(file.string() + ": has no column " + name);
     }
     targets.emplace_back(*column, &columns_[name]);
   }
   const auto time = log.Find("time");
   if (!time) {
-    throw std::invalid_argument(log_csv.string() + ": has no column time");
+    throw std::invalid_argument(file.string() + ": has no column time");
   }
   if (!columns_.count("time")) targets.emplace_back(*time, &columns_["time"]);
   while (log.Next()) {
@@ -30,7 +32,7 @@ RunColumns::RunColumns(const std::filesystem::path& log_csv,
     }
   }
   if (columns_["time"].empty()) {
-    throw std::invalid_argument(log_csv.string() + ": has no rows");
+    throw std::invalid_argument(file.string() + ": has no rows");
   }
 }
 

@@ -11,12 +11,12 @@
 
 namespace poise {
 
-/// Columns of a run's log.csv, whole, by name without unit.
+/// Columns of a run's log, whole, by name without unit.
 class RunColumns {
  public:
   /// Reads columns. Throws std::invalid_argument, naming file and column, if
   /// one is not there, or if the log has no rows.
-  RunColumns(const std::filesystem::path& log_csv,
+  RunColumns(const std::filesystem::path& file,
              const std::vector<std::string>& names);
 
   const std::vector<double>& operator[](const std::string& name) const {

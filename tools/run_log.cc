@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tools/csv_reader.h"
+#include "tools/open_log.h"
 #include "tools/thinning.h"
 
 namespace poise {
@@ -79,14 +80,14 @@ bool BelongsTo(Table table, std::string_view name) {
 // The columns of the log that a table keeps, with its thinning.
 class LogTable {
  public:
-  LogTable(Table table, const CsvReader& log, ThinnedTable::Keep keep,
+  LogTable(Table table, const LogReader& log, ThinnedTable::Keep keep,
            long stride)
       : sources_(Sources(table, log)),
         errors_(Errors(table, log)),
         thinned_(Columns(log), keep, stride),
         row_(sources_.size() + errors_.size()) {}
 
-  void Add(double time, const CsvReader& log) {
+  void Add(double time, const LogReader& log) {
     std::size_t i = 0;
     for (const int source : sources_) row_[i++] = log.Number(source);
     for (const Error& error : errors_) {
@@ -104,7 +105,7 @@ class LogTable {
     int reference;
   };
 
-  static std::vector<int> Sources(Table table, const CsvReader& log) {
+  static std::vector<int> Sources(Table table, const LogReader& log) {
     std::vector<int> sources;
     for (std::size_t i = 0; i < log.columns().size(); ++i) {
       if (BelongsTo(table, WithoutUnit(log.columns()[i]))) {
@@ -115,7 +116,7 @@ class LogTable {
   }
 
   // Taken before thinning: a difference of extremes is not one of differences.
-  static std::vector<Error> Errors(Table table, const CsvReader& log) {
+  static std::vector<Error> Errors(Table table, const LogReader& log) {
     std::vector<Error> errors;
     if (table != Table::kSignals) return errors;
     for (const std::string axis : {"x", "y", "z"}) {
@@ -128,7 +129,7 @@ class LogTable {
     return errors;
   }
 
-  std::vector<ThinnedTable::Column> Columns(const CsvReader& log) const {
+  std::vector<ThinnedTable::Column> Columns(const LogReader& log) const {
     std::vector<ThinnedTable::Column> columns;
     for (const int source : sources_) {
       const std::string& column = log.columns()[source];
@@ -222,22 +223,13 @@ void MarkActive(std::string_view cell, long row, double time, double dt,
   }
 }
 
-long CountLines(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::vector<char> block(1 << 20);
-  long lines = 0;
-  do {
-    stream.read(block.data(), static_cast<std::streamsize>(block.size()));
-    lines += std::count(block.begin(), block.begin() + stream.gcount(), '\n');
-  } while (stream);
-  return lines;
-}
-
 }  // namespace
 
-json ReadRunLog(const std::filesystem::path& log_csv) {
-  CsvReader log(log_csv);
-  const long expected = std::max(0l, CountLines(log_csv) - 1);
+json ReadRunLog(const std::filesystem::path& file) {
+  const std::unique_ptr<LogReader> reader = OpenLog(file);
+  LogReader& log = *reader;
+  const std::string name = file.filename().string();
+  const long expected = log.CountRows();
   const long motion_rows =
       std::clamp(expected / 33, kFewestMotionRows, kMostMotionRows);
   LogTable motion(Table::kMotion, log, ThinnedTable::Keep::kEvery,
@@ -258,8 +250,8 @@ json ReadRunLog(const std::filesystem::path& log_csv) {
   while (time_column && log.Next()) {
     const double time = log.Number(*time_column);
     if (!std::isfinite(time) || (rows > 0 && time <= previous)) {
-      notes.push_back("Row " + std::to_string(rows + 1) +
-                      " of log.csv has no time after the row before; the log "
+      notes.push_back("Row " + std::to_string(rows + 1) + " of " + name +
+                      " has no time after the row before; the log "
                       "is shown up to there.");
       break;
     }
@@ -276,14 +268,14 @@ json ReadRunLog(const std::filesystem::path& log_csv) {
     }
     ++rows;
   }
-  if (log.columns().empty()) {
-    notes.push_back("log.csv is empty.");
-  } else if (!time_column) {
-    notes.push_back("log.csv has no column time[s].");
+  if (log.columns().empty() && !log.cut_short()) {
+    notes.push_back(name + " is empty.");
+  } else if (!time_column && !log.cut_short()) {
+    notes.push_back(name + " has no column time[s].");
   } else if (log.cut_short()) {
-    notes.push_back("log.csv was cut short: its last line is not whole.");
+    notes.push_back(name + " was cut short: its last row is not whole.");
   } else if (rows == 0 && notes.empty()) {
-    notes.push_back("log.csv has a header and no rows.");
+    notes.push_back(name + " has a header and no rows.");
   }
   return {{"rows", rows},
           {"motion", motion.Finish()},
@@ -301,7 +293,7 @@ json ReadTiming(const std::filesystem::path& timing_csv, double dt) {
   const auto iterations = timing.Find("iterations");
   ThinnedTable table({{"us", "us"}, {"iterations", ""}},
                      ThinnedTable::Keep::kExtremes,
-                     StrideFor(CountLines(timing_csv), kTimingRows));
+                     StrideFor(timing.CountRows(), kTimingRows));
   while (tick && us && timing.Next()) {
     table.Add(timing.Number(*tick) * dt,
               {timing.Number(*us),

@@ -6,7 +6,7 @@
 
 namespace poise {
 
-/// What a page shows of a log.csv, thinned so that it stays small:
+/// What a page shows of a run's log, thinned so that it stays small:
 ///
 ///     rows     of the log.
 ///     motion   {rows, time, channels}: base, joints, CoM, foot wrenches and
@@ -24,7 +24,7 @@ namespace poise {
 ///
 /// An empty log, or one cut short, is read as far as it goes and noted. Throws
 /// std::invalid_argument if there is none. Two passes, memory of the result.
-nlohmann::json ReadRunLog(const std::filesystem::path& log_csv);
+nlohmann::json ReadRunLog(const std::filesystem::path& file);
 
 /// The same for timing.csv: {rows, time, channels} with us and iterations; the
 /// time is that of the tick number, given the control period dt, s.

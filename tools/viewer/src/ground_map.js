@@ -2,6 +2,20 @@
 
 const TRAIL = 0.5;  // s.
 
+// How far the feet may go off the middle, as a part of what is shown, before
+// the map goes with them.
+const FREE = 0.2;
+
+/** The middle of the soles' bounds, and their larger side. */
+function boundsOf(feet) {
+  const points = feet.flatMap((foot) => foot.sole);
+  if (points.length === 0) return null;
+  const [xs, ys] = [0, 1].map((axis) => points.map((point) => point[axis]));
+  const ends = [xs, ys].map((all) => [Math.min(...all), Math.max(...all)]);
+  return {middle: ends.map(([least, most]) => (least + most) / 2),
+          size: Math.max(...ends.map(([least, most]) => most - least))};
+}
+
 /**
  * The ground from above, forward up: soles, support polygon, and on it CoM, CoP
  * and capture point. Drawn on a small canvas over a stage.
@@ -18,16 +32,16 @@ export class GroundMap {
     this.palette = palette;
   }
 
-  // Shows what is under the robot's first stance, and all that is near it.
+  // Shows what is under the robot's first stance, and all that is near it; goes
+  // with the robot when that walks off, and stays where it only sways.
   #fit(contacts) {
-    const points = contacts.feet.flatMap((foot) => foot.sole);
-    if (points.length === 0) return;
-    const xs = points.map((point) => point[0]);
-    const ys = points.map((point) => point[1]);
-    this.center = [(Math.min(...xs) + Math.max(...xs)) / 2,
-                   (Math.min(...ys) + Math.max(...ys)) / 2];
-    this.span = 1.5 * Math.max(Math.max(...xs) - Math.min(...xs),
-                               Math.max(...ys) - Math.min(...ys), 0.05);
+    const bounds = boundsOf(contacts.feet);
+    if (!bounds) return;
+    this.span ??= 1.5 * Math.max(bounds.size, 0.05);
+    this.center ??= bounds.middle;
+    const free = FREE * this.span;
+    this.center = this.center.map((at, axis) => Math.min(
+        Math.max(at, bounds.middle[axis] - free), bounds.middle[axis] + free));
   }
 
   draw(time) {
@@ -36,7 +50,7 @@ export class GroundMap {
     const ratio = Math.min(2, window.devicePixelRatio);
     const size = canvas.clientWidth;
     if (!contacts || !size) return;
-    if (!this.center) this.#fit(contacts);
+    this.#fit(contacts);
     if (!this.center) return;
     if (canvas.width !== Math.round(size * ratio)) {
       canvas.width = canvas.height = Math.round(size * ratio);

@@ -26,13 +26,18 @@ const KEYS = [
 const VIEW_NAMES = [['three_quarter', '3D'], ['front', 'Front'],
                     ['side', 'Side'], ['top', 'Top']];
 
+/** How it was pushed: "100 N for 0.15 s on torso". */
+function pushOf({summary: s}) {
+  const force = s.push_duration > 0 ? s.impulse_Ns / s.push_duration : 0;
+  return force > 0 ?
+      `${formatNumber(force)} N for ${formatNumber(s.push_duration)} s` +
+      (s.push_link ? ` on ${s.push_link}` : '') : '';
+}
+
 function describe(run) {
   const {summary: s, robot, rows} = run;
-  const push = s.push_duration > 0 ? s.impulse_Ns / s.push_duration : 0;
   return [
-    push > 0 && s.push_duration > 0 &&
-        `${formatNumber(push)} N for ${formatNumber(s.push_duration)} s` +
-        (s.push_link ? ` on ${s.push_link}` : ''),
+    pushOf(run),
     changesOf(run),
     robot && `${robot.name}, ${robot.bodies.length - 1} joints, ` +
         `${formatNumber(robot.mass)} kg`,
@@ -50,6 +55,21 @@ function changesOf({summary: {tasks}}) {
     tasks.with?.length && `with ${tasks.with.join(', ')}`,
     tasks.without?.length && `without ${tasks.without.join(', ')}`]
       .filter(Boolean).join(', ');
+}
+
+/** What sets a run apart from the other, in a few words. */
+function labelOf(run, runs) {
+  const traits = [
+    pushOf, changesOf, ({summary}) => summary.plant,
+    ({robot}) => robot?.name, ({summary}) => summary.seed > 0 &&
+        `seed ${summary.seed}`,
+    (each) => nameOf(each),
+  ];
+  const different = traits.filter(
+      (trait) => runs.some((other) => trait(other) !== trait(run)));
+  const words = different.map((trait) => trait(run)).filter(Boolean);
+  return words.length ? words.slice(0, 2).join(' · ') :
+      pushOf(run) || nameOf(run);
 }
 
 const nameOf = (run) => titleOf(run.summary.scenario ?? run.name);
@@ -151,7 +171,8 @@ class Page {
         <span class="label" hidden></span><span class="event"></span>`;
       if (this.runs.length > 1) {
         element.querySelector('.who').innerHTML =
-            tagHtml(run) + verdictHtml(run);
+            `${tagHtml(run)}<b>${escapeHtml(labelOf(run, this.runs))}</b>` +
+            verdictHtml(run);
       }
       const problem = !run.robot ? 'No robot.json: the robot cannot be drawn.' :
           !run.motion.rows ? 'The log has no rows: nothing moved.' : '';

@@ -1,0 +1,171 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/observation.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "tests/util/simple_robots.h"
+
+namespace poise {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+// What a few multiplications of numbers near 1 leave, and sqrt() of it where an
+// angle near 0 comes from a difference.
+constexpr double kRounding = 1e-14;
+
+// A block whose underside is its sole.
+PlantState StateAt(const Vector3d& p_WB, const Quaterniond& R_WB,
+                   double time = 0) {
+  PlantState state;
+  state.time = time;
+  state.q.resize(7);
+  state.q << p_WB, R_WB.coeffs();
+  state.v.setZero(6);
+  return state;
+}
+
+const Vector3d kUp = Vector3d::UnitZ();
+
+Quaterniond Turn(double angle, const Vector3d& axis) {
+  return Quaterniond(AngleAxisd(angle, axis));
+}
+
+TEST(Observer, SeesWhereTheRobotIs) {
+  Observer observer(MakeBlock({0.2, 0.2, 0.1}, 5), {});
+  observer.ObserveState(StateAt({0.1, 0.2, 0.05}, Turn(0.3, kUp), 1.5), {},
+                        {0.1, 0.2, 0.04});
+  const Observation& now = observer.observation();
+  EXPECT_EQ(now.time, 1.5);
+  EXPECT_TRUE(now.com.isApprox(Vector3d(0.1, 0.2, 0.05)));
+  EXPECT_TRUE(now.com_ref.isApprox(Vector3d(0.1, 0.2, 0.04)));
+  EXPECT_NEAR(now.base_height, 0.05, kRounding);
+  EXPECT_NEAR(now.base_tilt, 0, kRounding);
+  EXPECT_TRUE(now.feet[0].X_WC.p.isApprox(Vector3d(0.1, 0.2, 0)));
+  EXPECT_TRUE(observer.R_WB(0).isApprox(Turn(0.3, kUp).toRotationMatrix()));
+}
+
+// On a slope, standing upright against it is no tilt, and the height is that
+// above the plane.
+TEST(Observer, MeasuresTiltAndHeightFromTheGroundTheRobotStandsOn) {
+  Ground slope;
+  slope.pitch = 0.2;
+  const Quaterniond R_WG = Turn(0.2, Vector3d::UnitY());
+  Observer observer(MakeBlock({0.2, 0.2, 0.1}, 5), slope);
+  observer.ObserveState(StateAt(R_WG * Vector3d(1, 0, 0.05), R_WG), {},
+                        Vector3d::Zero());
+  EXPECT_NEAR(observer.observation().base_height, 0.05, kRounding);
+  EXPECT_NEAR(observer.observation().base_tilt, 0, kRounding);
+  observer.ObserveState(
+      StateAt(R_WG * Vector3d(1, 0, 0.07), R_WG * Turn(0.1, Vector3d::UnitX())),
+      {}, Vector3d::Zero());
+  EXPECT_NEAR(observer.observation().base_height, 0.07, kRounding);
+  EXPECT_NEAR(observer.observation().base_tilt, 0.1, kRounding);
+}
+
+// A robot whose base is mounted askew stands upright all the same.
+TEST(Observer, TakesForUprightHowTheRobotBegan) {
+  Observer observer(MakeBlock({0.2, 0.2, 0.1}, 5), {});
+  const Quaterniond askew = Turn(1.2, Vector3d::UnitX());
+  observer.ObserveState(StateAt({0, 0, 1}, askew), {}, Vector3d::Zero());
+  EXPECT_NEAR(observer.observation().base_tilt, 0, kRounding);
+  observer.ObserveState(
+      StateAt({0, 0, 1}, Turn(0.4, Vector3d::UnitY()) * askew), {},
+      Vector3d::Zero());
+  EXPECT_NEAR(observer.observation().base_tilt, 0.4, kRounding);
+}
+
+TEST(Observer, CountsTiltAndSlideFromWhereAFootWasPutDown) {
+  Observer observer(MakeBlock({0.2, 0.2, 0.1}, 5), {});
+  const FootObservation& foot = observer.observation().feet[0];
+  const auto see = [&observer](const Vector3d& p_WB, const Quaterniond& R_WB,
+                               bool down) {
+    observer.ObserveState(StateAt(p_WB, R_WB), {down}, Vector3d::Zero());
+  };
+  see({0, 0, 0.05}, Turn(0, kUp), true);
+  EXPECT_EQ(foot.slide, 0);
+  // 3-4-5; what is lost in height is no slide, and a turn about z no tilt.
+  see({0.003, 0.004, 0.06}, Turn(0.5, kUp), true);
+  EXPECT_NEAR(foot.slide, 0.005, kRounding);
+  EXPECT_NEAR(foot.tilt, 0, kRounding);
+  see({0, 0, 0.05}, Turn(0.01, Vector3d::UnitX()), true);
+  EXPECT_NEAR(foot.tilt, 0.01, kRounding);
+  // In the air neither counts; put down elsewhere and askew, both begin anew.
+  see({1, 1, 0.3}, Turn(0.2, Vector3d::UnitX()), false);
+  EXPECT_FALSE(foot.down);
+  EXPECT_EQ(foot.slide, 0);
+  EXPECT_EQ(foot.tilt, 0);
+  see({2, 1, 0.05}, Turn(0.2, Vector3d::UnitX()), true);
+  EXPECT_TRUE(foot.down);
+  EXPECT_EQ(foot.slide, 0);
+  EXPECT_NEAR(foot.tilt, 0, kRounding);
+  see({2.01, 1, 0.05}, Turn(0.23, Vector3d::UnitX()), true);
+  EXPECT_NEAR(foot.slide, 0.01, 1e-3);  // The sole's middle turns along.
+  EXPECT_NEAR(foot.tilt, 0.03, kRounding);
+}
+
+// Two soles of one block, side by side, turned outwards by the same angle.
+Robot MakeTwoSoles() {
+  Robot robot = MakeBlock({0.2, 0.4, 0.1}, 5);
+  robot.feet.push_back(robot.feet[0]);
+  for (const double side : {1, -1}) {
+    Pose& X_BC = robot.feet[side > 0 ? 0 : 1].X_BC;
+    X_BC.p = {0.01, 0.1 * side, -0.05};
+    X_BC.R = Turn(0.2 * side, kUp).toRotationMatrix();
+  }
+  return robot;
+}
+
+TEST(Observer, FindsTheCenterOfPressureBetweenTheFeet) {
+  Observer observer(MakeTwoSoles(), {});
+  observer.ObserveState(StateAt({0.5, 0.6, 0.05}, Turn(0.7, kUp)), {},
+                        Vector3d::Zero());
+  const auto cop = [&observer](const Vector6d& left, const Vector6d& right) {
+    observer.ObserveForces({left, right});
+    return observer.observation().cop;
+  };
+  Vector6d none = Vector6d::Zero(), weight = none;
+  weight[5] = 30;
+  EXPECT_TRUE(cop(weight, weight).isMuchSmallerThan(1, kRounding));
+  EXPECT_TRUE(cop(weight, none).isApprox(Eigen::Vector2d(0, 0.1)));
+  EXPECT_TRUE(cop(weight, 3 * weight).isApprox(Eigen::Vector2d(0, -0.05)));
+  // 30 N at (0.02, -0.01) of the left sole, which is turned by 0.2.
+  Vector6d off = weight;
+  off.head<3>() = Vector3d(0.02, -0.01, 0).cross(off.tail<3>());
+  const Eigen::Vector2d at(0.02 * std::cos(0.2) + 0.01 * std::sin(0.2),
+                           0.1 + 0.02 * std::sin(0.2) - 0.01 * std::cos(0.2));
+  EXPECT_TRUE(cop(off, none).isApprox(at));
+  EXPECT_EQ(observer.observation().feet[0].F_Co_C, off);
+  EXPECT_EQ(observer.observation().feet[1].F_Co_C, none);
+  // Sideways forces at the height of the soles do not move it.
+  weight[3] = 10;
+  EXPECT_TRUE(cop(weight, none).isApprox(Eigen::Vector2d(0, 0.1)));
+  // Less than 1 N bears nothing.
+  weight[5] = 0.99;
+  EXPECT_TRUE(cop(weight, none).array().isNaN().all());
+}
+
+TEST(MidFeet, LiesBetweenTheFeetInTheGround) {
+  const Ground slope{0.1, -0.2, {}};
+  const Vector3d normal = GroundNormal(slope);
+  std::vector<Pose> X_WC(2);
+  X_WC[0] = {Turn(0.5, kUp).toRotationMatrix(), {1, 2, 3}};
+  X_WC[1] = {Turn(-0.1, kUp).toRotationMatrix(), {3, 2, 1}};
+  const Pose X_WM = MidFeet(X_WC, normal);
+  EXPECT_TRUE(X_WM.p.isApprox(Vector3d(2, 2, 2)));
+  EXPECT_TRUE(X_WM.R.col(2).isApprox(normal));
+  EXPECT_TRUE(X_WM.R.isUnitary(kRounding));
+  EXPECT_NEAR(X_WM.R.determinant(), 1, kRounding);
+  // Seen from above, x points halfway between the feet's.
+  const Vector3d ahead(std::cos(0.2), std::sin(0.2), 0);
+  EXPECT_NEAR(X_WM.R.col(0).dot(normal.cross(ahead)), 0, kRounding);
+  EXPECT_GT(X_WM.R.col(0).dot(ahead), 0.9);
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,162 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/recorder.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+#include "robot/profile.h"
+#include "sim/closed_loop.h"
+
+namespace poise {
+namespace {
+
+const Robot& Humanoid() {
+  static const Robot robot =
+      LoadRobot("robot/models/humanoid.urdf",
+                LoadProfile("robot/profiles/humanoid.yaml"));
+  return robot;
+}
+
+// Pushed in its first ticks.
+Scenario Pushed() {
+  Scenario scenario = LoadScenario("sim/scenarios/strong_push.yaml");
+  scenario.pushes[0].start = 0;
+  return scenario;
+}
+
+std::filesystem::path Folder(const std::string& name) {
+  return std::filesystem::path(testing::TempDir()) / name;
+}
+
+std::string Contents(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> Split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) {
+    parts.push_back(part);
+  }
+  if (!text.empty() && text.back() == separator) parts.emplace_back();
+  return parts;
+}
+
+// Row `row` of a log.csv, by name of column.
+std::map<std::string, std::string> RowOf(const std::string& csv, int row) {
+  const std::vector<std::string> lines = Split(csv, '\n');
+  const auto names = Split(lines[0], ','), cells = Split(lines[row + 1], ',');
+  EXPECT_EQ(names.size(), cells.size());
+  std::map<std::string, std::string> by_name;
+  for (size_t i = 0; i < cells.size(); ++i) by_name[names[i]] = cells[i];
+  return by_name;
+}
+
+TEST(Recorder, WritesWhatWasAndWhatTheControllerSaid) {
+  ClosedLoop loop(Humanoid(), Pushed());
+  Recorder recorder(Folder("recorded"), Humanoid(), loop.controller().stack());
+  for (int k = 0; k < 3; ++k) {
+    loop.Tick();
+    recorder.Record(loop.record());
+  }
+  recorder.Flush();
+  const std::string csv = Contents(Folder("recorded") / "log.csv");
+  EXPECT_EQ(recorder.log_sha256().size(), 64u);
+  auto row = RowOf(csv, 2);
+  const auto number = [&row](const std::string& name) {
+    EXPECT_EQ(row.count(name), 1u) << name;
+    return std::stod(row[name]);
+  };
+  const TickRecord record = loop.record();
+  const Observation& now = record.observation;
+  // Nine digits of numbers up to a kilonewton.
+  constexpr double kDigits = 1e-6;
+  EXPECT_EQ(row["time[s]"], "0.002");
+  EXPECT_NEAR(number("base.z[m]"), record.start.q[2], kDigits);
+  EXPECT_NEAR(number("base.qw"), record.start.q[6], kDigits);
+  EXPECT_NEAR(number("base.tilt[rad]"), now.base_tilt, kDigits);
+  EXPECT_NEAR(number("com.y[m]"), now.com.y(), kDigits);
+  EXPECT_NEAR(number("com_ref.z[m]"), now.com_ref.z(), kDigits);
+  EXPECT_NEAR(number("cop.x[m]"), now.cop.x(), kDigits);
+  EXPECT_EQ(number("push.fy[N]"), 100);
+  EXPECT_EQ(number("push.fx[N]"), 0);
+  const int nv = Humanoid().model.tree.nv();
+  for (int i = 0; i < 2; ++i) {
+    const std::string foot = Humanoid().feet[i].name;
+    EXPECT_EQ(row[foot + ".contact"], "1");
+    EXPECT_NEAR(number(foot + ".slide[m]"), now.feet[i].slide, kDigits);
+    EXPECT_NEAR(number(foot + ".mx[Nm]"), now.feet[i].F_Co_C[0], kDigits);
+    EXPECT_NEAR(number(foot + ".fz[N]"), now.feet[i].F_Co_C[5], kDigits);
+    EXPECT_NEAR(number("lambda." + foot + ".fz[N]"),
+                record.report.foot_wrench(nv, i)[5], kDigits);
+  }
+  const auto& joints = Humanoid().model.tree.joints();
+  for (size_t j = 0; j < joints.size(); ++j) {
+    EXPECT_NEAR(number("tau." + joints[j].name + "[Nm]"), record.end.tau[j],
+                kDigits);
+    EXPECT_NEAR(number("q." + joints[j].name + "[rad]"), record.start.q[7 + j],
+                kDigits);
+  }
+  EXPECT_EQ(row["status"], "ok");
+  EXPECT_EQ(row["self_contacts"], "0");
+  for (const ActiveRow& active : record.report.active) {
+    EXPECT_NE(row["active"].find(record.stack.RowName(active) + "="),
+              std::string::npos);
+  }
+  // A row a tick of the other file.
+  const auto timing = Split(Contents(Folder("recorded") / "timing.csv"), '\n');
+  EXPECT_EQ(timing[0], "tick,us,iterations");
+  EXPECT_EQ(timing[3].substr(0, 2), "2,");
+  EXPECT_EQ(timing.size(), 5u);  // The last is what follows the last line.
+}
+
+TEST(Recorder, LeavesNoOtherLogInItsFolder) {
+  ClosedLoop loop(Humanoid(), Pushed());
+  const Stack& stack = loop.controller().stack();
+  { Recorder(Folder("again"), Humanoid(), stack, LogFormat::kBinary); }
+  EXPECT_EQ(Contents(Folder("again") / "log.bin").substr(0, 8), "POISELOG");
+  { Recorder(Folder("again"), Humanoid(), stack); }
+  EXPECT_FALSE(std::filesystem::exists(Folder("again") / "log.bin"));
+  EXPECT_TRUE(std::filesystem::exists(Folder("again") / "log.csv"));
+}
+
+// In a child process, which is killed where nothing can be written any more.
+TEST(Recorder, LeavesAReadableLogWhenItIsKilled) {
+  const pid_t child = fork();
+  if (child == 0) {
+    ClosedLoop loop(Humanoid(), Pushed());
+    Recorder recorder(Folder("killed"), Humanoid(), loop.controller().stack());
+    for (int k = 0; k < 120; ++k) {
+      loop.Tick();
+      recorder.Record(loop.record());
+    }
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  const std::string csv = Contents(Folder("killed") / "log.csv");
+  // Up to 50 ticks before: whole lines, a header and a hundred rows.
+  EXPECT_EQ(csv.back(), '\n');
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 101);
+  EXPECT_EQ(RowOf(csv, 99)["time[s]"], "0.099");
+}
+
+TEST(Recorder, SaysWhatItCannotWrite) {
+  const ClosedLoop loop(Humanoid(), Pushed());
+  std::ofstream(Folder("file")) << "not a folder";
+  EXPECT_THROW(Recorder(Folder("file"), Humanoid(), loop.controller().stack()),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace poise

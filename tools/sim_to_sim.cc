@@ -1,0 +1,82 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <future>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "robot/profile.h"
+#include "sim/run.h"
+#include "sim/scenario.h"
+
+namespace {
+
+constexpr const char* kScenarios[] = {
+    "stand",       "weak_push",    "strong_push_without_zmp",
+    "strong_push", "com_sinusoid", "posture_off",
+    "one_leg"};
+
+std::string Ending(const poise::Verdict& verdict) {
+  if (verdict.recovered) return "recovers";
+  if (!verdict.fell_at) return "does not come back";
+  char text[40];
+  std::snprintf(text, sizeof text, "falls, %.2f s", *verdict.fell_at);
+  return text;
+}
+
+// A row of the table in docs/plants.md.
+void PrintRow(const std::string& name, const poise::Verdict& bullet,
+              const poise::Verdict& mujoco) {
+  std::printf("| `%s` | %s | %s |", name.c_str(), Ending(bullet).c_str(),
+              Ending(mujoco).c_str());
+  for (int i = 0; i < 3; ++i) {
+    std::printf(" %.1f / %.1f |", 1e3 * bullet.com_error_peak[i],
+                1e3 * mujoco.com_error_peak[i]);
+  }
+  std::printf(" %.4f / %.4f | %.2f / %.2f |\n", bullet.foot_tilt_peak,
+              mujoco.foot_tilt_peak, 1e3 * bullet.foot_slide_peak,
+              1e3 * mujoco.foot_slide_peak);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Runs each scenario in Bullet and in MuJoCo, and prints how they differ "
+      "as the table in docs/plants.md. Exit code 1 if one recovers where the "
+      "other does not.",
+      "sim_to_sim");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const poise::Robot robot =
+        poise::LoadRobot("robot/models/humanoid.urdf",
+                         poise::LoadProfile("robot/profiles/humanoid.yaml"));
+    bool agree = true;
+    std::cout << "| scenario | Bullet | MuJoCo | CoM error, peak x [mm] | y "
+                 "[mm] | z [mm] | foot tilt [rad] | foot slide [mm] |\n"
+                 "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    for (const std::string name : kScenarios) {
+      std::array<std::future<poise::Verdict>, 2> verdicts;
+      for (const int i : {0, 1}) {
+        poise::Scenario scenario =
+            poise::LoadScenario("sim/scenarios/" + name + ".yaml");
+        scenario.plant_kind =
+            i == 0 ? poise::PlantKind::kBullet : poise::PlantKind::kMujoco;
+        verdicts[i] = std::async(std::launch::async, [&robot, scenario] {
+          return poise::Run(robot, scenario).verdict;
+        });
+      }
+      const poise::Verdict bullet = verdicts[0].get();
+      const poise::Verdict mujoco = verdicts[1].get();
+      PrintRow(name, bullet, mujoco);
+      agree = agree && bullet.recovered == mujoco.recovered;
+    }
+    return agree ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::cerr << "sim_to_sim: " << error.what() << '\n';
+    return 2;
+  }
+}
