@@ -60,16 +60,12 @@ function changesOf({summary: {tasks}}) {
 /** What sets a run apart from the other, in a few words. */
 function labelOf(run, runs) {
   const traits = [
-    pushOf, changesOf, ({summary}) => summary.plant,
-    ({robot}) => robot?.name, ({summary}) => summary.seed > 0 &&
-        `seed ${summary.seed}`,
-    (each) => nameOf(each),
+    nameOf, pushOf, changesOf, ({summary}) => summary.plant,
+    ({robot}) => robot?.name, ({summary}) => `seed ${summary.seed}`,
   ];
-  const different = traits.filter(
-      (trait) => runs.some((other) => trait(other) !== trait(run)));
-  const words = different.map((trait) => trait(run)).filter(Boolean);
-  return words.length ? words.slice(0, 2).join(' · ') :
-      pushOf(run) || nameOf(run);
+  const trait = traits.find(
+      (each) => runs.some((other) => each(other) !== each(run)));
+  return trait?.(run) || pushOf(run) || nameOf(run);
 }
 
 const nameOf = (run) => titleOf(run.summary.scenario ?? run.name);

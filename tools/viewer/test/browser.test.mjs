@@ -264,7 +264,7 @@ test('two runs stand side by side on one clock',
     const [a, b] = await whereRobots(page);
     assert.notDeepEqual(a, b);
     const labels = await page.locator('.stage .who b').allTextContents();
-    assert.match(labels[0], /without cop/);
+    assert.match(labels[0], /without zmp/);
     assert.notEqual(labels[0], labels[1]);
     assert.ok(await colorsOf(page, 0) > 60);
     assert.ok(await colorsOf(page, 1) > 60);
