@@ -61,7 +61,7 @@ double SettledAfter(const RecordedRun& run, const std::vector<double>& values,
 // Poses side by side, each with its time.
 void DrawPoses(const Robot& robot, const RecordedRun& run,
                const std::vector<double>& times, const fs::path& stem) {
-  constexpr double kWidth = 310, kHeight = 400;
+  constexpr double kWidth = 370, kHeight = 400;
   WritePicture(stem, {kWidth * static_cast<double>(times.size()), kHeight + 28},
                [&](Canvas* canvas) {
                  double x = 0;
@@ -318,7 +318,9 @@ void WriteResults(const std::vector<Figure>& figures, const fs::path& markdown,
             "Written by `bazel run //tools:figures`, from fresh runs in "
             "Bullet. Numbers are the\nplant's truth. The paper does not say "
             "for how long it pushes; we push for 0.15 s,\nfigure 12 for 0.12 "
-            "s. Figures 1 and 2 are drawings of forces and friction cones.\n";
+            "s. Figures 1 and 2 are drawings of forces and friction cones. How "
+            "large a push\nthe robot recovers from, in every direction, is in "
+            "[push_map.md](push_map.md).\n";
   for (const Figure& figure : figures) {
     stream << "\n## Figure " << figure.number << ": " << figure.caption
            << "\n\n![" << figure.caption << "](" << pictures << '/'
