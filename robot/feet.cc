@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 namespace poise {
@@ -57,6 +56,23 @@ double ArgMax(double low, double high, const Function& f) {
     }
   }
   return 0.5 * (low + high);
+}
+
+// A polygon inside a convex one that has at most so many of its corners.
+std::vector<Vector2d> Thin(const std::vector<Vector2d>& polygon) {
+  constexpr int kMostCorners = 64;
+  if (polygon.size() <= kMostCorners) return polygon;
+  std::vector<Vector2d> corners;
+  for (int i = 0; i < kMostCorners; ++i) {
+    const double angle = 2 * M_PI * i / kMostCorners;
+    const Vector2d direction(std::cos(angle), std::sin(angle));
+    corners.push_back(
+        *std::max_element(polygon.begin(), polygon.end(),
+                          [&](const Vector2d& a, const Vector2d& b) {
+                            return a.dot(direction) < b.dot(direction);
+                          }));
+  }
+  return ConvexHull(std::move(corners));
 }
 
 }  // namespace
@@ -113,22 +129,20 @@ Rectangle LargestRectangle(const std::vector<Vector2d>& polygon) {
           {0.5 * (x2 - x1), 0.5 * (high - low)}};
 }
 
-Foot MakeFoot(const RobotModel& model, std::string name, int frame,
-              const Pose& X_FS, const std::vector<Vector2d>& sole_S) {
-  std::vector<Vector2d> polygon = ConvexHull(sole_S);
-  const Rectangle rectangle =
-      polygon.size() < 3 ? Rectangle{} : LargestRectangle(polygon);
-  if (polygon.size() < 3 || !(rectangle.half_size.minCoeff() > 0)) {
-    throw std::invalid_argument("foot '" + name +
-                                "': its sole spans no area, must have three "
-                                "corners that are not on a line");
-  }
+std::optional<Foot> MakeFoot(const RobotModel& model, std::string name,
+                             int frame, const Pose& X_FS,
+                             const std::vector<Vector2d>& sole_S) {
+  constexpr double kSmallest = 5e-4;  // Half a side, m.
+  std::vector<Vector2d> polygon = Thin(ConvexHull(sole_S));
+  if (polygon.size() < 3) return std::nullopt;
+  const Rectangle rectangle = LargestRectangle(polygon);
+  if (!(rectangle.half_size.minCoeff() >= kSmallest)) return std::nullopt;
   for (Vector2d& corner : polygon) corner -= rectangle.center;
   const Frame& link = model.tree.frames()[frame];
   const Pose X_SC{Eigen::Matrix3d::Identity(),
                   {rectangle.center.x(), rectangle.center.y(), 0}};
-  return {std::move(name),         link.body,           frame,
-          link.X_BF * X_FS * X_SC, rectangle.half_size, std::move(polygon)};
+  return Foot{std::move(name),         link.body,           frame,
+              link.X_BF * X_FS * X_SC, rectangle.half_size, std::move(polygon)};
 }
 
 }  // namespace poise

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,12 @@ Rectangle LargestRectangle(const std::vector<Eigen::Vector2d>& polygon);
 
 /// A foot on a link, from a sole polygon in a frame S of the link with z out of
 /// the ground and x forward: the contact frame C has S's axes and lies at the
-/// center of the polygon's largest rectangle.
+/// center of the polygon's largest rectangle. Of a polygon with more than 64
+/// corners, those that reach furthest in 64 directions remain.
 ///
-/// Throws std::invalid_argument where the points span no area.
-Foot MakeFoot(const RobotModel& model, std::string name, int frame,
-              const Pose& X_FS, const std::vector<Eigen::Vector2d>& sole_S);
+/// Nothing where the rectangle is less than 1 mm wide or long.
+std::optional<Foot> MakeFoot(const RobotModel& model, std::string name,
+                             int frame, const Pose& X_FS,
+                             const std::vector<Eigen::Vector2d>& sole_S);
 
 }  // namespace poise

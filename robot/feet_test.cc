@@ -214,8 +214,32 @@ TEST(FindFeet, SaysWhyThereAreNone) {
 TEST(MakeFoot, RefusesASoleWithoutArea) {
   const RobotModel model =
       ParseUrdf("<robot name='r'><link name='a'/></robot>", "r");
-  EXPECT_THROW(MakeFoot(model, "f", 0, {}, {{0, 0}, {1, 1}, {2, 2}}),
-               std::invalid_argument);
+  EXPECT_FALSE(MakeFoot(model, "f", 0, {}, {{0, 0}, {1, 1}, {2, 2}}));
+  EXPECT_FALSE(
+      MakeFoot(model, "f", 0, {}, {{0, 0}, {1, 0}, {1, 9e-4}, {0, 9e-4}}));
+  EXPECT_TRUE(
+      MakeFoot(model, "f", 0, {}, {{0, 0}, {1, 0}, {1, 2e-3}, {0, 2e-3}}));
+}
+
+TEST(MakeFoot, KeepsWhatReachesFurthestOfVeryManyCorners) {
+  const RobotModel model =
+      ParseUrdf("<robot name='r'><link name='a'/></robot>", "r");
+  std::vector<Vector2d> rim;
+  for (int i = 0; i < 100'000; ++i) {
+    rim.emplace_back(0.1 * std::cos(i), 0.1 * std::sin(i));
+  }
+  const Foot foot = MakeFoot(model, "f", 0, {}, rim).value();
+  EXPECT_LE(foot.polygon_C.size(), 64u);
+  EXPECT_GT(foot.polygon_C.size(), 60u);
+  // The square in the circle, less what the corners left out took: a chord
+  // between two of 64 corners is off the circle by a 0.12 % of its radius.
+  const double half = 0.1 * std::sqrt(0.5);
+  for (const double side : {foot.half_size.x(), foot.half_size.y()}) {
+    EXPECT_NEAR(side, half, 0.01 * half);
+  }
+  for (const Vector2d& corner : foot.polygon_C) {
+    EXPECT_NEAR(corner.norm(), 0.1, 1e-4);
+  }
 }
 
 }  // namespace

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "robot/feet.h"
 #include "robot/knee.h"
+#include "robot/limits.h"
 
 namespace poise {
 namespace {
@@ -27,6 +26,7 @@ constexpr double kLevel = 0.03;
 // A sole's steepest normal and most turned axis at q = 0, rad.
 constexpr double kSteepest = 0.6;
 constexpr double kMostTurned = 0.3;
+constexpr double kSameAxis = 1e-6;
 // To lay a sole flat anywhere takes six.
 constexpr int kMotorsOfALeg = 6;
 // Of a body with very many shapes, the first ones' axes will do.
@@ -49,6 +49,7 @@ struct Sole {
   int frame = 0;
   Vector3d normal;               // In the body, out of the ground.
   std::vector<Vector3d> points;  // In the body, all in one plane.
+  double area = 0;               // m2.
 };
 
 // Curved rims become 16 points.
@@ -108,11 +109,11 @@ std::vector<Outline> MakeOutlines(const RobotModel& model) {
 // The bodies' poses in the base's axes, with the joints as near 0 as they go.
 std::vector<Pose> RestPoses(const RobotModel& model) {
   const Tree& tree = model.tree;
+  const Eigen::VectorXd q_rest = RestConfiguration(model);
   std::vector<Pose> X_WB(1);
   for (int j = 0; j < tree.num_joints(); ++j) {
     const Joint& joint = tree.joints()[j];
-    const double q =
-        std::max(model.limits[j].lower, std::min(0.0, model.limits[j].upper));
+    const double q = q_rest[tree.q_start() + j];
     const Pose X_FB =
         joint.type == JointType::kPrismatic
             ? Pose{Eigen::Matrix3d::Identity(), q * joint.axis_F}
@@ -158,12 +159,19 @@ double Area(const Sole& sole) {
 
 // The largest flat underside; without points where there is none.
 Sole FindSole(const Outline& outline, const Vector3d& up) {
-  std::vector<Vector3d> normals = outline.axes;
-  normals.push_back(up);
+  std::vector<Vector3d> normals;
+  const auto add = [&](const Vector3d& axis) {
+    const Vector3d normal = axis.dot(up) < 0 ? Vector3d(-axis) : axis;
+    if (normal.dot(up) < std::cos(kSteepest)) return;
+    for (const Vector3d& other : normals) {
+      if ((normal - other).norm() < kSameAxis) return;
+    }
+    normals.push_back(normal);
+  };
+  for (const Vector3d& axis : outline.axes) add(axis);
+  add(up);
   Sole best;
-  for (Vector3d normal : normals) {
-    if (normal.dot(up) < 0) normal = -normal;
-    if (normal.dot(up) < std::cos(kSteepest)) continue;
+  for (const Vector3d& normal : normals) {
     double height = std::numeric_limits<double>::infinity();
     for (const Corner& corner : outline.corners) {
       height = std::min(height, normal.dot(corner.p) - corner.radius);
@@ -176,11 +184,11 @@ Sole FindSole(const Outline& outline, const Vector3d& up) {
       sole.frame = corner.frame;
       sole.points.push_back(corner.p - above * normal);
     }
+    sole.area = Area(sole);
     // The same plane again, up to rounding, is no better.
-    if (Area(sole) > 1.01 * Area(best)) best = sole;
+    if (sole.area > 1.01 * best.area) best = std::move(sole);
   }
-  if (best.points.empty() || !(Area(best) > kFlat * kFlat)) return {};
-  return best;
+  return best.area > kFlat * kFlat ? best : Sole{};
 }
 
 // The frame at the body's origin with z along the sole's normal and x forward:
@@ -231,7 +239,7 @@ std::vector<int> BodiesOnGround(const RobotModel& model,
     if (parent >= 0 && chain[parent] >= 0) {
       chain[b] = chain[parent];
       int& body = bodies[chain[b]];
-      if (Area(soles[b]) > Area(soles[body]) ||
+      if (soles[b].area > soles[body].area ||
           (soles[body].points.empty() &&
            NumMotors(model, body) < kMotorsOfALeg)) {
         body = b;
@@ -302,12 +310,10 @@ Sole EstimateSole(const RobotModel& model, int body,
     }
   }
   if (findings != nullptr) {
-    std::ostringstream size;
-    size.imbue(std::locale::classic());
-    size << "is taken for " << 0.22 * leg << " x " << 0.12 * leg << " m, "
-         << depth << " m below the ankle";
     findings->push_back({Severity::kWarn, "sole of link " + Quoted(link),
-                         size.str(),
+                         "is taken for " + PrintNumber(0.22 * leg) + " x " +
+                             PrintNumber(0.12 * leg) + " m, " +
+                             PrintNumber(depth) + " m below the ankle",
                          "as the file has only meshes: give it in a profile"});
   }
   return sole;
@@ -385,8 +391,14 @@ std::vector<Foot> FindFeet(const RobotModel& model,
       points.push_back((X_BS.Inverse() * p).head<2>());
     }
     const Pose& X_BF = model.tree.frames()[sole.frame].X_BF;
-    feet.push_back(MakeFoot(model, left ? "left_foot" : "right_foot",
-                            sole.frame, X_BF.Inverse() * X_BS, points));
+    auto foot = MakeFoot(model, left ? "left_foot" : "right_foot", sole.frame,
+                         X_BF.Inverse() * X_BS, points);
+    if (!foot) {
+      throw std::invalid_argument("robot '" + model.name +
+                                  "' has hardly a sole on link '" +
+                                  LinkOf(model, body) + "'");
+    }
+    feet.push_back(*std::move(foot));
   }
   return feet;
 }

@@ -2,50 +2,51 @@
 #include "robot/profile.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 
 #include "robot/feet.h"
 #include "robot/find_feet.h"
+#include "robot/limits.h"
 #include "robot/rpy.h"
+#include "robot/standing.h"
 #include "robot/urdf.h"
+#include "robot/yaml_file.h"
 
 namespace poise {
 namespace {
 
 using Path = std::filesystem::path;
 
-// In one line, whatever a key or a scalar of the file holds.
-[[noreturn]] void Refuse(const Path& file, int line, std::string what) {
-  const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
-  std::replace_if(what.begin(), what.end(), is_control, ' ');
-  throw std::invalid_argument(file.string() + ":" + std::to_string(line) +
-                              ": " + what);
-}
-
 // A file being read, so that every complaint has its line.
 struct Reader {
-  const Path& file;
+  const std::string file;
 
   [[noreturn]] void Refuse(const YAML::Node& at,
                            const std::string& what) const {
-    poise::Refuse(file, at.Mark().line + 1, what);
+    poise::Refuse(file, at, what);
+  }
+
+  // About a value that is there.
+  [[noreturn]] void Refuse(const YAML::Node& value, const std::string& thing,
+                           const std::string& wanted) const {
+    Refuse(value, thing + " is " + Shown(value) + ", must be " + wanted);
   }
 
   double Number(const YAML::Node& node, const std::string& thing) const {
     double value = 0;
     if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) ||
         !std::isfinite(value)) {
-      Refuse(node, thing + " must be a finite number");
+      Refuse(node, thing, "a finite number");
     }
+    constexpr double kLargest = 1e6;  // m or rad.
+    if (std::abs(value) > kLargest) Refuse(node, thing, "within 1e6");
     return value;
   }
 
   std::string Text(const YAML::Node& node, const std::string& thing) const {
     if (!node.IsScalar() || node.Scalar().empty()) {
-      Refuse(node, thing + " must be a name");
+      Refuse(node, thing, "a name");
     }
     return node.Scalar();
   }
@@ -54,7 +55,7 @@ struct Reader {
   Eigen::Matrix<double, kSize, 1> Numbers(const YAML::Node& node,
                                           const std::string& thing) const {
     if (!node.IsSequence() || node.size() != kSize) {
-      Refuse(node, thing + " must be " + std::to_string(kSize) + " numbers");
+      Refuse(node, thing, std::to_string(kSize) + " numbers");
     }
     Eigen::Matrix<double, kSize, 1> values;
     for (int i = 0; i < kSize; ++i) values[i] = Number(node[i], thing);
@@ -63,13 +64,13 @@ struct Reader {
 
   void ExpectMap(const YAML::Node& node, const std::string& thing,
                  const std::set<std::string>& keys) const {
-    if (!node.IsMap()) Refuse(node, thing + " must be a map");
+    if (!node.IsMap()) Refuse(node, thing, "a map");
     for (const auto& item : node) {
-      if (keys.empty() || keys.count(Text(item.first, thing)) != 0) continue;
+      if (keys.empty() || keys.count(item.first.Scalar()) != 0) continue;
       std::string known;
       for (const std::string& key : keys) known += " " + key;
-      Refuse(item.first, thing + ": unknown key '" + item.first.Scalar() +
-                             "', must be one of" + known);
+      Refuse(item.first, thing + ": unknown key " + Shown(item.first) +
+                             ", must be one of" + known);
     }
   }
 
@@ -78,19 +79,42 @@ struct Reader {
     ExpectMap(node, thing, {});
     std::map<std::string, JointValue> values;
     for (const auto& item : node) {
-      const std::string name = Text(item.first, thing);
-      const JointValue value{Number(item.second, thing + "." + name),
-                             item.first.Mark().line + 1};
-      if (!values.emplace(name, value).second) {
-        Refuse(item.first, thing + "." + name + " is there twice");
-      }
+      const std::string& name = item.first.Scalar();
+      values[name] = {Number(item.second, thing + "." + name),
+                      item.first.Mark().line + 1};
     }
     return values;
   }
 
+  // No sole is larger, m.
+  void ExpectSmall(const Eigen::Vector2d& point, const YAML::Node& at,
+                   const std::string& thing) const {
+    if (point.cwiseAbs().maxCoeff() <= 1) return;
+    Refuse(at, thing + " reaches over 1 m, must be in m");
+  }
+
+  // The sole's axes in its link's: z along a normal, x near the link's x or,
+  // if that is along the normal, near its z.
+  Eigen::Matrix3d FromNormal(const YAML::Node& node,
+                             const std::string& thing) const {
+    const Eigen::Vector3d normal = Numbers<3>(node, thing);
+    if (!(normal.norm() > 1e-6)) Refuse(node, thing + " must not be zero");
+    const Eigen::Vector3d z = normal.normalized();
+    constexpr double kAlong = 0.9;
+    const Eigen::Vector3d forward = std::abs(z.x()) < kAlong
+                                        ? Eigen::Vector3d::UnitX()
+                                        : Eigen::Vector3d::UnitZ();
+    Eigen::Matrix3d R;
+    R.col(2) = z;
+    R.col(1) = z.cross(forward).normalized();
+    R.col(0) = R.col(1).cross(z);
+    return R;
+  }
+
   SoleProfile Sole(const std::string& name, const YAML::Node& node) const {
     const std::string thing = "feet." + name;
-    ExpectMap(node, thing, {"frame", "polygon", "rpy", "size", "xyz"});
+    ExpectMap(node, thing,
+              {"frame", "normal", "polygon", "rpy", "size", "xyz"});
     SoleProfile sole{name, "", {}, {}, node.Mark().line + 1};
     if (!node["frame"]) Refuse(node, thing + ": must have a frame, a link");
     sole.frame = Text(node["frame"], thing + ".frame");
@@ -98,14 +122,19 @@ struct Reader {
     if (node["rpy"]) {
       sole.X_FS.R = RotationFromRpy(Numbers<3>(node["rpy"], thing + ".rpy"));
     }
+    if (const YAML::Node normal = node["normal"]) {
+      if (node["rpy"]) Refuse(node, thing + ": must have rpy or normal alone");
+      sole.X_FS.R = FromNormal(normal, thing + ".normal");
+    }
     if (node["size"].IsDefined() == node["polygon"].IsDefined()) {
       Refuse(node, thing + ": must have either size or polygon");
     }
-    if (node["size"]) {
-      const Eigen::Vector2d half =
-          0.5 * Numbers<2>(node["size"], thing + ".size");
+    if (const YAML::Node size = node["size"]) {
+      const Eigen::Vector2d half = 0.5 * Numbers<2>(size, thing + ".size");
+      ExpectSmall(half, size, thing + ".size");
       if (!(half.minCoeff() > 0)) {
-        Refuse(node["size"], thing + ".size must be positive");
+        Refuse(size, thing + ".size is [" + size[0].Scalar() + ", " +
+                         size[1].Scalar() + "], must be positive");
       }
       for (const double x : {-1, 1}) {
         for (const double y : {-1, 1}) {
@@ -114,10 +143,11 @@ struct Reader {
       }
     } else {
       if (!node["polygon"].IsSequence()) {
-        Refuse(node["polygon"], thing + ".polygon must be a list of corners");
+        Refuse(node["polygon"], thing + ".polygon", "a list of corners");
       }
       for (const YAML::Node& corner : node["polygon"]) {
         sole.sole_S.push_back(Numbers<2>(corner, thing + ".polygon"));
+        ExpectSmall(sole.sole_S.back(), corner, thing + ".polygon");
       }
     }
     return sole;
@@ -130,6 +160,7 @@ void ReadPosture(const Reader& reader, const YAML::Node& node,
   if (const YAML::Node base = node["base"]) {
     reader.ExpectMap(base, "posture.base", {"rpy", "xyz"});
     if (!base["xyz"]) reader.Refuse(base, "posture.base: must have xyz");
+    profile->base_line = node["base"].Mark().line + 1;
     profile->base_xyz = reader.Numbers<3>(base["xyz"], "posture.base.xyz");
     if (base["rpy"]) {
       profile->base_rpy = reader.Numbers<3>(base["rpy"], "posture.base.rpy");
@@ -148,48 +179,36 @@ MimicPolicy ReadMimic(const Reader& reader, const YAML::Node& node) {
   if (text == "free") return MimicPolicy::kFree;
   if (text == "coupled") return MimicPolicy::kCoupled;
   if (text == "locked") return MimicPolicy::kLocked;
-  reader.Refuse(node,
-                "mimic is '" + text + "', must be free, coupled or locked");
+  reader.Refuse(node, "mimic", "free, coupled or locked");
 }
 
-// The nearest value to 0 inside the limits, or q = 0 where there is none.
-double Rest(const JointLimits& limits) {
-  return std::max(limits.lower, std::min(0.0, limits.upper));
-}
-
-// The joints to lock, mimics included where the profile says so.
-std::map<std::string, double> LockedJoints(const Path& urdf,
-                                           const Profile& profile) {
-  std::map<std::string, double> locked;
-  for (const auto& [name, joint] : profile.locked) locked[name] = joint.value;
-  if (profile.mimic != MimicPolicy::kLocked) return locked;
-  const RobotModel model = LoadUrdf(urdf);
-  for (const MimicCoupling& mimic : model.mimics) {
-    const std::string& source = model.tree.joints()[mimic.source].name;
-    const auto given = profile.joints.find(source);
-    const double q = given != profile.joints.end()
-                         ? given->second.value
-                         : Rest(model.limits[mimic.source]);
-    locked.emplace(model.tree.joints()[mimic.joint].name,
-                   mimic.multiplier * q + mimic.offset);
+// The feet that a profile gives.
+std::vector<Foot> MakeFeet(const RobotModel& model, const Profile& profile) {
+  std::vector<Foot> feet;
+  for (const SoleProfile& sole : profile.feet) {
+    const auto refuse = [&](const std::string& what) {
+      throw Refusal(profile.file.string(), sole.line,
+                    "feet." + sole.name + what);
+    };
+    const std::optional<int> frame = model.tree.FindFrame(sole.frame);
+    if (!frame) refuse(": the robot has no link " + Quoted(sole.frame));
+    auto foot = MakeFoot(model, sole.name, *frame, sole.X_FS, sole.sole_S);
+    if (!foot) refuse(": its sole is a point or a line, must have an area");
+    feet.push_back(*std::move(foot));
+    if (feet.front().body == feet.back().body && feet.size() > 1) {
+      refuse(": no joint moves it against left_foot, must be another foot");
+    }
   }
-  return locked;
+  return feet;
 }
 
 }  // namespace
 
 Profile LoadProfile(const Path& file) {
-  const Reader reader{file};
+  const Reader reader{file.string()};
   Profile profile;
   profile.file = file;
-  YAML::Node root;
-  try {
-    root = YAML::LoadFile(file.string());
-  } catch (const YAML::BadFile&) {
-    throw std::invalid_argument(file.string() + ": cannot be read");
-  } catch (const YAML::Exception& error) {
-    Refuse(file, error.mark.line + 1, error.msg);
-  }
+  const YAML::Node root = LoadYaml(file);
   reader.ExpectMap(root, "a profile",
                    {"feet", "locked", "mimic", "posture", "tasks"});
   if (const YAML::Node feet = root["feet"]) {
@@ -202,47 +221,113 @@ Profile LoadProfile(const Path& file) {
   if (root["locked"]) profile.locked = reader.Joints(root["locked"], "locked");
   if (root["mimic"]) profile.mimic = ReadMimic(reader, root["mimic"]);
   if (root["posture"]) ReadPosture(reader, root["posture"], &profile);
-  profile.tasks = root["tasks"];
+  if (const YAML::Node tasks = root["tasks"]) {
+    reader.ExpectMap(tasks, "tasks", {});
+    profile.tasks = tasks;
+  }
   return profile;
+}
+
+std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
+                                               const Profile& profile) {
+  const Tree& tree = model.tree;
+  const auto refuse = [&](const JointValue& joint, const std::string& what) {
+    throw Refusal(profile.file.string(), joint.line, "locked: " + what);
+  };
+  std::vector<const MimicCoupling*> mimic_of(tree.num_joints());
+  for (const MimicCoupling& mimic : model.mimics) {
+    mimic_of[mimic.joint] = &mimic;
+  }
+  std::map<std::string, JointValue> locked;
+  for (const auto& [name, joint] : profile.locked) {
+    const std::optional<int> j = tree.FindJoint(name);
+    if (!j) refuse(joint, "the robot has no moving joint " + Quoted(name));
+    // A mimic goes where its source leads it.
+    if (!mimic_of[*j] && !IsWithin(model.limits[*j], joint.value)) {
+      refuse(joint, SayOutside(name, model.limits[*j], joint.value));
+    }
+    locked[name] = joint;
+  }
+  if (profile.mimic == MimicPolicy::kFree) return locked;
+
+  const Eigen::VectorXd q_rest = RestConfiguration(model);
+  for (const MimicCoupling& mimic : model.mimics) {
+    const std::string& name = tree.joints()[mimic.joint].name;
+    // Up to whom all follow, or to who is fixed; the loader found no cycle.
+    std::vector<const MimicCoupling*> chain;
+    int joint = mimic.joint;
+    while (mimic_of[joint] != nullptr &&
+           locked.count(tree.joints()[joint].name) == 0) {
+      chain.push_back(mimic_of[joint]);
+      joint = mimic_of[joint]->source;
+    }
+    if (chain.empty()) {
+      if (profile.mimic == MimicPolicy::kLocked) continue;
+      const auto given = profile.locked.find(name);
+      const std::string& source = tree.joints()[mimic.source].name;
+      if (given == profile.locked.end() || locked.count(source) != 0) continue;
+      refuse(given->second, Quoted(name) + " is coupled to " + Quoted(source) +
+                                ": lock that one instead");
+    }
+    const std::string& source = tree.joints()[joint].name;
+    const auto fixed = locked.find(source);
+    if (profile.mimic == MimicPolicy::kCoupled && fixed == locked.end()) {
+      continue;
+    }
+    const auto given = profile.joints.find(source);
+    JointValue q = fixed != locked.end() ? fixed->second
+                   : given != profile.joints.end()
+                       ? given->second
+                       : JointValue{q_rest[tree.q_start() + joint], 0};
+    while (!chain.empty()) {
+      q.value = chain.back()->multiplier * q.value + chain.back()->offset;
+      locked[tree.joints()[chain.back()->joint].name] = q;
+      chain.pop_back();
+    }
+  }
+  return locked;
 }
 
 Robot LoadRobot(const Path& urdf, const Profile& profile,
                 std::vector<Finding>* findings) {
-  Robot robot{
-      LoadUrdf(urdf, LockedJoints(urdf, profile), findings), {}, {}, false};
+  RobotModel model = LoadUrdf(urdf);
+  std::map<std::string, double> locked;
+  for (const auto& [name, joint] : LockedJoints(model, profile)) {
+    locked[name] = joint.value;
+  }
+  if (!locked.empty()) model = LoadUrdf(urdf, locked);
+  if (profile.mimic != MimicPolicy::kCoupled) model.mimics.clear();
+  Robot robot{std::move(model), {}, {}, false};
   const Tree& tree = robot.model.tree;
-  if (profile.mimic != MimicPolicy::kCoupled) robot.model.mimics.clear();
-
-  for (const SoleProfile& sole : profile.feet) {
-    const std::optional<int> frame = tree.FindFrame(sole.frame);
-    if (!frame) {
-      Refuse(
-          profile.file, sole.line,
-          "feet." + sole.name + ": the robot has no link '" + sole.frame + "'");
-    }
-    robot.feet.push_back(
-        MakeFoot(robot.model, sole.name, *frame, sole.X_FS, sole.sole_S));
-  }
-  if (robot.feet.empty()) robot.feet = FindFeet(robot.model, findings);
-
-  robot.can_stand = profile.base_xyz.has_value();
-  robot.q_nominal = tree.MakeNeutral();
-  robot.q_nominal.head<3>() =
-      profile.base_xyz.value_or(Eigen::Vector3d::Zero());
-  const Eigen::Quaterniond orientation(RotationFromRpy(profile.base_rpy));
-  robot.q_nominal.segment<4>(3) = orientation.coeffs();
-  for (int j = 0; j < tree.num_joints(); ++j) {
-    robot.q_nominal[tree.q_start() + j] = Rest(robot.model.limits[j]);
-  }
+  robot.q_nominal = RestConfiguration(robot.model);
   for (const auto& [name, joint] : profile.joints) {
+    const auto refuse = [&, line = joint.line](const std::string& what) {
+      throw Refusal(profile.file.string(), line, "posture.joints: " + what);
+    };
     const std::optional<int> j = tree.FindJoint(name);
-    if (!j) {
-      Refuse(profile.file, joint.line,
-             "posture.joints: the robot has no moving joint '" + name + "'");
+    if (!j && locked.count(name) != 0) refuse(Quoted(name) + " is locked");
+    if (!j) refuse("the robot has no moving joint " + Quoted(name));
+    const JointLimits& limits = robot.model.limits[*j];
+    if (!IsWithin(limits, joint.value)) {
+      refuse(SayOutside(name, limits, joint.value));
     }
     robot.q_nominal[tree.q_start() + *j] = joint.value;
   }
-  return robot;
+  robot.feet = profile.feet.empty() ? FindFeet(robot.model, findings)
+                                    : MakeFeet(robot.model, profile);
+  if (!profile.feet.empty() && AreFeetSwapped(robot)) {
+    throw Refusal(profile.file.string(), profile.feet[0].line,
+                  "feet: left_foot is to the right of right_foot");
+  }
+  if (!profile.base_xyz) return robot;
+
+  robot.can_stand = true;
+  robot.q_nominal.head<3>() = *profile.base_xyz;
+  const Eigen::Quaterniond orientation(RotationFromRpy(profile.base_rpy));
+  robot.q_nominal.segment<4>(3) = orientation.coeffs();
+  const std::string reason = WhyNotStanding(robot);
+  if (reason.empty()) return robot;
+  throw Refusal(profile.file.string(), profile.base_line, "posture: " + reason);
 }
 
 }  // namespace poise

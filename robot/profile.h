@@ -26,8 +26,9 @@ struct SoleProfile {
 };
 
 /// What becomes of joints that mimic others. kFree: they are joints like the
-/// others. kCoupled: control keeps them where their sources put them. kLocked:
-/// they are fixed where the nominal posture puts them.
+/// others. kCoupled: control keeps them where their sources put them; if those
+/// are locked, so are they. kLocked: they are fixed where their sources put them
+/// in the profile's posture (in its `locked`, else its `joints`, else at rest).
 enum class MimicPolicy { kFree, kCoupled, kLocked };
 
 /// The value of a joint, rad or m, and its line in the file.
@@ -43,6 +44,8 @@ struct JointValue {
 ///         frame: l_sole          # A link.
 ///         xyz: [0, 0, 0]         # The sole in it: z out of the ground,
 ///         rpy: [0, 0, 0]         # x forward. Zero where left out.
+///                                # Or normal: [0, 0, 1], z in the link's axes;
+///                                # x is then as near the link's x as can be.
 ///         size: [0.23, 0.13]     # Or polygon: [[x, y], ...], in m.
 ///       right_foot: ...
 ///     posture:                   # Nominal.
@@ -58,24 +61,34 @@ struct Profile {
   std::vector<SoleProfile> feet;
   std::optional<Eigen::Vector3d> base_xyz;  ///< The nominal posture is known
   Eigen::Vector3d base_rpy = Eigen::Vector3d::Zero();  ///< if this is.
+  int base_line = 0;                                   ///< In the file.
   std::map<std::string, JointValue> joints;  ///< The others rest near 0.
   std::string posture_found;                 ///< How, in words.
   std::map<std::string, JointValue> locked;
   MimicPolicy mimic = MimicPolicy::kFree;
-  YAML::Node tasks;  ///< Undefined where there is none; knows its lines.
+  /// Undefined where there is none; knows its lines.
+  YAML::Node tasks = YAML::Node(YAML::NodeType::Undefined);
 };
 
-/// Reads a profile. Throws std::invalid_argument with file, line and what was
+/// Reads a profile. Throws Refusal with file, line, the value and what was
 /// wanted.
 Profile LoadProfile(const std::filesystem::path& file);
+
+/// The joints that a profile fixes: those in its `locked`, and the mimics that it
+/// has follow them or be fixed. In a profile's `locked`, all of them say the same
+/// again. Throws Refusal where they do not fit the robot.
+std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
+                                               const Profile& profile);
 
 /// A robot from its URDF and a profile; an empty Profile will do for a biped
 /// whose feet can be found.
 ///
-/// @param findings  as LoadUrdf()'s and FindFeet()'s.
+/// @param findings  as FindFeet()'s.
 ///
-/// Throws std::invalid_argument as LoadUrdf(), LoadProfile() and FindFeet(),
-/// and where the profile names what the URDF does not have.
+/// Throws Refusal as LoadUrdf(), and where the profile does not fit the robot:
+/// where it names what that does not have, or gives a posture that is outside
+/// its limits or, with a base, not one to stand in. Throws another
+/// std::invalid_argument as FindFeet().
 Robot LoadRobot(const std::filesystem::path& urdf, const Profile& profile = {},
                 std::vector<Finding>* findings = nullptr);
 

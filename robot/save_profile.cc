@@ -87,7 +87,7 @@ void WriteProfile(const Robot& robot, const Profile& profile,
   WriteFeet(robot, stream);
   if (robot.can_stand) WritePosture(robot, profile, stream);
   if (!profile.locked.empty()) {
-    *stream << "\nlocked:\n";
+    *stream << "\n# The joints that the model does without.\nlocked:\n";
     for (const auto& [name, joint] : profile.locked) {
       *stream << "  " << Name(name) << ": " << Print(joint.value) << "\n";
     }

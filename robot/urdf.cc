@@ -9,11 +9,15 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "robot/text_file.h"
 #include "robot/urdf_check.h"
+#include "robot/urdf_xml.h"
 #include "robot/xml_file.h"
 
 namespace poise {
 namespace {
+
+constexpr size_t kMostMib = 256;
 
 Eigen::Vector3d FromUrdf(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
@@ -85,15 +89,6 @@ void AddShapes(const urdf::Link& link, int frame, RobotModel* model) {
   }
 }
 
-// A massless root that carries one floating joint is no part of the robot.
-const urdf::Link& BaseOf(const urdf::ModelInterface& urdf) {
-  const urdf::Link& root = *urdf.getRoot();
-  const bool stands_for_the_world =
-      root.inertial == nullptr && root.child_joints.size() == 1 &&
-      root.child_joints[0]->type == urdf::Joint::FLOATING;
-  return stands_for_the_world ? *root.child_links[0] : root;
-}
-
 // Keeps urdfdom from printing, and from using names as formats to print with.
 class Silence {
  public:
@@ -147,24 +142,20 @@ std::string XmlForUrdfdom(tinyxml2::XMLDocument* document) {
     }
   }
   tinyxml2::XMLPrinter printer(nullptr, /*compact=*/true);
-  document->Print(&printer);
+  document->RootElement()->Accept(&printer);
   return {printer.CStr(), static_cast<size_t>(printer.CStrSize() - 1)};
 }
 
 Tree MakeTree(const urdf::ModelInterface& urdf, const UrdfFacts& facts,
               const std::map<std::string, double>& locked) {
-  const urdf::Link& base = BaseOf(urdf);
-  const bool drops_root = &base != urdf.getRoot().get();
   TreeBuilder builder;
   for (const std::string& name : facts.links) {
-    if (drops_root && name == urdf.getRoot()->name) continue;
     const auto& inertial = urdf.links_.at(name)->inertial;
     builder.AddLink(name,
                     inertial != nullptr ? FromUrdf(*inertial) : Inertia{});
   }
   for (const std::string& name : facts.joints) {
     const urdf::Joint& joint = *urdf.joints_.at(name);
-    if (drops_root && &joint == base.parent_joint.get()) continue;
     builder.AddJoint({name, FromUrdf(joint), joint.parent_link_name,
                       joint.child_link_name,
                       FromUrdf(joint.parent_to_joint_origin_transform),
@@ -194,7 +185,7 @@ void ThrowIfRejected(const std::string& file,
                      const std::vector<Finding>& findings) {
   for (const Finding& finding : findings) {
     if (finding.severity != Severity::kReject) continue;
-    throw std::invalid_argument(Message(file, finding));
+    throw Refusal(file, finding);
   }
 }
 
@@ -203,7 +194,8 @@ void ThrowIfRejected(const std::string& file,
 RobotModel LoadUrdf(const std::filesystem::path& file,
                     const std::map<std::string, double>& locked,
                     std::vector<Finding>* findings) {
-  return ParseUrdf(ReadFile(file), file.string(), locked, findings);
+  return ParseUrdf(ReadTextFile(file, kMostMib), file.string(), locked,
+                   findings);
 }
 
 RobotModel ParseUrdf(std::string_view text, const std::string& source,
@@ -216,7 +208,7 @@ RobotModel ParseUrdf(std::string_view text, const std::string& source,
   ThrowIfRejected(source, *findings);
   const UrdfdomTree urdfdom(XmlForUrdfdom(document.get()));
   if (urdfdom.get() == nullptr) {
-    throw std::invalid_argument(source + ": urdfdom cannot read it");
+    throw Refusal(source, 0, "urdfdom cannot read it");
   }
   const urdf::ModelInterface& urdf = *urdfdom.get();
 
@@ -228,10 +220,29 @@ RobotModel ParseUrdf(std::string_view text, const std::string& source,
   AddMimics(urdf, &model);
   for (int i = 0; i < static_cast<int>(model.tree.frames().size()); ++i) {
     const std::string& name = model.tree.frames()[i].name;
-    if (name == BaseOf(urdf).name) model.root_frame = i;
+    if (name == facts.base) model.root_frame = i;
     AddShapes(*urdf.links_.at(name), i, &model);
   }
   return model;
+}
+
+std::map<std::string, double> LoadLinkMasses(
+    const std::filesystem::path& file) {
+  const auto document = ParseXml(ReadTextFile(file, kMostMib), file.string());
+  std::vector<Finding> known;
+  std::map<std::string, double> masses;
+  for (const std::string& link : CheckUrdf(document.get(), &known).links) {
+    masses[link] = 0;
+  }
+  for (const tinyxml2::XMLElement* link =
+           document->RootElement()->FirstChildElement("link");
+       link != nullptr; link = link->NextSiblingElement("link")) {
+    const auto mass = masses.find(Text(*link, "name"));
+    const auto* inertial = link->FirstChildElement("inertial");
+    if (mass == masses.end() || inertial == nullptr) continue;
+    mass->second = Number(*inertial->FirstChildElement("mass"), "value", 0);
+  }
+  return masses;
 }
 
 }  // namespace poise

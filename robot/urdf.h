@@ -15,8 +15,8 @@ namespace poise {
 /// Reads a robot from a URDF file.
 ///
 /// The root link is the floating base, massless or not, also where it is called
-/// `world`; a massless root that carries nothing but one joint of type
-/// `floating` is left out, and its child is the base. Mimic joints are joints
+/// `world`; massless links from the root down to a joint of type `floating`
+/// stand for the world and are left out. Mimic joints are joints
 /// like others (RobotModel::mimics says what they follow). A link without
 /// `<inertial>` has no mass. Meshes are named, never opened. Numbers are read
 /// the same in every locale.
@@ -27,8 +27,8 @@ namespace poise {
 /// @param findings  where not null, all that is odd about the file is added, and
 ///                  all that is wrong before it is thrown.
 ///
-/// Throws std::invalid_argument with one line that names the file, the element,
-/// its value and what was wanted. Any file takes less than 10 s and 1 GiB.
+/// Throws Refusal with one line that names the file, the element, its value and
+/// what was wanted. Any file takes less than 10 s and 1 GiB.
 /// Costs O(n log n) in the length of the file.
 RobotModel LoadUrdf(const std::filesystem::path& file,
                     const std::map<std::string, double>& locked = {},
@@ -40,5 +40,9 @@ RobotModel LoadUrdf(const std::filesystem::path& file,
 RobotModel ParseUrdf(std::string_view text, const std::string& source,
                      const std::map<std::string, double>& locked = {},
                      std::vector<Finding>* findings = nullptr);
+
+/// The mass of each link, kg, where RobotModel::tree has those of bodies.
+/// @pre LoadUrdf() reads the file.
+std::map<std::string, double> LoadLinkMasses(const std::filesystem::path& file);
 
 }  // namespace poise

@@ -2,6 +2,7 @@
 #include "robot/urdf_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -37,16 +38,24 @@ class Checker {
     }
     for (const std::string& name : facts_.links) {
       CheckInertial(*links_[name], critic_);
+      for (const char* shape : {"visual", "collision"}) {
+        for (const XMLElement* element = links_[name]->FirstChildElement(shape);
+             element != nullptr; element = element->NextSiblingElement(shape)) {
+          CheckOrigin(*element, critic_);
+        }
+      }
     }
     for (const std::string& name : facts_.joints) {
       const XMLElement& joint = *joints_[name];
       CheckType(joint);
+      CheckOrigin(joint, critic_);
       if (!IsMoving(joint)) continue;
       CheckAxis(joint, critic_);
       facts_.limits[name] = CheckLimits(joint, critic_);
       CheckMimic(joint);
     }
     CheckMimicCycles();
+    CheckMimicRanges();
     CheckTree();
     return facts_;
   }
@@ -122,6 +131,86 @@ class Checker {
     }
   }
 
+  // Whether a joint that follows another one gets out of its own limits.
+  void CheckMimicRanges() {
+    constexpr double kTolerance = 1e-2;  // rad or m: files are rounded.
+    for (const auto& [name, own] : facts_.limits) {
+      const XMLElement* mimic = joints_[name]->FirstChildElement("mimic");
+      if (mimic == nullptr) continue;
+      const auto source = facts_.limits.find(Text(*mimic, "joint"));
+      if (source == facts_.limits.end()) continue;
+      const double multiplier = Number(*mimic, "multiplier", 1);
+      const double offset = Number(*mimic, "offset", 0);
+      for (const double end : {source->second.lower, source->second.upper}) {
+        const double q = multiplier * end + offset;
+        if (!std::isfinite(q) ||
+            (q >= own.lower - kTolerance && q <= own.upper + kTolerance)) {
+          continue;
+        }
+        critic_.Note(*mimic, "leads the joint to " + PrintNumber(q),
+                     "which is outside its limits");
+        break;
+      }
+    }
+  }
+
+  bool IsMassless(const std::string& link) const {
+    const XMLElement* inertial = links_.at(link)->FirstChildElement("inertial");
+    return inertial == nullptr ||
+           Number(*inertial->FirstChildElement("mass"), "value", 0) == 0;
+  }
+
+  // Leaves out what stands for the world: massless links, one below the other,
+  // down to a floating joint. Any other floating joint is rejected.
+  void FindBase(
+      const std::string& root,
+      const std::unordered_map<std::string, std::vector<std::string>>& below,
+      const std::unordered_map<std::string, const XMLElement*>& joint_above) {
+    std::unordered_set<std::string> world_links, world_joints;
+    facts_.base = root;
+    for (std::string link = root; IsMassless(link);) {
+      const auto children = below.find(link);
+      if (children == below.end() || children->second.size() != 1) break;
+      world_links.insert(link);
+      link = children->second[0];
+      const XMLElement& joint = *joint_above.at(link);
+      world_joints.insert(Text(joint, "name"));
+      if (Text(joint, "type") == "floating") facts_.base = link;
+      if (Text(joint, "type") != "fixed") break;
+    }
+    if (facts_.base == root) {
+      world_links.clear();
+      world_joints.clear();
+    }
+    const auto remove = [](const std::unordered_set<std::string>& names,
+                           std::vector<std::string>* from) {
+      from->erase(std::remove_if(from->begin(), from->end(),
+                                 [&](const std::string& name) {
+                                   return names.count(name) != 0;
+                                 }),
+                  from->end());
+    };
+    remove(world_links, &facts_.links);
+    remove(world_joints, &facts_.joints);
+    for (const std::string& name : facts_.joints) {
+      if (Text(*joints_[name], "type") != "floating") continue;
+      critic_.Reject(*joints_[name], "is floating",
+                     "only one below massless links from the root may be");
+    }
+    for (const std::string& link : facts_.links) {
+      const auto above = joint_above.find(link);
+      const bool is_base = link == facts_.base;
+      if (is_base && link == "world") {
+        critic_.Note(*links_[link], "is the root",
+                     "the robot floats: it is not welded to the ground");
+      } else if (links_[link]->FirstChildElement("inertial") == nullptr &&
+                 (is_base || IsMoving(*above->second))) {
+        critic_.Note(*links_[link], "has no <inertial>",
+                     "its mass counts as 0");
+      }
+    }
+  }
+
   // One root, one parent each, and all connected.
   void CheckTree() {
     std::unordered_map<std::string, const XMLElement*> joint_above;
@@ -169,17 +258,6 @@ class Checker {
       critic_.Reject(robot_, "has no root", "the joints form a cycle");
       return;
     }
-    for (const std::string& name : facts_.joints) {
-      const XMLElement& joint = *joints_[name];
-      if (Text(joint, "type") != "floating") continue;
-      if (Text(*joint.FirstChildElement("parent"), "link") == roots[0] &&
-          children[roots[0]].size() == 1 &&
-          links_[roots[0]]->FirstChildElement("inertial") == nullptr) {
-        continue;
-      }
-      critic_.Reject(joint, "is floating",
-                     "only the one joint on a massless root may be");
-    }
     size_t reached = 0;
     std::vector<std::string> open = roots;
     while (!open.empty()) {
@@ -195,7 +273,9 @@ class Checker {
                          " of its links do not hang on its root " +
                          Quoted(roots[0]),
                      "they are in or below a cycle");
+      return;
     }
+    FindBase(roots[0], children, joint_above);
   }
 
   const XMLElement& robot_;

@@ -90,8 +90,34 @@ const ElementRule kMaterialAtTop{
 const ElementRule kRobot{
     "robot", {{"name", 0}}, {&kMaterialAtTop, &kLink, &kJoint}};
 
-bool StartsWith(std::string_view text, std::string_view start) {
-  return text.substr(0, start.size()) == start;
+// Larger than anything of a robot, and small enough to be squared and summed.
+constexpr double kLargest = 1e30;
+
+// Elements that others read. Those with a colon are others' too.
+const std::set<std::string_view> kOfOthers = {"actuator",
+                                              "calibration",
+                                              "capsule",
+                                              "collision_checking",
+                                              "contact",
+                                              "frame",
+                                              "gazebo",
+                                              "gripper",
+                                              "group",
+                                              "hardwareInterface",
+                                              "limited_ft_sensor",
+                                              "mechanicalReduction",
+                                              "mujoco",
+                                              "ros2_control",
+                                              "safety_controller",
+                                              "self_collide",
+                                              "self_collision_checking",
+                                              "sensor",
+                                              "static",
+                                              "transmission",
+                                              "verbose"};
+
+bool Contains(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
 }
 
 // Any white space as one blank, none at the ends.
@@ -111,14 +137,13 @@ std::string Collapse(std::string_view text) {
 
 // Why a text is not the numbers it should be.
 std::string WantedNumbers(std::string_view text, int count) {
-  if (text.find("${") != std::string_view::npos ||
-      text.find("$(") != std::string_view::npos) {
+  if (Contains(text, "${") || Contains(text, "$(")) {
     return "is xacro, expand it first";
   }
   const std::string wanted =
       count == 1 ? "must be a number"
                  : "must be " + std::to_string(count) + " numbers";
-  if (text.find(',') != std::string_view::npos) {
+  if (Contains(text, ",")) {
     return wanted + " with a decimal point, not a comma";
   }
   return wanted;
@@ -140,10 +165,16 @@ class Pruner {
     const bool is_still = &rule == &kJoint && type != nullptr &&
                           (type == std::string_view("fixed") ||
                            type == std::string_view("floating"));
-    std::set<const ElementRule*> seen;
-    XMLElement* child = element->FirstChildElement();
-    for (XMLElement* next = nullptr; child != nullptr; child = next) {
-      next = child->NextSiblingElement();
+    std::set<const ElementRule*> seen;  // And kept.
+    std::set<const ElementRule*> spoilt;
+    tinyxml2::XMLNode* node = element->FirstChild();
+    for (tinyxml2::XMLNode* next = nullptr; node != nullptr; node = next) {
+      next = node->NextSibling();
+      XMLElement* child = node->ToElement();
+      if (child == nullptr) {  // Text or a comment.
+        element->DeleteChild(node);
+        continue;
+      }
       const ElementRule* child_rule = Find(rule, *child);
       bool keep =
           child_rule != nullptr &&
@@ -154,19 +185,23 @@ class Pruner {
         keep = false;
       }
       if (!keep || !Prune(*child_rule, child)) {
-        if (keep) seen.erase(child_rule);
+        if (keep) {
+          seen.erase(child_rule);
+          spoilt.insert(child_rule);
+        }
         element->DeleteChild(child);
       }
     }
     for (const ElementRule* wanted : rule.children) {
       if (!wanted->required || seen.count(wanted) != 0) continue;
       complete = false;
+      if (spoilt.count(wanted) != 0) continue;  // It was said why.
       critic_.Add(
           rule.fault, *element, std::string("has no <") + wanted->name + ">",
           rule.fault == Severity::kReject ? "must have one" : "is left out");
     }
-    if (&rule == &kGeometry && seen.empty()) {
-      complete = false;
+    if (&rule == &kGeometry && seen.empty()) complete = false;
+    if (&rule == &kGeometry && seen.empty() && spoilt.empty()) {
       critic_.Warn(*element, "has no shape that can be read",
                    "must be box, sphere, cylinder or mesh");
     }
@@ -179,13 +214,15 @@ class Pruner {
     for (const ElementRule* candidate : rule.children) {
       if (child.Name() == std::string_view(candidate->name)) return candidate;
     }
-    if (StartsWith(child.Name(), "xacro:")) {
+    const std::string_view name = child.Name();
+    if (name.substr(0, 6) == "xacro:") {
       critic_.Reject(child, "is xacro", "expand it first");
-    } else if (&rule == &kRobot &&
-               child.Name() == std::string_view("loop_joint")) {
+    } else if (&rule == &kRobot && name == "loop_joint") {
       critic_.Note(
           child, "closes a loop",
           "loops are not modeled: the robot moves as if it were cut there");
+    } else if (kOfOthers.count(name) == 0 && !Contains(name, ":")) {
+      critic_.Note(child, "is no element of URDF here", "is ignored");
     }
     return nullptr;
   }
@@ -212,23 +249,25 @@ class Pruner {
           rule.fault == Severity::kReject ? "must have one" : "is left out");
       return false;
     }
+    const auto refuse = [&](const std::string& why) {
+      critic_.Add(rule.fault, *element,
+                  std::string(attribute.name) + " is " + Quoted(text), why);
+      return false;
+    };
+    if (!IsUtf8(text)) return refuse("is not UTF-8");
     if (attribute.numbers == 0) return true;
     const auto numbers = ParseNumbers(text);
     if (!numbers || static_cast<int>(numbers->size()) != attribute.numbers) {
-      critic_.Add(rule.fault, *element,
-                  std::string(attribute.name) + " is " + Quoted(text),
-                  WantedNumbers(text, attribute.numbers));
-      return false;
+      return refuse(WantedNumbers(text, attribute.numbers));
     }
-    // Unlimited is a limit; nothing else is infinite.
     for (const double number : *numbers) {
-      if (std::isfinite(number) || (&rule == &kLimit && !std::isnan(number))) {
-        continue;
-      }
-      critic_.Add(rule.fault, *element,
-                  std::string(attribute.name) + " is " + Quoted(text),
-                  "must be finite");
-      return false;
+      if (std::isnan(number)) return refuse("must be finite");
+      const bool is_size =
+          &rule == &kBox || &rule == &kSphere || &rule == &kCylinder;
+      if (is_size && number < 0) return refuse("must not be negative");
+      // Unlimited is a limit; nothing else is that large.
+      if (&rule == &kLimit || std::abs(number) <= kLargest) continue;
+      return refuse("is out of range, must be at most 1e30");
     }
     // urdfdom splits at blanks alone.
     element->SetAttribute(attribute.name, Collapse(text).c_str());

@@ -17,8 +17,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // How far moments of inertia may miss the triangle inequality, relative: thin
 // plates are rounded.
 constexpr double kTriangle = 1e-4;
-// A radius of gyration, or an offset of the center of mass, m, that only a file
-// in millimeters has.
+// A radius of gyration, or an offset, m, that only a file in millimeters has.
 constexpr double kLongest = 10;
 // Axes shorter than this are likely a mistake; those not of unit length are
 // worth a word.
@@ -28,6 +27,9 @@ constexpr double kUnitAxis = 1e-4;
 constexpr double kLargestEffort = 1e5;
 constexpr double kLargestVelocity = 1e3;
 constexpr double kLargestPosition = 1e3;
+// More than two turns, or a rotation by more than one, may be in degrees.
+constexpr double kMostTurns = 4 * M_PI;
+constexpr double kTurn = 6.3;
 
 // An effort or velocity limit.
 double CheckMost(const XMLElement& limit, const char* name, double largest,
@@ -46,11 +48,12 @@ double CheckMost(const XMLElement& limit, const char* name, double largest,
   return value;
 }
 
-void CheckRange(const XMLElement& limit, bool is_continuous,
+void CheckRange(const XMLElement& limit, const std::string& type,
                 JointLimits* limits, const Critic& critic) {
+  const bool is_prismatic = type == "prismatic";
   const bool has_lower = limit.Attribute("lower") != nullptr;
   const bool has_upper = limit.Attribute("upper") != nullptr;
-  if (is_continuous) {
+  if (type == "continuous") {
     if (has_lower || has_upper) {
       critic.Note(limit, "bounds a continuous joint",
                   "the bounds do not count");
@@ -61,6 +64,10 @@ void CheckRange(const XMLElement& limit, bool is_continuous,
     critic.Warn(limit, "has neither lower nor upper",
                 "is taken as not known, not as 0");
     return;
+  }
+  if (!has_lower || !has_upper) {
+    critic.Note(limit, has_lower ? "has no upper" : "has no lower",
+                "which counts as 0, as URDF says");
   }
   const double lower = Number(limit, "lower", 0);
   const double upper = Number(limit, "upper", 0);
@@ -78,6 +85,10 @@ void CheckRange(const XMLElement& limit, bool is_continuous,
     critic.Warn(limit, what, "the joint cannot move");
   } else if (std::max(-lower, upper) >= kLargestPosition) {
     critic.Warn(limit, what, "must be a placeholder");
+  } else if (!is_prismatic && std::max(-lower, upper) > kMostTurns) {
+    critic.Warn(limit, what, "in degrees?");
+  } else if (is_prismatic && std::max(-lower, upper) > kLongest) {
+    critic.Warn(limit, what, "in millimeters?");
   }
   if (lower > 0 || upper < 0) {
     critic.Note(limit, what, "0 is outside: the joint rests at the nearer end");
@@ -101,11 +112,7 @@ void CheckInertial(const XMLElement& link, const Critic& critic) {
                   "must be zero or positive");
     return;
   }
-  const XMLElement* origin = inertial->FirstChildElement("origin");
-  if (origin != nullptr &&
-      Vector(*origin, "xyz").cwiseAbs().maxCoeff() > kLongest) {
-    critic.Warn(*inertial, "center of mass is over 10 m off", "millimeters?");
-  }
+  CheckOrigin(*inertial, critic);
   const double scale = I.cwiseAbs().maxCoeff();
   if (scale == 0) return;
   if (mass == 0) {
@@ -130,6 +137,19 @@ void CheckInertial(const XMLElement& link, const Critic& critic) {
   }
 }
 
+void CheckOrigin(const XMLElement& element, const Critic& critic) {
+  const XMLElement* origin = element.FirstChildElement("origin");
+  if (origin == nullptr) return;
+  if (Vector(*origin, "xyz").cwiseAbs().maxCoeff() > kLongest) {
+    critic.Warn(*origin, "xyz is " + Quoted(Text(*origin, "xyz")),
+                "over 10 m off: in millimeters?");
+  }
+  if (Vector(*origin, "rpy").cwiseAbs().maxCoeff() > kTurn) {
+    critic.Warn(*origin, "rpy is " + Quoted(Text(*origin, "rpy")),
+                "more than a turn: in degrees?");
+  }
+}
+
 void CheckAxis(const XMLElement& joint, const Critic& critic) {
   const XMLElement* axis = joint.FirstChildElement("axis");
   if (axis == nullptr) {
@@ -151,19 +171,22 @@ void CheckAxis(const XMLElement& joint, const Critic& critic) {
 
 JointLimits CheckLimits(const XMLElement& joint, const Critic& critic) {
   JointLimits limits{-kInfinity, kInfinity, kInfinity, kInfinity};
-  const bool is_continuous = Text(joint, "type") == "continuous";
+  const std::string type = Text(joint, "type");
   if (const XMLElement* dynamics = joint.FirstChildElement("dynamics")) {
     limits.damping = Number(*dynamics, "damping", 0);
     limits.friction = Number(*dynamics, "friction", 0);
-    for (double* value : {&limits.damping, &limits.friction}) {
+    for (const auto& [name, value] :
+         {std::make_pair("damping", &limits.damping),
+          std::make_pair("friction", &limits.friction)}) {
       if (*value >= 0) continue;
-      critic.Warn(*dynamics, "has a negative value", "is taken as zero");
+      critic.Warn(*dynamics, std::string(name) + " is " + PrintNumber(*value),
+                  "must not be negative: is taken as 0");
       *value = 0;
     }
   }
   const XMLElement* limit = joint.FirstChildElement("limit");
   if (limit == nullptr) {
-    if (is_continuous) {
+    if (type == "continuous") {
       critic.Note(joint, "has no <limit>",
                   "no limit is known, not even of effort");
     } else {
@@ -180,7 +203,7 @@ JointLimits CheckLimits(const XMLElement& joint, const Critic& critic) {
   if (limits.effort == 0) {
     critic.Warn(*limit, "effort is 0", "the joint has no motor: it is passive");
   }
-  CheckRange(*limit, is_continuous, &limits, critic);
+  CheckRange(*limit, type, &limits, critic);
   return limits;
 }
 

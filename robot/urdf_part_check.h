@@ -12,6 +12,9 @@ namespace poise {
 /// @pre here and below: the element went through PruneUrdf() unrejected.
 void CheckInertial(const tinyxml2::XMLElement& link, const Critic& critic);
 
+/// Checks the `<origin>` of a joint or a shape for units that are not m and rad.
+void CheckOrigin(const tinyxml2::XMLElement& element, const Critic& critic);
+
 /// Checks the `<axis>` of a moving joint.
 void CheckAxis(const tinyxml2::XMLElement& joint, const Critic& critic);
 

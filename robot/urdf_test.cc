@@ -2,10 +2,15 @@
 #include "robot/urdf.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <locale>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -206,10 +211,47 @@ TEST(LoadUrdf, LeavesOutAMasslessRootWithAFloatingJoint) {
   EXPECT_EQ(model.tree.num_joints(), 1);
 }
 
+// Whatever has no mass above the floating joint, without a word about mass or
+// with a mass of 0.
+TEST(LoadUrdf, LeavesOutAllThatStandsForTheWorld) {
+  const std::string massless =
+      "<inertial><mass value='0'/><inertia ixx='0' ixy='0' ixz='0' iyy='0' "
+      "iyz='0' izz='0'/></inertial>";
+  const std::string text =
+      With("<joint", "<link name='world'>" + massless +
+                         "</link><link name='odom'/>" +
+                         "<joint name='w' type='fixed'><parent link='world'/>"
+                         "<child link='odom'/></joint>"
+                         "<joint name='f' type='floating'><parent link='odom'/>"
+                         "<child link='a'/></joint><joint");
+  const RobotModel model = Parse(text);
+  EXPECT_EQ(model.tree.frames()[model.root_frame].name, "a");
+  EXPECT_EQ(model.tree.frames().size(), 2u);
+  EXPECT_EQ(model.tree.num_joints(), 1);
+  std::string heavy = text;
+  heavy.replace(heavy.find("value='0'"), 9, "value='1'");
+  EXPECT_NE(Rejection(heavy).find("joint 'f': is floating"), std::string::npos);
+}
+
 TEST(LoadUrdf, RejectsFloatingJointsElsewhere) {
   EXPECT_EQ(Rejection(With("revolute", "floating")),
-            "test.urdf:28: joint 'j': is floating, only the one joint on a "
-            "massless root may be");
+            "test.urdf:28: joint 'j': is floating, only one below massless "
+            "links from the root may be");
+}
+
+TEST(LoadUrdf, TakesCommentsInAnyEncoding) {
+  EXPECT_EQ(Parse(With("<joint", "<!-- caf\xe9 --><joint")).tree.num_joints(),
+            1);
+  EXPECT_EQ(Parse(With("?>", " encoding='ISO-8859-1'?>")).name, "test");
+}
+
+TEST(LoadLinkMasses, KeepsWhatTheTreeMerges) {
+  const std::filesystem::path file =
+      std::filesystem::path(std::getenv("TEST_TMPDIR")) / "masses.urdf";
+  std::ofstream(file) << With("revolute\">", "fixed\">");
+  EXPECT_EQ(LoadUrdf(file).tree.num_bodies(), 1);
+  const std::map<std::string, double> masses = {{"a", 2}, {"b", 1}};
+  EXPECT_EQ(LoadLinkMasses(file), masses);
 }
 
 TEST(LoadUrdf, ReadsMimics) {
@@ -281,6 +323,16 @@ TEST(LoadUrdf, RejectsInOneLineThatNamesWhatWasWanted) {
       {"<robot", "<!DOCTYPE x [<!ENTITY a \"b\">]><robot",
        ":2: has a document type or entity declaration, must have none"},
       {"</robot>", "", "an element is not closed, or by another name"},
+      {"</robot>", "</robot></x>", "an element is closed that is not open"},
+      {"</robot>", "</robot>hello", "there is text outside the root element"},
+      {"<?xml", "hello<?xml", "the <?xml ...?> must come before all else"},
+      {"name=\"test\"", "name=\"te&#0;st\"",
+       ":2: has the character &#0;, which no XML has"},
+      {"name=\"test\"", "name=\"te&#x00;st\"", "has the character &#0;"},
+      {"name=\"test\"", "name=\"caf\xe9\"",
+       "<robot>: name is 'caf?', is not UTF-8"},
+      {"name=\"j\"", "name = \"j\" type='a' name='k'",
+       ":28: the attribute 'name' is there twice"},
       {"</robot>\n", "</robot", "the file ends inside a tag"},
       {"</robot>", "</robot><robot name='b'/>",
        "has a second root element, must have <robot> alone"},
@@ -296,11 +348,18 @@ TEST(LoadUrdf, RejectsInOneLineThatNamesWhatWasWanted) {
        ":7: link 'a' <mass>: value is '2,5', must be a number with a decimal "
        "point, not a comma"},
       {"value=\"2\"", "value=\"${m}\"", "is xacro, expand it first"},
-      {"value=\"2\"", "value=\"inf\"", "must be finite"},
-      {"value=\"2\"", "value=\"1e999\"", "must be a number"},
+      {"value=\"2\"", "value=\"nan\"", "must be finite"},
+      {"value=\"2\"", "value=\"inf\"", "is out of range, must be at most"},
+      {"value=\"2\"", "value=\"1e999\"", "is out of range, must be at most"},
+      {"value=\"2\"", "value=\"1e31\"", "is out of range, must be at most"},
+      {"ixx=\"0.02\"", "ixx=\"-1e308\"",
+       ":8: link 'a' <inertia>: ixx is '-1e3"},
+      {"radius=\"0.5\"", "radius=\"-0.5\"", "must not be negative"},
       {"value=\"2\"", "value=\"0x2\"", "must be a number"},
       {"value=\"2\"", "value=\"+-2\"", "must be a number"},
-      {"value=\"2\"", "value=\"2\" value=\"3\"", "attribute is malformed"},
+      {"value=\"2\"", "value=\"2\" value=\"3\"",
+       ":7: the attribute 'value' is there twice"},
+      {"value=\"2\"", "value=2", "attribute is malformed"},
       {"ixx=\"0.02\"", "ixx=\"1.0d-2\"", "<inertia>: ixx is '1.0d-2'"},
       {"ixy=\"0.001\"", "", "<inertia>: has no ixy, must have one"},
       {"0.1 0.2 0.3", "0.1 nan 0.3", "must be finite"},
@@ -344,7 +403,7 @@ TEST(LoadUrdf, RejectsInOneLineThatNamesWhatWasWanted) {
 TEST(LoadUrdf, RejectsWhatIsNoUrdf) {
   EXPECT_EQ(Rejection(""), "test.urdf: is empty, must be XML");
   EXPECT_EQ(Rejection(" \n"), "test.urdf: is empty, must be XML");
-  EXPECT_NE(Rejection("hello").find("not well-formed"), std::string::npos);
+  EXPECT_NE(Rejection("hello").find("is not XML"), std::string::npos);
   EXPECT_EQ(Rejection(std::string("<robot\0/>", 9)),
             "test.urdf: is binary, must be UTF-8 text");
   EXPECT_EQ(Rejection("<sdf/>"),
@@ -404,7 +463,11 @@ TEST(LoadUrdf, WarnsOfWhatControlShouldKnow) {
       {"ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"",
        "ixx='1e6' ixy='0' ixz='0' iyy='1e6' iyz='0' izz='1e6'",
        "1e+06 kg m2 for 1 kg"},
-      {"0.1 0.2 0.3", "100 0 0", "center of mass is over 10 m off"},
+      {"0.1 0.2 0.3", "100 0 0", "over 10 m off: in millimeters?"},
+      {"1 2 3\" rpy", "0 0 -350\" rpy", "over 10 m off: in millimeters?"},
+      {"0 0 1", "0 0 11", "link 'a' <origin>: xyz is '0 0 11', over 10 m"},
+      {"0.4 0.5 0.6", "0 90 0", "more than a turn: in degrees?"},
+      {"lower=\"-1\" upper=\"2\"", "lower='-90' upper='90'", "in degrees?"},
       {"value=\"2\"", "value=\"0\"", "has inertia but no mass"},
       {"0 3 4", "0 0 1e-9", "hardly has a direction"},
       {"lower=\"-1\" upper=\"2\"", "lower='1' upper='-1'", "is no range"},
@@ -418,7 +481,8 @@ TEST(LoadUrdf, WarnsOfWhatControlShouldKnow) {
       {"effort=\"10\"", "effort=\"inf\"", "taken as not known"},
       {"velocity=\"5\"", "velocity=\"0\"", "velocity is 0"},
       {"velocity=\"5\"", "velocity=\"1e4\"", "placeholder"},
-      {"damping=\"0.5\"", "damping=\"-0.5\"", "negative value"},
+      {"damping=\"0.5\"", "damping=\"-0.5\"", "damping is -0.5, must not be"},
+      {"friction=\"0.25\"", "friction=\"-1\"", "friction is -1, must not be"},
       {"name=\"test\"",
        "name='test'><material name='red'><color rgba='1 1 1 "
        "1'/></material",
@@ -439,9 +503,8 @@ TEST(LoadUrdf, WarnsOfWhatControlShouldKnow) {
         Findings(With(c.old_text, c.new_text), Severity::kWarn);
     EXPECT_NE(found.find(c.message), std::string::npos)
         << c.new_text << "\n  gave: " << found << "\n  not: " << c.message;
-    EXPECT_EQ(std::count(found.begin(), found.end(), '|'),
-              std::string(c.message) == "has no shape that can be read" ? 2 : 1)
-        << found;
+    // One row for one fault.
+    EXPECT_EQ(std::count(found.begin(), found.end(), '|'), 1) << found;
   }
 }
 
@@ -453,6 +516,25 @@ TEST(LoadUrdf, NotesWhatIsOdd) {
       {"revolute", "continuous", "bounds a continuous joint"},
       {"lower=\"-1\"", "lower=\"1\"", "0 is outside"},
       {"<link name=\"b\">", "<loop_joint/><link name=\"b\">", "closes a loop"},
+      {"upper=\"2\"", "", "has no upper, which counts as 0"},
+      {"lower=\"-1\"", "", "has no lower, which counts as 0"},
+      {"<limit", "<Limits/><limit",
+       ":33: joint 'j' <Limits>: is no element of URDF here, is ignored"},
+      {"<collision>", "<inertail/><collision>", "link 'a' <inertail>: is no"},
+      {"<axis", "<!-- --><mimick/><axis", "is no element of URDF here"},
+      {"</robot>",
+       "<link name='c'/><joint name='k' type='continuous'><parent "
+       "link='b'/><child link='c'/></joint></robot>",
+       "link 'c': has no <inertial>, its mass counts as 0"},
+      {"</robot>",
+       "<link name='world'/><joint name='k' type='fixed'><parent "
+       "link='world'/><child link='a'/></joint></robot>",
+       "link 'world': is the root, the robot floats: it is not welded"},
+      {"</robot>",
+       "<link name='c'/><joint name='k' type='revolute'><parent link='b'/>"
+       "<child link='c'/><limit lower='-1' upper='1' effort='1' velocity='1'/>"
+       "<mimic joint='j'/></joint></robot>",
+       "joint 'k' <mimic>: leads the joint to 2, which is outside its limits"},
   };
   for (const Case& c : cases) {
     const std::string found =
@@ -520,12 +602,16 @@ TEST(LoadUrdf, ReadsTheSameInEveryLocale) {
 }
 
 TEST(LoadUrdf, NamesTheFileThatItCannotRead) {
-  for (const char* file : {"no/such.urdf", "/"}) {
+  const std::string pipe = std::string(std::getenv("TEST_TMPDIR")) + "/pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string file : {"no/such.urdf", "/", pipe.c_str()}) {
     try {
       LoadUrdf(file);
       ADD_FAILURE() << file;
     } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(error.what(), std::string(file) + ": cannot be read");
+      EXPECT_EQ(error.what(),
+                file + (file == "no/such.urdf" ? ": cannot be read"
+                                               : ": is no regular file"));
     }
   }
 }

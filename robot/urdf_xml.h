@@ -14,11 +14,9 @@
 namespace poise {
 
 /// The numbers of an attribute, apart by white space; inf and nan are numbers
-/// here. Nothing where the text is anything else, in whatever locale.
+/// here, and one too large for a double is inf, one too small 0. Nothing where
+/// the text is anything else, in whatever locale.
 std::optional<std::vector<double>> ParseNumbers(std::string_view text);
-
-/// The shortest text of six digits, in whatever locale.
-std::string PrintNumber(double value);
 
 /// An attribute, empty where it is not there.
 std::string Text(const tinyxml2::XMLElement& element, const char* attribute);

@@ -2,83 +2,123 @@
 #include "robot/xml_file.h"
 
 #include <algorithm>
-#include <fstream>
-#include <stdexcept>
+#include <set>
+
+#include "robot/finding.h"
+#include "robot/text_file.h"
 
 namespace poise {
 namespace {
 
-constexpr size_t kLongestFile = size_t{256} << 20;
 // TinyXML-2 takes up to 30 bytes of memory for each of these.
 constexpr size_t kMostMarkup = size_t{16} << 20;
 // It compares each attribute of an element with all before it.
-constexpr int kMostAttributes = 1000;
+constexpr size_t kMostAttributes = 1000;
 
-[[noreturn]] void Refuse(const std::string& source, std::string_view text,
-                         size_t at, const std::string& what) {
-  const auto line = 1 + std::count(text.begin(), text.begin() + at, '\n');
-  throw std::invalid_argument(source + ":" + std::to_string(line) + ": " +
-                              what);
-}
+// The text, and where in it we are.
+class Scanner {
+ public:
+  Scanner(std::string_view text, const std::string& source)
+      : text_(text), source_(source) {}
 
-// Where the construct that starts at `at` ends, past `closing`.
-size_t SkipPast(const std::string& source, std::string_view text, size_t at,
-                std::string_view closing) {
-  const size_t end = text.find(closing, at);
-  if (end == std::string_view::npos) {
-    Refuse(source, text, at,
-           "the file ends before '" + std::string(closing) + "'");
-  }
-  return end + closing.size();
-}
-
-// The end of a tag: the first > outside quotes.
-size_t SkipTag(const std::string& source, std::string_view text, size_t at) {
-  int attributes = 0;
-  for (size_t i = at; i < text.size(); ++i) {
-    if (text[i] == '>') return i + 1;
-    if (text[i] != '"' && text[i] != '\'') continue;
-    if (++attributes > kMostAttributes) {
-      Refuse(source, text, at, "an element has more than 1000 attributes");
-    }
-    i = text.find(text[i], i + 1);
-    if (i == std::string_view::npos) break;
-  }
-  Refuse(source, text, at, "the file ends inside a tag");
-}
-
-// Where the markup at `start` ends.
-size_t SkipMarkup(const std::string& source, std::string_view text,
-                  size_t start) {
-  const auto starts = [&](std::string_view opening) {
-    return text.substr(start, opening.size()) == opening;
-  };
-  if (starts("<!--")) return SkipPast(source, text, start + 4, "-->");
-  if (starts("<![CDATA[")) return SkipPast(source, text, start, "]]>");
-  if (starts("<?")) return SkipPast(source, text, start, "?>");
-  if (!starts("<!")) return SkipTag(source, text, start);
-  Refuse(source, text, start,
-         "has a document type or entity declaration, must have none");
-}
-
-// What parsing would take, asked before anything is parsed.
-void CheckSize(std::string_view text, const std::string& source) {
-  size_t markup = 0;
-  size_t at = 0;
-  while (at < text.size()) {
-    const size_t start = std::min(text.find('<', at), text.size());
-    markup += start - at;
-    at = start;
-    if (start < text.size()) at = SkipMarkup(source, text, start);
-    // The text of a comment takes no more memory than it is long.
-    const bool is_comment = text.substr(start, 4) == "<!--";
-    markup += is_comment ? std::string_view("<!---->").size() : at - start;
-    if (markup > kMostMarkup) {
-      Refuse(source, text, start,
-             "has more than 16 MiB beside comments, must have less");
+  // What parsing would take, asked before anything is parsed, and what
+  // TinyXML-2 does not ask: that nothing is closed which is not open.
+  void Scan() {
+    size_t markup = 0;
+    size_t at = 0;
+    while (at < text_.size()) {
+      const size_t start = std::min(text_.find('<', at), text_.size());
+      markup += start - at;
+      at = start < text_.size() ? SkipMarkup(start) : start;
+      // The text of a comment takes no more memory than it is long.
+      const bool is_comment = text_.substr(start, 4) == "<!--";
+      markup += is_comment ? std::string_view("<!---->").size() : at - start;
+      if (markup > kMostMarkup) {
+        Refuse(start, "has more than 16 MiB beside comments, must have less");
+      }
     }
   }
-}
+
+  // TinyXML-2 ends a value there.
+  void RefuseZeros() const {
+    for (size_t at = text_.find("&#"); at < text_.size();
+         at = text_.find("&#", at + 2)) {
+      size_t digits = at + 2;
+      if (text_.substr(digits, 1) == "x") ++digits;
+      const size_t end = text_.find_first_not_of('0', digits);
+      if (end > digits && end < text_.size() && text_[end] == ';') {
+        Refuse(at, "has the character &#0;, which no XML has");
+      }
+    }
+  }
+
+ private:
+  [[noreturn]] void Refuse(size_t at, const std::string& what) const {
+    const auto line = std::count(text_.begin(), text_.begin() + at, '\n');
+    throw Refusal(source_, static_cast<int>(line) + 1, what);
+  }
+
+  // Where the construct that starts at `at` ends, past `closing`.
+  size_t SkipPast(size_t at, std::string_view closing) const {
+    const size_t end = text_.find(closing, at);
+    if (end == std::string_view::npos) {
+      Refuse(at, "the file ends before '" + std::string(closing) + "'");
+    }
+    return end + closing.size();
+  }
+
+  // Where the markup at `start` ends.
+  size_t SkipMarkup(size_t start) {
+    const auto starts = [&](std::string_view opening) {
+      return text_.substr(start, opening.size()) == opening;
+    };
+    if (starts("<!--")) return SkipPast(start + 4, "-->");
+    if (starts("<![CDATA[")) return SkipPast(start, "]]>");
+    if (starts("<?")) return SkipPast(start, "?>");
+    if (!starts("<!")) return SkipTag(start);
+    Refuse(start, "has a document type or entity declaration, must have none");
+  }
+
+  // The end of a tag: the first > outside quotes.
+  size_t SkipTag(size_t start) {
+    std::set<std::string_view> attributes;
+    for (size_t i = start; i < text_.size(); ++i) {
+      if (text_[i] == '>') {
+        CountDepth(start, i);
+        return i + 1;
+      }
+      if (text_[i] != '"' && text_[i] != '\'') continue;
+      if (attributes.size() == kMostAttributes) {
+        Refuse(start, "an element has more than 1000 attributes");
+      }
+      const std::string_view name = NameBefore(i);
+      if (!attributes.insert(name).second) {
+        Refuse(i, "the attribute " + Quoted(name) + " is there twice");
+      }
+      i = text_.find(text_[i], i + 1);
+      if (i == std::string_view::npos) break;
+    }
+    Refuse(start, "the file ends inside a tag");
+  }
+
+  // Of NAME = "value", where the value's quote is at `quote`.
+  std::string_view NameBefore(size_t quote) const {
+    constexpr std::string_view kBlankOrEquals = " \t\r\n=";
+    const size_t last = text_.find_last_not_of(kBlankOrEquals, quote - 1);
+    const size_t blank = text_.find_last_of(" \t\r\n\"'<", last);
+    return text_.substr(blank + 1, last - blank);
+  }
+
+  void CountDepth(size_t start, size_t end) {
+    if (text_[end - 1] == '/') return;
+    depth_ += text_[start + 1] == '/' ? -1 : 1;
+    if (depth_ < 0) Refuse(start, "an element is closed that is not open");
+  }
+
+  const std::string_view text_;
+  const std::string& source_;
+  int depth_ = 0;  // Of open elements.
+};
 
 std::string Explain(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {
@@ -91,44 +131,28 @@ std::string Explain(const tinyxml2::XMLDocument& document) {
       return "elements are nested more than 100 deep";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
       return "an attribute is malformed, must be name=\"value\"";
+    case tinyxml2::XML_ERROR_PARSING_TEXT:
+      return "is not XML: there is text outside the root element";
+    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
+      return "is not XML: the <?xml ...?> must come before all else";
+    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
+      return "is not XML: an element is malformed";
     default:
-      return std::string("is not well-formed XML (") +
-             tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID()) + ")";
+      return "is not XML";
   }
 }
 
 }  // namespace
 
-std::string ReadFile(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  std::string chunk(size_t{1} << 20, '\0');
-  // A folder opens, but does not read.
-  while (stream.read(chunk.data(), chunk.size()), stream.gcount() > 0) {
-    text.append(chunk, 0, stream.gcount());
-    if (text.size() > kLongestFile) {
-      throw std::invalid_argument(file.string() +
-                                  ": is longer than 256 MiB, must be shorter");
-    }
-  }
-  if (!stream.eof()) {
-    throw std::invalid_argument(file.string() + ": cannot be read");
-  }
-  return text;
-}
-
 std::unique_ptr<tinyxml2::XMLDocument> ParseXml(std::string_view text,
                                                 const std::string& source) {
-  if (text.find('\0') != std::string_view::npos) {
-    throw std::invalid_argument(source + ": is binary, must be UTF-8 text");
-  }
-  CheckSize(text, source);
+  ExpectText(text, source);
+  Scanner scanner(text, source);
+  scanner.Scan();
+  scanner.RefuseZeros();
   auto document = std::make_unique<tinyxml2::XMLDocument>();
   if (document->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    const int line = document->ErrorLineNum();
-    throw std::invalid_argument(source +
-                                (line > 0 ? ":" + std::to_string(line) : "") +
-                                ": " + Explain(*document));
+    throw Refusal(source, document->ErrorLineNum(), Explain(*document));
   }
   return document;
 }

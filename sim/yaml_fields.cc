@@ -3,20 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
+
+#include "robot/finding.h"
+#include "robot/yaml_file.h"
 
 namespace poise {
 
 namespace {
 
-// In one line, whatever a key or a scalar of the file holds.
 [[noreturn]] void Throw(const std::string& file, const YAML::Mark& mark,
-                        std::string what) {
-  const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
-  std::replace_if(what.begin(), what.end(), is_control, ' ');
-  throw std::invalid_argument(file + ":" + std::to_string(mark.line + 1) +
-                              ": " + what);
+                        const std::string& what) {
+  throw Refusal(file, mark.line + 1, what);
 }
 
 // What stands in the file, as far as one line can show it.
@@ -159,13 +157,7 @@ void YamlFields::Finish() const {
 }
 
 YamlFields ReadYaml(const std::string& file) {
-  try {
-    return YamlFields(YAML::LoadFile(file), file);
-  } catch (const YAML::BadFile&) {
-    throw std::invalid_argument(file + ": cannot be read");
-  } catch (const YAML::Exception& error) {
-    Throw(file, error.mark, "is no YAML: " + error.msg);
-  }
+  return YamlFields(LoadYaml(file), file);
 }
 
 }  // namespace poise

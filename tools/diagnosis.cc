@@ -4,15 +4,16 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <exception>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "dynamics/tick.h"
+#include "robot/control/default_stack.h"
 #include "robot/control/stand.h"
-#include "robot/find_feet.h"
+#include "robot/control/task_set.h"
+#include "robot/limits.h"
 #include "robot/urdf.h"
 #include "tools/parity.h"
 
@@ -53,21 +54,15 @@ class Doctor {
       : urdf_(urdf), profile_(profile) {}
 
   Diagnosis Examine() {
-    try {
-      Robot robot{LoadUrdf(urdf_, {}, &diagnosis_.findings), {}, {}};
-      Describe(robot.model);
-      CheckInertia(robot.model);
-      if (IsLarge(robot.model)) {
+    if (const auto model = Load()) {
+      Describe(*model);
+      CheckInertia(*model);
+      if (IsLarge(*model)) {
         Add(Severity::kNote, "robot", "was not stood up",
             "as it has over 100 joints, 1000 links or 10000 shapes");
       } else {
         CheckStanding();
-        if (is_regular_) CheckParity(robot);
-      }
-    } catch (const std::exception& error) {
-      // What LoadUrdf() found it has told already.
-      if (diagnosis_.worst() != Severity::kReject) {
-        diagnosis_.findings.push_back(Rejection(error.what()));
+        if (is_regular_) CheckParity({*model, {}, {}});
       }
     }
     std::stable_sort(diagnosis_.findings.begin(), diagnosis_.findings.end(),
@@ -84,32 +79,35 @@ class Doctor {
         {severity, std::move(where), std::move(what), std::move(why), 0});
   }
 
-  // "FILE: what" or "FILE:LINE: what", without the file.
-  Finding Rejection(const std::string& message) const {
-    const std::string file = urdf_.string() + ":";
-    if (message.compare(0, file.size(), file) != 0) {
-      return {Severity::kReject, "", message, "", 0};
+  // The robot, or a finding that says why there is none.
+  std::optional<RobotModel> Load() {
+    try {
+      return LoadUrdf(urdf_, {}, &diagnosis_.findings);
+    } catch (const Refusal& refusal) {
+      // What LoadUrdf() found it has told already.
+      if (diagnosis_.worst() != Severity::kReject) {
+        diagnosis_.findings.push_back(refusal.finding());
+      }
+    } catch (const std::invalid_argument& error) {
+      Add(Severity::kReject, "", error.what(), "");
     }
-    const size_t colon = message.find(':', file.size());
-    const bool has_line = message[file.size()] != ' ' && colon < message.size();
-    const size_t start = (has_line ? colon + 1 : file.size()) + 1;
-    const int line = has_line ? std::atoi(&message[file.size()]) : 0;
-    return {Severity::kReject, "", message.substr(start), "", line};
+    return std::nullopt;
   }
 
   void Describe(const RobotModel& model) {
     const Tree& tree = model.tree;
     diagnosis_.robot = model.name;
     diagnosis_.root = tree.frames()[model.root_frame].name;
-    diagnosis_.links = static_cast<int>(tree.frames().size());
     diagnosis_.joints = tree.num_joints();
     diagnosis_.mass = tree.total_mass();
     for (const Inertia& M : tree.inertias()) {
       diagnosis_.bodies.push_back({"", M.mass});
     }
+    auto masses = LoadLinkMasses(urdf_);
     for (const Frame& frame : tree.frames()) {
       std::string& link = diagnosis_.bodies[frame.body].link;
       if (link.empty()) link = frame.name;
+      diagnosis_.links.push_back({frame.name, masses[frame.name]});
     }
   }
 
@@ -128,14 +126,9 @@ class Doctor {
           "M was not computed, as there are more than 500");
       return;
     }
-    VectorXd q = tree.MakeNeutral();
-    for (int j = 0; j < tree.num_joints(); ++j) {
-      const JointLimits& limits = model.limits[j];
-      q[tree.q_start() + j] =
-          std::max(limits.lower, std::min(0., limits.upper));
-    }
     Tick tick(tree, {});
-    ComputeTick(tree, q, VectorXd::Zero(tree.nv()), &tick);
+    ComputeTick(tree, RestConfiguration(model), VectorXd::Zero(tree.nv()),
+                &tick);
     if (!tick.M.allFinite()) {
       Add(Severity::kWarn, "robot", "M is not finite",
           "numbers this large cannot be computed with");
@@ -172,27 +165,29 @@ class Doctor {
     }
   }
 
+  // A profile that does not fit is the caller's mistake, not the robot's.
   void CheckStanding() {
-    std::string reason;
+    std::string reason = "as M is singular";
     try {
-      Robot robot = LoadRobot(urdf_, profile_);
-      if (profile_.feet.empty()) {
-        FindFeet(robot.model, &diagnosis_.findings);
+      Robot robot = LoadRobot(urdf_, profile_, &diagnosis_.findings);
+      if (profile_.tasks.IsDefined()) {
+        Stack stack = MakeDefaultStack(robot, {});
+        ApplyTasks(profile_.tasks, profile_.file.string(), &stack);
       }
       for (const Foot& foot : robot.feet) {
         diagnosis_.soles.push_back(
             {foot.name, robot.model.tree.frames()[foot.frame].name,
              2 * foot.half_size.x(), 2 * foot.half_size.y()});
       }
-      if (!is_regular_) {
-        reason = "as M is singular";
-      } else {
+      if (is_regular_) {
         if (!robot.can_stand) StandUp(&robot);
         CheckStrength(robot);
         return;
       }
+    } catch (const Refusal&) {
+      throw;
     } catch (const std::invalid_argument& error) {
-      reason = Rejection(error.what()).what;
+      reason = OneLine(error.what());
     }
     Add(Severity::kNote, "robot", "does not stand", reason);
   }
@@ -229,13 +224,13 @@ class Doctor {
       diagnosis_.parity = CompareWithBullet(robot).worst();
     } catch (const std::invalid_argument& error) {
       Add(Severity::kNote, "robot", "was not compared with Bullet",
-          Rejection(error.what()).what);
+          OneLine(error.what()));
       return;
     }
-    if (*diagnosis_.parity <= kParity) return;
-    Add(Severity::kNote, "robot",
+    if (*diagnosis_.parity <= kParity) return;  // NaN is not.
+    Add(Severity::kWarn, "robot",
         "differs from its Bullet plant by " + Print(*diagnosis_.parity),
-        "relative: simulation and control do not quite agree");
+        "relative: simulation and control do not agree");
   }
 
   const std::filesystem::path urdf_;
@@ -243,6 +238,14 @@ class Doctor {
   Diagnosis diagnosis_;
   bool is_regular_ = false;  // M can be inverted.
 };
+
+nlohmann::json WriteMasses(const std::vector<Diagnosis::Mass>& masses) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const auto& [link, mass] : masses) {
+    json.push_back({{"link", link}, {"mass", mass}});
+  }
+  return json;
+}
 
 const char* Name(Severity severity) {
   switch (severity) {
@@ -279,14 +282,14 @@ std::string WriteTable(const Diagnosis& diagnosis) {
   out << std::setprecision(4);
   if (diagnosis.worst() != Severity::kReject) {
     out << "robot    " << Quoted(diagnosis.robot) << ", root "
-        << Quoted(diagnosis.root) << ", " << diagnosis.links << " links, "
-        << diagnosis.joints << " moving joints\nmass     " << diagnosis.mass
-        << " kg\n";
+        << Quoted(diagnosis.root) << ", " << diagnosis.links.size()
+        << " links, " << diagnosis.joints << " moving joints\nmass     "
+        << diagnosis.mass << " kg\n";
     size_t shown = 0;
-    for (const Diagnosis::Body& body : diagnosis.bodies) {
+    for (const Diagnosis::Mass& link : diagnosis.links) {
       if (++shown > kMostFindings) break;
-      out << "         " << std::setw(9) << body.mass << "  "
-          << Quoted(body.link) << "\n";
+      out << "         " << std::setw(9) << link.mass << "  "
+          << Quoted(link.link) << "\n";
     }
     for (const Diagnosis::Sole& sole : diagnosis.soles) {
       out << "sole     " << sole.name << ": " << sole.length << " x "
@@ -333,13 +336,11 @@ std::string WriteJson(const Diagnosis& diagnosis) {
   nlohmann::json robot;
   robot["name"] = diagnosis.robot;
   robot["root_link"] = diagnosis.root;
-  robot["links"] = diagnosis.links;
+  robot["links"] = diagnosis.links.size();
   robot["joints"] = diagnosis.joints;
   robot["total_mass"] = diagnosis.mass;
-  robot["bodies"] = nlohmann::json::array();
-  for (const Diagnosis::Body& body : diagnosis.bodies) {
-    robot["bodies"].push_back({{"link", body.link}, {"mass", body.mass}});
-  }
+  robot["bodies"] = WriteMasses(diagnosis.bodies);
+  robot["link_masses"] = WriteMasses(diagnosis.links);
   robot["soles"] = nlohmann::json::array();
   for (const Diagnosis::Sole& sole : diagnosis.soles) {
     robot["soles"].push_back({{"name", sole.name},

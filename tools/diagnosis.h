@@ -16,14 +16,14 @@ namespace poise {
 struct Diagnosis {
   std::string robot;
   std::string root;
-  int links = 0;
   int joints = 0;  ///< That move.
   double mass = 0;
-  struct Body {
-    std::string link;  ///< The link that carries it; fixed ones are merged.
+  struct Mass {
+    std::string link;
     double mass;
   };
-  std::vector<Body> bodies;
+  std::vector<Mass> links;   ///< Each link alone.
+  std::vector<Mass> bodies;  ///< With all that is fixed to them.
   struct Sole {
     std::string name, link;
     double length, width;
@@ -36,7 +36,8 @@ struct Diagnosis {
   Severity worst() const;
 };
 
-/// Looks a robot file over. Never throws for what a file may hold; takes less
+/// Looks a robot file over. Throws Refusal where the profile does not fit the
+/// robot, and never for what the robot's own file may hold; takes less
 /// than 10 s and 1 GiB: above 500 joints M is not computed; above 100, or 1000
 /// links or 10000 shapes, the robot is not stood up.
 Diagnosis Diagnose(const std::filesystem::path& urdf,

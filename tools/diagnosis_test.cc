@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -62,8 +63,12 @@ TEST(Diagnose, FindsTheHumanoidWell) {
   EXPECT_NEAR(diagnosis.soles[0].length, 0.23, 1e-9);
   EXPECT_NEAR(diagnosis.com_height.value(), 0.79, 0.01);
   double mass = 0;
-  for (const Diagnosis::Body& body : diagnosis.bodies) mass += body.mass;
+  for (const Diagnosis::Mass& body : diagnosis.bodies) mass += body.mass;
   EXPECT_NEAR(mass, diagnosis.mass, 1e-12);
+  mass = 0;
+  for (const Diagnosis::Mass& link : diagnosis.links) mass += link.mass;
+  EXPECT_NEAR(mass, diagnosis.mass, 1e-12);
+  EXPECT_GT(diagnosis.links.size(), diagnosis.bodies.size());
   // The parity that the plant is asked for.
   EXPECT_LT(diagnosis.parity.value(), 1e-9);
 }
@@ -108,9 +113,67 @@ TEST(Diagnose, LeavesLargeRobotsUncomputed) {
   EXPECT_NE(Findings(diagnosis).find("M was not computed"), std::string::npos);
 }
 
+// 80 000 corners a foot, which took 16 s.
+TEST(Diagnose, TakesFeetOfVeryManyShapes) {
+  std::string feet;
+  for (int i = 0; i < 4990; ++i) {
+    feet += "<collision><origin rpy='0 0 " + std::to_string(i * 1e-4) +
+            "'/><geometry><cylinder radius='0.1' length='0.05'/></geometry>"
+            "</collision>";
+  }
+  std::string text =
+      std::string("<robot name='r'><link name='base'>") + kInertial + "</link>";
+  for (const char* side : {"l", "r"}) {
+    std::string parent = "base";
+    for (int i = 0; i < 6; ++i) {
+      const std::string name = side + std::to_string(i);
+      const char* axes[] = {"0 0 1", "1 0 0", "0 1 0",
+                            "0 1 0", "0 1 0", "1 0 0"};
+      text += "<link name='" + name + "'>" + kInertial + (i == 5 ? feet : "") +
+              "</link><joint name='" + name +
+              "' type='revolute'><origin xyz='0 " +
+              (i > 0          ? "0"
+               : *side == 'l' ? "0.15"
+                              : "-0.15") +
+              (i == 3 || i == 4 ? " -0.4" : " 0") + "'/><parent link='" +
+              parent + "'/><child link='" + name + "'/><axis xyz='" + axes[i] +
+              "'/><limit lower='-2' upper='2' effort='100' velocity='5'/>"
+              "</joint>";
+      parent = name;
+    }
+  }
+  const auto start = std::clock();
+  const Diagnosis diagnosis = Examine(text + "</robot>");
+  // Less than a second; sanitizers take ten times as long.
+  EXPECT_LT((std::clock() - start) / CLOCKS_PER_SEC, 10);
+  EXPECT_EQ(Verdict(diagnosis), "ok") << Findings(diagnosis);
+  ASSERT_EQ(diagnosis.soles.size(), 2u);
+  // The square in a circle of 0.1 m.
+  EXPECT_NEAR(diagnosis.soles[0].length, 0.1414, 0.002);
+}
+
+TEST(Diagnose, RefusesAProfileThatDoesNotFit) {
+  const std::filesystem::path file =
+      std::filesystem::path(std::getenv("TEST_TMPDIR")) / "profile.yaml";
+  for (const char* text :
+       {"feet:\n  left_foot: {frame: nope, size: [0.2, 0.1]}\n"
+        "  right_foot: {frame: r_sole, size: [0.2, 0.1]}\n",
+        "# Odd.\nlocked: {nope: 0}\n", "# Odd.\ntasks: {nope: on}\n",
+        "# Odd.\ntasks: {posture: {kp: .nan}}\n"}) {
+    std::ofstream(file) << text;
+    try {
+      Diagnose("robot/models/humanoid.urdf", LoadProfile(file));
+      ADD_FAILURE() << text;
+    } catch (const Refusal& refusal) {
+      EXPECT_EQ(refusal.finding().line, 2) << refusal.what();
+      EXPECT_EQ(std::string(refusal.what()).find(file.string() + ":2: "), 0u);
+    }
+  }
+}
+
 TEST(WriteJson, HasTheKeysOfTheFormatWhateverTheNames) {
   const Diagnosis diagnosis =
-      Examine(std::string("<robot name='\"\\ \xff'><link name='a'>") +
+      Examine(std::string("<robot name='\"\\ \xc3\xa9'><link name='a'>") +
               kInertial + "</link></robot>");
   const nlohmann::json json = nlohmann::json::parse(WriteJson(diagnosis));
   EXPECT_EQ(json["verdict"], "ok");

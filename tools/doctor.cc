@@ -36,6 +36,11 @@ int Main(int argc, char** argv) {
     std::cout << (json ? WriteJson(diagnosis) + "\n" : WriteTable(diagnosis));
     if (diagnosis.worst() != Severity::kReject) return 0;
     std::cerr << Message(file, diagnosis.findings[0]) << "\n";
+  } catch (const Refusal& refusal) {  // About the profile.
+    Diagnosis diagnosis;
+    diagnosis.findings.push_back(refusal.finding());
+    if (json) std::cout << WriteJson(diagnosis) << "\n";
+    std::cerr << refusal.what() << "\n";
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
   }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "dynamics/tick.h"
+#include "robot/limits.h"
 #include "sim/bullet_plant.h"
 #include "sim/plant_settings.h"
 
@@ -45,10 +46,8 @@ Parity CompareWithBullet(const Robot& robot) {
   free.feet.clear();
   free.model.collisions.clear();
   const Tree& tree = free.model.tree;
-  VectorXd q = tree.MakeNeutral();
-  for (int j = 0; j < tree.num_joints(); ++j) {
-    JointLimits& limits = free.model.limits[j];
-    q[tree.q_start() + j] = std::max(limits.lower, std::min(0., limits.upper));
+  const VectorXd q = RestConfiguration(free.model);
+  for (JointLimits& limits : free.model.limits) {
     limits.effort = std::numeric_limits<double>::infinity();
   }
   PlantSettings settings;

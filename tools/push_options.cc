@@ -12,6 +12,7 @@
 #include "robot/control/stand.h"
 #include "robot/profile.h"
 #include "robot/save_profile.h"
+#include "robot/urdf.h"
 #include "tools/user_path.h"
 
 namespace poise {
@@ -215,6 +216,9 @@ PushOptions ReadPushOptions(int argc, char** argv, std::string* help) {
   }
   Robot standing = LoadStandingRobot(robot_file, feet_and_posture);
   if (!save_profile.empty()) {
+    // Mimics are fixed by where their sources were before it stood up.
+    feet_and_posture.locked =
+        LockedJoints(LoadUrdf(robot_file), feet_and_posture);
     SaveProfile(standing, feet_and_posture, UserPath(save_profile));
   }
   return {std::move(standing),

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +14,7 @@
 #include "hqp/solution.h"
 #include "hqp/solver.h"
 #include "math/so3.h"
+#include "robot/finding.h"
 #include "robot/knee.h"
 
 namespace poise {
@@ -105,8 +105,8 @@ class Standing {
     Evaluate();
   }
 
-  // Goes on until nothing moves; the configuration found.
-  VectorXd Solve() {
+  // Goes on until nothing moves; what the configuration found lacks.
+  std::string Solve() {
     const int n = tree_.num_joints();
     const int nv = tree_.nv();
     const std::vector<LevelCapacity> capacity = {
@@ -129,17 +129,16 @@ class Standing {
       AddPosture(&hierarchy);
       const Status status = solver.Solve(hierarchy, &solution);
       if (status != Status::kOptimal && status != Status::kIterationLimit) {
-        throw std::invalid_argument(
-            "robot '" + robot_.model.name +
-            "' cannot be stood up: a step of the search cannot be solved");
+        return "a step of the search cannot be solved";
       }
       Integrate(tree_, q_, solution.y, 1, q_);
       Evaluate();
       if (solution.y.lpNorm<Eigen::Infinity>() < kConverged) break;
     }
-    Check();
-    return q_;
+    return Lack();
   }
+
+  const VectorXd& q() const { return q_; }
 
  private:
   void Evaluate() {
@@ -234,29 +233,24 @@ class Standing {
     posture.weight = posture_weight_;
   }
 
-  void Check() const {
-    std::ostringstream reason;
+  // In words; empty where it stands.
+  std::string Lack() const {
     for (const int i : {0, 1}) {
       const Pose& X_WC = feet_[i].X_WC;
+      const std::string stays = robot_.feet[i].name + " stays ";
       const double tilt = LogSo3(X_WC.R).norm();
-      if (tilt > kFlat) {
-        reason << robot_.feet[i].name << " stays turned by " << tilt << " rad";
-      } else if (std::hypot(X_WC.p.x(), X_WC.p.z()) > kFlat) {
-        reason << robot_.feet[i].name << " stays "
-               << std::hypot(X_WC.p.x(), X_WC.p.z()) << " m off its place";
+      if (!(tilt <= kFlat)) {
+        return stays + "turned by " + PrintNumber(tilt) + " rad";
       }
-      if (reason.tellp() > 0) break;
+      const double off = std::hypot(X_WC.p.x(), X_WC.p.z());
+      if (!(off <= kFlat)) {
+        return stays + PrintNumber(off) + " m off its place";
+      }
     }
     const double off = tick_.p_WG.head<2>().norm();
-    if (reason.tellp() <= 0 && !(off <= kCentered)) {
-      reason << "the center of mass stays " << off
-             << " m off the middle of the soles";
-    }
-    if (reason.tellp() <= 0) return;
-    throw std::invalid_argument("robot '" + robot_.model.name +
-                                "' cannot be stood up inside its joint "
-                                "limits: " +
-                                reason.str());
+    if (off <= kCentered) return "";
+    return "the center of mass stays " + PrintNumber(off) +
+           " m off the middle of the soles";
   }
 
   const Robot& robot_;
@@ -280,17 +274,20 @@ void StandUp(Robot* robot) {
                                 "a mass");
   }
   // Knees forward; where that fails, as they are, or backward.
-  std::string reason;
+  std::string first;
   for (const double bend : {kKneeBend, 0., -kKneeBend}) {
-    try {
-      robot->q_nominal = Standing(*robot, bend).Solve();
+    Standing standing(*robot, bend);
+    const std::string lack = standing.Solve();
+    if (lack.empty()) {
+      robot->q_nominal = standing.q();
       robot->can_stand = true;
       return;
-    } catch (const std::invalid_argument& error) {
-      if (reason.empty()) reason = error.what();
     }
+    if (first.empty()) first = lack;
   }
-  throw std::invalid_argument(reason);
+  throw std::invalid_argument(
+      "robot '" + robot->model.name +
+      "' cannot be stood up inside its joint limits: " + first);
 }
 
 Robot LoadStandingRobot(const std::filesystem::path& urdf,

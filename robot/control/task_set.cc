@@ -1,7 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "robot/control/task_set.h"
 
+#include <filesystem>
 #include <stdexcept>
+
+#include "robot/finding.h"
+#include "robot/yaml_file.h"
 
 namespace poise {
 namespace {
@@ -20,12 +24,6 @@ posture: {rank: 4}
 force_regularizer: {rank: 4}
 )";
 
-[[noreturn]] void Refuse(const YAML::Node& at, const std::string& file,
-                         const std::string& why) {
-  throw std::invalid_argument(file + ":" + std::to_string(at.Mark().line + 1) +
-                              ": " + why);
-}
-
 std::string NamesOf(const Stack& stack) {
   std::string names;
   for (int i = 0; i < stack.num_tasks(); ++i) {
@@ -42,53 +40,51 @@ std::string NamesOf(const Task& task) {
 
 void ApplyTask(const std::string& name, const YAML::Node& node,
                const std::string& file, Stack* stack) {
-  const std::string what = "task '" + name + "'";
+  const std::string what = "task " + Quoted(name);
   bool on = false;
   if (node.IsScalar() && YAML::convert<bool>::decode(node, on)) {
     (void)stack->Enable(name, on);
     return;
   }
   if (!node.IsMap()) {
-    Refuse(node, file, what + " must be on, off, or a map");
+    Refuse(file, node,
+           what + " is " + Shown(node) + ", must be on, off, or a map");
   }
   for (const auto& field : node) {
-    const auto key = field.first.as<std::string>("");
+    const std::string& key = field.first.Scalar();
     const YAML::Node& value = field.second;
+    const auto refuse = [&](const std::string& wanted) {
+      Refuse(file, value,
+             what + ": " + Quoted(key) + " is " + Shown(value) + ", " + wanted);
+    };
     if (key == "on") {
       if (!value.IsScalar() || !YAML::convert<bool>::decode(value, on)) {
-        Refuse(value, file, what + ": on must be true or false");
+        refuse("must be true or false");
       }
       (void)stack->Enable(name, on);
       continue;
     }
-    const std::string given = value.IsScalar() ? value.Scalar() : "no number";
     double number = 0;
     if (!value.IsScalar() || !YAML::convert<double>::decode(value, number)) {
-      Refuse(value, file,
-             what + ": " + key + " is " + given + ", must be a number");
+      refuse("must be a number");
     }
     if (key == "rank") {
       const int rank = number >= 1 && number <= Stack::kMaxRank
                            ? static_cast<int>(number)
                            : 0;
       if (rank != number || !stack->SetRank(name, rank)) {
-        Refuse(value, file,
-               what + ": rank is " + given + ", must be 1 to " +
-                   std::to_string(Stack::kMaxRank));
+        refuse("must be 1 to " + std::to_string(Stack::kMaxRank));
       }
     } else if (key == "weight") {
       if (!stack->SetWeight(name, number)) {
-        Refuse(value, file,
-               what + ": weight is " + given + ", must be positive");
+        refuse("must be positive");
       }
     } else if (!stack->GetParameter(name, key)) {
-      Refuse(field.first, file,
-             what + " has no '" + key + "', only " +
+      Refuse(file, field.first,
+             what + " has no " + Quoted(key) + ", only " +
                  NamesOf(stack->task(*stack->Find(name))));
     } else if (!stack->SetParameter(name, key, number)) {
-      Refuse(
-          value, file,
-          what + ": " + key + " is " + given + ", which is out of its range");
+      refuse("which is out of its range");
     }
   }
 }
@@ -97,13 +93,15 @@ void ApplyTask(const std::string& name, const YAML::Node& node,
 
 void ApplyTasks(const YAML::Node& tasks, const std::string& file,
                 Stack* stack) {
-  if (!tasks.IsMap()) Refuse(tasks, file, "tasks must be a map by task name");
+  if (!tasks.IsMap()) {
+    Refuse(file, tasks, "tasks is " + Shown(tasks) + ", must be a map");
+  }
   for (const auto& field : tasks) {
-    const auto name = field.first.as<std::string>("");
+    const std::string& name = field.first.Scalar();
     if (!stack->Find(name)) {
-      Refuse(
-          field.first, file,
-          "task '" + name + "' is unknown, must be one of " + NamesOf(*stack));
+      Refuse(file, field.first,
+             "task " + Quoted(name) + " is unknown, must be one of " +
+                 NamesOf(*stack));
     }
     ApplyTask(name, field.second, file, stack);
   }
@@ -115,19 +113,13 @@ void ApplyTaskSet(const std::string& name, Stack* stack) {
     ApplyTasks(YAML::Load(kPaper), "task set 'paper'", stack);
     return;
   }
-  YAML::Node root;
-  try {
-    root = YAML::LoadFile(name);
-  } catch (const YAML::BadFile&) {
-    throw std::invalid_argument("task set '" + name +
-                                "': is neither default, paper, nor a file "
-                                "that can be read");
-  } catch (const YAML::ParserException& error) {
-    throw std::invalid_argument(
-        name + ":" + std::to_string(error.mark.line + 1) + ": " + error.msg);
+  if (!std::filesystem::exists(name)) {
+    throw std::invalid_argument("task set " + Quoted(name) +
+                                ": is neither default, paper, nor a file");
   }
+  const YAML::Node root = LoadYaml(name);
   if (!root.IsMap() || !root["tasks"]) {
-    throw std::invalid_argument(name + ":1: has no section 'tasks'");
+    Refuse(name, root, "has no section 'tasks'");
   }
   ApplyTasks(root["tasks"], name, stack);
 }

@@ -1,0 +1,22 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "robot/robot.h"
+
+namespace poise {
+
+/// Whether a joint's value is inside its limits, up to 1e-6.
+bool IsWithin(const JointLimits& limits, double q);
+
+/// "'l_knee' is at 9, must be inside its limits, 0 to 2".
+std::string SayOutside(const std::string& joint, const JointLimits& limits,
+                       double q);
+
+/// The configuration at rest: each joint at zero or, where that is outside its
+/// limits, at the nearer of them; the base at the world's origin.
+Eigen::VectorXd RestConfiguration(const RobotModel& model);
+
+}  // namespace poise

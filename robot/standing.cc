@@ -1,0 +1,89 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/standing.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "dynamics/tick.h"
+#include "robot/feet.h"
+#include "robot/finding.h"
+#include "robot/limits.h"
+
+namespace poise {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// What hands measure and files round, m and rad.
+constexpr double kHeight = 5e-3;
+constexpr double kTilt = 0.02;
+
+// Whether a convex polygon, counterclockwise, has a point in it.
+bool IsInside(const Vector2d& p, const std::vector<Vector2d>& polygon) {
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Vector2d& a = polygon[i];
+    const Vector2d side = polygon[(i + 1) % polygon.size()] - a;
+    const Vector2d to_p = p - a;
+    if (!(side.x() * to_p.y() - side.y() * to_p.x() >= 0)) return false;
+  }
+  return polygon.size() > 2;
+}
+
+Tick NominalTick(const Robot& robot) {
+  const Tree& tree = robot.model.tree;
+  Tick tick(tree, {});
+  ComputeTick(tree, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
+  return tick;
+}
+
+Pose SoleIn(const Tick& tick, const Foot& foot) {
+  return tick.X_WB[foot.body] * foot.X_BC;
+}
+
+}  // namespace
+
+bool AreFeetSwapped(const Robot& robot) {
+  const Tick tick = NominalTick(robot);
+  const Pose X_WL = SoleIn(tick, robot.feet[0]);
+  const Pose X_WR = SoleIn(tick, robot.feet[1]);
+  return !((X_WL.p - X_WR.p).dot(X_WL.R.col(1) + X_WR.R.col(1)) > 0);
+}
+
+std::string WhyNotStanding(const Robot& robot) {
+  const Tree& tree = robot.model.tree;
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    const JointLimits& limits = robot.model.limits[j];
+    const double q = robot.q_nominal[tree.q_start() + j];
+    if (!IsWithin(limits, q)) {
+      return SayOutside(tree.joints()[j].name, limits, q);
+    }
+  }
+  const Tick tick = NominalTick(robot);
+  std::vector<Vector2d> support;
+  for (const Foot& foot : robot.feet) {
+    const Pose X_WC = SoleIn(tick, foot);
+    if (!(std::abs(X_WC.p.z()) <= kHeight)) {
+      return foot.name + " is " + PrintNumber(X_WC.p.z()) +
+             " m above the ground, must be on it";
+    }
+    const double tilt = std::acos(std::min(1.0, X_WC.R(2, 2)));
+    if (!(tilt <= kTilt)) {
+      return foot.name + " is tilted by " + PrintNumber(tilt) +
+             " rad, must be flat";
+    }
+    for (const Vector2d& corner : foot.polygon_C) {
+      support.push_back((X_WC * Vector3d(corner.x(), corner.y(), 0)).head<2>());
+    }
+  }
+  if (AreFeetSwapped(robot)) return "the feet are swapped, left and right";
+  if (!IsInside(tick.p_WG.head<2>(), ConvexHull(std::move(support)))) {
+    return "the center of mass is not over the soles: the robot would fall";
+  }
+  return "";
+}
+
+}  // namespace poise
