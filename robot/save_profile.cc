@@ -101,7 +101,8 @@ void WriteProfile(const Robot& robot, const Profile& profile,
     YAML::Emitter emitter;
     emitter << YAML::BeginMap << YAML::Key << "tasks" << YAML::Value
             << profile.tasks << YAML::EndMap;
-    *stream << "\n" << emitter.c_str() << "\n";
+    *stream << "\n# The tasks, rank 1 before the others: docs/tasks.md.\n"
+            << emitter.c_str() << "\n";
   }
 }
 

@@ -196,6 +196,45 @@ TEST(WriteTable, SaysWhatMatters) {
   EXPECT_NE(table.find("verdict  warn"), std::string::npos);
 }
 
+// What of a link or a joint makes which verdict.
+TEST(Diagnose, JudgesByWhatIsWorst) {
+  const std::string good = Chain({kInertial, kInertial}, {"0 0 1"});
+  const struct {
+    const char* old_text;
+    const char* new_text;
+    const char* verdict;
+  } cases[] = {
+      {"<robot", "<robot", "ok"},
+      {"ixx='0.1'", "ixx='-0.1'", "warn"},
+      {"ixx='0.1'", "ixx='1e9'", "warn"},
+      {"ixx='0.1'", "ixx='nan'", "reject"},
+      {"ixx='0.1'", "ixx='1,0'", "reject"},
+      {"value='1'", "value='inf'", "reject"},
+      {"value='1'", "value='-1'", "reject"},
+      {"axis xyz='0 0 1'", "axis xyz='0 0 5'", "ok"},
+      {"axis xyz='0 0 1'", "axis xyz='0 0 1e-300'", "warn"},
+      {"axis xyz='0 0 1'", "axis xyz='0 0'", "reject"},
+      {"lower='-1'", "lower='1'", "warn"},
+      {"lower='-1' upper='1'", "lower='-10' upper='10'", "ok"},
+      {"lower='-1' upper='1'", "lower='-90' upper='90'", "warn"},
+      {"lower='-1'", "", "ok"},
+      {"<limit", "<mimic joint='j1'/><limit", "reject"},
+      {"revolute", "planar", "reject"},
+      {"link='0'/>", "link='none'/>", "reject"},
+      {"</robot>", "<loop_joint name='l'/></robot>", "ok"},
+      {"</robot>", "<typo/></robot>", "ok"},
+      {"</robot>", "", "reject"},
+      {"</robot>", "</robot><robot name='b'/>", "reject"},
+  };
+  for (const auto& [old_text, new_text, verdict] : cases) {
+    std::string text = good;
+    text.replace(text.find(old_text), std::string(old_text).size(), new_text);
+    const Diagnosis diagnosis = Examine(text);
+    EXPECT_EQ(Verdict(diagnosis), verdict) << new_text << "\n"
+                                           << Findings(diagnosis);
+  }
+}
+
 TEST(Diagnose, JudgesHostileFilesAsExpected) {
   const auto folder = SharedData("urdf_hostile");
   if (!folder) return;

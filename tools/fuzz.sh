@@ -40,7 +40,7 @@ printf '%-10s %12s %9s %9s %9s\n' fuzzer runs corpus coverage crashes
 for target in "${targets[@]}"; do
   folder=$home/$target
   mkdir -p "$folder/corpus" "$folder/crashes"
-  arguments=(-max_total_time="$seconds" -timeout=30 -rss_limit_mb=2048
+  arguments=(-max_total_time="$seconds" -timeout=30 -rss_limit_mb=1024
     -malloc_limit_mb=1024 -print_final_stats=1
     -artifact_prefix="$folder/crashes/")
   # In CI a verdict is about the change, not about luck.
@@ -49,6 +49,9 @@ for target in "${targets[@]}"; do
   [ -f "$dictionary" ] && arguments+=(-dict="$dictionary")
   seeds=()
   [ -d "tests/fuzz/seeds/$target" ] && seeds+=("tests/fuzz/seeds/$target")
+  # POISE_SHARED names a folder of data that is not in the repository.
+  hostile=${POISE_SHARED:-}/${target}_hostile
+  [ -n "${POISE_SHARED:-}" ] && [ -d "$hostile" ] && seeds+=("$hostile")
   ASAN_OPTIONS=detect_leaks=1 "$bin/${target}_fuzzer" "${arguments[@]}" \
     "$folder/corpus" "${seeds[@]}" > "$folder/log" 2>&1
   status=$?

@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "robot/control/default_stack.h"
 #include "robot/control/stand.h"
+#include "robot/control/task_set.h"
 #include "robot/profile.h"
 #include "robot/save_profile.h"
 #include "robot/urdf.h"
@@ -219,6 +221,9 @@ PushOptions ReadPushOptions(int argc, char** argv, std::string* help) {
     // Mimics are fixed by where their sources were before it stood up.
     feet_and_posture.locked =
         LockedJoints(LoadUrdf(robot_file), feet_and_posture);
+    if (!feet_and_posture.tasks.IsDefined()) {
+      feet_and_posture.tasks = DescribeTasks(MakeDefaultStack(standing, {}));
+    }
     SaveProfile(standing, feet_and_posture, UserPath(save_profile));
   }
   return {std::move(standing),

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "robot/control/task_set.h"
 
+#include <charconv>
 #include <filesystem>
 #include <stdexcept>
 
@@ -89,6 +90,13 @@ void ApplyTask(const std::string& name, const YAML::Node& node,
   }
 }
 
+// The shortest text that reads as the same number.
+std::string Shortest(double value) {
+  char text[32];
+  const auto [end, error] = std::to_chars(text, text + sizeof(text), value);
+  return {text, end};
+}
+
 }  // namespace
 
 void ApplyTasks(const YAML::Node& tasks, const std::string& file,
@@ -105,6 +113,24 @@ void ApplyTasks(const YAML::Node& tasks, const std::string& file,
     }
     ApplyTask(name, field.second, file, stack);
   }
+}
+
+YAML::Node DescribeTasks(const Stack& stack) {
+  YAML::Node tasks(YAML::NodeType::Map);
+  for (int i = 0; i < stack.num_tasks(); ++i) {
+    const Task& task = stack.task(i);
+    const TaskSettings& settings = stack.settings(i);
+    YAML::Node fields(YAML::NodeType::Map);
+    fields.SetStyle(YAML::EmitterStyle::Flow);
+    fields["on"] = settings.enabled;
+    fields["rank"] = settings.rank;
+    fields["weight"] = Shortest(settings.weight);
+    for (const Parameter& each : task.parameters()) {
+      fields[each.name] = Shortest(*each.value);
+    }
+    tasks[task.name()] = fields;
+  }
+  return tasks;
 }
 
 void ApplyTaskSet(const std::string& name, Stack* stack) {

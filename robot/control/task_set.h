@@ -22,6 +22,10 @@ namespace poise {
 /// that is not there, or a value out of its range.
 void ApplyTasks(const YAML::Node& tasks, const std::string& file, Stack* stack);
 
+/// The section `tasks` that makes any stack of the same tasks this one: of each,
+/// whether it is on, its rank, weight and parameters, to the last digit.
+YAML::Node DescribeTasks(const Stack& stack);
+
 /// Changes a stack to a task set: `default` (nothing to do); `paper`, the table
 /// of the seed's section 3; else the section `tasks` of a YAML file.
 /// Throws std::invalid_argument as ApplyTasks(), or about the file.
