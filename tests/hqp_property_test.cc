@@ -4,23 +4,25 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include "hqp/cascade.h"
 #include "hqp/certificate.h"
 #include "hqp/solver.h"
 #include "tests/util/random_hierarchy.h"
+#include "tests/util/ridders.h"
 
 namespace poise {
 namespace {
 
 // Shrinks to few variables, few levels, few rows.
-HierarchyCase DrawHierarchy() {
+HierarchyCase DrawHierarchy(bool with_inequalities = true) {
   RandomHierarchyOptions options;
   options.max_variables = *rc::gen::inRange(1, 13);
   options.max_levels = *rc::gen::inRange(1, 6);
   options.max_equalities = *rc::gen::inRange(1, 7);
-  options.max_inequalities = *rc::gen::inRange(1, 9);
+  options.max_inequalities = with_inequalities ? *rc::gen::inRange(1, 9) : 0;
   options.degenerate = *rc::gen::inRange(0, 41);
   options.planted = *rc::gen::inRange(0, 61);
   options.selecting = *rc::gen::inRange(0, 101);
@@ -47,9 +49,10 @@ void ExpectSameCosts(const HierarchyCase& drawn, const Solution& solution,
   }
 }
 
-// The levels of a hierarchy with y = Q z, the last ones left out.
+// The levels of a hierarchy with y = Q z, the last ones left out, and the
+// targets of one of them moved.
 HierarchyCase Transform(const HierarchyCase& drawn, const Eigen::MatrixXd& Q,
-                        int num_levels) {
+                        int num_levels, int moved = -1, double by = 0) {
   const Hierarchy& from = drawn.hierarchy;
   std::vector<LevelCapacity> capacity(drawn.capacity.begin(),
                                       drawn.capacity.begin() + num_levels);
@@ -58,6 +61,7 @@ HierarchyCase Transform(const HierarchyCase& drawn, const Eigen::MatrixXd& Q,
     EqualityBlock e = result.hierarchy.AddEqualities(k, from.num_equalities(k));
     e.B = from.B(k) * Q;
     e.b = from.b(k);
+    if (k == moved) e.b.array() += by;
     e.weight = from.weight(k);
     InequalityBlock i =
         result.hierarchy.AddInequalities(k, from.num_inequalities(k));
@@ -101,6 +105,50 @@ RC_GTEST_PROP(AnyHierarchy, HasTheSameCostsInRotatedVariables, ()) {
   const int num_levels = drawn.hierarchy.num_levels();
   ExpectSameCosts(drawn, Solve(Transform(drawn, Q, num_levels)), Solve(drawn),
                   num_levels);
+}
+
+// The projection, by Ceres: where a level's targets go, no residual above it
+// follows, and along the nullspace of the rows above its cost is at rest.
+RC_GTEST_PROP(AnyHierarchy, HasLevelsThatKeepToTheNullspaceOfThoseAbove, ()) {
+  const HierarchyCase drawn = DrawHierarchy(false);
+  const Hierarchy& hierarchy = drawn.hierarchy;
+  const int n = hierarchy.num_variables();
+  const int level = *rc::gen::inRange(0, hierarchy.num_levels());
+  int num_above = 0;
+  for (int k = 0; k < level; ++k) num_above += hierarchy.num_equalities(k);
+  Eigen::MatrixXd above(num_above, n);
+  for (int k = 0, row = 0; k < level; row += hierarchy.num_equalities(k++)) {
+    above.middleRows(row, hierarchy.num_equalities(k)) = hierarchy.B(k);
+  }
+  const auto solve = [&](double by) -> Eigen::VectorXd {
+    const HierarchyCase moved =
+        Transform(drawn, Eigen::MatrixXd::Identity(n, n),
+                  hierarchy.num_levels(), level, by);
+    Solution solution(n, moved.capacity);
+    RC_ASSERT(Cascade(n, moved.capacity).Solve(moved.hierarchy, &solution) ==
+              Status::kOptimal);
+    return solution.y;
+  };
+  const Eigen::VectorXd y = solve(0), rate = RiddersRate(solve);
+  const double scale = 1 + above.norm() * (y.norm() + rate.norm());
+  RC_ASSERT((above * rate).norm() <= kRiddersPrecision * scale);
+
+  const Eigen::MatrixXd N = num_above == 0
+                                ? Eigen::MatrixXd::Identity(n, n)
+                                : Eigen::MatrixXd(above.fullPivLu().kernel());
+  const auto cost = [&](const Eigen::VectorXd& z) -> Eigen::VectorXd {
+    const Eigen::VectorXd w =
+        hierarchy.B(level) * (y + N * z) + hierarchy.b(level);
+    return Eigen::VectorXd::Constant(
+        1, 0.5 * w.dot(hierarchy.weight(level).cwiseProduct(w)));
+  };
+  const Eigen::MatrixXd gradient =
+      RiddersJacobian(cost, Eigen::VectorXd::Zero(N.cols()));
+  const Eigen::MatrixXd BN = hierarchy.B(level) * N;
+  const double size = (1 + BN.norm()) * (1 + hierarchy.b(level).norm() +
+                                         hierarchy.B(level).norm() * y.norm());
+  RC_ASSERT(gradient.norm() <=
+            kRiddersPrecision * size * hierarchy.weight(level).sum());
 }
 
 }  // namespace
