@@ -40,7 +40,7 @@ printf '%-10s %12s %9s %9s %9s\n' fuzzer runs corpus coverage crashes
 for target in "${targets[@]}"; do
   folder=$home/$target
   mkdir -p "$folder/corpus" "$folder/crashes"
-  arguments=(-max_total_time="$seconds" -timeout=30 -rss_limit_mb=1024
+  arguments=(-max_total_time="$seconds" -timeout=30 -rss_limit_mb=2048
     -malloc_limit_mb=1024 -print_final_stats=1
     -artifact_prefix="$folder/crashes/")
   # In CI a verdict is about the change, not about luck.
