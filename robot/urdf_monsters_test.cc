@@ -81,7 +81,11 @@ TEST(Monsters, TooMuchIsRefusedBeforeItIsParsed) {
   EXPECT_EQ(Rejection(With(std::string(20'000'000, 'x'))), too_much);
   EXPECT_EQ(Rejection(With(Repeat("<!---->", 4'000'000))), too_much);
   EXPECT_EQ(Rejection(With(Repeat("<a/>", 5'000'000))), too_much);
-  EXPECT_EQ(Rejection("<robot" + Repeat(" a=''", 2'000) + "/>"),
+  std::string attributes;
+  for (int i = 0; i < 2'000; ++i) {
+    attributes += " a" + std::to_string(i) + "=''";
+  }
+  EXPECT_EQ(Rejection("<robot" + attributes + "/>"),
             "file:1: an element has more than 1000 attributes");
   EXPECT_EQ(Rejection("<robot name='r'>" +
                       [] {

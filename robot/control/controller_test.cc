@@ -368,9 +368,10 @@ TEST(TaskSet, RefusesWhatIsNotThereByLine) {
   EXPECT_EQ(message("cop: {kp: 1}").substr(0, 34),
             "x.yaml:1: task 'cop' has no 'kp', ");
   EXPECT_EQ(message("cop:\n  rank: 9"),
-            "x.yaml:2: task 'cop': rank is 9, must be 1 to 8");
+            "x.yaml:2: task 'cop': 'rank' is '9', must be 1 to 8");
   EXPECT_EQ(message("cop: {margin: -1}"),
-            "x.yaml:1: task 'cop': margin is -1, which is out of its range");
+            "x.yaml:1: task 'cop': 'margin' is '-1', which is out of its "
+            "range");
 }
 
 TEST(TaskSet, KnowsThatOfThePaper) {
