@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "robot/finding.h"
@@ -15,18 +16,6 @@ namespace {
 [[noreturn]] void Throw(const std::string& file, const YAML::Mark& mark,
                         const std::string& what) {
   throw Refusal(file, mark.line + 1, what);
-}
-
-// What stands in the file, as far as one line can show it.
-std::string Shown(const YAML::Node& node) {
-  if (node.IsScalar()) {
-    constexpr size_t kLongest = 40;
-    const std::string& text = node.Scalar();
-    return text.size() <= kLongest ? "'" + text + "'"
-                                   : "'" + text.substr(0, kLongest) + "...'";
-  }
-  if (node.IsNull()) return "empty";
-  return node.IsSequence() ? "a list" : "a map";
 }
 
 std::optional<double> ToNumber(const YAML::Node& node) {
