@@ -10,6 +10,18 @@
 namespace poise {
 namespace {
 
+// Where a row is missed by less than this, relative to what it is added up from,
+// nothing is left to refine.
+constexpr double kRefined = 1e-13;
+constexpr int kMaxPasses = 4;
+
+// An entry of y below this, relative to the largest, is what refinement leaves of
+// a zero.
+constexpr double kNothing = 1e-25;
+
+// A residual below this, relative to what it is added up from, is zero.
+constexpr double kZeroResidual = 1e-12;
+
 int NumRows(const std::vector<LevelCapacity>& capacity) {
   int rows = 0;
   for (const LevelCapacity& level : capacity) {
@@ -35,7 +47,11 @@ ActiveProblem::ActiveProblem(int num_variables,
       rows_(NumRows(capacity)),
       multipliers_(capacity.size() + 1),
       y_(num_variables),
-      gradient_(num_variables) {
+      gradient_(num_variables),
+      change_(num_variables),
+      nu_(rows_.size()),
+      lack_(rows_.size()),
+      size_(rows_.size()) {
   for (const LevelCapacity& level : capacity) {
     norm_.emplace_back(level.inequalities);
     B_norm_.emplace_back(level.equalities);
@@ -76,7 +92,8 @@ Status ActiveProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
   return Status::kOptimal;
 }
 
-void ActiveProblem::Plan(const Hierarchy& hierarchy, int num_levels) {
+void ActiveProblem::Plan(const Hierarchy& hierarchy, int num_levels,
+                         const double* center) {
   num_levels_ = num_levels;
   num_head_ = num_levels;
   head_.Truncate(0);
@@ -111,7 +128,7 @@ void ActiveProblem::Plan(const Hierarchy& hierarchy, int num_levels) {
                 -hierarchy.b(level)[i] / scale);
     }
   }
-  tail_.Finish();
+  tail_.Finish(center);
 }
 
 void ActiveProblem::AddRow(const Row& row, const double* from, double metric) {
@@ -147,6 +164,66 @@ void ActiveProblem::Solve(const Hierarchy& hierarchy,
   tail_.Solve(head_, y_.data());
 }
 
+// By what the rows miss their targets, and what that is added up from. Returns
+// the worst ratio of the two on levels where it should be zero.
+double ActiveProblem::FindLack(const Hierarchy& hierarchy) {
+  double worst = 0;
+  for (int level = 0; level < num_head_; ++level) {
+    for (int a = head_.first_row(level); a < head_.end_row(level); ++a) {
+      const Row& row = rows_[a];
+      double value, size;
+      kernels::DotWithSize(Original(hierarchy, a), y_.data(), n_, &value,
+                           &size);
+      lack_[a] = (row.bound - value) / row.norm;
+      size_[a] = (std::abs(row.bound) + size) / row.norm;
+      if (head_.residual(a) == 0 && size_[a] > 0) {
+        worst = std::max(worst, std::abs(lack_[a]) / size_[a]);
+      }
+    }
+  }
+  return worst;
+}
+
+void ActiveProblem::Refine(const Hierarchy& hierarchy) {
+  Refine(hierarchy, true);
+}
+
+void ActiveProblem::RefineOther(const Hierarchy& hierarchy,
+                                const std::vector<double>& y) {
+  y_ = y;
+  Refine(hierarchy, false);
+}
+
+void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
+  // First all levels; then, as what the tail asks for may be large and its
+  // rounding with it, the head alone.
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    const double worst = FindLack(hierarchy);
+    if (pass > 0 && worst <= kRefined) break;
+    head_.Correct(lack_.data(), change_.data());
+    tail_.Correct(head_, change_.data(), to_minimum && pass == 0, y_.data());
+  }
+  double largest = 0;
+  for (double entry : y_) largest = std::max(largest, std::abs(entry));
+  for (double& entry : y_) {
+    if (std::abs(entry) < kNothing * largest) entry = 0;
+  }
+  FindLack(hierarchy);
+  for (int level = 0; level < num_head_; ++level) {
+    if (!head_.is_deficient(level)) continue;
+    // A level is judged as a whole, by what its rows weigh in its gradient.
+    double force = 0;
+    for (int a = head_.first_row(level); a < head_.end_row(level); ++a) {
+      force = std::max(force, head_.weight(a) * size_[a]);
+    }
+    for (int a = head_.first_row(level); a < head_.end_row(level); ++a) {
+      const bool is_zero =
+          head_.weight(a) * std::abs(lack_[a]) <= kZeroResidual * force;
+      head_.SetResidual(a, is_zero ? 0 : -lack_[a]);
+    }
+  }
+}
+
 void ActiveProblem::FindMultipliers() {
   for (int level = 0; level <= num_levels_; ++level) {
     Multipliers& out = multipliers_[level];
@@ -169,6 +246,50 @@ void ActiveProblem::FindMultipliers() {
       out.size = std::max(out.size, std::abs(out.nu[a]));
     }
   }
+}
+
+void ActiveProblem::RefineMultipliers(const Hierarchy& hierarchy) {
+  for (int level = 0; level < num_levels_; ++level) {
+    Multipliers& of = multipliers_[level];
+    if (!of.any) continue;
+    // A level of the head: its own rows as well, as what they weigh.
+    const bool in_head = level < num_head_;
+    const int levels = in_head ? level + 1 : num_head_;
+    const int rows = in_head ? head_.end_row(level) : head_.num_rows();
+    const int rank = in_head ? head_.rank(level) : head_.rank();
+    std::vector<double>& left = change_;
+    std::fill(left.begin(), left.end(), 0);
+    if (in_head) {
+      for (int a = head_.first_row(level); a < rows; ++a) {
+        of.nu[a] = -head_.weight(a) * lack_[a];
+      }
+    } else {
+      tail_.AddGradient(level - num_head_, y_.data(), of.left.data(),
+                        left.data());
+    }
+    for (int a = 0; a < rows; ++a) {
+      AddToSum(hierarchy, a, of.nu[a], left.data());
+    }
+    kernels::Dots(head_.basis(), head_.stride(), rank, left.data(), n_,
+                  gradient_.data());
+    for (int e = 0; e < rank; ++e) gradient_[e] = -gradient_[e];
+    head_.SolveDual(levels, gradient_.data(), nu_.data());
+    for (int a = 0; a < rows; ++a) of.nu[a] += nu_[a];
+  }
+}
+
+// sum += factor (row a, of unit length).
+void ActiveProblem::AddToSum(const Hierarchy& hierarchy, int a, double factor,
+                             double* sum) const {
+  if (factor == 0) return;
+  factor /= rows_[a].norm;
+  kernels::AddRows(Original(hierarchy, a), 0, 1, &factor, n_, sum);
+}
+
+const double* ActiveProblem::Original(const Hierarchy& hierarchy, int a) const {
+  const Row& row = rows_[a];
+  return row.is_inequality ? hierarchy.C(row.level).data() + row.index * n_
+                           : hierarchy.B(row.level).data() + row.index * n_;
 }
 
 double ActiveProblem::Price(int a, int level, Side side,

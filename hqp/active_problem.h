@@ -38,16 +38,33 @@ class ActiveProblem {
   /// finite, a bound is on the wrong side, or a weight negative.
   Status Read(const Hierarchy& hierarchy, int* failed_level);
 
-  /// Takes the first num_levels levels, and no others.
-  void Plan(const Hierarchy& hierarchy, int num_levels);
+  /// Takes the first num_levels levels, and no others; of what they leave free,
+  /// the y closest to `center`, or to zero.
+  void Plan(const Hierarchy& hierarchy, int num_levels,
+            const double* center = nullptr);
 
   /// Solves for rows active on these sides, by level. What is above from_level
   /// must be as in the last solve.
   void Solve(const Hierarchy& hierarchy,
              const std::vector<std::vector<Side>>& side, int from_level);
 
+  /// Improves y, by what the rows as they were given lack, until each is met as
+  /// exactly as its own terms allow: orthogonalisation alone gives it to rounding
+  /// of the largest numbers in y, and a level may hold none of these.
+  void Refine(const Hierarchy& hierarchy);
+
+  /// The same of another y that meets the rows, without going on to the optimum
+  /// of what they leave free.
+  void RefineOther(const Hierarchy& hierarchy, const std::vector<double>& y);
+
   /// Finds the multipliers of all levels at the last solve.
   void FindMultipliers();
+
+  /// Improves them, by what is left of the sum that they should bring to zero,
+  /// added up from the rows as they were given. Those of a level of the head
+  /// are then followed by what its own rows weigh in that sum: d_a^2 (r_a y -
+  /// t_a), but for rounding, which is made up for.
+  void RefineMultipliers(const Hierarchy& hierarchy);
 
   /// The price of an inequality row of the head on a level: positive if the
   /// level is held back by it, negative if it is drawn along, 0 if below
@@ -70,6 +87,11 @@ class ActiveProblem {
 
  private:
   void AddRow(const Row& row, const double* from, double metric);
+  void AddToSum(const Hierarchy& hierarchy, int a, double factor,
+                double* sum) const;
+  const double* Original(const Hierarchy& hierarchy, int a) const;
+  double FindLack(const Hierarchy& hierarchy);
+  void Refine(const Hierarchy& hierarchy, bool to_minimum);
 
   int n_;
   int num_levels_ = 0, num_head_ = 0;
@@ -77,7 +99,8 @@ class ActiveProblem {
   SelectionTail tail_;
   std::vector<Row> rows_;
   std::vector<Multipliers> multipliers_;
-  std::vector<double> y_, gradient_;
+  std::vector<double> y_, gradient_, change_, nu_;
+  std::vector<double> lack_, size_;  ///< By row of the head.
   std::vector<std::vector<double>> norm_, B_norm_;
   std::vector<std::vector<int>> selected_;
 };

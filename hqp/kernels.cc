@@ -128,6 +128,24 @@ void AddToRows(double* rows, int stride, int count, const double* factor,
 }
 
 POISE_CLONES
+void DotWithSize(const double* row, const double* x, int n, double* dot,
+                 double* size) {
+  Four sum = {}, absolute = {};
+  int j = 0;
+  for (; j + 4 <= n; j += 4) {
+    const Four term = POISE_LOAD(row + j) * POISE_LOAD(x + j);
+    sum += term;
+    absolute += term < 0 ? -term : term;
+  }
+  *dot = POISE_SUM(sum);
+  *size = POISE_SUM(absolute);
+  for (; j < n; ++j) {
+    *dot += row[j] * x[j];
+    *size += std::abs(row[j] * x[j]);
+  }
+}
+
+POISE_CLONES
 double AbsoluteSum(const double* x, int n) {
   double even = 0, odd = 0, third = 0, fourth = 0;
   int j = 0;

@@ -9,6 +9,10 @@ namespace poise::kernels {
 void Dots(const double* rows, int stride, int count, const double* x, int n,
           double* out);
 
+/// *dot = row . x, and *size = sum_j |row_j x_j|.
+void DotWithSize(const double* row, const double* x, int n, double* dot,
+                 double* size);
+
 /// x += sum_i factor_i row_i.
 void AddRows(const double* rows, int stride, int count, const double* factor,
              int n, double* x);

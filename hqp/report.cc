@@ -50,7 +50,7 @@ void Reporter::Report(const Hierarchy& hierarchy,
       }
     }
   }
-  ReportMultipliers(hierarchy, *problem, solution);
+  ReportMultipliers(*problem, solution);
   for (int level = problem->num_head() + 1; level < problem->num_levels();
        ++level) {
     ReportTailMultipliers(hierarchy, level, problem, solution);
@@ -65,10 +65,8 @@ bool Reporter::IsViolated(const ActiveProblem::Row& row,
          kAtBound * (row.norm * norm_y_ + std::abs(row.bound));
 }
 
-void Reporter::ReportMultipliers(const Hierarchy& hierarchy,
-                                 const ActiveProblem& problem,
+void Reporter::ReportMultipliers(const ActiveProblem& problem,
                                  Solution* solution) {
-  (void)hierarchy;
   for (int level = 1; level < problem.num_levels(); ++level) {
     const ActiveProblem::Multipliers& from = problem.multipliers(level);
     if (!from.any) continue;
@@ -148,13 +146,19 @@ void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
               : sign * from.multipliers[row.level].inequality[row.index];
       if (price <= 0) continue;
       const double factor = -mu / price;
-      const int equalities = hierarchy.num_equalities(first);
       LevelMultipliers& own = to.multipliers[first];
-      own.equality.head(equalities) +=
-          factor * hierarchy.weight(first).cwiseProduct(
-                       from.equality_residual.head(equalities));
-      for (int i = 0; i < hierarchy.num_inequalities(first); ++i) {
-        own.inequality[i] += factor * Sign(from.active[i]) * from.slack[i];
+      if (first < problem.num_head()) {
+        for (int o = problem.head().first_row(first);
+             o < problem.head().end_row(first); ++o) {
+          const ActiveProblem::Row& of = problem.row(o);
+          (of.is_inequality ? own.inequality : own.equality)[of.index] +=
+              factor * problem.multipliers(first).nu[o] / of.norm;
+        }
+      } else {
+        const int equalities = hierarchy.num_equalities(first);
+        own.equality.head(equalities) +=
+            factor * hierarchy.weight(first).cwiseProduct(
+                         from.equality_residual.head(equalities));
       }
       for (int above = 0; above < first; ++above) {
         to.multipliers[above].equality +=

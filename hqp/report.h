@@ -24,8 +24,7 @@ class Reporter {
               ActiveProblem* problem, Solution* solution);
 
  private:
-  void ReportMultipliers(const Hierarchy& hierarchy,
-                         const ActiveProblem& problem, Solution* solution);
+  void ReportMultipliers(const ActiveProblem& problem, Solution* solution);
   void ReportTailMultipliers(const Hierarchy& hierarchy, int level,
                              ActiveProblem* problem, Solution* solution);
   void MakeNonnegative(const Hierarchy& hierarchy, double tolerance,

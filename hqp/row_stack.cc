@@ -249,6 +249,36 @@ void RowStack::SolveLevel(const Level& level) {
   }
 }
 
+void RowStack::Correct(const double* lack, double* change) {
+  for (const Level& level : levels_) {
+    const int first = level.first_row, rows = level.end_row - first;
+    double* right = scratch_.data();
+    std::copy_n(lack + first, rows, right);
+    if (level.deficient) {
+      for (int i = 0; i < rows; ++i) right[i] *= metric_[first + i];
+      for (int e = level.rank_end - 1; e >= level.rank_begin; --e) {
+        Reflect(e, rows, right);
+      }
+    }
+    for (int e = level.rank_begin; e < level.rank_end; ++e) {
+      const double* l = &effective_[static_cast<size_t>(e) * stride_];
+      double value;
+      Dots(l, 0, 1, change, e, &value);
+      change[e] = (right[carrier_[e] - first] - value) / l[e];
+    }
+  }
+}
+
+// Applies the reflection of column e to a vector of its level's rows.
+void RowStack::Reflect(int e, int rows, double* x) const {
+  const double* v =
+      &reflection_[static_cast<size_t>(e) * (reflection_.size() / n_)];
+  double dot;
+  Dots(v, 0, 1, x, rows, &dot);
+  dot = -dot;
+  AddRows(v, 0, 1, &dot, rows, x);
+}
+
 double RowStack::norm_z() const {
   return std::sqrt(SquaredNorm(z_.data(), rank_));
 }
@@ -259,7 +289,7 @@ double RowStack::Gradient(int level, double* gradient) const {
   double size = 0, largest = 0;
   for (int a = of.first_row; a < of.end_row; ++a) {
     if (residual_[a] == 0) continue;
-    const double factor = metric_[a] * metric_[a] * residual_[a];
+    const double factor = weight(a) * residual_[a];
     size = std::max(size, std::abs(factor));
     AddRows(&l_[static_cast<std::size_t>(a) * stride_], 0, 1, &factor,
             of.rank_begin, gradient);
@@ -284,12 +314,7 @@ void RowStack::SolveDual(int level, double* rhs, double* nu) {
     if (!from.deficient) continue;
     // Through the reflections, back to the rows.
     for (int e = from.rank_begin; e < from.rank_end; ++e) {
-      const double* v =
-          &reflection_[static_cast<size_t>(e) * (reflection_.size() / n_)];
-      double dot;
-      Dots(v, 0, 1, nu + from.first_row, rows, &dot);
-      dot = -dot;
-      AddRows(v, 0, 1, &dot, rows, nu + from.first_row);
+      Reflect(e, rows, nu + from.first_row);
     }
     for (int a = from.first_row; a < from.end_row; ++a) nu[a] *= metric_[a];
   }

@@ -49,6 +49,18 @@ class RowStack {
   /// r_a y - t_a; exactly 0 where all rows of the level are independent.
   double residual(int a) const { return residual_[a]; }
 
+  /// Improves a solution y = Q' z (or any other that meets the rows): from what
+  /// its rows lack, t_a - r_a y, summed up from the rows as they were given, the
+  /// change of Q y, of rank() entries.
+  void Correct(const double* lack, double* change);
+
+  /// Puts a residual in the place of the one that SolveLevel() found; that of a
+  /// level that is not deficient stays 0.
+  void SetResidual(int a, double residual) { residual_[a] = residual; }
+
+  /// d_a^2.
+  double weight(int a) const { return metric_[a] * metric_[a]; }
+
   /// Q, rank x num_variables, its rows `stride` apart; and y = Q' z.
   const double* basis() const { return q_.data(); }
   int stride() const { return stride_; }
@@ -75,6 +87,7 @@ class RowStack {
   void PivotRows(Level* level);
   void Reduce(Level* level);
   void SolveLevel(const Level& level);
+  void Reflect(int e, int rows, double* x) const;
 
   int n_, stride_, num_rows_ = 0, rank_ = 0;
   std::vector<Level> levels_;

@@ -35,8 +35,8 @@ SelectionTail::SelectionTail(int num_variables, int max_levels)
     matrix->resize(square);
   }
   for (std::vector<double>* vector :
-       {&weight_, &target_, &start_, &step_, &ideal_, &scale_, &nu_, &scratch_,
-        &factor_}) {
+       {&weight_, &target_, &start_, &step_, &ideal_, &scale_, &x_, &magnitude_,
+        &z_, &nu_, &scratch_, &factor_}) {
     vector->resize(stride_);
   }
   Clear();
@@ -62,10 +62,10 @@ void SelectionTail::Add(int variable, double weight, double target) {
   weight_[variable] = sum;
 }
 
-void SelectionTail::Finish() {
+void SelectionTail::Finish(const double* targets) {
   AddLevel();
   for (int j = 0; j < n_; ++j) {
-    if (level_of_[j] < 0) Add(j, 1, 0);
+    if (level_of_[j] < 0) Add(j, 1, targets != nullptr ? targets[j] : 0);
   }
   int position = 0;
   for (int level = num_levels_ - 1; level >= 0; --level) {
@@ -92,8 +92,33 @@ void SelectionTail::Tie(const RowStack& head) {
 
 void SelectionTail::Solve(const RowStack& head, double* y) {
   Tie(head);
-  for (int level = 0; level < num_levels_; ++level) SolveLevel(level);
+  Start(head, head.z());
+  for (int p = 0; p < n_; ++p) {
+    const double target = target_[order_[p]];
+    ideal_[p] = target - start_[p];
+    magnitude_[p] = std::abs(start_[p]) + std::abs(target);
+  }
+  for (int level = 0; level < num_levels_; ++level) {
+    FactorLevel(level);
+    SolveLevel(level);
+    FindMultipliers(level);
+  }
   for (int p = 0; p < n_; ++p) y[order_[p]] = start_[p] + step_[p];
+}
+
+void SelectionTail::Correct(const RowStack& head, const double* change,
+                            bool to_minimum, double* y) {
+  Start(head, change);
+  for (int p = 0; p < n_; ++p) {
+    const int j = order_[p];
+    ideal_[p] = (to_minimum ? target_[j] - y[j] : 0) - start_[p];
+    magnitude_[p] = std::abs(y[j]) + std::abs(target_[j]);
+  }
+  for (int level = 0; level < num_levels_; ++level) {
+    SolveLevel(level);
+    if (to_minimum) FindMultipliers(level);
+  }
+  for (int p = 0; p < n_; ++p) y[order_[p]] += start_[p] + step_[p];
 }
 
 void SelectionTail::Gather(const RowStack& head) {
@@ -109,9 +134,13 @@ void SelectionTail::Gather(const RowStack& head) {
     }
     p += run;
   }
-  std::fill(start_.begin(), start_.end(), 0);
-  AddRows(t_.data(), stride_, rank_, head.z(), n_, start_.data());
-  for (int p = 0; p < n_; ++p) ideal_[p] = target_[order_[p]] - start_[p];
+}
+
+// start = Q' z, by position.
+void SelectionTail::Start(const RowStack& head, const double* z) {
+  std::fill(scratch_.begin(), scratch_.end(), 0);
+  AddRows(head.basis(), head.stride(), rank_, z, n_, scratch_.data());
+  for (int p = 0; p < n_; ++p) start_[p] = scratch_[order_[p]];
 }
 
 // Reflects rows until the level's variables are in as few of them as can be.
@@ -156,66 +185,80 @@ void SelectionTail::Eliminate(int level) {
   }
 }
 
-// With x = d (step - ideal): minimum |x|^2 where (T/d) x = -T ideal - (what
-// earlier levels have moved).
-void SelectionTail::SolveLevel(int level) {
-  Block& block = blocks_[level];
-  const int columns = block.end - block.begin, rest = n_ - block.end;
+// T/d = L Q. A row that depends on others, for rounding alone can do that, is
+// left out.
+void SelectionTail::FactorLevel(int level) {
+  const Block& block = blocks_[level];
+  const int columns = block.end - block.begin;
   const int rows = block.row_end - block.row_begin;
-  const double* t = &t_[static_cast<size_t>(block.row_begin) * stride_];
-  std::vector<double>& z = factor_;
-  Dots(t + block.begin, stride_, rows, &ideal_[block.begin], columns, z.data());
-  Dots(t + block.end, stride_, rows, &step_[block.end], rest, scratch_.data());
-  for (int i = 0; i < rows; ++i) z[i] = -z[i] - scratch_[i];
-  // T/d = L Q, and L z = right-hand side on the way.
+  double* first = &q_[static_cast<size_t>(block.row_begin) * stride_];
   for (int i = 0; i < rows; ++i) {
-    double* q = &q_[static_cast<size_t>(i) * stride_];
-    double* l = &l_[static_cast<size_t>(i) * stride_];
-    const double* from = t + static_cast<size_t>(i) * stride_ + block.begin;
-    for (int p = 0; p < columns; ++p) q[p] = from[p] / scale_[block.begin + p];
+    const size_t at = static_cast<size_t>(block.row_begin + i) * stride_;
+    double *q = &q_[at], *l = &l_[at];
+    const double* t = &t_[at] + block.begin;
+    for (int p = 0; p < columns; ++p) q[p] = t[p] / scale_[block.begin + p];
     const double before = SquaredNorm(q, columns);
     double after = before;
     std::fill_n(l, i + 1, 0);
     for (int pass = 0; pass < 2 && i > 0; ++pass) {
-      Dots(q_.data(), stride_, i, q, columns, scratch_.data());
+      Dots(first, stride_, i, q, columns, scratch_.data());
       for (int k = 0; k < i; ++k) {
         l[k] += scratch_[k];
         scratch_[k] = -scratch_[k];
       }
-      AddRows(q_.data(), stride_, i, scratch_.data(), columns, q);
+      AddRows(first, stride_, i, scratch_.data(), columns, q);
       after = SquaredNorm(q, columns);
       if (after > before / 4) break;
     }
-    double value;
-    Dots(l, 0, 1, z.data(), i, &value);
     if (after <= kRankTolerance * kRankTolerance * before) {
       std::fill_n(q, columns, 0);
-      l[i] = 1;
-      z[i] = 0;
       continue;
     }
     l[i] = std::sqrt(after);
     for (int p = 0; p < columns; ++p) q[p] /= l[i];
-    z[i] = (z[i] - value) / l[i];
   }
-  double* x = scratch_.data();
+}
+
+// With x = d (step - ideal): minimum |x|^2 where (T/d) x = -T ideal - (what
+// earlier levels have moved).
+void SelectionTail::SolveLevel(int level) {
+  const Block& block = blocks_[level];
+  const int columns = block.end - block.begin, rest = n_ - block.end;
+  const int rows = block.row_end - block.row_begin;
+  const size_t first = static_cast<size_t>(block.row_begin) * stride_;
+  double* z = &z_[block.row_begin];
+  Dots(&t_[first] + block.begin, stride_, rows, &ideal_[block.begin], columns,
+       z);
+  Dots(&t_[first] + block.end, stride_, rows, &step_[block.end], rest,
+       scratch_.data());
+  for (int i = 0; i < rows; ++i) {
+    const double* l = &l_[first + static_cast<size_t>(i) * stride_];
+    double value;
+    Dots(l, 0, 1, z, i, &value);
+    z[i] = l[i] == 0 ? 0 : (-z[i] - scratch_[i] - value) / l[i];
+  }
+  double* x = &x_[block.begin];
   std::fill_n(x, columns, 0);
-  AddRows(q_.data(), stride_, rows, z.data(), columns, x);
+  AddRows(&q_[first], stride_, rows, z, columns, x);
+  for (int p = block.begin; p < block.end; ++p) {
+    step_[p] = ideal_[p] + x_[p] / scale_[p];
+  }
+}
+
+// L' nu = -z.
+void SelectionTail::FindMultipliers(int level) {
+  Block& block = blocks_[level];
   double gradient = 0, size = 0;
-  for (int p = 0; p < columns; ++p) {
-    const int at = block.begin + p;
-    step_[at] = ideal_[at] + x[p] / scale_[at];
-    gradient = std::max(gradient, scale_[at] * std::abs(x[p]));
-    size = std::max(size,
-                    scale_[at] * scale_[at] *
-                        (std::abs(start_[at]) + std::abs(target_[order_[at]])));
+  for (int p = block.begin; p < block.end; ++p) {
+    gradient = std::max(gradient, scale_[p] * std::abs(x_[p]));
+    size = std::max(size, scale_[p] * scale_[p] * magnitude_[p]);
   }
   block.size = gradient > kZeroGradient * size ? size : 0;
-  // L' nu = -z.
-  for (int i = rows - 1; i >= 0; --i) {
-    const double* l = &l_[static_cast<size_t>(i) * stride_];
-    const double value = z[i] / l[i], minus = -value;
-    AddRows(l, 0, 1, &minus, i, z.data());
+  double* z = &z_[block.row_begin];
+  for (int i = block.row_end - block.row_begin - 1; i >= 0; --i) {
+    const double* l = &l_[static_cast<size_t>(block.row_begin + i) * stride_];
+    const double minus = l[i] == 0 ? 0 : -z[i] / l[i];
+    AddRows(l, 0, 1, &minus, i, z);
     nu_[block.row_begin + i] = minus;
   }
 }
@@ -239,6 +282,16 @@ double SelectionTail::Dual(int level, double* on_head, double* left) {
           &scratch_[block.end]);
   for (int p = block.end; p < n_; ++p) left[order_[p]] = scratch_[p];
   return block.size;
+}
+
+void SelectionTail::AddGradient(int level, const double* y, const double* left,
+                                double* sum) const {
+  const Block& block = blocks_[level];
+  for (int p = block.begin; p < block.end; ++p) {
+    const int j = order_[p];
+    sum[j] += weight_[j] * (y[j] - target_[j]);
+  }
+  for (int p = block.end; p < n_; ++p) sum[order_[p]] -= left[order_[p]];
 }
 
 int SelectionTail::Nullity(int level) const {

@@ -31,8 +31,9 @@ class SelectionTail {
   /// Adds weight/2 (y_variable - target)^2 to the level last added. Ignored if a
   /// level before has the variable: it is fixed.
   void Add(int variable, double weight, double target);
-  /// Closes it by a level of all other variables, with target 0.
-  void Finish();
+  /// Closes it by a level of all other variables, with these targets, by
+  /// variable, or with target 0.
+  void Finish(const double* targets);
 
   /// With Finish()'s.
   int num_levels() const { return num_levels_; }
@@ -46,6 +47,11 @@ class SelectionTail {
   /// The y that minimises the levels, one after the other, where Q y = z.
   void Solve(const RowStack& head, double* y);
 
+  /// Improves y, where Q y lacks `change`: towards the minima of the levels, or,
+  /// if not told to, by as little as the levels allow.
+  void Correct(const RowStack& head, const double* change, bool to_minimum,
+               double* y);
+
   /// The multipliers that level c needs, with the gradient
   /// d_j^2 (y_j - t_j) of its own variables, which they cancel:
   /// on_head, on the rows of Q, such that the sum of both is 0 on its own and
@@ -53,6 +59,10 @@ class SelectionTail {
   /// left of the sum. Returns the size of what the gradient is added up from: 0,
   /// and nothing else, if it is zero.
   double Dual(int level, double* on_head, double* left);
+
+  /// sum += the gradient of a level's own variables, less what Dual() left.
+  void AddGradient(int level, const double* y, const double* left,
+                   double* sum) const;
 
   /// What the head and the levels up to this one leave free.
   int Nullity(int level) const;
@@ -64,8 +74,11 @@ class SelectionTail {
     double size;             ///< Of its gradient: see Dual().
   };
   void Gather(const RowStack& head);
+  void Start(const RowStack& head, const double* z);
   void Eliminate(int level);
+  void FactorLevel(int level);
   void SolveLevel(int level);
+  void FindMultipliers(int level);
 
   int n_, stride_, num_levels_ = 0, rank_ = 0, num_reflections_ = 0;
   std::vector<int> level_of_;            ///< By variable; -1: none yet.
@@ -75,8 +88,9 @@ class SelectionTail {
   std::vector<double> t_;                ///< U' Q, by position, n x stride.
   std::vector<double> reflection_;       ///< n x stride.
   std::vector<double> start_, step_, ideal_, scale_;  ///< By position.
-  std::vector<double> nu_;                            ///< By row of U' Q.
-  std::vector<double> q_, l_;                         ///< A level's T/d = L Q.
+  std::vector<double> x_, magnitude_;                 ///< By position.
+  std::vector<double> z_, nu_;                        ///< By row of U' Q.
+  std::vector<double> q_, l_;                         ///< Levels' T/d = L Q.
   std::vector<double> scratch_, factor_;
 };
 

@@ -16,10 +16,13 @@ namespace {
 constexpr double kTolerance = 1e-11;
 constexpr double kLargestTolerance = 3e-10;
 
-// With the most violated row enter those violated at least this share of it;
-// after so many iterations it enters alone: the proof needs that.
+// With the most violated row enter those violated at least this share of it.
 constexpr double kShare = 0.3;
-constexpr int kBlockIterations = 30;
+
+// The factorisations for all levels at once, if the budget is three times that;
+// what takes more is solved level by level. And for the answer's last digits.
+constexpr int kAtOnce = 20;
+constexpr int kPolishing = 8;
 
 // Orders of steps farther than any, and of none at all.
 constexpr int kFar = -1;
@@ -30,6 +33,7 @@ constexpr int kNowhere = std::numeric_limits<int>::max();
 Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity)
     : n_(num_variables),
       problem_(num_variables, capacity),
+      by_level_(num_variables, capacity),
       reporter_(num_variables, capacity) {
   size_t rows = 0, most = 0;
   for (const LevelCapacity& level : capacity) {
@@ -54,16 +58,15 @@ void Solver::Forget() noexcept {
 }
 
 Status Solver::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
-  start_ = now ? now() : 0;
-  iterations_ = 0;
+  Budget budget(max_iterations, max_seconds, &now);
   solution->Reset();
   solution->status = problem_.Read(hierarchy, &solution->failed_level);
   if (solution->status != Status::kOptimal) return solution->status;
   Prepare(hierarchy);
-  if (!SearchAnyOrder(hierarchy) && !SearchByLevel(hierarchy, solution)) {
-    solution->status = Status::kIterationLimit;
+  if (!Search(hierarchy, std::min(kAtOnce, max_iterations / 3), &budget)) {
+    SearchByLevel(hierarchy, &budget, solution);
   }
-  solution->iterations = iterations_;
+  solution->iterations = budget.iterations();
   reporter_.Report(hierarchy, side_, kTolerance, &problem_, solution);
   return solution->status;
 }
@@ -85,66 +88,60 @@ void Solver::Prepare(const Hierarchy& hierarchy) {
   }
 }
 
-bool Solver::IsOutOfBudget(int max) const {
-  return iterations_ >= max ||
-         (now && max_seconds > 0 && now() - start_ > max_seconds);
-}
-
-// The optimum of the first num_levels levels.
-bool Solver::Search(const Hierarchy& hierarchy, int num_levels, int max) {
+// All levels at once, from the last active set.
+bool Solver::Search(const Hierarchy& hierarchy, int limit, Budget* budget) {
+  const int num_levels = hierarchy.num_levels();
   problem_.Plan(hierarchy, num_levels);
   tolerance_ = kTolerance;
-  const int start = iterations_;
   bool is_priced = false;  // Whether no price is negative.
   int from_level = 0;
-  while (!IsOutOfBudget(max)) {
-    ++iterations_;
+  while (budget->Take(limit)) {
     problem_.Solve(hierarchy, side_, from_level);
     problem_.FindMultipliers();
-    from_level = is_priced ? Advance(hierarchy) : DropWrong();
+    from_level = is_priced ? Advance() : DropWrong();
     if (from_level < num_levels) continue;
     is_priced = true;
-    FindViolated(hierarchy);
-    if (violated_.empty()) return true;
-    from_level =
-        EnterViolated(iterations_ - start < kBlockIterations ? kShare : 1);
+    FindViolated(hierarchy, false);
+    if (violated_.empty()) {
+      problem_.Refine(hierarchy);
+      problem_.FindMultipliers();
+      FindViolated(hierarchy, true);
+      if (violated_.empty()) {
+        problem_.RefineMultipliers(hierarchy);
+        return true;
+      }
+    }
+    from_level = EnterViolated();
   }
   return false;
 }
 
-// From the last active set; and should rounding make rows go round in circles,
-// from none, with the rows entering in other orders.
-bool Solver::SearchAnyOrder(const Hierarchy& hierarchy) {
+// From none, level by level, so that what the budget leaves unsolved is at the
+// bottom.
+void Solver::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
+                           Solution* solution) {
   const int levels = hierarchy.num_levels();
-  order_ = Order::kMostViolated;
-  if (Search(hierarchy, levels, max_iterations / 3)) return true;
-  for (const Order order : {Order::kFirst, Order::kLast}) {
-    order_ = order;
-    Forget();
-    Prepare(hierarchy);
-    const int allowed =
-        order == Order::kFirst ? max_iterations / 2 : 2 * max_iterations / 3;
-    if (Search(hierarchy, levels, allowed)) return true;
-  }
-  order_ = Order::kMostViolated;
-  return false;
-}
-
-// Level by level, so that what the budget leaves unsolved is at the bottom.
-bool Solver::SearchByLevel(const Hierarchy& hierarchy, Solution* solution) {
   Forget();
   Prepare(hierarchy);
-  for (int levels = 1; levels <= hierarchy.num_levels(); ++levels) {
-    best_side_ = side_;
-    if (Search(hierarchy, levels, max_iterations)) continue;
-    side_ = best_side_;
-    solution->failed_level = levels - 1;
-    problem_.Plan(hierarchy, levels - 1);
+  const int solved = by_level_.Search(hierarchy, budget, &problem_, &side_);
+  if (solved <= levels) {
+    solution->status = Status::kIterationLimit;
+    solution->failed_level = std::max(std::min(solved, levels - 1), 0);
+    problem_.Plan(hierarchy, solution->failed_level);
     problem_.Solve(hierarchy, side_, 0);
+    problem_.RefineOther(hierarchy, by_level_.y());
     problem_.FindMultipliers();
-    return false;
+    problem_.RefineMultipliers(hierarchy);
+    return;
   }
-  return true;
+  best_side_ = side_;
+  if (Search(hierarchy, budget->iterations() + kPolishing, budget)) return;
+  side_ = best_side_;
+  problem_.Plan(hierarchy, levels);
+  problem_.Solve(hierarchy, side_, 0);
+  problem_.Refine(hierarchy);
+  problem_.FindMultipliers();
+  problem_.RefineMultipliers(hierarchy);
 }
 
 Solver::RowState& Solver::state(int a) {
@@ -228,8 +225,7 @@ Solver::Length Solver::LengthTo(int a) const {
 
 // Moves the prices towards those of the last solve. Returns the first level
 // that lost a row, or the number of levels if the prices have arrived.
-int Solver::Advance(const Hierarchy& hierarchy) {
-  (void)hierarchy;
+int Solver::Advance() {
   const int rows = problem_.head().num_rows();
   int from_level = problem_.num_levels();
 
@@ -285,7 +281,7 @@ void Solver::ForgetNew() {
   }
 }
 
-void Solver::FindViolated(const Hierarchy& hierarchy) {
+void Solver::FindViolated(const Hierarchy& hierarchy, bool is_refined) {
   violated_.clear();
   const std::vector<double>& y = problem_.y();
   double largest = 0;
@@ -306,7 +302,13 @@ void Solver::FindViolated(const Hierarchy& hierarchy) {
       const Side side = above > 0 ? Side::kUpper : Side::kLower;
       const double violation = std::max(above, below);
       const double bound = above > 0 ? upper[i] : lower[i];
-      if (violation > tolerance_ * (norm * largest + std::abs(bound))) {
+      double size = norm * largest;
+      if (is_refined) {
+        double dot;
+        kernels::DotWithSize(hierarchy.C(level).data() + i * n_, y.data(), n_,
+                             &dot, &size);
+      }
+      if (violation > tolerance_ * (size + std::abs(bound))) {
         violated_.push_back({level, i, side, violation / norm});
       }
     }
@@ -315,22 +317,14 @@ void Solver::FindViolated(const Hierarchy& hierarchy) {
 
 // Lets in the most violated row, and those violated at least a share of it.
 // Returns the first level that changes.
-int Solver::EnterViolated(double share) {
+int Solver::EnterViolated() {
   champion_ = violated_.front();
   for (const Violation& row : violated_) {
-    if (order_ == Order::kLast ||
-        (order_ == Order::kMostViolated && row.size > champion_.size)) {
-      champion_ = row;
-    }
+    if (row.size > champion_.size) champion_ = row;
   }
-  if (order_ != Order::kMostViolated) share = 1;
   int from_level = problem_.num_levels();
   for (const Violation& row : violated_) {
-    const bool is_champion =
-        row.level == champion_.level && row.index == champion_.index;
-    if (!is_champion && (share == 1 || row.size < share * champion_.size)) {
-      continue;
-    }
+    if (row.size < kShare * champion_.size) continue;
     side_[row.level][row.index] = row.side;
     RowState& state = state_[row.level][row.index];
     state.is_new = true;

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "hqp/active_problem.h"
+#include "hqp/budget.h"
 #include "hqp/hierarchy.h"
+#include "hqp/level_search.h"
 #include "hqp/report.h"
 #include "hqp/solution.h"
 
@@ -18,8 +20,7 @@ namespace poise {
 /// lower level; what counts is the first that is not zero. From an active set
 /// with no negative price, the most violated rows enter, and the prices go
 /// towards those of the new equality-constrained optimum until one would turn
-/// negative, whose row leaves. The lexicographic optimum of the active rows gets
-/// worse at each such round, so none comes twice.
+/// negative, whose row leaves. What takes long so is solved by LevelSearch.
 class Solver {
  public:
   Solver(int num_variables, const std::vector<LevelCapacity>& capacity);
@@ -33,18 +34,16 @@ class Solver {
   /// Forgets the last active set: the next solve is a cold one.
   void Forget() noexcept;
 
-  /// The factorisations that a solve may take in all. If they are spent, the
-  /// levels are solved again one by one, as far as as many allow: those above
-  /// failed_level then hold.
-  int max_iterations = 300;
+  /// The factorisations that a solve may take in all. If they are spent, y is
+  /// the best found that keeps the levels above failed_level at their optimum,
+  /// where what they leave of it is not that of failed_level yet.
+  int max_iterations = 250;
 
   /// The same in seconds by now(), if that is given; it breaks replay.
   double max_seconds = 0;
   std::function<double()> now;
 
  private:
-  /// Of violated rows, which enter.
-  enum class Order { kMostViolated, kFirst, kLast };
   struct Violation {
     int level, index;
     Side side;
@@ -62,14 +61,13 @@ class Solver {
   };
 
   void Prepare(const Hierarchy& hierarchy);
-  bool Search(const Hierarchy& hierarchy, int num_levels, int max_iterations);
-  bool SearchAnyOrder(const Hierarchy& hierarchy);
-  bool SearchByLevel(const Hierarchy& hierarchy, Solution* solution);
-  bool IsOutOfBudget(int max_iterations) const;
-  void FindViolated(const Hierarchy& hierarchy);
-  int EnterViolated(double share);
+  bool Search(const Hierarchy& hierarchy, int limit, Budget* budget);
+  void SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
+                     Solution* solution);
+  void FindViolated(const Hierarchy& hierarchy, bool is_refined);
+  int EnterViolated();
   int DropWrong();
-  int Advance(const Hierarchy& hierarchy);
+  int Advance();
   void ForgetNew();
 
   bool CanLeave(int a) const;
@@ -83,6 +81,7 @@ class Solver {
 
   int n_;
   ActiveProblem problem_;
+  LevelSearch by_level_;
   Reporter reporter_;
   std::vector<std::vector<Side>> side_, best_side_;
   std::vector<std::vector<bool>> is_fixed_;  ///< lower = upper.
@@ -90,9 +89,7 @@ class Solver {
   std::vector<double> value_;
   std::vector<Violation> violated_;
   Violation champion_;  ///< The most violated of the rows that entered.
-  Order order_ = Order::kMostViolated;
-  int iterations_ = 0;
-  double tolerance_ = 0, start_ = 0;
+  double tolerance_ = 0;
 };
 
 }  // namespace poise

@@ -29,7 +29,7 @@ struct ControllerOptions {
   bool feedforward = false;  ///< The reference's v_WG and a_WG are used.
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
   bool certify = true;       ///< Each solution gets its certificate.
-  int max_iterations = 300;  ///< Of the solver, a tick; then truncated.
+  int max_iterations = 250;  ///< Of the solver, a tick; then truncated.
   std::vector<std::string> frames;  ///< Links with a task frame.NAME.
 };
 
