@@ -17,7 +17,8 @@ class ClosedLoopCertificate : public testing::TestWithParam<std::string> {};
 TEST_P(ClosedLoopCertificate, IsHeldInEveryTick) {
   const Robot robot = LoadRobot("robot/models/humanoid.urdf",
                                 LoadProfile("robot/profiles/humanoid.yaml"));
-  const RunResult result = Run(robot, LoadScenario(GetParam()));
+  const RunResult result =
+      poise::Run(robot, LoadScenario("sim/scenarios/" + GetParam() + ".yaml"));
   EXPECT_EQ(result.failures, 0);
   EXPECT_LE(result.certificate_max, 1e-9);
 }
