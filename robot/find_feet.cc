@@ -286,9 +286,9 @@ Sole EstimateSole(const RobotModel& model, int body,
   const std::string link = LinkOf(model, body);
   const int motors = NumMotors(model, body);
   if (motors < kMotorsOfALeg) {
-    throw std::invalid_argument("robot '" + model.name +
-                                "' has no flat sole on link '" + link +
-                                "', nor motors to lay one flat: the leg has " +
+    throw std::invalid_argument("robot " + Quoted(model.name) +
+                                " has no flat sole on link " + Quoted(link) +
+                                ", nor motors to lay one flat: the leg has " +
                                 std::to_string(motors) + ", must have 6");
   }
   int hip = body;
@@ -359,7 +359,7 @@ std::vector<Foot> FindFeet(const RobotModel& model,
   const std::vector<int> bodies = BodiesOnGround(model, low, soles);
   if (bodies.size() != 2) {
     throw std::invalid_argument(
-        "robot '" + model.name + "' reaches the ground with " +
+        "robot " + Quoted(model.name) + " reaches the ground with " +
         std::to_string(bodies.size()) +
         (bodies.size() == 1 ? " body" : " bodies") + ", must be two feet");
   }
@@ -394,9 +394,9 @@ std::vector<Foot> FindFeet(const RobotModel& model,
     auto foot = MakeFoot(model, left ? "left_foot" : "right_foot", sole.frame,
                          X_BF.Inverse() * X_BS, points);
     if (!foot) {
-      throw std::invalid_argument("robot '" + model.name +
-                                  "' has hardly a sole on link '" +
-                                  LinkOf(model, body) + "'");
+      throw std::invalid_argument("robot " + Quoted(model.name) +
+                                  " has hardly a sole on link " +
+                                  Quoted(LinkOf(model, body)));
     }
     feet.push_back(*std::move(foot));
   }

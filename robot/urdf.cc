@@ -50,8 +50,8 @@ JointType FromUrdf(const urdf::Joint& joint) {
     case urdf::Joint::FIXED:
       return JointType::kFixed;
     default:
-      throw std::invalid_argument("joint '" + joint.name +
-                                  "': its type is floating or planar, must be "
+      throw std::invalid_argument("joint " + Quoted(joint.name) +
+                                  ": its type is floating or planar, must be "
                                   "revolute, continuous, prismatic or fixed");
   }
 }
