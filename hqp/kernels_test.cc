@@ -1,0 +1,118 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace poise {
+namespace {
+
+// Whole numbers of few digits: every sum is exact, in any order.
+std::vector<double> Whole(int count, int seed) {
+  std::vector<double> numbers(count);
+  for (int i = 0; i < count; ++i) numbers[i] = (i * i + 7 * i * seed) % 23 - 11;
+  return numbers;
+}
+
+// Of all sizes that are cut into fours, eights and single ones otherwise.
+class KernelsTest : public testing::Test {
+ protected:
+  static constexpr int kMaxRows = 9, kMaxSize = 19, kStride = 21;
+  static constexpr double kUntouched = 1e6;
+
+  template <typename Check>
+  static void ForAllSizes(Check check) {
+    for (int rows = 0; rows <= kMaxRows; ++rows) {
+      for (int n = 0; n <= kMaxSize; ++n) {
+        SCOPED_TRACE(testing::Message() << rows << " rows of " << n);
+        check(rows, n);
+      }
+    }
+  }
+  double Entry(int i, int j) const { return rows_[i * kStride + j]; }
+
+  std::vector<double> rows_ = Whole((kMaxRows + 1) * kStride, 1);
+  const std::vector<double> x_ = Whole(kStride, 2), factor_ = Whole(kStride, 3);
+};
+
+TEST_F(KernelsTest, DotsAreTheSumsOfProducts) {
+  ForAllSizes([&](int rows, int n) {
+    std::vector<double> out(kMaxRows + 1, kUntouched);
+    kernels::Dots(rows_.data(), kStride, rows, x_.data(), n, out.data());
+    for (int i = 0; i < rows; ++i) {
+      double sum = 0;
+      for (int j = 0; j < n; ++j) sum += Entry(i, j) * x_[j];
+      EXPECT_EQ(out[i], sum) << i;
+    }
+    for (int i = rows; i <= kMaxRows; ++i) EXPECT_EQ(out[i], kUntouched) << i;
+  });
+}
+
+TEST_F(KernelsTest, AddRowsIsTheSumOfScaledRows) {
+  ForAllSizes([&](int rows, int n) {
+    std::vector<double> sum = x_;
+    kernels::AddRows(rows_.data(), kStride, rows, factor_.data(), n,
+                     sum.data());
+    for (int j = 0; j < kStride; ++j) {
+      double expected = x_[j];
+      for (int i = 0; i < rows && j < n; ++i) {
+        expected += factor_[i] * Entry(i, j);
+      }
+      EXPECT_EQ(sum[j], expected) << j;
+    }
+  });
+}
+
+TEST_F(KernelsTest, AddToRowsIsTheOuterProduct) {
+  ForAllSizes([&](int rows, int n) {
+    std::vector<double> changed = rows_;
+    kernels::AddToRows(changed.data(), kStride, rows, factor_.data(), x_.data(),
+                       n);
+    for (int i = 0; i <= kMaxRows; ++i) {
+      for (int j = 0; j < kStride; ++j) {
+        const double added = i < rows && j < n ? factor_[i] * x_[j] : 0;
+        EXPECT_EQ(changed[i * kStride + j], Entry(i, j) + added) << i << j;
+      }
+    }
+  });
+}
+
+TEST_F(KernelsTest, DotWithSizeIsTheDotAndTheSumOfMagnitudes) {
+  ForAllSizes([&](int i, int n) {
+    double sum = 0, sum_of_magnitudes = 0;
+    for (int j = 0; j < n; ++j) {
+      sum += Entry(i, j) * x_[j];
+      sum_of_magnitudes += std::abs(Entry(i, j) * x_[j]);
+    }
+    double dot = kUntouched, size = kUntouched;
+    kernels::DotWithSize(&rows_[i * kStride], x_.data(), n, &dot, &size);
+    EXPECT_EQ(dot, sum);
+    EXPECT_EQ(size, sum_of_magnitudes);
+  });
+}
+
+TEST_F(KernelsTest, AbsoluteSumIsTheSumOfMagnitudes) {
+  for (int n = 0; n <= kMaxSize; ++n) {
+    double sum = 0;
+    for (int j = 0; j < n; ++j) sum += std::abs(x_[j]);
+    EXPECT_EQ(kernels::AbsoluteSum(x_.data(), n), sum) << n;
+  }
+}
+
+TEST_F(KernelsTest, AbsoluteSumIsNotFiniteIfAnEntryIsNot) {
+  for (const double strange : {std::numeric_limits<double>::quiet_NaN(),
+                               -std::numeric_limits<double>::infinity()}) {
+    for (int j = 0; j < kMaxSize; ++j) {
+      std::vector<double> x = x_;
+      x[j] = strange;
+      EXPECT_FALSE(std::isfinite(kernels::AbsoluteSum(x.data(), kMaxSize)))
+          << j;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace poise
