@@ -1,0 +1,208 @@
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+"""What the sources say: the public functions, the tests, who names whom."""
+
+import collections
+import functools
+import re
+
+from cpp_source import Source
+
+LAYERS = ("math", "dynamics", "hqp")
+KINDS = ("oracle", "property", "Ceres", "closed form")
+# A number worked out by hand stands in the table, but is no proof alone.
+PROOFS = KINDS[:3]
+
+# What tells an unlike second derivation: another library, another algorithm, or
+# a test that says of two things that they are one.
+_ORACLE_WORDS = {
+    "mpreal", "mpfr", "KDL", "MultiBodyTree", "mjModel", "mj_forward",
+    "SharedData", "Certify", "Certifier",
+}
+_ORACLE_NAME = re.compile(
+    r"Agree|Equal|Match|Same|IsThe|AreThe|AreEigens|Against|Inver|Undo|SumOf|SumsOf|"
+    r"Column|Differen|AsIn|AsThe|ThePoints|Like|Reproduce|Ulp"
+)
+# What is put in comes back, or stays, whatever it was.
+_PROPERTY_NAME = re.compile(r"ComeBack|KeepEach")
+_TEST_MACROS = {
+    "TEST", "TEST_F", "TEST_P", "TYPED_TEST", "RC_GTEST_PROP",
+    "RC_GTEST_FIXTURE_PROP",
+}
+
+
+class Test:
+    def __init__(self, path, suite, name, is_property, words, headers):
+        self.path = path
+        self.name = f"{suite}.{name}"
+        self.words = words
+        self.headers = headers
+        if "ceres" in words:
+            self.kind = "Ceres"
+        elif is_property or {"rc", "check"} <= words or _PROPERTY_NAME.search(name):
+            self.kind = "property"
+        elif words & _ORACLE_WORDS or _ORACLE_NAME.search(name):
+            self.kind = "oracle"
+        else:
+            self.kind = "closed form"
+
+    def names(self, path, function, classes):
+        """Whether it calls a function of a header, as far as words can tell.
+
+        An operator is called without a word: so the test must name its class,
+        or a free one's header must have a class that the test names.
+        """
+        if path not in self.headers:
+            return False
+        *scope, last = function.split("::")
+        if last.startswith("operator"):
+            return bool(set(scope or classes) & self.words)
+        return last in self.words and set(scope) <= self.words
+
+
+class Helpers:
+    """What functions of a file, and of tests/util, name when they are called."""
+
+    def __init__(self, sources):
+        self._words = collections.defaultdict(set)
+        for source in sources:
+            self.add(source)
+
+    def add(self, source):
+        for function in source.functions:
+            if function.name in _TEST_MACROS:
+                continue
+            words = source.words(function)
+            self._words[function.name.split("::")[-1]] |= words
+            scope = function.scope or "::".join(function.name.split("::")[:-1])
+            if scope:
+                # To make or to use a class is to call any of it.
+                self._words[scope.split("::")[-1]] |= words
+
+    def reach(self, words):
+        reached, new = set(words), set(words)
+        while new:
+            new = set().union(*(self._words.get(w, set()) for w in new)) - reached
+            reached |= new
+        return reached
+
+    def extended(self, source):
+        other = Helpers([])
+        other._words = collections.defaultdict(
+            set, {k: set(v) for k, v in self._words.items()}
+        )
+        other.add(source)
+        return other
+
+
+class Workspace:
+    def __init__(self, root):
+        self.root = root
+
+    @functools.lru_cache(None)
+    def source(self, path):
+        return Source((self.root / path).read_text())
+
+    @functools.lru_cache(None)
+    def headers(self, path):
+        """The headers of the workspace that a file includes, by others too."""
+        found, new = set(), {path}
+        while new:
+            included = set()
+            for each in new:
+                text = (self.root / each).read_text()
+                included.update(re.findall(r'^#include "([^"]+)"', text, re.M))
+            new = {i for i in included - found if (self.root / i).is_file()}
+            found |= new
+        return found
+
+    @functools.lru_cache(None)
+    def classes(self, path):
+        """What a header declares that an operator can work on."""
+        return set(re.findall(
+            r"^(?:struct|class|using) (\w+)", self.source(path).text, re.M
+        ))
+
+    @functools.lru_cache(None)
+    def library_files(self, layer):
+        return [
+            str(path.relative_to(self.root))
+            for path in sorted((self.root / layer).glob("*"))
+            if path.suffix in (".h", ".cc")
+            and not path.stem.endswith(("_test", "_benchmark"))
+        ]
+
+    def test_headers(self, layer):
+        """The headers of a layer that only tests may use."""
+        rules = (self.root / layer / "BUILD").read_text().split("\n)\n")
+        return {
+            f"{layer}/{header}"
+            for rule in rules if "testonly = True" in rule
+            for header in re.findall(r'"(\w+\.h)"', rule)
+        }
+
+    def public_functions(self):
+        """(header, qualified name), once for all overloads of a header."""
+        found = {}
+        for layer in LAYERS:
+            for path in self.library_files(layer):
+                if path.endswith(".cc") or path in self.test_headers(layer):
+                    continue
+                for function in self.source(path).functions:
+                    if function.is_public and not function.is_local and (
+                        "~" not in function.name and function.name.isprintable()
+                    ):
+                        found[path, function.qualified] = None
+        return list(found)
+
+    def defining_files(self, path, name):
+        """Where a header's function has its body, or bodies."""
+        layer, stem = path.split("/")[0], path.rsplit(".", 1)[0]
+
+        def defines(file):
+            return any(
+                f.qualified == name and f.body != f.last
+                for f in self.source(file).functions
+            )
+
+        files = [path] if defines(path) else []
+        if f"{stem}.cc" in self.library_files(layer) and defines(f"{stem}.cc"):
+            return files + [f"{stem}.cc"]
+        return files + [
+            file for file in self.library_files(layer)
+            if file.endswith(".cc") and defines(file) and re.search(
+                rf'^#include "{re.escape(path)}"', self.source(file).text, re.M
+            )
+        ]
+
+    def tests(self):
+        util = [
+            str(path.relative_to(self.root))
+            for path in sorted((self.root / "tests/util").glob("*"))
+            if path.suffix in (".h", ".cc") and not path.stem.endswith("_test")
+        ]
+        common = Helpers(self.source(path) for path in util)
+        tests = []
+        for folder in LAYERS + ("tests", "robot"):
+            for path in sorted((self.root / folder).rglob("*_test.cc")):
+                path = str(path.relative_to(self.root))
+                source, headers = self.source(path), self.headers(path)
+                # The helper's source calls what its header need not name.
+                for header in list(headers):
+                    helper = header.rsplit(".", 1)[0] + ".cc"
+                    if helper in util:
+                        headers = headers | self.headers(helper)
+                helpers = common.extended(source)
+                for function in source.functions:
+                    if function.name not in _TEST_MACROS:
+                        continue
+                    words = [
+                        t.text
+                        for t in source.tokens[function.first : function.last]
+                        if t.kind == "word"
+                    ]
+                    macro, suite, name = words[:3]
+                    tests.append(Test(
+                        path, suite, name, macro.startswith("RC_"),
+                        helpers.reach(set(words)), headers,
+                    ))
+        return tests
