@@ -1,9 +1,10 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-"""Tries a mutant of a .cc file without Bazel, some five times as fast.
+"""Tries a mutant without Bazel, some five times as fast.
 
 Bazel has built everything once; here one source is compiled again, by Bazel's
 own command but on precompiled headers, linked to its shared library, and the
-tests, which link dynamically, are run with that library in front.
+tests, which link dynamically, are run with that library in front. Of a header,
+so is all in its package that its own tests are made of.
 """
 
 import pathlib
@@ -34,26 +35,93 @@ def parse_commands(aquery):
     return commands
 
 
-class QuickBuild:
-    """One source, ready to be compiled and tested with slips in it."""
+class _Unit:
+    """A source, which Bazel's command compiles again on precompiled headers."""
 
-    def __init__(self, root, source, command, text, environment):
+    def __init__(self, root, folder, source, command, headers):
+        self.object, arguments = command
+        self.source = source
+        self._root, self._folder = root, folder
+        self._name = source.replace("/", "_")
+        self._flags = _without_outputs(arguments)
+        prefix = folder / f"{self._name}.h"
+        prefix.write_text("\n".join(headers) + "\n")
+        self._prefix = ["-include", str(prefix)]
+        _run(root, self._flags + [
+            "-x", "c++-header", str(prefix), "-o", f"{prefix}.gch"
+        ])
+
+    def compile(self, path=None, flags=()):
+        """Of the source, or what stands for it: the code, or None."""
+        self.code = self._folder / f"{self._name}.o"
+        done = _run(self._root, [self._flags[0], *flags] + self._flags[1:] + (
+            self._prefix + ["-c", str(path or self.source), "-o", str(self.code)]
+        ))
+        return self.code.read_bytes() if done else None
+
+    def link_library(self):
+        """Its shared library, under the name that tests look for."""
+        folder = pathlib.Path(self.object).parent  # .../hqp/_objs/cascade
+        built = self._root / folder.parent.parent / f"lib{folder.name}.so"
+        name = built.name
+        for link in (_bin(self._root, self.object) / "_solib_k8").iterdir():
+            if link.resolve() == built.resolve():
+                name = link.name
+        others = [
+            str(o) for o in sorted((self._root / self.object).parent.glob("*.pic.o"))
+            if o.name != pathlib.Path(self.object).name
+        ]
+        return _run(self._root, [
+            "/usr/bin/g++", "-shared", "-o", str(self._folder / name),
+            str(self.code), *others,
+        ])
+
+
+class _Build:
+    """A folder with what a slip changes, in front of what Bazel has built."""
+
+    def __init__(self, root, an_object, environment):
         self._root = pathlib.Path(root).resolve()  # Bazel's execution root.
-        self._object, arguments = command
+        self._bin = _bin(self._root, an_object)
         self._environment = environment
         self._folder = pathlib.Path(tempfile.mkdtemp(prefix="poise-mutant-"))
-        self._flags = self._without_outputs(arguments)
-        headers = re.findall(r"^#include .*$", text, re.M)
-        prefix = self._folder / "prefix.h"
-        prefix.write_text("\n".join(headers) + "\n")
-        self._run(
-            self._flags + ["-x", "c++-header", str(prefix), "-o", f"{prefix}.gch"]
-        )
-        self._original = self._compile(text)
-        self.works = self._original is not None and self._link()
 
     def close(self):
         shutil.rmtree(self._folder, ignore_errors=True)
+
+    def passes(self, label, seconds):
+        """Whether a test passes with the libraries of the last build()."""
+        package, name = label[2:].split(":")
+        built = self._bin / package / name
+        own = self._folder / name
+        workspace = pathlib.Path(f"{built}.runfiles") / "poise"
+        scratch = self._folder / "scratch"
+        scratch.mkdir(exist_ok=True)
+        environment = dict(
+            self._environment, PATH="/usr/local/bin:/usr/bin:/bin",
+            LD_LIBRARY_PATH=f"{self._folder}:{self._bin}/_solib_k8",
+            TEST_TMPDIR=str(scratch), TEST_SRCDIR=str(workspace.parent),
+            TEST_WORKSPACE="poise", GTEST_FAIL_FAST="1",
+        )
+        try:
+            return subprocess.run(
+                [str(own if own.exists() else built)], cwd=workspace,
+                env=environment, timeout=seconds, stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL, preexec_fn=_limit_memory,
+            ).returncode == 0
+        except subprocess.TimeoutExpired:
+            return False
+
+
+class SourceBuild(_Build):
+    """One source, ready to be compiled and tested with slips in it."""
+
+    def __init__(self, root, source, command, text, environment):
+        super().__init__(root, command[0], environment)
+        headers = re.findall(r"^#include .*$", text, re.M)
+        self._unit = _Unit(self._root, self._folder, source, command, headers)
+        self._original = self._compile(text)
+        self.works = self._original is not None and self._unit.link_library()
 
     def build(self, text):
         """Whether it compiles, and to other code: True, False, or None."""
@@ -62,79 +130,121 @@ class QuickBuild:
             return None
         if code == self._original:
             return False
-        return self._link() or None
-
-    def passes(self, label, seconds):
-        """Whether a test passes with the library of the last build()."""
-        package, name = label[2:].split(":")
-        binary = self._bin() / package / name
-        workspace = pathlib.Path(f"{binary}.runfiles") / "poise"
-        scratch = self._folder / "scratch"
-        scratch.mkdir(exist_ok=True)
-        environment = dict(
-            self._environment, PATH="/usr/local/bin:/usr/bin:/bin",
-            LD_LIBRARY_PATH=str(self._folder), TEST_TMPDIR=str(scratch),
-            TEST_SRCDIR=str(workspace.parent), TEST_WORKSPACE="poise",
-            GTEST_FAIL_FAST="1",
-        )
-        try:
-            return subprocess.run(
-                [str(binary)], cwd=workspace, env=environment, timeout=seconds,
-                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                preexec_fn=_limit_memory,
-            ).returncode == 0
-        except subprocess.TimeoutExpired:
-            return False
-
-    def _bin(self):
-        parts = pathlib.Path(self._object).parts
-        return self._root.joinpath(*parts[:3])  # bazel-out/k8-fastbuild/bin
-
-    def _library(self):
-        """Where the mutated library goes: under the name that tests look for."""
-        folder = pathlib.Path(self._object).parent  # .../hqp/_objs/cascade
-        built = self._root / folder.parent.parent / f"lib{folder.name}.so"
-        for link in (self._bin() / "_solib_k8").iterdir():
-            if link.resolve() == built.resolve():
-                return self._folder / link.name
-        return self._folder / built.name
-
-    def _link(self):
-        others = [
-            str(o) for o in sorted((self._root / self._object).parent.glob("*.pic.o"))
-            if o.name != pathlib.Path(self._object).name
-        ]
-        return self._run(
-            ["/usr/bin/g++", "-shared", "-o", str(self._library()),
-             str(self._folder / "mutant.o")] + others
-        )
+        return self._unit.link_library() or None
 
     def _compile(self, text):
-        source, code = self._folder / "mutant.cc", self._folder / "mutant.o"
-        source.write_text(text)
-        done = self._run(
-            self._flags + ["-include", str(self._folder / "prefix.h"),
-                           "-c", str(source), "-o", str(code)]
-        )
-        return code.read_bytes() if done else None
+        mutant = self._folder / "mutant.cc"
+        mutant.write_text(text)
+        return self._unit.compile(mutant)
 
-    def _run(self, command):
-        return subprocess.run(
-            command, cwd=self._root, stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        ).returncode == 0
 
-    @staticmethod
-    def _without_outputs(arguments):
-        kept, i = [], 0
-        while i < len(arguments):
-            if arguments[i] in ("-MF", "-c", "-o"):
-                i += 2
-                continue
-            if arguments[i] != "-MD":
-                kept.append(arguments[i])
-            i += 1
-        return kept
+class HeaderBuild(_Build):
+    """A header, and the sources of its own package that some tests take it from:
+    the tests', and those of the libraries that they are linked with."""
+
+    def __init__(self, root, header, commands, tests, environment):
+        super().__init__(root, next(iter(commands.values()))[0], environment)
+        self._header = header
+        self._tests, self._libraries = [], []
+        linked = set()
+        for label in tests:
+            package, name = label[2:].split(":")
+            source = f"{package}/{name}.cc"
+            parameters = self._bin / package / f"{name}-2.params"
+            if source not in commands or not parameters.is_file():
+                self.works = False
+                return
+            arguments = parameters.read_text().split("\n")
+            linked.update(a for a in arguments if a.startswith("-l"))
+            if self._reads_header(commands[source][0]):
+                unit = self._make_unit(source, commands[source])
+                self._tests.append((unit, name, arguments))
+        for source, command in commands.items():
+            folder = pathlib.Path(command[0]).parent
+            package = "/".join(pathlib.Path(source).parts[:-1])
+            mangled = package.replace("_", "_U").replace("/", "_S")
+            name = folder.name.replace("_", "_U")
+            if f"-l{mangled}_Slib{name}" in linked and self._reads_header(command[0]):
+                self._libraries.append(self._make_unit(source, command))
+        self._originals = self._compile()
+        self.works = None not in self._originals and self._link()
+
+    def build(self, text):
+        """Whether all compiles, and to other code: True, False, or None."""
+        place = self._folder / self._header
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text(text)
+        codes = self._compile(["-iquote", str(self._folder)])
+        if None in codes:
+            return None
+        if codes == self._originals:
+            return False
+        return self._link() or None
+
+    def _dependencies(self, an_object):
+        listed = (self._root / an_object).with_suffix(".d").read_text()
+        return [
+            path for path in listed.replace("\\\n", " ").split()[1:]
+            if not path.startswith(("/", "external/"))
+            and (self._root / path).is_file()
+        ]
+
+    def _reads_header(self, an_object):
+        return self._header in self._dependencies(an_object)
+
+    def _make_unit(self, source, command):
+        """On what its own files take from elsewhere: no slip is in that."""
+        headers = []
+        for path in self._dependencies(command[0]):
+            headers += re.findall(
+                r"^#include <.*$", (self._root / path).read_text(), re.M
+            )
+        unique = list(dict.fromkeys(headers))
+        return _Unit(self._root, self._folder, source, command, unique)
+
+    def _compile(self, flags=()):
+        codes = []
+        for unit in self._libraries + [unit for unit, _, _ in self._tests]:
+            codes.append(unit.compile(flags=flags))
+            if codes[-1] is None:
+                break
+        return codes
+
+    def _link(self):
+        if not all(unit.link_library() for unit in self._libraries):
+            return False
+        for unit, name, arguments in self._tests:
+            changed = {
+                unit.object: str(unit.code),
+                f"{self._bin.relative_to(self._root)}/{unit.source[:-3]}":
+                    str(self._folder / name),
+            }
+            line = [changed.get(a, a) for a in arguments if a]
+            if not _run(self._root, ["/usr/bin/g++", f"-L{self._folder}"] + line):
+                return False
+        return True
+
+
+def _bin(root, an_object):
+    return root.joinpath(*pathlib.Path(an_object).parts[:3])  # .../k8-fastbuild/bin
+
+
+def _run(folder, command):
+    return subprocess.run(
+        command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    ).returncode == 0
+
+
+def _without_outputs(arguments):
+    kept, i = [], 0
+    while i < len(arguments):
+        if arguments[i] in ("-MF", "-c", "-o"):
+            i += 2
+            continue
+        if arguments[i] != "-MD":
+            kept.append(arguments[i])
+        i += 1
+    return kept
 
 
 def _limit_memory():

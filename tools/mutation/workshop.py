@@ -96,41 +96,52 @@ class Workshop:
     def attempt(self, path, text, reach, limit):
         """Tests the tree with the file replaced: (verdict, by whom, seconds)."""
         start = time.monotonic()
-        build = self._quick_build(path, reach, limit)
+        stages = self.stages(path, reach)
+        build = self._quick_build(path, stages, limit)
+        verdict, by = SURVIVED, ""
         if build is not None:
-            verdict, by = self._judge_quickly(build, path, text, reach, limit)
-        else:
-            verdict, by = self._judge(path, text, reach, limit)
+            quick_stages = stages if path.endswith(".cc") else stages[:1]
+            verdict, by = self._judge_quickly(build, text, quick_stages, limit)
+            stages = stages[len(quick_stages):]
+        if verdict == SURVIVED and stages:
+            verdict, by = self._judge(path, text, stages, limit)
         return verdict, by, time.monotonic() - start
 
-    def _quick_build(self, path, reach, limit):
-        """For a .cc file, if its tests pass in this way without a mutant."""
-        if not path.endswith(".cc"):
-            return None
+    def _quick_build(self, path, stages, limit):
+        """Of a source with all tests, of a header with the tests of its own; None
+        if these do not pass in this way without a mutant."""
         ready, build = self._quick
         if ready != path:
             if build is not None:
                 build.close()
-            build = None
-            package = os.path.dirname(path)
-            if package not in self._commands:
-                self._commands[package] = quick.parse_commands(self._bazel(
-                    "aquery", f'mnemonic("CppCompile", //{package}:all)'
-                )[1])
-            command = self._commands[package].get(path)
-            if command is not None:
-                build = quick.QuickBuild(
-                    self.tree / "bazel-out/..", path, command,
-                    (self.tree / path).read_text(), self._test_environment(),
-                )
-                if not build.works or not all(
-                    build.passes(test, limit)
-                    for tests in self.stages(path, reach) for test in tests
-                ):
-                    build.close()
-                    build = None
+            build = self._make_quick_build(path, stages)
+            tests = sum(stages if path.endswith(".cc") else stages[:1], [])
+            if build is not None and not (
+                build.works and all(build.passes(test, limit) for test in tests)
+            ):
+                build.close()
+                build = None
             self._quick = (path, build)
         return build
+
+    def _make_quick_build(self, path, stages):
+        package = os.path.dirname(path)
+        if package not in self._commands:
+            self._commands[package] = quick.parse_commands(self._bazel(
+                "aquery", f'mnemonic("CppCompile", //{package}:all)'
+            )[1])
+        commands = self._commands[package]
+        root = self.tree / "bazel-out/.."
+        if path.endswith(".h") and stages:
+            return quick.HeaderBuild(
+                root, path, commands, stages[0], self._test_environment()
+            )
+        if path not in commands:
+            return None
+        return quick.SourceBuild(
+            root, path, commands[path], (self.tree / path).read_text(),
+            self._test_environment(),
+        )
 
     def _test_environment(self):
         """What .bazelrc and the flags set, but failures need not shrink."""
@@ -144,24 +155,23 @@ class Workshop:
         found["RC_PARAMS"] = found.get("RC_PARAMS", "") + " noshrink=1"
         return found
 
-    def _judge_quickly(self, build, path, text, reach, limit):
+    def _judge_quickly(self, build, text, stages, limit):
         built = build.build(text)
         if built is None:
             return INVALID, ""
         if not built:
             return SAME, ""
-        for tests in self.stages(path, reach):
-            for test in tests:
-                if not build.passes(test, limit):
-                    return KILLED, test
+        for test in sum(stages, []):
+            if not build.passes(test, limit):
+                return KILLED, test
         return SURVIVED, ""
 
-    def _judge(self, path, text, reach, limit):
+    def _judge(self, path, text, stages, limit):
         file = self.tree / path
         original = file.read_text()
         try:
             file.write_text(text)
-            for tests in self.stages(path, reach):
+            for tests in stages:
                 code, output = self._bazel(
                     "test", *tests, "--notest_keep_going",
                     f"--test_timeout={limit}",
