@@ -1,6 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // The maps of SO(3) and SE(3), each beside Eigen's own way to it: AngleAxis and
 // Quaternion. Angles from 0.01 to 3.1, so on both sides of Stumpff's switch.
+//
+//     bazel run --config=native //math:lie_benchmark
+//
+// prints the fastest time of each, per call, and the ratios.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Geometry>
@@ -10,6 +14,7 @@
 #include "math/quaternion.h"
 #include "math/se3.h"
 #include "math/so3.h"
+#include "tests/util/compare_times.h"
 
 namespace poise {
 namespace {
@@ -192,3 +197,16 @@ BENCHMARK(LogOfPose);
 
 }  // namespace
 }  // namespace poise
+
+int main(int argc, char** argv) {
+  return poise::CompareTimes(
+      argc, argv,
+      {{"Exp", "ExpByAngleAxis"},
+       {"ExpToQuaternion", "ExpToQuaternionByAngleAxis"},
+       {"Log", "LogByAngleAxis"},
+       {"LogOfQuaternion", "LogOfQuaternionByAngleAxis"},
+       {"Compose", "ComposeByQuaternion"},
+       {"ComposeRotations", "ComposeRotationsByQuaternion"},
+       {"Act", "ActByQuaternion"},
+       {"AdjointOfPose", "AdjointByQuaternion"}});
+}

@@ -2,11 +2,9 @@
 // What the dynamics of the 50-joint humanoid cost, beside MuJoCo and KDL in the
 // same run; and how inverse dynamics grows with the number of bodies.
 //
-//     bazel run --config=native //tests/benchmarks:dynamics_benchmark --
-//         --benchmark_enable_random_interleaving --benchmark_repetitions=9
-//         --benchmark_report_aggregates_only
+//     bazel run --config=native //tests/benchmarks:dynamics_benchmark
 //
-// Single core. For a ratio, compare medians of one run.
+// prints the fastest time of each on one core, and the ratios.
 
 #include <benchmark/benchmark.h>
 #include <mujoco/mujoco.h>
@@ -26,6 +24,7 @@
 #include "math/so3.h"
 #include "robot/urdf.h"
 #include "sim/mujoco_model.h"
+#include "tests/util/compare_times.h"
 #include "tests/util/kdl_tree.h"
 #include "tests/util/random_tree.h"
 #include "tests/util/simple_robots.h"
@@ -153,7 +152,7 @@ void BM_RneaDerivatives(benchmark::State& state) {
 }
 BENCHMARK(BM_RneaDerivatives);
 
-// Chains, stars and all between: time per body should not grow.
+// Chains, stars and all between: the time per body should not grow.
 void BM_RneaOfBodies(benchmark::State& state) {
   std::mt19937 draw(1);
   const Tree tree = MakeRandomTree(static_cast<int>(state.range(0)), &draw);
@@ -163,12 +162,9 @@ void BM_RneaOfBodies(benchmark::State& state) {
   Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
     ComputeRnea(tree, q, v, v, none, &scratch, tau);
   });
-  state.SetComplexityN(state.range(0));
+  state.SetItemsProcessed(state.iterations() * state.range(0));
 }
-BENCHMARK(BM_RneaOfBodies)
-    ->RangeMultiplier(10)
-    ->Range(10, 1000)
-    ->Complexity(benchmark::oN);
+BENCHMARK(BM_RneaOfBodies)->RangeMultiplier(10)->Range(10, 1000);
 
 // MuJoCo's data of the humanoid.
 struct Mujoco {
@@ -271,3 +267,13 @@ BENCHMARK(BM_KdlRnea);
 
 }  // namespace
 }  // namespace poise
+
+int main(int argc, char** argv) {
+  return poise::CompareTimes(argc, argv,
+                             {{"BM_Tick", "BM_MujocoTick"},
+                              {"BM_Bias", "BM_MujocoBias"},
+                              {"BM_Crba", "BM_MujocoMassMatrix"},
+                              {"BM_Rnea", "BM_KdlRnea"},
+                              {"BM_RneaOfBodies/100", "BM_RneaOfBodies/10"},
+                              {"BM_RneaOfBodies/1000", "BM_RneaOfBodies/10"}});
+}

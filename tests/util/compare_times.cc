@@ -1,0 +1,79 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tests/util/compare_times.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace poise {
+namespace {
+
+class FastestReporter : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override { return true; }
+
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+      const auto items = run.counters.find("items_per_second");
+      const double time = items == run.counters.end()
+                              ? 1e9 * run.cpu_accumulated_time /
+                                    static_cast<double>(run.iterations)
+                              : 1e9 / items->second;
+      // Without what the flags add, as "/repeats:9" or "/min_time:0.100".
+      std::string name = run.run_name.function_name;
+      if (!run.run_name.args.empty()) name += "/" + run.run_name.args;
+      if (double* fastest = Find(name)) {
+        *fastest = std::min(*fastest, time);
+      } else {
+        times_.emplace_back(name, time);
+      }
+    }
+  }
+
+  void Print(const std::vector<Comparison>& comparisons) {
+    for (const auto& [name, time] : times_) {
+      std::printf("%-32s %10.1f ns\n", name.c_str(), time);
+    }
+    for (const Comparison& pair : comparisons) {
+      const double* ours = Find(pair.ours);
+      const double* theirs = Find(pair.theirs);
+      if (ours == nullptr || theirs == nullptr) continue;
+      std::printf("%s / %s = %.2f\n", pair.ours.c_str(), pair.theirs.c_str(),
+                  *ours / *theirs);
+    }
+  }
+
+ private:
+  double* Find(const std::string& name) {
+    for (auto& [known, time] : times_) {
+      if (known == name) return &time;
+    }
+    return nullptr;
+  }
+
+  // In the order of the source, which is that of the runs.
+  std::vector<std::pair<std::string, double>> times_;
+};
+
+}  // namespace
+
+int CompareTimes(int argc, char** argv,
+                 const std::vector<Comparison>& comparisons) {
+  // The last of two flags of one name counts.
+  std::string repetitions = "--benchmark_repetitions=9";
+  std::string interleaving = "--benchmark_enable_random_interleaving=true";
+  std::vector<char*> flags(argv, argv + argc);
+  flags.insert(flags.begin() + 1, {repetitions.data(), interleaving.data()});
+  int num_flags = static_cast<int>(flags.size());
+  benchmark::Initialize(&num_flags, flags.data());
+  if (benchmark::ReportUnrecognizedArguments(num_flags, flags.data())) return 1;
+  FastestReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  reporter.Print(comparisons);
+  return 0;
+}
+
+}  // namespace poise
