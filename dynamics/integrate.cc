@@ -3,29 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <cassert>
-#include <cmath>
+
+#include "math/quaternion.h"
 
 namespace poise {
 namespace {
-
-// The unit quaternion of the rotation by |w| about w.
-Eigen::Quaterniond Exp(const Eigen::Vector3d& w) {
-  const double angle = w.stableNorm();
-  Eigen::Quaterniond result;
-  result.w() = std::cos(angle / 2);
-  result.vec() = (angle > 0 ? std::sin(angle / 2) / angle : 0.5) * w;
-  return result;
-}
-
-// Its inverse, of norm at most pi, for a quaternion of any positive norm.
-Eigen::Vector3d Log(const Eigen::Quaterniond& quaternion) {
-  const double sine = quaternion.vec().stableNorm();
-  const double cosine = std::abs(quaternion.w());
-  const double sign = quaternion.w() < 0 ? -1 : 1;
-  const double scale =
-      sine > 0 ? 2 * std::atan2(sine, cosine) / sine : 2 / cosine;
-  return sign * scale * quaternion.vec();
-}
 
 Eigen::Quaterniond BaseRotation(const Eigen::Ref<const Eigen::VectorXd>& q) {
   return Eigen::Quaterniond(q[6], q[3], q[4], q[5]).normalized();
@@ -40,7 +22,7 @@ void Integrate(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
   assert(q_out.size() == tree.nq());
   if (tree.is_floating()) {
     const Eigen::Vector3d w_WB = v.head<3>();
-    const Eigen::Quaterniond R = Exp(dt * w_WB) * BaseRotation(q);
+    const Eigen::Quaterniond R = ExpQuaternion(dt * w_WB) * BaseRotation(q);
     q_out.head<3>() = q.head<3>() + dt * v.segment<3>(3);
     q_out.segment<4>(3) = R.normalized().coeffs();
   }
@@ -55,7 +37,8 @@ void Difference(const Tree& tree,
   assert(q_from.size() == tree.nq() && q_to.size() == tree.nq());
   assert(v.size() == tree.nv());
   if (tree.is_floating()) {
-    v.head<3>() = Log(BaseRotation(q_to) * BaseRotation(q_from).conjugate());
+    v.head<3>() =
+        LogQuaternion(BaseRotation(q_to) * BaseRotation(q_from).conjugate());
     v.segment<3>(3) = q_to.head<3>() - q_from.head<3>();
   }
   const int n = tree.num_joints();
