@@ -123,6 +123,13 @@ TEST_F(MassMomentsTest, ShiftWrenchesByTheirLever) {
   EXPECT_EQ(ToEigen(F.f), b_);
 }
 
+TEST_F(MassMomentsTest, WrenchesAddByPart) {
+  const Wrench F =
+      Wrench{ToVec3(a_), ToVec3(b_)} + Wrench{{1, 2, 3}, {4, 5, 6}};
+  EXPECT_EQ(ToEigen(F.n), Vector3d(a_ + Vector3d(1, 2, 3)));
+  EXPECT_EQ(ToEigen(F.f), Vector3d(b_ + Vector3d(4, 5, 6)));
+}
+
 TEST_F(MassMomentsTest, ComeBackFromArrays) {
   MassMomentsArray moments(3);
   WrenchArray wrenches(3);

@@ -292,6 +292,14 @@ TEST(Tree, SaysHowLargeItIs) {
   EXPECT_EQ(fixed.gravity_W(), Vector3d(1, 2, 3));
 }
 
+TEST(JointMaps, HoldABaseThatCannotMove) {
+  const Tree body = TreeBuilder().AddLink("a").Build();
+  EXPECT_EQ(body.joint_maps().parent[0], 0);
+  EXPECT_EQ(body.joint_maps().end[0], 1);
+  const Mat3 R = body.joint_maps().R_constant[0];
+  EXPECT_EQ(ToEigen(R), Matrix3d::Identity());
+}
+
 TEST(Tree, ScalesAllThatIsInertia) {
   JointSpec joint = MakeJoint("hip", "a", "b");
   joint.armature = 0.5;

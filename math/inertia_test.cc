@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -113,6 +114,15 @@ RC_GTEST_PROP(Inertia, MatrixIsItsAction, ()) {
                      2 * KineticEnergy(M, V)) <= 100 * kTolerance);
   RC_ASSERT(std::abs(Dot(V, M * V) - 2 * KineticEnergy(M, V)) <=
             100 * kTolerance);
+}
+
+// What rounding leaves of a rotation must not come into a mass matrix.
+TEST(Inertia, MatrixIsSymmetricToTheBit) {
+  Inertia M{2, {0.1, 0.2, 0.3}, Matrix3d::Identity()};
+  M.I_G_B(0, 1) = 0.1;
+  M.I_G_B(1, 0) = std::nextafter(0.1, 1);
+  const Matrix6d matrix = Matrix6FromInertia(M);
+  EXPECT_EQ(matrix, Matrix6d(matrix.transpose()));
 }
 
 RC_GTEST_PROP(Inertia, MatrixMovesByTheDualAdjoint, ()) {
