@@ -170,40 +170,44 @@ void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
   }
 }
 
-// Counts only equalities and violated rows, so that with rows at their bounds
-// it takes a factorisation without them.
+// Counts only equalities and violated rows. With rows at their bounds that are
+// left out, it takes a factorisation of what is left; but of independent rows
+// each counts for one, and only the tail must be asked.
 void Reporter::ReportNullity(const Hierarchy& hierarchy, ActiveProblem* problem,
                              Solution* solution) {
   const RowStack& head = problem->head();
-  const auto counts = [&](int a) {
-    return !problem->row(a).is_inequality ||
-           IsViolated(problem->row(a), *solution);
-  };
-  const RowStack* stack = &head;
+  const bool is_quick = head.is_well_conditioned();
   bool all_count = true;
-  for (int a = 0; a < head.num_rows(); ++a) all_count &= counts(a);
-  if (!all_count) {
-    equalities_.Truncate(0);
-    for (int level = 0; level < problem->num_head(); ++level) {
-      for (int a = head.first_row(level); a < head.end_row(level); ++a) {
-        if (!counts(a)) continue;
-        const ActiveProblem::Row& row = problem->row(a);
-        const double* from = row.is_inequality
-                                 ? hierarchy.C(level).row(row.index).data()
-                                 : hierarchy.B(level).row(row.index).data();
-        double* to = equalities_.row(equalities_.AddRow(0, 1));
-        for (int j = 0; j < n_; ++j) to[j] = from[j] / row.norm;
+  equalities_.Truncate(0);
+  for (int level = 0; level < problem->num_head(); ++level) {
+    for (int a = head.first_row(level); a < head.end_row(level); ++a) {
+      const ActiveProblem::Row& row = problem->row(a);
+      if (row.is_inequality && !IsViolated(row, *solution)) {
+        all_count = false;
+        continue;
       }
-      equalities_.FactorLevel();
+      const double* from = row.is_inequality
+                               ? hierarchy.C(level).row(row.index).data()
+                               : hierarchy.B(level).row(row.index).data();
+      double* to = equalities_.row(equalities_.AddRow(0, 1));
+      for (int j = 0; j < n_; ++j) to[j] = from[j] / row.norm;
     }
-    stack = &equalities_;
-    problem->tail().Tie(equalities_);
-  }
-  for (int level = 0; level < problem->num_levels(); ++level) {
+    if (!is_quick) equalities_.FactorLevel();
     solution->levels[level].nullity =
-        level < problem->num_head()
-            ? n_ - stack->rank(level)
-            : problem->tail().Nullity(level - problem->num_head());
+        n_ - (is_quick ? equalities_.num_rows() : equalities_.rank());
+  }
+  SelectionTail& tail = problem->tail();
+  if (all_count) {
+    // As it is tied.
+  } else if (is_quick) {
+    tail.TieRows(equalities_.row(0), equalities_.stride(),
+                 equalities_.num_rows());
+  } else {
+    tail.Tie(equalities_);
+  }
+  for (int level = problem->num_head(); level < problem->num_levels();
+       ++level) {
+    solution->levels[level].nullity = tail.Nullity(level - problem->num_head());
   }
 }
 

@@ -17,6 +17,9 @@ using kernels::Dots;
 // A rest shorter than this part of what it came from is projected out again.
 constexpr double kTwice = 0.5;
 
+// Of a row, what is orthogonal to those before it.
+constexpr double kGoodPart = 1e-3;
+
 // A residual below this, relative to what it is added up from, is zero.
 constexpr double kZeroResidual = 1e-12;
 
@@ -67,6 +70,16 @@ int RowStack::AddRow(double target, double metric) {
 
 bool RowStack::is_deficient(int level) const {
   return levels_[level].deficient;
+}
+
+bool RowStack::is_well_conditioned() const {
+  if (rank_ < num_rows_) return false;
+  for (int e = 0; e < rank_; ++e) {
+    if (effective_[static_cast<size_t>(e) * (stride_ + 1)] < kGoodPart) {
+      return false;
+    }
+  }
+  return true;
 }
 
 void RowStack::FactorLevel() {

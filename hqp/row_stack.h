@@ -46,6 +46,10 @@ class RowStack {
   /// then its residual need not be zero.
   bool is_deficient(int level) const;
 
+  /// Whether all rows are independent, and none nearly not: each has a good part
+  /// that those before it have not.
+  bool is_well_conditioned() const;
+
   /// r_a y - t_a; exactly 0 where all rows of the level are independent.
   double residual(int a) const { return residual_[a]; }
 

@@ -79,13 +79,24 @@ void SelectionTail::Finish(const double* targets) {
 }
 
 void SelectionTail::Tie(const RowStack& head) {
-  Gather(head);
+  Gather(head.basis(), head.stride(), head.rank());
+  EliminateAll(n_);
+}
+
+void SelectionTail::TieRows(const double* rows, int stride, int count) {
+  Gather(rows, stride, count);
+  // The first level gets what is left: its columns do not matter.
+  EliminateAll(blocks_[0].begin);
+}
+
+// Of the columns before `end` only.
+void SelectionTail::EliminateAll(int end) {
   num_reflections_ = 0;
   int row = 0;
   for (int level = num_levels_ - 1; level >= 0; --level) {
     blocks_[level].row_begin = row;
     blocks_[level].row_end = level == 0 ? rank_ : row;
-    if (level > 0) Eliminate(level);
+    if (level > 0) Eliminate(level, end);
     row = blocks_[level].row_end;
   }
 }
@@ -121,15 +132,15 @@ void SelectionTail::Correct(const RowStack& head, const double* change,
   for (int p = 0; p < n_; ++p) y[order_[p]] += start_[p] + step_[p];
 }
 
-void SelectionTail::Gather(const RowStack& head) {
-  rank_ = head.rank();
+void SelectionTail::Gather(const double* rows, int stride, int count) {
+  rank_ = count;
   for (int p = 0; p < n_;) {
     // Variables in a row are copied in one go.
     int run = 1;
     while (p + run < n_ && order_[p + run] == order_[p] + run) ++run;
-    const double* from = head.basis() + order_[p];
+    const double* from = rows + order_[p];
     for (int i = 0; i < rank_; ++i) {
-      std::copy_n(from + static_cast<size_t>(i) * head.stride(), run,
+      std::copy_n(from + static_cast<size_t>(i) * stride, run,
                   &t_[static_cast<size_t>(i) * stride_ + p]);
     }
     p += run;
@@ -144,7 +155,7 @@ void SelectionTail::Start(const RowStack& head, const double* z) {
 }
 
 // Reflects rows until the level's variables are in as few of them as can be.
-void SelectionTail::Eliminate(int level) {
+void SelectionTail::Eliminate(int level, int end) {
   Block& block = blocks_[level];
   for (int steps = block.end - block.begin; steps > 0; --steps) {
     const int row = block.row_end, rows = rank_ - row;
@@ -174,7 +185,7 @@ void SelectionTail::Eliminate(int level) {
       v[i] /= root;
       factor_[i] = -v[i];
     }
-    const int columns = n_ - block.begin;
+    const int columns = end - block.begin;
     std::fill_n(scratch_.data(), columns, 0);
     AddRows(first + block.begin, stride_, rows, v + row, columns,
             scratch_.data());

@@ -44,6 +44,10 @@ class SelectionTail {
   /// Finds how the head ties the variables: all that Nullity() needs.
   void Tie(const RowStack& head);
 
+  /// The same of independent rows, `stride` apart, that need not be orthogonal,
+  /// as far as Nullity() needs it.
+  void TieRows(const double* rows, int stride, int count);
+
   /// The y that minimises the levels, one after the other, where Q y = z.
   void Solve(const RowStack& head, double* y);
 
@@ -73,9 +77,10 @@ class SelectionTail {
     int row_begin, row_end;  ///< Its rows of U' Q.
     double size;             ///< Of its gradient: see Dual().
   };
-  void Gather(const RowStack& head);
+  void Gather(const double* rows, int stride, int count);
+  void EliminateAll(int end);
   void Start(const RowStack& head, const double* z);
-  void Eliminate(int level);
+  void Eliminate(int level, int end);
   void FactorLevel(int level);
   void SolveLevel(int level);
   void FindMultipliers(int level);
