@@ -1,0 +1,200 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// How long a tick's hierarchy takes to solve: each tick of recorded sequences,
+// beside the literal cascade in the same run.
+//   bazel run //tests/benchmarks:hqp_benchmark
+// A sequence is 0.4 s of our own simulation, from 50 ms before the push on. Its
+// arguments: the push in N; whether there are limits of torques and joints (100
+// rows each, as 50 and 50 with two sides); the share of the torque that there
+// is, in percent. Columns in us: of each tick the fastest of 5 repeats, of these
+// the median, p99 and worst; "raw", of all repeats. The rows that are active,
+// the factorisations, and the worst certificate; of cold solves every 4th tick, of
+// the cascade every 20th.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "hqp/cascade.h"
+#include "hqp/certificate.h"
+#include "hqp/solver.h"
+#include "robot/profile.h"
+#include "sim/closed_loop.h"
+
+namespace poise {
+namespace {
+
+constexpr double kStart = 0.1, kLead = 0.05;  // s.
+
+// Set to less where only to see whether it runs.
+int repeats = 5;
+double end = 0.45;  // s.
+
+struct Sequence {
+  std::vector<LevelCapacity> capacity;
+  std::vector<Hierarchy> ticks;
+};
+
+Sequence Record(int force, bool has_limits, int percent) {
+  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
+                                LoadProfile("robot/profiles/humanoid.yaml"));
+  Scenario scenario;
+  scenario.duration = end;
+  Push push;
+  push.force = {0, static_cast<double>(force), 0};
+  push.start = kStart;
+  push.duration = 0.15;
+  scenario.pushes = {push};
+  if (!has_limits) scenario.control.without = {"torque_limits", "joint_limits"};
+  ClosedLoop loop(robot, scenario);
+  Sequence sequence{loop.controller().stack().capacity(), {}};
+  while (loop.time() < end) {
+    if (has_limits && loop.time() >= kStart) {
+      (void)loop.controller().stack().SetParameter("torque_limits", "scale",
+                                                   percent / 100.);
+    }
+    loop.Tick();
+    if (loop.time() > kStart - kLead) {
+      sequence.ticks.push_back(loop.controller().hierarchy());
+    }
+  }
+  return sequence;
+}
+
+const Sequence& Recorded(const benchmark::State& state) {
+  static std::map<std::tuple<int, int, int>, Sequence> sequences;
+  const std::tuple<int, int, int> key(state.range(0), state.range(1),
+                                      state.range(2));
+  auto found = sequences.find(key);
+  if (found == sequences.end()) {
+    const auto [force, limits, percent] = key;
+    found = sequences.emplace(key, Record(force, limits != 0, percent)).first;
+  }
+  return found->second;
+}
+
+// The value below which a share of them is.
+double Quantile(std::vector<double> values, double share) {
+  const auto last = static_cast<double>(values.size() - 1);
+  const auto at = values.begin() + static_cast<long>(share * last);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+using Solve = std::function<Status(const Hierarchy&, Solution*)>;
+
+// Goes through a sequence some times, each time with a new solver.
+void Measure(const Sequence& sequence, int every,
+             const std::function<Solve()>& make, benchmark::State* state) {
+  using Clock = std::chrono::steady_clock;
+  const int n = sequence.ticks.front().num_variables();
+  const int ticks = static_cast<int>(sequence.ticks.size());
+  Solution solution(n, sequence.capacity);
+  Certifier certifier(n, sequence.capacity);
+  std::vector<double> fastest, raw, active, iterations;
+  double certificate = 0;
+  int unsolved = 0;
+  for (auto _ : *state) {
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+      const Solve solve = make();
+      for (int tick = 0, i = 0; tick < ticks; tick += every, ++i) {
+        const Hierarchy& hierarchy = sequence.ticks[tick];
+        const Clock::time_point start = Clock::now();
+        const Status status = solve(hierarchy, &solution);
+        raw.push_back(
+            std::chrono::duration<double, std::micro>(Clock::now() - start)
+                .count());
+        if (repeat > 0) {
+          fastest[i] = std::min(fastest[i], raw.back());
+          continue;
+        }
+        fastest.push_back(raw.back());
+        iterations.push_back(solution.iterations);
+        unsolved += status != Status::kOptimal;
+        certificate = std::max(certificate,
+                               certifier.Certify(hierarchy, solution).worst());
+        active.push_back(0);
+        for (const LevelSolution& level : solution.levels) {
+          for (const Side side : level.active) {
+            active.back() += side != Side::kNone;
+          }
+        }
+      }
+    }
+  }
+  auto& counters = state->counters;
+  counters["01_median"] = Quantile(fastest, 0.5);
+  counters["02_p99"] = Quantile(fastest, 0.99);
+  counters["03_worst"] = Quantile(fastest, 1);
+  counters["04_raw_p999"] = Quantile(raw, 0.999);
+  counters["05_raw_max"] = Quantile(raw, 1);
+  counters["06_active"] = Quantile(active, 0.5);
+  counters["07_active_max"] = Quantile(active, 1);
+  counters["08_iterations"] = Quantile(iterations, 0.5);
+  counters["09_iterations_max"] = Quantile(iterations, 1);
+  counters["10_certificate"] = certificate;
+  counters["11_unsolved"] = unsolved;
+}
+
+void Fast(benchmark::State& state, bool is_warm) {
+  const Sequence& sequence = Recorded(state);
+  const auto make = [&]() -> Solve {
+    auto solver = std::make_shared<Solver>(
+        sequence.ticks.front().num_variables(), sequence.capacity);
+    return [solver, is_warm](const Hierarchy& hierarchy, Solution* solution) {
+      if (!is_warm) solver->Forget();
+      return solver->Solve(hierarchy, solution);
+    };
+  };
+  Measure(sequence, is_warm ? 1 : 4, make, &state);
+}
+
+void Literal(benchmark::State& state, RowSpaceMethod method) {
+  const Sequence& sequence = Recorded(state);
+  const auto make = [&]() -> Solve {
+    auto cascade = std::make_shared<Cascade>(
+        sequence.ticks.front().num_variables(), sequence.capacity, method);
+    return [cascade](const Hierarchy& hierarchy, Solution* solution) {
+      return cascade->Solve(hierarchy, solution);
+    };
+  };
+  Measure(sequence, 20, make, &state);
+}
+
+void Sequences(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"push", "limits", "torque"})->Iterations(1);
+  for (const int force : {0, 120, 300}) {
+    benchmark->Args({force, 0, 100})->Args({force, 1, 100});
+  }
+  benchmark->Args({0, 1, 5});
+}
+
+// The others take the cascade minutes.
+void ShortSequences(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"push", "limits", "torque"})->Iterations(1);
+  benchmark->Args({0, 0, 100})->Args({0, 1, 100});
+  benchmark->Args({120, 0, 100})->Args({300, 0, 100});
+}
+
+BENCHMARK_CAPTURE(Fast, cold, false)->Apply(Sequences);
+BENCHMARK_CAPTURE(Fast, warm, true)->Apply(Sequences);
+BENCHMARK_CAPTURE(Literal, svd, RowSpaceMethod::kSvd)->Apply(ShortSequences);
+BENCHMARK_CAPTURE(Literal, cod, RowSpaceMethod::kCod)->Apply(ShortSequences);
+
+}  // namespace
+}  // namespace poise
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "--benchmark_min_time=0") {
+    poise::repeats = 1;
+    poise::end = 0.12;
+  }
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+}
