@@ -44,6 +44,10 @@ def parse_arguments():
         help="sources to mutate, from the workspace's root (default: all of "
         "math, dynamics and hqp)",
     )
+    parser.add_argument(
+        "--functions", nargs="+", metavar="GLOB", default=["*"],
+        help="functions to mutate, as Class::Name (default: all)",
+    )
     parser.add_argument("--sample", type=int, metavar="N", help="try N mutants")
     parser.add_argument(
         "--per-function", type=int, metavar="N",
@@ -226,11 +230,13 @@ def summarize(pool, state, explained):
         file = files.setdefault(mutant.path, {})
         row = file.setdefault(
             mutant.function or "(constants)",
-            {"mutants": 0, "killed": 0, "survived": 0, "equivalent": 0},
+            {"mutants": 0, "killed": 0, "survived": 0, "equivalent": 0, "invalid": 0},
         )
         row["mutants"] += 1
         if mutant in explained or entry and entry["verdict"] == SAME:
             row["equivalent"] += 1
+        elif entry and entry["verdict"] == INVALID:
+            row["invalid"] += 1
         elif entry and entry["verdict"] == KILLED:
             row["killed"] += 1
         elif entry and entry["verdict"] == SURVIVED:
@@ -241,7 +247,7 @@ def summarize(pool, state, explained):
     return {
         path: tried for path, rows in files.items() if (tried := {
             name: row for name, row in rows.items()
-            if row["killed"] + row["survived"] + row["equivalent"]
+            if any(n for k, n in row.items() if k != "mutants")
         })
     }
 
@@ -287,7 +293,10 @@ def main():
     except ValueError as error:
         fail(str(error))
     chosen = choose(
-        [m for m in pool if m not in explained],
+        [
+            m for m in pool if m not in explained
+            and any(fnmatch.fnmatch(m.function, g) for g in arguments.functions)
+        ],
         arguments.sample, arguments.per_function, arguments.seed,
     )
     if arguments.list:

@@ -188,4 +188,5 @@ def _count_mutants(workspace, rows):
                 row.killed += result.get("killed", 0)
                 row.survived += result.get("survived", 0)
                 row.equivalent += result.get("equivalent", 0)
-                row.mutants += possible[path, name]
+                # What does not compile is no slip that anybody could make.
+                row.mutants += possible[path, name] - result.get("invalid", 0)
