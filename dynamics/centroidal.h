@@ -50,6 +50,8 @@ void ComputeCentroidalMomentum(const Eigen::Ref<const Eigen::MatrixXd>& M,
 
 /// The inertia of the whole robot as if its joints were locked, about its center
 /// of mass and in world axes: mass, p_WoG_W and I_G_W.
+/// @param X_WB  by body, from ComputePoses() or a Tick.
+/// Costs O(n). Does not allocate, does not throw.
 Inertia CompositeInertia(const Tree& tree,
                          const std::vector<Pose>& X_WB) noexcept;
 

@@ -14,11 +14,14 @@ namespace poise {
 /// their armatures, the joints.
 /// @param X_WB    from ComputePoses().
 /// @param V_WB_W  from ComputeVelocities() at v.
+/// @param v       nv, see Tree; read for the armatures.
+/// Costs O(n). Does not allocate, does not throw.
 double KineticEnergy(const Tree& tree, const std::vector<Pose>& X_WB,
                      const std::vector<Vector6d>& V_WB_W,
                      const Eigen::Ref<const Eigen::VectorXd>& v) noexcept;
 
 /// The potential energy in J, - mass g_W' p_WG: zero with G at the origin.
+/// Costs O(n). Does not allocate, does not throw.
 double PotentialEnergy(const Tree& tree,
                        const std::vector<Pose>& X_WB) noexcept;
 

@@ -19,7 +19,9 @@ namespace poise {
 /// @param q, v, vdot  see Tree.
 /// @param scratch     made for this tree.
 /// @param Y           nv x (10 bodies + joints). All of it is written.
-/// Does not allocate, does not throw.
+/// Costs O(n depth). Does not allocate, does not throw.
+/// Source: Atkeson, An and Hollerbach, "Estimation of inertial parameters of
+/// manipulator loads and links", IJRR 5(3), 1986.
 void ComputeRegressor(const Tree& tree,
                       const Eigen::Ref<const Eigen::VectorXd>& q,
                       const Eigen::Ref<const Eigen::VectorXd>& v,
@@ -27,7 +29,7 @@ void ComputeRegressor(const Tree& tree,
                       Recursion* scratch,
                       Eigen::Ref<Eigen::MatrixXd> Y) noexcept;
 
-/// The pi of a tree.
+/// The pi of a tree, by which identification starts. Allocates.
 Eigen::VectorXd MakeInertialParameters(const Tree& tree);
 
 }  // namespace poise

@@ -51,6 +51,7 @@ struct Cases {
       x[i] << w[i], p[i];
       X[i] = {R[i], p[i]};
       Xq[i] = {q[i], p[i]};
+      Xi[i] = Eigen::Translation3d(p[i]) * q[i];
     }
   }
   std::array<Vector3d, kCases> w, p;
@@ -59,6 +60,7 @@ struct Cases {
   std::array<Quaterniond, kCases> q;
   std::array<Pose, kCases> X;
   std::array<QuaternionPose, kCases> Xq;
+  std::array<Eigen::Isometry3d, kCases> Xi;
 };
 
 // Times f(cases, i) over all i.
@@ -141,6 +143,12 @@ void ComposeByQuaternion(benchmark::State& state) {
 }
 BENCHMARK(ComposeByQuaternion);
 
+void ComposeByIsometry(benchmark::State& state) {
+  Run(state,
+      [](const Cases& c, int i) { return c.Xi[i] * c.Xi[kCases - 1 - i]; });
+}
+BENCHMARK(ComposeByIsometry);
+
 void ComposeRotations(benchmark::State& state) {
   Run(state, [](const Cases& c, int i) -> Matrix3d {
     return c.R[i] * c.R[kCases - 1 - i];
@@ -206,6 +214,7 @@ int main(int argc, char** argv) {
        {"Log", "LogByAngleAxis"},
        {"LogOfQuaternion", "LogOfQuaternionByAngleAxis"},
        {"Compose", "ComposeByQuaternion"},
+       {"Compose", "ComposeByIsometry"},
        {"ComposeRotations", "ComposeRotationsByQuaternion"},
        {"Act", "ActByQuaternion"},
        {"AdjointOfPose", "AdjointByQuaternion"}});

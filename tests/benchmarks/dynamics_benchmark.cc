@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What the dynamics of the 50-joint humanoid cost, beside MuJoCo and KDL in the
-// same run; and how inverse dynamics grows with the number of bodies.
+// What the dynamics of the 50-joint humanoid cost, beside MuJoCo, KDL and Bullet
+// in the same run; and how inverse dynamics grows with the number of bodies.
 //
 //     bazel run --config=native //tests/benchmarks:dynamics_benchmark
 //
@@ -23,6 +23,7 @@
 #include "dynamics/tick.h"
 #include "math/so3.h"
 #include "robot/urdf.h"
+#include "sim/bullet_body.h"
 #include "sim/mujoco_model.h"
 #include "tests/util/compare_times.h"
 #include "tests/util/kdl_tree.h"
@@ -265,6 +266,29 @@ void BM_KdlRnea(benchmark::State& state) {
 }
 BENCHMARK(BM_KdlRnea);
 
+// The recursion of Bullet's own simulation. Its InverseDynamics cannot be here:
+// Debian has the library, but not the headers.
+void BM_BulletAba(benchmark::State& state) {
+  const Tree& tree = Humanoid();
+  BulletBody bullet(tree);
+  btMultiBody& body = bullet.body();
+  btAlignedObjectArray<btScalar> numbers;
+  btAlignedObjectArray<btVector3> vectors;
+  btAlignedObjectArray<btMatrix3x3> matrices;
+  Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
+    bullet.SetState(q, v);
+    body.clearForcesAndTorques();
+    for (int j = 0; j < tree.num_joints(); ++j) {
+      body.addJointTorque(j, v[tree.v_start() + j]);
+    }
+    body.computeAccelerationsArticulatedBodyAlgorithmMultiDof(
+        1e-3, numbers, vectors, matrices, /* isConstraintPass */ false,
+        /* jointFeedbackInWorldSpace */ false,
+        /* jointFeedbackInJointFrame */ false);
+  });
+}
+BENCHMARK(BM_BulletAba);
+
 }  // namespace
 }  // namespace poise
 
@@ -274,6 +298,7 @@ int main(int argc, char** argv) {
                               {"BM_Bias", "BM_MujocoBias"},
                               {"BM_Crba", "BM_MujocoMassMatrix"},
                               {"BM_Rnea", "BM_KdlRnea"},
+                              {"BM_Aba", "BM_BulletAba"},
                               {"BM_RneaOfBodies/100", "BM_RneaOfBodies/10"},
                               {"BM_RneaOfBodies/1000", "BM_RneaOfBodies/10"}});
 }

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <utility>
+#include <map>
 
 namespace poise {
 namespace {
@@ -25,11 +25,8 @@ class FastestReporter : public benchmark::BenchmarkReporter {
       // Without what the flags add, as "/repeats:9" or "/min_time:0.100".
       std::string name = run.run_name.function_name;
       if (!run.run_name.args.empty()) name += "/" + run.run_name.args;
-      if (double* fastest = Find(name)) {
-        *fastest = std::min(*fastest, time);
-      } else {
-        times_.emplace_back(name, time);
-      }
+      const auto known = times_.emplace(name, time).first;
+      known->second = std::min(known->second, time);
     }
   }
 
@@ -38,24 +35,16 @@ class FastestReporter : public benchmark::BenchmarkReporter {
       std::printf("%-32s %10.1f ns\n", name.c_str(), time);
     }
     for (const Comparison& pair : comparisons) {
-      const double* ours = Find(pair.ours);
-      const double* theirs = Find(pair.theirs);
-      if (ours == nullptr || theirs == nullptr) continue;
+      const auto ours = times_.find(pair.ours);
+      const auto theirs = times_.find(pair.theirs);
+      if (ours == times_.end() || theirs == times_.end()) continue;
       std::printf("%s / %s = %.2f\n", pair.ours.c_str(), pair.theirs.c_str(),
-                  *ours / *theirs);
+                  ours->second / theirs->second);
     }
   }
 
  private:
-  double* Find(const std::string& name) {
-    for (auto& [known, time] : times_) {
-      if (known == name) return &time;
-    }
-    return nullptr;
-  }
-
-  // In the order of the source, which is that of the runs.
-  std::vector<std::pair<std::string, double>> times_;
+  std::map<std::string, double> times_;  // In ns, by name.
 };
 
 }  // namespace
