@@ -55,7 +55,7 @@ def poise_cc_benchmark(name, srcs = None, copts = [], deps = [], **kwargs):
         name = name + "_smoke_test",
         size = "small",
         srcs = srcs,
-        args = ["--benchmark_min_time=0"],
+        args = ["--benchmark_min_time=0", "--benchmark_repetitions=1"],
         copts = _COPTS + copts,
         tags = ["benchmark"],
         deps = deps,
