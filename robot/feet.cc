@@ -100,6 +100,28 @@ std::vector<Vector2d> ConvexHull(std::vector<Vector2d> points) {
   return hull;
 }
 
+bool IsConvex(const std::vector<Vector2d>& corners) {
+  constexpr double kRounding = 1e-3;  // rad, of a file with six digits.
+  std::vector<Vector2d> edges;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Vector2d edge = corners[(i + 1) % corners.size()] - corners[i];
+    if (edge.norm() > 0) edges.push_back(edge);
+  }
+  double turned = 0;
+  double least = M_PI;
+  double most = -M_PI;
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const Vector2d& next = edges[(i + 1) % edges.size()];
+    const double turn = std::atan2(Cross(edges[i], next), edges[i].dot(next));
+    turned += turn;
+    least = std::min(least, turn);
+    most = std::max(most, turn);
+  }
+  // All one way, and once around.
+  return (least >= -kRounding || most <= kRounding) &&
+         std::abs(turned) < 3 * M_PI;
+}
+
 Rectangle LargestRectangle(const std::vector<Vector2d>& polygon) {
   double left = polygon[0].x();
   double right = left;

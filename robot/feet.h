@@ -20,6 +20,10 @@ struct Rectangle {
 /// its edges. Fewer than three remain where the points lie on a line.
 std::vector<Eigen::Vector2d> ConvexHull(std::vector<Eigen::Vector2d> points);
 
+/// Whether corners, in their order and either way round, are those of a convex
+/// polygon; they may lie on its edges, up to rounding.
+bool IsConvex(const std::vector<Eigen::Vector2d>& corners);
+
 /// The largest rectangle with sides along x and y inside a convex polygon,
 /// given counterclockwise, to 1e-9 of the polygon's size.
 ///

@@ -37,6 +37,20 @@ TEST(ConvexHull, OfPointsOnALineIsNoPolygon) {
   EXPECT_LT(ConvexHull({{1, 2}, {1, 2}}).size(), 3u);
 }
 
+TEST(IsConvex, RefusesNotchesAndCrossings) {
+  EXPECT_TRUE(IsConvex({{0, 0}, {2, 0}, {2, 1}, {0, 1}}));
+  EXPECT_TRUE(IsConvex({{0, 1}, {2, 1}, {2, 0}, {0, 0}}));
+  // Corners on an edge, and one twice.
+  EXPECT_TRUE(IsConvex({{0, 0}, {1, 1e-6}, {2, 0}, {2, 0}, {1, 1}}));
+  EXPECT_FALSE(IsConvex({{0, 0}, {1, 0.1}, {2, 0}, {2, 1}, {0, 1}}));
+  EXPECT_FALSE(IsConvex({{0, 0}, {2, 1}, {2, 0}, {0, 1}}));
+  std::vector<Eigen::Vector2d> star;
+  for (int i = 0; i < 5; ++i) {
+    star.emplace_back(std::cos(0.8 * M_PI * i), std::sin(0.8 * M_PI * i));
+  }
+  EXPECT_FALSE(IsConvex(star));
+}
+
 TEST(LargestRectangle, OfARectangleIsItself) {
   const Rectangle r = LargestRectangle({{-1, -2}, {3, -2}, {3, 0}, {-1, 0}});
   EXPECT_LT((r.center - Vector2d(1, -1)).norm(), kPromised);

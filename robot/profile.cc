@@ -34,14 +34,11 @@ struct Reader {
   }
 
   double Number(const YAML::Node& node, const std::string& thing) const {
-    double value = 0;
-    if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) ||
-        !std::isfinite(value)) {
-      Refuse(node, thing, "a finite number");
-    }
+    const auto value = ToNumber(node);
+    if (!value) Refuse(node, thing, "a finite number");
     constexpr double kLargest = 1e6;  // m or rad.
-    if (std::abs(value) > kLargest) Refuse(node, thing, "within 1e6");
-    return value;
+    if (std::abs(*value) > kLargest) Refuse(node, thing, "within 1e6");
+    return *value;
   }
 
   std::string Text(const YAML::Node& node, const std::string& thing) const {
@@ -72,6 +69,17 @@ struct Reader {
       Refuse(item.first, thing + ": unknown key " + Shown(item.first) +
                              ", must be one of" + known);
     }
+  }
+
+  // Roll, pitch and yaw.
+  Eigen::Vector3d Angles(const YAML::Node& node,
+                         const std::string& thing) const {
+    const Eigen::Vector3d rpy = Numbers<3>(node, thing);
+    constexpr double kTurn = 6.3;
+    if (rpy.cwiseAbs().maxCoeff() > kTurn) {
+      Refuse(node, thing + " is more than a turn: in degrees?");
+    }
+    return rpy;
   }
 
   std::map<std::string, JointValue> Joints(const YAML::Node& node,
@@ -120,7 +128,7 @@ struct Reader {
     sole.frame = Text(node["frame"], thing + ".frame");
     if (node["xyz"]) sole.X_FS.p = Numbers<3>(node["xyz"], thing + ".xyz");
     if (node["rpy"]) {
-      sole.X_FS.R = RotationFromRpy(Numbers<3>(node["rpy"], thing + ".rpy"));
+      sole.X_FS.R = RotationFromRpy(Angles(node["rpy"], thing + ".rpy"));
     }
     if (const YAML::Node normal = node["normal"]) {
       if (node["rpy"]) Refuse(node, thing + ": must have rpy or normal alone");
@@ -149,6 +157,11 @@ struct Reader {
         sole.sole_S.push_back(Numbers<2>(corner, thing + ".polygon"));
         ExpectSmall(sole.sole_S.back(), corner, thing + ".polygon");
       }
+      if (!IsConvex(sole.sole_S)) {
+        Refuse(node["polygon"], thing +
+                                    ".polygon must be convex, its corners "
+                                    "in their order around it");
+      }
     }
     return sole;
   }
@@ -163,7 +176,7 @@ void ReadPosture(const Reader& reader, const YAML::Node& node,
     profile->base_line = node["base"].Mark().line + 1;
     profile->base_xyz = reader.Numbers<3>(base["xyz"], "posture.base.xyz");
     if (base["rpy"]) {
-      profile->base_rpy = reader.Numbers<3>(base["rpy"], "posture.base.rpy");
+      profile->base_rpy = reader.Angles(base["rpy"], "posture.base.rpy");
     }
   }
   if (node["found"]) {
@@ -200,6 +213,24 @@ std::vector<Foot> MakeFeet(const RobotModel& model, const Profile& profile) {
     }
   }
   return feet;
+}
+
+// Takes the mimics of which a profile says nothing to where their sources lead.
+void Couple(const std::map<std::string, JointValue>& given, Robot* robot) {
+  const Tree& tree = robot->model.tree;
+  // A source may be a mimic too; the loader found no cycle.
+  for (size_t i = 0; i < robot->model.mimics.size(); ++i) {
+    bool changed = false;
+    for (const MimicCoupling& mimic : robot->model.mimics) {
+      if (given.count(tree.joints()[mimic.joint].name) != 0) continue;
+      double& q = robot->q_nominal[tree.q_start() + mimic.joint];
+      const double source = robot->q_nominal[tree.q_start() + mimic.source];
+      const double led = mimic.multiplier * source + mimic.offset;
+      changed |= q != led;
+      q = led;
+    }
+    if (!changed) return;
+  }
 }
 
 }  // namespace
@@ -313,11 +344,15 @@ Robot LoadRobot(const Path& urdf, const Profile& profile,
     }
     robot.q_nominal[tree.q_start() + *j] = joint.value;
   }
+  Couple(profile.joints, &robot);
   robot.feet = profile.feet.empty() ? FindFeet(robot.model, findings)
                                     : MakeFeet(robot.model, profile);
-  if (!profile.feet.empty() && AreFeetSwapped(robot)) {
-    throw Refusal(profile.file.string(), profile.feet[0].line,
-                  "feet: left_foot is to the right of right_foot");
+  if (!profile.feet.empty()) {
+    const std::string reason = WhyNoPairOfFeet(robot);
+    if (!reason.empty()) {
+      throw Refusal(profile.file.string(), profile.feet[0].line,
+                    "feet: " + reason);
+    }
   }
   if (!profile.base_xyz) return robot;
 

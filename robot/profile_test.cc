@@ -150,6 +150,16 @@ TEST(LoadProfile, NamesTheFootThatIsNone) {
             "2: feet.left_foot.polygon is a map, must be a list of corners");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole")),
             "2: feet.left_foot: must have either size or polygon");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, polygon: [[0, 0], [0.2, 0.1], "
+                             "[0.2, 0], [0, 0.1]]")),
+            "2: feet.left_foot.polygon must be convex, its corners in their "
+            "order around it");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [0.2, 0.1], normal: "
+                             "[0, 0, -1]")),
+            "2: feet: the normals of the two soles point apart, must point out "
+            "of the ground");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [1, 1], rpy: [0, 0, 90]")),
+            "2: feet.left_foot.rpy is more than a turn: in degrees?");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [1, 1], rpy: [0, 0, 0], "
                              "normal: [0, 0, 1]")),
             "2: feet.left_foot: must have rpy or normal alone");
@@ -190,11 +200,13 @@ TEST(LoadRobot, RefusesAPostureThatDoesNotStand) {
     return message.substr(message.find(' ') + 1);
   };
   const Profile profile = LoadProfile("robot/profiles/humanoid.yaml");
+  const double x = profile.base_xyz->x();
   const double z = profile.base_xyz->z();
   YAML::Node yaml = YAML::Load(good);
-  const auto with_base = [&](double x, double height, double pitch) {
+  const auto with_base = [&](double forward, double height, double pitch) {
     YAML::Node base;
-    for (const double value : {x, 0.0, height}) base["xyz"].push_back(value);
+    for (const double value : {forward, 0.0, height})
+      base["xyz"].push_back(value);
     for (const double value : {0.0, pitch, 0.0}) base["rpy"].push_back(value);
     yaml["posture"]["base"] = base;
     YAML::Emitter emitter;
@@ -202,19 +214,32 @@ TEST(LoadRobot, RefusesAPostureThatDoesNotStand) {
     const std::string message = Refusal(emitter.c_str());
     return message.substr(message.find(' ') + 1);
   };
-  EXPECT_EQ(with_base(0, z, 0), "accepted");
-  EXPECT_EQ(with_base(0, z + 1, 0),
+  EXPECT_EQ(with_base(x, z, 0), "accepted");
+  EXPECT_EQ(with_base(x + 5, z, 0)
+                .find("posture: the middle between its feet is "
+                      "at x = 5"),
+            0u);
+  EXPECT_EQ(with_base(x, z + 1, 0),
             "posture: left_foot is 1 m above the ground, must be on it");
-  EXPECT_EQ(with_base(0, z - 0.01, 0).find("posture: left_foot is -0.0"), 0u);
-  EXPECT_NE(with_base(0, z, 0.1).find("left_foot is "), std::string::npos);
+  EXPECT_EQ(with_base(x, z - 0.01, 0).find("posture: left_foot is -0.0"), 0u);
+  EXPECT_NE(with_base(x, z, 0.1).find("left_foot is "), std::string::npos);
   EXPECT_EQ(refusal("l_sole", "r_sole").find("feet.right_foot: no joint"), 0u);
+}
+
+TEST(LoadRobot, RefusesAPostureThatLooksAway) {
+  Robot robot = LoadRobot(kUrdf, LoadProfile("robot/profiles/humanoid.yaml"));
+  const Eigen::Quaterniond turned(RotationFromRpy({0, 0, 1}));
+  robot.q_nominal.segment<4>(3) = turned.coeffs();
+  robot.q_nominal.head<3>() = turned * robot.q_nominal.head<3>();
+  EXPECT_EQ(WhyNotStanding(robot),
+            "its feet are turned by 1 rad, must look along x");
 }
 
 TEST(LoadRobot, KnowsLeftFromRightAndWhereTheWeightIs) {
   Robot robot = LoadRobot(kUrdf, LoadProfile("robot/profiles/humanoid.yaml"));
   EXPECT_EQ(WhyNotStanding(robot), "");
   std::swap(robot.feet[0], robot.feet[1]);
-  EXPECT_EQ(WhyNotStanding(robot), "the feet are swapped, left and right");
+  EXPECT_EQ(WhyNotStanding(robot), "left_foot is to the right of right_foot");
   std::swap(robot.feet[0], robot.feet[1]);
   // The soles behind the center of mass.
   for (Foot& foot : robot.feet) {
@@ -235,6 +260,27 @@ TEST(LoadRobot, LocksJoints) {
   const Robot robot = LoadRobot(kUrdf, Parse("locked: {neck_yaw: 0.1}"));
   EXPECT_EQ(robot.model.tree.num_joints(), 49);
   EXPECT_FALSE(robot.model.tree.FindJoint("neck_yaw").has_value());
+}
+
+// A mimic starts where its source leads it, or the profile says otherwise.
+TEST(LoadRobot, CouplesMimicsInThePosture) {
+  std::ifstream stream(kUrdf);
+  std::string urdf((std::istreambuf_iterator<char>(stream)), {});
+  const std::string axis = "<axis xyz=\"0 0 1\"/>";
+  const size_t at = urdf.find(axis, urdf.find("joint name=\"neck_yaw\""));
+  urdf.insert(at, "<mimic joint='chest_yaw' multiplier='2' offset='0.25'/>");
+  const auto file = TestFile("coupled.urdf", urdf);
+  std::ifstream profile_stream("robot/profiles/humanoid.yaml");
+  const std::string good((std::istreambuf_iterator<char>(profile_stream)), {});
+  const Robot robot = LoadRobot(file, Parse(good + "mimic: coupled\n"));
+  EXPECT_TRUE(robot.can_stand);
+  const Tree& tree = robot.model.tree;
+  const int neck = tree.q_start() + tree.FindJoint("neck_yaw").value();
+  EXPECT_EQ(robot.q_nominal[neck], 0.25);
+  Robot broken = robot;
+  broken.q_nominal[neck] = 0;
+  EXPECT_EQ(WhyNotStanding(broken),
+            "'neck_yaw' is 0, must be 0.25 as it is coupled to 'chest_yaw'");
 }
 
 // Of two joints, one follows the other.

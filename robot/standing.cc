@@ -46,11 +46,18 @@ Pose SoleIn(const Tick& tick, const Foot& foot) {
 
 }  // namespace
 
-bool AreFeetSwapped(const Robot& robot) {
+std::string WhyNoPairOfFeet(const Robot& robot) {
   const Tick tick = NominalTick(robot);
   const Pose X_WL = SoleIn(tick, robot.feet[0]);
   const Pose X_WR = SoleIn(tick, robot.feet[1]);
-  return !((X_WL.p - X_WR.p).dot(X_WL.R.col(1) + X_WR.R.col(1)) > 0);
+  if (!(X_WL.R.col(2).dot(X_WR.R.col(2)) > 0)) {
+    return "the normals of the two soles point apart, must point out of the "
+           "ground";
+  }
+  if (!((X_WL.p - X_WR.p).dot(X_WL.R.col(1) + X_WR.R.col(1)) > 0)) {
+    return "left_foot is to the right of right_foot";
+  }
+  return "";
 }
 
 std::string WhyNotStanding(const Robot& robot) {
@@ -62,10 +69,21 @@ std::string WhyNotStanding(const Robot& robot) {
       return SayOutside(tree.joints()[j].name, limits, q);
     }
   }
+  for (const MimicCoupling& mimic : robot.model.mimics) {
+    const double q = robot.q_nominal[tree.q_start() + mimic.joint];
+    const double led =
+        mimic.multiplier * robot.q_nominal[tree.q_start() + mimic.source] +
+        mimic.offset;
+    if (std::abs(q - led) <= kTilt) continue;
+    return Quoted(tree.joints()[mimic.joint].name) + " is " + PrintNumber(q) +
+           ", must be " + PrintNumber(led) + " as it is coupled to " +
+           Quoted(tree.joints()[mimic.source].name);
+  }
   const Tick tick = NominalTick(robot);
   std::vector<Vector2d> support;
+  std::vector<Pose> X_WF;
   for (const Foot& foot : robot.feet) {
-    const Pose X_WC = SoleIn(tick, foot);
+    const Pose& X_WC = X_WF.emplace_back(SoleIn(tick, foot));
     if (!(std::abs(X_WC.p.z()) <= kHeight)) {
       return foot.name + " is " + PrintNumber(X_WC.p.z()) +
              " m above the ground, must be on it";
@@ -79,7 +97,19 @@ std::string WhyNotStanding(const Robot& robot) {
       support.push_back((X_WC * Vector3d(corner.x(), corner.y(), 0)).head<2>());
     }
   }
-  if (AreFeetSwapped(robot)) return "the feet are swapped, left and right";
+  const std::string reason = WhyNoPairOfFeet(robot);
+  if (!reason.empty()) return reason;
+  const Vector3d p_WM = 0.5 * (X_WF[0].p + X_WF[1].p);
+  const Vector3d forward = X_WF[0].R.col(0) + X_WF[1].R.col(0);
+  if (!(p_WM.head<2>().norm() <= kHeight)) {
+    return "the middle between its feet is at x = " + PrintNumber(p_WM.x()) +
+           ", y = " + PrintNumber(p_WM.y()) + ", must be at the origin";
+  }
+  const double heading = std::atan2(forward.y(), forward.x());
+  if (!(std::abs(heading) <= kTilt)) {
+    return "its feet are turned by " + PrintNumber(heading) +
+           " rad, must look along x";
+  }
   if (!IsInside(tick.p_WG.head<2>(), ConvexHull(std::move(support)))) {
     return "the center of mass is not over the soles: the robot would fall";
   }

@@ -7,14 +7,15 @@
 
 namespace poise {
 
-/// Whether, in robot.q_nominal, the left foot is to the right of the other one,
-/// as their own axes have it.
+/// Why, in robot.q_nominal, the feet are no left and right foot of one robot, as
+/// their own axes have it; empty where they are.
 /// @pre two feet, left one first; so below.
-bool AreFeetSwapped(const Robot& robot);
+std::string WhyNoPairOfFeet(const Robot& robot);
 
 /// Why robot.q_nominal is no posture to stand in, in words; empty where it is
-/// one: joints inside their limits, both soles flat on the ground (to 5 mm and
-/// 0.02 rad), the left one to the left, and the center of mass over them.
+/// one: joints inside their limits and as they are coupled, both soles flat on
+/// the ground (to 5 mm and 0.02 rad), the left one to the left, the middle
+/// between them at the origin, facing x, and the center of mass over them.
 std::string WhyNotStanding(const Robot& robot);
 
 }  // namespace poise

@@ -77,10 +77,6 @@ class Checker {
       } else {
         names.push_back(name);
       }
-      if (name.find("${") != std::string::npos ||
-          name.find("$(") != std::string::npos) {
-        critic_.Warn(*element, "its name looks like xacro", "expand it first?");
-      }
     }
     return names;
   }

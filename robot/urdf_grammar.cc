@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "robot/numbers.h"
 #include "robot/urdf_xml.h"
 
 namespace poise {
@@ -116,8 +117,40 @@ const std::set<std::string_view> kOfOthers = {"actuator",
                                               "transmission",
                                               "verbose"};
 
+// What is no part of a link's or joint's dynamics may stand in odd places.
+const std::set<std::string_view> kOfDynamics = {
+    "axis",  "child", "dynamics", "inertia", "inertial", "joint",
+    "limit", "link",  "mass",     "mimic",   "origin",   "parent"};
+
+// Those that xacro had before it had a namespace.
+const std::set<std::string_view> kOfXacro = {"include", "insert_block", "macro",
+                                             "property"};
+
+// Attributes that change what others say.
+const std::set<std::string_view> kRotations = {"quat", "quat_wxyz",
+                                               "quat_xyzw"};
+
 bool Contains(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
+}
+
+bool IsXacro(std::string_view text) {
+  return Contains(text, "${") || Contains(text, "$(");
+}
+
+char Lower(char c) { return 'A' <= c && c <= 'Z' ? c - 'A' + 'a' : c; }
+
+// Whether a word is another one but for the case, and for a letter more, less
+// or other.
+bool IsSlip(std::string_view word, std::string_view wanted) {
+  if (word.size() > wanted.size()) std::swap(word, wanted);
+  if (wanted.size() - word.size() > 1) return false;
+  const auto same = [](char a, char b) { return Lower(a) == Lower(b); };
+  const auto [here, there] =
+      std::mismatch(word.begin(), word.end(), wanted.begin(), same);
+  if (here == word.end()) return true;
+  const bool is_longer = wanted.size() > word.size();
+  return std::equal(is_longer ? here : here + 1, word.end(), there + 1, same);
 }
 
 // Any white space as one blank, none at the ends.
@@ -137,9 +170,7 @@ std::string Collapse(std::string_view text) {
 
 // Why a text is not the numbers it should be.
 std::string WantedNumbers(std::string_view text, int count) {
-  if (Contains(text, "${") || Contains(text, "$(")) {
-    return "is xacro, expand it first";
-  }
+  if (IsXacro(text)) return "is xacro, expand it first";
   const std::string wanted =
       count == 1 ? "must be a number"
                  : "must be " + std::to_string(count) + " numbers";
@@ -171,7 +202,12 @@ class Pruner {
     for (tinyxml2::XMLNode* next = nullptr; node != nullptr; node = next) {
       next = node->NextSibling();
       XMLElement* child = node->ToElement();
-      if (child == nullptr) {  // Text or a comment.
+      if (child == nullptr) {
+        if (node->ToText() != nullptr) {
+          critic_.Warn(*element,
+                       "holds the text " + Quoted(Collapse(node->Value())),
+                       "is ignored: URDF has attributes");
+        }
         element->DeleteChild(node);
         continue;
       }
@@ -181,7 +217,16 @@ class Pruner {
           !(is_still && (child_rule == &kAxis || child_rule == &kLimit ||
                          child_rule == &kDynamics || child_rule == &kMimic));
       if (keep && !child_rule->repeated && !seen.insert(child_rule).second) {
-        critic_.Warn(*child, "is there twice", "the first one is read");
+        if (child_rule == &kParent || child_rule == &kChild) {
+          critic_.Reject(*child, "is there twice",
+                         "a joint connects two links");
+        } else {
+          critic_.Warn(*child, "is there twice", "the first one is read");
+        }
+        keep = false;
+      } else if (keep && &rule == &kGeometry && seen.size() > 1) {
+        critic_.Warn(*child, "is a second shape", "the first one is read");
+        seen.erase(child_rule);
         keep = false;
       }
       if (!keep || !Prune(*child_rule, child)) {
@@ -221,13 +266,25 @@ class Pruner {
       critic_.Note(
           child, "closes a loop",
           "loops are not modeled: the robot moves as if it were cut there");
+    } else if (kOfXacro.count(name) != 0) {
+      critic_.Warn(child, "is xacro of old", "is ignored: expand it first");
+    } else if (kOfDynamics.count(name) != 0) {
+      critic_.Warn(child, "is no element of URDF here",
+                   "is ignored: is it in the wrong place?");
     } else if (kOfOthers.count(name) == 0 && !Contains(name, ":")) {
+      for (const ElementRule* candidate : rule.children) {
+        if (!IsSlip(name, candidate->name)) continue;
+        critic_.Warn(
+            child, "is no element of URDF",
+            std::string("is ignored: must it be <") + candidate->name + ">?");
+        return nullptr;
+      }
       critic_.Note(child, "is no element of URDF here", "is ignored");
     }
     return nullptr;
   }
 
-  static void PruneAttributes(const ElementRule& rule, XMLElement* element) {
+  void PruneAttributes(const ElementRule& rule, XMLElement* element) {
     const tinyxml2::XMLAttribute* attribute = element->FirstAttribute();
     while (attribute != nullptr) {
       const std::string name = attribute->Name();
@@ -235,8 +292,29 @@ class Pruner {
       const bool is_read =
           std::any_of(rule.attributes.begin(), rule.attributes.end(),
                       [&](const AttributeRule& a) { return name == a.name; });
-      if (!is_read) element->DeleteAttribute(name.c_str());
+      if (is_read) continue;
+      JudgeAttribute(rule, *element, name);
+      element->DeleteAttribute(name.c_str());
     }
+  }
+
+  // Of an attribute that is not read.
+  void JudgeAttribute(const ElementRule& rule, const XMLElement& element,
+                      const std::string& name) {
+    if (Contains(name, ":") || name == "xmlns") return;
+    const std::string what = "has " + Quoted(name);
+    if (&rule == &kOrigin && kRotations.count(name) != 0) {
+      critic_.Reject(element, what,
+                     "must have rpy: the rotation would be lost");
+      return;
+    }
+    for (const AttributeRule& wanted : rule.attributes) {
+      if (!IsSlip(name, wanted.name)) continue;
+      critic_.Warn(element, what,
+                   std::string("is ignored: must it be ") + wanted.name + "?");
+      return;
+    }
+    critic_.Note(element, what, "is ignored: URDF has no such attribute here");
   }
 
   bool CheckAttribute(const ElementRule& rule, const AttributeRule& attribute,
@@ -255,7 +333,14 @@ class Pruner {
       return false;
     };
     if (!IsUtf8(text)) return refuse("is not UTF-8");
-    if (attribute.numbers == 0) return true;
+    if (attribute.numbers == 0) {
+      if (IsXacro(text)) {
+        critic_.Warn(*element,
+                     std::string(attribute.name) + " is " + Quoted(text),
+                     "looks like xacro: expand it first?");
+      }
+      return true;
+    }
     const auto numbers = ParseNumbers(text);
     if (!numbers || static_cast<int>(numbers->size()) != attribute.numbers) {
       return refuse(WantedNumbers(text, attribute.numbers));

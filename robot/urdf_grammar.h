@@ -14,8 +14,9 @@ namespace poise {
 /// what it must be (so many numbers, or text), and a child that may be there
 /// once is there once. What urdfdom would drop without a word is found here.
 ///
-/// Bad numbers are rejected; a shape or color that cannot be read is taken away
-/// with a warning.
+/// Bad numbers are rejected, but for those of a mesh or a color: these are taken
+/// away with a warning, as is what is there a second time. A word that looks
+/// like a slip of the pen is a warning too, others are notes.
 void PruneUrdf(tinyxml2::XMLElement* robot, std::vector<Finding>* findings);
 
 }  // namespace poise

@@ -86,7 +86,7 @@ TEST(Monsters, TooMuchIsRefusedBeforeItIsParsed) {
     attributes += " a" + std::to_string(i) + "=''";
   }
   EXPECT_EQ(Rejection("<robot" + attributes + "/>"),
-            "file:1: an element has more than 1000 attributes");
+            "file:1: an element has more than 100 attributes");
   EXPECT_EQ(Rejection("<robot name='r'>" +
                       [] {
                         std::string links;
@@ -140,7 +140,7 @@ TEST(Monsters, ManyFloatingOrMimickingJointsCostNoMoreThanOthers) {
 // Each hostile file from outside: a verdict, and no worse.
 TEST(Monsters, HostileFilesAreJudgedAsExpected) {
   const auto folder = SharedData("urdf_hostile");
-  if (!folder) return;
+  if (!folder) GTEST_SKIP() << "the shared data is not there";
   std::ifstream stream(*folder / "EXPECTED.json");
   const nlohmann::json all = nlohmann::json::parse(stream);
   int files = 0;
@@ -165,7 +165,7 @@ TEST(Monsters, HostileFilesAreJudgedAsExpected) {
 
 TEST(Monsters, RealRobotsLoad) {
   const auto folder = SharedData("robots");
-  if (!folder) return;
+  if (!folder) GTEST_SKIP() << "the shared data is not there";
   for (const auto& entry : std::filesystem::directory_iterator(*folder)) {
     if (entry.path().extension() != ".urdf") continue;
     SCOPED_TRACE(entry.path().filename());

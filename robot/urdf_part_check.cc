@@ -19,6 +19,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTriangle = 1e-4;
 // A radius of gyration, or an offset, m, that only a file in millimeters has.
 constexpr double kLongest = 10;
+// A radius of gyration that is none, m.
+constexpr double kThinnest = 1e-6;
 // Axes shorter than this are likely a mistake; those not of unit length are
 // worth a word.
 constexpr double kShortestAxis = 1e-6;
@@ -66,7 +68,7 @@ void CheckRange(const XMLElement& limit, const std::string& type,
     return;
   }
   if (!has_lower || !has_upper) {
-    critic.Note(limit, has_lower ? "has no upper" : "has no lower",
+    critic.Warn(limit, has_lower ? "has no upper" : "has no lower",
                 "which counts as 0, as URDF says");
   }
   const double lower = Number(limit, "lower", 0);
@@ -125,6 +127,7 @@ void CheckInertial(const XMLElement& link, const Critic& critic) {
   const Eigen::Vector3d moments =
       scale *
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(I / scale).eigenvalues();
+  if (scale < mass * kThinnest * kThinnest) return;  // A point, and rounding.
   if (moments[0] < -kTriangle * moments[2]) {
     critic.Warn(inertia,
                 "has the negative principal moment " + PrintNumber(moments[0]),

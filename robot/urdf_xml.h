@@ -4,19 +4,12 @@
 #include <tinyxml2.h>
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "robot/finding.h"
 
 namespace poise {
-
-/// The numbers of an attribute, apart by white space; inf and nan are numbers
-/// here, and one too large for a double is inf, one too small 0. Nothing where
-/// the text is anything else, in whatever locale.
-std::optional<std::vector<double>> ParseNumbers(std::string_view text);
 
 /// An attribute, empty where it is not there.
 std::string Text(const tinyxml2::XMLElement& element, const char* attribute);

@@ -2,6 +2,7 @@
 #include "robot/xml_file.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "robot/finding.h"
@@ -13,7 +14,7 @@ namespace {
 // TinyXML-2 takes up to 30 bytes of memory for each of these.
 constexpr size_t kMostMarkup = size_t{16} << 20;
 // It compares each attribute of an element with all before it.
-constexpr size_t kMostAttributes = 1000;
+constexpr size_t kMostAttributes = 100;
 
 // The text, and where in it we are.
 class Scanner {
@@ -89,16 +90,42 @@ class Scanner {
       }
       if (text_[i] != '"' && text_[i] != '\'') continue;
       if (attributes.size() == kMostAttributes) {
-        Refuse(start, "an element has more than 1000 attributes");
+        Refuse(start, "an element has more than 100 attributes");
       }
       const std::string_view name = NameBefore(i);
       if (!attributes.insert(name).second) {
         Refuse(i, "the attribute " + Quoted(name) + " is there twice");
       }
-      i = text_.find(text_[i], i + 1);
-      if (i == std::string_view::npos) break;
+      const size_t end = text_.find(text_[i], i + 1);
+      if (end == std::string_view::npos) break;
+      CheckValue(i + 1, end);
+      if (end + 1 < text_.size() &&
+          std::string_view(" \t\r\n/?>").find(text_[end + 1]) ==
+              std::string_view::npos) {
+        Refuse(end, "there is no blank after the value of the attribute " +
+                        Quoted(name));
+      }
+      i = end;
     }
     Refuse(start, "the file ends inside a tag");
+  }
+
+  // TinyXML-2 takes what XML does not have in a value.
+  void CheckValue(size_t start, size_t end) const {
+    for (size_t i = start; i < end; ++i) {
+      if (text_[i] == '<') Refuse(i, "a value has <, must be &lt;");
+      if (text_[i] != '&') continue;
+      const std::string_view rest = text_.substr(i + 1, end - i - 1);
+      const std::string_view name = rest.substr(0, rest.find(';'));
+      constexpr std::string_view kEntities[] = {"amp", "lt", "gt", "quot",
+                                                "apos"};
+      const bool is_known =
+          name.size() < rest.size() && !name.empty() &&
+          (name[0] == '#' ||
+           std::find(std::begin(kEntities), std::end(kEntities), name) !=
+               std::end(kEntities));
+      if (!is_known) Refuse(i, "a value has &, must be &amp;");
+    }
   }
 
   // Of NAME = "value", where the value's quote is at `quote`.

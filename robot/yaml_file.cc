@@ -4,11 +4,13 @@
 #include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/eventhandler.h>
 
+#include <cmath>
 #include <set>
 #include <sstream>
 #include <vector>
 
 #include "robot/finding.h"
+#include "robot/numbers.h"
 #include "robot/text_file.h"
 
 namespace poise {
@@ -24,11 +26,23 @@ class Checker : public YAML::EventHandler {
 
   int documents() const { return documents_; }
 
+  // After all else.
+  void RefuseMissingValues() const {
+    if (missing_.empty()) return;
+    Refuse(missing_[0].key_mark,
+           "key " + Quoted(missing_[0].key) + " has no value, must have one");
+  }
+
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents_ > 1) Refuse(mark, "has a second document, must have one");
   }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
+    if (!open_.empty() && open_.back().is_map && !open_.back().key_is_next) {
+      // The mark of nothing is somewhere after its key; and a file that is cut
+      // off has a worse fault.
+      missing_.push_back(open_.back());
+    }
     AddNode(mark, nullptr);
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
@@ -42,14 +56,14 @@ class Checker : public YAML::EventHandler {
                        YAML::anchor_t /*anchor*/,
                        YAML::EmitterStyle::value /*style*/) override {
     AddNode(mark, nullptr);
-    open_.push_back({false, false, {}});
+    open_.push_back({false, false, {}, {}, {}});
   }
   void OnSequenceEnd() override { open_.pop_back(); }
   void OnMapStart(const YAML::Mark& mark, const std::string& /*tag*/,
                   YAML::anchor_t /*anchor*/,
                   YAML::EmitterStyle::value /*style*/) override {
     AddNode(mark, nullptr);
-    open_.push_back({true, true, {}});
+    open_.push_back({true, true, {}, {}, {}});
   }
   void OnMapEnd() override { open_.pop_back(); }
 
@@ -58,6 +72,8 @@ class Checker : public YAML::EventHandler {
     bool is_map;
     bool key_is_next;
     std::set<std::string> keys;
+    std::string key;  // The last one.
+    YAML::Mark key_mark;
   };
 
   [[noreturn]] void Refuse(const YAML::Mark& mark,
@@ -75,11 +91,14 @@ class Checker : public YAML::EventHandler {
       if (!map.keys.insert(*scalar).second) {
         Refuse(mark, "key " + Quoted(*scalar) + " is there twice");
       }
+      map.key = *scalar;
+      map.key_mark = mark;
     }
     map.key_is_next = !map.key_is_next;
   }
 
   const std::string& source_;
+  std::vector<Collection> missing_;  // Values in these.
   int documents_ = 0;
   std::vector<Collection> open_;
 };
@@ -101,12 +120,22 @@ YAML::Node ParseYaml(const std::string& text, const std::string& source) {
     if (checker.documents() == 0) {
       throw Refusal(source, 0, "is empty, must be a map");
     }
+    checker.RefuseMissingValues();
     return YAML::Load(text);
   } catch (const YAML::DeepRecursion& error) {
     throw Refusal(source, error.mark.line + 1, "is nested too deep");
   } catch (const YAML::Exception& error) {
     throw Refusal(source, error.mark.line + 1, "is no YAML: " + error.msg);
   }
+}
+
+std::optional<double> ToNumber(const YAML::Node& node) {
+  if (!node.IsScalar()) return std::nullopt;
+  const auto numbers = ParseNumbers(node.Scalar());
+  if (!numbers || numbers->size() != 1 || !std::isfinite(numbers->front())) {
+    return std::nullopt;
+  }
+  return numbers->front();
 }
 
 std::string Shown(const YAML::Node& node) {

@@ -4,12 +4,13 @@
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace poise {
 
 /// Reads a YAML file that people write by hand, up to 1 MiB: one document, each
-/// key a word that its map has once, no aliases. Throws Refusal, with the line
+/// key a word that its map has once and with a value, no aliases. Throws Refusal, with the line
 /// of what is otherwise.
 YAML::Node LoadYaml(const std::filesystem::path& file);
 
@@ -17,6 +18,10 @@ YAML::Node LoadYaml(const std::filesystem::path& file);
 ///
 /// @param source  what to call it in a message.
 YAML::Node ParseYaml(const std::string& text, const std::string& source);
+
+/// The finite number that a value is, in whatever locale; nothing where it is
+/// anything else.
+std::optional<double> ToNumber(const YAML::Node& node);
 
 /// What a message says of a value: 'abc', empty, a list, a map.
 std::string Shown(const YAML::Node& node);

@@ -6,8 +6,11 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <locale>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace poise {
 namespace {
@@ -43,6 +46,38 @@ TEST(ParseYaml, RefusesAKeyThatIsThereTwice) {
             "f:2: key 'a b' is there twice");
   EXPECT_EQ(Refusal("a: {b: 1}\nc: {b: 1}\nb: a\n"), "accepted");
   EXPECT_EQ(Refusal("- {a: 1}\n- {a: 1}\n"), "accepted");
+}
+
+// The line is the key's, wherever its value is missing.
+TEST(ParseYaml, RefusesAKeyWithoutAValue) {
+  EXPECT_EQ(Refusal("a: 1\nb:\n\n# End.\n"),
+            "f:2: key 'b' has no value, must have one");
+  EXPECT_EQ(Refusal("a:\n  b:\nc: 1\n"),
+            "f:2: key 'b' has no value, must have one");
+  EXPECT_EQ(Refusal("a: {b: {c: 1}, d: }\n"),
+            "f:1: key 'd' has no value, must have one");
+  EXPECT_EQ(Refusal("a: ~\n"), "f:1: key 'a' has no value, must have one");
+  EXPECT_EQ(Refusal("a: [~]\nb: \"\"\n"), "accepted");
+}
+
+TEST(ToNumber, ReadsOneFiniteNumber) {
+  class Comma : public std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+  };
+  const YAML::Node root = ParseYaml(
+      "[0.75, 1.234, -2e-3, +5, .nan, .inf, 1e999, '1 2', '', a, [1], 0x10, "
+      "'1,5']",
+      "f");
+  const std::locale before =
+      std::locale::global(std::locale(std::locale::classic(), new Comma));
+  std::vector<std::optional<double>> numbers;
+  for (const YAML::Node& node : root) numbers.push_back(ToNumber(node));
+  std::locale::global(before);
+  const std::vector<std::optional<double>> wanted = {
+      0.75, 1.234, -2e-3, 5, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  EXPECT_EQ(numbers, wanted);
 }
 
 TEST(ParseYaml, RefusesWhatIsNoSimpleDocument) {
@@ -84,10 +119,10 @@ TEST(LoadYaml, RefusesWhatIsNoFileOfThatKind) {
 }
 
 TEST(Shown, NamesWhateverIsThere) {
-  const YAML::Node root = ParseYaml("a: {b: 1}\nc: [1]\nd:\ne: x\n", "f");
+  const YAML::Node root = ParseYaml("a: {b: 1}\nc: [1]\nd: [~]\ne: x\n", "f");
   EXPECT_EQ(Shown(root["a"]), "a map");
   EXPECT_EQ(Shown(root["c"]), "a list");
-  EXPECT_EQ(Shown(root["d"]), "empty");
+  EXPECT_EQ(Shown(root["d"][0]), "empty");
   EXPECT_EQ(Shown(root["e"]), "'x'");
 }
 

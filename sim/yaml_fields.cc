@@ -2,8 +2,6 @@
 #include "sim/yaml_fields.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 #include <utility>
 
 #include "robot/finding.h"
@@ -16,15 +14,6 @@ namespace {
 [[noreturn]] void Throw(const std::string& file, const YAML::Mark& mark,
                         const std::string& what) {
   throw Refusal(file, mark.line + 1, what);
-}
-
-std::optional<double> ToNumber(const YAML::Node& node) {
-  double value;
-  if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) ||
-      !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
 }
 
 }  // namespace

@@ -129,8 +129,9 @@ class Doctor {
     Tick tick(tree, {});
     ComputeTick(tree, RestConfiguration(model), VectorXd::Zero(tree.nv()),
                 &tick);
-    if (!tick.M.allFinite()) {
-      Add(Severity::kWarn, "robot", "M is not finite",
+    constexpr double kTooLarge = 1e20;  // Against which 1 is rounding.
+    if (!tick.M.allFinite() || tick.M.maxCoeff() > kTooLarge) {
+      Add(Severity::kWarn, "robot", "M is too large or not finite",
           "numbers this large cannot be computed with");
       return;
     }
@@ -214,14 +215,15 @@ class Doctor {
       if (std::abs(tau[j]) <= effort || effort == 0) continue;
       Add(Severity::kWarn, Coordinate(robot.model, j + 6),
           "needs " + Print(std::abs(tau[j])) + " of " + Print(effort) +
-              " N m to stand",
-          "it cannot hold its nominal posture");
+              (tree.joints()[j].type == JointType::kPrismatic ? " N" : " N m") +
+              " to stand",
+          "with contact forces of least norm, its posture cannot be held");
     }
   }
 
   void CheckParity(const Robot& robot) {
     try {
-      diagnosis_.parity = CompareWithBullet(robot).worst();
+      diagnosis_.parity = CompareWithBullet(robot, robot).worst();
     } catch (const std::invalid_argument& error) {
       Add(Severity::kNote, "robot", "was not compared with Bullet",
           OneLine(error.what()));
@@ -287,7 +289,11 @@ std::string WriteTable(const Diagnosis& diagnosis) {
         << diagnosis.mass << " kg\n";
     size_t shown = 0;
     for (const Diagnosis::Mass& link : diagnosis.links) {
-      if (++shown > kMostFindings) break;
+      if (++shown > kMostFindings) {
+        out << "          ... and " << diagnosis.links.size() - kMostFindings
+            << " more\n";
+        break;
+      }
       out << "         " << std::setw(9) << link.mass << "  "
           << Quoted(link.link) << "\n";
     }
@@ -332,6 +338,9 @@ std::string WriteJson(const Diagnosis& diagnosis) {
                                 {"what", finding.what},
                                 {"why", finding.why},
                                 {"line", finding.line}});
+  }
+  if (diagnosis.findings.size() > kMostFindings) {
+    json["findings_left_out"] = diagnosis.findings.size() - kMostFindings;
   }
   nlohmann::json robot;
   robot["name"] = diagnosis.robot;

@@ -37,16 +37,17 @@ Vector3d CenterOfMass(const MatrixXd& M) {
 }  // namespace
 
 double Parity::worst() const {
-  return std::max({mass, center_of_mass, inertia, gravity});
+  return Eigen::Vector4d(mass, center_of_mass, inertia, gravity)
+      .maxCoeff<Eigen::PropagateNaN>();
 }
 
-Parity CompareWithBullet(const Robot& robot) {
+Parity CompareWithBullet(const Robot& robot, const Robot& plant_of) {
   // Nothing to touch, and nothing to cut a force off.
-  Robot free = robot;
+  Robot free = plant_of;
   free.feet.clear();
   free.model.collisions.clear();
-  const Tree& tree = free.model.tree;
-  const VectorXd q = RestConfiguration(free.model);
+  const Tree& tree = robot.model.tree;
+  const VectorXd q = RestConfiguration(robot.model);
   for (JointLimits& limits : free.model.limits) {
     limits.effort = std::numeric_limits<double>::infinity();
   }
@@ -75,16 +76,14 @@ Parity CompareWithBullet(const Robot& robot) {
   parity.mass = std::abs(M(3, 3) - mass) / mass;
   parity.center_of_mass =
       (CenterOfMass(M) - p_G).norm() / std::max(p_G.norm(), 1.0);
-  for (int i = 0; i < nv; ++i) {
-    for (int j = 0; j < nv; ++j) {
-      parity.inertia =
-          std::max(parity.inertia, std::abs(M(i, j) - tick.M(i, j)) /
-                                       std::sqrt(unit[i] * unit[j]));
-    }
-  }
+  const VectorXd scale = unit.cwiseSqrt().cwiseInverse();
+  parity.inertia = (scale.asDiagonal() * (M - tick.M) * scale.asDiagonal())
+                       .cwiseAbs()
+                       .maxCoeff<Eigen::PropagateNaN>();
   const VectorXd gravity = -M * fall;
-  parity.gravity = (gravity - tick.N).lpNorm<Eigen::Infinity>() /
-                   tick.N.lpNorm<Eigen::Infinity>();
+  parity.gravity =
+      (gravity - tick.N).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
+      tick.N.lpNorm<Eigen::Infinity>();
   return parity;
 }
 

@@ -21,6 +21,8 @@ struct Parity {
 /// inverse of what it answers, and g' = -M' v̇ under gravity alone.
 ///
 /// Throws std::invalid_argument where Bullet cannot represent the robot.
-Parity CompareWithBullet(const Robot& robot);
+///
+/// @param plant_of  what to make the plant from: the robot itself, but in a test.
+Parity CompareWithBullet(const Robot& robot, const Robot& plant_of);
 
 }  // namespace poise

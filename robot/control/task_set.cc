@@ -65,10 +65,9 @@ void ApplyTask(const std::string& name, const YAML::Node& node,
       (void)stack->Enable(name, on);
       continue;
     }
-    double number = 0;
-    if (!value.IsScalar() || !YAML::convert<double>::decode(value, number)) {
-      refuse("must be a number");
-    }
+    const auto read = ToNumber(value);
+    if (!read) refuse("must be a finite number");
+    const double number = *read;
     if (key == "rank") {
       const int rank = number >= 1 && number <= Stack::kMaxRank
                            ? static_cast<int>(number)

@@ -59,13 +59,13 @@ TEST(ApplyTasks, RefusesInOneLineWithTheValue) {
   EXPECT_EQ(Refusal("posture: {on: 3}"),
             "f:1: task 'posture': 'on' is '3', must be true or false");
   EXPECT_EQ(Refusal("posture:\n  rank: \"a\\nb\""),
-            "f:2: task 'posture': 'rank' is 'a b', must be a number");
+            "f:2: task 'posture': 'rank' is 'a b', must be a finite number");
   EXPECT_EQ(Refusal("posture: {rank: 2.5}"),
             "f:1: task 'posture': 'rank' is '2.5', must be 1 to 8");
   EXPECT_EQ(Refusal("posture: {weight: .nan}"),
-            "f:1: task 'posture': 'weight' is '.nan', must be positive");
+            "f:1: task 'posture': 'weight' is '.nan', must be a finite number");
   EXPECT_EQ(Refusal("posture: {kp: .nan}"),
-            "f:1: task 'posture': 'kp' is '.nan', which is out of its range");
+            "f:1: task 'posture': 'kp' is '.nan', must be a finite number");
   EXPECT_EQ(Refusal("posture: {\"a\\nb\": 1}")
                 .find("f:1: task 'posture' has no 'a b', only on, rank"),
             0u);
