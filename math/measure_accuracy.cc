@@ -82,6 +82,8 @@ constexpr Range kRanges[] = {
     {kPi - 1e-6, kPi},
     {kPi, 6},
     {6, 2 * kPi - 1e-3},
+    {2 * kPi - 1e-3, 2 * kPi - 1e-6},
+    {2 * kPi - 1e-6, 2 * kPi},
     {2 * kPi, 2 * kPi + 0.1},
     {2 * kPi + 0.1, 4 * kPi},
 };
@@ -226,7 +228,7 @@ std::vector<Accuracy> MeasureAccuracy(int samples) {
 void WriteAccuracy(const std::vector<Accuracy>& accuracy, std::ostream& os) {
   os << "| map | angles | error | at most | met at |\n|---|---|---|---|---|\n";
   for (const Accuracy& a : accuracy) {
-    os << "| " << a.map << " | " << std::setprecision(5) << a.from << " ... "
+    os << "| " << a.map << " | " << std::setprecision(8) << a.from << " ... "
        << a.to << " | " << std::fixed << std::setprecision(2) << a.error
        << std::defaultfloat << " | " << a.bar << " | " << std::setprecision(5)
        << a.angle << " |\n";
