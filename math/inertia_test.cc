@@ -222,6 +222,15 @@ TEST(FindDefect, FindsAnAsymmetry) {
 }
 
 // The tolerance is 16 eps of the largest entry, here 5: both sides of it.
+TEST(FindDefect, AllowsSixteenRoundingsAndNoMore) {
+  constexpr double kEps = std::numeric_limits<double>::epsilon();
+  Inertia M{1, Vector3d::Zero(), Matrix3d::Identity()};
+  M.I_G_B(0, 1) = 16 * kEps;
+  EXPECT_EQ(FindDefect(M), InertiaDefect::kNone);
+  M.I_G_B(0, 1) = 17 * kEps;
+  EXPECT_EQ(FindDefect(M), InertiaDefect::kNotSymmetric);
+}
+
 TEST(FindDefect, AllowsRounding) {
   const double eps = std::numeric_limits<double>::epsilon();
   Inertia M = Body(1);

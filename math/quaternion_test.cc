@@ -83,6 +83,8 @@ TEST(LogQuaternion, NotFiniteGivesNan) {
       q.coeffs()[i] = bad;
       EXPECT_TRUE(LogQuaternion(q).array().isNaN().all());
     }
+    const Quaterniond scalar(bad, 0, 0, 0);
+    EXPECT_TRUE(LogQuaternion(scalar).array().isNaN().all()) << bad;
   }
 }
 
