@@ -11,6 +11,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kAtBound = 1e-9;
 
+// A cost below this share of what it is added up from is none.
+constexpr double kNoCost = 1e-9;
+
 double Ratio(double error, double size) {
   return error == 0 ? 0 : std::abs(error) / size;
 }
@@ -104,7 +107,8 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
   }
   certificate->feasibility = feasibility;
   certificate->priority =
-      Worse(certificate->priority, Ratio(cost - answer.cost, cost_size));
+      Worse(certificate->priority,
+            Ratio(cost - answer.cost, cost + kNoCost * cost_size));
 }
 
 void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,

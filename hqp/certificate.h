@@ -28,7 +28,8 @@ struct Certificate {
   /// then its multiplier is free.
   double complementarity = 0;
 
-  /// The cost of each level at y against the one it was solved to.
+  /// The cost of each level at y against the one it was solved to, relative to
+  /// that cost, and 1e-9 of what it is added up from.
   double priority = 0;
 
   /// The worst of the four: an optimal answer has 1e-9 at most.

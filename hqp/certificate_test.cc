@@ -90,6 +90,12 @@ TEST_F(CertificateTest, FindsACostThatWasNotKept) {
   EXPECT_NEAR(Certify().priority, 1e-3 / 40.5, 1e-12);
 }
 
+TEST_F(CertificateTest, FindsACostWhereThereShouldBeNone) {
+  solution_.levels[0].cost = 1e-9;
+  // Of 1e-9 of ((1 + 1)^2 + (3 + 3)^2 + (1 + 3 + 2)^2) / 2 = 38.
+  EXPECT_NEAR(Certify().priority, 1. / 38, 1e-12);
+}
+
 TEST_F(CertificateTest, FindsNaN) {
   solution_.levels[1].multipliers[0].inequality[0] = NAN;
   EXPECT_EQ(Certify().worst(), INFINITY);
