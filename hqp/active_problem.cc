@@ -194,6 +194,12 @@ void ActiveProblem::RefineOther(const Hierarchy& hierarchy,
   Refine(hierarchy, false);
 }
 
+void ActiveProblem::TakeOther(const Hierarchy& hierarchy,
+                              const std::vector<double>& y) {
+  y_ = y;
+  FindResiduals(hierarchy);
+}
+
 void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   // First all levels; then, as what the tail asks for may be large and its
   // rounding with it, the head alone.
@@ -208,6 +214,11 @@ void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   for (double& entry : y_) {
     if (std::abs(entry) < kNothing * largest) entry = 0;
   }
+  FindResiduals(hierarchy);
+}
+
+// Those of levels that are deficient: of y, or zero.
+void ActiveProblem::FindResiduals(const Hierarchy& hierarchy) {
   FindLack(hierarchy);
   for (int level = 0; level < num_head_; ++level) {
     if (!head_.is_deficient(level)) continue;

@@ -57,6 +57,9 @@ class ActiveProblem {
   /// of what they leave free.
   void RefineOther(const Hierarchy& hierarchy, const std::vector<double>& y);
 
+  /// Takes another y as it is.
+  void TakeOther(const Hierarchy& hierarchy, const std::vector<double>& y);
+
   /// Finds the multipliers of all levels at the last solve.
   void FindMultipliers();
 
@@ -92,6 +95,7 @@ class ActiveProblem {
   const double* Original(const Hierarchy& hierarchy, int a) const;
   double FindLack(const Hierarchy& hierarchy);
   void Refine(const Hierarchy& hierarchy, bool to_minimum);
+  void FindResiduals(const Hierarchy& hierarchy);
 
   int n_;
   int num_levels_ = 0, num_head_ = 0;

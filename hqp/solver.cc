@@ -130,6 +130,9 @@ void Solver::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
     problem_.Plan(hierarchy, solution->failed_level);
     problem_.Solve(hierarchy, side_, 0);
     problem_.RefineOther(hierarchy, by_level_.y());
+    // Where rows nearly depend on others, that may lead astray.
+    FindViolated(hierarchy, true);
+    if (!violated_.empty()) problem_.TakeOther(hierarchy, by_level_.y());
     problem_.FindMultipliers();
     problem_.RefineMultipliers(hierarchy);
     return;
