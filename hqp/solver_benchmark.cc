@@ -148,8 +148,10 @@ BENCHMARK_CAPTURE(Reference, cod, RowSpaceMethod::kCod)
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK(Judge)->Unit(benchmark::kMicrosecond);
 BENCHMARK(Growth)
+    ->Args({20, 1})
     ->Args({36, 1})
     ->Args({68, 1})
+    ->Args({68, 3})
     ->Args({68, 5})
     ->Args({130, 1})
     ->Args({200, 1})
