@@ -133,9 +133,12 @@ class Workshop:
         commands = self._commands[package]
         root = self.tree / "bazel-out/.."
         if path.endswith(".h") and stages:
-            return quick.HeaderBuild(
-                root, path, commands, stages[0], self._test_environment()
-            )
+            try:
+                return quick.HeaderBuild(
+                    root, path, commands, stages[0], self._test_environment()
+                )
+            except FileNotFoundError:
+                return None  # Not all of it was compiled here.
         if path not in commands:
             return None
         return quick.SourceBuild(
