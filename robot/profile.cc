@@ -5,10 +5,10 @@
 #include <cmath>
 #include <set>
 
+#include "math/rpy.h"
 #include "robot/feet.h"
 #include "robot/find_feet.h"
 #include "robot/limits.h"
-#include "robot/rpy.h"
 #include "robot/standing.h"
 #include "robot/urdf.h"
 #include "robot/yaml_file.h"
@@ -128,7 +128,7 @@ struct Reader {
     sole.frame = Text(node["frame"], thing + ".frame");
     if (node["xyz"]) sole.X_FS.p = Numbers<3>(node["xyz"], thing + ".xyz");
     if (node["rpy"]) {
-      sole.X_FS.R = RotationFromRpy(Angles(node["rpy"], thing + ".rpy"));
+      sole.X_FS.R = MatrixFromRpy(Angles(node["rpy"], thing + ".rpy"));
     }
     if (const YAML::Node normal = node["normal"]) {
       if (node["rpy"]) Refuse(node, thing + ": must have rpy or normal alone");
@@ -358,7 +358,7 @@ Robot LoadRobot(const Path& urdf, const Profile& profile,
 
   robot.can_stand = true;
   robot.q_nominal.head<3>() = *profile.base_xyz;
-  const Eigen::Quaterniond orientation(RotationFromRpy(profile.base_rpy));
+  const Eigen::Quaterniond orientation(MatrixFromRpy(profile.base_rpy));
   robot.q_nominal.segment<4>(3) = orientation.coeffs();
   const std::string reason = WhyNotStanding(robot);
   if (reason.empty()) return robot;

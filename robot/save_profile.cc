@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "robot/rpy.h"
+#include "math/rpy.h"
 
 namespace poise {
 namespace {
@@ -51,7 +51,7 @@ void WriteFeet(const Robot& robot, std::ostream* stream) {
     const Pose X_FC = link.X_BF.Inverse() * foot.X_BC;
     *stream << "  " << foot.name << ":\n    frame: " << Name(link.name)
             << "\n    xyz: " << PrintAll(X_FC.p)
-            << "\n    rpy: " << PrintAll(RpyFromRotation(X_FC.R))
+            << "\n    rpy: " << PrintAll(RpyFromMatrix(X_FC.R))
             << "\n    polygon:\n";
     for (const Eigen::Vector2d& corner : foot.polygon_C) {
       *stream << "      - " << PrintAll(corner) << "\n";
@@ -71,7 +71,7 @@ void WritePosture(const Robot& robot, const Profile& profile,
                       ? "by standing up, see robot/control/stand.h"
                       : profile.posture_found)
           << "\n  base: {xyz: " << PrintAll(xyz)
-          << ", rpy: " << PrintAll(RpyFromRotation(base.toRotationMatrix()))
+          << ", rpy: " << PrintAll(RpyFromMatrix(base.toRotationMatrix()))
           << "}\n  joints:\n";
   for (int j = 0; j < tree.num_joints(); ++j) {
     *stream << "    " << Name(tree.joints()[j].name) << ": "

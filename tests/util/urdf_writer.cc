@@ -7,7 +7,7 @@
 #include <locale>
 #include <sstream>
 
-#include "robot/rpy.h"
+#include "math/rpy.h"
 
 namespace poise {
 namespace {
@@ -37,7 +37,7 @@ std::string Named(const std::string& element, const std::string& attribute,
 
 std::string Origin(const Pose& X) {
   return "<origin" + Attribute("xyz", X.p) +
-         Attribute("rpy", RpyFromRotation(X.R)) + "/>";
+         Attribute("rpy", RpyFromMatrix(X.R)) + "/>";
 }
 
 std::string Inertial(const Inertia& M) {
