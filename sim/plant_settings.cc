@@ -2,7 +2,6 @@
 #include "sim/plant_settings.h"
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -10,12 +9,8 @@ namespace poise {
 
 namespace {
 
-void Require(bool holds, const std::string& name, double value,
-             const std::string& wanted) {
-  if (holds) return;
-  throw std::invalid_argument("plant: " + name + " is " +
-                              std::to_string(value) + ", must be " + wanted);
-}
+constexpr double kFar = 1e3;  // m.
+constexpr std::size_t kMostBoards = 100;
 
 }  // namespace
 
@@ -25,22 +20,29 @@ Eigen::Vector3d GroundNormal(const Ground& ground) {
           Eigen::Vector3d::UnitZ());
 }
 
+std::vector<NumberField> Fields(PlantSettings* settings) {
+  return {{"rate", &settings->dt, 10, 1e5, "Hz", 1, true},
+          {"friction", &settings->friction, 0, 100},
+          {"restitution", &settings->restitution, 0, 1},
+          {"torque_scale", &settings->torque_scale, 0, 100},
+          {"roll", &settings->ground.roll, -1.5, 1.5, "rad"},
+          {"pitch", &settings->ground.pitch, -1.5, 1.5, "rad"}};
+}
+
+std::vector<NumberField> Fields(Board* board) {
+  return {{"center", board->center_W.data(), -kFar, kFar, "m", 3},
+          {"size", board->size.data(), 1e-3, kFar, "m", 3},
+          {"yaw", &board->yaw, -10, 10, "rad"}};
+}
+
 void Validate(const PlantSettings& settings) {
-  // A comparison with NaN is false, so each of these refuses it.
-  Require(settings.dt > 0 && settings.dt <= 0.1, "dt", settings.dt,
-          "in (0, 0.1] s");
-  Require(settings.friction >= 0 && std::isfinite(settings.friction),
-          "friction", settings.friction, "at least 0");
-  Require(settings.restitution >= 0 && settings.restitution <= 1, "restitution",
-          settings.restitution, "in [0, 1]");
-  Require(settings.torque_scale >= 0 && std::isfinite(settings.torque_scale),
-          "torque scale", settings.torque_scale, "at least 0");
-  for (const double tilt : {settings.ground.roll, settings.ground.pitch}) {
-    Require(std::abs(tilt) < 1.5, "ground tilt", tilt, "in (-1.5, 1.5) rad");
-  }
-  for (const Board& board : settings.ground.boards) {
-    Require(board.size.allFinite() && board.size.minCoeff() > 0, "board size",
-            board.size.minCoeff(), "positive");
+  PlantSettings copy = settings;
+  Check("plant", Fields(&copy));
+  for (Board& board : copy.ground.boards) Check("boards", Fields(&board));
+  if (copy.ground.boards.size() > kMostBoards) {
+    throw std::invalid_argument(
+        "plant.boards has " + std::to_string(copy.ground.boards.size()) +
+        " entries, must have at most " + std::to_string(kMostBoards));
   }
 }
 

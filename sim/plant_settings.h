@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sim/number_field.h"
+
 namespace poise {
 
 /// A box that is part of the ground.
@@ -34,6 +36,10 @@ struct PlantSettings {
 
 /// The plane's normal, out of the ground.
 Eigen::Vector3d GroundNormal(const Ground& ground);
+
+/// The numbers of them, to be read or checked.
+std::vector<NumberField> Fields(PlantSettings* settings);
+std::vector<NumberField> Fields(Board* board);
 
 /// Throws std::invalid_argument that names the setting, its value and what was
 /// wanted.

@@ -81,7 +81,6 @@ RunResult Run(const Robot& robot, const Scenario& scenario,
   // The nominal posture stands on the ground.
   Judge judge(robot.q_nominal.z());
   const long ticks = std::lround(scenario.duration / scenario.control.dt);
-  const long between = std::max(1L, ticks / 100);
   std::vector<float> us;
   us.reserve(ticks);
   RunResult result;
@@ -111,7 +110,7 @@ RunResult Run(const Robot& robot, const Scenario& scenario,
         result.torque_limit_violation_peak,
         TorqueViolation(robot.model, scenario.plant.torque_scale, record.tau));
     if (!record.end.self_contacts.empty()) ++result.self_contact_ticks;
-    if (progress && result.ticks % between == 0) {
+    if (progress) {
       result.interrupted = !progress(static_cast<double>(result.ticks) /
                                      static_cast<double>(ticks));
     }

@@ -4,35 +4,97 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
+#include "sim/number_field.h"
 #include "sim/yaml_fields.h"
 
 namespace poise {
 
 namespace {
 
-StartSettings ReadStart(YamlFields fields) {
-  StartSettings start;
-  start.joints = fields.Number("joints", start.joints);
-  start.drop = fields.Number("drop", start.drop);
-  start.heading = fields.Number("heading", start.heading);
+constexpr double kLongest = 86400;  // s.
+constexpr double kMostTicks = 1e8;
+constexpr double kMostStepsInATick = 1000;
+constexpr std::size_t kMostEntries = 1000;  // Of a list.
+
+std::vector<NumberField> Fields(StartSettings* start) {
+  return {{"joints", &start->joints, 0, 3.2, "rad"},
+          {"drop", &start->drop, 0, 10, "m"},
+          {"heading", &start->heading, -10, 10, "rad"}};
+}
+
+std::vector<NumberField> Fields(Push* push) {
+  std::vector<NumberField> fields = {
+      {"force", push->force.data(), -1e6, 1e6, "N", 3},
+      {"moment", push->moment.data(), -1e6, 1e6, "N m", 3},
+      {"at", &push->start, 0, kLongest, "s"},
+      {"duration", &push->duration, 0, kLongest, "s"}};
+  if (push->point) {
+    fields.push_back({"point", push->point->data(), -100, 100, "m", 3});
+  }
+  return fields;
+}
+
+std::vector<NumberField> Fields(ComMotion* com) {
+  return {{"sine", com->sine.data(), -10, 10, "m", 3},
+          {"cosine", com->cosine.data(), -10, 10, "m", 3},
+          {"period", &com->period, 0.01, kLongest, "s"}};
+}
+
+std::vector<NumberField> Fields(StanceEvent* event) {
+  return {{"at", &event->at, 0, kLongest, "s"},
+          {"height", &event->height, 1e-3, 1, "m"},
+          {"over", &event->over, 0.01, kLongest, "s"}};
+}
+
+std::vector<NumberField> Fields(ControlSettings* control) {
+  return {{"rate", &control->dt, 10, 1e5, "Hz", 1, true},
+          {"delay", &control->delay, 0, 1, "s"},
+          {"friction", &control->friction, 0, 10},
+          {"mass_error", &control->mass_error, -0.99, 10}};
+}
+
+std::vector<NumberField> Fields(SensorSettings* s) {
+  return {{"noise", &s->noise, 0, 1000},
+          {"joint_position", &s->joint_position, 0, 10, "rad"},
+          {"joint_velocity", &s->joint_velocity, 0, 1000, "rad/s"},
+          {"base_orientation", &s->base_orientation, 0, 10, "rad"},
+          {"base_rate", &s->base_rate, 0, 1000, "rad/s"},
+          {"foot_force", &s->foot_force, 0, 1e6, "N"},
+          {"foot_moment", &s->foot_moment, 0, 1e6, "N m"},
+          {"accelerometer", &s->accelerometer, 0, 1e6, "m/s2"},
+          {"gyroscope", &s->gyroscope, 0, 1000, "rad/s"},
+          {"joint_bias", &s->joint_bias, 0, 10, "rad"},
+          {"gyroscope_bias", &s->gyroscope_bias, 0, 1000, "rad/s"},
+          {"force_bias", &s->force_bias, 0, 1e6, "N"},
+          {"joint_resolution", &s->joint_resolution, 0, 10, "rad"},
+          {"force_resolution", &s->force_resolution, 0, 1e6, "N"},
+          {"dropout", &s->dropout, 0, 1},
+          {"contact_threshold", &s->contact_threshold, 0, 1e6, "N"}};
+}
+
+std::vector<NumberField> Fields(Scenario* scenario) {
+  return {{"duration", &scenario->duration, 1e-3, kLongest, "s"}};
+}
+
+template <typename Settings>
+void ReadNumbers(YamlFields fields, Settings* settings) {
+  fields.Read(Fields(settings));
   fields.Finish();
-  return start;
 }
 
 Push ReadPush(YamlFields fields) {
   Push push;
   push.link = fields.Text("link", push.link);
-  const Eigen::Vector3d point = fields.Vector("point", {0, 0, 0});
-  if (fields.Has("point")) push.point = point;
+  if (fields.Has("point")) push.point.emplace();
   const std::string frame = fields.Text("frame", "world");
   if (frame == "link") {
     push.frame = PushFrame::kLink;
   } else if (frame != "world") {
     fields.Refuse("frame", "must be world or link");
   }
-  push.force = fields.Vector("force", push.force);
-  push.moment = fields.Vector("moment", push.moment);
   const std::string profile = fields.Text("profile", "box");
   if (profile == "half_sine") {
     push.profile = PushProfile::kHalfSine;
@@ -41,34 +103,18 @@ Push ReadPush(YamlFields fields) {
   } else if (profile != "box") {
     fields.Refuse("profile", "must be box, half_sine or impulse");
   }
-  push.start = fields.Number("at", push.start);
-  push.duration = fields.Number("duration", push.duration);
-  if (push.duration < 0) fields.Refuse("duration", "must be at least 0");
+  fields.Read(Fields(&push));
   fields.Finish();
   return push;
 }
 
-ComMotion ReadCom(YamlFields fields) {
-  ComMotion com;
-  com.sine = fields.Vector("sine", com.sine);
-  com.cosine = fields.Vector("cosine", com.cosine);
-  com.period = fields.Number("period", com.period);
-  if (com.period <= 0) fields.Refuse("period", "must be positive");
-  fields.Finish();
-  return com;
-}
-
 StanceEvent ReadStanceEvent(YamlFields fields) {
   StanceEvent event;
-  event.at = fields.Number("at", event.at);
   const std::string lift = fields.Text("lift", "");
   const std::string put_down = fields.Text("put_down", "");
   const std::string shift = fields.Text("shift", "");
-  event.height = fields.Number("height", event.height);
-  event.over = fields.Number("over", event.over);
+  fields.Read(Fields(&event));
   fields.Finish();
-  if (event.over <= 0) fields.Refuse("over", "must be positive");
-  if (event.height <= 0) fields.Refuse("height", "must be positive");
   if (!lift.empty()) {
     event.kind = StanceEvent::Kind::kLift;
     event.foot = lift;
@@ -90,13 +136,6 @@ void ReadTasks(YamlFields fields, ControlSettings* control) {
   fields.Finish();
 }
 
-// 1 / rate, where there is one.
-double ReadStep(YamlFields* fields, double otherwise) {
-  const double rate = fields->Number("rate", 1 / otherwise);
-  if (rate <= 0) fields->Refuse("rate", "must be positive");
-  return 1 / rate;
-}
-
 unsigned ReadSeed(YamlFields* fields, unsigned otherwise) {
   const double seed = fields->Number("seed", otherwise);
   if (!(seed >= 0 && seed <= std::numeric_limits<unsigned>::max() &&
@@ -107,10 +146,7 @@ unsigned ReadSeed(YamlFields* fields, unsigned otherwise) {
 }
 
 void ReadControl(YamlFields fields, ControlSettings* control) {
-  control->dt = ReadStep(&fields, control->dt);
-  control->delay = fields.Number("delay", control->delay);
-  control->friction = fields.Number("friction", control->friction);
-  control->mass_error = fields.Number("mass_error", control->mass_error);
+  fields.Read(Fields(control));
   control->inscribed = fields.Flag("inscribed", control->inscribed);
   control->feedforward = fields.Flag("feedforward", control->feedforward);
   control->weighted = fields.Flag("weighted", control->weighted);
@@ -126,50 +162,16 @@ void ReadPlant(YamlFields fields, Scenario* scenario) {
   } else if (kind != "bullet") {
     fields.Refuse("kind", "must be bullet or mujoco");
   }
-  plant.dt = ReadStep(&fields, plant.dt);
-  plant.friction = fields.Number("friction", plant.friction);
-  plant.torque_scale = fields.Number("torque_scale", plant.torque_scale);
-  plant.ground.roll = fields.Number("roll", plant.ground.roll);
-  plant.ground.pitch = fields.Number("pitch", plant.ground.pitch);
+  fields.Read(Fields(&plant));
   for (YamlFields& board : fields.Maps("boards")) {
-    plant.ground.boards.push_back({board.Vector("center", {0, 0, 0}),
-                                   board.Vector("size", {0, 0, 0}),
-                                   board.Number("yaw", 0)});
+    plant.ground.boards.emplace_back();
+    board.Read(Fields(&plant.ground.boards.back()));
     board.Finish();
   }
   plant.joint_limits = fields.Flag("joint_limits", plant.joint_limits);
   plant.joint_damping = fields.Flag("joint_damping", plant.joint_damping);
   plant.self_collision = fields.Flag("self_collision", plant.self_collision);
   fields.Finish();
-}
-
-SensorSettings ReadSensors(YamlFields fields) {
-  SensorSettings sensors;
-  const struct {
-    const char* key;
-    double* value;
-  } numbers[] = {{"noise", &sensors.noise},
-                 {"joint_position", &sensors.joint_position},
-                 {"joint_velocity", &sensors.joint_velocity},
-                 {"base_orientation", &sensors.base_orientation},
-                 {"base_rate", &sensors.base_rate},
-                 {"foot_force", &sensors.foot_force},
-                 {"foot_moment", &sensors.foot_moment},
-                 {"accelerometer", &sensors.accelerometer},
-                 {"gyroscope", &sensors.gyroscope},
-                 {"joint_bias", &sensors.joint_bias},
-                 {"gyroscope_bias", &sensors.gyroscope_bias},
-                 {"force_bias", &sensors.force_bias},
-                 {"joint_resolution", &sensors.joint_resolution},
-                 {"force_resolution", &sensors.force_resolution},
-                 {"dropout", &sensors.dropout},
-                 {"contact_threshold", &sensors.contact_threshold}};
-  for (const auto& [key, value] : numbers) {
-    *value = fields.Number(key, *value);
-    if (*value < 0) fields.Refuse(key, "must be at least 0");
-  }
-  fields.Finish();
-  return sensors;
 }
 
 std::vector<Push> ReadPushes(YamlFields* fields) {
@@ -180,16 +182,21 @@ std::vector<Push> ReadPushes(YamlFields* fields) {
   return pushes;
 }
 
-void Require(bool holds, const std::string& name, double value,
-             const std::string& wanted) {
-  if (holds) return;
-  throw std::invalid_argument("scenario: " + name + " is " +
-                              std::to_string(value) + ", must be " + wanted);
-}
-
 bool IsMultiple(double a, double b) {
   const double ratio = a / b;
   return std::abs(ratio - std::round(ratio)) < 1e-6;
+}
+
+// Of numbers that are in their bounds, which cannot be had together.
+void Require(bool holds, const char* wanted) {
+  if (!holds) throw std::invalid_argument(wanted);
+}
+
+void RequireFew(const char* list, std::size_t size) {
+  if (size <= kMostEntries) return;
+  throw std::invalid_argument(
+      std::string(list) + " has " + std::to_string(size) +
+      " entries, must have at most " + std::to_string(kMostEntries));
 }
 
 }  // namespace
@@ -198,21 +205,24 @@ Scenario LoadScenario(const std::filesystem::path& file) {
   YamlFields fields = ReadYaml(file.string());
   Scenario scenario;
   scenario.name = fields.Text("name", file.stem().string());
-  scenario.duration = fields.Number("duration", scenario.duration);
+  if (scenario.name.find('/') != std::string::npos) {
+    fields.Refuse("name", "must have no '/'");
+  }
+  fields.Read(Fields(&scenario));
   scenario.seed = ReadSeed(&fields, scenario.seed);
-  if (auto start = fields.Map("start")) scenario.start = ReadStart(*start);
+  if (auto start = fields.Map("start")) ReadNumbers(*start, &scenario.start);
   scenario.pushes = ReadPushes(&fields);
   for (const YamlFields& event : fields.Maps("stance")) {
     scenario.stance.push_back(ReadStanceEvent(event));
   }
-  if (auto com = fields.Map("com")) scenario.com = ReadCom(*com);
+  if (auto com = fields.Map("com")) ReadNumbers(*com, &scenario.com);
   if (auto tasks = fields.Map("tasks")) ReadTasks(*tasks, &scenario.control);
   if (auto control = fields.Map("control")) {
     ReadControl(*control, &scenario.control);
   }
   if (auto plant = fields.Map("plant")) ReadPlant(*plant, &scenario);
   if (auto sensors = fields.Map("sensors")) {
-    scenario.sensors = ReadSensors(*sensors);
+    ReadNumbers(*sensors, &scenario.sensors);
   }
   fields.Finish();
   Validate(scenario);
@@ -227,26 +237,26 @@ std::vector<Push> LoadPushes(const std::filesystem::path& file) {
 }
 
 void Validate(const Scenario& scenario) {
-  // A comparison with NaN is false, so each of these refuses it.
   Validate(scenario.plant);
-  const ControlSettings& control = scenario.control;
-  Require(scenario.duration > 0 && scenario.duration <= 1e5, "duration",
-          scenario.duration, "in (0, 1e5] s");
-  Require(control.dt > 0 && control.dt <= 0.1, "control step", control.dt,
-          "in (0, 0.1] s");
-  Require(IsMultiple(control.dt, scenario.plant.dt) &&
-              control.dt > scenario.plant.dt / 2,
-          "control step", control.dt, "a multiple of the plant's");
-  Require(control.delay >= 0 && control.delay <= 1, "delay", control.delay,
-          "in [0, 1] s");
-  Require(IsMultiple(control.delay, scenario.plant.dt), "delay", control.delay,
-          "a multiple of the plant's step");
-  Require(control.mass_error > -1 && control.mass_error < 10, "mass error",
-          control.mass_error, "in (-1, 10)");
-  Require(scenario.sensors.noise >= 0 && std::isfinite(scenario.sensors.noise),
-          "noise", scenario.sensors.noise, "at least 0");
-  Require(std::isfinite(scenario.start.drop) && scenario.start.drop >= 0,
-          "drop", scenario.start.drop, "at least 0 m");
+  Scenario copy = scenario;
+  Check("", Fields(&copy));
+  Check("start", Fields(&copy.start));
+  Check("com", Fields(&copy.com));
+  Check("control", Fields(&copy.control));
+  Check("sensors", Fields(&copy.sensors));
+  for (Push& push : copy.pushes) Check("pushes", Fields(&push));
+  for (StanceEvent& event : copy.stance) Check("stance", Fields(&event));
+  RequireFew("pushes", copy.pushes.size());
+  RequireFew("stance", copy.stance.size());
+  const double step = copy.plant.dt, tick = copy.control.dt;
+  Require(tick > step / 2 && IsMultiple(tick, step),
+          "plant.rate must be a multiple of control.rate");
+  Require(tick < (kMostStepsInATick + 0.5) * step,
+          "plant.rate must be at most 1000 times control.rate");
+  Require(IsMultiple(copy.control.delay, step),
+          "control.delay must be a multiple of the plant's step");
+  Require(copy.duration <= kMostTicks * tick,
+          "duration must be at most 1e8 control ticks");
 }
 
 }  // namespace poise

@@ -84,7 +84,7 @@ struct ControlSettings {
 ///     plant: {kind: bullet, rate: 1000, friction: 0.8, torque_scale: 1,
 ///             roll: 0, pitch: 0, boards: [{center: [0, 0, 0.01],
 ///             size: [1, 1, 0.02], yaw: 0}], joint_limits: true,
-///             joint_damping: true, self_collision: true}
+///             joint_damping: true, self_collision: true, restitution: 0}
 ///     sensors: see SensorSettings
 struct Scenario {
   std::string name;

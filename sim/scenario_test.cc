@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
@@ -63,7 +64,8 @@ control: {rate: 500, delay: 0.002, friction: 0.4, mass_error: -0.1,
           inscribed: true, feedforward: true, weighted: true, estimator: true}
 plant: {kind: mujoco, rate: 2000, friction: 0.7, torque_scale: 0.5, roll: 0.1,
         pitch: 0.2, boards: [{center: [1, 2, 3], size: [4, 5, 6], yaw: 1}],
-        joint_limits: false, joint_damping: false, self_collision: false}
+        joint_limits: false, joint_damping: false, self_collision: false,
+        restitution: 0.25}
 sensors: {noise: 1, joint_position: 1.1, joint_velocity: 1.2,
           base_orientation: 1.3, base_rate: 1.4, foot_force: 1.5,
           foot_moment: 1.6, accelerometer: 1.7, gyroscope: 1.8, joint_bias: 1.9,
@@ -114,6 +116,7 @@ sensors: {noise: 1, joint_position: 1.1, joint_velocity: 1.2,
   EXPECT_EQ(s.plant.dt, 0.0005);
   EXPECT_EQ(s.plant.friction, 0.7);
   EXPECT_EQ(s.plant.torque_scale, 0.5);
+  EXPECT_EQ(s.plant.restitution, 0.25);
   EXPECT_EQ(s.plant.ground.roll, 0.1);
   EXPECT_EQ(s.plant.ground.pitch, 0.2);
   ASSERT_EQ(s.plant.ground.boards.size(), 1u);
@@ -176,25 +179,139 @@ TEST(Scenario, RefusalIsOneLineWhateverTheFileHolds) {
 TEST(Scenario, StanceEventMustSayWhatHappens) {
   EXPECT_EQ(Complaint("stance:\n  - {at: 3}\n"),
             "trial.yaml:2: 'at' is '3', must go with lift, put_down or shift");
-  EXPECT_EQ(Complaint("stance: [{height: 3}]\n"),
+  EXPECT_EQ(Complaint("stance: [{height: 0.3}]\n"),
             "trial.yaml:1: 'at' is missing, must go with lift, put_down or "
             "shift");
   EXPECT_NE(Complaint("stance: [{at: 3, shift: middle, over: 0}]\n"), "none");
   EXPECT_NE(Complaint("stance: [{at: 3, lift: a, height: -1}]\n"), "none");
 }
 
-TEST(Scenario, BadNumbersAreRefused) {
-  EXPECT_NE(Complaint("duration: -1\n"), "none");
-  EXPECT_NE(Complaint("control: {rate: 0}\n"), "none");
-  EXPECT_NE(Complaint("control: {rate: 300}\n"), "none");  // 1000 / 300.
-  EXPECT_NE(Complaint("control: {rate: 2000}\n"), "none");
-  EXPECT_NE(Complaint("control: {delay: -0.001}\n"), "none");
-  EXPECT_NE(Complaint("control: {mass_error: -1}\n"), "none");
-  EXPECT_NE(Complaint("plant: {friction: -1}\n"), "none");
-  EXPECT_NE(Complaint("plant: {pitch: 2}\n"), "none");
-  EXPECT_NE(Complaint("sensors: {noise: -1}\n"), "none");
-  EXPECT_NE(Complaint("com: {period: 0}\n"), "none");
+// One number of each kind that would overflow, hang or eat the memory.
+TEST(Scenario, AbsurdNumbersAreRefusedWithTheirLine) {
+  EXPECT_EQ(Complaint("\nduration: -1\n"),
+            "trial.yaml:2: 'duration' is '-1', must be 0.001 to 86400 s");
+  EXPECT_EQ(Complaint("plant: {rate: 1e9}\n"),
+            "trial.yaml:1: 'rate' is '1e9', must be 10 to 100000 Hz");
+  EXPECT_EQ(Complaint("pushes:\n- force: [0, 1e300, 0]\n"),
+            "trial.yaml:2: 'force' is a list, must be -1e+06 to 1e+06 N");
+  for (const char* text :
+       {"duration: 1e6",
+        "start: {joints: -1}",
+        "start: {joints: 4}",
+        "start: {drop: 11}",
+        "start: {heading: 1e9}",
+        "pushes: [{moment: [0, 0, 1e9]}]",
+        "pushes: [{at: -1}]",
+        "pushes: [{duration: -1}]",
+        "pushes: [{duration: 1e9}]",
+        "pushes: [{point: [0, 0, 101]}]",
+        "com: {sine: [0, 0, 11]}",
+        "com: {cosine: [-11, 0, 0]}",
+        "com: {period: 0}",
+        "stance: [{at: -1, lift: a}]",
+        "stance: [{at: 1, lift: a, height: 2}]",
+        "stance: [{at: 1, lift: a, height: 0}]",
+        "stance: [{at: 1, shift: a, over: 0}]",
+        "control: {rate: 0}",
+        "control: {rate: 1e9}",
+        "control: {delay: -0.001}",
+        "control: {delay: 2}",
+        "control: {friction: 11}",
+        "control: {mass_error: -1}",
+        "control: {mass_error: 11}",
+        "plant: {rate: 1}",
+        "plant: {friction: -1}",
+        "plant: {friction: 1e9}",
+        "plant: {restitution: 2}",
+        "plant: {torque_scale: -1}",
+        "plant: {roll: -2}",
+        "plant: {pitch: 2}",
+        "plant: {boards: [{size: [1, 1, 0]}]}",
+        "plant: {boards: [{size: [1, 1, 1], center: [0, 0, 1e4]}]}",
+        "plant: {boards: [{size: [1, 1, 1], yaw: 11}]}",
+        "sensors: {noise: -1}",
+        "sensors: {noise: 1e9}",
+        "sensors: {dropout: 2}",
+        "sensors: {joint_position: 11}",
+        "sensors: {joint_velocity: 1e9}",
+        "sensors: {base_orientation: 11}",
+        "sensors: {base_rate: 1e9}",
+        "sensors: {foot_force: 1e9}",
+        "sensors: {foot_moment: 1e9}",
+        "sensors: {accelerometer: 1e9}",
+        "sensors: {gyroscope: 1e9}",
+        "sensors: {joint_bias: 11}",
+        "sensors: {gyroscope_bias: 1e9}",
+        "sensors: {force_bias: 1e9}",
+        "sensors: {joint_resolution: 11}",
+        "sensors: {force_resolution: 1e9}",
+        "sensors: {contact_threshold: 1e9}"}) {
+    const std::string complaint = Complaint(text);
+    EXPECT_EQ(complaint.rfind("trial.yaml:1: '", 0), 0u) << complaint;
+    EXPECT_NE(complaint.find(", must be "), std::string::npos) << complaint;
+  }
+}
+
+TEST(Scenario, NumbersThatCannotBeHadTogetherAreRefused) {
+  const std::string multiple = "plant.rate must be a multiple of control.rate";
+  EXPECT_EQ(Complaint("control: {rate: 300}\n"), multiple);  // 1000 / 300.
+  EXPECT_EQ(Complaint("control: {rate: 2000}\n"), multiple);
   EXPECT_EQ(Complaint("control: {rate: 250}\n"), "none");
+  const std::string times =
+      "plant.rate must be at most 1000 times control.rate";
+  EXPECT_EQ(Complaint("{control: {rate: 10}, plant: {rate: 10000}}"), "none");
+  EXPECT_EQ(Complaint("{control: {rate: 10}, plant: {rate: 20000}}"), times);
+  EXPECT_EQ(Complaint("control: {delay: 0.0015}\n"),
+            "control.delay must be a multiple of the plant's step");
+  EXPECT_EQ(Complaint("{duration: 10000, control: {rate: 100000}, "
+                      "plant: {rate: 100000}}"),
+            "duration must be at most 1e8 control ticks");
+}
+
+TEST(Scenario, WhatOptionsChangeIsCheckedToo) {
+  const auto complaint = [](auto change) -> std::string {
+    Scenario scenario;
+    scenario.pushes.resize(1);
+    scenario.stance.resize(1);
+    change(&scenario);
+    try {
+      Validate(scenario);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(complaint([](Scenario*) {}), "none");
+  EXPECT_EQ(complaint([](Scenario* s) { s->plant.dt = 1e-9; }),
+            "plant.rate is 1e+09, must be 10 to 100000 Hz");
+  EXPECT_EQ(complaint([](Scenario* s) { s->control.dt = 1 / 0.0; }),
+            "control.rate is 0, must be 10 to 100000 Hz");
+  EXPECT_EQ(complaint([](Scenario* s) { s->duration = NAN; }),
+            "duration is nan, must be 0.001 to 86400 s");
+  EXPECT_EQ(complaint([](Scenario* s) { s->start.drop = -1; }),
+            "start.drop is -1, must be 0 to 10 m");
+  EXPECT_EQ(complaint([](Scenario* s) { s->com.period = 0; }),
+            "com.period is 0, must be 0.01 to 86400 s");
+  EXPECT_EQ(complaint([](Scenario* s) { s->sensors.noise = 1e9; }),
+            "sensors.noise is 1e+09, must be 0 to 1000");
+  EXPECT_EQ(complaint([](Scenario* s) { s->pushes[0].force.y() = 1e9; }),
+            "pushes.force is 1e+09, must be -1e+06 to 1e+06 N");
+  EXPECT_EQ(complaint([](Scenario* s) { s->stance[0].at = -1; }),
+            "stance.at is -1, must be 0 to 86400 s");
+  EXPECT_EQ(complaint([](Scenario* s) { s->pushes.resize(1001); }),
+            "pushes has 1001 entries, must have at most 1000");
+  EXPECT_EQ(complaint([](Scenario* s) { s->stance.resize(1001); }),
+            "stance has 1001 entries, must have at most 1000");
+  EXPECT_EQ(complaint([](Scenario* s) {
+              s->plant.ground.boards.resize(
+                  101, {Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()});
+            }),
+            "plant.boards has 101 entries, must have at most 100");
+}
+
+TEST(Scenario, NameIsNoPath) {
+  EXPECT_EQ(Complaint("name: ../a\n"),
+            "trial.yaml:1: 'name' is '../a', must have no '/'");
 }
 
 TEST(Scenario, WhatIsNoYamlIsRefusedWithItsLine) {

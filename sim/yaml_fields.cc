@@ -40,6 +40,26 @@ void YamlFields::Refuse(const std::string& key, const std::string& why) const {
   Throw(file_, value.Mark(), "'" + key + "' is " + Shown(value) + ", " + why);
 }
 
+void YamlFields::Read(const std::vector<NumberField>& fields) {
+  for (const NumberField& field : fields) {
+    if (!Has(field.key)) {
+      known_.push_back(field.key);
+      continue;
+    }
+    const std::vector<double> numbers =
+        field.size == 1 ? std::vector<double>{Number(field.key, 0)}
+                        : Numbers(field.key);
+    if (static_cast<int>(numbers.size()) != field.size) {
+      Refuse(field.key,
+             "must be a list of " + std::to_string(field.size) + " numbers");
+    }
+    for (int i = 0; i < field.size; ++i) {
+      if (!IsWithin(field, numbers[i])) Refuse(field.key, Wanted(field));
+      field.value[i] = field.inverse ? 1 / numbers[i] : numbers[i];
+    }
+  }
+}
+
 double YamlFields::Number(const std::string& key, double otherwise) {
   const YAML::Node value = Find(key);
   if (!value) return otherwise;
@@ -89,17 +109,6 @@ std::vector<double> YamlFields::Numbers(const std::string& key) {
     numbers.push_back(*number);
   }
   return numbers;
-}
-
-Eigen::Vector3d YamlFields::Vector(const std::string& key,
-                                   const Eigen::Vector3d& otherwise) {
-  if (!Has(key)) {
-    known_.push_back(key);
-    return otherwise;
-  }
-  const std::vector<double> numbers = Numbers(key);
-  if (numbers.size() != 3) Refuse(key, "must be a list of 3 numbers");
-  return {numbers[0], numbers[1], numbers[2]};
 }
 
 std::optional<YamlFields> YamlFields::Map(const std::string& key) {

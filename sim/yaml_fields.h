@@ -3,10 +3,11 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "sim/number_field.h"
 
 namespace poise {
 
@@ -18,14 +19,15 @@ class YamlFields {
   /// Throws if the node is not a map.
   YamlFields(const YAML::Node& node, std::string file);
 
+  /// Sets those fields that are there.
+  void Read(const std::vector<NumberField>& fields);
+
   /// The value of a key, or what stands in for it where there is none.
   double Number(const std::string& key, double otherwise);
   bool Flag(const std::string& key, bool otherwise);
   std::string Text(const std::string& key, const std::string& otherwise);
   std::vector<std::string> Words(const std::string& key);
   std::vector<double> Numbers(const std::string& key);
-  Eigen::Vector3d Vector(const std::string& key,
-                         const Eigen::Vector3d& otherwise);
 
   /// The maps inside: one, or a list of them.
   std::optional<YamlFields> Map(const std::string& key);

@@ -62,12 +62,17 @@ double SettledAfter(const RecordedRun& run, const std::vector<double>& values,
 void DrawPoses(const Robot& robot, const RecordedRun& run,
                const std::vector<double>& times, const fs::path& stem) {
   constexpr double kWidth = 370, kHeight = 400;
+  Camera camera;
+  for (const double time : times) {
+    camera = FitCamera({kWidth, kHeight}, robot.model, run.q(time),
+                       run.ArrowAt(time), camera);
+  }
   WritePicture(stem, {kWidth * static_cast<double>(times.size()), kHeight + 28},
                [&](Canvas* canvas) {
                  double x = 0;
                  for (const double time : times) {
                    DrawRobot({x, 0}, {kWidth, kHeight}, robot.model,
-                             run.q(time), run.ArrowAt(time), {}, canvas);
+                             run.q(time), run.ArrowAt(time), camera, canvas);
                    canvas->Text({x + kWidth / 2, kHeight + 16},
                                 Format("t = %.2f s", time), 11, kInk,
                                 Anchor::kMiddle);

@@ -18,8 +18,11 @@ namespace {
 volatile std::sig_atomic_t g_interrupted = 0;
 
 bool ShowProgress(double fraction) {
-  if (isatty(STDERR_FILENO) != 0) {
-    std::fprintf(stderr, "\r  simulated %3.0f %%%s", 100 * fraction,
+  static int shown = -1;
+  const int percent = static_cast<int>(100 * fraction);
+  if (percent != shown && isatty(STDERR_FILENO) != 0) {
+    shown = percent;
+    std::fprintf(stderr, "\r  simulated %3d %%%s", percent,
                  fraction < 1 ? "" : "\r                  \r");
   }
   return g_interrupted == 0;

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "robot/finding.h"
 #include "tools/push_options.h"
 #include "tools/user_path.h"
 
@@ -35,14 +36,20 @@ Shard ParseShard(const std::string& text) {
                               "', must be I/N with 1 <= I <= N");
 }
 
-// CLI's own PositiveNumber lets infinity through, and spells its range out.
-std::string Positive(const std::string& text) {
-  double value = 0;
-  const char* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, value);
-  const bool positive = read.ec == std::errc() && read.ptr == end &&
-                        std::isfinite(value) && value > 0;
-  return positive ? "" : "'" + text + "' must be a positive number";
+// CLI's own Range lets NaN through, and spells its numbers out.
+CLI::Validator Between(double least, double most, const std::string& unit) {
+  const auto check = [=](const std::string& text) -> std::string {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, value);
+    if (read.ec == std::errc() && read.ptr == end && value >= least &&
+        value <= most) {
+      return "";
+    }
+    return "'" + text + "' must be " + PrintNumber(least) + " to " +
+           PrintNumber(most) + " " + unit;
+  };
+  return CLI::Validator(check, "");
 }
 
 // Every point, in the order of the map; then those of this shard.
@@ -111,16 +118,16 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv, std::string* help) {
   app.add_option("--durations", durations, "of the push, S,... in s")
       ->delimiter(',')
       ->capture_default_str()
-      ->check(Positive);
+      ->check(Between(1e-3, 10, "s"));
   app.add_option("--with", with, "tasks to switch on")->delimiter(',');
   app.add_option("--without", without, "tasks to switch off")->delimiter(',');
   app.add_option("--step", step, "of impulses, N s")
       ->capture_default_str()
-      ->check(Positive);
+      ->check(Between(0.01, 100, "N s"));
   app.add_option("--shard", shard_text,
                  "I/N: every N-th point, beginning with the I-th");
   app.add_option("--jobs", threads, "pushes at once (all cores)")
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Range(1, 256));
   app.add_option("--out", out,
                  "folder (push-map-out; of a shard push-map-out/shard-I-of-N)");
   app.add_flag("--no-replays", no_replays, "make no replays");

@@ -46,7 +46,8 @@ void AddOptions(CLI::App* app, Overrides* o) {
   const CLI::Validator finite(RefuseInfinite, "", "finite");
   app->add_option("--force", o->force, "N")->check(finite);
   app->add_option("--direction", o->direction,
-                  "deg: 0 is +x, forward->check(finite); 90 is +y, left");
+                  "deg: 0 is +x, forward; 90 is +y, left")
+      ->check(finite);
   app->add_option("--duration", o->duration, "of the push, s")->check(finite);
   app->add_option("--at", o->at, "when the push begins, s")->check(finite);
   app->add_option("--link", o->link,
@@ -95,13 +96,8 @@ void Take(const std::optional<T>& from, T* to) {
   if (from) *to = *from;
 }
 
-void TakeRate(const std::optional<double>& rate, const char* name, double* dt) {
-  if (!rate) return;
-  if (!(*rate > 0) || !std::isfinite(*rate)) {
-    throw std::invalid_argument(std::string(name) + " is " +
-                                std::to_string(*rate) + ", must be positive");
-  }
-  *dt = 1 / *rate;
+void TakeRate(const std::optional<double>& rate, double* dt) {
+  if (rate) *dt = 1 / *rate;
 }
 
 // The first push of the scenario, or a new one, as the options want it.
@@ -149,8 +145,8 @@ void Apply(const Overrides& o, Scenario* scenario) {
   control.feedforward |= o.feedforward;
   control.estimator |= o.estimator;
   if (o.friction) control.inscribed = *o.friction == "inscribed";
-  TakeRate(o.control_rate, "--control-rate", &control.dt);
-  TakeRate(o.plant_rate, "--plant-rate", &plant.dt);
+  TakeRate(o.control_rate, &control.dt);
+  TakeRate(o.plant_rate, &plant.dt);
   if (o.plant) {
     scenario->plant_kind =
         *o.plant == "mujoco" ? PlantKind::kMujoco : PlantKind::kBullet;

@@ -94,6 +94,11 @@ void DrawPlot(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
   const std::vector<double> y_ticks = RoundTicks(y.low, y.high, 6);
   const std::vector<double> x_ticks = RoundTicks(x.low, x.high, 10);
   y = {y_ticks.front(), y_ticks.back()};
+  // The last row of a log is one step before its end.
+  const double near_end = x.high + 0.005 * (x.high - x.low);
+  for (const double tick : x_ticks) {
+    if (tick < near_end) x.high = std::max(x.high, tick);
+  }
 
   const Eigen::Vector2d at = corner + Eigen::Vector2d(46, 26);
   const Eigen::Vector2d area = size - Eigen::Vector2d(58, 60);

@@ -18,6 +18,8 @@ constexpr double kAmbient = 0.46;
 constexpr double kExposure = 1.12;
 const Color kShadow(0.1, 0.12, 0.16, 0.2);
 constexpr double kMetersPerNewton = 0.0042;
+constexpr double kArrowAway = 0.25;  // Its tip from the point it pushes, m.
+constexpr double kMargin = 0.06;     // Of a picture's width and height.
 
 // World points on the canvas: a pinhole camera.
 class Projection {
@@ -100,7 +102,7 @@ class Model {
 
 // A shaft and a head, its tip just before the point that it pushes.
 void AddArrow(const PushArrow& push, Model* model) {
-  constexpr double kRadius = 0.013, kHead = 0.085, kAway = 0.25;
+  constexpr double kRadius = 0.013, kHead = 0.085;
   const Color red(0.85, 0.16, 0.12, 1);
   const double shaft = kMetersPerNewton * push.force.norm() - kHead;
   if (shaft < 0.02) return;
@@ -108,7 +110,7 @@ void AddArrow(const PushArrow& push, Model* model) {
   const Eigen::Vector3d x = z.unitOrthogonal();
   Pose X_WS;
   X_WS.R << x, z.cross(x), z;
-  const Eigen::Vector3d tip = push.point - kAway * z;
+  const Eigen::Vector3d tip = push.point - kArrowAway * z;
   X_WS.p = tip - (kHead + shaft / 2) * z;
   model->Add({0, {}, BodyShapeKind::kCylinder, {kRadius, shaft, 0}, red}, X_WS);
   // A cone, as a stack of ever thinner disks.
@@ -163,6 +165,31 @@ void DrawRobot(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
   }
   if (push) AddArrow(*push, &model);
   canvas->Image(corner, size, raster.width(), raster.height(), raster.Pixels());
+}
+
+Camera FitCamera(const Eigen::Vector2d& size, const RobotModel& robot,
+                 const Eigen::VectorXd& q, const std::optional<PushArrow>& push,
+                 Camera camera) {
+  const Projection to({0, 0}, size, camera);
+  std::vector<Pose> X_WB(robot.tree.num_bodies());
+  ComputePoses(robot.tree, q, &X_WB);
+  std::vector<Eigen::Vector3d> points;
+  for (const BodyShape& shape : MakeBodyShapes(robot)) {
+    points.push_back((X_WB[shape.body] * shape.X_BS).p);
+  }
+  if (push) {
+    points.push_back(push->point - kMetersPerNewton * push->force -
+                     kArrowAway * push->force.normalized());
+  }
+  // What is seen grows with the height, about the middle.
+  double zoom = 1;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector2d off = to(point) - size / 2;
+    zoom = std::max(
+        zoom, off.cwiseAbs().cwiseQuotient((0.5 - kMargin) * size).maxCoeff());
+  }
+  camera.height *= zoom;
+  return camera;
 }
 
 }  // namespace poise

@@ -30,4 +30,10 @@ void DrawRobot(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
                const std::optional<PushArrow>& push, const Camera& camera,
                Canvas* canvas);
 
+/// The camera drawn back until that robot, and the arrow, fit into a picture of
+/// that size with a margin; as it was if they do.
+Camera FitCamera(const Eigen::Vector2d& size, const RobotModel& robot,
+                 const Eigen::VectorXd& q, const std::optional<PushArrow>& push,
+                 Camera camera);
+
 }  // namespace poise

@@ -1,0 +1,42 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/number_field.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "robot/finding.h"
+
+namespace poise {
+
+namespace {
+
+// 1 / (1 / x) need not be x.
+constexpr double kRounding = 1e-12;
+
+}  // namespace
+
+bool IsWithin(const NumberField& field, double number) {
+  const double slack = kRounding * std::abs(number);
+  return std::isfinite(number) && number >= field.least - slack &&
+         number <= field.most + slack;
+}
+
+std::string Wanted(const NumberField& field) {
+  const std::string unit = field.unit;
+  return "must be " + PrintNumber(field.least) + " to " +
+         PrintNumber(field.most) + (unit.empty() ? "" : " " + unit);
+}
+
+void Check(const std::string& group, const std::vector<NumberField>& fields) {
+  for (const NumberField& field : fields) {
+    for (int i = 0; i < field.size; ++i) {
+      const double value = field.inverse ? 1 / field.value[i] : field.value[i];
+      if (IsWithin(field, value)) continue;
+      throw std::invalid_argument((group.empty() ? "" : group + ".") +
+                                  field.key + " is " + PrintNumber(value) +
+                                  ", " + Wanted(field));
+    }
+  }
+}
+
+}  // namespace poise
