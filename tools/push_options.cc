@@ -15,6 +15,7 @@
 #include "robot/profile.h"
 #include "robot/save_profile.h"
 #include "robot/urdf.h"
+#include "sim/number_field.h"
 #include "tools/user_path.h"
 
 namespace poise {
@@ -114,7 +115,9 @@ void TakePush(const Overrides& o, Scenario* scenario) {
   Push& push = scenario->pushes[0];
   const double force = o.force.value_or(push.force.norm());
   if (o.direction) {
-    const double angle = *o.direction * kPi / 180;
+    double degrees = *o.direction;
+    Check("", {{"direction", &degrees, -360, 360, "deg"}});
+    const double angle = degrees * kPi / 180;
     push.force = force * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
   } else if (o.force) {
     push.force = push.force.isZero() ? Eigen::Vector3d(0, force, 0)

@@ -13,7 +13,7 @@ export function formatNumber(value) {
   else if (size >= 0.01) text = value.toFixed(2);
   else if (size >= 5e-4) text = value.toFixed(4);
   else text = value.toExponential(1);
-  return text.replace('-', '−').replace('e+', 'e');
+  return text.replaceAll('-', '−').replace('e+', 'e');
 }
 
 /** "strong_push" as a title: "Strong push". */

@@ -11,7 +11,7 @@ const NUMBERS = [
   {
     title: 'CoM error at the end',
     unit: 'mm',
-    value: (s) => 1e3 * horizontal(s.com_error_final),
+    value: (s) => Math.round(1e6 * horizontal(s.com_error_final)) / 1e3,
     limit: () => 20,
     why: 'Horizontal, mean of the last half second. Recovered: under 20 mm.',
   },

@@ -10,6 +10,12 @@ function joinedData(series) {
   return uPlot.join(tables);
 }
 
+// What is no number as what uPlot leaves out of a line.
+function withGaps(values) {
+  return values.some(Number.isNaN) ?
+    Array.from(values, (v) => (Number.isNaN(v) ? null : v)) : values;
+}
+
 /**
  * One plot on the page's time: a label column with live values, and a uPlot.
  * `spec` is {title, unit, hint, scale, lines: [{name, color, dash, time,
@@ -78,7 +84,8 @@ export class Plot {
     const scale = spec.scale ?? 1;
     const shown = spec.lines.map((line) => ({
       ...line,
-      values: scale === 1 ? line.values : line.values.map((v) => v * scale),
+      values: withGaps(
+          scale === 1 ? line.values : line.values.map((v) => v * scale)),
     }));
     this.data = shown.length ? joinedData(shown) : [new Float32Array(0)];
     const axis = {
@@ -106,7 +113,6 @@ export class Plot {
         stroke: this.#color(line.color),
         width: line.width ?? 1.6,
         dash: line.dash,
-        spanGaps: true,
         points: {show: false},
       }))),
       hooks: {
@@ -149,7 +155,6 @@ export class Plot {
     ctx.strokeStyle = ctx.fillStyle = this.#color('limit');
     ctx.lineWidth = ratio;
     ctx.font = `${10 * ratio}px system-ui, sans-serif`;
-    ctx.textAlign = 'right';
     for (const {value, name} of this.spec.marks ?? []) {
       const y = plot.valToPos(value, 'y', true);
       if (!(y >= bbox.top - 1 && y <= bbox.top + bbox.height + 1)) continue;
@@ -159,10 +164,31 @@ export class Plot {
       ctx.lineTo(bbox.left + bbox.width, y);
       ctx.stroke();
       const below = y < bbox.top + 14 * ratio;
-      ctx.fillText(name, bbox.left + bbox.width - 4 * ratio,
+      const atStart = this.#distance(value, 0) > this.#distance(value, 0.7);
+      ctx.textAlign = atStart ? 'left' : 'right';
+      ctx.fillText(name,
+                   bbox.left + (atStart ? 4 * ratio : bbox.width - 4 * ratio),
                    y + (below ? 11 : -4) * ratio);
     }
     ctx.restore();
+  }
+
+  // How near the lines come to a value, from a fraction of the shown time on,
+  // for three tenths of it.
+  #distance(value, fraction) {
+    const [from, to] = this.xRange();
+    const start = from + fraction * (to - from);
+    const end = start + 0.3 * (to - from);
+    const [time, ...lines] = this.data;
+    let nearest = Infinity;
+    for (let i = 0; i < time.length; ++i) {
+      if (time[i] < start || time[i] > end) continue;
+      for (const line of lines) {
+        if (line[i] == null) continue;
+        nearest = Math.min(nearest, Math.abs(line[i] - value));
+      }
+    }
+    return nearest;
   }
 
   // Press and drag to scrub; a vertical swipe still scrolls the page.

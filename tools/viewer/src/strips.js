@@ -1,7 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 import {escapeHtml, formatNumber} from './format.js';
 
-const ROW = 18;  // CSS pixels a row.
+// CSS pixels a row: its height, and where its bar is. On a narrow page the name
+// stands above the bar, see style.css.
+const BESIDE = {row: 18, bar: 3, height: 12};
+const ABOVE = {row: 30, bar: 16, height: 9};
+const narrow = window.matchMedia('(max-width: 720px)');
 
 /**
  * Rows of bars on the page's time, each with a name: a canvas that is as wide
@@ -89,7 +93,8 @@ export class Strip {
 
   draw() {
     const width = this.lane.clientWidth;
-    const height = Math.max(1, this.#shown.length) * ROW;
+    const at = narrow.matches ? ABOVE : BESIDE;
+    const height = Math.max(1, this.#shown.length) * at.row;
     const ratio = window.devicePixelRatio || 1;
     this.canvas.width = Math.max(1, Math.round(width * ratio));
     this.canvas.height = Math.round(height * ratio);
@@ -101,8 +106,9 @@ export class Strip {
     this.#shown.forEach((row, i) => {
       context.globalAlpha = 1;
       context.fillStyle = this.palette.line;
-      context.fillRect(0, i * ROW + ROW / 2, width, 1);
-      row.draw(context, toX, i * ROW + 3, ROW - 6, this.palette);
+      const top = i * at.row + at.bar;
+      context.fillRect(0, top + Math.floor(at.height / 2), width, 1);
+      row.draw(context, toX, top, at.height, this.palette);
     });
     if (this.time !== undefined) this.update(this.time);
   }
