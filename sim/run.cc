@@ -81,6 +81,9 @@ RunResult Run(const Robot& robot, const Scenario& scenario,
   // The nominal posture stands on the ground.
   Judge judge(robot.q_nominal.z());
   const long ticks = std::lround(scenario.duration / scenario.control.dt);
+  // Often enough to be stopped at once, however long the run or slow its ticks.
+  const long steps = std::lround(scenario.control.dt / scenario.plant.dt);
+  const long between = std::clamp(ticks / 100, 1L, std::max(1L, 1000 / steps));
   std::vector<float> us;
   us.reserve(ticks);
   RunResult result;
@@ -110,7 +113,7 @@ RunResult Run(const Robot& robot, const Scenario& scenario,
         result.torque_limit_violation_peak,
         TorqueViolation(robot.model, scenario.plant.torque_scale, record.tau));
     if (!record.end.self_contacts.empty()) ++result.self_contact_ticks;
-    if (progress) {
+    if (progress && result.ticks % between == 0) {
       result.interrupted = !progress(static_cast<double>(result.ticks) /
                                      static_cast<double>(ticks));
     }

@@ -47,8 +47,8 @@ struct RunResult {
 ///
 /// @param folder    where a Recorder writes; empty: nothing is written.
 /// @param format    of the log, see Recorder.
-/// @param progress  called after each tick with the fraction done; stops the
-///                  run by returning false. May be empty.
+/// @param progress  called a hundred times or more with the fraction done;
+///                  stops the run by returning false. May be empty.
 ///
 /// Throws std::invalid_argument, see ClosedLoop and Recorder.
 RunResult Run(const Robot& robot, const Scenario& scenario,

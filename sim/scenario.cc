@@ -164,7 +164,8 @@ void ReadPlant(YamlFields fields, Scenario* scenario) {
   }
   fields.Read(Fields(&plant));
   for (YamlFields& board : fields.Maps("boards")) {
-    plant.ground.boards.emplace_back();
+    plant.ground.boards.push_back(
+        {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
     board.Read(Fields(&plant.ground.boards.back()));
     board.Finish();
   }

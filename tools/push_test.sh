@@ -54,16 +54,8 @@ echo "1.3 s: log.csv has $text bytes, log.bin $binary"
 [ "$("$explain" "$TEST_TMPDIR/csv")" = "$("$explain" "$TEST_TMPDIR/binary")" ] ||
   fail "the two logs do not say the same"
 
-# Refused in one line: refuse "MESSAGE" OPTION...
-refuse() {
-  local message=$1
-  shift
-  code=0
-  timeout 60 "$push" "$@" --out "$TEST_TMPDIR/refused" 2> "$TEST_TMPDIR/error" || code=$?
-  [ "$code" = 2 ] || fail "exit code $code for $*, wanted 2"
-  [ "$(cat "$TEST_TMPDIR/error")" = "push: $message" ] ||
-    fail "$* says: $(cat "$TEST_TMPDIR/error")"
-}
-refuse "--time: is nan, must be finite" --time nan
-refuse "plant.rate is 1e+09, must be 10 to 100000 Hz" --plant-rate 1e9
-refuse "direction is 1e+06, must be -360 to 360 deg" --direction 1e6
+code=0
+"$push" --time nan 2> "$TEST_TMPDIR/error" || code=$?
+[ "$code" = 2 ] || fail "exit code $code for --time nan, wanted 2"
+[ "$(cat "$TEST_TMPDIR/error")" = "push: --time: is nan, must be finite" ] ||
+  fail "--time nan says: $(cat "$TEST_TMPDIR/error")"
