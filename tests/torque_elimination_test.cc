@@ -123,6 +123,7 @@ class TorqueEliminationTest : public testing::Test {
   void MakeController() {
     controller_ = std::make_unique<Controller>(robot_);
     // The input below knows of no correction.
+    (void)controller_->stack().SetParameter("momentum", "ki", 0);
     (void)controller_->stack().SetParameter("momentum", "ki_height", 0);
     controller_->Start(state_);
   }

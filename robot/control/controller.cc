@@ -23,8 +23,13 @@ constexpr double kLimitSlack = 1e-6;
 // The momentum follows its reference where it is met to this, m/s2.
 constexpr double kFollowing = 0.05;
 
-// Enough for a model that is wrong by a sixth of the robot's mass, m/s2.
-constexpr double kLargestCorrection = 1.6;
+// Enough for a model that is wrong by a sixth of the robot's mass, m/s2; and in
+// the plane, for one whose center of mass is wrong by 4 cm.
+constexpr double kLargestLift = 1.6;
+constexpr double kLargestShift = 0.5;
+
+// A robot whose center of mass is slower than this stands, m/s.
+constexpr double kStanding = 0.02;
 
 // Of the fail-safe command.
 constexpr double kFailSafeDamping = 10;  // 1/s.
@@ -176,26 +181,36 @@ void Controller::Update(const State& state, Command* command) noexcept {
   for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
     normal_force_[i] = solution_.y[nv + 6 * i + 5];
   }
-  CorrectHeight();
+  CorrectSag();
   ComputeTorque(tick_, contacts_, solution_.y, &command->tau);
   LimitTorque(command);
   command->status = report_.status;
 }
 
-// A model that is too light lets the robot hang below its reference: an
-// integral of the height's error finds what is missing. It stands still while
-// the momentum is not free to follow, as in a push.
-void Controller::CorrectHeight() noexcept {
+// A wrong model lets the robot stand beside its reference: an integral of the
+// error finds what is missing. It waits while the momentum is not free to
+// follow, as in a push; in the plane also while the robot or its reference
+// moves, as a lag is none of the model's faults.
+void Controller::CorrectSag() noexcept {
   const auto momentum = stack_.Find("momentum");
-  const double gain = stack_.GetParameter("momentum", "ki_height").value_or(0);
-  if (!stack_.settings(*momentum).enabled || gain == 0) {
+  if (!stack_.settings(*momentum).enabled) {
     correction_W_.setZero();
     return;
   }
   if (report_.tasks[*momentum].residual > kFollowing) return;
-  const double error = reference_.p_WG.z() - tick_.p_WG.z();
-  correction_W_.z() = std::clamp(correction_W_.z() + options_.dt * gain * error,
-                                 -kLargestCorrection, kLargestCorrection);
+  const double place = stack_.GetParameter("momentum", "ki").value_or(0);
+  const double height =
+      stack_.GetParameter("momentum", "ki_height").value_or(0);
+  const bool stands = reference_.v_WG.isZero() && tick_.v_WG.norm() < kStanding;
+  const Eigen::Vector3d e_W = reference_.p_WG - tick_.p_WG;
+  auto level = correction_W_.head<2>();
+  if (stands) level += options_.dt * place * e_W.head<2>();
+  level *= kLargestShift / std::max(level.norm(), kLargestShift);
+  if (place == 0) level.setZero();
+  double& up = correction_W_.z();
+  up = std::clamp(up + options_.dt * height * e_W.z(), -kLargestLift,
+                  kLargestLift);
+  if (height == 0) up = 0;
 }
 
 bool Controller::IsUsable(const State& state) noexcept {

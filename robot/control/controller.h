@@ -91,7 +91,7 @@ class Controller {
   bool IsUsable(const State& state) noexcept;
   void FailSafe(const State& state, Command* command) noexcept;
   void LimitTorque(Command* command) noexcept;
-  void CorrectHeight() noexcept;
+  void CorrectSag() noexcept;
 
   Robot robot_;
   ControllerOptions options_;

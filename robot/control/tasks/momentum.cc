@@ -14,6 +14,7 @@ MomentumTask::MomentumTask(const Tree& tree)
   AddParameter("kd", &kd_, 0, 1e3);
   AddParameter("kd_angular", &kd_angular_, 0, 1e3);
   AddParameter("k_orientation", &k_orientation_, 0, 1e4);
+  AddParameter("ki", &ki_, 0, 100);
   AddParameter("ki_height", &ki_height_, 0, 100);
   AddParameter("angular_weight", &angular_weight_, 1e-6, 1e6);
   AddParameter("feedforward", &feedforward_, 0, 1);

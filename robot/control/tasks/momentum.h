@@ -16,8 +16,10 @@ namespace poise {
 class MomentumTask final : public Task {
  public:
   /// Parameters: kp (30 1/s2), kd (10 1/s), kd_angular (10 1/s), k_orientation
-  /// (100 N m/rad); ki_height (30 1/s3), by which Controller corrects the height;
-  /// angular_weight (1), of the angular rows against the linear ones; feedforward (0; with 1, v_ref and a_ref are used).
+  /// (100 N m/rad); ki and ki_height (15 and 60 1/s3), by which Controller
+  /// corrects what a wrong model does to the place and the height;
+  /// angular_weight (1), of the angular rows against the linear ones;
+  /// feedforward (0; with 1, v_ref and a_ref are used).
   explicit MomentumTask(const Tree& tree);
   double equality_scale(int) const noexcept override { return mass_; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
@@ -29,7 +31,8 @@ class MomentumTask final : public Task {
   double kd_ = 10;
   double kd_angular_ = 10;
   double k_orientation_ = 100;
-  double ki_height_ = 30;
+  double ki_ = 15;
+  double ki_height_ = 60;
   double angular_weight_ = 1;
   double feedforward_ = 0;
 };
