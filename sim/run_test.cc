@@ -80,16 +80,18 @@ TEST(Paper, CombinedBoxPinsTheCop) {
   scenario.pushes[0].duration = 0.12;
   scenario.control.with = {"zmp"};
   ClosedLoop loop(Humanoid(), scenario);
-  int pinned = 0, beyond = 0;
-  while (loop.time() < 1.3) {
+  int pinned = 0;
+  double highest = 0;
+  while (loop.time() < 3) {
     loop.Tick();
     const double y = loop.observation().cop.y();
-    if (std::abs(y - 0.1) < 1e-3) ++pinned;
-    if (y > 0.101) ++beyond;
+    if (std::abs(y - 0.1) < 0.5e-3) ++pinned;
+    highest = std::max(highest, y);
   }
-  // From 40 ms after the push began, until the test's end.
+  // Half a millimeter is what the plant's contacts give; an arm that hit the
+  // trunk on its way back showed as 9 mm.
   EXPECT_GT(pinned, 150);
-  EXPECT_LT(beyond, 10);
+  EXPECT_LT(highest, 0.101);
 }
 
 TEST(Paper, SinusoidLagsByTheGainsOrNotAtAll) {

@@ -187,10 +187,11 @@ void Controller::Update(const State& state, Command* command) noexcept {
   command->status = report_.status;
 }
 
-// A wrong model lets the robot stand beside its reference: an integral of the
-// error finds what is missing. It waits while the momentum is not free to
-// follow, as in a push; in the plane also while the robot or its reference
-// moves, as a lag is none of the model's faults.
+// A wrong model lets the robot stand beside its reference: an integral of what
+// its gains do not explain, kp e - kd v, finds what is missing; an error on its
+// way back is none of the model's faults. It waits while the momentum is not
+// free to follow, as in a push; in the plane also while the robot or its
+// reference moves, as a lag is none either.
 void Controller::CorrectSag() noexcept {
   const auto momentum = stack_.Find("momentum");
   if (!stack_.settings(*momentum).enabled) {
@@ -202,7 +203,11 @@ void Controller::CorrectSag() noexcept {
   const double height =
       stack_.GetParameter("momentum", "ki_height").value_or(0);
   const bool stands = reference_.v_WG.isZero() && tick_.v_WG.norm() < kStanding;
-  const Eigen::Vector3d e_W = reference_.p_WG - tick_.p_WG;
+  const double kp = stack_.GetParameter("momentum", "kp").value_or(0);
+  const double kd = stack_.GetParameter("momentum", "kd").value_or(0);
+  const double decay = kp > 0 ? kd / kp : 0;
+  const Eigen::Vector3d e_W =
+      reference_.p_WG - tick_.p_WG + decay * (reference_.v_WG - tick_.v_WG);
   auto level = correction_W_.head<2>();
   if (stands) level += options_.dt * place * e_W.head<2>();
   level *= kLargestShift / std::max(level.norm(), kLargestShift);
