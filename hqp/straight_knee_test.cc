@@ -1,0 +1,111 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// The answer is continuous wherever no level changes rank; and what happens
+// where one does, as the leg's does when the knee is straight.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hqp/cascade.h"
+#include "hqp/solver.h"
+
+namespace poise {
+namespace {
+
+// What is left of a leg: two joints, a row above that keeps the trunk upright,
+// and one that lifts it, of which that row leaves sin(knee).
+class StraightKneeTest : public testing::Test {
+ protected:
+  // With a row of damping for each joint beside the one that lifts.
+  Solution Solve(double knee, double damping, double limit) {
+    const std::vector<LevelCapacity> capacity{{0, 2}, {1, 0}, {3, 0}};
+    Hierarchy hierarchy(2, capacity);
+    InequalityBlock limits = hierarchy.AddInequalities(0, 2);
+    limits.C.setIdentity();
+    limits.lower.setConstant(-limit);
+    limits.upper.setConstant(limit);
+    EqualityBlock trunk = hierarchy.AddEqualities(1, 1);
+    trunk.B << 1, 1;
+    EqualityBlock lift = hierarchy.AddEqualities(2, 3);
+    lift.B << 1, 1 - std::sin(knee), 1, 0, 0, 1;
+    lift.b << -1, 0, 0;
+    lift.weight << 1, damping, damping;
+    Solution solution(2, capacity), reference(2, capacity);
+    EXPECT_EQ(Solver(2, capacity).Solve(hierarchy, &solution),
+              Status::kOptimal);
+    EXPECT_EQ(Cascade(2, capacity).Solve(hierarchy, &reference),
+              Status::kOptimal);
+    // Both solve for sin(knee), which is lost to rounding as knee gets small.
+    EXPECT_LE((solution.y - reference.y).norm(),
+              1e-14 * (1 + solution.y.norm()) * (1 + solution.y.norm()));
+    EXPECT_EQ(solution.levels[2].nullity, reference.levels[2].nullity);
+    return solution;
+  }
+
+  // The largest |y(knee + h) - y(knee)| on the way from one knee to another.
+  double LargestStep(double from, double to, int steps, double damping,
+                     double limit) {
+    double largest = 0;
+    Eigen::VectorXd last = Solve(from, damping, limit).y;
+    for (int i = 1; i <= steps; ++i) {
+      const Eigen::VectorXd y =
+          Solve(from + i * (to - from) / steps, damping, limit).y;
+      largest = std::max(largest, (y - last).norm());
+      last = y;
+    }
+    return largest;
+  }
+
+  static constexpr double kUnlimited = 1e12;
+};
+
+// y = (1, -1) / sin(knee), cut off at the limit of 4 where sin(knee) < 1/4: a
+// slope of at most sqrt(2) cos(knee) / sin^2(knee) < 16 sqrt(2).
+TEST_F(StraightKneeTest, IsContinuousWhereNoRankChanges) {
+  for (const int steps : {100, 200, 400}) {
+    EXPECT_LE(LargestStep(1, 0.01, steps, 0, 4),
+              16 * std::sqrt(2) * 0.99 / steps);
+  }
+  EXPECT_NEAR(Solve(1, 0, 4).y[0], 1 / std::sin(1), 1e-13);
+  EXPECT_NEAR(Solve(0.01, 0, 4).y[0], 4, 1e-13);
+}
+
+// On the way to it y has no bound; there, the row counts for nothing, and y is
+// the shortest of all.
+TEST_F(StraightKneeTest, JumpsWhereItsRankChanges) {
+  for (const double knee : {1e-2, 1e-4, 1e-6, 1e-8, -1e-8}) {
+    const Solution near = Solve(knee, 0, kUnlimited);
+    EXPECT_EQ(near.levels[2].nullity, 0);
+    EXPECT_NEAR(near.levels[2].cost, 0, 1e-12);
+    // 1 - sin(knee) is known to eps / 2: knee to that, relative.
+    EXPECT_NEAR(near.y[0] * knee, 1, 1e-15 / std::abs(knee) + knee * knee);
+  }
+  const Solution straight = Solve(0, 0, kUnlimited);
+  EXPECT_EQ(straight.levels[2].nullity, 1);
+  EXPECT_NEAR(straight.levels[2].cost, 0.5, 1e-15);
+  EXPECT_NEAR(straight.y.norm(), 0, 1e-15);
+}
+
+// Limits above bound the jump, to twice themselves.
+TEST_F(StraightKneeTest, JumpsNoFurtherThanItsLimits) {
+  EXPECT_NEAR(Solve(1e-6, 0, 4).y[0], 4, 1e-13);
+  EXPECT_NEAR(Solve(0, 0, 4).y[0], 0, 1e-13);
+  EXPECT_NEAR(Solve(-1e-6, 0, 4).y[0], -4, 1e-13);
+}
+
+// Damping rows of the same level, of weight d, keep its rank: y1 = s / (s^2 +
+// 2 d), whose slope is at most 1 / (2 d).
+TEST_F(StraightKneeTest, DoesNotJumpWithDampingOnItsLevel) {
+  constexpr double kDamping = 0.01;
+  for (const int steps : {100, 200, 400}) {
+    EXPECT_LE(LargestStep(-0.5, 0.5, steps, kDamping, kUnlimited),
+              std::sqrt(2) / (2 * kDamping) / steps);
+  }
+  const double s = std::sin(0.1);
+  EXPECT_NEAR(Solve(0.1, kDamping, kUnlimited).y[0], s / (s * s + 2 * kDamping),
+              1e-13);
+  EXPECT_NEAR(Solve(0, kDamping, kUnlimited).y[0], 0, 1e-13);
+}
+
+}  // namespace
+}  // namespace poise
