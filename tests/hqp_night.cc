@@ -1,0 +1,97 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Draws hierarchies, compares the two solvers and the certificate, and writes
+// each failure, shrunk, as a file that //tools:hqp replays:
+//   bazel run //tests:hqp_night -- --problems 100000 --seed 1 --out DIR
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "tests/util/compare_solvers.h"
+#include "tests/util/shrink_hierarchy.h"
+#include "tools/hqp_file.h"
+#include "tools/user_path.h"
+
+namespace poise {
+namespace {
+
+struct Night {
+  std::uint64_t problems = 100000;
+  std::uint64_t seed = 1;
+  std::string out = ".";
+  double tolerance = 1e-9;
+  RandomHierarchyOptions options;
+};
+
+// What a disagreement is about: its first words, without numbers. A failure
+// shrinks to one of its own kind.
+std::string Kind(const std::string& disagreement) {
+  return disagreement.substr(0, disagreement.find_first_of("0123456789;"));
+}
+
+void Report(const Night& night, std::uint64_t seed,
+            const HierarchyCase& failing) {
+  const std::string found = Disagreement(failing, night.tolerance);
+  const HierarchyCase shrunk =
+      ShrinkHierarchy(failing, [&](const HierarchyCase& each) {
+        return Kind(Disagreement(each, night.tolerance)) == Kind(found);
+      });
+  const std::filesystem::path folder = UserPath(night.out);
+  std::filesystem::create_directories(folder);
+  const auto path = folder / ("hqp_" + std::to_string(seed) + ".json");
+  std::ofstream file(path);
+  if (!(file << WriteHqp(shrunk.hierarchy) << "\n")) {
+    throw std::runtime_error(path.string() + ": cannot be written");
+  }
+  std::cout << "seed " << seed << ": " << found
+            << "\n  shrunk: " << Disagreement(shrunk, night.tolerance)
+            << "\n  bazel run //tools:hqp -- " << path.string() << std::endl;
+}
+
+int Main(int argc, char** argv) {
+  Night night;
+  CLI::App app("Compares the two solvers on random hierarchies.", "hqp_night");
+  app.option_defaults()->always_capture_default();
+  app.add_option("--problems", night.problems, "How many to draw");
+  app.add_option("--seed", night.seed, "Of the first; the next has the next");
+  app.add_option("--out", night.out, "The folder for failures");
+  app.add_option("--tolerance", night.tolerance, "0 makes all rounding fail");
+  app.add_option("--variables", night.options.max_variables, "At most");
+  app.add_option("--levels", night.options.max_levels, "At most");
+  app.add_option("--equalities", night.options.max_equalities,
+                 "Of a level, at most");
+  app.add_option("--inequalities", night.options.max_inequalities,
+                 "Of a level, at most");
+  app.add_option("--degenerate", night.options.degenerate,
+                 "Rows that are zero or depend on others, in percent");
+  app.add_option("--planted", night.options.planted,
+                 "Rows that meet in one point, in percent");
+  app.add_option("--scaled", night.options.scaled,
+                 "Hierarchies of rows from 1e-3 to 1e6, in percent");
+  app.add_option("--selecting", night.options.selecting,
+                 "Hierarchies whose last levels select, in percent");
+  CLI11_PARSE(app, argc, argv);
+  std::uint64_t failures = 0;
+  for (std::uint64_t i = 0; i < night.problems; ++i) {
+    const HierarchyCase drawn =
+        MakeRandomHierarchy(night.seed + i, night.options);
+    if (Disagreement(drawn, night.tolerance).empty()) continue;
+    ++failures;
+    Report(night, night.seed + i, drawn);
+  }
+  std::cout << night.problems << " hierarchies from seed " << night.seed << ": "
+            << failures << " failures\n";
+  return failures == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace poise
+
+int main(int argc, char** argv) {
+  try {
+    return poise::Main(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "hqp_night: " << error.what() << "\n";
+    return 2;
+  }
+}

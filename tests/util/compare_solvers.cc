@@ -1,0 +1,104 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tests/util/compare_solvers.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "hqp/cascade.h"
+#include "hqp/certificate.h"
+#include "hqp/solver.h"
+
+namespace poise {
+namespace {
+
+// Of the rows that make y what it is, each to unit length.
+double ConditionOfActiveRows(const Hierarchy& hierarchy,
+                             const Solution& solution) {
+  Eigen::MatrixXd rows(0, hierarchy.num_variables());
+  const auto add = [&rows](const Eigen::RowVectorXd& row) {
+    if (row.norm() == 0) return;
+    rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+    rows.bottomRows(1) = row.normalized();
+  };
+  for (int k = 0; k < hierarchy.num_levels(); ++k) {
+    for (int i = 0; i < hierarchy.num_equalities(k); ++i) {
+      if (hierarchy.weight(k)[i] > 0) add(hierarchy.B(k).row(i));
+    }
+    for (int i = 0; i < hierarchy.num_inequalities(k); ++i) {
+      if (solution.levels[k].active[i] != Side::kNone) {
+        add(hierarchy.C(k).row(i));
+      }
+    }
+  }
+  if (rows.rows() == 0) return 1;
+  const Eigen::VectorXd sigma =
+      Eigen::JacobiSVD<Eigen::MatrixXd>(rows).singularValues();
+  double smallest = sigma[0];
+  for (const double each : sigma) {
+    if (each > 1e-11 * sigma[0]) smallest = each;  // Else it is dependent.
+  }
+  return sigma[0] / smallest;
+}
+
+// The largest difference of residuals and slacks that count.
+double ResidualDifference(const Hierarchy& hierarchy, int level,
+                          const LevelSolution& a, const LevelSolution& b) {
+  double largest = 0;
+  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+    largest = std::max(
+        largest, std::sqrt(hierarchy.weight(level)[i]) *
+                     std::abs(a.equality_residual[i] - b.equality_residual[i]));
+  }
+  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    largest = std::max(largest, std::abs(a.slack[i] - b.slack[i]));
+  }
+  return largest;
+}
+
+}  // namespace
+
+std::string Disagreement(const HierarchyCase& drawn, double tolerance) {
+  const Hierarchy& hierarchy = drawn.hierarchy;
+  const int n = hierarchy.num_variables();
+  Solution fast(n, drawn.capacity), reference(n, drawn.capacity);
+  Certifier certifier(n, drawn.capacity);
+  std::ostringstream text;
+  if (Cascade(n, drawn.capacity).Solve(hierarchy, &reference) !=
+      Status::kOptimal) {
+    text << "the cascade has no optimum; ";
+  }
+  if (Solver(n, drawn.capacity).Solve(hierarchy, &fast) != Status::kOptimal) {
+    text << "the fast solver has no optimum; ";
+  }
+  const auto judge = [&](const char* what, double error, double allowed) {
+    if (!(error <= allowed)) {
+      text << what << " " << error << " > " << allowed << "; ";
+    }
+  };
+  judge("the cascade's certificate",
+        certifier.Certify(hierarchy, reference).worst(), tolerance);
+  judge("the fast certificate", certifier.Certify(hierarchy, fast).worst(),
+        tolerance);
+  for (int k = 0; k < hierarchy.num_levels(); ++k) {
+    const LevelSolution &a = fast.levels[k], &b = reference.levels[k];
+    const double size = CostSize(hierarchy, k, reference);
+    const std::string of = " on level " + std::to_string(k);
+    judge(("cost" + of).c_str(), std::abs(a.cost - b.cost), tolerance * size);
+    judge(("residual or slack" + of).c_str(),
+          ResidualDifference(hierarchy, k, a, b), tolerance * std::sqrt(size));
+    if (a.nullity != b.nullity) {
+      text << "nullity" << of << " " << a.nullity << ", not " << b.nullity
+           << "; ";
+    }
+  }
+  judge("y", (fast.y - reference.y).norm(),
+        std::max(tolerance, 100 * std::numeric_limits<double>::epsilon() *
+                                ConditionOfActiveRows(hierarchy, reference)) *
+            reference.y.norm());
+  return text.str();
+}
+
+}  // namespace poise

@@ -1,0 +1,96 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tests/util/shrink_hierarchy.h"
+
+#include <gtest/gtest.h>
+
+#include "hqp/solver.h"
+#include "tests/util/compare_solvers.h"
+
+namespace poise {
+namespace {
+
+int NumRows(const Hierarchy& hierarchy) {
+  int rows = 0;
+  for (int k = 0; k < hierarchy.num_levels(); ++k) {
+    rows += hierarchy.num_equalities(k) + hierarchy.num_inequalities(k);
+  }
+  return rows;
+}
+
+// Needs more than one factorisation as soon as one bound is in the way.
+bool NeedsASearch(const HierarchyCase& drawn) {
+  const int n = drawn.hierarchy.num_variables();
+  Solution solution(n, drawn.capacity);
+  return Solver(n, drawn.capacity).Solve(drawn.hierarchy, &solution) !=
+             Status::kOptimal ||
+         solution.iterations > 1;
+}
+
+TEST(ShrinkHierarchy, LeavesOneBoundThatIsInTheWay) {
+  int failures = 0;
+  for (int seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    const HierarchyCase drawn = MakeRandomHierarchy(seed);
+    if (!NeedsASearch(drawn)) continue;
+    ++failures;
+    const HierarchyCase shrunk = ShrinkHierarchy(drawn, NeedsASearch);
+    const Hierarchy& hierarchy = shrunk.hierarchy;
+    EXPECT_TRUE(NeedsASearch(shrunk));
+    EXPECT_EQ(hierarchy.num_variables(), 1);
+    int inequalities = 0;
+    for (int k = 0; k < hierarchy.num_levels(); ++k) {
+      inequalities += hierarchy.num_inequalities(k);
+    }
+    EXPECT_EQ(inequalities, 1);
+    EXPECT_LE(NumRows(hierarchy), 2);  // What goes beyond the bound, at most.
+  }
+  EXPECT_GT(failures, 10);
+}
+
+// What only a weight, a level or a fraction makes fail keeps it.
+TEST(ShrinkHierarchy, LeavesWhatMatters) {
+  const std::vector<LevelCapacity> capacity{{1, 1}, {2, 0}, {1, 0}};
+  HierarchyCase drawn{capacity, Hierarchy(3, capacity)};
+  drawn.hierarchy.AddEqualities(0, 1).B << 1, 2, 3;
+  drawn.hierarchy.AddInequalities(0, 1).C << 1, 0, 0;
+  EqualityBlock middle = drawn.hierarchy.AddEqualities(1, 2);
+  middle.B << 4.25, 5.5, 6.75, 7, 8, 9;
+  middle.b << 0.5, 1.7;
+  middle.weight << 2, 3;
+  drawn.hierarchy.AddEqualities(2, 1).B << 1, 1, 1;
+  const HierarchyCase shrunk =
+      ShrinkHierarchy(drawn, [](const HierarchyCase& each) {
+        const Hierarchy& hierarchy = each.hierarchy;
+        if (hierarchy.num_levels() < 2) return false;
+        for (int i = 0; i < hierarchy.num_equalities(1); ++i) {
+          if (hierarchy.weight(1)[i] == 3 && hierarchy.b(1)[i] > 1.5 &&
+              hierarchy.B(1).row(i).sum() > 10.5) {
+            return true;
+          }
+        }
+        return false;
+      });
+  const Hierarchy& hierarchy = shrunk.hierarchy;
+  ASSERT_EQ(hierarchy.num_levels(), 2);
+  EXPECT_EQ(hierarchy.num_equalities(0), 0);
+  EXPECT_EQ(hierarchy.num_inequalities(0), 0);
+  ASSERT_EQ(hierarchy.num_equalities(1), 1);
+  EXPECT_EQ(hierarchy.b(1)[0], 2);
+  EXPECT_EQ(hierarchy.weight(1)[0], 3);
+  EXPECT_EQ(hierarchy.B(1), Eigen::RowVector2d(7, 8));
+}
+
+TEST(Disagreement, IsWhatAToleranceOfZeroFinds) {
+  int found = 0;
+  for (int seed = 0; seed < 50; ++seed) {
+    RandomHierarchyOptions options;
+    options.scaled = 0;
+    const HierarchyCase drawn = MakeRandomHierarchy(seed, options);
+    EXPECT_EQ(Disagreement(drawn), "") << seed;
+    found += !Disagreement(drawn, 0).empty();
+  }
+  EXPECT_GT(found, 25);
+}
+
+}  // namespace
+}  // namespace poise
