@@ -146,7 +146,7 @@ TEST(DynamicsOracle, TellsAWrongNumber) {
 
 TEST(DynamicsOracle, AgreesOnAllRobots) {
   const auto oracle = SharedData("oracle"), robots = SharedData("robots");
-  if (!oracle || !robots) return;
+  if (!oracle || !robots) GTEST_SKIP() << "the shared oracles are not there";
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(*oracle)) {
     if (entry.path().extension() != ".json") continue;

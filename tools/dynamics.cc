@@ -4,10 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
+#include <iterator>
+#include <string>
 
 #include "dynamics/tree.h"
+#include "robot/finding.h"
 #include "robot/urdf.h"
 #include "tools/dynamics_file.h"
+#include "tools/parse_json.h"
 #include "tools/user_path.h"
 
 namespace poise {
@@ -16,11 +20,7 @@ namespace {
 nlohmann::json ReadJson(const std::filesystem::path& path) {
   std::ifstream file(path);
   if (!file) throw std::invalid_argument("cannot be read");
-  try {
-    return nlohmann::json::parse(file);
-  } catch (const nlohmann::json::exception& error) {
-    throw std::invalid_argument(std::string("not JSON: ") + error.what());
-  }
+  return ParseJson(std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
 int Main(int argc, char** argv) {
@@ -54,7 +54,7 @@ int Main(int argc, char** argv) {
       throw std::invalid_argument(states + ": " + error.what());
     }
   } catch (const std::exception& error) {
-    std::cerr << error.what() << "\n";
+    std::cerr << OneLine(error.what()) << "\n";
     return 2;
   }
   return 0;

@@ -153,6 +153,11 @@ void ComputeState(const Tree& tree, const std::vector<int>& order,
   VectorXd gravity(tree.nv()), tau(tree.nv());
   ComputeBias(tree, motion.q, VectorXd::Zero(tree.nv()), &scratch, gravity);
   ComputeRnea(tree, motion.q, motion.v, motion.vdot, {}, &scratch, tau);
+  if (!(tick.M.allFinite() && tick.N.allFinite() && gravity.allFinite() &&
+        tau.allFinite() && tick.L_G.allFinite() && tick.H_G_bias.allFinite())) {
+    throw std::invalid_argument(
+        where + ": the results are not finite, the numbers must be smaller");
+  }
 
   // From the tree's order to the file's.
   Eigen::PermutationMatrix<Eigen::Dynamic> P(tree.nv());

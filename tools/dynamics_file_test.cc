@@ -140,6 +140,14 @@ TEST(ComputeDynamics, SaysWhatIsWrong) {
   EXPECT_EQ(MessageOf(document), "state 0: there is no 'base_linear_velocity'");
   EXPECT_EQ(MessageOf(MakeDocument(), {"foot"}),
             "state 0: the robot has no link 'foot'");
+  document = MakeDocument();
+  document["states"][0]["qd"] = {1e200, 1e200};
+  EXPECT_EQ(MessageOf(document),
+            "state 0: the results are not finite, the numbers must be smaller");
+  document = MakeDocument();
+  document["states"][0]["base_linear_acceleration"] = {1e308, 1e308, 1e308};
+  EXPECT_EQ(MessageOf(document),
+            "state 0: the results are not finite, the numbers must be smaller");
 }
 
 TEST(FormatDynamics, HasARowForEachJoint) {

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "tools/parse_json.h"
+
 namespace poise {
 namespace {
 
@@ -158,12 +160,7 @@ ordered_json Rows(const Eigen::Map<const RowMajorMatrix>& matrix) {
 }  // namespace
 
 HqpProblem ReadHqp(const std::string& text) {
-  json file;
-  try {
-    file = json::parse(text);
-  } catch (const json::exception& error) {
-    Refuse("not JSON", error.what());
-  }
+  const json file = ParseJson(text);
   if (!file.is_object()) Refuse("file", "must be an object");
   if (file.value("format", json()) != "hqp-1") {
     Refuse("format", "must be \"hqp-1\"");
