@@ -149,12 +149,12 @@ std::string XmlForUrdfdom(tinyxml2::XMLDocument* document) {
 Tree MakeTree(const urdf::ModelInterface& urdf, const UrdfFacts& facts,
               const std::map<std::string, double>& locked) {
   TreeBuilder builder;
-  for (const std::string& name : facts.links) {
+  for (const std::string& name : facts.tree.links) {
     const auto& inertial = urdf.links_.at(name)->inertial;
     builder.AddLink(name,
                     inertial != nullptr ? FromUrdf(*inertial) : Inertia{});
   }
-  for (const std::string& name : facts.joints) {
+  for (const std::string& name : facts.tree.joints) {
     const urdf::Joint& joint = *urdf.joints_.at(name);
     builder.AddJoint({name, FromUrdf(joint), joint.parent_link_name,
                       joint.child_link_name,
@@ -220,7 +220,7 @@ RobotModel ParseUrdf(std::string_view text, const std::string& source,
   AddMimics(urdf, &model);
   for (int i = 0; i < static_cast<int>(model.tree.frames().size()); ++i) {
     const std::string& name = model.tree.frames()[i].name;
-    if (name == facts.base) model.root_frame = i;
+    if (name == facts.tree.base) model.root_frame = i;
     AddShapes(*urdf.links_.at(name), i, &model);
   }
   return model;
@@ -231,7 +231,7 @@ std::map<std::string, double> LoadLinkMasses(
   const auto document = ParseXml(ReadTextFile(file, kMostMib), file.string());
   std::vector<Finding> known;
   std::map<std::string, double> masses;
-  for (const std::string& link : CheckUrdf(document.get(), &known).links) {
+  for (const std::string& link : CheckUrdf(document.get(), &known).tree.links) {
     masses[link] = 0;
   }
   for (const tinyxml2::XMLElement* link =

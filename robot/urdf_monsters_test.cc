@@ -3,6 +3,7 @@
 // Files that are large, deep or broken on purpose: the loader must come to an
 // end with a robot or with one line.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <filesystem>
 #include <fstream>
@@ -174,6 +175,20 @@ TEST(Monsters, RealRobotsLoad) {
     EXPECT_GT(model.tree.num_joints(), 4);
   }
 }
+
+#ifndef __SANITIZE_ADDRESS__  // Which keeps what is freed.
+// Of all tests of this process together.
+class Memory : public testing::Environment {
+  void TearDown() override {
+    rusage usage;
+    ASSERT_EQ(getrusage(RUSAGE_SELF, &usage), 0);
+    EXPECT_LT(usage.ru_maxrss, 1L << 20) << "KiB: more than 1 GiB";
+  }
+};
+
+[[maybe_unused]] const auto* const kMemory =
+    testing::AddGlobalTestEnvironment(new Memory);
+#endif
 
 }  // namespace
 }  // namespace poise

@@ -5,11 +5,15 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "robot/finding.h"
 
 namespace poise {
+
+/// The links or the joints of a URDF, by name.
+using Elements = std::unordered_map<std::string, const tinyxml2::XMLElement*>;
 
 /// An attribute, empty where it is not there.
 std::string Text(const tinyxml2::XMLElement& element, const char* attribute);

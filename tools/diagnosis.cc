@@ -6,13 +6,20 @@
 #include <cmath>
 #include <exception>
 #include <iomanip>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 
 #include "dynamics/tick.h"
+#include "robot/control/command.h"
+#include "robot/control/controller.h"
 #include "robot/control/default_stack.h"
+#include "robot/control/measurement.h"
+#include "robot/control/stack.h"
 #include "robot/control/stand.h"
 #include "robot/control/task_set.h"
+#include "robot/control/tick_report.h"
 #include "robot/limits.h"
 #include "robot/urdf.h"
 #include "tools/parity.h"
@@ -54,15 +61,16 @@ class Doctor {
       : urdf_(urdf), profile_(profile) {}
 
   Diagnosis Examine() {
-    if (const auto model = Load()) {
-      Describe(*model);
-      CheckInertia(*model);
-      if (IsLarge(*model)) {
+    if (const auto whole = Load()) {
+      Describe(*whole);
+      const RobotModel model = LockJoints(*whole);
+      CheckInertia(model);
+      if (IsLarge(model)) {
         Add(Severity::kNote, "robot", "was not stood up",
             "as it has over 100 joints, 1000 links or 10000 shapes");
       } else {
         CheckStanding();
-        if (is_regular_) CheckParity({*model, {}, {}});
+        if (is_regular_) CheckParity({model, {}, {}});
       }
     }
     std::stable_sort(diagnosis_.findings.begin(), diagnosis_.findings.end(),
@@ -109,6 +117,22 @@ class Doctor {
       if (link.empty()) link = frame.name;
       diagnosis_.links.push_back({frame.name, masses[frame.name]});
     }
+  }
+
+  // What the profile leaves of the robot for control, and for M and parity.
+  RobotModel LockJoints(const RobotModel& whole) {
+    std::map<std::string, double> locked;
+    for (const auto& [name, joint] : LockedJoints(whole, profile_)) {
+      locked[name] = joint.value;
+    }
+    if (locked.empty()) return whole;
+    Add(Severity::kNote, "robot",
+        "has " + std::to_string(locked.size()) +
+            " joints locked by the profile",
+        "M, standing and parity are of the " +
+            std::to_string(whole.tree.num_joints() - locked.size()) +
+            " others");
+    return LoadUrdf(urdf_, locked);
   }
 
   // What coordinate i of v moves.
@@ -193,31 +217,40 @@ class Doctor {
     Add(Severity::kNote, "robot", "does not stand", reason);
   }
 
-  // Whether the motors hold the robot up, with the forces of least norm.
+  // Whether there are contact forces with which the motors hold the robot up
+  // where it stands: torque limits come after the posture, and one that is
+  // missed shows what the posture takes.
   void CheckStrength(const Robot& robot) {
+    constexpr double kHeld = 1e-3;    // rad/s² or m/s²: what rounding leaves.
+    constexpr double kMissed = 1e-6;  // Of the limit.
     const Tree& tree = robot.model.tree;
-    const int n = tree.num_joints();
-    std::vector<int> frames;
-    for (const Foot& foot : robot.feet) frames.push_back(foot.frame);
-    Tick tick(tree, frames);
-    ComputeTick(tree, robot.q_nominal, VectorXd::Zero(tree.nv()), &tick);
-    diagnosis_.com_height = tick.p_WG.z();
-    MatrixXd J(6 * frames.size(), tree.nv());
-    for (size_t i = 0; i < frames.size(); ++i) {
-      J.middleRows<6>(6 * i) = tick.frames[i].J_WF_W;
+    Controller controller(robot);
+    Stack& stack = controller.stack();
+    const int limits = stack.Find("torque_limits").value();
+    const int last = stack.settings(stack.Find("posture").value()).rank + 2;
+    if (!stack.SetRank("torque_limits", last - 1) ||
+        !stack.SetRank("force_regularizer", last)) {
+      throw std::logic_error("the stack has no room for two more ranks");
     }
-    const VectorXd lambda =
-        J.leftCols<6>().transpose().completeOrthogonalDecomposition().solve(
-            tick.N.head<6>());
-    const VectorXd tau = tick.N.tail(n) - J.rightCols(n).transpose() * lambda;
-    for (int j = 0; j < n; ++j) {
-      const double effort = robot.model.limits[j].effort;
-      if (std::abs(tau[j]) <= effort || effort == 0) continue;
-      Add(Severity::kWarn, Coordinate(robot.model, j + 6),
-          "needs " + Print(std::abs(tau[j])) + " of " + Print(effort) +
-              (tree.joints()[j].type == JointType::kPrismatic ? " N" : " N m") +
+    const State rest{0, robot.q_nominal, VectorXd::Zero(tree.nv())};
+    Command command{VectorXd::Zero(tree.num_joints())};
+    controller.Start(rest);
+    controller.Update(rest, &command);
+    diagnosis_.com_height = controller.tick().p_WG.z();
+    const TickReport& report = controller.report();
+    for (const ActiveRow& row : report.active) {
+      if (row.task != limits || row.slack <= kMissed) continue;
+      const double effort = robot.model.limits[row.row].effort;
+      Add(Severity::kWarn, Coordinate(robot.model, tree.v_start() + row.row),
+          "needs " + Print(effort * (1 + row.slack)) + " of " + Print(effort) +
+              (tree.joints()[row.row].type == JointType::kPrismatic ? " N"
+                                                                    : " N m") +
               " to stand",
-          "with contact forces of least norm, its posture cannot be held");
+          "its posture cannot be held");
+    }
+    if (!(report.y.head(tree.nv()).lpNorm<Eigen::Infinity>() <= kHeld)) {
+      Add(Severity::kWarn, "robot", "cannot hold its posture",
+          "not with the contact forces that its soles can give");
     }
   }
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "tests/util/shared_data.h"
@@ -70,6 +71,52 @@ TEST(Diagnose, FindsTheHumanoidWell) {
   EXPECT_GT(diagnosis.links.size(), diagnosis.bodies.size());
   // The parity that the plant is asked for.
   EXPECT_LT(diagnosis.parity.value(), 1e-9);
+}
+
+std::string HumanoidText() {
+  std::ifstream file("robot/models/humanoid.urdf");
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(Diagnose, NamesTheMotorThatCannotHoldTheRobot) {
+  std::string text = HumanoidText();
+  // One weak knee does not matter: friction of the feet straightens it.
+  for (const char* knee :
+       {"<joint name=\"l_knee\"", "<joint name=\"r_knee\""}) {
+    const size_t effort = text.find("effort=\"", text.find(knee)) + 8;
+    text.replace(effort, text.find('"', effort) - effort, "2.5");
+  }
+  const Diagnosis diagnosis = Examine(text);
+  EXPECT_EQ(Verdict(diagnosis), "warn");
+  EXPECT_NE(Findings(diagnosis).find("joint 'l_knee': needs "),
+            std::string::npos)
+      << Findings(diagnosis);
+}
+
+TEST(Diagnose, LooksAtWhatTheProfileLeaves) {
+  const std::filesystem::path file =
+      std::filesystem::path(std::getenv("TEST_TMPDIR")) / "locked.yaml";
+  std::ofstream(file) << "locked: {neck_yaw: 0.1, neck_pitch: 0}\n";
+  // A massless head moves nothing, unless it is locked.
+  std::string text = HumanoidText();
+  for (const char* link : {"<link name=\"neck\"", "<link name=\"head\""}) {
+    const size_t start = text.find("<inertial>", text.find(link));
+    text.erase(start, text.find("</inertial>", start) + 11 - start);
+  }
+  const Diagnosis whole = Examine(text);
+  EXPECT_NE(Findings(whole).find("moves no mass"), std::string::npos);
+  EXPECT_FALSE(whole.parity.has_value());
+  const Diagnosis reduced =
+      Diagnose(std::filesystem::path(std::getenv("TEST_TMPDIR")) / "robot.urdf",
+               LoadProfile(file));
+  EXPECT_EQ(Findings(reduced).find("moves no mass"), std::string::npos);
+  EXPECT_NE(Findings(reduced).find("has 2 joints locked by the profile, M, "
+                                   "standing and parity are of the 48 others"),
+            std::string::npos)
+      << Findings(reduced);
+  EXPECT_LT(reduced.parity.value(), 1e-9);
 }
 
 TEST(Diagnose, WarnsOfASingularInertia) {

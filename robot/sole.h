@@ -1,0 +1,53 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "math/pose.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// What of a body may touch the ground, from its collision shapes or, where it
+/// has none that say anything, from its visual ones. Meshes are not opened.
+struct Outline {
+  /// A point of the body, or a ball about it.
+  struct Corner {
+    int frame;  ///< The link, an index into Tree::frames().
+    Eigen::Vector3d p_B;
+    double radius;  ///< m.
+  };
+  std::vector<Corner> corners;
+  std::vector<Eigen::Vector3d> axes_B;  ///< Of the body and of its shapes.
+};
+
+/// The outline of each body of a robot.
+std::vector<Outline> MakeOutlines(const RobotModel& model);
+
+/// A flat underside of a body.
+struct Sole {
+  int frame = 0;  ///< The link, an index into Tree::frames().
+  Eigen::Vector3d normal_B = Eigen::Vector3d::Zero();  ///< Out of the ground.
+  std::vector<Eigen::Vector3d> points_B;               ///< All in one plane.
+  double area = 0;                                     ///< m².
+};
+
+/// The largest flat underside of a body: of all planes normal to one of its axes
+/// or to `up_B`, and within 35 degrees of level. Without points where there is
+/// none.
+Sole FindSole(const Outline& outline, const Eigen::Vector3d& up_B);
+
+/// Where a sole must be whose foot has no shapes to tell: see FindFeet().
+///
+/// @param leg  the length of the leg, m.
+Sole EstimateSole(const RobotModel& model, int body,
+                  const Eigen::Vector3d& up_B, const Eigen::Vector3d& forward_B,
+                  double leg);
+
+/// The frame S in the plane of a sole, below the body's origin: z along the
+/// normal, x forward, along an axis of the foot if one is near.
+Pose MakeSoleAxes(const Sole& sole, const Outline& outline,
+                  const Eigen::Vector3d& forward_B);
+
+}  // namespace poise
