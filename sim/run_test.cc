@@ -177,6 +177,34 @@ TEST(Standing, MeasuredWrenchIsTheCommandedOne) {
   EXPECT_NEAR(sum, Humanoid().model.tree.total_mass() * 9.81, 1e-3);
 }
 
+// The weight goes over the left foot, to the edge that the controller keeps to.
+TEST(Standing, MeasuredCopIsTheCommandedOneUntilItSaturates) {
+  Scenario scenario = Ours("stand", 1.2);
+  scenario.start = {};
+  scenario.com = {{0, 0.13, 0}, Eigen::Vector3d::Zero(), 4};
+  ClosedLoop loop(Humanoid(), scenario);
+  const int nv = Humanoid().model.tree.nv();
+  double least = 1, most = -1, worst = 0;
+  while (loop.time() < 1.2) {
+    loop.Tick();
+    const TickRecord record = loop.record();
+    for (int i = 0; i < 2; ++i) {
+      const auto measured = loop.observation().feet[i].F_Co_C;
+      const auto commanded = record.report.foot_wrench(nv, i);
+      if (commanded[5] < 20) continue;  // A foot that bears next to nothing.
+      const Eigen::Vector2d cop(-commanded[1] / commanded[5],
+                                commanded[0] / commanded[5]);
+      worst = std::max({worst, std::abs(-measured[1] / measured[5] - cop.x()),
+                        std::abs(measured[0] / measured[5] - cop.y())});
+      least = std::min(least, cop.y());
+      most = std::max(most, cop.y());
+    }
+  }
+  EXPECT_LT(worst, 1e-3);  // The bar, m.
+  EXPECT_GT(most, 0.059);  // Of a sole that ends at 0.065 m.
+  EXPECT_LT(least, 0.01);
+}
+
 TEST(Run, SameSeedGivesTheSameBytesInAnyOrderAndInParallel) {
   Scenario scenario = Ours("strong_push", 1.3);
   scenario.sensors.noise = 1;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "robot/finding.h"
 #include "sim/number_field.h"
 #include "sim/yaml_fields.h"
 
@@ -189,8 +190,10 @@ bool IsMultiple(double a, double b) {
 }
 
 // Of numbers that are in their bounds, which cannot be had together.
-void Require(bool holds, const char* wanted) {
-  if (!holds) throw std::invalid_argument(wanted);
+void Require(bool holds, const char* what, double value, const char* wanted) {
+  if (holds) return;
+  throw std::invalid_argument(std::string(what) + " is " + PrintNumber(value) +
+                              ", must be " + wanted);
 }
 
 void RequireFew(const char* list, std::size_t size) {
@@ -226,7 +229,11 @@ Scenario LoadScenario(const std::filesystem::path& file) {
     ReadNumbers(*sensors, &scenario.sensors);
   }
   fields.Finish();
-  Validate(scenario);
+  try {
+    Validate(scenario);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(file.string() + ": " + error.what());
+  }
   return scenario;
 }
 
@@ -250,14 +257,14 @@ void Validate(const Scenario& scenario) {
   RequireFew("pushes", copy.pushes.size());
   RequireFew("stance", copy.stance.size());
   const double step = copy.plant.dt, tick = copy.control.dt;
-  Require(tick > step / 2 && IsMultiple(tick, step),
-          "plant.rate must be a multiple of control.rate");
-  Require(tick < (kMostStepsInATick + 0.5) * step,
-          "plant.rate must be at most 1000 times control.rate");
-  Require(IsMultiple(copy.control.delay, step),
-          "control.delay must be a multiple of the plant's step");
-  Require(copy.duration <= kMostTicks * tick,
-          "duration must be at most 1e8 control ticks");
+  Require(tick > step / 2 && IsMultiple(tick, step), "plant.rate", 1 / step,
+          "a multiple of control.rate");
+  Require(tick < (kMostStepsInATick + 0.5) * step, "plant.rate", 1 / step,
+          "at most 1000 times control.rate");
+  Require(IsMultiple(copy.control.delay, step), "control.delay",
+          copy.control.delay, "a multiple of the plant's step");
+  Require(copy.duration <= kMostTicks * tick, "duration", copy.duration,
+          "at most 1e8 control ticks");
 }
 
 }  // namespace poise

@@ -56,36 +56,8 @@ struct ControlSettings {
   std::vector<std::string> without;  ///< Tasks switched off in it.
 };
 
-/// One experiment, as data: what main() would else hide. As YAML, every key
-/// with what stands where it is left out (SI, rad):
-///
-///     name: strong_push          # the file's
-///     duration: 5
-///     seed: 1
-///     start: {joints: 0, drop: 0, heading: 0}
-///     pushes:                    # none
-///       - link: torso            # the heaviest body outside the legs
-///         point: [0, 0, 0]       # in the link's frame; its center of mass
-///         frame: world           # or link: axes of force and moment
-///         force: [0, 100, 0]     # 0
-///         moment: [0, 0, 0]
-///         profile: box           # or half_sine, impulse
-///         at: 1
-///         duration: 0.15
-///     stance:                    # none; events in the order of time
-///       - {at: 1, shift: left_foot, over: 1.5}  # or middle
-///       - {at: 3, lift: right_foot, height: 0.05}
-///       - {at: 9, put_down: right_foot}
-///     com: {sine: [0, 0, 0], cosine: [0, 0, 0], period: 10}
-///     tasks: {set: default, with: [], without: []}
-///     control: {rate: 1000, delay: 0, friction: 0.5, mass_error: 0,
-///               inscribed: false, feedforward: false, weighted: false,
-///               estimator: false}
-///     plant: {kind: bullet, rate: 1000, friction: 0.8, torque_scale: 1,
-///             roll: 0, pitch: 0, boards: [{center: [0, 0, 0.01],
-///             size: [1, 1, 0.02], yaw: 0}], joint_limits: true,
-///             joint_damping: true, self_collision: true, restitution: 0}
-///     sensors: see SensorSettings
+/// One experiment, as data: what main() would else hide. docs/scenarios.md has
+/// it as YAML, every key with what stands where it is left out.
 struct Scenario {
   std::string name;
   double duration = 5;

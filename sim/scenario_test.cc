@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -34,9 +35,9 @@ std::string Complaint(const std::string& text) {
 }
 
 TEST(Scenario, OursAreReadByName) {
-  for (const char* name :
-       {"stand", "posture_off", "com_sinusoid", "weak_push",
-        "strong_push_without_zmp", "strong_push", "one_leg"}) {
+  for (const char* name : {"stand", "posture_off", "com_sinusoid", "weak_push",
+                           "strong_push_without_zmp", "strong_push", "one_leg",
+                           "slope", "board"}) {
     SCOPED_TRACE(name);
     EXPECT_EQ(LoadScenario("sim/scenarios/" + std::string(name) + ".yaml").name,
               name);
@@ -140,10 +141,68 @@ sensors: {noise: 1, joint_position: 1.1, joint_velocity: 1.2,
   EXPECT_EQ(n.contact_threshold, 2.6);
 }
 
+// The YAML in docs/scenarios.md.
+std::string Documented() {
+  std::ifstream stream("docs/scenarios.md");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string fence = "```yaml\n";
+  const size_t start = text.find(fence) + fence.size();
+  return text.substr(start, text.find("```", start) - start);
+}
+
+TEST(Scenario, DocumentHasEveryKeyWithItsDefault) {
+  const Scenario documented = Read(Documented()), fresh;
+  EXPECT_EQ(documented.duration, fresh.duration);
+  EXPECT_EQ(documented.seed, fresh.seed);
+  EXPECT_EQ(documented.pushes[0].start, Push().start);
+  EXPECT_EQ(documented.pushes[0].duration, Push().duration);
+  EXPECT_EQ(documented.stance[0].over, StanceEvent().over);
+  EXPECT_EQ(documented.stance[1].height, StanceEvent().height);
+  EXPECT_EQ(documented.com.period, fresh.com.period);
+  EXPECT_EQ(documented.control.tasks, fresh.control.tasks);
+  EXPECT_EQ(documented.control.dt, fresh.control.dt);
+  EXPECT_EQ(documented.control.friction, fresh.control.friction);
+  EXPECT_EQ(documented.plant.dt, fresh.plant.dt);
+  EXPECT_EQ(documented.plant.friction, fresh.plant.friction);
+  EXPECT_EQ(documented.plant.torque_scale, fresh.plant.torque_scale);
+  EXPECT_TRUE(documented.plant.joint_limits && documented.plant.joint_damping &&
+              documented.plant.self_collision);
+  EXPECT_EQ(documented.sensors.joint_position, fresh.sensors.joint_position);
+  EXPECT_EQ(documented.sensors.joint_velocity, fresh.sensors.joint_velocity);
+  EXPECT_EQ(documented.sensors.base_orientation,
+            fresh.sensors.base_orientation);
+  EXPECT_EQ(documented.sensors.base_rate, fresh.sensors.base_rate);
+  EXPECT_EQ(documented.sensors.foot_force, fresh.sensors.foot_force);
+  EXPECT_EQ(documented.sensors.foot_moment, fresh.sensors.foot_moment);
+  EXPECT_EQ(documented.sensors.accelerometer, fresh.sensors.accelerometer);
+  EXPECT_EQ(documented.sensors.gyroscope, fresh.sensors.gyroscope);
+  EXPECT_EQ(documented.sensors.contact_threshold,
+            fresh.sensors.contact_threshold);
+  for (const char* wrong :
+       {"?: 0", "start: {?: 0}", "pushes: [{?: 0}]", "stance: [{?: 0}]",
+        "com: {?: 0}", "tasks: {?: 0}", "control: {?: 0}", "plant: {?: 0}",
+        "plant: {boards: [{?: 0}]}", "sensors: {?: 0}"}) {
+    const std::string text = wrong;
+    const size_t at = text.find('?');
+    std::string known =
+        Complaint(text.substr(0, at) + "nonsense" + text.substr(at + 1) + '\n');
+    known = known.substr(known.find("one of ") + 7) + ", ";
+    for (size_t end; (end = known.find(", ")) != std::string::npos;
+         known = known.substr(end + 2)) {
+      const std::string key = known.substr(0, end);
+      EXPECT_NE(Documented().find(key + ":"), std::string::npos)
+          << key << " of " << wrong;
+    }
+  }
+}
+
 TEST(Scenario, BadKeyIsRefusedWithItsLine) {
   EXPECT_EQ(Complaint("duration: 5\nstart:\n  joint: 0.1\n"),
             "trial.yaml:3: key 'joint' is unknown, must be one of joints, "
             "drop, heading");
+  EXPECT_EQ(Complaint("pushes:\n- {link: torso}\n- {forse: [0, 1, 0]}\n"),
+            "trial.yaml:3: key 'forse' is unknown, must be one of link, point, "
+            "frame, profile, force, moment, at, duration");
 }
 
 TEST(Scenario, BadValueIsRefusedWithItsLine) {
@@ -253,19 +312,23 @@ TEST(Scenario, AbsurdNumbersAreRefusedWithTheirLine) {
 }
 
 TEST(Scenario, NumbersThatCannotBeHadTogetherAreRefused) {
-  const std::string multiple = "plant.rate must be a multiple of control.rate";
+  const std::string multiple =
+      "trial.yaml: plant.rate is 1000, must be a multiple of control.rate";
   EXPECT_EQ(Complaint("control: {rate: 300}\n"), multiple);  // 1000 / 300.
   EXPECT_EQ(Complaint("control: {rate: 2000}\n"), multiple);
   EXPECT_EQ(Complaint("control: {rate: 250}\n"), "none");
   const std::string times =
-      "plant.rate must be at most 1000 times control.rate";
+      "trial.yaml: plant.rate is 20000, must be at most 1000 times "
+      "control.rate";
   EXPECT_EQ(Complaint("{control: {rate: 10}, plant: {rate: 10000}}"), "none");
   EXPECT_EQ(Complaint("{control: {rate: 10}, plant: {rate: 20000}}"), times);
   EXPECT_EQ(Complaint("control: {delay: 0.0015}\n"),
-            "control.delay must be a multiple of the plant's step");
+            "trial.yaml: control.delay is 0.0015, must be a multiple of the "
+            "plant's step");
   EXPECT_EQ(Complaint("{duration: 10000, control: {rate: 100000}, "
                       "plant: {rate: 100000}}"),
-            "duration must be at most 1e8 control ticks");
+            "trial.yaml: duration is 10000, must be at most 1e8 control "
+            "ticks");
 }
 
 TEST(Scenario, WhatOptionsChangeIsCheckedToo) {

@@ -25,12 +25,14 @@ YamlFields::YamlFields(const YAML::Node& node, std::string file)
   }
 }
 
-bool YamlFields::Has(const std::string& key) const {
-  return static_cast<bool>(node_[key]);
+bool YamlFields::Has(const std::string& key) {
+  return static_cast<bool>(Find(key));
 }
 
 YAML::Node YamlFields::Find(const std::string& key) {
-  known_.push_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
+    known_.push_back(key);
+  }
   return node_[key];
 }
 
@@ -42,10 +44,7 @@ void YamlFields::Refuse(const std::string& key, const std::string& why) const {
 
 void YamlFields::Read(const std::vector<NumberField>& fields) {
   for (const NumberField& field : fields) {
-    if (!Has(field.key)) {
-      known_.push_back(field.key);
-      continue;
-    }
+    if (!Has(field.key)) continue;
     const std::vector<double> numbers =
         field.size == 1 ? std::vector<double>{Number(field.key, 0)}
                         : Numbers(field.key);

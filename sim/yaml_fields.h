@@ -33,7 +33,7 @@ class YamlFields {
   std::optional<YamlFields> Map(const std::string& key);
   std::vector<YamlFields> Maps(const std::string& key);
 
-  bool Has(const std::string& key) const;
+  bool Has(const std::string& key);
 
   /// Throws if there is a key that was not asked for.
   void Finish() const;

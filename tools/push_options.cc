@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -25,6 +26,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr const char* kRobot = "robot/models/humanoid.urdf";
 constexpr const char* kProfile = "robot/profiles/humanoid.yaml";
+constexpr const char* kScenarios = "sim/scenarios";
 
 // The options that go over a scenario; those not given change nothing.
 struct Overrides {
@@ -161,18 +163,31 @@ void Apply(const Overrides& o, Scenario* scenario) {
   Take(o.delay, &control.delay);
 }
 
+// The names of our scenarios, in alphabetical order.
+std::string ScenarioNames() {
+  std::set<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(kScenarios)) {
+    names.insert(file.path().stem().string());
+  }
+  std::string text;
+  for (const std::string& name : names) {
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text;
+}
+
 // A scenario of ours by name, else a file of the user's.
 Scenario FindScenario(const std::string& name) {
-  const std::filesystem::path ours = "sim/scenarios/" + name + ".yaml";
+  const std::filesystem::path ours =
+      std::filesystem::path(kScenarios) / (name + ".yaml");
   if (name.find('/') == std::string::npos && std::filesystem::exists(ours)) {
     return LoadScenario(ours);
   }
   const std::filesystem::path theirs = UserPath(name);
   if (std::filesystem::is_regular_file(theirs)) return LoadScenario(theirs);
-  throw std::invalid_argument(
-      "scenario '" + name +
-      "' is unknown, must be a file or one of stand, posture_off, "
-      "com_sinusoid, weak_push, strong_push_without_zmp, strong_push, one_leg");
+  throw std::invalid_argument("scenario '" + name +
+                              "' is unknown, must be a file or one of " +
+                              ScenarioNames());
 }
 
 }  // namespace

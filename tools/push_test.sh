@@ -54,8 +54,73 @@ echo "1.3 s: log.csv has $text bytes, log.bin $binary"
 [ "$("$explain" "$TEST_TMPDIR/csv")" = "$("$explain" "$TEST_TMPDIR/binary")" ] ||
   fail "the two logs do not say the same"
 
-code=0
-"$push" --time nan 2> "$TEST_TMPDIR/error" || code=$?
-[ "$code" = 2 ] || fail "exit code $code for --time nan, wanted 2"
-[ "$(cat "$TEST_TMPDIR/error")" = "push: --time: is nan, must be finite" ] ||
-  fail "--time nan says: $(cat "$TEST_TMPDIR/error")"
+# Usage: refuse MESSAGE OPTION...: that PUSH refuses with one line, and code 2.
+refuse() {
+  local message=$1 code=0
+  shift
+  "$push" "$@" > "$TEST_TMPDIR/said" 2> "$TEST_TMPDIR/error" || code=$?
+  [ "$code" = 2 ] || fail "exit code $code for $*, wanted 2"
+  [ "$(cat "$TEST_TMPDIR/error")" = "push: $message" ] ||
+    fail "$* says: $(cat "$TEST_TMPDIR/error")"
+  [ "$(wc -l < "$TEST_TMPDIR/error")" = 1 ] || fail "$* says more than a line"
+  [ ! -s "$TEST_TMPDIR/said" ] || fail "$* is refused, and prints all the same"
+}
+
+# Usage: write NAME LINE...: a file; prints its path.
+write() {
+  local file=$TEST_TMPDIR/$1
+  shift
+  printf '%s\n' "$@" > "$file"
+  echo "$file"
+}
+
+# Usage: refuse_file OPTION MESSAGE NAME LINE...: that what a file holds is
+# refused by its name, MESSAGE going on after it.
+refuse_file() {
+  local option=$1 message=$2 file
+  shift 2
+  file=$(write "$@")
+  refuse "$file$message" "$option" "$file"
+}
+
+scenarios='board, com_sinusoid, one_leg, posture_off, slope, stand,'
+scenarios+=' strong_push, strong_push_without_zmp, weak_push'
+gone=$TEST_TMPDIR/gone.yaml
+refuse "scenario 'shove' is unknown, must be a file or one of $scenarios" \
+  --scenario shove
+refuse "scenario '$gone' is unknown, must be a file or one of $scenarios" \
+  --scenario "$gone"
+refuse_file --scenario ":2: key 'lenght' is unknown, must be one of $(
+  )name, duration, seed, start, pushes, stance, com, tasks, control, plant, $(
+  )sensors" scenario.yaml 'duration: 3' 'lenght: 4'
+refuse_file --scenario ": plant.rate is 300, must be a multiple of $(
+  )control.rate" rate.yaml 'plant: {rate: 300}'
+
+refuse "$gone: cannot be read" --robot "$gone"
+refuse_file --robot ":2: an element is not closed, or by another name" \
+  cut.urdf '<robot name="a">' '  <link name="b">'
+refuse_file --robot ":3: joint 'j': has no <limit>, must have one" \
+  joint.urdf '<robot name="a"><link name="b"/><link name="c"/>' \
+  '<!-- A hinge. -->' \
+  '<joint name="j" type="revolute"><parent link="b"/><child link="c"/></joint>' \
+  '</robot>'
+refuse "$gone: cannot be read" --profile "$gone"
+
+refuse "$gone: cannot be read" --pushes "$gone"
+refuse_file --pushes ":3: key 'forse' is unknown, must be one of link, $(
+  )point, frame, profile, force, moment, at, duration" \
+  pushes.yaml 'pushes:' '  - force: [0, 50, 0]' '    forse: [0, 50, 0]'
+refuse_file --pushes ":2: 'force' is a list, must be a list of numbers" \
+  pushes.yaml 'pushes:' '  - force: [0, fifty, 0]'
+refuse "link 'nose' is unknown, must be a link of robot 'humanoid'" \
+  --pushes "$(write pushes.yaml 'pushes: [{link: nose}]')"
+
+refuse "Could not convert: --force = strong" --force strong
+refuse "--time: is nan, must be finite" --time nan
+refuse "pushes.force is 1e+09, must be -1e+06 to 1e+06 N" --force 1e9
+refuse "direction is 400, must be -360 to 360 deg" --direction 400
+refuse "control.delay is 0.0005, must be a multiple of the plant's step" \
+  --delay 0.0005
+refuse "--plant: mars not in {bullet,mujoco}" --plant mars
+refuse "link 'nose' is unknown, must be a link of robot 'humanoid'" --link nose
+refuse "task set 'none': is neither default, paper, nor a file" --tasks none

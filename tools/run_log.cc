@@ -60,8 +60,11 @@ bool IsPlotted(std::string_view name) {
   for (const char* end : {".contact", ".tilt", ".slide"}) {
     if (EndsWith(name, end)) return true;
   }
-  return name == "base.z" || name == "self_contacts" ||
-         (IsFootWrench(name) && EndsWith(name, ".fz"));
+  if (name == "base.z") return true;
+  for (const char* end : {".fx", ".fy", ".fz"}) {
+    if (IsFootWrench(name) && EndsWith(name, end)) return true;
+  }
+  return false;
 }
 
 bool BelongsTo(Table table, std::string_view name) {
@@ -189,14 +192,14 @@ class Spans {
     return active;
   }
 
-  json StatusToJson() const {
-    json status = json::array();
+  json ToJson() const {
+    json list = json::array();
     for (const auto& [name, spans] : spans_) {
       for (const Span& span : spans) {
-        status.push_back({name, span.from, span.to});
+        list.push_back({name, span.from, span.to});
       }
     }
-    return status;
+    return list;
   }
 
  private:
@@ -208,18 +211,33 @@ class Spans {
   std::map<std::string, std::vector<Span>, std::less<>> spans_;
 };
 
+// Takes the first of what semicolons separate off a cell.
+std::string_view TakeEntry(std::string_view* cell) {
+  const std::string_view entry = cell->substr(0, cell->find(';'));
+  cell->remove_prefix(std::min(cell->size(), entry.size() + 1));
+  return entry;
+}
+
 // "left_foot.cop.x_max=41.2;torque.l_knee.max=3.0"
 void MarkActive(std::string_view cell, long row, double time, double dt,
                 Spans* active) {
   while (!cell.empty()) {
-    const std::string_view entry = cell.substr(0, cell.find(';'));
-    cell.remove_prefix(std::min(cell.size(), entry.size() + 1));
+    const std::string_view entry = TakeEntry(&cell);
     const std::size_t equals = entry.rfind('=');
     if (equals == std::string_view::npos || equals == 0) continue;
     double value = 0;
     std::from_chars(entry.data() + equals + 1, entry.data() + entry.size(),
                     value);
     active->Mark(row, time, dt, entry.substr(0, equals), value);
+  }
+}
+
+// "l_foot|r_foot;l_hand|l_thigh"
+void MarkTouching(std::string_view cell, long row, double time, double dt,
+                  Spans* touching) {
+  while (!cell.empty()) {
+    const std::string_view entry = TakeEntry(&cell);
+    if (!entry.empty()) touching->Mark(row, time, dt, entry, 1);
   }
 }
 
@@ -239,11 +257,12 @@ json ReadRunLog(const std::filesystem::path& file) {
   LogTable torques(Table::kTorques, log, ThinnedTable::Keep::kExtremes,
                    StrideFor(expected, kTorqueRows));
   const long pause = 1 + expected / kSpansPerLog;
-  Spans active(pause), status(pause);
+  Spans active(pause), status(pause), touching(pause);
 
   const auto time_column = log.Find("time");
   const auto active_column = log.Find("active");
   const auto status_column = log.Find("status");
+  const auto touching_column = log.Find("touching");
   json notes = json::array();
   long rows = 0;
   double previous = 0, dt = 0;
@@ -266,6 +285,9 @@ json ReadRunLog(const std::filesystem::path& file) {
     if (status_column && log.cell(*status_column) != "ok") {
       status.Mark(rows, time, dt, log.cell(*status_column), 1);
     }
+    if (touching_column) {
+      MarkTouching(log.cell(*touching_column), rows, time, dt, &touching);
+    }
     ++rows;
   }
   if (log.columns().empty() && !log.cut_short()) {
@@ -282,7 +304,8 @@ json ReadRunLog(const std::filesystem::path& file) {
           {"signals", signals.Finish()},
           {"torques", torques.Finish()},
           {"active", active.ActiveToJson()},
-          {"status", status.StatusToJson()},
+          {"status", status.ToJson()},
+          {"touching", touching.ToJson()},
           {"notes", std::move(notes)}};
 }
 

@@ -16,6 +16,7 @@ namespace poise {
 ///     active   [{name, peak, spans: [[from, to, multiplier], ...]}]: when each
 ///              row of the hierarchy was active, in s, the largest multiplier.
 ///     status   [[status, from, to], ...]: where it was not "ok".
+///     touching [["A|B", from, to], ...]: when two links pressed on each other.
 ///     notes    [sentence, ...]: what is wrong with the log.
 ///
 /// See EncodeChannel() for channels, EncodeFloats() for time. Where plots are

@@ -53,8 +53,21 @@ TEST(RunLog, LeavesOutWhatThePageDoesNotShow) {
               "right_foot.mx[Nm],residual.momentum,self_contacts,status\n"
               "0,1,2,3,4,5,6,ok\n"));
   EXPECT_EQ(Names(log["motion"]), json({"right_foot.mx"}));
-  EXPECT_EQ(Names(log["signals"]),
-            json({"push.fx", "residual.momentum", "self_contacts"}));
+  EXPECT_EQ(Names(log["signals"]), json({"push.fx", "residual.momentum"}));
+}
+
+TEST(RunLog, PlotsAFootsForceInAllThreeAxes) {
+  const json log = ReadRunLog(
+      Written("time[s],paw.fx[N],paw.fy[N],paw.fz[N],paw.mz[Nm],lambda.paw.fy["
+              "N]\n0,1,2,3,4,5\n"));
+  EXPECT_EQ(Names(log["signals"]), json({"paw.fx", "paw.fy", "paw.fz"}));
+}
+
+TEST(RunLog, SaysWhenLinksTouched) {
+  const json log = ReadRunLog(
+      Written("time[s],touching\n0,\n1,a|b\n2,a|b;c|d\n3,c|d\n4,\n"));
+  EXPECT_EQ(log["touching"],
+            json::parse(R"([["a|b", 1.0, 3.0], ["c|d", 2.0, 4.0]])"));
 }
 
 TEST(RunLog, SaysWhenEachConstraintWasActive) {

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kScenarios[] = {
     "stand",       "weak_push",    "strong_push_without_zmp",
     "strong_push", "com_sinusoid", "posture_off",
-    "one_leg"};
+    "one_leg",     "slope",        "board"};
 
 std::string Ending(const poise::Verdict& verdict) {
   if (verdict.recovered) return "recovers";

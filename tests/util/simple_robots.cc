@@ -37,4 +37,25 @@ Robot MakeBall(double radius, double mass) {
   return robot;
 }
 
+Robot MakePendulum() {
+  Inertia M;
+  M.mass = 2;
+  M.p_BoG_B = {0, 0, -0.3};
+  M.I_G_B = 0.01 * Eigen::Matrix3d::Identity();
+  JointSpec hinge;
+  hinge.name = "hinge";
+  hinge.type = JointType::kRevolute;
+  hinge.parent = "base";
+  hinge.child = "rod";
+  hinge.axis_F = Eigen::Vector3d::UnitY();
+  Inertia base;
+  base.mass = 1;
+  base.I_G_B = Eigen::Matrix3d::Identity();
+  return MakeRobot(TreeBuilder()
+                       .AddLink("base", base)
+                       .AddLink("rod", M)
+                       .AddJoint(hinge)
+                       .Build(BaseType::kFixed));
+}
+
 }  // namespace poise

@@ -18,4 +18,8 @@ Robot MakeBlock(const Eigen::Vector3d& size, double mass);
 /// A homogeneous ball as a robot without joints and without feet.
 Robot MakeBall(double radius, double mass);
 
+/// A rod of 2 kg that hangs from a fixed base by a hinge along y: its mass
+/// center 0.3 m below, its moment of inertia about the hinge 0.19 kg m2.
+Robot MakePendulum();
+
 }  // namespace poise

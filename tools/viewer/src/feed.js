@@ -117,6 +117,7 @@ export class Run {
     this.timing = new Table(document.timing);
     this.active = document.log.active ?? [];
     this.status = document.log.status ?? [];
+    this.touching = document.log.touching ?? [];
   }
 
   get start() {

@@ -105,7 +105,8 @@ export class Plot {
         y: {range: (_, low, high) => this.#yRange(low, high)},
       },
       axes: [
-        {...axis, size: 22, gap: 4, space: 56},
+        {...axis, size: 22, gap: 4, space: 56,
+         values: (_, ticks) => ticks.map((t) => `${formatTick(t)} s`)},
         {...axis, size: 46, gap: 6, space: 26,
          values: (_, ticks) => ticks.map(formatTick)},
       ],
@@ -259,6 +260,6 @@ function lastAtOrBefore(times, time) {
 }
 
 function formatTick(value) {
-  if (Math.abs(value) >= 10000) return value.toExponential(0);
+  if (Math.abs(value) >= 1e6) return value.toExponential(0);
   return String(+value.toPrecision(6));
 }

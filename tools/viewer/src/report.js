@@ -11,7 +11,8 @@ import {readPalette, Theme} from './palette.js';
 import {Plot} from './plots.js';
 import {fillPlots, plotsOf, timingPlot, torquePlot} from './specs.js';
 import {Stage} from './stage.js';
-import {activeRows, residualRows, statusRows, Strip, torqueRows} from './strips.js';
+import {activeRows, residualRows, statusRows, Strip, torqueRows,
+  touchingRows} from './strips.js';
 import style from './style.css';
 import {Transport} from './transport.js';
 
@@ -225,8 +226,6 @@ class Page {
       button.range = range;
       bar.append(button);
     }
-    bar.insertAdjacentHTML('beforeend', `<span class="spacer"></span>
-      <span>${this.runs.length > 1 ? 'A and B' : 'time'} in s</span>`);
     this.rangeButtons = [...bar.querySelectorAll('button')];
     this.#markRange();
   }
@@ -301,6 +300,14 @@ class Page {
       const status = statusRows(run);
       if (status.length) {
         strip({title: tagged('Status other than ok', run), rows: status, few: 6});
+      }
+      const touching = touchingRows(run);
+      if (touching.length) {
+        strip({
+          title: tagged('Links that touched', run),
+          hint: 'Each other, not the ground.',
+          rows: touching, few: 6,
+        });
       }
     }
     this.#addTorques(add, strip, tagged);

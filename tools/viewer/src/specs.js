@@ -48,6 +48,12 @@ export function plotsOf(run) {
     {title: 'Foot load', unit: 'N', floor: 0, least: 20,
      hint: 'Normal force of the ground.',
      lines: footLines(run, 'fz')},
+    {title: 'Foot force in y', unit: 'N', least: 10,
+     hint: 'Friction, to the left, in the sole\'s axes.',
+     lines: footLines(run, 'fy')},
+    {title: 'Foot force in x', unit: 'N', least: 10,
+     hint: 'The same, forward.',
+     lines: footLines(run, 'fx')},
     {title: 'CoM in y', unit: 'm', least: 0.002,
      hint: 'With its reference.',
      lines: [
@@ -124,7 +130,7 @@ export function fillPlots(runs, specOf, tableOf) {
       const same = specs[i].lines.filter(
           ({channel}) => channel === line.channel);
       return filled(same.map((each) => ({
-        ...each, color: RUN_COLORS[i], name: `${run.label} ${run.name}`,
+        ...each, color: RUN_COLORS[i], name: run.label,
       })), tableOf(run));
     });
     const references = filled(first.lines.filter(({dash}) => dash),

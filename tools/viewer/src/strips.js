@@ -224,21 +224,34 @@ export function torqueRows(run) {
   return rows;
 }
 
-/** Rows of a strip: where the controller's status was not "ok". */
-export function statusRows(run) {
-  const byStatus = new Map();
-  for (const [status, from, to] of run.status) {
-    if (!byStatus.has(status)) byStatus.set(status, []);
-    byStatus.get(status).push([from, to]);
+// Rows of a strip from [[name, from, to], ...], in the colors of a palette.
+function spanRows(list, colorOf) {
+  const byName = new Map();
+  for (const [name, from, to] of list) {
+    if (!byName.has(name)) byName.set(name, []);
+    byName.get(name).push([from, to]);
   }
-  return [...byStatus].map(([name, spans]) => ({
+  return [...byName].map(([name, spans]) => ({
     name,
     draw(context, toX, y, height, palette) {
-      context.fillStyle = palette[name === 'fail_safe' ? 'push' : 'capture'];
+      context.fillStyle = palette[colorOf(name)];
       for (const [from, to] of spans) {
         context.fillRect(toX(from), y, Math.max(1.5, toX(to) - toX(from)),
                          height);
       }
     },
   }));
+}
+
+/** Rows of a strip: where the controller's status was not "ok". */
+export function statusRows(run) {
+  return spanRows(run.status,
+                  (name) => (name === 'fail_safe' ? 'push' : 'capture'));
+}
+
+/** Rows of a strip: when two links pressed on each other. */
+export function touchingRows(run) {
+  return spanRows(
+      run.touching.map(([pair, ...span]) => [pair.replace('|', ' on '), ...span]),
+      () => 'c3');
 }

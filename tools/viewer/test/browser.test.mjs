@@ -120,7 +120,7 @@ const colorsOf = (page, index = 0) => page.evaluate((i) => {
 const cursors = (page) => page.$$eval('.time-cursor', (all) => all.map(
     (each) => each.getBoundingClientRect().x));
 
-test('a report is one file of less than 5 MB', () => {
+test('a report of ten seconds is one file of less than 5 MB', () => {
   const {size} = statSync(pages.stands);
   assert.ok(size < 5e6, String(size));
 });
@@ -266,6 +266,10 @@ test('two runs stand side by side on one clock',
     const labels = await page.locator('.stage .who b').allTextContents();
     assert.match(labels[0], /without zmp/);
     assert.notEqual(labels[0], labels[1]);
+    // As in the heads above: no name is cut.
+    assert.deepEqual(
+        await page.locator('.plot .legend').first().locator('span')
+            .allTextContents(), ['A', 'B']);
     assert.ok(await colorsOf(page, 0) > 60);
     assert.ok(await colorsOf(page, 1) > 60);
     await page.getByRole('button', {name: 'Side', exact: true}).click();

@@ -41,7 +41,7 @@ done
 node --test test/feed.test.mjs
 
 cd "$OLDPWD"
-"$push" --scenario strong_push --time 4 --no-report --out "$TEST_TMPDIR/stands"
+"$push" --scenario strong_push --time 10 --no-report --out "$TEST_TMPDIR/stands"
 "$push" --scenario strong_push_without_zmp --time 4 --no-report \
   --out "$TEST_TMPDIR/falls" || [ $? = 1 ]
 cd "$work"

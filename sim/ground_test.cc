@@ -1,0 +1,40 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "robot/profile.h"
+#include "sim/run.h"
+#include "sim/scenario.h"
+
+namespace poise {
+namespace {
+
+// One of our scenarios, cut short.
+RunResult RunOurs(const std::string& name, double duration) {
+  Scenario scenario = LoadScenario("sim/scenarios/" + name + ".yaml");
+  scenario.duration = duration;
+  return poise::Run(LoadRobot("robot/models/humanoid.urdf",
+                              LoadProfile("robot/profiles/humanoid.yaml")),
+                    scenario);
+}
+
+TEST(Ground, SlopeIsStoodOnAndPushedDown) {
+  const RunResult result = RunOurs("slope", 3);
+  EXPECT_TRUE(result.verdict.recovered);
+  EXPECT_LT(result.verdict.foot_tilt_peak, 0.02);  // Of the slope.
+  EXPECT_LT(result.verdict.foot_slide_peak, 5e-3);
+  EXPECT_EQ(result.failures, 0);
+}
+
+TEST(Ground, BoardUnderAFootThatIsNotKnownOfIsStoodOn) {
+  const RunResult result = RunOurs("board", 3.5);
+  EXPECT_TRUE(result.verdict.recovered);
+  // Its soles are 0.2 m apart: 10 mm are 0.05 rad.
+  EXPECT_NEAR(result.verdict.foot_tilt_peak, 0.05, 0.03);
+  EXPECT_LT(result.verdict.com_error_final.norm(), 2e-3);
+  EXPECT_EQ(result.failures, 0);
+}
+
+}  // namespace
+}  // namespace poise
