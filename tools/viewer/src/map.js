@@ -3,7 +3,7 @@
 // The push map: the largest impulse that the robot recovers from, by direction,
 // against what a pendulum takes. A click on a point replays it.
 import {escapeHtml, formatNumber} from './format.js';
-import {readPalette, Theme} from './palette.js';
+import {readPalette, Theme, THEME_BUTTON} from './palette.js';
 import style from './style.css';
 import mapStyle from './map.css';
 
@@ -12,11 +12,26 @@ const CENTER = SIZE / 2;
 const RADIUS = 0.39 * SIZE;
 const COLORS = ['c1', 'c2', 'c3', 'c4'];
 
-const nameOfTasks = (tasks) =>
-  tasks === 'default' ? 'Default hierarchy' : tasks
-      .replace(/([+-])/g, ' $1').trim().split(' ')
-      .map((change) => (change[0] === '+' ? 'with ' : 'without ') +
-          change.slice(1)).join(', ');
+/** "-cop-yaw+yaw_constant" as "without cop, yaw, with yaw_constant". */
+function nameOfTasks(tasks) {
+  if (tasks === 'default') return 'Default hierarchy';
+  const changes = tasks.match(/[+-][^+-]+/g) ?? [tasks];
+  const named = (sign, word) => {
+    const names = changes.filter((change) => change[0] === sign)
+        .map((change) => change.slice(1));
+    return names.length ? `${word} ${names.join(', ')}` : '';
+  };
+  return [named('-', 'without'), named('+', 'with')].filter(Boolean).join(', ');
+}
+
+/** How much of the pendulum's impulse a ring reaches: "78–84 % of LIPM". */
+function shareOf(ring) {
+  const shares = ring.map((row) => Math.round(100 * row.eta))
+      .filter(Number.isFinite);
+  if (!shares.length) return '';
+  const [least, most] = [Math.min(...shares), Math.max(...shares)];
+  return `: ${least === most ? least : `${least}–${most}`} % of LIPM`;
+}
 
 /** A round step for about four rings up to a value. */
 function ringStep(value) {
@@ -34,7 +49,9 @@ class PushMap {
     this.durations = [...new Set(rows.map((row) => row.duration_s))]
         .sort((a, b) => a - b);
     this.duration = this.durations[0];
-    this.tasks = [...new Set(rows.map((row) => row.tasks))];
+    // The default first, whatever the order of the file.
+    this.tasks = [...new Set(rows.map((row) => row.tasks))].sort(
+        (a, b) => (b === 'default') - (a === 'default'));
     this.theme = new Theme(() => this.draw());
     root.className = 'push-map';
     root.innerHTML = `<header class="head"><div class="titles">
@@ -42,7 +59,7 @@ class PushMap {
         [robot, scenario, 'largest impulse recovered from, N·s'].filter(Boolean)
             .join(' · '))}</p></div>
       <div class="durations" role="group" aria-label="Duration of the push"></div>
-      <button class="icon theme" aria-label="Light or dark">◐</button></header>
+      ${THEME_BUTTON}</header>
       ${note ? `<div class="notes"><p>${escapeHtml(note)}</p></div>` : ''}
       <div class="map-work"><div class="polar"></div><div class="replay">
       <p class="ask">Choose a point to replay the strongest push that the robot
@@ -129,7 +146,9 @@ class PushMap {
     });
     for (let value = step; value <= outer + 1e-9; value += step) {
       const [x, y] = at(22.5, value);
-      svg += `<text class="scale" x="${x}" y="${y + 4}">${+value.toPrecision(6)}</text>`;
+      const unit = value + step > outer + 1e-9 ? ' N·s' : '';
+      svg += `<text class="scale" x="${x}" y="${y + 4}">${
+        +value.toPrecision(6)}${unit}</text>`;
     }
     rings.forEach((ring, i) => {
       for (const row of ring) {
@@ -146,7 +165,7 @@ class PushMap {
         aria-label="Recovered impulse by direction">${svg}</svg>
       <ul class="map-keys">${this.tasks.map((tasks, i) =>
         `<li><i style="background:${color(i)}"></i>${
-          escapeHtml(nameOfTasks(tasks))}</li>`).join('')}
+          escapeHtml(nameOfTasks(tasks) + shareOf(rings[i]))}</li>`).join('')}
       <li><i class="dash"></i>LIPM</li>
       <li><i class="dash height"></i>LIPM at height</li></ul>`;
     for (const point of this.root.querySelectorAll('.point')) {

@@ -4,6 +4,11 @@ const NAMES = ['ink', 'faint', 'line', 'surface', 'limit', 'c1', 'c2', 'c3',
                'c4', 'com', 'cop', 'capture', 'support', 'force', 'push'];
 const KEY = 'poise-theme';
 
+/** What turns light into dark, and back. */
+export const THEME_BUTTON = `<button class="icon theme"
+  aria-label="Light or dark" title="Light or dark"><svg viewBox="0 0 16 16">
+  <path d="M6.2 1.2a7 7 0 1 0 8.6 8.6A6 6 0 0 1 6.2 1.2z"/></svg></button>`;
+
 /** The colors of style.css as they are now, for what CSS does not draw. */
 export function readPalette() {
   const style = getComputedStyle(document.documentElement);

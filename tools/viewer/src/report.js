@@ -7,7 +7,7 @@ import {readRuns} from './feed.js';
 import {escapeHtml, formatNumber, titleOf} from './format.js';
 import {GroundMap} from './ground_map.js';
 import {moreNumbersHtml, numbersHtml, verdictHtml} from './numbers.js';
-import {readPalette, Theme} from './palette.js';
+import {readPalette, Theme, THEME_BUTTON} from './palette.js';
 import {Plot} from './plots.js';
 import {fillPlots, plotsOf, timingPlot, torquePlot} from './specs.js';
 import {Stage} from './stage.js';
@@ -15,8 +15,6 @@ import {activeRows, residualRows, statusRows, Strip, torqueRows,
   touchingRows} from './strips.js';
 import style from './style.css';
 import {Transport} from './transport.js';
-
-const MOON = '<svg viewBox="0 0 16 16"><path d="M6.2 1.2a7 7 0 1 0 8.6 8.6A6 6 0 0 1 6.2 1.2z"/></svg>';
 
 const KEYS = [
   ['com', 'Center of mass'], ['cop', 'Center of pressure (ZMP)'],
@@ -75,20 +73,18 @@ const tagHtml = ({label}) =>
   `<span class="tag ${label.toLowerCase()}">${label}</span>`;
 
 function headHtml(runs) {
-  const theme = `<button class="icon theme" aria-label="Light or dark"
-    title="Light or dark">${MOON}</button>`;
   if (runs.length === 1) {
     const [run] = runs;
     return `<header class="head"><div class="titles">
       <p class="brand">Poise</p><h1>${escapeHtml(nameOf(run))}</h1>
       <p class="what">${escapeHtml(describe(run))}</p></div>
-      ${verdictHtml(run)}${theme}</header>`;
+      ${verdictHtml(run)}${THEME_BUTTON}</header>`;
   }
   const line = (run) => `<div class="run">${tagHtml(run)}<p class="what">
     <b>${escapeHtml(nameOf(run))}</b>
     ${escapeHtml(describe(run))}</p></div>`;
   return `<header class="head"><div class="titles"><p class="brand">Poise</p>
-    <h1>Two runs on one clock</h1>${runs.map(line).join('')}</div>${theme}</header>`;
+    <h1>Two runs on one clock</h1>${runs.map(line).join('')}</div>${THEME_BUTTON}</header>`;
 }
 
 function notesHtml(runs) {
