@@ -82,9 +82,8 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
     : robot_(Checked(robot)),
       options_(options),
       stack_(MakeDefaultStack(robot_, options.frames)),
-      stance_(static_cast<int>(robot_.feet.size()),
-              robot_.model.tree.total_mass() *
-                  robot_.model.tree.gravity_W().norm()),
+      stance_(robot_.feet, robot_.model.tree.total_mass() *
+                               robot_.model.tree.gravity_W().norm()),
       tick_(robot_.model.tree, TickFrames(robot_, options.frames)),
       contacts_(robot_.feet.size()),
       hierarchy_(NumVariables(robot_), stack_.capacity()),

@@ -45,11 +45,33 @@ Eigen::Matrix3d Upright(const Eigen::Matrix3d& R_WC) {
 
 }  // namespace
 
-Stance::Stance(int num_feet, double weight)
-    : weight_(weight), feet_(num_feet) {}
+Stance::Stance(const std::vector<Foot>& feet, double weight)
+    : weight_(weight), feet_(feet.size()) {
+  for (size_t i = 0; i < feet.size(); ++i) {
+    feet_[i].polygon_C = feet[i].polygon_C;
+  }
+}
 
 void Stance::Reset() noexcept {
-  for (FootState& foot : feet_) foot = FootState();
+  for (FootState& foot : feet_) Enter(&foot, ContactPhase::kDown);
+}
+
+bool Stance::HasLeft(const FootState& foot, const ContactTick& contact,
+                     double ground_z) const noexcept {
+  double height = kInfinity;
+  double rising = 0;
+  const Eigen::RowVector3d z_C = contact.X_WC.R.row(2);
+  for (const Eigen::Vector2d& corner : foot.polygon_C) {
+    const Eigen::Vector3d p_C(corner.x(), corner.y(), 0);
+    const double above = contact.X_WC.p.z() + z_C.dot(p_C) - ground_z;
+    if (above >= height) continue;
+    height = above;
+    const Eigen::Vector3d v_C =
+        contact.V_WC_C.tail<3>() + contact.V_WC_C.head<3>().cross(p_C);
+    rising = z_C.dot(v_C);
+  }
+  return height > 2 * lost_above ||
+         (height > lost_above && rising > kSeparating);
 }
 
 void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {
@@ -117,8 +139,7 @@ void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
 
     // What ends a phase.
     if (is_meant_down(i) && foot.phase != ContactPhase::kLost &&
-        (height > 2 * lost_above ||
-         (height > lost_above && rising > kSeparating))) {
+        HasLeft(foot, contact, reference->ground_z)) {
       TakeOff(&foot, contact, *reference);
       foot.to = -kReach;
       Enter(&foot, ContactPhase::kLost);

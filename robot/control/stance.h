@@ -23,16 +23,20 @@ enum class ContactPhase {
 /// Decides which feet are in contact: on command, a foot's force fades out
 /// before it is lifted, and fades in once it is put down; and, unasked, by
 /// geometry with hysteresis, never by force, as a foot that is not loaded
-/// because it is thought to be in the air would stay so for ever.
+/// because it is thought to be in the air would stay so for ever. A foot rolled
+/// onto its edge is still in contact; one in the air is found again when its
+/// sole lies on the ground.
 class Stance {
  public:
-  double fade_time = 0.3;      ///< For a force to fade in or out, s.
-  double swing_time = 0.8;     ///< To lift a foot, or to put it down, s.
-  double lost_above = 0.01;    ///< Height of a sole that goes up, m.
-  double found_below = 0.004;  ///< Height of a sole that comes down, m.
+  double fade_time = 0.3;   ///< For a force to fade in or out, s.
+  double swing_time = 0.8;  ///< To lift a foot, or to put it down, s.
+  /// Height of a sole's lowest corner, where that goes up, m.
+  double lost_above = 0.01;
+  /// Height of a sole's center, where that comes down, m.
+  double found_below = 0.004;
 
   /// All feet down. weight is the robot's, N.
-  Stance(int num_feet, double weight);
+  Stance(const std::vector<Foot>& feet, double weight);
 
   /// All feet down, at once.
   void Reset() noexcept;
@@ -63,8 +67,11 @@ class Stance {
     double force = 0;         // At the beginning of the phase, N.
     Pose X_WC;                // Where it took off, upright.
     double from = 0, to = 0;  // Heights that it swings between, m.
+    std::vector<Eigen::Vector2d> polygon_C;
   };
 
+  bool HasLeft(const FootState& foot, const ContactTick& contact,
+               double ground_z) const noexcept;
   void Enter(FootState* foot, ContactPhase phase) noexcept;
   void TakeOff(FootState* foot, const ContactTick& contact,
                const Reference& reference) noexcept;

@@ -1,0 +1,128 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/stance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "math/so3.h"
+
+namespace poise {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kHalfWidth = 0.05;
+
+std::vector<Foot> TwoFeet() {
+  std::vector<Foot> feet(2);
+  for (Foot& foot : feet) {
+    foot.half_size = {0.1, kHalfWidth};
+    foot.polygon_C = {{0.1, kHalfWidth},
+                      {-0.1, kHalfWidth},
+                      {-0.1, -kHalfWidth},
+                      {0.1, -kHalfWidth}};
+  }
+  return feet;
+}
+
+class StanceTest : public testing::Test {
+ protected:
+  StanceTest() {
+    for (ContactTick& contact : contacts_) contact.V_WC_C.setZero();
+    reference_.feet.resize(2);
+  }
+
+  void Update() {
+    stance_.Update(1e-3, Eigen::Vector2d(200, 200), &contacts_, &reference_);
+  }
+
+  // Rolls the left foot about its outer edge, whose height is `edge`.
+  void Roll(double angle, double edge) {
+    contacts_[0].X_WC.R = ExpSo3(Vector3d(angle, 0, 0));
+    contacts_[0].X_WC.p.z() = edge + kHalfWidth * std::sin(std::abs(angle));
+  }
+
+  Stance stance_ = Stance(TwoFeet(), 400);
+  std::vector<ContactTick> contacts_ = std::vector<ContactTick>(2);
+  Reference reference_;
+};
+
+// Its center is 3 cm up, and rises.
+TEST_F(StanceTest, KeepsAFootThatStandsOnItsEdge) {
+  for (const double angle : {0.6, -0.6}) {
+    Roll(angle, 0);
+    // It turns about that edge: at the center, up.
+    contacts_[0].V_WC_C.head<3>() = Vector3d(angle, 0, 0);
+    contacts_[0].V_WC_C.tail<3>() =
+        Vector3d(angle, 0, 0)
+            .cross(Vector3d(0, angle > 0 ? kHalfWidth : -kHalfWidth, 0));
+    Update();
+    EXPECT_TRUE(contacts_[0].in_contact) << angle;
+    EXPECT_EQ(stance_.phase(0), ContactPhase::kDown) << angle;
+  }
+}
+
+TEST_F(StanceTest, LosesAFootThatGoesUp) {
+  Roll(0.6, 0.011);
+  Update();
+  EXPECT_TRUE(contacts_[0].in_contact);  // It does not rise.
+  contacts_[0].V_WC_C[5] = 0.03;
+  Update();
+  EXPECT_FALSE(contacts_[0].in_contact);
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kLost);
+  EXPECT_TRUE(stance_.is_meant_down(0));
+  EXPECT_TRUE(contacts_[1].in_contact);
+}
+
+TEST_F(StanceTest, LosesAFootThatIsHighEvenAtRest) {
+  Roll(0.6, 0.021);
+  Update();
+  EXPECT_FALSE(contacts_[0].in_contact);
+}
+
+TEST_F(StanceTest, FindsAFootWhenItsSoleLiesOnTheGround) {
+  Roll(0, 0.03);
+  Update();
+  ASSERT_EQ(stance_.phase(0), ContactPhase::kLost);
+  Roll(0.6, 0);
+  Update();
+  EXPECT_FALSE(contacts_[0].in_contact);
+  Roll(0, 0.003);
+  contacts_[0].V_WC_C[5] = 0.03;
+  Update();
+  EXPECT_FALSE(contacts_[0].in_contact);  // It leaves again.
+  contacts_[0].V_WC_C[5] = -0.03;
+  Update();
+  EXPECT_TRUE(contacts_[0].in_contact);
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
+  EXPECT_LT(contacts_[0].max_normal_force, 10);
+  for (int i = 0; i <= 300; ++i) Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);
+  EXPECT_TRUE(std::isinf(contacts_[0].max_normal_force));
+}
+
+TEST_F(StanceTest, FadesAForceOutBeforeItLiftsAFoot) {
+  stance_.Lift(0, 0.05);
+  Update();
+  EXPECT_TRUE(contacts_[0].in_contact);
+  EXPECT_FALSE(stance_.is_meant_down(0));
+  double last = 200;
+  for (int i = 0; i < 298; ++i) {
+    Update();
+    EXPECT_LT(contacts_[0].max_normal_force, last);
+    last = contacts_[0].max_normal_force;
+  }
+  for (int i = 0; i < 3; ++i) Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kUp);
+  EXPECT_FALSE(contacts_[0].in_contact);
+  for (int i = 0; i <= 800; ++i) Update();
+  EXPECT_NEAR(reference_.feet[0].X_WF.p.z(), 0.05, 1e-12);
+  EXPECT_NEAR(reference_.feet[0].V_WF_W.norm(), 0, 1e-9);
+  stance_.Reset();
+  Update();
+  EXPECT_TRUE(contacts_[0].in_contact);
+}
+
+}  // namespace
+}  // namespace poise
