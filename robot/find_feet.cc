@@ -19,8 +19,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Corners this close to a plane lie in it, m: drawings are rounded to 1 mm.
-constexpr double kFlat = 2e-3;
+// What a sole must reach further to one side to tell where the toes are, m.
+constexpr double kToes = 2e-3;
 // Bodies this close to the lowest one stand on the ground too, m.
 constexpr double kLevel = 0.03;
 // To lay a sole flat anywhere takes six.
@@ -96,9 +96,9 @@ std::string LinkOf(const RobotModel& model, int body) {
 }
 
 // Where a file has only meshes; see FindFeet().
-Sole EstimateSole(const RobotModel& model, int body,
-                  const std::vector<Pose>& X_WB, const Vector3d& forward,
-                  std::vector<Finding>* findings) {
+Sole SoleWithoutShape(const RobotModel& model, int body,
+                      const std::vector<Pose>& X_WB, const Vector3d& forward,
+                      std::vector<Finding>* findings) {
   const std::string link = LinkOf(model, body);
   const int motors = NumMotors(model, body);
   if (motors < kMotorsOfALeg) {
@@ -182,15 +182,16 @@ std::vector<Foot> FindFeet(const RobotModel& model,
     toes += Toes(soles[body], X_WB[body].R.transpose() * forward);
     knees += KneeRange(model, body, X_WB, forward);
   }
-  if (std::abs(toes) > kFlat ? toes < 0 : knees < 0) forward = -forward;
+  if (std::abs(toes) > kToes ? toes < 0 : knees < 0) forward = -forward;
 
   std::vector<Foot> feet;
   const bool first_is_left = across.dot(Vector3d::UnitZ().cross(forward)) < 0;
   for (const bool left : {true, false}) {
     const int body = bodies[left == first_is_left ? 0 : 1];
-    const Sole sole = soles[body].points_B.empty()
-                          ? EstimateSole(model, body, X_WB, forward, findings)
-                          : soles[body];
+    const Sole sole =
+        soles[body].points_B.empty()
+            ? SoleWithoutShape(model, body, X_WB, forward, findings)
+            : soles[body];
     const Pose X_BS =
         MakeSoleAxes(sole, outlines[body], X_WB[body].R.transpose() * forward);
     std::vector<Vector2d> points;

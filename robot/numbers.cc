@@ -1,21 +1,36 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "robot/numbers.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
 namespace poise {
 namespace {
 
-// A number beyond what a double holds, on either side: its exponent says, or
-// the digits before its point do.
+// A number beyond what a double holds, on either side: the power of ten of its
+// first digit that is not 0 says on which.
 double Extreme(std::string_view token) {
   const bool negative = token[0] == '-';
   if (negative) token.remove_prefix(1);
-  const size_t exponent = token.find_first_of("eE");
-  const bool small = exponent < token.size() ? token[exponent + 1] == '-'
-                                             : token.find('.') <= 1;
-  const double size = small ? 0 : std::numeric_limits<double>::infinity();
+  const size_t e = std::min(token.find_first_of("eE"), token.size());
+  const std::string_view digits = token.substr(0, e);
+  const size_t point = std::min(digits.find('.'), digits.size());
+  const size_t first = digits.find_first_of("123456789");
+  // More digits than these are in no file.
+  constexpr long long kMost = 1LL << 60;
+  long long exponent = 0;
+  if (e < token.size()) {
+    std::string_view text = token.substr(e + 1);
+    if (text[0] == '+') text.remove_prefix(1);
+    const auto [stop, error] =
+        std::from_chars(text.data(), text.data() + text.size(), exponent);
+    if (error != std::errc()) exponent = text[0] == '-' ? -kMost : kMost;
+    exponent = std::max(-kMost, std::min(exponent, kMost));
+  }
+  const bool is_small =
+      exponent + static_cast<long long>(point) < static_cast<long long>(first);
+  const double size = is_small ? 0 : std::numeric_limits<double>::infinity();
   return negative ? -size : size;
 }
 

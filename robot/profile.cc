@@ -88,7 +88,7 @@ struct Reader {
     std::map<std::string, JointValue> values;
     for (const auto& item : node) {
       const std::string& name = item.first.Scalar();
-      values[name] = {Number(item.second, thing + "." + name),
+      values[name] = {Number(item.second, thing + ": " + Quoted(name)),
                       item.first.Mark().line + 1};
     }
     return values;
@@ -141,8 +141,8 @@ struct Reader {
       const Eigen::Vector2d half = 0.5 * Numbers<2>(size, thing + ".size");
       ExpectSmall(half, size, thing + ".size");
       if (!(half.minCoeff() > 0)) {
-        Refuse(size, thing + ".size is [" + size[0].Scalar() + ", " +
-                         size[1].Scalar() + "], must be positive");
+        Refuse(size, thing + ".size is [" + PrintNumber(2 * half.x()) + ", " +
+                         PrintNumber(2 * half.y()) + "], must be positive");
       }
       for (const double x : {-1, 1}) {
         for (const double y : {-1, 1}) {

@@ -104,16 +104,16 @@ TEST(LoadProfile, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(Refusal(kFeet + "mimic: maybe"),
             "4: mimic is 'maybe', must be free, coupled or locked");
   EXPECT_EQ(Refusal(kFeet + "locked:\n  neck_yaw: a"),
-            "5: locked.neck_yaw is 'a', must be a finite number");
+            "5: locked: 'neck_yaw' is 'a', must be a finite number");
   EXPECT_EQ(Refusal(kFeet + "locked:\n  neck_yaw: 1e7"),
-            "5: locked.neck_yaw is '1e7', must be within 1e6");
+            "5: locked: 'neck_yaw' is '1e7', must be within 1e6");
   EXPECT_EQ(Refusal(kFeet + "locked:\n  neck_yaw: 9"),
             "5: locked: 'neck_yaw' is at 9, must be inside its limits, -1.4 "
             "to 1.4");
   EXPECT_EQ(Refusal(kFeet + "locked:\n  neck: 0"),
             "5: locked: the robot has no moving joint 'neck'");
   EXPECT_EQ(Refusal(kFeet + "posture:\n  joints:\n    l_knee: .nan"),
-            "6: posture.joints.l_knee is '.nan', must be a finite number");
+            "6: posture.joints: 'l_knee' is '.nan', must be a finite number");
   EXPECT_EQ(Refusal(kFeet + "posture:\n  joints: {no_joint: 0}"),
             "5: posture.joints: the robot has no moving joint 'no_joint'");
   EXPECT_EQ(Refusal(kFeet + "posture:\n  joints: {neck_yaw: 9}"),
@@ -134,9 +134,10 @@ TEST(LoadProfile, NamesTheFootThatIsNone) {
   EXPECT_EQ(Refusal(LeftFoot("frame: r_foot, size: [0.2, 0.1]")),
             "3: feet.right_foot: no joint moves it against left_foot, must be "
             "another foot");
-  EXPECT_EQ(Refusal("feet:\n  left_foot: {frame: r_sole, size: [0.2, 0.1]}\n"
-                    "  right_foot: {frame: l_sole, size: [0.2, 0.1]}\n"),
-            "2: feet: left_foot is to the right of right_foot");
+  EXPECT_EQ(
+      Refusal("feet:\n  left_foot: {frame: r_sole, size: [0.2, 0.1]}\n"
+              "  right_foot: {frame: l_sole, size: [0.2, 0.1]}\n"),
+      "2: feet: left_foot is to the right of right_foot, as their x axes say");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [1, 0]")),
             "2: feet.left_foot.size is [1, 0], must be positive");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [a, 0]")),
@@ -239,7 +240,8 @@ TEST(LoadRobot, KnowsLeftFromRightAndWhereTheWeightIs) {
   Robot robot = LoadRobot(kUrdf, LoadProfile("robot/profiles/humanoid.yaml"));
   EXPECT_EQ(WhyNotStanding(robot), "");
   std::swap(robot.feet[0], robot.feet[1]);
-  EXPECT_EQ(WhyNotStanding(robot), "left_foot is to the right of right_foot");
+  EXPECT_EQ(WhyNotStanding(robot),
+            "left_foot is to the right of right_foot, as their x axes say");
   std::swap(robot.feet[0], robot.feet[1]);
   // The soles behind the center of mass.
   for (Foot& foot : robot.feet) {

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "math/rpy.h"
 
@@ -42,6 +43,16 @@ std::string Name(const std::string& name) {
   return emitter.c_str();
 }
 
+// "NAME: value", as a line or, as YAML asks where a name is very long, as two.
+void WriteEntry(const std::string& indent, const std::string& name,
+                double value, std::ostream* stream) {
+  constexpr size_t kLongest = 1000;
+  const std::string key = Name(name);
+  const bool is_long = key.size() > kLongest;
+  *stream << indent << (is_long ? "? " : "") << key
+          << (is_long ? "\n" + indent : "") << ": " << Print(value) << "\n";
+}
+
 void WriteFeet(const Robot& robot, std::ostream* stream) {
   *stream << "# The soles: the pose of the contact frame in a link, z out of\n"
              "# the ground, x forward, and the corners in it, m and rad.\n"
@@ -67,15 +78,15 @@ void WritePosture(const Robot& robot, const Profile& profile,
   *stream << "\n# The nominal posture: on the ground, the middle between the "
              "soles at the\n# origin. Joints that are not named rest at 0 or "
              "their nearest limit.\nposture:\n  found: "
-          << Name(profile.posture_found.empty()
-                      ? "by standing up, see robot/control/stand.h"
-                      : profile.posture_found)
+          << Name(profile.base_xyz && !profile.posture_found.empty()
+                      ? profile.posture_found
+                      : "by standing up, see robot/control/stand.h")
           << "\n  base: {xyz: " << PrintAll(xyz)
           << ", rpy: " << PrintAll(RpyFromMatrix(base.toRotationMatrix()))
           << "}\n  joints:\n";
   for (int j = 0; j < tree.num_joints(); ++j) {
-    *stream << "    " << Name(tree.joints()[j].name) << ": "
-            << Print(robot.q_nominal[tree.q_start() + j]) << "\n";
+    WriteEntry("    ", tree.joints()[j].name,
+               robot.q_nominal[tree.q_start() + j], stream);
   }
 }
 
@@ -89,7 +100,7 @@ void WriteProfile(const Robot& robot, const Profile& profile,
   if (!profile.locked.empty()) {
     *stream << "\n# The joints that the model does without.\nlocked:\n";
     for (const auto& [name, joint] : profile.locked) {
-      *stream << "  " << Name(name) << ": " << Print(joint.value) << "\n";
+      WriteEntry("  ", name, joint.value, stream);
     }
   }
   if (profile.mimic != MimicPolicy::kFree) {
@@ -108,6 +119,11 @@ void WriteProfile(const Robot& robot, const Profile& profile,
 
 void SaveProfile(const Robot& robot, const Profile& profile,
                  const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::equivalent(file, profile.file, error)) {
+    throw std::invalid_argument(
+        file.string() + ": is the profile that was read, must be another file");
+  }
   std::ofstream stream(file);
   WriteProfile(robot, profile, &stream);
   if (!stream.flush()) {

@@ -55,7 +55,7 @@ std::string WhyNoPairOfFeet(const Robot& robot) {
            "ground";
   }
   if (!((X_WL.p - X_WR.p).dot(X_WL.R.col(1) + X_WR.R.col(1)) > 0)) {
-    return "left_foot is to the right of right_foot";
+    return "left_foot is to the right of right_foot, as their x axes say";
   }
   return "";
 }

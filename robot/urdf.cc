@@ -17,7 +17,8 @@
 namespace poise {
 namespace {
 
-constexpr size_t kMostMib = 256;
+// With what 16 MiB of markup take, less than 1 GiB of memory.
+constexpr size_t kMostMib = 112;
 
 Eigen::Vector3d FromUrdf(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "robot/urdf_xml.h"
 
+#include <string_view>
+
 #include "robot/numbers.h"
 
 namespace poise {
@@ -38,7 +40,9 @@ void Critic::Add(Severity severity, const XMLElement& element, std::string what,
        findings_->back().severity == Severity::kReject)) {
     return;
   }
-  std::string where = std::string("<") + element.Name() + ">";
+  constexpr size_t kLongest = 60;
+  std::string where =
+      "<" + OneLine(std::string_view(element.Name()).substr(0, kLongest)) + ">";
   const tinyxml2::XMLNode* robot = element.GetDocument()->RootElement();
   const tinyxml2::XMLNode* top = &element;  // To be the link or joint.
   while (top != robot && top->Parent() != robot) top = top->Parent();

@@ -2,6 +2,8 @@
 #include "robot/xml_file.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <iterator>
 #include <set>
 
@@ -15,6 +17,18 @@ namespace {
 constexpr size_t kMostMarkup = size_t{16} << 20;
 // It compares each attribute of an element with all before it.
 constexpr size_t kMostAttributes = 100;
+
+// Whether "65" or "x41" is the number of a character that XML has.
+bool IsCharacter(std::string_view number) {
+  const int base = number.substr(0, 1) == "x" ? 16 : 10;
+  if (base == 16) number.remove_prefix(1);
+  uint32_t c = 0;
+  const char* end = number.data() + number.size();
+  const auto [stop, error] = std::from_chars(number.data(), end, c, base);
+  if (error != std::errc() || stop != end) return false;
+  return c == '\t' || c == '\n' || c == '\r' || (c >= 0x20 && c < 0xd800) ||
+         (c >= 0xe000 && c <= 0x10ffff && c != 0xfffe && c != 0xffff);
+}
 
 // The text, and where in it we are.
 class Scanner {
@@ -36,19 +50,6 @@ class Scanner {
       markup += is_comment ? std::string_view("<!---->").size() : at - start;
       if (markup > kMostMarkup) {
         Refuse(start, "has more than 16 MiB beside comments, must have less");
-      }
-    }
-  }
-
-  // TinyXML-2 ends a value there.
-  void RefuseZeros() const {
-    for (size_t at = text_.find("&#"); at < text_.size();
-         at = text_.find("&#", at + 2)) {
-      size_t digits = at + 2;
-      if (text_.substr(digits, 1) == "x") ++digits;
-      const size_t end = text_.find_first_not_of('0', digits);
-      if (end > digits && end < text_.size() && text_[end] == ';') {
-        Refuse(at, "has the character &#0;, which no XML has");
       }
     }
   }
@@ -119,12 +120,16 @@ class Scanner {
       const std::string_view name = rest.substr(0, rest.find(';'));
       constexpr std::string_view kEntities[] = {"amp", "lt", "gt", "quot",
                                                 "apos"};
-      const bool is_known =
-          name.size() < rest.size() && !name.empty() &&
-          (name[0] == '#' ||
-           std::find(std::begin(kEntities), std::end(kEntities), name) !=
-               std::end(kEntities));
-      if (!is_known) Refuse(i, "a value has &, must be &amp;");
+      const bool is_closed = name.size() < rest.size();
+      if (is_closed && name.substr(0, 1) == "#") {
+        if (IsCharacter(name.substr(1))) continue;
+        Refuse(i, "a value has a character that no XML has, " +
+                      Quoted("&" + std::string(name) + ";"));
+      }
+      if (!is_closed || std::find(std::begin(kEntities), std::end(kEntities),
+                                  name) == std::end(kEntities)) {
+        Refuse(i, "a value has &, must be &amp;");
+      }
     }
   }
 
@@ -161,7 +166,7 @@ std::string Explain(const tinyxml2::XMLDocument& document) {
     case tinyxml2::XML_ERROR_PARSING_TEXT:
       return "is not XML: there is text outside the root element";
     case tinyxml2::XML_ERROR_PARSING_DECLARATION:
-      return "is not XML: the <?xml ...?> must come before all else";
+      return "has a <?...?> that is not at its very start";
     case tinyxml2::XML_ERROR_PARSING_ELEMENT:
       return "is not XML: an element is malformed";
     default:
@@ -174,9 +179,7 @@ std::string Explain(const tinyxml2::XMLDocument& document) {
 std::unique_ptr<tinyxml2::XMLDocument> ParseXml(std::string_view text,
                                                 const std::string& source) {
   ExpectText(text, source);
-  Scanner scanner(text, source);
-  scanner.Scan();
-  scanner.RefuseZeros();
+  Scanner(text, source).Scan();
   auto document = std::make_unique<tinyxml2::XMLDocument>();
   if (document->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     throw Refusal(source, document->ErrorLineNum(), Explain(*document));

@@ -5,6 +5,7 @@
 #include <yaml-cpp/eventhandler.h>
 
 #include <cmath>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <vector>
@@ -28,9 +29,9 @@ class Checker : public YAML::EventHandler {
 
   // After all else.
   void RefuseMissingValues() const {
-    if (missing_.empty()) return;
-    Refuse(missing_[0].key_mark,
-           "key " + Quoted(missing_[0].key) + " has no value, must have one");
+    if (!missing_) return;
+    Refuse(missing_->mark,
+           "key " + Quoted(missing_->name) + " has no value, must have one");
   }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
@@ -38,10 +39,11 @@ class Checker : public YAML::EventHandler {
   }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
-    if (!open_.empty() && open_.back().is_map && !open_.back().key_is_next) {
+    if (!missing_ && !open_.empty() && open_.back().is_map &&
+        !open_.back().key_is_next) {
       // The mark of nothing is somewhere after its key; and a file that is cut
       // off has a worse fault.
-      missing_.push_back(open_.back());
+      missing_ = open_.back().key;
     }
     AddNode(mark, nullptr);
   }
@@ -56,24 +58,27 @@ class Checker : public YAML::EventHandler {
                        YAML::anchor_t /*anchor*/,
                        YAML::EmitterStyle::value /*style*/) override {
     AddNode(mark, nullptr);
-    open_.push_back({false, false, {}, {}, {}});
+    open_.push_back({false, false, {}, {}});
   }
   void OnSequenceEnd() override { open_.pop_back(); }
   void OnMapStart(const YAML::Mark& mark, const std::string& /*tag*/,
                   YAML::anchor_t /*anchor*/,
                   YAML::EmitterStyle::value /*style*/) override {
     AddNode(mark, nullptr);
-    open_.push_back({true, true, {}, {}, {}});
+    open_.push_back({true, true, {}, {}});
   }
   void OnMapEnd() override { open_.pop_back(); }
 
  private:
+  struct Key {
+    std::string name;
+    YAML::Mark mark;
+  };
   struct Collection {
     bool is_map;
     bool key_is_next;
     std::set<std::string> keys;
-    std::string key;  // The last one.
-    YAML::Mark key_mark;
+    Key key;  // The last one.
   };
 
   [[noreturn]] void Refuse(const YAML::Mark& mark,
@@ -91,14 +96,13 @@ class Checker : public YAML::EventHandler {
       if (!map.keys.insert(*scalar).second) {
         Refuse(mark, "key " + Quoted(*scalar) + " is there twice");
       }
-      map.key = *scalar;
-      map.key_mark = mark;
+      map.key = {*scalar, mark};
     }
     map.key_is_next = !map.key_is_next;
   }
 
   const std::string& source_;
-  std::vector<Collection> missing_;  // Values in these.
+  std::optional<Key> missing_;  // The first without a value.
   int documents_ = 0;
   std::vector<Collection> open_;
 };

@@ -10,8 +10,8 @@
 namespace poise {
 
 /// Reads a YAML file that people write by hand, up to 1 MiB: one document, each
-/// key a word that its map has once and with a value, no aliases. Throws Refusal, with the line
-/// of what is otherwise.
+/// key a word that its map has once and with a value, no aliases. Throws
+/// Refusal, with the line of what is otherwise.
 YAML::Node LoadYaml(const std::filesystem::path& file);
 
 /// The same from a text.

@@ -8,16 +8,21 @@ namespace poise {
 
 void Judge::Look(const Observation& now) {
   // Written so that a state that is no number counts as fallen.
-  down_ = down_ || !(now.base_height >= kLowestBase * standing_height_ &&
-                     now.base_tilt <= kLargestTilt);
-  bool feet_lost = false;
+  const bool is_low = !(now.base_height >= kLowestBase * standing_height_);
+  const bool is_tilted = !(now.base_tilt <= kLargestTilt);
+  down_ = down_ || is_low || is_tilted;
+  if (is_low) Fall(now.time, "the base sank below 60 % of its height");
+  if (is_tilted) Fall(now.time, "the base tilted over 60 degrees");
   for (const FootObservation& foot : now.feet) {
     verdict_.foot_tilt_peak = std::max(verdict_.foot_tilt_peak, foot.tilt);
     verdict_.foot_slide_peak = std::max(verdict_.foot_slide_peak, foot.slide);
-    feet_lost =
-        feet_lost || foot.tilt > kLargestFootTilt || foot.slide > kLargestSlide;
+    if (foot.tilt > kLargestFootTilt) {
+      Fall(now.time, "a foot tilted over 0.1 rad");
+    }
+    if (foot.slide > kLargestSlide) {
+      Fall(now.time, "a foot slid over 30 mm");
+    }
   }
-  if ((down_ || feet_lost) && !verdict_.fell_at) verdict_.fell_at = now.time;
 
   const Eigen::Vector3d error = now.com - now.com_ref;
   verdict_.com_error_peak = verdict_.com_error_peak.cwiseMax(error.cwiseAbs());
@@ -27,6 +32,12 @@ void Judge::Look(const Observation& now) {
   }
   last_errors_.push_back({now.time, error});
   while (last_errors_.front().time < now.time - kEnd) last_errors_.pop_front();
+}
+
+void Judge::Fall(double time, const char* how) {
+  if (verdict_.fell_at) return;
+  verdict_.fell_at = time;
+  verdict_.fell_by = how;
 }
 
 Verdict Judge::Conclude() const {

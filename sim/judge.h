@@ -14,6 +14,7 @@ struct Verdict {
   bool recovered = false;
   /// When it first became not recovered; nothing where it did so at the end.
   std::optional<double> fell_at;
+  const char* fell_by = "";  ///< What it did then, in words.
   Eigen::Vector3d com_error_peak = Eigen::Vector3d::Zero();   ///< m.
   Eigen::Vector3d com_error_final = Eigen::Vector3d::Zero();  ///< Signed, m.
   Eigen::Vector2d cop_peak = Eigen::Vector2d::Zero();         ///< m.
@@ -46,6 +47,8 @@ class Judge {
   Verdict Conclude() const;
 
  private:
+  void Fall(double time, const char* how);
+
   struct ComError {
     double time;
     Eigen::Vector3d error;

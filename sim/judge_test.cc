@@ -53,6 +53,7 @@ TEST(Judge, LowBaseIsAFall) {
   const Verdict verdict = Once([](auto* now) { now->base_height = 0.599; });
   EXPECT_FALSE(verdict.recovered);
   EXPECT_EQ(*verdict.fell_at, 1);
+  EXPECT_STREQ(verdict.fell_by, "the base sank below 60 % of its height");
 }
 
 TEST(Judge, TiltedBaseIsAFall) {
@@ -72,6 +73,7 @@ TEST(Judge, RolledOrSlidFootIsAFallThatIsNotTheEnd) {
   const Verdict tilted = Once([](auto* now) { now->feet[1].tilt = 0.101; });
   EXPECT_FALSE(tilted.recovered);
   EXPECT_EQ(*tilted.fell_at, 1);
+  EXPECT_STREQ(tilted.fell_by, "a foot tilted over 0.1 rad");
   EXPECT_EQ(tilted.foot_tilt_peak, 0.101);
   const Verdict slid = Once([](auto* now) { now->feet[0].slide = 0.0301; });
   EXPECT_FALSE(slid.recovered);

@@ -30,8 +30,13 @@ void RequireFinite(const char* what, const Eigen::Vector3d& values) {
 
 }  // namespace
 
-double ProfileIntegral(const Push& push) {
-  return push.duration * IntegralTo(push.profile, 1);
+double ProfileIntegral(const Push& push, double until) {
+  const double time = until - push.start;
+  if (!(time > 0)) return 0;
+  const bool is_whole =
+      push.profile == PushProfile::kImpulse || time >= push.duration;
+  return push.duration *
+         IntegralTo(push.profile, is_whole ? 1 : time / push.duration);
 }
 
 double MeanOfProfile(const Push& push, double time, double dt) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -36,8 +37,10 @@ struct Push {
 /// dt, so that the impulse does not depend on the step.
 double MeanOfProfile(const Push& push, double time, double dt);
 
-/// The integral of a push's profile: its impulse is this times its force, s.
-double ProfileIntegral(const Push& push);
+/// The integral of a push's profile up to a time, s: its impulse, until then, is
+/// this times its force.
+double ProfileIntegral(const Push& push,
+                       double until = std::numeric_limits<double>::infinity());
 
 /// A push on a robot, its link looked up.
 class PushOnRobot {

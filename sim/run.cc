@@ -51,7 +51,8 @@ double TorqueViolation(const RobotModel& model, double scale,
 void MeasurePushes(const Robot& robot, const Scenario& scenario,
                    const Eigen::VectorXd& q_start, RunResult* result) {
   for (const Push& push : scenario.pushes) {
-    const double impulse = ProfileIntegral(push) * push.force.norm();
+    const double impulse =
+        ProfileIntegral(push, scenario.duration) * push.force.norm();
     if (impulse <= result->impulse_Ns) continue;
     result->impulse_Ns = impulse;
     result->push_duration = push.duration;

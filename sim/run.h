@@ -36,8 +36,8 @@ struct RunResult {
   double joint_limit_violation_peak = 0;   ///< rad or m.
   double torque_limit_violation_peak = 0;  ///< N m or N.
   int self_contact_ticks = 0;
-  double impulse_Ns = 0;               ///< Of the largest push.
-  double push_duration = 0;            ///< Of the largest push, s.
+  double impulse_Ns = 0;     ///< Of the largest push, within the duration.
+  double push_duration = 0;  ///< Of the largest push, s.
   std::optional<Yardstick> yardstick;  ///< In that push's direction.
   double wall_seconds = 0;
   std::string log_sha256;  ///< Empty if nothing was recorded.

@@ -1,11 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "sim/summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <vector>
 
+#include "robot/finding.h"
 #include "sim/push.h"
 
 namespace poise {
@@ -77,6 +79,7 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
                    {"without", control.without}};
   json["recovered"] = verdict.recovered;
   json["fell_at"] = verdict.fell_at ? Json(*verdict.fell_at) : Json(nullptr);
+  json["fell_by"] = verdict.fell_by;
   json["interrupted"] = result.interrupted;
   json["com_error_peak"] = Numbers(verdict.com_error_peak);
   json["com_error_final"] = Numbers(verdict.com_error_final);
@@ -117,23 +120,36 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
   if (verdict.recovered) {
     table += "recovered";
   } else if (verdict.fell_at) {
-    std::snprintf(text, sizeof(text), "fell at %.3f s", *verdict.fell_at);
+    std::snprintf(text, sizeof(text), "fell at %.3f s: %s", *verdict.fell_at,
+                  verdict.fell_by);
     table += text;
   } else {
     table += "did not come back";
   }
   table += result.interrupted ? " (interrupted)\n\n" : "\n\n";
-  table += Line("robot", "%s, %d joints, %.1f kg", robot.model.name.c_str(),
-                robot.model.tree.num_joints(), robot.model.tree.total_mass());
+  table +=
+      Line("robot", "%s, %d joints, %.1f kg", OneLine(robot.model.name).c_str(),
+           robot.model.tree.num_joints(), robot.model.tree.total_mass());
   table +=
       Line("simulated", "%.2f s in %s, control at %.0f Hz", result.duration,
            NameOf(scenario.plant_kind), 1 / scenario.control.dt);
   if (result.impulse_Ns > 0) {
-    table += Line("push", "%.2f N s over %.3f s", result.impulse_Ns,
-                  result.push_duration);
+    const PushOnRobot push(robot, scenario.pushes[0]);
+    const Eigen::Vector3d& force = scenario.pushes[0].force;
+    constexpr double kDegree = M_PI / 180;
+    table += Line("push", "%.2f N s over %.3f s: %.0f N at %.0f deg on %s",
+                  result.impulse_Ns, result.push_duration, force.norm(),
+                  std::atan2(force.y(), force.x()) / kDegree,
+                  OneLine(LinkName(robot, push)).c_str());
+  }
+  const bool is_late = std::all_of(
+      scenario.pushes.begin(), scenario.pushes.end(),
+      [&](const Push& push) { return push.start >= scenario.duration; });
+  if (is_late && !scenario.pushes.empty()) {
+    table += Line("push", "%s", "none before the end of the run");
   }
   if (result.yardstick) {
-    table += Line("pendulum takes", "%.2f N s (%.2f N s pushed so high)",
+    table += Line("a pendulum takes", "%.2f N s at its CoM, %.2f N s so high",
                   result.yardstick->lipm_Ns, result.yardstick->lipm_height_Ns);
   }
   table += Line("CoM error, peak", "%6.1f %6.1f %6.1f mm", peak.x(), peak.y(),
@@ -144,7 +160,7 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
                 1e3 * verdict.cop_peak.x(), 1e3 * verdict.cop_peak.y());
   table += Line("feet, peak", "tilt %.4f rad, slide %.2f mm",
                 verdict.foot_tilt_peak, 1e3 * verdict.foot_slide_peak);
-  table += Line("limits passed by", "joints %.2g rad, torques %.2g N m",
+  table += Line("past their limits", "joints %.2g rad, torques %.2g N m",
                 result.joint_limit_violation_peak,
                 result.torque_limit_violation_peak);
   if (result.self_contact_ticks > 0) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <iomanip>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -42,12 +43,6 @@ constexpr double kIllConditioned = 1e-8;
 // Two dynamics of one robot agree to this, relative.
 constexpr double kParity = 1e-9;
 
-std::string Print(double value) {
-  std::ostringstream text;
-  text << std::setprecision(4) << value;
-  return text.str();
-}
-
 // Too large for what takes more time than reading it.
 bool IsLarge(const RobotModel& model) {
   return model.tree.num_joints() > kMostJointsToStand ||
@@ -66,7 +61,8 @@ class Doctor {
       const RobotModel model = LockJoints(*whole);
       CheckInertia(model);
       if (IsLarge(model)) {
-        Add(Severity::kNote, "robot", "was not stood up",
+        Add(Severity::kNote, "robot",
+            "was not stood up, nor compared with Bullet",
             "as it has over 100 joints, 1000 links or 10000 shapes");
       } else {
         CheckStanding();
@@ -182,9 +178,10 @@ class Doctor {
           "others move the same mass: no acceleration can be computed");
     } else {
       is_regular_ = true;
+      smallest_eigenvalue_ = smallest;
       if (smallest < kIllConditioned) {
         Add(Severity::kNote, Coordinate(model, i),
-            "makes M ill-conditioned, by " + Print(1 / smallest),
+            "makes M ill-conditioned, by " + PrintNumber(1 / smallest),
             "accelerations lose as many digits");
       }
     }
@@ -242,7 +239,8 @@ class Doctor {
       if (row.task != limits || row.slack <= kMissed) continue;
       const double effort = robot.model.limits[row.row].effort;
       Add(Severity::kWarn, Coordinate(robot.model, tree.v_start() + row.row),
-          "needs " + Print(effort * (1 + row.slack)) + " of " + Print(effort) +
+          "needs " + PrintNumber(effort * (1 + row.slack)) + " of " +
+              PrintNumber(effort) +
               (tree.joints()[row.row].type == JointType::kPrismatic ? " N"
                                                                     : " N m") +
               " to stand",
@@ -262,16 +260,20 @@ class Doctor {
           OneLine(error.what()));
       return;
     }
-    if (*diagnosis_.parity <= kParity) return;  // NaN is not.
+    // M comes from the plant by an inversion, which costs digits.
+    const double rounding = std::numeric_limits<double>::epsilon() *
+                            robot.model.tree.nv() / smallest_eigenvalue_;
+    if (*diagnosis_.parity <= std::max(kParity, rounding)) return;  // Not NaN.
     Add(Severity::kWarn, "robot",
-        "differs from its Bullet plant by " + Print(*diagnosis_.parity),
+        "differs from its Bullet plant by " + PrintNumber(*diagnosis_.parity),
         "relative: simulation and control do not agree");
   }
 
   const std::filesystem::path urdf_;
   const Profile profile_;
   Diagnosis diagnosis_;
-  bool is_regular_ = false;  // M can be inverted.
+  bool is_regular_ = false;         // M can be inverted.
+  double smallest_eigenvalue_ = 0;  // Of M with a unit diagonal.
 };
 
 nlohmann::json WriteMasses(const std::vector<Diagnosis::Mass>& masses) {

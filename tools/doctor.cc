@@ -3,10 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <stdexcept>
 #include <string>
 
 #include "robot/finding.h"
+#include "tools/command_line.h"
 #include "tools/diagnosis.h"
 #include "tools/user_path.h"
 
@@ -22,13 +22,7 @@ int Main(int argc, char** argv) {
   app.add_option("file", file, "A URDF")->required();
   app.add_option("--profile", profile_file, "Its profile: feet, posture, ...");
   app.add_flag("--json", json, "Print one JSON document");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::cerr << "doctor: " << error.what() << "\n";
-    return 2;
-  }
+  ParseCommandLine(argc, argv, &app);
   try {
     const Profile profile =
         profile_file.empty() ? Profile{} : LoadProfile(UserPath(profile_file));
@@ -39,10 +33,11 @@ int Main(int argc, char** argv) {
   } catch (const Refusal& refusal) {  // About the profile.
     Diagnosis diagnosis;
     diagnosis.findings.push_back(refusal.finding());
+    std::string& where = diagnosis.findings[0].where;
+    where =
+        "profile " + Quoted(profile_file) + (where.empty() ? "" : " ") + where;
     if (json) std::cout << WriteJson(diagnosis) << "\n";
     std::cerr << refusal.what() << "\n";
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << "\n";
   }
   return 2;
 }
@@ -50,4 +45,6 @@ int Main(int argc, char** argv) {
 }  // namespace
 }  // namespace poise
 
-int main(int argc, char** argv) { return poise::Main(argc, argv); }
+int main(int argc, char** argv) {
+  return poise::RunTool("doctor", [=] { return poise::Main(argc, argv); });
+}

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <future>
 #include <iostream>
@@ -14,22 +13,23 @@
 #include <vector>
 
 #include "robot/profile.h"
+#include "tools/command_line.h"
 #include "tools/figures_draw.h"
 #include "tools/record_run.h"
 #include "tools/user_path.h"
 
+namespace poise {
 namespace {
 
 namespace fs = std::filesystem;
 
 // All runs, on all cores; each into its folder.
-void RecordAll(const poise::Robot& robot,
-               const std::vector<poise::FigureRun>& runs,
+void RecordAll(const Robot& robot, const std::vector<FigureRun>& runs,
                const fs::path& folder) {
   std::atomic<std::size_t> next{0}, done{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < runs.size(); i = next++) {
-      poise::RecordRun(robot, runs[i].scenario, folder / runs[i].name);
+      RecordRun(robot, runs[i].scenario, folder / runs[i].name);
       const std::size_t count = ++done;
       if (isatty(STDERR_FILENO) != 0) {
         std::fprintf(stderr, "\r  %zu of %zu runs%s", count, runs.size(),
@@ -50,9 +50,7 @@ fs::path DocsFolder() {
   return workspace ? fs::path(workspace) / "docs" : fs::path("docs");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   CLI::App app("Draws figures 3 to 12 of the paper, from fresh runs.",
                "figures");
   std::string out;
@@ -60,24 +58,23 @@ int main(int argc, char** argv) {
   app.add_option("--out", out,
                  "Folder for results.md and figures/ [the workspace's docs]");
   app.add_flag("--keep-runs", keep_runs, "Keep the runs, in OUT/figure-runs");
-  try {
-    app.parse(argc, argv);
-    const fs::path folder = out.empty() ? DocsFolder() : poise::UserPath(out);
-    fs::create_directories(folder);
-    const poise::Robot robot =
-        poise::LoadRobot("robot/models/humanoid.urdf",
-                         poise::LoadProfile("robot/profiles/humanoid.yaml"));
-    const fs::path runs = folder / "figure-runs";
-    RecordAll(robot, poise::MakeFigureRuns("sim/scenarios"), runs);
-    poise::WriteResults(poise::DrawFigures(robot, runs, folder / "figures"),
-                        folder / "results.md", "figures");
-    if (!keep_runs) fs::remove_all(runs);
-    std::cout << (folder / "results.md").string() << '\n';
-  } catch (const CLI::CallForHelp&) {
-    std::cout << app.help();
-  } catch (const std::exception& error) {
-    std::cerr << "figures: " << error.what() << '\n';
-    return 2;
-  }
+  ParseCommandLine(argc, argv, &app);
+  const fs::path folder = out.empty() ? DocsFolder() : UserPath(out);
+  fs::create_directories(folder);
+  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
+                                LoadProfile("robot/profiles/humanoid.yaml"));
+  const fs::path runs = folder / "figure-runs";
+  RecordAll(robot, MakeFigureRuns("sim/scenarios"), runs);
+  WriteResults(DrawFigures(robot, runs, folder / "figures"),
+               folder / "results.md", "figures");
+  if (!keep_runs) fs::remove_all(runs);
+  std::cout << (folder / "results.md").string() << '\n';
   return 0;
+}
+
+}  // namespace
+}  // namespace poise
+
+int main(int argc, char** argv) {
+  return poise::RunTool("figures", [=] { return poise::Main(argc, argv); });
 }

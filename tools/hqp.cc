@@ -10,6 +10,7 @@
 #include "hqp/cascade.h"
 #include "hqp/certificate.h"
 #include "hqp/solver.h"
+#include "tools/command_line.h"
 #include "tools/hqp_file.h"
 #include "tools/user_path.h"
 
@@ -56,13 +57,7 @@ int Main(int argc, char** argv) {
       ->check(CLI::IsMember({"svd", "cod", "fast"}))
       ->capture_default_str();
   app.add_flag("--json", json, "Print one JSON document");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::cerr << "hqp: " << error.what() << "\n";
-    return 2;
-  }
+  ParseCommandLine(argc, argv, &app);
   bool all_optimal = true;
   std::string document;
   for (const std::string& name : files) {
@@ -82,8 +77,7 @@ int Main(int argc, char** argv) {
                   WriteHqpSolution(problem.hierarchy, solution, certificate,
                                    microseconds);
     } catch (const std::exception& error) {
-      std::cerr << name << ": " << error.what() << "\n";
-      return 2;
+      throw std::invalid_argument(name + ": " + error.what());
     }
   }
   if (json) {
@@ -95,4 +89,6 @@ int Main(int argc, char** argv) {
 }  // namespace
 }  // namespace poise
 
-int main(int argc, char** argv) { return poise::Main(argc, argv); }
+int main(int argc, char** argv) {
+  return poise::RunTool("hqp", [=] { return poise::Main(argc, argv); });
+}

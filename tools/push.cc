@@ -1,14 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
-#include <exception>
 #include <iostream>
 #include <string>
 
 #include "sim/summary.h"
+#include "tools/command_line.h"
 #include "tools/push_options.h"
 #include "tools/record_run.h"
 #include "tools/report_page.h"
@@ -47,18 +46,10 @@ int Push(const poise::PushOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string help;
-  try {
-    const poise::PushOptions options =
-        poise::ReadPushOptions(argc, argv, &help);
+  return poise::RunTool("push", [=] {
+    const poise::PushOptions options = poise::ReadPushOptions(argc, argv);
     std::signal(SIGINT, [](int) { g_interrupted = 1; });
     std::signal(SIGTERM, [](int) { g_interrupted = 1; });
     return Push(options);
-  } catch (const CLI::CallForHelp&) {
-    std::cout << help;
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "push: " << error.what() << '\n';
-    return 2;
-  }
+  });
 }

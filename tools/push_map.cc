@@ -1,14 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <exception>
 #include <iostream>
 #include <string>
 
+#include "tools/command_line.h"
 #include "tools/push_map_options.h"
 #include "tools/push_map_run.h"
 
@@ -63,18 +62,10 @@ int Map(const poise::PushMapOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string help;
-  try {
-    const poise::PushMapOptions options =
-        poise::ReadPushMapOptions(argc, argv, &help);
+  return poise::RunTool("push_map", [=] {
+    const poise::PushMapOptions options = poise::ReadPushMapOptions(argc, argv);
     std::signal(SIGINT, [](int) { g_interrupted = 1; });
     std::signal(SIGTERM, [](int) { g_interrupted = 1; });
     return Map(options);
-  } catch (const CLI::CallForHelp&) {
-    std::cout << help;
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "push_map: " << error.what() << '\n';
-    return 2;
-  }
+  });
 }

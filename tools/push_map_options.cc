@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "robot/finding.h"
+#include "tools/command_line.h"
 #include "tools/push_options.h"
 #include "tools/user_path.h"
 
@@ -84,9 +85,7 @@ PushOptions ReadRest(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "push_map");
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
-  std::string unused_help;
-  return ReadPushOptions(static_cast<int>(argv.size()), argv.data(),
-                         &unused_help);
+  return ReadPushOptions(static_cast<int>(argv.size()), argv.data());
 }
 
 std::string Joined(const std::vector<std::string>& words) {
@@ -97,7 +96,7 @@ std::string Joined(const std::vector<std::string>& words) {
 
 }  // namespace
 
-PushMapOptions ReadPushMapOptions(int argc, char** argv, std::string* help) {
+PushMapOptions ReadPushMapOptions(int argc, char** argv) {
   int directions = 16;
   std::vector<double> durations = {0.1};
   std::vector<std::string> with, without;
@@ -132,8 +131,7 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv, std::string* help) {
                  "folder (push-map-out; of a shard push-map-out/shard-I-of-N)");
   app.add_flag("--no-replays", no_replays, "make no replays");
   app.add_flag("--json", json, "print the map as JSON");
-  *help = app.help();
-  app.parse(argc, argv);
+  ParseCommandLine(argc, argv, &app);
 
   const Shard shard = ParseShard(shard_text);
   const std::vector<std::string> rest = app.remaining();

@@ -18,8 +18,7 @@ struct PushMapOptions {
 /// Reads the command line of `push_map`: its own options and, for the rest,
 /// those of `push`.
 ///
-/// Throws CLI::CallForHelp where help was asked for, CLI::ParseError about the
-/// command line and std::invalid_argument about what it names.
-PushMapOptions ReadPushMapOptions(int argc, char** argv, std::string* help);
+/// Throws as ParseCommandLine(), and std::invalid_argument about what it names.
+PushMapOptions ReadPushMapOptions(int argc, char** argv);
 
 }  // namespace poise

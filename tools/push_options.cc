@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <iostream>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -13,10 +14,12 @@
 #include "robot/control/default_stack.h"
 #include "robot/control/stand.h"
 #include "robot/control/task_set.h"
+#include "robot/finding.h"
 #include "robot/profile.h"
 #include "robot/save_profile.h"
 #include "robot/urdf.h"
 #include "sim/number_field.h"
+#include "tools/command_line.h"
 #include "tools/user_path.h"
 
 namespace poise {
@@ -190,9 +193,19 @@ Scenario FindScenario(const std::string& name) {
                               ScenarioNames());
 }
 
+// Says what a doctor would warn of.
+void WarnOf(const std::filesystem::path& robot_file) {
+  std::vector<Finding> findings;
+  LoadUrdf(robot_file, {}, &findings);
+  for (const Finding& finding : findings) {
+    if (finding.severity != Severity::kWarn) continue;
+    std::cerr << Message(robot_file.string(), finding) << "\n";
+  }
+}
+
 }  // namespace
 
-PushOptions ReadPushOptions(int argc, char** argv, std::string* help) {
+PushOptions ReadPushOptions(int argc, char** argv) {
   Overrides overrides;
   std::string scenario_name = "strong_push", robot, profile, save_profile, out,
               log = "csv";
@@ -211,8 +224,7 @@ PushOptions ReadPushOptions(int argc, char** argv, std::string* help) {
       ->capture_default_str();
   app.add_flag("--no-report", no_report, "write no report.html");
   app.add_flag("--json", json, "print summary.json");
-  *help = app.help();
-  app.parse(argc, argv);
+  ParseCommandLine(argc, argv, &app);
 
   Scenario scenario = FindScenario(scenario_name);
   Apply(overrides, &scenario);
@@ -230,6 +242,7 @@ PushOptions ReadPushOptions(int argc, char** argv, std::string* help) {
       scenario.control.tasks == "default") {
     scenario.control.tasks = feet_and_posture.file.string();
   }
+  WarnOf(robot_file);
   Robot standing = LoadStandingRobot(robot_file, feet_and_posture);
   if (!save_profile.empty()) {
     // Mimics are fixed by where their sources were before it stood up.

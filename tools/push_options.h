@@ -23,8 +23,7 @@ struct PushOptions {
 
 /// Reads the command line of `push`, the robot and the scenario.
 ///
-/// Throws CLI::CallForHelp where help was asked for, CLI::ParseError about the
-/// command line and std::invalid_argument about what it names.
-PushOptions ReadPushOptions(int argc, char** argv, std::string* help);
+/// Throws as ParseCommandLine(), and std::invalid_argument about what it names.
+PushOptions ReadPushOptions(int argc, char** argv);
 
 }  // namespace poise

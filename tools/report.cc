@@ -1,15 +1,18 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "tools/command_line.h"
 #include "tools/report_page.h"
 #include "tools/user_path.h"
 
-int main(int argc, char** argv) {
+namespace poise {
+namespace {
+
+int Main(int argc, char** argv) {
   CLI::App app(
       "Shows a run, or two on one clock, in one page that opens from disk.",
       "report");
@@ -21,26 +24,22 @@ int main(int argc, char** argv) {
   app.add_option("--out", out,
                  "The page to write [RUN_DIR/report.html, or of two "
                  "./compare.html]");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::cerr << "report: " << error.what() << '\n';
-    return 2;
+  ParseCommandLine(argc, argv, &app);
+  std::vector<std::filesystem::path> folders;
+  for (const std::string& run : runs) {
+    folders.push_back(UserPath(run));
   }
-  try {
-    std::vector<std::filesystem::path> folders;
-    for (const std::string& run : runs) {
-      folders.push_back(poise::UserPath(run));
-    }
-    std::filesystem::path html = poise::UserPath("compare.html");
-    if (folders.size() == 1) html = folders.front() / "report.html";
-    if (!out.empty()) html = poise::UserPath(out);
-    poise::WriteReport(folders, html);
-    std::cout << html.string() << '\n';
-  } catch (const std::exception& error) {
-    std::cerr << "report: " << error.what() << '\n';
-    return 2;
-  }
+  std::filesystem::path html = UserPath("compare.html");
+  if (folders.size() == 1) html = folders.front() / "report.html";
+  if (!out.empty()) html = UserPath(out);
+  WriteReport(folders, html);
+  std::cout << html.string() << '\n';
   return 0;
+}
+
+}  // namespace
+}  // namespace poise
+
+int main(int argc, char** argv) {
+  return poise::RunTool("report", [=] { return poise::Main(argc, argv); });
 }

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
-#include <exception>
 #include <future>
 #include <iostream>
 #include <string>
@@ -11,7 +10,9 @@
 #include "robot/profile.h"
 #include "sim/run.h"
 #include "sim/scenario.h"
+#include "tools/command_line.h"
 
+namespace poise {
 namespace {
 
 constexpr const char* kScenarios[] = {
@@ -19,7 +20,7 @@ constexpr const char* kScenarios[] = {
     "strong_push", "com_sinusoid", "posture_off",
     "one_leg",     "slope",        "board"};
 
-std::string Ending(const poise::Verdict& verdict) {
+std::string Ending(const Verdict& verdict) {
   if (verdict.recovered) return "recovers";
   if (!verdict.fell_at) return "does not come back";
   char text[40];
@@ -28,8 +29,8 @@ std::string Ending(const poise::Verdict& verdict) {
 }
 
 // A row of the table in docs/plants.md.
-void PrintRow(const std::string& name, const poise::Verdict& bullet,
-              const poise::Verdict& mujoco) {
+void PrintRow(const std::string& name, const Verdict& bullet,
+              const Verdict& mujoco) {
   std::printf("| `%s` | %s | %s |", name.c_str(), Ending(bullet).c_str(),
               Ending(mujoco).c_str());
   for (int i = 0; i < 3; ++i) {
@@ -41,42 +42,39 @@ void PrintRow(const std::string& name, const poise::Verdict& bullet,
               1e3 * mujoco.foot_slide_peak);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   CLI::App app(
       "Runs each scenario in Bullet and in MuJoCo, and prints how they differ "
       "as the table in docs/plants.md. Exit code 1 if one recovers where the "
       "other does not.",
       "sim_to_sim");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    const poise::Robot robot =
-        poise::LoadRobot("robot/models/humanoid.urdf",
-                         poise::LoadProfile("robot/profiles/humanoid.yaml"));
-    bool agree = true;
-    std::cout << "| scenario | Bullet | MuJoCo | CoM error, peak x [mm] | y "
-                 "[mm] | z [mm] | foot tilt [rad] | foot slide [mm] |\n"
-                 "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
-    for (const std::string name : kScenarios) {
-      std::array<std::future<poise::Verdict>, 2> verdicts;
-      for (const int i : {0, 1}) {
-        poise::Scenario scenario =
-            poise::LoadScenario("sim/scenarios/" + name + ".yaml");
-        scenario.plant_kind =
-            i == 0 ? poise::PlantKind::kBullet : poise::PlantKind::kMujoco;
-        verdicts[i] = std::async(std::launch::async, [&robot, scenario] {
-          return poise::Run(robot, scenario).verdict;
-        });
-      }
-      const poise::Verdict bullet = verdicts[0].get();
-      const poise::Verdict mujoco = verdicts[1].get();
-      PrintRow(name, bullet, mujoco);
-      agree = agree && bullet.recovered == mujoco.recovered;
+  ParseCommandLine(argc, argv, &app);
+  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
+                                LoadProfile("robot/profiles/humanoid.yaml"));
+  bool agree = true;
+  std::cout << "| scenario | Bullet | MuJoCo | CoM error, peak x [mm] | y "
+               "[mm] | z [mm] | foot tilt [rad] | foot slide [mm] |\n"
+               "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const std::string name : kScenarios) {
+    std::array<std::future<Verdict>, 2> verdicts;
+    for (const int i : {0, 1}) {
+      Scenario scenario = LoadScenario("sim/scenarios/" + name + ".yaml");
+      scenario.plant_kind = i == 0 ? PlantKind::kBullet : PlantKind::kMujoco;
+      verdicts[i] = std::async(std::launch::async, [&robot, scenario] {
+        return Run(robot, scenario).verdict;
+      });
     }
-    return agree ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::cerr << "sim_to_sim: " << error.what() << '\n';
-    return 2;
+    const Verdict bullet = verdicts[0].get();
+    const Verdict mujoco = verdicts[1].get();
+    PrintRow(name, bullet, mujoco);
+    agree = agree && bullet.recovered == mujoco.recovered;
   }
+  return agree ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace poise
+
+int main(int argc, char** argv) {
+  return poise::RunTool("sim_to_sim", [=] { return poise::Main(argc, argv); });
 }

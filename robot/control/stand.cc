@@ -33,7 +33,7 @@ constexpr double kKneeWeight = 100;   // Hip and ankle follow the knee.
 constexpr double kFootGap = 0.02;     // Between the soles at least, m.
 constexpr double kLongestStep = 0.3;  // rad or m an iteration.
 constexpr int kFullSteps = 30;  // Then each is shorter, so that none cycle.
-constexpr double kShrink = 0.8;
+constexpr double kShrink = 0.6;
 // A step that is not the best one will do.
 constexpr int kSolverIterations = 60;
 // What is left of an error that can be met, m or rad.
@@ -269,8 +269,8 @@ class Standing {
 
 void StandUp(Robot* robot) {
   if (robot->feet.size() != 2 || !(robot->model.tree.total_mass() > 0)) {
-    throw std::invalid_argument("robot '" + robot->model.name +
-                                "' cannot stand: it must have two feet and "
+    throw std::invalid_argument("robot " + Quoted(robot->model.name) +
+                                " cannot stand: it must have two feet and "
                                 "a mass");
   }
   // Knees forward; where that fails, as they are, or backward.
@@ -286,15 +286,21 @@ void StandUp(Robot* robot) {
     if (first.empty()) first = lack;
   }
   throw std::invalid_argument(
-      "robot '" + robot->model.name +
-      "' cannot be stood up inside its joint limits: " + first);
+      "robot " + Quoted(robot->model.name) +
+      " cannot be stood up inside its joint limits: " + first);
 }
 
 Robot LoadStandingRobot(const std::filesystem::path& urdf,
                         const Profile& profile) {
-  Robot robot = LoadRobot(urdf, profile);
-  if (!robot.can_stand) StandUp(&robot);
-  return robot;
+  try {
+    Robot robot = LoadRobot(urdf, profile);
+    if (!robot.can_stand) StandUp(&robot);
+    return robot;
+  } catch (const Refusal&) {  // Names the file itself.
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(urdf.string() + ": " + error.what());
+  }
 }
 
 }  // namespace poise

@@ -1,0 +1,56 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/command_line.h"
+
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+
+#include "robot/finding.h"
+
+namespace poise {
+namespace {
+
+struct Help {
+  std::string text;
+};
+
+}  // namespace
+
+void ParseCommandLine(int argc, char** argv, CLI::App* app) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.empty()) {
+      throw std::invalid_argument(
+          (i > 1 ? "the word after " + Quoted(argv[i - 1]) : "the first word") +
+          " is empty, must not be");
+    }
+    if (word.size() > 3 && word.substr(0, 2) == "--" && word.back() == '=') {
+      throw std::invalid_argument(Quoted(word) +
+                                  " is empty, must have a value");
+    }
+  }
+  try {
+    app->parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    throw Help{app->help()};
+  } catch (const CLI::ParseError& error) {
+    throw std::invalid_argument(error.what());
+  }
+}
+
+int RunTool(const std::string& name, const std::function<int()>& body) {
+  try {
+    const int code = body();
+    if (std::cout.flush() && std::fflush(stdout) == 0) return code;
+    std::cerr << name << ": the output cannot be written\n";
+  } catch (const Help& help) {
+    std::cout << help.text;
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << name << ": " << OneLine(error.what()) << "\n";
+  }
+  return 2;
+}
+
+}  // namespace poise
