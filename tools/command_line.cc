@@ -11,6 +11,15 @@
 namespace poise {
 namespace {
 
+// CLI11 says "Could not convert: --force = strong".
+std::string SayNoNumber(const std::string& message) {
+  const size_t name = message.find(": ") + 2;
+  const size_t value = message.find(" = ", name);
+  if (value == std::string::npos) return message;
+  return message.substr(name, value - name) + " is " +
+         Quoted(message.substr(value + 3)) + ", must be a number";
+}
+
 struct Help {
   std::string text;
 };
@@ -34,6 +43,8 @@ void ParseCommandLine(int argc, char** argv, CLI::App* app) {
     app->parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     throw Help{app->help()};
+  } catch (const CLI::ConversionError& error) {
+    throw std::invalid_argument(SayNoNumber(error.what()));
   } catch (const CLI::ParseError& error) {
     throw std::invalid_argument(error.what());
   }

@@ -40,3 +40,9 @@ grep -q '^bad.yaml:2: ' err || fail "no line of the profile: $(cat err)"
 expect 2 1
 expect 2 1 "$urdf" --nonsense
 expect 0 0 --help
+
+code=0
+"$doctor" "$urdf" > /dev/full 2> err || code=$?
+[ "$code" = 2 ] || fail "exit code $code where the output is lost, wanted 2"
+[ "$(cat err)" = "doctor: the output cannot be written" ] ||
+  fail "stderr of lost output: $(cat err)"

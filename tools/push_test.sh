@@ -115,7 +115,9 @@ refuse_file --pushes ":2: 'force' is a list, must be a list of numbers" \
 refuse "link 'nose' is unknown, must be a link of robot 'humanoid'" \
   --pushes "$(write pushes.yaml 'pushes: [{link: nose}]')"
 
-refuse "Could not convert: --force = strong" --force strong
+refuse "--force is 'strong', must be a number" --force strong
+refuse "the word after '--force' is empty, must not be" --force ""
+refuse "'--force=' is empty, must have a value" --force= --time 2
 refuse "--time: is nan, must be finite" --time nan
 refuse "pushes.force is 1e+09, must be -1e+06 to 1e+06 N" --force 1e9
 refuse "direction is 400, must be -360 to 360 deg" --direction 400
