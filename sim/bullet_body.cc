@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "robot/finding.h"
+
 namespace poise {
 
 static_assert(sizeof(btScalar) == sizeof(double), "link bullet-float64");
@@ -32,17 +34,17 @@ btVector3 PrincipalInertia(const Inertia& M_B, const Eigen::Matrix3d& R_BL) {
 void Validate(const Tree& tree) {
   for (const Joint& joint : tree.joints()) {
     if (joint.armature != 0) {
-      throw std::invalid_argument("joint '" + joint.name + "': armature is " +
-                                  std::to_string(joint.armature) +
-                                  ", must be 0 in a Bullet plant");
+      throw std::invalid_argument(
+          "joint " + Quoted(joint.name) + ": armature is " +
+          PrintNumber(joint.armature) + ", must be 0 in a Bullet plant");
     }
   }
   for (int i = 0; i < tree.num_bodies(); ++i) {
     if (tree.inertias()[i].mass > 0) continue;
     const std::string name =
-        i == 0 ? "base" : "body moved by '" + tree.joints()[i - 1].name + "'";
+        i == 0 ? "base" : "body moved by " + Quoted(tree.joints()[i - 1].name);
     throw std::invalid_argument(name + ": mass is " +
-                                std::to_string(tree.inertias()[i].mass) +
+                                PrintNumber(tree.inertias()[i].mass) +
                                 ", must be positive in a Bullet plant");
   }
 }

@@ -129,10 +129,14 @@ Figure PushPoses(const Robot& robot, const RecordedRun& run, int number,
   return {number, caption, paper,
           Format("In the push, %s, and at the end. The robot %s; its pelvis "
                  "tilts by up to %.2f rad, a foot that should stay flat by "
-                 "%.3f rad.",
+                 "%.3f rad.%s",
                  run.recovered() ? "at its farthest" : "on its way down",
                  Outcome(run).c_str(), Largest(run["base.tilt"]),
-                 run.summary()["foot_tilt_peak"].get<double>())};
+                 run.summary()["foot_tilt_peak"].get<double>(),
+                 run.recovered() ? ""
+                                 : " The wrenches that it asks for reach "
+                                   "outside the soles: the feet roll over "
+                                   "their edges, and leave the ground.")};
 }
 
 Figure ErrorPlots(const RecordedRun& run, int number,
@@ -151,8 +155,8 @@ Figure ErrorPlots(const RecordedRun& run, int number,
         SettledAfter(run, y, 5, push.second),
         1e3 * std::abs(run.summary()["com_error_final"][1].get<double>()));
   } else {
-    ours +=
-        "It diverges: the robot " + Outcome(run) + ", where the run is ended.";
+    ours += "It diverges: the robot " + Outcome(run) +
+            Format("; the run ends when it lies, at %.2f s.", run.end());
   }
   return {number, caption, paper, ours};
 }
@@ -175,19 +179,23 @@ Figure ArmPoses(const Robot& robot, const RecordedRun& run, int number,
   const auto [angle, joint] = FarthestJoint(robot, run);
   return {number, caption, paper,
           Format("Pushed by 20 N for 0.1 s: after %.0f s the joint farthest "
-                 "from where it began, %s, has moved by %.2f rad. The CoM ends "
-                 "%.2f mm from its reference.",
+                 "from where it began, %s, has moved by %.2f rad; parts of the "
+                 "robot touched each other in %d ticks. The CoM ends %.2f mm "
+                 "from its reference.",
                  run.end(), joint.c_str(), angle,
+                 run.summary()["self_contact_ticks"].get<int>(),
                  1e3 * std::hypot(
                            run.summary()["com_error_final"][0].get<double>(),
                            run.summary()["com_error_final"][1].get<double>()))};
 }
 
+constexpr double kSettled = 3;  // s.
+
 // The largest error once the start is over, mm.
 double TrackingError(const RecordedRun& run, const std::string& axis) {
   const std::vector<double> error = run.ComError(axis);
   const auto settled =
-      std::lower_bound(run["time"].begin(), run["time"].end(), 3.0) -
+      std::lower_bound(run["time"].begin(), run["time"].end(), kSettled) -
       run["time"].begin();
   return Largest({error.begin() + settled, error.end()});
 }
@@ -209,11 +217,13 @@ Figure SinusoidPlots(const RecordedRun& run, const RecordedRun& feedforward,
       5, "The CoM tracks a sinusoid",
       "The CoM tracks a sinusoidal reference in x and y, slightly behind "
       "by a constant offset.",
-      Format("The error stays within %.1f mm in x and %.1f mm in y, a "
-             "constant lag. With velocity and acceleration of the "
-             "reference fed forward it stays within %.3f and %.3f mm.",
-             TrackingError(run, "x"), TrackingError(run, "y"),
-             TrackingError(feedforward, "x"), TrackingError(feedforward, "y"))};
+      Format(
+          "Once its start is over, after %.0f s, the error stays within %.1f "
+          "mm in x and %.1f mm in y, a constant lag. With velocity and "
+          "acceleration of the reference fed forward it stays within %.3f "
+          "and %.3f mm.",
+          kSettled, TrackingError(run, "x"), TrackingError(run, "y"),
+          TrackingError(feedforward, "x"), TrackingError(feedforward, "y"))};
 }
 
 Figure ZmpPlots(const RecordedRun& run, const fs::path& stem) {
