@@ -223,7 +223,7 @@ TEST(BulletPlant, RefusesArmature) {
     FAIL() << "not refused";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "joint 'hinge': armature is 0.250000, must be 0 in a Bullet "
+                 "joint 'hinge': armature is 0.25, must be 0 in a Bullet "
                  "plant");
   }
 }

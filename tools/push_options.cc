@@ -50,12 +50,15 @@ std::string RefuseInfinite(std::string& text) {
 
 void AddOptions(CLI::App* app, Overrides* o) {
   const CLI::Validator finite(RefuseInfinite, "", "finite");
-  app->add_option("--force", o->force, "N")->check(finite);
-  app->add_option("--direction", o->direction,
-                  "deg: 0 is +x, forward; 90 is +y, left")
+  app->add_option("--force", o->force, "of the push, N (the scenario's)")
       ->check(finite);
-  app->add_option("--duration", o->duration, "of the push, s")->check(finite);
-  app->add_option("--at", o->at, "when the push begins, s")->check(finite);
+  app->add_option("--direction", o->direction,
+                  "deg: 0 is +x, forward; 90 is +y, left (the scenario's)")
+      ->check(finite);
+  app->add_option("--duration", o->duration, "of the push, s (the scenario's)")
+      ->check(finite);
+  app->add_option("--at", o->at, "when the push begins, s (the scenario's)")
+      ->check(finite);
   app->add_option("--link", o->link,
                   "where it acts, at the center of mass (the torso)");
   app->add_option("--point", o->point, "where on the link, X,Y,Z in m")
@@ -75,7 +78,7 @@ void AddOptions(CLI::App* app, Overrides* o) {
   app->add_flag("--feedforward", o->feedforward, "of the reference's motion");
   app->add_option("--control-rate", o->control_rate, "Hz (1000)")
       ->check(finite);
-  app->add_option("--plant", o->plant)
+  app->add_option("--plant", o->plant, "the simulator (bullet)")
       ->check(CLI::IsMember({"bullet", "mujoco"}));
   app->add_option("--plant-rate", o->plant_rate, "Hz (1000)")->check(finite);
   app->add_flag("--estimator", o->estimator,
@@ -94,7 +97,7 @@ void AddOptions(CLI::App* app, Overrides* o) {
       ->check(finite);
   app->add_option("--delay", o->delay, "from measurement to torque, s")
       ->check(finite);
-  app->add_option("--seed", o->seed);
+  app->add_option("--seed", o->seed, "of all that is random (the scenario's)");
 }
 
 template <typename T>
@@ -210,7 +213,15 @@ PushOptions ReadPushOptions(int argc, char** argv) {
   std::string scenario_name = "strong_push", robot, profile, save_profile, out,
               log = "csv";
   bool no_report = false, json = false;
+  if (!std::filesystem::is_directory(kScenarios)) {
+    throw std::invalid_argument(std::string(kScenarios) +
+                                " is not here: start by `bazel run`, or in the "
+                                "folder of the sources");
+  }
   CLI::App app("Pushes a humanoid in a simulation: does it recover?", "push");
+  app.footer("Scenarios: " + ScenarioNames() +
+             ".\nTasks: docs/tasks.md. Exit code 0: it recovered; 1: it did "
+             "not; 2: bad input.");
   app.add_option("--scenario", scenario_name, "a name or a YAML file")
       ->capture_default_str();
   app.add_option("--robot", robot, "a URDF file (our humanoid)");
