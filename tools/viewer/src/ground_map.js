@@ -4,7 +4,7 @@ const TRAIL = 0.5;  // s.
 
 // How far the feet may go off the middle, as a part of what is shown, before
 // the map goes with them.
-const FREE = 0.2;
+const FREE = 0.12;
 
 /** The middle of the soles' bounds, and their larger side. */
 function boundsOf(feet) {

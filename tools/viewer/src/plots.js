@@ -99,7 +99,7 @@ export class Plot {
       height: spec.height ?? 132,
       legend: {show: false},
       cursor: {show: false},
-      padding: [8, 8, 0, 0],
+      padding: [8, 16, 0, 0],
       scales: {
         x: {time: false, range: () => this.xRange()},
         y: {range: (_, low, high) => this.#yRange(low, high)},
@@ -114,7 +114,7 @@ export class Plot {
         stroke: this.#color(line.color),
         width: line.width ?? 1.6,
         dash: line.dash,
-        points: {show: false},
+        points: {show: this.data[0].length === 1},
       }))),
       hooks: {
         drawAxes: [(plot) => this.#drawBands(plot)],

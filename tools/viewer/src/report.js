@@ -38,12 +38,13 @@ function describe(run) {
   return [
     pushOf(run),
     changesOf(run),
+    s.fell_by && `fell: ${s.fell_by}`,
     robot && `${robot.name}, ${robot.bodies.length - 1} joints, ` +
         `${formatNumber(robot.mass)} kg`,
     s.plant && `plant ${s.plant}`,
     s.control_dt > 0 && `${formatNumber(1 / s.control_dt)} Hz`,
     s.seed !== undefined && `seed ${s.seed}`,
-    `${rows} ticks`,
+    `${rows} tick${rows === 1 ? '' : 's'}`,
   ].filter(Boolean).join(' · ');
 }
 

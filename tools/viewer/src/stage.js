@@ -233,7 +233,15 @@ export class Stage {
   #frameRobot() {
     const box = new THREE.Box3(new THREE.Vector3(-0.3, -0.3, 0),
                                new THREE.Vector3(0.3, 0.3, 1));
-    if (this.robot) box.setFromObject(this.robot.root);
+    if (this.robot) {
+      box.setFromObject(this.robot.root);
+      // Without a log it stands on the ground all the same.
+      if (!this.run.motion.rows) {
+        this.robot.root.position.z = -box.min.z;
+        box.translate(this.robot.root.position);
+        this.update(this.run.start);
+      }
+    }
     this.middle = box.getCenter(new THREE.Vector3());
     this.height = Math.max(0.2, box.max.z, box.max.x - box.min.x,
                            box.max.y - box.min.y);
