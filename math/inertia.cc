@@ -23,6 +23,13 @@ Eigen::Vector3d CenterVelocity(const Inertia& M_B, const SpatialMotion& V_B) {
 
 }  // namespace
 
+Inertia operator*(const Eigen::Matrix3d& R_AB, const Inertia& M_B) noexcept {
+  Inertia M_A{M_B.mass, R_AB * M_B.p_BoG_B,
+              R_AB * M_B.I_G_B * R_AB.transpose()};
+  M_A.I_G_B.triangularView<Eigen::StrictlyLower>() = M_A.I_G_B.transpose();
+  return M_A;
+}
+
 Inertia operator+(const Inertia& M_1, const Inertia& M_2) noexcept {
   const double mass = M_1.mass + M_2.mass;
   const double fraction = mass == 0 ? 0 : M_2.mass / mass;
@@ -35,6 +42,13 @@ SpatialMomentum operator*(const Inertia& M_B,
                           const SpatialMotion& V_B) noexcept {
   const Eigen::Vector3d linear = M_B.mass * CenterVelocity(M_B, V_B);
   return {M_B.I_G_B * V_B.angular + M_B.p_BoG_B.cross(linear), linear};
+}
+
+SpatialForce operator*(const Inertia& M_B,
+                       const SpatialAcceleration& A_B) noexcept {
+  const Eigen::Vector3d a_G = A_B.linear + A_B.angular.cross(M_B.p_BoG_B);
+  const Eigen::Vector3d force = M_B.mass * a_G;
+  return {M_B.I_G_B * A_B.angular + M_B.p_BoG_B.cross(force), force};
 }
 
 double KineticEnergy(const Inertia& M_B, const SpatialMotion& V_B) noexcept {

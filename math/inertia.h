@@ -27,11 +27,9 @@ inline Inertia Shift(const Inertia& M_B,
   return {M_B.mass, M_B.p_BoG_B - p_BQ_B, M_B.I_G_B};
 }
 
-/// The same inertia about the same point, in the axes of A.
-inline Inertia operator*(const Eigen::Matrix3d& R_AB,
-                         const Inertia& M_B) noexcept {
-  return {M_B.mass, R_AB * M_B.p_BoG_B, R_AB * M_B.I_G_B * R_AB.transpose()};
-}
+/// The same inertia about the same point, in the axes of A:
+///     I_G_A = R_AB I_G_B R_AB', symmetric to the bit.
+Inertia operator*(const Eigen::Matrix3d& R_AB, const Inertia& M_B) noexcept;
 
 /// The same inertia about the origin and in the axes of A.
 inline Inertia operator*(const Pose& X_AB, const Inertia& M_B) noexcept {
@@ -47,10 +45,15 @@ Inertia operator+(const Inertia& M_1, const Inertia& M_2) noexcept;
 /// The momentum, about Bo, of a body that moves with V_B (at Bo): with p =
 /// p_BoG and v_G = v + w x p,
 ///     [I_G w + p x m v_G; m v_G].
-/// Of an acceleration, the force it takes, without the velocity's part, that
-/// is Cross(V, M V).
 SpatialMomentum operator*(const Inertia& M_B,
                           const SpatialMotion& V_B) noexcept;
+
+/// The force, about Bo, that accelerates a body at rest by A_B. One that turns
+/// takes more, and by Newton and Euler
+///     F_B = M A + Cross(W, M W),   W = [w; 0]:
+/// the linear velocity of Bo takes none.
+SpatialForce operator*(const Inertia& M_B,
+                       const SpatialAcceleration& A_B) noexcept;
 
 /// The kinetic energy of a body that moves with V_B (at Bo), J:
 ///     1/2 (m v_G'v_G + w' I_G w).

@@ -104,6 +104,32 @@ RC_GTEST_PROP(Inertia, HasTheMomentumOfItsParticles, ()) {
   RC_ASSERT(std::abs(KineticEnergy(M, V) - energy) <= 20 * tolerance);
 }
 
+// Newton and Euler: what accelerates a body is what accelerates its particles.
+RC_GTEST_PROP(Inertia, TakesTheForceOfItsParticles, ()) {
+  const std::vector<Particle> particles = *Particles();
+  const SpatialMotion V = *Motions();
+  const SpatialAcceleration A(*Vectors(), *Vectors());
+  SpatialForce F;
+  for (const Particle& particle : particles) {
+    const Vector3d a = Shift(A, V, particle.p).linear;
+    F = F +
+        Shift(SpatialForce(Vector3d::Zero(), particle.mass * a), -particle.p);
+  }
+  const Inertia M = Assemble(particles);
+  const SpatialMotion W(V.angular, Vector3d::Zero());
+  const SpatialForce expected = M * A + Cross(W, M * W);
+  RC_ASSERT((F.vector() - expected.vector()).norm() <=
+            1000 * ToleranceFor(particles));
+}
+
+RC_GTEST_PROP(Inertia, StaysSymmetricToTheBitWhereverItIsSeen, ()) {
+  const Inertia M_B = *Inertias();
+  const Matrix3d I_A = (*Poses() * M_B).I_G_B;
+  RC_ASSERT(I_A == I_A.transpose());
+  const Matrix3d I_sum = (*Rotations() * M_B + M_B).I_G_B;
+  RC_ASSERT(I_sum == I_sum.transpose());
+}
+
 RC_GTEST_PROP(Inertia, MatrixIsItsAction, ()) {
   const Inertia M = *Inertias();
   const SpatialMotion V = *Motions();

@@ -107,6 +107,14 @@ class Sampler {
     return d.normalized();
   }
 
+  Eigen::Vector3d LinearVelocity(const Eigen::Vector3d& axis) {
+    Eigen::Vector3d d = Direction();
+    const double kind = uniform_(generator_);
+    if (kind < 0.25) d = axis.cross(d).normalized();
+    if (kind > 0.75) d = axis + 1e-6 * d;
+    return std::pow(10, 12 * uniform_(generator_) - 6) * d;
+  }
+
  private:
   std::mt19937_64 generator_{1};
   std::normal_distribution<double> normal_;
@@ -166,9 +174,9 @@ void MeasureSe3(const Vector6d& x, Errors* errors) {
   const MatrixXmp R = PowerSeries(HatExactly(w), 0);
   const MatrixXmp p = J * v.cast<mpreal>();
   const Pose X = ExpSe3(x);
-  (*errors)["ExpSe3, rotation"] = Error(X.R, R) / (angle > kPi ? angle : 1);
-  (*errors)["ExpSe3, translation"] =
-      angle > kPi ? Error(X.p, p, v.norm()) / angle : Error(X.p, p);
+  const double condition = angle > kPi ? angle : 1;
+  (*errors)["ExpSe3, rotation"] = Error(X.R, R) / condition;
+  (*errors)["ExpSe3, translation"] = Error(X.p, p) / condition;
   if (angle <= kPi) {
     const Vector6d log = LogSe3({R.cast<double>(), p.cast<double>()});
     (*errors)["LogSe3, rotation"] =
@@ -182,11 +190,12 @@ void MeasureSe3(const Vector6d& x, Errors* errors) {
   (*errors)["RightJacobianSe3"] =
       Error(RightJacobianSe3(x), PowerSeries(-AdExactly(x), 1));
   if (angle < 2 * kPi) {
-    const double condition = std::max(1.0, angle / (2 * kPi - angle));
+    const double condition_of_inverse =
+        std::max(1.0, angle / (2 * kPi - angle));
     (*errors)["InverseLeftJacobianSe3"] =
-        Error(InverseLeftJacobianSe3(x), J6.inverse()) / condition;
+        Error(InverseLeftJacobianSe3(x), J6.inverse()) / condition_of_inverse;
     (*errors)["InverseRightJacobianSe3"] =
-        Error(InverseRightJacobianSe3(-x), J6.inverse()) / condition;
+        Error(InverseRightJacobianSe3(-x), J6.inverse()) / condition_of_inverse;
   }
 }
 
@@ -201,7 +210,8 @@ std::vector<Accuracy> MeasureAccuracy(int samples) {
     for (int i = 0; i < samples; ++i) {
       const double angle = sampler.Angle(range);
       Vector6d x;
-      x << angle * sampler.Direction(), 2 * sampler.Direction();
+      const Eigen::Vector3d axis = sampler.Direction();
+      x << angle * axis, sampler.LinearVelocity(axis);
       Errors errors;
       MeasureSo3(x.head<3>(), &errors);
       MeasureSo3Jacobians(x.head<3>(), &errors);

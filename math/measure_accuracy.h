@@ -21,13 +21,14 @@ struct Accuracy {
 ///     exp(A) = sum A^n / n!,   J(A) = sum A^n / (n + 1)!,   A = ad(x),
 /// and their inverses against what they invert. Angles are drawn on a log grid
 /// below 1 and evenly above, and thickly around the switch of math/stumpff.h,
-/// π and 2 π; directions evenly, a third with a small or zero component.
+/// π and 2 π; directions evenly, a third with a small or zero component. Linear
+/// velocities are 1e-6 to 1e6 long, a quarter nearly across and a quarter nearly
+/// along the axis.
 ///
 /// Error: |computed - exact| / |exact| in the Frobenius norm, divided by the
-/// condition: max(1, angle) above π for exp, max(1, θ/|2 π - θ|) for inverse
-/// Jacobians, else 1. The translation of ExpSe3() above π is compared with that
-/// of the twist, since J_l is singular at 2 π. "antisymmetric part" is (R -
-/// R')/2, compared with the angle.
+/// condition: the angle above π for exp, max(1, θ/|2 π - θ|) for inverse
+/// Jacobians, else 1. "antisymmetric part" is (R - R')/2, compared with the
+/// angle.
 ///
 /// @param samples  drawn of each range and map.
 std::vector<Accuracy> MeasureAccuracy(int samples);

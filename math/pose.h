@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstring>
 
 namespace poise {
 
@@ -17,8 +18,31 @@ struct Pose {
   }
 };
 
+/// [R_AB R_BC, R_AB p_BC_B + p_AB_A], of which each column is a sum of columns
+/// of R_AB. They are taken as fours of numbers, which a register holds; the
+/// fourth is that of the next column, and not kept.
 inline Pose operator*(const Pose& X_AB, const Pose& X_BC) noexcept {
-  return {X_AB.R * X_BC.R, X_AB.R * X_BC.p + X_AB.p};
+  using Four = double __attribute__((vector_size(4 * sizeof(double))));
+  const double* R_AB = X_AB.R.data();
+  Four r0, r1;
+  std::memcpy(&r0, R_AB, sizeof(Four));
+  std::memcpy(&r1, R_AB + 3, sizeof(Four));
+  const Four r2{R_AB[6], R_AB[7], R_AB[8], 0};
+  const auto rotate = [&](const double* v_B, Four* v_A) {
+    *v_A = r0 * v_B[0] + r1 * v_B[1] + r2 * v_B[2];
+  };
+  Four x, y, z, p;
+  rotate(X_BC.R.data(), &x);
+  rotate(X_BC.R.data() + 3, &y);
+  rotate(X_BC.R.data() + 6, &z);
+  rotate(X_BC.p.data(), &p);
+  Pose X_AC;
+  double* R_AC = X_AC.R.data();
+  std::memcpy(R_AC, &x, sizeof(Four));
+  std::memcpy(R_AC + 3, &y, sizeof(Four));
+  X_AC.R.col(2) << z[0], z[1], z[2];
+  X_AC.p << p[0] + X_AB.p[0], p[1] + X_AB.p[1], p[2] + X_AB.p[2];
+  return X_AC;
 }
 
 /// The point p_BQ_B, as p_AQ_A.

@@ -13,6 +13,12 @@ Eigen::Quaterniond QuaternionFromMatrix(const Eigen::Matrix3d& R) noexcept {
   return q;
 }
 
+Eigen::Quaterniond Rescale(const Eigen::Quaterniond& q) noexcept {
+  const Eigen::Vector4d x = q.coeffs() / q.coeffs().lpNorm<Eigen::Infinity>();
+  // Adds nothing, or NaN to all.
+  return Eigen::Quaterniond(Eigen::Vector4d(x.array() + 0 * x.sum()));
+}
+
 Eigen::Quaterniond UniformQuaternion(const Eigen::Vector3d& u) noexcept {
   const double a = std::sqrt(1 - u[0]), b = std::sqrt(u[0]);
   const double s = 2 * M_PI * u[1], t = 2 * M_PI * u[2];

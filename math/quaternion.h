@@ -16,6 +16,22 @@ namespace poise {
 /// Source: Shepperd, "Quaternion from rotation matrix", JGC 1(3), 1978.
 Eigen::Quaterniond QuaternionFromMatrix(const Eigen::Matrix3d& R) noexcept;
 
+/// Whether a sum of squares lost no digits, and did not overflow.
+inline bool IsSafeSquare(double square) noexcept {
+  return square > 1e-200 && square < 1e200;
+}
+
+/// q over its largest component. Of 0, a NaN or an infinity NaN in all.
+Eigen::Quaterniond Rescale(const Eigen::Quaterniond& q) noexcept;
+
+/// The unit quaternion in the direction of q, whatever its norm. Of 0, which
+/// has none, of a NaN or an infinity NaN in all.
+inline Eigen::Quaterniond Normalize(const Eigen::Quaterniond& q) noexcept {
+  const double square = q.squaredNorm();
+  if (!IsSafeSquare(square)) return Rescale(q).normalized();
+  return Eigen::Quaterniond(q.coeffs() / std::sqrt(square));
+}
+
 /// The rotation matrix of a unit quaternion: 1 - 2 (y² + z²), ... The inverse
 /// of QuaternionFromMatrix(). Of q and -q the same.
 inline Eigen::Matrix3d MatrixFromQuaternion(
@@ -35,19 +51,23 @@ inline Eigen::Quaterniond ExpQuaternion(const Eigen::Vector3d& w) noexcept {
 
 /// The rotation vector of norm at most π of q; q and -q have the same.
 ///
-/// q need not have norm 1 exactly: only its direction is used. Error as
-/// LogSo3(). A NaN or an infinity gives NaN in all.
+/// q may have any norm: only its direction counts. Error as LogSo3(). 0, which
+/// has none, a NaN or an infinity gives NaN in all.
 inline Eigen::Vector3d LogQuaternion(const Eigen::Quaterniond& q) noexcept {
-  const double sine = q.vec().norm();
-  const double w = q.w();
+  double w = q.w();
+  Eigen::Vector3d v = q.vec();
+  double square = v.squaredNorm();
+  if (!IsSafeSquare(square + w * w)) {
+    const Eigen::Quaterniond rescaled = Rescale(q);
+    w = rescaled.w();
+    v = rescaled.vec();
+    square = v.squaredNorm();
+  }
   // The square of a tiny x may have been rounded, but atan2(x, y) / x is the
   // same for both. Only where it came to nothing is there nothing to divide by.
-  // What is added is nothing, or NaN.
-  if (sine == 0) return (2 / w + 0 * w) * q.vec();
-  const double inverse = 2 / sine + 0 * (sine + w);
-  const double half =
-      std::signbit(w) ? std::atan2(-sine, -w) : std::atan2(sine, w);
-  return inverse * half * q.vec();
+  const double sine = std::sqrt(square);
+  if (sine == 0) return 2 / w * v;
+  return std::copysign(2 / sine, w) * std::atan2(sine, std::abs(w)) * v;
 }
 
 /// (w, x, y, z), the order of URDF tools, MuJoCo and most books. For borders.

@@ -53,8 +53,43 @@ RC_GTEST_PROP(LogQuaternion, DoesNotMindSignNorScale, ()) {
   const Quaterniond q = ExpQuaternion(w);
   const Quaterniond minus(Eigen::Vector4d(-q.coeffs()));
   RC_ASSERT((LogQuaternion(minus) - w).norm() <= kTolerance * w.norm());
-  const Quaterniond twice(Eigen::Vector4d(2 * q.coeffs()));
-  RC_ASSERT((LogQuaternion(twice) - w).norm() <= kTolerance * w.norm());
+  const double scale = *rc::gen::element(1e-300, 1e-170, 1e-160, 1e-80, 2.0,
+                                         1e80, 1e160, 1e170, 1e300);
+  RC_PRE(w.isZero(0) || scale * w.stableNorm() > 1e-290);  // No subnormals.
+  const Quaterniond scaled(Eigen::Vector4d(scale * q.coeffs()));
+  RC_ASSERT((LogQuaternion(scaled) - w).norm() <= kTolerance * w.norm());
+  RC_ASSERT((Normalize(scaled).coeffs() - q.coeffs()).norm() <= kTolerance);
+}
+
+TEST(Normalize, OfAnOrdinaryQuaternionDividesByItsNorm) {
+  const Quaterniond q(0.7, -0.2, 0.5, 1.3);
+  EXPECT_EQ(Normalize(q).coeffs(), Eigen::Vector4d(q.coeffs() / q.norm()));
+}
+
+TEST(Rescale, DividesByTheLargestComponent) {
+  const Quaterniond q(1e300, -4e300, 2e300, 3e300);
+  EXPECT_LE((Rescale(q).coeffs() - Eigen::Vector4d(-1, 0.5, 0.75, 0.25)).norm(),
+            kTolerance);
+}
+
+TEST(IsSafeSquare, DrawsTheLineWhereNothingIsLost) {
+  EXPECT_TRUE(IsSafeSquare(1.1e-200) && IsSafeSquare(0.9e200));
+  EXPECT_FALSE(IsSafeSquare(1e-200) || IsSafeSquare(1e200));
+  EXPECT_FALSE(IsSafeSquare(std::nan("")));
+}
+
+TEST(Normalize, OfZeroOrNotFiniteIsNan) {
+  const Quaterniond zero(0, 0, 0, 0);
+  EXPECT_TRUE(Normalize(zero).coeffs().array().isNaN().all());
+  EXPECT_TRUE(LogQuaternion(zero).array().isNaN().all());
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    for (int i = 0; i < 4; ++i) {
+      SCOPED_TRACE(testing::Message() << bad << " at " << i);
+      Quaterniond q(0.5, 0.5, 0.5, 0.5);
+      q.coeffs()[i] = bad;
+      EXPECT_TRUE(Normalize(q).coeffs().array().isNaN().all());
+    }
+  }
 }
 
 TEST(LogQuaternion, OfTheIdentityIsZero) {

@@ -137,6 +137,7 @@ void RankRevealing::Sort() noexcept {
 }
 
 double RankRevealing::condition() const noexcept {
+  if (std::isnan(threshold_)) return kNan;
   return rank_ == 0 ? 1 : sigma_[0] / sigma_[rank_ - 1];
 }
 

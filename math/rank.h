@@ -65,7 +65,8 @@ class RankRevealing {
   }
 
   /// sigma_max over the smallest singular value above the threshold: how much
-  /// Solve() can enlarge a relative error of b. 1 if the rank is 0.
+  /// Solve() can enlarge a relative error of b. 1 if the rank is 0, NaN if an
+  /// entry of A was not finite.
   double condition() const noexcept;
 
   /// x of least norm among those of least |A x - b|: V S^+ U' b.

@@ -217,6 +217,7 @@ TEST(RankRevealing, NotFiniteGivesNan) {
     decomposition.Compute(A);
     EXPECT_EQ(decomposition.rank(), 0);
     EXPECT_TRUE(std::isnan(decomposition.threshold()));
+    EXPECT_TRUE(std::isnan(decomposition.condition()));
     EXPECT_TRUE(decomposition.singular_values().array().isNaN().all());
     EXPECT_TRUE(decomposition.nullspace().array().isNaN().all());
     VectorXd x = VectorXd::Ones(4);

@@ -2,11 +2,33 @@
 #include "math/se3.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
+#include "math/exact_dot.h"
 #include "math/so3.h"
 #include "math/stumpff.h"
 
 namespace poise {
+namespace {
+
+// From about half a turn on, |w|² > 10, J_l(w) v as that along w and that across,
+//     p = k / θ² w + sin θ / θ (v - k / θ² w) + (1 - cos θ) / θ² w x v,   k = w'v,
+// each to the last digit of itself: near a turn the latter two come to nothing.
+constexpr double kHalfTurn = 10;
+
+Eigen::Vector3d TranslationBeyondHalfATurn(const Eigen::Vector3d& w,
+                                           const Eigen::Vector3d& v) {
+  const AccurateAngle angle(w);
+  const double half = 0.5 * angle.near, rest = 0.5 * angle.rest;
+  const double sine = std::sin(half) + std::cos(half) * rest;
+  const double cosine = std::cos(half) - std::sin(half) * rest;
+  const double c1 = sine * cosine / half;
+  const double c2 = 2 * sine * sine / angle.square;
+  const Eigen::Vector3d along = ExactDot(w, v).near / angle.square * w;
+  return along + c1 * (v - along) + c2 * w.cross(v);
+}
+
+}  // namespace
 
 Eigen::Matrix4d HatSe3(const Vector6d& x) noexcept {
   Eigen::Matrix4d W = Eigen::Matrix4d::Zero();
@@ -23,9 +45,14 @@ Vector6d VeeSe3(const Eigen::Matrix4d& W) noexcept {
 
 Pose ExpSe3(const Vector6d& x) noexcept {
   const Eigen::Vector3d w = x.head<3>(), v = x.tail<3>();
-  const Stumpff c = ComputeStumpff(w);
-  // J_l(w) v = c1 v + c2 w x v + c3 w w' v.
-  const Eigen::Vector3d p = c.c1 * v + c.c2 * w.cross(v) + c.c3 * w.dot(v) * w;
+  Eigen::Vector3d p;
+  if (w.squaredNorm() < kHalfTurn) {
+    const Stumpff c = ComputeStumpff(w);
+    // J_l(w) v = c1 v + c2 w x v + c3 w w' v.
+    p = c.c1 * v + c.c2 * w.cross(v) + c.c3 * w.dot(v) * w;
+  } else {
+    p = TranslationBeyondHalfATurn(w, v);
+  }
   // Adds nothing, or NaN where an entry of v is not finite.
   return {ExpSo3(w), p.array() + 0 * v.sum()};
 }

@@ -22,9 +22,9 @@ Vector6d VeeSe3(const Eigen::Matrix4d& W) noexcept;
 ///     exp(HatSe3(x)) = (ExpSo3(w), J_l(w) v).
 ///
 /// Error at most 4 eps max(1, |w|), of rotation and translation apart, each in
-/// the norm of the result (where J_l(w) is singular or nearly, |w| about 2 π,
-/// that of v). See docs/accuracy.md. A NaN, an infinity or |w| > 1e154 gives
-/// NaN in all, in v in p. Does not allocate.
+/// the norm of the result, however small: about |w| = 2 π, too, where J_l(w)
+/// takes what is across w to nothing. See docs/accuracy.md. A NaN, an infinity
+/// or |w| > 1e154 gives NaN in all, in v in p. Does not allocate.
 Pose ExpSe3(const Vector6d& x) noexcept;
 
 /// The inverse of ExpSe3(), with |w| <= π:

@@ -94,6 +94,16 @@ TEST(ExpSe3, OfATurnAboutAnAxisElsewhere) {
   EXPECT_LE((X * Vector3d(1, 0, 7) - Vector3d(1, 0, 7)).norm(), kTolerance);
 }
 
+TEST(ExpSe3, OfNearlyAFullTurnTakesWhatIsAcrossToTheLastDigit) {
+  // The double below 2 π is 2.4e-16 off, and so is the chord of the circle.
+  const double angle = 2 * M_PI;
+  const Pose X = ExpSe3((Vector6d() << 0, 0, angle, 3, 0, 0).finished());
+  const double off = std::sin(angle);  // -2.4e-16.
+  EXPECT_NEAR(X.p.x(), 3 * off / angle, 1e-15 * std::abs(off));
+  EXPECT_NEAR(X.p.y(), 3 * off * off / 2 / angle, 1e-15 * off * off);
+  EXPECT_EQ(X.p.z(), 0);
+}
+
 // Repeated squaring of (I + A/2^n + ...), as unlike as can be.
 RC_GTEST_PROP(ExpSe3, IsTheMatrixExponential, ()) {
   const Vector6d x = *Twists(4 * M_PI);

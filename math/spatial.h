@@ -2,14 +2,17 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <type_traits>
 
 #include "math/pose.h"
+#include "math/so3.h"
 #include "math/vector6.h"
 
 namespace poise {
 
-/// The three kinds of spatial vector: what moves, what acts, what is carried.
-enum class SpatialKind { kMotion, kForce, kMomentum };
+/// The kinds of spatial vector: how a body moves, how that changes, what acts on
+/// it, what it carries.
+enum class SpatialKind { kMotion, kAcceleration, kForce, kMomentum };
 
 /// A spatial vector at a point and in the axes of a frame, both of which its
 /// name says: V_WB_E is the motion of B in W, at B's origin, in E's axes. Only
@@ -18,12 +21,14 @@ enum class SpatialKind { kMotion, kForce, kMomentum };
 ///
 /// | kind | angular | linear | name |
 /// | motion | velocity w, rad/s | velocity of the point, m/s | V_WB_E |
+/// | acceleration | rate of w, rad/s2 | rate of the point's v, m/s2 | A_WB_E |
 /// | force | moment about the point, N m | force, N | F_Bo_E |
 /// | momentum | about the point, kg m2/s | kg m/s | L_G_E |
 ///
-/// A motion may be an acceleration as well, in rad/s2 and m/s2; then Shift()
-/// and Pose * shift the spatial one. All functions are inline, allocate nothing
-/// and throw nothing; NaN and infinity propagate.
+/// Accelerations are classical, what an accelerometer at the point feels: that
+/// of another point hangs on the angular velocity too. (The spatial acceleration
+/// of the books is this one less [0; w x v].) All functions are inline, allocate
+/// nothing and throw nothing; NaN and infinity propagate.
 template <SpatialKind kind>
 struct SpatialVector {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
@@ -44,6 +49,7 @@ struct SpatialVector {
 };
 
 using SpatialMotion = SpatialVector<SpatialKind::kMotion>;
+using SpatialAcceleration = SpatialVector<SpatialKind::kAcceleration>;
 using SpatialForce = SpatialVector<SpatialKind::kForce>;
 using SpatialMomentum = SpatialVector<SpatialKind::kMomentum>;
 
@@ -80,7 +86,8 @@ SpatialVector<kind> operator*(const Eigen::Matrix3d& R_AB,
 /// The same vector at another point Q of the same axes: p_BQ_E leads from the
 /// point it is at to Q. Of a motion the velocity changes, v_Q = v_B + w x p_BQ;
 /// of a force or momentum the moment, m_Q = m_B - p_BQ x f.
-template <SpatialKind kind>
+template <SpatialKind kind,
+          typename = std::enable_if_t<kind != SpatialKind::kAcceleration>>
 SpatialVector<kind> Shift(const SpatialVector<kind>& x_Bo_E,
                           const Eigen::Vector3d& p_BQ_E) noexcept {
   if constexpr (kind == SpatialKind::kMotion) {
@@ -90,9 +97,20 @@ SpatialVector<kind> Shift(const SpatialVector<kind>& x_Bo_E,
   }
 }
 
+/// The acceleration of another point Q of a body that moves with V_B:
+///     a_Q = a_B + alpha x p_BQ + w x (w x p_BQ).
+inline SpatialAcceleration Shift(const SpatialAcceleration& A_Bo_E,
+                                 const SpatialMotion& V_Bo_E,
+                                 const Eigen::Vector3d& p_BQ_E) noexcept {
+  const Eigen::Vector3d& w = V_Bo_E.angular;
+  return {A_Bo_E.angular, A_Bo_E.linear + A_Bo_E.angular.cross(p_BQ_E) +
+                              w.cross(w.cross(p_BQ_E))};
+}
+
 /// The same vector at the origin and in the axes of A, from those of B:
 /// Adjoint(X_AB) for motions, DualAdjoint(X_AB) for forces and momenta.
-template <SpatialKind kind>
+template <SpatialKind kind,
+          typename = std::enable_if_t<kind != SpatialKind::kAcceleration>>
 SpatialVector<kind> operator*(const Pose& X_AB,
                               const SpatialVector<kind>& x_Bo_B) noexcept {
   // p_BA_A = -p_AB_A.
@@ -128,10 +146,20 @@ inline SpatialForce Cross(const SpatialMotion& V,
 }
 
 /// The rate of change, a force, of a momentum y fixed in what moves with V: as
-/// of a force. M A + Cross(V, M V) is the equation of motion of a rigid body.
+/// of a force.
 inline SpatialForce Cross(const SpatialMotion& V,
                           const SpatialMomentum& y) noexcept {
   return Cross(V, SpatialForce(y.angular, y.linear));
+}
+
+/// The matrix of y -> Cross(V, y) for motions y, ad(V):  [ Hat(w)    0    ]
+///                                                       [ Hat(v)  Hat(w) ].
+/// That for forces and momenta is -CrossMatrix(V)'.
+inline Matrix6d CrossMatrix(const SpatialMotion& V) noexcept {
+  const Eigen::Matrix3d W = Hat(V.angular);
+  Matrix6d ad;
+  ad << W, Eigen::Matrix3d::Zero(), Hat(V.linear), W;
+  return ad;
 }
 
 }  // namespace poise

@@ -25,13 +25,6 @@ SpatialMomentum AsMomentum(const SpatialForce& F) {
   return {F.angular, F.linear};
 }
 
-// ad(V), by blocks.
-Matrix6d Ad(const SpatialMotion& V) {
-  Matrix6d ad;
-  ad << Hat(V.angular), Matrix3d::Zero(), Hat(V.linear), Hat(V.angular);
-  return ad;
-}
-
 // What a type refuses costs nothing to refuse.
 template <typename A, typename B, typename = void>
 constexpr bool kAdd = false;
@@ -45,6 +38,19 @@ template <typename A, typename B>
 constexpr bool kDot<
     A, B, std::void_t<decltype(Dot(std::declval<A>(), std::declval<B>()))>> =
     true;
+// Whether X moves alone: an acceleration does not without the velocity.
+template <typename X, typename = void>
+constexpr bool kShifts = false;
+template <typename X>
+constexpr bool
+    kShifts<X, std::void_t<decltype(Shift(std::declval<X>(), Vector3d()))>> =
+        true;
+template <typename X, typename = void>
+constexpr bool kMoves = false;
+template <typename X>
+constexpr bool
+    kMoves<X, std::void_t<decltype(std::declval<Pose>() * std::declval<X>())>> =
+        true;
 
 TEST(SpatialVector, KindsDoNotMix) {
   static_assert(kAdd<SpatialMotion, SpatialMotion> &&
@@ -58,6 +64,11 @@ TEST(SpatialVector, KindsDoNotMix) {
   static_assert(!kDot<SpatialMotion, SpatialMotion> &&
                 !kDot<SpatialForce, SpatialForce>);
   static_assert(!kDot<SpatialForce, SpatialMotion>);
+  static_assert(kAdd<SpatialAcceleration, SpatialAcceleration> &&
+                !kAdd<SpatialAcceleration, SpatialMotion>);
+  static_assert(!kDot<SpatialAcceleration, SpatialForce>);
+  static_assert(kShifts<SpatialMotion> && !kShifts<SpatialAcceleration>);
+  static_assert(kMoves<SpatialForce> && !kMoves<SpatialAcceleration>);
   static_assert(!std::is_convertible_v<Vector6d, SpatialMotion>);
   static_assert(!std::is_convertible_v<SpatialMotion, SpatialForce>);
   static_assert(!std::is_constructible_v<SpatialMomentum, SpatialForce>);
@@ -100,6 +111,25 @@ TEST(Shift, OfAForceIsTheMomentAboutAnotherPoint) {
   EXPECT_EQ(L_Q.linear, Vector3d(0, 2, 0));
 }
 
+TEST(Shift, OfAnAccelerationIsThatOfAnotherPoint) {
+  // A table that turns about z at 2 rad/s, and by 3 rad/s2 ever faster: the point
+  // at x = 3 gains 9 m/s2 along y, and falls towards the axis by 4 * 3 m/s2.
+  const SpatialMotion V({0, 0, 2}, {7, 8, 9});
+  const SpatialAcceleration A_Q =
+      Shift(SpatialAcceleration({0, 0, 3}, {1, 0, 0}), V, {3, 0, 0});
+  EXPECT_EQ(A_Q.angular, Vector3d(0, 0, 3));
+  EXPECT_EQ(A_Q.linear, Vector3d(-11, 9, 0));
+}
+
+RC_GTEST_PROP(Shift, OfAnAccelerationInTwoStepsIsThatInOne, ()) {
+  const SpatialAcceleration A(*Vectors(), *Vectors());
+  const SpatialMotion V = *Motions();
+  const Vector3d p = *Vectors(), r = *Vectors();
+  const SpatialAcceleration twice = Shift(Shift(A, V, p), Shift(V, p), r);
+  RC_ASSERT((twice.vector() - Shift(A, V, p + r).vector()).norm() <=
+            20 * kTolerance);
+}
+
 RC_GTEST_PROP(Shift, ThereAndBackIsNoShift, ()) {
   const Vector3d p = *Vectors(), r = *Vectors();
   const SpatialMotion V = *Motions();
@@ -140,8 +170,9 @@ RC_GTEST_PROP(Pose, MovesByTheAdjoints, ()) {
 RC_GTEST_PROP(Cross, IsTheAdjointActionAndItsDual, ()) {
   const SpatialMotion V = *Motions(), y = *Motions();
   const SpatialForce F = *Forces();
-  RC_ASSERT((Cross(V, y).vector() - Ad(V) * y.vector()).norm() <= kTolerance);
-  RC_ASSERT((Cross(V, F).vector() + Ad(V).transpose() * F.vector()).norm() <=
+  const Matrix6d ad = CrossMatrix(V);
+  RC_ASSERT((Cross(V, y).vector() - ad * y.vector()).norm() <= kTolerance);
+  RC_ASSERT((Cross(V, F).vector() + ad.transpose() * F.vector()).norm() <=
             kTolerance);
   RC_ASSERT(Cross(V, AsMomentum(F)).vector() == Cross(V, F).vector());
 }

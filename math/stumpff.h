@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "math/exact_dot.h"
+
 namespace poise {
 
 /// The Stumpff functions c1, c2, c3 of s = θ²,
@@ -67,19 +69,15 @@ struct InverseStumpff {
   double e, d, de, dd;
 };
 
-/// The norm of w, as near + rest, and its square, right to the last digit. The
-/// cotangent enlarges the angle's error, hence long double (nothing else is);
-/// where that is no longer than double, LogSe3() near π errs by 4 eps instead
-/// of 3. NaN where |w| > 1e154.
+/// The norm of w, as near + rest, and its square: right to 2^-100, since the
+/// sine near π and 2 π, and the cotangent, enlarge what is relative in the angle.
+/// NaN where |w| > 1e154.
 struct AccurateAngle {
   explicit AccurateAngle(const Eigen::Vector3d& w) noexcept {
-    const long double x = w.x(), y = w.y(), z = w.z();
-    const long double s = x * x + y * y + z * z;
-    const long double angle = std::sqrt(s);
-    square = static_cast<double>(s);
-    // The square may overflow, and infinity times 0 is NaN.
-    near = static_cast<double>(angle) + 0 * square;
-    rest = static_cast<double>(angle - near);
+    const TwoDoubles s = ExactDot(w, w);
+    square = s.near;
+    near = std::sqrt(square);
+    rest = (std::fma(-near, near, square) + s.rest) / (2 * near);
   }
   double near, rest, square;
 };

@@ -1,0 +1,36 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace poise {
+
+/// The number near + rest: near is the double next to it.
+struct TwoDoubles {
+  double near, rest;
+};
+
+/// a'b to 2^-100 |a| |b|: terms that cancel do not cost digits. NaN where
+/// a'b overflows, or an entry is not finite. About 30 flops.
+///
+/// Source: Ogita, Rump and Oishi, "Accurate sum and dot product", SIAM Journal
+/// on Scientific Computing 26(6), 2005, algorithm 5.3.
+inline TwoDoubles ExactDot(const Eigen::Vector3d& a,
+                           const Eigen::Vector3d& b) noexcept {
+  double sum = a[0] * b[0];
+  double rest = std::fma(a[0], b[0], -sum);
+  for (int i = 1; i < 3; ++i) {
+    const double product = a[i] * b[i];
+    const double before = sum;
+    sum = before + product;
+    // What the sum and what the product left out; both are exact.
+    const double added = sum - before;
+    rest += (before - (sum - added)) + (product - added);
+    rest += std::fma(a[i], b[i], -product);
+  }
+  const double near = sum + rest;
+  return {near, rest - (near - sum)};
+}
+
+}  // namespace poise
