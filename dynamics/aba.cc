@@ -13,20 +13,6 @@ namespace {
 // locked joints.
 constexpr double kRounding = 1e-13;
 
-// An acceleration field, at a body's origin.
-struct Motion {
-  Vec3 alpha;
-  Vec3 a;
-};
-
-Motion operator+(const Motion& A, const Motion& B) {
-  return {A.alpha + B.alpha, A.a + B.a};
-}
-
-double Dot(const Motion& A, const Wrench& F) {
-  return Dot(A.alpha, F.n) + Dot(A.a, F.f);
-}
-
 Vec3 TransposeTimes(const Mat3& A, const Vec3& v) { return RowTimes(v, A); }
 
 Mat3 Transpose(const Mat3& A) {
@@ -66,13 +52,13 @@ Mat3 operator-(const Mat3& A, const Mat3& B) {
 using Body = AbaScratch::Body;
 
 // [J H; H' M] A.
-Wrench operator*(const Body& body, const Motion& A) {
-  return {body.J * A.alpha + body.H * A.a,
-          TransposeTimes(body.H, A.alpha) + body.M * A.a};
+Force3 operator*(const Body& body, const Motion3& A) {
+  return {body.J * A.angular + body.H * A.linear,
+          TransposeTimes(body.H, A.angular) + body.M * A.linear};
 }
 
 // The resistance of a single body: that of its mass moments.
-Body MakeBody(const MassMoments& M, const Wrench& bias) {
+Body MakeBody(const MassMoments& M, const Force3& bias) {
   const double trace = M.Sigma.xx + M.Sigma.yy + M.Sigma.zz;
   const Vec3& h = M.h;
   return {{trace - M.Sigma.xx, trace - M.Sigma.yy, trace - M.Sigma.zz,
@@ -97,7 +83,7 @@ void AddShifted(const Body& B, const Vec3& d, Body* P) {
 // The acceleration of a floating base, A = -[J H; H' M]^-1 bias. Scaled to unit
 // diagonal by the locked robot's inertia, so that kg m2 and kg compare.
 bool SolveBase(const Body& base, const MassMoments& M_locked,
-               const Wrench& push, Vector6d* A) {
+               const Force3& push, Vector6d* A) {
   const Body locked = MakeBody(M_locked, base.bias);
   Matrix6d I;
   I << ToEigen(base.J), ToEigen(base.H), ToEigen(base.H).transpose(),
@@ -111,7 +97,7 @@ bool SolveBase(const Body& base, const MassMoments& M_locked,
   const Eigen::LDLT<Matrix6d> ldlt(I);
   if (!(ldlt.vectorD().minCoeff() > kRounding)) return false;
   Vector6d F;
-  F << ToEigen(push.n), ToEigen(push.f);
+  F << ToEigen(push.angular), ToEigen(push.linear);
   *A = scale.cwiseProduct(ldlt.solve(scale.cwiseProduct(F)));
   return true;
 }
@@ -129,7 +115,8 @@ AbaStatus ComputeAba(const Tree& tree,
                      const Eigen::Ref<const Eigen::VectorXd>& q,
                      const Eigen::Ref<const Eigen::VectorXd>& v,
                      const Eigen::Ref<const Eigen::VectorXd>& tau,
-                     const std::vector<Vector6d>& F_Bo_W, AbaScratch* scratch,
+                     const std::vector<SpatialForce>& F_Bo_W,
+                     AbaScratch* scratch,
                      Eigen::Ref<Eigen::VectorXd> vdot) noexcept {
   assert(tau.size() == tree.nv() && vdot.size() == tree.nv());
   assert(F_Bo_W.empty() ||
@@ -144,21 +131,21 @@ AbaStatus ComputeAba(const Tree& tree,
     return status;
   };
   bool is_finite = q.allFinite() && v.allFinite() && tau.allFinite();
-  for (const Vector6d& F : F_Bo_W) is_finite = is_finite && F.allFinite();
+  for (const SpatialForce& F : F_Bo_W) {
+    is_finite = is_finite && F.vector().allFinite();
+  }
   if (!is_finite) return fail(AbaStatus::kNotFinite);
 
   SweepPoses(tree, q, &r);
+  if (!std::isfinite(r.R_WB[0].x.x)) return fail(AbaStatus::kNotFinite);
   SweepInertias(tree, &r);
 
   // The motion with all joints held at their rates, and what it takes.
   SweepAccelerations(tree, v, r.zero, Eigen::Vector3d::Zero(), &r);
   for (int b = 0; b < num_bodies; ++b) {
-    Wrench bias = Accelerate(
+    Force3 bias = Accelerate(
         r.M_W[b], AccelerationGradient({0, 0, 0}, r.w_WB[b]), {0, 0, 0});
-    if (!F_Bo_W.empty()) {
-      const Vector6d& F = F_Bo_W[b];
-      bias = bias + Wrench{{-F[0], -F[1], -F[2]}, {-F[3], -F[4], -F[5]}};
-    }
+    if (!F_Bo_W.empty()) bias = bias - ToForce3(F_Bo_W[b]);
     bodies[b] = MakeBody(r.M_W[b], bias);
   }
   SumInertias(tree, &r);  // Of the locked subtrees, to judge D by.
@@ -168,38 +155,38 @@ AbaStatus ComputeAba(const Tree& tree,
   const auto bias_of = [&r, &v, v0](int b) {
     const Vec3 w_WP = r.w_WP[b], p_PB_W = r.p_PB_W[b];
     const double v_j = v[v0 + b - 1];
-    return Motion{v_j * Cross(w_WP, r.turn_W[b]),
-                  Cross(w_WP, Cross(w_WP, p_PB_W) + 2 * v_j * r.slide_W[b])};
+    return Motion3{v_j * Cross(w_WP, r.turn_W[b]),
+                   Cross(w_WP, Cross(w_WP, p_PB_W) + 2 * v_j * r.slide_W[b])};
   };
 
   for (int b = num_bodies - 1; b > 0; --b) {
-    const Motion S{r.turn_W[b], r.slide_W[b]};
+    const Motion3 S{r.turn_W[b], r.slide_W[b]};
     Body& body = bodies[b];
-    const Wrench U = body * S;
+    const Force3 U = body * S;
     const double D = Dot(S, U) + joints.armature[b];
     const double locked =
-        Dot(S, Momentum(r.M_W[b], S.alpha, S.a)) + joints.armature[b];
+        Dot(S, Momentum(r.M_W[b], S.angular, S.linear)) + joints.armature[b];
     if (!(D > kRounding * locked)) return fail(AbaStatus::kSingular);
     const double u = tau[v0 + b - 1] - Dot(S, body.bias);
     scratch->U[b] = U;
     scratch->D[b] = D;
     scratch->u[b] = u;
 
-    body.J = body.J - Square(U.n, D);
-    body.H = body.H - Outer(U.n, U.f, D);
-    body.M = body.M - Square(U.f, D);
-    body.bias =
-        body.bias + body * bias_of(b) + Wrench{(u / D) * U.n, (u / D) * U.f};
+    body.J = body.J - Square(U.angular, D);
+    body.H = body.H - Outer(U.angular, U.linear, D);
+    body.M = body.M - Square(U.linear, D);
+    body.bias = body.bias + body * bias_of(b) +
+                Force3{(u / D) * U.angular, (u / D) * U.linear};
     AddShifted(body, r.p_PB_W[b], &bodies[joints.parent[b]]);
   }
 
   // Everything falls: the base's acceleration here is that less gravity.
   const Vec3 g_W = ToVec3(tree.gravity_W());
-  Motion A_0{{0, 0, 0}, -1 * g_W};
+  Motion3 A_0{{0, 0, 0}, -1 * g_W};
   if (tree.is_floating()) {
-    const Wrench& bias = bodies[0].bias;
-    const Wrench push{ToVec3(tau.head<3>()) - bias.n,
-                      ToVec3(tau.segment<3>(3)) - bias.f};
+    const Force3& bias = bodies[0].bias;
+    const Force3 push{ToVec3(tau.head<3>()) - bias.angular,
+                      ToVec3(tau.segment<3>(3)) - bias.linear};
     Vector6d A;
     if (!SolveBase(bodies[0], r.M_W[0], push, &A))
       return fail(AbaStatus::kSingular);
@@ -207,19 +194,19 @@ AbaStatus ComputeAba(const Tree& tree,
     vdot.head<3>() = A.head<3>();
     vdot.segment<3>(3) = A.tail<3>() + tree.gravity_W();
   }
-  r.alpha_WB.Set(0, A_0.alpha);
-  r.a_WB.Set(0, A_0.a);
+  r.alpha_WB.Set(0, A_0.angular);
+  r.a_WB.Set(0, A_0.linear);
   for (int b = 1; b < num_bodies; ++b) {
     const int parent = joints.parent[b];
     const Vec3 alpha_WP = r.alpha_WB[parent];
-    const Motion A =
-        Motion{alpha_WP, r.a_WB[parent] + Cross(alpha_WP, r.p_PB_W[b])} +
+    const Motion3 A =
+        Motion3{alpha_WP, r.a_WB[parent] + Cross(alpha_WP, r.p_PB_W[b])} +
         bias_of(b);
     const double vdot_j =
         (scratch->u[b] - Dot(A, scratch->U[b])) / scratch->D[b];
     vdot[v0 + b - 1] = vdot_j;
-    r.alpha_WB.Set(b, A.alpha + vdot_j * r.turn_W[b]);
-    r.a_WB.Set(b, A.a + vdot_j * r.slide_W[b]);
+    r.alpha_WB.Set(b, A.angular + vdot_j * r.turn_W[b]);
+    r.a_WB.Set(b, A.linear + vdot_j * r.slide_W[b]);
   }
   if (!vdot.allFinite()) return fail(AbaStatus::kNotFinite);
   return AbaStatus::kOk;

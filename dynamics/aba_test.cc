@@ -28,7 +28,7 @@ struct Forward {
 };
 
 Forward AbaOf(const Tree& tree, const VectorXd& q, const VectorXd& v,
-              const VectorXd& tau, const std::vector<Vector6d>& F_Bo_W) {
+              const VectorXd& tau, const std::vector<SpatialForce>& F_Bo_W) {
   AbaScratch scratch(tree);
   Forward result{AbaStatus::kOk, VectorXd::Constant(tree.nv(), 7)};
   result.status = ComputeAba(tree, q, v, tau, F_Bo_W, &scratch, result.vdot);
@@ -210,13 +210,38 @@ TEST(Aba, IsRightForAFingerOfFourGrams) {
               Rounding(1, 7, 200));
 }
 
+// The forces that are left over, in units of what was added up: M grows with the
+// cube of the length, and v̇ itself is known to its condition only.
+TEST(Aba, SolvesLongChains) {
+  for (const TreeShape shape :
+       {TreeShape::kChain, TreeShape::kStar, TreeShape::kAny}) {
+    for (const int joints : {100, 1000}) {
+      SCOPED_TRACE(testing::Message() << static_cast<int>(shape) << joints);
+      const TreeMotion m =
+          MakeTreeMotion({shape, BaseType::kFloating, joints, 3});
+      const VectorXd tau = 10 * m.vdot;
+      const Forward forward = AbaOf(m.tree, m.q, m.v, tau, m.F_Bo_W);
+      ASSERT_EQ(forward.status, AbaStatus::kOk);
+      Recursion scratch(m.tree);
+      VectorXd undone(m.tree.nv());
+      ComputeRnea(m.tree, m.q, m.v, forward.vdot, m.F_Bo_W, &scratch, undone);
+      MatrixXd M(m.tree.nv(), m.tree.nv());
+      ComputeCrba(m.tree, m.q, &scratch, M);
+      const double scale =
+          (M.cwiseAbs() * forward.vdot.cwiseAbs()).maxCoeff() + tau.norm();
+      EXPECT_LE((undone - tau).cwiseAbs().maxCoeff(),
+                Rounding(scale, m.tree.nv()));
+    }
+  }
+}
+
 TEST(Aba, SaysThatInputIsNotFinite) {
   const Tree tree = MakeArm(kLink, kLink);
   const VectorXd q = tree.MakeNeutral(), zero = VectorXd::Zero(tree.nv());
   const auto status_of = [&](VectorXd q_bad, VectorXd v, VectorXd tau,
                              double force) {
-    std::vector<Vector6d> F(3, Vector6d::Zero());
-    F[1][4] = force;
+    std::vector<SpatialForce> F(3);
+    F[1].linear[1] = force;
     const Forward forward = AbaOf(tree, q_bad, v, tau, F);
     EXPECT_TRUE(forward.vdot.array().isNaN().all());
     return forward.status;
@@ -228,6 +253,9 @@ TEST(Aba, SaysThatInputIsNotFinite) {
   EXPECT_EQ(status_of(q, bad, zero, 0), AbaStatus::kNotFinite);
   EXPECT_EQ(status_of(q, zero, bad, 0), AbaStatus::kNotFinite);
   EXPECT_EQ(status_of(q, zero, zero, kNaN), AbaStatus::kNotFinite);
+  VectorXd no_quaternion = q;
+  no_quaternion.segment<4>(3).setZero();
+  EXPECT_EQ(status_of(no_quaternion, zero, zero, 0), AbaStatus::kNotFinite);
   bad[6] = 1e200;  // Its square overflows.
   EXPECT_EQ(status_of(q, bad, zero, 0), AbaStatus::kNotFinite);
 }

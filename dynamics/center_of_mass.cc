@@ -28,10 +28,10 @@ void ComputeCenterOfMass(const Tree& tree,
     out->J_WG.middleCols<3>(3) = per_mass * mass * Eigen::Matrix3d::Identity();
   }
   for (int b = 1; b < tree.num_bodies(); ++b) {
-    out->J_WG.col(tree.v_start() + b - 1) = per_mass * ToEigen(r.H_W[b].f);
+    out->J_WG.col(tree.v_start() + b - 1) = per_mass * ToEigen(r.H_W[b].linear);
   }
   out->v_WG.noalias() = out->J_WG * v;
-  out->bias = per_mass * ToEigen(r.F_W[0].f);
+  out->bias = per_mass * ToEigen(r.F_W[0].linear);
 }
 
 }  // namespace poise

@@ -9,7 +9,9 @@
 namespace poise {
 
 /// The center of mass G of a robot, world axes:
-///     v_WG = J_WG v,     a_WG = J_WG v̇ + bias.
+///     p_WG = sum of m_b p_WG_b / m,   v_WG = J_WG v,   a_WG = J_WG v̇ + bias.
+/// Column j of J_WG is the linear momentum that the subtree of joint j has at unit
+/// rate, over m; the bias the force on all bodies at v̇ = 0 and g = 0, over m.
 /// All zero, but for p_WG = p_WB, for a tree without mass.
 struct CenterOfMass {
   explicit CenterOfMass(const Tree& tree)

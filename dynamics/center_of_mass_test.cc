@@ -35,16 +35,15 @@ struct Mean {
 
 Mean MeanOf(const TreeMotion& m, const VectorXd& velocity) {
   std::vector<Pose> X_WB(m.tree.num_bodies());
-  std::vector<Vector6d> V(m.tree.num_bodies());
+  std::vector<SpatialMotion> V(m.tree.num_bodies());
   ComputePoses(m.tree, m.q, &X_WB);
   ComputeVelocities(m.tree, X_WB, velocity, &V);
   Mean mean;
   for (int b = 0; b < m.tree.num_bodies(); ++b) {
     const Inertia& M_B = m.tree.inertias()[b];
     const double part = M_B.mass / m.tree.total_mass();
-    const Vector3d w = V[b].head<3>();
     mean.p += part * (X_WB[b] * M_B.p_BoG_B);
-    mean.v += part * (V[b].tail<3>() + w.cross(X_WB[b].R * M_B.p_BoG_B));
+    mean.v += part * Shift(V[b], X_WB[b].R * M_B.p_BoG_B).linear;
   }
   return mean;
 }

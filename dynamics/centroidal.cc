@@ -21,16 +21,8 @@ void ComputeCentroidalMomentum(const Eigen::Ref<const Eigen::MatrixXd>& M,
 Inertia CompositeInertia(const Tree& tree,
                          const std::vector<Pose>& X_WB) noexcept {
   Inertia composite;
-  composite.mass = tree.total_mass();
-  for (int b = 0; b < tree.num_bodies() && composite.mass > 0; ++b) {
-    const Inertia& M_B = tree.inertias()[b];
-    composite.p_BoG_B += M_B.mass / composite.mass * (X_WB[b] * M_B.p_BoG_B);
-  }
   for (int b = 0; b < tree.num_bodies(); ++b) {
-    const Inertia& M_B = tree.inertias()[b];
-    const Eigen::Matrix3d P = Hat(X_WB[b] * M_B.p_BoG_B - composite.p_BoG_B);
-    composite.I_G_B +=
-        X_WB[b].R * M_B.I_G_B * X_WB[b].R.transpose() - M_B.mass * P * P;
+    composite = composite + X_WB[b] * tree.inertias()[b];
   }
   return composite;
 }

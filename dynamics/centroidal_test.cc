@@ -40,17 +40,17 @@ CentroidalMomentum CentroidalMomentumAt(const Tree& tree, const VectorXd& q,
 // The second derivation: the sum of the bodies' momenta about G.
 Vector6d MomentumOf(const Tree& tree, const VectorXd& q, const VectorXd& v) {
   std::vector<Pose> X_WB(tree.num_bodies());
-  std::vector<Vector6d> V(tree.num_bodies());
+  std::vector<SpatialMotion> V(tree.num_bodies());
   ComputePoses(tree, q, &X_WB);
   ComputeVelocities(tree, X_WB, v, &V);
   const Vector3d p_WG = CompositeInertia(tree, X_WB).p_BoG_B;
   Vector6d L = Vector6d::Zero();
   for (int b = 0; b < tree.num_bodies(); ++b) {
     const Inertia& M_B = tree.inertias()[b];
-    const Vector3d w = V[b].head<3>();
+    const Vector3d w = V[b].angular;
     const Vector3d p_GB = X_WB[b] * M_B.p_BoG_B - p_WG;
     const Vector3d f =
-        M_B.mass * (V[b].tail<3>() + w.cross(X_WB[b].R * M_B.p_BoG_B));
+        M_B.mass * (V[b].linear + w.cross(X_WB[b].R * M_B.p_BoG_B));
     L.head<3>() +=
         X_WB[b].R * M_B.I_G_B * X_WB[b].R.transpose() * w + p_GB.cross(f);
     L.tail<3>() += f;

@@ -31,13 +31,13 @@ void FillMassMatrix(const Tree& tree, const Recursion& r,
     double* f_z = M.col(5).data() + v0 - 1;
     POISE_LANES
     for (int b = 1; b < num_bodies; ++b) {
-      const Wrench H_O = Shift(r.p_OB_W[b], r.H_W[b]);
-      n_x[b] = H_O.n.x;
-      n_y[b] = H_O.n.y;
-      n_z[b] = H_O.n.z;
-      f_x[b] = H_O.f.x;
-      f_y[b] = H_O.f.y;
-      f_z[b] = H_O.f.z;
+      const Force3 H_O = Shift(r.p_OB_W[b], r.H_W[b]);
+      n_x[b] = H_O.angular.x;
+      n_y[b] = H_O.angular.y;
+      n_z[b] = H_O.angular.z;
+      f_x[b] = H_O.linear.x;
+      f_y[b] = H_O.linear.y;
+      f_z[b] = H_O.linear.z;
     }
     M.topRightCorner(6, num_bodies - 1) =
         M.bottomLeftCorner(num_bodies - 1, 6).transpose();
@@ -51,9 +51,9 @@ void FillMassMatrix(const Tree& tree, const Recursion& r,
     double* M_k = M.col(v0 + k - 1).data() + v0 - 1;
     POISE_LANES
     for (int b = k; b < end; ++b) {
-      const Wrench H = r.H_W[b];
+      const Force3 H = r.H_W[b];
       const Vec3 v_W = slide_W + Cross(turn_W, r.p_OB_W[b] - p_OK_W);
-      M_k[b] = Dot(turn_W, H.n) + Dot(v_W, H.f);
+      M_k[b] = Dot(Motion3{turn_W, v_W}, H);
     }
     for (int b = k + 1; b < end; ++b) M(v0 + k - 1, v0 + b - 1) = M_k[b];
     M_k[k] += joints.armature[k];

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "dynamics/derivatives.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "dynamics/crba.h"
@@ -21,10 +22,7 @@ Vector6d Stack(const Vec3& angular, const Vec3& linear) {
 
 // The matrix of V x: how a motion changes when V carries it along.
 Matrix6d CrossMotion(const Vector6d& V) {
-  const Matrix3d w = Hat(V.head<3>()), v = Hat(V.tail<3>());
-  Matrix6d result;
-  result << w, Matrix3d::Zero(), v, w;
-  return result;
+  return CrossMatrix({V.head<3>(), V.tail<3>()});
 }
 
 // The matrix of V x*: the same for a force or a momentum.
@@ -57,6 +55,7 @@ RneaDerivatives::RneaDerivatives(const Tree& tree)
       I(tree.num_bodies()),
       B(tree.num_bodies()),
       F(tree.num_bodies()),
+      E(tree.num_bodies()),
       V(tree.num_bodies()),
       A(tree.num_bodies()),
       S(tree.num_bodies()) {}
@@ -65,7 +64,10 @@ void ComputeRneaDerivatives(const Tree& tree,
                             const Eigen::Ref<const Eigen::VectorXd>& q,
                             const Eigen::Ref<const Eigen::VectorXd>& v,
                             const Eigen::Ref<const Eigen::VectorXd>& vdot,
+                            const std::vector<SpatialForce>& F_Bo_W,
                             RneaDerivatives* out) noexcept {
+  assert(F_Bo_W.empty() ||
+         static_cast<int>(F_Bo_W.size()) == tree.num_bodies());
   const JointMaps& joints = tree.joint_maps();
   const int num_bodies = tree.num_bodies();
   const int v0 = tree.v_start();
@@ -95,26 +97,43 @@ void ComputeRneaDerivatives(const Tree& tree,
     out->F[b] = I * out->A[b] + CrossForce(out->V[b]) * L;
     out->B[b] =
         CrossForce(out->V[b]) * I - I * CrossMotion(out->V[b]) + CrossWith(L);
+    out->E[b].setZero();
+    if (!F_Bo_W.empty()) {
+      const Vector3d p_OB_W = ToEigen(r.p_OB_W[b]);
+      const Matrix3d f = Hat(F_Bo_W[b].linear);
+      out->F[b] -= Shift(F_Bo_W[b], -p_OB_W).vector();
+      out->E[b] << -Hat(F_Bo_W[b].angular) - Hat(p_OB_W) * f, -f;
+    }
   }
   for (int b = num_bodies - 1; b > 0; --b) {
     out->I[joints.parent[b]] += out->I[b];
     out->B[joints.parent[b]] += out->B[b];
     out->F[joints.parent[b]] += out->F[b];
+    out->E[joints.parent[b]] += out->E[b];
   }
 
   // Column k: a variation of joint k by S_k carries its subtree along, and
   // changes velocities by rate and accelerations by rate_2 beyond that:
-  //     dF_i = [S_k x* F_i] + I_i rate_2 + B_i rate,
-  // where what is carried along counts for the joints below k alone.
+  //     dF_i = [S_k x* F_i] + I_i rate_2 + B_i rate + E_i turn,
+  // where what is carried along counts for the joints below k alone. What acts
+  // from outside keeps its direction: turned with the subtree at first, in F_i,
+  // it is turned back by E_i about the bodies' origins, where it acts.
   const auto set = [&](int column, int body, const Vector6d& carried,
                        const Vector6d& rate, const Vector6d& rate_2,
-                       Eigen::MatrixXd* matrix) {
+                       const Vector3d& turn, Eigen::MatrixXd* matrix) {
+    const auto change_of = [&](int b) -> Vector6d {
+      return out->I[b] * rate_2 + out->B[b] * rate;
+    };
     for (int b = body; b < joints.end[body]; ++b) {
-      if (b == 0) continue;
-      (*matrix)(v0 + b - 1, column) =
-          out->S[b].dot(out->I[b] * rate_2 + out->B[b] * rate);
+      if (b > 0) (*matrix)(v0 + b - 1, column) = out->S[b].dot(change_of(b));
     }
-    const Vector6d dF = carried + out->I[body] * rate_2 + out->B[body] * rate;
+    Vector6d dF = carried + change_of(body);
+    if (!F_Bo_W.empty()) {
+      for (int b = std::max(body, 1); b < joints.end[body]; ++b) {
+        (*matrix)(v0 + b - 1, column) += out->S[b].dot(out->E[b] * turn);
+      }
+      dF += out->E[body] * turn;
+    }
     for (int b = body; b > 0; b = joints.parent[b]) {
       (*matrix)(v0 + b - 1, column) = out->S[b].dot(dF);
     }
@@ -126,8 +145,8 @@ void ComputeRneaDerivatives(const Tree& tree,
       const Vector6d rate = CrossMotion(out->V[0]) * S;
       set(k, 0, CrossForce(S) * out->F[0], rate,
           CrossMotion(out->A[0]) * S + CrossMotion(out->V[0]) * rate,
-          &out->dtau_dq);
-      set(k, 0, Vector6d::Zero(), S, rate, &out->dtau_dv);
+          S.head<3>(), &out->dtau_dq);
+      set(k, 0, Vector6d::Zero(), S, rate, Vector3d::Zero(), &out->dtau_dv);
     }
   }
   for (int b = 1; b < num_bodies; ++b) {
@@ -136,8 +155,9 @@ void ComputeRneaDerivatives(const Tree& tree,
     const Matrix6d V_P = CrossMotion(out->V[joints.parent[b]]);
     const Vector6d rate = V_P * S;
     set(k, b, CrossForce(S) * out->F[b], rate,
-        CrossMotion(out->A[joints.parent[b]]) * S + V_P * rate, &out->dtau_dq);
-    set(k, b, Vector6d::Zero(), S, 2 * rate, &out->dtau_dv);
+        CrossMotion(out->A[joints.parent[b]]) * S + V_P * rate, S.head<3>(),
+        &out->dtau_dq);
+    set(k, b, Vector6d::Zero(), S, 2 * rate, Vector3d::Zero(), &out->dtau_dv);
   }
 
   SumInertias(tree, &r);

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 RneaDerivatives DerivativesOf(const TreeMotion& m) {
   RneaDerivatives out(m.tree);
-  ComputeRneaDerivatives(m.tree, m.q, m.v, m.vdot, &out);
+  ComputeRneaDerivatives(m.tree, m.q, m.v, m.vdot, m.F_Bo_W, &out);
   return out;
 }
 
@@ -26,7 +26,7 @@ VectorXd RneaAt(const TreeMotion& m, const VectorXd& q, const VectorXd& v,
                 const VectorXd& vdot) {
   Recursion scratch(m.tree);
   VectorXd tau(m.tree.nv());
-  ComputeRnea(m.tree, q, v, vdot, {}, &scratch, tau);
+  ComputeRnea(m.tree, q, v, vdot, m.F_Bo_W, &scratch, tau);
   return tau;
 }
 
@@ -84,7 +84,7 @@ TEST(RneaDerivatives, DoNotAllocate) {
       MakeTreeMotion({TreeShape::kAny, BaseType::kFloating, 12, 1});
   RneaDerivatives out(m.tree);
   CountMalloc count;
-  ComputeRneaDerivatives(m.tree, m.q, m.v, m.vdot, &out);
+  ComputeRneaDerivatives(m.tree, m.q, m.v, m.vdot, m.F_Bo_W, &out);
   EXPECT_EQ(count.allocations(), 0);
 }
 

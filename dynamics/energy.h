@@ -6,7 +6,7 @@
 
 #include "dynamics/tree.h"
 #include "math/pose.h"
-#include "math/vector6.h"
+#include "math/spatial.h"
 
 namespace poise {
 
@@ -17,7 +17,7 @@ namespace poise {
 /// @param v       nv, see Tree; read for the armatures.
 /// Costs O(n). Does not allocate, does not throw.
 double KineticEnergy(const Tree& tree, const std::vector<Pose>& X_WB,
-                     const std::vector<Vector6d>& V_WB_W,
+                     const std::vector<SpatialMotion>& V_WB_W,
                      const Eigen::Ref<const Eigen::VectorXd>& v) noexcept;
 
 /// The potential energy in J, - mass g_W' p_WG: zero with G at the origin.

@@ -24,7 +24,7 @@ struct Energies {
 
 Energies EnergiesAt(const Tree& tree, const VectorXd& q, const VectorXd& v) {
   std::vector<Pose> X_WB(tree.num_bodies());
-  std::vector<Vector6d> V_WB_W(tree.num_bodies());
+  std::vector<SpatialMotion> V_WB_W(tree.num_bodies());
   ComputePoses(tree, q, &X_WB);
   ComputeVelocities(tree, X_WB, v, &V_WB_W);
   return {KineticEnergy(tree, X_WB, V_WB_W, v), PotentialEnergy(tree, X_WB)};
@@ -70,11 +70,25 @@ TEST(PotentialEnergy, IsThatOnPaper) {
   EXPECT_EQ(EnergiesAt(tree, q, VectorXd::Zero(6)).potential, 2 * 10 * 3.5);
 }
 
+// What the forces F_Bo_W put in, W.
+double PowerOf(const TreeMotion& m) {
+  std::vector<Pose> X_WB(m.tree.num_bodies());
+  std::vector<SpatialMotion> V_WB_W(m.tree.num_bodies());
+  ComputePoses(m.tree, m.q, &X_WB);
+  ComputeVelocities(m.tree, X_WB, m.v, &V_WB_W);
+  double power = 0;
+  for (int b = 0; b < m.tree.num_bodies(); ++b) {
+    power += Dot(V_WB_W[b], m.F_Bo_W[b]);
+  }
+  return power;
+}
+
 TEST(Energy, ChangesByThePowerOfTheForces) {
-  EXPECT_TRUE(HoldsForTrees("dE/dt = v'tau", [](const TreeMotion& m) {
+  EXPECT_TRUE(HoldsForTrees("dE/dt = v'tau + V'F", [](const TreeMotion& m) {
     Recursion scratch(m.tree);
     VectorXd tau(m.tree.nv());
-    ComputeRnea(m.tree, m.q, m.v, m.vdot, {}, &scratch, tau);
+    ComputeRnea(m.tree, m.q, m.v, m.vdot, m.F_Bo_W, &scratch, tau);
+    const double power = m.v.dot(tau) + PowerOf(m);
     const VectorXd rate = RiddersRate([&](double t) {
       VectorXd q(m.tree.nq());
       Integrate(m.tree, m.q, m.v + 0.5 * t * m.vdot, t, q);
@@ -82,7 +96,7 @@ TEST(Energy, ChangesByThePowerOfTheForces) {
       return VectorXd::Constant(1, E.kinetic + E.potential);
     });
     const double scale = tau.norm() * m.v.norm() + 1000;
-    return Compare(VectorXd::Constant(1, m.v.dot(tau)), rate,
+    return Compare(VectorXd::Constant(1, power), rate,
                    kRiddersPrecision * scale);
   }));
 }
@@ -91,7 +105,7 @@ TEST(Energy, DoesNotAllocate) {
   const TreeMotion m =
       MakeTreeMotion({TreeShape::kAny, BaseType::kFloating, 12, 1});
   std::vector<Pose> X_WB(m.tree.num_bodies());
-  std::vector<Vector6d> V_WB_W(m.tree.num_bodies(), Vector6d::Zero());
+  std::vector<SpatialMotion> V_WB_W(m.tree.num_bodies());
   ComputePoses(m.tree, m.q, &X_WB);
   CountMalloc count;
   KineticEnergy(m.tree, X_WB, V_WB_W, m.v);

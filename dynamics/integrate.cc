@@ -10,7 +10,7 @@ namespace poise {
 namespace {
 
 Eigen::Quaterniond BaseRotation(const Eigen::Ref<const Eigen::VectorXd>& q) {
-  return Eigen::Quaterniond(q[6], q[3], q[4], q[5]).normalized();
+  return Normalize(Eigen::Quaterniond(q[6], q[3], q[4], q[5]));
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ void Integrate(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
     const Eigen::Vector3d w_WB = v.head<3>();
     const Eigen::Quaterniond R = ExpQuaternion(dt * w_WB) * BaseRotation(q);
     q_out.head<3>() = q.head<3>() + dt * v.segment<3>(3);
-    q_out.segment<4>(3) = R.normalized().coeffs();
+    q_out.segment<4>(3) = Normalize(R).coeffs();
   }
   const int n = tree.num_joints();
   q_out.tail(n) = q.tail(n) + dt * v.tail(n);

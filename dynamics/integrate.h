@@ -10,10 +10,11 @@ namespace poise {
 /// Moves a configuration along a velocity that stays constant in world axes,
 ///     q_out = q [+] v dt = [p_WB + v_WB dt; exp(w_WB dt) R_WB; joints + v dt].
 ///
-/// @param q      nq configuration, see Tree; its quaternion need not be unit.
+/// @param q      nq configuration, see Tree; its quaternion may be of any norm
+///               but 0, which makes the rotation NaN.
 /// @param v      nv velocity, see Tree.
 /// @param q_out  nq; its quaternion is unit. May be q itself.
-/// Does not allocate, does not throw.
+/// Costs O(n). Does not allocate, does not throw.
 void Integrate(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
                const Eigen::Ref<const Eigen::VectorXd>& v, double dt,
                Eigen::Ref<Eigen::VectorXd> q_out) noexcept;
@@ -22,7 +23,7 @@ void Integrate(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
 /// inverse of Integrate():   q_from [+] v = q_to.
 ///
 /// @param v  nv; its rotation is the shorter way round, of norm at most pi.
-/// Does not allocate, does not throw.
+/// Costs O(n). Does not allocate, does not throw.
 void Difference(const Tree& tree,
                 const Eigen::Ref<const Eigen::VectorXd>& q_from,
                 const Eigen::Ref<const Eigen::VectorXd>& q_to,

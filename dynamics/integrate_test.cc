@@ -40,9 +40,14 @@ TEST(Integrate, MayWriteOverItsInput) {
 
 TEST(Integrate, NormalizesTheQuaternion) {
   VectorXd q = MakeBody().MakeNeutral(), expected = q, q_out(7);
-  q[6] = 3;
+  for (const double norm : {1e-300, 1e-160, 3.0, 1e160, 1e300}) {
+    q[6] = norm;
+    Integrate(MakeBody(), q, VectorXd::Zero(6), 1, q_out);
+    EXPECT_EQ(q_out, expected);
+  }
+  q[6] = 0;
   Integrate(MakeBody(), q, VectorXd::Zero(6), 1, q_out);
-  EXPECT_EQ(q_out, expected);
+  EXPECT_TRUE(q_out.tail<4>().array().isNaN().all());
 }
 
 TEST(Integrate, KeepsTinyRotations) {

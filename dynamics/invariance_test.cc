@@ -5,11 +5,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <numeric>
+#include <random>
 
 #include "dynamics/aba.h"
 #include "dynamics/energy.h"
 #include "dynamics/integrate.h"
 #include "dynamics/kinematics.h"
+#include "dynamics/rnea.h"
 #include "dynamics/tick.h"
 #include "tests/util/tolerance.h"
 #include "tests/util/tree_cases.h"
@@ -48,11 +51,7 @@ struct Rerooted {
     TreeBuilder builder;
     builder.SetGravity(from.gravity_W());
     for (int b = 0; b < from.num_bodies(); ++b) {
-      Inertia M = from.inertias()[b];
-      M.p_BoG_B = X_NB[b] * M.p_BoG_B;
-      const Matrix3d I = X_NB[b].R * M.I_G_B * X_NB[b].R.transpose();
-      M.I_G_B = (I + I.transpose()) / 2;
-      builder.AddLink(std::to_string(b), M);
+      builder.AddLink(std::to_string(b), X_NB[b] * from.inertias()[b]);
     }
     for (int b = 1; b < from.num_bodies(); ++b) {
       const Joint& joint = from.joints()[b - 1];
@@ -72,10 +71,11 @@ struct Rerooted {
 };
 
 // The accelerations of the bodies' origins at v̇.
-std::vector<Vector6d> AccelerationsOf(const TreeMotion& m,
-                                      const VectorXd& vdot) {
+std::vector<SpatialAcceleration> AccelerationsOf(const TreeMotion& m,
+                                                 const VectorXd& vdot) {
   std::vector<Pose> X_WB(m.tree.num_bodies());
-  std::vector<Vector6d> V_WB_W(X_WB.size()), A_WB_W(X_WB.size());
+  std::vector<SpatialMotion> V_WB_W(X_WB.size());
+  std::vector<SpatialAcceleration> A_WB_W(X_WB.size());
   ComputePoses(m.tree, m.q, &X_WB);
   ComputeVelocities(m.tree, X_WB, m.v, &V_WB_W);
   ComputeAccelerations(m.tree, X_WB, V_WB_W, m.v, vdot, &A_WB_W);
@@ -85,14 +85,14 @@ std::vector<Vector6d> AccelerationsOf(const TreeMotion& m,
 // The state of a robot whose base is another one of its bodies.
 TreeMotion Move(const TreeMotion& m, int root, const Rerooted& rerooted) {
   std::vector<Pose> X_WB(m.tree.num_bodies());
-  std::vector<Vector6d> V_WB_W(X_WB.size());
+  std::vector<SpatialMotion> V_WB_W(X_WB.size());
   ComputePoses(m.tree, m.q, &X_WB);
   ComputeVelocities(m.tree, X_WB, m.v, &V_WB_W);
   TreeMotion moved{rerooted.tree, m.q, m.v, m.vdot, {}};
   moved.q.head<3>() = X_WB[root].p;
   moved.q.segment<4>(3) = Eigen::Quaterniond(X_WB[root].R).coeffs();
-  moved.v.head<6>() = V_WB_W[root];
-  moved.vdot.head<6>() = AccelerationsOf(m, m.vdot)[root];
+  moved.v.head<6>() = V_WB_W[root].vector();
+  moved.vdot.head<6>() = AccelerationsOf(m, m.vdot)[root].vector();
   for (int j = 0; j < m.tree.num_joints(); ++j) {
     moved.q[7 + rerooted.order[j]] = m.q[7 + j];
     moved.v[6 + rerooted.order[j]] = m.v[6 + j];
@@ -146,7 +146,7 @@ TEST(Dynamics, OfTheJointsDoesNotHangOnTheRoot) {
       return Residual{1, 0};
     }
     VectorXd expected = vdot_moved;
-    expected.head<6>() = AccelerationsOf(m, vdot)[LastBody(m)];
+    expected.head<6>() = AccelerationsOf(m, vdot)[LastBody(m)].vector();
     for (int j = 0; j < n; ++j) expected[6 + rerooted.order[j]] = vdot[6 + j];
     const Tick tick = TickOf(m), tick_moved = TickOf(moved);
     const auto resistance = [](const MatrixXd& M) {
@@ -158,6 +158,136 @@ TEST(Dynamics, OfTheJointsDoesNotHangOnTheRoot) {
                          tick_moved.M.norm() * vdot_moved.norm();
     return Compare(vdot_moved, expected,
                    Rounding(scale, m.tree.nv() + 10) / least);
+  }));
+}
+
+// The same robot, its links and joints given to the builder in another order.
+struct Renumbered {
+  Renumbered(const Tree& from, std::mt19937* draw) : tree(Build(from, draw)) {
+    // Of each entry of the old v: its place in the new one.
+    const int v0 = from.v_start();
+    Eigen::VectorXi places(from.nv());
+    for (int i = 0; i < v0; ++i) places[i] = i;
+    for (int j = 0; j < from.num_joints(); ++j) {
+      places[v0 + j] = v0 + *tree.FindJoint(from.joints()[j].name);
+    }
+    P = Eigen::PermutationMatrix<Eigen::Dynamic>(places);
+  }
+
+  Tree tree;
+  Eigen::PermutationMatrix<Eigen::Dynamic> P;  // New v = P v.
+
+ private:
+  static Tree Build(const Tree& from, std::mt19937* draw) {
+    std::vector<int> bodies(from.num_bodies());
+    std::iota(bodies.begin(), bodies.end(), 0);
+    for (size_t i = bodies.size() - 1; i > 0; --i) {
+      std::swap(bodies[i], bodies[(*draw)() % (i + 1)]);
+    }
+    TreeBuilder builder;
+    builder.SetGravity(from.gravity_W());
+    for (const int b : bodies) {
+      builder.AddLink(std::to_string(b), from.inertias()[b]);
+      if (b == 0) continue;
+      const Joint& joint = from.joints()[b - 1];
+      builder.AddJoint({joint.name, joint.type, std::to_string(joint.parent),
+                        std::to_string(b), joint.X_PF, joint.axis_F,
+                        joint.armature});
+    }
+    return builder.Build(from.is_floating() ? BaseType::kFloating
+                                            : BaseType::kFixed);
+  }
+};
+
+TEST(Dynamics, DoesNotHangOnTheNumbersOfTheJoints) {
+  EXPECT_TRUE(HoldsForTrees("M, N, H_G, p_WG, v̇", [](const TreeMotion& m) {
+    std::mt19937 draw(static_cast<unsigned>(m.tree.nv()));
+    const Renumbered other(m.tree, &draw);
+    const int nv = m.tree.nv(), v0 = m.tree.v_start();
+    TreeMotion moved{other.tree, m.q, other.P * m.v, other.P * m.vdot, {}};
+    const VectorXd joints = m.q.tail(m.tree.num_joints());
+    for (int j = 0; j < m.tree.num_joints(); ++j) {
+      moved.q[m.tree.q_start() + other.P.indices()[v0 + j] - v0] = joints[j];
+    }
+    const Tick tick = TickOf(m), tick_moved = TickOf(moved);
+    MatrixXd ours(nv + 13, nv + 1), expected = ours;
+    ours << tick_moved.M, tick_moved.N,       //
+        tick_moved.H_G, tick_moved.H_G_bias,  //
+        tick_moved.H_G, tick_moved.L_G,       //
+        VectorXd::Zero(nv).transpose(), tick_moved.p_WG.sum();
+    expected << other.P * tick.M * other.P.transpose(), other.P * tick.N,
+        tick.H_G * other.P.transpose(), tick.H_G_bias,
+        tick.H_G * other.P.transpose(), tick.L_G,
+        VectorXd::Zero(nv).transpose(), tick.p_WG.sum();
+    return Compare(ours, expected, Rounding(100 + ours.norm(), nv + 10));
+  }));
+}
+
+// The same robot in a world that is turned by R, gravity and all. Frame b is
+// that of body b.
+TreeMotion Turn(const TreeMotion& m, const Matrix3d& R) {
+  TreeBuilder builder;
+  builder.SetGravity(R * m.tree.gravity_W());
+  builder.AddLink("0", m.tree.inertias()[0]);
+  for (int b = 1; b < m.tree.num_bodies(); ++b) {
+    const Joint& joint = m.tree.joints()[b - 1];
+    builder.AddLink(std::to_string(b), m.tree.inertias()[b]);
+    builder.AddJoint({joint.name, joint.type, std::to_string(joint.parent),
+                      std::to_string(b), joint.X_PF, joint.axis_F,
+                      joint.armature});
+  }
+  TreeMotion turned{builder.Build(), m.q, m.v, m.vdot, m.F_Bo_W};
+  turned.q.head<3>() = R * m.q.head<3>();
+  turned.q.segment<4>(3) = (Eigen::Quaterniond(R) *
+                            Eigen::Quaterniond(m.q[6], m.q[3], m.q[4], m.q[5]))
+                               .coeffs();
+  for (VectorXd* x : {&turned.v, &turned.vdot}) {
+    x->head<3>() = (R * x->head<3>()).eval();
+    x->segment<3>(3) = (R * x->segment<3>(3)).eval();
+  }
+  for (SpatialForce& F : turned.F_Bo_W) F = R * F;
+  return turned;
+}
+
+TEST(Dynamics, TurnsWithTheWorld) {
+  EXPECT_TRUE(HoldsForTrees("M, N, J, L_G, bias, tau", [](const TreeMotion& m) {
+    if (!m.tree.is_floating()) return Residual{0, 0};
+    const Matrix3d R =
+        Eigen::AngleAxisd(1.1, Vector3d(2, -1, 2) / 3).toRotationMatrix();
+    const TreeMotion turned = Turn(m, R);
+    const int nv = m.tree.nv(), last = LastBody(m);
+    MatrixXd T = MatrixXd::Identity(nv, nv);
+    T.block<3, 3>(0, 0) = T.block<3, 3>(3, 3) = R;
+    const Eigen::MatrixXd T_6 = T.topLeftCorner<6, 6>();
+    // Of all, what must be equal: numbers of the turned robot, turned back.
+    const auto numbers_of = [last, nv](const TreeMotion& motion,
+                                       const MatrixXd& T_v,
+                                       const MatrixXd& T_x) {
+      Tick tick(motion.tree, {last});
+      ComputeTick(motion.tree, motion.q, motion.v, &tick);
+      Recursion scratch(motion.tree);
+      VectorXd tau(nv);
+      ComputeRnea(motion.tree, motion.q, motion.v, motion.vdot, motion.F_Bo_W,
+                  &scratch, tau);
+      const Matrix3d R_x = T_x.topLeftCorner<3, 3>();
+      MatrixXd numbers = MatrixXd::Zero(nv + 12, nv + 3);
+      numbers.topLeftCorner(nv, nv) = T_v.transpose() * tick.M * T_v;
+      numbers.col(nv).head(nv) = T_v.transpose() * tick.N;
+      numbers.col(nv + 1).head(nv) = T_v.transpose() * tau;
+      numbers.col(nv + 2).head<3>() = R_x.transpose() * tick.p_WG;
+      numbers.block(nv, 0, 6, nv) = T_x.transpose() * tick.H_G * T_v;
+      numbers.block<6, 1>(nv, nv) = T_x.transpose() * tick.L_G;
+      numbers.block<6, 1>(nv, nv + 1) = T_x.transpose() * tick.H_G_bias;
+      const FrameTick& frame = tick.frames[0];
+      numbers.block(nv + 6, 0, 6, nv) = T_x.transpose() * frame.J_WF_W * T_v;
+      numbers.block<6, 1>(nv + 6, nv) = T_x.transpose() * frame.Jdot_v;
+      return numbers;
+    };
+    const MatrixXd ours = numbers_of(turned, T, T_6);
+    const MatrixXd expected =
+        numbers_of(Turn(m, Matrix3d::Identity()), MatrixXd::Identity(nv, nv),
+                   MatrixXd::Identity(6, 6));
+    return Compare(ours, expected, Rounding(100 + ours.norm(), nv + 10));
   }));
 }
 

@@ -40,16 +40,15 @@ void ComputeFrameJacobian(const Tree& tree, const std::vector<Pose>& X_WB,
   }
 }
 
-Vector6d FrameBias(const Vector6d& A_WF_W, const Vector6d& V_WF_W,
-                   const Eigen::Matrix3d& R_WF, Axes axes) noexcept {
-  if (axes == Axes::kWorld) return A_WF_W;
-  const Vector3d w_WF_W = V_WF_W.head<3>();
-  Vector6d bias;
-  bias.head<3>() = R_WF.transpose() * A_WF_W.head<3>();
-  bias.tail<3>() =
-      R_WF.transpose() *
-      (A_WF_W.tail<3>() - w_WF_W.cross(Vector3d(V_WF_W.tail<3>())));
-  return bias;
+Vector6d FrameBias(const SpatialAcceleration& A_WF_W,
+                   const SpatialMotion& V_WF_W, const Eigen::Matrix3d& R_WF,
+                   Axes axes) noexcept {
+  if (axes == Axes::kWorld) return A_WF_W.vector();
+  // w x w is zero.
+  const SpatialAcceleration turned(Vector3d::Zero(),
+                                   V_WF_W.angular.cross(V_WF_W.linear));
+  const Eigen::Matrix3d R_FW = R_WF.transpose();
+  return (R_FW * (A_WF_W - turned)).vector();
 }
 
 }  // namespace poise

@@ -40,19 +40,17 @@ struct LastFrame {
   }
 
   Vector6d Velocity(Axes axes) const {
-    Vector6d V = V_WF_W;
-    if (axes == Axes::kFrame) {
-      V << X_WF.R.transpose() * V_WF_W.head<3>(),
-          X_WF.R.transpose() * V_WF_W.tail<3>();
-    }
-    return V;
+    const Eigen::Matrix3d R_FW = X_WF.R.transpose();
+    return (axes == Axes::kFrame ? R_FW * V_WF_W : V_WF_W).vector();
   }
 
   int frame;
   std::vector<Pose> X_WB;
-  std::vector<Vector6d> V_WB_W, A_WB_W;
+  std::vector<SpatialMotion> V_WB_W;
+  std::vector<SpatialAcceleration> A_WB_W;
   Pose X_WF;
-  Vector6d V_WF_W, A_WF_W;
+  SpatialMotion V_WF_W;
+  SpatialAcceleration A_WF_W;
 };
 
 TEST(FrameJacobian, TimesVIsTheVelocity) {
@@ -71,8 +69,8 @@ TEST(FrameJacobian, HasNoOtherColumns) {
   EXPECT_TRUE(HoldsForTrees("J e = V", [](const TreeMotion& m) {
     Matrix6Xd velocities(6, m.tree.nv());
     for (int j = 0; j < m.tree.nv(); ++j) {
-      velocities.col(j) =
-          LastFrame(m.tree, m.q, VectorXd::Unit(m.tree.nv(), j)).V_WF_W;
+      velocities.col(j) = LastFrame(m.tree, m.q, VectorXd::Unit(m.tree.nv(), j))
+                              .V_WF_W.vector();
     }
     const Matrix6Xd J = LastFrame(m).Jacobian(m.tree, Axes::kWorld);
     return Compare(J, velocities, Rounding(10, m.tree.nv() + 6));

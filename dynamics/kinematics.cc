@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <cassert>
 
+#include "math/quaternion.h"
+
 namespace poise {
 
 using Eigen::Vector3d;
@@ -14,9 +16,8 @@ void ComputePoses(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
   assert(static_cast<int>(X_WB->size()) == tree.num_bodies());
   X_WB->front() = Pose();
   if (tree.is_floating()) {
-    X_WB->front().R = Eigen::Quaterniond(q[6], q[3], q[4], q[5])
-                          .normalized()
-                          .toRotationMatrix();
+    X_WB->front().R = MatrixFromQuaternion(
+        Normalize(Eigen::Quaterniond(q[6], q[3], q[4], q[5])));
     X_WB->front().p = q.head<3>();
   }
   for (int j = 0; j < tree.num_joints(); ++j) {
@@ -34,53 +35,49 @@ void ComputePoses(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
 
 void ComputeVelocities(const Tree& tree, const std::vector<Pose>& X_WB,
                        const Eigen::Ref<const Eigen::VectorXd>& v,
-                       std::vector<Vector6d>* V_WB_W) noexcept {
+                       std::vector<SpatialMotion>* V_WB_W) noexcept {
   assert(v.size() == tree.nv());
   assert(static_cast<int>(V_WB_W->size()) == tree.num_bodies());
-  V_WB_W->front().setZero();
-  if (tree.is_floating()) V_WB_W->front() = v.head<6>();
+  V_WB_W->front() = SpatialMotion();
+  if (tree.is_floating()) V_WB_W->front() = SpatialMotion(v.head<6>());
   for (int j = 0; j < tree.num_joints(); ++j) {
     const Joint& joint = tree.joints()[j];
     const Vector3d relative =
         v[tree.v_start() + j] * (X_WB[j + 1].R * joint.axis_F);
     const Vector3d p_PB_W = X_WB[j + 1].p - X_WB[joint.parent].p;
-    const Vector6d& V_WP = (*V_WB_W)[joint.parent];
-    const Vector3d w_WP = V_WP.head<3>();
-    Vector6d& V_WB = (*V_WB_W)[j + 1];
-    V_WB << w_WP, V_WP.tail<3>() + w_WP.cross(p_PB_W);
+    SpatialMotion& V_WB = (*V_WB_W)[j + 1];
+    V_WB = Shift((*V_WB_W)[joint.parent], p_PB_W);
     if (joint.type == JointType::kPrismatic) {
-      V_WB.tail<3>() += relative;
+      V_WB.linear += relative;
     } else {
-      V_WB.head<3>() += relative;
+      V_WB.angular += relative;
     }
   }
 }
 
 void ComputeAccelerations(const Tree& tree, const std::vector<Pose>& X_WB,
-                          const std::vector<Vector6d>& V_WB_W,
+                          const std::vector<SpatialMotion>& V_WB_W,
                           const Eigen::Ref<const Eigen::VectorXd>& v,
                           const Eigen::Ref<const Eigen::VectorXd>& vdot,
-                          std::vector<Vector6d>* A_WB_W) noexcept {
+                          std::vector<SpatialAcceleration>* A_WB_W) noexcept {
   assert(v.size() == tree.nv() && vdot.size() == tree.nv());
   assert(static_cast<int>(A_WB_W->size()) == tree.num_bodies());
-  A_WB_W->front().setZero();
-  if (tree.is_floating()) A_WB_W->front() = vdot.head<6>();
+  A_WB_W->front() = SpatialAcceleration();
+  if (tree.is_floating()) A_WB_W->front() = SpatialAcceleration(vdot.head<6>());
   for (int j = 0; j < tree.num_joints(); ++j) {
     const Joint& joint = tree.joints()[j];
     const Vector3d axis_W = X_WB[j + 1].R * joint.axis_F;
     const double v_j = v[tree.v_start() + j];
     const double vdot_j = vdot[tree.v_start() + j];
     const Vector3d p_PB_W = X_WB[j + 1].p - X_WB[joint.parent].p;
-    const Vector3d w_WP = V_WB_W[joint.parent].head<3>();
-    const Vector6d& A_WP = (*A_WB_W)[joint.parent];
-    const Vector3d alpha_WP = A_WP.head<3>();
-    Vector6d& A_WB = (*A_WB_W)[j + 1];
-    A_WB << alpha_WP, A_WP.tail<3>() + alpha_WP.cross(p_PB_W) +
-                          w_WP.cross(w_WP.cross(p_PB_W));
+    const SpatialMotion& V_WP = V_WB_W[joint.parent];
+    SpatialAcceleration& A_WB = (*A_WB_W)[j + 1];
+    A_WB = Shift((*A_WB_W)[joint.parent], V_WP, p_PB_W);
+    const Vector3d turned = v_j * V_WP.angular.cross(axis_W);
     if (joint.type == JointType::kPrismatic) {
-      A_WB.tail<3>() += vdot_j * axis_W + 2 * v_j * w_WP.cross(axis_W);
+      A_WB.linear += vdot_j * axis_W + 2 * turned;
     } else {
-      A_WB.head<3>() += vdot_j * axis_W + v_j * w_WP.cross(axis_W);
+      A_WB.angular += vdot_j * axis_W + turned;
     }
   }
 }
@@ -91,27 +88,19 @@ Pose FramePose(const Tree& tree, const std::vector<Pose>& X_WB,
   return X_WB[F.body] * F.X_BF;
 }
 
-Vector6d FrameVelocity(const Tree& tree, const std::vector<Pose>& X_WB,
-                       const std::vector<Vector6d>& V_WB_W,
-                       int frame) noexcept {
+SpatialMotion FrameVelocity(const Tree& tree, const std::vector<Pose>& X_WB,
+                            const std::vector<SpatialMotion>& V_WB_W,
+                            int frame) noexcept {
   const Frame& F = tree.frames()[frame];
-  const Vector3d p_BF_W = X_WB[F.body].R * F.X_BF.p;
-  Vector6d V_WF = V_WB_W[F.body];
-  V_WF.tail<3>() += V_WF.head<3>().cross(p_BF_W);
-  return V_WF;
+  return Shift(V_WB_W[F.body], X_WB[F.body].R * F.X_BF.p);
 }
 
-Vector6d FrameAcceleration(const Tree& tree, const std::vector<Pose>& X_WB,
-                           const std::vector<Vector6d>& V_WB_W,
-                           const std::vector<Vector6d>& A_WB_W,
-                           int frame) noexcept {
+SpatialAcceleration FrameAcceleration(
+    const Tree& tree, const std::vector<Pose>& X_WB,
+    const std::vector<SpatialMotion>& V_WB_W,
+    const std::vector<SpatialAcceleration>& A_WB_W, int frame) noexcept {
   const Frame& F = tree.frames()[frame];
-  const Vector3d p_BF_W = X_WB[F.body].R * F.X_BF.p;
-  const Vector3d w_WB = V_WB_W[F.body].head<3>();
-  Vector6d A_WF = A_WB_W[F.body];
-  A_WF.tail<3>() +=
-      A_WF.head<3>().cross(p_BF_W) + w_WB.cross(w_WB.cross(p_BF_W));
-  return A_WF;
+  return Shift(A_WB_W[F.body], V_WB_W[F.body], X_WB[F.body].R * F.X_BF.p);
 }
 
 }  // namespace poise

@@ -36,15 +36,15 @@ std::vector<Pose> PosesAt(const TreeMotion& m, const VectorXd& q) {
   return X_WB;
 }
 
-std::vector<Vector6d> VelocitiesAt(const TreeMotion& m, const VectorXd& q,
-                                   const VectorXd& v) {
-  std::vector<Vector6d> V_WB_W(m.tree.num_bodies());
+std::vector<SpatialMotion> VelocitiesAt(const TreeMotion& m, const VectorXd& q,
+                                        const VectorXd& v) {
+  std::vector<SpatialMotion> V_WB_W(m.tree.num_bodies());
   ComputeVelocities(m.tree, PosesAt(m, q), v, &V_WB_W);
   return V_WB_W;
 }
 
-std::vector<Vector6d> AccelerationsOf(const TreeMotion& m) {
-  std::vector<Vector6d> A_WB_W(m.tree.num_bodies());
+std::vector<SpatialAcceleration> AccelerationsOf(const TreeMotion& m) {
+  std::vector<SpatialAcceleration> A_WB_W(m.tree.num_bodies());
   ComputeAccelerations(m.tree, PosesAt(m, m.q), VelocitiesAt(m, m.q, m.v), m.v,
                        m.vdot, &A_WB_W);
   return A_WB_W;
@@ -90,25 +90,44 @@ TEST(Kinematics, OfAnArmAreThoseOnPaper) {
   EXPECT_NEAR((X_WB[3].p - (p_elbow + (2 + s) * e)).norm(), 0, Rounding(4, 4));
   EXPECT_NEAR((X_WB[3].R.col(0) - e).norm(), 0, Rounding(2, 4));
 
-  std::vector<Vector6d> V_WB_W(4), A_WB_W(4);
+  std::vector<SpatialMotion> V_WB_W(4);
+  std::vector<SpatialAcceleration> A_WB_W(4);
   ComputeVelocities(tree, X_WB, v, &V_WB_W);
   const Vector3d z = Vector3d::UnitZ();
   const double w = a_dot + b_dot;
   const Vector3d v_end = a_dot * z.cross(p_elbow) + s_dot * e + (2 + s) * w * n;
-  EXPECT_NEAR(V_WB_W[3][2], w, Rounding(2, 2));
-  EXPECT_NEAR((V_WB_W[3].tail<3>() - v_end).norm(), 0, Rounding(8, 4));
+  EXPECT_NEAR(V_WB_W[3].angular.z(), w, Rounding(2, 2));
+  EXPECT_NEAR((V_WB_W[3].linear - v_end).norm(), 0, Rounding(8, 4));
 
   ComputeAccelerations(tree, X_WB, V_WB_W, v, VectorXd::Zero(3), &A_WB_W);
   const Vector3d a_end =
       -a_dot * a_dot * p_elbow - (2 + s) * w * w * e + 2 * s_dot * w * n;
-  EXPECT_TRUE(A_WB_W[3].head<3>().isZero(0));
-  EXPECT_NEAR((A_WB_W[3].tail<3>() - a_end).norm(), 0, Rounding(8, 6));
+  EXPECT_TRUE(A_WB_W[3].angular.isZero(0));
+  EXPECT_NEAR((A_WB_W[3].linear - a_end).norm(), 0, Rounding(8, 6));
+}
+
+TEST(Kinematics, DoNotMindTheNormOfTheQuaternion) {
+  const TreeMotion m =
+      MakeTreeMotion({TreeShape::kAny, BaseType::kFloating, 5, 1});
+  const std::vector<Pose> expected = PosesAt(m, m.q);
+  for (const double norm : {1e-300, 1e-160, 0.5, 3.0, 1e160, 1e300}) {
+    SCOPED_TRACE(norm);
+    VectorXd q = m.q;
+    q.segment<4>(3) *= norm;
+    EXPECT_NEAR((PosesAt(m, q).back().R - expected.back().R).norm(), 0,
+                Rounding(2, 9));
+  }
+  VectorXd q = m.q;
+  q.segment<4>(3).setZero();
+  for (const Pose& X_WB : PosesAt(m, q)) {
+    EXPECT_TRUE(X_WB.R.array().isNaN().all());
+  }
 }
 
 TEST(Kinematics, VelocitiesAreTheRatesOfPoses) {
   EXPECT_TRUE(HoldsForTrees("V_WB = d/dt X_WB", [](const TreeMotion& m) {
     const std::vector<Pose> X_WB = PosesAt(m, m.q);
-    const std::vector<Vector6d> V_WB_W = VelocitiesAt(m, m.q, m.v);
+    const std::vector<SpatialMotion> V_WB_W = VelocitiesAt(m, m.q, m.v);
     const int last = m.tree.num_bodies() - 1;
     const VectorXd rate = RiddersRate([&](double t) {
       const Pose X = PosesAt(m, FlowConfiguration(m, t))[last];
@@ -116,20 +135,21 @@ TEST(Kinematics, VelocitiesAreTheRatesOfPoses) {
       result << LogSo3(X.R * X_WB[last].R.transpose()), X.p;
       return result;
     });
-    const double scale = 10 + V_WB_W[last].norm();
-    return Compare(V_WB_W[last], rate, kRiddersPrecision * scale);
+    const double scale = 10 + V_WB_W[last].vector().norm();
+    return Compare(V_WB_W[last].vector(), rate, kRiddersPrecision * scale);
   }));
 }
 
 TEST(Kinematics, AccelerationsAreTheRatesOfVelocities) {
   EXPECT_TRUE(HoldsForTrees("A_WB = d/dt V_WB", [](const TreeMotion& m) {
-    const std::vector<Vector6d> A_WB_W = AccelerationsOf(m);
+    const std::vector<SpatialAcceleration> A_WB_W = AccelerationsOf(m);
     const int last = m.tree.num_bodies() - 1;
     const VectorXd rate = RiddersRate([&](double t) {
-      return VelocitiesAt(m, FlowConfiguration(m, t), FlowVelocity(m, t))[last];
+      return VelocitiesAt(m, FlowConfiguration(m, t), FlowVelocity(m, t))[last]
+          .vector();
     });
-    const double scale = 100 + A_WB_W[last].norm();
-    return Compare(A_WB_W[last], rate, kRiddersPrecision * scale);
+    const double scale = 100 + A_WB_W[last].vector().norm();
+    return Compare(A_WB_W[last].vector(), rate, kRiddersPrecision * scale);
   }));
 }
 
@@ -166,7 +186,8 @@ TEST(Kinematics, FramesMoveAsTheirBodies) {
     return result;
   };
   std::vector<Pose> X(2), X_b(3);
-  std::vector<Vector6d> V(2), V_b(3), A(2), A_b(3);
+  std::vector<SpatialMotion> V(2), V_b(3);
+  std::vector<SpatialAcceleration> A(2), A_b(3);
   ComputePoses(tree, q, &X);
   ComputeVelocities(tree, X, v, &V);
   ComputeAccelerations(tree, X, V, v, vdot, &A);
@@ -179,17 +200,19 @@ TEST(Kinematics, FramesMoveAsTheirBodies) {
   const Pose X_WF = FramePose(tree, X, frame);
   EXPECT_NEAR((X_WF.R - X_b[2].R).norm(), 0, tolerance);
   EXPECT_NEAR((X_WF.p - X_b[2].p).norm(), 0, tolerance);
-  EXPECT_NEAR((FrameVelocity(tree, X, V, frame) - V_b[2]).norm(), 0, tolerance);
-  EXPECT_NEAR((FrameAcceleration(tree, X, V, A, frame) - A_b[2]).norm(), 0,
+  EXPECT_NEAR((FrameVelocity(tree, X, V, frame) - V_b[2]).vector().norm(), 0,
               tolerance);
+  EXPECT_NEAR(
+      (FrameAcceleration(tree, X, V, A, frame) - A_b[2]).vector().norm(), 0,
+      tolerance);
 }
 
 TEST(Kinematics, DoNotAllocate) {
   const TreeMotion m =
       MakeTreeMotion({TreeShape::kAny, BaseType::kFloating, 12, 1});
   std::vector<Pose> X_WB(m.tree.num_bodies());
-  std::vector<Vector6d> V_WB_W(m.tree.num_bodies());
-  std::vector<Vector6d> A_WB_W(m.tree.num_bodies());
+  std::vector<SpatialMotion> V_WB_W(m.tree.num_bodies());
+  std::vector<SpatialAcceleration> A_WB_W(m.tree.num_bodies());
   CountMalloc count;
   ComputePoses(m.tree, m.q, &X_WB);
   ComputeVelocities(m.tree, X_WB, m.v, &V_WB_W);

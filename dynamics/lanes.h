@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "math/spatial.h"
+
 /// Lets the compiler do several rounds of the loop that follows at once: no
 /// round reads what another one writes.
 #if defined(__clang__)
@@ -35,6 +37,33 @@ inline double Dot(const Vec3& a, const Vec3& b) noexcept {
 }
 inline Vec3 Cross(const Vec3& a, const Vec3& b) noexcept {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// math's SpatialMotion and SpatialForce (or SpatialMomentum) of Vec3, and so
+/// without the latters' kinds: a motion or acceleration, and a force or momentum
+/// about a named point.
+struct Motion3 {
+  Vec3 angular, linear;
+};
+struct Force3 {
+  Vec3 angular, linear;
+};
+
+inline Motion3 operator+(const Motion3& V, const Motion3& W) noexcept {
+  return {V.angular + W.angular, V.linear + W.linear};
+}
+inline Force3 operator+(const Force3& F, const Force3& G) noexcept {
+  return {F.angular + G.angular, F.linear + G.linear};
+}
+inline Force3 operator-(const Force3& F, const Force3& G) noexcept {
+  return {F.angular - G.angular, F.linear - G.linear};
+}
+inline double Dot(const Motion3& V, const Force3& F) noexcept {
+  return Dot(V.angular, F.angular) + Dot(V.linear, F.linear);
+}
+/// A force about B, taken about P.
+inline Force3 Shift(const Vec3& p_PB, const Force3& F) noexcept {
+  return {F.angular + Cross(p_PB, F.linear), F.linear};
 }
 
 /// A matrix of three rows.
@@ -89,6 +118,9 @@ inline Eigen::Matrix3d ToEigen(const Mat3& A) {
 }
 inline Eigen::Matrix3d ToEigen(const Sym3& S) { return ToEigen(Full(S)); }
 inline Vec3 ToVec3(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+inline Force3 ToForce3(const SpatialForce& F) {
+  return {ToVec3(F.angular), ToVec3(F.linear)};
+}
 inline Mat3 ToMat3(const Eigen::Matrix3d& A) {
   return {ToVec3(A.row(0)), ToVec3(A.row(1)), ToVec3(A.row(2))};
 }
@@ -106,6 +138,20 @@ class Vec3Array {
 
  private:
   std::vector<double> x_, y_, z_;
+};
+
+/// Many Force3, component by component.
+class Force3Array {
+ public:
+  explicit Force3Array(int size = 0) : angular_(size), linear_(size) {}
+  Force3 operator[](int i) const noexcept { return {angular_[i], linear_[i]}; }
+  void Set(int i, const Force3& F) noexcept {
+    angular_.Set(i, F.angular);
+    linear_.Set(i, F.linear);
+  }
+
+ private:
+  Vec3Array angular_, linear_;
 };
 
 /// Many Mat3, component by component.

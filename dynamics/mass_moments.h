@@ -8,13 +8,6 @@
 
 namespace poise {
 
-/// A torque n about a named point and a force f; or a momentum, angular about a
-/// named point and linear.
-struct Wrench {
-  Vec3 n;
-  Vec3 f;
-};
-
 /// The moments of a body's mass about a point O: sums over its elements dm at x
 /// from O. They rotate and shift as x does, and add up where points and axes
 /// agree. The moment of inertia is I = trace(Sigma) 1 - Sigma.
@@ -58,18 +51,9 @@ inline MassMoments Shift(const Vec3& p_PB, const MassMoments& M) noexcept {
            S.xz + d.x * k.z + h.x * d.z, S.yz + d.y * k.z + h.y * d.z}};
 }
 
-/// A wrench about B, taken about P.
-inline Wrench Shift(const Vec3& p_PB, const Wrench& F) noexcept {
-  return {F.n + Cross(p_PB, F.f), F.f};
-}
-
 inline MassMoments operator+(const MassMoments& M, const MassMoments& N) {
   return {M.mass + N.mass, M.h + N.h, M.Sigma + N.Sigma};
 }
-inline Wrench operator+(const Wrench& F, const Wrench& G) noexcept {
-  return {F.n + G.n, F.f + G.f};
-}
-
 /// [alpha]x + [w]x [w]x: a body's points at x from its origin accelerate by A x
 /// more than it does.
 inline Mat3 AccelerationGradient(const Vec3& alpha, const Vec3& w) noexcept {
@@ -80,9 +64,9 @@ inline Mat3 AccelerationGradient(const Vec3& alpha, const Vec3& w) noexcept {
           {xz - alpha.y, yz + alpha.x, -(xx + yy)}};
 }
 
-/// The wrench about O that the field of accelerations a + A x takes: the sums
+/// The force about O that the field of accelerations a + A x takes: the sums
 /// of x cross (a + A x) dm and of (a + A x) dm.
-inline Wrench Accelerate(const MassMoments& M, const Mat3& A,
+inline Force3 Accelerate(const MassMoments& M, const Mat3& A,
                          const Vec3& a) noexcept {
   const Mat3 P = A * Full(M.Sigma);  // Sum of (A x) x' dm.
   return {Cross(M.h, a) + Vec3{P.z.y - P.y.z, P.x.z - P.z.x, P.y.x - P.x.y},
@@ -91,7 +75,7 @@ inline Wrench Accelerate(const MassMoments& M, const Mat3& A,
 
 /// The momentum about O of a rotation w about O and a translation v: I w +
 /// h cross v, mass v - h cross w.
-inline Wrench Momentum(const MassMoments& M, const Vec3& w,
+inline Force3 Momentum(const MassMoments& M, const Vec3& w,
                        const Vec3& v) noexcept {
   const double trace = M.Sigma.xx + M.Sigma.yy + M.Sigma.zz;
   return {trace * w - M.Sigma * w + Cross(M.h, v), M.mass * v - Cross(M.h, w)};
@@ -115,20 +99,6 @@ class MassMomentsArray {
   std::vector<double> mass_;
   Vec3Array h_;
   Sym3Array Sigma_;
-};
-
-/// Many Wrenches, component by component.
-class WrenchArray {
- public:
-  explicit WrenchArray(int size = 0) : n_(size), f_(size) {}
-  Wrench operator[](int i) const noexcept { return {n_[i], f_[i]}; }
-  void Set(int i, const Wrench& F) noexcept {
-    n_.Set(i, F.n);
-    f_.Set(i, F.f);
-  }
-
- private:
-  Vec3Array n_, f_;
 };
 
 }  // namespace poise

@@ -98,10 +98,10 @@ TEST_F(MassMomentsTest, AccelerateAsThePointsDo) {
     f += force;
     n += x.cross(force);
   }
-  const Wrench F =
+  const Force3 F =
       Accelerate(M_, AccelerationGradient(ToVec3(alpha), ToVec3(w)), ToVec3(a));
-  EXPECT_NEAR((ToEigen(F.n) - n).norm(), 0, Rounding(60, 5));
-  EXPECT_NEAR((ToEigen(F.f) - f).norm(), 0, Rounding(60, 5));
+  EXPECT_NEAR((ToEigen(F.angular) - n).norm(), 0, Rounding(60, 5));
+  EXPECT_NEAR((ToEigen(F.linear) - f).norm(), 0, Rounding(60, 5));
 }
 
 TEST_F(MassMomentsTest, HaveTheMomentumOfThePoints) {
@@ -111,33 +111,34 @@ TEST_F(MassMomentsTest, HaveTheMomentumOfThePoints) {
     f += momentum;
     n += points_.x[i].cross(momentum);
   }
-  const Wrench L = Momentum(M_, ToVec3(a_), ToVec3(b_));
-  EXPECT_NEAR((ToEigen(L.n) - n).norm(), 0, Rounding(40, 5));
-  EXPECT_NEAR((ToEigen(L.f) - f).norm(), 0, Rounding(40, 5));
+  const Force3 L = Momentum(M_, ToVec3(a_), ToVec3(b_));
+  EXPECT_NEAR((ToEigen(L.angular) - n).norm(), 0, Rounding(40, 5));
+  EXPECT_NEAR((ToEigen(L.linear) - f).norm(), 0, Rounding(40, 5));
 }
 
 TEST_F(MassMomentsTest, ShiftWrenchesByTheirLever) {
   const Vector3d d = MakeRandomVector(3, &draw_);
-  const Wrench F = Shift(ToVec3(d), {ToVec3(a_), ToVec3(b_)});
-  EXPECT_NEAR((ToEigen(F.n) - (a_ + d.cross(b_))).norm(), 0, Rounding(4, 3));
-  EXPECT_EQ(ToEigen(F.f), b_);
+  const Force3 F = Shift(ToVec3(d), {ToVec3(a_), ToVec3(b_)});
+  EXPECT_NEAR((ToEigen(F.angular) - (a_ + d.cross(b_))).norm(), 0,
+              Rounding(4, 3));
+  EXPECT_EQ(ToEigen(F.linear), b_);
 }
 
 TEST_F(MassMomentsTest, WrenchesAddByPart) {
-  const Wrench F =
-      Wrench{ToVec3(a_), ToVec3(b_)} + Wrench{{1, 2, 3}, {4, 5, 6}};
-  EXPECT_EQ(ToEigen(F.n), Vector3d(a_ + Vector3d(1, 2, 3)));
-  EXPECT_EQ(ToEigen(F.f), Vector3d(b_ + Vector3d(4, 5, 6)));
+  const Force3 F =
+      Force3{ToVec3(a_), ToVec3(b_)} + Force3{{1, 2, 3}, {4, 5, 6}};
+  EXPECT_EQ(ToEigen(F.angular), Vector3d(a_ + Vector3d(1, 2, 3)));
+  EXPECT_EQ(ToEigen(F.linear), Vector3d(b_ + Vector3d(4, 5, 6)));
 }
 
 TEST_F(MassMomentsTest, ComeBackFromArrays) {
   MassMomentsArray moments(3);
-  WrenchArray wrenches(3);
+  Force3Array wrenches(3);
   moments.Set(1, M_);
   wrenches.Set(1, {ToVec3(a_), ToVec3(b_)});
   ExpectMoments(moments[1], points_);
-  EXPECT_EQ(ToEigen(wrenches[1].n), a_);
-  EXPECT_EQ(ToEigen(wrenches[1].f), b_);
+  EXPECT_EQ(ToEigen(wrenches[1].angular), a_);
+  EXPECT_EQ(ToEigen(wrenches[1].linear), b_);
   EXPECT_EQ(moments[0].mass, 0);
   EXPECT_EQ(moments[2].mass, 0);
 }

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "dynamics/sin_cos.h"
+#include "math/quaternion.h"
 
 namespace poise {
 namespace {
@@ -53,9 +54,8 @@ void SweepPoses(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
 
   Mat3 R_WB = ToMat3(Eigen::Matrix3d::Identity());
   if (tree.is_floating()) {
-    R_WB = ToMat3(Eigen::Quaterniond(q[6], q[3], q[4], q[5])
-                      .normalized()
-                      .toRotationMatrix());
+    R_WB = ToMat3(MatrixFromQuaternion(
+        Normalize(Eigen::Quaterniond(q[6], q[3], q[4], q[5]))));
   }
   r.R_WB.Set(0, R_WB);
   for (int b = 1; b < num_bodies; ++b) {
@@ -184,10 +184,10 @@ void SumInertias(const Tree& tree, Recursion* recursion) noexcept {
 
 void SumForces(const Tree& tree, Recursion* recursion) noexcept {
   const std::vector<int>& parent = tree.joint_maps().parent;
-  WrenchArray& F_W = recursion->F_W;
-  Wrench F = F_W[tree.num_bodies() - 1];
+  Force3Array& F_W = recursion->F_W;
+  Force3 F = F_W[tree.num_bodies() - 1];
   for (int b = tree.num_bodies() - 1; b > 0; --b) {
-    const Wrench F_P = F_W[parent[b]] + Shift(recursion->p_PB_W[b], F);
+    const Force3 F_P = F_W[parent[b]] + Shift(recursion->p_PB_W[b], F);
     F_W.Set(parent[b], F_P);
     F = IsNext(parent[b], b) ? F_P : F_W[b - 1];
   }
@@ -206,15 +206,14 @@ void ProjectForces(const Tree& tree, const Recursion& r,
                    Eigen::Ref<Eigen::VectorXd> tau) noexcept {
   assert(tau.size() == tree.nv());
   if (tree.is_floating()) {
-    const Wrench F = r.F_W[0];
-    tau.head<6>() << F.n.x, F.n.y, F.n.z, F.f.x, F.f.y, F.f.z;
+    const Force3 F = r.F_W[0];
+    tau.head<6>() << ToEigen(F.angular), ToEigen(F.linear);
   }
   const int num_bodies = tree.num_bodies();
   double* tau_joint = tau.data() + tree.v_start();
   POISE_LANES
   for (int b = 1; b < num_bodies; ++b) {
-    const Wrench F = r.F_W[b];
-    tau_joint[b - 1] = Dot(r.turn_W[b], F.n) + Dot(r.slide_W[b], F.f);
+    tau_joint[b - 1] = Dot(Motion3{r.turn_W[b], r.slide_W[b]}, r.F_W[b]);
   }
 }
 

@@ -19,20 +19,21 @@ namespace poise {
 /// component by component: a sweep walks the tree for sums alone, a few
 /// additions a body, and does the rest for several bodies at once.
 ///
-/// | member | meaning | filled by |
-/// | sine, cosine | of the joint's angle | SweepPoses |
-/// | R_WB, R_WP | orientation, and the parent's | SweepPoses |
-/// | p_PB_W, p_OB_W | origin, from the parent's and the base's | SweepPoses |
-/// | turn_W, slide_W | velocity [turn; slide] at unit joint rate | SweepPoses |
-/// | w_WB, w_WP | angular velocity, and the parent's | SweepAccelerations |
-/// | alpha_WB, alpha_WP | angular acceleration, and the parent's | same |
-/// | a_WB | classical acceleration of the origin, less gravity | same |
-/// | M_W | mass moments of the body | SweepInertias |
-/// |     | then of its subtree | SumInertias |
-/// | F_W | wrench to move the body so | SweepForces |
-/// |     | then its subtree | SumForces |
-/// | H_W | momentum of the subtree at unit joint rate | SweepMomenta |
-/// | zero | nv zeros | the constructor |
+/// | member | of each body | meaning | point | filled by |
+/// | sine, cosine | 1 | of the joint's angle | | SweepPoses |
+/// | R_WB, R_WP | 3 x 3 | orientation, and the parent's | | SweepPoses |
+/// | p_PB_W | 3 | from the parent's origin to its own | | SweepPoses |
+/// | p_OB_W | 3 | from the base's origin to its own | | SweepPoses |
+/// | turn_W, slide_W | 3 | velocity at unit joint rate | own | SweepPoses |
+/// | w_WB, w_WP | 3 | angular velocity, the parent's | | SweepAccelerations |
+/// | alpha_WB, alpha_WP | 3 | angular acceleration, the parent's | | same |
+/// | a_WB | 3 | classical acceleration, less gravity | own | same |
+/// | M_W | 10 | mass moments of the body | own | SweepInertias |
+/// |     |    | then of its subtree | own | SumInertias |
+/// | F_W | 6 | force that moves the body so | own | SweepForces |
+/// |     |   | then its subtree | own | SumForces |
+/// | H_W | 6 | momentum of the subtree at unit joint rate | own | SweepMomenta |
+/// | zero | (nv in all) | zeros | | the constructor |
 struct Recursion {
   explicit Recursion(const Tree& tree);
 
@@ -44,8 +45,8 @@ struct Recursion {
   Vec3Array alpha_WB, alpha_WP;
   Vec3Array a_WB;
   MassMomentsArray M_W;
-  WrenchArray F_W;
-  WrenchArray H_W;
+  Force3Array F_W;
+  Force3Array H_W;
   Eigen::VectorXd zero;
 };
 
@@ -64,7 +65,7 @@ void SweepAccelerations(const Tree& tree,
 /// The mass moments of each body. After SweepPoses().
 void SweepInertias(const Tree& tree, Recursion* recursion) noexcept;
 
-/// The wrench that each body needs. After SweepAccelerations(),
+/// The force that each body needs. After SweepAccelerations(),
 /// SweepInertias().
 void SweepForces(const Tree& tree, Recursion* recursion) noexcept;
 
@@ -76,7 +77,7 @@ void SumForces(const Tree& tree, Recursion* recursion) noexcept;
 void SweepMomenta(const Tree& tree, Recursion* recursion) noexcept;
 
 /// The generalized forces: [n; f] of the base, then those of the joints, from
-/// the wrenches on the subtrees. After SumForces().
+/// the forces on the subtrees. After SumForces().
 void ProjectForces(const Tree& tree, const Recursion& recursion,
                    Eigen::Ref<Eigen::VectorXd> tau) noexcept;
 

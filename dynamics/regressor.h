@@ -14,7 +14,10 @@ namespace poise {
 /// with pi = [10 numbers of each body; armature of each joint], and of a body B,
 /// about its origin and in its axes,
 ///     [m; m p_BoG (3); Ixx; Iyy; Izz; Ixy; Ixz; Iyz].
-/// Fixed links count with the body that carries them.
+/// Fixed links count with the body that carries them. The force on a body is
+/// linear in its ten numbers,
+///     n = h x a + I alpha + w x I w,   f = m a + [alpha]x h + [w]x [w]x h,
+/// with h = m p_BoG and gravity in a; its joint and those below take their parts.
 ///
 /// @param q, v, vdot  see Tree.
 /// @param scratch     made for this tree.

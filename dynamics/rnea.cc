@@ -10,17 +10,16 @@ namespace {
 void Compute(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
              const Eigen::Ref<const Eigen::VectorXd>& v,
              const Eigen::Ref<const Eigen::VectorXd>& vdot,
-             const Eigen::Vector3d& g_W, const std::vector<Vector6d>* F_Bo_W,
-             Recursion* scratch, Eigen::Ref<Eigen::VectorXd> tau) {
+             const Eigen::Vector3d& g_W,
+             const std::vector<SpatialForce>* F_Bo_W, Recursion* scratch,
+             Eigen::Ref<Eigen::VectorXd> tau) {
   SweepPoses(tree, q, scratch);
   SweepAccelerations(tree, v, vdot, g_W, scratch);
   SweepInertias(tree, scratch);
   SweepForces(tree, scratch);
   if (F_Bo_W != nullptr) {
     for (int b = 0; b < tree.num_bodies(); ++b) {
-      const Vector6d& F = (*F_Bo_W)[b];
-      scratch->F_W.Set(b, scratch->F_W[b] + Wrench{{-F[0], -F[1], -F[2]},
-                                                   {-F[3], -F[4], -F[5]}});
+      scratch->F_W.Set(b, scratch->F_W[b] - ToForce3((*F_Bo_W)[b]));
     }
   }
   SumForces(tree, scratch);
@@ -32,7 +31,7 @@ void Compute(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
 void ComputeRnea(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
                  const Eigen::Ref<const Eigen::VectorXd>& v,
                  const Eigen::Ref<const Eigen::VectorXd>& vdot,
-                 const std::vector<Vector6d>& F_Bo_W, Recursion* scratch,
+                 const std::vector<SpatialForce>& F_Bo_W, Recursion* scratch,
                  Eigen::Ref<Eigen::VectorXd> tau) noexcept {
   assert(F_Bo_W.empty() ||
          static_cast<int>(F_Bo_W.size()) == tree.num_bodies());

@@ -21,7 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-VectorXd RneaOf(const TreeMotion& m, const std::vector<Vector6d>& F_Bo_W) {
+VectorXd RneaOf(const TreeMotion& m, const std::vector<SpatialForce>& F_Bo_W) {
   Recursion scratch(m.tree);
   VectorXd tau(m.tree.nv());
   ComputeRnea(m.tree, m.q, m.v, m.vdot, F_Bo_W, &scratch, tau);
@@ -48,7 +48,8 @@ TEST(Rnea, IsNewtonAndEulerForEachBody) {
   EXPECT_TRUE(HoldsForTrees("tau = sum J'F", [](const TreeMotion& m) {
     const Tree& tree = m.tree;
     std::vector<Pose> X_WB(tree.num_bodies());
-    std::vector<Vector6d> V(tree.num_bodies()), A(tree.num_bodies());
+    std::vector<SpatialMotion> V(tree.num_bodies());
+    std::vector<SpatialAcceleration> A(tree.num_bodies());
     ComputePoses(tree, m.q, &X_WB);
     ComputeVelocities(tree, X_WB, m.v, &V);
     ComputeAccelerations(tree, X_WB, V, m.v, m.vdot, &A);
@@ -62,10 +63,9 @@ TEST(Rnea, IsNewtonAndEulerForEachBody) {
         continue;
       }
       const Inertia& M_B = tree.inertias()[b];
-      const Vector3d w = V[b].head<3>(), alpha = A[b].head<3>();
+      const Vector3d w = V[b].angular, alpha = A[b].angular;
       const Vector3d p = X_WB[b].R * M_B.p_BoG_B;
-      const Vector3d a_G =
-          A[b].tail<3>() + alpha.cross(p) + w.cross(w.cross(p));
+      const Vector3d a_G = A[b].linear + alpha.cross(p) + w.cross(w.cross(p));
       const Matrix3d I_G_W = X_WB[b].R * M_B.I_G_B * X_WB[b].R.transpose();
       const Vector3d force = M_B.mass * (a_G - tree.gravity_W());
       Vector6d F;
@@ -108,8 +108,8 @@ TEST(Rnea, TakesForcesByTheirJacobians) {
       done[b] = true;
       Matrix6Xd J(6, m.tree.nv());
       ComputeFrameJacobian(m.tree, X_WB, static_cast<int>(f), Axes::kWorld, J);
-      tau -= J.transpose() * m.F_Bo_W[b];
-      scale += J.norm() * m.F_Bo_W[b].norm();
+      tau -= J.transpose() * m.F_Bo_W[b].vector();
+      scale += J.norm() * m.F_Bo_W[b].vector().norm();
     }
     return Compare(RneaOf(m, m.F_Bo_W), tau, Rounding(scale, m.tree.nv() + 10));
   }));

@@ -65,7 +65,7 @@ void ComputeTick(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
 
   // Equations (16)-(19), from the base's origin O to G.
   const MassMoments M_O = r.M_W[0];
-  const Wrench F_O = r.F_W[0];
+  const Force3 F_O = r.F_W[0];
   const double mass = tree.total_mass();
   const Vec3 p_OG = mass > 0 ? (1 / mass) * M_O.h : Vec3{0, 0, 0};
   const Vec3 p_GO = -1 * p_OG;
@@ -78,23 +78,23 @@ void ComputeTick(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
     Vector6d L = H.leftCols<6>() * v.head<6>();
     n = ToVec3(L.head<3>());
     f = ToVec3(L.tail<3>());
-    const Wrench g_O{Cross(M_O.h, g), M_O.mass * g};
-    Store(F_O.n - g_O.n, tick->N.data());
-    Store(F_O.f - g_O.f, tick->N.data() + 3);
+    const Force3 N_O = F_O - Force3{Cross(M_O.h, g), M_O.mass * g};
+    Store(N_O.angular, tick->N.data());
+    Store(N_O.linear, tick->N.data() + 3);
   }
   for (int b = 1; b < num_bodies; ++b) {
-    const Wrench H_G = Shift(p_GO + r.p_OB_W[b], r.H_W[b]);
+    const Force3 H_G = Shift(p_GO + r.p_OB_W[b], r.H_W[b]);
     const double rate = v[v0 + b - 1];
-    n = n + rate * H_G.n;
-    f = f + rate * H_G.f;
-    Store(H_G.n, &H(0, v0 + b - 1));
-    Store(H_G.f, &H(3, v0 + b - 1));
-    tick->N[v0 + b - 1] = tick->c[v0 + b - 1] - Dot(H_G.f, g);
+    n = n + rate * H_G.angular;
+    f = f + rate * H_G.linear;
+    Store(H_G.angular, &H(0, v0 + b - 1));
+    Store(H_G.linear, &H(3, v0 + b - 1));
+    tick->N[v0 + b - 1] = tick->c[v0 + b - 1] - Dot(H_G.linear, g);
   }
   Store(n, tick->L_G.data());
   Store(f, tick->L_G.data() + 3);
-  Store(F_O.n + Cross(p_GO, F_O.f), tick->H_G_bias.data());
-  Store(F_O.f, tick->H_G_bias.data() + 3);
+  Store(F_O.angular + Cross(p_GO, F_O.linear), tick->H_G_bias.data());
+  Store(F_O.linear, tick->H_G_bias.data() + 3);
   Store(p_WO + p_OG, tick->p_WG.data());
   Store((mass > 0 ? 1 / mass : 0) * f, tick->v_WG.data());
 

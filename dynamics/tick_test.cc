@@ -52,6 +52,18 @@ TEST(Tick, HasTheMassMatrixToTheBit) {
   }));
 }
 
+TEST(Tick, DoesNotMindTheNormOfTheQuaternion) {
+  TreeMotion m = MakeTreeMotion({TreeShape::kAny, BaseType::kFloating, 5, 1});
+  const Tick tick = TickOf(m);
+  for (const double norm : {1e-170, 1e170}) {
+    TreeMotion scaled = m;
+    scaled.q.segment<4>(3) *= norm;
+    EXPECT_LE((TickOf(scaled).M - tick.M).norm(), Rounding(tick.M.norm(), 20));
+  }
+  m.q.segment<4>(3).setZero();
+  EXPECT_TRUE(TickOf(m).N.array().isNaN().all());
+}
+
 // Twice the mass everywhere: twice M and N to the bit, the same center of mass.
 TEST(Tick, OfAHeavierRobotIsHeavier) {
   EXPECT_TRUE(HoldsForTrees("M, N, p_WG, scaled", [](const TreeMotion& m) {
@@ -111,7 +123,8 @@ TEST(Tick, HasTheMotionOfFrames) {
     const Tick tick = TickOf(m);
     const int nv = m.tree.nv();
     std::vector<Pose> X_WB(m.tree.num_bodies());
-    std::vector<Vector6d> V(m.tree.num_bodies()), A(m.tree.num_bodies());
+    std::vector<SpatialMotion> V(m.tree.num_bodies());
+    std::vector<SpatialAcceleration> A(m.tree.num_bodies());
     ComputePoses(m.tree, m.q, &X_WB);
     ComputeVelocities(m.tree, X_WB, m.v, &V);
     ComputeAccelerations(m.tree, X_WB, V, m.v, VectorXd::Zero(nv), &A);
@@ -124,8 +137,8 @@ TEST(Tick, HasTheMotionOfFrames) {
       ours.middleCols(k * (nv + 2), nv + 2) << frame.J_WF_W, frame.V_WF_W,
           frame.Jdot_v;
       expected.middleCols(k * (nv + 2), nv + 2) << J,
-          FrameVelocity(m.tree, X_WB, V, frame.frame),
-          FrameAcceleration(m.tree, X_WB, V, A, frame.frame);
+          FrameVelocity(m.tree, X_WB, V, frame.frame).vector(),
+          FrameAcceleration(m.tree, X_WB, V, A, frame.frame).vector();
     }
     return Compare(ours, expected, Rounding(10 + ours.norm(), nv + 10));
   }));

@@ -1,6 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "dynamics/tree.h"
 
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
 namespace poise {
 namespace {
 
@@ -23,6 +27,12 @@ std::optional<int> Tree::FindFrame(std::string_view name) const {
 }
 
 Tree Tree::WithScaledInertias(double factor) const {
+  if (!(factor > 0) || !std::isfinite(factor)) {
+    std::ostringstream message;
+    message << "tree: factor of the inertias is " << factor
+            << ", must be positive and finite";
+    throw std::invalid_argument(message.str());
+  }
   Tree scaled = *this;
   for (Inertia& M : scaled.inertias_) {
     M.mass *= factor;

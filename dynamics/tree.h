@@ -92,7 +92,8 @@ class Tree {
   Eigen::VectorXd MakeNeutral() const;
 
   /// The same tree with all masses and moments of inertia, armature too, times
-  /// a positive factor: what an error in the masses is tried with.
+  /// a factor: what an error in the masses is tried with. Throws
+  /// std::invalid_argument if the factor is not positive and finite.
   Tree WithScaledInertias(double factor) const;
 
  private:
@@ -112,15 +113,23 @@ class Tree {
 /// Builds a Tree from links and joints, given in any order.
 class TreeBuilder {
  public:
+  /// Of the inertia the symmetric part counts. It may miss the triangle
+  /// inequality, as that of a thin plate in six digits does: see FindDefect().
   TreeBuilder& AddLink(std::string name, const Inertia& M_L = {});
+  /// From now on links may have negative principal moments, and moments without
+  /// mass: no body has, but files of real robots do, and all can be computed.
+  TreeBuilder& AcceptUnphysicalInertias();
   TreeBuilder& AddJoint(JointSpec joint);
   /// Fixes a moving joint at a value (rad or m): a reduced tree.
   TreeBuilder& Lock(std::string joint, double value);
   TreeBuilder& SetGravity(const Eigen::Vector3d& gravity_W);
 
-  /// Throws std::invalid_argument, naming the link or joint, its value and what
-  /// was wanted: no or several roots, a cycle, a link with two parents, an
-  /// unknown or repeated name, a zero axis, a number that is not finite.
+  /// These throw std::invalid_argument, naming the link or joint, its value and
+  /// what was wanted: no or several roots, a cycle, a link with two parents, an
+  /// unknown or repeated name, a zero axis, a rotation that is none, an inertia
+  /// that no body has, a number that is not finite. Axes may have any length,
+  /// and rotations be off by 1e-5: the unit vector, and the nearest rotation,
+  /// are taken.
   Tree Build(BaseType base = BaseType::kFloating) const;
 
  private:
@@ -135,6 +144,7 @@ class TreeBuilder {
   std::vector<Link> links_;
   std::vector<JointSpec> joints_;
   std::vector<LockedJoint> locks_;
+  bool physical_inertias_ = true;
   Eigen::Vector3d gravity_W_{0, 0, -9.81};
 };
 

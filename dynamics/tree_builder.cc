@@ -1,4 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,10 @@ namespace poise {
 namespace {
 
 // How far from orthonormal the rotation of a joint's frame may be; a matrix
-// typed with six digits passes, one that scales or mirrors does not.
+// typed with six digits passes, one that scales or mirrors does not. It is taken
+// as the nearest rotation, unless it is one to rounding.
 constexpr double kRotationTolerance = 1e-5;
+constexpr double kRotationRounding = 1e-14;
 
 template <typename Value>
 [[noreturn]] void Refuse(const std::string& thing, const std::string& what,
@@ -43,15 +46,30 @@ Pose Displacement(const JointSpec& joint, double value) {
           Eigen::Vector3d::Zero()};
 }
 
-void CheckLink(const std::string& name, const Inertia& M) {
+// Checks a link, and makes its inertia symmetric to the bit.
+void CheckLink(const std::string& name, bool is_physical, Inertia* M_L) {
+  const Inertia& M = *M_L;
   if (name.empty()) throw std::invalid_argument("a link has no name");
   const std::string link = Quote("link", name);
   CheckFinite(link, "mass", Eigen::Matrix<double, 1, 1>(M.mass));
   if (M.mass < 0) Refuse(link, "mass", M.mass, "zero or positive");
   CheckFinite(link, "center of mass", M.p_BoG_B);
   CheckFinite(link, "inertia", M.I_G_B);
-  if (M.I_G_B != M.I_G_B.transpose()) {
+  // Whatever the mass.
+  const InertiaDefect defect = FindDefect({1, M.p_BoG_B, M.I_G_B});
+  if (defect == InertiaDefect::kNotSymmetric) {
     throw std::invalid_argument(link + ": inertia must be symmetric");
+  }
+  M_L->I_G_B = (M.I_G_B + M.I_G_B.transpose()).eval() / 2;
+  if (!is_physical) return;
+  if (M.mass == 0 && !M.I_G_B.isZero(0)) {
+    Refuse(link, "inertia", M.I_G_B.cwiseAbs().maxCoeff(),
+           "zero where the mass is");
+  }
+  if (defect == InertiaDefect::kNotPositive) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> moments(M.I_G_B);
+    Refuse(link, "least principal moment", moments.eigenvalues()[0],
+           "zero or positive");
   }
 }
 
@@ -86,16 +104,17 @@ JointMaps MakeJointMaps(const std::vector<Joint>& joints) {
   return maps;
 }
 
-// Checks a joint by itself, and normalizes its axis.
+// Checks a joint by itself, and normalizes its axis and its rotation.
 void CheckJoint(JointSpec* joint) {
   if (joint->name.empty()) throw std::invalid_argument("a joint has no name");
   const std::string thing = Quote("joint", joint->name);
   CheckFinite(thing, "rotation", joint->X_PF.R);
   CheckFinite(thing, "position", joint->X_PF.p);
-  const Eigen::Matrix3d& R = joint->X_PF.R;
+  Eigen::Matrix3d& R = joint->X_PF.R;
   if (!R.isUnitary(kRotationTolerance) || R.determinant() < 0) {
     throw std::invalid_argument(thing + ": rotation must be orthonormal");
   }
+  if (!R.isUnitary(kRotationRounding)) R = ProjectToSo3(R);
   if (joint->type == JointType::kFixed) return;
   CheckFinite(thing, "axis", joint->axis_F);
   if (joint->axis_F.isZero(0)) {
@@ -134,8 +153,14 @@ Index MakeIndex(const std::vector<Item>& items, const char* kind) {
 }  // namespace
 
 TreeBuilder& TreeBuilder::AddLink(std::string name, const Inertia& M_L) {
-  CheckLink(name, M_L);
-  links_.push_back({std::move(name), M_L});
+  Inertia M = M_L;
+  CheckLink(name, physical_inertias_, &M);
+  links_.push_back({std::move(name), M});
+  return *this;
+}
+
+TreeBuilder& TreeBuilder::AcceptUnphysicalInertias() {
+  physical_inertias_ = false;
   return *this;
 }
 

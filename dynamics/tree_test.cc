@@ -79,7 +79,41 @@ TEST(TreeBuilder, NamesTheLinkThatIsWrong) {
   M.I_G_B(2, 2) = 1;
   M.I_G_B(0, 1) = 0.1;
   EXPECT_EQ(message_of("foot", M), "link 'foot': inertia must be symmetric");
+  M.I_G_B = Vector3d(1, -2, 1).asDiagonal();
+  EXPECT_EQ(
+      message_of("foot", M),
+      "link 'foot': least principal moment is -2, must be zero or positive");
+  M = {0, {0, 0, 0}, 0.5 * Matrix3d::Identity()};
+  EXPECT_EQ(message_of("foot", M),
+            "link 'foot': inertia is 0.5, must be zero where the mass is");
   EXPECT_EQ(message_of("foot", MakePoint(0)), "");
+}
+
+TEST(TreeBuilder, TakesInertiasThatNoBodyHasWhereTold) {
+  TreeBuilder builder;
+  builder.AcceptUnphysicalInertias();
+  builder.AddLink("a", {0, {0, 0, 0}, Matrix3d::Identity()});
+  builder.AddLink("b", {1, {0, 0, 0}, -Matrix3d::Identity()});
+  builder.AddJoint(MakeJoint("hip", "a", "b"));
+  const Tree tree = builder.Build();
+  EXPECT_EQ(tree.inertias()[0].I_G_B, Matrix3d::Identity());
+  EXPECT_EQ(tree.inertias()[1].I_G_B, -Matrix3d::Identity());
+  EXPECT_EQ(MessageOf([&] { builder.AddLink("c", MakePoint(-1)); }),
+            "link 'c': mass is -1, must be zero or positive");
+}
+
+TEST(TreeBuilder, TakesAPlateWhoseMomentsWereRounded) {
+  const Inertia plate{1, {0, 0, 0}, Vector3d(1, 2, 3.00001).asDiagonal()};
+  EXPECT_EQ(TreeBuilder().AddLink("a", plate).Build().total_mass(), 1);
+}
+
+TEST(TreeBuilder, TakesWhatRoundingLeavesOfASymmetricInertia) {
+  Inertia M{1, {0, 0, 0}, Matrix3d::Identity()};
+  M.I_G_B(0, 2) = 0.1;
+  M.I_G_B(2, 0) = std::nextafter(0.1, 1);
+  const Matrix3d I = TreeBuilder().AddLink("a", M).Build().inertias()[0].I_G_B;
+  EXPECT_EQ(I, I.transpose());
+  EXPECT_NEAR(I(0, 2), 0.1, Rounding(0.1, 1));
 }
 
 TEST(TreeBuilder, NamesTheJointThatIsWrong) {
@@ -104,8 +138,27 @@ TEST(TreeBuilder, NamesTheJointThatIsWrong) {
   EXPECT_EQ(MessageOfJoint([](JointSpec*) {}), "");
 }
 
-TEST(TreeBuilder, AcceptsARotationOfSixDigits) {
-  EXPECT_EQ(MessageOfJoint([](JointSpec* j) { j->X_PF.R(0, 1) = 5e-6; }), "");
+TEST(TreeBuilder, TakesTheRotationThatIsNearestToOneOfSixDigits) {
+  JointSpec joint = MakeJoint("1", "a", "b");
+  const auto rotation_of = [&joint] {
+    const Tree tree =
+        TreeBuilder().AddLink("a").AddLink("b").AddJoint(joint).Build();
+    return tree.joints()[0].X_PF.R;
+  };
+  const Matrix3d R =
+      Eigen::AngleAxisd(0.8, Vector3d(1, 2, 2) / 3).toRotationMatrix();
+  joint.X_PF.R = R;
+  EXPECT_EQ(rotation_of(), R);  // To the bit.
+  joint.X_PF.R(0, 1) += 3e-6;
+  joint.X_PF.R *= 1 + 1e-6;
+  const Matrix3d nearest = rotation_of();
+  EXPECT_NEAR((nearest.transpose() * nearest - Matrix3d::Identity()).norm(), 0,
+              Rounding(1, 9));
+  // Off by half of what was added: the antisymmetric half is a rotation.
+  EXPECT_NEAR((nearest - R).norm(), 0, 3e-6);
+  joint.X_PF.R = R;
+  joint.X_PF.R.col(0) *= 1 + 1e-13;
+  EXPECT_NE(rotation_of(), joint.X_PF.R);
 }
 
 TEST(TreeBuilder, DoesNotLookAtTheAxisOfAFixedJoint) {
@@ -316,6 +369,15 @@ TEST(Tree, ScalesAllThatIsInertia) {
     EXPECT_EQ(scaled.inertias()[b].I_G_B, 4 * M.I_G_B);
     EXPECT_EQ(scaled.mass_moments()[b].mass, 8);
   }
+}
+
+TEST(Tree, RefusesToScaleInertiasByWhatIsNotPositive) {
+  const Tree tree = TreeBuilder().AddLink("a", MakePoint(1)).Build();
+  EXPECT_EQ(MessageOf([&] { tree.WithScaledInertias(-1); }),
+            "tree: factor of the inertias is -1, must be positive and finite");
+  EXPECT_NE(MessageOf([&] { tree.WithScaledInertias(0); }), "");
+  EXPECT_NE(MessageOf([&] { tree.WithScaledInertias(kInfinity); }), "");
+  EXPECT_NE(MessageOf([&] { tree.WithScaledInertias(kNaN); }), "");
 }
 
 TEST(Tree, FindsByName) {

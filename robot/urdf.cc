@@ -150,6 +150,7 @@ std::string XmlForUrdfdom(tinyxml2::XMLDocument* document) {
 Tree MakeTree(const urdf::ModelInterface& urdf, const UrdfFacts& facts,
               const std::map<std::string, double>& locked) {
   TreeBuilder builder;
+  builder.AcceptUnphysicalInertias();  // CheckInertial() warns of them.
   for (const std::string& name : facts.tree.links) {
     const auto& inertial = urdf.links_.at(name)->inertial;
     builder.AddLink(name,

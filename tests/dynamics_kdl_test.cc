@@ -66,8 +66,8 @@ VectorXd KdlOf(const TreeMotion& m, const Vector3d& angles) {
   ComputePoses(tree, m.q, &X_WB);
   std::map<std::string, KDL::Wrench> forces;
   for (int b = 0; b < tree.num_bodies(); ++b) {
-    const Vector3d n = X_WB[b].R.transpose() * m.F_Bo_W[b].head<3>();
-    const Vector3d f = X_WB[b].R.transpose() * m.F_Bo_W[b].tail<3>();
+    const Vector3d n = X_WB[b].R.transpose() * m.F_Bo_W[b].angular;
+    const Vector3d f = X_WB[b].R.transpose() * m.F_Bo_W[b].linear;
     forces[KdlBodyName(b)] = KDL::Wrench(KDL::Vector(f.x(), f.y(), f.z()),
                                          KDL::Vector(n.x(), n.y(), n.z()));
   }

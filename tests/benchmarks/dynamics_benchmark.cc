@@ -90,7 +90,7 @@ void BM_Rnea(benchmark::State& state) {
   const Tree& tree = Humanoid();
   Recursion scratch(tree);
   VectorXd tau(tree.nv());
-  const std::vector<Vector6d> none;
+  const std::vector<SpatialForce> none;
   Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
     ComputeRnea(tree, q, v, v, none, &scratch, tau);
   });
@@ -137,7 +137,7 @@ void BM_Aba(benchmark::State& state) {
   const Tree& tree = Humanoid();
   AbaScratch scratch(tree);
   VectorXd vdot(tree.nv());
-  const std::vector<Vector6d> none;
+  const std::vector<SpatialForce> none;
   Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
     benchmark::DoNotOptimize(ComputeAba(tree, q, v, v, none, &scratch, vdot));
   });
@@ -148,7 +148,7 @@ void BM_RneaDerivatives(benchmark::State& state) {
   const Tree& tree = Humanoid();
   RneaDerivatives out(tree);
   Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
-    ComputeRneaDerivatives(tree, q, v, v, &out);
+    ComputeRneaDerivatives(tree, q, v, v, {}, &out);
   });
 }
 BENCHMARK(BM_RneaDerivatives);
@@ -159,7 +159,7 @@ void BM_RneaOfBodies(benchmark::State& state) {
   const Tree tree = MakeRandomTree(static_cast<int>(state.range(0)), &draw);
   Recursion scratch(tree);
   VectorXd tau(tree.nv());
-  const std::vector<Vector6d> none;
+  const std::vector<SpatialForce> none;
   Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
     ComputeRnea(tree, q, v, v, none, &scratch, tau);
   });

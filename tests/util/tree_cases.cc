@@ -103,7 +103,7 @@ TreeMotion MakeTreeMotion(const TreeCase& from) {
   motion.v = 2 * MakeRandomVector(tree.nv(), &draw);
   motion.vdot = 2 * MakeRandomVector(tree.nv(), &draw);
   for (int b = 0; b < tree.num_bodies(); ++b) {
-    motion.F_Bo_W.emplace_back(5 * MakeRandomVector(6, &draw));
+    motion.F_Bo_W.emplace_back(Vector6d(5 * MakeRandomVector(6, &draw)));
   }
   return motion;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamics/tree.h"
-#include "math/vector6.h"
+#include "math/spatial.h"
 
 namespace poise {
 
@@ -29,7 +29,8 @@ struct TreeCase {
 struct TreeMotion {
   Tree tree;
   Eigen::VectorXd q, v, vdot;
-  std::vector<Vector6d> F_Bo_W;  ///< A force on each body, see ComputeRnea().
+  std::vector<SpatialForce>
+      F_Bo_W;  ///< A force on each body, see ComputeRnea().
 };
 
 TreeMotion MakeTreeMotion(const TreeCase& from);
