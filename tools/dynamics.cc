@@ -46,10 +46,12 @@ int Main(int argc, char** argv) {
   }
   try {
     const RobotModel robot = LoadUrdf(UserPath(urdf));
+    CheckFrames(robot.tree, frames);
     try {
       const nlohmann::json result =
           ComputeDynamics(robot.tree, ReadJson(UserPath(states)), frames);
-      std::cout << (json ? result.dump() + "\n" : FormatDynamics(result));
+      std::cout << (json ? result.dump() + "\n"
+                         : FormatDynamics(robot.tree, result));
     } catch (const std::exception& error) {
       throw std::invalid_argument(states + ": " + error.what());
     }

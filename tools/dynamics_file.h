@@ -30,7 +30,12 @@ namespace poise {
 nlohmann::json ComputeDynamics(const Tree& tree, const nlohmann::json& document,
                                const std::vector<std::string>& frames);
 
-/// What ComputeDynamics() returns, as tables to be read.
-std::string FormatDynamics(const nlohmann::json& document);
+/// Throws std::invalid_argument with one line if the tree has no link of one of
+/// these names.
+void CheckFrames(const Tree& tree, const std::vector<std::string>& frames);
+
+/// What ComputeDynamics() returns, as tables to be read, with units: of M the
+/// diagonal, of A_G and J the columns, a row for each degree of freedom.
+std::string FormatDynamics(const Tree& tree, const nlohmann::json& document);
 
 }  // namespace poise

@@ -44,7 +44,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const json result = poise::ComputeDynamics(tree, document, {});
     poise::Require(result["states"].size() == document["states"].size(),
                    "each state has its dynamics");
-    poise::Require(!poise::FormatDynamics(result).empty(), "tables are made");
+    poise::Require(!poise::FormatDynamics(tree, result).empty(),
+                   "tables are made");
     (void)result.dump(-1, ' ', false, json::error_handler_t::replace);
   });
   return 0;
