@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "robot/control/task_set.h"
+#include "robot/finding.h"
 #include "sim/make_plant.h"
 #include "sim/start_state.h"
 
@@ -35,8 +36,8 @@ void Switch(const std::vector<std::string>& tasks, bool on, Stack* stack) {
     for (int i = 0; i < stack->num_tasks(); ++i) {
       known += (i == 0 ? "" : ", ") + std::string(stack->task(i).name());
     }
-    throw std::invalid_argument("task '" + task +
-                                "' is unknown, must be one of " + known);
+    throw std::invalid_argument("task " + Quoted(task) +
+                                " is unknown, must be one of " + known);
   }
 }
 
@@ -115,9 +116,9 @@ int ClosedLoop::FindFoot(const std::string& name) const {
   for (size_t i = 0; i < robot_.feet.size(); ++i) {
     if (robot_.feet[i].name == name) return static_cast<int>(i);
   }
-  throw std::invalid_argument("stance: foot '" + name +
-                              "' is unknown, must be a foot of robot '" +
-                              robot_.model.name + "'");
+  throw std::invalid_argument("stance: foot " + Quoted(name) +
+                              " is unknown, must be a foot of robot " +
+                              Quoted(robot_.model.name));
 }
 
 void ClosedLoop::MoveFeet() {
@@ -203,6 +204,7 @@ TickRecord ClosedLoop::record() const {
           command_.tau,
           push_force_W_,
           controller_->stack(),
+          controller_->hierarchy(),
           controller_->report(),
           robot_.model.tree.nv(),
           microseconds_};

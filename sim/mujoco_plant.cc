@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "robot/finding.h"
 #include "sim/mujoco_model.h"
 
 namespace poise {
@@ -63,8 +64,8 @@ void MujocoPlant::Load(const std::vector<std::pair<int, int>>& excluded) {
   model_.reset(LoadXml(MakeMujocoXml(robot_, settings_, excluded), &error));
   if (model_ == nullptr) {
     const std::string line = error.substr(0, error.find('\n'));
-    throw std::invalid_argument("robot '" + robot_.model.name +
-                                "': MuJoCo says: " + line);
+    throw std::invalid_argument("robot " + Quoted(robot_.model.name) +
+                                ": MuJoCo says: " + OneLine(line));
   }
   data_.reset(mj_makeData(model_.get()));
 }

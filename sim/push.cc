@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "robot/finding.h"
+
 namespace poise {
 
 namespace {
@@ -88,9 +90,9 @@ PushOnRobot::PushOnRobot(const Robot& robot, const Push& push)
   } else {
     const auto frame = tree.FindFrame(push.link);
     if (!frame) {
-      throw std::invalid_argument("link '" + push.link +
-                                  "' is unknown, must be a link of robot '" +
-                                  robot.model.name + "'");
+      throw std::invalid_argument("link " + Quoted(push.link) +
+                                  " is unknown, must be a link of robot " +
+                                  Quoted(robot.model.name));
     }
     body_ = tree.frames()[*frame].body;
     X_BF = tree.frames()[*frame].X_BF;

@@ -1,16 +1,23 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "sim/recorder.h"
 
+#include <algorithm>
 #include <charconv>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
+
+#include "robot/control/conflict.h"
 
 namespace poise {
 
 namespace {
 
 constexpr int kRowsAtOnce = 50;
+// In the scale of a row, where 1 is a typical value.
+constexpr double kNoticeableSlack = 1e-6;
+// A conflict lasts, and takes some ten solutions to find.
+constexpr double kBetweenConflicts = 0.05;  // s.
 constexpr const char* kWrench[] = {"mx[Nm]", "my[Nm]", "mz[Nm]",
                                    "fx[N]",  "fy[N]",  "fz[N]"};
 
@@ -48,10 +55,27 @@ std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
   using Kind = LogColumn::Kind;
   std::vector<LogColumn> all = {{"time[s]", Kind::kTime}};
   for (const std::string& name : columns) all.push_back({name, Kind::kNumber});
-  for (const char* name : {"touching", "status", "active", "lost"}) {
+  for (const char* name :
+       {"touching", "status", "active", "lost", "conflict"}) {
     all.push_back({name, Kind::kText});
   }
   return all;
+}
+
+// The level of the highest rows that could not be met; -1 if all could.
+int LevelNotMet(const TickRecord& record) {
+  int rank = Stack::kMaxRank + 1;
+  for (const LostRow& lost : record.report.lost) {
+    rank = std::min(rank, record.report.tasks[lost.task].rank);
+  }
+  for (const ActiveRow& active : record.report.active) {
+    if (active.slack < kNoticeableSlack) continue;
+    rank = std::min(rank, record.report.tasks[active.task].rank);
+  }
+  for (int level = 0; level < record.hierarchy.num_levels(); ++level) {
+    if (record.stack.rank_of_level(level) == rank) return level;
+  }
+  return -1;
 }
 
 // Each body by the first link that is fixed in it.
@@ -124,6 +148,19 @@ void Recorder::Entry(std::string_view name, double value) {
   entries_.append(digits, end.ptr);
 }
 
+void Recorder::ConflictCell(const TickRecord& record) {
+  const double now = record.observation.time;
+  const int level = now < next_conflict_ ? -1 : LevelNotMet(record);
+  if (level >= 0) {
+    next_conflict_ = now + kBetweenConflicts;
+    for (const HierarchyRow& row : FindConflict(record.hierarchy, level)) {
+      Entry(record.stack.RowName(row.level, row.row, row.equality),
+            record.stack.rank_of_level(row.level));
+    }
+  }
+  EndEntries();
+}
+
 void Recorder::TextCells(const TickRecord& record) {
   for (const auto& [a, b] : record.end.self_contacts) {
     if (!entries_.empty()) entries_ += ';';
@@ -139,6 +176,7 @@ void Recorder::TextCells(const TickRecord& record) {
     Entry(record.stack.task(lost.task).equality_names()[lost.row], lost.amount);
   }
   EndEntries();
+  ConflictCell(record);
 }
 
 void Recorder::Record(const TickRecord& record) {

@@ -45,6 +45,7 @@ class Recorder {
  private:
   void Entry(std::string_view name, double value);
   void EndEntries();
+  void ConflictCell(const TickRecord& record);
   void TextCells(const TickRecord& record);
 
   std::vector<std::string> body_names_;
@@ -55,6 +56,7 @@ class Recorder {
   std::string log_rows_;  // Whole rows, not yet in the file.
   std::string timing_rows_;
   int rows_waiting_ = 0;
+  double next_conflict_ = 0;  // Not before, s.
   Sha256 hash_;
 };
 

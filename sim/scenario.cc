@@ -23,7 +23,8 @@ constexpr std::size_t kMostEntries = 1000;  // Of a list.
 std::vector<NumberField> Fields(StartSettings* start) {
   return {{"joints", &start->joints, 0, 3.2, "rad"},
           {"drop", &start->drop, 0, 10, "m"},
-          {"heading", &start->heading, -10, 10, "rad"}};
+          {"heading", &start->heading, -10, 10, "rad"},
+          {"place", start->place.data(), -1e5, 1e5, "m", 2}};
 }
 
 std::vector<NumberField> Fields(Push* push) {
@@ -73,6 +74,8 @@ std::vector<NumberField> Fields(SensorSettings* s) {
           {"joint_resolution", &s->joint_resolution, 0, 10, "rad"},
           {"force_resolution", &s->force_resolution, 0, 1e6, "N"},
           {"dropout", &s->dropout, 0, 1},
+          {"freeze_at", &s->freeze_at, 0, kLongest, "s"},
+          {"freeze_for", &s->freeze_for, 0, kLongest, "s"},
           {"contact_threshold", &s->contact_threshold, 0, 1e6, "N"}};
 }
 

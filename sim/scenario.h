@@ -19,6 +19,7 @@ struct StartSettings {
   double joints = 0;   ///< Joints outside the legs, each drawn in +- this, rad.
   double drop = 0;     ///< Height of the soles above the ground, m.
   double heading = 0;  ///< Of the robot in the world, rad.
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< Of its feet, m.
 };
 
 /// How the desired center of mass moves about where it starts:

@@ -49,7 +49,7 @@ TEST(Scenario, EveryKeyIsRead) {
 name: all
 duration: 7
 seed: 3
-start: {joints: 0.1, drop: 0.01, heading: 0.5}
+start: {joints: 0.1, drop: 0.01, heading: 0.5, place: [1, -2]}
 pushes:
   - {link: torso, point: [1, 2, 3], frame: link, force: [4, 5, 6],
      moment: [7, 8, 9], profile: half_sine, at: 2, duration: 0.3}
@@ -71,7 +71,8 @@ sensors: {noise: 1, joint_position: 1.1, joint_velocity: 1.2,
           base_orientation: 1.3, base_rate: 1.4, foot_force: 1.5,
           foot_moment: 1.6, accelerometer: 1.7, gyroscope: 1.8, joint_bias: 1.9,
           gyroscope_bias: 2.1, force_bias: 2.2, joint_resolution: 2.3,
-          force_resolution: 2.4, dropout: 0.5, contact_threshold: 2.6}
+          force_resolution: 2.4, dropout: 0.5, contact_threshold: 2.6,
+          freeze_at: 2.7, freeze_for: 2.8}
 )");
   EXPECT_EQ(s.name, "all");
   EXPECT_EQ(s.duration, 7);
@@ -79,6 +80,7 @@ sensors: {noise: 1, joint_position: 1.1, joint_velocity: 1.2,
   EXPECT_EQ(s.start.joints, 0.1);
   EXPECT_EQ(s.start.drop, 0.01);
   EXPECT_EQ(s.start.heading, 0.5);
+  EXPECT_EQ(s.start.place, Eigen::Vector2d(1, -2));
   ASSERT_EQ(s.pushes.size(), 2u);
   EXPECT_EQ(s.pushes[0].link, "torso");
   EXPECT_EQ(*s.pushes[0].point, Eigen::Vector3d(1, 2, 3));
@@ -139,6 +141,8 @@ sensors: {noise: 1, joint_position: 1.1, joint_velocity: 1.2,
   EXPECT_EQ(n.force_resolution, 2.4);
   EXPECT_EQ(n.dropout, 0.5);
   EXPECT_EQ(n.contact_threshold, 2.6);
+  EXPECT_EQ(n.freeze_at, 2.7);
+  EXPECT_EQ(n.freeze_for, 2.8);
 }
 
 // The YAML in docs/scenarios.md.
@@ -199,7 +203,7 @@ TEST(Scenario, DocumentHasEveryKeyWithItsDefault) {
 TEST(Scenario, BadKeyIsRefusedWithItsLine) {
   EXPECT_EQ(Complaint("duration: 5\nstart:\n  joint: 0.1\n"),
             "trial.yaml:3: key 'joint' is unknown, must be one of joints, "
-            "drop, heading");
+            "drop, heading, place");
   EXPECT_EQ(Complaint("pushes:\n- {link: torso}\n- {forse: [0, 1, 0]}\n"),
             "trial.yaml:3: key 'forse' is unknown, must be one of link, point, "
             "frame, profile, force, moment, at, duration");

@@ -22,6 +22,8 @@ struct SensorSettings {
   double joint_resolution = 0;  ///< Quantisation of joint positions, rad.
   double force_resolution = 0;  ///< Quantisation of forces, N.
   double dropout = 0;           ///< Chance that a tick brings nothing new.
+  double freeze_at = 0;         ///< From here on nothing new comes, s,
+  double freeze_for = 0;        ///< for so long, s.
   double contact_threshold = 5;  ///< Normal force of a contact flag, N.
 };
 

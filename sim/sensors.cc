@@ -67,7 +67,10 @@ double Sensors::Noise(double deviation) {
 const Measurement& Sensors::Measure(const PlantState& state) {
   const bool lost =
       settings_.dropout > 0 && random_.Uniform() < settings_.dropout;
-  if (lost && !first_) return measurement_;
+  // Half a microsecond early, so that rounding does not delay it by a tick.
+  const double frozen_for = state.time - settings_.freeze_at + 5e-7;
+  const bool frozen = frozen_for > 0 && frozen_for < settings_.freeze_for;
+  if ((lost || frozen) && !first_) return measurement_;
   first_ = false;
   const SensorSettings& s = settings_;
   const auto noise = [this](double deviation) {

@@ -163,6 +163,20 @@ TEST(Sensors, DropOutsRepeatTheLastWord) {
   EXPECT_NEAR(lost, 1000, 110);  // Four deviations of the binomial.
 }
 
+TEST(Sensors, FrozenOnesRepeatTheirLastWordForSoLong) {
+  const Robot robot = MakeArmOnABlock();
+  SensorSettings settings;
+  settings.freeze_at = 0.005;
+  settings.freeze_for = 0.003;
+  Sensors sensors(robot, settings, 1);
+  PlantState state = MakeState();
+  for (int k = 0; k < 20; ++k) {
+    state.time = 1e-3 * k;
+    const bool frozen = k >= 5 && k < 8;
+    EXPECT_EQ(sensors.Measure(state).time, frozen ? 0.004 : state.time) << k;
+  }
+}
+
 TEST(Sensors, SameSeedSameErrors) {
   const Robot robot = MakeArmOnABlock();
   SensorSettings settings;

@@ -31,10 +31,12 @@ State MakeStartState(const Robot& robot, const StartSettings& start,
   }
 
   const Eigen::Vector3d normal_W = GroundNormal(ground);
+  const Eigen::Quaterniond R_WG =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal_W);
   const Eigen::Quaterniond R_WS =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal_W) *
-      Eigen::AngleAxisd(start.heading, Eigen::Vector3d::UnitZ());
-  state.q.head<3>() = R_WS * state.q.head<3>() + start.drop * normal_W;
+      R_WG * Eigen::AngleAxisd(start.heading, Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d place_G(start.place.x(), start.place.y(), start.drop);
+  state.q.head<3>() = R_WS * state.q.head<3>() + R_WG * place_G;
   state.q.segment<4>(3) =
       (R_WS * Eigen::Quaterniond(state.q.segment<4>(3))).coeffs();
   return state;

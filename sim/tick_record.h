@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "hqp/hierarchy.h"
 #include "robot/control/stack.h"
 #include "robot/control/tick_report.h"
 #include "sim/observation.h"
@@ -20,6 +21,7 @@ struct TickRecord {
   const Eigen::VectorXd& tau;    ///< What the controller asked for.
   Eigen::Vector3d push_force_W;  ///< The mean over the tick, N.
   const Stack& stack;
+  const Hierarchy& hierarchy;  ///< What the controller solved.
   const TickReport& report;
   int nv;
   double microseconds;  ///< That the controller took.

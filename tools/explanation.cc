@@ -18,9 +18,12 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kGap = 0.020;      // s: shorter pauses join two spans.
-constexpr size_t kMostCauses = 3;   // Named for a loss.
-constexpr double kSmallLoss = 0.5;  // N, N m, m/s2: not worth a sentence.
+constexpr double kGap = 0.020;     // s: shorter pauses join two spans.
+constexpr size_t kMostCauses = 3;  // Named for a loss.
+// What contradicts itself is logged once in a while.
+constexpr double kConflictLasts = 0.06;  // s.
+constexpr double kShort = 0.005;         // s: not worth a sentence.
+constexpr double kSmallLoss = 0.5;       // N, N m, m/s2: not worth a sentence.
 
 // While something was so, and the worst of it.
 struct Span {
@@ -81,6 +84,15 @@ Values Hardest(Values rows) {
   return rows;
 }
 
+// Of rows that contradict each other, those that bound.
+Values Constraints(const Values& rows) {
+  Values bounds;
+  for (const auto& row : rows) {
+    if (DescribeRow(row.first) != row.first) bounds.push_back(row);
+  }
+  return bounds;
+}
+
 std::string Format(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof(text), format, value);
@@ -99,7 +111,7 @@ std::string Spaced(std::string text) {
 }
 
 std::string Sentence(const Span& span) {
-  return Format("%.3f s: ", span.from) + DescribeRow(span.name) +
+  return Format("%.3f s: ", span.from) + span.name +
          Format(" for %.0f ms", 1e3 * (span.to - span.from)) +
          Format(" (multiplier %.3g", std::abs(span.peak)) +
          Format(" at %.3f s).", span.at);
@@ -109,11 +121,37 @@ std::string LossSentence(const Span& span) {
   std::string text = Format("%.3f s: ", span.from) + span.name + " gave up " +
                      Format("%.3g ", std::abs(span.peak)) +
                      UnitOfLoss(span.name) + Format(" (at %.3f s)", span.at);
-  for (size_t i = 0; i < span.causes.size(); ++i) {
-    text +=
-        (i == 0 ? ", because of " : ", ") + DescribeRow(span.causes[i].first);
+  std::vector<std::string> said;
+  for (const auto& [name, value] : span.causes) {
+    const std::string cause = DescribeRow(name);
+    if (std::find(said.begin(), said.end(), cause) != said.end()) continue;
+    text += (said.empty() ? ", because of " : ", ") + cause;
+    said.push_back(cause);
   }
   return text + ".";
+}
+
+// What to call a row among others of its task: constraints one by one, tasks by
+// their name.
+std::string Group(const std::string& name) {
+  const std::string said = DescribeRow(name);
+  return said != name ? said : Spaced(name.substr(0, name.rfind('.')));
+}
+
+// In the order of their ranks, the lowest first: it gave way.
+std::string ConflictSentence(double time, Values rows) {
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    return a.second > b.second;
+  });
+  std::string text;
+  std::vector<std::string> said;
+  for (const auto& [name, rank] : rows) {
+    const std::string group = Group(name);
+    if (std::find(said.begin(), said.end(), group) != said.end()) continue;
+    text += (said.empty() ? "" : "; ") + group + Format(" (rank %.0f)", rank);
+    said.push_back(group);
+  }
+  return Format("%.3f s: cannot all be met: ", time) + text + ".";
 }
 
 json ReadSummary(const std::filesystem::path& run) {
@@ -144,6 +182,9 @@ std::string DescribeRow(const std::string& name) {
   const std::string middle =
       last > first ? name.substr(first + 1, last - first - 1) : "";
   if (head == "torque" || head == "joint") {
+    if (last == first) {
+      return "the " + head + " limit of " + Spaced(end);
+    }
     return "the " + std::string(head == "torque" ? "torque" : "angle") +
            " of " + Spaced(middle) + " at its " +
            (end == "min" ? "lower" : "upper") + " limit";
@@ -172,22 +213,34 @@ json Explain(const std::filesystem::path& run) {
   const std::unique_ptr<LogReader> opened = OpenLog(log);
   LogReader& reader = *opened;
   const auto time = reader.Find("time"), status = reader.Find("status"),
-             active = reader.Find("active"), lost = reader.Find("lost");
+             active = reader.Find("active"), lost = reader.Find("lost"),
+             conflict = reader.Find("conflict");
   if (!time || !status || !active) {
     throw std::invalid_argument(log.string() +
                                 ": has no columns time, status and active");
   }
-  Spans rows, losses, states;
+  Spans rows, said, losses, states;
+  std::vector<std::pair<double, Values>> conflicts;
   while (reader.Next()) {
     const double t = reader.Number(*time);
     const Values acting = Parse(reader.cell(*active));
-    for (const auto& [name, value] : acting) rows.Add(name, t, value, {});
+    for (const auto& [name, value] : acting) {
+      rows.Add(name, t, value, {});
+      said.Add(DescribeRow(name), t, value, {});
+    }
     if (reader.cell(*status) != "ok") {
       states.Add(std::string(reader.cell(*status)), t, 1, {});
     }
+    if (conflict && !reader.cell(*conflict).empty()) {
+      conflicts.emplace_back(t, Parse(reader.cell(*conflict)));
+    }
     if (!lost) continue;
     for (const auto& [name, value] : Parse(reader.cell(*lost))) {
-      losses.Add(name, t, value, Hardest(acting));
+      const bool is_known =
+          !conflicts.empty() && t - conflicts.back().first < kConflictLasts;
+      losses.Add(
+          name, t, value,
+          is_known ? Constraints(conflicts.back().second) : Hardest(acting));
     }
   }
 
@@ -196,6 +249,7 @@ json Explain(const std::filesystem::path& run) {
               {"fell_at", summary.value("fell_at", json())},
               {"rows", json::array()},
               {"losses", json::array()},
+              {"conflicts", json::array()},
               {"status", json::array()},
               {"sentences", json::array()}};
   std::vector<std::pair<double, std::string>> sentences;
@@ -205,7 +259,10 @@ json Explain(const std::filesystem::path& run) {
                            {"to", span.to},
                            {"at", span.at},
                            {"multiplier", std::abs(span.peak)}});
-    if (span.to > span.from) sentences.emplace_back(span.from, Sentence(span));
+  }
+  for (const Span& span : said.spans()) {
+    if (span.to - span.from < kShort) continue;
+    sentences.emplace_back(span.from, Sentence(span));
   }
   for (const Span& span : losses.spans()) {
     json because = json::array();
@@ -219,6 +276,19 @@ json Explain(const std::filesystem::path& run) {
                              {"because", because}});
     if (std::abs(span.peak) < kSmallLoss) continue;
     sentences.emplace_back(span.from, LossSentence(span));
+  }
+  std::string last;
+  for (const auto& [at, found] : conflicts) {
+    json names = json::array();
+    for (const auto& [name, rank] : found) {
+      names.push_back({{"name", name}, {"rank", rank}});
+    }
+    out["conflicts"].push_back({{"at", at}, {"rows", names}});
+    // The same again is not said again.
+    const std::string sentence = ConflictSentence(at, found);
+    const std::string what = sentence.substr(sentence.find(':'));
+    if (what != last) sentences.emplace_back(at, sentence);
+    last = what;
   }
   for (const Span& span : states.spans()) {
     out["status"].push_back(

@@ -17,6 +17,8 @@ namespace poise {
 ///     losses     [{name, from, to, at, amount, unit, because}]: while a row of
 ///                a task was not met, the worst of it, and the rows that pressed
 ///                hardest at that time.
+///     conflicts  [{at, rows: [{name, rank}]}]: rows that contradict each other,
+///                none of which can be spared, where the log has them.
 ///     status     [{name, from, to}]: where it was not "ok".
 ///     recovered, fell_at   from summary.json; null where there is none.
 ///     sentences  the same for a person, in the order of time.

@@ -21,14 +21,16 @@ std::filesystem::path MakeRun(const std::string& name, const std::string& log,
 }
 
 constexpr char kPushed[] =
-    "time[s],status,active,lost\n"
-    "0.61,ok,,\n"
-    "0.62,ok,left_foot.cop.y_max=12,momentum.ly=-3\n"
+    "time[s],status,active,lost,conflict\n"
+    "0.61,ok,,,\n"
+    "0.62,ok,left_foot.cop.y_max=12,momentum.ly=-3,newton_euler.my=1;"
+    "newton_euler.fy=1;left_foot.cop.y_max=3;torque.l_knee=2;momentum.ly=4\n"
     "0.63,limit_relaxed,left_foot.cop.y_max=41;right_foot.unilateral.fz=2,"
-    "momentum.ly=-12\n"
-    "0.64,ok,left_foot.cop.y_max=5,\n"
-    "0.90,ok,left_foot.cop.y_max=7,\n"
-    "0.91,ok,,\n";
+    "momentum.ly=-12,newton_euler.my=1;"
+    "newton_euler.fy=1;left_foot.cop.y_max=3;torque.l_knee=2;momentum.ly=4\n"
+    "0.64,ok,left_foot.cop.y_max=5,,\n"
+    "0.90,ok,left_foot.cop.y_max=7,,\n"
+    "0.91,ok,,,\n";
 
 TEST(Explanation, SaysWhenWhatAndWhy) {
   const nlohmann::json said =
@@ -50,6 +52,26 @@ TEST(Explanation, SaysWhenWhatAndWhy) {
             "0.620 s: the CoP of the left foot at its outer edge for 20 ms "
             "(multiplier 41 at 0.630 s).");
   EXPECT_EQ(said["sentences"].back(), "The robot recovered.");
+}
+
+TEST(Explanation, SaysOnceWhatContradictsItself) {
+  const nlohmann::json said = Explain(MakeRun("conflict", kPushed, "{}"));
+  ASSERT_EQ(said["conflicts"].size(), 2u);
+  EXPECT_EQ(said["conflicts"][0]["at"], 0.62);
+  ASSERT_EQ(said["conflicts"][0]["rows"].size(), 5u);
+  EXPECT_EQ(said["conflicts"][0]["rows"][2]["name"], "left_foot.cop.y_max");
+  EXPECT_EQ(said["conflicts"][0]["rows"][2]["rank"], 3);
+  int times = 0;
+  for (const std::string sentence : said["sentences"]) {
+    if (sentence.find("cannot all be met") == std::string::npos) continue;
+    ++times;
+    EXPECT_EQ(
+        sentence,
+        "0.620 s: cannot all be met: momentum (rank 4); the CoP of the "
+        "left foot at its outer edge (rank 3); the torque limit of l knee "
+        "(rank 2); newton euler (rank 1).");
+  }
+  EXPECT_EQ(times, 1);
 }
 
 TEST(Explanation, SaysThatTheRobotFell) {

@@ -36,7 +36,7 @@ struct Overrides {
   std::optional<double> force, direction, duration, at, time, control_rate,
       plant_rate, mu_plant, mass_error, torque_scale, noise, delay;
   std::optional<std::string> link, tasks, friction, plant, pushes;
-  std::vector<double> point;
+  std::vector<double> point, freeze;
   std::vector<std::string> with, without;
   bool weighted = false, feedforward = false, estimator = false;
   std::optional<unsigned> seed;
@@ -96,6 +96,11 @@ void AddOptions(CLI::App* app, Overrides* o) {
                   "on the base")
       ->check(finite);
   app->add_option("--delay", o->delay, "from measurement to torque, s")
+      ->check(finite);
+  app->add_option("--freeze", o->freeze,
+                  "AT,FOR in s: sensors that repeat their last word")
+      ->delimiter(',')
+      ->expected(2)
       ->check(finite);
   app->add_option("--seed", o->seed, "of all that is random (the scenario's)");
 }
@@ -167,6 +172,10 @@ void Apply(const Overrides& o, Scenario* scenario) {
   Take(o.torque_scale, &plant.torque_scale);
   Take(o.noise, &scenario->sensors.noise);
   Take(o.delay, &control.delay);
+  if (!o.freeze.empty()) {
+    scenario->sensors.freeze_at = o.freeze[0];
+    scenario->sensors.freeze_for = o.freeze[1];
+  }
 }
 
 // The names of our scenarios, in alphabetical order.

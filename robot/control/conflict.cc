@@ -1,14 +1,19 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "robot/control/conflict.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "hqp/solution.h"
 #include "hqp/solver.h"
 
 namespace poise {
 namespace {
+
+// What rounding leaves of a violation that is none, over the row's norm.
+constexpr double kRounding = 1e-10;
 
 double Norm(const Hierarchy& hierarchy, const HierarchyRow& row) {
   return row.equality ? hierarchy.B(row.level).row(row.row).norm()
@@ -24,8 +29,9 @@ class Feasibility {
         solver_(hierarchy.num_variables(), {{num_rows, num_rows}}),
         solution_(hierarchy.num_variables(), {{num_rows, num_rows}}) {}
 
-  // The largest violation left, over its row's norm.
-  double Violation(const std::vector<HierarchyRow>& rows) {
+  // What each row is violated by, over its norm, where all together are as
+  // little as can be.
+  Eigen::VectorXd Violations(const std::vector<HierarchyRow>& rows) {
     one_level_.Clear(1);
     const int equalities = static_cast<int>(
         std::count_if(rows.begin(), rows.end(),
@@ -47,16 +53,36 @@ class Feasibility {
     }
     solver_.Forget();
     (void)solver_.Solve(one_level_, &solution_);
-    double worst = 0;
-    if (e > 0) {
-      worst = solution_.levels[0]
-                  .equality_residual.head(e)
-                  .lpNorm<Eigen::Infinity>();
+    Eigen::VectorXd violations(rows.size());
+    e = i = 0;
+    for (size_t k = 0; k < rows.size(); ++k) {
+      const LevelSolution& level = solution_.levels[0];
+      violations[static_cast<Eigen::Index>(k)] =
+          rows[k].equality ? std::abs(level.equality_residual[e++])
+                           : level.slack[i++];
     }
-    if (i > 0) {
-      worst = std::max(worst, solution_.levels[0].slack.head(i).maxCoeff());
+    return violations;
+  }
+
+  // Rows among these that contradict each other; nothing if none do. At the
+  // optimum the violated rows, each times its violation, add up to zero: they
+  // contradict each other without the rest.
+  std::optional<std::vector<HierarchyRow>> Contradicting(
+      const std::vector<HierarchyRow>& rows, double tolerance) {
+    if (rows.empty()) return std::nullopt;
+    const Eigen::VectorXd violations = Violations(rows);
+    if (violations.maxCoeff() <= tolerance) return std::nullopt;
+    std::vector<HierarchyRow> violated;
+    for (size_t i = 0; i < rows.size(); ++i) {
+      if (violations[static_cast<Eigen::Index>(i)] > kRounding) {
+        violated.push_back(rows[i]);
+      }
     }
-    return worst;
+    if (violated.size() < rows.size() &&
+        Violations(violated).maxCoeff() <= tolerance) {
+      return rows;
+    }
+    return violated;
   }
 
  private:
@@ -86,12 +112,16 @@ std::vector<HierarchyRow> FindConflict(const Hierarchy& hierarchy, int level,
              rows.end());
   if (rows.empty()) return {};
   Feasibility feasibility(hierarchy, static_cast<int>(rows.size()));
-  if (feasibility.Violation(rows) <= tolerance) return {};
+  std::optional<std::vector<HierarchyRow>> fewer =
+      feasibility.Contradicting(rows, tolerance);
+  if (!fewer) return {};
+  rows = *fewer;
   for (size_t i = 0; i < rows.size();) {
     std::vector<HierarchyRow> rest = rows;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-    if (!rest.empty() && feasibility.Violation(rest) > tolerance) {
-      rows = rest;
+    fewer = feasibility.Contradicting(rest, tolerance);
+    if (fewer) {
+      rows = *fewer;  // With all before i, as each of them is needed.
     } else {
       ++i;
     }

@@ -18,10 +18,10 @@ struct HierarchyRow {
 /// levels above that contradict each other, of which each one is needed, so
 /// that without it the others could all be met. Empty if the level can be met.
 ///
-/// Found by leaving out one row after the other (a deletion filter, lowest
-/// levels last, so that what is left is the level's own as far as can be), and
-/// least squares to see whether the rest can be met. For explaining, not for
-/// the control loop: it solves a problem a row, and allocates.
+/// Found by least squares: the rows that its optimum violates contradict each
+/// other. Of these one after the other is left out, lowest levels last, as long
+/// as the rest cannot be met (a deletion filter). For explaining, not for the
+/// control loop: it solves a small problem a row, and allocates.
 ///
 /// @param tolerance  on a row's violation, over its norm.
 std::vector<HierarchyRow> FindConflict(const Hierarchy& hierarchy, int level,

@@ -9,6 +9,7 @@
 #include "robot/control/default_stack.h"
 #include "robot/control/fail_safe.h"
 #include "robot/control/torque.h"
+#include "robot/finding.h"
 
 namespace poise {
 namespace {
@@ -44,12 +45,12 @@ bool IsBelievable(const Eigen::VectorXd& x) {
 
 const Robot& Checked(const Robot& robot) {
   if (robot.feet.empty()) {
-    throw std::invalid_argument("robot '" + robot.model.name +
-                                "': has no foot, must have one or more");
+    throw std::invalid_argument("robot " + Quoted(robot.model.name) +
+                                ": has no foot, must have one or more");
   }
   if (robot.q_nominal.size() != robot.model.tree.nq()) {
     throw std::invalid_argument(
-        "robot '" + robot.model.name + "': nominal posture has size " +
+        "robot " + Quoted(robot.model.name) + ": nominal posture has size " +
         std::to_string(robot.q_nominal.size()) + ", must be " +
         std::to_string(robot.model.tree.nq()));
   }
@@ -64,8 +65,9 @@ std::vector<int> TickFrames(const Robot& robot,
   for (const std::string& link : links) {
     const auto frame = robot.model.tree.FindFrame(link);
     if (!frame) {
-      throw std::invalid_argument("frame '" + link + "': robot '" +
-                                  robot.model.name + "' has no such link");
+      throw std::invalid_argument("frame " + Quoted(link) + ": robot " +
+                                  Quoted(robot.model.name) +
+                                  " has no such link");
     }
     frames.push_back(*frame);
   }
@@ -111,6 +113,8 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
                                 ", must be positive");
   }
   solver_.max_iterations = options.max_iterations;
+  solver_.max_seconds = options.max_seconds;
+  solver_.now = options.now;
   stack_.Resize(&report_);
   normal_force_.setZero(robot_.feet.size());
   reference_.feet.resize(robot_.feet.size());

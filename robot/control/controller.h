@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct ControllerOptions {
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
   bool certify = true;       ///< Each solution gets its certificate.
   int max_iterations = 250;  ///< Of the solver, a tick; then truncated.
+  /// The same in seconds by now(), if that is given; what it cuts off depends on
+  /// the machine, so no replay is exact.
+  double max_seconds = 0;
+  std::function<double()> now;
   std::vector<std::string> frames;  ///< Links with a task frame.NAME.
 };
 

@@ -196,6 +196,57 @@ TEST_F(ControllerTest, TruncatesWhereItsBudgetIsSpent) {
   EXPECT_LT(hasty.report().tasks[newton_euler].residual, 1e-9);
 }
 
+// A clock of the test's own, on which each look takes 0.4 ms: time for two
+// factorisations.
+TEST_F(ControllerTest, StopsWhereItsTimeIsSpent) {
+  double seconds = 0;
+  ControllerOptions options;
+  options.max_seconds = 1e-3;
+  options.now = [&seconds] { return seconds += 0.4e-3; };
+  Controller hasty(robot_, options);
+  hasty.Start(state_);
+  state_.v.segment<3>(3) << 0, 0.6, 0;
+  state_.time = 1e-3;
+  hasty.Update(state_, &command_);
+  EXPECT_TRUE(command_.status == TickStatus::kTruncated ||
+              command_.status == TickStatus::kFailSafe);
+  EXPECT_LE(hasty.report().iterations, 2);
+  EXPECT_TRUE(command_.tau.allFinite());
+  ExpectInsideLimits();
+}
+
+// All joints run into their stops, with motors too weak to hold them.
+TEST_F(ControllerTest, NamesALimitThatCannotBeMetAndWhatItContradicts) {
+  for (int j = 0; j < tree().num_joints(); ++j) {
+    state_.q[7 + j] = robot_.model.limits[j].upper - 0.01;
+    state_.v[6 + j] = 3;
+    robot_.model.limits[j].effort = 0.01;
+  }
+  Controller weak(robot_);
+  weak.Start(state_);
+  state_.time = 1e-3;
+  weak.Update(state_, &command_);
+  EXPECT_EQ(command_.status, TickStatus::kLimitRelaxed);
+  bool is_named = false;
+  for (const ActiveRow& row : weak.report().active) {
+    is_named |=
+        row.slack > 1e-3 && weak.stack().RowName(row).rfind("joint.", 0) == 0;
+  }
+  EXPECT_TRUE(is_named);
+
+  // Rank 2 is the second level: what it contradicts is of rank 2 or 1.
+  int joints = 0, torques = 0;
+  for (const HierarchyRow& row : FindConflict(weak.hierarchy(), 1)) {
+    const std::string name =
+        weak.stack().RowName(row.level, row.row, row.equality);
+    joints += name.rfind("joint.", 0) == 0;
+    torques += name.rfind("torque.", 0) == 0;
+  }
+  EXPECT_GT(joints, 0);
+  EXPECT_GT(torques, 0);
+  EXPECT_LT(joints + torques, 2 * tree().num_joints());
+}
+
 TEST_F(ControllerTest, NamesTheRowsOfAContradiction) {
   // x <= -1 and x >= 1; y <= 5 has no part in it.
   Hierarchy hierarchy(2, {{1, 3}});
@@ -380,6 +431,17 @@ TEST(TaskSet, KnowsThatOfThePaper) {
   EXPECT_FALSE(stack.settings(*stack.Find("joint_limits")).enabled);
   EXPECT_EQ(stack.settings(*stack.Find("posture")).rank, 4);
   EXPECT_THROW(ApplyTaskSet("papers", &stack), std::invalid_argument);
+}
+
+TEST_F(ControllerTest, DoesNotJumpWhereWhatIsSwitchedDoesNotAct) {
+  Update();
+  const Eigen::VectorXd before = command_.tau;
+  ASSERT_TRUE(controller_.stack().Enable("zmp", true));
+  ASSERT_TRUE(controller_.stack().Enable("cop", false));
+  ASSERT_TRUE(controller_.stack().SetWeight("momentum", 7));
+  Update();
+  // N m: rounding, and what the ground's height is corrected by in a tick.
+  EXPECT_LT((command_.tau - before).norm(), 1e-6);
 }
 
 TEST_F(ControllerTest, SwitchesATaskByName) {

@@ -5,14 +5,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "robot/finding.h"
+
 namespace poise {
 namespace {
 
-// How much heavier a rank counts than the next, as one weighted QP.
-constexpr double kRankRatio = 100;
-
 // Multipliers and slacks below this are rounding.
-constexpr double kNoticeable = 1e-9;
+constexpr double kNoticeable = 1e-6;
 
 // A residual below this has cost nothing, in the scale of its row.
 constexpr double kNoticeableLoss = 1e-4;
@@ -24,7 +23,7 @@ bool IsValidWeight(double weight) {
 }  // namespace
 
 void Stack::Add(std::unique_ptr<Task> task, const TaskSettings& settings) {
-  const std::string what = "task '" + task->name() + "': ";
+  const std::string what = "task " + Quoted(task->name()) + ": ";
   if (Find(task->name())) {
     throw std::invalid_argument(what + "is there already");
   }
@@ -112,7 +111,7 @@ double Stack::RowWeight(const Entry& entry) const noexcept {
       return e.takes_part && e.settings.rank == rank;
     });
   }
-  return entry.settings.weight * std::pow(kRankRatio, below);
+  return entry.settings.weight * std::pow(rank_ratio_, below);
 }
 
 void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
@@ -217,10 +216,13 @@ void Stack::ReportInequalities(int i, const Solution& solution,
                      entry.settings.rank,
                      level.slack[index],
                      level.slack[index] / scale};
-    for (int k = entry.level + 1; k < num_levels_; ++k) {
+    // The first rank that presses counts: what lower ones add is held by it too,
+    // and where it leaves them little, their multipliers are of any size.
+    for (int k = entry.level + 1;
+         k < num_levels_ && active.multiplier <= kNoticeable; ++k) {
       const double multiplier =
           solution.levels[k].multipliers[entry.level].inequality[index];
-      if (std::abs(multiplier) <= active.multiplier) continue;
+      if (std::abs(multiplier) <= kNoticeable) continue;
       active.multiplier = std::abs(multiplier);
       active.pressing_rank = rank_of_level_[k];
       active.side = multiplier > 0 ? Side::kUpper : Side::kLower;
@@ -237,6 +239,18 @@ std::string Stack::RowName(const ActiveRow& row) const {
       name.rfind("torque.", 0) == 0 || name.rfind("joint.", 0) == 0;
   if (!two_sided) return name;
   return name + (row.side == Side::kLower ? ".min" : ".max");
+}
+
+std::string Stack::RowName(int level, int row, bool is_equality) const {
+  for (const Entry& entry : entries_) {
+    if (!entry.takes_part || entry.level != level) continue;
+    const auto& names = is_equality ? entry.task->equality_names()
+                                    : entry.task->inequality_names();
+    const int i =
+        row - (is_equality ? entry.equality_start : entry.inequality_start);
+    if (i >= 0 && i < static_cast<int>(names.size())) return names[i];
+  }
+  return "";
 }
 
 }  // namespace poise

@@ -51,9 +51,12 @@ class Stack {
   std::optional<double> GetParameter(std::string_view name,
                                      std::string_view parameter) const noexcept;
 
-  /// One weighted QP below rank 1 instead of a hierarchy: each rank counts a
-  /// hundred times the next.
-  void set_weighted(bool weighted) { weighted_ = weighted; }
+  /// One weighted QP below rank 1 instead of a hierarchy: each rank counts
+  /// `ratio` times the next, ratio >= 1.
+  void set_weighted(bool weighted, double ratio = 100) {
+    weighted_ = weighted;
+    rank_ratio_ = ratio;
+  }
 
   /// What a Hierarchy, and its solver, must hold for every setting of the
   /// tasks.
@@ -71,6 +74,10 @@ class Stack {
   /// An inequality row by name; of a row with two sides, which one:
   /// "left_foot.cop.x_max", "torque.l_knee.min". Allocates.
   std::string RowName(const ActiveRow& row) const;
+
+  /// A row of the last Write() by name, an equality or an inequality; empty if
+  /// there is none. Allocates.
+  std::string RowName(int level, int row, bool is_equality) const;
 
   /// The rank whose rows the last Write() put into a level.
   int rank_of_level(int level) const { return rank_of_level_[level]; }
@@ -92,6 +99,7 @@ class Stack {
 
   int num_variables_;
   bool weighted_ = false;
+  double rank_ratio_ = 100;
   std::vector<Entry> entries_;
   int rank_of_level_[kMaxRank] = {};
   int num_levels_ = 0;

@@ -15,7 +15,7 @@ struct ActiveRow {
   int task;           ///< Index into Stack::tasks().
   int row;            ///< Index into Task::inequality_names().
   Side side;          ///< Where it acts.
-  int pressing_rank;  ///< The rank that presses hardest on it.
+  int pressing_rank;  ///< The highest rank that presses on it.
   double multiplier;  ///< Of that rank's optimum on the row, always >= 0.
   double slack;       ///< By how much the row is violated, in its own scale.
 };

@@ -1,0 +1,85 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <vector>
+
+#include "robot/profile.h"
+#include "sim/closed_loop.h"
+
+namespace poise {
+namespace {
+
+constexpr double kEnd = 1.2;          // s, of which the push begins at 0.2.
+constexpr double kSameWithin = 1e-3;  // m: the bar.
+constexpr double kFarthest = 0.035;   // m: the push has moved it by more.
+
+Scenario Pushed(const Eigen::Vector3d& force) {
+  Scenario scenario = LoadScenario("sim/scenarios/strong_push.yaml");
+  scenario.start.joints = 0;  // The same on both sides.
+  scenario.pushes[0].start = 0.2;
+  scenario.pushes[0].force = force;
+  return scenario;
+}
+
+// Where the center of mass goes, from where it began.
+std::vector<Eigen::Vector3d> Path(const Scenario& scenario) {
+  static const Robot robot =
+      LoadRobot("robot/models/humanoid.urdf",
+                LoadProfile("robot/profiles/humanoid.yaml"));
+  ClosedLoop loop(robot, scenario);
+  std::vector<Eigen::Vector3d> path;
+  while (loop.time() < kEnd) {
+    loop.Tick();
+    path.push_back(loop.observation().com);
+  }
+  const Eigen::Vector3d start = path[0];
+  for (Eigen::Vector3d& point : path) point -= start;
+  return path;
+}
+
+// The path of the robot that is pushed to the left where others are not.
+const std::vector<Eigen::Vector3d>& Plain() {
+  static const auto path = Path(Pushed({20, 100, 0}));
+  return path;
+}
+
+// The path of another, by what brings it back.
+void ExpectSame(const std::vector<Eigen::Vector3d>& path,
+                const Eigen::Matrix3d& back) {
+  ASSERT_EQ(path.size(), Plain().size());
+  double worst = 0, farthest = 0;
+  for (size_t k = 0; k < path.size(); ++k) {
+    worst = std::max(worst, (back * path[k] - Plain()[k]).norm());
+    farthest = std::max(farthest, Plain()[k].norm());
+  }
+  EXPECT_LT(worst, kSameWithin);
+  EXPECT_GT(farthest, kFarthest);
+  testing::Test::RecordProperty("worst_um", std::to_string(1e6 * worst));
+}
+
+TEST(Invariance, MirroredRobotGoesTheMirroredWay) {
+  ExpectSame(Path(Pushed({20, -100, 0})),
+             Eigen::Vector3d(1, -1, 1).asDiagonal());
+}
+
+TEST(Invariance, HeadingDoesNotMatter) {
+  for (const double heading : {M_PI / 6, M_PI / 2}) {
+    SCOPED_TRACE(heading);
+    const Eigen::Matrix3d R =
+        Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    Scenario turned = Pushed(R * Eigen::Vector3d(20, 100, 0));
+    turned.start.heading = heading;
+    ExpectSame(Path(turned), R.transpose());
+  }
+}
+
+TEST(Invariance, AKilometerAwayNothingChanges) {
+  Scenario away = Pushed({20, 100, 0});
+  away.start.place = {800, -600};
+  ExpectSame(Path(away), Eigen::Matrix3d::Identity());
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,107 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// A minute of pushes, each tick of which the controller does over and over: a
+// million ticks, how long they take, and that none of them allocates.
+//   bazel test --config=opt --test_output=all //tests:million_ticks_test
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <vector>
+
+#include "robot/control/controller.h"
+#include "robot/profile.h"
+#include "sim/closed_loop.h"
+#include "sim/scenario.h"
+#include "tests/util/count_malloc.h"
+
+namespace poise {
+namespace {
+
+constexpr double kMinute = 60;        // s.
+constexpr double kBetweenPushes = 3;  // s.
+constexpr int kTimed = 5;             // Rounds, of which the fastest counts.
+constexpr int kRounds = 17;           // Of 60,000 ticks.
+constexpr double kFullTurns = 7;      // Of the pushes' directions.
+
+// Pushed all around, by up to two thirds of what it can take.
+Scenario Pushes() {
+  Scenario scenario = LoadScenario("sim/scenarios/stand.yaml");
+  scenario.duration = kMinute;
+  for (double at = 1; at < kMinute; at += kBetweenPushes) {
+    const double angle = 2 * M_PI * kFullTurns * at / kMinute;
+    Push push;
+    push.start = at;
+    push.duration = 0.1;
+    push.force =
+        (50 + at) * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+    scenario.pushes.push_back(push);
+  }
+  return scenario;
+}
+
+double Quantile(std::vector<double> values, double share) {
+  const auto rank = static_cast<std::ptrdiff_t>(
+      share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[rank];
+}
+
+void Print(const char* what, const std::vector<double>& us) {
+  std::printf("%s: median %.1f us, p99 %.1f, p99.9 %.1f, max %.1f\n", what,
+              Quantile(us, 0.5), Quantile(us, 0.99), Quantile(us, 0.999),
+              Quantile(us, 1));
+}
+
+TEST(MillionTicks, DoNotAllocate) {
+  using Clock = std::chrono::steady_clock;
+  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
+                                LoadProfile("robot/profiles/humanoid.yaml"));
+  const Scenario scenario = Pushes();
+  std::vector<State> states;
+  {
+    ClosedLoop loop(robot, scenario);
+    while (loop.time() < kMinute - scenario.control.dt / 2) {
+      const PlantState& truth = loop.plant().Sense();
+      states.push_back({truth.time, truth.q, truth.v});
+      loop.Tick();
+    }
+  }
+  Command command;
+  command.tau.setZero(robot.model.tree.num_joints());
+  std::vector<double> fastest(states.size(),
+                              std::numeric_limits<double>::infinity());
+  std::vector<double> raw;
+  raw.reserve(kTimed * states.size());
+  long ticks = 0, allocations = 0, not_solved = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    Controller controller(robot);
+    controller.Start(states[0]);
+    for (size_t k = 0; k < states.size(); ++k) {
+      const CountMalloc count;
+      const auto before = Clock::now();
+      controller.Update(states[k], &command);
+      const double us =
+          std::chrono::duration<double, std::micro>(Clock::now() - before)
+              .count();
+      allocations += count.allocations();
+      ++ticks;
+      not_solved += command.status == TickStatus::kTruncated ||
+                    command.status == TickStatus::kFailSafe;
+      if (round >= kTimed) continue;
+      fastest[k] = std::min(fastest[k], us);
+      raw.push_back(us);
+    }
+  }
+  EXPECT_GE(ticks, 1000000);
+  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(not_solved, 0);
+  std::printf("%ld ticks, %ld allocations\n", ticks, allocations);
+  Print("fastest of 5", fastest);
+  Print("raw", raw);
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,69 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <deque>
+#include <future>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tools/command_line.h"
+#include "tools/trials.h"
+#include "tools/user_path.h"
+
+namespace poise {
+namespace {
+
+// Runs all, as many at a time as there are cores, and prints them in order;
+// whether all did what they must.
+bool RunAll(const std::vector<Trial>& trials) {
+  const size_t cores = std::max(1u, std::thread::hardware_concurrency());
+  std::deque<std::future<TrialResult>> running;
+  bool all_hold = true;
+  for (size_t i = 0, started = 0; i < trials.size(); ++i) {
+    for (; started < std::min(i + cores, trials.size()); ++started) {
+      running.push_back(
+          std::async(std::launch::async, Try, std::cref(trials[started])));
+    }
+    const TrialResult result = running.front().get();
+    running.pop_front();
+    std::cout << ToRow(trials[i], result) << std::endl;
+    all_hold = all_hold && result.holds;
+  }
+  return all_hold;
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app(
+      "Runs the humanoid with wrong masses, delays, noise, slippery ground, "
+      "weak motors and slow clocks, and prints the table of docs/control.md; "
+      "or "
+      "that of real robots. Exit code 1 if one does not do what it must.",
+      "robustness");
+  std::string robots, only;
+  app.add_option("--robots", robots,
+                 "a folder of URDF files: real robots, instead");
+  app.add_option("--only", only, "only rows whose name contains this");
+  ParseCommandLine(argc, argv, &app);
+  std::vector<Trial> trials =
+      robots.empty() ? RobustnessTrials() : RobotTrials(UserPath(robots));
+  const auto is_left_out = [&only](const Trial& trial) {
+    return trial.what.find(only) == std::string::npos;
+  };
+  trials.erase(std::remove_if(trials.begin(), trials.end(), is_left_out),
+               trials.end());
+  std::cout
+      << "| what | `push` | it | CoM error, peak x, y, z [mm] | at the "
+         "end [mm] | foot tilt [rad] | lean, peak and late [rad] | past "
+         "joint limits [rad] | ticks with self-contact | as it must |\n"
+         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  return RunAll(trials) ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace poise
+
+int main(int argc, char** argv) {
+  return poise::RunTool("robustness", [=] { return poise::Main(argc, argv); });
+}

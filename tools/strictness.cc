@@ -1,0 +1,86 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "robot/profile.h"
+#include "sim/scenario.h"
+#include "tools/command_line.h"
+#include "tools/strictness_study.h"
+
+namespace poise {
+namespace {
+
+Scenario Pushed(double force, double direction_deg, double duration) {
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  Scenario scenario = LoadScenario("sim/scenarios/strong_push.yaml");
+  const double angle = direction_deg * kDegree;
+  scenario.pushes[0].force = {force * std::cos(angle), force * std::sin(angle),
+                              0};
+  scenario.pushes[0].duration = duration;
+  scenario.duration = 4;
+  return scenario;
+}
+
+void PrintSameProblems(const Robot& robot, const Scenario& scenario) {
+  std::cout << "| way | momentum [N] | posture [rad/s2] | contacts broken by "
+               "[m/s2] | cones broken by | median, p99 [us] | not solved |\n"
+               "| --- | --- | --- | --- | --- | --- | --- |\n";
+  const std::vector<Weighing> ways = Weighings();
+  const std::vector<WeighingResult> results = CompareWeighings(robot, scenario);
+  for (size_t i = 0; i < ways.size(); ++i) {
+    const WeighingResult& r = results[i];
+    std::printf("| %s | %.3g | %.4g | %.1e | %.1e | %.0f, %.0f | %d |\n",
+                ways[i].name.c_str(), r.momentum, r.posture, r.contact, r.force,
+                r.median_us, r.p99_us, r.failures);
+  }
+  std::printf("\nTicks with an active constraint: %ld.\n\n", results[0].ticks);
+}
+
+void PrintOutcomes(const Robot& robot, const std::vector<Scenario>& pushes) {
+  std::cout << "| way |";
+  for (const Scenario& push : pushes) {
+    std::printf(" %.0f N, %.2f s |", push.pushes[0].force.norm(),
+                push.pushes[0].duration);
+  }
+  std::cout << "\n| --- |";
+  for (size_t i = 0; i < pushes.size(); ++i) std::cout << " --- |";
+  std::cout << '\n';
+  for (const Weighing& way : Weighings()) {
+    std::cout << "| " << way.name << " |";
+    for (const Scenario& push : pushes) {
+      const Verdict verdict = RunWeighing(robot, push, way);
+      std::printf(" %s, %.1f mm, tilt %.3f |",
+                  verdict.recovered ? "recovers" : "falls",
+                  1e3 * verdict.com_error_peak.head<2>().norm(),
+                  verdict.foot_tilt_peak);
+      std::cout << std::flush;
+    }
+    std::cout << '\n';
+  }
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app(
+      "The same tasks strictly by rank and weighted: on the same problems, and "
+      "each in its own loop. Prints the tables of docs/control.md.",
+      "strictness");
+  ParseCommandLine(argc, argv, &app);
+  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
+                                LoadProfile("robot/profiles/humanoid.yaml"));
+  PrintSameProblems(robot, Pushed(100, 90, 0.15));
+  PrintOutcomes(robot, {Pushed(50, 90, 0.15), Pushed(100, 90, 0.15),
+                        Pushed(100, 90, 0.18), Pushed(100, 0, 0.14),
+                        Pushed(100, 45, 0.2)});
+  return 0;
+}
+
+}  // namespace
+}  // namespace poise
+
+int main(int argc, char** argv) {
+  return poise::RunTool("strictness", [=] { return poise::Main(argc, argv); });
+}

@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "robot/control/stack.h"
+#include "robot/robot.h"
+#include "sim/judge.h"
+#include "sim/scenario.h"
+
+namespace poise {
+
+/// A way to weigh the same tasks against each other.
+struct Weighing {
+  std::string name;
+  std::function<void(Stack*)> arrange;
+};
+
+/// Strictly by rank; the constraints strictly before all tasks, which are
+/// weighted; all as one weighted QP.
+std::vector<Weighing> Weighings();
+
+/// What a way to weigh makes of the ticks in which a constraint of the contacts
+/// is active, on the very problems that the strict hierarchy meets on its way.
+struct WeighingResult {
+  long ticks = 0;  ///< With an active constraint.
+  /// Residuals, root of the mean square: of the momentum, N, and of the
+  /// posture, rad/s2.
+  double momentum = 0, posture = 0;
+  /// The largest violation in all ticks: of the contacts, m/s2 and rad/s2, and
+  /// of the inequalities of forces, as a fraction of a quarter of the weight.
+  double contact = 0, force = 0;
+  double median_us = 0, p99_us = 0;  ///< Of all ticks.
+  int failures = 0;  ///< Ticks that were not solved to the last rank.
+};
+
+/// All ways, on the states of one run of the scenario.
+std::vector<WeighingResult> CompareWeighings(const Robot& robot,
+                                             const Scenario& scenario);
+
+/// The scenario controlled in one way, to its end.
+Verdict RunWeighing(const Robot& robot, const Scenario& scenario,
+                    const Weighing& weighing);
+
+}  // namespace poise

@@ -1,0 +1,208 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/trials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+#include <utility>
+
+#include "sim/closed_loop.h"
+#include "sim/yardstick.h"
+#include "tools/push_options.h"
+
+namespace poise {
+namespace {
+
+using Bar = Trial::Bar;
+
+constexpr double kSteadyError = 3e-3;  // m.
+constexpr double kFlatFoot = 0.02;     // rad.
+constexpr double kUprightLean = 0.02;  // rad.
+// By how much the lean of a later time may be above that of an earlier one.
+constexpr double kNoGrowth = 1e-3;  // rad.
+
+// Of a robot's own yardstick, over this time.
+constexpr double kRobotsPush = 0.4;
+constexpr double kRobotsPushTime = 0.1;  // s.
+
+std::vector<std::string> Words(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+Trial Make(const std::string& what, const std::string& options,
+           Bar bar = Bar::kRecovers) {
+  return {what, Words(options), bar};
+}
+
+PushOptions Read(const std::vector<std::string>& options) {
+  std::vector<std::string> words = options;
+  words.insert(words.begin(), "push");
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  return ReadPushOptions(static_cast<int>(argv.size()), argv.data());
+}
+
+// The paper's scenarios at another rate of control.
+void AddRate(const std::string& rate, std::vector<Trial>* trials) {
+  const std::string at = " --control-rate " + rate;
+  const std::string hz = rate + " Hz: ";
+  for (const char* name :
+       {"stand", "posture_off", "com_sinusoid", "weak_push", "strong_push"}) {
+    trials->push_back(Make(hz + name, "--scenario " + std::string(name) + at));
+  }
+  trials->push_back(Make(hz + "strong_push_without_zmp",
+                         "--scenario strong_push_without_zmp" + at,
+                         Bar::kFalls));
+  trials->push_back(
+      Make(hz + "figure 12",
+           "--scenario strong_push --with zmp --duration 0.12" + at,
+           Bar::kRecovers));
+}
+
+bool Holds(Bar bar, const TrialResult& result) {
+  const Verdict& verdict = result.verdict;
+  if (bar == Bar::kFalls) return !verdict.recovered;
+  if (!verdict.recovered) return false;
+  switch (bar) {
+    case Bar::kSteady:
+      return verdict.com_error_final.cwiseAbs().maxCoeff() < kSteadyError;
+    case Bar::kFlat:
+      return verdict.foot_tilt_peak < kFlatFoot;
+    case Bar::kUpright:
+      return result.lean_peak < kUprightLean &&
+             result.lean_late < result.lean_early + kNoGrowth;
+    default:
+      return true;
+  }
+}
+
+}  // namespace
+
+std::vector<Trial> RobustnessTrials() {
+  const std::string strong = "--scenario strong_push --time 8";
+  std::vector<Trial> trials = {
+      Make("nothing wrong", strong, Bar::kSteady),
+      Make("model 10 % too heavy", strong + " --mass-error 0.1", Bar::kSteady),
+      Make("model 10 % too light", strong + " --mass-error -0.1", Bar::kSteady),
+      Make("delay of 2 ms", strong + " --delay 0.002"),
+      Make("delay of 5 ms", strong + " --delay 0.005"),
+      Make("noise: 2 mrad, 0.1 rad/s", strong + " --noise 1"),
+      Make("noise, another seed", strong + " --noise 1 --seed 2"),
+      Make("noise, a third seed", strong + " --noise 1 --seed 3"),
+      Make("friction 0.3 in the plant", strong + " --mu-plant 0.3"),
+      Make("torque limits halved", strong + " --torque-scale 0.5"),
+      Make("sensors frozen for 20 ms", strong + " --freeze 1.05,0.02")};
+  const std::string all =
+      "--scenario weak_push --delay 0.002 --noise 1 --mu-plant 0.3 ";
+  trials.push_back(Make("all of it, too heavy", all + "--mass-error 0.1"));
+  trials.push_back(Make("all of it, too light", all + "--mass-error -0.1"));
+  for (const char* name : {"stand", "weak_push", "strong_push"}) {
+    trials.push_back(Make("base estimated: " + std::string(name),
+                          "--estimator --scenario " + std::string(name)));
+  }
+  trials.push_back(Make("the sinusoid for 64 s",
+                        "--scenario com_sinusoid --time 64", Bar::kUpright));
+  trials.push_back(Make("50 N for 0.4 s", strong + " --force 50 --duration 0.4",
+                        Bar::kFlat));
+  trials.push_back(Make("100 N for 0.2 s",
+                        strong + " --force 100 --duration 0.2", Bar::kFlat));
+  for (const char* rate : {"500", "200", "100"}) AddRate(rate, &trials);
+  return trials;
+}
+
+std::vector<Trial> RobotTrials(const std::filesystem::path& robots) {
+  const std::pair<const char*, const char*> known[] = {
+      {"talos_reduced", "talos"},   {"jvrc1", "jvrc1"},
+      {"icub_erd_reduced", "icub"}, {"hrp4c", "hrp4c"},
+      {"atlas", "atlas"},           {"booster_t1", "t1"},
+      {"draco3", "draco3"},         {"g1_29dof", "g1"}};
+  std::vector<Trial> trials;
+  for (const auto& [urdf, profile] : known) {
+    const std::filesystem::path file = robots / (std::string(urdf) + ".urdf");
+    if (!std::filesystem::exists(file)) continue;
+    const auto yaml = std::filesystem::absolute("robot/profiles/" +
+                                                std::string(profile) + ".yaml");
+    const std::vector<std::string> robot = {"--robot", file.string(),
+                                            "--profile", yaml.string()};
+    Trial stand = Make(profile + std::string(" stands"), "--scenario stand");
+    stand.options.insert(stand.options.end(), robot.begin(), robot.end());
+    trials.push_back(stand);
+
+    Trial push = Make(profile + std::string(", pushed"),
+                      "--scenario strong_push --force 1 --duration " +
+                          std::to_string(kRobotsPushTime));
+    push.options.insert(push.options.end(), robot.begin(), robot.end());
+    const PushOptions read = Read(push.options);
+    const PushOnRobot aimed(read.robot, read.scenario.pushes[0]);
+    const double takes =
+        ComputeYardstick(read.robot, read.robot.q_nominal, {0, 1},
+                         kRobotsPushTime, aimed.body(), aimed.p_BoQ_B())
+            .lipm_Ns;
+    push.options[3] = std::to_string(kRobotsPush * takes / kRobotsPushTime);
+    trials.push_back(push);
+  }
+  return trials;
+}
+
+TrialResult Try(const Trial& trial) {
+  const PushOptions options = Read(trial.options);
+  const Scenario& scenario = options.scenario;
+  ClosedLoop loop(options.robot, scenario);
+  Judge judge(options.robot.q_nominal.z());
+  TrialResult result;
+  const long ticks = std::lround(scenario.duration / scenario.control.dt);
+  for (long k = 0; k < ticks && !judge.is_down(); ++k) {
+    loop.Tick();
+    const TickRecord record = loop.record();
+    judge.Look(record.observation);
+    const double lean = record.observation.base_tilt;
+    result.lean_peak = std::max(result.lean_peak, lean);
+    double* quarter = 4 * k / ticks == 1   ? &result.lean_early
+                      : 4 * k / ticks == 3 ? &result.lean_late
+                                           : nullptr;
+    if (quarter != nullptr) *quarter = std::max(*quarter, lean);
+    if (!record.end.self_contacts.empty()) ++result.self_contact_ticks;
+    const Tree& tree = options.robot.model.tree;
+    for (int j = 0; j < tree.num_joints(); ++j) {
+      const JointLimits& limits = options.robot.model.limits[j];
+      const double q = record.end.q[tree.q_start() + j];
+      result.joint_violation = std::max(
+          {result.joint_violation, limits.lower - q, q - limits.upper});
+    }
+  }
+  result.verdict = judge.Conclude();
+  result.holds = Holds(trial.bar, result);
+  return result;
+}
+
+std::string ToRow(const Trial& trial, const TrialResult& result) {
+  std::string options;
+  for (const std::string& word : trial.options) {
+    const std::filesystem::path path = word;
+    options += (options.empty() ? "" : " ") +
+               (path.is_absolute() ? path.filename().string() : word);
+  }
+  const Verdict& verdict = result.verdict;
+  char ending[40] = "recovers";
+  if (!verdict.recovered) {
+    std::snprintf(ending, sizeof(ending), "falls, %.2f s",
+                  verdict.fell_at.value_or(NAN));
+  }
+  const Eigen::Vector3d peak = 1e3 * verdict.com_error_peak;
+  const Eigen::Vector3d last = 1e3 * verdict.com_error_final;
+  char text[200];
+  std::snprintf(text, sizeof(text),
+                " | %s | %.1f, %.1f, %.1f | %.2f, %.2f, %.2f | %.4f | %.3f, "
+                "%.3f | %.0e | %d | %s |",
+                ending, peak.x(), peak.y(), peak.z(), last.x(), last.y(),
+                last.z(), verdict.foot_tilt_peak, result.lean_peak,
+                result.lean_late, std::max(0.0, result.joint_violation),
+                result.self_contact_ticks, result.holds ? "yes" : "**no**");
+  return "| " + trial.what + " | `" + options + "`" + text;
+}
+
+}  // namespace poise

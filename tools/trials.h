@@ -1,0 +1,55 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/judge.h"
+
+namespace poise {
+
+/// A run of `push` with something wrong in it, and what it must do all the same.
+struct Trial {
+  enum class Bar {
+    kRecovers,
+    kFalls,    ///< As the paper's robot does.
+    kSteady,   ///< Recovers, to 3 mm in each axis.
+    kFlat,     ///< Recovers, its feet within 0.02 rad.
+    kUpright,  ///< Recovers, its pelvis within 0.02 rad, and not ever farther.
+  };
+
+  std::string what;
+  std::vector<std::string> options;  ///< Of `push`.
+  Bar bar = Bar::kRecovers;
+};
+
+/// What a trial came to.
+struct TrialResult {
+  Verdict verdict;
+  double lean_peak = 0;        ///< Of the pelvis from how it stood, rad.
+  double lean_late = 0;        ///< Its peak in the last quarter, rad,
+  double lean_early = 0;       ///< and in the second one.
+  double joint_violation = 0;  ///< Of joint limits, the largest, rad or m.
+  int self_contact_ticks = 0;
+  bool holds = false;  ///< It did what the bar says.
+};
+
+/// What a controller meets outside of a simulator: wrong masses, delays, noise,
+/// slippery ground, weak motors, slow clocks; each row of docs/control.md.
+std::vector<Trial> RobustnessTrials();
+
+/// Robots that others have built: each stands off its equilibrium, and is pushed
+/// sideways by 40 % of what a pendulum on its feet takes.
+///
+/// @param robots  the folder of their URDF files. Robots that it does not have
+///                are left out.
+std::vector<Trial> RobotTrials(const std::filesystem::path& robots);
+
+/// Throws as ReadPushOptions() and ClosedLoop.
+TrialResult Try(const Trial& trial);
+
+/// A row of a table in Markdown.
+std::string ToRow(const Trial& trial, const TrialResult& result);
+
+}  // namespace poise
