@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -161,6 +163,43 @@ json ReadSummary(const std::filesystem::path& run) {
   return summary.is_object() ? summary : json::object();
 }
 
+// When a foot that is meant to be down first rolls or slides.
+class FootWatch {
+ public:
+  FootWatch(const std::string& name, const LogReader& reader)
+      : name_(Spaced(name)),
+        contact_(reader.Find(name + ".contact")),
+        tilt_(reader.Find(name + ".tilt")),
+        slide_(reader.Find(name + ".slide")) {}
+
+  void Look(double time, const LogReader& reader) {
+    if (!contact_ || !tilt_ || !slide_ || reader.Number(*contact_) != 1) return;
+    constexpr double kRolls = 0.02;   // rad.
+    constexpr double kSlides = 5e-3;  // m.
+    if (!rolls_ && reader.Number(*tilt_) > kRolls) {
+      rolls_ = true;
+      sentences_.emplace_back(
+          time, Format("%.3f s: the ", time) + name_ +
+                    " rolls over an edge, tilted by more than 0.02 rad.");
+    }
+    if (!slides_ && reader.Number(*slide_) > kSlides) {
+      slides_ = true;
+      sentences_.emplace_back(time, Format("%.3f s: the ", time) + name_ +
+                                        " has slid by more than 5 mm.");
+    }
+  }
+
+  const std::vector<std::pair<double, std::string>>& sentences() const {
+    return sentences_;
+  }
+
+ private:
+  std::string name_;
+  std::optional<int> contact_, tilt_, slide_;
+  bool rolls_ = false, slides_ = false;
+  std::vector<std::pair<double, std::string>> sentences_;
+};
+
 std::string Ending(const json& summary) {
   if (!summary.contains("recovered")) return "How it ended is not recorded.";
   if (summary["recovered"] == true) return "The robot recovered.";
@@ -168,7 +207,9 @@ std::string Ending(const json& summary) {
   if (!fell_at.is_number()) {
     return "The robot stayed up, but did not come back to its place.";
   }
-  return "The robot fell at " + Format("%.3f s.", fell_at.get<double>());
+  const std::string by = summary.value("fell_by", "");
+  return "The robot fell at " + Format("%.3f s", fell_at.get<double>()) +
+         (by.empty() ? "." : ": " + by + ".");
 }
 
 }  // namespace
@@ -219,10 +260,17 @@ json Explain(const std::filesystem::path& run) {
     throw std::invalid_argument(log.string() +
                                 ": has no columns time, status and active");
   }
+  // Rows by name and, for the sentences, by what they mean: a friction pyramid
+  // has four.
   Spans rows, said, losses, states;
+  std::vector<FootWatch> feet;
+  for (const std::string name : {"left_foot", "right_foot"}) {
+    feet.emplace_back(name, reader);
+  }
   std::vector<std::pair<double, Values>> conflicts;
   while (reader.Next()) {
     const double t = reader.Number(*time);
+    for (FootWatch& foot : feet) foot.Look(t, reader);
     const Values acting = Parse(reader.cell(*active));
     for (const auto& [name, value] : acting) {
       rows.Add(name, t, value, {});
@@ -264,6 +312,9 @@ json Explain(const std::filesystem::path& run) {
     if (span.to - span.from < kShort) continue;
     sentences.emplace_back(span.from, Sentence(span));
   }
+  for (const FootWatch& foot : feet) {
+    for (const auto& sentence : foot.sentences()) sentences.push_back(sentence);
+  }
   for (const Span& span : losses.spans()) {
     json because = json::array();
     for (const auto& [name, value] : span.causes) because.push_back(name);
@@ -300,11 +351,28 @@ json Explain(const std::filesystem::path& run) {
   std::stable_sort(
       sentences.begin(), sentences.end(),
       [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [when, text] : sentences) out["sentences"].push_back(text);
+  // What falling limbs press against explains nothing.
+  const json fell_at = summary.value("fell_at", json());
+  const double end = fell_at.is_number()
+                         ? fell_at.get<double>()
+                         : std::numeric_limits<double>::infinity();
+  size_t left_out = 0;
+  for (const auto& [when, text] : sentences) {
+    if (when <= end) {
+      out["sentences"].push_back(text);
+    } else {
+      ++left_out;
+    }
+  }
   if (sentences.empty()) {
     out["sentences"].push_back("No row acted: every task got what it asked.");
   }
   out["sentences"].push_back(Ending(summary));
+  if (left_out > 0) {
+    out["sentences"].push_back(
+        Format("After that, %.0f more; --json has its rows.",
+               static_cast<double>(left_out)));
+  }
   return out;
 }
 

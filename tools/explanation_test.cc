@@ -80,6 +80,51 @@ TEST(Explanation, SaysThatTheRobotFell) {
   EXPECT_EQ(said["sentences"].back(), "The robot fell at 1.250 s.");
 }
 
+TEST(Explanation, LeavesOutWhatCameAfterAFall) {
+  const nlohmann::json said = Explain(MakeRun(
+      "fell_early", std::string(kPushed) + "0.915,ok,left_foot.cop.y_max=1,\n",
+      R"({"recovered": false, "fell_at": 0.7,
+                          "fell_by": "a foot slid over 30 mm"})"));
+  const size_t count = said["sentences"].size();
+  EXPECT_EQ(said["sentences"][count - 2],
+            "The robot fell at 0.700 s: a foot slid over 30 mm.");
+  // The CoP at its edge again.
+  EXPECT_EQ(said["sentences"][count - 1],
+            "After that, 1 more; --json has its rows.");
+  EXPECT_EQ(said["rows"].size(), 3u);
+}
+
+TEST(Explanation, SaysWhenAFootRollsOrSlides) {
+  const nlohmann::json said = Explain(
+      MakeRun("rolled",
+              "time[s],status,active,left_foot.contact,left_foot.tilt[rad],"
+              "left_foot.slide[m]\n"
+              "0.1,ok,,1,0.019,0.0049\n0.2,ok,,0,0.5,0.5\n0.3,ok,,1,0.021,0\n"
+              "0.4,ok,,1,0.03,0.0051\n",
+              "{}"));
+  ASSERT_EQ(said["sentences"].size(), 3u);
+  EXPECT_EQ(said["sentences"][0],
+            "0.300 s: the left foot rolls over an edge, tilted by more than "
+            "0.02 rad.");
+  EXPECT_EQ(said["sentences"][1],
+            "0.400 s: the left foot has slid by more than 5 mm.");
+}
+
+TEST(Explanation, SaysOnceWhatSeveralRowsMean) {
+  const nlohmann::json said = Explain(
+      MakeRun("friction",
+              "time[s],status,active,lost\n"
+              "0.1,ok,left_foot.friction.x_max=1;left_foot.friction.y_max=2,\n"
+              "0.2,ok,left_foot.friction.y_max=3,\n"
+              "0.21,ok,left_foot.friction.x_min=4,\n",
+              "{}"));
+  EXPECT_EQ(said["rows"].size(), 4u);
+  ASSERT_EQ(said["sentences"].size(), 2u);
+  EXPECT_EQ(said["sentences"][0],
+            "0.200 s: the left foot at its friction limit for 10 ms "
+            "(multiplier 4 at 0.210 s).");
+}
+
 TEST(Explanation, RefusesWhatIsNoRun) {
   EXPECT_THROW(Explain("nowhere"), std::invalid_argument);
   EXPECT_THROW(Explain(MakeRun("other", "a,b\n1,2\n", "{}")),
