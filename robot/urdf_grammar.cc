@@ -191,69 +191,86 @@ class Pruner {
     for (const AttributeRule& attribute : rule.attributes) {
       complete &= CheckAttribute(rule, attribute, element);
     }
-    // A fixed joint has no use for an axis or limits; many files have bad ones.
-    const char* type = element->Attribute("type");
-    const bool is_still = &rule == &kJoint && type != nullptr &&
-                          (type == std::string_view("fixed") ||
-                           type == std::string_view("floating"));
-    std::set<const ElementRule*> seen;  // And kept.
-    std::set<const ElementRule*> spoilt;
+    Parts parts;
     tinyxml2::XMLNode* node = element->FirstChild();
     for (tinyxml2::XMLNode* next = nullptr; node != nullptr; node = next) {
       next = node->NextSibling();
-      XMLElement* child = node->ToElement();
-      if (child == nullptr) {
-        if (node->ToText() != nullptr) {
-          critic_.Warn(*element,
-                       "holds the text " + Quoted(Collapse(node->Value())),
-                       "is ignored: URDF has attributes");
-        }
-        element->DeleteChild(node);
-        continue;
-      }
-      const ElementRule* child_rule = Find(rule, *child);
-      bool keep =
-          child_rule != nullptr &&
-          !(is_still && (child_rule == &kAxis || child_rule == &kLimit ||
-                         child_rule == &kDynamics || child_rule == &kMimic));
-      if (keep && !child_rule->repeated && !seen.insert(child_rule).second) {
-        if (child_rule == &kParent || child_rule == &kChild) {
-          critic_.Reject(*child, "is there twice",
-                         "a joint connects two links");
-        } else {
-          critic_.Warn(*child, "is there twice", "the first one is read");
-        }
-        keep = false;
-      } else if (keep && &rule == &kGeometry && seen.size() > 1) {
-        critic_.Warn(*child, "is a second shape", "the first one is read");
-        seen.erase(child_rule);
-        keep = false;
-      }
-      if (!keep || !Prune(*child_rule, child)) {
-        if (keep) {
-          seen.erase(child_rule);
-          spoilt.insert(child_rule);
-        }
-        element->DeleteChild(child);
-      }
+      if (!PruneNode(rule, *element, node, &parts)) element->DeleteChild(node);
     }
-    for (const ElementRule* wanted : rule.children) {
-      if (!wanted->required || seen.count(wanted) != 0) continue;
-      complete = false;
-      if (spoilt.count(wanted) != 0) continue;  // It was said why.
-      critic_.Add(
-          rule.fault, *element, std::string("has no <") + wanted->name + ">",
-          rule.fault == Severity::kReject ? "must have one" : "is left out");
-    }
-    if (&rule == &kGeometry && seen.empty()) complete = false;
-    if (&rule == &kGeometry && seen.empty() && spoilt.empty()) {
-      critic_.Warn(*element, "has no shape that can be read",
-                   "must be box, sphere, cylinder or mesh");
-    }
+    complete &= CheckParts(rule, *element, parts);
     return complete || rule.fault == Severity::kReject;
   }
 
  private:
+  // What an element holds, by rule.
+  struct Parts {
+    std::set<const ElementRule*> kept;
+    std::set<const ElementRule*> spoilt;  // There, but of no use.
+  };
+
+  // Whether a child may stay.
+  bool PruneNode(const ElementRule& rule, const XMLElement& element,
+                 tinyxml2::XMLNode* node, Parts* parts) {
+    XMLElement* child = node->ToElement();
+    if (child == nullptr) {
+      if (node->ToText() != nullptr) {
+        critic_.Warn(element,
+                     "holds the text " + Quoted(Collapse(node->Value())),
+                     "is ignored: URDF has attributes");
+      }
+      return false;
+    }
+    const ElementRule* child_rule = Find(rule, *child);
+    if (child_rule == nullptr || IsIdle(element, *child_rule)) return false;
+    if (!child_rule->repeated && parts->kept.count(child_rule) != 0) {
+      if (child_rule == &kParent || child_rule == &kChild) {
+        critic_.Reject(*child, "is there twice", "a joint connects two links");
+      } else {
+        critic_.Warn(*child, "is there twice", "the first one is read");
+      }
+      return false;
+    }
+    if (&rule == &kGeometry && !parts->kept.empty()) {
+      critic_.Warn(*child, "is a second shape", "the first one is read");
+      return false;
+    }
+    const bool keep = Prune(*child_rule, child);
+    (keep ? parts->kept : parts->spoilt).insert(child_rule);
+    return keep;
+  }
+
+  // A fixed joint has no use for an axis or limits; many files have bad ones.
+  static bool IsIdle(const XMLElement& element, const ElementRule& child) {
+    const char* type = element.Attribute("type");
+    return type != nullptr &&
+           (type == std::string_view("fixed") ||
+            type == std::string_view("floating")) &&
+           (&child == &kAxis || &child == &kLimit || &child == &kDynamics ||
+            &child == &kMimic);
+  }
+
+  // Whether all that is required is there.
+  bool CheckParts(const ElementRule& rule, const XMLElement& element,
+                  const Parts& parts) {
+    bool complete = true;
+    for (const ElementRule* wanted : rule.children) {
+      if (!wanted->required || parts.kept.count(wanted) != 0) continue;
+      complete = false;
+      if (parts.spoilt.count(wanted) != 0) continue;  // It was said why.
+      critic_.Add(
+          rule.fault, element, std::string("has no <") + wanted->name + ">",
+          rule.fault == Severity::kReject ? "must have one" : "is left out");
+    }
+    if (&rule == &kGeometry && parts.kept.empty()) {
+      complete = false;
+      if (parts.spoilt.empty()) {
+        critic_.Warn(element, "has no shape that can be read",
+                     "must be box, sphere, cylinder or mesh");
+      }
+    }
+    return complete;
+  }
+
   // The rule for a child, or null where it is not read.
   const ElementRule* Find(const ElementRule& rule, const XMLElement& child) {
     for (const ElementRule* candidate : rule.children) {
