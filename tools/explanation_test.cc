@@ -82,7 +82,9 @@ TEST(Explanation, SaysThatTheRobotFell) {
 
 TEST(Explanation, LeavesOutWhatCameAfterAFall) {
   const nlohmann::json said = Explain(MakeRun(
-      "fell_early", std::string(kPushed) + "0.915,ok,left_foot.cop.y_max=1,\n",
+      "fell_early",
+      std::string(kPushed) +
+          "0.915,ok,left_foot.cop.y_max=1,,\n0.93,ok,left_foot.cop.y_max=1,,\n",
       R"({"recovered": false, "fell_at": 0.7,
                           "fell_by": "a foot slid over 30 mm"})"));
   const size_t count = said["sentences"].size();
