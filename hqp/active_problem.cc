@@ -10,13 +10,16 @@
 namespace poise {
 namespace {
 
-// Where a row is missed by less than this, relative to what it is added up from,
-// nothing is left to refine.
+// Where a row is missed by less than this, relative to what it is added up
+// from, nothing is left to refine.
 constexpr double kRefined = 1e-13;
-constexpr int kMaxPasses = 4;
+constexpr int kMaxPasses = 6;
 
-// An entry of y below this, relative to the largest, is what refinement leaves of
-// a zero.
+// What is missed by more after all passes is rounding, where zero was meant.
+constexpr double kHopeless = 1e-6;
+
+// An entry of y below this, relative to the largest, before and after, is what
+// refinement leaves of a zero.
 constexpr double kNothing = 1e-25;
 
 // A residual below this, relative to what it is added up from, is zero.
@@ -201,6 +204,8 @@ void ActiveProblem::TakeOther(const Hierarchy& hierarchy,
 }
 
 void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
+  double largest = 0;
+  for (double entry : y_) largest = std::max(largest, std::abs(entry));
   // First all levels; then, as what the tail asks for may be large and its
   // rounding with it, the head alone.
   for (int pass = 0; pass < kMaxPasses; ++pass) {
@@ -209,10 +214,11 @@ void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
     head_.Correct(lack_.data(), change_.data());
     tail_.Correct(head_, change_.data(), to_minimum && pass == 0, y_.data());
   }
-  double largest = 0;
   for (double entry : y_) largest = std::max(largest, std::abs(entry));
-  for (double& entry : y_) {
-    if (std::abs(entry) < kNothing * largest) entry = 0;
+  if (FindLack(hierarchy) > kHopeless) {
+    for (double& entry : y_) {
+      if (std::abs(entry) < kNothing * largest) entry = 0;
+    }
   }
   FindResiduals(hierarchy);
 }
@@ -262,9 +268,13 @@ void ActiveProblem::FindMultipliers() {
 void ActiveProblem::RefineMultipliers(const Hierarchy& hierarchy) {
   for (int level = 0; level < num_levels_; ++level) {
     Multipliers& of = multipliers_[level];
-    if (!of.any) continue;
-    // A level of the head: its own rows as well, as what they weigh.
+    // A level of the head: its own rows as well, as what they weigh, even where
+    // that asks nothing of other rows.
     const bool in_head = level < num_head_;
+    if (!of.any) {
+      if (!in_head || !head_.is_deficient(level)) continue;
+      std::fill_n(of.nu.begin(), head_.first_row(level), 0);
+    }
     const int levels = in_head ? level + 1 : num_head_;
     const int rows = in_head ? head_.end_row(level) : head_.num_rows();
     const int rank = in_head ? head_.rank(level) : head_.rank();

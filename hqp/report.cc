@@ -114,6 +114,20 @@ void Reporter::ReportTailMultipliers(const Hierarchy& hierarchy, int level,
   }
 }
 
+// What row a weighs in the equation of a level: its own, where it is violated
+// if so little that it counts as met, or one below.
+double Reporter::Weight(const ActiveProblem& problem, const Solution& solution,
+                        int a, int level, double sign) const {
+  const ActiveProblem::Row& row = problem.row(a);
+  if (level == row.level) {
+    return problem.head().is_deficient(level)
+               ? sign * problem.multipliers(level).nu[a] / row.norm
+               : 0;
+  }
+  return sign *
+         solution.levels[level].multipliers[row.level].inequality[row.index];
+}
+
 // A multiplier may be negative where that of a level before is positive. A
 // multiple of that level's own equation, which adds up to zero, makes it right.
 void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
@@ -136,23 +150,32 @@ void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
       const double sign = Sign(side);
       const double mu = sign * to.multipliers[row.level].inequality[row.index];
       if (mu >= 0 || problem.Price(a, level, side, tolerance) == 0) continue;
+      // The first level that it holds back; or, if that is rounding's, the first
+      // where it weighs anything.
+      // The first level that it holds back; or, if that is rounding's, the first
+      // where it weighs anything.
+      const auto weight = [&](int l) {
+        return l < level ? Weight(problem, *solution, a, l, sign) : 0;
+      };
       int first = row.level;
       while (problem.Price(a, first, side, tolerance) == 0) ++first;
-      if (first == level) continue;
-      const LevelSolution& from = solution->levels[first];
-      const double price =
-          first == row.level
-              ? from.slack[row.index]
-              : sign * from.multipliers[row.level].inequality[row.index];
+      if (weight(first) <= 0) {
+        first = row.level;
+        while (first < level && weight(first) <= 0) ++first;
+      }
+      const double price = weight(first);
       if (price <= 0) continue;
+      const LevelSolution& from = solution->levels[first];
       const double factor = -mu / price;
       LevelMultipliers& own = to.multipliers[first];
       if (first < problem.num_head()) {
-        for (int o = problem.head().first_row(first);
+        const ActiveProblem::Multipliers& of = problem.multipliers(first);
+        for (int o = of.any ? problem.head().first_row(first) : 0;
              o < problem.head().end_row(first); ++o) {
-          const ActiveProblem::Row& of = problem.row(o);
-          (of.is_inequality ? own.inequality : own.equality)[of.index] +=
-              factor * problem.multipliers(first).nu[o] / of.norm;
+          const ActiveProblem::Row& other = problem.row(o);
+          LevelMultipliers& at = to.multipliers[other.level];
+          (other.is_inequality ? at.inequality : at.equality)[other.index] +=
+              factor * of.nu[o] / other.norm;
         }
       } else {
         const int equalities = hierarchy.num_equalities(first);

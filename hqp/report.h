@@ -29,6 +29,8 @@ class Reporter {
                              ActiveProblem* problem, Solution* solution);
   void MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
                        const ActiveProblem& problem, Solution* solution);
+  double Weight(const ActiveProblem& problem, const Solution& solution, int a,
+                int level, double sign) const;
   void ReportNullity(const Hierarchy& hierarchy, ActiveProblem* problem,
                      Solution* solution);
   bool IsViolated(const ActiveProblem::Row& row,

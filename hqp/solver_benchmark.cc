@@ -3,6 +3,9 @@
 //   bazel run //hqp:solver_benchmark
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "hqp/cascade.h"
 #include "hqp/certificate.h"
 #include "hqp/solver.h"
@@ -11,18 +14,14 @@ namespace poise {
 namespace {
 
 // A hierarchy of the paper's shape: of n variables the last 12 are forces. 6
-// equalities; `limits` two-sided rows; 12 equalities and 16 inequalities; levels
-// of 6 equalities as many as wanted; posture; forces. The tighter the limits,
-// the more rows are active.
+// equalities; `limits` two-sided rows; 12 equalities and 16 inequalities; 6
+// equalities, and again 6 in each level more than 5; posture and forces. In
+// fewer than 5 levels, the first ones share one. The tighter the limits, the
+// more rows are active.
 struct Problem {
-  Problem(int n, int middle_levels, int limits, double limit)
-      : capacity{{6, 0}, {0, limits}, {12, 16}},
-        hierarchy(
-            (capacity.resize(3 + middle_levels, {6, 0}),
-             capacity.push_back({n - 18, 0}), capacity.push_back({12, 0}), n),
-            capacity) {
-    const int levels = hierarchy.num_levels();
-    for (int level = 0; level < levels - 2; ++level) {
+  Problem(int n, int levels, int limits, double limit)
+      : capacity(Capacity(n, levels, limits)), hierarchy(n, capacity) {
+    for (int level = 0; level < levels - 1; ++level) {
       EqualityBlock equalities =
           hierarchy.AddEqualities(level, capacity[level].equalities);
       for (int i = 0; i < equalities.b.size(); ++i) {
@@ -31,19 +30,33 @@ struct Problem {
       }
       InequalityBlock inequalities =
           hierarchy.AddInequalities(level, capacity[level].inequalities);
+      const int two_sided = capacity[level].inequalities >= limits ? limits : 0;
       for (int i = 0; i < inequalities.upper.size(); ++i) {
         for (int j = 0; j < n; ++j) inequalities.C(i, j) = Number();
         inequalities.upper[i] = limit;
-        if (level == 1) inequalities.lower[i] = -limit;
+        if (i < two_sided) inequalities.lower[i] = -limit;
       }
     }
-    EqualityBlock posture = hierarchy.AddEqualities(levels - 2, n - 18);
-    for (int i = 0; i < n - 18; ++i) {
-      posture.B(i, 6 + i) = 1;
-      posture.b[i] = Number();
+    EqualityBlock last = hierarchy.AddEqualities(levels - 1, n - 6);
+    for (int i = 0; i < n - 6; ++i) {
+      const bool is_force = i >= n - 18;
+      last.B(i, 6 + i) = is_force ? 0.01 : 1;
+      if (!is_force) last.b[i] = Number();
     }
-    EqualityBlock forces = hierarchy.AddEqualities(levels - 1, 12);
-    for (int i = 0; i < 12; ++i) forces.B(i, n - 12 + i) = 0.01;
+  }
+
+  static std::vector<LevelCapacity> Capacity(int n, int levels, int limits) {
+    std::vector<LevelCapacity> rows = {{6, 0}, {0, limits}, {12, 16}};
+    while (static_cast<int>(rows.size()) < std::max(levels - 1, 4)) {
+      rows.push_back({6, 0});
+    }
+    while (static_cast<int>(rows.size()) > levels - 1) {
+      rows[1].equalities += rows[0].equalities;
+      rows[1].inequalities += rows[0].inequalities;
+      rows.erase(rows.begin());
+    }
+    rows.push_back({n - 6, 0});
+    return rows;
   }
 
   // Numbers in [-1, 1], the same each time.
@@ -79,7 +92,7 @@ void Run(const Problem& problem, Method&& solve, benchmark::State* state) {
 
 // By limit in tenths: 100 leaves nothing active.
 void Cold(benchmark::State& state) {
-  const Problem problem(68, 1, 50, static_cast<int>(state.range(0)) / 10.);
+  const Problem problem(68, 5, 50, static_cast<int>(state.range(0)) / 10.);
   Solver solver(68, problem.capacity);
   Run(
       problem,
@@ -91,7 +104,7 @@ void Cold(benchmark::State& state) {
 }
 
 void Warm(benchmark::State& state) {
-  const Problem problem(68, 1, 50, static_cast<int>(state.range(0)) / 10.);
+  const Problem problem(68, 5, 50, static_cast<int>(state.range(0)) / 10.);
   Solver solver(68, problem.capacity);
   Run(
       problem,
@@ -102,7 +115,7 @@ void Warm(benchmark::State& state) {
 }
 
 void Reference(benchmark::State& state, RowSpaceMethod method) {
-  const Problem problem(68, 1, 50, static_cast<int>(state.range(0)) / 10.);
+  const Problem problem(68, 5, 50, static_cast<int>(state.range(0)) / 10.);
   Cascade cascade(68, problem.capacity, method);
   Run(
       problem,
@@ -113,7 +126,7 @@ void Reference(benchmark::State& state, RowSpaceMethod method) {
 }
 
 void Judge(benchmark::State& state) {
-  const Problem problem(68, 1, 50, 10);
+  const Problem problem(68, 5, 50, 10);
   Solver solver(68, problem.capacity);
   Solution solution(68, problem.capacity);
   benchmark::DoNotOptimize(solver.Solve(problem.hierarchy, &solution));
@@ -123,7 +136,7 @@ void Judge(benchmark::State& state) {
   }
 }
 
-// By variables and by levels of 6 rows between contact and posture.
+// By variables and by levels.
 void Growth(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0));
   const Problem problem(n, static_cast<int>(state.range(1)), 50, 10);
@@ -148,14 +161,8 @@ BENCHMARK_CAPTURE(Reference, cod, RowSpaceMethod::kCod)
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK(Judge)->Unit(benchmark::kMicrosecond);
 BENCHMARK(Growth)
-    ->Args({20, 1})
-    ->Args({36, 1})
-    ->Args({68, 1})
-    ->Args({68, 3})
-    ->Args({68, 5})
-    ->Args({130, 1})
-    ->Args({200, 1})
-    ->Args({200, 5})
+    ->ArgNames({"variables", "levels"})
+    ->ArgsProduct({{20, 36, 68, 130, 200}, {2, 3, 5, 10}})
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "sim/summary.h"
 #include "tools/command_line.h"
+#include "tools/dump_solve.h"
 #include "tools/push_options.h"
 #include "tools/record_run.h"
 #include "tools/report_page.h"
@@ -28,6 +29,13 @@ bool ShowProgress(double fraction) {
 }
 
 int Push(const poise::PushOptions& options) {
+  std::string dumped;
+  if (options.dump_solve) {
+    dumped = "\nThe solve: bazel run //tools:hqp -- " +
+             poise::DumpSolve(options.robot, options.scenario,
+                              *options.dump_solve, options.out)
+                 .string();
+  }
   const poise::RunResult result = poise::RecordRun(
       options.robot, options.scenario, options.out, ShowProgress, options.log);
   if (options.report) {
@@ -38,7 +46,7 @@ int Push(const poise::PushOptions& options) {
               << '\n';
   } else {
     std::cout << poise::ToTable(options.robot, options.scenario, result)
-              << "\nWritten into " << options.out.string() << '\n';
+              << "\nWritten into " << options.out.string() << dumped << '\n';
   }
   return result.verdict.recovered && !result.interrupted ? 0 : 1;
 }

@@ -221,6 +221,7 @@ PushOptions ReadPushOptions(int argc, char** argv) {
   Overrides overrides;
   std::string scenario_name = "strong_push", robot, profile, save_profile, out,
               log = "csv";
+  std::optional<double> dump_solve;
   bool no_report = false, json = false;
   if (!std::filesystem::is_directory(kScenarios)) {
     throw std::invalid_argument(std::string(kScenarios) +
@@ -242,6 +243,10 @@ PushOptions ReadPushOptions(int argc, char** argv) {
   app.add_option("--log", log, "log.csv, or log.bin, for long runs")
       ->check(CLI::IsMember({"csv", "binary"}))
       ->capture_default_str();
+  app.add_option(
+         "--dump-solve", dump_solve,
+         "write the hierarchy solved at this time, s, for hqp to replay")
+      ->check(CLI::NonNegativeNumber);
   app.add_flag("--no-report", no_report, "write no report.html");
   app.add_flag("--json", json, "print summary.json");
   ParseCommandLine(argc, argv, &app);
@@ -278,6 +283,7 @@ PushOptions ReadPushOptions(int argc, char** argv) {
           robot_file,
           UserPath(out.empty() ? "push-out/" + scenario.name : out),
           log == "binary" ? LogFormat::kBinary : LogFormat::kCsv,
+          dump_solve,
           !no_report,
           json};
 }

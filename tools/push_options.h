@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "robot/robot.h"
@@ -17,6 +18,7 @@ struct PushOptions {
   std::filesystem::path robot_file;
   std::filesystem::path out;
   LogFormat log = LogFormat::kCsv;
+  std::optional<double> dump_solve;  ///< When to dump a hierarchy, s.
   bool report = true;
   bool json = false;
 };

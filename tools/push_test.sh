@@ -1,8 +1,8 @@
 #!/bin/bash
-# Usage: push_test.sh PUSH EXPLAIN
+# Usage: push_test.sh PUSH EXPLAIN HQP
 # What a run leaves when it is stopped, and that its two logs say the same.
 set -euo pipefail
-push=$1 explain=$2
+push=$1 explain=$2 hqp=$3
 
 fail() {
   echo "push_test.sh: $*" >&2

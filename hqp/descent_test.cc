@@ -1,0 +1,196 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/descent.h"
+
+#include <gtest/gtest.h>
+
+#include "hqp/active_problem.h"
+#include "hqp/budget.h"
+#include "hqp/cascade.h"
+#include "hqp/hierarchy.h"
+#include "hqp/solution.h"
+#include "tests/util/random_hierarchy.h"
+
+namespace poise {
+namespace {
+
+std::vector<std::vector<Side>> NoSides(
+    const std::vector<LevelCapacity>& capacity) {
+  std::vector<std::vector<Side>> side;
+  for (const LevelCapacity& level : capacity) {
+    side.emplace_back(level.inequalities, Side::kNone);
+  }
+  return side;
+}
+
+class DescentTest : public testing::TestWithParam<int> {
+ protected:
+  DescentTest() {
+    Cascade cascade(n_, drawn_.capacity);
+    EXPECT_EQ(cascade.Solve(hierarchy_, &reference_), Status::kOptimal);
+  }
+  static HierarchyCase Draw() {
+    RandomHierarchyOptions options;
+    options.scaled = 0;
+    return MakeRandomHierarchy(GetParam(), options);
+  }
+  // As many levels as the budget pays for, and what they cost.
+  int Search(int max_iterations) {
+    ActiveProblem problem(n_, drawn_.capacity);
+    EXPECT_EQ(problem.Read(hierarchy_, &found_.failed_level), Status::kOptimal);
+    std::vector<std::vector<Side>> side = NoSides(drawn_.capacity);
+    Budget budget(max_iterations, 0, &no_clock_);
+    const int levels =
+        descent_.LevelByLevel(hierarchy_, &budget, &problem, &side);
+    iterations_ = budget.iterations();
+    found_.y = Eigen::VectorXd::Map(descent_.y().data(), n_);
+    for (int level = 0; level < num_levels_; ++level) {
+      EvaluateLevel(hierarchy_, level, &found_);
+    }
+    return levels;
+  }
+  double Tolerance(int level) const {
+    return 1e-9 * CostSize(hierarchy_, level, reference_);  // As of Solver.
+  }
+
+  const HierarchyCase drawn_ = Draw();
+  const Hierarchy& hierarchy_ = drawn_.hierarchy;
+  const int n_ = hierarchy_.num_variables();
+  const int num_levels_ = hierarchy_.num_levels();
+  const std::function<double()> no_clock_;
+  Solution reference_{n_, drawn_.capacity}, found_{n_, drawn_.capacity};
+  Descent descent_{n_, drawn_.capacity};
+  int iterations_ = 0;
+};
+
+TEST_P(DescentTest, AgreesWithTheCascade) {
+  ASSERT_EQ(Search(10000), num_levels_ + 1);
+  for (int level = 0; level < num_levels_; ++level) {
+    EXPECT_NEAR(found_.levels[level].cost, reference_.levels[level].cost,
+                Tolerance(level))
+        << level;
+  }
+  // The smallest of all optima, which is one point.
+  EXPECT_LE((found_.y - reference_.y).norm(), 1e-6 * (1 + reference_.y.norm()));
+}
+
+// What the budget leaves unsolved is at the bottom; the levels above hold.
+TEST_P(DescentTest, KeepsWhatItHasSolvedWhenItsBudgetEnds) {
+  ASSERT_EQ(Search(10000), num_levels_ + 1);
+  const int needed = iterations_;
+  for (int budget = 0; budget < needed; ++budget) {
+    const int levels = Search(budget);
+    ASSERT_LE(levels, num_levels_);
+    EXPECT_EQ(iterations_, budget);
+    for (int level = 0; level < levels; ++level) {
+      EXPECT_NEAR(found_.levels[level].cost, reference_.levels[level].cost,
+                  Tolerance(level))
+          << level << " of " << levels;
+    }
+  }
+}
+
+// From anywhere: any rows active, any y.
+TEST_P(DescentTest, AgreesWithTheCascadeAllAtOnce) {
+  for (int start = 0; start < 4; ++start) {
+    SCOPED_TRACE(start);
+    ActiveProblem problem(n_, drawn_.capacity);
+    ASSERT_EQ(problem.Read(hierarchy_, &found_.failed_level), Status::kOptimal);
+    std::vector<std::vector<Side>> side = NoSides(drawn_.capacity);
+    for (int level = 0; level < num_levels_; ++level) {
+      for (int i = 0; i < hierarchy_.num_inequalities(level); ++i) {
+        const double lower = hierarchy_.lower(level)[i];
+        const double upper = hierarchy_.upper(level)[i];
+        if (lower == upper || ((i + start) % 3 == 1 && !std::isinf(upper))) {
+          side[level][i] = Side::kUpper;
+        } else if ((i + start) % 3 == 2 && !std::isinf(lower)) {
+          side[level][i] = Side::kLower;
+        }
+        if (start == 0 && lower != upper) side[level][i] = Side::kNone;
+      }
+    }
+    Budget budget(10000, 0, &no_clock_);
+    ASSERT_TRUE(
+        descent_.AllAtOnce(hierarchy_, 10000, &budget, &problem, &side));
+    found_.y = Eigen::VectorXd::Map(descent_.y().data(), n_);
+    for (int level = 0; level < num_levels_; ++level) {
+      EvaluateLevel(hierarchy_, level, &found_);
+      EXPECT_NEAR(found_.levels[level].cost, reference_.levels[level].cost,
+                  Tolerance(level))
+          << level;
+    }
+    EXPECT_LE((found_.y - reference_.y).norm(),
+              1e-6 * (1 + reference_.y.norm()));
+    // Once more: it is there.
+    const int needed = budget.iterations();
+    ASSERT_TRUE(
+        descent_.AllAtOnce(hierarchy_, 10000, &budget, &problem, &side));
+    EXPECT_EQ(budget.iterations(), needed + 1);
+  }
+}
+
+// A wrong step is made up for by later ones, and shows in how many there are.
+TEST(Descent, TakesAsManyStepsAsItDid) {
+  RandomHierarchyOptions options;
+  options.scaled = 0;
+  const std::function<double()> no_clock;
+  Budget at_once(100000, 0, &no_clock), by_level(100000, 0, &no_clock);
+  for (int seed = 0; seed < 300; ++seed) {
+    const HierarchyCase drawn = MakeRandomHierarchy(seed, options);
+    const int n = drawn.hierarchy.num_variables();
+    ActiveProblem problem(n, drawn.capacity);
+    int failed;
+    ASSERT_EQ(problem.Read(drawn.hierarchy, &failed), Status::kOptimal);
+    std::vector<std::vector<Side>> side = NoSides(drawn.capacity);
+    Descent descent(n, drawn.capacity);
+    ASSERT_EQ(descent.LevelByLevel(drawn.hierarchy, &by_level, &problem, &side),
+              drawn.hierarchy.num_levels() + 1);
+    // From there, with nothing active that need not be.
+    side = NoSides(drawn.capacity);
+    for (int level = 0; level < drawn.hierarchy.num_levels(); ++level) {
+      for (int i = 0; i < drawn.hierarchy.num_inequalities(level); ++i) {
+        if (drawn.hierarchy.lower(level)[i] ==
+            drawn.hierarchy.upper(level)[i]) {
+          side[level][i] = Side::kUpper;
+        }
+      }
+    }
+    ASSERT_TRUE(
+        descent.AllAtOnce(drawn.hierarchy, 100000, &at_once, &problem, &side));
+  }
+  // A few more or less by rounding.
+  EXPECT_LE(by_level.iterations(), 1680);
+  EXPECT_LE(at_once.iterations(), 982);
+}
+
+// y <= 1 and y >= -1 by one row, from its upper side with an aim at -3: the
+// lower side is in the way, and takes its place.
+TEST(Descent, ChangesTheSideOfARow) {
+  const std::vector<LevelCapacity> capacity = {{0, 1}, {1, 0}};
+  Hierarchy hierarchy(1, capacity);
+  InequalityBlock row = hierarchy.AddInequalities(0, 1);
+  row.C(0, 0) = 1;
+  row.lower[0] = -1;
+  row.upper[0] = 1;
+  EqualityBlock aim = hierarchy.AddEqualities(1, 1);
+  aim.B(0, 0) = 1;
+  aim.b[0] = 3;
+  ActiveProblem problem(1, capacity);
+  int failed;
+  ASSERT_EQ(problem.Read(hierarchy, &failed), Status::kOptimal);
+  std::vector<std::vector<Side>> side = {{Side::kUpper}, {}};
+  const std::function<double()> no_clock;
+  Budget budget(100, 0, &no_clock);
+  Descent descent(1, capacity);
+  ASSERT_TRUE(descent.AllAtOnce(hierarchy, 100, &budget, &problem, &side));
+  EXPECT_EQ(side[0][0], Side::kLower);
+  EXPECT_EQ(descent.y()[0], -1);
+  // At 1; lets go; towards -3, and stopped; there.
+  EXPECT_EQ(budget.iterations(), 3);
+  descent.Forget();
+  EXPECT_EQ(descent.y()[0], 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, DescentTest, testing::Range(0, 200));
+
+}  // namespace
+}  // namespace poise
