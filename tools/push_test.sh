@@ -83,6 +83,21 @@ refuse_file() {
   refuse "$file$message" "$option" "$file"
 }
 
+# A tick of the push, solved again by the three solvers.
+"$push" --scenario strong_push --time 0.2 --dump-solve 0.1 --no-report \
+  --out "$TEST_TMPDIR/dump" > "$TEST_TMPDIR/said" || [ $? = 1 ]
+grep -q solve_0.100.json "$TEST_TMPDIR/said" ||
+  fail "the name of the dumped solve is not printed"
+for method in svd cod fast; do
+  "$hqp" --method "$method" --json "$TEST_TMPDIR/dump/solve_0.100.json" \
+    > "$TEST_TMPDIR/solved" || fail "hqp --method $method fails on it"
+  grep -q '"status": *"optimal"' "$TEST_TMPDIR/solved" ||
+    fail "hqp --method $method does not solve it"
+done
+refuse "the solve at 0.200000 s is not in the scenario, which takes $(
+  )0.100000 s" --time 0.1 --dump-solve 0.2 --no-report \
+  --out "$TEST_TMPDIR/late"
+
 scenarios='board, com_sinusoid, one_leg, posture_off, slope, stand,'
 scenarios+=' strong_push, strong_push_without_zmp, weak_push'
 gone=$TEST_TMPDIR/gone.yaml

@@ -30,15 +30,11 @@ struct ControllerOptions {
   bool feedforward = false;  ///< The reference's v_WG and a_WG are used.
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
   bool certify = true;       ///< Each solution gets its certificate.
-<<<<<<< HEAD
-  int max_iterations = 250;  ///< Of the solver, a tick; then truncated.
+  int max_iterations = 500;  ///< Of the solver, a tick; then truncated.
   /// The same in seconds by now(), if that is given; what it cuts off depends on
   /// the machine, so no replay is exact.
   double max_seconds = 0;
   std::function<double()> now;
-=======
-  int max_iterations = 500;  ///< Of the solver, a tick; then truncated.
->>>>>>> 08b693e (hqp: a primal descent on all levels at once, from the last tick's active rows; what is called optimal is certified)
   std::vector<std::string> frames;  ///< Links with a task frame.NAME.
 };
 
