@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "math/rpy.h"
-#include "robot/save_profile.h"
 #include "robot/standing.h"
 #include "robot/urdf.h"
 
@@ -364,37 +363,6 @@ TEST(LoadRobot, LocksMimicsWhereTheirSourcesAre) {
               std::string::npos)
         << error.what();
   }
-}
-
-TEST(SaveProfile, MakesTheSameRobot) {
-  const Profile profile = LoadProfile("robot/profiles/humanoid.yaml");
-  const Robot robot = LoadRobot(kUrdf, profile);
-  const auto file = TestFile("saved.yaml", "");
-  SaveProfile(robot, profile, file);
-  const Robot again = LoadRobot(kUrdf, LoadProfile(file));
-  EXPECT_TRUE(again.can_stand);
-  const double written = 1e-8;  // Nine digits.
-  EXPECT_LT((again.q_nominal - robot.q_nominal).norm(), written);
-  for (const int i : {0, 1}) {
-    EXPECT_EQ(again.feet[i].name, robot.feet[i].name);
-    EXPECT_EQ(again.feet[i].frame, robot.feet[i].frame);
-    EXPECT_LT((again.feet[i].X_BC.p - robot.feet[i].X_BC.p).norm(), written);
-    EXPECT_LT((again.feet[i].X_BC.R - robot.feet[i].X_BC.R).norm(), written);
-    EXPECT_LT((again.feet[i].half_size - robot.feet[i].half_size).norm(),
-              written);
-  }
-}
-
-TEST(SaveProfile, KeepsWhatTheProfileSaid) {
-  const Profile profile = Parse(
-      "locked: {neck_yaw: 0.25}\nmimic: coupled\ntasks: {com: {rank: 4}}");
-  const auto file = TestFile("saved.yaml", "");
-  SaveProfile(LoadRobot(kUrdf, profile), profile, file);
-  const Profile again = LoadProfile(file);
-  EXPECT_FALSE(again.base_xyz.has_value());
-  EXPECT_EQ(again.locked.at("neck_yaw").value, 0.25);
-  EXPECT_EQ(again.mimic, MimicPolicy::kCoupled);
-  EXPECT_EQ(again.tasks["com"]["rank"].as<int>(), 4);
 }
 
 }  // namespace
