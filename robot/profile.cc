@@ -319,8 +319,7 @@ std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
   return locked;
 }
 
-Robot LoadRobot(const Path& urdf, const Profile& profile,
-                std::vector<Finding>* findings) {
+RobotModel LoadModel(const Path& urdf, const Profile& profile) {
   RobotModel model = LoadUrdf(urdf);
   std::map<std::string, double> locked;
   for (const auto& [name, joint] : LockedJoints(model, profile)) {
@@ -328,7 +327,12 @@ Robot LoadRobot(const Path& urdf, const Profile& profile,
   }
   if (!locked.empty()) model = LoadUrdf(urdf, locked);
   if (profile.mimic != MimicPolicy::kCoupled) model.mimics.clear();
-  Robot robot{std::move(model), {}, {}, false};
+  return model;
+}
+
+Robot LoadRobot(const Path& urdf, const Profile& profile,
+                std::vector<Finding>* findings) {
+  Robot robot{LoadModel(urdf, profile), {}, {}, false};
   const Tree& tree = robot.model.tree;
   robot.q_nominal = RestConfiguration(robot.model);
   for (const auto& [name, joint] : profile.joints) {
@@ -336,7 +340,9 @@ Robot LoadRobot(const Path& urdf, const Profile& profile,
       throw Refusal(profile.file.string(), line, "posture.joints: " + what);
     };
     const std::optional<int> j = tree.FindJoint(name);
-    if (!j && locked.count(name) != 0) refuse(Quoted(name) + " is locked");
+    if (!j && LockedJoints(LoadUrdf(urdf), profile).count(name) != 0) {
+      refuse(Quoted(name) + " is locked");
+    }
     if (!j) refuse("the robot has no moving joint " + Quoted(name));
     const JointLimits& limits = robot.model.limits[*j];
     if (!IsWithin(limits, joint.value)) {

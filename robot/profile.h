@@ -80,6 +80,10 @@ Profile LoadProfile(const std::filesystem::path& file);
 std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
                                                const Profile& profile);
 
+/// What a profile leaves of a robot: its joints without LockedJoints(), and of
+/// the mimics those that control couples. Throws as LoadUrdf() and LockedJoints().
+RobotModel LoadModel(const std::filesystem::path& urdf, const Profile& profile);
+
 /// A robot from its URDF and a profile; an empty Profile will do for a biped
 /// whose feet can be found.
 ///

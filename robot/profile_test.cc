@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <stdexcept>
@@ -13,19 +12,12 @@
 #include "math/rpy.h"
 #include "robot/standing.h"
 #include "robot/urdf.h"
+#include "tests/util/test_file.h"
 
 namespace poise {
 namespace {
 
 const char kUrdf[] = "robot/models/humanoid.urdf";
-
-std::filesystem::path TestFile(const std::string& name,
-                               const std::string& text) {
-  const std::filesystem::path file =
-      std::filesystem::path(std::getenv("TEST_TMPDIR")) / name;
-  std::ofstream(file) << text;
-  return file;
-}
 
 Profile Parse(const std::string& text) {
   return LoadProfile(TestFile("profile.yaml", text));

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,19 +11,12 @@
 
 #include "robot/profile.h"
 #include "robot/robot.h"
+#include "tests/util/test_file.h"
 
 namespace poise {
 namespace {
 
 const char kUrdf[] = "robot/models/humanoid.urdf";
-
-std::filesystem::path TestFile(const std::string& name,
-                               const std::string& text) {
-  const std::filesystem::path file =
-      std::filesystem::path(std::getenv("TEST_TMPDIR")) / name;
-  std::ofstream(file) << text;
-  return file;
-}
 
 std::string TextOf(const std::filesystem::path& file) {
   std::ifstream stream(file);

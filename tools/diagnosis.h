@@ -43,14 +43,4 @@ struct Diagnosis {
 Diagnosis Diagnose(const std::filesystem::path& urdf,
                    const Profile& profile = {});
 
-/// "ok", "warn" or "reject".
-std::string Verdict(const Diagnosis& diagnosis);
-
-/// For a person, at most 1000 findings.
-std::string WriteTable(const Diagnosis& diagnosis);
-
-/// For a script: {"verdict", "findings": [{"severity", "where", "what", "why",
-/// "line"}], "robot": {...}}, at most 1000 findings.
-std::string WriteJson(const Diagnosis& diagnosis);
-
 }  // namespace poise

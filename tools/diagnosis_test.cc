@@ -12,6 +12,8 @@
 #include <string>
 
 #include "tests/util/shared_data.h"
+#include "tests/util/test_file.h"
+#include "tools/write_diagnosis.h"
 
 namespace poise {
 namespace {
@@ -39,10 +41,7 @@ std::string Chain(const std::vector<std::string>& parts,
 }
 
 Diagnosis Examine(const std::string& text) {
-  const std::filesystem::path file =
-      std::filesystem::path(std::getenv("TEST_TMPDIR")) / "robot.urdf";
-  std::ofstream(file) << text;
-  return Diagnose(file);
+  return Diagnose(TestFile("robot.urdf", text));
 }
 
 std::string Findings(const Diagnosis& diagnosis) {
@@ -96,9 +95,6 @@ TEST(Diagnose, NamesTheMotorThatCannotHoldTheRobot) {
 }
 
 TEST(Diagnose, LooksAtWhatTheProfileLeaves) {
-  const std::filesystem::path file =
-      std::filesystem::path(std::getenv("TEST_TMPDIR")) / "locked.yaml";
-  std::ofstream(file) << "locked: {neck_yaw: 0.1, neck_pitch: 0}\n";
   // A massless head moves nothing, unless it is locked.
   std::string text = HumanoidText();
   for (const char* link : {"<link name=\"neck\"", "<link name=\"head\""}) {
@@ -109,8 +105,9 @@ TEST(Diagnose, LooksAtWhatTheProfileLeaves) {
   EXPECT_NE(Findings(whole).find("moves no mass"), std::string::npos);
   EXPECT_FALSE(whole.parity.has_value());
   const Diagnosis reduced =
-      Diagnose(std::filesystem::path(std::getenv("TEST_TMPDIR")) / "robot.urdf",
-               LoadProfile(file));
+      Diagnose(TestFile("robot.urdf", text),
+               LoadProfile(TestFile(
+                   "locked.yaml", "locked: {neck_yaw: 0.1, neck_pitch: 0}\n")));
   EXPECT_EQ(Findings(reduced).find("moves no mass"), std::string::npos);
   EXPECT_NE(Findings(reduced).find("has 2 joints locked by the profile, M, "
                                    "standing and parity are of the 48 others"),
@@ -197,14 +194,12 @@ TEST(Diagnose, TakesFeetOfVeryManyShapes) {
 }
 
 TEST(Diagnose, RefusesAProfileThatDoesNotFit) {
-  const std::filesystem::path file =
-      std::filesystem::path(std::getenv("TEST_TMPDIR")) / "profile.yaml";
   for (const char* text :
        {"feet:\n  left_foot: {frame: nope, size: [0.2, 0.1]}\n"
         "  right_foot: {frame: r_sole, size: [0.2, 0.1]}\n",
         "# Odd.\nlocked: {nope: 0}\n", "# Odd.\ntasks: {nope: on}\n",
         "# Odd.\ntasks: {posture: {kp: .nan}}\n"}) {
-    std::ofstream(file) << text;
+    const std::filesystem::path file = TestFile("profile.yaml", text);
     try {
       Diagnose("robot/models/humanoid.urdf", LoadProfile(file));
       ADD_FAILURE() << text;

@@ -9,6 +9,7 @@
 #include "tools/command_line.h"
 #include "tools/diagnosis.h"
 #include "tools/user_path.h"
+#include "tools/write_diagnosis.h"
 
 namespace poise {
 namespace {
