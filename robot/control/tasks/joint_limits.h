@@ -16,7 +16,7 @@ namespace poise {
 /// Rows are divided by w² rad.
 class JointLimitsTask final : public Task {
  public:
-  /// Parameters: omega (20 1/s); margin (0 rad), kept from each limit.
+  /// Parameters: omega (40 1/s); margin (0.003 rad), kept from each limit.
   explicit JointLimitsTask(const RobotModel& model);
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
@@ -27,8 +27,8 @@ class JointLimitsTask final : public Task {
   Eigen::VectorXd lower_;
   Eigen::VectorXd upper_;
   Eigen::VectorXd velocity_;
-  double omega_ = 20;
-  double margin_ = 0;
+  double omega_ = 40;
+  double margin_ = 0.003;
 };
 
 }  // namespace poise

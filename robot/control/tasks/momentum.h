@@ -16,7 +16,7 @@ namespace poise {
 class MomentumTask final : public Task {
  public:
   /// Parameters: kp (30 1/s2), kd (10 1/s), kd_angular (10 1/s), k_orientation
-  /// (100 N m/rad); ki and ki_height (15 and 60 1/s3), by which Controller
+  /// (150 N m/rad); ki and ki_height (15 and 60 1/s3), by which Controller
   /// corrects what a wrong model does to the place and the height;
   /// angular_weight (1), of the angular rows against the linear ones;
   /// feedforward (0; with 1, v_ref and a_ref are used).
@@ -30,7 +30,7 @@ class MomentumTask final : public Task {
   double kp_ = 30;
   double kd_ = 10;
   double kd_angular_ = 10;
-  double k_orientation_ = 100;
+  double k_orientation_ = 150;
   double ki_ = 15;
   double ki_height_ = 60;
   double angular_weight_ = 1;

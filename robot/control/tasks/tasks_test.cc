@@ -246,9 +246,11 @@ TEST_F(TaskTest, JointLimitsBringAJointToRestAtItsStop) {
   for (const double side : {1.0, -1.0}) {
     const int j = *tree_.FindJoint("l_elbow");
     const JointLimits& limits = robot_.model.limits[j];
-    const double stop = side > 0 ? limits.upper : limits.lower;
+    constexpr double kMargin = 0.003;  // rad.
+    const double stop =
+        side > 0 ? limits.upper - kMargin : limits.lower + kMargin;
     state_.q[7 + j] = stop - side * 0.2;
-    state_.v[6 + j] = side * 3.9;  // Just slow enough: w 0.2 rad.
+    state_.v[6 + j] = side * 7.9;  // Just slow enough: w 0.2 rad.
     double nearest = 1;
     for (int i = 0; i < 1000; ++i) {
       const Hierarchy& rows = Write(task);
