@@ -5,44 +5,89 @@
 #include <cassert>
 
 #include "dynamics/crba.h"
-#include "math/so3.h"
 
 namespace poise {
 
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-
 namespace {
 
-Vector6d Stack(const Vec3& angular, const Vec3& linear) {
-  Vector6d result;
-  result << ToEigen(angular), ToEigen(linear);
-  return result;
+using Moments = RneaDerivatives::Moments;
+
+// How a motion changes when V carries it along.
+Motion3 Cross(const Motion3& V, const Motion3& y) {
+  return {Cross(V.angular, y.angular),
+          Cross(V.angular, y.linear) + Cross(V.linear, y.angular)};
 }
 
-// The matrix of V x: how a motion changes when V carries it along.
-Matrix6d CrossMotion(const Vector6d& V) {
-  return CrossMatrix({V.head<3>(), V.tail<3>()});
+// The same for a force.
+Force3 Cross(const Motion3& V, const Force3& y) {
+  return {Cross(V.angular, y.angular) + Cross(V.linear, y.linear),
+          Cross(V.angular, y.linear)};
 }
 
-// The matrix of V x*: the same for a force or a momentum.
-Matrix6d CrossForce(const Vector6d& V) { return -CrossMotion(V).transpose(); }
+// The matrix a b'.
+Mat3 Outer(const Vec3& a, const Vec3& b) { return {a.x * b, a.y * b, a.z * b}; }
 
-// The matrix of x -> x x* L.
-Matrix6d CrossWith(const Vector6d& L) {
-  const Matrix3d n = Hat(L.head<3>()), f = Hat(L.tail<3>());
-  Matrix6d result;
-  result << -n, -f, -f, Matrix3d::Zero();
-  return result;
+double Trace(const Mat3& A) { return A.x.x + A.y.y + A.z.z; }
+
+// Moments about B, taken about P.
+Moments Shift(const Vec3& p_PB, const Moments& M) {
+  return {M.n, M.f, M.fp + Outer(M.f, p_PB)};
 }
 
-Matrix6d SpatialInertia(const MassMoments& M) {
-  const Matrix3d Sigma = ToEigen(M.Sigma);
-  const Matrix3d h = Hat(ToEigen(M.h));
-  Matrix6d I;
-  I << Sigma.trace() * Matrix3d::Identity() - Sigma, h, -h,
-      M.mass * Matrix3d::Identity();
-  return I;
+Moments operator+(const Moments& M, const Moments& N) {
+  return {M.n + N.n, M.f + N.f, M.fp + N.fp};
+}
+
+// What the sum of the forces changes by when each turns by x about its point:
+// [sum of x x n + p x (x x f); sum of x x f].
+Force3 Turn(const Moments& M, const Vec3& x) {
+  return {Cross(x, M.n) + Trace(M.fp) * x - M.fp * x, Cross(x, M.f)};
+}
+
+// y such that y'x is the power of Turn(M, x) along a motion about its origin.
+Vec3 PowerOfTurn(const Moments& M, const Motion3& S) {
+  const Vec3& t = S.angular;
+  return Cross(M.n, t) + Trace(M.fp) * t - RowTimes(t, M.fp) +
+         Cross(M.f, S.linear);
+}
+
+// S, V, A and each body's own part of `coriolis`. An element dm at x from the
+// body's origin has the momentum u dm, u = v_B + w x x, and takes the Coriolis
+// force 2 r x u dm when the body turns by r faster.
+void SweepMotions(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& v,
+                  RneaDerivatives* out) {
+  const JointMaps& joints = tree.joint_maps();
+  const Recursion& r = out->recursion;
+  for (int b = 0; b < tree.num_bodies(); ++b) {
+    const Vec3 p_OB = r.p_OB_W[b], w = r.w_WB[b], alpha = r.alpha_WB[b];
+    Motion3 V{w, {0, 0, 0}};
+    if (b > 0) {
+      const Vec3 turn = r.turn_W[b];
+      out->S[b] = {turn, r.slide_W[b] + Cross(p_OB, turn)};
+      V.linear = out->V[joints.parent[b]].linear +
+                 v[tree.v_start() + b - 1] * out->S[b].linear;
+    }
+    out->V[b] = V;
+    // The classical acceleration of the body's point at O, less w x v there.
+    out->A[b] = {alpha, r.a_WB[b] - AccelerationGradient(alpha, w) * p_OB -
+                            Cross(w, V.linear)};
+    const MassMoments M = r.M_W[b];
+    const Vec3 v_B = V.linear + Cross(w, p_OB);
+    const Mat3 S = Full(M.Sigma);
+    const Mat3 w_x_S = {w.y * S.z - w.z * S.y, w.z * S.x - w.x * S.z,
+                        w.x * S.y - w.y * S.x};
+    out->coriolis[b] = {{0, 0, 0},
+                        2 * (M.mass * v_B + Cross(w, M.h)),
+                        2 * (Outer(v_B, M.h) + w_x_S)};
+  }
+}
+
+void SumMoments(const Tree& tree, const Recursion& r,
+                std::vector<Moments>* moments) {
+  for (int b = tree.num_bodies() - 1; b > 0; --b) {
+    Moments& M_P = (*moments)[tree.joint_maps().parent[b]];
+    M_P = M_P + Shift(r.p_PB_W[b], (*moments)[b]);
+  }
 }
 
 }  // namespace
@@ -52,13 +97,14 @@ RneaDerivatives::RneaDerivatives(const Tree& tree)
       dtau_dv(Eigen::MatrixXd::Zero(tree.nv(), tree.nv())),
       dtau_dvdot(Eigen::MatrixXd::Zero(tree.nv(), tree.nv())),
       recursion(tree),
-      I(tree.num_bodies()),
-      B(tree.num_bodies()),
-      F(tree.num_bodies()),
-      E(tree.num_bodies()),
+      S(tree.num_bodies()),
       V(tree.num_bodies()),
       A(tree.num_bodies()),
-      S(tree.num_bodies()) {}
+      coriolis(tree.num_bodies()),
+      outside(tree.num_bodies()),
+      H(tree.num_bodies()),
+      S_coriolis(tree.num_bodies()),
+      S_outside(tree.num_bodies()) {}
 
 void ComputeRneaDerivatives(const Tree& tree,
                             const Eigen::Ref<const Eigen::VectorXd>& q,
@@ -70,98 +116,91 @@ void ComputeRneaDerivatives(const Tree& tree,
          static_cast<int>(F_Bo_W.size()) == tree.num_bodies());
   const JointMaps& joints = tree.joint_maps();
   const int num_bodies = tree.num_bodies();
-  const int v0 = tree.v_start();
+  const bool has_outside = !F_Bo_W.empty();
   Recursion& r = out->recursion;
   SweepPoses(tree, q, &r);
-  SweepInertias(tree, &r);
   SweepAccelerations(tree, v, vdot, tree.gravity_W(), &r);
-
-  // Spatial quantities about one point, the base's origin O, which may be taken
-  // at rest: a uniform motion changes no force. A spatial acceleration is the
-  // classical one of the body's point at O, less w x v there.
-  for (int b = 0; b < num_bodies; ++b) {
-    const Vec3 p_BO = -1 * r.p_OB_W[b];
-    const Vec3 w = r.w_WB[b], alpha = r.alpha_WB[b];
-    if (b == 0) {
-      out->V[0] = Stack(w, {0, 0, 0});
-    } else {
-      out->S[b] = Stack(r.turn_W[b], r.slide_W[b] + Cross(r.turn_W[b], p_BO));
-      out->V[b] = out->V[joints.parent[b]] + v[v0 + b - 1] * out->S[b];
+  SweepInertias(tree, &r);
+  SweepForces(tree, &r);
+  SweepMotions(tree, v, out);
+  if (has_outside) {
+    for (int b = 0; b < num_bodies; ++b) {
+      const Force3 F = ToForce3(F_Bo_W[b]);
+      r.F_W.Set(b, r.F_W[b] - F);
+      out->outside[b] = {F.angular, F.linear, {}};
     }
-    const Vec3 v_O = ToVec3(out->V[b].tail<3>());
-    out->A[b] = Stack(alpha, r.a_WB[b] + AccelerationGradient(alpha, w) * p_BO -
-                                 Cross(w, v_O));
-    const Matrix6d I = SpatialInertia(Shift(r.p_OB_W[b], r.M_W[b]));
-    const Vector6d L = I * out->V[b];
-    out->I[b] = I;
-    out->F[b] = I * out->A[b] + CrossForce(out->V[b]) * L;
-    out->B[b] =
-        CrossForce(out->V[b]) * I - I * CrossMotion(out->V[b]) + CrossWith(L);
-    out->E[b].setZero();
-    if (!F_Bo_W.empty()) {
-      const Vector3d p_OB_W = ToEigen(r.p_OB_W[b]);
-      const Matrix3d f = Hat(F_Bo_W[b].linear);
-      out->F[b] -= Shift(F_Bo_W[b], -p_OB_W).vector();
-      out->E[b] << -Hat(F_Bo_W[b].angular) - Hat(p_OB_W) * f, -f;
-    }
+    SumMoments(tree, r, &out->outside);
   }
-  for (int b = num_bodies - 1; b > 0; --b) {
-    out->I[joints.parent[b]] += out->I[b];
-    out->B[joints.parent[b]] += out->B[b];
-    out->F[joints.parent[b]] += out->F[b];
-    out->E[joints.parent[b]] += out->E[b];
+  SumMoments(tree, r, &out->coriolis);
+  SumInertias(tree, &r);
+  SumForces(tree, &r);
+  SweepMomenta(tree, &r);
+  for (int b = 1; b < num_bodies; ++b) {
+    const Motion3 S_Bo{r.turn_W[b], r.slide_W[b]};
+    out->H.Set(b, Shift(r.p_OB_W[b], r.H_W[b]));
+    out->S_coriolis.Set(b, PowerOfTurn(out->coriolis[b], S_Bo));
+    if (has_outside) out->S_outside.Set(b, PowerOfTurn(out->outside[b], S_Bo));
   }
 
-  // Column k: a variation of joint k by S_k carries its subtree along, and
-  // changes velocities by rate and accelerations by rate_2 beyond that:
-  //     dF_i = [S_k x* F_i] + I_i rate_2 + B_i rate + E_i turn,
-  // where what is carried along counts for the joints below k alone. What acts
-  // from outside keeps its direction: turned with the subtree at first, in F_i,
-  // it is turned back by E_i about the bodies' origins, where it acts.
-  const auto set = [&](int column, int body, const Vector6d& carried,
-                       const Vector6d& rate, const Vector6d& rate_2,
-                       const Vector3d& turn, Eigen::MatrixXd* matrix) {
-    const auto change_of = [&](int b) -> Vector6d {
-      return out->I[b] * rate_2 + out->B[b] * rate;
-    };
-    for (int b = body; b < joints.end[body]; ++b) {
-      if (b > 0) (*matrix)(v0 + b - 1, column) = out->S[b].dot(change_of(b));
+  // A variation of one entry of q or v carries a subtree along with S, changes
+  // its velocity by `rate` and its acceleration by `rate_2` beyond that:
+  //     dF_b = S x* F_b + I_b rate_2 + Turn(coriolis_b, angular part of rate)
+  //            + Turn(outside_b, angular part of S);
+  // the first counts for the joints below alone, and the last because what acts
+  // from outside keeps its direction: turned with the subtree in the first, it
+  // is turned back. Of `rate` the linear part is uniform, and no force hangs on
+  // that.
+  const int row_0 = tree.v_start() - 1;
+  const auto set = [&](int k, int body, const Motion3& S, const Motion3& rate,
+                       const Motion3& rate_2, bool is_carried,
+                       Eigen::MatrixXd* matrix) {
+    double* column = matrix->col(k).data();
+    const int end = joints.end[body];
+    POISE_LANES
+    for (int b = body + 1; b < end; ++b) {
+      column[row_0 + b] =
+          Dot(rate_2, out->H[b]) + Dot(rate.angular, out->S_coriolis[b]);
     }
-    Vector6d dF = carried + change_of(body);
-    if (!F_Bo_W.empty()) {
-      for (int b = std::max(body, 1); b < joints.end[body]; ++b) {
-        (*matrix)(v0 + b - 1, column) += out->S[b].dot(out->E[b] * turn);
+    const Vec3 p_OB = r.p_OB_W[body];
+    Force3 dF =
+        Shift(p_OB, Turn(out->coriolis[body], rate.angular)) +
+        Momentum(Shift(p_OB, r.M_W[body]), rate_2.angular, rate_2.linear);
+    if (is_carried) {
+      dF = dF + Cross(S, Shift(p_OB, r.F_W[body]));
+      if (has_outside) {
+        POISE_LANES
+        for (int b = body + 1; b < end; ++b) {
+          column[row_0 + b] += Dot(S.angular, out->S_outside[b]);
+        }
+        dF = dF + Shift(p_OB, Turn(out->outside[body], S.angular));
       }
-      dF += out->E[body] * turn;
     }
     for (int b = body; b > 0; b = joints.parent[b]) {
-      (*matrix)(v0 + b - 1, column) = out->S[b].dot(dF);
+      column[row_0 + b] = Dot(out->S[b], dF);
     }
-    if (tree.is_floating()) matrix->col(column).head<6>() = dF;
+    if (tree.is_floating()) {
+      matrix->col(k).head<6>() << ToEigen(dF.angular), ToEigen(dF.linear);
+    }
   };
   if (tree.is_floating()) {
+    const Motion3 axes[] = {{{1, 0, 0}, {}}, {{0, 1, 0}, {}}, {{0, 0, 1}, {}}};
     for (int k = 0; k < 3; ++k) {
-      const Vector6d S = Vector6d::Unit(k);
-      const Vector6d rate = CrossMotion(out->V[0]) * S;
-      set(k, 0, CrossForce(S) * out->F[0], rate,
-          CrossMotion(out->A[0]) * S + CrossMotion(out->V[0]) * rate,
-          S.head<3>(), &out->dtau_dq);
-      set(k, 0, Vector6d::Zero(), S, rate, Vector3d::Zero(), &out->dtau_dv);
+      const Motion3& S = axes[k];
+      const Motion3 rate = Cross(out->V[0], S);
+      set(k, 0, S, rate, Cross(out->A[0], S) + Cross(out->V[0], rate), true,
+          &out->dtau_dq);
+      set(k, 0, {}, S, rate, false, &out->dtau_dv);
     }
   }
   for (int b = 1; b < num_bodies; ++b) {
-    const int k = v0 + b - 1;
-    const Vector6d& S = out->S[b];
-    const Matrix6d V_P = CrossMotion(out->V[joints.parent[b]]);
-    const Vector6d rate = V_P * S;
-    set(k, b, CrossForce(S) * out->F[b], rate,
-        CrossMotion(out->A[joints.parent[b]]) * S + V_P * rate, S.head<3>(),
+    const Motion3& S = out->S[b];
+    const Motion3& V_P = out->V[joints.parent[b]];
+    const Motion3 rate = Cross(V_P, S);
+    set(row_0 + b, b, S, rate,
+        Cross(out->A[joints.parent[b]], S) + Cross(V_P, rate), true,
         &out->dtau_dq);
-    set(k, b, Vector6d::Zero(), S, 2 * rate, Vector3d::Zero(), &out->dtau_dv);
+    set(row_0 + b, b, {}, S, rate + rate, false, &out->dtau_dv);
   }
-
-  SumInertias(tree, &r);
-  SweepMomenta(tree, &r);
   FillMassMatrix(tree, r, out->dtau_dvdot);
 }
 

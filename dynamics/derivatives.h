@@ -4,39 +4,55 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "dynamics/lanes.h"
 #include "dynamics/recursion.h"
 #include "dynamics/tree.h"
 #include "math/spatial.h"
-#include "math/vector6.h"
 
 namespace poise {
 
 /// The derivatives of tau(q, v, v̇) = M v̇ + N - sum of J_b' F_b, each nv x nv.
 /// Configurations are varied as Integrate() does, q [+] dq, with the entries of
 /// v, v̇ and F_b held: they are in world axes, and do not turn with the bodies.
+///
+/// | member | shape | meaning | row, column |
+/// | dtau_dq | nv x nv | columns 3-5 are 0: nothing hangs on p_WB | as v, as dq |
+/// | dtau_dv | nv x nv | columns 3-5 are 0: nor on a uniform motion | as v, as v |
+/// | dtau_dvdot | nv x nv | M, symmetric to the bit | as v, as v |
 struct RneaDerivatives {
   explicit RneaDerivatives(const Tree& tree);
 
-  Eigen::MatrixXd dtau_dq;     ///< Columns 3-5 are 0: nothing hangs on p_WB.
-  Eigen::MatrixXd dtau_dv;     ///< Columns 3-5 are 0: nor on a uniform motion.
-  Eigen::MatrixXd dtau_dvdot;  ///< M.
+  Eigen::MatrixXd dtau_dq;
+  Eigen::MatrixXd dtau_dv;
+  Eigen::MatrixXd dtau_dvdot;
 
-  /// Scratch, about the base's origin and in world axes, [angular; linear].
+  /// Forces f at points p from a body's origin, and couples n: what tells how
+  /// their sum changes when each of them turns about its own point.
+  struct Moments {
+    Vec3 n;   ///< Sum of n.
+    Vec3 f;   ///< Sum of f.
+    Mat3 fp;  ///< Sum of f p'.
+  };
+
+  /// Scratch, by body, in world axes; motions are about the base's origin O,
+  /// which is taken at rest.
   Recursion recursion;
-  std::vector<Matrix6d> I;  ///< Inertia of the subtree.
-  std::vector<Matrix6d> B;  ///< Sum of x -> d(V x* I V) for d(V) = x.
-  std::vector<Vector6d> F;  ///< Force on the subtree, less that from outside.
-  /// Sum of x -> [x x n; x x f] of what acts on the subtree from outside.
-  std::vector<Eigen::Matrix<double, 6, 3>> E;
-  std::vector<Vector6d> V;  ///< Velocity of the body.
-  std::vector<Vector6d> A;  ///< Its acceleration, less gravity.
-  std::vector<Vector6d> S;  ///< Velocity at unit rate of its joint.
+  std::vector<Motion3> S;  ///< Velocity at unit rate of its joint.
+  std::vector<Motion3> V;  ///< Velocity.
+  std::vector<Motion3> A;  ///< Rate of V less gravity, at O: no one point's.
+  /// Twice the momenta of the subtree's elements: the Coriolis forces on it at
+  /// one more rad/s, once turned.
+  std::vector<Moments> coriolis;
+  std::vector<Moments> outside;  ///< What acts on the subtree from outside.
+  Force3Array H;                 ///< Momentum of the subtree at S, about O.
+  Vec3Array S_coriolis;          ///< Power at S of coriolis, turned by x: y'x.
+  Vec3Array S_outside;           ///< The same of outside.
 };
 
 /// Computes them analytically.
 /// @param q, v, vdot  see Tree.
 /// @param F_Bo_W      what acts from outside, as in ComputeRnea().
-/// Costs O(n depth), for 50 joints about 17 times RNEA. Does not allocate, does
+/// Costs O(n depth), for 50 joints about 6 times RNEA. Does not allocate, does
 /// not throw.
 /// Source: Singh, Russell and Wensing, "Efficient analytical derivatives of
 /// rigid-body dynamics using spatial vector algebra", RA-L 7(2), 2022, without

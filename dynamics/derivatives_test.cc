@@ -79,6 +79,21 @@ TEST(RneaDerivatives, WithRespectToAccelerationAgreeWithCeres) {
       kMaxJoints));
 }
 
+TEST(RneaDerivatives, WithoutOutsideForcesAreThoseOfZeroForces) {
+  EXPECT_TRUE(HoldsForTrees("no forces", [](const TreeMotion& motion) {
+    TreeMotion m = motion;
+    // What another call has left must not count.
+    RneaDerivatives none = DerivativesOf(m);
+    ComputeRneaDerivatives(m.tree, m.q, m.v, m.vdot, {}, &none);
+    m.F_Bo_W.assign(m.tree.num_bodies(), SpatialForce());
+    const RneaDerivatives zero = DerivativesOf(m);
+    MatrixXd difference = none.dtau_dq - zero.dtau_dq;
+    difference += none.dtau_dv - zero.dtau_dv;
+    difference += none.dtau_dvdot - zero.dtau_dvdot;
+    return Compare(difference, 0 * difference, 0);
+  }));
+}
+
 TEST(RneaDerivatives, DoNotAllocate) {
   const TreeMotion m =
       MakeTreeMotion({TreeShape::kAny, BaseType::kFloating, 12, 1});

@@ -8,9 +8,10 @@
 #include <string>
 
 #include "dynamics/tree.h"
-#include "robot/finding.h"
 #include "robot/urdf.h"
+#include "tools/command_line.h"
 #include "tools/dynamics_file.h"
+#include "tools/dynamics_table.h"
 #include "tools/parse_json.h"
 #include "tools/user_path.h"
 
@@ -37,27 +38,16 @@ int Main(int argc, char** argv) {
                  "Links, a,b,...; default: those that the states name")
       ->delimiter(',');
   app.add_flag("--json", json, "Print one JSON document");
+  ParseCommandLine(argc, argv, &app);
+  const RobotModel robot = LoadUrdf(UserPath(urdf));
+  CheckFrames(robot.tree, frames);
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::cerr << "dynamics: " << error.what() << "\n";
-    return 2;
-  }
-  try {
-    const RobotModel robot = LoadUrdf(UserPath(urdf));
-    CheckFrames(robot.tree, frames);
-    try {
-      const nlohmann::json result =
-          ComputeDynamics(robot.tree, ReadJson(UserPath(states)), frames);
-      std::cout << (json ? result.dump() + "\n"
-                         : FormatDynamics(robot.tree, result));
-    } catch (const std::exception& error) {
-      throw std::invalid_argument(states + ": " + error.what());
-    }
+    const nlohmann::json result =
+        ComputeDynamics(robot.tree, ReadJson(UserPath(states)), frames);
+    std::cout << (json ? result.dump() + "\n"
+                       : FormatDynamics(robot.tree, result));
   } catch (const std::exception& error) {
-    std::cerr << OneLine(error.what()) << "\n";
-    return 2;
+    throw std::invalid_argument(states + ": " + error.what());
   }
   return 0;
 }
@@ -65,4 +55,6 @@ int Main(int argc, char** argv) {
 }  // namespace
 }  // namespace poise
 
-int main(int argc, char** argv) { return poise::Main(argc, argv); }
+int main(int argc, char** argv) {
+  return poise::RunTool("dynamics", [=] { return poise::Main(argc, argv); });
+}

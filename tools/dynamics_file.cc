@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "dynamics/rnea.h"
@@ -185,68 +184,6 @@ void ComputeState(const Tree& tree, const std::vector<int>& order,
   }
 }
 
-// A line of a table: a name, its unit, numbers.
-std::string Row(const std::string& name, const char* unit,
-                const json& numbers) {
-  char text[80];
-  std::snprintf(text, sizeof(text), "  %-28s %-10s", name.c_str(), unit);
-  std::string row = text;
-  for (const json& number : numbers) {
-    std::snprintf(text, sizeof(text), " %13.6g", number.get<double>());
-    row += text;
-  }
-  return row + "\n";
-}
-
-std::string Header(const std::string& title, const char* unit,
-                   const std::vector<const char*>& columns) {
-  std::string row = Row(title, unit, json::array());
-  for (const char* column : columns) {
-    char text[32];
-    std::snprintf(text, sizeof(text), " %13s", column);
-    row.insert(row.size() - 1, text);
-  }
-  return row;
-}
-
-// An entry of v: its name, and the units of its rate, its force, its inertia.
-struct Freedom {
-  std::string name;
-  const char* rate;
-  const char* force;
-  const char* inertia;
-};
-
-std::vector<Freedom> FreedomsOf(const Tree& tree, const json& joints) {
-  std::vector<Freedom> all;
-  for (const char* name : {"base w_x", "base w_y", "base w_z"}) {
-    all.push_back({name, "rad/s", "N m", "kg m2"});
-  }
-  for (const char* name : {"base v_x", "base v_y", "base v_z"}) {
-    all.push_back({name, "m/s", "N", "kg"});
-  }
-  for (const json& joint : joints) {
-    const std::string name = joint.get<std::string>();
-    if (tree.joints()[*tree.FindJoint(name)].type == JointType::kPrismatic) {
-      all.push_back({name, "m/s", "N", "kg"});
-    } else {
-      all.push_back({name, "rad/s", "N m", "kg m2"});
-    }
-  }
-  return all;
-}
-
-// The columns of a matrix of six rows, a line each.
-std::string Columns(const std::vector<Freedom>& freedoms, const json& matrix) {
-  std::string text;
-  for (size_t j = 0; j < freedoms.size(); ++j) {
-    json column = json::array();
-    for (const json& row : matrix) column.push_back(row[j]);
-    text += Row(freedoms[j].name, freedoms[j].rate, column);
-  }
-  return text;
-}
-
 }  // namespace
 
 json ComputeDynamics(const Tree& tree, const json& document,
@@ -269,42 +206,6 @@ json ComputeDynamics(const Tree& tree, const json& document,
 
 void CheckFrames(const Tree& tree, const std::vector<std::string>& frames) {
   for (const std::string& name : frames) FindFrame(tree, name, "--frames");
-}
-
-std::string FormatDynamics(const Tree& tree, const json& document) {
-  const std::vector<Freedom> freedoms = FreedomsOf(tree, document["joints"]);
-  std::string text = document["root_link"].get<std::string>() + ": " +
-                     document["nv"].dump() + " degrees of freedom, " +
-                     document["total_mass"].dump() +
-                     " kg. World axes; angular before linear.\n";
-  int i = 0;
-  for (const json& state : document["states"]) {
-    text += "\nstate " + std::to_string(i++) + "\n";
-    text += Row("center of mass", "m", state["com"]);
-    text += Row("  its velocity", "m/s", state["com_velocity"]);
-    text += Row("momentum about it, h_G", "N m s, N s", state["h_G"]);
-    text += Row("  its rate at v̇ = 0", " N m, N", state["AGdot_nu"]);
-    text +=
-        Header("\n  force and inertia", "of", {"tau", "N", "gravity", "M_jj"});
-    for (size_t j = 0; j < freedoms.size(); ++j) {
-      const std::string unit =
-          std::string(freedoms[j].force) + ", " + freedoms[j].inertia;
-      text += Row(freedoms[j].name, unit.c_str(),
-                  {state["tau_inverse_dynamics"][j], state["bias_h"][j],
-                   state["gravity_g"][j], state["M"][j][j]});
-    }
-    text += Header("\n  A_G: N m s, N s at a rate of", "1",
-                   {"h_x", "h_y", "h_z", "p_x", "p_y", "p_z"});
-    text += Columns(freedoms, state["A_G"]);
-    for (const auto& frame : state["frames"].items()) {
-      text += "\n" + Row(frame.key(), "m", frame.value()["p"]);
-      text += Row("  its J̇v", " rad/s2, m/s2", frame.value()["Jdot_nu"]);
-      text += Header("  its J: rad/s, m/s at a rate of", "1",
-                     {"w_x", "w_y", "w_z", "v_x", "v_y", "v_z"});
-      text += Columns(freedoms, frame.value()["J"]);
-    }
-  }
-  return text;
 }
 
 }  // namespace poise

@@ -34,8 +34,4 @@ nlohmann::json ComputeDynamics(const Tree& tree, const nlohmann::json& document,
 /// these names.
 void CheckFrames(const Tree& tree, const std::vector<std::string>& frames);
 
-/// What ComputeDynamics() returns, as tables to be read, with units: of M the
-/// diagonal, of A_G and J the columns, a row for each degree of freedom.
-std::string FormatDynamics(const Tree& tree, const nlohmann::json& document);
-
 }  // namespace poise

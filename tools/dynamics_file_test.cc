@@ -150,35 +150,6 @@ TEST(ComputeDynamics, SaysWhatIsWrong) {
             "state 0: the results are not finite, the numbers must be smaller");
 }
 
-TEST(FormatDynamics, HasARowForEachJoint) {
-  const std::string text = FormatDynamics(
-      MakeTree(), ComputeDynamics(MakeTree(), MakeDocument(), {"a"}));
-  EXPECT_NE(text.find("body: 8 degrees of freedom, 6.0 kg."),
-            std::string::npos);
-  // Of forces, of A_G and of J, in units of rad/s.
-  for (const char* name : {"to_a", "to_b", "base w_x", "base v_z"}) {
-    SCOPED_TRACE(name);
-    int rows = 0;
-    for (size_t at = 0;
-         (at = text.find(std::string("\n  ") + name, at)) != std::string::npos;
-         ++at) {
-      ++rows;
-    }
-    EXPECT_EQ(rows, 3);
-  }
-  EXPECT_NE(text.find(" N m, kg m2 "), std::string::npos);
-  EXPECT_NE(text.find(" N, kg "), std::string::npos);
-  EXPECT_NE(text.find("\n  a "), std::string::npos);
-}
-
-TEST(FormatDynamics, HasTheColumnsOfTheMomentumMatrix) {
-  const json result = ComputeDynamics(MakeTree(), MakeDocument(), {});
-  const std::string text = FormatDynamics(MakeTree(), result);
-  // At a rate of 1 m/s along z: the mass, as the last of six numbers.
-  const size_t row = text.find("\n  base v_z", text.find("A_G"));
-  EXPECT_EQ(text.substr(text.find('\n', row + 1) - 14, 14), "             6");
-}
-
 TEST(CheckFrames, NamesTheLinkThatIsNotThere) {
   CheckFrames(MakeTree(), {"a", "b"});
   try {

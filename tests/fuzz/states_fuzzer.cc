@@ -4,6 +4,7 @@
 #include "dynamics/tree.h"
 #include "tests/fuzz/fuzzing.h"
 #include "tools/dynamics_file.h"
+#include "tools/dynamics_table.h"
 
 namespace {
 
