@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // Inverse dynamics against another library's, Orocos KDL, on random trees.
-// Bullet's InverseDynamics is no second one: Debian has its library, but not
-// the headers. Its forward dynamics is one of ABA's: sim/bullet_plant_test.cc.
+// dynamics_bullet_test.cc has a second one. Forward dynamics against Bullet's:
+// sim/bullet_plant_test.cc.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 #!/bin/bash
-# Usage: tools/setup.sh [--browser]
+# Usage: tools/setup.sh [--baselines] [--browser]
 # Installs what Poise needs on Debian 12; a quick no-op where it is all there.
+#   --baselines  also what tests and benchmarks compare with where it is there
 #   --browser  also what rebuilding the viewer and its browser test need
 # Runs as root, or as a user with sudo. Exit code 1, and one line that says what
 # is missing, if it cannot.
@@ -25,6 +26,9 @@ fail() {
 
 for argument in "$@"; do
   case $argument in
+    --baselines)
+      packages+=(libbullet-extras-dev)
+      ;;
     --browser)
       packages+=(chromium)
       # Debian's npm conflicts with a Node.js from elsewhere: leave that alone.
@@ -32,11 +36,11 @@ for argument in "$@"; do
       command -v npm > /dev/null || packages+=(npm)
       ;;
     -h | --help)
-      sed -n '2,6s/^# \?//p' "$0"
+      sed -n '2,7s/^# \?//p' "$0"
       exit 0
       ;;
     *)
-      echo "tools/setup.sh: unknown option '$argument', want --browser" >&2
+      echo "tools/setup.sh: unknown option '$argument', want --baselines or --browser" >&2
       exit 2
       ;;
   esac

@@ -114,3 +114,14 @@ def add_default_repositories():
         for_tests_only = True,
         deps = ["@eigen"],
     )
+    system_repository(
+        # An oracle and a baseline where it is installed, which setup.sh does if
+        # asked to. Debian has no headers: //tests/util:bullet_tree declares it.
+        name = "bullet_inverse_dynamics",
+        pkg_config = "bullet-float64",
+        linkopts = ["-lBulletInverseDynamics-float64"],
+        optional_library = "libBulletInverseDynamics-float64.so",
+        defines = ["POISE_HAS_BULLET_INVERSE_DYNAMICS"],
+        debian_package = "libbullet-extras-dev",
+        for_tests_only = True,
+    )

@@ -36,12 +36,30 @@ def _pkg_config(ctx, *args):
         ))
     return [word for word in result.stdout.strip().split(" ") if word]
 
+def _is_missing_library(ctx):
+    """Whether an optional library is not there."""
+    return ctx.attr.optional_library and not [
+        folder
+        for folder in ctx.path("/usr/lib").readdir()
+        if folder.get_child(ctx.attr.optional_library).exists
+    ]
+
 def _impl(ctx):
+    if _is_missing_library(ctx):
+        ctx.file("BUILD", _BUILD.format(
+            name = repr(ctx.name),
+            defines = [],
+            includes = [],
+            linkopts = [],
+            testonly = ctx.attr.for_tests_only,
+            deps = [],
+        ))
+        return
     if ctx.attr.header and not ctx.path("/usr/include/" + ctx.attr.header).exists:
         _missing(ctx, "/usr/include/{} is not there".format(ctx.attr.header))
     if ctx.attr.atleast_version:
         _pkg_config(ctx, "--atleast-version=" + ctx.attr.atleast_version)
-    defines = []
+    defines = list(ctx.attr.defines)
     includes = []
     for flag in _pkg_config(ctx, "--cflags"):
         if flag.startswith("-D"):
@@ -84,5 +102,9 @@ system_repository = repository_rule(
         "linkopts": attr.string_list(),
         "deps": attr.string_list(),
         "for_tests_only": attr.bool(),
+        # A file in a folder of /usr/lib: without it the repository is empty,
+        # and has no `defines`.
+        "optional_library": attr.string(),
+        "defines": attr.string_list(),
     },
 )
