@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "math/spatial.h"
+#include "math/vector6.h"
 #include "tests/util/random_tree.h"
 #include "tests/util/tolerance.h"
 
@@ -41,6 +43,25 @@ TEST_F(LanesTest, VectorsAreEigens) {
   EXPECT_NEAR((ToEigen(Cross(a, b)) - a_.cross(b_)).norm(), 0, tolerance_);
 }
 
+TEST_F(LanesTest, MotionsAndForcesAreMaths) {
+  const Vector3d c = MakeRandomVector(3, &draw_);
+  const SpatialMotion V(a_, b_), W(b_, c);
+  const SpatialForce F(c, a_), G(b_, a_);
+  const Motion3 V3{ToVec3(a_), ToVec3(b_)}, W3{ToVec3(b_), ToVec3(c)};
+  const Force3 F3 = ToForce3(F), G3 = ToForce3(G);
+  const auto vector = [](const auto& x) {
+    return (Vector6d() << ToEigen(x.angular), ToEigen(x.linear)).finished();
+  };
+  EXPECT_EQ(vector(V3 + W3), (V + W).vector());
+  EXPECT_EQ(vector(F3), F.vector());
+  EXPECT_EQ(vector(F3 + G3), (F + G).vector());
+  EXPECT_EQ(vector(F3 - G3), (F - G).vector());
+  EXPECT_NEAR(Dot(V3, F3), Dot(V, F), tolerance_);
+  // p_BP = - p_PB.
+  EXPECT_NEAR((vector(Shift(ToVec3(b_), F3)) - Shift(F, -b_).vector()).norm(),
+              0, tolerance_);
+}
+
 TEST_F(LanesTest, MatricesAreEigens) {
   const Mat3 A = ToMat3(A_), B = ToMat3(B_);
   EXPECT_EQ(ToEigen(A), A_);
@@ -67,16 +88,22 @@ TEST_F(LanesTest, SymmetricMatricesAreEigens) {
 
 TEST_F(LanesTest, ArraysKeepEachEntry) {
   Vec3Array vectors(3);
+  Force3Array forces(3);
   Mat3Array matrices(3);
   Sym3Array symmetric(3);
   vectors.Set(1, ToVec3(a_));
+  forces.Set(1, {ToVec3(b_), ToVec3(a_)});
   matrices.Set(1, ToMat3(A_));
   symmetric.Set(1, {1, 2, 3, 4, 5, 6});
   EXPECT_EQ(ToEigen(vectors[1]), a_);
+  EXPECT_EQ(ToEigen(forces[1].angular), b_);
+  EXPECT_EQ(ToEigen(forces[1].linear), a_);
   EXPECT_EQ(ToEigen(matrices[1]), A_);
   EXPECT_EQ(ToEigen(symmetric[1]), ToEigen(Sym3{1, 2, 3, 4, 5, 6}));
   for (const int other : {0, 2}) {
     EXPECT_TRUE(ToEigen(vectors[other]).isZero(0));
+    EXPECT_TRUE(ToEigen(forces[other].angular).isZero(0));
+    EXPECT_TRUE(ToEigen(forces[other].linear).isZero(0));
     EXPECT_TRUE(ToEigen(matrices[other]).isZero(0));
     EXPECT_TRUE(ToEigen(symmetric[other]).isZero(0));
   }
