@@ -153,6 +153,7 @@ void Controller::Start(const State& state) noexcept {
     reference_.frames[i].X_WF = tick_.frames[contacts_.size() + i].X_WF;
   }
   stance_.Reset();
+  stack_.EndRamp();
   correction_W_.setZero();
 }
 
@@ -184,6 +185,7 @@ void Controller::Update(const State& state, Command* command) noexcept {
   for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
     normal_force_[i] = solution_.y[nv + 6 * i + 5];
   }
+  stack_.Advance(options_.dt, solution_.y);
   CorrectSag();
   ComputeTorque(tick_, contacts_, solution_.y, &command->tau);
   LimitTorque(command);
@@ -233,6 +235,7 @@ bool Controller::IsUsable(const State& state) noexcept {
 
 void Controller::FailSafe(const State& state, Command* command) noexcept {
   report_.status = TickStatus::kFailSafe;
+  stack_.EndRamp();
   report_.active.clear();
   report_.lost.clear();
   const int n = robot_.model.tree.num_joints();

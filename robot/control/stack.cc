@@ -53,6 +53,7 @@ std::optional<int> Stack::Find(std::string_view name) const noexcept {
 bool Stack::Enable(std::string_view name, bool enabled) noexcept {
   const auto i = Find(name);
   if (!i) return false;
+  if (entries_[*i].settings.enabled != enabled) Change(&entries_[*i]);
   entries_[*i].settings.enabled = enabled;
   return true;
 }
@@ -60,6 +61,7 @@ bool Stack::Enable(std::string_view name, bool enabled) noexcept {
 bool Stack::SetRank(std::string_view name, int rank) noexcept {
   const auto i = Find(name);
   if (!i || rank < 1 || rank > kMaxRank) return false;
+  if (entries_[*i].settings.rank != rank) Change(&entries_[*i]);
   entries_[*i].settings.rank = rank;
   return true;
 }
@@ -67,6 +69,7 @@ bool Stack::SetRank(std::string_view name, int rank) noexcept {
 bool Stack::SetWeight(std::string_view name, double weight) noexcept {
   const auto i = Find(name);
   if (!i || !IsValidWeight(weight)) return false;
+  if (entries_[*i].settings.weight != weight) Change(&entries_[*i]);
   entries_[*i].settings.weight = weight;
   return true;
 }
@@ -78,6 +81,7 @@ bool Stack::SetParameter(std::string_view name, std::string_view parameter,
   for (const Parameter& each : entries_[*i].task->parameters()) {
     if (each.name != parameter) continue;
     if (!(value >= each.lower && value <= each.upper)) return false;
+    if (*each.value != value) Change(&entries_[*i]);
     *each.value = value;
     return true;
   }
@@ -94,13 +98,28 @@ std::optional<double> Stack::GetParameter(
   return std::nullopt;
 }
 
+bool Stack::set_ramp(double seconds) noexcept {
+  if (!(seconds >= 0 && std::isfinite(seconds))) return false;
+  ramp_.set_duration(seconds);
+  return true;
+}
+
+void Stack::Change(Entry* entry) noexcept {
+  ramp_.Begin();
+  entry->changed = true;
+}
+
 std::vector<LevelCapacity> Stack::capacity() const {
   LevelCapacity all;
   for (const Entry& entry : entries_) {
     all.equalities += static_cast<int>(entry.task->equality_names().size());
     all.inequalities += static_cast<int>(entry.task->inequality_names().size());
   }
-  return std::vector<LevelCapacity>(kMaxRank, all);
+  std::vector<LevelCapacity> levels(kMaxRank, all);
+  LevelCapacity held;
+  held.equalities = num_variables_;
+  levels.push_back(held);
+  return levels;
 }
 
 double Stack::RowWeight(const Entry& entry) const noexcept {
@@ -132,7 +151,7 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
     rank_of_level_[num_levels_++] = rank;
   }
 
-  hierarchy->Clear(num_levels_);
+  hierarchy->Clear(num_levels_ + (ramp_.is_on() ? 1 : 0));
   for (Entry& entry : entries_) {
     if (!entry.takes_part) continue;
     const Task& task = *entry.task;
@@ -143,6 +162,9 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
     InequalityBlock inequalities = hierarchy->AddInequalities(
         entry.level, static_cast<int>(task.inequality_names().size()));
     task.Write(input, &equalities, &inequalities);
+    entry.changed = entry.changed && ramp_.is_on();
+    if (ramp_.is_on() && entry.settings.rank > 1) ramp_.Ease(&equalities);
+    if (entry.changed) ramp_.Ease(&inequalities);
 
     const double weight = RowWeight(entry);
     if (weight == 1) continue;
@@ -153,6 +175,10 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
     inequalities.lower *= scale;
     inequalities.upper *= scale;
   }
+  if (!ramp_.is_on()) return;
+  rank_of_level_[num_levels_] = kMaxRank + 1;
+  EqualityBlock held = hierarchy->AddEqualities(num_levels_, num_variables_);
+  ramp_.Hold(&held);
 }
 
 void Stack::Resize(TickReport* report) const {

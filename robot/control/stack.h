@@ -9,6 +9,7 @@
 
 #include "hqp/hierarchy.h"
 #include "hqp/solution.h"
+#include "robot/control/ramp.h"
 #include "robot/control/task.h"
 #include "robot/control/tick_report.h"
 
@@ -29,7 +30,8 @@ class Stack {
   static constexpr int kMaxRank = 8;
 
   /// For rows in num_variables variables.
-  explicit Stack(int num_variables) : num_variables_(num_variables) {}
+  explicit Stack(int num_variables)
+      : num_variables_(num_variables), ramp_(num_variables) {}
 
   /// Adds a task; before the first tick only. Throws std::invalid_argument if
   /// its name is taken, or a setting out of range.
@@ -58,6 +60,19 @@ class Stack {
     rank_ratio_ = ratio;
   }
 
+  /// What is changed from now on takes effect little by little, in so many
+  /// seconds, see Ramp: the equalities of all tasks below rank 1 go from what
+  /// the last tick made of them to what they ask for, and so do the bounds of
+  /// the tasks that were changed; other limits hold throughout. 0, the default:
+  /// at once. False, and nothing happens, if it is negative or not finite.
+  [[nodiscard]] bool set_ramp(double seconds) noexcept;
+
+  /// A tick of dt has found y, or none: what a ramp begins at.
+  void Advance(double dt, const Eigen::VectorXd& y) noexcept {
+    ramp_.Advance(dt, y);
+  }
+  void EndRamp() noexcept { ramp_.End(); }
+
   /// What a Hierarchy, and its solver, must hold for every setting of the
   /// tasks.
   std::vector<LevelCapacity> capacity() const;
@@ -79,13 +94,15 @@ class Stack {
   /// there is none. Allocates.
   std::string RowName(int level, int row, bool is_equality) const;
 
-  /// The rank whose rows the last Write() put into a level.
+  /// The rank whose rows the last Write() put into a level; kMaxRank + 1 of what
+  /// a ramp holds below all ranks.
   int rank_of_level(int level) const { return rank_of_level_[level]; }
 
  private:
   struct Entry {
     std::unique_ptr<Task> task;
     TaskSettings settings;
+    bool changed = false;  // Since the last ramp ended.
     // Whether and where it has rows, since the last Write().
     bool takes_part = false;
     int level = -1;
@@ -93,15 +110,17 @@ class Stack {
     int inequality_start = 0;
   };
 
+  void Change(Entry* entry) noexcept;
   double RowWeight(const Entry& entry) const noexcept;
   void ReportInequalities(int i, const Solution& solution,
                           TickReport* report) const noexcept;
 
   int num_variables_;
+  Ramp ramp_;
   bool weighted_ = false;
   double rank_ratio_ = 100;
   std::vector<Entry> entries_;
-  int rank_of_level_[kMaxRank] = {};
+  int rank_of_level_[kMaxRank + 1] = {};
   int num_levels_ = 0;
 };
 
