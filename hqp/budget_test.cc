@@ -39,6 +39,9 @@ TEST(Budget, StopsWhenItsTimeIsOver) {
   time = 102.5;
   EXPECT_FALSE(budget.Take());
   EXPECT_TRUE(endless.Take());
+  Budget short_one(9, 0.5, &now);
+  time = 103.25;
+  EXPECT_FALSE(short_one.Take());
 }
 
 }  // namespace

@@ -3,14 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/SVD>
+#include <cmath>
 #include <limits>
 
 #include "hqp/certificate.h"
+#include "tests/util/random_hierarchy.h"
 
 namespace poise {
 namespace {
 
 constexpr double kTolerance = 1e-14;  // A few operations on numbers near 1.
+constexpr double kCertified = 1e-10;  // Rows of scales to 1e6 give 1e-11.
 
 // y1 <= 1 and y2 >= 2 above y1 + y2 = 4 above y = (5, 0).
 class CascadeTest : public testing::Test {
@@ -61,6 +65,279 @@ TEST_F(CascadeTest, ReportsWhatIsNotFinite) {
   EXPECT_EQ(solution_.failed_level, 2);
   EXPECT_EQ(solution_.y, Eigen::Vector2d(0, 0));
 }
+
+// Few variables and rows, of all kinds.
+HierarchyCase Draw(int seed) {
+  RandomHierarchyOptions options;
+  options.max_variables = 4;
+  options.max_levels = 4;
+  options.max_equalities = 3;
+  options.max_inequalities = 3;
+  return MakeRandomHierarchy(seed, options);
+}
+
+Solution Solve(const HierarchyCase& drawn, RowSpaceMethod method) {
+  const int n = drawn.hierarchy.num_variables();
+  Solution solution(n, drawn.capacity);
+  EXPECT_EQ(
+      Cascade(n, drawn.capacity, method).Solve(drawn.hierarchy, &solution),
+      Status::kOptimal);
+  return solution;
+}
+
+// The first levels of a hierarchy, with all that its rows ask for in another
+// unit.
+HierarchyCase Part(const HierarchyCase& drawn, int levels, double unit = 1) {
+  const Hierarchy& from = drawn.hierarchy;
+  HierarchyCase part{drawn.capacity,
+                     Hierarchy(from.num_variables(), drawn.capacity)};
+  part.hierarchy.Clear(levels);
+  for (int k = 0; k < levels; ++k) {
+    EqualityBlock equalities =
+        part.hierarchy.AddEqualities(k, from.num_equalities(k));
+    equalities.B = from.B(k);
+    equalities.b = unit * from.b(k);
+    equalities.weight = from.weight(k);
+    InequalityBlock inequalities =
+        part.hierarchy.AddInequalities(k, from.num_inequalities(k));
+    inequalities.C = from.C(k);
+    inequalities.lower = unit * from.lower(k);
+    inequalities.upper = unit * from.upper(k);
+  }
+  return part;
+}
+
+class EitherCascadeTest : public testing::TestWithParam<RowSpaceMethod> {};
+
+TEST_P(EitherCascadeTest, IsCertified) {
+  for (int seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    const HierarchyCase drawn = Draw(seed);
+    EXPECT_LE(Certifier(drawn.hierarchy.num_variables(), drawn.capacity)
+                  .Certify(drawn.hierarchy, Solve(drawn, GetParam()))
+                  .worst(),
+              kCertified);
+  }
+}
+
+// Variables less the rank of the rows that are equalities by then; and the side
+// of each row that is violated is at work.
+TEST_P(EitherCascadeTest, CountsEqualitiesAndViolatedRows) {
+  for (int seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    const HierarchyCase drawn = Draw(seed);
+    const Hierarchy& hierarchy = drawn.hierarchy;
+    const int n = hierarchy.num_variables();
+    const Solution solution = Solve(drawn, GetParam());
+    Eigen::MatrixXd rows(0, n);
+    for (int k = 0; k < hierarchy.num_levels(); ++k) {
+      const auto add = [&](const Eigen::VectorXd& row) {
+        if (row.norm() == 0) return;
+        rows.conservativeResize(rows.rows() + 1, n);
+        rows.bottomRows(1) = row.transpose() / row.norm();
+      };
+      for (int i = 0; i < hierarchy.num_equalities(k); ++i) {
+        if (hierarchy.weight(k)[i] > 0) add(hierarchy.B(k).row(i));
+      }
+      for (int i = 0; i < hierarchy.num_inequalities(k); ++i) {
+        const Eigen::VectorXd row = hierarchy.C(k).row(i);
+        const double value = row.dot(solution.y);
+        const double above = value - hierarchy.upper(k)[i];
+        const double below = hierarchy.lower(k)[i] - value;
+        // Far above rounding; of numbers in hundredths, no less is violated.
+        const double zero = 1e-7 * (1 + row.norm());
+        const Side side = above > zero   ? Side::kUpper
+                          : below > zero ? Side::kLower
+                                         : Side::kNone;
+        if (side != Side::kNone) add(row);
+        if (side != Side::kNone && row.norm() > 0 && k == 0) {
+          EXPECT_EQ(solution.levels[k].active[i], side) << k << ", " << i;
+        }
+        if (solution.levels[k].active[i] == Side::kUpper) {
+          EXPECT_GE(above, -zero) << k << ", " << i;
+        } else if (solution.levels[k].active[i] == Side::kLower) {
+          EXPECT_GE(below, -zero) << k << ", " << i;
+        }
+      }
+      int rank = 0;
+      if (rows.rows() > 0) {
+        Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows);
+        rank = static_cast<int>((svd.singularValues().array() > 1e-9).count());
+      }
+      EXPECT_EQ(solution.levels[k].nullity, n - rank) << k;
+    }
+  }
+}
+
+// To the bit: what a level was solved to does not know of levels below, and no
+// threshold is absolute.
+TEST_P(EitherCascadeTest, KeepsEachLevelsCostAndKnowsNoUnit) {
+  for (int seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const HierarchyCase drawn = Draw(seed);
+    const Solution whole = Solve(drawn, GetParam());
+    const int levels = drawn.hierarchy.num_levels();
+    for (int k = 1; k < levels; ++k) {
+      const Solution part = Solve(Part(drawn, k), GetParam());
+      for (int above = 0; above < k; ++above) {
+        EXPECT_EQ(part.levels[above].cost, whole.levels[above].cost);
+      }
+    }
+    const double unit = std::ldexp(1, -80);
+    const Solution small = Solve(Part(drawn, levels, unit), GetParam());
+    EXPECT_EQ(small.y, whole.y * unit);
+    EXPECT_EQ(small.iterations, whole.iterations);
+    for (int k = 0; k < levels; ++k) {
+      EXPECT_EQ(small.levels[k].nullity, whole.levels[k].nullity);
+      EXPECT_EQ(small.levels[k].active, whole.levels[k].active);
+    }
+  }
+}
+
+// What is not solved is at the bottom, and evaluated where y is.
+TEST_P(EitherCascadeTest, KeepsToItsBudget) {
+  for (int seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const HierarchyCase drawn = Draw(seed);
+    const Hierarchy& hierarchy = drawn.hierarchy;
+    const int n = hierarchy.num_variables();
+    const int needed = Solve(drawn, GetParam()).iterations;
+    EXPECT_GT(needed, hierarchy.num_levels());
+    int failed_before = 0;
+    for (int budget = 0; budget <= needed; ++budget) {
+      Cascade cascade(n, drawn.capacity, GetParam());
+      cascade.max_iterations = budget;
+      Solution solution(n, drawn.capacity);
+      const Status status = cascade.Solve(hierarchy, &solution);
+      EXPECT_EQ(status, solution.status);
+      EXPECT_EQ(solution.iterations, budget);
+      EXPECT_LE(
+          Certifier(n, drawn.capacity).Certify(hierarchy, solution).worst(),
+          kCertified);
+      if (budget == needed) {
+        EXPECT_EQ(status, Status::kOptimal);
+        EXPECT_EQ(solution.failed_level, -1);
+        continue;
+      }
+      EXPECT_EQ(status, Status::kIterationLimit);
+      EXPECT_GE(solution.failed_level, failed_before);
+      EXPECT_LE(solution.failed_level, hierarchy.num_levels());
+      failed_before = solution.failed_level;
+      for (int k = failed_before; k < hierarchy.num_levels(); ++k) {
+        Solution evaluated = solution;
+        EvaluateLevel(hierarchy, k, &evaluated);
+        EXPECT_EQ(solution.levels[k].cost, evaluated.levels[k].cost);
+        EXPECT_EQ(solution.levels[k].slack, evaluated.levels[k].slack);
+      }
+    }
+    EXPECT_EQ(failed_before, hierarchy.num_levels());  // Only y's norm is left.
+  }
+}
+
+// 3 y0 + 4 y1 <= 50, and >= 50 and twice a violation, at y = (10, 5): violated
+// is what is more than 1e-9 (5 |y| + 50).
+TEST_P(EitherCascadeTest, CountsARowAsViolatedFromAnEdgeOn) {
+  for (const double share : {0.98, 1.02}) {
+    HierarchyCase edge{{{1, 2}}, Hierarchy(2, {{1, 2}})};
+    EqualityBlock across = edge.hierarchy.AddEqualities(0, 1);
+    across.B << -4, 3;
+    across.b << 25;
+    InequalityBlock rows = edge.hierarchy.AddInequalities(0, 2);
+    rows.C << 3, 4, 3, 4;
+    rows.upper[0] = 50;
+    rows.lower[1] = 50 + 2 * share * 1e-9 * (5 * std::sqrt(125) + 50);
+    const Solution solution = Solve(edge, GetParam());
+    EXPECT_NEAR(solution.y[0], 10, 1e-6);
+    EXPECT_NEAR(solution.y[1], 5, 1e-6);
+    EXPECT_EQ(solution.levels[0].nullity, share < 1 ? 1 : 0);
+  }
+}
+
+// y = (1, 2) above 3 y0 = 3 with weight 2, missed by a little, and y0 + 2 y1
+// within 5, missed by a little: gradients are relative to (36 + 5, 10).
+TEST_P(EitherCascadeTest, AsksForNothingWhereALevelIsMet) {
+  for (const double share : {0.95, 1.05}) {
+    for (const Side side : {Side::kLower, Side::kUpper}) {
+      SCOPED_TRACE(testing::Message() << share << static_cast<int>(side));
+      const double sign = static_cast<double>(side);
+      const std::vector<LevelCapacity> capacity{{2, 0}, {1, 1}};
+      HierarchyCase met{capacity, Hierarchy(2, capacity)};
+      EqualityBlock fixed = met.hierarchy.AddEqualities(0, 2);
+      fixed.B.setIdentity();
+      fixed.b << -1, -2;
+      const double size = 1e-12 * std::hypot(41, 10) * share;
+      const double slack = 0.3 * size;
+      const double residual =
+          sign * (std::sqrt(size * size - 4 * slack * slack) - slack) / 6;
+      EqualityBlock missed = met.hierarchy.AddEqualities(1, 1);
+      missed.B << 3, 0;
+      missed.b << -3 + residual;
+      missed.weight << 2;
+      InequalityBlock row = met.hierarchy.AddInequalities(1, 1);
+      row.C << 1, 2;
+      (side == Side::kLower ? row.lower : row.upper) << 5 - sign * slack;
+      const Eigen::VectorXd multipliers =
+          Solve(met, GetParam()).levels[1].multipliers[0].equality;
+      if (share < 1) {
+        EXPECT_EQ(multipliers, Eigen::Vector2d(0, 0));
+      } else {
+        EXPECT_NEAR(multipliers[0], -6 * residual - sign * slack, 1e-14);
+        EXPECT_NEAR(multipliers[1], -2 * sign * slack, 1e-14);
+      }
+    }
+  }
+}
+
+// What the levels above leave of a row is judged by what it was before.
+TEST_P(EitherCascadeTest, DropsARowOfWhichNothingIsLeft) {
+  for (const double rest : {0.9e-11, 1.1e-11}) {
+    const std::vector<LevelCapacity> capacity{{1, 0}, {0, 1}};
+    HierarchyCase dropped{capacity, Hierarchy(2, capacity)};
+    dropped.hierarchy.AddEqualities(0, 1).B << 1, 0;
+    InequalityBlock row = dropped.hierarchy.AddInequalities(1, 1);
+    row.C << 4, 4 * rest;
+    row.upper << -4;
+    const Solution solution = Solve(dropped, GetParam());
+    EXPECT_EQ(solution.levels[1].active[0],
+              rest < kRankTolerance ? Side::kNone : Side::kUpper);
+    EXPECT_EQ(solution.y[1] == 0, rest < kRankTolerance);
+  }
+}
+
+TEST_P(EitherCascadeTest, TakesARowWithoutWeightForNone) {
+  const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
+  HierarchyCase weightless{capacity, Hierarchy(1, capacity)};
+  EqualityBlock rows = weightless.hierarchy.AddEqualities(0, 1);
+  rows.B << 1;
+  rows.weight << 0;
+  EqualityBlock below = weightless.hierarchy.AddEqualities(1, 1);
+  below.B << 2;
+  below.b << -6;
+  const Solution solution = Solve(weightless, GetParam());
+  EXPECT_NEAR(solution.y[0], 3, kTolerance);
+  EXPECT_EQ(solution.levels[0].nullity, 1);
+  EXPECT_EQ(solution.levels[1].nullity, 0);
+}
+
+// Of all y, the shortest; and still above what the rows allow.
+TEST_P(EitherCascadeTest, TakesTheShortestOfManyOptima) {
+  HierarchyCase free{{{1, 1}}, Hierarchy(3, {{1, 1}})};
+  EqualityBlock sum = free.hierarchy.AddEqualities(0, 1);
+  sum.B << 1, 1, 0;
+  sum.b << -2;
+  InequalityBlock bound = free.hierarchy.AddInequalities(0, 1);
+  bound.C << 1, 0, 0;
+  bound.lower << 0.5;
+  EXPECT_LE((Solve(free, GetParam()).y - Eigen::Vector3d(1, 1, 0)).norm(),
+            kTolerance);
+  bound.lower << 1.5;
+  EXPECT_LE((Solve(free, GetParam()).y - Eigen::Vector3d(1.5, 0.5, 0)).norm(),
+            kTolerance);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothWays, EitherCascadeTest,
+                         testing::Values(RowSpaceMethod::kSvd,
+                                         RowSpaceMethod::kCod));
 
 }  // namespace
 }  // namespace poise

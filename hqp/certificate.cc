@@ -26,19 +26,20 @@ double Worse(double a, double b) {
 }  // namespace
 
 double Certificate::worst() const {
-  return Worse(Worse(stationarity, feasibility),
-               Worse(complementarity, priority));
+  double worst = 0;
+  for (double each : {stationarity, feasibility, complementarity, priority}) {
+    worst = Worse(worst, each);
+  }
+  return worst;
 }
 
 Certifier::Certifier(int num_variables,
                      const std::vector<LevelCapacity>& capacity)
     : abs_y_(num_variables),
       gradient_(num_variables),
-      gradient_size_(num_variables),
-      norm_y_(0) {
+      gradient_size_(num_variables) {
   for (const LevelCapacity& level : capacity) {
     LevelRows rows;
-    rows.residual.resize(level.equalities);
     rows.violation.resize(level.inequalities);
     rows.size.resize(level.inequalities);
     rows.side.resize(level.inequalities);
@@ -50,7 +51,6 @@ Certificate Certifier::Certify(const Hierarchy& hierarchy,
                                const Solution& solution) noexcept {
   Certificate certificate;
   abs_y_ = solution.y.cwiseAbs();
-  norm_y_ = solution.y.norm();
   const int levels = solution.failed_level < 0 ? hierarchy.num_levels()
                                                : solution.failed_level;
   for (int level = 0; level < levels; ++level) {
@@ -67,14 +67,13 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
   const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
   const LevelSolution& answer = solution.levels[level];
   LevelRows& rows = rows_[level];
+  const double norm_y = solution.y.norm();
   gradient_.setZero();
   gradient_size_.setZero();
   double cost = 0, cost_size = 0, feasibility = certificate->feasibility;
   for (int i = 0; i < B.rows(); ++i) {
     const double residual = B.row(i).dot(solution.y) + b[i];
-    const double size =
-        B.row(i).cwiseAbs().dot(abs_y_.transpose()) + std::abs(b[i]);
-    rows.residual[i] = residual;
+    const double size = B.row(i).cwiseAbs().dot(abs_y_) + std::abs(b[i]);
     feasibility =
         Worse(feasibility, Ratio(residual - answer.equality_residual[i], size));
     cost += weight[i] * residual * residual / 2;
@@ -87,14 +86,13 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     const bool at_upper = value - upper[i] >= lower[i] - value;
     const double bound = at_upper ? upper[i] : lower[i];
     const double violation = at_upper ? value - bound : bound - value;
-    const double size =
-        std::isinf(bound)
-            ? 0
-            : C.row(i).cwiseAbs().dot(abs_y_.transpose()) + std::abs(bound);
+    const double size = std::isinf(bound)
+                            ? 0
+                            : C.row(i).cwiseAbs().dot(abs_y_) + std::abs(bound);
     rows.side[i] = at_upper ? Side::kUpper : Side::kLower;
     rows.violation[i] = violation;
     rows.size[i] =
-        std::isinf(bound) ? 0 : C.row(i).norm() * norm_y_ + std::abs(bound);
+        std::isinf(bound) ? 0 : C.row(i).norm() * norm_y + std::abs(bound);
     const double slack = std::max(violation, 0.0);
     feasibility = Worse(feasibility, Ratio(slack - answer.slack[i], size));
     cost += slack * slack / 2;
@@ -143,12 +141,11 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
       } else {
         wrong = rows.side[i] == Side::kUpper ? -mu : mu;
       }
-      if (std::isnan(mu)) wrong = kInfinity;
-      worst =
-          Worse(worst, std::max(wrong, 0.0) * C.row(i).cwiseAbs().maxCoeff());
+      worst = Worse(worst,
+                    std::max(wrong, 0.0) * C.row(i).lpNorm<Eigen::Infinity>());
     }
   }
-  const double size = gradient_size_.size() > 0 ? gradient_size_.maxCoeff() : 0;
+  const double size = gradient_size_.lpNorm<Eigen::Infinity>();
   const double gradient =
       gradient_.size() > 0
           ? gradient_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>()

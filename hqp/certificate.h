@@ -50,7 +50,6 @@ class Certifier {
 
  private:
   struct LevelRows {
-    Eigen::VectorXd residual;
     Eigen::VectorXd violation;  ///< Of the side at work; negative: the gap.
     Eigen::VectorXd size;       ///< |C_i| |y| + |bound|: 1e-9 of it is nothing.
     std::vector<Side> side;     ///< The side at work.
@@ -62,7 +61,6 @@ class Certifier {
 
   std::vector<LevelRows> rows_;
   Eigen::VectorXd abs_y_, gradient_, gradient_size_;
-  double norm_y_;
 };
 
 }  // namespace poise

@@ -28,9 +28,9 @@ typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 POISE_CLONES
 void Dots(const double* rows, int stride, int count, const double* x, int n,
           double* out) {
-  const int whole = n & ~3;
+  const int fours = count & ~3, whole = n & ~3, eights = n & ~7;
   int i = 0;
-  for (; i + 4 <= count; i += 4) {
+  for (; i < fours; i += 4) {
     const double* r0 = rows + static_cast<long>(i) * stride;
     const double *r1 = r0 + stride, *r2 = r1 + stride, *r3 = r2 + stride;
     Four s0 = {}, s1 = {}, s2 = {}, s3 = {};
@@ -58,7 +58,7 @@ void Dots(const double* rows, int stride, int count, const double* x, int n,
     const double* row = rows + static_cast<long>(i) * stride;
     Four s0 = {}, s1 = {};
     int j = 0;
-    for (; j + 8 <= n; j += 8) {
+    for (; j < eights; j += 8) {
       s0 += POISE_LOAD(row + j) * POISE_LOAD(x + j);
       s1 += POISE_LOAD(row + j + 4) * POISE_LOAD(x + j + 4);
     }
@@ -72,9 +72,9 @@ void Dots(const double* rows, int stride, int count, const double* x, int n,
 POISE_CLONES
 void AddRows(const double* rows, int stride, int count, const double* factor,
              int n, double* x) {
-  const int whole = n & ~3;
+  const int fours = count & ~3, whole = n & ~3;
   int i = 0;
-  for (; i + 4 <= count; i += 4) {
+  for (; i < fours; i += 4) {
     const double* r0 = rows + static_cast<long>(i) * stride;
     const double *r1 = r0 + stride, *r2 = r1 + stride, *r3 = r2 + stride;
     const double f0 = factor[i], f1 = factor[i + 1];
@@ -101,9 +101,9 @@ void AddRows(const double* rows, int stride, int count, const double* factor,
 POISE_CLONES
 void AddToRows(double* rows, int stride, int count, const double* factor,
                const double* x, int n) {
-  const int whole = n & ~3;
+  const int pairs = count & ~1, whole = n & ~3;
   int i = 0;
-  for (; i + 2 <= count; i += 2) {
+  for (; i < pairs; i += 2) {
     double* r0 = rows + static_cast<long>(i) * stride;
     double* r1 = r0 + stride;
     const double f0 = factor[i], f1 = factor[i + 1];
@@ -130,9 +130,10 @@ void AddToRows(double* rows, int stride, int count, const double* factor,
 POISE_CLONES
 void DotWithSize(const double* row, const double* x, int n, double* dot,
                  double* size) {
+  const int whole = n & ~3;
   Four sum = {}, absolute = {};
   int j = 0;
-  for (; j + 4 <= n; j += 4) {
+  for (; j < whole; j += 4) {
     const Four term = POISE_LOAD(row + j) * POISE_LOAD(x + j);
     sum += term;
     absolute += term < 0 ? -term : term;
@@ -147,9 +148,10 @@ void DotWithSize(const double* row, const double* x, int n, double* dot,
 
 POISE_CLONES
 double AbsoluteSum(const double* x, int n) {
+  const int whole = n & ~3;
   double even = 0, odd = 0, third = 0, fourth = 0;
   int j = 0;
-  for (; j + 4 <= n; j += 4) {
+  for (; j < whole; j += 4) {
     even += std::abs(x[j]);
     odd += std::abs(x[j + 1]);
     third += std::abs(x[j + 2]);

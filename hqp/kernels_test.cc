@@ -10,10 +10,12 @@
 namespace poise {
 namespace {
 
-// Whole numbers of few digits: every sum is exact, in any order.
-std::vector<double> Whole(int count, int seed) {
+// Eighths of few digits: every sum is exact, in any order.
+std::vector<double> Eighths(int count, int seed) {
   std::vector<double> numbers(count);
-  for (int i = 0; i < count; ++i) numbers[i] = (i * i + 7 * i * seed) % 23 - 11;
+  for (int i = 0; i < count; ++i) {
+    numbers[i] = ((i * i + 7 * i * seed) % 23 - 11) / 8.0;
+  }
   return numbers;
 }
 
@@ -34,8 +36,8 @@ class KernelsTest : public testing::Test {
   }
   double Entry(int i, int j) const { return rows_[i * kStride + j]; }
 
-  std::vector<double> rows_ = Whole((kMaxRows + 1) * kStride, 1);
-  const std::vector<double> x_ = Whole(kStride, 2), factor_ = Whole(kStride, 3);
+  std::vector<double> rows_ = Eighths((kMaxRows + 1) * kStride, 1);
+  const std::vector<double> x_ = Eighths(kStride, 2), factor_ = Eighths(kStride, 3);
 };
 
 TEST_F(KernelsTest, DotsAreTheSumsOfProducts) {

@@ -12,6 +12,10 @@ namespace {
 // Of a multiplier or a step, relative to what it is added up from.
 constexpr double kNegligible = 1e-12;
 
+// Iterations a row, after which rows leave by Bland's rule: slow, but it cannot
+// cycle.
+constexpr int kPatience = 10;
+
 // The least-squares solution x of L x + l = 0 of minimum norm. `norms` are
 // those of the rows before any projection: a row below kRankTolerance of its
 // own is a row of zeros.
@@ -51,6 +55,7 @@ class ActiveSet {
 
   // One iteration. Returns whether the optimum is reached.
   bool Iterate() {
+    ++iterations_;
     Collect();
     const Eigen::VectorXd step = Step();
     const int blocking = Advance(step);
@@ -122,7 +127,6 @@ class ActiveSet {
       }
     }
     qp_.z += length * step;
-    zero_steps_ = length > 0 ? 0 : zero_steps_ + 1;
     if (blocking >= 0) {
       qp_.side[blocking] =
           qp_.P.row(blocking).dot(step) > 0 ? Side::kUpper : Side::kLower;
@@ -136,13 +140,13 @@ class ActiveSet {
     Eigen::VectorXd weighted(L_.rows());
     weighted.head(qp_.M.rows()) = residual;
     int leaving = -1;
-    double worst = 0;
+    double worst = -kNegligible;
+    const bool bland = iterations_ > kPatience * rows();
     const auto consider = [&](int i, double multiplier, double size) {
       const double signed_ratio =
           (qp_.side[i] == Side::kUpper ? multiplier : -multiplier) / size;
-      if (size == 0 || signed_ratio >= -kNegligible) return;
-      const bool bland = zero_steps_ > rows();
-      if (bland ? leaving < 0 || i < leaving : signed_ratio < worst) {
+      if (bland ? signed_ratio < -kNegligible && (leaving < 0 || i < leaving)
+                : signed_ratio < worst) {
         worst = signed_ratio;
         leaving = i;
       }
@@ -152,12 +156,12 @@ class ActiveSet {
       const double violation =
           qp_.P.row(i).dot(qp_.z) + qp_.value[i] - Bound(i);
       weighted[qp_.M.rows() + s] = violation;
-      consider(i, violation, qp_.size[i]);
+      consider(i, violation, qp_.size[i] + qp_.P_norm[i] * qp_.z.norm());
     }
     if (!hard_.empty()) {
       const Eigen::VectorXd gradient = L_.transpose() * weighted;
-      const double size = norms_.dot(weighted.cwiseAbs()) +
-                          norms_.cwiseAbs().dot(l_.cwiseAbs());
+      const double size =
+          norms_.dot(weighted.cwiseAbs()) + norms_.dot(l_.cwiseAbs());
       const Eigen::VectorXd multipliers =
           A_.transpose().colPivHouseholderQr().solve(-gradient);
       for (size_t h = 0; h < hard_.size(); ++h) {
@@ -172,7 +176,7 @@ class ActiveSet {
   std::vector<int> hard_, soft_;  // Active rows.
   Eigen::MatrixXd L_, A_;
   Eigen::VectorXd l_, norms_;
-  int zero_steps_ = 0;
+  int iterations_ = 0;
 };
 
 }  // namespace

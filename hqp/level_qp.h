@@ -22,15 +22,17 @@ struct LevelQp {
   Eigen::MatrixXd P;
   Eigen::VectorXd value, lower, upper;
   Eigen::VectorXd P_norm;
-  Eigen::VectorXd size;  ///< By row: rounding is relative to this.
+  Eigen::VectorXd size;  ///< By row at z = 0: rounding is relative to this.
   std::vector<bool> soft;
 
-  std::vector<Side> side;  ///< In: a first guess for soft rows. Out: active.
+  /// In: of soft rows, the side of each that is violated at z, and a guess for
+  /// others. Out: active.
+  std::vector<Side> side;
   Eigen::VectorXd z;
 };
 
-/// Solves it by a primal active-set method; if lengths of steps are zero for
-/// long, by Bland's rule, which cannot cycle. Returns the iterations, or -1 if
+/// Solves it by a primal active-set method; if that takes long, by Bland's rule,
+/// which cannot cycle. Returns the iterations, or -1 if
 /// more than max_iterations were needed: z is then feasible, not optimal.
 int SolveLevelQp(RowSpaceMethod method, int max_iterations, LevelQp* qp);
 

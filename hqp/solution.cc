@@ -9,24 +9,20 @@ namespace poise {
 
 Solution::Solution(int num_variables,
                    const std::vector<LevelCapacity>& capacity)
-    : status(Status::kOptimal),
-      failed_level(-1),
-      iterations(0),
-      y(Eigen::VectorXd::Zero(num_variables)) {
+    : y(num_variables) {
   for (const LevelCapacity& rows : capacity) {
     LevelSolution level;
-    level.cost = 0;
-    level.equality_residual.setZero(rows.equalities);
-    level.slack.setZero(rows.inequalities);
-    level.active.assign(rows.inequalities, Side::kNone);
-    level.nullity = num_variables;
+    level.equality_residual.resize(rows.equalities);
+    level.slack.resize(rows.inequalities);
+    level.active.resize(rows.inequalities);
     for (size_t above = 0; above < levels.size(); ++above) {
       level.multipliers.push_back(
-          {Eigen::VectorXd::Zero(capacity[above].equalities),
-           Eigen::VectorXd::Zero(capacity[above].inequalities)});
+          {Eigen::VectorXd(capacity[above].equalities),
+           Eigen::VectorXd(capacity[above].inequalities)});
     }
     levels.push_back(std::move(level));
   }
+  Reset();
 }
 
 void Solution::Reset() noexcept {

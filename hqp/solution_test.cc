@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <limits>
+#include <new>
 
 namespace poise {
 namespace {
@@ -59,6 +61,14 @@ TEST(Solution, ResetMakesItAsConstructed) {
   ExpectAsConstructed(solution, 3);
 }
 
+TEST(Solution, IsTheSameWhereverItIsConstructed) {
+  alignas(Solution) unsigned char memory[sizeof(Solution)];
+  std::memset(memory, 7, sizeof(memory));
+  Solution* solution = new (memory) Solution(2, {{0, 0}, {0, 0}});
+  ExpectAsConstructed(*solution, 2);
+  solution->~Solution();
+}
+
 TEST(EvaluateLevel, AgreesWithNumbersByHand) {
   Hierarchy hierarchy(2, {{2, 3}});
   EqualityBlock equalities = hierarchy.AddEqualities(0, 2);
@@ -71,8 +81,9 @@ TEST(EvaluateLevel, AgreesWithNumbersByHand) {
   inequalities.upper << kInfinity, 1.5, 9;
   Solution solution(2, {{2, 3}});
   solution.y << 1, 2;
-  EvaluateLevel(hierarchy, 0, &solution);
   const LevelSolution& level = solution.levels[0];
+  solution.levels[0].cost = 7;  // Whatever was there.
+  EvaluateLevel(hierarchy, 0, &solution);
   EXPECT_EQ(level.equality_residual, Eigen::Vector2d(1, 12));
   EXPECT_EQ(level.slack, Eigen::Vector3d(2, 0.5, 0));
   EXPECT_EQ(level.cost, (1 + 10 * 144) / 2.0 + (4 + 0.25) / 2);
@@ -115,6 +126,25 @@ TEST_F(CheckInputTest, FindsWhatIsNotFinite) {
   EXPECT_EQ(With(inequalities_.upper.data(), kNan), Status::kNotFinite);
   EXPECT_EQ(With(inequalities_.lower.data(), kInfinity), Status::kNotFinite);
   EXPECT_EQ(With(inequalities_.upper.data(), -kInfinity), Status::kNotFinite);
+}
+
+TEST_F(CheckInputTest, TellsTheFirstLevelWithAnError) {
+  hierarchy_.AddEqualities(0, 1).weight << -1;
+  EXPECT_EQ(CheckInput(hierarchy_, &failed_level_), Status::kBadInput);
+  EXPECT_EQ(failed_level_, 0);
+  equalities_.b << kNan;
+  EXPECT_EQ(CheckInput(hierarchy_, &failed_level_), Status::kBadInput);
+  EXPECT_EQ(failed_level_, 0);
+}
+
+// What is finite may overflow where it is added up.
+TEST(CheckInput, AcceptsTheLargestNumbers) {
+  Hierarchy hierarchy(2, {{1, 0}});
+  hierarchy.AddEqualities(0, 1).B.setConstant(
+      std::numeric_limits<double>::max());
+  int failed_level = 7;
+  EXPECT_EQ(CheckInput(hierarchy, &failed_level), Status::kOptimal);
+  EXPECT_EQ(failed_level, -1);
 }
 
 TEST_F(CheckInputTest, FindsBoundsAndWeightsThatAreNone) {

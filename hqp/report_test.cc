@@ -1,0 +1,133 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// What the fast solver says of its answer, by hand and against the cascade.
+#include "hqp/report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hqp/cascade.h"
+#include "hqp/certificate.h"
+#include "hqp/solver.h"
+#include "tests/util/random_hierarchy.h"
+
+namespace poise {
+namespace {
+
+constexpr double kTolerance = 1e-13;  // Some operations on numbers near 10.
+
+Solution Solve(const Hierarchy& hierarchy,
+               const std::vector<LevelCapacity>& capacity) {
+  Solution solution(hierarchy.num_variables(), capacity);
+  EXPECT_EQ(
+      Solver(hierarchy.num_variables(), capacity).Solve(hierarchy, &solution),
+      Status::kOptimal);
+  return solution;
+}
+
+// With levels that only select variables, and without.
+TEST(Report, IsCertifiedAndCountsAsTheCascadeDoes) {
+  for (int seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomHierarchyOptions options;
+    options.max_variables = 3 + seed % 5;
+    options.max_equalities = 3;
+    options.degenerate = 40;
+    options.planted = 50;
+    options.scaled = 0;
+    options.selecting = seed % 2 == 0 ? 100 : 0;
+    const HierarchyCase drawn = MakeRandomHierarchy(seed, options);
+    const int n = drawn.hierarchy.num_variables();
+    const Solution solution = Solve(drawn.hierarchy, drawn.capacity);
+    EXPECT_LE(
+        Certifier(n, drawn.capacity).Certify(drawn.hierarchy, solution).worst(),
+        1e-11);
+    Solution reference(n, drawn.capacity);
+    ASSERT_EQ(Cascade(n, drawn.capacity).Solve(drawn.hierarchy, &reference),
+              Status::kOptimal);
+    for (int k = 0; k < drawn.hierarchy.num_levels(); ++k) {
+      EXPECT_EQ(solution.levels[k].nullity, reference.levels[k].nullity) << k;
+    }
+  }
+}
+
+// y = 1 and y = 3 as rows of one bound twice: y = 2 is above one, below the
+// other. What is met counts as at the upper one.
+TEST(Report, TellsWhichBoundOfTwoInOneIsViolated) {
+  const std::vector<LevelCapacity> capacity{{0, 2}};
+  Hierarchy hierarchy(1, capacity);
+  InequalityBlock rows = hierarchy.AddInequalities(0, 2);
+  rows.C << 1, 1;
+  rows.lower << 1, 3;
+  rows.upper << 1, 3;
+  const Solution torn = Solve(hierarchy, capacity);
+  EXPECT_EQ(torn.levels[0].active[0], Side::kUpper);
+  EXPECT_EQ(torn.levels[0].active[1], Side::kLower);
+  rows.lower << 2, 2;
+  rows.upper << 2, 2;
+  const Solution met = Solve(hierarchy, capacity);
+  EXPECT_EQ(met.y[0], 2);
+  EXPECT_EQ(met.levels[0].active[0], Side::kUpper);
+  EXPECT_EQ(met.levels[0].active[1], Side::kUpper);
+}
+
+// 3 y0 + 4 y1 <= 50, and >= 50 and twice a violation, at y = (10, 5): violated
+// is what is more than 1e-9 (5 |y| + 50).
+TEST(Report, CountsARowAsViolatedFromAnEdgeOn) {
+  for (const double share : {0.98, 1.02}) {
+    const std::vector<LevelCapacity> capacity{{1, 2}};
+    Hierarchy hierarchy(2, capacity);
+    EqualityBlock across = hierarchy.AddEqualities(0, 1);
+    across.B << -4, 3;
+    across.b << 25;
+    InequalityBlock rows = hierarchy.AddInequalities(0, 2);
+    rows.C << 3, 4, 3, 4;
+    rows.upper[0] = 50;
+    rows.lower[1] = 50 + 2 * share * 1e-9 * (5 * std::sqrt(125) + 50);
+    EXPECT_EQ(Solve(hierarchy, capacity).levels[0].nullity, share < 1 ? 1 : 0);
+  }
+}
+
+// y0 + y1 = 4 and 2 (y1 + y2) <= 6, above 2 y0 = -2 and, of weight 3, 4 y2 = 8,
+// above 5 y1 = 10.
+class ReportByHandTest : public testing::Test {
+ protected:
+  ReportByHandTest() {
+    EqualityBlock sum = hierarchy_.AddEqualities(0, 1);
+    sum.B << 1, 1, 0;
+    sum.b << -4;
+    InequalityBlock bound = hierarchy_.AddInequalities(0, 1);
+    bound.C << 0, 2, 2;
+    bound.upper << 6;
+    EqualityBlock wishes = hierarchy_.AddEqualities(1, 2);
+    wishes.B << 2, 0, 0, 0, 0, 4;
+    wishes.b << 2, -8;
+    wishes.weight << 1, 3;
+    EqualityBlock last = hierarchy_.AddEqualities(2, 1);
+    last.B << 0, 5, 0;
+    last.b << -10;
+  }
+
+  const std::vector<LevelCapacity> capacity_{{1, 1}, {2, 0}, {1, 0}};
+  Hierarchy hierarchy_{3, capacity_};
+};
+
+// At its bound y = (t, 4 - t, t - 1): (2 t + 2)^2 + 3 (4 t - 12)^2 is least at
+// t = 35 / 13.
+TEST_F(ReportByHandTest, GivesTheMultipliersOfEachLevel) {
+  const Solution solution = Solve(hierarchy_, capacity_);
+  EXPECT_LE((solution.y - Eigen::Vector3d(35, 17, 22) / 13).norm(), kTolerance);
+  EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
+  EXPECT_EQ(solution.levels[0].nullity, 2);  // The bound is not violated.
+  EXPECT_EQ(solution.levels[1].nullity, 0);
+  EXPECT_EQ(solution.levels[2].nullity, 0);
+  // g = (192, 0, -192) / 13 + lambda (1, 1, 0) + mu (0, 2, 2) = 0.
+  const LevelMultipliers& of_wishes = solution.levels[1].multipliers[0];
+  EXPECT_NEAR(of_wishes.equality[0], -192. / 13, kTolerance);
+  EXPECT_NEAR(of_wishes.inequality[0], 96. / 13, kTolerance);
+  EXPECT_LE(Certifier(3, capacity_).Certify(hierarchy_, solution).worst(),
+            kTolerance);
+}
+
+}  // namespace
+}  // namespace poise
