@@ -139,11 +139,11 @@ bool Cascade::SolveLevel(const Hierarchy& hierarchy, int level,
 
   const int iterations =
       SolveLevelQp(method_, max_iterations - solution->iterations, &qp);
-  solution->iterations += std::max(iterations, 0);
   if (iterations < 0) {
     solution->iterations = max_iterations;
     return false;
   }
+  solution->iterations += iterations;
   y += Z_ * qp.z;
   active_.clear();
   for (int r = 0; r < rows; ++r) {
@@ -251,8 +251,7 @@ void Cascade::FindMultipliers(const Hierarchy& hierarchy, int level,
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod;
   cod.setThreshold(kRankTolerance);
   cod.compute(E);
-  Eigen::VectorXd multipliers = cod.solve(-gradient);
-  multipliers -= cod.solve(gradient + E * multipliers);
+  const Eigen::VectorXd multipliers = cod.solve(-gradient);
   for (int c = 0; c < count; ++c) {
     const auto [from, i] = carriers[c];
     LevelMultipliers& out = solution->levels[level].multipliers[from];

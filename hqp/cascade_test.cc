@@ -260,7 +260,7 @@ TEST_P(EitherCascadeTest, AsksForNothingWhereALevelIsMet) {
     for (const Side side : {Side::kLower, Side::kUpper}) {
       SCOPED_TRACE(testing::Message() << share << static_cast<int>(side));
       const double sign = static_cast<double>(side);
-      const std::vector<LevelCapacity> capacity{{2, 0}, {1, 1}};
+      const std::vector<LevelCapacity> capacity{{2, 0}, {1, 2}};
       HierarchyCase met{capacity, Hierarchy(2, capacity)};
       EqualityBlock fixed = met.hierarchy.AddEqualities(0, 2);
       fixed.B.setIdentity();
@@ -273,6 +273,8 @@ TEST_P(EitherCascadeTest, AsksForNothingWhereALevelIsMet) {
       missed.B << 3, 0;
       missed.b << -3 + residual;
       missed.weight << 2;
+      // A row that is not violated takes no part.
+      met.hierarchy.AddInequalities(1, 1).C << 100, 100;
       InequalityBlock row = met.hierarchy.AddInequalities(1, 1);
       row.C << 1, 2;
       (side == Side::kLower ? row.lower : row.upper) << 5 - sign * slack;
@@ -302,6 +304,29 @@ TEST_P(EitherCascadeTest, DropsARowOfWhichNothingIsLeft) {
               rest < kRankTolerance ? Side::kNone : Side::kUpper);
     EXPECT_EQ(solution.y[1] == 0, rest < kRankTolerance);
   }
+}
+
+// However short a row is, it says what it says.
+TEST_P(EitherCascadeTest, TakesShortRowsLikeLongOnes) {
+  const double length = std::ldexp(1, -43);  // 1e-13.
+  const std::vector<LevelCapacity> capacity{{2, 1}, {3, 0}};
+  HierarchyCase drawn{capacity, Hierarchy(3, capacity)};
+  EqualityBlock rows = drawn.hierarchy.AddEqualities(0, 2);
+  rows.B << 1, 0, 0, 0, length, 0;
+  rows.b << -1, -length;
+  InequalityBlock bound = drawn.hierarchy.AddInequalities(0, 1);
+  bound.C << 0, 0, length;
+  bound.upper << length;
+  EqualityBlock wishes = drawn.hierarchy.AddEqualities(1, 3);
+  wishes.B.setIdentity();
+  wishes.b << -2, -3, -4;
+  const Solution solution = Solve(drawn, GetParam());
+  EXPECT_LE((solution.y - Eigen::Vector3d(1, 1, 1)).norm(), kTolerance);
+  EXPECT_EQ(solution.levels[0].nullity, 1);
+  const LevelMultipliers& multipliers = solution.levels[1].multipliers[0];
+  EXPECT_NEAR(multipliers.equality[0], 1, kTolerance);
+  EXPECT_NEAR(multipliers.equality[1] * length, 2, kTolerance);
+  EXPECT_NEAR(multipliers.inequality[0] * length, 3, kTolerance);
 }
 
 TEST_P(EitherCascadeTest, TakesARowWithoutWeightForNone) {

@@ -37,7 +37,8 @@ class KernelsTest : public testing::Test {
   double Entry(int i, int j) const { return rows_[i * kStride + j]; }
 
   std::vector<double> rows_ = Eighths((kMaxRows + 1) * kStride, 1);
-  const std::vector<double> x_ = Eighths(kStride, 2), factor_ = Eighths(kStride, 3);
+  const std::vector<double> x_ = Eighths(kStride, 2),
+                            factor_ = Eighths(kStride, 3);
 };
 
 TEST_F(KernelsTest, DotsAreTheSumsOfProducts) {
