@@ -51,7 +51,7 @@ struct AbaScratch {
 /// @param tau      nv: [torque about the base's origin; force; joints].
 /// @param F_Bo_W   what acts on the bodies from outside, as in ComputeRnea().
 /// @param scratch  made for this tree.
-/// @param vdot     nv, the derivative of v.
+/// @param vdot     nv, the derivative of v, rad/s2 and m/s2.
 /// A joint counts as without inertia if, with those beyond it free, less than
 /// 1e-13 is left of what it has with them locked: that much is rounding.
 /// Costs O(n): 8 us for 50 joints. Does not allocate, does not throw.

@@ -8,9 +8,9 @@
 
 namespace poise {
 
-/// Computes the joint-space inertia M of M v̇ + N = S' tau + J' lambda, by
-/// composite rigid bodies: M_jk is the velocity of joint j at unit rate times
-/// the momentum that the subtree of joint k has at unit rate.
+/// Computes the joint-space inertia M of M v̇ + N = S' tau + J' lambda, (7) of
+/// the paper, by composite rigid bodies: M_jk is the velocity of joint j at unit
+/// rate times the momentum that the subtree of joint k has at unit rate.
 ///
 /// @param q        nq, see Tree.
 /// @param scratch  made for this tree.
@@ -22,7 +22,7 @@ void ComputeCrba(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
                  Recursion* scratch, Eigen::Ref<Eigen::MatrixXd> M) noexcept;
 
 /// The entries of M that are not zero for every q, from the momenta of
-/// SweepMomenta(). For ComputeCrba() and ComputeTick().
+/// SweepMomenta(). For the algorithms that share a Recursion with others.
 void FillMassMatrix(const Tree& tree, const Recursion& recursion,
                     Eigen::Ref<Eigen::MatrixXd> M) noexcept;
 

@@ -21,6 +21,7 @@ double KineticEnergy(const Tree& tree, const std::vector<Pose>& X_WB,
                      const Eigen::Ref<const Eigen::VectorXd>& v) noexcept;
 
 /// The potential energy in J, - mass g_W' p_WG: zero with G at the origin.
+/// @param X_WB  from ComputePoses().
 /// Costs O(n). Does not allocate, does not throw.
 double PotentialEnergy(const Tree& tree,
                        const std::vector<Pose>& X_WB) noexcept;

@@ -13,6 +13,7 @@ namespace poise {
 /// @param q      nq configuration, see Tree; its quaternion may be of any norm
 ///               but 0, which makes the rotation NaN.
 /// @param v      nv velocity, see Tree.
+/// @param dt     s; negative goes back.
 /// @param q_out  nq; its quaternion is unit. May be q itself.
 /// Costs O(n). Does not allocate, does not throw.
 void Integrate(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
@@ -22,6 +23,7 @@ void Integrate(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
 /// The velocity that leads from one configuration to another in unit time, the
 /// inverse of Integrate():   q_from [+] v = q_to.
 ///
+/// @param q_from, q_to  nq; their quaternions may be of any norm but 0.
 /// @param v  nv; its rotation is the shorter way round, of norm at most pi.
 /// Costs O(n). Does not allocate, does not throw.
 void Difference(const Tree& tree,

@@ -19,7 +19,8 @@ enum class Axes {
 };
 
 /// Computes the Jacobian of a frame,
-///     V_WF = J_WF v,   [w; v of its origin].
+///     V_WF = J_WF v,   [w; v of its origin],
+/// of a foot in contact J_c of the paper's (7) and (11).
 /// In world axes the column of a revolute joint about a at p is [a; a x (p_WF -
 /// p)], of a prismatic one [0; a], of the base [1 0; -[p_BF]x 1]; those of joints
 /// that do not carry the frame are zero.
@@ -32,13 +33,14 @@ void ComputeFrameJacobian(const Tree& tree, const std::vector<Pose>& X_WB,
                           int frame, Axes axes,
                           Eigen::Ref<Matrix6Xd> J_WF) noexcept;
 
-/// The bias J̇v of a frame, the rate of [w; v] at v̇ = 0. In the frame's axes
-/// these turn with it: d/dt (R' V) = R' (V̇ - [w x w; w x v]).
+/// The bias J̇v of a frame, the rate of [w; v] at v̇ = 0 (rad/s2, m/s2). In the
+/// frame's axes these turn with it: d/dt (R' V) = R' (V̇ - [w x w; w x v]).
 ///
 /// @param A_WF_W  its classical acceleration at v̇ = 0, from FrameAcceleration().
 /// @param V_WF_W  its velocity, from FrameVelocity().
 /// @param R_WF    its orientation, from FramePose().
-/// Six plain numbers, to be added to J_WF v̇. Costs nothing to speak of.
+/// Six plain numbers, to be added to J_WF v̇ as in (11) of the paper. Costs two
+/// rotations of a vector. Does not allocate, does not throw.
 Vector6d FrameBias(const SpatialAcceleration& A_WF_W,
                    const SpatialMotion& V_WF_W, const Eigen::Matrix3d& R_WF,
                    Axes axes) noexcept;

@@ -19,7 +19,7 @@ namespace poise {
 void ComputePoses(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
                   std::vector<Pose>* X_WB) noexcept;
 
-/// Computes the velocity of every body, world axes, about its origin,
+/// Computes the velocity of every body, world axes, of its origin,
 ///     V_WB = Shift(V_WP) + [a v_j; 0], or [0; a v_j] for a prismatic joint.
 /// @param X_WB    from ComputePoses().
 /// @param v       nv, see Tree.
@@ -44,17 +44,18 @@ void ComputeAccelerations(const Tree& tree, const std::vector<Pose>& X_WB,
                           const Eigen::Ref<const Eigen::VectorXd>& vdot,
                           std::vector<SpatialAcceleration>* A_WB_W) noexcept;
 
-/// The pose of a frame, an index into Tree::frames().
+/// The pose of a frame, an index into Tree::frames(): X_WB X_BF. Costs no more
+/// than that product; so the two below, a shift. None allocates or throws.
 Pose FramePose(const Tree& tree, const std::vector<Pose>& X_WB,
                int frame) noexcept;
 
-/// Its velocity, world axes, of its origin.
+/// Its velocity, world axes, of its origin: J_WF_W v.
 SpatialMotion FrameVelocity(const Tree& tree, const std::vector<Pose>& X_WB,
                             const std::vector<SpatialMotion>& V_WB_W,
                             int frame) noexcept;
 
-/// Its acceleration, world axes, of its origin; J̇v of the frame if A_WB_W is
-/// that at v̇ = 0.
+/// Its acceleration, world axes, of its origin: J_WF_W v̇ + J̇v, and J̇v of (11)
+/// of the paper if A_WB_W is that at v̇ = 0.
 SpatialAcceleration FrameAcceleration(
     const Tree& tree, const std::vector<Pose>& X_WB,
     const std::vector<SpatialMotion>& V_WB_W,

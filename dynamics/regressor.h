@@ -21,7 +21,8 @@ namespace poise {
 ///
 /// @param q, v, vdot  see Tree.
 /// @param scratch     made for this tree.
-/// @param Y           nv x (10 bodies + joints). All of it is written.
+/// @param Y           nv x (10 bodies + joints), columns as pi, rows as tau of
+///                    ComputeRnea(). All of it is written.
 /// Costs O(n depth). Does not allocate, does not throw.
 /// Source: Atkeson, An and Hollerbach, "Estimation of inertial parameters of
 /// manipulator loads and links", IJRR 5(3), 1986.
@@ -32,7 +33,7 @@ void ComputeRegressor(const Tree& tree,
                       Recursion* scratch,
                       Eigen::Ref<Eigen::MatrixXd> Y) noexcept;
 
-/// The pi of a tree, by which identification starts. Allocates.
+/// The pi of a tree, by which identification starts: kg, kg m, kg m2. Allocates.
 Eigen::VectorXd MakeInertialParameters(const Tree& tree);
 
 }  // namespace poise

@@ -13,7 +13,9 @@ namespace poise {
 /// Computes the generalized forces of a motion, the inverse dynamics
 ///     tau = M v̇ + N - sum of J_b' F_b,
 /// by the recursive Newton-Euler algorithm: [torque about the base's origin;
-/// force; joints], with gravity and the joints' armatures.
+/// force; joints] in N m and N, with gravity and the joints' armatures. With the
+/// contact forces as F_b the first six are what (9) of the paper wants to be
+/// zero, the others the torques of (10).
 ///
 /// @param q, v, vdot  see Tree; vdot is the derivative of v.
 /// @param F_Bo_W      what acts on the bodies from outside, about their origins
@@ -30,13 +32,16 @@ void ComputeRnea(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
                  const std::vector<SpatialForce>& F_Bo_W, Recursion* scratch,
                  Eigen::Ref<Eigen::VectorXd> tau) noexcept;
 
-/// Computes the bias forces N with gravity, tau at v̇ = 0, at the cost of RNEA.
+/// Computes the bias forces N(q, v) of the paper's (7): Coriolis, centrifugal
+/// and gravity; tau at v̇ = 0, at the cost of RNEA.
+/// @param N  nv, as tau. Does not allocate, does not throw.
 void ComputeBias(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
                  const Eigen::Ref<const Eigen::VectorXd>& v, Recursion* scratch,
                  Eigen::Ref<Eigen::VectorXd> N) noexcept;
 
-/// Computes the bias forces c without gravity: Coriolis and centrifugal; tau at
-/// v̇ = 0 and g = 0, at the cost of RNEA.
+/// Computes the bias forces c(q, v) of the paper's (17), without gravity:
+/// Coriolis and centrifugal; tau at v̇ = 0 and g = 0, at the cost of RNEA.
+/// @param c  nv, as tau. Does not allocate, does not throw.
 void ComputeCoriolis(const Tree& tree,
                      const Eigen::Ref<const Eigen::VectorXd>& q,
                      const Eigen::Ref<const Eigen::VectorXd>& v,
