@@ -429,6 +429,16 @@ TEST(TaskSet, RefusesWhatIsNotThereByLine) {
             "range");
 }
 
+TEST(TaskSet, KnowsThatOfCaptures) {
+  Stack stack = MakeDefaultStack(Humanoid(), {});
+  EXPECT_EQ(stack.GetParameter("momentum", "capture"), 0);
+  ApplyTaskSet("capture", &stack);
+  EXPECT_EQ(stack.GetParameter("momentum", "capture"), 1);
+  EXPECT_EQ(stack.GetParameter("posture", "inertia"), 1);
+  EXPECT_EQ(stack.GetParameter("cop", "margin"), 0.001);
+  EXPECT_EQ(stack.GetParameter("joint_limits", "omega"), 20);
+}
+
 TEST(TaskSet, KnowsThatOfThePaper) {
   Stack stack = MakeDefaultStack(Humanoid(), {});
   ApplyTaskSet("paper", &stack);

@@ -66,7 +66,7 @@ Stack MakeDefaultStack(const Robot& robot,
 
   stack.Add(std::make_unique<CapturePointTask>(tree, feet), {kOff, 3, 1});
 
-  stack.Add(std::make_unique<MomentumTask>(tree), {kOn, 4, 1});
+  stack.Add(std::make_unique<MomentumTask>(tree, feet), {kOn, 4, 1});
   stack.Add(std::make_unique<ComTask>(tree), {kOff, 4, 1});
   stack.Add(std::make_unique<LinearMomentumTask>(tree), {kOff, 4, 1});
   stack.Add(std::make_unique<AngularMomentumTask>(tree), {kOff, 4, 1});

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "robot/control/tasks/row_names.h"
+#include "robot/control/tasks/support_box.h"
 
 namespace poise {
 namespace {
@@ -34,31 +35,22 @@ void CapturePointTask::Write(const TaskInput& input, EqualityBlock*,
   const Eigen::Vector3d v_G = X_MidW.R * tick.v_WG;
   const double w = std::sqrt(gravity_ / std::max(kMinHeight, p_G.z()));
 
-  for (int axis = 0; axis < 2; ++axis) {
-    for (const int side : {1, -1}) {
-      // The farthest corner of a sole this way.
-      double bound = -1;
-      for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
-        if (!input.contacts[i].in_contact) continue;
-        const Pose X_MidC = X_MidW * input.contacts[i].X_WC;
-        const Eigen::Vector2d& half = feet_[i].half_size;
-        bound = std::max(bound, side * X_MidC.p[axis] +
-                                    std::abs(X_MidC.R(axis, 0)) * half.x() +
-                                    std::abs(X_MidC.R(axis, 1)) * half.y());
-      }
-      if (bound < 0) continue;  // Nothing to stand on.
-      bound -= margin_;
+  for (const SupportSide to : {kFront, kBack, kLeft, kRight}) {
+    const int axis = to == kFront || to == kBack ? 0 : 1;
+    const int side = to == kFront || to == kLeft ? 1 : -1;
+    const double reach = SupportReach(feet_, input.contacts, X_MidW, to);
+    if (reach < 0) continue;  // Nothing to stand on.
+    const double bound = reach - margin_;
 
-      const int row = 2 * axis + (side > 0 ? 0 : 1);
-      const double xi = side * (p_G[axis] + v_G[axis] / w);
-      // In units of length: T / w a_G <= d - xi - T v_G.
-      const Eigen::RowVector3d n_W =
-          side * horizon_ / (w * mass_) * X_MidW.R.row(axis);
-      inequalities->C.row(row).head(tick.H_G.cols()).noalias() =
-          n_W * tick.H_G.bottomRows<3>();
-      inequalities->upper[row] = bound - xi - side * horizon_ * v_G[axis] -
-                                 n_W.dot(tick.H_G_bias.tail<3>());
-    }
+    const int row = 2 * axis + (side > 0 ? 0 : 1);
+    const double xi = side * (p_G[axis] + v_G[axis] / w);
+    // In units of length: T / w a_G <= d - xi - T v_G.
+    const Eigen::RowVector3d n_W =
+        side * horizon_ / (w * mass_) * X_MidW.R.row(axis);
+    inequalities->C.row(row).head(tick.H_G.cols()).noalias() =
+        n_W * tick.H_G.bottomRows<3>();
+    inequalities->upper[row] = bound - xi - side * horizon_ * v_G[axis] -
+                               n_W.dot(tick.H_G_bias.tail<3>());
   }
 }
 

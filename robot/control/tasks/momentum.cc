@@ -1,15 +1,31 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "robot/control/tasks/momentum.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
 #include "math/so3.h"
 #include "robot/control/tasks/row_names.h"
+#include "robot/control/tasks/support_box.h"
 
 namespace poise {
+namespace {
 
-MomentumTask::MomentumTask(const Tree& tree)
+// A reference is at least so far inside, m.
+constexpr double kLeastWay = 0.01;
+
+// Lower than this above its soles, a robot has fallen: no pendulum.
+constexpr double kMinHeight = 0.05;  // m.
+
+}  // namespace
+
+MomentumTask::MomentumTask(const Tree& tree, const std::vector<Foot>& feet)
     : Task("momentum",
            AxisRowNames("momentum", {"kx", "ky", "kz", "lx", "ly", "lz"}), {}),
-      mass_(tree.total_mass() > 0 ? tree.total_mass() : 1) {
+      mass_(tree.total_mass() > 0 ? tree.total_mass() : 1),
+      gravity_(tree.gravity_W().norm()),
+      feet_(feet) {
   AddParameter("kp", &kp_, 0, 1e4);
   AddParameter("kd", &kd_, 0, 1e3);
   AddParameter("kd_angular", &kd_angular_, 0, 1e3);
@@ -18,6 +34,39 @@ MomentumTask::MomentumTask(const Tree& tree)
   AddParameter("ki_height", &ki_height_, 0, 100);
   AddParameter("angular_weight", &angular_weight_, 1e-6, 1e6);
   AddParameter("feedforward", &feedforward_, 0, 1);
+  AddParameter("capture", &capture_, 0, 1);
+  AddParameter("capture_from", &capture_from_, 0, 10);
+  AddParameter("capture_full", &capture_full_, 0, 10);
+  AddParameter("capture_kp", &capture_kp_, 0, 1e4);
+  AddParameter("capture_kd", &capture_kd_, 0, 1e3);
+  AddParameter("capture_angular_weight", &capture_angular_weight_, 1e-6, 1e6);
+}
+
+double MomentumTask::CaptureShare(const TaskInput& input) const noexcept {
+  const Tick& tick = input.tick;
+  const Pose X_MidW = MidFeet(input.contacts).Inverse();
+  const double height = std::max(kMinHeight, (X_MidW * tick.p_WG).z());
+  const double w = std::sqrt(gravity_ / height);
+  const Eigen::Vector3d k_W = tick.L_G.head<3>();
+  const Eigen::Vector3d given_back_W =
+      k_W.cross(Eigen::Vector3d::UnitZ()) / (mass_ * height);
+  const Eigen::Vector3d xi =
+      X_MidW * (tick.p_WG + (tick.v_WG + given_back_W) / w);
+  const Eigen::Vector3d xi_ref =
+      X_MidW * (input.reference.p_WG + input.reference.v_WG / w);
+
+  double way = 0;  // To the edge that is nearest in these terms.
+  for (const SupportSide to : {kFront, kBack, kLeft, kRight}) {
+    const int axis = to == kFront || to == kBack ? 0 : 1;
+    const int side = to == kFront || to == kLeft ? 1 : -1;
+    const double reach = SupportReach(feet_, input.contacts, X_MidW, to);
+    const double whole = std::max(kLeastWay, reach - side * xi_ref[axis]);
+    way = std::max(way, side * (xi - xi_ref)[axis] / whole);
+  }
+  const double least = 1e-3;  // Or the gains would jump.
+  return std::clamp(
+      (way - capture_from_) / std::max(least, capture_full_ - capture_from_),
+      0.0, 1.0);
 }
 
 void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
@@ -27,13 +76,24 @@ void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
   const Eigen::Matrix3d& R_WB = tick.X_WB[0].R;
   const Eigen::Vector3d e_W = LogSo3(reference.R_WB * R_WB.transpose());
 
+  // The height has its gains always: it does not fall over.
+  const double share = capture_ * CaptureShare(input);
+  const double level_kp = kp_ + share * (capture_kp_ - kp_);
+  const double level_kd = kd_ + share * (capture_kd_ - kd_);
+  const Eigen::Array3d kp(level_kp, level_kp, kp_);
+  const Eigen::Array3d kd(level_kd, level_kd, kd_);
+
+  const Eigen::Array3d ahead = feedforward_ * reference.v_WG.array();
   Vector6d wanted;
   wanted << (k_orientation_ * e_W - kd_angular_ * tick.L_G.head<3>()) / mass_,
-      kp_ * (reference.p_WG - tick.p_WG) - kd_ * tick.v_WG +
-          input.correction_W +
-          feedforward_ * (kd_ * reference.v_WG + reference.a_WG);
+      (kp * (reference.p_WG - tick.p_WG).array() +
+       kd * (ahead - tick.v_WG.array()))
+              .matrix() +
+          input.correction_W + feedforward_ * reference.a_WG;
   equalities->B.leftCols(tick.H_G.cols()) = tick.H_G / mass_;
-  equalities->weight.head<3>().setConstant(angular_weight_);
+  equalities->weight.head<3>().setConstant(
+      angular_weight_ *
+      std::pow(capture_angular_weight_ / angular_weight_, share));
   equalities->b = tick.H_G_bias / mass_ - wanted;
 }
 

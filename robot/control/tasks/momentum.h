@@ -1,8 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <vector>
+
 #include "dynamics/tree.h"
 #include "robot/control/task.h"
+#include "robot/robot.h"
 
 namespace poise {
 
@@ -13,28 +16,48 @@ namespace poise {
 /// where k is the angular momentum, and e the rotation from the base's
 /// orientation back to its reference: without it the pelvis drifts, as angular
 /// momentum is no derivative of an orientation.
+///
+/// Where the feet alone cannot bring the robot to rest, angular momentum must,
+/// and the sooner the better, as a fall grows with exp(w t). That is where the
+/// capture point of the robot with its angular momentum given back,
+///     xi = p_G + (v_G + k x z / (m h)) / w,    w = sqrt(g / h),
+/// h the height of G above the soles, is near their edge: with `capture`, the
+/// gains of the place rise and the angular rows weigh less, from capture_from
+/// to capture_full of the way from the reference to the edge.
 class MomentumTask final : public Task {
  public:
   /// Parameters: kp (30 1/s2), kd (10 1/s), kd_angular (10 1/s), k_orientation
-  /// (150 N m/rad); ki and ki_height (15 and 60 1/s3), by which Controller
+  /// (200 N m/rad); ki and ki_height (15 and 60 1/s3), by which Controller
   /// corrects what a wrong model does to the place and the height;
   /// angular_weight (1), of the angular rows against the linear ones;
-  /// feedforward (0; with 1, v_ref and a_ref are used).
-  explicit MomentumTask(const Tree& tree);
+  /// feedforward (0; with 1, v_ref and a_ref are used); capture (0; with 1, as
+  /// above) with capture_from (0.6) and capture_full (0.8), and what holds there:
+  /// capture_kp (60 1/s2), capture_kd (30 1/s), capture_angular_weight (0.3).
+  MomentumTask(const Tree& tree, const std::vector<Foot>& feet);
   double equality_scale(int) const noexcept override { return mass_; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 
  private:
+  double CaptureShare(const TaskInput& input) const noexcept;
+
   double mass_;
+  double gravity_;
+  std::vector<Foot> feet_;
   double kp_ = 30;
   double kd_ = 10;
   double kd_angular_ = 10;
-  double k_orientation_ = 150;
+  double k_orientation_ = 200;
   double ki_ = 15;
   double ki_height_ = 60;
   double angular_weight_ = 1;
   double feedforward_ = 0;
+  double capture_ = 0;
+  double capture_from_ = 0.6;
+  double capture_full_ = 0.8;
+  double capture_kp_ = 60;
+  double capture_kd_ = 30;
+  double capture_angular_weight_ = 0.3;
 };
 
 }  // namespace poise

@@ -1,9 +1,19 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "robot/control/tasks/posture.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "robot/control/tasks/row_names.h"
 
 namespace poise {
+namespace {
+
+// Fingers weigh grams, and rows must not differ by more than numbers can bear.
+constexpr double kLeast = 0.01;  // kg m2, or kg.
+constexpr double kMost = 10;
+
+}  // namespace
 
 PostureTask::PostureTask(const Tree& tree)
     : Task("posture", JointRowNames(tree, "posture"), {}),
@@ -11,6 +21,7 @@ PostureTask::PostureTask(const Tree& tree)
       v_start_(tree.v_start()) {
   AddParameter("kp", &kp_, 0, 1e4);
   AddParameter("kd", &kd_, 0, 1e3);
+  AddParameter("inertia", &inertia_, 0, 1);
 }
 
 void PostureTask::Write(const TaskInput& input, EqualityBlock* equalities,
@@ -19,7 +30,10 @@ void PostureTask::Write(const TaskInput& input, EqualityBlock* equalities,
   for (int j = 0; j < n; ++j) {
     const double q = input.state.q[q_start_ + j];
     const double v = input.state.v[v_start_ + j];
+    const double moved =
+        std::clamp(input.tick.M(v_start_ + j, v_start_ + j), kLeast, kMost);
     equalities->B(j, v_start_ + j) = 1;
+    equalities->weight[j] = std::pow(moved, inertia_);
     equalities->b[j] = -kp_ * (input.reference.posture[j] - q) + kd_ * v;
   }
 }

@@ -3,6 +3,8 @@
 // can and cannot give, and against the robot's own motion a moment later.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -332,7 +334,8 @@ TEST_F(TaskTest, RatesOfMomentumAndFeetAreThoseOfTheMotion) {
   // Central differences over 1e-6 s: good to 1e-5 of the rates.
   const double tolerance = 1e-4;
 
-  const Eigen::VectorXd momentum = Residual(MomentumTask(tree_), y);
+  const Eigen::VectorXd momentum =
+      Residual(MomentumTask(tree_, robot_.feet), y);
   const Eigen::Vector3d linear = rate.tail<3>() / m - 30 * e + 10 * v_G;
   EXPECT_LT((momentum.tail<3>() - linear).norm(), tolerance);
   // The base is where it should be: no rotation to correct.
@@ -371,6 +374,102 @@ TEST_F(TaskTest, PostureIsAPdOnEachJoint) {
     const double e = j == 3 ? 0.1 : 0;
     EXPECT_NEAR(residual[j], y[6 + j] - 60 * e + 15 * state_.v[6 + j], 1e-12);
   }
+}
+
+TEST_F(TaskTest, PostureWeighsAJointByWhatItMoves) {
+  const Eigen::VectorXd weight = Write(PostureTask(tree_)).weight(0);
+  for (int j = 0; j < n_; ++j) {
+    const double moved = controller_.tick().M(6 + j, 6 + j);
+    EXPECT_NEAR(std::pow(weight[j], 2), std::clamp(moved, 0.01, 10.0), 1e-12);
+  }
+  EXPECT_LT(weight[*tree_.FindJoint("l_elbow")],
+            weight[*tree_.FindJoint("chest_pitch")]);
+}
+
+// Pushed along u, m/s of the center of mass alone: by how much the momentum task
+// answers as in a capture, from 0 to 1, seen by its gains.
+class CaptureTest : public TaskTest {
+ protected:
+  CaptureTest() {
+    state_.v.setZero();
+    for (const Parameter& each : task_.parameters()) {
+      if (each.name == "capture") *each.value = 1;
+    }
+  }
+
+  double Share(const Vector6d& momentum_over_mass) {
+    // A motion of all joints that has this momentum, and no other.
+    const Tick& rest = controller_.tick();
+    const Eigen::MatrixXd H = rest.H_G / tree_.total_mass();
+    state_.v =
+        H.transpose() * (H * H.transpose()).inverse() * momentum_over_mass;
+    ComputeTick(tree_, state_.q, state_.v, &tick_);
+    hierarchy_ = Hierarchy(nv_ + 12, {{6, 0}});
+    hierarchy_.Clear(1);
+    EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
+    InequalityBlock none = hierarchy_.AddInequalities(0, 0);
+    task_.Write(
+        {state_, tick_, controller_.contacts(), controller_.reference()}, &rows,
+        &none);
+    // b = bias - wanted, and of what is wanted only -kd v_G is not zero.
+    const Eigen::Vector3d v = momentum_over_mass.tail<3>();
+    const Eigen::Vector3d wanted =
+        tick_.H_G_bias.tail<3>() / tree_.total_mass() - rows.b.tail<3>();
+    EXPECT_NEAR(wanted.z(), -10 * v.z(), 1e-6);
+    const double share = std::log(rows.weight[0]) / std::log(0.3);
+    EXPECT_NEAR(rows.weight[2], std::pow(0.3, share), 1e-12);
+    EXPECT_EQ(rows.weight[3], 1);
+    for (int axis = 0; axis < 2; ++axis) {
+      EXPECT_NEAR(wanted[axis], -(10 + 20 * share) * v[axis], 1e-6);
+    }
+    return share;
+  }
+
+  // What brings the capture point so far along an axis, as speed.
+  Vector6d Fast(int axis, double way) const {
+    Vector6d momentum = Vector6d::Zero();
+    momentum[3 + axis] = way * w_;
+    return momentum;
+  }
+
+  MomentumTask task_{tree_, robot_.feet};
+  Tick tick_{tree_, {}};
+  const double height_ = controller_.tick().p_WG.z();
+  const double w_ = std::sqrt(9.81 / height_);
+  const double front_ = half_.x();
+  const double left_ = controller_.contacts()[0].X_WC.p.y() + half_.y();
+};
+
+TEST_F(CaptureTest, BeginsShortOfTheEdgeAndIsWholeBeforeIt) {
+  for (const double side : {1.0, -1.0}) {
+    EXPECT_EQ(Share(Fast(0, 0.55 * side * front_)), 0);
+    EXPECT_NEAR(Share(Fast(0, 0.7 * side * front_)), 0.5, 0.01);
+    EXPECT_NEAR(Share(Fast(0, 0.9 * side * front_)), 1, 1e-12);
+    EXPECT_EQ(Share(Fast(1, 0.55 * side * left_)), 0);
+    EXPECT_NEAR(Share(Fast(1, 0.7 * side * left_)), 0.5, 0.01);
+    EXPECT_NEAR(Share(Fast(1, 0.9 * side * left_)), 1, 1e-12);
+  }
+}
+
+TEST_F(CaptureTest, CountsTheAngularMomentumThatIsToBeGivenBack) {
+  // Bent forward at such a rate that to stop it moves the capture point so far;
+  // bent to the left is about -x.
+  Vector6d forward = Vector6d::Zero(), left = Vector6d::Zero();
+  forward[1] = 0.7 * front_ * w_ * height_;
+  left[0] = -0.7 * left_ * w_ * height_;
+  EXPECT_NEAR(Share(forward), 0.5, 0.01);
+  EXPECT_NEAR(Share(left), 0.5, 0.01);
+  // Moving forward and bending back: there is nothing to do.
+  EXPECT_EQ(Share(Fast(0, 0.7 * front_) - forward), 0);
+}
+
+TEST_F(CaptureTest, SeesAReferenceNearTheEdge) {
+  // Half of the way is left, and three quarters of that gone.
+  controller_.reference().p_WG.x() += 0.5 * front_;
+  for (const Parameter& each : task_.parameters()) {
+    if (each.name == "kp" || each.name == "capture_kp") *each.value = 0;
+  }
+  EXPECT_NEAR(Share(Fast(0, (0.5 + 0.35) * front_)), 0.5, 0.02);
 }
 
 TEST_F(TaskTest, ForceRegularizerIsTheForceItself) {

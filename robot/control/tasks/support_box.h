@@ -1,0 +1,22 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <vector>
+
+#include "math/pose.h"
+#include "robot/control/contacts.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// The sides of the box around the soles of the feet in contact, in the axes of
+/// the frame amid them.
+enum SupportSide { kFront, kBack, kLeft, kRight };
+
+/// How far the box reaches from the frame's origin to one side, m; negative
+/// where no foot is in contact. Does not allocate.
+double SupportReach(const std::vector<Foot>& feet,
+                    const std::vector<ContactTick>& contacts,
+                    const Pose& X_MidW, SupportSide side) noexcept;
+
+}  // namespace poise
