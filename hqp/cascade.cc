@@ -101,7 +101,7 @@ bool Cascade::SolveLevel(const Hierarchy& hierarchy, int level,
 
   // ... its inequalities, soft, and the inherited ones that are not equalities
   // by now, hard. Rows of zeros, for lack of any freedom left, are dropped.
-  rows_.clear();
+  std::vector<RowIndex> indices;
   for (int from = 0; from <= level && from < hierarchy.num_levels(); ++from) {
     for (int i = 0; i < hierarchy.num_inequalities(from); ++i) {
       const auto C_i = hierarchy.C(from).row(i);
@@ -109,17 +109,17 @@ bool Cascade::SolveLevel(const Hierarchy& hierarchy, int level,
           (C_i * Z_).norm() <= kRankTolerance * C_i.norm()) {
         continue;
       }
-      rows_.push_back({from, i});
+      indices.push_back({from, i});
     }
   }
-  const int rows = static_cast<int>(rows_.size());
+  const int rows = static_cast<int>(indices.size());
   qp.P.resize(rows, Z_.cols());
   for (Eigen::VectorXd* column :
        {&qp.value, &qp.lower, &qp.upper, &qp.P_norm, &qp.size}) {
     column->resize(rows);
   }
   for (int r = 0; r < rows; ++r) {
-    const auto [from, i] = rows_[r];
+    const auto [from, i] = indices[r];
     const auto C_i = hierarchy.C(from).row(i);
     const double lower = hierarchy.lower(from)[i];
     const double upper = hierarchy.upper(from)[i];
@@ -148,8 +148,9 @@ bool Cascade::SolveLevel(const Hierarchy& hierarchy, int level,
   active_.clear();
   for (int r = 0; r < rows; ++r) {
     if (qp.side[r] == Side::kNone) continue;
-    active_.push_back({rows_[r].level, rows_[r].row});
-    solution->levels[rows_[r].level].active[rows_[r].row] = qp.side[r];
+    const auto [from, i] = indices[r];
+    active_.push_back({from, i});
+    solution->levels[from].active[i] = qp.side[r];
   }
   return true;
 }

@@ -47,7 +47,7 @@ class Cascade {
   RowSpaceMethod method_;
   Eigen::MatrixXd Z_;  ///< Orthonormal columns: what the levels above leave.
   std::vector<std::vector<Side>> violated_;  ///< By level, at its optimum.
-  std::vector<RowIndex> rows_, active_;      ///< Of the QP at hand.
+  std::vector<RowIndex> active_;             ///< Of the last QP.
 };
 
 }  // namespace poise

@@ -153,7 +153,9 @@ TEST_P(EitherCascadeTest, CountsEqualitiesAndViolatedRows) {
         if (side != Side::kNone && row.norm() > 0 && k == 0) {
           EXPECT_EQ(solution.levels[k].active[i], side) << k << ", " << i;
         }
-        if (solution.levels[k].active[i] == Side::kUpper) {
+        if (row.norm() == 0) {
+          EXPECT_EQ(solution.levels[k].active[i], Side::kNone);
+        } else if (solution.levels[k].active[i] == Side::kUpper) {
           EXPECT_GE(above, -zero) << k << ", " << i;
         } else if (solution.levels[k].active[i] == Side::kLower) {
           EXPECT_GE(below, -zero) << k << ", " << i;
@@ -306,14 +308,14 @@ TEST_P(EitherCascadeTest, DropsARowOfWhichNothingIsLeft) {
   }
 }
 
-// However short a row is, it says what it says.
+// However short a row is, it says what it says; unless it is of no length.
 TEST_P(EitherCascadeTest, TakesShortRowsLikeLongOnes) {
   const double length = std::ldexp(1, -43);  // 1e-13.
-  const std::vector<LevelCapacity> capacity{{2, 1}, {3, 0}};
+  const std::vector<LevelCapacity> capacity{{3, 1}, {3, 0}};
   HierarchyCase drawn{capacity, Hierarchy(3, capacity)};
-  EqualityBlock rows = drawn.hierarchy.AddEqualities(0, 2);
-  rows.B << 1, 0, 0, 0, length, 0;
-  rows.b << -1, -length;
+  EqualityBlock rows = drawn.hierarchy.AddEqualities(0, 3);
+  rows.B << length, 0, 0, 0, 4, 0, 0, 0, 0;
+  rows.b << -length, -4, 0;
   InequalityBlock bound = drawn.hierarchy.AddInequalities(0, 1);
   bound.C << 0, 0, length;
   bound.upper << length;
@@ -324,24 +326,43 @@ TEST_P(EitherCascadeTest, TakesShortRowsLikeLongOnes) {
   EXPECT_LE((solution.y - Eigen::Vector3d(1, 1, 1)).norm(), kTolerance);
   EXPECT_EQ(solution.levels[0].nullity, 1);
   const LevelMultipliers& multipliers = solution.levels[1].multipliers[0];
-  EXPECT_NEAR(multipliers.equality[0], 1, kTolerance);
-  EXPECT_NEAR(multipliers.equality[1] * length, 2, kTolerance);
+  EXPECT_NEAR(multipliers.equality[0] * length, 1, kTolerance);
+  EXPECT_NEAR(multipliers.equality[1] * 4, 2, kTolerance);
+  EXPECT_EQ(multipliers.equality[2], 0);
   EXPECT_NEAR(multipliers.inequality[0] * length, 3, kTolerance);
 }
 
 TEST_P(EitherCascadeTest, TakesARowWithoutWeightForNone) {
-  const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
-  HierarchyCase weightless{capacity, Hierarchy(1, capacity)};
-  EqualityBlock rows = weightless.hierarchy.AddEqualities(0, 1);
-  rows.B << 1;
-  rows.weight << 0;
-  EqualityBlock below = weightless.hierarchy.AddEqualities(1, 1);
-  below.B << 2;
-  below.b << -6;
+  const std::vector<LevelCapacity> capacity{{2, 0}, {2, 0}};
+  HierarchyCase weightless{capacity, Hierarchy(2, capacity)};
+  EqualityBlock rows = weightless.hierarchy.AddEqualities(0, 2);
+  rows.B << 1, 1, 1, 0;
+  rows.b << -9, -3;
+  rows.weight << 0, 1;
+  EqualityBlock below = weightless.hierarchy.AddEqualities(1, 2);
+  below.B.setIdentity();
+  below.b << -8, -5;
   const Solution solution = Solve(weightless, GetParam());
-  EXPECT_NEAR(solution.y[0], 3, kTolerance);
+  EXPECT_LE((solution.y - Eigen::Vector2d(3, 5)).norm(), kTolerance);
   EXPECT_EQ(solution.levels[0].nullity, 1);
   EXPECT_EQ(solution.levels[1].nullity, 0);
+}
+
+// Two rows that are one, but for rounding, share what is asked of them.
+TEST_P(EitherCascadeTest, SharesMultipliersAmongRowsThatAreOne) {
+  const std::vector<LevelCapacity> capacity{{2, 0}, {2, 0}};
+  HierarchyCase twice{capacity, Hierarchy(2, capacity)};
+  EqualityBlock rows = twice.hierarchy.AddEqualities(0, 2);
+  rows.B << 1, 0, 1, 1e-13;
+  rows.b << -1, -1;
+  EqualityBlock wishes = twice.hierarchy.AddEqualities(1, 2);
+  wishes.B.setIdentity();
+  wishes.b << -3, -5;
+  const Solution solution = Solve(twice, GetParam());
+  EXPECT_EQ(solution.levels[0].nullity, 1);
+  const LevelMultipliers& multipliers = solution.levels[1].multipliers[0];
+  EXPECT_NEAR(multipliers.equality[0], 1, 1e-10);  // 1e-13 of 5, and rounding.
+  EXPECT_NEAR(multipliers.equality[1], 1, 1e-10);
 }
 
 // Of all y, the shortest; and still above what the rows allow.

@@ -15,6 +15,7 @@ namespace poise {
 namespace {
 
 constexpr double kTolerance = 1e-13;  // Some operations on numbers near 10.
+constexpr double kCertified = 1e-10;  // The solver itself asks for 1e-9.
 
 Solution Solve(const Hierarchy& hierarchy,
                const std::vector<LevelCapacity>& capacity) {
@@ -72,7 +73,7 @@ TEST(Report, IsCertifiedAndCountsAsTheCascadeDoes) {
       EXPECT_LE(Certifier(n, drawn.capacity)
                     .Certify(drawn.hierarchy, solution)
                     .worst(),
-                1e-11);
+                kCertified);
       for (int k = 0; k < drawn.hierarchy.num_levels(); ++k) {
         EXPECT_EQ(solution.levels[k].nullity, reference.levels[k].nullity) << k;
       }
@@ -94,6 +95,30 @@ TEST(Report, KnowsARowOfSizeZero) {
   EXPECT_EQ(solution.y[0], 0);
   EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
   EXPECT_EQ(solution.levels[0].nullity, 2);
+}
+
+// However short a row is, it counts for one: y0 = 1 and y1 <= 1, above
+// y = (2, 3, 4).
+TEST(Report, CountsShortRowsLikeLongOnes) {
+  const double length = std::ldexp(1, -43);  // 1e-13.
+  const std::vector<LevelCapacity> capacity{{1, 1}, {3, 0}};
+  Hierarchy hierarchy(3, capacity);
+  EqualityBlock row = hierarchy.AddEqualities(0, 1);
+  row.B << length, 0, 0;
+  row.b << -length;
+  InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+  bound.C << 0, length, 0;
+  bound.upper << length;
+  EqualityBlock wishes = hierarchy.AddEqualities(1, 3);
+  wishes.B.setIdentity();
+  wishes.b << -2, -3, -4;
+  const Solution solution = Solve(hierarchy, capacity);
+  EXPECT_LE((solution.y - Eigen::Vector3d(1, 1, 4)).norm(), kTolerance);
+  EXPECT_EQ(solution.levels[0].nullity, 2);
+  EXPECT_EQ(solution.levels[1].nullity, 0);
+  const LevelMultipliers& multipliers = solution.levels[1].multipliers[0];
+  EXPECT_NEAR(multipliers.equality[0] * length, 1, kTolerance);
+  EXPECT_NEAR(multipliers.inequality[0] * length, 2, kTolerance);
 }
 
 // y = 0 above y = -1, of levels that only select: what is left is 1, exactly.
