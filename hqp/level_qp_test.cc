@@ -262,6 +262,19 @@ TEST_P(LevelQpTest, LetsGoOfASoftRowThatIsKeptByMoreThanRounding) {
   }
 }
 
+// The same of a row at zero, far along it: relative to |z| = 5.
+TEST_P(LevelQpTest, LetsGoOfASoftRowRelativeToWhereItIs) {
+  for (const double gap : {0.9e-12, 1.1e-12}) {
+    LevelQp qp = MakeQp(MatrixXd::Identity(2, 2), Eigen::Vector2d(-5, 10 * gap),
+                        Row(Eigen::Vector2d(0, 1)), true);
+    qp.upper << 0;
+    qp.size << 0;
+    qp.side[0] = Side::kUpper;
+    EXPECT_GT(Solve(&qp), 0);
+    EXPECT_EQ(qp.side[0], gap < 1e-12 ? Side::kUpper : Side::kNone);
+  }
+}
+
 // A hard row, at its bound, that holds back what almost cancels: by `rest` of
 // 2 |1| + 1 |2 - rest|, twice, before the step and after it.
 TEST_P(LevelQpTest, LetsGoOfAHardRowThatHoldsBackMoreThanRounding) {
@@ -280,8 +293,8 @@ TEST_P(LevelQpTest, LetsGoOfAHardRowThatHoldsBackMoreThanRounding) {
   }
 }
 
-// Of rows that hold back, the one that does most goes first: a second step is
-// not needed then.
+// Of rows that hold back, the one that does most goes first; of two that do as
+// much, the first.
 TEST_P(LevelQpTest, LetsGoFirstOfTheRowThatHoldsBackMost) {
   for (int most = 0; most < 2; ++most) {
     LevelQp qp = MakeQp(MatrixXd::Identity(2, 2), Eigen::Vector2d(-1, -1),
@@ -296,6 +309,13 @@ TEST_P(LevelQpTest, LetsGoFirstOfTheRowThatHoldsBackMost) {
     EXPECT_EQ(qp.side[most], Side::kNone);
     EXPECT_EQ(qp.side[1 - most], Side::kUpper);
   }
+  LevelQp even = MakeQp(MatrixXd::Identity(2, 2), Eigen::Vector2d(-1, -1),
+                        MatrixXd::Identity(2, 2), false);
+  even.lower.setZero();
+  even.side.assign(2, Side::kLower);
+  EXPECT_EQ(Solve(&even, 1), -1);
+  EXPECT_EQ(even.side[0], Side::kNone);
+  EXPECT_EQ(even.side[1], Side::kLower);
 }
 
 // Neither does a row of size zero, at its bound where z starts, hold anything
