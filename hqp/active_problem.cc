@@ -57,6 +57,7 @@ ActiveProblem::ActiveProblem(int num_variables,
       size_(rows_.size()) {
   for (const LevelCapacity& level : capacity) {
     norm_.emplace_back(level.inequalities);
+    factored_.emplace_back(level.inequalities, Side::kNone);
     B_norm_.emplace_back(level.equalities);
     selected_.emplace_back(level.equalities, 0);
   }
@@ -99,7 +100,7 @@ void ActiveProblem::Plan(const Hierarchy& hierarchy, int num_levels,
                          const double* center) {
   num_levels_ = num_levels;
   num_head_ = num_levels;
-  head_.Truncate(0);
+  is_factored_ = false;
   tail_.Clear();
   // The tail: last levels without inequalities whose rows have one variable.
   for (int level = num_levels - 1; level >= 0; --level) {
@@ -141,9 +142,17 @@ void ActiveProblem::AddRow(const Row& row, const double* from, double metric) {
   for (int j = 0; j < n_; ++j) to[j] = from[j] / row.norm;
 }
 
-void ActiveProblem::Solve(const Hierarchy& hierarchy,
-                          const std::vector<std::vector<Side>>& side,
-                          int from_level) {
+void ActiveProblem::AddInequality(const Hierarchy& hierarchy, int level, int i,
+                                  Side side) {
+  const double* row = hierarchy.C(level).data() + i * n_;
+  const double bound = side == Side::kUpper ? hierarchy.upper(level)[i]
+                                            : hierarchy.lower(level)[i];
+  AddRow({level, i, true, Norm(row, n_), bound}, row, 1);
+}
+
+void ActiveProblem::FactorFrom(const Hierarchy& hierarchy,
+                               const std::vector<std::vector<Side>>& side,
+                               int from_level) {
   head_.Truncate(from_level);
   for (int level = from_level; level < num_head_; ++level) {
     for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
@@ -155,14 +164,53 @@ void ActiveProblem::Solve(const Hierarchy& hierarchy,
     }
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       if (side[level][i] == Side::kNone || norm_[level][i] == 0) continue;
-      const double* row = hierarchy.C(level).data() + i * n_;
-      const double bound = side[level][i] == Side::kUpper
-                               ? hierarchy.upper(level)[i]
-                               : hierarchy.lower(level)[i];
-      AddRow({level, i, true, Norm(row, n_), bound}, row, 1);
+      AddInequality(hierarchy, level, i, side[level][i]);
     }
     head_.FactorLevel();
+    factored_[level] = side[level];
   }
+}
+
+// Of the levels before the first deficient one, rows that are met in whatever
+// order: one by one they go and come. The others are factored anew. False if a
+// row that comes nearly depends on others.
+bool ActiveProblem::Update(const Hierarchy& hierarchy,
+                           const std::vector<std::vector<Side>>& side) {
+  int met = 0;
+  while (met < num_head_ && !head_.is_deficient(met)) ++met;
+  if (met == 0) return false;
+  head_.Merge(met);
+  for (int a = head_.num_rows() - 1; a >= 0; --a) {
+    const Row& row = rows_[a];
+    if (!row.is_inequality ||
+        side[row.level][row.index] == factored_[row.level][row.index]) {
+      continue;
+    }
+    factored_[row.level][row.index] = Side::kNone;
+    head_.RemoveRow(a);
+    rows_[a] = rows_[head_.num_rows()];
+  }
+  for (int level = 0; level < met; ++level) {
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+      if (side[level][i] == factored_[level][i] || norm_[level][i] == 0) {
+        continue;
+      }
+      AddInequality(hierarchy, level, i, side[level][i]);
+      if (!head_.AppendRow()) return false;
+      factored_[level][i] = side[level][i];
+    }
+  }
+  head_.SolveLast();
+  FactorFrom(hierarchy, side, met);
+  return true;
+}
+
+void ActiveProblem::Solve(const Hierarchy& hierarchy,
+                          const std::vector<std::vector<Side>>& side) {
+  if (!is_factored_ || !Update(hierarchy, side)) {
+    FactorFrom(hierarchy, side, 0);
+  }
+  is_factored_ = true;
   // The tail has at least the norm of y.
   tail_.Solve(head_, y_.data());
 }

@@ -43,10 +43,11 @@ class ActiveProblem {
   void Plan(const Hierarchy& hierarchy, int num_levels,
             const double* center = nullptr);
 
-  /// Solves for rows active on these sides, by level. What is above from_level
-  /// must be as in the last solve.
+  /// Solves for rows active on these sides, by level: if not the first time, by
+  /// an update of the last factorisation, as far as that is safe. Then its rows
+  /// are not in the order of their levels.
   void Solve(const Hierarchy& hierarchy,
-             const std::vector<std::vector<Side>>& side, int from_level);
+             const std::vector<std::vector<Side>>& side);
 
   /// Improves y, by what the rows as they were given lack, until each is met as
   /// exactly as its own terms allow: orthogonalisation alone gives it to rounding
@@ -90,6 +91,11 @@ class ActiveProblem {
 
  private:
   void AddRow(const Row& row, const double* from, double metric);
+  void AddInequality(const Hierarchy& hierarchy, int level, int i, Side side);
+  void FactorFrom(const Hierarchy& hierarchy,
+                  const std::vector<std::vector<Side>>& side, int level);
+  bool Update(const Hierarchy& hierarchy,
+              const std::vector<std::vector<Side>>& side);
   void AddToSum(const Hierarchy& hierarchy, int a, double factor,
                 double* sum) const;
   const double* Original(const Hierarchy& hierarchy, int a) const;
@@ -99,6 +105,8 @@ class ActiveProblem {
 
   int n_;
   int num_levels_ = 0, num_head_ = 0;
+  bool is_factored_ = false;
+  std::vector<std::vector<Side>> factored_;  ///< The sides at work in the head.
   RowStack head_;
   SelectionTail tail_;
   std::vector<Row> rows_;

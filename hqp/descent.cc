@@ -57,12 +57,12 @@ bool Descent::AllAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget,
   const int levels = hierarchy.num_levels();
   if (!budget->Take(limit)) return false;
   problem->Plan(hierarchy, levels);
-  problem->Solve(hierarchy, *side, 0);
-  int from_level = Start(hierarchy, problem, side);
-  while (from_level != kNone) {
+  problem->Solve(hierarchy, *side);
+  bool has_changed = Start(hierarchy, problem, side);
+  while (has_changed) {
     if (!budget->Take(limit)) return false;
-    problem->Solve(hierarchy, *side, from_level);
-    from_level = Settle(hierarchy, levels, problem, side);
+    problem->Solve(hierarchy, *side);
+    has_changed = Settle(hierarchy, levels, problem, side);
   }
   return true;
 }
@@ -81,14 +81,14 @@ int Descent::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
     problem->Plan(hierarchy, std::min(level + 1, levels),
                   level < levels ? y_.data() : nullptr);
     if (level < levels) Begin(hierarchy, level, side);
-    int from_level = 0;
-    while (from_level != kNone) {
+    bool has_changed = true;
+    while (has_changed) {
       if (!budget->Take()) {
         Unwind(side);
         return level;
       }
-      problem->Solve(hierarchy, *side, from_level);
-      from_level = Settle(hierarchy, level, problem, side);
+      problem->Solve(hierarchy, *side);
+      has_changed = Settle(hierarchy, level, problem, side);
     }
     if (level < levels) Keep(level, *problem, *side);
     settled_ = *side;
@@ -108,9 +108,9 @@ void Descent::Unwind(std::vector<std::vector<Side>>* side) const {
 }
 
 // Begins all levels at once; `problem` is solved for the active rows. Returns
-// the first level that changes, or kNone if that is the optimum.
-int Descent::Start(const Hierarchy& hierarchy, ActiveProblem* problem,
-                   std::vector<std::vector<Side>>* side) {
+// whether these change; if not, that is the optimum.
+bool Descent::Start(const Hierarchy& hierarchy, ActiveProblem* problem,
+                    std::vector<std::vector<Side>>* side) {
   const int levels = hierarchy.num_levels();
   for (int level = 0; level < levels; ++level) {
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
@@ -126,15 +126,13 @@ int Descent::Start(const Hierarchy& hierarchy, ActiveProblem* problem,
     y_ = problem->y();
     FindBroken(hierarchy, *problem, y_, *side);
   }
-  int from_level = levels;
-  for (int level = levels - 1; level >= 0; --level) {
+  for (int level = 0; level < levels; ++level) {
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       if (broken_[level][i] == Side::kNone) continue;
       (*side)[level][i] = broken_[level][i];
-      from_level = level;
     }
   }
-  return from_level;
+  return true;
 }
 
 // Finds the sides that y breaks, but for those that are active. Returns how
@@ -187,20 +185,19 @@ void Descent::Begin(const Hierarchy& hierarchy, int level,
 }
 
 // Goes towards the solution of the problem; if it gets there, lets rows leave.
-// Returns the first level that changes, or kNone if the levels up to this one
-// are at their optimum.
-int Descent::Settle(const Hierarchy& hierarchy, int level,
-                    ActiveProblem* problem,
-                    std::vector<std::vector<Side>>* side) {
-  const int blocked = Advance(hierarchy, *problem, side);
-  return blocked != kNone ? blocked : Drop(level, problem, side);
+// Returns whether the active rows change; if not, the levels up to this one are
+// at their optimum.
+bool Descent::Settle(const Hierarchy& hierarchy, int level,
+                     ActiveProblem* problem,
+                     std::vector<std::vector<Side>>* side) {
+  return Advance(hierarchy, *problem, side) || Drop(level, problem, side);
 }
 
 // Goes towards the solution of the problem as far as the other rows, and the
-// other sides of active rows, allow. Returns the level of the row that is in the
-// way, now active, or kNone if it has arrived.
-int Descent::Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
-                     std::vector<std::vector<Side>>* side) {
+// other sides of active rows, allow. Returns whether a row is in the way, now
+// active.
+bool Descent::Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
+                      std::vector<std::vector<Side>>* side) {
   for (int j = 0; j < n_; ++j) step_[j] = problem.y()[j] - y_[j];
   const double largest = Largest(step_);
   const double rounding = kRounding * (Largest(y_) + Largest(problem.y()));
@@ -237,7 +234,7 @@ int Descent::Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
   const bool has_moved = length * largest > rounding;
   if (blocking.level == kNone) {
     y_ = problem.y();
-    return kNone;
+    return false;
   }
   for (int j = 0; j < n_; ++j) y_[j] += length * step_[j];
   (*side)[blocking.level][blocking.row] = at;
@@ -246,17 +243,16 @@ int Descent::Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
     // What leaves moves away from its bound: it was for rounding that it left.
     leaves_[blocking.level][blocking.row] = 0;
   }
-  return blocking.level;
+  return true;
 }
 
 // Lets the rows go that are inside their own bound, or else the one that holds
-// the levels up to this one back most. Returns the first level that changes, or
-// kNone.
-int Descent::Drop(int level, ActiveProblem* problem,
-                  std::vector<std::vector<Side>>* side) {
-  int from_level = kNone, leaving = kNone;
+// the levels up to this one back most. Returns whether one does.
+bool Descent::Drop(int level, ActiveProblem* problem,
+                   std::vector<std::vector<Side>>* side) {
+  int leaving = kNone;
   double worst = 0;
-  bool is_priced = false;
+  bool is_priced = false, any = false;
   left_ = {kNone, kNone};
   for (int a = 0; a < problem->head().num_rows(); ++a) {
     const ActiveProblem::Row& row = problem->row(a);
@@ -274,18 +270,18 @@ int Descent::Drop(int level, ActiveProblem* problem,
     if (l == row.level + 1) {
       at = Side::kNone;
       --leaves_[row.level][row.index];
-      if (from_level == kNone) from_level = row.level;
+      any = true;
     } else if (price < worst) {
       leaving = a;
       worst = price;
     }
   }
-  if (from_level != kNone || leaving == kNone) return from_level;
+  if (any || leaving == kNone) return any;
   const ActiveProblem::Row& row = problem->row(leaving);
   left_ = {row.level, row.index};
   (*side)[row.level][row.index] = Side::kNone;
   --leaves_[row.level][row.index];
-  return row.level;
+  return true;
 }
 
 // What a level leaves violated stays so; what rounding held may leave again.

@@ -49,19 +49,19 @@ class Descent {
   };
 
   void Unwind(std::vector<std::vector<Side>>* side) const;
-  int Start(const Hierarchy& hierarchy, ActiveProblem* problem,
-            std::vector<std::vector<Side>>* side);
+  bool Start(const Hierarchy& hierarchy, ActiveProblem* problem,
+             std::vector<std::vector<Side>>* side);
   int FindBroken(const Hierarchy& hierarchy, const ActiveProblem& problem,
                  const std::vector<double>& y,
                  const std::vector<std::vector<Side>>& side);
   void Begin(const Hierarchy& hierarchy, int level,
              std::vector<std::vector<Side>>* side);
-  int Settle(const Hierarchy& hierarchy, int level, ActiveProblem* problem,
-             std::vector<std::vector<Side>>* side);
-  int Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
+  bool Settle(const Hierarchy& hierarchy, int level, ActiveProblem* problem,
               std::vector<std::vector<Side>>* side);
-  int Drop(int level, ActiveProblem* problem,
-           std::vector<std::vector<Side>>* side);
+  bool Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
+               std::vector<std::vector<Side>>* side);
+  bool Drop(int level, ActiveProblem* problem,
+            std::vector<std::vector<Side>>* side);
   void Keep(int level, const ActiveProblem& problem,
             const std::vector<std::vector<Side>>& side);
 

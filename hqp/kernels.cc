@@ -128,6 +128,21 @@ void AddToRows(double* rows, int stride, int count, const double* factor,
 }
 
 POISE_CLONES
+void Rotate(double c, double s, int n, double* x, double* y) {
+  int j = 0;
+  for (; j + 4 <= n; j += 4) {
+    const Four xj = POISE_LOAD(x + j), yj = POISE_LOAD(y + j);
+    POISE_STORE(x + j) = xj * c + yj * s;
+    POISE_STORE(y + j) = yj * c - xj * s;
+  }
+  for (; j < n; ++j) {
+    const double xj = x[j], yj = y[j];
+    x[j] = xj * c + yj * s;
+    y[j] = yj * c - xj * s;
+  }
+}
+
+POISE_CLONES
 void DotWithSize(const double* row, const double* x, int n, double* dot,
                  double* size) {
   const int whole = n & ~3;

@@ -21,6 +21,9 @@ void AddRows(const double* rows, int stride, int count, const double* factor,
 void AddToRows(double* rows, int stride, int count, const double* factor,
                const double* x, int n);
 
+/// (x, y) = (c x + s y, c y - s x).
+void Rotate(double c, double s, int n, double* x, double* y);
+
 /// sum_i |x_i|: NaN or infinite if an entry is.
 double AbsoluteSum(const double* x, int n);
 

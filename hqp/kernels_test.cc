@@ -54,6 +54,17 @@ TEST_F(KernelsTest, DotsAreTheSumsOfProducts) {
   });
 }
 
+TEST_F(KernelsTest, RotateMixesTwoVectors) {
+  ForAllSizes([&](int, int n) {
+    std::vector<double> x = x_, y = factor_;
+    kernels::Rotate(3, 5, n, x.data(), y.data());
+    for (int j = 0; j < kStride; ++j) {
+      EXPECT_EQ(x[j], j < n ? 3 * x_[j] + 5 * factor_[j] : x_[j]) << j;
+      EXPECT_EQ(y[j], j < n ? 3 * factor_[j] - 5 * x_[j] : factor_[j]) << j;
+    }
+  });
+}
+
 TEST_F(KernelsTest, AddRowsIsTheSumOfScaledRows) {
   ForAllSizes([&](int rows, int n) {
     std::vector<double> sum = x_;

@@ -203,8 +203,9 @@ void Reporter::ReportNullity(const Hierarchy& hierarchy, ActiveProblem* problem,
   bool all_count = true;
   equalities_.Truncate(0);
   for (int level = 0; level < problem->num_head(); ++level) {
-    for (int a = head.first_row(level); a < head.end_row(level); ++a) {
+    for (int a = 0; a < head.num_rows(); ++a) {
       const ActiveProblem::Row& row = problem->row(a);
+      if (row.level != level) continue;
       if (row.is_inequality && !IsViolated(row, *solution)) {
         all_count = false;
         continue;

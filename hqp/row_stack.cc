@@ -53,6 +53,8 @@ RowStack::RowStack(int num_variables, int max_rows, int max_levels)
   reflection_.resize(static_cast<size_t>(n_) * max_rows);
   factor_.resize(std::max(max_rows, stride_));
   scratch_.resize(std::max(max_rows, stride_));
+  cosine_.resize(n_);
+  sine_.resize(n_);
   chosen_.resize(max_rows);
 }
 
@@ -104,6 +106,69 @@ void RowStack::FactorLevel() {
   }
   SolveLevel(level);
   levels_.push_back(level);
+}
+
+void RowStack::Merge(int level) {
+  Truncate(level);
+  for (int l = 0; l + 1 < level; ++l) levels_[l] = {0, 0, 0, 0, false};
+  if (level > 0) levels_[level - 1] = {0, num_rows_, 0, rank_, false};
+}
+
+void RowStack::RemoveRow(int a) {
+  Level& level = levels_.back();
+  const auto l = [&](int e) {
+    return &effective_[static_cast<size_t>(e) * stride_];
+  };
+  const auto q = [&](int e) { return &q_[static_cast<size_t>(e) * stride_]; };
+  const int last = --num_rows_;
+  int removed = 0;
+  while (carrier_[removed] != a) ++removed;
+  for (int e = removed; e + 1 < rank_; ++e) {
+    // The next row of L moves up, and has one entry too many: a rotation of its
+    // last two columns, and so of two rows of Q, takes it away.
+    double* row = l(e);
+    std::copy_n(l(e + 1), e + 2, row);
+    for (int k = removed; k < e; ++k) {
+      const double x = row[k], y = row[k + 1];
+      row[k] = cosine_[k] * x + sine_[k] * y;
+      row[k + 1] = cosine_[k] * y - sine_[k] * x;
+    }
+    const double length = std::hypot(row[e], row[e + 1]);
+    cosine_[e] = row[e] / length;
+    sine_[e] = row[e + 1] / length;
+    row[e] = length;
+    kernels::Rotate(cosine_[e], sine_[e], n_, q(e), q(e + 1));
+    carrier_[e] = carrier_[e + 1];
+    effective_target_[e] = effective_target_[e + 1];
+  }
+  --rank_;
+  for (int e = 0; e < rank_; ++e) {
+    if (carrier_[e] == last) carrier_[e] = a;
+  }
+  target_[a] = target_[last];
+  metric_[a] = metric_[last];
+  level.end_row = num_rows_;
+  level.rank_end = rank_;
+}
+
+bool RowStack::AppendRow() {
+  const int a = num_rows_ - 1;
+  ProjectOut(a);
+  const double norm = std::sqrt(rest_[a]);
+  if (rank_ == n_ || norm < kGoodPart) {
+    --num_rows_;
+    return false;
+  }
+  double* l = &effective_[static_cast<size_t>(rank_) * stride_];
+  std::copy_n(&l_[static_cast<size_t>(a) * stride_], rank_, l);
+  l[rank_] = norm;
+  double* q = &q_[static_cast<size_t>(rank_) * stride_];
+  for (int j = 0; j < n_; ++j) q[j] = row(a)[j] / norm;
+  carrier_[rank_] = a;
+  effective_target_[rank_] = target_[a];
+  levels_.back().end_row = num_rows_;
+  levels_.back().rank_end = ++rank_;
+  return true;
 }
 
 // Takes the levels before out of row a.

@@ -18,7 +18,9 @@ namespace poise {
 /// reflections among its rows, to as many "effective" rows as its rank. So L,
 /// of all effective rows, is lower triangular, and y = Q' z.
 ///
-/// Levels can be dropped from the end and added again. Nothing allocates after
+/// Levels can be dropped from the end and added again. Levels before the first
+/// deficient one are all met, so their order does not matter: they can be taken
+/// as one, in which rows come and go one at a time. Nothing allocates after
 /// construction.
 class RowStack {
  public:
@@ -34,6 +36,22 @@ class RowStack {
 
   /// Factors the rows added since the last level; row(a) is overwritten.
   void FactorLevel();
+
+  /// Makes one level of those before `level`, none of them deficient: it takes
+  /// the number of the last one, the others are empty. Drops the levels from
+  /// this one on.
+  void Merge(int level);
+
+  /// Takes row a out of the last level, which is not deficient; the last row gets
+  /// its number. Takes rank() - e rotations, where it was the e-th.
+  void RemoveRow(int a);
+
+  /// Factors one row added to the last level, which is not deficient. False if
+  /// no good part of it is independent: then it is not in it.
+  [[nodiscard]] bool AppendRow();
+
+  /// Solves the last level anew: after all RemoveRow() and AppendRow().
+  void SolveLast() { SolveLevel(levels_.back()); }
 
   int num_levels() const { return static_cast<int>(levels_.size()); }
   int num_rows() const { return num_rows_; }
@@ -85,7 +103,6 @@ class RowStack {
   struct Level {
     int first_row, end_row, rank_begin, rank_end;
     bool deficient;  ///< rank_end - rank_begin < end_row - first_row.
-    int first_reflection;
   };
   void ProjectOut(int a);
   void PivotRows(Level* level);
@@ -104,7 +121,7 @@ class RowStack {
   std::vector<double> target_, metric_, residual_, rest_, fresh_;
   std::vector<int> carrier_;  ///< Effective row: the row it is, or replaces.
   std::vector<double> reflection_;  ///< n x max_rows.
-  std::vector<double> factor_, scratch_;
+  std::vector<double> factor_, scratch_, cosine_, sine_;
   std::vector<bool> chosen_;
 };
 

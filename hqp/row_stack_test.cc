@@ -167,6 +167,92 @@ TEST_P(RandomRowStackTest, LevelsComeBackAfterTheyWereDropped) {
   }
 }
 
+// Rows of the levels that are met go, each in turn and then with it the ones
+// before it, and come back; so do levels after them. What is left is solved as
+// if it had been all.
+TEST_P(RandomRowStackTest, UpdatesAreAsGoodAsFactorisingAnew) {
+  int met = 0;
+  while (met < num_levels_ && !stack_.is_deficient(met)) ++met;
+  if (met == 0) return;
+  stack_.Merge(met);
+  ASSERT_EQ(stack_.num_levels(), met);
+  const int count = stack_.num_rows();
+  EXPECT_EQ(stack_.rank(), count);
+  EXPECT_EQ(stack_.first_row(met - 1), 0);
+  std::vector<LeastSquares> levels(levels_.begin() + (met - 1), levels_.end());
+  LeastSquares& first = levels[0];
+  first.A.resize(count, n_);
+  first.b.resize(count);
+  first.weight.setOnes(count);
+  for (int l = 0, row = 0; l < met; ++l) {
+    for (int i = 0; i < levels_[l].A.rows(); ++i, ++row) {
+      first.A.row(row) = levels_[l].A.row(i);
+      first.b[row] = levels_[l].b[i];
+    }
+  }
+  const auto check = [&] {
+    stack_.SolveLast();
+    for (size_t l = 1; l < levels.size(); ++l) AddLevel(levels[l], &stack_);
+    const int rows = static_cast<int>(first.A.rows());
+    const LexicographicOptimum optimum = SolveLexicographically(n_, levels);
+    const double tolerance =
+        Rounding(10, kMaxRows, optimum.condition * optimum.condition);
+    ASSERT_EQ(stack_.end_row(met - 1), rows);
+    ASSERT_EQ(stack_.rank(met - 1), rows);
+    const Eigen::MatrixXd Q = Basis(stack_, n_);
+    EXPECT_LE((Q * Q.transpose() -
+               Eigen::MatrixXd::Identity(stack_.rank(), stack_.rank()))
+                  .norm(),
+              Rounding(1, n_));
+    EXPECT_LE((Optimum(stack_, n_) - optimum.y).norm(), tolerance);
+    Eigen::VectorXd force = Eigen::VectorXd::LinSpaced(rows, 1, 2), nu(rows);
+    const Eigen::VectorXd sum = Q.topRows(rows).transpose() * force;
+    stack_.SolveDual(met, force.data(), nu.data());
+    EXPECT_LE((first.A.transpose() * nu - sum).norm(), tolerance);
+    for (int a = 0; a < rows; ++a) EXPECT_EQ(stack_.residual(a), 0) << a;
+    // What a row lacks, by its number.
+    Eigen::VectorXd lack = Eigen::VectorXd::Zero(stack_.num_rows());
+    Eigen::VectorXd change(stack_.rank());
+    for (int a = 0; a < rows; ++a) lack[a] = 1 + a;
+    stack_.Correct(lack.data(), change.data());
+    EXPECT_LE((first.A * Q.topRows(rows).transpose() * change.head(rows) -
+               lack.head(rows))
+                  .norm(),
+              tolerance);
+    stack_.Truncate(met);
+  };
+  for (int removed = 0; removed < count; ++removed) {
+    SCOPED_TRACE(removed);
+    const LeastSquares all = first;
+    std::vector<int> gone;  // By number in `all`.
+    for (int a = removed; a >= 0; a -= 2) {
+      const auto last = first.A.rows() - 1;
+      gone.push_back(a);
+      stack_.RemoveRow(a);
+      ASSERT_EQ(stack_.num_rows(), last);
+      first.A.row(a) = Eigen::RowVectorXd(first.A.row(last));
+      first.b[a] = first.b[last];
+      first.A.conservativeResize(last, n_);
+      first.b.conservativeResize(last);
+      first.weight.conservativeResize(last);
+      check();
+    }
+    for (const int from : gone) {
+      const int a = stack_.AddRow(all.b[from], 1);
+      const auto end = first.A.rows();
+      ASSERT_EQ(a, end);
+      Eigen::VectorXd::Map(stack_.row(a), n_) = all.A.row(from);
+      ASSERT_TRUE(stack_.AppendRow());
+      first.A.conservativeResize(end + 1, n_);
+      first.b.conservativeResize(end + 1);
+      first.weight.setOnes(end + 1);
+      first.A.row(end) = all.A.row(from);
+      first.b[end] = all.b[from];
+      check();
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomRowStackTest, testing::Range(0, kSeeds));
 
 // y1 = 1 twice and y1 = 3 once, in one level; then y1 = 5, y2 = 7.
@@ -252,6 +338,27 @@ TEST_F(RowStackTest, OrthogonalisesWhatIsNearlyParallel) {
   }
 }
 
+// Less than a thousandth of it, or in a space that is full.
+TEST_F(RowStackTest, AppendsNoRowThatNearlyDependsOnOthers) {
+  for (const double rest : {0.5e-3, 2e-3}) {
+    RowStack stack(2, 3, 1);
+    stack.AddRow(1, 1);
+    Eigen::Vector2d::Map(stack.row(0)) << 0.6, 0.8;
+    stack.FactorLevel();
+    Eigen::Vector2d::Map(stack.row(stack.AddRow(1, 1))) << 0.6 - 0.8 * rest,
+        0.8 + 0.6 * rest;
+    const bool is_good = rest > 1e-3;
+    EXPECT_EQ(stack.AppendRow(), is_good) << rest;
+    EXPECT_EQ(stack.num_rows(), is_good ? 2 : 1) << rest;
+    EXPECT_EQ(stack.rank(), is_good ? 2 : 1) << rest;
+    EXPECT_EQ(stack.is_well_conditioned(), true) << rest;
+    if (!is_good) continue;
+    Eigen::Vector2d::Map(stack.row(stack.AddRow(1, 1))) << 0, 1;
+    EXPECT_FALSE(stack.AppendRow());
+    EXPECT_EQ(stack.num_rows(), 2);
+  }
+}
+
 TEST_F(RowStackTest, AResidualOfRoundingIsNone) {
   for (const double off : {1e-13, 1e-10}) {
     RowStack stack(1, 2, 2);
@@ -294,6 +401,13 @@ TEST_F(RowStackTest, DoesNotAllocate) {
     stack.Gradient(1, force);
     stack.SolveDual(2, force, nu);
     stack.Correct(lack, change);
+    stack.Merge(1);
+    stack.RemoveRow(0);
+    stack.AddRow(1, 1);
+    stack.row(1)[1] = 1;
+    stack.row(1)[0] = 0;
+    EXPECT_TRUE(stack.AppendRow());
+    stack.SolveLast();
   }
   EXPECT_EQ(count.allocations(), 0);
 }

@@ -14,6 +14,9 @@ using kernels::AddRows;
 using kernels::AddToRows;
 using kernels::Dots;
 
+// An entry below this, of a row of unit length, is rounding's.
+constexpr double kNoEntry = 1e-15;
+
 // A gradient below this, relative to what it is added up from, is zero.
 constexpr double kZeroGradient = 1e-13;
 
@@ -67,15 +70,36 @@ void SelectionTail::Finish(const double* targets) {
   for (int j = 0; j < n_; ++j) {
     if (level_of_[j] < 0) Add(j, 1, targets != nullptr ? targets[j] : 0);
   }
+  const double usual = UsualWeight();
   int position = 0;
+  const auto add = [&](int level, bool is_usual) {
+    for (int j = 0; j < n_; ++j) {
+      if (level_of_[j] == level && (weight_[j] == usual) == is_usual) {
+        order_[position++] = j;
+      }
+    }
+  };
   for (int level = num_levels_ - 1; level >= 0; --level) {
     blocks_[level].begin = position;
-    for (int j = 0; j < n_; ++j) {
-      if (level_of_[j] == level) order_[position++] = j;
-    }
+    add(level, false);
+    usual_begin_ = position;  // At last, that of level 0.
+    add(level, true);
     blocks_[level].end = position;
   }
   for (int p = 0; p < n_; ++p) scale_[p] = std::sqrt(weight_[order_[p]]);
+}
+
+// Of the first level's variables, that of the most, if it is that of more than
+// half of them.
+double SelectionTail::UsualWeight() const {
+  double weight = 0;
+  int lead = 0;
+  for (int j = 0; j < n_; ++j) {
+    if (level_of_[j] != 0) continue;
+    if (lead == 0) weight = weight_[j];
+    lead += weight_[j] == weight ? 1 : -1;
+  }
+  return weight;
 }
 
 void SelectionTail::Tie(const RowStack& head) {
@@ -103,6 +127,7 @@ void SelectionTail::EliminateAll(int end) {
 
 void SelectionTail::Solve(const RowStack& head, double* y) {
   Tie(head);
+  Separate();
   Start(head, head.z());
   for (int p = 0; p < n_; ++p) {
     const double target = target_[order_[p]];
@@ -158,42 +183,76 @@ void SelectionTail::Start(const RowStack& head, const double* z) {
 void SelectionTail::Eliminate(int level, int end) {
   Block& block = blocks_[level];
   for (int steps = block.end - block.begin; steps > 0; --steps) {
-    const int row = block.row_end, rows = rank_ - row;
-    if (rows == 0) return;
-    double* first = &t_[static_cast<size_t>(row) * stride_];
-    // The largest column of what is left.
-    double* squares = scratch_.data();
-    std::fill_n(squares, n_, 0);
-    for (int i = 0; i < rows; ++i) {
-      const double* t = first + static_cast<size_t>(i) * stride_;
-      for (int p = block.begin; p < block.end; ++p) squares[p] += t[p] * t[p];
-    }
-    const int pivot = static_cast<int>(
-        std::max_element(squares + block.begin, squares + block.end) - squares);
-    if (squares[pivot] <= kRankTolerance * kRankTolerance) return;
-    // H = I - v v' moves it into the first row.
-    double* v = &reflection_[static_cast<size_t>(num_reflections_) * stride_];
-    std::fill_n(v, row, 0);
-    for (int i = 0; i < rows; ++i) {
-      v[row + i] = first[static_cast<size_t>(i) * stride_ + pivot];
-    }
-    const double squared = SquaredNorm(v + row, rows);
-    const double alpha = v[row] > 0 ? -std::sqrt(squared) : std::sqrt(squared);
-    const double root = std::sqrt(squared - alpha * v[row]);
-    v[row] -= alpha;
-    for (int i = row; i < rank_; ++i) {
-      v[i] /= root;
-      factor_[i] = -v[i];
-    }
-    const int columns = end - block.begin;
-    std::fill_n(scratch_.data(), columns, 0);
-    AddRows(first + block.begin, stride_, rows, v + row, columns,
-            scratch_.data());
-    AddToRows(first + block.begin, stride_, rows, factor_.data() + row,
-              scratch_.data(), columns);
-    ++num_reflections_;
+    const int row = block.row_end;
+    double squared = 0;
+    const int pivot =
+        LargestColumn(row, rank_, block.begin, block.end, &squared);
+    if (squared <= kRankTolerance * kRankTolerance) return;
+    Reflect(row, rank_, row, pivot, block.begin, end);
     ++block.row_end;
   }
+}
+
+// Of the first level, reflects its other variables into its last rows. The rows
+// before have variables of the usual weight only: they are orthonormal, and, as
+// the last ones are orthogonal to them, they stay so when divided by d.
+void SelectionTail::Separate() {
+  const Block& block = blocks_[0];
+  usual_row_end_ = block.row_end;
+  const int others = usual_begin_ - block.begin;
+  if (2 * others > block.end - block.begin) usual_row_end_ = block.row_begin;
+  for (int steps = others; steps > 0; --steps) {
+    double squared = 0;
+    const int pivot = LargestColumn(block.row_begin, usual_row_end_,
+                                    block.begin, usual_begin_, &squared);
+    if (squared <= kNoEntry * kNoEntry) return;
+    Reflect(block.row_begin, usual_row_end_, usual_row_end_ - 1, pivot,
+            block.begin, n_);
+    --usual_row_end_;
+  }
+}
+
+// Of these rows, the column with the largest sum of squares.
+int SelectionTail::LargestColumn(int row_begin, int row_end, int begin, int end,
+                                 double* squared) {
+  if (row_begin >= row_end) return begin;
+  double* squares = scratch_.data();
+  std::fill_n(squares, n_, 0);
+  for (int i = row_begin; i < row_end; ++i) {
+    const double* t = &t_[static_cast<size_t>(i) * stride_];
+    for (int p = begin; p < end; ++p) squares[p] += t[p] * t[p];
+  }
+  const double* largest = std::max_element(squares + begin, squares + end);
+  *squared = *largest;
+  return static_cast<int>(largest - squares);
+}
+
+// Reflects these rows, H = I - v v', so that of column `pivot` all is in row
+// `target`; of the columns from `begin` on, as before it they are zero.
+void SelectionTail::Reflect(int row_begin, int row_end, int target, int pivot,
+                            int begin, int end) {
+  double* first = &t_[static_cast<size_t>(row_begin) * stride_];
+  double* v = &reflection_[static_cast<size_t>(num_reflections_) * stride_];
+  const int rows = row_end - row_begin;
+  std::fill_n(v, rank_, 0);
+  for (int i = 0; i < rows; ++i) {
+    v[row_begin + i] = first[static_cast<size_t>(i) * stride_ + pivot];
+  }
+  const double squared = SquaredNorm(v + row_begin, rows);
+  const double alpha = v[target] > 0 ? -std::sqrt(squared) : std::sqrt(squared);
+  const double root = std::sqrt(squared - alpha * v[target]);
+  v[target] -= alpha;
+  for (int i = row_begin; i < row_end; ++i) {
+    v[i] /= root;
+    factor_[i] = -v[i];
+  }
+  const int columns = end - begin;
+  std::fill_n(scratch_.data(), columns, 0);
+  AddRows(first + begin, stride_, rows, v + row_begin, columns,
+          scratch_.data());
+  AddToRows(first + begin, stride_, rows, factor_.data() + row_begin,
+            scratch_.data(), columns);
+  ++num_reflections_;
 }
 
 // T/d = L Q. A row that depends on others, for rounding alone can do that, is
@@ -202,22 +261,31 @@ void SelectionTail::FactorLevel(int level) {
   const Block& block = blocks_[level];
   const int columns = block.end - block.begin;
   const int rows = block.row_end - block.row_begin;
-  double* first = &q_[static_cast<size_t>(block.row_begin) * stride_];
+  const int usual = level == 0 ? usual_row_end_ - block.row_begin : 0;
+  double* first = &q_[static_cast<size_t>(block.row_begin + usual) * stride_];
   for (int i = 0; i < rows; ++i) {
     const size_t at = static_cast<size_t>(block.row_begin + i) * stride_;
     double *q = &q_[at], *l = &l_[at];
     const double* t = &t_[at] + block.begin;
+    std::fill_n(l, i + 1, 0);
+    if (i < usual) {
+      const int others = usual_begin_ - block.begin;
+      std::fill_n(q, others, 0);
+      std::copy_n(t + others, columns - others, q + others);
+      l[i] = 1 / scale_[usual_begin_];
+      continue;
+    }
     for (int p = 0; p < columns; ++p) q[p] = t[p] / scale_[block.begin + p];
     const double before = SquaredNorm(q, columns);
     double after = before;
-    std::fill_n(l, i + 1, 0);
-    for (int pass = 0; pass < 2 && i > 0; ++pass) {
-      Dots(first, stride_, i, q, columns, scratch_.data());
-      for (int k = 0; k < i; ++k) {
-        l[k] += scratch_[k];
+    const int above = i - usual;
+    for (int pass = 0; pass < 2 && above > 0; ++pass) {
+      Dots(first, stride_, above, q, columns, scratch_.data());
+      for (int k = 0; k < above; ++k) {
+        l[usual + k] += scratch_[k];
         scratch_[k] = -scratch_[k];
       }
-      AddRows(first, stride_, i, scratch_.data(), columns, q);
+      AddRows(first, stride_, above, scratch_.data(), columns, q);
       after = SquaredNorm(q, columns);
       if (after > before / 4) break;
     }

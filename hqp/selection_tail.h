@@ -77,6 +77,12 @@ class SelectionTail {
     int row_begin, row_end;  ///< Its rows of U' Q.
     double size;             ///< Of its gradient: see Dual().
   };
+  double UsualWeight() const;
+  void Separate();
+  int LargestColumn(int row_begin, int row_end, int begin, int end,
+                    double* squared);
+  void Reflect(int row_begin, int row_end, int target, int pivot, int begin,
+               int end);
   void Gather(const double* rows, int stride, int count);
   void EliminateAll(int end);
   void Start(const RowStack& head, const double* z);
@@ -89,9 +95,12 @@ class SelectionTail {
   std::vector<int> level_of_;            ///< By variable; -1: none yet.
   std::vector<double> weight_, target_;  ///< By variable.
   std::vector<int> order_;               ///< Variable by position.
-  std::vector<Block> blocks_;            ///< By level.
-  std::vector<double> t_;                ///< U' Q, by position, n x stride.
-  std::vector<double> reflection_;       ///< n x stride.
+  int usual_begin_ =
+      0;  ///< Level 0: where variables of its usual weight begin.
+  int usual_row_end_ = 0;           ///< Its rows before have none but these.
+  std::vector<Block> blocks_;       ///< By level.
+  std::vector<double> t_;           ///< U' Q, by position, n x stride.
+  std::vector<double> reflection_;  ///< n x stride.
   std::vector<double> start_, step_, ideal_, scale_;  ///< By position.
   std::vector<double> x_, magnitude_;                 ///< By position.
   std::vector<double> z_, nu_;                        ///< By row of U' Q.

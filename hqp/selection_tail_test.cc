@@ -48,8 +48,11 @@ std::vector<std::vector<Selection>> MakeSelections(int seed, int n) {
   std::vector<std::vector<Selection>> levels(1 + below(kMaxTailLevels));
   for (std::vector<Selection>& level : levels) {
     level.resize(1 + below(n));
+    // Of half of them, most of the weights are the same.
+    const bool has_usual = below(2) == 0;
     for (Selection& row : level) {
       row = {below(n), 1 + below(100) / 10.0, below(21) - 10.0};
+      if (has_usual && below(4) > 0) row.weight = 2.5;
     }
   }
   return levels;

@@ -105,13 +105,13 @@ void Solver::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
     }
     side_ = best_side_;
     problem_.Plan(hierarchy, levels);
-    problem_.Solve(hierarchy, side_, 0);
+    problem_.Solve(hierarchy, side_);
     problem_.Refine(hierarchy);
   } else {
     solution->status = Status::kIterationLimit;
     solution->failed_level = std::max(std::min(solved, levels - 1), 0);
     problem_.Plan(hierarchy, solution->failed_level);
-    problem_.Solve(hierarchy, side_, 0);
+    problem_.Solve(hierarchy, side_);
     problem_.RefineOther(hierarchy, descent_.y());
     // Where rows nearly depend on others, that may lead astray.
     if (EnterViolated(hierarchy, false)) {
