@@ -15,12 +15,9 @@ namespace {
 constexpr double kRefined = 1e-13;
 constexpr int kMaxPasses = 6;
 
-// What is missed by more after all passes is rounding, where zero was meant.
-constexpr double kHopeless = 1e-6;
-
-// An entry of y below this, relative to the largest, before and after, is what
-// refinement leaves of a zero.
-constexpr double kNothing = 1e-25;
+// An entry of y below this, relative to the largest, before and after, may be
+// what refinement leaves of a zero.
+constexpr double kNothing = 1e-18;
 
 // A residual below this, relative to what it is added up from, is zero.
 constexpr double kZeroResidual = 1e-12;
@@ -235,6 +232,21 @@ double ActiveProblem::FindLack(const Hierarchy& hierarchy) {
   return worst;
 }
 
+// The same by level, each as a whole, by what its rows weigh in its gradient.
+double ActiveProblem::WorstMissedLevel() const {
+  double worst = 0;
+  for (int level = 0; level < num_head_; ++level) {
+    double missed = 0, force = 0;
+    for (int a = 0; a < head_.num_rows(); ++a) {
+      if (rows_[a].level != level || head_.residual(a) != 0) continue;
+      missed = std::max(missed, head_.weight(a) * std::abs(lack_[a]));
+      force = std::max(force, head_.weight(a) * size_[a]);
+    }
+    if (missed > 0) worst = std::max(worst, missed / force);
+  }
+  return worst;
+}
+
 void ActiveProblem::Refine(const Hierarchy& hierarchy) {
   Refine(hierarchy, true);
 }
@@ -263,10 +275,15 @@ void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
     tail_.Correct(head_, change_.data(), to_minimum && pass == 0, y_.data());
   }
   for (double entry : y_) largest = std::max(largest, std::abs(entry));
-  if (FindLack(hierarchy) > kHopeless) {
+  if (FindLack(hierarchy) > kRefined) {
+    // Where zero was meant, rounding is left, unless it is met worse without.
+    const double missed = WorstMissedLevel();
+    change_ = y_;
     for (double& entry : y_) {
       if (std::abs(entry) < kNothing * largest) entry = 0;
     }
+    FindLack(hierarchy);
+    if (WorstMissedLevel() > missed) y_ = change_;
   }
   FindResiduals(hierarchy);
 }

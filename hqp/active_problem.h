@@ -100,6 +100,7 @@ class ActiveProblem {
                 double* sum) const;
   const double* Original(const Hierarchy& hierarchy, int a) const;
   double FindLack(const Hierarchy& hierarchy);
+  double WorstMissedLevel() const;
   void Refine(const Hierarchy& hierarchy, bool to_minimum);
   void FindResiduals(const Hierarchy& hierarchy);
 
