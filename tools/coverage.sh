@@ -14,7 +14,9 @@ case ${1:-} in
     ;;
 esac
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(//...)
+# Not //...: that would follow the bazel-* links of another output base.
+[ ${#targets[@]} -gt 0 ] ||
+  targets=(//math/... //dynamics/... //hqp/... //robot/... //sim/... //tests/... //tools/...)
 
 home=${POISE_COVERAGE:-$HOME/.cache/poise/coverage}
 mkdir -p "$home"
@@ -23,6 +25,7 @@ flags=()
 if [ -n "${POISE_SHARED:-}" ]; then flags+=(--test_env=POISE_SHARED); fi
 rm -rf "$home/counters"
 "${bazel[@]}" test --config=coverage --noshow_progress --keep_going \
+  --experimental_convenience_symlinks=ignore \
   --test_env=GCOV_PREFIX="$home/counters" --test_env=GCOV_PREFIX_STRIP=3 \
   "${flags[@]}" "${targets[@]}"
 status=$?

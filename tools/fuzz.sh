@@ -31,7 +31,9 @@ done
 home=${POISE_FUZZ:-$HOME/.cache/poise/fuzz}
 mkdir -p "$home"
 bazel=(bazel "--output_base=$home/output")
-"${bazel[@]}" build --config=fuzz --noshow_progress "${labels[@]}" || exit 1
+# Links to this output base would be followed by //... of the user's.
+"${bazel[@]}" build --config=fuzz --noshow_progress \
+  --experimental_convenience_symlinks=ignore "${labels[@]}" || exit 1
 bin=$("${bazel[@]}" info --config=fuzz bazel-bin 2> /dev/null)/tests/fuzz
 "${bazel[@]}" shutdown
 
