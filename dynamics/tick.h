@@ -28,7 +28,9 @@ struct FrameTick {
 };
 
 /// Everything that one control tick needs of the dynamics, computed in one call
-/// by ComputeTick(). Nobody else writes it. SI units; angular before linear.
+/// by ComputeTick(). Nobody else writes it. SI units; angular before linear. M,
+/// N and J are those of the paper's (7), J and Jdot_v of (11), c of (17), H_G and
+/// H_G_bias of (19).
 ///
 /// | member | shape | meaning | axes, point | computed from |
 /// | M | nv x nv | joint-space inertia, symmetric to the bit | as v | q |

@@ -14,8 +14,11 @@
 
 namespace poise {
 
+/// How a joint lets its child move. A continuous joint is a revolute one without
+/// limits, which is no matter of dynamics; the name is kept for who asks.
 enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic };
 
+/// Whether the root link stands still at the world's origin, or moves freely.
 enum class BaseType { kFixed, kFloating };
 
 /// A joint as the builder takes it: child frame = parent frame, moved by X_PF
@@ -38,7 +41,7 @@ struct Joint {
   int parent;              ///< Body that carries it.
   Pose X_PF;               ///< Joint frame F on the parent body P.
   Eigen::Vector3d axis_F;  ///< Unit vector.
-  double armature;
+  double armature;         ///< On M's diagonal, kg m2 (or kg).
 };
 
 /// A named frame fixed in a body: every link given to the builder has one.
@@ -59,7 +62,8 @@ struct Frame {
 /// | q | p_WB; quaternion of R_WB (x, y, z, w); joints | nq = n + 7 |
 /// | v | w_WB_W; v_WB_W; joint rates | nv = n + 6 |
 ///
-/// p_WB and v_WB are those of the origin of the root link. v is not q's rate.
+/// p_WB and v_WB are those of the origin of the root link. v is not q's rate:
+/// q moves by Integrate(). It is the paper's q̇, and q its [x; q_j] of (7).
 class Tree {
  public:
   int num_bodies() const { return static_cast<int>(inertias_.size()); }
@@ -72,23 +76,28 @@ class Tree {
   int q_start() const { return is_floating() ? 7 : 0; }
   int v_start() const { return is_floating() ? 6 : 0; }
 
+  /// In the order of q and v.
   const std::vector<Joint>& joints() const { return joints_; }
   /// By body, in the axes and about the origin of the body's frame.
   const std::vector<Inertia>& inertias() const { return inertias_; }
+  /// One for each link given to the builder, the root's first.
   const std::vector<Frame>& frames() const { return frames_; }
 
   /// joints() and inertias() again, as the recursions take them.
   const JointMaps& joint_maps() const { return joint_maps_; }
   const MassMomentsArray& mass_moments() const { return mass_moments_; }
 
+  /// The index of a name in joints() or frames(), if it is there. Costs O(n):
+  /// for setup, not for each tick.
   std::optional<int> FindJoint(std::string_view name) const;
   std::optional<int> FindFrame(std::string_view name) const;
 
+  /// kg.
   double total_mass() const { return total_mass_; }
   /// Acceleration of free fall, (0, 0, -9.81) m/s2 unless the builder was told.
   const Eigen::Vector3d& gravity_W() const { return gravity_W_; }
 
-  /// All joints zero, the base at the world's origin.
+  /// The q at which all joints are zero and the base is at the world's origin.
   Eigen::VectorXd MakeNeutral() const;
 
   /// The same tree with all masses and moments of inertia, armature too, times
@@ -119,17 +128,19 @@ class TreeBuilder {
   /// From now on links may have negative principal moments, and moments without
   /// mass: no body has, but files of real robots do, and all can be computed.
   TreeBuilder& AcceptUnphysicalInertias();
+  /// Its links may be added later.
   TreeBuilder& AddJoint(JointSpec joint);
   /// Fixes a moving joint at a value (rad or m): a reduced tree.
   TreeBuilder& Lock(std::string joint, double value);
+  /// Acceleration of free fall, m/s2.
   TreeBuilder& SetGravity(const Eigen::Vector3d& gravity_W);
 
-  /// These throw std::invalid_argument, naming the link or joint, its value and
-  /// what was wanted: no or several roots, a cycle, a link with two parents, an
-  /// unknown or repeated name, a zero axis, a rotation that is none, an inertia
-  /// that no body has, a number that is not finite. Axes may have any length,
-  /// and rotations be off by 1e-5: the unit vector, and the nearest rotation,
-  /// are taken.
+  /// All of the above and this throw std::invalid_argument, naming the link or
+  /// joint, its value and what was wanted: no or several roots, a cycle, a link
+  /// with two parents, an unknown or repeated name, a zero axis, a rotation that
+  /// is none, an inertia that no body has, a number that is not finite. Axes may
+  /// have any length, and rotations be off by 1e-5: the unit vector, and the
+  /// nearest rotation, are taken.
   Tree Build(BaseType base = BaseType::kFloating) const;
 
  private:

@@ -58,7 +58,7 @@ def ranges(numbers):
 def share(counts):
     """(run, all, percent)"""
     run = sum(1 for n in counts if n)
-    return run, len(counts), 100 * run / len(counts) if counts else 100.0
+    return run, len(counts), 100 * run / len(counts) if counts else 0.0
 
 
 def main():
