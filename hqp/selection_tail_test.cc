@@ -88,6 +88,15 @@ class RandomSelectionTailTest : public testing::TestWithParam<int> {
         .topRows(n_)
         .transpose();
   }
+  void Fill(SelectionTail* tail) const {
+    for (size_t l = 0; l + 1 < selections_.size(); ++l) {
+      tail->AddLevel();
+      for (const Selection& row : selections_[l]) {
+        tail->Add(row.variable, row.weight, row.target);
+      }
+    }
+    tail->Finish(nullptr);
+  }
   double Tolerance() const {
     return Rounding(10, kMaxRows, optimum_.condition * optimum_.condition);
   }
@@ -206,6 +215,46 @@ TEST_P(RandomSelectionTailTest, TieFindsTheNullitiesAlone) {
   }
 }
 
+// Rows that span the same, neither orthogonal nor of unit length.
+TEST_P(RandomSelectionTailTest, TieRowsFindsTheSameNullities) {
+  const int rank = head_.rank();
+  Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(rank, rank);
+  for (int i = 0; i < rank; ++i) {
+    for (int k = 0; k < i; ++k) mix(i, k) = 0.1 * ((i + 2 * k) % 5 - 2);
+  }
+  // Stored by rows, three numbers between one and the next.
+  const int stride = n_ + 3;
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Constant(stride, rank, 100);
+  rows.topRows(n_) = (mix * Basis()).transpose();
+  SelectionTail tail(n_, kMaxTailLevels);
+  Fill(&tail);
+  tail.TieRows(rows.data(), stride, rank);
+  for (int l = 0; l < tail.num_levels(); ++l) {
+    EXPECT_EQ(tail.Nullity(l), tail_.Nullity(l)) << l;
+  }
+}
+
+TEST_P(RandomSelectionTailTest, ForgetsWhatItSolvedBefore) {
+  SelectionTail tail(n_, kMaxTailLevels);
+  RowStack other(n_, n_, 1);
+  Eigen::VectorXd y(n_);
+  for (int i = 0; i < n_; ++i) {
+    for (int j = 0; j < n_; ++j) other.row(i)[j] = i == j ? n_ : 1 + i + j % 3;
+    Eigen::VectorXd::Map(other.row(i), n_).normalize();
+    if (i % 2 == 1) continue;
+    other.Truncate(0);
+    for (int a = 0; a <= i; ++a) other.AddRow(a, 1);
+    other.FactorLevel();
+    tail.Clear();
+    tail.Finish(nullptr);
+    tail.Solve(other, y.data());
+  }
+  tail.Clear();
+  Fill(&tail);
+  tail.Solve(head_, y.data());
+  EXPECT_EQ(y, y_);
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomSelectionTailTest,
                          testing::Range(0, kSeeds));
 
@@ -269,6 +318,41 @@ TEST_F(SelectionTailTest, FinishesAtTargetsWhereThereAreSome) {
   EXPECT_NEAR(y_[0], 3, Rounding(3, 3));
   EXPECT_NEAR(y_[1], std::sqrt(2) - 3, Rounding(3, 3));
   EXPECT_NEAR(y_[2], 9, Rounding(9, 3));
+}
+
+// y = 1 + off above y = 1: relative to the two of them, or to where a correction
+// starts.
+TEST_F(SelectionTailTest, AGradientOfRoundingIsNone) {
+  for (const double weight : {0.01, 4.0}) {
+    for (const double part : {0.7e-13, 1.4e-13}) {
+      for (const double start : {1.0, 7.0}) {
+        const double size = start + 1, off = part * size;
+        RowStack head(1, 1, 1);
+        *head.row(head.AddRow(1 + off, 1)) = 1;
+        head.FactorLevel();
+        SelectionTail tail(1, 1);
+        tail.AddLevel();
+        tail.Add(0, weight, 1);
+        tail.Finish(nullptr);
+        double y, on_head = 5, left = 5;
+        tail.Solve(head, &y);
+        if (start != 1) {
+          y = start;
+          const double change = (1 + off - start) * head.basis()[0];
+          tail.Correct(head, &change, true, &y);
+        }
+        const double found = tail.Dual(0, &on_head, &left);
+        EXPECT_EQ(left, 5);
+        if (part < 1e-13) {
+          EXPECT_EQ(found, 0) << weight << ", " << start;
+          EXPECT_EQ(on_head, 5) << weight << ", " << start;
+        } else {
+          EXPECT_NEAR(found, weight * size, weight * (off + Rounding(size, 1)))
+              << weight << ", " << start;
+        }
+      }
+    }
+  }
 }
 
 TEST_F(SelectionTailTest, DoesNotAllocate) {
