@@ -37,16 +37,32 @@ class DescentTest : public testing::TestWithParam<int> {
   int Search(int max_iterations) {
     ActiveProblem problem(n_, drawn_.capacity);
     EXPECT_EQ(problem.Read(hierarchy_, &found_.failed_level), Status::kOptimal);
-    std::vector<std::vector<Side>> side = NoSides(drawn_.capacity);
+    side_ = NoSides(drawn_.capacity);
     Budget budget(max_iterations, 0, &no_clock_);
     const int levels =
-        descent_.LevelByLevel(hierarchy_, &budget, &problem, &side);
+        descent_.LevelByLevel(hierarchy_, &budget, &problem, &side_);
     iterations_ = budget.iterations();
     found_.y = Eigen::VectorXd::Map(descent_.y().data(), n_);
     for (int level = 0; level < num_levels_; ++level) {
       EvaluateLevel(hierarchy_, level, &found_);
     }
     return levels;
+  }
+  // What is violated on these levels is active, and nothing is on others.
+  void ExpectHeldBack(int levels) const {
+    for (int level = 0; level < num_levels_; ++level) {
+      const Eigen::VectorXd value = hierarchy_.C(level) * found_.y;
+      for (int i = 0; i < hierarchy_.num_inequalities(level); ++i) {
+        const Side side = side_[level][i];
+        if (level >= levels) {
+          EXPECT_EQ(side, Side::kNone) << level << ", " << i;
+        } else if (value[i] > hierarchy_.upper(level)[i] + 1e-6) {
+          EXPECT_EQ(side, Side::kUpper) << level << ", " << i;
+        } else if (value[i] < hierarchy_.lower(level)[i] - 1e-6) {
+          EXPECT_NE(side, Side::kNone) << level << ", " << i;
+        }
+      }
+    }
   }
   double Tolerance(int level) const {
     return 1e-9 * CostSize(hierarchy_, level, reference_);  // As of Solver.
@@ -60,6 +76,7 @@ class DescentTest : public testing::TestWithParam<int> {
   Solution reference_{n_, drawn_.capacity}, found_{n_, drawn_.capacity};
   Descent descent_{n_, drawn_.capacity};
   int iterations_ = 0;
+  std::vector<std::vector<Side>> side_;
 };
 
 TEST_P(DescentTest, AgreesWithTheCascade) {
@@ -79,8 +96,10 @@ TEST_P(DescentTest, KeepsWhatItHasSolvedWhenItsBudgetEnds) {
   const int needed = iterations_;
   for (int budget = 0; budget < needed; ++budget) {
     const int levels = Search(budget);
+    ASSERT_GE(levels, 0);
     ASSERT_LE(levels, num_levels_);
     EXPECT_EQ(iterations_, budget);
+    ExpectHeldBack(levels);
     for (int level = 0; level < levels; ++level) {
       EXPECT_NEAR(found_.levels[level].cost, reference_.levels[level].cost,
                   Tolerance(level))
@@ -186,6 +205,16 @@ TEST(Descent, ChangesTheSideOfARow) {
   EXPECT_EQ(descent.y()[0], -1);
   // At 1; lets go; towards -3, and stopped; there.
   EXPECT_EQ(budget.iterations(), 3);
+  for (int too_few = 0; too_few < 3; ++too_few) {
+    Budget short_of_it(too_few, 0, &no_clock);
+    side = {{Side::kUpper}, {}};
+    EXPECT_FALSE(Descent(1, capacity)
+                     .AllAtOnce(hierarchy, 100, &short_of_it, &problem, &side));
+    Budget ample(100, 0, &no_clock);
+    side = {{Side::kUpper}, {}};
+    EXPECT_FALSE(Descent(1, capacity)
+                     .AllAtOnce(hierarchy, too_few, &ample, &problem, &side));
+  }
   descent.Forget();
   EXPECT_EQ(descent.y()[0], 0);
 }
