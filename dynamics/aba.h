@@ -13,9 +13,9 @@ namespace poise {
 /// How ComputeAba() ended.
 enum class AbaStatus {
   kOk,
-  /// M is singular: some motion, such as that of a joint with a massless body,
-  /// has no inertia, and no acceleration is the answer. vdot is NaN. Give the
-  /// body a mass or the joint an armature, or lock the joint.
+  /// M is singular, or not positive: some motion, such as that of a joint with a
+  /// massless body, has no inertia, and no acceleration is the answer. vdot is
+  /// NaN. Give the body a mass or the joint an armature, or lock the joint.
   kSingular,
   /// A number given was not finite, the base's quaternion was 0, or the answer
   /// overflows. vdot is NaN.

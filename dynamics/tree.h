@@ -140,7 +140,8 @@ class TreeBuilder {
   /// with two parents, an unknown or repeated name, a zero axis, a rotation that
   /// is none, an inertia that no body has, a number that is not finite. Axes may
   /// have any length, and rotations be off by 1e-5: the unit vector, and the
-  /// nearest rotation, are taken.
+  /// nearest rotation, are taken. Joints stand depth first in q and v, not in
+  /// the order they were added in: ask FindJoint().
   Tree Build(BaseType base = BaseType::kFloating) const;
 
  private:
