@@ -8,31 +8,11 @@
 #include "hqp/row_stack.h"
 #include "tests/util/count_malloc.h"
 #include "tests/util/lexicographic.h"
+#include "tests/util/stacked_rows.h"
 #include "tests/util/tolerance.h"
 
 namespace poise {
 namespace {
-
-void AddLevel(const LeastSquares& level, RowStack* stack) {
-  for (int i = 0; i < level.A.rows(); ++i) {
-    const int a = stack->AddRow(level.b[i], std::sqrt(level.weight[i]));
-    Eigen::VectorXd::Map(stack->row(a), level.A.cols()) = level.A.row(i);
-  }
-  stack->FactorLevel();
-}
-
-Eigen::MatrixXd Basis(const RowStack& stack, int n) {
-  Eigen::MatrixXd Q(stack.rank(), n);
-  for (int i = 0; i < stack.rank(); ++i) {
-    Q.row(i) = Eigen::RowVectorXd::Map(stack.basis() + i * stack.stride(), n);
-  }
-  return Q;
-}
-
-Eigen::VectorXd Optimum(const RowStack& stack, int n) {
-  return Basis(stack, n).transpose() *
-         Eigen::VectorXd::Map(stack.z(), stack.rank());
-}
 
 // y1 = 1 twice and y1 = 3 once, in one level; then y1 = 5, y2 = 7.
 class RowStackTest : public testing::Test {

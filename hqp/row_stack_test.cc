@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tests/util/lexicographic.h"
+#include "tests/util/stacked_rows.h"
 #include "tests/util/tolerance.h"
 
 namespace poise {
@@ -14,27 +15,6 @@ namespace {
 
 constexpr int kSeeds = 300;
 constexpr int kMaxRows = 24, kMaxLevels = 4;  // Of MakeRandomLevels().
-
-void AddLevel(const LeastSquares& level, RowStack* stack) {
-  for (int i = 0; i < level.A.rows(); ++i) {
-    const int a = stack->AddRow(level.b[i], std::sqrt(level.weight[i]));
-    Eigen::VectorXd::Map(stack->row(a), level.A.cols()) = level.A.row(i);
-  }
-  stack->FactorLevel();
-}
-
-Eigen::MatrixXd Basis(const RowStack& stack, int n) {
-  Eigen::MatrixXd Q(stack.rank(), n);
-  for (int i = 0; i < stack.rank(); ++i) {
-    Q.row(i) = Eigen::RowVectorXd::Map(stack.basis() + i * stack.stride(), n);
-  }
-  return Q;
-}
-
-Eigen::VectorXd Optimum(const RowStack& stack, int n) {
-  return Basis(stack, n).transpose() *
-         Eigen::VectorXd::Map(stack.z(), stack.rank());
-}
 
 class RandomRowStackTest : public testing::TestWithParam<int> {
  protected:

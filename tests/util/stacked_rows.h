@@ -1,0 +1,20 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "hqp/row_stack.h"
+#include "tests/util/lexicographic.h"
+
+namespace poise {
+
+/// Adds the rows of a level, and factors them.
+void AddLevel(const LeastSquares& level, RowStack* stack);
+
+/// Q of n variables, a row for each of the stack's rank.
+Eigen::MatrixXd Basis(const RowStack& stack, int n);
+
+/// The stack's y = Q' z.
+Eigen::VectorXd Optimum(const RowStack& stack, int n);
+
+}  // namespace poise
