@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/rank.h"
+
 namespace poise {
 namespace {
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "hqp/certificate.h"
+#include "math/rank.h"
 #include "tests/util/random_hierarchy.h"
 
 namespace poise {

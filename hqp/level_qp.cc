@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "math/rank.h"
+
 namespace poise {
 namespace {
 

@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "math/rank.h"
 #include "tests/util/lexicographic.h"
 #include "tests/util/tolerance.h"
 

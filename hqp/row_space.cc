@@ -2,8 +2,9 @@
 #include "hqp/row_space.h"
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
+
+#include "math/rank.h"
 
 namespace poise {
 
@@ -11,11 +12,14 @@ RowSpace MakeRowSpace(const Eigen::MatrixXd& M, RowSpaceMethod method) {
   if (M.rows() == 0 || M.cols() == 0) {
     return {0, Eigen::MatrixXd::Identity(M.cols(), M.cols())};
   }
+  const int rows = static_cast<int>(M.rows());
+  const int n = static_cast<int>(M.cols());
   if (method == RowSpaceMethod::kSvd) {
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeFullV);
-    const int rank = static_cast<int>(
-        (svd.singularValues().array() > kRankTolerance).count());
-    return {rank, svd.matrixV()};
+    RankRevealing svd(rows, n);
+    svd.Compute(M, 1);
+    RowSpace space{svd.rank(), Eigen::MatrixXd(n, n)};
+    space.V << svd.row_space(), svd.nullspace();
+    return space;
   }
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(M.transpose());
   const int rank = static_cast<int>(

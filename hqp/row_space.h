@@ -11,11 +11,6 @@ enum class RowSpaceMethod {
   kCod,  ///< Orthogonal decomposition with pivoting, the cheaper usual choice.
 };
 
-/// Below this a row, scaled to unit length, counts as dependent on others: far
-/// above what projections leave of a dependent row (1e-15 or so), far below any
-/// row that a robot not at a singularity gives. Both solvers use it.
-constexpr double kRankTolerance = 1e-11;
-
 /// What the rows of a matrix span, and what they leave.
 struct RowSpace {
   int rank;
@@ -23,7 +18,8 @@ struct RowSpace {
 };
 
 /// Splits the space of the rows of M, which should be of unit length before any
-/// projection: singular values below kRankTolerance count as zero.
+/// projection: what is not above kRankTolerance (math/rank.h) of it, singular
+/// values or what is left of rows, counts as zero.
 RowSpace MakeRowSpace(const Eigen::MatrixXd& M, RowSpaceMethod method);
 
 }  // namespace poise

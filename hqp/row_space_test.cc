@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "math/rank.h"
 #include "tests/util/lexicographic.h"
 #include "tests/util/tolerance.h"
 

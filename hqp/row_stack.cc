@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "hqp/kernels.h"
-#include "hqp/row_space.h"
+#include "math/rank.h"
 
 namespace poise {
 namespace {

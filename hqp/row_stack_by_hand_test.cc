@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "hqp/row_space.h"
 #include "hqp/row_stack.h"
+#include "math/rank.h"
 #include "tests/util/count_malloc.h"
 #include "tests/util/lexicographic.h"
 #include "tests/util/stacked_rows.h"

@@ -17,10 +17,6 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-double RankThreshold(int rows, int cols, double sigma_max) noexcept {
-  return std::max(rows, cols) * kEps * sigma_max;
-}
-
 RankRevealing::RankRevealing(int max_rows, int max_cols)
     : qr_(max_cols, max_rows),
       tau_(std::min(max_rows, max_cols)),
@@ -52,7 +48,7 @@ void RankRevealing::Compute(const Eigen::Ref<const Eigen::MatrixXd>& A,
   Sort();
   sigma_.head(size_) *= unit;
   const double sigma_max = size_ == 0 ? 0 : sigma_[0];
-  threshold_ = RankThreshold(rows_, cols_, std::max(sigma_max, scale));
+  threshold_ = kRankTolerance * std::max(sigma_max, scale);
   while (rank_ < size_ && sigma_[rank_] > threshold_) ++rank_;
 }
 

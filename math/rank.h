@@ -6,14 +6,13 @@
 
 namespace poise {
 
-/// The one threshold of rank in this project: singular values of a rows x cols
-/// matrix that are not above
-///     max(rows, cols) eps sigma_max
-/// count as zero. It is the rounding that a matrix of norm sigma_max carries
-/// from the sums of which it was made. NaN if sigma_max is.
-///
-/// Source: Golub and Van Loan, Matrix Computations, 4th ed., 5.5.8.
-double RankThreshold(int rows, int cols, double sigma_max) noexcept;
+/// The one threshold of rank in this project, relative: a singular value that
+/// is not above kRankTolerance of the largest counts as zero, and so does a row
+/// of which a projection leaves no more than kRankTolerance. That is far above
+/// what rounding leaves of a row that depends on others (eps times the number
+/// of its entries, 2e-14 for a hundred), and far below any row that a robot not
+/// at a singularity gives.
+constexpr double kRankTolerance = 1e-11;
 
 /// The singular value decomposition A = U S V', for what it tells of rank: an
 /// orthonormal basis of the rows of A and of its nullspace, its condition, and
@@ -39,7 +38,8 @@ class RankRevealing {
   ///
   /// @param scale  the norm of what A was computed from, where that was larger
   ///               than A (A is a remainder after a projection, say): then the
-  ///               threshold is that of a sigma_max of this size.
+  ///               threshold is that of a sigma_max of this size. 1 for rows
+  ///               that were of unit length.
   ///
   /// If an entry is not finite, all results are NaN and the rank is 0.
   void Compute(const Eigen::Ref<const Eigen::MatrixXd>& A,
@@ -47,7 +47,7 @@ class RankRevealing {
 
   /// The number of singular values above threshold().
   int rank() const noexcept { return rank_; }
-  /// RankThreshold(rows, cols, max(sigma_max, scale)).
+  /// kRankTolerance max(sigma_max, scale).
   double threshold() const noexcept { return threshold_; }
 
   /// min(rows, cols) of them, descending.
