@@ -223,6 +223,9 @@ TEST(FindFeet, SaysWhyThereAreNone) {
             "one flat: the leg has 5, must have 6");
   EXPECT_EQ(Refusal("<robot name='r'><link name='a'/></robot>"),
             "robot 'r' reaches the ground with 1 body, must be two feet");
+  EXPECT_EQ(Refusal(Biped(Collision("box size='0.2 0.0008 0.02'", "0 0 -0.04"),
+                          "0 0 0")),
+            "robot 'biped' has hardly a sole on link 'l6'");
 }
 
 TEST(MakeFoot, RefusesASoleWithoutArea) {

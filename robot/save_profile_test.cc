@@ -86,5 +86,17 @@ TEST(SaveProfile, DoesNotWriteOverWhatItWasMadeFrom) {
   EXPECT_EQ(TextOf(file), "# Mine.\nmimic: free\n");
 }
 
+TEST(SaveProfile, SaysWhichFileCannotBeWritten) {
+  const Profile profile;
+  const Robot robot = LoadRobot(kUrdf, profile);
+  const auto file = TestFile("plain", "") / "saved.yaml";  // In no folder.
+  try {
+    SaveProfile(robot, profile, file);
+    ADD_FAILURE() << "it is written";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(error.what(), file.string() + ": cannot be written");
+  }
+}
+
 }  // namespace
 }  // namespace poise

@@ -547,6 +547,15 @@ TEST(LoadUrdf, WarnsOfWhatControlShouldKnow) {
   }
 }
 
+TEST(LoadUrdf, WarnsOfASlideThatIsVeryLong) {
+  const std::string slide = With("revolute", "prismatic");
+  EXPECT_EQ(Findings(slide, Severity::kWarn), "");
+  std::string text = slide;
+  text.replace(text.find("upper=\"2\""), 9, "upper='11'");
+  EXPECT_NE(Findings(text, Severity::kWarn).find("in millimeters?"),
+            std::string::npos);
+}
+
 TEST(LoadUrdf, NotesWhatIsOdd) {
   EXPECT_NE(Findings(kGood, Severity::kNote).find("xyz is '0 3 4'"),
             std::string::npos);

@@ -566,6 +566,81 @@ TEST_F(RampTest, EasesNothingAfterAFailure) {
   EXPECT_LT((command_.tau - tau).norm(), 1e-7);  // N m: it is all there.
 }
 
+TEST_F(ControllerTest, MovesALinkAsItIsTold) {
+  ControllerOptions options;
+  options.frames = {"l_hand"};
+  Controller controller(robot_, options);
+  controller.Start(state_);
+  ASSERT_TRUE(controller.stack().Enable("frame.l_hand", true));
+  state_.time = 1e-3;
+  controller.Update(state_, &command_);
+  ASSERT_EQ(command_.status, TickStatus::kOk);
+  const auto acceleration = [&]() -> Eigen::VectorXd {
+    const FrameTick& hand = controller.tick().frames[2];
+    return hand.J_WF_W * controller.report().y.head(tree().nv()) + hand.Jdot_v;
+  };
+  // It is where it was when it was started, and stays.
+  EXPECT_LT(acceleration().norm(), 1e-6);
+  const double kp = *controller.stack().GetParameter("frame.l_hand", "kp");
+  controller.reference().frames[0].X_WF.p.z() += 0.01;
+  state_.time = 2e-3;
+  controller.Update(state_, &command_);
+  Eigen::VectorXd up = Eigen::VectorXd::Zero(6);
+  up[5] = kp * 0.01;
+  EXPECT_LT((acceleration() - up).norm(), 1e-6);
+}
+
+TEST_F(ControllerTest, KeepsACoupling) {
+  const int joint = *tree().FindJoint("neck_yaw");
+  const int source = *tree().FindJoint("chest_yaw");
+  robot_.model.mimics = {{joint, source, -2, 0.1}};
+  Controller controller(robot_);
+  controller.Start(state_);
+  ASSERT_TRUE(controller.stack().Find("mimic").has_value());
+  state_.v[6 + source] = 0.2;
+  state_.time = 1e-3;
+  controller.Update(state_, &command_);
+  ASSERT_EQ(command_.status, TickStatus::kOk);
+  const double kp = *controller.stack().GetParameter("mimic", "kp");
+  const double kd = *controller.stack().GetParameter("mimic", "kd");
+  const Eigen::VectorXd& y = controller.report().y;
+  // The joint is 0.1 rad short of where it should be, and -0.4 rad/s slow.
+  EXPECT_NEAR(y[6 + joint] + 2 * y[6 + source], 0.1 * kp - 0.4 * kd, 1e-6);
+}
+
+TEST_F(ControllerTest, RefusesWhatItCannotDo) {
+  const auto message = [&](const ControllerOptions& options) -> std::string {
+    try {
+      const Controller controller(robot_, options);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  ControllerOptions options;
+  options.dt = 0;
+  EXPECT_EQ(message(options),
+            "control period is 0.000000 s, must be above 0 and below 1");
+  options.dt = 1;
+  EXPECT_EQ(message(options),
+            "control period is 1.000000 s, must be above 0 and below 1");
+  options = {};
+  options.friction = -0.1;
+  EXPECT_EQ(message(options), "friction is -0.100000, must be 0 to 10");
+  options = {};
+  options.max_iterations = 0;
+  EXPECT_EQ(message(options), "max_iterations is 0, must be positive");
+  options = {};
+  options.frames = {"tail"};
+  EXPECT_EQ(message(options),
+            "frame 'tail': robot 'humanoid' has no such link");
+  robot_.q_nominal.conservativeResize(tree().nq() - 1);
+  EXPECT_EQ(message({}).find("robot 'humanoid': nominal posture has size"), 0u);
+  robot_.feet.clear();
+  EXPECT_EQ(message({}),
+            "robot 'humanoid': has no foot, must have one or more");
+}
+
 TEST_F(ControllerTest, SwitchesATaskByName) {
   EXPECT_FALSE(controller_.stack().Enable("posturing", false));
   ASSERT_TRUE(controller_.stack().Enable("posture", false));

@@ -33,6 +33,12 @@ struct Smooth {
   double value, rate, acceleration;
 };
 
+// How long a foot in the air takes for its way, s.
+double Duration(ContactPhase phase, double down, double swing_time) {
+  if (phase != ContactPhase::kLost) return swing_time;
+  return std::max(0.05, down / kSearchSpeed);
+}
+
 // Upright, with the heading of R_WC.
 Eigen::Matrix3d Upright(const Eigen::Matrix3d& R_WC) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
@@ -92,9 +98,11 @@ void Stance::Lift(int i, double height) noexcept {
       foot.to = height;
       return;
     default: {
+      const double duration =
+          Duration(foot.phase, foot.from - foot.to, swing_time);
       const double reached =
           foot.from + (foot.to - foot.from) *
-                          Smooth(std::min(1.0, foot.since / swing_time)).value;
+                          Smooth(std::min(1.0, foot.since / duration)).value;
       foot.from = reached;
       foot.to = height;
       Enter(&foot, ContactPhase::kUp);
@@ -176,9 +184,7 @@ void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
     }
     contact.in_contact = false;
     const double duration =
-        foot.phase == ContactPhase::kLost
-            ? std::max(0.05, (foot.from - foot.to) / kSearchSpeed)
-            : swing_time;
+        Duration(foot.phase, foot.from - foot.to, swing_time);
     const Smooth way(std::min(1.0, foot.since / duration));
     const double travel = foot.to - foot.from;
     FrameReference& target = reference->feet[i];

@@ -124,5 +124,64 @@ TEST_F(StanceTest, FadesAForceOutBeforeItLiftsAFoot) {
   EXPECT_TRUE(contacts_[0].in_contact);
 }
 
+TEST_F(StanceTest, LiftsToTheHeightThatWasToldLast) {
+  stance_.Lift(0, 0.05);
+  Update();
+  stance_.Lift(0, 0.03);
+  for (int i = 0; i < 301; ++i) Update();
+  ASSERT_EQ(stance_.phase(0), ContactPhase::kUp);
+  for (int i = 0; i < 400; ++i) Update();
+  const double reached = reference_.feet[0].X_WF.p.z();
+  EXPECT_GT(reached, 0.01);
+  EXPECT_LT(reached, 0.02);
+  stance_.Lift(0, 0.08);
+  Update();
+  EXPECT_NEAR(reference_.feet[0].X_WF.p.z(), reached, 1e-6);  // No jump.
+  for (int i = 0; i < 801; ++i) Update();
+  EXPECT_NEAR(reference_.feet[0].X_WF.p.z(), 0.08, 1e-12);
+}
+
+TEST_F(StanceTest, LiftsAFootThatHasLostTheGroundFromWhereItIs) {
+  Roll(0, 0.03);
+  for (int i = 0; i < 80; ++i) Update();
+  ASSERT_EQ(stance_.phase(0), ContactPhase::kLost);
+  const double reached = reference_.feet[0].X_WF.p.z();
+  EXPECT_LT(reached, 0.025);
+  stance_.Lift(0, 0.05);
+  Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kUp);
+  EXPECT_FALSE(stance_.is_meant_down(0));
+  EXPECT_NEAR(reference_.feet[0].X_WF.p.z(), reached, 1e-6);  // No jump.
+}
+
+TEST_F(StanceTest, PutsAFootDown) {
+  stance_.PutDown(0);
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);  // It is.
+  stance_.Lift(0, 0.05);
+  Update();
+  stance_.PutDown(0);
+  Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
+  // The ground carries it still.
+  EXPECT_GE(contacts_[0].max_normal_force, 400);
+  stance_.Lift(0, 0.05);
+  for (int i = 0; i < 1200; ++i) Update();
+  ASSERT_EQ(stance_.phase(0), ContactPhase::kUp);
+  stance_.PutDown(0);
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kLanding);
+  double last = 0.06;
+  for (int i = 0; i < 799; ++i) {
+    // The foot follows its reference.
+    contacts_[0].X_WC.p.z() = last;
+    Update();
+    if (stance_.phase(0) != ContactPhase::kLanding) break;
+    EXPECT_LE(reference_.feet[0].X_WF.p.z(), last);
+    last = reference_.feet[0].X_WF.p.z();
+  }
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
+  EXPECT_TRUE(contacts_[0].in_contact);
+  EXPECT_LT(last, 0.005);
+}
+
 }  // namespace
 }  // namespace poise

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "robot/control/default_stack.h"
 #include "robot/profile.h"
+#include "tests/util/test_file.h"
 
 namespace poise {
 namespace {
@@ -25,6 +28,17 @@ std::string Refusal(const std::string& tasks) {
     ApplyTasks(YAML::Load(tasks), "f", &stack);
   } catch (const std::invalid_argument& error) {
     return error.what();
+  }
+  return "accepted";
+}
+
+std::string SetRefusal(const std::string& text) {
+  Stack stack = MakeStack();
+  try {
+    ApplyTaskSet(TestFile("set.yaml", text), &stack);
+  } catch (const std::invalid_argument& error) {
+    const std::string message = error.what();
+    return message.substr(message.rfind('/') + 1);
   }
   return "accepted";
 }
@@ -70,6 +84,66 @@ TEST(ApplyTasks, RefusesInOneLineWithTheValue) {
                 .find("f:1: task 'posture' has no 'a b', only on, rank"),
             0u);
   EXPECT_EQ(Refusal("posture: {kp: 30}"), "accepted");
+}
+
+TEST(ApplyTaskSet, ReadsAFile) {
+  Stack stack = MakeStack();
+  ApplyTaskSet(TestFile("set.yaml", "tasks: {posture: {kp: 30}, yaw: off}"),
+               &stack);
+  EXPECT_EQ(stack.GetParameter("posture", "kp"), 30);
+  EXPECT_FALSE(stack.settings(*stack.Find("yaw")).enabled);
+  EXPECT_EQ(SetRefusal("task: {}"), "set.yaml:1: has no section 'tasks'");
+  EXPECT_EQ(SetRefusal("[tasks]"), "set.yaml:1: has no section 'tasks'");
+  EXPECT_EQ(SetRefusal("\ntasks:\n  posture: {weight: 0}"),
+            "set.yaml:3: task 'posture': 'weight' is '0', must be positive");
+}
+
+TEST(Stack, ChangesNothingWhereANameOrAValueIsWrong) {
+  Stack stack = MakeStack();
+  const double kp = *stack.GetParameter("posture", "kp");
+  EXPECT_FALSE(stack.SetParameter("posture", "kq", 1));
+  EXPECT_FALSE(stack.SetParameter("postures", "kp", 1));
+  EXPECT_FALSE(stack.SetParameter("posture", "kp", -1));
+  EXPECT_FALSE(stack.SetParameter("posture", "kp",
+                                  std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_FALSE(stack.SetRank("posture", 0));
+  EXPECT_FALSE(stack.SetRank("posture", Stack::kMaxRank + 1));
+  EXPECT_FALSE(stack.SetWeight("posture", 0));
+  EXPECT_EQ(stack.GetParameter("posture", "kp"), kp);
+  EXPECT_EQ(stack.GetParameter("posture", "kq"), std::nullopt);
+  EXPECT_EQ(stack.GetParameter("postures", "kp"), std::nullopt);
+  EXPECT_EQ(stack.settings(*stack.Find("posture")).rank, 5);
+  EXPECT_EQ(stack.settings(*stack.Find("posture")).weight, 1);
+  EXPECT_EQ(stack.RowName(0, 1000, true), "");
+}
+
+class Idle : public Task {
+ public:
+  explicit Idle(const std::string& name) : Task(name, {}, {}) {}
+  void Write(const TaskInput&, EqualityBlock*,
+             InequalityBlock*) const noexcept override {}
+};
+
+TEST(Stack, RefusesATaskThatIsThereOrOutOfRange) {
+  Stack stack = MakeStack();
+  const int tasks = stack.num_tasks();
+  const auto message = [&](const char* name, int rank,
+                           double weight) -> std::string {
+    try {
+      stack.Add(std::make_unique<Idle>(name), {true, rank, weight});
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(message("posture", 1, 1), "task 'posture': is there already");
+  EXPECT_EQ(message("idle", 0, 1), "task 'idle': rank is 0, must be 1 to 8");
+  EXPECT_EQ(message("idle", 9, 1), "task 'idle': rank is 9, must be 1 to 8");
+  EXPECT_EQ(message("idle", 8, 0),
+            "task 'idle': weight is 0.000000, must be positive");
+  EXPECT_EQ(stack.num_tasks(), tasks);
+  EXPECT_EQ(message("idle", 8, 1), "accepted");
+  EXPECT_EQ(stack.Find("idle"), tasks);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "dynamics/integrate.h"
+#include "math/so3.h"
 #include "robot/control/controller.h"
 #include "robot/control/tasks/angular_momentum.h"
 #include "robot/control/tasks/capture_point.h"
@@ -16,9 +17,11 @@
 #include "robot/control/tasks/contact.h"
 #include "robot/control/tasks/cop.h"
 #include "robot/control/tasks/force_regularizer.h"
+#include "robot/control/tasks/frame.h"
 #include "robot/control/tasks/friction.h"
 #include "robot/control/tasks/joint_limits.h"
 #include "robot/control/tasks/linear_momentum.h"
+#include "robot/control/tasks/mimic.h"
 #include "robot/control/tasks/momentum.h"
 #include "robot/control/tasks/newton_euler.h"
 #include "robot/control/tasks/posture.h"
@@ -87,6 +90,15 @@ class TaskTest : public testing::Test {
     const Eigen::Vector3d p(at.x(), at.y(), 0);
     y.segment<6>(nv_) << p.cross(f), f;
     return y;
+  }
+
+  // The tick after the motion has gone on along v̇ for so long.
+  Tick After(double t, const Eigen::VectorXd& y) {
+    State state{1, robot_.q_nominal, state_.v + t * y.head(nv_)};
+    Integrate(tree_, state_.q, state_.v, t, state.q);
+    Controller probe(robot_);
+    probe.Start(state);
+    return probe.tick();
   }
 
   Eigen::VectorXd RandomY() {
@@ -317,14 +329,7 @@ TEST_F(TaskTest, NewtonEulerIsTheBaseOfTheEquationOfMotion) {
 TEST_F(TaskTest, RatesOfMomentumAndFeetAreThoseOfTheMotion) {
   const double h = 1e-6;
   const Eigen::VectorXd y = RandomY();
-  Controller probe(robot_);
-  const auto at = [&](double t) {
-    State state{1, robot_.q_nominal, state_.v + t * y.head(nv_)};
-    Integrate(tree_, state_.q, state_.v, t, state.q);
-    probe.Start(state);
-    return probe.tick();
-  };
-  const Tick before = at(-h), after = at(h);
+  const Tick before = After(-h, y), after = After(h, y);
   const double m = tree_.total_mass();
   const Vector6d rate = (after.L_G - before.L_G) / (2 * h);
   const Reference& reference = controller_.reference();
@@ -364,6 +369,77 @@ TEST_F(TaskTest, ContactPullsASoleUprightAndToTheGround) {
   controller_.reference().ground_z -= 0.01;
   const Eigen::VectorXd above = Residual(task, y);
   EXPECT_NEAR((above - at_ground)[5], 100 * 0.01, 1e-9);
+}
+
+TEST_F(TaskTest, FrameFollowsItsReference) {
+  FrameTask task("l_foot", 0, 0);
+  EXPECT_EQ(task.name(), "frame.l_foot");
+  EXPECT_EQ(task.equality_names()[5], "frame.l_foot.vz");
+  const double kp = 7, kd = 3;
+  for (const Parameter& each : task.parameters()) {
+    if (each.name == "kp") *each.value = kp;
+    if (each.name == "kd") *each.value = kd;
+  }
+  const double h = 1e-6;
+  const Eigen::VectorXd y = RandomY();
+  const Vector6d rate =
+      (After(h, y).frames[0].V_WF_W - After(-h, y).frames[0].V_WF_W) / (2 * h);
+
+  const FrameTick frame = controller_.tick().frames[0];
+  Vector6d e;
+  e << 0.3, -0.2, 0.1, 0.04, -0.05, 0.06;
+  FrameReference reference;
+  reference.X_WF = {ExpSo3(e.head<3>()) * frame.X_WF.R,
+                    frame.X_WF.p + e.tail<3>()};
+  reference.V_WF_W << 1, 2, 3, 4, 5, 6;
+  reference.A_WF_W << 9, 8, 7, 6, 5, 4;
+  controller_.reference().frames = {reference};
+  const Vector6d wanted =
+      reference.A_WF_W + kd * (reference.V_WF_W - frame.V_WF_W) + kp * e;
+  // Central differences over 1e-6 s: good to 1e-5 of the rates.
+  EXPECT_LT((Residual(task, y) - (rate - wanted)).norm(), 1e-4);
+}
+
+TEST_F(TaskTest, FrameLeavesOutWhatIsNotAsked) {
+  FrameTask task("l_foot", 0, 0);
+  controller_.reference().frames.resize(1);
+  const Eigen::VectorXd y = RandomY();
+  const Vector6d both = Residual(task, y);
+  for (const std::string half : {"orientation", "position"}) {
+    for (const Parameter& each : task.parameters()) {
+      if (each.name == "orientation" || each.name == "position") {
+        *each.value = each.name == half ? 1 : 0;
+      }
+    }
+    Vector6d wanted = both;
+    wanted.segment<3>(half == "position" ? 0 : 3).setZero();
+    EXPECT_EQ(Residual(task, y), wanted) << half;
+  }
+}
+
+// What a coupling is off by comes to rest at 0 as a damped spring does.
+TEST_F(TaskTest, MimicIsASpringOnWhatACouplingIsOffBy) {
+  const int joint = *tree_.FindJoint("l_index_2");
+  const int source = *tree_.FindJoint("l_index_1");
+  const int other = *tree_.FindJoint("l_middle_2");
+  robot_.model.mimics = {{joint, source, -1.5, 0.3}, {other, source, 2, 0}};
+  MimicTask task(robot_.model);
+  EXPECT_EQ(task.equality_names()[0], "mimic.l_index_2");
+  const double kp = 7, kd = 3;
+  for (const Parameter& each : task.parameters()) {
+    *each.value = each.name == "kp" ? kp : kd;
+  }
+  const Eigen::VectorXd y = RandomY();
+  const Eigen::VectorXd residual = Residual(task, y);
+  for (int i = 0; i < 2; ++i) {
+    const MimicCoupling& c = robot_.model.mimics[i];
+    const double off = state_.q[7 + c.joint] -
+                       (c.multiplier * state_.q[7 + c.source] + c.offset);
+    const double rate =
+        state_.v[6 + c.joint] - c.multiplier * state_.v[6 + c.source];
+    const double acceleration = y[6 + c.joint] - c.multiplier * y[6 + c.source];
+    EXPECT_NEAR(residual[i], acceleration + kd * rate + kp * off, 1e-12);
+  }
 }
 
 TEST_F(TaskTest, PostureIsAPdOnEachJoint) {
