@@ -57,11 +57,11 @@ void AddShape(const Shape& shape, const Pose& X_BF, Outline* outline) {
 }
 
 double Area(const Sole& sole) {
-  const Eigen::Quaterniond R_SB =
-      Eigen::Quaterniond::FromTwoVectors(sole.normal_B, Vector3d::UnitZ());
+  const Vector3d x = sole.normal_B.unitOrthogonal();
+  const Vector3d y = sole.normal_B.cross(x);
   std::vector<Vector2d> points;
   for (const Vector3d& p : sole.points_B)
-    points.push_back((R_SB * p).head<2>());
+    points.push_back({x.dot(p), y.dot(p)});
   const std::vector<Vector2d> hull = ConvexHull(std::move(points));
   double area = 0;
   for (size_t i = 2; i < hull.size(); ++i) {

@@ -186,9 +186,7 @@ double Sideways(const BulletSettings& bullet) {
   BulletPlant plant(MakeBlock({0.3, 0.3, 0.02}, 5), settings, bullet);
   const Eigen::Vector3d normal = GroundNormal(settings.ground);
   Eigen::VectorXd q(7);
-  q << 0.01 * normal,
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal)
-          .coeffs();
+  q << 0.01 * normal, GroundRotation(settings.ground).coeffs();
   plant.Reset(q, Eigen::VectorXd::Zero(6));
   for (int k = 0; k < 500; ++k) plant.Step({});
   const Eigen::Vector3d way = plant.Sense().q.head<3>() - q.head<3>();

@@ -15,12 +15,6 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-// The rotation that lays a body on the ground.
-Eigen::Quaterniond GroundRotation(const Ground& ground) {
-  return Eigen::AngleAxisd(ground.pitch, Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(ground.roll, Eigen::Vector3d::UnitX());
-}
-
 // Puts a body down, its center `height` above the ground.
 void PutDown(const Ground& ground, double height, Plant* plant) {
   Eigen::VectorXd q(7);

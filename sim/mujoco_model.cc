@@ -61,10 +61,9 @@ class Xml {
 };
 
 void WriteGround(const PlantSettings& settings, Xml* xml) {
-  const Eigen::Quaterniond R_WS = Eigen::Quaterniond::FromTwoVectors(
-      Eigen::Vector3d::UnitZ(), GroundNormal(settings.ground));
+  const Eigen::Quaterniond R_WG = GroundRotation(settings.ground);
   // MuJoCo takes the larger friction of two; the robot says it.
-  *xml << "<geom type=\"plane\" size=\"0 0 1\" quat=\"" << R_WS
+  *xml << "<geom type=\"plane\" size=\"0 0 1\" quat=\"" << R_WG
        << "\" friction=\"0 0 0\"" << kGround << "/>\n";
   for (const Board& board : settings.ground.boards) {
     const Pose X_WS{Eigen::AngleAxisd(board.yaw, Eigen::Vector3d::UnitZ())

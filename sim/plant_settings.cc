@@ -20,6 +20,12 @@ Eigen::Vector3d GroundNormal(const Ground& ground) {
           Eigen::Vector3d::UnitZ());
 }
 
+// The bisector of both is half the way; roll and pitch keep it from zero.
+Eigen::Quaterniond GroundRotation(const Ground& ground) {
+  const Eigen::Vector3d n = GroundNormal(ground);
+  return Eigen::Quaterniond(1 + n.z(), -n.y(), n.x(), 0).normalized();
+}
+
 std::vector<NumberField> Fields(PlantSettings* settings) {
   return {{"rate", &settings->dt, 10, 1e5, "Hz", 1, true},
           {"friction", &settings->friction, 0, 100},

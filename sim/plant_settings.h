@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "sim/number_field.h"
@@ -36,6 +36,8 @@ struct PlantSettings {
 
 /// The plane's normal, out of the ground.
 Eigen::Vector3d GroundNormal(const Ground& ground);
+/// R_WG, the least rotation that turns the world's z axis to the normal.
+Eigen::Quaterniond GroundRotation(const Ground& ground);
 
 /// The numbers of them, to be read or checked.
 std::vector<NumberField> Fields(PlantSettings* settings);

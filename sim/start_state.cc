@@ -30,9 +30,7 @@ State MakeStartState(const Robot& robot, const StartSettings& start,
                    std::max(q, robot.model.limits[j].upper));
   }
 
-  const Eigen::Vector3d normal_W = GroundNormal(ground);
-  const Eigen::Quaterniond R_WG =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal_W);
+  const Eigen::Quaterniond R_WG = GroundRotation(ground);
   const Eigen::Quaterniond R_WS =
       R_WG * Eigen::AngleAxisd(start.heading, Eigen::Vector3d::UnitZ());
   const Eigen::Vector3d place_G(start.place.x(), start.place.y(), start.drop);

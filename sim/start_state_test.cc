@@ -61,8 +61,9 @@ TEST(StartState, LaysTheSolesOnASlopeTurnedAndLifted) {
   const Eigen::Vector3d flat_side = flat[0].p - flat[1].p;
   EXPECT_NEAR(side.norm(), flat_side.norm(), kStanding);
   // The least rotation onto the slope does not turn about its normal.
-  const Eigen::Quaterniond R_WS =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal);
+  const Eigen::AngleAxisd R_WS(
+      std::acos(normal.z()),
+      Eigen::Vector3d::UnitZ().cross(normal).normalized());
   const Eigen::Vector3d back = R_WS.inverse() * side;
   EXPECT_NEAR(std::atan2(flat_side.cross(back).z(), flat_side.dot(back)), 0.7,
               kStanding);

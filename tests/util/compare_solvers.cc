@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "tests/util/compare_solvers.h"
 
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +10,7 @@
 #include "hqp/cascade.h"
 #include "hqp/certificate.h"
 #include "hqp/solver.h"
+#include "math/rank.h"
 
 namespace poise {
 namespace {
@@ -34,13 +35,10 @@ double ConditionOfActiveRows(const Hierarchy& hierarchy,
     }
   }
   if (rows.rows() == 0) return 1;
-  const Eigen::VectorXd sigma =
-      Eigen::JacobiSVD<Eigen::MatrixXd>(rows).singularValues();
-  double smallest = sigma[0];
-  for (const double each : sigma) {
-    if (each > 1e-11 * sigma[0]) smallest = each;  // Else it is dependent.
-  }
-  return sigma[0] / smallest;
+  RankRevealing svd(static_cast<int>(rows.rows()),
+                    static_cast<int>(rows.cols()));
+  svd.Compute(rows);
+  return svd.condition();
 }
 
 // The largest difference of residuals and slacks that count.
