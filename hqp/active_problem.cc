@@ -202,14 +202,23 @@ bool ActiveProblem::Update(const Hierarchy& hierarchy,
   return true;
 }
 
-void ActiveProblem::Solve(const Hierarchy& hierarchy,
-                          const std::vector<std::vector<Side>>& side) {
+void ActiveProblem::SolveHead(const Hierarchy& hierarchy,
+                              const std::vector<std::vector<Side>>& side) {
   if (!is_factored_ || !Update(hierarchy, side)) {
     FactorFrom(hierarchy, side, 0);
   }
   is_factored_ = true;
-  // The tail has at least the norm of y.
-  tail_.Solve(head_, y_.data());
+}
+
+// y + Q' (z - Q y).
+void ActiveProblem::Approach(const std::vector<double>& y) {
+  y_ = y;
+  const int rank = head_.rank();
+  kernels::Dots(head_.basis(), head_.stride(), rank, y_.data(), n_,
+                change_.data());
+  for (int e = 0; e < rank; ++e) change_[e] = head_.z()[e] - change_[e];
+  kernels::AddRows(head_.basis(), head_.stride(), rank, change_.data(), n_,
+                   y_.data());
 }
 
 // By what the rows miss their targets, and what that is added up from. Returns
@@ -245,10 +254,6 @@ double ActiveProblem::WorstMissedLevel() const {
     if (missed > 0) worst = std::max(worst, missed / force);
   }
   return worst;
-}
-
-void ActiveProblem::Refine(const Hierarchy& hierarchy) {
-  Refine(hierarchy, true);
 }
 
 void ActiveProblem::RefineOther(const Hierarchy& hierarchy,

@@ -47,12 +47,25 @@ class ActiveProblem {
   /// an update of the last factorisation, as far as that is safe. Then its rows
   /// are not in the order of their levels.
   void Solve(const Hierarchy& hierarchy,
-             const std::vector<std::vector<Side>>& side);
+             const std::vector<std::vector<Side>>& side) {
+    SolveHead(hierarchy, side);
+    SolveTail();
+  }
+
+  /// The same in two steps: the rows of the head, and the y that is best for
+  /// these and then for the tail.
+  void SolveHead(const Hierarchy& hierarchy,
+                 const std::vector<std::vector<Side>>& side);
+  void SolveTail() { tail_.Solve(head_, y_.data()); }
+
+  /// In place of the second: of all y that are best for the head, whatever the
+  /// tail asks for, the one closest to this.
+  void Approach(const std::vector<double>& y);
 
   /// Improves y, by what the rows as they were given lack, until each is met as
   /// exactly as its own terms allow: orthogonalisation alone gives it to rounding
   /// of the largest numbers in y, and a level may hold none of these.
-  void Refine(const Hierarchy& hierarchy);
+  void Refine(const Hierarchy& hierarchy) { Refine(hierarchy, true); }
 
   /// The same of another y that meets the rows, without going on to the optimum
   /// of what they leave free.

@@ -60,9 +60,18 @@ bool Descent::AllAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget,
   problem->Solve(hierarchy, *side);
   bool has_changed = Start(hierarchy, problem, side);
   while (has_changed) {
-    if (!budget->Take(limit)) return false;
-    problem->Solve(hierarchy, *side);
-    has_changed = Settle(hierarchy, levels, problem, side);
+    // What is best for the head comes first: steps there are cheaper.
+    do {
+      if (!budget->Take(limit)) return false;
+      problem->SolveHead(hierarchy, *side);
+      problem->Approach(y_);
+    } while (Advance(hierarchy, *problem, side));
+    problem->SolveTail();
+    while (Advance(hierarchy, *problem, side)) {
+      if (!budget->Take(limit)) return false;
+      problem->Solve(hierarchy, *side);
+    }
+    has_changed = Drop(levels, problem, side);
   }
   return true;
 }

@@ -9,6 +9,8 @@
 #include "hqp/hierarchy.h"
 #include "hqp/solution.h"
 #include "tests/util/random_hierarchy.h"
+#include "tests/util/stacked_rows.h"
+#include "tests/util/tolerance.h"
 
 namespace poise {
 namespace {
@@ -145,6 +147,26 @@ TEST_P(DescentTest, AgreesWithTheCascadeAllAtOnce) {
         descent_.AllAtOnce(hierarchy_, 10000, &budget, &problem, &side));
     EXPECT_EQ(budget.iterations(), needed + 1);
   }
+}
+
+// Of all y that are best for the head, the one closest to another: best for it
+// is what is best for all levels, and nothing but its rows moves y there.
+TEST_P(DescentTest, ApproachesWhatIsBestForTheHead) {
+  ActiveProblem problem(n_, drawn_.capacity);
+  ASSERT_EQ(problem.Read(hierarchy_, &found_.failed_level), Status::kOptimal);
+  problem.Plan(hierarchy_, num_levels_);
+  problem.Solve(hierarchy_, NoSides(drawn_.capacity));
+  const RowStack& head = problem.head();
+  const Eigen::MatrixXd Q = Basis(head, n_);
+  const auto best = Eigen::VectorXd::Map(problem.y().data(), n_).eval();
+  std::vector<double> from(n_);
+  for (int j = 0; j < n_; ++j) from[j] = 1 + j % 5;
+  problem.Approach(from);
+  const auto y = Eigen::VectorXd::Map(problem.y().data(), n_);
+  const double tolerance = Rounding(n_ + best.norm(), n_);
+  EXPECT_LE((Q * (y - best)).norm(), tolerance);
+  const Eigen::VectorXd step = y - Eigen::VectorXd::Map(from.data(), n_);
+  EXPECT_LE((step - Q.transpose() * (Q * step)).norm(), tolerance);
 }
 
 // A wrong step is made up for by later ones, and shows in how many there are.

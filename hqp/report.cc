@@ -152,8 +152,6 @@ void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
       if (mu >= 0 || problem.Price(a, level, side, tolerance) == 0) continue;
       // The first level that it holds back; or, if that is rounding's, the first
       // where it weighs anything.
-      // The first level that it holds back; or, if that is rounding's, the first
-      // where it weighs anything.
       const auto weight = [&](int l) {
         return l < level ? Weight(problem, *solution, a, l, sign) : 0;
       };

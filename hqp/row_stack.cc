@@ -88,8 +88,7 @@ void RowStack::FactorLevel() {
   Level level;
   level.first_row = levels_.empty() ? 0 : levels_.back().end_row;
   level.end_row = num_rows_;
-  level.rank_begin = rank_;
-  level.rank_end = rank_;
+  level.rank_begin = level.rank_end = rank_;
   for (int a = level.first_row; a < level.end_row; ++a) ProjectOut(a);
   PivotRows(&level);
   const int rows = level.end_row - level.first_row;
