@@ -311,8 +311,8 @@ void ActiveProblem::FindResiduals(const Hierarchy& hierarchy) {
   }
 }
 
-void ActiveProblem::FindMultipliers() {
-  for (int level = 0; level <= num_levels_; ++level) {
+void ActiveProblem::FindMultipliers(int end) {
+  for (int level = 0; level < end; ++level) {
     Multipliers& out = multipliers_[level];
     const int rows =
         level < num_head_ ? head_.first_row(level) : head_.num_rows();

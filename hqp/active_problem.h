@@ -74,8 +74,9 @@ class ActiveProblem {
   /// Takes another y as it is.
   void TakeOther(const Hierarchy& hierarchy, const std::vector<double>& y);
 
-  /// Finds the multipliers of all levels at the last solve.
-  void FindMultipliers();
+  /// Finds the multipliers of the levels before this one at the last solve; the
+  /// norm of y is level num_levels().
+  void FindMultipliers(int end);
 
   /// Improves them, by what is left of the sum that they should bring to zero,
   /// added up from the rows as they were given. Those of a level of the head

@@ -58,20 +58,17 @@ bool Descent::AllAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget,
   if (!budget->Take(limit)) return false;
   problem->Plan(hierarchy, levels);
   problem->Solve(hierarchy, *side);
-  bool has_changed = Start(hierarchy, problem, side);
-  while (has_changed) {
-    // What is best for the head comes first: steps there are cheaper.
-    do {
-      if (!budget->Take(limit)) return false;
-      problem->SolveHead(hierarchy, *side);
-      problem->Approach(y_);
-    } while (Advance(hierarchy, *problem, side));
-    problem->SolveTail();
-    while (Advance(hierarchy, *problem, side)) {
-      if (!budget->Take(limit)) return false;
-      problem->Solve(hierarchy, *side);
-    }
-    has_changed = Drop(levels, problem, side);
+  if (!Start(hierarchy, problem, side)) return true;
+  // What is best for the head comes first: steps there are cheaper.
+  do {
+    if (!budget->Take(limit)) return false;
+    problem->SolveHead(hierarchy, *side);
+    problem->Approach(y_);
+  } while (Settle(hierarchy, problem->num_head() - 1, problem, side));
+  problem->SolveTail();
+  while (Settle(hierarchy, levels, problem, side)) {
+    if (!budget->Take(limit)) return false;
+    problem->Solve(hierarchy, *side);
   }
   return true;
 }
@@ -268,7 +265,7 @@ bool Descent::Drop(int level, ActiveProblem* problem,
     if (!row.is_inequality || leaves_[row.level][row.index] <= 0) {
       continue;
     }
-    if (!is_priced) problem->FindMultipliers();
+    if (!is_priced) problem->FindMultipliers(level + 1);
     is_priced = true;
     Side& at = (*side)[row.level][row.index];
     double price = 0;

@@ -122,7 +122,7 @@ void Solver::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
 }
 
 void Solver::FindMultipliers(const Hierarchy& hierarchy) {
-  problem_.FindMultipliers();
+  problem_.FindMultipliers(problem_.num_levels() + 1);
   problem_.RefineMultipliers(hierarchy);
 }
 
