@@ -19,6 +19,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// The certificate's own, by its definition: how far a row at its bound may be
+// from it, and what a cost of zero is measured by.
+constexpr double kAtBound = 1e-9;
+
+// Small whole numbers, divided by such.
+constexpr double kRounding = 1e-15;
+
 // The rows with a bound, as A y + a <= 0: of two bounds the one nearer to being
 // violated.
 struct OneSided {
@@ -31,7 +38,7 @@ struct OneSided {
     return A.cwiseAbs() * y.cwiseAbs() + a.cwiseAbs();
   }
   double Margin(int i, const VectorXd& y) const {
-    return 1e-9 * (A.row(i).norm() * y.norm() + std::abs(a[i]));
+    return kAtBound * (A.row(i).norm() * y.norm() + std::abs(a[i]));
   }
 };
 
@@ -96,10 +103,10 @@ Certificate CertifyByDefinition(const Hierarchy& hierarchy,
     const double cost = 0.5 * (w.dot(W * w) + v.squaredNorm());
     const double cost_size =
         0.5 * (w_size.dot(W * w_size) + v_size.squaredNorm());
-    result.priority =
-        std::max(result.priority,
-                 LargestRatio(VectorXd::Constant(1, cost - answer.cost),
-                              VectorXd::Constant(1, cost + 1e-9 * cost_size)));
+    result.priority = std::max(
+        result.priority,
+        LargestRatio(VectorXd::Constant(1, cost - answer.cost),
+                     VectorXd::Constant(1, cost + kAtBound * cost_size)));
 
     VectorXd g = B.transpose() * (W * w) + own.A.transpose() * v;
     VectorXd g_size = B.cwiseAbs().transpose() * (W * w_size) +
@@ -217,7 +224,7 @@ class EdgeTest : public testing::Test {
   double Wrong(double violation, double multiplier, double width = INFINITY) {
     Solution solution(2, capacity_);
     solution.y << 10, 5;
-    const double margin = 1e-9 * (5 * std::sqrt(125) + 50);
+    const double margin = kAtBound * (5 * std::sqrt(125) + 50);
     Hierarchy hierarchy(2, capacity_);
     InequalityBlock row = hierarchy.AddInequalities(0, 1);
     row.C << 3, 4;
@@ -267,8 +274,9 @@ TEST(CertificateOracle, KnowsARowWithoutBounds) {
   Solution solution(1, capacity);
   Certifier certifier(1, capacity);
   EXPECT_EQ(certifier.Certify(hierarchy, solution).worst(), 0);
-  solution.levels[0].cost = 1e-9;  // Of 1e-9 1^2 / 2, of the bounded row alone.
-  EXPECT_NEAR(certifier.Certify(hierarchy, solution).priority, 2, 1e-12);
+  solution.levels[0].cost =
+      kAtBound;  // Of kAtBound 1^2 / 2, of the bounded row alone.
+  EXPECT_NEAR(certifier.Certify(hierarchy, solution).priority, 2, kRounding);
   solution.levels[0].cost = 0;
   solution.levels[0].slack[1] = 1;  // Of nothing.
   EXPECT_EQ(certifier.Certify(hierarchy, solution).feasibility, INFINITY);
@@ -307,9 +315,9 @@ TEST(CertificateOracle, TakesTheUpperOfTwoBoundsHalfwayBetweenThem) {
   row.upper << 3;
   Solution solution(1, capacity);
   solution.y << 1;
-  solution.levels[0].cost = 1e-9;
+  solution.levels[0].cost = kAtBound;
   EXPECT_NEAR(Certifier(1, capacity).Certify(hierarchy, solution).priority,
-              1. / 8, 1e-12);
+              1. / 8, kRounding);
 }
 
 TEST(CertificateOracle, KnowsRowsWithoutVariables) {

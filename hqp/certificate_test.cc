@@ -48,9 +48,9 @@ TEST_F(CertificateTest, AcquitsTheRightAnswer) {
 
 TEST_F(CertificateTest, FindsAWrongMultiplier) {
   solution_.levels[1].multipliers[0].inequality[2] += 1e-6;
-  // By 1e-6 of 2 (1 + 5) + 13 = 25: |B|'W(|B||y| + |b|) + |C|'|mu| of y0 is
-  // 12 + 12, of y1 3 + 15 + 12.
-  EXPECT_NEAR(Certify().stationarity, 1e-6 / 30, 1e-12);
+  // |B|'W(|B||y| + |b|) + |C|'|mu| of y0 is 12 + 12, of y1 3 + 15 + 12, and
+  // what it is wrong by.
+  EXPECT_NEAR(Certify().stationarity, 1e-6 / (30 + 1e-6), kRounding);
   EXPECT_LE(Certify().feasibility, kRounding);
   EXPECT_LE(Certify().complementarity, kRounding);
 }
@@ -66,34 +66,34 @@ TEST_F(CertificateTest, FindsAMultiplierOfTheWrongSign) {
   target.b << -5, 0;
   target.weight << 2, 1;
   // Row 1 is at its upper bound with a negative multiplier; row 2 has a gap.
-  EXPECT_NEAR(Certify().complementarity, 15. / 30, 1e-12);
+  EXPECT_NEAR(Certify().complementarity, 15. / 30, kRounding);
 }
 
 TEST_F(CertificateTest, FindsAMultiplierOnARowWithAGap) {
   solution_.levels[1].multipliers[0].inequality[0] = 1e-3;
-  EXPECT_NEAR(Certify().complementarity, 1e-3 / 30, 1e-9);
+  EXPECT_NEAR(Certify().complementarity, 1e-3 / 30, kRounding);
 }
 
 TEST_F(CertificateTest, FindsAResidualThatIsNotOfY) {
   solution_.levels[1].equality_residual[0] += 6e-3;
-  EXPECT_NEAR(Certify().feasibility, 1e-3, 1e-12);  // Of |y0| + |b0| = 6.
+  EXPECT_NEAR(Certify().feasibility, 1e-3, kRounding);  // Of |y0| + |b0| = 6.
 }
 
 TEST_F(CertificateTest, FindsASlackThatIsNotOfY) {
   solution_.levels[0].slack[2] += 6e-3;
-  EXPECT_NEAR(Certify().feasibility, 1e-3, 1e-12);  // Of 1 + 3 + 2.
+  EXPECT_NEAR(Certify().feasibility, 1e-3, kRounding);  // Of 1 + 3 + 2.
 }
 
 TEST_F(CertificateTest, FindsACostThatWasNotKept) {
   solution_.levels[1].cost -= 1e-3;
-  // Of (2 (1 + 5)^2 + 3^2) / 2 = 40.5.
-  EXPECT_NEAR(Certify().priority, 1e-3 / 40.5, 1e-12);
+  // Of (2 (1 + 5)^2 + 3^2) / 2 = 40.5, and 1e-9 of what that is added up from.
+  EXPECT_NEAR(Certify().priority, 1e-3 / (40.5 * (1 + 1e-9)), kRounding);
 }
 
 TEST_F(CertificateTest, FindsACostWhereThereShouldBeNone) {
   solution_.levels[0].cost = 1e-9;
   // Of 1e-9 of ((1 + 1)^2 + (3 + 3)^2 + (1 + 3 + 2)^2) / 2 = 38.
-  EXPECT_NEAR(Certify().priority, 1. / 38, 1e-12);
+  EXPECT_NEAR(Certify().priority, 1. / 38, kRounding);
 }
 
 TEST_F(CertificateTest, FindsNaN) {
@@ -106,7 +106,7 @@ TEST_F(CertificateTest, FindsAWrongY) {
   for (int level = 0; level < 2; ++level) {
     EvaluateLevel(hierarchy_, level, &solution_);
   }
-  EXPECT_GE(Certify().worst(), 1e-5);
+  EXPECT_GE(Certify().worst(), 1e-3 / 38);  // Of no more than 38: see above.
 }
 
 TEST_F(CertificateTest, JudgesOnlyWhatWasSolved) {

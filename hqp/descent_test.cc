@@ -15,6 +15,15 @@
 namespace poise {
 namespace {
 
+constexpr double kCertified = 1e-9;  // What Solver promises of costs.
+
+// Of rows of numbers in hundredths: far above rounding, and no less is violated.
+constexpr double kViolated = 1e-6;
+
+// Of y, relative: rounding by way of the square of the worst condition of such
+// rows, about 1e4.
+constexpr double kSameY = 1e-6;
+
 std::vector<std::vector<Side>> NoSides(
     const std::vector<LevelCapacity>& capacity) {
   std::vector<std::vector<Side>> side;
@@ -58,16 +67,16 @@ class DescentTest : public testing::TestWithParam<int> {
         const Side side = side_[level][i];
         if (level >= levels) {
           EXPECT_EQ(side, Side::kNone) << level << ", " << i;
-        } else if (value[i] > hierarchy_.upper(level)[i] + 1e-6) {
+        } else if (value[i] > hierarchy_.upper(level)[i] + kViolated) {
           EXPECT_EQ(side, Side::kUpper) << level << ", " << i;
-        } else if (value[i] < hierarchy_.lower(level)[i] - 1e-6) {
+        } else if (value[i] < hierarchy_.lower(level)[i] - kViolated) {
           EXPECT_NE(side, Side::kNone) << level << ", " << i;
         }
       }
     }
   }
   double Tolerance(int level) const {
-    return 1e-9 * CostSize(hierarchy_, level, reference_);  // As of Solver.
+    return kCertified * CostSize(hierarchy_, level, reference_);
   }
 
   const HierarchyCase drawn_ = Draw();
@@ -89,7 +98,8 @@ TEST_P(DescentTest, AgreesWithTheCascade) {
         << level;
   }
   // The smallest of all optima, which is one point.
-  EXPECT_LE((found_.y - reference_.y).norm(), 1e-6 * (1 + reference_.y.norm()));
+  EXPECT_LE((found_.y - reference_.y).norm(),
+            kSameY * (1 + reference_.y.norm()));
 }
 
 // What the budget leaves unsolved is at the bottom; the levels above hold.
@@ -140,7 +150,7 @@ TEST_P(DescentTest, AgreesWithTheCascadeAllAtOnce) {
           << level;
     }
     EXPECT_LE((found_.y - reference_.y).norm(),
-              1e-6 * (1 + reference_.y.norm()));
+              kSameY * (1 + reference_.y.norm()));
     // Once more: it is there.
     const int needed = budget.iterations();
     ASSERT_TRUE(
@@ -239,6 +249,163 @@ TEST(Descent, ChangesTheSideOfARow) {
   }
   descent.Forget();
   EXPECT_EQ(descent.y()[0], 0);
+}
+
+// Rows and wishes to be told one by one, and a search on either way.
+class DescentByHandTest : public testing::Test {
+ protected:
+  explicit DescentByHandTest(int n = 3) : hierarchy_(n, capacity_) {}
+
+  void AddRow(int level, const std::vector<double>& row, double lower,
+              double upper) {
+    InequalityBlock block = hierarchy_.AddInequalities(level, 1);
+    for (size_t j = 0; j < row.size(); ++j) block.C(0, j) = row[j];
+    block.lower[0] = lower;
+    block.upper[0] = upper;
+  }
+  void AddWish(int level, int variable, double target) {
+    EqualityBlock block = hierarchy_.AddEqualities(level, 1);
+    block.B(0, variable) = 1;
+    block.b[0] = -target;
+  }
+  // Returns the levels that are done.
+  int ByLevel(int max_iterations = 100) {
+    return Search(max_iterations, [&](Descent* descent, Budget* budget,
+                                      ActiveProblem* problem) {
+      return descent->LevelByLevel(hierarchy_, budget, problem, &side_);
+    });
+  }
+  bool AtOnce(int max_iterations = 100) {
+    return Search(max_iterations, [&](Descent* descent, Budget* budget,
+                                      ActiveProblem* problem) {
+      return descent->AllAtOnce(hierarchy_, 100, budget, problem, &side_);
+    });
+  }
+  Side side(int level, int i) const { return side_[level][i]; }
+
+  static constexpr double kInfinity = INFINITY;
+  const std::vector<LevelCapacity> capacity_{{3, 50}, {3, 3}, {3, 0}};
+  Hierarchy hierarchy_;
+  int iterations_;
+  Eigen::VectorXd y_;
+
+ private:
+  template <typename Function>
+  int Search(int max_iterations, const Function& function) {
+    const int n = hierarchy_.num_variables();
+    ActiveProblem problem(n, capacity_);
+    int failed_level;
+    EXPECT_EQ(problem.Read(hierarchy_, &failed_level), Status::kOptimal);
+    const std::function<double()> no_clock;
+    Budget budget(max_iterations, 0, &no_clock);
+    Descent descent(n, capacity_);
+    side_ = NoSides(capacity_);
+    const int result = function(&descent, &budget, &problem);
+    iterations_ = budget.iterations();
+    y_ = Eigen::VectorXd::Map(descent.y().data(), n);
+    return result;
+  }
+  std::vector<std::vector<Side>> side_;
+};
+
+// On the way to (2, 5) a row is in the way at half of it.
+TEST_F(DescentByHandTest, StopsAtTheRowInItsWay) {
+  AddRow(0, {4, 0, 0}, -kInfinity, 4);
+  AddWish(1, 0, 2);
+  AddWish(1, 1, 5);
+  // None; level 0, where nothing is to be done; the way; there; the norm of y.
+  EXPECT_EQ(ByLevel(0), 0);
+  EXPECT_EQ(y_, Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(ByLevel(2), 1);
+  EXPECT_EQ(y_, Eigen::Vector3d(1, 2.5, 0));
+  EXPECT_EQ(side(0, 0), Side::kNone);  // Which nothing has settled yet.
+  EXPECT_EQ(ByLevel(), 4);
+  EXPECT_EQ(y_, Eigen::Vector3d(1, 5, 0));
+  EXPECT_EQ(side(0, 0), Side::kUpper);
+  EXPECT_EQ(iterations_, 5);
+}
+
+// Of two rows in the way at the same point, the one that the way goes across:
+// the other is in the way no more.
+TEST_F(DescentByHandTest, TakesTheSteepestOfRowsThatMeet) {
+  for (const bool first : {false, true}) {
+    for (const double scale : {0.1, 1.0, 10.0}) {
+      hierarchy_.Clear(3);
+      if (first) AddRow(0, {1, 0, 0}, -kInfinity, 1);
+      AddRow(0, {scale, scale, 0}, -kInfinity, scale);
+      if (!first) AddRow(0, {1, 0, 0}, -kInfinity, 1);
+      AddWish(1, 0, 2);
+      ASSERT_EQ(ByLevel(), 4);
+      EXPECT_EQ(side(0, first ? 0 : 1), Side::kUpper) << scale;
+      EXPECT_EQ(side(0, first ? 1 : 0), Side::kNone) << scale;
+      EXPECT_EQ(y_, Eigen::Vector3d(1, 0, 0));
+    }
+  }
+}
+
+// What is touched, at the start or at the end, is not in the way.
+TEST_F(DescentByHandTest, LeavesRowsThatItOnlyTouches) {
+  for (const double sign : {-1.0, 1.0}) {
+    hierarchy_.Clear(3);
+    AddRow(0, {sign, 0, 0}, -kInfinity, 0);  // At the start,
+    AddRow(0, {0, sign, 0}, 0, kInfinity);
+    AddRow(0, {0, 0, 1}, -1, 1);  // and at the end.
+    AddWish(1, 0, -sign);
+    AddWish(1, 1, sign);
+    AddWish(1, 2, sign);
+    ASSERT_EQ(ByLevel(), 4);
+    EXPECT_EQ(y_, Eigen::Vector3d(-sign, sign, sign));
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(side(0, i), Side::kNone) << i;
+    EXPECT_EQ(iterations_, 4);
+  }
+}
+
+// 2 y0 <= 2, with y1 = 10: broken from 1e-11 (2 10 + 2) on, in any unit.
+TEST_F(DescentByHandTest, BreaksARowFromAnEdgeOn) {
+  for (const double unit : {1.0, 0x1p-40}) {
+    for (const double violation : {2.1e-10, 2.3e-10}) {
+      for (const double sign : {-1.0, 1.0}) {
+        hierarchy_.Clear(3);
+        AddRow(0, {2 * sign, 0, 0}, -kInfinity, 2 * unit);
+        AddWish(1, 0, sign * unit * (1 + violation / 2));
+        AddWish(1, 1, 10 * unit);
+        ASSERT_TRUE(AtOnce());
+        EXPECT_EQ(iterations_, violation < 2.2e-10 ? 1 : 3);
+        EXPECT_EQ(side(0, 0), violation < 2.2e-10 ? Side::kNone : Side::kUpper);
+      }
+    }
+  }
+}
+
+// y0 + y2 <= 1 where y0 = 1 is settled, and y2 wants a little: that is in the
+// way from 1e-13 (|y| before + |y| after) and 1e-11 of the way on, times a norm
+// of 2.
+TEST_F(DescentByHandTest, SeesNoRowInTheWayOfRounding) {
+  for (const bool moves : {false, true}) {
+    const double edge = moves ? 2 * (1e-3 + 1e-5) : 2 * 2e-5;
+    for (const double share : {0.95, 1.05}) {
+      hierarchy_.Clear(3);
+      AddRow(0, {1, 0, 1}, -kInfinity, 1);
+      AddWish(0, 0, 1);
+      AddWish(moves ? 1 : 0, 1, 1e8);
+      AddWish(1, 2, share * edge);
+      ASSERT_EQ(ByLevel(), 4);
+      EXPECT_EQ(y_[2], share < 1 ? share * edge : 0) << moves;
+    }
+  }
+}
+
+// As many rows as there is room for.
+TEST_F(DescentByHandTest, HasRoomForManyRows) {
+  for (int i = 0; i < 50; ++i) {
+    AddRow(0, {1, 0, 0}, i == 30 ? 2 : -kInfinity, i == 49 ? 3 : 4 + i);
+  }
+  AddWish(1, 0, 5);
+  AddWish(1, 1, 1);
+  ASSERT_TRUE(AtOnce());
+  EXPECT_EQ(y_, Eigen::Vector3d(3, 1, 0));
+  ASSERT_EQ(ByLevel(), 4);
+  EXPECT_EQ(y_, Eigen::Vector3d(3, 1, 0));
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, DescentTest, testing::Range(0, 200));

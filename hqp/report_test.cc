@@ -15,7 +15,7 @@ namespace poise {
 namespace {
 
 constexpr double kTolerance = 1e-13;  // Some operations on numbers near 10.
-constexpr double kCertified = 1e-10;  // The solver itself asks for 1e-9.
+constexpr double kCertified = 1e-10;  // A tenth of what the solver promises.
 
 Solution Solve(const Hierarchy& hierarchy,
                const std::vector<LevelCapacity>& capacity) {

@@ -11,6 +11,9 @@
 namespace poise {
 namespace {
 
+constexpr double kTolerance = 1e-14;  // A few operations on numbers near 1.
+constexpr double kCertified = 1e-9;   // What the solver promises.
+
 TEST(Solver, AgreesWithTheCascade) {
   RandomHierarchyOptions options;
   options.scaled = 0;
@@ -27,11 +30,11 @@ TEST(Solver, AgreesWithTheCascade) {
     ASSERT_EQ(cascade.Solve(hierarchy, &reference), Status::kOptimal);
     ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
     iterations += solution.iterations;
-    EXPECT_LE(certifier.Certify(hierarchy, reference).worst(), 1e-9);
-    EXPECT_LE(certifier.Certify(hierarchy, solution).worst(), 1e-9);
+    EXPECT_LE(certifier.Certify(hierarchy, reference).worst(), kCertified);
+    EXPECT_LE(certifier.Certify(hierarchy, solution).worst(), kCertified);
     for (int level = 0; level < hierarchy.num_levels(); ++level) {
       EXPECT_NEAR(solution.levels[level].cost, reference.levels[level].cost,
-                  1e-9 * CostSize(hierarchy, level, reference));
+                  kCertified * CostSize(hierarchy, level, reference));
       EXPECT_EQ(solution.levels[level].nullity,
                 reference.levels[level].nullity);
     }
@@ -75,15 +78,17 @@ class SolverTest : public testing::Test {
 
 TEST_F(SolverTest, SolvesByHand) {
   ASSERT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
-  EXPECT_NEAR(solution_.y[0], 1, 1e-14);  // A few operations near 1.
-  EXPECT_NEAR(solution_.y[1], 3, 1e-14);
+  EXPECT_NEAR(solution_.y[0], 1, kTolerance);
+  EXPECT_NEAR(solution_.y[1], 3, kTolerance);
   EXPECT_EQ(solution_.levels[0].active[0], Side::kUpper);
   EXPECT_EQ(solution_.levels[0].active[1], Side::kNone);
   EXPECT_EQ(solution_.levels[0].nullity, 2);
   EXPECT_EQ(solution_.levels[1].nullity, 1);
   EXPECT_EQ(solution_.levels[2].nullity, 0);
-  EXPECT_NEAR(solution_.levels[2].multipliers[1].equality[0], -3, 1e-13);
-  EXPECT_NEAR(solution_.levels[2].multipliers[0].inequality[0], 7, 1e-13);
+  EXPECT_NEAR(solution_.levels[2].multipliers[1].equality[0], -3,
+              10 * kTolerance);
+  EXPECT_NEAR(solution_.levels[2].multipliers[0].inequality[0], 7,
+              10 * kTolerance);
 }
 
 TEST_F(SolverTest, StartsFromTheLastActiveSet) {
@@ -100,8 +105,8 @@ TEST_F(SolverTest, ForgetsARowWhoseBoundIsGone) {
   ASSERT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
   bounds_upper_[0] = INFINITY;
   ASSERT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
-  EXPECT_NEAR(solution_.y[0], 2, 1e-14);
-  EXPECT_NEAR(solution_.y[1], 2, 1e-14);
+  EXPECT_NEAR(solution_.y[0], 2, kTolerance);
+  EXPECT_NEAR(solution_.y[1], 2, kTolerance);
 }
 
 TEST_F(SolverTest, ReportsWhatIsNotFinite) {
@@ -145,7 +150,7 @@ TEST_F(SolverTest, RespectsTheHierarchyWithinItsBudget) {
     const Status status = solver_.Solve(hierarchy_, &solution_);
     EXPECT_EQ(status, solution_.status);
     EXPECT_LE(solution_.iterations, budget);
-    EXPECT_LE(certifier.Certify(hierarchy_, solution_).worst(), 1e-14);
+    EXPECT_LE(certifier.Certify(hierarchy_, solution_).worst(), kTolerance);
     if (status == Status::kOptimal) continue;
     EXPECT_EQ(status, Status::kIterationLimit);
     ASSERT_GE(solution_.failed_level, 0);
@@ -182,7 +187,8 @@ TEST(Solver, TakesNoMoreIterationsThanItMay) {
       EXPECT_LE(solution.iterations, budget);
       EXPECT_EQ(status == Status::kOptimal, solution.failed_level < 0);
       // Whatever is left of the hierarchy is certified.
-      EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(), 1e-9);
+      EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(),
+                kCertified);
     }
   }
 }
@@ -200,7 +206,7 @@ TEST(Solver, CallsNothingOptimalThatIsNotCertified) {
     Solution solution(n, drawn.capacity);
     optimal += Solver(n, drawn.capacity).Solve(drawn.hierarchy, &solution) ==
                Status::kOptimal;
-    EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(), 1e-9);
+    EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(), kCertified);
   }
   EXPECT_GE(optimal, 290);  // 292 when this was written.
 }
@@ -233,9 +239,9 @@ TEST(Solver, KeepsTheOptimumOfUpperLevels) {
     ASSERT_EQ(solver.Solve(all, &whole), Status::kOptimal);
     ASSERT_EQ(solver.Solve(upper, &part), Status::kOptimal);
     for (int level = 0; level < levels; ++level) {
-      EXPECT_NEAR(
-          whole.levels[level].cost, part.levels[level].cost,
-          1e-9 * (CostSize(all, level, whole) + CostSize(all, level, part)));
+      EXPECT_NEAR(whole.levels[level].cost, part.levels[level].cost,
+                  kCertified * (CostSize(all, level, whole) +
+                                CostSize(all, level, part)));
       EXPECT_EQ(whole.levels[level].nullity, part.levels[level].nullity);
     }
   }

@@ -16,6 +16,8 @@
 namespace poise {
 namespace {
 
+constexpr double kCertified = 1e-9;  // What the solver promises.
+
 // Shrinks to few variables, few levels, few rows.
 HierarchyCase DrawHierarchy(bool with_inequalities = true) {
   RandomHierarchyOptions options;
@@ -43,7 +45,7 @@ void ExpectSameCosts(const HierarchyCase& drawn, const Solution& solution,
   for (int level = 0; level < num_levels; ++level) {
     RC_ASSERT(
         std::abs(solution.levels[level].cost - reference.levels[level].cost) <=
-        1e-9 * CostSize(drawn.hierarchy, level, reference));
+        kCertified * CostSize(drawn.hierarchy, level, reference));
     RC_ASSERT(solution.levels[level].nullity ==
               reference.levels[level].nullity);
   }
@@ -80,8 +82,9 @@ RC_GTEST_PROP(AnyHierarchy, IsSolvedAlikeByTwoSolversAndCertified, ()) {
             Status::kOptimal);
   const Solution solution = Solve(drawn);
   Certifier certifier(n, drawn.capacity);
-  RC_ASSERT(certifier.Certify(drawn.hierarchy, reference).worst() <= 1e-9);
-  RC_ASSERT(certifier.Certify(drawn.hierarchy, solution).worst() <= 1e-9);
+  RC_ASSERT(certifier.Certify(drawn.hierarchy, reference).worst() <=
+            kCertified);
+  RC_ASSERT(certifier.Certify(drawn.hierarchy, solution).worst() <= kCertified);
   ExpectSameCosts(drawn, solution, reference, drawn.hierarchy.num_levels());
 }
 
