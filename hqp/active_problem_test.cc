@@ -9,6 +9,7 @@
 
 #include "tests/util/lexicographic.h"
 #include "tests/util/random_hierarchy.h"
+#include "tests/util/stacked_rows.h"
 #include "tests/util/tolerance.h"
 
 namespace poise {
@@ -287,6 +288,22 @@ TEST_P(RandomActiveProblemTest, RefinesAnotherYToMeetTheRows) {
             : 0;
     EXPECT_NEAR(problem_.head().residual(a), residual, Rounding(kLargest, n_));
   }
+}
+
+// Of all y that are best for the head, the one closest to another: best for it
+// is what is best for all levels, and nothing but its rows moves y there.
+TEST_P(RandomActiveProblemTest, ApproachesWhatIsBestForTheHead) {
+  problem_.Plan(hierarchy_, num_levels_);
+  problem_.Solve(hierarchy_, MakeSides(3));
+  const Eigen::MatrixXd Q = Basis(problem_.head(), n_);
+  const Eigen::VectorXd best = y();
+  std::vector<double> from(n_);
+  for (int j = 0; j < n_; ++j) from[j] = 1 + j % 5;
+  problem_.Approach(from);
+  const double tolerance = Rounding(n_ + best.norm(), n_);
+  EXPECT_LE((Q * (y() - best)).norm(), tolerance);
+  const Eigen::VectorXd step = y() - Eigen::VectorXd::Map(from.data(), n_);
+  EXPECT_LE((step - Q.transpose() * (Q * step)).norm(), tolerance);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomActiveProblemTest,

@@ -9,8 +9,6 @@
 #include "hqp/hierarchy.h"
 #include "hqp/solution.h"
 #include "tests/util/random_hierarchy.h"
-#include "tests/util/stacked_rows.h"
-#include "tests/util/tolerance.h"
 
 namespace poise {
 namespace {
@@ -159,26 +157,6 @@ TEST_P(DescentTest, AgreesWithTheCascadeAllAtOnce) {
   }
 }
 
-// Of all y that are best for the head, the one closest to another: best for it
-// is what is best for all levels, and nothing but its rows moves y there.
-TEST_P(DescentTest, ApproachesWhatIsBestForTheHead) {
-  ActiveProblem problem(n_, drawn_.capacity);
-  ASSERT_EQ(problem.Read(hierarchy_, &found_.failed_level), Status::kOptimal);
-  problem.Plan(hierarchy_, num_levels_);
-  problem.Solve(hierarchy_, NoSides(drawn_.capacity));
-  const RowStack& head = problem.head();
-  const Eigen::MatrixXd Q = Basis(head, n_);
-  const auto best = Eigen::VectorXd::Map(problem.y().data(), n_).eval();
-  std::vector<double> from(n_);
-  for (int j = 0; j < n_; ++j) from[j] = 1 + j % 5;
-  problem.Approach(from);
-  const auto y = Eigen::VectorXd::Map(problem.y().data(), n_);
-  const double tolerance = Rounding(n_ + best.norm(), n_);
-  EXPECT_LE((Q * (y - best)).norm(), tolerance);
-  const Eigen::VectorXd step = y - Eigen::VectorXd::Map(from.data(), n_);
-  EXPECT_LE((step - Q.transpose() * (Q * step)).norm(), tolerance);
-}
-
 // A wrong step is made up for by later ones, and shows in how many there are.
 TEST(Descent, TakesAsManyStepsAsItDid) {
   RandomHierarchyOptions options;
@@ -283,7 +261,6 @@ class DescentByHandTest : public testing::Test {
   }
   Side side(int level, int i) const { return side_[level][i]; }
 
-  static constexpr double kInfinity = INFINITY;
   const std::vector<LevelCapacity> capacity_{{3, 50}, {3, 3}, {3, 0}};
   Hierarchy hierarchy_;
   int iterations_;
@@ -310,7 +287,7 @@ class DescentByHandTest : public testing::Test {
 
 // On the way to (2, 5) a row is in the way at half of it.
 TEST_F(DescentByHandTest, StopsAtTheRowInItsWay) {
-  AddRow(0, {4, 0, 0}, -kInfinity, 4);
+  AddRow(0, {4, 0, 0}, -INFINITY, 4);
   AddWish(1, 0, 2);
   AddWish(1, 1, 5);
   // None; level 0, where nothing is to be done; the way; there; the norm of y.
@@ -325,15 +302,24 @@ TEST_F(DescentByHandTest, StopsAtTheRowInItsWay) {
   EXPECT_EQ(iterations_, 5);
 }
 
+// What a level began with, and did not end, is no longer active.
+TEST_F(DescentByHandTest, UnwindsALevelThatItHasNotDone) {
+  AddRow(0, {1, 0, 0}, 1, INFINITY);
+  EXPECT_EQ(ByLevel(0), 0);
+  EXPECT_EQ(side(0, 0), Side::kNone);
+  EXPECT_EQ(ByLevel(1), 1);
+  EXPECT_EQ(side(0, 0), Side::kLower);
+}
+
 // Of two rows in the way at the same point, the one that the way goes across:
 // the other is in the way no more.
 TEST_F(DescentByHandTest, TakesTheSteepestOfRowsThatMeet) {
   for (const bool first : {false, true}) {
     for (const double scale : {0.1, 1.0, 10.0}) {
       hierarchy_.Clear(3);
-      if (first) AddRow(0, {1, 0, 0}, -kInfinity, 1);
-      AddRow(0, {scale, scale, 0}, -kInfinity, scale);
-      if (!first) AddRow(0, {1, 0, 0}, -kInfinity, 1);
+      if (first) AddRow(0, {1, 0, 0}, -INFINITY, 1);
+      AddRow(0, {scale, scale, 0}, -INFINITY, scale);
+      if (!first) AddRow(0, {1, 0, 0}, -INFINITY, 1);
       AddWish(1, 0, 2);
       ASSERT_EQ(ByLevel(), 4);
       EXPECT_EQ(side(0, first ? 0 : 1), Side::kUpper) << scale;
@@ -347,8 +333,8 @@ TEST_F(DescentByHandTest, TakesTheSteepestOfRowsThatMeet) {
 TEST_F(DescentByHandTest, LeavesRowsThatItOnlyTouches) {
   for (const double sign : {-1.0, 1.0}) {
     hierarchy_.Clear(3);
-    AddRow(0, {sign, 0, 0}, -kInfinity, 0);  // At the start,
-    AddRow(0, {0, sign, 0}, 0, kInfinity);
+    AddRow(0, {sign, 0, 0}, -INFINITY, 0);  // At the start,
+    AddRow(0, {0, sign, 0}, 0, INFINITY);
     AddRow(0, {0, 0, 1}, -1, 1);  // and at the end.
     AddWish(1, 0, -sign);
     AddWish(1, 1, sign);
@@ -366,7 +352,7 @@ TEST_F(DescentByHandTest, BreaksARowFromAnEdgeOn) {
     for (const double violation : {2.1e-10, 2.3e-10}) {
       for (const double sign : {-1.0, 1.0}) {
         hierarchy_.Clear(3);
-        AddRow(0, {2 * sign, 0, 0}, -kInfinity, 2 * unit);
+        AddRow(0, {2 * sign, 0, 0}, -INFINITY, 2 * unit);
         AddWish(1, 0, sign * unit * (1 + violation / 2));
         AddWish(1, 1, 10 * unit);
         ASSERT_TRUE(AtOnce());
@@ -385,7 +371,7 @@ TEST_F(DescentByHandTest, SeesNoRowInTheWayOfRounding) {
     const double edge = moves ? 2 * (1e-3 + 1e-5) : 2 * 2e-5;
     for (const double share : {0.95, 1.05}) {
       hierarchy_.Clear(3);
-      AddRow(0, {1, 0, 1}, -kInfinity, 1);
+      AddRow(0, {1, 0, 1}, -INFINITY, 1);
       AddWish(0, 0, 1);
       AddWish(moves ? 1 : 0, 1, 1e8);
       AddWish(1, 2, share * edge);
@@ -398,7 +384,7 @@ TEST_F(DescentByHandTest, SeesNoRowInTheWayOfRounding) {
 // As many rows as there is room for.
 TEST_F(DescentByHandTest, HasRoomForManyRows) {
   for (int i = 0; i < 50; ++i) {
-    AddRow(0, {1, 0, 0}, i == 30 ? 2 : -kInfinity, i == 49 ? 3 : 4 + i);
+    AddRow(0, {1, 0, 0}, i == 30 ? 2 : -INFINITY, i == 49 ? 3 : 4 + i);
   }
   AddWish(1, 0, 5);
   AddWish(1, 1, 1);

@@ -97,11 +97,11 @@ TEST(Report, KnowsARowOfSizeZero) {
   EXPECT_EQ(solution.levels[0].nullity, 2);
 }
 
-// However short a row is, it counts for one: y0 = 1 and y1 <= 1, above
-// y = (2, 3, 4).
+// However short a row is, it counts for one: y0 = 1 and y1 <= 1, above y1 = 3,
+// above y0 = 2 and y2 = 4.
 TEST(Report, CountsShortRowsLikeLongOnes) {
   const double length = std::ldexp(1, -43);  // 1e-13.
-  const std::vector<LevelCapacity> capacity{{1, 1}, {3, 0}};
+  const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}, {2, 0}};
   Hierarchy hierarchy(3, capacity);
   EqualityBlock row = hierarchy.AddEqualities(0, 1);
   row.B << length, 0, 0;
@@ -109,31 +109,40 @@ TEST(Report, CountsShortRowsLikeLongOnes) {
   InequalityBlock bound = hierarchy.AddInequalities(0, 1);
   bound.C << 0, length, 0;
   bound.upper << length;
-  EqualityBlock wishes = hierarchy.AddEqualities(1, 3);
-  wishes.B.setIdentity();
-  wishes.b << -2, -3, -4;
+  EqualityBlock wish = hierarchy.AddEqualities(1, 1);
+  wish.B << 0, 1, 0;
+  wish.b << -3;
+  EqualityBlock wishes = hierarchy.AddEqualities(2, 2);
+  wishes.B << 1, 0, 0, 0, 0, 1;
+  wishes.b << -2, -4;
   const Solution solution = Solve(hierarchy, capacity);
   EXPECT_LE((solution.y - Eigen::Vector3d(1, 1, 4)).norm(), kTolerance);
   EXPECT_EQ(solution.levels[0].nullity, 2);
-  EXPECT_EQ(solution.levels[1].nullity, 0);
-  const LevelMultipliers& multipliers = solution.levels[1].multipliers[0];
-  EXPECT_NEAR(multipliers.equality[0] * length, 1, kTolerance);
-  EXPECT_NEAR(multipliers.inequality[0] * length, 2, kTolerance);
+  EXPECT_EQ(solution.levels[1].nullity, 1);
+  EXPECT_EQ(solution.levels[2].nullity, 0);
+  EXPECT_NEAR(solution.levels[1].multipliers[0].inequality[0] * length, 2,
+              kTolerance);
+  EXPECT_NEAR(solution.levels[2].multipliers[0].equality[0] * length, 1,
+              kTolerance);
 }
 
-// y = 0 above y = -1, of levels that only select: what is left is 1, exactly.
+// y = 0 above y = -1, of levels that only select: what is left is 1, exactly; on
+// the row that fixes y, not on one without weight.
 TEST(Report, CancelsWhatALevelOfSelectionsLeaves) {
-  const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}, {1, 0}};
+  const std::vector<LevelCapacity> capacity{{2, 0}, {2, 0}, {2, 0}};
   Hierarchy hierarchy(1, capacity);
   for (int k = 0; k < 3; ++k) {
-    EqualityBlock wish = hierarchy.AddEqualities(k, 1);
-    wish.B << 1 + k;
-    wish.b << (k == 1 ? 0.5 : 0);
+    EqualityBlock wish = hierarchy.AddEqualities(k, 2);
+    wish.B << 5, 1 + k;
+    wish.b << 7, (k == 1 ? 0.5 : 0);
+    wish.weight << 0, 1;
   }
   const Solution solution = Solve(hierarchy, capacity);
-  EXPECT_EQ(solution.levels[1].multipliers[0].equality[0], -1);
-  EXPECT_EQ(solution.levels[2].multipliers[0].equality[0], 0);
-  EXPECT_EQ(solution.levels[2].multipliers[1].equality[0], 0);
+  EXPECT_EQ(solution.levels[1].multipliers[0].equality, Eigen::Vector2d(0, -1));
+  for (int above = 0; above < 2; ++above) {
+    EXPECT_EQ(solution.levels[2].multipliers[above].equality,
+              Eigen::Vector2d(0, 0));
+  }
 }
 
 // y = 1 and y = 3 as rows of one bound twice: y = 2 is above one, below the

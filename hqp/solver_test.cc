@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "hqp/active_problem.h"
+#include "hqp/budget.h"
 #include "hqp/cascade.h"
 #include "hqp/certificate.h"
+#include "hqp/descent.h"
 #include "tests/util/count_malloc.h"
 #include "tests/util/random_hierarchy.h"
 
@@ -105,6 +110,7 @@ TEST_F(SolverTest, ForgetsARowWhoseBoundIsGone) {
   ASSERT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
   bounds_upper_[0] = INFINITY;
   ASSERT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
+  EXPECT_LE(solution_.iterations, 3);
   EXPECT_NEAR(solution_.y[0], 2, kTolerance);
   EXPECT_NEAR(solution_.y[1], 2, kTolerance);
 }
@@ -243,6 +249,111 @@ TEST(Solver, KeepsTheOptimumOfUpperLevels) {
                   kCertified * (CostSize(all, level, whole) +
                                 CostSize(all, level, part)));
       EXPECT_EQ(whole.levels[level].nullity, part.levels[level].nullity);
+    }
+  }
+}
+
+// Half of the budget for all levels at once; then the rest of it goes as far as
+// a descent level by level goes with so much, from nothing.
+TEST(Solver, SpendsHalfOfItsBudgetLevelByLevel) {
+  RandomHierarchyOptions options;
+  options.scaled = 0;
+  const std::function<double()> no_clock;
+  int truncated = 0;
+  for (int seed = 0; seed < 60; ++seed) {
+    const HierarchyCase drawn = MakeRandomHierarchy(seed, options);
+    const Hierarchy& hierarchy = drawn.hierarchy;
+    const int n = hierarchy.num_variables(), levels = hierarchy.num_levels();
+    Solver solver(n, drawn.capacity);
+    Solution solution(n, drawn.capacity), again(n, drawn.capacity);
+    ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+    const int needed_at_once = solution.iterations;
+    for (int budget = 0; budget < 2 * needed_at_once; ++budget) {
+      SCOPED_TRACE(testing::Message() << seed << ", " << budget);
+      Descent descent(n, drawn.capacity);
+      ActiveProblem problem(n, drawn.capacity);
+      std::vector<std::vector<Side>> side;
+      for (const LevelCapacity& level : drawn.capacity) {
+        side.emplace_back(level.inequalities, Side::kNone);
+      }
+      int failed_level;
+      ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+      Budget rest(budget - budget / 2, 0, &no_clock);
+      const int solved =
+          descent.LevelByLevel(hierarchy, &rest, &problem, &side);
+      solver.Forget();
+      solver.max_iterations = budget;
+      const CountMalloc count;
+      const Status status = solver.Solve(hierarchy, &solution);
+      EXPECT_EQ(count.allocations(), 0);
+      Solver fresh(n, drawn.capacity);
+      fresh.max_iterations = budget;
+      EXPECT_EQ(fresh.Solve(hierarchy, &again), status);
+      EXPECT_EQ(again.y, solution.y);
+      EXPECT_EQ(again.iterations, solution.iterations);
+      if (budget / 2 >= needed_at_once) continue;
+      if (solved > levels) {
+        EXPECT_EQ(status, Status::kOptimal);
+        EXPECT_EQ(solution.failed_level, -1);
+        if (budget / 2 + rest.iterations() < budget) {
+          EXPECT_GT(solution.iterations, budget / 2 + rest.iterations());
+        }
+        continue;
+      }
+      ++truncated;
+      EXPECT_EQ(status, Status::kIterationLimit);
+      EXPECT_EQ(solution.iterations, budget);
+      const int failed = std::max(0, std::min(solved, levels - 1));
+      EXPECT_EQ(solution.failed_level, failed);
+      const Eigen::VectorXd best = Eigen::VectorXd::Map(descent.y().data(), n);
+      EXPECT_LE((solution.y - best).norm(), 1e-9 * (1 + best.norm()));
+      for (int level = failed; level < levels; ++level) {
+        for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+          if (hierarchy.lower(level)[i] == hierarchy.upper(level)[i]) continue;
+          EXPECT_EQ(solution.levels[level].active[i], side[level][i]);
+        }
+      }
+    }
+  }
+  EXPECT_GT(truncated, 0);
+}
+
+// 2 y0 <= 2, beside y1 = 1e8, which hides it from the search if it is violated
+// by less than 1e-3; by more than 1e-11 (2 |y0| + 2) it is seen in the end.
+TEST(Solver, EntersARowThatIsViolatedByItsOwnTerms) {
+  const std::vector<LevelCapacity> capacity{{0, 3}, {0, 3}, {2, 0}};
+  for (const int level : {0, 1}) {
+    for (const int at : {0, 2}) {
+      for (const double sign : {-1.0, 1.0}) {
+        for (const bool is_upper : {false, true}) {
+          for (const double violation : {3.8e-11, 4.2e-11}) {
+            SCOPED_TRACE(testing::Message() << level << at << sign);
+            Hierarchy hierarchy(3, capacity);
+            for (int k = 0; k < 2; ++k) {
+              InequalityBlock rows = hierarchy.AddInequalities(k, 3);
+              rows.C.col(2).setConstant(5);
+              rows.lower.setConstant(-10);
+              rows.upper.setConstant(10);
+              if (k != level) continue;
+              rows.C.row(at) << 2 * sign, 0, 0;
+              rows.lower[at] = is_upper ? -INFINITY : -2;
+              rows.upper[at] = is_upper ? 2 : INFINITY;
+            }
+            const double out = is_upper ? sign : -sign;
+            EqualityBlock wishes = hierarchy.AddEqualities(2, 2);
+            wishes.B << 1, 0, 0, 0, 1, 0;
+            wishes.b << -out * (1 + violation / 2), -1e8;
+            Solution solution(3, capacity);
+            ASSERT_EQ(Solver(3, capacity).Solve(hierarchy, &solution),
+                      Status::kOptimal);
+            const Side side = is_upper ? Side::kUpper : Side::kLower;
+            const bool is_seen = violation > 4e-11;
+            EXPECT_EQ(solution.levels[level].active[at],
+                      is_seen ? side : Side::kNone);
+            EXPECT_EQ(solution.y[0], is_seen ? out : -wishes.b[0]);
+          }
+        }
+      }
     }
   }
 }
