@@ -158,6 +158,27 @@ TEST(OneLeg, StandsOnOneFootIsPushedThereAndPutsTheOtherDown) {
   EXPECT_GT(loop.observation().feet[1].F_Co_C[5], 150);  // 379 N on two feet.
 }
 
+// Nine tenths of what a pendulum on its feet takes: the foot that the push
+// unloads is let go, comes back, and the robot stands as before.
+TEST(LargestPush, SidewaysAFootIsLetGoAndComesBack) {
+  Scenario scenario = Ours("strong_push", 2.6);
+  scenario.pushes[0].start = 0.1;
+  scenario.pushes[0].duration = 0.1;
+  scenario.pushes[0].force = {0, 209, 0};
+  ClosedLoop loop(Humanoid(), scenario);
+  Judge judge(Humanoid().q_nominal.z());
+  bool was_let_go = false;
+  while (loop.time() < 2.5995) {
+    loop.Tick();
+    judge.Look(loop.observation());
+    was_let_go = was_let_go || !loop.observation().feet[1].down;
+  }
+  EXPECT_TRUE(judge.Conclude().recovered);
+  EXPECT_TRUE(was_let_go);
+  EXPECT_TRUE(loop.observation().feet[1].down);
+  EXPECT_LT(loop.observation().base_tilt, 0.05);
+}
+
 TEST(Standing, MeasuredWrenchIsTheCommandedOne) {
   Scenario scenario = Ours("stand", 2);
   scenario.start = {};

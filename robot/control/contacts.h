@@ -18,6 +18,8 @@ struct ContactTick {
   Vector6d Jdot_v_C;  ///< Its classical acceleration at v̇ = 0.
 
   bool in_contact = true;  ///< If not, its λ is zero.
+  /// In the air: on the way that Reference::feet gives, or with the body.
+  bool is_guided = true;
   /// What its normal force may not exceed: less than infinite while the
   /// contact is faded in or out, N.
   double max_normal_force = std::numeric_limits<double>::infinity();

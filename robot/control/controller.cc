@@ -6,8 +6,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "math/so3.h"
 #include "robot/control/default_stack.h"
 #include "robot/control/fail_safe.h"
+#include "robot/control/tasks/momentum.h"
 #include "robot/control/torque.h"
 #include "robot/finding.h"
 
@@ -31,6 +33,17 @@ constexpr double kLargestShift = 0.5;
 
 // A robot whose center of mass is slower than this stands, m/s.
 constexpr double kStanding = 0.02;
+
+// A foot that bears less than this part of the weight, and another more than
+// that, is let go where a fall sideways asks for more than half of all that can
+// be done against it.
+constexpr double kUnloaded = 0.03;
+constexpr double kLoaded = 0.5;
+constexpr double kLettingGo = 0.5;
+
+// It comes back where the feet do again, and the robot is slow and nearly upright.
+constexpr double kUprightBase = 0.4;  // rad.
+constexpr double kSlow = 0.3;         // m/s.
 
 // Of the fail-safe command.
 constexpr double kFailSafeDamping = 10;  // 1/s.
@@ -153,6 +166,8 @@ void Controller::Start(const State& state) noexcept {
     reference_.frames[i].X_WF = tick_.frames[contacts_.size() + i].X_WF;
   }
   stance_.Reset();
+  normal_force_.setConstant(robot_.model.tree.total_mass() *
+                            robot_.model.tree.gravity_W().norm());
   stack_.EndRamp();
   correction_W_.setZero();
 }
@@ -164,8 +179,9 @@ void Controller::Update(const State& state, Command* command) noexcept {
     return;
   }
   ComputeModel(state);
+  LetFeetGo(state);
   stance_.Update(options_.dt, normal_force_, &contacts_, &reference_);
-  stack_.Write({state, tick_, contacts_, reference_, correction_W_},
+  stack_.Write({state, tick_, contacts_, reference_, correction_W_, capture_},
                &hierarchy_);
   const Status solved = solver_.Solve(hierarchy_, &solution_);
   stack_.Report(solution_, &report_);
@@ -221,6 +237,40 @@ void Controller::CorrectSag() noexcept {
   up = std::clamp(up + options_.dt * height * e_W.z(), -kLargestLift,
                   kLargestLift);
   if (height == 0) up = 0;
+}
+
+// In a fall to the other side, a foot without load holds back the trunk, and its
+// leg is worth more as a weight that swings: it is let go. It comes back when all
+// is over, or the robot falls to its side.
+void Controller::LetFeetGo(const State& state) noexcept {
+  MomentumTask::CaptureShares shares;
+  const int i = *stack_.Find("momentum");
+  if (stack_.settings(i).enabled) {
+    const auto& momentum = static_cast<const MomentumTask&>(stack_.task(i));
+    shares = momentum.FindCapture({state, tick_, contacts_, reference_});
+  }
+  capture_ = shares.all;
+
+  const double weight =
+      robot_.model.tree.total_mass() * robot_.model.tree.gravity_W().norm();
+  const double turned =
+      LogSo3(reference_.R_WB * tick_.X_WB[0].R.transpose()).norm();
+  const bool is_over =
+      shares.all == 0 && turned < kUprightBase && tick_.v_WG.norm() < kSlow;
+  const bool stands = normal_force_.maxCoeff() > kLoaded * weight;
+  const Pose X_MidW = MidFeet(contacts_).Inverse();
+  for (int foot = 0; foot < static_cast<int>(contacts_.size()); ++foot) {
+    const bool is_left = (X_MidW * contacts_[foot].X_WC.p).y() > 0;
+    const double away = is_left ? shares.right : shares.left;
+    const double towards = is_left ? shares.left : shares.right;
+    const ContactPhase phase = stance_.phase(foot);
+    if (phase == ContactPhase::kFree && (is_over || towards > 0)) {
+      stance_.PutDown(foot);
+    } else if (phase == ContactPhase::kDown && away > kLettingGo && stands &&
+               normal_force_[foot] < kUnloaded * weight) {
+      stance_.LetGo(foot);
+    }
+  }
 }
 
 bool Controller::IsUsable(const State& state) noexcept {

@@ -93,6 +93,7 @@ class Controller {
 
  private:
   void ComputeModel(const State& state) noexcept;
+  void LetFeetGo(const State& state) noexcept;
   bool IsUsable(const State& state) noexcept;
   void FailSafe(const State& state, Command* command) noexcept;
   void LimitTorque(Command* command) noexcept;
@@ -116,6 +117,7 @@ class Controller {
   Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.
   double last_time_;        ///< Of the last state, s.
   Eigen::Vector3d correction_W_ = Eigen::Vector3d::Zero();
+  double capture_ = 0;     // See TaskInput.
   double frozen_for_ = 0;  ///< How long it has been the same, s.
 };
 

@@ -285,6 +285,50 @@ TEST_F(ControllerTest, SeesThatAFootHasLostTheGround) {
   EXPECT_EQ(controller_.stance().phase(0), ContactPhase::kLoading);
 }
 
+// Falling to the left, or to the right: the other foot, which bears nothing, is
+// let go. It comes back when the robot is slow and faces where it should, or
+// falls to its side; on the ground it is at once, as it never left it.
+TEST_F(ControllerTest, LetsTheFootGoThatAFallUnloads) {
+  for (const int side : {1, -1}) {
+    const int away = side > 0 ? 1 : 0;
+    const auto phase_at = [&](double speed, double yaw) {
+      state_.v[4] = speed * side;
+      state_.q.segment<4>(3) << 0, 0, std::sin(yaw / 2), std::cos(yaw / 2);
+      Update();
+      return controller_.stance().phase(away);
+    };
+    controller_.Start(state_);
+    EXPECT_EQ(phase_at(0.4, 0), ContactPhase::kDown);
+    EXPECT_LT(controller_.report().foot_wrench(tree().nv(), away)[5], 1);
+    EXPECT_EQ(phase_at(0.4, 0), ContactPhase::kDown);
+    EXPECT_EQ(phase_at(0.6, 0), ContactPhase::kFree);
+    EXPECT_EQ(controller_.stance().phase(1 - away), ContactPhase::kDown);
+    EXPECT_FALSE(controller_.contacts()[away].in_contact);
+    EXPECT_LT(controller_.report().foot_wrench(tree().nv(), away).norm(), 1e-9);
+    EXPECT_EQ(command_.status, TickStatus::kOk);
+    const int swing =
+        *controller_.stack().Find("frame." + robot_.feet[away].name);
+    EXPECT_EQ(controller_.report().tasks[swing].residual, 0);
+
+    EXPECT_EQ(phase_at(0.35, 0), ContactPhase::kFree);
+    EXPECT_EQ(phase_at(0.25, 0.45), ContactPhase::kFree);
+    EXPECT_EQ(phase_at(0.25, 0), ContactPhase::kLoading);
+
+    controller_.Start(state_);
+    EXPECT_EQ(phase_at(0.4, 0), ContactPhase::kDown);
+    EXPECT_EQ(phase_at(0.6, 0), ContactPhase::kFree);
+    EXPECT_EQ(phase_at(-0.4, 0), ContactPhase::kLoading);
+    state_.v.setZero();
+  }
+}
+
+TEST_F(ControllerTest, LetsNoFootGoWithoutCapture) {
+  ASSERT_TRUE(controller_.stack().SetParameter("momentum", "capture", 0));
+  state_.v[4] = 0.6;
+  for (int i = 0; i < 3; ++i) Update();
+  EXPECT_EQ(controller_.stance().phase(1), ContactPhase::kDown);
+}
+
 TEST_F(ControllerTest, FadesAForceOutBeforeAFootIsLifted) {
   Update();
   controller_.stance().Lift(1, 0.05);
@@ -429,20 +473,11 @@ TEST(TaskSet, RefusesWhatIsNotThereByLine) {
             "range");
 }
 
-TEST(TaskSet, KnowsThatOfCaptures) {
-  Stack stack = MakeDefaultStack(Humanoid(), {});
-  EXPECT_EQ(stack.GetParameter("momentum", "capture"), 0);
-  ApplyTaskSet("capture", &stack);
-  EXPECT_EQ(stack.GetParameter("momentum", "capture"), 1);
-  EXPECT_EQ(stack.GetParameter("posture", "inertia"), 1);
-  EXPECT_EQ(stack.GetParameter("cop", "margin"), 0.001);
-  EXPECT_EQ(stack.GetParameter("joint_limits", "omega"), 20);
-}
-
 TEST(TaskSet, KnowsThatOfThePaper) {
   Stack stack = MakeDefaultStack(Humanoid(), {});
   ApplyTaskSet("paper", &stack);
   EXPECT_FALSE(stack.settings(*stack.Find("joint_limits")).enabled);
+  EXPECT_EQ(stack.GetParameter("momentum", "capture"), 0);
   EXPECT_EQ(stack.settings(*stack.Find("posture")).rank, 4);
   EXPECT_THROW(ApplyTaskSet("papers", &stack), std::invalid_argument);
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "math/so3.h"
+
 namespace poise {
 namespace {
 
@@ -16,6 +18,9 @@ constexpr double kReach = 0.005;  // m.
 
 // Faster than this upwards, a sole is leaving the ground.
 constexpr double kSeparating = 0.02;  // m/s.
+
+// A foot on its way back is flat after this part of it.
+constexpr double kFlatAfter = 0.7;
 
 // How fast a foot looks for ground that it has lost.
 constexpr double kSearchSpeed = 0.2;  // m/s.
@@ -110,9 +115,15 @@ void Stance::Lift(int i, double height) noexcept {
   }
 }
 
+void Stance::LetGo(int i) noexcept { Enter(&feet_[i], ContactPhase::kFree); }
+
 void Stance::PutDown(int i) noexcept {
   FootState& foot = feet_[i];
-  if (foot.phase == ContactPhase::kUnloading) {
+  if (foot.phase == ContactPhase::kFree) {
+    // In the tick in which it is let go, it is still where it was.
+    Enter(&foot,
+          foot.since > 0 ? ContactPhase::kReturning : ContactPhase::kDown);
+  } else if (foot.phase == ContactPhase::kUnloading) {
     Enter(&foot, ContactPhase::kLoading);
     foot.force = weight_;
   } else if (foot.phase == ContactPhase::kUp) {
@@ -135,6 +146,31 @@ void Stance::TakeOff(FootState* foot, const ContactTick& contact,
   foot->from = contact.X_WC.p.z() - reference.ground_z;
 }
 
+// From where it was when it was called back, and as it moved there, to where it
+// took off, its sole flat some time before it is there: x = s X + (1 - s) t V.
+void Stance::Return(const FootState& foot,
+                    FrameReference* target) const noexcept {
+  Vector6d whole;
+  whole << LogSo3(foot.X_WC.R * foot.X_WC_away.R.transpose()),
+      foot.X_WC.p - foot.X_WC_away.p;
+  whole[5] -= kReach;
+  Vector6d moved;
+  for (int i = 0; i < 6; ++i) {
+    const double time = i < 3 ? kFlatAfter * return_time : return_time;
+    const double t = std::min(foot.since, time);
+    const Smooth s(t / time);
+    const double rate = s.rate / time;
+    const double acceleration = s.acceleration / (time * time);
+    const double v = foot.V_WC_away[i];
+    moved[i] = s.value * whole[i] + (1 - s.value) * t * v;
+    target->V_WF_W[i] = rate * whole[i] + (1 - s.value - rate * t) * v;
+    target->A_WF_W[i] =
+        acceleration * whole[i] - (2 * rate + acceleration * t) * v;
+  }
+  target->X_WF.R = ExpSo3(moved.head<3>()) * foot.X_WC_away.R;
+  target->X_WF.p = foot.X_WC_away.p + moved.tail<3>();
+}
+
 void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
                     std::vector<ContactTick>* contacts,
                     Reference* reference) noexcept {
@@ -143,7 +179,16 @@ void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
     ContactTick& contact = (*contacts)[i];
     const double height = contact.X_WC.p.z() - reference->ground_z;
     const double rising = contact.X_WC.R.row(2).dot(contact.V_WC_C.tail<3>());
+    if (foot.phase == ContactPhase::kFree && foot.since == 0) {
+      TakeOff(&foot, contact, *reference);
+    }
+    if (foot.phase == ContactPhase::kReturning && foot.since == 0) {
+      foot.X_WC_away = contact.X_WC;
+      foot.V_WC_away << contact.X_WC.R * contact.V_WC_C.head<3>(),
+          contact.X_WC.R * contact.V_WC_C.tail<3>();
+    }
     foot.since += dt;
+    contact.is_guided = foot.phase != ContactPhase::kFree;
 
     // What ends a phase.
     if (is_meant_down(i) && foot.phase != ContactPhase::kLost &&
@@ -152,7 +197,8 @@ void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
       foot.to = -kReach;
       Enter(&foot, ContactPhase::kLost);
     } else if ((foot.phase == ContactPhase::kLost ||
-                foot.phase == ContactPhase::kLanding) &&
+                foot.phase == ContactPhase::kLanding ||
+                foot.phase == ContactPhase::kReturning) &&
                height < found_below && rising < kSeparating) {
       Enter(&foot, ContactPhase::kLoading);
       foot.force = 0;
@@ -183,6 +229,11 @@ void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
         break;
     }
     contact.in_contact = false;
+    if (foot.phase == ContactPhase::kFree) continue;
+    if (foot.phase == ContactPhase::kReturning) {
+      Return(foot, &reference->feet[i]);
+      continue;
+    }
     const double duration =
         Duration(foot.phase, foot.from - foot.to, swing_time);
     const Smooth way(std::min(1.0, foot.since / duration));

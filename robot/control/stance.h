@@ -18,6 +18,8 @@ enum class ContactPhase {
   kLanding,    ///< In the air, on its way down.
   kLoading,    ///< In contact; its force fades in, then it is down.
   kLost,       ///< Meant to be in contact, but the ground is not there.
+  kFree,       ///< In the air, where the body moves it.
+  kReturning,  ///< In the air, on its way back to where it took off.
 };
 
 /// Decides which feet are in contact: on command, a foot's force fades out
@@ -28,8 +30,9 @@ enum class ContactPhase {
 /// sole lies on the ground.
 class Stance {
  public:
-  double fade_time = 0.3;   ///< For a force to fade in or out, s.
-  double swing_time = 0.8;  ///< To lift a foot, or to put it down, s.
+  double fade_time = 0.3;    ///< For a force to fade in or out, s.
+  double swing_time = 0.8;   ///< To lift a foot, or to put it down, s.
+  double return_time = 0.5;  ///< For a foot that was let go, s.
   /// Height of a sole's lowest corner, where that goes up, m.
   double lost_above = 0.01;
   /// Height of a sole's center, where that comes down, m.
@@ -45,8 +48,12 @@ class Stance {
   /// in the air already, brings it to that height.
   void Lift(int foot, double height) noexcept;
 
-  /// Puts a foot down where it is.
+  /// Puts a foot down where it is, or was before it was let go.
   void PutDown(int foot) noexcept;
+
+  /// Lets go of a foot at once: it goes with the body, until PutDown() brings it
+  /// back to where it was.
+  void LetGo(int foot) noexcept;
 
   ContactPhase phase(int foot) const { return feet_[foot].phase; }
   /// Whether the foot is meant to be in contact.
@@ -66,12 +73,15 @@ class Stance {
     double since = 0;         // How long in this phase, s.
     double force = 0;         // At the beginning of the phase, N.
     Pose X_WC;                // Where it took off, upright.
+    Pose X_WC_away;           // Where it began to return,
+    Vector6d V_WC_away;       // and how it moved there, in world axes.
     double from = 0, to = 0;  // Heights that it swings between, m.
     std::vector<Eigen::Vector2d> polygon_C;
   };
 
   bool HasLeft(const FootState& foot, const ContactTick& contact,
                double ground_z) const noexcept;
+  void Return(const FootState& foot, FrameReference* target) const noexcept;
   void Enter(FootState* foot, ContactPhase phase) noexcept;
   void TakeOff(FootState* foot, const ContactTick& contact,
                const Reference& reference) noexcept;

@@ -102,6 +102,74 @@ TEST_F(StanceTest, FindsAFootWhenItsSoleLiesOnTheGround) {
   EXPECT_TRUE(std::isinf(contacts_[0].max_normal_force));
 }
 
+// A foot that is let go and called back from afar: its target begins where it
+// is, ends where it was, and moves as its velocity and acceleration say.
+TEST_F(StanceTest, LetsAFootGoAndBringsItBack) {
+  contacts_[0].X_WC.p = Vector3d(1, 2, 0);
+  stance_.LetGo(0);
+  Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kFree);
+  EXPECT_FALSE(stance_.is_meant_down(0));
+  EXPECT_FALSE(contacts_[0].in_contact);
+  EXPECT_FALSE(contacts_[0].is_guided);
+  EXPECT_TRUE(contacts_[1].in_contact);
+  EXPECT_TRUE(contacts_[1].is_guided);
+
+  const Pose away{ExpSo3(Vector3d(0.4, -0.2, 0.1)), Vector3d(0.9, 2.3, 0.1)};
+  contacts_[0].X_WC = away;
+  const Vector3d v_W(0.2, -0.5, 0.1);
+  contacts_[0].V_WC_C.tail<3>() = away.R.transpose() * v_W;
+  stance_.PutDown(0);
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kReturning);
+  const FrameReference& target = reference_.feet[0];
+  Update();
+  EXPECT_TRUE(contacts_[0].is_guided);
+  EXPECT_FALSE(contacts_[0].in_contact);
+  // A millisecond of least jerk.
+  EXPECT_LT((target.X_WF.p - away.p - 1e-3 * v_W).norm(), 1e-6);
+  EXPECT_LT((target.V_WF_W.tail<3>() - v_W).norm(), 1e-3);
+  EXPECT_LT(LogSo3(target.X_WF.R * away.R.transpose()).norm(), 1e-6);
+  FrameReference last = target;
+  bool was_turning = false;
+  for (int i = 1; i < 500; ++i) {
+    Update();
+    Eigen::Matrix<double, 6, 1> moved;
+    moved << LogSo3(target.X_WF.R * last.X_WF.R.transpose()),
+        target.X_WF.p - last.X_WF.p;
+    // Trapezoids: the third derivative, of 60 * 0.5 rad / (0.35 s)^3, by dt^3/12.
+    EXPECT_LT((moved - 5e-4 * (last.V_WF_W + target.V_WF_W)).norm(), 6e-8);
+    EXPECT_LT(
+        (target.V_WF_W - last.V_WF_W - 5e-4 * (last.A_WF_W + target.A_WF_W))
+            .norm(),
+        3e-6);  // The fourth: 360 * 0.5 rad / (0.35 s)^4.
+    if (target.V_WF_W.head<3>().norm() > 0.1) was_turning = true;
+    last = target;
+    if (i > 350) {
+      EXPECT_LT(target.V_WF_W.head<3>().norm(), 1e-12);  // Flat.
+    }
+  }
+  EXPECT_TRUE(was_turning);
+  Update();
+  EXPECT_LT((target.X_WF.p - Vector3d(1, 2, -0.005)).norm(), 1e-9);
+  EXPECT_LT(LogSo3(target.X_WF.R).norm(), 1e-9);
+  EXPECT_LT(target.V_WF_W.norm(), 1e-4);
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kReturning);
+  contacts_[0].V_WC_C.setZero();
+  Roll(0, 0);
+  Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
+  EXPECT_TRUE(contacts_[0].in_contact);
+  EXPECT_TRUE(stance_.is_meant_down(0));
+}
+
+TEST_F(StanceTest, TakesALettingGoBack) {
+  stance_.LetGo(0);
+  stance_.PutDown(0);
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);
+  Update();
+  EXPECT_TRUE(contacts_[0].in_contact);
+}
+
 TEST_F(StanceTest, FadesAForceOutBeforeItLiftsAFoot) {
   stance_.Lift(0, 0.05);
   Update();

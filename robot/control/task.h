@@ -23,6 +23,9 @@ struct TaskInput {
   /// What the center of mass is to be accelerated beyond its reference, against
   /// what the model does not know of, m/s2.
   Eigen::Vector3d correction_W = Eigen::Vector3d::Zero();
+  /// How far the feet alone cannot bring the robot to rest, from 0, they can, to
+  /// 1; see MomentumTask::FindCapture().
+  double capture = 0;
 };
 
 /// A number of a task that may be set by name, in a profile or between two

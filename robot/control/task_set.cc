@@ -20,18 +20,9 @@ contact: {rank: 2}
 cop: {rank: 2}
 friction: {rank: 2}
 unilateral: {rank: 2}
-momentum: {rank: 3, k_orientation: 0}
+momentum: {rank: 3, k_orientation: 0, capture: 0}
 posture: {rank: 4, inertia: 0}
 force_regularizer: {rank: 4}
-)";
-
-// Everything for the largest push: arms, hips and the last millimeter of the
-// soles. Limits brake earlier, as legs that a lean straightens do so fast.
-constexpr char kCapture[] = R"(
-momentum: {capture: 1}
-posture: {inertia: 1}
-cop: {margin: 0.001}
-joint_limits: {omega: 20}
 )";
 
 std::string NamesOf(const Stack& stack) {
@@ -147,14 +138,9 @@ void ApplyTaskSet(const std::string& name, Stack* stack) {
     ApplyTasks(YAML::Load(kPaper), "task set 'paper'", stack);
     return;
   }
-  if (name == "capture") {
-    ApplyTasks(YAML::Load(kCapture), "task set 'capture'", stack);
-    return;
-  }
   if (!std::filesystem::exists(name)) {
-    throw std::invalid_argument(
-        "task set " + Quoted(name) +
-        ": is neither default, paper, capture, nor a file");
+    throw std::invalid_argument("task set " + Quoted(name) +
+                                ": is neither default, paper, nor a file");
   }
   const YAML::Node root = LoadYaml(name);
   if (!root.IsMap() || !root["tasks"]) {

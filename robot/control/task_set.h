@@ -27,8 +27,7 @@ void ApplyTasks(const YAML::Node& tasks, const std::string& file, Stack* stack);
 YAML::Node DescribeTasks(const Stack& stack);
 
 /// Changes a stack to a task set: `default` (nothing to do); `paper`, the table
-/// of the seed's section 3; `capture`, where the largest pushes matter more than
-/// the arms' grace; else the section `tasks` of a YAML file.
+/// of the seed's section 3; else the section `tasks` of a YAML file.
 /// Throws std::invalid_argument as ApplyTasks(), or about the file.
 void ApplyTaskSet(const std::string& name, Stack* stack);
 

@@ -15,14 +15,16 @@ CopTask::CopTask(const Tree& tree, const std::vector<Foot>& feet)
       scale_(1 / ForceScale(tree)),
       feet_(feet) {
   AddParameter("margin", &margin_, 0, 1);
+  AddParameter("capture_margin", &capture_margin_, 0, 1);
 }
 
 void CopTask::Write(const TaskInput& input, EqualityBlock*,
                     InequalityBlock* inequalities) const noexcept {
+  const double margin = margin_ + input.capture * (capture_margin_ - margin_);
   for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
     if (!input.contacts[i].in_contact) continue;
-    const double X = scale_ * std::max(0.0, feet_[i].half_size.x() - margin_);
-    const double Y = scale_ * std::max(0.0, feet_[i].half_size.y() - margin_);
+    const double X = scale_ * std::max(0.0, feet_[i].half_size.x() - margin);
+    const double Y = scale_ * std::max(0.0, feet_[i].half_size.y() - margin);
     auto C = inequalities->C.block<4, 6>(4 * i, nv_ + 6 * i);
     // Columns: m_x, m_y, m_z, f_x, f_y, f_z.
     C << 0, -scale_, 0, 0, 0, -X,  //

@@ -12,10 +12,11 @@ namespace poise {
 /// 3 of the seed). With λ = [m; f] about the sole's center,
 ///     CoP = (-m_y, m_x) / f_z,   |CoP_x| <= X - margin,  |CoP_y| <= Y -
 ///     margin,
-/// times f_z, over a quarter of the robot's weight.
+/// times f_z, over a quarter of the robot's weight. The margin shrinks with
+/// TaskInput::capture.
 class CopTask final : public Task {
  public:
-  /// Parameter: margin (0.005 m).
+  /// Parameters: margin (0.005 m), capture_margin (0.001 m).
   CopTask(const Tree& tree, const std::vector<Foot>& feet);
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
@@ -25,6 +26,7 @@ class CopTask final : public Task {
   double scale_;
   std::vector<Foot> feet_;
   double margin_ = 0.005;
+  double capture_margin_ = 0.001;
 };
 
 }  // namespace poise

@@ -16,7 +16,7 @@ namespace poise {
 /// Rows are divided by w² rad.
 class JointLimitsTask final : public Task {
  public:
-  /// Parameters: omega (40 1/s); margin (0.003 rad), kept from each limit.
+  /// Parameters: omega (40 1/s); margin (0.008 rad), kept from each limit.
   explicit JointLimitsTask(const RobotModel& model);
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
@@ -28,7 +28,7 @@ class JointLimitsTask final : public Task {
   Eigen::VectorXd upper_;
   Eigen::VectorXd velocity_;
   double omega_ = 40;
-  double margin_ = 0.003;
+  double margin_ = 0.008;
 };
 
 }  // namespace poise

@@ -15,6 +15,9 @@ namespace {
 // A reference is at least so far inside, m.
 constexpr double kLeastWay = 0.01;
 
+// Of the soles, in which the center of mass keeps while a foot is in the air.
+constexpr double kMiddle = 0.5;
+
 // Lower than this above its soles, a robot has fallen: no pendulum.
 constexpr double kMinHeight = 0.05;  // m.
 
@@ -37,12 +40,35 @@ MomentumTask::MomentumTask(const Tree& tree, const std::vector<Foot>& feet)
   AddParameter("capture", &capture_, 0, 1);
   AddParameter("capture_from", &capture_from_, 0, 10);
   AddParameter("capture_full", &capture_full_, 0, 10);
+  AddParameter("capture_sideways", &capture_sideways_, 1, 10);
   AddParameter("capture_kp", &capture_kp_, 0, 1e4);
   AddParameter("capture_kd", &capture_kd_, 0, 1e3);
   AddParameter("capture_angular_weight", &capture_angular_weight_, 1e-6, 1e6);
+  AddParameter("capture_height_weight", &capture_height_weight_, 1e-6, 1e6);
 }
 
-double MomentumTask::CaptureShare(const TaskInput& input) const noexcept {
+// Where the center of mass is to be: its reference, but over the feet that stand.
+Eigen::Vector3d MomentumTask::Place(const TaskInput& input) const noexcept {
+  int standing = 0;
+  for (const ContactTick& contact : input.contacts) {
+    standing += contact.in_contact ? 1 : 0;
+  }
+  if (standing == 0 || standing == static_cast<int>(feet_.size())) {
+    return input.reference.p_WG;
+  }
+  const Pose X_WMid = MidFeet(input.contacts);
+  const Pose X_MidW = X_WMid.Inverse();
+  const auto reach = [&](SupportSide side) {
+    return kMiddle * SupportReach(feet_, input.contacts, X_MidW, side);
+  };
+  Eigen::Vector3d p = X_MidW * input.reference.p_WG;
+  p.x() = std::clamp(p.x(), -reach(kBack), reach(kFront));
+  p.y() = std::clamp(p.y(), -reach(kRight), reach(kLeft));
+  return X_WMid * p;
+}
+
+MomentumTask::CaptureShares MomentumTask::FindCapture(
+    const TaskInput& input) const noexcept {
   const Tick& tick = input.tick;
   const Pose X_MidW = MidFeet(input.contacts).Inverse();
   const double height = std::max(kMinHeight, (X_MidW * tick.p_WG).z());
@@ -53,20 +79,26 @@ double MomentumTask::CaptureShare(const TaskInput& input) const noexcept {
   const Eigen::Vector3d xi =
       X_MidW * (tick.p_WG + (tick.v_WG + given_back_W) / w);
   const Eigen::Vector3d xi_ref =
-      X_MidW * (input.reference.p_WG + input.reference.v_WG / w);
+      X_MidW * (Place(input) + input.reference.v_WG / w);
 
-  double way = 0;  // To the edge that is nearest in these terms.
-  for (const SupportSide to : {kFront, kBack, kLeft, kRight}) {
+  const auto share = [&](SupportSide to, double farther) {
     const int axis = to == kFront || to == kBack ? 0 : 1;
     const int side = to == kFront || to == kLeft ? 1 : -1;
     const double reach = SupportReach(feet_, input.contacts, X_MidW, to);
     const double whole = std::max(kLeastWay, reach - side * xi_ref[axis]);
-    way = std::max(way, side * (xi - xi_ref)[axis] / whole);
-  }
-  const double least = 1e-3;  // Or the gains would jump.
-  return std::clamp(
-      (way - capture_from_) / std::max(least, capture_full_ - capture_from_),
-      0.0, 1.0);
+    const double way = side * (xi - xi_ref)[axis] / (farther * whole);
+    const double least = 1e-3;  // Or the gains would jump.
+    return capture_ *
+           std::clamp((way - capture_from_) /
+                          std::max(least, capture_full_ - capture_from_),
+                      0.0, 1.0);
+  };
+  CaptureShares shares;
+  shares.left = share(kLeft, capture_sideways_);
+  shares.right = share(kRight, capture_sideways_);
+  shares.all =
+      std::max({shares.left, shares.right, share(kFront, 1), share(kBack, 1)});
+  return shares;
 }
 
 void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
@@ -77,7 +109,7 @@ void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
   const Eigen::Vector3d e_W = LogSo3(reference.R_WB * R_WB.transpose());
 
   // The height has its gains always: it does not fall over.
-  const double share = capture_ * CaptureShare(input);
+  const double share = input.capture;
   const double level_kp = kp_ + share * (capture_kp_ - kp_);
   const double level_kd = kd_ + share * (capture_kd_ - kd_);
   const Eigen::Array3d kp(level_kp, level_kp, kp_);
@@ -86,7 +118,7 @@ void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
   const Eigen::Array3d ahead = feedforward_ * reference.v_WG.array();
   Vector6d wanted;
   wanted << (k_orientation_ * e_W - kd_angular_ * tick.L_G.head<3>()) / mass_,
-      (kp * (reference.p_WG - tick.p_WG).array() +
+      (kp * (Place(input) - tick.p_WG).array() +
        kd * (ahead - tick.v_WG.array()))
               .matrix() +
           input.correction_W + feedforward_ * reference.a_WG;
@@ -94,6 +126,7 @@ void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
   equalities->weight.head<3>().setConstant(
       angular_weight_ *
       std::pow(capture_angular_weight_ / angular_weight_, share));
+  equalities->weight[5] = std::pow(capture_height_weight_, share);
   equalities->b = tick.H_G_bias / mass_ - wanted;
 }
 

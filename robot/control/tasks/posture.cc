@@ -22,18 +22,21 @@ PostureTask::PostureTask(const Tree& tree)
   AddParameter("kp", &kp_, 0, 1e4);
   AddParameter("kd", &kd_, 0, 1e3);
   AddParameter("inertia", &inertia_, 0, 1);
+  AddParameter("capture_inertia", &capture_inertia_, 0, 1);
 }
 
 void PostureTask::Write(const TaskInput& input, EqualityBlock* equalities,
                         InequalityBlock*) const noexcept {
   const int n = static_cast<int>(equalities->b.size());
+  const double inertia =
+      inertia_ + input.capture * (capture_inertia_ - inertia_);
   for (int j = 0; j < n; ++j) {
     const double q = input.state.q[q_start_ + j];
     const double v = input.state.v[v_start_ + j];
     const double moved =
         std::clamp(input.tick.M(v_start_ + j, v_start_ + j), kLeast, kMost);
     equalities->B(j, v_start_ + j) = 1;
-    equalities->weight[j] = std::pow(moved, inertia_);
+    equalities->weight[j] = std::pow(moved, inertia);
     equalities->b[j] = -kp_ * (input.reference.posture[j] - q) + kd_ * v;
   }
 }

@@ -9,10 +9,12 @@ namespace poise {
 /// Brings each joint to its place in the reference posture, (21):
 ///     q̈ = kp (q_ref - q) - kd q̇.
 /// Where not all joints can have that, the row of joint j weighs M_jj^e, M_jj the
-/// inertia that it moves: what is light gives way first, arms before the trunk.
+/// inertia that it moves: what is light gives way first, arms before the trunk,
+/// and the more so with TaskInput::capture.
 class PostureTask final : public Task {
  public:
-  /// Parameters: kp (60 1/s2), kd (15 1/s), inertia (0.5), e.
+  /// Parameters: kp (60 1/s2), kd (15 1/s), inertia (0.5) and
+  /// capture_inertia (1), e.
   explicit PostureTask(const Tree& tree);
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
@@ -23,6 +25,7 @@ class PostureTask final : public Task {
   double kp_ = 60;
   double kd_ = 15;
   double inertia_ = 0.5;
+  double capture_inertia_ = 1;
 };
 
 }  // namespace poise

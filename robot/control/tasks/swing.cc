@@ -17,7 +17,8 @@ SwingTask::SwingTask(const Foot& foot, int index)
 }
 
 bool SwingTask::HasRows(const TaskInput& input) const noexcept {
-  return !input.contacts[index_].in_contact;
+  const ContactTick& contact = input.contacts[index_];
+  return !contact.in_contact && contact.is_guided;
 }
 
 void SwingTask::Write(const TaskInput& input, EqualityBlock* equalities,

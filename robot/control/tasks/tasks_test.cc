@@ -260,7 +260,7 @@ TEST_F(TaskTest, JointLimitsBringAJointToRestAtItsStop) {
   for (const double side : {1.0, -1.0}) {
     const int j = *tree_.FindJoint("l_elbow");
     const JointLimits& limits = robot_.model.limits[j];
-    constexpr double kMargin = 0.003;  // rad.
+    constexpr double kMargin = 0.008;  // rad.
     const double stop =
         side > 0 ? limits.upper - kMargin : limits.lower + kMargin;
     state_.q[7 + j] = stop - side * 0.2;
@@ -462,16 +462,42 @@ TEST_F(TaskTest, PostureWeighsAJointByWhatItMoves) {
             weight[*tree_.FindJoint("chest_pitch")]);
 }
 
+TEST_F(TaskTest, TakesTheLastMillimetersAndTheArmsForTheLargestPushes) {
+  const auto write = [this](const Task& task, double capture) {
+    const int equalities = static_cast<int>(task.equality_names().size());
+    const int inequalities = static_cast<int>(task.inequality_names().size());
+    hierarchy_ = Hierarchy(nv_ + 12, {{equalities, inequalities}});
+    hierarchy_.Clear(1);
+    EqualityBlock equal = hierarchy_.AddEqualities(0, equalities);
+    InequalityBlock unequal = hierarchy_.AddInequalities(0, inequalities);
+    TaskInput now = input();
+    now.capture = capture;
+    task.Write(now, &equal, &unequal);
+  };
+  const CopTask cop(tree_, robot_.feet);
+  const PostureTask posture(tree_);
+  const int chest = *tree_.FindJoint("chest_pitch");
+  const double M =
+      controller_.tick().M(tree_.v_start() + chest, tree_.v_start() + chest);
+  for (const double capture : {0.0, 0.25, 1.0}) {
+    write(cop, capture);
+    const double margin = 0.005 - 0.004 * capture;
+    const double scale = 4 / (9.81 * tree_.total_mass());
+    EXPECT_NEAR(hierarchy_.C(0)(0, nv_ + 5), -scale * (half_.x() - margin),
+                1e-15);
+    EXPECT_NEAR(hierarchy_.C(0)(2, nv_ + 5), -scale * (half_.y() - margin),
+                1e-15);
+    write(posture, capture);
+    EXPECT_NEAR(hierarchy_.weight(0)[chest], std::pow(M, 0.5 + 0.5 * capture),
+                1e-12);
+  }
+}
+
 // Pushed along u, m/s of the center of mass alone: by how much the momentum task
-// answers as in a capture, from 0 to 1, seen by its gains.
+// answers as in a capture, from 0 to 1; its gains say the same.
 class CaptureTest : public TaskTest {
  protected:
-  CaptureTest() {
-    state_.v.setZero();
-    for (const Parameter& each : task_.parameters()) {
-      if (each.name == "capture") *each.value = 1;
-    }
-  }
+  CaptureTest() { state_.v.setZero(); }
 
   double Share(const Vector6d& momentum_over_mass) {
     // A motion of all joints that has this momentum, and no other.
@@ -484,17 +510,24 @@ class CaptureTest : public TaskTest {
     hierarchy_.Clear(1);
     EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
     InequalityBlock none = hierarchy_.AddInequalities(0, 0);
-    task_.Write(
-        {state_, tick_, controller_.contacts(), controller_.reference()}, &rows,
-        &none);
+    TaskInput now{state_, tick_, controller_.contacts(),
+                  controller_.reference()};
+    const MomentumTask::CaptureShares shares = task_.FindCapture(now);
+    left_ = shares.left;
+    right_ = shares.right;
+    now.capture = shares.all;
+    task_.Write(now, &rows, &none);
     // b = bias - wanted, and of what is wanted only -kd v_G is not zero.
     const Eigen::Vector3d v = momentum_over_mass.tail<3>();
     const Eigen::Vector3d wanted =
         tick_.H_G_bias.tail<3>() / tree_.total_mass() - rows.b.tail<3>();
     EXPECT_NEAR(wanted.z(), -10 * v.z(), 1e-6);
-    const double share = std::log(rows.weight[0]) / std::log(0.3);
-    EXPECT_NEAR(rows.weight[2], std::pow(0.3, share), 1e-12);
+    const double share = shares.all;
+    for (const int row : {0, 1, 2, 5}) {
+      EXPECT_NEAR(rows.weight[row], std::pow(0.3, share), 1e-12);
+    }
     EXPECT_EQ(rows.weight[3], 1);
+    EXPECT_EQ(rows.weight[4], 1);
     for (int axis = 0; axis < 2; ++axis) {
       EXPECT_NEAR(wanted[axis], -(10 + 20 * share) * v[axis], 1e-6);
     }
@@ -510,42 +543,86 @@ class CaptureTest : public TaskTest {
 
   MomentumTask task_{tree_, robot_.feet};
   Tick tick_{tree_, {}};
+  double left_ = 0, right_ = 0;  // Of the last Share().
   const double height_ = controller_.tick().p_WG.z();
   const double w_ = std::sqrt(9.81 / height_);
   const double front_ = half_.x();
-  const double left_ = controller_.contacts()[0].X_WC.p.y() + half_.y();
+  const double edge_ = controller_.contacts()[0].X_WC.p.y() + half_.y();
 };
 
-TEST_F(CaptureTest, BeginsShortOfTheEdgeAndIsWholeBeforeIt) {
+TEST_F(CaptureTest, BeginsShortOfTheEdgeAndIsWholeAtIt) {
   for (const double side : {1.0, -1.0}) {
-    EXPECT_EQ(Share(Fast(0, 0.55 * side * front_)), 0);
-    EXPECT_NEAR(Share(Fast(0, 0.7 * side * front_)), 0.5, 0.01);
-    EXPECT_NEAR(Share(Fast(0, 0.9 * side * front_)), 1, 1e-12);
-    EXPECT_EQ(Share(Fast(1, 0.55 * side * left_)), 0);
-    EXPECT_NEAR(Share(Fast(1, 0.7 * side * left_)), 0.5, 0.01);
-    EXPECT_NEAR(Share(Fast(1, 0.9 * side * left_)), 1, 1e-12);
+    EXPECT_EQ(Share(Fast(0, 0.75 * side * front_)), 0);
+    EXPECT_NEAR(Share(Fast(0, 0.9 * side * front_)), 0.5, 0.01);
+    EXPECT_NEAR(Share(Fast(0, 1.1 * side * front_)), 1, 1e-12);
+    EXPECT_EQ(left_ + right_, 0);
+    // A quarter farther sideways.
+    EXPECT_EQ(Share(Fast(1, 0.95 * side * edge_)), 0);
+    EXPECT_NEAR(Share(Fast(1, 1.125 * side * edge_)), 0.5, 0.01);
+    EXPECT_NEAR(side > 0 ? left_ : right_, 0.5, 0.01);
+    EXPECT_EQ(side > 0 ? right_ : left_, 0);
+    EXPECT_NEAR(Share(Fast(1, 1.3 * side * edge_)), 1, 1e-12);
   }
+  for (const Parameter& each : task_.parameters()) {
+    if (each.name == "capture") *each.value = 0;
+  }
+  EXPECT_EQ(Share(Fast(0, 1.1 * front_)), 0);
 }
 
 TEST_F(CaptureTest, CountsTheAngularMomentumThatIsToBeGivenBack) {
   // Bent forward at such a rate that to stop it moves the capture point so far;
   // bent to the left is about -x.
   Vector6d forward = Vector6d::Zero(), left = Vector6d::Zero();
-  forward[1] = 0.7 * front_ * w_ * height_;
-  left[0] = -0.7 * left_ * w_ * height_;
+  forward[1] = 0.9 * front_ * w_ * height_;
+  left[0] = -1.125 * edge_ * w_ * height_;
   EXPECT_NEAR(Share(forward), 0.5, 0.01);
   EXPECT_NEAR(Share(left), 0.5, 0.01);
   // Moving forward and bending back: there is nothing to do.
-  EXPECT_EQ(Share(Fast(0, 0.7 * front_) - forward), 0);
+  EXPECT_EQ(Share(Fast(0, 0.9 * front_) - forward), 0);
+}
+
+// In the middle half of the sole that stands, or where it shall be, if that is
+// there.
+TEST_F(CaptureTest, StandsOverTheFootThatIsLeft) {
+  std::vector<ContactTick> contacts = controller_.contacts();
+  Reference reference = controller_.reference();
+  const auto pull = [&](const Eigen::Vector2d& at) {
+    reference.p_WG.head<2>() = at;
+    hierarchy_ = Hierarchy(nv_ + 12, {{6, 0}});
+    hierarchy_.Clear(1);
+    EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
+    InequalityBlock none = hierarchy_.AddInequalities(0, 0);
+    task_.Write({state_, controller_.tick(), contacts, reference}, &rows,
+                &none);
+    const Vector6d wanted =
+        controller_.tick().H_G_bias / tree_.total_mass() - rows.b;
+    return Eigen::Vector2d(
+        (wanted.segment<2>(3) + 10 * controller_.tick().v_WG.head<2>()) / 30 +
+        controller_.tick().p_WG.head<2>());
+  };
+  const Eigen::Vector2d foot = contacts[0].X_WC.p.head<2>();
+  const Eigen::Vector2d there = foot + Eigen::Vector2d(0.01, -0.02);
+  EXPECT_LT((pull({0.5, -0.3}) - Eigen::Vector2d(0.5, -0.3)).norm(), 1e-9);
+  contacts[1].in_contact = false;
+  EXPECT_LT((pull(there) - there).norm(), 1e-9);
+  for (const double x : {1.0, -1.0}) {
+    for (const double y : {1.0, -1.0}) {
+      const Eigen::Vector2d corner =
+          foot + 0.5 * Eigen::Vector2d(x * half_.x(), y * half_.y());
+      EXPECT_LT((pull({x, y}) - corner).norm(), 1e-6);
+    }
+  }
+  contacts[0].in_contact = false;  // Nothing stands: as it is told.
+  EXPECT_LT((pull(there) - there).norm(), 1e-9);
 }
 
 TEST_F(CaptureTest, SeesAReferenceNearTheEdge) {
-  // Half of the way is left, and three quarters of that gone.
+  // Half of the way is left, and nine tenths of that gone.
   controller_.reference().p_WG.x() += 0.5 * front_;
   for (const Parameter& each : task_.parameters()) {
     if (each.name == "kp" || each.name == "capture_kp") *each.value = 0;
   }
-  EXPECT_NEAR(Share(Fast(0, (0.5 + 0.35) * front_)), 0.5, 0.02);
+  EXPECT_NEAR(Share(Fast(0, (0.5 + 0.45) * front_)), 0.5, 0.02);
 }
 
 TEST_F(TaskTest, ForceRegularizerIsTheForceItself) {
