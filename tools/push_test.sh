@@ -140,4 +140,4 @@ refuse "control.delay is 0.0005, must be a multiple of the plant's step" \
   --delay 0.0005
 refuse "--plant: mars not in {bullet,mujoco}" --plant mars
 refuse "link 'nose' is unknown, must be a link of robot 'humanoid'" --link nose
-refuse "task set 'none': is neither default, paper, capture, nor a file" --tasks none
+refuse "task set 'none': is neither default, paper, nor a file" --tasks none
