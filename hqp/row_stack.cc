@@ -89,7 +89,7 @@ void RowStack::FactorLevel() {
   level.first_row = levels_.empty() ? 0 : levels_.back().end_row;
   level.end_row = num_rows_;
   level.rank_begin = level.rank_end = rank_;
-  for (int a = level.first_row; a < level.end_row; ++a) ProjectOut(a);
+  for (int a = level.first_row; a < level.end_row; ++a) Project(a);
   PivotRows(&level);
   const int rows = level.end_row - level.first_row;
   level.deficient = level.rank_end - level.rank_begin < rows;
@@ -152,7 +152,10 @@ void RowStack::RemoveRow(int a) {
 
 bool RowStack::AppendRow() {
   const int a = num_rows_ - 1;
-  ProjectOut(a);
+  Project(a);
+  if (rest_[a] < kTwice * kTwice) {
+    TakeOut(rank_, row(a), &l_[static_cast<size_t>(a) * stride_]);
+  }
   const double norm = std::sqrt(rest_[a]);
   if (rank_ == n_ || norm < kGoodPart) {
     --num_rows_;
@@ -170,23 +173,22 @@ bool RowStack::AppendRow() {
   return true;
 }
 
-// Takes the levels before out of row a.
-void RowStack::ProjectOut(int a) {
-  double* rest = row(a);
+// Takes the levels before out of row a, once.
+void RowStack::Project(int a) {
   double* l = &l_[static_cast<size_t>(a) * stride_];
-  Dots(q_.data(), stride_, rank_, rest, n_, l);
-  for (int e = 0; e < rank_; ++e) scratch_[e] = -l[e];
-  AddRows(q_.data(), stride_, rank_, scratch_.data(), n_, rest);
-  rest_[a] = SquaredNorm(rest, n_);
-  if (rank_ > 0 && rest_[a] < kTwice * kTwice) {
-    Dots(q_.data(), stride_, rank_, rest, n_, scratch_.data());
-    for (int e = 0; e < rank_; ++e) {
-      l[e] += scratch_[e];
-      scratch_[e] = -scratch_[e];
-    }
-    AddRows(q_.data(), stride_, rank_, scratch_.data(), n_, rest);
-    rest_[a] = SquaredNorm(rest, n_);
+  std::fill_n(l, rank_, 0);
+  TakeOut(rank_, row(a), l);
+  rest_[a] = SquaredNorm(row(a), n_);
+}
+
+// Takes the first rows of Q out of x, and adds to l what it had of them.
+void RowStack::TakeOut(int rank, double* x, double* l) {
+  Dots(q_.data(), stride_, rank, x, n_, scratch_.data());
+  for (int e = 0; e < rank; ++e) {
+    l[e] += scratch_[e];
+    scratch_[e] = -scratch_[e];
   }
+  AddRows(q_.data(), stride_, rank, scratch_.data(), n_, x);
 }
 
 // Orthogonalises the level's rests, the longest first, until what is left of
@@ -208,14 +210,7 @@ void RowStack::PivotRows(Level* level) {
     double* q = &q_[static_cast<size_t>(e) * stride_];
     double* l = &l_[static_cast<size_t>(pivot) * stride_];
     std::copy_n(row(pivot), n_, q);
-    if (e > 0 && rest_[pivot] < kTwice * kTwice) {
-      Dots(q_.data(), stride_, e, q, n_, scratch_.data());
-      for (int i = 0; i < e; ++i) {
-        l[i] += scratch_[i];
-        scratch_[i] = -scratch_[i];
-      }
-      AddRows(q_.data(), stride_, e, scratch_.data(), n_, q);
-    }
+    if (rest_[pivot] < kTwice * kTwice) TakeOut(e, q, l);
     const double norm = std::sqrt(SquaredNorm(q, n_));
     chosen_[pivot] = true;
     --left;

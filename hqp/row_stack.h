@@ -104,7 +104,8 @@ class RowStack {
     int first_row, end_row, rank_begin, rank_end;
     bool deficient;  ///< rank_end - rank_begin < end_row - first_row.
   };
-  void ProjectOut(int a);
+  void Project(int a);
+  void TakeOut(int rank, double* x, double* l);
   void PivotRows(Level* level);
   void Reduce(Level* level);
   void SolveLevel(const Level& level);
