@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "math/rank.h"
 
@@ -36,6 +37,26 @@ Side SideOf(const Hierarchy& hierarchy, int level, int i, double margin,
     return Side::kLower;
   }
   return Side::kNone;
+}
+
+// Whether row i is well inside its bound on that side.
+bool IsInside(const Hierarchy& hierarchy, int level, int i, Side side,
+              const Eigen::VectorXd& y) {
+  if (side == Side::kNone) return true;
+  const double bound = side == Side::kUpper ? hierarchy.upper(level)[i]
+                                            : hierarchy.lower(level)[i];
+  const double beyond =
+      static_cast<double>(side) * (hierarchy.C(level).row(i).dot(y) - bound);
+  return beyond < -kAtBound * Size(hierarchy, level, i, bound, y);
+}
+
+// Entries within the rounding of the largest tell nothing; and of rows that hold
+// only such, rounding would be all there is.
+void RoundToZero(Eigen::VectorXd* y) {
+  const double rounding = static_cast<double>(y->size()) *
+                          std::numeric_limits<double>::epsilon() *
+                          y->lpNorm<Eigen::Infinity>();
+  *y = (y->array().abs() <= rounding).select(0, *y);
 }
 
 }  // namespace
@@ -73,8 +94,9 @@ Status Cascade::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
     // What was at work in a QP, and is still at its bound.
     std::vector<Side>& active = solution->levels[level].active;
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-      if (active[i] == Side::kNone) continue;
-      active[i] = SideOf(hierarchy, level, i, -kAtBound, solution->y);
+      if (IsInside(hierarchy, level, i, active[i], solution->y)) {
+        active[i] = Side::kNone;
+      }
     }
   }
   return solution->status;
@@ -93,12 +115,15 @@ bool Cascade::SolveLevel(const Hierarchy& hierarchy, int level,
     qp.M = Z_;
     qp.m = y;
     qp.M_norm.setOnes(n);
+    qp.M_size = y.cwiseAbs();
   } else {
     const Eigen::VectorXd root = hierarchy.weight(level).cwiseSqrt();
     const Eigen::MatrixXd B = root.asDiagonal() * hierarchy.B(level);
     qp.M = B * Z_;
     qp.m = B * y + root.cwiseProduct(hierarchy.b(level));
     qp.M_norm = B.rowwise().norm();
+    qp.M_size =
+        y.norm() * qp.M_norm + root.cwiseProduct(hierarchy.b(level).cwiseAbs());
   }
 
   // ... its inequalities, soft, and the inherited ones that are not equalities
@@ -147,6 +172,7 @@ bool Cascade::SolveLevel(const Hierarchy& hierarchy, int level,
   }
   solution->iterations += iterations;
   y += Z_ * qp.z;
+  RoundToZero(&y);
   active_.clear();
   for (int r = 0; r < rows; ++r) {
     if (qp.side[r] == Side::kNone) continue;
@@ -188,14 +214,15 @@ void Cascade::FixLevel(const Hierarchy& hierarchy, int level,
 
 void Cascade::FindMultipliers(const Hierarchy& hierarchy, int level,
                               Solution* solution) {
-  // The rows of the levels above that can carry one, to unit length: all
-  // equalities, violated rows, and the active ones of this level's QP.
+  // The rows of the levels above that can carry one, to unit length: equalities
+  // that weigh, violated rows, and the active ones of this level's QP.
   const int n = hierarchy.num_variables();
   const LevelSolution& own = solution->levels[level];
   std::vector<RowIndex> carriers;
   std::vector<bool> is_equality;
   for (int from = 0; from < level; ++from) {
     for (int i = 0; i < hierarchy.num_equalities(from); ++i) {
+      if (hierarchy.weight(from)[i] == 0) continue;
       carriers.push_back({from, i});
       is_equality.push_back(true);
     }

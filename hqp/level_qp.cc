@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "math/rank.h"
@@ -13,6 +14,8 @@ namespace {
 
 // Of a multiplier or a step, relative to what it is added up from.
 constexpr double kNegligible = 1e-12;
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 // Iterations a row, after which rows leave by Bland's rule: slow, but it cannot
 // cycle.
@@ -63,7 +66,7 @@ class ActiveSet {
     const int blocking = Advance(step);
     if (blocking >= 0) return false;
     const int leaving = FindLeaving();
-    if (leaving >= 0) qp_.side[leaving] = Side::kNone;
+    if (leaving >= 0) Release(leaving);
     return leaving < 0;
   }
 
@@ -136,6 +139,16 @@ class ActiveSet {
     return blocking;
   }
 
+  // What the residuals of the rows of L_ are added up from.
+  Eigen::VectorXd TermsSize() const {
+    Eigen::VectorXd size = qp_.z.norm() * norms_;
+    size.head(qp_.M.rows()) += qp_.M_size;
+    for (size_t s = 0; s < soft_.size(); ++s) {
+      size[qp_.M.rows() + s] += qp_.size[soft_[s]];
+    }
+    return size;
+  }
+
   // The active row that holds the optimum back most, or -1.
   int FindLeaving() {
     const Eigen::VectorXd residual = L_.topRows(qp_.M.rows()) * qp_.z + qp_.m;
@@ -162,8 +175,10 @@ class ActiveSet {
     }
     if (!hard_.empty()) {
       const Eigen::VectorXd gradient = L_.transpose() * weighted;
-      const double size =
-          norms_.dot(weighted.cwiseAbs()) + norms_.dot(l_.cwiseAbs());
+      // Residuals, and the rounding of what they are differences of.
+      const double size = norms_.dot(weighted.cwiseAbs()) +
+                          norms_.dot(l_.cwiseAbs()) +
+                          kEps / kNegligible * norms_.dot(TermsSize());
       const Eigen::VectorXd multipliers =
           A_.transpose().colPivHouseholderQr().solve(-gradient);
       for (size_t h = 0; h < hard_.size(); ++h) {
@@ -171,6 +186,20 @@ class ActiveSet {
       }
     }
     return leaving;
+  }
+
+  // A soft row may be on the far side of both its bounds by then: it stays, at
+  // the other one.
+  void Release(int i) {
+    const Side side = qp_.side[i];
+    const double value = qp_.P.row(i).dot(qp_.z) + qp_.value[i];
+    qp_.side[i] = Side::kNone;
+    if (!qp_.soft[i]) return;
+    if (side == Side::kUpper && value < qp_.lower[i]) {
+      qp_.side[i] = Side::kLower;
+    } else if (side == Side::kLower && value > qp_.upper[i]) {
+      qp_.side[i] = Side::kUpper;
+    }
   }
 
   RowSpaceMethod method_;

@@ -19,6 +19,7 @@ struct LevelQp {
   Eigen::MatrixXd M;
   Eigen::VectorXd m;
   Eigen::VectorXd M_norm;  ///< Norms of the rows before projection.
+  Eigen::VectorXd M_size;  ///< What m is added up from, as `size`.
   Eigen::MatrixXd P;
   Eigen::VectorXd value, lower, upper;
   Eigen::VectorXd P_norm;

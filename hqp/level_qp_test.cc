@@ -38,6 +38,7 @@ LevelQp MakeQp(const MatrixXd& M, const VectorXd& m, const MatrixXd& P,
   qp.M = M;
   qp.m = m;
   qp.M_norm = M.rowwise().norm();
+  qp.M_size = m.cwiseAbs();
   qp.P = P;
   qp.P_norm = P.rowwise().norm();
   qp.value = VectorXd::Zero(P.rows());
@@ -358,6 +359,25 @@ TEST_P(LevelQpTest, EndsWhereStepsOfNoLengthLeadInACircle) {
 INSTANTIATE_TEST_SUITE_P(BothWays, LevelQpTest,
                          testing::Values(RowSpaceMethod::kSvd,
                                          RowSpaceMethod::kCod));
+
+// A row leaves for 1e-15 of what is asked for, not for 1e-16, which is rounding
+// of a difference of ones: of those that m is made of, or z.
+TEST(LevelQp, LetsARowGoForNoRounding) {
+  for (const double start : {0., 1.}) {
+    for (const double wish : {1e-16, 1e-15}) {
+      LevelQp qp = MakeQp(MatrixXd::Ones(1, 1), VectorXd::Constant(1, wish),
+                          MatrixXd::Ones(1, 1), /* soft */ false);
+      qp.M_size << 1 - start;
+      qp.upper << 0;
+      qp.side[0] = Side::kUpper;
+      qp.z << start;
+      qp.m[0] -= start;
+      qp.value[0] = -start;
+      SolveLevelQp(RowSpaceMethod::kSvd, 100, &qp);
+      EXPECT_EQ(qp.side[0], wish == 1e-16 ? Side::kUpper : Side::kNone);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace poise

@@ -41,6 +41,19 @@ double ConditionOfActiveRows(const Hierarchy& hierarchy,
   return svd.condition();
 }
 
+// The largest |b| / |row|: rounding of y is relative to it where y is less.
+double LargestWish(const Hierarchy& hierarchy) {
+  double largest = 0;
+  for (int k = 0; k < hierarchy.num_levels(); ++k) {
+    for (int i = 0; i < hierarchy.num_equalities(k); ++i) {
+      const double norm = hierarchy.B(k).row(i).norm();
+      if (hierarchy.weight(k)[i] == 0 || norm == 0) continue;
+      largest = std::max(largest, std::abs(hierarchy.b(k)[i]) / norm);
+    }
+  }
+  return largest;
+}
+
 // The largest difference of residuals and slacks that count.
 double ResidualDifference(const Hierarchy& hierarchy, int level,
                           const LevelSolution& a, const LevelSolution& b) {
@@ -92,10 +105,12 @@ std::string Disagreement(const HierarchyCase& drawn, double tolerance) {
            << "; ";
     }
   }
+  const double eps = std::numeric_limits<double>::epsilon();
   judge("y", (fast.y - reference.y).norm(),
-        std::max(tolerance, 100 * std::numeric_limits<double>::epsilon() *
-                                ConditionOfActiveRows(hierarchy, reference)) *
-            reference.y.norm());
+        std::max(tolerance,
+                 100 * eps * ConditionOfActiveRows(hierarchy, reference)) *
+                reference.y.norm() +
+            eps * LargestWish(hierarchy));
   return text.str();
 }
 
