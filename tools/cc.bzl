@@ -11,6 +11,8 @@ _COPTS = [
     # GCC raises this one wrongly inside Eigen; clang does not know it.
     "-Wno-unknown-warning-option",
     "-Wno-maybe-uninitialized",
+    # Clang does not know GCC's --param of .bazelrc.
+    "-Wno-unused-command-line-argument",
     "-Werror",
 ]
 
