@@ -110,7 +110,7 @@ std::string Disagreement(const HierarchyCase& drawn, double tolerance) {
         std::max(tolerance,
                  100 * eps * ConditionOfActiveRows(hierarchy, reference)) *
                 reference.y.norm() +
-            eps * LargestWish(hierarchy));
+            4 * eps * LargestWish(hierarchy));
   return text.str();
 }
 
