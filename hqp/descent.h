@@ -68,7 +68,7 @@ class Descent {
   int n_;
   std::vector<double> y_, step_, value_, slope_;
   std::vector<std::vector<int>> leaves_;  ///< How often it still may leave.
-  RowIndex left_;  ///< The row that left last, if it did alone.
+  RowIndex left_ = {-1, -1};  ///< The row that left last, if it did alone.
   std::vector<std::vector<Side>> broken_;   ///< kNone: not broken.
   std::vector<std::vector<Side>> settled_;  ///< When the last level was done.
 };

@@ -332,7 +332,8 @@ void SelectionTail::FindMultipliers(int level) {
     gradient = std::max(gradient, scale_[p] * std::abs(x_[p]));
     size = std::max(size, scale_[p] * scale_[p] * magnitude_[p]);
   }
-  block.size = gradient > kZeroGradient * size ? size : 0;
+  // What levels before have moved is in the gradient alone.
+  block.size = gradient > kZeroGradient * size ? std::max(size, gradient) : 0;
   double* z = &z_[block.row_begin];
   for (int i = block.row_end - block.row_begin - 1; i >= 0; --i) {
     const double* l = &l_[static_cast<size_t>(block.row_begin + i) * stride_];

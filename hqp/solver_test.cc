@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
+#include <new>
+#include <vector>
 
 #include "hqp/active_problem.h"
 #include "hqp/budget.h"
@@ -356,6 +359,45 @@ TEST(Solver, EntersARowThatIsViolatedByItsOwnTerms) {
       }
     }
   }
+}
+
+// y0 + y1 >= 0 above y0 = w, and nothing else: y1 is as short as it may be, also
+// where the last tick had that row active.
+TEST(Solver, LetsARowGoForTheNormAlone) {
+  const std::vector<LevelCapacity> capacity{{0, 1}, {1, 0}};
+  Solver solver(2, capacity);
+  for (const double wish : {-1., 1., 2., -2.}) {
+    Hierarchy hierarchy(2, capacity);
+    InequalityBlock row = hierarchy.AddInequalities(0, 1);
+    row.C << 1, 1;
+    row.lower << 0;
+    EqualityBlock equality = hierarchy.AddEqualities(1, 1);
+    equality.B << 1, 0;
+    equality.b << -wish;
+    Solution solution(2, capacity);
+    ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+    EXPECT_NEAR(solution.y[0], wish, kTolerance);
+    EXPECT_NEAR(solution.y[1], std::max(-wish, 0.), kTolerance);
+  }
+}
+
+// A replay gives the same bits, whatever the memory held before.
+TEST(Solver, DoesNotDependOnWhatItsMemoryHeld) {
+  RandomHierarchyOptions options;
+  options.planted = 100;
+  const HierarchyCase drawn = MakeRandomHierarchy(3467, options);
+  const int n = drawn.hierarchy.num_variables();
+  std::vector<Solution> solutions(2, Solution(n, drawn.capacity));
+  for (const int fill : {0, 0xff}) {
+    alignas(Solver) unsigned char memory[sizeof(Solver)];
+    std::memset(memory, fill, sizeof(memory));
+    Solver* solver = new (memory) Solver(n, drawn.capacity);
+    Solution& solution = solutions[fill == 0 ? 0 : 1];
+    EXPECT_EQ(solver->Solve(drawn.hierarchy, &solution), Status::kOptimal);
+    solver->~Solver();
+  }
+  EXPECT_EQ(solutions[0].y, solutions[1].y);
+  EXPECT_EQ(solutions[0].iterations, solutions[1].iterations);
 }
 
 }  // namespace
