@@ -9,20 +9,12 @@
 #include "hqp/certificate.h"
 #include "math/rank.h"
 #include "tests/util/random_hierarchy.h"
+#include "tests/util/solve_cascade.h"
 
 namespace poise {
 namespace {
 
 constexpr double kTolerance = 1e-14;  // A few operations on numbers near 1.
-
-Solution Solve(const HierarchyCase& drawn, RowSpaceMethod method) {
-  const int n = drawn.hierarchy.num_variables();
-  Solution solution(n, drawn.capacity);
-  EXPECT_EQ(
-      Cascade(n, drawn.capacity, method).Solve(drawn.hierarchy, &solution),
-      Status::kOptimal);
-  return solution;
-}
 
 class CascadeByHandTest : public testing::TestWithParam<RowSpaceMethod> {};
 
@@ -44,7 +36,7 @@ TEST_P(CascadeByHandTest, CountsARowAsViolatedFromAnEdgeOn) {
     rows.C << 3, 4, 3, 4;
     rows.upper[0] = 50;
     rows.lower[1] = 50 + 2 * share * 1e-9 * (5 * std::sqrt(125) + 50);
-    const Solution solution = Solve(edge, GetParam());
+    const Solution solution = SolveCascade(edge, GetParam());
     // Between the two bounds, along (3, 4) / 5.
     EXPECT_LE((solution.y - Eigen::Vector2d(10, 5)).norm(),
               (rows.lower[1] - 50) / 5);
@@ -78,7 +70,7 @@ TEST_P(CascadeByHandTest, AsksForNothingWhereALevelIsMet) {
       row.C << 1, 2;
       (side == Side::kLower ? row.lower : row.upper) << 5 - sign * slack;
       const Eigen::VectorXd multipliers =
-          Solve(met, GetParam()).levels[1].multipliers[0].equality;
+          SolveCascade(met, GetParam()).levels[1].multipliers[0].equality;
       if (share < 1) {
         EXPECT_EQ(multipliers, Eigen::Vector2d(0, 0));
       } else {
@@ -98,7 +90,7 @@ TEST_P(CascadeByHandTest, TakesRoundingForZero) {
   both.b << 7;
   both.weight << 2.6;
   two.hierarchy.AddEqualities(1, 1).B << 0, 1;
-  const Solution solution = Solve(two, GetParam());
+  const Solution solution = SolveCascade(two, GetParam());
   EXPECT_NEAR(solution.y[0], -7 / 0.87, 10 * kTolerance);
   EXPECT_EQ(solution.y[1], 0);
   EXPECT_LE(WorstOf(two, solution), kTolerance);
@@ -111,7 +103,7 @@ TEST_P(CascadeByHandTest, TakesASmallEntryForWhatItIs) {
     EqualityBlock wishes = two.hierarchy.AddEqualities(0, 2);
     wishes.B.setIdentity();
     wishes.b << -8, -small;
-    EXPECT_EQ(Solve(two, GetParam()).y[1], small == 1e-12 ? small : 0);
+    EXPECT_EQ(SolveCascade(two, GetParam()).y[1], small == 1e-12 ? small : 0);
   }
 }
 
@@ -130,7 +122,7 @@ TEST_P(CascadeByHandTest, LeavesARowWithoutWeightWithoutMultiplier) {
   EqualityBlock wish = corner.hierarchy.AddEqualities(1, 1);
   wish.B << 1, 0;
   wish.b << 1;
-  const Solution solution = Solve(corner, GetParam());
+  const Solution solution = SolveCascade(corner, GetParam());
   EXPECT_EQ(solution.y, Eigen::Vector2d(0, 0));
   EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
   EXPECT_EQ(solution.levels[0].active[1], Side::kUpper);
@@ -169,7 +161,7 @@ TEST_P(CascadeByHandTest, KeepsARowThatHasCrossedBothItsBounds) {
     row.C << 0, 0, 0.28 * sign, 0, 0, -3 * sign;
     row.lower << 5 * sign;
     row.upper << 5 * sign;
-    const Solution solution = Solve(crossed, GetParam());
+    const Solution solution = SolveCascade(crossed, GetParam());
     EXPECT_EQ(solution.levels[1].active[0],
               sign > 0 ? Side::kLower : Side::kUpper);
     EXPECT_LE(WorstOf(crossed, solution), kTolerance);
@@ -193,7 +185,7 @@ TEST_P(CascadeByHandTest, EndsWhereALevelIsMet) {
       0, 2, -2.81;
   rows.upper[0] = -2;
   rows.lower[1] = 0;
-  const Solution solution = Solve(met, GetParam());
+  const Solution solution = SolveCascade(met, GetParam());
   EXPECT_NEAR(solution.levels[1].cost, 0, kTolerance);
   EXPECT_LE(WorstOf(met, solution), kTolerance);
 }
@@ -207,7 +199,7 @@ TEST_P(CascadeByHandTest, DropsARowOfWhichNothingIsLeft) {
     InequalityBlock row = dropped.hierarchy.AddInequalities(1, 1);
     row.C << 4, 4 * rest;
     row.upper << -4;
-    const Solution solution = Solve(dropped, GetParam());
+    const Solution solution = SolveCascade(dropped, GetParam());
     EXPECT_EQ(solution.levels[1].active[0],
               rest < kRankTolerance ? Side::kNone : Side::kUpper);
     EXPECT_EQ(solution.y[1] == 0, rest < kRankTolerance);
@@ -228,7 +220,7 @@ TEST_P(CascadeByHandTest, TakesShortRowsLikeLongOnes) {
   EqualityBlock wishes = drawn.hierarchy.AddEqualities(1, 3);
   wishes.B.setIdentity();
   wishes.b << -2, -3, -4;
-  const Solution solution = Solve(drawn, GetParam());
+  const Solution solution = SolveCascade(drawn, GetParam());
   EXPECT_LE((solution.y - Eigen::Vector3d(1, 1, 1)).norm(), kTolerance);
   EXPECT_EQ(solution.levels[0].nullity, 1);
   const LevelMultipliers& multipliers = solution.levels[1].multipliers[0];
@@ -248,7 +240,7 @@ TEST_P(CascadeByHandTest, TakesARowWithoutWeightForNone) {
   EqualityBlock below = weightless.hierarchy.AddEqualities(1, 2);
   below.B.setIdentity();
   below.b << -8, -5;
-  const Solution solution = Solve(weightless, GetParam());
+  const Solution solution = SolveCascade(weightless, GetParam());
   EXPECT_LE((solution.y - Eigen::Vector2d(3, 5)).norm(), kTolerance);
   EXPECT_EQ(solution.levels[0].nullity, 1);
   EXPECT_EQ(solution.levels[1].nullity, 0);
@@ -264,7 +256,7 @@ TEST_P(CascadeByHandTest, SharesMultipliersAmongRowsThatAreOne) {
   EqualityBlock wishes = twice.hierarchy.AddEqualities(1, 2);
   wishes.B.setIdentity();
   wishes.b << -3, -5;
-  const Solution solution = Solve(twice, GetParam());
+  const Solution solution = SolveCascade(twice, GetParam());
   EXPECT_EQ(solution.levels[0].nullity, 1);
   const LevelMultipliers& multipliers = solution.levels[1].multipliers[0];
   EXPECT_NEAR(multipliers.equality[0], 1, 1e-10);  // 1e-13 of 5, and rounding.
@@ -280,11 +272,13 @@ TEST_P(CascadeByHandTest, TakesTheShortestOfManyOptima) {
   InequalityBlock bound = free.hierarchy.AddInequalities(0, 1);
   bound.C << 1, 0, 0;
   bound.lower << 0.5;
-  EXPECT_LE((Solve(free, GetParam()).y - Eigen::Vector3d(1, 1, 0)).norm(),
-            kTolerance);
+  EXPECT_LE(
+      (SolveCascade(free, GetParam()).y - Eigen::Vector3d(1, 1, 0)).norm(),
+      kTolerance);
   bound.lower << 1.5;
-  EXPECT_LE((Solve(free, GetParam()).y - Eigen::Vector3d(1.5, 0.5, 0)).norm(),
-            kTolerance);
+  EXPECT_LE(
+      (SolveCascade(free, GetParam()).y - Eigen::Vector3d(1.5, 0.5, 0)).norm(),
+      kTolerance);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothWays, CascadeByHandTest,

@@ -10,6 +10,7 @@
 #include "hqp/certificate.h"
 #include "tests/util/lexicographic.h"
 #include "tests/util/random_hierarchy.h"
+#include "tests/util/solve_cascade.h"
 
 namespace poise {
 namespace {
@@ -77,15 +78,6 @@ HierarchyCase Draw(int seed) {
   return MakeRandomHierarchy(seed, options);
 }
 
-Solution Solve(const HierarchyCase& drawn, RowSpaceMethod method) {
-  const int n = drawn.hierarchy.num_variables();
-  Solution solution(n, drawn.capacity);
-  EXPECT_EQ(
-      Cascade(n, drawn.capacity, method).Solve(drawn.hierarchy, &solution),
-      Status::kOptimal);
-  return solution;
-}
-
 // The first levels of a hierarchy, with all that its rows ask for in another
 // unit.
 HierarchyCase Part(const HierarchyCase& drawn, int levels, double unit = 1) {
@@ -115,7 +107,7 @@ TEST_P(EitherCascadeTest, IsCertified) {
     SCOPED_TRACE(seed);
     const HierarchyCase drawn = Draw(seed);
     EXPECT_LE(Certifier(drawn.hierarchy.num_variables(), drawn.capacity)
-                  .Certify(drawn.hierarchy, Solve(drawn, GetParam()))
+                  .Certify(drawn.hierarchy, SolveCascade(drawn, GetParam()))
                   .worst(),
               kCertified);
   }
@@ -129,7 +121,7 @@ TEST_P(EitherCascadeTest, CountsEqualitiesAndViolatedRows) {
     const HierarchyCase drawn = Draw(seed);
     const Hierarchy& hierarchy = drawn.hierarchy;
     const int n = hierarchy.num_variables();
-    const Solution solution = Solve(drawn, GetParam());
+    const Solution solution = SolveCascade(drawn, GetParam());
     Eigen::MatrixXd rows(0, n);
     for (int k = 0; k < hierarchy.num_levels(); ++k) {
       const auto add = [&](const Eigen::VectorXd& row) {
@@ -177,16 +169,16 @@ TEST_P(EitherCascadeTest, KeepsEachLevelsCostAndKnowsNoUnit) {
   for (int seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const HierarchyCase drawn = Draw(seed);
-    const Solution whole = Solve(drawn, GetParam());
+    const Solution whole = SolveCascade(drawn, GetParam());
     const int levels = drawn.hierarchy.num_levels();
     for (int k = 1; k < levels; ++k) {
-      const Solution part = Solve(Part(drawn, k), GetParam());
+      const Solution part = SolveCascade(Part(drawn, k), GetParam());
       for (int above = 0; above < k; ++above) {
         EXPECT_EQ(part.levels[above].cost, whole.levels[above].cost);
       }
     }
     const double unit = std::ldexp(1, -80);
-    const Solution small = Solve(Part(drawn, levels, unit), GetParam());
+    const Solution small = SolveCascade(Part(drawn, levels, unit), GetParam());
     EXPECT_EQ(small.y, whole.y * unit);
     EXPECT_EQ(small.iterations, whole.iterations);
     for (int k = 0; k < levels; ++k) {
@@ -203,7 +195,7 @@ TEST_P(EitherCascadeTest, KeepsToItsBudget) {
     const HierarchyCase drawn = Draw(seed);
     const Hierarchy& hierarchy = drawn.hierarchy;
     const int n = hierarchy.num_variables();
-    const int needed = Solve(drawn, GetParam()).iterations;
+    const int needed = SolveCascade(drawn, GetParam()).iterations;
     EXPECT_GT(needed, hierarchy.num_levels());
     int failed_before = 0;
     for (int budget = 0; budget <= needed; ++budget) {

@@ -1,0 +1,12 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include "hqp/cascade.h"
+#include "tests/util/random_hierarchy.h"
+
+namespace poise {
+
+/// Solves it by a new cascade; a test failure if that finds no optimum.
+Solution SolveCascade(const HierarchyCase& drawn, RowSpaceMethod method);
+
+}  // namespace poise
