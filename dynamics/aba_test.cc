@@ -3,12 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <limits>
 
 #include "dynamics/crba.h"
 #include "dynamics/rnea.h"
 #include "tests/util/count_malloc.h"
+#include "tests/util/decompositions.h"
 #include "tests/util/tolerance.h"
 #include "tests/util/tree_cases.h"
 
@@ -74,8 +75,7 @@ TEST(Aba, UndoesRnea) {
     const Forward forward = AbaOf(m.tree, m.q, m.v, tau, m.F_Bo_W);
     if (forward.status != AbaStatus::kOk) return Residual{1, 0};
     if (m.tree.nv() == 0) return Residual{0, 0};
-    const VectorXd eigenvalues =
-        Eigen::SelfAdjointEigenSolver<MatrixXd>(M).eigenvalues();
+    const VectorXd eigenvalues = Eigenvalues(M);
     // The force that is left over is a rounding error, in units of the largest
     // force; what moves least resists it with the smallest eigenvalue.
     const double scale = tau.norm() + M.norm() * m.vdot.norm() + 100;
@@ -197,8 +197,7 @@ TEST(Aba, IsRightForAFingerOfFourGrams) {
   VectorXd vdot(7), tau(7);
   vdot << 1, 2, 3, 4, 5, 6, 1000;
   ComputeCrba(tree, tree.MakeNeutral(), &scratch, M);
-  const VectorXd eigenvalues =
-      Eigen::SelfAdjointEigenSolver<MatrixXd>(M).eigenvalues();
+  const VectorXd eigenvalues = Eigenvalues(M);
   EXPECT_GT(eigenvalues[6] / eigenvalues[0], 1e9);
   ComputeRnea(tree, tree.MakeNeutral(), VectorXd::Zero(7), vdot, {}, &scratch,
               tau);

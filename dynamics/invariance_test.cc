@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <numeric>
 #include <random>
@@ -14,6 +13,7 @@
 #include "dynamics/kinematics.h"
 #include "dynamics/rnea.h"
 #include "dynamics/tick.h"
+#include "tests/util/decompositions.h"
 #include "tests/util/tolerance.h"
 #include "tests/util/tree_cases.h"
 
@@ -149,10 +149,8 @@ TEST(Dynamics, OfTheJointsDoesNotHangOnTheRoot) {
     expected.head<6>() = AccelerationsOf(m, vdot)[LastBody(m)].vector();
     for (int j = 0; j < n; ++j) expected[6 + rerooted.order[j]] = vdot[6 + j];
     const Tick tick = TickOf(m), tick_moved = TickOf(moved);
-    const auto resistance = [](const MatrixXd& M) {
-      return Eigen::SelfAdjointEigenSolver<MatrixXd>(M).eigenvalues()[0];
-    };
-    const double least = std::min(resistance(tick.M), resistance(tick_moved.M));
+    const double least =
+        std::min(Eigenvalues(tick.M)[0], Eigenvalues(tick_moved.M)[0]);
     const double scale = 100 + tau.norm() + tick.N.norm() +
                          tick.M.norm() * vdot.norm() + tick_moved.N.norm() +
                          tick_moved.M.norm() * vdot_moved.norm();

@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
 
 #include "dynamics/tick.h"
 #include "sim/bullet_plant.h"
+#include "tests/util/decompositions.h"
 #include "tests/util/random_tree.h"
 #include "tests/util/simple_robots.h"
 
@@ -33,7 +33,7 @@ Flight Fly(const BulletSettings& bullet) {
   plant.Reset(q, v);
   Tick tick(tree, {});
   ComputeTick(tree, q, v, &tick);
-  const Eigen::VectorXd expected = tick.M.ldlt().solve(-tick.N);
+  const Eigen::VectorXd expected = LeastSquaresSolution(tick.M, -tick.N).x;
   const Vector6d momentum = tick.L_G;
   const double energy = v.dot(tick.M * v) / 2;
   const Eigen::VectorXd tau = Eigen::VectorXd::Zero(8);

@@ -3,10 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <random>
 
 #include "dynamics/tick.h"
+#include "tests/util/decompositions.h"
 #include "tests/util/random_tree.h"
 #include "tests/util/simple_robots.h"
 
@@ -67,7 +68,8 @@ TEST(JointDrag, IsTheForceOfTheSpeedThatItLeaves) {
         f_W;
     Eigen::VectorXd force = tick.frames[0].J_WF_W.transpose() * F_W - tick.N;
     force.tail(6) += tau + drag;
-    const Eigen::VectorXd v_end = state.v + kDt * tick.M.lu().solve(force);
+    const Eigen::VectorXd v_end =
+        state.v + kDt * LeastSquaresSolution(tick.M, force).x;
     for (int j = 0; j < 6; ++j) {
       EXPECT_NEAR(drag[j], -0.3 * j * v_end[6 + j],
                   kAgreement * (1 + drag.norm()));

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -20,6 +19,7 @@
 #include "robot/control/task_set.h"
 #include "robot/profile.h"
 #include "tests/util/count_malloc.h"
+#include "tests/util/decompositions.h"
 
 namespace poise {
 namespace {
@@ -56,7 +56,7 @@ class BoltedDown {
       K.block(nv + 6 * i, 0, 6, nv) = contact.J_WC_C;
       k.segment<6>(nv + 6 * i) = -contact.Jdot_v_C;
     }
-    return K.fullPivLu().solve(k);
+    return LeastSquaresSolution(K, k).x;
   }
 
  private:

@@ -15,7 +15,7 @@ run_bazel() {
 }
 trap 'run_bazel shutdown > /dev/null 2>&1' EXIT
 
-run_bazel build //:simulate > log 2>&1 || { tail -n 30 log; exit 1; }
+run_bazel build --copt=-Og //:simulate > log 2>&1 || { tail -n 30 log; exit 1; }
 loaded=$(ls "$(run_bazel info output_base 2> /dev/null)/external")
 if ! grep -qx poise <<< "$loaded" ||
     grep -xE 'urdfdom|bullet|ceres|mujoco|yaml_cpp' <<< "$loaded"; then

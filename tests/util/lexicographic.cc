@@ -1,9 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "tests/util/lexicographic.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <random>
+
+#include "tests/util/decompositions.h"
 
 namespace poise {
 namespace {
@@ -23,19 +24,16 @@ LexicographicOptimum SolveLexicographically(
   for (const LeastSquares& level : levels) {
     if (N.cols() > 0 && level.A.rows() > 0) {
       const Eigen::VectorXd d = level.weight.cwiseSqrt();
-      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(
-          d.asDiagonal() * level.A * N,
-          Eigen::ComputeFullU | Eigen::ComputeFullV);
-      const Eigen::VectorXd& sigma = svd.singularValues();
+      const JacobiSvd svd(d.asDiagonal() * level.A * N);
+      const Eigen::VectorXd& sigma = svd.sigma;
       int rank = 0;
       while (rank < sigma.size() && sigma[rank] > kRankThreshold) ++rank;
       const Eigen::VectorXd rest =
           d.asDiagonal() * (level.b - level.A * optimum.y);
-      const Eigen::VectorXd z =
-          (svd.matrixU().leftCols(rank).transpose() * rest)
-              .cwiseQuotient(sigma.head(rank));
-      optimum.y += N * (svd.matrixV().leftCols(rank) * z);
-      N = (N * svd.matrixV().rightCols(N.cols() - rank)).eval();
+      const Eigen::VectorXd z = (svd.U.leftCols(rank).transpose() * rest)
+                                    .cwiseQuotient(sigma.head(rank));
+      optimum.y += N * (svd.V.leftCols(rank) * z);
+      N = (N * svd.V.rightCols(N.cols() - rank)).eval();
       if (rank > 0) {
         optimum.condition =
             std::max({optimum.condition, sigma[0] / sigma[rank - 1],

@@ -3,7 +3,7 @@
 // can and cannot give, and against the robot's own motion a moment later.
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -34,6 +34,7 @@
 #include "robot/control/tasks/zmp_literal.h"
 #include "robot/control/torque.h"
 #include "robot/profile.h"
+#include "tests/util/decompositions.h"
 
 namespace poise {
 namespace {
@@ -503,8 +504,7 @@ class CaptureTest : public TaskTest {
     // A motion of all joints that has this momentum, and no other.
     const Tick& rest = controller_.tick();
     const Eigen::MatrixXd H = rest.H_G / tree_.total_mass();
-    state_.v =
-        H.transpose() * (H * H.transpose()).inverse() * momentum_over_mass;
+    state_.v = LeastSquaresSolution(H, momentum_over_mass).x;
     ComputeTick(tree_, state_.q, state_.v, &tick_);
     hierarchy_ = Hierarchy(nv_ + 12, {{6, 0}});
     hierarchy_.Clear(1);
