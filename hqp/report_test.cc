@@ -182,6 +182,76 @@ TEST(Report, CountsARowAsViolatedFromAnEdgeOn) {
   }
 }
 
+// y0 = 1 above y0 <= 1 - 2e-9, which is violated too little to count, and y1 = 0:
+// what is below and asks for y0 + y1 = 0 would draw at the bound as much as at
+// y0 = 1, were it not for these two, which weigh the same.
+TEST(Report, TakesForceOffARowThatIsViolatedTooLittleToCount) {
+  const std::vector<LevelCapacity> capacity{{2, 1}, {1, 0}};
+  Hierarchy hierarchy(2, capacity);
+  EqualityBlock wishes = hierarchy.AddEqualities(0, 2);
+  wishes.B << 1, 0, 0, 1;
+  wishes.b << -1, 0;
+  InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+  bound.C << 1, 0;
+  bound.upper << 1 - 2e-9;
+  EqualityBlock sum = hierarchy.AddEqualities(1, 1);
+  sum.B << 1, 1;
+  const Solution solution = Solve(hierarchy, capacity);
+  EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
+  EXPECT_EQ(solution.levels[0].nullity, 0);
+  const LevelMultipliers& of_sum = solution.levels[1].multipliers[0];
+  // Of the two numbers that cancel, 1e-9 each, seven digits are left.
+  EXPECT_LE((of_sum.equality - Eigen::Vector2d(-1, -1)).norm(), 1e-6);
+  EXPECT_NEAR(of_sum.inequality[0], 0, 1e-6);
+  EXPECT_LE(Certifier(2, capacity).Certify(hierarchy, solution).worst(), 1e-9);
+}
+
+// y = 1 and y <= -1 are torn between at y = 0: there both are equalities, and
+// share what y = -5 below draws with, whatever its sign.
+TEST(Report, LeavesTheForceOnARowThatIsViolated) {
+  const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}};
+  Hierarchy hierarchy(1, capacity);
+  EqualityBlock wish = hierarchy.AddEqualities(0, 1);
+  wish.B << 1;
+  wish.b << -1;
+  InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+  bound.C << 1;
+  bound.upper << -1;
+  EqualityBlock below = hierarchy.AddEqualities(1, 1);
+  below.B << 1;
+  below.b << 5;
+  const Solution solution = Solve(hierarchy, capacity);
+  const LevelMultipliers& multipliers = solution.levels[1].multipliers[0];
+  EXPECT_NEAR(multipliers.equality[0], -2.5, kTolerance);
+  EXPECT_NEAR(multipliers.inequality[0], -2.5, kTolerance);
+}
+
+// y0 + y1 = 0 above y_i = 1, y_j = 5 and nothing: what the third leaves on the
+// other variable is not there for the fourth, nor for the next solve.
+TEST(Report, ForgetsWhatALevelLeavesOnTheTail) {
+  const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}, {1, 0}, {1, 0}};
+  Solver solver(2, capacity);
+  for (int j = 0; j < 2; ++j) {
+    Hierarchy hierarchy(2, capacity);
+    hierarchy.AddEqualities(0, 1).B << 1, 1;
+    EqualityBlock first = hierarchy.AddEqualities(1, 1);
+    first.B(0, j) = 1;
+    first.b << -1;
+    EqualityBlock second = hierarchy.AddEqualities(2, 1);
+    second.B(0, 1 - j) = 1;
+    second.b << -5;
+    Solution solution(2, capacity);
+    ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal) << j;
+    // g = -6 on y_(1-j): the sum takes it, and leaves as much on y_j.
+    const std::vector<LevelMultipliers>& of = solution.levels[2].multipliers;
+    EXPECT_NEAR(of[0].equality[0], 6, kTolerance) << j;
+    EXPECT_NEAR(of[1].equality[0], -6, kTolerance) << j;
+    for (const LevelMultipliers& none : solution.levels[3].multipliers) {
+      EXPECT_EQ(none.equality, Eigen::VectorXd::Zero(none.equality.size()));
+    }
+  }
+}
+
 // y0 + y1 = 4 and 2 (y1 + y2) <= 6, above 2 y0 = -2 and, of weight 3, 4 y2 = 8,
 // above 5 y1 = 10.
 class ReportByHandTest : public testing::Test {

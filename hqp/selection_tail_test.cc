@@ -7,7 +7,6 @@
 #include <cmath>
 #include <random>
 
-#include "tests/util/count_malloc.h"
 #include "tests/util/lexicographic.h"
 #include "tests/util/tolerance.h"
 
@@ -246,6 +245,10 @@ TEST_P(RandomSelectionTailTest, ForgetsWhatItSolvedBefore) {
     for (int a = 0; a <= i; ++a) other.AddRow(a, 1);
     other.FactorLevel();
     tail.Clear();
+    for (const int first : {0, 1}) {
+      tail.AddLevel();
+      for (int j = first; j < n_; j += 2) tail.Add(j, 1 + 7 * j % 5, 0);
+    }
     tail.Finish(nullptr);
     tail.Solve(other, y.data());
   }
@@ -253,117 +256,20 @@ TEST_P(RandomSelectionTailTest, ForgetsWhatItSolvedBefore) {
   Fill(&tail);
   tail.Solve(head_, y.data());
   EXPECT_EQ(y, y_);
+  for (int l = 0; l < tail.num_levels(); ++l) {
+    Eigen::VectorXd on_head[2], left[2];
+    for (int k = 0; k < 2; ++k) {
+      on_head[k].setZero(head_.rank());
+      left[k].setZero(n_);
+      (k == 0 ? tail_ : tail).Dual(l, on_head[k].data(), left[k].data());
+    }
+    EXPECT_EQ(on_head[0], on_head[1]) << l;
+    EXPECT_EQ(left[0], left[1]) << l;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomSelectionTailTest,
                          testing::Range(0, kSeeds));
-
-// y1 + y2 = sqrt(2) above y1 = 3, of weight 1, and y2 = 5, of weight 3; y3 free.
-class SelectionTailTest : public testing::Test {
- protected:
-  SelectionTailTest() {
-    head_.AddRow(1, 1);
-    head_.row(0)[0] = head_.row(0)[1] = std::sqrt(0.5);
-    head_.FactorLevel();
-    AddOnce();
-  }
-  void AddOnce() {
-    tail_.AddLevel();
-    tail_.Add(0, 1, 3);
-    tail_.Add(1, 3, 5);
-    tail_.Finish(nullptr);
-  }
-  RowStack head_{3, 1, 1};
-  SelectionTail tail_{3, 2};
-  double y_[3];
-};
-
-TEST_F(SelectionTailTest, SolvesByHand) {
-  tail_.Solve(head_, y_);
-  // The weights share out what the sum lacks: 8 - sqrt(2).
-  const double lack = 8 - std::sqrt(2);
-  EXPECT_NEAR(y_[0], 3 - 0.75 * lack, Rounding(10, 3));
-  EXPECT_NEAR(y_[1], 5 - 0.25 * lack, Rounding(10, 3));
-  EXPECT_EQ(y_[2], 0);
-  double on_head[1], left[3];
-  EXPECT_GT(tail_.Dual(0, on_head, left), 0);
-  EXPECT_NEAR(std::abs(on_head[0]), 0.75 * lack * std::sqrt(2),
-              Rounding(20, 3));
-  EXPECT_EQ(tail_.Dual(1, on_head, left), 0);
-  EXPECT_EQ(tail_.Nullity(0), 1);
-  EXPECT_EQ(tail_.Nullity(1), 0);
-}
-
-TEST_F(SelectionTailTest, TakesTwoTargetsOfALevelForTheirMean) {
-  tail_.Clear();
-  EXPECT_EQ(tail_.num_levels(), 0);
-  tail_.AddLevel();
-  tail_.Add(2, 1, 4);
-  tail_.Add(2, 3, 8);
-  tail_.Add(2, 0, 100);  // Asks for nothing.
-  tail_.AddLevel();
-  tail_.Add(2, 5, 100);  // Too late.
-  tail_.Finish(nullptr);
-  tail_.Solve(head_, y_);
-  EXPECT_NEAR(y_[2], 7, Rounding(8, 3));
-}
-
-TEST_F(SelectionTailTest, FinishesAtTargetsWhereThereAreSome) {
-  tail_.Clear();
-  const double targets[3] = {1, 2, 9};
-  tail_.AddLevel();
-  tail_.Add(0, 1, 3);
-  tail_.Finish(targets);
-  tail_.Solve(head_, y_);
-  EXPECT_NEAR(y_[0], 3, Rounding(3, 3));
-  EXPECT_NEAR(y_[1], std::sqrt(2) - 3, Rounding(3, 3));
-  EXPECT_NEAR(y_[2], 9, Rounding(9, 3));
-}
-
-// y = 1 + off above y = 1: relative to the two of them, or to where a correction
-// starts.
-TEST_F(SelectionTailTest, AGradientOfRoundingIsNone) {
-  for (const double weight : {0.01, 4.0}) {
-    for (const double part : {0.7e-13, 1.4e-13}) {
-      for (const double start : {1.0, 7.0}) {
-        const double size = start + 1, off = part * size;
-        RowStack head(1, 1, 1);
-        *head.row(head.AddRow(1 + off, 1)) = 1;
-        head.FactorLevel();
-        SelectionTail tail(1, 1);
-        tail.AddLevel();
-        tail.Add(0, weight, 1);
-        tail.Finish(nullptr);
-        double y, on_head = 5, left = 5;
-        tail.Solve(head, &y);
-        if (start != 1) {
-          y = start;
-          const double change = (1 + off - start) * head.basis()[0];
-          tail.Correct(head, &change, true, &y);
-        }
-        const double found = tail.Dual(0, &on_head, &left);
-        EXPECT_EQ(left, 5);
-        if (part < 1e-13) {
-          EXPECT_EQ(found, 0) << weight << ", " << start;
-          EXPECT_EQ(on_head, 5) << weight << ", " << start;
-        } else {
-          EXPECT_NEAR(found, weight * size, weight * (off + Rounding(size, 1)))
-              << weight << ", " << start;
-        }
-      }
-    }
-  }
-}
-
-TEST_F(SelectionTailTest, DoesNotAllocate) {
-  double on_head[1], left[3];
-  const CountMalloc count;
-  tail_.Clear();
-  AddOnce();
-  tail_.Solve(head_, y_);
-  tail_.Dual(0, on_head, left);
-  EXPECT_EQ(count.allocations(), 0);
-}
 
 }  // namespace
 }  // namespace poise

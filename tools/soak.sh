@@ -4,11 +4,12 @@
 # Runs the property tests (all that use RapidCheck, or TARGET...) again and
 # again, with new seeds and ten times as many cases as the default run. Of each
 # failure it keeps a file in ~/.cache/poise/soak, which holds the command that
-# replays it and what the test printed. Exit code 1 if there was one.
+# replays it and what the test printed. Exit code 1 if there was one; Bazel's,
+# at once, if something does not build.
 set -uo pipefail
 cd "${BUILD_WORKSPACE_DIRECTORY:-$(dirname "$0")/..}"
 if ! [[ ${1:-} =~ ^[0-9]*\.?[0-9]+$ ]]; then
-  sed -n '3,8s/^# \?//p' tools/soak.sh >&2
+  sed -n '3,9s/^# \?//p' tools/soak.sh >&2
   exit 2
 fi
 end=$(awk -v hours="$1" 'BEGIN { printf "%d", systime() + 3600 * hours }')
@@ -30,6 +31,7 @@ while [ "$(date +%s)" -lt "$end" ]; do
   bazel test --noshow_progress --keep_going --test_output=errors \
     --test_timeout=3600 --test_env=RC_PARAMS="$parameters" "${targets[@]}" \
     > "$log" 2>&1
+  status=$?
   rounds=$((rounds + 1))
   while read -r target; do
     failures=$((failures + 1))
@@ -40,6 +42,10 @@ while [ "$(date +%s)" -lt "$end" ]; do
     } > "$file"
     echo "failed: $target; replay by the first line of $file"
   done < <(sed -n 's/^\(\/\/[^ ]*\) .*\(FAILED\|TIMEOUT\) in .*/\1/p' "$log")
+  if [ "$status" != 0 ] && [ "$status" != 3 ]; then
+    cat "$log" >&2  # Something does not build: that is no clean round.
+    exit "$status"
+  fi
   echo "round $rounds, seed $seed: $failures failures so far"
 done
 [ "$failures" = 0 ]
