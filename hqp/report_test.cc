@@ -68,6 +68,10 @@ TEST(Report, IsCertifiedAndCountsAsTheCascadeDoes) {
     Solution solution(n, drawn.capacity), reference(n, drawn.capacity);
     ASSERT_EQ(Cascade(n, drawn.capacity).Solve(drawn.hierarchy, &reference),
               Status::kOptimal);
+    EXPECT_LE(Certifier(n, drawn.capacity)
+                  .Certify(drawn.hierarchy, reference)
+                  .worst(),
+              kCertified);
     for (int time = 0; time < 2; ++time) {
       ASSERT_EQ(solver.Solve(drawn.hierarchy, &solution), Status::kOptimal);
       EXPECT_LE(Certifier(n, drawn.capacity)
