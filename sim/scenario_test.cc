@@ -72,7 +72,9 @@ sensors: {noise: 1, joint_position: 1.1, joint_velocity: 1.2,
           foot_moment: 1.6, accelerometer: 1.7, gyroscope: 1.8, joint_bias: 1.9,
           gyroscope_bias: 2.1, force_bias: 2.2, joint_resolution: 2.3,
           force_resolution: 2.4, dropout: 0.5, contact_threshold: 2.6,
-          freeze_at: 2.7, freeze_for: 2.8}
+          freeze_at: 2.7, freeze_for: 2.8, bias: 2.9, resolution: 3.1,
+          base_position: 3.2, base_velocity: 3.3, joint_delay: 0.1,
+          base_delay: 0.2, foot_delay: 0.3}
 )");
   EXPECT_EQ(s.name, "all");
   EXPECT_EQ(s.duration, 7);
@@ -143,6 +145,13 @@ sensors: {noise: 1, joint_position: 1.1, joint_velocity: 1.2,
   EXPECT_EQ(n.contact_threshold, 2.6);
   EXPECT_EQ(n.freeze_at, 2.7);
   EXPECT_EQ(n.freeze_for, 2.8);
+  EXPECT_EQ(n.bias, 2.9);
+  EXPECT_EQ(n.resolution, 3.1);
+  EXPECT_EQ(n.base_position, 3.2);
+  EXPECT_EQ(n.base_velocity, 3.3);
+  EXPECT_EQ(n.joint_delay, 0.1);
+  EXPECT_EQ(n.base_delay, 0.2);
+  EXPECT_EQ(n.foot_delay, 0.3);
 }
 
 // The YAML in docs/scenarios.md.
@@ -294,6 +303,13 @@ TEST(Scenario, AbsurdNumbersAreRefusedWithTheirLine) {
         "plant: {boards: [{size: [1, 1, 1], yaw: 11}]}",
         "sensors: {noise: -1}",
         "sensors: {noise: 1e9}",
+        "sensors: {bias: 1e9}",
+        "sensors: {resolution: 1e9}",
+        "sensors: {base_position: 11}",
+        "sensors: {base_velocity: 1e9}",
+        "sensors: {joint_delay: 2}",
+        "sensors: {base_delay: -1}",
+        "sensors: {foot_delay: 2}",
         "sensors: {dropout: 2}",
         "sensors: {joint_position: 11}",
         "sensors: {joint_velocity: 1e9}",

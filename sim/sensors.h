@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <deque>
+#include <vector>
 
 #include "robot/control/measurement.h"
 #include "robot/robot.h"
@@ -35,14 +37,27 @@ class Sensors {
   const Measurement& measurement() const { return measurement_; }
 
  private:
+  struct Bias {
+    Eigen::VectorXd joint_position, joint_velocity;
+    Eigen::Vector3d base_position, base_orientation, base_rate, base_velocity;
+    Eigen::Vector3d accelerometer, gyroscope;
+    std::vector<Eigen::Vector3d> foot_force, foot_moment;  // By foot.
+  };
+
+  void DrawBiases();
+  void Remember(const PlantState& state);
+  const PlantState& Before(double delay) const;
   double Noise(double deviation);
+  double Read(double truth, double bias, double deviation);
+  Eigen::Vector3d Read(const Eigen::Vector3d& truth,
+                       const Eigen::Vector3d& bias, double deviation);
+  Eigen::Matrix3d ReadOrientation(const Eigen::Matrix3d& R);
 
   Robot robot_;
   SensorSettings settings_;
   RandomStream random_;
-  Eigen::VectorXd joint_bias_;
-  Eigen::Vector3d gyroscope_bias_;
-  std::vector<Eigen::Vector3d> force_bias_;
+  Bias bias_;
+  std::deque<PlantState> past_;  // Back to the longest delay; the last is now.
   Measurement measurement_;
   bool first_ = true;
 };

@@ -83,16 +83,21 @@ TEST(Sensors, NoiseHasTheDeviationsItShould) {
   const Robot robot = MakeArmOnABlock();
   SensorSettings settings;
   settings.noise = 2;
+  settings.base_position = 3e-3;
+  settings.base_velocity = 0.03;
   Sensors sensors(robot, settings, 1);
   const PlantState state = MakeState();
   const Eigen::Matrix3d R_WB = ExpSo3({0, 0, M_PI / 2});
   Spread position, rate, orientation, base_rate, force, moment, gyro, acc;
+  Spread base_position, base_velocity;
   for (int i = 0; i < 20000; ++i) {
     const Measurement& m = sensors.Measure(state);
     position.Add(m.q_joints[1] + 0.456);
     rate.Add(m.v_joints[0] - 0.7);
     orientation.Add(LogSo3(R_WB.transpose() * m.X_WB.R).x());
     base_rate.Add(m.V_WB_W[2] - 0.3);
+    base_position.Add(m.X_WB.p[1] - 2);
+    base_velocity.Add(m.V_WB_W[3] - 0.4);
     force.Add(m.feet[0].F_Co_C[4] - 5);
     moment.Add(m.feet[0].F_Co_C[2] - 3);
     gyro.Add(m.w_WB_B[0] - 0.2);
@@ -108,6 +113,8 @@ TEST(Sensors, NoiseHasTheDeviationsItShould) {
   expect(rate, 0.2);
   expect(orientation, 8e-3);
   expect(base_rate, 0.04);
+  expect(base_position, 6e-3);
+  expect(base_velocity, 0.06);
   expect(force, 4);
   expect(moment, 0.2);
   expect(gyro, 0.01);
@@ -147,6 +154,98 @@ TEST(Sensors, QuantiseToTheNearestStep) {
   EXPECT_DOUBLE_EQ(m.q_joints[1], -0.5);
   EXPECT_DOUBLE_EQ(m.feet[0].F_Co_C[3], 7);
   EXPECT_DOUBLE_EQ(m.feet[0].F_Co_C[5], 63);
+}
+
+// All that a controller is told, as one vector; its orientation as a rotation
+// from R.
+Eigen::VectorXd Everything(
+    const Measurement& m,
+    const Eigen::Matrix3d& R = Eigen::Matrix3d::Identity()) {
+  Eigen::VectorXd all(2 + 2 + 3 + 3 + 6 + 3 + 3 + 6);
+  all << m.q_joints, m.v_joints, m.X_WB.p, LogSo3(R.transpose() * m.X_WB.R),
+      m.V_WB_W, m.w_WB_B, m.specific_force_Bo_B, m.feet[0].F_Co_C;
+  return all;
+}
+
+// The deviation of each of them, as set below.
+Eigen::VectorXd Deviations() {
+  const Eigen::Vector3d one = Eigen::Vector3d::Ones();
+  Eigen::VectorXd all(28);
+  all << 2e-3, 2e-3, 0.1, 0.1, 3e-3 * one, 4e-3 * one, 0.02 * one, 0.03 * one,
+      5e-3 * one, 0.05 * one, 0.1 * one, 2 * one;
+  return all;
+}
+
+SensorSettings WithABase() {
+  SensorSettings settings;
+  settings.base_position = 3e-3;
+  settings.base_velocity = 0.03;
+  return settings;
+}
+
+TEST(Sensors, EachHasABiasOfItsOwnThatStays) {
+  const Robot robot = MakeArmOnABlock();
+  const Eigen::Matrix3d R_WB = ExpSo3({0, 0, M_PI / 2});
+  const Eigen::VectorXd truth =
+      Everything(Sensors(robot, {}, 1).Measure(MakeState()), R_WB);
+  SensorSettings settings = WithABase();
+  settings.bias = 3;
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(28);
+  constexpr int kRobots = 2000;
+  for (int seed = 0; seed < kRobots; ++seed) {
+    Sensors sensors(robot, settings, seed);
+    const Eigen::VectorXd off =
+        Everything(sensors.Measure(MakeState()), R_WB) - truth;
+    ASSERT_EQ(Everything(sensors.Measure(MakeState()), R_WB) - truth, off);
+    squares += off.cwiseAbs2();
+  }
+  // A deviation of 2000 draws is known to 1.6 %; four times that.
+  const Eigen::VectorXd spread = (squares / kRobots).cwiseSqrt();
+  for (int i = 0; i < 28; ++i) {
+    EXPECT_NEAR(spread[i] / Deviations()[i], 3, 0.2) << i;
+  }
+}
+
+TEST(Sensors, EachIsRoundedToItsResolution) {
+  const Robot robot = MakeArmOnABlock();
+  const Eigen::VectorXd truth =
+      Everything(Sensors(robot, {}, 1).Measure(MakeState()));
+  SensorSettings settings = WithABase();
+  settings.resolution = 0.7;
+  const Eigen::VectorXd read =
+      Everything(Sensors(robot, settings, 1).Measure(MakeState()));
+  for (int i = 0; i < 28; ++i) {
+    const double step = 0.7 * Deviations()[i];
+    const double steps = read[i] / step;
+    EXPECT_NEAR(steps, std::round(steps), 1e-9) << i;
+    EXPECT_LE(std::abs(read[i] - truth[i]), 0.5 * step + 1e-12) << i;
+  }
+  EXPECT_NE(read, truth);
+}
+
+TEST(Sensors, EachIsAsLateAsItIsSaidToBe) {
+  const Robot robot = MakeArmOnABlock();
+  SensorSettings settings;
+  settings.joint_delay = 0.002;
+  settings.base_delay = 0.005;
+  settings.foot_delay = 0.001;
+  Sensors sensors(robot, settings, 1);
+  for (int k = 0; k < 20; ++k) {
+    PlantState state = MakeState();
+    state.time = 1e-3 * k;
+    state.q[1] = state.q[8] = state.v[3] = state.v[6] = k;
+    state.vdot[5] = state.F_Co_C[0][2] = k;
+    state.F_Co_C[0][5] = k < 10 ? 60 : 0;
+    const Measurement& m = sensors.Measure(state);
+    EXPECT_EQ(m.time, state.time);
+    EXPECT_EQ(m.q_joints[1], std::max(0, k - 2));
+    EXPECT_EQ(m.v_joints[0], std::max(0, k - 2));
+    EXPECT_EQ(m.X_WB.p[1], std::max(0, k - 5));
+    EXPECT_EQ(m.V_WB_W[3], std::max(0, k - 5));
+    EXPECT_NEAR(m.specific_force_Bo_B[2], std::max(0, k - 5) + 9.81, 1e-12);
+    EXPECT_EQ(m.feet[0].F_Co_C[2], std::max(0, k - 1));
+    EXPECT_EQ(m.feet[0].in_contact, k < 11);
+  }
 }
 
 TEST(Sensors, DropOutsRepeatTheLastWord) {
