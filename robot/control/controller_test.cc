@@ -16,6 +16,7 @@
 #include "math/so3.h"
 #include "robot/control/conflict.h"
 #include "robot/control/default_stack.h"
+#include "robot/control/fail_safe.h"
 #include "robot/control/task_set.h"
 #include "robot/profile.h"
 #include "tests/util/count_malloc.h"
@@ -164,6 +165,56 @@ TEST_F(ControllerTest, FailSafeHoldsTheRobotAgainstGravity) {
   EXPECT_LT(rest.head(tree().nv()).norm(), 1e-5);
 }
 
+// In motion: gravity's part alone is held, and the joints are braked by what
+// they move; whatever was active is forgotten.
+TEST_F(ControllerTest, FailSafeBrakesEachJoint) {
+  Update();
+  const double q = state_.q[10];
+  const auto fail_safe = [&] {
+    state_.q[10] = std::numeric_limits<double>::quiet_NaN();
+    Update();
+    state_.q[10] = q;
+    EXPECT_EQ(command_.status, TickStatus::kFailSafe);
+    EXPECT_TRUE(controller_.report().active.empty());
+    return command_.tau;
+  };
+  const Eigen::VectorXd at_rest = fail_safe();
+  const int n = tree().num_joints();
+  for (int j = 0; j < n; ++j) state_.v[6 + j] = 0.02 * (j % 5 - 2);
+  state_.v.head<3>() << 0.3, -0.4, 0.2;
+  Update();
+  const Eigen::VectorXd braked = fail_safe();
+  for (int j = 0; j < n; ++j) {
+    const double M = controller_.tick().M(6 + j, 6 + j);
+    EXPECT_NEAR(braked[j], at_rest[j] - 10 * M * state_.v[6 + j], 1e-9) << j;
+  }
+}
+
+TEST_F(ControllerTest, FailSafeStandsOnTheFootThatIsDown) {
+  Update();
+  std::vector<ContactTick> contacts = controller_.contacts();
+  contacts[1].in_contact = false;
+  const int n = tree().num_joints();
+  const Tick& tick = controller_.tick();
+  Eigen::VectorXd tau(n);
+  ComputeFailSafeTorque(tick, contacts, Eigen::VectorXd::Zero(n), 10, &tau);
+  // The leg in the air bears itself: gravity's torques, and no others.
+  int joints = 0;
+  for (int j = 0; j < n; ++j) {
+    if (contacts[1].J_WC_C.col(6 + j).norm() < 1e-9) continue;
+    EXPECT_NEAR(tau[j], tick.N[6 + j], 1e-9);
+    ++joints;
+  }
+  EXPECT_EQ(joints, 6);
+  // A joint whose speed is unknown is not braked.
+  Eigen::VectorXd v = Eigen::VectorXd::Constant(n, 0.1);
+  v[3] = std::numeric_limits<double>::quiet_NaN();
+  Eigen::VectorXd braked(n);
+  ComputeFailSafeTorque(tick, contacts, v, 10, &braked);
+  EXPECT_EQ(braked[3], tau[3]);
+  EXPECT_NEAR(braked[4], tau[4] - tick.M(10, 10), 1e-9);
+}
+
 TEST_F(ControllerTest, FailsSafeWhileTheClockOfTheStateStandsStill) {
   Update();
   for (int i = 1; i <= 20; ++i) {
@@ -216,6 +267,114 @@ TEST_F(ControllerTest, StopsWhereItsTimeIsSpent) {
   EXPECT_LE(hasty.report().iterations, 2);
   EXPECT_TRUE(command_.tau.allFinite());
   ExpectInsideLimits();
+}
+
+TEST_F(ControllerTest, FailsSafeWhereNotEvenTheFirstRankIsSolved) {
+  double seconds = 0;
+  ControllerOptions options;
+  options.max_seconds = 1e-3;
+  options.now = [&seconds] { return seconds += 1; };
+  Controller late(robot_, options);
+  late.Start(state_);
+  state_.time = 1e-3;
+  late.Update(state_, &command_);
+  EXPECT_EQ(late.report().failed_rank, 1);
+  EXPECT_EQ(command_.status, TickStatus::kFailSafe);
+  ExpectInsideLimits();
+}
+
+// All joints run into their stops: torques give way too, each named with the end
+// that it is at.
+TEST_F(ControllerTest, SaysThatATorqueLimitCannotBeMet) {
+  constexpr double kEffort = 0.01;  // N m.
+  for (int j = 0; j < tree().num_joints(); ++j) {
+    state_.q[7 + j] = robot_.model.limits[j].upper - 0.01;
+    state_.v[6 + j] = 3;
+    robot_.model.limits[j].effort = kEffort;
+  }
+  const auto slack = [&](const std::function<void(Stack*)>& change) {
+    Controller weak(robot_);
+    weak.Start(state_);
+    change(&weak.stack());
+    state_.time += 1e-3;
+    weak.Update(state_, &command_);
+    EXPECT_EQ(command_.status, TickStatus::kLimitRelaxed);
+    int named = 0;
+    for (const ActiveRow& row : weak.report().active) {
+      const std::string name = weak.stack().RowName(row);
+      if (name.rfind("torque.", 0) != 0 || row.slack < 1e-3) continue;
+      EXPECT_EQ(name, "torque." + tree().joints()[row.row].name +
+                          (command_.tau[row.row] > 0 ? ".max" : ".min"));
+      ++named;
+    }
+    const int limits = *weak.stack().Find("torque_limits");
+    EXPECT_EQ(named > 0, weak.report().tasks[limits].slack > 1e-3);
+    return weak.report().tasks[limits].slack;
+  };
+  const double plain = slack([](Stack*) {});
+  EXPECT_GT(plain, 1e-3);
+  // Where a whole rank weighs more it is all the same, and in the same unit.
+  const double heavy = slack([](Stack* stack) {
+    EXPECT_TRUE(stack->SetWeight("torque_limits", 4));
+    EXPECT_TRUE(stack->SetWeight("joint_limits", 4));
+  });
+  EXPECT_NEAR(heavy, plain, 1e-6 * plain);
+  // Without the rows, what the motors cannot give is cut off, and said.
+  EXPECT_EQ(slack([](Stack* stack) {
+              EXPECT_TRUE(stack->Enable("torque_limits", false));
+              EXPECT_TRUE(stack->Enable("joint_limits", false));
+              EXPECT_TRUE(stack->SetParameter("torque_limits", "scale", 0.5));
+            }),
+            0);
+  EXPECT_NEAR(command_.tau.cwiseAbs().maxCoeff(), 0.5 * kEffort, 1e-15);
+}
+
+// Torques hold, as they are above: a joint passes its limit, and it is said.
+TEST_F(ControllerTest, SaysThatAJointLimitCannotBeMet) {
+  for (int j = 0; j < tree().num_joints(); ++j) {
+    state_.q[7 + j] = robot_.model.limits[j].upper - 0.01;
+    state_.v[6 + j] = 3;
+    robot_.model.limits[j].effort = 20;
+  }
+  Controller weak(robot_);
+  weak.Start(state_);
+  ASSERT_TRUE(weak.stack().SetRank("joint_limits", 3));
+  state_.time = 1e-3;
+  weak.Update(state_, &command_);
+  EXPECT_LT(weak.report().tasks[*weak.stack().Find("torque_limits")].slack,
+            1e-9);
+  EXPECT_GT(weak.report().tasks[*weak.stack().Find("joint_limits")].slack,
+            1e-3);
+  EXPECT_EQ(command_.status, TickStatus::kLimitRelaxed);
+}
+
+// The center of mass is to go to the left faster than the feet allow.
+TEST_F(ControllerTest, SaysWhatGaveWayAndToWhat) {
+  ASSERT_TRUE(controller_.stack().SetParameter("momentum", "capture", 0));
+  controller_.reference().p_WG.y() += 0.2;
+  Update();
+  ASSERT_EQ(command_.status, TickStatus::kOk);
+  const Tick& tick = controller_.tick();
+  const double mass = tree().total_mass();
+  const double got =
+      (tick.H_G.row(4).dot(controller_.report().y.head(tree().nv())) +
+       tick.H_G_bias[4]) /
+      mass;
+  const int momentum = *controller_.stack().Find("momentum");
+  double lost = 0;
+  for (const LostRow& row : controller_.report().lost) {
+    if (row.task == momentum && row.row == 4) lost = row.amount;
+  }
+  // In N, of the 0.2 m times kp.
+  EXPECT_NEAR(lost, mass * (got - 30 * 0.2), 1e-6);
+  EXPECT_LT(lost, -10);
+  bool is_at_its_edge = false;
+  for (const ActiveRow& row : controller_.report().active) {
+    if (controller_.stack().RowName(row) != "right_foot.cop.y_min") continue;
+    is_at_its_edge = row.pressing_rank == 4 && row.multiplier > 0.01 &&
+                     row.side == Side::kUpper && row.slack < 1e-9;
+  }
+  EXPECT_TRUE(is_at_its_edge);
 }
 
 // All joints run into their stops, with motors too weak to hold them.
@@ -357,6 +516,8 @@ TEST_F(ControllerTest, DoesNotAllocate) {
     state_.q[20] = i % 100 == 99 ? std::numeric_limits<double>::quiet_NaN() : 0;
     (void)controller_.stack().Enable("zmp", i % 7 == 0);
     (void)controller_.stack().SetRank("posture", 5 + i % 2);
+    (void)controller_.stack().SetWeight("momentum", 1 + i % 3);
+    (void)controller_.stack().SetParameter("posture", "kp", 60 + i % 5);
     Update();
   }
   EXPECT_EQ(count.allocations(), 0);
@@ -375,15 +536,51 @@ TEST_F(ControllerTest, SaysTheSameTwiceToTheBit) {
   }
 }
 
-// The same robot elsewhere, turned about the vertical.
-TEST_F(ControllerTest, GivesTheSameTorquesElsewhereAndTurned) {
-  state_.v.segment<3>(3) << 0.05, 0.1, 0;
-  state_.v.segment<3>(0) << 0.1, -0.05, 0.02;
-  Update();
+// The controller as a function, at work: joints moving, feet not flat, pushed so
+// hard that the robot is captured and a foot let go.
+class InvarianceTest : public ControllerTest {
+ protected:
+  InvarianceTest() {
+    for (int j = 0; j < tree().num_joints(); ++j) {
+      state_.q[7 + j] += 0.01 * std::sin(1.3 * j);
+      state_.v[6 + j] = 0.1 * std::sin(1.7 * j);
+    }
+    state_.v.head<6>() << 0.1, -0.05, 0.02, 0.2, 0.6, 0;
+  }
+
+  // A few ticks in one state: what came before matters too.
+  Command Answer(const State& state) {
+    Controller controller(robot_);
+    EXPECT_TRUE(controller.stack().Enable("capture_point", with_boxes_));
+    EXPECT_TRUE(controller.stack().Enable("zmp", with_boxes_));
+    State now = state;
+    controller.Start(now);
+    Command command;
+    command.tau.setZero(tree().num_joints());
+    for (int i = 1; i <= 5; ++i) {
+      now.time = 1e-3 * i;
+      controller.Update(now, &command);
+      EXPECT_EQ(command.status, TickStatus::kOk);
+    }
+    let_go_ = 0;
+    for (const int foot : {0, 1}) {
+      let_go_ += controller.stance().phase(foot) == ContactPhase::kFree;
+    }
+    return command;
+  }
+
+  bool with_boxes_ = true;
+  int let_go_ = 0;
+  const double kSame = 1e-9;  // Of the torques.
+};
+
+TEST_F(InvarianceTest, TurnedAndMovedInputGivesTheSameTorques) {
+  const Eigen::VectorXd tau = Answer(state_).tau;
   for (const double turn : {0.5, kPi / 2, 3.0}) {
+    SCOPED_TRACE(turn);
     const Eigen::Matrix3d R = ExpSo3(Eigen::Vector3d(0, 0, turn));
     State moved = state_;
-    const Eigen::Vector3d p(1000, -20, 3);
+    const Eigen::Vector3d p(20, -30, 3);
     moved.q.head<3>() = p + R * state_.q.head<3>();
     const Eigen::Quaterniond q_WB(state_.q[6], state_.q[3], state_.q[4],
                                   state_.q[5]);
@@ -391,39 +588,179 @@ TEST_F(ControllerTest, GivesTheSameTorquesElsewhereAndTurned) {
         Eigen::Quaterniond(R * q_WB.toRotationMatrix()).coeffs();
     moved.v.segment<3>(0) = R * state_.v.segment<3>(0);
     moved.v.segment<3>(3) = R * state_.v.segment<3>(3);
-    Controller other(robot_);
-    State start = moved;
-    start.v.setZero();
-    other.Start(start);
-    Command command = command_;
-    other.Update(moved, &command);
-    // N m; a kilometer away positions are known to 1e-13 m, times kp.
-    EXPECT_LT((command.tau - command_.tau).norm(), 1e-7) << turn;
+    EXPECT_LT((Answer(moved).tau - tau).norm(), kSame * tau.norm());
+    moved.q[0] += 1000;  // There places are known to 1e-13 m, a thousandth.
+    EXPECT_LT((Answer(moved).tau - tau).norm(), 100 * kSame * tau.norm());
   }
 }
 
-TEST_F(ControllerTest, GivesMirroredTorquesToAMirroredRobot) {
-  Controller other(robot_);
-  other.Start(state_);
+TEST_F(InvarianceTest, MirroredInputGivesMirroredTorques) {
+  const int n = tree().num_joints();
   State mirrored = state_;
-  state_.v.segment<3>(3) << 0.05, 0.1, 0;
-  state_.v.segment<3>(0) << 0.1, -0.05, 0.02;
-  mirrored.v.segment<3>(3) << 0.05, -0.1, 0;
-  mirrored.v.segment<3>(0) << -0.1, -0.05, -0.02;
-  Update();
-  mirrored.time = state_.time;
-  Command command = command_;
-  other.Update(mirrored, &command);
-  for (int j = 0; j < tree().num_joints(); ++j) {
-    std::string name = tree().joints()[j].name;
-    if (name[1] == '_') name[0] = name[0] == 'l' ? 'r' : 'l';
+  mirrored.q[1] *= -1;
+  mirrored.q[3] *= -1;
+  mirrored.q[5] *= -1;
+  for (const int i : {0, 2, 4}) mirrored.v[i] *= -1;
+  std::vector<int> twin(n);
+  Eigen::VectorXd sign(n);
+  for (int j = 0; j < n; ++j) {
     const Joint& joint = tree().joints()[j];
+    std::string name = joint.name;
+    if (name[1] == '_') name[0] = name[0] == 'l' ? 'r' : 'l';
+    twin[j] = *tree().FindJoint(name);
     // A mirror turns the axes of roll and yaw over, not that of pitch.
-    const double sign = std::abs(joint.axis_F.y()) > 0.5 ? 1 : -1;
-    EXPECT_NEAR(command.tau[*tree().FindJoint(name)], sign * command_.tau[j],
-                1e-7)
-        << joint.name;
+    sign[j] = std::abs(joint.axis_F.y()) > 0.5 ? 1 : -1;
+    mirrored.q[7 + twin[j]] = sign[j] * state_.q[7 + j];
+    mirrored.v[6 + twin[j]] = sign[j] * state_.v[6 + j];
   }
+  for (const bool with_boxes : {true, false}) {
+    with_boxes_ = with_boxes;
+    const Eigen::VectorXd tau = Answer(state_).tau;
+    const Eigen::VectorXd answer = Answer(mirrored).tau;
+    EXPECT_EQ(let_go_, with_boxes ? 0 : 1);
+    for (int j = 0; j < n; ++j) {
+      EXPECT_NEAR(answer[twin[j]], sign[j] * tau[j], kSame * tau.norm())
+          << tree().joints()[j].name;
+    }
+  }
+}
+
+// What is wrong with the model, as the controller has found it: what it asks of
+// the center of mass beyond its gains.
+class CorrectionTest : public ControllerTest {
+ protected:
+  Eigen::Vector3d Correction() {
+    const Tick& tick = controller_.tick();
+    const Eigen::Vector3d a_W =
+        (tick.H_G.bottomRows<3>() * controller_.report().y.head(tree().nv()) +
+         tick.H_G_bias.tail<3>()) /
+        tree().total_mass();
+    return a_W - 30 * (controller_.reference().p_WG - tick.p_WG) +
+           10 * tick.v_WG;
+  }
+
+  // How much of it comes in so many ticks.
+  Eigen::Vector3d Gained(int ticks) {
+    Update();
+    const Eigen::Vector3d before = Correction();
+    for (int i = 0; i < ticks; ++i) Update();
+    return Correction() - before;
+  }
+
+  void ExpectGains(const Eigen::Vector3d& a_second) {
+    EXPECT_LT((Gained(20) - 0.02 * a_second).norm(), 1e-7);
+  }
+};
+
+TEST_F(CorrectionTest, FindsWhatTheGainsDoNotExplain) {
+  controller_.reference().p_WG += Eigen::Vector3d(0.004, -0.003, 0.005);
+  const double kx = 15 * 0.004, ky = -15 * 0.003, kz = 60 * 0.005;
+  ExpectGains({kx, ky, kz});
+  controller_.reference().v_WG.x() = 0.01;  // The plane waits: a lag is none.
+  ExpectGains({0, 0, kz});
+  controller_.reference().v_WG.setZero();
+  state_.v.segment<3>(3) << 0.03, 0, 0;  // Or as the robot moves.
+  ExpectGains({0, 0, kz});
+  // On its way back as its gains have it: kd v = kp e.
+  state_.v.segment<3>(3) << 0, 0, 3 * 0.005;
+  ExpectGains({kx, ky, 0});
+  state_.v.setZero();
+  ASSERT_TRUE(controller_.stack().SetParameter("momentum", "ki", 0));
+  Update();
+  Update();
+  EXPECT_LT(Correction().head<2>().norm(), 1e-7);
+  EXPECT_GT(Correction().z(), 0.015);
+  ASSERT_TRUE(controller_.stack().SetParameter("momentum", "ki_height", 0));
+  Update();
+  Update();
+  EXPECT_LT(Correction().norm(), 1e-7);
+}
+
+TEST_F(CorrectionTest, WaitsWhileTheMomentumCannotFollow) {
+  controller_.reference().p_WG += Eigen::Vector3d(0, 0.5, 0.01);
+  for (int i = 0; i < 5; ++i) Update();
+  controller_.reference().p_WG -= Eigen::Vector3d(0, 0.5, 0.01);
+  Update();
+  EXPECT_LT(Correction().norm(), 1e-7);
+}
+
+TEST_F(CorrectionTest, IsBoundedAndForgottenWithItsTask) {
+  ASSERT_TRUE(controller_.stack().SetParameter("momentum", "ki", 100));
+  ASSERT_TRUE(controller_.stack().SetParameter("momentum", "ki_height", 100));
+  for (const double side : {1.0, -1.0}) {
+    controller_.Start(state_);
+    const Eigen::Vector3d e = side * Eigen::Vector3d(0.012, 0.016, 0.03);
+    controller_.reference().p_WG += e;
+    Update();
+    EXPECT_LT(Correction().norm(), 1e-7);  // Start() forgets it.
+    Gained(600);
+    EXPECT_LT(
+        (Correction().head<2>() - side * Eigen::Vector2d(0.3, 0.4)).norm(),
+        1e-6);
+    EXPECT_NEAR(Correction().z(), side * 1.6, 1e-6);
+  }
+  ASSERT_TRUE(controller_.stack().Enable("momentum", false));
+  Update();
+  ASSERT_TRUE(controller_.stack().Enable("momentum", true));
+  Update();
+  EXPECT_LT(Correction().norm(), 1e-7);
+}
+
+TEST_F(ControllerTest, StartsFromWhereItIs) {
+  ControllerOptions options;
+  options.frames = {"l_hand"};
+  Controller controller(robot_, options);
+  controller.Start(state_);
+  const Reference fresh = controller.reference();
+  EXPECT_LT(
+      (fresh.frames[0].X_WF.p - controller.tick().frames[2].X_WF.p).norm(),
+      1e-15);
+  controller.reference().v_WG << 1, 2, 3;
+  controller.reference().a_WG << 1, 2, 3;
+  controller.reference().posture.setZero();
+  controller.Start(state_);
+  EXPECT_TRUE(controller.reference().v_WG.isZero(0));
+  EXPECT_TRUE(controller.reference().a_WG.isZero(0));
+  EXPECT_EQ(controller.reference().posture, fresh.posture);
+}
+
+TEST_F(ControllerTest, DoesAsItsOptionsSay) {
+  ControllerOptions options;
+  options.feedforward = options.inscribed = options.weighted = true;
+  options.friction = 0.3;
+  Controller controller(robot_, options);
+  const Stack& stack = controller.stack();
+  EXPECT_EQ(stack.GetParameter("momentum", "feedforward"), 1);
+  EXPECT_EQ(stack.GetParameter("friction", "inscribed"), 1);
+  EXPECT_EQ(stack.GetParameter("friction", "mu"), 0.3);
+  EXPECT_EQ(stack.GetParameter("yaw", "mu"), 0.3);
+  controller.Start(state_);
+  Update();
+  controller.Update(state_, &command_);
+  EXPECT_EQ(controller_.hierarchy().num_levels(), 5);
+  EXPECT_EQ(controller.hierarchy().num_levels(), 2);
+  // Of the ranks in one QP, each weighs more than the next.
+  const auto residual = [&](const char* task) {
+    return controller.report().tasks[*stack.Find(task)].residual;
+  };
+  state_.v.segment<3>(3) << 0, 0.3, 0;
+  state_.time += 1e-3;
+  controller.Update(state_, &command_);
+  EXPECT_LT(residual("contact"), 0.1 * residual("momentum"));
+  EXPECT_LT(residual("momentum"), 0.1 * residual("posture"));
+}
+
+TEST_F(ControllerTest, GivesMoreToWhatWeighsMoreInOneRank) {
+  const auto residual = [&](double weight) {
+    EXPECT_TRUE(controller_.stack().SetRank("posture", 4));
+    EXPECT_TRUE(controller_.stack().SetWeight("posture", weight));
+    state_.v.segment<3>(3) << 0, 0.3, 0;
+    Update();
+    const int momentum = *controller_.stack().Find("momentum");
+    return controller_.report().tasks[momentum].residual;
+  };
+  const double light = residual(0.01), heavy = residual(100);
+  EXPECT_GT(heavy, 1.02 * light);
 }
 
 TEST_F(ControllerTest, IsCertified) {

@@ -107,6 +107,59 @@ TEST_F(EstimatorTest, FallsWithTheAccelerometerWhereNoFootStands) {
   EXPECT_NEAR(state.q[2] - start.z(), -0.5 * 9.81 * 0.01, 1e-3);
 }
 
+// The other foot, which swung along, touches down; the first one goes up, while
+// the robot sways on: the second's place carries on from where it stood.
+TEST_F(EstimatorTest, GoesOnFromFootToFoot) {
+  Estimator estimator(robot_);
+  MeasureAt(0);
+  estimator.Start(measurement_);
+  State state{0, Eigen::VectorXd(n_ + 7), Eigen::VectorXd(n_ + 6)};
+  const auto touch = [this](int foot, bool down) {
+    measurement_.feet[foot].in_contact = down;
+    measurement_.feet[foot].F_Co_C << 0, 0, 0, 0, 0, down ? 190 : 0;
+  };
+  for (int i = 1; i <= 100; ++i) {
+    MeasureAt(1e-3 * i);
+    estimator.Update(measurement_, &state);
+  }
+  // From here on nothing moves. The right foot is where it is.
+  measurement_.v_joints.setZero();
+  measurement_.w_WB_B.setZero();
+  measurement_.specific_force_Bo_B =
+      -measurement_.R_WB_imu.transpose() * robot_.model.tree.gravity_W();
+  const Eigen::Vector3d there = measurement_.X_WB.p;
+  for (int i = 1; i <= 300; ++i) {
+    measurement_.time = 0.1 + 1e-3 * i;
+    touch(1, i > 100);
+    touch(0, i < 200);
+    estimator.Update(measurement_, &state);
+    ASSERT_LT((state.q.head<3>() - there).norm(), 1e-9) << i;
+  }
+  // A foot that says contact but bears nothing says nothing.
+  touch(1, true);
+  measurement_.feet[1].F_Co_C[5] = 4;
+  const Eigen::Vector3d v = state.v.segment<3>(3);
+  measurement_.specific_force_Bo_B.setZero();
+  measurement_.time += 1e-3;
+  estimator.Update(measurement_, &state);
+  EXPECT_NEAR(state.v[5] - v.z(), -9.81e-3, 1e-12);
+}
+
+// A clock that jumps: the accelerometer is not believed for all that time.
+TEST_F(EstimatorTest, DoesNotFallThroughAGapInItsMeasurements) {
+  Estimator estimator(robot_);
+  MeasureAt(0);
+  measurement_.V_WB_W << 0, 0, 0, 0.3, 0, 0;
+  for (FootMeasurement& foot : measurement_.feet) foot.in_contact = false;
+  estimator.Start(measurement_);
+  measurement_.specific_force_Bo_B.setZero();
+  measurement_.time = 2;
+  State state{0, Eigen::VectorXd(n_ + 7), Eigen::VectorXd(n_ + 6)};
+  estimator.Update(measurement_, &state);
+  EXPECT_NEAR(state.v[5], -9.81 * 0.05, 1e-9);
+  EXPECT_NEAR(state.v[3], 0.3, 1e-9);
+}
+
 TEST_F(EstimatorTest, DoesNotAllocate) {
   if (!CountMalloc::IsSupported()) GTEST_SKIP() << "not under a sanitizer";
   Estimator estimator(robot_);

@@ -26,6 +26,19 @@ std::vector<Foot> TwoFeet() {
   return feet;
 }
 
+// From tick to tick a target goes where its velocity and acceleration say.
+void ExpectMovesAsItSays(const FrameReference& last,
+                         const FrameReference& now) {
+  Eigen::Matrix<double, 6, 1> moved;
+  moved << LogSo3(now.X_WF.R * last.X_WF.R.transpose()),
+      now.X_WF.p - last.X_WF.p;
+  // Trapezoids: the third derivative, of 60 * 0.5 rad / (0.35 s)^3, by dt^3/12.
+  EXPECT_LT((moved - 5e-4 * (last.V_WF_W + now.V_WF_W)).norm(), 6e-8);
+  EXPECT_LT(
+      (now.V_WF_W - last.V_WF_W - 5e-4 * (last.A_WF_W + now.A_WF_W)).norm(),
+      3e-6);  // The fourth: 360 * 0.5 rad / (0.35 s)^4.
+}
+
 class StanceTest : public testing::Test {
  protected:
   StanceTest() {
@@ -34,7 +47,7 @@ class StanceTest : public testing::Test {
   }
 
   void Update() {
-    stance_.Update(1e-3, Eigen::Vector2d(200, 200), &contacts_, &reference_);
+    stance_.Update(1e-3, Eigen::Vector2d(200, 100), &contacts_, &reference_);
   }
 
   // Rolls the left foot about its outer edge, whose height is `edge`.
@@ -75,6 +88,30 @@ TEST_F(StanceTest, LosesAFootThatGoesUp) {
   EXPECT_TRUE(contacts_[1].in_contact);
 }
 
+// Rolled onto an edge that is 11 mm up: what that edge does counts, and no more.
+TEST_F(StanceTest, LosesAFootByTheSpeedOfItsLowestEdge) {
+  for (const double angle : {0.6, -0.6}) {
+    SCOPED_TRACE(angle);
+    stance_.Reset();
+    Roll(angle, 0.011);
+    const Vector3d edge_C(0, angle > 0 ? -kHalfWidth : kHalfWidth, 0);
+    const Vector3d w_C(angle, 0, 0);
+    contacts_[0].V_WC_C << w_C, w_C.cross(-edge_C);  // About that edge.
+    Update();
+    EXPECT_TRUE(contacts_[0].in_contact);
+    contacts_[0].V_WC_C << -w_C, Vector3d::Zero();  // It rises by 25 mm/s.
+    Update();
+    EXPECT_FALSE(contacts_[0].in_contact);
+  }
+}
+
+TEST_F(StanceTest, KeepsAFootThatIsHardlyUpHoweverFast) {
+  Roll(0, 0.009);
+  contacts_[0].V_WC_C[5] = 1;
+  Update();
+  EXPECT_TRUE(contacts_[0].in_contact);
+}
+
 TEST_F(StanceTest, LosesAFootThatIsHighEvenAtRest) {
   Roll(0.6, 0.021);
   Update();
@@ -92,12 +129,23 @@ TEST_F(StanceTest, FindsAFootWhenItsSoleLiesOnTheGround) {
   contacts_[0].V_WC_C[5] = 0.03;
   Update();
   EXPECT_FALSE(contacts_[0].in_contact);  // It leaves again.
-  contacts_[0].V_WC_C[5] = -0.03;
+  contacts_[0].X_WC.R = ExpSo3(Vector3d(0.5, 0, 0));
+  contacts_[0].V_WC_C.tail<3>() = Vector3d(0, 0.1, 0);
+  Update();
+  EXPECT_FALSE(contacts_[0].in_contact);  // Up, along its own y.
+  Roll(0, 0.005);
+  contacts_[0].V_WC_C.tail<3>() = Vector3d(0, 0, -0.03);
+  Update();
+  EXPECT_FALSE(contacts_[0].in_contact);  // Not there yet.
+  Roll(0, 0.003);
   Update();
   EXPECT_TRUE(contacts_[0].in_contact);
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
   EXPECT_LT(contacts_[0].max_normal_force, 10);
-  for (int i = 0; i <= 300; ++i) Update();
+  for (int i = 0; i < 150; ++i) Update();
+  // Half of one and a half times the weight.
+  EXPECT_NEAR(contacts_[0].max_normal_force, 300, 3);
+  for (int i = 0; i <= 150; ++i) Update();
   EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);
   EXPECT_TRUE(std::isinf(contacts_[0].max_normal_force));
 }
@@ -133,15 +181,7 @@ TEST_F(StanceTest, LetsAFootGoAndBringsItBack) {
   bool was_turning = false;
   for (int i = 1; i < 500; ++i) {
     Update();
-    Eigen::Matrix<double, 6, 1> moved;
-    moved << LogSo3(target.X_WF.R * last.X_WF.R.transpose()),
-        target.X_WF.p - last.X_WF.p;
-    // Trapezoids: the third derivative, of 60 * 0.5 rad / (0.35 s)^3, by dt^3/12.
-    EXPECT_LT((moved - 5e-4 * (last.V_WF_W + target.V_WF_W)).norm(), 6e-8);
-    EXPECT_LT(
-        (target.V_WF_W - last.V_WF_W - 5e-4 * (last.A_WF_W + target.A_WF_W))
-            .norm(),
-        3e-6);  // The fourth: 360 * 0.5 rad / (0.35 s)^4.
+    ExpectMovesAsItSays(last, target);
     if (target.V_WF_W.head<3>().norm() > 0.1) was_turning = true;
     last = target;
     if (i > 350) {
@@ -160,6 +200,21 @@ TEST_F(StanceTest, LetsAFootGoAndBringsItBack) {
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
   EXPECT_TRUE(contacts_[0].in_contact);
   EXPECT_TRUE(stance_.is_meant_down(0));
+}
+
+TEST_F(StanceTest, BringsAFootBackFromTheTurnThatItHas) {
+  stance_.LetGo(0);
+  Update();
+  const Eigen::Matrix3d R_WC = ExpSo3(Vector3d(0.4, -0.2, 0.1));
+  contacts_[0].X_WC = {R_WC, Vector3d(0, 0, 0.1)};
+  const Vector3d w_W(0.5, 0.7, -0.3);
+  contacts_[0].V_WC_C.head<3>() = R_WC.transpose() * w_W;
+  stance_.PutDown(0);
+  Update();
+  const FrameReference& target = reference_.feet[0];
+  EXPECT_LT((target.V_WF_W.head<3>() - w_W).norm(), 1e-3);
+  EXPECT_LT((LogSo3(target.X_WF.R * R_WC.transpose()) - 1e-3 * w_W).norm(),
+            1e-6);
 }
 
 TEST_F(StanceTest, TakesALettingGoBack) {
@@ -184,12 +239,43 @@ TEST_F(StanceTest, FadesAForceOutBeforeItLiftsAFoot) {
   for (int i = 0; i < 3; ++i) Update();
   EXPECT_EQ(stance_.phase(0), ContactPhase::kUp);
   EXPECT_FALSE(contacts_[0].in_contact);
-  for (int i = 0; i <= 800; ++i) Update();
+  FrameReference begun = reference_.feet[0];
+  for (int i = 0; i <= 800; ++i) {
+    Update();
+    ExpectMovesAsItSays(begun, reference_.feet[0]);
+    begun = reference_.feet[0];
+  }
   EXPECT_NEAR(reference_.feet[0].X_WF.p.z(), 0.05, 1e-12);
   EXPECT_NEAR(reference_.feet[0].V_WF_W.norm(), 0, 1e-9);
   stance_.Reset();
   Update();
   EXPECT_TRUE(contacts_[0].in_contact);
+}
+
+TEST_F(StanceTest, FadesEachFootFromTheForceThatItBears) {
+  stance_.Lift(0, 0.05);
+  stance_.Lift(1, 0.05);
+  Update();
+  EXPECT_NEAR(contacts_[0].max_normal_force, 200 * (1 - 1 / 300.), 1e-9);
+  EXPECT_NEAR(contacts_[1].max_normal_force, 100 * (1 - 1 / 300.), 1e-9);
+}
+
+// On a floor of any height; the sole comes level on its way up.
+TEST_F(StanceTest, LiftsAFootUprightFromWhereItStands) {
+  reference_.ground_z = 0.3;
+  const Eigen::Matrix3d heading = ExpSo3(Vector3d(0, 0, 0.4));
+  contacts_[0].X_WC = {heading * ExpSo3(Vector3d(0.02, -0.03, 0)),
+                       Vector3d(1, 2, 0.3)};
+  contacts_[1].X_WC.p.z() = 0.3;
+  stance_.Lift(0, 0.05);
+  while (stance_.phase(0) != ContactPhase::kUp) Update();
+  const Pose& target = reference_.feet[0].X_WF;
+  EXPECT_LT((target.p - Vector3d(1, 2, 0.3)).norm(), 1e-6);
+  // Tilts turn the heading by half of their product.
+  EXPECT_LT((target.R - heading).norm(), 1e-3);
+  EXPECT_LT((target.R.col(2) - Vector3d::UnitZ()).norm(), 1e-12);
+  for (int i = 0; i <= 800; ++i) Update();
+  EXPECT_LT((target.p - Vector3d(1, 2, 0.35)).norm(), 1e-9);
 }
 
 TEST_F(StanceTest, LiftsToTheHeightThatWasToldLast) {
@@ -215,6 +301,7 @@ TEST_F(StanceTest, LiftsAFootThatHasLostTheGroundFromWhereItIs) {
   ASSERT_EQ(stance_.phase(0), ContactPhase::kLost);
   const double reached = reference_.feet[0].X_WF.p.z();
   EXPECT_LT(reached, 0.025);
+  EXPECT_GT(reached, 0.01);  // Of 35 mm, at 0.2 m/s.
   stance_.Lift(0, 0.05);
   Update();
   EXPECT_EQ(stance_.phase(0), ContactPhase::kUp);
@@ -249,6 +336,31 @@ TEST_F(StanceTest, PutsAFootDown) {
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
   EXPECT_TRUE(contacts_[0].in_contact);
   EXPECT_LT(last, 0.005);
+}
+
+TEST(MidFeet, IsLevelAmidTheFeetThatStand) {
+  const auto turn = [](double yaw, double pitch) {
+    return Eigen::Matrix3d(ExpSo3(Vector3d(0, 0, yaw)) *
+                           ExpSo3(Vector3d(0, pitch, 0)));
+  };
+  std::vector<ContactTick> contacts(2);
+  contacts[0].X_WC = {turn(0.2, 0.3), Vector3d(1, 2, 0.1)};
+  contacts[1].X_WC = {turn(0.6, -0.1), Vector3d(3, 6, 0.3)};
+  const double heading =
+      std::atan2(std::cos(0.3) * std::sin(0.2) + std::cos(0.1) * std::sin(0.6),
+                 std::cos(0.3) * std::cos(0.2) + std::cos(0.1) * std::cos(0.6));
+  for (const bool all : {true, false}) {  // If none stands, amid all.
+    contacts[0].in_contact = contacts[1].in_contact = all;
+    const Pose X_WMid = MidFeet(contacts);
+    EXPECT_LT((X_WMid.p - Vector3d(2, 4, 0.2)).norm(), 1e-12);
+    EXPECT_LT((X_WMid.R - turn(heading, 0)).norm(), 1e-12);
+  }
+  contacts[1].in_contact = true;
+  const Pose X_WMid = MidFeet(contacts);
+  EXPECT_LT((X_WMid.p - contacts[1].X_WC.p).norm(), 1e-12);
+  EXPECT_LT((X_WMid.R - turn(0.6, 0)).norm(), 1e-12);
+  contacts[1].X_WC.R = turn(0.6, -M_PI / 2);  // On its heel: no heading.
+  EXPECT_TRUE(MidFeet(contacts).R.isIdentity(0));
 }
 
 }  // namespace

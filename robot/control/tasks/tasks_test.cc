@@ -25,6 +25,8 @@
 #include "robot/control/tasks/momentum.h"
 #include "robot/control/tasks/newton_euler.h"
 #include "robot/control/tasks/posture.h"
+#include "robot/control/tasks/support_box.h"
+#include "robot/control/tasks/swing.h"
 #include "robot/control/tasks/torque_limits.h"
 #include "robot/control/tasks/torque_minimization.h"
 #include "robot/control/tasks/unilateral.h"
@@ -228,6 +230,17 @@ TEST_F(TaskTest, YawConstantIsProportionalToTheLoad) {
 
 TEST_F(TaskTest, GroundDoesNotPull) {
   const UnilateralTask unilateral(tree_, robot_.feet);
+  std::vector<ContactTick> contacts = controller_.contacts();
+  contacts[0].max_normal_force = 30;  // It fades.
+  hierarchy_ = Hierarchy(nv_ + 12, {{0, 2}});
+  hierarchy_.Clear(1);
+  EqualityBlock none = hierarchy_.AddEqualities(0, 0);
+  InequalityBlock rows = hierarchy_.AddInequalities(0, 2);
+  unilateral.Write(
+      {state_, controller_.tick(), contacts, controller_.reference()}, &none,
+      &rows);
+  EXPECT_NEAR(rows.upper[0] / rows.C(0, nv_ + 5), 30, 1e-9);
+  EXPECT_EQ(rows.lower[0], 0);
   EXPECT_LE(Violation(unilateral, Loaded({0, 0}, {0, 0, 1})), 0);
   EXPECT_GT(Violation(unilateral, Loaded({0, 0}, {0, 0, -1})), 0);
 }
@@ -254,6 +267,14 @@ TEST_F(TaskTest, ZmpReadLiterallyLetsFeetCancel) {
   EXPECT_GT(Violation(literal, y), 0);
   y = Loaded({0, -0.3}, Eigen::Vector3d(0, 0, 100));
   EXPECT_GT(Violation(literal, y), 0);
+  // Of the box, each side by itself.
+  const Eigen::Vector3d up(0, 0, 100);
+  for (const Eigen::Vector2d& side :
+       {Eigen::Vector2d(half_.x(), 0), Eigen::Vector2d(-half_.x(), 0),
+        Eigen::Vector2d(0, half_.y()), Eigen::Vector2d(0, -half_.y())}) {
+    EXPECT_LE(Violation(literal, Loaded(0.99 * side, up)), 0);
+    EXPECT_GT(Violation(literal, Loaded(1.01 * side, up)), 0);
+  }
 }
 
 TEST_F(TaskTest, JointLimitsBringAJointToRestAtItsStop) {
@@ -290,6 +311,10 @@ TEST_F(TaskTest, JointLimitsHoldTheSpeed) {
   EXPECT_LE(Write(task).upper(0)[j], 1e-12);
   state_.v[6 + j] = -fastest;
   EXPECT_GE(Write(task).lower(0)[j], -1e-12);
+  // Not beyond what it is: at rest it may still speed up, as much either way.
+  state_.v[6 + j] = 0;
+  EXPECT_GT(Write(task).upper(0)[j], 0);
+  EXPECT_LT(Write(task).lower(0)[j], 0);
 }
 
 TEST_F(TaskTest, TorqueRowsAreThoseOfTheSolution) {
@@ -358,6 +383,169 @@ TEST_F(TaskTest, RatesOfMomentumAndFeetAreThoseOfTheMotion) {
       1e-12);
 }
 
+// What a task asks of y, less what it asks where nothing is to be done: here by
+// a reference that moves, feed-forward, and a base that is turned.
+TEST_F(TaskTest, MomentumGoesWhereItsReferenceGoes) {
+  MomentumTask momentum(tree_, robot_.feet);
+  ComTask com(tree_);
+  LinearMomentumTask linear(tree_);
+  const Eigen::VectorXd y = RandomY();
+  const Eigen::VectorXd before = Residual(momentum, y);
+  const Eigen::VectorXd com_before = Residual(com, y);
+  const Eigen::VectorXd linear_before = Residual(linear, y);
+
+  Reference& reference = controller_.reference();
+  const Eigen::Vector3d p(0.01, -0.02, 0.03), v(0.1, 0.2, -0.3), a(1, 2, 3);
+  const Eigen::Vector3d turn(0.02, -0.03, 0.05);  // rad, in world axes.
+  reference.p_WG += p;
+  reference.v_WG = v;
+  reference.a_WG = a;
+  const Eigen::Matrix3d R_WB = controller_.tick().X_WB[0].R;
+  reference.R_WB = ExpSo3(turn) * R_WB;
+  Eigen::VectorXd asked = before - Residual(momentum, y);
+  EXPECT_LT((asked.head<3>() - 200 / tree_.total_mass() * turn).norm(), 1e-9);
+  EXPECT_LT((asked.tail<3>() - 30 * p).norm(), 1e-9);
+  EXPECT_LT((com_before - Residual(com, y) - (30 * p + 10 * v + a)).norm(),
+            1e-9);
+  EXPECT_LT((linear_before - Residual(linear, y) - (10 * v + a)).norm(), 1e-9);
+
+  for (const Parameter& each : momentum.parameters()) {
+    if (each.name == "feedforward") *each.value = 1;
+  }
+  asked = before - Residual(momentum, y);
+  EXPECT_LT((asked.tail<3>() - (30 * p + 10 * v + a)).norm(), 1e-9);
+}
+
+// The height has its own gains always: it does not fall over.
+TEST_F(TaskTest, MomentumIsStifferInTheLargestPushesButNotInItsHeight) {
+  MomentumTask momentum(tree_, robot_.feet);
+  for (const Parameter& each : momentum.parameters()) {
+    if (each.name == "angular_weight") *each.value = 2;
+  }
+  const Eigen::Vector3d p(0.01, -0.02, 0.03);
+  const auto write = [&](double capture) {
+    hierarchy_ = Hierarchy(nv_ + 12, {{6, 0}});
+    hierarchy_.Clear(1);
+    EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
+    InequalityBlock none = hierarchy_.AddInequalities(0, 0);
+    TaskInput now = input();
+    now.capture = capture;
+    now.correction_W = Eigen::Vector3d(0.1, 0.2, 0.3);
+    momentum.Write(now, &rows, &none);
+    return Eigen::Vector3d(rows.b.tail<3>());
+  };
+  for (const double capture : {0.0, 0.5, 1.0}) {
+    const Eigen::Vector3d before = write(capture);
+    EXPECT_NEAR(hierarchy_.weight(0)[0], 2 * std::pow(0.3 / 2, capture), 1e-12);
+    controller_.reference().p_WG += p;
+    const Eigen::Vector3d asked = before - write(capture);
+    controller_.reference().p_WG -= p;
+    const double kp = 30 + 30 * capture;
+    EXPECT_LT((asked - Eigen::Vector3d(kp, kp, 30).cwiseProduct(p)).norm(),
+              1e-9);
+  }
+  // A correction is an acceleration like any other.
+  const Eigen::Vector3d corrected = write(0);
+  const Eigen::VectorXd plain = Write(momentum).b(0);
+  EXPECT_LT(
+      (plain.tail<3>() - corrected - Eigen::Vector3d(0.1, 0.2, 0.3)).norm(),
+      1e-12);
+}
+
+// The sole's frame, anywhere on the foot's link, moves as its Jacobian says.
+TEST_F(TaskTest, AContactMovesAsItsLinkDoes) {
+  const Pose X_FC{ExpSo3({0.3, -0.2, 0.5}), Eigen::Vector3d(0.05, -0.03, -0.4)};
+  const auto at = [&](const Tick& tick) {
+    ContactTick contact;
+    contact.J_WC_C.setZero(6, nv_);
+    ComputeContact(tick.frames[0], X_FC, &contact);
+    return contact;
+  };
+  const auto twist_W = [](const ContactTick& contact) {
+    Vector6d V_W;
+    V_W << contact.X_WC.R * contact.V_WC_C.head<3>(),
+        contact.X_WC.R * contact.V_WC_C.tail<3>();
+    return V_W;
+  };
+  const double h = 1e-6;
+  const Eigen::VectorXd y = RandomY();
+  const ContactTick now = at(controller_.tick());
+  const ContactTick before = at(After(-h, y)), after = at(After(h, y));
+  EXPECT_LT((now.J_WC_C * state_.v - now.V_WC_C).norm(), 1e-12);
+  Vector6d moved;
+  moved << LogSo3(after.X_WC.R * before.X_WC.R.transpose()),
+      after.X_WC.p - before.X_WC.p;
+  // Central differences over 1e-6 s: good to 1e-5 of the rates.
+  EXPECT_LT((moved / (2 * h) - twist_W(now)).norm(), 1e-5);
+  const Vector6d rate = (twist_W(after) - twist_W(before)) / (2 * h);
+  const Vector6d A_C = now.J_WC_C * y.head(nv_) + now.Jdot_v_C;
+  EXPECT_LT((now.X_WC.R.transpose() * rate.head<3>() - A_C.head<3>()).norm(),
+            1e-4);
+  EXPECT_LT((now.X_WC.R.transpose() * rate.tail<3>() - A_C.tail<3>()).norm(),
+            1e-4);
+}
+
+TEST_F(TaskTest, AFootInTheAirFollowsItsReference) {
+  SwingTask task(robot_.feet[0], 0);
+  for (const Parameter& each : task.parameters()) {
+    *each.value = each.name == "kp" ? 7 : 3;
+  }
+  std::vector<ContactTick> contacts = controller_.contacts();
+  const TaskInput now{state_, controller_.tick(), contacts,
+                      controller_.reference()};
+  EXPECT_FALSE(task.HasRows(now));
+  contacts[0].in_contact = false;
+  EXPECT_TRUE(task.HasRows(now));
+  contacts[0].is_guided = false;
+  EXPECT_FALSE(task.HasRows(now));
+
+  const ContactTick& foot = controller_.contacts()[0];
+  Vector6d e;
+  e << 0.3, -0.2, 0.1, 0.04, -0.05, 0.06;
+  FrameReference& reference = controller_.reference().feet[0];
+  reference.X_WF = {ExpSo3(e.head<3>()) * foot.X_WC.R,
+                    foot.X_WC.p + e.tail<3>()};
+  reference.V_WF_W << 1, 2, 3, 4, 5, 6;
+  reference.A_WF_W << 9, 8, 7, 6, 5, 4;
+  const Vector6d wanted_W = reference.A_WF_W + 3 * reference.V_WF_W + 7 * e;
+  const Eigen::VectorXd y = RandomY();
+  Vector6d expected =
+      foot.J_WC_C * y.head(nv_) + foot.Jdot_v_C + 3 * foot.V_WC_C;
+  expected.head<3>() -= foot.X_WC.R.transpose() * wanted_W.head<3>();
+  expected.tail<3>() -= foot.X_WC.R.transpose() * wanted_W.tail<3>();
+  EXPECT_LT((Residual(task, y) - expected).norm(), 1e-9);
+}
+
+TEST_F(TaskTest, TheBoxAroundTheSolesHoldsTheirCorners) {
+  std::vector<ContactTick> contacts = controller_.contacts();
+  contacts[0].X_WC.p << 0.02, 0.1, 0;
+  contacts[1].X_WC.p << -0.03, -0.2, 0;
+  contacts[0].X_WC.R = ExpSo3({0, 0, 0.3});
+  contacts[1].X_WC.R = ExpSo3({0, 0, -2});
+  for (const bool both : {true, false}) {
+    contacts[1].in_contact = both;
+    Eigen::Vector2d most(-1, -1), least(1, 1);
+    for (int i = 0; i < (both ? 2 : 1); ++i) {
+      for (const double x : {1.0, -1.0}) {
+        for (const double y : {1.0, -1.0}) {
+          const Eigen::Vector3d corner =
+              contacts[i].X_WC *
+              Eigen::Vector3d(x * half_.x(), y * half_.y(), 0);
+          most = most.cwiseMax(corner.head<2>());
+          least = least.cwiseMin(corner.head<2>());
+        }
+      }
+    }
+    const auto reach = [&](SupportSide side) {
+      return SupportReach(robot_.feet, contacts, Pose(), side);
+    };
+    EXPECT_NEAR(reach(kFront), most.x(), 1e-12);
+    EXPECT_NEAR(reach(kBack), -least.x(), 1e-12);
+    EXPECT_NEAR(reach(kLeft), most.y(), 1e-12);
+    EXPECT_NEAR(reach(kRight), -least.y(), 1e-12);
+  }
+}
+
 TEST_F(TaskTest, ContactPullsASoleUprightAndToTheGround) {
   const ContactTask task(robot_.feet);
   const ContactTick& contact = controller_.contacts()[0];
@@ -370,6 +558,23 @@ TEST_F(TaskTest, ContactPullsASoleUprightAndToTheGround) {
   controller_.reference().ground_z -= 0.01;
   const Eigen::VectorXd above = Residual(task, y);
   EXPECT_NEAR((above - at_ground)[5], 100 * 0.01, 1e-9);
+
+  // A tilted sole turns back the way that it tilted; of a turned one only that.
+  std::vector<ContactTick> contacts = controller_.contacts();
+  const Eigen::Matrix3d heading = ExpSo3({0, 0, 0.7});
+  const Eigen::Vector3d tilt(0.03, -0.02, 0);  // rad, in the foot's axes.
+  contacts[0].X_WC = {heading * ExpSo3(tilt), Eigen::Vector3d::Zero()};
+  controller_.reference().ground_z = 0;
+  hierarchy_ = Hierarchy(nv_ + 12, {{12, 0}});
+  hierarchy_.Clear(1);
+  EqualityBlock rows = hierarchy_.AddEqualities(0, 12);
+  InequalityBlock none = hierarchy_.AddInequalities(0, 0);
+  task.Write({state_, controller_.tick(), contacts, controller_.reference()},
+             &rows, &none);
+  const Eigen::VectorXd asked =
+      contacts[0].Jdot_v_C + 30 * contacts[0].V_WC_C - rows.b.head<6>();
+  EXPECT_LT((asked.head<3>() + 100 * tilt).norm(), 2e-3);  // sin(x) for x.
+  EXPECT_LT(asked.tail<3>().norm(), 1e-12);
 }
 
 TEST_F(TaskTest, FrameFollowsItsReference) {
@@ -616,6 +821,20 @@ TEST_F(CaptureTest, StandsOverTheFootThatIsLeft) {
   EXPECT_LT((pull(there) - there).norm(), 1e-9);
 }
 
+TEST_F(CaptureTest, SeesAReferenceThatMoves) {
+  controller_.reference().v_WG.x() = 0.5 * front_ * w_;
+  EXPECT_NEAR(Share(Fast(0, (0.5 + 0.45) * front_)), 0.5, 0.02);
+}
+
+// Nothing is left of the way but a centimeter, and nine tenths of that gone.
+TEST_F(CaptureTest, SeesAReferenceBeyondTheEdge) {
+  controller_.reference().p_WG.x() += front_ + 0.02;
+  for (const Parameter& each : task_.parameters()) {
+    if (each.name == "kp" || each.name == "capture_kp") *each.value = 0;
+  }
+  EXPECT_NEAR(Share(Fast(0, front_ + 0.02 + 0.009)), 0.5, 0.02);
+}
+
 TEST_F(CaptureTest, SeesAReferenceNearTheEdge) {
   // Half of the way is left, and nine tenths of that gone.
   controller_.reference().p_WG.x() += 0.5 * front_;
@@ -651,6 +870,13 @@ TEST_F(TaskTest, CapturePointStopsShortOfTheEdge) {
               xi + 0.1 * rate - edge, 1e-6);
   EXPECT_NEAR(rows.C(0).row(3).dot(y) - rows.upper(0)[3],
               -xi - 0.1 * rate - edge, 1e-6);
+  const double a_x = (tick.H_G.row(3).dot(y.head(nv_)) + tick.H_G_bias[3]) /
+                     tree_.total_mass();
+  const double ahead = p.x() - controller_.contacts()[0].X_WC.p.x() +
+                       v.x() / w + 0.1 * (v.x() + a_x / w);
+  const double front = half_.x() - 0.02;
+  EXPECT_NEAR(rows.C(0).row(0).dot(y) - rows.upper(0)[0], ahead - front, 1e-6);
+  EXPECT_NEAR(rows.C(0).row(1).dot(y) - rows.upper(0)[1], -ahead - front, 1e-6);
 }
 
 }  // namespace
