@@ -8,14 +8,10 @@
 #include "robot/control/task_set.h"
 #include "robot/profile.h"
 
-namespace {
-
 // Stands for the robot: fill in its encoders, gyroscope and base estimate.
 poise::State ReadSensors(const poise::Robot& robot, double time) {
   return {time, robot.q_nominal, Eigen::VectorXd::Zero(robot.model.tree.nv())};
 }
-
-}  // namespace
 
 int main(int argc, char** argv) {
   const std::string urdf = argc > 1 ? argv[1] : "robot/models/humanoid.urdf";

@@ -2,8 +2,12 @@
 # Runs the program $1, made of the source $2, and counts its lines.
 set -euo pipefail
 "$1"
-lines=$(sed -n '/^int main/,$p' "$2" | wc -l)
+lines=$(wc -l < "$2")
 if (( lines > 40 )); then
-  echo "main() of $2 has $lines lines, must be 40 or fewer" >&2
+  echo "$2 has $lines lines, must have 40 or fewer" >&2
+  exit 1
+fi
+if ldd "$1" | grep -iE 'bullet|LinearMath|mujoco'; then
+  echo "$1 is linked with a simulator, must be with none" >&2
   exit 1
 fi
