@@ -381,6 +381,18 @@ TEST_F(DescentByHandTest, SeesNoRowInTheWayOfRounding) {
   }
 }
 
+// y0 >= 1, and in the last level y1 = 5, which breaks y1 <= 2: not before the
+// head is at its best does y1 move.
+TEST_F(DescentByHandTest, SparesTheTailUntilTheHeadIsAtItsBest) {
+  AddRow(0, {1, 0, 0}, 1, INFINITY);
+  AddRow(0, {0, 1, 0}, -INFINITY, 2);
+  AddWish(2, 1, 5);
+  EXPECT_FALSE(AtOnce(2));
+  EXPECT_EQ(y_, Eigen::Vector3d(1, 2, 0));
+  EXPECT_TRUE(AtOnce(3));
+  EXPECT_EQ(y_, Eigen::Vector3d(1, 2, 0));
+}
+
 // As many rows as there is room for.
 TEST_F(DescentByHandTest, HasRoomForManyRows) {
   for (int i = 0; i < 50; ++i) {
