@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "hqp/solver.h"
 #include "tests/util/compare_solvers.h"
 #include "tests/util/shrink_hierarchy.h"
 #include "tools/hqp_file.h"
@@ -20,6 +21,7 @@ struct Night {
   std::uint64_t seed = 1;
   std::string out = ".";
   double tolerance = 1e-9;
+  int ticks = 1;
   RandomHierarchyOptions options;
 };
 
@@ -29,13 +31,16 @@ std::string Kind(const std::string& disagreement) {
   return disagreement.substr(0, disagreement.find_first_of("0123456789;"));
 }
 
-void Report(const Night& night, std::uint64_t seed,
-            const HierarchyCase& failing) {
+// What only a solver that has solved others gets wrong is not shrunk.
+void Report(const Night& night, std::uint64_t seed, int tick,
+            const std::string& disagreement, const HierarchyCase& failing) {
   const std::string found = Disagreement(failing, night.tolerance);
   const HierarchyCase shrunk =
-      ShrinkHierarchy(failing, [&](const HierarchyCase& each) {
-        return Kind(Disagreement(each, night.tolerance)) == Kind(found);
-      });
+      found.empty()
+          ? failing
+          : ShrinkHierarchy(failing, [&](const HierarchyCase& each) {
+              return Kind(Disagreement(each, night.tolerance)) == Kind(found);
+            });
   const std::filesystem::path folder = UserPath(night.out);
   std::filesystem::create_directories(folder);
   const auto path = folder / ("hqp_" + std::to_string(seed) + ".json");
@@ -43,7 +48,7 @@ void Report(const Night& night, std::uint64_t seed,
   if (!(file << WriteHqp(shrunk.hierarchy) << "\n")) {
     throw std::runtime_error(path.string() + ": cannot be written");
   }
-  std::cout << "seed " << seed << ": " << found
+  std::cout << "seed " << seed << ", tick " << tick << ": " << disagreement
             << "\n  shrunk: " << Disagreement(shrunk, night.tolerance)
             << "\n  bazel run //tools:hqp -- " << path.string() << std::endl;
 }
@@ -68,16 +73,32 @@ int Main(int argc, char** argv) {
                  "Rows that meet in one point, in percent");
   app.add_option("--scaled", night.options.scaled,
                  "Hierarchies of rows from 1e-3 to 1e6, in percent");
+  app.add_option("--apex", night.options.apex,
+                 "Hierarchies whose bounds are all zero, in percent");
+  app.add_option("--ticks", night.ticks,
+                 "Ticks of one solver, in which each hierarchy changes");
   app.add_option("--selecting", night.options.selecting,
                  "Hierarchies whose last levels select, in percent");
   CLI11_PARSE(app, argc, argv);
   std::uint64_t failures = 0;
   for (std::uint64_t i = 0; i < night.problems; ++i) {
-    const HierarchyCase drawn =
-        MakeRandomHierarchy(night.seed + i, night.options);
-    if (Disagreement(drawn, night.tolerance).empty()) continue;
-    ++failures;
-    Report(night, night.seed + i, drawn);
+    const std::uint64_t seed = night.seed + i;
+    HierarchyCase drawn =
+        WithRoomToChange(MakeRandomHierarchy(seed, night.options));
+    Solver living(drawn.hierarchy.num_variables(), drawn.capacity);
+    for (int tick = 0; tick < night.ticks; ++tick) {
+      if (tick > 0) ChangeHierarchy(seed * night.ticks + tick, &drawn);
+      const std::string found =
+          Disagreement(drawn, night.tolerance, tick > 0 ? &living : nullptr);
+      if (tick == 0) {
+        Solution solution(drawn.hierarchy.num_variables(), drawn.capacity);
+        (void)living.Solve(drawn.hierarchy, &solution);
+      }
+      if (found.empty()) continue;
+      ++failures;
+      Report(night, seed, tick, found, drawn);
+      break;
+    }
   }
   std::cout << night.problems << " hierarchies from seed " << night.seed << ": "
             << failures << " failures\n";

@@ -10,6 +10,7 @@
 #include "hqp/cascade.h"
 #include "hqp/certificate.h"
 #include "hqp/solver.h"
+#include "tests/util/compare_solvers.h"
 #include "tests/util/random_hierarchy.h"
 #include "tests/util/ridders.h"
 
@@ -29,6 +30,7 @@ HierarchyCase DrawHierarchy(bool with_inequalities = true) {
   options.planted = *rc::gen::inRange(0, 61);
   options.selecting = *rc::gen::inRange(0, 101);
   options.scaled = 0;
+  options.apex = *rc::gen::inRange(0, 31);
   return MakeRandomHierarchy(*rc::gen::inRange(0, 1 << 30), options);
 }
 
@@ -86,6 +88,17 @@ RC_GTEST_PROP(AnyHierarchy, IsSolvedAlikeByTwoSolversAndCertified, ()) {
             kCertified);
   RC_ASSERT(certifier.Certify(drawn.hierarchy, solution).worst() <= kCertified);
   ExpectSameCosts(drawn, solution, reference, drawn.hierarchy.num_levels());
+}
+
+// Ticks of one solver: each as certified, as close to the cascade, and as short
+// as a new solver's.
+RC_GTEST_PROP(AnyHierarchy, IsFollowedByALivingSolverAsItChanges, ()) {
+  HierarchyCase drawn = WithRoomToChange(DrawHierarchy());
+  Solver living(drawn.hierarchy.num_variables(), drawn.capacity);
+  for (int tick = 0; tick < 6; ++tick) {
+    if (tick > 0) ChangeHierarchy(*rc::gen::inRange(0, 1 << 30), &drawn);
+    RC_ASSERT(Disagreement(drawn, kCertified, &living) == "");
+  }
 }
 
 RC_GTEST_PROP(AnyHierarchy, KeepsItsUpperLevelsWithoutTheLowerOnes, ()) {

@@ -71,47 +71,89 @@ double ResidualDifference(const Hierarchy& hierarchy, int level,
 
 }  // namespace
 
-std::string Disagreement(const HierarchyCase& drawn, double tolerance) {
+std::string Disagreement(const HierarchyCase& drawn, double tolerance,
+                         Solver* living) {
   const Hierarchy& hierarchy = drawn.hierarchy;
   const int n = hierarchy.num_variables();
   Solution fast(n, drawn.capacity), reference(n, drawn.capacity);
   Certifier certifier(n, drawn.capacity);
   std::ostringstream text;
-  if (Cascade(n, drawn.capacity).Solve(hierarchy, &reference) !=
-      Status::kOptimal) {
-    text << "the cascade has no optimum; ";
-  }
-  if (Solver(n, drawn.capacity).Solve(hierarchy, &fast) != Status::kOptimal) {
-    text << "the fast solver has no optimum; ";
-  }
-  const auto judge = [&](const char* what, double error, double allowed) {
+  const auto judge = [&](const std::string& what, double error,
+                         double allowed) {
     if (!(error <= allowed)) {
       text << what << " " << error << " > " << allowed << "; ";
     }
   };
+  if (Cascade(n, drawn.capacity).Solve(hierarchy, &reference) !=
+      Status::kOptimal) {
+    text << "the cascade has no optimum; ";
+  }
   judge("the cascade's certificate",
         certifier.Certify(hierarchy, reference).worst(), tolerance);
-  judge("the fast certificate", certifier.Certify(hierarchy, fast).worst(),
-        tolerance);
-  for (int k = 0; k < hierarchy.num_levels(); ++k) {
-    const LevelSolution &a = fast.levels[k], &b = reference.levels[k];
-    const double size = CostSize(hierarchy, k, reference);
-    const std::string of = " on level " + std::to_string(k);
-    judge(("cost" + of).c_str(), std::abs(a.cost - b.cost), tolerance * size);
-    judge(("residual or slack" + of).c_str(),
-          ResidualDifference(hierarchy, k, a, b), tolerance * std::sqrt(size));
-    if (a.nullity != b.nullity) {
-      text << "nullity" << of << " " << a.nullity << ", not " << b.nullity
-           << "; ";
-    }
-  }
   const double eps = std::numeric_limits<double>::epsilon();
-  judge("y", (fast.y - reference.y).norm(),
-        std::max(tolerance,
-                 100 * eps * ConditionOfActiveRows(hierarchy, reference)) *
-                reference.y.norm() +
-            4 * eps * LargestWish(hierarchy));
+  const double same_y =
+      std::max(tolerance,
+               100 * eps * ConditionOfActiveRows(hierarchy, reference)) *
+          reference.y.norm() +
+      4 * eps * LargestWish(hierarchy);
+  const auto compare = [&](const std::string& name, Solver* solver) {
+    if (solver->Solve(hierarchy, &fast) != Status::kOptimal) {
+      text << name << " has no optimum; ";
+    }
+    judge(name + "'s certificate", certifier.Certify(hierarchy, fast).worst(),
+          tolerance);
+    for (int k = 0; k < hierarchy.num_levels(); ++k) {
+      const LevelSolution &a = fast.levels[k], &b = reference.levels[k];
+      const double size = CostSize(hierarchy, k, reference);
+      const std::string of = " on level " + std::to_string(k);
+      judge(name + "'s cost" + of, std::abs(a.cost - b.cost), tolerance * size);
+      judge(name + "'s residual or slack" + of,
+            ResidualDifference(hierarchy, k, a, b),
+            tolerance * std::sqrt(size));
+      if (a.nullity != b.nullity) {
+        text << name << "'s nullity" << of << " " << a.nullity << ", not "
+             << b.nullity << "; ";
+      }
+    }
+    judge(name + "'s y", (fast.y - reference.y).norm(), same_y);
+    judge(name + "'s y is not the shortest",
+          CertifyShortest(drawn, fast).worst(), tolerance);
+  };
+  Solver fresh(n, drawn.capacity);
+  compare("the fast solver", &fresh);
+  if (living != nullptr) compare("the living solver", living);
   return text.str();
+}
+
+Certificate CertifyShortest(const HierarchyCase& drawn,
+                            const Solution& solution) {
+  const Hierarchy& from = drawn.hierarchy;
+  const int n = from.num_variables(), levels = from.num_levels();
+  std::vector<LevelCapacity> capacity(drawn.capacity.begin(),
+                                      drawn.capacity.begin() + levels);
+  capacity.push_back({n, 0});
+  Hierarchy hierarchy(n, capacity);
+  for (int k = 0; k < levels; ++k) {
+    EqualityBlock equalities =
+        hierarchy.AddEqualities(k, from.num_equalities(k));
+    equalities.B = from.B(k);
+    equalities.b = from.b(k);
+    equalities.weight = from.weight(k);
+    InequalityBlock inequalities =
+        hierarchy.AddInequalities(k, from.num_inequalities(k));
+    inequalities.C = from.C(k);
+    inequalities.lower = from.lower(k);
+    inequalities.upper = from.upper(k);
+  }
+  hierarchy.AddEqualities(levels, n).B.setIdentity();
+  Solution judged(n, capacity);
+  if (Solver(n, capacity).Solve(hierarchy, &judged) != Status::kOptimal) {
+    (void)Cascade(n, capacity).Solve(hierarchy, &judged);
+  }
+  judged.y = solution.y;
+  judged.failed_level = -1;
+  for (int k = 0; k <= levels; ++k) EvaluateLevel(hierarchy, k, &judged);
+  return Certifier(n, capacity).Certify(hierarchy, judged);
 }
 
 }  // namespace poise

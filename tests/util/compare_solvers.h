@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "hqp/certificate.h"
+#include "hqp/solver.h"
 #include "tests/util/random_hierarchy.h"
 
 namespace poise {
@@ -12,6 +14,16 @@ namespace poise {
 /// the same; certificates within the tolerance; costs, residuals and slacks
 /// within it of what the level is added up from; and y within it, or 100 eps
 /// times the condition of the active rows if that is more, of y's norm.
-std::string Disagreement(const HierarchyCase& drawn, double tolerance = 1e-9);
+///
+/// `living`, if given, is a solver that has solved others: it is the fast solver
+/// then, and a new one is to agree with it as well.
+std::string Disagreement(const HierarchyCase& drawn, double tolerance = 1e-9,
+                         Solver* living = nullptr);
+
+/// Whether y is the shortest of all optima: its certificate as an answer to the
+/// same hierarchy with one level more, y = 0. Multipliers of that level are
+/// found by solving it so; whether they are right, the certificate says.
+Certificate CertifyShortest(const HierarchyCase& drawn,
+                            const Solution& solution);
 
 }  // namespace poise

@@ -51,6 +51,7 @@ class Drawing {
     scaled_ = source_.Chance(options_.scaled);
     planted_.resize(n);
     for (int j = 0; j < n; ++j) planted_[j] = source_.Number();
+    apex_ = options_.apex > 0 && source_.Chance(options_.apex);
     for (int level = 0; level < levels; ++level) {
       EqualityBlock equalities =
           drawn.hierarchy.AddEqualities(level, capacity[level].equalities);
@@ -90,9 +91,10 @@ class Drawing {
   void DrawInequality(int i, InequalityBlock* block) {
     const Eigen::VectorXd row = Row();
     block->C.row(i) = row;
-    const double bound = source_.Chance(options_.planted)
-                             ? row.dot(planted_)
-                             : Scale(row) * source_.Number();
+    double bound = source_.Chance(options_.planted)
+                       ? row.dot(planted_)
+                       : Scale(row) * source_.Number();
+    if (apex_) bound = 0;
     const int kind = source_.Between(0, 9);
     if (kind < 4) {
       block->upper[i] = bound;
@@ -100,7 +102,8 @@ class Drawing {
       block->lower[i] = bound;
     } else if (kind < 9) {
       block->lower[i] = bound;
-      block->upper[i] = bound + Scale(row) * source_.Between(0, 300) / 100;
+      block->upper[i] =
+          bound + (apex_ ? 0 : Scale(row) * source_.Between(0, 300) / 100);
     } else {
       block->lower[i] = block->upper[i] = bound;
     }
@@ -145,16 +148,146 @@ class Drawing {
 
   Source source_;
   RandomHierarchyOptions options_;
-  bool scaled_ = false;
+  bool scaled_ = false, apex_ = false;
   Eigen::VectorXd planted_;
   std::vector<Eigen::VectorXd> rows_;
 };
+
+// The rows of one level, to be changed at will.
+struct LevelRows {
+  RowMajorMatrix B, C;
+  Eigen::VectorXd b, weight, lower, upper;
+};
+
+std::vector<LevelRows> Take(const Hierarchy& hierarchy) {
+  std::vector<LevelRows> levels;
+  for (int k = 0; k < hierarchy.num_levels(); ++k) {
+    levels.push_back({hierarchy.B(k), hierarchy.C(k), hierarchy.b(k),
+                      hierarchy.weight(k), hierarchy.lower(k),
+                      hierarchy.upper(k)});
+  }
+  return levels;
+}
+
+void Put(const std::vector<LevelRows>& levels, Hierarchy* hierarchy) {
+  hierarchy->Clear(static_cast<int>(levels.size()));
+  for (size_t k = 0; k < levels.size(); ++k) {
+    const LevelRows& from = levels[k];
+    const auto level = static_cast<int>(k);
+    EqualityBlock equalities =
+        hierarchy->AddEqualities(level, static_cast<int>(from.B.rows()));
+    equalities.B = from.B;
+    equalities.b = from.b;
+    equalities.weight = from.weight;
+    InequalityBlock inequalities =
+        hierarchy->AddInequalities(level, static_cast<int>(from.C.rows()));
+    inequalities.C = from.C;
+    inequalities.lower = from.lower;
+    inequalities.upper = from.upper;
+  }
+}
+
+// One row turns, or gets a copy of another, or nearly.
+void ChangeRow(Source* source, const std::vector<LevelRows>& levels,
+               RowMajorMatrix* rows) {
+  if (rows->rows() == 0) return;
+  auto row = rows->row(source->Between(0, static_cast<int>(rows->rows()) - 1));
+  const int kind = source->Between(0, 2);
+  if (kind == 0) {
+    row[source->Between(0, static_cast<int>(row.size()) - 1)] =
+        source->Number();
+    return;
+  }
+  const LevelRows& of =
+      levels[source->Between(0, static_cast<int>(levels.size()) - 1)];
+  const RowMajorMatrix& from = source->Chance(50) ? of.B : of.C;
+  if (from.rows() == 0) return;
+  const double rest = kind == 1 ? 0 : 0.1;
+  row = rest * row +
+        from.row(source->Between(0, static_cast<int>(from.rows()) - 1));
+}
+
+// One of the bounds comes or goes, or both meet.
+void ChangeBounds(Source* source, LevelRows* level) {
+  if (level->C.rows() == 0) return;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const int i = source->Between(0, static_cast<int>(level->C.rows()) - 1);
+  double &lower = level->lower[i], &upper = level->upper[i];
+  const double bound = std::isinf(upper) ? lower : upper;
+  if (std::isinf(bound)) return;
+  lower = source->Chance(50) ? -kInfinity : bound;
+  upper = source->Chance(50) ? kInfinity : bound;
+}
+
+void Change(Source* source, std::vector<LevelRows>* levels) {
+  const int last = static_cast<int>(levels->size()) - 1;
+  LevelRows& level = (*levels)[source->Between(0, last)];
+  const auto rows = static_cast<int>(level.C.rows());
+  switch (source->Between(0, 7)) {
+    case 0:
+      for (double& b : level.b) b += source->Number() / 10;
+      break;
+    case 1: {
+      const double by = source->Number() / 10;
+      level.lower.array() += by;
+      level.upper.array() += by;
+      break;
+    }
+    case 2:
+      ChangeRow(source, *levels, &level.B);
+      break;
+    case 3:
+      ChangeRow(source, *levels, &level.C);
+      break;
+    case 4:
+      ChangeBounds(source, &level);
+      break;
+    case 5:
+      for (double& lower : level.lower) lower = std::isinf(lower) ? lower : 0;
+      for (double& upper : level.upper) upper = std::isinf(upper) ? upper : 0;
+      break;
+    case 6:
+      std::swap(level, (*levels)[source->Between(0, last)]);
+      if (last > 0 && source->Chance(20)) levels->pop_back();
+      break;
+    default:
+      if (rows < 2) break;
+      level.C.row(0).swap(level.C.row(rows - 1));
+      std::swap(level.lower[0], level.lower[rows - 1]);
+      std::swap(level.upper[0], level.upper[rows - 1]);
+      level.C.conservativeResize(rows - 1, Eigen::NoChange);
+      level.lower.conservativeResize(rows - 1);
+      level.upper.conservativeResize(rows - 1);
+  }
+}
 
 }  // namespace
 
 HierarchyCase MakeRandomHierarchy(std::uint64_t seed,
                                   const RandomHierarchyOptions& options) {
   return Drawing(seed, options).Draw();
+}
+
+HierarchyCase WithRoomToChange(const HierarchyCase& drawn) {
+  LevelCapacity most;
+  for (const LevelCapacity& level : drawn.capacity) {
+    most.equalities = std::max(most.equalities, level.equalities);
+    most.inequalities = std::max(most.inequalities, level.inequalities);
+  }
+  const std::vector<LevelCapacity> capacity(drawn.capacity.size(), most);
+  HierarchyCase result{capacity,
+                       Hierarchy(drawn.hierarchy.num_variables(), capacity)};
+  Put(Take(drawn.hierarchy), &result.hierarchy);
+  return result;
+}
+
+void ChangeHierarchy(std::uint64_t seed, HierarchyCase* drawn) {
+  Source source(seed);
+  std::vector<LevelRows> levels = Take(drawn->hierarchy);
+  for (int changes = source.Between(1, 3); changes > 0; --changes) {
+    Change(&source, &levels);
+  }
+  Put(levels, &drawn->hierarchy);
 }
 
 double CostSize(const Hierarchy& hierarchy, int level,

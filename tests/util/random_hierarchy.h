@@ -30,6 +30,10 @@ struct RandomHierarchyOptions {
 
   /// Chance that the last levels only select variables.
   int selecting = 50;
+
+  /// Chance that all bounds are zero, as at the apex of friction cones: mostly no
+  /// y but zero is left then, whatever is asked for.
+  int apex = 0;
 };
 
 /// A hierarchy and the sizes to solve it with.
@@ -42,6 +46,16 @@ struct HierarchyCase {
 /// hundredths, so that files of it are short.
 HierarchyCase MakeRandomHierarchy(std::uint64_t seed,
                                   const RandomHierarchyOptions& options = {});
+
+/// The same hierarchy with room for what ChangeHierarchy() makes of it.
+HierarchyCase WithRoomToChange(const HierarchyCase& drawn);
+
+/// Makes of a hierarchy with room to change what may come a tick later: a few
+/// of these at once, drawn by the seed. Targets and bounds move; bounds come, go
+/// and meet; all of a level's get zero; rows turn, and go; a row gets a copy of
+/// another, or nearly, so that its level loses rank; a level takes another's
+/// place, or the last one is left out.
+void ChangeHierarchy(std::uint64_t seed, HierarchyCase* drawn);
 
 /// What the cost of a level is added up from at a solution's y: its rounding is
 /// a multiple of eps of that.

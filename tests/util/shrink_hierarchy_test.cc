@@ -5,6 +5,7 @@
 
 #include "hqp/solver.h"
 #include "tests/util/compare_solvers.h"
+#include "tests/util/random_hierarchy.h"
 
 namespace poise {
 namespace {
@@ -90,6 +91,45 @@ TEST(Disagreement, IsWhatAToleranceOfZeroFinds) {
     found += !Disagreement(drawn, 0).empty();
   }
   EXPECT_GT(found, 25);
+}
+
+// y0 + y1 = 2, or at least that: (1, 1). Off it by so much a certificate is not
+// 1e-9 any more; (2, 0) is as good for that level, and so is (3, 3) for the
+// bound, which then asks for nothing.
+TEST(CertifyShortest, SeesAYThatIsNotTheShortest) {
+  for (const bool is_equality : {false, true}) {
+    const std::vector<LevelCapacity> capacity{{1, 1}};
+    HierarchyCase drawn{capacity, Hierarchy(2, capacity)};
+    if (is_equality) {
+      EqualityBlock sum = drawn.hierarchy.AddEqualities(0, 1);
+      sum.B << 1, 1;
+      sum.b << -2;
+    } else {
+      InequalityBlock sum = drawn.hierarchy.AddInequalities(0, 1);
+      sum.C << 1, 1;
+      sum.lower << 2;
+    }
+    Solution solution(2, capacity);
+    solution.y << 1, 1;
+    EXPECT_LE(CertifyShortest(drawn, solution).worst(), 1e-15);
+    for (const Eigen::Vector2d& y :
+         {Eigen::Vector2d(1 + 1e-8, 1 - 1e-8), Eigen::Vector2d(2, 0),
+          Eigen::Vector2d(3, 3)}) {
+      solution.y = y;
+      EXPECT_GT(CertifyShortest(drawn, solution).worst(), 1e-9) << y;
+    }
+  }
+}
+
+// A solver that has solved others is judged like a new one, and beside it.
+TEST(Disagreement, JudgesALivingSolverAsWell) {
+  HierarchyCase drawn = WithRoomToChange(MakeRandomHierarchy(7));
+  Solver living(drawn.hierarchy.num_variables(), drawn.capacity);
+  EXPECT_EQ(Disagreement(drawn, 1e-9, &living), "");
+  living.max_iterations = 0;
+  EXPECT_NE(Disagreement(drawn, 1e-9, &living).find("the living solver has no"),
+            std::string::npos);
+  EXPECT_EQ(Disagreement(drawn), "");
 }
 
 }  // namespace
