@@ -40,8 +40,9 @@ class UneliminatedProblem {
     AddDynamics();
     AddTorqueLimits();
     const Stack& stack = controller_.stack();
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(state.v.size());
     const TaskInput input{state, controller_.tick(), controller_.contacts(),
-                          controller_.reference()};
+                          controller_.reference(), none};
     for (int i = 0; i < stack.num_tasks(); ++i) {
       const Task& task = stack.task(i);
       if (!stack.settings(i).enabled || !task.HasRows(input)) continue;

@@ -9,7 +9,6 @@
 #include "math/so3.h"
 #include "robot/control/default_stack.h"
 #include "robot/control/fail_safe.h"
-#include "robot/control/tasks/momentum.h"
 #include "robot/control/torque.h"
 #include "robot/finding.h"
 
@@ -44,6 +43,11 @@ constexpr double kLettingGo = 0.5;
 // It comes back where the feet do again, and the robot is slow and nearly upright.
 constexpr double kUprightBase = 0.4;  // rad.
 constexpr double kSlow = 0.3;         // m/s.
+
+// What was not expected is a mean over so long, s: long against delays, short
+// against the time that a joint takes to its limit. What is more is no push.
+constexpr double kMemory = 0.02;
+constexpr double kLargestSurprise = 100;  // rad/s2, m/s2.
 
 // Of the fail-safe command.
 constexpr double kFailSafeDamping = 10;  // 1/s.
@@ -96,9 +100,12 @@ int NumVariables(const Robot& robot) {
 Controller::Controller(const Robot& robot, const ControllerOptions& options)
     : robot_(Checked(robot)),
       options_(options),
+      weight_(robot_.model.tree.total_mass() *
+              robot_.model.tree.gravity_W().norm()),
       stack_(MakeDefaultStack(robot_, options.frames)),
-      stance_(robot_.feet, robot_.model.tree.total_mass() *
-                               robot_.model.tree.gravity_W().norm()),
+      momentum_(*stack_.Find("momentum")),
+      momentum_task_(static_cast<const MomentumTask&>(stack_.task(momentum_))),
+      stance_(robot_.feet, weight_),
       tick_(robot_.model.tree, TickFrames(robot_, options.frames)),
       contacts_(robot_.feet.size()),
       hierarchy_(NumVariables(robot_), stack_.capacity()),
@@ -135,6 +142,8 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
 
   const Tree& tree = robot_.model.tree;
   for (ContactTick& contact : contacts_) contact.J_WC_C.setZero(6, tree.nv());
+  unexpected_.setZero(tree.nv());
+  expected_v_.setZero(tree.nv());
   const State nominal{0, robot_.q_nominal, Eigen::VectorXd::Zero(tree.nv())};
   ComputeModel(nominal);
   const Pose X_MidW = MidFeet(contacts_).Inverse();
@@ -166,10 +175,11 @@ void Controller::Start(const State& state) noexcept {
     reference_.frames[i].X_WF = tick_.frames[contacts_.size() + i].X_WF;
   }
   stance_.Reset();
-  normal_force_.setConstant(robot_.model.tree.total_mass() *
-                            robot_.model.tree.gravity_W().norm());
+  normal_force_.setConstant(weight_);
   stack_.EndRamp();
   correction_W_.setZero();
+  unexpected_.setZero();
+  expects_ = false;
 }
 
 void Controller::Update(const State& state, Command* command) noexcept {
@@ -179,9 +189,11 @@ void Controller::Update(const State& state, Command* command) noexcept {
     return;
   }
   ComputeModel(state);
+  Compare(state);
   LetFeetGo(state);
   stance_.Update(options_.dt, normal_force_, &contacts_, &reference_);
-  stack_.Write({state, tick_, contacts_, reference_, correction_W_, capture_},
+  stack_.Write({state, tick_, contacts_, reference_, unexpected_, correction_W_,
+                capture_},
                &hierarchy_);
   const Status solved = solver_.Solve(hierarchy_, &solution_);
   stack_.Report(solution_, &report_);
@@ -202,6 +214,8 @@ void Controller::Update(const State& state, Command* command) noexcept {
     normal_force_[i] = solution_.y[nv + 6 * i + 5];
   }
   stack_.Advance(options_.dt, solution_.y);
+  expected_v_ = state.v + options_.dt * solution_.y.head(nv);
+  expects_ = frozen_for_ == 0;
   CorrectSag();
   ComputeTorque(tick_, contacts_, solution_.y, &command->tau);
   LimitTorque(command);
@@ -214,18 +228,13 @@ void Controller::Update(const State& state, Command* command) noexcept {
 // free to follow, as in a push; in the plane also while the robot or its
 // reference moves, as a lag is none either.
 void Controller::CorrectSag() noexcept {
-  const auto momentum = stack_.Find("momentum");
-  if (!stack_.settings(*momentum).enabled) {
+  if (!stack_.settings(momentum_).enabled) {
     correction_W_.setZero();
     return;
   }
-  if (report_.tasks[*momentum].residual > kFollowing) return;
-  const double place = stack_.GetParameter("momentum", "ki").value_or(0);
-  const double height =
-      stack_.GetParameter("momentum", "ki_height").value_or(0);
+  if (report_.tasks[momentum_].residual > kFollowing) return;
+  const auto [kp, kd, place, height] = momentum_task_.gains();
   const bool stands = reference_.v_WG.isZero() && tick_.v_WG.norm() < kStanding;
-  const double kp = stack_.GetParameter("momentum", "kp").value_or(0);
-  const double kd = stack_.GetParameter("momentum", "kd").value_or(0);
   const double decay = kp > 0 ? kd / kp : 0;
   const Eigen::Vector3d e_W =
       reference_.p_WG - tick_.p_WG + decay * (reference_.v_WG - tick_.v_WG);
@@ -244,20 +253,17 @@ void Controller::CorrectSag() noexcept {
 // is over, or the robot falls to its side.
 void Controller::LetFeetGo(const State& state) noexcept {
   MomentumTask::CaptureShares shares;
-  const int i = *stack_.Find("momentum");
-  if (stack_.settings(i).enabled) {
-    const auto& momentum = static_cast<const MomentumTask&>(stack_.task(i));
-    shares = momentum.FindCapture({state, tick_, contacts_, reference_});
+  if (stack_.settings(momentum_).enabled) {
+    shares = momentum_task_.FindCapture(
+        {state, tick_, contacts_, reference_, unexpected_});
   }
   capture_ = shares.all;
 
-  const double weight =
-      robot_.model.tree.total_mass() * robot_.model.tree.gravity_W().norm();
   const double turned =
       LogSo3(reference_.R_WB * tick_.X_WB[0].R.transpose()).norm();
   const bool is_over =
       shares.all == 0 && turned < kUprightBase && tick_.v_WG.norm() < kSlow;
-  const bool stands = normal_force_.maxCoeff() > kLoaded * weight;
+  const bool stands = normal_force_.maxCoeff() > kLoaded * weight_;
   const Pose X_MidW = MidFeet(contacts_).Inverse();
   for (int foot = 0; foot < static_cast<int>(contacts_.size()); ++foot) {
     const bool is_left = (X_MidW * contacts_[foot].X_WC.p).y() > 0;
@@ -267,10 +273,18 @@ void Controller::LetFeetGo(const State& state) noexcept {
     if (phase == ContactPhase::kFree && (is_over || towards > 0)) {
       stance_.PutDown(foot);
     } else if (phase == ContactPhase::kDown && away > kLettingGo && stands &&
-               normal_force_[foot] < kUnloaded * weight) {
+               normal_force_[foot] < kUnloaded * weight_) {
       stance_.LetGo(foot);
     }
   }
+}
+
+void Controller::Compare(const State& state) noexcept {
+  if (!expects_ || frozen_for_ > 0) return;
+  const double share = -std::expm1(-options_.dt / kMemory);
+  unexpected_ += share * ((state.v - expected_v_) / options_.dt - unexpected_);
+  unexpected_ =
+      unexpected_.cwiseMax(-kLargestSurprise).cwiseMin(kLargestSurprise);
 }
 
 bool Controller::IsUsable(const State& state) noexcept {
@@ -286,6 +300,7 @@ bool Controller::IsUsable(const State& state) noexcept {
 void Controller::FailSafe(const State& state, Command* command) noexcept {
   report_.status = TickStatus::kFailSafe;
   stack_.EndRamp();
+  expects_ = false;
   report_.active.clear();
   report_.lost.clear();
   const int n = robot_.model.tree.num_joints();

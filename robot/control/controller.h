@@ -17,6 +17,7 @@
 #include "robot/control/reference.h"
 #include "robot/control/stack.h"
 #include "robot/control/stance.h"
+#include "robot/control/tasks/momentum.h"
 #include "robot/control/tick_report.h"
 #include "robot/robot.h"
 
@@ -94,6 +95,7 @@ class Controller {
  private:
   void ComputeModel(const State& state) noexcept;
   void LetFeetGo(const State& state) noexcept;
+  void Compare(const State& state) noexcept;
   bool IsUsable(const State& state) noexcept;
   void FailSafe(const State& state, Command* command) noexcept;
   void LimitTorque(Command* command) noexcept;
@@ -101,8 +103,11 @@ class Controller {
 
   Robot robot_;
   ControllerOptions options_;
+  double weight_;  ///< Of the robot, N.
   Reference reference_;
   Stack stack_;
+  int momentum_;  ///< Index into the stack's tasks.
+  const MomentumTask& momentum_task_;
   Stance stance_;
   Tick tick_;
   std::vector<ContactTick> contacts_;
@@ -117,8 +122,11 @@ class Controller {
   Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.
   double last_time_;        ///< Of the last state, s.
   Eigen::Vector3d correction_W_ = Eigen::Vector3d::Zero();
-  double capture_ = 0;     // See TaskInput.
-  double frozen_for_ = 0;  ///< How long it has been the same, s.
+  double capture_ = 0;          // See TaskInput,
+  Eigen::VectorXd unexpected_;  // this too.
+  Eigen::VectorXd expected_v_;  ///< What v should be in this tick,
+  bool expects_ = false;        ///< if there was a solution in the last one.
+  double frozen_for_ = 0;       ///< How long the time has been the same, s.
 };
 
 }  // namespace poise

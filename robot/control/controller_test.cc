@@ -135,6 +135,74 @@ TEST_F(ControllerTest, ComesToRestAfterAPush) {
             2e-3);
 }
 
+// What acts on an elbow that is near its stop, rad/s2, and how far it then gets,
+// rad beyond the stop; the rest does what the solution says.
+class PushedElbow : public ControllerTest {
+ protected:
+  PushedElbow() {
+    state_.q[7 + elbow_] = stop_ - 0.02;
+    controller_.reference().posture[elbow_] = stop_ + 0.1;
+  }
+
+  double Run(double push, double seconds) {
+    double farthest = -1;
+    for (int i = 0; i < std::lround(1e3 * seconds); ++i) {
+      Update();
+      EXPECT_NE(command_.status, TickStatus::kFailSafe);
+      state_.v += 1e-3 * controller_.report().y.head(tree().nv());
+      state_.v[6 + elbow_] += 1e-3 * push;
+      Integrate(tree(), state_.q, state_.v, 1e-3, state_.q);
+      farthest = std::max(farthest, state_.q[7 + elbow_] - stop_);
+    }
+    return farthest;
+  }
+
+  const int elbow_ = *tree().FindJoint("l_elbow");
+  const double stop_ = robot_.model.limits[elbow_].upper;
+};
+
+TEST_F(PushedElbow, StopsShortOfItsStop) {
+  EXPECT_LT(Run(30, 1), -1e-3);
+  // Where it would be without a push: a margin from the stop.
+  EXPECT_NEAR(state_.q[7 + elbow_], stop_ - 0.008, 1e-4);
+}
+
+TEST_F(PushedElbow, IsHeldNoLongerThanThePush) {
+  (void)Run(-30, 0.3);
+  (void)Run(0, 1);
+  EXPECT_NEAR(state_.q[7 + elbow_], stop_ - 0.008, 1e-4);
+}
+
+TEST_F(PushedElbow, ForgetsWhereItStartsAnew) {
+  (void)Run(30, 0.3);
+  const State pushed = state_;
+  controller_.Start(pushed);
+  controller_.reference().posture[elbow_] = stop_ + 0.1;
+  Update();
+  const Eigen::VectorXd y = controller_.report().y;
+  Controller other(robot_);
+  other.Start(pushed);
+  other.reference().posture[elbow_] = stop_ + 0.1;
+  other.Update(state_, &command_);
+  EXPECT_LT((other.report().y - y).norm(), 1e-9 * y.norm());
+}
+
+TEST_F(PushedElbow, LearnsNothingFromAClockThatStandsStill) {
+  (void)Run(30, 0.3);
+  const auto bound = [this] {
+    return controller_.report().y[6 + elbow_] +
+           40 * 40 * (state_.q[7 + elbow_] - stop_ + 0.008) +
+           80 * state_.v[6 + elbow_];
+  };
+  const double before = bound();
+  EXPECT_NEAR(before, -30, 0.1);
+  for (int i = 0; i < 5; ++i) controller_.Update(state_, &command_);
+  EXPECT_NEAR(bound(), before, 0.1);
+  state_.v[6 + elbow_] -= 0.01;  // While it was not looked at.
+  Update();
+  EXPECT_NEAR(bound(), before, 0.1);
+}
+
 TEST_F(ControllerTest, FailsSafeOnANumberThatIsNone) {
   Update();
   ASSERT_EQ(command_.status, TickStatus::kOk);

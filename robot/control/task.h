@@ -20,6 +20,9 @@ struct TaskInput {
   const Tick& tick;
   const std::vector<ContactTick>& contacts;  ///< By foot of the robot.
   const Reference& reference;
+  /// What v̇ was lately beyond what the solutions said, nv: as a push and a wrong
+  /// model make it.
+  const Eigen::VectorXd& unexpected;
   /// What the center of mass is to be accelerated beyond its reference, against
   /// what the model does not know of, m/s2.
   Eigen::Vector3d correction_W = Eigen::Vector3d::Zero();

@@ -38,10 +38,12 @@ void JointLimitsTask::Write(const TaskInput& input, EqualityBlock*,
                                   w * (-velocity_[j] - v));
     const double upper = std::min(w * w * (upper_[j] - margin_ - q) - 2 * w * v,
                                   w * (velocity_[j] - v));
+    const double unexpected = input.unexpected[v_start_ + j];
     inequalities->C(j, v_start_ + j) = scale;
     // Where the two ends contradict each other, the nearer limit wins.
-    inequalities->lower[j] = scale * std::min(lower, std::max(upper, lower));
-    inequalities->upper[j] = scale * std::max(upper, lower);
+    inequalities->lower[j] =
+        scale * (std::min(lower, std::max(upper, lower)) - unexpected);
+    inequalities->upper[j] = scale * (std::max(upper, lower) - unexpected);
   }
 }
 

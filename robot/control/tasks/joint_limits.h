@@ -13,7 +13,9 @@ namespace poise {
 /// along which it comes to rest at the limit, critically damped; and inside its
 /// velocity limits, which are approached as exp(-w t):
 ///     w (-q̇_max - q̇) <= q̈ <= w (q̇_max - q̇).
-/// Rows are divided by w² rad.
+/// There q̈ is what the joint will do: v̇_j and TaskInput::unexpected, or a push
+/// would press it w⁻² of that beyond where it comes to rest. Rows are divided by
+/// w² rad.
 class JointLimitsTask final : public Task {
  public:
   /// Parameters: omega (40 1/s); margin (0.008 rad), kept from each limit.

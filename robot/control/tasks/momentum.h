@@ -50,6 +50,12 @@ class MomentumTask final : public Task {
   };
   CaptureShares FindCapture(const TaskInput& input) const noexcept;
 
+  /// Of the place, by which an error that stays is corrected as well.
+  struct Gains {
+    double kp, kd, ki, ki_height;
+  };
+  Gains gains() const { return {kp_, kd_, ki_, ki_height_}; }
+
   double equality_scale(int) const noexcept override { return mass_; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;

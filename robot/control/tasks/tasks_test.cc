@@ -59,7 +59,7 @@ class TaskTest : public testing::Test {
 
   TaskInput input() const {
     return {state_, controller_.tick(), controller_.contacts(),
-            controller_.reference()};
+            controller_.reference(), unexpected_};
   }
 
   // The rows of a task, read from a hierarchy of its own.
@@ -118,6 +118,7 @@ class TaskTest : public testing::Test {
   const Eigen::Vector2d half_ = robot_.feet[0].half_size;
   Controller controller_{robot_};
   State state_;
+  Eigen::VectorXd unexpected_ = Eigen::VectorXd::Zero(nv_);
   Hierarchy hierarchy_{1, {{1, 1}}};
 };
 
@@ -236,9 +237,9 @@ TEST_F(TaskTest, GroundDoesNotPull) {
   hierarchy_.Clear(1);
   EqualityBlock none = hierarchy_.AddEqualities(0, 0);
   InequalityBlock rows = hierarchy_.AddInequalities(0, 2);
-  unilateral.Write(
-      {state_, controller_.tick(), contacts, controller_.reference()}, &none,
-      &rows);
+  unilateral.Write({state_, controller_.tick(), contacts,
+                    controller_.reference(), unexpected_},
+                   &none, &rows);
   EXPECT_NEAR(rows.upper[0] / rows.C(0, nv_ + 5), 30, 1e-9);
   EXPECT_EQ(rows.lower[0], 0);
   EXPECT_LE(Violation(unilateral, Loaded({0, 0}, {0, 0, 1})), 0);
@@ -279,8 +280,10 @@ TEST_F(TaskTest, ZmpReadLiterallyLetsFeetCancel) {
 
 TEST_F(TaskTest, JointLimitsBringAJointToRestAtItsStop) {
   const JointLimitsTask task(robot_.model);
-  for (const double side : {1.0, -1.0}) {
-    const int j = *tree_.FindJoint("l_elbow");
+  const int j = *tree_.FindJoint("l_elbow");
+  for (const auto& [side, push] : {std::pair(1., 0.), std::pair(-1., 0.),
+                                   std::pair(1., 30.), std::pair(-1., 30.)}) {
+    unexpected_[6 + j] = push;  // Of which the solution knows nothing, rad/s2.
     const JointLimits& limits = robot_.model.limits[j];
     constexpr double kMargin = 0.008;  // rad.
     const double stop =
@@ -292,7 +295,7 @@ TEST_F(TaskTest, JointLimitsBringAJointToRestAtItsStop) {
       const Hierarchy& rows = Write(task);
       const double bound = (side > 0 ? rows.upper(0)[j] : rows.lower(0)[j]) /
                            rows.C(0)(j, 6 + j);
-      state_.v[6 + j] += 1e-3 * bound;
+      state_.v[6 + j] += 1e-3 * (bound + push);
       state_.q[7 + j] += 1e-3 * state_.v[6 + j];
       nearest = std::min(nearest, side * (stop - state_.q[7 + j]));
     }
@@ -492,7 +495,7 @@ TEST_F(TaskTest, AFootInTheAirFollowsItsReference) {
   }
   std::vector<ContactTick> contacts = controller_.contacts();
   const TaskInput now{state_, controller_.tick(), contacts,
-                      controller_.reference()};
+                      controller_.reference(), unexpected_};
   EXPECT_FALSE(task.HasRows(now));
   contacts[0].in_contact = false;
   EXPECT_TRUE(task.HasRows(now));
@@ -569,7 +572,8 @@ TEST_F(TaskTest, ContactPullsASoleUprightAndToTheGround) {
   hierarchy_.Clear(1);
   EqualityBlock rows = hierarchy_.AddEqualities(0, 12);
   InequalityBlock none = hierarchy_.AddInequalities(0, 0);
-  task.Write({state_, controller_.tick(), contacts, controller_.reference()},
+  task.Write({state_, controller_.tick(), contacts, controller_.reference(),
+              unexpected_},
              &rows, &none);
   const Eigen::VectorXd asked =
       contacts[0].Jdot_v_C + 30 * contacts[0].V_WC_C - rows.b.head<6>();
@@ -716,7 +720,7 @@ class CaptureTest : public TaskTest {
     EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
     InequalityBlock none = hierarchy_.AddInequalities(0, 0);
     TaskInput now{state_, tick_, controller_.contacts(),
-                  controller_.reference()};
+                  controller_.reference(), unexpected_};
     const MomentumTask::CaptureShares shares = task_.FindCapture(now);
     left_ = shares.left;
     right_ = shares.right;
@@ -797,8 +801,8 @@ TEST_F(CaptureTest, StandsOverTheFootThatIsLeft) {
     hierarchy_.Clear(1);
     EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
     InequalityBlock none = hierarchy_.AddInequalities(0, 0);
-    task_.Write({state_, controller_.tick(), contacts, reference}, &rows,
-                &none);
+    task_.Write({state_, controller_.tick(), contacts, reference, unexpected_},
+                &rows, &none);
     const Vector6d wanted =
         controller_.tick().H_G_bias / tree_.total_mass() - rows.b;
     return Eigen::Vector2d(
