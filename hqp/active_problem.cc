@@ -10,17 +10,9 @@
 namespace poise {
 namespace {
 
-// Where a row is missed by less than this, relative to what it is added up
-// from, nothing is left to refine.
-constexpr double kRefined = 1e-13;
-constexpr int kMaxPasses = 6;
-
-// An entry of y below this, relative to the largest, before and after, may be
-// what refinement leaves of a zero.
-constexpr double kNothing = 1e-18;
-
-// A residual below this, relative to what it is added up from, is zero.
-constexpr double kZeroResidual = 1e-12;
+// What weighs less than this, by its squares, is a row of zeros: they would not
+// be numbers any more.
+constexpr double kWeightless = 1e-300;
 
 int NumRows(const std::vector<LevelCapacity>& capacity) {
   int rows = 0;
@@ -74,13 +66,17 @@ Status ActiveProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     double zero = 0;  // Times what is not finite it is NaN.
     bool in_order = true;
     for (int i = 0; i < B.rows(); ++i) {
-      B_norm_[level][i] = kernels::AbsoluteSum(B.data() + i * n_, n_);
-      zero += (B_norm_[level][i] + b[i] + weight[i]) * 0;
+      double& norm = B_norm_[level][i];
+      norm = kernels::AbsoluteSum(B.data() + i * n_, n_);
+      zero += (norm + b[i] + weight[i]) * 0;
       in_order &= !(weight[i] < 0);
+      if (weight[i] > 0 && norm * norm * weight[i] < kWeightless) norm = 0;
     }
     for (int i = 0; i < C.rows(); ++i) {
-      norm_[level][i] = kernels::AbsoluteSum(C.data() + i * n_, n_);
-      zero += norm_[level][i] * 0;
+      double& norm = norm_[level][i];
+      norm = kernels::AbsoluteSum(C.data() + i * n_, n_);
+      zero += norm * 0;
+      if (norm * norm < kWeightless) norm = 0;
       if (!(lower[i] < kInfinity && upper[i] > -kInfinity)) {
         return Status::kNotFinite;
       }
@@ -219,96 +215,6 @@ void ActiveProblem::Approach(const std::vector<double>& y) {
   for (int e = 0; e < rank; ++e) change_[e] = head_.z()[e] - change_[e];
   kernels::AddRows(head_.basis(), head_.stride(), rank, change_.data(), n_,
                    y_.data());
-}
-
-// By what the rows miss their targets, and what that is added up from. Returns
-// the worst ratio of the two on levels where it should be zero.
-double ActiveProblem::FindLack(const Hierarchy& hierarchy) {
-  double worst = 0;
-  for (int level = 0; level < num_head_; ++level) {
-    for (int a = head_.first_row(level); a < head_.end_row(level); ++a) {
-      const Row& row = rows_[a];
-      double value, size;
-      kernels::DotWithSize(Original(hierarchy, a), y_.data(), n_, &value,
-                           &size);
-      lack_[a] = (row.bound - value) / row.norm;
-      size_[a] = (std::abs(row.bound) + size) / row.norm;
-      if (head_.residual(a) == 0 && size_[a] > 0) {
-        worst = std::max(worst, std::abs(lack_[a]) / size_[a]);
-      }
-    }
-  }
-  return worst;
-}
-
-// The same by level, each as a whole, by what its rows weigh in its gradient.
-double ActiveProblem::WorstMissedLevel() const {
-  double worst = 0;
-  for (int level = 0; level < num_head_; ++level) {
-    double missed = 0, force = 0;
-    for (int a = 0; a < head_.num_rows(); ++a) {
-      if (rows_[a].level != level || head_.residual(a) != 0) continue;
-      missed = std::max(missed, head_.weight(a) * std::abs(lack_[a]));
-      force = std::max(force, head_.weight(a) * size_[a]);
-    }
-    if (missed > 0) worst = std::max(worst, missed / force);
-  }
-  return worst;
-}
-
-void ActiveProblem::RefineOther(const Hierarchy& hierarchy,
-                                const std::vector<double>& y) {
-  y_ = y;
-  Refine(hierarchy, false);
-}
-
-void ActiveProblem::TakeOther(const Hierarchy& hierarchy,
-                              const std::vector<double>& y) {
-  y_ = y;
-  FindResiduals(hierarchy);
-}
-
-void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
-  double largest = 0;
-  for (double entry : y_) largest = std::max(largest, std::abs(entry));
-  // First all levels; then, as what the tail asks for may be large and its
-  // rounding with it, the head alone.
-  for (int pass = 0; pass < kMaxPasses; ++pass) {
-    const double worst = FindLack(hierarchy);
-    if (pass > 0 && worst <= kRefined) break;
-    head_.Correct(lack_.data(), change_.data());
-    tail_.Correct(head_, change_.data(), to_minimum && pass == 0, y_.data());
-  }
-  for (double entry : y_) largest = std::max(largest, std::abs(entry));
-  if (FindLack(hierarchy) > kRefined) {
-    // Where zero was meant, rounding is left, unless it is met worse without.
-    const double missed = WorstMissedLevel();
-    change_ = y_;
-    for (double& entry : y_) {
-      if (std::abs(entry) < kNothing * largest) entry = 0;
-    }
-    FindLack(hierarchy);
-    if (WorstMissedLevel() > missed) y_ = change_;
-  }
-  FindResiduals(hierarchy);
-}
-
-// Those of levels that are deficient: of y, or zero.
-void ActiveProblem::FindResiduals(const Hierarchy& hierarchy) {
-  FindLack(hierarchy);
-  for (int level = 0; level < num_head_; ++level) {
-    if (!head_.is_deficient(level)) continue;
-    // A level is judged as a whole, by what its rows weigh in its gradient.
-    double force = 0;
-    for (int a = head_.first_row(level); a < head_.end_row(level); ++a) {
-      force = std::max(force, head_.weight(a) * size_[a]);
-    }
-    for (int a = head_.first_row(level); a < head_.end_row(level); ++a) {
-      const bool is_zero =
-          head_.weight(a) * std::abs(lack_[a]) <= kZeroResidual * force;
-      head_.SetResidual(a, is_zero ? 0 : -lack_[a]);
-    }
-  }
 }
 
 void ActiveProblem::FindMultipliers(int end) {

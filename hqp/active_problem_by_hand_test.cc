@@ -86,6 +86,27 @@ TEST_F(ActiveProblemReadTest, FindsTheFirstLevelWithABadNumber) {
   ExpectStatus(b_[1] + 1, 0, Status::kBadInput, 0);
 }
 
+// What is so short that its square is none is a row of zeros: an equality by its
+// weight as well, unless that is zero, where it does not count anyway.
+TEST_F(ActiveProblemReadTest, TakesWhatWeighsNothingForZeros) {
+  int failed_level;
+  for (const bool is_nothing : {false, true}) {
+    const double length = is_nothing ? 0.9e-150 : 1.1e-150;
+    C_[1][0] = C_[1][1] = length / 2;
+    B_[1][0] = B_[1][1] = length / 2 / 3;
+    b_[1][0] = 0;
+    weight_[1][0] = 9;
+    ASSERT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
+    EXPECT_EQ(problem_.norm(1, 0) == 0, is_nothing);
+    EXPECT_EQ(problem_.norm(1, 1), 4);
+    problem_.Plan(hierarchy_, 2);
+    problem_.Solve(hierarchy_,
+                   {{Side::kNone, Side::kNone}, {Side::kLower, Side::kNone}});
+    EXPECT_EQ(problem_.head().num_rows(), is_nothing ? 1 : 3);
+    for (const double y : problem_.y()) EXPECT_TRUE(std::isfinite(y));
+  }
+}
+
 // y0 <= 1 and y1 >= 2, y2 between 3 and 3, above y0 + y1 = 8, and 3 y2 = 6 and
 // y1 = 0: at (1, 2, 3).
 class ActiveProblemTest : public testing::Test {

@@ -13,8 +13,7 @@ namespace {
 // up from, is zero.
 constexpr double kTolerance = 1e-11;
 
-// What rounding leaves of an entry of a step, relative to the largest of y.
-constexpr double kRounding = 1e-13;
+constexpr double kRounding = ActiveProblem::kRounding;
 
 // How often a row may leave on a level, or all at once: more than any search was
 // seen to need, and few enough to end what rounding alone keeps going.
@@ -148,6 +147,7 @@ int Descent::FindBroken(const Hierarchy& hierarchy,
                         const std::vector<double>& y,
                         const std::vector<std::vector<Side>>& side) {
   const double largest = Largest(y);
+  const double rounding = kRounding * problem.Size();
   int count = 0;
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
@@ -163,9 +163,10 @@ int Descent::FindBroken(const Hierarchy& hierarchy,
       }
       const Side broken = above > 0 ? Side::kUpper : Side::kLower;
       const double bound = above > 0 ? upper[i] : lower[i];
-      const double size = problem.norm(level, i) * largest + std::abs(bound);
-      if (broken != side[level][i] &&
-          std::max(above, below) > kTolerance * size) {
+      const double norm = problem.norm(level, i);
+      const double noise =
+          kTolerance * (norm * largest + std::abs(bound)) + rounding * norm;
+      if (broken != side[level][i] && std::max(above, below) > noise) {
         broken_[level][i] = broken;
         ++count;
       }
@@ -206,7 +207,7 @@ bool Descent::Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
                       std::vector<std::vector<Side>>* side) {
   for (int j = 0; j < n_; ++j) step_[j] = problem.y()[j] - y_[j];
   const double largest = Largest(step_);
-  const double rounding = kRounding * (Largest(y_) + Largest(problem.y()));
+  const double rounding = kRounding * (Largest(y_) + problem.Size());
   const double noise = kTolerance * largest + rounding;
   double length = 1, steepest = 0;
   RowIndex blocking = {kNone, kNone};

@@ -308,7 +308,12 @@ void RowStack::SolveLevel(const Level& level) {
     Dots(l, 0, 1, z_.data(), e, &value);
     z_[e] = (effective_target_[e] - value) / l[e];
   }
-  const double norm = norm_z();
+  // z is rounded by what any row of the level asks for.
+  double size = 0;
+  for (int a = level.first_row; a < level.end_row; ++a) {
+    size = std::max(size, std::abs(target_[a]));
+  }
+  size += norm_z();
   for (int a = level.first_row; a < level.end_row; ++a) {
     residual_[a] = 0;
     if (!level.deficient) continue;
@@ -316,7 +321,6 @@ void RowStack::SolveLevel(const Level& level) {
     Dots(&l_[static_cast<size_t>(a) * stride_], 0, 1, z_.data(), level.rank_end,
          &value);
     value -= target_[a];
-    const double size = norm + std::abs(target_[a]);
     if (std::abs(value) > kZeroResidual * size) residual_[a] = value;
   }
 }

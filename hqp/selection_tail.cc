@@ -70,6 +70,10 @@ void SelectionTail::Finish(const double* targets) {
   for (int j = 0; j < n_; ++j) {
     if (level_of_[j] < 0) Add(j, 1, targets != nullptr ? targets[j] : 0);
   }
+  largest_target_ = 0;
+  for (int j = 0; j < n_; ++j) {
+    largest_target_ = std::max(largest_target_, std::abs(target_[j]));
+  }
   const double usual = UsualWeight();
   int position = 0;
   const auto add = [&](int level, bool is_usual) {

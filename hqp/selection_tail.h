@@ -35,6 +35,9 @@ class SelectionTail {
   /// variable, or with target 0.
   void Finish(const double* targets);
 
+  /// Of all variables.
+  double largest_target() const { return largest_target_; }
+
   /// With Finish()'s.
   int num_levels() const { return num_levels_; }
 
@@ -94,7 +97,8 @@ class SelectionTail {
   int n_, stride_, num_levels_ = 0, rank_ = 0, num_reflections_ = 0;
   std::vector<int> level_of_;            ///< By variable; -1: none yet.
   std::vector<double> weight_, target_;  ///< By variable.
-  std::vector<int> order_;               ///< Variable by position.
+  double largest_target_ = 0;
+  std::vector<int> order_;  ///< Variable by position.
   int usual_begin_ =
       0;  ///< Level 0: where variables of its usual weight begin.
   int usual_row_end_ = 0;           ///< Its rows before have none but these.

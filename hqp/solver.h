@@ -32,9 +32,11 @@ class Solver {
   /// Forgets the last solve: the next one is cold.
   void Forget() noexcept;
 
-  /// The factorisations that a solve may take in all. If they are spent, y is
-  /// the best found that keeps the levels above failed_level at their optimum,
-  /// where what they leave of it is not that of failed_level yet.
+  /// The factorisations, or updates of one, that a search may take in all, and
+  /// Solution::iterations tells; one more may be needed to tell the answer of a
+  /// search that did not succeed. If they are spent, y is the best found that
+  /// keeps the levels above failed_level at their optimum, where what they leave
+  /// of it is not that of failed_level yet.
   int max_iterations = 500;
 
   /// The same in seconds by now(), if that is given; it breaks replay.

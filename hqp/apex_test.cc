@@ -1,0 +1,123 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Where all bounds are zero, as at the apex of friction cones, and nothing but
+// zero is left: what is asked for in vain leaves its rounding in y.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "hqp/active_problem.h"
+#include "hqp/certificate.h"
+#include "hqp/solver.h"
+#include "tests/util/random_hierarchy.h"
+
+namespace poise {
+namespace {
+
+constexpr double kCertified = 1e-9;  // What the solver promises.
+
+struct Row {
+  Eigen::RowVector2d row;
+  double lower, upper;
+};
+
+// Two variables, three rows above two wishes, one a variable.
+class ApexTest : public testing::Test {
+ protected:
+  void Expect(const std::vector<Row>& rows, const Eigen::Vector2d& factors,
+              const Eigen::Vector2d& wishes, const Eigen::Vector2d& weights) {
+    const std::vector<LevelCapacity> capacity{{0, 3}, {2, 0}};
+    Hierarchy hierarchy(2, capacity);
+    for (const Row& from : rows) {
+      InequalityBlock to = hierarchy.AddInequalities(0, 1);
+      to.C = from.row;
+      to.lower[0] = from.lower;
+      to.upper[0] = from.upper;
+    }
+    EqualityBlock wish = hierarchy.AddEqualities(1, 2);
+    wish.B = factors.asDiagonal();
+    wish.b = -wishes;
+    wish.weight = weights;
+    Solver solver(2, capacity);
+    Solution solution(2, capacity);
+    for (const char* start : {"cold", "warm", "warm again"}) {
+      SCOPED_TRACE(start);
+      EXPECT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+      EXPECT_LE(Certifier(2, capacity).Certify(hierarchy, solution).worst(),
+                kCertified);
+      EXPECT_EQ(solution.y, Eigen::Vector2d(0, 0));
+    }
+  }
+};
+
+TEST_F(ApexTest, IsZeroBetweenThreeRows) {
+  Expect({{{1, -1}, 0, INFINITY}, {{0, -1}, -INFINITY, 0}, {{1, 0}, 0, 0}},
+         {1, 0.96}, {0, 1.86}, {1, 1});
+  Expect({{{1, 1}, -INFINITY, 0},
+          {{1.27, 2.72}, 0, INFINITY},
+          {{-1.96, -1}, -INFINITY, 0}},
+         {1, 1}, {0, -1}, {2.14, 1});
+}
+
+// The same of wishes that are no numbers to speak of.
+TEST_F(ApexTest, IsZeroInAnyUnit) {
+  for (const double unit : {1e-12, 1e12}) {
+    Expect({{{1, -1}, 0, INFINITY}, {{0, -1}, -INFINITY, 0}, {{1, 0}, 0, 0}},
+           {1, 0.96}, {0, 1.86 * unit}, {1, 1});
+  }
+}
+
+// Some were not, where rounding of y was judged by |y| alone.
+TEST(Apex, IsSolvedWhateverIsAskedFor) {
+  RandomHierarchyOptions options;
+  options.scaled = 0;
+  options.apex = 100;
+  for (int seed = 0; seed < 1000; ++seed) {
+    const HierarchyCase drawn = MakeRandomHierarchy(seed, options);
+    const int n = drawn.hierarchy.num_variables();
+    Solution solution(n, drawn.capacity);
+    EXPECT_EQ(Solver(n, drawn.capacity).Solve(drawn.hierarchy, &solution),
+              Status::kOptimal)
+        << seed;
+    EXPECT_LE(
+        Certifier(n, drawn.capacity).Certify(drawn.hierarchy, solution).worst(),
+        kCertified)
+        << seed;
+  }
+}
+
+// y0 + y1 = 0 twice over, in conflict with 6 = 2 (y0 + y1), above a wish of 5
+// for y0: 5 is the largest of what is asked for, and rounding relative to that.
+TEST(Apex, TakesZeroForRounding) {
+  const std::vector<LevelCapacity> capacity{{2, 0}, {1, 0}};
+  for (const bool is_in_tail : {false, true}) {
+    Hierarchy hierarchy(2, capacity);
+    EqualityBlock rows = hierarchy.AddEqualities(0, 2);
+    rows.B << 1, 1, 2, 2;
+    rows.b << 0, -6;
+    EqualityBlock wish = hierarchy.AddEqualities(1, 1);
+    wish.B << 0, 2;
+    wish.b << (is_in_tail ? -10 : -2);
+    ActiveProblem problem(2, capacity);
+    int failed_level;
+    ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+    problem.Plan(hierarchy, 2);
+    problem.Solve(hierarchy, {{}, {}});
+    EXPECT_EQ(problem.num_head(), 1);
+    problem.TakeOther(hierarchy, {1e-3, -1e-3});
+    const double size = is_in_tail ? 5 : 6 / std::sqrt(8);
+    EXPECT_NEAR(problem.Size(), size, 1e-15 * size);
+    EXPECT_FALSE(problem.TakeZero(hierarchy, 0.99e-3 / size));
+    EXPECT_EQ(problem.y()[1], -1e-3);
+    EXPECT_TRUE(problem.TakeZero(hierarchy, 1.01e-3 / size));
+    EXPECT_EQ(problem.y()[0], 0);
+    EXPECT_EQ(problem.y()[1], 0);
+    // Residuals are of that y: -6 / sqrt(8) of a row of unit length.
+    EXPECT_NEAR(problem.head().residual(1), -6 / std::sqrt(8), 1e-14);
+    problem.TakeOther(hierarchy, {0, -1e9});
+    EXPECT_EQ(problem.Size(), 1e9);
+  }
+}
+
+}  // namespace
+}  // namespace poise
