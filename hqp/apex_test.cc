@@ -10,6 +10,7 @@
 #include "hqp/certificate.h"
 #include "hqp/solver.h"
 #include "tests/util/random_hierarchy.h"
+#include "tests/util/tolerance.h"
 
 namespace poise {
 namespace {
@@ -67,7 +68,8 @@ TEST_F(ApexTest, IsZeroInAnyUnit) {
   }
 }
 
-// Some were not, where rounding of y was judged by |y| alone.
+// Some were not, where rounding of y was judged by |y| alone. (Of the first 4000
+// one still is not, seed 1466, and the solver says so.)
 TEST(Apex, IsSolvedWhateverIsAskedFor) {
   RandomHierarchyOptions options;
   options.scaled = 0;
@@ -86,8 +88,8 @@ TEST(Apex, IsSolvedWhateverIsAskedFor) {
   }
 }
 
-// y0 + y1 = 0 twice over, in conflict with 6 = 2 (y0 + y1), above a wish of 5
-// for y0: 5 is the largest of what is asked for, and rounding relative to that.
+// y0 + y1 = 0, in conflict with 2 (y0 + y1) = 6, above a wish for y1: of 5, which
+// is the largest of what is asked for, or of 1, where 6 / |(2, 2)| is.
 TEST(Apex, TakesZeroForRounding) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {1, 0}};
   for (const bool is_in_tail : {false, true}) {
@@ -106,14 +108,14 @@ TEST(Apex, TakesZeroForRounding) {
     EXPECT_EQ(problem.num_head(), 1);
     problem.TakeOther(hierarchy, {1e-3, -1e-3});
     const double size = is_in_tail ? 5 : 6 / std::sqrt(8);
-    EXPECT_NEAR(problem.Size(), size, 1e-15 * size);
+    EXPECT_NEAR(problem.Size(), size, Rounding(size, 2));
     EXPECT_FALSE(problem.TakeZero(hierarchy, 0.99e-3 / size));
     EXPECT_EQ(problem.y()[1], -1e-3);
     EXPECT_TRUE(problem.TakeZero(hierarchy, 1.01e-3 / size));
     EXPECT_EQ(problem.y()[0], 0);
     EXPECT_EQ(problem.y()[1], 0);
     // Residuals are of that y: -6 / sqrt(8) of a row of unit length.
-    EXPECT_NEAR(problem.head().residual(1), -6 / std::sqrt(8), 1e-14);
+    EXPECT_NEAR(problem.head().residual(1), -6 / std::sqrt(8), Rounding(6, 2));
     problem.TakeOther(hierarchy, {0, -1e9});
     EXPECT_EQ(problem.Size(), 1e9);
   }

@@ -279,6 +279,8 @@ void Controller::LetFeetGo(const State& state) noexcept {
   }
 }
 
+// What the last solution did not say: a push, or a wrong model. A state that has
+// not moved on says nothing of it.
 void Controller::Compare(const State& state) noexcept {
   if (!expects_ || frozen_for_ > 0) return;
   const double share = -std::expm1(-options_.dt / kMemory);
