@@ -18,6 +18,9 @@ constexpr double kAtBound = 1e-9;
 // Of a gradient, relative to what it is added up from.
 constexpr double kNegligible = 1e-12;
 
+// How often it is gone through; twice was seen to be needed at most.
+constexpr int kPasses = 3;
+
 // What rounding in row i of C y is relative to.
 double Size(const Hierarchy& hierarchy, int level, int i, double bound,
             const Eigen::VectorXd& y) {
@@ -63,7 +66,9 @@ void RoundToZero(Eigen::VectorXd* y) {
 
 Cascade::Cascade(int num_variables, const std::vector<LevelCapacity>& capacity,
                  RowSpaceMethod nullspace)
-    : method_(nullspace), Z_(num_variables, num_variables) {
+    : method_(nullspace),
+      certifier_(num_variables, capacity),
+      Z_(num_variables, num_variables) {
   violated_.resize(capacity.size());
   for (size_t level = 0; level < capacity.size(); ++level) {
     violated_[level].assign(capacity[level].inequalities, Side::kNone);
@@ -71,10 +76,30 @@ Cascade::Cascade(int num_variables, const std::vector<LevelCapacity>& capacity,
 }
 
 Status Cascade::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
-  const int n = hierarchy.num_variables();
   solution->Reset();
   solution->status = CheckInput(hierarchy, &solution->failed_level);
   if (solution->status != Status::kOptimal) return solution->status;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    SolveFromY(hierarchy, solution);
+    if (solution->status != Status::kOptimal ||
+        certifier_.Certify(hierarchy, *solution).worst() <=
+            Certifier::kCertified) {
+      break;
+    }
+  }
+  certifier_.Truncate(hierarchy, solution);
+  return solution->status;
+}
+
+// From y on: what is left to do the second time is little, and so is the rounding
+// of it.
+void Cascade::SolveFromY(const Hierarchy& hierarchy, Solution* solution) {
+  const int n = hierarchy.num_variables();
+  const int iterations = solution->iterations;
+  const Eigen::VectorXd y = solution->y;
+  solution->Reset();
+  solution->iterations = iterations;
+  solution->y = y;
   Z_.setIdentity(n, n);
   // One level more than there are: y itself, for its minimum norm.
   for (int level = 0; level <= hierarchy.num_levels(); ++level) {
@@ -99,7 +124,6 @@ Status Cascade::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
       }
     }
   }
-  return solution->status;
 }
 
 bool Cascade::SolveLevel(const Hierarchy& hierarchy, int level,

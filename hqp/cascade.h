@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "hqp/certificate.h"
 #include "hqp/hierarchy.h"
 #include "hqp/level_qp.h"
 #include "hqp/row_space.h"
@@ -15,10 +16,12 @@ namespace poise {
 /// nullspace (3) that the levels above leave. The reference: readable, not
 /// fast.
 ///
-/// Two things are done that the paper does not say. Rows that are violated at
+/// Three things are done that the paper does not say. Rows that are violated at
 /// their own optimum are equalities for all lower levels: they are counted into
 /// Z. And v* is evaluated at the y that is returned, never below zero, so that
-/// u = 0 is feasible in the next QP.
+/// u = 0 is feasible in the next QP. And where an answer is not certified, since
+/// large numbers in y have left their rounding to small ones, the cascade is gone
+/// through again, from that y on.
 class Cascade {
  public:
   /// @param nullspace  kSvd as in the paper; kCod, a complete orthogonal
@@ -27,7 +30,7 @@ class Cascade {
           RowSpaceMethod nullspace = RowSpaceMethod::kSvd);
 
   /// Minimises the levels one after the other; the y of minimum norm where
-  /// freedom is left after the last.
+  /// freedom is left after the last. What is not certified is not called optimal.
   [[nodiscard]] Status Solve(const Hierarchy& hierarchy,
                              Solution* solution) noexcept;
 
@@ -39,12 +42,14 @@ class Cascade {
   struct RowIndex {
     int level, row;
   };
+  void SolveFromY(const Hierarchy& hierarchy, Solution* solution);
   bool SolveLevel(const Hierarchy& hierarchy, int level, Solution* solution);
   void FixLevel(const Hierarchy& hierarchy, int level, Solution* solution);
   void FindMultipliers(const Hierarchy& hierarchy, int level,
                        Solution* solution);
 
   RowSpaceMethod method_;
+  Certifier certifier_;
   Eigen::MatrixXd Z_;  ///< Orthonormal columns: what the levels above leave.
   std::vector<std::vector<Side>> violated_;  ///< By level, at its optimum.
   std::vector<RowIndex> active_;             ///< Of the last QP.

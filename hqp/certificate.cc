@@ -60,6 +60,16 @@ Certificate Certifier::Certify(const Hierarchy& hierarchy,
   return certificate;
 }
 
+void Certifier::Truncate(const Hierarchy& hierarchy,
+                         Solution* solution) noexcept {
+  while (Certify(hierarchy, *solution).worst() > kCertified) {
+    solution->status = Status::kIterationLimit;
+    int& failed_level = solution->failed_level;
+    failed_level =
+        (failed_level < 0 ? hierarchy.num_levels() : failed_level) - 1;
+  }
+}
+
 void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
                           const Solution& solution, Certificate* certificate) {
   const auto B = hierarchy.B(level), C = hierarchy.C(level);

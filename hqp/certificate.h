@@ -32,7 +32,7 @@ struct Certificate {
   /// that cost, and 1e-9 of what it is added up from.
   double priority = 0;
 
-  /// The worst of the four: an optimal answer has 1e-9 at most.
+  /// The worst of the four.
   double worst() const;
 };
 
@@ -47,6 +47,14 @@ class Certifier {
   /// allocate.
   Certificate Certify(const Hierarchy& hierarchy,
                       const Solution& solution) noexcept;
+
+  /// The worst that an answer may have that is called optimal.
+  static constexpr double kCertified = 1e-9;
+
+  /// Makes an answer say less, until what it says is certified: failed_level
+  /// goes up the levels, and the status is kIterationLimit. Changes nothing if
+  /// the answer is certified as it is.
+  void Truncate(const Hierarchy& hierarchy, Solution* solution) noexcept;
 
  private:
   struct LevelRows {

@@ -55,6 +55,7 @@ bool Descent::AllAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget,
                         std::vector<std::vector<Side>>* side) {
   const int levels = hierarchy.num_levels();
   if (!budget->Take(limit)) return false;
+  together_ = true;
   problem->Plan(hierarchy, levels);
   problem->Solve(hierarchy, *side);
   if (!Start(hierarchy, problem, side)) return true;
@@ -76,6 +77,7 @@ int Descent::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
                           ActiveProblem* problem,
                           std::vector<std::vector<Side>>* side) {
   const int levels = hierarchy.num_levels();
+  together_ = false;
   std::fill(y_.begin(), y_.end(), 0);
   for (std::vector<Side>& level : settled_) {
     std::fill(level.begin(), level.end(), Side::kNone);
@@ -253,8 +255,10 @@ bool Descent::Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
   return true;
 }
 
-// Lets the rows go that are inside their own bound, or else the one that holds
-// the levels up to this one back most. Returns whether one does.
+// Lets the rows go that are inside their own bound (the first ones of a descent
+// in company of all that only the tail draws along: steps are dear there); or else
+// the one that holds the levels up to this one back most. Returns whether one
+// does.
 bool Descent::Drop(int level, ActiveProblem* problem,
                    std::vector<std::vector<Side>>* side) {
   int leaving = kNone;
@@ -274,7 +278,7 @@ bool Descent::Drop(int level, ActiveProblem* problem,
     while (l <= level && price == 0)
       price = problem->Price(a, l++, at, kTolerance);
     if (price >= 0) continue;
-    if (l == row.level + 1) {
+    if (l == row.level + 1 || (together_ && l > problem->num_head())) {
       at = Side::kNone;
       --leaves_[row.level][row.index];
       any = true;
@@ -283,6 +287,7 @@ bool Descent::Drop(int level, ActiveProblem* problem,
       worst = price;
     }
   }
+  if (any) together_ = false;
   if (any || leaving == kNone) return any;
   const ActiveProblem::Row& row = problem->row(leaving);
   left_ = {row.level, row.index};

@@ -68,6 +68,7 @@ class Descent {
   int n_;
   std::vector<double> y_, step_, value_, slope_;
   std::vector<std::vector<int>> leaves_;  ///< How often it still may leave.
+  bool together_ = false;     ///< Whether rows may leave for the tail at once.
   RowIndex left_ = {-1, -1};  ///< The row that left last, if it did alone.
   std::vector<std::vector<Side>> broken_;   ///< kNone: not broken.
   std::vector<std::vector<Side>> settled_;  ///< When the last level was done.

@@ -13,9 +13,6 @@ namespace {
 // is zero.
 constexpr double kTolerance = 1e-11;
 
-// The certificate of what is called optimal.
-constexpr double kCertified = 1e-9;
-
 // How often rows that refinement finds violated, by a few digits, may enter.
 constexpr int kPolishing = 5;
 
@@ -53,7 +50,7 @@ Status Solver::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
       !Report(hierarchy, solution)) {
     solution->Reset();
     SearchByLevel(hierarchy, &budget, solution);
-    if (!Report(hierarchy, solution)) Truncate(hierarchy, solution);
+    if (!Report(hierarchy, solution)) certifier_.Truncate(hierarchy, solution);
   }
   solution->iterations = budget.iterations();
   return solution->status;
@@ -158,7 +155,8 @@ bool Solver::EnterViolated(const Hierarchy& hierarchy, bool enters) {
 bool Solver::Report(const Hierarchy& hierarchy, Solution* solution) {
   const auto is_certified = [&] {
     reporter_.Report(hierarchy, side_, kTolerance, &problem_, solution);
-    return certifier_.Certify(hierarchy, *solution).worst() <= kCertified;
+    return certifier_.Certify(hierarchy, *solution).worst() <=
+           Certifier::kCertified;
   };
   if (is_certified()) return true;
   // Of a y that is nothing but rounding, no digit may be right.
@@ -170,17 +168,6 @@ bool Solver::Report(const Hierarchy& hierarchy, Solution* solution) {
   solution->failed_level = failed_level;
   FindMultipliers(hierarchy);
   return is_certified();
-}
-
-// Says less, until that is certified.
-void Solver::Truncate(const Hierarchy& hierarchy, Solution* solution) {
-  solution->status = Status::kIterationLimit;
-  if (solution->failed_level < 0) {
-    solution->failed_level = hierarchy.num_levels();
-  }
-  do {
-    --solution->failed_level;
-  } while (certifier_.Certify(hierarchy, *solution).worst() > kCertified);
 }
 
 }  // namespace poise

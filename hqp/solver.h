@@ -51,7 +51,6 @@ class Solver {
   void FindMultipliers(const Hierarchy& hierarchy);
   bool EnterViolated(const Hierarchy& hierarchy, bool enters);
   bool Report(const Hierarchy& hierarchy, Solution* solution);
-  void Truncate(const Hierarchy& hierarchy, Solution* solution);
 
   int n_;
   ActiveProblem problem_;
