@@ -10,6 +10,7 @@
 #include "math/rank.h"
 #include "tests/util/random_hierarchy.h"
 #include "tests/util/solve_cascade.h"
+#include "tests/util/tolerance.h"
 
 namespace poise {
 namespace {
@@ -279,6 +280,48 @@ TEST_P(CascadeByHandTest, TakesTheShortestOfManyOptima) {
   EXPECT_LE(
       (SolveCascade(free, GetParam()).y - Eigen::Vector3d(1.5, 0.5, 0)).norm(),
       kTolerance);
+}
+
+// y0 + y1 + y2 = 500 above y1 and y2 of 1e-6: what rounding of 500 leaves of
+// these the first time, the second takes away.
+TEST_P(CascadeByHandTest, IsAsExactWhereNumbersAreSmall) {
+  const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}, {1, 0}};
+  HierarchyCase small{capacity, Hierarchy(3, capacity)};
+  EqualityBlock sum = small.hierarchy.AddEqualities(0, 1);
+  sum.B << 1, 1, 1;
+  sum.b << -500;
+  const Eigen::Vector3d rows[] = {{0, 1, 0}, {0, 0, 1}};
+  for (int level : {1, 2}) {
+    EqualityBlock one = small.hierarchy.AddEqualities(level, 1);
+    one.B = rows[level - 1].transpose();
+    one.b << -1e-6 * level;
+  }
+  const Solution solution = SolveCascade(small, GetParam());
+  EXPECT_LE(WorstOf(small, solution), Certifier::kCertified);
+  for (int level : {1, 2}) {
+    EXPECT_NEAR(solution.y[level], 1e-6 * level, Rounding(1e-6, 3));
+  }
+}
+
+// Two large rows of one direction conflict, beside a small one across them that
+// is met: to rounding of its own, not of theirs.
+TEST_P(CascadeByHandTest, MeetsASmallRowBesideAConflict) {
+  for (int place = 0; place < 3; ++place) {
+    for (const double factor : {1.0, -2.0}) {
+      HierarchyCase conflict{{{3, 0}}, Hierarchy(2, {{3, 0}})};
+      EqualityBlock rows = conflict.hierarchy.AddEqualities(0, 3);
+      for (int i = 0; i < 3; ++i) rows.B.row(i) << 28400, 17700;
+      rows.B.row(place) << 0, 0.0052;
+      const int last = place == 2 ? 1 : 2;
+      rows.B.row(last) *= factor;
+      rows.b[last] = 53392;
+      const Solution solution = SolveCascade(conflict, GetParam());
+      EXPECT_NEAR(solution.y[0],
+                  -53392 * factor / (1 + factor * factor) / 28400,
+                  Rounding(1, 3));
+      EXPECT_NEAR(solution.y[1], 0, Rounding(1, 3)) << place;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(BothWays, CascadeByHandTest,

@@ -228,6 +228,28 @@ TEST_P(EitherCascadeTest, KeepsToItsBudget) {
   }
 }
 
+// What a scale hides from it, the certificate sees.
+TEST_P(EitherCascadeTest, CallsNothingOptimalThatIsNotCertified) {
+  RandomHierarchyOptions options;
+  options.scaled = 100;
+  int optimal = 0;
+  for (int seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    const HierarchyCase drawn = MakeRandomHierarchy(seed, options);
+    const int n = drawn.hierarchy.num_variables();
+    Solution solution(n, drawn.capacity);
+    const Status status = Cascade(n, drawn.capacity, GetParam())
+                              .Solve(drawn.hierarchy, &solution);
+    EXPECT_EQ(status, solution.status);
+    EXPECT_EQ(status == Status::kOptimal, solution.failed_level < 0);
+    EXPECT_LE(
+        Certifier(n, drawn.capacity).Certify(drawn.hierarchy, solution).worst(),
+        Certifier::kCertified);
+    optimal += status == Status::kOptimal;
+  }
+  EXPECT_GE(optimal, 290) << "of 300";
+}
+
 INSTANTIATE_TEST_SUITE_P(BothWays, EitherCascadeTest,
                          testing::Values(RowSpaceMethod::kSvd,
                                          RowSpaceMethod::kCod));

@@ -116,5 +116,37 @@ TEST_F(CertifierByHandTest, IsInfiniteWhereAnythingIsNan) {
   EXPECT_EQ(Certify().worst(), kInfinity);
 }
 
+// Truncated is what is not certified, down to the first level that is wrong.
+TEST_F(CertifierByHandTest, MakesAnAnswerSayNoMoreThanIsCertified) {
+  const auto truncated = [&](int failed_level, bool spoils_0, bool spoils_1) {
+    Bound(0, 1, 2);
+    if (spoils_0) solution_.levels[0].slack << 0.5;
+    if (spoils_1) solution_.levels[1].multipliers[0].inequality << -1;
+    solution_.failed_level = failed_level;
+    if (failed_level >= 0) solution_.status = Status::kIterationLimit;
+    certifier_.Truncate(hierarchy_, &solution_);
+    EXPECT_LE(Certify().worst(), Certifier::kCertified);
+    EXPECT_EQ(solution_.status == Status::kOptimal, solution_.failed_level < 0);
+    return solution_.failed_level;
+  };
+  EXPECT_EQ(truncated(-1, false, false), -1);
+  EXPECT_EQ(truncated(-1, false, true), 1);
+  EXPECT_EQ(truncated(-1, true, false), 0);
+  EXPECT_EQ(truncated(-1, true, true), 0);
+  EXPECT_EQ(truncated(1, false, true), 1);
+  EXPECT_EQ(truncated(1, true, false), 0);
+  EXPECT_EQ(truncated(0, true, true), 0);
+}
+
+// 1e-9 is still certified.
+TEST_F(CertifierByHandTest, TruncatesFromAnEdgeOn) {
+  for (const double share : {0.99, 1.01}) {
+    Bound(0, 1, 2);
+    solution_.levels[1].multipliers[0].inequality << 1 - share * 1e-9 * kSize;
+    certifier_.Truncate(hierarchy_, &solution_);
+    EXPECT_EQ(solution_.failed_level, share < 1 ? -1 : 1);
+  }
+}
+
 }  // namespace
 }  // namespace poise

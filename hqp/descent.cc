@@ -24,12 +24,6 @@ constexpr int kKept = -1;
 
 constexpr int kNone = -1;
 
-double Largest(const std::vector<double>& x) {
-  double largest = 0;
-  for (const double entry : x) largest = std::max(largest, std::abs(entry));
-  return largest;
-}
-
 // Of a row whose sides are one.
 bool IsFixed(const Hierarchy& hierarchy, int level, int i) {
   return hierarchy.lower(level)[i] == hierarchy.upper(level)[i];
@@ -148,7 +142,7 @@ int Descent::FindBroken(const Hierarchy& hierarchy,
                         const ActiveProblem& problem,
                         const std::vector<double>& y,
                         const std::vector<std::vector<Side>>& side) {
-  const double largest = Largest(y);
+  const double largest = kernels::Largest(y.data(), n_);
   const double rounding = kRounding * problem.Size();
   int count = 0;
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
@@ -208,8 +202,9 @@ bool Descent::Settle(const Hierarchy& hierarchy, int level,
 bool Descent::Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
                       std::vector<std::vector<Side>>* side) {
   for (int j = 0; j < n_; ++j) step_[j] = problem.y()[j] - y_[j];
-  const double largest = Largest(step_);
-  const double rounding = kRounding * (Largest(y_) + problem.Size());
+  const double largest = kernels::Largest(step_.data(), n_);
+  const double rounding =
+      kRounding * (kernels::Largest(y_.data(), n_) + problem.Size());
   const double noise = kTolerance * largest + rounding;
   double length = 1, steepest = 0;
   RowIndex blocking = {kNone, kNone};

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "hqp/kernels.h"
 
+#include <algorithm>
 #include <cmath>
 
 // One binary, both instruction sets: the loader picks. A sanitizer is not ready
@@ -174,6 +175,12 @@ double AbsoluteSum(const double* x, int n) {
   }
   for (; j < n; ++j) even += std::abs(x[j]);
   return (even + third) + (odd + fourth);
+}
+
+double Largest(const double* x, int n) {
+  double largest = 0;
+  for (int j = 0; j < n; ++j) largest = std::max(largest, std::abs(x[j]));
+  return largest;
 }
 
 }  // namespace poise::kernels

@@ -27,4 +27,7 @@ void Rotate(double c, double s, int n, double* x, double* y);
 /// sum_i |x_i|: NaN or infinite if an entry is.
 double AbsoluteSum(const double* x, int n);
 
+/// max_i |x_i|; 0 if n is.
+double Largest(const double* x, int n);
+
 }  // namespace poise::kernels

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -124,6 +125,22 @@ TEST_F(KernelsTest, AbsoluteSumIsNotFiniteIfAnEntryIsNot) {
       x[j] = strange;
       EXPECT_FALSE(std::isfinite(kernels::AbsoluteSum(x.data(), kMaxSize)))
           << j;
+    }
+  }
+}
+
+TEST_F(KernelsTest, LargestIsTheLargestMagnitude) {
+  for (int n = 0; n <= kMaxSize; ++n) {
+    std::vector<double> magnitudes = {0};
+    for (int j = 0; j < n; ++j) magnitudes.push_back(std::abs(x_[j]));
+    std::sort(magnitudes.begin(), magnitudes.end());
+    EXPECT_EQ(kernels::Largest(x_.data(), n), magnitudes.back()) << n;
+  }
+  for (const double sign : {-1.0, 1.0}) {
+    for (int j = 0; j < kMaxSize; ++j) {
+      std::vector<double> x = x_;
+      x[j] = sign * 1e9;
+      EXPECT_EQ(kernels::Largest(x.data(), kMaxSize), 1e9) << j;
     }
   }
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "math/rank.h"
 
@@ -29,29 +28,36 @@ Eigen::VectorXd LeastSquares(const Eigen::MatrixXd& L, const Eigen::VectorXd& l,
                              RowSpaceMethod method) {
   const Eigen::VectorXd scale =
       (norms.array() > 0).select(norms.cwiseInverse(), 0);
-  const Eigen::MatrixXd unit = scale.asDiagonal() * L;
-  const RowSpace space = MakeRowSpace(unit, method);
-  const auto range = space.V.leftCols(space.rank);
-  if (space.rank == 0) return Eigen::VectorXd::Zero(L.cols());
+  const RowSpace space = MakeRowSpace(scale.asDiagonal() * L, method);
+  const int rows = static_cast<int>(L.rows()), rank = space.rank;
+  if (rank == 0) return Eigen::VectorXd::Zero(L.cols());
+  const auto range = space.V.leftCols(rank);
+  // The rows as combinations of an orthonormal basis, the heaviest first, and in
+  // that order, which keeps the small ones accurate. A row that depends on those
+  // before does so exactly: what rounding leaves of it, times a residual that
+  // cannot be helped, could outweigh a small row.
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> basis(
+      (L * range).transpose());
   // With all rows independent each can be met, so their scales do not matter.
-  // Else they do; rows in the order of their scales, and pivoting, keep the
-  // small ones accurate.
-  const bool met = space.rank == L.rows();
-  std::vector<int> order(L.rows());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int i, int j) { return norms[i] > norms[j]; });
-  Eigen::MatrixXd reduced(L.rows(), space.rank);
-  Eigen::VectorXd right(L.rows());
-  for (int i = 0; i < L.rows(); ++i) {
-    const double factor = met ? scale[order[i]] : 1;
-    reduced.row(i) = factor * L.row(order[i]) * range;
-    right[i] = -factor * l[order[i]];
+  const bool met = rank == rows;
+  Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(rows, rank);
+  Eigen::VectorXd right(rows);
+  for (int place = 0; place < rows; ++place) {
+    const int i = basis.colsPermutation().indices()[place];
+    const double factor = met ? scale[i] : 1;
+    const auto part =
+        basis.matrixQR().col(place).head(std::min(place + 1, rank));
+    for (int e = 0; e < part.size(); ++e) {
+      const double rest = part.tail(part.size() - e).norm();
+      if (rest <= kRankTolerance * norms[i]) break;
+      parts(place, e) = factor * part[e];
+    }
+    right[place] = -factor * l[i];
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(reduced);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(parts);
   Eigen::VectorXd x = qr.solve(right);
-  x += qr.solve(right - reduced * x);
-  return range * x;
+  x += qr.solve(right - parts * x);
+  return range * (basis.householderQ() * x);
 }
 
 class ActiveSet {

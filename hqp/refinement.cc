@@ -21,16 +21,11 @@ constexpr double kNothing = 1e-18;
 // A residual below this, relative to what it is added up from, is zero.
 constexpr double kZeroResidual = 1e-12;
 
-double Largest(const std::vector<double>& x) {
-  double largest = 0;
-  for (const double entry : x) largest = std::max(largest, std::abs(entry));
-  return largest;
-}
-
 }  // namespace
 
 double ActiveProblem::Size() const {
-  double largest = std::max(tail_.largest_target(), Largest(y_));
+  double largest =
+      std::max(tail_.largest_target(), kernels::Largest(y_.data(), n_));
   for (int a = 0; a < head_.num_rows(); ++a) {
     largest = std::max(largest, std::abs(rows_[a].bound) / rows_[a].norm);
   }
@@ -85,7 +80,7 @@ void ActiveProblem::TakeOther(const Hierarchy& hierarchy,
 }
 
 bool ActiveProblem::TakeZero(const Hierarchy& hierarchy, double share) {
-  if (Largest(y_) > share * Size()) return false;
+  if (kernels::Largest(y_.data(), n_) > share * Size()) return false;
   std::fill(y_.begin(), y_.end(), 0);
   FindResiduals(hierarchy);
   return true;

@@ -191,8 +191,10 @@ void RowStack::TakeOut(int rank, double* x, double* l) {
   AddRows(q_.data(), stride_, rank, scratch_.data(), n_, x);
 }
 
-// Orthogonalises the level's rests, the longest first, until what is left of
-// each is nothing.
+// Orthogonalises the level's rests, the heaviest first, until what is left of
+// each is nothing. A row that depends on heavier ones does so exactly, then: what
+// rounding leaves of it, times a residual that cannot be helped, could outweigh a
+// light row.
 void RowStack::PivotRows(Level* level) {
   const int first = level->first_row, rows = level->end_row - first;
   for (int a = first; a < level->end_row; ++a) {
@@ -203,9 +205,16 @@ void RowStack::PivotRows(Level* level) {
   while (left > 0 && level->rank_end < n_) {
     int pivot = -1;
     for (int a = first; a < level->end_row; ++a) {
-      if (!chosen_[a] && (pivot < 0 || rest_[a] > rest_[pivot])) pivot = a;
+      if (chosen_[a]) continue;
+      if (rest_[a] <= kRankTolerance * kRankTolerance) {
+        chosen_[a] = true;
+        --left;
+      } else if (pivot < 0 ||
+                 weight(a) * rest_[a] > weight(pivot) * rest_[pivot]) {
+        pivot = a;
+      }
     }
-    if (rest_[pivot] <= kRankTolerance * kRankTolerance) break;
+    if (pivot < 0) break;
     const int e = level->rank_end;
     double* q = &q_[static_cast<size_t>(e) * stride_];
     double* l = &l_[static_cast<size_t>(pivot) * stride_];

@@ -12,7 +12,7 @@ namespace poise {
 /// among the optima of the levels before it.
 ///
 /// The rows are orthogonalised as they come (Gram-Schmidt, twice where needed,
-/// pivoted inside a level): R = L Q, with Q orthonormal. A row whose rest is
+/// inside a level the heaviest rest first): R = L Q, with Q orthonormal. A row whose rest is
 /// below kRankTolerance depends on those before. A level of independent rows is
 /// met whatever its metric; one with dependent rows is reduced further, by
 /// reflections among its rows, to as many "effective" rows as its rank. So L,

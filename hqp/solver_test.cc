@@ -15,6 +15,7 @@
 #include "hqp/descent.h"
 #include "tests/util/count_malloc.h"
 #include "tests/util/random_hierarchy.h"
+#include "tests/util/tolerance.h"
 
 namespace poise {
 namespace {
@@ -198,6 +199,30 @@ TEST(Solver, TakesNoMoreIterationsThanItMay) {
       // Whatever is left of the hierarchy is certified.
       EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(),
                 kCertified);
+    }
+  }
+}
+
+// Two large rows of one direction conflict, beside a small one across them that
+// is met: to rounding of its own, not of theirs.
+TEST(Solver, MeetsASmallRowBesideAConflict) {
+  const std::vector<LevelCapacity> capacity{{3, 0}};
+  for (int place = 0; place < 3; ++place) {
+    for (const double factor : {1.0, -2.0}) {
+      Hierarchy hierarchy(2, capacity);
+      EqualityBlock rows = hierarchy.AddEqualities(0, 3);
+      for (int i = 0; i < 3; ++i) rows.B.row(i) << 28400, 17700;
+      rows.B.row(place) << 0, 0.0052;
+      const int last = place == 2 ? 1 : 2;
+      rows.B.row(last) *= factor;
+      rows.b[last] = 53392;
+      Solution solution(2, capacity);
+      ASSERT_EQ(Solver(2, capacity).Solve(hierarchy, &solution),
+                Status::kOptimal);
+      EXPECT_NEAR(solution.y[0],
+                  -53392 * factor / (1 + factor * factor) / 28400,
+                  Rounding(1, 3));
+      EXPECT_NEAR(solution.y[1], 0, Rounding(1, 3)) << place;
     }
   }
 }
