@@ -201,14 +201,12 @@ void RowStack::PivotRows(Level* level) {
     chosen_[a] = false;
     fresh_[a] = rest_[a];  // As last computed, not downdated.
   }
-  int left = rows;
-  while (left > 0 && level->rank_end < n_) {
+  while (level->rank_end < n_) {
     int pivot = -1;
     for (int a = first; a < level->end_row; ++a) {
       if (chosen_[a]) continue;
       if (rest_[a] <= kRankTolerance * kRankTolerance) {
         chosen_[a] = true;
-        --left;
       } else if (pivot < 0 ||
                  weight(a) * rest_[a] > weight(pivot) * rest_[pivot]) {
         pivot = a;
@@ -222,7 +220,6 @@ void RowStack::PivotRows(Level* level) {
     if (rest_[pivot] < kTwice * kTwice) TakeOut(e, q, l);
     const double norm = std::sqrt(SquaredNorm(q, n_));
     chosen_[pivot] = true;
-    --left;
     l[e] = 0;
     if (norm <= kRankTolerance) {
       // Its rest was another's doing. It stays a dependent row.
