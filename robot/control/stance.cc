@@ -19,8 +19,8 @@ constexpr double kReach = 0.005;  // m.
 // Faster than this upwards, a sole is leaving the ground.
 constexpr double kSeparating = 0.02;  // m/s.
 
-// A foot on its way back is flat after this part of it.
-constexpr double kFlatAfter = 0.7;
+// A foot on its way back is flat, and over its place, after this part of it.
+constexpr double kThereAfter = 0.7;
 
 // How fast a foot looks for ground that it has lost.
 constexpr double kSearchSpeed = 0.2;  // m/s.
@@ -147,7 +147,8 @@ void Stance::TakeOff(FootState* foot, const ContactTick& contact,
 }
 
 // From where it was when it was called back, and as it moved there, to where it
-// took off, its sole flat some time before it is there: x = s X + (1 - s) t V.
+// took off: x = s X + (1 - s) t V. It is over its place, its sole flat, some time
+// before it is down there.
 void Stance::Return(const FootState& foot,
                     FrameReference* target) const noexcept {
   Vector6d whole;
@@ -156,12 +157,14 @@ void Stance::Return(const FootState& foot,
   whole[5] -= kReach;
   Vector6d moved;
   for (int i = 0; i < 6; ++i) {
-    const double time = i < 3 ? kFlatAfter * return_time : return_time;
+    const double time = i < 5 ? kThereAfter * return_time : return_time;
     const double t = std::min(foot.since, time);
     const Smooth s(t / time);
     const double rate = s.rate / time;
     const double acceleration = s.acceleration / (time * time);
-    const double v = foot.V_WC_away[i];
+    // Falling faster than this, it would be on the ground before it is there.
+    const double fastest = i < 5 ? kInfinity : -whole[5] / return_time;
+    const double v = std::max(foot.V_WC_away[i], -fastest);
     moved[i] = s.value * whole[i] + (1 - s.value) * t * v;
     target->V_WF_W[i] = rate * whole[i] + (1 - s.value - rate * t) * v;
     target->A_WF_W[i] =

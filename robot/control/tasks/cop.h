@@ -13,7 +13,7 @@ namespace poise {
 ///     CoP = (-m_y, m_x) / f_z,   |CoP_x| <= X - margin,  |CoP_y| <= Y -
 ///     margin,
 /// times f_z, over a quarter of the robot's weight. The margin shrinks with
-/// TaskInput::capture.
+/// TaskInput::capture, from half of that on.
 class CopTask final : public Task {
  public:
   /// Parameters: margin (0.005 m), capture_margin (0.001 m).

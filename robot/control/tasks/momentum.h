@@ -34,7 +34,7 @@ class MomentumTask final : public Task {
   /// corrects what a wrong model does to the place and the height;
   /// angular_weight (1), of the angular rows against the linear ones;
   /// feedforward (0; with 1, v_ref and a_ref are used); capture (1; with 0, no
-  /// push is too large) with capture_from (0.8), capture_full (1) and
+  /// push is too large) with capture_from (0.65), capture_full (1) and
   /// capture_sideways (1.25), see FindCapture(), and what holds there:
   /// capture_kp (60 1/s2), capture_kd (30 1/s), capture_angular_weight (0.3),
   /// capture_height_weight (0.3).
@@ -75,7 +75,7 @@ class MomentumTask final : public Task {
   double angular_weight_ = 1;
   double feedforward_ = 0;
   double capture_ = 1;
-  double capture_from_ = 0.8;
+  double capture_from_ = 0.65;
   double capture_full_ = 1;
   double capture_sideways_ = 1.25;
   double capture_kp_ = 60;

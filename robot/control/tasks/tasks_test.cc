@@ -689,9 +689,9 @@ TEST_F(TaskTest, TakesTheLastMillimetersAndTheArmsForTheLargestPushes) {
   const int chest = *tree_.FindJoint("chest_pitch");
   const double M =
       controller_.tick().M(tree_.v_start() + chest, tree_.v_start() + chest);
-  for (const double capture : {0.0, 0.25, 1.0}) {
+  for (const double capture : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     write(cop, capture);
-    const double margin = 0.005 - 0.004 * capture;
+    const double margin = 0.005 - 0.004 * std::max(0.0, 2 * capture - 1);
     const double scale = 4 / (9.81 * tree_.total_mass());
     EXPECT_NEAR(hierarchy_.C(0)(0, nv_ + 5), -scale * (half_.x() - margin),
                 1e-15);
@@ -761,13 +761,13 @@ class CaptureTest : public TaskTest {
 
 TEST_F(CaptureTest, BeginsShortOfTheEdgeAndIsWholeAtIt) {
   for (const double side : {1.0, -1.0}) {
-    EXPECT_EQ(Share(Fast(0, 0.75 * side * front_)), 0);
-    EXPECT_NEAR(Share(Fast(0, 0.9 * side * front_)), 0.5, 0.01);
+    EXPECT_EQ(Share(Fast(0, 0.64 * side * front_)), 0);
+    EXPECT_NEAR(Share(Fast(0, 0.825 * side * front_)), 0.5, 0.01);
     EXPECT_NEAR(Share(Fast(0, 1.1 * side * front_)), 1, 1e-12);
     EXPECT_EQ(left_ + right_, 0);
     // A quarter farther sideways.
-    EXPECT_EQ(Share(Fast(1, 0.95 * side * edge_)), 0);
-    EXPECT_NEAR(Share(Fast(1, 1.125 * side * edge_)), 0.5, 0.01);
+    EXPECT_EQ(Share(Fast(1, 0.8 * side * edge_)), 0);
+    EXPECT_NEAR(Share(Fast(1, 1.031 * side * edge_)), 0.5, 0.01);
     EXPECT_NEAR(side > 0 ? left_ : right_, 0.5, 0.01);
     EXPECT_EQ(side > 0 ? right_ : left_, 0);
     EXPECT_NEAR(Share(Fast(1, 1.3 * side * edge_)), 1, 1e-12);
@@ -782,12 +782,12 @@ TEST_F(CaptureTest, CountsTheAngularMomentumThatIsToBeGivenBack) {
   // Bent forward at such a rate that to stop it moves the capture point so far;
   // bent to the left is about -x.
   Vector6d forward = Vector6d::Zero(), left = Vector6d::Zero();
-  forward[1] = 0.9 * front_ * w_ * height_;
-  left[0] = -1.125 * edge_ * w_ * height_;
+  forward[1] = 0.825 * front_ * w_ * height_;
+  left[0] = -1.031 * edge_ * w_ * height_;
   EXPECT_NEAR(Share(forward), 0.5, 0.01);
   EXPECT_NEAR(Share(left), 0.5, 0.01);
   // Moving forward and bending back: there is nothing to do.
-  EXPECT_EQ(Share(Fast(0, 0.9 * front_) - forward), 0);
+  EXPECT_EQ(Share(Fast(0, 0.825 * front_) - forward), 0);
 }
 
 // In the middle half of the sole that stands, or where it shall be, if that is
@@ -827,25 +827,25 @@ TEST_F(CaptureTest, StandsOverTheFootThatIsLeft) {
 
 TEST_F(CaptureTest, SeesAReferenceThatMoves) {
   controller_.reference().v_WG.x() = 0.5 * front_ * w_;
-  EXPECT_NEAR(Share(Fast(0, (0.5 + 0.45) * front_)), 0.5, 0.02);
+  EXPECT_NEAR(Share(Fast(0, (0.5 + 0.4125) * front_)), 0.5, 0.02);
 }
 
-// Nothing is left of the way but a centimeter, and nine tenths of that gone.
+// Nothing is left of the way but a centimeter, and 8.25 mm of that gone.
 TEST_F(CaptureTest, SeesAReferenceBeyondTheEdge) {
   controller_.reference().p_WG.x() += front_ + 0.02;
   for (const Parameter& each : task_.parameters()) {
     if (each.name == "kp" || each.name == "capture_kp") *each.value = 0;
   }
-  EXPECT_NEAR(Share(Fast(0, front_ + 0.02 + 0.009)), 0.5, 0.02);
+  EXPECT_NEAR(Share(Fast(0, front_ + 0.02 + 0.00825)), 0.5, 0.02);
 }
 
 TEST_F(CaptureTest, SeesAReferenceNearTheEdge) {
-  // Half of the way is left, and nine tenths of that gone.
+  // Half of the way is left, and 82.5 % of that gone.
   controller_.reference().p_WG.x() += 0.5 * front_;
   for (const Parameter& each : task_.parameters()) {
     if (each.name == "kp" || each.name == "capture_kp") *each.value = 0;
   }
-  EXPECT_NEAR(Share(Fast(0, (0.5 + 0.45) * front_)), 0.5, 0.02);
+  EXPECT_NEAR(Share(Fast(0, (0.5 + 0.4125) * front_)), 0.5, 0.02);
 }
 
 TEST_F(TaskTest, ForceRegularizerIsTheForceItself) {
