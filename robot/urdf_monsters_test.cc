@@ -176,7 +176,8 @@ TEST(Monsters, RealRobotsLoad) {
   }
 }
 
-#ifndef __SANITIZE_ADDRESS__  // Which keeps what is freed.
+// One sanitizer keeps what is freed, another as much again for each byte.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 // Of all tests of this process together.
 class Memory : public testing::Environment {
   void TearDown() override {
