@@ -415,6 +415,22 @@ TEST_F(DescentByHandTest, LetsGoOfRowsForTheTailTogether) {
   EXPECT_EQ(iterations_, 2);
 }
 
+// Where a level of the head draws at them, they leave one by one: letting several
+// go there costs more steps than it saves.
+TEST_F(DescentByHandTest, LetsGoOfRowsForTheHeadOneByOne) {
+  for (int j = 0; j < 3; ++j) {
+    std::vector<double> row(3);
+    row[j] = 1;
+    AddRow(0, row, 1, INFINITY);
+    AddWish(1, j, 2 + j);
+  }
+  AddRow(1, {1, 1, 1}, -INFINITY, 100);  // It has a row: it is no tail.
+  begin_ = Side::kLower;
+  ASSERT_TRUE(AtOnce());
+  EXPECT_EQ(y_, Eigen::Vector3d(2, 3, 4));
+  EXPECT_EQ(iterations_, 4);
+}
+
 // As many rows as there is room for.
 TEST_F(DescentByHandTest, HasRoomForManyRows) {
   for (int i = 0; i < 50; ++i) {
