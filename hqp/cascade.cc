@@ -53,12 +53,13 @@ bool IsInside(const Hierarchy& hierarchy, int level, int i, Side side,
   return beyond < -kAtBound * Size(hierarchy, level, i, bound, y);
 }
 
-// Entries within the rounding of the largest tell nothing; and of rows that hold
-// only such, rounding would be all there is.
-void RoundToZero(Eigen::VectorXd* y) {
+// y += step. Entries within the rounding of the step's largest tell nothing; and
+// of rows that hold only such, rounding would be all there is.
+void AddStep(const Eigen::VectorXd& step, Eigen::VectorXd* y) {
+  *y += step;
   const double rounding = static_cast<double>(y->size()) *
                           std::numeric_limits<double>::epsilon() *
-                          y->lpNorm<Eigen::Infinity>();
+                          step.lpNorm<Eigen::Infinity>();
   *y = (y->array().abs() <= rounding).select(0, *y);
 }
 
@@ -195,8 +196,7 @@ bool Cascade::SolveLevel(const Hierarchy& hierarchy, int level,
     return false;
   }
   solution->iterations += iterations;
-  y += Z_ * qp.z;
-  RoundToZero(&y);
+  AddStep(Z_ * qp.z, &y);
   active_.clear();
   for (int r = 0; r < rows; ++r) {
     if (qp.side[r] == Side::kNone) continue;
