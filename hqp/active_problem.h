@@ -107,9 +107,6 @@ class ActiveProblem {
   /// What rounding may leave of an entry of y, relative to that.
   static constexpr double kRounding = 1e-13;
 
-  /// If no entry of y is more than a share of that, takes y = 0 and returns true.
-  bool TakeZero(const Hierarchy& hierarchy, double share);
-
   /// |C_i|_1, and the only variable of row i of B in the tail.
   double norm(int level, int i) const { return norm_[level][i]; }
   int selected(int level, int i) const { return selected_[level][i]; }

@@ -68,8 +68,9 @@ TEST_F(ApexTest, IsZeroInAnyUnit) {
   }
 }
 
-// Some were not, where rounding of y was judged by |y| alone. (Of the first 4000
-// one still is not, seed 1466, and the solver says so.)
+// Some were not, where rounding of y was judged by |y| alone, or what depends on
+// other rows kept its rounding. (Of the first 20 000 one still is not, and the solver
+// says so: 3801 with -O2, 1466 with -O1.)
 TEST(Apex, IsSolvedWhateverIsAskedFor) {
   RandomHierarchyOptions options;
   options.scaled = 0;
@@ -90,7 +91,7 @@ TEST(Apex, IsSolvedWhateverIsAskedFor) {
 
 // y0 + y1 = 0, in conflict with 2 (y0 + y1) = 6, above a wish for y1: of 5, which
 // is the largest of what is asked for, or of 1, where 6 / |(2, 2)| is.
-TEST(Apex, TakesZeroForRounding) {
+TEST(Apex, RoundingIsRelativeToWhatIsAskedFor) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {1, 0}};
   for (const bool is_in_tail : {false, true}) {
     Hierarchy hierarchy(2, capacity);
@@ -109,11 +110,7 @@ TEST(Apex, TakesZeroForRounding) {
     problem.TakeOther(hierarchy, {1e-3, -1e-3});
     const double size = is_in_tail ? 5 : 6 / std::sqrt(8);
     EXPECT_NEAR(problem.Size(), size, Rounding(size, 2));
-    EXPECT_FALSE(problem.TakeZero(hierarchy, 0.99e-3 / size));
     EXPECT_EQ(problem.y()[1], -1e-3);
-    EXPECT_TRUE(problem.TakeZero(hierarchy, 1.01e-3 / size));
-    EXPECT_EQ(problem.y()[0], 0);
-    EXPECT_EQ(problem.y()[1], 0);
     // Residuals are of that y: -6 / sqrt(8) of a row of unit length.
     EXPECT_NEAR(problem.head().residual(1), -6 / std::sqrt(8), Rounding(6, 2));
     problem.TakeOther(hierarchy, {0, -1e9});

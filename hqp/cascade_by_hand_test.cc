@@ -301,6 +301,7 @@ TEST_P(CascadeByHandTest, IsAsExactWhereNumbersAreSmall) {
   for (int level : {1, 2}) {
     EXPECT_NEAR(solution.y[level], 1e-6 * level, Rounding(1e-6, 3));
   }
+  EXPECT_EQ(solution.iterations, 8);  // Three levels and the norm, twice.
 }
 
 // Two large rows of one direction conflict, beside a small one across them that

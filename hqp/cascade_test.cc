@@ -62,6 +62,7 @@ TEST_F(CascadeTest, SolvesByHand) {
 }
 
 TEST_F(CascadeTest, ReportsWhatIsNotFinite) {
+  ASSERT_EQ(cascade_.Solve(hierarchy_, &solution_), Status::kOptimal);
   target_[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(cascade_.Solve(hierarchy_, &solution_), Status::kNotFinite);
   EXPECT_EQ(solution_.failed_level, 2);

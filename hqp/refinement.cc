@@ -79,13 +79,6 @@ void ActiveProblem::TakeOther(const Hierarchy& hierarchy,
   FindResiduals(hierarchy);
 }
 
-bool ActiveProblem::TakeZero(const Hierarchy& hierarchy, double share) {
-  if (kernels::Largest(y_.data(), n_) > share * Size()) return false;
-  std::fill(y_.begin(), y_.end(), 0);
-  FindResiduals(hierarchy);
-  return true;
-}
-
 void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   double largest = Size();
   // First all levels; then, as what the tail asks for may be large and its

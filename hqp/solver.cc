@@ -153,21 +153,9 @@ bool Solver::EnterViolated(const Hierarchy& hierarchy, bool enters) {
 // Writes the answer. Returns whether it is certified, down to the level that it
 // says.
 bool Solver::Report(const Hierarchy& hierarchy, Solution* solution) {
-  const auto is_certified = [&] {
-    reporter_.Report(hierarchy, side_, kTolerance, &problem_, solution);
-    return certifier_.Certify(hierarchy, *solution).worst() <=
-           Certifier::kCertified;
-  };
-  if (is_certified()) return true;
-  // Of a y that is nothing but rounding, no digit may be right.
-  if (!problem_.TakeZero(hierarchy, kTolerance)) return false;
-  const Status status = solution->status;
-  const int failed_level = solution->failed_level;
-  solution->Reset();
-  solution->status = status;
-  solution->failed_level = failed_level;
-  FindMultipliers(hierarchy);
-  return is_certified();
+  reporter_.Report(hierarchy, side_, kTolerance, &problem_, solution);
+  return certifier_.Certify(hierarchy, *solution).worst() <=
+         Certifier::kCertified;
 }
 
 }  // namespace poise
