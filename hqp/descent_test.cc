@@ -189,7 +189,7 @@ TEST(Descent, TakesAsManyStepsAsItDid) {
   }
   // A few more or less by rounding.
   EXPECT_LE(by_level.iterations(), 1680);
-  EXPECT_LE(at_once.iterations(), 982);
+  EXPECT_LE(at_once.iterations(), 979);
 }
 
 // y <= 1 and y >= -1 by one row, from its upper side with an aim at -3: the
