@@ -69,8 +69,8 @@ TEST_F(ApexTest, IsZeroInAnyUnit) {
 }
 
 // Some were not, where rounding of y was judged by |y| alone, or what depends on
-// other rows kept its rounding. (Of the first 20 000 one still is not, and the solver
-// says so: 3801 with -O2, 1466 with -O1.)
+// other rows kept its rounding. (Of the first 20 000 one still is not, and the
+// solver says so: 3801 with -O2, 1466 with -O1.)
 TEST(Apex, IsSolvedWhateverIsAskedFor) {
   RandomHierarchyOptions options;
   options.scaled = 0;

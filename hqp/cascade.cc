@@ -18,7 +18,7 @@ constexpr double kAtBound = 1e-9;
 // Of a gradient, relative to what it is added up from.
 constexpr double kNegligible = 1e-12;
 
-// How often it is gone through; twice was seen to be needed at most.
+// How often it is gone through at most; twice was enough for a robot's rows.
 constexpr int kPasses = 3;
 
 // What rounding in row i of C y is relative to.

@@ -247,6 +247,16 @@ class DescentByHandTest : public testing::Test {
     block.B(0, variable) = 1;
     block.b[0] = -target;
   }
+  // y = (1, 1, 1), held by three rows, where a level wishes for (2, 3, 4).
+  void HoldAtOne(int level) {
+    for (int j = 0; j < 3; ++j) {
+      std::vector<double> row(3);
+      row[j] = 1;
+      AddRow(0, row, 1, INFINITY);
+      AddWish(level, j, 2 + j);
+    }
+    begin_ = Side::kLower;
+  }
   // Returns the levels that are done.
   int ByLevel(int max_iterations = 100) {
     return Search(max_iterations, [&](Descent* descent, Budget* budget,
@@ -399,16 +409,9 @@ TEST_F(DescentByHandTest, SparesTheTailUntilTheHeadIsAtItsBest) {
   EXPECT_EQ(y_, Eigen::Vector3d(1, 2, 0));
 }
 
-// Where only the tail draws at them, rows leave together: y = (1, 1, 1), held by
-// three rows, goes to (2, 3, 4) at once.
+// Where only the tail draws at them, rows leave together.
 TEST_F(DescentByHandTest, LetsGoOfRowsForTheTailTogether) {
-  for (int j = 0; j < 3; ++j) {
-    std::vector<double> row(3);
-    row[j] = 1;
-    AddRow(0, row, 1, INFINITY);
-    AddWish(2, j, 2 + j);
-  }
-  begin_ = Side::kLower;
+  HoldAtOne(2);
   ASSERT_TRUE(AtOnce());
   EXPECT_EQ(y_, Eigen::Vector3d(2, 3, 4));
   // Held; the head without them; which is done, and the tail with it.
@@ -418,14 +421,8 @@ TEST_F(DescentByHandTest, LetsGoOfRowsForTheTailTogether) {
 // Where a level of the head draws at them, they leave one by one: letting several
 // go there costs more steps than it saves.
 TEST_F(DescentByHandTest, LetsGoOfRowsForTheHeadOneByOne) {
-  for (int j = 0; j < 3; ++j) {
-    std::vector<double> row(3);
-    row[j] = 1;
-    AddRow(0, row, 1, INFINITY);
-    AddWish(1, j, 2 + j);
-  }
+  HoldAtOne(1);
   AddRow(1, {1, 1, 1}, -INFINITY, 100);  // It has a row: it is no tail.
-  begin_ = Side::kLower;
   ASSERT_TRUE(AtOnce());
   EXPECT_EQ(y_, Eigen::Vector3d(2, 3, 4));
   EXPECT_EQ(iterations_, 4);

@@ -12,11 +12,11 @@ namespace poise {
 /// among the optima of the levels before it.
 ///
 /// The rows are orthogonalised as they come (Gram-Schmidt, twice where needed,
-/// inside a level the heaviest rest first): R = L Q, with Q orthonormal. A row whose rest is
-/// below kRankTolerance depends on those before. A level of independent rows is
-/// met whatever its metric; one with dependent rows is reduced further, by
-/// reflections among its rows, to as many "effective" rows as its rank. So L,
-/// of all effective rows, is lower triangular, and y = Q' z.
+/// inside a level the heaviest rest first): R = L Q, with Q orthonormal. A row
+/// whose rest is below kRankTolerance depends on those before. A level of
+/// independent rows is met whatever its metric; one with dependent rows is
+/// reduced further, by reflections among its rows, to as many "effective" rows
+/// as its rank. So L, of all effective rows, is lower triangular, and y = Q' z.
 ///
 /// Levels can be dropped from the end and added again. Levels before the first
 /// deficient one are all met, so their order does not matter: they can be taken
