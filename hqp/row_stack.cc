@@ -23,6 +23,11 @@ constexpr double kGoodPart = 1e-3;
 // A residual below this, relative to what it is added up from, is zero.
 constexpr double kZeroResidual = 1e-12;
 
+// A residual counts in a gradient as at least this part of what it is added up
+// from: so much of it is rounding, where a price below 1e-11 of the gradient is
+// none. What heavy rows lack where they conflict has few digits.
+constexpr double kLeast = 3e-5;
+
 double SquaredNorm(const double* x, int n) {
   double sum;
   Dots(x, 0, 1, x, n, &sum);
@@ -103,14 +108,14 @@ void RowStack::FactorLevel() {
       effective_target_[e] = target_[carrier_[e]];
     }
   }
-  SolveLevel(level);
+  SolveLevel(&level);
   levels_.push_back(level);
 }
 
 void RowStack::Merge(int level) {
   Truncate(level);
-  for (int l = 0; l + 1 < level; ++l) levels_[l] = {0, 0, 0, 0, false};
-  if (level > 0) levels_[level - 1] = {0, num_rows_, 0, rank_, false};
+  for (int l = 0; l + 1 < level; ++l) levels_[l] = {0, 0, 0, 0, false, 0};
+  if (level > 0) levels_[level - 1] = {0, num_rows_, 0, rank_, false, 0};
 }
 
 void RowStack::RemoveRow(int a) {
@@ -307,7 +312,8 @@ void RowStack::Reduce(Level* level) {
   }
 }
 
-void RowStack::SolveLevel(const Level& level) {
+void RowStack::SolveLevel(Level* solved) {
+  Level& level = *solved;
   for (int e = level.rank_begin; e < level.rank_end; ++e) {
     const double* l = &effective_[static_cast<size_t>(e) * stride_];
     double value;
@@ -315,11 +321,11 @@ void RowStack::SolveLevel(const Level& level) {
     z_[e] = (effective_target_[e] - value) / l[e];
   }
   // z is rounded by what any row of the level asks for.
-  double size = 0;
+  level.size = 0;
   for (int a = level.first_row; a < level.end_row; ++a) {
-    size = std::max(size, std::abs(target_[a]));
+    level.size = std::max(level.size, std::abs(target_[a]));
   }
-  size += norm_z();
+  level.size += norm_z();
   for (int a = level.first_row; a < level.end_row; ++a) {
     residual_[a] = 0;
     if (!level.deficient) continue;
@@ -327,7 +333,7 @@ void RowStack::SolveLevel(const Level& level) {
     Dots(&l_[static_cast<size_t>(a) * stride_], 0, 1, z_.data(), level.rank_end,
          &value);
     value -= target_[a];
-    if (std::abs(value) > kZeroResidual * size) residual_[a] = value;
+    if (std::abs(value) > kZeroResidual * level.size) residual_[a] = value;
   }
 }
 
@@ -372,7 +378,7 @@ double RowStack::Gradient(int level, double* gradient) const {
   for (int a = of.first_row; a < of.end_row; ++a) {
     if (residual_[a] == 0) continue;
     const double factor = weight(a) * residual_[a];
-    size = std::max(size, std::abs(factor));
+    size = std::max({size, std::abs(factor), weight(a) * kLeast * of.size});
     AddRows(&l_[static_cast<std::size_t>(a) * stride_], 0, 1, &factor,
             of.rank_begin, gradient);
   }

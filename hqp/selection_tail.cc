@@ -216,6 +216,16 @@ void SelectionTail::Separate() {
   }
 }
 
+// Whether rounding of the first level's heavy variables is no longer nothing for
+// those of the usual weight: by the ratio of their weights it is multiplied.
+bool SelectionTail::RoundsUsual() const {
+  for (int p = blocks_[0].begin; p < usual_begin_; ++p) {
+    const double ratio = scale_[p] / scale_[usual_begin_];
+    if (ratio * ratio > 1e3) return true;
+  }
+  return false;
+}
+
 // Of these rows, the column with the largest sum of squares.
 int SelectionTail::LargestColumn(int row_begin, int row_end, int begin, int end,
                                  double* squared) {
@@ -266,7 +276,8 @@ void SelectionTail::FactorLevel(int level) {
   const int columns = block.end - block.begin;
   const int rows = block.row_end - block.row_begin;
   const int usual = level == 0 ? usual_row_end_ - block.row_begin : 0;
-  double* first = &q_[static_cast<size_t>(block.row_begin + usual) * stride_];
+  const int from = level == 0 && RoundsUsual() ? 0 : usual;
+  double* first = &q_[static_cast<size_t>(block.row_begin + from) * stride_];
   for (int i = 0; i < rows; ++i) {
     const size_t at = static_cast<size_t>(block.row_begin + i) * stride_;
     double *q = &q_[at], *l = &l_[at];
@@ -282,11 +293,11 @@ void SelectionTail::FactorLevel(int level) {
     for (int p = 0; p < columns; ++p) q[p] = t[p] / scale_[block.begin + p];
     const double before = SquaredNorm(q, columns);
     double after = before;
-    const int above = i - usual;
+    const int above = i - from;
     for (int pass = 0; pass < 2 && above > 0; ++pass) {
       Dots(first, stride_, above, q, columns, scratch_.data());
       for (int k = 0; k < above; ++k) {
-        l[usual + k] += scratch_[k];
+        l[from + k] += scratch_[k];
         scratch_[k] = -scratch_[k];
       }
       AddRows(first, stride_, above, scratch_.data(), columns, q);

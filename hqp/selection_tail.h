@@ -82,6 +82,7 @@ class SelectionTail {
   };
   double UsualWeight() const;
   void Separate();
+  bool RoundsUsual() const;
   int LargestColumn(int row_begin, int row_end, int begin, int end,
                     double* squared);
   void Reflect(int row_begin, int row_end, int target, int pivot, int begin,

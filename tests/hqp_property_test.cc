@@ -20,7 +20,7 @@ namespace {
 constexpr double kCertified = 1e-9;  // What the solver promises.
 
 // Shrinks to few variables, few levels, few rows.
-HierarchyCase DrawHierarchy(bool with_inequalities = true) {
+HierarchyCase DrawHierarchy(bool with_inequalities = true, int weighted = 0) {
   RandomHierarchyOptions options;
   options.max_variables = *rc::gen::inRange(1, 13);
   options.max_levels = *rc::gen::inRange(1, 6);
@@ -31,6 +31,7 @@ HierarchyCase DrawHierarchy(bool with_inequalities = true) {
   options.selecting = *rc::gen::inRange(0, 101);
   options.scaled = 0;
   options.apex = *rc::gen::inRange(0, 31);
+  options.weighted = weighted;
   return MakeRandomHierarchy(*rc::gen::inRange(0, 1 << 30), options);
 }
 
@@ -77,7 +78,7 @@ HierarchyCase Transform(const HierarchyCase& drawn, const Eigen::MatrixXd& Q,
 }
 
 RC_GTEST_PROP(AnyHierarchy, IsSolvedAlikeByTwoSolversAndCertified, ()) {
-  const HierarchyCase drawn = DrawHierarchy();
+  const HierarchyCase drawn = DrawHierarchy(true, *rc::gen::inRange(0, 61));
   const int n = drawn.hierarchy.num_variables();
   Solution reference(n, drawn.capacity);
   RC_ASSERT(Cascade(n, drawn.capacity).Solve(drawn.hierarchy, &reference) ==

@@ -52,6 +52,7 @@ class Drawing {
     planted_.resize(n);
     for (int j = 0; j < n; ++j) planted_[j] = source_.Number();
     apex_ = options_.apex > 0 && source_.Chance(options_.apex);
+    weighted_ = options_.weighted > 0 && source_.Chance(options_.weighted);
     for (int level = 0; level < levels; ++level) {
       EqualityBlock equalities =
           drawn.hierarchy.AddEqualities(level, capacity[level].equalities);
@@ -76,7 +77,7 @@ class Drawing {
     const int j = source_.Between(0, static_cast<int>(planted_.size()) - 1);
     block->B(i, j) = source_.Chance(50) ? 1 : source_.Between(1, 300) / 100.0;
     block->b[i] = source_.Number();
-    if (source_.Chance(30)) block->weight[i] = source_.Between(0, 300) / 100.0;
+    DrawWeight(30, &block->weight[i]);
   }
 
   void DrawEquality(int i, EqualityBlock* block) {
@@ -85,7 +86,15 @@ class Drawing {
     block->b[i] = source_.Chance(options_.planted)
                       ? -row.dot(planted_)
                       : Scale(row) * source_.Number();
-    if (source_.Chance(20)) block->weight[i] = source_.Between(0, 300) / 100.0;
+    DrawWeight(20, &block->weight[i]);
+  }
+
+  void DrawWeight(int chance, double* weight) {
+    if (weighted_) {
+      *weight = std::pow(10.0, source_.Between(-4, 4));
+    } else if (source_.Chance(chance)) {
+      *weight = source_.Between(0, 300) / 100.0;
+    }
   }
 
   void DrawInequality(int i, InequalityBlock* block) {
@@ -148,7 +157,7 @@ class Drawing {
 
   Source source_;
   RandomHierarchyOptions options_;
-  bool scaled_ = false, apex_ = false;
+  bool scaled_ = false, apex_ = false, weighted_ = false;
   Eigen::VectorXd planted_;
   std::vector<Eigen::VectorXd> rows_;
 };
