@@ -85,12 +85,13 @@ class Helpers:
             reached |= new
         return reached
 
-    def extended(self, source):
+    def extended(self, sources):
         other = Helpers([])
         other._words = collections.defaultdict(
             set, {k: set(v) for k, v in self._words.items()}
         )
-        other.add(source)
+        for source in sources:
+            other.add(source)
         return other
 
 
@@ -191,7 +192,10 @@ class Workspace:
                     helper = header.rsplit(".", 1)[0] + ".cc"
                     if helper in util:
                         headers = headers | self.headers(helper)
-                helpers = common.extended(source)
+                fixtures = headers & self.test_headers(path.rpartition("/")[0])
+                helpers = common.extended(
+                    [source] + [self.source(fixture) for fixture in fixtures]
+                )
                 for function in source.functions:
                     if function.name not in _TEST_MACROS:
                         continue

@@ -5,9 +5,9 @@
 Every public function of math, dynamics and hqp, with a test of each kind that
 reaches it, and what its mutants did when //tools:mutate tried them last
 (docs/mutation.json).  A test reaches a function when it, or a helper that it
-calls in its file or in tests/util, names it.  What no test names is proved by
-the nearest proved function of its layer that leads to it, if mutants of its own
-die.
+calls in its file, in a header for tests beside it or in tests/util, names it.
+What no test names is proved by the nearest proved function of its layer that
+leads to it, if mutants of its own die.
 
   bazel run //tools:proof             writes docs/proof.md
   bazel run //tools:proof -- --check  exit code 1 if a function has no proof, if
