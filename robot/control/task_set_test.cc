@@ -98,6 +98,40 @@ TEST(ApplyTaskSet, ReadsAFile) {
             "set.yaml:3: task 'posture': 'weight' is '0', must be positive");
 }
 
+TEST(TaskSet, RefusesWhatIsNotThereByLine) {
+  Stack stack = MakeStack();
+  const auto message = [&](const char* yaml) -> std::string {
+    try {
+      ApplyTasks(YAML::Load(yaml), "x.yaml", &stack);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message("yaw: off\ncop: {margin: 0.01, rank: 4}"), "");
+  EXPECT_FALSE(stack.settings(*stack.Find("yaw")).enabled);
+  EXPECT_EQ(stack.settings(*stack.Find("cop")).rank, 4);
+  EXPECT_EQ(*stack.GetParameter("cop", "margin"), 0.01);
+  EXPECT_EQ(message("yaw: off\nposturing: {kp: 1}").substr(0, 32),
+            "x.yaml:2: task 'posturing' is un");
+  EXPECT_EQ(message("cop: {kp: 1}").substr(0, 34),
+            "x.yaml:1: task 'cop' has no 'kp', ");
+  EXPECT_EQ(message("cop:\n  rank: 9"),
+            "x.yaml:2: task 'cop': 'rank' is '9', must be 1 to 8");
+  EXPECT_EQ(message("cop: {margin: -1}"),
+            "x.yaml:1: task 'cop': 'margin' is '-1', which is out of its "
+            "range");
+}
+
+TEST(TaskSet, KnowsThatOfThePaper) {
+  Stack stack = MakeStack();
+  ApplyTaskSet("paper", &stack);
+  EXPECT_FALSE(stack.settings(*stack.Find("joint_limits")).enabled);
+  EXPECT_EQ(stack.GetParameter("momentum", "capture"), 0);
+  EXPECT_EQ(stack.settings(*stack.Find("posture")).rank, 4);
+  EXPECT_THROW(ApplyTaskSet("papers", &stack), std::invalid_argument);
+}
+
 TEST(Stack, ChangesNothingWhereANameOrAValueIsWrong) {
   Stack stack = MakeStack();
   const double kp = *stack.GetParameter("posture", "kp");

@@ -1,0 +1,37 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+
+#include "robot/control/controller.h"
+#include "robot/profile.h"
+
+namespace poise {
+
+/// The humanoid in its nominal posture, at rest, and a controller that has
+/// started there, tick by tick.
+class ControllerTest : public testing::Test {
+ protected:
+  ControllerTest() {
+    state_ = {0, robot_.q_nominal, Eigen::VectorXd::Zero(tree().nv())};
+    controller_.Start(state_);
+    command_.tau.setZero(tree().num_joints());
+  }
+
+  const Tree& tree() const { return robot_.model.tree; }
+
+  void Update() {
+    state_.time += 1e-3;
+    controller_.Update(state_, &command_);
+  }
+
+  Robot robot_ = LoadRobot("robot/models/humanoid.urdf",
+                           LoadProfile("robot/profiles/humanoid.yaml"));
+  Controller controller_{robot_};
+  State state_;
+  Command command_;
+};
+
+}  // namespace poise

@@ -1,0 +1,178 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// What happens where a tick cannot be solved, or not in its time.
+#include "robot/control/fail_safe.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "robot/control/bolted_down.h"
+#include "robot/control/controller.h"
+#include "robot/control/controller_fixture.h"
+
+namespace poise {
+namespace {
+
+class FailSafeTest : public ControllerTest {
+ protected:
+  void ExpectInsideLimits() const {
+    for (int j = 0; j < tree().num_joints(); ++j) {
+      EXPECT_LE(std::abs(command_.tau[j]), robot_.model.limits[j].effort)
+          << tree().joints()[j].name;
+    }
+  }
+};
+
+TEST_F(FailSafeTest, FailsSafeOnANumberThatIsNone) {
+  Update();
+  ASSERT_EQ(command_.status, TickStatus::kOk);
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
+                           std::numeric_limits<double>::infinity()}) {
+    for (double* entry : {&state_.q[10], &state_.v[20], &state_.v[0]}) {
+      const double good = *entry;
+      *entry = bad;
+      Update();
+      EXPECT_EQ(command_.status, TickStatus::kFailSafe);
+      EXPECT_TRUE(command_.tau.allFinite());
+      ExpectInsideLimits();
+      *entry = good;
+    }
+  }
+  Update();
+  EXPECT_EQ(command_.status, TickStatus::kOk);
+}
+
+TEST_F(FailSafeTest, FailSafeHoldsTheRobotAgainstGravity) {
+  Update();
+  state_.q[10] = std::numeric_limits<double>::quiet_NaN();
+  Update();
+  const Eigen::VectorXd rest =
+      BoltedDown(controller_)
+          .Solve(command_.tau, Eigen::VectorXd::Zero(tree().nv()));
+  // m/s2 and rad/s2: what is left is rounding, by the light fingers' inertia.
+  EXPECT_LT(rest.head(tree().nv()).norm(), 1e-5);
+}
+
+// In motion: gravity's part alone is held, and the joints are braked by what
+// they move; whatever was active is forgotten.
+TEST_F(FailSafeTest, FailSafeBrakesEachJoint) {
+  Update();
+  const double q = state_.q[10];
+  const auto fail_safe = [&] {
+    state_.q[10] = std::numeric_limits<double>::quiet_NaN();
+    Update();
+    state_.q[10] = q;
+    EXPECT_EQ(command_.status, TickStatus::kFailSafe);
+    EXPECT_TRUE(controller_.report().active.empty());
+    return command_.tau;
+  };
+  const Eigen::VectorXd at_rest = fail_safe();
+  const int n = tree().num_joints();
+  for (int j = 0; j < n; ++j) state_.v[6 + j] = 0.02 * (j % 5 - 2);
+  state_.v.head<3>() << 0.3, -0.4, 0.2;
+  Update();
+  const Eigen::VectorXd braked = fail_safe();
+  for (int j = 0; j < n; ++j) {
+    const double M = controller_.tick().M(6 + j, 6 + j);
+    EXPECT_NEAR(braked[j], at_rest[j] - 10 * M * state_.v[6 + j], 1e-9) << j;
+  }
+}
+
+TEST_F(FailSafeTest, FailSafeStandsOnTheFootThatIsDown) {
+  Update();
+  std::vector<ContactTick> contacts = controller_.contacts();
+  contacts[1].in_contact = false;
+  const int n = tree().num_joints();
+  const Tick& tick = controller_.tick();
+  Eigen::VectorXd tau(n);
+  ComputeFailSafeTorque(tick, contacts, Eigen::VectorXd::Zero(n), 10, &tau);
+  // The leg in the air bears itself: gravity's torques, and no others.
+  int joints = 0;
+  for (int j = 0; j < n; ++j) {
+    if (contacts[1].J_WC_C.col(6 + j).norm() < 1e-9) continue;
+    EXPECT_NEAR(tau[j], tick.N[6 + j], 1e-9);
+    ++joints;
+  }
+  EXPECT_EQ(joints, 6);
+  // A joint whose speed is unknown is not braked.
+  Eigen::VectorXd v = Eigen::VectorXd::Constant(n, 0.1);
+  v[3] = std::numeric_limits<double>::quiet_NaN();
+  Eigen::VectorXd braked(n);
+  ComputeFailSafeTorque(tick, contacts, v, 10, &braked);
+  EXPECT_EQ(braked[3], tau[3]);
+  EXPECT_NEAR(braked[4], tau[4] - tick.M(10, 10), 1e-9);
+}
+
+TEST_F(FailSafeTest, FailsSafeWhileTheClockOfTheStateStandsStill) {
+  Update();
+  for (int i = 1; i <= 20; ++i) {
+    controller_.Update(state_, &command_);
+    EXPECT_EQ(command_.status == TickStatus::kFailSafe, i > 10) << i << " ms";
+  }
+  Update();
+  EXPECT_EQ(command_.status, TickStatus::kOk);
+}
+
+TEST_F(FailSafeTest, FailsSafeWhereTheDynamicsWouldOverflow) {
+  Update();
+  state_.v.setConstant(1e200);
+  Update();
+  EXPECT_EQ(command_.status, TickStatus::kFailSafe);
+  EXPECT_TRUE(command_.tau.allFinite());
+  ExpectInsideLimits();
+}
+
+TEST_F(FailSafeTest, TruncatesWhereItsBudgetIsSpent) {
+  ControllerOptions options;
+  options.max_iterations = 1;
+  Controller hasty(robot_, options);
+  hasty.Start(state_);
+  // A shove: rows come into play that were not so before.
+  state_.v.segment<3>(3) << 0, 0.6, 0;
+  state_.time = 1e-3;
+  hasty.Update(state_, &command_);
+  EXPECT_EQ(command_.status, TickStatus::kTruncated);
+  EXPECT_GT(hasty.report().failed_rank, 1);
+  ExpectInsideLimits();
+  const int newton_euler = *hasty.stack().Find("newton_euler");
+  EXPECT_LT(hasty.report().tasks[newton_euler].residual, 1e-9);
+}
+
+// A clock of the test's own, on which each look takes 0.4 ms: time for two
+// factorisations.
+TEST_F(FailSafeTest, StopsWhereItsTimeIsSpent) {
+  double seconds = 0;
+  ControllerOptions options;
+  options.max_seconds = 1e-3;
+  options.now = [&seconds] { return seconds += 0.4e-3; };
+  Controller hasty(robot_, options);
+  hasty.Start(state_);
+  state_.v.segment<3>(3) << 0, 0.6, 0;
+  state_.time = 1e-3;
+  hasty.Update(state_, &command_);
+  EXPECT_TRUE(command_.status == TickStatus::kTruncated ||
+              command_.status == TickStatus::kFailSafe);
+  EXPECT_LE(hasty.report().iterations, 2);
+  EXPECT_TRUE(command_.tau.allFinite());
+  ExpectInsideLimits();
+}
+
+TEST_F(FailSafeTest, FailsSafeWhereNotEvenTheFirstRankIsSolved) {
+  double seconds = 0;
+  ControllerOptions options;
+  options.max_seconds = 1e-3;
+  options.now = [&seconds] { return seconds += 1; };
+  Controller late(robot_, options);
+  late.Start(state_);
+  state_.time = 1e-3;
+  late.Update(state_, &command_);
+  EXPECT_EQ(late.report().failed_rank, 1);
+  EXPECT_EQ(command_.status, TickStatus::kFailSafe);
+  ExpectInsideLimits();
+}
+
+}  // namespace
+}  // namespace poise

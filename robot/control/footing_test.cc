@@ -1,0 +1,90 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Which feet the controller stands on, as a foot loses the ground, is let go or
+// is lifted.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "robot/control/controller_fixture.h"
+
+namespace poise {
+namespace {
+
+TEST_F(ControllerTest, SeesThatAFootHasLostTheGround) {
+  Update();
+  ASSERT_EQ(controller_.stance().phase(0), ContactPhase::kDown);
+  const double ground = controller_.reference().ground_z;
+  controller_.reference().ground_z = ground - 0.03;
+  Update();
+  EXPECT_EQ(controller_.stance().phase(0), ContactPhase::kLost);
+  EXPECT_FALSE(controller_.contacts()[0].in_contact);
+  EXPECT_NE(command_.status, TickStatus::kFailSafe);
+  EXPECT_LT(controller_.report().foot_wrench(tree().nv(), 0).norm(), 1e-9);
+  controller_.reference().ground_z = ground;
+  Update();
+  EXPECT_EQ(controller_.stance().phase(0), ContactPhase::kLoading);
+}
+
+// Falling to the left, or to the right: the other foot, which bears nothing, is
+// let go. It comes back when the robot is slow and faces where it should, or
+// falls to its side; on the ground it is at once, as it never left it.
+TEST_F(ControllerTest, LetsTheFootGoThatAFallUnloads) {
+  for (const int side : {1, -1}) {
+    const int away = side > 0 ? 1 : 0;
+    const auto phase_at = [&](double speed, double yaw) {
+      state_.v[4] = speed * side;
+      state_.q.segment<4>(3) << 0, 0, std::sin(yaw / 2), std::cos(yaw / 2);
+      Update();
+      return controller_.stance().phase(away);
+    };
+    controller_.Start(state_);
+    EXPECT_EQ(phase_at(0.4, 0), ContactPhase::kDown);
+    EXPECT_LT(controller_.report().foot_wrench(tree().nv(), away)[5], 1);
+    EXPECT_EQ(phase_at(0.4, 0), ContactPhase::kDown);
+    EXPECT_EQ(phase_at(0.6, 0), ContactPhase::kFree);
+    EXPECT_EQ(controller_.stance().phase(1 - away), ContactPhase::kDown);
+    EXPECT_FALSE(controller_.contacts()[away].in_contact);
+    EXPECT_LT(controller_.report().foot_wrench(tree().nv(), away).norm(), 1e-9);
+    EXPECT_EQ(command_.status, TickStatus::kOk);
+    const int swing =
+        *controller_.stack().Find("frame." + robot_.feet[away].name);
+    EXPECT_EQ(controller_.report().tasks[swing].residual, 0);
+
+    EXPECT_EQ(phase_at(0.35, 0), ContactPhase::kFree);
+    EXPECT_EQ(phase_at(0.25, 0.45), ContactPhase::kFree);
+    EXPECT_EQ(phase_at(0.25, 0), ContactPhase::kLoading);
+
+    controller_.Start(state_);
+    EXPECT_EQ(phase_at(0.4, 0), ContactPhase::kDown);
+    EXPECT_EQ(phase_at(0.6, 0), ContactPhase::kFree);
+    EXPECT_EQ(phase_at(-0.4, 0), ContactPhase::kLoading);
+    state_.v.setZero();
+  }
+}
+
+TEST_F(ControllerTest, LetsNoFootGoWithoutCapture) {
+  ASSERT_TRUE(controller_.stack().SetParameter("momentum", "capture", 0));
+  state_.v[4] = 0.6;
+  for (int i = 0; i < 3; ++i) Update();
+  EXPECT_EQ(controller_.stance().phase(1), ContactPhase::kDown);
+}
+
+TEST_F(ControllerTest, FadesAForceOutBeforeAFootIsLifted) {
+  Update();
+  controller_.stance().Lift(1, 0.05);
+  double last = std::numeric_limits<double>::infinity();
+  while (controller_.stance().phase(1) != ContactPhase::kUp) {
+    Update();
+    const double limit = controller_.contacts()[1].max_normal_force;
+    if (controller_.stance().phase(1) == ContactPhase::kUnloading) {
+      EXPECT_LT(limit, last);
+      last = limit;
+    }
+    ASSERT_LT(state_.time, 1);
+  }
+  EXPECT_LT(controller_.report().foot_wrench(tree().nv(), 1).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace poise
