@@ -1,0 +1,262 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// What tasks do about pushes that bring the capture point to the edge of the
+// soles.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "dynamics/tick.h"
+#include "hqp/hierarchy.h"
+#include "math/so3.h"
+#include "robot/control/contacts.h"
+#include "robot/control/reference.h"
+#include "robot/control/task.h"
+#include "robot/control/tasks/capture_point.h"
+#include "robot/control/tasks/cop.h"
+#include "robot/control/tasks/momentum.h"
+#include "robot/control/tasks/posture.h"
+#include "robot/control/tasks/support_box.h"
+#include "robot/control/tasks/task_fixture.h"
+#include "tests/util/decompositions.h"
+
+namespace poise {
+namespace {
+
+TEST_F(TaskTest, TheBoxAroundTheSolesHoldsTheirCorners) {
+  std::vector<ContactTick> contacts = controller_.contacts();
+  contacts[0].X_WC.p << 0.02, 0.1, 0;
+  contacts[1].X_WC.p << -0.03, -0.2, 0;
+  contacts[0].X_WC.R = ExpSo3({0, 0, 0.3});
+  contacts[1].X_WC.R = ExpSo3({0, 0, -2});
+  for (const bool both : {true, false}) {
+    contacts[1].in_contact = both;
+    Eigen::Vector2d most(-1, -1), least(1, 1);
+    for (int i = 0; i < (both ? 2 : 1); ++i) {
+      for (const double x : {1.0, -1.0}) {
+        for (const double y : {1.0, -1.0}) {
+          const Eigen::Vector3d corner =
+              contacts[i].X_WC *
+              Eigen::Vector3d(x * half_.x(), y * half_.y(), 0);
+          most = most.cwiseMax(corner.head<2>());
+          least = least.cwiseMin(corner.head<2>());
+        }
+      }
+    }
+    const auto reach = [&](SupportSide side) {
+      return SupportReach(robot_.feet, contacts, Pose(), side);
+    };
+    EXPECT_NEAR(reach(kFront), most.x(), 1e-12);
+    EXPECT_NEAR(reach(kBack), -least.x(), 1e-12);
+    EXPECT_NEAR(reach(kLeft), most.y(), 1e-12);
+    EXPECT_NEAR(reach(kRight), -least.y(), 1e-12);
+  }
+}
+
+TEST_F(TaskTest, TakesTheLastMillimetersAndTheArmsForTheLargestPushes) {
+  const auto write = [this](const Task& task, double capture) {
+    const int equalities = static_cast<int>(task.equality_names().size());
+    const int inequalities = static_cast<int>(task.inequality_names().size());
+    hierarchy_ = Hierarchy(nv_ + 12, {{equalities, inequalities}});
+    hierarchy_.Clear(1);
+    EqualityBlock equal = hierarchy_.AddEqualities(0, equalities);
+    InequalityBlock unequal = hierarchy_.AddInequalities(0, inequalities);
+    TaskInput now = input();
+    now.capture = capture;
+    task.Write(now, &equal, &unequal);
+  };
+  const CopTask cop(tree_, robot_.feet);
+  const PostureTask posture(tree_);
+  const int chest = *tree_.FindJoint("chest_pitch");
+  const double M =
+      controller_.tick().M(tree_.v_start() + chest, tree_.v_start() + chest);
+  for (const double capture : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    write(cop, capture);
+    const double margin = 0.005 - 0.004 * std::max(0.0, 2 * capture - 1);
+    const double scale = 4 / (9.81 * tree_.total_mass());
+    EXPECT_NEAR(hierarchy_.C(0)(0, nv_ + 5), -scale * (half_.x() - margin),
+                1e-15);
+    EXPECT_NEAR(hierarchy_.C(0)(2, nv_ + 5), -scale * (half_.y() - margin),
+                1e-15);
+    write(posture, capture);
+    EXPECT_NEAR(hierarchy_.weight(0)[chest], std::pow(M, 0.5 + 0.5 * capture),
+                1e-12);
+  }
+}
+
+// Pushed along u, m/s of the center of mass alone: by how much the momentum
+// task answers as in a capture, from 0 to 1; its gains say the same.
+class CaptureTest : public TaskTest {
+ protected:
+  CaptureTest() { state_.v.setZero(); }
+
+  double Share(const Vector6d& momentum_over_mass) {
+    // A motion of all joints that has this momentum, and no other.
+    const Tick& rest = controller_.tick();
+    const Eigen::MatrixXd H = rest.H_G / tree_.total_mass();
+    state_.v = LeastSquaresSolution(H, momentum_over_mass).x;
+    ComputeTick(tree_, state_.q, state_.v, &tick_);
+    hierarchy_ = Hierarchy(nv_ + 12, {{6, 0}});
+    hierarchy_.Clear(1);
+    EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
+    InequalityBlock none = hierarchy_.AddInequalities(0, 0);
+    TaskInput now{state_, tick_, controller_.contacts(),
+                  controller_.reference(), unexpected_};
+    const MomentumTask::CaptureShares shares = task_.FindCapture(now);
+    left_ = shares.left;
+    right_ = shares.right;
+    now.capture = shares.all;
+    task_.Write(now, &rows, &none);
+    // b = bias - wanted, and of what is wanted only -kd v_G is not zero.
+    const Eigen::Vector3d v = momentum_over_mass.tail<3>();
+    const Eigen::Vector3d wanted =
+        tick_.H_G_bias.tail<3>() / tree_.total_mass() - rows.b.tail<3>();
+    EXPECT_NEAR(wanted.z(), -10 * v.z(), 1e-6);
+    const double share = shares.all;
+    for (const int row : {0, 1, 2, 5}) {
+      EXPECT_NEAR(rows.weight[row], std::pow(0.3, share), 1e-12);
+    }
+    EXPECT_EQ(rows.weight[3], 1);
+    EXPECT_EQ(rows.weight[4], 1);
+    for (int axis = 0; axis < 2; ++axis) {
+      EXPECT_NEAR(wanted[axis], -(10 + 20 * share) * v[axis], 1e-6);
+    }
+    return share;
+  }
+
+  // What brings the capture point so far along an axis, as speed.
+  Vector6d Fast(int axis, double way) const {
+    Vector6d momentum = Vector6d::Zero();
+    momentum[3 + axis] = way * w_;
+    return momentum;
+  }
+
+  MomentumTask task_{tree_, robot_.feet};
+  Tick tick_{tree_, {}};
+  double left_ = 0, right_ = 0;  // Of the last Share().
+  const double height_ = controller_.tick().p_WG.z();
+  const double w_ = std::sqrt(9.81 / height_);
+  const double front_ = half_.x();
+  const double edge_ = controller_.contacts()[0].X_WC.p.y() + half_.y();
+};
+
+TEST_F(CaptureTest, BeginsShortOfTheEdgeAndIsWholeAtIt) {
+  for (const double side : {1.0, -1.0}) {
+    EXPECT_EQ(Share(Fast(0, 0.64 * side * front_)), 0);
+    EXPECT_NEAR(Share(Fast(0, 0.825 * side * front_)), 0.5, 0.01);
+    EXPECT_NEAR(Share(Fast(0, 1.1 * side * front_)), 1, 1e-12);
+    EXPECT_EQ(left_ + right_, 0);
+    // A quarter farther sideways.
+    EXPECT_EQ(Share(Fast(1, 0.8 * side * edge_)), 0);
+    EXPECT_NEAR(Share(Fast(1, 1.031 * side * edge_)), 0.5, 0.01);
+    EXPECT_NEAR(side > 0 ? left_ : right_, 0.5, 0.01);
+    EXPECT_EQ(side > 0 ? right_ : left_, 0);
+    EXPECT_NEAR(Share(Fast(1, 1.3 * side * edge_)), 1, 1e-12);
+  }
+  for (const Parameter& each : task_.parameters()) {
+    if (each.name == "capture") *each.value = 0;
+  }
+  EXPECT_EQ(Share(Fast(0, 1.1 * front_)), 0);
+}
+
+TEST_F(CaptureTest, CountsTheAngularMomentumThatIsToBeGivenBack) {
+  // Bent forward at such a rate that to stop it moves the capture point so far;
+  // bent to the left is about -x.
+  Vector6d forward = Vector6d::Zero(), left = Vector6d::Zero();
+  forward[1] = 0.825 * front_ * w_ * height_;
+  left[0] = -1.031 * edge_ * w_ * height_;
+  EXPECT_NEAR(Share(forward), 0.5, 0.01);
+  EXPECT_NEAR(Share(left), 0.5, 0.01);
+  // Moving forward and bending back: there is nothing to do.
+  EXPECT_EQ(Share(Fast(0, 0.825 * front_) - forward), 0);
+}
+
+// In the middle half of the sole that stands, or where it shall be, if that is
+// there.
+TEST_F(CaptureTest, StandsOverTheFootThatIsLeft) {
+  std::vector<ContactTick> contacts = controller_.contacts();
+  Reference reference = controller_.reference();
+  const auto pull = [&](const Eigen::Vector2d& at) {
+    reference.p_WG.head<2>() = at;
+    hierarchy_ = Hierarchy(nv_ + 12, {{6, 0}});
+    hierarchy_.Clear(1);
+    EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
+    InequalityBlock none = hierarchy_.AddInequalities(0, 0);
+    task_.Write({state_, controller_.tick(), contacts, reference, unexpected_},
+                &rows, &none);
+    const Vector6d wanted =
+        controller_.tick().H_G_bias / tree_.total_mass() - rows.b;
+    return Eigen::Vector2d(
+        (wanted.segment<2>(3) + 10 * controller_.tick().v_WG.head<2>()) / 30 +
+        controller_.tick().p_WG.head<2>());
+  };
+  const Eigen::Vector2d foot = contacts[0].X_WC.p.head<2>();
+  const Eigen::Vector2d there = foot + Eigen::Vector2d(0.01, -0.02);
+  EXPECT_LT((pull({0.5, -0.3}) - Eigen::Vector2d(0.5, -0.3)).norm(), 1e-9);
+  contacts[1].in_contact = false;
+  EXPECT_LT((pull(there) - there).norm(), 1e-9);
+  for (const double x : {1.0, -1.0}) {
+    for (const double y : {1.0, -1.0}) {
+      const Eigen::Vector2d corner =
+          foot + 0.5 * Eigen::Vector2d(x * half_.x(), y * half_.y());
+      EXPECT_LT((pull({x, y}) - corner).norm(), 1e-6);
+    }
+  }
+  contacts[0].in_contact = false;  // Nothing stands: as it is told.
+  EXPECT_LT((pull(there) - there).norm(), 1e-9);
+}
+
+TEST_F(CaptureTest, SeesAReferenceThatMoves) {
+  controller_.reference().v_WG.x() = 0.5 * front_ * w_;
+  EXPECT_NEAR(Share(Fast(0, (0.5 + 0.4125) * front_)), 0.5, 0.02);
+}
+
+// Nothing is left of the way but a centimeter, and 8.25 mm of that gone.
+TEST_F(CaptureTest, SeesAReferenceBeyondTheEdge) {
+  controller_.reference().p_WG.x() += front_ + 0.02;
+  for (const Parameter& each : task_.parameters()) {
+    if (each.name == "kp" || each.name == "capture_kp") *each.value = 0;
+  }
+  EXPECT_NEAR(Share(Fast(0, front_ + 0.02 + 0.00825)), 0.5, 0.02);
+}
+
+TEST_F(CaptureTest, SeesAReferenceNearTheEdge) {
+  // Half of the way is left, and 82.5 % of that gone.
+  controller_.reference().p_WG.x() += 0.5 * front_;
+  for (const Parameter& each : task_.parameters()) {
+    if (each.name == "kp" || each.name == "capture_kp") *each.value = 0;
+  }
+  EXPECT_NEAR(Share(Fast(0, (0.5 + 0.4125) * front_)), 0.5, 0.02);
+}
+
+TEST_F(TaskTest, CapturePointStopsShortOfTheEdge) {
+  const CapturePointTask task(tree_, robot_.feet);
+  // Under the greatest acceleration that the row of the left allows, the
+  // capture point decays toward the bound with the horizon's time constant.
+  const Eigen::Vector3d p = controller_.tick().p_WG;
+  const Eigen::Vector3d v = controller_.tick().v_WG;
+  const double w = std::sqrt(9.81 / p.z());
+  const double edge = controller_.contacts()[0].X_WC.p.y() + half_.y() - 0.02;
+  const Hierarchy& rows = Write(task);
+  const Eigen::VectorXd y = RandomY();
+  const Tick& tick = controller_.tick();
+  const double a = (tick.H_G.row(4).dot(y.head(nv_)) + tick.H_G_bias[4]) /
+                   tree_.total_mass();
+  const double xi = p.y() + v.y() / w, rate = v.y() + a / w;
+  EXPECT_NEAR(rows.C(0).row(2).dot(y) - rows.upper(0)[2],
+              xi + 0.1 * rate - edge, 1e-6);
+  EXPECT_NEAR(rows.C(0).row(3).dot(y) - rows.upper(0)[3],
+              -xi - 0.1 * rate - edge, 1e-6);
+  const double a_x = (tick.H_G.row(3).dot(y.head(nv_)) + tick.H_G_bias[3]) /
+                     tree_.total_mass();
+  const double ahead = p.x() - controller_.contacts()[0].X_WC.p.x() +
+                       v.x() / w + 0.1 * (v.x() + a_x / w);
+  const double front = half_.x() - 0.02;
+  EXPECT_NEAR(rows.C(0).row(0).dot(y) - rows.upper(0)[0], ahead - front, 1e-6);
+  EXPECT_NEAR(rows.C(0).row(1).dot(y) - rows.upper(0)[1], -ahead - front, 1e-6);
+}
+
+}  // namespace
+}  // namespace poise

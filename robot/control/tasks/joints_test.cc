@@ -1,0 +1,131 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// What the rows on joints mean: their limits, torques, couplings and posture.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hqp/hierarchy.h"
+#include "robot/control/task.h"
+#include "robot/control/tasks/joint_limits.h"
+#include "robot/control/tasks/mimic.h"
+#include "robot/control/tasks/posture.h"
+#include "robot/control/tasks/task_fixture.h"
+#include "robot/control/tasks/torque_limits.h"
+#include "robot/control/tasks/torque_minimization.h"
+#include "robot/control/torque.h"
+
+namespace poise {
+namespace {
+
+TEST_F(TaskTest, JointLimitsBringAJointToRestAtItsStop) {
+  const JointLimitsTask task(robot_.model);
+  const int j = *tree_.FindJoint("l_elbow");
+  for (const auto& [side, push] : {std::pair(1., 0.), std::pair(-1., 0.),
+                                   std::pair(1., 30.), std::pair(-1., 30.)}) {
+    unexpected_[6 + j] = push;  // Of which the solution knows nothing, rad/s2.
+    const JointLimits& limits = robot_.model.limits[j];
+    constexpr double kMargin = 0.008;  // rad.
+    const double stop =
+        side > 0 ? limits.upper - kMargin : limits.lower + kMargin;
+    state_.q[7 + j] = stop - side * 0.2;
+    state_.v[6 + j] = side * 7.9;  // Just slow enough: w 0.2 rad.
+    double nearest = 1;
+    for (int i = 0; i < 1000; ++i) {
+      const Hierarchy& rows = Write(task);
+      const double bound = (side > 0 ? rows.upper(0)[j] : rows.lower(0)[j]) /
+                           rows.C(0)(j, 6 + j);
+      state_.v[6 + j] += 1e-3 * (bound + push);
+      state_.q[7 + j] += 1e-3 * state_.v[6 + j];
+      nearest = std::min(nearest, side * (stop - state_.q[7 + j]));
+    }
+    EXPECT_GE(nearest, -1e-9);
+    EXPECT_LT(nearest, 1e-3);
+    EXPECT_LT(std::abs(state_.v[6 + j]), 1e-3);
+  }
+}
+
+TEST_F(TaskTest, JointLimitsHoldTheSpeed) {
+  const JointLimitsTask task(robot_.model);
+  const int j = *tree_.FindJoint("l_elbow");
+  const double fastest = robot_.model.limits[j].velocity;
+  state_.q[7 + j] = robot_.q_nominal[7 + j];
+  state_.v[6 + j] = fastest;
+  EXPECT_LE(Write(task).upper(0)[j], 1e-12);
+  state_.v[6 + j] = -fastest;
+  EXPECT_GE(Write(task).lower(0)[j], -1e-12);
+  // Not beyond what it is: at rest it may still speed up, as much either way.
+  state_.v[6 + j] = 0;
+  EXPECT_GT(Write(task).upper(0)[j], 0);
+  EXPECT_LT(Write(task).lower(0)[j], 0);
+}
+
+TEST_F(TaskTest, TorqueRowsAreThoseOfTheSolution) {
+  const Eigen::VectorXd y = RandomY();
+  Eigen::VectorXd tau(n_);
+  ComputeTorque(controller_.tick(), controller_.contacts(), y, &tau);
+  const TorqueLimitsTask limits(robot_.model);
+  const Hierarchy& rows = Write(limits);
+  const Eigen::VectorXd value = rows.C(0) * y;
+  for (int j = 0; j < n_; ++j) {
+    const double effort = robot_.model.limits[j].effort;
+    // Where C y is at its upper bound, the torque is at the limit.
+    EXPECT_NEAR(1 - (rows.upper(0)[j] - value[j]), tau[j] / effort, 1e-9);
+    EXPECT_NEAR((value[j] - rows.lower(0)[j]) - 1, tau[j] / effort, 1e-9);
+  }
+  const Eigen::VectorXd small =
+      Residual(TorqueMinimizationTask(robot_.model), y);
+  for (int j = 0; j < n_; ++j) {
+    EXPECT_NEAR(small[j], tau[j] / robot_.model.limits[j].effort, 1e-9);
+  }
+}
+
+// What a coupling is off by comes to rest at 0 as a damped spring does.
+TEST_F(TaskTest, MimicIsASpringOnWhatACouplingIsOffBy) {
+  const int joint = *tree_.FindJoint("l_index_2");
+  const int source = *tree_.FindJoint("l_index_1");
+  const int other = *tree_.FindJoint("l_middle_2");
+  robot_.model.mimics = {{joint, source, -1.5, 0.3}, {other, source, 2, 0}};
+  MimicTask task(robot_.model);
+  EXPECT_EQ(task.equality_names()[0], "mimic.l_index_2");
+  const double kp = 7, kd = 3;
+  for (const Parameter& each : task.parameters()) {
+    *each.value = each.name == "kp" ? kp : kd;
+  }
+  const Eigen::VectorXd y = RandomY();
+  const Eigen::VectorXd residual = Residual(task, y);
+  for (int i = 0; i < 2; ++i) {
+    const MimicCoupling& c = robot_.model.mimics[i];
+    const double off = state_.q[7 + c.joint] -
+                       (c.multiplier * state_.q[7 + c.source] + c.offset);
+    const double rate =
+        state_.v[6 + c.joint] - c.multiplier * state_.v[6 + c.source];
+    const double acceleration = y[6 + c.joint] - c.multiplier * y[6 + c.source];
+    EXPECT_NEAR(residual[i], acceleration + kd * rate + kp * off, 1e-12);
+  }
+}
+
+TEST_F(TaskTest, PostureIsAPdOnEachJoint) {
+  const Eigen::VectorXd y = RandomY();
+  controller_.reference().posture[3] += 0.1;
+  const Eigen::VectorXd residual = Residual(PostureTask(tree_), y);
+  for (int j = 0; j < n_; ++j) {
+    const double e = j == 3 ? 0.1 : 0;
+    EXPECT_NEAR(residual[j], y[6 + j] - 60 * e + 15 * state_.v[6 + j], 1e-12);
+  }
+}
+
+TEST_F(TaskTest, PostureWeighsAJointByWhatItMoves) {
+  const Eigen::VectorXd weight = Write(PostureTask(tree_)).weight(0);
+  for (int j = 0; j < n_; ++j) {
+    const double moved = controller_.tick().M(6 + j, 6 + j);
+    EXPECT_NEAR(std::pow(weight[j], 2), std::clamp(moved, 0.01, 10.0), 1e-12);
+  }
+  EXPECT_LT(weight[*tree_.FindJoint("l_elbow")],
+            weight[*tree_.FindJoint("chest_pitch")]);
+}
+
+}  // namespace
+}  // namespace poise

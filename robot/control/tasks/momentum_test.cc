@@ -1,0 +1,141 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// What the rows on the robot as a whole mean, its momentum and center of mass:
+// against its own motion a moment later.
+#include "robot/control/tasks/momentum.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "dynamics/tick.h"
+#include "hqp/hierarchy.h"
+#include "math/so3.h"
+#include "robot/control/reference.h"
+#include "robot/control/task.h"
+#include "robot/control/tasks/angular_momentum.h"
+#include "robot/control/tasks/com.h"
+#include "robot/control/tasks/linear_momentum.h"
+#include "robot/control/tasks/newton_euler.h"
+#include "robot/control/tasks/task_fixture.h"
+
+namespace poise {
+namespace {
+
+TEST_F(TaskTest, NewtonEulerIsTheBaseOfTheEquationOfMotion) {
+  const Eigen::VectorXd y = RandomY();
+  const Tick& tick = controller_.tick();
+  Eigen::VectorXd wanted = tick.M * y.head(nv_) + tick.N;
+  for (int i = 0; i < 2; ++i) {
+    wanted -= controller_.contacts()[i].J_WC_C.transpose() *
+              y.segment<6>(nv_ + 6 * i);
+  }
+  const Eigen::VectorXd residual = Residual(NewtonEulerTask(tree_), y);
+  const double weight = tree_.total_mass() * 9.81;
+  EXPECT_LT((residual * weight / 4 - wanted.head<6>()).norm(), 1e-9);
+}
+
+// Along v̇ the robot's own momentum, center of mass and feet change as the rows
+// say: by differences of the same state a moment later.
+TEST_F(TaskTest, RatesOfMomentumAndFeetAreThoseOfTheMotion) {
+  const double h = 1e-6;
+  const Eigen::VectorXd y = RandomY();
+  const Tick before = After(-h, y), after = After(h, y);
+  const double m = tree_.total_mass();
+  const Vector6d rate = (after.L_G - before.L_G) / (2 * h);
+  const Reference& reference = controller_.reference();
+  const Eigen::Vector3d e = reference.p_WG - controller_.tick().p_WG;
+  const Eigen::Vector3d v_G = controller_.tick().v_WG;
+  const Vector6d L = controller_.tick().L_G;
+  // Central differences over 1e-6 s: good to 1e-5 of the rates.
+  const double tolerance = 1e-4;
+
+  const Eigen::VectorXd momentum =
+      Residual(MomentumTask(tree_, robot_.feet), y);
+  const Eigen::Vector3d linear = rate.tail<3>() / m - 30 * e + 10 * v_G;
+  EXPECT_LT((momentum.tail<3>() - linear).norm(), tolerance);
+  // The base is where it should be: no rotation to correct.
+  EXPECT_LT(
+      (momentum.head<3>() - (rate.head<3>() + 10 * L.head<3>()) / m).norm(),
+      tolerance);
+  EXPECT_LT((Residual(ComTask(tree_), y) - linear).norm(), tolerance);
+  EXPECT_LT(
+      (Residual(LinearMomentumTask(tree_), y) - (rate.tail<3>() / m + 10 * v_G))
+          .norm(),
+      tolerance);
+  EXPECT_LT(
+      (Residual(AngularMomentumTask(tree_), y) - momentum.head<3>()).norm(),
+      1e-12);
+}
+
+// What a task asks of y, less what it asks where nothing is to be done: here by
+// a reference that moves, feed-forward, and a base that is turned.
+TEST_F(TaskTest, MomentumGoesWhereItsReferenceGoes) {
+  MomentumTask momentum(tree_, robot_.feet);
+  ComTask com(tree_);
+  LinearMomentumTask linear(tree_);
+  const Eigen::VectorXd y = RandomY();
+  const Eigen::VectorXd before = Residual(momentum, y);
+  const Eigen::VectorXd com_before = Residual(com, y);
+  const Eigen::VectorXd linear_before = Residual(linear, y);
+
+  Reference& reference = controller_.reference();
+  const Eigen::Vector3d p(0.01, -0.02, 0.03), v(0.1, 0.2, -0.3), a(1, 2, 3);
+  const Eigen::Vector3d turn(0.02, -0.03, 0.05);  // rad, in world axes.
+  reference.p_WG += p;
+  reference.v_WG = v;
+  reference.a_WG = a;
+  const Eigen::Matrix3d R_WB = controller_.tick().X_WB[0].R;
+  reference.R_WB = ExpSo3(turn) * R_WB;
+  Eigen::VectorXd asked = before - Residual(momentum, y);
+  EXPECT_LT((asked.head<3>() - 200 / tree_.total_mass() * turn).norm(), 1e-9);
+  EXPECT_LT((asked.tail<3>() - 30 * p).norm(), 1e-9);
+  EXPECT_LT((com_before - Residual(com, y) - (30 * p + 10 * v + a)).norm(),
+            1e-9);
+  EXPECT_LT((linear_before - Residual(linear, y) - (10 * v + a)).norm(), 1e-9);
+
+  for (const Parameter& each : momentum.parameters()) {
+    if (each.name == "feedforward") *each.value = 1;
+  }
+  asked = before - Residual(momentum, y);
+  EXPECT_LT((asked.tail<3>() - (30 * p + 10 * v + a)).norm(), 1e-9);
+}
+
+// The height has its own gains always: it does not fall over.
+TEST_F(TaskTest, MomentumIsStifferInTheLargestPushesButNotInItsHeight) {
+  MomentumTask momentum(tree_, robot_.feet);
+  for (const Parameter& each : momentum.parameters()) {
+    if (each.name == "angular_weight") *each.value = 2;
+  }
+  const Eigen::Vector3d p(0.01, -0.02, 0.03);
+  const auto write = [&](double capture) {
+    hierarchy_ = Hierarchy(nv_ + 12, {{6, 0}});
+    hierarchy_.Clear(1);
+    EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
+    InequalityBlock none = hierarchy_.AddInequalities(0, 0);
+    TaskInput now = input();
+    now.capture = capture;
+    now.correction_W = Eigen::Vector3d(0.1, 0.2, 0.3);
+    momentum.Write(now, &rows, &none);
+    return Eigen::Vector3d(rows.b.tail<3>());
+  };
+  for (const double capture : {0.0, 0.5, 1.0}) {
+    const Eigen::Vector3d before = write(capture);
+    EXPECT_NEAR(hierarchy_.weight(0)[0], 2 * std::pow(0.3 / 2, capture), 1e-12);
+    controller_.reference().p_WG += p;
+    const Eigen::Vector3d asked = before - write(capture);
+    controller_.reference().p_WG -= p;
+    const double kp = 30 + 30 * capture;
+    EXPECT_LT((asked - Eigen::Vector3d(kp, kp, 30).cwiseProduct(p)).norm(),
+              1e-9);
+  }
+  // A correction is an acceleration like any other.
+  const Eigen::Vector3d corrected = write(0);
+  const Eigen::VectorXd plain = Write(momentum).b(0);
+  EXPECT_LT(
+      (plain.tail<3>() - corrected - Eigen::Vector3d(0.1, 0.2, 0.3)).norm(),
+      1e-12);
+}
+
+}  // namespace
+}  // namespace poise
