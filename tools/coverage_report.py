@@ -9,6 +9,7 @@ Called by coverage.sh."""
 import collections
 import json
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -70,7 +71,8 @@ def main():
     for layer in layers:
         files = sorted(
             f for f in lines
-            if f.startswith(layer + "/") and "_test." not in f and "_benchmark." not in f
+            if f.startswith(layer + "/")
+            and not re.search(r"_(test|benchmark|fixture)\.", f)
         )
         run, total, percent = share([n for f in files for n in lines[f].values()])
         b_run, b_total, b_percent = share(

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "dynamics/integrate.h"
-#include "robot/control/bolted_down.h"
+#include "robot/control/bolted_down_fixture.h"
 #include "robot/control/controller_fixture.h"
 #include "tests/util/count_malloc.h"
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "robot/control/bolted_down.h"
+#include "robot/control/bolted_down_fixture.h"
 #include "robot/control/controller.h"
 #include "robot/control/controller_fixture.h"
 
