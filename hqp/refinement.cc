@@ -91,14 +91,15 @@ void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   }
   largest = std::max(largest, Size());
   if (FindLack(hierarchy) > kRefined) {
-    // Where zero was meant, rounding is left, unless it is met worse without.
+    // Where zero was meant, rounding is left, unless levels are met worse without:
+    // by more than a last digit.
     const double missed = WorstMissedLevel();
     change_ = y_;
     for (double& entry : y_) {
       if (std::abs(entry) < kNothing * largest) entry = 0;
     }
     FindLack(hierarchy);
-    if (WorstMissedLevel() > missed) y_ = change_;
+    if (WorstMissedLevel() > 2 * missed) y_ = change_;
   }
   FindResiduals(hierarchy);
 }
