@@ -9,8 +9,9 @@
 namespace poise {
 
 /// The state that a robot starts in, at rest: its nominal posture, laid on the
-/// ground's slope, turned by the heading, lifted by the drop, its feet about the place, with the joints
-/// outside its legs awry by what the seed draws, inside their limits.
+/// ground's slope, turned by the heading, lifted by the drop, its feet about the
+/// place, with the joints outside its legs awry by what the seed draws, inside
+/// their limits.
 State MakeStartState(const Robot& robot, const StartSettings& start,
                      const Ground& ground, unsigned seed);
 

@@ -12,11 +12,12 @@ namespace poise {
 /// tick keeps the part k:
 ///     B y + b = k (B y_last + b),
 ///     C y <= upper + k max(0, C y_last - upper), likewise lower.
-/// and what the rows leave free is k y_last. With k = 1 the last y is the optimum of every rank, with k = 0 nothing is
-/// eased: the product of all k falls from 1 to 0 along a curve of least jerk, so
-/// y, and the torques of it, go from the one hierarchy to the other without a
-/// jump, and every rank is still strict. (An intermediate desired value as of Lee,
-/// Mansard and Park, 2012, but of the last solution instead of a second one.)
+/// and what the rows leave free is k y_last. With k = 1 the last y is the optimum
+/// of every rank, with k = 0 nothing is eased: the product of all k falls from 1
+/// to 0 along a curve of least jerk, so y, and the torques of it, go from the one
+/// hierarchy to the other without a jump, and every rank is still strict. (An
+/// intermediate desired value as of Lee, Mansard and Park, 2012, but of the last
+/// solution instead of a second one.)
 class Ramp {
  public:
   explicit Ramp(int num_variables)

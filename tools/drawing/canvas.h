@@ -51,7 +51,8 @@ class Canvas {
 /// Pixels of a PNG for each point of a picture, along x and y.
 constexpr double kPixelsPerPoint = 2;
 
-/// Draws the same picture twice: STEM.svg and STEM.png. Throws std::invalid_argument if a file cannot be written.
+/// Draws the same picture twice: STEM.svg and STEM.png. Throws
+/// std::invalid_argument if a file cannot be written.
 void WritePicture(const std::filesystem::path& stem,
                   const Eigen::Vector2d& size,
                   const std::function<void(Canvas*)>& draw);
