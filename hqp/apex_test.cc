@@ -96,7 +96,9 @@ TEST(Apex, IsSolvedWhateverIsAskedFor) {
 TEST(Apex, ALastDigitElsewhereDoesNotKeepAZeroFromBeingOne) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 2}};
   std::mt19937 random(1);
-  const auto draw = [&random] { return 0.5 + random() % 251 / 100.0; };
+  const auto draw = [&random] {
+    return 0.5 + static_cast<int>(random() % 251) / 100.0;
+  };
   for (int i = 0; i < 1000; ++i) {
     Hierarchy hierarchy(3, capacity);
     InequalityBlock first = hierarchy.AddInequalities(0, 2);
