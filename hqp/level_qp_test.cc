@@ -356,6 +356,31 @@ TEST_P(LevelQpTest, EndsWhereStepsOfNoLengthLeadInACircle) {
   EXPECT_LE((qp.z - Eigen::Vector4d(1, 0, 1, 0)).norm(), Rounding(20, 4, 20));
 }
 
+// Violated above 2, it is drawn to -10, beyond its other bound, 1: in one step,
+// and at that bound in the next. Drawn to 1.5 it is free.
+TEST_P(LevelQpTest, ASoftRowLeavesOneBoundForTheOther) {
+  for (const double sign : {1., -1.}) {
+    for (const double wish : {-10., 1.5}) {
+      LevelQp qp =
+          MakeQp(Number(10), Numbers(-10 * wish * sign), Number(1), true);
+      qp.value[0] = -20 * sign;
+      qp.lower[0] = -18.5 * sign - 0.5;
+      qp.upper[0] = -18.5 * sign + 0.5;
+      qp.z[0] = 5 * sign;
+      qp.side[0] = sign > 0 ? Side::kUpper : Side::kLower;
+      EXPECT_EQ(Solve(&qp), 2);
+      if (wish > 0) {
+        EXPECT_EQ(qp.side[0], Side::kNone);
+        EXPECT_NEAR(qp.z[0], wish * sign, Rounding(2, 2));
+      } else {
+        EXPECT_EQ(qp.side[0], sign > 0 ? Side::kLower : Side::kUpper);
+        // 10 (10 z + 100) = 1 - z.
+        EXPECT_NEAR(qp.z[0], -999. / 101 * sign, Rounding(20, 2));
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(BothWays, LevelQpTest,
                          testing::Values(RowSpaceMethod::kSvd,
                                          RowSpaceMethod::kCod));
