@@ -3,11 +3,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <functional>
+#include <iostream>
 #include <mutex>
+#include <new>
 #include <set>
+#include <shared_mutex>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "robot/control/controller.h"
 #include "robot/profile.h"
@@ -113,19 +120,68 @@ TEST(RealTime, HasScenariosToRun) { EXPECT_GE(ScenarioFiles().size(), 6u); }
 
 TEST(ForbiddenCalls, AreSeen) {
   if (!ForbiddenCalls::IsSupported()) GTEST_SKIP() << "under a sanitizer";
-  std::mutex mutex;
   const ForbiddenCalls forbidden;
   EXPECT_EQ(forbidden.throws() + forbidden.locks() + forbidden.writes(), 0);
   try {
     throw std::runtime_error("a test of the test");
   } catch (const std::runtime_error&) {
   }
-  mutex.lock();
-  mutex.unlock();
-  (void)!write(STDERR_FILENO, "\n", 1);
   EXPECT_EQ(forbidden.throws(), 1);
-  EXPECT_EQ(forbidden.locks(), 1);
-  EXPECT_EQ(forbidden.writes(), 1);
+}
+
+// Each way to lock or write by itself: none hides behind another.
+TEST(ForbiddenCalls, AreSeenInEachWay) {
+  if (!ForbiddenCalls::IsSupported()) GTEST_SKIP() << "under a sanitizer";
+  std::mutex mutex;
+  std::shared_mutex shared;
+  int number = 7;
+  const std::vector<std::function<void()>> locks = {
+      [&] { mutex.lock(), mutex.unlock(); },
+      [&] { (void)mutex.try_lock(), mutex.unlock(); },
+      [&] { shared.lock(), shared.unlock(); },
+      [&] { shared.lock_shared(), shared.unlock_shared(); },
+  };
+  for (size_t i = 0; i < locks.size(); ++i) {
+    const ForbiddenCalls forbidden;
+    locks[i]();
+    EXPECT_EQ(forbidden.locks(), 1) << i;
+    EXPECT_EQ(forbidden.throws() + forbidden.writes(), 0) << i;
+  }
+  const std::vector<std::function<void()>> writes = {
+      [&] { (void)!write(STDERR_FILENO, "\n", 1); },
+      [&] { std::printf("%d\n", number); },
+      [&] { std::fprintf(stderr, "%d\n", number); },
+      [&] { std::puts("a line"); },
+      [&] { std::fputs("a line\n", stderr); },
+      [&] { std::cout << number << std::endl; },
+      [&] { std::cerr << "a line\n"; },
+  };
+  for (size_t i = 0; i < writes.size(); ++i) {
+    const ForbiddenCalls forbidden;
+    writes[i]();
+    EXPECT_GE(forbidden.writes(), 1) << i;
+    EXPECT_EQ(forbidden.throws(), 0) << i;
+  }
+}
+
+TEST(CountMalloc, SeesEachWay) {
+  if (!CountMalloc::IsSupported()) GTEST_SKIP() << "under a sanitizer";
+  void* pointer = nullptr;
+  const std::vector<std::function<void()>> ways = {
+      [&] { pointer = std::malloc(8); },
+      [&] { pointer = std::calloc(1, 8); },
+      [&] { pointer = std::realloc(nullptr, 8); },
+      [&] { pointer = std::aligned_alloc(64, 64); },
+      [&] { ASSERT_EQ(posix_memalign(&pointer, 64, 64), 0); },
+      [&] { pointer = ::operator new(8); },
+      [&] { pointer = ::operator new(64, std::align_val_t(64)); },
+  };
+  for (size_t i = 0; i < ways.size(); ++i) {
+    const CountMalloc count;
+    ways[i]();
+    EXPECT_EQ(count.allocations(), 1) << i;
+    std::free(pointer);
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "tests/util/count_malloc.h"
 
+#include <cerrno>
 #include <cstddef>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -44,6 +45,7 @@ extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* pointer, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
 
 void* malloc(std::size_t size) {
   poise::Count();
@@ -58,6 +60,17 @@ void* calloc(std::size_t count, std::size_t size) {
 void* realloc(void* pointer, std::size_t size) {
   poise::Count();
   return __libc_realloc(pointer, size);
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  poise::Count();
+  return __libc_memalign(alignment, size);
+}
+
+int posix_memalign(void** pointer, std::size_t alignment, std::size_t size) {
+  poise::Count();
+  *pointer = __libc_memalign(alignment, size);
+  return *pointer == nullptr ? ENOMEM : 0;
 }
 }
 

@@ -1,11 +1,18 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "tests/util/forbidden_calls.h"
 
+// Else these would be replaced by others while they are defined here.
+#undef _FORTIFY_SOURCE
+
 #include <dlfcn.h>
 #include <pthread.h>
+#include <semaphore.h>
 #include <sys/types.h>
+#include <sys/uio.h>
 
+#include <cstdarg>
 #include <cstddef>
+#include <cstdio>
 #include <typeinfo>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -62,18 +69,57 @@ extern "C" {
   __builtin_unreachable();
 }
 
-int pthread_mutex_lock(pthread_mutex_t* mutex) {
-  if (poise::g_counting) ++poise::g_locks;
-  static auto* const next =
-      poise::Next<int(pthread_mutex_t*)>("pthread_mutex_lock");
-  return next(mutex);
+// Of C's functions, by how they are declared.
+#define POISE_COUNT(counter, result, name, parameters, arguments)    \
+  result name parameters {                                           \
+    if (poise::g_counting) ++poise::counter;                         \
+    static auto* const next = poise::Next<result parameters>(#name); \
+    return next arguments;                                           \
+  }
+
+POISE_COUNT(g_locks, int, pthread_mutex_lock, (pthread_mutex_t * lock), (lock))
+POISE_COUNT(g_locks, int, pthread_mutex_trylock, (pthread_mutex_t * lock),
+            (lock))
+POISE_COUNT(g_locks, int, pthread_rwlock_rdlock, (pthread_rwlock_t * lock),
+            (lock))
+POISE_COUNT(g_locks, int, pthread_rwlock_wrlock, (pthread_rwlock_t * lock),
+            (lock))
+POISE_COUNT(g_locks, int, pthread_spin_lock, (pthread_spinlock_t * lock),
+            (lock))
+POISE_COUNT(g_locks, int, sem_wait, (sem_t * lock), (lock))
+
+POISE_COUNT(g_writes, ssize_t, write,
+            (int file, const void* data, std::size_t size), (file, data, size))
+POISE_COUNT(g_writes, ssize_t, writev, (int file, const iovec* data, int count),
+            (file, data, count))
+POISE_COUNT(g_writes, std::size_t, fwrite,
+            (const void* data, std::size_t size, std::size_t count, FILE* file),
+            (data, size, count, file))
+POISE_COUNT(g_writes, int, fputs, (const char* text, FILE* file), (text, file))
+POISE_COUNT(g_writes, int, fputc, (int character, FILE* file),
+            (character, file))
+POISE_COUNT(g_writes, int, putc, (int character, FILE* file), (character, file))
+POISE_COUNT(g_writes, int, puts, (const char* text), (text))
+POISE_COUNT(g_writes, int, vfprintf,
+            (FILE * file, const char* format, va_list list),
+            (file, format, list))
+
+#undef POISE_COUNT
+
+int fprintf(FILE* file, const char* format, ...) {
+  va_list list;
+  va_start(list, format);
+  const int result = vfprintf(file, format, list);
+  va_end(list);
+  return result;
 }
 
-ssize_t write(int file, const void* data, std::size_t size) {
-  if (poise::g_counting) ++poise::g_writes;
-  static auto* const next =
-      poise::Next<ssize_t(int, const void*, std::size_t)>("write");
-  return next(file, data, size);
+int printf(const char* format, ...) {
+  va_list list;
+  va_start(list, format);
+  const int result = vfprintf(stdout, format, list);
+  va_end(list);
+  return result;
 }
 }
 

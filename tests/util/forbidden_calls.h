@@ -4,8 +4,9 @@
 namespace poise {
 
 /// Counts what a control loop must not do, in this thread, while it lives:
-/// throw (also if it is caught), lock a mutex, write to a file or terminal. For
-/// allocations there is CountMalloc.
+/// throw (also if it is caught), lock (a mutex or other lock, also by trying, or
+/// wait), write to a file or terminal, by the system's call or by stdio, as
+/// streams do. For allocations there is CountMalloc.
 ///
 /// Under a sanitizer, which has its own of these functions, nothing is seen.
 class ForbiddenCalls {
