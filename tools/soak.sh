@@ -17,7 +17,7 @@ shift
 targets=("$@")
 if [ ${#targets[@]} = 0 ]; then
   mapfile -t targets < <(bazel query --noshow_progress \
-    'kind("cc_test rule", rdeps(//..., @rapidcheck//:rapidcheck, 1))' 2> /dev/null)
+    'kind("cc_test rule", rdeps(//..., @rapidcheck//:rapidcheck))' 2> /dev/null)
 fi
 home=${POISE_SOAK:-$HOME/.cache/poise/soak}
 mkdir -p "$home"
