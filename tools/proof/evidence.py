@@ -24,6 +24,8 @@ _ORACLE_NAME = re.compile(
 )
 # What is put in comes back, or stays, whatever it was.
 _PROPERTY_NAME = re.compile(r"ComeBack|KeepEach")
+# That it does not allocate or takes no nonsense says nothing of its numbers.
+_ASIDE_NAME = re.compile(r"Alloc|Throw|Refuse|NotFinite")
 _TEST_MACROS = {
     "TEST", "TEST_F", "TEST_P", "TYPED_TEST", "RC_GTEST_PROP",
     "RC_GTEST_FIXTURE_PROP",
@@ -36,7 +38,9 @@ class Test:
         self.name = f"{suite}.{name}"
         self.words = words
         self.headers = headers
-        if "ceres" in words:
+        if _ASIDE_NAME.search(name):
+            self.kind = "closed form"
+        elif "ceres" in words:
             self.kind = "Ceres"
         elif is_property or {"rc", "check"} <= words or _PROPERTY_NAME.search(name):
             self.kind = "property"
@@ -181,7 +185,11 @@ class Workspace:
             for path in sorted((self.root / "tests/util").glob("*"))
             if path.suffix in (".h", ".cc") and not path.stem.endswith("_test")
         ]
-        common = Helpers(self.source(path) for path in util)
+        # Of tests/util what a test includes: words such as Set or Solve are names
+        # of many things there.
+        common = functools.lru_cache(None)(
+            lambda paths: Helpers(self.source(path) for path in sorted(paths))
+        )
         tests = []
         for folder in LAYERS + ("tests", "robot"):
             for path in sorted((self.root / folder).rglob("*_test.cc")):
@@ -193,7 +201,9 @@ class Workspace:
                     if helper in util:
                         headers = headers | self.headers(helper)
                 fixtures = headers & self.test_headers(path.rpartition("/")[0])
-                helpers = common.extended(
+                stems = {header.rsplit(".", 1)[0] for header in headers}
+                used = {each for each in util if each.rsplit(".", 1)[0] in stems}
+                helpers = common(frozenset(used)).extended(
                     [source] + [self.source(fixture) for fixture in fixtures]
                 )
                 for function in source.functions:

@@ -11,8 +11,9 @@ leads to it, if mutants of its own die.
 
   bazel run //tools:proof             writes docs/proof.md
   bazel run //tools:proof -- --check  exit code 1 if a function has no proof, if
-                                      none of its mutants died or was tried, or
-                                      if docs/proof.md says other than that
+                                      none of its mutants died or was tried, if
+                                      docs/proof.md says other than that, or if
+                                      survivors.txt does not explain a survivor
 """
 
 import argparse
@@ -26,6 +27,7 @@ _HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(_HERE), str(_HERE.parent / "mutation")]
 
 from evidence import KINDS, LAYERS, Workspace  # noqa: E402
+from survivors import read_entries  # noqa: E402
 from table import make_rows, read_results  # noqa: E402
 
 # What people wrote stands above this line, what this program writes below.
@@ -45,7 +47,8 @@ def table(head, rows):
     ]
 
 
-def summary(rows, results):
+def sums(rows, results):
+    """By layer, how many functions have what, and what their mutants did."""
     lines = []
     for layer in LAYERS:
         group = [row for row in rows if row.layer == layer]
@@ -62,13 +65,12 @@ def summary(rows, results):
                f"{killed} of {tried}" + (
                    f", {100 * killed / tried:.1f} %" if tried else "")]
         )
-    return table(
-        ["layer", "functions", *KINDS, "by another", "mutants killed"], lines
-    )
+    return lines
 
 
 def page(rows, results):
-    lines = ["", *summary(rows, results), ""]
+    head = ["layer", "functions", *KINDS, "by another", "mutants killed"]
+    lines = ["", *table(head, sums(rows, results)), ""]
     groups = collections.OrderedDict()
     for row in rows:
         groups.setdefault(row.path, []).append(row.cells())
@@ -81,12 +83,7 @@ def page(rows, results):
     return "\n".join(lines)
 
 
-def _kind(score):
-    """Without its numbers, which change with every line that is moved."""
-    return re.sub(r"\d+ of \d+", "tried", score)
-
-
-def stale(file, rows):
+def stale(file, rows, results):
     """Where the page differs from the table, in what a reader would rely on."""
     said, path = {}, None
     text = file.read_text().split(_MARKER)[-1] if file.is_file() else ""
@@ -103,7 +100,7 @@ def stale(file, rows):
         if cells is None:
             complaints.append(f"{row.path}: {row.name}: is not in {file.name}")
             continue
-        if _kind(cells[-1]) != _kind(row.score):
+        if cells[-1] != row.score:
             complaints.append(
                 f"{row.path}: {row.name}: {file.name} has mutants '{cells[-1]}', "
                 f"docs/mutation.json '{row.score}'"
@@ -113,8 +110,34 @@ def stale(file, rows):
                 complaints.append(
                     f"{row.path}: {row.name}: {file.name} names {cell}, no such test"
                 )
+    complaints += [
+        f"{file.name} does not sum up: {cells[0]}: {cells[-1]}"
+        for cells in sums(rows, results)
+        if not any(
+            line.startswith(f"| {cells[0]} ") and cells[-1] in line
+            for line in text.splitlines()
+        )
+    ]
     return complaints + [
         f"{path}: {name}: is in {file.name}, but no function" for path, name in said
+    ]
+
+
+def unexplained(file, results):
+    """Survivors of which the file says nothing, and what it says of others."""
+    said = set(read_entries(file))
+    survivors = {
+        (path if name == "(constants)" else f"{path} {name}", s["before"], s["after"])
+        for path, functions in results.items()
+        for name, row in functions.items()
+        for s in row.get("survivors", [])
+    }
+    return [
+        f"{file.name} does not say why this survived: {' / '.join(s)}"
+        for s in sorted(survivors - said)
+    ] + [
+        f"{file.name} explains what is no survivor: {' / '.join(s)}"
+        for s in sorted(said - survivors)
     ]
 
 
@@ -137,7 +160,10 @@ def main():
         head = file.read_text().split(_MARKER)[0]
         file.write_text(head + _MARKER + "\n" + page(rows, read_results(workspace)))
     without = len(complaints)
-    complaints += stale(file, rows)
+    complaints += stale(file, rows, read_results(workspace))
+    complaints += unexplained(
+        root / "tools/mutation/survivors.txt", read_results(workspace)
+    )
     for complaint in complaints:
         print(complaint)
     print(f"{len(rows)} public functions, {without} without proof")

@@ -74,7 +74,7 @@ class Row:
 
     @property
     def is_untried(self):
-        return bool(self.mutants) and not self.tried and not self.equivalent
+        return not self.tried and self.equivalent < self.mutants
 
     @property
     def score(self):
@@ -82,7 +82,7 @@ class Row:
             return f"{self.killed} of {self.tried}"
         if not self.mutants:
             return "none"
-        return "equivalent" if self.equivalent else "not tried"
+        return "not tried" if self.is_untried else "equivalent"
 
     def cells(self):
         cells = [self.tests[k][0].name if self.tests[k] else "" for k in KINDS]
