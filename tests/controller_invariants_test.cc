@@ -4,151 +4,268 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 
+#include "hqp/cascade.h"
+#include "hqp/solution.h"
 #include "robot/control/controller.h"
+#include "tests/util/arbitrary.h"
 #include "tests/util/random_biped.h"
-#include "tests/util/random_tree.h"
+#include "tests/util/tolerance.h"
 
 namespace poise {
 namespace {
 
 // What each tick must keep, whatever the robot and its state; in the problem's
-// own scale, where a limit or a robot's weight is about 1.
+// own scale, where a limit or a quarter of a robot's weight is about 1. The
+// solver keeps a row to 1e-9 |C_i| |y|, and |y| goes up to 1e3.
 constexpr double kTolerance = 1e-6;
 constexpr double kMu = 0.5;
+constexpr double kDt = 1e-3;
+
+using Wrench = Eigen::Matrix<double, 6, 1>;
+
+// Which condition of a sole the ground's wrench on it, about and in the axes of
+// C, breaks by more than `allowed`, N or N m; or nothing.
+std::string BrokenBy(const Wrench& F, const Foot& foot, double allowed) {
+  const double fz = std::max(F[5], 0.0);
+  const Eigen::Vector2d half = foot.half_size;
+  if (F[5] < -allowed) return "a foot pulls";
+  if (std::abs(F[3]) > kMu * fz + allowed) return "friction in x";
+  if (std::abs(F[4]) > kMu * fz + allowed) return "friction in y";
+  if (std::abs(F[1]) > half.x() * fz + allowed) return "CoP in x";
+  if (std::abs(F[0]) > half.y() * fz + allowed) return "CoP in y";
+  if (std::abs(F[2]) > kMu * half.sum() * fz + allowed) return "yaw moment";
+  return "";
+}
 
 struct Balance {
   Robot robot;
   Controller controller;
   State state;
   Command command;
+  // What the joints did that no solution said, and what the last one said.
+  Eigen::VectorXd unexpected, expected_v;
 
-  explicit Balance(std::mt19937* draw)
-      : robot(MakeRandomBiped(draw)), controller(robot) {
+  explicit Balance(const BipedCase& from)
+      : robot(MakeBiped(from)), controller(robot) {
     const Tree& tree = robot.model.tree;
     state = {0, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv())};
     controller.Start(state);
     command.tau.setZero(tree.num_joints());
+    unexpected.setZero(tree.nv());
   }
 
   void Update() {
-    state.time += 1e-3;
+    state.time += kDt;
+    if (expected_v.size() > 0) {
+      const double share = 1 - std::exp(-kDt / 0.02);
+      unexpected += share * ((state.v - expected_v) / kDt - unexpected);
+      unexpected = unexpected.cwiseMax(-100).cwiseMin(100);
+    }
     controller.Update(state, &command);
+    expected_v = state.v + kDt * y().head(state.v.size());
   }
 
+  const Eigen::VectorXd& y() const { return controller.report().y; }
   double weight() const { return 9.81 * robot.model.tree.total_mass(); }
+  Wrench wrench(int foot) const {
+    return y().segment<6>(state.v.size() + 6 * foot);
+  }
 
-  // What is broken, or nothing.
-  std::string Broken() const {
-    const Tree& tree = robot.model.tree;
-    if (!command.tau.allFinite()) return "a torque is not finite";
-    for (int j = 0; j < tree.num_joints(); ++j) {
-      if (std::abs(command.tau[j]) > robot.model.limits[j].effort) {
-        return "torque limit of " + tree.joints()[j].name;
+  // How far a row of this rank may be off, by another solver: the root of the
+  // sum of squares that no y can be below. Zero where all can be met.
+  double Needed(int rank) const {
+    const Hierarchy& hierarchy = controller.hierarchy();
+    const std::vector<LevelCapacity> capacity = controller.stack().capacity();
+    const int n = static_cast<int>(y().size());
+    Solution solution(n, capacity);
+    if (Cascade(n, capacity).Solve(hierarchy, &solution) != Status::kOptimal) {
+      return 0;
+    }
+    double needed = 0;
+    for (int level = 0; level < hierarchy.num_levels(); ++level) {
+      if (controller.stack().rank_of_level(level) == rank) {
+        needed = std::sqrt(2 * solution.levels[level].cost);
       }
     }
+    return needed;
+  }
+
+  bool CanMeetLimitsAndCones() const {
+    return Needed(2) < kTolerance && Needed(3) < kTolerance;
+  }
+
+  // What is broken, or nothing: of v̇, λ and τ, not of what the report says.
+  std::string Broken() const {
+    if (!command.tau.allFinite()) return "a torque is not finite";
     if (command.status != controller.report().status) return "status";
     if (command.status == TickStatus::kFailSafe) return "it failed safe";
-    // A hierarchy cut off above the cones says nothing of them.
-    const bool has_cones = controller.report().failed_rank == 0 ||
-                           controller.report().failed_rank > 3;
-    const std::string broken = has_cones ? BrokenByWrenches() : "";
-    return broken.empty() ? BrokenByDynamics() : broken;
-  }
-
-  // What a task admits to be short of, in N or N m: its rows are divided by a
-  // quarter of the weight.
-  double Allowed(const char* task) const {
-    const int i = *controller.stack().Find(task);
-    return (kTolerance + controller.report().tasks[i].slack) * weight() / 4;
-  }
-
-  // The cones of the soles: broken no further than the report says.
-  std::string BrokenByWrenches() const {
-    for (int i = 0; i < static_cast<int>(robot.feet.size()); ++i) {
-      const Eigen::Matrix<double, 6, 1> F =
-          controller.report().foot_wrench(robot.model.tree.nv(), i);
-      const double fz = std::max(F[5], 0.0);
-      const Eigen::Vector2d half = robot.feet[i].half_size;
-      const double slip = kMu * fz + Allowed("friction");
-      const double tilt = Allowed("cop");
-      if (F[5] < -Allowed("unilateral")) return "a foot pulls";
-      if (std::abs(F[3]) > slip) return "friction in x";
-      if (std::abs(F[4]) > slip) return "friction in y";
-      if (std::abs(F[1]) > half.x() * fz + tilt) return "CoP in x";
-      if (std::abs(F[0]) > half.y() * fz + tilt) return "CoP in y";
-      if (std::abs(F[2]) > kMu * half.sum() * fz + Allowed("yaw")) {
-        return "yaw moment";
+    // A hierarchy cut off says nothing of the ranks below.
+    const int failed_rank = controller.report().failed_rank;
+    std::string broken = BrokenByDynamics();
+    if (broken.empty() && (failed_rank == 0 || failed_rank > 2)) {
+      broken = BrokenByJoints(kTolerance + Needed(2));
+    }
+    if (broken.empty() && (failed_rank == 0 || failed_rank > 3)) {
+      const double allowed = (kTolerance + Needed(3)) * weight() / 4;
+      for (int i = 0; i < 2 && broken.empty(); ++i) {
+        broken = BrokenBy(wrench(i), robot.feet[i], allowed);
       }
+    }
+    return broken;
+  }
+
+  // (10).
+  Eigen::VectorXd Torque() const {
+    const Tick& tick = controller.tick();
+    const int n = robot.model.tree.num_joints();
+    Eigen::VectorXd tau = (tick.M * y().head(state.v.size()) + tick.N).tail(n);
+    for (int i = 0; i < 2; ++i) {
+      tau -=
+          controller.contacts()[i].J_WC_C.transpose().bottomRows(n) * wrench(i);
+    }
+    return tau;
+  }
+
+  // Torques and accelerations of the joints beyond what limits allow, in units
+  // of the limit, and of ω² rad.
+  std::string BrokenByJoints(double allowed) const {
+    const Tree& tree = robot.model.tree;
+    const double w = 40, margin = 0.008;
+    const Eigen::VectorXd tau = Torque();
+    for (int j = 0; j < tree.num_joints(); ++j) {
+      const JointLimits& limits = robot.model.limits[j];
+      const std::string& name = tree.joints()[j].name;
+      if (std::abs(command.tau[j]) > limits.effort) return "torque of " + name;
+      if (std::abs(tau[j]) > limits.effort * (1 + allowed)) {
+        return "torque of " + name + " before it is cut off";
+      }
+      // As if the joint came to rest at the limit with two poles at -ω.
+      const double q = state.q[tree.q_start() + j];
+      const double v = state.v[tree.v_start() + j];
+      const double a = y()[tree.v_start() + j] + unexpected[tree.v_start() + j];
+      const double lower =
+          std::max(w * w * (limits.lower + margin - q) - 2 * w * v,
+                   -w * (limits.velocity + v));
+      const double upper =
+          std::min(w * w * (limits.upper - margin - q) - 2 * w * v,
+                   w * (limits.velocity - v));
+      if (lower > upper) continue;  // Too fast for both.
+      if (a < lower - w * w * allowed) return "lower limit of " + name;
+      if (a > upper + w * w * allowed) return "upper limit of " + name;
     }
     return "";
   }
 
-  // M v̇ + N = S' tau + J' lambda, all of it where no torque was cut off.
+  // M v̇ + N = S' tau + J' lambda: of the base by rank 1, of the joints by the
+  // torques, but where they are cut off.
   std::string BrokenByDynamics() const {
-    const Tree& tree = robot.model.tree;
     const Tick& tick = controller.tick();
-    const Eigen::VectorXd& y = controller.report().y;
-    Eigen::VectorXd residual = tick.M * y.head(tree.nv()) + tick.N;
-    for (int i = 0; i < static_cast<int>(robot.feet.size()); ++i) {
-      residual -= controller.contacts()[i].J_WC_C.transpose() *
-                  controller.report().foot_wrench(tree.nv(), i);
+    const int nv = static_cast<int>(state.v.size());
+    Eigen::VectorXd residual = tick.M * y().head(nv) + tick.N;
+    for (int i = 0; i < 2; ++i) {
+      residual -= controller.contacts()[i].J_WC_C.transpose() * wrench(i);
     }
-    residual.tail(tree.num_joints()) -= command.tau;
-    const double scale = weight() + (tick.M * y.head(tree.nv())).norm();
+    // The solver's bar, relative to what is added up.
+    const double scale = weight() + (tick.M * y().head(nv)).norm();
     if (residual.head<6>().norm() > 1e-9 * scale) return "Newton-Euler";
-    if (command.status == TickStatus::kOk &&
-        residual.norm() > kTolerance * scale) {
-      return "torques by (10)";
+    const Eigen::VectorXd tau = Torque();
+    for (int j = 0; j < tau.size(); ++j) {
+      const double effort = robot.model.limits[j].effort;
+      if (std::abs(command.tau[j] - std::clamp(tau[j], -effort, effort)) >
+          Rounding(scale, nv + 12)) {
+        return "torques by (10)";
+      }
     }
     return "";
   }
 };
 
 RC_GTEST_PROP(ControllerInvariants, StandingStillHoldsAnyBiped, ()) {
-  std::mt19937 draw(*rc::gen::inRange<unsigned>(0, 1u << 30));
-  Balance run(&draw);
+  Balance run(*Bipeds());
   run.Update();
   RC_ASSERT(run.Broken() == "");
   RC_ASSERT(run.command.status == TickStatus::kOk);
-  for (const TaskReport& task : run.controller.report().tasks) {
-    RC_ASSERT(task.slack < kTolerance);
-  }
+  RC_ASSERT(run.CanMeetLimitsAndCones());
   // At rest in its posture: the feet carry its weight.
-  const int nv = run.robot.model.tree.nv();
-  const double force = run.controller.report().foot_wrench(nv, 0)[5] +
-                       run.controller.report().foot_wrench(nv, 1)[5];
+  const double force = run.wrench(0)[5] + run.wrench(1)[5];
   RC_ASSERT(std::abs(force - run.weight()) < 0.2 * run.weight());
 }
 
 RC_GTEST_PROP(ControllerInvariants, HoldInAnyPostureAndUnderAnyPush, ()) {
-  std::mt19937 draw(*rc::gen::inRange<unsigned>(0, 1u << 30));
-  const int posture = *rc::gen::inRange(0, 20);  // Hundredths of a rad.
-  const int speed = *rc::gen::inRange(0, 100);   // cm/s, and of the joints.
-  const int ticks = *rc::gen::inRange(1, 4);
-  Balance run(&draw);
+  Balance run(*Bipeds());
   const Tree& tree = run.robot.model.tree;
+  // From a posture and push in which all can be met to those in which not.
+  const double part = *rc::gen::element(0.03, 1.0);
+  const int ticks = *rc::gen::inRange(1, 4);
   run.state.q.tail(tree.num_joints()) +=
-      0.01 * posture * MakeRandomVector(tree.num_joints(), &draw);
+      *VectorsXd(tree.num_joints(), 0.2 * part);
   for (int i = 0; i < ticks; ++i) {
-    run.state.v = 0.01 * speed * MakeRandomVector(tree.nv(), &draw);
+    run.state.v = *VectorsXd(tree.nv(), part);
     run.state.v.segment<3>(3) *= 3;  // Enough for a foot to want to slip.
     run.Update();
     RC_ASSERT(run.Broken() == "");
+    RC_ASSERT(part == 1 || run.CanMeetLimitsAndCones());
   }
 }
 
 TEST(ControllerInvariants, NoticeATorqueBeyondItsLimit) {
-  std::mt19937 draw(1);
-  Balance run(&draw);
+  Balance run({});
   run.Update();
   ASSERT_EQ(run.Broken(), "");
   run.command.tau[3] = 1.01 * run.robot.model.limits[3].effort;
-  EXPECT_NE(run.Broken(), "");
+  EXPECT_EQ(run.BrokenByJoints(kTolerance), "torque of l_knee");
   run.command.tau[3] = 0;
   EXPECT_EQ(run.Broken(), "torques by (10)");
+}
+
+// Each just inside and just outside of what it may be, to either side.
+TEST(ControllerInvariants, NoticeAWrenchJustOutsideOfItsCone) {
+  const Foot foot = MakeBiped({}).feet[0];
+  const double fz = 400, X = foot.half_size.x(), Y = foot.half_size.y();
+  const struct {
+    int entry;
+    double limit;
+    const char* broken;
+  } cases[] = {
+      {3, kMu * fz, "friction in x"},
+      {4, kMu * fz, "friction in y"},
+      {1, X * fz, "CoP in x"},
+      {0, Y * fz, "CoP in y"},
+      {2, kMu * (X + Y) * fz, "yaw moment"},
+  };
+  for (const auto& each : cases) {
+    for (const double side : {-1.0, 1.0}) {
+      Wrench F = fz * Wrench::Unit(5);
+      F[each.entry] = side * (each.limit - 1e-6);
+      EXPECT_EQ(BrokenBy(F, foot, 0), "");
+      F[each.entry] = side * (each.limit + 1e-6);
+      EXPECT_EQ(BrokenBy(F, foot, 0), each.broken);
+    }
+  }
+  EXPECT_EQ(BrokenBy(Wrench::Zero(), foot, 0), "");
+  EXPECT_EQ(BrokenBy(-1e-6 * Wrench::Unit(5), foot, 0), "a foot pulls");
+}
+
+// A knee as near to its limit, and as fast, as it may be with this
+// acceleration, and a little nearer.
+TEST(ControllerInvariants, NoticeAJointThatCannotStopBeforeItsLimit) {
+  Balance run({});
+  run.Update();
+  ASSERT_EQ(run.Broken(), "");
+  const Tree& tree = run.robot.model.tree;
+  const int knee = *tree.FindJoint("l_knee");
+  const double a = run.y()[tree.v_start() + knee];
+  const double q = run.state.q[tree.q_start() + knee];
+  JointLimits& limits = run.robot.model.limits[knee];
+  limits.upper = q + 0.008 + a / 1600 + 1e-5;
+  EXPECT_EQ(run.BrokenByJoints(kTolerance), "");
+  limits.upper -= 2e-5;
+  EXPECT_EQ(run.BrokenByJoints(kTolerance), "upper limit of l_knee");
+  limits.upper = 3;
+  limits.lower = q - 0.008 + a / 1600 + 1e-5;
+  EXPECT_EQ(run.BrokenByJoints(kTolerance), "lower limit of l_knee");
 }
 
 }  // namespace

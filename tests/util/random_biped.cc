@@ -3,44 +3,44 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <ostream>
 #include <string>
+#include <tuple>
 
-#include "tests/util/random_tree.h"
+#include "tests/util/arbitrary.h"
 
 namespace poise {
 namespace {
 
 class BipedMaker {
  public:
-  explicit BipedMaker(std::mt19937* draw) : draw_(draw) {}
+  explicit BipedMaker(const BipedCase& from)
+      : from_(from),
+        mass_(from.mass),
+        thigh_(from.thigh),
+        shank_(from.shank),
+        ankle_(from.ankle) {}
 
   Robot Make() {
-    mass_ = Between(20, 80);
-    shank_ = Between(0.25, 0.5);
-    thigh_ = shank_ * Between(0.9, 1.1);
-    ankle_ = Between(0.05, 0.12);
-    hip_ = Between(0.07, 0.12);
-    const double trunk = Between(0.2, 0.6);
     builder_.AddLink("pelvis", Box(0.2, {0.1, 0.1, 0.05}));
-    AddLeg("l_", hip_);
-    AddLeg("r_", -hip_);
-    AddChain(static_cast<int>((*draw_)() % 8), trunk);
+    AddLeg("l_", from_.hip);
+    AddLeg("r_", -from_.hip);
+    AddChain();
 
     Robot robot{{"biped", builder_.Build(), {}, {}, {}, {}, 0}, {}, {}, true};
     robot.model.root_frame = *robot.model.tree.FindFrame("pelvis");
-    robot.model.limits.assign(robot.model.tree.num_joints(),
-                              {-2.5, 2.5, 20, 6 * mass_});
     for (const char* side : {"l_", "r_"})
       robot.feet.push_back(MakeFoot(robot, side));
     robot.q_nominal = Stand(robot.model.tree);
+    for (int j = 0; j < robot.model.tree.num_joints(); ++j) {
+      const double q = robot.q_nominal[robot.model.tree.q_start() + j];
+      robot.model.limits.push_back(
+          {q - from_.room, q + from_.room, 20, 6 * mass_});
+    }
     return robot;
   }
 
  private:
-  double Between(double low, double high) {
-    return low + (high - low) * 0.5 * (1 + MakeRandomVector(1, draw_)[0]);
-  }
-
   // A box of a share of the mass, with half sides, about its center.
   Inertia Box(double share, const Eigen::Vector3d& half) {
     Inertia M;
@@ -87,18 +87,16 @@ class BipedMaker {
              Box(0.02, {0.1, 0.05, 0.02}));
   }
 
-  // A trunk on the pelvis, and a chain about any axes upon it.
-  void AddChain(int num_joints, double trunk) {
-    Inertia M = Box(0.3, {0.1, 0.15, trunk / 2});
-    M.p_BoG_B.z() = trunk / 2;
+  void AddChain() {
+    Inertia M = Box(0.3, {0.1, 0.15, from_.trunk / 2});
+    M.p_BoG_B.z() = from_.trunk / 2;
     AddJoint("chest", "pelvis", "trunk", {0, 0, 0.05}, Eigen::Vector3d::UnitZ(),
              M);
     std::string parent = "trunk";
-    for (int i = 0; i < num_joints; ++i) {
+    for (std::size_t i = 0; i < from_.chain.size(); ++i) {
       const std::string child = "chain_" + std::to_string(i);
       AddJoint("joint_" + std::to_string(i), parent, child,
-               {0, 0, i == 0 ? trunk : 0.1},
-               MakeRandomVector(3, draw_).normalized(),
+               {0, 0, i == 0 ? from_.trunk : 0.1}, from_.chain[i],
                Box(0.02, {0.05, 0.05, 0.05}));
       parent = child;
     }
@@ -120,7 +118,7 @@ class BipedMaker {
   // Soles flat on the ground, as the angles of a leg add up to zero; the ankles
   // below the hips, by the sine rule.
   Eigen::VectorXd Stand(const Tree& tree) {
-    const double knee = Between(0.3, 1);
+    const double knee = from_.knee;
     const double hip =
         -std::atan2(shank_ * std::sin(knee), thigh_ + shank_ * std::cos(knee));
     Eigen::VectorXd q = tree.MakeNeutral();
@@ -136,13 +134,48 @@ class BipedMaker {
     return q;
   }
 
-  std::mt19937* draw_;
+  BipedCase from_;
   TreeBuilder builder_;
-  double mass_, thigh_, shank_, ankle_, hip_;
+  double mass_, thigh_, shank_, ankle_;
 };
+
+Eigen::Vector3d Direction(const Eigen::Vector3d& v) {
+  return v.isZero() ? Eigen::Vector3d::UnitX() : v.normalized();
+}
 
 }  // namespace
 
-Robot MakeRandomBiped(std::mt19937* draw) { return BipedMaker(draw).Make(); }
+Robot MakeBiped(const BipedCase& from) { return BipedMaker(from).Make(); }
+
+rc::Gen<BipedCase> Bipeds() {
+  const auto axes = rc::gen::container<std::vector<Eigen::Vector3d>>(
+      rc::gen::map(Vectors(), Direction));
+  return rc::gen::map(
+      rc::gen::tuple(VectorsXd(8, 1), rc::gen::resize(7, axes)),
+      [](const std::tuple<Eigen::VectorXd, std::vector<Eigen::Vector3d>>& x) {
+        const auto& [size, chain] = x;
+        BipedCase biped;
+        biped.mass += 30 * size[0];
+        biped.shank += 0.12 * size[1];
+        biped.thigh = biped.shank * (1 + 0.1 * size[2]);
+        biped.ankle += 0.03 * size[3];
+        biped.hip += 0.02 * size[4];
+        biped.trunk += 0.2 * size[5];
+        biped.knee += 0.35 * size[6];
+        biped.room -= 2.25 * std::abs(size[7]);
+        biped.chain = chain;
+        return biped;
+      });
+}
+
+void showValue(const BipedCase& biped, std::ostream& os) {
+  os << biped.mass << " kg, shank " << biped.shank << " thigh " << biped.thigh
+     << " ankle " << biped.ankle << " hip " << biped.hip << " trunk "
+     << biped.trunk << " m, knee " << biped.knee << " room " << biped.room
+     << " rad, chain";
+  for (const Eigen::Vector3d& axis : biped.chain) {
+    os << " [" << axis.transpose() << ']';
+  }
+}
 
 }  // namespace poise
