@@ -6,6 +6,8 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <cmath>
+#include <vector>
 
 #include "hqp/cascade.h"
 #include "hqp/certificate.h"
@@ -124,48 +126,97 @@ RC_GTEST_PROP(AnyHierarchy, HasTheSameCostsInRotatedVariables, ()) {
                   num_levels);
 }
 
+// What holds y for a level: the equalities of the levels above it, and their
+// inequalities at work.
+Eigen::MatrixXd RowsAbove(const Hierarchy& hierarchy, const Solution& solution,
+                          int level) {
+  std::vector<Eigen::VectorXd> rows;
+  for (int k = 0; k < level; ++k) {
+    for (int i = 0; i < hierarchy.num_equalities(k); ++i) {
+      rows.push_back(hierarchy.B(k).row(i));
+    }
+    for (int i = 0; i < hierarchy.num_inequalities(k); ++i) {
+      if (solution.levels[k].active[i] == Side::kNone) continue;
+      rows.push_back(hierarchy.C(k).row(i));
+    }
+  }
+  Eigen::MatrixXd above(rows.size(), hierarchy.num_variables());
+  for (int i = 0; i < above.rows(); ++i) above.row(i) = rows[i];
+  return above;
+}
+
+// Twice the cost of a level at y, of the inequalities that `solution` violates.
+double SumOfSquares(const Hierarchy& hierarchy, const Solution& solution,
+                    int level, const Eigen::VectorXd& y) {
+  const Eigen::VectorXd w = hierarchy.B(level) * y + hierarchy.b(level);
+  double sum = w.dot(hierarchy.weight(level).cwiseProduct(w));
+  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    const Side side = solution.levels[level].active[i];
+    if (side == Side::kNone || solution.levels[level].slack[i] == 0) continue;
+    const bool upper = side == Side::kUpper;
+    const double bound =
+        (upper ? hierarchy.upper(level) : hierarchy.lower(level))[i];
+    sum += std::pow(hierarchy.C(level).row(i).dot(y) - bound, 2);
+  }
+  return sum;
+}
+
+bool HasSameSides(const Hierarchy& hierarchy, const Solution& a,
+                  const Solution& b) {
+  for (int k = 0; k < hierarchy.num_levels(); ++k) {
+    for (int i = 0; i < hierarchy.num_inequalities(k); ++i) {
+      if (a.levels[k].active[i] != b.levels[k].active[i]) return false;
+    }
+  }
+  return true;
+}
+
 // The projection, by Ceres: where a level's targets go, no residual above it
 // follows, and along the nullspace of the rows above its cost is at rest.
 RC_GTEST_PROP(AnyHierarchy, HasLevelsThatKeepToTheNullspaceOfThoseAbove, ()) {
-  const HierarchyCase drawn = DrawHierarchy(false);
+  const HierarchyCase drawn = DrawHierarchy(*rc::gen::element(false, true));
   const Hierarchy& hierarchy = drawn.hierarchy;
   const int n = hierarchy.num_variables();
   const int level = *rc::gen::inRange(0, hierarchy.num_levels());
-  int num_above = 0;
-  for (int k = 0; k < level; ++k) num_above += hierarchy.num_equalities(k);
-  Eigen::MatrixXd above(num_above, n);
-  for (int k = 0, row = 0; k < level; row += hierarchy.num_equalities(k++)) {
-    above.middleRows(row, hierarchy.num_equalities(k)) = hierarchy.B(k);
-  }
-  const auto solve = [&](double by) -> Eigen::VectorXd {
+  const auto solve = [&](double by) -> Solution {
     const HierarchyCase moved =
         Transform(drawn, Eigen::MatrixXd::Identity(n, n),
                   hierarchy.num_levels(), level, by);
     Solution solution(n, moved.capacity);
     RC_ASSERT(Cascade(n, moved.capacity).Solve(moved.hierarchy, &solution) ==
               Status::kOptimal);
-    return solution.y;
+    return solution;
   };
-  const Eigen::VectorXd y = solve(0), rate = RiddersRate(solve);
-  const double scale = 1 + above.norm() * (y.norm() + rate.norm());
-  RC_ASSERT((above * rate).norm() <= kRiddersPrecision * scale);
+  const Solution solution = solve(0);
+  const Eigen::VectorXd y = solution.y;
+  const Eigen::MatrixXd above = RowsAbove(hierarchy, solution, level);
+  // Between two targets with the same rows at work y is linear.
+  if (HasSameSides(hierarchy, solution, solve(kRiddersReach)) &&
+      HasSameSides(hierarchy, solution, solve(-kRiddersReach))) {
+    const Eigen::VectorXd rate =
+        RiddersRate([&](double by) -> Eigen::VectorXd { return solve(by).y; });
+    const double scale = 1 + above.norm() * (y.norm() + rate.norm());
+    RC_ASSERT((above * rate).norm() <= kRiddersPrecision * scale);
+  }
 
-  const Eigen::MatrixXd N = num_above == 0
+  const Eigen::MatrixXd N = above.rows() == 0
                                 ? Eigen::MatrixXd::Identity(n, n)
                                 : Eigen::MatrixXd(above.fullPivLu().kernel());
   const auto cost = [&](const Eigen::VectorXd& z) -> Eigen::VectorXd {
-    const Eigen::VectorXd w =
-        hierarchy.B(level) * (y + N * z) + hierarchy.b(level);
     return Eigen::VectorXd::Constant(
-        1, 0.5 * w.dot(hierarchy.weight(level).cwiseProduct(w)));
+        1, SumOfSquares(hierarchy, solution, level, y + N * z) / 2);
   };
   const Eigen::MatrixXd gradient =
       RiddersJacobian(cost, Eigen::VectorXd::Zero(N.cols()));
-  const Eigen::MatrixXd BN = hierarchy.B(level) * N;
-  const double size = (1 + BN.norm()) * (1 + hierarchy.b(level).norm() +
-                                         hierarchy.B(level).norm() * y.norm());
+  // Of each row |row N| (|row y| + |its target|), that of an inequality both
+  // its value and its bound, which is that value less a slack.
+  const auto B = hierarchy.B(level), C = hierarchy.C(level);
+  const double size =
+      (1 + (B * N).norm() + (C * N).norm()) *
+      (1 + hierarchy.b(level).norm() + (B.norm() + 2 * C.norm()) * y.norm() +
+       solution.levels[level].slack.head(C.rows()).norm());
   RC_ASSERT(gradient.norm() <=
-            kRiddersPrecision * size * hierarchy.weight(level).sum());
+            kRiddersPrecision * size * (1 + hierarchy.weight(level).sum()));
 }
 
 }  // namespace
