@@ -17,9 +17,12 @@
 #include <vector>
 
 #include "robot/control/controller.h"
+#include "robot/control/estimator.h"
+#include "robot/control/measurement.h"
 #include "robot/profile.h"
 #include "sim/closed_loop.h"
 #include "sim/scenario.h"
+#include "sim/sensors.h"
 #include "tests/util/count_malloc.h"
 #include "tests/util/forbidden_calls.h"
 
@@ -65,7 +68,8 @@ std::vector<std::string> ScenarioFiles() {
 
 class RealTimeTest : public testing::TestWithParam<std::string> {};
 
-// A second controller sees what the one in the loop sees, and is watched.
+// A second controller sees what the one in the loop sees, and is watched; so is
+// what estimates the base, of what a robot's sensors say.
 TEST_P(RealTimeTest, TheControlLoopNeitherAllocatesNorThrowsNorLocksNorWrites) {
   const Robot robot = LoadRobot("robot/models/humanoid.urdf",
                                 LoadProfile("robot/profiles/humanoid.yaml"));
@@ -76,6 +80,10 @@ TEST_P(RealTimeTest, TheControlLoopNeitherAllocatesNorThrowsNorLocksNorWrites) {
   const PlantState& truth = loop.plant().Sense();
   State state{truth.time, truth.q, truth.v};
   controller.Start(state);
+  Sensors sensors(robot, scenario.sensors, scenario.seed);
+  Estimator estimator(robot);
+  estimator.Start(sensors.Measure(truth));
+  State estimated = state;
   Command command;
   command.tau.setZero(robot.model.tree.num_joints());
   for (const std::string& task : scenario.control.without) {
@@ -88,17 +96,20 @@ TEST_P(RealTimeTest, TheControlLoopNeitherAllocatesNorThrowsNorLocksNorWrites) {
   std::set<ContactPhase> phases;  // Of the foot that is lifted.
   while (loop.time() < duration) {
     state = {truth.time, truth.q, truth.v};
+    const Measurement& measurement = sensors.Measure(truth);
     loop.Tick();
     controller.reference() = loop.controller().reference();
     Follow(loop.controller().stance(), scenario, &controller.stance());
     const CountMalloc count;
     const ForbiddenCalls forbidden;
+    estimator.Update(measurement, &estimated);
     controller.Update(state, &command);
     ASSERT_EQ(count.allocations(), 0) << "at " << state.time << " s";
     ASSERT_EQ(forbidden.throws(), 0) << "at " << state.time << " s";
     ASSERT_EQ(forbidden.locks(), 0) << "at " << state.time << " s";
     ASSERT_EQ(forbidden.writes(), 0) << "at " << state.time << " s";
     ASSERT_TRUE(command.tau.allFinite());
+    ASSERT_TRUE(estimated.q.allFinite() && estimated.v.allFinite());
     phases.insert(controller.stance().phase(1));
   }
   if (!scenario.stance.empty()) {
