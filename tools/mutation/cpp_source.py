@@ -116,6 +116,17 @@ class Source:
         words = [t.text for t in self.tokens[function.first : function.last]]
         return hashlib.sha256(" ".join(words).encode()).hexdigest()[:12]
 
+    def digests(self):
+        """Of each function by its qualified name, all overloads together."""
+        found = {}
+        for function in self.functions:
+            if function.body != function.last:
+                found.setdefault(function.qualified, []).append(self.digest(function))
+        return {
+            name: hashlib.sha256(" ".join(each).encode()).hexdigest()[:12]
+            for name, each in found.items()
+        }
+
     def words(self, function):
         """The identifiers of a function's body and initialisers."""
         return {

@@ -51,6 +51,14 @@ class MutantsTest(unittest.TestCase):
             [("Half", True), ("Thing::Thing", False), ("Thing::Count", False)],
         )
 
+    def test_tells_a_changed_function_from_one_laid_out_anew(self):
+        digests = Source(_CODE).digests()
+        self.assertEqual(set(digests), {"Half", "Thing::Thing", "Thing::Count"})
+        anew = Source(_CODE.replace("0.5 * x", "0.5  // A half.\n * x")).digests()
+        self.assertEqual(anew, digests)
+        changed = Source(_CODE.replace("0.5 * x", "0.5 / x")).digests()
+        self.assertEqual({n for n in digests if changed[n] != digests[n]}, {"Half"})
+
     def test_finds_what_a_header_declares(self):
         header = Source(
             "class Tree final : public Base {\n public:\n  explicit Tree(int n);\n"

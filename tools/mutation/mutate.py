@@ -29,6 +29,7 @@ import time
 import mutants
 import survivors
 import workshop
+from cpp_source import Source
 from workshop import INVALID, KILLED, SAME, SURVIVED
 
 _LAYERS = ("math", "dynamics", "hqp")
@@ -222,9 +223,13 @@ def percent(killed, survived):
     return 100 * killed / (killed + survived) if killed + survived else None
 
 
-def summarize(pool, state, explained):
+def summarize(workspace, pool, state, explained):
     """All that is known of the sources as they are, by file and function."""
     files = {}
+    digests = {
+        path: Source((workspace / path).read_text()).digests()
+        for path in {mutant.path for mutant in pool}
+    }
     for mutant in pool:
         entry = state.known.get(mutant.id)
         file = files.setdefault(mutant.path, {})
@@ -232,6 +237,8 @@ def summarize(pool, state, explained):
             mutant.function or "(constants)",
             {"mutants": 0, "killed": 0, "survived": 0, "equivalent": 0, "invalid": 0},
         )
+        if mutant.function:
+            row["digest"] = digests[mutant.path][mutant.function]
         row["mutants"] += 1
         if mutant in explained or entry and entry["verdict"] == SAME:
             row["equivalent"] += 1
@@ -247,7 +254,7 @@ def summarize(pool, state, explained):
     return {
         path: tried for path, rows in files.items() if (tried := {
             name: row for name, row in rows.items()
-            if any(n for k, n in row.items() if k != "mutants")
+            if any(n for k, n in row.items() if k not in ("mutants", "digest"))
         })
     }
 
@@ -338,7 +345,7 @@ def main():
             os.environ.get("BUILD_WORKING_DIRECTORY") or os.getcwd(), arguments.out
         )
         out.write_text(
-            json.dumps(summarize(pool, state, explained), indent=1) + "\n"
+            json.dumps(summarize(workspace, pool, state, explained), indent=1) + "\n"
         )
     counts = collections.Counter(e["verdict"] for e in results.values())
     score = percent(counts[KILLED], counts[SURVIVED])

@@ -41,6 +41,7 @@ class Row:
         self.through = None  # The row of a proved function that leads to it.
         self.killed = self.survived = self.equivalent = self.mutants = 0
         self.may_be_untried = False
+        self.is_changed = False  # Since its mutants were tried.
 
     @property
     def layer(self):
@@ -79,7 +80,8 @@ class Row:
     @property
     def score(self):
         if self.tried:
-            return f"{self.killed} of {self.tried}"
+            changed = ", changed since" if self.is_changed else ""
+            return f"{self.killed} of {self.tried}{changed}"
         if not self.mutants:
             return "none"
         return "not tried" if self.is_untried else "equivalent"
@@ -158,7 +160,10 @@ def _find_ways_through(workspace, rows):
 
 
 def read_results(workspace):
-    """{file: {function: counts}} of the last run of //tools:mutate."""
+    """{file: {function: counts}} of the last run of //tools:mutate.
+
+    With the digest of the function as it was then; none where nobody knows.
+    """
     return json.loads((workspace.root / "docs/mutation.json").read_text())
 
 
@@ -183,8 +188,12 @@ def _count_mutants(workspace, rows):
                 called = set().union(*(words[n] for n in new))
                 new = {private[w] for w in called if w in private} - counted
                 counted |= new
+            digests = source.digests()
             for name in counted:
                 result = results.get(path, {}).get(name, {})
+                row.is_changed |= bool(result) and (
+                    result.get("digest") != digests.get(name)
+                )
                 row.killed += result.get("killed", 0)
                 row.survived += result.get("survived", 0)
                 row.equivalent += result.get("equivalent", 0)
