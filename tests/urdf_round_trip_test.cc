@@ -2,11 +2,15 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <random>
+#include <algorithm>
+#include <ostream>
 #include <string>
+#include <tuple>
+#include <vector>
 
+#include "dynamics/tree.h"
 #include "robot/urdf.h"
-#include "tests/util/random_tree.h"
+#include "tests/util/arbitrary.h"
 #include "tests/util/simple_robots.h"
 #include "tests/util/tolerance.h"
 #include "tests/util/urdf_writer.h"
@@ -77,22 +81,79 @@ std::string Difference(const RobotModel& read, const RobotModel& written) {
   return "";
 }
 
-// Limits of any size; the joints of even number mimic the first.
-RobotModel RandomModel(int num_joints, std::mt19937* draw) {
-  RobotModel model = MakeRobot(MakeRandomTree(num_joints, draw)).model;
+// A link and the joint that it hangs on.
+struct LinkCase {
+  int back;  // Its parent is so many links before the last one.
+  bool is_prismatic;
+  Pose X_PF;
+  Eigen::Vector3d axis;
+  Inertia M;
+  Eigen::VectorXd numbers;  // Limits of any size, and of a coupling.
+};
+
+void showValue(const LinkCase& link, std::ostream& os) {
+  os << "back " << link.back << (link.is_prismatic ? " prismatic " : " ");
+  showValue(link.X_PF, os);
+  os << " axis " << link.axis.transpose() << ' ';
+  showValue(link.M, os);
+  os << " numbers " << link.numbers.transpose();
+}
+
+// They shrink to fewer links, and each to a simpler one.
+rc::Gen<std::vector<LinkCase>> Links() {
+  const rc::Gen<LinkCase> link = rc::gen::map(
+      rc::gen::tuple(rc::gen::inRange(0, 6), rc::gen::inRange(0, 5), Poses(),
+                     Vectors(), Inertias(), VectorsXd(6, 1)),
+      [](const std::tuple<int, int, Pose, Eigen::Vector3d, Inertia,
+                          Eigen::VectorXd>& x) -> LinkCase {
+        const auto& [back, kind, X_PF, axis, M, numbers] = x;
+        return {back, kind == 4, X_PF, axis, M, numbers};
+      });
+  // Up to 40 of them, each drawn as if it were the only one.
+  return rc::gen::scale(0.4, rc::gen::container<std::vector<LinkCase>>(
+                                 rc::gen::scale(2.5, link)));
+}
+
+// The joints of even number mimic the first.
+RobotModel MakeModel(const Inertia& base, const std::vector<LinkCase>& links) {
+  const auto name = [](const char* what, int i) {
+    return what + std::to_string(i);
+  };
+  TreeBuilder builder;
+  builder.AddLink(name("link", 0), base);
+  for (int i = 0; i < static_cast<int>(links.size()); ++i) {
+    const LinkCase& link = links[i];
+    builder.AddLink(name("link", i + 1), link.M);
+    JointSpec joint;
+    joint.name = name("joint", i + 1);
+    joint.type =
+        link.is_prismatic ? JointType::kPrismatic : JointType::kRevolute;
+    joint.parent = name("link", std::max(0, i - link.back));
+    joint.child = name("link", i + 1);
+    joint.X_PF = link.X_PF;
+    joint.axis_F =
+        link.axis.isZero() ? Eigen::Vector3d::UnitZ() : link.axis.normalized();
+    builder.AddJoint(joint);
+  }
+  RobotModel model = MakeRobot(builder.Build()).model;
   model.name = "random";
-  for (int j = 0; j < num_joints; ++j) {
-    const Eigen::VectorXd x = MakeRandomVector(6, draw).cwiseAbs();
+  for (int i = 0; i < static_cast<int>(links.size()); ++i) {
+    // The tree has its joints in another order than the links.
+    const int j = *model.tree.FindJoint(name("joint", i + 1));
+    // A velocity limit of 0 would be taken as not known.
+    Eigen::VectorXd x = links[i].numbers.cwiseAbs();
+    x[2] = std::max(x[2], 1e-3);
     model.limits[j] = {-x[0], x[1], 10 * x[2], 100 * x[3], x[4], x[5]};
-    if (j % 2 == 0 && j > 0) model.mimics.push_back({j, 0, x[0] - x[1], x[2]});
+  }
+  for (int j = 2; j < model.tree.num_joints(); j += 2) {
+    const Eigen::VectorXd& x = links[j].numbers;
+    model.mimics.push_back({j, 0, x[0] - x[1], x[2]});
   }
   return model;
 }
 
 RC_GTEST_PROP(UrdfRoundTrip, AnyTreeComesBack, ()) {
-  const int num_joints = *rc::gen::inRange(0, 40);
-  std::mt19937 draw(*rc::gen::inRange<unsigned>(0, 1u << 30));
-  const RobotModel model = RandomModel(num_joints, &draw);
+  const RobotModel model = MakeModel(*Inertias(), *Links());
   RC_ASSERT(Difference(ParseUrdf(WriteUrdf(model), "written"), model) == "");
 }
 
@@ -103,16 +164,20 @@ TEST(UrdfRoundTrip, TheHumanoidComesBackWithItsFrames) {
 }
 
 TEST(UrdfRoundTrip, NoticesAnotherModel) {
-  std::mt19937 draw(1);
-  const RobotModel model = RandomModel(3, &draw);
+  const Inertia M{1, {0.1, 0, 0}, Eigen::Matrix3d::Identity()};
+  const Eigen::VectorXd numbers = Eigen::VectorXd::LinSpaced(6, 0.1, 0.6);
+  std::vector<LinkCase> links(3, {0, false, Pose(), {0, 0, 1}, M, numbers});
+  const RobotModel model = MakeModel(M, links);
   RobotModel other = model;
   other.limits[1].upper += 1e-12;
   EXPECT_EQ(Difference(other, model), "limits of joint2");
   other = model;
   other.mimics[0].offset += 1e-12;
   EXPECT_EQ(Difference(other, model), "mimics");
-  other.tree = MakeRandomTree(3, &draw);
-  EXPECT_NE(Difference(other, model), "");
+  links[2].X_PF.p.x() += 1e-12;
+  EXPECT_EQ(Difference(MakeModel(M, links), model), "pose of joint3");
+  links[1].back = 1;
+  EXPECT_NE(Difference(MakeModel(M, links), model), "");
 }
 
 }  // namespace
