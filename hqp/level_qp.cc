@@ -20,45 +20,97 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 // cycle.
 constexpr int kPatience = 10;
 
-// The least-squares solution x of L x + l = 0 of minimum norm. `norms` are
-// those of the rows before any projection: a row below kRankTolerance of its
-// own is a row of zeros.
-Eigen::VectorXd LeastSquares(const Eigen::MatrixXd& L, const Eigen::VectorXd& l,
-                             const Eigen::VectorXd& norms,
-                             RowSpaceMethod method) {
-  const Eigen::VectorXd scale =
-      (norms.array() > 0).select(norms.cwiseInverse(), 0);
-  const RowSpace space = MakeRowSpace(scale.asDiagonal() * L, method);
-  const int rows = static_cast<int>(L.rows()), rank = space.rank;
-  if (rank == 0) return Eigen::VectorXd::Zero(L.cols());
-  const auto range = space.V.leftCols(rank);
-  // The rows as combinations of an orthonormal basis, the heaviest first, and in
-  // that order, which keeps the small ones accurate. A row that depends on those
-  // before does so exactly: what rounding leaves of it, times a residual that
-  // cannot be helped, could outweigh a small row.
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> basis(
-      (L * range).transpose());
-  // With all rows independent each can be met, so their scales do not matter.
-  const bool met = rank == rows;
-  Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(rows, rank);
-  Eigen::VectorXd right(rows);
-  for (int place = 0; place < rows; ++place) {
-    const int i = basis.colsPermutation().indices()[place];
-    const double factor = met ? scale[i] : 1;
-    const auto part =
-        basis.matrixQR().col(place).head(std::min(place + 1, rank));
-    for (int e = 0; e < part.size(); ++e) {
-      const double rest = part.tail(part.size() - e).norm();
-      if (rest <= kRankTolerance * norms[i]) break;
-      parts(place, e) = factor * part[e];
+// The least-squares problem L x + l = 0. `norms` are those of the rows before any
+// projection: a row below kRankTolerance of its own is a row of zeros.
+class LeastSquares {
+ public:
+  LeastSquares() = default;
+  LeastSquares(const Eigen::MatrixXd& L, const Eigen::VectorXd& norms,
+               RowSpaceMethod method) {
+    const Eigen::VectorXd scale =
+        (norms.array() > 0).select(norms.cwiseInverse(), 0);
+    const RowSpace space = MakeRowSpace(scale.asDiagonal() * L, method);
+    const int rows = static_cast<int>(L.rows());
+    rank_ = space.rank;
+    factor_ = Eigen::VectorXd::Ones(rows);
+    order_ = Eigen::VectorXi::LinSpaced(rows, 0, rows - 1);
+    range_ = space.V.leftCols(rank_);
+    if (rank_ == 0) return;
+    // The rows as combinations of an orthonormal basis, the heaviest first, and
+    // in that order, which keeps the small ones accurate. A row that depends on
+    // those before does so exactly: what rounding leaves of it, times a residual
+    // that cannot be helped, could outweigh a small row.
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> basis(
+        (L * range_).transpose());
+    range_ = range_ * basis.householderQ();
+    order_ = basis.colsPermutation().indices();
+    // With all rows independent each can be met, so their scales do not matter.
+    if (rank_ == rows) factor_ = scale;
+    parts_ = Eigen::MatrixXd::Zero(rows, rank_);
+    for (int place = 0; place < rows; ++place) {
+      const int i = order_[place];
+      const auto part =
+          basis.matrixQR().col(place).head(std::min(place + 1, rank_));
+      for (int e = 0; e < part.size(); ++e) {
+        const double rest = part.tail(part.size() - e).norm();
+        if (rest <= kRankTolerance * norms[i]) break;
+        parts_(place, e) = factor_[i] * part[e];
+      }
     }
-    right[place] = -factor * l[i];
+    qr_.compute(parts_);
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(parts);
-  Eigen::VectorXd x = qr.solve(right);
-  x += qr.solve(right - parts * x);
-  return range * (basis.householderQ() * x);
-}
+
+  // Of minimum norm.
+  Eigen::VectorXd Solve(const Eigen::VectorXd& l) const {
+    if (rank_ == 0) return Eigen::VectorXd::Zero(range_.rows());
+    const Eigen::VectorXd right = -InOrder(factor_.cwiseProduct(l));
+    Eigen::VectorXd x = qr_.solve(right);
+    x += qr_.solve(right - parts_ * x);
+    return range_ * x;
+  }
+
+  // Of a residual, what no x can help: at the solution the rest is rounding. So
+  // what heavy rows lack, which is little, has as many digits as what light ones
+  // do. `size` is what each is added up from.
+  Eigen::VectorXd Unreachable(const Eigen::VectorXd& residual,
+                              const Eigen::VectorXd& size) const {
+    Eigen::VectorXd left = InOrder(residual);
+    const Eigen::VectorXd rounding = kEps * InOrder(size);
+    if (rank_ > 0) left.applyOnTheLeft(qr_.householderQ().adjoint());
+    left.head(rank_).setZero();
+    for (int place = rank_; place < left.size(); ++place) {
+      if (std::abs(left[place]) <= rounding[place]) left[place] = 0;
+    }
+    if (rank_ > 0) left.applyOnTheLeft(qr_.householderQ());
+    Eigen::VectorXd unreachable(left.size());
+    for (int place = 0; place < left.size(); ++place) {
+      unreachable[order_[place]] = left[place];
+    }
+    return unreachable;
+  }
+
+  // Whether a row depends on heavier ones.
+  Eigen::VectorXd Dependent(const Eigen::VectorXd& of) const {
+    Eigen::VectorXd dependent = of;
+    for (int place = 0; place < rank_; ++place) dependent[order_[place]] = 0;
+    return dependent;
+  }
+
+ private:
+  Eigen::VectorXd InOrder(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd in_order(x.size());
+    for (int place = 0; place < x.size(); ++place) {
+      in_order[place] = x[order_[place]];
+    }
+    return in_order;
+  }
+
+  int rank_ = 0;
+  Eigen::VectorXi order_;  // Row by place.
+  Eigen::VectorXd factor_;
+  Eigen::MatrixXd range_, parts_;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+};
 
 class ActiveSet {
  public:
@@ -111,10 +163,11 @@ class ActiveSet {
   }
 
   // To the optimum of the active rows.
-  Eigen::VectorXd Step() const {
+  Eigen::VectorXd Step() {
     const RowSpace space = MakeRowSpace(A_, RowSpaceMethod::kCod);
     const Eigen::MatrixXd N = space.V.rightCols(A_.cols() - space.rank);
-    return N * LeastSquares(L_ * N, l_, norms_, method_);
+    least_squares_ = LeastSquares(L_ * N, norms_, method_);
+    return N * least_squares_.Solve(l_);
   }
 
   // Goes as far along the step as inactive rows allow. Returns the row that is
@@ -157,37 +210,42 @@ class ActiveSet {
 
   // The active row that holds the optimum back most, or -1.
   int FindLeaving() {
-    const Eigen::VectorXd residual = L_.topRows(qp_.M.rows()) * qp_.z + qp_.m;
-    Eigen::VectorXd weighted(L_.rows());
-    weighted.head(qp_.M.rows()) = residual;
+    const int met = static_cast<int>(qp_.M.rows());
+    Eigen::VectorXd residual(L_.rows());
+    residual.head(met) = qp_.M * qp_.z + qp_.m;
+    for (size_t s = 0; s < soft_.size(); ++s) {
+      const int i = soft_[s];
+      residual[met + s] = qp_.P.row(i).dot(qp_.z) + qp_.value[i] - Bound(i);
+    }
+    const Eigen::VectorXd sizes = TermsSize();
+    residual = least_squares_.Unreachable(residual, sizes);
+    const Eigen::VectorXd force = norms_.cwiseProduct(residual.cwiseAbs());
     int leaving = -1;
-    double worst = -kNegligible;
+    double worst = 0;
     const bool bland = iterations_ > kPatience * rows();
     const auto consider = [&](int i, double multiplier, double size) {
       const double signed_ratio =
           (qp_.side[i] == Side::kUpper ? multiplier : -multiplier) / size;
-      if (bland ? signed_ratio < -kNegligible && (leaving < 0 || i < leaving)
+      if (bland ? signed_ratio < 0 && (leaving < 0 || i < leaving)
                 : signed_ratio < worst) {
         worst = signed_ratio;
         leaving = i;
       }
     };
     for (size_t s = 0; s < soft_.size(); ++s) {
-      const int i = soft_[s];
-      const double violation =
-          qp_.P.row(i).dot(qp_.z) + qp_.value[i] - Bound(i);
-      weighted[qp_.M.rows() + s] = violation;
-      consider(i, violation, qp_.size[i] + qp_.P_norm[i] * qp_.z.norm());
+      if (force[met + s] <= kNegligible * force.maxCoeff()) continue;
+      consider(soft_[s], residual[met + s], sizes[met + s]);
     }
     if (!hard_.empty()) {
-      const Eigen::VectorXd gradient = L_.transpose() * weighted;
+      const Eigen::VectorXd gradient = L_.transpose() * residual;
       // Residuals, and the rounding of what they are differences of.
-      const double size = norms_.dot(weighted.cwiseAbs()) +
-                          norms_.dot(l_.cwiseAbs()) +
-                          kEps / kNegligible * norms_.dot(TermsSize());
+      const double size =
+          force.sum() +
+          kEps / kNegligible * norms_.dot(least_squares_.Dependent(sizes));
       const Eigen::VectorXd multipliers =
           A_.transpose().colPivHouseholderQr().solve(-gradient);
       for (size_t h = 0; h < hard_.size(); ++h) {
+        if (std::abs(multipliers[h]) <= kNegligible * size) continue;
         consider(hard_[h], multipliers[h], size);
       }
     }
@@ -210,6 +268,7 @@ class ActiveSet {
 
   RowSpaceMethod method_;
   LevelQp& qp_;
+  LeastSquares least_squares_;
   std::vector<int> hard_, soft_;  // Active rows.
   Eigen::MatrixXd L_, A_;
   Eigen::VectorXd l_, norms_;
