@@ -74,7 +74,9 @@ int Main(int argc, char** argv) {
   app.add_option("--scaled", night.options.scaled,
                  "Hierarchies of rows from 1e-3 to 1e6, in percent");
   app.add_option("--weighted", night.options.weighted,
-                 "Hierarchies with weights from 1e-4 to 1e4, in percent");
+                 "Hierarchies with weights of many sizes, in percent");
+  app.add_option("--decades", night.options.decades,
+                 "Those weights are from 1e-decades to 1e+decades");
   app.add_option("--apex", night.options.apex,
                  "Hierarchies whose bounds are all zero, in percent");
   app.add_option("--ticks", night.ticks,

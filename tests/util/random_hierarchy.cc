@@ -91,7 +91,8 @@ class Drawing {
 
   void DrawWeight(int chance, double* weight) {
     if (weighted_) {
-      *weight = std::pow(10.0, source_.Between(-4, 4));
+      *weight =
+          std::pow(10.0, source_.Between(-options_.decades, options_.decades));
     } else if (source_.Chance(chance)) {
       *weight = source_.Between(0, 300) / 100.0;
     }

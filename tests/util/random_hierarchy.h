@@ -28,8 +28,10 @@ struct RandomHierarchyOptions {
   /// Chance that a hierarchy has rows of scales from 1e-3 to 1e6.
   int scaled = 20;
 
-  /// Chance that a hierarchy has weights from 1e-4 to 1e4, side by side.
+  /// Chance that a hierarchy has weights from 1e-decades to 1e+decades, side by
+  /// side.
   int weighted = 0;
+  int decades = 4;
 
   /// Chance that the last levels only select variables.
   int selecting = 50;
