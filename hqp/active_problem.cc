@@ -258,7 +258,7 @@ void ActiveProblem::RefineMultipliers(const Hierarchy& hierarchy) {
     std::fill(left.begin(), left.end(), 0);
     if (in_head) {
       for (int a = head_.first_row(level); a < rows; ++a) {
-        of.nu[a] = -head_.weight(a) * lack_[a];
+        of.nu[a] = head_.weight(a) * head_.residual(a);
       }
     } else {
       tail_.AddGradient(level - num_head_, y_.data(), of.left.data(),
@@ -266,6 +266,9 @@ void ActiveProblem::RefineMultipliers(const Hierarchy& hierarchy) {
     }
     for (int a = 0; a < rows; ++a) {
       AddToSum(hierarchy, a, of.nu[a], left.data());
+    }
+    if (!in_head) {
+      tail_.DropRounding(level - num_head_, y_.data(), left.data());
     }
     kernels::Dots(head_.basis(), head_.stride(), rank, left.data(), n_,
                   gradient_.data());

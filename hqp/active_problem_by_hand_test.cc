@@ -167,30 +167,38 @@ TEST_F(ActiveProblemTest, PricesWhatARowHoldsBack) {
   EXPECT_NE(problem_.Price(0, 1, Side::kUpper, share * (1 - 1e-12)), 0);
 }
 
-// y = 1/16 twice, with weights of 1 and 4: what they weigh is relative to 4 (|y|
-// + 1/16), about 1/2. What rows of the next level weigh does not matter.
+// y = 1/16 and, four times as heavy, y = 1/16 + gap. In between, a fifth of the gap
+// from the latter, sqrt(4/5) of it is left in any case, on the light row: it
+// counts beside that row's weight times 1/8. What rows of the next level weigh
+// does not matter.
 TEST(ActiveProblem, AResidualOfRoundingIsNone) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {0, 1}};
-  Hierarchy hierarchy(1, capacity);
-  EqualityBlock twice = hierarchy.AddEqualities(0, 2);
-  twice.B << 1, 1;
-  twice.b << -1. / 16, -1. / 16;
-  twice.weight << 1, 4;
-  InequalityBlock next = hierarchy.AddInequalities(1, 1);
-  next.C << 100;
-  next.upper << 50;
-  ActiveProblem problem(1, capacity);
-  int failed_level;
-  ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
-  problem.Plan(hierarchy, 2);
-  problem.Solve(hierarchy, {{}, {Side::kUpper}});
-  ASSERT_EQ(problem.num_head(), 2);
-  for (const double share : {0.22, 0.28, 0.9, 1.1}) {
-    for (const double off : {-share * 0.5e-12, share * 0.5e-12}) {
-      problem.TakeOther(hierarchy, {1. / 16 + off});
-      const double rounding = Rounding(0.125, 1);
-      EXPECT_NEAR(problem.head().residual(0), share > 1 ? off : 0, rounding);
-      EXPECT_NEAR(problem.head().residual(1), share > 0.25 ? off : 0, rounding);
+  for (const double share : {0.9, 1.1}) {
+    for (const double sign : {-1, 1}) {
+      const double gap = sign * share * 1e-12 / 8 / std::sqrt(0.8);
+      Hierarchy hierarchy(1, capacity);
+      EqualityBlock twice = hierarchy.AddEqualities(0, 2);
+      twice.B << 1, 1;
+      twice.b << -1. / 16, -(1. / 16 + gap);
+      twice.weight << 1, 4;
+      InequalityBlock next = hierarchy.AddInequalities(1, 1);
+      next.C << 100;
+      next.upper << 50;
+      ActiveProblem problem(1, capacity);
+      int failed_level;
+      ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+      problem.Plan(hierarchy, 2);
+      problem.Solve(hierarchy, {{}, {Side::kUpper}});
+      ASSERT_EQ(problem.num_head(), 2);
+      // Wherever y is.
+      for (const double off : {0., 0.8 * gap, gap}) {
+        problem.TakeOther(hierarchy, {1. / 16 + off});
+        const double rounding = Rounding(0.125, 1);
+        EXPECT_NEAR(problem.head().residual(0), share > 1 ? 0.8 * gap : 0,
+                    rounding);
+        EXPECT_NEAR(problem.head().residual(1), share > 1 ? -0.2 * gap : 0,
+                    rounding);
+      }
     }
   }
 }

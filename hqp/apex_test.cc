@@ -139,8 +139,10 @@ TEST(Apex, RoundingIsRelativeToWhatIsAskedFor) {
     const double size = is_in_tail ? 5 : 6 / std::sqrt(8);
     EXPECT_NEAR(problem.Size(), size, Rounding(size, 2));
     EXPECT_EQ(problem.y()[1], -1e-3);
-    // Residuals are of that y: -6 / sqrt(8) of a row of unit length.
-    EXPECT_NEAR(problem.head().residual(1), -6 / std::sqrt(8), Rounding(6, 2));
+    // Of what that y lacks, (0, -6), (1, 2) is not needed: (2.4, -1.2) is left,
+    // by the second row's length.
+    EXPECT_NEAR(problem.head().residual(1), -1.2 / std::sqrt(8),
+                Rounding(6, 2));
     problem.TakeOther(hierarchy, {0, -1e9});
     EXPECT_EQ(problem.Size(), 1e9);
   }

@@ -18,9 +18,6 @@ constexpr int kMaxPasses = 6;
 // refinement leaves of a zero.
 constexpr double kNothing = 1e-18;
 
-// A residual below this, relative to what it is added up from, is zero.
-constexpr double kZeroResidual = 1e-12;
-
 }  // namespace
 
 double ActiveProblem::Size() const {
@@ -109,16 +106,13 @@ void ActiveProblem::FindResiduals(const Hierarchy& hierarchy) {
   FindLack(hierarchy);
   for (int level = 0; level < num_head_; ++level) {
     if (!head_.is_deficient(level)) continue;
-    // A level is judged as a whole, by what its rows weigh in its gradient.
-    double force = 0;
-    for (int a = head_.first_row(level); a < head_.end_row(level); ++a) {
-      force = std::max(force, head_.weight(a) * size_[a]);
+    const int first = head_.first_row(level), end = head_.end_row(level);
+    double size = 0;
+    for (int a = first; a < end; ++a) {
+      nu_[a - first] = -lack_[a];
+      size = std::max(size, size_[a]);
     }
-    for (int a = head_.first_row(level); a < head_.end_row(level); ++a) {
-      const bool is_zero =
-          head_.weight(a) * std::abs(lack_[a]) <= kZeroResidual * force;
-      head_.SetResidual(a, is_zero ? 0 : -lack_[a]);
-    }
+    head_.SetResiduals(level, nu_.data(), size);
   }
 }
 

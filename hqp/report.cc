@@ -55,7 +55,7 @@ void Reporter::Report(const Hierarchy& hierarchy,
        ++level) {
     ReportTailMultipliers(hierarchy, level, problem, solution);
   }
-  MakeNonnegative(hierarchy, tolerance, *problem, solution);
+  MakeNonnegative(hierarchy, tolerance, problem, solution);
   ReportNullity(hierarchy, problem, solution);
 }
 
@@ -131,8 +131,8 @@ double Reporter::Weight(const ActiveProblem& problem, const Solution& solution,
 // A multiplier may be negative where that of a level before is positive. A
 // multiple of that level's own equation, which adds up to zero, makes it right.
 void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
-                               const ActiveProblem& problem,
-                               Solution* solution) {
+                               ActiveProblem* solved, Solution* solution) {
+  const ActiveProblem& problem = *solved;
   for (int level = 1; level < problem.num_levels(); ++level) {
     if (!problem.multipliers(level).any) continue;
     LevelSolution& to = solution->levels[level];
@@ -176,10 +176,7 @@ void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
               factor * of.nu[o] / other.norm;
         }
       } else {
-        const int equalities = hierarchy.num_equalities(first);
-        own.equality.head(equalities) +=
-            factor * hierarchy.weight(first).cwiseProduct(
-                         from.equality_residual.head(equalities));
+        AddOwn(hierarchy, first, factor, solved, *solution, &own.equality);
       }
       for (int above = 0; above < first; ++above) {
         to.multipliers[above].equality +=
@@ -187,6 +184,38 @@ void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
         to.multipliers[above].inequality +=
             factor * from.multipliers[above].inequality;
       }
+    }
+  }
+}
+
+// What the rows of a level of the tail weigh in its equation. On its own variables
+// that is what cancels the others: of what heavy rows lack rounding leaves few
+// digits.
+void Reporter::AddOwn(const Hierarchy& hierarchy, int level, double factor,
+                      ActiveProblem* problem, const Solution& solution,
+                      Eigen::VectorXd* sum) {
+  const LevelSolution& of = solution.levels[level];
+  auto left = Eigen::VectorXd::Map(left_.data(), n_);
+  left.setZero();
+  for (int above = 0; above < level; ++above) {
+    const auto B = hierarchy.B(above), C = hierarchy.C(above);
+    for (int i = 0; i < B.rows(); ++i) {
+      left += of.multipliers[above].equality[i] * B.row(i);
+    }
+    for (int i = 0; i < C.rows(); ++i) {
+      left += of.multipliers[above].inequality[i] * C.row(i);
+    }
+  }
+  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+    const int j = problem->selected(level, i);
+    const double scale = hierarchy.B(level)(i, j);
+    if (hierarchy.weight(level)[i] == 0 || scale == 0) continue;
+    if (problem->tail().level(j) + problem->num_head() == level) {
+      (*sum)[i] -= factor * left[j] / scale;
+      left[j] = 0;
+    } else {
+      (*sum)[i] +=
+          factor * hierarchy.weight(level)[i] * of.equality_residual[i];
     }
   }
 }

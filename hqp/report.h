@@ -28,7 +28,10 @@ class Reporter {
   void ReportTailMultipliers(const Hierarchy& hierarchy, int level,
                              ActiveProblem* problem, Solution* solution);
   void MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
-                       const ActiveProblem& problem, Solution* solution);
+                       ActiveProblem* problem, Solution* solution);
+  void AddOwn(const Hierarchy& hierarchy, int level, double factor,
+              ActiveProblem* problem, const Solution& solution,
+              Eigen::VectorXd* sum);
   double Weight(const ActiveProblem& problem, const Solution& solution, int a,
                 int level, double sign) const;
   void ReportNullity(const Hierarchy& hierarchy, ActiveProblem* problem,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hqp/kernels.h"
 #include "math/rank.h"
@@ -27,6 +28,8 @@ constexpr double kZeroResidual = 1e-12;
 // from: so much of it is rounding, where a price below 1e-11 of the gradient is
 // none. What heavy rows lack where they conflict has few digits.
 constexpr double kLeast = 3e-5;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double SquaredNorm(const double* x, int n) {
   double sum;
@@ -321,19 +324,65 @@ void RowStack::SolveLevel(Level* solved) {
     z_[e] = (effective_target_[e] - value) / l[e];
   }
   // z is rounded by what any row of the level asks for.
-  level.size = 0;
+  double size = 0;
   for (int a = level.first_row; a < level.end_row; ++a) {
-    level.size = std::max(level.size, std::abs(target_[a]));
+    size = std::max(size, std::abs(target_[a]));
   }
-  level.size += norm_z();
+  size += norm_z();
   for (int a = level.first_row; a < level.end_row; ++a) {
     residual_[a] = 0;
     if (!level.deficient) continue;
     double value;
     Dots(&l_[static_cast<size_t>(a) * stride_], 0, 1, z_.data(), level.rank_end,
          &value);
-    value -= target_[a];
-    if (std::abs(value) > kZeroResidual * level.size) residual_[a] = value;
+    residual_[a] = value - target_[a];
+  }
+  KeepUnreachable(size, &level);
+}
+
+void RowStack::SetResiduals(int level, const double* residual, double size) {
+  Level& of = levels_[level];
+  std::copy(residual, residual + of.end_row - of.first_row,
+            &residual_[of.first_row]);
+  KeepUnreachable(size, &of);
+}
+
+// At the optimum of a deficient level H d residual is zero but on rows that
+// depend on others, and the rest is rounding. So what heavy rows lack, which is
+// little, has as many digits as what light ones do.
+void RowStack::KeepUnreachable(double size, Level* of) {
+  Level& level = *of;
+  level.size = 0;
+  if (!level.deficient) return;
+  const int first = level.first_row, rows = level.end_row - first;
+  double* residual = &residual_[first];
+  const double* metric = &metric_[first];
+  for (int i = 0; i < rows; ++i) {
+    residual[i] *= metric[i];
+    factor_[i] = kZeroResidual * metric[i] * size;
+  }
+  for (int e = level.rank_end - 1; e >= level.rank_begin; --e) {
+    Reflect(e, rows, residual);
+    factor_[carrier_[e] - first] = kInfinity;
+  }
+  for (int i = 0; i < rows; ++i) {
+    if (std::abs(residual[i]) <= factor_[i]) {
+      residual[i] = 0;
+    } else {
+      level.size = std::max(level.size, metric[i] * metric[i] * size);
+    }
+  }
+  for (int e = level.rank_begin; e < level.rank_end; ++e) {
+    Reflect(e, rows, residual);
+  }
+  double force = 0;
+  for (int i = 0; i < rows; ++i) {
+    force = std::max(force, metric[i] * std::abs(residual[i]));
+  }
+  for (int i = 0; i < rows; ++i) {
+    const bool is_zero =
+        metric[i] * std::abs(residual[i]) <= kZeroResidual * force;
+    residual[i] = is_zero ? 0 : residual[i] / metric[i];
   }
 }
 
@@ -374,11 +423,11 @@ double RowStack::norm_z() const {
 double RowStack::Gradient(int level, double* gradient) const {
   const Level& of = levels_[level];
   std::fill_n(gradient, of.rank_begin, 0);
-  double size = 0, largest = 0;
+  double size = kLeast * of.size, largest = 0;
   for (int a = of.first_row; a < of.end_row; ++a) {
     if (residual_[a] == 0) continue;
     const double factor = weight(a) * residual_[a];
-    size = std::max({size, std::abs(factor), weight(a) * kLeast * of.size});
+    size = std::max(size, std::abs(factor));
     AddRows(&l_[static_cast<std::size_t>(a) * stride_], 0, 1, &factor,
             of.rank_begin, gradient);
   }

@@ -76,9 +76,9 @@ class RowStack {
   /// change of Q y, of rank() entries.
   void Correct(const double* lack, double* change);
 
-  /// Puts a residual in the place of the one that SolveLevel() found; that of a
-  /// level that is not deficient stays 0.
-  void SetResidual(int a, double residual) { residual_[a] = residual; }
+  /// Takes other residuals of a deficient level, added up from numbers of a size,
+  /// as far as its optimum has them: see KeepUnreachable().
+  void SetResiduals(int level, const double* residual, double size);
 
   /// d_a^2.
   double weight(int a) const { return metric_[a] * metric_[a]; }
@@ -103,13 +103,14 @@ class RowStack {
   struct Level {
     int first_row, end_row, rank_begin, rank_end;
     bool deficient;  ///< rank_end - rank_begin < end_row - first_row.
-    double size;     ///< Of what residuals are added up from.
+    double size;     ///< Of what its gradient's residuals are added up from.
   };
   void Project(int a);
   void TakeOut(int rank, double* x, double* l);
   void PivotRows(Level* level);
   void Reduce(Level* level);
   void SolveLevel(Level* level);
+  void KeepUnreachable(double size, Level* level);
   void Reflect(int e, int rows, double* x) const;
 
   int n_, stride_, num_rows_ = 0, rank_ = 0;

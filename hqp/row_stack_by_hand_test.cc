@@ -260,8 +260,8 @@ TEST_F(RowStackTest, AGradientOfRoundingIsNone) {
     stack.row(stack.AddRow(5, 2))[1] = 1;
     stack.row(stack.AddRow(5, 1))[1] = 1;
     stack.FactorLevel();
-    stack.SetResidual(2, 1);
-    stack.SetResidual(3, -4 * (1 + off));
+    const double residual[2] = {1, -4 * (1 + off)};
+    stack.SetResiduals(1, residual, 0);
     double gradient[2];
     const double size = stack.Gradient(1, gradient);
     if (off < 1e-12) {
@@ -272,14 +272,61 @@ TEST_F(RowStackTest, AGradientOfRoundingIsNone) {
   }
 }
 
-TEST_F(RowStackTest, TakesAResidualForTheGradient) {
+TEST_F(RowStackTest, TakesResidualsForTheGradient) {
   EXPECT_NEAR(stack_.weight(1), 3, Rounding(3, 1));
   EXPECT_NEAR(stack_.weight(2), 2, Rounding(2, 1));
-  stack_.SetResidual(2, 10);
-  EXPECT_EQ(stack_.residual(2), 10);
+  const double residual[2] = {10, 7};
+  stack_.SetResiduals(1, residual, 1);
+  EXPECT_NEAR(stack_.residual(2), 10, Rounding(10, 1));
+  EXPECT_EQ(stack_.residual(3), 0);  // A row that is met.
   double gradient[1];
   EXPECT_NEAR(stack_.Gradient(1, gradient), 20, Rounding(20, 2));
   EXPECT_NEAR(gradient[0] * stack_.basis()[0], 20, Rounding(20, 2));
+}
+
+// y = 0 and, 1e12 times lighter, y = 1: at the optimum the heavy row lacks 1e-12
+// of what the light one does, to the last digit, though y may be off by more.
+TEST_F(RowStackTest, WhatAHeavyRowLacksHasAsManyDigitsAsALightOnes) {
+  RowStack stack(1, 2, 1);
+  *stack.row(stack.AddRow(0, 1e3)) = 1;
+  *stack.row(stack.AddRow(1, 1e-3)) = 1;
+  stack.FactorLevel();
+  for (const double off : {0.0, 1e-9}) {
+    if (off > 0) {
+      const double residual[2] = {off, -1};
+      stack.SetResiduals(0, residual, 1);
+    }
+    const double light = (1 + off) / (1 + 1e-12);
+    EXPECT_NEAR(stack.residual(0), 1e-12 * light, Rounding(1e-12, 4));
+    EXPECT_NEAR(stack.residual(1), -light, Rounding(1, 4));
+  }
+}
+
+// One of two rows on y1 = 0 and y2 = 0 each is off by 0.7 or 1.4 times what is
+// zero beside what it is added up from; then y1's by that beside y2's.
+TEST_F(RowStackTest, WhatIsKeptIsNoRounding) {
+  for (const double off : {0.7e-12, 1.4e-12}) {
+    RowStack stack(2, 4, 1);
+    for (int a = 0; a < 4; ++a) {
+      stack.row(stack.AddRow(0, 3))[a / 2] = 1;
+      stack.row(a)[1 - a / 2] = 0;
+    }
+    stack.FactorLevel();
+    const double lonely[4] = {-5 * off, 5 * off, 0, 0};
+    stack.SetResiduals(0, lonely, 5);
+    // A half of it is each row's.
+    const double left = off < 1e-12 ? 0 : 5 * off;
+    for (int a = 0; a < 2; ++a) {
+      EXPECT_NEAR(std::abs(stack.residual(a)), left, Rounding(left, 4)) << off;
+    }
+    const double beside[4] = {-off, off, -1, 1};
+    stack.SetResiduals(0, beside, 0);
+    for (int a = 0; a < 2; ++a) {
+      EXPECT_NEAR(std::abs(stack.residual(a)), off < 1e-12 ? 0 : off,
+                  Rounding(1, 4))
+          << off;
+    }
+  }
 }
 
 TEST_F(RowStackTest, DoesNotAllocate) {

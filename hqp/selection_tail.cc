@@ -339,23 +339,25 @@ void SelectionTail::SolveLevel(int level) {
   }
 }
 
-// L' nu = -z.
+// L' nu = -z. Rounding of what a row asks for is in nu by its part of L, squared:
+// where light variables can meet it, heavy ones do not count.
 void SelectionTail::FindMultipliers(int level) {
   Block& block = blocks_[level];
-  double gradient = 0, size = 0;
+  double gradient = 0, squared = 0, size = 0;
   for (int p = block.begin; p < block.end; ++p) {
     gradient = std::max(gradient, scale_[p] * std::abs(x_[p]));
-    size = std::max(size, scale_[p] * scale_[p] * magnitude_[p]);
+    squared += magnitude_[p] * magnitude_[p];
   }
-  // What levels before have moved is in the gradient alone.
-  block.size = gradient > kZeroGradient * size ? std::max(size, gradient) : 0;
   double* z = &z_[block.row_begin];
   for (int i = block.row_end - block.row_begin - 1; i >= 0; --i) {
     const double* l = &l_[static_cast<size_t>(block.row_begin + i) * stride_];
     const double minus = l[i] == 0 ? 0 : -z[i] / l[i];
     AddRows(l, 0, 1, &minus, i, z);
     nu_[block.row_begin + i] = minus;
+    if (l[i] > 0) size = std::max(size, std::sqrt(squared) / (l[i] * l[i]));
   }
+  // What levels before have moved is in the gradient alone.
+  block.size = gradient > kZeroGradient * size ? std::max(size, gradient) : 0;
 }
 
 double SelectionTail::Dual(int level, double* on_head, double* left) {
@@ -387,6 +389,16 @@ void SelectionTail::AddGradient(int level, const double* y, const double* left,
     sum[j] += weight_[j] * (y[j] - target_[j]);
   }
   for (int p = block.end; p < n_; ++p) sum[order_[p]] -= left[order_[p]];
+}
+
+void SelectionTail::DropRounding(int level, const double* y,
+                                 double* sum) const {
+  const Block& block = blocks_[level];
+  for (int p = block.begin; p < block.end; ++p) {
+    const int j = order_[p];
+    const double size = weight_[j] * (std::abs(y[j]) + std::abs(target_[j]));
+    if (std::abs(sum[j]) <= kZeroGradient * size) sum[j] = 0;
+  }
 }
 
 int SelectionTail::Nullity(int level) const {

@@ -71,6 +71,10 @@ class SelectionTail {
   void AddGradient(int level, const double* y, const double* left,
                    double* sum) const;
 
+  /// Of such a sum that should be zero, puts to zero what is rounding of a
+  /// heavy variable's own gradient: to light ones it could be much.
+  void DropRounding(int level, const double* y, double* sum) const;
+
   /// What the head and the levels up to this one leave free.
   int Nullity(int level) const;
 

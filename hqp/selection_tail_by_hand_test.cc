@@ -40,12 +40,42 @@ TEST_F(SelectionTailTest, SolvesByHand) {
   EXPECT_NEAR(y_[1], 5 - 0.25 * lack, Rounding(10, 3));
   EXPECT_EQ(y_[2], 0);
   double on_head[1], left[3];
-  EXPECT_GT(tail_.Dual(0, on_head, left), 0);
+  // What is asked for, beside a part of L of 1/2 + 1/6, squared.
+  const double asked = std::hypot(std::sqrt(0.5) + 3, std::sqrt(0.5) + 5);
+  EXPECT_NEAR(tail_.Dual(0, on_head, left), 1.5 * asked, Rounding(asked, 3));
   EXPECT_NEAR(std::abs(on_head[0]), 0.75 * lack * std::sqrt(2),
               Rounding(20, 3));
   EXPECT_EQ(tail_.Dual(1, on_head, left), 0);
   EXPECT_EQ(tail_.Nullity(0), 1);
   EXPECT_EQ(tail_.Nullity(1), 0);
+}
+
+// Beside a light variable a heavy one's rounding does not count.
+TEST_F(SelectionTailTest, AGradientIsRelativeToTheLightestThatCanMeetARow) {
+  tail_.Clear();
+  tail_.AddLevel();
+  tail_.Add(0, 1, 3);
+  tail_.Add(1, 1e12, 5);
+  tail_.Finish(nullptr);
+  tail_.Solve(head_, y_);
+  double on_head[1], left[3];
+  const double asked = std::hypot(std::sqrt(0.5) + 3, std::sqrt(0.5) + 5);
+  EXPECT_NEAR(tail_.Dual(0, on_head, left), 2 * asked, 1e-10);  // By 1e-12.
+}
+
+// Of each variable's own sum, what is below 1e-13 of weight (|y| + |target|).
+TEST_F(SelectionTailTest, DropsRoundingOfAGradient) {
+  const double y[3] = {-1, 2, 0}, size[2] = {4e-13, 21e-13};
+  for (const double share : {0.9, 1.1}) {
+    for (const double sign : {-1, 1}) {
+      double sum[3] = {sign * share * size[0], -sign * share * size[1], 1e-30};
+      tail_.DropRounding(0, y, sum);
+      for (int j = 0; j < 2; ++j) {
+        EXPECT_EQ(sum[j] == 0, share < 1) << j;
+      }
+      EXPECT_EQ(sum[2], 1e-30);  // Of another level.
+    }
+  }
 }
 
 TEST_F(SelectionTailTest, TakesTwoTargetsOfALevelForTheirMean) {
