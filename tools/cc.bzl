@@ -16,11 +16,52 @@ _COPTS = [
     "-Werror",
 ]
 
-def poise_cc_library(name, copts = [], **kwargs):
-    native.cc_library(name = name, copts = _COPTS + copts, **kwargs)
+def _precompiled(name):
+    """The copts and deps that load a header of //tools/precompiled."""
+    return struct(
+        copts = _if_precompiled([
+            "-include",
+            "tools/precompiled/{}.h".format(name),
+            # Say so if it cannot be used.
+            "-Winvalid-pch",
+            # What is in it counts as included: a change of that rebuilds.
+            "-fpch-deps",
+        ]),
+        deps = _if_precompiled(["//tools/precompiled:" + name]),
+    )
 
-def poise_cc_binary(name, copts = [], **kwargs):
-    native.cc_binary(name = name, copts = _COPTS + copts, **kwargs)
+def _if_precompiled(these):
+    return select({
+        "//tools/precompiled:wanted_of_clang": [],
+        "//tools/precompiled:wanted": these,
+        "//conditions:default": [],
+    })
+
+def _precompiled_eigen(deps):
+    """Of what is not a test: by its optimization in .bazelrc."""
+    if not deps:  # No Eigen either; some of it defines what libc declares.
+        return struct(copts = [], deps = [])
+    folder = native.package_name().split("/")[0]
+    quick = folder in ("tests", "tools") or native.package_name() == "robot"
+    return _precompiled("eigen_og" if quick else "eigen")
+
+def poise_cc_library(name, copts = [], deps = [], **kwargs):
+    header = _precompiled_eigen(deps)
+    native.cc_library(
+        name = name,
+        copts = _COPTS + header.copts + copts,
+        deps = deps + header.deps,
+        **kwargs
+    )
+
+def poise_cc_binary(name, copts = [], deps = [], **kwargs):
+    header = _precompiled_eigen(deps)
+    native.cc_binary(
+        name = name,
+        copts = _COPTS + header.copts + copts,
+        deps = deps + header.deps,
+        **kwargs
+    )
 
 def poise_cc_test(
         name,
@@ -31,24 +72,27 @@ def poise_cc_test(
         with_main = True,
         **kwargs):
     """A GoogleTest with the stock main(); the source defaults to <name>.cc."""
+    header = _precompiled("test" if with_main else "eigen_og")
     native.cc_test(
         name = name,
         size = size,
         srcs = srcs or [name + ".cc"],
-        copts = _COPTS + copts,
-        deps = deps + (["@gtest_main"] if with_main else []),
+        copts = _COPTS + header.copts + copts,
+        deps = deps + header.deps + (["@gtest_main"] if with_main else []),
         **kwargs
     )
 
 def poise_cc_benchmark(name, srcs = None, copts = [], deps = [], **kwargs):
     """A Google Benchmark, and a test that every case of it runs once."""
     srcs = srcs or [name + ".cc"]
-    deps = deps + ["@benchmark"]
+    header = _precompiled_eigen(deps)
+    copts = _COPTS + header.copts + copts
+    deps = deps + header.deps + ["@benchmark"]
     native.cc_binary(
         name = name,
         testonly = True,
         srcs = srcs,
-        copts = _COPTS + copts,
+        copts = copts,
         tags = ["manual"],
         deps = deps,
         **kwargs
@@ -58,7 +102,7 @@ def poise_cc_benchmark(name, srcs = None, copts = [], deps = [], **kwargs):
         size = "small",
         srcs = srcs,
         args = ["--benchmark_min_time=0", "--benchmark_repetitions=1"],
-        copts = _COPTS + copts,
+        copts = copts,
         tags = ["benchmark"],
         deps = deps,
         **kwargs

@@ -43,7 +43,7 @@ class _Unit:
         self.source = source
         self._root, self._folder = root, folder
         self._name = source.replace("/", "_")
-        self._flags = _without_outputs(arguments)
+        self._flags = _without_files(arguments)
         prefix = folder / f"{self._name}.h"
         prefix.write_text("\n".join(headers) + "\n")
         self._prefix = ["-include", str(prefix)]
@@ -235,13 +235,14 @@ def _run(folder, command):
     ).returncode == 0
 
 
-def _without_outputs(arguments):
+def _without_files(arguments):
+    """Without those written and, as GCC takes one only, a precompiled header."""
     kept, i = [], 0
     while i < len(arguments):
-        if arguments[i] in ("-MF", "-c", "-o"):
+        if arguments[i] in ("-MF", "-c", "-o", "-include"):
             i += 2
             continue
-        if arguments[i] != "-MD":
+        if arguments[i] not in ("-MD", "-Winvalid-pch"):
             kept.append(arguments[i])
         i += 1
     return kept
