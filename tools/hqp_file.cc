@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "robot/finding.h"
 #include "tools/parse_json.h"
 
 namespace poise {
@@ -41,6 +42,18 @@ double Bound(const json& value, double absent, const std::string& where) {
   return value.is_null() ? absent : Number(value, where);
 }
 
+// The solvers take no row that cannot be met by itself: see CheckInput().
+void RefuseCrossed(const InequalityBlock& block, const std::string& lower,
+                   const std::string& upper) {
+  for (int i = 0; i < block.lower.size(); ++i) {
+    if (block.lower[i] <= block.upper[i]) continue;
+    const std::string row = "[" + std::to_string(i) + "]";
+    Refuse(lower + row, "is " + PrintNumber(block.lower[i]) +
+                            ", must not be above " + upper + row + ", " +
+                            PrintNumber(block.upper[i]));
+  }
+}
+
 void RefuseLength(const json& array, size_t wanted, const std::string& where) {
   if (array.size() == wanted) return;
   Refuse(where, "has " + std::to_string(array.size()) + " entries, must have " +
@@ -72,8 +85,12 @@ void ReadEqualities(const json& level, int index, const std::string& where,
   const json& weight = Array(level, "weight", where);
   RefuseLength(weight, rows, where + ".weight");
   for (int i = 0; i < rows; ++i) {
-    block.weight[i] =
-        Number(weight[i], where + ".weight[" + std::to_string(i) + "]");
+    const std::string name = where + ".weight[" + std::to_string(i) + "]";
+    block.weight[i] = Number(weight[i], name);
+    if (block.weight[i] < 0) {
+      Refuse(name,
+             "is " + PrintNumber(block.weight[i]) + ", must not be negative");
+    }
   }
 }
 
@@ -104,6 +121,7 @@ void ReadInequalities(const json& level, int index, const std::string& where,
                 name + "[" + std::to_string(i) + "]");
     }
   }
+  RefuseCrossed(sided, where + ".lower", "upper");
 }
 
 void ReadBounds(const json& file, int level, Hierarchy* hierarchy) {
@@ -121,6 +139,7 @@ void ReadBounds(const json& file, int level, Hierarchy* hierarchy) {
                 std::string(key) + "[" + std::to_string(j) + "]");
     }
   }
+  RefuseCrossed(block, "y_lower", "y_upper");
 }
 
 int Integer(const json& file, const char* key, int low, int high) {
@@ -169,7 +188,7 @@ HqpProblem ReadHqp(const std::string& text) {
   const json& levels = Array(file, "levels", "file");
   if (levels.empty()) Refuse("levels", "must have at least one level");
   const bool has_bounds = file.contains("y_lower") || file.contains("y_upper");
-  const int bounds_level = has_bounds && file.contains("y_bounds_level")
+  const int bounds_level = file.contains("y_bounds_level")
                                ? Integer(file, "y_bounds_level", 0,
                                          static_cast<int>(levels.size()) - 1)
                                : 0;

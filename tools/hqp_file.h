@@ -19,7 +19,8 @@ struct HqpProblem {
 /// Reads the format hqp-1: {"format": "hqp-1", "variables": n, "levels": [{"B",
 /// "b", "weight", "A", "a", "C", "lower", "upper"}, ...], "y_lower", "y_upper",
 /// "y_bounds_level"}, where all but the first three may be absent. The
-/// inequalities of a level are those of A, of C, then the bounds on y.
+/// inequalities of a level are those of A, of C, then the bounds on y. Bounds
+/// that cross and negative weights are refused, as CheckInput() would.
 ///
 /// Throws std::invalid_argument with one line: which entry, and what is wrong.
 HqpProblem ReadHqp(const std::string& text);

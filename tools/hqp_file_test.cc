@@ -139,6 +139,21 @@ TEST(ReadHqp, RefusesInOneLine) {
             "y_lower: has 1 entries, must have 2");
   EXPECT_EQ(Refusal(head + R"([{}], "y_lower": [1, 1], "y_bounds_level": 1})"),
             "y_bounds_level: is 1, must be a whole number from 0 to 0");
+  EXPECT_EQ(Refusal(head + R"([{}], "y_bounds_level": 1})"),
+            "y_bounds_level: is 1, must be a whole number from 0 to 0");
+}
+
+TEST(ReadHqp, RefusesWhatNoSolverTakes) {
+  const std::string head =
+      R"({"format": "hqp-1", "variables": 2, "levels": [{}, )";
+  EXPECT_EQ(Refusal(head + R"({"C": [[1, 0], [0, 1]], "lower": [1, 2.5],
+                               "upper": [1, -1]}]})"),
+            "levels[1].lower[1]: is 2.5, must not be above upper[1], -1");
+  EXPECT_EQ(Refusal(head + R"({"B": [[1, 0], [0, 1]], "b": [1, 1],
+                               "weight": [0, -0.5]}]})"),
+            "levels[1].weight[1]: is -0.5, must not be negative");
+  EXPECT_EQ(Refusal(head + R"({}], "y_lower": [-1, 3], "y_upper": [null, 2]})"),
+            "y_lower[1]: is 3, must not be above y_upper[1], 2");
 }
 
 }  // namespace
