@@ -2,12 +2,11 @@
 // The dynamics of a robot: bazel run //tools:dynamics -- --urdf FILE ...
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <string>
 
 #include "dynamics/tree.h"
+#include "robot/text_file.h"
 #include "robot/urdf.h"
 #include "tools/command_line.h"
 #include "tools/dynamics_file.h"
@@ -18,11 +17,7 @@
 namespace poise {
 namespace {
 
-nlohmann::json ReadJson(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw std::invalid_argument("cannot be read");
-  return ParseJson(std::string(std::istreambuf_iterator<char>(file), {}));
-}
+constexpr size_t kMostMib = 1024;  // Of states.
 
 int Main(int argc, char** argv) {
   CLI::App app(
@@ -41,9 +36,10 @@ int Main(int argc, char** argv) {
   ParseCommandLine(argc, argv, &app);
   const RobotModel robot = LoadUrdf(UserPath(urdf));
   CheckFrames(robot.tree, frames);
+  const std::string text = ReadTextFile(UserPath(states), kMostMib);
   try {
     const nlohmann::json result =
-        ComputeDynamics(robot.tree, ReadJson(UserPath(states)), frames);
+        ComputeDynamics(robot.tree, ParseJson(text), frames);
     std::cout << (json ? result.dump() + "\n"
                        : FormatDynamics(robot.tree, result));
   } catch (const std::exception& error) {

@@ -3,13 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <fstream>
 #include <iostream>
-#include <sstream>
 
 #include "hqp/cascade.h"
 #include "hqp/certificate.h"
 #include "hqp/solver.h"
+#include "robot/text_file.h"
 #include "tools/command_line.h"
 #include "tools/hqp_file.h"
 #include "tools/user_path.h"
@@ -17,13 +16,7 @@
 namespace poise {
 namespace {
 
-std::string ReadFile(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (!file) throw std::invalid_argument("cannot be read");
-  return text.str();
-}
+constexpr size_t kMostMib = 1024;  // Of a file.
 
 Status Solve(const std::string& method, const HqpProblem& problem,
              Solution* solution) {
@@ -61,8 +54,9 @@ int Main(int argc, char** argv) {
   bool all_optimal = true;
   std::string document;
   for (const std::string& name : files) {
+    const std::string text = ReadTextFile(UserPath(name), kMostMib);
     try {
-      const HqpProblem problem = ReadHqp(ReadFile(UserPath(name)));
+      const HqpProblem problem = ReadHqp(text);
       const int n = problem.hierarchy.num_variables();
       Solution solution(n, problem.capacity);
       const auto start = std::chrono::steady_clock::now();

@@ -1,0 +1,40 @@
+#!/bin/bash
+# Usage: hqp_test.sh HQP DYNAMICS URDF
+# What scripts rely on: exit codes, one line on stderr that names the file.
+set -euo pipefail
+hqp=$PWD/$1 dynamics=$PWD/$2 urdf=$PWD/$3
+cd "$TEST_TMPDIR"
+
+fail() {
+  echo "hqp_test.sh: $*" >&2
+  exit 1
+}
+
+# Usage: refuse MESSAGE COMMAND...: that a command says this line, and no more.
+refuse() {
+  local message=$1 code=0
+  shift
+  timeout 60 "$@" > said 2> error || code=$?
+  [ "$code" = 2 ] || fail "exit code $code for $*, wanted 2"
+  [ "$(cat error)" = "$message" ] || fail "$* says: $(cat error)"
+  [ ! -s said ] || fail "$* is refused, and prints all the same"
+}
+
+echo '{"format": "hqp-1", "variables": 1, "levels": [{"B": [[2]], "b": [-4]}]}' \
+  > good.json
+"$hqp" --json good.json > said 2> error || fail "exit code $? for good.json"
+grep -q '"status":"optimal","y":\[2.0\]' said || fail "it says: $(cat said)"
+[ ! -s error ] || fail "stderr of a good file: $(cat error)"
+
+echo '{"format": "hqp-1", "variables": 1, "levels": [
+  {"C": [[1]], "lower": [2], "upper": [1]}]}' > crossed.json
+refuse "hqp: crossed.json: levels[0].lower[0]: is 2, must not be above $(
+  )upper[0], 1" "$hqp" --json good.json crossed.json
+
+refuse "hqp: /tmp: is no regular file" "$hqp" /tmp
+refuse "hqp: /dev/zero: is no regular file" "$hqp" /dev/zero
+refuse "hqp: gone.json: cannot be read" "$hqp" gone.json
+refuse "hqp: files is required" "$hqp"
+
+refuse "dynamics: /dev/zero: is no regular file" \
+  "$dynamics" --urdf "$urdf" --states /dev/zero
