@@ -20,6 +20,14 @@ std::string SayNoNumber(const std::string& message) {
          Quoted(message.substr(value + 3)) + ", must be a number";
 }
 
+// CLI11 misses what is required before it says what it does not know.
+std::string SayUnknown(const CLI::App& app, const std::string& otherwise) {
+  for (const std::string& word : app.remaining()) {
+    if (word[0] == '-') return "option " + Quoted(word) + " is unknown";
+  }
+  return otherwise;
+}
+
 struct Help {
   std::string text;
 };
@@ -45,6 +53,10 @@ void ParseCommandLine(int argc, char** argv, CLI::App* app) {
     throw Help{app->help()};
   } catch (const CLI::ConversionError& error) {
     throw std::invalid_argument(SayNoNumber(error.what()));
+  } catch (const CLI::RequiredError& error) {
+    throw std::invalid_argument(SayUnknown(*app, error.what()));
+  } catch (const CLI::ExtrasError& error) {
+    throw std::invalid_argument(SayUnknown(*app, error.what()));
   } catch (const CLI::ParseError& error) {
     throw std::invalid_argument(error.what());
   }
