@@ -29,17 +29,6 @@ Status Solve(const std::string& method, const HqpProblem& problem,
       .Solve(problem.hierarchy, solution);
 }
 
-void Print(const std::string& name, const Solution& solution,
-           const Certificate& certificate, double microseconds) {
-  std::cout << name << ": " << Name(solution.status) << ", "
-            << solution.iterations << " iterations, " << microseconds
-            << " us, certificate " << certificate.worst() << "\n";
-  for (size_t level = 0; level < solution.levels.size(); ++level) {
-    std::cout << "  level " << level << ": cost " << solution.levels[level].cost
-              << ", nullity " << solution.levels[level].nullity << "\n";
-  }
-}
-
 int Main(int argc, char** argv) {
   CLI::App app("Solves hierarchies of rows (format hqp-1).", "hqp");
   std::vector<std::string> files;
@@ -66,7 +55,11 @@ int Main(int argc, char** argv) {
                                       .count();
       const Certificate certificate =
           Certifier(n, problem.capacity).Certify(problem.hierarchy, solution);
-      if (!json) Print(name, solution, certificate, microseconds);
+      if (!json) {
+        std::cout << name << ": "
+                  << DescribeHqpSolution(problem.hierarchy, solution,
+                                         certificate, microseconds);
+      }
       document += (document.empty() ? "" : ",") +
                   WriteHqpSolution(problem.hierarchy, solution, certificate,
                                    microseconds);

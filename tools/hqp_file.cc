@@ -1,9 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "tools/hqp_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "robot/finding.h"
@@ -247,6 +249,45 @@ std::string Name(Status status) {
   return "";
 }
 
+int CertifiedLevels(const Hierarchy& hierarchy, const Solution& solution) {
+  switch (solution.status) {
+    case Status::kOptimal:
+      return hierarchy.num_levels();
+    case Status::kIterationLimit:  // Where y's norm failed, beyond all levels.
+      return std::min(solution.failed_level, hierarchy.num_levels());
+    case Status::kNotFinite:
+    case Status::kBadInput:
+      return 0;
+  }
+  return 0;
+}
+
+std::string DescribeHqpSolution(const Hierarchy& hierarchy,
+                                const Solution& solution,
+                                const Certificate& certificate,
+                                double microseconds) {
+  const int levels = hierarchy.num_levels();
+  const int certified = CertifiedLevels(hierarchy, solution);
+  std::ostringstream text;
+  text << Name(solution.status) << ", " << solution.iterations
+       << " iterations, " << microseconds << " us, ";
+  if (certified == 0) {
+    text << "no certificate";
+  } else {
+    text << "certificate " << certificate.worst();
+    if (certified < levels) {
+      text << " of the first " << certified << " of " << levels << " levels";
+    }
+  }
+  text << "\n";
+  for (int level = 0; level < levels; ++level) {
+    text << "  level " << level << ": cost " << solution.levels[level].cost
+         << ", nullity " << solution.levels[level].nullity
+         << (level < certified ? "" : ", NOT certified") << "\n";
+  }
+  return text.str();
+}
+
 std::string WriteHqpSolution(const Hierarchy& hierarchy,
                              const Solution& solution,
                              const Certificate& certificate,
@@ -281,10 +322,20 @@ std::string WriteHqpSolution(const Hierarchy& hierarchy,
     }
     out["levels"].push_back(to);
   }
-  out["certificate"] = {{"stationarity", certificate.stationarity},
-                        {"feasibility", certificate.feasibility},
-                        {"complementarity", certificate.complementarity},
-                        {"priority", certificate.priority}};
+  out["failed_level"] = solution.failed_level < 0
+                            ? ordered_json()
+                            : ordered_json(solution.failed_level);
+  const int certified = CertifiedLevels(hierarchy, solution);
+  out["certified_levels"] = certified;
+  // Zeros would say that all is well.
+  const auto number = [&](double value) {
+    return certified > 0 ? ordered_json(value) : ordered_json();
+  };
+  out["certificate"] = {
+      {"stationarity", number(certificate.stationarity)},
+      {"feasibility", number(certificate.feasibility)},
+      {"complementarity", number(certificate.complementarity)},
+      {"priority", number(certificate.priority)}};
   out["iterations"] = solution.iterations;
   out["microseconds"] = microseconds;
   return out.dump();

@@ -29,7 +29,20 @@ HqpProblem ReadHqp(const std::string& text);
 /// Reading it gives the same numbers to the last bit.
 std::string WriteHqp(const Hierarchy& hierarchy);
 
-/// An answer, as `//tools:hqp -- --json` prints it.
+/// How many levels, from the first on, the certificate of an answer is about:
+/// all if it is optimal, those above the one that failed if it is not.
+int CertifiedLevels(const Hierarchy& hierarchy, const Solution& solution);
+
+/// An answer for people: a line, and one more a level. Says of which levels the
+/// certificate is.
+std::string DescribeHqpSolution(const Hierarchy& hierarchy,
+                                const Solution& solution,
+                                const Certificate& certificate,
+                                double microseconds);
+
+/// An answer, as `//tools:hqp -- --json` prints it: `failed_level` is null if
+/// it is optimal, `certified_levels` is CertifiedLevels(), and the numbers of a
+/// certificate of no levels are null.
 std::string WriteHqpSolution(const Hierarchy& hierarchy,
                              const Solution& solution,
                              const Certificate& certificate,

@@ -92,6 +92,59 @@ TEST(WriteHqpSolution, HasWhatTheFormatSays) {
   EXPECT_EQ(out["certificate"]["priority"], 4);
   EXPECT_EQ(out["iterations"], solution.iterations);
   EXPECT_EQ(out["microseconds"], 5);
+  EXPECT_TRUE(out["failed_level"].is_null());
+  EXPECT_EQ(out["certified_levels"], 3);
+}
+
+// An answer that is no good from a level on, the certificate of those above.
+class UnfinishedTest : public testing::Test {
+ protected:
+  UnfinishedTest() : problem_(ReadHqp(kFile)), solution_(2, problem_.capacity) {
+    certificate_.stationarity = 1e-14;
+  }
+  json Written(Status status, int failed_level) {
+    solution_.status = status;
+    solution_.failed_level = failed_level;
+    return json::parse(
+        WriteHqpSolution(problem_.hierarchy, solution_, certificate_, 5));
+  }
+  std::string Said() const {
+    return DescribeHqpSolution(problem_.hierarchy, solution_, certificate_, 5);
+  }
+
+  HqpProblem problem_;
+  Solution solution_;
+  Certificate certificate_;
+};
+
+TEST_F(UnfinishedTest, SaysWhichLevelsAreCertified) {
+  const json out = Written(Status::kIterationLimit, 2);
+  EXPECT_EQ(out["failed_level"], 2);
+  EXPECT_EQ(out["certified_levels"], 2);
+  EXPECT_EQ(out["certificate"]["stationarity"], 1e-14);
+  EXPECT_EQ(out["certificate"]["priority"], 0);
+  const std::string said = Said();
+  EXPECT_NE(said.find("certificate 1e-14 of the first 2 of 3 levels\n"),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("level 1: cost 0, nullity 2\n"), std::string::npos)
+      << said;
+  EXPECT_NE(said.find("level 2: cost 0, nullity 2, NOT certified\n"),
+            std::string::npos)
+      << said;
+}
+
+TEST_F(UnfinishedTest, HasNoCertificateOfNoLevels) {
+  for (const json& out :
+       {Written(Status::kIterationLimit, 0), Written(Status::kNotFinite, 1)}) {
+    EXPECT_EQ(out["certified_levels"], 0);
+    for (const json& number : out["certificate"]) {
+      EXPECT_TRUE(number.is_null());
+    }
+    EXPECT_NE(Said().find("us, no certificate\n"), std::string::npos);
+  }
+  // The Cascade has a level more, for the norm of y.
+  EXPECT_EQ(Written(Status::kIterationLimit, 3)["certified_levels"], 3);
 }
 
 TEST(Name, IsTheFormats) {
