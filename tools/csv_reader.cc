@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "robot/finding.h"
+
 namespace poise {
 namespace {
 
@@ -20,6 +22,23 @@ void Split(std::string_view line, std::vector<std::string_view>* cells) {
   }
 }
 
+bool HasWords(std::string_view column) {
+  for (const char* name :
+       {"touching", "status", "active", "lost", "conflict"}) {
+    if (column == name) return true;
+  }
+  return false;
+}
+
+// False if the text is no number; an empty one is NaN.
+bool ParseNumber(std::string_view text, double* value) {
+  *value = std::numeric_limits<double>::quiet_NaN();
+  if (text.empty()) return true;
+  const char* text_end = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), text_end, *value);
+  return error == std::errc() && end == text_end;
+}
+
 }  // namespace
 
 CsvReader::CsvReader(const std::filesystem::path& file)
@@ -30,24 +49,27 @@ CsvReader::CsvReader(const std::filesystem::path& file)
   if (!std::getline(stream_, line_)) return;
   Split(line_, &cells_);
   columns_.assign(cells_.begin(), cells_.end());
+  for (const std::string& column : columns_) {
+    has_words_.push_back(HasWords(column));
+  }
+  numbers_.assign(columns_.size(), std::numeric_limits<double>::quiet_NaN());
 }
 
 bool CsvReader::Next() {
   if (columns_.empty() || cut_short_) return false;
   if (!std::getline(stream_, line_)) return false;
+  ++line_number_;
   Split(line_, &cells_);
   cut_short_ = stream_.eof() || cells_.size() != columns_.size();
-  return !cut_short_;
-}
-
-double CsvReader::Number(int column) const {
-  const std::string_view text = cells_[column];
-  double value = 0;
-  const auto [end, error] =
-      std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number =
-      error == std::errc() && end == text.data() + text.size();
-  return is_number ? value : std::numeric_limits<double>::quiet_NaN();
+  if (cut_short_) return false;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (has_words_[i] || ParseNumber(cells_[i], &numbers_[i])) continue;
+    throw std::invalid_argument(file_.string() + ":" +
+                                std::to_string(line_number_) + ": column " +
+                                Quoted(columns_[i]) + " is " +
+                                Quoted(cells_[i]) + ", must be a number");
+  }
+  return true;
 }
 
 long CsvReader::CountRows() const {

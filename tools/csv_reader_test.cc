@@ -64,9 +64,27 @@ TEST(CsvReader, StopsAtARowOfAnotherLength) {
 }
 
 TEST(CsvReader, GivesNoNumberForWhatIsNone) {
-  CsvReader csv(Written("a,b,c,d\nnan,1x,,0.5 \n"));
+  CsvReader csv(Written("a,b,status\nnan,,7\n"));
   ASSERT_TRUE(csv.Next());
-  for (int i = 0; i < 4; ++i) EXPECT_TRUE(std::isnan(csv.Number(i))) << i;
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(std::isnan(csv.Number(i))) << i;
+}
+
+TEST(CsvReader, RefusesWordsAmongNumbers) {
+  const auto refusal = [](const std::string& row) -> std::string {
+    const auto file = Written("time[s],base.qx,lost\n0,-inf,ok\n" + row + "\n");
+    CsvReader csv(file);
+    EXPECT_TRUE(csv.Next());
+    try {
+      csv.Next();
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what()).substr(file.string().size());
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal("1,2,x"), "accepted");
+  EXPECT_EQ(refusal("1,0.5x1,x"),
+            ":3: column 'base.qx' is '0.5x1', must be a number");
+  EXPECT_EQ(refusal("1 ,2,"), ":3: column 'time[s]' is '1 ', must be a number");
 }
 
 TEST(CsvReader, ReadsLinesThatEndAsOnWindows) {

@@ -131,6 +131,16 @@ TEST(Explanation, RefusesWhatIsNoRun) {
   EXPECT_THROW(Explain("nowhere"), std::invalid_argument);
   EXPECT_THROW(Explain(MakeRun("other", "a,b\n1,2\n", "{}")),
                std::invalid_argument);
+  const std::filesystem::path garbled =
+      MakeRun("garbled", "time[s],com.x[m],status,active\n0,0.0a1,ok,\n", "{}");
+  try {
+    Explain(garbled);
+    ADD_FAILURE() << "a letter among digits is taken for a number";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(error.what(),
+              (garbled / "log.csv").string() +
+                  ":2: column 'com.x[m]' is '0.0a1', must be a number");
+  }
 }
 
 TEST(Explanation, NamesEdgesAsAPersonDoes) {

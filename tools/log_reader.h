@@ -25,7 +25,7 @@ class LogReader {
   std::optional<int> Find(std::string_view name) const;
 
   /// Reads the next whole row; false at the end, or where the log was cut
-  /// short.
+  /// short. Throws std::invalid_argument about one that holds what it must not.
   virtual bool Next() = 0;
 
   /// A cell of text of this row, valid until the next one.

@@ -16,9 +16,8 @@ namespace poise {
 ///     log      see ReadRunLog().
 ///     timing   see ReadTiming(), or null.
 ///     notes    [sentence, ...]: what is missing or broken.
-/// A log is needed, whatever is in it; the rest may be missing. Throws
-/// std::invalid_argument, naming the file, if the folder or its log is not
-/// there.
+/// A log is needed; the rest may be missing. Throws std::invalid_argument,
+/// naming the file, if the folder or its log is not there, or that is no log.
 nlohmann::json ReadRun(const std::filesystem::path& run_dir);
 
 /// Puts a document into a page of tools/viewer/dist as its block of data.

@@ -78,16 +78,16 @@ TEST(ReportPage, IsWrittenFromARunAlone) {
 
 TEST(ReportPage, SaysWhatIsMissing) {
   const fs::path run = EmptyFolder("run_missing");
-  Write(run / "log.csv", "");
+  Write(run / "log.csv", "time[s]\n");
   Write(run / "summary.json", "{\"scenario\": \"sta");
   const json shown = ReadRun(run / "");
   EXPECT_EQ(shown["name"], "run_missing");
   EXPECT_TRUE(shown["summary"].is_null());
   EXPECT_TRUE(shown["robot"].is_null());
   EXPECT_TRUE(shown["timing"].is_null());
-  EXPECT_EQ(shown["notes"],
-            json({"log.csv is empty.", "summary.json cannot be read as JSON.",
-                  "robot.json is not there."}));
+  EXPECT_EQ(shown["notes"], json({"log.csv has a header and no rows.",
+                                  "summary.json cannot be read as JSON.",
+                                  "robot.json is not there."}));
 }
 
 TEST(ReportPage, ShowsTwoRuns) {
@@ -114,6 +114,9 @@ TEST(ReportPage, NamesWhatItCannotReadOrWrite) {
             "no/such/run: is not a run's folder");
   EXPECT_EQ(error([&] { ReadRun(run); }),
             (run / "log.csv").string() + ": cannot be opened");
+  Write(run / "log.csv", "");
+  EXPECT_EQ(error([&] { ReadRun(run); }),
+            (run / "log.csv").string() + ": has no columns");
   Write(run / "log.csv", "time[s]\n0\n");
   EXPECT_EQ(error([&] { WriteReport({run}, run); }),
             run.string() + ": cannot be written");

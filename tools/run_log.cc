@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -247,6 +248,12 @@ json ReadRunLog(const std::filesystem::path& file) {
   const std::unique_ptr<LogReader> reader = OpenLog(file);
   LogReader& log = *reader;
   const std::string name = file.filename().string();
+  const auto time_column = log.Find("time");
+  if (!time_column) {
+    throw std::invalid_argument(file.string() + (log.columns().empty()
+                                                     ? ": has no columns"
+                                                     : ": has no column time"));
+  }
   const long expected = log.CountRows();
   const long motion_rows =
       std::clamp(expected / 33, kFewestMotionRows, kMostMotionRows);
@@ -259,14 +266,13 @@ json ReadRunLog(const std::filesystem::path& file) {
   const long pause = 1 + expected / kSpansPerLog;
   Spans active(pause), status(pause), touching(pause);
 
-  const auto time_column = log.Find("time");
   const auto active_column = log.Find("active");
   const auto status_column = log.Find("status");
   const auto touching_column = log.Find("touching");
   json notes = json::array();
   long rows = 0;
   double previous = 0, dt = 0;
-  while (time_column && log.Next()) {
+  while (log.Next()) {
     const double time = log.Number(*time_column);
     if (!std::isfinite(time) || (rows > 0 && time <= previous)) {
       notes.push_back("Row " + std::to_string(rows + 1) + " of " + name +
@@ -290,11 +296,7 @@ json ReadRunLog(const std::filesystem::path& file) {
     }
     ++rows;
   }
-  if (log.columns().empty() && !log.cut_short()) {
-    notes.push_back(name + " is empty.");
-  } else if (!time_column && !log.cut_short()) {
-    notes.push_back(name + " has no column time[s].");
-  } else if (log.cut_short()) {
+  if (log.cut_short()) {
     notes.push_back(name + " was cut short: its last row is not whole.");
   } else if (rows == 0 && notes.empty()) {
     notes.push_back(name + " has a header and no rows.");

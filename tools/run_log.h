@@ -23,8 +23,10 @@ namespace poise {
 /// thinned, 2 n rows give two points, their least and greatest value in the
 /// order they came in: a peak of one tick stays visible.
 ///
-/// An empty log, or one cut short, is read as far as it goes and noted. Throws
-/// std::invalid_argument if there is none. Two passes, memory of the result.
+/// A log without rows, or one cut short, is read as far as it goes and noted.
+/// Throws std::invalid_argument, naming the file, if there is none, if it has no
+/// column time, or holds what is no number where one must be. Two passes, memory
+/// of the result.
 nlohmann::json ReadRunLog(const std::filesystem::path& file);
 
 /// The same for timing.csv: {rows, time, channels} with us and iterations; the

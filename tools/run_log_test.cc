@@ -104,18 +104,28 @@ TEST(RunLog, ReadsWhatIsThereOfALogCutShort) {
             json({"log.csv was cut short: its last row is not whole."}));
 }
 
-TEST(RunLog, SaysThatThereIsNothingToRead) {
-  json log = ReadRunLog(Written(""));
-  EXPECT_EQ(log["rows"], 0);
-  EXPECT_EQ(log["notes"], json({"log.csv is empty."}));
-
-  log = ReadRunLog(Written(kHeader));
+TEST(RunLog, SaysThatThereAreNoRows) {
+  const json log = ReadRunLog(Written(kHeader));
   EXPECT_EQ(log["rows"], 0);
   EXPECT_EQ(log["notes"], json({"log.csv has a header and no rows."}));
+}
 
-  log = ReadRunLog(Written("a,b\n1,2\n"));
-  EXPECT_EQ(log["rows"], 0);
-  EXPECT_EQ(log["notes"], json({"log.csv has no column time[s]."}));
+TEST(RunLog, RefusesWhatIsNoLog) {
+  const auto refusal = [](const std::string& text) -> std::string {
+    const auto file = Written(text);
+    try {
+      ReadRunLog(file);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what()).substr(file.string().size());
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal(""), ": has no columns");
+  EXPECT_EQ(refusal("POISELOG\1"), ": has no columns");  // A binary one, cut.
+  EXPECT_EQ(refusal("a,b\n1,2\n"), ": has no column time");
+  EXPECT_EQ(refusal("\x8f\xa3,\x01\n\xff"), ": has no column time");
+  EXPECT_EQ(refusal("time[s],q.knee[rad]\n0,0.1\n1,0.l\n"),
+            ":3: column 'q.knee[rad]' is '0.l', must be a number");
 }
 
 TEST(RunLog, StopsWhereTimeDoesNotAdvance) {
