@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
@@ -14,6 +13,7 @@
 #include <string_view>
 
 #include "tools/open_log.h"
+#include "tools/run_summary.h"
 
 namespace poise {
 namespace {
@@ -156,13 +156,6 @@ std::string ConflictSentence(double time, Values rows) {
   return Format("%.3f s: cannot all be met: ", time) + text + ".";
 }
 
-json ReadSummary(const std::filesystem::path& run) {
-  std::ifstream stream(run / "summary.json");
-  if (!stream) return json::object();
-  const json summary = json::parse(stream, nullptr, false);
-  return summary.is_object() ? summary : json::object();
-}
-
 // When a foot that is meant to be down first rolls or slides.
 class FootWatch {
  public:
@@ -200,16 +193,28 @@ class FootWatch {
   std::vector<std::pair<double, std::string>> sentences_;
 };
 
+// Whether a run was stopped while the robot was up: nobody saw the end.
+bool WasInterrupted(const json& summary) {
+  return summary.value("interrupted", json()) == true &&
+         !summary.value("fell_at", json()).is_number();
+}
+
 std::string Ending(const json& summary) {
   if (!summary.contains("recovered")) return "How it ended is not recorded.";
+  if (WasInterrupted(summary)) {
+    const json at = summary.value("duration", json());
+    return "The run was interrupted" +
+           (at.is_number() ? Format(" at %.3f s", at.get<double>()) : "") +
+           ", the robot still up: how it would have ended is not known.";
+  }
   if (summary["recovered"] == true) return "The robot recovered.";
   const json fell_at = summary.value("fell_at", json());
   if (!fell_at.is_number()) {
     return "The robot stayed up, but did not come back to its place.";
   }
-  const std::string by = summary.value("fell_by", "");
+  const json by = summary.value("fell_by", json());
   return "The robot fell at " + Format("%.3f s", fell_at.get<double>()) +
-         (by.empty() ? "." : ": " + by + ".");
+         (by.is_string() && by != "" ? ": " + by.get<std::string>() : "") + ".";
 }
 
 }  // namespace
@@ -268,7 +273,9 @@ json Explain(const std::filesystem::path& run) {
     feet.emplace_back(name, reader);
   }
   std::vector<std::pair<double, Values>> conflicts;
+  bool has_rows = false;
   while (reader.Next()) {
+    has_rows = true;
     const double t = reader.Number(*time);
     for (FootWatch& foot : feet) foot.Look(t, reader);
     const Values acting = Parse(reader.cell(*active));
@@ -292,14 +299,24 @@ json Explain(const std::filesystem::path& run) {
     }
   }
 
-  const json summary = ReadSummary(run);
-  json out = {{"recovered", summary.value("recovered", json())},
-              {"fell_at", summary.value("fell_at", json())},
-              {"rows", json::array()},
-              {"losses", json::array()},
-              {"conflicts", json::array()},
-              {"status", json::array()},
-              {"sentences", json::array()}};
+  json notes = json::array();
+  if (reader.cut_short()) {
+    notes.push_back(log.filename().string() +
+                    " was cut short: its last row is not whole.");
+  }
+  const RunSummary read = ReadRunSummary(run);
+  if (read.is_of_other_log) notes.push_back(read.note);
+  const json summary = read.values.is_null() ? json::object() : read.values;
+  json out = {
+      {"recovered",
+       WasInterrupted(summary) ? json() : summary.value("recovered", json())},
+      {"fell_at", summary.value("fell_at", json())},
+      {"notes", notes},
+      {"rows", json::array()},
+      {"losses", json::array()},
+      {"conflicts", json::array()},
+      {"status", json::array()},
+      {"sentences", json::array()}};
   std::vector<std::pair<double, std::string>> sentences;
   for (const Span& span : rows.spans()) {
     out["rows"].push_back({{"name", span.name},
@@ -365,8 +382,11 @@ json Explain(const std::filesystem::path& run) {
     }
   }
   if (sentences.empty()) {
-    out["sentences"].push_back("No row acted: every task got what it asked.");
+    out["sentences"].push_back(
+        has_rows ? "No row acted: every task got what it asked."
+                 : log.filename().string() + " has a header and no rows.");
   }
+  for (const json& note : notes) out["sentences"].push_back(note);
   out["sentences"].push_back(Ending(summary));
   if (left_out > 0) {
     out["sentences"].push_back(

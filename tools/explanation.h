@@ -20,7 +20,9 @@ namespace poise {
 ///     conflicts  [{at, rows: [{name, rank}]}]: rows that contradict each other,
 ///                none of which can be spared, where the log has them.
 ///     status     [{name, from, to}]: where it was not "ok".
-///     recovered, fell_at   from summary.json; null where there is none.
+///     recovered, fell_at   from summary.json; null where there is none of this
+///                log, and recovered where the run was interrupted.
+///     notes      [sentence, ...]: that the log was cut, or is not the summary's.
 ///     sentences  the same for a person, in the order of time.
 ///
 /// Throws std::invalid_argument, naming the file, if there is no log, or it

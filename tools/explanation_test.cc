@@ -96,6 +96,46 @@ TEST(Explanation, LeavesOutWhatCameAfterAFall) {
   EXPECT_EQ(said["rows"].size(), 3u);
 }
 
+// A robot that still stands may still fall.
+TEST(Explanation, DoesNotSayHowAnInterruptedRunWouldHaveEnded) {
+  const nlohmann::json said = Explain(
+      MakeRun("interrupted", kPushed,
+              R"({"recovered": true, "fell_at": null, "interrupted": true,
+                  "duration": 0.91})"));
+  EXPECT_TRUE(said["recovered"].is_null());
+  EXPECT_EQ(said["sentences"].back(),
+            "The run was interrupted at 0.910 s, the robot still up: how it "
+            "would have ended is not known.");
+  EXPECT_EQ(Explain(MakeRun("interrupted_late", kPushed,
+                            R"({"recovered": false, "fell_at": 1.25,
+                                "interrupted": true})"))["sentences"]
+                .back(),
+            "The robot fell at 1.250 s.");
+}
+
+TEST(Explanation, TakesNoSummaryOfAnotherLog) {
+  const nlohmann::json said =
+      Explain(MakeRun("other_log", std::string(kPushed) + "0.92,o",
+                      R"({"recovered": true, "fell_at": 0.7,
+                          "log_sha256": "of the whole log"})"));
+  EXPECT_TRUE(said["recovered"].is_null());
+  EXPECT_TRUE(said["fell_at"].is_null());
+  const size_t count = said["sentences"].size();
+  EXPECT_EQ(said["sentences"][count - 3],
+            "log.csv was cut short: its last row is not whole.");
+  EXPECT_EQ(said["sentences"][count - 2],
+            "summary.json is not of this log.csv, by its log_sha256: that is "
+            "of another run, or was cut or changed.");
+  EXPECT_EQ(said["sentences"][count - 1], "How it ended is not recorded.");
+  EXPECT_EQ(said["notes"].size(), 2u);
+}
+
+TEST(Explanation, SaysThatThereAreNoRows) {
+  const nlohmann::json said =
+      Explain(MakeRun("no_rows", "time[s],status,active\n", "{}"));
+  EXPECT_EQ(said["sentences"][0], "log.csv has a header and no rows.");
+}
+
 TEST(Explanation, SaysWhenAFootRollsOrSlides) {
   const nlohmann::json said = Explain(
       MakeRun("rolled",

@@ -36,6 +36,8 @@ stop "$interrupted" INT
 is_whole "$interrupted"
 grep -q '"interrupted": true' "$interrupted/summary.json" ||
   fail "summary.json does not say that the run was interrupted"
+"$explain" "$interrupted" | grep -q 'The run was interrupted at ' ||
+  fail "explain does not say that the run was interrupted"
 
 killed=$TEST_TMPDIR/killed
 stop "$killed" KILL

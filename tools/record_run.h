@@ -13,7 +13,8 @@ namespace poise {
 
 /// Runs a scenario into a folder that holds all that a report is made of:
 /// log.csv or log.bin, timing.csv, summary.json, robot.json. See Run() for
-/// `progress` and `format`.
+/// `progress` and `format`. What another run left there, its report.html too, is
+/// removed.
 ///
 /// Throws std::invalid_argument as Run() does, or if a file cannot be written.
 RunResult RecordRun(const Robot& robot, const Scenario& scenario,

@@ -6,6 +6,7 @@
 
 #include "tools/open_log.h"
 #include "tools/run_log.h"
+#include "tools/run_summary.h"
 #include "tools/viewer/pages.h"
 
 namespace poise {
@@ -55,7 +56,9 @@ json ReadRun(const path& run_dir) {
   json log = ReadRunLog(FindLog(run_dir));
   json notes = std::move(log["notes"]);
   log.erase("notes");
-  json summary = ReadOptional(run_dir / "summary.json", &notes);
+  RunSummary read = ReadRunSummary(run_dir);
+  if (!read.note.empty()) notes.push_back(read.note);
+  json summary = std::move(read.values);
   json robot = ReadOptional(run_dir / "robot.json", &notes);
   json timing = nullptr;
   if (std::filesystem::exists(run_dir / "timing.csv")) {

@@ -11,7 +11,7 @@ namespace poise {
 
 /// A run's folder as the report shows it:
 ///     name     the folder's.
-///     summary  summary.json, or null.
+///     summary  summary.json, or null, see ReadRunSummary().
 ///     robot    robot.json (see MakeRobotJson()), or null: nothing to draw.
 ///     log      see ReadRunLog().
 ///     timing   see ReadTiming(), or null.

@@ -90,6 +90,17 @@ TEST(ReportPage, SaysWhatIsMissing) {
                                   "robot.json is not there."}));
 }
 
+TEST(ReportPage, ShowsNoSummaryOfAnotherLog) {
+  const fs::path run = EmptyFolder("run_cut");
+  Write(run / "log.csv", "time[s]\n0\n");
+  Write(run / "summary.json", R"({"recovered": true, "log_sha256": "other"})");
+  const json shown = ReadRun(run);
+  EXPECT_TRUE(shown["summary"].is_null());
+  EXPECT_EQ(shown["notes"][0],
+            "summary.json is not of this log.csv, by its log_sha256: that is "
+            "of another run, or was cut or changed.");
+}
+
 TEST(ReportPage, ShowsTwoRuns) {
   const fs::path a = EmptyFolder("run_a"), b = EmptyFolder("run_b");
   for (const fs::path& run : {a, b}) Write(run / "log.csv", "time[s]\n0\n");
