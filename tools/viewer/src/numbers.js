@@ -159,6 +159,9 @@ export function moreNumbersHtml(runs) {
 
 /** How a run ended, as a badge. */
 export function verdictHtml({summary}) {
+  if (summary.interrupted === true && !Number.isFinite(summary.fell_at)) {
+    return '<span class="verdict none">Interrupted</span>';
+  }
   if (summary.recovered === true) {
     return '<span class="verdict">Recovered</span>';
   }

@@ -13,7 +13,7 @@ import path from 'node:path';
 import test, {after, before} from 'node:test';
 import {fileURLToPath} from 'node:url';
 import {chromium} from 'playwright-core';
-import {cutRun, emptyRun, hopperRun, longRun, mapPage,
+import {cutRun, emptyRun, hopperRun, interruptedRun, longRun, mapPage,
   oneTickRun} from './runs.mjs';
 
 const {POISE_REPORT, POISE_STANDS, POISE_FALLS, POISE_OUT} = process.env;
@@ -37,6 +37,7 @@ before(async () => {
   report('falls', POISE_FALLS);
   report('compare', POISE_FALLS, POISE_STANDS);
   report('empty', emptyRun(POISE_STANDS, runs('empty')));
+  report('interrupted', interruptedRun(POISE_STANDS, runs('interrupted')));
   report('cut', cutRun(POISE_STANDS, runs('cut')));
   report('one_tick', oneTickRun(POISE_STANDS, runs('one_tick')));
   report('hopper', hopperRun(runs('hopper')));
@@ -294,7 +295,7 @@ for (const name of ['stands', 'compare', 'map']) {
 }
 
 for (const [name, note] of [
-  ['empty', /log\.csv is empty/], ['cut', /cut short/], ['one_tick', null],
+  ['empty', /header and no rows/], ['cut', /cut short/], ['one_tick', null],
 ]) {
   test(`a log that is ${name.replace('_', ' ')} is shown as far as it goes`,
     () => withPage(name, {}, async (page) => {
@@ -363,4 +364,9 @@ test('a point of the push map replays its runs',
     await page.frames()[1].waitForFunction(() => window.poise);
     await drawn(page);
     await page.screenshot({path: out('map.png')});
+  }));
+
+test('an interrupted run has no verdict',
+  () => withPage('interrupted', {}, async (page) => {
+    assert.equal(await page.locator('.verdict').textContent(), 'Interrupted');
   }));

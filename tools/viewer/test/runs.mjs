@@ -7,21 +7,32 @@ import {copyFileSync, createWriteStream, mkdirSync, readFileSync,
   writeFileSync} from 'node:fs';
 import path from 'node:path';
 
-/** A copy of a run with another log. */
+/** A copy of a run with another log, which its summary is taken for. */
 function withLog(run, folder, log) {
   mkdirSync(folder, {recursive: true});
-  for (const name of ['robot.json', 'summary.json']) {
-    copyFileSync(path.join(run, name), path.join(folder, name));
-  }
+  copyFileSync(path.join(run, 'robot.json'), path.join(folder, 'robot.json'));
+  const {log_sha256: _, ...summary} = summaryOf(run);
+  writeFileSync(path.join(folder, 'summary.json'), JSON.stringify(summary));
   writeFileSync(path.join(folder, 'log.csv'), log);
   return folder;
 }
+
+const summaryOf = (run) =>
+  JSON.parse(readFileSync(path.join(run, 'summary.json'), 'utf8'));
 
 const linesOf = (run) =>
   readFileSync(path.join(run, 'log.csv'), 'utf8').trimEnd().split('\n');
 
 export function emptyRun(run, folder) {
-  return withLog(run, folder, '');
+  return withLog(run, folder, linesOf(run)[0] + '\n');
+}
+
+/** Stopped by a user, the robot still up. */
+export function interruptedRun(run, folder) {
+  withLog(run, folder, linesOf(run).join('\n') + '\n');
+  writeFileSync(path.join(folder, 'summary.json'),
+      JSON.stringify({...summaryOf(run), interrupted: true}));
+  return folder;
 }
 
 /** Stopped by a full disk: in the middle of a number, of row 500. */
