@@ -144,8 +144,12 @@ class PushMap {
       svg += `<path class="reached" style="--c:${color(i)}"
         d="${path(ring, 'impulse_Ns')}"/>`;
     });
+    // Midway between two directions, near 22.5°: where no point is.
+    const count = new Set(all.map((row) => row.direction_deg)).size;
+    const gap = Math.min(45, 360 / count);
+    const between = gap * (Math.floor(22.5 / gap) + 0.5);
     for (let value = step; value <= outer + 1e-9; value += step) {
-      const [x, y] = at(22.5, value);
+      const [x, y] = at(between, value);
       const unit = value + step > outer + 1e-9 ? ' N·s' : '';
       svg += `<text class="scale" x="${x}" y="${y + 4}">${
         +value.toPrecision(6)}${unit}</text>`;

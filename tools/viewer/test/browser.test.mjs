@@ -354,7 +354,7 @@ test('two robots that differ are compared',
 
 test('a point of the push map replays its runs',
   () => withPage('map', {}, async (page) => {
-    assert.equal(await page.locator('.point').count(), 16);
+    assert.equal(await page.locator('.point').count(), 32);
     await page.locator('.point').nth(0).click();
     assert.match(await page.locator('.replay').textContent(), /no replay/);
     await page.locator('.point').nth(2).click();
@@ -364,6 +364,18 @@ test('a point of the push map replays its runs',
     await page.frames()[1].waitForFunction(() => window.poise);
     await drawn(page);
     await page.screenshot({path: out('map.png')});
+  }));
+
+test('no point of the push map hides the scale',
+  () => withPage('map', {}, async (page) => {
+    const hidden = await page.evaluate(() => {
+      const boxes = (selector) => [...document.querySelectorAll(selector)]
+          .map((each) => [each.textContent, each.getBoundingClientRect()]);
+      return boxes('.scale').filter(([, a]) => boxes('.point').some(([, b]) =>
+        a.left < b.right && b.left < a.right &&
+        a.top < b.bottom && b.top < a.bottom)).map(([text]) => text);
+    });
+    assert.deepEqual(hidden, []);
   }));
 
 test('an interrupted run has no verdict',

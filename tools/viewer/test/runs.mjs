@@ -109,14 +109,17 @@ export function hopperRun(folder) {
   return folder;
 }
 
-/** A push map of which one point of each ring has a replay. */
+/**
+ * A push map of which one point of each ring has a replay. In each of 16
+ * directions a point lies on a ring of the scale.
+ */
 export function mapPage(template, replay) {
   const rows = [];
-  for (const [tasks, part] of [['default', 0.9],
+  for (const [tasks, part] of [['default', 1],
     ['-cop-yaw+yaw_constant', 0.3]]) {
-    for (let i = 0; i < 8; ++i) {
+    for (let i = 0; i < 16; ++i) {
       rows.push({
-        direction_deg: 45 * i, duration_s: 0.1, tasks, impulse_Ns: 20 * part,
+        direction_deg: 22.5 * i, duration_s: 0.1, tasks, impulse_Ns: 20 * part,
         lipm_Ns: 20, lipm_height_Ns: 14, eta: part,
         ...(i === 2 ? {replay} : {}),
       });
