@@ -156,7 +156,8 @@ Figure ErrorPlots(const RecordedRun& run, int number,
         1e3 * std::abs(run.summary()["com_error_final"][1].get<double>()));
   } else {
     ours += "It diverges: the robot " + Outcome(run) +
-            Format("; the run ends when it lies, at %.2f s.", run.end());
+            Format("; the run ends when it lies or is about to, at %.2f s.",
+                   run.end());
   }
   return {number, caption, paper, ours};
 }
