@@ -1,14 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "tools/diagnosis.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <limits>
 #include <stdexcept>
 
-#include "dynamics/tick.h"
 #include "robot/control/command.h"
 #include "robot/control/controller.h"
 #include "robot/control/default_stack.h"
@@ -17,24 +16,18 @@
 #include "robot/control/stand.h"
 #include "robot/control/task_set.h"
 #include "robot/control/tick_report.h"
-#include "robot/limits.h"
 #include "robot/urdf.h"
+#include "tools/check_inertia.h"
 #include "tools/parity.h"
 
 namespace poise {
 namespace {
 
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostJointsForInertia = 500;
 constexpr int kMostJointsToStand = 100;
 constexpr size_t kMostLinksToStand = 1000;
 constexpr size_t kMostShapesToStand = 10'000;
-// Of M with a unit diagonal: the smallest eigenvalue that is not rounding.
-constexpr double kSingular = 1e-13;
-// Where its inverse loses half the digits.
-constexpr double kIllConditioned = 1e-8;
 // Two dynamics of one robot agree to this, relative.
 constexpr double kParity = 1e-9;
 
@@ -54,14 +47,14 @@ class Doctor {
     if (const auto whole = Load()) {
       Describe(*whole);
       const RobotModel model = LockJoints(*whole);
-      CheckInertia(model);
+      smallest_eigenvalue_ = CheckInertia(model, &diagnosis_.findings);
       if (IsLarge(model)) {
         Add(Severity::kNote, "robot",
             "was not stood up, nor compared with Bullet",
             "as it has over 100 joints, 1000 links or 10000 shapes");
       } else {
         CheckStanding();
-        if (is_regular_) CheckParity({model, {}, {}});
+        if (smallest_eigenvalue_) CheckParity({model, {}, {}});
       }
     }
     std::stable_sort(diagnosis_.findings.begin(), diagnosis_.findings.end(),
@@ -121,62 +114,6 @@ class Doctor {
     return LoadModel(urdf_, profile_);
   }
 
-  // What coordinate i of v moves.
-  std::string Coordinate(const RobotModel& model, int i) const {
-    const int j = i - model.tree.v_start();
-    if (j < 0) return "base " + Quoted(diagnosis_.root);
-    return "joint " + Quoted(model.tree.joints()[j].name);
-  }
-
-  void CheckInertia(const RobotModel& model) {
-    const Tree& tree = model.tree;
-    if (tree.num_joints() > kMostJointsForInertia) {
-      Add(Severity::kNote, "robot",
-          "has " + std::to_string(tree.num_joints()) + " joints",
-          "M was not computed, as there are more than 500");
-      return;
-    }
-    Tick tick(tree, {});
-    ComputeTick(tree, RestConfiguration(model), VectorXd::Zero(tree.nv()),
-                &tick);
-    constexpr double kTooLarge = 1e20;  // Against which 1 is rounding.
-    if (!tick.M.allFinite() || tick.M.maxCoeff() > kTooLarge) {
-      Add(Severity::kWarn, "robot", "M is too large or not finite",
-          "numbers this large cannot be computed with");
-      return;
-    }
-    const VectorXd diagonal = tick.M.diagonal();
-    for (int i = 0; i < tree.nv(); ++i) {
-      if (diagonal[i] > 0) continue;
-      const bool nothing = diagonal[i] == 0;
-      Add(Severity::kWarn, Coordinate(model, i),
-          nothing ? "moves no mass" : "has negative inertia",
-          "M is singular or worse: no acceleration can be computed");
-      return;
-    }
-    const VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
-        scale.asDiagonal() * tick.M * scale.asDiagonal());
-    const double smallest = eigen.eigenvalues()[0];
-    int i = 0;
-    eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&i);
-    if (smallest < -kSingular * tree.nv()) {
-      Add(Severity::kWarn, Coordinate(model, i), "makes M indefinite",
-          "kinetic energy can be negative: an inertia is unphysical");
-    } else if (smallest < kSingular * tree.nv()) {
-      Add(Severity::kWarn, Coordinate(model, i), "makes M singular",
-          "others move the same mass: no acceleration can be computed");
-    } else {
-      is_regular_ = true;
-      smallest_eigenvalue_ = smallest;
-      if (smallest < kIllConditioned) {
-        Add(Severity::kNote, Coordinate(model, i),
-            "makes M ill-conditioned, by " + PrintNumber(1 / smallest),
-            "accelerations lose as many digits");
-      }
-    }
-  }
-
   // A profile that does not fit is the caller's mistake, not the robot's.
   void CheckStanding() {
     std::string reason = "as M is singular";
@@ -191,7 +128,7 @@ class Doctor {
             {foot.name, robot.model.tree.frames()[foot.frame].name,
              2 * foot.half_size.x(), 2 * foot.half_size.y()});
       }
-      if (is_regular_) {
+      if (smallest_eigenvalue_) {
         if (!robot.can_stand) StandUp(&robot);
         CheckStrength(robot);
         return;
@@ -228,7 +165,7 @@ class Doctor {
     for (const ActiveRow& row : report.active) {
       if (row.task != limits || row.slack <= kMissed) continue;
       const double effort = robot.model.limits[row.row].effort;
-      Add(Severity::kWarn, Coordinate(robot.model, tree.v_start() + row.row),
+      Add(Severity::kWarn, "joint " + Quoted(tree.joints()[row.row].name),
           "needs " + PrintNumber(effort * (1 + row.slack)) + " of " +
               PrintNumber(effort) +
               (tree.joints()[row.row].type == JointType::kPrismatic ? " N"
@@ -252,7 +189,7 @@ class Doctor {
     }
     // M comes from the plant by an inversion, which costs digits.
     const double rounding = std::numeric_limits<double>::epsilon() *
-                            robot.model.tree.nv() / smallest_eigenvalue_;
+                            robot.model.tree.nv() / *smallest_eigenvalue_;
     if (*diagnosis_.parity <= std::max(kParity, rounding)) return;  // Not NaN.
     Add(Severity::kWarn, "robot",
         "differs from its Bullet plant by " + PrintNumber(*diagnosis_.parity),
@@ -262,8 +199,7 @@ class Doctor {
   const std::filesystem::path urdf_;
   const Profile profile_;
   Diagnosis diagnosis_;
-  bool is_regular_ = false;         // M can be inverted.
-  double smallest_eigenvalue_ = 0;  // Of M with a unit diagonal.
+  std::optional<double> smallest_eigenvalue_;  // See CheckInertia().
 };
 
 }  // namespace

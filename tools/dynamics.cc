@@ -4,10 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <string>
+#include <vector>
 
 #include "dynamics/tree.h"
+#include "robot/finding.h"
 #include "robot/text_file.h"
 #include "robot/urdf.h"
+#include "tools/check_inertia.h"
 #include "tools/command_line.h"
 #include "tools/dynamics_file.h"
 #include "tools/dynamics_table.h"
@@ -18,6 +21,16 @@ namespace poise {
 namespace {
 
 constexpr size_t kMostMib = 1024;  // Of states.
+
+// M is printed all the same, but whoever inverts it shall know.
+void WarnOfInertia(const std::string& urdf, const RobotModel& robot) {
+  std::vector<Finding> findings;
+  CheckInertia(robot, &findings);
+  for (const Finding& finding : findings) {
+    if (finding.severity != Severity::kWarn) continue;
+    std::cerr << "dynamics: warning: " << Message(urdf, finding) << "\n";
+  }
+}
 
 int Main(int argc, char** argv) {
   CLI::App app(
@@ -45,6 +58,7 @@ int Main(int argc, char** argv) {
   } catch (const std::exception& error) {
     throw std::invalid_argument(states + ": " + error.what());
   }
+  WarnOfInertia(urdf, robot);
   return 0;
 }
 

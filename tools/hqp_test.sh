@@ -41,3 +41,22 @@ refuse "hqp: files is required" "$hqp"
 refuse "dynamics: /dev/zero: is no regular file" \
   "$dynamics" --urdf "$urdf" --states /dev/zero
 refuse "dynamics: option '--foo' is unknown" "$dynamics" --foo
+
+# A leaf without <inertial>: M is singular, and printed.
+cat > leaf.urdf << 'EOF'
+<robot name="leaf">
+  <link name="base"><inertial><mass value="1"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="tip"/>
+  <joint name="hinge" type="continuous"><parent link="base"/><child link="tip"/>
+    <limit effort="1" velocity="1"/></joint>
+</robot>
+EOF
+echo '{"joints": ["hinge"], "states": []}' > states.json
+"$dynamics" --urdf leaf.urdf --states states.json --json > said 2> error ||
+  fail "exit code $? for a leaf without mass"
+[ "$(cat error)" = "dynamics: warning: leaf.urdf: joint 'hinge': moves no mass $(
+  )from link 'tip' on, M is singular or worse: no acceleration can be computed" ] ||
+  fail "dynamics says of a leaf without mass: $(cat error)"
+refuse "dynamics: good.json: document: there is no 'joints'" \
+  "$dynamics" --urdf leaf.urdf --states good.json
