@@ -2,9 +2,11 @@
 #include "tools/push_options.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -46,6 +48,16 @@ struct Overrides {
 std::string RefuseInfinite(std::string& text) {
   const double value = std::strtod(text.c_str(), nullptr);
   return std::isfinite(value) ? "" : "is " + text + ", must be finite";
+}
+
+// CLI11 calls a number that is too large none.
+std::string RefuseNoSeed(std::string& text) {
+  unsigned seed = 0;
+  const char* text_end = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), text_end, seed);
+  if (error == std::errc() && end == text_end) return "";
+  return "is " + Quoted(text) + ", must be a whole number from 0 to " +
+         std::to_string(std::numeric_limits<unsigned>::max());
 }
 
 void AddOptions(CLI::App* app, Overrides* o) {
@@ -102,7 +114,8 @@ void AddOptions(CLI::App* app, Overrides* o) {
       ->delimiter(',')
       ->expected(2)
       ->check(finite);
-  app->add_option("--seed", o->seed, "of all that is random (the scenario's)");
+  app->add_option("--seed", o->seed, "of all that is random (the scenario's)")
+      ->check(CLI::Validator(RefuseNoSeed, "", "seed"));
 }
 
 template <typename T>
