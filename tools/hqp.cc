@@ -18,11 +18,13 @@ namespace {
 
 constexpr size_t kMostMib = 1024;  // Of a file.
 
-Status Solve(const std::string& method, const HqpProblem& problem,
-             Solution* solution) {
+Status Solve(const std::string& method, int max_iterations,
+             const HqpProblem& problem, Solution* solution) {
   const int n = problem.hierarchy.num_variables();
   if (method == "fast") {
-    return Solver(n, problem.capacity).Solve(problem.hierarchy, solution);
+    Solver solver(n, problem.capacity);
+    solver.max_iterations = max_iterations;
+    return solver.Solve(problem.hierarchy, solution);
   }
   return Cascade(n, problem.capacity,
                  method == "svd" ? RowSpaceMethod::kSvd : RowSpaceMethod::kCod)
@@ -33,10 +35,15 @@ int Main(int argc, char** argv) {
   CLI::App app("Solves hierarchies of rows (format hqp-1).", "hqp");
   std::vector<std::string> files;
   std::string method = "fast";
+  int max_iterations = 10000;  // There is no tick to be in time for.
   bool json = false;
   app.add_option("files", files, "Files in the format hqp-1")->required();
   app.add_option("--method", method, "svd or cod: the paper's cascade; or fast")
       ->check(CLI::IsMember({"svd", "cod", "fast"}))
+      ->capture_default_str();
+  app.add_option("--max-iterations", max_iterations,
+                 "Budget of fast; that of a controller's tick is 500")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--json", json, "Print one JSON document");
   ParseCommandLine(argc, argv, &app);
@@ -49,7 +56,8 @@ int Main(int argc, char** argv) {
       const int n = problem.hierarchy.num_variables();
       Solution solution(n, problem.capacity);
       const auto start = std::chrono::steady_clock::now();
-      all_optimal &= Solve(method, problem, &solution) == Status::kOptimal;
+      all_optimal &=
+          Solve(method, max_iterations, problem, &solution) == Status::kOptimal;
       const double microseconds = std::chrono::duration<double, std::micro>(
                                       std::chrono::steady_clock::now() - start)
                                       .count();

@@ -26,6 +26,15 @@ echo '{"format": "hqp-1", "variables": 1, "levels": [{"B": [[2]], "b": [-4]}]}' 
 grep -q '"status":"optimal","y":\[2.0\]' said || fail "it says: $(cat said)"
 [ ! -s error ] || fail "stderr of a good file: $(cat error)"
 
+# y >= 3 on top of y = 0: one factorisation to see it, one to do it.
+echo '{"format": "hqp-1", "variables": 1, "levels": [
+  {"C": [[1]], "lower": [3], "upper": [9]}, {"B": [[1]], "b": [0]}]}' > two.json
+"$hqp" --json two.json > said || fail "exit code $? for two.json"
+code=0
+"$hqp" --json --max-iterations 1 two.json > said || code=$?
+[ "$code" = 1 ] || fail "exit code $code for one iteration, wanted 1"
+grep -q '"status":"iteration_limit"' said || fail "one iteration: $(cat said)"
+
 echo '{"format": "hqp-1", "variables": 1, "levels": [
   {"C": [[1]], "lower": [2], "upper": [1]}]}' > crossed.json
 refuse "hqp: crossed.json: levels[0].lower[0]: is 2, must not be above $(
