@@ -217,6 +217,24 @@ TEST(FindFeet, EstimatesASoleThatIsAMesh) {
             kPromised);
 }
 
+// A frame without shapes that hung below the soles was taken for the one foot.
+TEST(FindFeet, StandsOnShapesNotOnFrames) {
+  const std::string biped =
+      Biped(Collision("box size='0.2 0.1 0.02'", "0.03 0 -0.04"), "0 0 0");
+  const std::string fixed = "<joint name='f' type='fixed'>";
+  const std::string footprint =
+      "<link name='base_footprint'/>" + fixed +
+      "<parent link='base'/><child link='base_footprint'/>"
+      "<origin xyz='0 0 -1.1'/></joint></robot>";
+  const std::string world = "<link name='world'/>" + fixed +
+                            "<parent link='world'/><child link='base'/>"
+                            "<origin xyz='0 0 1.5'/></joint></robot>";
+  for (const std::string& added : {footprint, world}) {
+    const auto feet = Find(biped.substr(0, biped.rfind("</robot>")) + added);
+    EXPECT_NEAR(feet[0].X_BC.p.z(), -0.05, kPromised);
+  }
+}
+
 TEST(FindFeet, SaysWhyThereAreNone) {
   EXPECT_EQ(Refusal(Biped("", "0 0 0", "lower='0' upper='2'", 5)),
             "robot 'biped' has no flat sole on link 'l6', nor motors to lay "

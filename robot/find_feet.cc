@@ -33,20 +33,25 @@ std::vector<Pose> RestPoses(const RobotModel& model) {
   return X_WB;
 }
 
-// How far down each body reaches, with its shapes and its links' origins.
+// How far down each body reaches, with its shapes, the origins of the links
+// that have any (meshes are not opened), and the joint that moves it. A frame
+// without shapes may be anywhere: `world` and `base_footprint` often are below.
 std::vector<double> Reach(const RobotModel& model,
                           const std::vector<Outline>& outlines,
                           const std::vector<Pose>& X_WB) {
-  std::vector<double> low(X_WB.size());
+  std::vector<double> low(X_WB.size(), std::numeric_limits<double>::infinity());
   for (size_t b = 0; b < X_WB.size(); ++b) {
-    low[b] = X_WB[b].p.z();
+    if (b > 0) low[b] = X_WB[b].p.z();
     for (const Outline::Corner& corner : outlines[b].corners) {
       low[b] = std::min(low[b], (X_WB[b] * corner.p_B).z() - corner.radius);
     }
   }
-  for (const Frame& frame : model.tree.frames()) {
-    low[frame.body] =
-        std::min(low[frame.body], (X_WB[frame.body] * frame.X_BF.p).z());
+  for (const std::vector<Shape>* shapes : {&model.visuals, &model.collisions}) {
+    for (const Shape& shape : *shapes) {
+      const Frame& frame = model.tree.frames()[shape.frame];
+      low[frame.body] =
+          std::min(low[frame.body], (X_WB[frame.body] * frame.X_BF.p).z());
+    }
   }
   return low;
 }
