@@ -2,6 +2,7 @@
 #include "sim/observation.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,25 @@ std::vector<int> FootFrames(const Robot& robot) {
 
 }  // namespace
 
+Eigen::Vector3d BasePoint(const RobotModel& model) {
+  const std::vector<Frame>& frames = model.tree.frames();
+  int first = static_cast<int>(frames.size());
+  for (const std::vector<Shape>* shapes : {&model.visuals, &model.collisions}) {
+    for (const Shape& shape : *shapes) {
+      if (frames[shape.frame].body != 0) continue;
+      if (shape.frame == model.root_frame) return frames[shape.frame].X_BF.p;
+      first = std::min(first, shape.frame);
+    }
+  }
+  return first < static_cast<int>(frames.size()) ? frames[first].X_BF.p
+                                                 : Eigen::Vector3d::Zero();
+}
+
+double StandingHeight(const Robot& robot) {
+  const Eigen::Quaterniond R_WB(robot.q_nominal.segment<4>(3));
+  return robot.q_nominal.z() + (R_WB * BasePoint(robot.model)).z();
+}
+
 Pose MidFeet(const std::vector<Pose>& X_WC, const Eigen::Vector3d& normal_W) {
   Eigen::Vector3d p_WM = Eigen::Vector3d::Zero();
   Eigen::Vector3d x_W = Eigen::Vector3d::Zero();
@@ -42,6 +62,7 @@ Pose MidFeet(const std::vector<Pose>& X_WC, const Eigen::Vector3d& normal_W) {
 
 Observer::Observer(const Robot& robot, const Ground& ground)
     : robot_(robot),
+      base_point_B_(BasePoint(robot.model)),
       normal_W_(GroundNormal(ground)),
       tick_(robot.model.tree, FootFrames(robot)),
       put_down_(robot.feet.size()),
@@ -58,7 +79,7 @@ void Observer::ObserveState(const PlantState& state,
   now.X_WB = tick_.X_WB[0];
   if (first_) standing_z_B_ = now.X_WB.R.transpose() * normal_W_;
   first_ = false;
-  now.base_height = normal_W_.dot(now.X_WB.p);
+  now.base_height = normal_W_.dot(now.X_WB * base_point_B_);
   now.base_tilt = AngleBetween(now.X_WB.R * standing_z_B_, normal_W_);
   now.com = tick_.p_WG;
   now.com_ref = com_ref;

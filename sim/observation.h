@@ -26,7 +26,7 @@ struct FootObservation {
 struct Observation {
   double time = 0;
   Pose X_WB;
-  double base_height = 0;  ///< Above the ground, m.
+  double base_height = 0;  ///< Of BasePoint() above the ground, m.
   double base_tilt = 0;    ///< Of the base's z from where it stood, rad.
   Eigen::Vector3d com = Eigen::Vector3d::Zero();
   Eigen::Vector3d com_ref = Eigen::Vector3d::Zero();
@@ -56,6 +56,7 @@ class Observer {
 
  private:
   Robot robot_;
+  Eigen::Vector3d base_point_B_;
   Eigen::Vector3d normal_W_;
   Tick tick_;
   Observation observation_;
@@ -64,6 +65,14 @@ class Observer {
   Eigen::Vector3d standing_z_B_ = Eigen::Vector3d::UnitZ();
   bool first_ = true;
 };
+
+/// The point of the base, in its axes, by whose height it is seen to lie: the
+/// origin of the root link or, where that is a mere frame that may be anywhere,
+/// as `world` on the floor, of the first link with a shape that is fixed to it.
+Eigen::Vector3d BasePoint(const RobotModel& model);
+
+/// The height of BasePoint() in the nominal posture, which stands on the ground.
+double StandingHeight(const Robot& robot);
 
 /// The mid-feet frame M of poses of contact frames: in the middle, x along the
 /// mean of their x axes in the ground, z out of it.

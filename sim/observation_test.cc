@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "robot/robot.h"
+#include "robot/urdf.h"
 #include "tests/util/simple_robots.h"
 
 namespace poise {
@@ -78,6 +80,30 @@ TEST(Observer, TakesForUprightHowTheRobotBegan) {
       StateAt({0, 0, 1}, Turn(0.4, Vector3d::UnitY()) * askew), {},
       Vector3d::Zero());
   EXPECT_NEAR(observer.observation().base_tilt, 0.4, kRounding);
+}
+
+// A root frame on the floor under the robot was taken for a robot that lies.
+TEST(Observer, TakesTheHeightOfABaseThatHasAShape) {
+  Robot robot{
+      ParseUrdf(
+          "<robot name='r'><link name='world'/><link name='pelvis'>"
+          "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
+          "iyz='0' izz='1'/></inertial>"
+          "<visual><geometry><sphere radius='0.1'/></geometry></visual></link>"
+          "<joint name='j' type='fixed'><parent link='world'/>"
+          "<child link='pelvis'/><origin xyz='0 0 0.9'/></joint></robot>",
+          "robot"),
+      {},
+      {}};
+  robot.q_nominal = StateAt({0, 0, 0.1}, Turn(0, kUp)).q;
+  EXPECT_NEAR(StandingHeight(robot), 1, kRounding);
+  Observer observer(robot, {});
+  observer.ObserveState(
+      StateAt(Vector3d::Zero(), Turn(M_PI / 3, Vector3d::UnitY())), {},
+      Vector3d::Zero());
+  EXPECT_NEAR(observer.observation().base_height, 0.45, kRounding);
+  // Where no link says better, it is the root's origin.
+  EXPECT_TRUE(BasePoint(MakeBlock({0.2, 0.2, 0.1}, 5).model).isZero());
 }
 
 TEST(Observer, CountsTiltAndSlideFromWhereAFootWasPutDown) {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "sim/closed_loop.h"
+#include "sim/observation.h"
 
 namespace poise {
 
@@ -80,7 +81,7 @@ RunResult Run(const Robot& robot, const Scenario& scenario,
                                           loop.controller().stack(), format);
   }
   // The nominal posture stands on the ground.
-  Judge judge(robot.q_nominal.z());
+  Judge judge(StandingHeight(robot));
   const long ticks = std::lround(scenario.duration / scenario.control.dt);
   // Often enough to be stopped at once, however long the run or slow its ticks.
   const long steps = std::lround(scenario.control.dt / scenario.plant.dt);

@@ -1,4 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/observation.h"
 #include "sim/run.h"
 
 #include <gtest/gtest.h>
@@ -82,7 +83,7 @@ Story Tell(const Scenario& scenario,
            const std::function<void(const ClosedLoop&)>& look = {}) {
   const Robot& robot = Humanoid();
   ClosedLoop loop(robot, scenario);
-  Judge judge(robot.q_nominal.z());
+  Judge judge(StandingHeight(robot));
   Story story;
   const int nv = robot.model.tree.nv();
   const int n = robot.model.tree.num_joints();
@@ -261,7 +262,7 @@ void ExpectAFootLeavesAndComesBack(const Eigen::Vector3d& force) {
   scenario.pushes[0].duration = 0.1;
   scenario.pushes[0].force = force;
   ClosedLoop loop(Humanoid(), scenario);
-  Judge judge(Humanoid().q_nominal.z());
+  Judge judge(StandingHeight(Humanoid()));
   loop.Tick();
   const Eigen::Vector3d place = loop.observation().feet[1].X_WC.p;
   double away = 0;

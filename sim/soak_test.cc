@@ -10,6 +10,7 @@
 #include "robot/profile.h"
 #include "sim/closed_loop.h"
 #include "sim/judge.h"
+#include "sim/observation.h"
 #include "sim/start_state.h"
 #include "tests/util/count_malloc.h"
 
@@ -52,7 +53,7 @@ TEST(Soak, TenMinutesOfRandomPushesLeaveTheRobotAsItWas) {
   scenario.duration = 60 * kMinutes;
   scenario.pushes = MakePushes();
   ClosedLoop loop(robot, scenario);
-  Judge judge(robot.q_nominal.z());
+  Judge judge(StandingHeight(robot));
   // Sees what the loop's own controller does, one tick in ten, and is watched.
   Controller beside(robot);
   beside.Start(MakeStartState(robot, {}, {}, scenario.seed));

@@ -11,6 +11,7 @@
 #include "robot/control/command.h"
 #include "robot/control/controller.h"
 #include "sim/closed_loop.h"
+#include "sim/observation.h"
 
 namespace poise {
 namespace {
@@ -143,7 +144,7 @@ Verdict RunWeighing(const Robot& robot, const Scenario& scenario,
                     const Weighing& weighing) {
   ClosedLoop loop(robot, scenario);
   weighing.arrange(&loop.controller().stack());
-  Judge judge(robot.q_nominal.z());
+  Judge judge(StandingHeight(robot));
   while (loop.time() < scenario.duration - scenario.control.dt / 2 &&
          !judge.is_down()) {
     loop.Tick();

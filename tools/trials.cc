@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/closed_loop.h"
+#include "sim/observation.h"
 #include "sim/yardstick.h"
 #include "tools/push_options.h"
 
@@ -152,7 +153,7 @@ TrialResult Try(const Trial& trial) {
   const PushOptions options = Read(trial.options);
   const Scenario& scenario = options.scenario;
   ClosedLoop loop(options.robot, scenario);
-  Judge judge(options.robot.q_nominal.z());
+  Judge judge(StandingHeight(options.robot));
   TrialResult result;
   const long ticks = std::lround(scenario.duration / scenario.control.dt);
   for (long k = 0; k < ticks && !judge.is_down(); ++k) {
