@@ -8,6 +8,10 @@
 
 namespace poise {
 
+/// How fast control lets a joint go whose limit is not known: faster than a limb
+/// moves, rad/s or m/s.
+constexpr double kAssumedVelocity = 30;
+
 /// Whether a joint's value is inside its limits, up to 1e-6.
 bool IsWithin(const JointLimits& limits, double q);
 

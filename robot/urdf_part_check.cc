@@ -7,6 +7,8 @@
 #include <limits>
 #include <string>
 
+#include "robot/limits.h"
+
 namespace poise {
 namespace {
 
@@ -191,7 +193,9 @@ JointLimits CheckLimits(const XMLElement& joint, const Critic& critic) {
   if (limit == nullptr) {
     if (type == "continuous") {
       critic.Note(joint, "has no <limit>",
-                  "no limit is known, not even of effort");
+                  "no limit is known, not even of effort: control keeps it "
+                  "below " +
+                      PrintNumber(kAssumedVelocity) + " rad/s");
     } else {
       critic.Reject(joint, "has no <limit>", "must have one");
     }

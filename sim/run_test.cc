@@ -1,5 +1,4 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/observation.h"
 #include "sim/run.h"
 
 #include <gtest/gtest.h>
@@ -11,10 +10,13 @@
 #include <iterator>
 #include <thread>
 
+#include "robot/control/stand.h"
 #include "robot/profile.h"
 #include "sim/closed_loop.h"
 #include "sim/judge.h"
+#include "sim/observation.h"
 #include "sim/summary.h"
+#include "tests/util/shared_data.h"
 
 namespace poise {
 namespace {
@@ -376,6 +378,19 @@ TEST(Run, RefusesTasksThatAreNotThere) {
   Scenario scenario = Ours("stand", 1);
   scenario.control.with = {"levitate"};
   EXPECT_THROW(poise::Run(Humanoid(), scenario), std::invalid_argument);
+}
+
+// Its fingers, of 2 mg and without limits, were flung off at 1e8 rad/s2 to make
+// up for a push that its feet can bear, and the robot with them.
+TEST(Run, NaoKeepsItsFingers) {
+  const auto robots = SharedData("robots");
+  if (!robots) GTEST_SKIP() << "the shared robots are not there";
+  const Robot nao = LoadStandingRobot(*robots / "nao_v50.urdf");
+  Scenario scenario = Ours("strong_push", 3);
+  scenario.pushes[0].force *= 0.15;
+  const RunResult result = poise::Run(nao, scenario);
+  EXPECT_TRUE(result.verdict.recovered) << result.verdict.fell_by;
+  EXPECT_EQ(result.failures, 0);
 }
 
 // A delay of three ticks: what acts is what was asked for three ticks ago.

@@ -12,6 +12,7 @@
 #include "robot/control/tasks/frame.h"
 #include "robot/control/tasks/friction.h"
 #include "robot/control/tasks/joint_limits.h"
+#include "robot/control/tasks/light_joints.h"
 #include "robot/control/tasks/linear_momentum.h"
 #include "robot/control/tasks/mimic.h"
 #include "robot/control/tasks/momentum.h"
@@ -54,6 +55,9 @@ Stack MakeDefaultStack(const Robot& robot,
 
   if (!model.mimics.empty()) {
     stack.Add(std::make_unique<MimicTask>(model), {kOn, 3, 1});
+  }
+  if (!FindLightJoints(model).empty()) {
+    stack.Add(std::make_unique<LightJointsTask>(model), {kOn, 3, 1});
   }
   stack.Add(std::make_unique<ContactTask>(feet), {kOn, 3, 1});
   stack.Add(std::make_unique<CopTask>(tree, feet), {kOn, 3, 1});

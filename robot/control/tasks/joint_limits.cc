@@ -2,9 +2,10 @@
 #include "robot/control/tasks/joint_limits.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "robot/control/tasks/row_names.h"
+#include "robot/limits.h"
 
 namespace poise {
 
@@ -19,9 +20,8 @@ JointLimitsTask::JointLimitsTask(const RobotModel& model)
     const JointLimits& limits = model.limits[j];
     lower_[j] = limits.lower;
     upper_[j] = limits.upper;
-    velocity_[j] = limits.velocity > 0
-                       ? limits.velocity
-                       : std::numeric_limits<double>::infinity();
+    const bool is_known = limits.velocity > 0 && std::isfinite(limits.velocity);
+    velocity_[j] = is_known ? limits.velocity : kAssumedVelocity;
   }
   AddParameter("omega", &omega_, 1, 1000);
   AddParameter("margin", &margin_, 0, 1);

@@ -5,17 +5,24 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "hqp/hierarchy.h"
 #include "robot/control/task.h"
 #include "robot/control/tasks/joint_limits.h"
+#include "robot/control/tasks/light_joints.h"
 #include "robot/control/tasks/mimic.h"
 #include "robot/control/tasks/posture.h"
 #include "robot/control/tasks/task_fixture.h"
 #include "robot/control/tasks/torque_limits.h"
 #include "robot/control/tasks/torque_minimization.h"
 #include "robot/control/torque.h"
+#include "robot/urdf.h"
 
 namespace poise {
 namespace {
@@ -62,6 +69,21 @@ TEST_F(TaskTest, JointLimitsHoldTheSpeed) {
   EXPECT_LT(Write(task).lower(0)[j], 0);
 }
 
+// A finger of 2 mg without <limit> was flung off to make up for a push.
+TEST_F(TaskTest, JointLimitsHoldAJointOfWhichNoneIsKnown) {
+  const int j = *tree_.FindJoint("l_elbow");
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  for (const double velocity : {kNone, 0.0}) {
+    robot_.model.limits[j] = {-kNone, kNone, velocity, kNone};
+    const JointLimitsTask task(robot_.model);
+    state_.v[6 + j] = 0;
+    const Hierarchy& rows = Write(task);
+    // At rest, no more than what takes it to 30 rad/s in 1/40 s.
+    EXPECT_NEAR(rows.upper(0)[j] / rows.C(0)(j, 6 + j), 30 * 40, 1e-9);
+    EXPECT_NEAR(rows.lower(0)[j] / rows.C(0)(j, 6 + j), -30 * 40, 1e-9);
+  }
+}
+
 TEST_F(TaskTest, TorqueRowsAreThoseOfTheSolution) {
   const Eigen::VectorXd y = RandomY();
   Eigen::VectorXd tau(n_);
@@ -80,6 +102,49 @@ TEST_F(TaskTest, TorqueRowsAreThoseOfTheSolution) {
   for (int j = 0; j < n_; ++j) {
     EXPECT_NEAR(small[j], tau[j] / robot_.model.limits[j].effort, 1e-9);
   }
+}
+
+// A tip of 2 mg on a finger of 1 g on a body of 1 kg.
+TEST(LightJoints, AreThoseThatMoveNextToNothing) {
+  std::string text = "<robot name='r'>";
+  const auto link = [&](const std::string& name, const std::string& mass) {
+    text += "<link name='" + name + "'><inertial><mass value='" + mass +
+            "'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
+            "</inertial></link>";
+  };
+  const auto joint = [&](const std::string& child, const std::string& parent) {
+    text += "<joint name='" + child + "' type='continuous'><parent link='" +
+            parent + "'/><child link='" + child + "'/></joint>";
+  };
+  link("body", "1");
+  link("carries", "2e-6");
+  link("finger", "1e-3");
+  link("tip", "2e-6");
+  link("coupled", "2e-6");
+  joint("carries", "body");
+  joint("finger", "carries");
+  joint("tip", "finger");
+  joint("coupled", "finger");
+  RobotModel model = ParseUrdf(text + "</robot>", "robot");
+  const int tip = *model.tree.FindJoint("tip");
+  model.mimics = {{*model.tree.FindJoint("coupled"), tip, 1, 0}};
+  EXPECT_EQ(FindLightJoints(model), std::vector<int>{tip});
+}
+
+TEST_F(TaskTest, LightJointsFollowThePosture) {
+  std::ifstream file("robot/models/humanoid.urdf");
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  const size_t mass =
+      text.find("value=", text.find("<link name=\"l_index_distal\""));
+  text.replace(mass, std::string("value=\"0.004\"").size(), "value=\"2e-6\"");
+  const LightJointsTask task(ParseUrdf(text, "humanoid"));
+  const int j = *tree_.FindJoint("l_index_2");
+  ASSERT_EQ(task.equality_names(),
+            std::vector<std::string>{"light_joints.l_index_2"});
+  controller_.reference().posture[j] += 0.1;
+  const Eigen::VectorXd y = RandomY();
+  EXPECT_NEAR(Residual(task, y)[0], y[6 + j] - 60 * 0.1 + 15 * state_.v[6 + j],
+              1e-12);
 }
 
 // What a coupling is off by comes to rest at 0 as a damped spring does.

@@ -1,0 +1,62 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/tasks/light_joints.h"
+
+#include <algorithm>
+#include <string>
+
+namespace poise {
+namespace {
+
+// Of the robot's mass. The lightest fingers that matter have 1e-4.
+constexpr double kLight = 1e-5;
+
+std::vector<std::string> RowNames(const RobotModel& model) {
+  std::vector<std::string> names;
+  for (const int j : FindLightJoints(model)) {
+    names.push_back("light_joints." + model.tree.joints()[j].name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<int> FindLightJoints(const RobotModel& model) {
+  const Tree& tree = model.tree;
+  std::vector<double> mass;  // Of each body and all that it carries.
+  for (const Inertia& M : tree.inertias()) mass.push_back(M.mass);
+  for (int j = tree.num_joints() - 1; j >= 0; --j) {
+    mass[tree.joints()[j].parent] += mass[j + 1];
+  }
+  std::vector<int> light;
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    const bool is_coupled =
+        std::any_of(model.mimics.begin(), model.mimics.end(),
+                    [j](const MimicCoupling& c) { return c.joint == j; });
+    if (!is_coupled && mass[j + 1] < kLight * tree.total_mass()) {
+      light.push_back(j);
+    }
+  }
+  return light;
+}
+
+LightJointsTask::LightJointsTask(const RobotModel& model)
+    : Task("light_joints", RowNames(model), {}),
+      q_start_(model.tree.q_start()),
+      v_start_(model.tree.v_start()),
+      joints_(FindLightJoints(model)) {
+  AddParameter("kp", &kp_, 0, 1e4);
+  AddParameter("kd", &kd_, 0, 1e3);
+}
+
+void LightJointsTask::Write(const TaskInput& input, EqualityBlock* equalities,
+                            InequalityBlock*) const noexcept {
+  for (int i = 0; i < static_cast<int>(joints_.size()); ++i) {
+    const int j = joints_[i];
+    const double e = input.reference.posture[j] - input.state.q[q_start_ + j];
+    const double v = input.state.v[v_start_ + j];
+    equalities->B(i, v_start_ + j) = 1;
+    equalities->b[i] = -kp_ * e + kd_ * v;
+  }
+}
+
+}  // namespace poise
