@@ -8,17 +8,15 @@
 #include <limits>
 #include <stdexcept>
 
-#include "robot/control/command.h"
-#include "robot/control/controller.h"
+#include "dynamics/tick.h"
 #include "robot/control/default_stack.h"
-#include "robot/control/measurement.h"
 #include "robot/control/stack.h"
 #include "robot/control/stand.h"
 #include "robot/control/task_set.h"
-#include "robot/control/tick_report.h"
 #include "robot/urdf.h"
 #include "tools/check_inertia.h"
 #include "tools/parity.h"
+#include "tools/strength.h"
 
 namespace poise {
 namespace {
@@ -36,6 +34,14 @@ bool IsLarge(const RobotModel& model) {
   return model.tree.num_joints() > kMostJointsToStand ||
          model.tree.frames().size() > kMostLinksToStand ||
          model.visuals.size() + model.collisions.size() > kMostShapesToStand;
+}
+
+// Of its center of mass as it stands, m.
+double HeightOfMass(const Robot& robot) {
+  const Tree& tree = robot.model.tree;
+  Tick tick(tree, {});
+  ComputeTick(tree, robot.q_nominal, VectorXd::Zero(tree.nv()), &tick);
+  return tick.p_WG.z();
 }
 
 class Doctor {
@@ -130,7 +136,10 @@ class Doctor {
       }
       if (smallest_eigenvalue_) {
         if (!robot.can_stand) StandUp(&robot);
-        CheckStrength(robot);
+        for (const Finding& finding : FindWeakness(robot)) {
+          diagnosis_.findings.push_back(finding);
+        }
+        diagnosis_.com_height = HeightOfMass(robot);
         return;
       }
     } catch (const Refusal&) {
@@ -139,44 +148,6 @@ class Doctor {
       reason = OneLine(error.what());
     }
     Add(Severity::kNote, "robot", "does not stand", reason);
-  }
-
-  // Whether there are contact forces with which the motors hold the robot up
-  // where it stands: torque limits come after the posture, and one that is
-  // missed shows what the posture takes.
-  void CheckStrength(const Robot& robot) {
-    constexpr double kHeld = 1e-3;    // rad/s² or m/s²: what rounding leaves.
-    constexpr double kMissed = 1e-6;  // Of the limit.
-    const Tree& tree = robot.model.tree;
-    Controller controller(robot);
-    Stack& stack = controller.stack();
-    const int limits = stack.Find("torque_limits").value();
-    const int last = stack.settings(stack.Find("posture").value()).rank + 2;
-    if (!stack.SetRank("torque_limits", last - 1) ||
-        !stack.SetRank("force_regularizer", last)) {
-      throw std::logic_error("the stack has no room for two more ranks");
-    }
-    const State rest{0, robot.q_nominal, VectorXd::Zero(tree.nv())};
-    Command command{VectorXd::Zero(tree.num_joints())};
-    controller.Start(rest);
-    controller.Update(rest, &command);
-    diagnosis_.com_height = controller.tick().p_WG.z();
-    const TickReport& report = controller.report();
-    for (const ActiveRow& row : report.active) {
-      if (row.task != limits || row.slack <= kMissed) continue;
-      const double effort = robot.model.limits[row.row].effort;
-      Add(Severity::kWarn, "joint " + Quoted(tree.joints()[row.row].name),
-          "needs " + PrintNumber(effort * (1 + row.slack)) + " of " +
-              PrintNumber(effort) +
-              (tree.joints()[row.row].type == JointType::kPrismatic ? " N"
-                                                                    : " N m") +
-              " to stand",
-          "its posture cannot be held");
-    }
-    if (!(report.y.head(tree.nv()).lpNorm<Eigen::Infinity>() <= kHeld)) {
-      Add(Severity::kWarn, "robot", "cannot hold its posture",
-          "not with the contact forces that its soles can give");
-    }
   }
 
   void CheckParity(const Robot& robot) {

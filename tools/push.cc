@@ -56,6 +56,7 @@ int Push(const poise::PushOptions& options) {
 int main(int argc, char** argv) {
   return poise::RunTool("push", [=] {
     const poise::PushOptions options = poise::ReadPushOptions(argc, argv);
+    poise::Warn(options);
     std::signal(SIGINT, [](int) { g_interrupted = 1; });
     std::signal(SIGTERM, [](int) { g_interrupted = 1; });
     return Push(options);

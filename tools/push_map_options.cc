@@ -136,6 +136,7 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
   const Shard shard = ParseShard(shard_text);
   const std::vector<std::string> rest = app.remaining();
   PushOptions push = ReadRest(rest);
+  Warn(push);
   ControlSettings& control = push.scenario.control;
   control.with.insert(control.with.end(), with.begin(), with.end());
   control.without.insert(control.without.end(), without.begin(), without.end());

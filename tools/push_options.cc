@@ -22,7 +22,9 @@
 #include "robot/urdf.h"
 #include "sim/number_field.h"
 #include "tools/command_line.h"
+#include "tools/strength.h"
 #include "tools/user_path.h"
+#include "tools/warnings.h"
 
 namespace poise {
 
@@ -218,16 +220,6 @@ Scenario FindScenario(const std::string& name) {
                               ScenarioNames());
 }
 
-// Says what a doctor would warn of.
-void WarnOf(const std::filesystem::path& robot_file) {
-  std::vector<Finding> findings;
-  LoadUrdf(robot_file, {}, &findings);
-  for (const Finding& finding : findings) {
-    if (finding.severity != Severity::kWarn) continue;
-    std::cerr << Message(robot_file.string(), finding) << "\n";
-  }
-}
-
 }  // namespace
 
 PushOptions ReadPushOptions(int argc, char** argv) {
@@ -280,8 +272,9 @@ PushOptions ReadPushOptions(int argc, char** argv) {
       scenario.control.tasks == "default") {
     scenario.control.tasks = feet_and_posture.file.string();
   }
-  WarnOf(robot_file);
-  Robot standing = LoadStandingRobot(robot_file, feet_and_posture);
+  std::vector<Finding> findings;
+  LoadUrdf(robot_file, {}, &findings);
+  Robot standing = LoadStandingRobot(robot_file, feet_and_posture, &findings);
   if (!save_profile.empty()) {
     // Mimics are fixed by where their sources were before it stood up.
     feet_and_posture.locked =
@@ -298,7 +291,19 @@ PushOptions ReadPushOptions(int argc, char** argv) {
           log == "binary" ? LogFormat::kBinary : LogFormat::kCsv,
           dump_solve,
           !no_report,
-          json};
+          json,
+          std::move(findings)};
+}
+
+void Warn(const PushOptions& options) {
+  std::vector<Finding> findings = options.findings;
+  for (Finding& finding : FindWeakness(options.robot)) {
+    findings.push_back(std::move(finding));
+  }
+  for (const std::string& line :
+       WarningLines(options.robot_file.string(), findings)) {
+    std::cerr << line << "\n";
+  }
 }
 
 }  // namespace poise

@@ -100,6 +100,16 @@ refuse "the solve at 0.200000 s is not in the scenario, which takes $(
   )0.100000 s" --time 0.1 --dump-solve 0.2 --no-report \
   --out "$TEST_TMPDIR/late"
 
+# What a doctor warns of is said: one knee too weak, twice, in one line.
+weak=$(write weak.urdf "$(sed '/<joint name="._knee"/,/<\/joint>/s/effort="[^"]*"/effort="2.5"/' \
+  robot/models/humanoid.urdf)")
+"$push" --robot "$weak" --scenario stand --time 0.01 --no-report \
+  --out "$TEST_TMPDIR/weak" > "$TEST_TMPDIR/said" 2> "$TEST_TMPDIR/error" || true
+grep -q "^$weak: joint 'l_knee': needs .* of 2.5 N m to stand, its posture cannot be $(
+  )held; also joint 'r_knee'" "$TEST_TMPDIR/error" ||
+  fail "nothing is said of weak knees: $(cat "$TEST_TMPDIR/error")"
+[ "$(wc -l < "$TEST_TMPDIR/error")" = 1 ] || fail "weak knees take several lines"
+
 scenarios='board, com_sinusoid, one_leg, posture_off, slope, stand,'
 scenarios+=' strong_push, strong_push_without_zmp, weak_push'
 gone=$TEST_TMPDIR/gone.yaml

@@ -291,9 +291,10 @@ void StandUp(Robot* robot) {
 }
 
 Robot LoadStandingRobot(const std::filesystem::path& urdf,
-                        const Profile& profile) {
+                        const Profile& profile,
+                        std::vector<Finding>* findings) {
   try {
-    Robot robot = LoadRobot(urdf, profile);
+    Robot robot = LoadRobot(urdf, profile, findings);
     if (!robot.can_stand) StandUp(&robot);
     return robot;
   } catch (const Refusal&) {  // Names the file itself.

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
+#include "robot/finding.h"
 #include "robot/profile.h"
 #include "robot/robot.h"
 
@@ -25,7 +27,10 @@ namespace poise {
 void StandUp(Robot* robot);
 
 /// LoadRobot(), and StandUp() if the profile gives no posture to stand in.
+///
+/// @param findings  as FindFeet()'s.
 Robot LoadStandingRobot(const std::filesystem::path& urdf,
-                        const Profile& profile = {});
+                        const Profile& profile = {},
+                        std::vector<Finding>* findings = nullptr);
 
 }  // namespace poise
