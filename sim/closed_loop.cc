@@ -37,7 +37,8 @@ void Switch(const std::vector<std::string>& tasks, bool on, Stack* stack) {
       known += (i == 0 ? "" : ", ") + std::string(stack->task(i).name());
     }
     throw std::invalid_argument("task " + Quoted(task) +
-                                " is unknown, must be one of " + known);
+                                " is unknown, must be one of " + known +
+                                ", or frame.LINK");
   }
 }
 
@@ -49,6 +50,10 @@ std::unique_ptr<Controller> MakeController(const Robot& robot,
   options.inscribed = settings.inscribed;
   options.feedforward = settings.feedforward;
   options.weighted = settings.weighted;
+  std::vector<std::string> switched = settings.with;
+  switched.insert(switched.end(), settings.without.begin(),
+                  settings.without.end());
+  options.frames = FindTaskLinks(settings.tasks, switched, robot);
   auto controller = std::make_unique<Controller>(robot, options);
   ApplyTaskSet(settings.tasks, &controller->stack());
   Switch(settings.without, false, &controller->stack());

@@ -17,6 +17,7 @@
 #include "sim/observation.h"
 #include "sim/summary.h"
 #include "tests/util/shared_data.h"
+#include "tests/util/test_file.h"
 
 namespace poise {
 namespace {
@@ -391,6 +392,22 @@ TEST(Run, NaoKeepsItsFingers) {
   const RunResult result = poise::Run(nao, scenario);
   EXPECT_TRUE(result.verdict.recovered) << result.verdict.fell_by;
   EXPECT_EQ(result.failures, 0);
+}
+
+// Only the feet had such tasks.
+TEST(ClosedLoop, HasAFrameTaskForAnyLink) {
+  Scenario scenario = Ours("stand", 1);
+  scenario.control.tasks =
+      TestFile("set.yaml", "tasks: {frame.l_hand: {rank: 5, on: true}}");
+  scenario.control.with = {"frame.torso"};
+  const ClosedLoop loop(Humanoid(), scenario);
+  const Stack& stack = loop.controller().stack();
+  for (const auto& [task, rank] :
+       {std::pair("frame.torso", 4), std::pair("frame.l_hand", 5)}) {
+    const TaskSettings& settings = stack.settings(stack.Find(task).value());
+    EXPECT_TRUE(settings.enabled) << task;
+    EXPECT_EQ(settings.rank, rank) << task;
+  }
 }
 
 // A delay of three ticks: what acts is what was asked for three ticks ago.

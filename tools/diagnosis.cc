@@ -126,7 +126,8 @@ class Doctor {
     try {
       Robot robot = LoadRobot(urdf_, profile_, &diagnosis_.findings);
       if (profile_.tasks.IsDefined()) {
-        Stack stack = MakeDefaultStack(robot, {});
+        Stack stack =
+            MakeDefaultStack(robot, FindTaskLinks(profile_.tasks, robot));
         ApplyTasks(profile_.tasks, profile_.file.string(), &stack);
       }
       for (const Foot& foot : robot.feet) {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "robot/control/task_set.h"
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <stdexcept>
@@ -30,7 +31,7 @@ std::string NamesOf(const Stack& stack) {
   for (int i = 0; i < stack.num_tasks(); ++i) {
     names += (i == 0 ? "" : ", ") + stack.task(i).name();
   }
-  return names;
+  return names + ", or frame.LINK";
 }
 
 std::string NamesOf(const Task& task) {
@@ -89,6 +90,36 @@ void ApplyTask(const std::string& name, const YAML::Node& node,
   }
 }
 
+// The section of a file.
+YAML::Node LoadTasks(const std::string& file) {
+  if (!std::filesystem::exists(file)) {
+    throw std::invalid_argument("task set " + Quoted(file) +
+                                ": is neither default, paper, nor a file");
+  }
+  const YAML::Node root = LoadYaml(file);
+  if (!root.IsMap() || !root["tasks"]) {
+    Refuse(file, root, "has no section 'tasks'");
+  }
+  return root["tasks"];
+}
+
+bool IsFile(const std::string& set) {
+  return !set.empty() && set != "default" && set != "paper";
+}
+
+void AddLink(const std::string& task, const Robot& robot,
+             std::vector<std::string>* links) {
+  const std::string prefix = "frame.";
+  if (task.rfind(prefix, 0) != 0) return;
+  const std::string link = task.substr(prefix.size());
+  for (const Foot& foot : robot.feet) {
+    if (foot.name == link) return;  // Has its task.
+  }
+  if (!robot.model.tree.FindFrame(link)) return;
+  if (std::find(links->begin(), links->end(), link) != links->end()) return;
+  links->push_back(link);
+}
+
 // The shortest text that reads as the same number.
 std::string Shortest(double value) {
   char text[32];
@@ -132,21 +163,31 @@ YAML::Node DescribeTasks(const Stack& stack) {
   return tasks;
 }
 
+std::vector<std::string> FindTaskLinks(const YAML::Node& tasks,
+                                       const Robot& robot) {
+  std::vector<std::string> links;
+  if (!tasks.IsMap()) return links;
+  for (const auto& field : tasks) {
+    AddLink(field.first.Scalar(), robot, &links);
+  }
+  return links;
+}
+
+std::vector<std::string> FindTaskLinks(const std::string& set,
+                                       const std::vector<std::string>& tasks,
+                                       const Robot& robot) {
+  std::vector<std::string> links;
+  if (IsFile(set)) links = FindTaskLinks(LoadTasks(set), robot);
+  for (const std::string& task : tasks) AddLink(task, robot, &links);
+  return links;
+}
+
 void ApplyTaskSet(const std::string& name, Stack* stack) {
-  if (name.empty() || name == "default") return;
-  if (name == "paper") {
+  if (IsFile(name)) {
+    ApplyTasks(LoadTasks(name), name, stack);
+  } else if (name == "paper") {
     ApplyTasks(YAML::Load(kPaper), "task set 'paper'", stack);
-    return;
   }
-  if (!std::filesystem::exists(name)) {
-    throw std::invalid_argument("task set " + Quoted(name) +
-                                ": is neither default, paper, nor a file");
-  }
-  const YAML::Node root = LoadYaml(name);
-  if (!root.IsMap() || !root["tasks"]) {
-    Refuse(name, root, "has no section 'tasks'");
-  }
-  ApplyTasks(root["tasks"], name, stack);
 }
 
 }  // namespace poise

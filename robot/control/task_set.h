@@ -4,8 +4,10 @@
 #include <yaml-cpp/yaml.h>
 
 #include <string>
+#include <vector>
 
 #include "robot/control/stack.h"
+#include "robot/robot.h"
 
 namespace poise {
 
@@ -22,9 +24,21 @@ namespace poise {
 /// that is not there, or a value out of its range.
 void ApplyTasks(const YAML::Node& tasks, const std::string& file, Stack* stack);
 
+/// The links X of a `tasks:` section's tasks frame.X, for
+/// ControllerOptions::frames: those that the robot has, but no foot has the name
+/// of. Throws nothing about what is wrong: ApplyTasks() does.
+std::vector<std::string> FindTaskLinks(const YAML::Node& tasks,
+                                       const Robot& robot);
+
 /// The section `tasks` that makes any stack of the same tasks this one: of each,
 /// whether it is on, its rank, weight and parameters, to the last digit.
 YAML::Node DescribeTasks(const Stack& stack);
+
+/// The same of a task set, and of the names of tasks to switch.
+/// Throws std::invalid_argument about the file.
+std::vector<std::string> FindTaskLinks(const std::string& set,
+                                       const std::vector<std::string>& tasks,
+                                       const Robot& robot);
 
 /// Changes a stack to a task set: `default` (nothing to do); `paper`, the table
 /// of the seed's section 3; else the section `tasks` of a YAML file.

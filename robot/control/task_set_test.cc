@@ -86,6 +86,20 @@ TEST(ApplyTasks, RefusesInOneLineWithTheValue) {
   EXPECT_EQ(Refusal("posture: {kp: 30}"), "accepted");
 }
 
+TEST(FindTaskLinks, FindsThoseOfFramesThatTheRobotHas) {
+  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
+                                LoadProfile("robot/profiles/humanoid.yaml"));
+  using Links = std::vector<std::string>;
+  const std::filesystem::path file = TestFile(
+      "set.yaml",
+      "tasks: {frame.torso: on, frame.left_foot: on, frame.tail: on, yaw: on}");
+  EXPECT_EQ(FindTaskLinks(file, {"frame.l_hand", "frame.torso", "zmp"}, robot),
+            (Links{"torso", "l_hand"}));
+  EXPECT_EQ(FindTaskLinks("default", {}, robot), Links{});
+  EXPECT_EQ(FindTaskLinks("paper", {"frame."}, robot), Links{});
+  EXPECT_EQ(FindTaskLinks(YAML::Load("[frame.torso]"), robot), Links{});
+}
+
 TEST(ApplyTaskSet, ReadsAFile) {
   Stack stack = MakeStack();
   ApplyTaskSet(TestFile("set.yaml", "tasks: {posture: {kp: 30}, yaw: off}"),
