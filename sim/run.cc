@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "sim/closed_loop.h"
 #include "sim/observation.h"
@@ -48,24 +50,34 @@ double TorqueViolation(const RobotModel& model, double scale,
   return worst;
 }
 
-// The largest push, beside what a pendulum in this robot's place could take.
-void MeasurePushes(const Robot& robot, const Scenario& scenario,
-                   const Eigen::VectorXd& q_start, RunResult* result) {
+// The push with the largest impulse, if there is any.
+const Push* FindLargestPush(const Scenario& scenario, RunResult* result) {
+  const Push* largest = nullptr;
   for (const Push& push : scenario.pushes) {
     const double impulse =
         ProfileIntegral(push, scenario.duration) * push.force.norm();
     if (impulse <= result->impulse_Ns) continue;
     result->impulse_Ns = impulse;
     result->push_duration = push.duration;
-    const bool has_direction =
-        push.frame == PushFrame::kWorld && !push.force.head<2>().isZero();
-    result->yardstick.reset();
-    if (!has_direction) continue;
-    const PushOnRobot aimed(robot, push);
-    result->yardstick =
-        ComputeYardstick(robot, q_start, push.force.head<2>(), push.duration,
-                         aimed.body(), aimed.p_BoQ_B());
+    largest = &push;
   }
+  return largest;
+}
+
+// What a pendulum could take of it in this robot's place, on the feet that are
+// meant to be down as it begins.
+std::optional<Yardstick> Measure(const Robot& robot, const Push& push,
+                                 const TickRecord& begin) {
+  if (push.frame != PushFrame::kWorld || push.force.head<2>().isZero()) {
+    return std::nullopt;
+  }
+  std::vector<bool> down;
+  for (const FootObservation& foot : begin.observation.feet) {
+    down.push_back(foot.down);
+  }
+  const PushOnRobot aimed(robot, push);
+  return ComputeYardstick(robot, begin.start.q, push.force.head<2>(),
+                          push.duration, aimed.body(), aimed.p_BoQ_B(), down);
 }
 
 }  // namespace
@@ -89,12 +101,15 @@ RunResult Run(const Robot& robot, const Scenario& scenario,
   std::vector<float> us;
   us.reserve(ticks);
   RunResult result;
+  const Push* push = FindLargestPush(scenario, &result);
   const auto before = Clock::now();
   while (result.ticks < ticks && !judge.is_down() && !result.interrupted) {
     loop.Tick();
     const TickRecord record = loop.record();
-    if (result.ticks == 0) {
-      MeasurePushes(robot, scenario, record.start.q, &result);
+    if (push != nullptr &&
+        push->start < record.observation.time + scenario.control.dt / 2) {
+      result.yardstick = Measure(robot, *push, record);
+      push = nullptr;
     }
     ++result.ticks;
     judge.Look(record.observation);

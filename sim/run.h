@@ -38,7 +38,9 @@ struct RunResult {
   int self_contact_ticks = 0;
   double impulse_Ns = 0;     ///< Of the largest push, within the duration.
   double push_duration = 0;  ///< Of the largest push, s.
-  std::optional<Yardstick> yardstick;  ///< In that push's direction.
+  /// In that push's direction, on the feet that are down as it begins; nothing
+  /// where it never does.
+  std::optional<Yardstick> yardstick;
   double wall_seconds = 0;
   std::string log_sha256;  ///< Empty if nothing was recorded.
 };

@@ -257,6 +257,19 @@ TEST(OneLeg, StandsOnOneFootIsPushedThereAndPutsTheOtherDown) {
   EXPECT_GT(right.F_Co_C[5], 150);  // 379 N on two feet.
 }
 
+// What a pendulum takes was that of two feet and of the start.
+TEST(OneLeg, IsMeasuredAgainstAPendulumOnOneFoot) {
+  const RunResult result = RunOurs("one_leg", 6.2);
+  ASSERT_TRUE(result.yardstick.has_value());
+  const double omega = std::sqrt(9.81 / 0.79);  // Its height, to 2 cm.
+  const double stretch = omega * 0.15 / -std::expm1(-omega * 0.15);
+  const double reach = result.yardstick->lipm_Ns /
+                       (Humanoid().model.tree.total_mass() * omega * stretch);
+  EXPECT_NEAR(reach, 0.065, 0.005);  // Half the width of a sole.
+  // A push that is never reached is measured against nothing.
+  EXPECT_FALSE(RunOurs("one_leg", 0.1).yardstick.has_value());
+}
+
 // Nine tenths of what a pendulum on its feet takes: the foot that the push
 // unloads is let go, comes back to where it was, and the robot stands as before.
 void ExpectAFootLeavesAndComesBack(const Eigen::Vector3d& force) {

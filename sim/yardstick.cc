@@ -17,9 +17,10 @@ double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 }
 
 // How far p can go along the unit vector u inside a convex polygon; 0 if p is
-// outside.
+// outside, or there is none.
 double DistanceToEdge(const std::vector<Eigen::Vector2d>& polygon,
                       const Eigen::Vector2d& p, const Eigen::Vector2d& u) {
+  if (polygon.size() < 3) return 0;
   double distance = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d edge = polygon[(i + 1) % polygon.size()] - polygon[i];
@@ -50,15 +51,18 @@ Yardstick ComputeYardstick(double mass, double gravity,
 
 Yardstick ComputeYardstick(const Robot& robot, const Eigen::VectorXd& q,
                            const Eigen::Vector2d& u, double duration, int body,
-                           const Eigen::Vector3d& p_BoQ_B) {
+                           const Eigen::Vector3d& p_BoQ_B,
+                           const std::vector<bool>& down) {
   const Tree& tree = robot.model.tree;
   Tick tick(tree, {});
   ComputeTick(tree, q, Eigen::VectorXd::Zero(tree.nv()), &tick);
   std::vector<Eigen::Vector2d> soles;
   double ground = std::numeric_limits<double>::infinity();
-  for (const Foot& foot : robot.feet) {
+  for (size_t i = 0; i < robot.feet.size(); ++i) {
+    const Foot& foot = robot.feet[i];
     const Pose X_WC = tick.X_WB[foot.body] * foot.X_BC;
     ground = std::min(ground, X_WC.p.z());
+    if (!down.empty() && !down[i]) continue;
     for (const Eigen::Vector2d& corner : foot.polygon_C) {
       const Eigen::Vector3d p_WQ =
           X_WC * Eigen::Vector3d(corner.x(), corner.y(), 0);

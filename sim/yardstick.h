@@ -39,9 +39,11 @@ Yardstick ComputeYardstick(double mass, double gravity,
                            double push_height);
 
 /// The same for a robot in the configuration q, pushed at the point Q of a
-/// body; heights are above its lowest sole.
+/// body; heights are above its lowest sole. `down` says which feet are on the
+/// ground, nothing being all.
 Yardstick ComputeYardstick(const Robot& robot, const Eigen::VectorXd& q,
                            const Eigen::Vector2d& u, double duration, int body,
-                           const Eigen::Vector3d& p_BoQ_B);
+                           const Eigen::Vector3d& p_BoQ_B,
+                           const std::vector<bool>& down = {});
 
 }  // namespace poise

@@ -72,5 +72,26 @@ TEST(Yardstick, OfARobotTakesItsSolesWhereTheyAre) {
   EXPECT_NEAR(yardstick.lipm_height_Ns, yardstick.lipm_Ns * 0.5 / 0.75, 1e-12);
 }
 
+TEST(Yardstick, OfARobotTakesTheSolesThatAreDown) {
+  Robot robot = MakeBlock({0.2, 0.4, 1}, 10);
+  robot.feet.push_back(robot.feet[0]);
+  for (Foot& foot : robot.feet) {
+    for (Eigen::Vector2d& corner : foot.polygon_C) corner.y() *= 0.5;
+  }
+  robot.feet[0].X_BC.p.y() = 0.1;
+  robot.feet[1].X_BC.p.y() = -0.1;
+  Eigen::VectorXd q(7);
+  q << 0, 0, 5, 0, 0, 0, 1;
+  const auto reach = [&](const std::vector<bool>& down, double y) {
+    return ComputeYardstick(robot, q, {0, y}, 0, 0, {0, 0, 0}, down).lipm_Ns /
+           (10 * std::sqrt(9.81 / 0.5));
+  };
+  EXPECT_NEAR(reach({}, 1), 0.2, 1e-12);
+  EXPECT_NEAR(reach({true, true}, 1), 0.2, 1e-12);
+  EXPECT_NEAR(reach({true, false}, 1), 0.2, 1e-12);
+  EXPECT_NEAR(reach({true, false}, -1), 0, 1e-12);
+  EXPECT_EQ(reach({false, false}, 1), 0);
+}
+
 }  // namespace
 }  // namespace poise
