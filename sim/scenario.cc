@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "robot/finding.h"
@@ -126,6 +127,13 @@ StanceEvent ReadStanceEvent(YamlFields fields) {
   const std::string shift = fields.Text("shift", "");
   fields.Read(Fields(&event));
   fields.Finish();
+  for (const auto& [key, other] :
+       {std::pair("lift", "put_down"), std::pair("lift", "shift"),
+        std::pair("put_down", "shift")}) {
+    if (!fields.Has(key) || !fields.Has(other)) continue;
+    fields.Refuse(key, "must not go with " + std::string(other) +
+                           ": one of them an entry");
+  }
   if (!lift.empty()) {
     event.kind = StanceEvent::Kind::kLift;
     event.foot = lift;
@@ -213,14 +221,53 @@ void RequireFew(const char* list, std::size_t size) {
       " entries, must have at most " + std::to_string(kMostEntries));
 }
 
+// Entries that are good each by itself, but not after those before them.
+void CheckOrder(const std::vector<StanceEvent>& stance) {
+  double before = 0;
+  std::string in_the_air;
+  for (std::size_t i = 0; i < stance.size(); ++i) {
+    const StanceEvent& event = stance[i];
+    const std::string which = "stance[" + std::to_string(i) + "].";
+    Require(event.at >= before, (which + "at").c_str(), event.at,
+            ("at least " + PrintNumber(before) +
+             ", as the entry before: they stand in the order of time")
+                .c_str());
+    before = event.at;
+    if (event.kind == StanceEvent::Kind::kLift) {
+      if (!in_the_air.empty()) {
+        throw std::invalid_argument(
+            which + "lift is " + Quoted(event.foot) + ", must come after " +
+            Quoted(in_the_air) + " is put down: one foot is lifted at a time");
+      }
+      in_the_air = event.foot;
+    } else if (event.kind == StanceEvent::Kind::kPutDown) {
+      if (in_the_air != event.foot) {
+        throw std::invalid_argument(which + "put_down is " +
+                                    Quoted(event.foot) +
+                                    ", must be a foot that is lifted");
+      }
+      in_the_air.clear();
+    }
+  }
+}
+
+// The name goes into JSON, and where nothing else is asked for, a folder gets it.
+bool IsPlainName(const std::string& name) {
+  constexpr std::size_t kMostBytes = 100;
+  return !name.empty() && name.size() <= kMostBytes && name != "." &&
+         name != ".." && name.find_first_of("/\\") == std::string::npos &&
+         OneLine(name) == name;
+}
+
 }  // namespace
 
 Scenario LoadScenario(const std::filesystem::path& file) {
   YamlFields fields = ReadYaml(file.string());
   Scenario scenario;
   scenario.name = fields.Text("name", file.stem().string());
-  if (scenario.name.find('/') != std::string::npos) {
-    fields.Refuse("name", "must have no '/'");
+  if (!IsPlainName(scenario.name)) {
+    fields.Refuse("name",
+                  "must be the name of a file, in UTF-8, of at most 100 bytes");
   }
   fields.Read(Fields(&scenario));
   scenario.seed = ReadSeed(&fields, scenario.seed);
@@ -266,6 +313,7 @@ void Validate(const Scenario& scenario) {
   for (StanceEvent& event : copy.stance) Check("stance", Fields(&event));
   RequireFew("pushes", copy.pushes.size());
   RequireFew("stance", copy.stance.size());
+  CheckOrder(copy.stance);
   const double step = copy.plant.dt, tick = copy.control.dt;
   Require(tick > step / 2 && IsMultiple(tick, step), "plant.rate", 1 / step,
           "a multiple of control.rate");

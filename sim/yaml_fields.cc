@@ -138,7 +138,7 @@ void YamlFields::Finish() const {
       known += (known.empty() ? "" : ", ") + name;
     }
     Throw(file_, entry.first.Mark(),
-          "key '" + key + "' is unknown, must be one of " + known);
+          "key " + Quoted(key) + " is unknown, must be one of " + known);
   }
 }
 
