@@ -10,6 +10,8 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -20,6 +22,7 @@
 #include "robot/profile.h"
 #include "robot/save_profile.h"
 #include "robot/urdf.h"
+#include "sim/closed_loop.h"
 #include "sim/number_field.h"
 #include "tools/command_line.h"
 #include "tools/strength.h"
@@ -166,7 +169,8 @@ void Apply(const Overrides& o, Scenario* scenario) {
   Take(o.time, &scenario->duration);
   Take(o.seed, &scenario->seed);
   if (o.tasks) {
-    const bool is_file = std::filesystem::exists(UserPath(*o.tasks));
+    std::error_code too_long;
+    const bool is_file = std::filesystem::exists(UserPath(*o.tasks), too_long);
     control.tasks = is_file ? UserPath(*o.tasks).string() : *o.tasks;
   }
   control.with.insert(control.with.end(), o.with.begin(), o.with.end());
@@ -206,18 +210,46 @@ std::string ScenarioNames() {
   return text;
 }
 
-// A scenario of ours by name, else a file of the user's.
-Scenario FindScenario(const std::string& name) {
-  const std::filesystem::path ours =
-      std::filesystem::path(kScenarios) / (name + ".yaml");
-  if (name.find('/') == std::string::npos && std::filesystem::exists(ours)) {
-    return LoadScenario(ours);
+// The file of a scenario of ours by name, else one of the user's.
+std::filesystem::path FindScenario(const std::string& name) {
+  std::error_code too_long;  // No file has such a name.
+  if (name.find('/') == std::string::npos) {
+    const std::filesystem::path ours =
+        std::filesystem::path(kScenarios) / (name + ".yaml");
+    if (std::filesystem::exists(ours, too_long)) return ours;
   }
-  const std::filesystem::path theirs = UserPath(name);
-  if (std::filesystem::is_regular_file(theirs)) return LoadScenario(theirs);
+  std::filesystem::path theirs = UserPath(name);
+  if (std::filesystem::is_regular_file(theirs, too_long)) return theirs;
   throw std::invalid_argument("scenario '" + name +
                               "' is unknown, must be a file or one of " +
                               ScenarioNames());
+}
+
+// What a robot and a scenario have against each other; empty: nothing.
+std::string Complaint(const Robot& robot, const Scenario& scenario) {
+  try {
+    ClosedLoop loop(robot, scenario);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Throws what a robot and a scenario have against each other, by the name of
+// the first file whose part of it says the same.
+void CheckFit(const Robot& robot, const Scenario& scenario,
+              const std::vector<std::pair<std::string, Scenario>>& parts) {
+  try {
+    ClosedLoop loop(robot, scenario);
+  } catch (const Refusal&) {  // Names the file itself.
+    throw;
+  } catch (const std::invalid_argument& error) {
+    for (const auto& [file, part] : parts) {
+      if (Complaint(robot, part) != error.what()) continue;
+      throw std::invalid_argument(file + ": " + error.what());
+    }
+    throw;
+  }
 }
 
 }  // namespace
@@ -256,7 +288,9 @@ PushOptions ReadPushOptions(int argc, char** argv) {
   app.add_flag("--json", json, "print summary.json");
   ParseCommandLine(argc, argv, &app);
 
-  Scenario scenario = FindScenario(scenario_name);
+  const std::filesystem::path scenario_file = FindScenario(scenario_name);
+  const Scenario as_written = LoadScenario(scenario_file);
+  Scenario scenario = as_written;
   Apply(overrides, &scenario);
   Validate(scenario);
   const std::filesystem::path robot_file =
@@ -275,6 +309,17 @@ PushOptions ReadPushOptions(int argc, char** argv) {
   std::vector<Finding> findings;
   LoadUrdf(robot_file, {}, &findings);
   Robot standing = LoadStandingRobot(robot_file, feet_and_posture, &findings);
+  Scenario rest, pushes_alone;
+  rest.plant_kind = scenario.plant_kind;
+  std::filesystem::path pushes_file;
+  if (overrides.pushes) {
+    pushes_file = UserPath(*overrides.pushes);
+    pushes_alone.pushes = LoadPushes(pushes_file);
+  }
+  CheckFit(standing, scenario,
+           {{robot_file.string(), rest},
+            {pushes_file.string(), pushes_alone},
+            {scenario_file.string(), as_written}});
   if (!save_profile.empty()) {
     // Mimics are fixed by where their sources were before it stood up.
     feet_and_posture.locked =

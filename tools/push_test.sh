@@ -139,8 +139,27 @@ refuse_file --pushes ":3: key 'forse' is unknown, must be one of link, $(
   pushes.yaml 'pushes:' '  - force: [0, 50, 0]' '    forse: [0, 50, 0]'
 refuse_file --pushes ":2: 'force' is a list, must be a list of numbers" \
   pushes.yaml 'pushes:' '  - force: [0, fifty, 0]'
-refuse "link 'nose' is unknown, must be a link of robot 'humanoid'" \
-  --pushes "$(write pushes.yaml 'pushes: [{link: nose}]')"
+nose="link 'nose' is unknown, must be a link of robot 'humanoid'"
+refuse_file --pushes ": $nose" pushes.yaml 'pushes: [{link: nose}]'
+
+# What does not fit the robot is refused by the name of the file that says it,
+# before anything is written.
+refuse_file --scenario ": $nose" link.yaml 'pushes: [{link: nose}]'
+refuse_file --scenario ": task set 'nope': is neither default, paper, nor a file" \
+  tasks.yaml 'tasks: {set: nope}'
+refuse_file --scenario ": stance: foot 'nope' is unknown, must be a foot of $(
+  )robot 'humanoid'" stance.yaml 'stance: [{at: 1, lift: nope}]'
+refuse_file --scenario ": plant: restitution is 0.500000, must be 0 in a MuJoCo $(
+  )plant" \
+  bounce.yaml 'plant: {kind: mujoco, restitution: 0.5}'
+leaf='<link name="leaf"/><joint name="je" type="continuous"><parent link="head"/>'
+leaf+='<child link="leaf"/></joint></robot>'
+refuse_file --robot ": body moved by 'je': mass is 0, must be positive in a $(
+  )Bullet plant" leaf.urdf \
+  "$(sed "s:</robot>:$leaf:" robot/models/humanoid.urdf)"
+refuse_file --scenario ": task set '$(printf 'a%.0s' {1..60})...': is neither $(
+  )default, paper, nor a file" \
+  long.yaml "tasks: {set: $(printf 'a%.0s' {1..300000})}"
 
 refuse "--force is 'strong', must be a number" --force strong
 refuse "the word after '--force' is empty, must not be" --force ""

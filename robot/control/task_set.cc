@@ -5,6 +5,7 @@
 #include <charconv>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 #include "robot/finding.h"
 #include "robot/yaml_file.h"
@@ -92,7 +93,8 @@ void ApplyTask(const std::string& name, const YAML::Node& node,
 
 // The section of a file.
 YAML::Node LoadTasks(const std::string& file) {
-  if (!std::filesystem::exists(file)) {
+  std::error_code too_long;  // No file has such a name.
+  if (!std::filesystem::exists(file, too_long)) {
     throw std::invalid_argument("task set " + Quoted(file) +
                                 ": is neither default, paper, nor a file");
   }
