@@ -44,6 +44,9 @@ class Judge {
   /// The robot lies, or is about to: there is nothing more to see.
   bool is_down() const { return down_; }
 
+  /// Verdict::fell_at is known.
+  bool has_fallen() const { return verdict_.fell_at.has_value(); }
+
   Verdict Conclude() const;
 
  private:

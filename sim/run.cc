@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "robot/finding.h"
 #include "sim/closed_loop.h"
 #include "sim/observation.h"
 
@@ -50,6 +51,19 @@ double TorqueViolation(const RobotModel& model, double scale,
   return worst;
 }
 
+// See RunResult::blew_up.
+std::string FindBlowUp(const Tree& tree, const Eigen::VectorXd& v) {
+  constexpr double kAbsurd = 1000;  // rad/s or m/s.
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    const double speed = v[tree.v_start() + j];
+    if (std::abs(speed) <= kAbsurd) continue;  // Not NaN.
+    const bool slides = tree.joints()[j].type == JointType::kPrismatic;
+    return "the controller blew up: joint " + Quoted(tree.joints()[j].name) +
+           " went at " + PrintNumber(speed) + (slides ? " m/s" : " rad/s");
+  }
+  return "";
+}
+
 // The push with the largest impulse, if there is any.
 const Push* FindLargestPush(const Scenario& scenario, RunResult* result) {
   const Push* largest = nullptr;
@@ -82,6 +96,11 @@ std::optional<Yardstick> Measure(const Robot& robot, const Push& push,
 
 }  // namespace
 
+std::string FellBy(const RunResult& result) {
+  const bool by_itself = result.blew_up.empty() || !result.verdict.fell_at;
+  return by_itself ? result.verdict.fell_by : result.blew_up;
+}
+
 RunResult Run(const Robot& robot, const Scenario& scenario,
               const std::filesystem::path& folder,
               const std::function<bool(double)>& progress, LogFormat format) {
@@ -112,6 +131,9 @@ RunResult Run(const Robot& robot, const Scenario& scenario,
       push = nullptr;
     }
     ++result.ticks;
+    if (result.blew_up.empty() && !judge.has_fallen()) {
+      result.blew_up = FindBlowUp(robot.model.tree, record.start.v);
+    }
     judge.Look(record.observation);
     if (recorder != nullptr) recorder->Record(record);
     us.push_back(static_cast<float>(record.microseconds));

@@ -26,6 +26,9 @@ struct TickTimes {
 /// What a run came to, and what it took.
 struct RunResult {
   Verdict verdict;
+  /// Where a joint was flung off before the robot fell, as no body does by
+  /// itself: which one, in words. Then the controller is to blame, or the plant.
+  std::string blew_up;
   double duration = 0;  ///< Simulated, s; less than asked for after a fall.
   bool interrupted = false;
   long ticks = 0;
@@ -44,6 +47,9 @@ struct RunResult {
   double wall_seconds = 0;
   std::string log_sha256;  ///< Empty if nothing was recorded.
 };
+
+/// What a robot fell by, in words; empty where it did not.
+std::string FellBy(const RunResult& result);
 
 /// Runs a scenario to its end, or until the robot lies.
 ///

@@ -423,6 +423,29 @@ TEST(ClosedLoop, HasAFrameTaskForAnyLink) {
   }
 }
 
+// Gains that 100 Hz cannot have, without limits: no physics makes a robot fall
+// like that.
+TEST(Run, TellsABlowUpFromAFall) {
+  Scenario scenario = Ours("stand", 1);
+  scenario.control.dt = 0.01;
+  scenario.control.tasks =
+      TestFile("wild.yaml",
+               "tasks: {joint_limits: off, torque_limits: off, "
+               "posture: {kp: 10000, kd: 1000}}");
+  const RunResult wild = poise::Run(Humanoid(), scenario);
+  EXPECT_TRUE(wild.verdict.fell_at.has_value());
+  EXPECT_EQ(FellBy(wild).find("the controller blew up: joint '"), 0u)
+      << FellBy(wild);
+  EXPECT_EQ(ToJson(Humanoid(), scenario, wild)["fell_by"], FellBy(wild));
+  // A push that no controller could bear is a fall.
+  Scenario hard = Ours("strong_push", 3);
+  hard.pushes[0].force *= 3;
+  const RunResult fallen = poise::Run(Humanoid(), hard);
+  EXPECT_TRUE(fallen.verdict.fell_at.has_value());
+  EXPECT_EQ(FellBy(fallen), fallen.verdict.fell_by);
+  EXPECT_EQ(FellBy(RunResult()), "");
+}
+
 // A delay of three ticks: what acts is what was asked for three ticks ago.
 TEST(ClosedLoop, DelaysTorques) {
   Scenario scenario = Ours("strong_push", 1);

@@ -79,7 +79,7 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
                    {"without", control.without}};
   json["recovered"] = verdict.recovered;
   json["fell_at"] = verdict.fell_at ? Json(*verdict.fell_at) : Json(nullptr);
-  json["fell_by"] = verdict.fell_by;
+  json["fell_by"] = FellBy(result);
   json["interrupted"] = result.interrupted;
   json["com_error_peak"] = Numbers(verdict.com_error_peak);
   json["com_error_final"] = Numbers(verdict.com_error_final);
@@ -120,9 +120,8 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
   if (verdict.recovered) {
     table += "recovered";
   } else if (verdict.fell_at) {
-    std::snprintf(text, sizeof(text), "fell at %.3f s: %s", *verdict.fell_at,
-                  verdict.fell_by);
-    table += text;
+    std::snprintf(text, sizeof(text), "fell at %.3f s: ", *verdict.fell_at);
+    table += text + FellBy(result);
   } else {
     table += "did not come back";
   }
