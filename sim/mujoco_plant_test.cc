@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <fstream>
 #include <random>
 
 #include "dynamics/tick.h"
@@ -73,6 +74,19 @@ TEST(MujocoPlant, RepeatsToTheBitAfterReset) {
   };
   const Eigen::VectorXd once = run();
   EXPECT_EQ(run(), once);
+}
+
+TEST(MujocoPlant, LeavesNoFileWhereARobotIsFlungApart) {
+  MujocoPlant plant(MakeBlock({0.2, 0.1, 0.3}, 5));
+  Eigen::VectorXd q(7);
+  q << 0, 0, 0.2, 0, 0, 0, 1;
+  plant.Reset(q, Eigen::VectorXd::Constant(6, 1e12));
+  testing::internal::CaptureStderr();
+  testing::internal::CaptureStdout();
+  for (int k = 0; k < 10; ++k) plant.Step(Eigen::VectorXd());
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_FALSE(std::ifstream("MUJOCO_LOG.TXT").is_open());
 }
 
 // A hinge with damping d on an inertia I slows down as
