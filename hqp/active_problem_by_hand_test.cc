@@ -203,6 +203,33 @@ TEST(ActiveProblem, AResidualOfRoundingIsNone) {
   }
 }
 
+// y1 + y2 = 5 below y1 + y2 = 0 is held back by 5 of its weight, 3, and its length,
+// squared. Where y is said to be elsewhere, it is by 4 of them, of which 1 too
+// much was found before.
+TEST(ActiveProblem, RefinesMultipliersByWhatIsLeftOfTheirSum) {
+  const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
+  Hierarchy hierarchy(2, capacity);
+  EqualityBlock first = hierarchy.AddEqualities(0, 1);
+  first.B << 1, 1;
+  first.b << 0;
+  EqualityBlock second = hierarchy.AddEqualities(1, 1);
+  second.B << 1, 1;
+  second.b << -5;
+  second.weight << 3;
+  ActiveProblem problem(2, capacity);
+  int failed_level;
+  ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+  problem.Plan(hierarchy, 2);
+  problem.Solve(hierarchy, {{}, {}});
+  problem.FindMultipliers(3);
+  const double unit = 6 / std::sqrt(2);
+  EXPECT_NEAR(problem.multipliers(1).nu[0], 5 * unit, Rounding(5 * unit, 2));
+  problem.TakeOther(hierarchy, {1, 0});
+  problem.RefineMultipliers(hierarchy);
+  EXPECT_NEAR(problem.multipliers(1).nu[0], 4 * unit, Rounding(5 * unit, 2));
+  EXPECT_NEAR(problem.multipliers(1).nu[1], -4 * unit, Rounding(5 * unit, 2));
+}
+
 // Without variables, no level selects any.
 TEST(ActiveProblem, KnowsLevelsWithoutVariables) {
   const std::vector<LevelCapacity> capacity{{0, 0}};
