@@ -89,7 +89,7 @@ class LeastSquares {
     return unreachable;
   }
 
-  // Whether a row depends on heavier ones.
+  // These numbers, by row, where a row depends on heavier ones; else 0.
   Eigen::VectorXd Dependent(const Eigen::VectorXd& of) const {
     Eigen::VectorXd dependent = of;
     for (int place = 0; place < rank_; ++place) dependent[order_[place]] = 0;
