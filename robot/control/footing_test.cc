@@ -11,7 +11,9 @@
 namespace poise {
 namespace {
 
-TEST_F(ControllerTest, SeesThatAFootHasLostTheGround) {
+// All of its feet: it flies, its legs go with the body, and it stands as soon as
+// there is ground.
+TEST_F(ControllerTest, SeesThatItsFeetHaveLostTheGround) {
   Update();
   ASSERT_EQ(controller_.stance().phase(0), ContactPhase::kDown);
   const double ground = controller_.reference().ground_z;
@@ -21,9 +23,14 @@ TEST_F(ControllerTest, SeesThatAFootHasLostTheGround) {
   EXPECT_FALSE(controller_.contacts()[0].in_contact);
   EXPECT_NE(command_.status, TickStatus::kFailSafe);
   EXPECT_LT(controller_.report().foot_wrench(tree().nv(), 0).norm(), 1e-9);
+  // In free fall, at rest in its posture: no joint is accelerated.
+  const int n = tree().num_joints();
+  EXPECT_LT(controller_.report().y.segment(6, n).lpNorm<Eigen::Infinity>(),
+            1e-9);
   controller_.reference().ground_z = ground;
   Update();
-  EXPECT_EQ(controller_.stance().phase(0), ContactPhase::kLoading);
+  EXPECT_EQ(controller_.stance().phase(0), ContactPhase::kDown);
+  EXPECT_GT(controller_.report().foot_wrench(tree().nv(), 0)[5], 100);
 }
 
 // Falling to the left, or to the right: the other foot, which bears nothing, is

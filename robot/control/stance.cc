@@ -44,6 +44,11 @@ double Duration(ContactPhase phase, double down, double swing_time) {
   return std::max(0.05, down / kSearchSpeed);
 }
 
+bool Bears(ContactPhase phase) {
+  return phase == ContactPhase::kDown || phase == ContactPhase::kUnloading ||
+         phase == ContactPhase::kLoading;
+}
+
 // Upright, with the heading of R_WC.
 Eigen::Matrix3d Upright(const Eigen::Matrix3d& R_WC) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
@@ -67,27 +72,47 @@ void Stance::Reset() noexcept {
   for (FootState& foot : feet_) Enter(&foot, ContactPhase::kDown);
 }
 
-bool Stance::HasLeft(const FootState& foot, const ContactTick& contact,
-                     double ground_z) const noexcept {
-  double height = kInfinity;
-  double rising = 0;
+Stance::Clearance Stance::LowestCorner(const FootState& foot,
+                                       const ContactTick& contact,
+                                       double ground_z) noexcept {
+  Clearance lowest{kInfinity, 0};
   const Eigen::RowVector3d z_C = contact.X_WC.R.row(2);
   for (const Eigen::Vector2d& corner : foot.polygon_C) {
     const Eigen::Vector3d p_C(corner.x(), corner.y(), 0);
-    const double above = contact.X_WC.p.z() + z_C.dot(p_C) - ground_z;
-    if (above >= height) continue;
-    height = above;
+    const double height = contact.X_WC.p.z() + z_C.dot(p_C) - ground_z;
+    if (height >= lowest.height) continue;
     const Eigen::Vector3d v_C =
         contact.V_WC_C.tail<3>() + contact.V_WC_C.head<3>().cross(p_C);
-    rising = z_C.dot(v_C);
+    lowest = {height, z_C.dot(v_C)};
   }
-  return height > 2 * lost_above ||
-         (height > lost_above && rising > kSeparating);
+  return lowest;
+}
+
+Stance::Clearance Stance::Middle(const ContactTick& contact,
+                                 double ground_z) noexcept {
+  return {contact.X_WC.p.z() - ground_z,
+          contact.X_WC.R.row(2).dot(contact.V_WC_C.tail<3>())};
+}
+
+bool Stance::HasLeft(const Clearance& lowest) const noexcept {
+  return lowest.height > 2 * lost_above ||
+         (lowest.height > lost_above && lowest.rising > kSeparating);
+}
+
+bool Stance::HasLanded(const Clearance& sole) const noexcept {
+  return sole.height < found_below && sole.rising < kSeparating;
+}
+
+// Whether no foot bears: the robot flies.
+bool Stance::flies() const noexcept {
+  return std::none_of(feet_.begin(), feet_.end(),
+                      [](const FootState& foot) { return Bears(foot.phase); });
 }
 
 void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {
   foot->phase = phase;
   foot->since = 0;
+  foot->has_flown = false;
 }
 
 void Stance::Lift(int i, double height) noexcept {
@@ -177,78 +202,104 @@ void Stance::Return(const FootState& foot,
 void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
                     std::vector<ContactTick>* contacts,
                     Reference* reference) noexcept {
-  for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
+  const int count = static_cast<int>(feet_.size());
+  for (int i = 0; i < count; ++i) {
+    ChangePhase(dt, (*contacts)[i], *reference, &feet_[i]);
+  }
+  const bool in_flight = flies();
+  for (int i = 0; i < count; ++i) {
     FootState& foot = feet_[i];
     ContactTick& contact = (*contacts)[i];
-    const double height = contact.X_WC.p.z() - reference->ground_z;
-    const double rising = contact.X_WC.R.row(2).dot(contact.V_WC_C.tail<3>());
-    if (foot.phase == ContactPhase::kFree && foot.since == 0) {
-      TakeOff(&foot, contact, *reference);
-    }
-    if (foot.phase == ContactPhase::kReturning && foot.since == 0) {
-      foot.X_WC_away = contact.X_WC;
-      foot.V_WC_away << contact.X_WC.R * contact.V_WC_C.head<3>(),
-          contact.X_WC.R * contact.V_WC_C.tail<3>();
-    }
-    foot.since += dt;
-    contact.is_guided = foot.phase != ContactPhase::kFree;
-
-    // What ends a phase.
-    if (is_meant_down(i) && foot.phase != ContactPhase::kLost &&
-        HasLeft(foot, contact, reference->ground_z)) {
-      TakeOff(&foot, contact, *reference);
-      foot.to = -kReach;
-      Enter(&foot, ContactPhase::kLost);
-    } else if ((foot.phase == ContactPhase::kLost ||
-                foot.phase == ContactPhase::kLanding ||
-                foot.phase == ContactPhase::kReturning) &&
-               height < found_below && rising < kSeparating) {
-      Enter(&foot, ContactPhase::kLoading);
-      foot.force = 0;
-    } else if (foot.phase == ContactPhase::kUnloading &&
-               foot.since > fade_time) {
-      TakeOff(&foot, contact, *reference);
-      Enter(&foot, ContactPhase::kUp);
-    } else if (foot.phase == ContactPhase::kLoading && foot.since > fade_time) {
-      Enter(&foot, ContactPhase::kDown);
-    }
-
-    // What it means.
-    const double fade = std::min(1.0, foot.since / fade_time);
-    contact.in_contact = true;
-    contact.max_normal_force = kInfinity;
-    switch (foot.phase) {
-      case ContactPhase::kDown:
-        continue;
-      case ContactPhase::kUnloading:
-        if (foot.force < 0) foot.force = normal_force[i];
-        contact.max_normal_force = (1 - fade) * foot.force;
-        continue;
-      case ContactPhase::kLoading:
-        contact.max_normal_force =
-            foot.force + fade * (kFullLoad * weight_ - foot.force);
-        continue;
-      default:
-        break;
-    }
-    contact.in_contact = false;
-    if (foot.phase == ContactPhase::kFree) continue;
-    if (foot.phase == ContactPhase::kReturning) {
-      Return(foot, &reference->feet[i]);
-      continue;
-    }
-    const double duration =
-        Duration(foot.phase, foot.from - foot.to, swing_time);
-    const Smooth way(std::min(1.0, foot.since / duration));
-    const double travel = foot.to - foot.from;
-    FrameReference& target = reference->feet[i];
-    target.X_WF = foot.X_WC;
-    target.X_WF.p.z() += foot.from + travel * way.value;
-    target.V_WF_W.setZero();
-    target.V_WF_W[5] = travel / duration * way.rate;
-    target.A_WF_W.setZero();
-    target.A_WF_W[5] = travel / (duration * duration) * way.acceleration;
+    foot.has_flown |= in_flight;
+    contact.is_guided = foot.phase != ContactPhase::kFree && !in_flight;
+    contact.in_contact = Bears(foot.phase);
+    contact.max_normal_force = MaxNormalForce(normal_force[i], &foot);
+    if (!contact.in_contact) Guide(foot, &reference->feet[i]);
   }
+}
+
+void Stance::ChangePhase(double dt, const ContactTick& contact,
+                         const Reference& reference, FootState* of) noexcept {
+  FootState& foot = *of;
+  // What has begun.
+  if (foot.phase == ContactPhase::kFree && foot.since == 0) {
+    TakeOff(&foot, contact, reference);
+  }
+  if (foot.phase == ContactPhase::kReturning && foot.since == 0) {
+    foot.X_WC_away = contact.X_WC;
+    foot.V_WC_away << contact.X_WC.R * contact.V_WC_C.head<3>(),
+        contact.X_WC.R * contact.V_WC_C.tail<3>();
+  }
+  foot.since += dt;
+
+  // What ends.
+  switch (foot.phase) {
+    case ContactPhase::kDown:
+    case ContactPhase::kLoading:
+      if (HasLeft(LowestCorner(foot, contact, reference.ground_z))) {
+        TakeOff(&foot, contact, reference);
+        foot.to = -kReach;
+        Enter(&foot, ContactPhase::kLost);
+      } else if (foot.phase == ContactPhase::kLoading &&
+                 foot.since > fade_time) {
+        Enter(&foot, ContactPhase::kDown);
+      }
+      return;
+    case ContactPhase::kLost:
+    case ContactPhase::kLanding:
+    case ContactPhase::kReturning:
+      if (foot.has_flown) {
+        // Who lands needs all of its feet at once, and as they are.
+        if (HasLanded(LowestCorner(foot, contact, reference.ground_z))) {
+          Enter(&foot, ContactPhase::kDown);
+        }
+      } else if (HasLanded(Middle(contact, reference.ground_z))) {
+        Enter(&foot, ContactPhase::kLoading);
+        foot.force = 0;
+      }
+      return;
+    case ContactPhase::kUnloading:
+      if (foot.since > fade_time) {
+        TakeOff(&foot, contact, reference);
+        Enter(&foot, ContactPhase::kUp);
+      }
+      return;
+    case ContactPhase::kUp:
+    case ContactPhase::kFree:
+      return;
+  }
+}
+
+double Stance::MaxNormalForce(double normal_force,
+                              FootState* foot) const noexcept {
+  const double fade = std::min(1.0, foot->since / fade_time);
+  if (foot->phase == ContactPhase::kUnloading) {
+    if (foot->force < 0) foot->force = normal_force;
+    return (1 - fade) * foot->force;
+  }
+  if (foot->phase == ContactPhase::kLoading) {
+    return foot->force + fade * (kFullLoad * weight_ - foot->force);
+  }
+  return kInfinity;
+}
+
+// Where a foot in the air is to be.
+void Stance::Guide(const FootState& foot,
+                   FrameReference* target) const noexcept {
+  if (foot.phase == ContactPhase::kFree) return;
+  if (foot.phase == ContactPhase::kReturning) {
+    Return(foot, target);
+    return;
+  }
+  const double duration = Duration(foot.phase, foot.from - foot.to, swing_time);
+  const Smooth way(std::min(1.0, foot.since / duration));
+  const double travel = foot.to - foot.from;
+  target->X_WF = foot.X_WC;
+  target->X_WF.p.z() += foot.from + travel * way.value;
+  target->V_WF_W.setZero();
+  target->V_WF_W[5] = travel / duration * way.rate;
+  target->A_WF_W.setZero();
+  target->A_WF_W[5] = travel / (duration * duration) * way.acceleration;
 }
 
 }  // namespace poise

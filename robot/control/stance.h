@@ -27,7 +27,8 @@ enum class ContactPhase {
 /// geometry with hysteresis, never by force, as a foot that is not loaded
 /// because it is thought to be in the air would stay so for ever. A foot rolled
 /// onto its edge is still in contact; one in the air is found again when its
-/// sole lies on the ground.
+/// sole lies on the ground. While no foot is in contact all go with the body, and
+/// whose edge lands stands, with all that it can bear.
 class Stance {
  public:
   double fade_time = 0.3;    ///< For a force to fade in or out, s.
@@ -76,11 +77,27 @@ class Stance {
     Pose X_WC_away;           // Where it began to return,
     Vector6d V_WC_away;       // and how it moved there, in world axes.
     double from = 0, to = 0;  // Heights that it swings between, m.
+    bool has_flown = false;   // In this phase, no foot bore for a while.
     std::vector<Eigen::Vector2d> polygon_C;
   };
 
-  bool HasLeft(const FootState& foot, const ContactTick& contact,
-               double ground_z) const noexcept;
+  // Of a point of a sole.
+  struct Clearance {
+    double height;  // Above the ground, m.
+    double rising;  // m/s.
+  };
+
+  static Clearance LowestCorner(const FootState& foot,
+                                const ContactTick& contact,
+                                double ground_z) noexcept;
+  static Clearance Middle(const ContactTick& contact, double ground_z) noexcept;
+  bool HasLeft(const Clearance& lowest) const noexcept;
+  bool HasLanded(const Clearance& sole) const noexcept;
+  bool flies() const noexcept;
+  void ChangePhase(double dt, const ContactTick& contact,
+                   const Reference& reference, FootState* foot) noexcept;
+  double MaxNormalForce(double normal_force, FootState* foot) const noexcept;
+  void Guide(const FootState& foot, FrameReference* target) const noexcept;
   void Return(const FootState& foot, FrameReference* target) const noexcept;
   void Enter(FootState* foot, ContactPhase phase) noexcept;
   void TakeOff(FootState* foot, const ContactTick& contact,

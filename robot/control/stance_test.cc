@@ -150,6 +150,65 @@ TEST_F(StanceTest, FindsAFootWhenItsSoleLiesOnTheGround) {
   EXPECT_TRUE(std::isinf(contacts_[0].max_normal_force));
 }
 
+// No foot bears: they go with the body, and whose lower edge lands is down at
+// once, not flat as it is, and bears what it can.
+TEST_F(StanceTest, LandsOnTheFeetAsTheyAre) {
+  const auto lift_all = [&] {
+    for (ContactTick& contact : contacts_) {
+      contact.X_WC.R.setIdentity();
+      contact.X_WC.p.z() = 0.03;
+    }
+    Update();
+    ASSERT_EQ(stance_.phase(0), ContactPhase::kLost);
+    ASSERT_EQ(stance_.phase(1), ContactPhase::kLost);
+    EXPECT_FALSE(contacts_[0].is_guided);
+    EXPECT_FALSE(contacts_[1].is_guided);
+  };
+  lift_all();
+  Roll(0.6, 0.005);
+  contacts_[0].V_WC_C[5] = -1;
+  Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kLost);  // 1 mm too high.
+  Roll(0.6, 0.003);
+  Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);
+  EXPECT_TRUE(contacts_[0].in_contact);
+  EXPECT_TRUE(std::isinf(contacts_[0].max_normal_force));
+  EXPECT_FALSE(contacts_[1].in_contact);
+  EXPECT_TRUE(contacts_[1].is_guided);
+  contacts_[1].X_WC.p.z() = 0.003;
+  Update();
+  EXPECT_EQ(stance_.phase(1), ContactPhase::kDown);
+  // That was then: a foot that is lost alone fades in, flat.
+  contacts_[1].X_WC.p.z() = 0.03;
+  Update();
+  ASSERT_EQ(stance_.phase(1), ContactPhase::kLost);
+  EXPECT_TRUE(contacts_[1].is_guided);
+  contacts_[1].X_WC.p.z() = 0.003;
+  Update();
+  EXPECT_EQ(stance_.phase(1), ContactPhase::kLoading);
+}
+
+// A foot that is up on purpose goes with the body too, and does not stand.
+TEST_F(StanceTest, KeepsALiftedFootUpInFlight) {
+  stance_.Lift(1, 0.05);
+  for (int i = 0; i < 302; ++i) Update();
+  ASSERT_EQ(stance_.phase(1), ContactPhase::kUp);
+  EXPECT_TRUE(contacts_[1].is_guided);
+  Roll(0, 0.03);
+  Update();
+  ASSERT_EQ(stance_.phase(0), ContactPhase::kLost);
+  EXPECT_FALSE(contacts_[1].is_guided);
+  EXPECT_EQ(stance_.phase(1), ContactPhase::kUp);
+  contacts_[1].X_WC.p.z() = 0.003;
+  Roll(0, 0.003);
+  Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);
+  EXPECT_EQ(stance_.phase(1), ContactPhase::kUp);
+  EXPECT_TRUE(contacts_[1].is_guided);
+  EXPECT_FALSE(contacts_[1].in_contact);
+}
+
 // A foot that is let go and called back from afar: its target begins where it
 // is, ends where it was, and moves as its velocity and acceleration say.
 TEST_F(StanceTest, LetsAFootGoAndBringsItBack) {

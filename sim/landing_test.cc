@@ -1,0 +1,96 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// No foot in contact: the robot falls, and lands on its feet.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "robot/control/stand.h"
+#include "robot/profile.h"
+#include "sim/closed_loop.h"
+#include "sim/judge.h"
+
+namespace poise {
+namespace {
+
+struct Landing {
+  Verdict verdict;
+  int flying = 0;          // Ticks without a foot in contact,
+  double bent = 0;         // in these the joint farthest from its posture, rad,
+  double force = 0;        // and the largest wrench asked of a foot.
+  double certificate = 0;  // The worst of all ticks.
+  double sunk = 0;         // The center of mass below its reference, m.
+  double beyond = -1;      // A joint beyond its limits, rad.
+};
+
+Landing Land(const Scenario& scenario) {
+  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
+                                LoadProfile("robot/profiles/humanoid.yaml"));
+  const Tree& tree = robot.model.tree;
+  ClosedLoop loop(robot, scenario);
+  Judge judge(StandingHeight(robot));
+  Landing landing;
+  while (loop.time() < scenario.duration - 1e-6 && !judge.is_down()) {
+    loop.Tick();
+    const Observation& now = loop.observation();
+    judge.Look(now);
+    const TickRecord record = loop.record();
+    landing.certificate =
+        std::max(landing.certificate, record.report.certificate.worst());
+    landing.sunk = std::max(landing.sunk, (now.com_ref - now.com).z());
+    for (int j = 0; j < tree.num_joints(); ++j) {
+      const JointLimits& limits = robot.model.limits[j];
+      const double q = record.end.q[7 + j];
+      landing.beyond =
+          std::max({landing.beyond, q - limits.upper, limits.lower - q});
+    }
+    const auto& contacts = loop.controller().contacts();
+    if (contacts[0].in_contact || contacts[1].in_contact) continue;
+    ++landing.flying;
+    landing.bent = std::max(landing.bent, (record.end.q - robot.q_nominal)
+                                              .tail(tree.num_joints())
+                                              .lpNorm<Eigen::Infinity>());
+    for (int i = 0; i < 2; ++i) {
+      landing.force = std::max(landing.force,
+                               record.report.foot_wrench(tree.nv(), i).norm());
+    }
+  }
+  landing.verdict = judge.Conclude();
+  return landing;
+}
+
+// 10 cm take 143 ms, of which its soles see the last 4 mm. Its legs do not reach
+// for the ground meanwhile, nor stay behind: they would be bent when it comes.
+TEST(Landing, FallsInItsPostureAndStands) {
+  Scenario scenario;
+  scenario.duration = 4;
+  scenario.start.drop = 0.1;
+  const Landing landing = Land(scenario);
+  EXPECT_TRUE(landing.verdict.recovered);
+  EXPECT_NEAR(landing.flying, 140, 3);
+  // The joints' dry friction and damping are not in the model, and at rest in
+  // free fall nothing else moves them.
+  EXPECT_LT(landing.bent, 1e-3);
+  EXPECT_LT(landing.force, 1e-9);
+  EXPECT_LT(landing.certificate, 1e-9);
+  EXPECT_LT(landing.sunk, 0.08);  // From 1.4 m/s, as kd / (m s) = 10 stop it.
+  EXPECT_LE(landing.beyond, 1e-6);
+  EXPECT_LT(landing.verdict.foot_tilt_peak, 0.02);
+  EXPECT_LT(landing.verdict.foot_slide_peak, 2e-3);
+}
+
+// Edges first, and not all at once.
+TEST(Landing, StandsOnASlope) {
+  Scenario scenario;
+  scenario.duration = 4;
+  scenario.start.drop = 0.05;
+  scenario.start.joints = 0.1;
+  scenario.plant.ground.roll = 0.05;
+  scenario.plant.ground.pitch = 0.05;
+  const Landing landing = Land(scenario);
+  EXPECT_TRUE(landing.verdict.recovered);
+  EXPECT_GT(landing.flying, 80);
+  EXPECT_LE(landing.beyond, 1e-6);
+}
+
+}  // namespace
+}  // namespace poise
