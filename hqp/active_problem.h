@@ -93,6 +93,7 @@ class ActiveProblem {
   int num_head() const { return num_head_; }  ///< Levels before the tail.
   const RowStack& head() const { return head_; }
   SelectionTail& tail() { return tail_; }
+  const SelectionTail& tail() const { return tail_; }
   const Row& row(int a) const { return rows_[a]; }
   const Multipliers& multipliers(int level) const {
     return multipliers_[level];

@@ -53,9 +53,9 @@ void Reporter::Report(const Hierarchy& hierarchy,
   ReportMultipliers(*problem, solution);
   for (int level = problem->num_head() + 1; level < problem->num_levels();
        ++level) {
-    ReportTailMultipliers(hierarchy, level, problem, solution);
+    ReportTailMultipliers(hierarchy, level, *problem, solution);
   }
-  MakeNonnegative(hierarchy, tolerance, problem, solution);
+  MakeNonnegative(hierarchy, tolerance, *problem, solution);
   ReportNullity(hierarchy, problem, solution);
 }
 
@@ -85,17 +85,17 @@ void Reporter::ReportMultipliers(const ActiveProblem& problem,
 // A level of the tail leaves something on variables that levels of the tail
 // before it have fixed: one row of these cancels it.
 void Reporter::ReportTailMultipliers(const Hierarchy& hierarchy, int level,
-                                     ActiveProblem* problem,
+                                     const ActiveProblem& problem,
                                      Solution* solution) {
-  const int num_head = problem->num_head();
+  const int num_head = problem.num_head();
   const auto fixed_by = [&](int variable) {
-    return problem->tail().level(variable) + num_head;
+    return problem.tail().level(variable) + num_head;
   };
-  const ActiveProblem::Multipliers& of = problem->multipliers(level);
+  const ActiveProblem::Multipliers& of = problem.multipliers(level);
   std::fill(left_.begin(), left_.end(), 0);
   if (of.any) std::copy(of.left.begin(), of.left.end(), left_.begin());
   for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
-    const int j = problem->selected(level, i);
+    const int j = problem.selected(level, i);
     if (fixed_by(j) >= level) continue;
     left_[j] += hierarchy.weight(level)[i] * hierarchy.B(level)(i, j) *
                 solution->levels[level].equality_residual[i];
@@ -103,7 +103,7 @@ void Reporter::ReportTailMultipliers(const Hierarchy& hierarchy, int level,
   for (int above = num_head; above < level; ++above) {
     Eigen::VectorXd& to = solution->levels[level].multipliers[above].equality;
     for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
-      const int j = problem->selected(above, i);
+      const int j = problem.selected(above, i);
       if (left_[j] == 0 || fixed_by(j) != above ||
           hierarchy.weight(above)[i] == 0 || hierarchy.B(above)(i, j) == 0) {
         continue;
@@ -128,14 +128,34 @@ double Reporter::Weight(const ActiveProblem& problem, const Solution& solution,
          solution.levels[level].multipliers[row.level].inequality[row.index];
 }
 
+// The first level before this one that row a holds back, or, if that is
+// rounding's, the first where it weighs anything; with what it weighs there, 0 if
+// there is none.
+std::pair<int, double> Reporter::FirstHeldBack(const ActiveProblem& problem,
+                                               const Solution& solution, int a,
+                                               int level, Side side,
+                                               double tolerance) const {
+  const int own = problem.row(a).level;
+  const auto weight = [&](int l) {
+    return l < level ? Weight(problem, solution, a, l, Sign(side)) : 0;
+  };
+  int first = own;
+  while (problem.Price(a, first, side, tolerance) == 0) ++first;
+  if (weight(first) <= 0) {
+    first = own;
+    while (first < level && weight(first) <= 0) ++first;
+  }
+  return {first, std::max(0.0, weight(first))};
+}
+
 // A multiplier may be negative where that of a level before is positive. A
 // multiple of that level's own equation, which adds up to zero, makes it right.
 void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
-                               ActiveProblem* solved, Solution* solution) {
-  const ActiveProblem& problem = *solved;
+                               const ActiveProblem& problem,
+                               Solution* solution) {
   for (int level = 1; level < problem.num_levels(); ++level) {
     if (!problem.multipliers(level).any) continue;
-    LevelSolution& to = solution->levels[level];
+    const LevelSolution& of = solution->levels[level];
     const int rows = level < problem.num_head()
                          ? problem.head().first_row(level)
                          : problem.head().num_rows();
@@ -147,44 +167,38 @@ void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
         continue;
       }
       const Side side = solution->levels[row.level].active[row.index];
-      const double sign = Sign(side);
-      const double mu = sign * to.multipliers[row.level].inequality[row.index];
+      const double mu =
+          Sign(side) * of.multipliers[row.level].inequality[row.index];
       if (mu >= 0 || problem.Price(a, level, side, tolerance) == 0) continue;
-      // The first level that it holds back; or, if that is rounding's, the first
-      // where it weighs anything.
-      const auto weight = [&](int l) {
-        return l < level ? Weight(problem, *solution, a, l, sign) : 0;
-      };
-      int first = row.level;
-      while (problem.Price(a, first, side, tolerance) == 0) ++first;
-      if (weight(first) <= 0) {
-        first = row.level;
-        while (first < level && weight(first) <= 0) ++first;
-      }
-      const double price = weight(first);
-      if (price <= 0) continue;
-      const LevelSolution& from = solution->levels[first];
-      const double factor = -mu / price;
-      LevelMultipliers& own = to.multipliers[first];
-      if (first < problem.num_head()) {
-        const ActiveProblem::Multipliers& of = problem.multipliers(first);
-        for (int o = of.any ? problem.head().first_row(first) : 0;
-             o < problem.head().end_row(first); ++o) {
-          const ActiveProblem::Row& other = problem.row(o);
-          LevelMultipliers& at = to.multipliers[other.level];
-          (other.is_inequality ? at.inequality : at.equality)[other.index] +=
-              factor * of.nu[o] / other.norm;
-        }
-      } else {
-        AddOwn(hierarchy, first, factor, solved, *solution, &own.equality);
-      }
-      for (int above = 0; above < first; ++above) {
-        to.multipliers[above].equality +=
-            factor * from.multipliers[above].equality;
-        to.multipliers[above].inequality +=
-            factor * from.multipliers[above].inequality;
-      }
+      const auto [first, price] =
+          FirstHeldBack(problem, *solution, a, level, side, tolerance);
+      if (price == 0) continue;
+      AddEquation(hierarchy, first, -mu / price, problem, level, solution);
     }
+  }
+}
+
+// Adds to the multipliers of `to` a multiple of the equation of the level `from`.
+void Reporter::AddEquation(const Hierarchy& hierarchy, int from, double factor,
+                           const ActiveProblem& problem, int to,
+                           Solution* solution) {
+  std::vector<LevelMultipliers>& sum = solution->levels[to].multipliers;
+  if (from < problem.num_head()) {
+    const ActiveProblem::Multipliers& of = problem.multipliers(from);
+    for (int a = of.any ? problem.head().first_row(from) : 0;
+         a < problem.head().end_row(from); ++a) {
+      const ActiveProblem::Row& row = problem.row(a);
+      LevelMultipliers& at = sum[row.level];
+      (row.is_inequality ? at.inequality : at.equality)[row.index] +=
+          factor * of.nu[a] / row.norm;
+    }
+  } else {
+    AddOwn(hierarchy, from, factor, problem, *solution, &sum[from].equality);
+  }
+  for (int above = 0; above < from; ++above) {
+    const LevelMultipliers& of = solution->levels[from].multipliers[above];
+    sum[above].equality += factor * of.equality;
+    sum[above].inequality += factor * of.inequality;
   }
 }
 
@@ -192,7 +206,7 @@ void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
 // that is what cancels the others: of what heavy rows lack rounding leaves few
 // digits.
 void Reporter::AddOwn(const Hierarchy& hierarchy, int level, double factor,
-                      ActiveProblem* problem, const Solution& solution,
+                      const ActiveProblem& problem, const Solution& solution,
                       Eigen::VectorXd* sum) {
   const LevelSolution& of = solution.levels[level];
   auto left = Eigen::VectorXd::Map(left_.data(), n_);
@@ -207,10 +221,10 @@ void Reporter::AddOwn(const Hierarchy& hierarchy, int level, double factor,
     }
   }
   for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
-    const int j = problem->selected(level, i);
+    const int j = problem.selected(level, i);
     const double scale = hierarchy.B(level)(i, j);
     if (hierarchy.weight(level)[i] == 0 || scale == 0) continue;
-    if (problem->tail().level(j) + problem->num_head() == level) {
+    if (problem.tail().level(j) + problem.num_head() == level) {
       (*sum)[i] -= factor * left[j] / scale;
       left[j] = 0;
     } else {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "hqp/active_problem.h"
@@ -26,11 +27,17 @@ class Reporter {
  private:
   void ReportMultipliers(const ActiveProblem& problem, Solution* solution);
   void ReportTailMultipliers(const Hierarchy& hierarchy, int level,
-                             ActiveProblem* problem, Solution* solution);
+                             const ActiveProblem& problem, Solution* solution);
+  std::pair<int, double> FirstHeldBack(const ActiveProblem& problem,
+                                       const Solution& solution, int a,
+                                       int level, Side side,
+                                       double tolerance) const;
   void MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
-                       ActiveProblem* problem, Solution* solution);
+                       const ActiveProblem& problem, Solution* solution);
+  void AddEquation(const Hierarchy& hierarchy, int from, double factor,
+                   const ActiveProblem& problem, int to, Solution* solution);
   void AddOwn(const Hierarchy& hierarchy, int level, double factor,
-              ActiveProblem* problem, const Solution& solution,
+              const ActiveProblem& problem, const Solution& solution,
               Eigen::VectorXd* sum);
   double Weight(const ActiveProblem& problem, const Solution& solution, int a,
                 int level, double sign) const;
