@@ -56,10 +56,22 @@ ActiveProblem::ActiveProblem(int num_variables,
   }
 }
 
+// Whether there is room for the level.
+bool ActiveProblem::Fits(const Hierarchy& hierarchy, int level) const {
+  return level < static_cast<int>(norm_.size()) &&
+         hierarchy.num_equalities(level) <=
+             static_cast<int>(B_norm_[level].size()) &&
+         hierarchy.num_inequalities(level) <=
+             static_cast<int>(norm_[level].size());
+}
+
 Status ActiveProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  *failed_level = 0;
+  if (hierarchy.num_variables() != n_) return Status::kBadInput;
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     *failed_level = level;
+    if (!Fits(hierarchy, level)) return Status::kBadInput;
     const auto B = hierarchy.B(level), C = hierarchy.C(level);
     const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);

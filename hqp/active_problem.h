@@ -74,6 +74,11 @@ class ActiveProblem {
   /// Takes another y as it is.
   void TakeOther(const Hierarchy& hierarchy, const std::vector<double>& y);
 
+  /// After a solve whose y breaks a row that is not active: its entries that may be
+  /// what rounding leaves of a zero become zero, where no active row is met worse
+  /// by more than a last digit. Returns whether any does.
+  bool TakeZeros(const Hierarchy& hierarchy, const double* row);
+
   /// Finds the multipliers of the levels before this one at the last solve; the
   /// norm of y is level num_levels().
   void FindMultipliers(int end);
@@ -123,6 +128,8 @@ class ActiveProblem {
                 double* sum) const;
   const double* Original(const Hierarchy& hierarchy, int a) const;
   double FindLack(const Hierarchy& hierarchy);
+  bool Fits(const Hierarchy& hierarchy, int level) const;
+  double Missed(int a) const;
   double WorstMissedLevel() const;
   void Refine(const Hierarchy& hierarchy, bool to_minimum);
   void FindResiduals(const Hierarchy& hierarchy);

@@ -18,6 +18,9 @@ constexpr int kMaxPasses = 6;
 // refinement leaves of a zero.
 constexpr double kNothing = 1e-18;
 
+// The same of a row that is violated, though by no more than that.
+constexpr double kNothingOfRow = 1e-14;
+
 }  // namespace
 
 double ActiveProblem::Size() const {
@@ -41,12 +44,16 @@ double ActiveProblem::FindLack(const Hierarchy& hierarchy) {
                            &size);
       lack_[a] = (row.bound - value) / row.norm;
       size_[a] = (std::abs(row.bound) + size) / row.norm;
-      if (head_.residual(a) == 0 && size_[a] > 0) {
-        worst = std::max(worst, std::abs(lack_[a]) / size_[a]);
-      }
+      worst = std::max(worst, Missed(a));
     }
   }
   return worst;
+}
+
+// The same of one row, as last found.
+double ActiveProblem::Missed(int a) const {
+  return head_.residual(a) == 0 && size_[a] > 0 ? std::abs(lack_[a]) / size_[a]
+                                                : 0;
 }
 
 // The same by level, each as a whole, by what its rows weigh in its gradient.
@@ -97,8 +104,46 @@ void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
     }
     FindLack(hierarchy);
     if (WorstMissedLevel() > 2 * missed) y_ = change_;
+    for (int a = 0; a < head_.num_rows(); ++a) {
+      FindLack(hierarchy);
+      if (Missed(a) > kRefined) TakeZeros(hierarchy, Original(hierarchy, a));
+    }
   }
   FindResiduals(hierarchy);
+}
+
+bool ActiveProblem::TakeZeros(const Hierarchy& hierarchy, const double* row) {
+  const double nothing = kNothingOfRow * Size();
+  const auto may_be_zero = [&](int j) {
+    return row[j] != 0 && y_[j] != 0 && std::abs(y_[j]) <= nothing;
+  };
+  FindLack(hierarchy);
+  for (int a = 0; a < head_.num_rows(); ++a) nu_[a] = Missed(a);
+  const auto is_worse = [&] {
+    FindLack(hierarchy);
+    for (int a = 0; a < head_.num_rows(); ++a) {
+      if (Missed(a) > std::max(2 * nu_[a], kRefined)) return true;
+    }
+    return false;
+  };
+  // All together, as one may be there to make up for another; or one by one.
+  change_ = y_;
+  for (int j = 0; j < n_; ++j) {
+    if (may_be_zero(j)) y_[j] = 0;
+  }
+  bool any = y_ != change_;
+  if (any && is_worse()) {
+    y_ = change_;
+    any = false;
+    for (int j = 0; j < n_; ++j) {
+      if (!may_be_zero(j)) continue;
+      y_[j] = 0;
+      if (is_worse()) y_[j] = change_[j];
+      any |= y_[j] == 0;
+    }
+  }
+  FindResiduals(hierarchy);
+  return any;
 }
 
 // Those of levels that are deficient: of y, or zero.

@@ -117,15 +117,30 @@ void Reporter::ReportTailMultipliers(const Hierarchy& hierarchy, int level,
 // What row a weighs in the equation of a level: its own, where it is violated
 // if so little that it counts as met, or one below.
 double Reporter::Weight(const ActiveProblem& problem, const Solution& solution,
-                        int a, int level, double sign) const {
+                        int a, int level) const {
   const ActiveProblem::Row& row = problem.row(a);
   if (level == row.level) {
     return problem.head().is_deficient(level)
-               ? sign * problem.multipliers(level).nu[a] / row.norm
+               ? problem.multipliers(level).nu[a] / row.norm
                : 0;
   }
-  return sign *
-         solution.levels[level].multipliers[row.level].inequality[row.index];
+  const LevelMultipliers& of = solution.levels[level].multipliers[row.level];
+  return (row.is_inequality ? of.inequality : of.equality)[row.index];
+}
+
+// What weighs no more than this in the equation of a level is rounding's; of rows
+// of unit length, so that they can be compared.
+double Reporter::Rounding(const ActiveProblem& problem,
+                          const Solution& solution, int level,
+                          double tolerance) const {
+  double largest = 0;
+  for (int a = 0; a < problem.head().num_rows(); ++a) {
+    const ActiveProblem::Row& row = problem.row(a);
+    if (row.level > level) continue;
+    largest = std::max(
+        largest, row.norm * std::abs(Weight(problem, solution, a, level)));
+  }
+  return tolerance * largest;
 }
 
 // The first level before this one that row a holds back, or, if that is
@@ -135,17 +150,19 @@ std::pair<int, double> Reporter::FirstHeldBack(const ActiveProblem& problem,
                                                const Solution& solution, int a,
                                                int level, Side side,
                                                double tolerance) const {
-  const int own = problem.row(a).level;
+  const ActiveProblem::Row& row = problem.row(a);
   const auto weight = [&](int l) {
-    return l < level ? Weight(problem, solution, a, l, Sign(side)) : 0;
+    if (l >= level) return 0.0;
+    const double own = Sign(side) * Weight(problem, solution, a, l);
+    return own * row.norm > Rounding(problem, solution, l, tolerance) ? own : 0;
   };
-  int first = own;
+  int first = row.level;
   while (problem.Price(a, first, side, tolerance) == 0) ++first;
-  if (weight(first) <= 0) {
-    first = own;
-    while (first < level && weight(first) <= 0) ++first;
+  if (weight(first) == 0) {
+    first = row.level;
+    while (first < level && weight(first) == 0) ++first;
   }
-  return {first, std::max(0.0, weight(first))};
+  return {first, weight(first)};
 }
 
 // A multiplier may be negative where that of a level before is positive. A

@@ -40,7 +40,9 @@ class Reporter {
               const ActiveProblem& problem, const Solution& solution,
               Eigen::VectorXd* sum);
   double Weight(const ActiveProblem& problem, const Solution& solution, int a,
-                int level, double sign) const;
+                int level) const;
+  double Rounding(const ActiveProblem& problem, const Solution& solution,
+                  int level, double tolerance) const;
   void ReportNullity(const Hierarchy& hierarchy, ActiveProblem* problem,
                      Solution* solution);
   bool IsViolated(const ActiveProblem::Row& row,

@@ -256,6 +256,33 @@ TEST(Report, ForgetsWhatALevelLeavesOnTheTail) {
   }
 }
 
+// y0 is between rows of 8e6 that contradict each other and almost depend on each
+// other, so that what some rows weigh is rounding. A multiple of an equation that
+// is divided by that, of 1e31, would make any y pass for an optimum.
+TEST(Report, DividesByNothingThatIsRoundings) {
+  const std::vector<LevelCapacity> capacity{{2, 2}, {0, 1}, {1, 0}};
+  Hierarchy hierarchy(4, capacity);
+  EqualityBlock sums = hierarchy.AddEqualities(0, 2);
+  sums.B << -8388608, 1, 4, 8, 0, 0, 0, 1;
+  sums.b << 0, -3;
+  InequalityBlock bounds = hierarchy.AddInequalities(0, 2);
+  bounds.C << -4194304, 0, 1, 0, -8388608, 0.00390625, 0, 0;
+  bounds.lower << 0, 1;
+  InequalityBlock none = hierarchy.AddInequalities(1, 1);
+  none.C << 0, 0, 0, 1;
+  none.upper << 0;
+  hierarchy.AddEqualities(2, 1).B << 0, 0, 1, 0;
+  Solver solver(4, capacity);
+  Solution solution(4, capacity);
+  (void)solver.Solve(hierarchy, &solution);
+  for (const LevelSolution& level : solution.levels) {
+    for (const LevelMultipliers& of : level.multipliers) {
+      for (const double mu : of.equality) EXPECT_LT(std::abs(mu), 1e12);
+      for (const double mu : of.inequality) EXPECT_LT(std::abs(mu), 1e12);
+    }
+  }
+}
+
 // y0 + y1 = 4 and 2 (y1 + y2) <= 6, above 2 y0 = -2 and, of weight 3, 4 y2 = 8,
 // above 5 y1 = 10.
 class ReportByHandTest : public testing::Test {

@@ -24,11 +24,6 @@ constexpr double kGoodPart = 1e-3;
 // A residual below this, relative to what it is added up from, is zero.
 constexpr double kZeroResidual = 1e-12;
 
-// A residual counts in a gradient as at least this part of what it is added up
-// from: so much of it is rounding, where a price below 1e-11 of the gradient is
-// none. What heavy rows lack where they conflict has few digits.
-constexpr double kLeast = 3e-5;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double SquaredNorm(const double* x, int n) {
@@ -111,14 +106,14 @@ void RowStack::FactorLevel() {
       effective_target_[e] = target_[carrier_[e]];
     }
   }
-  SolveLevel(&level);
+  SolveLevel(level);
   levels_.push_back(level);
 }
 
 void RowStack::Merge(int level) {
   Truncate(level);
-  for (int l = 0; l + 1 < level; ++l) levels_[l] = {0, 0, 0, 0, false, 0};
-  if (level > 0) levels_[level - 1] = {0, num_rows_, 0, rank_, false, 0};
+  for (int l = 0; l + 1 < level; ++l) levels_[l] = {0, 0, 0, 0, false};
+  if (level > 0) levels_[level - 1] = {0, num_rows_, 0, rank_, false};
 }
 
 void RowStack::RemoveRow(int a) {
@@ -315,8 +310,7 @@ void RowStack::Reduce(Level* level) {
   }
 }
 
-void RowStack::SolveLevel(Level* solved) {
-  Level& level = *solved;
+void RowStack::SolveLevel(const Level& level) {
   for (int e = level.rank_begin; e < level.rank_end; ++e) {
     const double* l = &effective_[static_cast<size_t>(e) * stride_];
     double value;
@@ -337,22 +331,20 @@ void RowStack::SolveLevel(Level* solved) {
          &value);
     residual_[a] = value - target_[a];
   }
-  KeepUnreachable(size, &level);
+  KeepUnreachable(size, level);
 }
 
 void RowStack::SetResiduals(int level, const double* residual, double size) {
-  Level& of = levels_[level];
+  const Level& of = levels_[level];
   std::copy(residual, residual + of.end_row - of.first_row,
             &residual_[of.first_row]);
-  KeepUnreachable(size, &of);
+  KeepUnreachable(size, of);
 }
 
 // At the optimum of a deficient level H d residual is zero but on rows that
 // depend on others, and the rest is rounding. So what heavy rows lack, which is
 // little, has as many digits as what light ones do.
-void RowStack::KeepUnreachable(double size, Level* of) {
-  Level& level = *of;
-  level.size = 0;
+void RowStack::KeepUnreachable(double size, const Level& level) {
   if (!level.deficient) return;
   const int first = level.first_row, rows = level.end_row - first;
   double* residual = &residual_[first];
@@ -366,11 +358,7 @@ void RowStack::KeepUnreachable(double size, Level* of) {
     factor_[carrier_[e] - first] = kInfinity;
   }
   for (int i = 0; i < rows; ++i) {
-    if (std::abs(residual[i]) <= factor_[i]) {
-      residual[i] = 0;
-    } else {
-      level.size = std::max(level.size, metric[i] * metric[i] * size);
-    }
+    if (std::abs(residual[i]) <= factor_[i]) residual[i] = 0;
   }
   for (int e = level.rank_begin; e < level.rank_end; ++e) {
     Reflect(e, rows, residual);
@@ -423,7 +411,7 @@ double RowStack::norm_z() const {
 double RowStack::Gradient(int level, double* gradient) const {
   const Level& of = levels_[level];
   std::fill_n(gradient, of.rank_begin, 0);
-  double size = kLeast * of.size, largest = 0;
+  double size = 0, largest = 0;
   for (int a = of.first_row; a < of.end_row; ++a) {
     if (residual_[a] == 0) continue;
     const double factor = weight(a) * residual_[a];

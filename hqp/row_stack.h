@@ -51,7 +51,7 @@ class RowStack {
   [[nodiscard]] bool AppendRow();
 
   /// Solves the last level anew: after all RemoveRow() and AppendRow().
-  void SolveLast() { SolveLevel(&levels_.back()); }
+  void SolveLast() { SolveLevel(levels_.back()); }
 
   int num_levels() const { return static_cast<int>(levels_.size()); }
   int num_rows() const { return num_rows_; }
@@ -103,14 +103,13 @@ class RowStack {
   struct Level {
     int first_row, end_row, rank_begin, rank_end;
     bool deficient;  ///< rank_end - rank_begin < end_row - first_row.
-    double size;     ///< Of what its gradient's residuals are added up from.
   };
   void Project(int a);
   void TakeOut(int rank, double* x, double* l);
   void PivotRows(Level* level);
   void Reduce(Level* level);
-  void SolveLevel(Level* level);
-  void KeepUnreachable(double size, Level* level);
+  void SolveLevel(const Level& level);
+  void KeepUnreachable(double size, const Level& level);
   void Reflect(int e, int rows, double* x) const;
 
   int n_, stride_, num_rows_ = 0, rank_ = 0;

@@ -14,7 +14,7 @@ enum class Status {
   kIterationLimit,  ///< Budget spent: y respects the hierarchy, as far as it
                     ///< got.
   kNotFinite,       ///< NaN or infinity in the rows; y is zero.
-  kBadInput,        ///< lower > upper, or a negative weight; y is zero.
+  kBadInput,  ///< lower > upper, a negative weight, or no room; y is zero.
 };
 
 /// Which side of a row lower <= C y <= upper is at work at y.

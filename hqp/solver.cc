@@ -138,11 +138,18 @@ bool Solver::EnterViolated(const Hierarchy& hierarchy, bool enters) {
       const double below = lower[i] - value_[i];
       Side& side = side_[level][i];
       if ((above <= 0 && below <= 0) || side != Side::kNone) continue;
-      double dot, size;
-      kernels::DotWithSize(hierarchy.C(level).data() + i * n_, y.data(), n_,
-                           &dot, &size);
-      size += std::abs(above > 0 ? upper[i] : lower[i]);
-      if (std::max(above, below) <= kTolerance * size) continue;
+      const double* row = hierarchy.C(level).data() + i * n_;
+      const double bound = above > 0 ? upper[i] : lower[i];
+      const auto is_violated = [&] {
+        double dot, size;
+        kernels::DotWithSize(row, y.data(), n_, &dot, &size);
+        const double beyond = above > 0 ? dot - bound : bound - dot;
+        return beyond > kTolerance * (size + std::abs(bound));
+      };
+      if (!is_violated() ||
+          (problem_.TakeZeros(hierarchy, row) && !is_violated())) {
+        continue;
+      }
       any = true;
       if (enters) side = above > 0 ? Side::kUpper : Side::kLower;
     }

@@ -149,6 +149,32 @@ TEST_F(SolverTest, ReportsBadInput) {
   EXPECT_EQ(solution_.failed_level, 2);
 }
 
+TEST_F(SolverTest, RefusesWhatItHasNoRoomFor) {
+  const auto refuses = [&](int num_variables,
+                           const std::vector<LevelCapacity>& capacity,
+                           int failed_level) {
+    Hierarchy larger(num_variables, capacity);
+    for (int level = 0; level < static_cast<int>(capacity.size()); ++level) {
+      (void)larger.AddEqualities(level, capacity[level].equalities);
+      (void)larger.AddInequalities(level, capacity[level].inequalities);
+    }
+    EXPECT_EQ(solver_.Solve(larger, &solution_), Status::kBadInput);
+    EXPECT_EQ(solution_.failed_level, failed_level);
+  };
+  refuses(3, capacity_, 0);
+  std::vector<LevelCapacity> capacity = capacity_;
+  capacity.push_back({1, 0});
+  refuses(2, capacity, static_cast<int>(capacity_.size()));
+  for (const int level : {0, 1, 2}) {
+    capacity = capacity_;
+    ++capacity[level].equalities;
+    refuses(2, capacity, level);
+    capacity = capacity_;
+    ++capacity[level].inequalities;
+    refuses(2, capacity, level);
+  }
+}
+
 // What the budget leaves unsolved is at the bottom; the levels above hold.
 TEST_F(SolverTest, RespectsTheHierarchyWithinItsBudget) {
   Certifier certifier(2, capacity_);

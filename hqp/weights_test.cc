@@ -122,5 +122,23 @@ TEST(Weights, AskNothingByWhatRoundingLeavesOfAHeavyRow) {
   }
 }
 
+// The unit of one variable is millions of that of the other, and both levels can
+// be met. What a row asks for of the other is no rounding because of that.
+TEST(Weights, MeetRowsWhoseVariablesHaveUnlikeUnits) {
+  const std::vector<LevelCapacity> capacity{{0, 2}, {0, 1}};
+  Hierarchy hierarchy(2, capacity);
+  InequalityBlock first = hierarchy.AddInequalities(0, 2);
+  first.C << -0.0009765625, 0, 0, -5242880;
+  first.lower << 1, 0;
+  InequalityBlock second = hierarchy.AddInequalities(1, 1);
+  second.C << 0.00390625, -2097152;
+  second.upper << -8;
+  Solver solver(2, capacity);
+  Solution solution(2, capacity);
+  ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+  EXPECT_NEAR(solution.levels[0].cost, 0, 1e-20);
+  EXPECT_NEAR(solution.levels[1].cost, 0, 1e-20);
+}
+
 }  // namespace
 }  // namespace poise
