@@ -325,6 +325,57 @@ TEST_P(CascadeByHandTest, MeetsASmallRowBesideAConflict) {
   }
 }
 
+// All rows are met at integers, most of them just so. Once a level is there, what
+// its rows lack is rounding, for which they leave, and are in the way at once:
+// by SVD in the first of these, by COD in the second.
+TEST_P(CascadeByHandTest, EndsWhereRowsComeAndGoForRounding) {
+  const std::vector<LevelCapacity> capacity{{1, 1}, {1, 5}};
+  HierarchyCase five{capacity, Hierarchy(5, capacity)};
+  EqualityBlock sum = five.hierarchy.AddEqualities(0, 1);
+  sum.B << 0, -5, 5, 1, 4;
+  sum.b << -25;
+  InequalityBlock bound = five.hierarchy.AddInequalities(0, 1);
+  bound.C << -2, -5, 1, -1, -5;
+  bound.upper << 0;
+  EqualityBlock wish = five.hierarchy.AddEqualities(1, 1);
+  wish.B << 3, -1, 5, -2, -1;
+  wish.b << -3;
+  InequalityBlock rows = five.hierarchy.AddInequalities(1, 5);
+  rows.C << -1, -1, 0, -2, 5,  //
+      1, -4, 1, -1, 2,         //
+      -2, -2, 0, 2, 0,         //
+      5, 5, -1, -2, -5,        //
+      2, 3, -5, -3, -3;
+  rows.upper.head(4) << 23, 11, 4, -33;
+  rows.lower[4] = -22;
+  Eigen::VectorXd optimum(5);
+  optimum << -3, -1, 2, -2, 3;
+  EXPECT_LE((SolveCascade(five, GetParam()).y - optimum).norm(),
+            Rounding(optimum.norm(), 5));
+
+  const std::vector<LevelCapacity> more{{1, 3}, {0, 5}};
+  HierarchyCase four{more, Hierarchy(4, more)};
+  EqualityBlock plane = four.hierarchy.AddEqualities(0, 1);
+  plane.B << -2, -4, -2, -3;
+  plane.b << -3;
+  InequalityBlock above = four.hierarchy.AddInequalities(0, 3);
+  above.C << 2, -5, -4, 1,  //
+      2, -5, 3, -4,         //
+      -1, 3, 1, 5;
+  above.lower << -16, -4, 2;
+  InequalityBlock below = four.hierarchy.AddInequalities(1, 5);
+  below.C << 0, 0, -5, 1,  //
+      -4, 0, -2, -2,       //
+      1, 1, 1, 0,          //
+      -3, -5, 3, -3,       //
+      -5, -2, -3, -5;
+  below.lower << -6, -INFINITY, -1, -INFINITY, 15;
+  below.upper << INFINITY, 12, INFINITY, 10, INFINITY;
+  EXPECT_LE(
+      (SolveCascade(four, GetParam()).y - Eigen::Vector4d(-3, 1, 1, -1)).norm(),
+      Rounding(4, 4));
+}
+
 INSTANTIATE_TEST_SUITE_P(BothWays, CascadeByHandTest,
                          testing::Values(RowSpaceMethod::kSvd,
                                          RowSpaceMethod::kCod));

@@ -17,8 +17,13 @@ constexpr double kNegligible = 1e-12;
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 // Iterations a row, after which rows leave by Bland's rule: slow, but it cannot
-// cycle.
+// cycle in exact arithmetic.
 constexpr int kPatience = 10;
+
+// How often a row may leave by Bland's rule. Where a level is met, all that its
+// rows lack is rounding: one that leaves for that need not move away from its
+// bound, as the proof takes it to, and may be in the way at once, over and over.
+constexpr int kLeaves = 10;
 
 // The least-squares problem L x + l = 0. `norms` are those of the rows before any
 // projection: a row below kRankTolerance of its own is a row of zeros.
@@ -114,7 +119,8 @@ class LeastSquares {
 
 class ActiveSet {
  public:
-  ActiveSet(RowSpaceMethod method, LevelQp* qp) : method_(method), qp_(*qp) {}
+  ActiveSet(RowSpaceMethod method, LevelQp* qp)
+      : method_(method), qp_(*qp), leaves_(qp->P.rows(), kLeaves) {}
 
   // One iteration. Returns whether the optimum is reached.
   bool Iterate() {
@@ -130,6 +136,7 @@ class ActiveSet {
 
  private:
   int rows() const { return static_cast<int>(qp_.P.rows()); }
+  bool IsBland() const { return iterations_ > kPatience * rows(); }
 
   double Bound(int i) const {
     return qp_.side[i] == Side::kUpper ? qp_.upper[i] : qp_.lower[i];
@@ -222,8 +229,9 @@ class ActiveSet {
     const Eigen::VectorXd force = norms_.cwiseProduct(residual.cwiseAbs());
     int leaving = -1;
     double worst = 0;
-    const bool bland = iterations_ > kPatience * rows();
+    const bool bland = IsBland();
     const auto consider = [&](int i, double multiplier, double size) {
+      if (leaves_[i] == 0) return;
       const double signed_ratio =
           (qp_.side[i] == Side::kUpper ? multiplier : -multiplier) / size;
       if (bland ? signed_ratio < 0 && (leaving < 0 || i < leaving)
@@ -255,6 +263,7 @@ class ActiveSet {
   // A soft row may be on the far side of both its bounds by then: it stays, at
   // the other one.
   void Release(int i) {
+    if (IsBland()) --leaves_[i];
     const Side side = qp_.side[i];
     const double value = qp_.P.row(i).dot(qp_.z) + qp_.value[i];
     qp_.side[i] = Side::kNone;
@@ -273,6 +282,7 @@ class ActiveSet {
   Eigen::MatrixXd L_, A_;
   Eigen::VectorXd l_, norms_;
   int iterations_ = 0;
+  std::vector<int> leaves_;  // By row: how often it still may, by Bland's rule.
 };
 
 }  // namespace

@@ -32,9 +32,11 @@ struct LevelQp {
   Eigen::VectorXd z;
 };
 
-/// Solves it by a primal active-set method; if that takes long, by Bland's rule,
-/// which cannot cycle. Returns the iterations, or -1 if
-/// more than max_iterations were needed: z is then feasible, not optimal.
+/// Solves it by a primal active-set method; after 10 iterations a row, by Bland's
+/// rule, which cannot cycle but for rounding: by it no row leaves more than 10
+/// times, and what stays for that a certificate may have to judge. So it ends
+/// within 31 iterations a row and one. Returns the iterations, or -1 if more than
+/// max_iterations were needed: z is then feasible, not optimal.
 int SolveLevelQp(RowSpaceMethod method, int max_iterations, LevelQp* qp);
 
 }  // namespace poise
