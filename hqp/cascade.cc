@@ -217,7 +217,13 @@ void Cascade::FixLevel(const Hierarchy& hierarchy, int level,
   std::vector<int> violated;
   for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
     violated_[level][i] = SideOf(hierarchy, level, i, kAtBound, solution->y);
-    if (violated_[level][i] != Side::kNone) violated.push_back(i);
+    if (violated_[level][i] == Side::kNone) continue;
+    violated.push_back(i);
+    // A row of which nothing was left has been in no QP. One that was nothing to
+    // begin with is at work nowhere.
+    if (hierarchy.C(level).row(i).norm() > 0) {
+      solution->levels[level].active[i] = violated_[level][i];
+    }
   }
   Eigen::MatrixXd B(equalities + violated.size(), hierarchy.num_variables());
   B.topRows(equalities) = hierarchy.B(level);

@@ -191,6 +191,28 @@ TEST_P(CascadeByHandTest, EndsWhereALevelIsMet) {
   EXPECT_LE(WorstOf(met, solution), kTolerance);
 }
 
+// y0 = 1 above y0 <= -1, y0 >= 3 and y1 >= 2: nothing is left of the first two, so
+// they are in no QP, but they are violated all the same; the last is met.
+TEST_P(CascadeByHandTest, KnowsTheSideOfAViolatedRowOfWhichNothingIsLeft) {
+  const std::vector<LevelCapacity> capacity{{1, 0}, {0, 3}, {2, 0}};
+  HierarchyCase fixed{capacity, Hierarchy(2, capacity)};
+  EqualityBlock one = fixed.hierarchy.AddEqualities(0, 1);
+  one.B << 1, 0;
+  one.b << -1;
+  InequalityBlock rows = fixed.hierarchy.AddInequalities(1, 3);
+  rows.C << 1, 0, 1, 0, 0, 1;
+  rows.upper[0] = -1;
+  rows.lower.tail(2) << 3, 2;
+  EqualityBlock wish = fixed.hierarchy.AddEqualities(2, 2);
+  wish.B.setIdentity();
+  wish.b << 0, -5;
+  const Solution solution = SolveCascade(fixed, GetParam());
+  EXPECT_LE((solution.y - Eigen::Vector2d(1, 5)).norm(), Rounding(5, 2));
+  EXPECT_EQ(solution.levels[1].active[0], Side::kUpper);
+  EXPECT_EQ(solution.levels[1].active[1], Side::kLower);
+  EXPECT_EQ(solution.levels[1].active[2], Side::kNone);
+}
+
 // What the levels above leave of a row is judged by what it was before.
 TEST_P(CascadeByHandTest, DropsARowOfWhichNothingIsLeft) {
   for (const double rest : {0.9e-11, 1.1e-11}) {
@@ -201,8 +223,7 @@ TEST_P(CascadeByHandTest, DropsARowOfWhichNothingIsLeft) {
     row.C << 4, 4 * rest;
     row.upper << -4;
     const Solution solution = SolveCascade(dropped, GetParam());
-    EXPECT_EQ(solution.levels[1].active[0],
-              rest < kRankTolerance ? Side::kNone : Side::kUpper);
+    EXPECT_EQ(solution.levels[1].active[0], Side::kUpper);
     EXPECT_EQ(solution.y[1] == 0, rest < kRankTolerance);
   }
 }
