@@ -63,6 +63,42 @@ void AddStep(const Eigen::VectorXd& step, Eigen::VectorXd* y) {
   *y = (y->array().abs() <= rounding).select(0, *y);
 }
 
+// Of a level's cost, at y.
+Eigen::VectorXd Gradient(const Hierarchy& hierarchy, int level,
+                         const LevelSolution& own, const Eigen::VectorXd& y) {
+  Eigen::VectorXd gradient =
+      hierarchy.B(level).transpose() *
+      hierarchy.weight(level).cwiseProduct(
+          own.equality_residual.head(hierarchy.num_equalities(level)));
+  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    const Side side = SideOf(hierarchy, level, i, 0, y);
+    gradient += static_cast<double>(side) * own.slack[i] *
+                hierarchy.C(level).row(i).transpose();
+  }
+  return gradient;
+}
+
+// What that is added up from, by variable.
+Eigen::VectorXd GradientSize(const Hierarchy& hierarchy, int level,
+                             const LevelSolution& own,
+                             const Eigen::VectorXd& y) {
+  const Eigen::VectorXd abs_y = y.cwiseAbs();
+  Eigen::VectorXd size = Eigen::VectorXd::Zero(y.size());
+  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+    const Eigen::VectorXd row =
+        hierarchy.B(level).row(i).cwiseAbs().transpose();
+    size += hierarchy.weight(level)[i] *
+            (row.dot(abs_y) + std::abs(hierarchy.b(level)[i])) * row;
+  }
+  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    if (own.slack[i] == 0) continue;
+    const Eigen::VectorXd row =
+        hierarchy.C(level).row(i).cwiseAbs().transpose();
+    size += (row.dot(abs_y) + own.slack[i]) * row;
+  }
+  return size;
+}
+
 }  // namespace
 
 Cascade::Cascade(int num_variables, const std::vector<LevelCapacity>& capacity,
@@ -127,68 +163,14 @@ void Cascade::SolveFromY(const Hierarchy& hierarchy, Solution* solution) {
   }
 }
 
+// One QP, (5) and (6), in z = u of (3): y + Z z.
 bool Cascade::SolveLevel(const Hierarchy& hierarchy, int level,
                          Solution* solution) {
-  const int n = hierarchy.num_variables();
-  const bool least_norm = level == hierarchy.num_levels();
-  Eigen::VectorXd& y = solution->y;
-
-  // (5) and (6) in z, y + Z z: the level's own equalities ...
+  const std::vector<RowIndex> rows = FindRows(hierarchy, level);
   LevelQp qp;
   qp.z.setZero(Z_.cols());
-  if (least_norm) {
-    qp.M = Z_;
-    qp.m = y;
-    qp.M_norm.setOnes(n);
-    qp.M_size = y.cwiseAbs();
-  } else {
-    const Eigen::VectorXd root = hierarchy.weight(level).cwiseSqrt();
-    const Eigen::MatrixXd B = root.asDiagonal() * hierarchy.B(level);
-    qp.M = B * Z_;
-    qp.m = B * y + root.cwiseProduct(hierarchy.b(level));
-    qp.M_norm = B.rowwise().norm();
-    qp.M_size =
-        y.norm() * qp.M_norm + root.cwiseProduct(hierarchy.b(level).cwiseAbs());
-  }
-
-  // ... its inequalities, soft, and the inherited ones that are not equalities
-  // by now, hard. Rows of zeros, for lack of any freedom left, are dropped.
-  std::vector<RowIndex> indices;
-  for (int from = 0; from <= level && from < hierarchy.num_levels(); ++from) {
-    for (int i = 0; i < hierarchy.num_inequalities(from); ++i) {
-      const auto C_i = hierarchy.C(from).row(i);
-      if ((from < level && violated_[from][i] != Side::kNone) ||
-          (C_i * Z_).norm() <= kRankTolerance * C_i.norm()) {
-        continue;
-      }
-      indices.push_back({from, i});
-    }
-  }
-  const int rows = static_cast<int>(indices.size());
-  qp.P.resize(rows, Z_.cols());
-  for (Eigen::VectorXd* column :
-       {&qp.value, &qp.lower, &qp.upper, &qp.P_norm, &qp.size}) {
-    column->resize(rows);
-  }
-  for (int r = 0; r < rows; ++r) {
-    const auto [from, i] = indices[r];
-    const auto C_i = hierarchy.C(from).row(i);
-    const double lower = hierarchy.lower(from)[i];
-    const double upper = hierarchy.upper(from)[i];
-    const double value = C_i.dot(y);
-    qp.P.row(r) = C_i * Z_;
-    qp.P_norm[r] = C_i.norm();
-    qp.size[r] = std::max(Size(hierarchy, from, i, lower, y),
-                          Size(hierarchy, from, i, upper, y));
-    qp.value[r] = value;
-    const bool soft = from == level;
-    qp.soft.push_back(soft);
-    qp.side.push_back(soft ? SideOf(hierarchy, from, i, 0, y) : Side::kNone);
-    // v* at this y, so that z = 0 is feasible.
-    qp.lower[r] = soft ? lower : std::min(lower, value);
-    qp.upper[r] = soft ? upper : std::max(upper, value);
-  }
-
+  SetCost(hierarchy, level, solution->y, &qp);
+  SetBounds(hierarchy, level, rows, solution->y, &qp);
   const int iterations =
       SolveLevelQp(method_, max_iterations - solution->iterations, &qp);
   if (iterations < 0) {
@@ -196,15 +178,83 @@ bool Cascade::SolveLevel(const Hierarchy& hierarchy, int level,
     return false;
   }
   solution->iterations += iterations;
-  AddStep(Z_ * qp.z, &y);
+  AddStep(Z_ * qp.z, &solution->y);
   active_.clear();
-  for (int r = 0; r < rows; ++r) {
+  for (size_t r = 0; r < rows.size(); ++r) {
     if (qp.side[r] == Side::kNone) continue;
-    const auto [from, i] = indices[r];
+    const auto [from, i] = rows[r];
     active_.push_back({from, i});
     solution->levels[from].active[i] = qp.side[r];
   }
   return true;
+}
+
+// The rows of (6): the level's own inequalities, and the inherited ones that are
+// not equalities by now. Rows of zeros, for lack of any freedom left, are dropped.
+std::vector<Cascade::RowIndex> Cascade::FindRows(const Hierarchy& hierarchy,
+                                                 int level) const {
+  std::vector<RowIndex> rows;
+  for (int from = 0; from <= level && from < hierarchy.num_levels(); ++from) {
+    for (int i = 0; i < hierarchy.num_inequalities(from); ++i) {
+      const auto C_i = hierarchy.C(from).row(i);
+      if ((from < level && violated_[from][i] != Side::kNone) ||
+          (C_i * Z_).norm() <= kRankTolerance * C_i.norm()) {
+        continue;
+      }
+      rows.push_back({from, i});
+    }
+  }
+  return rows;
+}
+
+// (5): the level's own equalities; below the last level, y itself.
+void Cascade::SetCost(const Hierarchy& hierarchy, int level,
+                      const Eigen::VectorXd& y, LevelQp* qp) const {
+  if (level == hierarchy.num_levels()) {
+    qp->M = Z_;
+    qp->m = y;
+    qp->M_norm.setOnes(hierarchy.num_variables());
+    qp->M_size = y.cwiseAbs();
+    return;
+  }
+  const Eigen::VectorXd root = hierarchy.weight(level).cwiseSqrt();
+  const Eigen::MatrixXd B = root.asDiagonal() * hierarchy.B(level);
+  qp->M = B * Z_;
+  qp->m = B * y + root.cwiseProduct(hierarchy.b(level));
+  qp->M_norm = B.rowwise().norm();
+  qp->M_size =
+      y.norm() * qp->M_norm + root.cwiseProduct(hierarchy.b(level).cwiseAbs());
+}
+
+// (6): the level's own rows, soft, their slack being its v, and the inherited
+// ones, (4), hard.
+void Cascade::SetBounds(const Hierarchy& hierarchy, int level,
+                        const std::vector<RowIndex>& rows,
+                        const Eigen::VectorXd& y, LevelQp* qp) const {
+  const int count = static_cast<int>(rows.size());
+  qp->P.resize(count, Z_.cols());
+  for (Eigen::VectorXd* column :
+       {&qp->value, &qp->lower, &qp->upper, &qp->P_norm, &qp->size}) {
+    column->resize(count);
+  }
+  for (int r = 0; r < count; ++r) {
+    const auto [from, i] = rows[r];
+    const auto C_i = hierarchy.C(from).row(i);
+    const double lower = hierarchy.lower(from)[i];
+    const double upper = hierarchy.upper(from)[i];
+    const double value = C_i.dot(y);
+    qp->P.row(r) = C_i * Z_;
+    qp->P_norm[r] = C_i.norm();
+    qp->size[r] = std::max(Size(hierarchy, from, i, lower, y),
+                           Size(hierarchy, from, i, upper, y));
+    qp->value[r] = value;
+    const bool soft = from == level;
+    qp->soft.push_back(soft);
+    qp->side.push_back(soft ? SideOf(hierarchy, from, i, 0, y) : Side::kNone);
+    // v* at this y, so that z = 0 is feasible.
+    qp->lower[r] = soft ? lower : std::min(lower, value);
+    qp->upper[r] = soft ? upper : std::max(upper, value);
+  }
 }
 
 void Cascade::FixLevel(const Hierarchy& hierarchy, int level,
@@ -242,38 +292,23 @@ void Cascade::FixLevel(const Hierarchy& hierarchy, int level,
   solution->levels[level].nullity = static_cast<int>(Z_.cols());
 }
 
+// Those that, times the carriers, bring the gradient of the level's cost to zero.
 void Cascade::FindMultipliers(const Hierarchy& hierarchy, int level,
                               Solution* solution) {
-  // The rows of the levels above that can carry one, to unit length: equalities
-  // that weigh, violated rows, and the active ones of this level's QP.
-  const int n = hierarchy.num_variables();
   const LevelSolution& own = solution->levels[level];
-  std::vector<RowIndex> carriers;
-  std::vector<bool> is_equality;
-  for (int from = 0; from < level; ++from) {
-    for (int i = 0; i < hierarchy.num_equalities(from); ++i) {
-      if (hierarchy.weight(from)[i] == 0) continue;
-      carriers.push_back({from, i});
-      is_equality.push_back(true);
-    }
-    for (int i = 0; i < hierarchy.num_inequalities(from); ++i) {
-      const bool active =
-          std::find_if(active_.begin(), active_.end(), [&](RowIndex row) {
-            return row.level == from && row.row == i;
-          }) != active_.end();
-      if (active || violated_[from][i] != Side::kNone) {
-        carriers.push_back({from, i});
-        is_equality.push_back(false);
-      }
-    }
-  }
+  const std::vector<Carrier> carriers = FindCarriers(hierarchy, level);
   if (carriers.empty()) return;
+  const Eigen::VectorXd gradient = Gradient(hierarchy, level, own, solution->y);
+  const Eigen::VectorXd size = GradientSize(hierarchy, level, own, solution->y);
+  // What rounding leaves of a level that is met asks for nothing.
+  if (gradient.norm() <= kNegligible * size.norm()) return;
+
   const int count = static_cast<int>(carriers.size());
-  Eigen::MatrixXd E(n, count);
+  Eigen::MatrixXd E(hierarchy.num_variables(), count);
   Eigen::VectorXd norms(count);
   for (int c = 0; c < count; ++c) {
-    const auto [from, i] = carriers[c];
-    if (is_equality[c]) {
+    const auto [from, i, is_equality] = carriers[c];
+    if (is_equality) {
       E.col(c) = hierarchy.B(from).row(i).transpose();
     } else {
       E.col(c) = hierarchy.C(from).row(i).transpose();
@@ -281,43 +316,39 @@ void Cascade::FindMultipliers(const Hierarchy& hierarchy, int level,
     norms[c] = E.col(c).norm();
     if (norms[c] > 0) E.col(c) /= norms[c];
   }
-  Eigen::VectorXd gradient =
-      hierarchy.B(level).transpose() *
-      hierarchy.weight(level).cwiseProduct(
-          own.equality_residual.head(hierarchy.num_equalities(level)));
-  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-    const Side side = SideOf(hierarchy, level, i, 0, solution->y);
-    gradient += static_cast<double>(side) * own.slack[i] *
-                hierarchy.C(level).row(i).transpose();
-  }
-
-  // What rounding leaves of a level that is met asks for nothing.
-  const Eigen::VectorXd abs_y = solution->y.cwiseAbs();
-  Eigen::VectorXd size = Eigen::VectorXd::Zero(n);
-  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
-    const Eigen::VectorXd row =
-        hierarchy.B(level).row(i).cwiseAbs().transpose();
-    size += hierarchy.weight(level)[i] *
-            (row.dot(abs_y) + std::abs(hierarchy.b(level)[i])) * row;
-  }
-  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-    if (own.slack[i] == 0) continue;
-    const Eigen::VectorXd row =
-        hierarchy.C(level).row(i).cwiseAbs().transpose();
-    size += (row.dot(abs_y) + own.slack[i]) * row;
-  }
-  if (gradient.norm() <= kNegligible * size.norm()) return;
-
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod;
   cod.setThreshold(kRankTolerance);
   cod.compute(E);
   const Eigen::VectorXd multipliers = cod.solve(-gradient);
   for (int c = 0; c < count; ++c) {
-    const auto [from, i] = carriers[c];
+    const auto [from, i, is_equality] = carriers[c];
     LevelMultipliers& out = solution->levels[level].multipliers[from];
     const double value = norms[c] > 0 ? multipliers[c] / norms[c] : 0;
-    (is_equality[c] ? out.equality : out.inequality)[i] = value;
+    (is_equality ? out.equality : out.inequality)[i] = value;
   }
+}
+
+// The rows of the levels above that can carry a multiplier: equalities that
+// weigh, violated rows, and the active ones of this level's QP.
+std::vector<Cascade::Carrier> Cascade::FindCarriers(const Hierarchy& hierarchy,
+                                                    int level) const {
+  std::vector<Carrier> carriers;
+  for (int from = 0; from < level; ++from) {
+    for (int i = 0; i < hierarchy.num_equalities(from); ++i) {
+      if (hierarchy.weight(from)[i] == 0) continue;
+      carriers.push_back({from, i, true});
+    }
+    for (int i = 0; i < hierarchy.num_inequalities(from); ++i) {
+      const bool active =
+          std::find_if(active_.begin(), active_.end(), [&](RowIndex row) {
+            return row.level == from && row.row == i;
+          }) != active_.end();
+      if (active || violated_[from][i] != Side::kNone) {
+        carriers.push_back({from, i, false});
+      }
+    }
+  }
+  return carriers;
 }
 
 }  // namespace poise

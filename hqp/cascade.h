@@ -42,11 +42,23 @@ class Cascade {
   struct RowIndex {
     int level, row;
   };
+  struct Carrier {
+    int level, row;
+    bool is_equality;
+  };
   void SolveFromY(const Hierarchy& hierarchy, Solution* solution);
   bool SolveLevel(const Hierarchy& hierarchy, int level, Solution* solution);
+  std::vector<RowIndex> FindRows(const Hierarchy& hierarchy, int level) const;
+  void SetCost(const Hierarchy& hierarchy, int level, const Eigen::VectorXd& y,
+               LevelQp* qp) const;
+  void SetBounds(const Hierarchy& hierarchy, int level,
+                 const std::vector<RowIndex>& rows, const Eigen::VectorXd& y,
+                 LevelQp* qp) const;
   void FixLevel(const Hierarchy& hierarchy, int level, Solution* solution);
   void FindMultipliers(const Hierarchy& hierarchy, int level,
                        Solution* solution);
+  std::vector<Carrier> FindCarriers(const Hierarchy& hierarchy,
+                                    int level) const;
 
   RowSpaceMethod method_;
   Certifier certifier_;
