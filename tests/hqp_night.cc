@@ -79,6 +79,13 @@ int Main(int argc, char** argv) {
                  "Those weights are from 1e-decades to 1e+decades");
   app.add_option("--apex", night.options.apex,
                  "Hierarchies whose bounds are all zero, in percent");
+  app.add_option(
+      "--integer", night.options.integer,
+      "Hierarchies of small whole numbers whose rows meet where many "
+      "coordinates are 0, in percent");
+  app.add_option(
+      "--columns", night.options.columns,
+      "Hierarchies of variables in units from 1e-3 to 1e6, in percent");
   app.add_option("--ticks", night.ticks,
                  "Ticks of one solver, in which each hierarchy changes");
   app.add_option("--selecting", night.options.selecting,

@@ -53,6 +53,14 @@ class Drawing {
     for (int j = 0; j < n; ++j) planted_[j] = source_.Number();
     apex_ = options_.apex > 0 && source_.Chance(options_.apex);
     weighted_ = options_.weighted > 0 && source_.Chance(options_.weighted);
+    integer_ = options_.integer > 0 && source_.Chance(options_.integer);
+    for (int j = 0; integer_ && j < n; ++j) {
+      planted_[j] = source_.Chance(50) ? 0 : source_.Between(-3, 3);
+    }
+    columns_.setOnes(n);
+    if (options_.columns > 0 && source_.Chance(options_.columns)) {
+      for (double& unit : columns_) unit = PowerOfTen(-3, 6);
+    }
     for (int level = 0; level < levels; ++level) {
       EqualityBlock equalities =
           drawn.hierarchy.AddEqualities(level, capacity[level].equalities);
@@ -63,11 +71,13 @@ class Drawing {
           DrawEquality(i, &equalities);
         }
       }
+      equalities.B *= columns_.asDiagonal();
       InequalityBlock inequalities =
           drawn.hierarchy.AddInequalities(level, capacity[level].inequalities);
       for (int i = 0; i < capacity[level].inequalities; ++i) {
         DrawInequality(i, &inequalities);
       }
+      inequalities.C *= columns_.asDiagonal();
     }
     return drawn;
   }
@@ -75,24 +85,23 @@ class Drawing {
  private:
   void DrawSelection(int i, EqualityBlock* block) {
     const int j = source_.Between(0, static_cast<int>(planted_.size()) - 1);
-    block->B(i, j) = source_.Chance(50) ? 1 : source_.Between(1, 300) / 100.0;
-    block->b[i] = source_.Number();
+    block->B(i, j) = source_.Chance(50) ? 1
+                     : integer_         ? source_.Between(1, 3)
+                                        : source_.Between(1, 300) / 100.0;
+    block->b[i] = Wish();
     DrawWeight(30, &block->weight[i]);
   }
 
   void DrawEquality(int i, EqualityBlock* block) {
     const Eigen::VectorXd row = Row();
     block->B.row(i) = row;
-    block->b[i] = source_.Chance(options_.planted)
-                      ? -row.dot(planted_)
-                      : Scale(row) * source_.Number();
+    block->b[i] = Meets() ? -row.dot(planted_) : Scale(row) * Wish();
     DrawWeight(20, &block->weight[i]);
   }
 
   void DrawWeight(int chance, double* weight) {
     if (weighted_) {
-      *weight =
-          std::pow(10.0, source_.Between(-options_.decades, options_.decades));
+      *weight = PowerOfTen(-options_.decades, options_.decades);
     } else if (source_.Chance(chance)) {
       *weight = source_.Between(0, 300) / 100.0;
     }
@@ -101,9 +110,7 @@ class Drawing {
   void DrawInequality(int i, InequalityBlock* block) {
     const Eigen::VectorXd row = Row();
     block->C.row(i) = row;
-    double bound = source_.Chance(options_.planted)
-                       ? row.dot(planted_)
-                       : Scale(row) * source_.Number();
+    double bound = Meets() ? row.dot(planted_) : Scale(row) * Wish();
     if (apex_) bound = 0;
     const int kind = source_.Between(0, 9);
     if (kind < 4) {
@@ -113,12 +120,24 @@ class Drawing {
     } else if (kind < 9) {
       block->lower[i] = bound;
       block->upper[i] =
-          bound + (apex_ ? 0 : Scale(row) * source_.Between(0, 300) / 100);
+          bound + (apex_      ? 0
+                   : integer_ ? source_.Between(0, 4)
+                              : Scale(row) * source_.Between(0, 300) / 100);
     } else {
       block->lower[i] = block->upper[i] = bound;
     }
   }
 
+  bool Meets() { return source_.Chance(integer_ ? 80 : options_.planted); }
+  double Entry() {
+    return integer_ ? source_.Between(-5, 5) : source_.Number();
+  }
+  double Wish() { return integer_ ? source_.Between(-4, 4) : source_.Number(); }
+  double PowerOfTen(int low, int high) {
+    return std::pow(10.0, source_.Between(low, high));
+  }
+
+  // Of a bound that does not meet the others. Whole numbers stay such.
   double Scale(const Eigen::VectorXd& row) const {
     return std::max(row.cwiseAbs().maxCoeff(), 1e-3);
   }
@@ -148,9 +167,9 @@ class Drawing {
     } else {
       const int density = source_.Chance(50) ? 100 : 40;
       for (int j = 0; j < n; ++j) {
-        if (source_.Chance(density)) row[j] = source_.Number();
+        if (source_.Chance(density)) row[j] = Entry();
       }
-      if (scaled_) row *= std::pow(10.0, source_.Between(-3, 6));
+      if (scaled_) row *= PowerOfTen(-3, 6);
     }
     rows_.push_back(row);
     return row;
@@ -158,8 +177,9 @@ class Drawing {
 
   Source source_;
   RandomHierarchyOptions options_;
-  bool scaled_ = false, apex_ = false, weighted_ = false;
+  bool scaled_ = false, apex_ = false, weighted_ = false, integer_ = false;
   Eigen::VectorXd planted_;
+  Eigen::VectorXd columns_;  // What each variable's unit is worth.
   std::vector<Eigen::VectorXd> rows_;
 };
 

@@ -39,6 +39,16 @@ struct RandomHierarchyOptions {
   /// Chance that all bounds are zero, as at the apex of friction cones: mostly no
   /// y but zero is left then, whatever is asked for.
   int apex = 0;
+
+  /// Chance that a hierarchy has rows of small whole numbers, most of which meet
+  /// in a point of whole numbers, about half of them 0. There nothing is rounded: what
+  /// depends on others does so exactly, and where y is 0 nothing tells how large
+  /// its rounding may be.
+  int integer = 0;
+
+  /// Chance that each variable has a unit of its own: columns are scaled by
+  /// powers of ten from 1e-3 to 1e6.
+  int columns = 0;
 };
 
 /// A hierarchy and the sizes to solve it with.
@@ -48,7 +58,8 @@ struct HierarchyCase {
 };
 
 /// Draws one; the same from the same seed everywhere. Numbers are whole
-/// hundredths, so that files of it are short.
+/// hundredths, so that files of it are short. What an option of 0 leaves out
+/// draws nothing: with it at 0 a seed gives what it gave before there was one.
 HierarchyCase MakeRandomHierarchy(std::uint64_t seed,
                                   const RandomHierarchyOptions& options = {});
 
