@@ -11,14 +11,21 @@ namespace poise {
 
 /// Where the fast solver, the cascade and the certificate disagree about a
 /// hierarchy, in words; empty if they do not. Statuses and nullities are to be
-/// the same; certificates within the tolerance; costs, residuals and slacks
-/// within it of what the level is added up from; and y within it, or 100 eps
+/// the same; certificates within the tolerance, and by multipliers that weigh at
+/// most 1e10 (LargestMultiplier()); costs, residuals and slacks within it of what the level is added up from; and y within it, or 100 eps
 /// times the condition of the active rows if that is more, of y's norm.
 ///
 /// `living`, if given, is a solver that has solved others: it is the fast solver
 /// then, and a new one is to agree with it as well.
 std::string Disagreement(const HierarchyCase& drawn, double tolerance = 1e-9,
                          Solver* living = nullptr);
+
+/// The most that a multiplier weighs, |multiplier| |row|, as a multiple of what
+/// its level's own rows do: the sum of weight |residual| |row| and |slack| |row|,
+/// and 1e-9 of the same with what these are added up from, so that multipliers
+/// that are but rounding count for nothing. A certificate is relative to the sum
+/// of both: where this is 1e20, any answer has one.
+double LargestMultiplier(const Hierarchy& hierarchy, const Solution& solution);
 
 /// Whether y is the shortest of all optima: its certificate as an answer to the
 /// same hierarchy with one level more, y = 0. Multipliers of that level are

@@ -121,6 +121,45 @@ TEST(CertifyShortest, SeesAYThatIsNotTheShortest) {
   }
 }
 
+// 2 y = 0, twice, above 4 y >= 8 and 3 y = 3. With 1e20 and -1e20 added to the
+// multipliers the certificate is as good as before. A level that is met, or has
+// no weight, is worth no multiplier.
+TEST(LargestMultiplier, SeesWhatBuysACertificate) {
+  const std::vector<LevelCapacity> capacity{{2, 0}, {0, 1}, {1, 0}};
+  HierarchyCase drawn{capacity, Hierarchy(1, capacity)};
+  drawn.hierarchy.AddEqualities(0, 2).B << 2, 2;
+  InequalityBlock bound = drawn.hierarchy.AddInequalities(1, 1);
+  bound.C << 4;
+  bound.lower << 8;
+  EqualityBlock wish = drawn.hierarchy.AddEqualities(2, 1);
+  wish.B << 3;
+  wish.b << -3;
+  Solution solution(1, capacity);
+  ASSERT_EQ(Solver(1, capacity).Solve(drawn.hierarchy, &solution),
+            Status::kOptimal);
+  EXPECT_GE(LargestMultiplier(drawn.hierarchy, solution), 0.5 - 1e-6);
+  EXPECT_LE(LargestMultiplier(drawn.hierarchy, solution), 1 + 1e-6);
+  const Solution honest = solution;
+  for (int level = 1; level < 3; ++level) {
+    Certifier certifier(1, capacity);
+    solution = honest;
+    solution.levels[level].multipliers[0].equality +=
+        Eigen::Vector2d(1e20, -1e20);
+    EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(), 1e-9);
+    EXPECT_GT(LargestMultiplier(drawn.hierarchy, solution), 1e18);
+  }
+  // A slack of 8 on a row of 4, against 32 on one of 2.
+  solution = honest;
+  solution.levels[1].multipliers[0].equality << 32, 0;
+  EXPECT_NEAR(LargestMultiplier(drawn.hierarchy, solution), 2, 1e-6);
+  wish.b << 0;
+  solution.levels[2].equality_residual << 0;
+  solution.levels[2].multipliers[1].inequality << 1e-3;
+  EXPECT_EQ(LargestMultiplier(drawn.hierarchy, solution), INFINITY);
+  wish.weight << 0;
+  EXPECT_EQ(LargestMultiplier(drawn.hierarchy, solution), INFINITY);
+}
+
 // A solver that has solved others is judged like a new one, and beside it.
 TEST(Disagreement, JudgesALivingSolverAsWell) {
   HierarchyCase drawn = WithRoomToChange(MakeRandomHierarchy(7));
