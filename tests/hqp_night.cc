@@ -1,11 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // Draws hierarchies, compares the two solvers and the certificate, and writes
-// each failure, shrunk, as a file that //tools:hqp replays:
+// each failure, shrunk, as a file that //tools:hqp replays, or as some that it
+// replays in their order where only a solver that has solved others fails:
 //   bazel run //tests:hqp_night -- --problems 100000 --seed 1 --out DIR
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "hqp/solver.h"
 #include "tests/util/compare_solvers.h"
@@ -31,26 +34,45 @@ std::string Kind(const std::string& disagreement) {
   return disagreement.substr(0, disagreement.find_first_of("0123456789;"));
 }
 
-// What only a solver that has solved others gets wrong is not shrunk.
-void Report(const Night& night, std::uint64_t seed, int tick,
-            const std::string& disagreement, const HierarchyCase& failing) {
-  const std::string found = Disagreement(failing, night.tolerance);
-  const HierarchyCase shrunk =
-      found.empty()
-          ? failing
-          : ShrinkHierarchy(failing, [&](const HierarchyCase& each) {
-              return Kind(Disagreement(each, night.tolerance)) == Kind(found);
-            });
-  const std::filesystem::path folder = UserPath(night.out);
-  std::filesystem::create_directories(folder);
-  const auto path = folder / ("hqp_" + std::to_string(seed) + ".json");
+std::string Write(const std::filesystem::path& path,
+                  const HierarchyCase& drawn) {
   std::ofstream file(path);
-  if (!(file << WriteHqp(shrunk.hierarchy) << "\n")) {
+  if (!(file << WriteHqp(drawn.hierarchy) << "\n")) {
     throw std::runtime_error(path.string() + ": cannot be written");
   }
+  return " " + path.string();
+}
+
+// What a new solver gets wrong as well is shrunk, and written, alone; else it is
+// with the ticks before it, in the order of their files, as the living solver's
+// history matters.
+void Report(const Night& night, std::uint64_t seed,
+            const std::string& disagreement, std::vector<HierarchyCase> ticks) {
+  const size_t tick = ticks.size() - 1;
+  if (!Disagreement(ticks.back(), night.tolerance).empty()) {
+    ticks = {ticks.back()};
+  }
+  const std::string kind = Kind(DisagreementAfter(ticks, night.tolerance));
+  ticks = ShrinkTicks(ticks, [&](const std::vector<HierarchyCase>& each) {
+    return Kind(DisagreementAfter(each, night.tolerance)) == kind;
+  });
+  const std::filesystem::path folder = UserPath(night.out);
+  std::filesystem::create_directories(folder);
+  const std::string name = "hqp_" + std::to_string(seed);
+  std::string files;
+  if (ticks.size() == 1) {
+    files = Write(folder / (name + ".json"), ticks.front());
+  } else {
+    // A budget as the living solver has it.
+    files = " --max-iterations " + std::to_string(Solver(1, {}).max_iterations);
+    for (size_t t = 0; t < ticks.size(); ++t) {
+      files +=
+          Write(folder / (name + "_" + std::to_string(t) + ".json"), ticks[t]);
+    }
+  }
   std::cout << "seed " << seed << ", tick " << tick << ": " << disagreement
-            << "\n  shrunk: " << Disagreement(shrunk, night.tolerance)
-            << "\n  bazel run //tools:hqp -- " << path.string() << std::endl;
+            << "\n  shrunk: " << DisagreementAfter(ticks, night.tolerance)
+            << "\n  bazel run //tools:hqp --" << files << std::endl;
 }
 
 int Main(int argc, char** argv) {
@@ -97,8 +119,10 @@ int Main(int argc, char** argv) {
     HierarchyCase drawn =
         WithRoomToChange(MakeRandomHierarchy(seed, night.options));
     Solver living(drawn.hierarchy.num_variables(), drawn.capacity);
+    std::vector<HierarchyCase> ticks;
     for (int tick = 0; tick < night.ticks; ++tick) {
       if (tick > 0) ChangeHierarchy(seed * night.ticks + tick, &drawn);
+      ticks.push_back(drawn);
       const std::string found =
           Disagreement(drawn, night.tolerance, tick > 0 ? &living : nullptr);
       if (tick == 0) {
@@ -107,7 +131,7 @@ int Main(int argc, char** argv) {
       }
       if (found.empty()) continue;
       ++failures;
-      Report(night, seed, tick, found, drawn);
+      Report(night, seed, found, ticks);
       break;
     }
   }

@@ -35,6 +35,35 @@ code=0
 [ "$code" = 1 ] || fail "exit code $code for one iteration, wanted 1"
 grep -q '"status":"iteration_limit"' said || fail "one iteration: $(cat said)"
 
+# Several files are ticks of one solver: what was active then is tried first, so
+# the second time, and with a row less, one factorisation is enough. Not where it
+# is to forget, nor after a file with other variables.
+echo '{"format": "hqp-1", "variables": 1, "levels": [
+  {"C": [[1]], "lower": [4]}]}' > after.json
+echo '{"format": "hqp-1", "variables": 2, "levels": [
+  {"B": [[1, 0], [0, 1]], "b": [-1, -2]}]}' > wide.json
+# Usage: iterations COUNTS ARGUMENTS...: that the files take so many.
+iterations() {
+  local wanted=$1 got
+  shift
+  "$hqp" --json "$@" > said || fail "exit code $? for $*"
+  got=$(grep -o '"iterations":[0-9]*' said | cut -d: -f2 | tr '\n' ' ')
+  [ "$got" = "$wanted " ] || fail "$* take $got iterations, not $wanted"
+  [ "$(head -c 1 said)" = "[" ] || fail "$* print no array: $(cat said)"
+}
+iterations "2 1 1" two.json two.json after.json
+grep -q '"y":\[3.0\].*"y":\[3.0\].*"y":\[4.0\]' said ||
+  fail "ticks have other answers: $(cat said)"
+iterations "2 2 2" --cold two.json two.json after.json
+iterations "2 1 2 1" two.json wide.json two.json two.json
+iterations "1 1" good.json good.json
+"$hqp" two.json two.json > said || fail "exit code $? for ticks"
+[ "$(grep -c '^two.json: optimal, ' said)" = 2 ] || fail "ticks: $(cat said)"
+"$hqp" --json --method svd two.json wide.json > said || fail "exit code $? for svd"
+code=0
+"$hqp" --json --max-iterations 1 good.json two.json > said || code=$?
+[ "$code" = 1 ] || fail "exit code $code for one iteration of ticks, wanted 1"
+
 echo '{"format": "hqp-1", "variables": 1, "levels": [
   {"C": [[1]], "lower": [2], "upper": [1]}]}' > crossed.json
 refuse "hqp: crossed.json: levels[0].lower[0]: is 2, must not be above $(

@@ -78,6 +78,17 @@ double ResidualDifference(const Hierarchy& hierarchy, int level,
 // with variables in units from 1e-3 to 1e6.
 constexpr double kMostMultiplier = 1e10;
 
+// To hold as many rows as another.
+void Enlarge(const std::vector<LevelCapacity>& other,
+             std::vector<LevelCapacity>* capacity) {
+  if (capacity->size() < other.size()) capacity->resize(other.size());
+  for (size_t k = 0; k < other.size(); ++k) {
+    LevelCapacity& to = (*capacity)[k];
+    to.equalities = std::max(to.equalities, other[k].equalities);
+    to.inequalities = std::max(to.inequalities, other[k].inequalities);
+  }
+}
+
 }  // namespace
 
 double LargestMultiplier(const Hierarchy& hierarchy, const Solution& solution) {
@@ -171,6 +182,22 @@ std::string Disagreement(const HierarchyCase& drawn, double tolerance,
   compare("the fast solver", &fresh);
   if (living != nullptr) compare("the living solver", living);
   return text.str();
+}
+
+std::string DisagreementAfter(const std::vector<HierarchyCase>& ticks,
+                              double tolerance) {
+  if (ticks.size() == 1) return Disagreement(ticks.front(), tolerance);
+  std::vector<LevelCapacity> capacity;
+  for (const HierarchyCase& tick : ticks) {
+    Enlarge(tick.capacity, &capacity);
+  }
+  const int n = ticks.front().hierarchy.num_variables();
+  Solver living(n, capacity);
+  for (size_t t = 0; t + 1 < ticks.size(); ++t) {
+    Solution solution(n, capacity);
+    (void)living.Solve(ticks[t].hierarchy, &solution);
+  }
+  return Disagreement(ticks.back(), tolerance, &living);
 }
 
 Certificate CertifyShortest(const HierarchyCase& drawn,

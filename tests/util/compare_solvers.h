@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "hqp/certificate.h"
 #include "hqp/solver.h"
@@ -19,6 +20,11 @@ namespace poise {
 /// then, and a new one is to agree with it as well.
 std::string Disagreement(const HierarchyCase& drawn, double tolerance = 1e-9,
                          Solver* living = nullptr);
+
+/// The same of the last of some ticks, after one solver has solved those before
+/// it in their order: with one only, of a new solver alone.
+std::string DisagreementAfter(const std::vector<HierarchyCase>& ticks,
+                              double tolerance = 1e-9);
 
 /// The most that a multiplier weighs, |multiplier| |row|, as a multiple of what
 /// its level's own rows do: the sum of weight |residual| |row| and |slack| |row|,

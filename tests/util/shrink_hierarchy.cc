@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "tests/util/shrink_hierarchy.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace poise {
@@ -92,70 +93,122 @@ Draft WithoutVariable(Draft draft, int variable) {
 
 class Shrinking {
  public:
-  Shrinking(const HierarchyCase& failing,
-            const std::function<bool(const HierarchyCase&)>& fails)
-      : draft_(Take(failing.hierarchy)), fails_(fails) {}
+  using Ticks = std::vector<HierarchyCase>;
 
-  HierarchyCase Run() {
+  Shrinking(const Ticks& failing,
+            const std::function<bool(const Ticks&)>& fails)
+      : fails_(fails) {
+    for (const HierarchyCase& tick : failing) {
+      drafts_.push_back(Take(tick.hierarchy));
+    }
+  }
+
+  Ticks Run() {
     do {
       has_shrunk_ = false;
-      RemoveWhatCanGo();
-      for (size_t i = 0; i < draft_.rows.size(); ++i) SimplifyRow(i);
+      RemoveTicks();
+      for (size_t t = 0; t < drafts_.size(); ++t) RemoveWhatCanGo(t);
+      RemoveFromAll();
+      for (size_t t = 0; t < drafts_.size(); ++t) {
+        for (size_t i = 0; i < drafts_[t].rows.size(); ++i) SimplifyRow(t, i);
+      }
     } while (has_shrunk_);
-    return Make(draft_);
+    return MakeAll(drafts_);
   }
 
  private:
-  // True, and it is the draft from now on, if it fails, too.
-  bool Try(const Draft& smaller) {
-    if (!fails_(Make(smaller))) return false;
-    draft_ = smaller;
+  static Ticks MakeAll(const std::vector<Draft>& drafts) {
+    Ticks made;
+    for (const Draft& draft : drafts) made.push_back(Make(draft));
+    return made;
+  }
+
+  // True, and they are the drafts from now on, if they fail, too.
+  bool Try(const std::vector<Draft>& smaller) {
+    if (!fails_(MakeAll(smaller))) return false;
+    drafts_ = smaller;
     return has_shrunk_ = true;
   }
 
-  void RemoveWhatCanGo() {
-    for (int k = draft_.num_levels - 1; k >= 0 && draft_.num_levels > 1; --k) {
-      Try(WithoutLevel(draft_, k));
-    }
-    for (size_t i = draft_.rows.size(); i-- > 0;) Try(WithoutRow(draft_, i));
-    for (int j = draft_.num_variables - 1; j >= 0 && draft_.num_variables > 1;
-         --j) {
-      Try(WithoutVariable(draft_, j));
+  bool Try(size_t tick, const Draft& smaller) {
+    std::vector<Draft> drafts = drafts_;
+    drafts[tick] = smaller;
+    return Try(drafts);
+  }
+
+  // The earliest first: what comes shortly before a failure matters most.
+  void RemoveTicks() {
+    for (size_t t = 0; t + 1 < drafts_.size();) {
+      std::vector<Draft> fewer = drafts_;
+      fewer.erase(fewer.begin() + t);
+      if (!Try(fewer)) ++t;
     }
   }
 
-  void SimplifyRow(size_t i) {
-    const Row& row = draft_.rows[i];
+  void RemoveWhatCanGo(size_t t) {
+    for (int k = drafts_[t].num_levels - 1; k >= 0; --k) {
+      if (drafts_[t].num_levels > 1) Try(t, WithoutLevel(drafts_[t], k));
+    }
+    for (size_t i = drafts_[t].rows.size(); i-- > 0;) {
+      Try(t, WithoutRow(drafts_[t], i));
+    }
+  }
+
+  // What all ticks have goes from all at once: a solver knows rows by their
+  // place.
+  void RemoveFromAll() {
+    const bool has_others = drafts_.size() > 1;
+    for (size_t i = has_others ? drafts_[0].rows.size() : 0; i-- > 0;) {
+      const bool all = std::all_of(
+          drafts_.begin(), drafts_.end(),
+          [i](const Draft& draft) { return i < draft.rows.size(); });
+      if (all) TryAll([i](const Draft& draft) { return WithoutRow(draft, i); });
+    }
+    for (int j = drafts_[0].num_variables - 1; j >= 0; --j) {
+      if (drafts_[0].num_variables == 1) return;
+      TryAll([j](const Draft& draft) { return WithoutVariable(draft, j); });
+    }
+  }
+
+  template <typename Smaller>
+  void TryAll(const Smaller& smaller) {
+    std::vector<Draft> drafts;
+    for (const Draft& draft : drafts_) drafts.push_back(smaller(draft));
+    Try(drafts);
+  }
+
+  void SimplifyRow(size_t t, size_t i) {
+    const Row row = drafts_[t].rows[i];
     for (size_t j = 0; j < row.entries.size(); ++j) {
-      Simplify([i, j](Draft* draft) { return &draft->rows[i].entries[j]; });
+      Simplify(t, [i, j](Draft* draft) { return &draft->rows[i].entries[j]; });
     }
     const auto first = [i](Draft* draft) { return &draft->rows[i].first; };
     const auto second = [i](Draft* draft) { return &draft->rows[i].second; };
     if (row.is_equality) {
-      Simplify(first);
-      Replace(second, 1);
+      Simplify(t, first);
+      Replace(t, second, 1);
     } else {
-      if (!Replace(first, -INFINITY)) Simplify(first);
-      if (!Replace(second, INFINITY)) Simplify(second);
+      if (!Replace(t, first, -INFINITY)) Simplify(t, first);
+      if (!Replace(t, second, INFINITY)) Simplify(t, second);
     }
   }
 
   // To zero, or a whole number.
   template <typename Pick>
-  void Simplify(const Pick& pick) {
-    if (!Replace(pick, 0)) Replace(pick, std::round(*pick(&draft_)));
+  void Simplify(size_t t, const Pick& pick) {
+    if (!Replace(t, pick, 0)) Replace(t, pick, std::round(*pick(&drafts_[t])));
   }
 
   template <typename Pick>
-  bool Replace(const Pick& pick, double number) {
-    Draft smaller = draft_;
+  bool Replace(size_t t, const Pick& pick, double number) {
+    Draft smaller = drafts_[t];
     if (*pick(&smaller) == number) return true;
     *pick(&smaller) = number;
-    return Try(smaller);
+    return Try(t, smaller);
   }
 
-  Draft draft_;
-  const std::function<bool(const HierarchyCase&)>& fails_;
+  std::vector<Draft> drafts_;
+  const std::function<bool(const Ticks&)>& fails_;
   bool has_shrunk_ = false;
 };
 
@@ -164,6 +217,16 @@ class Shrinking {
 HierarchyCase ShrinkHierarchy(
     const HierarchyCase& failing,
     const std::function<bool(const HierarchyCase&)>& fails) {
+  return ShrinkTicks({failing},
+                     [&](const std::vector<HierarchyCase>& one) {
+                       return fails(one.front());
+                     })
+      .front();
+}
+
+std::vector<HierarchyCase> ShrinkTicks(
+    const std::vector<HierarchyCase>& failing,
+    const std::function<bool(const std::vector<HierarchyCase>&)>& fails) {
   return Shrinking(failing, fails).Run();
 }
 

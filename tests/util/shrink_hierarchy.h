@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "tests/util/random_hierarchy.h"
 
@@ -13,5 +14,12 @@ namespace poise {
 HierarchyCase ShrinkHierarchy(
     const HierarchyCase& failing,
     const std::function<bool(const HierarchyCase&)>& fails);
+
+/// The same of ticks that one solver solves in their order, of which the last one
+/// fails: first without the ticks before it that do not matter, then what does
+/// not matter of each that is left. All keep the same variables.
+std::vector<HierarchyCase> ShrinkTicks(
+    const std::vector<HierarchyCase>& failing,
+    const std::function<bool(const std::vector<HierarchyCase>&)>& fails);
 
 }  // namespace poise

@@ -81,6 +81,42 @@ TEST(ShrinkHierarchy, LeavesWhatMatters) {
   EXPECT_EQ(hierarchy.B(1), Eigen::RowVector2d(7, 8));
 }
 
+// A solver that has lived needs fewer factorisations than a new one where a bound
+// was in the way before: one tick before is enough, and little of it.
+TEST(ShrinkTicks, LeavesTheHistoryThatMatters) {
+  int failures = 0;
+  const auto fails = [](const std::vector<HierarchyCase>& ticks) {
+    std::vector<LevelCapacity> capacity(5, {40, 40});
+    const int n = ticks.back().hierarchy.num_variables();
+    Solver living(n, capacity), fresh(n, capacity);
+    Solution lived(n, capacity), anew(n, capacity);
+    for (const HierarchyCase& tick : ticks) {
+      (void)living.Solve(tick.hierarchy, &lived);
+    }
+    (void)fresh.Solve(ticks.back().hierarchy, &anew);
+    return lived.iterations < anew.iterations;
+  };
+  for (int seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    std::vector<HierarchyCase> ticks;
+    HierarchyCase drawn = WithRoomToChange(MakeRandomHierarchy(seed));
+    for (int tick = 0; tick < 4; ++tick) {
+      if (tick > 0) ChangeHierarchy(100 * seed + tick, &drawn);
+      ticks.push_back(drawn);
+    }
+    if (!fails(ticks)) continue;
+    ++failures;
+    const std::vector<HierarchyCase> shrunk = ShrinkTicks(ticks, fails);
+    EXPECT_TRUE(fails(shrunk));
+    ASSERT_EQ(shrunk.size(), 2u);
+    for (const HierarchyCase& tick : shrunk) {
+      EXPECT_EQ(tick.hierarchy.num_variables(), 1);
+      EXPECT_LE(NumRows(tick.hierarchy), 2);
+    }
+  }
+  EXPECT_GT(failures, 5);
+}
+
 TEST(Disagreement, IsWhatAToleranceOfZeroFinds) {
   int found = 0;
   for (int seed = 0; seed < 50; ++seed) {
@@ -169,6 +205,24 @@ TEST(Disagreement, JudgesALivingSolverAsWell) {
   EXPECT_NE(Disagreement(drawn, 1e-9, &living).find("the living solver has no"),
             std::string::npos);
   EXPECT_EQ(Disagreement(drawn), "");
+}
+
+// A tolerance of 0 tells a living solver from a new one by what it prints.
+TEST(DisagreementAfter, SolvesTheTicksBeforeWithOneSolver) {
+  HierarchyCase drawn = WithRoomToChange(MakeRandomHierarchy(7));
+  std::vector<HierarchyCase> ticks{drawn};
+  EXPECT_EQ(DisagreementAfter(ticks, 0), Disagreement(drawn, 0));
+  Solver living(drawn.hierarchy.num_variables(), drawn.capacity);
+  for (int tick = 1; tick < 4; ++tick) {
+    Solution solution(drawn.hierarchy.num_variables(), drawn.capacity);
+    (void)living.Solve(drawn.hierarchy, &solution);
+    ChangeHierarchy(tick, &drawn);
+    ticks.push_back(drawn);
+  }
+  EXPECT_EQ(DisagreementAfter(ticks), "");
+  const std::string all = DisagreementAfter(ticks, 0);
+  EXPECT_NE(all.find("the living solver"), std::string::npos) << all;
+  EXPECT_EQ(all, Disagreement(drawn, 0, &living));
 }
 
 }  // namespace
