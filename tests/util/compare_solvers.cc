@@ -145,8 +145,6 @@ std::string Disagreement(const HierarchyCase& drawn, double tolerance,
   }
   judge("the cascade's certificate",
         certifier.Certify(hierarchy, reference).worst(), tolerance);
-  judge("the cascade's multipliers", LargestMultiplier(hierarchy, reference),
-        kMostMultiplier);
   const double eps = std::numeric_limits<double>::epsilon();
   const double same_y =
       std::max(tolerance,
@@ -159,8 +157,6 @@ std::string Disagreement(const HierarchyCase& drawn, double tolerance,
     }
     judge(name + "'s certificate", certifier.Certify(hierarchy, fast).worst(),
           tolerance);
-    judge(name + "'s multipliers", LargestMultiplier(hierarchy, fast),
-          kMostMultiplier);
     for (int k = 0; k < hierarchy.num_levels(); ++k) {
       const LevelSolution &a = fast.levels[k], &b = reference.levels[k];
       const double size = CostSize(hierarchy, k, reference);
@@ -177,10 +173,15 @@ std::string Disagreement(const HierarchyCase& drawn, double tolerance,
     judge(name + "'s y", (fast.y - reference.y).norm(), same_y);
     judge(name + "'s y is not the shortest",
           CertifyShortest(drawn, fast).worst(), tolerance);
+    // Last: what is wrong is a worse failure, and shrinks as such.
+    judge(name + "'s multipliers", LargestMultiplier(hierarchy, fast),
+          kMostMultiplier);
   };
   Solver fresh(n, drawn.capacity);
   compare("the fast solver", &fresh);
   if (living != nullptr) compare("the living solver", living);
+  judge("the cascade's multipliers", LargestMultiplier(hierarchy, reference),
+        kMostMultiplier);
   return text.str();
 }
 
