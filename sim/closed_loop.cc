@@ -32,13 +32,7 @@ Robot MakeBelievedRobot(const Robot& robot, const Scenario& scenario) {
 void Switch(const std::vector<std::string>& tasks, bool on, Stack* stack) {
   for (const std::string& task : tasks) {
     if (stack->Enable(task, on)) continue;
-    std::string known;
-    for (int i = 0; i < stack->num_tasks(); ++i) {
-      known += (i == 0 ? "" : ", ") + std::string(stack->task(i).name());
-    }
-    throw std::invalid_argument("task " + Quoted(task) +
-                                " is unknown, must be one of " + known +
-                                ", or frame.LINK");
+    throw std::invalid_argument(UnknownTask(task, *stack));
   }
 }
 

@@ -176,3 +176,37 @@ refuse "control.delay is 0.0005, must be a multiple of the plant's step" \
 refuse "--plant: mars not in {bullet,mujoco}" --plant mars
 refuse "link 'nose' is unknown, must be a link of robot 'humanoid'" --link nose
 refuse "task set 'none': is neither default, paper, nor a file" --tasks none
+
+# A Cartesian task on any link, from wherever a task is named; one on a link that
+# is not there is refused by the link.
+frame="task 'frame.nose' is unknown, must be frame. and a link of the robot"
+refuse "$frame" --with frame.nose
+refuse_file --tasks ":1: $frame" frames.yaml 'tasks: {frame.nose: on}'
+refuse_file --scenario ": $frame" frames.yaml 'tasks: {with: [frame.nose]}'
+refuse_file --profile ":1: $frame" frames.yaml 'tasks: {frame.nose: on}'
+
+# Usage: residuals OPTION...: the tasks frame.LINK that a run's log has, in the
+# order of the table.
+residuals() {
+  "$push" --scenario stand --time 0.01 --no-report \
+    --out "$TEST_TMPDIR/frames" "$@" > "$TEST_TMPDIR/said" || [ $? = 1 ]
+  head -n 1 "$TEST_TMPDIR/frames/log.csv" | tr , '\n' |
+    sed -n '/foot$/d; s/^residual\.frame\.//p' | tr '\n' ' '
+}
+
+# Usage: expect WANTED GOT
+expect() {
+  [ "$1" = "$2" ] || fail "is '$2', wanted '$1'"
+}
+
+own=$(write own.yaml "$(cat robot/profiles/humanoid.yaml)" 'tasks:' \
+  '  frame.head: on')
+expect 'torso ' "$(residuals --with frame.torso)"
+expect 'torso l_hand ' "$(residuals \
+  --tasks "$(write set.yaml 'tasks: {frame.torso: on}')" --with frame.l_hand)"
+expect 'head ' "$(residuals --profile "$own")"
+
+# A profile's own tasks are those where none are asked for, by any name.
+expect '' "$(residuals --profile "$own" --tasks default)"
+grep -q '"set": "default"' "$TEST_TMPDIR/frames/summary.json" ||
+  fail "--tasks default does not go over the profile's"

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <filesystem>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include "robot/finding.h"
@@ -34,6 +35,10 @@ std::string NamesOf(const Stack& stack) {
   }
   return names + ", or frame.LINK";
 }
+
+constexpr std::string_view kFrame = "frame.";
+
+bool IsFrame(const std::string& task) { return task.rfind(kFrame, 0) == 0; }
 
 std::string NamesOf(const Task& task) {
   std::string names = "on, rank, weight";
@@ -111,9 +116,8 @@ bool IsFile(const std::string& set) {
 
 void AddLink(const std::string& task, const Robot& robot,
              std::vector<std::string>* links) {
-  const std::string prefix = "frame.";
-  if (task.rfind(prefix, 0) != 0) return;
-  const std::string link = task.substr(prefix.size());
+  if (!IsFrame(task)) return;
+  const std::string link = task.substr(kFrame.size());
   for (const Foot& foot : robot.feet) {
     if (foot.name == link) return;  // Has its task.
   }
@@ -131,6 +135,12 @@ std::string Shortest(double value) {
 
 }  // namespace
 
+std::string UnknownTask(const std::string& name, const Stack& stack) {
+  return "task " + Quoted(name) + " is unknown, must be " +
+         (IsFrame(name) ? "frame. and a link of the robot"
+                        : "one of " + NamesOf(stack));
+}
+
 void ApplyTasks(const YAML::Node& tasks, const std::string& file,
                 Stack* stack) {
   if (!tasks.IsMap()) {
@@ -139,9 +149,7 @@ void ApplyTasks(const YAML::Node& tasks, const std::string& file,
   for (const auto& field : tasks) {
     const std::string& name = field.first.Scalar();
     if (!stack->Find(name)) {
-      Refuse(file, field.first,
-             "task " + Quoted(name) + " is unknown, must be one of " +
-                 NamesOf(*stack));
+      Refuse(file, field.first, UnknownTask(name, *stack));
     }
     ApplyTask(name, field.second, file, stack);
   }

@@ -11,6 +11,9 @@
 
 namespace poise {
 
+/// What is wrong with a name that no task of a stack has, and what was wanted.
+std::string UnknownTask(const std::string& name, const Stack& stack);
+
 /// Changes a stack as a `tasks:` section says, by name of the task:
 ///
 ///     tasks:
