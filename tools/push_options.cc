@@ -301,8 +301,8 @@ PushOptions ReadPushOptions(int argc, char** argv) {
   } else if (robot.empty()) {
     feet_and_posture = LoadProfile(kProfile);
   }
-  // The robot's own tasks, where none are asked for.
-  if (feet_and_posture.tasks.IsDefined() &&
+  // The robot's own tasks, where none are asked for, not even the default ones.
+  if (feet_and_posture.tasks.IsDefined() && !overrides.tasks &&
       scenario.control.tasks == "default") {
     scenario.control.tasks = feet_and_posture.file.string();
   }
