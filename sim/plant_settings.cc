@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kFar = 1e3;  // m.
 constexpr std::size_t kMostBoards = 100;
+// An effort limit of 0 is none at all.
+constexpr double kWeakest = 1e-6;
 
 }  // namespace
 
@@ -30,7 +32,7 @@ std::vector<NumberField> Fields(PlantSettings* settings) {
   return {{"rate", &settings->dt, 10, 1e5, "Hz", 1, true},
           {"friction", &settings->friction, 0, 100},
           {"restitution", &settings->restitution, 0, 1},
-          {"torque_scale", &settings->torque_scale, 0, 100},
+          {"torque_scale", &settings->torque_scale, kWeakest, 100},
           {"roll", &settings->ground.roll, -1.5, 1.5, "rad"},
           {"pitch", &settings->ground.pitch, -1.5, 1.5, "rad"}};
 }

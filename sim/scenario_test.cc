@@ -341,7 +341,7 @@ TEST(Scenario, AbsurdNumbersAreRefusedWithTheirLine) {
         "plant: {friction: -1}",
         "plant: {friction: 1e9}",
         "plant: {restitution: 2}",
-        "plant: {torque_scale: -1}",
+        "plant: {torque_scale: -1}", "plant: {torque_scale: 0}",
         "plant: {roll: -2}",
         "plant: {pitch: 2}",
         "plant: {boards: [{size: [1, 1, 0]}]}",
