@@ -205,6 +205,7 @@ TickRecord ClosedLoop::record() const {
           controller_->stack(),
           controller_->hierarchy(),
           controller_->report(),
+          controller_->stance(),
           robot_.model.tree.nv(),
           microseconds_};
 }

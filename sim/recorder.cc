@@ -59,6 +59,10 @@ std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
        {"touching", "status", "active", "lost", "conflict"}) {
     all.push_back({name, Kind::kText});
   }
+  for (const Foot& foot : robot.feet) {
+    all.push_back({foot.name + ".phase", Kind::kText});
+  }
+  all.push_back({"reason", Kind::kText});
   return all;
 }
 
@@ -107,6 +111,42 @@ std::string_view StatusName(TickStatus status) {
       return "truncated";
     case TickStatus::kFailSafe:
       return "fail_safe";
+  }
+  return "";
+}
+
+std::string_view ReasonName(FailSafeReason reason) {
+  switch (reason) {
+    case FailSafeReason::kNone:
+      return "";
+    case FailSafeReason::kState:
+      return "state";
+    case FailSafeReason::kClock:
+      return "clock";
+    case FailSafeReason::kNoAnswer:
+      return "no_answer";
+  }
+  return "";
+}
+
+std::string_view PhaseName(ContactPhase phase) {
+  switch (phase) {
+    case ContactPhase::kDown:
+      return "down";
+    case ContactPhase::kUnloading:
+      return "unloading";
+    case ContactPhase::kUp:
+      return "up";
+    case ContactPhase::kLanding:
+      return "landing";
+    case ContactPhase::kLoading:
+      return "loading";
+    case ContactPhase::kLost:
+      return "lost";
+    case ContactPhase::kFree:
+      return "free";
+    case ContactPhase::kReturning:
+      return "returning";
   }
   return "";
 }
@@ -177,6 +217,11 @@ void Recorder::TextCells(const TickRecord& record) {
   }
   EndEntries();
   ConflictCell(record);
+  const int feet = static_cast<int>(record.observation.feet.size());
+  for (int i = 0; i < feet; ++i) {
+    rows_->Text(PhaseName(record.stance.phase(i)));
+  }
+  rows_->Text(ReasonName(record.report.fail_safe_reason));
 }
 
 void Recorder::Record(const TickRecord& record) {

@@ -63,4 +63,11 @@ class Recorder {
 /// "ok", "limit_relaxed", "truncated" or "fail_safe".
 std::string_view StatusName(TickStatus status);
 
+/// "", "state", "clock" or "no_answer".
+std::string_view ReasonName(FailSafeReason reason);
+
+/// "down", "unloading", "up", "landing", "loading", "lost", "free" or
+/// "returning".
+std::string_view PhaseName(ContactPhase phase);
+
 }  // namespace poise

@@ -119,6 +119,30 @@ TEST(Recorder, WritesWhatWasAndWhatTheControllerSaid) {
   EXPECT_EQ(timing.size(), 5u);  // The last is what follows the last line.
 }
 
+// What explains why the CoP may not be where it was, or the torques jump.
+TEST(Recorder, WritesHowFeetStandAndWhyATickFailedSafe) {
+  Scenario scenario = Pushed();
+  scenario.stance = {{StanceEvent::Kind::kLift, 0, "right_foot"}};
+  scenario.sensors.freeze_at = 0.005;
+  scenario.sensors.freeze_for = 0.02;
+  ClosedLoop loop(Humanoid(), scenario);
+  Recorder recorder(Folder("phases"), Humanoid(), loop.controller().stack());
+  for (int k = 0; k < 30; ++k) {
+    loop.Tick();
+    recorder.Record(loop.record());
+  }
+  recorder.Flush();
+  const std::string csv = Contents(Folder("phases") / "log.csv");
+  auto row = RowOf(csv, 2);
+  EXPECT_EQ(row["left_foot.phase"], "down");
+  EXPECT_EQ(row["right_foot.phase"], "unloading");
+  EXPECT_EQ(row["status"], "ok");
+  EXPECT_EQ(row["reason"], "");
+  row = RowOf(csv, 20);
+  EXPECT_EQ(row["status"], "fail_safe");
+  EXPECT_EQ(row["reason"], "clock");
+}
+
 TEST(Recorder, LeavesNoOtherLogInItsFolder) {
   ClosedLoop loop(Humanoid(), Pushed());
   const Stack& stack = loop.controller().stack();

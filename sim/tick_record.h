@@ -5,6 +5,7 @@
 
 #include "hqp/hierarchy.h"
 #include "robot/control/stack.h"
+#include "robot/control/stance.h"
 #include "robot/control/tick_report.h"
 #include "sim/observation.h"
 #include "sim/plant.h"
@@ -23,6 +24,7 @@ struct TickRecord {
   const Stack& stack;
   const Hierarchy& hierarchy;  ///< What the controller solved.
   const TickReport& report;
+  const Stance& stance;  ///< Of the feet, by the controller.
   int nv;
   double microseconds;  ///< That the controller took.
 };

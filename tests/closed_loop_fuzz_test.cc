@@ -70,15 +70,16 @@ std::vector<std::string> Cells(const std::string& line) {
 }
 
 // What is wrong with a log: it must have a row a tick, and in each column but
-// these last ones numbers only; but feet that bear nothing have no center of
+// those of words numbers only; but feet that bear nothing have no center of
 // pressure.
 std::string WrongWithLog(const std::filesystem::path& file, long ticks) {
   std::ifstream stream(file);
   std::string line;
   std::getline(stream, line);
   const std::vector<std::string> names = Cells(line);
-  const std::set<std::string> words = {"touching", "status", "active", "lost",
-                                       "conflict"};
+  const std::set<std::string> words = {
+      "touching", "status", "active",          "lost",
+      "conflict", "reason", "left_foot.phase", "right_foot.phase"};
   long rows = 0;
   for (; std::getline(stream, line); ++rows) {
     const std::vector<std::string> cells = Cells(line);

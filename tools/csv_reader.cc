@@ -24,10 +24,12 @@ void Split(std::string_view line, std::vector<std::string_view>* cells) {
 
 bool HasWords(std::string_view column) {
   for (const char* name :
-       {"touching", "status", "active", "lost", "conflict"}) {
+       {"touching", "status", "active", "lost", "conflict", "reason"}) {
     if (column == name) return true;
   }
-  return false;
+  constexpr std::string_view kPhase = ".phase";
+  return column.size() > kPhase.size() &&
+         column.substr(column.size() - kPhase.size()) == kPhase;
 }
 
 // False if the text is no number; an empty one is NaN.

@@ -184,8 +184,11 @@ void Controller::Start(const State& state) noexcept {
 
 void Controller::Update(const State& state, Command* command) noexcept {
   report_.status = TickStatus::kOk;
+  report_.fail_safe_reason = FailSafeReason::kNone;
   if (!IsUsable(state)) {
-    FailSafe(state, command);
+    FailSafe(frozen_for_ > kFrozenAfter ? FailSafeReason::kClock
+                                        : FailSafeReason::kState,
+             state, command);
     return;
   }
   ComputeModel(state);
@@ -205,7 +208,7 @@ void Controller::Update(const State& state, Command* command) noexcept {
   const bool is_truncated =
       solved == Status::kIterationLimit && report_.failed_rank > 1;
   if (solved != Status::kOptimal && !is_truncated) {
-    FailSafe(state, command);
+    FailSafe(FailSafeReason::kNoAnswer, state, command);
     return;
   }
   if (is_truncated) report_.status = TickStatus::kTruncated;
@@ -299,8 +302,10 @@ bool Controller::IsUsable(const State& state) noexcept {
          IsBelievable(state.v);
 }
 
-void Controller::FailSafe(const State& state, Command* command) noexcept {
+void Controller::FailSafe(FailSafeReason reason, const State& state,
+                          Command* command) noexcept {
   report_.status = TickStatus::kFailSafe;
+  report_.fail_safe_reason = reason;
   stack_.EndRamp();
   expects_ = false;
   report_.active.clear();

@@ -97,7 +97,8 @@ class Controller {
   void LetFeetGo(const State& state) noexcept;
   void Compare(const State& state) noexcept;
   bool IsUsable(const State& state) noexcept;
-  void FailSafe(const State& state, Command* command) noexcept;
+  void FailSafe(FailSafeReason reason, const State& state,
+                Command* command) noexcept;
   void LimitTorque(Command* command) noexcept;
   void CorrectSag() noexcept;
 

@@ -18,6 +18,10 @@ namespace {
 
 class FailSafeTest : public ControllerTest {
  protected:
+  FailSafeReason Reason() const {
+    return controller_.report().fail_safe_reason;
+  }
+
   void ExpectInsideLimits() const {
     for (int j = 0; j < tree().num_joints(); ++j) {
       EXPECT_LE(std::abs(command_.tau[j]), robot_.model.limits[j].effort)
@@ -36,6 +40,7 @@ TEST_F(FailSafeTest, FailsSafeOnANumberThatIsNone) {
       *entry = bad;
       Update();
       EXPECT_EQ(command_.status, TickStatus::kFailSafe);
+      EXPECT_EQ(Reason(), FailSafeReason::kState);
       EXPECT_TRUE(command_.tau.allFinite());
       ExpectInsideLimits();
       *entry = good;
@@ -111,9 +116,12 @@ TEST_F(FailSafeTest, FailsSafeWhileTheClockOfTheStateStandsStill) {
   for (int i = 1; i <= 20; ++i) {
     controller_.Update(state_, &command_);
     EXPECT_EQ(command_.status == TickStatus::kFailSafe, i > 10) << i << " ms";
+    EXPECT_EQ(Reason(),
+              i > 10 ? FailSafeReason::kClock : FailSafeReason::kNone);
   }
   Update();
   EXPECT_EQ(command_.status, TickStatus::kOk);
+  EXPECT_EQ(Reason(), FailSafeReason::kNone);
 }
 
 TEST_F(FailSafeTest, FailsSafeWhereTheDynamicsWouldOverflow) {
@@ -170,6 +178,7 @@ TEST_F(FailSafeTest, FailsSafeWhereNotEvenTheFirstRankIsSolved) {
   state_.time = 1e-3;
   late.Update(state_, &command_);
   EXPECT_EQ(late.report().failed_rank, 1);
+  EXPECT_EQ(late.report().fail_safe_reason, FailSafeReason::kNoAnswer);
   EXPECT_EQ(command_.status, TickStatus::kFailSafe);
   ExpectInsideLimits();
 }

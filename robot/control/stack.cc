@@ -261,8 +261,9 @@ void Stack::ReportInequalities(int i, const Solution& solution,
 std::string Stack::RowName(const ActiveRow& row) const {
   const std::string& name = task(row.task).inequality_names()[row.row];
   // What is bounded on one side only says so itself, or has no other.
+  const std::string& of = task(row.task).name();
   const bool two_sided =
-      name.rfind("torque.", 0) == 0 || name.rfind("joint.", 0) == 0;
+      of == "torque_limits" || of == "joint_limits" || of == "unilateral";
   if (!two_sided) return name;
   return name + (row.side == Side::kLower ? ".min" : ".max");
 }

@@ -87,7 +87,8 @@ class Stack {
   void Report(const Solution& solution, TickReport* report) const noexcept;
 
   /// An inequality row by name; of a row with two sides, which one:
-  /// "left_foot.cop.x_max", "torque.l_knee.min". Allocates.
+  /// "left_foot.cop.x_max", "torque.l_knee.min", "left_foot.unilateral.fz.max".
+  /// Allocates.
   std::string RowName(const ActiveRow& row) const;
 
   /// A row of the last Write() by name, an equality or an inequality; empty if

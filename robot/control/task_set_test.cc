@@ -165,6 +165,22 @@ TEST(Stack, ChangesNothingWhereANameOrAValueIsWrong) {
   EXPECT_EQ(stack.RowName(0, 1000, true), "");
 }
 
+// Without load, and at what a foot that fades in may bear, is not the same.
+TEST(Stack, SaysOnWhichSideARowActs) {
+  const Stack stack = MakeStack();
+  const auto name = [&stack](const char* task, Side side) {
+    return stack.RowName({*stack.Find(task), 0, side, 5, 1, 0});
+  };
+  EXPECT_EQ(name("unilateral", Side::kLower), "left_foot.unilateral.fz.min");
+  EXPECT_EQ(name("unilateral", Side::kUpper), "left_foot.unilateral.fz.max");
+  EXPECT_EQ(name("torque_limits", Side::kLower).substr(0, 7), "torque.");
+  EXPECT_EQ(name("torque_limits", Side::kUpper).substr(0, 7), "torque.");
+  EXPECT_NE(name("torque_limits", Side::kLower),
+            name("torque_limits", Side::kUpper));
+  // A bound on one side says so itself.
+  EXPECT_EQ(name("cop", Side::kUpper), "left_foot.cop.x_max");
+}
+
 class Idle : public Task {
  public:
   explicit Idle(const std::string& name) : Task(name, {}, {}) {}

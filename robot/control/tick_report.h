@@ -35,10 +35,19 @@ struct LostRow {
   double amount;  ///< Its residual, in the unit of Task::equality_scale().
 };
 
+/// Why a tick failed safe.
+enum class FailSafeReason {
+  kNone,      ///< It did not.
+  kState,     ///< The state is not to be believed.
+  kClock,     ///< The state's time stamp stands still.
+  kNoAnswer,  ///< Not even the first rank was solved.
+};
+
 /// What the controller can say of its last tick. Of fixed size: filling it does
 /// not allocate.
 struct TickReport {
   TickStatus status = TickStatus::kOk;
+  FailSafeReason fail_safe_reason = FailSafeReason::kNone;
   Status solver_status = Status::kOptimal;
   int failed_rank = 0;  ///< The rank that was not solved; 0 if all were.
   int iterations = 0;   ///< Of the solver.
