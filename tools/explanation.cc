@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "tools/describe_row.h"
+#include "tools/foot_story.h"
 #include "tools/open_log.h"
 #include "tools/run_summary.h"
 
@@ -21,7 +23,8 @@ namespace {
 using nlohmann::json;
 
 constexpr double kGap = 0.020;     // s: shorter pauses join two spans.
-constexpr size_t kMostCauses = 3;  // Named for a loss.
+constexpr size_t kMostCauses = 5;  // Named in a sentence about a loss.
+constexpr size_t kMostRows = 10;   // In one about a conflict.
 // What contradicts itself is logged once in a while.
 constexpr double kConflictLasts = 0.06;  // s.
 constexpr double kShort = 0.005;         // s: not worth a sentence.
@@ -78,21 +81,28 @@ class Spans {
   std::map<std::string, size_t> open_;
 };
 
-Values Hardest(Values rows) {
-  std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+Values HardestFirst(Values rows) {
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
     return std::abs(a.second) > std::abs(b.second);
   });
-  if (rows.size() > kMostCauses) rows.resize(kMostCauses);
   return rows;
 }
 
-// Of rows that contradict each other, those that bound.
-Values Constraints(const Values& rows) {
+// Of rows that contradict each other, those that bound, each as it acts: a
+// conflict does not say on which side, nor how hard.
+Values Constraints(const Values& rows, const Values& acting) {
   Values bounds;
-  for (const auto& row : rows) {
-    if (DescribeRow(row.first) != row.first) bounds.push_back(row);
+  for (const auto& [name, rank] : rows) {
+    if (DescribeRow(name) == name) continue;
+    bounds.emplace_back(name, 0);
+    for (const auto& acts : acting) {
+      if (acts.first == name || acts.first == name + ".min" ||
+          acts.first == name + ".max") {
+        bounds.back() = acts;
+      }
+    }
   }
-  return bounds;
+  return HardestFirst(bounds);
 }
 
 std::string Format(const char* format, double value) {
@@ -107,16 +117,16 @@ std::string UnitOfLoss(const std::string& name) {
   return row[0] == 'w' ? "rad/s2" : "m/s2";
 }
 
-std::string Spaced(std::string text) {
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
-}
-
 std::string Sentence(const Span& span) {
   return Format("%.3f s: ", span.from) + span.name +
          Format(" for %.0f ms", 1e3 * (span.to - span.from)) +
          Format(" (multiplier %.3g", std::abs(span.peak)) +
          Format(" at %.3f s).", span.at);
+}
+
+// What a list that ends early leaves unsaid.
+std::string AndMore(size_t count, size_t said) {
+  return count <= said ? "" : " and " + std::to_string(count - said) + " more";
 }
 
 std::string LossSentence(const Span& span) {
@@ -127,10 +137,11 @@ std::string LossSentence(const Span& span) {
   for (const auto& [name, value] : span.causes) {
     const std::string cause = DescribeRow(name);
     if (std::find(said.begin(), said.end(), cause) != said.end()) continue;
-    text += (said.empty() ? ", because of " : ", ") + cause;
     said.push_back(cause);
+    if (said.size() > kMostCauses) continue;
+    text += (said.size() == 1 ? ", because of " : ", ") + cause;
   }
-  return text + ".";
+  return text + AndMore(said.size(), kMostCauses) + ".";
 }
 
 // What to call a row among others of its task: constraints one by one, tasks by
@@ -150,48 +161,22 @@ std::string ConflictSentence(double time, Values rows) {
   for (const auto& [name, rank] : rows) {
     const std::string group = Group(name);
     if (std::find(said.begin(), said.end(), group) != said.end()) continue;
-    text += (said.empty() ? "" : "; ") + group + Format(" (rank %.0f)", rank);
     said.push_back(group);
+    if (said.size() > kMostRows) continue;
+    text += (said.size() == 1 ? "" : "; ") + group;
+    text += Format(" (rank %.0f)", rank);
   }
-  return Format("%.3f s: cannot all be met: ", time) + text + ".";
+  return Format("%.3f s: cannot all be met: ", time) + text +
+         AndMore(said.size(), kMostRows) + ".";
 }
 
-// When a foot that is meant to be down first rolls or slides.
-class FootWatch {
- public:
-  FootWatch(const std::string& name, const LogReader& reader)
-      : name_(Spaced(name)),
-        contact_(reader.Find(name + ".contact")),
-        tilt_(reader.Find(name + ".tilt")),
-        slide_(reader.Find(name + ".slide")) {}
-
-  void Look(double time, const LogReader& reader) {
-    if (!contact_ || !tilt_ || !slide_ || reader.Number(*contact_) != 1) return;
-    constexpr double kRolls = 0.02;   // rad.
-    constexpr double kSlides = 5e-3;  // m.
-    if (!rolls_ && reader.Number(*tilt_) > kRolls) {
-      rolls_ = true;
-      sentences_.emplace_back(
-          time, Format("%.3f s: the ", time) + name_ +
-                    " rolls over an edge, tilted by more than 0.02 rad.");
-    }
-    if (!slides_ && reader.Number(*slide_) > kSlides) {
-      slides_ = true;
-      sentences_.emplace_back(time, Format("%.3f s: the ", time) + name_ +
-                                        " has slid by more than 5 mm.");
-    }
-  }
-
-  const std::vector<std::pair<double, std::string>>& sentences() const {
-    return sentences_;
-  }
-
- private:
-  std::string name_;
-  std::optional<int> contact_, tilt_, slide_;
-  bool rolls_ = false, slides_ = false;
-  std::vector<std::pair<double, std::string>> sentences_;
-};
+// Why a tick failed safe, after what happened.
+std::string SayWhy(const std::string& reason) {
+  if (reason == "state") return ": what it is told of the robot cannot be";
+  if (reason == "clock") return ": the time of the robot's state stands still";
+  if (reason == "no_answer") return ": not even the first rank was solved";
+  return "";
+}
 
 // Whether a run was stopped while the robot was up: nobody saw the end.
 bool WasInterrupted(const json& summary) {
@@ -219,48 +204,13 @@ std::string Ending(const json& summary) {
 
 }  // namespace
 
-std::string DescribeRow(const std::string& name) {
-  const size_t first = name.find('.');
-  const size_t last = name.rfind('.');
-  if (first == std::string::npos) return name;
-  const std::string head = name.substr(0, first);
-  const std::string end = name.substr(last + 1);
-  const std::string middle =
-      last > first ? name.substr(first + 1, last - first - 1) : "";
-  if (head == "torque" || head == "joint") {
-    if (last == first) {
-      return "the " + head + " limit of " + Spaced(end);
-    }
-    return "the " + std::string(head == "torque" ? "torque" : "angle") +
-           " of " + Spaced(middle) + " at its " +
-           (end == "min" ? "lower" : "upper") + " limit";
-  }
-  if (head == "zmp" || head == "zmp_literal") {
-    return "the combined CoP at " + end + " of its box";
-  }
-  if (head == "capture_point") return "the capture point at " + end;
-  const std::string foot = "the " + Spaced(head);
-  if (middle == "cop") {
-    const bool is_left = head.rfind("left", 0) == 0;
-    const std::string edge = end == "x_max"                ? "front"
-                             : end == "x_min"              ? "rear"
-                             : (end == "y_max") == is_left ? "outer"
-                                                           : "inner";
-    return "the CoP of " + foot + " at its " + edge + " edge";
-  }
-  if (middle == "friction") return foot + " at its friction limit";
-  if (middle == "unilateral") return foot + " without load";
-  if (middle.rfind("yaw", 0) == 0) return "the yaw moment of " + foot;
-  return name;
-}
-
 json Explain(const std::filesystem::path& run) {
   const std::filesystem::path log = FindLog(run);
   const std::unique_ptr<LogReader> opened = OpenLog(log);
   LogReader& reader = *opened;
   const auto time = reader.Find("time"), status = reader.Find("status"),
              active = reader.Find("active"), lost = reader.Find("lost"),
-             conflict = reader.Find("conflict");
+             conflict = reader.Find("conflict"), reason = reader.Find("reason");
   if (!time || !status || !active) {
     throw std::invalid_argument(log.string() +
                                 ": has no columns time, status and active");
@@ -268,7 +218,7 @@ json Explain(const std::filesystem::path& run) {
   // Rows by name and, for the sentences, by what they mean: a friction pyramid
   // has four.
   Spans rows, said, losses, states;
-  std::vector<FootWatch> feet;
+  std::vector<FootStory> feet;
   for (const std::string name : {"left_foot", "right_foot"}) {
     feet.emplace_back(name, reader);
   }
@@ -277,14 +227,16 @@ json Explain(const std::filesystem::path& run) {
   while (reader.Next()) {
     has_rows = true;
     const double t = reader.Number(*time);
-    for (FootWatch& foot : feet) foot.Look(t, reader);
+    for (FootStory& foot : feet) foot.Look(t, reader);
     const Values acting = Parse(reader.cell(*active));
     for (const auto& [name, value] : acting) {
       rows.Add(name, t, value, {});
       said.Add(DescribeRow(name), t, value, {});
     }
     if (reader.cell(*status) != "ok") {
-      states.Add(std::string(reader.cell(*status)), t, 1, {});
+      std::string state(reader.cell(*status));
+      if (reason) state.append(" ").append(reader.cell(*reason));
+      states.Add(state, t, 1, {});
     }
     if (conflict && !reader.cell(*conflict).empty()) {
       conflicts.emplace_back(t, Parse(reader.cell(*conflict)));
@@ -293,9 +245,9 @@ json Explain(const std::filesystem::path& run) {
     for (const auto& [name, value] : Parse(reader.cell(*lost))) {
       const bool is_known =
           !conflicts.empty() && t - conflicts.back().first < kConflictLasts;
-      losses.Add(
-          name, t, value,
-          is_known ? Constraints(conflicts.back().second) : Hardest(acting));
+      losses.Add(name, t, value,
+                 is_known ? Constraints(conflicts.back().second, acting)
+                          : HardestFirst(acting));
     }
   }
 
@@ -316,6 +268,7 @@ json Explain(const std::filesystem::path& run) {
       {"losses", json::array()},
       {"conflicts", json::array()},
       {"status", json::array()},
+      {"stance", json::array()},
       {"sentences", json::array()}};
   std::vector<std::pair<double, std::string>> sentences;
   for (const Span& span : rows.spans()) {
@@ -329,8 +282,14 @@ json Explain(const std::filesystem::path& run) {
     if (span.to - span.from < kShort) continue;
     sentences.emplace_back(span.from, Sentence(span));
   }
-  for (const FootWatch& foot : feet) {
-    for (const auto& sentence : foot.sentences()) sentences.push_back(sentence);
+  for (const FootStory& foot : feet) {
+    for (const FootStory::Phase& phase : foot.phases()) {
+      out["stance"].push_back({{"foot", foot.foot()},
+                               {"phase", phase.name},
+                               {"from", phase.from},
+                               {"to", phase.to}});
+    }
+    for (const auto& sentence : foot.Sentences()) sentences.push_back(sentence);
   }
   for (const Span& span : losses.spans()) {
     json because = json::array();
@@ -359,11 +318,17 @@ json Explain(const std::filesystem::path& run) {
     last = what;
   }
   for (const Span& span : states.spans()) {
-    out["status"].push_back(
-        {{"name", span.name}, {"from", span.from}, {"to", span.to}});
+    const std::string name = span.name.substr(0, span.name.find(' '));
+    const std::string why =
+        span.name.substr(std::min(name.size() + 1, span.name.size()));
+    out["status"].push_back({{"name", name},
+                             {"from", span.from},
+                             {"to", span.to},
+                             {"reason", why.empty() ? json() : json(why)}});
     sentences.emplace_back(
         span.from, Format("%.3f s: ", span.from) + "the controller says " +
-                       Spaced(span.name) + Format(", until %.3f s.", span.to));
+                       Spaced(name) + Format(", until %.3f s", span.to) +
+                       SayWhy(why) + ".");
   }
   std::stable_sort(
       sentences.begin(), sentences.end(),

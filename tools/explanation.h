@@ -16,10 +16,13 @@ namespace poise {
 ///                below 20 ms are none), and when its multiplier was largest.
 ///     losses     [{name, from, to, at, amount, unit, because}]: while a row of
 ///                a task was not met, the worst of it, and the rows that pressed
-///                hardest at that time.
+///                at that time, hardest first. Sentences name five.
 ///     conflicts  [{at, rows: [{name, rank}]}]: rows that contradict each other,
 ///                none of which can be spared, where the log has them.
-///     status     [{name, from, to}]: where it was not "ok".
+///     status     [{name, from, to, reason}]: where it was not "ok"; reason as
+///                in docs/log.md, null where there is none.
+///     stance     [{foot, phase, from, to}]: the phases of each foot, in the
+///                order of time; see docs/log.md.
 ///     recovered, fell_at   from summary.json; null where there is none of this
 ///                log, and recovered where the run was interrupted.
 ///     notes      [sentence, ...]: that the log was cut, or is not the summary's.
@@ -28,9 +31,5 @@ namespace poise {
 /// Throws std::invalid_argument, naming the file, if there is no log, or it
 /// does not hold what the controller said.
 nlohmann::json Explain(const std::filesystem::path& run);
-
-/// What a row's name means: "left_foot.cop.y_max" is "the CoP of the left foot
-/// at its outer edge".
-std::string DescribeRow(const std::string& name);
 
 }  // namespace poise

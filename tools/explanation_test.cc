@@ -183,17 +183,93 @@ TEST(Explanation, RefusesWhatIsNoRun) {
   }
 }
 
-TEST(Explanation, NamesEdgesAsAPersonDoes) {
-  EXPECT_EQ(DescribeRow("right_foot.cop.y_max"),
-            "the CoP of the right foot at its inner edge");
-  EXPECT_EQ(DescribeRow("right_foot.cop.y_min"),
-            "the CoP of the right foot at its outer edge");
-  EXPECT_EQ(DescribeRow("left_foot.cop.x_min"),
-            "the CoP of the left foot at its rear edge");
-  EXPECT_EQ(DescribeRow("torque.l_knee.max"),
-            "the torque of l knee at its upper limit");
-  EXPECT_EQ(DescribeRow("joint.l_knee.min"),
-            "the angle of l knee at its lower limit");
+TEST(Explanation, SaysWhatTheFeetDid) {
+  const nlohmann::json said =
+      Explain(MakeRun("let_go",
+                      "time[s],status,active,left_foot.phase,right_foot.phase\n"
+                      "0,ok,,down,lost\n0.45,ok,,free,lost\n0.5,ok,,free,down\n"
+                      "1.65,ok,,returning,down\n2.1,ok,,loading,down\n"
+                      "2.4,ok,,down,unloading\n2.7,ok,,down,up\n",
+                      "{}"));
+  ASSERT_EQ(said["stance"].size(), 9u);
+  EXPECT_EQ(said["stance"][1],
+            nlohmann::json::parse(R"({"foot": "left_foot", "phase": "free",
+                                      "from": 0.45, "to": 0.5})"));
+  const std::vector<std::string> sentences = said["sentences"];
+  EXPECT_EQ(sentences,
+            (std::vector<std::string>{
+                "0.000 s: the right foot has lost the ground, for 0.5 s.",
+                "0.450 s: the left foot is let go, for 1.2 s.",
+                "0.500 s: the right foot is down again.",
+                "1.650 s: the left foot comes back, for 0.45 s.",
+                "2.100 s: the left foot has landed, and takes load, for 0.3 s.",
+                "2.400 s: the left foot is down again.",
+                "2.400 s: the right foot gives up its load, for 0.3 s.",
+                "2.700 s: the right foot is lifted.",
+                "How it ended is not recorded."}));
+}
+
+TEST(Explanation, SaysWhyATickFailedSafe) {
+  const nlohmann::json said = Explain(
+      MakeRun("froze",
+              "time[s],status,active,reason\n0,ok,,\n0.1,fail_safe,,clock\n"
+              "0.11,fail_safe,,clock\n0.5,fail_safe,,state\n"
+              "0.9,fail_safe,,no_answer\n1.3,limit_relaxed,,\n",
+              "{}"));
+  ASSERT_EQ(said["status"].size(), 4u);
+  EXPECT_EQ(said["status"][0]["name"], "fail_safe");
+  EXPECT_EQ(said["status"][0]["reason"], "clock");
+  EXPECT_EQ(said["status"][0]["to"], 0.11);
+  EXPECT_EQ(said["status"][3]["name"], "limit_relaxed");
+  EXPECT_TRUE(said["status"][3]["reason"].is_null());
+  EXPECT_EQ(said["sentences"][0],
+            "0.100 s: the controller says fail safe, until 0.110 s: the time "
+            "of the robot's state stands still.");
+  EXPECT_EQ(said["sentences"][1],
+            "0.500 s: the controller says fail safe, until 0.500 s: what it is "
+            "told of the robot cannot be.");
+  EXPECT_EQ(said["sentences"][2],
+            "0.900 s: the controller says fail safe, until 0.900 s: not even "
+            "the first rank was solved.");
+  EXPECT_EQ(said["sentences"][3],
+            "1.300 s: the controller says limit relaxed, until 1.300 s.");
+}
+
+// Dozens of joints at their limits are no explanation; nor is a rank how hard a
+// row presses.
+TEST(Explanation, NamesTheStrongestOfManyCauses) {
+  std::string active, conflict = "momentum.ly=4";
+  for (int i = 0; i < 42; ++i) {
+    const std::string row = "torque.j" + std::to_string(i);
+    active += row + ".max=" + std::to_string(i + 1) + ";";
+    conflict += ";" + row + "=2";
+  }
+  const std::string head = "time[s],status,active,lost,conflict\n0.1,ok,";
+  const std::string loss = ",momentum.ly=-12,";
+  std::vector<std::string> spoken;
+  for (const std::string& cell : {std::string(), conflict}) {
+    const nlohmann::json said = Explain(MakeRun(
+        "causes" + std::to_string(cell.size()),
+        head + active + "torque.late.min=0.5" + loss + cell + "\n", "{}"));
+    const nlohmann::json all = said["losses"][0]["because"];
+    EXPECT_EQ(all.size(), cell.empty() ? 43u : 42u);
+    EXPECT_EQ(all[0], "torque.j41.max");
+    EXPECT_EQ(all[41], "torque.j0.max");
+    spoken.push_back(said["sentences"][0]);
+    if (!cell.empty()) {
+      EXPECT_EQ(said["conflicts"][0]["rows"].size(), 43u);
+      const std::string text = said["sentences"][1];
+      EXPECT_NE(text.find("j8 (rank 2) and 33 more."), std::string::npos)
+          << text;
+    }
+  }
+  const std::string five =
+      "0.100 s: momentum.ly gave up 12 N (at 0.100 s), because of the torque "
+      "of j41 at its upper limit, the torque of j40 at its upper limit, the "
+      "torque of j39 at its upper limit, the torque of j38 at its upper limit, "
+      "the torque of j37 at its upper limit and ";
+  EXPECT_EQ(spoken[0], five + "38 more.");
+  EXPECT_EQ(spoken[1], five + "37 more.");
 }
 
 }  // namespace
