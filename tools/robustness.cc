@@ -4,10 +4,12 @@
 #include <deque>
 #include <future>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "robot/finding.h"
 #include "tools/command_line.h"
 #include "tools/trials.h"
 #include "tools/user_path.h"
@@ -34,6 +36,30 @@ bool RunAll(const std::vector<Trial>& trials) {
   return all_hold;
 }
 
+// Throws std::invalid_argument where there is none: no row is no success.
+std::vector<Trial> MakeTrials(const std::string& robots,
+                              const std::string& only) {
+  std::vector<std::string> skipped;
+  std::vector<Trial> trials =
+      robots.empty() ? RobustnessTrials()
+                     : RobotTrials(UserPath(robots), only, &skipped);
+  for (const std::string& line : skipped) {
+    std::cerr << "robustness: " << line << std::endl;
+  }
+  const auto is_left_out = [&only](const Trial& trial) {
+    return trial.what.find(only) == std::string::npos;
+  };
+  trials.erase(std::remove_if(trials.begin(), trials.end(), is_left_out),
+               trials.end());
+  if (!trials.empty()) return trials;
+  if (!skipped.empty()) {
+    throw std::invalid_argument(UserPath(robots).string() +
+                                ": has no robot with feet");
+  }
+  throw std::invalid_argument("--only is " + Quoted(only) +
+                              ", must be part of the name of a row");
+}
+
 int Main(int argc, char** argv) {
   CLI::App app(
       "Runs the humanoid with wrong masses, delays, noise, slippery ground, "
@@ -43,16 +69,11 @@ int Main(int argc, char** argv) {
       "robustness");
   std::string robots, only;
   app.add_option("--robots", robots,
-                 "a folder of URDF files: real robots, instead");
+                 "a folder of URDF files: these robots, instead; each with the "
+                 "profile NAME.yaml beside it, ours, or what is found");
   app.add_option("--only", only, "only rows whose name contains this");
   ParseCommandLine(argc, argv, &app);
-  std::vector<Trial> trials =
-      robots.empty() ? RobustnessTrials() : RobotTrials(UserPath(robots));
-  const auto is_left_out = [&only](const Trial& trial) {
-    return trial.what.find(only) == std::string::npos;
-  };
-  trials.erase(std::remove_if(trials.begin(), trials.end(), is_left_out),
-               trials.end());
+  const std::vector<Trial> trials = MakeTrials(robots, only);
   std::cout
       << "| what | `push` | it | CoM error, peak x, y, z [mm] | at the "
          "end [mm] | foot tilt [rad] | lean, peak and late [rad] | past "

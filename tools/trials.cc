@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <sstream>
+#include <stdexcept>
+#include <system_error>
 #include <utility>
 
+#include "robot/finding.h"
 #include "sim/closed_loop.h"
 #include "sim/observation.h"
 #include "sim/yardstick.h"
@@ -64,6 +67,58 @@ void AddRate(const std::string& rate, std::vector<Trial>* trials) {
            Bar::kRecovers));
 }
 
+// In alphabetical order.
+std::vector<std::filesystem::path> UrdfFiles(
+    const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    if (entry.path().extension() == ".urdf") {
+      files.push_back(std::filesystem::absolute(entry.path()));
+    }
+  }
+  if (files.empty()) {
+    throw std::invalid_argument(folder.string() +
+                                ": must be a folder of URDF files");
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// What a robot is called, and its profile; empty: it is to be found.
+std::pair<std::string, std::filesystem::path> NameAndProfile(
+    const std::filesystem::path& urdf) {
+  const std::pair<const char*, const char*> ours[] = {
+      {"talos_reduced", "talos"},   {"jvrc1", "jvrc1"},
+      {"icub_erd_reduced", "icub"}, {"hrp4c", "hrp4c"},
+      {"atlas", "atlas"},           {"booster_t1", "t1"},
+      {"draco3", "draco3"},         {"g1_29dof", "g1"}};
+  const std::string stem = urdf.stem().string();
+  const std::filesystem::path beside =
+      std::filesystem::path(urdf).replace_extension(".yaml");
+  if (std::filesystem::exists(beside)) return {stem, beside};
+  for (const auto& [name, profile] : ours) {
+    if (stem != name) continue;
+    return {profile, std::filesystem::absolute(std::string("robot/profiles/") +
+                                               profile + ".yaml")};
+  }
+  return {stem, {}};
+}
+
+// Throws where its robot cannot be had; says what doctor would warn of. A push
+// becomes as strong as its robot is to bear.
+void Aim(Trial* trial) {
+  const PushOptions read = Read(trial->options);
+  Warn(read);
+  if (read.scenario.pushes.empty()) return;
+  const PushOnRobot aimed(read.robot, read.scenario.pushes[0]);
+  const double takes =
+      ComputeYardstick(read.robot, read.robot.q_nominal, {0, 1},
+                       kRobotsPushTime, aimed.body(), aimed.p_BoQ_B())
+          .lipm_Ns;
+  trial->options[3] = std::to_string(kRobotsPush * takes / kRobotsPushTime);
+}
+
 bool Holds(Bar bar, const TrialResult& result) {
   const Verdict& verdict = result.verdict;
   if (bar == Bar::kFalls) return !verdict.recovered;
@@ -115,36 +170,35 @@ std::vector<Trial> RobustnessTrials() {
   return trials;
 }
 
-std::vector<Trial> RobotTrials(const std::filesystem::path& robots) {
-  const std::pair<const char*, const char*> known[] = {
-      {"talos_reduced", "talos"},   {"jvrc1", "jvrc1"},
-      {"icub_erd_reduced", "icub"}, {"hrp4c", "hrp4c"},
-      {"atlas", "atlas"},           {"booster_t1", "t1"},
-      {"draco3", "draco3"},         {"g1_29dof", "g1"}};
+std::vector<Trial> RobotTrials(const std::filesystem::path& robots,
+                               const std::string& only,
+                               std::vector<std::string>* skipped) {
   std::vector<Trial> trials;
-  for (const auto& [urdf, profile] : known) {
-    const std::filesystem::path file = robots / (std::string(urdf) + ".urdf");
-    if (!std::filesystem::exists(file)) continue;
-    const auto yaml = std::filesystem::absolute("robot/profiles/" +
-                                                std::string(profile) + ".yaml");
-    const std::vector<std::string> robot = {"--robot", file.string(),
-                                            "--profile", yaml.string()};
-    Trial stand = Make(profile + std::string(" stands"), "--scenario stand");
-    stand.options.insert(stand.options.end(), robot.begin(), robot.end());
-    trials.push_back(stand);
-
-    Trial push = Make(profile + std::string(", pushed"),
-                      "--scenario strong_push --force 1 --duration " +
-                          std::to_string(kRobotsPushTime));
-    push.options.insert(push.options.end(), robot.begin(), robot.end());
-    const PushOptions read = Read(push.options);
-    const PushOnRobot aimed(read.robot, read.scenario.pushes[0]);
-    const double takes =
-        ComputeYardstick(read.robot, read.robot.q_nominal, {0, 1},
-                         kRobotsPushTime, aimed.body(), aimed.p_BoQ_B())
-            .lipm_Ns;
-    push.options[3] = std::to_string(kRobotsPush * takes / kRobotsPushTime);
-    trials.push_back(push);
+  for (const std::filesystem::path& file : UrdfFiles(robots)) {
+    const auto [name, profile] = NameAndProfile(file);
+    std::vector<std::string> robot = {"--robot", file.string()};
+    if (!profile.empty()) {
+      robot.insert(robot.end(), {"--profile", profile.string()});
+    }
+    Trial stand = Make(name + " stands", "--scenario stand");
+    Trial push =
+        Make(name + ", pushed", "--scenario strong_push --force 1 --duration " +
+                                    std::to_string(kRobotsPushTime));
+    std::vector<Trial> both;
+    for (Trial* trial : {&stand, &push}) {
+      if (trial->what.find(only) == std::string::npos) continue;
+      trial->options.insert(trial->options.end(), robot.begin(), robot.end());
+      both.push_back(*trial);
+    }
+    if (both.empty()) continue;
+    try {
+      Aim(&both.back());
+    } catch (const std::invalid_argument& error) {
+      skipped->push_back(file.filename().string() +
+                         " is skipped: " + OneLine(error.what()));
+      continue;
+    }
+    trials.insert(trials.end(), both.begin(), both.end());
   }
   return trials;
 }

@@ -40,11 +40,18 @@ struct TrialResult {
 std::vector<Trial> RobustnessTrials();
 
 /// Robots that others have built: each stands off its equilibrium, and is pushed
-/// sideways by 40 % of what a pendulum on its feet takes.
+/// sideways by 40 % of what a pendulum on its feet takes. A robot has the profile
+/// of its name beside it, else ours of it, else what is found. What doctor warns
+/// of is said on stderr.
 ///
-/// @param robots  the folder of their URDF files. Robots that it does not have
-///                are left out.
-std::vector<Trial> RobotTrials(const std::filesystem::path& robots);
+/// @param robots  the folder of their URDF files.
+/// @param only    rows whose name contains this.
+/// @param skipped  "FILE is skipped: why", of those that cannot be simulated or
+///                 have no feet.
+/// Throws std::invalid_argument about a folder without URDF files.
+std::vector<Trial> RobotTrials(const std::filesystem::path& robots,
+                               const std::string& only,
+                               std::vector<std::string>* skipped);
 
 /// Throws as ReadPushOptions() and ClosedLoop.
 TrialResult Try(const Trial& trial);
