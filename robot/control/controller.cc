@@ -56,8 +56,18 @@ constexpr double kFailSafeDamping = 10;  // 1/s.
 // overflow.
 constexpr double kLargest = 1e6;  // m, rad, m/s, rad/s.
 
+// The norm of a quaternion is 1; rounding, of single precision too, and some steps
+// of integration are far below this. What is farther off is no orientation.
+constexpr double kQuaternionOff = 1e-3;
+
 bool IsBelievable(const Eigen::VectorXd& x) {
   return x.allFinite() && x.lpNorm<Eigen::Infinity>() < kLargest;
+}
+
+bool IsBelievable(const Tree& tree, const State& state) {
+  if (!IsBelievable(state.q) || !IsBelievable(state.v)) return false;
+  return !tree.is_floating() ||
+         std::abs(state.q.segment<4>(3).norm() - 1) < kQuaternionOff;
 }
 
 const Robot& Checked(const Robot& robot) {
@@ -162,7 +172,7 @@ void Controller::ComputeModel(const State& state) noexcept {
 }
 
 void Controller::Start(const State& state) noexcept {
-  ComputeModel(state);
+  if (IsBelievable(robot_.model.tree, state)) ComputeModel(state);
   for (ContactTick& contact : contacts_) contact.in_contact = true;
   const Pose X_WMid = MidFeet(contacts_);
   reference_.p_WG = X_WMid * p_MidG_;
@@ -298,8 +308,8 @@ bool Controller::IsUsable(const State& state) noexcept {
   if (moves) last_time_ = state.time;
   // Rounding: ten periods of 1 ms are 10 ms, and no more.
   const bool frozen = frozen_for_ > kFrozenAfter + 1e-9;
-  return !frozen && std::isfinite(state.time) && IsBelievable(state.q) &&
-         IsBelievable(state.v);
+  return !frozen && std::isfinite(state.time) &&
+         IsBelievable(robot_.model.tree, state);
 }
 
 void Controller::FailSafe(FailSafeReason reason, const State& state,
@@ -323,8 +333,9 @@ void Controller::LimitTorque(Command* command) noexcept {
   bool relaxed = false;
   for (Eigen::Index j = 0; j < command->tau.size(); ++j) {
     const double limit = scale * robot_.model.limits[j].effort;
-    if (!(limit > 0)) continue;  // The file gives none.
     double& tau = command->tau[j];
+    if (!std::isfinite(tau)) tau = 0;  // Whatever went wrong, no motor sees it.
+    if (!(limit > 0)) continue;        // The file gives none.
     relaxed |= std::abs(tau) > limit * (1 + kLimitSlack);
     tau = std::clamp(tau, -limit, limit);
   }

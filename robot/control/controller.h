@@ -68,7 +68,8 @@ class Controller {
                       const ControllerOptions& options = {});
 
   /// Makes reference() that of standing in the nominal posture on the feet
-  /// where they are in this state. Does not allocate.
+  /// where they are in this state; in the last good one, if this is none that
+  /// Update() would believe. Does not allocate.
   void Start(const State& state) noexcept;
 
   Reference& reference() { return reference_; }

@@ -50,6 +50,62 @@ TEST_F(FailSafeTest, FailsSafeOnANumberThatIsNone) {
   EXPECT_EQ(command_.status, TickStatus::kOk);
 }
 
+// No rotation has such a norm. What is done in that tick and in the next comes of
+// the last good one.
+TEST_F(FailSafeTest, FailsSafeOnAQuaternionThatIsNoRotation) {
+  Update();
+  const Eigen::Vector4d good = state_.q.segment<4>(3);
+  const auto fail_safe = [&](double norm, double rate) {
+    state_.q.segment<4>(3) = norm * good;
+    state_.v[20] = rate;
+    Update();
+    state_.q.segment<4>(3) = good;
+    state_.v[20] = 0;
+    EXPECT_EQ(command_.status, TickStatus::kFailSafe) << norm;
+    return command_.tau;
+  };
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::VectorXd held = fail_safe(1, none);
+  for (const double norm : {0.0, 1e-170, 1e-5, 0.998, 1.002, 2.0}) {
+    EXPECT_EQ(fail_safe(norm, 0), held) << norm;
+    EXPECT_EQ(fail_safe(1, none), held) << norm;
+  }
+  // As single precision rounds it.
+  state_.q.segment<4>(3) = (1 + 1e-6) * good;
+  Update();
+  EXPECT_EQ(command_.status, TickStatus::kOk);
+}
+
+TEST_F(FailSafeTest, StartsFromTheLastGoodStateWhereItIsToldNone) {
+  Update();
+  const Eigen::Vector3d p_WG = controller_.reference().p_WG;
+  State bad = state_;
+  bad.q.segment<4>(3).setZero();
+  controller_.Start(bad);
+  EXPECT_EQ(controller_.reference().p_WG, p_WG);
+  controller_.Update(bad, &command_);
+  EXPECT_EQ(command_.status, TickStatus::kFailSafe);
+  EXPECT_TRUE(command_.tau.allFinite());
+  Update();
+  EXPECT_EQ(command_.status, TickStatus::kOk);
+}
+
+// No limit cuts off the brakes of a joint as fast as this.
+TEST_F(FailSafeTest, AsksForNoTorqueThatIsNotFinite) {
+  const int n = tree().num_joints();
+  for (const double effort : {0.0, std::numeric_limits<double>::infinity()}) {
+    robot_.model.limits[0].effort = effort;
+    Controller controller(robot_);
+    controller.Start(state_);
+    state_.v.tail(n).setConstant(std::numeric_limits<double>::max());
+    controller.Update(state_, &command_);
+    EXPECT_EQ(command_.status, TickStatus::kFailSafe);
+    EXPECT_TRUE(command_.tau.allFinite()) << effort;
+    EXPECT_EQ(command_.tau[0], 0);
+    state_.v.setZero();
+  }
+}
+
 TEST_F(FailSafeTest, FailSafeHoldsTheRobotAgainstGravity) {
   Update();
   state_.q[10] = std::numeric_limits<double>::quiet_NaN();
