@@ -17,6 +17,7 @@ namespace {
 
 // A state whose time stamp stands still for longer than this is not believed.
 constexpr double kFrozenAfter = 0.010;  // s.
+constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 // Slack of a limit above this is reported; in its own scale, where 1 is the
 // limit.
@@ -121,8 +122,7 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
       hierarchy_(NumVariables(robot_), stack_.capacity()),
       solver_(NumVariables(robot_), stack_.capacity()),
       solution_(NumVariables(robot_), stack_.capacity()),
-      certifier_(NumVariables(robot_), stack_.capacity()),
-      last_time_(-std::numeric_limits<double>::infinity()) {
+      certifier_(NumVariables(robot_), stack_.capacity()) {
   if (!(options.dt > 0 && options.dt < 1)) {
     throw std::invalid_argument("control period is " +
                                 std::to_string(options.dt) +
@@ -190,6 +190,9 @@ void Controller::Start(const State& state) noexcept {
   correction_W_.setZero();
   unexpected_.setZero();
   expects_ = false;
+  last_time_ = kNever;
+  frozen_for_ = 0;
+  solver_.Forget();
 }
 
 void Controller::Update(const State& state, Command* command) noexcept {
@@ -303,7 +306,8 @@ void Controller::Compare(const State& state) noexcept {
 }
 
 bool Controller::IsUsable(const State& state) noexcept {
-  const bool moves = state.time > last_time_;
+  // Back, or far ahead, is a clock that was set; no clock shows what is no number.
+  const bool moves = std::isfinite(state.time) && state.time != last_time_;
   frozen_for_ = moves ? 0 : frozen_for_ + options_.dt;
   if (moves) last_time_ = state.time;
   // Rounding: ten periods of 1 ms are 10 ms, and no more.

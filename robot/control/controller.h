@@ -69,7 +69,8 @@ class Controller {
 
   /// Makes reference() that of standing in the nominal posture on the feet
   /// where they are in this state; in the last good one, if this is none that
-  /// Update() would believe. Does not allocate.
+  /// Update() would believe. Of what was before only what stack() and stance()
+  /// were told is left, so a run is repeated to the bit. Does not allocate.
   void Start(const State& state) noexcept;
 
   Reference& reference() { return reference_; }
@@ -122,7 +123,7 @@ class Controller {
 
   Pose X_MidB_;             ///< Nominal base, in the mid-feet frame.
   Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.
-  double last_time_;        ///< Of the last state, s.
+  double last_time_;        ///< Of the last state whose stamp is finite, s.
   Eigen::Vector3d correction_W_ = Eigen::Vector3d::Zero();
   double capture_ = 0;          // See TaskInput,
   Eigen::VectorXd unexpected_;  // this too.

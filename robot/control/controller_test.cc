@@ -91,6 +91,31 @@ TEST_F(ControllerTest, SaysTheSameTwiceToTheBit) {
   }
 }
 
+TEST_F(ControllerTest, ReplaysToTheBitAfterItIsStartedAnew) {
+  const State start = state_;
+  const auto run = [&] {
+    state_ = start;
+    controller_.Start(state_);
+    Eigen::MatrixXd tau(tree().num_joints(), 60);
+    for (int i = 0; i < tau.cols(); ++i) {
+      // A shove that many rows meet, until a foot is let go.
+      state_.v.segment<3>(3) << 0.005 * i, 0.01 * i, 0;
+      Update();
+      tau.col(i) = command_.tau;
+    }
+    return tau;
+  };
+  const Eigen::MatrixXd first = run();
+  EXPECT_EQ(controller_.stance().phase(1), ContactPhase::kFree);
+  controller_.stance().Lift(1, 0.05);
+  state_.v.segment<3>(3) << -0.3, 0.2, 0.1;
+  for (int i = 0; i < 20; ++i) Update();
+  const Eigen::MatrixXd second = run();
+  for (int i = 0; i < first.cols(); ++i) {
+    ASSERT_EQ(second.col(i), first.col(i)) << i;
+  }
+}
+
 TEST_F(ControllerTest, StartsFromWhereItIs) {
   ControllerOptions options;
   options.frames = {"l_hand"};

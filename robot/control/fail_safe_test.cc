@@ -180,6 +180,40 @@ TEST_F(FailSafeTest, FailsSafeWhileTheClockOfTheStateStandsStill) {
   EXPECT_EQ(Reason(), FailSafeReason::kNone);
 }
 
+TEST_F(FailSafeTest, StartsItsClockAnew) {
+  for (int i = 0; i < 100; ++i) Update();
+  for (int i = 0; i < 20; ++i) controller_.Update(state_, &command_);
+  ASSERT_EQ(command_.status, TickStatus::kFailSafe);
+  state_.time = 0;
+  controller_.Start(state_);
+  for (int i = 0; i < 50; ++i) {
+    Update();
+    ASSERT_EQ(command_.status, TickStatus::kOk) << i;
+  }
+}
+
+// A clock that is set, or one wrong stamp, costs no tick; one that is no number
+// costs its own. Afterwards a clock that stands still is seen as before.
+TEST_F(FailSafeTest, GoesOnAfterAStampThatJumps) {
+  Update();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double wrong : {3600.0, -3600.0, infinity, -infinity, none}) {
+    State stamped = state_;
+    stamped.time = wrong;
+    controller_.Update(stamped, &command_);
+    EXPECT_EQ(command_.status == TickStatus::kFailSafe, !std::isfinite(wrong));
+    for (int i = 0; i < 30; ++i) {
+      Update();
+      ASSERT_EQ(command_.status, TickStatus::kOk) << wrong << ", " << i;
+    }
+    for (int i = 1; i <= 12; ++i) {
+      controller_.Update(state_, &command_);
+      ASSERT_EQ(command_.status == TickStatus::kFailSafe, i > 10) << i;
+    }
+  }
+}
+
 TEST_F(FailSafeTest, FailsSafeWhereTheDynamicsWouldOverflow) {
   Update();
   state_.v.setConstant(1e200);
