@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 namespace poise {
 namespace {
@@ -12,6 +13,24 @@ constexpr double kLeastForce = 5;  // N.
 
 // A clock that jumps by more than this has lost its measurements between.
 constexpr double kLongestStep = 0.05;  // s.
+
+// More than this is no measurement: what follows would overflow.
+constexpr double kLargest = 1e6;  // rad, rad/s, m/s2.
+
+bool IsBelievable(const Eigen::Ref<const Eigen::MatrixXd>& x) {
+  return x.allFinite() && x.lpNorm<Eigen::Infinity>() < kLargest;
+}
+
+// Whether all that the base follows from is there. A foot whose force is not finite
+// is one that says nothing.
+bool IsBelievable(const Measurement& measurement) {
+  return std::isfinite(measurement.time) &&
+         IsBelievable(measurement.R_WB_imu) &&
+         IsBelievable(measurement.w_WB_B) &&
+         IsBelievable(measurement.specific_force_Bo_B) &&
+         IsBelievable(measurement.q_joints) &&
+         IsBelievable(measurement.v_joints);
+}
 
 std::vector<int> FootFrames(const Robot& robot) {
   std::vector<int> frames;
@@ -58,6 +77,8 @@ void Estimator::Start(const Measurement& measurement) {
   p_WB_ = measurement.X_WB.p;
   v_WB_ = measurement.V_WB_W.tail<3>();
   time_ = measurement.time;
+  q_base_ << p_WB_, state.q.segment<4>(3);
+  v_base_ << state.v.head<3>(), v_WB_;
   for (FootState& foot : feet_) {
     foot.in_contact = true;
     foot.p_WC = p_WB_ + foot.p_BC_W;
@@ -65,6 +86,12 @@ void Estimator::Start(const Measurement& measurement) {
 }
 
 void Estimator::Update(const Measurement& measurement, State* state) noexcept {
+  if (!IsBelievable(measurement)) {
+    state->time = time_;
+    state->q << q_base_, measurement.q_joints;
+    state->v << v_base_, measurement.v_joints;
+    return;
+  }
   ComputeFeet(measurement, state);
   const double dt = std::clamp(measurement.time - time_, 0.0, kLongestStep);
   time_ = measurement.time;
@@ -107,6 +134,8 @@ void Estimator::Update(const Measurement& measurement, State* state) noexcept {
   state->time = measurement.time;
   state->q.head<3>() = p_WB_;
   state->v.segment<3>(3) = v_WB_;
+  q_base_ = state->q.head<7>();
+  v_base_ = state->v.head<6>();
 }
 
 }  // namespace poise

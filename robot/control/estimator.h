@@ -20,6 +20,13 @@ namespace poise {
 /// the velocity between, and through a flight, as
 ///     v+ = v + dt (R_WB f + g),  then  v+ += dt / tau (v_legs - v+).
 /// The heading is as good as that of the inertial unit.
+///
+/// A measurement is left out whole where its stamp, its inertial unit or a joint is
+/// not finite, or beyond 1e6: base and stamp stay those of the last one that was
+/// used, joints are passed on as they are, and the next measurement bridges the
+/// gap. So the controller fails safe on a joint that is no number at once, and on
+/// a base of which nothing is heard as on any clock that stands still. A foot whose
+/// force is not finite counts as unloaded.
 class Estimator {
  public:
   /// @param velocity_time  tau, s: smaller trusts the legs, larger the
@@ -27,7 +34,7 @@ class Estimator {
   explicit Estimator(const Robot& robot, double velocity_time = 0.01);
 
   /// Begins where the base is known to be: X_WB and V_WB_W of the measurement
-  /// are believed once, here, and never after.
+  /// are believed once, here, and never after. pre: all of it is finite.
   void Start(const Measurement& measurement);
 
   /// Fills state from a measurement; does not read its X_WB and V_WB_W.
@@ -50,6 +57,9 @@ class Estimator {
   std::vector<FootState> feet_;
   Eigen::Vector3d p_WB_;
   Eigen::Vector3d v_WB_;
+  Eigen::Matrix<double, 7, 1>
+      q_base_;  // Of the last measurement that was used.
+  Eigen::Matrix<double, 6, 1> v_base_;
   double time_ = 0;
 };
 

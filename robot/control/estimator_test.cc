@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 #include "dynamics/integrate.h"
 #include "math/so3.h"
@@ -158,6 +159,94 @@ TEST_F(EstimatorTest, DoesNotFallThroughAGapInItsMeasurements) {
   estimator.Update(measurement_, &state);
   EXPECT_NEAR(state.v[5], -9.81 * 0.05, 1e-9);
   EXPECT_NEAR(state.v[3], 0.3, 1e-9);
+}
+
+// One sample that is no number costs its own tick: the base stays, with its stamp,
+// and the next one says what was missed. The joints are not the estimator's.
+TEST_F(EstimatorTest, LeavesAMeasurementOutThatIsNotFinite) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {none, infinity, -infinity, 1e300}) {
+    for (double* sensor :
+         {&measurement_.specific_force_Bo_B[1], &measurement_.w_WB_B[0],
+          &measurement_.R_WB_imu(2, 1), &measurement_.time,
+          &measurement_.q_joints[left_ankle_],
+          &measurement_.v_joints[left_ankle_],
+          &measurement_.q_joints[right_ankle_]}) {
+      SCOPED_TRACE(bad);
+      // A clock may be set to any time.
+      if (sensor == &measurement_.time && std::isfinite(bad)) continue;
+      Estimator estimator(robot_);
+      MeasureAt(0);
+      estimator.Start(measurement_);
+      State state{0, Eigen::VectorXd(n_ + 7), Eigen::VectorXd(n_ + 6)};
+      State last = state;
+      for (int i = 1; i <= 60; ++i) {
+        MeasureAt(1e-3 * i);
+        if (i == 30) *sensor = bad;
+        estimator.Update(measurement_, &state);
+        if (i == 30) {
+          EXPECT_EQ(state.time, last.time);
+          EXPECT_EQ(state.q.head<7>(), last.q.head<7>());
+          EXPECT_EQ(state.v.head<6>(), last.v.head<6>());
+          // What is not finite is passed on: the controller must know.
+          EXPECT_EQ(state.q.tail(n_).allFinite(),
+                    measurement_.q_joints.allFinite());
+          EXPECT_EQ(state.v.tail(n_).allFinite(),
+                    measurement_.v_joints.allFinite());
+          measurement_.q_joints[right_ankle_] =
+              robot_.q_nominal[7 + right_ankle_];
+          continue;
+        }
+        ASSERT_LT((state.q.head<3>() - measurement_.X_WB.p).norm(), 1e-9) << i;
+        ASSERT_LT((state.v.head<6>() - measurement_.V_WB_W).norm(), 2e-3) << i;
+        last = state;
+      }
+    }
+  }
+}
+
+// In flight, where only the accelerometer speaks: nothing of the fall is missed.
+TEST_F(EstimatorTest, FallsOnThroughAMeasurementThatIsNotFinite) {
+  Estimator estimator(robot_);
+  MeasureAt(0);
+  measurement_.V_WB_W.setZero();
+  for (FootMeasurement& foot : measurement_.feet) foot.in_contact = false;
+  estimator.Start(measurement_);
+  State state{0, Eigen::VectorXd(n_ + 7), Eigen::VectorXd(n_ + 6)};
+  for (int i = 1; i <= 100; ++i) {
+    measurement_.time = 1e-3 * i;
+    measurement_.specific_force_Bo_B.setConstant(
+        i % 3 == 1 ? std::numeric_limits<double>::quiet_NaN() : 0);
+    if (i == 100) measurement_.specific_force_Bo_B.setZero();
+    estimator.Update(measurement_, &state);
+  }
+  EXPECT_NEAR(state.v[5], -0.981, 1e-9);
+}
+
+// A foot whose force is unknown says nothing; the other one goes on.
+TEST_F(EstimatorTest, StandsOnTheOtherFootWhereAForceIsNotFinite) {
+  Estimator estimator(robot_);
+  MeasureAt(0);
+  measurement_.v_joints.setZero();
+  measurement_.w_WB_B.setZero();
+  measurement_.V_WB_W.setZero();
+  measurement_.specific_force_Bo_B =
+      -measurement_.R_WB_imu.transpose() * robot_.model.tree.gravity_W();
+  measurement_.feet[1] = measurement_.feet[0];
+  estimator.Start(measurement_);
+  const Eigen::Vector3d there = measurement_.X_WB.p;
+  State state{0, Eigen::VectorXd(n_ + 7), Eigen::VectorXd(n_ + 6)};
+  for (int i = 1; i <= 100; ++i) {
+    measurement_.time = 1e-3 * i;
+    const bool unknown = i > 20 && i <= 50;
+    measurement_.feet[1].F_Co_C[5] =
+        unknown ? std::numeric_limits<double>::quiet_NaN() : 190;
+    estimator.Update(measurement_, &state);
+    ASSERT_EQ(state.time, measurement_.time);
+    ASSERT_LT((state.q.head<3>() - there).norm(), 1e-9) << i;
+    ASSERT_LT(state.v.head<6>().norm(), 1e-9) << i;
+  }
 }
 
 TEST_F(EstimatorTest, DoesNotAllocate) {
