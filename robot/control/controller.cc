@@ -9,6 +9,7 @@
 #include "math/so3.h"
 #include "robot/control/default_stack.h"
 #include "robot/control/fail_safe.h"
+#include "robot/control/tasks/scale.h"
 #include "robot/control/torque.h"
 #include "robot/finding.h"
 
@@ -22,6 +23,10 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 // Slack of a limit above this is reported; in its own scale, where 1 is the
 // limit.
 constexpr double kLimitSlack = 1e-6;
+
+// A motion that misses the dynamics by more than this is none of this robot; of
+// what the dynamics are added up from, or as rows of forces are scaled.
+constexpr double kDynamicsMet = 1e-9;
 
 // The momentum follows its reference where it is met to this, m/s2.
 constexpr double kFollowing = 0.05;
@@ -113,6 +118,7 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
       options_(options),
       weight_(robot_.model.tree.total_mass() *
               robot_.model.tree.gravity_W().norm()),
+      force_scale_(ForceScale(robot_.model.tree)),
       stack_(MakeDefaultStack(robot_, options.frames)),
       momentum_(*stack_.Find("momentum")),
       momentum_task_(static_cast<const MomentumTask&>(stack_.task(momentum_))),
@@ -220,7 +226,10 @@ void Controller::Update(const State& state, Command* command) noexcept {
 
   const bool is_truncated =
       solved == Status::kIterationLimit && report_.failed_rank > 1;
-  if (solved != Status::kOptimal && !is_truncated) {
+  report_.dynamics_residual =
+      DynamicsResidual(tick_, contacts_, solution_.y, force_scale_);
+  const bool is_possible = report_.dynamics_residual <= kDynamicsMet;
+  if ((solved != Status::kOptimal && !is_truncated) || !is_possible) {
     FailSafe(FailSafeReason::kNoAnswer, state, command);
     return;
   }

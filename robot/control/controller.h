@@ -106,7 +106,8 @@ class Controller {
 
   Robot robot_;
   ControllerOptions options_;
-  double weight_;  ///< Of the robot, N.
+  double weight_;       ///< Of the robot, N.
+  double force_scale_;  ///< Of rows in forces, N.
   Reference reference_;
   Stack stack_;
   int momentum_;  ///< Index into the stack's tasks.

@@ -12,6 +12,7 @@
 #include "robot/control/bolted_down_fixture.h"
 #include "robot/control/controller.h"
 #include "robot/control/controller_fixture.h"
+#include "robot/control/torque.h"
 
 namespace poise {
 namespace {
@@ -256,6 +257,74 @@ TEST_F(FailSafeTest, StopsWhereItsTimeIsSpent) {
   EXPECT_LE(hasty.report().iterations, 2);
   EXPECT_TRUE(command_.tau.allFinite());
   ExpectInsideLimits();
+}
+
+// Torques of a motion that the robot cannot make are worse than none. It is held
+// instead, and goes on where the dynamics are met again.
+TEST_F(FailSafeTest, FailsSafeWhereTheDynamicsAreNotMet) {
+  Update();
+  ASSERT_EQ(command_.status, TickStatus::kOk);
+  EXPECT_LT(controller_.report().dynamics_residual, 1e-9);
+  State bad = state_;
+  bad.q[10] = std::numeric_limits<double>::quiet_NaN();
+  bad.time += 1e-3;
+  controller_.Update(bad, &command_);
+  const Eigen::VectorXd held = command_.tau;
+  Stack& stack = controller_.stack();
+  const auto expect_held = [&] {
+    for (int i = 0; i < 3; ++i) {
+      Update();
+      EXPECT_EQ(command_.status, TickStatus::kFailSafe);
+      EXPECT_GT(controller_.report().dynamics_residual, 1e-6);
+    }
+  };
+  ASSERT_TRUE(stack.Enable("newton_euler", false));
+  expect_held();
+  EXPECT_EQ(command_.tau, held);
+  ASSERT_TRUE(stack.Enable("newton_euler", true));
+  Update();
+  EXPECT_EQ(command_.status, TickStatus::kOk);
+  EXPECT_LT(controller_.report().dynamics_residual, 1e-9);
+
+  // Contacts and limits above it that it cannot be met in.
+  ASSERT_TRUE(stack.SetParameter("torque_limits", "scale", 0.05));
+  ASSERT_TRUE(stack.SetRank("torque_limits", 1));
+  ASSERT_TRUE(stack.SetRank("newton_euler", 4));
+  expect_held();
+  ExpectInsideLimits();
+  // Above them again: the contacts give, it sinks as the limits have it.
+  ASSERT_TRUE(stack.SetRank("newton_euler", 1));
+  ASSERT_TRUE(stack.SetRank("torque_limits", 2));
+  Update();
+  EXPECT_EQ(command_.status, TickStatus::kOk);
+  EXPECT_LT(controller_.report().dynamics_residual, 1e-9);
+}
+
+// Of all that it is added up from, and of no less than what rows are scaled by.
+TEST_F(FailSafeTest, TellsWhatTheDynamicsAreOffBy) {
+  Update();
+  const Tick& tick = controller_.tick();
+  const auto& contacts = controller_.contacts();
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(controller_.report().y.size());
+  const auto residual = [&](double scale) {
+    return DynamicsResidual(tick, contacts, y, scale);
+  };
+  const double all = tick.N.head<6>().lpNorm<1>();
+  EXPECT_DOUBLE_EQ(residual(0), 1);
+  EXPECT_DOUBLE_EQ(residual(2 * all), 0.5);
+  y = controller_.report().y;
+  EXPECT_LT(residual(0), 1e-12);
+  // N, of the left foot: that, and its moments about the base.
+  y[tree().nv() + 5] += 1e-3;
+  const double off = contacts[0].J_WC_C.row(5).head<6>().lpNorm<1>() * 1e-3;
+  EXPECT_NEAR(residual(10 * all), off / (10 * all), 1e-12);
+  // An acceleration, of the base.
+  y = controller_.report().y;
+  y[4] += 1e-3;
+  EXPECT_NEAR(residual(10 * all),
+              tick.M.col(4).head<6>().lpNorm<1>() * 1e-4 / all, 1e-12);
+  y[4] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(residual(all) <= 1);
 }
 
 TEST_F(FailSafeTest, FailsSafeWhereNotEvenTheFirstRankIsSolved) {

@@ -40,7 +40,7 @@ enum class FailSafeReason {
   kNone,      ///< It did not.
   kState,     ///< The state is not to be believed.
   kClock,     ///< The state's time stamp stands still.
-  kNoAnswer,  ///< Not even the first rank was solved.
+  kNoAnswer,  ///< Not even the first rank was solved, or against the dynamics.
 };
 
 /// What the controller can say of its last tick. Of fixed size: filling it does
@@ -51,7 +51,9 @@ struct TickReport {
   Status solver_status = Status::kOptimal;
   int failed_rank = 0;  ///< The rank that was not solved; 0 if all were.
   int iterations = 0;   ///< Of the solver.
-  Eigen::VectorXd y;    ///< [v̇; λ], λ by foot, about and in the axes of C.
+  /// DynamicsResidual() of y; above 1e-9 the tick fails safe.
+  double dynamics_residual = 0;
+  Eigen::VectorXd y;  ///< [v̇; λ], λ by foot, about and in the axes of C.
   std::vector<TaskReport> tasks;  ///< By task of the stack.
   std::vector<ActiveRow> active;  ///< Its capacity is the number of all rows.
   /// Rows above the last rank that could not be met; the last one never is.

@@ -18,4 +18,15 @@ namespace poise {
 void ComputeTorque(const Tick& tick, const std::vector<ContactTick>& contacts,
                    const Eigen::VectorXd& y, Eigen::VectorXd* tau) noexcept;
 
+/// What a solution leaves of the rows of the dynamics that no motor acts on, (9):
+/// summed over them,
+///     | M_l v̇ + N_l - J_{c,l}' lambda |,
+/// relative to the sum of the moduli of all its terms, or to `scale` where that is
+/// more. Where it is more than rounding, the torques of ComputeTorque() are those
+/// of a motion that the robot cannot make. No number, if y is none. Does not
+/// allocate.
+double DynamicsResidual(const Tick& tick,
+                        const std::vector<ContactTick>& contacts,
+                        const Eigen::VectorXd& y, double scale) noexcept;
+
 }  // namespace poise
