@@ -34,16 +34,19 @@ void JointLimitsTask::Write(const TaskInput& input, EqualityBlock*,
   for (int j = 0; j < static_cast<int>(lower_.size()); ++j) {
     const double q = input.state.q[q_start_ + j];
     const double v = input.state.v[v_start_ + j];
-    const double lower = std::max(w * w * (lower_[j] + margin_ - q) - 2 * w * v,
-                                  w * (-velocity_[j] - v));
-    const double upper = std::min(w * w * (upper_[j] - margin_ - q) - 2 * w * v,
-                                  w * (velocity_[j] - v));
+    double lower = w * w * (lower_[j] + margin_ - q) - 2 * w * v;
+    double upper = w * w * (upper_[j] - margin_ - q) - 2 * w * v;
+    // A range that is narrower than its margins: to its middle.
+    if (lower > upper) lower = upper = (lower + upper) / 2;
     const double unexpected = input.unexpected[v_start_ + j];
     inequalities->C(j, v_start_ + j) = scale;
-    // Where the two ends contradict each other, the nearer limit wins.
+    // Clamped, and not the larger and the smaller one: where the limits contradict
+    // each other, that of the position wins, on either side.
     inequalities->lower[j] =
-        scale * (std::min(lower, std::max(upper, lower)) - unexpected);
-    inequalities->upper[j] = scale * (std::max(upper, lower) - unexpected);
+        scale *
+        (std::clamp(w * (-velocity_[j] - v), lower, upper) - unexpected);
+    inequalities->upper[j] =
+        scale * (std::clamp(w * (velocity_[j] - v), lower, upper) - unexpected);
   }
 }
 

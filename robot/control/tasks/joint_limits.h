@@ -13,6 +13,8 @@ namespace poise {
 /// along which it comes to rest at the limit, critically damped; and inside its
 /// velocity limits, which are approached as exp(-w t):
 ///     w (-q̇_max - q̇) <= q̈ <= w (q̇_max - q̇).
+/// Where these contradict each other, far beyond a position limit or fast towards
+/// it, the position wins; a range narrower than its margins shrinks to its middle.
 /// A joint whose file has no velocity limit, as a finger that mimics another, is
 /// taken to have kAssumedVelocity: were its acceleration free, a few milligrams
 /// would buy the momentum that the feet cannot give with 1e6 rad/s².

@@ -69,6 +69,48 @@ TEST_F(TaskTest, JointLimitsHoldTheSpeed) {
   EXPECT_LT(Write(task).lower(0)[j], 0);
 }
 
+// Left and right are the same, beyond the limits too, where what brings a joint
+// back contradicts its speed limit.
+TEST_F(TaskTest, JointLimitsAreTheSameForAMirroredState) {
+  const int j = *tree_.FindJoint("l_elbow");
+  constexpr double kSpeed = 8;
+  // The latter is narrower than its margins.
+  for (const double limit : {1.0, 0.004}) {
+    robot_.model.limits[j] = {-limit, limit, kSpeed, 10};
+    const JointLimitsTask task(robot_.model);
+    const auto bounds = [&](double side, double q, double v) {
+      state_.q[7 + j] = side * q;
+      state_.v[6 + j] = side * v;
+      unexpected_[6 + j] = side * 20;
+      const Hierarchy& rows = Write(task);
+      const double low = rows.lower(0)[j], high = rows.upper(0)[j];
+      EXPECT_LE(low, high) << q << ", " << v;
+      return side > 0 ? std::pair(low, high) : std::pair(-high, -low);
+    };
+    for (const double beyond : {-0.3, 0.0, 0.05, 0.3, 0.6}) {
+      for (const double v : {-20.0, -8.0, -1.0, 0.0, 1.0, 8.0, 20.0}) {
+        EXPECT_EQ(bounds(1, limit + beyond, v), bounds(-1, limit + beyond, v))
+            << beyond << ", " << v;
+      }
+    }
+  }
+}
+
+// Back from beyond a limit, at rest: as its position asks, whatever the speed
+// limit would leave it.
+TEST_F(TaskTest, JointLimitsBringAJointBackFromBeyond) {
+  const int j = *tree_.FindJoint("l_elbow");
+  robot_.model.limits[j] = {-1, 1, 8, 10};
+  const JointLimitsTask task(robot_.model);
+  state_.v[6 + j] = 0;
+  for (const double beyond : {0.05, 0.3, 0.6}) {
+    state_.q[7 + j] = 1 + beyond;
+    EXPECT_NEAR(Write(task).upper(0)[j], -beyond - 0.008, 1e-12);
+    state_.q[7 + j] = -1 - beyond;
+    EXPECT_NEAR(Write(task).lower(0)[j], beyond + 0.008, 1e-12);
+  }
+}
+
 // A finger of 2 mg without <limit> was flung off to make up for a push.
 TEST_F(TaskTest, JointLimitsHoldAJointOfWhichNoneIsKnown) {
   const int j = *tree_.FindJoint("l_elbow");
