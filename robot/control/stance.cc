@@ -109,14 +109,24 @@ bool Stance::flies() const noexcept {
                       [](const FootState& foot) { return Bears(foot.phase); });
 }
 
+// Whether its way ends on the ground.
+bool Stance::Lands(const FootState& foot) noexcept { return foot.to < 0; }
+
 void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {
   foot->phase = phase;
   foot->since = 0;
   foot->has_flown = false;
 }
 
+// In the tick in which a foot is let go, it is still where it was.
+void Stance::CallBack(FootState* foot) noexcept {
+  if (foot->phase != ContactPhase::kFree) return;
+  Enter(foot, foot->since > 0 ? ContactPhase::kReturning : ContactPhase::kDown);
+}
+
 void Stance::Lift(int i, double height) noexcept {
   FootState& foot = feet_[i];
+  CallBack(&foot);
   switch (foot.phase) {
     case ContactPhase::kDown:
     case ContactPhase::kLoading:
@@ -125,6 +135,11 @@ void Stance::Lift(int i, double height) noexcept {
       foot.to = height;
       return;
     case ContactPhase::kUnloading:
+      foot.to = height;
+      return;
+    case ContactPhase::kReturning:
+      // Anew, from where it is now.
+      Enter(&foot, ContactPhase::kReturning);
       foot.to = height;
       return;
     default: {
@@ -145,9 +160,10 @@ void Stance::LetGo(int i) noexcept { Enter(&feet_[i], ContactPhase::kFree); }
 void Stance::PutDown(int i) noexcept {
   FootState& foot = feet_[i];
   if (foot.phase == ContactPhase::kFree) {
-    // In the tick in which it is let go, it is still where it was.
-    Enter(&foot,
-          foot.since > 0 ? ContactPhase::kReturning : ContactPhase::kDown);
+    CallBack(&foot);
+    foot.to = -kReach;
+  } else if (foot.phase == ContactPhase::kReturning) {
+    if (!Lands(foot)) Lift(i, -kReach);
   } else if (foot.phase == ContactPhase::kUnloading) {
     Enter(&foot, ContactPhase::kLoading);
     foot.force = weight_;
@@ -172,14 +188,15 @@ void Stance::TakeOff(FootState* foot, const ContactTick& contact,
 }
 
 // From where it was when it was called back, and as it moved there, to where it
-// took off: x = s X + (1 - s) t V. It is over its place, its sole flat, some time
-// before it is down there.
+// took off, on the ground or at a height above: x = s X + (1 - s) t V. It is over
+// its place, its sole flat, some time before it is down there.
 void Stance::Return(const FootState& foot,
                     FrameReference* target) const noexcept {
   Vector6d whole;
   whole << LogSo3(foot.X_WC.R * foot.X_WC_away.R.transpose()),
       foot.X_WC.p - foot.X_WC_away.p;
-  whole[5] -= kReach;
+  const double fall = foot.X_WC_away.p.z() - foot.X_WC.p.z() + kReach;
+  whole[5] += foot.to;
   Vector6d moved;
   for (int i = 0; i < 6; ++i) {
     const double time = i < 5 ? kThereAfter * return_time : return_time;
@@ -188,7 +205,7 @@ void Stance::Return(const FootState& foot,
     const double rate = s.rate / time;
     const double acceleration = s.acceleration / (time * time);
     // Falling faster than this, it would be on the ground before it is there.
-    const double fastest = i < 5 ? kInfinity : -whole[5] / return_time;
+    const double fastest = i < 5 ? kInfinity : fall / return_time;
     const double v = std::max(foot.V_WC_away[i], -fastest);
     moved[i] = s.value * whole[i] + (1 - s.value) * t * v;
     target->V_WF_W[i] = rate * whole[i] + (1 - s.value - rate * t) * v;
@@ -248,7 +265,12 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
     case ContactPhase::kLost:
     case ContactPhase::kLanding:
     case ContactPhase::kReturning:
-      if (foot.has_flown) {
+      if (!Lands(foot)) {
+        if (foot.since > return_time) {
+          foot.from = foot.to;
+          Enter(&foot, ContactPhase::kUp);
+        }
+      } else if (foot.has_flown) {
         // Who lands needs all of its feet at once, and as they are.
         if (HasLanded(LowestCorner(foot, contact, reference.ground_z))) {
           Enter(&foot, ContactPhase::kDown);

@@ -19,7 +19,7 @@ enum class ContactPhase {
   kLoading,    ///< In contact; its force fades in, then it is down.
   kLost,       ///< Meant to be in contact, but the ground is not there.
   kFree,       ///< In the air, where the body moves it.
-  kReturning,  ///< In the air, on its way back to where it took off.
+  kReturning,  ///< In the air, on its way back to where it took off, or above.
 };
 
 /// Decides which feet are in contact: on command, a foot's force fades out
@@ -46,7 +46,8 @@ class Stance {
   void Reset() noexcept;
 
   /// Fades the force of a foot out and then lifts it by height, m; where it is
-  /// in the air already, brings it to that height.
+  /// in the air already, brings it to that height; where it was let go, from where
+  /// it is now to that height over its place.
   void Lift(int foot, double height) noexcept;
 
   /// Puts a foot down where it is, or was before it was let go.
@@ -94,6 +95,8 @@ class Stance {
   bool HasLeft(const Clearance& lowest) const noexcept;
   bool HasLanded(const Clearance& sole) const noexcept;
   bool flies() const noexcept;
+  static bool Lands(const FootState& foot) noexcept;
+  void CallBack(FootState* foot) noexcept;
   void ChangePhase(double dt, const ContactTick& contact,
                    const Reference& reference, FootState* foot) noexcept;
   double MaxNormalForce(double normal_force, FootState* foot) const noexcept;

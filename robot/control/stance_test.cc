@@ -276,6 +276,102 @@ TEST_F(StanceTest, BringsAFootBackFromTheTurnThatItHas) {
             1e-6);
 }
 
+// Of a foot that is let go nothing is told but where it is: there its way begins,
+// with the speed that it has, and ends upright over where it took off.
+TEST_F(StanceTest, LiftsAFootThatWasLetGoFromWhereItIs) {
+  const FrameReference& target = reference_.feet[0];
+  const Pose away{ExpSo3(Vector3d(0.4, -0.2, 0.1)), Vector3d(0.9, 2.3, 0.1)};
+  const Vector3d v_W(0.2, -0.5, -0.15);
+  for (const bool returning : {false, true}) {
+    SCOPED_TRACE(returning);
+    stance_.Reset();
+    contacts_[0].X_WC = {Eigen::Matrix3d::Identity(), Vector3d(1, 2, 0)};
+    contacts_[0].V_WC_C.setZero();
+    stance_.LetGo(0);
+    Update();
+    contacts_[0].X_WC = away;
+    contacts_[0].V_WC_C.tail<3>() = away.R.transpose() * v_W;
+    if (returning) {
+      stance_.PutDown(0);
+      for (int i = 0; i < 100; ++i) Update();
+      ASSERT_EQ(stance_.phase(0), ContactPhase::kReturning);
+    }
+    stance_.Lift(0, 0.05);
+    EXPECT_FALSE(stance_.is_meant_down(0));
+    Update();
+    EXPECT_FALSE(contacts_[0].in_contact);
+    EXPECT_TRUE(contacts_[0].is_guided);
+    // A millisecond of least jerk.
+    EXPECT_LT((target.X_WF.p - away.p - 1e-3 * v_W).norm(), 1e-6);
+    EXPECT_LT((target.V_WF_W.tail<3>() - v_W).norm(), 1e-3);
+    EXPECT_LT(LogSo3(target.X_WF.R * away.R.transpose()).norm(), 1e-6);
+    FrameReference last = target;
+    for (int i = 0; i < 600; ++i) {
+      Update();
+      ExpectMovesAsItSays(last, target);
+      EXPECT_GT(target.X_WF.p.z(), 0);
+      last = target;
+    }
+    EXPECT_EQ(stance_.phase(0), ContactPhase::kUp);
+    EXPECT_LT((target.X_WF.p - Vector3d(1, 2, 0.05)).norm(), 1e-9);
+    EXPECT_LT(LogSo3(target.X_WF.R).norm(), 1e-9);
+    EXPECT_LT(target.V_WF_W.norm(), 1e-9);
+  }
+}
+
+// On its way up it is not meant to land, however low it is, and comes down from
+// where it is when it is put down.
+TEST_F(StanceTest, PutsAFootDownThatRisesAgain) {
+  stance_.LetGo(0);
+  Update();
+  contacts_[0].X_WC.p = Vector3d(0.1, 0.2, 0.003);
+  stance_.Lift(0, 0.05);
+  for (int i = 0; i < 100; ++i) {
+    Update();
+    ASSERT_EQ(stance_.phase(0), ContactPhase::kReturning);
+  }
+  contacts_[0].X_WC.p.z() = 0.02;
+  stance_.PutDown(0);
+  const FrameReference& target = reference_.feet[0];
+  Update();
+  EXPECT_LT((target.X_WF.p - Vector3d(0.1, 0.2, 0.02)).norm(), 1e-6);
+  for (int i = 0; i < 500; ++i) Update();
+  EXPECT_LT((target.X_WF.p - Vector3d(0, 0, -0.005)).norm(), 1e-9);
+  contacts_[0].X_WC.p = Vector3d(0, 0, 0.003);
+  Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
+}
+
+// Once it is up it is like any other.
+TEST_F(StanceTest, PutsAFootDownThatWasLetGoAndLifted) {
+  stance_.LetGo(0);
+  Update();
+  contacts_[0].X_WC.p = Vector3d(0.1, 0.2, 0.1);
+  stance_.Lift(0, 0.05);
+  for (int i = 0; i < 502; ++i) Update();
+  ASSERT_EQ(stance_.phase(0), ContactPhase::kUp);
+  stance_.PutDown(0);
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kLanding);
+  FrameReference last = reference_.feet[0];
+  for (int i = 0; i < 801; ++i) {
+    Update();
+    ExpectMovesAsItSays(last, reference_.feet[0]);
+    last = reference_.feet[0];
+  }
+  EXPECT_LT((last.X_WF.p - Vector3d(0, 0, -0.005)).norm(), 1e-9);
+}
+
+TEST_F(StanceTest, LiftsAFootAsAnyOtherInTheTickInWhichItIsLetGo) {
+  contacts_[0].X_WC.p = Vector3d(1, 2, 0);
+  stance_.LetGo(0);
+  stance_.Lift(0, 0.05);
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kUnloading);
+  Update();
+  EXPECT_TRUE(contacts_[0].in_contact);
+  while (stance_.phase(0) != ContactPhase::kUp) Update();
+  EXPECT_LT((reference_.feet[0].X_WF.p - Vector3d(1, 2, 0)).norm(), 1e-6);
+}
+
 // From high up and far away, falling: a foot that came down on its way would
 // stand where it is not to be.
 TEST_F(StanceTest, BringsAFallingFootToItsPlaceBeforeTheGround) {
