@@ -22,6 +22,9 @@ constexpr double kSeparating = 0.02;  // m/s.
 // A foot on its way back is flat, and over its place, after this part of it.
 constexpr double kThereAfter = 0.7;
 
+// Of a sum of some periods, s.
+constexpr double kRounding = 1e-9;
+
 // How fast a foot looks for ground that it has lost.
 constexpr double kSearchSpeed = 0.2;  // m/s.
 
@@ -66,10 +69,14 @@ Stance::Stance(const std::vector<Foot>& feet, double weight)
   for (size_t i = 0; i < feet.size(); ++i) {
     feet_[i].polygon_C = feet[i].polygon_C;
   }
+  Reset();
 }
 
 void Stance::Reset() noexcept {
-  for (FootState& foot : feet_) Enter(&foot, ContactPhase::kDown);
+  for (FootState& foot : feet_) {
+    Enter(&foot, ContactPhase::kDown);
+    foot.left_for = kInfinity;
+  }
 }
 
 Stance::Clearance Stance::LowestCorner(const FootState& foot,
@@ -115,6 +122,7 @@ bool Stance::Lands(const FootState& foot) noexcept { return foot.to < 0; }
 void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {
   foot->phase = phase;
   foot->since = 0;
+  foot->left_for = 0;
   foot->has_flown = false;
 }
 
@@ -253,7 +261,12 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
   switch (foot.phase) {
     case ContactPhase::kDown:
     case ContactPhase::kLoading:
-      if (HasLeft(LowestCorner(foot, contact, reference.ground_z))) {
+      if (!HasLeft(LowestCorner(foot, contact, reference.ground_z))) {
+        foot.left_for = 0;
+      } else {
+        foot.left_for += dt;
+      }
+      if (foot.left_for > lost_after - kRounding) {
         TakeOff(&foot, contact, reference);
         foot.to = -kReach;
         Enter(&foot, ContactPhase::kLost);

@@ -36,6 +36,9 @@ class Stance {
   double return_time = 0.5;  ///< For a foot that was let go, s.
   /// Height of a sole's lowest corner, where that goes up, m.
   double lost_above = 0.01;
+  /// For so long in a row, or what one sample says would let the robot fall; a
+  /// foot that was not seen on the ground since Reset() is lost at once, s.
+  double lost_after = 0.003;
   /// Height of a sole's center, where that comes down, m.
   double found_below = 0.004;
 
@@ -73,6 +76,7 @@ class Stance {
   struct FootState {
     ContactPhase phase = ContactPhase::kDown;
     double since = 0;         // How long in this phase, s.
+    double left_for = 0;      // How long it has been off the ground, s.
     double force = 0;         // At the beginning of the phase, N.
     Pose X_WC;                // Where it took off, upright.
     Pose X_WC_away;           // Where it began to return,

@@ -46,6 +46,15 @@ class StanceTest : public testing::Test {
     reference_.feet.resize(2);
   }
 
+  // As long as a foot must have left to be lost.
+  void UpdateForLost() {
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NE(stance_.phase(0), ContactPhase::kLost);
+      EXPECT_NE(stance_.phase(1), ContactPhase::kLost);
+      Update();
+    }
+  }
+
   void Update() {
     stance_.Update(1e-3, Eigen::Vector2d(200, 100), &contacts_, &reference_);
   }
@@ -81,11 +90,38 @@ TEST_F(StanceTest, LosesAFootThatGoesUp) {
   Update();
   EXPECT_TRUE(contacts_[0].in_contact);  // It does not rise.
   contacts_[0].V_WC_C[5] = 0.03;
-  Update();
+  UpdateForLost();
   EXPECT_FALSE(contacts_[0].in_contact);
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLost);
   EXPECT_TRUE(stance_.is_meant_down(0));
   EXPECT_TRUE(contacts_[1].in_contact);
+}
+
+// What one sample says, or two, is none of the ground's affair; but a foot that was
+// not yet seen on the ground is not taken to be there.
+TEST_F(StanceTest, LosesAFootThatHasLeftForAWhile) {
+  const auto lost_at = [this](bool is_high) {
+    contacts_[0].X_WC.p.z() = is_high ? 0.03 : 0;
+    Update();
+    return stance_.phase(0) == ContactPhase::kLost;
+  };
+  EXPECT_FALSE(lost_at(false));
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_FALSE(lost_at(true));
+    EXPECT_FALSE(lost_at(true));
+    EXPECT_FALSE(lost_at(false));
+  }
+  EXPECT_FALSE(lost_at(true));
+  EXPECT_FALSE(lost_at(true));
+  EXPECT_TRUE(lost_at(true));
+  stance_.Reset();
+  EXPECT_TRUE(lost_at(true));
+  // In time, not in ticks.
+  stance_.Reset();
+  EXPECT_FALSE(lost_at(false));
+  contacts_[0].X_WC.p.z() = 0.03;
+  stance_.Update(5e-3, Eigen::Vector2d(200, 100), &contacts_, &reference_);
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kLost);
 }
 
 // Rolled onto an edge that is 11 mm up: what that edge does counts, and no more.
@@ -100,7 +136,7 @@ TEST_F(StanceTest, LosesAFootByTheSpeedOfItsLowestEdge) {
     Update();
     EXPECT_TRUE(contacts_[0].in_contact);
     contacts_[0].V_WC_C << -w_C, Vector3d::Zero();  // It rises by 25 mm/s.
-    Update();
+    UpdateForLost();
     EXPECT_FALSE(contacts_[0].in_contact);
   }
 }
@@ -181,7 +217,7 @@ TEST_F(StanceTest, LandsOnTheFeetAsTheyAre) {
   EXPECT_EQ(stance_.phase(1), ContactPhase::kDown);
   // That was then: a foot that is lost alone fades in, flat.
   contacts_[1].X_WC.p.z() = 0.03;
-  Update();
+  UpdateForLost();
   ASSERT_EQ(stance_.phase(1), ContactPhase::kLost);
   EXPECT_TRUE(contacts_[1].is_guided);
   contacts_[1].X_WC.p.z() = 0.003;
@@ -196,7 +232,7 @@ TEST_F(StanceTest, KeepsALiftedFootUpInFlight) {
   ASSERT_EQ(stance_.phase(1), ContactPhase::kUp);
   EXPECT_TRUE(contacts_[1].is_guided);
   Roll(0, 0.03);
-  Update();
+  UpdateForLost();
   ASSERT_EQ(stance_.phase(0), ContactPhase::kLost);
   EXPECT_FALSE(contacts_[1].is_guided);
   EXPECT_EQ(stance_.phase(1), ContactPhase::kUp);
