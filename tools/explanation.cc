@@ -174,7 +174,7 @@ std::string ConflictSentence(double time, Values rows) {
 std::string SayWhy(const std::string& reason) {
   if (reason == "state") return ": what it is told of the robot cannot be";
   if (reason == "clock") return ": the time of the robot's state stands still";
-  if (reason == "no_answer") return ": not even the first rank was solved";
+  if (reason == "no_answer") return ": no answer that meets the dynamics";
   return "";
 }
 

@@ -40,7 +40,7 @@ enum class FailSafeReason {
   kNone,      ///< It did not.
   kState,     ///< The state is not to be believed.
   kClock,     ///< The state's time stamp stands still.
-  kNoAnswer,  ///< Not even the first rank was solved, or against the dynamics.
+  kNoAnswer,  ///< None that meets the dynamics.
 };
 
 /// What the controller can say of its last tick. Of fixed size: filling it does
