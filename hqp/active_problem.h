@@ -129,6 +129,7 @@ class ActiveProblem {
   const double* Original(const Hierarchy& hierarchy, int a) const;
   double FindLack(const Hierarchy& hierarchy);
   bool Fits(const Hierarchy& hierarchy, int level) const;
+  bool IsAskedFor(int j) const;
   double Missed(int a) const;
   double WorstMissedLevel() const;
   void Refine(const Hierarchy& hierarchy, bool to_minimum);

@@ -327,26 +327,31 @@ TEST_F(RefinementTest, BringsSmallNumbersBackFromBesideLargeOnes) {
 
 // Two rows of y1 and y2 that ask for zero cannot be met, relative to themselves.
 // What is left is rounding's, and so is all that is as small, 1e-18 of the
-// largest, before or after.
+// largest, before or after, unless it is just what is asked for.
 TEST_F(RefinementTest, LeavesNoRoundingWhereZeroWasMeant) {
   const auto refine = [this](double large, double wish,
-                             const std::vector<double>* other = nullptr) {
+                             const std::vector<double>& other) {
     return Refine({{Row({1, 1, 0, 0}), large},
                    {Row({0, 1, 2, 0}), 0},
                    {Row({0, 3, -1, 0}), 0}},
-                  {{3, wish}}, other);
+                  {{3, wish}}, other.empty() ? nullptr : &other);
   };
-  const Eigen::VectorXd y = refine(1e18, 0.7);
+  const Eigen::VectorXd y = refine(1e18, 0.7, {});
   EXPECT_EQ(y[0], 1e18);
-  EXPECT_EQ(y.tail(3), Eigen::Vector3d::Zero());
-  EXPECT_EQ(refine(1e18, 1.4)[3], 1.4);
-  EXPECT_EQ(refine(-1e18, -0.7)[3], 0);
-  EXPECT_EQ(refine(1e3, 0.7e-18)[3], 0);
-  EXPECT_EQ(refine(1e-3, 0.7e-18)[3], 0.7e-18);
-  const std::vector<double> large_before{1e18, 0, 0, 0.7};
-  EXPECT_EQ(refine(1, 0, &large_before)[3], 0);
-  const std::vector<double> large_after{1, 0, 0, 0.7};
-  EXPECT_EQ(refine(1e18, 0, &large_after)[3], 0);
+  EXPECT_EQ(y.tail(3), Eigen::Vector3d(0, 0, 0.7));
+  EXPECT_EQ(refine(-1e18, -0.7, {})[3], -0.7);
+  for (const double large : {1e18, -1e18}) {
+    const double unit = 1e-18 * std::abs(large);
+    for (const double sign : {1, -1}) {
+      const double nothing = sign * 0.7 * unit, something = sign * 1.4 * unit;
+      EXPECT_EQ(refine(1, 0, {large, 0, 0, nothing})[3], 0);
+      EXPECT_EQ(refine(large, 0, {1, 0, 0, nothing})[3], 0);
+      EXPECT_EQ(refine(1, 0, {large, 0, 0, something})[3], something);
+      EXPECT_EQ(refine(large, 0, {1, 0, 0, something})[3], something);
+      // Not what is asked for, by a few digits.
+      EXPECT_EQ(refine(large, nothing, {1, 0, 0, 0.9 * nothing})[3], 0);
+    }
+  }
 }
 
 // As before, beside a level to which the small numbers matter.

@@ -95,12 +95,12 @@ void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   }
   largest = std::max(largest, Size());
   if (FindLack(hierarchy) > kRefined) {
-    // Where zero was meant, rounding is left, unless levels are met worse without:
-    // by more than a last digit.
+    // Where zero was meant, rounding is left, unless it is what the tail asks for,
+    // or levels are met worse without: by more than a last digit.
     const double missed = WorstMissedLevel();
     change_ = y_;
-    for (double& entry : y_) {
-      if (std::abs(entry) < kNothing * largest) entry = 0;
+    for (int j = 0; j < n_; ++j) {
+      if (std::abs(y_[j]) < kNothing * largest && !IsAskedFor(j)) y_[j] = 0;
     }
     FindLack(hierarchy);
     if (WorstMissedLevel() > 2 * missed) y_ = change_;
@@ -112,10 +112,17 @@ void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   FindResiduals(hierarchy);
 }
 
+// Whether an entry of y is what the tail asks for.
+bool ActiveProblem::IsAskedFor(int j) const {
+  const double target = tail_.target(j);
+  return std::abs(y_[j] - target) <= kRefined * std::abs(target);
+}
+
 bool ActiveProblem::TakeZeros(const Hierarchy& hierarchy, const double* row) {
   const double nothing = kNothingOfRow * Size();
   const auto may_be_zero = [&](int j) {
-    return row[j] != 0 && y_[j] != 0 && std::abs(y_[j]) <= nothing;
+    return row[j] != 0 && y_[j] != 0 && std::abs(y_[j]) <= nothing &&
+           !IsAskedFor(j);
   };
   FindLack(hierarchy);
   for (int a = 0; a < head_.num_rows(); ++a) nu_[a] = Missed(a);

@@ -43,6 +43,8 @@ class SelectionTail {
 
   /// The level that fixes a variable.
   int level(int variable) const { return level_of_[variable]; }
+  /// What its row there asks of a variable.
+  double target(int variable) const { return target_[variable]; }
 
   /// Finds how the head ties the variables: all that Nullity() needs.
   void Tie(const RowStack& head);

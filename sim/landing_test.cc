@@ -17,7 +17,8 @@ struct Landing {
   int flying = 0;          // Ticks without a foot in contact,
   double bent = 0;         // in these the joint farthest from its posture, rad,
   double force = 0;        // and the largest wrench asked of a foot.
-  double certificate = 0;  // The worst of all ticks.
+  double certificate = 0;  // The worst of all ticks,
+  int unsolved = 0;        // and how many were not solved to the last rank.
   double sunk = 0;         // The center of mass below its reference, m.
   double beyond = -1;      // A joint beyond its limits, rad.
 };
@@ -36,6 +37,7 @@ Landing Land(const Scenario& scenario) {
     const TickRecord record = loop.record();
     landing.certificate =
         std::max(landing.certificate, record.report.certificate.worst());
+    landing.unsolved += record.report.failed_rank != 0;
     landing.sunk = std::max(landing.sunk, (now.com_ref - now.com).z());
     for (int j = 0; j < tree.num_joints(); ++j) {
       const JointLimits& limits = robot.model.limits[j];
@@ -72,6 +74,7 @@ TEST(Landing, FallsInItsPostureAndStands) {
   EXPECT_LT(landing.bent, 1e-3);
   EXPECT_LT(landing.force, 1e-9);
   EXPECT_LT(landing.certificate, 1e-9);
+  EXPECT_EQ(landing.unsolved, 0);
   EXPECT_LT(landing.sunk, 0.08);  // From 1.4 m/s, as kd / (m s) = 10 stop it.
   EXPECT_LE(landing.beyond, 1e-6);
   EXPECT_LT(landing.verdict.foot_tilt_peak, 0.02);
