@@ -62,7 +62,8 @@ std::vector<Trial> MakeTrials(const std::string& robots,
 
 int Main(int argc, char** argv) {
   CLI::App app(
-      "Runs the humanoid with wrong masses, delays, noise, slippery ground, "
+      "Runs the humanoid pushed in all directions, and with wrong masses, "
+      "delays, noise, slippery ground, "
       "weak motors and slow clocks, and prints the table of docs/control.md; "
       "or "
       "that of real robots. Exit code 1 if one does not do what it must.",

@@ -26,9 +26,12 @@ constexpr double kUprightLean = 0.02;  // rad.
 // By how much the lean of a later time may be above that of an earlier one.
 constexpr double kNoGrowth = 1e-3;  // rad.
 
-// Of a robot's own yardstick, over this time.
+// Of what a pendulum on a robot's feet takes, over this time: sideways, by any
+// robot; in every direction, by ours.
 constexpr double kRobotsPush = 0.4;
-constexpr double kRobotsPushTime = 0.1;  // s.
+constexpr double kOurPush = 0.9;
+constexpr double kPushTime = 0.1;  // s.
+constexpr int kDirections = 16;
 
 std::vector<std::string> Words(const std::string& text) {
   std::istringstream stream(text);
@@ -105,18 +108,39 @@ std::pair<std::string, std::filesystem::path> NameAndProfile(
   return {stem, {}};
 }
 
+// What a pendulum on the robot's feet takes of its first push, N.
+double PendulumForce(const PushOptions& read) {
+  const Push& push = read.scenario.pushes[0];
+  const PushOnRobot aimed(read.robot, push);
+  const Eigen::Vector2d u = push.force.head<2>();
+  return ComputeYardstick(read.robot, read.robot.q_nominal, u, kPushTime,
+                          aimed.body(), aimed.p_BoQ_B())
+             .lipm_Ns /
+         kPushTime;
+}
+
 // Throws where its robot cannot be had; says what doctor would warn of. A push
 // becomes as strong as its robot is to bear.
 void Aim(Trial* trial) {
   const PushOptions read = Read(trial->options);
   Warn(read);
   if (read.scenario.pushes.empty()) return;
-  const PushOnRobot aimed(read.robot, read.scenario.pushes[0]);
-  const double takes =
-      ComputeYardstick(read.robot, read.robot.q_nominal, {0, 1},
-                       kRobotsPushTime, aimed.body(), aimed.p_BoQ_B())
-          .lipm_Ns;
-  trial->options[3] = std::to_string(kRobotsPush * takes / kRobotsPushTime);
+  trial->options[3] = std::to_string(kRobotsPush * PendulumForce(read));
+}
+
+void AddDirections(std::vector<Trial>* trials) {
+  for (int k = 0; k < kDirections; ++k) {
+    std::ostringstream direction;
+    direction << 360. * k / kDirections;
+    Trial trial =
+        Make("0.9 of a pendulum's push at " + direction.str() + " degrees",
+             "--scenario strong_push --force 1 --duration " +
+                 std::to_string(kPushTime) + " --time 5 --direction " +
+                 direction.str());
+    trial.options[3] =
+        std::to_string(kOurPush * PendulumForce(Read(trial.options)));
+    trials->push_back(trial);
+  }
 }
 
 bool Holds(Bar bar, const TrialResult& result) {
@@ -167,6 +191,7 @@ std::vector<Trial> RobustnessTrials() {
   trials.push_back(Make("100 N for 0.2 s",
                         strong + " --force 100 --duration 0.2", Bar::kFlat));
   for (const char* rate : {"500", "200", "100"}) AddRate(rate, &trials);
+  AddDirections(&trials);
   return trials;
 }
 
@@ -183,7 +208,7 @@ std::vector<Trial> RobotTrials(const std::filesystem::path& robots,
     Trial stand = Make(name + " stands", "--scenario stand");
     Trial push =
         Make(name + ", pushed", "--scenario strong_push --force 1 --duration " +
-                                    std::to_string(kRobotsPushTime));
+                                    std::to_string(kPushTime));
     std::vector<Trial> both;
     for (Trial* trial : {&stand, &push}) {
       if (trial->what.find(only) == std::string::npos) continue;

@@ -35,8 +35,9 @@ struct TrialResult {
   bool holds = false;  ///< It did what the bar says.
 };
 
-/// What a controller meets outside of a simulator: wrong masses, delays, noise,
-/// slippery ground, weak motors, slow clocks; each row of docs/control.md.
+/// Pushes in all directions, and what a controller meets outside of a simulator:
+/// wrong masses, delays, noise, slippery ground, weak motors, slow clocks; each row
+/// of docs/control.md.
 std::vector<Trial> RobustnessTrials();
 
 /// Robots that others have built: each stands off its equilibrium, and is pushed
