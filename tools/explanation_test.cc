@@ -229,8 +229,8 @@ TEST(Explanation, SaysWhyATickFailedSafe) {
             "0.500 s: the controller says fail safe, until 0.500 s: what it is "
             "told of the robot cannot be.");
   EXPECT_EQ(said["sentences"][2],
-            "0.900 s: the controller says fail safe, until 0.900 s: not even "
-            "the first rank was solved.");
+            "0.900 s: the controller says fail safe, until 0.900 s: no answer "
+            "that meets the dynamics.");
   EXPECT_EQ(said["sentences"][3],
             "1.300 s: the controller says limit relaxed, until 1.300 s.");
 }
