@@ -143,26 +143,20 @@ double Reporter::Rounding(const ActiveProblem& problem,
   return tolerance * largest;
 }
 
-// The first level before this one that row a holds back, or, if that is
-// rounding's, the first where it weighs anything; with what it weighs there, 0 if
-// there is none.
+// The first level before this one in whose equation row a weighs anything, and
+// what it weighs there; 0 if there is none.
 std::pair<int, double> Reporter::FirstHeldBack(const ActiveProblem& problem,
                                                const Solution& solution, int a,
                                                int level, Side side,
                                                double tolerance) const {
   const ActiveProblem::Row& row = problem.row(a);
-  const auto weight = [&](int l) {
-    if (l >= level) return 0.0;
-    const double own = Sign(side) * Weight(problem, solution, a, l);
-    return own * row.norm > Rounding(problem, solution, l, tolerance) ? own : 0;
-  };
-  int first = row.level;
-  while (problem.Price(a, first, side, tolerance) == 0) ++first;
-  if (weight(first) == 0) {
-    first = row.level;
-    while (first < level && weight(first) == 0) ++first;
+  for (int l = row.level; l < level; ++l) {
+    const double weight = Sign(side) * Weight(problem, solution, a, l);
+    if (weight * row.norm > Rounding(problem, solution, l, tolerance)) {
+      return {l, weight};
+    }
   }
-  return {first, weight(first)};
+  return {level, 0};
 }
 
 // A multiplier may be negative where that of a level before is positive. A
