@@ -74,9 +74,9 @@ class ActiveProblem {
   /// Takes another y as it is.
   void TakeOther(const Hierarchy& hierarchy, const std::vector<double>& y);
 
-  /// After a solve whose y breaks a row that is not active: its entries that may be
-  /// what rounding leaves of a zero become zero, where no active row is met worse
-  /// by more than a last digit. Returns whether any does.
+  /// Of a row that y misses, whether it is active or not: the entries of y that may
+  /// be what rounding leaves of a zero become zero, where no active row is met
+  /// worse by more than a last digit. Returns whether any does.
   bool TakeZeros(const Hierarchy& hierarchy, const double* row);
 
   /// Finds the multipliers of the levels before this one at the last solve; the

@@ -18,7 +18,7 @@ constexpr int kMaxPasses = 6;
 // refinement leaves of a zero.
 constexpr double kNothing = 1e-18;
 
-// The same of a row that is violated, though by no more than that.
+// The same of an entry of a row that y misses.
 constexpr double kNothingOfRow = 1e-14;
 
 }  // namespace
@@ -104,8 +104,8 @@ void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
     }
     FindLack(hierarchy);
     if (WorstMissedLevel() > 2 * missed) y_ = change_;
+    FindLack(hierarchy);
     for (int a = 0; a < head_.num_rows(); ++a) {
-      FindLack(hierarchy);
       if (Missed(a) > kRefined) TakeZeros(hierarchy, Original(hierarchy, a));
     }
   }

@@ -72,6 +72,7 @@ TEST_F(TakeZerosTest, TakesTwoThatMakeUpForEachOther) {
   EXPECT_EQ(Take(1, -1, 0, y, {0, 1, 0, 0, 0}), y);
 }
 
+// 1e-30 is no digit of a target of 1e-15.
 TEST_F(TakeZerosTest, TakesOneWhereTheOtherIsNeeded) {
   EXPECT_EQ(
       Take(1, 2, 2 * kSmall, {kLarge, 1e-30, kSmall, 0, 0}, {0, 1, 1, 0, 0}),

@@ -58,19 +58,11 @@ constexpr double kLargestSurprise = 100;  // rad/s2, m/s2.
 // Of the fail-safe command.
 constexpr double kFailSafeDamping = 10;  // 1/s.
 
-// Finite, and no larger than what a robot can be or do: beyond, the dynamics
-// overflow.
-constexpr double kLargest = 1e6;  // m, rad, m/s, rad/s.
-
 // The norm of a quaternion is 1; rounding, of single precision too, and some steps
 // of integration are far below this. What is farther off is no orientation.
 constexpr double kQuaternionOff = 1e-3;
 
-bool IsBelievable(const Eigen::VectorXd& x) {
-  return x.allFinite() && x.lpNorm<Eigen::Infinity>() < kLargest;
-}
-
-bool IsBelievable(const Tree& tree, const State& state) {
+bool IsPossible(const Tree& tree, const State& state) {
   if (!IsBelievable(state.q) || !IsBelievable(state.v)) return false;
   return !tree.is_floating() ||
          std::abs(state.q.segment<4>(3).norm() - 1) < kQuaternionOff;
@@ -178,7 +170,7 @@ void Controller::ComputeModel(const State& state) noexcept {
 }
 
 void Controller::Start(const State& state) noexcept {
-  if (IsBelievable(robot_.model.tree, state)) ComputeModel(state);
+  if (IsPossible(robot_.model.tree, state)) ComputeModel(state);
   for (ContactTick& contact : contacts_) contact.in_contact = true;
   const Pose X_WMid = MidFeet(contacts_);
   reference_.p_WG = X_WMid * p_MidG_;
@@ -322,7 +314,7 @@ bool Controller::IsUsable(const State& state) noexcept {
   // Rounding: ten periods of 1 ms are 10 ms, and no more.
   const bool frozen = frozen_for_ > kFrozenAfter + 1e-9;
   return !frozen && std::isfinite(state.time) &&
-         IsBelievable(robot_.model.tree, state);
+         IsPossible(robot_.model.tree, state);
 }
 
 void Controller::FailSafe(FailSafeReason reason, const State& state,

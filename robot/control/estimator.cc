@@ -14,16 +14,9 @@ constexpr double kLeastForce = 5;  // N.
 // A clock that jumps by more than this has lost its measurements between.
 constexpr double kLongestStep = 0.05;  // s.
 
-// More than this is no measurement: what follows would overflow.
-constexpr double kLargest = 1e6;  // rad, rad/s, m/s2.
-
-bool IsBelievable(const Eigen::Ref<const Eigen::MatrixXd>& x) {
-  return x.allFinite() && x.lpNorm<Eigen::Infinity>() < kLargest;
-}
-
 // Whether all that the base follows from is there. A foot whose force is not finite
 // is one that says nothing.
-bool IsBelievable(const Measurement& measurement) {
+bool IsUsable(const Measurement& measurement) {
   return std::isfinite(measurement.time) &&
          IsBelievable(measurement.R_WB_imu) &&
          IsBelievable(measurement.w_WB_B) &&
@@ -86,7 +79,7 @@ void Estimator::Start(const Measurement& measurement) {
 }
 
 void Estimator::Update(const Measurement& measurement, State* state) noexcept {
-  if (!IsBelievable(measurement)) {
+  if (!IsUsable(measurement)) {
     state->time = time_;
     state->q << q_base_, measurement.q_joints;
     state->v << v_base_, measurement.v_joints;

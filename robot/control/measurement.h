@@ -33,6 +33,13 @@ struct Measurement {
   std::vector<FootMeasurement> feet;  ///< In the order of the robot's feet.
 };
 
+/// Finite, and no larger than what a robot can be or do: beyond 1e6 (m, rad, and
+/// these by s or s2) the dynamics overflow. Does not allocate.
+inline bool IsBelievable(const Eigen::Ref<const Eigen::MatrixXd>& x) noexcept {
+  constexpr double kLargest = 1e6;
+  return x.allFinite() && x.lpNorm<Eigen::Infinity>() < kLargest;
+}
+
 /// The robot's state as the controller believes it, see dynamics/tree.h.
 struct State {
   double time = 0;    ///< s.
