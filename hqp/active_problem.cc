@@ -14,18 +14,8 @@ namespace {
 // be numbers any more.
 constexpr double kWeightless = 1e-300;
 
-int NumRows(const std::vector<LevelCapacity>& capacity) {
-  int rows = 0;
-  for (const LevelCapacity& level : capacity) {
-    rows += level.equalities + level.inequalities;
-  }
-  return rows;
-}
-
 double Norm(const double* row, int n) {
-  double squared;
-  kernels::Dots(row, 0, 1, row, n, &squared);
-  return std::sqrt(squared);
+  return std::sqrt(kernels::SquaredNorm(row, n));
 }
 
 }  // namespace

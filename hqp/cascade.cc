@@ -12,7 +12,8 @@ namespace poise {
 namespace {
 
 // A row violated by less than this, relative to what it is added up from, is at
-// its bound.
+// its bound. Solver, reference and certificate each have their own: they check
+// each other.
 constexpr double kAtBound = 1e-9;
 
 // Of a gradient, relative to what it is added up from.

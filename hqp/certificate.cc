@@ -9,6 +9,8 @@ namespace poise {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// As in cascade.cc and report.cc, but not shared with what is checked here.
 constexpr double kAtBound = 1e-9;
 
 // A cost below this share of what it is added up from is none.

@@ -9,10 +9,7 @@
 namespace poise {
 namespace {
 
-// A multiplier, a violation or a slope below this, relative to what it is added
-// up from, is zero.
-constexpr double kTolerance = 1e-11;
-
+constexpr double kTolerance = ActiveProblem::kTolerance;
 constexpr double kRounding = ActiveProblem::kRounding;
 
 // How often a row may leave on a level, or all at once: more than any search was

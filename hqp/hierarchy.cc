@@ -8,6 +8,14 @@
 
 namespace poise {
 
+int NumRows(const std::vector<LevelCapacity>& capacity) {
+  int rows = 0;
+  for (const LevelCapacity& level : capacity) {
+    rows += level.equalities + level.inequalities;
+  }
+  return rows;
+}
+
 Hierarchy::Hierarchy(int num_variables,
                      const std::vector<LevelCapacity>& capacity)
     : num_variables_(num_variables),

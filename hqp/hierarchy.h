@@ -15,6 +15,9 @@ struct LevelCapacity {
   int inequalities = 0;
 };
 
+/// How many all levels can hold together.
+int NumRows(const std::vector<LevelCapacity>& capacity);
+
 /// A block of rows B y + b = 0, in the least-squares sense with a weight a row:
 /// the level's cost gains 1/2 sum_i weight_i (B_i y + b_i)^2.
 struct EqualityBlock {

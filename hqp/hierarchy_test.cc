@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 namespace poise {
 namespace {
@@ -66,6 +67,21 @@ TEST(Hierarchy, KeepsBlocksInOrderAndLevelsApart) {
   EXPECT_EQ(hierarchy.num_levels(), 1);
   EXPECT_EQ(hierarchy.num_equalities(0), 0);
   EXPECT_EQ(hierarchy.num_inequalities(1), 0);
+}
+
+TEST(NumRows, IsTheSumOfWhatTheLevelsTake) {
+  const std::vector<LevelCapacity> capacity = {{2, 3}, {0, 0}, {0, 4}, {5, 0}};
+  Hierarchy hierarchy(1, capacity);
+  hierarchy.Clear(hierarchy.num_levels());
+  Eigen::Index rows = 0;
+  for (int level = 0; level < hierarchy.num_levels(); ++level) {
+    rows += hierarchy.AddEqualities(level, capacity[level].equalities).b.size();
+    rows += hierarchy.AddInequalities(level, capacity[level].inequalities)
+                .upper.size();
+  }
+  EXPECT_EQ(NumRows(capacity), rows);
+  EXPECT_EQ(NumRows(capacity), 14);
+  EXPECT_EQ(NumRows({}), 0);
 }
 
 TEST(Hierarchy, RefusesSizesThatAreNone) {

@@ -9,6 +9,13 @@ namespace poise::kernels {
 void Dots(const double* rows, int stride, int count, const double* x, int n,
           double* out);
 
+/// |x|_2^2.
+inline double SquaredNorm(const double* x, int n) {
+  double sum;
+  Dots(x, 0, 1, x, n, &sum);
+  return sum;
+}
+
 /// *dot = row . x, and *size = sum_j |row_j x_j|.
 void DotWithSize(const double* row, const double* x, int n, double* dot,
                  double* size);

@@ -55,6 +55,20 @@ TEST_F(KernelsTest, DotsAreTheSumsOfProducts) {
   });
 }
 
+TEST_F(KernelsTest, SquaredNormIsTheSumOfOddNumbers) {
+  // Of whole numbers: k^2 = 1 + 3 + ... + (2k - 1), whatever the sign.
+  for (int n = 0; n <= kMaxSize; ++n) {
+    std::vector<double> x(kMaxSize + 1, kUntouched);
+    double sum = 0;
+    for (int j = 0; j < n; ++j) {
+      const int k = (5 * j + n) % 23;
+      x[j] = j % 2 == 0 ? k : -k;
+      for (int odd = 1; odd < 2 * k; odd += 2) sum += odd;
+    }
+    EXPECT_EQ(kernels::SquaredNorm(x.data(), n), sum) << n;
+  }
+}
+
 TEST_F(KernelsTest, RotateMixesTwoVectors) {
   ForAllSizes([&](int, int n) {
     std::vector<double> x = x_, y = factor_;

@@ -11,14 +11,6 @@ namespace {
 // its bound.
 constexpr double kAtBound = 1e-9;
 
-int NumRows(const std::vector<LevelCapacity>& capacity) {
-  int rows = 0;
-  for (const LevelCapacity& level : capacity) {
-    rows += level.equalities + level.inequalities;
-  }
-  return rows;
-}
-
 double Sign(Side side) { return static_cast<double>(side); }
 
 }  // namespace

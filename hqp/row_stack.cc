@@ -14,6 +14,7 @@ namespace {
 using kernels::AddRows;
 using kernels::AddToRows;
 using kernels::Dots;
+using kernels::SquaredNorm;
 
 // A rest shorter than this part of what it came from is projected out again.
 constexpr double kTwice = 0.5;
@@ -25,12 +26,6 @@ constexpr double kGoodPart = 1e-3;
 constexpr double kZeroResidual = 1e-12;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double SquaredNorm(const double* x, int n) {
-  double sum;
-  Dots(x, 0, 1, x, n, &sum);
-  return sum;
-}
 
 }  // namespace
 

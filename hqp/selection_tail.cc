@@ -13,18 +13,13 @@ namespace {
 using kernels::AddRows;
 using kernels::AddToRows;
 using kernels::Dots;
+using kernels::SquaredNorm;
 
 // An entry below this, of a row of unit length, is rounding's.
 constexpr double kNoEntry = 1e-15;
 
 // A gradient below this, relative to what it is added up from, is zero.
 constexpr double kZeroGradient = 1e-13;
-
-double SquaredNorm(const double* x, int n) {
-  double sum;
-  Dots(x, 0, 1, x, n, &sum);
-  return sum;
-}
 
 }  // namespace
 

@@ -9,9 +9,7 @@
 namespace poise {
 namespace {
 
-// A violation or multiplier below this, relative to what it is added up from,
-// is zero.
-constexpr double kTolerance = 1e-11;
+constexpr double kTolerance = ActiveProblem::kTolerance;
 
 // How often rows that refinement finds violated, by a few digits, may enter.
 constexpr int kPolishing = 5;
