@@ -230,7 +230,7 @@ void Controller::Update(const State& state, Command* command) noexcept {
   for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
     normal_force_[i] = solution_.y[nv + 6 * i + 5];
   }
-  stack_.Advance(options_.dt, solution_.y);
+  stack_.Advance(options_.dt, solution_);
   expected_v_ = state.v + options_.dt * solution_.y.head(nv);
   expects_ = frozen_for_ == 0;
   CorrectSag();

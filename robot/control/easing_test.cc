@@ -1,137 +1,150 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What is switched, moved or tuned between two ticks does not make the torques
-// jump.
+#include "robot/control/easing.h"
+
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
-#include <algorithm>
-#include <functional>
 #include <limits>
-#include <vector>
-
-#include "robot/control/controller.h"
-#include "robot/control/controller_fixture.h"
 
 namespace poise {
 namespace {
 
-TEST_F(ControllerTest, DoesNotJumpWhereWhatIsSwitchedDoesNotAct) {
-  Update();
-  const Eigen::VectorXd before = command_.tau;
-  ASSERT_TRUE(controller_.stack().Enable("zmp", true));
-  ASSERT_TRUE(controller_.stack().Enable("cop", false));
-  ASSERT_TRUE(controller_.stack().SetWeight("momentum", 7));
-  Update();
-  // N m: rounding, and what the ground's height is corrected by in a tick.
-  EXPECT_LT((command_.tau - before).norm(), 1e-6);
-}
+constexpr double kDt = 1e-3;
+const Eigen::Vector2d kLast(1, -2);
 
-// What a change does to the torques, from tick to tick, the state being the
-// same: at once, or eased in.
-class RampTest : public ControllerTest {
+// Two variables and a task with two equalities and three inequalities.
+class EasingTest : public ::testing::Test {
  protected:
-  RampTest() {
-    // Off its reference, so that each gain and weight matters.
-    controller_.reference().p_WG += Eigen::Vector3d(0.01, 0.01, 0.005);
-    for (const char* joint : {"chest_pitch", "l_shoulder_pitch", "r_elbow"}) {
-      state_.q[tree().q_start() + *tree().FindJoint(joint)] += 0.1;
-    }
-    DoNotIntegrate(&controller_.stack());
+  EasingTest() : rows_(2, {{2, 3}, {2, 0}}), before_(2, {{2, 3}}) {
+    EXPECT_EQ(easing_.AddTask(1, 0), 2);
+    task_ = easing_.AddTask(2, 3);
+    EXPECT_EQ(task_, 3);
+    easing_.set_duration(0.01);
   }
 
-  // Or an error that stays is corrected ever more.
-  static void DoNotIntegrate(Stack* stack) {
-    EXPECT_TRUE(stack->SetParameter("momentum", "ki", 0));
-    EXPECT_TRUE(stack->SetParameter("momentum", "ki_height", 0));
+  // What the last y is off by: 4 and -2.
+  static EqualityBlock AddEqualities(Hierarchy* rows) {
+    rows->Clear(1);
+    EqualityBlock equalities = rows->AddEqualities(0, 2);
+    equalities.B << 1, 0, 1, 1;
+    equalities.b << 3, -1;
+    return equalities;
   }
 
-  void Try(const std::function<void(Stack*)>& change,
-           const std::function<void(Stack*)>& prepare = {}) {
-    if (prepare) prepare(&controller_.stack());
-    Update();
-    const Eigen::VectorXd before = command_.tau;
-    ASSERT_TRUE(controller_.stack().set_ramp(kSeconds));
-    change(&controller_.stack());
-    Eigen::VectorXd last = before;
-    std::vector<double> steps;
-    for (int i = 0; i < kTicks; ++i) {
-      Update();
-      ASSERT_EQ(command_.status, TickStatus::kOk);
-      steps.push_back((command_.tau - last).norm());
-      last = command_.tau;
-    }
-    Controller at_once(robot_);
-    at_once.Start({0, robot_.q_nominal, Eigen::VectorXd::Zero(tree().nv())});
-    at_once.reference() = controller_.reference();
-    DoNotIntegrate(&at_once.stack());
-    if (prepare) prepare(&at_once.stack());
-    change(&at_once.stack());
-    Command command = command_;
-    at_once.Update(state_, &command);
-    const double jump = (command.tau - before).norm();
-    // N m: rounding of torques of 100 N m.
-    EXPECT_LT((command_.tau - command.tau).norm(), 1e-7);
-    ASSERT_GT(jump, 0.5);
-    // A curve of least jerk goes 15/8 as fast as a line, and begins at rest.
-    const double largest = *std::max_element(steps.begin(), steps.end());
-    EXPECT_LT(largest, 1.9 * jump / kTicks) << "of " << jump << " N m";
-    EXPECT_LT(steps.front(), 1e-4 * jump);
+  // What is left of the two rows' right sides.
+  Eigen::Vector2d Offsets() {
+    EqualityBlock equalities = AddEqualities(&before_);
+    const Eigen::Vector2d b = equalities.b;
+    easing_.Ease(task_, &equalities);
+    return b - equalities.b;
   }
 
-  static constexpr int kTicks = 200;
-  static constexpr double kSeconds = 0.2;
+  Easing easing_{2};
+  int task_;
+  Hierarchy rows_;
+  Hierarchy before_;
 };
 
-TEST_F(RampTest, EasesAGainIn) {
-  Try([](Stack* stack) {
-    EXPECT_TRUE(stack->SetParameter("momentum", "kp", 60));
-  });
+TEST_F(EasingTest, IsNotPossibleWithoutALastYOrADuration) {
+  EXPECT_FALSE(easing_.IsPossible());
+  easing_.Advance(kDt, kLast);
+  EXPECT_TRUE(easing_.IsPossible());
+  easing_.set_duration(0);
+  EXPECT_FALSE(easing_.IsPossible());
+  easing_.set_duration(0.01);
+  easing_.KeepFree();
+  EXPECT_TRUE(easing_.is_on());
+  EXPECT_TRUE(easing_.holds());
+  easing_.End();
+  EXPECT_FALSE(easing_.IsPossible());
+  EXPECT_FALSE(easing_.is_on());
+  EXPECT_FALSE(easing_.holds());
 }
 
-TEST_F(RampTest, EasesATaskOut) {
-  Try([](Stack* stack) { EXPECT_TRUE(stack->Enable("posture", false)); });
+TEST_F(EasingTest, LetsRowsThatAreNewBeginWhereTheLastYIs) {
+  easing_.Advance(kDt, kLast);
+  easing_.BeginAtLast(task_, AddEqualities(&rows_));
+  EXPECT_EQ(Offsets(), Eigen::Vector2d(4, -2));
+  EXPECT_FALSE(easing_.holds());
+  // Once more, nothing is left to do.
+  easing_.BeginAtLast(task_, AddEqualities(&rows_));
+  EXPECT_EQ(Offsets(), Eigen::Vector2d(4, -2));
+  // Half of the way of least jerk is behind it.
+  for (int i = 0; i < 5; ++i) easing_.Advance(kDt, kLast);
+  EXPECT_LT((Offsets() - Eigen::Vector2d(2, -1)).norm(), 1e-14);
+  for (int i = 0; i < 5; ++i) easing_.Advance(kDt, kLast);
+  EXPECT_FALSE(easing_.is_on());
+  EXPECT_EQ(Offsets(), Eigen::Vector2d::Zero());
 }
 
-TEST_F(RampTest, EasesATaskIn) {
-  Try([](Stack* stack) {
-    EXPECT_TRUE(stack->Enable("torque_minimization", true));
-  });
+// The first row asks for something else, the second counts more, and the task
+// half: what pulls at the last y, weight times residual, is the same as before.
+TEST_F(EasingTest, LetsRowsThatAreTunedPullAsBefore) {
+  const Eigen::Vector2d lacked(0.5, -0.25);
+  easing_.Advance(kDt, kLast);
+  easing_.RememberResiduals(task_, lacked);
+  EqualityBlock before = AddEqualities(&before_);
+  before.b[0] = 2.5;
+  before.weight[1] = 3;
+  EqualityBlock now = AddEqualities(&rows_);
+  now.weight[1] = 5;
+  easing_.BeginAsBefore(task_, now, before, 2);
+  // What the last y is off by is more than it lacked by the offsets of before.
+  const Eigen::Vector2d offsets_before(3.5 - 0.5, -2 + 0.25);
+  const Eigen::Vector2d left =
+      Eigen::Vector2d(4, -2) - (offsets_before + Offsets());
+  EXPECT_NEAR(left[0] * 1, lacked[0] * 1 * 2, 1e-15);
+  EXPECT_NEAR(left[1] * 5, lacked[1] * 3 * 2, 1e-15);
 }
 
-TEST_F(RampTest, EasesALimitIn) {
-  Try([](Stack* stack) {
-    EXPECT_TRUE(stack->SetParameter("cop", "margin", 0.05));
-  });
+TEST_F(EasingTest, LetsRowsLackWhatTheyLacked) {
+  easing_.Advance(kDt, kLast);
+  easing_.RememberResiduals(task_, Eigen::Vector2d(0.5, -0.25));
+  easing_.KeepResiduals(task_, 2);
+  EXPECT_EQ(Offsets(), Eigen::Vector2d(0.5, -0.25));
+  easing_.KeepResiduals(task_, 2);  // That is all there is to keep.
+  EXPECT_EQ(Offsets(), Eigen::Vector2d(0.5, -0.25));
 }
 
-TEST_F(RampTest, EasesARankIn) {
-  Try([](Stack* stack) { EXPECT_TRUE(stack->SetRank("posture", 4)); });
+TEST_F(EasingTest, HoldsWhatIsFreeAndThatIsAll) {
+  const auto held = [&] {
+    rows_.Clear(2);
+    EqualityBlock rows = rows_.AddEqualities(1, 2);
+    easing_.Hold(&rows);
+    EXPECT_TRUE(rows_.B(1).isIdentity(0));
+    return Eigen::Vector2d(-rows_.b(1));
+  };
+  easing_.Advance(kDt, kLast);
+  easing_.KeepFree();
+  EXPECT_EQ(held(), kLast);
+  // It had come to something else meanwhile, of which this is kept, too.
+  easing_.Advance(kDt, 3 * kLast);
+  const Eigen::Vector2d left = held();
+  EXPECT_LT((left - kLast).norm(), 0.01 * kLast.norm());
+  easing_.KeepFree();
+  EXPECT_LT((held() - (left + 2 * kLast)).norm(), 1e-15);
+  EXPECT_EQ(Offsets(), Eigen::Vector2d::Zero());
 }
 
-TEST_F(RampTest, EasesAWeightIn) {
-  Try([](Stack* stack) { EXPECT_TRUE(stack->SetWeight("posture", 100)); },
-      [](Stack* stack) { EXPECT_TRUE(stack->SetRank("posture", 4)); });
-}
-
-TEST_F(RampTest, RefusesADurationThatIsNone) {
-  EXPECT_FALSE(controller_.stack().set_ramp(-1));
-  EXPECT_FALSE(
-      controller_.stack().set_ramp(std::numeric_limits<double>::quiet_NaN()));
-}
-
-TEST_F(RampTest, EasesNothingAfterAFailure) {
-  Update();
-  ASSERT_TRUE(controller_.stack().set_ramp(kSeconds));
-  ASSERT_TRUE(controller_.stack().SetParameter("momentum", "kp", 120));
-  const double q = state_.q[20];
-  state_.q[20] = std::numeric_limits<double>::quiet_NaN();
-  Update();
-  ASSERT_EQ(command_.status, TickStatus::kFailSafe);
-  state_.q[20] = q;
-  Update();
-  const Eigen::VectorXd tau = command_.tau;
-  Update();
-  EXPECT_LT((command_.tau - tau).norm(), 1e-7);  // N m: it is all there.
+TEST_F(EasingTest, LetsLimitsBeginWhereTheLastYIs) {
+  const auto limits = [&] {
+    rows_.Clear(1);
+    InequalityBlock rows = rows_.AddInequalities(0, 3);
+    rows.C << 1, 0, 1, 0, 0, 1;
+    rows.upper[0] = 0.5;  // Half too large.
+    rows.lower[1] = 3;    // Two too small.
+    rows.lower[2] = -5;
+    rows.upper[2] = 5;
+    return rows;
+  };
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  easing_.Advance(kDt, kLast);
+  for (int twice = 0; twice < 2; ++twice) {
+    easing_.BeginInside(task_, 2, limits());
+    InequalityBlock rows = limits();
+    easing_.Ease(task_, 2, &rows);
+    EXPECT_EQ(Eigen::Vector3d(rows.lower), Eigen::Vector3d(-kInf, 1, -5));
+    EXPECT_EQ(Eigen::Vector3d(rows.upper), Eigen::Vector3d(1, kInf, 5));
+  }
 }
 
 }  // namespace

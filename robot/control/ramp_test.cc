@@ -3,85 +3,122 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <cmath>
+
 namespace poise {
 namespace {
 
-const Eigen::Vector2d kLast(1, -2);
+constexpr double kDt = 1e-3;
 
-// A hierarchy of rows that the last y does not all meet, each eased.
-class Eased {
- public:
-  explicit Eased(const Ramp& ramp) : rows_(2, {{2, 3}, {2, 0}}) {
-    rows_.Clear(2);
-    EqualityBlock equal = rows_.AddEqualities(0, 2);
-    equal.B << 1, 0, 1, 1;
-    equal.b << 3, -1;  // Off by 4 and -2.
-    InequalityBlock unequal = rows_.AddInequalities(0, 3);
-    unequal.C << 1, 0, 1, 0, 0, 1;
-    unequal.upper[0] = 0.5;  // Half too large.
-    unequal.lower[1] = 3;    // Two too small.
-    unequal.lower[2] = -5;
-    unequal.upper[2] = 5;
-    ramp.Ease(&equal);
-    ramp.Ease(&unequal);
-    EqualityBlock held = rows_.AddEqualities(1, 2);
-    ramp.Hold(&held);
+// From 1 to 0 for s from 0 to 1, at rest at both ends, of least jerk.
+double LeastJerk(double s) { return 1 - s * s * s * (10 + s * (-15 + s * 6)); }
+
+TEST(Ramp, BringsANumberToZeroAlongACurveOfLeastJerk) {
+  Ramp ramp;
+  ramp.Resize(2);
+  ramp.set_duration(0.01);
+  EXPECT_FALSE(ramp.is_on());
+  ramp.Add(1, -3);
+  for (int i = 0; i <= 10; ++i) {
+    ASSERT_EQ(ramp.is_on(), i < 10) << i;
+    EXPECT_EQ(ramp[0], 0);
+    EXPECT_NEAR(ramp[1], -3 * LeastJerk(0.1 * i), 1e-14) << i;  // Rounding.
+    ramp.Advance(kDt);
   }
+}
 
-  // The part that is kept of what the first row is off by.
-  double kept() const { return (3 - rows_.b(0)[0]) / 4; }
-
-  void ExpectAllKeepTheSame() const {
-    const double k = kept();
-    EXPECT_NEAR(rows_.b(0)[1], -1 + 2 * k, 1e-15);
-    EXPECT_NEAR(rows_.upper(0)[0], 0.5 + 0.5 * k, 1e-15);
-    EXPECT_NEAR(rows_.lower(0)[1], 3 - 2 * k, 1e-15);
-    EXPECT_EQ(rows_.lower(0)[2], -5);
-    EXPECT_EQ(rows_.upper(0)[2], 5);
-    EXPECT_TRUE(rows_.B(1).isIdentity(0));
-    EXPECT_LT((rows_.b(1) + k * kLast).norm(), 1e-15);
+// The polynomial of degree 5 with this value, rate and acceleration at 0, and
+// none at T, by its six equations.
+class Quintic {
+ public:
+  Quintic(const Eigen::Vector3d& begin, double T) {
+    Eigen::Matrix<double, 6, 6> equations;
+    equations << Row(0, 0), Row(0, 1), Row(0, 2),  //
+        Row(T, 0), Row(T, 1), Row(T, 2);
+    Eigen::Matrix<double, 6, 1> wanted;
+    wanted << begin, Eigen::Vector3d::Zero();
+    coefficients_ = equations.fullPivLu().solve(wanted);
+  }
+  double At(double t, int derivative) const {
+    return Row(t, derivative).dot(coefficients_);
   }
 
  private:
-  Hierarchy rows_;
+  static Eigen::Matrix<double, 1, 6> Row(double t, int derivative) {
+    Eigen::Matrix<double, 1, 6> row;
+    for (int k = 0; k < 6; ++k) {
+      double factor = 1;
+      for (int d = 0; d < derivative; ++d) factor *= k - d;
+      row[k] = k < derivative ? 0 : factor * std::pow(t, k - derivative);
+    }
+    return row;
+  }
+  Eigen::Matrix<double, 6, 1> coefficients_;
 };
 
-// Of ten ticks: what all together have kept falls along a curve of least jerk.
-TEST(Ramp, KeepsOfEveryRowAPartThatFallsToNothing) {
-  Ramp ramp(2);
-  ramp.set_duration(0.01);
-  ramp.Begin();
-  EXPECT_FALSE(ramp.is_on());  // There is nothing yet to begin at.
-  ramp.Advance(1e-3, kLast);
-  EXPECT_FALSE(ramp.is_on());
-  for (const int ticks : {4, 10}) {  // It begins anew before it is over.
-    ramp.Begin();
-    double product = 1;
-    for (int i = 1; i <= ticks; ++i) {
-      SCOPED_TRACE(i);
-      ASSERT_EQ(ramp.is_on(), i < 10);
-      if (ramp.is_on()) Eased(ramp).ExpectAllKeepTheSame();
-      product *= ramp.is_on() ? Eased(ramp).kept() : 0;
-      const double s = 0.1 * i;
-      EXPECT_NEAR(product, 1 - s * s * s * (10 - 15 * s + 6 * s * s), 1e-12);
-      ramp.Advance(1e-3, kLast);
-    }
+// What is added on the way bends each curve from where it is, with its rate and
+// acceleration, to zero a whole duration later.
+TEST(Ramp, GoesOnSmoothlyWhereSomethingIsAdded) {
+  constexpr double kDuration = 2;
+  constexpr double kStep = 0.25;
+  Ramp ramp;
+  ramp.Resize(2);
+  ramp.set_duration(kDuration);
+  ramp.Add(0, 1);
+  Quintic first({1, 0, 0}, kDuration);
+  for (int i = 0; i < 3; ++i) ramp.Advance(kStep);
+  EXPECT_NEAR(ramp[0], first.At(0.75, 0), 1e-14);
+  ramp.Add(0, 2);
+  ramp.Add(1, 5);
+  const Quintic second(
+      {first.At(0.75, 0) + 2, first.At(0.75, 1), first.At(0.75, 2)}, kDuration);
+  for (int i = 0; i <= 8; ++i) {
+    // Rounding, of the test's LU, too.
+    EXPECT_NEAR(ramp[0], second.At(kStep * i, 0), 1e-12) << i;
+    EXPECT_NEAR(ramp[1], 5 * LeastJerk(kStep * i / kDuration), 1e-13) << i;
+    ramp.Advance(kStep);
   }
   EXPECT_FALSE(ramp.is_on());
+  EXPECT_EQ(ramp[0], 0);
 }
 
-TEST(Ramp, EasesNothingAfterItsEndOrWithoutADuration) {
-  Ramp ramp(2);
-  ramp.Advance(1e-3, kLast);
-  ramp.Begin();
+// As s^3 + 9/T s^2 + 36/T^2 s + 60/T^3 does: where c is added a second, it comes
+// to rest at c T 36 / 60.
+TEST(Ramp, FiltersWhatIsAddedInEachTick) {
+  constexpr double kDuration = 0.2;
+  Ramp ramp;
+  ramp.Resize(1);
+  ramp.set_duration(kDuration);
+  for (int i = 0; i < 2000; ++i) {
+    ramp.Add(0, 7 * kDt);
+    ramp.Advance(kDt);
+  }
+  // Ticks are not as short as that: of dt / T.
+  EXPECT_NEAR(ramp[0], 7 * kDuration * 36 / 60,
+              7 * kDuration * kDt / kDuration);
+}
+
+TEST(Ramp, ForgetsWhatIsAddedWithoutADuration) {
+  Ramp ramp;
+  ramp.Resize(1);
+  ramp.Add(0, 1);
   EXPECT_FALSE(ramp.is_on());
-  ramp.set_duration(0.01);
-  ramp.Begin();
-  EXPECT_TRUE(ramp.is_on());
-  ramp.End();
+  EXPECT_EQ(ramp[0], 0);
+}
+
+TEST(Ramp, IsClear) {
+  Ramp ramp;
+  ramp.Resize(1);
+  ramp.set_duration(1);
+  ramp.Add(0, 1);
+  ramp.Advance(0.5);
+  ramp.Clear();
   EXPECT_FALSE(ramp.is_on());
-  ramp.Begin();
-  EXPECT_FALSE(ramp.is_on());  // What came last is not known.
+  ramp.Add(0, 1);  // Without the rate that it had.
+  ramp.Advance(0.5);
+  EXPECT_NEAR(ramp[0], 0.5, 1e-15);
 }
 
 }  // namespace

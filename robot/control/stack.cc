@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "robot/finding.h"
 
@@ -21,6 +22,11 @@ bool IsValidWeight(double weight) {
 }
 
 }  // namespace
+
+Stack::Stack(int num_variables)
+    : num_variables_(num_variables),
+      easing_(num_variables),
+      before_(num_variables, {}) {}
 
 void Stack::Add(std::unique_ptr<Task> task, const TaskSettings& settings) {
   const std::string what = "task " + Quoted(task->name()) + ": ";
@@ -40,6 +46,14 @@ void Stack::Add(std::unique_ptr<Task> task, const TaskSettings& settings) {
   Entry entry;
   entry.task = std::move(task);
   entry.settings = settings;
+  entry.parameters_before.resize(entry.task->parameters().size());
+  const int equalities = static_cast<int>(entry.task->equality_names().size());
+  const int inequalities =
+      static_cast<int>(entry.task->inequality_names().size());
+  entry.eased_rows = easing_.AddTask(equalities, inequalities);
+  most_rows_.equalities = std::max(most_rows_.equalities, equalities);
+  most_rows_.inequalities = std::max(most_rows_.inequalities, inequalities);
+  before_ = Hierarchy(num_variables_, {most_rows_});
   entries_.push_back(std::move(entry));
 }
 
@@ -53,23 +67,29 @@ std::optional<int> Stack::Find(std::string_view name) const noexcept {
 bool Stack::Enable(std::string_view name, bool enabled) noexcept {
   const auto i = Find(name);
   if (!i) return false;
-  if (entries_[*i].settings.enabled != enabled) Change(&entries_[*i]);
-  entries_[*i].settings.enabled = enabled;
+  Entry& entry = entries_[*i];
+  if (entry.settings.enabled == enabled) return true;
+  if (!enabled) Loosen(entry.settings.rank);
+  entry.was_switched_on |= enabled;
+  entry.settings.enabled = enabled;
   return true;
 }
 
 bool Stack::SetRank(std::string_view name, int rank) noexcept {
   const auto i = Find(name);
   if (!i || rank < 1 || rank > kMaxRank) return false;
-  if (entries_[*i].settings.rank != rank) Change(&entries_[*i]);
-  entries_[*i].settings.rank = rank;
+  Entry& entry = entries_[*i];
+  if (entry.settings.rank == rank) return true;
+  entry.was_moved = true;
+  Loosen(std::min(entry.settings.rank, rank));
+  entry.settings.rank = rank;
   return true;
 }
 
 bool Stack::SetWeight(std::string_view name, double weight) noexcept {
   const auto i = Find(name);
   if (!i || !IsValidWeight(weight)) return false;
-  if (entries_[*i].settings.weight != weight) Change(&entries_[*i]);
+  if (entries_[*i].settings.weight != weight) Tune(&entries_[*i]);
   entries_[*i].settings.weight = weight;
   return true;
 }
@@ -81,7 +101,7 @@ bool Stack::SetParameter(std::string_view name, std::string_view parameter,
   for (const Parameter& each : entries_[*i].task->parameters()) {
     if (each.name != parameter) continue;
     if (!(value >= each.lower && value <= each.upper)) return false;
-    if (*each.value != value) Change(&entries_[*i]);
+    if (*each.value != value) Tune(&entries_[*i]);
     *each.value = value;
     return true;
   }
@@ -100,13 +120,24 @@ std::optional<double> Stack::GetParameter(
 
 bool Stack::set_ramp(double seconds) noexcept {
   if (!(seconds >= 0 && std::isfinite(seconds))) return false;
-  ramp_.set_duration(seconds);
+  easing_.set_duration(seconds);
   return true;
 }
 
-void Stack::Change(Entry* entry) noexcept {
-  ramp_.Begin();
-  entry->changed = true;
+void Stack::Tune(Entry* entry) noexcept {
+  if (entry->was_tuned) return;
+  entry->was_tuned = true;
+  entry->weight_before = entry->settings.weight;
+  const std::vector<Parameter>& parameters = entry->task->parameters();
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    entry->parameters_before[i] = *parameters[i].value;
+  }
+  // A limit may be wider now.
+  if (!entry->task->inequality_names().empty()) Loosen(entry->settings.rank);
+}
+
+void Stack::Loosen(int rank) noexcept {
+  loose_from_ = std::min(loose_from_, weighted_ ? std::min(rank, 2) : rank);
 }
 
 std::vector<LevelCapacity> Stack::capacity() const {
@@ -151,7 +182,9 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
     rank_of_level_[num_levels_++] = rank;
   }
 
-  hierarchy->Clear(num_levels_ + (ramp_.is_on() ? 1 : 0));
+  const bool eases = easing_.IsPossible();
+  if (eases && loose_from_ < kTight) easing_.KeepFree();
+  hierarchy->Clear(num_levels_ + (easing_.holds() ? 1 : 0));
   for (Entry& entry : entries_) {
     if (!entry.takes_part) continue;
     const Task& task = *entry.task;
@@ -162,10 +195,12 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
     InequalityBlock inequalities = hierarchy->AddInequalities(
         entry.level, static_cast<int>(task.inequality_names().size()));
     task.Write(input, &equalities, &inequalities);
-    entry.changed = entry.changed && ramp_.is_on();
-    if (ramp_.is_on() && entry.settings.rank > 1) ramp_.Ease(&equalities);
-    if (entry.changed) ramp_.Ease(&inequalities);
-
+    if (eases) BeginEasing(input, equalities, inequalities, &entry);
+    if (easing_.is_on()) {
+      easing_.Ease(entry.eased_rows, &equalities);
+      easing_.Ease(entry.eased_rows, static_cast<int>(equalities.b.size()),
+                   &inequalities);
+    }
     const double weight = RowWeight(entry);
     if (weight == 1) continue;
     equalities.weight *= weight;
@@ -175,10 +210,68 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
     inequalities.lower *= scale;
     inequalities.upper *= scale;
   }
-  if (!ramp_.is_on()) return;
-  rank_of_level_[num_levels_] = kMaxRank + 1;
-  EqualityBlock held = hierarchy->AddEqualities(num_levels_, num_variables_);
-  ramp_.Hold(&held);
+  if (easing_.holds()) {
+    rank_of_level_[num_levels_] = kMaxRank + 1;
+    EqualityBlock held = hierarchy->AddEqualities(num_levels_, num_variables_);
+    easing_.Hold(&held);
+  }
+  loose_from_ = kTight;
+  for (Entry& entry : entries_) {
+    entry.was_switched_on = entry.was_moved = entry.was_tuned = false;
+  }
+}
+
+void Stack::BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
+                        const InequalityBlock& inequalities,
+                        Entry* entry) noexcept {
+  const int rows = entry->eased_rows;
+  const int num_equalities = static_cast<int>(equalities.b.size());
+  // What rank 1 asks for always holds.
+  if (entry->settings.rank > 1) {
+    if (entry->settings.rank >= loose_from_) {
+      easing_.KeepResiduals(rows, num_equalities);
+    }
+    if (entry->was_switched_on) {
+      easing_.BeginAtLast(rows, equalities);
+    } else if (entry->was_tuned) {
+      easing_.BeginAsBefore(rows, equalities, RowsBefore(input, entry),
+                            entry->weight_before / entry->settings.weight);
+    }
+  }
+  if (entry->was_switched_on || entry->was_moved || entry->was_tuned) {
+    easing_.BeginInside(rows, num_equalities, inequalities);
+  }
+}
+
+// What the task would write now if it had not been tuned.
+EqualityBlock Stack::RowsBefore(const TaskInput& input, Entry* entry) noexcept {
+  const Task& task = *entry->task;
+  const auto exchange = [&] {
+    for (size_t i = 0; i < task.parameters().size(); ++i) {
+      std::swap(*task.parameters()[i].value, entry->parameters_before[i]);
+    }
+  };
+  before_.Clear(1);
+  EqualityBlock equalities =
+      before_.AddEqualities(0, static_cast<int>(task.equality_names().size()));
+  InequalityBlock inequalities = before_.AddInequalities(
+      0, static_cast<int>(task.inequality_names().size()));
+  exchange();
+  task.Write(input, &equalities, &inequalities);
+  exchange();
+  return equalities;
+}
+
+void Stack::Advance(double dt, const Solution& solution) noexcept {
+  easing_.Advance(dt, solution.y);
+  for (const Entry& entry : entries_) {
+    if (!entry.takes_part) continue;
+    easing_.RememberResiduals(
+        entry.eased_rows,
+        solution.levels[entry.level].equality_residual.segment(
+            entry.equality_start,
+            static_cast<int>(entry.task->equality_names().size())));
+  }
 }
 
 void Stack::Resize(TickReport* report) const {

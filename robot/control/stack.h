@@ -9,7 +9,7 @@
 
 #include "hqp/hierarchy.h"
 #include "hqp/solution.h"
-#include "robot/control/ramp.h"
+#include "robot/control/easing.h"
 #include "robot/control/task.h"
 #include "robot/control/tick_report.h"
 
@@ -30,8 +30,7 @@ class Stack {
   static constexpr int kMaxRank = 8;
 
   /// For rows in num_variables variables.
-  explicit Stack(int num_variables)
-      : num_variables_(num_variables), ramp_(num_variables) {}
+  explicit Stack(int num_variables);
 
   /// Adds a task; before the first tick only. Throws std::invalid_argument if
   /// its name is taken, or a setting out of range.
@@ -61,17 +60,15 @@ class Stack {
   }
 
   /// What is changed from now on takes effect little by little, in so many
-  /// seconds, see Ramp: the equalities of all tasks below rank 1 go from what
-  /// the last tick made of them to what they ask for, and so do the bounds of
-  /// the tasks that were changed; other limits hold throughout. 0, the default:
-  /// at once. False, and nothing happens, if it is negative or not finite.
+  /// seconds, see Easing; what is not changed, pushes, references and limits,
+  /// acts in full. 0, the default: at once. False, and nothing happens, if it is
+  /// negative or not finite.
   [[nodiscard]] bool set_ramp(double seconds) noexcept;
 
-  /// A tick of dt has found y, or none: what a ramp begins at.
-  void Advance(double dt, const Eigen::VectorXd& y) noexcept {
-    ramp_.Advance(dt, y);
-  }
-  void EndRamp() noexcept { ramp_.End(); }
+  /// A tick of dt has found this for the last Write(), or nothing: then what is
+  /// changed next is changed at once.
+  void Advance(double dt, const Solution& solution) noexcept;
+  void EndRamp() noexcept { easing_.End(); }
 
   /// What a Hierarchy, and its solver, must hold for every setting of the
   /// tasks.
@@ -103,7 +100,13 @@ class Stack {
   struct Entry {
     std::unique_ptr<Task> task;
     TaskSettings settings;
-    bool changed = false;  // Since the last ramp ended.
+    int eased_rows = 0;  // Where they begin, see Easing.
+    // What became of it since the last Write(), and what it was like before.
+    bool was_switched_on = false;
+    bool was_moved = false;
+    bool was_tuned = false;
+    std::vector<double> parameters_before;
+    double weight_before = 1;
     // Whether and where it has rows, since the last Write().
     bool takes_part = false;
     int level = -1;
@@ -111,13 +114,24 @@ class Stack {
     int inequality_start = 0;
   };
 
-  void Change(Entry* entry) noexcept;
+  void Tune(Entry* entry) noexcept;
+  void Loosen(int rank) noexcept;
+  void BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
+                   const InequalityBlock& inequalities, Entry* entry) noexcept;
+  EqualityBlock RowsBefore(const TaskInput& input, Entry* entry) noexcept;
   double RowWeight(const Entry& entry) const noexcept;
   void ReportInequalities(int i, const Solution& solution,
                           TickReport* report) const noexcept;
 
+  // The first rank that something may have kept from what it asks for which is
+  // gone since the last Write(); this, if none.
+  static constexpr int kTight = kMaxRank + 1;
+
   int num_variables_;
-  Ramp ramp_;
+  Easing easing_;
+  int loose_from_ = kTight;
+  LevelCapacity most_rows_;  // Of a task.
+  Hierarchy before_;         // One task's rows, as they were.
   bool weighted_ = false;
   double rank_ratio_ = 100;
   std::vector<Entry> entries_;

@@ -1,0 +1,80 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "hqp/hierarchy.h"
+#include "robot/control/ramp.h"
+
+namespace poise {
+
+/// Eases rows that were changed between two ticks into what they ask for. Each
+/// row has an offset,
+///     B y + b = offset,    lower - offset <= C y <= upper + offset,
+/// and so has y, which is its offset in what the rows leave free. A change adds as
+/// much to them as lets the last y be the optimum of the changed rows, too, and
+/// Ramp brings them to zero; so y, and the torques of it, go from the one
+/// hierarchy to the other without a jump, and every rank is still strict. What
+/// else asks for something new, a push or a reference, is not held back: only
+/// what was changed is.
+///
+/// (Intermediate desired values, as of Lee, Mansard and Park, 2012, but of the
+/// last solution instead of a second one.)
+class Easing {
+ public:
+  explicit Easing(int num_variables);
+
+  /// Makes room for the rows of a task and returns where it begins: at `rows`
+  /// below. Allocates.
+  int AddTask(int equalities, int inequalities);
+
+  /// Of a ramp, s; 0, and nothing is eased.
+  void set_duration(double seconds) { ramp_.set_duration(seconds); }
+
+  /// A tick of dt has found y; RememberResiduals() follows, for each task that
+  /// took part.
+  void Advance(double dt, const Eigen::VectorXd& y) noexcept;
+  void RememberResiduals(
+      int rows, const Eigen::Ref<const Eigen::VectorXd>& residual) noexcept;
+
+  /// What comes next is not eased, and its y not known yet.
+  void End() noexcept;
+
+  /// Whether there is a y to begin at, and time to ease.
+  bool IsPossible() const { return dt_ > 0 && ramp_.duration() > 0; }
+  bool is_on() const { return ramp_.is_on(); }
+  /// Whether y is held in what the rows leave free.
+  bool holds() const { return is_on() && holds_; }
+
+  /// Of equalities as they are now:
+  /// they were not there;
+  void BeginAtLast(int rows, const EqualityBlock& now) noexcept;
+  /// they were `before`, which counts weight_ratio times as much as now;
+  void BeginAsBefore(int rows, const EqualityBlock& now,
+                     const EqualityBlock& before, double weight_ratio) noexcept;
+  /// what kept the last y from meeting them may be gone.
+  void KeepResiduals(int rows, int equalities) noexcept;
+  /// The same, of what y leaves free.
+  void KeepFree() noexcept;
+  /// Of inequalities that the last y may violate.
+  void BeginInside(int rows, int equalities,
+                   const InequalityBlock& now) noexcept;
+
+  /// Moves right sides by their offsets. Do not allocate.
+  void Ease(int rows, EqualityBlock* equalities) const noexcept;
+  void Ease(int rows, int equalities,
+            InequalityBlock* inequalities) const noexcept;
+  /// Writes the rows y = offset, of a level below all others.
+  void Hold(EqualityBlock* equalities) const noexcept;
+
+ private:
+  // Of y, then of each task: its equalities, the lower sides of its
+  // inequalities, and their upper sides.
+  Ramp ramp_;
+  Eigen::VectorXd lacked_;  // What the last tick left of each.
+  Eigen::VectorXd y_last_;
+  double dt_ = 0;  // Of the last tick; 0 as long as there is none.
+  bool holds_ = false;
+};
+
+}  // namespace poise
