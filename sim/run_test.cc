@@ -238,6 +238,17 @@ TEST(WrongModel, LeavesNoErrorBehind) {
   EXPECT_LT(verdict.com_error_final.cwiseAbs().maxCoeff(), 1.5e-3);
 }
 
+// 17.8 mm without.
+TEST(WrongModel, LeavesNoErrorBehindWhereThePlaceAloneIsSteered) {
+  Scenario scenario = Ours("stand", 4);
+  scenario.control.mass_error = 0.1;
+  scenario.control.without = {"momentum"};
+  scenario.control.with = {"com", "angular_momentum"};
+  const Verdict verdict = poise::Run(Humanoid(), scenario).verdict;
+  EXPECT_TRUE(verdict.recovered);
+  EXPECT_LT(verdict.com_error_final.cwiseAbs().maxCoeff(), 1.5e-3);
+}
+
 TEST(OneLeg, StandsOnOneFootIsPushedThereAndPutsTheOtherDown) {
   double in_the_air = 0, pushed_there = 0;  // s, N s.
   FootObservation right;

@@ -28,16 +28,8 @@ constexpr double kLimitSlack = 1e-6;
 // what the dynamics are added up from, or as rows of forces are scaled.
 constexpr double kDynamicsMet = 1e-9;
 
-// The momentum follows its reference where it is met to this, m/s2.
+// The center of mass goes where it is asked to where that is met to this, m/s2.
 constexpr double kFollowing = 0.05;
-
-// Enough for a model that is wrong by a sixth of the robot's mass, m/s2; and in
-// the plane, for one whose center of mass is wrong by 4 cm.
-constexpr double kLargestLift = 1.6;
-constexpr double kLargestShift = 0.5;
-
-// A robot whose center of mass is slower than this stands, m/s.
-constexpr double kStanding = 0.02;
 
 // A foot that bears less than this part of the weight, and another more than
 // that, is let go where a fall sideways asks for more than half of all that can
@@ -114,6 +106,8 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
       stack_(MakeDefaultStack(robot_, options.frames)),
       momentum_(*stack_.Find("momentum")),
       momentum_task_(static_cast<const MomentumTask&>(stack_.task(momentum_))),
+      com_(*stack_.Find("com")),
+      com_task_(static_cast<const ComTask&>(stack_.task(com_))),
       stance_(robot_.feet, weight_),
       tick_(robot_.model.tree, TickFrames(robot_, options.frames)),
       contacts_(robot_.feet.size()),
@@ -185,7 +179,7 @@ void Controller::Start(const State& state) noexcept {
   stance_.Reset();
   normal_force_.setConstant(weight_);
   stack_.EndRamp();
-  correction_W_.setZero();
+  disturbance_.Forget();
   unexpected_.setZero();
   expects_ = false;
   last_time_ = kNever;
@@ -206,8 +200,8 @@ void Controller::Update(const State& state, Command* command) noexcept {
   Compare(state);
   LetFeetGo(state);
   stance_.Update(options_.dt, normal_force_, &contacts_, &reference_);
-  stack_.Write({state, tick_, contacts_, reference_, unexpected_, correction_W_,
-                capture_},
+  stack_.Write({state, tick_, contacts_, reference_, unexpected_,
+                disturbance_.correction_W(), capture_},
                &hierarchy_);
   const Status solved = solver_.Solve(hierarchy_, &solution_);
   stack_.Report(solution_, &report_);
@@ -233,36 +227,25 @@ void Controller::Update(const State& state, Command* command) noexcept {
   stack_.Advance(options_.dt, solution_);
   expected_v_ = state.v + options_.dt * solution_.y.head(nv);
   expects_ = frozen_for_ == 0;
-  CorrectSag();
+  EstimateDisturbance();
   ComputeTorque(tick_, contacts_, solution_.y, &command->tau);
   LimitTorque(command);
   command->status = report_.status;
 }
 
-// A wrong model lets the robot stand beside its reference: an integral of what
-// its gains do not explain, kp e - kd v, finds what is missing; an error on its
-// way back is none of the model's faults. It waits while the momentum is not
-// free to follow, as in a push; in the plane also while the robot or its
-// reference moves, as a lag is none either.
-void Controller::CorrectSag() noexcept {
-  if (!stack_.settings(momentum_).enabled) {
-    correction_W_.setZero();
+// While its task cannot be met, as in a push, what it lacks is no fault of the
+// model. The momentum comes before a place of its own, where both are on.
+void Controller::EstimateDisturbance() noexcept {
+  const bool by_momentum = stack_.settings(momentum_).enabled;
+  const int task = by_momentum ? momentum_ : com_;
+  if (!stack_.settings(task).enabled) {
+    disturbance_.Forget();
     return;
   }
-  if (report_.tasks[momentum_].residual > kFollowing) return;
-  const auto [kp, kd, place, height] = momentum_task_.gains();
-  const bool stands = reference_.v_WG.isZero() && tick_.v_WG.norm() < kStanding;
-  const double decay = kp > 0 ? kd / kp : 0;
-  const Eigen::Vector3d e_W =
-      reference_.p_WG - tick_.p_WG + decay * (reference_.v_WG - tick_.v_WG);
-  auto level = correction_W_.head<2>();
-  if (stands) level += options_.dt * place * e_W.head<2>();
-  level *= kLargestShift / std::max(level.norm(), kLargestShift);
-  if (place == 0) level.setZero();
-  double& up = correction_W_.z();
-  up = std::clamp(up + options_.dt * height * e_W.z(), -kLargestLift,
-                  kLargestLift);
-  if (height == 0) up = 0;
+  if (report_.tasks[task].residual > kFollowing) return;
+  disturbance_.Update(options_.dt,
+                      by_momentum ? momentum_task_.gains() : com_task_.gains(),
+                      reference_, tick_);
 }
 
 // In a fall to the other side, a foot without load holds back the trunk, and its

@@ -13,10 +13,12 @@
 #include "hqp/solver.h"
 #include "robot/control/command.h"
 #include "robot/control/contacts.h"
+#include "robot/control/disturbance.h"
 #include "robot/control/measurement.h"
 #include "robot/control/reference.h"
 #include "robot/control/stack.h"
 #include "robot/control/stance.h"
+#include "robot/control/tasks/com.h"
 #include "robot/control/tasks/momentum.h"
 #include "robot/control/tick_report.h"
 #include "robot/robot.h"
@@ -102,7 +104,7 @@ class Controller {
   void FailSafe(FailSafeReason reason, const State& state,
                 Command* command) noexcept;
   void LimitTorque(Command* command) noexcept;
-  void CorrectSag() noexcept;
+  void EstimateDisturbance() noexcept;
 
   Robot robot_;
   ControllerOptions options_;
@@ -112,6 +114,8 @@ class Controller {
   Stack stack_;
   int momentum_;  ///< Index into the stack's tasks.
   const MomentumTask& momentum_task_;
+  int com_;  ///< The same.
+  const ComTask& com_task_;
   Stance stance_;
   Tick tick_;
   std::vector<ContactTick> contacts_;
@@ -125,7 +129,7 @@ class Controller {
   Pose X_MidB_;             ///< Nominal base, in the mid-feet frame.
   Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.
   double last_time_;        ///< Of the last state whose stamp is finite, s.
-  Eigen::Vector3d correction_W_ = Eigen::Vector3d::Zero();
+  Disturbance disturbance_;
   double capture_ = 0;          // See TaskInput,
   Eigen::VectorXd unexpected_;  // this too.
   Eigen::VectorXd expected_v_;  ///< What v should be in this tick,

@@ -134,6 +134,24 @@ TEST_F(CorrectionTest, FindsWhatTheGainsDoNotExplain) {
   EXPECT_LT(Correction().norm(), 1e-7);
 }
 
+// Where a task of the place alone steers it.
+TEST_F(CorrectionTest, IsOfThePlaceAlone) {
+  Stack& stack = controller_.stack();
+  ASSERT_TRUE(stack.Enable("momentum", false));
+  ASSERT_TRUE(stack.Enable("com", true));
+  ASSERT_TRUE(stack.SetParameter("com", "ki", 20));
+  ASSERT_TRUE(stack.SetParameter("com", "ki_height", 40));
+  controller_.reference().p_WG += Eigen::Vector3d(0.004, -0.003, 0.005);
+  ExpectGains({20 * 0.004, -20 * 0.003, 40 * 0.005});
+  // Not while it cannot be met.
+  controller_.Start(state_);
+  controller_.reference().p_WG += Eigen::Vector3d(0, 0.5, 0.01);
+  for (int i = 0; i < 5; ++i) Update();
+  controller_.reference().p_WG -= Eigen::Vector3d(0, 0.5, 0.01);
+  Update();
+  EXPECT_LT(Correction().norm(), 1e-7);
+}
+
 TEST_F(CorrectionTest, WaitsWhileTheMomentumCannotFollow) {
   controller_.reference().p_WG += Eigen::Vector3d(0, 0.5, 0.01);
   for (int i = 0; i < 5; ++i) Update();

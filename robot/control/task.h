@@ -24,7 +24,7 @@ struct TaskInput {
   /// model make it.
   const Eigen::VectorXd& unexpected;
   /// What the center of mass is to be accelerated beyond its reference, against
-  /// what the model does not know of, m/s2.
+  /// what the model does not know of, m/s2; see Disturbance.
   Eigen::Vector3d correction_W = Eigen::Vector3d::Zero();
   /// How far the feet alone cannot bring the robot to rest, from 0, they can, to
   /// 1; see MomentumTask::FindCapture().

@@ -8,8 +8,10 @@ namespace poise {
 ComTask::ComTask(const Tree& tree)
     : Task("com", AxisRowNames("com", {"x", "y", "z"}), {}),
       mass_(tree.total_mass() > 0 ? tree.total_mass() : 1) {
-  AddParameter("kp", &kp_, 0, 1e4);
-  AddParameter("kd", &kd_, 0, 1e3);
+  AddParameter("kp", &gains_.kp, 0, 1e4);
+  AddParameter("kd", &gains_.kd, 0, 1e3);
+  AddParameter("ki", &gains_.ki, 0, 100);
+  AddParameter("ki_height", &gains_.ki_height, 0, 100);
 }
 
 void ComTask::Write(const TaskInput& input, EqualityBlock* equalities,
@@ -18,8 +20,9 @@ void ComTask::Write(const TaskInput& input, EqualityBlock* equalities,
   const Reference& reference = input.reference;
   equalities->B.leftCols(tick.H_G.cols()) = tick.H_G.bottomRows<3>() / mass_;
   equalities->b = tick.H_G_bias.tail<3>() / mass_ -
-                  kp_ * (reference.p_WG - tick.p_WG) -
-                  kd_ * (reference.v_WG - tick.v_WG) - reference.a_WG;
+                  gains_.kp * (reference.p_WG - tick.p_WG) -
+                  gains_.kd * (reference.v_WG - tick.v_WG) - reference.a_WG -
+                  input.correction_W;
 }
 
 }  // namespace poise

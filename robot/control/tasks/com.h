@@ -2,24 +2,28 @@
 #pragma once
 
 #include "dynamics/tree.h"
+#include "robot/control/place_gains.h"
 #include "robot/control/task.h"
 
 namespace poise {
 
 /// Brings the center of mass G to its reference, the linear half of
 /// MomentumTask:
-///     (H_G v̇ + bias)_linear / m = kp (p_ref - p_G) + kd (v_ref - v_G) + a_ref.
+///     (H_G v̇ + bias)_linear / m = kp (p_ref - p_G) + kd (v_ref - v_G) + a_ref
+/// and, as for MomentumTask, what Disturbance adds.
 class ComTask final : public Task {
  public:
-  /// Parameters: kp (30 1/s2), kd (10 1/s).
+  /// Parameters: kp (30 1/s2), kd (10 1/s), ki and ki_height (15 and 60 1/s3),
+  /// see Disturbance.
   explicit ComTask(const Tree& tree);
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 
+  const PlaceGains& gains() const { return gains_; }
+
  private:
   double mass_;
-  double kp_ = 30;
-  double kd_ = 10;
+  PlaceGains gains_;
 };
 
 }  // namespace poise

@@ -29,12 +29,12 @@ MomentumTask::MomentumTask(const Tree& tree, const std::vector<Foot>& feet)
       mass_(tree.total_mass() > 0 ? tree.total_mass() : 1),
       gravity_(tree.gravity_W().norm()),
       feet_(feet) {
-  AddParameter("kp", &kp_, 0, 1e4);
-  AddParameter("kd", &kd_, 0, 1e3);
+  AddParameter("kp", &gains_.kp, 0, 1e4);
+  AddParameter("kd", &gains_.kd, 0, 1e3);
   AddParameter("kd_angular", &kd_angular_, 0, 1e3);
   AddParameter("k_orientation", &k_orientation_, 0, 1e4);
-  AddParameter("ki", &ki_, 0, 100);
-  AddParameter("ki_height", &ki_height_, 0, 100);
+  AddParameter("ki", &gains_.ki, 0, 100);
+  AddParameter("ki_height", &gains_.ki_height, 0, 100);
   AddParameter("angular_weight", &angular_weight_, 1e-6, 1e6);
   AddParameter("feedforward", &feedforward_, 0, 1);
   AddParameter("capture", &capture_, 0, 1);
@@ -110,10 +110,10 @@ void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
 
   // The height has its gains always: it does not fall over.
   const double share = input.capture;
-  const double level_kp = kp_ + share * (capture_kp_ - kp_);
-  const double level_kd = kd_ + share * (capture_kd_ - kd_);
-  const Eigen::Array3d kp(level_kp, level_kp, kp_);
-  const Eigen::Array3d kd(level_kd, level_kd, kd_);
+  const double level_kp = gains_.kp + share * (capture_kp_ - gains_.kp);
+  const double level_kd = gains_.kd + share * (capture_kd_ - gains_.kd);
+  const Eigen::Array3d kp(level_kp, level_kp, gains_.kp);
+  const Eigen::Array3d kd(level_kd, level_kd, gains_.kd);
 
   const Eigen::Array3d ahead = feedforward_ * reference.v_WG.array();
   Vector6d wanted;

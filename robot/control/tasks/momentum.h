@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dynamics/tree.h"
+#include "robot/control/place_gains.h"
 #include "robot/control/task.h"
 #include "robot/robot.h"
 
@@ -30,8 +31,7 @@ namespace poise {
 class MomentumTask final : public Task {
  public:
   /// Parameters: kp (30 1/s2), kd (10 1/s), kd_angular (10 1/s), k_orientation
-  /// (200 N m/rad); ki and ki_height (15 and 60 1/s3), by which Controller
-  /// corrects what a wrong model does to the place and the height;
+  /// (200 N m/rad); ki and ki_height (15 and 60 1/s3), see Disturbance;
   /// angular_weight (1), of the angular rows against the linear ones;
   /// feedforward (0; with 1, v_ref and a_ref are used); capture (1; with 0, no
   /// push is too large) with capture_from (0.65), capture_full (1) and
@@ -50,11 +50,7 @@ class MomentumTask final : public Task {
   };
   CaptureShares FindCapture(const TaskInput& input) const noexcept;
 
-  /// Of the place, by which an error that stays is corrected as well.
-  struct Gains {
-    double kp, kd, ki, ki_height;
-  };
-  Gains gains() const { return {kp_, kd_, ki_, ki_height_}; }
+  const PlaceGains& gains() const { return gains_; }
 
   double equality_scale(int) const noexcept override { return mass_; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
@@ -66,12 +62,9 @@ class MomentumTask final : public Task {
   double mass_;
   double gravity_;
   std::vector<Foot> feet_;
-  double kp_ = 30;
-  double kd_ = 10;
+  PlaceGains gains_;
   double kd_angular_ = 10;
   double k_orientation_ = 200;
-  double ki_ = 15;
-  double ki_height_ = 60;
   double angular_weight_ = 1;
   double feedforward_ = 0;
   double capture_ = 1;

@@ -1,0 +1,15 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+namespace poise {
+
+/// By what a task brings the center of mass to its place, and by what an error
+/// that stays there is corrected, see Disturbance.
+struct PlaceGains {
+  double kp = 30;         ///< 1/s2.
+  double kd = 10;         ///< 1/s.
+  double ki = 15;         ///< In the plane, 1/s3.
+  double ki_height = 60;  ///< 1/s3.
+};
+
+}  // namespace poise
