@@ -15,19 +15,24 @@ double Cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// The extent in y of a convex polygon at x, (lowest, highest).
+// The extent in y of a convex polygon at x, (lowest, highest). Where a side is
+// along y up to rounding, all of it counts.
 std::pair<double, double> ExtentAt(const std::vector<Vector2d>& polygon,
                                    double x) {
+  constexpr double kRounding = 1e-9;  // m.
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const Vector2d& a = polygon[i];
     const Vector2d& b = polygon[(i + 1) % polygon.size()];
-    if (x < std::min(a.x(), b.x()) || x > std::max(a.x(), b.x())) continue;
-    const double t = a.x() == b.x() ? 0 : (x - a.x()) / (b.x() - a.x());
-    const double y = a.y() + t * (b.y() - a.y());
-    low = std::min({low, y, a.x() == b.x() ? b.y() : y});
-    high = std::max({high, y, a.x() == b.x() ? b.y() : y});
+    const auto [left, right] = std::minmax(a.x(), b.x());
+    if (x < left - kRounding || x > right + kRounding) continue;
+    const bool is_along_y = right - left <= kRounding;
+    const double t = (x - a.x()) / (b.x() - a.x());
+    const double y =
+        is_along_y ? a.y() : a.y() + std::clamp(t, 0., 1.) * (b.y() - a.y());
+    low = std::min({low, y, is_along_y ? b.y() : y});
+    high = std::max({high, y, is_along_y ? b.y() : y});
   }
   return {low, high};
 }

@@ -57,6 +57,17 @@ TEST(LargestRectangle, OfARectangleIsItself) {
   EXPECT_LT((r.half_size - Vector2d(2, 1)).norm(), kPromised);
 }
 
+// A box that was turned and turned back has no side along y to the last bit: it
+// was taken for a quarter narrower, or for nothing.
+TEST(LargestRectangle, OfARectangleIsItselfUpToRounding) {
+  for (const double e : {3e-17, 3e-16, 1e-15, 1e-13}) {
+    const Rectangle r = LargestRectangle(
+        {{-0.08 + e, -0.03}, {0.08, -0.03}, {0.08, 0.03}, {-0.08 - e, 0.03}});
+    EXPECT_LT(r.center.norm(), kPromised);
+    EXPECT_LT((r.half_size - Vector2d(0.08, 0.03)).norm(), kPromised);
+  }
+}
+
 // Half the base and half the height, wherever it lies.
 TEST(LargestRectangle, OfATriangleHasHalfItsArea) {
   const Rectangle r = LargestRectangle({{0, -1}, {1, 0}, {0, 1}});
@@ -214,6 +225,21 @@ TEST(FindFeet, EstimatesASoleThatIsAMesh) {
             "is taken for 0.22 x 0.12 m, 0.1 m below the ankle");
   EXPECT_LT((feet[0].half_size - Vector2d(0.11, 0.06)).norm(), kPromised);
   EXPECT_LT((feet[0].X_BC.p - Eigen::Vector3d(0.04, 0, -0.1)).norm(),
+            kPromised);
+}
+
+// As of an ankle that turns about the side last: along its axis, its origin lies
+// beside the leg.
+TEST(FindFeet, EstimatesASoleBelowTheMassOfTheFoot) {
+  std::string biped =
+      Biped(Collision("mesh filename='foot.stl'", "0 0 0"), "0 0 0");
+  const std::string foot = "<link name='l6'><inertial>";
+  const size_t at = biped.find(foot) + foot.size();
+  biped.insert(at, "<origin xyz='0.05 0.037 -0.03'/>");
+  const auto feet = Find(biped);
+  EXPECT_LT((feet[0].X_BC.p - Eigen::Vector3d(0.04, 0.037, -0.1)).norm(),
+            kPromised);
+  EXPECT_LT((feet[1].X_BC.p - Eigen::Vector3d(0.04, 0, -0.1)).norm(),
             kPromised);
 }
 

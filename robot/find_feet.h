@@ -23,7 +23,8 @@ namespace poise {
 /// six motors or more is estimated: on the level of a link named `sole`, or of
 /// the foot's lowest link, or a tenth of the leg's length L below the ankle;
 /// from 0.07 L behind the ankle to 0.15 L before it, 0.12 L wide, smaller than
-/// most are. It is better given by a profile.
+/// most are, and sideways below the foot's center of mass. It is better given by a
+/// profile.
 ///
 /// @param findings  where not null, a warning is added for each estimate.
 ///

@@ -156,10 +156,12 @@ Sole EstimateSole(const RobotModel& model, int body, const Vector3d& up_B,
   const double depth = EstimateDepth(model, body, up_B, leg, &sole.frame);
   sole.normal_B = up_B;
   const Vector3d side_B = up_B.cross(forward_B);
+  // The joint's origin may be anywhere along its axis, the sole is not.
+  const double middle = side_B.dot(model.tree.inertias()[body].p_BoG_B);
   for (const double x : {-0.07, 0.15}) {
     for (const double y : {-0.06, 0.06}) {
-      sole.points_B.push_back(leg * (x * forward_B + y * side_B) -
-                              depth * up_B);
+      sole.points_B.push_back(leg * (x * forward_B + y * side_B) +
+                              middle * side_B - depth * up_B);
     }
   }
   return sole;
