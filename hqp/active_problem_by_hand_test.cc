@@ -91,19 +91,37 @@ TEST_F(ActiveProblemReadTest, FindsTheFirstLevelWithABadNumber) {
 TEST_F(ActiveProblemReadTest, TakesWhatWeighsNothingForZeros) {
   int failed_level;
   for (const bool is_nothing : {false, true}) {
-    const double length = is_nothing ? 0.9e-150 : 1.1e-150;
-    C_[1][0] = C_[1][1] = length / 2;
-    B_[1][0] = B_[1][1] = length / 2 / 3;
-    b_[1][0] = 0;
-    weight_[1][0] = 9;
-    ASSERT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
-    EXPECT_EQ(problem_.norm(1, 0) == 0, is_nothing);
-    EXPECT_EQ(problem_.norm(1, 1), 4);
-    problem_.Plan(hierarchy_, 2);
-    problem_.Solve(hierarchy_,
-                   {{Side::kNone, Side::kNone}, {Side::kLower, Side::kNone}});
-    EXPECT_EQ(problem_.head().num_rows(), is_nothing ? 1 : 3);
-    for (const double y : problem_.y()) EXPECT_TRUE(std::isfinite(y));
+    for (const double root : {3., 0.5}) {
+      const double length = is_nothing ? 0.9e-150 : 1.1e-150;
+      C_[1][0] = C_[1][1] = length / 2;
+      B_[1][0] = B_[1][1] = length / 2 / root;
+      b_[1][0] = 0;
+      weight_[1][0] = root * root;
+      ASSERT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
+      EXPECT_EQ(problem_.norm(1, 0) == 0, is_nothing);
+      EXPECT_EQ(problem_.norm(1, 1), 4);
+      problem_.Plan(hierarchy_, 2);
+      problem_.Solve(hierarchy_,
+                     {{Side::kNone, Side::kNone}, {Side::kLower, Side::kNone}});
+      EXPECT_EQ(problem_.head().num_rows(), is_nothing ? 1 : 3) << root;
+      for (const double y : problem_.y()) EXPECT_TRUE(std::isfinite(y));
+    }
+  }
+}
+
+TEST(ActiveProblem, HasATailWhateverItsRowsWeigh) {
+  for (const double weight : {0., 1e-9, 1e9}) {
+    const std::vector<LevelCapacity> capacity{{1, 0}, {2, 0}};
+    Hierarchy hierarchy(2, capacity);
+    hierarchy.AddEqualities(0, 1).B << 1, 1;
+    EqualityBlock wishes = hierarchy.AddEqualities(1, 2);
+    wishes.B.setIdentity();
+    wishes.weight << weight, 1;
+    ActiveProblem problem(2, capacity);
+    int failed_level;
+    EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+    problem.Plan(hierarchy, 2);
+    EXPECT_EQ(problem.num_head(), 1) << weight;
   }
 }
 
@@ -325,6 +343,16 @@ TEST_F(RefinementTest, BringsSmallNumbersBackFromBesideLargeOnes) {
   }
 }
 
+// And with them what a row lacks that is at odds with these: to 1e-6 at first.
+TEST_F(RefinementTest, BringsBackWhatALevelLacks) {
+  Refine({{Row({1, 1, 0}), 1e10},
+          {Row({0, 1, 1}), 3e-6},
+          {Row({0, 1, -1}), 1e-6},
+          {Row({0, 1, 1}), 1, 1}},
+         {});
+  EXPECT_NEAR(residual_[3], 3e-6 - 1, Rounding(1, 3));
+}
+
 // Two rows of y1 and y2 that ask for zero cannot be met, relative to themselves.
 // What is left is rounding's, and so is all that is as small, 1e-18 of the
 // largest, before or after, unless it is just what is asked for.
@@ -345,6 +373,13 @@ TEST_F(RefinementTest, LeavesNoRoundingWhereZeroWasMeant) {
     for (const double sign : {1, -1}) {
       const double nothing = sign * 0.7 * unit, something = sign * 1.4 * unit;
       EXPECT_EQ(refine(1, 0, {large, 0, 0, nothing})[3], 0);
+      // As the first variable.
+      const std::vector<double> turned{nothing, 0, 0, large};
+      EXPECT_EQ(Refine({{Row({0, 0, 1, 1}), 1},
+                        {Row({0, 2, 1, 0}), 0},
+                        {Row({0, -1, 3, 0}), 0}},
+                       {{0, 0}}, &turned)[0],
+                0);
       EXPECT_EQ(refine(large, 0, {1, 0, 0, nothing})[3], 0);
       EXPECT_EQ(refine(1, 0, {large, 0, 0, something})[3], something);
       EXPECT_EQ(refine(large, 0, {1, 0, 0, something})[3], something);
@@ -354,7 +389,29 @@ TEST_F(RefinementTest, LeavesNoRoundingWhereZeroWasMeant) {
   }
 }
 
-// As before, beside a level to which the small numbers matter.
+// What rounding leaves of y0 where three rows meet is all that the row y0 = 0 has,
+// whichever of the three it is.
+TEST_F(RefinementTest, LeavesNoRoundingWhereThreeRowsMeet) {
+  std::vector<Met> rows{
+      {Row({1, 0}), 0}, {Row({4, 5}), -5}, {Row({-2, 5}), -5}};
+  for (int turn = 0; turn < 3; ++turn) {
+    const Eigen::VectorXd y = Refine(rows, {});
+    EXPECT_EQ(y[0], 0) << turn;
+    EXPECT_NEAR(y[1], -1, kRefined) << turn;
+    std::rotate(rows.begin(), rows.begin() + 1, rows.end());
+  }
+}
+
+// What cannot be met is not missed: where all else is met, what is small stays.
+TEST_F(RefinementTest, LeavesWhatIsSmallBesideRowsAtOdds) {
+  const std::vector<double> other{1e18, 1e18, 0.7};
+  const Eigen::VectorXd y = Refine(
+      {{Row({1, 1, 0}), 1e18}, {Row({1, 1, 0}), 3e18}}, {{2, 0}}, &other);
+  EXPECT_NEAR(residual_[0], 1e18, Rounding(3e18, 2));
+  EXPECT_EQ(y[2], 0.7);
+}
+
+// As where zero was meant, beside a level to which the small numbers matter.
 TEST_F(RefinementTest, LeavesWhatALevelNeeds) {
   for (const int needs : {0, 1}) {
     for (const bool first : {false, true}) {
@@ -368,6 +425,7 @@ TEST_F(RefinementTest, LeavesWhatALevelNeeds) {
       const Eigen::VectorXd y = Refine(rows, {{5, 0.7}});
       ExpectMet(sum, y);
       ExpectMet(difference, y);
+      EXPECT_EQ(y.segment(1, 2), Eigen::Vector2d::Zero());
       EXPECT_EQ(y[5], 0.7);
     }
   }

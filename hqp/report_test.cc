@@ -188,26 +188,30 @@ TEST(Report, CountsARowAsViolatedFromAnEdgeOn) {
 
 // y0 = 1 above y0 <= 1 - 2e-9, which is violated too little to count, and y1 = 0:
 // what is below and asks for y0 + y1 = 0 would draw at the bound as much as at
-// y0 = 1, were it not for these two, which weigh the same.
+// y0 = 1, were it not for these two, which weigh the same. And so in other units.
 TEST(Report, TakesForceOffARowThatIsViolatedTooLittleToCount) {
-  const std::vector<LevelCapacity> capacity{{2, 1}, {1, 0}};
-  Hierarchy hierarchy(2, capacity);
-  EqualityBlock wishes = hierarchy.AddEqualities(0, 2);
-  wishes.B << 1, 0, 0, 1;
-  wishes.b << -1, 0;
-  InequalityBlock bound = hierarchy.AddInequalities(0, 1);
-  bound.C << 1, 0;
-  bound.upper << 1 - 2e-9;
-  EqualityBlock sum = hierarchy.AddEqualities(1, 1);
-  sum.B << 1, 1;
-  const Solution solution = Solve(hierarchy, capacity);
-  EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
-  EXPECT_EQ(solution.levels[0].nullity, 0);
-  const LevelMultipliers& of_sum = solution.levels[1].multipliers[0];
-  // Of the two numbers that cancel, 1e-9 each, seven digits are left.
-  EXPECT_LE((of_sum.equality - Eigen::Vector2d(-1, -1)).norm(), 1e-6);
-  EXPECT_NEAR(of_sum.inequality[0], 0, 1e-6);
-  EXPECT_LE(Certifier(2, capacity).Certify(hierarchy, solution).worst(), 1e-9);
+  for (const double unit : {1., 1e-3}) {
+    SCOPED_TRACE(unit);
+    const std::vector<LevelCapacity> capacity{{2, 1}, {1, 0}};
+    Hierarchy hierarchy(2, capacity);
+    EqualityBlock wishes = hierarchy.AddEqualities(0, 2);
+    wishes.B << 1, 0, 0, 1;
+    wishes.b << -unit, 0;
+    InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+    bound.C << 1, 0;
+    bound.upper << unit * (1 - 2e-9);
+    EqualityBlock sum = hierarchy.AddEqualities(1, 1);
+    sum.B << 1, 1;
+    const Solution solution = Solve(hierarchy, capacity);
+    EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
+    EXPECT_EQ(solution.levels[0].nullity, 0);
+    const LevelMultipliers& of_sum = solution.levels[1].multipliers[0];
+    // Of the two numbers that cancel, 1e-9 each, seven digits are left.
+    EXPECT_LE((of_sum.equality / unit - Eigen::Vector2d(-1, -1)).norm(), 1e-6);
+    EXPECT_NEAR(of_sum.inequality[0] / unit, 0, 1e-6);
+    EXPECT_LE(Certifier(2, capacity).Certify(hierarchy, solution).worst(),
+              1e-9);
+  }
 }
 
 // y = 1 and y <= -1 are torn between at y = 0: there both are equalities, and

@@ -329,6 +329,40 @@ TEST_F(RowStackTest, WhatIsKeptIsNoRounding) {
   }
 }
 
+// Small numbers, after large ones that are gone.
+TEST_F(RowStackTest, AResidualIsJudgedByItsOwnLevel) {
+  RowStack stack(1, 3, 1);
+  for (const double scale : {1.0, 1e-13}) {
+    stack.Truncate(0);
+    *stack.row(stack.AddRow(0, 1)) = 1;
+    *stack.row(stack.AddRow(2 * scale, 1)) = 1;
+    if (scale == 1) *stack.row(stack.AddRow(1, 1)) = 1;
+    stack.FactorLevel();
+    EXPECT_NEAR(stack.residual(0), scale, Rounding(scale, 4));
+    EXPECT_NEAR(stack.residual(1), -scale, Rounding(scale, 4));
+  }
+}
+
+// Rows of y that a level above has fixed, the heavy one at either place.
+TEST_F(RowStackTest, WhatIsKeptIsNoRoundingOfAHeavyRow) {
+  for (const int heavy : {0, 1}) {
+    for (const double light : {0.7, 1.4}) {
+      RowStack stack(1, 3, 2);
+      *stack.row(stack.AddRow(0, 1)) = 1;
+      stack.FactorLevel();
+      for (int i = 0; i < 2; ++i) {
+        *stack.row(stack.AddRow(0, i == heavy ? 1e6 : 1)) = 1;
+      }
+      stack.FactorLevel();
+      double residual[2] = {light, light};
+      residual[heavy] = 1;  // Its force is 1e12.
+      stack.SetResiduals(1, residual, 0);
+      EXPECT_EQ(stack.residual(1 + heavy), 1);
+      EXPECT_EQ(stack.residual(2 - heavy), light < 1 ? 0 : light) << heavy;
+    }
+  }
+}
+
 TEST_F(RowStackTest, DoesNotAllocate) {
   RowStack stack(2, 4, 2);
   double force[2] = {1, 2}, nu[4], lack[4] = {}, change[2];

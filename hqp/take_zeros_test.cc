@@ -50,6 +50,9 @@ TEST_F(TakeZerosTest, TakesWhatIsNothingBesideTheLargest) {
   for (const double sign : {1., -1.}) {
     const double nothing = sign * 3.6e-14, something = sign * 4.4e-14;
     EXPECT_EQ(Take(1, 1, 7, {kLarge, nothing, 7, 0, 0}, {0, 2, 0, 0, 0})[1], 0);
+    const double just = sign * 1e-14 * kLarge;
+    EXPECT_EQ(Take(1, 1, 4, {kLarge, just, kLarge, 0, 0}, {0, 2, 0, 0, 0})[1],
+              0);
     EXPECT_EQ(
         Take(1, 1, 4, {kLarge, something, kLarge, 0, 0}, {0, 2, 0, 0, 0})[1],
         something);
@@ -64,6 +67,54 @@ TEST_F(TakeZerosTest, LeavesWhatARowNeeds) {
   const Vector y{kLarge, kSmall, 2 * kSmall, 0, 0};
   EXPECT_EQ(Take(1, 1, 3 * kSmall, y, {0, 1, 0, 0, 0}), y);
   EXPECT_EQ(Take(1, 1, 3 * kSmall, y, {0, 1, 1, 0, 0}), y);
+  // Beside zeros, which need not become any, be it against a wish.
+  const Vector one{kLarge, 0, 3 * kSmall, 0, 0};
+  EXPECT_EQ(Take(1, 1, 3 * kSmall, one, {0, 1, 1, 1, 0}), one);
+}
+
+TEST_F(TakeZerosTest, AsksRowsOfYAsItIs) {
+  const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
+  Hierarchy hierarchy(3, capacity);
+  EqualityBlock sum = hierarchy.AddEqualities(0, 1);
+  sum.B << 0, 1, 1;
+  sum.b << -2 * kSmall;
+  EqualityBlock large = hierarchy.AddEqualities(1, 1);
+  large.B << 1, 0, 0;
+  large.b << -kLarge;
+  ActiveProblem problem(3, capacity);
+  int failed_level;
+  EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+  problem.Plan(hierarchy, 2);
+  problem.Solve(hierarchy, {{}, {}});
+  const Vector y = problem.y();
+  problem.TakeOther(hierarchy, {kLarge, 1, 1});  // Meets nothing.
+  problem.Solve(hierarchy, {{}, {}});
+  const Vector row{0, 1, 0};
+  EXPECT_FALSE(problem.TakeZeros(hierarchy, row.data()));
+  EXPECT_EQ(problem.y(), y);
+}
+
+// Of a bound y1 <= 1 that was, y1 = 0 misses all.
+TEST_F(TakeZerosTest, AsksNoRowThatIsNotActiveAnyMore) {
+  const std::vector<LevelCapacity> capacity{{1, 0}, {0, 1}};
+  Hierarchy hierarchy(2, capacity);
+  EqualityBlock large = hierarchy.AddEqualities(0, 1);
+  large.B << 1, 0;
+  large.b << -kLarge;
+  InequalityBlock bound = hierarchy.AddInequalities(1, 1);
+  bound.C << 0, 1;
+  bound.upper << 1;
+  ActiveProblem problem(2, capacity);
+  int failed_level;
+  EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+  problem.Plan(hierarchy, 2);
+  for (const Side side : {Side::kUpper, Side::kNone}) {
+    problem.Solve(hierarchy, {{}, {side}});
+    problem.TakeOther(hierarchy, {kLarge, kSmall});
+  }
+  const Vector row{0, 1};
+  EXPECT_TRUE(problem.TakeZeros(hierarchy, row.data()));
+  EXPECT_EQ(problem.y(), Vector({kLarge, 0}));
 }
 
 TEST_F(TakeZerosTest, TakesTwoThatMakeUpForEachOther) {
@@ -80,6 +131,9 @@ TEST_F(TakeZerosTest, TakesOneWhereTheOtherIsNeeded) {
   EXPECT_EQ(
       Take(2, 1, 2 * kSmall, {kLarge, kSmall, 1e-30, 0, 0}, {0, 1, 1, 0, 0}),
       Vector({kLarge, kSmall, 0, 0, 0}));
+  EXPECT_EQ(Take(1, 1, 2 * kSmall, {kSmall, 2 * kSmall, 0, 0, kLarge},
+                 {1, 1, 0, 0, 0}),
+            Vector({0, 2 * kSmall, 0, 0, kLarge}));
 }
 
 // Twice as bad is as good as before: from 0.43 of its terms to 0.54, but not from
