@@ -206,12 +206,42 @@ TEST(FindFeet, LooksWhereTheToesAre) {
   EXPECT_EQ(model.tree.frames()[turned[0].frame].name, "r6");
 }
 
+// The foot is moved by a roll, whose origin is anywhere along its axis: from there
+// the heel reached further than the toes.
+TEST(FindFeet, LooksFromTheAnkleWhereTheToesAre) {
+  std::string biped =
+      Biped(Collision("box size='0.2 0.1 0.02'", "-0.02 0 -0.04"), "0 0 0");
+  for (const std::string side : {"l", "r"}) {
+    const size_t at = biped.find("<joint name='j" + side + "6'");
+    biped.replace(biped.find("'0 0 0'", at), 7, "'0.05 0 0'");
+  }
+  EXPECT_GT(Find(biped)[0].X_BC.R(0, 0), 0);
+}
+
 TEST(FindFeet, LooksWhereTheKneesGoIfThereAreNoToes) {
   const std::string box = Collision("box size='0.2 0.1 0.02'", "0 0 -0.04");
   EXPECT_NEAR(Find(Biped(box, "0 0 0"))[0].X_BC.R(0, 0), 1, kPromised);
   const auto turned =
       FindFeet(ParseUrdf(Biped(box, "0 0 0", "lower='-2' upper='0'"), "biped"));
   EXPECT_NEAR(turned[0].X_BC.R(0, 0), -1, kPromised);
+}
+
+// At zero this knee is bent, half of its range: that it goes as far either way from
+// there says nothing, where it is does.
+TEST(FindFeet, LooksWhereTheKneesAreBentAtRest) {
+  std::string biped = Biped(Collision("box size='0.2 0.1 0.02'", "0 0 -0.04"),
+                            "0 -0.6 0", "lower='-1.1' upper='1'");
+  for (const std::string side : {"l", "r"}) {
+    const auto turn = [&](const std::string& link, double pitch) {
+      const size_t at = biped.find("<joint name='j" + side + link + "'");
+      const std::string straight = "rpy='0 0 0'";
+      biped.replace(biped.find(straight, at), straight.size(),
+                    "rpy='0 " + std::to_string(pitch) + " 0'");
+    };
+    turn("3", -0.6);
+    turn("4", 1.2);
+  }
+  EXPECT_GT(Find(biped)[0].X_BC.R(0, 0), 0);
 }
 
 TEST(FindFeet, EstimatesASoleThatIsAMesh) {

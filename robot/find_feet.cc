@@ -100,6 +100,23 @@ std::string LinkOf(const RobotModel& model, int body) {
   return "";
 }
 
+// The first body of the leg that ends in a foot.
+int HipOf(const RobotModel& model, int foot) {
+  int hip = foot;
+  while (model.tree.joints()[hip - 1].parent > 0) {
+    hip = model.tree.joints()[hip - 1].parent;
+  }
+  return hip;
+}
+
+// Where the ankle of a foot is, or else the foot's own origin.
+Vector3d AnkleOf(const RobotModel& model, int foot,
+                 const std::vector<Pose>& X_WB, const Vector3d& forward) {
+  const auto ankle =
+      FindAnkle(model.tree, foot, X_WB, Vector3d::UnitZ().cross(forward));
+  return X_WB[ankle ? *ankle + 1 : foot].p;
+}
+
 // Where a file has only meshes; see FindFeet().
 Sole SoleWithoutShape(const RobotModel& model, int body,
                       const std::vector<Pose>& X_WB, const Vector3d& forward,
@@ -112,14 +129,12 @@ Sole SoleWithoutShape(const RobotModel& model, int body,
                                 ", nor motors to lay one flat: the leg has " +
                                 std::to_string(motors) + ", must have 6");
   }
-  int hip = body;
-  while (model.tree.joints()[hip - 1].parent > 0) {
-    hip = model.tree.joints()[hip - 1].parent;
-  }
-  const double leg = X_WB[hip].p.z() - X_WB[body].p.z();
+  const double leg = X_WB[HipOf(model, body)].p.z() - X_WB[body].p.z();
   const Vector3d up_B = X_WB[body].R.row(2).transpose();
-  const Sole sole =
-      EstimateSole(model, body, up_B, X_WB[body].R.transpose() * forward, leg);
+  const Vector3d forward_B = X_WB[body].R.transpose() * forward;
+  const Vector3d p_BA_B =
+      X_WB[body].Inverse() * AnkleOf(model, body, X_WB, forward);
+  const Sole sole = EstimateSole(model, body, up_B, forward_B, p_BA_B, leg);
   if (findings != nullptr) {
     findings->push_back({Severity::kWarn, "sole of link " + Quoted(link),
                          "is taken for " + PrintNumber(0.22 * leg) + " x " +
@@ -131,20 +146,24 @@ Sole SoleWithoutShape(const RobotModel& model, int body,
   return sole;
 }
 
-// How far the sole reaches before its ankle, less how far behind, m.
-double Toes(const Sole& sole, const Vector3d& forward_B) {
+// How far the sole of a foot reaches before its ankle, less how far behind, m.
+double Toes(const RobotModel& model, int foot, const std::vector<Pose>& X_WB,
+            const Sole& sole, const Vector3d& forward) {
   if (sole.points_B.empty()) return 0;
+  const Vector3d p_WA = AnkleOf(model, foot, X_WB, forward);
   double front = -std::numeric_limits<double>::infinity();
   double back = -front;
-  for (const Vector3d& p : sole.points_B) {
-    front = std::max(front, p.dot(forward_B));
-    back = std::min(back, p.dot(forward_B));
+  for (const Vector3d& p_B : sole.points_B) {
+    const double ahead = (X_WB[foot] * p_B - p_WA).dot(forward);
+    front = std::max(front, ahead);
+    back = std::min(back, ahead);
   }
   return front + back;
 }
 
-// How far the knee above a foot goes forward, less how far backward, rad. To
-// turn about the left moves what is below backward: the knee forward.
+// How far the knee above a foot bends forward, less how far backward, rad: by its
+// range, and by how it is bent at rest. To turn about the left moves what is below
+// backward: the knee forward.
 double KneeRange(const RobotModel& model, int body,
                  const std::vector<Pose>& X_WB, const Vector3d& forward) {
   const auto knee =
@@ -152,7 +171,13 @@ double KneeRange(const RobotModel& model, int body,
   if (!knee) return 0;
   const JointLimits& limits = model.limits[knee->joint];
   const double range = knee->sign * (limits.lower + limits.upper);
-  return std::isfinite(range) ? range : 0;
+  const Vector3d p_WK = X_WB[knee->joint + 1].p;
+  const auto ahead = [&](const Vector3d& down) {
+    return std::atan2(down.dot(forward), -down.z());
+  };
+  const double bend =
+      ahead(p_WK - X_WB[HipOf(model, body)].p) - ahead(X_WB[body].p - p_WK);
+  return 2 * bend + (std::isfinite(range) ? range : 0);
 }
 
 }  // namespace
@@ -184,7 +209,7 @@ std::vector<Foot> FindFeet(const RobotModel& model,
   double toes = 0;
   double knees = 0;
   for (const int body : bodies) {
-    toes += Toes(soles[body], X_WB[body].R.transpose() * forward);
+    toes += Toes(model, body, X_WB, soles[body], forward);
     knees += KneeRange(model, body, X_WB, forward);
   }
   if (std::abs(toes) > kToes ? toes < 0 : knees < 0) forward = -forward;

@@ -150,18 +150,20 @@ Sole FindSole(const Outline& outline, const Vector3d& up_B) {
 }
 
 Sole EstimateSole(const RobotModel& model, int body, const Vector3d& up_B,
-                  const Vector3d& forward_B, double leg) {
+                  const Vector3d& forward_B, const Vector3d& p_BA_B,
+                  double leg) {
   Sole sole;
   sole.frame = -1;
   const double depth = EstimateDepth(model, body, up_B, leg, &sole.frame);
   sole.normal_B = up_B;
   const Vector3d side_B = up_B.cross(forward_B);
-  // The joint's origin may be anywhere along its axis, the sole is not.
+  // The foot's origin may be anywhere along the axis that moves it.
+  const double ankle = forward_B.dot(p_BA_B);
   const double middle = side_B.dot(model.tree.inertias()[body].p_BoG_B);
   for (const double x : {-0.07, 0.15}) {
     for (const double y : {-0.06, 0.06}) {
-      sole.points_B.push_back(leg * (x * forward_B + y * side_B) +
-                              middle * side_B - depth * up_B);
+      sole.points_B.push_back((ankle + x * leg) * forward_B +
+                              (middle + y * leg) * side_B - depth * up_B);
     }
   }
   return sole;

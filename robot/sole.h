@@ -40,10 +40,11 @@ Sole FindSole(const Outline& outline, const Eigen::Vector3d& up_B);
 
 /// Where a sole must be whose foot has no shapes to tell: see FindFeet().
 ///
+/// @param p_BA_B  of the ankle.
 /// @param leg  the length of the leg, m.
 Sole EstimateSole(const RobotModel& model, int body,
                   const Eigen::Vector3d& up_B, const Eigen::Vector3d& forward_B,
-                  double leg);
+                  const Eigen::Vector3d& p_BA_B, double leg);
 
 /// The frame S in the plane of a sole, below the body's origin: z along the
 /// normal, x forward, along an axis of the foot if one is near.
