@@ -36,9 +36,11 @@ constexpr int kFullSteps = 30;  // Then each is shorter, so that none cycle.
 constexpr double kShrink = 0.6;
 // A step that is not the best one will do.
 constexpr int kSolverIterations = 60;
+// Of an ankle's torque, to hold the robot on one foot; the rest moves it.
+constexpr double kAnkleShare = 0.5;
 // What is left of an error that can be met, m or rad.
 constexpr double kConverged = 1e-9;
-// The center of mass is over the middle, m; soles lie flat, m and rad.
+// The center of mass is over its place, m; soles lie flat, m and rad.
 constexpr double kCentered = 5e-3;
 constexpr double kFlat = 1e-6;
 
@@ -96,6 +98,7 @@ class Standing {
     distance_ = std::max(
         (feet_[0].X_WC.p - feet_[1].X_WC.p).y(),
         robot.feet[0].half_size.y() + robot.feet[1].half_size.y() + kFootGap);
+    for (const int i : {0, 1}) forward_ += 0.5 * Forward(i);
     q_wanted_ = q_;
     posture_weight_ = VectorXd::Ones(tree_.num_joints());
     for (const Foot& foot : robot.feet) BendKnee(foot.body, bend);
@@ -144,6 +147,21 @@ class Standing {
   void Evaluate() {
     ComputeTick(tree_, q_, zero_, &tick_);
     for (const int i : {0, 1}) feet_[i] = StateOf(robot_, tick_, i);
+  }
+
+  // Where before the middle of a sole the center of mass is to be, m: there or,
+  // where the ankle is too weak to hold it on that foot alone, nearer to the ankle.
+  double Forward(int i) const {
+    const Pose& X_WC = feet_[i].X_WC;
+    const auto ankle =
+        FindAnkle(tree_, robot_.feet[i].body, tick_.X_WB, X_WC.R.col(1));
+    if (!ankle) return 0;
+    const double effort = robot_.model.limits[*ankle].effort;
+    if (!(effort > 0)) return 0;  // The file gives none.
+    const double weight = tree_.total_mass() * tree_.gravity_W().norm();
+    const double reach = kAnkleShare * effort / weight;
+    const double x = (X_WC.Inverse() * tick_.X_WB[*ankle + 1].p).x();
+    return std::clamp(0., x - reach, x + reach);
   }
 
   // Where the joints may go; those at rest outside come in.
@@ -213,10 +231,15 @@ class Standing {
     middle.b[0] = feet_[0].X_WC.p.y() + feet_[1].X_WC.p.y();
   }
 
+  // Of the center of mass, in the plane, m.
+  Eigen::Vector2d OffBalance() const {
+    return tick_.p_WG.head<2>() - Eigen::Vector2d(forward_, 0);
+  }
+
   void AddBalance(Hierarchy* hierarchy) const {
     EqualityBlock com = hierarchy->AddEqualities(2, 2);
     com.B = tick_.H_G.middleRows<2>(3) / tree_.total_mass();
-    com.b = tick_.p_WG.head<2>();
+    com.b = OffBalance();
     EqualityBlock lean = hierarchy->AddEqualities(3, 3);
     lean.B.leftCols<3>().setIdentity();
     lean.b = LogSo3(tick_.X_WB[0].R * R_WB_.transpose());
@@ -247,10 +270,10 @@ class Standing {
         return stays + PrintNumber(off) + " m off its place";
       }
     }
-    const double off = tick_.p_WG.head<2>().norm();
+    const double off = OffBalance().norm();
     if (off <= kCentered) return "";
     return "the center of mass stays " + PrintNumber(off) +
-           " m off the middle of the soles";
+           " m off its place over the soles";
   }
 
   const Robot& robot_;
@@ -263,6 +286,7 @@ class Standing {
   FootState feet_[2];
   Matrix3d R_WB_;
   double distance_;
+  double forward_ = 0;  // Of the center of mass before the middle, m.
 };
 
 }  // namespace

@@ -12,11 +12,13 @@ namespace poise {
 
 /// Stands a robot up: finds base and joints such that both soles lie flat on the
 /// ground (z = 0), side by side and facing +x, their middle at the world's
-/// origin, and the center of mass is over it; by inverse kinematics with the
-/// hierarchical solver. Each step minimizes, one after the other,
+/// origin, and the center of mass is over it or, where an ankle could not hold it
+/// there on one foot with half of its torque, as much nearer to the ankles; by
+/// inverse kinematics with the hierarchical solver. Each step minimizes, one after
+/// the other,
 ///  1. joint limits, with 0.05 rad or 5 % of the range to spare, and couplings,
 ///  2. the soles' tilt, height, heading and place,
-///  3. the distance of the center of mass from the middle, in the plane,
+///  3. the distance of the center of mass from there, in the plane,
 ///  4. the lean of the base, and how far the feet are off their rest distance,
 ///  5. the distance from the joints of robot->q_nominal, with the knees bent by
 ///     0.6 rad where those have them straight.

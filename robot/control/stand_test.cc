@@ -68,6 +68,25 @@ TEST(StandUp, KeepsCouplings) {
               kMet);
 }
 
+// Over the middle of its soles it would fall as soon as it stood on one of them.
+TEST(StandUp, StandsNearerToAnklesThatAreWeak) {
+  Robot robot = LoadRobot("robot/models/humanoid.urdf");
+  const Tree& tree = robot.model.tree;
+  const double reach = 0.01;  // m, of half an ankle's torque.
+  const double weight = tree.total_mass() * tree.gravity_W().norm();
+  for (const char* ankle : {"l_ankle_pitch", "r_ankle_pitch"}) {
+    robot.model.limits[tree.FindJoint(ankle).value()].effort =
+        2 * reach * weight;
+  }
+  StandUp(&robot);
+  Tick tick(tree, {});
+  ComputeTick(tree, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
+  const int ankle = tree.FindJoint("l_ankle_pitch").value() + 1;  // A body.
+  const double behind = tick.X_WB[ankle].p.x();
+  ASSERT_LT(behind + reach, 0);
+  EXPECT_NEAR(tick.p_WG.x(), behind + reach, kMet);
+}
+
 TEST(StandUp, SaysWhyARobotCannot) {
   Robot robot = LoadRobot("robot/models/humanoid.urdf");
   // The left leg wants the base to lean one way, the right leg the other.
