@@ -194,7 +194,7 @@ void Recorder::ConflictCell(const TickRecord& record) {
   if (level >= 0) {
     next_conflict_ = now + kBetweenConflicts;
     for (const HierarchyRow& row : FindConflict(record.hierarchy, level)) {
-      Entry(record.stack.RowName(row.level, row.row, row.equality),
+      Entry(record.stack.RowName(row.level, row.row, row.equality, row.side),
             record.stack.rank_of_level(row.level));
     }
   }

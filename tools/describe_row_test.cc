@@ -25,7 +25,7 @@ TEST(DescribeRow, TellsNoLoadFromAsMuchAsAFootMayBear) {
             "the left foot without load");
   EXPECT_EQ(DescribeRow("left_foot.unilateral.fz.max"),
             "the left foot at the most that it may bear");
-  // Of a conflict, and of logs that do not say on which side.
+  // Of logs that do not say on which side.
   EXPECT_EQ(DescribeRow("left_foot.unilateral.fz"),
             "the normal force of the left foot");
 }

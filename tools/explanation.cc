@@ -89,7 +89,7 @@ Values HardestFirst(Values rows) {
 }
 
 // Of rows that contradict each other, those that bound, each as it acts: a
-// conflict does not say on which side, nor how hard.
+// conflict does not say how hard, nor, in older logs, on which side.
 Values Constraints(const Values& rows, const Values& acting) {
   Values bounds;
   for (const auto& [name, rank] : rows) {

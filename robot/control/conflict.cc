@@ -64,6 +64,14 @@ class Feasibility {
     return violations;
   }
 
+  // On which side each row is violated that the last Violations() were of.
+  void TellSides(std::vector<HierarchyRow>* rows) const {
+    Eigen::Index i = 0;
+    for (HierarchyRow& row : *rows) {
+      if (!row.equality) row.side = solution_.levels[0].active[i++];
+    }
+  }
+
   // Rows among these that contradict each other; nothing if none do. At the
   // optimum the violated rows, each times its violation, add up to zero: they
   // contradict each other without the rest.
@@ -126,6 +134,8 @@ std::vector<HierarchyRow> FindConflict(const Hierarchy& hierarchy, int level,
       ++i;
     }
   }
+  (void)feasibility.Violations(rows);
+  feasibility.TellSides(&rows);
   return rows;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hqp/hierarchy.h"
+#include "hqp/solution.h"
 
 namespace poise {
 
@@ -12,6 +13,7 @@ struct HierarchyRow {
   int level;
   int row;
   bool equality;
+  Side side = Side::kNone;  ///< Of an inequality, which of its bounds is meant.
 };
 
 /// The smallest answer to why a level cannot be met: rows of it and of the

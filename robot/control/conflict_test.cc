@@ -129,14 +129,16 @@ TEST_F(ControllerTest, NamesALimitThatCannotBeMetAndWhatItContradicts) {
   EXPECT_TRUE(is_named);
 
   // Rank 2 is the second level: what it contradicts is of rank 2 or 1.
-  int joints = 0, torques = 0;
+  int joints = 0, upper = 0, torques = 0;
   for (const HierarchyRow& row : FindConflict(weak.hierarchy(), 1)) {
     const std::string name =
-        weak.stack().RowName(row.level, row.row, row.equality);
+        weak.stack().RowName(row.level, row.row, row.equality, row.side);
     joints += name.rfind("joint.", 0) == 0;
     torques += name.rfind("torque.", 0) == 0;
+    upper += name.rfind("joint.", 0) == 0 && row.side == Side::kUpper;
   }
   EXPECT_GT(joints, 0);
+  EXPECT_GT(upper, 0);  // The stops that they run into.
   EXPECT_GT(torques, 0);
   EXPECT_LT(joints + torques, 2 * tree().num_joints());
 }
@@ -153,7 +155,28 @@ TEST_F(ControllerTest, NamesTheRowsOfAContradiction) {
   const std::vector<HierarchyRow> conflict = FindConflict(hierarchy, 0);
   ASSERT_EQ(conflict.size(), 2u);
   EXPECT_EQ(conflict[0].row, 0);
+  EXPECT_EQ(conflict[0].side, Side::kUpper);
   EXPECT_EQ(conflict[1].row, 1);
+  EXPECT_EQ(conflict[1].side, Side::kLower);
+}
+
+// Of rows with two sides, each on the one that is in the way.
+TEST_F(ControllerTest, SaysWhichBoundsContradict) {
+  // -1 <= x <= 1, 2 <= x + y <= 9, and y = 0.
+  Hierarchy hierarchy(2, {{1, 2}, {1, 0}});
+  hierarchy.Clear(2);
+  InequalityBlock rows = hierarchy.AddInequalities(0, 2);
+  rows.C << 1, 0, 1, 1;
+  rows.lower << -1, 2;
+  rows.upper << 1, 9;
+  EqualityBlock equal = hierarchy.AddEqualities(1, 1);
+  equal.B << 0, 1;
+  const std::vector<HierarchyRow> conflict = FindConflict(hierarchy, 1);
+  ASSERT_EQ(conflict.size(), 3u);
+  EXPECT_EQ(conflict[0].side, Side::kUpper);
+  EXPECT_EQ(conflict[1].side, Side::kLower);
+  EXPECT_TRUE(conflict[2].equality);
+  EXPECT_EQ(conflict[2].side, Side::kNone);
 }
 
 TEST_F(ControllerTest, FindsNoConflictWhereThereIsNone) {

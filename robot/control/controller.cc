@@ -308,6 +308,7 @@ void Controller::FailSafe(FailSafeReason reason, const State& state,
   expects_ = false;
   report_.active.clear();
   report_.lost.clear();
+  if (reason != FailSafeReason::kNoAnswer) report_.ClearAnswer();
   const int n = robot_.model.tree.num_joints();
   ComputeFailSafeTorque(tick_, contacts_, state.v.tail(n), kFailSafeDamping,
                         &command->tau);

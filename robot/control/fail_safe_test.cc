@@ -51,6 +51,27 @@ TEST_F(FailSafeTest, FailsSafeOnANumberThatIsNone) {
   EXPECT_EQ(command_.status, TickStatus::kOk);
 }
 
+TEST_F(FailSafeTest, ReportsNoAnswerOfAnEarlierTick) {
+  controller_.reference().p_WG.y() += 0.2;  // Rows act, tasks are lost.
+  Update();
+  const TickReport& report = controller_.report();
+  ASSERT_GT(report.y.norm(), 1);
+  ASSERT_FALSE(report.lost.empty());
+  state_.q[10] = std::numeric_limits<double>::quiet_NaN();
+  Update();
+  ASSERT_EQ(Reason(), FailSafeReason::kState);
+  EXPECT_TRUE(report.y.isZero(0));
+  EXPECT_EQ(report.y.size(), tree().nv() + 12);
+  EXPECT_TRUE(report.active.empty() && report.lost.empty());
+  EXPECT_EQ(report.iterations, 0);
+  EXPECT_EQ(report.dynamics_residual, 0);
+  EXPECT_EQ(report.certificate.worst(), 0);
+  for (const TaskReport& task : report.tasks) {
+    EXPECT_EQ(task.residual, 0);
+    EXPECT_EQ(task.slack, 0);
+  }
+}
+
 // No rotation has such a norm. What is done in that tick and in the next comes of
 // the last good one.
 TEST_F(FailSafeTest, FailsSafeOnAQuaternionThatIsNoRotation) {

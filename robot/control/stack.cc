@@ -21,6 +21,17 @@ bool IsValidWeight(double weight) {
   return std::isfinite(weight) && weight > 0;
 }
 
+// An inequality as it acts.
+std::string SidedName(const Task& task, int row, Side side) {
+  const std::string& name = task.inequality_names()[row];
+  // What is bounded on one side only says so itself, or has no other.
+  const std::string& of = task.name();
+  const bool two_sided =
+      of == "torque_limits" || of == "joint_limits" || of == "unilateral";
+  if (!two_sided) return name;
+  return name + (side == Side::kLower ? ".min" : ".max");
+}
+
 }  // namespace
 
 Stack::Stack(int num_variables)
@@ -352,23 +363,20 @@ void Stack::ReportInequalities(int i, const Solution& solution,
 }
 
 std::string Stack::RowName(const ActiveRow& row) const {
-  const std::string& name = task(row.task).inequality_names()[row.row];
-  // What is bounded on one side only says so itself, or has no other.
-  const std::string& of = task(row.task).name();
-  const bool two_sided =
-      of == "torque_limits" || of == "joint_limits" || of == "unilateral";
-  if (!two_sided) return name;
-  return name + (row.side == Side::kLower ? ".min" : ".max");
+  return SidedName(task(row.task), row.row, row.side);
 }
 
-std::string Stack::RowName(int level, int row, bool is_equality) const {
+std::string Stack::RowName(int level, int row, bool is_equality,
+                           Side side) const {
   for (const Entry& entry : entries_) {
     if (!entry.takes_part || entry.level != level) continue;
-    const auto& names = is_equality ? entry.task->equality_names()
-                                    : entry.task->inequality_names();
+    const Task& task = *entry.task;
+    const auto& names =
+        is_equality ? task.equality_names() : task.inequality_names();
     const int i =
         row - (is_equality ? entry.equality_start : entry.inequality_start);
-    if (i >= 0 && i < static_cast<int>(names.size())) return names[i];
+    if (i < 0 || i >= static_cast<int>(names.size())) continue;
+    return is_equality ? names[i] : SidedName(task, i, side);
   }
   return "";
 }

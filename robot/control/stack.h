@@ -88,9 +88,9 @@ class Stack {
   /// Allocates.
   std::string RowName(const ActiveRow& row) const;
 
-  /// A row of the last Write() by name, an equality or an inequality; empty if
-  /// there is none. Allocates.
-  std::string RowName(int level, int row, bool is_equality) const;
+  /// A row of the last Write() by name, an equality or, as it acts on a side, an
+  /// inequality; empty if there is none. Allocates.
+  std::string RowName(int level, int row, bool is_equality, Side side) const;
 
   /// The rank whose rows the last Write() put into a level; kMaxRank + 1 of what
   /// a ramp holds below all ranks.

@@ -162,7 +162,7 @@ TEST(Stack, ChangesNothingWhereANameOrAValueIsWrong) {
   EXPECT_EQ(stack.GetParameter("postures", "kp"), std::nullopt);
   EXPECT_EQ(stack.settings(*stack.Find("posture")).rank, 5);
   EXPECT_EQ(stack.settings(*stack.Find("posture")).weight, 1);
-  EXPECT_EQ(stack.RowName(0, 1000, true), "");
+  EXPECT_EQ(stack.RowName(0, 1000, true, Side::kNone), "");
 }
 
 // Without load, and at what a foot that fades in may bear, is not the same.

@@ -60,6 +60,16 @@ struct TickReport {
   std::vector<LostRow> lost;
   Certificate certificate;  ///< Of the solution, if asked for.
 
+  /// Of a tick in which nothing was solved: no numbers of an earlier one.
+  void ClearAnswer() noexcept {
+    solver_status = Status::kOptimal;
+    failed_rank = iterations = 0;
+    dynamics_residual = 0;
+    y.setZero();
+    for (TaskReport& task : tasks) task.residual = task.slack = 0;
+    certificate = {};
+  }
+
   /// λ of a foot, [moment; force]; nv is Tree::nv().
   Eigen::Matrix<double, 6, 1> foot_wrench(int nv, int foot) const {
     return y.segment<6>(nv + 6 * foot);
