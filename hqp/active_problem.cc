@@ -253,6 +253,11 @@ void ActiveProblem::RefineMultipliers(const Hierarchy& hierarchy) {
       if (!in_head || !head_.is_deficient(level)) continue;
       std::fill_n(of.nu.begin(), head_.first_row(level), 0);
     }
+    // Refinement has met it, of which its multipliers know nothing.
+    if (!in_head && tail_.IsMet(level - num_head_, y_.data())) {
+      of.any = false;
+      continue;
+    }
     const int levels = in_head ? level + 1 : num_head_;
     const int rows = in_head ? head_.end_row(level) : head_.num_rows();
     const int rank = in_head ? head_.rank(level) : head_.rank();

@@ -76,7 +76,8 @@ class ActiveProblem {
 
   /// Of a row that y misses, whether it is active or not: the entries of y that may
   /// be what rounding leaves of a zero become zero, where no active row is met
-  /// worse by more than a last digit. Returns whether any does.
+  /// worse by more than a last digit; with others of y, if it takes these.
+  /// Returns whether any does.
   bool TakeZeros(const Hierarchy& hierarchy, const double* row);
 
   /// Finds the multipliers of the levels before this one at the last solve; the

@@ -121,9 +121,11 @@ bool ActiveProblem::IsAskedFor(int j) const {
 bool ActiveProblem::TakeZeros(const Hierarchy& hierarchy, const double* row) {
   const double nothing = kNothingOfRow * Size();
   const auto may_be_zero = [&](int j) {
-    return row[j] != 0 && y_[j] != 0 && std::abs(y_[j]) <= nothing &&
-           !IsAskedFor(j);
+    return y_[j] != 0 && std::abs(y_[j]) <= nothing && !IsAskedFor(j);
   };
+  bool any = false;
+  for (int j = 0; j < n_; ++j) any |= row[j] != 0 && may_be_zero(j);
+  if (!any) return false;
   FindLack(hierarchy);
   for (int a = 0; a < head_.num_rows(); ++a) nu_[a] = Missed(a);
   const auto is_worse = [&] {
@@ -133,24 +135,26 @@ bool ActiveProblem::TakeZeros(const Hierarchy& hierarchy, const double* row) {
     }
     return false;
   };
-  // All together, as one may be there to make up for another; or one by one.
   change_ = y_;
-  for (int j = 0; j < n_; ++j) {
-    if (may_be_zero(j)) y_[j] = 0;
-  }
-  bool any = y_ != change_;
-  if (any && is_worse()) {
-    y_ = change_;
-    any = false;
+  const auto take_all = [&](bool of_row) {
     for (int j = 0; j < n_; ++j) {
-      if (!may_be_zero(j)) continue;
+      if ((row[j] != 0 || !of_row) && may_be_zero(j)) y_[j] = 0;
+    }
+    if (!is_worse()) return true;
+    y_ = change_;
+    return false;
+  };
+  // All of the row together, as one may be there to make up for another; or all
+  // of y, as other rows may have brought it there; or one by one.
+  if (!take_all(true) && !take_all(false)) {
+    for (int j = 0; j < n_; ++j) {
+      if (row[j] == 0 || !may_be_zero(j)) continue;
       y_[j] = 0;
       if (is_worse()) y_[j] = change_[j];
-      any |= y_[j] == 0;
     }
   }
   FindResiduals(hierarchy);
-  return any;
+  return y_ != change_;
 }
 
 // Those of levels that are deficient: of y, or zero.

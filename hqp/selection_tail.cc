@@ -376,6 +376,12 @@ double SelectionTail::Dual(int level, double* on_head, double* left) {
   return block.size;
 }
 
+bool SelectionTail::IsMet(int level, const double* y) const {
+  const Block& block = blocks_[level];
+  return std::all_of(order_.begin() + block.begin, order_.begin() + block.end,
+                     [this, y](int j) { return y[j] == target_[j]; });
+}
+
 void SelectionTail::AddGradient(int level, const double* y, const double* left,
                                 double* sum) const {
   const Block& block = blocks_[level];

@@ -69,6 +69,9 @@ class SelectionTail {
   /// and nothing else, if it is zero.
   double Dual(int level, double* on_head, double* left);
 
+  /// Whether a level's own variables are exactly what it asks for.
+  bool IsMet(int level, const double* y) const;
+
   /// sum += the gradient of a level's own variables, less what Dual() left.
   void AddGradient(int level, const double* y, const double* left,
                    double* sum) const;

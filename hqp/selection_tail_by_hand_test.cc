@@ -78,6 +78,18 @@ TEST_F(SelectionTailTest, DropsRoundingOfAGradient) {
   }
 }
 
+// Of the level's own variables, each.
+TEST_F(SelectionTailTest, IsMetWhereEachVariableIsAtItsTarget) {
+  const double met[3] = {3, 5, -1}, first[3] = {3, 4, 0},
+               second[3] = {-3, 5, 0};
+  EXPECT_TRUE(tail_.IsMet(0, met));
+  EXPECT_FALSE(tail_.IsMet(0, first));
+  EXPECT_FALSE(tail_.IsMet(0, second));
+  EXPECT_FALSE(tail_.IsMet(1, met));
+  const double other[3] = {0, 0, 0};
+  EXPECT_TRUE(tail_.IsMet(1, other));
+}
+
 TEST_F(SelectionTailTest, TakesTwoTargetsOfALevelForTheirMean) {
   tail_.Clear();
   EXPECT_EQ(tail_.num_levels(), 0);

@@ -120,7 +120,9 @@ TEST_F(TakeZerosTest, AsksNoRowThatIsNotActiveAnyMore) {
 TEST_F(TakeZerosTest, TakesTwoThatMakeUpForEachOther) {
   const Vector y{kLarge, kSmall, kSmall, 0, 0};
   EXPECT_EQ(Take(1, -1, 0, y, {0, 1, 1, 0, 0}), Vector({kLarge, 0, 0, 0, 0}));
-  EXPECT_EQ(Take(1, -1, 0, y, {0, 1, 0, 0, 0}), y);
+  // Also where only one is the row's.
+  EXPECT_EQ(Take(1, -1, 0, y, {0, 1, 0, 0, 0}), Vector({kLarge, 0, 0, 0, 0}));
+  EXPECT_EQ(Take(1, -1, 0, y, {1, 0, 0, 1, 1}), y);
 }
 
 // 1e-30 is no digit of a target of 1e-15.

@@ -21,13 +21,20 @@ struct Row {
   double lower, upper;
 };
 
-// With levels of inequalities only.
+// Where both sides are one, an equality.
 struct Problem {
   Problem(int num_variables, const std::vector<Row>& rows)
       : capacity(Capacity(rows)), hierarchy(num_variables, capacity) {
     for (const Row& from : rows) {
+      const auto row = Eigen::RowVectorXd::Map(from.row.data(), num_variables);
+      if (from.lower == from.upper) {
+        EqualityBlock to = hierarchy.AddEqualities(from.level, 1);
+        to.B = row;
+        to.b[0] = -from.lower;
+        continue;
+      }
       InequalityBlock to = hierarchy.AddInequalities(from.level, 1);
-      to.C = Eigen::RowVectorXd::Map(from.row.data(), num_variables);
+      to.C = row;
       to.lower[0] = from.lower;
       to.upper[0] = from.upper;
     }
@@ -37,7 +44,8 @@ struct Problem {
     std::vector<LevelCapacity> capacity;
     for (const Row& row : rows) {
       capacity.resize(std::max<size_t>(capacity.size(), row.level + 1));
-      ++capacity[row.level].inequalities;
+      ++(row.lower == row.upper ? capacity[row.level].equalities
+                                : capacity[row.level].inequalities);
     }
     return capacity;
   }
@@ -79,6 +87,31 @@ TEST(Vertex, HasAZeroWhereFiveRowsMeet) {
   const Solution solution = Solve(problem);
   EXPECT_EQ(solution.y[0], 0);
   EXPECT_NEAR(solution.y[1], 3, 3e-15);
+}
+
+// y2 is not alone: (0, -2, 0, 0) has three zeros, each of which another row ties
+// to it.
+TEST(Vertex, HasZerosThatOtherRowsTie) {
+  const Problem problem(4, {{0, {0, -4, -1, 0}, 8, 8},
+                            {0, {-3, 1, 0, 0}, -2, -2},
+                            {1, {-3, 0, 0, 1}, 0, 0},
+                            {1, {0, 0, 1, 0}, -INFINITY, 0},
+                            {2, {0, 0, 1, -2}, 0, 0}});
+  const Solution solution = Solve(problem);
+  for (const int j : {0, 2, 3}) EXPECT_EQ(solution.y[j], 0) << j;
+  EXPECT_NEAR(solution.y[1], -2, 2e-15);
+}
+
+// The last level asks for what three rows have already met, once refined.
+TEST(Vertex, AsksNothingOfALevelThatRefinementHasMet) {
+  const Problem problem(2, {{0, {2, 0}, 2, 2},
+                            {0, {0, -3}, 0, 0},
+                            {0, {-4, 5}, -4, -4},
+                            {1, {0, -1}, 0, 0}});
+  const Solution solution = Solve(problem);
+  EXPECT_EQ(solution.y[1], 0);
+  EXPECT_NEAR(solution.y[0], 1, 1e-15);
+  EXPECT_TRUE(solution.levels[1].multipliers[0].equality.isZero(0));
 }
 
 // Whatever rows of small integers go through a point of small integers, on
