@@ -13,8 +13,14 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A foot is put down to a little below the ground, so that it gets there.
-constexpr double kReach = 0.005;  // m.
+// A foot is put down to a little below the ground, so that it gets there; from the
+// ground on so slowly that it does not knock.
+constexpr double kReach = 0.005;   // m.
+constexpr double kSinkTime = 0.4;  // s.
+
+// Of what it should sink, and in m/s: a sole that is slower has been stopped.
+constexpr double kStopped = 0.5;
+constexpr double kStill = 0.005;
 
 // Faster than this upwards, a sole is leaving the ground.
 constexpr double kSeparating = 0.02;  // m/s.
@@ -110,6 +116,14 @@ bool Stance::HasLanded(const Clearance& sole) const noexcept {
   return sole.height < found_below && sole.rising < kSeparating;
 }
 
+// One that is thought to be in contact while it still sinks is pressed onto what
+// is not there: it tilts, and lands on a corner, and on another one.
+bool Stance::IsStopped(const FootState& foot,
+                       const Clearance& sole) const noexcept {
+  return foot.phase != ContactPhase::kLanding ||
+         sole.rising > kStopped * WayOf(foot).speed - kStill;
+}
+
 // Whether no foot bears: the robot flies.
 bool Stance::flies() const noexcept {
   return std::none_of(feet_.begin(), feet_.end(),
@@ -151,12 +165,7 @@ void Stance::Lift(int i, double height) noexcept {
       foot.to = height;
       return;
     default: {
-      const double duration =
-          Duration(foot.phase, foot.from - foot.to, swing_time);
-      const double reached =
-          foot.from + (foot.to - foot.from) *
-                          Smooth(std::min(1.0, foot.since / duration)).value;
-      foot.from = reached;
+      foot.from = WayOf(foot).height;
       foot.to = height;
       Enter(&foot, ContactPhase::kUp);
     }
@@ -288,7 +297,8 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
         if (HasLanded(LowestCorner(foot, contact, reference.ground_z))) {
           Enter(&foot, ContactPhase::kDown);
         }
-      } else if (HasLanded(Middle(contact, reference.ground_z))) {
+      } else if (const Clearance sole = Middle(contact, reference.ground_z);
+                 HasLanded(sole) && IsStopped(foot, sole)) {
         Enter(&foot, ContactPhase::kLoading);
         foot.force = 0;
       }
@@ -326,15 +336,26 @@ void Stance::Guide(const FootState& foot,
     Return(foot, target);
     return;
   }
-  const double duration = Duration(foot.phase, foot.from - foot.to, swing_time);
-  const Smooth way(std::min(1.0, foot.since / duration));
-  const double travel = foot.to - foot.from;
+  const Way way = WayOf(foot);
   target->X_WF = foot.X_WC;
-  target->X_WF.p.z() += foot.from + travel * way.value;
+  target->X_WF.p.z() += way.height;
   target->V_WF_W.setZero();
-  target->V_WF_W[5] = travel / duration * way.rate;
+  target->V_WF_W[5] = way.speed;
   target->A_WF_W.setZero();
-  target->A_WF_W[5] = travel / (duration * duration) * way.acceleration;
+  target->A_WF_W[5] = way.acceleration;
+}
+
+// A foot that is put down comes to rest on the ground, and sinks on from there.
+Stance::Way Stance::WayOf(const FootState& foot) const noexcept {
+  const double down = Duration(foot.phase, foot.from - foot.to, swing_time);
+  const bool lands = foot.phase == ContactPhase::kLanding;
+  const bool sinks = lands && foot.since > down;
+  const double from = sinks ? 0 : foot.from;
+  const double travel = (lands && !sinks ? 0 : foot.to) - from;
+  const double time = sinks ? kSinkTime : down;
+  const Smooth s(std::min(1.0, (foot.since - (sinks ? down : 0)) / time));
+  return {from + travel * s.value, travel / time * s.rate,
+          travel / (time * time) * s.acceleration};
 }
 
 }  // namespace poise

@@ -92,18 +92,25 @@ class Stance {
     double rising;  // m/s.
   };
 
+  // Straight up or down, from the ground on, in m, m/s and m/s2.
+  struct Way {
+    double height, speed, acceleration;
+  };
+
   static Clearance LowestCorner(const FootState& foot,
                                 const ContactTick& contact,
                                 double ground_z) noexcept;
   static Clearance Middle(const ContactTick& contact, double ground_z) noexcept;
   bool HasLeft(const Clearance& lowest) const noexcept;
   bool HasLanded(const Clearance& sole) const noexcept;
+  bool IsStopped(const FootState& foot, const Clearance& sole) const noexcept;
   bool flies() const noexcept;
   static bool Lands(const FootState& foot) noexcept;
   void CallBack(FootState* foot) noexcept;
   void ChangePhase(double dt, const ContactTick& contact,
                    const Reference& reference, FootState* foot) noexcept;
   double MaxNormalForce(double normal_force, FootState* foot) const noexcept;
+  Way WayOf(const FootState& foot) const noexcept;
   void Guide(const FootState& foot, FrameReference* target) const noexcept;
   void Return(const FootState& foot, FrameReference* target) const noexcept;
   void Enter(FootState* foot, ContactPhase phase) noexcept;

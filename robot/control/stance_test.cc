@@ -389,12 +389,34 @@ TEST_F(StanceTest, PutsAFootDownThatWasLetGoAndLifted) {
   stance_.PutDown(0);
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLanding);
   FrameReference last = reference_.feet[0];
-  for (int i = 0; i < 801; ++i) {
+  for (int i = 0; i < 1201; ++i) {
     Update();
     ExpectMovesAsItSays(last, reference_.feet[0]);
     last = reference_.feet[0];
+    if (i != 799) continue;
+    EXPECT_LT(last.X_WF.p.norm(), 1e-9);
   }
   EXPECT_LT((last.X_WF.p - Vector3d(0, 0, -0.005)).norm(), 1e-9);
+}
+
+// Pressed onto the ground before it was there, a foot tilted and landed on three
+// corners, one after the other.
+TEST_F(StanceTest, BelievesThatAFootIsDownWhenItIsStopped) {
+  stance_.Lift(0, 0.05);
+  for (int i = 0; i < 1200; ++i) Update();
+  ASSERT_EQ(stance_.phase(0), ContactPhase::kUp);
+  stance_.PutDown(0);
+  // It is where it should be.
+  const FrameReference& target = reference_.feet[0];
+  do {
+    contacts_[0].X_WC = target.X_WF;
+    contacts_[0].V_WC_C.tail<3>() = target.V_WF_W.tail<3>();
+    Update();
+    ASSERT_EQ(stance_.phase(0), ContactPhase::kLanding);
+  } while (target.X_WF.p.z() > 1e-3);
+  contacts_[0].V_WC_C.setZero();
+  Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
 }
 
 TEST_F(StanceTest, LiftsAFootAsAnyOtherInTheTickInWhichItIsLetGo) {
