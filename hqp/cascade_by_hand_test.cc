@@ -82,6 +82,42 @@ TEST_P(CascadeByHandTest, AsksForNothingWhereALevelIsMet) {
   }
 }
 
+// y = 1 above y <= 0 and y >= 2, but for a little of 1 + 1 from each of these.
+TEST_P(CascadeByHandTest, AsksForNothingWhereRowsDrawAlike) {
+  for (const double share : {0.95, 1.05}) {
+    const double off = 2e-12 * share;
+    const std::vector<LevelCapacity> capacity{{1, 0}, {0, 2}};
+    HierarchyCase torn{capacity, Hierarchy(1, capacity)};
+    EqualityBlock fixed = torn.hierarchy.AddEqualities(0, 1);
+    fixed.B << 1;
+    fixed.b << -(1 + off);
+    InequalityBlock rows = torn.hierarchy.AddInequalities(1, 2);
+    rows.C << 1, 1;
+    rows.upper[0] = 0;
+    rows.lower[1] = 2;
+    const Solution solution = SolveCascade(torn, GetParam());
+    // Of a difference of ones.
+    EXPECT_NEAR(solution.levels[1].multipliers[0].equality[0],
+                share < 1 ? 0 : -2 * off, Rounding(1, 4));
+  }
+}
+
+// y >= 1 and y <= -1, then <= 5: what was violated need not be any more.
+TEST_P(CascadeByHandTest, ForgetsWhichRowsWereViolated) {
+  const std::vector<LevelCapacity> capacity{{0, 2}};
+  Hierarchy hierarchy(1, capacity);
+  InequalityBlock rows = hierarchy.AddInequalities(0, 2);
+  rows.C << 1, 1;
+  rows.lower[0] = 1;
+  Cascade cascade(1, capacity, GetParam());
+  Solution solution(1, capacity);
+  for (const double upper : {-1., 5.}) {
+    rows.upper[1] = upper;
+    EXPECT_EQ(cascade.Solve(hierarchy, &solution), Status::kOptimal) << upper;
+    EXPECT_NEAR(solution.y[0], upper < 0 ? 0 : 1, kTolerance);
+  }
+}
+
 // y0 is 8 times the other one's unit: its rounding is not to be asked about.
 TEST_P(CascadeByHandTest, TakesRoundingForZero) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
