@@ -70,6 +70,9 @@ TEST_F(TakeZerosTest, LeavesWhatARowNeeds) {
   // Beside zeros, which need not become any, be it against a wish.
   const Vector one{kLarge, 0, 3 * kSmall, 0, 0};
   EXPECT_EQ(Take(1, 1, 3 * kSmall, one, {0, 1, 1, 1, 0}), one);
+  // And beside a large number that no other row holds.
+  const Vector large{kLarge, 3 * kSmall, 0, 1, 0};
+  EXPECT_EQ(Take(1, 1, 3 * kSmall, large, {0, 1, 0, 1, 0}), large);
 }
 
 TEST_F(TakeZerosTest, AsksRowsOfYAsItIs) {
