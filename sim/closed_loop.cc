@@ -15,6 +15,9 @@ namespace poise {
 
 namespace {
 
+// Of the sole's half width.
+constexpr double kInside = 0.25;
+
 // Seeds of the streams of one scenario, far enough apart.
 constexpr unsigned kSensorSeed = 0x5eed;
 
@@ -134,16 +137,28 @@ void ClosedLoop::MoveFeet() {
         controller_->stance().PutDown(FindFoot(event.foot));
         break;
       case StanceEvent::Kind::kShift:
-        Eigen::Vector3d place = com_start_;
-        if (!event.foot.empty()) {
-          place.head<2>() = observer_.observation()
-                                .feet[FindFoot(event.foot)]
-                                .X_WC.p.head<2>();
-        }
-        com_path_.ShiftTo(place, event.at, event.over);
+        com_path_.ShiftTo(ShiftPlace(event.foot), event.at, event.over);
         break;
     }
   }
+}
+
+// As far before the ankles as it stands on both feet, and on the inner side of the
+// sole: hips and ankles, which come to their limits there, go less far.
+Eigen::Vector3d ClosedLoop::ShiftPlace(const std::string& name) const {
+  if (name.empty()) return com_start_;
+  const int foot = FindFoot(name);
+  const auto& feet = observer_.observation().feet;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const auto& each : feet) {
+    middle += each.X_WC.p.head<2>() / static_cast<double>(feet.size());
+  }
+  Eigen::Vector2d way = feet[foot].X_WC.p.head<2>() - middle;
+  const double inside = kInside * robot_.feet[foot].half_size.y();
+  if (way.norm() > inside) way -= inside * way.normalized();
+  Eigen::Vector3d place = com_start_;
+  place.head<2>() += way;
+  return place;
 }
 
 void ClosedLoop::Tick() {

@@ -48,6 +48,7 @@ class ClosedLoop {
 
  private:
   int FindFoot(const std::string& name) const;
+  Eigen::Vector3d ShiftPlace(const std::string& name) const;
   void MoveFeet();
   void StepPlant();
 

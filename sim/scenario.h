@@ -31,7 +31,8 @@ struct ComMotion {
 };
 
 /// What the feet do, from a time on. A foot is lifted or put down; or the
-/// desired center of mass goes over a foot, or back between the feet.
+/// desired center of mass goes over a foot, a quarter of its half width inside,
+/// or back between the feet.
 struct StanceEvent {
   enum class Kind { kLift, kPutDown, kShift };
 
