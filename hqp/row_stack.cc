@@ -22,6 +22,9 @@ constexpr double kTwice = 0.5;
 // Of a row, what is orthogonal to those before it.
 constexpr double kGoodPart = 1e-3;
 
+// What a reflection leaves of a zero, relative to the largest.
+constexpr double kRounding = 1e-14;
+
 // A residual below this, relative to what it is added up from, is zero.
 constexpr double kZeroResidual = 1e-12;
 
@@ -358,13 +361,15 @@ void RowStack::KeepUnreachable(double size, const Level& level) {
   for (int e = level.rank_begin; e < level.rank_end; ++e) {
     Reflect(e, rows, residual);
   }
-  double force = 0;
+  double force = 0, largest = 0;
   for (int i = 0; i < rows; ++i) {
+    largest = std::max(largest, std::abs(residual[i]));
     force = std::max(force, metric[i] * std::abs(residual[i]));
   }
   for (int i = 0; i < rows; ++i) {
     const bool is_zero =
-        metric[i] * std::abs(residual[i]) <= kZeroResidual * force;
+        metric[i] * std::abs(residual[i]) <= kZeroResidual * force ||
+        std::abs(residual[i]) <= kRounding * largest;
     residual[i] = is_zero ? 0 : residual[i] / metric[i];
   }
 }

@@ -338,9 +338,9 @@ void SelectionTail::SolveLevel(int level) {
 // where light variables can meet it, heavy ones do not count.
 void SelectionTail::FindMultipliers(int level) {
   Block& block = blocks_[level];
-  double gradient = 0, squared = 0, size = 0;
+  double largest = 0, squared = 0, size = 0;
   for (int p = block.begin; p < block.end; ++p) {
-    gradient = std::max(gradient, scale_[p] * std::abs(x_[p]));
+    largest = std::max(largest, scale_[p] * std::abs(x_[p]));
     squared += magnitude_[p] * magnitude_[p];
   }
   double* z = &z_[block.row_begin];
@@ -349,10 +349,11 @@ void SelectionTail::FindMultipliers(int level) {
     const double minus = l[i] == 0 ? 0 : -z[i] / l[i];
     AddRows(l, 0, 1, &minus, i, z);
     nu_[block.row_begin + i] = minus;
+    largest = std::max(largest, std::abs(minus));
     if (l[i] > 0) size = std::max(size, std::sqrt(squared) / (l[i] * l[i]));
   }
   // What levels before have moved is in the gradient alone.
-  block.size = gradient > kZeroGradient * size ? std::max(size, gradient) : 0;
+  block.size = largest > kZeroGradient * size ? std::max(size, largest) : 0;
 }
 
 double SelectionTail::Dual(int level, double* on_head, double* left) {
