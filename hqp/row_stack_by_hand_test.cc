@@ -332,7 +332,7 @@ TEST_F(RowStackTest, WhatIsKeptIsNoRounding) {
 // Small numbers, after large ones that are gone.
 TEST_F(RowStackTest, AResidualIsJudgedByItsOwnLevel) {
   RowStack stack(1, 3, 1);
-  for (const double scale : {1.0, 1e-13}) {
+  for (const double scale : {1.0, 1e-15}) {
     stack.Truncate(0);
     *stack.row(stack.AddRow(0, 1)) = 1;
     *stack.row(stack.AddRow(2 * scale, 1)) = 1;

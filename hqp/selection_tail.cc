@@ -340,7 +340,6 @@ void SelectionTail::FindMultipliers(int level) {
   Block& block = blocks_[level];
   double largest = 0, squared = 0, size = 0;
   for (int p = block.begin; p < block.end; ++p) {
-    largest = std::max(largest, scale_[p] * std::abs(x_[p]));
     squared += magnitude_[p] * magnitude_[p];
   }
   double* z = &z_[block.row_begin];
@@ -352,7 +351,7 @@ void SelectionTail::FindMultipliers(int level) {
     largest = std::max(largest, std::abs(minus));
     if (l[i] > 0) size = std::max(size, std::sqrt(squared) / (l[i] * l[i]));
   }
-  // What levels before have moved is in the gradient alone.
+  // What levels before have moved counts in nu alone.
   block.size = largest > kZeroGradient * size ? std::max(size, largest) : 0;
 }
 
