@@ -8,7 +8,7 @@ namespace poise {
 namespace {
 
 // A row violated by less than this, relative to what it is added up from, is at
-// its bound.
+// its bound; see cascade.cc.
 constexpr double kAtBound = 1e-9;
 
 double Sign(Side side) { return static_cast<double>(side); }

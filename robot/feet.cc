@@ -25,7 +25,7 @@ std::pair<double, double> ExtentAt(const std::vector<Vector2d>& polygon,
   for (size_t i = 0; i < polygon.size(); ++i) {
     const Vector2d& a = polygon[i];
     const Vector2d& b = polygon[(i + 1) % polygon.size()];
-    const auto [left, right] = std::minmax(a.x(), b.x());
+    const auto [left, right] = std::minmax({a.x(), b.x()});
     if (x < left - kRounding || x > right + kRounding) continue;
     const bool is_along_y = right - left <= kRounding;
     const double t = (x - a.x()) / (b.x() - a.x());

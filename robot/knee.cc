@@ -42,8 +42,11 @@ std::optional<Knee> FindKnee(const Tree& tree, int foot,
 std::optional<int> FindAnkle(const Tree& tree, int foot,
                              const std::vector<Pose>& X_WB,
                              const Eigen::Vector3d& left) {
+  const auto knee = FindKnee(tree, foot, X_WB, left);
   for (int b = foot; b > 0; b = tree.joints()[b - 1].parent) {
-    if (Turns(tree, b - 1, X_WB, left) != 0) return b - 1;
+    if (Turns(tree, b - 1, X_WB, left) == 0) continue;
+    if (knee && knee->joint == b - 1) return std::nullopt;
+    return b - 1;
   }
   return std::nullopt;
 }

@@ -27,8 +27,8 @@ std::optional<Knee> FindKnee(const Tree& tree, int foot,
                              const Eigen::Vector3d& left);
 
 /// The ankle of that leg: of the joints that turn about the lateral axis, the
-/// lowest one. Where a roll comes after it, the foot's origin may be anywhere
-/// before or behind it.
+/// lowest one, if that is not the knee. Where a roll comes after it, the foot's
+/// origin may be anywhere before or behind it.
 /// @return the joint's index.
 std::optional<int> FindAnkle(const Tree& tree, int foot,
                              const std::vector<Pose>& X_WB,

@@ -113,6 +113,37 @@ TEST_F(RampTest, EasesAWeightIn) {
       [](Stack* stack) { EXPECT_TRUE(stack->SetRank("posture", 4)); });
 }
 
+// As one weighted QP a rank that comes weighs all above it anew.
+TEST_F(RampTest, EasesATaskIntoAWeightedProblem) {
+  Try([](Stack* stack) { EXPECT_TRUE(stack->Enable("momentum", true)); },
+      [](Stack* stack) {
+        stack->set_weighted(true);
+        EXPECT_TRUE(stack->Enable("momentum", false));
+      });
+}
+
+TEST_F(RampTest, HoldsNothingForATaskThatIsOff) {
+  Update();
+  const int levels = controller_.hierarchy().num_levels();
+  Stack& stack = controller_.stack();
+  ASSERT_TRUE(stack.set_ramp(kSeconds));
+  ASSERT_TRUE(stack.SetParameter("zmp", "dx", 0.01));
+  Update();
+  EXPECT_FALSE(stack.is_eased());
+  EXPECT_EQ(controller_.hierarchy().num_levels(), levels);
+}
+
+TEST_F(RampTest, EndsWhereItsDurationBecomesNone) {
+  Update();
+  Stack& stack = controller_.stack();
+  ASSERT_TRUE(stack.set_ramp(kSeconds));
+  ASSERT_TRUE(stack.SetParameter("momentum", "kp", 60));
+  Update();
+  ASSERT_TRUE(stack.is_eased());
+  ASSERT_TRUE(stack.set_ramp(0));
+  EXPECT_FALSE(stack.is_eased());
+}
+
 // What the reference asks for on the way acts as if nothing was eased.
 TEST_F(RampTest, HoldsBackNothingElse) {
   const auto change = [](Stack* stack, bool eases) {

@@ -233,8 +233,8 @@ void Controller::Update(const State& state, Command* command) noexcept {
   command->status = report_.status;
 }
 
-// While its task cannot be met, as in a push, what it lacks is no fault of the
-// model. The momentum comes before a place of its own, where both are on.
+// While its task cannot be met, as in a push, or is eased in, what it lacks is no
+// fault of the model. The momentum comes before a place of its own, where both are on.
 void Controller::EstimateDisturbance() noexcept {
   const bool by_momentum = stack_.settings(momentum_).enabled;
   const int task = by_momentum ? momentum_ : com_;
@@ -242,7 +242,7 @@ void Controller::EstimateDisturbance() noexcept {
     disturbance_.Forget();
     return;
   }
-  if (report_.tasks[task].residual > kFollowing) return;
+  if (report_.tasks[task].residual > kFollowing || stack_.is_eased()) return;
   disturbance_.Update(options_.dt,
                       by_momentum ? momentum_task_.gains() : com_task_.gains(),
                       reference_, tick_);

@@ -160,6 +160,20 @@ TEST_F(CorrectionTest, WaitsWhileTheMomentumCannotFollow) {
   EXPECT_LT(Correction().norm(), 1e-7);
 }
 
+// What a ramp holds back, it is not asked for.
+TEST_F(CorrectionTest, WaitsWhileItsTaskIsEasedIn) {
+  Stack& stack = controller_.stack();
+  ASSERT_TRUE(stack.Enable("momentum", false));
+  ASSERT_TRUE(stack.set_ramp(0.1));
+  controller_.reference().p_WG.z() += 0.02;
+  Update();
+  ASSERT_TRUE(stack.Enable("momentum", true));
+  for (int i = 0; i <= 100; ++i) Update();
+  EXPECT_FALSE(stack.is_eased());
+  // Of the one tick in which nothing was eased; 0.12 in all of them.
+  EXPECT_LT(Correction().norm(), 1.1 * 60 * 0.02 * 1e-3);
+}
+
 TEST_F(CorrectionTest, IsBoundedAndForgottenWithItsTask) {
   ASSERT_TRUE(controller_.stack().SetParameter("momentum", "ki", 100));
   ASSERT_TRUE(controller_.stack().SetParameter("momentum", "ki_height", 100));

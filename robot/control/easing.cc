@@ -26,6 +26,11 @@ int Easing::AddTask(int equalities, int inequalities) {
   return rows;
 }
 
+void Easing::set_duration(double seconds) noexcept {
+  ramp_.set_duration(seconds);
+  if (seconds == 0) ramp_.Clear();
+}
+
 void Easing::Advance(double dt, const Eigen::VectorXd& y) noexcept {
   dt_ = dt;
   y_last_ = y;
@@ -35,9 +40,14 @@ void Easing::Advance(double dt, const Eigen::VectorXd& y) noexcept {
   holds_ = holds();
 }
 
-void Easing::RememberResiduals(
-    int rows, const Eigen::Ref<const Eigen::VectorXd>& residual) noexcept {
+void Easing::Remember(int rows,
+                      const Eigen::Ref<const Eigen::VectorXd>& residual,
+                      const Eigen::Ref<const Eigen::VectorXd>& slack,
+                      double scale) noexcept {
+  const auto lower = rows + residual.size();
   lacked_.segment(rows, residual.size()) = residual;
+  lacked_.segment(lower, slack.size()) = slack / scale;
+  lacked_.segment(lower + slack.size(), slack.size()) = slack / scale;
 }
 
 void Easing::End() noexcept {
@@ -60,7 +70,8 @@ void Easing::BeginAsBefore(int rows, const EqualityBlock& now,
                            double weight_ratio) noexcept {
   for (Eigen::Index i = 0; i < now.b.size(); ++i) {
     const int row = rows + static_cast<int>(i);
-    const double ratio = weight_ratio * before.weight[i] / now.weight[i];
+    const double ratio =
+        now.weight[i] > 0 ? weight_ratio * before.weight[i] / now.weight[i] : 1;
     ramp_.Add(row, Residual(now, i, y_last_) - Residual(before, i, y_last_) +
                        (1 - ratio) * lacked_[row]);
   }
@@ -85,14 +96,20 @@ void Easing::BeginInside(int rows, int equalities,
   const int upper = lower + size;
   for (int i = 0; i < size; ++i) {
     const double at = now.C.row(i).dot(y_last_);
-    ramp_.Add(lower + i, std::max(0.0, now.lower[i] - at - ramp_[lower + i]));
-    ramp_.Add(upper + i, std::max(0.0, at - now.upper[i] - ramp_[upper + i]));
+    const auto begin = [this](int row, double violation) {
+      ramp_.Add(row, std::max(0.0, violation - lacked_[row] - ramp_[row]));
+    };
+    begin(lower + i, now.lower[i] - at);
+    begin(upper + i, at - now.upper[i]);
   }
 }
 
 void Easing::Ease(int rows, EqualityBlock* equalities) const noexcept {
   for (int i = 0; i < static_cast<int>(equalities->b.size()); ++i) {
-    equalities->b[i] -= ramp_[rows + i];
+    const double offset = ramp_[rows + i];
+    // A row that does not matter in this tick asks for nothing.
+    if (offset == 0 || equalities->B.row(i).isZero(0)) continue;
+    equalities->b[i] -= offset;
   }
 }
 

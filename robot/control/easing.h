@@ -18,6 +18,9 @@ namespace poise {
 /// else asks for something new, a push or a reference, is not held back: only
 /// what was changed is.
 ///
+/// Where limits of a rank that was changed are violated, what else is asked for in
+/// that rank may still jump: their slacks pull as before, but equalities are eased.
+///
 /// (Intermediate desired values, as of Lee, Mansard and Park, 2012, but of the
 /// last solution instead of a second one.)
 class Easing {
@@ -28,14 +31,15 @@ class Easing {
   /// below. Allocates.
   int AddTask(int equalities, int inequalities);
 
-  /// Of a ramp, s; 0, and nothing is eased.
-  void set_duration(double seconds) { ramp_.set_duration(seconds); }
+  /// Of a ramp, s; 0, and nothing is eased, nor what was begun.
+  void set_duration(double seconds) noexcept;
 
-  /// A tick of dt has found y; RememberResiduals() follows, for each task that
-  /// took part.
+  /// A tick of dt has found y; Remember() follows, for each task that took part:
+  /// what is left of its equalities, and of its inequalities times a scale.
   void Advance(double dt, const Eigen::VectorXd& y) noexcept;
-  void RememberResiduals(
-      int rows, const Eigen::Ref<const Eigen::VectorXd>& residual) noexcept;
+  void Remember(int rows, const Eigen::Ref<const Eigen::VectorXd>& residual,
+                const Eigen::Ref<const Eigen::VectorXd>& slack,
+                double scale) noexcept;
 
   /// What comes next is not eased, and its y not known yet.
   void End() noexcept;
@@ -56,7 +60,7 @@ class Easing {
   void KeepResiduals(int rows, int equalities) noexcept;
   /// The same, of what y leaves free.
   void KeepFree() noexcept;
-  /// Of inequalities that the last y may violate.
+  /// Of inequalities that the last y may violate, by more than it did.
   void BeginInside(int rows, int equalities,
                    const InequalityBlock& now) noexcept;
 

@@ -81,7 +81,7 @@ TEST_F(EasingTest, LetsRowsThatAreNewBeginWhereTheLastYIs) {
 TEST_F(EasingTest, LetsRowsThatAreTunedPullAsBefore) {
   const Eigen::Vector2d lacked(0.5, -0.25);
   easing_.Advance(kDt, kLast);
-  easing_.RememberResiduals(task_, lacked);
+  easing_.Remember(task_, lacked, Eigen::Vector3d::Zero(), 1);
   EqualityBlock before = AddEqualities(&before_);
   before.b[0] = 2.5;
   before.weight[1] = 3;
@@ -98,7 +98,8 @@ TEST_F(EasingTest, LetsRowsThatAreTunedPullAsBefore) {
 
 TEST_F(EasingTest, LetsRowsLackWhatTheyLacked) {
   easing_.Advance(kDt, kLast);
-  easing_.RememberResiduals(task_, Eigen::Vector2d(0.5, -0.25));
+  easing_.Remember(task_, Eigen::Vector2d(0.5, -0.25), Eigen::Vector3d::Zero(),
+                   1);
   easing_.KeepResiduals(task_, 2);
   EXPECT_EQ(Offsets(), Eigen::Vector2d(0.5, -0.25));
   easing_.KeepResiduals(task_, 2);  // That is all there is to keep.
@@ -145,6 +146,16 @@ TEST_F(EasingTest, LetsLimitsBeginWhereTheLastYIs) {
     EXPECT_EQ(Eigen::Vector3d(rows.lower), Eigen::Vector3d(-kInf, 1, -5));
     EXPECT_EQ(Eigen::Vector3d(rows.upper), Eigen::Vector3d(1, kInf, 5));
   }
+  // What was violated before is so now, and pulls as it did.
+  easing_.End();
+  easing_.Advance(kDt, kLast);
+  easing_.Remember(task_, Eigen::Vector2d::Zero(), Eigen::Vector3d(0.6, 3, 0),
+                   2);
+  easing_.BeginInside(task_, 2, limits());
+  InequalityBlock rows = limits();
+  easing_.Ease(task_, 2, &rows);
+  EXPECT_NEAR(rows.upper[0], 0.7, 1e-15);
+  EXPECT_NEAR(rows.lower[1], 2.5, 1e-15);
 }
 
 }  // namespace

@@ -80,8 +80,9 @@ bool Stack::Enable(std::string_view name, bool enabled) noexcept {
   if (!i) return false;
   Entry& entry = entries_[*i];
   if (entry.settings.enabled == enabled) return true;
-  if (!enabled) Loosen(entry.settings.rank);
-  entry.was_switched_on |= enabled;
+  // As one weighted QP, a rank that comes or goes weighs all above it anew.
+  if (!enabled || weighted_) Loosen(entry.settings.rank);
+  entry.was_switched_on |= enabled && !entry.takes_part;
   entry.settings.enabled = enabled;
   return true;
 }
@@ -144,7 +145,9 @@ void Stack::Tune(Entry* entry) noexcept {
     entry->parameters_before[i] = *parameters[i].value;
   }
   // A limit may be wider now.
-  if (!entry->task->inequality_names().empty()) Loosen(entry->settings.rank);
+  if (entry->settings.enabled && !entry->task->inequality_names().empty()) {
+    Loosen(entry->settings.rank);
+  }
 }
 
 void Stack::Loosen(int rank) noexcept {
@@ -208,7 +211,8 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
     task.Write(input, &equalities, &inequalities);
     if (eases) BeginEasing(input, equalities, inequalities, &entry);
     if (easing_.is_on()) {
-      easing_.Ease(entry.eased_rows, &equalities);
+      // What rank 1 asks for always holds, its limits may have been changed.
+      if (entry.settings.rank > 1) easing_.Ease(entry.eased_rows, &equalities);
       easing_.Ease(entry.eased_rows, static_cast<int>(equalities.b.size()),
                    &inequalities);
     }
@@ -237,7 +241,6 @@ void Stack::BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
                         Entry* entry) noexcept {
   const int rows = entry->eased_rows;
   const int num_equalities = static_cast<int>(equalities.b.size());
-  // What rank 1 asks for always holds.
   if (entry->settings.rank > 1) {
     if (entry->settings.rank >= loose_from_) {
       easing_.KeepResiduals(rows, num_equalities);
@@ -277,11 +280,16 @@ void Stack::Advance(double dt, const Solution& solution) noexcept {
   easing_.Advance(dt, solution.y);
   for (const Entry& entry : entries_) {
     if (!entry.takes_part) continue;
-    easing_.RememberResiduals(
+    const LevelSolution& level = solution.levels[entry.level];
+    const int equalities =
+        static_cast<int>(entry.task->equality_names().size());
+    const int inequalities =
+        static_cast<int>(entry.task->inequality_names().size());
+    easing_.Remember(
         entry.eased_rows,
-        solution.levels[entry.level].equality_residual.segment(
-            entry.equality_start,
-            static_cast<int>(entry.task->equality_names().size())));
+        level.equality_residual.segment(entry.equality_start, equalities),
+        level.slack.segment(entry.inequality_start, inequalities),
+        std::sqrt(RowWeight(entry)));
   }
 }
 

@@ -69,6 +69,7 @@ class Stack {
   /// changed next is changed at once.
   void Advance(double dt, const Solution& solution) noexcept;
   void EndRamp() noexcept { easing_.End(); }
+  bool is_eased() const { return easing_.is_on(); }
 
   /// What a Hierarchy, and its solver, must hold for every setting of the
   /// tasks.

@@ -18,9 +18,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kReach = 0.005;   // m.
 constexpr double kSinkTime = 0.4;  // s.
 
-// Of what it should sink, and in m/s: a sole that is slower has been stopped.
+// A sole that sinks by less than this part of what it should has been stopped, if it
+// should by more than that.
 constexpr double kStopped = 0.5;
-constexpr double kStill = 0.005;
+constexpr double kTelling = 0.01;  // m/s.
 
 // Faster than this upwards, a sole is leaving the ground.
 constexpr double kSeparating = 0.02;  // m/s.
@@ -117,11 +118,14 @@ bool Stance::HasLanded(const Clearance& sole) const noexcept {
 }
 
 // One that is thought to be in contact while it still sinks is pressed onto what
-// is not there: it tilts, and lands on a corner, and on another one.
+// is not there: it tilts, and lands on a corner, and on another one. Where it is to
+// be nearly at rest, it does not tell, but at the end of its way.
 bool Stance::IsStopped(const FootState& foot,
                        const Clearance& sole) const noexcept {
-  return foot.phase != ContactPhase::kLanding ||
-         sole.rising > kStopped * WayOf(foot).speed - kStill;
+  if (foot.phase != ContactPhase::kLanding) return true;
+  const Way way = WayOf(foot);
+  return way.speed < -kTelling ? sole.rising > kStopped * way.speed
+                               : way.is_over;
 }
 
 // Whether no foot bears: the robot flies.
@@ -355,7 +359,8 @@ Stance::Way Stance::WayOf(const FootState& foot) const noexcept {
   const double time = sinks ? kSinkTime : down;
   const Smooth s(std::min(1.0, (foot.since - (sinks ? down : 0)) / time));
   return {from + travel * s.value, travel / time * s.rate,
-          travel / (time * time) * s.acceleration};
+          travel / (time * time) * s.acceleration,
+          foot.since > down + (lands ? kSinkTime : 0)};
 }
 
 }  // namespace poise

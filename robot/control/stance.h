@@ -95,6 +95,7 @@ class Stance {
   // Straight up or down, from the ground on, in m, m/s and m/s2.
   struct Way {
     double height, speed, acceleration;
+    bool is_over;
   };
 
   static Clearance LowestCorner(const FootState& foot,

@@ -413,7 +413,7 @@ TEST_F(StanceTest, BelievesThatAFootIsDownWhenItIsStopped) {
     contacts_[0].V_WC_C.tail<3>() = target.V_WF_W.tail<3>();
     Update();
     ASSERT_EQ(stance_.phase(0), ContactPhase::kLanding);
-  } while (target.X_WF.p.z() > 1e-3);
+  } while (target.X_WF.p.z() > -1e-3);
   contacts_[0].V_WC_C.setZero();
   Update();
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);

@@ -24,8 +24,10 @@ struct ActiveRow {
 struct TaskReport {
   bool enabled = false;
   int rank = 0;
-  double residual = 0;  ///< Norm of its equality residuals, in their own scale.
-  double slack = 0;     ///< Largest slack of its inequalities.
+  /// Norm of its equality residuals, in their own scale; of what they ask for in
+  /// this tick, where a ramp eases them.
+  double residual = 0;
+  double slack = 0;  ///< Largest slack of its inequalities.
 };
 
 /// An equality row that had to give.
