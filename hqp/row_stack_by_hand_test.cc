@@ -359,6 +359,13 @@ TEST_F(RowStackTest, WhatIsKeptIsNoRoundingOfAHeavyRow) {
       stack.SetResiduals(1, residual, 0);
       EXPECT_EQ(stack.residual(1 + heavy), 1);
       EXPECT_EQ(stack.residual(2 - heavy), light < 1 ? 0 : light) << heavy;
+      // Beside 1 of the light one, 1e-14 by its length is rounding, whatever it
+      // weighs.
+      residual[heavy] = light * 1e-20;
+      residual[1 - heavy] = 1;
+      stack.SetResiduals(1, residual, 0);
+      EXPECT_EQ(stack.residual(2 - heavy), 1);
+      EXPECT_EQ(stack.residual(1 + heavy), light < 1 ? 0 : light * 1e-20);
     }
   }
 }
