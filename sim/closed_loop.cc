@@ -148,9 +148,9 @@ void ClosedLoop::MoveFeet() {
 Eigen::Vector3d ClosedLoop::ShiftPlace(const std::string& name) const {
   if (name.empty()) return com_start_;
   const int foot = FindFoot(name);
-  const auto& feet = observer_.observation().feet;
+  const std::vector<ContactTick>& feet = controller_->contacts();
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const auto& each : feet) {
+  for (const ContactTick& each : feet) {
     middle += each.X_WC.p.head<2>() / static_cast<double>(feet.size());
   }
   Eigen::Vector2d way = feet[foot].X_WC.p.head<2>() - middle;

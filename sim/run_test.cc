@@ -102,16 +102,18 @@ TEST(ClosedLoop, ShiftsOverTheInnerSideOfAFoot) {
   scenario.start = {};
   StanceEvent shift;
   shift.foot = "left_foot";
-  shift.at = 0.001;  // Nothing is observed before the first tick.
   shift.over = 0.01;
-  scenario.stance = {shift};
-  ClosedLoop loop(Humanoid(), scenario);
-  const Eigen::Vector3d start = loop.controller().reference().p_WG;
-  for (int k = 0; k < 14; ++k) loop.Tick();
-  const double foot = loop.record().observation.feet[0].X_WC.p.y();
-  const double inside = 0.25 * Humanoid().feet[0].half_size.y();
-  const Eigen::Vector3d way = loop.controller().reference().p_WG - start;
-  EXPECT_LT((way - Eigen::Vector3d(0, foot - inside, 0)).norm(), 1e-5);
+  for (const double at : {0.0, 0.001}) {  // Before the first tick, and later.
+    shift.at = at;
+    scenario.stance = {shift};
+    ClosedLoop loop(Humanoid(), scenario);
+    const Eigen::Vector3d start = loop.controller().reference().p_WG;
+    for (int k = 0; k < 14; ++k) loop.Tick();
+    const double foot = loop.record().observation.feet[0].X_WC.p.y();
+    const double inside = 0.25 * Humanoid().feet[0].half_size.y();
+    const Eigen::Vector3d way = loop.controller().reference().p_WG - start;
+    EXPECT_LT((way - Eigen::Vector3d(0, foot - inside, 0)).norm(), 1e-5);
+  }
 }
 
 // Only the feet had such tasks.
