@@ -114,9 +114,14 @@ class ActiveProblem {
   /// What rounding may leave of an entry of y, relative to that.
   static constexpr double kRounding = 1e-13;
 
-  /// A violation, a multiplier or a slope below this, relative to what it is
-  /// added up from, is zero: one rule for the search and for what follows it.
+  /// A violation or a slope below this, relative to what it is added up from, is
+  /// zero: one rule for the search and for what follows it.
   static constexpr double kTolerance = 1e-11;
+
+  /// The same of a multiplier: below kRankTolerance, as a level that gains rank
+  /// by so little when a row leaves has a price on that row, which may be a
+  /// hundredth of it.
+  static constexpr double kNoPrice = 1e-13;
 
   /// |C_i|_1, and the only variable of row i of B in the tail.
   double norm(int level, int i) const { return norm_[level][i]; }

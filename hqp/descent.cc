@@ -10,6 +10,7 @@ namespace poise {
 namespace {
 
 constexpr double kTolerance = ActiveProblem::kTolerance;
+constexpr double kNoPrice = ActiveProblem::kNoPrice;
 constexpr double kRounding = ActiveProblem::kRounding;
 
 // How often a row may leave on a level, or all at once: more than any search was
@@ -268,7 +269,7 @@ bool Descent::Drop(int level, ActiveProblem* problem,
     double price = 0;
     int l = row.level;
     while (l <= level && price == 0)
-      price = problem->Price(a, l++, at, kTolerance);
+      price = problem->Price(a, l++, at, kNoPrice);
     if (price >= 0) continue;
     if (l == row.level + 1 || (together_ && l > problem->num_head())) {
       at = Side::kNone;
@@ -296,7 +297,7 @@ void Descent::Keep(int level, const ActiveProblem& problem,
     if (!row.is_inequality) continue;
     int& leaves = leaves_[row.level][row.index];
     if (row.level == level &&
-        problem.Price(a, level, side[level][row.index], kTolerance) > 0) {
+        problem.Price(a, level, side[level][row.index], kNoPrice) > 0) {
       leaves = kKept;
     }
     if (leaves != kKept) leaves = kLeaves;

@@ -158,7 +158,8 @@ bool Solver::EnterViolated(const Hierarchy& hierarchy, bool enters) {
 // Writes the answer. Returns whether it is certified, down to the level that it
 // says.
 bool Solver::Report(const Hierarchy& hierarchy, Solution* solution) {
-  reporter_.Report(hierarchy, side_, kTolerance, &problem_, solution);
+  reporter_.Report(hierarchy, side_, ActiveProblem::kNoPrice, &problem_,
+                   solution);
   return certifier_.Certify(hierarchy, *solution).worst() <=
          Certifier::kCertified;
 }

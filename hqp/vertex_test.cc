@@ -148,5 +148,22 @@ TEST(Vertex, IsFoundByWhateverRows) {
   }
 }
 
+// A foot that carries nothing: along its row momentum wants hardly anything, but
+// more than nothing, and posture wants the other way.
+TEST(Vertex, IsHeldByWhatAnUpperLevelHardlyAsksFor) {
+  constexpr double kHardly = 3e-11;
+  // The third asks z for 5e-12 of what the last two cannot agree on.
+  const Problem problem(3, {{0, {0, 1, 0}, -INFINITY, 0},
+                            {1, {1, 0, 0}, 0, 0},
+                            {1, {1, kHardly, 0}, 1, 1},
+                            {1, {0, 0, 1}, 0, 0},
+                            {1, {0, 0, 1}, 6, 6},
+                            {2, {0, 1, 0}, -1, -1}});
+  const Solution solution = Solve(problem);
+  EXPECT_NEAR(solution.y[0], 0.5, 1e-15);
+  EXPECT_EQ(solution.y[1], 0);
+  EXPECT_NEAR(solution.y[2], 3, 1e-15);
+}
+
 }  // namespace
 }  // namespace poise
