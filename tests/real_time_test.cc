@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <mutex>
@@ -25,6 +24,7 @@
 #include "sim/sensors.h"
 #include "tests/util/count_malloc.h"
 #include "tests/util/forbidden_calls.h"
+#include "tests/util/scenario_files.h"
 
 namespace poise {
 namespace {
@@ -55,15 +55,6 @@ void Follow(const Stance& leader, const Scenario& scenario, Stance* stance) {
       stance->PutDown(foot);
     }
   }
-}
-
-std::vector<std::string> ScenarioFiles() {
-  std::vector<std::string> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator("sim/scenarios")) {
-    files.push_back(entry.path().string());
-  }
-  return files;
 }
 
 class RealTimeTest : public testing::TestWithParam<std::string> {};
@@ -121,13 +112,12 @@ TEST_P(RealTimeTest, TheControlLoopNeitherAllocatesNorThrowsNorLocksNorWrites) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Scenarios, RealTimeTest, testing::ValuesIn(ScenarioFiles()),
-    [](const testing::TestParamInfo<std::string>& file) {
-      return std::filesystem::path(file.param).stem().string();
-    });
+INSTANTIATE_TEST_SUITE_P(Scenarios, RealTimeTest,
+                         testing::ValuesIn(ScenarioFiles()), ScenarioTestName);
 
-TEST(RealTime, HasScenariosToRun) { EXPECT_GE(ScenarioFiles().size(), 6u); }
+TEST(RealTime, HasAllScenariosToRun) {
+  EXPECT_EQ(ScenarioFiles().size(), kNumScenarios);
+}
 
 TEST(ForbiddenCalls, AreSeen) {
   if (!ForbiddenCalls::IsSupported()) GTEST_SKIP() << "under a sanitizer";

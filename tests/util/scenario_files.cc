@@ -1,0 +1,24 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tests/util/scenario_files.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace poise {
+
+std::vector<std::string> ScenarioFiles() {
+  std::vector<std::string> files;
+  for (const auto& entry :
+       std::filesystem::directory_iterator("sim/scenarios")) {
+    files.push_back(entry.path().string());
+  }
+  // The folder is in no order, and shards must agree on one.
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string ScenarioTestName(const testing::TestParamInfo<std::string>& file) {
+  return std::filesystem::path(file.param).stem().string();
+}
+
+}  // namespace poise
