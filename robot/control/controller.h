@@ -58,10 +58,14 @@ struct ControllerOptions {
 /// | --- | --- |
 /// | 1 | newton_euler, no_contact |
 /// | 2 | torque_limits, joint_limits |
-/// | 3 | contact, cop, friction, unilateral, yaw (zmp, zmp_literal, yaw_constant) |
-/// | 4 | momentum, frame.FOOT of a foot in the air, (frame.LINK, com,
-/// linear_momentum, angular_momentum) |
+/// | 3 | mimic, light_joints, contact, cop, friction, unilateral, yaw,
+/// (yaw_constant, zmp, zmp_literal, capture_point) |
+/// | 4 | momentum, frame.FOOT, (com, linear_momentum, angular_momentum,
+/// frame.LINK) |
 /// | 5 | posture, force_regularizer, (torque_minimization) |
+///
+/// A robot has mimic and light_joints if it has such joints; frame.FOOT acts
+/// while that foot is in the air.
 class Controller {
  public:
   /// Throws std::invalid_argument if the robot has no foot, or an option is out
@@ -130,10 +134,10 @@ class Controller {
   Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.
   double last_time_;        ///< Of the last state whose stamp is finite, s.
   Disturbance disturbance_;
-  double capture_ = 0;          // See TaskInput,
-  Eigen::VectorXd unexpected_;  // this too.
-  Eigen::VectorXd expected_v_;  ///< What v should be in this tick,
-  bool expects_ = false;        ///< if there was a solution in the last one.
+  double capture_ = 0;          ///< TaskInput::capture.
+  Eigen::VectorXd unexpected_;  ///< TaskInput::unexpected.
+  Eigen::VectorXd expected_v_;  ///< The v that the last solution leads to.
+  bool expects_ = false;        ///< Whether expected_v_ is of the last tick.
   double frozen_for_ = 0;       ///< How long the time has been the same, s.
 };
 

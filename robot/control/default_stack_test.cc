@@ -1,0 +1,74 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/default_stack.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <string>
+
+#include "robot/urdf.h"
+
+namespace poise {
+namespace {
+
+// A body of 1 kg with a foot FOOT, a joint of 2 mg and one that follows it.
+Robot MakeRobotWithAllTasks() {
+  std::string text = "<robot name='r'>";
+  for (const std::string link : {"body", "light", "coupled"}) {
+    text += "<link name='" + link + "'><inertial><mass value='" +
+            (link == "body" ? "1" : "2e-6") +
+            "'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
+            "</inertial></link>";
+  }
+  for (const std::string child : {"light", "coupled"}) {
+    text += "<joint name='" + child + "' type='continuous'>" +
+            "<parent link='body'/><child link='" + child + "'/></joint>";
+  }
+  Robot robot{ParseUrdf(text + "</robot>", "robot"), {}, {}};
+  const Tree& tree = robot.model.tree;
+  robot.model.mimics = {
+      {*tree.FindJoint("coupled"), *tree.FindJoint("light"), 1, 0}};
+  robot.feet.resize(1);
+  robot.feet[0].name = "FOOT";
+  return robot;
+}
+
+// By name, as the table says: "3", or "(3)" of a task that is off.
+std::map<std::string, std::string> ReadTable() {
+  std::ifstream file("robot/control/controller.h");
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  text = std::regex_replace(text, std::regex("\n///"), "");
+  std::map<std::string, std::string> table;
+  const std::regex row(R"(\| (\d) \| ([^|]*) \|)"), name(R"([(]|[\w.]+|[)])");
+  for (std::sregex_iterator r(text.begin(), text.end(), row), end; r != end;
+       ++r) {
+    const std::string rank = r->str(1), tasks = r->str(2);
+    bool is_off = false;
+    for (std::sregex_iterator n(tasks.begin(), tasks.end(), name); n != end;
+         ++n) {
+      if (n->str() == "(" || n->str() == ")") {
+        is_off = n->str() == "(";
+      } else {
+        table[n->str()] = is_off ? "(" + rank + ")" : rank;
+      }
+    }
+  }
+  return table;
+}
+
+TEST(MakeDefaultStack, IsTheTableOfController) {
+  const Stack stack = MakeDefaultStack(MakeRobotWithAllTasks(), {"LINK"});
+  std::map<std::string, std::string> made;
+  for (int i = 0; i < stack.num_tasks(); ++i) {
+    const TaskSettings& settings = stack.settings(i);
+    const std::string rank = std::to_string(settings.rank);
+    made[stack.task(i).name()] = settings.enabled ? rank : "(" + rank + ")";
+  }
+  EXPECT_EQ(made, ReadTable());
+}
+
+}  // namespace
+}  // namespace poise
