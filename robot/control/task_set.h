@@ -44,7 +44,7 @@ std::vector<std::string> FindTaskLinks(const std::string& set,
                                        const Robot& robot);
 
 /// Changes a stack to a task set: `default` (nothing to do); `paper`, the table
-/// of the seed's section 3; else the section `tasks` of a YAML file.
+/// of the paper's section 3; else the section `tasks` of a YAML file.
 /// Throws std::invalid_argument as ApplyTasks(), or about the file.
 void ApplyTaskSet(const std::string& name, Stack* stack);
 

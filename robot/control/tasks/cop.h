@@ -9,7 +9,7 @@
 namespace poise {
 
 /// Keeps the center of pressure of each foot inside its sole (table in section
-/// 3 of the seed). With λ = [m; f] about the sole's center,
+/// 3 of the paper). With λ = [m; f] about the sole's center,
 ///     CoP = (-m_y, m_x) / f_z,   |CoP_x| <= X - margin,  |CoP_y| <= Y -
 ///     margin,
 /// times f_z, over a quarter of the robot's weight. The margin shrinks with

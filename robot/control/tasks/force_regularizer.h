@@ -8,7 +8,7 @@
 
 namespace poise {
 
-/// Keeps the contact forces small (section 3.7 of the seed): lambda = 0, over a
+/// Keeps the contact forces small (section 3.7 of the paper): lambda = 0, over a
 /// quarter of the robot's weight. Settles the internal forces.
 class ForceRegularizerTask final : public Task {
  public:

@@ -9,7 +9,7 @@
 namespace poise {
 
 /// Keeps each foot from sliding, (13) and (14): a square stands for the
-/// friction circle of radius mu f_z, circumscribed as in the seed (up to √2 mu
+/// friction circle of radius mu f_z, circumscribed as in the paper (up to √2 mu
 /// on the diagonal),
 ///     |f_x| <= mu f_z,  |f_y| <= mu f_z,
 /// or inscribed, with mu / √2; over a quarter of the robot's weight.

@@ -8,7 +8,7 @@
 
 namespace poise {
 
-/// The ZMP rows as the seed wrote them, (12) read literally: the force-weighted
+/// The ZMP rows as the paper has them, (12) read literally: the force-weighted
 /// mean of the feet's own CoPs, each in its own contact frame, within dx, dy:
 ///     |sum_i m_y,i| <= dx sum_i f_z,i,   |sum_i m_x,i| <= dy sum_i f_z,i.
 /// It protects nothing: +x under one foot cancels -x under the other. Here for
