@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 
-// What our own robot must be: the humanoid of the issue, in HRP-4's
-// proportions.
+// What our own robot must be: the paper's 50 joints, in HRP-4's proportions.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -83,7 +82,7 @@ TEST_F(Humanoid, HasTheProportionsOfHrp4) {
   }
 }
 
-TEST_F(Humanoid, HasTheSolesOfTheIssue) {
+TEST_F(Humanoid, HasSolesOf23By13Centimeters) {
   ASSERT_EQ(robot_.feet.size(), 2u);
   const Tick tick = TickAt(robot_, robot_.q_nominal);
   for (const Foot& foot : robot_.feet) {
@@ -95,7 +94,7 @@ TEST_F(Humanoid, HasTheSolesOfTheIssue) {
   }
 }
 
-TEST_F(Humanoid, HasTheEffortLimitsOfTheIssue) {
+TEST_F(Humanoid, HasItsEffortLimits) {
   for (const std::string side : {"l_", "r_"}) {
     EXPECT_EQ(LimitsOf(side + "hip_roll").effort, 225);
     EXPECT_EQ(LimitsOf(side + "hip_pitch").effort, 115);

@@ -37,7 +37,8 @@ TEST(Paper, StandsWhenStartedOffEquilibrium) {
 TEST(Paper, RecoversFromTheWeakPush) {
   const Story story = Tell(Ours("weak_push", 4));
   ExpectStaysOnItsFeet(story);
-  EXPECT_LT(story.verdict.com_error_final.norm(), 2e-3);  // The bar.
+  // A seventh of what it is at its peak.
+  EXPECT_LT(story.verdict.com_error_final.norm(), 2e-3);
   // A large error at the push, then a transient that converges to zero.
   EXPECT_GT(story.ErrorIn(1, 1.5), 0.01);
   EXPECT_LT(story.ErrorIn(2, 2.5), 2e-3);
@@ -131,7 +132,8 @@ TEST(Standing, MeasuredWrenchIsTheCommandedOne) {
   for (int i = 0; i < 2; ++i) {
     const auto measured = loop.observation().feet[i].F_Co_C;
     const auto commanded = record.report.foot_wrench(nv, i);
-    EXPECT_LT((measured - commanded).tail<3>().norm(), 0.05);  // The bar, N.
+    // N, of the 190 that a foot bears.
+    EXPECT_LT((measured - commanded).tail<3>().norm(), 0.05);
     EXPECT_NEAR(measured[1] / measured[5], commanded[1] / commanded[5], 1e-3);
     EXPECT_NEAR(measured[0] / measured[5], commanded[0] / commanded[5], 1e-3);
     sum += measured[5];
@@ -162,7 +164,7 @@ TEST(Standing, MeasuredCopIsTheCommandedOneUntilItSaturates) {
       most = std::max(most, cop.y());
     }
   }
-  EXPECT_LT(worst, 1e-3);  // The bar, m.
+  EXPECT_LT(worst, 1e-3);  // A fifth of the controller's margin to the edge.
   EXPECT_GT(most, 0.059);  // Of a sole that ends at 0.065 m.
   EXPECT_LT(least, 0.01);
 }
