@@ -34,8 +34,10 @@ class ActiveProblem {
     std::vector<double> left;  ///< SelectionTail::Dual(): by variable.
   };
 
-  /// Reads a hierarchy's sizes and norms; all are told if a number is not
-  /// finite, a bound is on the wrong side, or a weight negative.
+  /// Reads a hierarchy's sizes and the norms of its rows, and checks its numbers:
+  /// kNotFinite if one is not finite, or a bound infinite on the wrong side;
+  /// kBadInput if lower > upper, a weight is negative, or it has more rows or other
+  /// variables than there is room for. failed_level is the first such level.
   Status Read(const Hierarchy& hierarchy, int* failed_level);
 
   /// Takes the first num_levels levels, and no others; of what they leave free,

@@ -28,8 +28,10 @@ struct Certificate {
   /// then its multiplier is free.
   double complementarity = 0;
 
-  /// The cost of each level at y against the one it was solved to, relative to
-  /// that cost, and 1e-9 of what it is added up from.
+  /// |cost_k - c_k| / (c_k + 1e-9 s_k), where cost_k is the one reported,
+  ///     c_k = (w_k' W_k w_k + |v_k|^2) / 2
+  /// that of y, and s_k what c_k would be if each w were |B_i| |y| + |b_i|, and each
+  /// v were |C_i| |y| + |bound|, added up from magnitudes.
   double priority = 0;
 
   /// The worst of the four.

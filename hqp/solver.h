@@ -32,11 +32,11 @@ class Solver {
   /// Forgets the last solve: the next one is cold.
   void Forget() noexcept;
 
-  /// The factorisations, or updates of one, that a search may take in all, and
-  /// Solution::iterations tells; one more may be needed to tell the answer of a
-  /// search that did not succeed. If they are spent, y is the best found that
-  /// keeps the levels above failed_level at their optimum, where what they leave
-  /// of it is not that of failed_level yet.
+  /// How many factorisations, or updates of one, a solve may take for its search;
+  /// Solution::iterations says how many it took. One more may follow, to report on
+  /// a search that did not succeed. If they are spent, the levels above
+  /// failed_level are at their optimum, and in what these leave free y is the best
+  /// that was found for failed_level, not yet its optimum.
   int max_iterations = 500;
 
   /// The same in seconds by now(), if that is given; it breaks replay.

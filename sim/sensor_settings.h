@@ -30,8 +30,8 @@ struct SensorSettings {
   double base_delay = 0;        ///< the base and the inertial unit, s;
   double foot_delay = 0;        ///< the feet and their contact flags, s.
   double dropout = 0;           ///< Chance that a tick brings nothing new.
-  double freeze_at = 0;         ///< From here on nothing new comes, s,
-  double freeze_for = 0;        ///< for so long, s.
+  double freeze_at = 0;         ///< From this time on, s, nothing new comes
+  double freeze_for = 0;        ///< during so many s; 0: this never happens.
   double contact_threshold = 5;  ///< Normal force of a contact flag, N.
 };
 

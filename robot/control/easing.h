@@ -50,17 +50,22 @@ class Easing {
   /// Whether y is held in what the rows leave free.
   bool holds() const { return is_on() && holds_; }
 
-  /// Of equalities as they are now:
-  /// they were not there;
+  /// These five add offsets after a change; `rows` is where a task begins, as
+  /// AddTask() said, and `now` its rows as they are after the change.
+  ///
+  /// For equalities that were not there in the last tick: the last y meets them.
   void BeginAtLast(int rows, const EqualityBlock& now) noexcept;
-  /// they were `before`, which counts weight_ratio times as much as now;
+  /// For equalities that were `before`, of a task that weighed weight_ratio times
+  /// as much: they draw at the last y as they did.
   void BeginAsBefore(int rows, const EqualityBlock& now,
                      const EqualityBlock& before, double weight_ratio) noexcept;
-  /// what kept the last y from meeting them may be gone.
+  /// For equalities that the last y missed, where what kept it from them may be
+  /// gone: their offsets grow by what it missed, and so it meets them.
   void KeepResiduals(int rows, int equalities) noexcept;
-  /// The same, of what y leaves free.
+  /// For what the rows leave free, where rows that determined it may be gone: y
+  /// is held where it was.
   void KeepFree() noexcept;
-  /// Of inequalities that the last y may violate, by more than it did.
+  /// For inequalities: the last y violates them by no more than it did.
   void BeginInside(int rows, int equalities,
                    const InequalityBlock& now) noexcept;
 

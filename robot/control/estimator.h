@@ -21,12 +21,13 @@ namespace poise {
 ///     v+ = v + dt (R_WB f + g),  then  v+ += dt / tau (v_legs - v+).
 /// The heading is as good as that of the inertial unit.
 ///
-/// A measurement is left out whole where its stamp, its inertial unit or a joint is
-/// not finite, or beyond 1e6: base and stamp stay those of the last one that was
-/// used, joints are passed on as they are, and the next measurement bridges the
-/// gap. So the controller fails safe on a joint that is no number at once, and on
-/// a base of which nothing is heard as on any clock that stands still. A foot whose
-/// force is not finite counts as unloaded.
+/// A measurement whose stamp, inertial unit or joints are not finite, or beyond
+/// 1e6, is not used. The state then has the base and the stamp of the last one
+/// that was, and the joints of this one, as they are; the next good measurement
+/// bridges the gap. So a joint that is not finite reaches the controller, which
+/// fails safe at once; and if nothing good is heard of the base, the state's stamp
+/// stands still, and the controller fails safe after its usual time for that. A
+/// foot whose force is not finite counts as unloaded.
 class Estimator {
  public:
   /// @param velocity_time  tau, s: smaller trusts the legs, larger the
