@@ -24,11 +24,7 @@ bool IsValidWeight(double weight) {
 // An inequality as it acts.
 std::string SidedName(const Task& task, int row, Side side) {
   const std::string& name = task.inequality_names()[row];
-  // What is bounded on one side only says so itself, or has no other.
-  const std::string& of = task.name();
-  const bool two_sided =
-      of == "torque_limits" || of == "joint_limits" || of == "unilateral";
-  if (!two_sided) return name;
+  if (!task.is_two_sided()) return name;
   return name + (side == Side::kLower ? ".min" : ".max");
 }
 

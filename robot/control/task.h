@@ -61,6 +61,11 @@ class Task {
   /// Whether it has rows at all in this tick; if not, Write() is left out.
   virtual bool HasRows(const TaskInput&) const noexcept { return true; }
 
+  /// Whether its inequality rows are bounded on both sides, so that their names
+  /// get the one on which they act, .min or .max; what is bounded on one side only
+  /// says so in its name, or has no other.
+  virtual bool is_two_sided() const noexcept { return false; }
+
   /// What the residual of an equality row is multiplied with to be in the unit
   /// that a person thinks in: N for a momentum, say.
   virtual double equality_scale(int) const noexcept { return 1; }

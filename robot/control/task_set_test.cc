@@ -181,6 +181,23 @@ TEST(Stack, SaysOnWhichSideARowActs) {
   EXPECT_EQ(name("cop", Side::kUpper), "left_foot.cop.x_max");
 }
 
+// A task of a user's own.
+class Band : public Task {
+ public:
+  Band() : Task("band", {}, {"band.x"}) {}
+  bool is_two_sided() const noexcept override { return true; }
+  void Write(const TaskInput&, EqualityBlock*,
+             InequalityBlock*) const noexcept override {}
+};
+
+TEST(Stack, SaysOnWhichSideARowOfATaskOfOnesOwnActs) {
+  Stack stack = MakeStack();
+  stack.Add(std::make_unique<Band>(), {});
+  const int band = *stack.Find("band");
+  EXPECT_EQ(stack.RowName({band, 0, Side::kLower, 5, 1, 0}), "band.x.min");
+  EXPECT_EQ(stack.RowName({band, 0, Side::kUpper, 5, 1, 0}), "band.x.max");
+}
+
 class Idle : public Task {
  public:
   explicit Idle(const std::string& name) : Task(name, {}, {}) {}

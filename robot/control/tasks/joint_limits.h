@@ -25,6 +25,7 @@ class JointLimitsTask final : public Task {
  public:
   /// Parameters: omega (40 1/s); margin (0.008 rad), kept from each limit.
   explicit JointLimitsTask(const RobotModel& model);
+  bool is_two_sided() const noexcept override { return true; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 

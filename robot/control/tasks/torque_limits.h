@@ -15,6 +15,7 @@ class TorqueLimitsTask final : public Task {
  public:
   /// Parameter: scale (1), on all limits.
   explicit TorqueLimitsTask(const RobotModel& model);
+  bool is_two_sided() const noexcept override { return true; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 

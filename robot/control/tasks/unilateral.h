@@ -13,6 +13,7 @@ namespace poise {
 class UnilateralTask final : public Task {
  public:
   UnilateralTask(const Tree& tree, const std::vector<Foot>& feet);
+  bool is_two_sided() const noexcept override { return true; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 
