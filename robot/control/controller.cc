@@ -17,7 +17,8 @@ namespace poise {
 namespace {
 
 // A state whose time stamp stands still for longer than this is not believed.
-constexpr double kFrozenAfter = 0.010;  // s.
+// Rounding: ten periods of 1 ms are 10 ms, and no more.
+constexpr double kFrozenAfter = 0.010 + 1e-9;  // s.
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 // Slack of a limit above this is reported; in its own scale, where 1 is the
@@ -190,14 +191,17 @@ void Controller::Start(const State& state) noexcept {
 void Controller::Update(const State& state, Command* command) noexcept {
   report_.status = TickStatus::kOk;
   report_.fail_safe_reason = FailSafeReason::kNone;
-  if (!IsUsable(state)) {
-    FailSafe(frozen_for_ > kFrozenAfter ? FailSafeReason::kClock
-                                        : FailSafeReason::kState,
-             state, command);
+  UpdateClock(state);
+  if (IsFrozen()) {
+    FailSafe(FailSafeReason::kClock, state, command);
+    return;
+  }
+  if (!std::isfinite(state.time) || !IsPossible(robot_.model.tree, state)) {
+    FailSafe(FailSafeReason::kState, state, command);
     return;
   }
   ComputeModel(state);
-  Compare(state);
+  UpdateUnexpected(state);
   LetFeetGo(state);
   stance_.Update(options_.dt, normal_force_, &contacts_, &reference_);
   stack_.Write({state, tick_, contacts_, reference_, unexpected_,
@@ -281,7 +285,7 @@ void Controller::LetFeetGo(const State& state) noexcept {
 
 // What the last solution did not say: a push, or a wrong model. A state that has
 // not moved on says nothing of it.
-void Controller::Compare(const State& state) noexcept {
+void Controller::UpdateUnexpected(const State& state) noexcept {
   if (!expects_ || frozen_for_ > 0) return;
   const double share = -std::expm1(-options_.dt / kMemory);
   unexpected_ += share * ((state.v - expected_v_) / options_.dt - unexpected_);
@@ -289,15 +293,15 @@ void Controller::Compare(const State& state) noexcept {
       unexpected_.cwiseMax(-kLargestSurprise).cwiseMin(kLargestSurprise);
 }
 
-bool Controller::IsUsable(const State& state) noexcept {
-  // Back, or far ahead, is a clock that was set; no clock shows what is no number.
+// Back, or far ahead, is a clock that was set; no clock shows what is no number.
+void Controller::UpdateClock(const State& state) noexcept {
   const bool moves = std::isfinite(state.time) && state.time != last_time_;
   frozen_for_ = moves ? 0 : frozen_for_ + options_.dt;
   if (moves) last_time_ = state.time;
-  // Rounding: ten periods of 1 ms are 10 ms, and no more.
-  const bool frozen = frozen_for_ > kFrozenAfter + 1e-9;
-  return !frozen && std::isfinite(state.time) &&
-         IsPossible(robot_.model.tree, state);
+}
+
+bool Controller::IsFrozen() const noexcept {
+  return frozen_for_ > kFrozenAfter;
 }
 
 void Controller::FailSafe(FailSafeReason reason, const State& state,

@@ -103,8 +103,9 @@ class Controller {
  private:
   void ComputeModel(const State& state) noexcept;
   void LetFeetGo(const State& state) noexcept;
-  void Compare(const State& state) noexcept;
-  bool IsUsable(const State& state) noexcept;
+  void UpdateUnexpected(const State& state) noexcept;
+  void UpdateClock(const State& state) noexcept;
+  bool IsFrozen() const noexcept;
   void FailSafe(FailSafeReason reason, const State& state,
                 Command* command) noexcept;
   void LimitTorque(Command* command) noexcept;

@@ -202,6 +202,20 @@ TEST_F(FailSafeTest, FailsSafeWhileTheClockOfTheStateStandsStill) {
   EXPECT_EQ(Reason(), FailSafeReason::kNone);
 }
 
+// Ten periods of 1 ms are 10 ms, and no more, whatever else is wrong.
+TEST_F(FailSafeTest, BlamesTheClockForNoStateThatIsNone) {
+  Update();
+  for (int i = 1; i <= 12; ++i) {
+    State state = state_;
+    if (i >= 9) state.q[10] = std::numeric_limits<double>::quiet_NaN();
+    controller_.Update(state, &command_);
+    EXPECT_EQ(Reason(), i < 9     ? FailSafeReason::kNone
+                        : i <= 10 ? FailSafeReason::kState
+                                  : FailSafeReason::kClock)
+        << i << " ms";
+  }
+}
+
 TEST_F(FailSafeTest, StartsItsClockAnew) {
   for (int i = 0; i < 100; ++i) Update();
   for (int i = 0; i < 20; ++i) controller_.Update(state_, &command_);
