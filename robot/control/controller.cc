@@ -145,7 +145,7 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
 
   const Tree& tree = robot_.model.tree;
   for (ContactTick& contact : contacts_) contact.J_WC_C.setZero(6, tree.nv());
-  unexpected_.setZero(tree.nv());
+  unexpected_vdot_.setZero(tree.nv());
   expected_v_.setZero(tree.nv());
   const State nominal{0, robot_.q_nominal, Eigen::VectorXd::Zero(tree.nv())};
   ComputeModel(nominal);
@@ -181,7 +181,7 @@ void Controller::Start(const State& state) noexcept {
   normal_force_.setConstant(weight_);
   stack_.EndRamp();
   disturbance_.Forget();
-  unexpected_.setZero();
+  unexpected_vdot_.setZero();
   expects_ = false;
   last_time_ = kNever;
   frozen_for_ = 0;
@@ -201,10 +201,10 @@ void Controller::Update(const State& state, Command* command) noexcept {
     return;
   }
   ComputeModel(state);
-  UpdateUnexpected(state);
+  UpdateUnexpectedVdot(state);
   LetFeetGo(state);
   stance_.Update(options_.dt, normal_force_, &contacts_, &reference_);
-  stack_.Write({state, tick_, contacts_, reference_, unexpected_,
+  stack_.Write({state, tick_, contacts_, reference_, unexpected_vdot_,
                 disturbance_.correction_W(), capture_},
                &hierarchy_);
   const Status solved = solver_.Solve(hierarchy_, &solution_);
@@ -259,7 +259,7 @@ void Controller::LetFeetGo(const State& state) noexcept {
   MomentumTask::CaptureShares shares;
   if (stack_.settings(momentum_).enabled) {
     shares = momentum_task_.FindCapture(
-        {state, tick_, contacts_, reference_, unexpected_});
+        {state, tick_, contacts_, reference_, unexpected_vdot_});
   }
   capture_ = shares.all;
 
@@ -285,12 +285,13 @@ void Controller::LetFeetGo(const State& state) noexcept {
 
 // What the last solution did not say: a push, or a wrong model. A state that has
 // not moved on says nothing of it.
-void Controller::UpdateUnexpected(const State& state) noexcept {
+void Controller::UpdateUnexpectedVdot(const State& state) noexcept {
   if (!expects_ || frozen_for_ > 0) return;
   const double share = -std::expm1(-options_.dt / kMemory);
-  unexpected_ += share * ((state.v - expected_v_) / options_.dt - unexpected_);
-  unexpected_ =
-      unexpected_.cwiseMax(-kLargestSurprise).cwiseMin(kLargestSurprise);
+  unexpected_vdot_ +=
+      share * ((state.v - expected_v_) / options_.dt - unexpected_vdot_);
+  unexpected_vdot_ =
+      unexpected_vdot_.cwiseMax(-kLargestSurprise).cwiseMin(kLargestSurprise);
 }
 
 // Back, or far ahead, is a clock that was set; no clock shows what is no number.

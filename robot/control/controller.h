@@ -103,7 +103,7 @@ class Controller {
  private:
   void ComputeModel(const State& state) noexcept;
   void LetFeetGo(const State& state) noexcept;
-  void UpdateUnexpected(const State& state) noexcept;
+  void UpdateUnexpectedVdot(const State& state) noexcept;
   void UpdateClock(const State& state) noexcept;
   bool IsFrozen() const noexcept;
   void FailSafe(FailSafeReason reason, const State& state,
@@ -135,11 +135,11 @@ class Controller {
   Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.
   double last_time_;        ///< Of the last state whose stamp is finite, s.
   Disturbance disturbance_;
-  double capture_ = 0;          ///< TaskInput::capture.
-  Eigen::VectorXd unexpected_;  ///< TaskInput::unexpected.
-  Eigen::VectorXd expected_v_;  ///< The v that the last solution leads to.
-  bool expects_ = false;        ///< Whether expected_v_ is of the last tick.
-  double frozen_for_ = 0;       ///< How long the time has been the same, s.
+  double capture_ = 0;               ///< TaskInput::capture.
+  Eigen::VectorXd unexpected_vdot_;  ///< TaskInput::unexpected_vdot.
+  Eigen::VectorXd expected_v_;       ///< The v that the last solution leads to.
+  bool expects_ = false;   ///< Whether expected_v_ is of the last tick.
+  double frozen_for_ = 0;  ///< How long the time has been the same, s.
 };
 
 }  // namespace poise

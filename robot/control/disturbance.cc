@@ -14,7 +14,7 @@ constexpr double kStanding = 0.02;
 
 }  // namespace
 
-void Disturbance::Update(double dt, const PlaceGains& gains,
+void Disturbance::Update(double dt, const ComGains& gains,
                          const Reference& reference,
                          const Tick& tick) noexcept {
   const bool stands = reference.v_WG.isZero() && tick.v_WG.norm() < kStanding;

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "dynamics/tick.h"
-#include "robot/control/place_gains.h"
+#include "robot/control/com_gains.h"
 #include "robot/control/reference.h"
 
 namespace poise {
@@ -24,7 +24,7 @@ class Disturbance {
 
   /// A tick of dt in which the center of mass was asked to go to its reference by
   /// these gains, and was free to.
-  void Update(double dt, const PlaceGains& gains, const Reference& reference,
+  void Update(double dt, const ComGains& gains, const Reference& reference,
               const Tick& tick) noexcept;
 
   /// What the center of mass is to be accelerated by beyond its reference, m/s2.

@@ -123,9 +123,9 @@ bool Stance::HasLanded(const Clearance& sole) const noexcept {
 bool Stance::IsStopped(const FootState& foot,
                        const Clearance& sole) const noexcept {
   if (foot.phase != ContactPhase::kLanding) return true;
-  const Way way = WayOf(foot);
-  return way.speed < -kTelling ? sole.rising > kStopped * way.speed
-                               : way.is_over;
+  const VerticalMotion motion = VerticalMotionOf(foot);
+  return motion.speed < -kTelling ? sole.rising > kStopped * motion.speed
+                                  : motion.is_over;
 }
 
 // Whether no foot bears: the robot flies.
@@ -169,7 +169,7 @@ void Stance::Lift(int i, double height) noexcept {
       foot.to = height;
       return;
     default: {
-      foot.from = WayOf(foot).height;
+      foot.from = VerticalMotionOf(foot).height;
       foot.to = height;
       Enter(&foot, ContactPhase::kUp);
     }
@@ -340,17 +340,18 @@ void Stance::Guide(const FootState& foot,
     Return(foot, target);
     return;
   }
-  const Way way = WayOf(foot);
+  const VerticalMotion motion = VerticalMotionOf(foot);
   target->X_WF = foot.X_WC;
-  target->X_WF.p.z() += way.height;
+  target->X_WF.p.z() += motion.height;
   target->V_WF_W.setZero();
-  target->V_WF_W[5] = way.speed;
+  target->V_WF_W[5] = motion.speed;
   target->A_WF_W.setZero();
-  target->A_WF_W[5] = way.acceleration;
+  target->A_WF_W[5] = motion.acceleration;
 }
 
 // A foot that is put down comes to rest on the ground, and sinks on from there.
-Stance::Way Stance::WayOf(const FootState& foot) const noexcept {
+Stance::VerticalMotion Stance::VerticalMotionOf(
+    const FootState& foot) const noexcept {
   const double down = Duration(foot.phase, foot.from - foot.to, swing_time);
   const bool lands = foot.phase == ContactPhase::kLanding;
   const bool sinks = lands && foot.since > down;

@@ -93,7 +93,7 @@ class Stance {
   };
 
   // Straight up or down, from the ground on, in m, m/s and m/s2.
-  struct Way {
+  struct VerticalMotion {
     double height, speed, acceleration;
     bool is_over;
   };
@@ -111,7 +111,7 @@ class Stance {
   void ChangePhase(double dt, const ContactTick& contact,
                    const Reference& reference, FootState* foot) noexcept;
   double MaxNormalForce(double normal_force, FootState* foot) const noexcept;
-  Way WayOf(const FootState& foot) const noexcept;
+  VerticalMotion VerticalMotionOf(const FootState& foot) const noexcept;
   void Guide(const FootState& foot, FrameReference* target) const noexcept;
   void Return(const FootState& foot, FrameReference* target) const noexcept;
   void Enter(FootState* foot, ContactPhase phase) noexcept;

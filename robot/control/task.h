@@ -22,7 +22,7 @@ struct TaskInput {
   const Reference& reference;
   /// What v̇ was lately beyond what the solutions said, nv: as a push and a wrong
   /// model make it.
-  const Eigen::VectorXd& unexpected;
+  const Eigen::VectorXd& unexpected_vdot;
   /// What the center of mass is to be accelerated beyond its reference, against
   /// what the model does not know of, m/s2; see Disturbance.
   Eigen::Vector3d correction_W = Eigen::Vector3d::Zero();

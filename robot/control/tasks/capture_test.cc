@@ -103,7 +103,7 @@ class CaptureTest : public TaskTest {
     EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
     InequalityBlock none = hierarchy_.AddInequalities(0, 0);
     TaskInput now{state_, tick_, controller_.contacts(),
-                  controller_.reference(), unexpected_};
+                  controller_.reference(), unexpected_vdot_};
     const MomentumTask::CaptureShares shares = task_.FindCapture(now);
     left_ = shares.left;
     right_ = shares.right;
@@ -184,8 +184,9 @@ TEST_F(CaptureTest, StandsOverTheFootThatIsLeft) {
     hierarchy_.Clear(1);
     EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
     InequalityBlock none = hierarchy_.AddInequalities(0, 0);
-    task_.Write({state_, controller_.tick(), contacts, reference, unexpected_},
-                &rows, &none);
+    task_.Write(
+        {state_, controller_.tick(), contacts, reference, unexpected_vdot_},
+        &rows, &none);
     const Vector6d wanted =
         controller_.tick().H_G_bias / tree_.total_mass() - rows.b;
     return Eigen::Vector2d(

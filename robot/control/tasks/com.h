@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dynamics/tree.h"
-#include "robot/control/place_gains.h"
+#include "robot/control/com_gains.h"
 #include "robot/control/task.h"
 
 namespace poise {
@@ -19,11 +19,11 @@ class ComTask final : public Task {
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 
-  const PlaceGains& gains() const { return gains_; }
+  const ComGains& gains() const { return gains_; }
 
  private:
   double mass_;
-  PlaceGains gains_;
+  ComGains gains_;
 };
 
 }  // namespace poise

@@ -18,7 +18,7 @@ namespace poise {
 /// A joint whose file has no velocity limit, as a finger that mimics another, is
 /// taken to have kAssumedVelocity: were its acceleration free, a few milligrams
 /// would buy the momentum that the feet cannot give with 1e6 rad/s².
-/// There q̈ is what the joint will do: v̇_j and TaskInput::unexpected, or a push
+/// There q̈ is what the joint will do: v̇_j and TaskInput::unexpected_vdot, or a push
 /// would press it w⁻² of that beyond where it comes to rest. Rows are divided by
 /// w² rad.
 class JointLimitsTask final : public Task {

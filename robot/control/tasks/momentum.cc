@@ -48,7 +48,8 @@ MomentumTask::MomentumTask(const Tree& tree, const std::vector<Foot>& feet)
 }
 
 // Where the center of mass is to be: its reference, but over the feet that stand.
-Eigen::Vector3d MomentumTask::Place(const TaskInput& input) const noexcept {
+Eigen::Vector3d MomentumTask::ComReference(
+    const TaskInput& input) const noexcept {
   int standing = 0;
   for (const ContactTick& contact : input.contacts) {
     standing += contact.in_contact ? 1 : 0;
@@ -79,7 +80,7 @@ MomentumTask::CaptureShares MomentumTask::FindCapture(
   const Eigen::Vector3d xi =
       X_MidW * (tick.p_WG + (tick.v_WG + given_back_W) / w);
   const Eigen::Vector3d xi_ref =
-      X_MidW * (Place(input) + input.reference.v_WG / w);
+      X_MidW * (ComReference(input) + input.reference.v_WG / w);
 
   const auto share = [&](SupportSide to, double farther) {
     const int axis = to == kFront || to == kBack ? 0 : 1;
@@ -118,7 +119,7 @@ void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
   const Eigen::Array3d ahead = feedforward_ * reference.v_WG.array();
   Vector6d wanted;
   wanted << (k_orientation_ * e_W - kd_angular_ * tick.L_G.head<3>()) / mass_,
-      (kp * (Place(input) - tick.p_WG).array() +
+      (kp * (ComReference(input) - tick.p_WG).array() +
        kd * (ahead - tick.v_WG.array()))
               .matrix() +
           input.correction_W + feedforward_ * reference.a_WG;

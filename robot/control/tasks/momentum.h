@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dynamics/tree.h"
-#include "robot/control/place_gains.h"
+#include "robot/control/com_gains.h"
 #include "robot/control/task.h"
 #include "robot/robot.h"
 
@@ -50,19 +50,19 @@ class MomentumTask final : public Task {
   };
   CaptureShares FindCapture(const TaskInput& input) const noexcept;
 
-  const PlaceGains& gains() const { return gains_; }
+  const ComGains& gains() const { return gains_; }
 
   double equality_scale(int) const noexcept override { return mass_; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 
  private:
-  Eigen::Vector3d Place(const TaskInput& input) const noexcept;
+  Eigen::Vector3d ComReference(const TaskInput& input) const noexcept;
 
   double mass_;
   double gravity_;
   std::vector<Foot> feet_;
-  PlaceGains gains_;
+  ComGains gains_;
   double kd_angular_ = 10;
   double k_orientation_ = 200;
   double angular_weight_ = 1;

@@ -5,7 +5,7 @@ namespace poise {
 
 /// By what a task brings the center of mass to its place, and by what an error
 /// that stays there is corrected, see Disturbance.
-struct PlaceGains {
+struct ComGains {
   double kp = 30;         ///< 1/s2.
   double kd = 10;         ///< 1/s.
   double ki = 15;         ///< In the plane, 1/s3.
