@@ -56,7 +56,7 @@ TEST(Diagnose, FindsTheHumanoidWell) {
   const Diagnosis diagnosis =
       Diagnose("robot/models/humanoid.urdf",
                LoadProfile("robot/profiles/humanoid.yaml"));
-  EXPECT_EQ(Verdict(diagnosis), "ok") << Findings(diagnosis);
+  EXPECT_EQ(VerdictWord(diagnosis), "ok") << Findings(diagnosis);
   EXPECT_EQ(diagnosis.joints, 50);
   EXPECT_EQ(diagnosis.soles.size(), 2u);
   EXPECT_NEAR(diagnosis.soles[0].length, 0.23, 1e-9);
@@ -88,7 +88,7 @@ TEST(Diagnose, NamesTheMotorThatCannotHoldTheRobot) {
     text.replace(effort, text.find('"', effort) - effort, "2.5");
   }
   const Diagnosis diagnosis = Examine(text);
-  EXPECT_EQ(Verdict(diagnosis), "warn");
+  EXPECT_EQ(VerdictWord(diagnosis), "warn");
   EXPECT_NE(Findings(diagnosis).find("joint 'l_knee': needs "),
             std::string::npos)
       << Findings(diagnosis);
@@ -119,30 +119,30 @@ TEST(Diagnose, LooksAtWhatTheProfileLeaves) {
 TEST(Diagnose, WarnsOfASingularInertia) {
   const Diagnosis leaf =
       Examine(Chain({kInertial, kInertial, ""}, {"0 0 1", "0 1 0"}));
-  EXPECT_EQ(Verdict(leaf), "warn");
+  EXPECT_EQ(VerdictWord(leaf), "warn");
   EXPECT_NE(Findings(leaf).find("joint 'j2': moves no mass"), std::string::npos)
       << Findings(leaf);
   const Diagnosis collinear =
       Examine(Chain({kInertial, "", kInertial}, {"0 0 1", "0 0 1"}));
-  EXPECT_EQ(Verdict(collinear), "warn");
+  EXPECT_EQ(VerdictWord(collinear), "warn");
   EXPECT_NE(Findings(collinear).find("makes M singular"), std::string::npos);
   // About another axis, the link between may be massless.
-  EXPECT_EQ(
-      Verdict(Examine(Chain({kInertial, "", kInertial}, {"0 0 1", "1 0 0"}))),
-      "ok");
+  EXPECT_EQ(VerdictWord(
+                Examine(Chain({kInertial, "", kInertial}, {"0 0 1", "1 0 0"}))),
+            "ok");
 }
 
 TEST(Diagnose, RejectsWithTheReason) {
   const Diagnosis diagnosis = Examine(Chain({kInertial, kInertial}, {"0 0 0"}));
-  EXPECT_EQ(Verdict(diagnosis), "reject");
+  EXPECT_EQ(VerdictWord(diagnosis), "reject");
   EXPECT_EQ(diagnosis.findings[0].where, "joint 'j1' <axis>");
   EXPECT_EQ(diagnosis.findings[0].what, "xyz is '0 0 0'");
-  EXPECT_EQ(Verdict(Diagnose("no/such.urdf")), "reject");
+  EXPECT_EQ(VerdictWord(Diagnose("no/such.urdf")), "reject");
 }
 
 TEST(Diagnose, NamesTheLineOfWhatIsNoXml) {
   const Diagnosis diagnosis = Examine("<robot>\n<!DOCTYPE a></robot>");
-  ASSERT_EQ(Verdict(diagnosis), "reject");
+  ASSERT_EQ(VerdictWord(diagnosis), "reject");
   EXPECT_EQ(diagnosis.findings[0].line, 2);
   EXPECT_EQ(diagnosis.findings[0].what,
             "has a document type or entity declaration, must have none");
@@ -152,7 +152,7 @@ TEST(Diagnose, LeavesLargeRobotsUncomputed) {
   const Diagnosis diagnosis =
       Examine(Chain(std::vector<std::string>(602, kInertial),
                     std::vector<std::string>(601, "0 0 1")));
-  EXPECT_EQ(Verdict(diagnosis), "ok");
+  EXPECT_EQ(VerdictWord(diagnosis), "ok");
   EXPECT_NE(Findings(diagnosis).find("M was not computed"), std::string::npos);
 }
 
@@ -187,7 +187,7 @@ TEST(Diagnose, TakesFeetOfVeryManyShapes) {
   }
   // Less than a second.
   const Diagnosis diagnosis = Examine(text + "</robot>");
-  EXPECT_EQ(Verdict(diagnosis), "ok") << Findings(diagnosis);
+  EXPECT_EQ(VerdictWord(diagnosis), "ok") << Findings(diagnosis);
   ASSERT_EQ(diagnosis.soles.size(), 2u);
   // The square in a circle of 0.1 m.
   EXPECT_NEAR(diagnosis.soles[0].length, 0.1414, 0.002);
@@ -272,8 +272,8 @@ TEST(Diagnose, JudgesByWhatIsWorst) {
     std::string text = good;
     text.replace(text.find(old_text), std::string(old_text).size(), new_text);
     const Diagnosis diagnosis = Examine(text);
-    EXPECT_EQ(Verdict(diagnosis), verdict) << new_text << "\n"
-                                           << Findings(diagnosis);
+    EXPECT_EQ(VerdictWord(diagnosis), verdict) << new_text << "\n"
+                                               << Findings(diagnosis);
   }
 }
 
@@ -296,7 +296,7 @@ TEST(Diagnose, FindsRealRobotsTheSameInThePlant) {
                            "icub_erd_reduced", "jvrc1", "talos_reduced"}) {
     const Diagnosis diagnosis =
         Diagnose(*folder / (std::string(name) + ".urdf"));
-    EXPECT_NE(Verdict(diagnosis), "reject") << name;
+    EXPECT_NE(VerdictWord(diagnosis), "reject") << name;
     EXPECT_TRUE(diagnosis.com_height.has_value()) << name;
     EXPECT_LT(diagnosis.parity.value(), 1e-9) << name;
   }
@@ -316,7 +316,7 @@ TEST(Diagnose, JudgesHostileFilesAsExpected) {
   std::ifstream stream(*folder / "EXPECTED.json");
   const nlohmann::json all = nlohmann::json::parse(stream);
   for (const auto& [name, expected] : all.items()) {
-    std::string verdict = Verdict(Diagnose(*folder / name));
+    std::string verdict = VerdictWord(Diagnose(*folder / name));
     if (verdict == "ok") verdict = "accept";
     std::transform(verdict.begin(), verdict.end(), verdict.begin(),
                    [](unsigned char c) { return std::toupper(c); });

@@ -31,7 +31,7 @@ const char* Name(Severity severity) {
 
 }  // namespace
 
-std::string Verdict(const Diagnosis& diagnosis) {
+std::string VerdictWord(const Diagnosis& diagnosis) {
   const Severity worst = diagnosis.worst();
   return worst == Severity::kNote ? "ok" : Name(worst);
 }
@@ -80,13 +80,13 @@ std::string WriteTable(const Diagnosis& diagnosis) {
     if (!finding.why.empty()) out << ", " << finding.why;
     out << "\n";
   }
-  out << "verdict  " << Verdict(diagnosis) << "\n";
+  out << "verdict  " << VerdictWord(diagnosis) << "\n";
   return out.str();
 }
 
 std::string WriteJson(const Diagnosis& diagnosis) {
   nlohmann::json json;
-  json["verdict"] = Verdict(diagnosis);
+  json["verdict"] = VerdictWord(diagnosis);
   json["findings"] = nlohmann::json::array();
   for (const Finding& finding : diagnosis.findings) {
     if (json["findings"].size() >= kMostFindings) break;

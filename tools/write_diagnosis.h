@@ -8,7 +8,7 @@
 namespace poise {
 
 /// "ok", "warn" or "reject".
-std::string Verdict(const Diagnosis& diagnosis);
+std::string VerdictWord(const Diagnosis& diagnosis);
 
 /// For a person, at most 1000 findings.
 std::string WriteTable(const Diagnosis& diagnosis);
