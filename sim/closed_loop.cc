@@ -18,7 +18,7 @@ namespace {
 // Of the sole's half width.
 constexpr double kInside = 0.25;
 
-// Seeds of the streams of one scenario, far enough apart.
+// The sensors' noise has a stream of its own.
 constexpr unsigned kSensorSeed = 0x5eed;
 
 // What the controller takes the robot for.
