@@ -8,6 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "sim/outcome.h"
 #include "tools/drawing/plot.h"
 #include "tools/drawing/robot_picture.h"
 #include "tools/recorded_run.h"
@@ -108,10 +109,11 @@ void DrawErrors(const RecordedRun& run, const fs::path& stem) {
 }
 
 std::string Outcome(const RecordedRun& run) {
-  if (run.recovered()) return "recovers";
-  const nlohmann::json& fell = run.summary()["fell_at"];
-  if (fell.is_number()) return Format("falls at %.2f s", fell.get<double>());
-  return "does not come back";
+  Verdict verdict;
+  verdict.recovered = run.recovered();
+  const nlohmann::json& fell_at = run.summary()["fell_at"];
+  if (fell_at.is_number()) verdict.fell_at = fell_at.get<double>();
+  return Outcome(verdict);
 }
 
 // A pose figure of a push: before, when the CoM is farthest, and the end.

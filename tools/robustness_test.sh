@@ -56,7 +56,7 @@ rm "$robots/mine.urdf" "$robots/mine.yaml"
 sed '/<joint name="._knee"/,/<\/joint>/s/effort="[^"]*"/effort="2.5"/' \
   robot/models/humanoid.urdf > "$robots/weak.urdf"
 run 1 --robots "$robots" --only 'weak stands'
-grep -q '^| weak stands |.* weak.urdf` | falls, .*| \*\*no\*\* |$' <<< "$out" ||
+grep -q '^| weak stands |.* weak.urdf` | falls at .*| \*\*no\*\* |$' <<< "$out" ||
   fail "weak knees stand: $out"
 
 # One that no simulator takes is nothing to try either.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "robot/profile.h"
+#include "sim/outcome.h"
 #include "sim/run.h"
 #include "sim/scenario.h"
 #include "tools/command_line.h"
@@ -20,19 +21,11 @@ constexpr const char* kScenarios[] = {
     "strong_push", "com_sinusoid", "posture_off",
     "one_leg",     "slope",        "board"};
 
-std::string Ending(const Verdict& verdict) {
-  if (verdict.recovered) return "recovers";
-  if (!verdict.fell_at) return "does not come back";
-  char text[40];
-  std::snprintf(text, sizeof text, "falls, %.2f s", *verdict.fell_at);
-  return text;
-}
-
 // A row of the table in docs/plants.md.
 void PrintRow(const std::string& name, const Verdict& bullet,
               const Verdict& mujoco) {
-  std::printf("| `%s` | %s | %s |", name.c_str(), Ending(bullet).c_str(),
-              Ending(mujoco).c_str());
+  std::printf("| `%s` | %s | %s |", name.c_str(), Outcome(bullet).c_str(),
+              Outcome(mujoco).c_str());
   for (int i = 0; i < 3; ++i) {
     std::printf(" %.1f / %.1f |", 1e3 * bullet.com_error_peak[i],
                 1e3 * mujoco.com_error_peak[i]);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "robot/profile.h"
+#include "sim/outcome.h"
 #include "sim/scenario.h"
 #include "tools/command_line.h"
 #include "tools/strictness_study.h"
@@ -53,8 +54,7 @@ void PrintOutcomes(const Robot& robot, const std::vector<Scenario>& pushes) {
     std::cout << "| " << way.name << " |";
     for (const Scenario& push : pushes) {
       const Verdict verdict = RunWeighing(robot, push, way);
-      std::printf(" %s, %.1f mm, tilt %.3f |",
-                  verdict.recovered ? "recovers" : "falls",
+      std::printf(" %s, %.1f mm, tilt %.3f |", Outcome(verdict).c_str(),
                   1e3 * verdict.com_error_peak.head<2>().norm(),
                   verdict.foot_tilt_peak);
       std::cout << std::flush;

@@ -10,8 +10,10 @@
 #include <utility>
 
 #include "robot/finding.h"
+#include "robot/numbers.h"
 #include "sim/closed_loop.h"
 #include "sim/observation.h"
+#include "sim/outcome.h"
 #include "sim/yardstick.h"
 #include "tools/push_options.h"
 
@@ -160,6 +162,15 @@ bool Holds(Bar bar, const TrialResult& result) {
   }
 }
 
+// A word of a command as a person would write it: a file without its folder, a
+// number to six digits.
+std::string Shortened(const std::string& word) {
+  const std::filesystem::path path = word;
+  if (path.is_absolute()) return path.filename().string();
+  const auto numbers = ParseNumbers(word);
+  return numbers && numbers->size() == 1 ? PrintNumber(numbers->front()) : word;
+}
+
 }  // namespace
 
 std::vector<Trial> RobustnessTrials() {
@@ -262,25 +273,22 @@ TrialResult Try(const Trial& trial) {
 std::string ToRow(const Trial& trial, const TrialResult& result) {
   std::string options;
   for (const std::string& word : trial.options) {
-    const std::filesystem::path path = word;
-    options += (options.empty() ? "" : " ") +
-               (path.is_absolute() ? path.filename().string() : word);
+    options += (options.empty() ? "" : " ") + Shortened(word);
   }
   const Verdict& verdict = result.verdict;
-  char ending[40] = "recovers";
-  if (!verdict.recovered) {
-    std::snprintf(ending, sizeof(ending), "falls, %.2f s",
-                  verdict.fell_at.value_or(NAN));
+  char violation[40] = "0";
+  if (result.joint_violation > 0) {
+    std::snprintf(violation, sizeof(violation), "%.0e", result.joint_violation);
   }
   const Eigen::Vector3d peak = 1e3 * verdict.com_error_peak;
   const Eigen::Vector3d last = 1e3 * verdict.com_error_final;
   char text[200];
   std::snprintf(text, sizeof(text),
                 " | %s | %.1f, %.1f, %.1f | %.2f, %.2f, %.2f | %.4f | %.3f, "
-                "%.3f | %.0e | %d | %s |",
-                ending, peak.x(), peak.y(), peak.z(), last.x(), last.y(),
-                last.z(), verdict.foot_tilt_peak, result.lean_peak,
-                result.lean_late, std::max(0.0, result.joint_violation),
+                "%.3f | %s | %d | %s |",
+                Outcome(verdict).c_str(), peak.x(), peak.y(), peak.z(),
+                last.x(), last.y(), last.z(), verdict.foot_tilt_peak,
+                result.lean_peak, result.lean_late, violation,
                 result.self_contact_ticks, result.holds ? "yes" : "**no**");
   return "| " + trial.what + " | `" + options + "`" + text;
 }
