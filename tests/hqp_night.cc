@@ -13,6 +13,7 @@
 #include "hqp/solver.h"
 #include "tests/util/compare_solvers.h"
 #include "tests/util/shrink_hierarchy.h"
+#include "tools/command_line.h"
 #include "tools/hqp_file.h"
 #include "tools/user_path.h"
 
@@ -112,7 +113,7 @@ int Main(int argc, char** argv) {
                  "Ticks of one solver, in which each hierarchy changes");
   app.add_option("--selecting", night.options.selecting,
                  "Hierarchies whose last levels select, in percent");
-  CLI11_PARSE(app, argc, argv);
+  ParseCommandLine(argc, argv, &app);
   std::uint64_t failures = 0;
   for (std::uint64_t i = 0; i < night.problems; ++i) {
     const std::uint64_t seed = night.seed + i;
@@ -144,10 +145,5 @@ int Main(int argc, char** argv) {
 }  // namespace poise
 
 int main(int argc, char** argv) {
-  try {
-    return poise::Main(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "hqp_night: " << error.what() << "\n";
-    return 2;
-  }
+  return poise::RunTool("hqp_night", [=] { return poise::Main(argc, argv); });
 }
