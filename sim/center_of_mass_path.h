@@ -17,8 +17,7 @@ class CenterOfMassPath {
       : motion_(motion), from_(start), to_(start) {}
 
   /// From where it now is, or is going, to a place, in `over` seconds from
-  /// `time` on: with no jerk in the middle, and none of its first two
-  /// derivatives at the ends.
+  /// `time` on: with minimum jerk, at rest at both ends.
   void ShiftTo(const Eigen::Vector3d& place, double time, double over);
 
   /// Writes p_WG, v_WG and a_WG.

@@ -72,7 +72,7 @@ class RampTest : public ControllerTest {
     // N m: rounding of torques of 100 N m.
     EXPECT_LT((command_.tau - command.tau).norm(), 1e-7);
     ASSERT_GT(jump, 0.5);
-    // A curve of least jerk goes 15/8 as fast as a line, and begins at rest.
+    // A curve of minimum jerk goes 15/8 as fast as a line, and begins at rest.
     const double largest = *std::max_element(steps.begin(), steps.end());
     EXPECT_LT(largest, 1.9 * jump / kTicks) << "of " << jump << " N m";
     EXPECT_LT(steps.front(), 1e-4 * jump);

@@ -68,7 +68,7 @@ TEST_F(EasingTest, LetsRowsThatAreNewBeginWhereTheLastYIs) {
   // Once more, nothing is left to do.
   easing_.BeginAtLast(task_, AddEqualities(&rows_));
   EXPECT_EQ(Offsets(), Eigen::Vector2d(4, -2));
-  // Half of the way of least jerk is behind it.
+  // Half of the way of minimum jerk is behind it.
   for (int i = 0; i < 5; ++i) easing_.Advance(kDt, kLast);
   EXPECT_LT((Offsets() - Eigen::Vector2d(2, -1)).norm(), 1e-14);
   for (int i = 0; i < 5; ++i) easing_.Advance(kDt, kLast);

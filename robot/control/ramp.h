@@ -6,11 +6,11 @@
 namespace poise {
 
 /// Numbers that go to zero together, whatever is added on the way: each along
-/// the curve of least jerk that leads from its value, rate and acceleration to
-/// rest at zero in the time that is left. That is the whole duration again
-/// whenever something is added. So what is added once is gone after the duration,
-/// and what is added in every tick is filtered: it goes with
-/// s^3 + 9/T s^2 + 36/T^2 s + 60/T^3, stable.
+/// the curve of minimum jerk that leads from its value, rate and acceleration to
+/// rest at zero in the time that is left; from rest, that of MinimumJerk. That is
+/// the whole duration again whenever something is added. So what is added once is
+/// gone after the duration, and what is added in every tick is filtered: it goes
+/// with s^3 + 9/T s^2 + 36/T^2 s + 60/T^3, stable.
 class Ramp {
  public:
   /// So many numbers, all zero. Allocates.

@@ -7,15 +7,17 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "robot/control/minimum_jerk.h"
+
 namespace poise {
 namespace {
 
 constexpr double kDt = 1e-3;
 
-// From 1 to 0 for s from 0 to 1, at rest at both ends, of least jerk.
-double LeastJerk(double s) { return 1 - s * s * s * (10 + s * (-15 + s * 6)); }
+// From 1 to 0 for s from 0 to 1.
+double Falling(double s) { return 1 - MinimumJerk(s).value; }
 
-TEST(Ramp, BringsANumberToZeroAlongACurveOfLeastJerk) {
+TEST(Ramp, BringsANumberToZeroAlongACurveOfMinimumJerk) {
   Ramp ramp;
   ramp.Resize(2);
   ramp.set_duration(0.01);
@@ -24,7 +26,7 @@ TEST(Ramp, BringsANumberToZeroAlongACurveOfLeastJerk) {
   for (int i = 0; i <= 10; ++i) {
     ASSERT_EQ(ramp.is_on(), i < 10) << i;
     EXPECT_EQ(ramp[0], 0);
-    EXPECT_NEAR(ramp[1], -3 * LeastJerk(0.1 * i), 1e-14) << i;  // Rounding.
+    EXPECT_NEAR(ramp[1], -3 * Falling(0.1 * i), 1e-14) << i;  // Rounding.
     ramp.Advance(kDt);
   }
 }
@@ -77,7 +79,7 @@ TEST(Ramp, GoesOnSmoothlyWhereSomethingIsAdded) {
   for (int i = 0; i <= 8; ++i) {
     // Rounding, of the test's LU, too.
     EXPECT_NEAR(ramp[0], second.At(kStep * i, 0), 1e-12) << i;
-    EXPECT_NEAR(ramp[1], 5 * LeastJerk(kStep * i / kDuration), 1e-13) << i;
+    EXPECT_NEAR(ramp[1], 5 * Falling(kStep * i / kDuration), 1e-13) << i;
     ramp.Advance(kStep);
   }
   EXPECT_FALSE(ramp.is_on());

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "math/so3.h"
+#include "robot/control/minimum_jerk.h"
 
 namespace poise {
 namespace {
@@ -37,16 +38,6 @@ constexpr double kSearchSpeed = 0.2;  // m/s.
 
 // A foot fades in up to this many times the robot's weight.
 constexpr double kFullLoad = 1.5;
-
-// From 0 to 1 for t from 0 to 1, at rest at both ends, of least jerk; its first
-// and second derivatives.
-struct Smooth {
-  explicit Smooth(double t)
-      : value(t * t * t * (10 + t * (-15 + 6 * t))),
-        rate(30 * t * t * (1 - t) * (1 - t)),
-        acceleration(60 * t * (1 - t) * (1 - 2 * t)) {}
-  double value, rate, acceleration;
-};
 
 // How long a foot in the air takes for its way, s.
 double Duration(ContactPhase phase, double down, double swing_time) {
@@ -222,7 +213,7 @@ void Stance::Return(const FootState& foot,
   for (int i = 0; i < 6; ++i) {
     const double time = i < 5 ? kThereAfter * return_time : return_time;
     const double t = std::min(foot.since, time);
-    const Smooth s(t / time);
+    const MinimumJerk s(t / time);
     const double rate = s.rate / time;
     const double acceleration = s.acceleration / (time * time);
     // Falling faster than this, it would be on the ground before it is there.
@@ -358,7 +349,7 @@ Stance::VerticalMotion Stance::VerticalMotionOf(
   const double from = sinks ? 0 : foot.from;
   const double travel = (lands && !sinks ? 0 : foot.to) - from;
   const double time = sinks ? kSinkTime : down;
-  const Smooth s(std::min(1.0, (foot.since - (sinks ? down : 0)) / time));
+  const MinimumJerk s(std::min(1.0, (foot.since - (sinks ? down : 0)) / time));
   return {from + travel * s.value, travel / time * s.rate,
           travel / (time * time) * s.acceleration,
           foot.since > down + (lands ? kSinkTime : 0)};

@@ -268,7 +268,7 @@ TEST_F(StanceTest, LetsAFootGoAndBringsItBack) {
   Update();
   EXPECT_TRUE(contacts_[0].is_guided);
   EXPECT_FALSE(contacts_[0].in_contact);
-  // A millisecond of least jerk.
+  // A millisecond of minimum jerk.
   EXPECT_LT((target.X_WF.p - away.p - 1e-3 * v_W).norm(), 1e-6);
   EXPECT_LT((target.V_WF_W.tail<3>() - v_W).norm(), 1e-3);
   EXPECT_LT(LogSo3(target.X_WF.R * away.R.transpose()).norm(), 1e-6);
@@ -337,7 +337,7 @@ TEST_F(StanceTest, LiftsAFootThatWasLetGoFromWhereItIs) {
     Update();
     EXPECT_FALSE(contacts_[0].in_contact);
     EXPECT_TRUE(contacts_[0].is_guided);
-    // A millisecond of least jerk.
+    // A millisecond of minimum jerk.
     EXPECT_LT((target.X_WF.p - away.p - 1e-3 * v_W).norm(), 1e-6);
     EXPECT_LT((target.V_WF_W.tail<3>() - v_W).norm(), 1e-3);
     EXPECT_LT(LogSo3(target.X_WF.R * away.R.transpose()).norm(), 1e-6);
