@@ -19,6 +19,16 @@ std::string SayOutside(const std::string& joint, const JointLimits& limits,
          PrintNumber(limits.upper);
 }
 
+double JointViolation(const RobotModel& model, const Eigen::VectorXd& q) {
+  double worst = 0;
+  for (int j = 0; j < model.tree.num_joints(); ++j) {
+    const double q_j = q[model.tree.q_start() + j];
+    worst = std::max(
+        {worst, model.limits[j].lower - q_j, q_j - model.limits[j].upper});
+  }
+  return worst;
+}
+
 Eigen::VectorXd RestConfiguration(const RobotModel& model) {
   Eigen::VectorXd q = model.tree.MakeNeutral();
   for (int j = 0; j < model.tree.num_joints(); ++j) {

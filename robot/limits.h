@@ -19,6 +19,10 @@ bool IsWithin(const JointLimits& limits, double q);
 std::string SayOutside(const std::string& joint, const JointLimits& limits,
                        double q);
 
+/// How far the joint that is farthest past a limit is past it, rad or m; 0 if all
+/// are inside.
+double JointViolation(const RobotModel& model, const Eigen::VectorXd& q);
+
 /// The configuration at rest: each joint at zero or, where that is outside its
 /// limits, at the nearer of them; the base at the world's origin.
 Eigen::VectorXd RestConfiguration(const RobotModel& model);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "robot/control/stand.h"
+#include "robot/limits.h"
 #include "robot/profile.h"
 #include "sim/closed_loop.h"
 #include "sim/judge.h"
@@ -20,7 +21,7 @@ struct Landing {
   double certificate = 0;  // The worst of all ticks,
   int unsolved = 0;        // and how many were not solved to the last rank.
   double sunk = 0;         // The center of mass below its reference, m.
-  double beyond = -1;      // A joint beyond its limits, rad.
+  double beyond = 0;       // A joint beyond its limits, rad.
 };
 
 Landing Land(const Scenario& scenario) {
@@ -39,12 +40,8 @@ Landing Land(const Scenario& scenario) {
         std::max(landing.certificate, record.report.certificate.worst());
     landing.unsolved += record.report.failed_rank != 0;
     landing.sunk = std::max(landing.sunk, (now.com_ref - now.com).z());
-    for (int j = 0; j < tree.num_joints(); ++j) {
-      const JointLimits& limits = robot.model.limits[j];
-      const double q = record.end.q[7 + j];
-      landing.beyond =
-          std::max({landing.beyond, q - limits.upper, limits.lower - q});
-    }
+    landing.beyond =
+        std::max(landing.beyond, JointViolation(robot.model, record.end.q));
     const auto& contacts = loop.controller().contacts();
     if (contacts[0].in_contact || contacts[1].in_contact) continue;
     ++landing.flying;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "robot/finding.h"
+#include "robot/limits.h"
 #include "sim/closed_loop.h"
 #include "sim/observation.h"
 
@@ -29,17 +30,6 @@ TickTimes Summarize(std::vector<float> us) {
   if (us.empty()) return {};
   return {Quantile(&us, 0.5), Quantile(&us, 0.99), Quantile(&us, 0.999),
           Quantile(&us, 1)};
-}
-
-// How far a joint is past a limit, the worst of all.
-double JointViolation(const RobotModel& model, const Eigen::VectorXd& q) {
-  double worst = 0;
-  for (int j = 0; j < model.tree.num_joints(); ++j) {
-    const double q_j = q[model.tree.q_start() + j];
-    worst = std::max(
-        {worst, model.limits[j].lower - q_j, q_j - model.limits[j].upper});
-  }
-  return worst;
 }
 
 double TorqueViolation(const RobotModel& model, double scale,

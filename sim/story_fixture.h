@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "robot/control/stand.h"
+#include "robot/limits.h"
 #include "robot/profile.h"
 #include "robot/robot.h"
 #include "sim/closed_loop.h"
@@ -88,13 +89,12 @@ inline Story Tell(const Scenario& scenario,
                    &story.given_beyond, &story.given_friction);
     }
     for (int j = 0; j < n; ++j) {
-      const JointLimits& limits = robot.model.limits[j];
-      const double q = record.end.q[7 + j];
-      story.torque_violation = std::max(
-          story.torque_violation, std::abs(record.tau[j]) - limits.effort);
-      story.joint_violation =
-          std::max({story.joint_violation, q - limits.upper, limits.lower - q});
+      story.torque_violation =
+          std::max(story.torque_violation,
+                   std::abs(record.tau[j]) - robot.model.limits[j].effort);
     }
+    story.joint_violation = std::max(story.joint_violation,
+                                     JointViolation(robot.model, record.end.q));
     const Observation& now = loop.observation();
     story.com_error.push_back((now.com - now.com_ref).head<2>().norm());
   }

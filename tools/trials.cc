@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "robot/finding.h"
+#include "robot/limits.h"
 #include "robot/numbers.h"
 #include "sim/closed_loop.h"
 #include "sim/observation.h"
@@ -257,13 +258,9 @@ TrialResult Try(const Trial& trial) {
                                            : nullptr;
     if (quarter != nullptr) *quarter = std::max(*quarter, lean);
     if (!record.end.self_contacts.empty()) ++result.self_contact_ticks;
-    const Tree& tree = options.robot.model.tree;
-    for (int j = 0; j < tree.num_joints(); ++j) {
-      const JointLimits& limits = options.robot.model.limits[j];
-      const double q = record.end.q[tree.q_start() + j];
-      result.joint_violation = std::max(
-          {result.joint_violation, limits.lower - q, q - limits.upper});
-    }
+    result.joint_violation =
+        std::max(result.joint_violation,
+                 JointViolation(options.robot.model, record.end.q));
   }
   result.verdict = judge.Conclude();
   result.holds = Holds(trial.bar, result);
