@@ -12,19 +12,11 @@
 #include "robot/limits.h"
 #include "sim/closed_loop.h"
 #include "sim/observation.h"
+#include "sim/quantile.h"
 
 namespace poise {
 
 namespace {
-
-// The value below which a fraction of them lies, the nearest above.
-double Quantile(std::vector<float>* values, double fraction) {
-  const auto rank = static_cast<size_t>(
-      std::ceil(fraction * static_cast<double>(values->size())));
-  const auto at = values->begin() + (rank > 0 ? rank - 1 : 0);
-  std::nth_element(values->begin(), at, values->end());
-  return *at;
-}
 
 TickTimes Summarize(std::vector<float> us) {
   if (us.empty()) return {};

@@ -14,6 +14,7 @@
 #include "robot/control/controller.h"
 #include "robot/profile.h"
 #include "sim/closed_loop.h"
+#include "sim/quantile.h"
 #include "sim/scenario.h"
 #include "tests/util/count_malloc.h"
 
@@ -42,17 +43,10 @@ Scenario Pushes() {
   return scenario;
 }
 
-double Quantile(std::vector<double> values, double share) {
-  const auto rank = static_cast<std::ptrdiff_t>(
-      share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[rank];
-}
-
-void Print(const char* what, const std::vector<double>& us) {
+void Print(const char* what, std::vector<double> us) {
   std::printf("%s: median %.1f us, p99 %.1f, p99.9 %.1f, max %.1f\n", what,
-              Quantile(us, 0.5), Quantile(us, 0.99), Quantile(us, 0.999),
-              Quantile(us, 1));
+              Quantile(&us, 0.5), Quantile(&us, 0.99), Quantile(&us, 0.999),
+              Quantile(&us, 1));
 }
 
 TEST(MillionTicks, DoNotAllocate) {

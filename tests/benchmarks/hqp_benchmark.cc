@@ -25,6 +25,7 @@
 #include "hqp/solver.h"
 #include "robot/profile.h"
 #include "sim/closed_loop.h"
+#include "sim/quantile.h"
 
 namespace poise {
 namespace {
@@ -78,14 +79,6 @@ const Sequence& Recorded(const benchmark::State& state) {
   return found->second;
 }
 
-// The value below which a share of them is.
-double Quantile(std::vector<double> values, double share) {
-  const auto last = static_cast<double>(values.size() - 1);
-  const auto at = values.begin() + static_cast<long>(share * last);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 using Solve = std::function<Status(const Hierarchy&, Solution*)>;
 
 // Goes through a sequence some times, each time with a new solver.
@@ -128,15 +121,15 @@ void Measure(const Sequence& sequence, int every,
     }
   }
   auto& counters = state->counters;
-  counters["01_median"] = Quantile(fastest, 0.5);
-  counters["02_p99"] = Quantile(fastest, 0.99);
-  counters["03_worst"] = Quantile(fastest, 1);
-  counters["04_raw_p999"] = Quantile(raw, 0.999);
-  counters["05_raw_max"] = Quantile(raw, 1);
-  counters["06_active"] = Quantile(active, 0.5);
-  counters["07_active_max"] = Quantile(active, 1);
-  counters["08_iterations"] = Quantile(iterations, 0.5);
-  counters["09_iterations_max"] = Quantile(iterations, 1);
+  counters["01_median"] = Quantile(&fastest, 0.5);
+  counters["02_p99"] = Quantile(&fastest, 0.99);
+  counters["03_worst"] = Quantile(&fastest, 1);
+  counters["04_raw_p999"] = Quantile(&raw, 0.999);
+  counters["05_raw_max"] = Quantile(&raw, 1);
+  counters["06_active"] = Quantile(&active, 0.5);
+  counters["07_active_max"] = Quantile(&active, 1);
+  counters["08_iterations"] = Quantile(&iterations, 0.5);
+  counters["09_iterations_max"] = Quantile(&iterations, 1);
   counters["10_certificate"] = certificate;
   counters["11_unsolved"] = unsolved;
   counters["12_ticks"] = static_cast<double>(fastest.size());
