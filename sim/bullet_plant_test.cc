@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "dynamics/tick.h"
-#include "tests/util/decompositions.h"
 #include "tests/util/random_tree.h"
 #include "tests/util/simple_robots.h"
 
@@ -20,62 +19,6 @@ namespace {
 // Two dynamics that share no code agree to what rounding leaves of a velocity
 // of 1 / s that changes within 1 ms, amplified by the condition of M.
 constexpr double kAgreement = 1e-9;
-
-TEST(BulletPlant, ReturnsTheStateItWasGiven) {
-  std::mt19937 draw(1);
-  const Tree tree = MakeRandomTree(12, &draw);
-  BulletPlant plant(MakeRobot(tree));
-  const Eigen::VectorXd q = MakeRandomConfiguration(tree, &draw);
-  const Eigen::VectorXd v = MakeRandomVector(tree.nv(), &draw);
-  plant.Reset(q, v);
-  EXPECT_EQ(plant.Sense().q, q);
-  EXPECT_EQ(plant.Sense().v, v);
-  EXPECT_EQ(plant.Sense().time, 0);
-}
-
-// M v̇ + N = S' tau + J' F, with v̇ from Bullet and all else from dynamics.
-TEST(BulletPlant, AgreesWithDynamicsInFreeFlight) {
-  for (unsigned seed = 1; seed <= 10; ++seed) {
-    SCOPED_TRACE(seed);
-    std::mt19937 draw(seed);
-    const Tree tree = MakeRandomTree(50, &draw);
-    BulletPlant plant(MakeRobot(tree));
-    const Eigen::VectorXd q = MakeRandomConfiguration(tree, &draw);
-    const Eigen::VectorXd v = MakeRandomVector(tree.nv(), &draw);
-    const Eigen::VectorXd tau = 10 * MakeRandomVector(50, &draw);
-    const int frame = *tree.FindFrame("link30");
-    const AppliedForce push{
-        tree.frames()[frame].body, MakeRandomVector(3, &draw),
-        5 * MakeRandomVector(3, &draw), 20 * MakeRandomVector(3, &draw)};
-    const AppliedForce base_push{0, MakeRandomVector(3, &draw),
-                                 5 * MakeRandomVector(3, &draw),
-                                 20 * MakeRandomVector(3, &draw)};
-    Eigen::VectorXd high = q;
-    high.z() += 100;  // Nothing to touch.
-    plant.Reset(high, v);
-    plant.Apply(push);
-    plant.Apply(base_push);
-    plant.Step(tau);
-
-    Tick tick(tree, {*tree.FindFrame("link0"), frame});
-    ComputeTick(tree, high, v, &tick);
-    Eigen::VectorXd force = -tick.N;
-    force.tail(50) += tau;
-    const AppliedForce* pushes[] = {&base_push, &push};
-    for (int i = 0; i < 2; ++i) {
-      const FrameTick& at = tick.frames[i];
-      Eigen::Matrix<double, 6, 1> F_Bo_W;
-      F_Bo_W << pushes[i]->torque_W +
-                    (at.X_WF.R * pushes[i]->p_BoQ_B).cross(pushes[i]->force_W),
-          pushes[i]->force_W;
-      force += at.J_WF_W.transpose() * F_Bo_W;
-    }
-    const Eigen::VectorXd expected = LeastSquaresSolution(tick.M, force).x;
-    const Eigen::VectorXd& actual = plant.Sense().vdot;
-    EXPECT_LE((actual - expected).norm(), kAgreement * expected.norm());
-    EXPECT_LE((tick.M * actual - force).norm(), kAgreement * tick.N.norm());
-  }
-}
 
 TEST(BulletPlant, MomentumRateInFreeFlightIsGravity) {
   std::mt19937 draw(2);

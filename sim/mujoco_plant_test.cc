@@ -6,61 +6,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <fstream>
-#include <random>
 
-#include "dynamics/tick.h"
-#include "tests/util/decompositions.h"
-#include "tests/util/random_tree.h"
 #include "tests/util/simple_robots.h"
 
 namespace poise {
 namespace {
-
-// MuJoCo finds the principal axes of an inertia to some seven digits.
-constexpr double kAgreement = 1e-6;
-
-TEST(MujocoPlant, ReturnsTheStateItWasGiven) {
-  std::mt19937 draw(1);
-  const Tree tree = MakeRandomTree(12, &draw);
-  MujocoPlant plant(MakeRobot(tree));
-  const Eigen::VectorXd q = MakeRandomConfiguration(tree, &draw);
-  const Eigen::VectorXd v = MakeRandomVector(tree.nv(), &draw);
-  plant.Reset(q, v);
-  EXPECT_EQ(plant.Sense().q, q);
-  EXPECT_EQ(plant.Sense().v, v);
-}
-
-TEST(MujocoPlant, AgreesWithDynamicsInFreeFlight) {
-  for (unsigned seed = 1; seed <= 5; ++seed) {
-    SCOPED_TRACE(seed);
-    std::mt19937 draw(seed);
-    const Tree tree = MakeRandomTree(50, &draw);
-    MujocoPlant plant(MakeRobot(tree));
-    Eigen::VectorXd q = MakeRandomConfiguration(tree, &draw);
-    q.z() += 100;
-    const Eigen::VectorXd v = MakeRandomVector(tree.nv(), &draw);
-    const Eigen::VectorXd tau = 10 * MakeRandomVector(50, &draw);
-    const int frame = *tree.FindFrame("link30");
-    const AppliedForce push{
-        tree.frames()[frame].body, MakeRandomVector(3, &draw),
-        5 * MakeRandomVector(3, &draw), 20 * MakeRandomVector(3, &draw)};
-    plant.Reset(q, v);
-    plant.Apply(push);
-    plant.Step(tau);
-
-    Tick tick(tree, {frame});
-    ComputeTick(tree, q, v, &tick);
-    const FrameTick& at = tick.frames[0];
-    Vector6d F_Bo_W;
-    F_Bo_W << push.torque_W + (at.X_WF.R * push.p_BoQ_B).cross(push.force_W),
-        push.force_W;
-    Eigen::VectorXd force = -tick.N + at.J_WF_W.transpose() * F_Bo_W;
-    force.tail(50) += tau;
-    const Eigen::VectorXd expected = LeastSquaresSolution(tick.M, force).x;
-    EXPECT_LE((plant.Sense().vdot - expected).norm(),
-              kAgreement * expected.norm());
-  }
-}
 
 TEST(MujocoPlant, RepeatsToTheBitAfterReset) {
   MujocoPlant plant(MakeBlock({0.2, 0.1, 0.3}, 5));
