@@ -4,17 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
-#include <map>
 #include <memory>
-#include <optional>
-#include <stdexcept>
-#include <string_view>
 
 #include "tools/describe_row.h"
 #include "tools/foot_story.h"
 #include "tools/open_log.h"
+#include "tools/run_story.h"
 #include "tools/run_summary.h"
 
 namespace poise {
@@ -22,88 +18,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kGap = 0.020;     // s: shorter pauses join two spans.
-constexpr size_t kMostCauses = 5;  // Named in a sentence about a loss.
-constexpr size_t kMostRows = 10;   // In one about a conflict.
-// What contradicts itself is logged once in a while.
-constexpr double kConflictLasts = 0.06;  // s.
-constexpr double kShort = 0.005;         // s: not worth a sentence.
-constexpr double kSmallLoss = 0.5;       // N, N m, m/s2: not worth a sentence.
-
-// While something was so, and the worst of it.
-struct Span {
-  std::string name;
-  double from, to, at, peak;
-  std::vector<std::pair<std::string, double>> causes;
-};
-
-using Values = std::vector<std::pair<std::string, double>>;
-
-// "a=1;b=-2", as the recorder writes it.
-Values Parse(std::string_view cell) {
-  Values values;
-  while (!cell.empty()) {
-    const size_t end = std::min(cell.find(';'), cell.size());
-    const std::string_view item = cell.substr(0, end);
-    const size_t equals = item.rfind('=');
-    if (equals != std::string_view::npos) {
-      values.emplace_back(
-          item.substr(0, equals),
-          std::strtod(std::string(item.substr(equals + 1)).c_str(), nullptr));
-    }
-    cell.remove_prefix(std::min(end + 1, cell.size()));
-  }
-  return values;
-}
-
-class Spans {
- public:
-  void Add(const std::string& name, double time, double value,
-           const Values& causes) {
-    const auto [it, is_new] = open_.try_emplace(name, spans_.size());
-    if (!is_new && time - spans_[it->second].to > kGap) {
-      it->second = spans_.size();
-    }
-    if (it->second == spans_.size()) {
-      spans_.push_back({name, time, time, time, 0, {}});
-    }
-    Span& span = spans_[it->second];
-    span.to = time;
-    if (std::abs(value) < std::abs(span.peak)) return;
-    span.peak = value;
-    span.at = time;
-    span.causes = causes;
-  }
-  const std::vector<Span>& spans() const { return spans_; }
-
- private:
-  std::vector<Span> spans_;
-  std::map<std::string, size_t> open_;
-};
-
-Values HardestFirst(Values rows) {
-  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.second) > std::abs(b.second);
-  });
-  return rows;
-}
-
-// Of rows that contradict each other, those that bound, each as it acts: a
-// conflict does not say how hard, nor, in older logs, on which side.
-Values Constraints(const Values& rows, const Values& acting) {
-  Values bounds;
-  for (const auto& [name, rank] : rows) {
-    if (DescribeRow(name) == name) continue;
-    bounds.emplace_back(name, 0);
-    for (const auto& acts : acting) {
-      if (acts.first == name || acts.first == name + ".min" ||
-          acts.first == name + ".max") {
-        bounds.back() = acts;
-      }
-    }
-  }
-  return HardestFirst(bounds);
-}
+constexpr size_t kMostCauses = 5;   // Named in a sentence about a loss.
+constexpr size_t kMostRows = 10;    // In one about a conflict.
+constexpr double kShort = 0.005;    // s: not worth a sentence.
+constexpr double kSmallLoss = 0.5;  // N, N m, m/s2: not worth a sentence.
 
 std::string Format(const char* format, double value) {
   char text[64];
@@ -202,138 +120,101 @@ std::string Ending(const json& summary) {
          (by.is_string() && by != "" ? ": " + by.get<std::string>() : "") + ".";
 }
 
-}  // namespace
+using Sentences = std::vector<std::pair<double, std::string>>;  // By time, s.
 
-json Explain(const std::filesystem::path& run) {
-  const std::filesystem::path log = FindLog(run);
-  const std::unique_ptr<LogReader> opened = OpenLog(log);
-  LogReader& reader = *opened;
-  const auto time = reader.Find("time"), status = reader.Find("status"),
-             active = reader.Find("active"), lost = reader.Find("lost"),
-             conflict = reader.Find("conflict"), reason = reader.Find("reason");
-  if (!time || !status || !active) {
-    throw std::invalid_argument(log.string() +
-                                ": has no columns time, status and active");
+// Each of the next five is a list of Explain(), and adds its sentences.
+json ExplainRows(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
+  for (const Span& span : story.rows.spans()) {
+    out.push_back({{"name", span.name},
+                   {"from", span.from},
+                   {"to", span.to},
+                   {"at", span.at},
+                   {"multiplier", std::abs(span.peak)}});
   }
-  // Rows by name and, for the sentences, by what they mean: a friction pyramid
-  // has four.
-  Spans rows, said, losses, states;
-  std::vector<FootStory> feet;
-  for (const std::string name : {"left_foot", "right_foot"}) {
-    feet.emplace_back(name, reader);
-  }
-  std::vector<std::pair<double, Values>> conflicts;
-  bool has_rows = false;
-  while (reader.Next()) {
-    has_rows = true;
-    const double t = reader.Number(*time);
-    for (FootStory& foot : feet) foot.Look(t, reader);
-    const Values acting = Parse(reader.cell(*active));
-    for (const auto& [name, value] : acting) {
-      rows.Add(name, t, value, {});
-      said.Add(DescribeRow(name), t, value, {});
-    }
-    if (reader.cell(*status) != "ok") {
-      std::string state(reader.cell(*status));
-      if (reason) state.append(" ").append(reader.cell(*reason));
-      states.Add(state, t, 1, {});
-    }
-    if (conflict && !reader.cell(*conflict).empty()) {
-      conflicts.emplace_back(t, Parse(reader.cell(*conflict)));
-    }
-    if (!lost) continue;
-    for (const auto& [name, value] : Parse(reader.cell(*lost))) {
-      const bool is_known =
-          !conflicts.empty() && t - conflicts.back().first < kConflictLasts;
-      losses.Add(name, t, value,
-                 is_known ? Constraints(conflicts.back().second, acting)
-                          : HardestFirst(acting));
-    }
-  }
-
-  json notes = json::array();
-  if (reader.cut_short()) {
-    notes.push_back(log.filename().string() +
-                    " was cut short: its last row is not whole.");
-  }
-  const RunSummary read = ReadRunSummary(run);
-  if (read.is_of_other_log) notes.push_back(read.note);
-  const json summary = read.values.is_null() ? json::object() : read.values;
-  json out = {
-      {"recovered",
-       WasInterrupted(summary) ? json() : summary.value("recovered", json())},
-      {"fell_at", summary.value("fell_at", json())},
-      {"notes", notes},
-      {"rows", json::array()},
-      {"losses", json::array()},
-      {"conflicts", json::array()},
-      {"status", json::array()},
-      {"stance", json::array()},
-      {"sentences", json::array()}};
-  std::vector<std::pair<double, std::string>> sentences;
-  for (const Span& span : rows.spans()) {
-    out["rows"].push_back({{"name", span.name},
-                           {"from", span.from},
-                           {"to", span.to},
-                           {"at", span.at},
-                           {"multiplier", std::abs(span.peak)}});
-  }
-  for (const Span& span : said.spans()) {
+  for (const Span& span : story.said.spans()) {
     if (span.to - span.from < kShort) continue;
-    sentences.emplace_back(span.from, Sentence(span));
+    sentences->emplace_back(span.from, Sentence(span));
   }
-  for (const FootStory& foot : feet) {
+  return out;
+}
+
+json ExplainStance(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
+  for (const FootStory& foot : story.feet) {
     for (const FootStory::Phase& phase : foot.phases()) {
-      out["stance"].push_back({{"foot", foot.foot()},
-                               {"phase", phase.name},
-                               {"from", phase.from},
-                               {"to", phase.to}});
+      out.push_back({{"foot", foot.foot()},
+                     {"phase", phase.name},
+                     {"from", phase.from},
+                     {"to", phase.to}});
     }
-    for (const auto& sentence : foot.Sentences()) sentences.push_back(sentence);
+    for (const auto& sentence : foot.Sentences()) {
+      sentences->push_back(sentence);
+    }
   }
-  for (const Span& span : losses.spans()) {
+  return out;
+}
+
+json ExplainLosses(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
+  for (const Span& span : story.losses.spans()) {
     json because = json::array();
     for (const auto& [name, value] : span.causes) because.push_back(name);
-    out["losses"].push_back({{"name", span.name},
-                             {"from", span.from},
-                             {"to", span.to},
-                             {"at", span.at},
-                             {"amount", span.peak},
-                             {"unit", UnitOfLoss(span.name)},
-                             {"because", because}});
+    out.push_back({{"name", span.name},
+                   {"from", span.from},
+                   {"to", span.to},
+                   {"at", span.at},
+                   {"amount", span.peak},
+                   {"unit", UnitOfLoss(span.name)},
+                   {"because", because}});
     if (std::abs(span.peak) < kSmallLoss) continue;
-    sentences.emplace_back(span.from, LossSentence(span));
+    sentences->emplace_back(span.from, LossSentence(span));
   }
+  return out;
+}
+
+json ExplainConflicts(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
   std::string last;
-  for (const auto& [at, found] : conflicts) {
+  for (const auto& [at, found] : story.conflicts) {
     json names = json::array();
     for (const auto& [name, rank] : found) {
       names.push_back({{"name", name}, {"rank", rank}});
     }
-    out["conflicts"].push_back({{"at", at}, {"rows", names}});
+    out.push_back({{"at", at}, {"rows", names}});
     // The same again is not said again.
     const std::string sentence = ConflictSentence(at, found);
     const std::string what = sentence.substr(sentence.find(':'));
-    if (what != last) sentences.emplace_back(at, sentence);
+    if (what != last) sentences->emplace_back(at, sentence);
     last = what;
   }
-  for (const Span& span : states.spans()) {
+  return out;
+}
+
+json ExplainStatus(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
+  for (const Span& span : story.states.spans()) {
     const std::string name = span.name.substr(0, span.name.find(' '));
     const std::string why =
         span.name.substr(std::min(name.size() + 1, span.name.size()));
-    out["status"].push_back({{"name", name},
-                             {"from", span.from},
-                             {"to", span.to},
-                             {"reason", why.empty() ? json() : json(why)}});
-    sentences.emplace_back(
+    out.push_back({{"name", name},
+                   {"from", span.from},
+                   {"to", span.to},
+                   {"reason", why.empty() ? json() : json(why)}});
+    sentences->emplace_back(
         span.from, Format("%.3f s: ", span.from) + "the controller says " +
                        Spaced(name) + Format(", until %.3f s", span.to) +
                        SayWhy(why) + ".");
   }
+  return out;
+}
+
+// Says all in the order of time, up to a fall: what falling limbs press against
+// explains nothing. Returns how many come after it.
+size_t SayInOrder(const json& summary, Sentences sentences, json* out) {
   std::stable_sort(
       sentences.begin(), sentences.end(),
       [](const auto& a, const auto& b) { return a.first < b.first; });
-  // What falling limbs press against explains nothing.
   const json fell_at = summary.value("fell_at", json());
   const double end = fell_at.is_number()
                          ? fell_at.get<double>()
@@ -341,23 +222,58 @@ json Explain(const std::filesystem::path& run) {
   size_t left_out = 0;
   for (const auto& [when, text] : sentences) {
     if (when <= end) {
-      out["sentences"].push_back(text);
+      out->push_back(text);
     } else {
       ++left_out;
     }
   }
+  return left_out;
+}
+
+}  // namespace
+
+json Explain(const std::filesystem::path& run) {
+  const std::filesystem::path log = FindLog(run);
+  const std::unique_ptr<LogReader> reader = OpenLog(log);
+  const RunStory story = ReadRunStory(log, reader.get());
+
+  json notes = json::array();
+  if (reader->cut_short()) {
+    notes.push_back(log.filename().string() +
+                    " was cut short: its last row is not whole.");
+  }
+  const RunSummary read = ReadRunSummary(run);
+  if (read.is_of_other_log) notes.push_back(read.note);
+  const json summary = read.values.is_null() ? json::object() : read.values;
+
+  json out = {
+      {"recovered",
+       WasInterrupted(summary) ? json() : summary.value("recovered", json())},
+      {"fell_at", summary.value("fell_at", json())},
+      {"notes", notes}};
+  // What begins at the same time is said in this order.
+  Sentences sentences;
+  out["rows"] = ExplainRows(story, &sentences);
+  out["stance"] = ExplainStance(story, &sentences);
+  out["losses"] = ExplainLosses(story, &sentences);
+  out["conflicts"] = ExplainConflicts(story, &sentences);
+  out["status"] = ExplainStatus(story, &sentences);
+
+  json said = json::array();
+  const size_t left_out = SayInOrder(summary, sentences, &said);
   if (sentences.empty()) {
-    out["sentences"].push_back(
-        has_rows ? "No row acted: every task got what it asked."
-                 : log.filename().string() + " has a header and no rows.");
+    said.push_back(story.has_rows
+                       ? "No row acted: every task got what it asked."
+                       : log.filename().string() +
+                             " has a header and no rows.");
   }
-  for (const json& note : notes) out["sentences"].push_back(note);
-  out["sentences"].push_back(Ending(summary));
+  for (const json& note : notes) said.push_back(note);
+  said.push_back(Ending(summary));
   if (left_out > 0) {
-    out["sentences"].push_back(
-        Format("After that, %.0f more; --json has its rows.",
-               static_cast<double>(left_out)));
+    said.push_back(Format("After that, %.0f more; --json has its rows.",
+                          static_cast<double>(left_out)));
   }
+  out["sentences"] = said;
   return out;
 }
 
