@@ -144,6 +144,7 @@ class ActiveProblem {
   bool IsAskedFor(int j) const;
   double Missed(int a) const;
   double WorstMissedLevel() const;
+  bool IsUneven() const;
   void Refine(const Hierarchy& hierarchy, bool to_minimum);
   void FindResiduals(const Hierarchy& hierarchy);
 

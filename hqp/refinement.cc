@@ -2,6 +2,7 @@
 // Of ActiveProblem, how y is improved by the rows as they were given.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hqp/active_problem.h"
 #include "hqp/kernels.h"
@@ -12,7 +13,11 @@ namespace {
 // Where a row is missed by less than this, relative to what it is added up
 // from, nothing is left to refine.
 constexpr double kRefined = 1e-13;
-constexpr int kMaxPasses = 6;
+constexpr int kMaxPasses = 8;
+
+// Rows of one level that cannot all be met: where weights differ by more than
+// this, what light ones lack is not right after one correction.
+constexpr double kUneven = 1e6;
 
 // An entry of y below this, relative to Size(), before and after, may be what
 // refinement leaves of a zero.
@@ -71,6 +76,20 @@ double ActiveProblem::WorstMissedLevel() const {
   return worst;
 }
 
+// Whether a level that cannot be met has rows of weights as unlike as that.
+bool ActiveProblem::IsUneven() const {
+  for (int level = 0; level < num_head_; ++level) {
+    if (!head_.is_deficient(level)) continue;
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (int a = head_.first_row(level); a < head_.end_row(level); ++a) {
+      least = std::min(least, head_.weight(a));
+      most = std::max(most, head_.weight(a));
+    }
+    if (most > kUneven * least) return true;
+  }
+  return false;
+}
+
 void ActiveProblem::RefineOther(const Hierarchy& hierarchy,
                                 const std::vector<double>& y) {
   y_ = y;
@@ -87,9 +106,10 @@ void ActiveProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   double largest = Size();
   // First all levels; then, as what the tail asks for may be large and its
   // rounding with it, the head alone.
+  const int enough = IsUneven() ? 2 : 1;
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     const double worst = FindLack(hierarchy);
-    if (pass > 0 && worst <= kRefined) break;
+    if (pass >= enough && worst <= kRefined) break;
     head_.Correct(lack_.data(), change_.data());
     tail_.Correct(head_, change_.data(), to_minimum && pass == 0, y_.data());
   }

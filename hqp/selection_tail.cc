@@ -56,7 +56,8 @@ void SelectionTail::Add(int variable, double weight, double target) {
   }
   // Two rows of one level: the sum of squares has its minimum between them.
   const double sum = weight_[variable] + weight;
-  target_[variable] += weight / sum * (target - target_[variable]);
+  target_[variable] =
+      (weight_[variable] * target_[variable] + weight * target) / sum;
   weight_[variable] = sum;
 }
 
@@ -285,7 +286,10 @@ void SelectionTail::FactorLevel(int level) {
       l[i] = 1 / scale_[usual_begin_];
       continue;
     }
-    for (int p = 0; p < columns; ++p) q[p] = t[p] / scale_[block.begin + p];
+    for (int p = 0; p < columns; ++p) {
+      const bool is_rounding = std::abs(t[p]) < kNoEntry;
+      q[p] = is_rounding ? 0 : t[p] / scale_[block.begin + p];
+    }
     const double before = SquaredNorm(q, columns);
     double after = before;
     const int above = i - from;

@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kTolerance = ActiveProblem::kTolerance;
 
+// A bound as far away as this stands for none: at it, rounding would leave nothing
+// of what other rows ask for.
+constexpr double kFar = 1e15;
+
 // How often rows that refinement finds violated, by a few digits, may enter.
 constexpr int kPolishing = 5;
 
@@ -62,8 +66,8 @@ void Solver::Prepare(const Hierarchy& hierarchy) {
       Side& side = side_[level][i];
       if (lower[i] == upper[i]) {
         side = Side::kUpper;
-      } else if ((side == Side::kUpper && std::isinf(upper[i])) ||
-                 (side == Side::kLower && std::isinf(lower[i]))) {
+      } else if ((side == Side::kUpper && upper[i] > kFar) ||
+                 (side == Side::kLower && lower[i] < -kFar)) {
         side = Side::kNone;
       }
     }

@@ -28,7 +28,12 @@ constexpr size_t kMostMib = 1024;  // Of a file.
 HqpProblem Read(const std::string& name) {
   const std::string text = ReadTextFile(UserPath(name), kMostMib);
   try {
-    return ReadHqp(text);
+    HqpProblem problem = ReadHqp(text);
+    for (const std::string& key : problem.ignored) {
+      std::cerr << "hqp: " << name << ": " << key
+                << " is not a key of hqp-1: ignored\n";
+    }
+    return problem;
   } catch (const std::exception& error) {
     throw std::invalid_argument(name + ": " + error.what());
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -22,6 +23,16 @@ constexpr int kMostVariables = 10000;
 
 [[noreturn]] void Refuse(const std::string& where, const std::string& what) {
   throw std::invalid_argument(where + ": " + what);
+}
+
+// Keys that are none of these, as `lowr` is: nothing else would say that what they
+// hold has no effect.
+void ListOthers(const json& object, const std::string& where,
+                const std::set<std::string>& known,
+                std::vector<std::string>* others) {
+  for (const auto& item : object.items()) {
+    if (known.count(item.key()) == 0) others->push_back(where + item.key());
+  }
 }
 
 // The array `key` of an object: empty if it is absent.
@@ -205,10 +216,18 @@ HqpProblem ReadHqp(const std::string& text) {
     const bool bounds = has_bounds && bounds_level == static_cast<int>(level);
     capacity.push_back({rows("B"), rows("A") + rows("C") + (bounds ? n : 0)});
   }
-  HqpProblem problem{capacity, Hierarchy(n, capacity)};
+  HqpProblem problem{capacity, Hierarchy(n, capacity), {}};
+  ListOthers(file, "",
+             {"format", "name", "variables", "levels", "y_lower", "y_upper",
+              "y_bounds_level", "reference"},
+             &problem.ignored);
   for (size_t level = 0; level < levels.size(); ++level) {
     const std::string where = "levels[" + std::to_string(level) + "]";
     const int index = static_cast<int>(level);
+    ListOthers(levels[level], where + ".",
+               {"name", "B", "b", "weight", "A", "a", "C", "lower", "upper",
+                "equality_names", "inequality_names"},
+               &problem.ignored);
     ReadEqualities(levels[level], index, where, &problem.hierarchy);
     ReadInequalities(levels[level], index, where, &problem.hierarchy);
   }

@@ -14,6 +14,7 @@ namespace poise {
 struct HqpProblem {
   std::vector<LevelCapacity> capacity;
   Hierarchy hierarchy;
+  std::vector<std::string> ignored;  ///< Keys that the format does not have.
 };
 
 /// Reads the format hqp-1: {"format": "hqp-1", "variables": n, "levels": [{"B",

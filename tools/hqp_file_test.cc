@@ -48,6 +48,15 @@ TEST(ReadHqp, ReadsAllBlocks) {
   EXPECT_EQ(hierarchy.upper(2), Eigen::Vector2d(8, INFINITY));
 }
 
+TEST(ReadHqp, ListsWhatItIgnores) {
+  const HqpProblem problem = ReadHqp(R"({
+      "format": "hqp-1", "name": "a", "variables": 1, "y_uper": [1],
+      "levels": [{"name": "b", "B": [[1]], "b": [1]},
+                 {"C": [[1]], "lowr": [1], "inequality_names": ["c"]}]})");
+  EXPECT_EQ(problem.ignored,
+            (std::vector<std::string>{"y_uper", "levels[1].lowr"}));
+}
+
 TEST(WriteHqp, IsReadAsTheSameNumbers) {
   HqpProblem problem = ReadHqp(kFile);
   const std::string once = WriteHqp(problem.hierarchy);

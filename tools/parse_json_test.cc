@@ -30,6 +30,15 @@ TEST(ParseJson, RefusesWhatIsNestedTooDeep) {
             "is nested over 100 deep");
 }
 
+TEST(ParseJson, RefusesAKeyThatIsThereTwice) {
+  EXPECT_EQ(Refusal(R"({"a": 1, "b": {"a": 2}, "c": [{"a": 3}, {"a": 4}]})"),
+            "accepted");
+  EXPECT_EQ(Refusal(R"({"a": 1, "b": {"a": 2}, "a": 3})"),
+            "has the key \"a\" twice");
+  EXPECT_EQ(Refusal(R"([{"b": {"a": 2, "c": [], "a": 3}}])"),
+            "has the key \"a\" twice");
+}
+
 TEST(ParseJson, ReadsJsonAndNothingElse) {
   EXPECT_EQ(ParseJson("{\"a\": [1, {\"b\": 2.5}]}")["a"][1]["b"], 2.5);
   EXPECT_EQ(Refusal("{\"a\": [1,}").find("not JSON: "), 0u);

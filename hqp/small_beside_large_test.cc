@@ -1,0 +1,145 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Rows on one level of which one asks for next to nothing beside another: what
+// is small is no rounding. What is right was found on paper.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "hqp/certificate.h"
+#include "hqp/solver.h"
+#include "tests/util/hierarchy_by_hand.h"
+#include "tests/util/tolerance.h"
+
+namespace poise {
+namespace {
+
+// Certified by a solver that has solved `before`, and by a new one.
+void ExpectSolution(const HierarchyByHand& before,
+                    const HierarchyByHand& problem,
+                    const std::vector<double>& y) {
+  const int n = problem.hierarchy.num_variables();
+  std::vector<LevelCapacity> capacity = problem.capacity;
+  capacity.resize(std::max(capacity.size(), before.capacity.size()));
+  for (size_t level = 0; level < before.capacity.size(); ++level) {
+    const LevelCapacity& rows = before.capacity[level];
+    LevelCapacity& to = capacity[level];
+    to.equalities = std::max(to.equalities, rows.equalities);
+    to.inequalities = std::max(to.inequalities, rows.inequalities);
+  }
+  Solver solver(n, capacity);
+  Solution solution(n, capacity);
+  ASSERT_EQ(solver.Solve(before.hierarchy, &solution), Status::kOptimal);
+  for (const bool is_new : {false, true}) {
+    SCOPED_TRACE(is_new ? "from nothing" : "after another");
+    if (is_new) solver.Forget();
+    ASSERT_EQ(solver.Solve(problem.hierarchy, &solution), Status::kOptimal);
+    EXPECT_LE(
+        Certifier(n, capacity).Certify(problem.hierarchy, solution).worst(),
+        Certifier::kCertified);
+    for (int j = 0; j < n; ++j) {
+      // A few operations on each, or on what cancels.
+      const double size = y[j] != 0 ? std::abs(y[j]) : 1;
+      EXPECT_NEAR(solution.y[j], y[j], Rounding(size, 4)) << j;
+    }
+  }
+}
+
+void ExpectSolution(const HierarchyByHand& problem,
+                    const std::vector<double>& y) {
+  ExpectSolution(problem, problem, y);
+}
+
+// A foot that carries nothing: along its row momentum wants hardly anything, but
+// more than nothing, and posture wants the other way.
+TEST(SmallBesideLarge, HoldsARowThatItsLevelHardlyAsksFor) {
+  constexpr double kHardly = 3e-11;
+  // The third asks z for 5e-12 of what the last two cannot agree on.
+  const HierarchyByHand problem(3, {{0, {0, 1, 0}, -INFINITY, 0},
+                                    {1, {1, 0, 0}, 0, 0},
+                                    {1, {1, kHardly, 0}, 1, 1},
+                                    {1, {0, 0, 1}, 0, 0},
+                                    {1, {0, 0, 1}, 6, 6},
+                                    {2, {0, 1, 0}, -1, -1}});
+  ExpectSolution(problem, {0.5, 0, 3});
+}
+
+// What small rows ask for is 1e-12 of what large ones of their level lack.
+TEST(SmallBesideLarge, IsMetWhereTheLargeOneCannotBe) {
+  ExpectSolution(HierarchyByHand(2, {{0, {-1, 1}, -INFINITY, -1},
+                                     {1, {0, 1}, -INFINITY, -1},
+                                     {2, {0.001, 0}, 0.003, 0.003},
+                                     {2, {0, 1000}, 3000, 3000}}),
+                 {3, -1});
+  ExpectSolution(HierarchyByHand(2, {{0, {1, 0}, -INFINITY, 0},
+                                     {0, {1, 1}, -INFINITY, -1},
+                                     {1, {1000, 0}, 5000, 5000},
+                                     {1, {0, 0.001}, -0.003, -0.003}}),
+                 {0, -3});
+}
+
+// The first row is active on the way; when it leaves, rotations leave rounding of
+// the large wish in the row that stays.
+TEST(SmallBesideLarge, TakesNoRoundingOfTheLargeOne) {
+  for (int k = 1; k <= 20; ++k) {
+    SCOPED_TRACE(k);
+    ExpectSolution(HierarchyByHand(2, {{0, {-1, 1. * k}, -INFINITY, -1},
+                                       {1, {0, 1}, -INFINITY, -1},
+                                       {2, {0.001, 0}, 0.003, 0.003},
+                                       {2, {0, 1000}, 3000, 3000}}),
+                   {3, -1});
+  }
+}
+
+// y1 is 0 where the last level says so, by 1e-12 of what y0 lacks there. Before,
+// the first row was at its bound.
+TEST(SmallBesideLarge, LetsARowGoThatWasActiveBefore) {
+  ExpectSolution(HierarchyByHand(2, {{0, {1, 1}, -INFINITY, -1},
+                                     {1, {1, 0}, -INFINITY, 0}}),
+                 HierarchyByHand(2, {{0, {1, 1}, -INFINITY, 0},
+                                     {1, {1, 0}, -1, -1},
+                                     {1, {1, 0}, -INFINITY, 5},
+                                     {2, {1000, 0}, 0, 0},
+                                     {2, {0, 0.001}, 0, 0}}),
+                 {-1, 0});
+}
+
+// Two wishes of one variable, 0 and 1: where 1 weighs 1e-12, it is 1e-12 / (1 +
+// 1e-12), whichever comes first.
+TEST(SmallBesideLarge, CountsInAMeanOfTwoWishes) {
+  const RowByHand light{0, {0.001}, -1, -1}, heavy{0, {1000}, 0, 0};
+  const double mean = -0.001 / (1e6 + 1e-6);
+  ExpectSolution(HierarchyByHand(1, {light, heavy}), {mean});
+  ExpectSolution(HierarchyByHand(1, {heavy, light}), {mean});
+}
+
+// The second level, (1000 y0)^2 + (0.01 y1)^2 where y0 + y1 = -2, moves y0 by 1e-10
+// of y1.
+TEST(SmallBesideLarge, LacksWhatItMustToAllDigits) {
+  const double y1 = -2 / (1 + 1e-10);
+  ExpectSolution(HierarchyByHand(2, {{0, {1, 1}, -INFINITY, -2},
+                                     {1, {1000, 0}, 0, 0},
+                                     {1, {0, 0.01}, 0, 0},
+                                     {1, {0, 1}, -INFINITY, -1}}),
+                 {1e-10 * y1, y1});
+}
+
+// What others call no bound is none: where y were, nothing of the last rows would
+// be left. Before, another row in the place of the first bound was active.
+TEST(SmallBesideLarge, IsLeftBesideABoundOf1e30) {
+  constexpr double kNone = 1e30;
+  ExpectSolution(HierarchyByHand(3, {{0, {0, 0, -2}, -INFINITY, 0},
+                                     {0, {1, 0, 1}, -INFINITY, -2}}),
+                 HierarchyByHand(3, {{0, {0, 0, -2}, -INFINITY, 0},
+                                     {0, {1, 0, 0}, -kNone, kNone},
+                                     {0, {0, 1, 0}, -kNone, kNone},
+                                     {0, {0, 0, 1}, -kNone, kNone},
+                                     {1, {2, 1, -1}, -INFINITY, 2},
+                                     {1, {0, -1, -2}, -INFINITY, 0},
+                                     {1, {-2, 0, -1}, -INFINITY, -3}}),
+                 {1.2, 0, 0.6});
+}
+
+}  // namespace
+}  // namespace poise
