@@ -9,6 +9,7 @@
 #include "dynamics/tick.h"
 #include "robot/profile.h"
 #include "robot/robot.h"
+#include "tests/util/load_humanoid.h"
 #include "tests/util/tolerance.h"
 
 namespace poise {
@@ -19,11 +20,6 @@ constexpr double kWritten = 1e-7;
 
 class Humanoid : public testing::Test {
  protected:
-  static Robot Load() {
-    return LoadRobot("robot/models/humanoid.urdf",
-                     LoadProfile("robot/profiles/humanoid.yaml"));
-  }
-
   // The state of every link, its frame's index being its place.
   static Tick TickAt(const Robot& robot, const Eigen::VectorXd& q) {
     std::vector<int> frames(robot.model.tree.frames().size());
@@ -42,7 +38,7 @@ class Humanoid : public testing::Test {
     return robot_.model.limits[robot_.model.tree.FindJoint(joint).value()];
   }
 
-  const Robot robot_ = Load();
+  const Robot robot_ = LoadHumanoid();
 };
 
 TEST_F(Humanoid, HasFiftyRevoluteJointsOnAFloatingBase) {

@@ -11,10 +11,10 @@
 #include "robot/control/controller.h"
 #include "robot/control/estimator.h"
 #include "robot/control/measurement.h"
-#include "robot/profile.h"
 #include "sim/make_plant.h"
 #include "sim/scenario.h"
 #include "sim/sensors.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {
@@ -29,8 +29,7 @@ struct Stand {
 // base as it is or estimated.
 Stand StandOn(const std::function<void(int, Measurement*)>& spoil, int ticks,
               bool estimates, const SensorSettings& settings = {}) {
-  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
-                                LoadProfile("robot/profiles/humanoid.yaml"));
+  const Robot robot = LoadHumanoid();
   const Tree& tree = robot.model.tree;
   const int n = tree.num_joints();
   const auto plant = MakePlant(robot, PlantKind::kBullet, {});

@@ -7,9 +7,9 @@
 
 #include "robot/control/stack.h"
 #include "robot/control/stand.h"
-#include "robot/profile.h"
 #include "sim/closed_loop.h"
 #include "sim/judge.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {
@@ -19,8 +19,7 @@ constexpr int kPush = 1000;  // The tick in which it begins.
 // How far the center of mass goes where 100 N push for 0.15 s, and the stack is
 // changed before each tick, m.
 double Push(double ramp, const std::function<void(int, Stack*)>& change) {
-  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
-                                LoadProfile("robot/profiles/humanoid.yaml"));
+  const Robot robot = LoadHumanoid();
   Scenario scenario;
   scenario.duration = 3;
   poise::Push push;

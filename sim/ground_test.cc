@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "robot/profile.h"
 #include "sim/run.h"
 #include "sim/scenario.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {
@@ -14,9 +14,7 @@ namespace {
 RunResult RunOurs(const std::string& name, double duration) {
   Scenario scenario = LoadScenario("sim/scenarios/" + name + ".yaml");
   scenario.duration = duration;
-  return poise::Run(LoadRobot("robot/models/humanoid.urdf",
-                              LoadProfile("robot/profiles/humanoid.yaml")),
-                    scenario);
+  return poise::Run(LoadHumanoid(), scenario);
 }
 
 TEST(Ground, SlopeIsStoodOnAndPushedDown) {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "robot/profile.h"
 #include "sim/closed_loop.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {
@@ -25,9 +25,7 @@ Scenario Pushed(const Eigen::Vector3d& force) {
 
 // Where the center of mass goes, from where it began.
 std::vector<Eigen::Vector3d> Path(const Scenario& scenario) {
-  static const Robot robot =
-      LoadRobot("robot/models/humanoid.urdf",
-                LoadProfile("robot/profiles/humanoid.yaml"));
+  static const Robot robot = LoadHumanoid();
   ClosedLoop loop(robot, scenario);
   std::vector<Eigen::Vector3d> path;
   while (loop.time() < kEnd) {

@@ -6,9 +6,9 @@
 
 #include "robot/control/stand.h"
 #include "robot/limits.h"
-#include "robot/profile.h"
 #include "sim/closed_loop.h"
 #include "sim/judge.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {
@@ -25,8 +25,7 @@ struct Landing {
 };
 
 Landing Land(const Scenario& scenario) {
-  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
-                                LoadProfile("robot/profiles/humanoid.yaml"));
+  const Robot robot = LoadHumanoid();
   const Tree& tree = robot.model.tree;
   ClosedLoop loop(robot, scenario);
   Judge judge(StandingHeight(robot));

@@ -12,16 +12,14 @@
 #include <map>
 #include <sstream>
 
-#include "robot/profile.h"
 #include "sim/closed_loop.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {
 
 const Robot& Humanoid() {
-  static const Robot robot =
-      LoadRobot("robot/models/humanoid.urdf",
-                LoadProfile("robot/profiles/humanoid.yaml"));
+  static const Robot robot = LoadHumanoid();
   return robot;
 }
 

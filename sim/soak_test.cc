@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "robot/control/controller.h"
-#include "robot/profile.h"
 #include "sim/closed_loop.h"
 #include "sim/judge.h"
 #include "sim/observation.h"
 #include "sim/start_state.h"
 #include "tests/util/count_malloc.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {
@@ -47,8 +47,7 @@ std::vector<Push> MakePushes() {
 }
 
 TEST(Soak, TenMinutesOfRandomPushesLeaveTheRobotAsItWas) {
-  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
-                                LoadProfile("robot/profiles/humanoid.yaml"));
+  const Robot robot = LoadHumanoid();
   Scenario scenario = LoadScenario("sim/scenarios/stand.yaml");
   scenario.duration = 60 * kMinutes;
   scenario.pushes = MakePushes();

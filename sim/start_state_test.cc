@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "dynamics/tick.h"
-#include "robot/profile.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {
@@ -16,9 +16,7 @@ namespace {
 constexpr double kStanding = 1e-8;
 
 const Robot& Humanoid() {
-  static const Robot robot =
-      LoadRobot("robot/models/humanoid.urdf",
-                LoadProfile("robot/profiles/humanoid.yaml"));
+  static const Robot robot = LoadHumanoid();
   return robot;
 }
 

@@ -11,19 +11,17 @@
 
 #include "robot/control/stand.h"
 #include "robot/limits.h"
-#include "robot/profile.h"
 #include "robot/robot.h"
 #include "sim/closed_loop.h"
 #include "sim/judge.h"
 #include "sim/observation.h"
 #include "sim/scenario.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 
 inline const Robot& Humanoid() {
-  static const Robot robot =
-      LoadRobot("robot/models/humanoid.urdf",
-                LoadProfile("robot/profiles/humanoid.yaml"));
+  static const Robot robot = LoadHumanoid();
   return robot;
 }
 

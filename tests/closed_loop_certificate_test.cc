@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "robot/profile.h"
 #include "sim/run.h"
 #include "sim/scenario.h"
+#include "tests/util/load_humanoid.h"
 #include "tests/util/scenario_files.h"
 
 namespace poise {
@@ -16,8 +16,7 @@ class ClosedLoopCertificate : public testing::TestWithParam<std::string> {};
 // A solve reported optimal has a certificate of 1e-9 at most, see
 // hqp/certificate.h: in every tick of a run, to its end or to the fall.
 TEST_P(ClosedLoopCertificate, IsHeldInEveryTick) {
-  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
-                                LoadProfile("robot/profiles/humanoid.yaml"));
+  const Robot robot = LoadHumanoid();
   const Scenario scenario = LoadScenario(GetParam());
   const RunResult result = poise::Run(robot, scenario);
   EXPECT_EQ(result.failures, 0);

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "robot/profile.h"
 #include "sim/run.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {
@@ -27,9 +27,7 @@ const bool kFewCases = [] {
 }();
 
 const Robot& Humanoid() {
-  static const Robot robot =
-      LoadRobot("robot/models/humanoid.urdf",
-                LoadProfile("robot/profiles/humanoid.yaml"));
+  static const Robot robot = LoadHumanoid();
   return robot;
 }
 

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "robot/control/controller.h"
-#include "robot/profile.h"
 #include "sim/closed_loop.h"
 #include "sim/quantile.h"
 #include "sim/scenario.h"
 #include "tests/util/count_malloc.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {
@@ -51,8 +51,7 @@ void Print(const char* what, std::vector<double> us) {
 
 TEST(MillionTicks, DoNotAllocate) {
   using Clock = std::chrono::steady_clock;
-  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
-                                LoadProfile("robot/profiles/humanoid.yaml"));
+  const Robot robot = LoadHumanoid();
   const Scenario scenario = Pushes();
   std::vector<State> states;
   {

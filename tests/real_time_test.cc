@@ -18,12 +18,12 @@
 #include "robot/control/controller.h"
 #include "robot/control/estimator.h"
 #include "robot/control/measurement.h"
-#include "robot/profile.h"
 #include "sim/closed_loop.h"
 #include "sim/scenario.h"
 #include "sim/sensors.h"
 #include "tests/util/count_malloc.h"
 #include "tests/util/forbidden_calls.h"
+#include "tests/util/load_humanoid.h"
 #include "tests/util/scenario_files.h"
 
 namespace poise {
@@ -62,8 +62,7 @@ class RealTimeTest : public testing::TestWithParam<std::string> {};
 // A second controller sees what the one in the loop sees, and is watched; so is
 // what estimates the base, of what a robot's sensors say.
 TEST_P(RealTimeTest, TheControlLoopNeitherAllocatesNorThrowsNorLocksNorWrites) {
-  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
-                                LoadProfile("robot/profiles/humanoid.yaml"));
+  const Robot robot = LoadHumanoid();
   Scenario scenario = LoadScenario(GetParam());
   const double duration = Hasten(&scenario);
   ClosedLoop loop(robot, scenario);

@@ -10,7 +10,7 @@
 #include "hqp/hierarchy.h"
 #include "hqp/solution.h"
 #include "robot/control/controller.h"
-#include "robot/profile.h"
+#include "tests/util/load_humanoid.h"
 #include "tests/util/random_tree.h"
 
 namespace poise {
@@ -168,8 +168,7 @@ class TorqueEliminationTest : public testing::Test {
     return static_cast<int>(controller_->report().active.size());
   }
 
-  Robot robot_ = LoadRobot("robot/models/humanoid.urdf",
-                           LoadProfile("robot/profiles/humanoid.yaml"));
+  Robot robot_ = LoadHumanoid();
   std::unique_ptr<Controller> controller_;
   State state_;
   Command command_;

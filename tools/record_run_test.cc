@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "robot/profile.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {
@@ -28,8 +28,7 @@ class RecordRunTest : public testing::Test {
 
   static constexpr const char* kOld[] = {"log.csv", "summary.json",
                                          "robot.json", "report.html"};
-  const Robot robot_ = LoadRobot("robot/models/humanoid.urdf",
-                                 LoadProfile("robot/profiles/humanoid.yaml"));
+  const Robot robot_ = LoadHumanoid();
   const fs::path folder_ = fs::path(testing::TempDir()) / "run";
   Scenario scenario_;
 };

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "robot/control/controller.h"
-#include "robot/profile.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 
@@ -27,8 +27,7 @@ class ControllerTest : public testing::Test {
     controller_.Update(state_, &command_);
   }
 
-  Robot robot_ = LoadRobot("robot/models/humanoid.urdf",
-                           LoadProfile("robot/profiles/humanoid.yaml"));
+  Robot robot_ = LoadHumanoid();
   Controller controller_{robot_};
   State state_;
   Command command_;

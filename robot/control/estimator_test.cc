@@ -9,8 +9,8 @@
 
 #include "dynamics/integrate.h"
 #include "math/so3.h"
-#include "robot/profile.h"
 #include "tests/util/count_malloc.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {
@@ -63,8 +63,7 @@ class EstimatorTest : public testing::Test {
     measurement_.feet[1].F_Co_C.setZero();
   }
 
-  Robot robot_ = LoadRobot("robot/models/humanoid.urdf",
-                           LoadProfile("robot/profiles/humanoid.yaml"));
+  Robot robot_ = LoadHumanoid();
   const int n_ = robot_.model.tree.num_joints();
   Measurement measurement_;
   int left_ankle_, right_ankle_;

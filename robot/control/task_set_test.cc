@@ -9,18 +9,13 @@
 #include <string>
 
 #include "robot/control/default_stack.h"
-#include "robot/profile.h"
+#include "tests/util/load_humanoid.h"
 #include "tests/util/test_file.h"
 
 namespace poise {
 namespace {
 
-Stack MakeStack() {
-  return MakeDefaultStack(
-      LoadRobot("robot/models/humanoid.urdf",
-                LoadProfile("robot/profiles/humanoid.yaml")),
-      {});
-}
+Stack MakeStack() { return MakeDefaultStack(LoadHumanoid(), {}); }
 
 std::string Refusal(const std::string& tasks) {
   Stack stack = MakeStack();
@@ -87,8 +82,7 @@ TEST(ApplyTasks, RefusesInOneLineWithTheValue) {
 }
 
 TEST(FindTaskLinks, FindsThoseOfFramesThatTheRobotHas) {
-  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
-                                LoadProfile("robot/profiles/humanoid.yaml"));
+  const Robot robot = LoadHumanoid();
   using Links = std::vector<std::string>;
   const std::filesystem::path file = TestFile(
       "set.yaml",

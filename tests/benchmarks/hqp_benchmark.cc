@@ -23,9 +23,9 @@
 #include "hqp/cascade.h"
 #include "hqp/certificate.h"
 #include "hqp/solver.h"
-#include "robot/profile.h"
 #include "sim/closed_loop.h"
 #include "sim/quantile.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {
@@ -42,8 +42,7 @@ struct Sequence {
 };
 
 Sequence Record(int force, bool has_limits, int percent) {
-  const Robot robot = LoadRobot("robot/models/humanoid.urdf",
-                                LoadProfile("robot/profiles/humanoid.yaml"));
+  const Robot robot = LoadHumanoid();
   Scenario scenario;
   scenario.duration = end;
   Push push;

@@ -10,7 +10,7 @@
 #include "hqp/hierarchy.h"
 #include "robot/control/controller.h"
 #include "robot/control/task.h"
-#include "robot/profile.h"
+#include "tests/util/load_humanoid.h"
 
 namespace poise {
 
@@ -70,8 +70,7 @@ class TaskTest : public testing::Test {
   }
 
   std::mt19937 random_{7};
-  Robot robot_ = LoadRobot("robot/models/humanoid.urdf",
-                           LoadProfile("robot/profiles/humanoid.yaml"));
+  Robot robot_ = LoadHumanoid();
   const Tree& tree_ = robot_.model.tree;
   const int nv_ = tree_.nv(), n_ = tree_.num_joints();
   const Eigen::Vector2d half_ = robot_.feet[0].half_size;

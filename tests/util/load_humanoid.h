@@ -1,0 +1,11 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include "robot/robot.h"
+
+namespace poise {
+
+/// Our humanoid, with its profile.
+Robot LoadHumanoid();
+
+}  // namespace poise
