@@ -117,8 +117,8 @@ BulletWorld::~BulletWorld() {
 }
 
 void BulletWorld::AddGround(const PlantSettings& settings) {
-  const auto add = [this, &settings](std::unique_ptr<btCollisionShape> shape,
-                                     const Pose& X_WS) {
+  const auto add = [this](std::unique_ptr<btCollisionShape> shape,
+                          const Pose& X_WS) {
     auto object = std::make_unique<btCollisionObject>();
     object->setCollisionShape(shape.get());
     object->setWorldTransform(ToBullet(X_WS));
