@@ -147,6 +147,14 @@ TEST_F(TaskTest, TorqueRowsAreThoseOfTheSolution) {
   }
 }
 
+// What no motor gives is not to be asked for, by a slip in a profile.
+TEST_F(TaskTest, TorqueLimitsAreNeverMoreThanTheMotors) {
+  const TorqueLimitsTask task(robot_.model);
+  ASSERT_EQ(task.parameters().size(), 1u);
+  EXPECT_EQ(task.parameters()[0].name, "scale");
+  EXPECT_EQ(task.parameters()[0].upper, 1);
+}
+
 // A tip of 2 mg on a finger of 1 g on a body of 1 kg.
 TEST(LightJoints, AreThoseThatMoveNextToNothing) {
   std::string text = "<robot name='r'>";

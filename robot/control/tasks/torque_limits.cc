@@ -14,7 +14,7 @@ TorqueLimitsTask::TorqueLimitsTask(const RobotModel& model)
     const double effort = model.limits[j].effort;
     inverse_effort_[j] = std::isfinite(effort) && effort > 0 ? 1 / effort : 0;
   }
-  AddParameter("scale", &scale_, 1e-3, 1e3);
+  AddParameter("scale", &scale_, 1e-3, 1);
 }
 
 void TorqueLimitsTask::Write(const TaskInput& input, EqualityBlock*,

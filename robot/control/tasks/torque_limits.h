@@ -13,7 +13,7 @@ namespace poise {
 /// A joint without a limit has no bound.
 class TorqueLimitsTask final : public Task {
  public:
-  /// Parameter: scale (1), on all limits.
+  /// Parameter: scale (1, and no more: no motor gives more), on all limits.
   explicit TorqueLimitsTask(const RobotModel& model);
   bool is_two_sided() const noexcept override { return true; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
