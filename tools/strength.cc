@@ -35,9 +35,10 @@ std::vector<Finding> FindWeakness(const Robot& robot) {
     if (row.task != limits || row.slack <= kMissed) continue;
     const Joint& joint = tree.joints()[row.row];
     const double effort = robot.model.limits[row.row].effort;
+    const double scale = effort > 0 ? effort : 1;  // Of the row.
     const char* unit = joint.type == JointType::kPrismatic ? " N" : " N m";
     findings.push_back({Severity::kWarn, "joint " + Quoted(joint.name),
-                        "needs " + PrintNumber(effort * (1 + row.slack)) +
+                        "needs " + PrintNumber(effort + row.slack * scale) +
                             " of " + PrintNumber(effort) + unit + " to stand",
                         "its posture cannot be held"});
   }

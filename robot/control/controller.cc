@@ -329,8 +329,9 @@ void Controller::LimitTorque(Command* command) noexcept {
     const double limit = scale * robot_.model.limits[j].effort;
     double& tau = command->tau[j];
     if (!std::isfinite(tau)) tau = 0;  // Whatever went wrong, no motor sees it.
-    if (!(limit > 0)) continue;        // The file gives none.
-    relaxed |= std::abs(tau) > limit * (1 + kLimitSlack);
+    if (!(limit >= 0)) continue;       // The file gives none.
+    // Where there is no motor the row's own scale is 1 N m.
+    relaxed |= std::abs(tau) > limit + kLimitSlack * (limit > 0 ? limit : 1);
     tau = std::clamp(tau, -limit, limit);
   }
   const auto joint_limits = stack_.Find("joint_limits");

@@ -12,6 +12,7 @@
 #include "dynamics/integrate.h"
 #include "robot/control/bolted_down_fixture.h"
 #include "robot/control/controller_fixture.h"
+#include "robot/control/torque.h"
 #include "tests/util/count_malloc.h"
 
 namespace poise {
@@ -268,6 +269,28 @@ TEST_F(ControllerTest, RefusesWhatItCannotDo) {
   robot_.feet.clear();
   EXPECT_EQ(message({}),
             "robot 'humanoid': has no foot, must have one or more");
+}
+
+// A file's effort of 0 was taken for no limit: an elbow was held that nothing holds,
+// and one past its stop was to be brought back by all that the robot has.
+TEST_F(ControllerTest, AsksNothingOfAJointWithoutAMotor) {
+  const int j = *tree().FindJoint("l_elbow");
+  robot_.model.limits[j].effort = 0;
+  for (const double beyond : {-0.3, 0.2}) {
+    state_.q[7 + j] = robot_.model.limits[j].upper + beyond;
+    Controller controller(robot_);
+    controller.Start(state_);
+    controller.Update(state_, &command_);
+    EXPECT_EQ(command_.status, TickStatus::kOk) << beyond;
+    EXPECT_EQ(command_.tau[j], 0);
+    Eigen::VectorXd tau(tree().num_joints());
+    ComputeTorque(controller.tick(), controller.contacts(),
+                  controller.report().y, &tau);
+    EXPECT_NEAR(tau[j], 0, 1e-9);  // The solution knows that, not only the cut.
+    for (const ActiveRow& row : controller.report().active) {
+      EXPECT_NE(controller.stack().RowName(row).substr(0, 13), "joint.l_elbow");
+    }
+  }
 }
 
 TEST_F(ControllerTest, SwitchesATaskByName) {

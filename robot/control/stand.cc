@@ -157,7 +157,7 @@ class Standing {
         FindAnkle(tree_, robot_.feet[i].body, tick_.X_WB, X_WC.R.col(1));
     if (!ankle) return 0;
     const double effort = robot_.model.limits[*ankle].effort;
-    if (!(effort > 0)) return 0;  // The file gives none.
+    if (!(effort >= 0)) return 0;  // The file gives none.
     const double weight = tree_.total_mass() * tree_.gravity_W().norm();
     const double reach = kAnkleShare * effort / weight;
     const double x = (X_WC.Inverse() * tick_.X_WB[*ankle + 1].p).x();

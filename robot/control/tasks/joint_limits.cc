@@ -15,13 +15,15 @@ JointLimitsTask::JointLimitsTask(const RobotModel& model)
       v_start_(model.tree.v_start()),
       lower_(model.tree.num_joints()),
       upper_(model.tree.num_joints()),
-      velocity_(model.tree.num_joints()) {
+      velocity_(model.tree.num_joints()),
+      is_passive_(model.tree.num_joints()) {
   for (int j = 0; j < model.tree.num_joints(); ++j) {
     const JointLimits& limits = model.limits[j];
     lower_[j] = limits.lower;
     upper_[j] = limits.upper;
     const bool is_known = limits.velocity > 0 && std::isfinite(limits.velocity);
     velocity_[j] = is_known ? limits.velocity : kAssumedVelocity;
+    is_passive_[j] = limits.effort == 0;
   }
   AddParameter("omega", &omega_, 1, 1000);
   AddParameter("margin", &margin_, 0, 1);
@@ -32,6 +34,7 @@ void JointLimitsTask::Write(const TaskInput& input, EqualityBlock*,
   const double w = omega_;
   const double scale = 1 / (w * w);
   for (int j = 0; j < static_cast<int>(lower_.size()); ++j) {
+    if (is_passive_[j]) continue;
     const double q = input.state.q[q_start_ + j];
     const double v = input.state.v[v_start_ + j];
     double lower = w * w * (lower_[j] + margin_ - q) - 2 * w * v;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "robot/control/task.h"
 #include "robot/robot.h"
@@ -17,7 +18,9 @@ namespace poise {
 /// it, the position wins; a range narrower than its margins shrinks to its middle.
 /// A joint whose file has no velocity limit, as a finger that mimics another, is
 /// taken to have kAssumedVelocity: were its acceleration free, a few milligrams
-/// would buy the momentum that the feet cannot give with 1e6 rad/s².
+/// would buy the momentum that the feet cannot give with 1e6 rad/s². A joint
+/// without a motor, of effort 0, has no bound: nothing can hold it, and all that the
+/// robot has would be spent on trying.
 /// There q̈ is what the joint will do: v̇_j and TaskInput::unexpected_vdot, or a push
 /// would press it w⁻² of that beyond where it comes to rest. Rows are divided by
 /// w² rad.
@@ -35,6 +38,7 @@ class JointLimitsTask final : public Task {
   Eigen::VectorXd lower_;
   Eigen::VectorXd upper_;
   Eigen::VectorXd velocity_;
+  std::vector<bool> is_passive_;
   double omega_ = 40;
   double margin_ = 0.008;
 };

@@ -147,6 +147,27 @@ TEST_F(TaskTest, TorqueRowsAreThoseOfTheSolution) {
   }
 }
 
+// A joint that is passive has the torque 0, whatever the others are scaled by, and no
+// row that would hold it at its stop.
+TEST_F(TaskTest, RowsKnowThatAJointHasNoMotor) {
+  const int j = *tree_.FindJoint("l_elbow");
+  robot_.model.limits[j].effort = 0;
+  const TorqueLimitsTask torques(robot_.model);
+  for (const Parameter& each : torques.parameters()) *each.value = 0.5;
+  const Eigen::VectorXd y = RandomY();
+  Eigen::VectorXd tau(n_);
+  ComputeTorque(controller_.tick(), controller_.contacts(), y, &tau);
+  const Hierarchy& rows = Write(torques);
+  EXPECT_NEAR(rows.C(0).row(j).dot(y) - rows.lower(0)[j], tau[j], 1e-9);
+  EXPECT_EQ(rows.lower(0)[j], rows.upper(0)[j]);
+
+  state_.q[7 + j] = robot_.model.limits[j].upper + 0.2;
+  const Hierarchy& limits = Write(JointLimitsTask(robot_.model));
+  EXPECT_TRUE(limits.C(0).row(j).isZero(0));
+  EXPECT_FALSE(std::isfinite(limits.lower(0)[j]) ||
+               std::isfinite(limits.upper(0)[j]));
+}
+
 // What no motor gives is not to be asked for, by a slip in a profile.
 TEST_F(TaskTest, TorqueLimitsAreNeverMoreThanTheMotors) {
   const TorqueLimitsTask task(robot_.model);

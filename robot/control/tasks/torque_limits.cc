@@ -9,10 +9,12 @@ namespace poise {
 
 TorqueLimitsTask::TorqueLimitsTask(const RobotModel& model)
     : Task("torque_limits", {}, JointRowNames(model.tree, "torque")),
-      inverse_effort_(model.tree.num_joints()) {
+      inverse_effort_(model.tree.num_joints()),
+      is_passive_(model.tree.num_joints()) {
   for (int j = 0; j < model.tree.num_joints(); ++j) {
     const double effort = model.limits[j].effort;
     inverse_effort_[j] = std::isfinite(effort) && effort > 0 ? 1 / effort : 0;
+    is_passive_[j] = effort == 0;
   }
   AddParameter("scale", &scale_, 1e-3, 1);
 }
@@ -25,7 +27,7 @@ void TorqueLimitsTask::Write(const TaskInput& input, EqualityBlock*,
   const int start = nv - n;
   auto& C = inequalities->C;
   for (int j = 0; j < n; ++j) {
-    const double inverse = inverse_effort_[j] / scale_;
+    const double inverse = is_passive_[j] ? 1 : inverse_effort_[j] / scale_;
     if (inverse == 0) continue;
     // M is symmetric to the bit: its columns are its rows, and contiguous.
     C.row(j).head(nv) = inverse * tick.M.col(start + j).transpose();
@@ -36,8 +38,9 @@ void TorqueLimitsTask::Write(const TaskInput& input, EqualityBlock*,
           -inverse * contact.J_WC_C.col(start + j).transpose();
     }
     const double bias = inverse * tick.N[start + j];
-    inequalities->lower[j] = -1 - bias;
-    inequalities->upper[j] = 1 - bias;
+    const double limit = is_passive_[j] ? 0 : 1;
+    inequalities->lower[j] = -limit - bias;
+    inequalities->upper[j] = limit - bias;
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "robot/control/task.h"
 #include "robot/robot.h"
@@ -10,7 +11,8 @@ namespace poise {
 
 /// Keeps each torque of (10) inside the effort limit of its joint:
 ///     -1 <= (M_u v̇ + N_u - J_{c,u}' lambda) / (scale tau_max) <= 1.
-/// A joint without a limit has no bound.
+/// A joint without a limit has no bound; one without a motor, of effort 0, is
+/// passive: tau = 0, in N m or N.
 class TorqueLimitsTask final : public Task {
  public:
   /// Parameter: scale (1, and no more: no motor gives more), on all limits.
@@ -20,7 +22,8 @@ class TorqueLimitsTask final : public Task {
              InequalityBlock* inequalities) const noexcept override;
 
  private:
-  Eigen::VectorXd inverse_effort_;  // 0 without a limit.
+  Eigen::VectorXd inverse_effort_;  // 0 without a limit, or a motor.
+  std::vector<bool> is_passive_;
   double scale_ = 1;
 };
 
