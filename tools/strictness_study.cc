@@ -93,7 +93,7 @@ struct Bystander {
 
 std::vector<Weighing> Weighings() {
   const auto one_qp = [](double ratio) {
-    return [ratio](Stack* stack) { stack->set_weighted(true, ratio); };
+    return [ratio](Stack* stack) { (void)stack->set_weighted(true, ratio); };
   };
   const auto two_levels = [](double weight) {
     return [weight](Stack* stack) { PutTasksTogether(stack, weight); };

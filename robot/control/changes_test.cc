@@ -117,7 +117,7 @@ TEST_F(RampTest, EasesAWeightIn) {
 TEST_F(RampTest, EasesATaskIntoAWeightedProblem) {
   Try([](Stack* stack) { EXPECT_TRUE(stack->Enable("momentum", true)); },
       [](Stack* stack) {
-        stack->set_weighted(true);
+        EXPECT_TRUE(stack->set_weighted(true));
         EXPECT_TRUE(stack->Enable("momentum", false));
       });
 }

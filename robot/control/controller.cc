@@ -129,7 +129,7 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
   }
   (void)stack_.SetParameter("friction", "inscribed", options.inscribed);
   (void)stack_.SetParameter("momentum", "feedforward", options.feedforward);
-  stack_.set_weighted(options.weighted);
+  (void)stack_.set_weighted(options.weighted);
   if (options.max_iterations < 1) {
     throw std::invalid_argument("max_iterations is " +
                                 std::to_string(options.max_iterations) +

@@ -18,7 +18,7 @@ constexpr double kNoticeable = 1e-6;
 constexpr double kNoticeableLoss = 1e-4;
 
 bool IsValidWeight(double weight) {
-  return std::isfinite(weight) && weight > 0;
+  return weight >= Stack::kLeastWeight && weight <= Stack::kMostWeight;
 }
 
 // An inequality as it acts.
@@ -46,9 +46,9 @@ void Stack::Add(std::unique_ptr<Task> task, const TaskSettings& settings) {
                                 ", must be 1 to " + std::to_string(kMaxRank));
   }
   if (!IsValidWeight(settings.weight)) {
-    throw std::invalid_argument(what + "weight is " +
-                                std::to_string(settings.weight) +
-                                ", must be positive");
+    throw std::invalid_argument(
+        what + "weight is " + PrintNumber(settings.weight) + ", must be " +
+        PrintNumber(kLeastWeight) + " to " + PrintNumber(kMostWeight));
   }
   Entry entry;
   entry.task = std::move(task);
@@ -124,6 +124,13 @@ std::optional<double> Stack::GetParameter(
     if (each.name == parameter) return *each.value;
   }
   return std::nullopt;
+}
+
+bool Stack::set_weighted(bool weighted, double ratio) noexcept {
+  if (!(ratio >= 1 && ratio <= kMostRatio)) return false;
+  weighted_ = weighted;
+  rank_ratio_ = ratio;
+  return true;
 }
 
 bool Stack::set_ramp(double seconds) noexcept {

@@ -19,7 +19,7 @@ namespace poise {
 struct TaskSettings {
   bool enabled = true;
   int rank = 1;       ///< 1 is the highest; at most Stack::kMaxRank.
-  double weight = 1;  ///< Among the tasks of its rank, > 0.
+  double weight = 1;  ///< Among the tasks of its rank; see Stack::kMostWeight.
 };
 
 /// The tasks of a controller in their order of priority. Any of them may be
@@ -28,6 +28,11 @@ struct TaskSettings {
 class Stack {
  public:
   static constexpr int kMaxRank = 8;
+  /// What is farther from 1 is lost in rounding, and costs the solver hundreds of
+  /// steps.
+  static constexpr double kLeastWeight = 1e-6;
+  static constexpr double kMostWeight = 1e6;
+  static constexpr double kMostRatio = 1e6;  ///< Of set_weighted().
 
   /// For rows in num_variables variables.
   explicit Stack(int num_variables);
@@ -53,11 +58,9 @@ class Stack {
                                      std::string_view parameter) const noexcept;
 
   /// One weighted QP below rank 1 instead of a hierarchy: each rank counts
-  /// `ratio` times the next, ratio >= 1.
-  void set_weighted(bool weighted, double ratio = 100) {
-    weighted_ = weighted;
-    rank_ratio_ = ratio;
-  }
+  /// `ratio` times the next. False, and nothing happens, if that is not 1 to
+  /// kMostRatio.
+  [[nodiscard]] bool set_weighted(bool weighted, double ratio = 100) noexcept;
 
   /// What is changed from now on takes effect little by little, in so many
   /// seconds, see Easing; what is not changed, pushes, references and limits,

@@ -46,6 +46,19 @@ std::string NamesOf(const Task& task) {
   return names;
 }
 
+// Nothing, if the task, which is there, has none of this name.
+const Parameter* FindParameter(const Stack& stack, const std::string& task,
+                               const std::string& name) {
+  for (const Parameter& each : stack.task(*stack.Find(task)).parameters()) {
+    if (each.name == name) return &each;
+  }
+  return nullptr;
+}
+
+std::string MustBe(double least, double most) {
+  return "must be " + PrintNumber(least) + " to " + PrintNumber(most);
+}
+
 void ApplyTask(const std::string& name, const YAML::Node& node,
                const std::string& file, Stack* stack) {
   const std::string what = "task " + Quoted(name);
@@ -84,14 +97,16 @@ void ApplyTask(const std::string& name, const YAML::Node& node,
       }
     } else if (key == "weight") {
       if (!stack->SetWeight(name, number)) {
-        refuse("must be positive");
+        refuse(MustBe(Stack::kLeastWeight, Stack::kMostWeight));
       }
-    } else if (!stack->GetParameter(name, key)) {
+    } else if (const Parameter* of = FindParameter(*stack, name, key)) {
+      if (!stack->SetParameter(name, key, number)) {
+        refuse(MustBe(of->lower, of->upper));
+      }
+    } else {
       Refuse(file, field.first,
              what + " has no " + Quoted(key) + ", only " +
                  NamesOf(stack->task(*stack->Find(name))));
-    } else if (!stack->SetParameter(name, key, number)) {
-      refuse("which is out of its range");
     }
   }
 }

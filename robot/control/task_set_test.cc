@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -103,7 +104,8 @@ TEST(ApplyTaskSet, ReadsAFile) {
   EXPECT_EQ(SetRefusal("task: {}"), "set.yaml:1: has no section 'tasks'");
   EXPECT_EQ(SetRefusal("[tasks]"), "set.yaml:1: has no section 'tasks'");
   EXPECT_EQ(SetRefusal("\ntasks:\n  posture: {weight: 0}"),
-            "set.yaml:3: task 'posture': 'weight' is '0', must be positive");
+            "set.yaml:3: task 'posture': 'weight' is '0', must be 1e-06 to "
+            "1e+06");
 }
 
 TEST(TaskSet, RefusesWhatIsNotThereByLine) {
@@ -124,11 +126,12 @@ TEST(TaskSet, RefusesWhatIsNotThereByLine) {
             "x.yaml:2: task 'posturing' is un");
   EXPECT_EQ(message("cop: {kp: 1}").substr(0, 34),
             "x.yaml:1: task 'cop' has no 'kp', ");
+  EXPECT_EQ(message("posture: {kd: 1001}"),
+            "x.yaml:1: task 'posture': 'kd' is '1001', must be 0 to 1000");
   EXPECT_EQ(message("cop:\n  rank: 9"),
             "x.yaml:2: task 'cop': 'rank' is '9', must be 1 to 8");
   EXPECT_EQ(message("cop: {margin: -1}"),
-            "x.yaml:1: task 'cop': 'margin' is '-1', which is out of its "
-            "range");
+            "x.yaml:1: task 'cop': 'margin' is '-1', must be 0 to 1");
 }
 
 TEST(TaskSet, KnowsThatOfThePaper) {
@@ -150,7 +153,12 @@ TEST(Stack, ChangesNothingWhereANameOrAValueIsWrong) {
                                   std::numeric_limits<double>::quiet_NaN()));
   EXPECT_FALSE(stack.SetRank("posture", 0));
   EXPECT_FALSE(stack.SetRank("posture", Stack::kMaxRank + 1));
-  EXPECT_FALSE(stack.SetWeight("posture", 0));
+  for (const double weight : {0.0, 9e-7, 1.1e6, 1e300, std::nan("")}) {
+    EXPECT_FALSE(stack.SetWeight("posture", weight)) << weight;
+  }
+  for (const double ratio : {0.0, -100.0, 0.5, 1e7, std::nan("")}) {
+    EXPECT_FALSE(stack.set_weighted(true, ratio)) << ratio;
+  }
   EXPECT_EQ(stack.GetParameter("posture", "kp"), kp);
   EXPECT_EQ(stack.GetParameter("posture", "kq"), std::nullopt);
   EXPECT_EQ(stack.GetParameter("postures", "kp"), std::nullopt);
@@ -215,7 +223,7 @@ TEST(Stack, RefusesATaskThatIsThereOrOutOfRange) {
   EXPECT_EQ(message("idle", 0, 1), "task 'idle': rank is 0, must be 1 to 8");
   EXPECT_EQ(message("idle", 9, 1), "task 'idle': rank is 9, must be 1 to 8");
   EXPECT_EQ(message("idle", 8, 0),
-            "task 'idle': weight is 0.000000, must be positive");
+            "task 'idle': weight is 0, must be 1e-06 to 1e+06");
   EXPECT_EQ(stack.num_tasks(), tasks);
   EXPECT_EQ(message("idle", 8, 1), "accepted");
   EXPECT_EQ(stack.Find("idle"), tasks);
