@@ -131,7 +131,7 @@ void ClosedLoop::MoveFeet() {
     if (event.at > time() + plant_->dt() / 2) break;
     switch (event.kind) {
       case StanceEvent::Kind::kLift:
-        controller_->stance().Lift(FindFoot(event.foot), event.height);
+        (void)controller_->stance().Lift(FindFoot(event.foot), event.height);
         break;
       case StanceEvent::Kind::kPutDown:
         controller_->stance().PutDown(FindFoot(event.foot));

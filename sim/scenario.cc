@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "robot/control/stance.h"
 #include "robot/finding.h"
 #include "sim/number_field.h"
 #include "sim/yaml_fields.h"
@@ -48,7 +49,8 @@ std::vector<NumberField> Fields(ComMotion* com) {
 
 std::vector<NumberField> Fields(StanceEvent* event) {
   return {{"at", &event->at, 0, kLongest, "s"},
-          {"height", &event->height, 1e-3, 1, "m"},
+          {"height", &event->height, Stance::kLeastHeight, Stance::kMostHeight,
+           "m"},
           {"over", &event->over, 0.01, kLongest, "s"}};
 }
 

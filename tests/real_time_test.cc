@@ -50,7 +50,7 @@ void Follow(const Stance& leader, const Scenario& scenario, Stance* stance) {
   for (int foot = 0; foot < 2; ++foot) {
     if (leader.phase(foot) == stance->phase(foot)) continue;
     if (leader.phase(foot) == ContactPhase::kUnloading) {
-      stance->Lift(foot, scenario.stance[0].height);
+      EXPECT_TRUE(stance->Lift(foot, scenario.stance[0].height));
     } else if (leader.phase(foot) == ContactPhase::kLanding) {
       stance->PutDown(foot);
     }

@@ -134,7 +134,7 @@ class TorqueEliminationTest : public testing::Test {
     state_.v.setZero();
     MakeController();
     controller_->stance().fade_time = 1e-3;
-    controller_->stance().Lift(1 - foot, 0.05);
+    ASSERT_TRUE(controller_->stance().Lift(1 - foot, 0.05));
     for (int tick = 0; tick < 3; ++tick) {
       state_.time += 1e-3;
       controller_->Update(state_, &command_);

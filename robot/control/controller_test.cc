@@ -63,7 +63,7 @@ TEST_F(ControllerTest, ComesToRestAfterAPush) {
 TEST_F(ControllerTest, DoesNotAllocate) {
   if (!CountMalloc::IsSupported()) GTEST_SKIP() << "not under a sanitizer";
   Update();
-  controller_.stance().Lift(0, 0.05);
+  ASSERT_TRUE(controller_.stance().Lift(0, 0.05));
   state_.v.segment<3>(3) << 0.1, 0.3, 0;
   ASSERT_TRUE(controller_.stack().set_ramp(0.004));
   CountMalloc count;
@@ -108,7 +108,7 @@ TEST_F(ControllerTest, ReplaysToTheBitAfterItIsStartedAnew) {
   };
   const Eigen::MatrixXd first = run();
   EXPECT_EQ(controller_.stance().phase(1), ContactPhase::kFree);
-  controller_.stance().Lift(1, 0.05);
+  ASSERT_TRUE(controller_.stance().Lift(1, 0.05));
   state_.v.segment<3>(3) << -0.3, 0.2, 0.1;
   for (int i = 0; i < 20; ++i) Update();
   const Eigen::MatrixXd second = run();

@@ -82,7 +82,7 @@ TEST_F(ControllerTest, LetsNoFootGoWithoutCapture) {
 
 TEST_F(ControllerTest, FadesAForceOutBeforeAFootIsLifted) {
   Update();
-  controller_.stance().Lift(1, 0.05);
+  ASSERT_TRUE(controller_.stance().Lift(1, 0.05));
   double last = std::numeric_limits<double>::infinity();
   while (controller_.stance().phase(1) != ContactPhase::kUp) {
     Update();

@@ -30,6 +30,9 @@ constexpr double kSeparating = 0.02;  // m/s.
 // A foot on its way back is flat, and over its place, after this part of it.
 constexpr double kThereAfter = 0.7;
 
+// What takes no time takes this: a tick later it is done, and nothing is 0/0.
+constexpr double kInstant = 1e-9;  // s.
+
 // Of a sum of some periods, s.
 constexpr double kRounding = 1e-9;
 
@@ -41,7 +44,7 @@ constexpr double kFullLoad = 1.5;
 
 // How long a foot in the air takes for its way, s.
 double Duration(ContactPhase phase, double down, double swing_time) {
-  if (phase != ContactPhase::kLost) return swing_time;
+  if (phase != ContactPhase::kLost) return std::max(kInstant, swing_time);
   return std::max(0.05, down / kSearchSpeed);
 }
 
@@ -141,9 +144,16 @@ void Stance::CallBack(FootState* foot) noexcept {
   Enter(foot, foot->since > 0 ? ContactPhase::kReturning : ContactPhase::kDown);
 }
 
-void Stance::Lift(int i, double height) noexcept {
-  FootState& foot = feet_[i];
-  CallBack(&foot);
+bool Stance::Lift(int i, double height) noexcept {
+  if (!(height >= kLeastHeight && height <= kMostHeight)) return false;
+  CallBack(&feet_[i]);
+  Swing(&feet_[i], height);
+  return true;
+}
+
+// From where it is to a height, or to the ground.
+void Stance::Swing(FootState* of, double height) noexcept {
+  FootState& foot = *of;
   switch (foot.phase) {
     case ContactPhase::kDown:
     case ContactPhase::kLoading:
@@ -175,12 +185,12 @@ void Stance::PutDown(int i) noexcept {
     CallBack(&foot);
     foot.to = -kReach;
   } else if (foot.phase == ContactPhase::kReturning) {
-    if (!Lands(foot)) Lift(i, -kReach);
+    if (!Lands(foot)) Swing(&foot, -kReach);
   } else if (foot.phase == ContactPhase::kUnloading) {
     Enter(&foot, ContactPhase::kLoading);
     foot.force = weight_;
   } else if (foot.phase == ContactPhase::kUp) {
-    Lift(i, -kReach);
+    Swing(&foot, -kReach);
     Enter(&foot, ContactPhase::kLanding);
   }
 }
@@ -209,15 +219,16 @@ void Stance::Return(const FootState& foot,
       foot.X_WC.p - foot.X_WC_away.p;
   const double fall = foot.X_WC_away.p.z() - foot.X_WC.p.z() + kReach;
   whole[5] += foot.to;
+  const double whole_time = std::max(kInstant, return_time);
   Vector6d moved;
   for (int i = 0; i < 6; ++i) {
-    const double time = i < 5 ? kThereAfter * return_time : return_time;
+    const double time = i < 5 ? kThereAfter * whole_time : whole_time;
     const double t = std::min(foot.since, time);
     const MinimumJerk s(t / time);
     const double rate = s.rate / time;
     const double acceleration = s.acceleration / (time * time);
     // Falling faster than this, it would be on the ground before it is there.
-    const double fastest = i < 5 ? kInfinity : fall / return_time;
+    const double fastest = i < 5 ? kInfinity : fall / whole_time;
     const double v = std::max(foot.V_WC_away[i], -fastest);
     moved[i] = s.value * whole[i] + (1 - s.value) * t * v;
     target->V_WF_W[i] = rate * whole[i] + (1 - s.value - rate * t) * v;
@@ -270,7 +281,7 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
       } else {
         foot.left_for += dt;
       }
-      if (foot.left_for > lost_after - kRounding) {
+      if (foot.left_for > 0 && foot.left_for > lost_after - kRounding) {
         TakeOff(&foot, contact, reference);
         foot.to = -kReach;
         Enter(&foot, ContactPhase::kLost);
@@ -312,7 +323,8 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
 
 double Stance::MaxNormalForce(double normal_force,
                               FootState* foot) const noexcept {
-  const double fade = std::min(1.0, foot->since / fade_time);
+  const double fade =
+      std::min(1.0, foot->since / std::max(kInstant, fade_time));
   if (foot->phase == ContactPhase::kUnloading) {
     if (foot->force < 0) foot->force = normal_force;
     return (1 - fade) * foot->force;

@@ -31,6 +31,7 @@ enum class ContactPhase {
 /// whose edge lands stands, with all that it can bear.
 class Stance {
  public:
+  // Of times, 0 is at once.
   double fade_time = 0.3;    ///< For a force to fade in or out, s.
   double swing_time = 0.8;   ///< To lift a foot, or to put it down, s.
   double return_time = 0.5;  ///< For a foot that was let go, s.
@@ -42,6 +43,10 @@ class Stance {
   /// Height of a sole's center, where that comes down, m.
   double found_below = 0.004;
 
+  /// What a foot may be lifted by, m: less is no step, more no leg can.
+  static constexpr double kLeastHeight = 1e-3;
+  static constexpr double kMostHeight = 1;
+
   /// All feet down. weight is the robot's, N.
   Stance(const std::vector<Foot>& feet, double weight);
 
@@ -50,8 +55,9 @@ class Stance {
 
   /// Fades the force of a foot out and then lifts it by height, m; where it is
   /// in the air already, brings it to that height; where it was let go, from where
-  /// it is now to that height over its place.
-  void Lift(int foot, double height) noexcept;
+  /// it is now to that height over its place. False, and nothing happens, if the
+  /// height is out of its range.
+  [[nodiscard]] bool Lift(int foot, double height) noexcept;
 
   /// Puts a foot down where it is, or was before it was let go.
   void PutDown(int foot) noexcept;
@@ -108,6 +114,7 @@ class Stance {
   bool flies() const noexcept;
   static bool Lands(const FootState& foot) noexcept;
   void CallBack(FootState* foot) noexcept;
+  void Swing(FootState* foot, double height) noexcept;
   void ChangePhase(double dt, const ContactTick& contact,
                    const Reference& reference, FootState* foot) noexcept;
   double MaxNormalForce(double normal_force, FootState* foot) const noexcept;

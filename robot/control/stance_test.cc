@@ -227,7 +227,7 @@ TEST_F(StanceTest, LandsOnTheFeetAsTheyAre) {
 
 // A foot that is up on purpose goes with the body too, and does not stand.
 TEST_F(StanceTest, KeepsALiftedFootUpInFlight) {
-  stance_.Lift(1, 0.05);
+  ASSERT_TRUE(stance_.Lift(1, 0.05));
   for (int i = 0; i < 302; ++i) Update();
   ASSERT_EQ(stance_.phase(1), ContactPhase::kUp);
   EXPECT_TRUE(contacts_[1].is_guided);
@@ -332,7 +332,7 @@ TEST_F(StanceTest, LiftsAFootThatWasLetGoFromWhereItIs) {
       for (int i = 0; i < 100; ++i) Update();
       ASSERT_EQ(stance_.phase(0), ContactPhase::kReturning);
     }
-    stance_.Lift(0, 0.05);
+    ASSERT_TRUE(stance_.Lift(0, 0.05));
     EXPECT_FALSE(stance_.is_meant_down(0));
     Update();
     EXPECT_FALSE(contacts_[0].in_contact);
@@ -361,7 +361,7 @@ TEST_F(StanceTest, PutsAFootDownThatRisesAgain) {
   stance_.LetGo(0);
   Update();
   contacts_[0].X_WC.p = Vector3d(0.1, 0.2, 0.003);
-  stance_.Lift(0, 0.05);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
   for (int i = 0; i < 100; ++i) {
     Update();
     ASSERT_EQ(stance_.phase(0), ContactPhase::kReturning);
@@ -383,7 +383,7 @@ TEST_F(StanceTest, PutsAFootDownThatWasLetGoAndLifted) {
   stance_.LetGo(0);
   Update();
   contacts_[0].X_WC.p = Vector3d(0.1, 0.2, 0.1);
-  stance_.Lift(0, 0.05);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
   for (int i = 0; i < 502; ++i) Update();
   ASSERT_EQ(stance_.phase(0), ContactPhase::kUp);
   stance_.PutDown(0);
@@ -402,7 +402,7 @@ TEST_F(StanceTest, PutsAFootDownThatWasLetGoAndLifted) {
 // Pressed onto the ground before it was there, a foot tilted and landed on three
 // corners, one after the other.
 TEST_F(StanceTest, BelievesThatAFootIsDownWhenItIsStopped) {
-  stance_.Lift(0, 0.05);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
   for (int i = 0; i < 1200; ++i) Update();
   ASSERT_EQ(stance_.phase(0), ContactPhase::kUp);
   stance_.PutDown(0);
@@ -422,7 +422,7 @@ TEST_F(StanceTest, BelievesThatAFootIsDownWhenItIsStopped) {
 TEST_F(StanceTest, LiftsAFootAsAnyOtherInTheTickInWhichItIsLetGo) {
   contacts_[0].X_WC.p = Vector3d(1, 2, 0);
   stance_.LetGo(0);
-  stance_.Lift(0, 0.05);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
   EXPECT_EQ(stance_.phase(0), ContactPhase::kUnloading);
   Update();
   EXPECT_TRUE(contacts_[0].in_contact);
@@ -467,7 +467,7 @@ TEST_F(StanceTest, TakesALettingGoBack) {
 }
 
 TEST_F(StanceTest, FadesAForceOutBeforeItLiftsAFoot) {
-  stance_.Lift(0, 0.05);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
   Update();
   EXPECT_TRUE(contacts_[0].in_contact);
   EXPECT_FALSE(stance_.is_meant_down(0));
@@ -494,8 +494,8 @@ TEST_F(StanceTest, FadesAForceOutBeforeItLiftsAFoot) {
 }
 
 TEST_F(StanceTest, FadesEachFootFromTheForceThatItBears) {
-  stance_.Lift(0, 0.05);
-  stance_.Lift(1, 0.05);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
+  ASSERT_TRUE(stance_.Lift(1, 0.05));
   Update();
   EXPECT_NEAR(contacts_[0].max_normal_force, 200 * (1 - 1 / 300.), 1e-9);
   EXPECT_NEAR(contacts_[1].max_normal_force, 100 * (1 - 1 / 300.), 1e-9);
@@ -508,7 +508,7 @@ TEST_F(StanceTest, LiftsAFootUprightFromWhereItStands) {
   contacts_[0].X_WC = {heading * ExpSo3(Vector3d(0.02, -0.03, 0)),
                        Vector3d(1, 2, 0.3)};
   contacts_[1].X_WC.p.z() = 0.3;
-  stance_.Lift(0, 0.05);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
   while (stance_.phase(0) != ContactPhase::kUp) Update();
   const Pose& target = reference_.feet[0].X_WF;
   EXPECT_LT((target.p - Vector3d(1, 2, 0.3)).norm(), 1e-6);
@@ -520,16 +520,16 @@ TEST_F(StanceTest, LiftsAFootUprightFromWhereItStands) {
 }
 
 TEST_F(StanceTest, LiftsToTheHeightThatWasToldLast) {
-  stance_.Lift(0, 0.05);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
   Update();
-  stance_.Lift(0, 0.03);
+  ASSERT_TRUE(stance_.Lift(0, 0.03));
   for (int i = 0; i < 301; ++i) Update();
   ASSERT_EQ(stance_.phase(0), ContactPhase::kUp);
   for (int i = 0; i < 400; ++i) Update();
   const double reached = reference_.feet[0].X_WF.p.z();
   EXPECT_GT(reached, 0.01);
   EXPECT_LT(reached, 0.02);
-  stance_.Lift(0, 0.08);
+  ASSERT_TRUE(stance_.Lift(0, 0.08));
   Update();
   EXPECT_NEAR(reference_.feet[0].X_WF.p.z(), reached, 1e-6);  // No jump.
   for (int i = 0; i < 801; ++i) Update();
@@ -543,7 +543,7 @@ TEST_F(StanceTest, LiftsAFootThatHasLostTheGroundFromWhereItIs) {
   const double reached = reference_.feet[0].X_WF.p.z();
   EXPECT_LT(reached, 0.025);
   EXPECT_GT(reached, 0.01);  // Of 35 mm, at 0.2 m/s.
-  stance_.Lift(0, 0.05);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
   Update();
   EXPECT_EQ(stance_.phase(0), ContactPhase::kUp);
   EXPECT_FALSE(stance_.is_meant_down(0));
@@ -553,14 +553,14 @@ TEST_F(StanceTest, LiftsAFootThatHasLostTheGroundFromWhereItIs) {
 TEST_F(StanceTest, PutsAFootDown) {
   stance_.PutDown(0);
   EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);  // It is.
-  stance_.Lift(0, 0.05);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
   Update();
   stance_.PutDown(0);
   Update();
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
   // The ground carries it still.
   EXPECT_GE(contacts_[0].max_normal_force, 400);
-  stance_.Lift(0, 0.05);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
   for (int i = 0; i < 1200; ++i) Update();
   ASSERT_EQ(stance_.phase(0), ContactPhase::kUp);
   stance_.PutDown(0);
@@ -577,6 +577,51 @@ TEST_F(StanceTest, PutsAFootDown) {
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
   EXPECT_TRUE(contacts_[0].in_contact);
   EXPECT_LT(last, 0.005);
+}
+
+// A height that is none went into the references, and tick after tick failed safe.
+TEST_F(StanceTest, RefusesAHeightThatIsNone) {
+  for (const double height :
+       {std::nan(""), HUGE_VAL, -HUGE_VAL, -0.05, 0.0, 1.1}) {
+    EXPECT_FALSE(stance_.Lift(0, height)) << height;
+    EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);
+  }
+  stance_.LetGo(0);
+  Update();
+  EXPECT_FALSE(stance_.Lift(0, std::nan("")));
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kFree);
+}
+
+// No time is 0/0.
+TEST_F(StanceTest, DoesAtOnceWhatTakesNoTime) {
+  stance_.fade_time = stance_.swing_time = 0;
+  stance_.return_time = stance_.lost_after = 0;
+  const FrameReference& target = reference_.feet[0];
+  const auto update = [&](ContactPhase phase) {
+    Update();
+    EXPECT_EQ(stance_.phase(0), phase);
+    EXPECT_FALSE(std::isnan(contacts_[0].max_normal_force));
+    EXPECT_TRUE(target.X_WF.p.allFinite() && target.X_WF.R.allFinite());
+    EXPECT_TRUE(target.V_WF_W.allFinite() && target.A_WF_W.allFinite());
+  };
+  update(ContactPhase::kDown);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
+  update(ContactPhase::kUp);
+  update(ContactPhase::kUp);
+  EXPECT_NEAR(target.X_WF.p.z(), 0.05, 1e-12);
+  contacts_[0].X_WC.p.z() = 0.05;
+  stance_.PutDown(0);
+  update(ContactPhase::kLanding);
+  EXPECT_NEAR(target.X_WF.p.z(), 0, 1e-8);  // It sinks on, for a tick.
+  contacts_[0].X_WC.p.z() = 0;
+  for (int i = 0; i < 1000 && !contacts_[0].in_contact; ++i) Update();
+  update(ContactPhase::kDown);
+  stance_.LetGo(0);
+  update(ContactPhase::kFree);
+  contacts_[0].X_WC.p.z() = 0.05;
+  stance_.PutDown(0);
+  update(ContactPhase::kReturning);
+  EXPECT_NEAR(target.X_WF.p.z(), -0.005, 1e-12);
 }
 
 TEST(MidFeet, IsLevelAmidTheFeetThatStand) {
