@@ -67,6 +67,22 @@ TEST(Run, WritesARowATickAndStopsWhenTold) {
   EXPECT_EQ(summary["fell_at"], nullptr);
 }
 
+// Who still stands may still fall, and who has fallen has.
+TEST(Run, DoesNotJudgeARobotThatWasUpWhenItWasInterrupted) {
+  const Scenario scenario = Ours("weak_push", 2);
+  RunResult result;
+  result.interrupted = true;
+  result.verdict.recovered = true;
+  EXPECT_EQ(ToJson(Humanoid(), scenario, result)["recovered"], nullptr);
+  EXPECT_EQ(ToTable(Humanoid(), scenario, result).find("weak_push: interrup"),
+            0u);
+  result.verdict.recovered = false;
+  result.verdict.fell_at = 1.25;
+  EXPECT_EQ(ToJson(Humanoid(), scenario, result)["recovered"], false);
+  EXPECT_EQ(ToTable(Humanoid(), scenario, result).find("weak_push: fell at 1"),
+            0u);
+}
+
 TEST(Run, RefusesTasksThatAreNotThere) {
   Scenario scenario = Ours("stand", 1);
   scenario.control.with = {"levitate"};

@@ -77,7 +77,9 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
   json["tasks"] = {{"set", control.tasks},
                    {"with", control.with},
                    {"without", control.without}};
-  json["recovered"] = verdict.recovered;
+  // Who was still up when a run was interrupted may still have fallen.
+  const bool is_judged = !result.interrupted || verdict.fell_at;
+  json["recovered"] = is_judged ? Json(verdict.recovered) : Json(nullptr);
   json["fell_at"] = verdict.fell_at ? Json(*verdict.fell_at) : Json(nullptr);
   json["fell_by"] = FellBy(result);
   json["interrupted"] = result.interrupted;
@@ -117,7 +119,9 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
   const Eigen::Vector3d last = 1e3 * verdict.com_error_final;
   std::string table = scenario.name + ": ";
   char text[80];
-  if (verdict.recovered) {
+  if (result.interrupted && !verdict.fell_at) {
+    table += "interrupted";
+  } else if (verdict.recovered) {
     table += "recovered";
   } else if (verdict.fell_at) {
     std::snprintf(text, sizeof(text), "fell at %.3f s: ", *verdict.fell_at);
@@ -125,7 +129,8 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
   } else {
     table += "did not come back";
   }
-  table += result.interrupted ? " (interrupted)\n\n" : "\n\n";
+  const bool fell_before = result.interrupted && verdict.fell_at;
+  table += fell_before ? " (interrupted)\n\n" : "\n\n";
   table +=
       Line("robot", "%s, %d joints, %.1f kg", OneLine(robot.model.name).c_str(),
            robot.model.tree.num_joints(), robot.model.tree.total_mass());

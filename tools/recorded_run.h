@@ -30,7 +30,9 @@ class RecordedRun {
   double At(const std::string& name, double time) const;
 
   const nlohmann::json& summary() const { return summary_; }
-  bool recovered() const { return summary_["recovered"]; }
+  bool recovered() const {
+    return summary_.value("recovered", nlohmann::json()) == true;
+  }
   double end() const { return columns_["time"].back(); }
 
   /// The configuration at a time, see Tree.
