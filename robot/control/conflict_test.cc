@@ -75,8 +75,12 @@ TEST_F(ControllerTest, SaysThatAJointLimitCannotBeMet) {
   weak.Update(state_, &command_);
   EXPECT_LT(weak.report().tasks[*weak.stack().Find("torque_limits")].slack,
             1e-9);
-  EXPECT_GT(weak.report().tasks[*weak.stack().Find("joint_limits")].slack,
-            1e-3);
+  const int joint_limits = *weak.stack().Find("joint_limits");
+  EXPECT_GT(weak.report().tasks[joint_limits].slack, 1e-3);
+  ASSERT_TRUE(weak.report().relaxed);
+  EXPECT_EQ(weak.report().relaxed->task, joint_limits);
+  EXPECT_EQ(weak.report().relaxed->slack,
+            weak.report().tasks[joint_limits].slack);
   EXPECT_EQ(command_.status, TickStatus::kLimitRelaxed);
 }
 
@@ -121,8 +125,18 @@ TEST_F(ControllerTest, NamesALimitThatCannotBeMetAndWhatItContradicts) {
   state_.time = 1e-3;
   weak.Update(state_, &command_);
   EXPECT_EQ(command_.status, TickStatus::kLimitRelaxed);
+  ASSERT_TRUE(weak.report().relaxed);
+  const ActiveRow relaxed = *weak.report().relaxed;
+  const std::string limit = weak.stack().RowName(relaxed);
+  const std::string joint = tree().joints()[relaxed.row].name;
+  EXPECT_TRUE(limit == "torque." + joint + ".max" ||
+              limit == "torque." + joint + ".min" ||
+              limit == "joint." + joint + ".max")
+      << limit;
   bool is_named = false;
   for (const ActiveRow& row : weak.report().active) {
+    if (weak.report().tasks[row.task].rank != 2) continue;
+    EXPECT_LE(row.slack, relaxed.slack * (1 + 1e-6));
     is_named |=
         row.slack > 1e-3 && weak.stack().RowName(row).rfind("joint.", 0) == 0;
   }

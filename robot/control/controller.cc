@@ -107,6 +107,8 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
       stack_(MakeDefaultStack(robot_, options.frames)),
       momentum_(*stack_.Find("momentum")),
       momentum_task_(static_cast<const MomentumTask&>(stack_.task(momentum_))),
+      torque_limits_(*stack_.Find("torque_limits")),
+      joint_limits_(*stack_.Find("joint_limits")),
       com_(*stack_.Find("com")),
       com_task_(static_cast<const ComTask&>(stack_.task(com_))),
       stance_(robot_.feet, weight_),
@@ -191,6 +193,7 @@ void Controller::Start(const State& state) noexcept {
 void Controller::Update(const State& state, Command* command) noexcept {
   report_.status = TickStatus::kOk;
   report_.fail_safe_reason = FailSafeReason::kNone;
+  report_.relaxed.reset();
   UpdateClock(state);
   if (IsFrozen()) {
     FailSafe(FailSafeReason::kClock, state, command);
@@ -324,20 +327,32 @@ void Controller::FailSafe(FailSafeReason reason, const State& state,
 void Controller::LimitTorque(Command* command) noexcept {
   const double scale =
       stack_.GetParameter("torque_limits", "scale").value_or(1);
-  bool relaxed = false;
   for (Eigen::Index j = 0; j < command->tau.size(); ++j) {
     const double limit = scale * robot_.model.limits[j].effort;
     double& tau = command->tau[j];
     if (!std::isfinite(tau)) tau = 0;  // Whatever went wrong, no motor sees it.
     if (!(limit >= 0)) continue;       // The file gives none.
     // Where there is no motor the row's own scale is 1 N m.
-    relaxed |= std::abs(tau) > limit + kLimitSlack * (limit > 0 ? limit : 1);
+    const double row_scale = limit > 0 ? limit : 1;
+    const double slack = (std::abs(tau) - limit) / row_scale;
+    Relax({torque_limits_, static_cast<int>(j),
+           tau > 0 ? Side::kUpper : Side::kLower,
+           stack_.settings(torque_limits_).rank, slack, slack});
     tau = std::clamp(tau, -limit, limit);
   }
-  const auto joint_limits = stack_.Find("joint_limits");
-  relaxed |= report_.tasks[*joint_limits].slack > kLimitSlack;
-  if (relaxed && report_.status == TickStatus::kOk) {
-    report_.status = TickStatus::kLimitRelaxed;
+  for (const ActiveRow& row : report_.active) {
+    if (row.task == joint_limits_) Relax(row);
+  }
+}
+
+void Controller::Relax(const ActiveRow& row) noexcept {
+  const TickStatus status = report_.status;
+  const bool may_relax =
+      status == TickStatus::kOk || status == TickStatus::kLimitRelaxed;
+  if (!may_relax || !(row.slack > kLimitSlack)) return;
+  report_.status = TickStatus::kLimitRelaxed;
+  if (!report_.relaxed || row.slack > report_.relaxed->slack) {
+    report_.relaxed = row;
   }
 }
 

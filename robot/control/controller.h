@@ -109,6 +109,7 @@ class Controller {
   void FailSafe(FailSafeReason reason, const State& state,
                 Command* command) noexcept;
   void LimitTorque(Command* command) noexcept;
+  void Relax(const ActiveRow& row) noexcept;
   void EstimateDisturbance() noexcept;
 
   Robot robot_;
@@ -119,7 +120,8 @@ class Controller {
   Stack stack_;
   int momentum_;  ///< Index into the stack's tasks.
   const MomentumTask& momentum_task_;
-  int com_;  ///< The same.
+  int torque_limits_, joint_limits_;  ///< The same.
+  int com_;                           ///< The same.
   const ComTask& com_task_;
   Stance stance_;
   Tick tick_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "hqp/certificate.h"
@@ -51,6 +52,10 @@ struct TickReport {
   TickStatus status = TickStatus::kOk;
   FailSafeReason fail_safe_reason = FailSafeReason::kNone;
   Status solver_status = Status::kOptimal;
+  /// Where the status is kLimitRelaxed, the row of a torque or joint limit that
+  /// gave way most, in its own scale; also where its task is off, and what the
+  /// motor cannot give was cut off.
+  std::optional<ActiveRow> relaxed;
   int failed_rank = 0;  ///< The rank that was not solved; 0 if all were.
   int iterations = 0;   ///< Of the solver.
   /// DynamicsResidual() of y; above 1e-9 the tick fails safe.
