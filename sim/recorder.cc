@@ -66,6 +66,24 @@ std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
   return all;
 }
 
+// Why a tick is not ok.
+std::string Reason(const TickRecord& record) {
+  const TickReport& report = record.report;
+  if (report.status == TickStatus::kTruncated) {
+    return "rank_" + std::to_string(report.failed_rank);
+  }
+  if (report.relaxed) return record.stack.RowName(*report.relaxed);
+  return std::string(ReasonName(report.fail_safe_reason));
+}
+
+// A name in a cell that lists: what separates its entries is not part of one.
+std::string WithoutSeparators(std::string name) {
+  for (char& c : name) {
+    if (c == ';' || c == '=' || c == '|') c = '_';
+  }
+  return name;
+}
+
 // The level of the highest rows that could not be met; -1 if all could.
 int LevelNotMet(const TickRecord& record) {
   int rank = Stack::kMaxRank + 1;
@@ -88,6 +106,7 @@ std::vector<std::string> BodyNames(const Tree& tree) {
   for (const Frame& frame : tree.frames()) {
     if (names[frame.body].empty()) names[frame.body] = frame.name;
   }
+  for (std::string& name : names) name = WithoutSeparators(name);
   return names;
 }
 
@@ -183,7 +202,7 @@ void Recorder::Entry(std::string_view name, double value) {
   const auto end = std::to_chars(digits, digits + sizeof(digits), value,
                                  std::chars_format::general, 4);
   if (!entries_.empty()) entries_ += ';';
-  entries_ += name;
+  entries_ += WithoutSeparators(std::string(name));
   entries_ += '=';
   entries_.append(digits, end.ptr);
 }
@@ -221,7 +240,7 @@ void Recorder::TextCells(const TickRecord& record) {
   for (int i = 0; i < feet; ++i) {
     rows_->Text(PhaseName(record.stance.phase(i)));
   }
-  rows_->Text(ReasonName(record.report.fail_safe_reason));
+  rows_->Text(Reason(record));
 }
 
 void Recorder::Record(const TickRecord& record) {

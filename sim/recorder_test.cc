@@ -11,6 +11,7 @@
 #include <iterator>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "sim/closed_loop.h"
 #include "tests/util/load_humanoid.h"
@@ -139,6 +140,76 @@ TEST(Recorder, WritesHowFeetStandAndWhyATickFailedSafe) {
   row = RowOf(csv, 20);
   EXPECT_EQ(row["status"], "fail_safe");
   EXPECT_EQ(row["reason"], "clock");
+}
+
+// Which limit gave way, and at which rank the solver stopped.
+TEST(Recorder, WritesWhatATickIsAbout) {
+  ClosedLoop loop(Humanoid(), Pushed());
+  Recorder recorder(Folder("reasons"), Humanoid(), loop.controller().stack());
+  loop.Tick();
+  const TickRecord last = loop.record();
+  TickReport report = last.report;
+  const auto record = [&] {
+    recorder.Record({last.tick, last.observation, last.start, last.end,
+                     last.tau, last.push_force_W, last.stack, last.hierarchy,
+                     report, last.stance, last.nv, last.microseconds});
+    recorder.Flush();
+  };
+  report.status = TickStatus::kLimitRelaxed;
+  report.relaxed = {*last.stack.Find("torque_limits"),
+                    *Humanoid().model.tree.FindJoint("l_knee"),
+                    Side::kUpper,
+                    2,
+                    0.1,
+                    0.1};
+  record();
+  report.relaxed->task = *last.stack.Find("joint_limits");
+  report.relaxed->side = Side::kLower;
+  record();
+  report.status = TickStatus::kTruncated;
+  report.failed_rank = 5;
+  record();
+  const std::string csv = Contents(Folder("reasons") / "log.csv");
+  EXPECT_EQ(RowOf(csv, 0)["reason"], "torque.l_knee.max");
+  EXPECT_EQ(RowOf(csv, 1)["reason"], "joint.l_knee.min");
+  EXPECT_EQ(RowOf(csv, 2)["reason"], "rank_5");
+}
+
+// A robot may call its parts what it likes: what separates is not part of a name.
+TEST(Recorder, KeepsSeparatorsOutOfNames) {
+  std::string urdf = Contents("robot/models/humanoid.urdf");
+  const auto rename = [&urdf](const std::string& from, const std::string& to) {
+    for (size_t at = 0;
+         (at = urdf.find('"' + from + '"', at)) != std::string::npos;) {
+      urdf.replace(at + 1, from.size(), to);
+    }
+  };
+  rename("l_knee", "l;kn=ee");
+  rename("torso", "tor|so;");
+  const auto file = Folder("renamed.urdf");
+  std::ofstream(file) << urdf;
+  Profile profile = LoadProfile("robot/profiles/humanoid.yaml");
+  auto knee = profile.joints.extract("l_knee");
+  knee.key() = "l;kn=ee";
+  profile.joints.insert(std::move(knee));
+  Robot robot = LoadRobot(file, profile);
+  robot.model.limits[*robot.model.tree.FindJoint("l;kn=ee")].effort = 1;
+  ClosedLoop loop(robot, Pushed());
+  Recorder recorder(Folder("renamed"), robot, loop.controller().stack());
+  loop.Tick();
+  const Tree& tree = robot.model.tree;
+  const int torso = tree.frames()[*tree.FindFrame("tor|so;")].body;
+  PlantState touching = loop.record().end;
+  touching.self_contacts = {{torso, 0}};
+  const TickRecord last = loop.record();
+  recorder.Record({last.tick, last.observation, last.start, touching, last.tau,
+                   last.push_force_W, last.stack, last.hierarchy, last.report,
+                   last.stance, last.nv, last.microseconds});
+  recorder.Flush();
+  auto row = RowOf(Contents(Folder("renamed") / "log.csv"), 0);
+  EXPECT_NE(row["active"].find("torque.l_kn_ee."), std::string::npos)
+      << row["active"];
+  EXPECT_EQ(row["touching"], "tor_so_|pelvis");
 }
 
 TEST(Recorder, LeavesNoOtherLogInItsFolder) {
