@@ -67,7 +67,8 @@ class Task {
   virtual bool is_two_sided() const noexcept { return false; }
 
   /// What the residual of an equality row is multiplied with to be in the unit
-  /// that a person thinks in: N for a momentum, say.
+  /// that a person thinks in: N or N m for forces and momenta; accelerations are in
+  /// m/s2 or rad/s2 as they are.
   virtual double equality_scale(int) const noexcept { return 1; }
 
   /// Writes the rows B y + b = 0 and lower <= C y <= upper of this tick.

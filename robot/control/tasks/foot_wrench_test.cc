@@ -203,9 +203,10 @@ TEST_F(FootWrenchTest, ZmpReadLiterallyLetsFeetCancel) {
 TEST_F(FootWrenchTest, ForceRegularizerIsTheForceItself) {
   const Eigen::VectorXd y = RandomY();
   const double scale = tree_.total_mass() * 9.81 / 4;
-  const Eigen::VectorXd residual =
-      Residual(ForceRegularizerTask(tree_, robot_.feet), y);
+  const ForceRegularizerTask task(tree_, robot_.feet);
+  const Eigen::VectorXd residual = Residual(task, y);
   EXPECT_LT((residual - y.tail<12>() / scale).norm(), 1e-12);
+  EXPECT_NEAR(task.equality_scale(0), scale, 1e-12 * scale);
 }
 
 }  // namespace

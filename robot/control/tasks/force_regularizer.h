@@ -13,6 +13,7 @@ namespace poise {
 class ForceRegularizerTask final : public Task {
  public:
   ForceRegularizerTask(const Tree& tree, const std::vector<Foot>& feet);
+  double equality_scale(int) const noexcept override { return 1 / scale_; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 

@@ -140,10 +140,11 @@ TEST_F(TaskTest, TorqueRowsAreThoseOfTheSolution) {
     EXPECT_NEAR(1 - (rows.upper(0)[j] - value[j]), tau[j] / effort, 1e-9);
     EXPECT_NEAR((value[j] - rows.lower(0)[j]) - 1, tau[j] / effort, 1e-9);
   }
-  const Eigen::VectorXd small =
-      Residual(TorqueMinimizationTask(robot_.model), y);
+  const TorqueMinimizationTask minimization(robot_.model);
+  const Eigen::VectorXd small = Residual(minimization, y);
   for (int j = 0; j < n_; ++j) {
     EXPECT_NEAR(small[j], tau[j] / robot_.model.limits[j].effort, 1e-9);
+    EXPECT_NEAR(small[j] * minimization.equality_scale(j), tau[j], 1e-9);
   }
 }
 

@@ -12,6 +12,7 @@ class LinearMomentumTask final : public Task {
  public:
   /// Parameter: kd (10 1/s).
   explicit LinearMomentumTask(const Tree& tree);
+  double equality_scale(int) const noexcept override { return mass_; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 

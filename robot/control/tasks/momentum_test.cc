@@ -70,6 +70,28 @@ TEST_F(TaskTest, RatesOfMomentumAndFeetAreThoseOfTheMotion) {
 
 // What a task asks of y, less what it asks where nothing is to be done: here by
 // a reference that moves, feed-forward, and a base that is turned.
+// What is lost of a momentum is so many N, or N m, however its rows are scaled.
+TEST_F(TaskTest, LossesOfMomentumAreForces) {
+  const Eigen::VectorXd y = RandomY();
+  const auto loss = [&](const Task& task, const Eigen::VectorXd& at) {
+    Eigen::VectorXd residual = Residual(task, at);
+    for (int i = 0; i < residual.size(); ++i) {
+      residual[i] *= task.equality_scale(i);
+    }
+    return residual;
+  };
+  Eigen::VectorXd more = y;
+  for (int i = 0; i < nv_; ++i) more[i] += Uniform(-1, 1);
+  const Eigen::VectorXd F =
+      controller_.tick().H_G * (more.head(nv_) - y.head(nv_));
+  const AngularMomentumTask angular(tree_);
+  const LinearMomentumTask linear(tree_);
+  const MomentumTask both(tree_, robot_.feet);
+  EXPECT_LT((loss(angular, more) - loss(angular, y) - F.head(3)).norm(), 1e-9);
+  EXPECT_LT((loss(linear, more) - loss(linear, y) - F.tail(3)).norm(), 1e-9);
+  EXPECT_LT((loss(both, more) - loss(both, y) - F).norm(), 1e-9);
+}
+
 TEST_F(TaskTest, MomentumGoesWhereItsReferenceGoes) {
   MomentumTask momentum(tree_, robot_.feet);
   ComTask com(tree_);

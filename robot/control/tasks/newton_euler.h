@@ -13,6 +13,7 @@ namespace poise {
 class NewtonEulerTask final : public Task {
  public:
   explicit NewtonEulerTask(const Tree& tree);
+  double equality_scale(int) const noexcept override { return 1 / scale_; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 

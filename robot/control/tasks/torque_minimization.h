@@ -13,6 +13,9 @@ namespace poise {
 class TorqueMinimizationTask final : public Task {
  public:
   explicit TorqueMinimizationTask(const RobotModel& model);
+  double equality_scale(int row) const noexcept override {
+    return 1 / inverse_effort_[row];
+  }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 
