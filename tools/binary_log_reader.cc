@@ -123,6 +123,7 @@ bool BinaryLogReader::Next() {
   if (columns_.empty() || cut_short_) return false;
   if (stream_.peek() == std::ifstream::traits_type::eof()) return false;
   cut_short_ = !ReadRow();
+  ++rows_read_;
   return !cut_short_;
 }
 
@@ -157,6 +158,10 @@ bool BinaryLogReader::ReadRow() {
     numbers_[i] = ToDouble(bits_[i], kinds_[i]);
   }
   return rest.empty();
+}
+
+std::string BinaryLogReader::place() const {
+  return file_.string() + ": row " + std::to_string(rows_read_);
 }
 
 long BinaryLogReader::CountRows() const {

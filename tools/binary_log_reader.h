@@ -26,6 +26,7 @@ class BinaryLogReader final : public LogReader {
   bool Next() override;
   std::string_view cell(int column) const override { return texts_[column]; }
   double Number(int column) const override { return numbers_[column]; }
+  std::string place() const override;
   long CountRows() const override;
 
  private:
@@ -39,6 +40,7 @@ class BinaryLogReader final : public LogReader {
   std::streamoff rows_begin_ = 0;
   std::string kinds_;  // By column: d, f or t.
   std::string row_;
+  long rows_read_ = 0;
   std::vector<uint64_t> bits_;
   std::vector<double> numbers_;
   std::vector<std::string> texts_;

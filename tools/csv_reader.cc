@@ -62,16 +62,25 @@ bool CsvReader::Next() {
   if (!std::getline(stream_, line_)) return false;
   ++line_number_;
   Split(line_, &cells_);
-  cut_short_ = stream_.eof() || cells_.size() != columns_.size();
+  cut_short_ = stream_.eof();
   if (cut_short_) return false;
+  if (cells_.size() != columns_.size()) {
+    throw std::invalid_argument(
+        place() + ": has " + std::to_string(cells_.size()) +
+        " cells, must have " + std::to_string(columns_.size()) +
+        ", as the header has");
+  }
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (has_words_[i] || ParseNumber(cells_[i], &numbers_[i])) continue;
-    throw std::invalid_argument(file_.string() + ":" +
-                                std::to_string(line_number_) + ": column " +
-                                Quoted(columns_[i]) + " is " +
-                                Quoted(cells_[i]) + ", must be a number");
+    throw std::invalid_argument(place() + ": column " + Quoted(columns_[i]) +
+                                " is " + Quoted(cells_[i]) +
+                                ", must be a number");
   }
   return true;
+}
+
+std::string CsvReader::place() const {
+  return file_.string() + ":" + std::to_string(line_number_);
 }
 
 long CsvReader::CountRows() const {

@@ -13,19 +13,20 @@ namespace poise {
 
 /// Reads log.csv, or another table of numbers. Words are in the columns that a
 /// log has for them (docs/log.md) only; an empty cell is no number. No quotes; a
-/// cell does not hold a comma. A row that has not as many cells as the header,
-/// or no line end, is where it was cut short.
+/// cell does not hold a comma. A row that has no line end is where it was cut short.
 class CsvReader final : public LogReader {
  public:
   /// Reads the header. Throws std::invalid_argument, naming the file, if it
   /// cannot be opened.
   explicit CsvReader(const std::filesystem::path& file);
 
-  /// Throws std::invalid_argument, naming file, line, column and cell, if a
-  /// cell of a column of numbers holds none.
+  /// Throws std::invalid_argument, naming file and line, if a whole row has not
+  /// as many cells as the header, and column and cell, if one of a column of
+  /// numbers holds none.
   bool Next() override;
   std::string_view cell(int column) const override { return cells_[column]; }
   double Number(int column) const override { return numbers_[column]; }
+  std::string place() const override;
   long CountRows() const override;
 
  private:

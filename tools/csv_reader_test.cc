@@ -56,11 +56,19 @@ TEST(CsvReader, StopsWhereTheLogWasCutShort) {
   }
 }
 
-TEST(CsvReader, StopsAtARowOfAnotherLength) {
-  CsvReader csv(Written("a,b\n0,1\n2\n4,5\n"));
+// Whole, and still not the header's: it was not cut short.
+TEST(CsvReader, RefusesARowOfAnotherLength) {
+  const auto file = Written("a,b\n0,1\n2\n4,5\n");
+  CsvReader csv(file);
   EXPECT_TRUE(csv.Next());
-  EXPECT_FALSE(csv.Next());
-  EXPECT_TRUE(csv.cut_short());
+  try {
+    csv.Next();
+    ADD_FAILURE() << "a row of one cell is read";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(
+        error.what(),
+        file.string() + ":3: has 1 cells, must have 2, as the header has");
+  }
 }
 
 TEST(CsvReader, GivesNoNumberForWhatIsNone) {

@@ -6,9 +6,12 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <set>
+#include <string_view>
 
 #include "tools/describe_row.h"
 #include "tools/foot_story.h"
+#include "tools/loss_cause.h"
 #include "tools/open_log.h"
 #include "tools/run_story.h"
 #include "tools/run_summary.h"
@@ -21,6 +24,7 @@ using nlohmann::json;
 constexpr size_t kMostCauses = 5;   // Named in a sentence about a loss.
 constexpr size_t kMostRows = 10;    // In one about a conflict.
 constexpr double kShort = 0.005;    // s: not worth a sentence.
+constexpr double kRounding = 1e-6;  // s, of a sum of ticks.
 constexpr double kSmallLoss = 0.5;  // N, N m, m/s2: not worth a sentence.
 
 std::string Format(const char* format, double value) {
@@ -29,15 +33,13 @@ std::string Format(const char* format, double value) {
   return text;
 }
 
-std::string UnitOfLoss(const std::string& name) {
-  const std::string row = name.substr(name.rfind('.') + 1);
-  if (name.rfind("momentum.", 0) == 0) return row[0] == 'k' ? "N m" : "N";
-  return row[0] == 'w' ? "rad/s2" : "m/s2";
+std::string Milliseconds(double seconds) {
+  return Format(" for %.0f ms", 1e3 * seconds);
 }
 
 std::string Sentence(const Span& span) {
   return Format("%.3f s: ", span.from) + span.name +
-         Format(" for %.0f ms", 1e3 * (span.to - span.from)) +
+         Milliseconds(span.lasted()) +
          Format(" (multiplier %.3g", std::abs(span.peak)) +
          Format(" at %.3f s).", span.at);
 }
@@ -47,26 +49,31 @@ std::string AndMore(size_t count, size_t said) {
   return count <= said ? "" : " and " + std::to_string(count - said) + " more";
 }
 
-std::string LossSentence(const Span& span) {
-  std::string text = Format("%.3f s: ", span.from) + span.name + " gave up " +
-                     Format("%.3g ", std::abs(span.peak)) +
-                     UnitOfLoss(span.name) + Format(" (at %.3f s)", span.at);
-  std::vector<std::string> said;
-  for (const auto& [name, value] : span.causes) {
-    const std::string cause = DescribeRow(name);
-    if (std::find(said.begin(), said.end(), cause) != said.end()) continue;
-    said.push_back(cause);
-    if (said.size() > kMostCauses) continue;
-    text += (said.size() == 1 ? ", because of " : ", ") + cause;
-  }
-  return text + AndMore(said.size(), kMostCauses) + ".";
-}
-
 // What to call a row among others of its task: constraints one by one, tasks by
 // their name.
 std::string Group(const std::string& name) {
   const std::string said = DescribeRow(name);
   return said != name ? said : Spaced(name.substr(0, name.rfind('.')));
+}
+
+std::string LossSentence(const Span& span, const std::string& unit,
+                         const LossCause& cause) {
+  std::string text = Format("%.3f s: ", span.from) + span.name + " gave up " +
+                     Format("%.3g ", std::abs(span.peak)) + unit +
+                     Format(" (at %.3f s)", span.at);
+  const char* begin = cause.is_known ? ", because of " : ", while ";
+  std::vector<std::string> said;
+  for (const auto& [name, value] : cause.rows) {
+    const std::string row = Group(name);
+    if (std::find(said.begin(), said.end(), row) != said.end()) continue;
+    said.push_back(row);
+    if (said.size() > kMostCauses) continue;
+    text += (said.size() == 1 ? begin : ", ") + row;
+    if (cause.has_ranks) text += Format(" (rank %.0f)", value);
+  }
+  text += AndMore(said.size(), kMostCauses);
+  if (!cause.is_known && !said.empty()) text += " acted";
+  return text + ".";
 }
 
 // In the order of their ranks, the lowest first: it gave way.
@@ -88,8 +95,15 @@ std::string ConflictSentence(double time, Values rows) {
          AndMore(said.size(), kMostRows) + ".";
 }
 
-// Why a tick failed safe, after what happened.
+// Why a tick is not ok, after what happened.
 std::string SayWhy(const std::string& reason) {
+  constexpr std::string_view kRank = "rank_";
+  if (reason.rfind(kRank, 0) == 0) {
+    return ": rank " + reason.substr(kRank.size()) +
+           " is not solved, nor what comes after it";
+  }
+  const std::string row = DescribeRow(reason);
+  if (row != reason) return ": what gave way most is " + row;
   if (reason == "state") return ": what it is told of the robot cannot be";
   if (reason == "clock") return ": the time of the robot's state stands still";
   if (reason == "no_answer") return ": no answer that meets the dynamics";
@@ -122,7 +136,7 @@ std::string Ending(const json& summary) {
 
 using Sentences = std::vector<std::pair<double, std::string>>;  // By time, s.
 
-// Each of the next five is a list of Explain(), and adds its sentences.
+// Each of the next seven is a list of Explain(), and adds its sentences.
 json ExplainRows(const RunStory& story, Sentences* sentences) {
   json out = json::array();
   for (const Span& span : story.rows.spans()) {
@@ -133,7 +147,7 @@ json ExplainRows(const RunStory& story, Sentences* sentences) {
                    {"multiplier", std::abs(span.peak)}});
   }
   for (const Span& span : story.said.spans()) {
-    if (span.to - span.from < kShort) continue;
+    if (span.lasted() < kShort - kRounding) continue;
     sentences->emplace_back(span.from, Sentence(span));
   }
   return out;
@@ -158,17 +172,20 @@ json ExplainStance(const RunStory& story, Sentences* sentences) {
 json ExplainLosses(const RunStory& story, Sentences* sentences) {
   json out = json::array();
   for (const Span& span : story.losses.spans()) {
-    json because = json::array();
-    for (const auto& [name, value] : span.causes) because.push_back(name);
+    const std::string unit = UnitOfLoss(span.name, story);
+    const LossCause cause = FindCause(span, story);
+    json names = json::array();
+    for (const auto& [name, value] : cause.rows) names.push_back(name);
     out.push_back({{"name", span.name},
                    {"from", span.from},
                    {"to", span.to},
                    {"at", span.at},
                    {"amount", span.peak},
-                   {"unit", UnitOfLoss(span.name)},
-                   {"because", because}});
+                   {"unit", unit},
+                   {"because", cause.is_known ? names : json::array()},
+                   {"while", cause.is_known ? json::array() : names}});
     if (std::abs(span.peak) < kSmallLoss) continue;
-    sentences->emplace_back(span.from, LossSentence(span));
+    sentences->emplace_back(span.from, LossSentence(span, unit, cause));
   }
   return out;
 }
@@ -207,6 +224,57 @@ json ExplainStatus(const RunStory& story, Sentences* sentences) {
                        SayWhy(why) + ".");
   }
   return out;
+}
+
+json ExplainPushes(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
+  for (const Span& span : story.pushes.spans()) {
+    json force = json::array();
+    for (const auto& [name, part] : span.with) force.push_back(part);
+    out.push_back({{"from", span.from},
+                   {"to", span.to},
+                   {"at", span.at},
+                   {"force", force}});
+    sentences->emplace_back(
+        span.from,
+        Format("%.3f s: pushed with ", span.from) +
+            Format(span.peak < 100 ? "%.3g N," : "%.0f N,", span.peak) +
+            Milliseconds(span.lasted()) + ".");
+  }
+  return out;
+}
+
+json ExplainTouches(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
+  for (const Span& span : story.touches.spans()) {
+    const size_t bar = std::min(span.name.find('|'), span.name.size());
+    const std::string a = span.name.substr(0, bar);
+    const std::string b = span.name.substr(std::min(bar + 1, span.name.size()));
+    out.push_back({{"links", {a, b}}, {"from", span.from}, {"to", span.to}});
+    sentences->emplace_back(
+        span.from, Format("%.3f s: ", span.from) + Spaced(a) + " touches " +
+                       Spaced(b) + "," + Milliseconds(span.lasted()) + ".");
+  }
+  return out;
+}
+
+// Of a run about the tasks of which there is no sentence.
+std::string SayNothing(const RunStory& story) {
+  std::set<std::string> rows, losses;
+  for (const Span& span : story.rows.spans()) rows.insert(span.name);
+  for (const Span& span : story.losses.spans()) losses.insert(span.name);
+  if (rows.empty() && losses.empty()) {
+    return "No row acted: every task got what it asked.";
+  }
+  const auto count = [](const std::set<std::string>& names, const char* did) {
+    const char* noun = names.size() == 1 ? " row that " : " rows that ";
+    return std::to_string(names.size()) + noun + did;
+  };
+  std::string text = "Nothing lasted for 5 ms; --json has ";
+  if (!rows.empty()) text += count(rows, "acted");
+  if (!rows.empty() && !losses.empty()) text += " and ";
+  if (!losses.empty()) text += count(losses, "gave up less than 0.5");
+  return text + ".";
 }
 
 // Says all in the order of time, up to a fall: what falling limbs press against
@@ -259,13 +327,16 @@ json Explain(const std::filesystem::path& run) {
   out["conflicts"] = ExplainConflicts(story, &sentences);
   out["status"] = ExplainStatus(story, &sentences);
 
+  const bool is_quiet = sentences.empty();
+  out["pushes"] = ExplainPushes(story, &sentences);
+  out["touches"] = ExplainTouches(story, &sentences);
+
   json said = json::array();
   const size_t left_out = SayInOrder(summary, sentences, &said);
-  if (sentences.empty()) {
-    said.push_back(story.has_rows
-                       ? "No row acted: every task got what it asked."
-                       : log.filename().string() +
-                             " has a header and no rows.");
+  if (is_quiet) {
+    said.push_back(story.has_rows ? SayNothing(story)
+                                  : log.filename().string() +
+                                        " has a header and no rows.");
   }
   for (const json& note : notes) said.push_back(note);
   said.push_back(Ending(summary));

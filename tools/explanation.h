@@ -13,14 +13,20 @@ namespace poise {
 /// did.
 ///
 ///     rows       [{name, from, to, at, multiplier}]: while a row acted (gaps
-///                below 20 ms are none), and when its multiplier was largest.
-///     losses     [{name, from, to, at, amount, unit, because}]: while a row of
-///                a task was not met, the worst of it, and the rows that pressed
-///                at that time, hardest first. Sentences name five.
+///                below 20 ms, or of a tick, are none), and when its multiplier
+///                was largest. Here and below, from and to are the times at
+///                which the first and the last of its ticks begin.
+///     losses     [{name, from, to, at, amount, unit, because, while}]: while a
+///                row of a task was not met, and the worst of it; of the nearest
+///                conflict within 60 ms, the constraints or, where there are
+///                none, the rows of tasks that come before; where there is no
+///                conflict, the constraints that acted. Hardest first; sentences name five.
 ///     conflicts  [{at, rows: [{name, rank}]}]: rows that contradict each other,
 ///                none of which can be spared, where the log has them.
 ///     status     [{name, from, to, reason}]: where it was not "ok"; reason as
 ///                in docs/log.md, null where there is none.
+///     pushes     [{from, to, at, force}]: while something pushed, N, at its most.
+///     touches    [{links, from, to}]: while two links pressed on each other.
 ///     stance     [{foot, phase, from, to}]: the phases of each foot, in the
 ///                order of time; see docs/log.md.
 ///     recovered, fell_at   from summary.json; null where there is none of this

@@ -5,7 +5,11 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace poise {
 namespace {
@@ -49,7 +53,7 @@ TEST(Explanation, SaysWhenWhatAndWhy) {
   ASSERT_EQ(said["status"].size(), 1u);
   EXPECT_EQ(said["status"][0]["name"], "limit_relaxed");
   EXPECT_EQ(said["sentences"][0],
-            "0.620 s: the CoP of the left foot at its outer edge for 20 ms "
+            "0.620 s: the CoP of the left foot at its outer edge for 30 ms "
             "(multiplier 41 at 0.630 s).");
   EXPECT_EQ(said["sentences"].back(), "The robot recovered.");
 }
@@ -157,13 +161,14 @@ TEST(Explanation, SaysOnceWhatSeveralRowsMean) {
       MakeRun("friction",
               "time[s],status,active,lost\n"
               "0.1,ok,left_foot.friction.x_max=1;left_foot.friction.y_max=2,\n"
+              "0.101,ok,,\n"
               "0.2,ok,left_foot.friction.y_max=3,\n"
               "0.21,ok,left_foot.friction.x_min=4,\n",
               "{}"));
   EXPECT_EQ(said["rows"].size(), 4u);
   ASSERT_EQ(said["sentences"].size(), 2u);
   EXPECT_EQ(said["sentences"][0],
-            "0.200 s: the left foot at its friction limit for 10 ms "
+            "0.200 s: the left foot at its friction limit for 11 ms "
             "(multiplier 4 at 0.210 s).");
 }
 
@@ -251,7 +256,10 @@ TEST(Explanation, NamesTheStrongestOfManyCauses) {
     const nlohmann::json said = Explain(MakeRun(
         "causes" + std::to_string(cell.size()),
         head + active + "torque.late.min=0.5" + loss + cell + "\n", "{}"));
-    const nlohmann::json all = said["losses"][0]["because"];
+    // What acts where no conflict is known need not press on the task.
+    const nlohmann::json all =
+        said["losses"][0][cell.empty() ? "while" : "because"];
+    EXPECT_TRUE(said["losses"][0][cell.empty() ? "because" : "while"].empty());
     EXPECT_EQ(all.size(), cell.empty() ? 43u : 42u);
     EXPECT_EQ(all[0], "torque.j41.max");
     EXPECT_EQ(all[41], "torque.j0.max");
@@ -263,13 +271,162 @@ TEST(Explanation, NamesTheStrongestOfManyCauses) {
           << text;
     }
   }
+  const std::string begin = "0.100 s: momentum.ly gave up 12 N (at 0.100 s), ";
   const std::string five =
-      "0.100 s: momentum.ly gave up 12 N (at 0.100 s), because of the torque "
-      "of j41 at its upper limit, the torque of j40 at its upper limit, the "
+      "the torque of j41 at its upper limit, the torque of j40 at its upper "
+      "limit, the "
       "torque of j39 at its upper limit, the torque of j38 at its upper limit, "
       "the torque of j37 at its upper limit and ";
-  EXPECT_EQ(spoken[0], five + "38 more.");
-  EXPECT_EQ(spoken[1], five + "37 more.");
+  EXPECT_EQ(spoken[0], begin + "while " + five + "38 more acted.");
+  EXPECT_EQ(spoken[1], begin + "because of " + five + "37 more.");
+}
+
+// A task that comes before one is why it is not met, where no constraint is.
+TEST(Explanation, NamesTheTasksThatComeBefore) {
+  const nlohmann::json said = Explain(MakeRun(
+      "before",
+      "time[s],status,active,lost,conflict\n"
+      "1.600,ok,,,momentum.lx=5;joint.l_knee.max=2\n"
+      "1.650,ok,left_foot.friction.x_max=1,momentum.lx=9,"
+      "momentum.lx=5;posture.l_knee=4;posture.r_knee=4;newton_euler.fx=1\n"
+      "1.667,ok,left_foot.friction.x_max=1,momentum.lx=47.4;com.x=2,\n"
+      "1.700,ok,,,frame.hand.vx=6;left_foot.cop.x_max=3\n",
+      "{}"));
+  ASSERT_EQ(said["losses"].size(), 2u);
+  EXPECT_EQ(
+      said["losses"][0]["because"],
+      (nlohmann::json{"posture.l_knee", "posture.r_knee", "newton_euler.fx"}));
+  std::vector<std::string> losses;
+  for (const std::string sentence : said["sentences"]) {
+    if (sentence.find("gave up") != std::string::npos) {
+      losses.push_back(sentence);
+    }
+  }
+  EXPECT_EQ(
+      losses,
+      (std::vector<std::string>{
+          "1.650 s: momentum.lx gave up 47.4 N (at 1.667 s), because of "
+          "posture (rank 4), newton euler (rank 1).",
+          "1.667 s: com.x gave up 2 m/s2 (at 1.667 s), because of "
+          "momentum (rank 5), posture (rank 4), newton euler (rank 1)."}));
+}
+
+TEST(Explanation, SaysLossesInTheirUnits) {
+  const std::pair<const char*, const char*> units[] = {
+      {"momentum.kx", "N m"},
+      {"momentum.lx", "N"},
+      {"angular_momentum.kz", "N m"},
+      {"linear_momentum.ly", "N"},
+      {"newton_euler.my", "N m"},
+      {"newton_euler.fz", "N"},
+      {"left_foot.no_contact.mx", "N m"},
+      {"left_foot.force.fx", "N"},
+      {"left_foot.contact.wx", "rad/s2"},
+      {"left_foot.contact.vx", "m/s2"},
+      {"frame.l_hand.wz", "rad/s2"},
+      {"frame.l_hand.vz", "m/s2"},
+      {"com.x", "m/s2"},
+      {"posture.l_knee", "rad/s2"},
+      {"posture.lift", "m/s2"},
+      {"light_joints.thumb.2", "rad/s2"},
+      {"mimic.lift", "m/s2"},
+      {"torque_minimization.l_knee", "N m"},
+      {"torque_minimization.lift", "N"}};
+  std::string lost;
+  for (const auto& [name, unit] : units) lost += std::string(name) + "=1;";
+  const nlohmann::json said =
+      Explain(MakeRun("units",
+                      "time[s],q.l_knee[rad],q.lift[m],status,active,lost\n"
+                      "0,0,0,ok,," +
+                          lost + "\n",
+                      "{}"));
+  ASSERT_EQ(said["losses"].size(), std::size(units));
+  for (size_t i = 0; i < std::size(units); ++i) {
+    EXPECT_EQ(said["losses"][i]["name"], units[i].first);
+    EXPECT_EQ(said["losses"][i]["unit"], units[i].second) << units[i].first;
+  }
+}
+
+// At 20 Hz each tick was a span of 0 ms, and none was said.
+TEST(Explanation, CountsATickToItsEnd) {
+  const auto sentences = [](const std::string& name, const std::string& rows) {
+    const std::vector<std::string> said = Explain(MakeRun(
+        name, "time[s],status,active,lost\n" + rows, "{}"))["sentences"];
+    return said;
+  };
+  EXPECT_EQ(sentences("slow",
+                      "0,ok,,\n0.05,ok,torque.l_knee.max=1,\n"
+                      "0.1,ok,torque.l_knee.max=2,\n0.15,ok,,\n"
+                      "0.2,ok,,\n0.25,ok,torque.l_knee.max=2,\n")[0],
+            "0.050 s: the torque of l knee at its upper limit for 100 ms "
+            "(multiplier 2 at 0.100 s).");
+  const std::string quick = "0,ok,,\n0.001,ok,torque.l_knee.max=1,\n";
+  EXPECT_EQ(sentences("quick", quick + "0.002,ok,,\n")[0],
+            "Nothing lasted for 5 ms; --json has 1 row that acted.");
+  EXPECT_EQ(sentences("small", quick + "0.002,ok,joint.l_knee.max=1,com.x=0.1;"
+                                       "com.y=0.1\n")[0],
+            "Nothing lasted for 5 ms; --json has 2 rows that acted and 2 rows "
+            "that gave up less than 0.5.");
+  EXPECT_EQ(sentences("clear", "0,ok,,\n0.05,ok,,\n")[0],
+            "No row acted: every task got what it asked.");
+}
+
+TEST(Explanation, SaysWhatPushedAndWhatTouched) {
+  const nlohmann::json said = Explain(
+      MakeRun("pushed_and_touched",
+              "time[s],push.fx[N],push.fy[N],push.fz[N],touching,status,"
+              "active\n0.999,0,0,0,,ok,\n1.000,0,0,0,,ok,\n"
+              "1.001,100,133.6,0,,ok,\n1.002,100,133.6,0,l_hand|r_thigh,ok,\n"
+              "1.003,0,0,0,l_hand|r_thigh,ok,\n1.004,0,-3,4,,ok,\n"
+              "1.005,0,0,0,,ok,\n",
+              R"({"recovered": true})"));
+  const std::vector<std::string> sentences = said["sentences"];
+  EXPECT_EQ(sentences, (std::vector<std::string>{
+                           "1.001 s: pushed with 167 N, for 2 ms.",
+                           "1.002 s: l hand touches r thigh, for 2 ms.",
+                           "1.004 s: pushed with 5 N, for 1 ms.",
+                           "No row acted: every task got what it asked.",
+                           "The robot recovered."}));
+  ASSERT_EQ(said["pushes"].size(), 2u);
+  EXPECT_EQ(said["pushes"][0],
+            nlohmann::json::parse(R"({"from": 1.001, "to": 1.002, "at": 1.002,
+                                      "force": [100.0, 133.6, 0.0]})"));
+  EXPECT_EQ(said["touches"],
+            nlohmann::json::parse(R"([{"links": ["l_hand", "r_thigh"],
+                                       "from": 1.002, "to": 1.003}])"));
+}
+
+TEST(Explanation, SaysWhatGaveWay) {
+  const nlohmann::json said =
+      Explain(MakeRun("gave_way",
+                      "time[s],status,active,reason\n0,limit_relaxed,,"
+                      "torque.l_knee.max\n0.1,truncated,,rank_5\n",
+                      "{}"));
+  EXPECT_EQ(said["status"][0]["reason"], "torque.l_knee.max");
+  EXPECT_EQ(said["sentences"][0],
+            "0.000 s: the controller says limit relaxed, until 0.000 s: what "
+            "gave way most is the torque of l knee at its upper limit.");
+  EXPECT_EQ(said["sentences"][1],
+            "0.100 s: the controller says truncated, until 0.100 s: rank 5 is "
+            "not solved, nor what comes after it.");
+}
+
+// JSON has no other text; what is said names the place.
+TEST(Explanation, RefusesWhatIsNoText) {
+  const auto refusal = [](const std::string& name, const std::string& rows) {
+    const auto run = MakeRun(name, "time[s],status,active\n" + rows, "{}");
+    try {
+      Explain(run);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what())
+          .substr((run / "log.csv").string().size());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal("no_text", "0,ok,\n0.1,ok,torque.l_\xffpaule.max=1\n"),
+            ":3: active is 'torque.l_?paule.max=1', is not UTF-8");
+  EXPECT_EQ(refusal("no_row", "0,ok\n"),
+            ":2: has 2 cells, must have 3, as the header has");
 }
 
 }  // namespace

@@ -34,6 +34,9 @@ class LogReader {
   /// A cell as a number; NaN if it is none.
   virtual double Number(int column) const = 0;
 
+  /// The file and, in it, the row that was read last: "FILE:LINE".
+  virtual std::string place() const = 0;
+
   /// About how many rows the whole file has, from a quick look at it.
   virtual long CountRows() const = 0;
 
