@@ -317,10 +317,11 @@ void Validate(const Scenario& scenario) {
   RequireFew("stance", copy.stance.size());
   CheckOrder(copy.stance);
   const double step = copy.plant.dt, tick = copy.control.dt;
-  Require(tick > step / 2 && IsMultiple(tick, step), "plant.rate", 1 / step,
-          "a multiple of control.rate");
-  Require(tick < (kMostStepsInATick + 0.5) * step, "plant.rate", 1 / step,
-          "at most 1000 times control.rate");
+  const std::string rates = " of plant.rate, which is " + PrintNumber(1 / step);
+  Require(tick > step / 2 && IsMultiple(tick, step), "control.rate", 1 / tick,
+          ("a whole part" + rates).c_str());
+  Require(tick < (kMostStepsInATick + 0.5) * step, "control.rate", 1 / tick,
+          ("at least a thousandth" + rates).c_str());
   Require(IsMultiple(copy.control.delay, step), "control.delay",
           copy.control.delay, "a multiple of the plant's step");
   Require(copy.duration <= kMostTicks * tick, "duration", copy.duration,

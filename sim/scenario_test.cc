@@ -379,14 +379,16 @@ TEST(Scenario, AbsurdNumbersAreRefusedWithTheirLine) {
 }
 
 TEST(Scenario, NumbersThatCannotBeHadTogetherAreRefused) {
-  const std::string multiple =
-      "trial.yaml: plant.rate is 1000, must be a multiple of control.rate";
-  EXPECT_EQ(Complaint("control: {rate: 300}\n"), multiple);  // 1000 / 300.
-  EXPECT_EQ(Complaint("control: {rate: 2000}\n"), multiple);
+  const auto whole_part = [](const std::string& rate) {
+    return "trial.yaml: control.rate is " + rate +
+           ", must be a whole part of plant.rate, which is 1000";
+  };
+  EXPECT_EQ(Complaint("control: {rate: 300}\n"), whole_part("300"));
+  EXPECT_EQ(Complaint("control: {rate: 2000}\n"), whole_part("2000"));
   EXPECT_EQ(Complaint("control: {rate: 250}\n"), "none");
   const std::string times =
-      "trial.yaml: plant.rate is 20000, must be at most 1000 times "
-      "control.rate";
+      "trial.yaml: control.rate is 10, must be at least a thousandth of "
+      "plant.rate, which is 20000";
   EXPECT_EQ(Complaint("{control: {rate: 10}, plant: {rate: 10000}}"), "none");
   EXPECT_EQ(Complaint("{control: {rate: 10}, plant: {rate: 20000}}"), times);
   EXPECT_EQ(Complaint("control: {delay: 0.0015}\n"),

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -197,6 +198,34 @@ void Apply(const Overrides& o, Scenario* scenario) {
   }
 }
 
+// A refusal of a scenario, with each setting that an option gave by the name of that.
+std::string ByOption(std::string text, const Overrides& o) {
+  const std::tuple<bool, const char*, const char*> options[] = {
+      {o.time.has_value(), "duration", "--time"},
+      {o.control_rate.has_value(), "control.rate", "--control-rate"},
+      {o.plant_rate.has_value(), "plant.rate", "--plant-rate"},
+      {o.delay.has_value(), "control.delay", "--delay"},
+      {o.mass_error.has_value(), "control.mass_error", "--mass-error"},
+      {o.mu_plant.has_value(), "plant.friction", "--mu-plant"},
+      {o.torque_scale.has_value(), "plant.torque_scale", "--torque-scale"},
+      {o.noise.has_value(), "sensors.noise", "--noise"},
+      {!o.freeze.empty(), "sensors.freeze_at", "--freeze"},
+      {!o.freeze.empty(), "sensors.freeze_for", "--freeze"},
+      {!o.pushes && o.force, "pushes.force", "--force"},
+      {!o.pushes && o.duration, "pushes.duration", "--duration"},
+      {!o.pushes && o.at, "pushes.at", "--at"},
+      {!o.pushes && !o.point.empty(), "pushes.point", "--point"},
+      {o.direction.has_value(), "direction", "--direction"}};
+  for (const auto& [is_given, setting, option] : options) {
+    if (!is_given) continue;
+    const std::string name = setting;
+    if (text.rfind(name + " is ", 0) == 0) text.replace(0, name.size(), option);
+    const size_t at = text.find(" of " + name);
+    if (at != std::string::npos) text.replace(at + 4, name.size(), option);
+  }
+  return text;
+}
+
 // The names of our scenarios, in alphabetical order.
 std::string ScenarioNames() {
   std::set<std::string> names;
@@ -291,8 +320,12 @@ PushOptions ReadPushOptions(int argc, char** argv) {
   const std::filesystem::path scenario_file = FindScenario(scenario_name);
   const Scenario as_written = LoadScenario(scenario_file);
   Scenario scenario = as_written;
-  Apply(overrides, &scenario);
-  Validate(scenario);
+  try {
+    Apply(overrides, &scenario);
+    Validate(scenario);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(ByOption(error.what(), overrides));
+  }
   const std::filesystem::path robot_file =
       robot.empty() ? kRobot : UserPath(robot);
   Profile feet_and_posture;

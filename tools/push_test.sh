@@ -36,6 +36,8 @@ stop "$interrupted" INT
 is_whole "$interrupted"
 grep -q '"interrupted": true' "$interrupted/summary.json" ||
   fail "summary.json does not say that the run was interrupted"
+grep -q '"recovered": null' "$interrupted/summary.json" ||
+  fail "summary.json judges a run that was interrupted"
 "$explain" "$interrupted" | grep -q 'The run was interrupted at ' ||
   fail "explain does not say that the run was interrupted"
 
@@ -100,6 +102,14 @@ refuse "the solve at 0.200000 s is not in the scenario, which takes $(
   )0.100000 s" --time 0.1 --dump-solve 0.2 --no-report \
   --out "$TEST_TMPDIR/late"
 
+# What an option gives is refused by its name, not by that of a file's key.
+refuse "--control-rate is 333, must be a whole part of plant.rate, which is 1000" \
+  --control-rate 333
+refuse "control.rate is 1000, must be a whole part of --plant-rate, which is 1500" \
+  --plant-rate 1500
+refuse "--time is 0, must be 0.001 to 86400 s" --time 0
+refuse "--duration is -1, must be 0 to 86400 s" --duration=-1
+
 # What a doctor warns of is said: one knee too weak, twice, in one line.
 weak=$(write weak.urdf "$(sed '/<joint name="._knee"/,/<\/joint>/s/effort="[^"]*"/effort="2.5"/' \
   robot/models/humanoid.urdf)")
@@ -120,8 +130,8 @@ refuse "scenario '$gone' is unknown, must be a file or one of $scenarios" \
 refuse_file --scenario ":2: key 'lenght' is unknown, must be one of $(
   )name, duration, seed, start, pushes, stance, com, tasks, control, plant, $(
   )sensors" scenario.yaml 'duration: 3' 'lenght: 4'
-refuse_file --scenario ": plant.rate is 300, must be a multiple of $(
-  )control.rate" rate.yaml 'plant: {rate: 300}'
+refuse_file --scenario ": control.rate is 1000, must be a whole part of $(
+  )plant.rate, which is 300" rate.yaml 'plant: {rate: 300}'
 
 refuse "$gone: cannot be read" --robot "$gone"
 refuse_file --robot ":2: an element is not closed, or by another name" \
@@ -169,9 +179,9 @@ for seed in 99999999999 -1 1.5 one; do
   refuse "--seed: is '$seed', must be a whole number from 0 to 4294967295" \
     --seed "$seed"
 done
-refuse "pushes.force is 1e+09, must be -1e+06 to 1e+06 N" --force 1e9
-refuse "direction is 400, must be -360 to 360 deg" --direction 400
-refuse "control.delay is 0.0005, must be a multiple of the plant's step" \
+refuse "--force is 1e+09, must be -1e+06 to 1e+06 N" --force 1e9
+refuse "--direction is 400, must be -360 to 360 deg" --direction 400
+refuse "--delay is 0.0005, must be a multiple of the plant's step" \
   --delay 0.0005
 refuse "--plant: mars not in {bullet,mujoco}" --plant mars
 refuse "link 'nose' is unknown, must be a link of robot 'humanoid'" --link nose
