@@ -25,7 +25,8 @@ namespace poise {
 ///
 /// A log without rows, or one cut short, is read as far as it goes and noted.
 /// Throws std::invalid_argument, naming the file, if there is none, if it has no
-/// column time, or holds what is no number where one must be. Two passes, memory
+/// column time, or holds what is no number where one must be, or a whole row of
+/// another length than its header. Two passes, memory
 /// of the result.
 nlohmann::json ReadRunLog(const std::filesystem::path& file);
 
