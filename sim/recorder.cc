@@ -38,14 +38,11 @@ std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
         "other.fz[N]", "self_contacts"}) {
     columns.push_back(part);
   }
-  const auto slides = [](const Joint& joint) {
-    return joint.type == JointType::kPrismatic;
-  };
   for (const Joint& joint : robot.model.tree.joints()) {
-    columns.push_back("tau." + joint.name + (slides(joint) ? "[N]" : "[Nm]"));
+    columns.push_back("tau." + joint.name + "[Nm]");
   }
   for (const Joint& joint : robot.model.tree.joints()) {
-    columns.push_back("q." + joint.name + (slides(joint) ? "[m]" : "[rad]"));
+    columns.push_back("q." + joint.name + "[rad]");
   }
   for (const Foot& foot : robot.feet) {
     for (const char* part : kWrench) {

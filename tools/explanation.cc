@@ -172,7 +172,7 @@ json ExplainStance(const RunStory& story, Sentences* sentences) {
 json ExplainLosses(const RunStory& story, Sentences* sentences) {
   json out = json::array();
   for (const Span& span : story.losses.spans()) {
-    const std::string unit = UnitOfLoss(span.name, story);
+    const std::string unit = UnitOfLoss(span.name);
     const LossCause cause = FindCause(span, story);
     json names = json::array();
     for (const auto& [name, value] : cause.rows) names.push_back(name);

@@ -72,16 +72,12 @@ const LoggedConflict* FindNearest(const Span& loss, const RunStory& story) {
 
 }  // namespace
 
-std::string UnitOfLoss(const std::string& name, const RunStory& story) {
+std::string UnitOfLoss(const std::string& name) {
   const std::string task = name.substr(0, name.find('.'));
   const std::string row = name.substr(name.rfind('.') + 1);
-  if (task == "posture" || task == "light_joints" || task == "mimic" ||
-      task == "torque_minimization") {
-    const bool is_force = task == "torque_minimization";
-    if (story.slides.count(name.substr(task.size() + 1)) > 0) {
-      return is_force ? "N" : "m/s2";
-    }
-    return is_force ? "N m" : "rad/s2";
+  if (task == "torque_minimization") return "N m";
+  if (task == "posture" || task == "light_joints" || task == "mimic") {
+    return "rad/s2";
   }
   switch (row.empty() ? '\0' : row[0]) {
     case 'k':

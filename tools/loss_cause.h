@@ -14,9 +14,9 @@ struct LossCause {
   Values rows;             ///< Hardest first; of ranks, the lowest.
 };
 
-/// The unit of what a row of a task lost, by what the row is called; of joints, by
-/// whether they slide.
-std::string UnitOfLoss(const std::string& name, const RunStory& story);
+/// The unit of what a row of a task lost, by what the row is called; of a joint, as
+/// of one that turns.
+std::string UnitOfLoss(const std::string& name);
 
 /// What the nearest conflict says: the constraints in it or, where there are none,
 /// the tasks that come before. Where no conflict is known, the constraints that

@@ -85,18 +85,6 @@ double FindPeriod(const std::filesystem::path& log, int time) {
   return reader->Next() ? std::max(0.0, reader->Number(time) - first) : 0;
 }
 
-// The joints of which a log has the position in m.
-std::set<std::string> FindSliding(const LogReader& reader) {
-  std::set<std::string> joints;
-  for (const std::string& column : reader.columns()) {
-    const std::string_view name = WithoutUnit(column);
-    if (name.substr(0, 2) == "q." && UnitOf(column) == "m") {
-      joints.emplace(name.substr(2));
-    }
-  }
-  return joints;
-}
-
 }  // namespace
 
 void Spans::Add(const std::string& name, const LogTick& tick, double value,
@@ -131,7 +119,6 @@ RunStory ReadRunStory(const std::filesystem::path& log, LogReader* opened) {
   const std::vector<int> push =
       FindAll(reader, {"push.fx", "push.fy", "push.fz"});
   RunStory story;
-  story.slides = FindSliding(reader);
   for (const std::string name : {"left_foot", "right_foot"}) {
     story.feet.emplace_back(name, reader);
   }

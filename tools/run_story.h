@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,7 +64,6 @@ struct RunStory {
   Spans touches;    ///< Of two links: "a|b".
   std::vector<FootStory> feet;
   std::vector<LoggedConflict> conflicts;
-  std::set<std::string> slides;  ///< Joints that do, and do not turn.
   bool has_rows = false;
 };
 
