@@ -13,6 +13,7 @@
 #include <sstream>
 #include <utility>
 
+#include "robot/profile.h"
 #include "sim/closed_loop.h"
 #include "tests/util/load_humanoid.h"
 
