@@ -12,8 +12,10 @@ leads to it, if mutants of its own die.
   bazel run //tools:proof             writes docs/proof.md
   bazel run //tools:proof -- --check  exit code 1 if a function has no proof, if
                                       none of its mutants died or was tried, if
-                                      docs/proof.md says other than that, or if
-                                      survivors.txt does not explain a survivor
+                                      docs/proof.md says other than that, if
+                                      survivors.txt does not explain a survivor,
+                                      or equivalent.txt has a mutant that the
+                                      code has no more
 """
 
 import argparse
@@ -27,7 +29,8 @@ _HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(_HERE), str(_HERE.parent / "mutation")]
 
 from evidence import KINDS, LAYERS, Workspace  # noqa: E402
-from survivors import read_entries  # noqa: E402
+from mutants import make_mutants  # noqa: E402
+from survivors import explained, read_entries  # noqa: E402
 from table import make_rows, read_results  # noqa: E402
 
 # What people wrote stands above this line, what this program writes below.
@@ -141,6 +144,21 @@ def unexplained(file, results):
     ]
 
 
+def gone(root):
+    """A mutant in equivalent.txt that the code has no more."""
+    file = root / "tools/mutation/equivalent.txt"
+    pool = []
+    for path in sorted({place.split()[0] for place, _, _ in read_entries(file)}):
+        if not (root / path).is_file():
+            return [f"{file.name}: no such file any more: {path}"]
+        pool += make_mutants(path, (root / path).read_text())
+    try:
+        explained(file, pool)
+    except ValueError as error:
+        return [str(error)]
+    return []
+
+
 def main():
     parser = argparse.ArgumentParser(
         prog="proof", description=__doc__,
@@ -164,6 +182,7 @@ def main():
     complaints += unexplained(
         root / "tools/mutation/survivors.txt", read_results(workspace)
     )
+    complaints += gone(root)
     for complaint in complaints:
         print(complaint)
     print(f"{len(rows)} public functions, {without} without proof")
