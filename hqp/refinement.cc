@@ -13,6 +13,8 @@ namespace {
 // Where a row is missed by less than this, relative to what it is added up
 // from, nothing is left to refine.
 constexpr double kRefined = 1e-13;
+
+// Each brings 15 digits back or so: numbers of 1e-6 from beside those of 1e90.
 constexpr int kMaxPasses = 8;
 
 // Rows of one level that cannot all be met: where weights differ by more than

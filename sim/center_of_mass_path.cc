@@ -26,9 +26,7 @@ void CenterOfMassPath::Write(double time, Reference* reference) const {
   const double x = std::clamp((time - start_) / over_, 0.0, 1.0);
   const MinimumJerk s(x);
   const double rate = s.rate / over_;
-  // s.acceleration, its factors in the order in which recorded runs have them:
-  // they replay to the bit.
-  const double acceleration = 60 * x * (2 * x - 1) * (x - 1) / (over_ * over_);
+  const double acceleration = s.acceleration / (over_ * over_);
   const Eigen::Vector3d way = to_ - from_;
 
   const double w = 2 * kPi / motion_.period;
