@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/lanes.h"
-#include "dynamics/recursion.h"
+#include "dynamics/simd/lanes.h"
+#include "dynamics/simd/recursion.h"
 #include "dynamics/tree.h"
 #include "math/spatial.h"
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/recursion.h"
+#include "dynamics/simd/recursion.h"
 #include "dynamics/tree.h"
 
 namespace poise {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/recursion.h"
+#include "dynamics/simd/recursion.h"
 #include "dynamics/tree.h"
 #include "math/pose.h"
 #include "math/vector6.h"

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "dynamics/joint_maps.h"
-#include "dynamics/mass_moments.h"
+#include "dynamics/simd/joint_maps.h"
+#include "dynamics/simd/mass_moments.h"
 #include "math/inertia.h"
 #include "math/pose.h"
 

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "hqp/active_problem.h"
 #include "hqp/certificate.h"
+#include "hqp/fast/working_set_problem.h"
 #include "hqp/solver.h"
 #include "tests/util/random_hierarchy.h"
 #include "tests/util/tolerance.h"

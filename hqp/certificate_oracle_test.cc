@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "hqp/cascade.h"
 #include "hqp/certificate.h"
+#include "hqp/reference/cascade.h"
 #include "tests/util/random_hierarchy.h"
 
 namespace poise {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hqp/cascade.h"
+#include "hqp/reference/cascade.h"
 #include "hqp/solver.h"
 #include "tests/util/lexicographic.h"
 #include "tests/util/random_hierarchy.h"

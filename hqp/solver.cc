@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hqp/kernels.h"
+#include "hqp/fast/kernels.h"
 
 namespace poise {
 namespace {

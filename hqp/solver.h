@@ -4,12 +4,12 @@
 #include <functional>
 #include <vector>
 
-#include "hqp/active_problem.h"
-#include "hqp/budget.h"
 #include "hqp/certificate.h"
-#include "hqp/descent.h"
+#include "hqp/fast/active_set_search.h"
+#include "hqp/fast/budget.h"
+#include "hqp/fast/multipliers.h"
+#include "hqp/fast/working_set_problem.h"
 #include "hqp/hierarchy.h"
-#include "hqp/report.h"
 #include "hqp/solution.h"
 
 namespace poise {

@@ -18,8 +18,8 @@
 #include <chrono>
 #include <vector>
 
-#include "hqp/cascade.h"
 #include "hqp/certificate.h"
+#include "hqp/reference/cascade.h"
 #include "hqp/solver.h"
 
 namespace poise {

@@ -8,11 +8,11 @@
 #include <new>
 #include <vector>
 
-#include "hqp/active_problem.h"
-#include "hqp/budget.h"
-#include "hqp/cascade.h"
 #include "hqp/certificate.h"
-#include "hqp/descent.h"
+#include "hqp/fast/active_set_search.h"
+#include "hqp/fast/budget.h"
+#include "hqp/fast/working_set_problem.h"
+#include "hqp/reference/cascade.h"
 #include "tests/util/count_malloc.h"
 #include "tests/util/random_hierarchy.h"
 #include "tests/util/tolerance.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hqp/cascade.h"
+#include "hqp/reference/cascade.h"
 #include "hqp/solver.h"
 
 namespace poise {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "hqp/cascade.h"
 #include "hqp/certificate.h"
+#include "hqp/reference/cascade.h"
 #include "hqp/solver.h"
 #include "tests/util/random_hierarchy.h"
 #include "tests/util/tolerance.h"

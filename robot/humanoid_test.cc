@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "dynamics/tick.h"
-#include "robot/profile.h"
+#include "robot/profile/profile.h"
 #include "robot/robot.h"
 #include "tests/util/load_humanoid.h"
 #include "tests/util/tolerance.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dynamics/tick.h"
-#include "robot/feet.h"
+#include "robot/feet/feet.h"
 #include "robot/finding.h"
 #include "robot/limits.h"
 

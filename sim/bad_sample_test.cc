@@ -11,7 +11,7 @@
 #include "robot/control/controller.h"
 #include "robot/control/estimator.h"
 #include "robot/control/measurement.h"
-#include "sim/make_plant.h"
+#include "sim/plants/make_plant.h"
 #include "sim/scenario.h"
 #include "sim/sensors.h"
 #include "tests/util/load_humanoid.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "robot/control/minimum_jerk.h"
+#include "robot/control/easing/minimum_jerk.h"
 
 namespace poise {
 

@@ -8,7 +8,7 @@
 
 #include "robot/control/task_set.h"
 #include "robot/finding.h"
-#include "sim/make_plant.h"
+#include "sim/plants/make_plant.h"
 #include "sim/start_state.h"
 
 namespace poise {

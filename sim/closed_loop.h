@@ -13,12 +13,12 @@
 #include "robot/control/measurement.h"
 #include "robot/robot.h"
 #include "sim/center_of_mass_path.h"
+#include "sim/log/tick_record.h"
 #include "sim/observation.h"
-#include "sim/plant.h"
+#include "sim/plants/plant.h"
 #include "sim/push.h"
 #include "sim/scenario.h"
 #include "sim/sensors.h"
-#include "sim/tick_record.h"
 
 namespace poise {
 

@@ -6,8 +6,8 @@
 
 #include "dynamics/tick.h"
 #include "robot/robot.h"
-#include "sim/plant.h"
-#include "sim/plant_settings.h"
+#include "sim/plants/plant.h"
+#include "sim/plants/plant_settings.h"
 
 namespace poise {
 

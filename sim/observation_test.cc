@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "robot/robot.h"
-#include "robot/urdf.h"
+#include "robot/urdf/urdf.h"
 #include "tests/util/simple_robots.h"
 
 namespace poise {

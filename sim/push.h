@@ -7,7 +7,7 @@
 #include <string>
 
 #include "robot/robot.h"
-#include "sim/plant.h"
+#include "sim/plants/plant.h"
 
 namespace poise {
 

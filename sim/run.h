@@ -8,8 +8,8 @@
 
 #include "robot/robot.h"
 #include "sim/judge.h"
-#include "sim/log_rows.h"
-#include "sim/recorder.h"
+#include "sim/log/log_rows.h"
+#include "sim/log/recorder.h"
 #include "sim/scenario.h"
 #include "sim/yardstick.h"
 

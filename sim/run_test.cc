@@ -10,8 +10,8 @@
 #include <iterator>
 #include <thread>
 
+#include "sim/log/summary.h"
 #include "sim/story_fixture.h"
-#include "sim/summary.h"
 #include "tests/util/shared_data.h"
 #include "tests/util/test_file.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/plant_settings.h"
+#include "sim/plants/plant_settings.h"
 #include "sim/push.h"
 #include "sim/sensor_settings.h"
 

@@ -8,7 +8,7 @@
 
 #include "robot/control/measurement.h"
 #include "robot/robot.h"
-#include "sim/plant.h"
+#include "sim/plants/plant.h"
 #include "sim/sensor_settings.h"
 
 namespace poise {

@@ -3,7 +3,7 @@
 
 #include "robot/control/measurement.h"
 #include "robot/robot.h"
-#include "sim/plant_settings.h"
+#include "sim/plants/plant_settings.h"
 #include "sim/scenario.h"
 
 namespace poise {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "robot/finding.h"
-#include "robot/yaml_file.h"
+#include "robot/profile/yaml_file.h"
 
 namespace poise {
 

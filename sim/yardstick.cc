@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "dynamics/tick.h"
-#include "robot/feet.h"
+#include "robot/feet/feet.h"
 
 namespace poise {
 

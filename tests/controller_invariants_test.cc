@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "hqp/cascade.h"
+#include "hqp/reference/cascade.h"
 #include "hqp/solution.h"
 #include "robot/control/controller.h"
 #include "tests/util/arbitrary.h"

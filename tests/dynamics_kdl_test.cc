@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // Inverse dynamics against another library's, Orocos KDL, on random trees.
 // dynamics_bullet_test.cc has a second one. Forward dynamics against Bullet's:
-// sim/bullet_plant_test.cc.
+// sim/plants/bullet/bullet_plant_test.cc.
 
 #include <gtest/gtest.h>
 

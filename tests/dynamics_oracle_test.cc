@@ -11,9 +11,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "robot/urdf.h"
+#include "robot/urdf/urdf.h"
 #include "tests/util/shared_data.h"
-#include "tools/dynamics_file.h"
+#include "tools/commands/dynamics/dynamics_file.h"
 
 namespace poise {
 namespace {

@@ -11,11 +11,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "hqp/cascade.h"
 #include "hqp/certificate.h"
+#include "hqp/reference/cascade.h"
 #include "hqp/solver.h"
 #include "tests/util/shared_data.h"
-#include "tools/hqp_file.h"
+#include "tools/commands/hqp/hqp_file.h"
 
 namespace poise {
 namespace {

@@ -13,9 +13,9 @@
 #include "hqp/solver.h"
 #include "tests/util/compare_solvers.h"
 #include "tests/util/shrink_hierarchy.h"
-#include "tools/command_line.h"
-#include "tools/hqp_file.h"
-#include "tools/user_path.h"
+#include "tools/commands/command_line.h"
+#include "tools/commands/hqp/hqp_file.h"
+#include "tools/commands/user_path.h"
 
 namespace poise {
 namespace {

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <vector>
 
-#include "hqp/cascade.h"
 #include "hqp/certificate.h"
+#include "hqp/reference/cascade.h"
 #include "hqp/solver.h"
 #include "tests/util/compare_solvers.h"
 #include "tests/util/random_hierarchy.h"

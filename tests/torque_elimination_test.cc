@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "hqp/cascade.h"
 #include "hqp/hierarchy.h"
+#include "hqp/reference/cascade.h"
 #include "hqp/solution.h"
 #include "robot/control/controller.h"
 #include "tests/util/load_humanoid.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "dynamics/tree.h"
-#include "robot/urdf.h"
+#include "robot/urdf/urdf.h"
 #include "tests/util/arbitrary.h"
 #include "tests/util/simple_robots.h"
 #include "tests/util/tolerance.h"

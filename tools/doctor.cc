@@ -6,10 +6,10 @@
 #include <string>
 
 #include "robot/finding.h"
-#include "tools/command_line.h"
-#include "tools/diagnosis.h"
-#include "tools/user_path.h"
-#include "tools/write_diagnosis.h"
+#include "tools/commands/command_line.h"
+#include "tools/commands/doctor/diagnosis.h"
+#include "tools/commands/doctor/write_diagnosis.h"
+#include "tools/commands/user_path.h"
 
 namespace poise {
 namespace {

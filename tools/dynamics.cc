@@ -9,13 +9,13 @@
 #include "dynamics/tree.h"
 #include "robot/finding.h"
 #include "robot/text_file.h"
-#include "robot/urdf.h"
-#include "tools/check_inertia.h"
-#include "tools/command_line.h"
-#include "tools/dynamics_file.h"
-#include "tools/dynamics_table.h"
-#include "tools/parse_json.h"
-#include "tools/user_path.h"
+#include "robot/urdf/urdf.h"
+#include "tools/commands/command_line.h"
+#include "tools/commands/doctor/check_inertia.h"
+#include "tools/commands/dynamics/dynamics_file.h"
+#include "tools/commands/dynamics/dynamics_table.h"
+#include "tools/commands/parse_json.h"
+#include "tools/commands/user_path.h"
 
 namespace poise {
 namespace {

@@ -3,9 +3,9 @@
 #include <iostream>
 #include <string>
 
-#include "tools/command_line.h"
-#include "tools/explanation.h"
-#include "tools/user_path.h"
+#include "tools/commands/command_line.h"
+#include "tools/commands/explain/explanation.h"
+#include "tools/commands/user_path.h"
 
 namespace poise {
 namespace {

@@ -12,11 +12,11 @@
 #include <thread>
 #include <vector>
 
-#include "robot/profile.h"
-#include "tools/command_line.h"
-#include "tools/figures_draw.h"
-#include "tools/record_run.h"
-#include "tools/user_path.h"
+#include "robot/profile/profile.h"
+#include "tools/commands/command_line.h"
+#include "tools/commands/push/record_run.h"
+#include "tools/commands/user_path.h"
+#include "tools/studies/figures_draw.h"
 
 namespace poise {
 namespace {

@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "hqp/cascade.h"
 #include "hqp/certificate.h"
+#include "hqp/reference/cascade.h"
 #include "hqp/solver.h"
 #include "robot/text_file.h"
-#include "tools/command_line.h"
-#include "tools/hqp_file.h"
-#include "tools/user_path.h"
+#include "tools/commands/command_line.h"
+#include "tools/commands/hqp/hqp_file.h"
+#include "tools/commands/user_path.h"
 
 namespace poise {
 namespace {

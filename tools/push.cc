@@ -6,12 +6,12 @@
 #include <iostream>
 #include <string>
 
-#include "sim/summary.h"
-#include "tools/command_line.h"
-#include "tools/dump_solve.h"
-#include "tools/push_options.h"
-#include "tools/record_run.h"
-#include "tools/report_page.h"
+#include "sim/log/summary.h"
+#include "tools/commands/command_line.h"
+#include "tools/commands/push/dump_solve.h"
+#include "tools/commands/push/push_options.h"
+#include "tools/commands/push/record_run.h"
+#include "tools/commands/report/report_page.h"
 
 namespace {
 

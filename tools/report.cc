@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/command_line.h"
-#include "tools/report_page.h"
-#include "tools/user_path.h"
+#include "tools/commands/command_line.h"
+#include "tools/commands/report/report_page.h"
+#include "tools/commands/user_path.h"
 
 namespace poise {
 namespace {

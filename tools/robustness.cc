@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "robot/finding.h"
-#include "tools/command_line.h"
-#include "tools/trials.h"
-#include "tools/user_path.h"
+#include "tools/commands/command_line.h"
+#include "tools/commands/user_path.h"
+#include "tools/studies/trials.h"
 
 namespace poise {
 namespace {

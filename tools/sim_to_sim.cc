@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "robot/profile.h"
+#include "robot/profile/profile.h"
 #include "sim/outcome.h"
 #include "sim/run.h"
 #include "sim/scenario.h"
-#include "tools/command_line.h"
+#include "tools/commands/command_line.h"
 
 namespace poise {
 namespace {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "robot/profile.h"
+#include "robot/profile/profile.h"
 #include "sim/outcome.h"
 #include "sim/scenario.h"
-#include "tools/command_line.h"
-#include "tools/strictness_study.h"
+#include "tools/commands/command_line.h"
+#include "tools/studies/strictness_study.h"
 
 namespace poise {
 namespace {

@@ -9,7 +9,7 @@
 #include <regex>
 #include <string>
 
-#include "robot/urdf.h"
+#include "robot/urdf/urdf.h"
 
 namespace poise {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "hqp/hierarchy.h"
 #include "hqp/solution.h"
-#include "robot/control/easing.h"
+#include "robot/control/easing/easing.h"
 #include "robot/control/task.h"
 #include "robot/control/tick_report.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "math/so3.h"
-#include "robot/control/minimum_jerk.h"
+#include "robot/control/easing/minimum_jerk.h"
 
 namespace poise {
 namespace {

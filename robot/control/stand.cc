@@ -14,8 +14,8 @@
 #include "hqp/solution.h"
 #include "hqp/solver.h"
 #include "math/so3.h"
+#include "robot/feet/knee.h"
 #include "robot/finding.h"
-#include "robot/knee.h"
 
 namespace poise {
 namespace {

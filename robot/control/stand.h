@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "robot/finding.h"
-#include "robot/profile.h"
+#include "robot/profile/profile.h"
 #include "robot/robot.h"
 
 namespace poise {

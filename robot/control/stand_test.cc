@@ -6,7 +6,7 @@
 #include <string>
 
 #include "dynamics/tick.h"
-#include "robot/urdf.h"
+#include "robot/urdf/urdf.h"
 #include "tests/util/shared_data.h"
 
 namespace poise {

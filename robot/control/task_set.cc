@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "robot/finding.h"
-#include "robot/yaml_file.h"
+#include "robot/profile/yaml_file.h"
 
 namespace poise {
 namespace {

@@ -20,8 +20,8 @@
 #include <tuple>
 #include <vector>
 
-#include "hqp/cascade.h"
 #include "hqp/certificate.h"
+#include "hqp/reference/cascade.h"
 #include "hqp/solver.h"
 #include "sim/closed_loop.h"
 #include "sim/quantile.h"

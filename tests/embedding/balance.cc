@@ -6,7 +6,7 @@
 #include "dynamics/tree.h"
 #include "robot/control/controller.h"
 #include "robot/control/task_set.h"
-#include "robot/profile.h"
+#include "robot/profile/profile.h"
 
 // Stands for the robot: fill in its encoders, gyroscope and base estimate.
 poise::State ReadSensors(const poise::Robot& robot, double time) {

@@ -1,6 +1,6 @@
 """poise_fuzz_test(): a libFuzzer target, and a test of its seeds."""
 
-load("//tools:cc.bzl", "poise_cc_test")
+load("//tools/rules:cc.bzl", "poise_cc_test")
 
 def poise_fuzz_test(name, seeds, deps):
     """Tests <name>.cc, which defines LLVMFuzzerTestOneInput(), on its seeds.

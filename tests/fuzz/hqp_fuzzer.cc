@@ -5,7 +5,7 @@
 #include "hqp/certificate.h"
 #include "hqp/solver.h"
 #include "tests/fuzz/fuzzing.h"
-#include "tools/hqp_file.h"
+#include "tools/commands/hqp/hqp_file.h"
 
 namespace {
 

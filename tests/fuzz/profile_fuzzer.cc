@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/profile.h"
+#include "robot/profile/profile.h"
 #include "tests/fuzz/fuzzing.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -3,8 +3,8 @@
 
 #include "dynamics/tree.h"
 #include "tests/fuzz/fuzzing.h"
-#include "tools/dynamics_file.h"
-#include "tools/dynamics_table.h"
+#include "tools/commands/dynamics/dynamics_file.h"
+#include "tools/commands/dynamics/dynamics_table.h"
 
 namespace {
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "robot/find_feet.h"
-#include "robot/urdf.h"
+#include "robot/feet/find_feet.h"
+#include "robot/urdf/urdf.h"
 #include "tests/fuzz/fuzzing.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <sstream>
 
-#include "hqp/cascade.h"
 #include "hqp/certificate.h"
+#include "hqp/reference/cascade.h"
 #include "hqp/solver.h"
 #include "math/rank.h"
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include "hqp/cascade.h"
+#include "hqp/reference/cascade.h"
 #include "tests/util/random_hierarchy.h"
 
 namespace poise {

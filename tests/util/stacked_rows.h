@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "hqp/row_stack.h"
+#include "hqp/fast/lexicographic_factorization.h"
 #include "tests/util/lexicographic.h"
 
 namespace poise {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "dynamics/kinematics.h"
+#include "tools/commands/report/robot_shapes.h"
 #include "tools/drawing/raster.h"
 #include "tools/drawing/solid.h"
-#include "tools/robot_shapes.h"
 
 namespace poise {
 namespace {

@@ -29,7 +29,7 @@ _DIFFERENTIABLE = {
     "dynamics/kinematics.h": [
         "ComputePoses", "ComputeVelocities", "ComputeAccelerations",
     ],
-    "hqp/cascade.h": ["Cascade::Solve"],
+    "hqp/reference/cascade.h": ["Cascade::Solve"],
 }
 
 

@@ -22,7 +22,7 @@
 #include "robot/control/tasks/torque_limits.h"
 #include "robot/control/tasks/torque_minimization.h"
 #include "robot/control/torque.h"
-#include "robot/urdf.h"
+#include "robot/urdf/urdf.h"
 
 namespace poise {
 namespace {

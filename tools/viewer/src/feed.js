@@ -13,7 +13,7 @@ function bytesOf(base64) {
   return new DataView(bytes.buffer);
 }
 
-/** The inverse of EncodeChannel() in tools/channel.cc. */
+/** The inverse of EncodeChannel() in tools/commands/report/channel.cc. */
 export function decodeChannel({min, max, data}) {
   const bytes = bytesOf(data);
   const values = new Float32Array(bytes.byteLength / 2);
@@ -24,7 +24,7 @@ export function decodeChannel({min, max, data}) {
   return values;
 }
 
-/** The inverse of EncodeFloats() in tools/channel.cc. */
+/** The inverse of EncodeFloats() in tools/commands/report/channel.cc. */
 export function decodeFloats(data) {
   const bytes = bytesOf(data);
   const values = new Float32Array(bytes.byteLength / 4);

@@ -19,7 +19,7 @@ const table = (time, ...channels) => ({
   rows: time.length, time: base64(Float32Array.from(time)), channels,
 });
 
-test('a channel is decoded as tools/channel.h says', () => {
+test('a channel is decoded as tools/commands/report/channel.h says', () => {
   const values = decodeChannel(channel('q', -1, 3, [0, 65534, 32767, 65535]));
   assert.deepEqual([...values.slice(0, 3)], [-1, 3, 1]);
   assert.ok(Number.isNaN(values[3]));

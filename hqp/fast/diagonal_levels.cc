@@ -1,0 +1,419 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/fast/diagonal_levels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hqp/fast/kernels.h"
+#include "math/rank.h"
+
+namespace poise {
+namespace {
+
+using kernels::AddRows;
+using kernels::AddToRows;
+using kernels::Dots;
+using kernels::SquaredNorm;
+
+// An entry below this, of a row of unit length, is rounding's.
+constexpr double kNoEntry = 1e-15;
+
+// A gradient below this, relative to what it is added up from, is zero.
+constexpr double kZeroGradient = 1e-13;
+
+}  // namespace
+
+SelectionTail::SelectionTail(int num_variables, int max_levels)
+    : n_(num_variables), stride_((num_variables + 3) / 4 * 4) {
+  const size_t square = static_cast<size_t>(n_) * stride_;
+  level_of_.resize(n_);
+  order_.resize(n_);
+  blocks_.resize(max_levels + 1);
+  for (std::vector<double>* matrix : {&t_, &reflection_, &q_, &l_}) {
+    matrix->resize(square);
+  }
+  for (std::vector<double>* vector :
+       {&weight_, &target_, &start_, &step_, &ideal_, &scale_, &x_, &magnitude_,
+        &z_, &nu_, &scratch_, &factor_}) {
+    vector->resize(stride_);
+  }
+  Clear();
+}
+
+void SelectionTail::Clear() {
+  num_levels_ = 0;
+  std::fill(level_of_.begin(), level_of_.end(), -1);
+}
+
+void SelectionTail::Add(int variable, double weight, double target) {
+  int& level = level_of_[variable];
+  if (weight == 0 || (level >= 0 && level != num_levels_ - 1)) return;
+  if (level < 0) {
+    level = num_levels_ - 1;
+    weight_[variable] = weight;
+    target_[variable] = target;
+    return;
+  }
+  // Two rows of one level: the sum of squares has its minimum between them.
+  const double sum = weight_[variable] + weight;
+  target_[variable] =
+      (weight_[variable] * target_[variable] + weight * target) / sum;
+  weight_[variable] = sum;
+}
+
+void SelectionTail::Finish(const double* targets) {
+  AddLevel();
+  for (int j = 0; j < n_; ++j) {
+    if (level_of_[j] < 0) Add(j, 1, targets != nullptr ? targets[j] : 0);
+  }
+  largest_target_ = 0;
+  for (int j = 0; j < n_; ++j) {
+    largest_target_ = std::max(largest_target_, std::abs(target_[j]));
+  }
+  const double usual = UsualWeight();
+  int position = 0;
+  const auto add = [&](int level, bool is_usual) {
+    for (int j = 0; j < n_; ++j) {
+      if (level_of_[j] == level && (weight_[j] == usual) == is_usual) {
+        order_[position++] = j;
+      }
+    }
+  };
+  for (int level = num_levels_ - 1; level >= 0; --level) {
+    blocks_[level].begin = position;
+    add(level, false);
+    usual_begin_ = position;  // At last, that of level 0.
+    add(level, true);
+    blocks_[level].end = position;
+  }
+  for (int p = 0; p < n_; ++p) scale_[p] = std::sqrt(weight_[order_[p]]);
+}
+
+// Of the first level's variables, that of the most, if it is that of more than
+// half of them.
+double SelectionTail::UsualWeight() const {
+  double weight = 0;
+  int lead = 0;
+  for (int j = 0; j < n_; ++j) {
+    if (level_of_[j] != 0) continue;
+    if (lead == 0) weight = weight_[j];
+    lead += weight_[j] == weight ? 1 : -1;
+  }
+  return weight;
+}
+
+void SelectionTail::Tie(const RowStack& head) {
+  Gather(head.basis(), head.stride(), head.rank());
+  EliminateAll(n_);
+}
+
+void SelectionTail::TieRows(const double* rows, int stride, int count) {
+  Gather(rows, stride, count);
+  // The first level gets what is left: its columns do not matter.
+  EliminateAll(blocks_[0].begin);
+}
+
+// Of the columns before `end` only.
+void SelectionTail::EliminateAll(int end) {
+  num_reflections_ = 0;
+  int row = 0;
+  for (int level = num_levels_ - 1; level >= 0; --level) {
+    blocks_[level].row_begin = row;
+    blocks_[level].row_end = level == 0 ? rank_ : row;
+    if (level > 0) Eliminate(level, end);
+    row = blocks_[level].row_end;
+  }
+}
+
+void SelectionTail::Solve(const RowStack& head, double* y) {
+  Tie(head);
+  Separate();
+  Start(head, head.z());
+  for (int p = 0; p < n_; ++p) {
+    const double target = target_[order_[p]];
+    ideal_[p] = target - start_[p];
+    magnitude_[p] = std::abs(start_[p]) + std::abs(target);
+  }
+  for (int level = 0; level < num_levels_; ++level) {
+    FactorLevel(level);
+    SolveLevel(level);
+    FindMultipliers(level);
+  }
+  for (int p = 0; p < n_; ++p) y[order_[p]] = start_[p] + step_[p];
+}
+
+void SelectionTail::Correct(const RowStack& head, const double* change,
+                            bool to_minimum, double* y) {
+  Start(head, change);
+  for (int p = 0; p < n_; ++p) {
+    const int j = order_[p];
+    ideal_[p] = (to_minimum ? target_[j] - y[j] : 0) - start_[p];
+    magnitude_[p] = std::abs(y[j]) + std::abs(target_[j]);
+  }
+  for (int level = 0; level < num_levels_; ++level) {
+    SolveLevel(level);
+    if (to_minimum) FindMultipliers(level);
+  }
+  for (int p = 0; p < n_; ++p) y[order_[p]] += start_[p] + step_[p];
+}
+
+void SelectionTail::Gather(const double* rows, int stride, int count) {
+  rank_ = count;
+  for (int p = 0; p < n_;) {
+    // Variables in a row are copied in one go.
+    int run = 1;
+    while (p + run < n_ && order_[p + run] == order_[p] + run) ++run;
+    const double* from = rows + order_[p];
+    for (int i = 0; i < rank_; ++i) {
+      std::copy_n(from + static_cast<size_t>(i) * stride, run,
+                  &t_[static_cast<size_t>(i) * stride_ + p]);
+    }
+    p += run;
+  }
+}
+
+// start = Q' z, by position.
+void SelectionTail::Start(const RowStack& head, const double* z) {
+  std::fill(scratch_.begin(), scratch_.end(), 0);
+  AddRows(head.basis(), head.stride(), rank_, z, n_, scratch_.data());
+  for (int p = 0; p < n_; ++p) start_[p] = scratch_[order_[p]];
+}
+
+// Reflects rows until the level's variables are in as few of them as can be.
+void SelectionTail::Eliminate(int level, int end) {
+  Block& block = blocks_[level];
+  for (int steps = block.end - block.begin; steps > 0; --steps) {
+    const int row = block.row_end;
+    double squared = 0;
+    const int pivot =
+        LargestColumn(row, rank_, block.begin, block.end, &squared);
+    if (squared <= kRankTolerance * kRankTolerance) return;
+    Reflect(row, rank_, row, pivot, block.begin, end);
+    ++block.row_end;
+  }
+}
+
+// Of the first level, reflects its other variables into its last rows. The rows
+// before have variables of the usual weight only: they are orthonormal, and, as
+// the last ones are orthogonal to them, they stay so when divided by d.
+void SelectionTail::Separate() {
+  const Block& block = blocks_[0];
+  usual_row_end_ = block.row_end;
+  const int others = usual_begin_ - block.begin;
+  if (2 * others > block.end - block.begin) usual_row_end_ = block.row_begin;
+  for (int steps = others; steps > 0; --steps) {
+    double squared = 0;
+    const int pivot = LargestColumn(block.row_begin, usual_row_end_,
+                                    block.begin, usual_begin_, &squared);
+    if (squared <= kNoEntry * kNoEntry) return;
+    Reflect(block.row_begin, usual_row_end_, usual_row_end_ - 1, pivot,
+            block.begin, n_);
+    --usual_row_end_;
+  }
+}
+
+// Whether rounding of the first level's heavy variables is no longer nothing for
+// those of the usual weight: by the ratio of their weights it is multiplied.
+bool SelectionTail::RoundsUsual() const {
+  for (int p = blocks_[0].begin; p < usual_begin_; ++p) {
+    const double ratio = scale_[p] / scale_[usual_begin_];
+    if (ratio * ratio > 1e3) return true;
+  }
+  return false;
+}
+
+// Of these rows, the column with the largest sum of squares.
+int SelectionTail::LargestColumn(int row_begin, int row_end, int begin, int end,
+                                 double* squared) {
+  if (row_begin >= row_end) return begin;
+  double* squares = scratch_.data();
+  std::fill_n(squares, n_, 0);
+  for (int i = row_begin; i < row_end; ++i) {
+    const double* t = &t_[static_cast<size_t>(i) * stride_];
+    for (int p = begin; p < end; ++p) squares[p] += t[p] * t[p];
+  }
+  const double* largest = std::max_element(squares + begin, squares + end);
+  *squared = *largest;
+  return static_cast<int>(largest - squares);
+}
+
+// Reflects these rows, H = I - v v', so that of column `pivot` all is in row
+// `target`; of the columns from `begin` on, as before it they are zero.
+void SelectionTail::Reflect(int row_begin, int row_end, int target, int pivot,
+                            int begin, int end) {
+  double* first = &t_[static_cast<size_t>(row_begin) * stride_];
+  double* v = &reflection_[static_cast<size_t>(num_reflections_) * stride_];
+  const int rows = row_end - row_begin;
+  std::fill_n(v, rank_, 0);
+  for (int i = 0; i < rows; ++i) {
+    v[row_begin + i] = first[static_cast<size_t>(i) * stride_ + pivot];
+  }
+  const double squared = SquaredNorm(v + row_begin, rows);
+  const double alpha = v[target] > 0 ? -std::sqrt(squared) : std::sqrt(squared);
+  const double root = std::sqrt(squared - alpha * v[target]);
+  v[target] -= alpha;
+  for (int i = row_begin; i < row_end; ++i) {
+    v[i] /= root;
+    factor_[i] = -v[i];
+  }
+  const int columns = end - begin;
+  std::fill_n(scratch_.data(), columns, 0);
+  AddRows(first + begin, stride_, rows, v + row_begin, columns,
+          scratch_.data());
+  AddToRows(first + begin, stride_, rows, factor_.data() + row_begin,
+            scratch_.data(), columns);
+  ++num_reflections_;
+}
+
+// T/d = L Q. A row that depends on others, for rounding alone can do that, is
+// left out.
+void SelectionTail::FactorLevel(int level) {
+  const Block& block = blocks_[level];
+  const int columns = block.end - block.begin;
+  const int rows = block.row_end - block.row_begin;
+  const int usual = level == 0 ? usual_row_end_ - block.row_begin : 0;
+  const int from = level == 0 && RoundsUsual() ? 0 : usual;
+  double* first = &q_[static_cast<size_t>(block.row_begin + from) * stride_];
+  for (int i = 0; i < rows; ++i) {
+    const size_t at = static_cast<size_t>(block.row_begin + i) * stride_;
+    double *q = &q_[at], *l = &l_[at];
+    const double* t = &t_[at] + block.begin;
+    std::fill_n(l, i + 1, 0);
+    if (i < usual) {
+      const int others = usual_begin_ - block.begin;
+      std::fill_n(q, others, 0);
+      std::copy_n(t + others, columns - others, q + others);
+      l[i] = 1 / scale_[usual_begin_];
+      continue;
+    }
+    for (int p = 0; p < columns; ++p) {
+      const bool is_rounding = std::abs(t[p]) < kNoEntry;
+      q[p] = is_rounding ? 0 : t[p] / scale_[block.begin + p];
+    }
+    const double before = SquaredNorm(q, columns);
+    double after = before;
+    const int above = i - from;
+    for (int pass = 0; pass < 2 && above > 0; ++pass) {
+      Dots(first, stride_, above, q, columns, scratch_.data());
+      for (int k = 0; k < above; ++k) {
+        l[from + k] += scratch_[k];
+        scratch_[k] = -scratch_[k];
+      }
+      AddRows(first, stride_, above, scratch_.data(), columns, q);
+      after = SquaredNorm(q, columns);
+      if (after > before / 4) break;
+    }
+    if (after <= kRankTolerance * kRankTolerance * before) {
+      std::fill_n(q, columns, 0);
+      continue;
+    }
+    l[i] = std::sqrt(after);
+    for (int p = 0; p < columns; ++p) q[p] /= l[i];
+  }
+}
+
+// With x = d (step - ideal): minimum |x|^2 where (T/d) x = -T ideal - (what
+// earlier levels have moved).
+void SelectionTail::SolveLevel(int level) {
+  const Block& block = blocks_[level];
+  const int columns = block.end - block.begin, rest = n_ - block.end;
+  const int rows = block.row_end - block.row_begin;
+  const size_t first = static_cast<size_t>(block.row_begin) * stride_;
+  double* z = &z_[block.row_begin];
+  Dots(&t_[first] + block.begin, stride_, rows, &ideal_[block.begin], columns,
+       z);
+  Dots(&t_[first] + block.end, stride_, rows, &step_[block.end], rest,
+       scratch_.data());
+  for (int i = 0; i < rows; ++i) {
+    const double* l = &l_[first + static_cast<size_t>(i) * stride_];
+    double value;
+    Dots(l, 0, 1, z, i, &value);
+    z[i] = l[i] == 0 ? 0 : (-z[i] - scratch_[i] - value) / l[i];
+  }
+  double* x = &x_[block.begin];
+  std::fill_n(x, columns, 0);
+  AddRows(&q_[first], stride_, rows, z, columns, x);
+  for (int p = block.begin; p < block.end; ++p) {
+    step_[p] = ideal_[p] + x_[p] / scale_[p];
+  }
+}
+
+// L' nu = -z. Rounding of what a row asks for is in nu by its part of L, squared:
+// where light variables can meet it, heavy ones do not count.
+void SelectionTail::FindMultipliers(int level) {
+  Block& block = blocks_[level];
+  double largest = 0, squared = 0, size = 0;
+  for (int p = block.begin; p < block.end; ++p) {
+    squared += magnitude_[p] * magnitude_[p];
+  }
+  double* z = &z_[block.row_begin];
+  for (int i = block.row_end - block.row_begin - 1; i >= 0; --i) {
+    const double* l = &l_[static_cast<size_t>(block.row_begin + i) * stride_];
+    const double minus = l[i] == 0 ? 0 : -z[i] / l[i];
+    AddRows(l, 0, 1, &minus, i, z);
+    nu_[block.row_begin + i] = minus;
+    largest = std::max(largest, std::abs(minus));
+    if (l[i] > 0) size = std::max(size, std::sqrt(squared) / (l[i] * l[i]));
+  }
+  // What levels before have moved counts in nu alone.
+  block.size = largest > kZeroGradient * size ? std::max(size, largest) : 0;
+}
+
+double SelectionTail::Dual(int level, double* on_head, double* left) {
+  const Block& block = blocks_[level];
+  if (block.size == 0) return 0;
+  const int rows = block.row_end - block.row_begin;
+  std::fill_n(on_head, rank_, 0);
+  std::copy_n(&nu_[block.row_begin], rows, on_head + block.row_begin);
+  for (int k = num_reflections_ - 1; k >= 0; --k) {
+    const double* v = &reflection_[static_cast<size_t>(k) * stride_];
+    double dot;
+    Dots(v, 0, 1, on_head, rank_, &dot);
+    dot = -dot;
+    AddRows(v, 0, 1, &dot, rank_, on_head);
+  }
+  std::fill(scratch_.begin(), scratch_.end(), 0);
+  AddRows(&t_[static_cast<size_t>(block.row_begin) * stride_] + block.end,
+          stride_, rows, &nu_[block.row_begin], n_ - block.end,
+          &scratch_[block.end]);
+  for (int p = block.end; p < n_; ++p) left[order_[p]] = scratch_[p];
+  return block.size;
+}
+
+bool SelectionTail::IsMet(int level, const double* y) const {
+  const Block& block = blocks_[level];
+  return std::all_of(order_.begin() + block.begin, order_.begin() + block.end,
+                     [this, y](int j) { return y[j] == target_[j]; });
+}
+
+void SelectionTail::AddGradient(int level, const double* y, const double* left,
+                                double* sum) const {
+  const Block& block = blocks_[level];
+  for (int p = block.begin; p < block.end; ++p) {
+    const int j = order_[p];
+    sum[j] += weight_[j] * (y[j] - target_[j]);
+  }
+  for (int p = block.end; p < n_; ++p) sum[order_[p]] -= left[order_[p]];
+}
+
+void SelectionTail::DropRounding(int level, const double* y,
+                                 double* sum) const {
+  const Block& block = blocks_[level];
+  for (int p = block.begin; p < block.end; ++p) {
+    const int j = order_[p];
+    const double size = weight_[j] * (std::abs(y[j]) + std::abs(target_[j]));
+    if (std::abs(sum[j]) <= kZeroGradient * size) sum[j] = 0;
+  }
+}
+
+int SelectionTail::Nullity(int level) const {
+  // Variables of later levels, less the rows that tie them.
+  int nullity = 0;
+  for (int later = level + 1; later < num_levels_; ++later) {
+    const Block& block = blocks_[later];
+    nullity += block.end - block.begin - (block.row_end - block.row_begin);
+  }
+  return nullity;
+}
+
+}  // namespace poise

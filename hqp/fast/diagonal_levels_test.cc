@@ -1,0 +1,275 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/fast/diagonal_levels.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <random>
+
+#include "tests/util/lexicographic.h"
+#include "tests/util/tolerance.h"
+
+namespace poise {
+namespace {
+
+constexpr int kSeeds = 300;
+constexpr int kMaxRows = 24, kMaxHeadLevels = 4;  // Of MakeRandomLevels().
+constexpr int kMaxTailLevels = 3;
+
+// One row of a level of the tail.
+struct Selection {
+  int variable;
+  double weight, target;
+};
+
+// The same as a level of rows.
+LeastSquares Rows(const std::vector<Selection>& level, int n) {
+  const auto count = static_cast<int>(level.size());
+  LeastSquares rows;
+  rows.A.setZero(count, n);
+  rows.b.resize(count);
+  rows.weight.resize(count);
+  for (int i = 0; i < count; ++i) {
+    rows.A(i, level[i].variable) = 1;
+    rows.b[i] = level[i].target;
+    rows.weight[i] = level[i].weight;
+  }
+  return rows;
+}
+
+// Levels that select: a variable may come twice, in a level or in two.
+std::vector<std::vector<Selection>> MakeSelections(int seed, int n) {
+  std::mt19937 random(seed);
+  const auto below = [&](int bound) {
+    return static_cast<int>(random() % static_cast<unsigned>(bound));
+  };
+  std::vector<std::vector<Selection>> levels(1 + below(kMaxTailLevels));
+  for (std::vector<Selection>& level : levels) {
+    level.resize(1 + below(n));
+    // Of half of them, most of the weights are the same.
+    const bool has_usual = below(2) == 0;
+    for (Selection& row : level) {
+      row = {below(n), 1 + below(100) / 10.0, below(21) - 10.0};
+      if (has_usual && below(4) > 0) row.weight = 2.5;
+    }
+  }
+  return levels;
+}
+
+class RandomSelectionTailTest : public testing::TestWithParam<int> {
+ protected:
+  void SetUp() override {
+    for (const LeastSquares& level : levels_) {
+      for (int i = 0; i < level.A.rows(); ++i) {
+        const int a = head_.AddRow(level.b[i], std::sqrt(level.weight[i]));
+        Eigen::VectorXd::Map(head_.row(a), n_) = level.A.row(i);
+      }
+      head_.FactorLevel();
+    }
+    for (const std::vector<Selection>& level : selections_) {
+      tail_.AddLevel();
+      for (const Selection& row : level) {
+        tail_.Add(row.variable, row.weight, row.target);
+      }
+      levels_.push_back(Rows(level, n_));
+    }
+    tail_.Finish(nullptr);
+    std::vector<Selection> rest;
+    for (int j = 0; j < n_; ++j) rest.push_back({j, 1, 0});
+    selections_.push_back(rest);
+    levels_.push_back(Rows(rest, n_));
+    optimum_ = SolveLexicographically(n_, levels_);
+    tail_.Solve(head_, y_.data());
+  }
+  Eigen::MatrixXd Basis() const {
+    return Eigen::MatrixXd::Map(head_.basis(), head_.stride(), head_.rank())
+        .topRows(n_)
+        .transpose();
+  }
+  void Fill(SelectionTail* tail) const {
+    for (size_t l = 0; l + 1 < selections_.size(); ++l) {
+      tail->AddLevel();
+      for (const Selection& row : selections_[l]) {
+        tail->Add(row.variable, row.weight, row.target);
+      }
+    }
+    tail->Finish(nullptr);
+  }
+  double Tolerance() const {
+    return Rounding(10, kMaxRows, optimum_.condition * optimum_.condition);
+  }
+
+  std::vector<LeastSquares> levels_ = MakeRandomLevels(GetParam());
+  const int n_ = static_cast<int>(levels_[0].A.cols());
+  const int num_head_levels_ = static_cast<int>(levels_.size());
+  std::vector<std::vector<Selection>> selections_ =
+      MakeSelections(GetParam(), n_);
+  RowStack head_{n_, kMaxRows, kMaxHeadLevels};
+  SelectionTail tail_{n_, kMaxTailLevels};
+  LexicographicOptimum optimum_;
+  Eigen::VectorXd y_ = Eigen::VectorXd::Zero(n_);
+};
+
+TEST_P(RandomSelectionTailTest, AgreesWithSingularValues) {
+  EXPECT_LE((y_ - optimum_.y).norm(), Tolerance());
+  ASSERT_EQ(tail_.num_levels(), static_cast<int>(selections_.size()));
+  for (int l = 0; l < tail_.num_levels(); ++l) {
+    EXPECT_EQ(tail_.Nullity(l), n_ - optimum_.rank[num_head_levels_ + l]) << l;
+  }
+  for (int j = 0; j < n_; ++j) {
+    int first = 0;
+    const auto has = [&](int level) {
+      for (const Selection& row : selections_[level]) {
+        if (row.variable == j) return true;
+      }
+      return false;
+    };
+    while (!has(first)) ++first;
+    EXPECT_EQ(tail_.level(j), first) << j;
+  }
+}
+
+TEST_P(RandomSelectionTailTest, MultipliersCancelTheGradient) {
+  const Eigen::MatrixXd Q = Basis();
+  for (int l = 0; l < tail_.num_levels(); ++l) {
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n_);
+    Eigen::VectorXd size = Eigen::VectorXd::Zero(n_);
+    for (const Selection& row : selections_[l]) {
+      if (tail_.level(row.variable) != l) continue;
+      gradient[row.variable] += row.weight * (y_[row.variable] - row.target);
+      size[row.variable] += row.weight * 10;
+    }
+    const double tolerance = Tolerance() * (1 + size.sum());
+    Eigen::VectorXd on_head = Eigen::VectorXd::Constant(head_.rank(), 5);
+    Eigen::VectorXd left = Eigen::VectorXd::Constant(n_, 5);
+    if (tail_.Dual(l, on_head.data(), left.data()) == 0) {
+      EXPECT_LE(gradient.norm(), tolerance) << l;
+      continue;
+    }
+    const Eigen::VectorXd sum = gradient + Q.transpose() * on_head;
+    for (int j = 0; j < n_; ++j) {
+      const bool is_earlier = tail_.level(j) < l;
+      EXPECT_NEAR(sum[j], is_earlier ? left[j] : 0, tolerance)
+          << l << ", " << j;
+      if (!is_earlier) {
+        EXPECT_EQ(left[j], 5) << l << ", " << j;
+      }
+    }
+  }
+}
+
+TEST_P(RandomSelectionTailTest, GradientLessWhatIsLeftIsTheRowsOfTheHead) {
+  const Eigen::MatrixXd Q = Basis();
+  for (int l = 0; l < tail_.num_levels(); ++l) {
+    Eigen::VectorXd on_head(head_.rank()), left = Eigen::VectorXd::Zero(n_);
+    if (tail_.Dual(l, on_head.data(), left.data()) == 0) continue;
+    Eigen::VectorXd sum = Eigen::VectorXd::Constant(n_, 1);
+    tail_.AddGradient(l, y_.data(), left.data(), sum.data());
+    sum.array() -= 1;
+    EXPECT_LE((sum + Q.transpose() * on_head).norm(), 1000 * Tolerance()) << l;
+  }
+}
+
+TEST_P(RandomSelectionTailTest, CorrectsAnyStartToTheSameOptimum) {
+  const Eigen::MatrixXd Q = Basis();
+  Eigen::VectorXd y = y_;
+  for (int j = 0; j < n_; ++j) y[j] += 1 + j % 3;
+  const Eigen::VectorXd change = Q * (y_ - y);
+  Eigen::VectorXd nearest = y;
+  tail_.Correct(head_, change.data(), true, y.data());
+  EXPECT_LE((y - y_).norm(), 10 * Tolerance());
+  // Where no minimum is asked for, the head is met all the same.
+  tail_.Correct(head_, change.data(), false, nearest.data());
+  EXPECT_LE((Q * (nearest - y_)).norm(), 10 * Tolerance());
+}
+
+TEST_P(RandomSelectionTailTest, CorrectsByAsLittleAsTheLevelsAllow) {
+  // Weights and levels alone say how, not targets: so of a tail with other
+  // targets, at its own optimum for targets 0, the step is the optimum.
+  const Eigen::MatrixXd Q = Basis();
+  const Eigen::VectorXd change = Eigen::VectorXd::LinSpaced(head_.rank(), 1, 2);
+  std::vector<LeastSquares> levels(1);
+  levels[0] = {Q, change, Eigen::VectorXd::Ones(head_.rank())};
+  for (std::vector<Selection> level : selections_) {
+    for (Selection& row : level) row.target = 0;
+    levels.push_back(Rows(level, n_));
+  }
+  Eigen::VectorXd y = y_;
+  tail_.Correct(head_, change.data(), false, y.data());
+  EXPECT_LE((y - y_ - SolveLexicographically(n_, levels).y).norm(),
+            10 * Tolerance());
+}
+
+TEST_P(RandomSelectionTailTest, TieFindsTheNullitiesAlone) {
+  SelectionTail tail(n_, kMaxTailLevels);
+  for (size_t l = 0; l + 1 < selections_.size(); ++l) {
+    tail.AddLevel();
+    for (const Selection& row : selections_[l]) tail.Add(row.variable, 1, 0);
+  }
+  tail.Finish(nullptr);
+  tail.Tie(head_);
+  for (int l = 0; l < tail.num_levels(); ++l) {
+    EXPECT_EQ(tail.Nullity(l), tail_.Nullity(l)) << l;
+  }
+}
+
+// Rows that span the same, neither orthogonal nor of unit length.
+TEST_P(RandomSelectionTailTest, TieRowsFindsTheSameNullities) {
+  const int rank = head_.rank();
+  Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(rank, rank);
+  for (int i = 0; i < rank; ++i) {
+    for (int k = 0; k < i; ++k) mix(i, k) = 0.1 * ((i + 2 * k) % 5 - 2);
+  }
+  // Stored by rows, three numbers between one and the next.
+  const int stride = n_ + 3;
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Constant(stride, rank, 100);
+  rows.topRows(n_) = (mix * Basis()).transpose();
+  SelectionTail tail(n_, kMaxTailLevels);
+  Fill(&tail);
+  tail.TieRows(rows.data(), stride, rank);
+  for (int l = 0; l < tail.num_levels(); ++l) {
+    EXPECT_EQ(tail.Nullity(l), tail_.Nullity(l)) << l;
+  }
+}
+
+TEST_P(RandomSelectionTailTest, ForgetsWhatItSolvedBefore) {
+  SelectionTail tail(n_, kMaxTailLevels);
+  RowStack other(n_, n_, 1);
+  Eigen::VectorXd y(n_);
+  for (int i = 0; i < n_; ++i) {
+    for (int j = 0; j < n_; ++j) other.row(i)[j] = i == j ? n_ : 1 + i + j % 3;
+    Eigen::VectorXd::Map(other.row(i), n_).normalize();
+    if (i % 2 == 1) continue;
+    other.Truncate(0);
+    for (int a = 0; a <= i; ++a) other.AddRow(a, 1);
+    other.FactorLevel();
+    tail.Clear();
+    for (const int first : {0, 1}) {
+      tail.AddLevel();
+      for (int j = first; j < n_; j += 2) tail.Add(j, 1 + 7 * j % 5, 0);
+    }
+    tail.Finish(nullptr);
+    tail.Solve(other, y.data());
+  }
+  tail.Clear();
+  Fill(&tail);
+  tail.Solve(head_, y.data());
+  EXPECT_EQ(y, y_);
+  for (int l = 0; l < tail.num_levels(); ++l) {
+    Eigen::VectorXd on_head[2], left[2];
+    for (int k = 0; k < 2; ++k) {
+      on_head[k].setZero(head_.rank());
+      left[k].setZero(n_);
+      (k == 0 ? tail_ : tail).Dual(l, on_head[k].data(), left[k].data());
+    }
+    EXPECT_EQ(on_head[0], on_head[1]) << l;
+    EXPECT_EQ(left[0], left[1]) << l;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomSelectionTailTest,
+                         testing::Range(0, kSeeds));
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,186 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/fast/kernels.h"
+
+#include <algorithm>
+#include <cmath>
+
+// One binary, both instruction sets: the loader picks. A sanitizer is not ready
+// yet when it does.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__FMA__)
+#define POISE_CLONES __attribute__((target_clones("fma", "default")))
+#else
+#define POISE_CLONES
+#endif
+
+namespace poise::kernels {
+namespace {
+
+// Four doubles, anywhere in memory.
+typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
+
+#define POISE_LOAD(pointer) (*reinterpret_cast<const Four*>(pointer))
+#define POISE_STORE(pointer) (*reinterpret_cast<Four*>(pointer))
+#define POISE_SUM(four) (((four)[0] + (four)[2]) + ((four)[1] + (four)[3]))
+
+}  // namespace
+
+POISE_CLONES
+void Dots(const double* rows, int stride, int count, const double* x, int n,
+          double* out) {
+  const int fours = count & ~3, whole = n & ~3, eights = n & ~7;
+  int i = 0;
+  for (; i < fours; i += 4) {
+    const double* r0 = rows + static_cast<long>(i) * stride;
+    const double *r1 = r0 + stride, *r2 = r1 + stride, *r3 = r2 + stride;
+    Four s0 = {}, s1 = {}, s2 = {}, s3 = {};
+    for (int j = 0; j < whole; j += 4) {
+      const Four xj = POISE_LOAD(x + j);
+      s0 += POISE_LOAD(r0 + j) * xj;
+      s1 += POISE_LOAD(r1 + j) * xj;
+      s2 += POISE_LOAD(r2 + j) * xj;
+      s3 += POISE_LOAD(r3 + j) * xj;
+    }
+    double d0 = POISE_SUM(s0), d1 = POISE_SUM(s1);
+    double d2 = POISE_SUM(s2), d3 = POISE_SUM(s3);
+    for (int j = whole; j < n; ++j) {
+      d0 += r0[j] * x[j];
+      d1 += r1[j] * x[j];
+      d2 += r2[j] * x[j];
+      d3 += r3[j] * x[j];
+    }
+    out[i] = d0;
+    out[i + 1] = d1;
+    out[i + 2] = d2;
+    out[i + 3] = d3;
+  }
+  for (; i < count; ++i) {
+    const double* row = rows + static_cast<long>(i) * stride;
+    Four s0 = {}, s1 = {};
+    int j = 0;
+    for (; j < eights; j += 8) {
+      s0 += POISE_LOAD(row + j) * POISE_LOAD(x + j);
+      s1 += POISE_LOAD(row + j + 4) * POISE_LOAD(x + j + 4);
+    }
+    s0 += s1;
+    double d = POISE_SUM(s0);
+    for (; j < n; ++j) d += row[j] * x[j];
+    out[i] = d;
+  }
+}
+
+POISE_CLONES
+void AddRows(const double* rows, int stride, int count, const double* factor,
+             int n, double* x) {
+  const int fours = count & ~3, whole = n & ~3;
+  int i = 0;
+  for (; i < fours; i += 4) {
+    const double* r0 = rows + static_cast<long>(i) * stride;
+    const double *r1 = r0 + stride, *r2 = r1 + stride, *r3 = r2 + stride;
+    const double f0 = factor[i], f1 = factor[i + 1];
+    const double f2 = factor[i + 2], f3 = factor[i + 3];
+    for (int j = 0; j < whole; j += 4) {
+      const Four low = POISE_LOAD(r0 + j) * f0 + POISE_LOAD(r1 + j) * f1;
+      const Four high = POISE_LOAD(r2 + j) * f2 + POISE_LOAD(r3 + j) * f3;
+      POISE_STORE(x + j) += low + high;
+    }
+    for (int j = whole; j < n; ++j) {
+      x[j] += (r0[j] * f0 + r1[j] * f1) + (r2[j] * f2 + r3[j] * f3);
+    }
+  }
+  for (; i < count; ++i) {
+    const double* row = rows + static_cast<long>(i) * stride;
+    const double f = factor[i];
+    for (int j = 0; j < whole; j += 4) {
+      POISE_STORE(x + j) += POISE_LOAD(row + j) * f;
+    }
+    for (int j = whole; j < n; ++j) x[j] += row[j] * f;
+  }
+}
+
+POISE_CLONES
+void AddToRows(double* rows, int stride, int count, const double* factor,
+               const double* x, int n) {
+  const int pairs = count & ~1, whole = n & ~3;
+  int i = 0;
+  for (; i < pairs; i += 2) {
+    double* r0 = rows + static_cast<long>(i) * stride;
+    double* r1 = r0 + stride;
+    const double f0 = factor[i], f1 = factor[i + 1];
+    for (int j = 0; j < whole; j += 4) {
+      const Four xj = POISE_LOAD(x + j);
+      POISE_STORE(r0 + j) += xj * f0;
+      POISE_STORE(r1 + j) += xj * f1;
+    }
+    for (int j = whole; j < n; ++j) {
+      r0[j] += x[j] * f0;
+      r1[j] += x[j] * f1;
+    }
+  }
+  for (; i < count; ++i) {
+    double* row = rows + static_cast<long>(i) * stride;
+    const double f = factor[i];
+    for (int j = 0; j < whole; j += 4) {
+      POISE_STORE(row + j) += POISE_LOAD(x + j) * f;
+    }
+    for (int j = whole; j < n; ++j) row[j] += x[j] * f;
+  }
+}
+
+POISE_CLONES
+void Rotate(double c, double s, int n, double* x, double* y) {
+  int j = 0;
+  for (; j + 4 <= n; j += 4) {
+    const Four xj = POISE_LOAD(x + j), yj = POISE_LOAD(y + j);
+    POISE_STORE(x + j) = xj * c + yj * s;
+    POISE_STORE(y + j) = yj * c - xj * s;
+  }
+  for (; j < n; ++j) {
+    const double xj = x[j], yj = y[j];
+    x[j] = xj * c + yj * s;
+    y[j] = yj * c - xj * s;
+  }
+}
+
+POISE_CLONES
+void DotWithSize(const double* row, const double* x, int n, double* dot,
+                 double* size) {
+  const int whole = n & ~3;
+  Four sum = {}, absolute = {};
+  int j = 0;
+  for (; j < whole; j += 4) {
+    const Four term = POISE_LOAD(row + j) * POISE_LOAD(x + j);
+    sum += term;
+    absolute += term < 0 ? -term : term;
+  }
+  *dot = POISE_SUM(sum);
+  *size = POISE_SUM(absolute);
+  for (; j < n; ++j) {
+    *dot += row[j] * x[j];
+    *size += std::abs(row[j] * x[j]);
+  }
+}
+
+POISE_CLONES
+double AbsoluteSum(const double* x, int n) {
+  const int whole = n & ~3;
+  double even = 0, odd = 0, third = 0, fourth = 0;
+  int j = 0;
+  for (; j < whole; j += 4) {
+    even += std::abs(x[j]);
+    odd += std::abs(x[j + 1]);
+    third += std::abs(x[j + 2]);
+    fourth += std::abs(x[j + 3]);
+  }
+  for (; j < n; ++j) even += std::abs(x[j]);
+  return (even + third) + (odd + fourth);
+}
+
+double Largest(const double* x, int n) {
+  double largest = 0;
+  for (int j = 0; j < n; ++j) largest = std::max(largest, std::abs(x[j]));
+  return largest;
+}
+
+}  // namespace poise::kernels

@@ -1,0 +1,163 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/fast/kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace poise {
+namespace {
+
+// Eighths of few digits: every sum is exact, in any order.
+std::vector<double> Eighths(int count, int seed) {
+  std::vector<double> numbers(count);
+  for (int i = 0; i < count; ++i) {
+    numbers[i] = ((i * i + 7 * i * seed) % 23 - 11) / 8.0;
+  }
+  return numbers;
+}
+
+// Of all sizes that are cut into fours, eights and single ones otherwise.
+class KernelsTest : public testing::Test {
+ protected:
+  static constexpr int kMaxRows = 9, kMaxSize = 19, kStride = 21;
+  static constexpr double kUntouched = 1e6;
+
+  template <typename Check>
+  static void ForAllSizes(Check check) {
+    for (int rows = 0; rows <= kMaxRows; ++rows) {
+      for (int n = 0; n <= kMaxSize; ++n) {
+        SCOPED_TRACE(testing::Message() << rows << " rows of " << n);
+        check(rows, n);
+      }
+    }
+  }
+  double Entry(int i, int j) const { return rows_[i * kStride + j]; }
+
+  std::vector<double> rows_ = Eighths((kMaxRows + 1) * kStride, 1);
+  const std::vector<double> x_ = Eighths(kStride, 2),
+                            factor_ = Eighths(kStride, 3);
+};
+
+TEST_F(KernelsTest, DotsAreTheSumsOfProducts) {
+  ForAllSizes([&](int rows, int n) {
+    std::vector<double> out(kMaxRows + 1, kUntouched);
+    kernels::Dots(rows_.data(), kStride, rows, x_.data(), n, out.data());
+    for (int i = 0; i < rows; ++i) {
+      double sum = 0;
+      for (int j = 0; j < n; ++j) sum += Entry(i, j) * x_[j];
+      EXPECT_EQ(out[i], sum) << i;
+    }
+    for (int i = rows; i <= kMaxRows; ++i) EXPECT_EQ(out[i], kUntouched) << i;
+  });
+}
+
+TEST_F(KernelsTest, SquaredNormIsTheSumOfOddNumbers) {
+  // Of whole numbers: k^2 = 1 + 3 + ... + (2k - 1), whatever the sign.
+  for (int n = 0; n <= kMaxSize; ++n) {
+    std::vector<double> x(kMaxSize + 1, kUntouched);
+    double sum = 0;
+    for (int j = 0; j < n; ++j) {
+      const int k = (5 * j + n) % 23;
+      x[j] = j % 2 == 0 ? k : -k;
+      for (int odd = 1; odd < 2 * k; odd += 2) sum += odd;
+    }
+    EXPECT_EQ(kernels::SquaredNorm(x.data(), n), sum) << n;
+  }
+}
+
+TEST_F(KernelsTest, RotateMixesTwoVectors) {
+  ForAllSizes([&](int, int n) {
+    std::vector<double> x = x_, y = factor_;
+    kernels::Rotate(3, 5, n, x.data(), y.data());
+    for (int j = 0; j < kStride; ++j) {
+      EXPECT_EQ(x[j], j < n ? 3 * x_[j] + 5 * factor_[j] : x_[j]) << j;
+      EXPECT_EQ(y[j], j < n ? 3 * factor_[j] - 5 * x_[j] : factor_[j]) << j;
+    }
+  });
+}
+
+TEST_F(KernelsTest, AddRowsIsTheSumOfScaledRows) {
+  ForAllSizes([&](int rows, int n) {
+    std::vector<double> sum = x_;
+    kernels::AddRows(rows_.data(), kStride, rows, factor_.data(), n,
+                     sum.data());
+    for (int j = 0; j < kStride; ++j) {
+      double expected = x_[j];
+      for (int i = 0; i < rows && j < n; ++i) {
+        expected += factor_[i] * Entry(i, j);
+      }
+      EXPECT_EQ(sum[j], expected) << j;
+    }
+  });
+}
+
+TEST_F(KernelsTest, AddToRowsIsTheOuterProduct) {
+  ForAllSizes([&](int rows, int n) {
+    std::vector<double> changed = rows_;
+    kernels::AddToRows(changed.data(), kStride, rows, factor_.data(), x_.data(),
+                       n);
+    for (int i = 0; i <= kMaxRows; ++i) {
+      for (int j = 0; j < kStride; ++j) {
+        const double added = i < rows && j < n ? factor_[i] * x_[j] : 0;
+        EXPECT_EQ(changed[i * kStride + j], Entry(i, j) + added) << i << j;
+      }
+    }
+  });
+}
+
+TEST_F(KernelsTest, DotWithSizeIsTheDotAndTheSumOfMagnitudes) {
+  ForAllSizes([&](int i, int n) {
+    double sum = 0, sum_of_magnitudes = 0;
+    for (int j = 0; j < n; ++j) {
+      sum += Entry(i, j) * x_[j];
+      sum_of_magnitudes += std::abs(Entry(i, j) * x_[j]);
+    }
+    double dot = kUntouched, size = kUntouched;
+    kernels::DotWithSize(&rows_[i * kStride], x_.data(), n, &dot, &size);
+    EXPECT_EQ(dot, sum);
+    EXPECT_EQ(size, sum_of_magnitudes);
+  });
+}
+
+TEST_F(KernelsTest, AbsoluteSumIsTheSumOfMagnitudes) {
+  for (int n = 0; n <= kMaxSize; ++n) {
+    double sum = 0;
+    for (int j = 0; j < n; ++j) sum += std::abs(x_[j]);
+    EXPECT_EQ(kernels::AbsoluteSum(x_.data(), n), sum) << n;
+  }
+}
+
+TEST_F(KernelsTest, AbsoluteSumIsNotFiniteIfAnEntryIsNot) {
+  for (const double strange : {std::numeric_limits<double>::quiet_NaN(),
+                               -std::numeric_limits<double>::infinity()}) {
+    for (int j = 0; j < kMaxSize; ++j) {
+      std::vector<double> x = x_;
+      x[j] = strange;
+      EXPECT_FALSE(std::isfinite(kernels::AbsoluteSum(x.data(), kMaxSize)))
+          << j;
+    }
+  }
+}
+
+TEST_F(KernelsTest, LargestIsTheLargestMagnitude) {
+  for (int n = 0; n <= kMaxSize; ++n) {
+    std::vector<double> magnitudes = {0};
+    for (int j = 0; j < n; ++j) magnitudes.push_back(std::abs(x_[j]));
+    std::sort(magnitudes.begin(), magnitudes.end());
+    EXPECT_EQ(kernels::Largest(x_.data(), n), magnitudes.back()) << n;
+  }
+  for (const double sign : {-1.0, 1.0}) {
+    for (int j = 0; j < kMaxSize; ++j) {
+      std::vector<double> x = x_;
+      x[j] = sign * 1e9;
+      EXPECT_EQ(kernels::Largest(x.data(), kMaxSize), 1e9) << j;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,448 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/fast/lexicographic_factorization.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hqp/fast/kernels.h"
+#include "math/rank.h"
+
+namespace poise {
+namespace {
+
+using kernels::AddRows;
+using kernels::AddToRows;
+using kernels::Dots;
+using kernels::SquaredNorm;
+
+// A rest shorter than this part of what it came from is projected out again.
+constexpr double kTwice = 0.5;
+
+// Of a row, what is orthogonal to those before it.
+constexpr double kGoodPart = 1e-3;
+
+// What a reflection leaves of a zero, relative to the largest.
+constexpr double kRounding = 1e-14;
+
+// A residual below this, relative to what it is added up from, is zero.
+constexpr double kZeroResidual = 1e-12;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+RowStack::RowStack(int num_variables, int max_rows, int max_levels)
+    : n_(num_variables), stride_((num_variables + 7) / 4 * 4) {
+  const auto rows = [&](int count) {
+    return static_cast<size_t>(count) * stride_;
+  };
+  levels_.reserve(max_levels);
+  work_.resize(rows(max_rows));
+  l_.resize(rows(max_rows));
+  reduced_.resize(rows(max_rows));
+  q_.resize(rows(n_));
+  effective_.resize(rows(n_));
+  effective_target_.resize(n_);
+  z_.resize(n_);
+  target_.resize(max_rows);
+  metric_.resize(max_rows);
+  residual_.resize(max_rows);
+  rest_.resize(max_rows);
+  fresh_.resize(max_rows);
+  carrier_.resize(n_);
+  reflection_.resize(static_cast<size_t>(n_) * max_rows);
+  factor_.resize(std::max(max_rows, stride_));
+  scratch_.resize(std::max(max_rows, stride_));
+  cosine_.resize(n_);
+  sine_.resize(n_);
+  chosen_.resize(max_rows);
+}
+
+void RowStack::Truncate(int level) {
+  levels_.resize(std::min<size_t>(levels_.size(), level));
+  num_rows_ = levels_.empty() ? 0 : levels_.back().end_row;
+  rank_ = levels_.empty() ? 0 : levels_.back().rank_end;
+}
+
+int RowStack::AddRow(double target, double metric) {
+  target_[num_rows_] = target;
+  metric_[num_rows_] = metric;
+  return num_rows_++;
+}
+
+bool RowStack::is_deficient(int level) const {
+  return levels_[level].deficient;
+}
+
+bool RowStack::is_well_conditioned() const {
+  if (rank_ < num_rows_) return false;
+  for (int e = 0; e < rank_; ++e) {
+    if (effective_[static_cast<size_t>(e) * (stride_ + 1)] < kGoodPart) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void RowStack::FactorLevel() {
+  Level level;
+  level.first_row = levels_.empty() ? 0 : levels_.back().end_row;
+  level.end_row = num_rows_;
+  level.rank_begin = level.rank_end = rank_;
+  for (int a = level.first_row; a < level.end_row; ++a) Project(a);
+  PivotRows(&level);
+  const int rows = level.end_row - level.first_row;
+  level.deficient = level.rank_end - level.rank_begin < rows;
+  rank_ = level.rank_end;
+  if (level.deficient) {
+    Reduce(&level);
+  } else {
+    for (int e = level.rank_begin; e < level.rank_end; ++e) {
+      std::copy_n(&l_[static_cast<size_t>(carrier_[e]) * stride_], e + 1,
+                  &effective_[static_cast<size_t>(e) * stride_]);
+      effective_target_[e] = target_[carrier_[e]];
+    }
+  }
+  SolveLevel(level);
+  levels_.push_back(level);
+}
+
+void RowStack::Merge(int level) {
+  Truncate(level);
+  for (int l = 0; l + 1 < level; ++l) levels_[l] = {0, 0, 0, 0, false};
+  if (level > 0) levels_[level - 1] = {0, num_rows_, 0, rank_, false};
+}
+
+void RowStack::RemoveRow(int a) {
+  Level& level = levels_.back();
+  const auto l = [&](int e) {
+    return &effective_[static_cast<size_t>(e) * stride_];
+  };
+  const auto q = [&](int e) { return &q_[static_cast<size_t>(e) * stride_]; };
+  const int last = --num_rows_;
+  int removed = 0;
+  while (carrier_[removed] != a) ++removed;
+  for (int e = removed; e + 1 < rank_; ++e) {
+    // The next row of L moves up, and has one entry too many: a rotation of its
+    // last two columns, and so of two rows of Q, takes it away.
+    double* row = l(e);
+    std::copy_n(l(e + 1), e + 2, row);
+    for (int k = removed; k < e; ++k) {
+      const double x = row[k], y = row[k + 1];
+      row[k] = cosine_[k] * x + sine_[k] * y;
+      row[k + 1] = cosine_[k] * y - sine_[k] * x;
+    }
+    const double length = std::hypot(row[e], row[e + 1]);
+    cosine_[e] = row[e] / length;
+    sine_[e] = row[e + 1] / length;
+    row[e] = length;
+    kernels::Rotate(cosine_[e], sine_[e], n_, q(e), q(e + 1));
+    carrier_[e] = carrier_[e + 1];
+    effective_target_[e] = effective_target_[e + 1];
+  }
+  --rank_;
+  for (int e = 0; e < rank_; ++e) {
+    if (carrier_[e] == last) carrier_[e] = a;
+  }
+  target_[a] = target_[last];
+  metric_[a] = metric_[last];
+  level.end_row = num_rows_;
+  level.rank_end = rank_;
+}
+
+bool RowStack::AppendRow() {
+  const int a = num_rows_ - 1;
+  Project(a);
+  if (rest_[a] < kTwice * kTwice) {
+    TakeOut(rank_, row(a), &l_[static_cast<size_t>(a) * stride_]);
+  }
+  const double norm = std::sqrt(rest_[a]);
+  if (rank_ == n_ || norm < kGoodPart) {
+    --num_rows_;
+    return false;
+  }
+  double* l = &effective_[static_cast<size_t>(rank_) * stride_];
+  std::copy_n(&l_[static_cast<size_t>(a) * stride_], rank_, l);
+  l[rank_] = norm;
+  double* q = &q_[static_cast<size_t>(rank_) * stride_];
+  for (int j = 0; j < n_; ++j) q[j] = row(a)[j] / norm;
+  carrier_[rank_] = a;
+  effective_target_[rank_] = target_[a];
+  levels_.back().end_row = num_rows_;
+  levels_.back().rank_end = ++rank_;
+  return true;
+}
+
+// Takes the levels before out of row a, once.
+void RowStack::Project(int a) {
+  double* l = &l_[static_cast<size_t>(a) * stride_];
+  std::fill_n(l, rank_, 0);
+  TakeOut(rank_, row(a), l);
+  rest_[a] = SquaredNorm(row(a), n_);
+}
+
+// Takes the first rows of Q out of x, and adds to l what it had of them.
+void RowStack::TakeOut(int rank, double* x, double* l) {
+  Dots(q_.data(), stride_, rank, x, n_, scratch_.data());
+  for (int e = 0; e < rank; ++e) {
+    l[e] += scratch_[e];
+    scratch_[e] = -scratch_[e];
+  }
+  AddRows(q_.data(), stride_, rank, scratch_.data(), n_, x);
+}
+
+// Orthogonalises the level's rests, the heaviest first, until what is left of
+// each is nothing. A row that depends on heavier ones does so exactly, then: what
+// rounding leaves of it, times a residual that cannot be helped, could outweigh a
+// light row.
+void RowStack::PivotRows(Level* level) {
+  const int first = level->first_row, rows = level->end_row - first;
+  for (int a = first; a < level->end_row; ++a) {
+    chosen_[a] = false;
+    fresh_[a] = rest_[a];  // As last computed, not downdated.
+  }
+  while (level->rank_end < n_) {
+    int pivot = -1;
+    for (int a = first; a < level->end_row; ++a) {
+      if (chosen_[a]) continue;
+      if (rest_[a] <= kRankTolerance * kRankTolerance) {
+        chosen_[a] = true;
+      } else if (pivot < 0 ||
+                 weight(a) * rest_[a] > weight(pivot) * rest_[pivot]) {
+        pivot = a;
+      }
+    }
+    if (pivot < 0) break;
+    const int e = level->rank_end;
+    double* q = &q_[static_cast<size_t>(e) * stride_];
+    double* l = &l_[static_cast<size_t>(pivot) * stride_];
+    std::copy_n(row(pivot), n_, q);
+    if (rest_[pivot] < kTwice * kTwice) TakeOut(e, q, l);
+    const double norm = std::sqrt(SquaredNorm(q, n_));
+    chosen_[pivot] = true;
+    l[e] = 0;
+    if (norm <= kRankTolerance) {
+      // Its rest was another's doing. It stays a dependent row.
+      rest_[pivot] = 0;
+      continue;
+    }
+    l[e] = norm;
+    for (int i = 0; i < n_; ++i) q[i] /= norm;
+    carrier_[e] = pivot;
+    ++level->rank_end;
+    // Out of the others: the coefficient, the rest, and its length.
+    Dots(row(first), stride_, rows, q, n_, factor_.data());
+    for (int i = 0; i < rows; ++i) {
+      const int a = first + i;
+      if (chosen_[a]) {
+        factor_[i] = 0;
+        if (a != pivot) l_[static_cast<size_t>(a) * stride_ + e] = 0;
+        continue;
+      }
+      l_[static_cast<size_t>(a) * stride_ + e] = factor_[i];
+      rest_[a] -= factor_[i] * factor_[i];
+      factor_[i] = -factor_[i];
+    }
+    AddToRows(row(first), stride_, rows, factor_.data(), q, n_);
+    for (int a = first; a < level->end_row; ++a) {
+      // Below this the difference of squares has lost its digits.
+      if (!chosen_[a] && rest_[a] < 0.01 * fresh_[a]) {
+        rest_[a] = SquaredNorm(row(a), n_);
+        fresh_[a] = rest_[a];
+      }
+    }
+  }
+}
+
+// Reduces the rows d_a l_a, d_a t_a of a deficient level by reflections H among
+// them, from the last column to the first, so that what is left is lower
+// triangular: H [D L, D t] = [effective rows; zeros, residual].
+void RowStack::Reduce(Level* level) {
+  const int first = level->first_row, rows = level->end_row - first;
+  const int begin = level->rank_begin, end = level->rank_end;
+  for (int i = 0; i < rows; ++i) {
+    const int a = first + i;
+    double* to = &reduced_[static_cast<size_t>(i) * stride_];
+    for (int e = 0; e < end; ++e) {
+      to[e] = metric_[a] * l_[static_cast<size_t>(a) * stride_ + e];
+    }
+    to[end] = metric_[a] * target_[a];
+    chosen_[a] = false;
+  }
+  for (int e = end - 1; e >= begin; --e) {
+    // The reflection that moves column e of the rows not yet chosen into the
+    // one where it is largest.
+    double* v =
+        &reflection_[static_cast<size_t>(e) * (reflection_.size() / n_)];
+    int pivot = -1;
+    double squares = 0;
+    for (int i = 0; i < rows; ++i) {
+      v[i] = chosen_[first + i]
+                 ? 0
+                 : reduced_[static_cast<size_t>(i) * stride_ + e];
+      squares += v[i] * v[i];
+      if (!chosen_[first + i] &&
+          (pivot < 0 || std::abs(v[i]) > std::abs(v[pivot]))) {
+        pivot = i;
+      }
+    }
+    const double alpha =
+        v[pivot] > 0 ? -std::sqrt(squares) : std::sqrt(squares);
+    const double length = squares - alpha * v[pivot];  // v'v / 2 below.
+    v[pivot] -= alpha;
+    if (length > 0) {
+      const double root = std::sqrt(length);  // So that H = I - v v'.
+      for (int i = 0; i < rows; ++i) v[i] /= root;
+      std::fill_n(scratch_.data(), end + 1, 0);
+      AddRows(reduced_.data(), stride_, rows, v, end + 1, scratch_.data());
+      for (int i = 0; i < rows; ++i) factor_[i] = -v[i];
+      AddToRows(reduced_.data(), stride_, rows, factor_.data(), scratch_.data(),
+                end + 1);
+    }
+    chosen_[first + pivot] = true;
+    carrier_[e] = first + pivot;
+    const double* from = &reduced_[static_cast<size_t>(pivot) * stride_];
+    std::copy_n(from, e + 1, &effective_[static_cast<size_t>(e) * stride_]);
+    effective_target_[e] = from[end];
+  }
+}
+
+void RowStack::SolveLevel(const Level& level) {
+  for (int e = level.rank_begin; e < level.rank_end; ++e) {
+    const double* l = &effective_[static_cast<size_t>(e) * stride_];
+    double value;
+    Dots(l, 0, 1, z_.data(), e, &value);
+    z_[e] = (effective_target_[e] - value) / l[e];
+  }
+  // z is rounded by what any row of the level asks for.
+  double size = 0;
+  for (int a = level.first_row; a < level.end_row; ++a) {
+    size = std::max(size, std::abs(target_[a]));
+  }
+  size += norm_z();
+  for (int a = level.first_row; a < level.end_row; ++a) {
+    residual_[a] = 0;
+    if (!level.deficient) continue;
+    double value;
+    Dots(&l_[static_cast<size_t>(a) * stride_], 0, 1, z_.data(), level.rank_end,
+         &value);
+    residual_[a] = value - target_[a];
+  }
+  KeepUnreachable(size, level);
+}
+
+void RowStack::SetResiduals(int level, const double* residual, double size) {
+  const Level& of = levels_[level];
+  std::copy(residual, residual + of.end_row - of.first_row,
+            &residual_[of.first_row]);
+  KeepUnreachable(size, of);
+}
+
+// At the optimum of a deficient level H d residual is zero but on rows that
+// depend on others, and the rest is rounding. So what heavy rows lack, which is
+// little, has as many digits as what light ones do.
+void RowStack::KeepUnreachable(double size, const Level& level) {
+  if (!level.deficient) return;
+  const int first = level.first_row, rows = level.end_row - first;
+  double* residual = &residual_[first];
+  const double* metric = &metric_[first];
+  for (int i = 0; i < rows; ++i) {
+    residual[i] *= metric[i];
+    factor_[i] = kZeroResidual * metric[i] * size;
+  }
+  for (int e = level.rank_end - 1; e >= level.rank_begin; --e) {
+    Reflect(e, rows, residual);
+    factor_[carrier_[e] - first] = kInfinity;
+  }
+  for (int i = 0; i < rows; ++i) {
+    if (std::abs(residual[i]) <= factor_[i]) residual[i] = 0;
+  }
+  for (int e = level.rank_begin; e < level.rank_end; ++e) {
+    Reflect(e, rows, residual);
+  }
+  double force = 0, largest = 0;
+  for (int i = 0; i < rows; ++i) {
+    largest = std::max(largest, std::abs(residual[i]));
+    force = std::max(force, metric[i] * std::abs(residual[i]));
+  }
+  for (int i = 0; i < rows; ++i) {
+    const bool is_zero =
+        metric[i] * std::abs(residual[i]) <= kZeroResidual * force ||
+        std::abs(residual[i]) <= kRounding * largest;
+    residual[i] = is_zero ? 0 : residual[i] / metric[i];
+  }
+}
+
+void RowStack::Correct(const double* lack, double* change) {
+  for (const Level& level : levels_) {
+    const int first = level.first_row, rows = level.end_row - first;
+    double* right = scratch_.data();
+    std::copy_n(lack + first, rows, right);
+    if (level.deficient) {
+      for (int i = 0; i < rows; ++i) right[i] *= metric_[first + i];
+      for (int e = level.rank_end - 1; e >= level.rank_begin; --e) {
+        Reflect(e, rows, right);
+      }
+    }
+    for (int e = level.rank_begin; e < level.rank_end; ++e) {
+      const double* l = &effective_[static_cast<size_t>(e) * stride_];
+      double value;
+      Dots(l, 0, 1, change, e, &value);
+      change[e] = (right[carrier_[e] - first] - value) / l[e];
+    }
+  }
+}
+
+// Applies the reflection of column e to a vector of its level's rows.
+void RowStack::Reflect(int e, int rows, double* x) const {
+  const double* v =
+      &reflection_[static_cast<size_t>(e) * (reflection_.size() / n_)];
+  double dot;
+  Dots(v, 0, 1, x, rows, &dot);
+  dot = -dot;
+  AddRows(v, 0, 1, &dot, rows, x);
+}
+
+double RowStack::norm_z() const {
+  return std::sqrt(SquaredNorm(z_.data(), rank_));
+}
+
+double RowStack::Gradient(int level, double* gradient) const {
+  const Level& of = levels_[level];
+  std::fill_n(gradient, of.rank_begin, 0);
+  double size = 0, largest = 0;
+  for (int a = of.first_row; a < of.end_row; ++a) {
+    if (residual_[a] == 0) continue;
+    const double factor = weight(a) * residual_[a];
+    size = std::max(size, std::abs(factor));
+    AddRows(&l_[static_cast<std::size_t>(a) * stride_], 0, 1, &factor,
+            of.rank_begin, gradient);
+  }
+  for (int e = 0; e < of.rank_begin; ++e) {
+    largest = std::max(largest, std::abs(gradient[e]));
+  }
+  return largest > kZeroResidual * size ? size : 0;
+}
+
+void RowStack::SolveDual(int level, double* rhs, double* nu) {
+  for (int above = level - 1; above >= 0; --above) {
+    const Level& from = levels_[above];
+    const int rows = from.end_row - from.first_row;
+    std::fill_n(nu + from.first_row, rows, 0);
+    for (int e = from.rank_end - 1; e >= from.rank_begin; --e) {
+      const double* l = &effective_[static_cast<size_t>(e) * stride_];
+      const double value = rhs[e] / l[e], minus = -value;
+      AddRows(l, 0, 1, &minus, e, rhs);
+      nu[carrier_[e]] = value;
+    }
+    if (!from.deficient) continue;
+    // Through the reflections, back to the rows.
+    for (int e = from.rank_begin; e < from.rank_end; ++e) {
+      Reflect(e, rows, nu + from.first_row);
+    }
+    for (int a = from.first_row; a < from.end_row; ++a) nu[a] *= metric_[a];
+  }
+}
+
+}  // namespace poise

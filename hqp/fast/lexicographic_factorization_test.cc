@@ -1,0 +1,237 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/fast/lexicographic_factorization.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "tests/util/lexicographic.h"
+#include "tests/util/stacked_rows.h"
+#include "tests/util/tolerance.h"
+
+namespace poise {
+namespace {
+
+constexpr int kSeeds = 300;
+constexpr int kMaxRows = 24, kMaxLevels = 4;  // Of MakeRandomLevels().
+
+class RandomRowStackTest : public testing::TestWithParam<int> {
+ protected:
+  void SetUp() override {
+    for (const LeastSquares& level : levels_) AddLevel(level, &stack_);
+  }
+  // Of numbers up to 10, through a level's condition, twice.
+  double Tolerance() const {
+    return Rounding(10, kMaxRows, optimum_.condition * optimum_.condition);
+  }
+  double Residual(int level, int i) const {
+    return levels_[level].A.row(i) * optimum_.y - levels_[level].b[i];
+  }
+
+  const std::vector<LeastSquares> levels_ = MakeRandomLevels(GetParam());
+  const int n_ = static_cast<int>(levels_[0].A.cols());
+  const int num_levels_ = static_cast<int>(levels_.size());
+  const LexicographicOptimum optimum_ = SolveLexicographically(n_, levels_);
+  RowStack stack_{n_, kMaxRows, kMaxLevels};
+};
+
+TEST_P(RandomRowStackTest, AgreesWithSingularValues) {
+  const Eigen::MatrixXd Q = Basis(stack_, n_);
+  EXPECT_LE((Q * Q.transpose() -
+             Eigen::MatrixXd::Identity(stack_.rank(), stack_.rank()))
+                .norm(),
+            Rounding(1, n_));
+  EXPECT_LE((Optimum(stack_, n_) - optimum_.y).norm(), Tolerance());
+  EXPECT_NEAR(stack_.norm_z(), optimum_.y.norm(), Tolerance());
+  ASSERT_EQ(stack_.num_levels(), num_levels_);
+  int row = 0;
+  for (int l = 0; l < num_levels_; ++l) {
+    const auto count = static_cast<int>(levels_[l].A.rows());
+    const int before = l == 0 ? 0 : optimum_.rank[l - 1];
+    EXPECT_EQ(stack_.rank(l), optimum_.rank[l]) << l;
+    EXPECT_EQ(stack_.first_row(l), row) << l;
+    EXPECT_EQ(stack_.end_row(l), row + count) << l;
+    EXPECT_EQ(stack_.is_deficient(l), optimum_.rank[l] - before < count) << l;
+    for (int i = 0; i < count; ++i) {
+      const double residual = stack_.residual(row + i);
+      if (stack_.is_deficient(l)) {
+        EXPECT_NEAR(residual, Residual(l, i), Tolerance()) << l << ", " << i;
+      } else {
+        EXPECT_EQ(residual, 0) << l << ", " << i;
+      }
+    }
+    row += count;
+  }
+  EXPECT_EQ(stack_.num_rows(), row);
+  EXPECT_EQ(stack_.rank(), optimum_.rank.back());
+}
+
+TEST_P(RandomRowStackTest, HasTheGradientOfItsRows) {
+  const Eigen::MatrixXd Q = Basis(stack_, n_);
+  for (int l = 0; l < num_levels_; ++l) {
+    const int rank = l == 0 ? 0 : optimum_.rank[l - 1];
+    Eigen::VectorXd expected = Eigen::VectorXd::Zero(n_);
+    double size = 0;
+    for (int i = 0; i < levels_[l].A.rows(); ++i) {
+      const double weighted = levels_[l].weight[i] * Residual(l, i);
+      expected += weighted * levels_[l].A.row(i).transpose();
+      size = std::max(size, std::abs(weighted));
+    }
+    Eigen::VectorXd gradient = Eigen::VectorXd::Constant(rank + 1, 5);
+    const double found = stack_.Gradient(l, gradient.data());
+    EXPECT_LE((gradient.head(rank) - Q.topRows(rank) * expected).norm(),
+              100 * Tolerance())
+        << l;
+    EXPECT_EQ(gradient[rank], 5) << l;
+    if (found != 0) {
+      EXPECT_NEAR(found, size, 100 * Tolerance()) << l;
+    } else {
+      EXPECT_LE((Q.topRows(rank) * expected).norm(), 100 * Tolerance()) << l;
+    }
+  }
+}
+
+TEST_P(RandomRowStackTest, MultipliersAddUpToAnyForceOnTheirRows) {
+  const Eigen::MatrixXd Q = Basis(stack_, n_);
+  for (int l = 0; l <= num_levels_; ++l) {
+    const int rank = l == 0 ? 0 : optimum_.rank[l - 1];
+    const int rows = l == 0 ? 0 : stack_.end_row(l - 1);
+    Eigen::VectorXd force(rank), nu = Eigen::VectorXd::Constant(rows + 1, 5);
+    for (int e = 0; e < rank; ++e) force[e] = 3 - e % 7;
+    Eigen::VectorXd sum = Q.topRows(rank).transpose() * force;
+    stack_.SolveDual(l, force.data(), nu.data());
+    for (int above = 0; above < l; ++above) {
+      const int first = stack_.first_row(above);
+      for (int i = 0; i < levels_[above].A.rows(); ++i) {
+        sum -= nu[first + i] * levels_[above].A.row(i).transpose();
+      }
+    }
+    EXPECT_LE(sum.norm(), Tolerance()) << l;
+    EXPECT_EQ(nu[rows], 5) << l;
+  }
+}
+
+TEST_P(RandomRowStackTest, CorrectsAnyStartToTheSameOptimum) {
+  // From a y anywhere in the rows' space, what they lack leads back.
+  const Eigen::MatrixXd Q = Basis(stack_, n_);
+  Eigen::VectorXd z = Eigen::VectorXd::Map(stack_.z(), stack_.rank());
+  for (int e = 0; e < stack_.rank(); ++e) z[e] += 1 + e % 3;
+  const Eigen::VectorXd y = Q.transpose() * z;
+  Eigen::VectorXd lack(stack_.num_rows());
+  for (int l = 0; l < num_levels_; ++l) {
+    lack.segment(stack_.first_row(l), levels_[l].A.rows()) =
+        levels_[l].b - levels_[l].A * y;
+  }
+  Eigen::VectorXd change = Eigen::VectorXd::Constant(stack_.rank() + 1, 5);
+  stack_.Correct(lack.data(), change.data());
+  EXPECT_LE(
+      (y + Q.transpose() * change.head(stack_.rank()) - optimum_.y).norm(),
+      10 * Tolerance());
+  EXPECT_EQ(change[stack_.rank()], 5);
+}
+
+TEST_P(RandomRowStackTest, LevelsComeBackAfterTheyWereDropped) {
+  const Eigen::VectorXd y = Optimum(stack_, n_);
+  for (int from = num_levels_; from >= 0; --from) {
+    stack_.Truncate(from);
+    ASSERT_EQ(stack_.num_levels(), from);
+    EXPECT_EQ(stack_.rank(), from == 0 ? 0 : optimum_.rank[from - 1]);
+    EXPECT_EQ(stack_.num_rows(), from == 0 ? 0 : stack_.end_row(from - 1));
+    stack_.Truncate(from + 1);  // Drops nothing.
+    ASSERT_EQ(stack_.num_levels(), from);
+    for (int l = from; l < num_levels_; ++l) AddLevel(levels_[l], &stack_);
+    EXPECT_EQ(Optimum(stack_, n_), y) << from;
+  }
+}
+
+// Rows of the levels that are met go, each in turn and then with it the ones
+// before it, and come back; so do levels after them. What is left is solved as
+// if it had been all.
+TEST_P(RandomRowStackTest, UpdatesAreAsGoodAsFactorisingAnew) {
+  int met = 0;
+  while (met < num_levels_ && !stack_.is_deficient(met)) ++met;
+  if (met == 0) return;
+  stack_.Merge(met);
+  ASSERT_EQ(stack_.num_levels(), met);
+  const int count = stack_.num_rows();
+  EXPECT_EQ(stack_.rank(), count);
+  EXPECT_EQ(stack_.first_row(met - 1), 0);
+  std::vector<LeastSquares> levels(levels_.begin() + (met - 1), levels_.end());
+  LeastSquares& first = levels[0];
+  first.A.resize(count, n_);
+  first.b.resize(count);
+  first.weight.setOnes(count);
+  for (int l = 0, row = 0; l < met; ++l) {
+    for (int i = 0; i < levels_[l].A.rows(); ++i, ++row) {
+      first.A.row(row) = levels_[l].A.row(i);
+      first.b[row] = levels_[l].b[i];
+    }
+  }
+  const auto check = [&] {
+    stack_.SolveLast();
+    for (size_t l = 1; l < levels.size(); ++l) AddLevel(levels[l], &stack_);
+    const int rows = static_cast<int>(first.A.rows());
+    const LexicographicOptimum optimum = SolveLexicographically(n_, levels);
+    const double tolerance =
+        Rounding(10, kMaxRows, optimum.condition * optimum.condition);
+    ASSERT_EQ(stack_.end_row(met - 1), rows);
+    ASSERT_EQ(stack_.rank(met - 1), rows);
+    const Eigen::MatrixXd Q = Basis(stack_, n_);
+    EXPECT_LE((Q * Q.transpose() -
+               Eigen::MatrixXd::Identity(stack_.rank(), stack_.rank()))
+                  .norm(),
+              Rounding(1, n_));
+    EXPECT_LE((Optimum(stack_, n_) - optimum.y).norm(), tolerance);
+    Eigen::VectorXd force = Eigen::VectorXd::LinSpaced(rows, 1, 2), nu(rows);
+    const Eigen::VectorXd sum = Q.topRows(rows).transpose() * force;
+    stack_.SolveDual(met, force.data(), nu.data());
+    EXPECT_LE((first.A.transpose() * nu - sum).norm(), tolerance);
+    for (int a = 0; a < rows; ++a) EXPECT_EQ(stack_.residual(a), 0) << a;
+    // What a row lacks, by its number.
+    Eigen::VectorXd lack = Eigen::VectorXd::Zero(stack_.num_rows());
+    Eigen::VectorXd change(stack_.rank());
+    for (int a = 0; a < rows; ++a) lack[a] = 1 + a;
+    stack_.Correct(lack.data(), change.data());
+    EXPECT_LE((first.A * Q.topRows(rows).transpose() * change.head(rows) -
+               lack.head(rows))
+                  .norm(),
+              tolerance);
+    stack_.Truncate(met);
+  };
+  for (int removed = 0; removed < count; ++removed) {
+    SCOPED_TRACE(removed);
+    const LeastSquares all = first;
+    std::vector<int> gone;  // By number in `all`.
+    for (int a = removed; a >= 0; a -= 2) {
+      const auto last = first.A.rows() - 1;
+      gone.push_back(a);
+      stack_.RemoveRow(a);
+      ASSERT_EQ(stack_.num_rows(), last);
+      first.A.row(a) = Eigen::RowVectorXd(first.A.row(last));
+      first.b[a] = first.b[last];
+      first.A.conservativeResize(last, n_);
+      first.b.conservativeResize(last);
+      first.weight.conservativeResize(last);
+      check();
+    }
+    for (const int from : gone) {
+      const int a = stack_.AddRow(all.b[from], 1);
+      const auto end = first.A.rows();
+      ASSERT_EQ(a, end);
+      Eigen::VectorXd::Map(stack_.row(a), n_) = all.A.row(from);
+      ASSERT_TRUE(stack_.AppendRow());
+      first.A.conservativeResize(end + 1, n_);
+      first.b.conservativeResize(end + 1);
+      first.weight.setOnes(end + 1);
+      first.A.row(end) = all.A.row(from);
+      first.b[end] = all.b[from];
+      check();
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomRowStackTest, testing::Range(0, kSeeds));
+
+}  // namespace
+}  // namespace poise

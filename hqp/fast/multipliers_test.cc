@@ -1,0 +1,332 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// What the fast solver says of its answer, by hand and against the cascade.
+#include "hqp/fast/multipliers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hqp/certificate.h"
+#include "hqp/reference/cascade.h"
+#include "hqp/solver.h"
+#include "tests/util/random_hierarchy.h"
+
+namespace poise {
+namespace {
+
+constexpr double kTolerance = 1e-13;  // Some operations on numbers near 10.
+constexpr double kCertified = 1e-10;  // A tenth of what the solver promises.
+
+Solution Solve(const Hierarchy& hierarchy,
+               const std::vector<LevelCapacity>& capacity) {
+  Solution solution(hierarchy.num_variables(), capacity);
+  EXPECT_EQ(
+      Solver(hierarchy.num_variables(), capacity).Solve(hierarchy, &solution),
+      Status::kOptimal);
+  return solution;
+}
+
+// The same in a hierarchy with room for more.
+HierarchyCase WithRoom(const HierarchyCase& drawn) {
+  const Hierarchy& from = drawn.hierarchy;
+  std::vector<LevelCapacity> capacity = drawn.capacity;
+  for (LevelCapacity& level : capacity) {
+    level.equalities += 2;
+    level.inequalities += 1;
+  }
+  HierarchyCase result{capacity, Hierarchy(from.num_variables(), capacity)};
+  for (int k = 0; k < from.num_levels(); ++k) {
+    EqualityBlock equalities =
+        result.hierarchy.AddEqualities(k, from.num_equalities(k));
+    equalities.B = from.B(k);
+    equalities.b = from.b(k);
+    equalities.weight = from.weight(k);
+    InequalityBlock inequalities =
+        result.hierarchy.AddInequalities(k, from.num_inequalities(k));
+    inequalities.C = from.C(k);
+    inequalities.lower = from.lower(k);
+    inequalities.upper = from.upper(k);
+  }
+  return result;
+}
+
+// With levels that only select variables, and without; so many that multipliers
+// of the wrong sign, which there are of few, are made right a hundred times.
+TEST(Report, IsCertifiedAndCountsAsTheCascadeDoes) {
+  for (int seed = 0; seed < 1200; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomHierarchyOptions options;
+    options.max_variables = 3 + seed % 4;
+    options.max_equalities = 3;
+    options.degenerate = 40;
+    options.planted = 50;
+    options.scaled = 0;
+    options.selecting = seed % 2 == 0 ? 100 : 0;
+    const HierarchyCase drawn = WithRoom(MakeRandomHierarchy(seed, options));
+    const int n = drawn.hierarchy.num_variables();
+    Solver solver(n, drawn.capacity);
+    Solution solution(n, drawn.capacity), reference(n, drawn.capacity);
+    ASSERT_EQ(Cascade(n, drawn.capacity).Solve(drawn.hierarchy, &reference),
+              Status::kOptimal);
+    EXPECT_LE(Certifier(n, drawn.capacity)
+                  .Certify(drawn.hierarchy, reference)
+                  .worst(),
+              kCertified);
+    for (int time = 0; time < 2; ++time) {
+      ASSERT_EQ(solver.Solve(drawn.hierarchy, &solution), Status::kOptimal);
+      EXPECT_LE(Certifier(n, drawn.capacity)
+                    .Certify(drawn.hierarchy, solution)
+                    .worst(),
+                kCertified);
+      for (int k = 0; k < drawn.hierarchy.num_levels(); ++k) {
+        EXPECT_EQ(solution.levels[k].nullity, reference.levels[k].nullity) << k;
+      }
+    }
+  }
+}
+
+// At y = 0, the bound of a row: it is at work, but not violated.
+TEST(Report, KnowsARowOfSizeZero) {
+  const std::vector<LevelCapacity> capacity{{0, 1}, {2, 0}};
+  Hierarchy hierarchy(2, capacity);
+  InequalityBlock row = hierarchy.AddInequalities(0, 1);
+  row.C << 1, 0;
+  row.upper << 0;
+  EqualityBlock wish = hierarchy.AddEqualities(1, 2);
+  wish.B << 1, 1, 1, -1;
+  wish.b << -1, -1;
+  const Solution solution = Solve(hierarchy, capacity);
+  EXPECT_EQ(solution.y[0], 0);
+  EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
+  EXPECT_EQ(solution.levels[0].nullity, 2);
+}
+
+// However short a row is, it counts for one: y0 = 1 and y1 <= 1, above y1 = 3,
+// above y0 = 2 and y2 = 4.
+TEST(Report, CountsShortRowsLikeLongOnes) {
+  const double length = std::ldexp(1, -43);  // 1e-13.
+  const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}, {2, 0}};
+  Hierarchy hierarchy(3, capacity);
+  EqualityBlock row = hierarchy.AddEqualities(0, 1);
+  row.B << length, 0, 0;
+  row.b << -length;
+  InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+  bound.C << 0, length, 0;
+  bound.upper << length;
+  EqualityBlock wish = hierarchy.AddEqualities(1, 1);
+  wish.B << 0, 1, 0;
+  wish.b << -3;
+  EqualityBlock wishes = hierarchy.AddEqualities(2, 2);
+  wishes.B << 1, 0, 0, 0, 0, 1;
+  wishes.b << -2, -4;
+  const Solution solution = Solve(hierarchy, capacity);
+  EXPECT_LE((solution.y - Eigen::Vector3d(1, 1, 4)).norm(), kTolerance);
+  EXPECT_EQ(solution.levels[0].nullity, 2);
+  EXPECT_EQ(solution.levels[1].nullity, 1);
+  EXPECT_EQ(solution.levels[2].nullity, 0);
+  EXPECT_NEAR(solution.levels[1].multipliers[0].inequality[0] * length, 2,
+              kTolerance);
+  EXPECT_NEAR(solution.levels[2].multipliers[0].equality[0] * length, 1,
+              kTolerance);
+}
+
+// y = 0 above y = -1, of levels that only select: what is left is 1, exactly; on
+// the row that fixes y, not on one without weight.
+TEST(Report, CancelsWhatALevelOfSelectionsLeaves) {
+  const std::vector<LevelCapacity> capacity{{2, 0}, {2, 0}, {2, 0}};
+  Hierarchy hierarchy(1, capacity);
+  for (int k = 0; k < 3; ++k) {
+    EqualityBlock wish = hierarchy.AddEqualities(k, 2);
+    wish.B << 5, 1 + k;
+    wish.b << 7, (k == 1 ? 0.5 : 0);
+    wish.weight << 0, 1;
+  }
+  const Solution solution = Solve(hierarchy, capacity);
+  EXPECT_EQ(solution.levels[1].multipliers[0].equality, Eigen::Vector2d(0, -1));
+  for (int above = 0; above < 2; ++above) {
+    EXPECT_EQ(solution.levels[2].multipliers[above].equality,
+              Eigen::Vector2d(0, 0));
+  }
+}
+
+// y = 1 and y = 3 as rows of one bound twice: y = 2 is above one, below the
+// other. What is met counts as at the upper one.
+TEST(Report, TellsWhichBoundOfTwoInOneIsViolated) {
+  const std::vector<LevelCapacity> capacity{{0, 2}};
+  Hierarchy hierarchy(1, capacity);
+  InequalityBlock rows = hierarchy.AddInequalities(0, 2);
+  rows.C << 1, 1;
+  rows.lower << 1, 3;
+  rows.upper << 1, 3;
+  const Solution torn = Solve(hierarchy, capacity);
+  EXPECT_EQ(torn.levels[0].active[0], Side::kUpper);
+  EXPECT_EQ(torn.levels[0].active[1], Side::kLower);
+  rows.lower << 2, 2;
+  rows.upper << 2, 2;
+  const Solution met = Solve(hierarchy, capacity);
+  EXPECT_EQ(met.y[0], 2);
+  EXPECT_EQ(met.levels[0].active[0], Side::kUpper);
+  EXPECT_EQ(met.levels[0].active[1], Side::kUpper);
+}
+
+// 3 y0 + 4 y1 <= 50, and >= 50 and twice a violation, at y = (10, 5): violated
+// is what is more than 1e-9 (5 |y| + 50).
+TEST(Report, CountsARowAsViolatedFromAnEdgeOn) {
+  for (const double share : {0.98, 1.02}) {
+    const std::vector<LevelCapacity> capacity{{1, 2}};
+    Hierarchy hierarchy(2, capacity);
+    EqualityBlock across = hierarchy.AddEqualities(0, 1);
+    across.B << -4, 3;
+    across.b << 25;
+    InequalityBlock rows = hierarchy.AddInequalities(0, 2);
+    rows.C << 3, 4, 3, 4;
+    rows.upper[0] = 50;
+    rows.lower[1] = 50 + 2 * share * 1e-9 * (5 * std::sqrt(125) + 50);
+    EXPECT_EQ(Solve(hierarchy, capacity).levels[0].nullity, share < 1 ? 1 : 0);
+  }
+}
+
+// y0 = 1 above y0 <= 1 - 2e-9, which is violated too little to count, and y1 = 0:
+// what is below and asks for y0 + y1 = 0 would draw at the bound as much as at
+// y0 = 1, were it not for these two, which weigh the same. And so in other units.
+TEST(Report, TakesForceOffARowThatIsViolatedTooLittleToCount) {
+  for (const double unit : {1., 1e-3}) {
+    SCOPED_TRACE(unit);
+    const std::vector<LevelCapacity> capacity{{2, 1}, {1, 0}};
+    Hierarchy hierarchy(2, capacity);
+    EqualityBlock wishes = hierarchy.AddEqualities(0, 2);
+    wishes.B << 1, 0, 0, 1;
+    wishes.b << -unit, 0;
+    InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+    bound.C << 1, 0;
+    bound.upper << unit * (1 - 2e-9);
+    EqualityBlock sum = hierarchy.AddEqualities(1, 1);
+    sum.B << 1, 1;
+    const Solution solution = Solve(hierarchy, capacity);
+    EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
+    EXPECT_EQ(solution.levels[0].nullity, 0);
+    const LevelMultipliers& of_sum = solution.levels[1].multipliers[0];
+    // Of the two numbers that cancel, 1e-9 each, seven digits are left.
+    EXPECT_LE((of_sum.equality / unit - Eigen::Vector2d(-1, -1)).norm(), 1e-6);
+    EXPECT_NEAR(of_sum.inequality[0] / unit, 0, 1e-6);
+    EXPECT_LE(Certifier(2, capacity).Certify(hierarchy, solution).worst(),
+              1e-9);
+  }
+}
+
+// y = 1 and y <= -1 are torn between at y = 0: there both are equalities, and
+// share what y = -5 below draws with, whatever its sign.
+TEST(Report, LeavesTheForceOnARowThatIsViolated) {
+  const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}};
+  Hierarchy hierarchy(1, capacity);
+  EqualityBlock wish = hierarchy.AddEqualities(0, 1);
+  wish.B << 1;
+  wish.b << -1;
+  InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+  bound.C << 1;
+  bound.upper << -1;
+  EqualityBlock below = hierarchy.AddEqualities(1, 1);
+  below.B << 1;
+  below.b << 5;
+  const Solution solution = Solve(hierarchy, capacity);
+  const LevelMultipliers& multipliers = solution.levels[1].multipliers[0];
+  EXPECT_NEAR(multipliers.equality[0], -2.5, kTolerance);
+  EXPECT_NEAR(multipliers.inequality[0], -2.5, kTolerance);
+}
+
+// y0 + y1 = 0 above y_i = 1, y_j = 5 and nothing: what the third leaves on the
+// other variable is not there for the fourth, nor for the next solve.
+TEST(Report, ForgetsWhatALevelLeavesOnTheTail) {
+  const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}, {1, 0}, {1, 0}};
+  Solver solver(2, capacity);
+  for (int j = 0; j < 2; ++j) {
+    Hierarchy hierarchy(2, capacity);
+    hierarchy.AddEqualities(0, 1).B << 1, 1;
+    EqualityBlock first = hierarchy.AddEqualities(1, 1);
+    first.B(0, j) = 1;
+    first.b << -1;
+    EqualityBlock second = hierarchy.AddEqualities(2, 1);
+    second.B(0, 1 - j) = 1;
+    second.b << -5;
+    Solution solution(2, capacity);
+    ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal) << j;
+    // g = -6 on y_(1-j): the sum takes it, and leaves as much on y_j.
+    const std::vector<LevelMultipliers>& of = solution.levels[2].multipliers;
+    EXPECT_NEAR(of[0].equality[0], 6, kTolerance) << j;
+    EXPECT_NEAR(of[1].equality[0], -6, kTolerance) << j;
+    for (const LevelMultipliers& none : solution.levels[3].multipliers) {
+      EXPECT_EQ(none.equality, Eigen::VectorXd::Zero(none.equality.size()));
+    }
+  }
+}
+
+// y0 is between rows of 8e6 that contradict each other and almost depend on each
+// other, so that what some rows weigh is rounding. A multiple of an equation that
+// is divided by that, of 1e31, would make any y pass for an optimum.
+TEST(Report, DividesByNothingThatIsRoundings) {
+  const std::vector<LevelCapacity> capacity{{2, 2}, {0, 1}, {1, 0}};
+  Hierarchy hierarchy(4, capacity);
+  EqualityBlock sums = hierarchy.AddEqualities(0, 2);
+  sums.B << -8388608, 1, 4, 8, 0, 0, 0, 1;
+  sums.b << 0, -3;
+  InequalityBlock bounds = hierarchy.AddInequalities(0, 2);
+  bounds.C << -4194304, 0, 1, 0, -8388608, 0.00390625, 0, 0;
+  bounds.lower << 0, 1;
+  InequalityBlock none = hierarchy.AddInequalities(1, 1);
+  none.C << 0, 0, 0, 1;
+  none.upper << 0;
+  hierarchy.AddEqualities(2, 1).B << 0, 0, 1, 0;
+  Solver solver(4, capacity);
+  Solution solution(4, capacity);
+  (void)solver.Solve(hierarchy, &solution);
+  for (const LevelSolution& level : solution.levels) {
+    for (const LevelMultipliers& of : level.multipliers) {
+      for (const double mu : of.equality) EXPECT_LT(std::abs(mu), 1e12);
+      for (const double mu : of.inequality) EXPECT_LT(std::abs(mu), 1e12);
+    }
+  }
+}
+
+// y0 + y1 = 4 and 2 (y1 + y2) <= 6, above 2 y0 = -2 and, of weight 3, 4 y2 = 8,
+// above 5 y1 = 10.
+class ReportByHandTest : public testing::Test {
+ protected:
+  ReportByHandTest() {
+    EqualityBlock sum = hierarchy_.AddEqualities(0, 1);
+    sum.B << 1, 1, 0;
+    sum.b << -4;
+    InequalityBlock bound = hierarchy_.AddInequalities(0, 1);
+    bound.C << 0, 2, 2;
+    bound.upper << 6;
+    EqualityBlock wishes = hierarchy_.AddEqualities(1, 2);
+    wishes.B << 2, 0, 0, 0, 0, 4;
+    wishes.b << 2, -8;
+    wishes.weight << 1, 3;
+    EqualityBlock last = hierarchy_.AddEqualities(2, 1);
+    last.B << 0, 5, 0;
+    last.b << -10;
+  }
+
+  const std::vector<LevelCapacity> capacity_{{1, 1}, {2, 0}, {1, 0}};
+  Hierarchy hierarchy_{3, capacity_};
+};
+
+// At its bound y = (t, 4 - t, t - 1): (2 t + 2)^2 + 3 (4 t - 12)^2 is least at
+// t = 35 / 13.
+TEST_F(ReportByHandTest, GivesTheMultipliersOfEachLevel) {
+  const Solution solution = Solve(hierarchy_, capacity_);
+  EXPECT_LE((solution.y - Eigen::Vector3d(35, 17, 22) / 13).norm(), kTolerance);
+  EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
+  EXPECT_EQ(solution.levels[0].nullity, 2);  // The bound is not violated.
+  EXPECT_EQ(solution.levels[1].nullity, 0);
+  EXPECT_EQ(solution.levels[2].nullity, 0);
+  // g = (192, 0, -192) / 13 + lambda (1, 1, 0) + mu (0, 2, 2) = 0.
+  const LevelMultipliers& of_wishes = solution.levels[1].multipliers[0];
+  EXPECT_NEAR(of_wishes.equality[0], -192. / 13, kTolerance);
+  EXPECT_NEAR(of_wishes.inequality[0], 96. / 13, kTolerance);
+  EXPECT_LE(Certifier(3, capacity_).Certify(hierarchy_, solution).worst(),
+            kTolerance);
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,456 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "hqp/fast/working_set_problem.h"
+#include "tests/util/tolerance.h"
+
+namespace poise {
+namespace {
+
+// Of what a row is added up from: where refinement ends.
+constexpr double kRefined = 1e-13;
+
+// Two levels, each of 2 y0 - y1 = 3 and y1 = 4, weight 0, above 1 <= 5 y0 + 7 y1
+// and y0 - 3 y1 <= 2.
+class ActiveProblemReadTest : public testing::Test {
+ protected:
+  ActiveProblemReadTest() {
+    for (int k = 0; k < 2; ++k) {
+      EqualityBlock equalities = hierarchy_.AddEqualities(k, 2);
+      equalities.B << 2, -1, 0, 1;
+      equalities.b << -3, -4;
+      equalities.weight << 1, 0;
+      InequalityBlock rows = hierarchy_.AddInequalities(k, 2);
+      rows.C << 5, 7, 1, -3;
+      rows.lower[0] = 1;
+      rows.upper[1] = 2;
+      B_[k] = equalities.B.data();
+      b_[k] = equalities.b.data();
+      weight_[k] = equalities.weight.data();
+      C_[k] = rows.C.data();
+      lower_[k] = rows.lower.data();
+      upper_[k] = rows.upper.data();
+    }
+  }
+  // With one number in the place of another.
+  void ExpectStatus(double* number, double value, Status status, int level) {
+    const double good = *number;
+    *number = value;
+    int failed_level = 5;
+    EXPECT_EQ(problem_.Read(hierarchy_, &failed_level), status) << value;
+    EXPECT_EQ(failed_level, level) << value;
+    *number = good;
+  }
+
+  const std::vector<LevelCapacity> capacity_{{2, 2}, {2, 2}};
+  Hierarchy hierarchy_{2, capacity_};
+  ActiveProblem problem_{2, capacity_};
+  double *B_[2], *b_[2], *weight_[2], *C_[2], *lower_[2], *upper_[2];
+};
+
+TEST_F(ActiveProblemReadTest, FindsTheFirstLevelWithABadNumber) {
+  for (int k = 0; k < 2; ++k) {
+    for (int i = 0; i < 2; ++i) {
+      SCOPED_TRACE(testing::Message() << k << ", " << i);
+      for (const double bad : {double(NAN), double(INFINITY)}) {
+        for (int j = 0; j < 2; ++j) {
+          ExpectStatus(B_[k] + 2 * i + j, bad, Status::kNotFinite, k);
+          ExpectStatus(C_[k] + 2 * i + j, bad, Status::kNotFinite, k);
+        }
+        ExpectStatus(b_[k] + i, bad, Status::kNotFinite, k);
+        ExpectStatus(weight_[k] + i, bad, Status::kNotFinite, k);
+        ExpectStatus(lower_[k] + i, bad, Status::kNotFinite, k);
+        ExpectStatus(upper_[k] + i, -bad, Status::kNotFinite, k);
+      }
+      ExpectStatus(lower_[k] + i, -INFINITY, Status::kOptimal, -1);
+      ExpectStatus(upper_[k] + i, INFINITY, Status::kOptimal, -1);
+      ExpectStatus(weight_[k] + i, -1e-9, Status::kBadInput, k);
+      ExpectStatus(weight_[k] + i, 0, Status::kOptimal, -1);
+    }
+    ExpectStatus(upper_[k], 1, Status::kOptimal, -1);
+    ExpectStatus(upper_[k], 1 - 1e-9, Status::kBadInput, k);
+    ExpectStatus(lower_[k] + 1, 2, Status::kOptimal, -1);
+    ExpectStatus(lower_[k] + 1, 2 + 1e-9, Status::kBadInput, k);
+    EXPECT_EQ(problem_.norm(k, 0), 12);
+    EXPECT_EQ(problem_.norm(k, 1), 4);
+  }
+  // What is not finite comes first, level by level.
+  *weight_[1] = -1;
+  *b_[1] = NAN;
+  ExpectStatus(b_[1] + 1, 0, Status::kNotFinite, 1);
+  *upper_[0] = 0;
+  ExpectStatus(b_[1] + 1, 0, Status::kBadInput, 0);
+}
+
+// What is so short that its square is none is a row of zeros: an equality by its
+// weight as well, unless that is zero, where it does not count anyway.
+TEST_F(ActiveProblemReadTest, TakesWhatWeighsNothingForZeros) {
+  int failed_level;
+  for (const bool is_nothing : {false, true}) {
+    for (const double root : {3., 0.5}) {
+      const double length = is_nothing ? 0.9e-150 : 1.1e-150;
+      C_[1][0] = C_[1][1] = length / 2;
+      B_[1][0] = B_[1][1] = length / 2 / root;
+      b_[1][0] = 0;
+      weight_[1][0] = root * root;
+      ASSERT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
+      EXPECT_EQ(problem_.norm(1, 0) == 0, is_nothing);
+      EXPECT_EQ(problem_.norm(1, 1), 4);
+      problem_.Plan(hierarchy_, 2);
+      problem_.Solve(hierarchy_,
+                     {{Side::kNone, Side::kNone}, {Side::kLower, Side::kNone}});
+      EXPECT_EQ(problem_.head().num_rows(), is_nothing ? 1 : 3) << root;
+      for (const double y : problem_.y()) EXPECT_TRUE(std::isfinite(y));
+    }
+  }
+}
+
+TEST(ActiveProblem, HasATailWhateverItsRowsWeigh) {
+  for (const double weight : {0., 1e-9, 1e9}) {
+    const std::vector<LevelCapacity> capacity{{1, 0}, {2, 0}};
+    Hierarchy hierarchy(2, capacity);
+    hierarchy.AddEqualities(0, 1).B << 1, 1;
+    EqualityBlock wishes = hierarchy.AddEqualities(1, 2);
+    wishes.B.setIdentity();
+    wishes.weight << weight, 1;
+    ActiveProblem problem(2, capacity);
+    int failed_level;
+    EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+    problem.Plan(hierarchy, 2);
+    EXPECT_EQ(problem.num_head(), 1) << weight;
+  }
+}
+
+// y0 <= 1 and y1 >= 2, y2 between 3 and 3, above y0 + y1 = 8, and 3 y2 = 6 and
+// y1 = 0: at (1, 2, 3).
+class ActiveProblemTest : public testing::Test {
+ protected:
+  ActiveProblemTest() {
+    InequalityBlock bounds = hierarchy_.AddInequalities(0, 3);
+    bounds.C.setIdentity();
+    bounds.C(1, 1) = 2;
+    bounds.upper << 1, INFINITY, 3;
+    bounds.lower << -INFINITY, 4, 3;
+    EqualityBlock sum = hierarchy_.AddEqualities(1, 1);
+    sum.B << 1, 1, 0;
+    sum.b << -8;
+    EqualityBlock wishes = hierarchy_.AddEqualities(2, 2);
+    wishes.B << 0, 0, 3, 0, 1, 0;
+    wishes.b << -6, 0;
+    wishes.weight << 1, 5;
+    int failed_level;
+    EXPECT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
+    problem_.Plan(hierarchy_, 3);
+    problem_.Solve(hierarchy_,
+                   {{Side::kUpper, Side::kLower, Side::kUpper}, {}, {}});
+    problem_.FindMultipliers(4);
+  }
+
+  const std::vector<LevelCapacity> capacity_{{0, 3}, {1, 0}, {2, 0}};
+  Hierarchy hierarchy_{3, capacity_};
+  ActiveProblem problem_{3, capacity_};
+};
+
+TEST_F(ActiveProblemTest, PricesWhatARowHoldsBack) {
+  EXPECT_EQ(problem_.num_head(), 2);
+  EXPECT_EQ(problem_.selected(2, 0), 2);
+  EXPECT_EQ(problem_.selected(2, 1), 1);
+  const double rounding = Rounding(10, 3);
+  EXPECT_LE(
+      (Eigen::Vector3d::Map(problem_.y().data()) - Eigen::Vector3d(1, 2, 3))
+          .norm(),
+      rounding);
+  // Of the sum: -5 on y0 and on y1. To give way upwards helps, downwards does
+  // not: at a lower side, that is a row to let go.
+  EXPECT_NEAR(problem_.Price(0, 1, Side::kUpper, 0), 5, rounding);
+  EXPECT_NEAR(problem_.Price(1, 1, Side::kLower, 0), -5, rounding);
+  EXPECT_EQ(problem_.Price(2, 1, Side::kUpper, 1e-12), 0);
+  // Of the wishes: 9 on y2, upwards; 10 on y1, downwards.
+  EXPECT_EQ(problem_.Price(0, 2, Side::kUpper, 1e-12), 0);
+  EXPECT_NEAR(problem_.Price(1, 2, Side::kLower, 0), 10, 5 * rounding);
+  EXPECT_NEAR(problem_.Price(2, 2, Side::kUpper, 0), -9, 5 * rounding);
+  // Its own level is met.
+  for (int a = 0; a < 3; ++a) {
+    EXPECT_EQ(problem_.Price(a, 0, Side::kUpper, 0), 0);
+  }
+  // Relative to the largest of what it is added up from.
+  const ActiveProblem::Multipliers& of_sum = problem_.multipliers(1);
+  EXPECT_TRUE(of_sum.any);
+  const double share = std::abs(of_sum.nu[0]) / of_sum.size;
+  EXPECT_EQ(problem_.Price(0, 1, Side::kUpper, share * (1 + 1e-12)), 0);
+  EXPECT_NE(problem_.Price(0, 1, Side::kUpper, share * (1 - 1e-12)), 0);
+}
+
+// y = 1/16 and, four times as heavy, y = 1/16 + gap. In between, a fifth of the gap
+// from the latter, sqrt(4/5) of it is left in any case, on the light row: it
+// counts beside that row's weight times 1/8. What rows of the next level weigh
+// does not matter.
+TEST(ActiveProblem, AResidualOfRoundingIsNone) {
+  const std::vector<LevelCapacity> capacity{{2, 0}, {0, 1}};
+  for (const double share : {0.9, 1.1}) {
+    for (const double sign : {-1, 1}) {
+      const double gap = sign * share * 1e-12 / 8 / std::sqrt(0.8);
+      Hierarchy hierarchy(1, capacity);
+      EqualityBlock twice = hierarchy.AddEqualities(0, 2);
+      twice.B << 1, 1;
+      twice.b << -1. / 16, -(1. / 16 + gap);
+      twice.weight << 1, 4;
+      InequalityBlock next = hierarchy.AddInequalities(1, 1);
+      next.C << 100;
+      next.upper << 50;
+      ActiveProblem problem(1, capacity);
+      int failed_level;
+      ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+      problem.Plan(hierarchy, 2);
+      problem.Solve(hierarchy, {{}, {Side::kUpper}});
+      ASSERT_EQ(problem.num_head(), 2);
+      // Wherever y is.
+      for (const double off : {0., 0.8 * gap, gap}) {
+        problem.TakeOther(hierarchy, {1. / 16 + off});
+        const double rounding = Rounding(0.125, 1);
+        EXPECT_NEAR(problem.head().residual(0), share > 1 ? 0.8 * gap : 0,
+                    rounding);
+        EXPECT_NEAR(problem.head().residual(1), share > 1 ? -0.2 * gap : 0,
+                    rounding);
+      }
+    }
+  }
+}
+
+// y1 + y2 = 5 below y1 + y2 = 0 is held back by 5 of its weight, 3, and its length,
+// squared. Where y is said to be elsewhere, it is by 4 of them, of which 1 too
+// much was found before.
+TEST(ActiveProblem, RefinesMultipliersByWhatIsLeftOfTheirSum) {
+  const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
+  Hierarchy hierarchy(2, capacity);
+  EqualityBlock first = hierarchy.AddEqualities(0, 1);
+  first.B << 1, 1;
+  first.b << 0;
+  EqualityBlock second = hierarchy.AddEqualities(1, 1);
+  second.B << 1, 1;
+  second.b << -5;
+  second.weight << 3;
+  ActiveProblem problem(2, capacity);
+  int failed_level;
+  ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+  problem.Plan(hierarchy, 2);
+  problem.Solve(hierarchy, {{}, {}});
+  problem.FindMultipliers(3);
+  const double unit = 6 / std::sqrt(2);
+  EXPECT_NEAR(problem.multipliers(1).nu[0], 5 * unit, Rounding(5 * unit, 2));
+  problem.TakeOther(hierarchy, {1, 0});
+  problem.RefineMultipliers(hierarchy);
+  EXPECT_NEAR(problem.multipliers(1).nu[0], 4 * unit, Rounding(5 * unit, 2));
+  EXPECT_NEAR(problem.multipliers(1).nu[1], -4 * unit, Rounding(5 * unit, 2));
+}
+
+// Without variables, no level selects any.
+TEST(ActiveProblem, KnowsLevelsWithoutVariables) {
+  const std::vector<LevelCapacity> capacity{{0, 0}};
+  ActiveProblem problem(0, capacity);
+  const Hierarchy hierarchy(0, capacity);
+  problem.Plan(hierarchy, 1);
+  EXPECT_EQ(problem.num_head(), 1);
+}
+
+// Rows of two or more variables, which are met, and a last level that wants some
+// variables somewhere.
+class RefinementTest : public testing::Test {
+ protected:
+  struct Met {
+    Eigen::RowVectorXd row;
+    double target;
+    int level = 0;
+  };
+  struct Wish {
+    int variable;
+    double target;
+  };
+  // From the solution, or from another y.
+  Eigen::VectorXd Refine(const std::vector<Met>& rows,
+                         const std::vector<Wish>& wishes,
+                         const std::vector<double>* other = nullptr) {
+    const auto n = static_cast<int>(rows[0].row.size());
+    // With room for more than there is.
+    const std::vector<LevelCapacity> capacity{{8, 0}, {8, 0}, {8, 0}, {8, 0}};
+    Hierarchy hierarchy(n, capacity);
+    for (const Met& met : rows) {
+      EqualityBlock block = hierarchy.AddEqualities(met.level, 1);
+      block.B = met.row;
+      block.b[0] = -met.target;
+    }
+    for (const Wish& wish : wishes) {
+      EqualityBlock block = hierarchy.AddEqualities(3, 1);
+      block.B(0, wish.variable) = 1;
+      block.b[0] = -wish.target;
+    }
+    ActiveProblem problem(n, capacity);
+    int failed_level;
+    EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+    problem.Plan(hierarchy, 4);
+    EXPECT_GE(problem.num_head(), 1);
+    problem.Solve(hierarchy, {{}, {}, {}, {}});
+    if (other != nullptr) {
+      problem.RefineOther(hierarchy, *other);
+    } else {
+      problem.Refine(hierarchy);
+    }
+    residual_.clear();
+    for (int a = 0; a < problem.head().num_rows(); ++a) {
+      residual_.push_back(problem.head().residual(a) * problem.row(a).norm);
+    }
+    return Eigen::VectorXd::Map(problem.y().data(), n);
+  }
+  static Eigen::RowVectorXd Row(const std::vector<double>& entries) {
+    return Eigen::RowVectorXd::Map(entries.data(), entries.size());
+  }
+  static void ExpectMet(const Met& met, const Eigen::VectorXd& y) {
+    const double size = met.row.cwiseAbs() * y.cwiseAbs();
+    EXPECT_NEAR(met.row * y, met.target,
+                kRefined * (size + std::abs(met.target)))
+        << met.row;
+  }
+
+  std::vector<double> residual_;  // By row, as it is in the hierarchy.
+};
+
+// y0 + y1 = L, and two rows of y1 and y2, which are small: rounding of L leaves
+// nothing of them, at first, and it takes as many passes as L has of digits to
+// bring them back. What others want stays, if small itself.
+TEST_F(RefinementTest, BringsSmallNumbersBackFromBesideLargeOnes) {
+  for (const double large : {1e10, 1e20, 1e36, 1e90}) {
+    std::vector<Met> rows{{Row({1, 1, 0, 0, 0, 0}), large},
+                          {Row({0, 1, 1, 0, 0, 0}), 3e-6},
+                          {Row({0, 1, -1, 0, 0, 0}), 1e-6}};
+    // And two at odds with each other, of which nothing is asked.
+    const Met torn[] = {{Row({0, 1, 0, 0, 1, 1}), 1, 1},
+                        {Row({0, 1, 0, 0, 1, 1}), 3, 1}};
+    std::vector<int> order{0, 1, 2};
+    do {
+      SCOPED_TRACE(testing::Message() << large << ": " << order[0] << order[1]);
+      const Eigen::VectorXd y = Refine(
+          {rows[order[0]], rows[order[1]], rows[order[2]], torn[0], torn[1]},
+          {{3, 0.7}});
+      for (const Met& met : rows) ExpectMet(met, y);
+      EXPECT_EQ(y[3], 0.7);
+      EXPECT_NEAR(residual_[3], 1, Rounding(3, 3));
+      EXPECT_NEAR(residual_[4], -1, Rounding(3, 3));
+    } while (std::next_permutation(order.begin(), order.end()));
+  }
+}
+
+// And with them what a row lacks that is at odds with these: to 1e-6 at first.
+TEST_F(RefinementTest, BringsBackWhatALevelLacks) {
+  Refine({{Row({1, 1, 0}), 1e10},
+          {Row({0, 1, 1}), 3e-6},
+          {Row({0, 1, -1}), 1e-6},
+          {Row({0, 1, 1}), 1, 1}},
+         {});
+  EXPECT_NEAR(residual_[3], 3e-6 - 1, Rounding(1, 3));
+}
+
+// Two rows of y1 and y2 that ask for zero cannot be met, relative to themselves.
+// What is left is rounding's, and so is all that is as small, 1e-18 of the
+// largest, before or after, unless it is just what is asked for.
+TEST_F(RefinementTest, LeavesNoRoundingWhereZeroWasMeant) {
+  const auto refine = [this](double large, double wish,
+                             const std::vector<double>& other) {
+    return Refine({{Row({1, 1, 0, 0}), large},
+                   {Row({0, 1, 2, 0}), 0},
+                   {Row({0, 3, -1, 0}), 0}},
+                  {{3, wish}}, other.empty() ? nullptr : &other);
+  };
+  const Eigen::VectorXd y = refine(1e18, 0.7, {});
+  EXPECT_EQ(y[0], 1e18);
+  EXPECT_EQ(y.tail(3), Eigen::Vector3d(0, 0, 0.7));
+  EXPECT_EQ(refine(-1e18, -0.7, {})[3], -0.7);
+  for (const double large : {1e18, -1e18}) {
+    const double unit = 1e-18 * std::abs(large);
+    for (const double sign : {1, -1}) {
+      const double nothing = sign * 0.7 * unit, something = sign * 1.4 * unit;
+      EXPECT_EQ(refine(1, 0, {large, 0, 0, nothing})[3], 0);
+      // As the first variable.
+      const std::vector<double> turned{nothing, 0, 0, large};
+      EXPECT_EQ(Refine({{Row({0, 0, 1, 1}), 1},
+                        {Row({0, 2, 1, 0}), 0},
+                        {Row({0, -1, 3, 0}), 0}},
+                       {{0, 0}}, &turned)[0],
+                0);
+      EXPECT_EQ(refine(large, 0, {1, 0, 0, nothing})[3], 0);
+      EXPECT_EQ(refine(1, 0, {large, 0, 0, something})[3], something);
+      EXPECT_EQ(refine(large, 0, {1, 0, 0, something})[3], something);
+      // Not what is asked for, by a few digits.
+      EXPECT_EQ(refine(large, nothing, {1, 0, 0, 0.9 * nothing})[3], 0);
+    }
+  }
+}
+
+// What rounding leaves of y0 where three rows meet is all that the row y0 = 0 has,
+// whichever of the three it is.
+TEST_F(RefinementTest, LeavesNoRoundingWhereThreeRowsMeet) {
+  std::vector<Met> rows{
+      {Row({1, 0}), 0}, {Row({4, 5}), -5}, {Row({-2, 5}), -5}};
+  for (int turn = 0; turn < 3; ++turn) {
+    const Eigen::VectorXd y = Refine(rows, {});
+    EXPECT_EQ(y[0], 0) << turn;
+    EXPECT_NEAR(y[1], -1, kRefined) << turn;
+    std::rotate(rows.begin(), rows.begin() + 1, rows.end());
+  }
+}
+
+// What cannot be met is not missed: where all else is met, what is small stays.
+TEST_F(RefinementTest, LeavesWhatIsSmallBesideRowsAtOdds) {
+  const std::vector<double> other{1e18, 1e18, 0.7};
+  const Eigen::VectorXd y = Refine(
+      {{Row({1, 1, 0}), 1e18}, {Row({1, 1, 0}), 3e18}}, {{2, 0}}, &other);
+  EXPECT_NEAR(residual_[0], 1e18, Rounding(3e18, 2));
+  EXPECT_EQ(y[2], 0.7);
+}
+
+// As where zero was meant, beside a level to which the small numbers matter.
+TEST_F(RefinementTest, LeavesWhatALevelNeeds) {
+  for (const int needs : {0, 1}) {
+    for (const bool first : {false, true}) {
+      SCOPED_TRACE(testing::Message() << needs << first);
+      std::vector<Met> rows{{Row({1, 1, 0, 0, 0, 0}), 1e20, 1 - needs},
+                            {Row({0, 1, 2, 0, 0, 0}), 0, 1 - needs},
+                            {Row({0, 3, -1, 0, 0, 0}), 0, 1 - needs}};
+      const Met sum{Row({0, 0, 0, 1, 1, 0}), 3e-3, needs};
+      const Met difference{Row({0, 0, 0, 1, -1, 0}), 1e-3, needs};
+      rows.insert(first ? rows.begin() : rows.end(), {sum, difference});
+      const Eigen::VectorXd y = Refine(rows, {{5, 0.7}});
+      ExpectMet(sum, y);
+      ExpectMet(difference, y);
+      EXPECT_EQ(y.segment(1, 2), Eigen::Vector2d::Zero());
+      EXPECT_EQ(y[5], 0.7);
+    }
+  }
+}
+
+// Unless that is less, relative to its own terms, than what the rows of rounding
+// miss; and where all is met, whatever is small stays.
+TEST_F(RefinementTest, JudgesALevelByWhatItIsAddedUpFrom) {
+  const Met large{Row({1, 1, 0, 0, 0, 0}), 1e18};
+  const Eigen::VectorXd y = Refine({large,
+                                    {Row({0, 1, 2, 0, 0, 0}), 0, 1},
+                                    {Row({0, 3, -1, 0, 0, 0}), 0, 1},
+                                    {Row({0, 0, 0, 1, 1, 0}), 5.5, 2},
+                                    {Row({0, 0, 0, 1, 0, 1}), 10, 2},
+                                    {Row({0, 0, 0, 1, 0, -1}), 0, 2}},
+                                   {});
+  EXPECT_NEAR(y[3], 5, kRefined * 10);
+  EXPECT_EQ(y[4], 0);  // And not 0.5.
+  EXPECT_NEAR(y[5], 5, kRefined * 10);
+  const Eigen::VectorXd met = Refine({large,
+                                      {Row({1, -1, 0, 0, 0, 0}), 1e17, 1},
+                                      {Row({1, -1, 0, 0, 0, 0}), 3e17, 1}},
+                                     {{3, 0.7}});
+  EXPECT_EQ(met[3], 0.7);
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,325 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/fast/working_set_problem.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "tests/util/lexicographic.h"
+#include "tests/util/random_hierarchy.h"
+#include "tests/util/stacked_rows.h"
+#include "tests/util/tolerance.h"
+
+namespace poise {
+namespace {
+
+constexpr int kSeeds = 150;
+constexpr int kMaxRows = 4 * 8 + 8;  // Of Draw(), and the norm of y.
+constexpr double kLargest = 30;  // Of its numbers, and of y by rows of them.
+
+using Sides = std::vector<std::vector<Side>>;
+
+HierarchyCase Draw(int seed) {
+  RandomHierarchyOptions options;
+  options.max_variables = 8;
+  options.max_levels = 4;
+  options.max_equalities = 4;
+  options.max_inequalities = 4;
+  options.scaled = 0;
+  return MakeRandomHierarchy(seed, options);
+}
+
+// A hierarchy, and what some of its rows ask for on some sides.
+class RandomActiveProblemTest : public testing::TestWithParam<int> {
+ protected:
+  void SetUp() override {
+    int failed_level = 5;
+    ASSERT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
+    EXPECT_EQ(failed_level, -1);
+  }
+  // Any, as long as it is there; others by another salt.
+  Sides MakeSides(int salt) const {
+    Sides sides;
+    for (int k = 0; k < num_levels_; ++k) {
+      sides.emplace_back(drawn_.capacity[k].inequalities, Side::kNone);
+      for (int i = 0; i < hierarchy_.num_inequalities(k); ++i) {
+        const int choice = (3 * k + i * (1 + salt) + salt) % 4;
+        if (choice < 2 && std::isfinite(hierarchy_.upper(k)[i])) {
+          sides[k][i] = Side::kUpper;
+        } else if (choice < 3 && std::isfinite(hierarchy_.lower(k)[i])) {
+          sides[k][i] = Side::kLower;
+        }
+      }
+    }
+    return sides;
+  }
+  double Bound(int k, int i, Side side) const {
+    return side == Side::kUpper ? hierarchy_.upper(k)[i]
+                                : hierarchy_.lower(k)[i];
+  }
+  // The first levels, with rows on these sides, and last the way to `center`.
+  std::vector<LeastSquares> Levels(const Sides& sides, int num_levels,
+                                   const Eigen::VectorXd& center) const {
+    std::vector<LeastSquares> levels;
+    for (int k = 0; k < num_levels; ++k) {
+      LeastSquares level;
+      const int most = hierarchy_.num_equalities(k) + 4;
+      level.A.resize(most, n_);
+      level.b.resize(most);
+      level.weight.resize(most);
+      int count = 0;
+      for (int i = 0; i < hierarchy_.num_equalities(k); ++i) {
+        level.A.row(count) = hierarchy_.B(k).row(i);
+        level.b[count] = -hierarchy_.b(k)[i];
+        level.weight[count++] = hierarchy_.weight(k)[i];
+      }
+      for (int i = 0; i < hierarchy_.num_inequalities(k); ++i) {
+        if (sides[k][i] == Side::kNone) continue;
+        level.A.row(count) = hierarchy_.C(k).row(i);
+        level.b[count] = Bound(k, i, sides[k][i]);
+        level.weight[count++] = 1;
+      }
+      levels.push_back({level.A.topRows(count), level.b.head(count),
+                        level.weight.head(count)});
+    }
+    levels.push_back(
+        {Eigen::MatrixXd::Identity(n_, n_), center, Eigen::VectorXd::Ones(n_)});
+    return levels;
+  }
+  Eigen::VectorXd Original(const ActiveProblem::Row& row) const {
+    if (row.is_inequality) return hierarchy_.C(row.level).row(row.index);
+    return hierarchy_.B(row.level).row(row.index);
+  }
+  Eigen::VectorXd y() const {
+    return Eigen::VectorXd::Map(problem_.y().data(), n_);
+  }
+  // From how many levels on each row has one variable at most.
+  int NumHead(int num_levels) const {
+    int head = num_levels;
+    while (head > 0 && hierarchy_.num_inequalities(head - 1) == 0) {
+      const auto is_entry = hierarchy_.B(head - 1).array() != 0;
+      if (is_entry.rows() > 0 &&
+          is_entry.cast<int>().rowwise().sum().maxCoeff() > 1) {
+        break;
+      }
+      --head;
+    }
+    return head;
+  }
+
+  // That y and rows are those of the optimum, with a tolerance that is what
+  // comes of rounding by way of the levels' condition.
+  void Check(const Sides& sides, int num_levels,
+             const Eigen::VectorXd& center) {
+    const std::vector<LeastSquares> levels = Levels(sides, num_levels, center);
+    const LexicographicOptimum optimum = SolveLexicographically(n_, levels);
+    tolerance_ =
+        Rounding(kLargest, kMaxRows, optimum.condition * optimum.condition);
+    EXPECT_LE((y() - optimum.y).norm(), tolerance_);
+    ASSERT_EQ(problem_.num_levels(), num_levels);
+    ASSERT_EQ(problem_.num_head(), NumHead(num_levels));
+    int count = 0;
+    for (int k = 0; k < problem_.num_head(); ++k) {
+      for (int i = 0; i < levels[k].A.rows(); ++i) {
+        count += levels[k].weight[i] > 0 && levels[k].A.row(i).norm() > 0;
+      }
+    }
+    ASSERT_EQ(problem_.head().num_rows(), count);
+    for (int a = 0; a < count; ++a) {
+      const ActiveProblem::Row& row = problem_.row(a);
+      const Eigen::VectorXd original = Original(row);
+      const double weight =
+          row.is_inequality ? 1 : hierarchy_.weight(row.level)[row.index];
+      EXPECT_NEAR(row.norm, original.norm(), Rounding(row.norm, n_));
+      EXPECT_NEAR(problem_.head().weight(a), weight * original.squaredNorm(),
+                  Rounding(problem_.head().weight(a), n_));
+      EXPECT_EQ(row.bound,
+                row.is_inequality
+                    ? Bound(row.level, row.index, sides[row.level][row.index])
+                    : -hierarchy_.b(row.level)[row.index]);
+      EXPECT_NEAR(problem_.head().residual(a),
+                  (original.dot(optimum.y) - row.bound) / row.norm, tolerance_)
+          << row.level << ", " << row.index;
+      for (int b = 0; b < a; ++b) {  // Each is there once.
+        const ActiveProblem::Row& other = problem_.row(b);
+        EXPECT_FALSE(other.level == row.level && other.index == row.index &&
+                     other.is_inequality == row.is_inequality);
+      }
+    }
+  }
+  // That the multipliers of each level cancel its gradient; that of its own rows
+  // is among them if `own`.
+  void CheckMultipliers(bool own) {
+    const int rows = problem_.head().num_rows();
+    for (int k = 0; k <= problem_.num_levels(); ++k) {
+      SCOPED_TRACE(k);
+      const ActiveProblem::Multipliers& of = problem_.multipliers(k);
+      const bool in_head = k < problem_.num_head();
+      const bool has_own =
+          own && in_head && (of.any || problem_.head().is_deficient(k));
+      Eigen::VectorXd sum = Eigen::VectorXd::Zero(n_);
+      double size = 1;
+      for (int a = 0; a < rows; ++a) {
+        const ActiveProblem::Row& row = problem_.row(a);
+        const Eigen::VectorXd unit = Original(row) / row.norm;
+        const double force =
+            problem_.head().weight(a) * problem_.head().residual(a);
+        const bool is_own = in_head && a >= problem_.head().first_row(k) &&
+                            a < problem_.head().end_row(k);
+        if (is_own) {
+          size = std::max(size, problem_.head().weight(a) * kLargest);
+          if (has_own) {
+            EXPECT_NEAR(of.nu[a], force, tolerance_ * size);
+            sum += of.nu[a] * unit;
+          } else {
+            sum += force * unit;
+          }
+        }
+        const bool is_above = !in_head || a < problem_.head().first_row(k);
+        if (is_above && of.any) {
+          sum += of.nu[a] * unit;
+          size = std::max(size, std::abs(of.nu[a]));
+        }
+      }
+      if (!in_head) {
+        const std::vector<double> none(n_);
+        std::vector<double> gradient(n_);
+        problem_.tail().AddGradient(
+            k - problem_.num_head(), problem_.y().data(),
+            of.any ? of.left.data() : none.data(), gradient.data());
+        sum += Eigen::VectorXd::Map(gradient.data(), n_);
+      }
+      EXPECT_LE(sum.norm(), 100 * tolerance_ * size);
+      if (of.any && !own) {
+        // Of the gradient, and of all that cancels it.
+        std::vector<double> gradient(n_ + rows), left(n_);
+        double largest =
+            in_head ? problem_.head().Gradient(k, gradient.data())
+                    : problem_.tail().Dual(k - problem_.num_head(),
+                                           gradient.data(), left.data());
+        for (int a = 0; a < rows; ++a) {
+          if (in_head && a >= problem_.head().first_row(k)) continue;
+          largest = std::max(largest, std::abs(of.nu[a]));
+        }
+        EXPECT_EQ(of.size, largest);
+      }
+    }
+  }
+
+  const HierarchyCase drawn_ = Draw(GetParam());
+  const Hierarchy& hierarchy_ = drawn_.hierarchy;
+  const int n_ = hierarchy_.num_variables();
+  const int num_levels_ = hierarchy_.num_levels();
+  const Eigen::VectorXd zero_ = Eigen::VectorXd::Zero(n_);
+  ActiveProblem problem_{n_, drawn_.capacity};
+  double tolerance_ = 0;
+};
+
+TEST_P(RandomActiveProblemTest, AgreesWithSingularValues) {
+  for (int levels = 0; levels <= num_levels_; ++levels) {
+    SCOPED_TRACE(levels);
+    const Sides sides = MakeSides(levels);
+    problem_.Plan(hierarchy_, levels);
+    problem_.Solve(hierarchy_, sides);
+    Check(sides, levels, zero_);
+    problem_.FindMultipliers(levels + 1);
+    CheckMultipliers(false);
+    problem_.Refine(hierarchy_);
+    Check(sides, levels, zero_);
+    problem_.FindMultipliers(levels + 1);
+    problem_.RefineMultipliers(hierarchy_);
+    CheckMultipliers(true);
+  }
+}
+
+// Rows come, go and change sides, as in a descent.
+TEST_P(RandomActiveProblemTest, UpdatesAreAsGoodAsFactorisingAnew) {
+  problem_.Plan(hierarchy_, num_levels_);
+  for (int salt = 0; salt < 6; ++salt) {
+    SCOPED_TRACE(salt);
+    const Sides sides = MakeSides(salt);
+    problem_.Solve(hierarchy_, sides);
+    Check(sides, num_levels_, zero_);
+  }
+  problem_.Refine(hierarchy_);
+  Check(MakeSides(5), num_levels_, zero_);
+}
+
+TEST_P(RandomActiveProblemTest, StaysCloseToACenter) {
+  const Eigen::VectorXd center = Eigen::VectorXd::LinSpaced(n_, 1, 3);
+  for (int levels = 0; levels <= num_levels_; ++levels) {
+    SCOPED_TRACE(levels);
+    problem_.Plan(hierarchy_, levels, center.data());
+    problem_.Solve(hierarchy_, MakeSides(1));
+    Check(MakeSides(1), levels, center);
+  }
+}
+
+// Off in every direction: its rows bring it back, and nothing brings it further.
+TEST_P(RandomActiveProblemTest, RefinesAnotherYToMeetTheRows) {
+  const Sides sides = MakeSides(2);
+  const int num_head = NumHead(num_levels_);
+  problem_.Plan(hierarchy_, num_levels_);
+  problem_.Solve(hierarchy_, sides);
+  Check(sides, num_levels_, zero_);
+  const Eigen::VectorXd optimum = y();
+  std::vector<double> other = problem_.y();
+  for (int j = 0; j < n_; ++j) other[j] += 1 + j % 2;
+  const Eigen::VectorXd start = Eigen::VectorXd::Map(other.data(), n_);
+  problem_.RefineOther(hierarchy_, other);
+  // The levels of the tail weigh the way, not their targets.
+  std::vector<LeastSquares> levels = Levels(sides, num_levels_, start);
+  for (int k = num_head; k < num_levels_; ++k)
+    levels[k].b = levels[k].A * start;
+  const LexicographicOptimum nearest = SolveLexicographically(n_, levels);
+  EXPECT_LE(
+      (y() - nearest.y).norm(),
+      Rounding(kLargest, kMaxRows, nearest.condition * nearest.condition));
+
+  problem_.TakeOther(hierarchy_, other);
+  EXPECT_EQ(problem_.y(), other);
+  // Residuals are what a level would lack at its own optimum, those above as
+  // they are.
+  for (int k = 0; k < num_head; ++k) {
+    std::vector<LeastSquares> held = Levels(sides, num_levels_, start);
+    held.resize(k + 1);
+    for (int above = 0; above < k; ++above)
+      held[above].b = held[above].A * start;
+    const LexicographicOptimum best = SolveLexicographically(n_, held);
+    const double tolerance =
+        Rounding(kLargest, kMaxRows, best.condition * best.condition);
+    for (int a = problem_.head().first_row(k); a < problem_.head().end_row(k);
+         ++a) {
+      const ActiveProblem::Row& row = problem_.row(a);
+      const double residual =
+          problem_.head().is_deficient(k)
+              ? (Original(row).dot(best.y) - row.bound) / row.norm
+              : 0;
+      EXPECT_NEAR(problem_.head().residual(a), residual, tolerance);
+    }
+  }
+}
+
+// Of all y that are best for the head, the one closest to another: best for it
+// is what is best for all levels, and nothing but its rows moves y there.
+TEST_P(RandomActiveProblemTest, ApproachesWhatIsBestForTheHead) {
+  problem_.Plan(hierarchy_, num_levels_);
+  problem_.Solve(hierarchy_, MakeSides(3));
+  const Eigen::MatrixXd Q = Basis(problem_.head(), n_);
+  const Eigen::VectorXd best = y();
+  std::vector<double> from(n_);
+  for (int j = 0; j < n_; ++j) from[j] = 1 + j % 5;
+  problem_.Approach(from);
+  const double tolerance = Rounding(n_ + best.norm(), n_);
+  EXPECT_LE((Q * (y() - best)).norm(), tolerance);
+  const Eigen::VectorXd step = y() - Eigen::VectorXd::Map(from.data(), n_);
+  EXPECT_LE((step - Q.transpose() * (Q * step)).norm(), tolerance);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomActiveProblemTest,
+                         testing::Range(0, kSeeds));
+
+}  // namespace
+}  // namespace poise

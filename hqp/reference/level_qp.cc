@@ -1,0 +1,298 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/reference/level_qp.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "math/rank.h"
+
+namespace poise {
+namespace {
+
+// Of a multiplier or a step, relative to what it is added up from.
+constexpr double kNegligible = 1e-12;
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+
+// Iterations a row, after which rows leave by Bland's rule: slow, but it cannot
+// cycle in exact arithmetic.
+constexpr int kPatience = 10;
+
+// How often a row may leave by Bland's rule. Where a level is met, all that its
+// rows lack is rounding: one that leaves for that need not move away from its
+// bound, as the proof takes it to, and may be in the way at once, over and over.
+constexpr int kLeaves = 10;
+
+// The least-squares problem L x + l = 0. `norms` are those of the rows before any
+// projection: a row below kRankTolerance of its own is a row of zeros.
+class LeastSquares {
+ public:
+  LeastSquares() = default;
+  LeastSquares(const Eigen::MatrixXd& L, const Eigen::VectorXd& norms,
+               RowSpaceMethod method) {
+    const Eigen::VectorXd scale =
+        (norms.array() > 0).select(norms.cwiseInverse(), 0);
+    const RowSpace space = MakeRowSpace(scale.asDiagonal() * L, method);
+    const int rows = static_cast<int>(L.rows());
+    rank_ = space.rank;
+    factor_ = Eigen::VectorXd::Ones(rows);
+    order_ = Eigen::VectorXi::LinSpaced(rows, 0, rows - 1);
+    range_ = space.V.leftCols(rank_);
+    if (rank_ == 0) return;
+    // The rows as combinations of an orthonormal basis, the heaviest first, and
+    // in that order, which keeps the small ones accurate. A row that depends on
+    // those before does so exactly: what rounding leaves of it, times a residual
+    // that cannot be helped, could outweigh a small row.
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> basis(
+        (L * range_).transpose());
+    range_ = range_ * basis.householderQ();
+    order_ = basis.colsPermutation().indices();
+    // With all rows independent each can be met, so their scales do not matter.
+    if (rank_ == rows) factor_ = scale;
+    parts_ = Eigen::MatrixXd::Zero(rows, rank_);
+    for (int place = 0; place < rows; ++place) {
+      const int i = order_[place];
+      const auto part =
+          basis.matrixQR().col(place).head(std::min(place + 1, rank_));
+      for (int e = 0; e < part.size(); ++e) {
+        const double rest = part.tail(part.size() - e).norm();
+        if (rest <= kRankTolerance * norms[i]) break;
+        parts_(place, e) = factor_[i] * part[e];
+      }
+    }
+    qr_.compute(parts_);
+  }
+
+  // Of minimum norm.
+  Eigen::VectorXd Solve(const Eigen::VectorXd& l) const {
+    if (rank_ == 0) return Eigen::VectorXd::Zero(range_.rows());
+    const Eigen::VectorXd right = -InOrder(factor_.cwiseProduct(l));
+    Eigen::VectorXd x = qr_.solve(right);
+    x += qr_.solve(right - parts_ * x);
+    return range_ * x;
+  }
+
+  // Of a residual, what no x can help: at the solution the rest is rounding. So
+  // what heavy rows lack, which is little, has as many digits as what light ones
+  // do. `size` is what each is added up from.
+  Eigen::VectorXd Unreachable(const Eigen::VectorXd& residual,
+                              const Eigen::VectorXd& size) const {
+    Eigen::VectorXd left = InOrder(residual);
+    const Eigen::VectorXd rounding = kEps * InOrder(size);
+    if (rank_ > 0) left.applyOnTheLeft(qr_.householderQ().adjoint());
+    left.head(rank_).setZero();
+    for (int place = rank_; place < left.size(); ++place) {
+      if (std::abs(left[place]) <= rounding[place]) left[place] = 0;
+    }
+    if (rank_ > 0) left.applyOnTheLeft(qr_.householderQ());
+    Eigen::VectorXd unreachable(left.size());
+    for (int place = 0; place < left.size(); ++place) {
+      unreachable[order_[place]] = left[place];
+    }
+    return unreachable;
+  }
+
+  // These numbers, by row, where a row depends on heavier ones; else 0.
+  Eigen::VectorXd Dependent(const Eigen::VectorXd& of) const {
+    Eigen::VectorXd dependent = of;
+    for (int place = 0; place < rank_; ++place) dependent[order_[place]] = 0;
+    return dependent;
+  }
+
+ private:
+  Eigen::VectorXd InOrder(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd in_order(x.size());
+    for (int place = 0; place < x.size(); ++place) {
+      in_order[place] = x[order_[place]];
+    }
+    return in_order;
+  }
+
+  int rank_ = 0;
+  Eigen::VectorXi order_;  // Row by place.
+  Eigen::VectorXd factor_;
+  Eigen::MatrixXd range_, parts_;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+};
+
+class ActiveSet {
+ public:
+  ActiveSet(RowSpaceMethod method, LevelQp* qp)
+      : method_(method), qp_(*qp), leaves_(qp->P.rows(), kLeaves) {}
+
+  // One iteration. Returns whether the optimum is reached.
+  bool Iterate() {
+    ++iterations_;
+    Collect();
+    const Eigen::VectorXd step = Step();
+    const int blocking = Advance(step);
+    if (blocking >= 0) return false;
+    const int leaving = FindLeaving();
+    if (leaving >= 0) Release(leaving);
+    return leaving < 0;
+  }
+
+ private:
+  int rows() const { return static_cast<int>(qp_.P.rows()); }
+  bool IsBland() const { return iterations_ > kPatience * rows(); }
+
+  double Bound(int i) const {
+    return qp_.side[i] == Side::kUpper ? qp_.upper[i] : qp_.lower[i];
+  }
+
+  // Gathers the rows of the equality-constrained problem.
+  void Collect() {
+    hard_.clear();
+    soft_.clear();
+    for (int i = 0; i < rows(); ++i) {
+      if (qp_.side[i] != Side::kNone)
+        (qp_.soft[i] ? soft_ : hard_).push_back(i);
+    }
+    const int met = static_cast<int>(qp_.M.rows());
+    L_.resize(met + soft_.size(), qp_.M.cols());
+    l_.resize(L_.rows());
+    norms_.resize(L_.rows());
+    L_.topRows(met) = qp_.M;
+    l_.head(met) = qp_.M * qp_.z + qp_.m;
+    norms_.head(met) = qp_.M_norm;
+    for (size_t s = 0; s < soft_.size(); ++s) {
+      const int i = soft_[s];
+      L_.row(met + s) = qp_.P.row(i);
+      l_[met + s] = qp_.P.row(i).dot(qp_.z) + qp_.value[i] - Bound(i);
+      norms_[met + s] = qp_.P_norm[i];
+    }
+    A_.resize(hard_.size(), qp_.M.cols());
+    for (size_t h = 0; h < hard_.size(); ++h) {
+      A_.row(h) = qp_.P.row(hard_[h]) / qp_.P_norm[hard_[h]];
+    }
+  }
+
+  // To the optimum of the active rows.
+  Eigen::VectorXd Step() {
+    const RowSpace space = MakeRowSpace(A_, RowSpaceMethod::kCod);
+    const Eigen::MatrixXd N = space.V.rightCols(A_.cols() - space.rank);
+    least_squares_ = LeastSquares(L_ * N, norms_, method_);
+    return N * least_squares_.Solve(l_);
+  }
+
+  // Goes as far along the step as inactive rows allow. Returns the row that is
+  // in the way, now active, or -1.
+  int Advance(const Eigen::VectorXd& step) {
+    int blocking = -1;
+    double length = 1;
+    for (int i = 0; i < rows(); ++i) {
+      if (qp_.side[i] != Side::kNone) continue;
+      const double slope = qp_.P.row(i).dot(step);
+      if (std::abs(slope) <= kNegligible * qp_.P_norm[i] * step.norm()) {
+        continue;
+      }
+      const double value = qp_.P.row(i).dot(qp_.z) + qp_.value[i];
+      const double gap =
+          slope > 0 ? qp_.upper[i] - value : qp_.lower[i] - value;
+      const double to_bound = std::max(gap / slope, 0.0);
+      if (to_bound < length) {
+        length = to_bound;
+        blocking = i;
+      }
+    }
+    qp_.z += length * step;
+    if (blocking >= 0) {
+      qp_.side[blocking] =
+          qp_.P.row(blocking).dot(step) > 0 ? Side::kUpper : Side::kLower;
+    }
+    return blocking;
+  }
+
+  // What the residuals of the rows of L_ are added up from.
+  Eigen::VectorXd TermsSize() const {
+    Eigen::VectorXd size = qp_.z.norm() * norms_;
+    size.head(qp_.M.rows()) += qp_.M_size;
+    for (size_t s = 0; s < soft_.size(); ++s) {
+      size[qp_.M.rows() + s] += qp_.size[soft_[s]];
+    }
+    return size;
+  }
+
+  // The active row that holds the optimum back most, or -1.
+  int FindLeaving() {
+    const int met = static_cast<int>(qp_.M.rows());
+    Eigen::VectorXd residual(L_.rows());
+    residual.head(met) = qp_.M * qp_.z + qp_.m;
+    for (size_t s = 0; s < soft_.size(); ++s) {
+      const int i = soft_[s];
+      residual[met + s] = qp_.P.row(i).dot(qp_.z) + qp_.value[i] - Bound(i);
+    }
+    const Eigen::VectorXd sizes = TermsSize();
+    residual = least_squares_.Unreachable(residual, sizes);
+    const Eigen::VectorXd force = norms_.cwiseProduct(residual.cwiseAbs());
+    int leaving = -1;
+    double worst = 0;
+    const bool bland = IsBland();
+    const auto consider = [&](int i, double multiplier, double size) {
+      if (leaves_[i] == 0) return;
+      const double signed_ratio =
+          (qp_.side[i] == Side::kUpper ? multiplier : -multiplier) / size;
+      if (bland ? signed_ratio < 0 && (leaving < 0 || i < leaving)
+                : signed_ratio < worst) {
+        worst = signed_ratio;
+        leaving = i;
+      }
+    };
+    for (size_t s = 0; s < soft_.size(); ++s) {
+      if (force[met + s] <= kNegligible * force.maxCoeff()) continue;
+      consider(soft_[s], residual[met + s], sizes[met + s]);
+    }
+    if (!hard_.empty()) {
+      const Eigen::VectorXd gradient = L_.transpose() * residual;
+      // Residuals, and the rounding of what they are differences of.
+      const double size =
+          force.sum() +
+          kEps / kNegligible * norms_.dot(least_squares_.Dependent(sizes));
+      const Eigen::VectorXd multipliers =
+          A_.transpose().colPivHouseholderQr().solve(-gradient);
+      for (size_t h = 0; h < hard_.size(); ++h) {
+        if (std::abs(multipliers[h]) <= kNegligible * size) continue;
+        consider(hard_[h], multipliers[h], size);
+      }
+    }
+    return leaving;
+  }
+
+  // A soft row may be on the far side of both its bounds by then: it stays, at
+  // the other one.
+  void Release(int i) {
+    if (IsBland()) --leaves_[i];
+    const Side side = qp_.side[i];
+    const double value = qp_.P.row(i).dot(qp_.z) + qp_.value[i];
+    qp_.side[i] = Side::kNone;
+    if (!qp_.soft[i]) return;
+    if (side == Side::kUpper && value < qp_.lower[i]) {
+      qp_.side[i] = Side::kLower;
+    } else if (side == Side::kLower && value > qp_.upper[i]) {
+      qp_.side[i] = Side::kUpper;
+    }
+  }
+
+  RowSpaceMethod method_;
+  LevelQp& qp_;
+  LeastSquares least_squares_;
+  std::vector<int> hard_, soft_;  // Active rows.
+  Eigen::MatrixXd L_, A_;
+  Eigen::VectorXd l_, norms_;
+  int iterations_ = 0;
+  std::vector<int> leaves_;  // By row: how often it still may, by Bland's rule.
+};
+
+}  // namespace
+
+int SolveLevelQp(RowSpaceMethod method, int max_iterations, LevelQp* qp) {
+  ActiveSet active_set(method, qp);
+  for (int iteration = 1; iteration <= max_iterations; ++iteration) {
+    if (active_set.Iterate()) return iteration;
+  }
+  return -1;
+}
+
+}  // namespace poise

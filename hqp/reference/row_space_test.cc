@@ -1,0 +1,76 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "hqp/reference/row_space.h"
+
+#include <gtest/gtest.h>
+
+#include "math/rank.h"
+#include "tests/util/lexicographic.h"
+#include "tests/util/tolerance.h"
+
+namespace poise {
+namespace {
+
+class RowSpaceTest : public testing::TestWithParam<RowSpaceMethod> {
+ protected:
+  static RowSpace Make(const Eigen::MatrixXd& M) {
+    return MakeRowSpace(M, GetParam());
+  }
+};
+
+TEST_P(RowSpaceTest, IsAllOrNothingWithoutRowsOrVariables) {
+  const RowSpace no_rows = Make(Eigen::MatrixXd(0, 3));
+  EXPECT_EQ(no_rows.rank, 0);
+  EXPECT_EQ(no_rows.V, Eigen::MatrixXd::Identity(3, 3));
+  const RowSpace no_variables = Make(Eigen::MatrixXd(3, 0));
+  EXPECT_EQ(no_variables.rank, 0);
+  EXPECT_EQ(no_variables.V.size(), 0);
+}
+
+// The edge itself does not count.
+TEST_P(RowSpaceTest, CountsWhatIsAboveTheTolerance) {
+  const auto rank = [](double entry) {
+    return Make(Eigen::MatrixXd::Constant(1, 1, entry)).rank;
+  };
+  EXPECT_EQ(rank(kRankTolerance), 0);
+  EXPECT_EQ(rank(1.01e-11), 1);
+  EXPECT_EQ(rank(-1.01e-11), 1);
+  EXPECT_EQ(rank(0.99e-11), 0);
+  EXPECT_EQ(rank(0), 0);
+}
+
+// Of two rows at a small angle, one singular value is the angle over sqrt(2);
+// what is left of the second row, the angle.
+TEST_P(RowSpaceTest, MeasuresInItsOwnWay) {
+  Eigen::Matrix2d rows;
+  rows << 1, 0, 1, 1.2e-11;
+  EXPECT_EQ(Make(rows).rank, GetParam() == RowSpaceMethod::kSvd ? 1 : 2);
+}
+
+// Rows of unit length, some of them combinations of others: those of V beyond
+// the rank are orthogonal to every row, and V to itself.
+TEST_P(RowSpaceTest, SplitsSpaceWhateverDependsOnWhat) {
+  for (int seed = 0; seed < 50; ++seed) {
+    SCOPED_TRACE(seed);
+    for (const LeastSquares& level : MakeRandomLevels(seed)) {
+      const int n = static_cast<int>(level.A.cols());
+      const LexicographicOptimum known = SolveLexicographically(n, {level});
+      const RowSpace space = Make(level.A);
+      EXPECT_EQ(space.rank, known.rank[0]);
+      ASSERT_EQ(space.V.rows(), n);
+      ASSERT_EQ(space.V.cols(), n);
+      EXPECT_LE(
+          (space.V.transpose() * space.V - Eigen::MatrixXd::Identity(n, n))
+              .norm(),
+          Rounding(1, n));
+      EXPECT_LE((level.A * space.V.rightCols(n - space.rank)).norm(),
+                Rounding(1, n, known.condition));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(BothWays, RowSpaceTest,
+                         testing::Values(RowSpaceMethod::kSvd,
+                                         RowSpaceMethod::kCod));
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,127 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/easing/ramp.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "robot/control/easing/minimum_jerk.h"
+
+namespace poise {
+namespace {
+
+constexpr double kDt = 1e-3;
+
+// From 1 to 0 for s from 0 to 1.
+double Falling(double s) { return 1 - MinimumJerk(s).value; }
+
+TEST(Ramp, BringsANumberToZeroAlongACurveOfMinimumJerk) {
+  Ramp ramp;
+  ramp.Resize(2);
+  ramp.set_duration(0.01);
+  EXPECT_FALSE(ramp.is_on());
+  ramp.Add(1, -3);
+  for (int i = 0; i <= 10; ++i) {
+    ASSERT_EQ(ramp.is_on(), i < 10) << i;
+    EXPECT_EQ(ramp[0], 0);
+    EXPECT_NEAR(ramp[1], -3 * Falling(0.1 * i), 1e-14) << i;  // Rounding.
+    ramp.Advance(kDt);
+  }
+}
+
+// The polynomial of degree 5 with this value, rate and acceleration at 0, and
+// none at T, by its six equations.
+class Quintic {
+ public:
+  Quintic(const Eigen::Vector3d& begin, double T) {
+    Eigen::Matrix<double, 6, 6> equations;
+    equations << Row(0, 0), Row(0, 1), Row(0, 2),  //
+        Row(T, 0), Row(T, 1), Row(T, 2);
+    Eigen::Matrix<double, 6, 1> wanted;
+    wanted << begin, Eigen::Vector3d::Zero();
+    coefficients_ = equations.fullPivLu().solve(wanted);
+  }
+  double At(double t, int derivative) const {
+    return Row(t, derivative).dot(coefficients_);
+  }
+
+ private:
+  static Eigen::Matrix<double, 1, 6> Row(double t, int derivative) {
+    Eigen::Matrix<double, 1, 6> row;
+    for (int k = 0; k < 6; ++k) {
+      double factor = 1;
+      for (int d = 0; d < derivative; ++d) factor *= k - d;
+      row[k] = k < derivative ? 0 : factor * std::pow(t, k - derivative);
+    }
+    return row;
+  }
+  Eigen::Matrix<double, 6, 1> coefficients_;
+};
+
+// What is added on the way bends each curve from where it is, with its rate and
+// acceleration, to zero a whole duration later.
+TEST(Ramp, GoesOnSmoothlyWhereSomethingIsAdded) {
+  constexpr double kDuration = 2;
+  constexpr double kStep = 0.25;
+  Ramp ramp;
+  ramp.Resize(2);
+  ramp.set_duration(kDuration);
+  ramp.Add(0, 1);
+  Quintic first({1, 0, 0}, kDuration);
+  for (int i = 0; i < 3; ++i) ramp.Advance(kStep);
+  EXPECT_NEAR(ramp[0], first.At(0.75, 0), 1e-14);
+  ramp.Add(0, 2);
+  ramp.Add(1, 5);
+  const Quintic second(
+      {first.At(0.75, 0) + 2, first.At(0.75, 1), first.At(0.75, 2)}, kDuration);
+  for (int i = 0; i <= 8; ++i) {
+    // Rounding, of the test's LU, too.
+    EXPECT_NEAR(ramp[0], second.At(kStep * i, 0), 1e-12) << i;
+    EXPECT_NEAR(ramp[1], 5 * Falling(kStep * i / kDuration), 1e-13) << i;
+    ramp.Advance(kStep);
+  }
+  EXPECT_FALSE(ramp.is_on());
+  EXPECT_EQ(ramp[0], 0);
+}
+
+// As s^3 + 9/T s^2 + 36/T^2 s + 60/T^3 does: where c is added a second, it comes
+// to rest at c T 36 / 60.
+TEST(Ramp, FiltersWhatIsAddedInEachTick) {
+  constexpr double kDuration = 0.2;
+  Ramp ramp;
+  ramp.Resize(1);
+  ramp.set_duration(kDuration);
+  for (int i = 0; i < 2000; ++i) {
+    ramp.Add(0, 7 * kDt);
+    ramp.Advance(kDt);
+  }
+  // Ticks are not as short as that: of dt / T.
+  EXPECT_NEAR(ramp[0], 7 * kDuration * 36 / 60,
+              7 * kDuration * kDt / kDuration);
+}
+
+TEST(Ramp, ForgetsWhatIsAddedWithoutADuration) {
+  Ramp ramp;
+  ramp.Resize(1);
+  ramp.Add(0, 1);
+  EXPECT_FALSE(ramp.is_on());
+  EXPECT_EQ(ramp[0], 0);
+}
+
+TEST(Ramp, IsClear) {
+  Ramp ramp;
+  ramp.Resize(1);
+  ramp.set_duration(1);
+  ramp.Add(0, 1);
+  ramp.Advance(0.5);
+  ramp.Clear();
+  EXPECT_FALSE(ramp.is_on());
+  ramp.Add(0, 1);  // Without the rate that it had.
+  ramp.Advance(0.5);
+  EXPECT_NEAR(ramp[0], 0.5, 1e-15);
+}
+
+}  // namespace
+}  // namespace poise

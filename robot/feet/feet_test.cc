@@ -1,0 +1,337 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/feet/feet.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "robot/feet/find_feet.h"
+#include "robot/urdf/urdf.h"
+
+namespace poise {
+namespace {
+
+using Eigen::Vector2d;
+using Points = std::vector<Vector2d>;
+
+// LargestRectangle() promises so much of a polygon about one unit wide.
+constexpr double kPromised = 1e-7;
+
+TEST(ConvexHull, IsCounterclockwiseWithoutPointsOnEdges) {
+  const Points hull =
+      ConvexHull({{0, 0}, {1, 0}, {0.5, 0}, {1, 1}, {0.4, 0.6}, {0, 1}});
+  ASSERT_EQ(hull.size(), 4u);
+  double twice_area = 0;
+  for (size_t i = 0; i < 4; ++i) {
+    const Vector2d& a = hull[i];
+    const Vector2d& b = hull[(i + 1) % 4];
+    twice_area += a.x() * b.y() - a.y() * b.x();
+  }
+  EXPECT_EQ(twice_area, 2);
+}
+
+TEST(ConvexHull, OfPointsOnALineIsNoPolygon) {
+  EXPECT_LT(ConvexHull({{0, 0}, {1, 1}, {2, 2}}).size(), 3u);
+  EXPECT_LT(ConvexHull({{1, 2}, {1, 2}}).size(), 3u);
+}
+
+TEST(IsConvex, RefusesNotchesAndCrossings) {
+  EXPECT_TRUE(IsConvex({{0, 0}, {2, 0}, {2, 1}, {0, 1}}));
+  EXPECT_TRUE(IsConvex({{0, 1}, {2, 1}, {2, 0}, {0, 0}}));
+  // Corners on an edge, and one twice.
+  EXPECT_TRUE(IsConvex({{0, 0}, {1, 1e-6}, {2, 0}, {2, 0}, {1, 1}}));
+  EXPECT_FALSE(IsConvex({{0, 0}, {1, 0.1}, {2, 0}, {2, 1}, {0, 1}}));
+  EXPECT_FALSE(IsConvex({{0, 0}, {2, 1}, {2, 0}, {0, 1}}));
+  std::vector<Eigen::Vector2d> star;
+  for (int i = 0; i < 5; ++i) {
+    star.emplace_back(std::cos(0.8 * M_PI * i), std::sin(0.8 * M_PI * i));
+  }
+  EXPECT_FALSE(IsConvex(star));
+}
+
+TEST(LargestRectangle, OfARectangleIsItself) {
+  const Rectangle r = LargestRectangle({{-1, -2}, {3, -2}, {3, 0}, {-1, 0}});
+  EXPECT_LT((r.center - Vector2d(1, -1)).norm(), kPromised);
+  EXPECT_LT((r.half_size - Vector2d(2, 1)).norm(), kPromised);
+}
+
+// A box that was turned and turned back has no side along y to the last bit: it
+// was taken for a quarter narrower, or for nothing.
+TEST(LargestRectangle, OfARectangleIsItselfUpToRounding) {
+  for (const double e : {3e-17, 3e-16, 1e-15, 1e-13}) {
+    const Rectangle r = LargestRectangle(
+        {{-0.08 + e, -0.03}, {0.08, -0.03}, {0.08, 0.03}, {-0.08 - e, 0.03}});
+    EXPECT_LT(r.center.norm(), kPromised);
+    EXPECT_LT((r.half_size - Vector2d(0.08, 0.03)).norm(), kPromised);
+  }
+}
+
+// Half the base and half the height, wherever it lies.
+TEST(LargestRectangle, OfATriangleHasHalfItsArea) {
+  const Rectangle r = LargestRectangle({{0, -1}, {1, 0}, {0, 1}});
+  EXPECT_LT((r.half_size - Vector2d(0.25, 0.5)).norm(), kPromised);
+  EXPECT_LT((r.center - Vector2d(0.25, 0)).norm(), kPromised);
+}
+
+// A trapezoid, 2 wide at x = 0 and 4 at x = 2: all its length, 2 wide.
+TEST(LargestRectangle, OfATrapezoidTakesItsLength) {
+  const Rectangle r = LargestRectangle({{0, -1}, {2, -2}, {2, 2}, {0, 1}});
+  EXPECT_LT((r.half_size - Vector2d(1, 1)).norm(), kPromised);
+}
+
+TEST(LargestRectangle, OfACircleIsASquare) {
+  Points circle;
+  for (int i = 0; i < 64; ++i) {
+    const double angle = 2 * M_PI * (i + 0.5) / 64;
+    circle.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  const Rectangle r = LargestRectangle(circle);
+  EXPECT_NEAR(r.half_size.x(), std::sqrt(0.5), 2e-3);  // It has 64 corners.
+  EXPECT_NEAR(r.half_size.y(), std::sqrt(0.5), 2e-3);
+}
+
+// A biped: a base, and on each side a leg of the given joints that ends in a
+// foot with the given shapes. At rest the ankle is 1 m below the base.
+std::string Biped(const std::string& shapes, const std::string& foot_rpy,
+                  const std::string& knee_range = "lower='0' upper='2'",
+                  int motors = 6) {
+  const std::string inertial =
+      "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
+      "iyz='0' izz='1'/></inertial>";
+  std::string text =
+      "<robot name='biped'><link name='base'>" + inertial + "</link>";
+  for (const std::string side : {"r", "l"}) {
+    std::string parent = "base";
+    for (int i = 1; i <= 6; ++i) {
+      const std::string name = side + std::to_string(i);
+      const bool is_knee = i == 4;
+      const std::string axis = i == 1             ? "0 0 1"
+                               : i == 2 || i == 6 ? "1 0 0"
+                                                  : "0 1 0";
+      const std::string y = side == "l" ? "0.1" : "-0.1";
+      const std::string xyz = i == 1             ? "0 " + y + " 0"
+                              : i == 4 || i == 5 ? "0 0 -0.5"
+                                                 : "0 0 0";
+      text += "<link name='" + name + "'>" + inertial + (i == 6 ? shapes : "") +
+              "</link><joint name='j" + name +
+              "' type='revolute'><origin xyz='" + xyz + "' rpy='" +
+              (i == 6 ? foot_rpy : "0 0 0") + "'/><parent link='" + parent +
+              "'/><child link='" + name + "'/><axis xyz='" + axis +
+              "'/><limit " + (is_knee ? knee_range : "lower='-1' upper='1'") +
+              " effort='" + (i <= motors ? "9" : "0") +
+              "' velocity='9'/></joint>";
+      parent = name;
+    }
+  }
+  return text + "</robot>";
+}
+
+std::string Collision(const std::string& geometry, const std::string& xyz,
+                      const std::string& rpy = "0 0 0") {
+  return "<collision><origin xyz='" + xyz + "' rpy='" + rpy + "'/><geometry><" +
+         geometry + "/></geometry></collision>";
+}
+
+std::vector<Foot> Find(const std::string& text,
+                       std::vector<Finding>* findings = nullptr) {
+  const RobotModel model = ParseUrdf(text, "biped");
+  std::vector<Foot> feet = FindFeet(model, findings);
+  EXPECT_EQ(feet.size(), 2u);
+  EXPECT_EQ(feet[0].name, "left_foot");
+  EXPECT_EQ(model.tree.frames()[feet[0].frame].name, "l6");
+  EXPECT_EQ(model.tree.frames()[feet[1].frame].name, "r6");
+  return feet;
+}
+
+std::string Refusal(const std::string& text) {
+  try {
+    FindFeet(ParseUrdf(text, "biped"));
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "found";
+}
+
+TEST(FindFeet, FindsTheUndersideOfABox) {
+  const auto feet = Find(
+      Biped(Collision("box size='0.2 0.1 0.02'", "0.03 0 -0.04"), "0 0 0"));
+  EXPECT_LT((feet[0].half_size - Vector2d(0.1, 0.05)).norm(), kPromised);
+  EXPECT_LT((feet[0].X_BC.p - Eigen::Vector3d(0.03, 0, -0.05)).norm(),
+            kPromised);
+  EXPECT_LT((feet[0].X_BC.R - Eigen::Matrix3d::Identity()).norm(), kPromised);
+}
+
+TEST(FindFeet, FindsTheLowestPointsOfSpheres) {
+  std::string shapes = Collision("sphere radius='0.01'", "0 0 0.03");
+  for (const char* xyz : {"0.1 0.03 -0.02", "0.1 -0.03 -0.02",
+                          "-0.05 0.02 -0.02", "-0.05 -0.02 -0.02"}) {
+    shapes += Collision("sphere radius='0.01'", xyz);
+  }
+  const auto feet = Find(Biped(shapes, "0 0 0"));
+  EXPECT_EQ(feet[0].polygon_C.size(), 4u);
+  EXPECT_NEAR(feet[0].X_BC.p.z(), -0.03, kPromised);
+  EXPECT_NEAR(feet[0].half_size.x(), 0.075, kPromised);
+  EXPECT_NEAR(feet[0].half_size.y(), 0.02, kPromised);
+}
+
+TEST(FindFeet, FindsTheEndOfACylinder) {
+  const auto feet = Find(Biped(
+      Collision("cylinder radius='0.1' length='0.04'", "0 0 -0.02"), "0 0 0"));
+  EXPECT_EQ(feet[0].polygon_C.size(), 16u);
+  EXPECT_NEAR(feet[0].X_BC.p.z(), -0.04, kPromised);
+}
+
+// A foot whose link has z down, as some have: the contact frame has it up.
+TEST(FindFeet, TurnsTheContactFrameOutOfTheGround) {
+  const auto feet =
+      Find(Biped(Collision("box size='0.2 0.1 0.02'", "0.03 0 0.04"),
+                 "3.14159265358979 0 0"));
+  EXPECT_LT((feet[0].X_BC.R.col(2) + Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+  EXPECT_LT((feet[0].X_BC.R.col(0) - Eigen::Vector3d::UnitX()).norm(), 1e-12);
+  EXPECT_NEAR(feet[0].X_BC.p.z(), 0.05, kPromised);
+}
+
+TEST(FindFeet, LooksWhereTheToesAre) {
+  const auto feet = Find(
+      Biped(Collision("box size='0.2 0.1 0.02'", "0.03 0 -0.04"), "0 0 0"));
+  EXPECT_NEAR(feet[0].X_BC.R(0, 0), 1, kPromised);
+  // With the toes behind, what was left is right.
+  const RobotModel model = ParseUrdf(
+      Biped(Collision("box size='0.2 0.1 0.02'", "-0.03 0 -0.04"), "0 0 0"),
+      "biped");
+  const auto turned = FindFeet(model);
+  EXPECT_NEAR(turned[0].X_BC.R(0, 0), -1, kPromised);
+  EXPECT_EQ(model.tree.frames()[turned[0].frame].name, "r6");
+}
+
+// The foot is moved by a roll, whose origin is anywhere along its axis: from there
+// the heel reached further than the toes.
+TEST(FindFeet, LooksFromTheAnkleWhereTheToesAre) {
+  std::string biped =
+      Biped(Collision("box size='0.2 0.1 0.02'", "-0.02 0 -0.04"), "0 0 0");
+  for (const std::string side : {"l", "r"}) {
+    const size_t at = biped.find("<joint name='j" + side + "6'");
+    biped.replace(biped.find("'0 0 0'", at), 7, "'0.05 0 0'");
+  }
+  EXPECT_GT(Find(biped)[0].X_BC.R(0, 0), 0);
+}
+
+TEST(FindFeet, LooksWhereTheKneesGoIfThereAreNoToes) {
+  const std::string box = Collision("box size='0.2 0.1 0.02'", "0 0 -0.04");
+  EXPECT_NEAR(Find(Biped(box, "0 0 0"))[0].X_BC.R(0, 0), 1, kPromised);
+  const auto turned =
+      FindFeet(ParseUrdf(Biped(box, "0 0 0", "lower='-2' upper='0'"), "biped"));
+  EXPECT_NEAR(turned[0].X_BC.R(0, 0), -1, kPromised);
+}
+
+// At zero this knee is bent, half of its range: that it goes as far either way from
+// there says nothing, where it is does.
+TEST(FindFeet, LooksWhereTheKneesAreBentAtRest) {
+  std::string biped = Biped(Collision("box size='0.2 0.1 0.02'", "0 0 -0.04"),
+                            "0 -0.6 0", "lower='-1.1' upper='1'");
+  for (const std::string side : {"l", "r"}) {
+    const auto turn = [&](const std::string& link, double pitch) {
+      const size_t at = biped.find("<joint name='j" + side + link + "'");
+      const std::string straight = "rpy='0 0 0'";
+      biped.replace(biped.find(straight, at), straight.size(),
+                    "rpy='0 " + std::to_string(pitch) + " 0'");
+    };
+    turn("3", -0.6);
+    turn("4", 1.2);
+  }
+  EXPECT_GT(Find(biped)[0].X_BC.R(0, 0), 0);
+}
+
+TEST(FindFeet, EstimatesASoleThatIsAMesh) {
+  std::vector<Finding> findings;
+  const auto feet =
+      Find(Biped(Collision("mesh filename='foot.stl'", "0 0 0"), "0 0 0"),
+           &findings);
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[0].severity, Severity::kWarn);
+  EXPECT_EQ(findings[0].what,
+            "is taken for 0.22 x 0.12 m, 0.1 m below the ankle");
+  EXPECT_LT((feet[0].half_size - Vector2d(0.11, 0.06)).norm(), kPromised);
+  EXPECT_LT((feet[0].X_BC.p - Eigen::Vector3d(0.04, 0, -0.1)).norm(),
+            kPromised);
+}
+
+// As of an ankle that turns about the side last: along its axis, its origin lies
+// beside the leg.
+TEST(FindFeet, EstimatesASoleBelowTheMassOfTheFoot) {
+  std::string biped =
+      Biped(Collision("mesh filename='foot.stl'", "0 0 0"), "0 0 0");
+  const std::string foot = "<link name='l6'><inertial>";
+  const size_t at = biped.find(foot) + foot.size();
+  biped.insert(at, "<origin xyz='0.05 0.037 -0.03'/>");
+  const auto feet = Find(biped);
+  EXPECT_LT((feet[0].X_BC.p - Eigen::Vector3d(0.04, 0.037, -0.1)).norm(),
+            kPromised);
+  EXPECT_LT((feet[1].X_BC.p - Eigen::Vector3d(0.04, 0, -0.1)).norm(),
+            kPromised);
+}
+
+// A frame without shapes that hung below the soles was taken for the one foot.
+TEST(FindFeet, StandsOnShapesNotOnFrames) {
+  const std::string biped =
+      Biped(Collision("box size='0.2 0.1 0.02'", "0.03 0 -0.04"), "0 0 0");
+  const std::string fixed = "<joint name='f' type='fixed'>";
+  const std::string footprint =
+      "<link name='base_footprint'/>" + fixed +
+      "<parent link='base'/><child link='base_footprint'/>"
+      "<origin xyz='0 0 -1.1'/></joint></robot>";
+  const std::string world = "<link name='world'/>" + fixed +
+                            "<parent link='world'/><child link='base'/>"
+                            "<origin xyz='0 0 1.5'/></joint></robot>";
+  for (const std::string& added : {footprint, world}) {
+    const auto feet = Find(biped.substr(0, biped.rfind("</robot>")) + added);
+    EXPECT_NEAR(feet[0].X_BC.p.z(), -0.05, kPromised);
+  }
+}
+
+TEST(FindFeet, SaysWhyThereAreNone) {
+  EXPECT_EQ(Refusal(Biped("", "0 0 0", "lower='0' upper='2'", 5)),
+            "robot 'biped' has no flat sole on link 'l6', nor motors to lay "
+            "one flat: the leg has 5, must have 6");
+  EXPECT_EQ(Refusal("<robot name='r'><link name='a'/></robot>"),
+            "robot 'r' reaches the ground with 1 body, must be two feet");
+  EXPECT_EQ(Refusal(Biped(Collision("box size='0.2 0.0008 0.02'", "0 0 -0.04"),
+                          "0 0 0")),
+            "robot 'biped' has hardly a sole on link 'l6'");
+}
+
+TEST(MakeFoot, RefusesASoleWithoutArea) {
+  const RobotModel model =
+      ParseUrdf("<robot name='r'><link name='a'/></robot>", "r");
+  EXPECT_FALSE(MakeFoot(model, "f", 0, {}, {{0, 0}, {1, 1}, {2, 2}}));
+  EXPECT_FALSE(
+      MakeFoot(model, "f", 0, {}, {{0, 0}, {1, 0}, {1, 9e-4}, {0, 9e-4}}));
+  EXPECT_TRUE(
+      MakeFoot(model, "f", 0, {}, {{0, 0}, {1, 0}, {1, 2e-3}, {0, 2e-3}}));
+}
+
+TEST(MakeFoot, KeepsWhatReachesFurthestOfVeryManyCorners) {
+  const RobotModel model =
+      ParseUrdf("<robot name='r'><link name='a'/></robot>", "r");
+  std::vector<Vector2d> rim;
+  for (int i = 0; i < 100'000; ++i) {
+    rim.emplace_back(0.1 * std::cos(i), 0.1 * std::sin(i));
+  }
+  const Foot foot = MakeFoot(model, "f", 0, {}, rim).value();
+  EXPECT_LE(foot.polygon_C.size(), 64u);
+  EXPECT_GT(foot.polygon_C.size(), 60u);
+  // The square in the circle, less what the corners left out took: a chord
+  // between two of 64 corners is off the circle by a 0.12 % of its radius.
+  const double half = 0.1 * std::sqrt(0.5);
+  for (const double side : {foot.half_size.x(), foot.half_size.y()}) {
+    EXPECT_NEAR(side, half, 0.01 * half);
+  }
+  for (const Vector2d& corner : foot.polygon_C) {
+    EXPECT_NEAR(corner.norm(), 0.1, 1e-4);
+  }
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,244 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/feet/find_feet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "dynamics/kinematics.h"
+#include "robot/feet/feet.h"
+#include "robot/feet/knee.h"
+#include "robot/feet/sole.h"
+#include "robot/limits.h"
+
+namespace poise {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// What a sole must reach further to one side to tell where the toes are, m.
+constexpr double kToes = 2e-3;
+// Bodies this close to the lowest one stand on the ground too, m.
+constexpr double kLevel = 0.03;
+// To lay a sole flat anywhere takes six.
+constexpr int kMotorsOfALeg = 6;
+
+// The bodies' poses in the base's axes, with the joints as near 0 as they go.
+std::vector<Pose> RestPoses(const RobotModel& model) {
+  std::vector<Pose> X_WB(model.tree.num_bodies());
+  ComputePoses(model.tree, RestConfiguration(model), &X_WB);
+  return X_WB;
+}
+
+// How far down each body reaches, with its shapes, the origins of the links
+// that have any (meshes are not opened), and the joint that moves it. A frame
+// without shapes may be anywhere: `world` and `base_footprint` often are below.
+std::vector<double> Reach(const RobotModel& model,
+                          const std::vector<Outline>& outlines,
+                          const std::vector<Pose>& X_WB) {
+  std::vector<double> low(X_WB.size(), std::numeric_limits<double>::infinity());
+  for (size_t b = 0; b < X_WB.size(); ++b) {
+    if (b > 0) low[b] = X_WB[b].p.z();
+    for (const Outline::Corner& corner : outlines[b].corners) {
+      low[b] = std::min(low[b], (X_WB[b] * corner.p_B).z() - corner.radius);
+    }
+  }
+  for (const std::vector<Shape>* shapes : {&model.visuals, &model.collisions}) {
+    for (const Shape& shape : *shapes) {
+      const Frame& frame = model.tree.frames()[shape.frame];
+      low[frame.body] =
+          std::min(low[frame.body], (X_WB[frame.body] * frame.X_BF.p).z());
+    }
+  }
+  return low;
+}
+
+// The joints between the base and a body that have a motor.
+int NumMotors(const RobotModel& model, int body) {
+  int motors = 0;
+  for (int b = body; b > 0; b = model.tree.joints()[b - 1].parent) {
+    motors += model.limits[b - 1].effort > 0;
+  }
+  return motors;
+}
+
+// The bodies on the ground: of each chain of them, the one with the largest
+// sole or, if none has any, the first with six motors.
+std::vector<int> BodiesOnGround(const RobotModel& model,
+                                const std::vector<double>& low,
+                                const std::vector<Sole>& soles) {
+  const double ground = *std::min_element(low.begin(), low.end());
+  std::vector<int> chain(low.size(), -1);  // Index into bodies.
+  std::vector<int> bodies;
+  for (int b = 0; b < static_cast<int>(low.size()); ++b) {
+    if (low[b] > ground + kLevel) continue;
+    const int parent = b > 0 ? model.tree.joints()[b - 1].parent : -1;
+    if (parent >= 0 && chain[parent] >= 0) {
+      chain[b] = chain[parent];
+      int& body = bodies[chain[b]];
+      if (soles[b].area > soles[body].area ||
+          (soles[body].points_B.empty() &&
+           NumMotors(model, body) < kMotorsOfALeg)) {
+        body = b;
+      }
+    } else {
+      chain[b] = static_cast<int>(bodies.size());
+      bodies.push_back(b);
+    }
+  }
+  return bodies;
+}
+
+// The first link of a body.
+std::string LinkOf(const RobotModel& model, int body) {
+  for (const Frame& frame : model.tree.frames()) {
+    if (frame.body == body) return frame.name;
+  }
+  return "";
+}
+
+// The first body of the leg that ends in a foot.
+int HipOf(const RobotModel& model, int foot) {
+  int hip = foot;
+  while (model.tree.joints()[hip - 1].parent > 0) {
+    hip = model.tree.joints()[hip - 1].parent;
+  }
+  return hip;
+}
+
+// Where the ankle of a foot is, or else the foot's own origin.
+Vector3d AnkleOf(const RobotModel& model, int foot,
+                 const std::vector<Pose>& X_WB, const Vector3d& forward) {
+  const auto ankle =
+      FindAnkle(model.tree, foot, X_WB, Vector3d::UnitZ().cross(forward));
+  return X_WB[ankle ? *ankle + 1 : foot].p;
+}
+
+// Where a file has only meshes; see FindFeet().
+Sole SoleWithoutShape(const RobotModel& model, int body,
+                      const std::vector<Pose>& X_WB, const Vector3d& forward,
+                      std::vector<Finding>* findings) {
+  const std::string link = LinkOf(model, body);
+  const int motors = NumMotors(model, body);
+  if (motors < kMotorsOfALeg) {
+    throw std::invalid_argument("robot " + Quoted(model.name) +
+                                " has no flat sole on link " + Quoted(link) +
+                                ", nor motors to lay one flat: the leg has " +
+                                std::to_string(motors) + ", must have 6");
+  }
+  const double leg = X_WB[HipOf(model, body)].p.z() - X_WB[body].p.z();
+  const Vector3d up_B = X_WB[body].R.row(2).transpose();
+  const Vector3d forward_B = X_WB[body].R.transpose() * forward;
+  const Vector3d p_BA_B =
+      X_WB[body].Inverse() * AnkleOf(model, body, X_WB, forward);
+  const Sole sole = EstimateSole(model, body, up_B, forward_B, p_BA_B, leg);
+  if (findings != nullptr) {
+    findings->push_back({Severity::kWarn, "sole of link " + Quoted(link),
+                         "is taken for " + PrintNumber(0.22 * leg) + " x " +
+                             PrintNumber(0.12 * leg) + " m, " +
+                             PrintNumber(-up_B.dot(sole.points_B[0])) +
+                             " m below the ankle",
+                         "as the file has only meshes: give it in a profile"});
+  }
+  return sole;
+}
+
+// How far the sole of a foot reaches before its ankle, less how far behind, m.
+double Toes(const RobotModel& model, int foot, const std::vector<Pose>& X_WB,
+            const Sole& sole, const Vector3d& forward) {
+  if (sole.points_B.empty()) return 0;
+  const Vector3d p_WA = AnkleOf(model, foot, X_WB, forward);
+  double front = -std::numeric_limits<double>::infinity();
+  double back = -front;
+  for (const Vector3d& p_B : sole.points_B) {
+    const double ahead = (X_WB[foot] * p_B - p_WA).dot(forward);
+    front = std::max(front, ahead);
+    back = std::min(back, ahead);
+  }
+  return front + back;
+}
+
+// How far the knee above a foot bends forward, less how far backward, rad: by its
+// range, and by how it is bent at rest. To turn about the left moves what is below
+// backward: the knee forward.
+double KneeRange(const RobotModel& model, int body,
+                 const std::vector<Pose>& X_WB, const Vector3d& forward) {
+  const auto knee =
+      FindKnee(model.tree, body, X_WB, Vector3d::UnitZ().cross(forward));
+  if (!knee) return 0;
+  const JointLimits& limits = model.limits[knee->joint];
+  const double range = knee->sign * (limits.lower + limits.upper);
+  const Vector3d p_WK = X_WB[knee->joint + 1].p;
+  const auto ahead = [&](const Vector3d& down) {
+    return std::atan2(down.dot(forward), -down.z());
+  };
+  const double bend =
+      ahead(p_WK - X_WB[HipOf(model, body)].p) - ahead(X_WB[body].p - p_WK);
+  return 2 * bend + (std::isfinite(range) ? range : 0);
+}
+
+}  // namespace
+
+std::vector<Foot> FindFeet(const RobotModel& model,
+                           std::vector<Finding>* findings) {
+  const std::vector<Outline> outlines = MakeOutlines(model);
+  const std::vector<Pose> X_WB = RestPoses(model);
+  const std::vector<double> low = Reach(model, outlines, X_WB);
+  const double ground = *std::min_element(low.begin(), low.end());
+  std::vector<Sole> soles(X_WB.size());
+  for (size_t b = 0; b < X_WB.size(); ++b) {
+    if (low[b] > ground + kLevel) continue;
+    soles[b] = FindSole(outlines[b], X_WB[b].R.row(2).transpose());
+  }
+  const std::vector<int> bodies = BodiesOnGround(model, low, soles);
+  if (bodies.size() != 2) {
+    throw std::invalid_argument(
+        "robot " + Quoted(model.name) + " reaches the ground with " +
+        std::to_string(bodies.size()) +
+        (bodies.size() == 1 ? " body" : " bodies") + ", must be two feet");
+  }
+
+  // The feet stand side by side: along y or, in some robots, along x.
+  const Vector3d across = X_WB[bodies[1]].p - X_WB[bodies[0]].p;
+  Vector3d forward = std::abs(across.y()) >= std::abs(across.x())
+                         ? Vector3d::UnitX()
+                         : Vector3d::UnitY();
+  double toes = 0;
+  double knees = 0;
+  for (const int body : bodies) {
+    toes += Toes(model, body, X_WB, soles[body], forward);
+    knees += KneeRange(model, body, X_WB, forward);
+  }
+  if (std::abs(toes) > kToes ? toes < 0 : knees < 0) forward = -forward;
+
+  std::vector<Foot> feet;
+  const bool first_is_left = across.dot(Vector3d::UnitZ().cross(forward)) < 0;
+  for (const bool left : {true, false}) {
+    const int body = bodies[left == first_is_left ? 0 : 1];
+    const Sole sole =
+        soles[body].points_B.empty()
+            ? SoleWithoutShape(model, body, X_WB, forward, findings)
+            : soles[body];
+    const Pose X_BS =
+        MakeSoleAxes(sole, outlines[body], X_WB[body].R.transpose() * forward);
+    std::vector<Vector2d> points;
+    for (const Vector3d& p : sole.points_B) {
+      points.push_back((X_BS.Inverse() * p).head<2>());
+    }
+    const Pose& X_BF = model.tree.frames()[sole.frame].X_BF;
+    auto foot = MakeFoot(model, left ? "left_foot" : "right_foot", sole.frame,
+                         X_BF.Inverse() * X_BS, points);
+    if (!foot) {
+      throw std::invalid_argument("robot " + Quoted(model.name) +
+                                  " has hardly a sole on link " +
+                                  Quoted(LinkOf(model, body)));
+    }
+    feet.push_back(*std::move(foot));
+  }
+  return feet;
+}
+
+}  // namespace poise

@@ -1,0 +1,195 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/feet/sole.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "robot/feet/feet.h"
+
+namespace poise {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// Corners this close to a plane lie in it, m: drawings are rounded to 1 mm.
+constexpr double kFlat = 2e-3;
+// A sole's steepest normal and most turned axis at q = 0, rad.
+constexpr double kSteepest = 0.6;
+constexpr double kMostTurned = 0.3;
+constexpr double kSameAxis = 1e-6;
+// Of a body with very many shapes, the first ones' axes will do.
+constexpr size_t kMostAxes = 64;
+
+// Curved rims become 16 points.
+void AddShape(const Shape& shape, const Pose& X_BF, Outline* outline) {
+  const Pose X_BS = X_BF * shape.X_FS;
+  const auto add = [&](const Vector3d& p_S, double radius) {
+    outline->corners.push_back({shape.frame, X_BS * p_S, radius});
+  };
+  if (const auto* box = std::get_if<Box>(&shape.geometry)) {
+    for (int i = 0; i < 8; ++i) {
+      const Vector3d sign(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+      add(0.5 * box->size.cwiseProduct(sign), 0);
+    }
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) {
+    constexpr int kPoints = 16;
+    for (int i = 0; i < kPoints; ++i) {
+      const double angle = 2 * M_PI * i / kPoints;
+      for (const double end : {-0.5, 0.5}) {
+        add({cylinder->radius * std::cos(angle),
+             cylinder->radius * std::sin(angle), end * cylinder->length},
+            0);
+      }
+    }
+  } else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
+    add(Vector3d::Zero(), sphere->radius);
+    return;  // Any axis is as good.
+  } else {
+    return;  // A mesh is not opened.
+  }
+  if (outline->axes_B.size() >= kMostAxes) return;
+  for (int i = 0; i < 3; ++i) outline->axes_B.push_back(X_BS.R.col(i));
+}
+
+double Area(const Sole& sole) {
+  const Vector3d x = sole.normal_B.unitOrthogonal();
+  const Vector3d y = sole.normal_B.cross(x);
+  std::vector<Vector2d> points;
+  for (const Vector3d& p : sole.points_B)
+    points.push_back({x.dot(p), y.dot(p)});
+  const std::vector<Vector2d> hull = ConvexHull(std::move(points));
+  double area = 0;
+  for (size_t i = 2; i < hull.size(); ++i) {
+    const Vector2d a = hull[i - 1] - hull[0];
+    const Vector2d b = hull[i] - hull[0];
+    area += 0.5 * (a.x() * b.y() - a.y() * b.x());
+  }
+  return area;
+}
+
+// How far below the body's origin the sole is likely to be, along up, and on
+// which link.
+double EstimateDepth(const RobotModel& model, int body, const Vector3d& up_B,
+                     double leg, int* frame) {
+  constexpr double kNone = 0.01;  // A link at the ankle says nothing, m.
+  double depth = 0;
+  for (int i = 0; i < static_cast<int>(model.tree.frames().size()); ++i) {
+    const Frame& link = model.tree.frames()[i];
+    if (link.body != body) continue;
+    if (*frame < 0) *frame = i;
+    const double below = -up_B.dot(link.X_BF.p);
+    const bool is_sole = link.name.find("sole") != std::string::npos;
+    if (below > std::max(depth, kNone) || (is_sole && below > kNone)) {
+      depth = below;
+      *frame = i;
+      if (is_sole) return depth;
+    }
+  }
+  return depth > 0 ? depth : 0.1 * leg;
+}
+
+}  // namespace
+
+std::vector<Outline> MakeOutlines(const RobotModel& model) {
+  const std::vector<Frame>& frames = model.tree.frames();
+  std::vector<Outline> outlines(model.tree.num_bodies());
+  for (Outline& outline : outlines) {
+    for (int i = 0; i < 3; ++i) outline.axes_B.push_back(Vector3d::Unit(i));
+  }
+  for (const std::vector<Shape>* shapes : {&model.collisions, &model.visuals}) {
+    std::vector<bool> done;
+    for (const Outline& outline : outlines) {
+      done.push_back(!outline.corners.empty());
+    }
+    for (const Shape& shape : *shapes) {
+      const Frame& frame = frames[shape.frame];
+      if (!done[frame.body]) {
+        AddShape(shape, frame.X_BF, &outlines[frame.body]);
+      }
+    }
+  }
+  return outlines;
+}
+
+Sole FindSole(const Outline& outline, const Vector3d& up_B) {
+  std::vector<Vector3d> normals;
+  const auto add = [&](const Vector3d& axis) {
+    const Vector3d normal = axis.dot(up_B) < 0 ? Vector3d(-axis) : axis;
+    if (normal.dot(up_B) < std::cos(kSteepest)) return;
+    for (const Vector3d& other : normals) {
+      if ((normal - other).norm() < kSameAxis) return;
+    }
+    normals.push_back(normal);
+  };
+  for (const Vector3d& axis : outline.axes_B) add(axis);
+  add(up_B);
+  Sole best;
+  for (const Vector3d& normal : normals) {
+    double height = std::numeric_limits<double>::infinity();
+    for (const Outline::Corner& corner : outline.corners) {
+      height = std::min(height, normal.dot(corner.p_B) - corner.radius);
+    }
+    Sole sole;
+    sole.normal_B = normal;
+    for (const Outline::Corner& corner : outline.corners) {
+      const double above = normal.dot(corner.p_B) - height;
+      if (above - corner.radius > kFlat) continue;
+      sole.frame = corner.frame;
+      sole.points_B.push_back(corner.p_B - above * normal);
+    }
+    sole.area = Area(sole);
+    // The same plane again, up to rounding, is no better.
+    if (sole.area > 1.01 * best.area) best = std::move(sole);
+  }
+  return best.area > kFlat * kFlat ? best : Sole{};
+}
+
+Sole EstimateSole(const RobotModel& model, int body, const Vector3d& up_B,
+                  const Vector3d& forward_B, const Vector3d& p_BA_B,
+                  double leg) {
+  Sole sole;
+  sole.frame = -1;
+  const double depth = EstimateDepth(model, body, up_B, leg, &sole.frame);
+  sole.normal_B = up_B;
+  const Vector3d side_B = up_B.cross(forward_B);
+  // The foot's origin may be anywhere along the axis that moves it.
+  const double ankle = forward_B.dot(p_BA_B);
+  const double middle = side_B.dot(model.tree.inertias()[body].p_BoG_B);
+  for (const double x : {-0.07, 0.15}) {
+    for (const double y : {-0.06, 0.06}) {
+      sole.points_B.push_back((ankle + x * leg) * forward_B +
+                              (middle + y * leg) * side_B - depth * up_B);
+    }
+  }
+  return sole;
+}
+
+Pose MakeSoleAxes(const Sole& sole, const Outline& outline,
+                  const Vector3d& forward_B) {
+  const Vector3d z = sole.normal_B;
+  const auto in_plane = [&](const Vector3d& a) -> Vector3d {
+    return (a - a.dot(z) * z).normalized();
+  };
+  const Vector3d wanted = in_plane(forward_B);
+  Vector3d x = wanted;
+  double best = std::cos(kMostTurned);
+  for (const Vector3d& axis : outline.axes_B) {
+    if (std::abs(axis.dot(z)) > 0.5) continue;  // Not in the plane.
+    const double along = in_plane(axis).dot(wanted);
+    if (std::abs(along) > best + 1e-9) {
+      best = std::abs(along);
+      x = along > 0 ? in_plane(axis) : -in_plane(axis);
+    }
+  }
+  Pose X_BS;
+  X_BS.R << x, z.cross(x), z;
+  X_BS.p = sole.points_B[0].dot(z) * z;
+  return X_BS;
+}
+
+}  // namespace poise

@@ -1,0 +1,374 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/profile/profile.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <set>
+
+#include "math/rpy.h"
+#include "robot/feet/feet.h"
+#include "robot/feet/find_feet.h"
+#include "robot/limits.h"
+#include "robot/profile/yaml_file.h"
+#include "robot/standing.h"
+#include "robot/urdf/urdf.h"
+
+namespace poise {
+namespace {
+
+using Path = std::filesystem::path;
+
+// A file being read, so that every complaint has its line.
+struct Reader {
+  const std::string file;
+
+  [[noreturn]] void Refuse(const YAML::Node& at,
+                           const std::string& what) const {
+    poise::Refuse(file, at, what);
+  }
+
+  // About a value that is there.
+  [[noreturn]] void Refuse(const YAML::Node& value, const std::string& thing,
+                           const std::string& wanted) const {
+    Refuse(value, thing + " is " + Shown(value) + ", must be " + wanted);
+  }
+
+  double Number(const YAML::Node& node, const std::string& thing) const {
+    const auto value = ToNumber(node);
+    if (!value) Refuse(node, thing, "a finite number");
+    constexpr double kLargest = 1e6;  // m or rad.
+    if (std::abs(*value) > kLargest) Refuse(node, thing, "within 1e6");
+    return *value;
+  }
+
+  std::string Text(const YAML::Node& node, const std::string& thing) const {
+    if (!node.IsScalar() || node.Scalar().empty()) {
+      Refuse(node, thing, "a name");
+    }
+    return node.Scalar();
+  }
+
+  template <int kSize>
+  Eigen::Matrix<double, kSize, 1> Numbers(const YAML::Node& node,
+                                          const std::string& thing) const {
+    if (!node.IsSequence() || node.size() != kSize) {
+      Refuse(node, thing, std::to_string(kSize) + " numbers");
+    }
+    Eigen::Matrix<double, kSize, 1> values;
+    for (int i = 0; i < kSize; ++i) values[i] = Number(node[i], thing);
+    return values;
+  }
+
+  void ExpectMap(const YAML::Node& node, const std::string& thing,
+                 const std::set<std::string>& keys) const {
+    if (!node.IsMap()) Refuse(node, thing, "a map");
+    for (const auto& item : node) {
+      if (keys.empty() || keys.count(item.first.Scalar()) != 0) continue;
+      std::string known;
+      for (const std::string& key : keys) known += " " + key;
+      Refuse(item.first, thing + ": unknown key " + Shown(item.first) +
+                             ", must be one of" + known);
+    }
+  }
+
+  // Roll, pitch and yaw.
+  Eigen::Vector3d Angles(const YAML::Node& node,
+                         const std::string& thing) const {
+    const Eigen::Vector3d rpy = Numbers<3>(node, thing);
+    constexpr double kTurn = 6.3;
+    if (rpy.cwiseAbs().maxCoeff() > kTurn) {
+      Refuse(node, thing + " is more than a turn: in degrees?");
+    }
+    return rpy;
+  }
+
+  std::map<std::string, JointValue> Joints(const YAML::Node& node,
+                                           const std::string& thing) const {
+    ExpectMap(node, thing, {});
+    std::map<std::string, JointValue> values;
+    for (const auto& item : node) {
+      const std::string& name = item.first.Scalar();
+      values[name] = {Number(item.second, thing + ": " + Quoted(name)),
+                      item.first.Mark().line + 1};
+    }
+    return values;
+  }
+
+  // No sole is larger, m.
+  void ExpectSmall(const Eigen::Vector2d& point, const YAML::Node& at,
+                   const std::string& thing) const {
+    if (point.cwiseAbs().maxCoeff() <= 1) return;
+    Refuse(at, thing + " reaches over 1 m, must be in m");
+  }
+
+  // The sole's axes in its link's: z along a normal, x near the link's x or,
+  // if that is along the normal, near its z.
+  Eigen::Matrix3d FromNormal(const YAML::Node& node,
+                             const std::string& thing) const {
+    const Eigen::Vector3d normal = Numbers<3>(node, thing);
+    if (!(normal.norm() > 1e-6)) Refuse(node, thing + " must not be zero");
+    const Eigen::Vector3d z = normal.normalized();
+    constexpr double kAlong = 0.9;
+    const Eigen::Vector3d forward = std::abs(z.x()) < kAlong
+                                        ? Eigen::Vector3d::UnitX()
+                                        : Eigen::Vector3d::UnitZ();
+    Eigen::Matrix3d R;
+    R.col(2) = z;
+    R.col(1) = z.cross(forward).normalized();
+    R.col(0) = R.col(1).cross(z);
+    return R;
+  }
+
+  SoleProfile Sole(const std::string& name, const YAML::Node& node) const {
+    const std::string thing = "feet." + name;
+    ExpectMap(node, thing,
+              {"frame", "normal", "polygon", "rpy", "size", "xyz"});
+    SoleProfile sole{name, "", {}, {}, node.Mark().line + 1};
+    if (!node["frame"]) Refuse(node, thing + ": must have a frame, a link");
+    sole.frame = Text(node["frame"], thing + ".frame");
+    if (node["xyz"]) sole.X_FS.p = Numbers<3>(node["xyz"], thing + ".xyz");
+    if (node["rpy"]) {
+      sole.X_FS.R = MatrixFromRpy(Angles(node["rpy"], thing + ".rpy"));
+    }
+    if (const YAML::Node normal = node["normal"]) {
+      if (node["rpy"]) Refuse(node, thing + ": must have rpy or normal alone");
+      sole.X_FS.R = FromNormal(normal, thing + ".normal");
+    }
+    if (node["size"].IsDefined() == node["polygon"].IsDefined()) {
+      Refuse(node, thing + ": must have either size or polygon");
+    }
+    if (const YAML::Node size = node["size"]) {
+      const Eigen::Vector2d half = 0.5 * Numbers<2>(size, thing + ".size");
+      ExpectSmall(half, size, thing + ".size");
+      if (!(half.minCoeff() > 0)) {
+        Refuse(size, thing + ".size is [" + PrintNumber(2 * half.x()) + ", " +
+                         PrintNumber(2 * half.y()) + "], must be positive");
+      }
+      for (const double x : {-1, 1}) {
+        for (const double y : {-1, 1}) {
+          sole.sole_S.emplace_back(x * half.x(), y * half.y());
+        }
+      }
+    } else {
+      if (!node["polygon"].IsSequence()) {
+        Refuse(node["polygon"], thing + ".polygon", "a list of corners");
+      }
+      for (const YAML::Node& corner : node["polygon"]) {
+        sole.sole_S.push_back(Numbers<2>(corner, thing + ".polygon"));
+        ExpectSmall(sole.sole_S.back(), corner, thing + ".polygon");
+      }
+      if (!IsConvex(sole.sole_S)) {
+        Refuse(node["polygon"], thing +
+                                    ".polygon must be convex, its corners "
+                                    "in their order around it");
+      }
+    }
+    return sole;
+  }
+};
+
+void ReadPosture(const Reader& reader, const YAML::Node& node,
+                 Profile* profile) {
+  reader.ExpectMap(node, "posture", {"base", "found", "joints"});
+  if (const YAML::Node base = node["base"]) {
+    reader.ExpectMap(base, "posture.base", {"rpy", "xyz"});
+    if (!base["xyz"]) reader.Refuse(base, "posture.base: must have xyz");
+    profile->base_line = node["base"].Mark().line + 1;
+    profile->base_xyz = reader.Numbers<3>(base["xyz"], "posture.base.xyz");
+    if (base["rpy"]) {
+      profile->base_rpy = reader.Angles(base["rpy"], "posture.base.rpy");
+    }
+  }
+  if (node["found"]) {
+    profile->posture_found = reader.Text(node["found"], "posture.found");
+  }
+  if (node["joints"]) {
+    profile->joints = reader.Joints(node["joints"], "posture.joints");
+  }
+}
+
+MimicPolicy ReadMimic(const Reader& reader, const YAML::Node& node) {
+  const std::string text = reader.Text(node, "mimic");
+  if (text == "free") return MimicPolicy::kFree;
+  if (text == "coupled") return MimicPolicy::kCoupled;
+  if (text == "locked") return MimicPolicy::kLocked;
+  reader.Refuse(node, "mimic", "free, coupled or locked");
+}
+
+// The feet that a profile gives.
+std::vector<Foot> MakeFeet(const RobotModel& model, const Profile& profile) {
+  std::vector<Foot> feet;
+  for (const SoleProfile& sole : profile.feet) {
+    const auto refuse = [&](const std::string& what) {
+      throw Refusal(profile.file.string(), sole.line,
+                    "feet." + sole.name + what);
+    };
+    const std::optional<int> frame = model.tree.FindFrame(sole.frame);
+    if (!frame) refuse(": the robot has no link " + Quoted(sole.frame));
+    auto foot = MakeFoot(model, sole.name, *frame, sole.X_FS, sole.sole_S);
+    if (!foot) refuse(": its sole is a point or a line, must have an area");
+    feet.push_back(*std::move(foot));
+    if (feet.front().body == feet.back().body && feet.size() > 1) {
+      refuse(": no joint moves it against left_foot, must be another foot");
+    }
+  }
+  return feet;
+}
+
+// Takes the mimics of which a profile says nothing to where their sources lead.
+void Couple(const std::map<std::string, JointValue>& given, Robot* robot) {
+  const Tree& tree = robot->model.tree;
+  // A source may be a mimic too; the loader found no cycle.
+  for (size_t i = 0; i < robot->model.mimics.size(); ++i) {
+    bool changed = false;
+    for (const MimicCoupling& mimic : robot->model.mimics) {
+      if (given.count(tree.joints()[mimic.joint].name) != 0) continue;
+      double& q = robot->q_nominal[tree.q_start() + mimic.joint];
+      const double source = robot->q_nominal[tree.q_start() + mimic.source];
+      const double led = mimic.multiplier * source + mimic.offset;
+      changed |= q != led;
+      q = led;
+    }
+    if (!changed) return;
+  }
+}
+
+}  // namespace
+
+Profile LoadProfile(const Path& file) {
+  const Reader reader{file.string()};
+  Profile profile;
+  profile.file = file;
+  const YAML::Node root = LoadYaml(file);
+  reader.ExpectMap(root, "a profile",
+                   {"feet", "locked", "mimic", "posture", "tasks"});
+  if (const YAML::Node feet = root["feet"]) {
+    reader.ExpectMap(feet, "feet", {"left_foot", "right_foot"});
+    for (const char* name : {"left_foot", "right_foot"}) {
+      if (!feet[name]) reader.Refuse(feet, std::string("feet: no ") + name);
+      profile.feet.push_back(reader.Sole(name, feet[name]));
+    }
+  }
+  if (root["locked"]) profile.locked = reader.Joints(root["locked"], "locked");
+  if (root["mimic"]) profile.mimic = ReadMimic(reader, root["mimic"]);
+  if (root["posture"]) ReadPosture(reader, root["posture"], &profile);
+  if (const YAML::Node tasks = root["tasks"]) {
+    reader.ExpectMap(tasks, "tasks", {});
+    profile.tasks = tasks;
+  }
+  return profile;
+}
+
+std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
+                                               const Profile& profile) {
+  const Tree& tree = model.tree;
+  const auto refuse = [&](const JointValue& joint, const std::string& what) {
+    throw Refusal(profile.file.string(), joint.line, "locked: " + what);
+  };
+  std::vector<const MimicCoupling*> mimic_of(tree.num_joints());
+  for (const MimicCoupling& mimic : model.mimics) {
+    mimic_of[mimic.joint] = &mimic;
+  }
+  std::map<std::string, JointValue> locked;
+  for (const auto& [name, joint] : profile.locked) {
+    const std::optional<int> j = tree.FindJoint(name);
+    if (!j) refuse(joint, "the robot has no moving joint " + Quoted(name));
+    // A mimic goes where its source leads it.
+    if (!mimic_of[*j] && !IsWithin(model.limits[*j], joint.value)) {
+      refuse(joint, SayOutside(name, model.limits[*j], joint.value));
+    }
+    locked[name] = joint;
+  }
+  if (profile.mimic == MimicPolicy::kFree) return locked;
+
+  const Eigen::VectorXd q_rest = RestConfiguration(model);
+  for (const MimicCoupling& mimic : model.mimics) {
+    const std::string& name = tree.joints()[mimic.joint].name;
+    // Up to whom all follow, or to who is fixed; the loader found no cycle.
+    std::vector<const MimicCoupling*> chain;
+    int joint = mimic.joint;
+    while (mimic_of[joint] != nullptr &&
+           locked.count(tree.joints()[joint].name) == 0) {
+      chain.push_back(mimic_of[joint]);
+      joint = mimic_of[joint]->source;
+    }
+    if (chain.empty()) {
+      if (profile.mimic == MimicPolicy::kLocked) continue;
+      const auto given = profile.locked.find(name);
+      const std::string& source = tree.joints()[mimic.source].name;
+      if (given == profile.locked.end() || locked.count(source) != 0) continue;
+      refuse(given->second, Quoted(name) + " is coupled to " + Quoted(source) +
+                                ": lock that one instead");
+    }
+    const std::string& source = tree.joints()[joint].name;
+    const auto fixed = locked.find(source);
+    if (profile.mimic == MimicPolicy::kCoupled && fixed == locked.end()) {
+      continue;
+    }
+    const auto given = profile.joints.find(source);
+    JointValue q = fixed != locked.end() ? fixed->second
+                   : given != profile.joints.end()
+                       ? given->second
+                       : JointValue{q_rest[tree.q_start() + joint], 0};
+    while (!chain.empty()) {
+      q.value = chain.back()->multiplier * q.value + chain.back()->offset;
+      locked[tree.joints()[chain.back()->joint].name] = q;
+      chain.pop_back();
+    }
+  }
+  return locked;
+}
+
+RobotModel LoadModel(const Path& urdf, const Profile& profile) {
+  RobotModel model = LoadUrdf(urdf);
+  std::map<std::string, double> locked;
+  for (const auto& [name, joint] : LockedJoints(model, profile)) {
+    locked[name] = joint.value;
+  }
+  if (!locked.empty()) model = LoadUrdf(urdf, locked);
+  if (profile.mimic != MimicPolicy::kCoupled) model.mimics.clear();
+  return model;
+}
+
+Robot LoadRobot(const Path& urdf, const Profile& profile,
+                std::vector<Finding>* findings) {
+  Robot robot{LoadModel(urdf, profile), {}, {}, false};
+  const Tree& tree = robot.model.tree;
+  robot.q_nominal = RestConfiguration(robot.model);
+  for (const auto& [name, joint] : profile.joints) {
+    const auto refuse = [&, line = joint.line](const std::string& what) {
+      throw Refusal(profile.file.string(), line, "posture.joints: " + what);
+    };
+    const std::optional<int> j = tree.FindJoint(name);
+    if (!j && LockedJoints(LoadUrdf(urdf), profile).count(name) != 0) {
+      refuse(Quoted(name) + " is locked");
+    }
+    if (!j) refuse("the robot has no moving joint " + Quoted(name));
+    const JointLimits& limits = robot.model.limits[*j];
+    if (!IsWithin(limits, joint.value)) {
+      refuse(SayOutside(name, limits, joint.value));
+    }
+    robot.q_nominal[tree.q_start() + *j] = joint.value;
+  }
+  Couple(profile.joints, &robot);
+  robot.feet = profile.feet.empty() ? FindFeet(robot.model, findings)
+                                    : MakeFeet(robot.model, profile);
+  if (!profile.feet.empty()) {
+    const std::string reason = WhyNoPairOfFeet(robot);
+    if (!reason.empty()) {
+      throw Refusal(profile.file.string(), profile.feet[0].line,
+                    "feet: " + reason);
+    }
+  }
+  if (!profile.base_xyz) return robot;
+
+  robot.can_stand = true;
+  robot.q_nominal.head<3>() = *profile.base_xyz;
+  const Eigen::Quaterniond orientation(MatrixFromRpy(profile.base_rpy));
+  robot.q_nominal.segment<4>(3) = orientation.coeffs();
+  const std::string reason = WhyNotStanding(robot);
+  if (reason.empty()) return robot;
+  throw Refusal(profile.file.string(), profile.base_line, "posture: " + reason);
+}
+
+}  // namespace poise

@@ -1,0 +1,361 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/profile/profile.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "math/rpy.h"
+#include "robot/standing.h"
+#include "robot/urdf/urdf.h"
+#include "tests/util/test_file.h"
+
+namespace poise {
+namespace {
+
+const char kUrdf[] = "robot/models/humanoid.urdf";
+
+Profile Parse(const std::string& text) {
+  return LoadProfile(TestFile("profile.yaml", text));
+}
+
+// The message, from the line number on.
+std::string Refusal(const std::string& text) {
+  try {
+    LoadRobot(kUrdf, Parse(text));
+  } catch (const std::invalid_argument& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+    const size_t at = message.find("profile.yaml:");
+    return at == std::string::npos ? message : message.substr(at + 13);
+  }
+  return "accepted";
+}
+
+TEST(LoadProfile, ReadsAllItMayHold) {
+  const Profile profile = Parse(R"(
+feet:
+  left_foot: {frame: l_foot, xyz: [1, 2, 3], rpy: [0.1, 0.2, 0.3], size: [0.4, 0.2]}
+  right_foot: {frame: r_foot, polygon: [[0, 0], [1, 0], [0, 1]]}
+posture:
+  found: somehow
+  base: {xyz: [0, 0, 0.7], rpy: [0, 0.1, 0]}
+  joints: {l_knee: 0.5}
+locked: {neck_yaw: 0.25}
+mimic: coupled
+tasks:
+  com: {rank: 4}
+)");
+  ASSERT_EQ(profile.feet.size(), 2u);
+  const SoleProfile& left = profile.feet[0];
+  EXPECT_EQ(left.name, "left_foot");
+  EXPECT_EQ(left.frame, "l_foot");
+  EXPECT_EQ(left.X_FS.p, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(left.X_FS.R, MatrixFromRpy({0.1, 0.2, 0.3}));
+  ASSERT_EQ(left.sole_S.size(), 4u);
+  EXPECT_EQ(left.sole_S[0], Eigen::Vector2d(-0.2, -0.1));
+  EXPECT_EQ(left.sole_S[3], Eigen::Vector2d(0.2, 0.1));
+  EXPECT_EQ(profile.feet[1].sole_S.size(), 3u);
+  EXPECT_EQ(profile.base_xyz.value(), Eigen::Vector3d(0, 0, 0.7));
+  EXPECT_EQ(profile.base_rpy, Eigen::Vector3d(0, 0.1, 0));
+  EXPECT_EQ(profile.posture_found, "somehow");
+  EXPECT_EQ(profile.joints.at("l_knee").value, 0.5);
+  EXPECT_EQ(profile.locked.at("neck_yaw").value, 0.25);
+  EXPECT_EQ(profile.mimic, MimicPolicy::kCoupled);
+  EXPECT_EQ(profile.tasks["com"]["rank"].as<int>(), 4);
+  EXPECT_EQ(profile.tasks["com"].Mark().line + 1, 12);
+}
+
+// Soles of the humanoid.
+const std::string kFeet =
+    "feet:\n"
+    "  left_foot: {frame: l_sole, size: [0.2, 0.1]}\n"
+    "  right_foot: {frame: r_sole, size: [0.2, 0.1]}\n";
+
+// The same, with another left foot, which is in line 2.
+std::string LeftFoot(const std::string& foot) {
+  return "feet:\n  left_foot: {" + foot +
+         "}\n  right_foot: {frame: r_sole, size: [0.2, 0.1]}\n";
+}
+
+TEST(LoadProfile, NamesTheLineOfWhatIsWrong) {
+  EXPECT_EQ(Refusal("\nfeets: {}"),
+            "2: a profile: unknown key 'feets', must be one of feet locked "
+            "mimic posture tasks");
+  EXPECT_EQ(Refusal("a"), "1: a profile is 'a', must be a map");
+  EXPECT_EQ(Refusal(""), " is empty, must be a map");
+  EXPECT_EQ(Refusal("feet:\n  left_foot: {frame: l_sole, size: [1, 1]}"),
+            "2: feet: no right_foot");
+  EXPECT_EQ(Refusal("feet: {left_foot: {size: [1, 1]}}"),
+            "1: feet.left_foot: must have a frame, a link");
+  EXPECT_EQ(Refusal(kFeet + "mimic: maybe"),
+            "4: mimic is 'maybe', must be free, coupled or locked");
+  EXPECT_EQ(Refusal(kFeet + "locked:\n  neck_yaw: a"),
+            "5: locked: 'neck_yaw' is 'a', must be a finite number");
+  EXPECT_EQ(Refusal(kFeet + "locked:\n  neck_yaw: 1e7"),
+            "5: locked: 'neck_yaw' is '1e7', must be within 1e6");
+  EXPECT_EQ(Refusal(kFeet + "locked:\n  neck_yaw: 9"),
+            "5: locked: 'neck_yaw' is at 9, must be inside its limits, -1.4 "
+            "to 1.4");
+  EXPECT_EQ(Refusal(kFeet + "locked:\n  neck: 0"),
+            "5: locked: the robot has no moving joint 'neck'");
+  EXPECT_EQ(Refusal(kFeet + "posture:\n  joints:\n    l_knee: .nan"),
+            "6: posture.joints: 'l_knee' is '.nan', must be a finite number");
+  EXPECT_EQ(Refusal(kFeet + "posture:\n  joints: {no_joint: 0}"),
+            "5: posture.joints: the robot has no moving joint 'no_joint'");
+  EXPECT_EQ(Refusal(kFeet + "posture:\n  joints: {neck_yaw: 9}"),
+            "5: posture.joints: 'neck_yaw' is at 9, must be inside its limits, "
+            "-1.4 to 1.4");
+  EXPECT_EQ(Refusal(kFeet + "locked: {neck_yaw: 0}\nposture:\n"
+                            "  joints: {neck_yaw: 0}"),
+            "6: posture.joints: 'neck_yaw' is locked");
+  EXPECT_EQ(Refusal(kFeet + "posture:\n  base: {rpy: [0, 0, 0]}"),
+            "5: posture.base: must have xyz");
+  EXPECT_EQ(Refusal(kFeet + "posture:\n  base: {xyz: [0, 0]}"),
+            "5: posture.base.xyz is a list, must be 3 numbers");
+}
+
+TEST(LoadProfile, NamesTheFootThatIsNone) {
+  EXPECT_EQ(Refusal(LeftFoot("frame: l, size: [0.2, 0.1]")),
+            "2: feet.left_foot: the robot has no link 'l'");
+  EXPECT_EQ(Refusal(LeftFoot("frame: r_foot, size: [0.2, 0.1]")),
+            "3: feet.right_foot: no joint moves it against left_foot, must be "
+            "another foot");
+  EXPECT_EQ(
+      Refusal("feet:\n  left_foot: {frame: r_sole, size: [0.2, 0.1]}\n"
+              "  right_foot: {frame: l_sole, size: [0.2, 0.1]}\n"),
+      "2: feet: left_foot is to the right of right_foot, as their x axes say");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [1, 0]")),
+            "2: feet.left_foot.size is [1, 0], must be positive");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [a, 0]")),
+            "2: feet.left_foot.size is 'a', must be a finite number");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [100, 1]")),
+            "2: feet.left_foot.size reaches over 1 m, must be in m");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, polygon: [[0, 0], [1, 1]]")),
+            "2: feet.left_foot: its sole is a point or a line, must have an "
+            "area");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, polygon: {a: 1}")),
+            "2: feet.left_foot.polygon is a map, must be a list of corners");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole")),
+            "2: feet.left_foot: must have either size or polygon");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, polygon: [[0, 0], [0.2, 0.1], "
+                             "[0.2, 0], [0, 0.1]]")),
+            "2: feet.left_foot.polygon must be convex, its corners in their "
+            "order around it");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [0.2, 0.1], normal: "
+                             "[0, 0, -1]")),
+            "2: feet: the normals of the two soles point apart, must point out "
+            "of the ground");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [1, 1], rpy: [0, 0, 90]")),
+            "2: feet.left_foot.rpy is more than a turn: in degrees?");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [1, 1], rpy: [0, 0, 0], "
+                             "normal: [0, 0, 1]")),
+            "2: feet.left_foot: must have rpy or normal alone");
+  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [1, 1], "
+                             "normal: [0, 0, 0]")),
+            "2: feet.left_foot.normal must not be zero");
+}
+
+TEST(LoadProfile, TakesTheNormalForTheAxisOutOfTheGround) {
+  const auto axes = [](const std::string& normal) {
+    return Parse(LeftFoot("frame: l, size: [0.2, 0.1], normal: " + normal))
+        .feet[0]
+        .X_FS.R;
+  };
+  EXPECT_LT((axes("[0, 0, 2]") - Eigen::Matrix3d::Identity()).norm(), 1e-15);
+  Eigen::Matrix3d R;
+  R << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // z along -y, x stays.
+  EXPECT_LT((axes("[0, -1, 0]") - R).norm(), 1e-15);
+  R << 0, 0, 1, 0, 1, 0, -1, 0, 0;  // z along x; x cannot stay.
+  EXPECT_LT((axes("[1, 0, 0]").col(2) - R.col(2)).norm(), 1e-15);
+  EXPECT_NEAR(axes("[1, 0, 0]").determinant(), 1, 1e-15);
+  EXPECT_LT((axes("[1, 0, 0]").col(0) - Eigen::Vector3d::UnitZ()).norm(),
+            1e-15);
+}
+
+// A posture with a base is one to stand in, or it is refused.
+TEST(LoadRobot, RefusesAPostureThatDoesNotStand) {
+  std::ifstream stream("robot/profiles/humanoid.yaml");
+  const std::string good((std::istreambuf_iterator<char>(stream)), {});
+  EXPECT_EQ(Refusal(good), "accepted");
+  const auto refusal = [&](const std::string& old_text,
+                           const std::string& new_text) {
+    std::string text = good;
+    const size_t at = text.find(old_text);
+    EXPECT_NE(at, std::string::npos) << old_text;
+    text.replace(at, old_text.size(), new_text);
+    const std::string message = Refusal(text);
+    return message.substr(message.find(' ') + 1);
+  };
+  const Profile profile = LoadProfile("robot/profiles/humanoid.yaml");
+  const double x = profile.base_xyz->x();
+  const double z = profile.base_xyz->z();
+  YAML::Node yaml = YAML::Load(good);
+  const auto with_base = [&](double forward, double height, double pitch) {
+    YAML::Node base;
+    for (const double value : {forward, 0.0, height})
+      base["xyz"].push_back(value);
+    for (const double value : {0.0, pitch, 0.0}) base["rpy"].push_back(value);
+    yaml["posture"]["base"] = base;
+    YAML::Emitter emitter;
+    emitter << yaml;
+    const std::string message = Refusal(emitter.c_str());
+    return message.substr(message.find(' ') + 1);
+  };
+  EXPECT_EQ(with_base(x, z, 0), "accepted");
+  EXPECT_EQ(with_base(x + 5, z, 0)
+                .find("posture: the middle between its feet is "
+                      "at x = 5"),
+            0u);
+  EXPECT_EQ(with_base(x, z + 1, 0),
+            "posture: left_foot is 1 m above the ground, must be on it");
+  EXPECT_EQ(with_base(x, z - 0.01, 0).find("posture: left_foot is -0.0"), 0u);
+  EXPECT_NE(with_base(x, z, 0.1).find("left_foot is "), std::string::npos);
+  EXPECT_EQ(refusal("l_sole", "r_sole").find("feet.right_foot: no joint"), 0u);
+}
+
+TEST(LoadRobot, RefusesAPostureThatLooksAway) {
+  Robot robot = LoadRobot(kUrdf, LoadProfile("robot/profiles/humanoid.yaml"));
+  const Eigen::Quaterniond turned(MatrixFromRpy({0, 0, 1}));
+  robot.q_nominal.segment<4>(3) = turned.coeffs();
+  robot.q_nominal.head<3>() = turned * robot.q_nominal.head<3>();
+  EXPECT_EQ(WhyNotStanding(robot),
+            "its feet are turned by 1 rad, must look along x");
+}
+
+TEST(LoadRobot, KnowsLeftFromRightAndWhereTheWeightIs) {
+  Robot robot = LoadRobot(kUrdf, LoadProfile("robot/profiles/humanoid.yaml"));
+  EXPECT_EQ(WhyNotStanding(robot), "");
+  std::swap(robot.feet[0], robot.feet[1]);
+  EXPECT_EQ(WhyNotStanding(robot),
+            "left_foot is to the right of right_foot, as their x axes say");
+  std::swap(robot.feet[0], robot.feet[1]);
+  // The soles behind the center of mass.
+  for (Foot& foot : robot.feet) {
+    for (Eigen::Vector2d& corner : foot.polygon_C) corner.x() -= 0.3;
+  }
+  EXPECT_EQ(WhyNotStanding(robot),
+            "the center of mass is not over the soles: the robot would fall");
+  robot.q_nominal[robot.model.tree.q_start()] = 9;
+  EXPECT_NE(WhyNotStanding(robot).find("must be inside its limits"),
+            std::string::npos);
+}
+
+TEST(LoadProfile, NamesAFileThatIsNotThere) {
+  EXPECT_THROW(LoadProfile("no/such.yaml"), std::invalid_argument);
+}
+
+TEST(LoadRobot, LocksJoints) {
+  const Robot robot = LoadRobot(kUrdf, Parse("locked: {neck_yaw: 0.1}"));
+  EXPECT_EQ(robot.model.tree.num_joints(), 49);
+  EXPECT_FALSE(robot.model.tree.FindJoint("neck_yaw").has_value());
+}
+
+// A mimic starts where its source leads it, or the profile says otherwise.
+TEST(LoadRobot, CouplesMimicsInThePosture) {
+  std::ifstream stream(kUrdf);
+  std::string urdf((std::istreambuf_iterator<char>(stream)), {});
+  const std::string axis = "<axis xyz=\"0 0 1\"/>";
+  const size_t at = urdf.find(axis, urdf.find("joint name=\"neck_yaw\""));
+  urdf.insert(at, "<mimic joint='chest_yaw' multiplier='2' offset='0.25'/>");
+  const auto file = TestFile("coupled.urdf", urdf);
+  std::ifstream profile_stream("robot/profiles/humanoid.yaml");
+  const std::string good((std::istreambuf_iterator<char>(profile_stream)), {});
+  const Robot robot = LoadRobot(file, Parse(good + "mimic: coupled\n"));
+  EXPECT_TRUE(robot.can_stand);
+  const Tree& tree = robot.model.tree;
+  const int neck = tree.q_start() + tree.FindJoint("neck_yaw").value();
+  EXPECT_EQ(robot.q_nominal[neck], 0.25);
+  Robot broken = robot;
+  broken.q_nominal[neck] = 0;
+  EXPECT_EQ(WhyNotStanding(broken),
+            "'neck_yaw' is 0, must be 0.25 as it is coupled to 'chest_yaw'");
+}
+
+// Of two joints, one follows the other.
+TEST(LoadRobot, DoesWithMimicsAsTheProfileSays) {
+  std::ifstream stream(kUrdf);
+  std::string urdf((std::istreambuf_iterator<char>(stream)), {});
+  const std::string axis = "<axis xyz=\"0 0 1\"/>";
+  const size_t at = urdf.find(axis, urdf.find("joint name=\"neck_yaw\""));
+  urdf.insert(at, "<mimic joint='chest_yaw' multiplier='2' offset='0.5'/>");
+  const auto file = TestFile("mimic.urdf", urdf);
+  EXPECT_TRUE(LoadRobot(file, Parse("mimic: free")).model.mimics.empty());
+  EXPECT_TRUE(LoadRobot(file).model.mimics.empty());
+  const Robot coupled = LoadRobot(file, Parse("mimic: coupled"));
+  ASSERT_EQ(coupled.model.mimics.size(), 1u);
+  EXPECT_EQ(coupled.model.mimics[0].multiplier, 2);
+  const Robot locked = LoadRobot(
+      file, Parse("mimic: locked\nposture: {joints: {chest_yaw: 0.1}}"));
+  EXPECT_EQ(locked.model.tree.num_joints(), 49);
+  EXPECT_TRUE(locked.model.mimics.empty());
+  const Frame& neck =
+      locked.model.tree.frames()[locked.model.tree.FindFrame("neck").value()];
+  EXPECT_LT((neck.X_BF.R - MatrixFromRpy({0, 0, 2 * 0.1 + 0.5})).norm(), 1e-12);
+}
+
+// chest_yaw leads neck_yaw, which leads neck_pitch.
+std::filesystem::path ChainOfMimics() {
+  std::ifstream stream(kUrdf);
+  std::string urdf((std::istreambuf_iterator<char>(stream)), {});
+  for (const std::string name : {"neck_yaw", "neck_pitch"}) {
+    const size_t at =
+        urdf.find("<axis", urdf.find("joint name=\"" + name + "\""));
+    urdf.insert(at, name == "neck_yaw"
+                        ? "<mimic joint='chest_yaw' multiplier='2'/>"
+                        : "<mimic joint='neck_yaw' offset='0.1'/>");
+  }
+  return TestFile("chain.urdf", urdf);
+}
+
+using Values = std::map<std::string, double>;
+
+TEST(LoadRobot, LocksMimicsWhereTheirSourcesAre) {
+  const auto file = ChainOfMimics();
+  const auto locked = [&](const std::string& text) {
+    const Profile profile = Parse(text);
+    Values values;
+    for (const auto& [name, joint] : LockedJoints(LoadUrdf(file), profile)) {
+      values[name] = joint.value;
+    }
+    // Written out, they say the same, and the robot goes without them.
+    Profile written = profile;
+    written.locked = LockedJoints(LoadUrdf(file), profile);
+    EXPECT_EQ(LockedJoints(LoadUrdf(file), written).size(), values.size());
+    EXPECT_EQ(LoadRobot(file, profile).model.tree.num_joints(),
+              50 - static_cast<int>(values.size()));
+    return values;
+  };
+  EXPECT_EQ(locked("mimic: free\nlocked: {chest_yaw: 0.1}"),
+            (Values{{"chest_yaw", 0.1}}));
+  EXPECT_EQ(locked("mimic: locked"),
+            (Values{{"neck_yaw", 0}, {"neck_pitch", 0.1}}));
+  EXPECT_EQ(locked("mimic: locked\nposture: {joints: {chest_yaw: 0.1}}"),
+            (Values{{"neck_yaw", 0.2}, {"neck_pitch", 0.2 + 0.1}}));
+  const Values all = {
+      {"chest_yaw", 0.1}, {"neck_yaw", 0.2}, {"neck_pitch", 0.2 + 0.1}};
+  EXPECT_EQ(locked("mimic: locked\nlocked: {chest_yaw: 0.1}"), all);
+  // What follows a joint that cannot move cannot move either.
+  EXPECT_EQ(locked("mimic: coupled\nlocked: {chest_yaw: 0.1}"), all);
+  EXPECT_EQ(locked("mimic: locked\nlocked: {neck_yaw: 0.3}"),
+            (Values{{"neck_yaw", 0.3}, {"neck_pitch", 0.3 + 0.1}}));
+  EXPECT_EQ(locked("mimic: coupled"), Values{});
+  EXPECT_EQ(LoadRobot(file, Parse("mimic: coupled")).model.mimics.size(), 2u);
+  try {
+    locked("mimic: coupled\nlocked: {neck_yaw: 0.3}");
+    ADD_FAILURE() << "The source cannot move, but was not locked.";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("profile.yaml:2: locked: 'neck_yaw' is coupled to "
+                        "'chest_yaw': lock that one instead"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace poise

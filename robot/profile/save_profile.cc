@@ -1,0 +1,134 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/profile/save_profile.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <fstream>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "math/rpy.h"
+
+namespace poise {
+namespace {
+
+// Nine digits; what is zero but for rounding is zero.
+std::string Print(double value) {
+  constexpr double kZero = 1e-12;
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(9);
+  text << (std::abs(value) < kZero ? 0 : value);
+  return text.str();
+}
+
+template <typename Vector>
+std::string PrintAll(const Vector& values) {
+  std::string text = "[";
+  for (int i = 0; i < values.size(); ++i) {
+    text += (i > 0 ? ", " : "") + Print(values[i]);
+  }
+  return text + "]";
+}
+
+// A name as YAML writes it: quoted where it must be.
+std::string Name(const std::string& name) {
+  YAML::Emitter emitter;
+  emitter << name;
+  return emitter.c_str();
+}
+
+// "NAME: value", as a line or, as YAML asks where a name is very long, as two.
+void WriteEntry(const std::string& indent, const std::string& name,
+                double value, std::ostream* stream) {
+  constexpr size_t kLongest = 1000;
+  const std::string key = Name(name);
+  const bool is_long = key.size() > kLongest;
+  *stream << indent << (is_long ? "? " : "") << key
+          << (is_long ? "\n" + indent : "") << ": " << Print(value) << "\n";
+}
+
+void WriteFeet(const Robot& robot, std::ostream* stream) {
+  *stream << "# The soles: the pose of the contact frame in a link, z out of\n"
+             "# the ground, x forward, and the corners in it, m and rad.\n"
+             "feet:\n";
+  for (const Foot& foot : robot.feet) {
+    const Frame& link = robot.model.tree.frames()[foot.frame];
+    const Pose X_FC = link.X_BF.Inverse() * foot.X_BC;
+    *stream << "  " << foot.name << ":\n    frame: " << Name(link.name)
+            << "\n    xyz: " << PrintAll(X_FC.p)
+            << "\n    rpy: " << PrintAll(RpyFromMatrix(X_FC.R))
+            << "\n    polygon:\n";
+    for (const Eigen::Vector2d& corner : foot.polygon_C) {
+      *stream << "      - " << PrintAll(corner) << "\n";
+    }
+  }
+}
+
+void WritePosture(const Robot& robot, const Profile& profile,
+                  std::ostream* stream) {
+  const Tree& tree = robot.model.tree;
+  const Eigen::Vector3d xyz = robot.q_nominal.head<3>();
+  const Eigen::Quaterniond base(Eigen::Vector4d(robot.q_nominal.segment<4>(3)));
+  *stream << "\n# The nominal posture: on the ground, the middle between the "
+             "soles at the\n# origin. Joints that are not named rest at 0 or "
+             "their nearest limit.\nposture:\n  found: "
+          << Name(profile.base_xyz && !profile.posture_found.empty()
+                      ? profile.posture_found
+                      : "by standing up, see robot/control/stand.h")
+          << "\n  base: {xyz: " << PrintAll(xyz)
+          << ", rpy: " << PrintAll(RpyFromMatrix(base.toRotationMatrix()))
+          << "}\n  joints:\n";
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    WriteEntry("    ", tree.joints()[j].name,
+               robot.q_nominal[tree.q_start() + j], stream);
+  }
+}
+
+}  // namespace
+
+void WriteProfile(const Robot& robot, const Profile& profile,
+                  std::ostream* stream) {
+  *stream << "# A profile of the robot " << Name(robot.model.name) << ".\n\n";
+  WriteFeet(robot, stream);
+  if (robot.can_stand) WritePosture(robot, profile, stream);
+  if (!profile.locked.empty()) {
+    *stream << "\n# The joints that the model does without.\nlocked:\n";
+    for (const auto& [name, joint] : profile.locked) {
+      WriteEntry("  ", name, joint.value, stream);
+    }
+  }
+  if (profile.mimic != MimicPolicy::kFree) {
+    *stream << "\nmimic: "
+            << (profile.mimic == MimicPolicy::kLocked ? "locked" : "coupled")
+            << "\n";
+  }
+  if (profile.tasks.IsDefined() && !profile.tasks.IsNull()) {
+    YAML::Emitter emitter;
+    emitter << YAML::BeginMap << YAML::Key << "tasks" << YAML::Value
+            << profile.tasks << YAML::EndMap;
+    *stream << "\n# The tasks, rank 1 before the others: docs/tasks.md.\n"
+            << emitter.c_str() << "\n";
+  }
+}
+
+void SaveProfile(const Robot& robot, const Profile& profile,
+                 const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::equivalent(file, profile.file, error)) {
+    throw std::invalid_argument(
+        file.string() + ": is the profile that was read, must be another file");
+  }
+  std::ofstream stream(file);
+  WriteProfile(robot, profile, &stream);
+  if (!stream.flush()) {
+    throw std::invalid_argument(file.string() + ": cannot be written");
+  }
+}
+
+}  // namespace poise

@@ -1,0 +1,102 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/profile/save_profile.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+#include "robot/profile/profile.h"
+#include "robot/robot.h"
+#include "tests/util/test_file.h"
+
+namespace poise {
+namespace {
+
+const char kUrdf[] = "robot/models/humanoid.urdf";
+
+std::string TextOf(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+TEST(SaveProfile, MakesTheSameRobot) {
+  const Profile profile = LoadProfile("robot/profiles/humanoid.yaml");
+  const Robot robot = LoadRobot(kUrdf, profile);
+  const auto file = TestFile("saved.yaml", "");
+  SaveProfile(robot, profile, file);
+  const Robot again = LoadRobot(kUrdf, LoadProfile(file));
+  EXPECT_TRUE(again.can_stand);
+  const double written = 1e-8;  // Nine digits.
+  EXPECT_LT((again.q_nominal - robot.q_nominal).norm(), written);
+  for (const int i : {0, 1}) {
+    EXPECT_EQ(again.feet[i].name, robot.feet[i].name);
+    EXPECT_EQ(again.feet[i].frame, robot.feet[i].frame);
+    EXPECT_LT((again.feet[i].X_BC.p - robot.feet[i].X_BC.p).norm(), written);
+    EXPECT_LT((again.feet[i].X_BC.R - robot.feet[i].X_BC.R).norm(), written);
+    EXPECT_LT((again.feet[i].half_size - robot.feet[i].half_size).norm(),
+              written);
+  }
+}
+
+TEST(SaveProfile, KeepsWhatTheProfileSaid) {
+  const Profile profile = LoadProfile(TestFile(
+      "given.yaml",
+      "locked: {neck_yaw: 0.25}\nmimic: coupled\ntasks: {com: {rank: 4}}"));
+  const auto file = TestFile("saved.yaml", "");
+  SaveProfile(LoadRobot(kUrdf, profile), profile, file);
+  const Profile again = LoadProfile(file);
+  EXPECT_FALSE(again.base_xyz.has_value());
+  EXPECT_EQ(again.locked.at("neck_yaw").value, 0.25);
+  EXPECT_EQ(again.mimic, MimicPolicy::kCoupled);
+  EXPECT_EQ(again.tasks["com"]["rank"].as<int>(), 4);
+}
+
+// YAML takes a key in one line up to 1024 characters.
+TEST(SaveProfile, KeepsNamesOfAnyLength) {
+  const std::string name(1100, 'n');
+  Profile profile;
+  profile.locked[name] = {0.5, 0};
+  const Robot robot = LoadRobot(kUrdf);
+  const auto file = TestFile("long.yaml", "");
+  SaveProfile(robot, profile, file);
+  EXPECT_EQ(LoadProfile(file).locked.at(name).value, 0.5);
+}
+
+TEST(SaveProfile, SaysHowAPostureWasFoundOnlyWhereItIsThatOne) {
+  Profile profile = LoadProfile("robot/profiles/humanoid.yaml");
+  const Robot robot = LoadRobot(kUrdf, profile);
+  profile.posture_found = "measured";
+  const auto file = TestFile("found.yaml", "");
+  SaveProfile(robot, profile, file);
+  EXPECT_EQ(LoadProfile(file).posture_found, "measured");
+  profile.base_xyz.reset();
+  SaveProfile(robot, profile, file);
+  EXPECT_NE(LoadProfile(file).posture_found, "measured");
+}
+
+TEST(SaveProfile, DoesNotWriteOverWhatItWasMadeFrom) {
+  const auto file = TestFile("mine.yaml", "# Mine.\nmimic: free\n");
+  const Profile profile = LoadProfile(file);
+  EXPECT_THROW(SaveProfile(LoadRobot(kUrdf, profile), profile, file),
+               std::invalid_argument);
+  EXPECT_EQ(TextOf(file), "# Mine.\nmimic: free\n");
+}
+
+TEST(SaveProfile, SaysWhichFileCannotBeWritten) {
+  const Profile profile;
+  const Robot robot = LoadRobot(kUrdf, profile);
+  const auto file = TestFile("plain", "") / "saved.yaml";  // In no folder.
+  try {
+    SaveProfile(robot, profile, file);
+    ADD_FAILURE() << "it is written";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(error.what(), file.string() + ": cannot be written");
+  }
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,156 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/profile/yaml_file.h"
+
+#include <yaml-cpp/depthguard.h>
+#include <yaml-cpp/eventhandler.h>
+
+#include <cmath>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "robot/finding.h"
+#include "robot/numbers.h"
+#include "robot/text_file.h"
+
+namespace poise {
+namespace {
+
+constexpr size_t kMostMib = 1;
+
+// What yaml-cpp lets through: of two keys it takes either, and an alias can
+// make a map contain itself.
+class Checker : public YAML::EventHandler {
+ public:
+  explicit Checker(const std::string& source) : source_(source) {}
+
+  int documents() const { return documents_; }
+
+  // After all else.
+  void RefuseMissingValues() const {
+    if (!missing_) return;
+    Refuse(missing_->mark,
+           "key " + Quoted(missing_->name) + " has no value, must have one");
+  }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (++documents_ > 1) Refuse(mark, "has a second document, must have one");
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
+    if (!missing_ && !open_.empty() && open_.back().is_map &&
+        !open_.back().key_is_next) {
+      // The mark of nothing is somewhere after its key; and a file that is cut
+      // off has a worse fault.
+      missing_ = open_.back().key;
+    }
+    AddNode(mark, nullptr);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
+    Refuse(mark, "has an alias (*), must be written out");
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& /*tag*/,
+                YAML::anchor_t /*anchor*/, const std::string& value) override {
+    AddNode(mark, &value);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& /*tag*/,
+                       YAML::anchor_t /*anchor*/,
+                       YAML::EmitterStyle::value /*style*/) override {
+    AddNode(mark, nullptr);
+    open_.push_back({false, false, {}, {}});
+  }
+  void OnSequenceEnd() override { open_.pop_back(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& /*tag*/,
+                  YAML::anchor_t /*anchor*/,
+                  YAML::EmitterStyle::value /*style*/) override {
+    AddNode(mark, nullptr);
+    open_.push_back({true, true, {}, {}});
+  }
+  void OnMapEnd() override { open_.pop_back(); }
+
+ private:
+  struct Key {
+    std::string name;
+    YAML::Mark mark;
+  };
+  struct Collection {
+    bool is_map;
+    bool key_is_next;
+    std::set<std::string> keys;
+    Key key;  // The last one.
+  };
+
+  [[noreturn]] void Refuse(const YAML::Mark& mark,
+                           const std::string& what) const {
+    throw Refusal(source_, mark.line + 1, what);
+  }
+
+  void AddNode(const YAML::Mark& mark, const std::string* scalar) {
+    if (open_.empty() || !open_.back().is_map) return;
+    Collection& map = open_.back();
+    if (map.key_is_next) {
+      if (scalar == nullptr || scalar->empty()) {
+        Refuse(mark, "has a key that is no word, must be one");
+      }
+      if (!map.keys.insert(*scalar).second) {
+        Refuse(mark, "key " + Quoted(*scalar) + " is there twice");
+      }
+      map.key = {*scalar, mark};
+    }
+    map.key_is_next = !map.key_is_next;
+  }
+
+  const std::string& source_;
+  std::optional<Key> missing_;  // The first without a value.
+  int documents_ = 0;
+  std::vector<Collection> open_;
+};
+
+}  // namespace
+
+YAML::Node LoadYaml(const std::filesystem::path& file) {
+  return ParseYaml(ReadTextFile(file, kMostMib), file.string());
+}
+
+YAML::Node ParseYaml(const std::string& text, const std::string& source) {
+  ExpectText(text, source);
+  try {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    Checker checker(source);
+    while (parser.HandleNextDocument(checker)) {
+    }
+    if (checker.documents() == 0) {
+      throw Refusal(source, 0, "is empty, must be a map");
+    }
+    checker.RefuseMissingValues();
+    return YAML::Load(text);
+  } catch (const YAML::DeepRecursion& error) {
+    throw Refusal(source, error.mark.line + 1, "is nested too deep");
+  } catch (const YAML::Exception& error) {
+    throw Refusal(source, error.mark.line + 1, "is no YAML: " + error.msg);
+  }
+}
+
+std::optional<double> ToNumber(const YAML::Node& node) {
+  if (!node.IsScalar()) return std::nullopt;
+  const auto numbers = ParseNumbers(node.Scalar());
+  if (!numbers || numbers->size() != 1 || !std::isfinite(numbers->front())) {
+    return std::nullopt;
+  }
+  return numbers->front();
+}
+
+std::string Shown(const YAML::Node& node) {
+  if (node.IsScalar()) return Quoted(node.Scalar());
+  if (node.IsSequence()) return "a list";
+  return node.IsMap() ? "a map" : "empty";
+}
+
+void Refuse(const std::string& file, const YAML::Node& at,
+            const std::string& what) {
+  throw Refusal(file, at.Mark().line + 1, what);
+}
+
+}  // namespace poise

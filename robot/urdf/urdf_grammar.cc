@@ -1,0 +1,388 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/urdf/urdf_grammar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "robot/numbers.h"
+#include "robot/urdf/urdf_xml.h"
+
+namespace poise {
+namespace {
+
+using tinyxml2::XMLElement;
+
+struct AttributeRule {
+  const char* name;
+  int numbers;  // So many; 0 for text.
+  bool required = true;
+};
+
+struct ElementRule {
+  const char* name;
+  std::vector<AttributeRule> attributes;
+  std::vector<const ElementRule*> children;
+  bool required = false;
+  bool repeated = false;
+  // What it is to lack a part: the element is taken away, or the file rejected.
+  Severity fault = Severity::kReject;
+};
+
+constexpr bool kOptional = false;
+
+// What Poise reads of a URDF.
+const ElementRule kOrigin{
+    "origin", {{"xyz", 3, kOptional}, {"rpy", 3, kOptional}}, {}};
+const ElementRule kMass{"mass", {{"value", 1}}, {}, true};
+const ElementRule kInertia{
+    "inertia",
+    {{"ixx", 1}, {"ixy", 1}, {"ixz", 1}, {"iyy", 1}, {"iyz", 1}, {"izz", 1}},
+    {},
+    true};
+const ElementRule kInertial{"inertial", {}, {&kOrigin, &kMass, &kInertia}};
+const ElementRule kBox{"box", {{"size", 3}}, {}};
+const ElementRule kSphere{"sphere", {{"radius", 1}}, {}};
+const ElementRule kCylinder{"cylinder", {{"radius", 1}, {"length", 1}}, {}};
+const ElementRule kMesh{"mesh", {{"filename", 0}, {"scale", 3, kOptional}},
+                        {},     false,
+                        false,  Severity::kWarn};
+const ElementRule kGeometry{
+    "geometry", {},    {&kBox, &kSphere, &kCylinder, &kMesh},
+    true,       false, Severity::kWarn};
+const ElementRule kColor{"color", {{"rgba", 4}}, {},
+                         false,   false,         Severity::kWarn};
+const ElementRule kTexture{"texture", {{"filename", 0}}, {}, false,
+                           false,     Severity::kNote};
+const ElementRule kMaterial{"material", {{"name", 0}}, {&kColor, &kTexture},
+                            false,      false,         Severity::kWarn};
+const ElementRule kVisual{"visual", {},   {&kOrigin, &kGeometry, &kMaterial},
+                          false,    true, Severity::kWarn};
+const ElementRule kCollision{"collision", {},   {&kOrigin, &kGeometry},
+                             false,       true, Severity::kWarn};
+const ElementRule kLink{
+    "link", {{"name", 0}}, {&kInertial, &kVisual, &kCollision}, false, true};
+const ElementRule kParent{"parent", {{"link", 0}}, {}, true};
+const ElementRule kChild{"child", {{"link", 0}}, {}, true};
+const ElementRule kAxis{"axis", {{"xyz", 3}}, {}};
+const ElementRule kLimit{"limit",
+                         {{"lower", 1, kOptional},
+                          {"upper", 1, kOptional},
+                          {"effort", 1},
+                          {"velocity", 1}},
+                         {}};
+const ElementRule kDynamics{
+    "dynamics", {{"damping", 1, kOptional}, {"friction", 1, kOptional}}, {}};
+const ElementRule kMimic{
+    "mimic",
+    {{"joint", 0}, {"multiplier", 1, kOptional}, {"offset", 1, kOptional}},
+    {}};
+const ElementRule kJoint{
+    "joint",
+    {{"name", 0}, {"type", 0}},
+    {&kOrigin, &kParent, &kChild, &kAxis, &kLimit, &kDynamics, &kMimic},
+    false,
+    true};
+const ElementRule kMaterialAtTop{
+    "material", {{"name", 0}}, {&kColor, &kTexture},
+    false,      true,          Severity::kWarn};
+const ElementRule kRobot{
+    "robot", {{"name", 0}}, {&kMaterialAtTop, &kLink, &kJoint}};
+
+// Larger than anything of a robot, and small enough to be squared and summed.
+constexpr double kLargest = 1e30;
+
+// Elements that others read. Those with a colon are others' too.
+const std::set<std::string_view> kOfOthers = {"actuator",
+                                              "calibration",
+                                              "capsule",
+                                              "collision_checking",
+                                              "contact",
+                                              "frame",
+                                              "gazebo",
+                                              "gripper",
+                                              "group",
+                                              "hardwareInterface",
+                                              "limited_ft_sensor",
+                                              "mechanicalReduction",
+                                              "mujoco",
+                                              "ros2_control",
+                                              "safety_controller",
+                                              "self_collide",
+                                              "self_collision_checking",
+                                              "sensor",
+                                              "static",
+                                              "transmission",
+                                              "verbose"};
+
+// What is no part of a link's or joint's dynamics may stand in odd places.
+const std::set<std::string_view> kOfDynamics = {
+    "axis",  "child", "dynamics", "inertia", "inertial", "joint",
+    "limit", "link",  "mass",     "mimic",   "origin",   "parent"};
+
+// Those that xacro had before it had a namespace.
+const std::set<std::string_view> kOfXacro = {"include", "insert_block", "macro",
+                                             "property"};
+
+// Attributes that change what others say.
+const std::set<std::string_view> kRotations = {"quat", "quat_wxyz",
+                                               "quat_xyzw"};
+
+bool Contains(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
+
+bool IsXacro(std::string_view text) {
+  return Contains(text, "${") || Contains(text, "$(");
+}
+
+char Lower(char c) { return 'A' <= c && c <= 'Z' ? c - 'A' + 'a' : c; }
+
+// Whether a word is another one but for the case, and for a letter more, less
+// or other.
+bool IsSlip(std::string_view word, std::string_view wanted) {
+  if (word.size() > wanted.size()) std::swap(word, wanted);
+  if (wanted.size() - word.size() > 1) return false;
+  const auto same = [](char a, char b) { return Lower(a) == Lower(b); };
+  const auto [here, there] =
+      std::mismatch(word.begin(), word.end(), wanted.begin(), same);
+  if (here == word.end()) return true;
+  const bool is_longer = wanted.size() > word.size();
+  return std::equal(is_longer ? here : here + 1, word.end(), there + 1, same);
+}
+
+// Any white space as one blank, none at the ends.
+std::string Collapse(std::string_view text) {
+  std::string collapsed;
+  for (const char c : text) {
+    const bool blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
+    if (!blank) {
+      collapsed += c;
+    } else if (!collapsed.empty() && collapsed.back() != ' ') {
+      collapsed += ' ';
+    }
+  }
+  if (!collapsed.empty() && collapsed.back() == ' ') collapsed.pop_back();
+  return collapsed;
+}
+
+// Why a text is not the numbers it should be.
+std::string WantedNumbers(std::string_view text, int count) {
+  if (IsXacro(text)) return "is xacro, expand it first";
+  const std::string wanted =
+      count == 1 ? "must be a number"
+                 : "must be " + std::to_string(count) + " numbers";
+  if (Contains(text, ",")) {
+    return wanted + " with a decimal point, not a comma";
+  }
+  return wanted;
+}
+
+class Pruner {
+ public:
+  explicit Pruner(std::vector<Finding>* findings) : critic_(findings) {}
+
+  // Whether the element may stay.
+  bool Prune(const ElementRule& rule, XMLElement* element) {
+    PruneAttributes(rule, element);
+    bool complete = true;
+    for (const AttributeRule& attribute : rule.attributes) {
+      complete &= CheckAttribute(rule, attribute, element);
+    }
+    Parts parts;
+    tinyxml2::XMLNode* node = element->FirstChild();
+    for (tinyxml2::XMLNode* next = nullptr; node != nullptr; node = next) {
+      next = node->NextSibling();
+      if (!PruneNode(rule, *element, node, &parts)) element->DeleteChild(node);
+    }
+    complete &= CheckParts(rule, *element, parts);
+    return complete || rule.fault == Severity::kReject;
+  }
+
+ private:
+  // What an element holds, by rule.
+  struct Parts {
+    std::set<const ElementRule*> kept;
+    std::set<const ElementRule*> spoilt;  // There, but of no use.
+  };
+
+  // Whether a child may stay.
+  bool PruneNode(const ElementRule& rule, const XMLElement& element,
+                 tinyxml2::XMLNode* node, Parts* parts) {
+    XMLElement* child = node->ToElement();
+    if (child == nullptr) {
+      if (node->ToText() != nullptr) {
+        critic_.Warn(element,
+                     "holds the text " + Quoted(Collapse(node->Value())),
+                     "is ignored: URDF has attributes");
+      }
+      return false;
+    }
+    const ElementRule* child_rule = Find(rule, *child);
+    if (child_rule == nullptr || IsIdle(element, *child_rule)) return false;
+    if (!child_rule->repeated && parts->kept.count(child_rule) != 0) {
+      if (child_rule == &kParent || child_rule == &kChild) {
+        critic_.Reject(*child, "is there twice", "a joint connects two links");
+      } else {
+        critic_.Warn(*child, "is there twice", "the first one is read");
+      }
+      return false;
+    }
+    if (&rule == &kGeometry && !parts->kept.empty()) {
+      critic_.Warn(*child, "is a second shape", "the first one is read");
+      return false;
+    }
+    const bool keep = Prune(*child_rule, child);
+    (keep ? parts->kept : parts->spoilt).insert(child_rule);
+    return keep;
+  }
+
+  // A fixed joint has no use for an axis or limits; many files have bad ones.
+  static bool IsIdle(const XMLElement& element, const ElementRule& child) {
+    const char* type = element.Attribute("type");
+    return type != nullptr &&
+           (type == std::string_view("fixed") ||
+            type == std::string_view("floating")) &&
+           (&child == &kAxis || &child == &kLimit || &child == &kDynamics ||
+            &child == &kMimic);
+  }
+
+  // Whether all that is required is there.
+  bool CheckParts(const ElementRule& rule, const XMLElement& element,
+                  const Parts& parts) {
+    bool complete = true;
+    for (const ElementRule* wanted : rule.children) {
+      if (!wanted->required || parts.kept.count(wanted) != 0) continue;
+      complete = false;
+      if (parts.spoilt.count(wanted) != 0) continue;  // It was said why.
+      critic_.Add(
+          rule.fault, element, std::string("has no <") + wanted->name + ">",
+          rule.fault == Severity::kReject ? "must have one" : "is left out");
+    }
+    if (&rule == &kGeometry && parts.kept.empty()) {
+      complete = false;
+      if (parts.spoilt.empty()) {
+        critic_.Warn(element, "has no shape that can be read",
+                     "must be box, sphere, cylinder or mesh");
+      }
+    }
+    return complete;
+  }
+
+  // The rule for a child, or null where it is not read.
+  const ElementRule* Find(const ElementRule& rule, const XMLElement& child) {
+    for (const ElementRule* candidate : rule.children) {
+      if (child.Name() == std::string_view(candidate->name)) return candidate;
+    }
+    const std::string_view name = child.Name();
+    if (name.substr(0, 6) == "xacro:") {
+      critic_.Reject(child, "is xacro", "expand it first");
+    } else if (&rule == &kRobot && name == "loop_joint") {
+      critic_.Note(
+          child, "closes a loop",
+          "loops are not modeled: the robot moves as if it were cut there");
+    } else if (kOfXacro.count(name) != 0) {
+      critic_.Warn(child, "is xacro of old", "is ignored: expand it first");
+    } else if (kOfDynamics.count(name) != 0) {
+      critic_.Warn(child, "is no element of URDF here",
+                   "is ignored: is it in the wrong place?");
+    } else if (kOfOthers.count(name) == 0 && !Contains(name, ":")) {
+      for (const ElementRule* candidate : rule.children) {
+        if (!IsSlip(name, candidate->name)) continue;
+        critic_.Warn(
+            child, "is no element of URDF",
+            std::string("is ignored: must it be <") + candidate->name + ">?");
+        return nullptr;
+      }
+      critic_.Note(child, "is no element of URDF here", "is ignored");
+    }
+    return nullptr;
+  }
+
+  void PruneAttributes(const ElementRule& rule, XMLElement* element) {
+    const tinyxml2::XMLAttribute* attribute = element->FirstAttribute();
+    while (attribute != nullptr) {
+      const std::string name = attribute->Name();
+      attribute = attribute->Next();
+      const bool is_read =
+          std::any_of(rule.attributes.begin(), rule.attributes.end(),
+                      [&](const AttributeRule& a) { return name == a.name; });
+      if (is_read) continue;
+      JudgeAttribute(rule, *element, name);
+      element->DeleteAttribute(name.c_str());
+    }
+  }
+
+  // Of an attribute that is not read.
+  void JudgeAttribute(const ElementRule& rule, const XMLElement& element,
+                      const std::string& name) {
+    if (Contains(name, ":") || name == "xmlns") return;
+    const std::string what = "has " + Quoted(name);
+    if (&rule == &kOrigin && kRotations.count(name) != 0) {
+      critic_.Reject(element, what,
+                     "must have rpy: the rotation would be lost");
+      return;
+    }
+    for (const AttributeRule& wanted : rule.attributes) {
+      if (!IsSlip(name, wanted.name)) continue;
+      critic_.Warn(element, what,
+                   std::string("is ignored: must it be ") + wanted.name + "?");
+      return;
+    }
+    critic_.Note(element, what, "is ignored: URDF has no such attribute here");
+  }
+
+  bool CheckAttribute(const ElementRule& rule, const AttributeRule& attribute,
+                      XMLElement* element) {
+    const char* text = element->Attribute(attribute.name);
+    if (text == nullptr) {
+      if (!attribute.required) return true;
+      critic_.Add(
+          rule.fault, *element, std::string("has no ") + attribute.name,
+          rule.fault == Severity::kReject ? "must have one" : "is left out");
+      return false;
+    }
+    const auto refuse = [&](const std::string& why) {
+      critic_.Add(rule.fault, *element,
+                  std::string(attribute.name) + " is " + Quoted(text), why);
+      return false;
+    };
+    if (!IsUtf8(text)) return refuse("is not UTF-8");
+    if (attribute.numbers == 0) {
+      if (IsXacro(text)) {
+        critic_.Warn(*element,
+                     std::string(attribute.name) + " is " + Quoted(text),
+                     "looks like xacro: expand it first?");
+      }
+      return true;
+    }
+    const auto numbers = ParseNumbers(text);
+    if (!numbers || static_cast<int>(numbers->size()) != attribute.numbers) {
+      return refuse(WantedNumbers(text, attribute.numbers));
+    }
+    for (const double number : *numbers) {
+      if (std::isnan(number)) return refuse("must be finite");
+      const bool is_size =
+          &rule == &kBox || &rule == &kSphere || &rule == &kCylinder;
+      if (is_size && number < 0) return refuse("must not be negative");
+      // Unlimited is a limit; nothing else is that large.
+      if (&rule == &kLimit || std::abs(number) <= kLargest) continue;
+      return refuse("is out of range, must be at most 1e30");
+    }
+    // urdfdom splits at blanks alone.
+    element->SetAttribute(attribute.name, Collapse(text).c_str());
+    return true;
+  }
+
+  Critic critic_;
+};
+
+}  // namespace
+
+void PruneUrdf(XMLElement* robot, std::vector<Finding>* findings) {
+  Pruner(findings).Prune(kRobot, robot);
+}
+
+}  // namespace poise

@@ -1,0 +1,217 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/urdf/urdf_part_check.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "robot/limits.h"
+
+namespace poise {
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// How far moments of inertia may miss the triangle inequality, relative: thin
+// plates are rounded.
+constexpr double kTriangle = 1e-4;
+// A radius of gyration, or an offset, m, that only a file in millimeters has.
+constexpr double kLongest = 10;
+// A radius of gyration that is none, m.
+constexpr double kThinnest = 1e-6;
+// Axes shorter than this are likely a mistake; those not of unit length are
+// worth a word.
+constexpr double kShortestAxis = 1e-6;
+constexpr double kUnitAxis = 1e-4;
+// From here on a limit only stands for one: N m, rad/s, rad.
+constexpr double kLargestEffort = 1e5;
+constexpr double kLargestVelocity = 1e3;
+constexpr double kLargestPosition = 1e3;
+// More than two turns, or a rotation by more than one, may be in degrees.
+constexpr double kMostTurns = 4 * M_PI;
+constexpr double kTurn = 6.3;
+
+// An effort or velocity limit.
+double CheckMost(const XMLElement& limit, const char* name, double largest,
+                 const Critic& critic) {
+  const double value = Number(limit, name, kInfinity);
+  const std::string what = std::string(name) + " is " + PrintNumber(value);
+  if (value < 0) {
+    critic.Warn(limit, what, "must not be negative: is taken as not known");
+    return kInfinity;
+  }
+  if (value == kInfinity) {
+    critic.Warn(limit, what, "is taken as not known");
+  } else if (value >= largest) {
+    critic.Warn(limit, what, "must be a placeholder, as no motor does that");
+  }
+  return value;
+}
+
+void CheckRange(const XMLElement& limit, const std::string& type,
+                JointLimits* limits, const Critic& critic) {
+  const bool is_prismatic = type == "prismatic";
+  const bool has_lower = limit.Attribute("lower") != nullptr;
+  const bool has_upper = limit.Attribute("upper") != nullptr;
+  if (type == "continuous") {
+    if (has_lower || has_upper) {
+      critic.Note(limit, "bounds a continuous joint",
+                  "the bounds do not count");
+    }
+    return;
+  }
+  if (!has_lower && !has_upper) {
+    critic.Warn(limit, "has neither lower nor upper",
+                "is taken as not known, not as 0");
+    return;
+  }
+  if (!has_lower || !has_upper) {
+    critic.Warn(limit, has_lower ? "has no upper" : "has no lower",
+                "which counts as 0, as URDF says");
+  }
+  const double lower = Number(limit, "lower", 0);
+  const double upper = Number(limit, "upper", 0);
+  const std::string what =
+      "from " + PrintNumber(lower) + " to " + PrintNumber(upper);
+  if (!(lower <= upper) || lower == kInfinity || upper == -kInfinity) {
+    critic.Warn(limit, what, "is no range: is taken as not known");
+    return;
+  }
+  limits->lower = lower;
+  limits->upper = upper;
+  if (std::isinf(lower) || std::isinf(upper)) {
+    critic.Warn(limit, what, "an infinite end is no limit");
+  } else if (lower == upper) {
+    critic.Warn(limit, what, "the joint cannot move");
+  } else if (std::max(-lower, upper) >= kLargestPosition) {
+    critic.Warn(limit, what, "must be a placeholder");
+  } else if (!is_prismatic && std::max(-lower, upper) > kMostTurns) {
+    critic.Warn(limit, what, "in degrees?");
+  } else if (is_prismatic && std::max(-lower, upper) > kLongest) {
+    critic.Warn(limit, what, "in millimeters?");
+  }
+  if (lower > 0 || upper < 0) {
+    critic.Note(limit, what, "0 is outside: the joint rests at the nearer end");
+  }
+}
+
+}  // namespace
+
+void CheckInertial(const XMLElement& link, const Critic& critic) {
+  const XMLElement* inertial = link.FirstChildElement("inertial");
+  if (inertial == nullptr) return;
+  const double mass = Number(*inertial->FirstChildElement("mass"), "value", 0);
+  const XMLElement& inertia = *inertial->FirstChildElement("inertia");
+  const auto entry = [&](const char* name) { return Number(inertia, name, 0); };
+  Eigen::Matrix3d I;
+  I << entry("ixx"), entry("ixy"), entry("ixz"),  //
+      entry("ixy"), entry("iyy"), entry("iyz"),   //
+      entry("ixz"), entry("iyz"), entry("izz");
+  if (mass < 0) {
+    critic.Reject(*inertial, "mass is " + PrintNumber(mass),
+                  "must be zero or positive");
+    return;
+  }
+  CheckOrigin(*inertial, critic);
+  const double scale = I.cwiseAbs().maxCoeff();
+  if (scale == 0) return;
+  if (mass == 0) {
+    critic.Warn(inertia, "has inertia but no mass", "one of the two is wrong");
+  } else if (scale > mass * kLongest * kLongest) {
+    critic.Warn(inertia,
+                PrintNumber(scale) + " kg m2 for " + PrintNumber(mass) + " kg",
+                "as of a body over 10 m wide: millimeters?");
+  }
+  const Eigen::Vector3d moments =
+      scale *
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(I / scale).eigenvalues();
+  if (scale < mass * kThinnest * kThinnest) return;  // A point, and rounding.
+  if (moments[0] < -kTriangle * moments[2]) {
+    critic.Warn(inertia,
+                "has the negative principal moment " + PrintNumber(moments[0]),
+                "no body has: the robot may gain energy from nothing");
+  } else if (moments[0] + moments[1] < (1 - kTriangle) * moments[2]) {
+    critic.Warn(inertia,
+                "has principal moments " + PrintNumber(moments[0]) + ", " +
+                    PrintNumber(moments[1]) + ", " + PrintNumber(moments[2]),
+                "no body has one larger than the sum of the others");
+  }
+}
+
+void CheckOrigin(const XMLElement& element, const Critic& critic) {
+  const XMLElement* origin = element.FirstChildElement("origin");
+  if (origin == nullptr) return;
+  if (Vector(*origin, "xyz").cwiseAbs().maxCoeff() > kLongest) {
+    critic.Warn(*origin, "xyz is " + Quoted(Text(*origin, "xyz")),
+                "over 10 m off: in millimeters?");
+  }
+  if (Vector(*origin, "rpy").cwiseAbs().maxCoeff() > kTurn) {
+    critic.Warn(*origin, "rpy is " + Quoted(Text(*origin, "rpy")),
+                "more than a turn: in degrees?");
+  }
+}
+
+void CheckAxis(const XMLElement& joint, const Critic& critic) {
+  const XMLElement* axis = joint.FirstChildElement("axis");
+  if (axis == nullptr) {
+    critic.Note(joint, "has no <axis>", "it is (1, 0, 0)");
+    return;
+  }
+  const double length = Vector(*axis, "xyz").stableNorm();
+  if (length == 0) {
+    critic.Reject(*axis, "xyz is " + Quoted(Text(*axis, "xyz")),
+                  "must not be zero");
+  } else if (length < kShortestAxis) {
+    critic.Warn(*axis, "xyz is " + Quoted(Text(*axis, "xyz")),
+                "is normalized, but hardly has a direction");
+  } else if (std::abs(length - 1) > kUnitAxis) {
+    critic.Note(*axis, "xyz is " + Quoted(Text(*axis, "xyz")),
+                "is normalized: the joint's value is in rad or m all the same");
+  }
+}
+
+JointLimits CheckLimits(const XMLElement& joint, const Critic& critic) {
+  JointLimits limits{-kInfinity, kInfinity, kInfinity, kInfinity};
+  const std::string type = Text(joint, "type");
+  if (const XMLElement* dynamics = joint.FirstChildElement("dynamics")) {
+    limits.damping = Number(*dynamics, "damping", 0);
+    limits.friction = Number(*dynamics, "friction", 0);
+    for (const auto& [name, value] :
+         {std::make_pair("damping", &limits.damping),
+          std::make_pair("friction", &limits.friction)}) {
+      if (*value >= 0) continue;
+      critic.Warn(*dynamics, std::string(name) + " is " + PrintNumber(*value),
+                  "must not be negative: is taken as 0");
+      *value = 0;
+    }
+  }
+  const XMLElement* limit = joint.FirstChildElement("limit");
+  if (limit == nullptr) {
+    if (type == "continuous") {
+      critic.Note(joint, "has no <limit>",
+                  "no limit is known, not even of effort: control keeps it "
+                  "below " +
+                      PrintNumber(kAssumedVelocity) + " rad/s");
+    } else {
+      critic.Reject(joint, "has no <limit>", "must have one");
+    }
+    return limits;
+  }
+  limits.effort = CheckMost(*limit, "effort", kLargestEffort, critic);
+  limits.velocity = CheckMost(*limit, "velocity", kLargestVelocity, critic);
+  if (limits.velocity == 0) {
+    critic.Warn(*limit, "velocity is 0", "is taken as not known");
+    limits.velocity = kInfinity;
+  }
+  if (limits.effort == 0) {
+    critic.Warn(*limit, "effort is 0", "the joint has no motor: it is passive");
+  }
+  CheckRange(*limit, type, &limits, critic);
+  return limits;
+}
+
+}  // namespace poise

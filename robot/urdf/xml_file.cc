@@ -1,0 +1,190 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/urdf/xml_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <iterator>
+#include <set>
+
+#include "robot/finding.h"
+#include "robot/text_file.h"
+
+namespace poise {
+namespace {
+
+// TinyXML-2 takes up to 30 bytes of memory for each of these.
+constexpr size_t kMostMarkup = size_t{16} << 20;
+// It compares each attribute of an element with all before it.
+constexpr size_t kMostAttributes = 100;
+
+// Whether "65" or "x41" is the number of a character that XML has.
+bool IsCharacter(std::string_view number) {
+  const int base = number.substr(0, 1) == "x" ? 16 : 10;
+  if (base == 16) number.remove_prefix(1);
+  uint32_t c = 0;
+  const char* end = number.data() + number.size();
+  const auto [stop, error] = std::from_chars(number.data(), end, c, base);
+  if (error != std::errc() || stop != end) return false;
+  return c == '\t' || c == '\n' || c == '\r' || (c >= 0x20 && c < 0xd800) ||
+         (c >= 0xe000 && c <= 0x10ffff && c != 0xfffe && c != 0xffff);
+}
+
+// The text, and where in it we are.
+class Scanner {
+ public:
+  Scanner(std::string_view text, const std::string& source)
+      : text_(text), source_(source) {}
+
+  // What parsing would take, asked before anything is parsed, and what
+  // TinyXML-2 does not ask: that nothing is closed which is not open.
+  void Scan() {
+    size_t markup = 0;
+    size_t at = 0;
+    while (at < text_.size()) {
+      const size_t start = std::min(text_.find('<', at), text_.size());
+      markup += start - at;
+      at = start < text_.size() ? SkipMarkup(start) : start;
+      // The text of a comment takes no more memory than it is long.
+      const bool is_comment = text_.substr(start, 4) == "<!--";
+      markup += is_comment ? std::string_view("<!---->").size() : at - start;
+      if (markup > kMostMarkup) {
+        Refuse(start, "has more than 16 MiB beside comments, must have less");
+      }
+    }
+  }
+
+ private:
+  [[noreturn]] void Refuse(size_t at, const std::string& what) const {
+    const auto line = std::count(text_.begin(), text_.begin() + at, '\n');
+    throw Refusal(source_, static_cast<int>(line) + 1, what);
+  }
+
+  // Where the construct that starts at `at` ends, past `closing`.
+  size_t SkipPast(size_t at, std::string_view closing) const {
+    const size_t end = text_.find(closing, at);
+    if (end == std::string_view::npos) {
+      Refuse(at, "the file ends before '" + std::string(closing) + "'");
+    }
+    return end + closing.size();
+  }
+
+  // Where the markup at `start` ends.
+  size_t SkipMarkup(size_t start) {
+    const auto starts = [&](std::string_view opening) {
+      return text_.substr(start, opening.size()) == opening;
+    };
+    if (starts("<!--")) return SkipPast(start + 4, "-->");
+    if (starts("<![CDATA[")) return SkipPast(start, "]]>");
+    if (starts("<?")) return SkipPast(start, "?>");
+    if (!starts("<!")) return SkipTag(start);
+    Refuse(start, "has a document type or entity declaration, must have none");
+  }
+
+  // The end of a tag: the first > outside quotes.
+  size_t SkipTag(size_t start) {
+    std::set<std::string_view> attributes;
+    for (size_t i = start; i < text_.size(); ++i) {
+      if (text_[i] == '>') {
+        CountDepth(start, i);
+        return i + 1;
+      }
+      if (text_[i] != '"' && text_[i] != '\'') continue;
+      if (attributes.size() == kMostAttributes) {
+        Refuse(start, "an element has more than 100 attributes");
+      }
+      const std::string_view name = NameBefore(i);
+      if (!attributes.insert(name).second) {
+        Refuse(i, "the attribute " + Quoted(name) + " is there twice");
+      }
+      const size_t end = text_.find(text_[i], i + 1);
+      if (end == std::string_view::npos) break;
+      CheckValue(i + 1, end);
+      if (end + 1 < text_.size() &&
+          std::string_view(" \t\r\n/?>").find(text_[end + 1]) ==
+              std::string_view::npos) {
+        Refuse(end, "there is no blank after the value of the attribute " +
+                        Quoted(name));
+      }
+      i = end;
+    }
+    Refuse(start, "the file ends inside a tag");
+  }
+
+  // TinyXML-2 takes what XML does not have in a value.
+  void CheckValue(size_t start, size_t end) const {
+    for (size_t i = start; i < end; ++i) {
+      if (text_[i] == '<') Refuse(i, "a value has <, must be &lt;");
+      if (text_[i] != '&') continue;
+      const std::string_view rest = text_.substr(i + 1, end - i - 1);
+      const std::string_view name = rest.substr(0, rest.find(';'));
+      constexpr std::string_view kEntities[] = {"amp", "lt", "gt", "quot",
+                                                "apos"};
+      const bool is_closed = name.size() < rest.size();
+      if (is_closed && name.substr(0, 1) == "#") {
+        if (IsCharacter(name.substr(1))) continue;
+        Refuse(i, "a value has a character that no XML has, " +
+                      Quoted("&" + std::string(name) + ";"));
+      }
+      if (!is_closed || std::find(std::begin(kEntities), std::end(kEntities),
+                                  name) == std::end(kEntities)) {
+        Refuse(i, "a value has &, must be &amp;");
+      }
+    }
+  }
+
+  // Of NAME = "value", where the value's quote is at `quote`.
+  std::string_view NameBefore(size_t quote) const {
+    constexpr std::string_view kBlankOrEquals = " \t\r\n=";
+    const size_t last = text_.find_last_not_of(kBlankOrEquals, quote - 1);
+    const size_t blank = text_.find_last_of(" \t\r\n\"'<", last);
+    return text_.substr(blank + 1, last - blank);
+  }
+
+  void CountDepth(size_t start, size_t end) {
+    if (text_[end - 1] == '/') return;
+    depth_ += text_[start + 1] == '/' ? -1 : 1;
+    if (depth_ < 0) Refuse(start, "an element is closed that is not open");
+  }
+
+  const std::string_view text_;
+  const std::string& source_;
+  int depth_ = 0;  // Of open elements.
+};
+
+std::string Explain(const tinyxml2::XMLDocument& document) {
+  switch (document.ErrorID()) {
+    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+      return "is empty, must be XML";
+    case tinyxml2::XML_ERROR_PARSING:  // The end, where a tag should be.
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "an element is not closed, or by another name";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements are nested more than 100 deep";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute is malformed, must be name=\"value\"";
+    case tinyxml2::XML_ERROR_PARSING_TEXT:
+      return "is not XML: there is text outside the root element";
+    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
+      return "has a <?...?> that is not at its very start";
+    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
+      return "is not XML: an element is malformed";
+    default:
+      return "is not XML";
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<tinyxml2::XMLDocument> ParseXml(std::string_view text,
+                                                const std::string& source) {
+  ExpectText(text, source);
+  Scanner(text, source).Scan();
+  auto document = std::make_unique<tinyxml2::XMLDocument>();
+  if (document->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    throw Refusal(source, document->ErrorLineNum(), Explain(*document));
+  }
+  return document;
+}
+
+}  // namespace poise

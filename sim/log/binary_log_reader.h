@@ -1,0 +1,49 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/log/log_reader.h"
+
+namespace poise {
+
+/// Reads log.bin, what LogRows writes as LogFormat::kBinary.
+class BinaryLogReader final : public LogReader {
+ public:
+  /// Whether a file begins as such a log does.
+  static bool IsOne(const std::filesystem::path& file);
+
+  /// Reads the header; one that is not whole counts as a log cut short. Throws
+  /// std::invalid_argument, naming the file, if it cannot be opened or is no
+  /// such log.
+  explicit BinaryLogReader(const std::filesystem::path& file);
+
+  bool Next() override;
+  std::string_view cell(int column) const override { return texts_[column]; }
+  double Number(int column) const override { return numbers_[column]; }
+  std::string place() const override;
+  long CountRows() const override;
+
+ private:
+  bool ReadHeader();
+  bool ReadRow();
+  uint64_t BytesLeft();
+
+  std::filesystem::path file_;
+  std::ifstream stream_;
+  std::streamoff size_ = 0;  // Of the file, when it was opened.
+  std::streamoff rows_begin_ = 0;
+  std::string kinds_;  // By column: d, f or t.
+  std::string row_;
+  long rows_read_ = 0;
+  std::vector<uint64_t> bits_;
+  std::vector<double> numbers_;
+  std::vector<std::string> texts_;
+};
+
+}  // namespace poise

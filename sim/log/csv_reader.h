@@ -1,0 +1,42 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/log/log_reader.h"
+
+namespace poise {
+
+/// Reads log.csv, or another table of numbers. Words are in the columns that a
+/// log has for them (docs/log.md) only; an empty cell is no number. No quotes; a
+/// cell does not hold a comma. A row that has no line end is where it was cut short.
+class CsvReader final : public LogReader {
+ public:
+  /// Reads the header. Throws std::invalid_argument, naming the file, if it
+  /// cannot be opened.
+  explicit CsvReader(const std::filesystem::path& file);
+
+  /// Throws std::invalid_argument, naming file and line, if a whole row has not
+  /// as many cells as the header, and column and cell, if one of a column of
+  /// numbers holds none.
+  bool Next() override;
+  std::string_view cell(int column) const override { return cells_[column]; }
+  double Number(int column) const override { return numbers_[column]; }
+  std::string place() const override;
+  long CountRows() const override;
+
+ private:
+  std::filesystem::path file_;
+  std::ifstream stream_;
+  std::string line_;
+  long line_number_ = 1;
+  std::vector<std::string_view> cells_;
+  std::vector<bool> has_words_;  // By column.
+  std::vector<double> numbers_;  // NaN in columns of words.
+};
+
+}  // namespace poise

@@ -1,0 +1,23 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/log/open_log.h"
+
+#include "sim/log/binary_log_reader.h"
+#include "sim/log/csv_reader.h"
+
+namespace poise {
+
+std::filesystem::path FindLog(const std::filesystem::path& run) {
+  const std::filesystem::path csv = run / "log.csv", binary = run / "log.bin";
+  return !std::filesystem::exists(csv) && std::filesystem::exists(binary)
+             ? binary
+             : csv;
+}
+
+std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& file) {
+  if (BinaryLogReader::IsOne(file)) {
+    return std::make_unique<BinaryLogReader>(file);
+  }
+  return std::make_unique<CsvReader>(file);
+}
+
+}  // namespace poise

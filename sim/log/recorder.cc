@@ -1,0 +1,297 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/log/recorder.h"
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+#include "robot/control/conflict.h"
+
+namespace poise {
+
+namespace {
+
+constexpr int kRowsAtOnce = 50;
+// In the scale of a row, where 1 is a typical value.
+constexpr double kNoticeableSlack = 1e-6;
+// A conflict lasts, and takes some ten solutions to find.
+constexpr double kBetweenConflicts = 0.05;  // s.
+constexpr const char* kWrench[] = {"mx[Nm]", "my[Nm]", "mz[Nm]",
+                                   "fx[N]",  "fy[N]",  "fz[N]"};
+
+std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
+  std::vector<std::string> columns = {
+      "base.x[m]",    "base.y[m]",    "base.z[m]", "base.qx",
+      "base.qy",      "base.qz",      "base.qw",   "base.tilt[rad]",
+      "com.x[m]",     "com.y[m]",     "com.z[m]",  "com_ref.x[m]",
+      "com_ref.y[m]", "com_ref.z[m]", "cop.x[m]",  "cop.y[m]"};
+  for (const Foot& foot : robot.feet) {
+    columns.push_back(foot.name + ".contact");
+    columns.push_back(foot.name + ".tilt[rad]");
+    columns.push_back(foot.name + ".slide[m]");
+    for (const char* part : kWrench) columns.push_back(foot.name + "." + part);
+  }
+  for (const char* part :
+       {"push.fx[N]", "push.fy[N]", "push.fz[N]", "other.fx[N]", "other.fy[N]",
+        "other.fz[N]", "self_contacts"}) {
+    columns.push_back(part);
+  }
+  for (const Joint& joint : robot.model.tree.joints()) {
+    columns.push_back("tau." + joint.name + "[Nm]");
+  }
+  for (const Joint& joint : robot.model.tree.joints()) {
+    columns.push_back("q." + joint.name + "[rad]");
+  }
+  for (const Foot& foot : robot.feet) {
+    for (const char* part : kWrench) {
+      columns.push_back("lambda." + foot.name + "." + part);
+    }
+  }
+  for (int i = 0; i < stack.num_tasks(); ++i) {
+    columns.push_back("residual." + std::string(stack.task(i).name()));
+  }
+  using Kind = LogColumn::Kind;
+  std::vector<LogColumn> all = {{"time[s]", Kind::kTime}};
+  for (const std::string& name : columns) all.push_back({name, Kind::kNumber});
+  for (const char* name :
+       {"touching", "status", "active", "lost", "conflict"}) {
+    all.push_back({name, Kind::kText});
+  }
+  for (const Foot& foot : robot.feet) {
+    all.push_back({foot.name + ".phase", Kind::kText});
+  }
+  all.push_back({"reason", Kind::kText});
+  return all;
+}
+
+// Why a tick is not ok.
+std::string Reason(const TickRecord& record) {
+  const TickReport& report = record.report;
+  if (report.status == TickStatus::kTruncated) {
+    return "rank_" + std::to_string(report.failed_rank);
+  }
+  if (report.relaxed) return record.stack.RowName(*report.relaxed);
+  return std::string(ReasonName(report.fail_safe_reason));
+}
+
+// A name in a cell that lists: what separates its entries is not part of one.
+std::string WithoutSeparators(std::string name) {
+  for (char& c : name) {
+    if (c == ';' || c == '=' || c == '|') c = '_';
+  }
+  return name;
+}
+
+// The level of the highest rows that could not be met; -1 if all could.
+int LevelNotMet(const TickRecord& record) {
+  int rank = Stack::kMaxRank + 1;
+  for (const LostRow& lost : record.report.lost) {
+    rank = std::min(rank, record.report.tasks[lost.task].rank);
+  }
+  for (const ActiveRow& active : record.report.active) {
+    if (active.slack < kNoticeableSlack) continue;
+    rank = std::min(rank, record.report.tasks[active.task].rank);
+  }
+  for (int level = 0; level < record.hierarchy.num_levels(); ++level) {
+    if (record.stack.rank_of_level(level) == rank) return level;
+  }
+  return -1;
+}
+
+// Each body by the first link that is fixed in it.
+std::vector<std::string> BodyNames(const Tree& tree) {
+  std::vector<std::string> names(tree.num_bodies());
+  for (const Frame& frame : tree.frames()) {
+    if (names[frame.body].empty()) names[frame.body] = frame.name;
+  }
+  for (std::string& name : names) name = WithoutSeparators(name);
+  return names;
+}
+
+std::ofstream Open(const std::filesystem::path& file) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  if (!stream) {
+    throw std::invalid_argument(file.string() + ": cannot be written");
+  }
+  return stream;
+}
+
+}  // namespace
+
+std::string_view StatusName(TickStatus status) {
+  switch (status) {
+    case TickStatus::kOk:
+      return "ok";
+    case TickStatus::kLimitRelaxed:
+      return "limit_relaxed";
+    case TickStatus::kTruncated:
+      return "truncated";
+    case TickStatus::kFailSafe:
+      return "fail_safe";
+  }
+  return "";
+}
+
+std::string_view ReasonName(FailSafeReason reason) {
+  switch (reason) {
+    case FailSafeReason::kNone:
+      return "";
+    case FailSafeReason::kState:
+      return "state";
+    case FailSafeReason::kClock:
+      return "clock";
+    case FailSafeReason::kNoAnswer:
+      return "no_answer";
+  }
+  return "";
+}
+
+std::string_view PhaseName(ContactPhase phase) {
+  switch (phase) {
+    case ContactPhase::kDown:
+      return "down";
+    case ContactPhase::kUnloading:
+      return "unloading";
+    case ContactPhase::kUp:
+      return "up";
+    case ContactPhase::kLanding:
+      return "landing";
+    case ContactPhase::kLoading:
+      return "loading";
+    case ContactPhase::kLost:
+      return "lost";
+    case ContactPhase::kFree:
+      return "free";
+    case ContactPhase::kReturning:
+      return "returning";
+  }
+  return "";
+}
+
+Recorder::Recorder(const std::filesystem::path& folder, const Robot& robot,
+                   const Stack& stack, LogFormat format)
+    : body_names_(BodyNames(robot.model.tree)),
+      rows_(MakeLogRows(format, Columns(robot, stack))) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw std::invalid_argument(folder.string() +
+                                ": cannot be made: " + error.message());
+  }
+  // What another run may have left would be taken for this one's.
+  for (const LogFormat other : {LogFormat::kCsv, LogFormat::kBinary}) {
+    std::filesystem::remove(folder / LogFileName(other), error);
+  }
+  log_ = Open(folder / LogFileName(format));
+  timing_ = Open(folder / "timing.csv");
+  log_rows_ = rows_->Header();
+  hash_.Update(log_rows_);
+  timing_rows_ = "tick,us,iterations\n";
+  Flush();
+}
+
+void Recorder::EndEntries() {
+  rows_->Text(entries_);
+  entries_.clear();
+}
+
+void Recorder::Entry(std::string_view name, double value) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof(digits), value,
+                                 std::chars_format::general, 4);
+  if (!entries_.empty()) entries_ += ';';
+  entries_ += WithoutSeparators(std::string(name));
+  entries_ += '=';
+  entries_.append(digits, end.ptr);
+}
+
+void Recorder::ConflictCell(const TickRecord& record) {
+  const double now = record.observation.time;
+  const int level = now < next_conflict_ ? -1 : LevelNotMet(record);
+  if (level >= 0) {
+    next_conflict_ = now + kBetweenConflicts;
+    for (const HierarchyRow& row : FindConflict(record.hierarchy, level)) {
+      Entry(record.stack.RowName(row.level, row.row, row.equality, row.side),
+            record.stack.rank_of_level(row.level));
+    }
+  }
+  EndEntries();
+}
+
+void Recorder::TextCells(const TickRecord& record) {
+  for (const auto& [a, b] : record.end.self_contacts) {
+    if (!entries_.empty()) entries_ += ';';
+    entries_ += body_names_[a] + "|" + body_names_[b];
+  }
+  EndEntries();
+  rows_->Text(StatusName(record.report.status));
+  for (const ActiveRow& active : record.report.active) {
+    Entry(record.stack.RowName(active), active.multiplier);
+  }
+  EndEntries();
+  for (const LostRow& lost : record.report.lost) {
+    Entry(record.stack.task(lost.task).equality_names()[lost.row], lost.amount);
+  }
+  EndEntries();
+  ConflictCell(record);
+  const int feet = static_cast<int>(record.observation.feet.size());
+  for (int i = 0; i < feet; ++i) {
+    rows_->Text(PhaseName(record.stance.phase(i)));
+  }
+  rows_->Text(Reason(record));
+}
+
+void Recorder::Record(const TickRecord& record) {
+  const Observation& now = record.observation;
+  const auto vector = [this](const auto& v) {
+    for (const double x : v) rows_->Number(x);
+  };
+  rows_->Number(now.time);
+  vector(record.start.q.head<7>());
+  rows_->Number(now.base_tilt);
+  vector(now.com);
+  vector(now.com_ref);
+  vector(now.cop);
+  for (const FootObservation& foot : now.feet) {
+    rows_->Number(foot.down ? 1 : 0);
+    rows_->Number(foot.tilt);
+    rows_->Number(foot.slide);
+    vector(foot.F_Co_C);
+  }
+  vector(record.push_force_W);
+  vector(record.end.other_force_W);
+  rows_->Number(static_cast<double>(record.end.self_contacts.size()));
+  vector(record.end.tau);
+  vector(record.start.q.tail(record.end.tau.size()));
+  for (size_t i = 0; i < now.feet.size(); ++i) {
+    vector(record.report.foot_wrench(record.nv, static_cast<int>(i)));
+  }
+  for (const TaskReport& task : record.report.tasks) {
+    rows_->Number(task.residual);
+  }
+  TextCells(record);
+  const size_t before = log_rows_.size();
+  rows_->EndRow(&log_rows_);
+  hash_.Update(std::string_view(log_rows_).substr(before));
+
+  timing_rows_ += std::to_string(record.tick) + ',';
+  char digits[32];
+  const auto end =
+      std::to_chars(digits, digits + sizeof(digits), record.microseconds,
+                    std::chars_format::fixed, 2);
+  timing_rows_.append(digits, end.ptr);
+  timing_rows_ += ',' + std::to_string(record.report.iterations) + '\n';
+  if (++rows_waiting_ >= kRowsAtOnce) Flush();
+}
+
+void Recorder::Flush() {
+  log_ << log_rows_ << std::flush;
+  timing_ << timing_rows_ << std::flush;
+  log_rows_.clear();
+  timing_rows_.clear();
+  rows_waiting_ = 0;
+}
+
+}  // namespace poise

@@ -1,0 +1,73 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "robot/robot.h"
+#include "sim/log/log_rows.h"
+#include "sim/log/sha256.h"
+#include "sim/log/tick_record.h"
+
+namespace poise {
+
+/// Writes a run into a folder:
+///
+///     log.csv     a row a tick: what was true, then what the controller said.
+///                 The same run gives the same bytes, in any locale. Or, if
+///                 told, log.bin: see LogRows.
+///     timing.csv  tick, us, iterations: what is never twice the same.
+///
+/// Only whole rows are handed to the files, every 50 ticks, so that a run that
+/// is cut short, by a crash or a kill, leaves files that can be read.
+class Recorder {
+ public:
+  /// Makes the folder, and writes over what is in it. Throws
+  /// std::invalid_argument if it cannot.
+  Recorder(const std::filesystem::path& folder, const Robot& robot,
+           const Stack& stack, LogFormat format = LogFormat::kCsv);
+  ~Recorder() { Flush(); }
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  void Record(const TickRecord& record);
+
+  /// Brings all rows to the files.
+  void Flush();
+
+  /// The SHA-256 of the log so far.
+  std::string log_sha256() const { return hash_.Digest(); }
+
+ private:
+  void Entry(std::string_view name, double value);
+  void EndEntries();
+  void ConflictCell(const TickRecord& record);
+  void TextCells(const TickRecord& record);
+
+  std::vector<std::string> body_names_;
+  std::ofstream log_;
+  std::ofstream timing_;
+  std::unique_ptr<LogRows> rows_;
+  std::string entries_;   // Of a cell that lists, growing: "a=1;b=2".
+  std::string log_rows_;  // Whole rows, not yet in the file.
+  std::string timing_rows_;
+  int rows_waiting_ = 0;
+  double next_conflict_ = 0;  // Not before, s.
+  Sha256 hash_;
+};
+
+/// "ok", "limit_relaxed", "truncated" or "fail_safe".
+std::string_view StatusName(TickStatus status);
+
+/// "", "state", "clock" or "no_answer".
+std::string_view ReasonName(FailSafeReason reason);
+
+/// "down", "unloading", "up", "landing", "loading", "lost", "free" or
+/// "returning".
+std::string_view PhaseName(ContactPhase phase);
+
+}  // namespace poise

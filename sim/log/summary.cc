@@ -1,0 +1,183 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/log/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <vector>
+
+#include "robot/finding.h"
+#include "sim/push.h"
+
+namespace poise {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no infinity and no NaN.
+Json Number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+template <typename Vector>
+Json Numbers(const Vector& values) {
+  Json list = Json::array();
+  for (const double x : values) list.push_back(Number(x));
+  return list;
+}
+
+// The link that a push acts on, also where the push left it to us.
+std::string LinkName(const Robot& robot, const PushOnRobot& push) {
+  if (!push.push().link.empty()) return push.push().link;
+  for (const Frame& frame : robot.model.tree.frames()) {
+    if (frame.body == push.body()) return frame.name;
+  }
+  return "";
+}
+
+const char* NameOf(PlantKind kind) {
+  return kind == PlantKind::kMujoco ? "mujoco" : "bullet";
+}
+
+// A line of the table: a label, then what printf() makes of the rest.
+__attribute__((format(printf, 2, 3))) std::string Line(const char* label,
+                                                       const char* format,
+                                                       ...) {
+  char text[160], line[200];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof(text), format, arguments);
+  va_end(arguments);
+  std::snprintf(line, sizeof(line), "  %-22s %s\n", label, text);
+  return line;
+}
+
+}  // namespace
+
+Json ToJson(const Robot& robot, const Scenario& scenario,
+            const RunResult& result) {
+  const Verdict& verdict = result.verdict;
+  const double simulated = result.duration;
+  Json json;
+  json["scenario"] = scenario.name;
+  json["robot"] = robot.model.name;
+  json["seed"] = scenario.seed;
+  json["plant"] = NameOf(scenario.plant_kind);
+  json["control_dt"] = scenario.control.dt;
+  json["plant_dt"] = scenario.plant.dt;
+  json["duration"] = simulated;
+  json["push_duration"] = result.push_duration;
+  if (!scenario.pushes.empty()) {
+    const PushOnRobot push(robot, scenario.pushes[0]);
+    json["push_link"] = LinkName(robot, push);
+    json["push_body"] = push.body();
+    json["push_point"] = Numbers(push.p_BoQ_B());
+  }
+  const ControlSettings& control = scenario.control;
+  json["tasks"] = {{"set", control.tasks},
+                   {"with", control.with},
+                   {"without", control.without}};
+  // Who was still up when a run was interrupted may still have fallen.
+  const bool is_judged = !result.interrupted || verdict.fell_at;
+  json["recovered"] = is_judged ? Json(verdict.recovered) : Json(nullptr);
+  json["fell_at"] = verdict.fell_at ? Json(*verdict.fell_at) : Json(nullptr);
+  json["fell_by"] = FellBy(result);
+  json["interrupted"] = result.interrupted;
+  json["com_error_peak"] = Numbers(verdict.com_error_peak);
+  json["com_error_final"] = Numbers(verdict.com_error_final);
+  json["cop_peak"] = Numbers(verdict.cop_peak);
+  json["foot_tilt_peak"] = Number(verdict.foot_tilt_peak);
+  json["foot_slide_peak"] = Number(verdict.foot_slide_peak);
+  json["joint_limit_violation_peak"] =
+      Number(result.joint_limit_violation_peak);
+  json["torque_limit_violation_peak"] =
+      Number(result.torque_limit_violation_peak);
+  json["self_contact_ticks"] = result.self_contact_ticks;
+  json["impulse_Ns"] = result.impulse_Ns;
+  json["lipm_Ns"] =
+      result.yardstick ? Number(result.yardstick->lipm_Ns) : Json(nullptr);
+  json["lipm_height_Ns"] = result.yardstick
+                               ? Number(result.yardstick->lipm_height_Ns)
+                               : Json(nullptr);
+  json["ticks"] = result.ticks;
+  json["tick_us"] = {{"median", result.tick_us.median},
+                     {"p99", result.tick_us.p99},
+                     {"p999", result.tick_us.p999},
+                     {"max", result.tick_us.max}};
+  json["hqp"] = {{"iterations_max", result.iterations_max},
+                 {"failures", result.failures},
+                 {"certificate_max", Number(result.certificate_max)}};
+  json["real_time_factor"] = Number(simulated / result.wall_seconds);
+  json["log_sha256"] = result.log_sha256;
+  return json;
+}
+
+std::string ToTable(const Robot& robot, const Scenario& scenario,
+                    const RunResult& result) {
+  const Verdict& verdict = result.verdict;
+  const Eigen::Vector3d peak = 1e3 * verdict.com_error_peak;
+  const Eigen::Vector3d last = 1e3 * verdict.com_error_final;
+  std::string table = scenario.name + ": ";
+  char text[80];
+  if (result.interrupted && !verdict.fell_at) {
+    table += "interrupted";
+  } else if (verdict.recovered) {
+    table += "recovered";
+  } else if (verdict.fell_at) {
+    std::snprintf(text, sizeof(text), "fell at %.3f s: ", *verdict.fell_at);
+    table += text + FellBy(result);
+  } else {
+    table += "did not come back";
+  }
+  const bool fell_before = result.interrupted && verdict.fell_at;
+  table += fell_before ? " (interrupted)\n\n" : "\n\n";
+  table +=
+      Line("robot", "%s, %d joints, %.1f kg", OneLine(robot.model.name).c_str(),
+           robot.model.tree.num_joints(), robot.model.tree.total_mass());
+  table +=
+      Line("simulated", "%.2f s in %s, control at %.0f Hz", result.duration,
+           NameOf(scenario.plant_kind), 1 / scenario.control.dt);
+  if (result.impulse_Ns > 0) {
+    const PushOnRobot push(robot, scenario.pushes[0]);
+    const Eigen::Vector3d& force = scenario.pushes[0].force;
+    constexpr double kDegree = M_PI / 180;
+    table += Line("push", "%.2f N s over %.3f s: %.0f N at %.0f deg on %s",
+                  result.impulse_Ns, result.push_duration, force.norm(),
+                  std::atan2(force.y(), force.x()) / kDegree,
+                  OneLine(LinkName(robot, push)).c_str());
+  }
+  const bool is_late = std::all_of(
+      scenario.pushes.begin(), scenario.pushes.end(),
+      [&](const Push& push) { return push.start >= scenario.duration; });
+  if (is_late && !scenario.pushes.empty()) {
+    table += Line("push", "%s", "none before the end of the run");
+  }
+  if (result.yardstick) {
+    table += Line("a pendulum takes", "%.2f N s at its CoM, %.2f N s so high",
+                  result.yardstick->lipm_Ns, result.yardstick->lipm_height_Ns);
+  }
+  table += Line("CoM error, peak", "%6.1f %6.1f %6.1f mm", peak.x(), peak.y(),
+                peak.z());
+  table += Line("CoM error, at the end", "%6.2f %6.2f %6.2f mm", last.x(),
+                last.y(), last.z());
+  table += Line("CoP, peak", "%6.1f %6.1f mm from mid-feet",
+                1e3 * verdict.cop_peak.x(), 1e3 * verdict.cop_peak.y());
+  table += Line("feet, peak", "tilt %.4f rad, slide %.2f mm",
+                verdict.foot_tilt_peak, 1e3 * verdict.foot_slide_peak);
+  table += Line("past their limits", "joints %.2g rad, torques %.2g N m",
+                result.joint_limit_violation_peak,
+                result.torque_limit_violation_peak);
+  if (result.self_contact_ticks > 0) {
+    table += Line("links touched", "in %d ticks", result.self_contact_ticks);
+  }
+  table += Line("ticks", "%ld, of which %d not solved to the last rank",
+                result.ticks, result.failures);
+  table += Line("a tick took", "%.0f us (99 %%: %.0f, 99.9 %%: %.0f, max %.0f)",
+                result.tick_us.median, result.tick_us.p99, result.tick_us.p999,
+                result.tick_us.max);
+  table +=
+      Line("speed", "%.1f x real time", result.duration / result.wall_seconds);
+  return table;
+}
+
+}  // namespace poise

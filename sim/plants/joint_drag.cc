@@ -1,0 +1,67 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "sim/plants/joint_drag.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace poise {
+
+namespace {
+
+// Dry friction holds a joint that moves slower than this, rad/s or m/s: it
+// creeps at the load's share of it.
+constexpr double kSlow = 1e-4;
+
+std::vector<int> FootFrames(const Robot& robot) {
+  std::vector<int> frames;
+  for (const Foot& foot : robot.feet) frames.push_back(foot.frame);
+  return frames;
+}
+
+}  // namespace
+
+JointDrag::JointDrag(const Robot& robot, double dt)
+    : robot_(robot),
+      dt_(dt),
+      tick_(robot.model.tree, FootFrames(robot)),
+      drag_(Eigen::VectorXd::Zero(robot.model.tree.num_joints())) {
+  for (const JointLimits& limits : robot.model.limits) {
+    exists_ = exists_ || limits.damping > 0 || limits.friction > 0;
+  }
+}
+
+const Eigen::VectorXd& JointDrag::Compute(const PlantState& state,
+                                          const Eigen::VectorXd& tau) {
+  const Tree& tree = robot_.model.tree;
+  const int n = tree.num_joints(), start = tree.v_start();
+  ComputeTick(tree, state.q, state.v, &tick_);
+  Eigen::VectorXd force = -tick_.N;
+  force.tail(n) += tau;
+  for (size_t i = 0; i < robot_.feet.size(); ++i) {
+    const FrameTick& frame = tick_.frames[i];
+    const Pose X_WC = tick_.X_WB[robot_.feet[i].body] * robot_.feet[i].X_BC;
+    const Eigen::Vector3d force_W = X_WC.R * state.F_Co_C[i].tail<3>();
+    const Eigen::Vector3d p_FC_W = X_WC.p - frame.X_WF.p;
+    Vector6d F_Fo_W;
+    F_Fo_W << X_WC.R * state.F_Co_C[i].head<3>() + p_FC_W.cross(force_W),
+        force_W;
+    force += frame.J_WF_W.transpose() * F_Fo_W;
+  }
+  Eigen::MatrixXd M = tick_.M;
+  Eigen::VectorXd D(n);
+  for (int j = 0; j < n; ++j) {
+    const JointLimits& limits = robot_.model.limits[j];
+    const double speed = std::abs(state.v[start + j]);
+    D[j] = limits.damping + limits.friction / std::max(speed, kSlow);
+    M(start + j, start + j) += dt_ * D[j];
+  }
+  const Eigen::VectorXd v = state.v.tail(n);
+  force.tail(n) -= D.cwiseProduct(v);
+  const Eigen::VectorXd vdot = M.llt().solve(force);
+  drag_ = -D.cwiseProduct(v + dt_ * vdot.tail(n));
+  return drag_;
+}
+
+}  // namespace poise

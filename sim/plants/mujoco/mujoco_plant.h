@@ -1,0 +1,57 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "robot/robot.h"
+#include "sim/plants/plant.h"
+#include "sim/plants/plant_settings.h"
+
+namespace poise {
+
+/// MuJoCo as a plant: another's dynamics and another's contact model, to see
+/// that what holds in Bullet holds of the robot and not of Bullet.
+///
+/// Its contacts are soft (2 steps and more) and convex, where Bullet's are hard
+/// and sequential; its joints have armature, implicit damping and dry friction.
+/// It has no restitution.
+class MujocoPlant final : public Plant {
+ public:
+  /// Throws std::invalid_argument if MuJoCo refuses the model, or a setting is
+  /// out of range, or asks for restitution.
+  MujocoPlant(const Robot& robot, const PlantSettings& settings = {});
+
+  void Reset(const Eigen::VectorXd& q, const Eigen::VectorXd& v) override;
+  void Apply(const AppliedForce& force) override;
+  void Step(const Eigen::VectorXd& tau) override;
+  const PlantState& Sense() const override { return state_; }
+  double dt() const override { return settings_.dt; }
+
+ private:
+  struct Delete {
+    void operator()(mjModel* model) const { mj_deleteModel(model); }
+    void operator()(mjData* data) const { mj_deleteData(data); }
+  };
+
+  void Load(const std::vector<std::pair<int, int>>& excluded);
+  void Place(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+  std::vector<std::pair<int, int>> FindTouching() const;
+  Pose X_WB(int body) const;
+  void ReadState();
+  void ReadContacts();
+
+  Robot robot_;
+  PlantSettings settings_;
+  PlantState state_;
+  std::unique_ptr<mjModel, Delete> model_;
+  std::unique_ptr<mjData, Delete> data_;
+  Eigen::VectorXd pushes_;  // Generalized forces for the next step.
+  int steps_ = 0;
+};
+
+}  // namespace poise

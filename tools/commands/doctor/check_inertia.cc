@@ -1,0 +1,95 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/doctor/check_inertia.h"
+
+#include <Eigen/Eigenvalues>
+#include <string>
+
+#include "dynamics/tick.h"
+#include "robot/limits.h"
+
+namespace poise {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kMostJoints = 500;
+// Of M with a unit diagonal: the smallest eigenvalue that is not rounding.
+constexpr double kSingular = 1e-13;
+// Where its inverse loses half the digits.
+constexpr double kIllConditioned = 1e-8;
+
+// What coordinate i of v moves.
+std::string Coordinate(const RobotModel& model, int i) {
+  const int j = i - model.tree.v_start();
+  if (j >= 0) return "joint " + Quoted(model.tree.joints()[j].name);
+  return "base " + Quoted(model.tree.frames()[model.root_frame].name);
+}
+
+// " from link 'hand' on": what hangs on a joint; nothing of the base.
+std::string From(const RobotModel& model, int i) {
+  const int j = i - model.tree.v_start();
+  for (const Frame& frame : model.tree.frames()) {
+    if (j < 0 || frame.body != j + 1) continue;
+    return " from link " + Quoted(frame.name) + " on";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<double> CheckInertia(const RobotModel& model,
+                                   std::vector<Finding>* findings) {
+  const Tree& tree = model.tree;
+  const auto add = [&](Severity severity, const std::string& where,
+                       const std::string& what, const std::string& why) {
+    findings->push_back({severity, where, what, why, 0});
+  };
+  if (tree.num_joints() > kMostJoints) {
+    add(Severity::kNote, "robot",
+        "has " + std::to_string(tree.num_joints()) + " joints",
+        "M was not computed, as there are more than 500");
+    return std::nullopt;
+  }
+  Tick tick(tree, {});
+  ComputeTick(tree, RestConfiguration(model), VectorXd::Zero(tree.nv()), &tick);
+  constexpr double kTooLarge = 1e20;  // Against which 1 is rounding.
+  if (!tick.M.allFinite() || tick.M.maxCoeff() > kTooLarge) {
+    add(Severity::kWarn, "robot", "M is too large or not finite",
+        "numbers this large cannot be computed with");
+    return std::nullopt;
+  }
+  const VectorXd diagonal = tick.M.diagonal();
+  for (int i = 0; i < tree.nv(); ++i) {
+    if (diagonal[i] > 0) continue;
+    const bool nothing = diagonal[i] == 0;
+    add(Severity::kWarn, Coordinate(model, i),
+        (nothing ? "moves no mass" : "has negative inertia") + From(model, i),
+        "M is singular or worse: no acceleration can be computed");
+    return std::nullopt;
+  }
+  const VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
+      scale.asDiagonal() * tick.M * scale.asDiagonal());
+  const double smallest = eigen.eigenvalues()[0];
+  int i = 0;
+  eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&i);
+  if (smallest < -kSingular * tree.nv()) {
+    add(Severity::kWarn, Coordinate(model, i), "makes M indefinite",
+        "kinetic energy can be negative: an inertia is unphysical");
+    return std::nullopt;
+  }
+  if (smallest < kSingular * tree.nv()) {
+    add(Severity::kWarn, Coordinate(model, i), "makes M singular",
+        "others move the same mass: no acceleration can be computed");
+    return std::nullopt;
+  }
+  if (smallest < kIllConditioned) {
+    add(Severity::kNote, Coordinate(model, i),
+        "makes M ill-conditioned, by " + PrintNumber(1 / smallest),
+        "accelerations lose as many digits");
+  }
+  return smallest;
+}
+
+}  // namespace poise

@@ -1,0 +1,191 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/doctor/diagnosis.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <stdexcept>
+
+#include "dynamics/tick.h"
+#include "robot/control/default_stack.h"
+#include "robot/control/stack.h"
+#include "robot/control/stand.h"
+#include "robot/control/task_set.h"
+#include "robot/urdf/urdf.h"
+#include "tools/commands/doctor/check_inertia.h"
+#include "tools/commands/doctor/parity.h"
+#include "tools/commands/doctor/strength.h"
+
+namespace poise {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr int kMostJointsToStand = 100;
+constexpr size_t kMostLinksToStand = 1000;
+constexpr size_t kMostShapesToStand = 10'000;
+// Two dynamics of one robot agree to this, relative.
+constexpr double kParity = 1e-9;
+
+// Too large for what takes more time than reading it.
+bool IsLarge(const RobotModel& model) {
+  return model.tree.num_joints() > kMostJointsToStand ||
+         model.tree.frames().size() > kMostLinksToStand ||
+         model.visuals.size() + model.collisions.size() > kMostShapesToStand;
+}
+
+// Of its center of mass as it stands, m.
+double HeightOfMass(const Robot& robot) {
+  const Tree& tree = robot.model.tree;
+  Tick tick(tree, {});
+  ComputeTick(tree, robot.q_nominal, VectorXd::Zero(tree.nv()), &tick);
+  return tick.p_WG.z();
+}
+
+class Doctor {
+ public:
+  Doctor(const std::filesystem::path& urdf, const Profile& profile)
+      : urdf_(urdf), profile_(profile) {}
+
+  Diagnosis Examine() {
+    if (const auto whole = Load()) {
+      Describe(*whole);
+      const RobotModel model = LockJoints(*whole);
+      smallest_eigenvalue_ = CheckInertia(model, &diagnosis_.findings);
+      if (IsLarge(model)) {
+        Add(Severity::kNote, "robot",
+            "was not stood up, nor compared with Bullet",
+            "as it has over 100 joints, 1000 links or 10000 shapes");
+      } else {
+        CheckStanding();
+        if (smallest_eigenvalue_) CheckParity({model, {}, {}});
+      }
+    }
+    std::stable_sort(diagnosis_.findings.begin(), diagnosis_.findings.end(),
+                     [](const Finding& a, const Finding& b) {
+                       return a.severity > b.severity;
+                     });
+    return std::move(diagnosis_);
+  }
+
+ private:
+  void Add(Severity severity, std::string where, std::string what,
+           std::string why) {
+    diagnosis_.findings.push_back(
+        {severity, std::move(where), std::move(what), std::move(why), 0});
+  }
+
+  // The robot, or a finding that says why there is none.
+  std::optional<RobotModel> Load() {
+    try {
+      return LoadUrdf(urdf_, {}, &diagnosis_.findings);
+    } catch (const Refusal& refusal) {
+      // What LoadUrdf() found it has told already.
+      if (diagnosis_.worst() != Severity::kReject) {
+        diagnosis_.findings.push_back(refusal.finding());
+      }
+    } catch (const std::invalid_argument& error) {
+      Add(Severity::kReject, "", error.what(), "");
+    }
+    return std::nullopt;
+  }
+
+  void Describe(const RobotModel& model) {
+    const Tree& tree = model.tree;
+    diagnosis_.robot = model.name;
+    diagnosis_.root = tree.frames()[model.root_frame].name;
+    diagnosis_.joints = tree.num_joints();
+    diagnosis_.mass = tree.total_mass();
+    for (const Inertia& M : tree.inertias()) {
+      diagnosis_.bodies.push_back({"", M.mass});
+    }
+    auto masses = LoadLinkMasses(urdf_);
+    for (const Frame& frame : tree.frames()) {
+      std::string& link = diagnosis_.bodies[frame.body].link;
+      if (link.empty()) link = frame.name;
+      diagnosis_.links.push_back({frame.name, masses[frame.name]});
+    }
+  }
+
+  // What the profile leaves of the robot for control, and for M and parity.
+  RobotModel LockJoints(const RobotModel& whole) {
+    const size_t locked = LockedJoints(whole, profile_).size();
+    if (locked == 0) return whole;
+    Add(Severity::kNote, "robot",
+        "has " + std::to_string(locked) + " joints locked by the profile",
+        "M, standing and parity are of the " +
+            std::to_string(whole.tree.num_joints() - locked) + " others");
+    return LoadModel(urdf_, profile_);
+  }
+
+  // A profile that does not fit is the caller's mistake, not the robot's.
+  void CheckStanding() {
+    std::string reason = "as M is singular";
+    try {
+      Robot robot = LoadRobot(urdf_, profile_, &diagnosis_.findings);
+      if (profile_.tasks.IsDefined()) {
+        Stack stack =
+            MakeDefaultStack(robot, FindTaskLinks(profile_.tasks, robot));
+        ApplyTasks(profile_.tasks, profile_.file.string(), &stack);
+      }
+      for (const Foot& foot : robot.feet) {
+        diagnosis_.soles.push_back(
+            {foot.name, robot.model.tree.frames()[foot.frame].name,
+             2 * foot.half_size.x(), 2 * foot.half_size.y()});
+      }
+      if (smallest_eigenvalue_) {
+        if (!robot.can_stand) StandUp(&robot);
+        for (const Finding& finding : FindWeakness(robot)) {
+          diagnosis_.findings.push_back(finding);
+        }
+        diagnosis_.com_height = HeightOfMass(robot);
+        return;
+      }
+    } catch (const Refusal&) {
+      throw;
+    } catch (const std::invalid_argument& error) {
+      reason = OneLine(error.what());
+    }
+    Add(Severity::kNote, "robot", "does not stand", reason);
+  }
+
+  void CheckParity(const Robot& robot) {
+    try {
+      diagnosis_.parity = CompareWithBullet(robot, robot).worst();
+    } catch (const std::invalid_argument& error) {
+      Add(Severity::kNote, "robot", "was not compared with Bullet",
+          OneLine(error.what()));
+      return;
+    }
+    // M comes from the plant by an inversion, which costs digits.
+    const double rounding = std::numeric_limits<double>::epsilon() *
+                            robot.model.tree.nv() / *smallest_eigenvalue_;
+    if (*diagnosis_.parity <= std::max(kParity, rounding)) return;  // Not NaN.
+    Add(Severity::kWarn, "robot",
+        "differs from its Bullet plant by " + PrintNumber(*diagnosis_.parity),
+        "relative: simulation and control do not agree");
+  }
+
+  const std::filesystem::path urdf_;
+  const Profile profile_;
+  Diagnosis diagnosis_;
+  std::optional<double> smallest_eigenvalue_;  // See CheckInertia().
+};
+
+}  // namespace
+
+Severity Diagnosis::worst() const {
+  Severity worst = Severity::kNote;
+  for (const Finding& finding : findings) {
+    worst = std::max(worst, finding.severity);
+  }
+  return worst;
+}
+
+Diagnosis Diagnose(const std::filesystem::path& urdf, const Profile& profile) {
+  return Doctor(urdf, profile).Examine();
+}
+
+}  // namespace poise

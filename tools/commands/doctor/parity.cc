@@ -1,0 +1,90 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/doctor/parity.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/tick.h"
+#include "robot/limits.h"
+#include "sim/plants/bullet/bullet_plant.h"
+#include "sim/plants/plant_settings.h"
+
+namespace poise {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+// The plant's accelerations under a generalized force at rest.
+VectorXd Accelerations(const VectorXd& q, const VectorXd& force,
+                       BulletPlant* plant) {
+  const int n = static_cast<int>(force.size()) - 6;
+  plant->Reset(q, VectorXd::Zero(n + 6));
+  plant->Apply({0, Vector3d::Zero(), force.head<3>(), force.segment<3>(3)});
+  plant->Step(force.tail(n));
+  return plant->Sense().vdot;
+}
+
+// Where the center of mass is from the base's origin, as M has it.
+Vector3d CenterOfMass(const MatrixXd& M) {
+  const double mass = M(3, 3);
+  return Vector3d(M(2, 4), M(0, 5), M(1, 3)) / mass;
+}
+
+}  // namespace
+
+double Parity::worst() const {
+  return Eigen::Vector4d(mass, center_of_mass, inertia, gravity)
+      .maxCoeff<Eigen::PropagateNaN>();
+}
+
+Parity CompareWithBullet(const Robot& robot, const Robot& plant_of) {
+  // Nothing to touch, and nothing to cut a force off.
+  Robot free = plant_of;
+  free.feet.clear();
+  free.model.collisions.clear();
+  const Tree& tree = robot.model.tree;
+  const VectorXd q = RestConfiguration(robot.model);
+  for (JointLimits& limits : free.model.limits) {
+    limits.effort = std::numeric_limits<double>::infinity();
+  }
+  PlantSettings settings;
+  settings.joint_limits = false;
+  settings.joint_damping = false;
+  settings.self_collision = false;
+  BulletPlant plant(free, settings);
+  const int nv = tree.nv();
+  const VectorXd fall = Accelerations(q, VectorXd::Zero(nv), &plant);
+  MatrixXd answers(nv, nv);
+  Tick tick(tree, {});
+  ComputeTick(tree, q, VectorXd::Zero(nv), &tick);
+  // Forces in proportion to what they move, so that no answer drowns.
+  const VectorXd unit = tick.M.diagonal();
+  for (int i = 0; i < nv; ++i) {
+    answers.col(i) =
+        Accelerations(q, unit[i] * VectorXd::Unit(nv, i), &plant) - fall;
+  }
+  // answers = M'^-1 diag(unit).
+  const MatrixXd M = unit.asDiagonal() * answers.partialPivLu().inverse();
+
+  const double mass = tick.M(3, 3);
+  const Vector3d p_G = CenterOfMass(tick.M);
+  Parity parity{};
+  parity.mass = std::abs(M(3, 3) - mass) / mass;
+  parity.center_of_mass =
+      (CenterOfMass(M) - p_G).norm() / std::max(p_G.norm(), 1.0);
+  const VectorXd scale = unit.cwiseSqrt().cwiseInverse();
+  parity.inertia = (scale.asDiagonal() * (M - tick.M) * scale.asDiagonal())
+                       .cwiseAbs()
+                       .maxCoeff<Eigen::PropagateNaN>();
+  const VectorXd gravity = -M * fall;
+  parity.gravity =
+      (gravity - tick.N).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
+      tick.N.lpNorm<Eigen::Infinity>();
+  return parity;
+}
+
+}  // namespace poise

@@ -1,0 +1,52 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/doctor/strength.h"
+
+#include <stdexcept>
+
+#include "robot/control/command.h"
+#include "robot/control/controller.h"
+#include "robot/control/measurement.h"
+#include "robot/control/stack.h"
+#include "robot/control/tick_report.h"
+
+namespace poise {
+
+// Torque limits come after the posture here, and one that is missed shows what
+// the posture takes.
+std::vector<Finding> FindWeakness(const Robot& robot) {
+  constexpr double kHeld = 1e-3;    // rad/s² or m/s²: what rounding leaves.
+  constexpr double kMissed = 1e-6;  // Of the limit.
+  const Tree& tree = robot.model.tree;
+  Controller controller(robot);
+  Stack& stack = controller.stack();
+  const int limits = stack.Find("torque_limits").value();
+  const int last = stack.settings(stack.Find("posture").value()).rank + 2;
+  if (!stack.SetRank("torque_limits", last - 1) ||
+      !stack.SetRank("force_regularizer", last)) {
+    throw std::logic_error("the stack has no room for two more ranks");
+  }
+  const State rest{0, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv())};
+  Command command{Eigen::VectorXd::Zero(tree.num_joints())};
+  controller.Start(rest);
+  controller.Update(rest, &command);
+  std::vector<Finding> findings;
+  const TickReport& report = controller.report();
+  for (const ActiveRow& row : report.active) {
+    if (row.task != limits || row.slack <= kMissed) continue;
+    const Joint& joint = tree.joints()[row.row];
+    const double effort = robot.model.limits[row.row].effort;
+    const double scale = effort > 0 ? effort : 1;  // Of the row.
+    const char* unit = joint.type == JointType::kPrismatic ? " N" : " N m";
+    findings.push_back({Severity::kWarn, "joint " + Quoted(joint.name),
+                        "needs " + PrintNumber(effort + row.slack * scale) +
+                            " of " + PrintNumber(effort) + unit + " to stand",
+                        "its posture cannot be held"});
+  }
+  if (!(report.y.head(tree.nv()).lpNorm<Eigen::Infinity>() <= kHeld)) {
+    findings.push_back({Severity::kWarn, "robot", "cannot hold its posture",
+                        "not with the contact forces that its soles can give"});
+  }
+  return findings;
+}
+
+}  // namespace poise

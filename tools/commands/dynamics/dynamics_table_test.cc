@@ -1,0 +1,128 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/dynamics/dynamics_table.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <vector>
+
+#include "tools/commands/dynamics/dynamics_file.h"
+
+namespace poise {
+namespace {
+
+using nlohmann::json;
+
+constexpr char kLongName[] = "slide_with_a_name_longer_than_any_title";
+
+// A body with an arm that turns and one that slides.
+Tree MakeTree() {
+  TreeBuilder builder;
+  for (const char* name : {"body", "a", "b"}) {
+    builder.AddLink(name,
+                    {2, {0.1, 0.2, 0.3}, 0.1 * Eigen::Matrix3d::Identity()});
+  }
+  JointSpec turn;
+  turn.name = "turn";
+  turn.type = JointType::kRevolute;
+  turn.parent = "body";
+  turn.child = "a";
+  JointSpec slide = turn;
+  slide.name = kLongName;
+  slide.type = JointType::kPrismatic;
+  slide.child = "b";
+  return builder.AddJoint(turn).AddJoint(slide).Build();
+}
+
+// The lines of the table of a state.
+std::vector<std::string> Lines() {
+  const json document = json::parse(std::string(R"({"joints": ["turn", ")") +
+                                    kLongName + R"("], "states": [{
+      "base_position": [1, 2, 3], "base_quaternion_wxyz": [1, 0, 0, 0],
+      "base_angular_velocity": [0, 0, 0], "base_linear_velocity": [4, 5, -6],
+      "base_angular_acceleration": [7, 8, 9],
+      "base_linear_acceleration": [10, 11, 12],
+      "q": [0.2, 0.3], "qd": [0, 0], "qdd": [0.6, 0.7]}]})");
+  const Tree tree = MakeTree();
+  std::istringstream text(
+      FormatDynamics(tree, ComputeDynamics(tree, document, {"a"})));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> LinesThatStartWith(const std::string& start) {
+  std::vector<std::string> found;
+  for (const std::string& line : Lines()) {
+    if (line.compare(0, start.size(), start) == 0) found.push_back(line);
+  }
+  return found;
+}
+
+TEST(FormatDynamics, HasARowForEachJoint) {
+  EXPECT_EQ(Lines()[0],
+            "body: 8 degrees of freedom, 6 kg. World axes; angular before "
+            "linear.");
+  // Of forces, of A_G and of J.
+  for (const char* name : {"turn", kLongName, "base w_x", "base v_z"}) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(LinesThatStartWith("  " + std::string(name) + " ").size(), 3);
+  }
+}
+
+TEST(FormatDynamics, SaysTheUnits) {
+  for (const char* name : {"turn", "base w_y"}) {
+    SCOPED_TRACE(name);
+    const auto rows = LinesThatStartWith("  " + std::string(name) + " ");
+    EXPECT_NE(rows[0].find("  N m, kg m2  "), std::string::npos);
+    EXPECT_NE(rows[1].find("  at 1 rad/s  "), std::string::npos);
+  }
+  for (const char* name : {kLongName, "base v_y"}) {
+    SCOPED_TRACE(name);
+    const auto rows = LinesThatStartWith("  " + std::string(name) + " ");
+    EXPECT_NE(rows[0].find("  N, kg  "), std::string::npos);
+    EXPECT_NE(rows[1].find("  at 1 m/s  "), std::string::npos);
+  }
+}
+
+TEST(FormatDynamics, HasTheColumnsOfTheMomentumMatrix) {
+  // At a rate of 1 m/s along z: the mass, as the last of six numbers.
+  const std::string row = LinesThatStartWith("  base v_z ")[1];
+  EXPECT_EQ(row.substr(row.size() - 14), "             6");
+}
+
+// The columns that a line takes on a screen. The dot above v and J is a
+// character of two bytes, and takes none.
+int WidthOf(std::string line) {
+  for (size_t dot; (dot = line.find("\u0307")) != std::string::npos;) {
+    line.erase(dot, 2);
+  }
+  return static_cast<int>(line.size());
+}
+
+TEST(FormatDynamics, ColumnsStandBelowOneAnother) {
+  const int width = WidthOf(LinesThatStartWith("  A_G ")[0]);
+  for (const char* start :
+       {"  momentum about it, h_G ", "    its rate at v̇ = 0 ", "  base w_x ",
+        "    its J̇v ", "    its J "}) {
+    SCOPED_TRACE(start);
+    EXPECT_EQ(WidthOf(LinesThatStartWith(start).back()), width);
+  }
+  // Of those with four or three cells the last end two or three before.
+  const std::string long_name = "  " + std::string(kLongName) + " ";
+  EXPECT_EQ(WidthOf(LinesThatStartWith("  forces, ")[0]), width - 28);
+  EXPECT_EQ(WidthOf(LinesThatStartWith(long_name)[0]), width - 28);
+  EXPECT_EQ(WidthOf(LinesThatStartWith("  center of mass ")[0]), width - 42);
+  EXPECT_EQ(WidthOf(LinesThatStartWith("  a ")[0]), width - 42);
+}
+
+TEST(FormatDynamics, HasNoNegativeZeroAndNoBlankAtTheEnd) {
+  for (const std::string& line : Lines()) {
+    SCOPED_TRACE(line);
+    EXPECT_EQ((line + " ").find(" -0 "), std::string::npos);
+    EXPECT_TRUE(line.empty() || line.back() != ' ');
+  }
+}
+
+}  // namespace
+}  // namespace poise

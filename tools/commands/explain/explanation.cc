@@ -1,0 +1,351 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/explain/explanation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <set>
+#include <string_view>
+
+#include "sim/log/open_log.h"
+#include "sim/log/run_summary.h"
+#include "tools/commands/explain/describe_row.h"
+#include "tools/commands/explain/foot_story.h"
+#include "tools/commands/explain/loss_cause.h"
+#include "tools/commands/explain/run_story.h"
+
+namespace poise {
+namespace {
+
+using nlohmann::json;
+
+constexpr size_t kMostCauses = 5;   // Named in a sentence about a loss.
+constexpr size_t kMostRows = 10;    // In one about a conflict.
+constexpr double kShort = 0.005;    // s: not worth a sentence.
+constexpr double kRounding = 1e-6;  // s, of a sum of ticks.
+constexpr double kSmallLoss = 0.5;  // N, N m, m/s2: not worth a sentence.
+
+std::string Format(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+std::string Milliseconds(double seconds) {
+  return Format(" for %.0f ms", 1e3 * seconds);
+}
+
+std::string Sentence(const Span& span) {
+  return Format("%.3f s: ", span.from) + span.name +
+         Milliseconds(span.lasted()) +
+         Format(" (multiplier %.3g", std::abs(span.peak)) +
+         Format(" at %.3f s).", span.at);
+}
+
+// What a list that ends early leaves unsaid.
+std::string AndMore(size_t count, size_t said) {
+  return count <= said ? "" : " and " + std::to_string(count - said) + " more";
+}
+
+// What to call a row among others of its task: constraints one by one, tasks by
+// their name.
+std::string Group(const std::string& name) {
+  const std::string said = DescribeRow(name);
+  return said != name ? said : Spaced(name.substr(0, name.rfind('.')));
+}
+
+std::string LossSentence(const Span& span, const std::string& unit,
+                         const LossCause& cause) {
+  std::string text = Format("%.3f s: ", span.from) + span.name + " gave up " +
+                     Format("%.3g ", std::abs(span.peak)) + unit +
+                     Format(" (at %.3f s)", span.at);
+  const char* begin = cause.is_known ? ", because of " : ", while ";
+  std::vector<std::string> said;
+  for (const auto& [name, value] : cause.rows) {
+    const std::string row = Group(name);
+    if (std::find(said.begin(), said.end(), row) != said.end()) continue;
+    said.push_back(row);
+    if (said.size() > kMostCauses) continue;
+    text += (said.size() == 1 ? begin : ", ") + row;
+    if (cause.has_ranks) text += Format(" (rank %.0f)", value);
+  }
+  text += AndMore(said.size(), kMostCauses);
+  if (!cause.is_known && !said.empty()) text += " acted";
+  return text + ".";
+}
+
+// In the order of their ranks, the lowest first: it gave way.
+std::string ConflictSentence(double time, Values rows) {
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    return a.second > b.second;
+  });
+  std::string text;
+  std::vector<std::string> said;
+  for (const auto& [name, rank] : rows) {
+    const std::string group = Group(name);
+    if (std::find(said.begin(), said.end(), group) != said.end()) continue;
+    said.push_back(group);
+    if (said.size() > kMostRows) continue;
+    text += (said.size() == 1 ? "" : "; ") + group;
+    text += Format(" (rank %.0f)", rank);
+  }
+  return Format("%.3f s: cannot all be met: ", time) + text +
+         AndMore(said.size(), kMostRows) + ".";
+}
+
+// Why a tick is not ok, after what happened.
+std::string SayWhy(const std::string& reason) {
+  constexpr std::string_view kRank = "rank_";
+  if (reason.rfind(kRank, 0) == 0) {
+    return ": rank " + reason.substr(kRank.size()) +
+           " is not solved, nor what comes after it";
+  }
+  const std::string row = DescribeRow(reason);
+  if (row != reason) return ": what gave way most is " + row;
+  if (reason == "state") return ": what it is told of the robot cannot be";
+  if (reason == "clock") return ": the time of the robot's state stands still";
+  if (reason == "no_answer") return ": no answer that meets the dynamics";
+  return "";
+}
+
+// Whether a run was stopped while the robot was up: nobody saw the end.
+bool WasInterrupted(const json& summary) {
+  return summary.value("interrupted", json()) == true &&
+         !summary.value("fell_at", json()).is_number();
+}
+
+std::string Ending(const json& summary) {
+  if (!summary.contains("recovered")) return "How it ended is not recorded.";
+  if (WasInterrupted(summary)) {
+    const json at = summary.value("duration", json());
+    return "The run was interrupted" +
+           (at.is_number() ? Format(" at %.3f s", at.get<double>()) : "") +
+           ", the robot still up: how it would have ended is not known.";
+  }
+  if (summary["recovered"] == true) return "The robot recovered.";
+  const json fell_at = summary.value("fell_at", json());
+  if (!fell_at.is_number()) {
+    return "The robot stayed up, but did not come back to its place.";
+  }
+  const json by = summary.value("fell_by", json());
+  return "The robot fell at " + Format("%.3f s", fell_at.get<double>()) +
+         (by.is_string() && by != "" ? ": " + by.get<std::string>() : "") + ".";
+}
+
+using Sentences = std::vector<std::pair<double, std::string>>;  // By time, s.
+
+// Each of the next seven is a list of Explain(), and adds its sentences.
+json ExplainRows(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
+  for (const Span& span : story.rows.spans()) {
+    out.push_back({{"name", span.name},
+                   {"from", span.from},
+                   {"to", span.to},
+                   {"at", span.at},
+                   {"multiplier", std::abs(span.peak)}});
+  }
+  for (const Span& span : story.said.spans()) {
+    if (span.lasted() < kShort - kRounding) continue;
+    sentences->emplace_back(span.from, Sentence(span));
+  }
+  return out;
+}
+
+json ExplainStance(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
+  for (const FootStory& foot : story.feet) {
+    for (const FootStory::Phase& phase : foot.phases()) {
+      out.push_back({{"foot", foot.foot()},
+                     {"phase", phase.name},
+                     {"from", phase.from},
+                     {"to", phase.to}});
+    }
+    for (const auto& sentence : foot.Sentences()) {
+      sentences->push_back(sentence);
+    }
+  }
+  return out;
+}
+
+json ExplainLosses(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
+  for (const Span& span : story.losses.spans()) {
+    const std::string unit = UnitOfLoss(span.name);
+    const LossCause cause = FindCause(span, story);
+    json names = json::array();
+    for (const auto& [name, value] : cause.rows) names.push_back(name);
+    out.push_back({{"name", span.name},
+                   {"from", span.from},
+                   {"to", span.to},
+                   {"at", span.at},
+                   {"amount", span.peak},
+                   {"unit", unit},
+                   {"because", cause.is_known ? names : json::array()},
+                   {"while", cause.is_known ? json::array() : names}});
+    if (std::abs(span.peak) < kSmallLoss) continue;
+    sentences->emplace_back(span.from, LossSentence(span, unit, cause));
+  }
+  return out;
+}
+
+json ExplainConflicts(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
+  std::string last;
+  for (const auto& [at, found] : story.conflicts) {
+    json names = json::array();
+    for (const auto& [name, rank] : found) {
+      names.push_back({{"name", name}, {"rank", rank}});
+    }
+    out.push_back({{"at", at}, {"rows", names}});
+    // The same again is not said again.
+    const std::string sentence = ConflictSentence(at, found);
+    const std::string what = sentence.substr(sentence.find(':'));
+    if (what != last) sentences->emplace_back(at, sentence);
+    last = what;
+  }
+  return out;
+}
+
+json ExplainStatus(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
+  for (const Span& span : story.states.spans()) {
+    const std::string name = span.name.substr(0, span.name.find(' '));
+    const std::string why =
+        span.name.substr(std::min(name.size() + 1, span.name.size()));
+    out.push_back({{"name", name},
+                   {"from", span.from},
+                   {"to", span.to},
+                   {"reason", why.empty() ? json() : json(why)}});
+    sentences->emplace_back(
+        span.from, Format("%.3f s: ", span.from) + "the controller says " +
+                       Spaced(name) + Format(", until %.3f s", span.to) +
+                       SayWhy(why) + ".");
+  }
+  return out;
+}
+
+json ExplainPushes(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
+  for (const Span& span : story.pushes.spans()) {
+    json force = json::array();
+    for (const auto& [name, part] : span.with) force.push_back(part);
+    out.push_back({{"from", span.from},
+                   {"to", span.to},
+                   {"at", span.at},
+                   {"force", force}});
+    sentences->emplace_back(
+        span.from,
+        Format("%.3f s: pushed with ", span.from) +
+            Format(span.peak < 100 ? "%.3g N," : "%.0f N,", span.peak) +
+            Milliseconds(span.lasted()) + ".");
+  }
+  return out;
+}
+
+json ExplainTouches(const RunStory& story, Sentences* sentences) {
+  json out = json::array();
+  for (const Span& span : story.touches.spans()) {
+    const size_t bar = std::min(span.name.find('|'), span.name.size());
+    const std::string a = span.name.substr(0, bar);
+    const std::string b = span.name.substr(std::min(bar + 1, span.name.size()));
+    out.push_back({{"links", {a, b}}, {"from", span.from}, {"to", span.to}});
+    sentences->emplace_back(
+        span.from, Format("%.3f s: ", span.from) + Spaced(a) + " touches " +
+                       Spaced(b) + "," + Milliseconds(span.lasted()) + ".");
+  }
+  return out;
+}
+
+// Of a run about the tasks of which there is no sentence.
+std::string SayNothing(const RunStory& story) {
+  std::set<std::string> rows, losses;
+  for (const Span& span : story.rows.spans()) rows.insert(span.name);
+  for (const Span& span : story.losses.spans()) losses.insert(span.name);
+  if (rows.empty() && losses.empty()) {
+    return "No row acted: every task got what it asked.";
+  }
+  const auto count = [](const std::set<std::string>& names, const char* did) {
+    const char* noun = names.size() == 1 ? " row that " : " rows that ";
+    return std::to_string(names.size()) + noun + did;
+  };
+  std::string text = "Nothing lasted for 5 ms; --json has ";
+  if (!rows.empty()) text += count(rows, "acted");
+  if (!rows.empty() && !losses.empty()) text += " and ";
+  if (!losses.empty()) text += count(losses, "gave up less than 0.5");
+  return text + ".";
+}
+
+// Says all in the order of time, up to a fall: what falling limbs press against
+// explains nothing. Returns how many come after it.
+size_t SayInOrder(const json& summary, Sentences sentences, json* out) {
+  std::stable_sort(
+      sentences.begin(), sentences.end(),
+      [](const auto& a, const auto& b) { return a.first < b.first; });
+  const json fell_at = summary.value("fell_at", json());
+  const double end = fell_at.is_number()
+                         ? fell_at.get<double>()
+                         : std::numeric_limits<double>::infinity();
+  size_t left_out = 0;
+  for (const auto& [when, text] : sentences) {
+    if (when <= end) {
+      out->push_back(text);
+    } else {
+      ++left_out;
+    }
+  }
+  return left_out;
+}
+
+}  // namespace
+
+json Explain(const std::filesystem::path& run) {
+  const std::filesystem::path log = FindLog(run);
+  const std::unique_ptr<LogReader> reader = OpenLog(log);
+  const RunStory story = ReadRunStory(log, reader.get());
+
+  json notes = json::array();
+  if (reader->cut_short()) {
+    notes.push_back(log.filename().string() +
+                    " was cut short: its last row is not whole.");
+  }
+  const RunSummary read = ReadRunSummary(run);
+  if (read.is_of_other_log) notes.push_back(read.note);
+  const json summary = read.values.is_null() ? json::object() : read.values;
+
+  json out = {
+      {"recovered",
+       WasInterrupted(summary) ? json() : summary.value("recovered", json())},
+      {"fell_at", summary.value("fell_at", json())},
+      {"notes", notes}};
+  // What begins at the same time is said in this order.
+  Sentences sentences;
+  out["rows"] = ExplainRows(story, &sentences);
+  out["stance"] = ExplainStance(story, &sentences);
+  out["losses"] = ExplainLosses(story, &sentences);
+  out["conflicts"] = ExplainConflicts(story, &sentences);
+  out["status"] = ExplainStatus(story, &sentences);
+
+  const bool is_quiet = sentences.empty();
+  out["pushes"] = ExplainPushes(story, &sentences);
+  out["touches"] = ExplainTouches(story, &sentences);
+
+  json said = json::array();
+  const size_t left_out = SayInOrder(summary, sentences, &said);
+  if (is_quiet) {
+    said.push_back(story.has_rows ? SayNothing(story)
+                                  : log.filename().string() +
+                                        " has a header and no rows.");
+  }
+  for (const json& note : notes) said.push_back(note);
+  said.push_back(Ending(summary));
+  if (left_out > 0) {
+    said.push_back(Format("After that, %.0f more; --json has its rows.",
+                          static_cast<double>(left_out)));
+  }
+  out["sentences"] = said;
+  return out;
+}
+
+}  // namespace poise

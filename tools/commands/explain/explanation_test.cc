@@ -1,0 +1,427 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/explain/explanation.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace poise {
+namespace {
+
+std::filesystem::path MakeRun(const std::string& name, const std::string& log,
+                              const std::string& summary) {
+  const std::filesystem::path run =
+      std::filesystem::path(std::getenv("TEST_TMPDIR")) / name;
+  std::filesystem::create_directories(run);
+  std::ofstream(run / "log.csv") << log;
+  std::ofstream(run / "summary.json") << summary;
+  return run;
+}
+
+constexpr char kPushed[] =
+    "time[s],status,active,lost,conflict\n"
+    "0.61,ok,,,\n"
+    "0.62,ok,left_foot.cop.y_max=12,momentum.ly=-3,newton_euler.my=1;"
+    "newton_euler.fy=1;left_foot.cop.y_max=3;torque.l_knee=2;momentum.ly=4\n"
+    "0.63,limit_relaxed,left_foot.cop.y_max=41;right_foot.unilateral.fz=2,"
+    "momentum.ly=-12,newton_euler.my=1;"
+    "newton_euler.fy=1;left_foot.cop.y_max=3;torque.l_knee=2;momentum.ly=4\n"
+    "0.64,ok,left_foot.cop.y_max=5,,\n"
+    "0.90,ok,left_foot.cop.y_max=7,,\n"
+    "0.91,ok,,,\n";
+
+TEST(Explanation, SaysWhenWhatAndWhy) {
+  const nlohmann::json said =
+      Explain(MakeRun("pushed", kPushed, R"({"recovered": true})"));
+  ASSERT_EQ(said["rows"].size(), 3u);
+  EXPECT_EQ(said["rows"][0]["name"], "left_foot.cop.y_max");
+  EXPECT_EQ(said["rows"][0]["from"], 0.62);
+  EXPECT_EQ(said["rows"][0]["to"], 0.64);
+  EXPECT_EQ(said["rows"][0]["at"], 0.63);
+  EXPECT_EQ(said["rows"][0]["multiplier"], 41);
+  EXPECT_EQ(said["rows"][2]["from"], 0.90);
+  ASSERT_EQ(said["losses"].size(), 1u);
+  EXPECT_EQ(said["losses"][0]["amount"], -12);
+  EXPECT_EQ(said["losses"][0]["unit"], "N");
+  EXPECT_EQ(said["losses"][0]["because"][0], "left_foot.cop.y_max");
+  ASSERT_EQ(said["status"].size(), 1u);
+  EXPECT_EQ(said["status"][0]["name"], "limit_relaxed");
+  EXPECT_EQ(said["sentences"][0],
+            "0.620 s: the CoP of the left foot at its outer edge for 30 ms "
+            "(multiplier 41 at 0.630 s).");
+  EXPECT_EQ(said["sentences"].back(), "The robot recovered.");
+}
+
+TEST(Explanation, SaysOnceWhatContradictsItself) {
+  const nlohmann::json said = Explain(MakeRun("conflict", kPushed, "{}"));
+  ASSERT_EQ(said["conflicts"].size(), 2u);
+  EXPECT_EQ(said["conflicts"][0]["at"], 0.62);
+  ASSERT_EQ(said["conflicts"][0]["rows"].size(), 5u);
+  EXPECT_EQ(said["conflicts"][0]["rows"][2]["name"], "left_foot.cop.y_max");
+  EXPECT_EQ(said["conflicts"][0]["rows"][2]["rank"], 3);
+  int times = 0;
+  for (const std::string sentence : said["sentences"]) {
+    if (sentence.find("cannot all be met") == std::string::npos) continue;
+    ++times;
+    EXPECT_EQ(
+        sentence,
+        "0.620 s: cannot all be met: momentum (rank 4); the CoP of the "
+        "left foot at its outer edge (rank 3); the torque limit of l knee "
+        "(rank 2); newton euler (rank 1).");
+  }
+  EXPECT_EQ(times, 1);
+}
+
+TEST(Explanation, SaysThatTheRobotFell) {
+  const nlohmann::json said = Explain(
+      MakeRun("fell", kPushed, R"({"recovered": false, "fell_at": 1.25})"));
+  EXPECT_EQ(said["sentences"].back(), "The robot fell at 1.250 s.");
+}
+
+TEST(Explanation, LeavesOutWhatCameAfterAFall) {
+  const nlohmann::json said = Explain(MakeRun(
+      "fell_early",
+      std::string(kPushed) +
+          "0.915,ok,left_foot.cop.y_max=1,,\n0.93,ok,left_foot.cop.y_max=1,,\n",
+      R"({"recovered": false, "fell_at": 0.7,
+                          "fell_by": "a foot slid over 30 mm"})"));
+  const size_t count = said["sentences"].size();
+  EXPECT_EQ(said["sentences"][count - 2],
+            "The robot fell at 0.700 s: a foot slid over 30 mm.");
+  // The CoP at its edge again.
+  EXPECT_EQ(said["sentences"][count - 1],
+            "After that, 1 more; --json has its rows.");
+  EXPECT_EQ(said["rows"].size(), 3u);
+}
+
+// A robot that still stands may still fall.
+TEST(Explanation, DoesNotSayHowAnInterruptedRunWouldHaveEnded) {
+  const nlohmann::json said = Explain(
+      MakeRun("interrupted", kPushed,
+              R"({"recovered": true, "fell_at": null, "interrupted": true,
+                  "duration": 0.91})"));
+  EXPECT_TRUE(said["recovered"].is_null());
+  EXPECT_EQ(said["sentences"].back(),
+            "The run was interrupted at 0.910 s, the robot still up: how it "
+            "would have ended is not known.");
+  EXPECT_EQ(Explain(MakeRun("interrupted_late", kPushed,
+                            R"({"recovered": false, "fell_at": 1.25,
+                                "interrupted": true})"))["sentences"]
+                .back(),
+            "The robot fell at 1.250 s.");
+}
+
+TEST(Explanation, TakesNoSummaryOfAnotherLog) {
+  const nlohmann::json said =
+      Explain(MakeRun("other_log", std::string(kPushed) + "0.92,o",
+                      R"({"recovered": true, "fell_at": 0.7,
+                          "log_sha256": "of the whole log"})"));
+  EXPECT_TRUE(said["recovered"].is_null());
+  EXPECT_TRUE(said["fell_at"].is_null());
+  const size_t count = said["sentences"].size();
+  EXPECT_EQ(said["sentences"][count - 3],
+            "log.csv was cut short: its last row is not whole.");
+  EXPECT_EQ(said["sentences"][count - 2],
+            "summary.json is not of this log.csv, by its log_sha256: that is "
+            "of another run, or was cut or changed.");
+  EXPECT_EQ(said["sentences"][count - 1], "How it ended is not recorded.");
+  EXPECT_EQ(said["notes"].size(), 2u);
+}
+
+TEST(Explanation, SaysThatThereAreNoRows) {
+  const nlohmann::json said =
+      Explain(MakeRun("no_rows", "time[s],status,active\n", "{}"));
+  EXPECT_EQ(said["sentences"][0], "log.csv has a header and no rows.");
+}
+
+TEST(Explanation, SaysWhenAFootRollsOrSlides) {
+  const nlohmann::json said = Explain(
+      MakeRun("rolled",
+              "time[s],status,active,left_foot.contact,left_foot.tilt[rad],"
+              "left_foot.slide[m]\n"
+              "0.1,ok,,1,0.019,0.0049\n0.2,ok,,0,0.5,0.5\n0.3,ok,,1,0.021,0\n"
+              "0.4,ok,,1,0.03,0.0051\n",
+              "{}"));
+  ASSERT_EQ(said["sentences"].size(), 3u);
+  EXPECT_EQ(said["sentences"][0],
+            "0.300 s: the left foot rolls over an edge, tilted by more than "
+            "0.02 rad.");
+  EXPECT_EQ(said["sentences"][1],
+            "0.400 s: the left foot has slid by more than 5 mm.");
+}
+
+TEST(Explanation, SaysOnceWhatSeveralRowsMean) {
+  const nlohmann::json said = Explain(
+      MakeRun("friction",
+              "time[s],status,active,lost\n"
+              "0.1,ok,left_foot.friction.x_max=1;left_foot.friction.y_max=2,\n"
+              "0.101,ok,,\n"
+              "0.2,ok,left_foot.friction.y_max=3,\n"
+              "0.21,ok,left_foot.friction.x_min=4,\n",
+              "{}"));
+  EXPECT_EQ(said["rows"].size(), 4u);
+  ASSERT_EQ(said["sentences"].size(), 2u);
+  EXPECT_EQ(said["sentences"][0],
+            "0.200 s: the left foot at its friction limit for 11 ms "
+            "(multiplier 4 at 0.210 s).");
+}
+
+TEST(Explanation, RefusesWhatIsNoRun) {
+  EXPECT_THROW(Explain("nowhere"), std::invalid_argument);
+  EXPECT_THROW(Explain(MakeRun("other", "a,b\n1,2\n", "{}")),
+               std::invalid_argument);
+  const std::filesystem::path garbled =
+      MakeRun("garbled", "time[s],com.x[m],status,active\n0,0.0a1,ok,\n", "{}");
+  try {
+    Explain(garbled);
+    ADD_FAILURE() << "a letter among digits is taken for a number";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(error.what(),
+              (garbled / "log.csv").string() +
+                  ":2: column 'com.x[m]' is '0.0a1', must be a number");
+  }
+}
+
+TEST(Explanation, SaysWhatTheFeetDid) {
+  const nlohmann::json said =
+      Explain(MakeRun("let_go",
+                      "time[s],status,active,left_foot.phase,right_foot.phase\n"
+                      "0,ok,,down,lost\n0.45,ok,,free,lost\n0.5,ok,,free,down\n"
+                      "1.65,ok,,returning,down\n2.1,ok,,loading,down\n"
+                      "2.4,ok,,down,unloading\n2.7,ok,,down,up\n",
+                      "{}"));
+  ASSERT_EQ(said["stance"].size(), 9u);
+  EXPECT_EQ(said["stance"][1],
+            nlohmann::json::parse(R"({"foot": "left_foot", "phase": "free",
+                                      "from": 0.45, "to": 0.5})"));
+  const std::vector<std::string> sentences = said["sentences"];
+  EXPECT_EQ(sentences,
+            (std::vector<std::string>{
+                "0.000 s: the right foot has lost the ground, for 0.5 s.",
+                "0.450 s: the left foot is let go, for 1.2 s.",
+                "0.500 s: the right foot is down again.",
+                "1.650 s: the left foot comes back, for 0.45 s.",
+                "2.100 s: the left foot has landed, and takes load, for 0.3 s.",
+                "2.400 s: the left foot is down again.",
+                "2.400 s: the right foot gives up its load, for 0.3 s.",
+                "2.700 s: the right foot is lifted.",
+                "How it ended is not recorded."}));
+}
+
+TEST(Explanation, SaysWhyATickFailedSafe) {
+  const nlohmann::json said = Explain(
+      MakeRun("froze",
+              "time[s],status,active,reason\n0,ok,,\n0.1,fail_safe,,clock\n"
+              "0.11,fail_safe,,clock\n0.5,fail_safe,,state\n"
+              "0.9,fail_safe,,no_answer\n1.3,limit_relaxed,,\n",
+              "{}"));
+  ASSERT_EQ(said["status"].size(), 4u);
+  EXPECT_EQ(said["status"][0]["name"], "fail_safe");
+  EXPECT_EQ(said["status"][0]["reason"], "clock");
+  EXPECT_EQ(said["status"][0]["to"], 0.11);
+  EXPECT_EQ(said["status"][3]["name"], "limit_relaxed");
+  EXPECT_TRUE(said["status"][3]["reason"].is_null());
+  EXPECT_EQ(said["sentences"][0],
+            "0.100 s: the controller says fail safe, until 0.110 s: the time "
+            "of the robot's state stands still.");
+  EXPECT_EQ(said["sentences"][1],
+            "0.500 s: the controller says fail safe, until 0.500 s: what it is "
+            "told of the robot cannot be.");
+  EXPECT_EQ(said["sentences"][2],
+            "0.900 s: the controller says fail safe, until 0.900 s: no answer "
+            "that meets the dynamics.");
+  EXPECT_EQ(said["sentences"][3],
+            "1.300 s: the controller says limit relaxed, until 1.300 s.");
+}
+
+// Dozens of joints at their limits are no explanation; nor is a rank how hard a
+// row presses.
+TEST(Explanation, NamesTheStrongestOfManyCauses) {
+  std::string active, conflict = "momentum.ly=4";
+  for (int i = 0; i < 42; ++i) {
+    const std::string row = "torque.j" + std::to_string(i);
+    active += row + ".max=" + std::to_string(i + 1) + ";";
+    conflict += ";" + row + "=2";
+  }
+  const std::string head = "time[s],status,active,lost,conflict\n0.1,ok,";
+  const std::string loss = ",momentum.ly=-12,";
+  std::vector<std::string> spoken;
+  for (const std::string& cell : {std::string(), conflict}) {
+    const nlohmann::json said = Explain(MakeRun(
+        "causes" + std::to_string(cell.size()),
+        head + active + "torque.late.min=0.5" + loss + cell + "\n", "{}"));
+    // What acts where no conflict is known need not press on the task.
+    const nlohmann::json all =
+        said["losses"][0][cell.empty() ? "while" : "because"];
+    EXPECT_TRUE(said["losses"][0][cell.empty() ? "because" : "while"].empty());
+    EXPECT_EQ(all.size(), cell.empty() ? 43u : 42u);
+    EXPECT_EQ(all[0], "torque.j41.max");
+    EXPECT_EQ(all[41], "torque.j0.max");
+    spoken.push_back(said["sentences"][0]);
+    if (!cell.empty()) {
+      EXPECT_EQ(said["conflicts"][0]["rows"].size(), 43u);
+      const std::string text = said["sentences"][1];
+      EXPECT_NE(text.find("j8 (rank 2) and 33 more."), std::string::npos)
+          << text;
+    }
+  }
+  const std::string begin = "0.100 s: momentum.ly gave up 12 N (at 0.100 s), ";
+  const std::string five =
+      "the torque of j41 at its upper limit, the torque of j40 at its upper "
+      "limit, the "
+      "torque of j39 at its upper limit, the torque of j38 at its upper limit, "
+      "the torque of j37 at its upper limit and ";
+  EXPECT_EQ(spoken[0], begin + "while " + five + "38 more acted.");
+  EXPECT_EQ(spoken[1], begin + "because of " + five + "37 more.");
+}
+
+// A task that comes before one is why it is not met, where no constraint is.
+TEST(Explanation, NamesTheTasksThatComeBefore) {
+  const nlohmann::json said = Explain(MakeRun(
+      "before",
+      "time[s],status,active,lost,conflict\n"
+      "1.600,ok,,,momentum.lx=5;joint.l_knee.max=2\n"
+      "1.650,ok,left_foot.friction.x_max=1,momentum.lx=9,"
+      "momentum.lx=5;posture.l_knee=4;posture.r_knee=4;newton_euler.fx=1\n"
+      "1.667,ok,left_foot.friction.x_max=1,momentum.lx=47.4;com.x=2,\n"
+      "1.700,ok,,,frame.hand.vx=6;left_foot.cop.x_max=3\n",
+      "{}"));
+  ASSERT_EQ(said["losses"].size(), 2u);
+  EXPECT_EQ(
+      said["losses"][0]["because"],
+      (nlohmann::json{"posture.l_knee", "posture.r_knee", "newton_euler.fx"}));
+  std::vector<std::string> losses;
+  for (const std::string sentence : said["sentences"]) {
+    if (sentence.find("gave up") != std::string::npos) {
+      losses.push_back(sentence);
+    }
+  }
+  EXPECT_EQ(
+      losses,
+      (std::vector<std::string>{
+          "1.650 s: momentum.lx gave up 47.4 N (at 1.667 s), because of "
+          "posture (rank 4), newton euler (rank 1).",
+          "1.667 s: com.x gave up 2 m/s2 (at 1.667 s), because of "
+          "momentum (rank 5), posture (rank 4), newton euler (rank 1)."}));
+}
+
+TEST(Explanation, SaysLossesInTheirUnits) {
+  const std::pair<const char*, const char*> units[] = {
+      {"momentum.kx", "N m"},
+      {"momentum.lx", "N"},
+      {"angular_momentum.kz", "N m"},
+      {"linear_momentum.ly", "N"},
+      {"newton_euler.my", "N m"},
+      {"newton_euler.fz", "N"},
+      {"left_foot.no_contact.mx", "N m"},
+      {"left_foot.force.fx", "N"},
+      {"left_foot.contact.wx", "rad/s2"},
+      {"left_foot.contact.vx", "m/s2"},
+      {"frame.l_hand.wz", "rad/s2"},
+      {"frame.l_hand.vz", "m/s2"},
+      {"com.x", "m/s2"},
+      {"posture.l_knee", "rad/s2"},
+      {"light_joints.thumb.2", "rad/s2"},
+      {"mimic.thumb", "rad/s2"},
+      {"torque_minimization.l_knee", "N m"}};
+  std::string lost;
+  for (const auto& [name, unit] : units) lost += std::string(name) + "=1;";
+  const nlohmann::json said = Explain(MakeRun(
+      "units", "time[s],status,active,lost\n0,ok,," + lost + "\n", "{}"));
+  ASSERT_EQ(said["losses"].size(), std::size(units));
+  for (size_t i = 0; i < std::size(units); ++i) {
+    EXPECT_EQ(said["losses"][i]["name"], units[i].first);
+    EXPECT_EQ(said["losses"][i]["unit"], units[i].second) << units[i].first;
+  }
+}
+
+// At 20 Hz each tick was a span of 0 ms, and none was said.
+TEST(Explanation, CountsATickToItsEnd) {
+  const auto sentences = [](const std::string& name, const std::string& rows) {
+    const std::vector<std::string> said = Explain(MakeRun(
+        name, "time[s],status,active,lost\n" + rows, "{}"))["sentences"];
+    return said;
+  };
+  EXPECT_EQ(sentences("slow",
+                      "0,ok,,\n0.05,ok,torque.l_knee.max=1,\n"
+                      "0.1,ok,torque.l_knee.max=2,\n0.15,ok,,\n"
+                      "0.2,ok,,\n0.25,ok,torque.l_knee.max=2,\n")[0],
+            "0.050 s: the torque of l knee at its upper limit for 100 ms "
+            "(multiplier 2 at 0.100 s).");
+  const std::string quick = "0,ok,,\n0.001,ok,torque.l_knee.max=1,\n";
+  EXPECT_EQ(sentences("quick", quick + "0.002,ok,,\n")[0],
+            "Nothing lasted for 5 ms; --json has 1 row that acted.");
+  EXPECT_EQ(sentences("small", quick + "0.002,ok,joint.l_knee.max=1,com.x=0.1;"
+                                       "com.y=0.1\n")[0],
+            "Nothing lasted for 5 ms; --json has 2 rows that acted and 2 rows "
+            "that gave up less than 0.5.");
+  EXPECT_EQ(sentences("clear", "0,ok,,\n0.05,ok,,\n")[0],
+            "No row acted: every task got what it asked.");
+}
+
+TEST(Explanation, SaysWhatPushedAndWhatTouched) {
+  const nlohmann::json said = Explain(
+      MakeRun("pushed_and_touched",
+              "time[s],push.fx[N],push.fy[N],push.fz[N],touching,status,"
+              "active\n0.999,0,0,0,,ok,\n1.000,0,0,0,,ok,\n"
+              "1.001,100,133.6,0,,ok,\n1.002,100,133.6,0,l_hand|r_thigh,ok,\n"
+              "1.003,0,0,0,l_hand|r_thigh,ok,\n1.004,0,-3,4,,ok,\n"
+              "1.005,0,0,0,,ok,\n",
+              R"({"recovered": true})"));
+  const std::vector<std::string> sentences = said["sentences"];
+  EXPECT_EQ(sentences, (std::vector<std::string>{
+                           "1.001 s: pushed with 167 N, for 2 ms.",
+                           "1.002 s: l hand touches r thigh, for 2 ms.",
+                           "1.004 s: pushed with 5 N, for 1 ms.",
+                           "No row acted: every task got what it asked.",
+                           "The robot recovered."}));
+  ASSERT_EQ(said["pushes"].size(), 2u);
+  EXPECT_EQ(said["pushes"][0],
+            nlohmann::json::parse(R"({"from": 1.001, "to": 1.002, "at": 1.002,
+                                      "force": [100.0, 133.6, 0.0]})"));
+  EXPECT_EQ(said["touches"],
+            nlohmann::json::parse(R"([{"links": ["l_hand", "r_thigh"],
+                                       "from": 1.002, "to": 1.003}])"));
+}
+
+TEST(Explanation, SaysWhatGaveWay) {
+  const nlohmann::json said =
+      Explain(MakeRun("gave_way",
+                      "time[s],status,active,reason\n0,limit_relaxed,,"
+                      "torque.l_knee.max\n0.1,truncated,,rank_5\n",
+                      "{}"));
+  EXPECT_EQ(said["status"][0]["reason"], "torque.l_knee.max");
+  EXPECT_EQ(said["sentences"][0],
+            "0.000 s: the controller says limit relaxed, until 0.000 s: what "
+            "gave way most is the torque of l knee at its upper limit.");
+  EXPECT_EQ(said["sentences"][1],
+            "0.100 s: the controller says truncated, until 0.100 s: rank 5 is "
+            "not solved, nor what comes after it.");
+}
+
+// JSON has no other text; what is said names the place.
+TEST(Explanation, RefusesWhatIsNoText) {
+  const auto refusal = [](const std::string& name, const std::string& rows) {
+    const auto run = MakeRun(name, "time[s],status,active\n" + rows, "{}");
+    try {
+      Explain(run);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what())
+          .substr((run / "log.csv").string().size());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal("no_text", "0,ok,\n0.1,ok,torque.l_\xffpaule.max=1\n"),
+            ":3: active is 'torque.l_?paule.max=1', is not UTF-8");
+  EXPECT_EQ(refusal("no_row", "0,ok\n"),
+            ":2: has 2 cells, must have 3, as the header has");
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,153 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/explain/run_story.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <initializer_list>
+#include <memory>
+#include <stdexcept>
+#include <string_view>
+
+#include "robot/finding.h"
+#include "sim/log/open_log.h"
+#include "tools/commands/explain/describe_row.h"
+
+namespace poise {
+namespace {
+
+// Two ticks that follow each other are no farther apart than this, in ticks.
+constexpr double kNextTick = 1.5;
+
+// "a=1;b=-2", as the recorder writes it.
+Values Parse(std::string_view cell) {
+  Values values;
+  while (!cell.empty()) {
+    const size_t end = std::min(cell.find(';'), cell.size());
+    const std::string_view item = cell.substr(0, end);
+    const size_t equals = item.rfind('=');
+    if (equals != std::string_view::npos) {
+      values.emplace_back(
+          item.substr(0, equals),
+          std::strtod(std::string(item.substr(equals + 1)).c_str(), nullptr));
+    }
+    cell.remove_prefix(std::min(end + 1, cell.size()));
+  }
+  return values;
+}
+
+// A cell of text of the row that was read, valid until the next one.
+std::string_view Text(const LogReader& reader, int column) {
+  const std::string_view cell = reader.cell(column);
+  if (IsUtf8(cell)) return cell;
+  throw std::invalid_argument(reader.place() + ": " + reader.columns()[column] +
+                              " is " + Quoted(cell) + ", is not UTF-8");
+}
+
+// The columns of a vector; none, if the log has not all of them.
+std::vector<int> FindAll(const LogReader& reader,
+                         std::initializer_list<const char*> names) {
+  std::vector<int> columns;
+  for (const char* name : names) {
+    const auto column = reader.Find(name);
+    if (!column) return {};
+    columns.push_back(*column);
+  }
+  return columns;
+}
+
+void AddPush(const LogReader& reader, const std::vector<int>& columns,
+             const LogTick& tick, Spans* pushes) {
+  Values parts;
+  double square = 0;
+  for (const int column : columns) {
+    const double part = reader.Number(column);
+    parts.emplace_back(reader.columns()[column], part);
+    square += part * part;
+  }
+  if (square > 0) pushes->Add("push", tick, std::sqrt(square), parts);
+}
+
+// "a|b;c|d", as the recorder writes it.
+void AddTouches(std::string_view cell, const LogTick& tick, Spans* touches) {
+  while (!cell.empty()) {
+    const size_t end = std::min(cell.find(';'), cell.size());
+    touches->Add(std::string(cell.substr(0, end)), tick, 1, {});
+    cell.remove_prefix(std::min(end + 1, cell.size()));
+  }
+}
+
+// From the first row of a log to the second, s; 0 where there is none.
+double FindPeriod(const std::filesystem::path& log, int time) {
+  const std::unique_ptr<LogReader> reader = OpenLog(log);
+  if (!reader->Next()) return 0;
+  const double first = reader->Number(time);
+  return reader->Next() ? std::max(0.0, reader->Number(time) - first) : 0;
+}
+
+}  // namespace
+
+void Spans::Add(const std::string& name, const LogTick& tick, double value,
+                const Values& with) {
+  const double gap = std::max(pause_, kNextTick * tick.period);
+  const auto [it, is_new] = open_.try_emplace(name, spans_.size());
+  if (!is_new && tick.time - spans_[it->second].to > gap) {
+    it->second = spans_.size();
+  }
+  if (it->second == spans_.size()) {
+    spans_.push_back({name, tick.time, tick.time, tick.time, 0, 0, {}});
+  }
+  Span& span = spans_[it->second];
+  span.to = tick.time;
+  span.end = tick.time + tick.period;
+  if (std::abs(value) < std::abs(span.peak)) return;
+  span.peak = value;
+  span.at = tick.time;
+  span.with = with;
+}
+
+RunStory ReadRunStory(const std::filesystem::path& log, LogReader* opened) {
+  LogReader& reader = *opened;
+  const auto time = reader.Find("time"), status = reader.Find("status"),
+             active = reader.Find("active"), lost = reader.Find("lost"),
+             conflict = reader.Find("conflict"), reason = reader.Find("reason"),
+             touching = reader.Find("touching");
+  if (!time || !status || !active) {
+    throw std::invalid_argument(log.string() +
+                                ": has no columns time, status and active");
+  }
+  const std::vector<int> push =
+      FindAll(reader, {"push.fx", "push.fy", "push.fz"});
+  RunStory story;
+  for (const std::string name : {"left_foot", "right_foot"}) {
+    story.feet.emplace_back(name, reader);
+  }
+  const double period = FindPeriod(log, *time);
+  while (reader.Next()) {
+    story.has_rows = true;
+    const LogTick tick{reader.Number(*time), period};
+    for (FootStory& foot : story.feet) foot.Look(tick.time, reader);
+    AddPush(reader, push, tick, &story.pushes);
+    if (touching) AddTouches(Text(reader, *touching), tick, &story.touches);
+    const Values acting = Parse(Text(reader, *active));
+    for (const auto& [name, value] : acting) {
+      story.rows.Add(name, tick, value, {});
+      story.said.Add(DescribeRow(name), tick, value, {});
+    }
+    if (Text(reader, *status) != "ok") {
+      std::string state(reader.cell(*status));
+      if (reason) state.append(" ").append(Text(reader, *reason));
+      story.states.Add(state, tick, 1, {});
+    }
+    if (conflict && !Text(reader, *conflict).empty()) {
+      story.conflicts.push_back({tick.time, Parse(reader.cell(*conflict))});
+    }
+    if (!lost) continue;
+    for (const auto& [name, value] : Parse(Text(reader, *lost))) {
+      story.losses.Add(name, tick, value, acting);
+    }
+  }
+  return story;
+}
+
+}  // namespace poise

@@ -1,0 +1,387 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/push/push_options.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <limits>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "robot/control/default_stack.h"
+#include "robot/control/stand.h"
+#include "robot/control/task_set.h"
+#include "robot/finding.h"
+#include "robot/profile/profile.h"
+#include "robot/profile/save_profile.h"
+#include "robot/urdf/urdf.h"
+#include "sim/closed_loop.h"
+#include "sim/number_field.h"
+#include "tools/commands/command_line.h"
+#include "tools/commands/doctor/strength.h"
+#include "tools/commands/push/warnings.h"
+#include "tools/commands/user_path.h"
+
+namespace poise {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr const char* kRobot = "robot/models/humanoid.urdf";
+constexpr const char* kProfile = "robot/profiles/humanoid.yaml";
+constexpr const char* kScenarios = "sim/scenarios";
+
+// The options that go over a scenario; those not given change nothing.
+struct Overrides {
+  std::optional<double> force, direction, duration, at, time, control_rate,
+      plant_rate, mu_plant, mass_error, torque_scale, noise, delay;
+  std::optional<std::string> link, tasks, friction, plant, pushes;
+  std::vector<double> point, freeze;
+  std::vector<std::string> with, without;
+  bool weighted = false, feedforward = false, estimator = false;
+  std::optional<unsigned> seed;
+};
+
+// CLI11 reads "nan" and "inf" as numbers.
+std::string RefuseInfinite(std::string& text) {
+  const double value = std::strtod(text.c_str(), nullptr);
+  return std::isfinite(value) ? "" : "is " + text + ", must be finite";
+}
+
+// CLI11 calls a number that is too large none.
+std::string RefuseNoSeed(std::string& text) {
+  unsigned seed = 0;
+  const char* text_end = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), text_end, seed);
+  if (error == std::errc() && end == text_end) return "";
+  return "is " + Quoted(text) + ", must be a whole number from 0 to " +
+         std::to_string(std::numeric_limits<unsigned>::max());
+}
+
+void AddOptions(CLI::App* app, Overrides* o) {
+  const CLI::Validator finite(RefuseInfinite, "", "finite");
+  app->add_option("--force", o->force, "of the push, N (the scenario's)")
+      ->check(finite);
+  app->add_option("--direction", o->direction,
+                  "deg: 0 is +x, forward; 90 is +y, left (the scenario's)")
+      ->check(finite);
+  app->add_option("--duration", o->duration, "of the push, s (the scenario's)")
+      ->check(finite);
+  app->add_option("--at", o->at, "when the push begins, s (the scenario's)")
+      ->check(finite);
+  app->add_option("--link", o->link,
+                  "where it acts, at the center of mass (the torso)");
+  app->add_option("--point", o->point, "where on the link, X,Y,Z in m")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(finite);
+  app->add_option("--pushes", o->pushes, "a YAML file of pushes, instead");
+  app->add_option("--time", o->time, "to simulate, s")->check(finite);
+  app->add_option("--tasks", o->tasks, "task set: a name or a YAML file");
+  app->add_option("--with", o->with, "tasks to switch on")->delimiter(',');
+  app->add_option("--without", o->without, "tasks to switch off")
+      ->delimiter(',');
+  app->add_flag("--weighted", o->weighted,
+                "one weighted QP instead of the hierarchy");
+  app->add_option("--friction", o->friction, "pyramid of the controller")
+      ->check(CLI::IsMember({"circumscribed", "inscribed"}));
+  app->add_flag("--feedforward", o->feedforward, "of the reference's motion");
+  app->add_option("--control-rate", o->control_rate, "Hz (1000)")
+      ->check(finite);
+  app->add_option("--plant", o->plant, "the simulator (bullet)")
+      ->check(CLI::IsMember({"bullet", "mujoco"}));
+  app->add_option("--plant-rate", o->plant_rate, "Hz (1000)")->check(finite);
+  app->add_flag("--estimator", o->estimator,
+                "the base from sensors, not from the simulator");
+  app->add_option("--mu-plant", o->mu_plant, "friction of the ground (0.8)")
+      ->check(finite);
+  app->add_option("--mass-error", o->mass_error,
+                  "of all links in the controller's model, a fraction")
+      ->check(finite);
+  app->add_option("--torque-scale", o->torque_scale,
+                  "on the limits, on both sides")
+      ->check(finite);
+  app->add_option("--noise", o->noise,
+                  "1 is 2 mrad and 0.1 rad/s a joint, 4 mrad and 0.02 rad/s "
+                  "on the base")
+      ->check(finite);
+  app->add_option("--delay", o->delay, "from measurement to torque, s")
+      ->check(finite);
+  app->add_option("--freeze", o->freeze,
+                  "AT,FOR in s: sensors that repeat their last word")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(finite);
+  app->add_option("--seed", o->seed, "of all that is random (the scenario's)")
+      ->check(CLI::Validator(RefuseNoSeed, "", "seed"));
+}
+
+template <typename T>
+void Take(const std::optional<T>& from, T* to) {
+  if (from) *to = *from;
+}
+
+void TakeRate(const std::optional<double>& rate, double* dt) {
+  if (rate) *dt = 1 / *rate;
+}
+
+// The first push of the scenario, or a new one, as the options want it.
+void TakePush(const Overrides& o, Scenario* scenario) {
+  if (o.pushes) scenario->pushes = LoadPushes(UserPath(*o.pushes));
+  if (!o.force && !o.direction && !o.duration && !o.at && !o.link &&
+      o.point.empty()) {
+    return;
+  }
+  if (scenario->pushes.empty()) {
+    scenario->pushes.emplace_back();
+    scenario->pushes[0].force = {0, 50, 0};
+  }
+  Push& push = scenario->pushes[0];
+  const double force = o.force.value_or(push.force.norm());
+  if (o.direction) {
+    double degrees = *o.direction;
+    Check("", {{"direction", &degrees, -360, 360, "deg"}});
+    const double angle = degrees * kPi / 180;
+    push.force = force * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+  } else if (o.force) {
+    push.force = push.force.isZero() ? Eigen::Vector3d(0, force, 0)
+                                     : force * push.force.normalized();
+  }
+  Take(o.duration, &push.duration);
+  Take(o.at, &push.start);
+  Take(o.link, &push.link);
+  if (!o.point.empty()) {
+    push.point = Eigen::Vector3d(o.point[0], o.point[1], o.point[2]);
+  }
+}
+
+void Apply(const Overrides& o, Scenario* scenario) {
+  TakePush(o, scenario);
+  ControlSettings& control = scenario->control;
+  PlantSettings& plant = scenario->plant;
+  Take(o.time, &scenario->duration);
+  Take(o.seed, &scenario->seed);
+  if (o.tasks) {
+    std::error_code too_long;
+    const bool is_file = std::filesystem::exists(UserPath(*o.tasks), too_long);
+    control.tasks = is_file ? UserPath(*o.tasks).string() : *o.tasks;
+  }
+  control.with.insert(control.with.end(), o.with.begin(), o.with.end());
+  control.without.insert(control.without.end(), o.without.begin(),
+                         o.without.end());
+  control.weighted |= o.weighted;
+  control.feedforward |= o.feedforward;
+  control.estimator |= o.estimator;
+  if (o.friction) control.inscribed = *o.friction == "inscribed";
+  TakeRate(o.control_rate, &control.dt);
+  TakeRate(o.plant_rate, &plant.dt);
+  if (o.plant) {
+    scenario->plant_kind =
+        *o.plant == "mujoco" ? PlantKind::kMujoco : PlantKind::kBullet;
+  }
+  Take(o.mu_plant, &plant.friction);
+  Take(o.mass_error, &control.mass_error);
+  Take(o.torque_scale, &plant.torque_scale);
+  Take(o.noise, &scenario->sensors.noise);
+  Take(o.delay, &control.delay);
+  if (!o.freeze.empty()) {
+    scenario->sensors.freeze_at = o.freeze[0];
+    scenario->sensors.freeze_for = o.freeze[1];
+  }
+}
+
+// A refusal of a scenario, with each setting that an option gave by the name of that.
+std::string ByOption(std::string text, const Overrides& o) {
+  const std::tuple<bool, const char*, const char*> options[] = {
+      {o.time.has_value(), "duration", "--time"},
+      {o.control_rate.has_value(), "control.rate", "--control-rate"},
+      {o.plant_rate.has_value(), "plant.rate", "--plant-rate"},
+      {o.delay.has_value(), "control.delay", "--delay"},
+      {o.mass_error.has_value(), "control.mass_error", "--mass-error"},
+      {o.mu_plant.has_value(), "plant.friction", "--mu-plant"},
+      {o.torque_scale.has_value(), "plant.torque_scale", "--torque-scale"},
+      {o.noise.has_value(), "sensors.noise", "--noise"},
+      {!o.freeze.empty(), "sensors.freeze_at", "--freeze"},
+      {!o.freeze.empty(), "sensors.freeze_for", "--freeze"},
+      {!o.pushes && o.force, "pushes.force", "--force"},
+      {!o.pushes && o.duration, "pushes.duration", "--duration"},
+      {!o.pushes && o.at, "pushes.at", "--at"},
+      {!o.pushes && !o.point.empty(), "pushes.point", "--point"},
+      {o.direction.has_value(), "direction", "--direction"}};
+  for (const auto& [is_given, setting, option] : options) {
+    if (!is_given) continue;
+    const std::string name = setting;
+    if (text.rfind(name + " is ", 0) == 0) text.replace(0, name.size(), option);
+    const size_t at = text.find(" of " + name);
+    if (at != std::string::npos) text.replace(at + 4, name.size(), option);
+  }
+  return text;
+}
+
+// The names of our scenarios, in alphabetical order.
+std::string ScenarioNames() {
+  std::set<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(kScenarios)) {
+    names.insert(file.path().stem().string());
+  }
+  std::string text;
+  for (const std::string& name : names) {
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text;
+}
+
+// The file of a scenario of ours by name, else one of the user's.
+std::filesystem::path FindScenario(const std::string& name) {
+  std::error_code too_long;  // No file has such a name.
+  if (name.find('/') == std::string::npos) {
+    const std::filesystem::path ours =
+        std::filesystem::path(kScenarios) / (name + ".yaml");
+    if (std::filesystem::exists(ours, too_long)) return ours;
+  }
+  std::filesystem::path theirs = UserPath(name);
+  if (std::filesystem::is_regular_file(theirs, too_long)) return theirs;
+  throw std::invalid_argument("scenario '" + name +
+                              "' is unknown, must be a file or one of " +
+                              ScenarioNames());
+}
+
+// What a robot and a scenario have against each other; empty: nothing.
+std::string Complaint(const Robot& robot, const Scenario& scenario) {
+  try {
+    ClosedLoop loop(robot, scenario);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Throws what a robot and a scenario have against each other, by the name of
+// the first file whose part of it says the same.
+void CheckFit(const Robot& robot, const Scenario& scenario,
+              const std::vector<std::pair<std::string, Scenario>>& parts) {
+  try {
+    ClosedLoop loop(robot, scenario);
+  } catch (const Refusal&) {  // Names the file itself.
+    throw;
+  } catch (const std::invalid_argument& error) {
+    for (const auto& [file, part] : parts) {
+      if (Complaint(robot, part) != error.what()) continue;
+      throw std::invalid_argument(file + ": " + error.what());
+    }
+    throw;
+  }
+}
+
+}  // namespace
+
+PushOptions ReadPushOptions(int argc, char** argv) {
+  Overrides overrides;
+  std::string scenario_name = "strong_push", robot, profile, save_profile, out,
+              log = "csv";
+  std::optional<double> dump_solve;
+  bool no_report = false, json = false;
+  if (!std::filesystem::is_directory(kScenarios)) {
+    throw std::invalid_argument(std::string(kScenarios) +
+                                " is not here: start by `bazel run`, or in the "
+                                "folder of the sources");
+  }
+  CLI::App app("Pushes a humanoid in a simulation: does it recover?", "push");
+  app.footer("Scenarios: " + ScenarioNames() +
+             ".\nTasks: docs/tasks.md. Exit code 0: it recovered; 1: it did "
+             "not; 2: bad input.");
+  app.add_option("--scenario", scenario_name, "a name or a YAML file")
+      ->capture_default_str();
+  app.add_option("--robot", robot, "a URDF file (our humanoid)");
+  app.add_option("--profile", profile, "feet, posture, tasks of a robot");
+  app.add_option("--save-profile", save_profile,
+                 "write the profile that is used, found posture and all");
+  AddOptions(&app, &overrides);
+  app.add_option("--out", out, "folder to write into (push-out/SCENARIO)");
+  app.add_option("--log", log, "log.csv, or log.bin, for long runs")
+      ->check(CLI::IsMember({"csv", "binary"}))
+      ->capture_default_str();
+  app.add_option(
+         "--dump-solve", dump_solve,
+         "write the hierarchy solved at this time, s, for hqp to replay")
+      ->check(CLI::NonNegativeNumber);
+  app.add_flag("--no-report", no_report, "write no report.html");
+  app.add_flag("--json", json, "print summary.json");
+  ParseCommandLine(argc, argv, &app);
+
+  const std::filesystem::path scenario_file = FindScenario(scenario_name);
+  const Scenario as_written = LoadScenario(scenario_file);
+  Scenario scenario = as_written;
+  try {
+    Apply(overrides, &scenario);
+    Validate(scenario);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(ByOption(error.what(), overrides));
+  }
+  const std::filesystem::path robot_file =
+      robot.empty() ? kRobot : UserPath(robot);
+  Profile feet_and_posture;
+  if (!profile.empty()) {
+    feet_and_posture = LoadProfile(UserPath(profile));
+  } else if (robot.empty()) {
+    feet_and_posture = LoadProfile(kProfile);
+  }
+  // The robot's own tasks, where none are asked for, not even the default ones.
+  if (feet_and_posture.tasks.IsDefined() && !overrides.tasks &&
+      scenario.control.tasks == "default") {
+    scenario.control.tasks = feet_and_posture.file.string();
+  }
+  std::vector<Finding> findings;
+  LoadUrdf(robot_file, {}, &findings);
+  Robot standing = LoadStandingRobot(robot_file, feet_and_posture, &findings);
+  Scenario rest, pushes_alone;
+  rest.plant_kind = scenario.plant_kind;
+  std::filesystem::path pushes_file;
+  if (overrides.pushes) {
+    pushes_file = UserPath(*overrides.pushes);
+    pushes_alone.pushes = LoadPushes(pushes_file);
+  }
+  CheckFit(standing, scenario,
+           {{robot_file.string(), rest},
+            {pushes_file.string(), pushes_alone},
+            {scenario_file.string(), as_written}});
+  if (!save_profile.empty()) {
+    // Mimics are fixed by where their sources were before it stood up.
+    feet_and_posture.locked =
+        LockedJoints(LoadUrdf(robot_file), feet_and_posture);
+    if (!feet_and_posture.tasks.IsDefined()) {
+      feet_and_posture.tasks = DescribeTasks(MakeDefaultStack(standing, {}));
+    }
+    SaveProfile(standing, feet_and_posture, UserPath(save_profile));
+  }
+  return {std::move(standing),
+          scenario,
+          robot_file,
+          UserPath(out.empty() ? "push-out/" + scenario.name : out),
+          log == "binary" ? LogFormat::kBinary : LogFormat::kCsv,
+          dump_solve,
+          !no_report,
+          json,
+          std::move(findings)};
+}
+
+void Warn(const PushOptions& options) {
+  std::vector<Finding> findings = options.findings;
+  for (Finding& finding : FindWeakness(options.robot)) {
+    findings.push_back(std::move(finding));
+  }
+  for (const std::string& line :
+       WarningLines(options.robot_file.string(), findings)) {
+    std::cerr << line << "\n";
+  }
+}
+
+}  // namespace poise

@@ -1,0 +1,37 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "robot/finding.h"
+#include "robot/robot.h"
+#include "sim/log/log_rows.h"
+#include "sim/scenario.h"
+
+namespace poise {
+
+/// What `push` was told.
+struct PushOptions {
+  Robot robot;
+  Scenario scenario;
+  std::filesystem::path robot_file;
+  std::filesystem::path out;
+  LogFormat log = LogFormat::kCsv;
+  std::optional<double> dump_solve;  ///< When to dump a hierarchy, s.
+  bool report = true;
+  bool json = false;
+  std::vector<Finding> findings;  ///< About the robot's file.
+};
+
+/// Reads the command line of `push`, the robot and the scenario.
+///
+/// Throws as ParseCommandLine(), and std::invalid_argument about what it names.
+PushOptions ReadPushOptions(int argc, char** argv);
+
+/// Says on stderr, in a few lines, what a doctor would warn of.
+void Warn(const PushOptions& options);
+
+}  // namespace poise

@@ -1,0 +1,60 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/push/record_run.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "tests/util/load_humanoid.h"
+
+namespace poise {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RecordRunTest : public testing::Test {
+ protected:
+  RecordRunTest() {
+    fs::create_directories(folder_);
+    for (const char* name : kOld) std::ofstream(folder_ / name) << "old";
+    scenario_.duration = 0.05;
+  }
+  std::string Read(const char* name) const {
+    std::ifstream stream(folder_ / name);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  }
+
+  static constexpr const char* kOld[] = {"log.csv", "summary.json",
+                                         "robot.json", "report.html"};
+  const Robot robot_ = LoadHumanoid();
+  const fs::path folder_ = fs::path(testing::TempDir()) / "run";
+  Scenario scenario_;
+};
+
+// A kill then leaves a log that goes with nothing, not with another summary.
+TEST_F(RecordRunTest, RemovesWhatAnotherRunLeft) {
+  bool was_asked = false;
+  RecordRun(robot_, scenario_, folder_, [&](double) {
+    was_asked = true;
+    for (const char* name : {"summary.json", "robot.json", "report.html"}) {
+      EXPECT_FALSE(fs::exists(folder_ / name)) << name;
+    }
+    return true;
+  });
+  EXPECT_TRUE(was_asked);
+  EXPECT_FALSE(fs::exists(folder_ / "report.html"));
+  EXPECT_EQ(Read("summary.json")[0], '{');
+  EXPECT_EQ(Read("robot.json")[0], '{');
+}
+
+TEST_F(RecordRunTest, LeavesItWhereTheRunIsRefused) {
+  scenario_.pushes.emplace_back();
+  scenario_.pushes[0].link = "nose";
+  EXPECT_THROW(RecordRun(robot_, scenario_, folder_), std::invalid_argument);
+  for (const char* name : kOld) EXPECT_EQ(Read(name), "old") << name;
+}
+
+}  // namespace
+}  // namespace poise

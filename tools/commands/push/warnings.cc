@@ -1,0 +1,48 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/push/warnings.h"
+
+#include <algorithm>
+
+namespace poise {
+namespace {
+
+constexpr size_t kMostLines = 5;
+constexpr size_t kMostNames = 3;
+
+}  // namespace
+
+std::vector<std::string> WarningLines(const std::string& file,
+                                      const std::vector<Finding>& findings) {
+  // Of one kind is what has the same reason.
+  std::vector<std::vector<const Finding*>> kinds;
+  for (const Finding& finding : findings) {
+    if (finding.severity != Severity::kWarn) continue;
+    const auto kind = std::find_if(
+        kinds.begin(), kinds.end(),
+        [&](const auto& each) { return each[0]->why == finding.why; });
+    if (kind == kinds.end()) {
+      kinds.push_back({&finding});
+    } else {
+      kind->push_back(&finding);
+    }
+  }
+  std::vector<std::string> lines;
+  for (const auto& kind : kinds) {
+    if (lines.size() == kMostLines) {
+      lines.push_back(file + ": " + std::to_string(kinds.size() - kMostLines) +
+                      " more kinds of warnings: bazel run //tools:doctor");
+      break;
+    }
+    std::string line = Message(file, *kind[0]);
+    for (size_t i = 1; i < std::min(kind.size(), 1 + kMostNames); ++i) {
+      line += (i == 1 ? "; also " : ", ") + OneLine(kind[i]->where);
+    }
+    if (kind.size() > 1 + kMostNames) {
+      line += " and " + std::to_string(kind.size() - 1 - kMostNames) + " more";
+    }
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace poise

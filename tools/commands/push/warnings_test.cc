@@ -1,0 +1,41 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/push/warnings.h"
+
+#include <gtest/gtest.h>
+
+namespace poise {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+Finding Warn(const std::string& where, const std::string& why) {
+  return {Severity::kWarn, where, "is odd", why, 0};
+}
+
+TEST(WarningLines, LeaveNotesOut) {
+  EXPECT_EQ(WarningLines("a.urdf", {{Severity::kNote, "b", "c", "d", 1}}),
+            Lines{});
+}
+
+TEST(WarningLines, HaveOneKindInALine) {
+  EXPECT_EQ(
+      WarningLines("a.urdf", {Warn("l_sole", "guessed"), Warn("knee", "weak"),
+                              Warn("r_sole", "guessed")}),
+      (Lines{"a.urdf: l_sole: is odd, guessed; also r_sole",
+             "a.urdf: knee: is odd, weak"}));
+}
+
+TEST(WarningLines, AreFewAndShort) {
+  std::vector<Finding> findings(10, Warn("x", "same"));
+  for (const char* why : {"1", "2", "3", "4", "5", "6"}) {
+    findings.push_back(Warn("y", why));
+  }
+  const Lines lines = WarningLines("a.urdf", findings);
+  ASSERT_EQ(lines.size(), 6u);
+  EXPECT_EQ(lines[0], "a.urdf: x: is odd, same; also x, x, x and 6 more");
+  EXPECT_EQ(lines[5],
+            "a.urdf: 2 more kinds of warnings: bazel run //tools:doctor");
+}
+
+}  // namespace
+}  // namespace poise

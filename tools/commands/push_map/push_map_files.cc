@@ -1,0 +1,188 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/push_map/push_map_files.h"
+
+#include <charconv>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace poise {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kMapHeader[] =
+    "direction_deg,duration_s,tasks,impulse_Ns,lipm_Ns,lipm_height_Ns,eta\n";
+constexpr char kTrialsHeader[] =
+    "direction_deg,duration_s,tasks,impulse_Ns,recovered\n";
+
+// The shortest text that reads back as the same number.
+std::string Text(double value) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value);
+  return {digits, end.ptr};
+}
+
+std::string Text(const PushMapPoint& point) {
+  return Text(point.direction_deg) + ',' + Text(point.duration) + ',' +
+         point.tasks + ',';
+}
+
+std::string ReadAll(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// In one step: a reader, or an interruption, sees the old file or the new one.
+void Replace(const fs::path& file, const std::string& text) {
+  const fs::path draft = file.string() + ".new";
+  std::ofstream stream(draft, std::ios::binary);
+  stream << text;
+  if (!stream.flush()) {
+    throw std::invalid_argument(draft.string() + ": cannot be written");
+  }
+  stream.close();
+  fs::rename(draft, file);
+}
+
+// Rows as lists of cells, header lines left out, also where maps were joined.
+std::vector<std::vector<std::string>> Rows(const fs::path& file,
+                                           const std::string& header) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream stream(ReadAll(file));
+  std::string line;
+  while (std::getline(stream, line) && !stream.eof()) {
+    if (line + '\n' == header) continue;
+    std::vector<std::string> cells;
+    std::istringstream parts(line);
+    for (std::string cell; std::getline(parts, cell, ',');) {
+      cells.push_back(cell);
+    }
+    rows.push_back(cells);
+  }
+  return rows;
+}
+
+double Number(const std::string& text, const fs::path& file) {
+  double value = 0;
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw std::invalid_argument(file.string() + ": '" + text +
+                                "' is not a number");
+  }
+  return value;
+}
+
+PushMapPoint PointOf(const std::vector<std::string>& cells, size_t wanted,
+                     const fs::path& file) {
+  if (cells.size() != wanted) {
+    throw std::invalid_argument(file.string() + ": a row has " +
+                                std::to_string(cells.size()) +
+                                " cells, must have " + std::to_string(wanted));
+  }
+  return {Number(cells[0], file), Number(cells[1], file), cells[2]};
+}
+
+}  // namespace
+
+PushMapFiles::PushMapFiles(const fs::path& folder, const std::string& settings,
+                           bool header)
+    : folder_(folder), header_(header) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw std::invalid_argument(folder.string() +
+                                ": cannot be made: " + error.message());
+  }
+  const fs::path settings_file = folder / "settings.txt";
+  const std::string text = settings + '\n';
+  if (fs::exists(settings_file) && ReadAll(settings_file) != text) {
+    throw std::invalid_argument(
+        folder.string() +
+        ": holds a map of other settings (settings.txt); choose another --out");
+  }
+  Replace(settings_file, text);
+  const fs::path map = folder / "map.csv", trials = folder / "trials.csv";
+  for (const auto& cells : Rows(map, kMapHeader)) {
+    const PushMapPoint point = PointOf(cells, 7, map);  // Counts the cells.
+    found_[point] = {Number(cells[3], map), Number(cells[4], map),
+                     Number(cells[5], map)};
+  }
+  for (const auto& cells : Rows(trials, kTrialsHeader)) {
+    const PushMapPoint point = PointOf(cells, 5, trials);
+    tried_[point][Number(cells[3], trials)] = cells[4] == "1";
+  }
+  WriteMap();
+  WriteTrials();
+}
+
+std::optional<PushMapValue> PushMapFiles::Found(
+    const PushMapPoint& point) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = found_.find(point);
+  if (found == found_.end()) return std::nullopt;
+  return found->second;
+}
+
+std::optional<bool> PushMapFiles::Tried(const PushMapPoint& point,
+                                        double impulse) const {
+  const std::lock_guard lock(mutex_);
+  const auto tried = tried_.find(point);
+  if (tried == tried_.end()) return std::nullopt;
+  const auto trial = tried->second.find(impulse);
+  if (trial == tried->second.end()) return std::nullopt;
+  return trial->second;
+}
+
+void PushMapFiles::AddFound(const PushMapPoint& point,
+                            const PushMapValue& value) {
+  const std::lock_guard lock(mutex_);
+  found_[point] = value;
+  WriteMap();
+}
+
+void PushMapFiles::AddTried(const PushMapPoint& point, double impulse,
+                            bool recovered) {
+  const std::lock_guard lock(mutex_);
+  tried_[point][impulse] = recovered;
+  std::ofstream(folder_ / "trials.csv", std::ios::app)
+      << Text(point) + Text(impulse) + (recovered ? ",1\n" : ",0\n");
+}
+
+std::map<PushMapPoint, PushMapValue> PushMapFiles::found() const {
+  const std::lock_guard lock(mutex_);
+  return found_;
+}
+
+// A few dozen lines: written anew each time, in order, whoever came first.
+void PushMapFiles::WriteMap() const {
+  std::string text = header_ ? kMapHeader : "";
+  for (const auto& [point, value] : found_) {
+    text += Text(point) + Text(value.impulse) + ',' + Text(value.lipm) + ',' +
+            Text(value.lipm_height) + ',' + Text(value.impulse / value.lipm) +
+            '\n';
+  }
+  Replace(folder_ / "map.csv", text);
+}
+
+void PushMapFiles::WriteTrials() const {
+  std::string text = kTrialsHeader;
+  for (const auto& [point, trials] : tried_) {
+    for (const auto& [impulse, recovered] : trials) {
+      text += Text(point) + Text(impulse) + (recovered ? ",1\n" : ",0\n");
+    }
+  }
+  Replace(folder_ / "trials.csv", text);
+}
+
+std::string TaskSetName(const std::vector<std::string>& with,
+                        const std::vector<std::string>& without) {
+  std::string name;
+  for (const std::string& task : without) name += '-' + task;
+  for (const std::string& task : with) name += '+' + task;
+  return name.empty() ? "default" : name;
+}
+
+}  // namespace poise

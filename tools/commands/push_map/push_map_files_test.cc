@@ -1,0 +1,101 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/push_map/push_map_files.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace poise {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kHeader[] =
+    "direction_deg,duration_s,tasks,impulse_Ns,lipm_Ns,lipm_height_Ns,eta\n";
+
+fs::path NewFolder(const std::string& name) {
+  const fs::path folder = fs::path(testing::TempDir()) / name;
+  fs::remove_all(folder);
+  return folder;
+}
+
+std::string Read(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+TEST(PushMapFiles, WritesWhatWasFoundInOrder) {
+  const fs::path folder = NewFolder("map_order");
+  PushMapFiles files(folder, "seed 1", true);
+  EXPECT_EQ(Read(folder / "map.csv"), kHeader);
+  files.AddFound({90, 0.1, "default"}, {20, 25, 16});
+  files.AddFound({22.5, 0.1, "default"}, {16, 20, 12.5});
+  EXPECT_EQ(Read(folder / "map.csv"), std::string(kHeader) +
+                                          "22.5,0.1,default,16,20,12.5,0.8\n"
+                                          "90,0.1,default,20,25,16,0.8\n");
+}
+
+TEST(PushMapFiles, GoOnWhereTheyWere) {
+  const fs::path folder = NewFolder("map_again");
+  const PushMapPoint point{90, 0.1, "-cop-yaw+yaw_constant"};
+  {
+    PushMapFiles files(folder, "seed 1", true);
+    files.AddTried(point, 12.25, true);
+    files.AddTried(point, 12.5, false);
+    files.AddFound({0, 0.1, "default"}, {16, 20, 12.5});
+  }
+  // Interrupted in the middle of a line.
+  std::ofstream(folder / "trials.csv", std::ios::app) << "90,0.1,-cop-yaw+ya";
+  const PushMapFiles files(folder, "seed 1", true);
+  EXPECT_EQ(files.Tried(point, 12.25), true);
+  EXPECT_EQ(files.Tried(point, 12.5), false);
+  EXPECT_EQ(files.Tried(point, 12.75), std::nullopt);
+  EXPECT_EQ(files.Tried({90, 0.2, point.tasks}, 12.5), std::nullopt);
+  EXPECT_EQ(files.Found({0, 0.1, "default"})->impulse, 16);
+  EXPECT_EQ(files.Found({0, 0.1, "default"})->lipm, 20);
+  EXPECT_EQ(files.Found({0, 0.1, "default"})->lipm_height, 12.5);
+  EXPECT_FALSE(files.Found(point));
+  EXPECT_EQ(Read(folder / "trials.csv").find("+ya\n"), std::string::npos);
+}
+
+TEST(PushMapFiles, OfShardsMergeByConcatenation) {
+  const fs::path a = NewFolder("shard_1"), b = NewFolder("shard_2"),
+                 all = NewFolder("shard_all");
+  PushMapFiles(a, "s", true).AddFound({0, 0.1, "default"}, {16, 20, 10});
+  PushMapFiles(b, "s", false).AddFound({90, 0.1, "default"}, {20, 25, 20});
+  const std::string joined = Read(a / "map.csv") + Read(b / "map.csv");
+  EXPECT_EQ(joined, std::string(kHeader) +
+                        "0,0.1,default,16,20,10,0.8\n"
+                        "90,0.1,default,20,25,20,0.8\n");
+  fs::create_directories(all);
+  std::ofstream(all / "map.csv") << joined;
+  EXPECT_EQ(PushMapFiles(all, "s", true).found().size(), 2u);
+}
+
+TEST(PushMapFiles, RefuseAMapOfOtherSettings) {
+  const fs::path folder = NewFolder("map_other");
+  { PushMapFiles(folder, "seed 1", true); }
+  EXPECT_NO_THROW(PushMapFiles(folder, "seed 1", true));
+  EXPECT_THROW(PushMapFiles(folder, "seed 2", true), std::invalid_argument);
+}
+
+TEST(PushMapFiles, RefuseWhatIsNoMap) {
+  const fs::path folder = NewFolder("map_broken");
+  fs::create_directories(folder);
+  std::ofstream(folder / "map.csv") << "0,0.1,default,16\n";
+  EXPECT_THROW(PushMapFiles(folder, "s", true), std::invalid_argument);
+  std::ofstream(folder / "map.csv") << "0,0.1,default,16x,20,10,0.8\n";
+  EXPECT_THROW(PushMapFiles(folder, "s", true), std::invalid_argument);
+}
+
+TEST(TaskSetName, JoinsTheChanges) {
+  EXPECT_EQ(TaskSetName({}, {}), "default");
+  EXPECT_EQ(TaskSetName({"yaw_constant"}, {"cop", "yaw"}),
+            "-cop-yaw+yaw_constant");
+}
+
+}  // namespace
+}  // namespace poise

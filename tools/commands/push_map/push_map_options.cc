@@ -1,0 +1,158 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/push_map/push_map_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "robot/finding.h"
+#include "tools/commands/command_line.h"
+#include "tools/commands/push/push_options.h"
+#include "tools/commands/user_path.h"
+
+namespace poise {
+namespace {
+
+struct Shard {
+  int index = 1;
+  int count = 1;
+};
+
+Shard ParseShard(const std::string& text) {
+  Shard shard;
+  const char* end = text.data() + text.size();
+  const auto index = std::from_chars(text.data(), end, shard.index);
+  if (index.ec == std::errc() && index.ptr < end && *index.ptr == '/') {
+    const auto count = std::from_chars(index.ptr + 1, end, shard.count);
+    if (count.ec == std::errc() && count.ptr == end && shard.index >= 1 &&
+        shard.index <= shard.count) {
+      return shard;
+    }
+  }
+  throw std::invalid_argument("--shard is '" + text +
+                              "', must be I/N with 1 <= I <= N");
+}
+
+// CLI's own Range lets NaN through, and spells its numbers out.
+CLI::Validator Between(double least, double most, const std::string& unit) {
+  const auto check = [=](const std::string& text) -> std::string {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, value);
+    if (read.ec == std::errc() && read.ptr == end && value >= least &&
+        value <= most) {
+      return "";
+    }
+    return "'" + text + "' must be " + PrintNumber(least) + " to " +
+           PrintNumber(most) + " " + unit;
+  };
+  return CLI::Validator(check, "");
+}
+
+// Every point, in the order of the map; then those of this shard.
+std::vector<PushMapPoint> Points(int directions,
+                                 const std::vector<double>& durations,
+                                 const std::string& tasks, const Shard& shard) {
+  std::vector<PushMapPoint> points;
+  int count = 0;
+  for (const double duration : durations) {
+    for (int i = 0; i < directions; ++i) {
+      if (count++ % shard.count != shard.index - 1) continue;
+      points.push_back({360.0 * i / directions, duration, tasks});
+    }
+  }
+  return points;
+}
+
+// What `push` is told, under its own name.
+PushOptions ReadRest(std::vector<std::string> arguments) {
+  for (const char* taken : {"--force", "--direction", "--duration", "--pushes",
+                            "--scenario", "--no-report"}) {
+    for (const std::string& argument : arguments) {
+      if (argument.rfind(taken, 0) == 0 &&
+          (argument.size() == std::string(taken).size() ||
+           argument[std::string(taken).size()] == '=')) {
+        throw std::invalid_argument(argument +
+                                    " is not for a map: it varies "
+                                    "direction, duration and force itself");
+      }
+    }
+  }
+  arguments.insert(arguments.begin(), "push_map");
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  return ReadPushOptions(static_cast<int>(argv.size()), argv.data());
+}
+
+std::string Joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += word + '\n';
+  return text;
+}
+
+}  // namespace
+
+PushMapOptions ReadPushMapOptions(int argc, char** argv) {
+  int directions = 16;
+  std::vector<double> durations = {0.1};
+  std::vector<std::string> with, without;
+  std::string shard_text = "1/1", out;
+  int threads = static_cast<int>(std::thread::hardware_concurrency());
+  bool no_replays = false;
+  double step = 0.25;
+  bool json = false;
+  CLI::App app(
+      "The largest impulse that the robot recovers from, in each direction. "
+      "Interrupted, the same command goes on where it was; a second set of "
+      "tasks goes into the same map. Other options are those of push.",
+      "push_map");
+  app.allow_extras();
+  app.add_option("--directions", directions, "how many, around the circle")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 3600));
+  app.add_option("--durations", durations, "of the push, S,... in s")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->check(Between(1e-3, 10, "s"));
+  app.add_option("--with", with, "tasks to switch on")->delimiter(',');
+  app.add_option("--without", without, "tasks to switch off")->delimiter(',');
+  app.add_option("--step", step, "of impulses, N s")
+      ->capture_default_str()
+      ->check(Between(0.01, 100, "N s"));
+  app.add_option("--shard", shard_text,
+                 "I/N: every N-th point, beginning with the I-th");
+  app.add_option("--jobs", threads, "pushes at once (all cores)")
+      ->check(CLI::Range(1, 256));
+  app.add_option("--out", out,
+                 "folder (push-map-out; of a shard push-map-out/shard-I-of-N)");
+  app.add_flag("--no-replays", no_replays, "make no replays");
+  app.add_flag("--json", json, "print the map as JSON");
+  ParseCommandLine(argc, argv, &app);
+
+  const Shard shard = ParseShard(shard_text);
+  const std::vector<std::string> rest = app.remaining();
+  PushOptions push = ReadRest(rest);
+  Warn(push);
+  ControlSettings& control = push.scenario.control;
+  control.with.insert(control.with.end(), with.begin(), with.end());
+  control.without.insert(control.without.end(), without.begin(), without.end());
+  if (out.empty()) {
+    out = "push-map-out";
+    if (shard.count > 1) {
+      out += "/shard-" + std::to_string(shard.index) + "-of-" +
+             std::to_string(shard.count);
+    }
+  }
+  return {{std::move(push.robot), std::move(push.scenario),
+           Points(directions, durations, TaskSetName(with, without), shard),
+           UserPath(out), std::max(1, threads), step, !no_replays},
+          "step " + std::to_string(step) + '\n' + Joined(rest),
+          shard.index == 1,
+          json};
+}
+
+}  // namespace poise

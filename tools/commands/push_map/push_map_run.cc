@@ -1,0 +1,213 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/push_map/push_map_run.h"
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <fstream>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include "sim/push.h"
+#include "sim/run.h"
+#include "sim/yardstick.h"
+#include "tools/commands/push/record_run.h"
+#include "tools/commands/push_map/push_search.h"
+#include "tools/commands/report/report_page.h"
+#include "tools/viewer/pages.h"
+
+namespace poise {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kPi = 3.14159265358979323846;
+
+// A robot that recovers from so many times the yardstick is not falling at all.
+constexpr double kMostOfYardstick = 4;
+
+Eigen::Vector2d DirectionOf(const PushMapPoint& point) {
+  const double angle = point.direction_deg * kPi / 180;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+Yardstick YardstickOf(const PushMapPlan& plan, const PushMapPoint& point) {
+  const PushOnRobot push(plan.robot, plan.scenario.pushes[0]);
+  return ComputeYardstick(plan.robot, plan.robot.q_nominal, DirectionOf(point),
+                          point.duration, push.body(), push.p_BoQ_B());
+}
+
+// What the threads share.
+class Workers {
+ public:
+  Workers(const PushMapPlan& plan, PushMapFiles* files,
+          const std::function<bool(const PushMapProgress&)>& progress)
+      : plan_(plan), files_(*files), progress_(progress) {
+    for (const PushMapPoint& point : plan.points) {
+      if (IsDone(point)) ++done_before_;
+    }
+    done_ = done_before_;
+  }
+
+  bool Work() {
+    std::vector<std::thread> threads;
+    for (int i = 0; i < plan_.threads; ++i) {
+      threads.emplace_back([this] { TakePoints(); });
+    }
+    for (std::thread& thread : threads) thread.join();
+    if (error_) std::rethrow_exception(error_);
+    return !stopped_;
+  }
+
+ private:
+  bool IsDone(const PushMapPoint& point) const {
+    return files_.Found(point) &&
+           (!plan_.replays || fs::exists(plan_.folder / ReplayFile(point)));
+  }
+
+  void TakePoints() {
+    try {
+      for (std::size_t i = next_++; i < plan_.points.size() && !stopped_;
+           i = next_++) {
+        const PushMapPoint& point = plan_.points[i];
+        if (IsDone(point) || !Find(point)) continue;
+        ++done_;
+        Report(0);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      stopped_ = true;
+    }
+  }
+
+  // False if stopped before it was found.
+  bool Find(const PushMapPoint& point) {
+    const Yardstick yardstick = YardstickOf(plan_, point);
+    const auto found =
+        FindLargestImpulse([&](double impulse) { return Try(point, impulse); },
+                           yardstick.lipm_height_Ns, plan_.step,
+                           kMostOfYardstick * yardstick.lipm_Ns);
+    if (!found) return false;
+    if (plan_.replays && !Replay(point, *found)) return false;
+    files_.AddFound(
+        point, {found->recovered, yardstick.lipm_Ns, yardstick.lipm_height_Ns});
+    return true;
+  }
+
+  std::optional<bool> Try(const PushMapPoint& point, double impulse) {
+    if (const auto tried = files_.Tried(point, impulse)) return tried;
+    const RunResult result =
+        Run(plan_.robot, PushScenario(plan_, point, impulse), {},
+            [this](double) { return !stopped_; });
+    if (result.interrupted) return std::nullopt;
+    files_.AddTried(point, impulse, result.verdict.recovered);
+    Report(1);
+    return result.verdict.recovered;
+  }
+
+  // The strongest push recovered from, and the weakest that was not.
+  bool Replay(const PushMapPoint& point, const ImpulseBracket& found) {
+    const fs::path page = plan_.folder / ReplayFile(point);
+    std::vector<fs::path> runs;
+    for (const double impulse : {found.recovered, found.failed}) {
+      if (!(impulse > 0) || std::isinf(impulse)) continue;
+      char name[40];
+      std::snprintf(name, sizeof name, "%.2f Ns", impulse);
+      const fs::path folder = fs::path(page).replace_extension() / name;
+      const RunResult result =
+          RecordRun(plan_.robot, PushScenario(plan_, point, impulse), folder,
+                    [this](double) { return !stopped_; });
+      if (result.interrupted) return false;
+      runs.push_back(folder);
+    }
+    // A search ends with one or the other.
+    WriteReport(runs, page);
+    fs::remove_all(fs::path(page).replace_extension());
+    return true;
+  }
+
+  void Report(int trials) {
+    const std::lock_guard lock(mutex_);
+    trials_ += trials;
+    const int points = static_cast<int>(plan_.points.size());
+    const int done_now = done_ - done_before_;
+    const std::chrono::duration<double> passed = Clock::now() - start_;
+    const double left =
+        done_now > 0 ? passed.count() / done_now * (points - done_) : -1;
+    if (progress_ && !progress_({done_, points, trials_, left})) {
+      stopped_ = true;
+    }
+  }
+
+  const PushMapPlan& plan_;
+  PushMapFiles& files_;
+  const std::function<bool(const PushMapProgress&)>& progress_;
+  const Clock::time_point start_ = Clock::now();
+  std::atomic<std::size_t> next_{0};
+  std::atomic<int> done_{0};
+  int done_before_ = 0;
+  std::atomic<bool> stopped_{false};
+  std::mutex mutex_;
+  int trials_ = 0;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+Scenario PushScenario(const PushMapPlan& plan, const PushMapPoint& point,
+                      double impulse) {
+  Scenario scenario = plan.scenario;
+  Push& push = scenario.pushes.at(0);
+  push.duration = point.duration;
+  const double force = impulse / ProfileIntegral(push);
+  push.force << force * DirectionOf(point), 0;
+  return scenario;
+}
+
+fs::path ReplayFile(const PushMapPoint& point) {
+  char name[80];
+  std::snprintf(name, sizeof name, "%05.1fdeg_%gs_", point.direction_deg,
+                point.duration);
+  return fs::path("replays") / (name + point.tasks + ".html");
+}
+
+bool RunPushMap(const PushMapPlan& plan, PushMapFiles* files,
+                const std::function<bool(const PushMapProgress&)>& progress) {
+  return Workers(plan, files, progress).Work();
+}
+
+nlohmann::json MapToJson(const PushMapPlan& plan, const PushMapFiles& files) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const auto& [point, value] : files.found()) {
+    nlohmann::json row = {{"direction_deg", point.direction_deg},
+                          {"duration_s", point.duration},
+                          {"tasks", point.tasks},
+                          {"impulse_Ns", value.impulse},
+                          {"lipm_Ns", value.lipm},
+                          {"lipm_height_Ns", value.lipm_height},
+                          {"eta", value.impulse / value.lipm}};
+    const fs::path replay = ReplayFile(point);
+    if (fs::exists(plan.folder / replay)) row["replay"] = replay.string();
+    rows.push_back(std::move(row));
+  }
+  return {{"format", "poise-map-1"},
+          {"robot", plan.robot.model.name},
+          {"scenario", plan.scenario.name},
+          {"step", plan.step},
+          {"rows", std::move(rows)}};
+}
+
+void WriteMapPage(const PushMapPlan& plan, const PushMapFiles& files) {
+  const fs::path file = plan.folder / "map.html";
+  std::ofstream stream(file, std::ios::binary);
+  stream << FillPage(kMapPage, MapToJson(plan, files));
+  if (!stream.flush()) {
+    throw std::invalid_argument(file.string() + ": cannot be written");
+  }
+}
+
+}  // namespace poise

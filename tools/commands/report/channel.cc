@@ -1,0 +1,79 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/report/channel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace poise {
+namespace {
+
+constexpr std::uint16_t kNoNumber = 65535;
+constexpr double kSteps = 65534;
+
+std::string Base64(const std::vector<std::uint8_t>& bytes) {
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t triple = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      triple = triple << 8 | (k < left ? bytes[i + k] : 0u);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto digit = triple >> (18 - 6 * k) & 63u;
+      text += k <= left ? kDigits[digit] : '=';
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+nlohmann::json EncodeChannel(std::string_view name, std::string_view unit,
+                             const std::vector<float>& values) {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -min;
+  for (const float value : values) {
+    if (!std::isfinite(value)) continue;
+    min = std::min<double>(min, value);
+    max = std::max<double>(max, value);
+  }
+  if (min > max) min = max = 0;
+  const double scale = max > min ? kSteps / (max - min) : 0;
+
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(2 * values.size());
+  for (const float value : values) {
+    const std::uint16_t u =
+        std::isfinite(value)
+            ? static_cast<std::uint16_t>(std::lround((value - min) * scale))
+            : kNoNumber;
+    bytes.push_back(static_cast<std::uint8_t>(u & 255));
+    bytes.push_back(static_cast<std::uint8_t>(u >> 8));
+  }
+  return {{"name", name},
+          {"unit", unit},
+          {"min", min},
+          {"max", max},
+          {"data", Base64(bytes)}};
+}
+
+std::string EncodeFloats(const std::vector<float>& values) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(4 * values.size());
+  for (const float value : values) {
+    std::uint32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    for (int shift = 0; shift < 32; shift += 8) {
+      bytes.push_back(static_cast<std::uint8_t>(bits >> shift & 255));
+    }
+  }
+  return Base64(bytes);
+}
+
+}  // namespace poise

@@ -1,0 +1,109 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/report/report_page.h"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "sim/log/open_log.h"
+#include "sim/log/run_summary.h"
+#include "tools/commands/report/run_log.h"
+#include "tools/viewer/pages.h"
+
+namespace poise {
+namespace {
+
+using nlohmann::json;
+using std::filesystem::path;
+
+// Stands in the page where the data go.
+constexpr std::string_view kPlaceholder = "\"POISE-DATA\"";
+
+// A file of the run that the page can do without.
+json ReadOptional(const path& file, json* notes) {
+  std::ifstream stream(file);
+  if (!stream) {
+    notes->push_back(file.filename().string() + " is not there.");
+    return nullptr;
+  }
+  json value = json::parse(stream, nullptr, /*allow_exceptions=*/false);
+  if (!value.is_object()) {
+    notes->push_back(file.filename().string() + " cannot be read as JSON.");
+    return nullptr;
+  }
+  return value;
+}
+
+double ControlPeriod(const json& summary) {
+  constexpr double kUsual = 1e-3;
+  if (!summary.is_object()) return kUsual;
+  const auto dt = summary.find("control_dt");
+  return dt != summary.end() && dt->is_number() ? dt->get<double>() : kUsual;
+}
+
+void ReplaceAll(std::string_view from, std::string_view to, std::string* text) {
+  for (std::size_t at = text->find(from); at != std::string::npos;
+       at = text->find(from, at + to.size())) {
+    text->replace(at, from.size(), to);
+  }
+}
+
+}  // namespace
+
+json ReadRun(const path& run_dir) {
+  if (!std::filesystem::is_directory(run_dir)) {
+    throw std::invalid_argument(run_dir.string() + ": is not a run's folder");
+  }
+  json log = ReadRunLog(FindLog(run_dir));
+  json notes = std::move(log["notes"]);
+  log.erase("notes");
+  RunSummary read = ReadRunSummary(run_dir);
+  if (!read.note.empty()) notes.push_back(read.note);
+  json summary = std::move(read.values);
+  json robot = ReadOptional(run_dir / "robot.json", &notes);
+  json timing = nullptr;
+  if (std::filesystem::exists(run_dir / "timing.csv")) {
+    timing = ReadTiming(run_dir / "timing.csv", ControlPeriod(summary));
+  }
+  path name = std::filesystem::absolute(run_dir).lexically_normal();
+  if (!name.has_filename()) name = name.parent_path();
+  return {{"name", name.filename().string()}, {"summary", std::move(summary)},
+          {"robot", std::move(robot)},        {"log", std::move(log)},
+          {"timing", std::move(timing)},      {"notes", std::move(notes)}};
+}
+
+std::string FillPage(std::string_view page, const json& document) {
+  std::string data = document.dump(-1, ' ', /*ensure_ascii=*/false,
+                                   json::error_handler_t::replace);
+  // Of JSON only strings can hold a '<', and they may spell it so.
+  ReplaceAll("<", "\\u003c", &data);
+  const std::size_t at = page.find(kPlaceholder);
+  if (at == std::string_view::npos) {
+    throw std::logic_error("the page has no place for data");
+  }
+  std::string filled(page.substr(0, at));
+  filled += data;
+  filled += page.substr(at + kPlaceholder.size());
+  return filled;
+}
+
+void WriteReport(const std::vector<path>& run_dirs, const path& html) {
+  if (run_dirs.empty() || run_dirs.size() > 2) {
+    throw std::invalid_argument("a report shows one run or two, not " +
+                                std::to_string(run_dirs.size()));
+  }
+  json runs = json::array();
+  for (const path& run_dir : run_dirs) runs.push_back(ReadRun(run_dir));
+  const std::string page = FillPage(
+      kReportPage, {{"format", "poise-report-1"}, {"runs", std::move(runs)}});
+  if (html.has_parent_path()) {
+    std::error_code ignored;
+    std::filesystem::create_directories(html.parent_path(), ignored);
+  }
+  std::ofstream stream(html, std::ios::binary);
+  stream << page;
+  if (!stream.flush()) {
+    throw std::invalid_argument(html.string() + ": cannot be written");
+  }
+}
+
+}  // namespace poise

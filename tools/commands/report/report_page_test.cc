@@ -1,0 +1,143 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/report/report_page.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "tools/viewer/pages.h"
+
+namespace poise {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+fs::path EmptyFolder(const std::string& name) {
+  const fs::path folder = fs::path(testing::TempDir()) / name;
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+void Write(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+std::string Read(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// The block of data in a page, as a browser finds it.
+json DataOf(const std::string& page) {
+  const std::string open = "id=\"data\">";
+  const std::size_t start = page.find(open) + open.size();
+  return json::parse(page.substr(start, page.find("</script", start) - start));
+}
+
+TEST(ReportPage, NothingInTheDataEndsTheBlockOfData) {
+  const json document = {{"a", "</script><script>alert(1)</script>"},
+                         {"b", "<!-- <script"},
+                         {"c", "\"POISE-DATA\" $& $1"}};
+  const std::string page = FillPage(kReportPage, document);
+  EXPECT_EQ(DataOf(page), document);
+  EXPECT_EQ(page.size(),
+            kReportPage.size() - 12 +
+                page.substr(page.find("id=\"data\">") + 10).find("</script>"));
+}
+
+TEST(ReportPage, KeepsGoingOverBytesThatAreNoText) {
+  const std::string page = FillPage("\"POISE-DATA\"", json("a\xff z"));
+  EXPECT_EQ(json::parse(page).get<std::string>().substr(0, 1), "a");
+}
+
+TEST(ReportPage, IsWrittenFromARunAlone) {
+  const fs::path run = EmptyFolder("run_alone");
+  Write(run / "log.csv", "time[s],com.x[m]\n0,0.5\n0.002,0.5\n");
+  Write(run / "timing.csv", "tick,us,iterations\n0,200,4\n1,210,4\n");
+  Write(run / "summary.json", R"({"scenario": "stand", "control_dt": 0.002})");
+  Write(run / "robot.json", R"({"name": "bot"})");
+  WriteReport({run}, run / "report.html");
+  const json data = DataOf(Read(run / "report.html"));
+  EXPECT_EQ(data["format"], "poise-report-1");
+  ASSERT_EQ(data["runs"].size(), 1u);
+  const json& shown = data["runs"][0];
+  EXPECT_EQ(shown["name"], "run_alone");
+  EXPECT_EQ(shown["summary"]["scenario"], "stand");
+  EXPECT_EQ(shown["robot"]["name"], "bot");
+  EXPECT_EQ(shown["log"]["rows"], 2);
+  EXPECT_EQ(shown["timing"]["rows"], 2);
+  EXPECT_TRUE(shown["notes"].empty());
+}
+
+TEST(ReportPage, SaysWhatIsMissing) {
+  const fs::path run = EmptyFolder("run_missing");
+  Write(run / "log.csv", "time[s]\n");
+  Write(run / "summary.json", "{\"scenario\": \"sta");
+  const json shown = ReadRun(run / "");
+  EXPECT_EQ(shown["name"], "run_missing");
+  EXPECT_TRUE(shown["summary"].is_null());
+  EXPECT_TRUE(shown["robot"].is_null());
+  EXPECT_TRUE(shown["timing"].is_null());
+  EXPECT_EQ(shown["notes"], json({"log.csv has a header and no rows.",
+                                  "summary.json cannot be read as JSON.",
+                                  "robot.json is not there."}));
+}
+
+TEST(ReportPage, ShowsNoSummaryOfAnotherLog) {
+  const fs::path run = EmptyFolder("run_cut");
+  Write(run / "log.csv", "time[s]\n0\n");
+  Write(run / "summary.json", R"({"recovered": true, "log_sha256": "other"})");
+  const json shown = ReadRun(run);
+  EXPECT_TRUE(shown["summary"].is_null());
+  EXPECT_EQ(shown["notes"][0],
+            "summary.json is not of this log.csv, by its log_sha256: that is "
+            "of another run, or was cut or changed.");
+}
+
+TEST(ReportPage, ShowsTwoRuns) {
+  const fs::path a = EmptyFolder("run_a"), b = EmptyFolder("run_b");
+  for (const fs::path& run : {a, b}) Write(run / "log.csv", "time[s]\n0\n");
+  const fs::path html = EmptyFolder("out") / "new" / "compare.html";
+  WriteReport({a, b}, html);
+  const json data = DataOf(Read(html));
+  EXPECT_EQ(data["runs"][0]["name"], "run_a");
+  EXPECT_EQ(data["runs"][1]["name"], "run_b");
+}
+
+TEST(ReportPage, NamesWhatItCannotReadOrWrite) {
+  const auto error = [](const auto& act) -> std::string {
+    try {
+      act();
+    } catch (const std::invalid_argument& thrown) {
+      return thrown.what();
+    }
+    return "nothing thrown";
+  };
+  const fs::path run = EmptyFolder("run_broken");
+  EXPECT_EQ(error([&] { ReadRun("no/such/run"); }),
+            "no/such/run: is not a run's folder");
+  EXPECT_EQ(error([&] { ReadRun(run); }),
+            (run / "log.csv").string() + ": cannot be opened");
+  Write(run / "log.csv", "");
+  EXPECT_EQ(error([&] { ReadRun(run); }),
+            (run / "log.csv").string() + ": has no columns");
+  Write(run / "log.csv", "time[s]\n0\n");
+  EXPECT_EQ(error([&] { WriteReport({run}, run); }),
+            run.string() + ": cannot be written");
+  EXPECT_EQ(error([&] { WriteReport({}, run / "a.html"); }),
+            "a report shows one run or two, not 0");
+  EXPECT_EQ(error([&] {
+              WriteReport({run, run, run}, run / "a.html");
+            }),
+            "a report shows one run or two, not 3");
+}
+
+}  // namespace
+}  // namespace poise

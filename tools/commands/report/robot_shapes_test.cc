@@ -1,0 +1,152 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/report/robot_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "tests/util/tolerance.h"
+
+namespace poise {
+namespace {
+
+// The inertia of a uniform ellipsoid.
+Inertia EllipsoidInertia(double mass, const Eigen::Vector3d& half_axes) {
+  const Eigen::Vector3d s = half_axes.cwiseAbs2();
+  Inertia M;
+  M.mass = mass;
+  M.I_G_B =
+      (mass / 5 * Eigen::Vector3d(s.y() + s.z(), s.z() + s.x(), s.x() + s.y()))
+          .asDiagonal();
+  return M;
+}
+
+// Two links, joined at p, the first with a fixed link on it.
+RobotModel Arm(const Inertia& M_upper, const Eigen::Vector3d& p) {
+  JointSpec elbow;
+  elbow.name = "elbow";
+  elbow.type = JointType::kRevolute;
+  elbow.parent = "upper";
+  elbow.child = "lower";
+  elbow.X_PF.p = p;
+  JointSpec mount;
+  mount.name = "mount";
+  mount.parent = "upper";
+  mount.child = "camera";
+  mount.X_PF.p = {0, 0, 0.5};
+  RobotModel robot{"arm",
+                   TreeBuilder()
+                       .AddLink("upper", M_upper)
+                       .AddLink("lower", EllipsoidInertia(1, {0.1, 0.1, 0.1}))
+                       .AddLink("camera")
+                       .AddJoint(elbow)
+                       .AddJoint(mount)
+                       .Build(),
+                   {},
+                   {},
+                   {},
+                   {},
+                   0};
+  return robot;
+}
+
+TEST(RobotShapes, BodyWithoutPrimitivesIsItsEllipsoidAndABoneToEachJoint) {
+  const Eigen::Vector3d half_axes(0.05, 0.2, 0.1);
+  Inertia M = EllipsoidInertia(3, half_axes);
+  M.p_BoG_B = {0.01, 0.02, 0.03};
+  const Eigen::Matrix3d R(
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
+  const Eigen::Matrix3d I = R * M.I_G_B * R.transpose();
+  M.I_G_B = (I + I.transpose()) / 2;  // To the bit.
+  const auto shapes = MakeBodyShapes(Arm(M, {0, 0.3, 0}));
+  ASSERT_EQ(shapes.size(), 3u);
+
+  const BodyShape& ellipsoid = shapes[0];
+  EXPECT_EQ(ellipsoid.body, 0);
+  EXPECT_EQ(ellipsoid.kind, BodyShapeKind::kEllipsoid);
+  EXPECT_EQ(ellipsoid.X_BS.p, M.p_BoG_B);
+  EXPECT_GT(ellipsoid.X_BS.R.determinant(), 0);
+  // Its axes in the order of growing moments, so compare as a tensor.
+  const auto tensor = [](const Eigen::Matrix3d& axes,
+                         const Eigen::Vector3d& lengths) {
+    return Eigen::Matrix3d(axes * lengths.cwiseAbs2().asDiagonal() *
+                           axes.transpose());
+  };
+  const Eigen::Matrix3d expected = tensor(R, half_axes);
+  EXPECT_LE((tensor(ellipsoid.X_BS.R, ellipsoid.size) - expected).norm(),
+            Rounding(expected.norm(), 20));
+
+  const BodyShape& bone = shapes[1];
+  EXPECT_EQ(bone.body, 0);
+  EXPECT_EQ(bone.kind, BodyShapeKind::kCapsule);
+  EXPECT_DOUBLE_EQ(bone.size.y(), 0.3);
+  const Eigen::Vector3d tip =
+      bone.X_BS * Eigen::Vector3d(0, 0, bone.size.y() / 2);
+  EXPECT_LE((tip - Eigen::Vector3d(0, 0.3, 0)).norm(), Rounding(0.3, 4));
+  EXPECT_LE(
+      (bone.X_BS.R.transpose() * bone.X_BS.R - Eigen::Matrix3d::Identity())
+          .norm(),
+      Rounding(1, 9));
+  EXPECT_GT(bone.X_BS.R.determinant(), 0);
+
+  EXPECT_EQ(shapes[2].body, 1);
+  EXPECT_EQ(shapes[2].kind, BodyShapeKind::kEllipsoid);
+}
+
+TEST(RobotShapes, PrefersVisualsToCollisionsAndPlacesThemInTheBody) {
+  RobotModel robot = Arm(EllipsoidInertia(3, {0.1, 0.1, 0.1}), {0, 0.3, 0});
+  const int camera = *robot.tree.FindFrame("camera");
+  robot.visuals.push_back({camera, {}, Box{{0.3, 0.2, 0.1}}, {1, 0, 0, 1}});
+  robot.visuals.back().X_FS.p = {0.1, 0, 0};
+  robot.collisions.push_back({camera, {}, Sphere{0.2}, {}});
+  const auto shapes = MakeBodyShapes(robot);
+  ASSERT_EQ(shapes.size(), 2u);
+  EXPECT_EQ(shapes[0].kind, BodyShapeKind::kBox);
+  EXPECT_EQ(shapes[0].body, 0);
+  EXPECT_EQ(shapes[0].size, Eigen::Vector3d(0.3, 0.2, 0.1));
+  EXPECT_EQ(shapes[0].X_BS.p, Eigen::Vector3d(0.1, 0, 0.5));
+  EXPECT_EQ(shapes[0].rgba, Eigen::Vector4d(1, 0, 0, 1));
+}
+
+TEST(RobotShapes, FallsBackToCollisionsWhereVisualsAreMeshes) {
+  RobotModel robot = Arm(EllipsoidInertia(3, {0.1, 0.1, 0.1}), {0, 0.3, 0});
+  robot.visuals.push_back({0, {}, Mesh{"a.stl", {1, 1, 1}}});
+  robot.collisions.push_back({0, {}, Cylinder{0.1, 0.4}});
+  robot.collisions.push_back({0, {}, Sphere{0.15}});
+  const auto shapes = MakeBodyShapes(robot);
+  ASSERT_EQ(shapes.size(), 3u);
+  EXPECT_EQ(shapes[0].kind, BodyShapeKind::kCylinder);
+  EXPECT_EQ(shapes[0].size, Eigen::Vector3d(0.1, 0.4, 0));
+  EXPECT_EQ(shapes[1].kind, BodyShapeKind::kEllipsoid);
+  EXPECT_EQ(shapes[1].size, Eigen::Vector3d(0.15, 0.15, 0.15));
+}
+
+TEST(RobotShapes, PrimitivesTooSmallToBeTheBodyDoNotReplaceIt) {
+  RobotModel robot = Arm(EllipsoidInertia(3, {0.1, 0.1, 0.1}), {0, 0.3, 0});
+  robot.visuals.push_back({0, {}, Box{{0.05, 0.05, 0.05}}});
+  // 125 cm3 of 4189 cm3: a sensor, and the body still to draw.
+  EXPECT_EQ(MakeBodyShapes(robot).size(), 4u);
+  robot.visuals.back().geometry = Box{{0.1, 0.1, 0.1}};
+  EXPECT_EQ(MakeBodyShapes(robot).size(), 2u);
+}
+
+TEST(RobotShapes, LeavesOutWhatHasNoExtent) {
+  RobotModel robot = Arm({}, {0, 0.001, 0});
+  robot.collisions.push_back({0, {}, Sphere{0}});
+  // No mass, no bone that could be seen: nothing of body 0.
+  const auto shapes = MakeBodyShapes(robot);
+  ASSERT_EQ(shapes.size(), 1u);
+  EXPECT_EQ(shapes[0].body, 1);
+}
+
+TEST(RobotShapes, KeepsAbsurdInertiasVisible) {
+  Inertia needle;
+  needle.mass = 1;
+  needle.I_G_B = Eigen::Vector3d(0, 100, 100).asDiagonal();
+  const auto shapes = MakeBodyShapes(Arm(needle, {0, 0.3, 0}));
+  EXPECT_GE(shapes[0].size.minCoeff(), 0.004);
+  EXPECT_LE(shapes[0].size.maxCoeff(), 0.4);
+}
+
+}  // namespace
+}  // namespace poise

@@ -1,0 +1,330 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/report/run_log.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/log/csv_reader.h"
+#include "sim/log/open_log.h"
+#include "tools/commands/report/thinning.h"
+
+namespace poise {
+namespace {
+
+using nlohmann::json;
+
+// Rows a page carries. A run of 10 s at 1 kHz keeps every tick in its plots,
+// and fits twice into 5 MB; one of 10 minutes still replays at 30 Hz.
+constexpr long kFewestMotionRows = 3400;
+constexpr long kMostMotionRows = 18000;
+constexpr long kSignalRows = 10000;
+constexpr long kTorqueRows = 5000;
+constexpr long kTimingRows = 10000;
+
+// Pauses shorter than this part of the log do not split a span.
+constexpr long kSpansPerLog = 1000;
+
+bool StartsWith(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
+
+bool EndsWith(std::string_view text, std::string_view end) {
+  return text.size() >= end.size() &&
+         text.substr(text.size() - end.size()) == end;
+}
+
+// What the ground does to a foot; not what the controller wanted of it, nor
+// what others did to the robot.
+bool IsFootWrench(std::string_view name) {
+  for (const char* start : {"lambda.", "push.", "other."}) {
+    if (StartsWith(name, start)) return false;
+  }
+  for (const char* end : {"contact", "mx", "my", "mz", "fx", "fy", "fz"}) {
+    if (EndsWith(name, std::string(".") + end)) return true;
+  }
+  return false;
+}
+
+enum class Table { kMotion, kSignals, kTorques };
+
+bool IsPlotted(std::string_view name) {
+  for (const char* start : {"com.", "com_ref.", "cop.", "push.", "residual."}) {
+    if (StartsWith(name, start)) return true;
+  }
+  for (const char* end : {".contact", ".tilt", ".slide"}) {
+    if (EndsWith(name, end)) return true;
+  }
+  if (name == "base.z") return true;
+  for (const char* end : {".fx", ".fy", ".fz"}) {
+    if (IsFootWrench(name) && EndsWith(name, end)) return true;
+  }
+  return false;
+}
+
+bool BelongsTo(Table table, std::string_view name) {
+  switch (table) {
+    case Table::kMotion:
+      return StartsWith(name, "q.") || StartsWith(name, "base.") ||
+             StartsWith(name, "com.") || IsFootWrench(name);
+    case Table::kSignals:
+      return IsPlotted(name);
+    case Table::kTorques:
+      return StartsWith(name, "tau.");
+  }
+  return false;
+}
+
+// The columns of the log that a table keeps, with its thinning.
+class LogTable {
+ public:
+  LogTable(Table table, const LogReader& log, ThinnedTable::Keep keep,
+           long stride)
+      : sources_(Sources(table, log)),
+        errors_(Errors(table, log)),
+        thinned_(Columns(log), keep, stride),
+        row_(sources_.size() + errors_.size()) {}
+
+  void Add(double time, const LogReader& log) {
+    std::size_t i = 0;
+    for (const int source : sources_) row_[i++] = log.Number(source);
+    for (const Error& error : errors_) {
+      row_[i++] = log.Number(error.actual) - log.Number(error.reference);
+    }
+    thinned_.Add(time, row_);
+  }
+
+  json Finish() { return thinned_.Finish(); }
+
+ private:
+  struct Error {
+    std::string name;
+    int actual;
+    int reference;
+  };
+
+  static std::vector<int> Sources(Table table, const LogReader& log) {
+    std::vector<int> sources;
+    for (std::size_t i = 0; i < log.columns().size(); ++i) {
+      if (BelongsTo(table, WithoutUnit(log.columns()[i]))) {
+        sources.push_back(static_cast<int>(i));
+      }
+    }
+    return sources;
+  }
+
+  // Taken before thinning: a difference of extremes is not one of differences.
+  static std::vector<Error> Errors(Table table, const LogReader& log) {
+    std::vector<Error> errors;
+    if (table != Table::kSignals) return errors;
+    for (const std::string axis : {"x", "y", "z"}) {
+      const auto actual = log.Find("com." + axis);
+      const auto reference = log.Find("com_ref." + axis);
+      if (actual && reference) {
+        errors.push_back({"com_error." + axis, *actual, *reference});
+      }
+    }
+    return errors;
+  }
+
+  std::vector<ThinnedTable::Column> Columns(const LogReader& log) const {
+    std::vector<ThinnedTable::Column> columns;
+    for (const int source : sources_) {
+      const std::string& column = log.columns()[source];
+      columns.push_back(
+          {std::string(WithoutUnit(column)), std::string(UnitOf(column))});
+    }
+    for (const Error& error : errors_) columns.push_back({error.name, "m"});
+    return columns;
+  }
+
+  std::vector<int> sources_;
+  std::vector<Error> errors_;
+  ThinnedTable thinned_;
+  std::vector<double> row_;
+};
+
+// When something named was the case.
+class Spans {
+ public:
+  explicit Spans(long longest_pause) : longest_pause_(longest_pause) {}
+
+  void Mark(long row, double time, double dt, std::string_view name,
+            double value) {
+    auto found = spans_.find(name);
+    if (found == spans_.end()) {
+      found = spans_.emplace(std::string(name), std::vector<Span>()).first;
+    }
+    std::vector<Span>& spans = found->second;
+    if (spans.empty() || row - spans.back().last_row > longest_pause_) {
+      spans.push_back({row, time, time, value});
+    }
+    Span& span = spans.back();
+    span.last_row = row;
+    span.to = time + dt;
+    if (std::abs(value) > std::abs(span.value)) span.value = value;
+  }
+
+  // Those that were it for the longest first.
+  json ActiveToJson() const {
+    std::vector<std::pair<double, json>> rows;
+    for (const auto& [name, spans] : spans_) {
+      double total = 0, peak = 0;
+      json list = json::array();
+      for (const Span& span : spans) {
+        total += span.to - span.from;
+        peak = std::max(peak, std::abs(span.value));
+        list.push_back({span.from, span.to, span.value});
+      }
+      rows.push_back(
+          {total, {{"name", name}, {"peak", peak}, {"spans", list}}});
+    }
+    std::stable_sort(
+        rows.begin(), rows.end(),
+        [](const auto& a, const auto& b) { return a.first > b.first; });
+    json active = json::array();
+    for (auto& [total, row] : rows) active.push_back(std::move(row));
+    return active;
+  }
+
+  json ToJson() const {
+    json list = json::array();
+    for (const auto& [name, spans] : spans_) {
+      for (const Span& span : spans) {
+        list.push_back({name, span.from, span.to});
+      }
+    }
+    return list;
+  }
+
+ private:
+  struct Span {
+    long last_row;
+    double from, to, value;
+  };
+  long longest_pause_;
+  std::map<std::string, std::vector<Span>, std::less<>> spans_;
+};
+
+// Takes the first of what semicolons separate off a cell.
+std::string_view TakeEntry(std::string_view* cell) {
+  const std::string_view entry = cell->substr(0, cell->find(';'));
+  cell->remove_prefix(std::min(cell->size(), entry.size() + 1));
+  return entry;
+}
+
+// "left_foot.cop.x_max=41.2;torque.l_knee.max=3.0"
+void MarkActive(std::string_view cell, long row, double time, double dt,
+                Spans* active) {
+  while (!cell.empty()) {
+    const std::string_view entry = TakeEntry(&cell);
+    const std::size_t equals = entry.rfind('=');
+    if (equals == std::string_view::npos || equals == 0) continue;
+    double value = 0;
+    std::from_chars(entry.data() + equals + 1, entry.data() + entry.size(),
+                    value);
+    active->Mark(row, time, dt, entry.substr(0, equals), value);
+  }
+}
+
+// "l_foot|r_foot;l_hand|l_thigh"
+void MarkTouching(std::string_view cell, long row, double time, double dt,
+                  Spans* touching) {
+  while (!cell.empty()) {
+    const std::string_view entry = TakeEntry(&cell);
+    if (!entry.empty()) touching->Mark(row, time, dt, entry, 1);
+  }
+}
+
+}  // namespace
+
+json ReadRunLog(const std::filesystem::path& file) {
+  const std::unique_ptr<LogReader> reader = OpenLog(file);
+  LogReader& log = *reader;
+  const std::string name = file.filename().string();
+  const auto time_column = log.Find("time");
+  if (!time_column) {
+    throw std::invalid_argument(file.string() + (log.columns().empty()
+                                                     ? ": has no columns"
+                                                     : ": has no column time"));
+  }
+  const long expected = log.CountRows();
+  const long motion_rows =
+      std::clamp(expected / 33, kFewestMotionRows, kMostMotionRows);
+  LogTable motion(Table::kMotion, log, ThinnedTable::Keep::kEvery,
+                  StrideFor(expected, motion_rows));
+  LogTable signals(Table::kSignals, log, ThinnedTable::Keep::kExtremes,
+                   StrideFor(expected, kSignalRows));
+  LogTable torques(Table::kTorques, log, ThinnedTable::Keep::kExtremes,
+                   StrideFor(expected, kTorqueRows));
+  const long pause = 1 + expected / kSpansPerLog;
+  Spans active(pause), status(pause), touching(pause);
+
+  const auto active_column = log.Find("active");
+  const auto status_column = log.Find("status");
+  const auto touching_column = log.Find("touching");
+  json notes = json::array();
+  long rows = 0;
+  double previous = 0, dt = 0;
+  while (log.Next()) {
+    const double time = log.Number(*time_column);
+    if (!std::isfinite(time) || (rows > 0 && time <= previous)) {
+      notes.push_back("Row " + std::to_string(rows + 1) + " of " + name +
+                      " has no time after the row before; the log "
+                      "is shown up to there.");
+      break;
+    }
+    if (rows > 0) dt = time - previous;
+    previous = time;
+    motion.Add(time, log);
+    signals.Add(time, log);
+    torques.Add(time, log);
+    if (active_column) {
+      MarkActive(log.cell(*active_column), rows, time, dt, &active);
+    }
+    if (status_column && log.cell(*status_column) != "ok") {
+      status.Mark(rows, time, dt, log.cell(*status_column), 1);
+    }
+    if (touching_column) {
+      MarkTouching(log.cell(*touching_column), rows, time, dt, &touching);
+    }
+    ++rows;
+  }
+  if (log.cut_short()) {
+    notes.push_back(name + " was cut short: its last row is not whole.");
+  } else if (rows == 0 && notes.empty()) {
+    notes.push_back(name + " has a header and no rows.");
+  }
+  return {{"rows", rows},
+          {"motion", motion.Finish()},
+          {"signals", signals.Finish()},
+          {"torques", torques.Finish()},
+          {"active", active.ActiveToJson()},
+          {"status", status.ToJson()},
+          {"touching", touching.ToJson()},
+          {"notes", std::move(notes)}};
+}
+
+json ReadTiming(const std::filesystem::path& timing_csv, double dt) {
+  CsvReader timing(timing_csv);
+  const auto tick = timing.Find("tick");
+  const auto us = timing.Find("us");
+  const auto iterations = timing.Find("iterations");
+  ThinnedTable table({{"us", "us"}, {"iterations", ""}},
+                     ThinnedTable::Keep::kExtremes,
+                     StrideFor(timing.CountRows(), kTimingRows));
+  while (tick && us && timing.Next()) {
+    table.Add(timing.Number(*tick) * dt,
+              {timing.Number(*us),
+               iterations ? timing.Number(*iterations) : std::nan("")});
+  }
+  return table.Finish();
+}
+
+}  // namespace poise

@@ -1,0 +1,15 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/user_path.h"
+
+#include <cstdlib>
+
+namespace poise {
+
+std::filesystem::path UserPath(const std::string& typed) {
+  const char* start = std::getenv("BUILD_WORKING_DIRECTORY");
+  // An absolute right side wins.
+  return start ? std::filesystem::path(start) / typed
+               : std::filesystem::path(typed);
+}
+
+}  // namespace poise

@@ -1,0 +1,114 @@
+"""The C++ rules of this workspace: one place for warnings and conventions."""
+
+_COPTS = [
+    "-Wall",
+    "-Wextra",
+    "-Wshadow",
+    "-Wconversion",
+    "-Wno-sign-conversion",
+    "-Wnon-virtual-dtor",
+    "-Woverloaded-virtual",
+    # GCC raises this one wrongly inside Eigen; clang does not know it.
+    "-Wno-unknown-warning-option",
+    "-Wno-maybe-uninitialized",
+    # Clang does not know GCC's --param of .bazelrc.
+    "-Wno-unused-command-line-argument",
+    "-Werror",
+]
+
+def _precompiled(name):
+    """The copts and deps that load a header of //tools/rules/precompiled."""
+    return struct(
+        copts = _if_precompiled([
+            "-include",
+            "tools/rules/precompiled/{}.h".format(name),
+            # Say so if it cannot be used.
+            "-Winvalid-pch",
+            # What is in it counts as included: a change of that rebuilds.
+            "-fpch-deps",
+        ]),
+        deps = _if_precompiled(["//tools/rules/precompiled:" + name]),
+    )
+
+def _if_precompiled(these):
+    return select({
+        "//tools/rules/precompiled:wanted_of_clang": [],
+        "//tools/rules/precompiled:wanted": these,
+        "//conditions:default": [],
+    })
+
+def _precompiled_eigen(deps):
+    """Of what is not a test: by its optimization in .bazelrc."""
+    if not deps:  # No Eigen either; some of it defines what libc declares.
+        return struct(copts = [], deps = [])
+    folder = native.package_name().split("/")[0]
+    quick = folder in ("tests", "tools") or native.package_name() in (
+        "robot",
+        "robot/feet",
+        "robot/profile",
+        "robot/urdf",
+    )
+    return _precompiled("eigen_og" if quick else "eigen")
+
+def poise_cc_library(name, copts = [], deps = [], **kwargs):
+    header = _precompiled_eigen(deps)
+    native.cc_library(
+        name = name,
+        copts = _COPTS + header.copts + copts,
+        deps = deps + header.deps,
+        **kwargs
+    )
+
+def poise_cc_binary(name, copts = [], deps = [], **kwargs):
+    header = _precompiled_eigen(deps)
+    native.cc_binary(
+        name = name,
+        copts = _COPTS + header.copts + copts,
+        deps = deps + header.deps,
+        **kwargs
+    )
+
+def poise_cc_test(
+        name,
+        size = "small",
+        srcs = None,
+        copts = [],
+        deps = [],
+        with_main = True,
+        **kwargs):
+    """A GoogleTest with the stock main(); the source defaults to <name>.cc."""
+    header = _precompiled("test" if with_main else "eigen_og")
+    native.cc_test(
+        name = name,
+        size = size,
+        srcs = srcs or [name + ".cc"],
+        copts = _COPTS + header.copts + copts,
+        deps = deps + header.deps + (["@gtest_main"] if with_main else []),
+        **kwargs
+    )
+
+def poise_cc_benchmark(name, srcs = None, copts = [], deps = [], **kwargs):
+    """A Google Benchmark, and a test that every case of it runs once."""
+    srcs = srcs or [name + ".cc"]
+    header = _precompiled_eigen(deps)
+    copts = _COPTS + header.copts + copts
+    deps = deps + header.deps + ["@benchmark"]
+    native.cc_binary(
+        name = name,
+        testonly = True,
+        srcs = srcs,
+        copts = copts,
+        tags = ["manual"],
+        deps = deps,
+        **kwargs
+    )
+    native.cc_test(
+        name = name + "_smoke_test",
+        size = "small",
+        srcs = srcs,
+        args = ["--benchmark_min_time=0", "--benchmark_repetitions=1"],
+        copts = copts,
+        tags = ["benchmark"],
+        deps = deps,
+        **kwargs
+    )

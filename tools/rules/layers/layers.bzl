@@ -1,0 +1,132 @@
+"""The layers of this workspace: who may depend on whom, said once.
+
+LAYERS is the whole architecture.  layer_package_groups() turns it into Bazel
+visibility, which stops a forbidden direct dependency while loading; and
+layer_test(), called by lint_test() at the end of each layer's BUILD, tests what
+visibility cannot see: the transitive closure, and #includes of system headers,
+which compile without any dependency.
+"""
+
+# Layer: the layers below that it may use.
+LAYERS = {
+    "math": [],
+    "dynamics": ["math"],
+    "hqp": ["math"],
+    "robot": ["dynamics", "math"],
+    "robot/control": ["dynamics", "hqp", "math", "robot"],
+    "sim": ["dynamics", "hqp", "math", "robot", "robot/control"],
+}
+
+# Layer: the external repositories that its own libraries may use.
+_EXTERNALS = {
+    "math": ["eigen"],
+    "dynamics": ["eigen"],
+    "hqp": ["eigen"],
+    "robot": ["eigen", "tinyxml2", "urdfdom", "yaml_cpp"],
+    "robot/control": ["eigen", "yaml_cpp"],
+    "sim": ["bullet", "eigen", "mujoco", "nlohmann_json", "yaml_cpp"],
+}
+
+# External repository: its headers, as the start of a <path>.
+_HEADERS = {
+    "bullet": ["Bullet", "LinearMath/", "btBullet"],
+    "ceres": ["ceres/", "glog/"],
+    "cli11": ["CLI/"],
+    "eigen": ["Eigen/", "unsupported/"],
+    "gtest": ["gtest/", "gmock/"],
+    "kdl": ["kdl"],
+    "mpreal": ["mpreal", "mpfr"],
+    "mujoco": ["mujoco/"],
+    "nlohmann_json": ["nlohmann/"],
+    "rapidcheck": ["rapidcheck"],
+    "tinyxml2": ["tinyxml"],
+    "urdfdom": ["urdf"],
+    "yaml_cpp": ["yaml-cpp/"],
+}
+
+def layer_of(package):
+    """The layer of a package: its longest prefix in LAYERS, or None."""
+    layer = None
+    for candidate in LAYERS:
+        if package == candidate or package.startswith(candidate + "/"):
+            if layer == None or len(candidate) > len(layer):
+                layer = candidate
+    return layer
+
+def layer_package_groups():
+    """Declares //tools/rules/layers:<layer>_users, with _ for /, for every layer."""
+    for layer in LAYERS:
+        native.package_group(
+            name = layer.replace("/", "_") + "_users",
+            packages = ["//tests/...", "//tools/..."] + [
+                # robot/control is below robot as a folder, not as a layer;
+                # visibility lets it through and layer_test() does not.
+                "//{}/...".format(user)
+                for user, below in LAYERS.items()
+                if user == layer or layer in below
+            ],
+        )
+
+def layer_test():
+    """Tests every cc_library above this line against LAYERS."""
+    package = native.package_name()
+    layer = layer_of(package)
+    rules = [
+        rule
+        for rule in native.existing_rules().values()
+        if rule["kind"] == "cc_library" and not rule.get("testonly", False)
+    ]
+    if not rules:
+        return
+    labels = ["//{}:{}".format(package, rule["name"]) for rule in rules]
+    sources = []
+    for rule in rules:
+        sources += list(rule.get("srcs") or []) + list(rule.get("hdrs") or [])
+    sources = [source for source in sources if "." in source]
+    layers = [layer] + LAYERS[layer]
+    externals = {name: True for each in layers for name in _EXTERNALS[each]}
+    native.genquery(
+        name = "layer_closure",
+        expression = "kind(cc_library, deps({}))".format(" + ".join(labels)),
+        opts = ["--noimplicit_deps"],
+        scope = labels,
+    )
+
+    # A package of a layer below, but not one of a layer inside it (robot, but
+    # not robot/control), nor its face for other workspaces (//math:math).
+    inner = [
+        candidate
+        for candidate in LAYERS
+        if candidate not in layers and
+           any([candidate.startswith(each + "/") for each in layers])
+    ]
+    faces = [
+        "//{}:{}".format(each, each)
+        for each in layers
+        # //robot:robot is robot.h, not a face.
+        if each not in (package, "robot") and "/" not in each
+    ]
+    native.sh_test(
+        name = "layer_test",
+        size = "small",
+        srcs = ["//tools/rules/layers:layer_test.sh"],
+        args = [
+            "$(rootpath :layer_closure)",
+            "'^(//({})(/[^:]*)?:|@({})//)'".format(
+                "|".join(layers),
+                "|".join(externals.keys()),
+            ),
+            "'^({})$$'".format("|".join(
+                ["//{}(/[^:]*)?:.*".format(each) for each in inner] + faces +
+                ["nothing"],
+            )),
+            "'<({})'".format("|".join([
+                prefix
+                for name, prefixes in _HEADERS.items()
+                if name not in _EXTERNALS[layer]
+                for prefix in prefixes
+            ])),
+        ] + ["$(rootpath {})".format(source) for source in sources],
+        data = [":layer_closure"] + sources,
+        tags = ["lint"],
+    )

@@ -1,0 +1,355 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/studies/figures_draw.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+#include "sim/outcome.h"
+#include "tools/drawing/plot.h"
+#include "tools/drawing/robot_picture.h"
+#include "tools/studies/recorded_run.h"
+
+namespace poise {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Color kBlue = HexColor(0x1f66d1);
+const Color kOrange = HexColor(0xd9660b);
+const Color kGrey = HexColor(0x767e88);
+const Color kInk = HexColor(0x16191d);
+
+__attribute__((format(printf, 1, 2))) std::string Format(const char* format,
+                                                         ...) {
+  char text[400];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+double Largest(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) {
+    largest = std::max(largest, std::abs(value));
+  }
+  return largest;
+}
+
+double TimeOfLargest(const RecordedRun& run,
+                     const std::vector<double>& values) {
+  const auto largest = std::max_element(
+      values.begin(), values.end(),
+      [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return run["time"][largest - values.begin()];
+}
+
+// From when on a quantity stays within a bound, s after `since`.
+double SettledAfter(const RecordedRun& run, const std::vector<double>& values,
+                    double bound, double since) {
+  double last = since;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::abs(values[i]) > bound) last = run["time"][i];
+  }
+  return last - since;
+}
+
+// Poses side by side, each with its time.
+void DrawPoses(const Robot& robot, const RecordedRun& run,
+               const std::vector<double>& times, const fs::path& stem) {
+  constexpr double kWidth = 370, kHeight = 400;
+  Camera camera;
+  for (const double time : times) {
+    camera = FitCamera({kWidth, kHeight}, robot.model, run.q(time),
+                       run.ArrowAt(time), camera);
+  }
+  WritePicture(stem, {kWidth * static_cast<double>(times.size()), kHeight + 28},
+               [&](Canvas* canvas) {
+                 double x = 0;
+                 for (const double time : times) {
+                   DrawRobot({x, 0}, {kWidth, kHeight}, robot.model,
+                             run.q(time), run.ArrowAt(time), camera, canvas);
+                   canvas->Text({x + kWidth / 2, kHeight + 16},
+                                Format("t = %.2f s", time), 11, kInk,
+                                Anchor::kMiddle);
+                   x += kWidth;
+                 }
+               });
+}
+
+void DrawPlots(const std::vector<PlotSpec>& plots, const fs::path& stem) {
+  constexpr double kWidth = 440, kHeight = 260;
+  WritePicture(stem, {kWidth * static_cast<double>(plots.size()), kHeight},
+               [&](Canvas* canvas) {
+                 double x = 0;
+                 for (const PlotSpec& plot : plots) {
+                   DrawPlot({x, 0}, {kWidth, kHeight}, plot, canvas);
+                   x += kWidth;
+                 }
+               });
+}
+
+void DrawErrors(const RecordedRun& run, const fs::path& stem) {
+  std::vector<PlotSpec> plots;
+  for (const std::string axis : {"x", "y"}) {
+    PlotSpec plot;
+    plot.title = "CoM error in " + axis + ", mm";
+    plot.lines = {
+        {"", axis == "x" ? kBlue : kOrange, run["time"], run.ComError(axis)}};
+    plot.band = run.Push();
+    plot.least_extent = 4;
+    plots.push_back(plot);
+  }
+  DrawPlots(plots, stem);
+}
+
+std::string Outcome(const RecordedRun& run) {
+  Verdict verdict;
+  verdict.recovered = run.recovered();
+  const nlohmann::json& fell_at = run.summary()["fell_at"];
+  if (fell_at.is_number()) verdict.fell_at = fell_at.get<double>();
+  return Outcome(verdict);
+}
+
+// A pose figure of a push: before, when the CoM is farthest, and the end.
+Figure PushPoses(const Robot& robot, const RecordedRun& run, int number,
+                 const std::string& caption, const std::string& paper,
+                 const fs::path& stem) {
+  const auto push = *run.Push();
+  const std::vector<double> error = run.ComError("y");
+  const double middle = run.recovered() ? TimeOfLargest(run, error)
+                                        : (push.second + run.end()) / 2;
+  DrawPoses(robot, run,
+            {(push.first + push.second) / 2, middle,
+             run.recovered() ? std::min(run.end(), push.first + 3) : run.end()},
+            stem);
+  return {number, caption, paper,
+          Format("In the push, %s, and at the end. The robot %s; its pelvis "
+                 "tilts by up to %.2f rad, a foot that should stay flat by "
+                 "%.3f rad.%s",
+                 run.recovered() ? "at its farthest" : "on its way down",
+                 Outcome(run).c_str(), Largest(run["base.tilt"]),
+                 run.summary()["foot_tilt_peak"].get<double>(),
+                 run.recovered() ? ""
+                                 : " The wrenches that it asks for reach "
+                                   "outside the soles: the feet roll over "
+                                   "their edges, and leave the ground.")};
+}
+
+Figure ErrorPlots(const RecordedRun& run, int number,
+                  const std::string& caption, const std::string& paper,
+                  const fs::path& stem) {
+  DrawErrors(run, stem);
+  const auto push = *run.Push();
+  const std::vector<double> x = run.ComError("x"), y = run.ComError("y");
+  std::string ours =
+      Format("The error peaks at %.1f mm in y and %.1f mm in x. ", Largest(y),
+             Largest(x));
+  if (run.recovered()) {
+    ours += Format(
+        "It stays under 5 mm in y from %.2f s after the push on, and ends at "
+        "%.2f mm.",
+        SettledAfter(run, y, 5, push.second),
+        1e3 * std::abs(run.summary()["com_error_final"][1].get<double>()));
+  } else {
+    ours += "It diverges: the robot " + Outcome(run) +
+            Format("; the run ends when it lies or is about to, at %.2f s.",
+                   run.end());
+  }
+  return {number, caption, paper, ours};
+}
+
+// By how much the joint that moved most was moved from its start.
+std::pair<double, std::string> FarthestJoint(const Robot& robot,
+                                             const RecordedRun& run) {
+  const Eigen::VectorXd moved = (run.q(run.end()) - run.q(0))
+                                    .tail(robot.model.tree.num_joints())
+                                    .cwiseAbs();
+  Eigen::Index joint;
+  const double farthest = moved.maxCoeff(&joint);
+  return {farthest, robot.model.tree.joints()[joint].name};
+}
+
+Figure ArmPoses(const Robot& robot, const RecordedRun& run, int number,
+                const std::string& caption, const std::string& paper,
+                const fs::path& stem) {
+  DrawPoses(robot, run, {0, run.end() / 2, run.end()}, stem);
+  const auto [angle, joint] = FarthestJoint(robot, run);
+  return {number, caption, paper,
+          Format("Pushed by 20 N for 0.1 s: after %.0f s the joint farthest "
+                 "from where it began, %s, has moved by %.2f rad; parts of the "
+                 "robot touched each other in %d ticks. The CoM ends %.2f mm "
+                 "from its reference.",
+                 run.end(), joint.c_str(), angle,
+                 run.summary()["self_contact_ticks"].get<int>(),
+                 1e3 * std::hypot(
+                           run.summary()["com_error_final"][0].get<double>(),
+                           run.summary()["com_error_final"][1].get<double>()))};
+}
+
+constexpr double kSettled = 3;  // s.
+
+// The largest error once the start is over, mm.
+double TrackingError(const RecordedRun& run, const std::string& axis) {
+  const std::vector<double> error = run.ComError(axis);
+  const auto settled =
+      std::lower_bound(run["time"].begin(), run["time"].end(), kSettled) -
+      run["time"].begin();
+  return Largest({error.begin() + settled, error.end()});
+}
+
+Figure SinusoidPlots(const RecordedRun& run, const RecordedRun& feedforward,
+                     const fs::path& stem) {
+  std::vector<PlotSpec> plots;
+  for (const std::string axis : {"x", "y"}) {
+    PlotSpec plot;
+    plot.title = "CoM in " + axis + ", m";
+    plot.lines = {
+        {"reference", kGrey, run["time"], run["com_ref." + axis], true},
+        {"CoM", axis == "x" ? kBlue : kOrange, run["time"],
+         run["com." + axis]}};
+    plots.push_back(plot);
+  }
+  DrawPlots(plots, stem);
+  return {
+      5, "The CoM tracks a sinusoid",
+      "The CoM tracks a sinusoidal reference in x and y, slightly behind "
+      "by a constant offset.",
+      Format(
+          "Once its start is over, after %.0f s, the error stays within %.1f "
+          "mm in x and %.1f mm in y, a constant lag. With velocity and "
+          "acceleration of the reference fed forward it stays within %.3f "
+          "and %.3f mm.",
+          kSettled, TrackingError(run, "x"), TrackingError(run, "y"),
+          TrackingError(feedforward, "x"), TrackingError(feedforward, "y"))};
+}
+
+Figure ZmpPlots(const RecordedRun& run, const fs::path& stem) {
+  std::vector<PlotSpec> plots;
+  for (const std::string axis : {"x", "y"}) {
+    PlotSpec plot;
+    plot.title = "ZMP in " + axis + ", m";
+    plot.lines = {
+        {"", axis == "x" ? kBlue : kOrange, run["time"], run["cop." + axis]}};
+    if (axis == "y") plot.limits = {{0.1, "limit"}, {-0.1, "limit"}};
+    plot.band = run.Push();
+    plot.least_extent = 0.02;
+    plots.push_back(plot);
+  }
+  DrawPlots(plots, stem);
+  const std::vector<double>& y = run["cop.y"];
+  const long at_limit = std::count_if(y.begin(), y.end(), [](double value) {
+    return std::abs(value - 0.1) < 5e-4;
+  });
+  return {12, "The ZMP under its constraint",
+          "The constraint becomes active where y reaches 0.1 m, its limit; "
+          "then the robot recovers.",
+          Format("With the combined box |y| <= 0.1 m of (12), and 100 N for "
+                 "0.12 s: the ZMP reaches %.4f m in y and stays within half a "
+                 "millimeter of the limit for %.0f ms; the robot %s.",
+                 *std::max_element(y.begin(), y.end()),
+                 1e3 * static_cast<double>(at_limit) *
+                     run.summary()["control_dt"].get<double>(),
+                 Outcome(run).c_str())};
+}
+
+}  // namespace
+
+std::vector<FigureRun> MakeFigureRuns(const fs::path& scenarios) {
+  std::vector<FigureRun> runs;
+  for (const char* name : {"posture_off", "com_sinusoid", "weak_push",
+                           "strong_push_without_zmp", "strong_push"}) {
+    runs.push_back(
+        {name, LoadScenario(scenarios / (std::string(name) + ".yaml"))});
+  }
+  runs.push_back({"posture_on", runs[0].scenario});
+  runs.back().scenario.control.without.clear();
+  runs.push_back({"com_sinusoid_feedforward", runs[1].scenario});
+  runs.back().scenario.control.feedforward = true;
+  runs.push_back({"strong_push_zmp_box", runs[4].scenario});
+  runs.back().scenario.control.with.push_back("zmp");
+  runs.back().scenario.pushes.at(0).duration = 0.12;
+  return runs;
+}
+
+std::vector<Figure> DrawFigures(const Robot& robot, const fs::path& runs,
+                                const fs::path& pictures) {
+  fs::create_directories(pictures);
+  const auto stem = [&](int number) {
+    return pictures / Format("figure-%02d", number);
+  };
+  const auto load = [&](const char* name) {
+    return RecordedRun(robot, runs / name);
+  };
+  std::vector<Figure> figures;
+  figures.push_back(ArmPoses(
+      robot, load("posture_off"), 3, "Movement in the null space",
+      "Without the posture task the arms move about while all other tasks are "
+      "fulfilled.",
+      stem(3)));
+  figures.push_back(ArmPoses(
+      robot, load("posture_on"), 4, "PD control on the posture",
+      "With the posture task the robot stays in its initial configuration.",
+      stem(4)));
+  figures.push_back(SinusoidPlots(load("com_sinusoid"),
+                                  load("com_sinusoid_feedforward"), stem(5)));
+  const RecordedRun weak = load("weak_push");
+  figures.push_back(PushPoses(robot, weak, 6, "50 N along y",
+                              "The robot immediately after the push.",
+                              stem(6)));
+  figures.push_back(ErrorPlots(
+      weak, 7, "CoM error, 50 N along y",
+      "A large error in y at the push, then a transient that converges to "
+      "zero.",
+      stem(7)));
+  const RecordedRun without = load("strong_push_without_zmp");
+  figures.push_back(PushPoses(
+      robot, without, 8, "100 N along y, without the ZMP constraint",
+      "The robot tries to keep its feet on the ground, cannot resist, and "
+      "falls.",
+      stem(8)));
+  figures.push_back(ErrorPlots(without, 9,
+                               "CoM error, 100 N along y, without the ZMP "
+                               "constraint",
+                               "The error diverges once the robot falls.",
+                               stem(9)));
+  const RecordedRun with = load("strong_push");
+  figures.push_back(
+      PushPoses(robot, with, 10, "100 N along y, with the ZMP constraint",
+                "The robot after the push, once it has recovered.", stem(10)));
+  figures.push_back(ErrorPlots(
+      with, 11, "CoM error, 100 N along y, with the ZMP constraint",
+      "A larger transient than in figure 7, which converges.", stem(11)));
+  figures.push_back(ZmpPlots(load("strong_push_zmp_box"), stem(12)));
+  return figures;
+}
+
+void WriteResults(const std::vector<Figure>& figures, const fs::path& markdown,
+                  const std::string& pictures) {
+  std::ofstream stream(markdown);
+  stream << "# The paper's results, and ours\n\n"
+            "Written by `bazel run //tools:figures`, from fresh runs in "
+            "Bullet. Numbers are the\nplant's truth. The paper does not say "
+            "for how long it pushes; we push for 0.15 s,\nfigure 12 for 0.12 "
+            "s. Figures 1 and 2 are drawings of forces and friction cones. How "
+            "large a push\nthe robot recovers from, in every direction, is in "
+            "[push_map.md](push_map.md).\n";
+  for (const Figure& figure : figures) {
+    stream << "\n## Figure " << figure.number << ": " << figure.caption
+           << "\n\n![" << figure.caption << "](" << pictures << '/'
+           << Format("figure-%02d.png", figure.number) << ")\n\n**The paper.** "
+           << figure.paper << "\n\n**Ours.** " << figure.ours << " ([SVG]("
+           << pictures << '/' << Format("figure-%02d.svg", figure.number)
+           << "))\n";
+  }
+  if (!stream.flush()) {
+    throw std::invalid_argument(markdown.string() + ": cannot be written");
+  }
+}
+
+}  // namespace poise
