@@ -295,7 +295,7 @@ def main():
             pool += mutants.make_mutants(path, text)
     try:
         explained = survivors.explained(
-            workspace / "tools/mutation/equivalent.txt", pool
+            workspace / "tools/quality/mutation/equivalent.txt", pool
         )
     except ValueError as error:
         fail(str(error))
@@ -364,7 +364,7 @@ def main():
         print(
             f"{counts[KILLED]} killed, {counts[SURVIVED]} survived, "
             f"{counts[INVALID]} did not compile, {counts[SAME]} are the same code, "
-            f"{len(explained)} explained in tools/mutation/equivalent.txt: score "
+            f"{len(explained)} explained in tools/quality/mutation/equivalent.txt: score "
             + ("-" if score is None else f"{score:.1f} %")
         )
     return 0 if score is not None and score >= arguments.threshold and (

@@ -69,7 +69,7 @@ class Row:
         if self.is_untried != self.may_be_untried:
             return f"{where}: " + (
                 f"none of its {self.mutants} mutants was tried" if self.is_untried
-                else "was tried; take it out of tools/proof/untried.txt"
+                else "was tried; take it out of tools/quality/proof/untried.txt"
             )
         return None
 
@@ -107,7 +107,7 @@ def make_rows(workspace):
             )
     _find_ways_through(workspace, rows)
     _count_mutants(workspace, rows)
-    file = workspace.root / "tools/proof/untried.txt"
+    file = workspace.root / "tools/quality/proof/untried.txt"
     excused = {l for l in file.read_text().splitlines() if l and l[0] != "#"}
     for row in rows:
         row.may_be_untried = f"{row.path} {row.name}" in excused

@@ -146,7 +146,7 @@ def unexplained(file, results):
 
 def gone(root):
     """A mutant in equivalent.txt that the code has no more."""
-    file = root / "tools/mutation/equivalent.txt"
+    file = root / "tools/quality/mutation/equivalent.txt"
     pool = []
     for path in sorted({place.split()[0] for place, _, _ in read_entries(file)}):
         if not (root / path).is_file():
@@ -180,7 +180,7 @@ def main():
     without = len(complaints)
     complaints += stale(file, rows, read_results(workspace))
     complaints += unexplained(
-        root / "tools/mutation/survivors.txt", read_results(workspace)
+        root / "tools/quality/mutation/survivors.txt", read_results(workspace)
     )
     complaints += gone(root)
     for complaint in complaints:
