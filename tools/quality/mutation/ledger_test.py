@@ -109,6 +109,13 @@ class LedgerTest(unittest.TestCase):
         self.assertEqual(str(counts), f"2 of 2 of {len(add)}")
         self.assertNotIn(add[0].key, self.ledger.entries)
 
+    def test_replaces_counts_that_a_new_survivor_contradicts(self):
+        add = [m for m in self.pool if m.place == "Add"]
+        self.ledger.record(self.pool, {add[1]: SURVIVED}.get)
+        counts = self.ledger.counts["math", "Add"]
+        self.assertEqual(str(counts), f"0 of 1 of {len(add)}")
+        self.assertIn(add[1].key, self.ledger.entries)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -151,7 +151,8 @@ double Search(const Row& row, int n) {
     if (part > most) most = part;
     sum += part - most;
   }
-  for (int k = 0; k < n; ++k) sum += row.Part(n, k);
+  const int last = n - 1;
+  for (int k = 0; k < n; ++k) sum += row.Part(last, k);
   if (sum > most) sum = most;
   if (n > 2) ++calls_;
   if (n > 2) sum = 2;
