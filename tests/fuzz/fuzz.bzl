@@ -6,7 +6,7 @@ def poise_fuzz_test(name, seeds, deps):
     """Tests <name>.cc, which defines LLVMFuzzerTestOneInput(), on its seeds.
 
     As it is, the seeds are replayed, whole and with slips; with --config=fuzz
-    the same target is a fuzzer, which tools/fuzz.sh runs.
+    the same target is a fuzzer, which tools/quality/fuzz.sh runs.
     """
     poise_cc_test(
         name = name,

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 
+import re
 import unittest
 
 import mutants
@@ -50,14 +51,6 @@ class MutantsTest(unittest.TestCase):
             functions,
             [("Half", True), ("Thing::Thing", False), ("Thing::Count", False)],
         )
-
-    def test_tells_a_changed_function_from_one_laid_out_anew(self):
-        digests = Source(_CODE).digests()
-        self.assertEqual(set(digests), {"Half", "Thing::Thing", "Thing::Count"})
-        anew = Source(_CODE.replace("0.5 * x", "0.5  // A half.\n * x")).digests()
-        self.assertEqual(anew, digests)
-        changed = Source(_CODE.replace("0.5 * x", "0.5 / x")).digests()
-        self.assertEqual({n for n in digests if changed[n] != digests[n]}, {"Half"})
 
     def test_finds_what_a_header_declares(self):
         header = Source(
@@ -148,6 +141,96 @@ class MutantsTest(unittest.TestCase):
         self.assertGreater(len(ids), 10)
         self.assertLessEqual(ids, {m.id for m in mutants.make_mutants("a.cc", moved)})
         self.assertEqual(len({m.id for m in self.mutants}), len(self.mutants))
+
+
+_SEARCH = """// Copyright.
+double Search(const Row& row, int n) {
+  double sum = 0, most = 1;
+  for (int i = 0; i < n; ++i) {
+    const double part = row.size * i;  // Weighted.
+    if (part > most) most = part;
+    sum += part - most;
+  }
+  const int last = n - 1;
+  for (int k = 0; k < n; ++k) sum += row.Part(last, k);
+  if (sum > most) sum = most;
+  if (n > 2) ++calls_;
+  if (n > 2) sum = 2;
+  return sum;
+}
+
+struct Range {
+  double low = 0;
+};
+"""
+
+
+class DigestTest(unittest.TestCase):
+    """The digest by which the ledger knows a mutant."""
+
+    def keys(self, text, path="a.cc"):
+        return [m.key for m in mutants.make_mutants(path, text)]
+
+    def changed(self, old, new, text=_SEARCH):
+        """The mutants of `text` whose key is gone when `old` becomes `new`."""
+        self.assertIn(old, text)
+        keys = self.keys(text.replace(old, new))
+        return [m for m in mutants.make_mutants("a.cc", text) if m.key not in keys]
+
+    def test_is_unique(self):
+        keys = self.keys(_SEARCH)
+        self.assertGreater(len(keys), 30)
+        self.assertEqual(len(set(keys)), len(keys))
+
+    def test_outlives_a_renamed_parameter_and_variable(self):
+        text = _SEARCH
+        for old, new in (
+            ("row", "line"), ("n", "count"), ("sum", "total"), ("most", "limit"),
+            ("part", "share"), ("k", "i"),
+        ):
+            text = re.sub(rf"\b{old}\b", new, text)
+            self.assertEqual(self.keys(text), self.keys(_SEARCH), f"{old} {new}")
+
+    def test_outlives_comments_layout_and_another_file(self):
+        text = _SEARCH.replace("  // Weighted.", "").replace(
+            "    if (part", "    // The largest.\n    if (part"
+        ).replace(" row.size * i", "\n        row.size * i")
+        self.assertEqual(self.keys(text, "inner/b.cc"), self.keys(_SEARCH))
+
+    def test_outlives_a_new_variable_and_other_functions(self):
+        self.assertEqual(
+            self.changed("  double sum", "  const int half = n / 2;\n  double sum"), []
+        )
+        self.assertEqual(self.changed("double Search", "int A() { return 1; }\n"
+                                      "double Search"), [])
+
+    def test_changes_with_its_expression_alone(self):
+        for old, new in (
+            ("part - most", "most - part"), ("part - most", "part + most"),
+            ("part - most", "part - 2 * most"),
+        ):
+            changed = self.changed(old, new)
+            self.assertGreater(len(changed), 2, new)
+            self.assertEqual({m.before for m in changed}, {"sum += part - most;"})
+
+    def test_changes_with_members_and_called_functions(self):
+        self.assertTrue(self.changed("row.size", "row.weight"))
+        self.assertTrue(self.changed("row.Part", "row.Share"))
+        self.assertTrue(self.changed("calls_", "counts_"))
+
+    def test_changes_with_the_names_of_function_and_class(self):
+        changed = self.changed("Search", "Find")
+        self.assertEqual({m.place for m in changed}, {"Search"})
+        changed = self.changed("Range", "Interval")
+        self.assertEqual({m.before for m in changed}, {"double low = 0;"})
+
+    def test_tells_equal_expressions_of_a_function_apart(self):
+        conditions = [
+            m for m in mutants.make_mutants("a.cc", _SEARCH)
+            if m.before.startswith("if (n > 2)") and ">=" in m.after
+        ]
+        first, second = (m.digest for m in conditions)
+        self.assertEqual(second, first + ".2")
 
 
 if __name__ == "__main__":

@@ -3,8 +3,8 @@
 
 Bazel has built everything once; here one source is compiled again, by Bazel's
 own command but on precompiled headers, linked to its shared library, and the
-tests, which link dynamically, are run with that library in front. Of a header,
-so is all in its package that its own tests are made of.
+tests, which link dynamically, are run with that library in front. For a header,
+all in its layer that its own tests are made of is compiled again.
 """
 
 import pathlib
@@ -139,7 +139,7 @@ class SourceBuild(_Build):
 
 
 class HeaderBuild(_Build):
-    """A header, and the sources of its own package that some tests take it from:
+    """A header, and the sources of its own layer that some tests take it from:
     the tests', and those of the libraries that they are linked with."""
 
     def __init__(self, root, header, commands, tests, environment):

@@ -7,10 +7,15 @@ operator, an index, a comparison, a constant, a missing term.  Each is built
 and tested in a copy of the tree, on the file's own tests first, then on its
 layer's, then on all that depend on it.  A slip that no test notices survived,
 and shows where a test is missing.  A mutant that does not compile, or compiles
-to the same object code, counts neither way.
+to the same object code, counts neither way.  Figures say how many mutants were
+killed of those tried of those possible.
 
-Interrupted, the same command goes on where it was.  Exit code: 0 if the score
-reaches --threshold, 1 if not, 2 for bad input.
+The ledger, tools/quality/mutation/ledger.tsv, knows each mutant by its function
+and a digest of its expression.  It keeps the survivors with the reasons, and
+those that no test can notice, which are never tried.
+
+Interrupted, the same command goes on where it was.  Exit code: 0 if the share
+of killed among tried mutants reaches --threshold, 1 if not, 2 for bad input.
 """
 
 import argparse
@@ -27,12 +32,14 @@ import sys
 import time
 
 import mutants
-import survivors
+import report
 import workshop
-from cpp_source import Source
+from ledger import Ledger
 from workshop import INVALID, KILLED, SAME, SURVIVED
 
-_LAYERS = ("math", "dynamics", "hqp")
+_GLOBS = ["math/*", "dynamics/*", "hqp/*"]
+_LEDGER = "tools/quality/mutation/ledger.tsv"
+_MOST_STALE = 2  # Percent of the ledger's entries.
 
 
 def parse_arguments():
@@ -41,7 +48,7 @@ def parse_arguments():
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        "--files", nargs="+", metavar="GLOB", default=[f"{l}/*" for l in _LAYERS],
+        "--files", nargs="+", metavar="GLOB", default=_GLOBS,
         help="sources to mutate, from the workspace's root (default: all of "
         "math, dynamics and hqp)",
     )
@@ -63,9 +70,22 @@ def parse_arguments():
     )
     parser.add_argument(
         "--threshold", type=float, default=95, metavar="PERCENT",
-        help="the score below which the exit code is 1 (default: 95)",
+        help="the share of killed among tried mutants below which the exit code "
+        "is 1 (default: 95)",
     )
     parser.add_argument("--list", action="store_true", help="list, and stop")
+    parser.add_argument(
+        "--ledger", action="store_true",
+        help="print what the ledger says, with source lines, and stop",
+    )
+    parser.add_argument(
+        "--stale", action="store_true",
+        help="print entries of the ledger whose code is gone, and stop; exit code "
+        f"1 if these are more than {_MOST_STALE} %% of all",
+    )
+    parser.add_argument(
+        "--record", action="store_true", help=f"write the results into {_LEDGER}"
+    )
     parser.add_argument("--json", action="store_true", help="print JSON only")
     parser.add_argument(
         "--out", metavar="FILE", help="write the summary of all known results"
@@ -98,9 +118,10 @@ def find_sources(workspace, globs):
 
 
 def choose(pool, sample, per_function, seed):
-    """A sample that stays the same where the code does."""
+    """A sample that stays the same where the expressions do."""
     def rank(mutant):
-        return hashlib.sha256(f"{seed} {mutant.id}".encode()).digest()
+        name = f"{seed} {mutant.place} {mutant.digest}"
+        return hashlib.sha256(name.encode()).digest()
 
     pool = sorted(pool, key=rank)
     if per_function is not None:
@@ -173,14 +194,14 @@ class Progress:
             print("\r\033[K", end="", file=sys.stderr, flush=True)
 
 
-def try_all(chosen, shop, state, reach, explained, quiet):
+def try_all(chosen, shop, state, reach, quiet):
     """Tries what is not known; the results by mutant."""
     results, counts = {}, collections.Counter()
     progress = Progress(len(chosen))
     limits, broken = {}, set()
     for mutant in chosen:
         path = mutant.path
-        if mutant in explained or path in broken:
+        if path in broken:
             continue
         stages = shop.stages(path, reach)
         tests = [t for stage in stages for t in stage]
@@ -219,59 +240,113 @@ def try_all(chosen, shop, state, reach, explained, quiet):
     return results, broken
 
 
-def percent(killed, survived):
-    return 100 * killed / (killed + survived) if killed + survived else None
+def read_pool(workspace, globs):
+    """Every mutant of the sources; a program is not what tests call."""
+    pool = []
+    for path in find_sources(workspace, globs):
+        text = (workspace / path).read_text()
+        if "\nint main(" not in text:
+            pool += mutants.make_mutants(path, text)
+    return pool
 
 
-def summarize(workspace, pool, state, explained):
-    """All that is known of the sources as they are, by file and function."""
-    files = {}
-    digests = {
-        path: Source((workspace / path).read_text()).digests()
-        for path in {mutant.path for mutant in pool}
-    }
-    for mutant in pool:
-        entry = state.known.get(mutant.id)
-        file = files.setdefault(mutant.path, {})
-        row = file.setdefault(
-            mutant.function or "(constants)",
-            {"mutants": 0, "killed": 0, "survived": 0, "equivalent": 0, "invalid": 0},
-        )
-        if mutant.function:
-            row["digest"] = digests[mutant.path][mutant.function]
-        row["mutants"] += 1
-        if mutant in explained or entry and entry["verdict"] == SAME:
-            row["equivalent"] += 1
-        elif entry and entry["verdict"] == INVALID:
-            row["invalid"] += 1
-        elif entry and entry["verdict"] == KILLED:
-            row["killed"] += 1
-        elif entry and entry["verdict"] == SURVIVED:
-            row["survived"] += 1
-            row.setdefault("survivors", []).append(
-                {"before": mutant.before, "after": mutant.after}
+def check_ledger(ledger, pool):
+    """Prints stale entries; the exit code says whether these are too many."""
+    lines = ledger.stale(pool)
+    for line in lines:
+        print("stale: " + line)
+    share = 100 * len(lines) / max(1, len(ledger))
+    print(
+        f"{len(lines)} of {len(ledger)} entries of {_LEDGER} are stale, "
+        f"{share:.1f} %; at most {_MOST_STALE} % may be"
+    )
+    return 0 if share <= _MOST_STALE else 1
+
+
+def open_folder(arguments):
+    """The folder with copy, build and state, locked by this run."""
+    folder = pathlib.Path(
+        arguments.work or pathlib.Path.home() / ".cache/poise/mutate"
+    )
+    if arguments.work and not folder.is_absolute():
+        folder = pathlib.Path(
+            os.environ.get("BUILD_WORKING_DIRECTORY") or os.getcwd()
+        ) / folder
+    folder.mkdir(parents=True, exist_ok=True)
+    lock = open(folder / "lock", "w")
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        fail(f"{folder}: another run uses this folder; give --work DIR")
+    return folder, lock
+
+
+def try_chosen(arguments, workspace, chosen):
+    """(results by mutant, state, files left out), or None if interrupted."""
+    folder, lock = open_folder(arguments)
+    with lock:
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        shop = workshop.Workshop(workspace, folder, arguments.bazel_flag)
+        state = State(folder / "results.jsonl")
+        shop.copy()
+        try:
+            results, broken = try_all(
+                chosen, shop, state, arguments.reach, arguments.json
             )
-    return {
-        path: tried for path, rows in files.items() if (tried := {
-            name: row for name, row in rows.items()
-            if any(n for k, n in row.items() if k not in ("mutants", "digest"))
-        })
-    }
+        except KeyboardInterrupt:
+            print("\nmutate: interrupted; the same command goes on", file=sys.stderr)
+            return None
+        except workshop.BazelError as error:
+            fail(str(error))
+        finally:
+            shop.close()
+    return results, state, broken
 
 
-def show(results):
-    """The score by file and function."""
-    table = collections.defaultdict(collections.Counter)
-    for mutant, entry in results.items():
-        for function in ("", "  " + (mutant.function or "(constants)")):
-            table[mutant.path, function][entry["verdict"]] += 1
-    print(f"{'killed':>8} {'survived':>8} {'score':>7}")
-    for (path, function), counts in sorted(table.items()):
-        score = percent(counts[KILLED], counts[SURVIVED])
-        print(
-            f"{counts[KILLED]:8} {counts[SURVIVED]:8} "
-            f"{'-' if score is None else f'{score:.0f} %':>7}  {function or path}"
+def keep(arguments, workspace, pool, ledger, state):
+    """Writes what --out and --record ask for."""
+    def verdict_of(mutant):
+        entry = state.known.get(mutant.id)
+        return entry and entry["verdict"]
+
+    if arguments.out:
+        out = pathlib.Path(
+            os.environ.get("BUILD_WORKING_DIRECTORY") or os.getcwd(), arguments.out
         )
+        summary = report.summarize(pool, verdict_of, ledger)
+        out.write_text(json.dumps(summary, indent=1) + "\n")
+    if arguments.record:
+        ledger.record(pool, verdict_of)
+        ledger.write(workspace / _LEDGER)
+
+
+def conclude(arguments, selected, ledger, results, broken):
+    """Prints the figures; the exit code."""
+    counts = collections.Counter(e["verdict"] for e in results.values())
+    possible = sum(1 for m in selected if not ledger.is_equivalent(m)) - (
+        counts[INVALID] + counts[SAME]
+    )
+    tried = counts[KILLED] + counts[SURVIVED]
+    if arguments.json:
+        print(json.dumps({
+            "killed": counts[KILLED], "tried": tried, "possible": possible,
+            "survived": counts[SURVIVED], "invalid": counts[INVALID],
+            "same_code": counts[SAME],
+            "equivalent": sum(1 for m in selected if ledger.is_equivalent(m)),
+            "left_out": sorted(broken),
+            "survivors": [
+                e for e in results.values() if e["verdict"] == SURVIVED
+            ],
+        }, indent=1))
+    else:
+        report.show_results(selected, results, ledger)
+        print(
+            f"{counts[KILLED]} killed of {tried} tried of {possible} possible; "
+            f"{counts[INVALID]} did not compile, {counts[SAME]} are the same code"
+        )
+    enough = tried and 100 * counts[KILLED] >= arguments.threshold * tried
+    return 0 if enough and not broken else 1
 
 
 def main():
@@ -285,25 +360,24 @@ def main():
         value = getattr(arguments, name)
         if value is not None and value < 1:
             fail(f"--{name.replace('_', '-')} is {value}, must be positive")
-    paths = find_sources(workspace, arguments.files)
-    if not paths:
+    pool = read_pool(workspace, arguments.files)
+    if not pool:
         fail(f"no source matches {' '.join(arguments.files)}")
-    pool = []
-    for path in paths:
-        text = (workspace / path).read_text()
-        if "\nint main(" not in text:  # A program is not what tests call.
-            pool += mutants.make_mutants(path, text)
     try:
-        explained = survivors.explained(
-            workspace / "tools/mutation/equivalent.txt", pool
-        )
-    except ValueError as error:
+        ledger = Ledger.read(workspace / _LEDGER)
+    except (OSError, ValueError) as error:
         fail(str(error))
+    if arguments.stale:
+        return check_ledger(ledger, read_pool(workspace, _GLOBS))
+    selected = [
+        m for m in pool
+        if any(fnmatch.fnmatch(m.function, g) for g in arguments.functions)
+    ]
+    if arguments.ledger:
+        report.show_ledger(selected, ledger)
+        return 0
     chosen = choose(
-        [
-            m for m in pool if m not in explained
-            and any(fnmatch.fnmatch(m.function, g) for g in arguments.functions)
-        ],
+        [m for m in selected if not ledger.is_equivalent(m)],
         arguments.sample, arguments.per_function, arguments.seed,
     )
     if arguments.list:
@@ -311,65 +385,13 @@ def main():
             print(mutant.describe())
         print(f"{len(chosen)} mutants of {len(pool)}")
         return 0
-
-    folder = pathlib.Path(
-        arguments.work or pathlib.Path.home() / ".cache/poise/mutate"
-    )
-    if arguments.work and not folder.is_absolute():
-        folder = pathlib.Path(
-            os.environ.get("BUILD_WORKING_DIRECTORY") or os.getcwd()
-        ) / folder
-    folder.mkdir(parents=True, exist_ok=True)
-    lock = open(folder / "lock", "w")
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        fail(f"{folder}: another run is at work there; give --work DIR")
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-    shop = workshop.Workshop(workspace, folder, arguments.bazel_flag)
-    state = State(folder / "results.jsonl")
-    shop.copy()
-    try:
-        results, broken = try_all(chosen, shop, state, arguments.reach, explained, arguments.json)
-    except KeyboardInterrupt:
-        print("\nmutate: interrupted; the same command goes on", file=sys.stderr)
+    tried = try_chosen(arguments, workspace, chosen)
+    if tried is None:
         return 1
-    except workshop.BazelError as error:
-        fail(str(error))
-    finally:
-        shop.close()
-
-    if arguments.out:
-        out = pathlib.Path(
-            os.environ.get("BUILD_WORKING_DIRECTORY") or os.getcwd(), arguments.out
-        )
-        out.write_text(
-            json.dumps(summarize(workspace, pool, state, explained), indent=1) + "\n"
-        )
-    counts = collections.Counter(e["verdict"] for e in results.values())
-    score = percent(counts[KILLED], counts[SURVIVED])
-    if arguments.json:
-        print(json.dumps({
-            "tried": len(results), "killed": counts[KILLED],
-            "survived": counts[SURVIVED], "invalid": counts[INVALID],
-            "same_code": counts[SAME], "explained": len(explained),
-            "score_percent": score, "left_out": sorted(broken),
-            "survivors": [
-                e for e in results.values() if e["verdict"] == SURVIVED
-            ],
-        }, indent=1))
-    else:
-        show(results)
-        print(
-            f"{counts[KILLED]} killed, {counts[SURVIVED]} survived, "
-            f"{counts[INVALID]} did not compile, {counts[SAME]} are the same code, "
-            f"{len(explained)} explained in tools/mutation/equivalent.txt: score "
-            + ("-" if score is None else f"{score:.1f} %")
-        )
-    return 0 if score is not None and score >= arguments.threshold and (
-        not broken
-    ) else 1
+    results, state, broken = tried
+    code = conclude(arguments, selected, ledger, results, broken)
+    keep(arguments, workspace, pool, ledger, state)
+    return code
 
 
 if __name__ == "__main__":

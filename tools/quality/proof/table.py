@@ -1,10 +1,10 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-"""The rows of docs/proof.md: each public function, its tests, its mutants."""
+"""The rows of the table: each public function, its tests, its mutants."""
 
 import collections
-import json
 
 from evidence import KINDS, LAYERS, PROOFS
+from ledger import Counts, add_up
 from mutants import make_mutants
 
 # What has a derivative or is a projection, so that Ceres has something to say.
@@ -39,17 +39,12 @@ class Row:
         self.name = name
         self.tests = {kind: [] for kind in KINDS}
         self.through = None  # The row of a proved function that leads to it.
-        self.killed = self.survived = self.equivalent = self.mutants = 0
-        self.may_be_untried = False
+        self.mutants = Counts(0, 0, 0)
         self.is_changed = False  # Since its mutants were tried.
 
     @property
     def layer(self):
         return self.path.split("/")[0]
-
-    @property
-    def tried(self):
-        return self.killed + self.survived
 
     @property
     def has_proof(self):
@@ -64,36 +59,30 @@ class Row:
             not self.tests["Ceres"]
         ):
             return f"{where}: can be differentiated, but Ceres does not check it"
-        if self.tried and not self.killed:
-            return f"{where}: none of the {self.tried} mutants tried died"
-        if self.is_untried != self.may_be_untried:
-            return f"{where}: " + (
-                f"none of its {self.mutants} mutants was tried" if self.is_untried
-                else "was tried; take it out of tools/proof/untried.txt"
-            )
+        if self.mutants.tried and not self.mutants.killed:
+            return f"{where}: none of {self.mutants.tried} tried mutants was killed"
         return None
-
-    @property
-    def is_untried(self):
-        return not self.tried and self.equivalent < self.mutants
-
-    @property
-    def score(self):
-        if self.tried:
-            changed = ", changed since" if self.is_changed else ""
-            return f"{self.killed} of {self.tried}{changed}"
-        if not self.mutants:
-            return "none"
-        return "not tried" if self.is_untried else "equivalent"
 
     def cells(self):
         cells = [self.tests[k][0].name if self.tests[k] else "" for k in KINDS]
         if self.through:
             cells[0] = f"by `{self.through.name}`"
-        return [f"`{self.name}`", *cells, self.score]
+        changed = ", changed since" if self.is_changed else ""
+        return [f"`{self.name}`", *cells, f"{self.mutants}{changed}"]
 
 
-def make_rows(workspace):
+def tree_tally(workspace, ledger):
+    """What the ledger knows of each function of the tree."""
+    pool = []
+    for layer in LAYERS:
+        for path in workspace.library_files(layer):
+            text = workspace.source(path).text
+            if "\nint main(" not in text:
+                pool += make_mutants(path, text)
+    return ledger.tally(pool)
+
+
+def make_rows(workspace, tally):
     rows = [Row(*key) for key in workspace.public_functions()]
     tests = workspace.tests()
     for row in rows:
@@ -106,14 +95,7 @@ def make_rows(workspace):
                 key=lambda t: ("Alloc" in t.name, not t.path.startswith(stem))
             )
     _find_ways_through(workspace, rows)
-    _count_mutants(workspace, rows)
-    file = workspace.root / "tools/proof/untried.txt"
-    excused = {l for l in file.read_text().splitlines() if l and l[0] != "#"}
-    for row in rows:
-        row.may_be_untried = f"{row.path} {row.name}" in excused
-        excused.discard(f"{row.path} {row.name}")
-    if excused:
-        raise SystemExit(f"{file}: no such function: {', '.join(sorted(excused))}")
+    _count_mutants(workspace, rows, tally)
     return rows
 
 
@@ -159,43 +141,22 @@ def _find_ways_through(workspace, rows):
                     distance[row.path, row.name] = steps
 
 
-def read_results(workspace):
-    """{file: {function: counts}} of the last run of //tools:mutate.
-
-    With the digest of the function as it was then; none where nobody knows.
-    """
-    return json.loads((workspace.root / "docs/mutation.json").read_text())
-
-
-def _count_mutants(workspace, rows):
+def _count_mutants(workspace, rows, tally):
     """Sums over a function's own mutants and those of what it alone can call."""
-    results = read_results(workspace)
-    possible = collections.Counter()
-    for layer in LAYERS:
-        for path in workspace.library_files(layer):
-            for mutant in make_mutants(path, workspace.source(path).text):
-                possible[path, mutant.function] += 1
     public = {row.name for row in rows}
     for row in rows:
+        counted = {row.name}
         for path in workspace.defining_files(row.path, row.name):
             words = collections.defaultdict(set)
             source = workspace.source(path)
             for function in source.functions:
                 words[function.qualified] |= source.words(function)
             private = {n.split("::")[-1]: n for n in words if n not in public}
-            counted, new = {row.name}, {row.name}
+            new = {row.name}
             while new:
                 called = set().union(*(words[n] for n in new))
                 new = {private[w] for w in called if w in private} - counted
                 counted |= new
-            digests = source.digests()
-            for name in counted:
-                result = results.get(path, {}).get(name, {})
-                row.is_changed |= bool(result) and (
-                    result.get("digest") != digests.get(name)
-                )
-                row.killed += result.get("killed", 0)
-                row.survived += result.get("survived", 0)
-                row.equivalent += result.get("equivalent", 0)
-                # What does not compile is no slip that anybody could make.
-                row.mutants += possible[path, name] - result.get("invalid", 0)
+        found = [tally[row.layer, n] for n in counted if (row.layer, n) in tally]
+        row.mutants = add_up(counts for counts, _ in found)
+        row.is_changed = any(is_changed for _, is_changed in found)

@@ -1,15 +1,15 @@
 #!/bin/bash
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-# Usage: tools/coverage.sh [TARGET...]
+# Usage: tools/quality/coverage.sh [TARGET...]
 # Lines and branches of math, dynamics, hqp and robot that the tests (all, or
 # TARGET...) run, by GCC's --coverage; the lines that none runs are listed. Exit
 # code 1 if a layer has less than 97 % of its lines, or a test fails. Builds in
 # an output base of its own, ~/.cache/poise/coverage.
 set -uo pipefail
-cd "${BUILD_WORKSPACE_DIRECTORY:-$(dirname "$0")/..}"
+cd "${BUILD_WORKSPACE_DIRECTORY:-$(dirname "$0")/../..}"
 case ${1:-} in
   -h | --help)
-    sed -n '3,7s/^# \?//p' tools/coverage.sh
+    sed -n '3,7s/^# \?//p' tools/quality/coverage.sh
     exit 0
     ;;
 esac
@@ -31,5 +31,5 @@ rm -rf "$home/counters"
 status=$?
 root=$("${bazel[@]}" info execution_root 2> /dev/null)
 "${bazel[@]}" shutdown
-python3 tools/coverage_report.py "$root" "$home/counters" math dynamics hqp robot || status=1
+python3 tools/quality/coverage_report.py "$root" "$home/counters" math dynamics hqp robot || status=1
 exit $status

@@ -1,16 +1,16 @@
 #!/bin/bash
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-# Usage: tools/fuzz.sh SECONDS [TARGET...]
+# Usage: tools/quality/fuzz.sh SECONDS [TARGET...]
 # Runs the fuzzers of tests/fuzz (all, or urdf, profile, ...) for so long each.
 # What they learn is kept in ~/.cache/poise/fuzz, where a run goes on from. An
 # input that crashes, hangs for 30 s or takes 1 GiB is kept as
 # ~/.cache/poise/fuzz/TARGET/crashes/*; replay it by giving the file to the
 # fuzzer that the summary names. Exit code 1 if there was one, 2 for bad usage.
 set -uo pipefail
-cd "${BUILD_WORKSPACE_DIRECTORY:-$(dirname "$0")/..}"
+cd "${BUILD_WORKSPACE_DIRECTORY:-$(dirname "$0")/../..}"
 
 usage() {
-  sed -n '3,9s/^# \?//p' tools/fuzz.sh >&2
+  sed -n '3,9s/^# \?//p' tools/quality/fuzz.sh >&2
   exit 2
 }
 [[ ${1:-} =~ ^[1-9][0-9]*$ ]] || usage
@@ -22,7 +22,7 @@ targets=("$@")
 labels=()
 for target in "${targets[@]}"; do
   if [[ " ${all[*]} " != *" $target "* ]]; then
-    echo "tools/fuzz.sh: no fuzzer '$target', want one of: ${all[*]}" >&2
+    echo "tools/quality/fuzz.sh: no fuzzer '$target', want one of: ${all[*]}" >&2
     exit 2
   fi
   labels+=("//tests/fuzz:${target}_fuzzer")

@@ -140,16 +140,17 @@ class Workspace:
     def library_files(self, layer):
         return [
             str(path.relative_to(self.root))
-            for path in sorted((self.root / layer).glob("*"))
+            for path in sorted((self.root / layer).rglob("*"))
             if path.suffix in (".h", ".cc")
             and not path.stem.endswith(("_test", "_benchmark"))
         ]
 
-    def test_headers(self, layer):
-        """The headers of a layer that only tests may use."""
-        rules = (self.root / layer / "BUILD").read_text().split("\n)\n")
+    @functools.lru_cache(None)
+    def test_headers(self, package):
+        """The headers of a package that only tests may use."""
+        rules = (self.root / package / "BUILD").read_text().split("\n)\n")
         return {
-            f"{layer}/{header}"
+            f"{package}/{header}"
             for rule in rules if "testonly = True" in rule
             for header in re.findall(r'"(\w+\.h)"', rule)
         }
@@ -159,7 +160,8 @@ class Workspace:
         found = {}
         for layer in LAYERS:
             for path in self.library_files(layer):
-                if path.endswith(".cc") or path in self.test_headers(layer):
+                package = path.rpartition("/")[0]
+                if path.endswith(".cc") or path in self.test_headers(package):
                     continue
                 for function in self.source(path).functions:
                     if function.is_public and not function.is_local and (

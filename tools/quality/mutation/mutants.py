@@ -1,10 +1,12 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 """Makes the mutants of a C++ file: the small slips that tests should notice."""
 
+import collections
 import hashlib
 from typing import NamedTuple
 
-from cpp_source import Source
+from cpp_source import Source, tokenize
+from expressions import Digester
 
 _ARITHMETIC = {
     "+": "-", "-": "+", "*": "/", "/": "*", "%": "*",
@@ -63,12 +65,21 @@ class Mutant(NamedTuple):
     line: int
     before: str  # The line, as it was and as it became.
     after: str
-    id: str  # The same as long as the function is.
+    id: str  # The same as long as the function's text is.
+    place: str  # The function, or "(constants)".
+    digest: str  # Of the expression and the change, with local names numbered.
+
+    @property
+    def key(self):
+        """Names the mutant in the ledger, in whichever file it is."""
+        return self.place, self.digest
+
+    @property
+    def layer(self):
+        return self.path.split("/")[0]
 
     def describe(self):
-        where = f"{self.path}:{self.line}"
-        if self.function:
-            where += f" in {self.function}"
+        where = f"{self.path}:{self.line} in {self.place}, {self.digest}"
         return f"{where} ({self.kind})\n  - {self.before}\n  + {self.after}"
 
 
@@ -93,30 +104,33 @@ class _Maker:
         self.path = path
         self.source = source
         self.tokens = source.tokens
-        self.found = []  # (start, end, new, kind)
+        self.found = []  # (first token, last token, new, kind)
+        self.digester = None  # Of the function whose mutants are made.
+        self.ordinals = collections.Counter()
 
     def make(self):
         mutants = []
         inside = set()
         for function in self.source.functions:
             self.found = []
+            self.digester = Digester(self.source, function)
             self._mutate_range(function.body, function.last)
             inside.update(range(function.first, function.last))
             if function.body == function.last or not self.found:
                 continue
             origin = self.tokens[function.first].start
-            mutants += self._name(
-                function.qualified, origin, self.source.digest(function)
-            )
+            mutants += self._name(function.qualified, self.source.digest(function))
         self.found = []
+        self.digester = Digester(self.source)
         self._mutate_constants_outside(inside)
-        mutants += self._name("", None, "")
-        return sorted(mutants, key=lambda m: (m.start, m.end, m.new))
+        mutants += self._name("", "")
+        return sorted(mutants, key=lambda m: (m.start, m.end))
 
-    def _name(self, function, origin, digest):
+    def _name(self, function, digest):
         text = self.source.text
         seen = {}
-        for start, end, new, kind in self.found:
+        for first, last, new, kind in self.found:
+            start, end = self.tokens[first].start, self.tokens[last].end
             head = text.rfind("\n", 0, start) + 1
             tail = text.find("\n", start)
             before = text[head:tail].strip()
@@ -127,17 +141,27 @@ class _Maker:
             key = (before, after, new)
             seen[key] = seen.get(key, 0) + 1
             parts = (self.path, function, digest, before, after, new, str(seen[key]))
+            place = function or "(constants)"
             yield Mutant(
                 self.path, function, kind, start, end, new,
                 self.source.line_number(start), before, after,
                 hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16],
+                place, self._digest(place, first, last, new),
             )
+
+    def _digest(self, place, first, last, new):
+        """The same expressions of one function are told apart: "...", "....2"."""
+        words = [t.text for t in tokenize(new)]
+        digest = self.digester.of_mutant(first, last, words)
+        self.ordinals[place, digest] += 1
+        ordinal = self.ordinals[place, digest]
+        return digest if ordinal == 1 else f"{digest}.{ordinal}"
 
     def _add(self, first, last, new, kind):
         """Tokens [first, last] become `new`."""
         start, end = self.tokens[first].start, self.tokens[last].end
         if self.source.text[start:end] != new:
-            self.found.append((start, end, new, kind))
+            self.found.append((first, last, new, kind))
 
     def _mutate_range(self, first, last):
         i = first
@@ -202,7 +226,7 @@ class _Maker:
         text = self.tokens[i].text
         if text == "transpose" and self.tokens[i - 1].text == ".":
             self._add(i - 1, i + 2, "", "operator")
-        if text not in _WORDS:
+        if text not in _WORDS or self.digester.is_local(i):
             return
         following = self.tokens[i + 1].text
         if text in _ACCESSORS and not (
@@ -290,7 +314,8 @@ class _Maker:
         ):
             return
         end = self._end_of_statement(first, last)
-        if end >= last:
+        around = self.source.partner.get(self.source.around[i], last)
+        if end >= last or end > around:  # The last part of a loop's head.
             return
         j, acts = first, False
         while j < end:

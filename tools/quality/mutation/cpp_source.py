@@ -96,8 +96,14 @@ class Source:
         self.tokens = tokenize(text)
         self.partner = self._match_brackets()
         self.functions = []
+        self._classes = []  # (first token, last token, qualified name)
         self._find_functions()
         self._lines = [m.end() for m in re.finditer("\n", text)]
+
+    def scope_of(self, i):
+        """The innermost class around token i; "" if there is none."""
+        around = [c for c in self._classes if c[0] < i < c[1]]
+        return max(around)[2] if around else ""
 
     def line_number(self, offset):
         return bisect.bisect_right(self._lines, offset) + 1
@@ -116,17 +122,6 @@ class Source:
         words = [t.text for t in self.tokens[function.first : function.last]]
         return hashlib.sha256(" ".join(words).encode()).hexdigest()[:12]
 
-    def digests(self):
-        """Of each function by its qualified name, all overloads together."""
-        found = {}
-        for function in self.functions:
-            if function.body != function.last:
-                found.setdefault(function.qualified, []).append(self.digest(function))
-        return {
-            name: hashlib.sha256(" ".join(each).encode()).hexdigest()[:12]
-            for name, each in found.items()
-        }
-
     def words(self, function):
         """The identifiers of a function's body and initialisers."""
         return {
@@ -137,14 +132,14 @@ class Source:
 
     def _match_brackets(self):
         partner, stack = {}, []
+        self.around = []  # The innermost bracket that is open after each token.
         for i, token in enumerate(self.tokens):
-            if token.kind != "operator":
-                continue
-            if token.text in _OPENING:
+            if token.kind == "operator" and token.text in _OPENING:
                 stack.append(i)
-            elif token.text in _CLOSING and stack:
+            elif token.kind == "operator" and token.text in _CLOSING and stack:
                 partner[stack[-1]] = i
                 partner[i] = stack.pop()
+            self.around.append(stack[-1] if stack else None)
         return partner
 
     def _find_functions(self):
@@ -184,9 +179,10 @@ class Source:
                 ):
                     kind = next(w for w in words if w in ("class", "struct", "union"))
                     at = words.index(kind)
+                    inner = scope + [words[at + 1]]
+                    self._classes.append((i, close, "::".join(inner)))
                     self._scan(
-                        i + 1, close, scope + [words[at + 1]], is_local,
-                        is_public and kind != "class",
+                        i + 1, close, inner, is_local, is_public and kind != "class"
                     )
                 elif not token.before or "=" in words and "(" not in words:
                     i = close + 1  # A braced initialiser; what follows belongs.

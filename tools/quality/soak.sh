@@ -1,15 +1,15 @@
 #!/bin/bash
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-# Usage: tools/soak.sh HOURS [TARGET...]
+# Usage: tools/quality/soak.sh HOURS [TARGET...]
 # Runs the property tests (all that use RapidCheck, or TARGET...) again and
 # again, with new seeds and ten times as many cases as the default run. Of each
 # failure it keeps a file in ~/.cache/poise/soak, which holds the command that
 # replays it and what the test printed. Exit code 1 if there was one; Bazel's,
 # at once, if something does not build.
 set -uo pipefail
-cd "${BUILD_WORKSPACE_DIRECTORY:-$(dirname "$0")/..}"
+cd "${BUILD_WORKSPACE_DIRECTORY:-$(dirname "$0")/../..}"
 if ! [[ ${1:-} =~ ^[0-9]*\.?[0-9]+$ ]]; then
-  sed -n '3,9s/^# \?//p' tools/soak.sh >&2
+  sed -n '3,9s/^# \?//p' tools/quality/soak.sh >&2
   exit 2
 fi
 end=$(awk -v hours="$1" 'BEGIN { printf "%d", systime() + 3600 * hours }')

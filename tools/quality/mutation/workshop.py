@@ -65,17 +65,18 @@ class Workshop:
         if path not in self._stages:
             package, name = os.path.split(path)
             stem = name.rsplit(".", 1)[0]
+            layer_name = package.split("/")[0]
             label = f"//{package}:{name}"
             tests = set(self._query(
                 f'kind("cc_test rule", rdeps(//..., {label})) except '
                 f'attr(tags, "{_LEFT_OUT}", //...)'
             ))
             near = set(self._query(
-                f'kind("cc_test rule", rdeps(//{package}:all, {label}, 2)) except '
+                f'kind("cc_test rule", rdeps(//{layer_name}/..., {label}, 2)) except '
                 f'attr(tags, "{_LEFT_OUT}", //...)'
             ))
             own = {t for t in tests if t.startswith(f"//{package}:{stem}")} or near
-            layer = {t for t in tests if t.startswith(f"//{package}")} - own
+            layer = {t for t in tests if re.match(f"//{layer_name}[/:]", t)} - own
             self._stages[path] = [own, layer, tests - own - layer]
         wanted = {"file": 1, "layer": 2, "all": 3}[reach]
         return [sorted(stage) for stage in self._stages[path][:wanted] if stage]
@@ -128,12 +129,12 @@ class Workshop:
         return build
 
     def _make_quick_build(self, path, stages):
-        package = os.path.dirname(path)
-        if package not in self._commands:
-            self._commands[package] = quick.parse_commands(self._bazel(
-                "aquery", f'mnemonic("CppCompile", //{package}:all)'
+        layer = path.split("/")[0]
+        if layer not in self._commands:
+            self._commands[layer] = quick.parse_commands(self._bazel(
+                "aquery", f'mnemonic("CppCompile", //{layer}/...)'
             )[1])
-        commands = self._commands[package]
+        commands = self._commands[layer]
         root = self.tree / "bazel-out/.."
         if path.endswith(".h") and stages:
             try:
