@@ -109,12 +109,15 @@ Push ReadPush(YamlFields fields) {
   } else if (frame != "world") {
     fields.Refuse("frame", "must be world or link");
   }
-  const std::string profile = fields.Text("profile", "box");
-  if (profile == "half_sine") {
-    push.profile = PushProfile::kHalfSine;
-  } else if (profile == "impulse") {
-    push.profile = PushProfile::kImpulse;
-  } else if (profile != "box") {
+  const std::string name = fields.Text("profile", NameOf(push.profile));
+  bool is_known = false;
+  for (const PushProfile profile :
+       {PushProfile::kBox, PushProfile::kHalfSine, PushProfile::kImpulse}) {
+    if (name != NameOf(profile)) continue;
+    push.profile = profile;
+    is_known = true;
+  }
+  if (!is_known) {
     fields.Refuse("profile", "must be box, half_sine or impulse");
   }
   fields.Read(Fields(&push));
