@@ -11,6 +11,7 @@
 #include "robot/control/stance.h"
 #include "robot/finding.h"
 #include "sim/number_field.h"
+#include "sim/plants/make_plant.h"
 #include "sim/yaml_fields.h"
 
 namespace poise {
@@ -180,11 +181,9 @@ void ReadControl(YamlFields fields, ControlSettings* control) {
 
 void ReadPlant(YamlFields fields, Scenario* scenario) {
   PlantSettings& plant = scenario->plant;
-  const std::string kind = fields.Text("kind", "bullet");
-  if (kind == "mujoco") {
-    scenario->plant_kind = PlantKind::kMujoco;
-  } else if (kind != "bullet") {
-    fields.Refuse("kind", "must be bullet or mujoco");
+  scenario->plant_kind = fields.Text("kind", scenario->plant_kind);
+  if (!IsPlant(scenario->plant_kind)) {
+    fields.Refuse("kind", "must be " + PlantNamesInWords());
   }
   fields.Read(Fields(&plant));
   for (YamlFields& board : fields.Maps("boards")) {

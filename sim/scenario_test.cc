@@ -117,7 +117,7 @@ sensors: {noise: 1, joint_position: 1.1, joint_velocity: 1.2,
   EXPECT_EQ(s.control.mass_error, -0.1);
   EXPECT_TRUE(s.control.inscribed && s.control.feedforward &&
               s.control.weighted && s.control.estimator);
-  EXPECT_EQ(s.plant_kind, PlantKind::kMujoco);
+  EXPECT_EQ(s.plant_kind, "mujoco");
   EXPECT_EQ(s.plant.dt, 0.0005);
   EXPECT_EQ(s.plant.friction, 0.7);
   EXPECT_EQ(s.plant.torque_scale, 0.5);

@@ -35,10 +35,6 @@ std::string LinkName(const Robot& robot, const PushOnRobot& push) {
   return "";
 }
 
-const char* NameOf(PlantKind kind) {
-  return kind == PlantKind::kMujoco ? "mujoco" : "bullet";
-}
-
 // The push that the keys of a single push describe: the largest one, or the
 // first one where none has an impulse.
 const Push& MainPush(const Scenario& scenario) {
@@ -125,7 +121,7 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
   json["scenario"] = scenario.name;
   json["robot"] = robot.model.name;
   json["seed"] = scenario.seed;
-  json["plant"] = NameOf(scenario.plant_kind);
+  json["plant"] = scenario.plant_kind;
   json["control_dt"] = scenario.control.dt;
   json["plant_dt"] = scenario.plant.dt;
   json["duration"] = simulated;
@@ -200,7 +196,7 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
            robot.model.tree.num_joints(), robot.model.tree.total_mass());
   table +=
       Line("simulated", "%.2f s in %s, control at %.0f Hz", result.duration,
-           NameOf(scenario.plant_kind), 1 / scenario.control.dt);
+           scenario.plant_kind.c_str(), 1 / scenario.control.dt);
   table += PushLines(robot, scenario);
   if (result.yardstick) {
     table += Line("a pendulum takes", "%.2f N s at its CoM, %.2f N s so high",
