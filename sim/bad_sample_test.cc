@@ -32,7 +32,7 @@ Stand StandOn(const std::function<void(int, Measurement*)>& spoil, int ticks,
   const Robot robot = LoadHumanoid();
   const Tree& tree = robot.model.tree;
   const int n = tree.num_joints();
-  const auto plant = MakePlant(robot, PlantKind::kBullet, {});
+  const auto plant = MakePlant(robot, "bullet", {});
   State state{0, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv())};
   plant->Reset(state.q, state.v);
   Controller controller(robot);

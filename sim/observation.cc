@@ -45,26 +45,12 @@ double StandingHeight(const Robot& robot) {
   return robot.q_nominal.z() + (R_WB * BasePoint(robot.model)).z();
 }
 
-Pose MidFeet(const std::vector<Pose>& X_WC, const Eigen::Vector3d& normal_W) {
-  Eigen::Vector3d p_WM = Eigen::Vector3d::Zero();
-  Eigen::Vector3d x_W = Eigen::Vector3d::Zero();
-  for (const Pose& X : X_WC) {
-    p_WM += X.p / static_cast<double>(X_WC.size());
-    x_W += X.R.col(0);
-  }
-  Pose X_WM;
-  X_WM.p = p_WM;
-  X_WM.R.col(2) = normal_W;
-  X_WM.R.col(0) = (x_W - normal_W.dot(x_W) * normal_W).normalized();
-  X_WM.R.col(1) = normal_W.cross(X_WM.R.col(0));
-  return X_WM;
-}
-
 Observer::Observer(const Robot& robot, const Ground& ground)
     : robot_(robot),
       base_point_B_(BasePoint(robot.model)),
       normal_W_(GroundNormal(ground)),
       tick_(robot.model.tree, FootFrames(robot)),
+      contacts_(robot.feet.size()),
       put_down_(robot.feet.size()),
       was_down_(robot.feet.size(), false) {
   observation_.feet.resize(robot.feet.size());
@@ -101,14 +87,17 @@ void Observer::ObserveState(const PlantState& state,
 void Observer::ObserveForces(
     const std::vector<Eigen::Matrix<double, 6, 1>>& F_Co_C) {
   Observation& now = observation_;
-  std::vector<Pose> X_WC;
-  for (const FootObservation& foot : now.feet) X_WC.push_back(foot.X_WC);
-  const Pose X_WM = MidFeet(X_WC, normal_W_);
+  for (size_t i = 0; i < now.feet.size(); ++i) {
+    now.feet[i].F_Co_C = F_Co_C[i];
+    now.feet[i].in_contact = F_Co_C[i][5] > 0;
+    contacts_[i].X_WC = now.feet[i].X_WC;
+    contacts_[i].in_contact = now.feet[i].in_contact;
+  }
+  const Pose X_WM = MidFeet(contacts_);
   // The whole wrench about M's origin, in its axes.
   Eigen::Vector3d moment_M = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_M = Eigen::Vector3d::Zero();
   for (size_t i = 0; i < now.feet.size(); ++i) {
-    now.feet[i].F_Co_C = F_Co_C[i];
     const Pose X_MC = X_WM.Inverse() * now.feet[i].X_WC;
     const Eigen::Vector3d force = X_MC.R * F_Co_C[i].tail<3>();
     moment_M += X_MC.R * F_Co_C[i].head<3>() + X_MC.p.cross(force);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/tick.h"
+#include "robot/control/contacts.h"
 #include "robot/robot.h"
 #include "sim/plants/plant.h"
 #include "sim/plants/plant_settings.h"
@@ -15,6 +16,8 @@ namespace poise {
 struct FootObservation {
   Pose X_WC;         ///< Of its contact frame.
   bool down = true;  ///< It is meant to be in contact.
+  /// The ground presses on its sole in the tick that follows, as measured.
+  bool in_contact = true;
   double tilt = 0;   ///< Of the sole against where it was put down, rad.
   double slide = 0;  ///< Along the ground since it was put down, m.
   Eigen::Matrix<double, 6, 1> F_Co_C =
@@ -31,8 +34,9 @@ struct Observation {
   Eigen::Vector3d com = Eigen::Vector3d::Zero();
   Eigen::Vector3d com_ref = Eigen::Vector3d::Zero();
   std::vector<FootObservation> feet;
-  /// Center of pressure of all feet together in the mid-feet frame; NaN where
-  /// they bear nothing.
+  /// Center of pressure of all feet together in MidFeet() of the feet that the
+  /// ground presses on, as the controller's task zmp has it; NaN where they bear
+  /// nothing.
   Eigen::Vector2d cop = Eigen::Vector2d::Zero();
 };
 
@@ -60,7 +64,8 @@ class Observer {
   Eigen::Vector3d normal_W_;
   Tick tick_;
   Observation observation_;
-  std::vector<Pose> put_down_;  // Each foot's pose when it was put down.
+  std::vector<ContactTick> contacts_;  // Pose and measured contact alone.
+  std::vector<Pose> put_down_;         // Each foot's pose when it was put down.
   std::vector<bool> was_down_;
   Eigen::Vector3d standing_z_B_ = Eigen::Vector3d::UnitZ();
   bool first_ = true;
@@ -73,9 +78,5 @@ Eigen::Vector3d BasePoint(const RobotModel& model);
 
 /// The height of BasePoint() in the nominal posture, which stands on the ground.
 double StandingHeight(const Robot& robot);
-
-/// The mid-feet frame M of poses of contact frames: in the middle, x along the
-/// mean of their x axes in the ground, z out of it.
-Pose MidFeet(const std::vector<Pose>& X_WC, const Eigen::Vector3d& normal_W);
 
 }  // namespace poise

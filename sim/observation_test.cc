@@ -158,39 +158,59 @@ TEST(Observer, FindsTheCenterOfPressureBetweenTheFeet) {
   Vector6d none = Vector6d::Zero(), weight = none;
   weight[5] = 30;
   EXPECT_TRUE(cop(weight, weight).isMuchSmallerThan(1, kRounding));
-  EXPECT_TRUE(cop(weight, none).isApprox(Eigen::Vector2d(0, 0.1)));
   EXPECT_TRUE(cop(weight, 3 * weight).isApprox(Eigen::Vector2d(0, -0.05)));
   // 30 N at (0.02, -0.01) of the left sole, which is turned by 0.2.
   Vector6d off = weight;
   off.head<3>() = Vector3d(0.02, -0.01, 0).cross(off.tail<3>());
   const Eigen::Vector2d at(0.02 * std::cos(0.2) + 0.01 * std::sin(0.2),
                            0.1 + 0.02 * std::sin(0.2) - 0.01 * std::cos(0.2));
-  EXPECT_TRUE(cop(off, none).isApprox(at));
+  EXPECT_TRUE(cop(off, weight).isApprox((at + Eigen::Vector2d(0, -0.1)) / 2));
   EXPECT_EQ(observer.observation().feet[0].F_Co_C, off);
-  EXPECT_EQ(observer.observation().feet[1].F_Co_C, none);
+  EXPECT_EQ(observer.observation().feet[1].F_Co_C, weight);
   // Sideways forces at the height of the soles do not move it.
   weight[3] = 10;
-  EXPECT_TRUE(cop(weight, none).isApprox(Eigen::Vector2d(0, 0.1)));
+  EXPECT_TRUE(cop(weight, 3 * weight).isApprox(Eigen::Vector2d(0, -0.05)));
   // Less than 1 N bears nothing.
   weight[5] = 0.99;
   EXPECT_TRUE(cop(weight, none).array().isNaN().all());
 }
 
-TEST(MidFeet, LiesBetweenTheFeetInTheGround) {
-  const Ground slope{0.1, -0.2, {}};
-  const Vector3d normal = GroundNormal(slope);
-  std::vector<Pose> X_WC(2);
-  X_WC[0] = {Turn(0.5, kUp).toRotationMatrix(), {1, 2, 3}};
-  X_WC[1] = {Turn(-0.1, kUp).toRotationMatrix(), {3, 2, 1}};
-  const Pose X_WM = MidFeet(X_WC, normal);
-  EXPECT_TRUE(X_WM.p.isApprox(Vector3d(2, 2, 2)));
-  EXPECT_TRUE(X_WM.R.col(2).isApprox(normal));
-  EXPECT_TRUE(X_WM.R.isUnitary(kRounding));
-  EXPECT_NEAR(X_WM.R.determinant(), 1, kRounding);
-  // Seen from above, x points halfway between the feet's.
-  const Vector3d ahead(std::cos(0.2), std::sin(0.2), 0);
-  EXPECT_NEAR(X_WM.R.col(0).dot(normal.cross(ahead)), 0, kRounding);
-  EXPECT_GT(X_WM.R.col(0).dot(ahead), 0.9);
+// The box of the task zmp is about the feet in contact. A foot in the air must
+// not move the frame in which the CoP is compared with that box.
+TEST(Observer, TakesTheCenterOfPressureFromTheFeetInContact) {
+  Observer observer(MakeTwoSoles(), {});
+  observer.ObserveState(StateAt({0.5, 0.6, 0.05}, Turn(0.7, kUp)), {},
+                        Vector3d::Zero());
+  Vector6d none = Vector6d::Zero(), off = none;
+  off[5] = 30;
+  off.head<3>() = Vector3d(0.02, -0.01, 0).cross(off.tail<3>());
+  const Observation& now = observer.observation();
+  for (const int foot : {0, 1}) {
+    observer.ObserveForces({foot == 0 ? off : none, foot == 0 ? none : off});
+    EXPECT_TRUE(now.cop.isApprox(Eigen::Vector2d(0.02, -0.01)));
+    EXPECT_TRUE(now.feet[foot].in_contact);
+    EXPECT_FALSE(now.feet[1 - foot].in_contact);
+  }
+}
+
+// The box of the task zmp is level, on a slope too.
+TEST(Observer, TakesTheCenterOfPressureInALevelFrame) {
+  Ground slope;
+  slope.roll = 0.2;
+  const Quaterniond R_WG = Turn(0.2, Vector3d::UnitX());
+  Observer observer(MakeTwoSoles(), slope);
+  observer.ObserveState(StateAt(R_WG * Vector3d(0, 0, 0.05), R_WG), {},
+                        Vector3d::Zero());
+  const Observation& now = observer.observation();
+  // Vertical forces, three times as much on the right sole.
+  std::vector<Vector6d> F_Co_C(2, Vector6d::Zero());
+  for (const int foot : {0, 1}) {
+    F_Co_C[foot].tail<3>() =
+        now.feet[foot].X_WC.R.transpose() * (foot == 0 ? 30 : 90) * kUp;
+  }
+  observer.ObserveForces(F_Co_C);
+  EXPECT_NEAR(now.cop.x(), 0, kRounding);
+  EXPECT_NEAR(now.cop.y(), -0.05 * std::cos(0.2), kRounding);
 }
 
 }  // namespace

@@ -32,6 +32,18 @@ void RequireFinite(const char* what, const Eigen::Vector3d& values) {
 
 }  // namespace
 
+const char* NameOf(PushProfile profile) {
+  switch (profile) {
+    case PushProfile::kBox:
+      return "box";
+    case PushProfile::kHalfSine:
+      return "half_sine";
+    case PushProfile::kImpulse:
+      return "impulse";
+  }
+  return "";
+}
+
 double ProfileIntegral(const Push& push, double until) {
   const double time = until - push.start;
   if (!(time > 0)) return 0;
@@ -39,6 +51,22 @@ double ProfileIntegral(const Push& push, double until) {
       push.profile == PushProfile::kImpulse || time >= push.duration;
   return push.duration *
          IntegralTo(push.profile, is_whole ? 1 : time / push.duration);
+}
+
+double ImpulseOf(const Push& push, double until) {
+  return ProfileIntegral(push, until) * push.force.norm();
+}
+
+const Push* LargestPush(const std::vector<Push>& pushes, double until) {
+  const Push* largest = nullptr;
+  double most = 0;
+  for (const Push& push : pushes) {
+    const double impulse = ImpulseOf(push, until);
+    if (impulse <= most) continue;
+    most = impulse;
+    largest = &push;
+  }
+  return largest;
 }
 
 double MeanOfProfile(const Push& push, double time, double dt) {
@@ -99,6 +127,10 @@ PushOnRobot::PushOnRobot(const Robot& robot, const Push& push)
   }
   R_BF_ = X_BF.R;
   p_BoQ_B_ = push.point ? X_BF * *push.point : tree.inertias()[body_].p_BoG_B;
+}
+
+Eigen::Vector3d PushOnRobot::force() const {
+  return push_.frame == PushFrame::kWorld ? push_.force : R_BF_ * push_.force;
 }
 
 std::optional<AppliedForce> PushOnRobot::At(double time, double dt,

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "robot/robot.h"
 #include "sim/plants/plant.h"
@@ -15,6 +16,9 @@ namespace poise {
 /// peak force F: F T for kBox, 2/pi F T for kHalfSine. kImpulse gives all F T
 /// within one step.
 enum class PushProfile { kBox, kHalfSine, kImpulse };
+
+/// The name of a profile in files: "box", "half_sine" or "impulse".
+const char* NameOf(PushProfile profile);
 
 /// The axes in which a push's force and moment are given.
 enum class PushFrame { kWorld, kLink };
@@ -42,6 +46,15 @@ double MeanOfProfile(const Push& push, double time, double dt);
 double ProfileIntegral(const Push& push,
                        double until = std::numeric_limits<double>::infinity());
 
+/// The impulse of a push up to a time, N s: ProfileIntegral() times the norm of
+/// its peak force.
+double ImpulseOf(const Push& push,
+                 double until = std::numeric_limits<double>::infinity());
+
+/// The push with the largest impulse up to a time, the first one of equals;
+/// null where none has any.
+const Push* LargestPush(const std::vector<Push>& pushes, double until);
+
 /// A push on a robot, its link looked up.
 class PushOnRobot {
  public:
@@ -57,6 +70,10 @@ class PushOnRobot {
   const Push& push() const { return push_; }
   int body() const { return body_; }
   const Eigen::Vector3d& p_BoQ_B() const { return p_BoQ_B_; }
+
+  /// The peak force in the world's axes, or in its body's axes where it is
+  /// given in its link's: then it turns with the body.
+  Eigen::Vector3d force() const;
 
  private:
   Push push_;

@@ -46,20 +46,6 @@ std::string FindBlowUp(const Tree& tree, const Eigen::VectorXd& v) {
   return "";
 }
 
-// The push with the largest impulse, if there is any.
-const Push* FindLargestPush(const Scenario& scenario, RunResult* result) {
-  const Push* largest = nullptr;
-  for (const Push& push : scenario.pushes) {
-    const double impulse =
-        ProfileIntegral(push, scenario.duration) * push.force.norm();
-    if (impulse <= result->impulse_Ns) continue;
-    result->impulse_Ns = impulse;
-    result->push_duration = push.duration;
-    largest = &push;
-  }
-  return largest;
-}
-
 // What a pendulum could take of it in this robot's place, on the feet that are
 // meant to be down as it begins.
 std::optional<Yardstick> Measure(const Robot& robot, const Push& push,
@@ -102,7 +88,11 @@ RunResult Run(const Robot& robot, const Scenario& scenario,
   std::vector<float> us;
   us.reserve(ticks);
   RunResult result;
-  const Push* push = FindLargestPush(scenario, &result);
+  const Push* push = LargestPush(scenario.pushes, scenario.duration);
+  if (push != nullptr) {
+    result.impulse_Ns = ImpulseOf(*push, scenario.duration);
+    result.push_duration = push->duration;
+  }
   const auto before = Clock::now();
   while (result.ticks < ticks && !judge.is_down() && !result.interrupted) {
     loop.Tick();

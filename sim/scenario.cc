@@ -11,6 +11,7 @@
 #include "robot/control/stance.h"
 #include "robot/finding.h"
 #include "sim/number_field.h"
+#include "sim/plants/make_plant.h"
 #include "sim/yaml_fields.h"
 
 namespace poise {
@@ -109,12 +110,15 @@ Push ReadPush(YamlFields fields) {
   } else if (frame != "world") {
     fields.Refuse("frame", "must be world or link");
   }
-  const std::string profile = fields.Text("profile", "box");
-  if (profile == "half_sine") {
-    push.profile = PushProfile::kHalfSine;
-  } else if (profile == "impulse") {
-    push.profile = PushProfile::kImpulse;
-  } else if (profile != "box") {
+  const std::string name = fields.Text("profile", NameOf(push.profile));
+  bool is_known = false;
+  for (const PushProfile profile :
+       {PushProfile::kBox, PushProfile::kHalfSine, PushProfile::kImpulse}) {
+    if (name != NameOf(profile)) continue;
+    push.profile = profile;
+    is_known = true;
+  }
+  if (!is_known) {
     fields.Refuse("profile", "must be box, half_sine or impulse");
   }
   fields.Read(Fields(&push));
@@ -177,11 +181,9 @@ void ReadControl(YamlFields fields, ControlSettings* control) {
 
 void ReadPlant(YamlFields fields, Scenario* scenario) {
   PlantSettings& plant = scenario->plant;
-  const std::string kind = fields.Text("kind", "bullet");
-  if (kind == "mujoco") {
-    scenario->plant_kind = PlantKind::kMujoco;
-  } else if (kind != "bullet") {
-    fields.Refuse("kind", "must be bullet or mujoco");
+  scenario->plant_kind = fields.Text("kind", scenario->plant_kind);
+  if (!IsPlant(scenario->plant_kind)) {
+    fields.Refuse("kind", "must be " + PlantNamesInWords());
   }
   fields.Read(Fields(&plant));
   for (YamlFields& board : fields.Maps("boards")) {

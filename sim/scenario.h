@@ -12,8 +12,6 @@
 
 namespace poise {
 
-enum class PlantKind { kBullet, kMujoco };
-
 /// How far from equilibrium the robot starts.
 struct StartSettings {
   double joints = 0;   ///< Joints outside the legs, each drawn in +- this, rad.
@@ -69,7 +67,7 @@ struct Scenario {
   std::vector<StanceEvent> stance;
   ComMotion com;
   ControlSettings control;
-  PlantKind plant_kind = PlantKind::kBullet;
+  std::string plant_kind = "bullet";  ///< One of PlantNames().
   PlantSettings plant;
   SensorSettings sensors;
 };

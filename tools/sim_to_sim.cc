@@ -52,7 +52,7 @@ int Main(int argc, char** argv) {
     std::array<std::future<Verdict>, 2> verdicts;
     for (const int i : {0, 1}) {
       Scenario scenario = LoadScenario("sim/scenarios/" + name + ".yaml");
-      scenario.plant_kind = i == 0 ? PlantKind::kBullet : PlantKind::kMujoco;
+      scenario.plant_kind = i == 0 ? "bullet" : "mujoco";
       verdicts[i] = std::async(std::launch::async, [&robot, scenario] {
         return Run(robot, scenario).verdict;
       });

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "robot/finding.h"
+#include "sim/log/columns.h"
 
 namespace poise {
 namespace {
@@ -20,16 +21,6 @@ void Split(std::string_view line, std::vector<std::string_view>* cells) {
     if (comma == std::string_view::npos) return;
     line.remove_prefix(comma + 1);
   }
-}
-
-bool HasWords(std::string_view column) {
-  for (const char* name :
-       {"touching", "status", "active", "lost", "conflict", "reason"}) {
-    if (column == name) return true;
-  }
-  constexpr std::string_view kPhase = ".phase";
-  return column.size() > kPhase.size() &&
-         column.substr(column.size() - kPhase.size()) == kPhase;
 }
 
 // False if the text is no number; an empty one is NaN.
@@ -52,7 +43,7 @@ CsvReader::CsvReader(const std::filesystem::path& file)
   Split(line_, &cells_);
   columns_.assign(cells_.begin(), cells_.end());
   for (const std::string& column : columns_) {
-    has_words_.push_back(HasWords(column));
+    has_words_.push_back(GroupOf(column) == ColumnGroup::kText);
   }
   numbers_.assign(columns_.size(), std::numeric_limits<double>::quiet_NaN());
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "robot/control/conflict.h"
+#include "sim/log/columns.h"
 
 namespace poise {
 
@@ -18,52 +19,17 @@ constexpr int kRowsAtOnce = 50;
 constexpr double kNoticeableSlack = 1e-6;
 // A conflict lasts, and takes some ten solutions to find.
 constexpr double kBetweenConflicts = 0.05;  // s.
-constexpr const char* kWrench[] = {"mx[Nm]", "my[Nm]", "mz[Nm]",
-                                   "fx[N]",  "fy[N]",  "fz[N]"};
 
 std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
-  std::vector<std::string> columns = {
-      "base.x[m]",    "base.y[m]",    "base.z[m]", "base.qx",
-      "base.qy",      "base.qz",      "base.qw",   "base.tilt[rad]",
-      "com.x[m]",     "com.y[m]",     "com.z[m]",  "com_ref.x[m]",
-      "com_ref.y[m]", "com_ref.z[m]", "cop.x[m]",  "cop.y[m]"};
-  for (const Foot& foot : robot.feet) {
-    columns.push_back(foot.name + ".contact");
-    columns.push_back(foot.name + ".tilt[rad]");
-    columns.push_back(foot.name + ".slide[m]");
-    for (const char* part : kWrench) columns.push_back(foot.name + "." + part);
-  }
-  for (const char* part :
-       {"push.fx[N]", "push.fy[N]", "push.fz[N]", "other.fx[N]", "other.fy[N]",
-        "other.fz[N]", "self_contacts"}) {
-    columns.push_back(part);
-  }
+  std::vector<std::string> feet, joints, tasks;
+  for (const Foot& foot : robot.feet) feet.push_back(foot.name);
   for (const Joint& joint : robot.model.tree.joints()) {
-    columns.push_back("tau." + joint.name + "[Nm]");
-  }
-  for (const Joint& joint : robot.model.tree.joints()) {
-    columns.push_back("q." + joint.name + "[rad]");
-  }
-  for (const Foot& foot : robot.feet) {
-    for (const char* part : kWrench) {
-      columns.push_back("lambda." + foot.name + "." + part);
-    }
+    joints.push_back(joint.name);
   }
   for (int i = 0; i < stack.num_tasks(); ++i) {
-    columns.push_back("residual." + std::string(stack.task(i).name()));
+    tasks.emplace_back(stack.task(i).name());
   }
-  using Kind = LogColumn::Kind;
-  std::vector<LogColumn> all = {{"time[s]", Kind::kTime}};
-  for (const std::string& name : columns) all.push_back({name, Kind::kNumber});
-  for (const char* name :
-       {"touching", "status", "active", "lost", "conflict"}) {
-    all.push_back({name, Kind::kText});
-  }
-  for (const Foot& foot : robot.feet) {
-    all.push_back({foot.name + ".phase", Kind::kText});
-  }
-  all.push_back({"reason", Kind::kText});
-  return all;
+  return LogColumns(feet, joints, tasks);
 }
 
 // Why a tick is not ok.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "sim/log/columns.h"
 #include "sim/log/open_log.h"
 
 namespace poise {
@@ -21,23 +22,26 @@ RunColumns::RunColumns(const std::filesystem::path& file,
     }
     targets.emplace_back(*column, &columns_[name]);
   }
-  const auto time = log.Find("time");
+  const auto time = log.Find(kTimeColumn);
   if (!time) {
-    throw std::invalid_argument(file.string() + ": has no column time");
+    throw std::invalid_argument(file.string() + ": has no column " +
+                                kTimeColumn);
   }
-  if (!columns_.count("time")) targets.emplace_back(*time, &columns_["time"]);
+  if (!columns_.count(kTimeColumn)) {
+    targets.emplace_back(*time, &columns_[kTimeColumn]);
+  }
   while (log.Next()) {
     for (const auto& [column, values] : targets) {
       values->push_back(log.Number(column));
     }
   }
-  if (columns_["time"].empty()) {
+  if (columns_[kTimeColumn].empty()) {
     throw std::invalid_argument(file.string() + ": has no rows");
   }
 }
 
 int RunColumns::RowAt(double time) const {
-  const std::vector<double>& times = columns_.at("time");
+  const std::vector<double>& times = columns_.at(kTimeColumn);
   // A time of a log is a sum of ticks: allow for its rounding.
   const auto row = std::lower_bound(times.begin(), times.end(), time - 1e-9);
   return static_cast<int>(
@@ -45,10 +49,15 @@ int RunColumns::RowAt(double time) const {
 }
 
 std::vector<std::string> ConfigurationColumns(const RobotModel& robot) {
-  std::vector<std::string> names = {"base.x",  "base.y",  "base.z", "base.qx",
-                                    "base.qy", "base.qz", "base.qw"};
+  std::vector<std::string> names;
+  for (const char axis : {'x', 'y', 'z'}) {
+    names.push_back(BasePositionColumn(axis));
+  }
+  for (const char part : {'x', 'y', 'z', 'w'}) {
+    names.push_back(BaseQuaternionColumn(part));
+  }
   for (const Joint& joint : robot.tree.joints()) {
-    names.push_back("q." + joint.name);
+    names.push_back(PositionColumn(joint.name));
   }
   return names;
 }

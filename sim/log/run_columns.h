@@ -11,7 +11,8 @@
 
 namespace poise {
 
-/// Columns of a run's log, whole, by name without unit.
+/// Columns of a run's log, whole, by the names that were asked for, as
+/// columns.h has them. kTimeColumn is always among them.
 class RunColumns {
  public:
   /// Reads columns. Throws std::invalid_argument, naming file and column, if

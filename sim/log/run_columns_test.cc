@@ -6,6 +6,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "sim/log/columns.h"
+
 namespace poise {
 namespace {
 
@@ -21,7 +23,7 @@ TEST(RunColumns, ReadsTheColumnsAskedFor) {
       {"b", "a"});
   EXPECT_EQ(columns["a"], (std::vector<double>{1, 3, 5}));
   EXPECT_EQ(columns["b"], (std::vector<double>{2, 4, 6}));
-  EXPECT_EQ(columns["time"], (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(columns[kTimeColumn], (std::vector<double>{0, 0.5, 1}));
   EXPECT_EQ(columns.RowAt(-1), 0);
   EXPECT_EQ(columns.RowAt(0.1), 1);
   EXPECT_EQ(columns.RowAt(0.5), 1);

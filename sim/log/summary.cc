@@ -35,8 +35,30 @@ std::string LinkName(const Robot& robot, const PushOnRobot& push) {
   return "";
 }
 
-const char* NameOf(PlantKind kind) {
-  return kind == PlantKind::kMujoco ? "mujoco" : "bullet";
+// The push that the keys of a single push describe: the largest one, or the
+// first one where none has an impulse.
+const Push& MainPush(const Scenario& scenario) {
+  const Push* largest = LargestPush(scenario.pushes, scenario.duration);
+  return largest != nullptr ? *largest : scenario.pushes[0];
+}
+
+Json PushesToJson(const Robot& robot, const Scenario& scenario) {
+  Json list = Json::array();
+  for (const Push& push : scenario.pushes) {
+    const PushOnRobot aimed(robot, push);
+    Json entry;
+    entry["link"] = LinkName(robot, aimed);
+    entry["body"] = aimed.body();
+    entry["point"] = Numbers(aimed.p_BoQ_B());
+    entry["force"] = Numbers(aimed.force());
+    entry["frame"] = push.frame == PushFrame::kWorld ? "world" : "body";
+    entry["at"] = push.start;
+    entry["duration"] = push.duration;
+    entry["shape"] = NameOf(push.profile);
+    entry["impulse_Ns"] = ImpulseOf(push, scenario.duration);
+    list.push_back(std::move(entry));
+  }
+  return list;
 }
 
 // A line of the table: a label, then what printf() makes of the rest.
@@ -52,6 +74,43 @@ __attribute__((format(printf, 2, 3))) std::string Line(const char* label,
   return line;
 }
 
+// One push as a line of the table, with its start where there are several.
+std::string PushLine(const Robot& robot, const Push& push, double until,
+                     bool with_start) {
+  constexpr double kDegree = M_PI / 180;
+  const char* shape = "";
+  if (push.profile == PushProfile::kHalfSine) shape = "half sine, peak ";
+  if (push.profile == PushProfile::kImpulse) shape = "all in one step, as ";
+  const std::string start =
+      with_start ? ", from " + PrintNumber(push.start) + " s" : "";
+  return Line("push", "%.2f N s over %.3f s: %s%.0f N at %.0f deg%s on %s%s",
+              ImpulseOf(push, until), push.duration, shape, push.force.norm(),
+              std::atan2(push.force.y(), push.force.x()) / kDegree,
+              push.frame == PushFrame::kLink ? " in the link's axes" : "",
+              OneLine(LinkName(robot, PushOnRobot(robot, push))).c_str(),
+              start.c_str());
+}
+
+std::string PushLines(const Robot& robot, const Scenario& scenario) {
+  constexpr int kMostLines = 5;
+  std::vector<const Push*> shown;
+  bool is_late = !scenario.pushes.empty();
+  for (const Push& push : scenario.pushes) {
+    is_late = is_late && push.start >= scenario.duration;
+    if (ImpulseOf(push, scenario.duration) > 0) shown.push_back(&push);
+  }
+  if (is_late) return Line("push", "%s", "none before the end of the run");
+  const int count = static_cast<int>(shown.size());
+  std::string lines;
+  for (int i = 0; i < std::min(count, kMostLines); ++i) {
+    lines += PushLine(robot, *shown[i], scenario.duration, count > 1);
+  }
+  if (count > kMostLines) {
+    lines += Line("push", "and %d more", count - kMostLines);
+  }
+  return lines;
+}
+
 }  // namespace
 
 Json ToJson(const Robot& robot, const Scenario& scenario,
@@ -62,17 +121,18 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
   json["scenario"] = scenario.name;
   json["robot"] = robot.model.name;
   json["seed"] = scenario.seed;
-  json["plant"] = NameOf(scenario.plant_kind);
+  json["plant"] = scenario.plant_kind;
   json["control_dt"] = scenario.control.dt;
   json["plant_dt"] = scenario.plant.dt;
   json["duration"] = simulated;
   json["push_duration"] = result.push_duration;
   if (!scenario.pushes.empty()) {
-    const PushOnRobot push(robot, scenario.pushes[0]);
+    const PushOnRobot push(robot, MainPush(scenario));
     json["push_link"] = LinkName(robot, push);
     json["push_body"] = push.body();
     json["push_point"] = Numbers(push.p_BoQ_B());
   }
+  json["pushes"] = PushesToJson(robot, scenario);
   const ControlSettings& control = scenario.control;
   json["tasks"] = {{"set", control.tasks},
                    {"with", control.with},
@@ -136,22 +196,8 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
            robot.model.tree.num_joints(), robot.model.tree.total_mass());
   table +=
       Line("simulated", "%.2f s in %s, control at %.0f Hz", result.duration,
-           NameOf(scenario.plant_kind), 1 / scenario.control.dt);
-  if (result.impulse_Ns > 0) {
-    const PushOnRobot push(robot, scenario.pushes[0]);
-    const Eigen::Vector3d& force = scenario.pushes[0].force;
-    constexpr double kDegree = M_PI / 180;
-    table += Line("push", "%.2f N s over %.3f s: %.0f N at %.0f deg on %s",
-                  result.impulse_Ns, result.push_duration, force.norm(),
-                  std::atan2(force.y(), force.x()) / kDegree,
-                  OneLine(LinkName(robot, push)).c_str());
-  }
-  const bool is_late = std::all_of(
-      scenario.pushes.begin(), scenario.pushes.end(),
-      [&](const Push& push) { return push.start >= scenario.duration; });
-  if (is_late && !scenario.pushes.empty()) {
-    table += Line("push", "%s", "none before the end of the run");
-  }
+           scenario.plant_kind.c_str(), 1 / scenario.control.dt);
+  table += PushLines(robot, scenario);
   if (result.yardstick) {
     table += Line("a pendulum takes", "%.2f N s at its CoM, %.2f N s so high",
                   result.yardstick->lipm_Ns, result.yardstick->lipm_height_Ns);

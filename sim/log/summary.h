@@ -10,7 +10,9 @@
 
 namespace poise {
 
-/// A run as summary.json: SI units, radians; what has no value is null.
+/// A run as summary.json: SI units, radians; what has no value is null. `pushes`
+/// describes each push; impulse_Ns, push_duration, push_link, push_body and
+/// push_point describe the one with the largest impulse.
 nlohmann::ordered_json ToJson(const Robot& robot, const Scenario& scenario,
                               const RunResult& result);
 

@@ -29,7 +29,7 @@ void Simulate(double duration, Plant* plant) {
   }
 }
 
-class GroundTest : public testing::TestWithParam<PlantKind> {
+class GroundTest : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Plant> Make(const Robot& robot,
                               const PlantSettings& settings = {}) const {
@@ -41,13 +41,8 @@ class GroundTest : public testing::TestWithParam<PlantKind> {
   double Rebound(double restitution) const;
 };
 
-INSTANTIATE_TEST_SUITE_P(, GroundTest,
-                         testing::Values(PlantKind::kBullet,
-                                         PlantKind::kMujoco),
-                         [](const testing::TestParamInfo<PlantKind>& kind) {
-                           return kind.param == PlantKind::kBullet ? "Bullet"
-                                                                   : "Mujoco";
-                         });
+INSTANTIATE_TEST_SUITE_P(, GroundTest, testing::ValuesIn(PlantNames()),
+                         [](const auto& plant) { return plant.param; });
 
 // How far a block slides down a slope of a given pitch within a second.
 double GroundTest::Slide(double friction, double pitch) const {
@@ -113,7 +108,7 @@ double GroundTest::Rebound(double restitution) const {
 }
 
 TEST_P(GroundTest, BallBouncesToTheSquareOfItsRestitution) {
-  if (GetParam() == PlantKind::kMujoco) {
+  if (GetParam() == "mujoco") {
     EXPECT_THROW(Rebound(0.5), std::invalid_argument);
     return;
   }

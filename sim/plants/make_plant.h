@@ -2,16 +2,27 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "robot/robot.h"
 #include "sim/plants/plant.h"
-#include "sim/scenario.h"
+#include "sim/plants/plant_settings.h"
 
 namespace poise {
 
-/// The plant that a scenario asks for. Throws std::invalid_argument if it
-/// cannot represent the robot.
-std::unique_ptr<Plant> MakePlant(const Robot& robot, PlantKind kind,
+/// The names of all plants, the default one first. make_plant.cc has the one
+/// table of names and factories; docs/plants.md says how to add a plant.
+std::vector<std::string> PlantNames();
+
+bool IsPlant(const std::string& name);
+
+/// "bullet or mujoco", for messages.
+std::string PlantNamesInWords();
+
+/// The plant of a name. Throws std::invalid_argument if there is none, with the
+/// names that there are, or if the plant cannot represent the robot.
+std::unique_ptr<Plant> MakePlant(const Robot& robot, const std::string& name,
                                  const PlantSettings& settings);
 
 }  // namespace poise

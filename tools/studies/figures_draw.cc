@@ -8,6 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "sim/log/columns.h"
 #include "sim/outcome.h"
 #include "tools/drawing/plot.h"
 #include "tools/drawing/robot_picture.h"
@@ -46,7 +47,7 @@ double TimeOfLargest(const RecordedRun& run,
   const auto largest = std::max_element(
       values.begin(), values.end(),
       [](double a, double b) { return std::abs(a) < std::abs(b); });
-  return run["time"][largest - values.begin()];
+  return run[kTimeColumn][largest - values.begin()];
 }
 
 // From when on a quantity stays within a bound, s after `since`.
@@ -54,7 +55,7 @@ double SettledAfter(const RecordedRun& run, const std::vector<double>& values,
                     double bound, double since) {
   double last = since;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::abs(values[i]) > bound) last = run["time"][i];
+    if (std::abs(values[i]) > bound) last = run[kTimeColumn][i];
   }
   return last - since;
 }
@@ -96,11 +97,11 @@ void DrawPlots(const std::vector<PlotSpec>& plots, const fs::path& stem) {
 
 void DrawErrors(const RecordedRun& run, const fs::path& stem) {
   std::vector<PlotSpec> plots;
-  for (const std::string axis : {"x", "y"}) {
+  for (const char axis : {'x', 'y'}) {
     PlotSpec plot;
-    plot.title = "CoM error in " + axis + ", mm";
-    plot.lines = {
-        {"", axis == "x" ? kBlue : kOrange, run["time"], run.ComError(axis)}};
+    plot.title = std::string("CoM error in ") + axis + ", mm";
+    plot.lines = {{"", axis == 'x' ? kBlue : kOrange, run[kTimeColumn],
+                   run.ComError(axis)}};
     plot.band = run.Push();
     plot.least_extent = 4;
     plots.push_back(plot);
@@ -121,7 +122,7 @@ Figure PushPoses(const Robot& robot, const RecordedRun& run, int number,
                  const std::string& caption, const std::string& paper,
                  const fs::path& stem) {
   const auto push = *run.Push();
-  const std::vector<double> error = run.ComError("y");
+  const std::vector<double> error = run.ComError('y');
   const double middle = run.recovered() ? TimeOfLargest(run, error)
                                         : (push.second + run.end()) / 2;
   DrawPoses(robot, run,
@@ -133,7 +134,7 @@ Figure PushPoses(const Robot& robot, const RecordedRun& run, int number,
                  "tilts by up to %.2f rad, a foot that should stay flat by "
                  "%.3f rad.%s",
                  run.recovered() ? "at its farthest" : "on its way down",
-                 Outcome(run).c_str(), Largest(run["base.tilt"]),
+                 Outcome(run).c_str(), Largest(run[kBaseTiltColumn]),
                  run.summary()["foot_tilt_peak"].get<double>(),
                  run.recovered() ? ""
                                  : " The wrenches that it asks for reach "
@@ -146,7 +147,7 @@ Figure ErrorPlots(const RecordedRun& run, int number,
                   const fs::path& stem) {
   DrawErrors(run, stem);
   const auto push = *run.Push();
-  const std::vector<double> x = run.ComError("x"), y = run.ComError("y");
+  const std::vector<double> x = run.ComError('x'), y = run.ComError('y');
   std::string ours =
       Format("The error peaks at %.1f mm in y and %.1f mm in x. ", Largest(y),
              Largest(x));
@@ -195,24 +196,24 @@ Figure ArmPoses(const Robot& robot, const RecordedRun& run, int number,
 constexpr double kSettled = 3;  // s.
 
 // The largest error once the start is over, mm.
-double TrackingError(const RecordedRun& run, const std::string& axis) {
+double TrackingError(const RecordedRun& run, char axis) {
   const std::vector<double> error = run.ComError(axis);
-  const auto settled =
-      std::lower_bound(run["time"].begin(), run["time"].end(), kSettled) -
-      run["time"].begin();
+  const auto settled = std::lower_bound(run[kTimeColumn].begin(),
+                                        run[kTimeColumn].end(), kSettled) -
+                       run[kTimeColumn].begin();
   return Largest({error.begin() + settled, error.end()});
 }
 
 Figure SinusoidPlots(const RecordedRun& run, const RecordedRun& feedforward,
                      const fs::path& stem) {
   std::vector<PlotSpec> plots;
-  for (const std::string axis : {"x", "y"}) {
+  for (const char axis : {'x', 'y'}) {
     PlotSpec plot;
-    plot.title = "CoM in " + axis + ", m";
-    plot.lines = {
-        {"reference", kGrey, run["time"], run["com_ref." + axis], true},
-        {"CoM", axis == "x" ? kBlue : kOrange, run["time"],
-         run["com." + axis]}};
+    plot.title = std::string("CoM in ") + axis + ", m";
+    plot.lines = {{"reference", kGrey, run[kTimeColumn],
+                   run[ComReferenceColumn(axis)], true},
+                  {"CoM", axis == 'x' ? kBlue : kOrange, run[kTimeColumn],
+                   run[ComColumn(axis)]}};
     plots.push_back(plot);
   }
   DrawPlots(plots, stem);
@@ -225,24 +226,24 @@ Figure SinusoidPlots(const RecordedRun& run, const RecordedRun& feedforward,
           "mm in x and %.1f mm in y, a constant lag. With velocity and "
           "acceleration of the reference fed forward it stays within %.3f "
           "and %.3f mm.",
-          kSettled, TrackingError(run, "x"), TrackingError(run, "y"),
-          TrackingError(feedforward, "x"), TrackingError(feedforward, "y"))};
+          kSettled, TrackingError(run, 'x'), TrackingError(run, 'y'),
+          TrackingError(feedforward, 'x'), TrackingError(feedforward, 'y'))};
 }
 
 Figure ZmpPlots(const RecordedRun& run, const fs::path& stem) {
   std::vector<PlotSpec> plots;
-  for (const std::string axis : {"x", "y"}) {
+  for (const char axis : {'x', 'y'}) {
     PlotSpec plot;
-    plot.title = "ZMP in " + axis + ", m";
-    plot.lines = {
-        {"", axis == "x" ? kBlue : kOrange, run["time"], run["cop." + axis]}};
-    if (axis == "y") plot.limits = {{0.1, "limit"}, {-0.1, "limit"}};
+    plot.title = std::string("ZMP in ") + axis + ", m";
+    plot.lines = {{"", axis == 'x' ? kBlue : kOrange, run[kTimeColumn],
+                   run[CopColumn(axis)]}};
+    if (axis == 'y') plot.limits = {{0.1, "limit"}, {-0.1, "limit"}};
     plot.band = run.Push();
     plot.least_extent = 0.02;
     plots.push_back(plot);
   }
   DrawPlots(plots, stem);
-  const std::vector<double>& y = run["cop.y"];
+  const std::vector<double>& y = run[CopColumn('y')];
   const long at_limit = std::count_if(y.begin(), y.end(), [](double value) {
     return std::abs(value - 0.1) < 5e-4;
   });

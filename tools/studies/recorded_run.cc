@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "dynamics/kinematics.h"
+#include "sim/log/columns.h"
 #include "sim/log/open_log.h"
 #include "sim/push.h"
 
@@ -14,11 +15,14 @@ namespace {
 
 std::vector<std::string> ColumnNames(const RobotModel& robot) {
   std::vector<std::string> names = ConfigurationColumns(robot);
-  for (const char* name :
-       {"com.x", "com.y", "com.z", "com_ref.x", "com_ref.y", "com_ref.z",
-        "cop.x", "cop.y", "push.fx", "push.fy", "push.fz", "base.tilt"}) {
-    names.push_back(name);
+  for (const char axis : {'x', 'y', 'z'}) {
+    names.push_back(ComColumn(axis));
+    names.push_back(ComReferenceColumn(axis));
+    names.push_back(PushColumn(axis));
   }
+  names.push_back(CopColumn('x'));
+  names.push_back(CopColumn('y'));
+  names.push_back(kBaseTiltColumn);
   return names;
 }
 
@@ -43,9 +47,9 @@ Eigen::VectorXd RecordedRun::q(double time) const {
   return ConfigurationAt(robot_.model, columns_, columns_.RowAt(time));
 }
 
-std::vector<double> RecordedRun::ComError(const std::string& axis) const {
-  std::vector<double> error = columns_["com." + axis];
-  const std::vector<double>& reference = columns_["com_ref." + axis];
+std::vector<double> RecordedRun::ComError(char axis) const {
+  std::vector<double> error = columns_[ComColumn(axis)];
+  const std::vector<double>& reference = columns_[ComReferenceColumn(axis)];
   for (std::size_t i = 0; i < error.size(); ++i) {
     error[i] = 1e3 * (error[i] - reference[i]);
   }
@@ -53,10 +57,12 @@ std::vector<double> RecordedRun::ComError(const std::string& axis) const {
 }
 
 std::optional<std::pair<double, double>> RecordedRun::Push() const {
-  const std::vector<double>& time = columns_["time"];
+  const std::vector<double>& time = columns_[kTimeColumn];
+  const std::vector<double>& x = columns_[PushColumn('x')];
+  const std::vector<double>& y = columns_[PushColumn('y')];
   std::optional<std::pair<double, double>> push;
   for (std::size_t i = 0; i < time.size(); ++i) {
-    if (columns_["push.fx"][i] == 0 && columns_["push.fy"][i] == 0) continue;
+    if (x[i] == 0 && y[i] == 0) continue;
     if (!push) push = {time[i], time[i]};
     push->second = time[std::min(i + 1, time.size() - 1)];
   }
@@ -64,8 +70,9 @@ std::optional<std::pair<double, double>> RecordedRun::Push() const {
 }
 
 std::optional<PushArrow> RecordedRun::ArrowAt(double time) const {
-  const Eigen::Vector3d force(At("push.fx", time), At("push.fy", time),
-                              At("push.fz", time));
+  const Eigen::Vector3d force(At(PushColumn('x'), time),
+                              At(PushColumn('y'), time),
+                              At(PushColumn('z'), time));
   if (force.isZero()) return std::nullopt;
   const PushOnRobot push(robot_, {});
   std::vector<Pose> X_WB(robot_.model.tree.num_bodies());

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "robot/robot.h"
+#include "sim/log/columns.h"
 #include "sim/log/run_columns.h"
 #include "tools/drawing/robot_picture.h"
 
@@ -22,7 +23,7 @@ class RecordedRun {
   /// std::invalid_argument about what it cannot read.
   RecordedRun(const Robot& robot, const std::filesystem::path& folder);
 
-  /// A column of the log, by name without unit.
+  /// A column of the log, by its name in sim/log/columns.h.
   const std::vector<double>& operator[](const std::string& name) const {
     return columns_[name];
   }
@@ -33,13 +34,13 @@ class RecordedRun {
   bool recovered() const {
     return summary_.value("recovered", nlohmann::json()) == true;
   }
-  double end() const { return columns_["time"].back(); }
+  double end() const { return columns_[kTimeColumn].back(); }
 
   /// The configuration at a time, see Tree.
   Eigen::VectorXd q(double time) const;
 
   /// CoM minus its reference along an axis, mm.
-  std::vector<double> ComError(const std::string& axis) const;
+  std::vector<double> ComError(char axis) const;
 
   /// From when to when somebody pushed; nothing if nobody did.
   std::optional<std::pair<double, double>> Push() const;

@@ -25,6 +25,7 @@
 #include "robot/urdf/urdf.h"
 #include "sim/closed_loop.h"
 #include "sim/number_field.h"
+#include "sim/plants/make_plant.h"
 #include "tools/commands/command_line.h"
 #include "tools/commands/doctor/strength.h"
 #include "tools/commands/push/warnings.h"
@@ -96,8 +97,9 @@ void AddOptions(CLI::App* app, Overrides* o) {
   app->add_flag("--feedforward", o->feedforward, "of the reference's motion");
   app->add_option("--control-rate", o->control_rate, "Hz (1000)")
       ->check(finite);
-  app->add_option("--plant", o->plant, "the simulator (bullet)")
-      ->check(CLI::IsMember({"bullet", "mujoco"}));
+  app->add_option("--plant", o->plant,
+                  "the simulator (" + PlantNames()[0] + ")")
+      ->check(CLI::IsMember(PlantNames()));
   app->add_option("--plant-rate", o->plant_rate, "Hz (1000)")->check(finite);
   app->add_flag("--estimator", o->estimator,
                 "the base from sensors, not from the simulator");
@@ -183,10 +185,7 @@ void Apply(const Overrides& o, Scenario* scenario) {
   if (o.friction) control.inscribed = *o.friction == "inscribed";
   TakeRate(o.control_rate, &control.dt);
   TakeRate(o.plant_rate, &plant.dt);
-  if (o.plant) {
-    scenario->plant_kind =
-        *o.plant == "mujoco" ? PlantKind::kMujoco : PlantKind::kBullet;
-  }
+  if (o.plant) scenario->plant_kind = *o.plant;
   Take(o.mu_plant, &plant.friction);
   Take(o.mass_error, &control.mass_error);
   Take(o.torque_scale, &plant.torque_scale);

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/log/columns.h"
 #include "sim/log/csv_reader.h"
 #include "sim/log/open_log.h"
 #include "tools/commands/report/thinning.h"
@@ -31,54 +32,39 @@ constexpr long kTimingRows = 10000;
 // Pauses shorter than this part of the log do not split a span.
 constexpr long kSpansPerLog = 1000;
 
-bool StartsWith(std::string_view text, std::string_view start) {
-  return text.substr(0, start.size()) == start;
-}
-
-bool EndsWith(std::string_view text, std::string_view end) {
-  return text.size() >= end.size() &&
-         text.substr(text.size() - end.size()) == end;
-}
-
-// What the ground does to a foot; not what the controller wanted of it, nor
-// what others did to the robot.
-bool IsFootWrench(std::string_view name) {
-  for (const char* start : {"lambda.", "push.", "other."}) {
-    if (StartsWith(name, start)) return false;
-  }
-  for (const char* end : {"contact", "mx", "my", "mz", "fx", "fy", "fz"}) {
-    if (EndsWith(name, std::string(".") + end)) return true;
-  }
-  return false;
-}
-
 enum class Table { kMotion, kSignals, kTorques };
 
-bool IsPlotted(std::string_view name) {
-  for (const char* start : {"com.", "com_ref.", "cop.", "push.", "residual."}) {
-    if (StartsWith(name, start)) return true;
+bool BelongsTo(Table table, ColumnGroup group) {
+  using Group = ColumnGroup;
+  switch (group) {
+    case Group::kBasePose:
+    case Group::kMoment:
+    case Group::kPosition:
+      return table == Table::kMotion;
+    case Group::kBaseTilt:
+    case Group::kCom:
+    case Group::kContact:
+    case Group::kForce:
+      return table == Table::kMotion || table == Table::kSignals;
+    case Group::kComReference:
+    case Group::kCop:
+    case Group::kPush:
+    case Group::kTiltOrSlide:
+    case Group::kResidual:
+      return table == Table::kSignals;
+    case Group::kTorque:
+      return table == Table::kTorques;
+    default:
+      return false;
   }
-  for (const char* end : {".contact", ".tilt", ".slide"}) {
-    if (EndsWith(name, end)) return true;
-  }
-  if (name == "base.z") return true;
-  for (const char* end : {".fx", ".fy", ".fz"}) {
-    if (IsFootWrench(name) && EndsWith(name, end)) return true;
-  }
-  return false;
 }
 
-bool BelongsTo(Table table, std::string_view name) {
-  switch (table) {
-    case Table::kMotion:
-      return StartsWith(name, "q.") || StartsWith(name, "base.") ||
-             StartsWith(name, "com.") || IsFootWrench(name);
-    case Table::kSignals:
-      return IsPlotted(name);
-    case Table::kTorques:
-      return StartsWith(name, "tau.");
-  }
-  return false;
+bool BelongsTo(Table table, const std::string& column) {
+  // Of the base's pose, its height is plotted.
+  const bool is_height =
+      WithoutUnit(column) == WithoutUnit(BasePositionColumn('z'));
+  return BelongsTo(table, GroupOf(column)) ||
+         (table == Table::kSignals && is_height);
 }
 
 // The columns of the log that a table keeps, with its thinning.
@@ -112,7 +98,7 @@ class LogTable {
   static std::vector<int> Sources(Table table, const LogReader& log) {
     std::vector<int> sources;
     for (std::size_t i = 0; i < log.columns().size(); ++i) {
-      if (BelongsTo(table, WithoutUnit(log.columns()[i]))) {
+      if (BelongsTo(table, log.columns()[i])) {
         sources.push_back(static_cast<int>(i));
       }
     }
@@ -123,11 +109,12 @@ class LogTable {
   static std::vector<Error> Errors(Table table, const LogReader& log) {
     std::vector<Error> errors;
     if (table != Table::kSignals) return errors;
-    for (const std::string axis : {"x", "y", "z"}) {
-      const auto actual = log.Find("com." + axis);
-      const auto reference = log.Find("com_ref." + axis);
+    for (const char axis : {'x', 'y', 'z'}) {
+      const auto actual = log.Find(ComColumn(axis));
+      const auto reference = log.Find(ComReferenceColumn(axis));
       if (actual && reference) {
-        errors.push_back({"com_error." + axis, *actual, *reference});
+        errors.push_back(
+            {std::string("com_error.") + axis, *actual, *reference});
       }
     }
     return errors;
@@ -248,7 +235,7 @@ json ReadRunLog(const std::filesystem::path& file) {
   const std::unique_ptr<LogReader> reader = OpenLog(file);
   LogReader& log = *reader;
   const std::string name = file.filename().string();
-  const auto time_column = log.Find("time");
+  const auto time_column = log.Find(kTimeColumn);
   if (!time_column) {
     throw std::invalid_argument(file.string() + (log.columns().empty()
                                                      ? ": has no columns"
@@ -266,9 +253,9 @@ json ReadRunLog(const std::filesystem::path& file) {
   const long pause = 1 + expected / kSpansPerLog;
   Spans active(pause), status(pause), touching(pause);
 
-  const auto active_column = log.Find("active");
-  const auto status_column = log.Find("status");
-  const auto touching_column = log.Find("touching");
+  const auto active_column = log.Find(kActiveColumn);
+  const auto status_column = log.Find(kStatusColumn);
+  const auto touching_column = log.Find(kTouchingColumn);
   json notes = json::array();
   long rows = 0;
   double previous = 0, dt = 0;

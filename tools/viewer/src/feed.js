@@ -2,6 +2,7 @@
 //
 // Runs as data: no drawing here, and no page. What draws asks a Run for values
 // at a time; a live feed would be another class with the same face.
+import {forceAt} from './pushes.js';
 
 const NO_NUMBER = 65535;
 const STEPS = 65534;
@@ -159,6 +160,21 @@ export class Run {
     const row = this.signals.row(time);
     return ['x', 'y', 'z'].map(
         (axis) => this.signals.values(`push.f${axis}`)?.[row] ?? 0);
+  }
+
+  /**
+   * The pushes that act at a time: [{force, frame, body, point}, ...], the force
+   * in N along the axes of `frame`, 'world' or 'body'; the point in m along
+   * those of the body.
+   */
+  pushesAt(time) {
+    const {pushes, control_dt: dt = 1e-3, push_body: body,
+      push_point: point} = this.summary;
+    const now = Math.min(time, this.end);
+    const all = pushes ?
+        pushes.map((push) => ({...push, force: forceAt(push, now, dt)})) :
+        [{force: this.push(now), frame: 'world', body, point}];
+    return all.filter(({force}) => Math.hypot(...force) > 0);
   }
 
   /**

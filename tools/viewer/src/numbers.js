@@ -29,7 +29,7 @@ const NUMBERS = [
     why: (s) => s.lipm_Ns ? `${Math.round(100 * s.impulse_Ns / s.lipm_Ns)} % of ` +
         `${formatNumber(s.lipm_Ns)} N·s, the most that an inverted pendulum ` +
         'with feet in place can take.' :
-        'Force times time of the push.',
+        'Of the largest push: the integral of its force over time.',
   },
   {
     title: 'CoP, peak in y',

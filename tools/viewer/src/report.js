@@ -9,6 +9,7 @@ import {GroundMap} from './ground_map.js';
 import {moreNumbersHtml, numbersHtml, verdictHtml} from './numbers.js';
 import {readPalette, Theme, THEME_BUTTON} from './palette.js';
 import {Plot} from './plots.js';
+import {pushesText} from './pushes.js';
 import {fillPlots, plotsOf, timingPlot, torquePlot} from './specs.js';
 import {Stage} from './stage.js';
 import {activeRows, residualRows, statusRows, Strip, torqueRows,
@@ -25,13 +26,7 @@ const KEYS = [
 const VIEW_NAMES = [['three_quarter', '3D'], ['front', 'Front'],
                     ['side', 'Side'], ['top', 'Top']];
 
-/** How it was pushed: "100 N for 0.15 s on torso". */
-function pushOf({summary: s}) {
-  const force = s.push_duration > 0 ? s.impulse_Ns / s.push_duration : 0;
-  return force > 0 ?
-      `${formatNumber(force)} N for ${formatNumber(s.push_duration)} s` +
-      (s.push_link ? ` on ${s.push_link}` : '') : '';
-}
+const pushOf = ({summary}) => pushesText(summary);
 
 function describe(run) {
   const {summary: s, robot, rows} = run;
@@ -162,7 +157,7 @@ class Page {
       parent.append(element);
       element.innerHTML = `<div class="who"></div>
         <canvas class="ground" aria-label="The ground from above"></canvas>
-        <span class="label" hidden></span><span class="event"></span>`;
+        <span class="labels"></span><span class="event"></span>`;
       if (this.runs.length > 1) {
         element.querySelector('.who').innerHTML =
             `${tagHtml(run)}<b>${escapeHtml(labelOf(run, this.runs))}</b>` +
@@ -187,7 +182,7 @@ class Page {
           new GroundMap(element.querySelector('.ground'), stage, palette) : null;
       element.querySelector('.ground').hidden = !map;
       if (run.robot && stage) run.soleEdges = soleEdgesOf(stage);
-      return {run, stage, map, element, label: element.querySelector('.label'),
+      return {run, stage, map, element, labels: element.querySelector('.labels'),
               event: element.querySelector('.event')};
     });
     this.left.querySelector('.views').addEventListener('click', (event) => {
@@ -366,14 +361,21 @@ class Page {
   }
 
   #labels() {
-    for (const {stage, label} of this.stages) {
-      const shown = stage?.robot && stage.pushForce > 0;
-      label.hidden = !shown;
-      if (!shown) continue;
-      const [x, y] = stage.project(stage.pushTail);
-      label.textContent = `${formatNumber(stage.pushForce)} N`;
-      label.style.transform =
-          `translate(${x}px, ${y}px) translate(-50%, -150%)`;
+    for (const {stage, labels} of this.stages) {
+      const pushes = stage?.robot ? stage.pushes : [];
+      while (labels.children.length < pushes.length) {
+        labels.append(Object.assign(document.createElement('span'),
+                                    {className: 'label'}));
+      }
+      [...labels.children].forEach((label, i) => {
+        label.hidden = i >= pushes.length;
+        if (label.hidden) return;
+        const {newtons, tail} = pushes[i];
+        const [x, y] = stage.project(tail);
+        label.textContent = `${formatNumber(newtons)} N`;
+        label.style.transform =
+            `translate(${x}px, ${y}px) translate(-50%, -150%)`;
+      });
     }
   }
 

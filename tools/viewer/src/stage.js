@@ -2,6 +2,7 @@
 import * as THREE from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 import {contactsAt} from './contacts.js';
+import {mostAtOnce} from './pushes.js';
 import {RobotView} from './robot_view.js';
 
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
@@ -203,8 +204,10 @@ export class Stage {
     this.plumb.frustumCulled = false;
     this.scene.add(this.plumb);
     this.footArrows = (this.robot?.feet ?? []).map(() => new Arrow(true));
-    this.pushArrow = new Arrow(false);
-    for (const arrow of [...this.footArrows, this.pushArrow]) {
+    this.pushes = [];  // That are drawn: {newtons, tail}.
+    const most = Math.max(1, mostAtOnce(this.run.summary.pushes ?? []));
+    this.pushArrows = Array.from({length: most}, () => new Arrow(false));
+    for (const arrow of [...this.footArrows, ...this.pushArrows]) {
       this.scene.add(arrow.group);
     }
   }
@@ -224,8 +227,9 @@ export class Stage {
     for (const arrow of this.footArrows) {
       arrow.material.color = arrow.material.emissive = color('force');
     }
-    this.pushArrow.material.color = color('push');
-    this.pushArrow.material.emissive = color('push');
+    for (const arrow of this.pushArrows) {
+      arrow.material.color = arrow.material.emissive = color('push');
+    }
     this.dirty = true;
   }
 
@@ -252,7 +256,7 @@ export class Stage {
     this.sun.shadow.camera.near = 0.1;
     this.sun.shadow.camera.far = 10 * size;
     const scale = size / 1.5;
-    this.pushArrow.setThickness(0.013 * scale);
+    for (const arrow of this.pushArrows) arrow.setThickness(0.013 * scale);
     for (const arrow of this.footArrows) arrow.setThickness(0.008 * scale);
     for (const mark of [this.comRing, this.comBall, this.copDot,
                         this.captureMark]) {
@@ -309,7 +313,7 @@ export class Stage {
           foot.force.multiplyScalar(
               foot.point ? FOOT_FORCE_LENGTH * this.#lengthPerNewton : 0));
     });
-    this.#drawPush(time);
+    this.#drawPushes(time, com);
   }
 
   // Height of the robot over its weight.
@@ -348,21 +352,36 @@ export class Stage {
     this.supportFill.geometry.setDrawRange(0, 3 * (count - 2));
   }
 
-  #drawPush(time) {
-    const force = new THREE.Vector3(...this.run.push(time));
-    const {push_body: index, push_point: at} = this.run.summary;
+  /** Draws an arrow for each push that acts, at the point where it acts. */
+  #drawPushes(time, com) {
+    const acting = this.run.pushesAt(time);
+    this.pushes = [];
+    this.pushArrows.forEach((arrow, i) => {
+      if (i < acting.length) {
+        this.pushes.push(this.#drawPush(acting[i], com, arrow));
+      } else {
+        arrow.set(new THREE.Vector3(), new THREE.Vector3());
+      }
+    });
+  }
+
+  #drawPush({force: along, frame, body: index, point: at}, com, arrow) {
+    const force = new THREE.Vector3(...along);
     const body = this.robot.bodies[index];
     const point = body && at ?
         new THREE.Vector3(...at).applyMatrix4(body.matrixWorld) :
-        new THREE.Vector3(...this.run.vector('com.', time));
+        new THREE.Vector3(...com);
+    if (body && frame === 'body') {
+      force.applyQuaternion(body.getWorldQuaternion(new THREE.Quaternion()));
+    }
     // Drawn up to the surface it pushes on, from outside.
     const vector = force.clone().multiplyScalar(
         PUSH_LENGTH * this.#lengthPerNewton);
     vector.clampLength(0, 1.2 * this.height);
     const outside = vector.clone().setLength(0.06 * this.height);
-    this.pushArrow.set(point.clone().sub(vector).sub(outside), vector);
-    this.pushForce = force.length();
-    this.pushTail = point.clone().sub(vector).sub(outside);
+    const tail = point.clone().sub(vector).sub(outside);
+    arrow.set(tail, vector);
+    return {newtons: force.length(), tail};
   }
 
   /** Where a point of the world is on the canvas, in CSS pixels. */

@@ -7,6 +7,7 @@ import {Clock} from '../src/clock.js';
 import {decodeChannel, decodeFloats, Run, Table} from '../src/feed.js';
 import {formatNumber, titleOf} from '../src/format.js';
 import {convexHull, copOf} from '../src/geometry.js';
+import {mostAtOnce, pushesText} from '../src/pushes.js';
 
 const base64 = (array) =>
   Buffer.from(array.buffer, array.byteOffset, array.byteLength)
@@ -71,6 +72,47 @@ test('a run knows its pushes, and where a moving mass is caught', () => {
   const [x, y] = run.capturePoint(1.5);
   assert.ok(Math.abs(x - (1.5 + Math.sqrt(0.8 / 9.81))) < 1e-3, String(x));
   assert.ok(Math.abs(y) < 1e-9);
+});
+
+test('each of two unlike pushes keeps its force, shape and point', () => {
+  const box = {
+    link: 'head', body: 3, point: [0, 0, 0.1], force: [30, 0, 0],
+    frame: 'world', at: 1, duration: 1, shape: 'box', impulse_Ns: 30,
+  };
+  const sine = {
+    link: 'torso', body: 2, point: [0.1, 0, 0], force: [0, 100, 0],
+    frame: 'world', at: 1.5, duration: 1, shape: 'half_sine',
+    impulse_Ns: 200 / Math.PI,
+  };
+  const hit = {...box, at: 2.6, duration: 0.1, shape: 'impulse', impulse_Ns: 3};
+  const still = (name) => channel(name, 0, 0, [0, 0]);
+  const summary = {
+    pushes: [box, sine, hit], control_dt: 0.002, impulse_Ns: 200 / Math.PI,
+    push_duration: 1, push_link: 'torso', push_body: 2, push_point: [0.1, 0, 0],
+  };
+  const run = new Run({
+    name: 'r', summary, robot: null, notes: [], timing: null,
+    log: {
+      rows: 2, motion: table([0, 3], still('com.x')),
+      signals: table([0, 3], still('com.x')), torques: table([]),
+    },
+  }, 'A');
+  const at = (time) => run.pushesAt(time).map(
+      ({body, point, force}) => [body, point, force.map(Math.round)]);
+  assert.deepEqual(at(0.9), []);
+  assert.deepEqual(at(1.2), [[3, [0, 0, 0.1], [30, 0, 0]]]);
+  assert.deepEqual(at(1.75), [[3, [0, 0, 0.1], [30, 0, 0]],
+                              [2, [0.1, 0, 0], [0, 71, 0]]]);
+  assert.deepEqual(at(2), [[2, [0.1, 0, 0], [0, 100, 0]]]);
+  assert.deepEqual(at(2.6), [[3, [0, 0, 0.1], [1500, 0, 0]]]);
+  assert.deepEqual(at(2.602), []);
+  assert.equal(mostAtOnce(summary.pushes), 2);
+  assert.equal(
+      pushesText(summary),
+      '30.0 N for 1.00 s on head, then half sine of 100 N for 1.00 s on torso' +
+      ', then 3.00 N·s at once on head');
+  // An older summary does not hold the force, and a mean is not the force.
+  assert.equal(pushesText({impulse_Ns: 15, push_duration: 0.15}), '15.0 N·s');
 });
 
 test('a clock plays at its speed, stops at the end, and starts again', () => {

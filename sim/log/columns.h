@@ -1,0 +1,81 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/log/log_rows.h"
+
+namespace poise {
+
+// The columns of a run's log: names with units, as docs/log.md lists them. The
+// recorder and all readers take the names from here. An axis is 'x', 'y' or
+// 'z'.
+
+inline constexpr char kTimeColumn[] = "time[s]";
+inline constexpr char kBaseTiltColumn[] = "base.tilt[rad]";
+inline constexpr char kSelfContactsColumn[] = "self_contacts";
+inline constexpr char kTouchingColumn[] = "touching";
+inline constexpr char kStatusColumn[] = "status";
+inline constexpr char kActiveColumn[] = "active";
+inline constexpr char kLostColumn[] = "lost";
+inline constexpr char kConflictColumn[] = "conflict";
+inline constexpr char kReasonColumn[] = "reason";
+
+std::string BasePositionColumn(char axis);    ///< "base.x[m]".
+std::string BaseQuaternionColumn(char part);  ///< "base.qw".
+std::string ComColumn(char axis);             ///< "com.x[m]".
+std::string ComReferenceColumn(char axis);    ///< "com_ref.x[m]".
+std::string CopColumn(char axis);             ///< "cop.x[m]".
+std::string PushColumn(char axis);            ///< "push.fx[N]".
+std::string OtherForceColumn(char axis);      ///< "other.fx[N]".
+
+std::string ContactColumn(const std::string& foot);  ///< "FOOT.contact".
+std::string TiltColumn(const std::string& foot);     ///< "FOOT.tilt[rad]".
+std::string SlideColumn(const std::string& foot);    ///< "FOOT.slide[m]".
+std::string PhaseColumn(const std::string& foot);    ///< "FOOT.phase".
+
+std::string MomentColumn(const std::string& foot,
+                         char axis);                          ///< "FOOT.mx[Nm]"
+std::string ForceColumn(const std::string& foot, char axis);  ///< "FOOT.fx[N]"
+/// The wrench that the controller asked of a foot: "lambda.FOOT.mx[Nm]".
+std::string CommandedMomentColumn(const std::string& foot, char axis);
+std::string CommandedForceColumn(const std::string& foot, char axis);
+
+std::string TorqueColumn(const std::string& joint);    ///< "tau.JOINT[Nm]".
+std::string PositionColumn(const std::string& joint);  ///< "q.JOINT[rad]".
+std::string ResidualColumn(const std::string& task);   ///< "residual.TASK".
+
+/// All columns of a log, in their order.
+std::vector<LogColumn> LogColumns(const std::vector<std::string>& feet,
+                                  const std::vector<std::string>& joints,
+                                  const std::vector<std::string>& tasks);
+
+/// What a column holds.
+enum class ColumnGroup {
+  kTime,
+  kBasePose,
+  kBaseTilt,
+  kCom,
+  kComReference,
+  kCop,
+  kPush,
+  kOtherForce,
+  kSelfContacts,
+  kContact,          ///< Of a foot.
+  kTiltOrSlide,      ///< Of a foot.
+  kMoment,           ///< Of the ground on a foot.
+  kForce,            ///< Of the ground on a foot.
+  kCommandedWrench,  ///< Of a foot.
+  kTorque,           ///< Of a joint.
+  kPosition,         ///< Of a joint.
+  kResidual,         ///< Of a task.
+  kText,
+  kUnknown,  ///< No column of a log.
+};
+
+/// The group of a column by its name, with or without its unit.
+ColumnGroup GroupOf(std::string_view column);
+
+}  // namespace poise
