@@ -1,38 +1,38 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/explain/describe_row.h"
+#include "tools/commands/explain/row_phrases.h"
 
 #include <gtest/gtest.h>
 
 namespace poise {
 namespace {
 
-TEST(DescribeRow, NamesEdgesAsAPersonDoes) {
-  EXPECT_EQ(DescribeRow("right_foot.cop.y_max"),
-            "the CoP of the right foot at its inner edge");
-  EXPECT_EQ(DescribeRow("right_foot.cop.y_min"),
-            "the CoP of the right foot at its outer edge");
-  EXPECT_EQ(DescribeRow("left_foot.cop.x_min"),
-            "the CoP of the left foot at its rear edge");
-  EXPECT_EQ(DescribeRow("torque.l_knee.max"),
-            "the torque of l knee at its upper limit");
-  EXPECT_EQ(DescribeRow("joint.l_knee.min"),
-            "the angle of l knee at its lower limit");
+using nlohmann::json;
+
+TEST(RowPhrases, PrintsWhatTheSummarySays) {
+  const RowPhrases phrases(json::parse(R"({"rows": {"warm.x.max": {
+      "unit": "K", "phrase": "the heat at its upper limit", "kind": "limit",
+      "task": "warm"}}})"));
+  EXPECT_EQ(phrases.phrase("warm.x.max"), "the heat at its upper limit");
+  EXPECT_EQ(phrases.unit("warm.x.max"), "K");
+  EXPECT_EQ(phrases.kind("warm.x.max"), "limit");
+  EXPECT_EQ(phrases.task("warm.x.max"), "warm");
+  EXPECT_TRUE(phrases.is_limit("warm.x.max"));
 }
 
-// A force that fades in is not one that is zero.
-TEST(DescribeRow, TellsNoLoadFromAsMuchAsAFootMayBear) {
-  EXPECT_EQ(DescribeRow("left_foot.unilateral.fz.min"),
-            "the left foot without load");
-  EXPECT_EQ(DescribeRow("left_foot.unilateral.fz.max"),
-            "the left foot at the most that it may bear");
-  // Of logs that do not say on which side.
-  EXPECT_EQ(DescribeRow("left_foot.unilateral.fz"),
-            "the normal force of the left foot");
+TEST(RowPhrases, PrintsTheNameOfARowWithoutADescription) {
+  const RowPhrases phrases;
+  EXPECT_EQ(phrases.phrase("left_foot.cop.x_max"), "left_foot.cop.x_max");
+  EXPECT_EQ(phrases.unit("momentum.lx"), "");
+  EXPECT_EQ(phrases.task("light_joints.thumb.2"), "light_joints.thumb");
+  EXPECT_FALSE(phrases.is_limit("left_foot.cop.x_max"));
 }
 
-TEST(DescribeRow, GivesBackWhatMeansNothing) {
-  EXPECT_EQ(DescribeRow("momentum.ly"), "momentum.ly");
-  EXPECT_EQ(DescribeRow("frame.left_foot.wx"), "frame.left_foot.wx");
+TEST(RowPhrases, IgnoresMalformedRows) {
+  for (const char* text : {R"({"rows": 3})", R"({"rows": {"a.b": [1]}})",
+                           R"({"rows": {"a.b": {"phrase": 2}}})", "null"}) {
+    SCOPED_TRACE(text);
+    EXPECT_EQ(RowPhrases(json::parse(text)).phrase("a.b"), "a.b");
+  }
 }
 
 }  // namespace
