@@ -453,6 +453,67 @@ TEST(Explanation, SaysWhatPushedAndWhatTouched) {
                                        "from": 1.002, "to": 1.003}])"));
 }
 
+// The knees reach their stops because the robot falls.
+TEST(Explanation, TellsAFallInOrderOfCause) {
+  std::string log =
+      "time[s],push.fx[N],push.fy[N],push.fz[N],left_foot.fz[N],"
+      "right_foot.fz[N],status,active,lost,conflict\n";
+  for (int i = 0; i < 30; ++i) {
+    log += "0." + std::to_string(10 + i) + ",0,0,0,200,200,ok,,,\n";
+  }
+  log +=
+      "0.40,300,0,0,200,200,ok,left_foot.cop.x_max=1;right_foot.cop.x_max=1,"
+      "momentum.lx=100,newton_euler.fx=1;left_foot.cop.x_max=3;"
+      "right_foot.cop.x_max=3;momentum.lx=4\n"
+      "0.41,300,0,0,200,200,ok,left_foot.cop.x_max=1;right_foot.cop.x_max=1;"
+      "joint.l_knee.max=9000,momentum.lx=200,\n"
+      "0.42,0,0,0,200,200,ok,left_foot.cop.x_max=1;right_foot.cop.x_max=1;"
+      "joint.l_knee.max=90000,momentum.lx=1580,"
+      "joint.l_knee.max=2;momentum.lx=4\n"
+      "0.43,0,0,0,200,200,ok,left_foot.cop.x_max=1;joint.l_knee.max=90000,"
+      "momentum.lx=1600,\n";
+  const nlohmann::json said = Explain(
+      MakeRun("story", log, Described(R"({"recovered": false, "fell_at": 0.425,
+          "fell_by": "a foot tilted over 0.1 rad", "impulse_Ns": 6,
+          "lipm_height_Ns": 4})")));
+  const std::vector<std::string> story = said["story"];
+  EXPECT_EQ(
+      story,
+      (std::vector<std::string>{
+          "0.400 s: the robot is pushed forward with 300 N for 20 ms, 6.0 "
+          "N s in all.",
+          "0.400 s: the most costly limit is reached: the CoP of the left "
+          "foot at its front edge and the CoP of the right foot at its "
+          "front edge, until the fall.",
+          "0.400 s: momentum cannot reach its target, by up to 1580 N at "
+          "0.420 s, because of the CoP of the left foot at its front edge "
+          "and the CoP of the right foot at its front edge (100 %).",
+          "The robot fell at 0.425 s: a foot tilted over 0.1 rad.",
+          "A step or larger soles would have helped; so would a smaller "
+          "push: of 6.0 N s, a pendulum on these feet takes 4.0 N s."}));
+  EXPECT_GT(said["sentences"].size(), story.size());
+}
+
+TEST(Explanation, BlamesTheGroundForASlip) {
+  const nlohmann::json said = Explain(
+      MakeRun("slip",
+              "time[s],status,active,lost,left_foot.contact,"
+              "left_foot.tilt[rad],left_foot.slide[m]\n"
+              "0.1,ok,left_foot.cop.x_max=1,momentum.lx=10,1,0.001,0.001\n"
+              "0.2,ok,left_foot.cop.x_max=1,momentum.lx=20,1,0.001,0.006\n"
+              "0.3,ok,left_foot.cop.x_max=1,momentum.lx=20,1,0.001,0.031\n",
+              Described(R"({"recovered": false, "fell_at": 0.3,
+                            "fell_by": "a foot slid over 30 mm"})")));
+  const std::vector<std::string> story = said["story"];
+  ASSERT_EQ(story.size(), 4u);
+  EXPECT_EQ(story[0],
+            "0.200 s: the left foot slips on the ground: it has slid by more "
+            "than 5 mm.");
+  EXPECT_EQ(story[3],
+            "A rougher ground, or a lower friction coefficient in the "
+            "controller, would have helped.");
+}
+
 TEST(Explanation, SaysWhatGaveWay) {
   const nlohmann::json said =
       Explain(MakeRun("gave_way",

@@ -60,10 +60,10 @@ TEST(MomentumCost, BlamesOnlyWhatTheConflictNames) {
         kUnknown);
   };
   look(1.00, true);
-  look(1.05, false);
+  look(1.20, false);
   ASSERT_EQ(cost.Causes().size(), 1u);
   EXPECT_EQ(cost.Causes()[0].task, "cop");
-  look(1.07, false);  // The conflict is no news any more.
+  look(2.00, false);  // Another episode, without a conflict.
   EXPECT_EQ(cost.Causes().size(), 2u);
 }
 

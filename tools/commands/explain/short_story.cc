@@ -104,34 +104,37 @@ std::optional<Slip> FindSlip(const RunStory& story, const json& summary) {
   return first;
 }
 
-// "A", "A and B", "A, B and 3 more".
+// "A", "A and B", "A, B and 3 more": the rows that cost most.
 std::string Rows(const MomentumCause& cause) {
-  std::string text;
-  size_t said = 0;
-  for (const auto& [phrase, cost] : cause.rows) {
-    if (said > 0 && cost < kSmallShare * cause.rows.front().second) break;
-    if (said == kMostRows) break;
-    const bool is_last = said + 1 == cause.rows.size();
-    text += (said == 0 ? "" : is_last ? " and " : ", ") + phrase;
-    ++said;
+  const double least = kSmallShare * cause.rows.front().second;
+  const auto count = static_cast<size_t>(
+      std::count_if(cause.rows.begin(), cause.rows.end(),
+                    [&](const auto& row) { return row.second >= least; }));
+  const size_t said = std::min(count, kMostRows);
+  std::string text = cause.rows.front().first;
+  for (size_t i = 1; i < said; ++i) {
+    text += (i + 1 == count ? " and " : ", ") + cause.rows[i].first;
   }
-  const size_t rest = cause.rows.size() - said;
-  return rest == 0 ? text : text + " and " + std::to_string(rest) + " more";
+  return count == said
+             ? text
+             : text + " and " + std::to_string(count - said) + " more";
 }
 
-std::string SayFirstCause(const MomentumCause& cause, const RunStory& story) {
-  const std::string& first = cause.rows.front().first;
-  double from = cause.from, to = cause.from;
+std::string SayFirstCause(const MomentumCause& cause, const RunStory& story,
+                          const std::optional<double>& fell_at) {
+  double from = cause.from, end = cause.from;
   for (const Span& span : story.said.spans()) {
-    if (span.name != first || span.from > cause.from || span.end < cause.from) {
-      continue;
-    }
+    const bool is_of_it = span.name == cause.rows.front().first &&
+                          span.from <= cause.from && span.end >= cause.from;
+    if (!is_of_it) continue;
     from = span.from;
-    to = span.end;
+    end = span.end;
   }
-  return Format("%.3f s: ", from) + Rows(cause) +
-         (to > from ? Format(", from here on for %.0f ms.", 1e3 * (to - from))
-                    : ".");
+  std::string text =
+      Format("%.3f s: the most costly limit is reached: ", from) + Rows(cause);
+  if (fell_at && end >= *fell_at) return text + ", until the fall.";
+  return text +
+         (end > from ? Format(", for %.0f ms.", 1e3 * (end - from)) : ".");
 }
 
 std::string SayLoss(const RunStory& story,
@@ -139,7 +142,8 @@ std::string SayLoss(const RunStory& story,
   const MomentumCost& momentum = story.momentum;
   std::string text =
       Format("%.3f s: momentum cannot reach its target", momentum.from()) +
-      Format(", by up to %.3g N", momentum.peak()) +
+      Format(momentum.peak() < 100 ? ", by up to %.3g N" : ", by up to %.0f N",
+             momentum.peak()) +
       Format(" at %.3f s", momentum.at());
   size_t said = 0;
   for (const MomentumCause& cause : causes) {
@@ -215,7 +219,7 @@ std::vector<std::string> TellShortStory(const RunStory& story,
   }
   if (!causes.empty()) {
     if (!fell_at || !slip) {
-      before.push_back(SayFirstCause(causes.front(), story));
+      before.push_back(SayFirstCause(causes.front(), story, fell_at));
     }
     before.push_back(SayLoss(story, causes));
   }
