@@ -137,6 +137,7 @@ RunResult Run(const Robot& robot, const Scenario& scenario,
   if (recorder != nullptr) {
     recorder->Flush();
     result.log_sha256 = recorder->log_sha256();
+    result.rows = loop.controller().stack().DescribeRows();
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "robot/control/stack.h"
 #include "robot/robot.h"
 #include "sim/judge.h"
 #include "sim/log/log_rows.h"
@@ -46,6 +47,8 @@ struct RunResult {
   std::optional<Yardstick> yardstick;
   double wall_seconds = 0;
   std::string log_sha256;  ///< Empty if nothing was recorded.
+  /// The rows that the log names; empty if nothing was recorded.
+  std::vector<StackRow> rows;
 };
 
 /// What a robot fell by, in words; empty where it did not.

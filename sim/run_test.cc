@@ -64,6 +64,11 @@ TEST(Run, WritesARowATickAndStopsWhenTold) {
   const auto summary = ToJson(Humanoid(), scenario, result);
   EXPECT_EQ(summary["ticks"], 220);
   EXPECT_EQ(summary["log_sha256"], result.log_sha256);
+  const auto row = summary["rows"]["torque.l_knee.max"];
+  EXPECT_EQ(row["unit"], "N m");
+  EXPECT_EQ(row["phrase"], "the torque of l knee at its upper limit");
+  EXPECT_EQ(row["kind"], "torque_limit");
+  EXPECT_EQ(row["task"], "torque_limits");
   EXPECT_EQ(summary["fell_at"], nullptr);
 }
 

@@ -392,4 +392,31 @@ std::string Stack::RowName(int level, int row, bool is_equality,
   return "";
 }
 
+std::vector<StackRow> Stack::DescribeRows() const {
+  std::vector<StackRow> rows;
+  for (const Entry& entry : entries_) {
+    const Task& task = *entry.task;
+    for (const RowDescription& row : task.equalities()) {
+      rows.push_back({task.name(), row});
+    }
+    for (size_t i = 0; i < task.inequalities().size(); ++i) {
+      const RowDescription& row = task.inequalities()[i];
+      if (!task.is_two_sided()) {
+        rows.push_back({task.name(), row});
+        continue;
+      }
+      for (const Side side : {Side::kLower, Side::kUpper}) {
+        RowDescription sided = row;
+        sided.name = SidedName(task, static_cast<int>(i), side);
+        if (!row.phrase.empty()) {
+          sided.phrase += side == Side::kLower ? " at its lower limit"
+                                               : " at its upper limit";
+        }
+        rows.push_back({task.name(), sided});
+      }
+    }
+  }
+  return rows;
+}
+
 }  // namespace poise

@@ -22,6 +22,12 @@ struct TaskSettings {
   double weight = 1;  ///< Among the tasks of its rank; see Stack::kMostWeight.
 };
 
+/// A row of a stack under the name that the log uses, and its task.
+struct StackRow {
+  std::string task;
+  RowDescription row;
+};
+
 /// The tasks of a controller in their order of priority. Any of them may be
 /// switched, moved to another rank, weighted or tuned by name between two
 /// ticks: that takes effect at the next Write(), and does not allocate.
@@ -95,6 +101,10 @@ class Stack {
   /// A row of the last Write() by name, an equality or, as it acts on a side, an
   /// inequality; empty if there is none. Allocates.
   std::string RowName(int level, int row, bool is_equality, Side side) const;
+
+  /// The rows of all tasks, by the names that RowName() and equality_names() have:
+  /// a row with two sides is there twice, as .min and .max. Allocates.
+  std::vector<StackRow> DescribeRows() const;
 
   /// The rank whose rows the last Write() put into a level; kMaxRank + 1 of what
   /// a ramp holds below all ranks.

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,56 @@ struct Parameter {
   double upper;
 };
 
+/// Kinds of rows, by what a row is about.
+enum class RowKind {
+  kTarget,            ///< An equality: what a task is to bring about.
+  kDynamics,          ///< An equality that nature keeps, too.
+  kTorqueLimit,       ///< Of an actuator.
+  kJointLimit,        ///< Of a joint's position or velocity.
+  kCopLimit,          ///< Of the center of pressure, by an edge.
+  kFrictionLimit,     ///< Of the tangential force on a foot.
+  kYawLimit,          ///< Of the moment about a foot's normal.
+  kNormalForceLimit,  ///< Of the normal force on a foot.
+  kLimit,             ///< Any other inequality.
+};
+
+/// "target", "dynamics", "torque_limit", ...: the name of a kind in files.
+constexpr std::string_view RowKindName(RowKind kind) {
+  switch (kind) {
+    case RowKind::kTarget:
+      return "target";
+    case RowKind::kDynamics:
+      return "dynamics";
+    case RowKind::kTorqueLimit:
+      return "torque_limit";
+    case RowKind::kJointLimit:
+      return "joint_limit";
+    case RowKind::kCopLimit:
+      return "cop_limit";
+    case RowKind::kFrictionLimit:
+      return "friction_limit";
+    case RowKind::kYawLimit:
+      return "yaw_limit";
+    case RowKind::kNormalForceLimit:
+      return "normal_force_limit";
+    case RowKind::kLimit:
+      return "limit";
+  }
+  return "";
+}
+
+/// A row of a task, for people. All who print a row print this.
+struct RowDescription {
+  std::string name;  ///< "left_foot.cop.x_max", as in the log.
+  /// Unit of the bounded quantity or, of an equality, of the residual times
+  /// Task::equality_scale(): "N m".
+  std::string unit;
+  /// "the CoP of the left foot at its front edge", as the row is active; of a
+  /// row with two sides the quantity alone, "the torque of l knee". May be empty.
+  std::string phrase;
+  RowKind kind = RowKind::kTarget;
+};
+
 /// One thing to do or to respect: rows in y = [v̇ (nv); λ (6 per foot)], see
 /// (1) and (2). A task has always the same rows, named once, here; rows that do
 /// not matter in a tick (of a foot in the air) stay zero and unbounded.
@@ -50,6 +101,11 @@ class Task {
   Task& operator=(const Task&) = delete;
 
   const std::string& name() const { return name_; }
+  const std::vector<RowDescription>& equalities() const { return equalities_; }
+  const std::vector<RowDescription>& inequalities() const {
+    return inequalities_;
+  }
+  /// The names of these rows, in the same order.
   const std::vector<std::string>& equality_names() const {
     return equality_names_;
   }
@@ -66,9 +122,8 @@ class Task {
   /// says so in its name, or has no other.
   virtual bool is_two_sided() const noexcept { return false; }
 
-  /// What the residual of an equality row is multiplied with to be in the unit
-  /// that a person thinks in: N or N m for forces and momenta; accelerations are in
-  /// m/s2 or rad/s2 as they are.
+  /// Factor that brings the residual of an equality row to the row's unit, see
+  /// RowDescription.
   virtual double equality_scale(int) const noexcept { return 1; }
 
   /// Writes the rows B y + b = 0 and lower <= C y <= upper of this tick.
@@ -79,11 +134,14 @@ class Task {
                      InequalityBlock* inequalities) const noexcept = 0;
 
  protected:
-  Task(std::string name, std::vector<std::string> equality_names,
-       std::vector<std::string> inequality_names)
+  Task(std::string name, std::vector<RowDescription> equalities,
+       std::vector<RowDescription> inequalities)
       : name_(std::move(name)),
-        equality_names_(std::move(equality_names)),
-        inequality_names_(std::move(inequality_names)) {}
+        equalities_(std::move(equalities)),
+        inequalities_(std::move(inequalities)) {
+    for (const auto& row : equalities_) equality_names_.push_back(row.name);
+    for (const auto& row : inequalities_) inequality_names_.push_back(row.name);
+  }
 
   void AddParameter(std::string name, double* value, double lower,
                     double upper) {
@@ -92,6 +150,8 @@ class Task {
 
  private:
   std::string name_;
+  std::vector<RowDescription> equalities_;
+  std::vector<RowDescription> inequalities_;
   std::vector<std::string> equality_names_;
   std::vector<std::string> inequality_names_;
   std::vector<Parameter> parameters_;

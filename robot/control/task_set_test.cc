@@ -5,9 +5,11 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "robot/control/default_stack.h"
 #include "tests/util/load_humanoid.h"
@@ -186,7 +188,7 @@ TEST(Stack, SaysOnWhichSideARowActs) {
 // A task of a user's own.
 class Band : public Task {
  public:
-  Band() : Task("band", {}, {"band.x"}) {}
+  Band() : Task("band", {}, {{"band.x", "K", "the heat", RowKind::kLimit}}) {}
   bool is_two_sided() const noexcept override { return true; }
   void Write(const TaskInput&, EqualityBlock*,
              InequalityBlock*) const noexcept override {}
@@ -198,6 +200,47 @@ TEST(Stack, SaysOnWhichSideARowOfATaskOfOnesOwnActs) {
   const int band = *stack.Find("band");
   EXPECT_EQ(stack.RowName({band, 0, Side::kLower, 5, 1, 0}), "band.x.min");
   EXPECT_EQ(stack.RowName({band, 0, Side::kUpper, 5, 1, 0}), "band.x.max");
+}
+
+TEST(Stack, DescribesEachRowUnderItsNameInTheLog) {
+  const Stack stack = MakeStack();
+  std::map<std::string, RowDescription> rows;
+  for (const StackRow& described : stack.DescribeRows()) {
+    SCOPED_TRACE(described.row.name);
+    EXPECT_FALSE(described.row.unit.empty());
+    EXPECT_FALSE(described.row.phrase.empty());
+    EXPECT_FALSE(RowKindName(described.row.kind).empty());
+    EXPECT_TRUE(rows.emplace(described.row.name, described.row).second);
+  }
+  EXPECT_EQ(rows["momentum.kx"].unit, "N m");
+  EXPECT_EQ(rows["momentum.lx"].unit, "N");
+  EXPECT_EQ(rows["com.x"].unit, "m/s2");
+  EXPECT_EQ(rows["left_foot.contact.wx"].unit, "rad/s2");
+  EXPECT_EQ(rows["frame.left_foot.vz"].unit, "m/s2");
+  EXPECT_EQ(rows["posture.l_knee"].unit, "rad/s2");
+  EXPECT_EQ(rows["torque_minimization.l_knee"].unit, "N m");
+  EXPECT_EQ(rows["torque.l_knee.min"].phrase,
+            "the torque of l knee at its lower limit");
+  EXPECT_EQ(rows["left_foot.cop.y_max"].phrase,
+            "the CoP of the left foot at its outer edge");
+  EXPECT_EQ(rows["right_foot.cop.y_max"].phrase,
+            "the CoP of the right foot at its inner edge");
+  EXPECT_EQ(rows["right_foot.unilateral.fz.max"].phrase,
+            "the normal force of the right foot at its upper limit");
+}
+
+TEST(Stack, DescribesBothSidesOfARowOfAUsersTask) {
+  Stack stack = MakeStack();
+  stack.Add(std::make_unique<Band>(), {});
+  std::vector<std::string> phrases;
+  for (const StackRow& described : stack.DescribeRows()) {
+    if (described.task != "band") continue;
+    EXPECT_EQ(described.row.unit, "K");
+    phrases.push_back(described.row.name + ": " + described.row.phrase);
+  }
+  EXPECT_EQ(phrases, (std::vector<std::string>{
+                         "band.x.min: the heat at its lower limit",
+                         "band.x.max: the heat at its upper limit"}));
 }
 
 class Idle : public Task {

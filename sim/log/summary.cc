@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "robot/control/stack.h"
+#include "robot/control/task.h"
 #include "robot/finding.h"
 #include "sim/push.h"
 
@@ -59,6 +61,26 @@ Json PushesToJson(const Robot& robot, const Scenario& scenario) {
     list.push_back(std::move(entry));
   }
   return list;
+}
+
+// The key of a row: its name as log.csv has it.
+std::string LogName(std::string name) {
+  for (char& c : name) {
+    const bool separates = c == ',' || c == ';' || c == '=' || c == '|';
+    if (separates || c == '\n' || c == '\r') c = '_';
+  }
+  return name;
+}
+
+Json Rows(const std::vector<StackRow>& rows) {
+  Json object = Json::object();
+  for (const StackRow& row : rows) {
+    object[LogName(row.row.name)] = {{"unit", row.row.unit},
+                                     {"phrase", row.row.phrase},
+                                     {"kind", RowKindName(row.row.kind)},
+                                     {"task", row.task}};
+  }
+  return object;
 }
 
 // A line of the table: a label, then what printf() makes of the rest.
@@ -169,6 +191,7 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
                  {"certificate_max", Number(result.certificate_max)}};
   json["real_time_factor"] = Number(simulated / result.wall_seconds);
   json["log_sha256"] = result.log_sha256;
+  json["rows"] = Rows(result.rows);
   return json;
 }
 

@@ -6,7 +6,12 @@
 namespace poise {
 
 BaseStillTask::BaseStillTask()
-    : Task("base_still", AxisRowNames("base_still", {"x", "y", "z"}), {}) {
+    : Task("base_still",
+           AxisRows("base_still", RowKind::kTarget,
+                    {{"x", "rad/s2", "the rotation of the base about x"},
+                     {"y", "rad/s2", "the rotation of the base about y"},
+                     {"z", "rad/s2", "the rotation of the base about z"}}),
+           {}) {
   AddParameter("kd", &kd_, 0, 1e3);
 }
 

@@ -7,7 +7,11 @@ namespace poise {
 
 AngularMomentumTask::AngularMomentumTask(const Tree& tree)
     : Task("angular_momentum",
-           AxisRowNames("angular_momentum", {"kx", "ky", "kz"}), {}),
+           AxisRows("angular_momentum", RowKind::kTarget,
+                    {{"kx", "N m", "the angular momentum about x"},
+                     {"ky", "N m", "the angular momentum about y"},
+                     {"kz", "N m", "the angular momentum about z"}}),
+           {}),
       mass_(tree.total_mass() > 0 ? tree.total_mass() : 1) {
   AddParameter("kd", &kd_, 0, 1e3);
 }

@@ -17,8 +17,15 @@ constexpr double kMinHeight = 0.05;  // m.
 
 CapturePointTask::CapturePointTask(const Tree& tree,
                                    const std::vector<Foot>& feet)
-    : Task("capture_point", {},
-           AxisRowNames("capture_point", {"x_max", "x_min", "y_max", "y_min"})),
+    : Task(
+          "capture_point", {},
+          AxisRows(
+              "capture_point", RowKind::kLimit,
+              {{"x_max", "m", "the capture point at the front edge of support"},
+               {"x_min", "m", "the capture point at the rear edge of support"},
+               {"y_max", "m", "the capture point at the left edge of support"},
+               {"y_min", "m",
+                "the capture point at the right edge of support"}})),
       mass_(tree.total_mass() > 0 ? tree.total_mass() : 1),
       gravity_(tree.gravity_W().norm()),
       feet_(feet) {

@@ -6,7 +6,12 @@
 namespace poise {
 
 ComTask::ComTask(const Tree& tree)
-    : Task("com", AxisRowNames("com", {"x", "y", "z"}), {}),
+    : Task("com",
+           AxisRows("com", RowKind::kTarget,
+                    {{"x", "m/s2", "the center of mass along x"},
+                     {"y", "m/s2", "the center of mass along y"},
+                     {"z", "m/s2", "the center of mass along z"}}),
+           {}),
       mass_(tree.total_mass() > 0 ? tree.total_mass() : 1) {
   AddParameter("kp", &gains_.kp, 0, 1e4);
   AddParameter("kd", &gains_.kd, 0, 1e3);

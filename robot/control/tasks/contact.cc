@@ -9,7 +9,14 @@ namespace poise {
 
 ContactTask::ContactTask(const std::vector<Foot>& feet)
     : Task("contact",
-           FootRowNames(feet, "contact", {"wx", "wy", "wz", "vx", "vy", "vz"}),
+           FootRows(
+               feet, "contact", RowKind::kTarget,
+               {{"wx", "rad/s2", "the rotation of the % on the ground about x"},
+                {"wy", "rad/s2", "the rotation of the % on the ground about y"},
+                {"wz", "rad/s2", "the rotation of the % on the ground about z"},
+                {"vx", "m/s2", "the motion of the % on the ground along x"},
+                {"vy", "m/s2", "the motion of the % on the ground along y"},
+                {"vz", "m/s2", "the motion of the % on the ground along z"}}),
            {}) {
   AddParameter("kp", &kp_, 0, 1e4);
   AddParameter("kd", &kd_, 0, 1e3);

@@ -2,15 +2,35 @@
 #include "robot/control/tasks/cop.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "robot/control/tasks/row_names.h"
 #include "robot/control/tasks/scale.h"
 
 namespace poise {
+namespace {
+
+// y of a contact frame is to the left: the outer edge of the left foot.
+std::vector<RowDescription> Rows(const std::vector<Foot>& feet) {
+  constexpr std::string_view kOuter = "the CoP of the % at its outer edge";
+  constexpr std::string_view kInner = "the CoP of the % at its inner edge";
+  std::vector<RowDescription> rows;
+  for (const Foot& foot : feet) {
+    const bool is_left = foot.name == "left_foot";
+    AddFootRows(foot, "cop", RowKind::kCopLimit,
+                {{"x_max", "N m", "the CoP of the % at its front edge"},
+                 {"x_min", "N m", "the CoP of the % at its rear edge"},
+                 {"y_max", "N m", is_left ? kOuter : kInner},
+                 {"y_min", "N m", is_left ? kInner : kOuter}},
+                &rows);
+  }
+  return rows;
+}
+
+}  // namespace
 
 CopTask::CopTask(const Tree& tree, const std::vector<Foot>& feet)
-    : Task("cop", {},
-           FootRowNames(feet, "cop", {"x_max", "x_min", "y_max", "y_min"})),
+    : Task("cop", {}, Rows(feet)),
       nv_(tree.nv()),
       scale_(1 / ForceScale(tree)),
       feet_(feet) {

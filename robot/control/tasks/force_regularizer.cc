@@ -9,7 +9,13 @@ namespace poise {
 ForceRegularizerTask::ForceRegularizerTask(const Tree& tree,
                                            const std::vector<Foot>& feet)
     : Task("force_regularizer",
-           FootRowNames(feet, "force", {"mx", "my", "mz", "fx", "fy", "fz"}),
+           FootRows(feet, "force", RowKind::kTarget,
+                    {{"mx", "N m", "the moment on the % about x"},
+                     {"my", "N m", "the moment on the % about y"},
+                     {"mz", "N m", "the moment on the % about z"},
+                     {"fx", "N", "the force on the % along x"},
+                     {"fy", "N", "the force on the % along y"},
+                     {"fz", "N", "the force on the % along z"}}),
            {}),
       nv_(tree.nv()),
       scale_(1 / ForceScale(tree)) {}

@@ -7,9 +7,7 @@
 namespace poise {
 
 FrameTask::FrameTask(const std::string& name, int tick_frame, int index)
-    : Task("frame." + name,
-           AxisRowNames("frame." + name, {"wx", "wy", "wz", "vx", "vy", "vz"}),
-           {}),
+    : Task("frame." + name, FrameRows(name), {}),
       tick_frame_(tick_frame),
       index_(index) {
   AddParameter("kp", &kp_, 0, 1e4);

@@ -9,9 +9,12 @@
 namespace poise {
 
 FrictionTask::FrictionTask(const Tree& tree, const std::vector<Foot>& feet)
-    : Task(
-          "friction", {},
-          FootRowNames(feet, "friction", {"x_max", "x_min", "y_max", "y_min"})),
+    : Task("friction", {},
+           FootRows(feet, "friction", RowKind::kFrictionLimit,
+                    {{"x_max", "N", "the % at its friction limit"},
+                     {"x_min", "N", "the % at its friction limit"},
+                     {"y_max", "N", "the % at its friction limit"},
+                     {"y_min", "N", "the % at its friction limit"}})),
       nv_(tree.nv()),
       scale_(1 / ForceScale(tree)) {
   AddParameter("mu", &mu_, 0, 10);

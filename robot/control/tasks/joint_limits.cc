@@ -10,7 +10,10 @@
 namespace poise {
 
 JointLimitsTask::JointLimitsTask(const RobotModel& model)
-    : Task("joint_limits", {}, JointRowNames(model.tree, "joint")),
+    : Task("joint_limits", {},
+           JointRows(model.tree, "joint", RowKind::kJointLimit,
+                     {"", "rad", "the angle of %"},
+                     {"", "m", "the position of %"})),
       q_start_(model.tree.q_start()),
       v_start_(model.tree.v_start()),
       lower_(model.tree.num_joints()),

@@ -265,5 +265,26 @@ TEST_F(TaskTest, PostureWeighsAJointByWhatItMoves) {
             weight[*tree_.FindJoint("chest_pitch")]);
 }
 
+// A joint that slides has forces, and moves along a line.
+TEST(JointTasks, DescribeAJointThatSlidesInItsOwnUnits) {
+  const std::string mass =
+      "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' "
+      "ixz='0' iyz='0'/></inertial>";
+  const RobotModel model = ParseUrdf(
+      "<robot name='lift'><link name='a'>" + mass + "</link><link name='b'>" +
+          mass +
+          "</link><joint name='mast_lift' type='prismatic'><parent link='a'/>"
+          "<child link='b'/><axis xyz='0 0 1'/><limit lower='0' upper='1' "
+          "effort='10' velocity='1'/></joint></robot>",
+      "lift");
+  const RowDescription torque = TorqueLimitsTask(model).inequalities()[0];
+  EXPECT_EQ(torque.name, "torque.mast_lift");
+  EXPECT_EQ(torque.unit, "N");
+  EXPECT_EQ(torque.phrase, "the force of mast lift");
+  EXPECT_EQ(JointLimitsTask(model).inequalities()[0].unit, "m");
+  EXPECT_EQ(PostureTask(model.tree).equalities()[0].unit, "m/s2");
+  EXPECT_EQ(TorqueMinimizationTask(model).equalities()[0].unit, "N");
+}
+
 }  // namespace
 }  // namespace poise

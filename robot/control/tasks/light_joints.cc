@@ -2,7 +2,9 @@
 #include "robot/control/tasks/light_joints.h"
 
 #include <algorithm>
-#include <string>
+#include <vector>
+
+#include "robot/control/tasks/row_names.h"
 
 namespace poise {
 namespace {
@@ -10,12 +12,14 @@ namespace {
 // Of the robot's mass. The lightest fingers that matter have 1e-4.
 constexpr double kLight = 1e-5;
 
-std::vector<std::string> RowNames(const RobotModel& model) {
-  std::vector<std::string> names;
+std::vector<RowDescription> Rows(const RobotModel& model) {
+  std::vector<RowDescription> rows;
   for (const int j : FindLightJoints(model)) {
-    names.push_back("light_joints." + model.tree.joints()[j].name);
+    rows.push_back(JointRow(
+        model.tree.joints()[j], "light_joints", RowKind::kTarget,
+        {"", "rad/s2", "the posture of %"}, {"", "m/s2", "the posture of %"}));
   }
-  return names;
+  return rows;
 }
 
 }  // namespace
@@ -40,7 +44,7 @@ std::vector<int> FindLightJoints(const RobotModel& model) {
 }
 
 LightJointsTask::LightJointsTask(const RobotModel& model)
-    : Task("light_joints", RowNames(model), {}),
+    : Task("light_joints", Rows(model), {}),
       q_start_(model.tree.q_start()),
       v_start_(model.tree.v_start()),
       joints_(FindLightJoints(model)) {

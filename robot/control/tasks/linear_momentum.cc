@@ -7,7 +7,11 @@ namespace poise {
 
 LinearMomentumTask::LinearMomentumTask(const Tree& tree)
     : Task("linear_momentum",
-           AxisRowNames("linear_momentum", {"lx", "ly", "lz"}), {}),
+           AxisRows("linear_momentum", RowKind::kTarget,
+                    {{"lx", "N", "the linear momentum along x"},
+                     {"ly", "N", "the linear momentum along y"},
+                     {"lz", "N", "the linear momentum along z"}}),
+           {}),
       mass_(tree.total_mass() > 0 ? tree.total_mass() : 1) {
   AddParameter("kd", &kd_, 0, 1e3);
 }

@@ -1,23 +1,28 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "robot/control/tasks/mimic.h"
 
-#include <string>
+#include <vector>
+
+#include "robot/control/tasks/row_names.h"
 
 namespace poise {
 namespace {
 
-std::vector<std::string> RowNames(const RobotModel& model) {
-  std::vector<std::string> names;
+std::vector<RowDescription> Rows(const RobotModel& model) {
+  std::vector<RowDescription> rows;
   for (const MimicCoupling& coupling : model.mimics) {
-    names.push_back("mimic." + model.tree.joints()[coupling.joint].name);
+    rows.push_back(JointRow(model.tree.joints()[coupling.joint], "mimic",
+                            RowKind::kTarget,
+                            {"", "rad/s2", "the coupling of %"},
+                            {"", "m/s2", "the coupling of %"}));
   }
-  return names;
+  return rows;
 }
 
 }  // namespace
 
 MimicTask::MimicTask(const RobotModel& model)
-    : Task("mimic", RowNames(model), {}),
+    : Task("mimic", Rows(model), {}),
       q_start_(model.tree.q_start()),
       v_start_(model.tree.v_start()),
       couplings_(model.mimics) {

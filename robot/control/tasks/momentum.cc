@@ -25,7 +25,14 @@ constexpr double kMinHeight = 0.05;  // m.
 
 MomentumTask::MomentumTask(const Tree& tree, const std::vector<Foot>& feet)
     : Task("momentum",
-           AxisRowNames("momentum", {"kx", "ky", "kz", "lx", "ly", "lz"}), {}),
+           AxisRows("momentum", RowKind::kTarget,
+                    {{"kx", "N m", "the angular momentum about x"},
+                     {"ky", "N m", "the angular momentum about y"},
+                     {"kz", "N m", "the angular momentum about z"},
+                     {"lx", "N", "the linear momentum along x"},
+                     {"ly", "N", "the linear momentum along y"},
+                     {"lz", "N", "the linear momentum along z"}}),
+           {}),
       mass_(tree.total_mass() > 0 ? tree.total_mass() : 1),
       gravity_(tree.gravity_W().norm()),
       feet_(feet) {

@@ -8,7 +8,13 @@ namespace poise {
 
 NewtonEulerTask::NewtonEulerTask(const Tree& tree)
     : Task("newton_euler",
-           AxisRowNames("newton_euler", {"mx", "my", "mz", "fx", "fy", "fz"}),
+           AxisRows("newton_euler", RowKind::kDynamics,
+                    {{"mx", "N m", "the balance of moments about x"},
+                     {"my", "N m", "the balance of moments about y"},
+                     {"mz", "N m", "the balance of moments about z"},
+                     {"fx", "N", "the balance of forces along x"},
+                     {"fy", "N", "the balance of forces along y"},
+                     {"fz", "N", "the balance of forces along z"}}),
            {}),
       scale_(1 / ForceScale(tree)) {}
 

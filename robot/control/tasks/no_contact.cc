@@ -8,8 +8,13 @@ namespace poise {
 
 NoContactTask::NoContactTask(const Tree& tree, const std::vector<Foot>& feet)
     : Task("no_contact",
-           FootRowNames(feet, "no_contact",
-                        {"mx", "my", "mz", "fx", "fy", "fz"}),
+           FootRows(feet, "no_contact", RowKind::kDynamics,
+                    {{"mx", "N m", "the moment on the % in the air about x"},
+                     {"my", "N m", "the moment on the % in the air about y"},
+                     {"mz", "N m", "the moment on the % in the air about z"},
+                     {"fx", "N", "the force on the % in the air along x"},
+                     {"fy", "N", "the force on the % in the air along y"},
+                     {"fz", "N", "the force on the % in the air along z"}}),
            {}),
       nv_(tree.nv()),
       scale_(1 / ForceScale(tree)) {}

@@ -16,7 +16,11 @@ constexpr double kMost = 10;
 }  // namespace
 
 PostureTask::PostureTask(const Tree& tree)
-    : Task("posture", JointRowNames(tree, "posture"), {}),
+    : Task("posture",
+           JointRows(tree, "posture", RowKind::kTarget,
+                     {"", "rad/s2", "the posture of %"},
+                     {"", "m/s2", "the posture of %"}),
+           {}),
       q_start_(tree.q_start()),
       v_start_(tree.v_start()) {
   AddParameter("kp", &kp_, 0, 1e4);

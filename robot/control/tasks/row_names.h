@@ -1,48 +1,104 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <algorithm>
 #include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "dynamics/tree.h"
+#include "robot/control/task.h"
 #include "robot/robot.h"
 
 namespace poise {
 
-/// Row names "left_foot.cop.x_max", ...: each suffix for each foot.
-inline std::vector<std::string> FootRowNames(
-    const std::vector<Foot>& feet, std::string_view what,
-    std::initializer_list<std::string_view> suffixes) {
-  std::vector<std::string> names;
-  for (const Foot& foot : feet) {
-    for (const std::string_view suffix : suffixes) {
-      names.push_back(foot.name + "." + std::string(what) + "." +
-                      std::string(suffix));
-    }
-  }
-  return names;
+/// Rows that differ in what they belong to: the end of their names, their unit,
+/// and their phrase, in which `%` stands for the foot or joint in words.
+struct RowPattern {
+  std::string_view end;
+  std::string_view unit;
+  std::string_view phrase;
+};
+
+/// A phrase with the words of a name in place of `%`: "left_foot" is "left foot".
+inline std::string FillPhrase(std::string_view phrase, std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  std::string filled(phrase);
+  const size_t at = filled.find('%');
+  return at == std::string::npos ? filled : filled.replace(at, 1, name);
 }
 
-/// Row names "torque.l_knee", ...: one for each joint.
-inline std::vector<std::string> JointRowNames(const Tree& tree,
-                                              std::string_view what) {
-  std::vector<std::string> names;
+/// Rows "left_foot.cop.x_max", ...: each pattern for one foot.
+inline void AddFootRows(const Foot& foot, std::string_view what, RowKind kind,
+                        std::initializer_list<RowPattern> patterns,
+                        std::vector<RowDescription>* rows) {
+  for (const RowPattern& pattern : patterns) {
+    rows->push_back(
+        {foot.name + "." + std::string(what) + "." + std::string(pattern.end),
+         std::string(pattern.unit), FillPhrase(pattern.phrase, foot.name),
+         kind});
+  }
+}
+
+/// Rows "left_foot.cop.x_max", ...: each pattern for each foot.
+inline std::vector<RowDescription> FootRows(
+    const std::vector<Foot>& feet, std::string_view what, RowKind kind,
+    std::initializer_list<RowPattern> patterns) {
+  std::vector<RowDescription> rows;
+  for (const Foot& foot : feet) AddFootRows(foot, what, kind, patterns, &rows);
+  return rows;
+}
+
+/// A row "torque.l_knee", for a joint that turns or for one that slides; the end
+/// of a pattern is not used.
+inline RowDescription JointRow(const Joint& joint, std::string_view what,
+                               RowKind kind, const RowPattern& turns,
+                               const RowPattern& slides) {
+  const bool is_slider = joint.type == JointType::kPrismatic;
+  const RowPattern& pattern = is_slider ? slides : turns;
+  return {std::string(what) + "." + joint.name, std::string(pattern.unit),
+          FillPhrase(pattern.phrase, joint.name), kind};
+}
+
+/// Rows "torque.l_knee", ...: one for each joint.
+inline std::vector<RowDescription> JointRows(const Tree& tree,
+                                             std::string_view what,
+                                             RowKind kind,
+                                             const RowPattern& turns,
+                                             const RowPattern& slides) {
+  std::vector<RowDescription> rows;
   for (const Joint& joint : tree.joints()) {
-    names.push_back(std::string(what) + "." + joint.name);
+    rows.push_back(JointRow(joint, what, kind, turns, slides));
   }
-  return names;
+  return rows;
 }
 
-/// Row names "momentum.x", ...
-inline std::vector<std::string> AxisRowNames(
-    std::string_view what, std::initializer_list<std::string_view> axes) {
-  std::vector<std::string> names;
-  for (const std::string_view axis : axes) {
-    names.push_back(std::string(what) + "." + std::string(axis));
+/// Rows "momentum.lx", ...
+inline std::vector<RowDescription> AxisRows(
+    std::string_view what, RowKind kind,
+    std::initializer_list<RowPattern> patterns) {
+  std::vector<RowDescription> rows;
+  for (const RowPattern& pattern : patterns) {
+    rows.push_back({std::string(what) + "." + std::string(pattern.end),
+                    std::string(pattern.unit), std::string(pattern.phrase),
+                    kind});
   }
-  return names;
+  return rows;
+}
+
+/// Rows "frame.l_hand.wx", ...: rotation, then translation of a link.
+inline std::vector<RowDescription> FrameRows(const std::string& link) {
+  std::vector<RowDescription> rows =
+      AxisRows("frame." + link, RowKind::kTarget,
+               {{"wx", "rad/s2", "the rotation of the % about x"},
+                {"wy", "rad/s2", "the rotation of the % about y"},
+                {"wz", "rad/s2", "the rotation of the % about z"},
+                {"vx", "m/s2", "the motion of the % along x"},
+                {"vy", "m/s2", "the motion of the % along y"},
+                {"vz", "m/s2", "the motion of the % along z"}});
+  for (auto& row : rows) row.phrase = FillPhrase(row.phrase, link);
+  return rows;
 }
 
 }  // namespace poise

@@ -7,11 +7,7 @@
 namespace poise {
 
 SwingTask::SwingTask(const Foot& foot, int index)
-    : Task("frame." + foot.name,
-           AxisRowNames("frame." + foot.name,
-                        {"wx", "wy", "wz", "vx", "vy", "vz"}),
-           {}),
-      index_(index) {
+    : Task("frame." + foot.name, FrameRows(foot.name), {}), index_(index) {
   AddParameter("kp", &kp_, 0, 1e4);
   AddParameter("kd", &kd_, 0, 1e3);
 }

@@ -8,7 +8,10 @@
 namespace poise {
 
 TorqueLimitsTask::TorqueLimitsTask(const RobotModel& model)
-    : Task("torque_limits", {}, JointRowNames(model.tree, "torque")),
+    : Task("torque_limits", {},
+           JointRows(model.tree, "torque", RowKind::kTorqueLimit,
+                     {"", "N m", "the torque of %"},
+                     {"", "N", "the force of %"})),
       inverse_effort_(model.tree.num_joints()),
       is_passive_(model.tree.num_joints()) {
   for (int j = 0; j < model.tree.num_joints(); ++j) {

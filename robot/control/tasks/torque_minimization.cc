@@ -15,7 +15,10 @@ constexpr double kTypicalEffort = 100;
 
 TorqueMinimizationTask::TorqueMinimizationTask(const RobotModel& model)
     : Task("torque_minimization",
-           JointRowNames(model.tree, "torque_minimization"), {}),
+           JointRows(model.tree, "torque_minimization", RowKind::kTarget,
+                     {"", "N m", "the torque of %"},
+                     {"", "N", "the force of %"}),
+           {}),
       inverse_effort_(model.tree.num_joints()) {
   for (int j = 0; j < model.tree.num_joints(); ++j) {
     const double effort = model.limits[j].effort;

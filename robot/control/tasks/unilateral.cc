@@ -7,7 +7,9 @@
 namespace poise {
 
 UnilateralTask::UnilateralTask(const Tree& tree, const std::vector<Foot>& feet)
-    : Task("unilateral", {}, FootRowNames(feet, "unilateral", {"fz"})),
+    : Task("unilateral", {},
+           FootRows(feet, "unilateral", RowKind::kNormalForceLimit,
+                    {{"fz", "N", "the normal force of the %"}})),
       nv_(tree.nv()),
       scale_(1 / ForceScale(tree)) {}
 

@@ -8,9 +8,16 @@ namespace poise {
 
 YawTask::YawTask(const Tree& tree, const std::vector<Foot>& feet)
     : Task("yaw", {},
-           FootRowNames(feet, "yaw",
-                        {"max_pp", "max_pm", "max_mp", "max_mm", "min_pp",
-                         "min_pm", "min_mp", "min_mm"})),
+           FootRows(
+               feet, "yaw", RowKind::kYawLimit,
+               {{"max_pp", "N m", "the yaw moment of the % at its limit"},
+                {"max_pm", "N m", "the yaw moment of the % at its limit"},
+                {"max_mp", "N m", "the yaw moment of the % at its limit"},
+                {"max_mm", "N m", "the yaw moment of the % at its limit"},
+                {"min_pp", "N m", "the yaw moment of the % at its limit"},
+                {"min_pm", "N m", "the yaw moment of the % at its limit"},
+                {"min_mp", "N m", "the yaw moment of the % at its limit"},
+                {"min_mm", "N m", "the yaw moment of the % at its limit"}})),
       nv_(tree.nv()),
       scale_(1 / ForceScale(tree)),
       feet_(feet) {

@@ -9,7 +9,9 @@ namespace poise {
 YawConstantTask::YawConstantTask(const Tree& tree,
                                  const std::vector<Foot>& feet)
     : Task("yaw_constant", {},
-           FootRowNames(feet, "yaw_constant", {"max", "min"})),
+           FootRows(feet, "yaw_constant", RowKind::kYawLimit,
+                    {{"max", "N m", "the yaw moment of the % at its limit"},
+                     {"min", "N m", "the yaw moment of the % at its limit"}})),
       nv_(tree.nv()),
       scale_(1 / ForceScale(tree)) {
   AddParameter("radius", &radius_, 0, 1);

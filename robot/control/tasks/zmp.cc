@@ -8,8 +8,16 @@
 namespace poise {
 
 ZmpTask::ZmpTask(const Tree& tree, const std::vector<Foot>& feet)
-    : Task("zmp", {},
-           AxisRowNames("zmp", {"x_max", "x_min", "y_max", "y_min"})),
+    : Task(
+          "zmp", {},
+          AxisRows(
+              "zmp", RowKind::kCopLimit,
+              {{"x_max", "N m",
+                "the combined CoP at the front edge of its box"},
+               {"x_min", "N m", "the combined CoP at the rear edge of its box"},
+               {"y_max", "N m", "the combined CoP at the left edge of its box"},
+               {"y_min", "N m",
+                "the combined CoP at the right edge of its box"}})),
       nv_(tree.nv()),
       scale_(1 / ForceScale(tree)) {
   if (!feet.empty()) dx_ = feet.front().half_size.x();

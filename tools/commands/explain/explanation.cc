@@ -11,10 +11,12 @@
 
 #include "sim/log/open_log.h"
 #include "sim/log/run_summary.h"
-#include "tools/commands/explain/describe_row.h"
 #include "tools/commands/explain/foot_story.h"
 #include "tools/commands/explain/loss_cause.h"
+#include "tools/commands/explain/momentum_cost.h"
+#include "tools/commands/explain/row_phrases.h"
 #include "tools/commands/explain/run_story.h"
+#include "tools/commands/explain/short_story.h"
 
 namespace poise {
 namespace {
@@ -51,20 +53,24 @@ std::string AndMore(size_t count, size_t said) {
 
 // What to call a row among others of its task: constraints one by one, tasks by
 // their name.
-std::string Group(const std::string& name) {
-  const std::string said = DescribeRow(name);
-  return said != name ? said : Spaced(name.substr(0, name.rfind('.')));
+std::string Group(const std::string& name, const RunStory& story,
+                  const RowPhrases& phrases) {
+  return IsConstraint(name, story.constraints, phrases)
+             ? phrases.phrase(name)
+             : Spaced(phrases.task(name));
 }
 
-std::string LossSentence(const Span& span, const std::string& unit,
-                         const LossCause& cause) {
-  std::string text = Format("%.3f s: ", span.from) + span.name + " gave up " +
-                     Format("%.3g ", std::abs(span.peak)) + unit +
-                     Format(" (at %.3f s)", span.at);
+std::string LossSentence(const Span& span, const LossCause& cause,
+                         const RunStory& story, const RowPhrases& phrases) {
+  const std::string unit = phrases.unit(span.name);
+  std::string text =
+      Format("%.3f s: ", span.from) + phrases.phrase(span.name) +
+      " missed its target by " + Format("%.3g", std::abs(span.peak)) +
+      (unit.empty() ? "" : " " + unit) + Format(" (at %.3f s)", span.at);
   const char* begin = cause.is_known ? ", because of " : ", while ";
   std::vector<std::string> said;
   for (const auto& [name, value] : cause.rows) {
-    const std::string row = Group(name);
+    const std::string row = Group(name, story, phrases);
     if (std::find(said.begin(), said.end(), row) != said.end()) continue;
     said.push_back(row);
     if (said.size() > kMostCauses) continue;
@@ -77,14 +83,15 @@ std::string LossSentence(const Span& span, const std::string& unit,
 }
 
 // In the order of their ranks, the lowest first: it gave way.
-std::string ConflictSentence(double time, Values rows) {
+std::string ConflictSentence(double time, Values rows, const RunStory& story,
+                             const RowPhrases& phrases) {
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
     return a.second > b.second;
   });
   std::string text;
   std::vector<std::string> said;
   for (const auto& [name, rank] : rows) {
-    const std::string group = Group(name);
+    const std::string group = Group(name, story, phrases);
     if (std::find(said.begin(), said.end(), group) != said.end()) continue;
     said.push_back(group);
     if (said.size() > kMostRows) continue;
@@ -96,17 +103,17 @@ std::string ConflictSentence(double time, Values rows) {
 }
 
 // Why a tick is not ok, after what happened.
-std::string SayWhy(const std::string& reason) {
+std::string SayWhy(const std::string& reason, const RowPhrases& phrases) {
   constexpr std::string_view kRank = "rank_";
   if (reason.rfind(kRank, 0) == 0) {
     return ": rank " + reason.substr(kRank.size()) +
            " is not solved, nor what comes after it";
   }
-  const std::string row = DescribeRow(reason);
-  if (row != reason) return ": what gave way most is " + row;
   if (reason == "state") return ": what it is told of the robot cannot be";
   if (reason == "clock") return ": the time of the robot's state stands still";
   if (reason == "no_answer") return ": no answer that meets the dynamics";
+  if (!reason.empty())
+    return ": what gave way most is " + phrases.phrase(reason);
   return "";
 }
 
@@ -169,11 +176,11 @@ json ExplainStance(const RunStory& story, Sentences* sentences) {
   return out;
 }
 
-json ExplainLosses(const RunStory& story, Sentences* sentences) {
+json ExplainLosses(const RunStory& story, const RowPhrases& phrases,
+                   Sentences* sentences) {
   json out = json::array();
   for (const Span& span : story.losses.spans()) {
-    const std::string unit = UnitOfLoss(span.name);
-    const LossCause cause = FindCause(span, story);
+    const LossCause cause = FindCause(span, story, phrases);
     json names = json::array();
     for (const auto& [name, value] : cause.rows) names.push_back(name);
     out.push_back({{"name", span.name},
@@ -181,16 +188,18 @@ json ExplainLosses(const RunStory& story, Sentences* sentences) {
                    {"to", span.to},
                    {"at", span.at},
                    {"amount", span.peak},
-                   {"unit", unit},
+                   {"unit", phrases.unit(span.name)},
                    {"because", cause.is_known ? names : json::array()},
                    {"while", cause.is_known ? json::array() : names}});
     if (std::abs(span.peak) < kSmallLoss) continue;
-    sentences->emplace_back(span.from, LossSentence(span, unit, cause));
+    sentences->emplace_back(span.from,
+                            LossSentence(span, cause, story, phrases));
   }
   return out;
 }
 
-json ExplainConflicts(const RunStory& story, Sentences* sentences) {
+json ExplainConflicts(const RunStory& story, const RowPhrases& phrases,
+                      Sentences* sentences) {
   json out = json::array();
   std::string last;
   for (const auto& [at, found] : story.conflicts) {
@@ -200,7 +209,7 @@ json ExplainConflicts(const RunStory& story, Sentences* sentences) {
     }
     out.push_back({{"at", at}, {"rows", names}});
     // The same again is not said again.
-    const std::string sentence = ConflictSentence(at, found);
+    const std::string sentence = ConflictSentence(at, found, story, phrases);
     const std::string what = sentence.substr(sentence.find(':'));
     if (what != last) sentences->emplace_back(at, sentence);
     last = what;
@@ -208,7 +217,8 @@ json ExplainConflicts(const RunStory& story, Sentences* sentences) {
   return out;
 }
 
-json ExplainStatus(const RunStory& story, Sentences* sentences) {
+json ExplainStatus(const RunStory& story, const RowPhrases& phrases,
+                   Sentences* sentences) {
   json out = json::array();
   for (const Span& span : story.states.spans()) {
     const std::string name = span.name.substr(0, span.name.find(' '));
@@ -221,7 +231,7 @@ json ExplainStatus(const RunStory& story, Sentences* sentences) {
     sentences->emplace_back(
         span.from, Format("%.3f s: ", span.from) + "the controller says " +
                        Spaced(name) + Format(", until %.3f s", span.to) +
-                       SayWhy(why) + ".");
+                       SayWhy(why, phrases) + ".");
   }
   return out;
 }
@@ -254,6 +264,22 @@ json ExplainTouches(const RunStory& story, Sentences* sentences) {
     sentences->emplace_back(
         span.from, Format("%.3f s: ", span.from) + Spaced(a) + " touches " +
                        Spaced(b) + "," + Milliseconds(span.lasted()) + ".");
+  }
+  return out;
+}
+
+json ExplainCauses(const RunStory& story) {
+  json out = json::array();
+  for (const MomentumCause& cause : story.momentum.Causes()) {
+    json rows = json::array();
+    for (const auto& [phrase, cost] : cause.rows) {
+      rows.push_back({{"phrase", phrase}, {"cost_Ns", cost}});
+    }
+    out.push_back({{"task", cause.task},
+                   {"kind", cause.kind},
+                   {"from", cause.from},
+                   {"cost_Ns", cause.cost},
+                   {"rows", rows}});
   }
   return out;
 }
@@ -303,29 +329,35 @@ size_t SayInOrder(const json& summary, Sentences sentences, json* out) {
 json Explain(const std::filesystem::path& run) {
   const std::filesystem::path log = FindLog(run);
   const std::unique_ptr<LogReader> reader = OpenLog(log);
-  const RunStory story = ReadRunStory(log, reader.get());
+  const RunSummary read = ReadRunSummary(run);
+  const json summary = read.values.is_null() ? json::object() : read.values;
+  const RowPhrases phrases(summary);
+  const json fell_at = summary.value("fell_at", json());
+  const RunStory story = ReadRunStory(
+      log, phrases,
+      fell_at.is_number() ? fell_at.get<double>()
+                          : std::numeric_limits<double>::infinity(),
+      reader.get());
 
   json notes = json::array();
   if (reader->cut_short()) {
     notes.push_back(log.filename().string() +
                     " was cut short: its last row is not whole.");
   }
-  const RunSummary read = ReadRunSummary(run);
   if (read.is_of_other_log) notes.push_back(read.note);
-  const json summary = read.values.is_null() ? json::object() : read.values;
 
   json out = {
       {"recovered",
        WasInterrupted(summary) ? json() : summary.value("recovered", json())},
-      {"fell_at", summary.value("fell_at", json())},
+      {"fell_at", fell_at},
       {"notes", notes}};
   // What begins at the same time is said in this order.
   Sentences sentences;
   out["rows"] = ExplainRows(story, &sentences);
   out["stance"] = ExplainStance(story, &sentences);
-  out["losses"] = ExplainLosses(story, &sentences);
-  out["conflicts"] = ExplainConflicts(story, &sentences);
-  out["status"] = ExplainStatus(story, &sentences);
+  out["losses"] = ExplainLosses(story, phrases, &sentences);
+  out["conflicts"] = ExplainConflicts(story, phrases, &sentences);
+  out["status"] = ExplainStatus(story, phrases, &sentences);
 
   const bool is_quiet = sentences.empty();
   out["pushes"] = ExplainPushes(story, &sentences);
@@ -333,11 +365,10 @@ json Explain(const std::filesystem::path& run) {
 
   json said = json::array();
   const size_t left_out = SayInOrder(summary, sentences, &said);
-  if (is_quiet) {
-    said.push_back(story.has_rows ? SayNothing(story)
-                                  : log.filename().string() +
-                                        " has a header and no rows.");
-  }
+  const std::string said_of_quiet =
+      story.has_rows ? SayNothing(story)
+                     : log.filename().string() + " has a header and no rows.";
+  if (is_quiet) said.push_back(said_of_quiet);
   for (const json& note : notes) said.push_back(note);
   said.push_back(Ending(summary));
   if (left_out > 0) {
@@ -345,6 +376,11 @@ json Explain(const std::filesystem::path& run) {
                           static_cast<double>(left_out)));
   }
   out["sentences"] = said;
+  out["causes"] = ExplainCauses(story);
+  std::vector<std::string> must_be_said;
+  if (is_quiet) must_be_said.push_back(said_of_quiet);
+  for (const json& note : notes) must_be_said.push_back(note);
+  out["story"] = TellShortStory(story, summary, must_be_said, Ending(summary));
   return out;
 }
 

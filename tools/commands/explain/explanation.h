@@ -33,6 +33,10 @@ namespace poise {
 ///                log, and recovered where the run was interrupted.
 ///     notes      [sentence, ...]: that the log was cut, or is not the summary's.
 ///     sentences  the same for a person, in the order of time.
+///     causes     [{task, kind, from, cost_Ns, rows: [{phrase, cost_Ns}]}]: what
+///                kept the momentum from its target, see MomentumCost.
+///     story      [sentence, ...]: the run in at most six sentences, in order of
+///                cause.
 ///
 /// Throws std::invalid_argument, naming the file, if there is no log, or it
 /// does not hold what the controller said.

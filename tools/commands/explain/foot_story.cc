@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "tools/commands/explain/describe_row.h"
+#include "tools/commands/explain/row_phrases.h"
 
 namespace poise {
 namespace {

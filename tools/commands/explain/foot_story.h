@@ -27,6 +27,10 @@ class FootStory {
   const std::string& foot() const { return foot_; }
   const std::vector<Phase>& phases() const { return phases_; }
 
+  /// When the foot, meant to be down, first rolled over an edge or slid, s.
+  std::optional<double> rolls() const { return rolls_; }
+  std::optional<double> slides() const { return slides_; }
+
   /// The same for a person, each with its time, s; not in order.
   std::vector<std::pair<double, std::string>> Sentences() const;
 

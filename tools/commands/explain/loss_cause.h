@@ -1,8 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <set>
 #include <string>
 
+#include "tools/commands/explain/row_phrases.h"
 #include "tools/commands/explain/run_story.h"
 
 namespace poise {
@@ -14,13 +16,15 @@ struct LossCause {
   Values rows;             ///< Hardest first; of ranks, the lowest.
 };
 
-/// The unit of what a row of a task lost, by what the row is called; of a joint, as
-/// of one that turns.
-std::string UnitOfLoss(const std::string& name);
+/// Whether a row is a constraint, and no target of a task: by its description or,
+/// without one, because the log lists the row as active at some time.
+bool IsConstraint(const std::string& name, const std::set<std::string>& active,
+                  const RowPhrases& phrases);
 
 /// What the nearest conflict says: the constraints in it or, where there are none,
 /// the tasks that come before. Where no conflict is known, the constraints that
 /// acted, of which none need press on the task.
-LossCause FindCause(const Span& loss, const RunStory& story);
+LossCause FindCause(const Span& loss, const RunStory& story,
+                    const RowPhrases& phrases);
 
 }  // namespace poise

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <initializer_list>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string_view>
 
 #include "robot/finding.h"
 #include "sim/log/open_log.h"
-#include "tools/commands/explain/describe_row.h"
 
 namespace poise {
 namespace {
@@ -77,6 +77,14 @@ void AddTouches(std::string_view cell, const LogTick& tick, Spans* touches) {
   }
 }
 
+// NaN where there are no columns.
+double Sum(const LogReader& reader, const std::vector<int>& columns) {
+  if (columns.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double sum = 0;
+  for (const int column : columns) sum += reader.Number(column);
+  return sum;
+}
+
 // From the first row of a log to the second, s; 0 where there is none.
 double FindPeriod(const std::filesystem::path& log, int time) {
   const std::unique_ptr<LogReader> reader = OpenLog(log);
@@ -106,7 +114,9 @@ void Spans::Add(const std::string& name, const LogTick& tick, double value,
   span.with = with;
 }
 
-RunStory ReadRunStory(const std::filesystem::path& log, LogReader* opened) {
+RunStory ReadRunStory(const std::filesystem::path& log,
+                      const RowPhrases& phrases, double fell_at,
+                      LogReader* opened) {
   LogReader& reader = *opened;
   const auto time = reader.Find("time"), status = reader.Find("status"),
              active = reader.Find("active"), lost = reader.Find("lost"),
@@ -118,6 +128,8 @@ RunStory ReadRunStory(const std::filesystem::path& log, LogReader* opened) {
   }
   const std::vector<int> push =
       FindAll(reader, {"push.fx", "push.fy", "push.fz"});
+  const std::vector<int> loads =
+      FindAll(reader, {"left_foot.fz", "right_foot.fz"});
   RunStory story;
   for (const std::string name : {"left_foot", "right_foot"}) {
     story.feet.emplace_back(name, reader);
@@ -132,20 +144,26 @@ RunStory ReadRunStory(const std::filesystem::path& log, LogReader* opened) {
     const Values acting = Parse(Text(reader, *active));
     for (const auto& [name, value] : acting) {
       story.rows.Add(name, tick, value, {});
-      story.said.Add(DescribeRow(name), tick, value, {});
+      story.said.Add(phrases.phrase(name), tick, value, {});
+      story.constraints.insert(name);
     }
     if (Text(reader, *status) != "ok") {
       std::string state(reader.cell(*status));
       if (reason) state.append(" ").append(Text(reader, *reason));
       story.states.Add(state, tick, 1, {});
     }
-    if (conflict && !Text(reader, *conflict).empty()) {
-      story.conflicts.push_back({tick.time, Parse(reader.cell(*conflict))});
+    const Values conflicting =
+        conflict ? Parse(Text(reader, *conflict)) : Values();
+    if (!conflicting.empty()) {
+      story.conflicts.push_back({tick.time, conflicting});
     }
-    if (!lost) continue;
-    for (const auto& [name, value] : Parse(Text(reader, *lost))) {
+    const Values missed = lost ? Parse(Text(reader, *lost)) : Values();
+    for (const auto& [name, value] : missed) {
       story.losses.Add(name, tick, value, acting);
     }
+    if (tick.time > fell_at) continue;
+    story.momentum.Look(tick.time, period, phrases, acting, missed, conflicting,
+                        Sum(reader, loads));
   }
   return story;
 }

@@ -3,12 +3,15 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sim/log/log_reader.h"
 #include "tools/commands/explain/foot_story.h"
+#include "tools/commands/explain/momentum_cost.h"
+#include "tools/commands/explain/row_phrases.h"
 
 namespace poise {
 
@@ -56,19 +59,23 @@ struct LoggedConflict {
 
 /// What a log tells of a run.
 struct RunStory {
-  Spans rows;       ///< That acted, with their multipliers.
-  Spans said;       ///< By what they mean: a friction pyramid has four.
+  Spans rows;  ///< That acted, with their multipliers.
+  Spans said;  ///< By what they mean: a friction pyramid has four.
+  std::set<std::string> constraints;  ///< Rows that were active, by name.
   Spans losses;     ///< Of rows of tasks, each with the rows that acted then.
   Spans states;     ///< Where the status was not ok: that, and the reason.
   Spans pushes{0};  ///< Their force, N, with its parts.
   Spans touches;    ///< Of two links: "a|b".
   std::vector<FootStory> feet;
   std::vector<LoggedConflict> conflicts;
+  MomentumCost momentum;  ///< Up to the fall.
   bool has_rows = false;
 };
 
-/// Reads all rows of a log. Throws std::invalid_argument, naming the file, if it
+/// Reads all rows of a log; fell_at is when the robot fell, s, or infinite. Throws std::invalid_argument, naming the file, if it
 /// does not hold what the controller said; and the row, if that is no UTF-8.
-RunStory ReadRunStory(const std::filesystem::path& log, LogReader* reader);
+RunStory ReadRunStory(const std::filesystem::path& log,
+                      const RowPhrases& phrases, double fell_at,
+                      LogReader* reader);
 
 }  // namespace poise

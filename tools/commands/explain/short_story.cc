@@ -1,0 +1,247 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "tools/commands/explain/short_story.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "tools/commands/explain/foot_story.h"
+#include "tools/commands/explain/momentum_cost.h"
+#include "tools/commands/explain/row_phrases.h"
+
+namespace poise {
+namespace {
+
+using nlohmann::json;
+
+constexpr size_t kMostCauses = 2;    // Named as reasons of a loss.
+constexpr size_t kMostRows = 2;      // Named of one cause.
+constexpr double kSmallShare = 0.1;  // Of a loss: not worth a mention.
+constexpr double kBefore = 0.010;    // s: a push that begins with its effect.
+
+// The shorter story of a slip.
+struct Slip {
+  std::string foot;
+  double at;
+};
+
+std::string Format(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+std::optional<double> Number(const json& summary, const char* key) {
+  const auto at = summary.find(key);
+  if (at == summary.end() || !at->is_number()) return std::nullopt;
+  return at->get<double>();
+}
+
+// "forward", or "at 30 deg" where 0 is forward and 90 is left.
+std::string Direction(const Values& force) {
+  if (force.size() < 2) return "";
+  const double x = force[0].second, y = force[1].second;
+  if (std::hypot(x, y) == 0) return "";
+  constexpr double kDegree = M_PI / 180;
+  const double degrees = std::atan2(y, x) / kDegree;
+  constexpr std::pair<double, const char*> kWords[] = {{0, " forward"},
+                                                       {90, " to the left"},
+                                                       {180, " backward"},
+                                                       {-180, " backward"},
+                                                       {-90, " to the right"}};
+  for (const auto& [direction, word] : kWords) {
+    if (std::abs(degrees - direction) < 1) return word;
+  }
+  return Format(" at %.0f deg (0 forward, 90 left)", degrees);
+}
+
+// The last push that began before the momentum was lost.
+const Span* FindPush(const RunStory& story) {
+  const std::vector<Span>& pushes = story.pushes.spans();
+  const Span* found = pushes.empty() ? nullptr : &pushes.front();
+  for (const Span& push : pushes) {
+    if (story.momentum.has_loss() &&
+        push.from <= story.momentum.from() + kBefore) {
+      found = &push;
+    }
+  }
+  return found;
+}
+
+std::string SayPush(const Span& push, const RunStory& story,
+                    const json& summary) {
+  std::string text =
+      Format("%.3f s: the robot is pushed", push.from) + Direction(push.with) +
+      Format(push.peak < 100 ? " with %.3g N" : " with %.0f N", push.peak) +
+      Format(" for %.0f ms", 1e3 * push.lasted());
+  const auto impulse = Number(summary, "impulse_Ns");
+  if (impulse && story.pushes.spans().size() == 1) {
+    text += Format(", %.1f N s in all", *impulse);
+  }
+  return text + ".";
+}
+
+// A foot that slides while it is flat on the ground, before all was lost: the
+// ground gives less friction than the controller counts on.
+std::optional<Slip> FindSlip(const RunStory& story, const json& summary) {
+  const double end =
+      story.momentum.is_lost()
+          ? story.momentum.lost_at()
+          : Number(summary, "fell_at")
+                .value_or(std::numeric_limits<double>::infinity());
+  std::optional<Slip> first;
+  for (const FootStory& foot : story.feet) {
+    const auto at = foot.slides();
+    if (!at || *at > end || (foot.rolls() && *foot.rolls() < *at)) continue;
+    if (!first || *at < first->at) {
+      first = Slip{"the " + Spaced(foot.foot()), *at};
+    }
+  }
+  return first;
+}
+
+// "A", "A and B", "A, B and 3 more": the rows that cost most.
+std::string Rows(const MomentumCause& cause) {
+  const double least = kSmallShare * cause.rows.front().second;
+  const auto count = static_cast<size_t>(
+      std::count_if(cause.rows.begin(), cause.rows.end(),
+                    [&](const auto& row) { return row.second >= least; }));
+  const size_t said = std::min(count, kMostRows);
+  std::string text = cause.rows.front().first;
+  for (size_t i = 1; i < said; ++i) {
+    text += (i + 1 == count ? " and " : ", ") + cause.rows[i].first;
+  }
+  return count == said
+             ? text
+             : text + " and " + std::to_string(count - said) + " more";
+}
+
+std::string SayFirstCause(const MomentumCause& cause, const RunStory& story,
+                          const std::optional<double>& fell_at) {
+  double from = cause.from, end = cause.from;
+  for (const Span& span : story.said.spans()) {
+    const bool is_of_it = span.name == cause.rows.front().first &&
+                          span.from <= cause.from && span.end >= cause.from;
+    if (!is_of_it) continue;
+    from = span.from;
+    end = span.end;
+  }
+  std::string text =
+      Format("%.3f s: the most costly limit is reached: ", from) + Rows(cause);
+  if (fell_at && end >= *fell_at) return text + ", until the fall.";
+  return text +
+         (end > from ? Format(", for %.0f ms.", 1e3 * (end - from)) : ".");
+}
+
+std::string SayLoss(const RunStory& story,
+                    const std::vector<MomentumCause>& causes) {
+  const MomentumCost& momentum = story.momentum;
+  std::string text =
+      Format("%.3f s: momentum cannot reach its target", momentum.from()) +
+      Format(momentum.peak() < 100 ? ", by up to %.3g N" : ", by up to %.0f N",
+             momentum.peak()) +
+      Format(" at %.3f s", momentum.at());
+  size_t said = 0;
+  for (const MomentumCause& cause : causes) {
+    const double share = cause.cost / momentum.cost();
+    if (said == kMostCauses || (said > 0 && share < kSmallShare)) break;
+    text += (said == 0 ? ", because of " : "; ") + Rows(cause) +
+            Format(" (%.0f %%)", 100 * share);
+    ++said;
+  }
+  return text + ".";
+}
+
+std::string SayWhatHelps(const std::string& kind, const std::string& first,
+                         bool is_pushed, const json& summary) {
+  constexpr std::pair<std::string_view, const char*> kHelp[] = {
+      {"cop_limit", "A step or larger soles would have helped"},
+      {"friction_limit", "More friction would have helped"},
+      {"yaw_limit", "More friction or larger soles would have helped"},
+      {"normal_force_limit", "A step or a wider stance would have helped"},
+      {"torque_limit", "Stronger motors would have helped"},
+      {"joint_limit",
+       "Joints with more range, or a posture farther from their stops, would "
+       "have helped"},
+      {"slip",
+       "A rougher ground, or a lower friction coefficient in the controller, "
+       "would have helped"}};
+  std::string text;
+  for (const auto& [name, help] : kHelp) {
+    if (kind == name) text = help;
+  }
+  if (text.empty()) text = "A wider limit would have helped: " + first;
+  const auto impulse = Number(summary, "impulse_Ns");
+  const auto bearable = Number(summary, "lipm_height_Ns");
+  if (is_pushed && impulse && bearable && *impulse > *bearable) {
+    text += Format("; so would a smaller push: of %.1f N s", *impulse) +
+            Format(", a pendulum on these feet takes %.1f N s", *bearable);
+  }
+  return text + ".";
+}
+
+// What the feet and the controller did before a fall, in the order of time.
+std::vector<std::string> Events(const RunStory& story, double end) {
+  std::vector<std::pair<double, std::string>> events;
+  for (const FootStory& foot : story.feet) {
+    for (const auto& event : foot.Sentences()) {
+      if (event.first < end) events.push_back(event);
+    }
+  }
+  std::stable_sort(
+      events.begin(), events.end(),
+      [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> sentences;
+  for (const auto& [time, sentence] : events) sentences.push_back(sentence);
+  return sentences;
+}
+
+}  // namespace
+
+std::vector<std::string> TellShortStory(const RunStory& story,
+                                        const json& summary,
+                                        const std::vector<std::string>& notes,
+                                        const std::string& ending) {
+  const std::vector<MomentumCause> causes = story.momentum.Causes();
+  const auto fell_at = Number(summary, "fell_at");
+  const auto slip = FindSlip(story, summary);
+  const Span* push = FindPush(story);
+
+  std::vector<std::string> before, after;
+  if (push != nullptr) before.push_back(SayPush(*push, story, summary));
+  if (fell_at && slip) {
+    before.push_back(Format("%.3f s: ", slip->at) + slip->foot +
+                     " slips on the ground: it has slid by more than 5 mm.");
+  }
+  if (!causes.empty()) {
+    if (!fell_at || !slip) {
+      before.push_back(SayFirstCause(causes.front(), story, fell_at));
+    }
+    before.push_back(SayLoss(story, causes));
+  }
+  after = notes;
+  after.push_back(ending);
+  if (fell_at && (slip || !causes.empty())) {
+    after.push_back(SayWhatHelps(slip ? "slip" : causes.front().kind,
+                                 slip ? "" : causes.front().rows.front().first,
+                                 push != nullptr, summary));
+  }
+  if (after.size() > kStoryLength) after.resize(kStoryLength);
+  const size_t room = kStoryLength - after.size();
+  if (before.size() > room) before.resize(room);
+  if (!fell_at) {
+    for (const std::string& event :
+         Events(story, std::numeric_limits<double>::infinity())) {
+      if (before.size() < room) before.push_back(event);
+    }
+  }
+  before.insert(before.end(), std::make_move_iterator(after.begin()),
+                std::make_move_iterator(after.end()));
+  return before;
+}
+
+}  // namespace poise
