@@ -60,6 +60,11 @@ const char kGood[] = R"(<?xml version="1.0"?>
 </robot>
 )";
 
+// A body of 1 kg without extent.
+const char kPoint[] =
+    "<inertial><mass value='1'/><inertia ixx='0' ixy='0' ixz='0' iyy='0' "
+    "iyz='0' izz='0'/></inertial>";
+
 // kGood with the first `old_text` as `new_text`.
 std::string With(const std::string& old_text, const std::string& new_text) {
   std::string text = kGood;
@@ -161,7 +166,8 @@ TEST(LoadUrdf, ReadsShapes) {
 }
 
 TEST(LoadUrdf, KeepsTheOrderOfTheFile) {
-  std::string text = "<robot name='r'><link name='root'/>";
+  std::string text =
+      std::string("<robot name='r'><link name='root'>") + kPoint + "</link>";
   for (const char* name : {"z", "y", "x"}) {
     text += std::string("<link name='") + name + "'/><joint name='to_" + name +
             "' type='continuous'><parent link='root'/><child link='" + name +
@@ -433,6 +439,23 @@ TEST(LoadUrdf, RejectsWhatIsNoUrdf) {
             "test.urdf:1: <robot>: has no link, must have one");
 }
 
+// Massless links are legal, but with no mass at all M is zero.
+TEST(LoadUrdf, RejectsARobotWithoutMass) {
+  const std::string joint =
+      "<joint name='j' type='continuous'><parent link='a'/><child link='b'/>"
+      "</joint></robot>";
+  const std::string links = "\n<robot name='r'><link name='a'/><link name='b'";
+  const std::string wanted =
+      "test.urdf:2: <robot>: the mass of all links together is 0, must be "
+      "positive, or M is singular: give each link its <inertial>";
+  EXPECT_EQ(Rejection(links + "/>" + joint), wanted);
+  std::string massless = kPoint;
+  massless.replace(massless.find("'1'"), 3, "'0'");
+  EXPECT_EQ(Rejection(links + ">" + massless + "</link>" + joint), wanted);
+  EXPECT_EQ(Parse(links + ">" + kPoint + "</link>" + joint).tree.total_mass(),
+            1);
+}
+
 TEST(LoadUrdf, RejectsLoops) {
   const std::string joint = "<limit effort='1' velocity='1'/></joint></robot>";
   EXPECT_NE(Rejection(With("</robot>",
@@ -609,8 +632,9 @@ TEST(LoadUrdf, FindsNothingWrongWithWhatIsCommon) {
 TEST(LoadUrdf, KeepsNamesAsTheyAre) {
   const std::string name = "l <a> \"q\" %s %n \\ \xc3\xa9 \xe6\x97\xa5";
   std::string text =
-      "<robot name='%n%s'><material name='%n'/>"
-      "<link name='l &lt;a&gt; &quot;q&quot; %s %n \\ \xc3\xa9 \xe6\x97\xa5'>"
+      std::string("<robot name='%n%s'><material name='%n'/>") +
+      "<link name='l &lt;a&gt; &quot;q&quot; %s %n \\ \xc3\xa9 \xe6\x97\xa5'>" +
+      kPoint +
       "<visual><geometry><box size='1 1 1'/></geometry><material name='%n'/>"
       "</visual></link></robot>";
   const RobotModel model = Parse(text);

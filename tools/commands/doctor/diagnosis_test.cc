@@ -140,6 +140,13 @@ TEST(Diagnose, RejectsWithTheReason) {
   EXPECT_EQ(VerdictWord(Diagnose("no/such.urdf")), "reject");
 }
 
+TEST(Diagnose, RejectsARobotWithoutMass) {
+  const Diagnosis diagnosis = Examine(Chain({"", ""}, {"0 0 1"}));
+  EXPECT_EQ(VerdictWord(diagnosis), "reject") << Findings(diagnosis);
+  EXPECT_EQ(diagnosis.findings[0].what, "the mass of all links together is 0");
+  EXPECT_EQ(diagnosis.findings[0].line, 1);
+}
+
 TEST(Diagnose, NamesTheLineOfWhatIsNoXml) {
   const Diagnosis diagnosis = Examine("<robot>\n<!DOCTYPE a></robot>");
   ASSERT_EQ(VerdictWord(diagnosis), "reject");
