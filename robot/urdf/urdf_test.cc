@@ -292,7 +292,7 @@ TEST(LoadUrdf, TakesUnknownLimitsForNone) {
     EXPECT_EQ(limits.effort, 1);
   }
   const JointLimits limits =
-      Parse(With("effort=\"10\" velocity=\"5\"", "effort='-1' velocity='0'"))
+      Parse(With("effort=\"10\" velocity=\"5\"", "effort='inf' velocity='0'"))
           .limits[0];
   EXPECT_EQ(limits.effort, kInfinity);
   EXPECT_EQ(limits.velocity, kInfinity);
@@ -403,6 +403,10 @@ TEST(LoadUrdf, RejectsInOneLineThatNamesWhatWasWanted) {
        "joint 'j': has no <limit>, must have one"},
       {"effort=\"10\"", "", "<limit>: has no effort, must have one"},
       {"velocity=\"5\"", "", "<limit>: has no velocity, must have one"},
+      {"effort=\"10\"", "effort=\"-10\"",
+       ":33: joint 'j' <limit>: effort is -10, must not be negative: write the "
+       "largest torque or force"},
+      {"effort=\"10\"", "effort=\"-inf\"", "<limit>: effort is -inf, must not"},
       {"upper=\"2\"", "upper=\"nan\"", "<limit>: upper is 'nan'"},
       {"damping=\"0.5\"", "damping=\"much\"", "<dynamics>: damping is 'much'"},
       {"<axis", "<mimic/><axis", "<mimic>: has no joint, must have one"},
@@ -536,7 +540,7 @@ TEST(LoadUrdf, WarnsOfWhatControlShouldKnow) {
       {"lower=\"-1\" upper=\"2\"", "lower='-1e9' upper='2'", "a placeholder"},
       {"effort=\"10\"", "effort=\"1e9\"", "placeholder"},
       {"effort=\"10\"", "effort=\"0\"", "it is passive"},
-      {"effort=\"10\"", "effort=\"-1\"", "must not be negative"},
+      {"velocity=\"5\"", "velocity=\"-1\"", "must not be negative"},
       {"effort=\"10\"", "effort=\"inf\"", "taken as not known"},
       {"velocity=\"5\"", "velocity=\"0\"", "velocity is 0"},
       {"velocity=\"5\"", "velocity=\"1e4\"", "placeholder"},
