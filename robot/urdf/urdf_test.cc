@@ -414,7 +414,22 @@ TEST(LoadUrdf, RejectsInOneLineThatNamesWhatWasWanted) {
        "joint 'j': mimics 'j', must be another joint"},
       {"<axis", "<mimic joint='k'/><axis",
        "joint 'j': mimics 'k', there is no such joint"},
-      {"<link name=\"b\">", "<xacro:if/><link name=\"b\">", "is xacro"},
+      {"<link name=\"b\">", "<xacro:leg_Joint side='l'/><link name=\"b\">",
+       ":19: <xacro:leg_Joint>: is xacro, expand it first: the robot would "
+       "lose "
+       "a link, a joint, a limit or mass"},
+      {"<link name=\"b\">",
+       "<xacro:if value='1'><xacro:a><link/></xacro:a></xacro:if><link "
+       "name=\"b\">",
+       "<xacro:if>: is xacro"},
+      {"<link name=\"b\">",
+       "<xacro:if value='1'><transmission/></xacro:if><link name=\"b\">",
+       "<xacro:if>: is xacro"},
+      {"<link name=\"b\">", "<link name=\"b\"><xacro:box_inertia m='1'/>",
+       "link 'b' <xacro:box_inertia>: is xacro"},
+      {"<axis", "<xacro:default/><axis", "joint 'j' <xacro:default>: is xacro"},
+      {"effort=\"10\"", "effort=\"${e}\"",
+       "effort is '${e}', is xacro, expand it first"},
       {"<link name=\"b\">", "<link name=\"c\"/><link name=\"b\">",
        "link 'c': is a second root beside 'a', must hang on a joint"},
   };
@@ -527,6 +542,19 @@ TEST(LoadUrdf, WarnsOfWhatControlShouldKnow) {
       {"<axis", "<xis/><axis", "must it be <axis>?"},
       {"<axis", "<mass/><axis", "<mass>: is no element of URDF here"},
       {"<link name=\"b\">", "<macro/><link name=\"b\">", "is xacro of old"},
+      {"<link name=\"b\">",
+       "<xacro:pelvis_imu parent='pelvis_link' port='${p}'/><link name=\"b\">",
+       ":19: <xacro:pelvis_imu>: is xacro, is ignored: the robot lacks all "
+       "that it adds, expand it first to keep that"},
+      {"<link name=\"b\">",
+       "<xacro:include filename='imu.xacro'/><link name=\"b\">",
+       "<xacro:include>: is xacro of the file 'imu.xacro', is ignored"},
+      {"<link name=\"b\">",
+       "<xacro:if value='1'><gazebo><mu1/></gazebo></xacro:if><link "
+       "name=\"b\">",
+       "<xacro:if>: is xacro, is ignored"},
+      {"<link name=\"b\">", "<link name=\"b\"><xacro:camera name='eye'/>",
+       "link 'b' <xacro:camera>: is xacro, is ignored"},
       {"<mass value=\"2\"/>", "<mass value=\"2\">3</mass>",
        "<mass>: holds the text '3', is ignored"},
       {"damping=", "Damping=",

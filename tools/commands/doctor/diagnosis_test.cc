@@ -275,6 +275,8 @@ TEST(Diagnose, JudgesByWhatIsWorst) {
       {"link='0'/>", "link='none'/>", "reject"},
       {"</robot>", "<loop_joint name='l'/></robot>", "ok"},
       {"</robot>", "<typo/></robot>", "ok"},
+      {"</robot>", "<xacro:imu_sensor name='pelvis'/></robot>", "warn"},
+      {"</robot>", "<xacro:leg_link side='left'/></robot>", "reject"},
       {"</robot>", "", "reject"},
       {"</robot>", "</robot><robot name='b'/>", "reject"},
   };
