@@ -92,6 +92,12 @@ TEST(LargestRectangle, OfACircleIsASquare) {
   EXPECT_NEAR(r.half_size.y(), std::sqrt(0.5), 2e-3);
 }
 
+// A robot of one link, 1 kg without extent.
+const char kOneLink[] =
+    "<robot name='r'><link name='a'><inertial><mass value='1'/><inertia "
+    "ixx='0' "
+    "ixy='0' ixz='0' iyy='0' iyz='0' izz='0'/></inertial></link></robot>";
+
 // A biped: a base, and on each side a leg of the given joints that ends in a
 // foot with the given shapes. At rest the ankle is 1 m below the base.
 std::string Biped(const std::string& shapes, const std::string& foot_rpy,
@@ -295,7 +301,7 @@ TEST(FindFeet, SaysWhyThereAreNone) {
   EXPECT_EQ(Refusal(Biped("", "0 0 0", "lower='0' upper='2'", 5)),
             "robot 'biped' has no flat sole on link 'l6', nor motors to lay "
             "one flat: the leg has 5, must have 6");
-  EXPECT_EQ(Refusal("<robot name='r'><link name='a'/></robot>"),
+  EXPECT_EQ(Refusal(kOneLink),
             "robot 'r' reaches the ground with 1 body, must be two feet");
   EXPECT_EQ(Refusal(Biped(Collision("box size='0.2 0.0008 0.02'", "0 0 -0.04"),
                           "0 0 0")),
@@ -303,8 +309,7 @@ TEST(FindFeet, SaysWhyThereAreNone) {
 }
 
 TEST(MakeFoot, RefusesASoleWithoutArea) {
-  const RobotModel model =
-      ParseUrdf("<robot name='r'><link name='a'/></robot>", "r");
+  const RobotModel model = ParseUrdf(kOneLink, "r");
   EXPECT_FALSE(MakeFoot(model, "f", 0, {}, {{0, 0}, {1, 1}, {2, 2}}));
   EXPECT_FALSE(
       MakeFoot(model, "f", 0, {}, {{0, 0}, {1, 0}, {1, 9e-4}, {0, 9e-4}}));
@@ -313,8 +318,7 @@ TEST(MakeFoot, RefusesASoleWithoutArea) {
 }
 
 TEST(MakeFoot, KeepsWhatReachesFurthestOfVeryManyCorners) {
-  const RobotModel model =
-      ParseUrdf("<robot name='r'><link name='a'/></robot>", "r");
+  const RobotModel model = ParseUrdf(kOneLink, "r");
   std::vector<Vector2d> rim;
   for (int i = 0; i < 100'000; ++i) {
     rim.emplace_back(0.1 * std::cos(i), 0.1 * std::sin(i));

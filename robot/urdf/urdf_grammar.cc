@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "robot/numbers.h"
+#include "robot/urdf/urdf_xacro.h"
 #include "robot/urdf/urdf_xml.h"
 
 namespace poise {
@@ -134,10 +135,6 @@ bool Contains(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
 
-bool IsXacro(std::string_view text) {
-  return Contains(text, "${") || Contains(text, "$(");
-}
-
 char Lower(char c) { return 'A' <= c && c <= 'Z' ? c - 'A' + 'a' : c; }
 
 // Whether a word is another one but for the case, and for a letter more, less
@@ -170,7 +167,7 @@ std::string Collapse(std::string_view text) {
 
 // Why a text is not the numbers it should be.
 std::string WantedNumbers(std::string_view text, int count) {
-  if (IsXacro(text)) return "is xacro, expand it first";
+  if (HasXacroExpression(text)) return "is xacro, expand it first";
   const std::string wanted =
       count == 1 ? "must be a number"
                  : "must be " + std::to_string(count) + " numbers";
@@ -277,8 +274,8 @@ class Pruner {
       if (child.Name() == std::string_view(candidate->name)) return candidate;
     }
     const std::string_view name = child.Name();
-    if (name.substr(0, 6) == "xacro:") {
-      critic_.Reject(child, "is xacro", "expand it first");
+    if (IsXacro(child)) {
+      JudgeXacro(rule, child);
     } else if (&rule == &kRobot && name == "loop_joint") {
       critic_.Note(
           child, "closes a loop",
@@ -299,6 +296,26 @@ class Pruner {
       critic_.Note(child, "is no element of URDF here", "is ignored");
     }
     return nullptr;
+  }
+
+  // Judges an element that xacro should have replaced. Inside a link or beside
+  // it, a macro without an essential part can be left out, as one of sensors.
+  // Inside a joint or an inertial, each element is essential.
+  void JudgeXacro(const ElementRule& rule, const XMLElement& element) {
+    const bool is_inside_essential =
+        rule.fault == Severity::kReject && &rule != &kRobot && &rule != &kLink;
+    if (is_inside_essential || HasEssentialPart(element)) {
+      critic_.Reject(element, "is xacro",
+                     "expand it first: the robot would lose a link, a joint, "
+                     "a limit or mass");
+      return;
+    }
+    const char* file = element.Attribute("filename");
+    critic_.Warn(element,
+                 file != nullptr ? "is xacro of the file " + Quoted(file)
+                                 : std::string("is xacro"),
+                 "is ignored: the robot lacks all that it adds, expand it "
+                 "first to keep that");
   }
 
   void PruneAttributes(const ElementRule& rule, XMLElement* element) {
@@ -351,7 +368,7 @@ class Pruner {
     };
     if (!IsUtf8(text)) return refuse("is not UTF-8");
     if (attribute.numbers == 0) {
-      if (IsXacro(text)) {
+      if (HasXacroExpression(text)) {
         critic_.Warn(*element,
                      std::string(attribute.name) + " is " + Quoted(text),
                      "looks like xacro: expand it first?");

@@ -45,7 +45,8 @@ std::string Repeat(const std::string& text, int times) {
 
 // A robot of one link, with `text` in it.
 std::string With(const std::string& text) {
-  return "<robot name='r'><link name='a'>" + text + "</link></robot>";
+  return std::string("<robot name='r'><link name='a'>") + kInertial + text +
+         "</link></robot>";
 }
 
 std::string Rejection(const std::string& text) {
@@ -126,7 +127,8 @@ TEST(Monsters, ManyFloatingOrMimickingJointsCostNoMoreThanOthers) {
   EXPECT_NE(
       Rejection(Many(20'000, "floating", true)).find("joint '1': is floating"),
       std::string::npos);
-  std::string text = "<robot name='r'><link name='0'/>";
+  std::string text =
+      std::string("<robot name='r'><link name='0'>") + kInertial + "</link>";
   for (int i = 1; i <= 20'000; ++i) {
     const std::string name = std::to_string(i);
     text +=

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "robot/limits.h"
 
@@ -35,11 +36,17 @@ constexpr double kLargestPosition = 1e3;
 constexpr double kMostTurns = 4 * M_PI;
 constexpr double kTurn = 6.3;
 
-// An effort or velocity limit.
+// An effort or velocity limit. A negative effort is rejected: no torque fulfills
+// -effort <= torque <= effort.
 double CheckMost(const XMLElement& limit, const char* name, double largest,
                  const Critic& critic) {
   const double value = Number(limit, name, kInfinity);
   const std::string what = std::string(name) + " is " + PrintNumber(value);
+  if (value < 0 && name == std::string_view("effort")) {
+    critic.Reject(limit, what,
+                  "must not be negative: write the largest torque or force");
+    return kInfinity;
+  }
   if (value < 0) {
     critic.Warn(limit, what, "must not be negative: is taken as not known");
     return kInfinity;

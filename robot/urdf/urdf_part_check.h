@@ -18,9 +18,10 @@ void CheckOrigin(const tinyxml2::XMLElement& element, const Critic& critic);
 /// Checks the `<axis>` of a moving joint.
 void CheckAxis(const tinyxml2::XMLElement& joint, const Critic& critic);
 
-/// The limits of a moving joint. What is absent, infinite, or cannot be a limit
-/// (lower above upper, a velocity of zero, a negative effort) is infinite, with
-/// a warning where the file should have one.
+/// Reads and checks the limits of a moving joint. A negative effort is rejected.
+/// Any other limit that is absent, infinite or impossible (lower above upper, a
+/// velocity that is not positive) becomes infinite, with a warning where the
+/// file should have one.
 JointLimits CheckLimits(const tinyxml2::XMLElement& joint,
                         const Critic& critic);
 

@@ -60,6 +60,11 @@ const char kGood[] = R"(<?xml version="1.0"?>
 </robot>
 )";
 
+// A body of 1 kg without extent.
+const char kPoint[] =
+    "<inertial><mass value='1'/><inertia ixx='0' ixy='0' ixz='0' iyy='0' "
+    "iyz='0' izz='0'/></inertial>";
+
 // kGood with the first `old_text` as `new_text`.
 std::string With(const std::string& old_text, const std::string& new_text) {
   std::string text = kGood;
@@ -161,7 +166,8 @@ TEST(LoadUrdf, ReadsShapes) {
 }
 
 TEST(LoadUrdf, KeepsTheOrderOfTheFile) {
-  std::string text = "<robot name='r'><link name='root'/>";
+  std::string text =
+      std::string("<robot name='r'><link name='root'>") + kPoint + "</link>";
   for (const char* name : {"z", "y", "x"}) {
     text += std::string("<link name='") + name + "'/><joint name='to_" + name +
             "' type='continuous'><parent link='root'/><child link='" + name +
@@ -286,7 +292,7 @@ TEST(LoadUrdf, TakesUnknownLimitsForNone) {
     EXPECT_EQ(limits.effort, 1);
   }
   const JointLimits limits =
-      Parse(With("effort=\"10\" velocity=\"5\"", "effort='-1' velocity='0'"))
+      Parse(With("effort=\"10\" velocity=\"5\"", "effort='inf' velocity='0'"))
           .limits[0];
   EXPECT_EQ(limits.effort, kInfinity);
   EXPECT_EQ(limits.velocity, kInfinity);
@@ -312,103 +318,124 @@ TEST(LoadUrdf, TakesAnyWhiteSpaceBetweenNumbers) {
   EXPECT_EQ(model.tree.joints()[0].X_PF.p, Eigen::Vector3d(1, 2, 3));
 }
 
+// A change of kGood, and a part of the message that follows.
 struct Case {
   const char* old_text;
   const char* new_text;
   const char* message;
 };
 
+// Changes of kGood that are rejected, each with a part of the message.
+const Case kRejected[] = {
+    {"<robot", "<!DOCTYPE x [<!ENTITY a \"b\">]><robot",
+     ":2: has a document type or entity declaration, must have none"},
+    {"</robot>", "", "an element is not closed, or by another name"},
+    {"</robot>", "</robot></x>", "an element is closed that is not open"},
+    {"</robot>", "</robot>hello", "there is text outside the root element"},
+    {"<?xml", "hello<?xml", "has a <?...?> that is not at its very start"},
+    {"name=\"test\"", "name=\"te&#0;st\"",
+     ":2: a value has a character that no XML has, '&#0;'"},
+    {"name=\"test\"", "name=\"te&#x00;st\"", "no XML has, '&#x00;'"},
+    {"name=\"test\"", "name=\"te&#1;st\"", "no XML has, '&#1;'"},
+    {"name=\"test\"", "name=\"te&#;st\"", "no XML has, '&#;'"},
+    {"name=\"test\"", "name=\"te&#xZZ;st\"", "no XML has, '&#xZZ;'"},
+    {"name=\"test\"", "name=\"te&#99999999999;st\"", "no XML has"},
+    {"name=\"test\"", "name=\"caf\xe9\"",
+     "<robot>: name is 'caf?', is not UTF-8"},
+    {"name=\"j\"", "name = \"j\" type='a' name='k'",
+     ":28: the attribute 'name' is there twice"},
+    {"</robot>\n", "</robot", "the file ends inside a tag"},
+    {"</robot>", "</robot><robot name='b'/>",
+     "has a second root element, must have <robot> alone"},
+    {" name=\"test\"", "", "<robot>: has no name, must have one"},
+    {" name=\"a\"", "", "<link>: has no name, must have one"},
+    {"name=\"a\"", "name=\"\"", "link '': its name is empty"},
+    {"name=\"b\"", "name=\"a\"", "link 'a': is there twice"},
+    {"name=\"j\"", "name=\"\"", "joint '': its name is empty"},
+    {"<mass value=\"2\"/>", "", "link 'a' <inertial>: has no <mass>"},
+    {"value=\"2\"", "value=\"-2\"",
+     "link 'a' <inertial>: mass is -2, must be zero or positive"},
+    {"value=\"2\"", "value=\"2,5\"",
+     ":7: link 'a' <mass>: value is '2,5', must be a number with a decimal "
+     "point, not a comma"},
+    {"value=\"2\"", "value=\"${m}\"", "is xacro, expand it first"},
+    {"value=\"2\"", "value=\"nan\"", "must be finite"},
+    {"value=\"2\"", "value=\"inf\"", "is out of range, must be at most"},
+    {"value=\"2\"", "value=\"1e999\"", "is out of range, must be at most"},
+    {"value=\"2\"", "value=\"1e31\"", "is out of range, must be at most"},
+    {"ixx=\"0.02\"", "ixx=\"-1e308\"", ":8: link 'a' <inertia>: ixx is '-1e3"},
+    {"radius=\"0.5\"", "radius=\"-0.5\"", "must not be negative"},
+    {"value=\"2\"", "value=\"0x2\"", "must be a number"},
+    {"value=\"2\"", "value=\"+-2\"", "must be a number"},
+    {"value=\"2\"", "value=\"2\" value=\"3\"",
+     ":7: the attribute 'value' is there twice"},
+    {"value=\"2\"", "value=2", "attribute is malformed"},
+    {"ixx=\"0.02\"", "ixx=\"1.0d-2\"", "<inertia>: ixx is '1.0d-2'"},
+    {"ixy=\"0.001\"", "", "<inertia>: has no ixy, must have one"},
+    {"0.1 0.2 0.3", "0.1 nan 0.3", "must be finite"},
+    {"0.1 0.2 0.3", "0.1 0.3", "must be 3 numbers"},
+    {"size=\"1 2 3\"", "size=\"1 2\"", "<box>: size is '1 2'"},
+    {"type=\"revolute\"", "", "joint 'j': has no type, must have one"},
+    {"revolute", "planar", "joint 'j': its type is 'planar', must be"},
+    {"revolute", "Revolute", "joint 'j': its type is 'Revolute', must be"},
+    {"<parent link=\"a\"/>", "", "joint 'j': has no <parent>"},
+    {"<child link=\"b\"/>", "", "joint 'j': has no <child>"},
+    {"<child link=\"b\"/>", "<child link='b'/><child link='a'/>",
+     "joint 'j' <child>: is there twice, a joint connects two links"},
+    {"<parent link=\"a\"/>", "<parent link='a'/><parent link='b'/>",
+     "joint 'j' <parent>: is there twice"},
+    {"<origin xyz=\"0 0 1\"/>", "<origin xyz='0 0 1' quat_xyzw='0 0 0 1'/>",
+     "<origin>: has 'quat_xyzw', must have rpy"},
+    {"value=\"2\"", "value=\"2\"a=\"3\"",
+     ":7: there is no blank after the value of the attribute 'value'"},
+    {"value=\"2\"", "value=\"2\" a=\"1&2\"",
+     ":7: a value has &, must be &amp;"},
+    {"value=\"2\"", "value=\"2\" a=\"1&b;2\"", "a value has &"},
+    {"value=\"2\"", "value=\"2\" a=\"<\"", ":7: a value has <, must be"},
+    {"<parent link=\"a\"/>", "<parent/>", "<parent>: has no link"},
+    {"parent link=\"a\"", "parent link=\"A\"",
+     "joint 'j': connects 'A', there is no such link"},
+    {"parent link=\"a\"", "parent link=\"b\"",
+     "joint 'j': connects 'b' to itself"},
+    {"xyz=\"0 3 4\"", "xyz=\"0 0 0\"", "must not be zero"},
+    {"xyz=\"0 3 4\"", "", "<axis>: has no xyz"},
+    {"<limit lower=\"-1\" upper=\"2\" effort=\"10\" velocity=\"5\"/>", "",
+     "joint 'j': has no <limit>, must have one"},
+    {"effort=\"10\"", "", "<limit>: has no effort, must have one"},
+    {"velocity=\"5\"", "", "<limit>: has no velocity, must have one"},
+    {"effort=\"10\"", "effort=\"-10\"",
+     ":33: joint 'j' <limit>: effort is -10, must not be negative: write the "
+     "largest torque or force"},
+    {"effort=\"10\"", "effort=\"-inf\"", "<limit>: effort is -inf, must not"},
+    {"upper=\"2\"", "upper=\"nan\"", "<limit>: upper is 'nan'"},
+    {"damping=\"0.5\"", "damping=\"much\"", "<dynamics>: damping is 'much'"},
+    {"<axis", "<mimic/><axis", "<mimic>: has no joint, must have one"},
+    {"<axis", "<mimic joint='j'/><axis",
+     "joint 'j': mimics 'j', must be another joint"},
+    {"<axis", "<mimic joint='k'/><axis",
+     "joint 'j': mimics 'k', there is no such joint"},
+    {"<link name=\"b\">", "<xacro:leg_Joint side='l'/><link name=\"b\">",
+     ":19: <xacro:leg_Joint>: is xacro, expand it first: the robot would "
+     "lose "
+     "a link, a joint, a limit or mass"},
+    {"<link name=\"b\">",
+     "<xacro:if value='1'><xacro:a><link/></xacro:a></xacro:if><link "
+     "name=\"b\">",
+     "<xacro:if>: is xacro"},
+    {"<link name=\"b\">",
+     "<xacro:if value='1'><transmission/></xacro:if><link name=\"b\">",
+     "<xacro:if>: is xacro"},
+    {"<link name=\"b\">", "<link name=\"b\"><xacro:box_inertia m='1'/>",
+     "link 'b' <xacro:box_inertia>: is xacro"},
+    {"<axis", "<xacro:default/><axis", "joint 'j' <xacro:default>: is xacro"},
+    {"effort=\"10\"", "effort=\"${e}\"",
+     "effort is '${e}', is xacro, expand it first"},
+    {"<link name=\"b\">", "<link name=\"c\"/><link name=\"b\">",
+     "link 'c': is a second root beside 'a', must hang on a joint"},
+};
+
 TEST(LoadUrdf, RejectsInOneLineThatNamesWhatWasWanted) {
-  const Case cases[] = {
-      {"<robot", "<!DOCTYPE x [<!ENTITY a \"b\">]><robot",
-       ":2: has a document type or entity declaration, must have none"},
-      {"</robot>", "", "an element is not closed, or by another name"},
-      {"</robot>", "</robot></x>", "an element is closed that is not open"},
-      {"</robot>", "</robot>hello", "there is text outside the root element"},
-      {"<?xml", "hello<?xml", "has a <?...?> that is not at its very start"},
-      {"name=\"test\"", "name=\"te&#0;st\"",
-       ":2: a value has a character that no XML has, '&#0;'"},
-      {"name=\"test\"", "name=\"te&#x00;st\"", "no XML has, '&#x00;'"},
-      {"name=\"test\"", "name=\"te&#1;st\"", "no XML has, '&#1;'"},
-      {"name=\"test\"", "name=\"te&#;st\"", "no XML has, '&#;'"},
-      {"name=\"test\"", "name=\"te&#xZZ;st\"", "no XML has, '&#xZZ;'"},
-      {"name=\"test\"", "name=\"te&#99999999999;st\"", "no XML has"},
-      {"name=\"test\"", "name=\"caf\xe9\"",
-       "<robot>: name is 'caf?', is not UTF-8"},
-      {"name=\"j\"", "name = \"j\" type='a' name='k'",
-       ":28: the attribute 'name' is there twice"},
-      {"</robot>\n", "</robot", "the file ends inside a tag"},
-      {"</robot>", "</robot><robot name='b'/>",
-       "has a second root element, must have <robot> alone"},
-      {" name=\"test\"", "", "<robot>: has no name, must have one"},
-      {" name=\"a\"", "", "<link>: has no name, must have one"},
-      {"name=\"a\"", "name=\"\"", "link '': its name is empty"},
-      {"name=\"b\"", "name=\"a\"", "link 'a': is there twice"},
-      {"name=\"j\"", "name=\"\"", "joint '': its name is empty"},
-      {"<mass value=\"2\"/>", "", "link 'a' <inertial>: has no <mass>"},
-      {"value=\"2\"", "value=\"-2\"",
-       "link 'a' <inertial>: mass is -2, must be zero or positive"},
-      {"value=\"2\"", "value=\"2,5\"",
-       ":7: link 'a' <mass>: value is '2,5', must be a number with a decimal "
-       "point, not a comma"},
-      {"value=\"2\"", "value=\"${m}\"", "is xacro, expand it first"},
-      {"value=\"2\"", "value=\"nan\"", "must be finite"},
-      {"value=\"2\"", "value=\"inf\"", "is out of range, must be at most"},
-      {"value=\"2\"", "value=\"1e999\"", "is out of range, must be at most"},
-      {"value=\"2\"", "value=\"1e31\"", "is out of range, must be at most"},
-      {"ixx=\"0.02\"", "ixx=\"-1e308\"",
-       ":8: link 'a' <inertia>: ixx is '-1e3"},
-      {"radius=\"0.5\"", "radius=\"-0.5\"", "must not be negative"},
-      {"value=\"2\"", "value=\"0x2\"", "must be a number"},
-      {"value=\"2\"", "value=\"+-2\"", "must be a number"},
-      {"value=\"2\"", "value=\"2\" value=\"3\"",
-       ":7: the attribute 'value' is there twice"},
-      {"value=\"2\"", "value=2", "attribute is malformed"},
-      {"ixx=\"0.02\"", "ixx=\"1.0d-2\"", "<inertia>: ixx is '1.0d-2'"},
-      {"ixy=\"0.001\"", "", "<inertia>: has no ixy, must have one"},
-      {"0.1 0.2 0.3", "0.1 nan 0.3", "must be finite"},
-      {"0.1 0.2 0.3", "0.1 0.3", "must be 3 numbers"},
-      {"size=\"1 2 3\"", "size=\"1 2\"", "<box>: size is '1 2'"},
-      {"type=\"revolute\"", "", "joint 'j': has no type, must have one"},
-      {"revolute", "planar", "joint 'j': its type is 'planar', must be"},
-      {"revolute", "Revolute", "joint 'j': its type is 'Revolute', must be"},
-      {"<parent link=\"a\"/>", "", "joint 'j': has no <parent>"},
-      {"<child link=\"b\"/>", "", "joint 'j': has no <child>"},
-      {"<child link=\"b\"/>", "<child link='b'/><child link='a'/>",
-       "joint 'j' <child>: is there twice, a joint connects two links"},
-      {"<parent link=\"a\"/>", "<parent link='a'/><parent link='b'/>",
-       "joint 'j' <parent>: is there twice"},
-      {"<origin xyz=\"0 0 1\"/>", "<origin xyz='0 0 1' quat_xyzw='0 0 0 1'/>",
-       "<origin>: has 'quat_xyzw', must have rpy"},
-      {"value=\"2\"", "value=\"2\"a=\"3\"",
-       ":7: there is no blank after the value of the attribute 'value'"},
-      {"value=\"2\"", "value=\"2\" a=\"1&2\"",
-       ":7: a value has &, must be &amp;"},
-      {"value=\"2\"", "value=\"2\" a=\"1&b;2\"", "a value has &"},
-      {"value=\"2\"", "value=\"2\" a=\"<\"", ":7: a value has <, must be"},
-      {"<parent link=\"a\"/>", "<parent/>", "<parent>: has no link"},
-      {"parent link=\"a\"", "parent link=\"A\"",
-       "joint 'j': connects 'A', there is no such link"},
-      {"parent link=\"a\"", "parent link=\"b\"",
-       "joint 'j': connects 'b' to itself"},
-      {"xyz=\"0 3 4\"", "xyz=\"0 0 0\"", "must not be zero"},
-      {"xyz=\"0 3 4\"", "", "<axis>: has no xyz"},
-      {"<limit lower=\"-1\" upper=\"2\" effort=\"10\" velocity=\"5\"/>", "",
-       "joint 'j': has no <limit>, must have one"},
-      {"effort=\"10\"", "", "<limit>: has no effort, must have one"},
-      {"velocity=\"5\"", "", "<limit>: has no velocity, must have one"},
-      {"upper=\"2\"", "upper=\"nan\"", "<limit>: upper is 'nan'"},
-      {"damping=\"0.5\"", "damping=\"much\"", "<dynamics>: damping is 'much'"},
-      {"<axis", "<mimic/><axis", "<mimic>: has no joint, must have one"},
-      {"<axis", "<mimic joint='j'/><axis",
-       "joint 'j': mimics 'j', must be another joint"},
-      {"<axis", "<mimic joint='k'/><axis",
-       "joint 'j': mimics 'k', there is no such joint"},
-      {"<link name=\"b\">", "<xacro:if/><link name=\"b\">", "is xacro"},
-      {"<link name=\"b\">", "<link name=\"c\"/><link name=\"b\">",
-       "link 'c': is a second root beside 'a', must hang on a joint"},
-  };
-  for (const Case& c : cases) {
+  for (const Case& c : kRejected) {
     const std::string message = Rejection(With(c.old_text, c.new_text));
     EXPECT_NE(message.find(c.message), std::string::npos)
         << c.new_text << "\n  gave: " << message << "\n  not: " << c.message;
@@ -431,6 +458,23 @@ TEST(LoadUrdf, RejectsWhatIsNoUrdf) {
             "test.urdf: has no element, must have a <robot>");
   EXPECT_EQ(Rejection("<robot name='r'/>"),
             "test.urdf:1: <robot>: has no link, must have one");
+}
+
+// Massless links are legal, but with no mass at all M is zero.
+TEST(LoadUrdf, RejectsARobotWithoutMass) {
+  const std::string joint =
+      "<joint name='j' type='continuous'><parent link='a'/><child link='b'/>"
+      "</joint></robot>";
+  const std::string links = "\n<robot name='r'><link name='a'/><link name='b'";
+  const std::string wanted =
+      "test.urdf:2: <robot>: the mass of all links together is 0, must be "
+      "positive, or M is singular: give each link its <inertial>";
+  EXPECT_EQ(Rejection(links + "/>" + joint), wanted);
+  std::string massless = kPoint;
+  massless.replace(massless.find("'1'"), 3, "'0'");
+  EXPECT_EQ(Rejection(links + ">" + massless + "</link>" + joint), wanted);
+  EXPECT_EQ(Parse(links + ">" + kPoint + "</link>" + joint).tree.total_mass(),
+            1);
 }
 
 TEST(LoadUrdf, RejectsLoops) {
@@ -471,70 +515,85 @@ TEST(LoadUrdf, RejectsCyclesOfMimics) {
             std::string::npos);
 }
 
+// Changes of kGood that give one warning, each with a part of the message.
+const Case kWarnedOf[] = {
+    {"ixx=\"0.02\"", "ixx=\"-0.02\"", "negative principal moment"},
+    {"izz=\"0.04\"", "izz=\"0.06\"", "larger than the sum of the others"},
+    {"ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"",
+     "ixx='1e6' ixy='0' ixz='0' iyy='1e6' iyz='0' izz='1e6'",
+     "1e+06 kg m2 for 1 kg"},
+    {"0.1 0.2 0.3", "100 0 0", "over 10 m off: in millimeters?"},
+    {"1 2 3\" rpy", "0 0 -350\" rpy", "over 10 m off: in millimeters?"},
+    {"0 0 1", "0 0 11", "link 'a' <origin>: xyz is '0 0 11', over 10 m"},
+    {"0.4 0.5 0.6", "0 90 0", "more than a turn: in degrees?"},
+    {"lower=\"-1\" upper=\"2\"", "lower='-90' upper='90'", "in degrees?"},
+    {"value=\"2\"", "value=\"0\"", "has inertia but no mass"},
+    {"0 3 4", "0 0 1e-9", "hardly has a direction"},
+    {"lower=\"-1\" upper=\"2\"", "lower='1' upper='-1'", "is no range"},
+    {"lower=\"-1\" upper=\"2\"", "lower='1' upper='1'", "cannot move"},
+    {"lower=\"-1\" upper=\"2\"", "", "neither lower nor upper"},
+    {"upper=\"2\"", "", "has no upper, which counts as 0"},
+    {"lower=\"-1\"", "", "has no lower, which counts as 0"},
+    {"<limit", "<Limits/><limit",
+     ":33: joint 'j' <Limits>: is no element of URDF, is ignored: must it be "
+     "<limit>?"},
+    {"<axis", "<!-- --><mimick/><axis", "must it be <mimic>?"},
+    {"<axis", "<Axis/><axis", "must it be <axis>?"},
+    {"<axis", "<axes/><axis", "must it be <axis>?"},
+    {"<axis", "<xis/><axis", "must it be <axis>?"},
+    {"<axis", "<mass/><axis", "<mass>: is no element of URDF here"},
+    {"<link name=\"b\">", "<macro/><link name=\"b\">", "is xacro of old"},
+    {"<link name=\"b\">",
+     "<xacro:pelvis_imu parent='pelvis_link' port='${p}'/><link name=\"b\">",
+     ":19: <xacro:pelvis_imu>: is xacro, is ignored: the robot lacks all "
+     "that it adds, expand it first to keep that"},
+    {"<link name=\"b\">",
+     "<xacro:include filename='imu.xacro'/><link name=\"b\">",
+     "<xacro:include>: is xacro of the file 'imu.xacro', is ignored"},
+    {"<link name=\"b\">",
+     "<xacro:if value='1'><gazebo><mu1/></gazebo></xacro:if><link "
+     "name=\"b\">",
+     "<xacro:if>: is xacro, is ignored"},
+    {"<link name=\"b\">", "<link name=\"b\"><xacro:camera name='eye'/>",
+     "link 'b' <xacro:camera>: is xacro, is ignored"},
+    {"<mass value=\"2\"/>", "<mass value=\"2\">3</mass>",
+     "<mass>: holds the text '3', is ignored"},
+    {"damping=", "Damping=",
+     "<dynamics>: has 'Damping', is ignored: must it be damping?"},
+    {"damping=", "dampin=", "must it be damping?"},
+    {"<box size=\"1 2 3\"/>", "<box size='1 2 3'/><sphere radius='1'/>",
+     "is a second shape, the first one is read"},
+    {"<link name=\"b\">", "<material name='${m}'/><link name=\"b\">",
+     "looks like xacro"},
+    {"lower=\"-1\" upper=\"2\"", "lower='-inf' upper='2'", "infinite end"},
+    {"lower=\"-1\" upper=\"2\"", "lower='-1e9' upper='2'", "a placeholder"},
+    {"effort=\"10\"", "effort=\"1e9\"", "placeholder"},
+    {"effort=\"10\"", "effort=\"0\"", "it is passive"},
+    {"velocity=\"5\"", "velocity=\"-1\"", "must not be negative"},
+    {"effort=\"10\"", "effort=\"inf\"", "taken as not known"},
+    {"velocity=\"5\"", "velocity=\"0\"", "velocity is 0"},
+    {"velocity=\"5\"", "velocity=\"1e4\"", "placeholder"},
+    {"damping=\"0.5\"", "damping=\"-0.5\"", "damping is -0.5, must not be"},
+    {"friction=\"0.25\"", "friction=\"-1\"", "friction is -1, must not be"},
+    {"name=\"test\"",
+     "name='test'><material name='red'><color rgba='1 1 1 "
+     "1'/></material",
+     "material 'red': is there twice"},
+    {"1 0.5 0.25 1", "1 0.5", "material 'red' <color>: rgba is '1 0.5'"},
+    {"<box size=\"1 2 3\"/>", "<capsule radius='1'/>",
+     "has no shape that can be read"},
+    {"<origin xyz=\"0 0 1\"/>", "<origin xyz='0 0 1'/><origin xyz='0 0 2'/>",
+     "is there twice"},
+    {"<link name=\"b\">",
+     "<link name='${p}c'/><joint name='k' type='fixed'>"
+     "<parent link='a'/><child link='${p}c'/></joint>"
+     "<link name=\"b\">",
+     "looks like xacro"},
+};
+
 TEST(LoadUrdf, WarnsOfWhatControlShouldKnow) {
   EXPECT_EQ(Findings(kGood, Severity::kWarn), "");
-  const Case cases[] = {
-      {"ixx=\"0.02\"", "ixx=\"-0.02\"", "negative principal moment"},
-      {"izz=\"0.04\"", "izz=\"0.06\"", "larger than the sum of the others"},
-      {"ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"",
-       "ixx='1e6' ixy='0' ixz='0' iyy='1e6' iyz='0' izz='1e6'",
-       "1e+06 kg m2 for 1 kg"},
-      {"0.1 0.2 0.3", "100 0 0", "over 10 m off: in millimeters?"},
-      {"1 2 3\" rpy", "0 0 -350\" rpy", "over 10 m off: in millimeters?"},
-      {"0 0 1", "0 0 11", "link 'a' <origin>: xyz is '0 0 11', over 10 m"},
-      {"0.4 0.5 0.6", "0 90 0", "more than a turn: in degrees?"},
-      {"lower=\"-1\" upper=\"2\"", "lower='-90' upper='90'", "in degrees?"},
-      {"value=\"2\"", "value=\"0\"", "has inertia but no mass"},
-      {"0 3 4", "0 0 1e-9", "hardly has a direction"},
-      {"lower=\"-1\" upper=\"2\"", "lower='1' upper='-1'", "is no range"},
-      {"lower=\"-1\" upper=\"2\"", "lower='1' upper='1'", "cannot move"},
-      {"lower=\"-1\" upper=\"2\"", "", "neither lower nor upper"},
-      {"upper=\"2\"", "", "has no upper, which counts as 0"},
-      {"lower=\"-1\"", "", "has no lower, which counts as 0"},
-      {"<limit", "<Limits/><limit",
-       ":33: joint 'j' <Limits>: is no element of URDF, is ignored: must it be "
-       "<limit>?"},
-      {"<axis", "<!-- --><mimick/><axis", "must it be <mimic>?"},
-      {"<axis", "<Axis/><axis", "must it be <axis>?"},
-      {"<axis", "<axes/><axis", "must it be <axis>?"},
-      {"<axis", "<xis/><axis", "must it be <axis>?"},
-      {"<axis", "<mass/><axis", "<mass>: is no element of URDF here"},
-      {"<link name=\"b\">", "<macro/><link name=\"b\">", "is xacro of old"},
-      {"<mass value=\"2\"/>", "<mass value=\"2\">3</mass>",
-       "<mass>: holds the text '3', is ignored"},
-      {"damping=", "Damping=",
-       "<dynamics>: has 'Damping', is ignored: must it be damping?"},
-      {"damping=", "dampin=", "must it be damping?"},
-      {"<box size=\"1 2 3\"/>", "<box size='1 2 3'/><sphere radius='1'/>",
-       "is a second shape, the first one is read"},
-      {"<link name=\"b\">", "<material name='${m}'/><link name=\"b\">",
-       "looks like xacro"},
-      {"lower=\"-1\" upper=\"2\"", "lower='-inf' upper='2'", "infinite end"},
-      {"lower=\"-1\" upper=\"2\"", "lower='-1e9' upper='2'", "a placeholder"},
-      {"effort=\"10\"", "effort=\"1e9\"", "placeholder"},
-      {"effort=\"10\"", "effort=\"0\"", "it is passive"},
-      {"effort=\"10\"", "effort=\"-1\"", "must not be negative"},
-      {"effort=\"10\"", "effort=\"inf\"", "taken as not known"},
-      {"velocity=\"5\"", "velocity=\"0\"", "velocity is 0"},
-      {"velocity=\"5\"", "velocity=\"1e4\"", "placeholder"},
-      {"damping=\"0.5\"", "damping=\"-0.5\"", "damping is -0.5, must not be"},
-      {"friction=\"0.25\"", "friction=\"-1\"", "friction is -1, must not be"},
-      {"name=\"test\"",
-       "name='test'><material name='red'><color rgba='1 1 1 "
-       "1'/></material",
-       "material 'red': is there twice"},
-      {"1 0.5 0.25 1", "1 0.5", "material 'red' <color>: rgba is '1 0.5'"},
-      {"<box size=\"1 2 3\"/>", "<capsule radius='1'/>",
-       "has no shape that can be read"},
-      {"<origin xyz=\"0 0 1\"/>", "<origin xyz='0 0 1'/><origin xyz='0 0 2'/>",
-       "is there twice"},
-      {"<link name=\"b\">",
-       "<link name='${p}c'/><joint name='k' type='fixed'>"
-       "<parent link='a'/><child link='${p}c'/></joint>"
-       "<link name=\"b\">",
-       "looks like xacro"},
-  };
-  for (const Case& c : cases) {
+  for (const Case& c : kWarnedOf) {
     const std::string found =
         Findings(With(c.old_text, c.new_text), Severity::kWarn);
     EXPECT_NE(found.find(c.message), std::string::npos)
@@ -609,8 +668,9 @@ TEST(LoadUrdf, FindsNothingWrongWithWhatIsCommon) {
 TEST(LoadUrdf, KeepsNamesAsTheyAre) {
   const std::string name = "l <a> \"q\" %s %n \\ \xc3\xa9 \xe6\x97\xa5";
   std::string text =
-      "<robot name='%n%s'><material name='%n'/>"
-      "<link name='l &lt;a&gt; &quot;q&quot; %s %n \\ \xc3\xa9 \xe6\x97\xa5'>"
+      std::string("<robot name='%n%s'><material name='%n'/>") +
+      "<link name='l &lt;a&gt; &quot;q&quot; %s %n \\ \xc3\xa9 \xe6\x97\xa5'>" +
+      kPoint +
       "<visual><geometry><box size='1 1 1'/></geometry><material name='%n'/>"
       "</visual></link></robot>";
   const RobotModel model = Parse(text);

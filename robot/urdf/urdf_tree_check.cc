@@ -129,6 +129,19 @@ void LeaveOutWorld(const std::string& root, const Elements& links,
   Remove(world_joints, &tree->joints);
 }
 
+// The joint-space inertia M of a robot without mass is zero in each posture.
+void CheckMass(const XMLElement& robot, const Elements& links,
+               const std::vector<std::string>& names, const Critic& critic) {
+  if (std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        return !IsMassless(*links.at(name));
+      })) {
+    return;
+  }
+  critic.Reject(robot, "the mass of all links together is 0",
+                "must be positive, or M is singular: give each link its "
+                "<inertial>");
+}
+
 }  // namespace
 
 void CheckTree(const XMLElement& robot, const Elements& links,
@@ -138,6 +151,7 @@ void CheckTree(const XMLElement& robot, const Elements& links,
   const auto root = FindRoot(robot, tree->links, links, *edges, critic);
   if (!root) return;
   LeaveOutWorld(*root, links, *edges, tree);
+  CheckMass(robot, links, tree->links, critic);
   for (const std::string& name : tree->joints) {
     if (Text(*joints.at(name), "type") != "floating") continue;
     critic.Reject(*joints.at(name), "is floating",

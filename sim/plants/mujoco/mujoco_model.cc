@@ -7,6 +7,7 @@
 #include <sstream>
 #include <variant>
 
+#include "math/quaternion.h"
 #include "sim/plants/neighbors.h"
 
 namespace poise {
@@ -44,9 +45,10 @@ class Xml {
   Xml& operator<<(const Eigen::Vector3d& v) {
     return *this << v.x() << ' ' << v.y() << ' ' << v.z();
   }
-  // MuJoCo's quaternion begins with w.
+  // MuJoCo's order of a quaternion is w, x, y, z.
   Xml& operator<<(const Eigen::Quaterniond& q) {
-    return *this << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z();
+    const Eigen::Vector4d wxyz = WxyzFromQuaternion(q);
+    return *this << wxyz[0] << ' ' << Eigen::Vector3d(wxyz.tail<3>());
   }
   // The attributes pos and quat.
   Xml& operator<<(const Pose& X) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "math/quaternion.h"
 #include "robot/finding.h"
 #include "sim/plants/mujoco/mujoco_model.h"
 
@@ -88,11 +89,11 @@ void MujocoPlant::Place(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
     const Eigen::Quaterniond R_WB =
         Eigen::Quaterniond(q.segment<4>(3)).normalized();
     const Eigen::Vector3d w_WB_B = R_WB.inverse() * v.head<3>();
-    const double pose[] = {q[0],     q[1],     q[2],    R_WB.w(),
-                           R_WB.x(), R_WB.y(), R_WB.z()};
+    const Eigen::Vector4d wxyz = WxyzFromQuaternion(R_WB);
     const double twist[] = {v[3],       v[4],       v[5],
                             w_WB_B.x(), w_WB_B.y(), w_WB_B.z()};
-    qpos = std::copy(std::begin(pose), std::end(pose), qpos);
+    qpos = std::copy(q.data(), q.data() + 3, qpos);
+    qpos = std::copy(wxyz.data(), wxyz.data() + 4, qpos);
     qvel = std::copy(std::begin(twist), std::end(twist), qvel);
   }
   std::copy(q.data() + q.size() - n, q.data() + q.size(), qpos);
@@ -178,7 +179,8 @@ void MujocoPlant::ReadState() {
     state_.vdot.head<3>() = X_WB(0).R * alpha_B;
     state_.vdot.segment<3>(3) = a_W;
     q.head<3>() = ConstVector3(qpos);
-    const Eigen::Quaterniond R_WB(qpos[3], qpos[4], qpos[5], qpos[6]);
+    const Eigen::Quaterniond R_WB =
+        QuaternionFromWxyz(Eigen::Vector4d(qpos + 3));
     q.segment<4>(3) = R_WB.coeffs();
     v.head<3>() = R_WB * ConstVector3(qvel + 3);
     v.segment<3>(3) = ConstVector3(qvel);

@@ -140,6 +140,13 @@ TEST(Diagnose, RejectsWithTheReason) {
   EXPECT_EQ(VerdictWord(Diagnose("no/such.urdf")), "reject");
 }
 
+TEST(Diagnose, RejectsARobotWithoutMass) {
+  const Diagnosis diagnosis = Examine(Chain({"", ""}, {"0 0 1"}));
+  EXPECT_EQ(VerdictWord(diagnosis), "reject") << Findings(diagnosis);
+  EXPECT_EQ(diagnosis.findings[0].what, "the mass of all links together is 0");
+  EXPECT_EQ(diagnosis.findings[0].line, 1);
+}
+
 TEST(Diagnose, NamesTheLineOfWhatIsNoXml) {
   const Diagnosis diagnosis = Examine("<robot>\n<!DOCTYPE a></robot>");
   ASSERT_EQ(VerdictWord(diagnosis), "reject");
@@ -257,6 +264,9 @@ TEST(Diagnose, JudgesByWhatIsWorst) {
       {"lower='-1' upper='1'", "lower='-10' upper='10'", "ok"},
       {"lower='-1' upper='1'", "lower='-90' upper='90'", "warn"},
       {"lower='-1'", "", "warn"},
+      {"effort='9'", "effort='-9'", "reject"},
+      {"effort='9'", "effort='0'", "warn"},
+      {"velocity='9'", "velocity='-9'", "warn"},
       {"ixx='0.1'", "ixx='0.1' Ixx='0.2'", "warn"},
       {"<limit", "<limits/><limit", "warn"},
       {"value='1'", "value='1e29'", "warn"},
@@ -265,6 +275,8 @@ TEST(Diagnose, JudgesByWhatIsWorst) {
       {"link='0'/>", "link='none'/>", "reject"},
       {"</robot>", "<loop_joint name='l'/></robot>", "ok"},
       {"</robot>", "<typo/></robot>", "ok"},
+      {"</robot>", "<xacro:imu_sensor name='pelvis'/></robot>", "warn"},
+      {"</robot>", "<xacro:leg_link side='left'/></robot>", "reject"},
       {"</robot>", "", "reject"},
       {"</robot>", "</robot><robot name='b'/>", "reject"},
   };

@@ -7,6 +7,7 @@
 
 #include "dynamics/rnea.h"
 #include "dynamics/tick.h"
+#include "math/quaternion.h"
 
 namespace poise {
 namespace {
@@ -107,7 +108,7 @@ Motion ReadMotion(const json& state, const std::vector<int>& order,
   const VectorXd alpha = read("base_angular_acceleration", 3);
   const VectorXd a = read("base_linear_acceleration", 3);
   Motion motion{VectorXd(n + 7), VectorXd(n + 6), VectorXd(n + 6)};
-  motion.q.head<7>() << p, wxyz.tail<3>(), wxyz[0];
+  motion.q.head<7>() << p, QuaternionFromWxyz(wxyz).coeffs();
   motion.q.segment<4>(3).stableNormalize();
   motion.v.head<6>() << w, v;
   motion.vdot.head<6>() << alpha, a;
