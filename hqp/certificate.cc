@@ -5,13 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "hqp/tolerances.h"
+
 namespace poise {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// As in cascade.cc and report.cc, but not shared with what is checked here.
-constexpr double kAtBound = 1e-9;
 
 // A cost below this share of what it is added up from is none.
 constexpr double kNoCost = 1e-9;
@@ -141,7 +140,7 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
       if (mu == 0) continue;
       gradient_ += mu * C.row(i).transpose();
       gradient_size_ += std::abs(mu) * C.row(i).cwiseAbs().transpose();
-      const double margin = kAtBound * rows.size[i];
+      const double margin = tolerances::kAtBound * rows.size[i];
       double wrong;
       if (rows.violation[i] > margin) {
         wrong = 0;

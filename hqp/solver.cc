@@ -5,26 +5,21 @@
 #include <cmath>
 
 #include "hqp/fast/kernels.h"
+#include "hqp/fast/tolerances.h"
 
 namespace poise {
 namespace {
 
-constexpr double kTolerance = ActiveProblem::kTolerance;
-
-// A bound as far away as this stands for none: at it, rounding would leave nothing
-// of what other rows ask for.
-constexpr double kFar = 1e15;
-
 // How often rows that refinement finds violated, by a few digits, may enter.
-constexpr int kPolishing = 5;
+constexpr int kMaxRefinementPasses = 5;
 
 }  // namespace
 
 Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity)
     : n_(num_variables),
       problem_(num_variables, capacity),
-      descent_(num_variables, capacity),
-      reporter_(num_variables, capacity),
+      search_(num_variables, capacity),
+      writer_(num_variables, capacity),
       certifier_(num_variables, capacity) {
   int most = 0;
   for (const LevelCapacity& level : capacity) {
@@ -39,7 +34,7 @@ void Solver::Forget() noexcept {
   for (std::vector<Side>& side : side_) {
     std::fill(side.begin(), side.end(), Side::kNone);
   }
-  descent_.Forget();
+  search_.Forget();
 }
 
 Status Solver::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
@@ -49,10 +44,11 @@ Status Solver::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
   if (solution->status != Status::kOptimal) return solution->status;
   Prepare(hierarchy);
   if (!SearchAtOnce(hierarchy, max_iterations / 2, &budget) ||
-      !Report(hierarchy, solution)) {
+      !WriteSolution(hierarchy, solution)) {
     solution->Reset();
     SearchByLevel(hierarchy, &budget, solution);
-    if (!Report(hierarchy, solution)) certifier_.Truncate(hierarchy, solution);
+    if (!WriteSolution(hierarchy, solution))
+      certifier_.Truncate(hierarchy, solution);
   }
   solution->iterations = budget.iterations();
   return solution->status;
@@ -66,8 +62,10 @@ void Solver::Prepare(const Hierarchy& hierarchy) {
       Side& side = side_[level][i];
       if (lower[i] == upper[i]) {
         side = Side::kUpper;
-      } else if ((side == Side::kUpper && upper[i] > kFar) ||
-                 (side == Side::kLower && lower[i] < -kFar)) {
+      } else if ((side == Side::kUpper &&
+                  upper[i] > tolerances::kInfiniteBound) ||
+                 (side == Side::kLower &&
+                  lower[i] < -tolerances::kInfiniteBound)) {
         side = Side::kNone;
       }
     }
@@ -78,11 +76,11 @@ void Solver::Prepare(const Hierarchy& hierarchy) {
 bool Solver::SearchAtOnce(const Hierarchy& hierarchy, int limit,
                           Budget* budget) {
   for (int pass = 0;; ++pass) {
-    if (!descent_.AllAtOnce(hierarchy, limit, budget, &problem_, &side_)) {
+    if (!search_.AllAtOnce(hierarchy, limit, budget, &problem_, &side_)) {
       return false;
     }
     problem_.Refine(hierarchy);
-    if (pass == kPolishing || !EnterViolated(hierarchy, true)) break;
+    if (pass == kMaxRefinementPasses || !AddViolated(hierarchy, true)) break;
   }
   FindMultipliers(hierarchy);
   return true;
@@ -95,11 +93,11 @@ void Solver::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
   const int levels = hierarchy.num_levels();
   Forget();
   Prepare(hierarchy);
-  const int solved =
-      descent_.LevelByLevel(hierarchy, budget, &problem_, &side_);
+  const int solved = search_.LevelByLevel(hierarchy, budget, &problem_, &side_);
   if (solved > levels) {
     best_side_ = side_;
-    if (SearchAtOnce(hierarchy, budget->iterations() + kPolishing, budget)) {
+    if (SearchAtOnce(hierarchy, budget->iterations() + kMaxRefinementPasses,
+                     budget)) {
       return;
     }
     side_ = best_side_;
@@ -111,10 +109,10 @@ void Solver::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
     solution->failed_level = std::max(std::min(solved, levels - 1), 0);
     problem_.Plan(hierarchy, solution->failed_level);
     problem_.Solve(hierarchy, side_);
-    problem_.RefineOther(hierarchy, descent_.y());
+    problem_.RefineFrom(hierarchy, search_.y());
     // Where rows nearly depend on others, that may lead astray.
-    if (EnterViolated(hierarchy, false)) {
-      problem_.TakeOther(hierarchy, descent_.y());
+    if (AddViolated(hierarchy, false)) {
+      problem_.SetSolution(hierarchy, search_.y());
     }
   }
   FindMultipliers(hierarchy);
@@ -127,7 +125,7 @@ void Solver::FindMultipliers(const Hierarchy& hierarchy) {
 
 // Whether a row that is not active is violated, relative to its own terms; if
 // told to, such rows become active.
-bool Solver::EnterViolated(const Hierarchy& hierarchy, bool enters) {
+bool Solver::AddViolated(const Hierarchy& hierarchy, bool adds) {
   bool any = false;
   const std::vector<double>& y = problem_.y();
   for (int level = 0; level < problem_.num_levels(); ++level) {
@@ -146,14 +144,14 @@ bool Solver::EnterViolated(const Hierarchy& hierarchy, bool enters) {
         double dot, size;
         kernels::DotWithSize(row, y.data(), n_, &dot, &size);
         const double beyond = above > 0 ? dot - bound : bound - dot;
-        return beyond > kTolerance * (size + std::abs(bound));
+        return beyond > tolerances::kZeroSlope * (size + std::abs(bound));
       };
       if (!is_violated() ||
-          (problem_.TakeZeros(hierarchy, row) && !is_violated())) {
+          (problem_.ZeroRoundingEntries(hierarchy, row) && !is_violated())) {
         continue;
       }
       any = true;
-      if (enters) side = above > 0 ? Side::kUpper : Side::kLower;
+      if (adds) side = above > 0 ? Side::kUpper : Side::kLower;
     }
   }
   return any;
@@ -161,9 +159,9 @@ bool Solver::EnterViolated(const Hierarchy& hierarchy, bool enters) {
 
 // Writes the answer. Returns whether it is certified, down to the level that it
 // says.
-bool Solver::Report(const Hierarchy& hierarchy, Solution* solution) {
-  reporter_.Report(hierarchy, side_, ActiveProblem::kNoPrice, &problem_,
-                   solution);
+bool Solver::WriteSolution(const Hierarchy& hierarchy, Solution* solution) {
+  writer_.Write(hierarchy, side_, tolerances::kZeroMultiplier, &problem_,
+                solution);
   return certifier_.Certify(hierarchy, *solution).worst() <=
          Certifier::kCertified;
 }

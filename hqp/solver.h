@@ -49,13 +49,13 @@ class Solver {
   void SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
                      Solution* solution);
   void FindMultipliers(const Hierarchy& hierarchy);
-  bool EnterViolated(const Hierarchy& hierarchy, bool enters);
-  bool Report(const Hierarchy& hierarchy, Solution* solution);
+  bool AddViolated(const Hierarchy& hierarchy, bool adds);
+  bool WriteSolution(const Hierarchy& hierarchy, Solution* solution);
 
   int n_;
-  ActiveProblem problem_;
-  Descent descent_;
-  Reporter reporter_;
+  WorkingSetProblem problem_;
+  ActiveSetSearch search_;
+  MultiplierWriter writer_;
   Certifier certifier_;
   std::vector<std::vector<Side>> side_, best_side_;
   std::vector<double> value_;

@@ -324,8 +324,8 @@ TEST(Solver, SpendsHalfOfItsBudgetLevelByLevel) {
     const int needed_at_once = solution.iterations;
     for (int budget = 0; budget < 2 * needed_at_once; ++budget) {
       SCOPED_TRACE(testing::Message() << seed << ", " << budget);
-      Descent descent(n, drawn.capacity);
-      ActiveProblem problem(n, drawn.capacity);
+      ActiveSetSearch descent(n, drawn.capacity);
+      WorkingSetProblem problem(n, drawn.capacity);
       std::vector<std::vector<Side>> side;
       for (const LevelCapacity& level : drawn.capacity) {
         side.emplace_back(level.inequalities, Side::kNone);

@@ -17,16 +17,18 @@ namespace poise {
 /// Towards the optimum of the active rows as far as the others allow; what is in
 /// the way becomes active. At that optimum, rows that nothing holds at their
 /// bound leave; if there are none, the row that holds the levels back most.
-class Descent {
+class ActiveSetSearch {
  public:
-  Descent(int num_variables, const std::vector<LevelCapacity>& capacity);
+  ActiveSetSearch(int num_variables,
+                  const std::vector<LevelCapacity>& capacity);
 
   /// On all levels at once, from the active rows `side`; false if the budget, or
   /// `limit` iterations of it, did not suffice. The start is the optimum of
   /// these rows, or y() if that breaks fewer rows; what is broken there becomes
   /// active.
   bool AllAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget,
-                 ActiveProblem* problem, std::vector<std::vector<Side>>* side);
+                 WorkingSetProblem* problem,
+                 std::vector<std::vector<Side>>* side);
 
   /// Level by level, from y = 0, as the paper's cascade does, but on one
   /// factorisation of all levels: slower, but what is found for a level stays.
@@ -37,7 +39,7 @@ class Descent {
   /// `side`, but y() is the answer: if a level is not at its optimum, it is the
   /// best found that keeps those above it, and `side` what holds these.
   int LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
-                   ActiveProblem* problem,
+                   WorkingSetProblem* problem,
                    std::vector<std::vector<Side>>* side);
 
   const std::vector<double>& y() const { return y_; }
@@ -48,30 +50,36 @@ class Descent {
     int level, row;
   };
 
-  void Unwind(std::vector<std::vector<Side>>* side) const;
-  bool Start(const Hierarchy& hierarchy, ActiveProblem* problem,
-             std::vector<std::vector<Side>>* side);
-  int FindBroken(const Hierarchy& hierarchy, const ActiveProblem& problem,
-                 const std::vector<double>& y,
-                 const std::vector<std::vector<Side>>& side);
-  void Begin(const Hierarchy& hierarchy, int level,
-             std::vector<std::vector<Side>>* side);
-  bool Settle(const Hierarchy& hierarchy, int level, ActiveProblem* problem,
-              std::vector<std::vector<Side>>* side);
-  bool Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
+  void RestoreWorkingSet(std::vector<std::vector<Side>>* side) const;
+  bool InitializeAllLevels(const Hierarchy& hierarchy,
+                           WorkingSetProblem* problem,
+                           std::vector<std::vector<Side>>* side);
+  int FindViolated(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+                   const std::vector<double>& y,
+                   const std::vector<std::vector<Side>>& side);
+  void InitializeWorkingSet(const Hierarchy& hierarchy, int level,
+                            std::vector<std::vector<Side>>* side);
+  bool Iterate(const Hierarchy& hierarchy, int level,
+               WorkingSetProblem* problem,
                std::vector<std::vector<Side>>* side);
-  bool Drop(int level, ActiveProblem* problem,
-            std::vector<std::vector<Side>>* side);
-  void Keep(int level, const ActiveProblem& problem,
-            const std::vector<std::vector<Side>>& side);
+  bool StepToBlockingConstraint(const Hierarchy& hierarchy,
+                                const WorkingSetProblem& problem,
+                                std::vector<std::vector<Side>>* side);
+  bool RemoveConstraints(int level, WorkingSetProblem* problem,
+                         std::vector<std::vector<Side>>* side);
+  void FreezeViolated(int level, const WorkingSetProblem& problem,
+                      const std::vector<std::vector<Side>>& side);
 
   int n_;
   std::vector<double> y_, step_, value_, slope_;
-  std::vector<std::vector<int>> leaves_;  ///< How often it still may leave.
-  bool together_ = false;     ///< Whether rows may leave for the tail at once.
-  RowIndex left_ = {-1, -1};  ///< The row that left last, if it did alone.
-  std::vector<std::vector<Side>> broken_;   ///< kNone: not broken.
-  std::vector<std::vector<Side>> settled_;  ///< When the last level was done.
+  std::vector<std::vector<int>>
+      removals_left_;  ///< How often it still may leave.
+  bool remove_together_ =
+      false;  ///< Whether rows may leave for the tail at once.
+  RowIndex last_removed_ = {-1,
+                            -1};  ///< The row that left last, if it did alone.
+  std::vector<std::vector<Side>> violated_;   ///< kNone: not broken.
+  std::vector<std::vector<Side>> completed_;  ///< When the last level was done.
 };
 
 }  // namespace poise

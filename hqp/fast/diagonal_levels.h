@@ -20,9 +20,9 @@ namespace poise {
 ///            [              T_00]
 /// From the bottom up each level is then a weighted minimum-norm problem in as
 /// many rows as T_cc has: few, however many variables it has.
-class SelectionTail {
+class DiagonalLevels {
  public:
-  SelectionTail(int num_variables, int max_levels);
+  DiagonalLevels(int num_variables, int max_levels);
 
   /// No levels.
   void Clear();
@@ -47,27 +47,27 @@ class SelectionTail {
   double target(int variable) const { return target_[variable]; }
 
   /// Finds how the head ties the variables: all that Nullity() needs.
-  void Tie(const RowStack& head);
+  void Tie(const LexicographicFactorization& leading);
 
   /// The same of independent rows, `stride` apart, that need not be orthogonal,
   /// as far as Nullity() needs it.
   void TieRows(const double* rows, int stride, int count);
 
   /// The y that minimises the levels, one after the other, where Q y = z.
-  void Solve(const RowStack& head, double* y);
+  void Solve(const LexicographicFactorization& leading, double* y);
 
   /// Improves y, where Q y lacks `change`: towards the minima of the levels, or,
   /// if not told to, by as little as the levels allow.
-  void Correct(const RowStack& head, const double* change, bool to_minimum,
-               double* y);
+  void Correct(const LexicographicFactorization& leading, const double* change,
+               bool to_minimum, double* y);
 
   /// The multipliers that level c needs, with the gradient
   /// d_j^2 (y_j - t_j) of its own variables, which they cancel:
-  /// on_head, on the rows of Q, such that the sum of both is 0 on its own and
+  /// on_leading, on the rows of Q, such that the sum of both is 0 on its own and
   /// later variables, and, for each variable of an earlier level, what is then
   /// left of the sum. Returns the size of what the gradient is added up from: 0,
   /// and nothing else, if it is zero.
-  double Dual(int level, double* on_head, double* left);
+  double Dual(int level, double* on_leading, double* left);
 
   /// Whether a level's own variables are exactly what it asks for.
   bool IsMet(int level, const double* y) const;
@@ -78,7 +78,7 @@ class SelectionTail {
 
   /// Of such a sum that should be zero, puts to zero what is rounding of a
   /// heavy variable's own gradient: to light ones it could be much.
-  void DropRounding(int level, const double* y, double* sum) const;
+  void ZeroRounding(int level, const double* y, double* sum) const;
 
   /// What the head and the levels up to this one leave free.
   int Nullity(int level) const;
@@ -98,7 +98,7 @@ class SelectionTail {
                int end);
   void Gather(const double* rows, int stride, int count);
   void EliminateAll(int end);
-  void Start(const RowStack& head, const double* z);
+  void Start(const LexicographicFactorization& leading, const double* z);
   void Eliminate(int level, int end);
   void FactorLevel(int level);
   void SolveLevel(int level);

@@ -22,9 +22,9 @@ namespace poise {
 /// deficient one are all met, so their order does not matter: they can be taken
 /// as one, in which rows come and go one at a time. Nothing allocates after
 /// construction.
-class RowStack {
+class LexicographicFactorization {
  public:
-  RowStack(int num_variables, int max_rows, int max_levels);
+  LexicographicFactorization(int num_variables, int max_rows, int max_levels);
 
   /// Drops the levels from this one on.
   void Truncate(int level);
@@ -74,10 +74,10 @@ class RowStack {
   /// Improves a solution y = Q' z (or any other that meets the rows): from what
   /// its rows lack, t_a - r_a y, summed up from the rows as they were given, the
   /// change of Q y, of rank() entries.
-  void Correct(const double* lack, double* change);
+  void Correct(const double* residual, double* change);
 
   /// Takes other residuals of a deficient level, added up from numbers of a size,
-  /// as far as its optimum has them: see KeepUnreachable().
+  /// as far as its optimum has them: see KeepUnattainableResiduals().
   void SetResiduals(int level, const double* residual, double size);
 
   /// d_a^2.
@@ -109,7 +109,7 @@ class RowStack {
   void PivotRows(Level* level);
   void Reduce(Level* level);
   void SolveLevel(const Level& level);
-  void KeepUnreachable(double size, const Level& level);
+  void KeepUnattainableResiduals(double size, const Level& level);
   void Reflect(int e, int rows, double* x) const;
 
   int n_, stride_, num_rows_ = 0, rank_ = 0;

@@ -11,12 +11,13 @@
 namespace poise {
 
 /// A hierarchy with a guess of its active rows taken as equalities of their own
-/// levels: solved by one orthogonalisation (RowStack), and a few small problems
-/// for last levels that select variables (SelectionTail). Below the last level
+/// levels: solved by one orthogonalisation (LexicographicFactorization), and a few small problems
+/// for last levels that select variables (DiagonalLevels). Below the last level
 /// there is one more, the norm of y.
-class ActiveProblem {
+class WorkingSetProblem {
  public:
-  ActiveProblem(int num_variables, const std::vector<LevelCapacity>& capacity);
+  WorkingSetProblem(int num_variables,
+                    const std::vector<LevelCapacity>& capacity);
 
   /// A row of the head, as it is in the hierarchy.
   struct Row {
@@ -31,7 +32,7 @@ class ActiveProblem {
     bool any = false;          ///< Whether its gradient is not zero.
     double size = 0;           ///< Of what they are added up from.
     std::vector<double> nu;    ///< By row of the head, for unit length.
-    std::vector<double> left;  ///< SelectionTail::Dual(): by variable.
+    std::vector<double> left;  ///< DiagonalLevels::Dual(): by variable.
   };
 
   /// Reads a hierarchy's sizes and the norms of its rows, and checks its numbers:
@@ -50,15 +51,15 @@ class ActiveProblem {
   /// are not in the order of their levels.
   void Solve(const Hierarchy& hierarchy,
              const std::vector<std::vector<Side>>& side) {
-    SolveHead(hierarchy, side);
-    SolveTail();
+    SolveLeading(hierarchy, side);
+    SolveDiagonal();
   }
 
   /// The same in two steps: the rows of the head, and the y that is best for
   /// these and then for the tail.
-  void SolveHead(const Hierarchy& hierarchy,
-                 const std::vector<std::vector<Side>>& side);
-  void SolveTail() { tail_.Solve(head_, y_.data()); }
+  void SolveLeading(const Hierarchy& hierarchy,
+                    const std::vector<std::vector<Side>>& side);
+  void SolveDiagonal() { diagonal_.Solve(leading_, y_.data()); }
 
   /// In place of the second: of all y that are best for the head, whatever the
   /// tail asks for, the one closest to this.
@@ -71,16 +72,16 @@ class ActiveProblem {
 
   /// The same of another y that meets the rows, without going on to the optimum
   /// of what they leave free.
-  void RefineOther(const Hierarchy& hierarchy, const std::vector<double>& y);
+  void RefineFrom(const Hierarchy& hierarchy, const std::vector<double>& y);
 
   /// Takes another y as it is.
-  void TakeOther(const Hierarchy& hierarchy, const std::vector<double>& y);
+  void SetSolution(const Hierarchy& hierarchy, const std::vector<double>& y);
 
   /// Of a row that y misses, whether it is active or not: the entries of y that may
   /// be what rounding leaves of a zero become zero, where no active row is met
   /// worse by more than a last digit; with others of y, if it takes these.
   /// Returns whether any does.
-  bool TakeZeros(const Hierarchy& hierarchy, const double* row);
+  bool ZeroRoundingEntries(const Hierarchy& hierarchy, const double* row);
 
   /// Finds the multipliers of the levels before this one at the last solve; the
   /// norm of y is level num_levels().
@@ -92,16 +93,16 @@ class ActiveProblem {
   /// t_a), but for rounding, which is made up for.
   void RefineMultipliers(const Hierarchy& hierarchy);
 
-  /// The price of an inequality row of the head on a level: positive if the
+  /// The multiplier of an inequality row of the head on a level: positive if the
   /// level is held back by it, negative if it is drawn along, 0 if below
   /// tolerance, relative. On its own level that is its violation.
-  double Price(int row, int level, Side side, double tolerance) const;
+  double Multiplier(int row, int level, Side side, double tolerance) const;
 
   int num_levels() const { return num_levels_; }
-  int num_head() const { return num_head_; }  ///< Levels before the tail.
-  const RowStack& head() const { return head_; }
-  SelectionTail& tail() { return tail_; }
-  const SelectionTail& tail() const { return tail_; }
+  int num_leading() const { return num_leading_; }  ///< Levels before the tail.
+  const LexicographicFactorization& leading() const { return leading_; }
+  DiagonalLevels& diagonal() { return diagonal_; }
+  const DiagonalLevels& diagonal() const { return diagonal_; }
   const Row& row(int a) const { return rows_[a]; }
   const Multipliers& multipliers(int level) const {
     return multipliers_[level];
@@ -112,18 +113,6 @@ class ActiveProblem {
   /// variable or for rows of unit length: what rounding of y is relative to, also
   /// where what is asked for leaves nothing of y.
   double Size() const;
-
-  /// What rounding may leave of an entry of y, relative to that.
-  static constexpr double kRounding = 1e-13;
-
-  /// A violation or a slope below this, relative to what it is added up from, is
-  /// zero: one rule for the search and for what follows it.
-  static constexpr double kTolerance = 1e-11;
-
-  /// The same of a multiplier: below kRankTolerance, as a level that gains rank
-  /// by so little when a row leaves has a price on that row, which may be a
-  /// hundredth of it.
-  static constexpr double kNoPrice = 1e-13;
 
   /// |C_i|_1, and the only variable of row i of B in the tail.
   double norm(int level, int i) const { return norm_[level][i]; }
@@ -139,25 +128,25 @@ class ActiveProblem {
   void AddToSum(const Hierarchy& hierarchy, int a, double factor,
                 double* sum) const;
   const double* Original(const Hierarchy& hierarchy, int a) const;
-  double FindLack(const Hierarchy& hierarchy);
+  double ComputeRowResiduals(const Hierarchy& hierarchy);
   bool Fits(const Hierarchy& hierarchy, int level) const;
-  bool IsAskedFor(int j) const;
-  double Missed(int a) const;
-  double WorstMissedLevel() const;
+  bool IsAtTarget(int j) const;
+  double RelativeResidual(int a) const;
+  double WorstRelativeLevelResidual() const;
   bool IsUneven() const;
   void Refine(const Hierarchy& hierarchy, bool to_minimum);
-  void FindResiduals(const Hierarchy& hierarchy);
+  void UpdateDeficientResiduals(const Hierarchy& hierarchy);
 
   int n_;
-  int num_levels_ = 0, num_head_ = 0;
+  int num_levels_ = 0, num_leading_ = 0;
   bool is_factored_ = false;
   std::vector<std::vector<Side>> factored_;  ///< The sides at work in the head.
-  RowStack head_;
-  SelectionTail tail_;
+  LexicographicFactorization leading_;
+  DiagonalLevels diagonal_;
   std::vector<Row> rows_;
   std::vector<Multipliers> multipliers_;
   std::vector<double> y_, gradient_, change_, nu_;
-  std::vector<double> lack_, size_;  ///< By row of the head.
+  std::vector<double> row_residual_, size_;  ///< By row of the head.
   std::vector<std::vector<double>> norm_, B_norm_;
   std::vector<std::vector<int>> selected_;
 };

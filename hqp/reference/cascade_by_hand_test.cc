@@ -205,7 +205,7 @@ TEST_P(CascadeByHandTest, KeepsARowThatHasCrossedBothItsBounds) {
   }
 }
 
-// Once all of a level is met, prices are rounding, and no row leaves for them.
+// Once all of a level is met, multipliers are rounding, and no row leaves for them.
 TEST_P(CascadeByHandTest, EndsWhereALevelIsMet) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 2}};
   HierarchyCase met{capacity, Hierarchy(3, capacity)};
