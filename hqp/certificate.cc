@@ -26,14 +26,6 @@ double Worse(double a, double b) {
 
 }  // namespace
 
-double Certificate::worst() const {
-  double worst = 0;
-  for (double each : {stationarity, feasibility, complementarity, priority}) {
-    worst = Worse(worst, each);
-  }
-  return worst;
-}
-
 Certifier::Certifier(int num_variables,
                      const std::vector<LevelCapacity>& capacity)
     : abs_y_(num_variables),
@@ -63,7 +55,9 @@ Certificate Certifier::Certify(const Hierarchy& hierarchy,
 
 void Certifier::Truncate(const Hierarchy& hierarchy,
                          Solution* solution) noexcept {
-  while (Certify(hierarchy, *solution).worst() > kCertified) {
+  for (;;) {
+    solution->certificate = Certify(hierarchy, *solution);
+    if (!(solution->certificate.worst() > kCertified)) return;
     solution->status = Status::kIterationLimit;
     int& failed_level = solution->failed_level;
     failed_level =

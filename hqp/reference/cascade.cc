@@ -109,13 +109,16 @@ Cascade::Cascade(int num_variables, const std::vector<LevelCapacity>& capacity,
 Status Cascade::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
   solution->Reset();
   solution->status = CheckInput(hierarchy, &solution->failed_level);
-  if (solution->status != Status::kOptimal) return solution->status;
+  if (solution->status != Status::kOptimal) {
+    solution->certificate = certifier_.Certify(hierarchy, *solution);
+    return solution->status;
+  }
   for (int pass = 0; pass < kPasses; ++pass) {
     SolveFromY(hierarchy, solution);
-    if (solution->status != Status::kOptimal ||
-        certifier_.Certify(hierarchy, *solution).worst() <=
-            Certifier::kCertified) {
-      break;
+    if (solution->status != Status::kOptimal) break;
+    solution->certificate = certifier_.Certify(hierarchy, *solution);
+    if (solution->certificate.worst() <= Certifier::kCertified) {
+      return solution->status;
     }
   }
   certifier_.Truncate(hierarchy, solution);
