@@ -5,8 +5,6 @@
 #include <malloc.h>
 
 #include <algorithm>
-#include <cstring>
-#include <new>
 #include <vector>
 
 #include "hqp/certificate.h"

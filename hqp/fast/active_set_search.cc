@@ -10,16 +10,16 @@
 namespace poise {
 namespace {
 
-// How often a row may leave on a level, or all at once: more than any search was
-// seen to need, and few enough to end what rounding alone keeps going.
+// Limit of removals of one row on a level, or in AllAtOnce(). Searches need
+// fewer; the limit ends cycles that rounding causes.
 constexpr int kMaxRemovals = 10;
 
-// In place of that: an equality, for good.
+// Replaces the number of removals left: the row is an equality from now on.
 constexpr int kFrozen = -1;
 
 constexpr int kNone = -1;
 
-// Of a row whose sides are one.
+// Returns whether the two bounds of a row are equal.
 bool IsFixed(const Hierarchy& hierarchy, int level, int i) {
   return hierarchy.lower(level)[i] == hierarchy.upper(level)[i];
 }
@@ -49,7 +49,7 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
   problem->Plan(hierarchy, levels);
   problem->Solve(hierarchy, *side);
   if (!InitializeAllLevels(hierarchy, problem, side)) return true;
-  // What is best for the head comes first: steps there are cheaper.
+  // The leading levels come first, because their steps are cheaper.
   do {
     if (!budget->Take(limit)) return false;
     problem->SolveLeading(hierarchy, *side);
@@ -73,8 +73,8 @@ int ActiveSetSearch::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
     std::fill(level.begin(), level.end(), Side::kNone);
   }
   for (int level = 0; level <= levels; ++level) {
-    // Of all that are optimal on this level, the one closest to y; of all that
-    // are on every level, the smallest.
+    // Among the optima of this level, take the one closest to y. Among the optima
+    // of all levels, take the one of minimum norm.
     problem->Plan(hierarchy, std::min(level + 1, levels),
                   level < levels ? y_.data() : nullptr);
     if (level < levels) InitializeWorkingSet(hierarchy, level, side);
@@ -93,8 +93,8 @@ int ActiveSetSearch::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
   return levels + 1;
 }
 
-// Back to the rows that were active when the last level was done, but for those
-// that have left: what they held, nothing holds.
+// Restores the working set of the last solved level, without the rows removed
+// since: no multiplier holds them.
 void ActiveSetSearch::RestoreWorkingSet(
     std::vector<std::vector<Side>>* side) const {
   for (size_t level = 0; level < completed_.size(); ++level) {
@@ -105,8 +105,8 @@ void ActiveSetSearch::RestoreWorkingSet(
   }
 }
 
-// Begins all levels at once; `problem` is solved for the active rows. Returns
-// whether these change; if not, that is the optimum.
+// Initializes the search on all levels; `problem` is solved for the working set.
+// Returns whether the working set changes. If not, y is the optimum.
 bool ActiveSetSearch::InitializeAllLevels(
     const Hierarchy& hierarchy, WorkingSetProblem* problem,
     std::vector<std::vector<Side>>* side) {
@@ -136,8 +136,7 @@ bool ActiveSetSearch::InitializeAllLevels(
   return true;
 }
 
-// Finds the sides that y breaks, but for those that are active. Returns how
-// many.
+// Finds the bounds outside the working set that y violates. Returns their number.
 int ActiveSetSearch::FindViolated(const Hierarchy& hierarchy,
                                   const WorkingSetProblem& problem,
                                   const std::vector<double>& y,
@@ -172,7 +171,7 @@ int ActiveSetSearch::FindViolated(const Hierarchy& hierarchy,
   return count;
 }
 
-// The rows of a level that are violated are active to begin with.
+// Initializes the working set of a level with the rows that y violates.
 void ActiveSetSearch::InitializeWorkingSet(
     const Hierarchy& hierarchy, int level,
     std::vector<std::vector<Side>>* side) {
@@ -190,9 +189,9 @@ void ActiveSetSearch::InitializeWorkingSet(
   }
 }
 
-// Goes towards the solution of the problem; if it gets there, lets rows leave.
-// Returns whether the active rows change; if not, the levels up to this one are
-// at their optimum.
+// Makes one iteration: a step to a blocking constraint, or, if there is none, a
+// removal. Returns whether the working set changes. If not, the levels up to this
+// one are at their optimum.
 bool ActiveSetSearch::Iterate(const Hierarchy& hierarchy, int level,
                               WorkingSetProblem* problem,
                               std::vector<std::vector<Side>>* side) {
@@ -200,9 +199,9 @@ bool ActiveSetSearch::Iterate(const Hierarchy& hierarchy, int level,
          RemoveConstraints(level, problem, side);
 }
 
-// Goes towards the solution of the problem as far as the other rows, and the
-// other sides of active rows, allow. Returns whether a row is in the way, now
-// active.
+// Moves y towards the optimum of the working set, up to the first bound outside
+// the working set, and adds that bound to it. Among bounds at equal distance, the
+// steepest is added. Returns whether there is such a bound.
 bool ActiveSetSearch::StepToBlockingConstraint(
     const Hierarchy& hierarchy, const WorkingSetProblem& problem,
     std::vector<std::vector<Side>>* side) {
@@ -249,16 +248,17 @@ bool ActiveSetSearch::StepToBlockingConstraint(
   (*side)[blocking.level][blocking.row] = at;
   if (!has_moved && blocking.level == last_removed_.level &&
       blocking.row == last_removed_.row) {
-    // What leaves moves away from its bound: it was for rounding that it left.
+    // A removed row moves away from its bound. This one did not: rounding had
+    // made its multiplier negative.
     removals_left_[blocking.level][blocking.row] = 0;
   }
   return true;
 }
 
-// Lets the rows go that are inside their own bound (the first ones of a descent
-// in company of all that only the tail draws along: steps are dear there); or else
-// the one that holds the levels up to this one back most. Returns whether one
-// does.
+// Removes constraints with a negative multiplier from the working set: all that
+// are strictly inside their bound, or else the one with the most negative
+// multiplier. Once in a search, all whose multiplier comes from a diagonal level
+// are removed together, as a step there is expensive. Returns whether any is.
 bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
                                         std::vector<std::vector<Side>>* side) {
   int removed = kNone;
@@ -297,7 +297,8 @@ bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
   return true;
 }
 
-// What a level leaves violated stays so; what rounding held may leave again.
+// Makes equalities of the rows that their own level leaves violated. The number
+// of removals left of all other rows is reset.
 void ActiveSetSearch::FreezeViolated(
     int level, const WorkingSetProblem& problem,
     const std::vector<std::vector<Side>>& side) {

@@ -11,33 +11,35 @@
 
 namespace poise {
 
-/// The search for the active rows: from a y that breaks no row but active ones
-/// to a better such y, until it is the optimum. See docs/hqp.md.
+/// A primal active-set method on all levels of a hierarchy. See README.md.
 ///
-/// Towards the optimum of the active rows as far as the others allow; what is in
-/// the way becomes active. At that optimum, rows that nothing holds at their
-/// bound leave; if there are none, the row that holds the levels back most.
+/// Invariant: outside the working set, y violates no row by more than rounding.
+/// A step goes from y towards the optimum of the working set, and the first
+/// blocking constraint is added to the working set. At that optimum, rows
+/// strictly inside their bound are removed. If there is none, the row with the
+/// most negative multiplier is removed.
 class ActiveSetSearch {
  public:
   ActiveSetSearch(int num_variables,
                   const std::vector<LevelCapacity>& capacity);
 
-  /// On all levels at once, from the active rows `side`; false if the budget, or
-  /// `limit` iterations of it, did not suffice. The start is the optimum of
-  /// these rows, or y() if that breaks fewer rows; what is broken there becomes
-  /// active.
+  /// Searches on all levels at once, from the working set `side`. Returns false
+  /// if the budget, or `limit` iterations of it, did not suffice. The start is
+  /// the optimum of this working set, or y() if y() violates fewer rows. Rows
+  /// violated there are added to the working set.
   bool AllAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget,
                  WorkingSetProblem* problem,
                  std::vector<std::vector<Side>>* side);
 
-  /// Level by level, from y = 0, as the paper's cascade does, but on one
-  /// factorisation of all levels: slower, but what is found for a level stays.
-  /// Rows violated at their own level's optimum are equalities from then on.
+  /// Searches level by level from y = 0, as the cascade of the paper does, on one
+  /// factorisation of all levels. This is slower than AllAtOnce(), but levels
+  /// that are solved stay solved. Rows that are violated at the optimum of their
+  /// own level are equalities from then on.
   ///
-  /// Returns how many levels are at their optimum: all, and one more, the norm
-  /// of y, if the budget allows. `problem` is then solved for the active rows
-  /// `side`, but y() is the answer: if a level is not at its optimum, it is the
-  /// best found that keeps those above it, and `side` what holds these.
+  /// Returns the number of levels at their optimum. If the budget suffices, that
+  /// is all levels and one more, the norm of y. `problem` is then solved for the
+  /// working set `side`, but y() is the answer. If a level is not at its optimum,
+  /// y() is the best found for it, and `side` keeps the levels above it optimal.
   int LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
                    WorkingSetProblem* problem,
                    std::vector<std::vector<Side>>* side);
@@ -72,14 +74,12 @@ class ActiveSetSearch {
 
   int n_;
   std::vector<double> y_, step_, value_, slope_;
-  std::vector<std::vector<int>>
-      removals_left_;  ///< How often it still may leave.
-  bool remove_together_ =
-      false;  ///< Whether rows may leave for the tail at once.
-  RowIndex last_removed_ = {-1,
-                            -1};  ///< The row that left last, if it did alone.
-  std::vector<std::vector<Side>> violated_;   ///< kNone: not broken.
-  std::vector<std::vector<Side>> completed_;  ///< When the last level was done.
+  std::vector<std::vector<int>> removals_left_;  ///< Removals allowed per row.
+  bool remove_together_ = false;                 ///< See RemoveConstraints().
+  RowIndex last_removed_ = {-1, -1};             ///< If alone.
+  std::vector<std::vector<Side>> violated_;      ///< kNone: not violated.
+  std::vector<std::vector<Side>>
+      completed_;  ///< Working set of the last solved level.
 };
 
 }  // namespace poise

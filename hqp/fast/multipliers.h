@@ -11,16 +11,16 @@
 
 namespace poise {
 
-/// Writes what the fast solver found, as a Solution: the multipliers by level
-/// and row, none of them negative where a certificate forbids it, and the
-/// nullities.
+/// Writes the answer of the search as a Solution: y, working set, nullities, and
+/// the multipliers by level and row. Inequality multipliers are made nonnegative
+/// where the certificate requires that.
 class MultiplierWriter {
  public:
   MultiplierWriter(int num_variables,
                    const std::vector<LevelCapacity>& capacity);
 
-  /// @param tolerance  below it, relative, a multiplier is zero.
-  /// @param problem    solved; its tail is used up by this.
+  /// @param tolerance  a multiplier below this, relative, is zero.
+  /// @param problem    solved; its diagonal levels are overwritten.
   void Write(const Hierarchy& hierarchy,
              const std::vector<std::vector<Side>>& side, double tolerance,
              WorkingSetProblem* problem, Solution* solution);

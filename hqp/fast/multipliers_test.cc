@@ -169,10 +169,10 @@ TEST(MultiplierWriter, TellsWhichBoundOfTwoInOneIsViolated) {
   EXPECT_EQ(met.levels[0].active[1], Side::kUpper);
 }
 
-// 3 y0 + 4 y1 <= 50, and >= 50 and twice a violation, at y = (10, 5): violated
-// is what is more than 1e-9 (5 |y| + 50).
-TEST(MultiplierWriter, CountsARowAsViolatedFromAnEdgeOn) {
-  for (const double share : {0.98, 1.02}) {
+// 3 y0 + 4 y1 <= 50 and >= 50 plus twice a violation, at y = (10, 5). The rows are
+// violated beyond 1e-9 (5 |y| + 50), and take one from the nullity then.
+TEST(MultiplierWriter, CountsViolatedRowsInTheNullity) {
+  for (const double share : {0.01, 100.}) {
     const std::vector<LevelCapacity> capacity{{1, 2}};
     Hierarchy hierarchy(2, capacity);
     EqualityBlock across = hierarchy.AddEqualities(0, 1);
@@ -182,7 +182,11 @@ TEST(MultiplierWriter, CountsARowAsViolatedFromAnEdgeOn) {
     rows.C << 3, 4, 3, 4;
     rows.upper[0] = 50;
     rows.lower[1] = 50 + 2 * share * 1e-9 * (5 * std::sqrt(125) + 50);
-    EXPECT_EQ(Solve(hierarchy, capacity).levels[0].nullity, share < 1 ? 1 : 0);
+    const Solution solution = Solve(hierarchy, capacity);
+    EXPECT_LE(solution.certificate.worst(), 1e-9);
+    EXPECT_LE((solution.y - Eigen::Vector2d(10, 5)).norm(),
+              (rows.lower[1] - 50) / 5);
+    EXPECT_EQ(solution.levels[0].nullity, share < 1 ? 1 : 0);
   }
 }
 

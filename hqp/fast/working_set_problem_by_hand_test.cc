@@ -189,9 +189,9 @@ TEST_F(WorkingSetProblemTest, PricesWhatARowHoldsBack) {
 // from the latter, sqrt(4/5) of it is left in any case, on the light row: it
 // counts beside that row's weight times 1/8. What rows of the next level weigh
 // does not matter.
-TEST(WorkingSetProblem, AResidualOfRoundingIsNone) {
+TEST(WorkingSetProblem, TreatsRoundingResidualAsZero) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {0, 1}};
-  for (const double share : {0.9, 1.1}) {
+  for (const double share : {0.01, 100.}) {
     for (const double sign : {-1, 1}) {
       const double gap = sign * share * 1e-12 / 8 / std::sqrt(0.8);
       Hierarchy hierarchy(1, capacity);
