@@ -6,7 +6,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "math/so3.h"
 #include "robot/control/default_stack.h"
 #include "robot/control/fail_safe.h"
 #include "robot/control/tasks/scale.h"
@@ -31,17 +30,6 @@ constexpr double kDynamicsMet = 1e-9;
 
 // The center of mass goes where it is asked to where that is met to this, m/s2.
 constexpr double kFollowing = 0.05;
-
-// A foot that bears less than this part of the weight, and another more than
-// that, is let go where a fall sideways asks for more than half of all that can
-// be done against it.
-constexpr double kUnloaded = 0.03;
-constexpr double kLoaded = 0.5;
-constexpr double kLettingGo = 0.5;
-
-// It comes back where the feet do again, and the robot is slow and nearly upright.
-constexpr double kUprightBase = 0.4;  // rad.
-constexpr double kSlow = 0.3;         // m/s.
 
 // What was not expected is a mean over so long, s: long against delays, short
 // against the time that a joint takes to its limit. What is more is no push.
@@ -112,6 +100,7 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
       com_(*stack_.Find("com")),
       com_task_(static_cast<const ComTask&>(stack_.task(com_))),
       stance_(robot_.feet, weight_),
+      monitor_(robot_.model.tree, robot_.feet),
       tick_(robot_.model.tree, TickFrames(robot_, options.frames)),
       contacts_(robot_.feet.size()),
       hierarchy_(NumVariables(robot_), stack_.capacity()),
@@ -205,10 +194,10 @@ void Controller::Update(const State& state, Command* command) noexcept {
   }
   ComputeModel(state);
   UpdateUnexpectedVdot(state);
-  LetFeetGo(state);
+  UpdateBalance();
   stance_.Update(options_.dt, normal_force_, &contacts_, &reference_);
   stack_.Write({state, tick_, contacts_, reference_, unexpected_vdot_,
-                disturbance_.correction_W(), capture_},
+                disturbance_.correction_W(), monitor_.balance().capture},
                &hierarchy_);
   const Status solved = solver_.Solve(hierarchy_, &solution_);
   stack_.Report(solution_, &report_);
@@ -255,32 +244,17 @@ void Controller::EstimateDisturbance() noexcept {
                       reference_, tick_);
 }
 
-// In a fall to the other side, a foot without load holds back the trunk, and its
-// leg is worth more as a weight that swings: it is let go. It comes back when all
-// is over, or the robot falls to its side.
-void Controller::LetFeetGo(const State& state) noexcept {
-  MomentumTask::CaptureShares shares;
-  if (stack_.settings(momentum_).enabled) {
-    shares = momentum_task_.FindCapture(
-        {state, tick_, contacts_, reference_, unexpected_vdot_});
-  }
-  capture_ = shares.all;
-
-  const double turned =
-      LogSo3(reference_.R_WB * tick_.X_WB[0].R.transpose()).norm();
-  const bool is_over =
-      shares.all == 0 && turned < kUprightBase && tick_.v_WG.norm() < kSlow;
-  const bool stands = normal_force_.maxCoeff() > kLoaded * weight_;
-  const Pose X_MidW = MidFeet(contacts_).Inverse();
+// Asks the balance monitor, and lets stance release feet and bring them back.
+void Controller::UpdateBalance() noexcept {
+  CaptureSettings settings = momentum_task_.capture_settings();
+  if (!stack_.settings(momentum_).enabled) settings.capture = 0;
+  monitor_.Update(tick_, contacts_, reference_, settings, normal_force_);
+  const Balance& balance = monitor_.balance();
   for (int foot = 0; foot < static_cast<int>(contacts_.size()); ++foot) {
-    const bool is_left = (X_MidW * contacts_[foot].X_WC.p).y() > 0;
-    const double away = is_left ? shares.right : shares.left;
-    const double towards = is_left ? shares.left : shares.right;
     const ContactPhase phase = stance_.phase(foot);
-    if (phase == ContactPhase::kFree && (is_over || towards > 0)) {
+    if (phase == ContactPhase::kFree && balance.feet[foot].comes_back) {
       stance_.PutDown(foot);
-    } else if (phase == ContactPhase::kDown && away > kLettingGo && stands &&
-               normal_force_[foot] < kUnloaded * weight_) {
+    } else if (phase == ContactPhase::kDown && balance.feet[foot].is_released) {
       stance_.LetGo(foot);
     }
   }

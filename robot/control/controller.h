@@ -11,6 +11,7 @@
 #include "hqp/hierarchy.h"
 #include "hqp/solution.h"
 #include "hqp/solver.h"
+#include "robot/control/balance_monitor.h"
 #include "robot/control/command.h"
 #include "robot/control/contacts.h"
 #include "robot/control/disturbance.h"
@@ -102,7 +103,7 @@ class Controller {
 
  private:
   void ComputeModel(const State& state) noexcept;
-  void LetFeetGo(const State& state) noexcept;
+  void UpdateBalance() noexcept;
   void UpdateUnexpectedVdot(const State& state) noexcept;
   void UpdateClock(const State& state) noexcept;
   bool IsFrozen() const noexcept;
@@ -124,6 +125,7 @@ class Controller {
   int com_;                           ///< The same.
   const ComTask& com_task_;
   Stance stance_;
+  BalanceMonitor monitor_;
   Tick tick_;
   std::vector<ContactTick> contacts_;
   Hierarchy hierarchy_;
@@ -137,7 +139,6 @@ class Controller {
   Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.
   double last_time_;        ///< Of the last state whose stamp is finite, s.
   Disturbance disturbance_;
-  double capture_ = 0;               ///< TaskInput::capture.
   Eigen::VectorXd unexpected_vdot_;  ///< TaskInput::unexpected_vdot.
   Eigen::VectorXd expected_v_;       ///< The v that the last solution leads to.
   bool expects_ = false;   ///< Whether expected_v_ is of the last tick.

@@ -26,8 +26,7 @@ struct TaskInput {
   /// What the center of mass is to be accelerated beyond its reference, against
   /// what the model does not know of, m/s2; see Disturbance.
   Eigen::Vector3d correction_W = Eigen::Vector3d::Zero();
-  /// How far the feet alone cannot bring the robot to rest, from 0, they can, to
-  /// 1; see MomentumTask::FindCapture().
+  /// Capture blend, 0 to 1, see Balance::capture.
   double capture = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "robot/control/balance_monitor.h"
 #include "robot/control/tasks/row_names.h"
 #include "robot/control/tasks/scale.h"
 
@@ -21,7 +22,7 @@ CopTask::CopTask(const Tree& tree, const std::vector<Foot>& feet)
 void CopTask::Write(const TaskInput& input, EqualityBlock*,
                     InequalityBlock* inequalities) const noexcept {
   const double share = std::max(0.0, 2 * input.capture - 1);
-  const double margin = margin_ + share * (capture_margin_ - margin_);
+  const double margin = BlendByCapture(margin_, capture_margin_, share);
   for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
     if (!input.contacts[i].in_contact) continue;
     const double X = scale_ * std::max(0.0, feet_[i].half_size.x() - margin);
