@@ -40,9 +40,10 @@ Robot MakeRobotWithAllTasks() {
 std::map<std::string, std::string> ReadTable() {
   std::ifstream file("robot/control/controller.h");
   std::string text(std::istreambuf_iterator<char>(file), {});
-  text = std::regex_replace(text, std::regex("\n///"), "");
+  // A line without a level continues the one above it.
+  text = std::regex_replace(text, std::regex("\n/// {12}"), " ");
   std::map<std::string, std::string> table;
-  const std::regex row(R"(\| (\d) \| ([^|]*) \|)"), name(R"([(]|[\w.]+|[)])");
+  const std::regex row(R"(/// {5}(\d) {6}([^\n]*))"), name(R"([(]|[\w.]+|[)])");
   for (std::sregex_iterator r(text.begin(), text.end(), row), end; r != end;
        ++r) {
     const std::string rank = r->str(1), tasks = r->str(2);

@@ -104,7 +104,7 @@ class CaptureTest : public TaskTest {
     EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
     InequalityBlock none = hierarchy_.AddInequalities(0, 0);
     TaskInput now{state_, tick_, controller_.contacts(),
-                  controller_.reference(), unexpected_vdot_};
+                  controller_.reference(), unmodelled_vdot_};
     monitor_.Update(tick_, now.contacts, now.reference,
                     task_.capture_settings(), Eigen::Vector2d(1, 1));
     const Balance& balance = monitor_.balance();
@@ -189,7 +189,7 @@ TEST_F(CaptureTest, StandsOverTheFootThatIsLeft) {
     EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
     InequalityBlock none = hierarchy_.AddInequalities(0, 0);
     task_.Write(
-        {state_, controller_.tick(), contacts, reference, unexpected_vdot_},
+        {state_, controller_.tick(), contacts, reference, unmodelled_vdot_},
         &rows, &none);
     const Vector6d wanted =
         controller_.tick().H_G_bias / tree_.total_mass() - rows.b;
