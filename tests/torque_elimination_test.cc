@@ -10,6 +10,7 @@
 #include "hqp/reference/cascade.h"
 #include "hqp/solution.h"
 #include "robot/control/controller.h"
+#include "robot/control/stance.h"
 #include "tests/util/load_humanoid.h"
 #include "tests/util/random_tree.h"
 
@@ -133,7 +134,9 @@ class TorqueEliminationTest : public testing::Test {
   void StandOn(int foot) {
     state_.v.setZero();
     MakeController();
-    controller_->stance().fade_time = 1e-3;
+    StanceSettings settings;
+    settings.fade_time = 1e-3;
+    controller_->stance().Configure(settings);
     ASSERT_TRUE(controller_->stance().Lift(1 - foot, 0.05));
     for (int tick = 0; tick < 3; ++tick) {
       state_.time += 1e-3;

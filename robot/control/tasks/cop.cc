@@ -13,7 +13,7 @@ CopTask::CopTask(const Tree& tree, const std::vector<Foot>& feet)
     : Task("cop", {},
            FootRowNames(feet, "cop", {"x_max", "x_min", "y_max", "y_min"})),
       nv_(tree.nv()),
-      scale_(1 / ForceScale(tree)),
+      inverse_force_scale_(1 / ForceScale(tree)),
       feet_(feet) {
   AddParameter("margin", &margin_, 0, 1);
   AddParameter("capture_margin", &capture_margin_, 0, 1);
@@ -25,14 +25,16 @@ void CopTask::Write(const TaskInput& input, EqualityBlock*,
   const double margin = BlendByCapture(margin_, capture_margin_, share);
   for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
     if (!input.contacts[i].in_contact) continue;
-    const double X = scale_ * std::max(0.0, feet_[i].half_size.x() - margin);
-    const double Y = scale_ * std::max(0.0, feet_[i].half_size.y() - margin);
+    const double X =
+        inverse_force_scale_ * std::max(0.0, feet_[i].half_size.x() - margin);
+    const double Y =
+        inverse_force_scale_ * std::max(0.0, feet_[i].half_size.y() - margin);
     auto C = inequalities->C.block<4, 6>(4 * i, nv_ + 6 * i);
     // Columns: m_x, m_y, m_z, f_x, f_y, f_z.
-    C << 0, -scale_, 0, 0, 0, -X,  //
-        0, scale_, 0, 0, 0, -X,    //
-        scale_, 0, 0, 0, 0, -Y,    //
-        -scale_, 0, 0, 0, 0, -Y;
+    C << 0, -inverse_force_scale_, 0, 0, 0, -X,  //
+        0, inverse_force_scale_, 0, 0, 0, -X,    //
+        inverse_force_scale_, 0, 0, 0, 0, -Y,    //
+        -inverse_force_scale_, 0, 0, 0, 0, -Y;
     inequalities->upper.segment<4>(4 * i).setZero();
   }
 }

@@ -23,7 +23,7 @@ class CopTask final : public Task {
 
  private:
   int nv_;
-  double scale_;
+  double inverse_force_scale_;
   std::vector<Foot> feet_;
   double margin_ = 0.005;
   double capture_margin_ = 0.001;

@@ -12,7 +12,7 @@ ForceRegularizerTask::ForceRegularizerTask(const Tree& tree,
            FootRowNames(feet, "force", {"mx", "my", "mz", "fx", "fy", "fz"}),
            {}),
       nv_(tree.nv()),
-      scale_(1 / ForceScale(tree)) {}
+      inverse_force_scale_(1 / ForceScale(tree)) {}
 
 void ForceRegularizerTask::Write(const TaskInput& input,
                                  EqualityBlock* equalities,
@@ -21,7 +21,7 @@ void ForceRegularizerTask::Write(const TaskInput& input,
     if (!input.contacts[i].in_contact) continue;
     equalities->B.block<6, 6>(6 * i, nv_ + 6 * i)
         .diagonal()
-        .setConstant(scale_);
+        .setConstant(inverse_force_scale_);
   }
 }
 

@@ -15,13 +15,15 @@ class NoContactTask final : public Task {
  public:
   NoContactTask(const Tree& tree, const std::vector<Foot>& feet);
   bool HasRows(const TaskInput& input) const noexcept override;
-  double equality_scale(int) const noexcept override { return 1 / scale_; }
+  double equality_scale(int) const noexcept override {
+    return 1 / inverse_force_scale_;
+  }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 
  private:
   int nv_;
-  double scale_;
+  double inverse_force_scale_;
 };
 
 }  // namespace poise

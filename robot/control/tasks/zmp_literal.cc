@@ -10,7 +10,7 @@ ZmpLiteralTask::ZmpLiteralTask(const Tree& tree, const std::vector<Foot>& feet)
     : Task("zmp_literal", {},
            AxisRowNames("zmp_literal", {"x_max", "x_min", "y_max", "y_min"})),
       nv_(tree.nv()),
-      scale_(1 / ForceScale(tree)) {
+      inverse_force_scale_(1 / ForceScale(tree)) {
   if (!feet.empty()) {
     dx_ = feet.front().half_size.x();
     dy_ = feet.front().half_size.y();
@@ -29,7 +29,7 @@ void ZmpLiteralTask::Write(const TaskInput& input, EqualityBlock*,
         0, 1, 0, 0, 0, -dx_,    //
         1, 0, 0, 0, 0, -dy_,    //
         -1, 0, 0, 0, 0, -dy_;
-    C *= scale_;
+    C *= inverse_force_scale_;
     inequalities->upper.setZero();
   }
 }
