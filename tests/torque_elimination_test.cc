@@ -30,7 +30,7 @@ class UneliminatedProblem {
         nv_(tree_.nv()),
         n_(tree_.num_joints()),
         ny_(static_cast<int>(controller.report().y.size())),
-        capacity_(Stack::kMaxRank, {nv_ + 200, n_ + 1000}),
+        capacity_(Stack::kMaxLevel, {nv_ + 200, n_ + 1000}),
         hierarchy_(ny_ + n_, capacity_) {}
 
   int num_variables() const { return ny_ + n_; }
@@ -85,7 +85,7 @@ class UneliminatedProblem {
   // The rows of a task that does not know of tau.
   void AddTask(const Task& task, const TaskSettings& settings,
                const TaskInput& input) {
-    const int level = settings.rank - 1;
+    const int level = settings.level - 1;
     const int equalities = static_cast<int>(task.equality_names().size());
     const int inequalities = static_cast<int>(task.inequality_names().size());
     Hierarchy narrow(ny_, {{equalities, inequalities}});

@@ -216,7 +216,7 @@ bool Controller::Solve() noexcept {
       DynamicsResidual(tick_, contacts_, solution_.y, force_scale_);
   const bool is_possible = report_.dynamics_residual <= kDynamicsMet;
   const bool is_truncated =
-      solved == Status::kIterationLimit && report_.failed_rank > 1;
+      solved == Status::kIterationLimit && report_.failed_level > 1;
   if ((solved != Status::kOptimal && !is_truncated) || !is_possible) {
     return false;
   }
@@ -291,7 +291,7 @@ void Controller::LimitTorque(Command* command) noexcept {
     const double slack = (std::abs(tau) - limit) / row_scale;
     Relax({torque_limits_, static_cast<int>(j),
            tau > 0 ? Side::kUpper : Side::kLower,
-           stack_.settings(torque_limits_).rank, slack, slack});
+           stack_.settings(torque_limits_).level, slack, slack});
     tau = std::clamp(tau, -limit, limit);
   }
   for (const ActiveRow& row : report_.active) {

@@ -9,7 +9,7 @@
 namespace poise {
 
 /// A foot in the air feels no force: lambda = 0, over a quarter of the robot's
-/// weight; no rows for a foot in contact. Belongs in the rank of
+/// weight; no rows for a foot in contact. Belongs in the level of
 /// NewtonEulerTask, with which it can always be met.
 class NoContactTask final : public Task {
  public:
