@@ -22,13 +22,13 @@ double Push(double ramp, const std::function<void(int, Stack*)>& change) {
   const Robot robot = LoadHumanoid();
   Scenario scenario;
   scenario.duration = 3;
+  scenario.control.ramp = ramp;
   poise::Push push;
   push.force = {0, 100, 0};
   scenario.pushes.push_back(push);
   ClosedLoop loop(robot, scenario);
   Judge judge(StandingHeight(robot));
   Stack& stack = loop.controller().stack();
-  EXPECT_TRUE(stack.set_ramp(ramp));
   for (int i = 0; loop.time() < scenario.duration - 1e-6 && !judge.is_down();
        ++i) {
     change(i, &stack);
@@ -43,6 +43,20 @@ double Push(double ramp, const std::function<void(int, Stack*)>& change) {
 // To a hundredth of what it does where all takes effect at once: 47 mm.
 void ExpectToDoAsMuch(const std::function<void(int, Stack*)>& change) {
   EXPECT_NEAR(Push(0.2, change) / Push(0, change), 1, 0.01);
+}
+
+TEST(Changes, AreEasedInWithTheRampOfTheScenario) {
+  for (const double ramp : {0.0, 0.2}) {
+    SCOPED_TRACE(ramp);
+    Scenario scenario;
+    scenario.control.ramp = ramp;
+    ClosedLoop loop(LoadHumanoid(), scenario);
+    Stack& stack = loop.controller().stack();
+    loop.Tick();
+    ASSERT_TRUE(stack.SetParameter("momentum", "kp", 31));
+    loop.Tick();
+    EXPECT_EQ(stack.is_eased(), ramp > 0);
+  }
 }
 
 TEST(Changes, OfAGainAsThePushBegins) {

@@ -55,6 +55,11 @@ std::unique_ptr<Controller> MakeController(const Robot& robot,
   ApplyTaskSet(settings.tasks, &controller->stack());
   Switch(settings.without, false, &controller->stack());
   Switch(settings.with, true, &controller->stack());
+  if (!controller->stack().set_ramp(settings.ramp)) {
+    throw std::invalid_argument("control.ramp is " +
+                                PrintNumber(settings.ramp) +
+                                ", must be finite and not negative");
+  }
   return controller;
 }
 

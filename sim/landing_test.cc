@@ -37,7 +37,7 @@ Landing Land(const Scenario& scenario) {
     const TickRecord record = loop.record();
     landing.certificate =
         std::max(landing.certificate, record.report.certificate.worst());
-    landing.unsolved += record.report.failed_rank != 0;
+    landing.unsolved += record.report.failed_level != 0;
     landing.sunk = std::max(landing.sunk, (now.com_ref - now.com).z());
     landing.beyond =
         std::max(landing.beyond, JointViolation(robot.model, record.end.q));

@@ -149,7 +149,7 @@ TEST(ClosedLoop, HasAFrameTaskForAnyLink) {
        {std::pair("frame.torso", 4), std::pair("frame.l_hand", 5)}) {
     const TaskSettings& settings = stack.settings(stack.Find(task).value());
     EXPECT_TRUE(settings.enabled) << task;
-    EXPECT_EQ(settings.rank, rank) << task;
+    EXPECT_EQ(settings.level, rank) << task;
   }
 }
 

@@ -59,7 +59,8 @@ std::vector<NumberField> Fields(ControlSettings* control) {
   return {{"rate", &control->dt, 10, 1e5, "Hz", 1, true},
           {"delay", &control->delay, 0, 1, "s"},
           {"friction", &control->friction, 0, 10},
-          {"mass_error", &control->mass_error, -0.99, 10}};
+          {"mass_error", &control->mass_error, -0.99, 10},
+          {"ramp", &control->ramp, 0, 100, "s"}};
 }
 
 std::vector<NumberField> Fields(SensorSettings* s) {

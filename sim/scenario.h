@@ -47,6 +47,7 @@ struct ControlSettings {
   double delay = 0;          ///< From measurement to torque, s.
   double friction = 0.5;     ///< Its mu.
   double mass_error = 0;     ///< Of all links in its model, a fraction.
+  double ramp = 0;           ///< Changes of tasks take effect in this time, s.
   bool inscribed = false;    ///< Its friction pyramid.
   bool feedforward = false;  ///< Of the reference's motion.
   bool weighted = false;     ///< One weighted QP.

@@ -62,7 +62,7 @@ stance:
 com: {sine: [1, 2, 3], cosine: [4, 5, 6], period: 4}
 tasks: {set: paper, with: [zmp], without: [cop, yaw]}
 control: {rate: 500, delay: 0.002, friction: 0.4, mass_error: -0.1,
-          inscribed: true, feedforward: true, weighted: true, estimator: true}
+          ramp: 0.3, inscribed: true, feedforward: true, weighted: true, estimator: true}
 plant: {kind: mujoco, rate: 2000, friction: 0.7, torque_scale: 0.5, roll: 0.1,
         pitch: 0.2, boards: [{center: [1, 2, 3], size: [4, 5, 6], yaw: 1}],
         joint_limits: false, joint_damping: false, self_collision: false,
@@ -130,6 +130,7 @@ TEST(Scenario, ReadsEachKeyOfTasksAndControl) {
   EXPECT_EQ(s.control.delay, 0.002);
   EXPECT_EQ(s.control.friction, 0.4);
   EXPECT_EQ(s.control.mass_error, -0.1);
+  EXPECT_EQ(s.control.ramp, 0.3);
   EXPECT_TRUE(s.control.inscribed && s.control.feedforward &&
               s.control.weighted && s.control.estimator);
 }
@@ -201,6 +202,7 @@ TEST(Scenario, DocumentHasEveryKeyWithItsDefault) {
   EXPECT_EQ(documented.control.tasks, fresh.control.tasks);
   EXPECT_EQ(documented.control.dt, fresh.control.dt);
   EXPECT_EQ(documented.control.friction, fresh.control.friction);
+  EXPECT_EQ(documented.control.ramp, fresh.control.ramp);
   EXPECT_EQ(documented.plant.dt, fresh.plant.dt);
   EXPECT_EQ(documented.plant.friction, fresh.plant.friction);
   EXPECT_EQ(documented.plant.torque_scale, fresh.plant.torque_scale);
@@ -363,6 +365,8 @@ TEST(Scenario, AbsurdNumbersAreRefusedWithTheirLine) {
         "control: {friction: 11}",
         "control: {mass_error: -1}",
         "control: {mass_error: 11}",
+        "control: {ramp: -0.1}",
+        "control: {ramp: 101}",
         "plant: {rate: 1}",
         "plant: {friction: -1}",
         "plant: {friction: 1e9}",

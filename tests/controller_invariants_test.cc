@@ -85,7 +85,7 @@ struct Balance {
     }
     double needed = 0;
     for (int level = 0; level < hierarchy.num_levels(); ++level) {
-      if (controller.stack().rank_of_level(level) == rank) {
+      if (controller.stack().priority_level(level) == rank) {
         needed = std::sqrt(2 * solution.levels[level].cost);
       }
     }
@@ -102,12 +102,12 @@ struct Balance {
     if (command.status != controller.report().status) return "status";
     if (command.status == TickStatus::kFailSafe) return "it failed safe";
     // A hierarchy cut off says nothing of the ranks below.
-    const int failed_rank = controller.report().failed_rank;
+    const int failed_level = controller.report().failed_level;
     std::string broken = BrokenByDynamics();
-    if (broken.empty() && (failed_rank == 0 || failed_rank > 2)) {
+    if (broken.empty() && (failed_level == 0 || failed_level > 2)) {
       broken = BrokenByJoints(kTolerance + Needed(2));
     }
-    if (broken.empty() && (failed_rank == 0 || failed_rank > 3)) {
+    if (broken.empty() && (failed_level == 0 || failed_level > 3)) {
       const double allowed = (kTolerance + Needed(3)) * weight() / 4;
       for (int i = 0; i < 2 && broken.empty(); ++i) {
         broken = BrokenBy(wrench(i), robot.feet[i], allowed);

@@ -10,6 +10,7 @@
 #include "hqp/reference/cascade.h"
 #include "hqp/solution.h"
 #include "robot/control/controller.h"
+#include "robot/control/stance.h"
 #include "tests/util/load_humanoid.h"
 #include "tests/util/random_tree.h"
 
@@ -29,7 +30,7 @@ class UneliminatedProblem {
         nv_(tree_.nv()),
         n_(tree_.num_joints()),
         ny_(static_cast<int>(controller.report().y.size())),
-        capacity_(Stack::kMaxRank, {nv_ + 200, n_ + 1000}),
+        capacity_(Stack::kMaxLevel, {nv_ + 200, n_ + 1000}),
         hierarchy_(ny_ + n_, capacity_) {}
 
   int num_variables() const { return ny_ + n_; }
@@ -84,7 +85,7 @@ class UneliminatedProblem {
   // The rows of a task that does not know of tau.
   void AddTask(const Task& task, const TaskSettings& settings,
                const TaskInput& input) {
-    const int level = settings.rank - 1;
+    const int level = settings.level - 1;
     const int equalities = static_cast<int>(task.equality_names().size());
     const int inequalities = static_cast<int>(task.inequality_names().size());
     Hierarchy narrow(ny_, {{equalities, inequalities}});
@@ -133,7 +134,9 @@ class TorqueEliminationTest : public testing::Test {
   void StandOn(int foot) {
     state_.v.setZero();
     MakeController();
-    controller_->stance().fade_time = 1e-3;
+    StanceSettings settings;
+    settings.fade_time = 1e-3;
+    controller_->stance().Configure(settings);
     ASSERT_TRUE(controller_->stance().Lift(1 - foot, 0.05));
     for (int tick = 0; tick < 3; ++tick) {
       state_.time += 1e-3;

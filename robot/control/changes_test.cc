@@ -104,16 +104,16 @@ TEST_F(RampTest, EasesALimitIn) {
   });
 }
 
-TEST_F(RampTest, EasesARankIn) {
-  Try([](Stack* stack) { EXPECT_TRUE(stack->SetRank("posture", 4)); });
+TEST_F(RampTest, EasesALevelIn) {
+  Try([](Stack* stack) { EXPECT_TRUE(stack->SetLevel("posture", 4)); });
 }
 
 TEST_F(RampTest, EasesAWeightIn) {
   Try([](Stack* stack) { EXPECT_TRUE(stack->SetWeight("posture", 100)); },
-      [](Stack* stack) { EXPECT_TRUE(stack->SetRank("posture", 4)); });
+      [](Stack* stack) { EXPECT_TRUE(stack->SetLevel("posture", 4)); });
 }
 
-// As one weighted QP a rank that comes weighs all above it anew.
+// As one weighted QP a level that comes weighs all above it anew.
 TEST_F(RampTest, EasesATaskIntoAWeightedProblem) {
   Try([](Stack* stack) { EXPECT_TRUE(stack->Enable("momentum", true)); },
       [](Stack* stack) {

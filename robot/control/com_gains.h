@@ -3,8 +3,8 @@
 
 namespace poise {
 
-/// By what a task brings the center of mass to its place, and by what an error
-/// that stays there is corrected, see Disturbance.
+/// PD gains on the center of mass, and integral gains against steady-state
+/// error, see Disturbance.
 struct ComGains {
   double kp = 30;         ///< 1/s2.
   double kd = 10;         ///< 1/s.

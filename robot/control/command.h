@@ -9,7 +9,7 @@ namespace poise {
 enum class TickStatus {
   kOk,
   kLimitRelaxed,  ///< Solved; a torque or joint limit has slack.
-  kTruncated,     ///< A rank was not solved, or not to 1e-9: those above hold.
+  kTruncated,     ///< A level was not solved, or not to 1e-9: those above hold.
   kFailSafe,      ///< Gravity compensation and damping, inside the limits.
 };
 

@@ -45,7 +45,7 @@ TEST_F(ControllerTest, SaysThatATorqueLimitCannotBeMet) {
   };
   const double plain = slack([](Stack*) {});
   EXPECT_GT(plain, 1e-3);
-  // Where a whole rank weighs more it is all the same, and in the same unit.
+  // Where a whole level weighs more it is all the same, and in the same unit.
   const double heavy = slack([](Stack* stack) {
     EXPECT_TRUE(stack->SetWeight("torque_limits", 4));
     EXPECT_TRUE(stack->SetWeight("joint_limits", 4));
@@ -70,7 +70,7 @@ TEST_F(ControllerTest, SaysThatAJointLimitCannotBeMet) {
   }
   Controller weak(robot_);
   weak.Start(state_);
-  ASSERT_TRUE(weak.stack().SetRank("joint_limits", 3));
+  ASSERT_TRUE(weak.stack().SetLevel("joint_limits", 3));
   state_.time = 1e-3;
   weak.Update(state_, &command_);
   EXPECT_LT(weak.report().tasks[*weak.stack().Find("torque_limits")].slack,
@@ -107,7 +107,7 @@ TEST_F(ControllerTest, SaysWhatGaveWayAndToWhat) {
   bool is_at_its_edge = false;
   for (const ActiveRow& row : controller_.report().active) {
     if (controller_.stack().RowName(row) != "right_foot.cop.y_min") continue;
-    is_at_its_edge = row.pressing_rank == 4 && row.multiplier > 0.01 &&
+    is_at_its_edge = row.pressing_level == 4 && row.multiplier > 0.01 &&
                      row.side == Side::kUpper && row.slack < 1e-9;
   }
   EXPECT_TRUE(is_at_its_edge);
@@ -135,14 +135,15 @@ TEST_F(ControllerTest, NamesALimitThatCannotBeMetAndWhatItContradicts) {
       << limit;
   bool is_named = false;
   for (const ActiveRow& row : weak.report().active) {
-    if (weak.report().tasks[row.task].rank != 2) continue;
+    if (weak.report().tasks[row.task].level != 2) continue;
     EXPECT_LE(row.slack, relaxed.slack * (1 + 1e-6));
     is_named |=
         row.slack > 1e-3 && weak.stack().RowName(row).rfind("joint.", 0) == 0;
   }
   EXPECT_TRUE(is_named);
 
-  // Rank 2 is the second level: what it contradicts is of rank 2 or 1.
+  // Priority level 2 is index 1 of the hierarchy. Its rows contradict rows of
+  // level 2 or 1.
   int joints = 0, upper = 0, torques = 0;
   for (const HierarchyRow& row : FindConflict(weak.hierarchy(), 1)) {
     const std::string name =

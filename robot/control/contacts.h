@@ -26,8 +26,8 @@ struct ContactTick {
 };
 
 /// Moves the motion of the foot's link, frame F, to its contact frame C:
-///     V_WC_C  = blkdiag(R', R') [ I 0; -[p]x I ] V_WF_W,  p = p_FC_W, R =
-///     R_WC,
+///     V_WC_C = [  R'       0  ] V_WF_W,   p = p_FC_W,  R = R_WC,
+///              [ -R' [p]x  R' ]
 /// likewise its Jacobian; and the classical acceleration
 ///     a_C = a_F + alpha x p + w x (w x p).
 /// Leaves in_contact and max_normal_force. pre: out->J_WC_C has frame's size.

@@ -10,6 +10,7 @@
 #include "hqp/hierarchy.h"
 #include "hqp/solution.h"
 #include "hqp/solver.h"
+#include "robot/control/balance_monitor.h"
 #include "robot/control/command.h"
 #include "robot/control/contacts.h"
 #include "robot/control/disturbance.h"
@@ -17,9 +18,11 @@
 #include "robot/control/reference.h"
 #include "robot/control/stack.h"
 #include "robot/control/stance.h"
+#include "robot/control/state_guard.h"
 #include "robot/control/tasks/com.h"
 #include "robot/control/tasks/momentum.h"
 #include "robot/control/tick_report.h"
+#include "robot/control/unmodelled_acceleration.h"
 #include "robot/robot.h"
 
 namespace poise {
@@ -50,21 +53,20 @@ struct ControllerOptions {
 ///       controller.Update(state, &command);
 ///     }
 ///
-/// The default hierarchy, any task of which stack() switches, moves and tunes
-/// by name between two ticks (those in brackets are off):
+/// The default hierarchy. stack() switches, moves and tunes any task by name
+/// between two ticks; tasks in parentheses are off:
 ///
-/// | rank | tasks |
-/// | --- | --- |
-/// | 1 | newton_euler, no_contact |
-/// | 2 | torque_limits, joint_limits |
-/// | 3 | mimic, light_joints, contact, cop, friction, unilateral, yaw,
-/// (yaw_constant, zmp, zmp_literal, capture_point) |
-/// | 4 | momentum, frame.FOOT, (com, linear_momentum, angular_momentum,
-/// frame.LINK) |
-/// | 5 | posture, force_regularizer, (torque_minimization) |
+///     level  tasks
+///     1      newton_euler, no_contact
+///     2      torque_limits, joint_limits
+///     3      mimic, light_joints, contact, cop, friction, unilateral, yaw,
+///            (yaw_constant, zmp, zmp_literal, capture_point)
+///     4      momentum, frame.FOOT,
+///            (com, linear_momentum, angular_momentum, frame.LINK)
+///     5      posture, force_regularizer, (torque_minimization)
 ///
-/// A robot has mimic and light_joints if it has such joints; frame.FOOT acts
-/// while that foot is in the air.
+/// A robot has mimic and light_joints if it has such joints. frame.FOOT is
+/// active while that foot is in the air.
 class Controller {
  public:
   /// Throws std::invalid_argument if the robot has no foot, or an option is out
@@ -72,10 +74,10 @@ class Controller {
   explicit Controller(const Robot& robot,
                       const ControllerOptions& options = {});
 
-  /// Makes reference() that of standing in the nominal posture on the feet
-  /// where they are in this state; in the last good one, if this is none that
-  /// Update() would believe. Of what was before only what stack() and stance()
-  /// were told is left, so a run is repeated to the bit. Does not allocate.
+  /// Sets reference() to standing in the nominal posture on the feet where they
+  /// are in this state. If Update() would reject the state, the last valid one
+  /// counts. Only the settings of stack() and stance() outlive a start, so a run
+  /// repeats bit for bit. Does not allocate.
   void Start(const State& state) noexcept;
 
   Reference& reference() { return reference_; }
@@ -100,11 +102,16 @@ class Controller {
   const Robot& robot() const { return robot_; }
 
  private:
+  // The steps of Update(), in their order.
+  FailSafeReason AcceptState(const State& state) noexcept;
   void ComputeModel(const State& state) noexcept;
-  void LetFeetGo(const State& state) noexcept;
-  void UpdateUnexpectedVdot(const State& state) noexcept;
-  void UpdateClock(const State& state) noexcept;
-  bool IsFrozen() const noexcept;
+  void UpdateStance(const State& state) noexcept;
+  void WriteTasks(const State& state) noexcept;
+  [[nodiscard]] bool Solve() noexcept;
+  void ComputeCommand(const State& state, Command* command) noexcept;
+
+  void JudgeBalance() noexcept;
+  void Remember(const State& state) noexcept;
   void FailSafe(FailSafeReason reason, const State& state,
                 Command* command) noexcept;
   void LimitTorque(Command* command) noexcept;
@@ -122,7 +129,9 @@ class Controller {
   int torque_limits_, joint_limits_;  ///< The same.
   int com_;                           ///< The same.
   const ComTask& com_task_;
+  StateGuard guard_;
   Stance stance_;
+  BalanceMonitor monitor_;
   Tick tick_;
   std::vector<ContactTick> contacts_;
   Hierarchy hierarchy_;
@@ -133,13 +142,8 @@ class Controller {
 
   Pose X_MidB_;             ///< Nominal base, in the mid-feet frame.
   Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.
-  double last_time_;        ///< Of the last state whose stamp is finite, s.
   Disturbance disturbance_;
-  double capture_ = 0;               ///< TaskInput::capture.
-  Eigen::VectorXd unexpected_vdot_;  ///< TaskInput::unexpected_vdot.
-  Eigen::VectorXd expected_v_;       ///< The v that the last solution leads to.
-  bool expects_ = false;   ///< Whether expected_v_ is of the last tick.
-  double frozen_for_ = 0;  ///< How long the time has been the same, s.
+  UnmodelledAcceleration unmodelled_;
 };
 
 }  // namespace poise

@@ -71,7 +71,7 @@ TEST_F(ControllerTest, DoesNotAllocate) {
     state_.v[3] = 1e-3 * i;
     state_.q[20] = i % 100 == 99 ? std::numeric_limits<double>::quiet_NaN() : 0;
     (void)controller_.stack().Enable("zmp", i % 7 == 0);
-    (void)controller_.stack().SetRank("posture", 5 + i % 2);
+    (void)controller_.stack().SetLevel("posture", 5 + i % 2);
     (void)controller_.stack().SetWeight("momentum", 1 + i % 3);
     (void)controller_.stack().SetParameter("posture", "kp", 60 + i % 5);
     Update();
@@ -150,7 +150,7 @@ TEST_F(ControllerTest, DoesAsItsOptionsSay) {
   controller.Update(state_, &command_);
   EXPECT_EQ(controller_.hierarchy().num_levels(), 5);
   EXPECT_EQ(controller.hierarchy().num_levels(), 2);
-  // Of the ranks in one QP, each weighs more than the next.
+  // Of the levels in one QP, each weighs more than the next.
   const auto residual = [&](const char* task) {
     return controller.report().tasks[*stack.Find(task)].residual;
   };
@@ -161,9 +161,9 @@ TEST_F(ControllerTest, DoesAsItsOptionsSay) {
   EXPECT_LT(residual("momentum"), 0.1 * residual("posture"));
 }
 
-TEST_F(ControllerTest, GivesMoreToWhatWeighsMoreInOneRank) {
+TEST_F(ControllerTest, GivesMoreToWhatWeighsMoreInOneLevel) {
   const auto residual = [&](double weight) {
-    EXPECT_TRUE(controller_.stack().SetRank("posture", 4));
+    EXPECT_TRUE(controller_.stack().SetLevel("posture", 4));
     EXPECT_TRUE(controller_.stack().SetWeight("posture", weight));
     state_.v.segment<3>(3) << 0, 0.3, 0;
     Update();

@@ -9,7 +9,7 @@
 
 namespace poise {
 
-/// Every task of tasks/, in the ranks and switched as Controller says.
+/// Every task of tasks/, in the levels and switched as Controller says.
 ///
 /// @param frames  links that get a task frame.NAME, the i-th by
 ///                Tick::frames[feet + i] and Reference::frames[i].

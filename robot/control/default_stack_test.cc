@@ -40,19 +40,20 @@ Robot MakeRobotWithAllTasks() {
 std::map<std::string, std::string> ReadTable() {
   std::ifstream file("robot/control/controller.h");
   std::string text(std::istreambuf_iterator<char>(file), {});
-  text = std::regex_replace(text, std::regex("\n///"), "");
+  // A line without a level continues the one above it.
+  text = std::regex_replace(text, std::regex("\n/// {12}"), " ");
   std::map<std::string, std::string> table;
-  const std::regex row(R"(\| (\d) \| ([^|]*) \|)"), name(R"([(]|[\w.]+|[)])");
+  const std::regex row(R"(/// {5}(\d) {6}([^\n]*))"), name(R"([(]|[\w.]+|[)])");
   for (std::sregex_iterator r(text.begin(), text.end(), row), end; r != end;
        ++r) {
-    const std::string rank = r->str(1), tasks = r->str(2);
+    const std::string level = r->str(1), tasks = r->str(2);
     bool is_off = false;
     for (std::sregex_iterator n(tasks.begin(), tasks.end(), name); n != end;
          ++n) {
       if (n->str() == "(" || n->str() == ")") {
         is_off = n->str() == "(";
       } else {
-        table[n->str()] = is_off ? "(" + rank + ")" : rank;
+        table[n->str()] = is_off ? "(" + level + ")" : level;
       }
     }
   }
@@ -64,8 +65,8 @@ TEST(MakeDefaultStack, IsTheTableOfController) {
   std::map<std::string, std::string> made;
   for (int i = 0; i < stack.num_tasks(); ++i) {
     const TaskSettings& settings = stack.settings(i);
-    const std::string rank = std::to_string(settings.rank);
-    made[stack.task(i).name()] = settings.enabled ? rank : "(" + rank + ")";
+    const std::string level = std::to_string(settings.level);
+    made[stack.task(i).name()] = settings.enabled ? level : "(" + level + ")";
   }
   EXPECT_EQ(made, ReadTable());
 }

@@ -269,7 +269,7 @@ TEST_F(FailSafeTest, TruncatesWhereItsBudgetIsSpent) {
   state_.time = 1e-3;
   hasty.Update(state_, &command_);
   EXPECT_EQ(command_.status, TickStatus::kTruncated);
-  EXPECT_GT(hasty.report().failed_rank, 1);
+  EXPECT_GT(hasty.report().failed_level, 1);
   ExpectInsideLimits();
   const int newton_euler = *hasty.stack().Find("newton_euler");
   EXPECT_LT(hasty.report().tasks[newton_euler].residual, 1e-9);
@@ -323,13 +323,13 @@ TEST_F(FailSafeTest, FailsSafeWhereTheDynamicsAreNotMet) {
 
   // Contacts and limits above it that it cannot be met in.
   ASSERT_TRUE(stack.SetParameter("torque_limits", "scale", 0.05));
-  ASSERT_TRUE(stack.SetRank("torque_limits", 1));
-  ASSERT_TRUE(stack.SetRank("newton_euler", 4));
+  ASSERT_TRUE(stack.SetLevel("torque_limits", 1));
+  ASSERT_TRUE(stack.SetLevel("newton_euler", 4));
   expect_held();
   ExpectInsideLimits();
   // Above them again: the contacts give, it sinks as the limits have it.
-  ASSERT_TRUE(stack.SetRank("newton_euler", 1));
-  ASSERT_TRUE(stack.SetRank("torque_limits", 2));
+  ASSERT_TRUE(stack.SetLevel("newton_euler", 1));
+  ASSERT_TRUE(stack.SetLevel("torque_limits", 2));
   Update();
   EXPECT_EQ(command_.status, TickStatus::kOk);
   EXPECT_LT(controller_.report().dynamics_residual, 1e-9);
@@ -362,7 +362,7 @@ TEST_F(FailSafeTest, TellsWhatTheDynamicsAreOffBy) {
   EXPECT_FALSE(residual(all) <= 1);
 }
 
-TEST_F(FailSafeTest, FailsSafeWhereNotEvenTheFirstRankIsSolved) {
+TEST_F(FailSafeTest, FailsSafeWhereNotEvenTheFirstLevelIsSolved) {
   double seconds = 0;
   ControllerOptions options;
   options.max_seconds = 1e-3;
@@ -371,7 +371,7 @@ TEST_F(FailSafeTest, FailsSafeWhereNotEvenTheFirstRankIsSolved) {
   late.Start(state_);
   state_.time = 1e-3;
   late.Update(state_, &command_);
-  EXPECT_EQ(late.report().failed_rank, 1);
+  EXPECT_EQ(late.report().failed_level, 1);
   EXPECT_EQ(late.report().fail_safe_reason, FailSafeReason::kNoAnswer);
   EXPECT_EQ(command_.status, TickStatus::kFailSafe);
   ExpectInsideLimits();

@@ -40,10 +40,10 @@ void Stack::Add(std::unique_ptr<Task> task, const TaskSettings& settings) {
   if (Find(task->name())) {
     throw std::invalid_argument(what + "is there already");
   }
-  if (settings.rank < 1 || settings.rank > kMaxRank) {
-    throw std::invalid_argument(what + "rank is " +
-                                std::to_string(settings.rank) +
-                                ", must be 1 to " + std::to_string(kMaxRank));
+  if (settings.level < 1 || settings.level > kMaxLevel) {
+    throw std::invalid_argument(what + "level is " +
+                                std::to_string(settings.level) +
+                                ", must be 1 to " + std::to_string(kMaxLevel));
   }
   if (!IsValidWeight(settings.weight)) {
     throw std::invalid_argument(
@@ -76,21 +76,21 @@ bool Stack::Enable(std::string_view name, bool enabled) noexcept {
   if (!i) return false;
   Entry& entry = entries_[*i];
   if (entry.settings.enabled == enabled) return true;
-  // As one weighted QP, a rank that comes or goes weighs all above it anew.
-  if (!enabled || weighted_) Loosen(entry.settings.rank);
+  // As one weighted QP, a level that comes or goes weighs all above it anew.
+  if (!enabled || weighted_) Loosen(entry.settings.level);
   entry.was_switched_on |= enabled && !entry.takes_part;
   entry.settings.enabled = enabled;
   return true;
 }
 
-bool Stack::SetRank(std::string_view name, int rank) noexcept {
+bool Stack::SetLevel(std::string_view name, int level) noexcept {
   const auto i = Find(name);
-  if (!i || rank < 1 || rank > kMaxRank) return false;
+  if (!i || level < 1 || level > kMaxLevel) return false;
   Entry& entry = entries_[*i];
-  if (entry.settings.rank == rank) return true;
+  if (entry.settings.level == level) return true;
   entry.was_moved = true;
-  Loosen(std::min(entry.settings.rank, rank));
-  entry.settings.rank = rank;
+  Loosen(std::min(entry.settings.level, level));
+  entry.settings.level = level;
   return true;
 }
 
@@ -129,7 +129,7 @@ std::optional<double> Stack::GetParameter(
 bool Stack::set_weighted(bool weighted, double ratio) noexcept {
   if (!(ratio >= 1 && ratio <= kMostRatio)) return false;
   weighted_ = weighted;
-  rank_ratio_ = ratio;
+  level_ratio_ = ratio;
   return true;
 }
 
@@ -149,12 +149,12 @@ void Stack::Tune(Entry* entry) noexcept {
   }
   // A limit may be wider now.
   if (entry->settings.enabled && !entry->task->inequality_names().empty()) {
-    Loosen(entry->settings.rank);
+    Loosen(entry->settings.level);
   }
 }
 
-void Stack::Loosen(int rank) noexcept {
-  loose_from_ = std::min(loose_from_, weighted_ ? std::min(rank, 2) : rank);
+void Stack::Loosen(int level) noexcept {
+  loose_from_ = std::min(loose_from_, weighted_ ? std::min(level, 2) : level);
 }
 
 std::vector<LevelCapacity> Stack::capacity() const {
@@ -163,7 +163,7 @@ std::vector<LevelCapacity> Stack::capacity() const {
     all.equalities += static_cast<int>(entry.task->equality_names().size());
     all.inequalities += static_cast<int>(entry.task->inequality_names().size());
   }
-  std::vector<LevelCapacity> levels(kMaxRank, all);
+  std::vector<LevelCapacity> levels(kMaxLevel, all);
   LevelCapacity held;
   held.equalities = num_variables_;
   levels.push_back(held);
@@ -171,32 +171,34 @@ std::vector<LevelCapacity> Stack::capacity() const {
 }
 
 double Stack::RowWeight(const Entry& entry) const noexcept {
-  if (!weighted_ || entry.settings.rank == 1) return entry.settings.weight;
+  if (!weighted_ || entry.settings.level == 1) return entry.settings.weight;
   int below = 0;
-  for (int rank = entry.settings.rank + 1; rank <= kMaxRank; ++rank) {
+  for (int level = entry.settings.level + 1; level <= kMaxLevel; ++level) {
     below += std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) {
-      return e.takes_part && e.settings.rank == rank;
+      return e.takes_part && e.settings.level == level;
     });
   }
-  return entry.settings.weight * std::pow(rank_ratio_, below);
+  return entry.settings.weight * std::pow(level_ratio_, below);
 }
 
 void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
   for (Entry& entry : entries_) {
-    entry.level = -1;
+    entry.hierarchy_level = -1;
     entry.takes_part = entry.settings.enabled && entry.task->HasRows(input);
   }
-  // One level a rank in use; as one weighted QP, rank 1 and the rest.
+  // One level of the hierarchy for each priority level in use. As one weighted
+  // QP: level 1 and the rest.
   num_levels_ = 0;
-  for (int rank = 1; rank <= kMaxRank; ++rank) {
+  for (int level = 1; level <= kMaxLevel; ++level) {
     bool used = false;
     for (Entry& entry : entries_) {
-      if (entry.settings.rank != rank || !entry.takes_part) continue;
-      entry.level = weighted_ ? std::min(num_levels_, 1) : num_levels_;
+      if (entry.settings.level != level || !entry.takes_part) continue;
+      entry.hierarchy_level =
+          weighted_ ? std::min(num_levels_, 1) : num_levels_;
       used = true;
     }
     if (!used || (weighted_ && num_levels_ == 2)) continue;
-    rank_of_level_[num_levels_++] = rank;
+    priority_level_[num_levels_++] = level;
   }
 
   const bool eases = easing_.IsPossible();
@@ -205,17 +207,18 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
   for (Entry& entry : entries_) {
     if (!entry.takes_part) continue;
     const Task& task = *entry.task;
-    entry.equality_start = hierarchy->num_equalities(entry.level);
-    entry.inequality_start = hierarchy->num_inequalities(entry.level);
+    entry.equality_start = hierarchy->num_equalities(entry.hierarchy_level);
+    entry.inequality_start = hierarchy->num_inequalities(entry.hierarchy_level);
     EqualityBlock equalities = hierarchy->AddEqualities(
-        entry.level, static_cast<int>(task.equality_names().size()));
+        entry.hierarchy_level, static_cast<int>(task.equality_names().size()));
     InequalityBlock inequalities = hierarchy->AddInequalities(
-        entry.level, static_cast<int>(task.inequality_names().size()));
+        entry.hierarchy_level,
+        static_cast<int>(task.inequality_names().size()));
     task.Write(input, &equalities, &inequalities);
     if (eases) BeginEasing(input, equalities, inequalities, &entry);
     if (easing_.is_on()) {
-      // What rank 1 asks for always holds, its limits may have been changed.
-      if (entry.settings.rank > 1) easing_.Ease(entry.eased_rows, &equalities);
+      // Equalities of level 1 always hold in full; its limits may be eased.
+      if (entry.settings.level > 1) easing_.Ease(entry.eased_rows, &equalities);
       easing_.Ease(entry.eased_rows, static_cast<int>(equalities.b.size()),
                    &inequalities);
     }
@@ -229,7 +232,7 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
     inequalities.upper *= scale;
   }
   if (easing_.holds()) {
-    rank_of_level_[num_levels_] = kMaxRank + 1;
+    priority_level_[num_levels_] = kMaxLevel + 1;
     EqualityBlock held = hierarchy->AddEqualities(num_levels_, num_variables_);
     easing_.Hold(&held);
   }
@@ -244,8 +247,8 @@ void Stack::BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
                         Entry* entry) noexcept {
   const int rows = entry->eased_rows;
   const int num_equalities = static_cast<int>(equalities.b.size());
-  if (entry->settings.rank > 1) {
-    if (entry->settings.rank >= loose_from_) {
+  if (entry->settings.level > 1) {
+    if (entry->settings.level >= loose_from_) {
       easing_.KeepResiduals(rows, num_equalities);
     }
     if (entry->was_switched_on) {
@@ -283,7 +286,7 @@ void Stack::Advance(double dt, const Solution& solution) noexcept {
   easing_.Advance(dt, solution.y);
   for (const Entry& entry : entries_) {
     if (!entry.takes_part) continue;
-    const LevelSolution& level = solution.levels[entry.level];
+    const LevelSolution& level = solution.levels[entry.hierarchy_level];
     const int equalities =
         static_cast<int>(entry.task->equality_names().size());
     const int inequalities =
@@ -316,24 +319,24 @@ void Stack::Report(const Solution& solution,
   report->y = solution.y;
   report->solver_status = solution.status;
   report->iterations = solution.iterations;
-  report->failed_rank =
-      solution.failed_level < 0 ? 0 : rank_of_level_[solution.failed_level];
+  report->failed_level =
+      solution.failed_level < 0 ? 0 : priority_level_[solution.failed_level];
   report->active.clear();
   report->lost.clear();
   for (int i = 0; i < num_tasks(); ++i) {
     const Entry& entry = entries_[i];
     TaskReport& out = report->tasks[i];
-    out = {entry.settings.enabled, entry.settings.rank, 0, 0};
+    out = {entry.settings.enabled, entry.settings.level, 0, 0};
     if (!entry.takes_part) continue;
     const int rows = static_cast<int>(entry.task->equality_names().size());
-    out.residual = solution.levels[entry.level]
+    out.residual = solution.levels[entry.hierarchy_level]
                        .equality_residual.segment(entry.equality_start, rows)
                        .norm();
     ReportInequalities(i, solution, report);
-    if (entry.level + 1 == num_levels_) continue;
+    if (entry.hierarchy_level + 1 == num_levels_) continue;
     for (int row = 0; row < rows; ++row) {
       const double residual =
-          solution.levels[entry.level]
+          solution.levels[entry.hierarchy_level]
               .equality_residual[entry.equality_start + row];
       if (std::abs(residual) < kNoticeableLoss) continue;
       report->lost.push_back(
@@ -345,7 +348,7 @@ void Stack::Report(const Solution& solution,
 void Stack::ReportInequalities(int i, const Solution& solution,
                                TickReport* report) const noexcept {
   const Entry& entry = entries_[i];
-  const LevelSolution& level = solution.levels[entry.level];
+  const LevelSolution& level = solution.levels[entry.hierarchy_level];
   const double scale = std::sqrt(RowWeight(entry));
   const int rows = static_cast<int>(entry.task->inequality_names().size());
   for (int row = 0; row < rows; ++row) {
@@ -354,18 +357,19 @@ void Stack::ReportInequalities(int i, const Solution& solution,
     ActiveRow active{i,
                      row,
                      level.active[index],
-                     entry.settings.rank,
+                     entry.settings.level,
                      level.slack[index],
                      level.slack[index] / scale};
-    // The first rank that presses counts: what lower ones add is held by it too,
-    // and where it leaves them little, their multipliers are of any size.
-    for (int k = entry.level + 1;
+    // The first level with a multiplier counts. It already holds the row, so the
+    // multipliers of lower levels may have any size.
+    for (int k = entry.hierarchy_level + 1;
          k < num_levels_ && active.multiplier <= kNoticeable; ++k) {
-      const double multiplier =
-          solution.levels[k].multipliers[entry.level].inequality[index];
+      const double multiplier = solution.levels[k]
+                                    .multipliers[entry.hierarchy_level]
+                                    .inequality[index];
       if (std::abs(multiplier) <= kNoticeable) continue;
       active.multiplier = std::abs(multiplier);
-      active.pressing_rank = rank_of_level_[k];
+      active.pressing_level = priority_level_[k];
       active.side = multiplier > 0 ? Side::kUpper : Side::kLower;
     }
     report->tasks[i].slack = std::max(report->tasks[i].slack, active.slack);
@@ -377,10 +381,10 @@ std::string Stack::RowName(const ActiveRow& row) const {
   return SidedName(task(row.task), row.row, row.side);
 }
 
-std::string Stack::RowName(int level, int row, bool is_equality,
+std::string Stack::RowName(int hierarchy_level, int row, bool is_equality,
                            Side side) const {
   for (const Entry& entry : entries_) {
-    if (!entry.takes_part || entry.level != level) continue;
+    if (!entry.takes_part || entry.hierarchy_level != hierarchy_level) continue;
     const Task& task = *entry.task;
     const auto& names =
         is_equality ? task.equality_names() : task.inequality_names();

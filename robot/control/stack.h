@@ -18,8 +18,8 @@ namespace poise {
 /// How a task takes part in the hierarchy.
 struct TaskSettings {
   bool enabled = true;
-  int rank = 1;       ///< 1 is the highest; at most Stack::kMaxRank.
-  double weight = 1;  ///< Among the tasks of its rank; see Stack::kMostWeight.
+  int level = 1;      ///< 1 is the highest; at most Stack::kMaxLevel.
+  double weight = 1;  ///< Among the tasks of its level; see Stack::kMostWeight.
 };
 
 /// A row of a stack under the name that the log uses, and its task.
@@ -29,11 +29,11 @@ struct StackRow {
 };
 
 /// The tasks of a controller in their order of priority. Any of them may be
-/// switched, moved to another rank, weighted or tuned by name between two
+/// switched, moved to another level, weighted or tuned by name between two
 /// ticks: that takes effect at the next Write(), and does not allocate.
 class Stack {
  public:
-  static constexpr int kMaxRank = 8;
+  static constexpr int kMaxLevel = 8;
   /// What is farther from 1 is lost in rounding, and costs the solver hundreds of
   /// steps.
   static constexpr double kLeastWeight = 1e-6;
@@ -55,7 +55,7 @@ class Stack {
   /// False, and nothing happens, if there is no such task or parameter, or the
   /// value is out of its range.
   [[nodiscard]] bool Enable(std::string_view name, bool enabled) noexcept;
-  [[nodiscard]] bool SetRank(std::string_view name, int rank) noexcept;
+  [[nodiscard]] bool SetLevel(std::string_view name, int level) noexcept;
   [[nodiscard]] bool SetWeight(std::string_view name, double weight) noexcept;
   [[nodiscard]] bool SetParameter(std::string_view name,
                                   std::string_view parameter,
@@ -63,7 +63,7 @@ class Stack {
   std::optional<double> GetParameter(std::string_view name,
                                      std::string_view parameter) const noexcept;
 
-  /// One weighted QP below rank 1 instead of a hierarchy: each rank counts
+  /// One weighted QP below level 1 instead of a hierarchy: each level counts
   /// `ratio` times the next. False, and nothing happens, if that is not 1 to
   /// kMostRatio.
   [[nodiscard]] bool set_weighted(bool weighted, double ratio = 100) noexcept;
@@ -100,15 +100,19 @@ class Stack {
 
   /// A row of the last Write() by name, an equality or, as it acts on a side, an
   /// inequality; empty if there is none. Allocates.
-  std::string RowName(int level, int row, bool is_equality, Side side) const;
+  std::string RowName(int hierarchy_level, int row, bool is_equality,
+                      Side side) const;
 
   /// The rows of all tasks, by the names that RowName() and equality_names() have:
   /// a row with two sides is there twice, as .min and .max. Allocates.
   std::vector<StackRow> DescribeRows() const;
 
-  /// The rank whose rows the last Write() put into a level; kMaxRank + 1 of what
-  /// a ramp holds below all ranks.
-  int rank_of_level(int level) const { return rank_of_level_[level]; }
+  /// Priority level, 1 to kMaxLevel, of the rows that the last Write() put into a
+  /// level of the hierarchy, an index from 0. Rows that a ramp holds below all
+  /// priority levels have kMaxLevel + 1.
+  int priority_level(int hierarchy_level) const {
+    return priority_level_[hierarchy_level];
+  }
 
  private:
   struct Entry {
@@ -123,13 +127,13 @@ class Stack {
     double weight_before = 1;
     // Whether and where it has rows, since the last Write().
     bool takes_part = false;
-    int level = -1;
+    int hierarchy_level = -1;
     int equality_start = 0;
     int inequality_start = 0;
   };
 
   void Tune(Entry* entry) noexcept;
-  void Loosen(int rank) noexcept;
+  void Loosen(int level) noexcept;
   void BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
                    const InequalityBlock& inequalities, Entry* entry) noexcept;
   EqualityBlock RowsBefore(const TaskInput& input, Entry* entry) noexcept;
@@ -137,9 +141,9 @@ class Stack {
   void ReportInequalities(int i, const Solution& solution,
                           TickReport* report) const noexcept;
 
-  // The first rank that something may have kept from what it asks for which is
-  // gone since the last Write(); this, if none.
-  static constexpr int kTight = kMaxRank + 1;
+  // First priority level that may be less constrained since the last Write(), as
+  // a task or limit above was switched off or widened; kTight if none.
+  static constexpr int kTight = kMaxLevel + 1;
 
   int num_variables_;
   Easing easing_;
@@ -147,9 +151,9 @@ class Stack {
   LevelCapacity most_rows_;  // Of a task.
   Hierarchy before_;         // One task's rows, as they were.
   bool weighted_ = false;
-  double rank_ratio_ = 100;
+  double level_ratio_ = 100;
   std::vector<Entry> entries_;
-  int rank_of_level_[kMaxRank + 1] = {};
+  int priority_level_[kMaxLevel + 1] = {};
   int num_levels_ = 0;
 };
 

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "math/so3.h"
 #include "robot/control/easing/minimum_jerk.h"
+#include "robot/finding.h"
 
 namespace poise {
 namespace {
@@ -80,6 +83,27 @@ void Stance::Reset() noexcept {
   }
 }
 
+void Stance::Configure(const StanceSettings& settings) {
+  const struct {
+    const char* name;
+    double value, most;
+    const char* unit;
+  } fields[] = {{"fade_time", settings.fade_time, kMostTime, "s"},
+                {"swing_time", settings.swing_time, kMostTime, "s"},
+                {"return_time", settings.return_time, kMostTime, "s"},
+                {"lost_above", settings.lost_above, kMostThreshold, "m"},
+                {"lost_after", settings.lost_after, kMostTime, "s"},
+                {"found_below", settings.found_below, kMostThreshold, "m"}};
+  for (const auto& field : fields) {
+    if (field.value >= 0 && field.value <= field.most) continue;
+    throw std::invalid_argument(std::string("stance: ") + field.name + " is " +
+                                PrintNumber(field.value) + " " + field.unit +
+                                ", must be 0 to " + PrintNumber(field.most) +
+                                " " + field.unit);
+  }
+  settings_ = settings;
+}
+
 Stance::Clearance Stance::LowestCorner(const FootState& foot,
                                        const ContactTick& contact,
                                        double ground_z) noexcept {
@@ -103,12 +127,12 @@ Stance::Clearance Stance::Middle(const ContactTick& contact,
 }
 
 bool Stance::HasLeft(const Clearance& lowest) const noexcept {
-  return lowest.height > 2 * lost_above ||
-         (lowest.height > lost_above && lowest.rising > kSeparating);
+  return lowest.height > 2 * settings_.lost_above ||
+         (lowest.height > settings_.lost_above && lowest.rising > kSeparating);
 }
 
 bool Stance::HasLanded(const Clearance& sole) const noexcept {
-  return sole.height < found_below && sole.rising < kSeparating;
+  return sole.height < settings_.found_below && sole.rising < kSeparating;
 }
 
 // One that is thought to be in contact while it still sinks is pressed onto what
@@ -219,7 +243,7 @@ void Stance::Return(const FootState& foot,
       foot.X_WC.p - foot.X_WC_away.p;
   const double fall = foot.X_WC_away.p.z() - foot.X_WC.p.z() + kReach;
   whole[5] += foot.to;
-  const double whole_time = std::max(kInstant, return_time);
+  const double whole_time = std::max(kInstant, settings_.return_time);
   Vector6d moved;
   for (int i = 0; i < 6; ++i) {
     const double time = i < 5 ? kThereAfter * whole_time : whole_time;
@@ -281,12 +305,13 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
       } else {
         foot.left_for += dt;
       }
-      if (foot.left_for > 0 && foot.left_for > lost_after - kRounding) {
+      if (foot.left_for > 0 &&
+          foot.left_for > settings_.lost_after - kRounding) {
         TakeOff(&foot, contact, reference);
         foot.to = -kReach;
         Enter(&foot, ContactPhase::kLost);
       } else if (foot.phase == ContactPhase::kLoading &&
-                 foot.since > fade_time) {
+                 foot.since > settings_.fade_time) {
         Enter(&foot, ContactPhase::kDown);
       }
       return;
@@ -294,7 +319,7 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
     case ContactPhase::kLanding:
     case ContactPhase::kReturning:
       if (!Lands(foot)) {
-        if (foot.since > return_time) {
+        if (foot.since > settings_.return_time) {
           foot.from = foot.to;
           Enter(&foot, ContactPhase::kUp);
         }
@@ -310,7 +335,7 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
       }
       return;
     case ContactPhase::kUnloading:
-      if (foot.since > fade_time) {
+      if (foot.since > settings_.fade_time) {
         TakeOff(&foot, contact, reference);
         Enter(&foot, ContactPhase::kUp);
       }
@@ -324,7 +349,7 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
 double Stance::MaxNormalForce(double normal_force,
                               FootState* foot) const noexcept {
   const double fade =
-      std::min(1.0, foot->since / std::max(kInstant, fade_time));
+      std::min(1.0, foot->since / std::max(kInstant, settings_.fade_time));
   if (foot->phase == ContactPhase::kUnloading) {
     if (foot->force < 0) foot->force = normal_force;
     return (1 - fade) * foot->force;
@@ -355,7 +380,8 @@ void Stance::Guide(const FootState& foot,
 // A foot that is put down comes to rest on the ground, and sinks on from there.
 Stance::VerticalMotion Stance::VerticalMotionOf(
     const FootState& foot) const noexcept {
-  const double down = Duration(foot.phase, foot.from - foot.to, swing_time);
+  const double down =
+      Duration(foot.phase, foot.from - foot.to, settings_.swing_time);
   const bool lands = foot.phase == ContactPhase::kLanding;
   const bool sinks = lands && foot.since > down;
   const double from = sinks ? 0 : foot.from;

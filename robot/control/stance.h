@@ -22,6 +22,21 @@ enum class ContactPhase {
   kReturning,  ///< In the air, on its way back to where it took off, or above.
 };
 
+/// Times and heights of a Stance. A time of 0 means at once.
+struct StanceSettings {
+  double fade_time = 0.3;    ///< Time for a force to fade in or out, s.
+  double swing_time = 0.8;   ///< Time to lift a foot or to put it down, s.
+  double return_time = 0.5;  ///< Time for a released foot to come back, s.
+  /// A rising sole leaves the ground with its lowest corner at this height, m.
+  double lost_above = 0.01;
+  /// Debounce time: contact is lost only after this long, s, so that one bad
+  /// sample cannot drop a foot. A foot that was not seen on the ground since
+  /// Reset() is lost at once.
+  double lost_after = 0.003;
+  /// A descending sole is on the ground with its center at this height, m.
+  double found_below = 0.004;
+};
+
 /// Decides which feet are in contact: on command, a foot's force fades out
 /// before it is lifted, and fades in once it is put down; and, unasked, by
 /// geometry with hysteresis, never by force, as a foot that is not loaded
@@ -31,24 +46,20 @@ enum class ContactPhase {
 /// whose edge lands stands, with all that it can bear.
 class Stance {
  public:
-  // Of times, 0 is at once.
-  double fade_time = 0.3;    ///< For a force to fade in or out, s.
-  double swing_time = 0.8;   ///< To lift a foot, or to put it down, s.
-  double return_time = 0.5;  ///< For a foot that was let go, s.
-  /// Height of a sole's lowest corner, where that goes up, m.
-  double lost_above = 0.01;
-  /// For so long in a row, or what one sample says would let the robot fall; a
-  /// foot that was not seen on the ground since Reset() is lost at once, s.
-  double lost_after = 0.003;
-  /// Height of a sole's center, where that comes down, m.
-  double found_below = 0.004;
-
   /// What a foot may be lifted by, m: less is no step, more no leg can.
   static constexpr double kLeastHeight = 1e-3;
   static constexpr double kMostHeight = 1;
 
+  static constexpr double kMostTime = 60;        ///< Of StanceSettings, s.
+  static constexpr double kMostThreshold = 0.5;  ///< Of StanceSettings, m.
+
   /// All feet down. weight is the robot's, N.
   Stance(const std::vector<Foot>& feet, double weight);
+
+  /// Throws std::invalid_argument, and changes nothing, if a time is not 0 to
+  /// kMostTime, or a height not 0 to kMostThreshold. Call this between two ticks.
+  void Configure(const StanceSettings& settings);
+  const StanceSettings& settings() const { return settings_; }
 
   /// All feet down, at once.
   void Reset() noexcept;
@@ -126,6 +137,7 @@ class Stance {
                const Reference& reference) noexcept;
 
   double weight_;
+  StanceSettings settings_;
   std::vector<FootState> feet_;
 };
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "math/so3.h"
 
@@ -592,10 +593,36 @@ TEST_F(StanceTest, RefusesAHeightThatIsNone) {
   EXPECT_EQ(stance_.phase(0), ContactPhase::kFree);
 }
 
+TEST_F(StanceTest, RejectsInvalidSettings) {
+  double StanceSettings::*const members[] = {
+      &StanceSettings::fade_time,   &StanceSettings::swing_time,
+      &StanceSettings::return_time, &StanceSettings::lost_above,
+      &StanceSettings::lost_after,  &StanceSettings::found_below};
+  for (double StanceSettings::*const member : members) {
+    for (const double bad : {-1e-3, 61.0, std::nan(""), HUGE_VAL}) {
+      SCOPED_TRACE(bad);
+      StanceSettings settings;
+      settings.*member = bad;
+      EXPECT_THROW(stance_.Configure(settings), std::invalid_argument);
+    }
+  }
+  EXPECT_EQ(stance_.settings().fade_time, 0.3);
+  StanceSettings settings;
+  settings.fade_time = -1;
+  try {
+    stance_.Configure(settings);
+    FAIL() << "accepts a negative time";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "stance: fade_time is -1 s, must be 0 to 60 s");
+  }
+}
+
 // No time is 0/0.
 TEST_F(StanceTest, DoesAtOnceWhatTakesNoTime) {
-  stance_.fade_time = stance_.swing_time = 0;
-  stance_.return_time = stance_.lost_after = 0;
+  StanceSettings at_once;
+  at_once.fade_time = at_once.swing_time = 0;
+  at_once.return_time = at_once.lost_after = 0;
+  stance_.Configure(at_once);
   const FrameReference& target = reference_.feet[0];
   const auto update = [&](ContactPhase phase) {
     Update();

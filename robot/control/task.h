@@ -21,14 +21,12 @@ struct TaskInput {
   const Tick& tick;
   const std::vector<ContactTick>& contacts;  ///< By foot of the robot.
   const Reference& reference;
-  /// What v̇ was lately beyond what the solutions said, nv: as a push and a wrong
-  /// model make it.
-  const Eigen::VectorXd& unexpected_vdot;
-  /// What the center of mass is to be accelerated beyond its reference, against
-  /// what the model does not know of, m/s2; see Disturbance.
+  /// Unmodelled part of v̇, nv, see UnmodelledAcceleration.
+  const Eigen::VectorXd& unmodelled_vdot;
+  /// Acceleration of the center of mass against model errors, in addition to its
+  /// reference, m/s2; see Disturbance.
   Eigen::Vector3d correction_W = Eigen::Vector3d::Zero();
-  /// How far the feet alone cannot bring the robot to rest, from 0, they can, to
-  /// 1; see MomentumTask::FindCapture().
+  /// Capture blend, 0 to 1, see Balance::capture.
   double capture = 0;
 };
 

@@ -14,18 +14,18 @@
 namespace poise {
 namespace {
 
-// Four ranks, no limits, no yaw rows, nothing that holds the pelvis.
+// Four levels, no limits, no yaw rows, nothing that holds the pelvis.
 constexpr char kPaper[] = R"(
 torque_limits: off
 joint_limits: off
 yaw: off
-contact: {rank: 2}
-cop: {rank: 2}
-friction: {rank: 2}
-unilateral: {rank: 2}
-momentum: {rank: 3, k_orientation: 0, capture: 0}
-posture: {rank: 4, inertia: 0}
-force_regularizer: {rank: 4}
+contact: {level: 2}
+cop: {level: 2}
+friction: {level: 2}
+unilateral: {level: 2}
+momentum: {level: 3, k_orientation: 0, capture: 0}
+posture: {level: 4, inertia: 0}
+force_regularizer: {level: 4}
 )";
 
 std::string NamesOf(const Stack& stack) {
@@ -41,7 +41,7 @@ constexpr std::string_view kFrame = "frame.";
 bool IsFrame(const std::string& task) { return task.rfind(kFrame, 0) == 0; }
 
 std::string NamesOf(const Task& task) {
-  std::string names = "on, rank, weight";
+  std::string names = "on, level, weight";
   for (const Parameter& each : task.parameters()) names += ", " + each.name;
   return names;
 }
@@ -71,6 +71,10 @@ void ApplyTask(const std::string& name, const YAML::Node& node,
     Refuse(file, node,
            what + " is " + Shown(node) + ", must be on, off, or a map");
   }
+  if (node["level"] && node["rank"]) {
+    Refuse(file, node,
+           what + " has both 'level' and its alias 'rank', must have one");
+  }
   for (const auto& field : node) {
     const std::string& key = field.first.Scalar();
     const YAML::Node& value = field.second;
@@ -88,12 +92,12 @@ void ApplyTask(const std::string& name, const YAML::Node& node,
     const auto read = ToNumber(value);
     if (!read) refuse("must be a finite number");
     const double number = *read;
-    if (key == "rank") {
-      const int rank = number >= 1 && number <= Stack::kMaxRank
-                           ? static_cast<int>(number)
-                           : 0;
-      if (rank != number || !stack->SetRank(name, rank)) {
-        refuse("must be 1 to " + std::to_string(Stack::kMaxRank));
+    if (key == "level" || key == "rank") {
+      const int level = number >= 1 && number <= Stack::kMaxLevel
+                            ? static_cast<int>(number)
+                            : 0;
+      if (level != number || !stack->SetLevel(name, level)) {
+        refuse("must be 1 to " + std::to_string(Stack::kMaxLevel));
       }
     } else if (key == "weight") {
       if (!stack->SetWeight(name, number)) {
@@ -178,7 +182,7 @@ YAML::Node DescribeTasks(const Stack& stack) {
     YAML::Node fields(YAML::NodeType::Map);
     fields.SetStyle(YAML::EmitterStyle::Flow);
     fields["on"] = settings.enabled;
-    fields["rank"] = settings.rank;
+    fields["level"] = settings.level;
     fields["weight"] = Shortest(settings.weight);
     for (const Parameter& each : task.parameters()) {
       fields[each.name] = Shortest(*each.value);

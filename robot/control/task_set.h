@@ -18,9 +18,9 @@ std::string UnknownTask(const std::string& name, const Stack& stack);
 ///
 ///     tasks:
 ///       yaw: off                       # Or on.
-///       momentum: {rank: 3, kp: 40}    # Rank, weight, on, any parameter.
+///       momentum: {level: 3, kp: 40}    # Level, weight, on, any parameter.
 ///
-/// What is not named stays as it is.
+/// What is not named stays as it is. `rank` is an alias of `level`.
 ///
 /// @param file  of the section, for messages.
 /// Throws std::invalid_argument("FILE:LINE: ...") about a task or a parameter
@@ -34,7 +34,7 @@ std::vector<std::string> FindTaskLinks(const YAML::Node& tasks,
                                        const Robot& robot);
 
 /// The section `tasks` that makes any stack of the same tasks this one: of each,
-/// whether it is on, its rank, weight and parameters, to the last digit.
+/// whether it is on, its level, weight and parameters, to the last digit.
 YAML::Node DescribeTasks(const Stack& stack);
 
 /// The same of a task set, and of the names of tasks to switch.

@@ -44,7 +44,7 @@ std::string SetRefusal(const std::string& text) {
 TEST(DescribeTasks, MakesAnotherStackTheSame) {
   Stack stack = MakeStack();
   ASSERT_TRUE(stack.Enable("yaw", false));
-  ASSERT_TRUE(stack.SetRank("posture", 7));
+  ASSERT_TRUE(stack.SetLevel("posture", 7));
   ASSERT_TRUE(stack.SetWeight("posture", 0.1));
   ASSERT_TRUE(stack.SetParameter("posture", "kp", 100.0 / 3));
   YAML::Emitter text;
@@ -54,7 +54,7 @@ TEST(DescribeTasks, MakesAnotherStackTheSame) {
   for (int i = 0; i < stack.num_tasks(); ++i) {
     SCOPED_TRACE(stack.task(i).name());
     EXPECT_EQ(again.settings(i).enabled, stack.settings(i).enabled);
-    EXPECT_EQ(again.settings(i).rank, stack.settings(i).rank);
+    EXPECT_EQ(again.settings(i).level, stack.settings(i).level);
     EXPECT_EQ(again.settings(i).weight, stack.settings(i).weight);
     for (size_t k = 0; k < stack.task(i).parameters().size(); ++k) {
       EXPECT_EQ(*again.task(i).parameters()[k].value,
@@ -72,16 +72,28 @@ TEST(ApplyTasks, RefusesInOneLineWithTheValue) {
             "f:1: task 'posture': 'on' is '3', must be true or false");
   EXPECT_EQ(Refusal("posture:\n  rank: \"a\\nb\""),
             "f:2: task 'posture': 'rank' is 'a b', must be a finite number");
-  EXPECT_EQ(Refusal("posture: {rank: 2.5}"),
-            "f:1: task 'posture': 'rank' is '2.5', must be 1 to 8");
+  EXPECT_EQ(Refusal("posture: {level: 2.5}"),
+            "f:1: task 'posture': 'level' is '2.5', must be 1 to 8");
   EXPECT_EQ(Refusal("posture: {weight: .nan}"),
             "f:1: task 'posture': 'weight' is '.nan', must be a finite number");
   EXPECT_EQ(Refusal("posture: {kp: .nan}"),
             "f:1: task 'posture': 'kp' is '.nan', must be a finite number");
   EXPECT_EQ(Refusal("posture: {\"a\\nb\": 1}")
-                .find("f:1: task 'posture' has no 'a b', only on, rank"),
+                .find("f:1: task 'posture' has no 'a b', only on, level"),
             0u);
   EXPECT_EQ(Refusal("posture: {kp: 30}"), "accepted");
+}
+
+TEST(ApplyTasks, TakesRankAsAnAliasOfLevel) {
+  for (const std::string key : {"level", "rank"}) {
+    SCOPED_TRACE(key);
+    Stack stack = MakeStack();
+    ApplyTasks(YAML::Load("posture: {" + key + ": 6}"), "f", &stack);
+    EXPECT_EQ(stack.settings(*stack.Find("posture")).level, 6);
+  }
+  EXPECT_EQ(Refusal("posture: {level: 4, rank: 4}"),
+            "f:1: task 'posture' has both 'level' and its alias 'rank', must "
+            "have one");
 }
 
 TEST(FindTaskLinks, FindsThoseOfFramesThatTheRobotHas) {
@@ -122,7 +134,7 @@ TEST(TaskSet, RefusesWhatIsNotThereByLine) {
   };
   EXPECT_EQ(message("yaw: off\ncop: {margin: 0.01, rank: 4}"), "");
   EXPECT_FALSE(stack.settings(*stack.Find("yaw")).enabled);
-  EXPECT_EQ(stack.settings(*stack.Find("cop")).rank, 4);
+  EXPECT_EQ(stack.settings(*stack.Find("cop")).level, 4);
   EXPECT_EQ(*stack.GetParameter("cop", "margin"), 0.01);
   EXPECT_EQ(message("yaw: off\nposturing: {kp: 1}").substr(0, 32),
             "x.yaml:2: task 'posturing' is un");
@@ -141,7 +153,7 @@ TEST(TaskSet, KnowsThatOfThePaper) {
   ApplyTaskSet("paper", &stack);
   EXPECT_FALSE(stack.settings(*stack.Find("joint_limits")).enabled);
   EXPECT_EQ(stack.GetParameter("momentum", "capture"), 0);
-  EXPECT_EQ(stack.settings(*stack.Find("posture")).rank, 4);
+  EXPECT_EQ(stack.settings(*stack.Find("posture")).level, 4);
   EXPECT_THROW(ApplyTaskSet("papers", &stack), std::invalid_argument);
 }
 
@@ -153,8 +165,8 @@ TEST(Stack, ChangesNothingWhereANameOrAValueIsWrong) {
   EXPECT_FALSE(stack.SetParameter("posture", "kp", -1));
   EXPECT_FALSE(stack.SetParameter("posture", "kp",
                                   std::numeric_limits<double>::quiet_NaN()));
-  EXPECT_FALSE(stack.SetRank("posture", 0));
-  EXPECT_FALSE(stack.SetRank("posture", Stack::kMaxRank + 1));
+  EXPECT_FALSE(stack.SetLevel("posture", 0));
+  EXPECT_FALSE(stack.SetLevel("posture", Stack::kMaxLevel + 1));
   for (const double weight : {0.0, 9e-7, 1.1e6, 1e300, std::nan("")}) {
     EXPECT_FALSE(stack.SetWeight("posture", weight)) << weight;
   }
@@ -164,7 +176,7 @@ TEST(Stack, ChangesNothingWhereANameOrAValueIsWrong) {
   EXPECT_EQ(stack.GetParameter("posture", "kp"), kp);
   EXPECT_EQ(stack.GetParameter("posture", "kq"), std::nullopt);
   EXPECT_EQ(stack.GetParameter("postures", "kp"), std::nullopt);
-  EXPECT_EQ(stack.settings(*stack.Find("posture")).rank, 5);
+  EXPECT_EQ(stack.settings(*stack.Find("posture")).level, 5);
   EXPECT_EQ(stack.settings(*stack.Find("posture")).weight, 1);
   EXPECT_EQ(stack.RowName(0, 1000, true, Side::kNone), "");
 }
@@ -263,8 +275,8 @@ TEST(Stack, RefusesATaskThatIsThereOrOutOfRange) {
     return "accepted";
   };
   EXPECT_EQ(message("posture", 1, 1), "task 'posture': is there already");
-  EXPECT_EQ(message("idle", 0, 1), "task 'idle': rank is 0, must be 1 to 8");
-  EXPECT_EQ(message("idle", 9, 1), "task 'idle': rank is 9, must be 1 to 8");
+  EXPECT_EQ(message("idle", 0, 1), "task 'idle': level is 0, must be 1 to 8");
+  EXPECT_EQ(message("idle", 9, 1), "task 'idle': level is 9, must be 1 to 8");
   EXPECT_EQ(message("idle", 8, 0),
             "task 'idle': weight is 0, must be 1e-06 to 1e+06");
   EXPECT_EQ(stack.num_tasks(), tasks);

@@ -12,18 +12,18 @@ namespace poise {
 
 /// A row that acts at the solution of a tick. Stack::RowName() names it.
 struct ActiveRow {
-  int task;           ///< Index into Stack::tasks().
-  int row;            ///< Index into Task::inequality_names().
-  Side side;          ///< Where it acts.
-  int pressing_rank;  ///< The highest rank that presses on it.
-  double multiplier;  ///< Of that rank's optimum on the row, always >= 0.
-  double slack;       ///< By how much the row is violated, in its own scale.
+  int task;            ///< Index into Stack::tasks().
+  int row;             ///< Index into Task::inequality_names().
+  Side side;           ///< Where it acts.
+  int pressing_level;  ///< Highest priority level with a multiplier on it.
+  double multiplier;   ///< Multiplier of that level on the row, always >= 0.
+  double slack;        ///< By how much the row is violated, in its own scale.
 };
 
 /// What became of one task in a tick.
 struct TaskReport {
   bool enabled = false;
-  int rank = 0;
+  int level = 0;
   /// Norm of its equality residuals, in their own scale; of what they ask for in
   /// this tick, where a ramp eases them.
   double residual = 0;
@@ -55,21 +55,21 @@ struct TickReport {
   /// gave way most, in its own scale; also where its task is off, and what the
   /// motor cannot give was cut off.
   std::optional<ActiveRow> relaxed;
-  int failed_rank = 0;  ///< The rank that was not solved; 0 if all were.
-  int iterations = 0;   ///< Of the solver.
+  int failed_level = 0;  ///< Priority level that was not solved; 0: none.
+  int iterations = 0;    ///< Of the solver.
   /// DynamicsResidual() of y; above 1e-9 the tick fails safe.
   double dynamics_residual = 0;
   Eigen::VectorXd y;  ///< [v̇; λ], λ by foot, about and in the axes of C.
   std::vector<TaskReport> tasks;  ///< By task of the stack.
   std::vector<ActiveRow> active;  ///< Its capacity is the number of all rows.
-  /// Rows above the last rank that could not be met; the last one never is.
+  /// Rows that are violated, except those of the last level.
   std::vector<LostRow> lost;
   Certificate certificate;  ///< Of the solution, if asked for.
 
   /// Of a tick in which nothing was solved: no numbers of an earlier one.
   void ClearAnswer() noexcept {
     solver_status = Status::kOptimal;
-    failed_rank = iterations = 0;
+    failed_level = iterations = 0;
     dynamics_residual = 0;
     y.setZero();
     for (TaskReport& task : tasks) task.residual = task.slack = 0;

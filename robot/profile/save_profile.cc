@@ -113,7 +113,7 @@ void WriteProfile(const Robot& robot, const Profile& profile,
     YAML::Emitter emitter;
     emitter << YAML::BeginMap << YAML::Key << "tasks" << YAML::Value
             << profile.tasks << YAML::EndMap;
-    *stream << "\n# The tasks, rank 1 before the others: docs/tasks.md.\n"
+    *stream << "\n# The tasks, level 1 before the others: docs/tasks.md.\n"
             << emitter.c_str() << "\n";
   }
 }

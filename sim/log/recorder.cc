@@ -36,7 +36,7 @@ std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
 std::string Reason(const TickRecord& record) {
   const TickReport& report = record.report;
   if (report.status == TickStatus::kTruncated) {
-    return "rank_" + std::to_string(report.failed_rank);
+    return "rank_" + std::to_string(report.failed_level);
   }
   if (report.relaxed) return record.stack.RowName(*report.relaxed);
   return std::string(ReasonName(report.fail_safe_reason));
@@ -52,16 +52,16 @@ std::string WithoutSeparators(std::string name) {
 
 // The level of the highest rows that could not be met; -1 if all could.
 int LevelNotMet(const TickRecord& record) {
-  int rank = Stack::kMaxRank + 1;
+  int rank = Stack::kMaxLevel + 1;
   for (const LostRow& lost : record.report.lost) {
-    rank = std::min(rank, record.report.tasks[lost.task].rank);
+    rank = std::min(rank, record.report.tasks[lost.task].level);
   }
   for (const ActiveRow& active : record.report.active) {
     if (active.slack < kNoticeableSlack) continue;
-    rank = std::min(rank, record.report.tasks[active.task].rank);
+    rank = std::min(rank, record.report.tasks[active.task].level);
   }
   for (int level = 0; level < record.hierarchy.num_levels(); ++level) {
-    if (record.stack.rank_of_level(level) == rank) return level;
+    if (record.stack.priority_level(level) == rank) return level;
   }
   return -1;
 }
@@ -180,7 +180,7 @@ void Recorder::ConflictCell(const TickRecord& record) {
     next_conflict_ = now + kBetweenConflicts;
     for (const HierarchyRow& row : FindConflict(record.hierarchy, level)) {
       Entry(record.stack.RowName(row.level, row.row, row.equality, row.side),
-            record.stack.rank_of_level(row.level));
+            record.stack.priority_level(row.level));
     }
   }
   EndEntries();

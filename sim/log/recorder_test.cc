@@ -168,7 +168,7 @@ TEST(Recorder, WritesWhatATickIsAbout) {
   report.relaxed->side = Side::kLower;
   record();
   report.status = TickStatus::kTruncated;
-  report.failed_rank = 5;
+  report.failed_level = 5;
   record();
   const std::string csv = Contents(Folder("reasons") / "log.csv");
   EXPECT_EQ(RowOf(csv, 0)["reason"], "torque.l_knee.max");

@@ -64,7 +64,7 @@ TEST_F(BaseStillTest, IsSwitchedByNameBetweenTwoTicks) {
   EXPECT_GT((SolvedAcceleration() - wanted).norm(), 0.1);
   Stack& stack = stack_;
   const bool is_done = stack.Enable("base_still", true) &&
-                       stack.SetRank("base_still", 3) &&
+                       stack.SetLevel("base_still", 3) &&
                        stack.SetParameter("base_still", "kd", 5);
   EXPECT_TRUE(is_done);
   EXPECT_LT((SolvedAcceleration() - wanted).norm(), kSolved);

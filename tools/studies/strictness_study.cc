@@ -24,7 +24,7 @@ constexpr double kActs = 1e-6;
 void PutTasksTogether(Stack* stack, double weight) {
   for (const char* task : {"posture", "force_regularizer"}) {
     const double own = stack->settings(*stack->Find(task)).weight;
-    (void)stack->SetRank(task, 4);
+    (void)stack->SetLevel(task, 4);
     (void)stack->SetWeight(task, own * weight);
   }
 }

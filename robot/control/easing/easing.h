@@ -14,12 +14,12 @@ namespace poise {
 /// and so has y, which is its offset in what the rows leave free. A change adds as
 /// much to them as lets the last y be the optimum of the changed rows, too, and
 /// Ramp brings them to zero; so y, and the torques of it, go from the one
-/// hierarchy to the other without a jump, and every rank is still strict. What
+/// hierarchy to the other without a jump, and every level is still strict. What
 /// else asks for something new, a push or a reference, is not held back: only
 /// what was changed is.
 ///
-/// Where limits of a rank that was changed are violated, what else is asked for in
-/// that rank may still jump: their slacks pull as before, but equalities are eased.
+/// Where limits of a level that was changed are violated, what else is asked for in
+/// that level may still jump: their slacks pull as before, but equalities are eased.
 ///
 /// (Intermediate desired values, as of Lee, Mansard and Park, 2012, but of the
 /// last solution instead of a second one.)

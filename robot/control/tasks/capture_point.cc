@@ -1,19 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "robot/control/tasks/capture_point.h"
 
-#include <algorithm>
-#include <cmath>
-
+#include "robot/control/balance_monitor.h"
 #include "robot/control/tasks/row_names.h"
 #include "robot/control/tasks/support_box.h"
 
 namespace poise {
-namespace {
-
-// Lower than this above its soles, a robot has fallen: no pendulum.
-constexpr double kMinHeight = 0.05;  // m.
-
-}  // namespace
 
 CapturePointTask::CapturePointTask(const Tree& tree,
                                    const std::vector<Foot>& feet)
@@ -40,7 +32,7 @@ void CapturePointTask::Write(const TaskInput& input, EqualityBlock*,
   const Pose X_MidW = X_WMid.Inverse();
   const Eigen::Vector3d p_G = X_MidW * tick.p_WG;
   const Eigen::Vector3d v_G = X_MidW.R * tick.v_WG;
-  const double w = std::sqrt(gravity_ / std::max(kMinHeight, p_G.z()));
+  const double w = PendulumFrequency(gravity_, p_G.z());
 
   for (const SupportSide to : {kFront, kBack, kLeft, kRight}) {
     const int axis = to == kFront || to == kBack ? 0 : 1;

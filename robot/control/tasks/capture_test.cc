@@ -11,6 +11,7 @@
 #include "dynamics/tick.h"
 #include "hqp/hierarchy.h"
 #include "math/so3.h"
+#include "robot/control/balance_monitor.h"
 #include "robot/control/contacts.h"
 #include "robot/control/reference.h"
 #include "robot/control/task.h"
@@ -103,18 +104,20 @@ class CaptureTest : public TaskTest {
     EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
     InequalityBlock none = hierarchy_.AddInequalities(0, 0);
     TaskInput now{state_, tick_, controller_.contacts(),
-                  controller_.reference(), unexpected_vdot_};
-    const MomentumTask::CaptureShares shares = task_.FindCapture(now);
-    left_ = shares.left;
-    right_ = shares.right;
-    now.capture = shares.all;
+                  controller_.reference(), unmodelled_vdot_};
+    monitor_.Update(tick_, now.contacts, now.reference,
+                    task_.capture_settings(), Eigen::Vector2d(1, 1));
+    const Balance& balance = monitor_.balance();
+    left_ = balance.left;
+    right_ = balance.right;
+    now.capture = balance.capture;
     task_.Write(now, &rows, &none);
     // b = bias - wanted, and of what is wanted only -kd v_G is not zero.
     const Eigen::Vector3d v = momentum_over_mass.tail<3>();
     const Eigen::Vector3d wanted =
         tick_.H_G_bias.tail<3>() / tree_.total_mass() - rows.b.tail<3>();
     EXPECT_NEAR(wanted.z(), -10 * v.z(), 1e-6);
-    const double share = shares.all;
+    const double share = now.capture;
     for (const int row : {0, 1, 2, 5}) {
       EXPECT_NEAR(rows.weight[row], std::pow(0.3, share), 1e-12);
     }
@@ -134,6 +137,7 @@ class CaptureTest : public TaskTest {
   }
 
   MomentumTask task_{tree_, robot_.feet};
+  BalanceMonitor monitor_{tree_, robot_.feet};
   Tick tick_{tree_, {}};
   double left_ = 0, right_ = 0;  // Of the last Share().
   const double height_ = controller_.tick().p_WG.z();
@@ -185,7 +189,7 @@ TEST_F(CaptureTest, StandsOverTheFootThatIsLeft) {
     EqualityBlock rows = hierarchy_.AddEqualities(0, 6);
     InequalityBlock none = hierarchy_.AddInequalities(0, 0);
     task_.Write(
-        {state_, controller_.tick(), contacts, reference, unexpected_vdot_},
+        {state_, controller_.tick(), contacts, reference, unmodelled_vdot_},
         &rows, &none);
     const Vector6d wanted =
         controller_.tick().H_G_bias / tree_.total_mass() - rows.b;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "robot/control/balance_monitor.h"
 #include "robot/control/tasks/row_names.h"
 #include "robot/control/tasks/scale.h"
 
@@ -32,7 +33,7 @@ std::vector<RowDescription> Rows(const std::vector<Foot>& feet) {
 CopTask::CopTask(const Tree& tree, const std::vector<Foot>& feet)
     : Task("cop", {}, Rows(feet)),
       nv_(tree.nv()),
-      scale_(1 / ForceScale(tree)),
+      inverse_force_scale_(1 / ForceScale(tree)),
       feet_(feet) {
   AddParameter("margin", &margin_, 0, 1);
   AddParameter("capture_margin", &capture_margin_, 0, 1);
@@ -41,17 +42,19 @@ CopTask::CopTask(const Tree& tree, const std::vector<Foot>& feet)
 void CopTask::Write(const TaskInput& input, EqualityBlock*,
                     InequalityBlock* inequalities) const noexcept {
   const double share = std::max(0.0, 2 * input.capture - 1);
-  const double margin = margin_ + share * (capture_margin_ - margin_);
+  const double margin = BlendByCapture(margin_, capture_margin_, share);
   for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
     if (!input.contacts[i].in_contact) continue;
-    const double X = scale_ * std::max(0.0, feet_[i].half_size.x() - margin);
-    const double Y = scale_ * std::max(0.0, feet_[i].half_size.y() - margin);
+    const double X =
+        inverse_force_scale_ * std::max(0.0, feet_[i].half_size.x() - margin);
+    const double Y =
+        inverse_force_scale_ * std::max(0.0, feet_[i].half_size.y() - margin);
     auto C = inequalities->C.block<4, 6>(4 * i, nv_ + 6 * i);
     // Columns: m_x, m_y, m_z, f_x, f_y, f_z.
-    C << 0, -scale_, 0, 0, 0, -X,  //
-        0, scale_, 0, 0, 0, -X,    //
-        scale_, 0, 0, 0, 0, -Y,    //
-        -scale_, 0, 0, 0, 0, -Y;
+    C << 0, -inverse_force_scale_, 0, 0, 0, -X,  //
+        0, inverse_force_scale_, 0, 0, 0, -X,    //
+        inverse_force_scale_, 0, 0, 0, 0, -Y,    //
+        -inverse_force_scale_, 0, 0, 0, 0, -Y;
     inequalities->upper.segment<4>(4 * i).setZero();
   }
 }

@@ -160,7 +160,7 @@ TEST_F(FootWrenchTest, GroundDoesNotPull) {
   EqualityBlock none = hierarchy_.AddEqualities(0, 0);
   InequalityBlock rows = hierarchy_.AddInequalities(0, 2);
   unilateral.Write({state_, controller_.tick(), contacts,
-                    controller_.reference(), unexpected_vdot_},
+                    controller_.reference(), unmodelled_vdot_},
                    &none, &rows);
   EXPECT_NEAR(rows.upper[0] / rows.C(0, nv_ + 5), 30, 1e-9);
   EXPECT_EQ(rows.lower[0], 0);

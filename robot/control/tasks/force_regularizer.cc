@@ -18,7 +18,7 @@ ForceRegularizerTask::ForceRegularizerTask(const Tree& tree,
                      {"fz", "N", "the force on the % along z"}}),
            {}),
       nv_(tree.nv()),
-      scale_(1 / ForceScale(tree)) {}
+      inverse_force_scale_(1 / ForceScale(tree)) {}
 
 void ForceRegularizerTask::Write(const TaskInput& input,
                                  EqualityBlock* equalities,
@@ -27,7 +27,7 @@ void ForceRegularizerTask::Write(const TaskInput& input,
     if (!input.contacts[i].in_contact) continue;
     equalities->B.block<6, 6>(6 * i, nv_ + 6 * i)
         .diagonal()
-        .setConstant(scale_);
+        .setConstant(inverse_force_scale_);
   }
 }
 

@@ -13,13 +13,15 @@ namespace poise {
 class ForceRegularizerTask final : public Task {
  public:
   ForceRegularizerTask(const Tree& tree, const std::vector<Foot>& feet);
-  double equality_scale(int) const noexcept override { return 1 / scale_; }
+  double equality_scale(int) const noexcept override {
+    return 1 / inverse_force_scale_;
+  }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 
  private:
   int nv_;
-  double scale_;
+  double inverse_force_scale_;
 };
 
 }  // namespace poise

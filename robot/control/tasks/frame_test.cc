@@ -62,7 +62,7 @@ TEST_F(TaskTest, AFootInTheAirFollowsItsReference) {
   }
   std::vector<ContactTick> contacts = controller_.contacts();
   const TaskInput now{state_, controller_.tick(), contacts,
-                      controller_.reference(), unexpected_vdot_};
+                      controller_.reference(), unmodelled_vdot_};
   EXPECT_FALSE(task.HasRows(now));
   contacts[0].in_contact = false;
   EXPECT_TRUE(task.HasRows(now));
@@ -110,7 +110,7 @@ TEST_F(TaskTest, ContactPullsASoleUprightAndToTheGround) {
   EqualityBlock rows = hierarchy_.AddEqualities(0, 12);
   InequalityBlock none = hierarchy_.AddInequalities(0, 0);
   task.Write({state_, controller_.tick(), contacts, controller_.reference(),
-              unexpected_vdot_},
+              unmodelled_vdot_},
              &rows, &none);
   const Eigen::VectorXd asked =
       contacts[0].Jdot_v_C + 30 * contacts[0].V_WC_C - rows.b.head<6>();

@@ -16,22 +16,23 @@ FrictionTask::FrictionTask(const Tree& tree, const std::vector<Foot>& feet)
                      {"y_max", "N", "the % at its friction limit"},
                      {"y_min", "N", "the % at its friction limit"}})),
       nv_(tree.nv()),
-      scale_(1 / ForceScale(tree)) {
+      inverse_force_scale_(1 / ForceScale(tree)) {
   AddParameter("mu", &mu_, 0, 10);
   AddParameter("inscribed", &inscribed_, 0, 1);
 }
 
 void FrictionTask::Write(const TaskInput& input, EqualityBlock*,
                          InequalityBlock* inequalities) const noexcept {
-  const double mu = scale_ * (inscribed_ > 0.5 ? mu_ * std::sqrt(0.5) : mu_);
+  const double mu =
+      inverse_force_scale_ * (inscribed_ > 0.5 ? mu_ * std::sqrt(0.5) : mu_);
   for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
     if (!input.contacts[i].in_contact) continue;
     auto C = inequalities->C.block<4, 3>(4 * i, nv_ + 6 * i + 3);
     // Columns: f_x, f_y, f_z.
-    C << scale_, 0, -mu,  //
-        -scale_, 0, -mu,  //
-        0, scale_, -mu,   //
-        0, -scale_, -mu;
+    C << inverse_force_scale_, 0, -mu,  //
+        -inverse_force_scale_, 0, -mu,  //
+        0, inverse_force_scale_, -mu,   //
+        0, -inverse_force_scale_, -mu;
     inequalities->upper.segment<4>(4 * i).setZero();
   }
 }

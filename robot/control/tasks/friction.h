@@ -22,7 +22,7 @@ class FrictionTask final : public Task {
 
  private:
   int nv_;
-  double scale_;
+  double inverse_force_scale_;
   double mu_ = 0.5;
   double inscribed_ = 0;
 };

@@ -44,16 +44,16 @@ void JointLimitsTask::Write(const TaskInput& input, EqualityBlock*,
     double upper = w * w * (upper_[j] - margin_ - q) - 2 * w * v;
     // A range that is narrower than its margins: to its middle.
     if (lower > upper) lower = upper = (lower + upper) / 2;
-    const double unexpected_vdot = input.unexpected_vdot[v_start_ + j];
+    const double unmodelled_vdot = input.unmodelled_vdot[v_start_ + j];
     inequalities->C(j, v_start_ + j) = scale;
     // Clamped, and not the larger and the smaller one: where the limits contradict
     // each other, that of the position wins, on either side.
     inequalities->lower[j] =
         scale *
-        (std::clamp(w * (-velocity_[j] - v), lower, upper) - unexpected_vdot);
+        (std::clamp(w * (-velocity_[j] - v), lower, upper) - unmodelled_vdot);
     inequalities->upper[j] =
         scale *
-        (std::clamp(w * (velocity_[j] - v), lower, upper) - unexpected_vdot);
+        (std::clamp(w * (velocity_[j] - v), lower, upper) - unmodelled_vdot);
   }
 }
 

@@ -21,7 +21,7 @@ namespace poise {
 /// would buy the momentum that the feet cannot give with 1e6 rad/s². A joint
 /// without a motor, of effort 0, has no bound: nothing can hold it, and all that the
 /// robot has would be spent on trying.
-/// There q̈ is what the joint will do: v̇_j and TaskInput::unexpected_vdot, or a push
+/// There q̈ is what the joint will do: v̇_j and TaskInput::unmodelled_vdot, or a push
 /// would press it w⁻² of that beyond where it comes to rest. Rows are divided by
 /// w² rad.
 class JointLimitsTask final : public Task {

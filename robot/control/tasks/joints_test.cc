@@ -32,7 +32,7 @@ TEST_F(TaskTest, JointLimitsBringAJointToRestAtItsStop) {
   const int j = *tree_.FindJoint("l_elbow");
   for (const auto& [side, push] : {std::pair(1., 0.), std::pair(-1., 0.),
                                    std::pair(1., 30.), std::pair(-1., 30.)}) {
-    unexpected_vdot_[6 + j] =
+    unmodelled_vdot_[6 + j] =
         push;  // Of which the solution knows nothing, rad/s2.
     const JointLimits& limits = robot_.model.limits[j];
     constexpr double kMargin = 0.008;  // rad.
@@ -82,7 +82,7 @@ TEST_F(TaskTest, JointLimitsAreTheSameForAMirroredState) {
     const auto bounds = [&](double side, double q, double v) {
       state_.q[7 + j] = side * q;
       state_.v[6 + j] = side * v;
-      unexpected_vdot_[6 + j] = side * 20;
+      unmodelled_vdot_[6 + j] = side * 20;
       const Hierarchy& rows = Write(task);
       const double low = rows.lower(0)[j], high = rows.upper(0)[j];
       EXPECT_LE(low, high) << q << ", " << v;

@@ -16,19 +16,19 @@ NewtonEulerTask::NewtonEulerTask(const Tree& tree)
                      {"fy", "N", "the balance of forces along y"},
                      {"fz", "N", "the balance of forces along z"}}),
            {}),
-      scale_(1 / ForceScale(tree)) {}
+      inverse_force_scale_(1 / ForceScale(tree)) {}
 
 void NewtonEulerTask::Write(const TaskInput& input, EqualityBlock* equalities,
                             InequalityBlock*) const noexcept {
   const Tick& tick = input.tick;
   const int nv = static_cast<int>(tick.M.rows());
-  equalities->B.leftCols(nv) = scale_ * tick.M.topRows<6>();
-  equalities->b = scale_ * tick.N.head<6>();
+  equalities->B.leftCols(nv) = inverse_force_scale_ * tick.M.topRows<6>();
+  equalities->b = inverse_force_scale_ * tick.N.head<6>();
   for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
     const ContactTick& contact = input.contacts[i];
     if (!contact.in_contact) continue;
     equalities->B.middleCols<6>(nv + 6 * i) =
-        -scale_ * contact.J_WC_C.leftCols<6>().transpose();
+        -inverse_force_scale_ * contact.J_WC_C.leftCols<6>().transpose();
   }
 }
 

@@ -13,12 +13,14 @@ namespace poise {
 class NewtonEulerTask final : public Task {
  public:
   explicit NewtonEulerTask(const Tree& tree);
-  double equality_scale(int) const noexcept override { return 1 / scale_; }
+  double equality_scale(int) const noexcept override {
+    return 1 / inverse_force_scale_;
+  }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 
  private:
-  double scale_;
+  double inverse_force_scale_;
 };
 
 }  // namespace poise

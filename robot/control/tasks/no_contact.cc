@@ -17,7 +17,7 @@ NoContactTask::NoContactTask(const Tree& tree, const std::vector<Foot>& feet)
                      {"fz", "N", "the force on the % in the air along z"}}),
            {}),
       nv_(tree.nv()),
-      scale_(1 / ForceScale(tree)) {}
+      inverse_force_scale_(1 / ForceScale(tree)) {}
 
 bool NoContactTask::HasRows(const TaskInput& input) const noexcept {
   for (const ContactTick& contact : input.contacts) {
@@ -32,7 +32,7 @@ void NoContactTask::Write(const TaskInput& input, EqualityBlock* equalities,
     if (input.contacts[i].in_contact) continue;
     equalities->B.block<6, 6>(6 * i, nv_ + 6 * i)
         .diagonal()
-        .setConstant(scale_);
+        .setConstant(inverse_force_scale_);
   }
 }
 

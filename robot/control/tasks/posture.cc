@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "robot/control/balance_monitor.h"
 #include "robot/control/tasks/row_names.h"
 
 namespace poise {
@@ -33,7 +34,7 @@ void PostureTask::Write(const TaskInput& input, EqualityBlock* equalities,
                         InequalityBlock*) const noexcept {
   const int n = static_cast<int>(equalities->b.size());
   const double inertia =
-      inertia_ + input.capture * (capture_inertia_ - inertia_);
+      BlendByCapture(inertia_, capture_inertia_, input.capture);
   for (int j = 0; j < n; ++j) {
     const double q = input.state.q[q_start_ + j];
     const double v = input.state.v[v_start_ + j];

@@ -5,11 +5,12 @@
 
 namespace poise {
 
-/// What rows in forces and moments are divided by, so that they are about 1: a
-/// quarter of the robot's weight, N (or N m).
+/// Scale of rows in forces and moments, N (or N m): a quarter of the robot's
+/// weight. Divided by the scale, the rows are about 1. A tree without mass or
+/// gravity has the scale 1.
 inline double ForceScale(const Tree& tree) {
-  constexpr double kStandardGravity = 9.81;
-  return tree.total_mass() > 0 ? tree.total_mass() * kStandardGravity / 4 : 1;
+  const double weight = tree.total_mass() * tree.gravity_W().norm();
+  return weight > 0 ? weight / 4 : 1;
 }
 
 }  // namespace poise

@@ -34,7 +34,7 @@ class TaskTest : public testing::Test {
 
   TaskInput input() const {
     return {state_, controller_.tick(), controller_.contacts(),
-            controller_.reference(), unexpected_vdot_};
+            controller_.reference(), unmodelled_vdot_};
   }
 
   /// The rows of a task, read from a hierarchy of its own.
@@ -76,7 +76,7 @@ class TaskTest : public testing::Test {
   const Eigen::Vector2d half_ = robot_.feet[0].half_size;
   Controller controller_{robot_};
   State state_;
-  Eigen::VectorXd unexpected_vdot_ = Eigen::VectorXd::Zero(nv_);
+  Eigen::VectorXd unmodelled_vdot_ = Eigen::VectorXd::Zero(nv_);
   Hierarchy hierarchy_{1, {{1, 1}}};
 };
 

@@ -11,15 +11,16 @@ UnilateralTask::UnilateralTask(const Tree& tree, const std::vector<Foot>& feet)
            FootRows(feet, "unilateral", RowKind::kNormalForceLimit,
                     {{"fz", "N", "the normal force of the %"}})),
       nv_(tree.nv()),
-      scale_(1 / ForceScale(tree)) {}
+      inverse_force_scale_(1 / ForceScale(tree)) {}
 
 void UnilateralTask::Write(const TaskInput& input, EqualityBlock*,
                            InequalityBlock* inequalities) const noexcept {
   for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
     if (!input.contacts[i].in_contact) continue;
-    inequalities->C(i, nv_ + 6 * i + 5) = scale_;
+    inequalities->C(i, nv_ + 6 * i + 5) = inverse_force_scale_;
     inequalities->lower[i] = 0;
-    inequalities->upper[i] = scale_ * input.contacts[i].max_normal_force;
+    inequalities->upper[i] =
+        inverse_force_scale_ * input.contacts[i].max_normal_force;
   }
 }
 

@@ -19,7 +19,7 @@ class UnilateralTask final : public Task {
 
  private:
   int nv_;
-  double scale_;
+  double inverse_force_scale_;
 };
 
 }  // namespace poise

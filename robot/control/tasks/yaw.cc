@@ -19,7 +19,7 @@ YawTask::YawTask(const Tree& tree, const std::vector<Foot>& feet)
                 {"min_mp", "N m", "the yaw moment of the % at its limit"},
                 {"min_mm", "N m", "the yaw moment of the % at its limit"}})),
       nv_(tree.nv()),
-      scale_(1 / ForceScale(tree)),
+      inverse_force_scale_(1 / ForceScale(tree)),
       feet_(feet) {
   AddParameter("mu", &mu_, 0, 10);
 }
@@ -39,7 +39,8 @@ void YawTask::Write(const TaskInput& input, EqualityBlock*,
           Eigen::Matrix<double, 1, 6> c;
           c << s * side * mu_, t * side * mu_, side, s * Y, t * X,
               -mu_ * (X + Y);
-          inequalities->C.block<1, 6>(row, nv_ + 6 * i) = scale_ * c;
+          inequalities->C.block<1, 6>(row, nv_ + 6 * i) =
+              inverse_force_scale_ * c;
           inequalities->upper[row] = 0;
           ++row;
         }

@@ -25,7 +25,7 @@ class YawTask final : public Task {
 
  private:
   int nv_;
-  double scale_;
+  double inverse_force_scale_;
   std::vector<Foot> feet_;
   double mu_ = 0.5;
 };

@@ -13,7 +13,7 @@ YawConstantTask::YawConstantTask(const Tree& tree,
                     {{"max", "N m", "the yaw moment of the % at its limit"},
                      {"min", "N m", "the yaw moment of the % at its limit"}})),
       nv_(tree.nv()),
-      scale_(1 / ForceScale(tree)) {
+      inverse_force_scale_(1 / ForceScale(tree)) {
   AddParameter("radius", &radius_, 0, 1);
 }
 
@@ -23,8 +23,8 @@ void YawConstantTask::Write(const TaskInput& input, EqualityBlock*,
     if (!input.contacts[i].in_contact) continue;
     auto C = inequalities->C.block<2, 4>(2 * i, nv_ + 6 * i + 2);
     // Columns: m_z, f_x, f_y, f_z.
-    C << scale_, 0, 0, -scale_ * radius_,  //
-        -scale_, 0, 0, -scale_ * radius_;
+    C << inverse_force_scale_, 0, 0, -inverse_force_scale_ * radius_,  //
+        -inverse_force_scale_, 0, 0, -inverse_force_scale_ * radius_;
     inequalities->upper.segment<2>(2 * i).setZero();
   }
 }

@@ -20,7 +20,7 @@ class YawConstantTask final : public Task {
 
  private:
   int nv_;
-  double scale_;
+  double inverse_force_scale_;
   double radius_ = 0.05;
 };
 

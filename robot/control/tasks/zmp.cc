@@ -19,7 +19,7 @@ ZmpTask::ZmpTask(const Tree& tree, const std::vector<Foot>& feet)
                {"y_min", "N m",
                 "the combined CoP at the right edge of its box"}})),
       nv_(tree.nv()),
-      scale_(1 / ForceScale(tree)) {
+      inverse_force_scale_(1 / ForceScale(tree)) {
   if (!feet.empty()) dx_ = feet.front().half_size.x();
   AddParameter("dx", &dx_, 0, 10);
   AddParameter("dy", &dy_, 0, 10);
@@ -34,7 +34,7 @@ void ZmpTask::Write(const TaskInput& input, EqualityBlock*,
     // F_Mid = [ R [p]x R; 0 R ] lambda.
     Eigen::Matrix<double, 6, 6> X;
     X << X_MidC.R, Hat(X_MidC.p) * X_MidC.R, Eigen::Matrix3d::Zero(), X_MidC.R;
-    X *= scale_;
+    X *= inverse_force_scale_;
     auto C = inequalities->C.middleCols<6>(nv_ + 6 * i);
     C.row(0) = -X.row(1) - dx_ * X.row(5);
     C.row(1) = X.row(1) - dx_ * X.row(5);

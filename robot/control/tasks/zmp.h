@@ -23,7 +23,7 @@ class ZmpTask final : public Task {
 
  private:
   int nv_;
-  double scale_;
+  double inverse_force_scale_;
   double dx_ = 0.1;
   double dy_ = 0.1;
 };

@@ -18,7 +18,7 @@ ZmpLiteralTask::ZmpLiteralTask(const Tree& tree, const std::vector<Foot>& feet)
                {"y_min", "N m",
                 "the combined CoP at the right edge of its box"}})),
       nv_(tree.nv()),
-      scale_(1 / ForceScale(tree)) {
+      inverse_force_scale_(1 / ForceScale(tree)) {
   if (!feet.empty()) {
     dx_ = feet.front().half_size.x();
     dy_ = feet.front().half_size.y();
@@ -37,7 +37,7 @@ void ZmpLiteralTask::Write(const TaskInput& input, EqualityBlock*,
         0, 1, 0, 0, 0, -dx_,    //
         1, 0, 0, 0, 0, -dy_,    //
         -1, 0, 0, 0, 0, -dy_;
-    C *= scale_;
+    C *= inverse_force_scale_;
     inequalities->upper.setZero();
   }
 }

@@ -20,10 +20,10 @@ std::vector<Finding> FindWeakness(const Robot& robot) {
   Controller controller(robot);
   Stack& stack = controller.stack();
   const int limits = stack.Find("torque_limits").value();
-  const int last = stack.settings(stack.Find("posture").value()).rank + 2;
-  if (!stack.SetRank("torque_limits", last - 1) ||
-      !stack.SetRank("force_regularizer", last)) {
-    throw std::logic_error("the stack has no room for two more ranks");
+  const int last = stack.settings(stack.Find("posture").value()).level + 2;
+  if (!stack.SetLevel("torque_limits", last - 1) ||
+      !stack.SetLevel("force_regularizer", last)) {
+    throw std::logic_error("the stack has no room for two more levels");
   }
   const State rest{0, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv())};
   Command command{Eigen::VectorXd::Zero(tree.num_joints())};

@@ -43,7 +43,7 @@ constexpr const char* kScenarios = "sim/scenarios";
 // The options that go over a scenario; those not given change nothing.
 struct Overrides {
   std::optional<double> force, direction, duration, at, time, control_rate,
-      plant_rate, mu_plant, mass_error, torque_scale, noise, delay;
+      plant_rate, mu_plant, mass_error, torque_scale, noise, delay, ramp;
   std::optional<std::string> link, tasks, friction, plant, pushes;
   std::vector<double> point, freeze;
   std::vector<std::string> with, without;
@@ -92,7 +92,9 @@ void AddOptions(CLI::App* app, Overrides* o) {
       ->delimiter(',');
   app->add_flag("--weighted", o->weighted,
                 "one weighted QP instead of the hierarchy");
-  app->add_option("--friction", o->friction, "pyramid of the controller")
+  app->add_option("--friction-pyramid,--friction", o->friction,
+                  "shape of the controller's friction pyramid (circumscribed); "
+                  "inscribed divides its mu by sqrt(2)")
       ->check(CLI::IsMember({"circumscribed", "inscribed"}));
   app->add_flag("--feedforward", o->feedforward, "of the reference's motion");
   app->add_option("--control-rate", o->control_rate, "Hz (1000)")
@@ -116,6 +118,10 @@ void AddOptions(CLI::App* app, Overrides* o) {
                   "on the base")
       ->check(finite);
   app->add_option("--delay", o->delay, "from measurement to torque, s")
+      ->check(finite);
+  app->add_option(
+         "--ramp", o->ramp,
+         "time in which a change of tasks takes effect, s (0: at once)")
       ->check(finite);
   app->add_option("--freeze", o->freeze,
                   "AT,FOR in s: sensors that repeat their last word")
@@ -191,6 +197,7 @@ void Apply(const Overrides& o, Scenario* scenario) {
   Take(o.torque_scale, &plant.torque_scale);
   Take(o.noise, &scenario->sensors.noise);
   Take(o.delay, &control.delay);
+  Take(o.ramp, &control.ramp);
   if (!o.freeze.empty()) {
     scenario->sensors.freeze_at = o.freeze[0];
     scenario->sensors.freeze_for = o.freeze[1];
@@ -204,6 +211,7 @@ std::string ByOption(std::string text, const Overrides& o) {
       {o.control_rate.has_value(), "control.rate", "--control-rate"},
       {o.plant_rate.has_value(), "plant.rate", "--plant-rate"},
       {o.delay.has_value(), "control.delay", "--delay"},
+      {o.ramp.has_value(), "control.ramp", "--ramp"},
       {o.mass_error.has_value(), "control.mass_error", "--mass-error"},
       {o.mu_plant.has_value(), "plant.friction", "--mu-plant"},
       {o.torque_scale.has_value(), "plant.torque_scale", "--torque-scale"},

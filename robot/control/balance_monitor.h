@@ -1,0 +1,101 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dynamics/tick.h"
+#include "dynamics/tree.h"
+#include "robot/control/contacts.h"
+#include "robot/control/reference.h"
+#include "robot/robot.h"
+
+namespace poise {
+
+/// Settings of the capture blend. Profiles and task sets name them as parameters
+/// of the task momentum: capture, capture_from, capture_full, capture_sideways.
+struct CaptureSettings {
+  double capture = 1;      ///< Factor of all shares; 0 switches them off.
+  double from = 0.65;      ///< Part of the way to the edge where a share is 0.
+  double full = 1;         ///< The part where it is 1.
+  double sideways = 1.25;  ///< Factor of the way to the left and right edges.
+};
+
+/// The verdict of a BalanceMonitor on one tick.
+struct Balance {
+  /// Capture point xi with the angular momentum given back, in the mid-feet
+  /// frame, m.
+  Eigen::Vector3d xi_Mid = Eigen::Vector3d::Zero();
+  /// Capture blend, 0 to 1. 0: ankle torque alone can stop the robot. 1: the
+  /// capture point is at the edge of support, and angular momentum is needed.
+  /// The largest of the shares of the four sides.
+  double capture = 0;
+  double left = 0;   ///< Share of the left side.
+  double right = 0;  ///< Share of the right side.
+
+  struct FootVerdict {
+    bool is_released = false;  ///< A foot that is down should be released.
+    bool comes_back = false;   ///< A released foot should be put down.
+  };
+  std::vector<FootVerdict> feet;  ///< By foot of the robot.
+};
+
+/// Judges how near the robot is to a fall, from its capture point. With G the
+/// center of mass, h its height above the soles, m the mass and k the angular
+/// momentum about G, in the mid-feet frame,
+///     xi = p_G + (v_G + k x z / (m h)) / w,    w = sqrt(g / h).
+/// The share of a side is the part of the way from the reference of xi to the
+/// edge of the soles that xi has covered: 0 at `from`, 1 at `full`.
+///
+/// A foot is released if the robot falls to the other side, and the foot bears
+/// almost nothing while another one stands. The leg of a released foot is free
+/// to swing, and its mass takes up angular momentum. The foot comes back once
+/// the robot is slow and upright, or falls to the side of the foot.
+class BalanceMonitor {
+ public:
+  BalanceMonitor(const Tree& tree, const std::vector<Foot>& feet);
+
+  /// Judges the state of this tick.
+  /// @param contacts      as the last tick left them, with the poses of this one.
+  /// @param normal_force  by foot, of the last solution, N.
+  /// Does not allocate.
+  void Update(const Tick& tick, const std::vector<ContactTick>& contacts,
+              const Reference& reference, const CaptureSettings& settings,
+              const Eigen::VectorXd& normal_force) noexcept;
+
+  const Balance& balance() const { return balance_; }
+
+ private:
+  void FindShares(const Tick& tick, const std::vector<ContactTick>& contacts,
+                  const Reference& reference,
+                  const CaptureSettings& settings) noexcept;
+  void JudgeFeet(const Tick& tick, const std::vector<ContactTick>& contacts,
+                 const Reference& reference,
+                 const Eigen::VectorXd& normal_force) noexcept;
+
+  double mass_;     // kg.
+  double gravity_;  // m/s2.
+  double weight_;   // N.
+  std::vector<Foot> feet_;
+  Pose X_MidW_;
+  Balance balance_;
+};
+
+/// Natural frequency w = sqrt(g / h) of the linear inverted pendulum, 1/s. The
+/// height h is at least 0.05 m: below that, the robot has fallen.
+double PendulumFrequency(double gravity, double height) noexcept;
+
+/// Target of the center of mass in the world: the reference, but over the feet
+/// in contact. While a foot is in the air, the reference is clamped to the middle
+/// half of the soles in contact. Does not allocate.
+Eigen::Vector3d FindComTarget(const std::vector<Foot>& feet,
+                              const std::vector<ContactTick>& contacts,
+                              const Reference& reference) noexcept;
+
+/// Value of a gain or margin between its normal value (capture 0) and the one of
+/// the largest pushes (capture 1).
+inline double BlendByCapture(double normal, double captured, double capture) {
+  return normal + capture * (captured - normal);
+}
+
+}  // namespace poise

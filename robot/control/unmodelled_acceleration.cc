@@ -1,0 +1,41 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "robot/control/unmodelled_acceleration.h"
+
+#include <cmath>
+
+namespace poise {
+namespace {
+
+// Time constant of the mean, s: long against delays, short against the time
+// that a joint takes to its limit.
+constexpr double kMemory = 0.02;
+
+constexpr double kLargest = 100;  // rad/s2, m/s2.
+
+}  // namespace
+
+UnmodelledAcceleration::UnmodelledAcceleration(int nv)
+    : vdot_(Eigen::VectorXd::Zero(nv)),
+      predicted_v_(Eigen::VectorXd::Zero(nv)) {}
+
+void UnmodelledAcceleration::Reset() noexcept {
+  vdot_.setZero();
+  predicts_ = false;
+}
+
+void UnmodelledAcceleration::Update(double dt,
+                                    const Eigen::VectorXd& v) noexcept {
+  if (!predicts_) return;
+  const double share = -std::expm1(-dt / kMemory);
+  vdot_ += share * ((v - predicted_v_) / dt - vdot_);
+  vdot_ = vdot_.cwiseMax(-kLargest).cwiseMin(kLargest);
+}
+
+void UnmodelledAcceleration::Predict(
+    double dt, const Eigen::VectorXd& v,
+    const Eigen::Ref<const Eigen::VectorXd>& vdot) noexcept {
+  predicted_v_ = v + dt * vdot;
+  predicts_ = true;
+}
+
+}  // namespace poise
