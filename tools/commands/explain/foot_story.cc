@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "sim/log/columns.h"
 #include "tools/commands/explain/row_phrases.h"
 
 namespace poise {
@@ -39,10 +40,10 @@ std::string Format(const char* format, double value) {
 
 FootStory::FootStory(const std::string& foot, const LogReader& log)
     : foot_(foot),
-      contact_(log.Find(foot + ".contact")),
-      tilt_(log.Find(foot + ".tilt")),
-      slide_(log.Find(foot + ".slide")),
-      phase_(log.Find(foot + ".phase")) {}
+      contact_(log.Find(ContactColumn(foot))),
+      tilt_(log.Find(TiltColumn(foot))),
+      slide_(log.Find(SlideColumn(foot))),
+      phase_(log.Find(PhaseColumn(foot))) {}
 
 void FootStory::Look(double time, const LogReader& log) {
   if (phase_) {

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "robot/finding.h"
+#include "sim/log/columns.h"
 #include "sim/log/open_log.h"
 
 namespace poise {
@@ -46,9 +47,9 @@ std::string_view Text(const LogReader& reader, int column) {
 
 // The columns of a vector; none, if the log has not all of them.
 std::vector<int> FindAll(const LogReader& reader,
-                         std::initializer_list<const char*> names) {
+                         std::initializer_list<std::string> names) {
   std::vector<int> columns;
-  for (const char* name : names) {
+  for (const std::string& name : names) {
     const auto column = reader.Find(name);
     if (!column) return {};
     columns.push_back(*column);
@@ -118,18 +119,21 @@ RunStory ReadRunStory(const std::filesystem::path& log,
                       const RowPhrases& phrases, double fell_at,
                       LogReader* opened) {
   LogReader& reader = *opened;
-  const auto time = reader.Find("time"), status = reader.Find("status"),
-             active = reader.Find("active"), lost = reader.Find("lost"),
-             conflict = reader.Find("conflict"), reason = reader.Find("reason"),
-             touching = reader.Find("touching");
+  const auto time = reader.Find(kTimeColumn),
+             status = reader.Find(kStatusColumn),
+             active = reader.Find(kActiveColumn),
+             lost = reader.Find(kLostColumn),
+             conflict = reader.Find(kConflictColumn),
+             reason = reader.Find(kReasonColumn),
+             touching = reader.Find(kTouchingColumn);
   if (!time || !status || !active) {
     throw std::invalid_argument(log.string() +
                                 ": has no columns time, status and active");
   }
   const std::vector<int> push =
-      FindAll(reader, {"push.fx", "push.fy", "push.fz"});
-  const std::vector<int> loads =
-      FindAll(reader, {"left_foot.fz", "right_foot.fz"});
+      FindAll(reader, {PushColumn('x'), PushColumn('y'), PushColumn('z')});
+  const std::vector<int> loads = FindAll(
+      reader, {ForceColumn("left_foot", 'z'), ForceColumn("right_foot", 'z')});
   RunStory story;
   for (const std::string name : {"left_foot", "right_foot"}) {
     story.feet.emplace_back(name, reader);
