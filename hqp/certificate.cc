@@ -5,13 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "hqp/tolerances.h"
+
 namespace poise {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// As in cascade.cc and report.cc, but not shared with what is checked here.
-constexpr double kAtBound = 1e-9;
 
 // A cost below this share of what it is added up from is none.
 constexpr double kNoCost = 1e-9;
@@ -26,14 +25,6 @@ double Worse(double a, double b) {
 }
 
 }  // namespace
-
-double Certificate::worst() const {
-  double worst = 0;
-  for (double each : {stationarity, feasibility, complementarity, priority}) {
-    worst = Worse(worst, each);
-  }
-  return worst;
-}
 
 Certifier::Certifier(int num_variables,
                      const std::vector<LevelCapacity>& capacity)
@@ -64,7 +55,9 @@ Certificate Certifier::Certify(const Hierarchy& hierarchy,
 
 void Certifier::Truncate(const Hierarchy& hierarchy,
                          Solution* solution) noexcept {
-  while (Certify(hierarchy, *solution).worst() > kCertified) {
+  for (;;) {
+    solution->certificate = Certify(hierarchy, *solution);
+    if (!(solution->certificate.worst() > kCertified)) return;
     solution->status = Status::kIterationLimit;
     int& failed_level = solution->failed_level;
     failed_level =
@@ -141,7 +134,7 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
       if (mu == 0) continue;
       gradient_ += mu * C.row(i).transpose();
       gradient_size_ += std::abs(mu) * C.row(i).cwiseAbs().transpose();
-      const double margin = kAtBound * rows.size[i];
+      const double margin = tolerances::kAtBound * rows.size[i];
       double wrong;
       if (rows.violation[i] > margin) {
         wrong = 0;

@@ -138,9 +138,9 @@ TEST_F(CertifierByHandTest, MakesAnAnswerSayNoMoreThanIsCertified) {
   EXPECT_EQ(truncated(0, true, true), 0);
 }
 
-// 1e-9 is still certified.
-TEST_F(CertifierByHandTest, TruncatesFromAnEdgeOn) {
-  for (const double share : {0.99, 1.01}) {
+// An error of 1e-10 is certified, one of 1e-8 is not.
+TEST_F(CertifierByHandTest, TruncatesAnswersThatAreNotCertified) {
+  for (const double share : {0.1, 10.}) {
     Bound(0, 1, 2);
     solution_.levels[1].multipliers[0].inequality << 1 - share * 1e-9 * kSize;
     certifier_.Truncate(hierarchy_, &solution_);

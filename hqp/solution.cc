@@ -7,6 +7,15 @@
 
 namespace poise {
 
+double Certificate::worst() const noexcept {
+  double worst = 0;
+  for (double each : {stationarity, feasibility, complementarity, priority}) {
+    if (std::isnan(each)) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, each);
+  }
+  return worst;
+}
+
 Solution::Solution(int num_variables,
                    const std::vector<LevelCapacity>& capacity)
     : y(num_variables) {
@@ -30,6 +39,7 @@ void Solution::Reset() noexcept {
   failed_level = -1;
   iterations = 0;
   y.setZero();
+  certificate = {};
   for (LevelSolution& level : levels) {
     level.cost = 0;
     level.equality_residual.setZero();

@@ -17,7 +17,7 @@ enum class Status {
   kBadInput,  ///< lower > upper, a negative weight, or no room; y is zero.
 };
 
-/// Which side of a row lower <= C y <= upper is at work at y.
+/// The active bound of a row lower <= C y <= upper at y.
 enum class Side : signed char { kNone = 0, kLower = -1, kUpper = 1 };
 
 /// The multipliers that level k's optimum puts on the rows of a level j < k.
@@ -27,7 +27,7 @@ struct LevelMultipliers {
   Eigen::VectorXd inequality;
 };
 
-/// What became of one level.
+/// The answer for one level.
 struct LevelSolution {
   double cost;                        ///< 1/2 (sum weight r^2 + |slack|^2).
   Eigen::VectorXd equality_residual;  ///< B y + b.
@@ -37,13 +37,42 @@ struct LevelSolution {
   std::vector<LevelMultipliers> multipliers;  ///< By level above this one.
 };
 
+/// How far an answer is from optimal: the worst residual of each kind over all
+/// levels. Each residual is relative to the magnitudes that it is a sum of, so
+/// that rounding gives about 1e-15 whatever the units. NaN counts as infinity.
+///
+/// With w_k = B_k y + b_k, v_k the violations of level k, W_k the weights, and
+/// lambda_kj, mu_kj the multipliers that level k puts on the rows of j < k:
+struct Certificate {
+  /// g_k = B_k' W_k w_k + C_k' v_k + sum_{j<k} (B_j' lambda_kj + C_j' mu_kj),
+  /// relative to the same sum of absolute values.
+  double stationarity = 0;
+
+  /// Difference of the reported residuals and slacks from those of y.
+  double feasibility = 0;
+
+  /// Multipliers of the wrong sign at a bound, or on an inactive row. A row is
+  /// at its bound within 1e-9 (|C_i| |y| + |bound|). Beyond that it is violated
+  /// and its multiplier is free.
+  double complementarity = 0;
+
+  /// |cost_k - c_k| / (c_k + 1e-9 s_k), where cost_k is the one reported, and
+  ///     c_k = (w_k' W_k w_k + |v_k|^2) / 2
+  /// that of y. s_k is c_k with |B_i| |y| + |b_i| for each w, and
+  /// |C_i| |y| + |bound| for each v.
+  double priority = 0;
+
+  /// The largest of the four.
+  double worst() const noexcept;
+};
+
 /// A solve's answer, sized once for a hierarchy's capacity; only the first
 /// num_equalities(level) or num_inequalities(level) entries are meaningful.
 struct Solution {
   explicit Solution(int num_variables,
                     const std::vector<LevelCapacity>& capacity);
 
-  /// As constructed: y zero, no multipliers.
+  /// As constructed: y zero, no multipliers, a certificate of zeros.
   void Reset() noexcept;
 
   Status status;
@@ -51,6 +80,10 @@ struct Solution {
   int iterations;
   Eigen::VectorXd y;
   std::vector<LevelSolution> levels;
+
+  /// Certificate of the levels above failed_level, or of all levels. Each solver
+  /// fills it before it returns.
+  Certificate certificate;
 };
 
 /// Fills cost, residual and slack of a level at solution->y.

@@ -4,27 +4,53 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hqp/certificate.h"
+#include "hqp/fast/active_set_search.h"
+#include "hqp/fast/budget.h"
 #include "hqp/fast/kernels.h"
+#include "hqp/fast/multipliers.h"
+#include "hqp/fast/tolerances.h"
+#include "hqp/fast/working_set_problem.h"
 
 namespace poise {
 namespace {
 
-constexpr double kTolerance = ActiveProblem::kTolerance;
-
-// A bound as far away as this stands for none: at it, rounding would leave nothing
-// of what other rows ask for.
-constexpr double kFar = 1e15;
-
-// How often rows that refinement finds violated, by a few digits, may enter.
-constexpr int kPolishing = 5;
+// Refinement can find rows violated in their last digits. These rows are added
+// to the working set at most this often.
+constexpr int kMaxRefinementPasses = 5;
 
 }  // namespace
 
-Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity)
+class Solver::Impl {
+ public:
+  Impl(int num_variables, const std::vector<LevelCapacity>& capacity);
+  Status Solve(const Hierarchy& hierarchy, Budget* budget, Solution* solution);
+  void Forget();
+
+ private:
+  void Prepare(const Hierarchy& hierarchy);
+  bool SearchAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget);
+  void SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
+                     Solution* solution);
+  void FindMultipliers(const Hierarchy& hierarchy);
+  bool AddViolated(const Hierarchy& hierarchy, bool adds);
+  bool WriteSolution(const Hierarchy& hierarchy, Solution* solution);
+
+  int n_;
+  WorkingSetProblem problem_;
+  ActiveSetSearch search_;
+  MultiplierWriter writer_;
+  Certifier certifier_;
+  std::vector<std::vector<Side>> side_, best_side_;
+  std::vector<double> value_;
+};
+
+Solver::Impl::Impl(int num_variables,
+                   const std::vector<LevelCapacity>& capacity)
     : n_(num_variables),
       problem_(num_variables, capacity),
-      descent_(num_variables, capacity),
-      reporter_(num_variables, capacity),
+      search_(num_variables, capacity),
+      writer_(num_variables, capacity),
       certifier_(num_variables, capacity) {
   int most = 0;
   for (const LevelCapacity& level : capacity) {
@@ -35,71 +61,80 @@ Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity)
   value_.resize(most);
 }
 
-void Solver::Forget() noexcept {
+void Solver::Impl::Forget() {
   for (std::vector<Side>& side : side_) {
     std::fill(side.begin(), side.end(), Side::kNone);
   }
-  descent_.Forget();
+  search_.Forget();
 }
 
-Status Solver::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
-  Budget budget(max_iterations, max_seconds, &now);
+Status Solver::Impl::Solve(const Hierarchy& hierarchy, Budget* budget,
+                           Solution* solution) {
   solution->Reset();
   solution->status = problem_.Read(hierarchy, &solution->failed_level);
-  if (solution->status != Status::kOptimal) return solution->status;
-  Prepare(hierarchy);
-  if (!SearchAtOnce(hierarchy, max_iterations / 2, &budget) ||
-      !Report(hierarchy, solution)) {
-    solution->Reset();
-    SearchByLevel(hierarchy, &budget, solution);
-    if (!Report(hierarchy, solution)) certifier_.Truncate(hierarchy, solution);
+  if (solution->status != Status::kOptimal) {
+    solution->certificate = certifier_.Certify(hierarchy, *solution);
+    return solution->status;
   }
-  solution->iterations = budget.iterations();
+  Prepare(hierarchy);
+  if (!SearchAtOnce(hierarchy, budget->max_iterations() / 2, budget) ||
+      !WriteSolution(hierarchy, solution)) {
+    solution->Reset();
+    SearchByLevel(hierarchy, budget, solution);
+    if (!WriteSolution(hierarchy, solution)) {
+      certifier_.Truncate(hierarchy, solution);
+    }
+  }
+  solution->iterations = budget->iterations();
   return solution->status;
 }
 
-// The sides at work, as far as there are still such.
-void Solver::Prepare(const Hierarchy& hierarchy) {
+// Removes rows from the working set whose bound became infinite. Rows with equal
+// bounds are always in it.
+void Solver::Impl::Prepare(const Hierarchy& hierarchy) {
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       Side& side = side_[level][i];
       if (lower[i] == upper[i]) {
         side = Side::kUpper;
-      } else if ((side == Side::kUpper && upper[i] > kFar) ||
-                 (side == Side::kLower && lower[i] < -kFar)) {
+      } else if ((side == Side::kUpper &&
+                  upper[i] > tolerances::kInfiniteBound) ||
+                 (side == Side::kLower &&
+                  lower[i] < -tolerances::kInfiniteBound)) {
         side = Side::kNone;
       }
     }
   }
 }
 
-// From the last solve's active rows and y. False if the budget was spent.
-bool Solver::SearchAtOnce(const Hierarchy& hierarchy, int limit,
-                          Budget* budget) {
+// Searches on all levels at once, from the last working set and y. Returns
+// false if the budget was spent.
+bool Solver::Impl::SearchAtOnce(const Hierarchy& hierarchy, int limit,
+                                Budget* budget) {
   for (int pass = 0;; ++pass) {
-    if (!descent_.AllAtOnce(hierarchy, limit, budget, &problem_, &side_)) {
+    if (!search_.AllAtOnce(hierarchy, limit, budget, &problem_, &side_)) {
       return false;
     }
     problem_.Refine(hierarchy);
-    if (pass == kPolishing || !EnterViolated(hierarchy, true)) break;
+    if (pass == kMaxRefinementPasses || !AddViolated(hierarchy, true)) break;
   }
   FindMultipliers(hierarchy);
   return true;
 }
 
-// From none, level by level, so that what the budget leaves unsolved is at the
-// bottom.
-void Solver::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
-                           Solution* solution) {
+// Searches level by level from an empty working set, so that a spent budget
+// costs the lowest levels only.
+void Solver::Impl::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
+                                 Solution* solution) {
   const int levels = hierarchy.num_levels();
   Forget();
   Prepare(hierarchy);
-  const int solved =
-      descent_.LevelByLevel(hierarchy, budget, &problem_, &side_);
+  const int solved = search_.LevelByLevel(hierarchy, budget, &problem_, &side_);
   if (solved > levels) {
     best_side_ = side_;
-    if (SearchAtOnce(hierarchy, budget->iterations() + kPolishing, budget)) {
+    if (SearchAtOnce(hierarchy, budget->iterations() + kMaxRefinementPasses,
+                     budget)) {
       return;
     }
     side_ = best_side_;
@@ -111,23 +146,23 @@ void Solver::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
     solution->failed_level = std::max(std::min(solved, levels - 1), 0);
     problem_.Plan(hierarchy, solution->failed_level);
     problem_.Solve(hierarchy, side_);
-    problem_.RefineOther(hierarchy, descent_.y());
-    // Where rows nearly depend on others, that may lead astray.
-    if (EnterViolated(hierarchy, false)) {
-      problem_.TakeOther(hierarchy, descent_.y());
+    problem_.RefineFrom(hierarchy, search_.y());
+    // Nearly dependent rows can make refinement move y across a bound.
+    if (AddViolated(hierarchy, false)) {
+      problem_.SetSolution(hierarchy, search_.y());
     }
   }
   FindMultipliers(hierarchy);
 }
 
-void Solver::FindMultipliers(const Hierarchy& hierarchy) {
+void Solver::Impl::FindMultipliers(const Hierarchy& hierarchy) {
   problem_.FindMultipliers(problem_.num_levels() + 1);
   problem_.RefineMultipliers(hierarchy);
 }
 
-// Whether a row that is not active is violated, relative to its own terms; if
-// told to, such rows become active.
-bool Solver::EnterViolated(const Hierarchy& hierarchy, bool enters) {
+// Returns whether y violates a row outside the working set, relative to the
+// magnitudes of its terms. If `adds`, such rows are added to the working set.
+bool Solver::Impl::AddViolated(const Hierarchy& hierarchy, bool adds) {
   bool any = false;
   const std::vector<double>& y = problem_.y();
   for (int level = 0; level < problem_.num_levels(); ++level) {
@@ -146,26 +181,40 @@ bool Solver::EnterViolated(const Hierarchy& hierarchy, bool enters) {
         double dot, size;
         kernels::DotWithSize(row, y.data(), n_, &dot, &size);
         const double beyond = above > 0 ? dot - bound : bound - dot;
-        return beyond > kTolerance * (size + std::abs(bound));
+        return beyond > tolerances::kZeroSlope * (size + std::abs(bound));
       };
       if (!is_violated() ||
-          (problem_.TakeZeros(hierarchy, row) && !is_violated())) {
+          (problem_.ZeroRoundingEntries(hierarchy, row) && !is_violated())) {
         continue;
       }
       any = true;
-      if (enters) side = above > 0 ? Side::kUpper : Side::kLower;
+      if (adds) side = above > 0 ? Side::kUpper : Side::kLower;
     }
   }
   return any;
 }
 
-// Writes the answer. Returns whether it is certified, down to the level that it
-// says.
-bool Solver::Report(const Hierarchy& hierarchy, Solution* solution) {
-  reporter_.Report(hierarchy, side_, ActiveProblem::kNoPrice, &problem_,
-                   solution);
-  return certifier_.Certify(hierarchy, *solution).worst() <=
-         Certifier::kCertified;
+// Writes the answer with its certificate. Returns whether all levels above
+// failed_level are certified.
+bool Solver::Impl::WriteSolution(const Hierarchy& hierarchy,
+                                 Solution* solution) {
+  writer_.Write(hierarchy, side_, tolerances::kZeroMultiplier, &problem_,
+                solution);
+  solution->certificate = certifier_.Certify(hierarchy, *solution);
+  return solution->certificate.worst() <= Certifier::kCertified;
+}
+
+Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity)
+    : impl_(std::make_unique<Impl>(num_variables, capacity)) {}
+Solver::Solver(Solver&& other) noexcept = default;
+Solver& Solver::operator=(Solver&& other) noexcept = default;
+Solver::~Solver() = default;
+
+void Solver::Forget() noexcept { impl_->Forget(); }
+
+Status Solver::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
+  Budget budget(max_iterations, max_seconds, &now);
+  return impl_->Solve(hierarchy, &budget, solution);
 }
 
 }  // namespace poise

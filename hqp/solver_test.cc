@@ -2,10 +2,9 @@
 #include "hqp/solver.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
-#include <cstring>
-#include <new>
 #include <vector>
 
 #include "hqp/certificate.h"
@@ -324,8 +323,8 @@ TEST(Solver, SpendsHalfOfItsBudgetLevelByLevel) {
     const int needed_at_once = solution.iterations;
     for (int budget = 0; budget < 2 * needed_at_once; ++budget) {
       SCOPED_TRACE(testing::Message() << seed << ", " << budget);
-      Descent descent(n, drawn.capacity);
-      ActiveProblem problem(n, drawn.capacity);
+      ActiveSetSearch descent(n, drawn.capacity);
+      WorkingSetProblem problem(n, drawn.capacity);
       std::vector<std::vector<Side>> side;
       for (const LevelCapacity& level : drawn.capacity) {
         side.emplace_back(level.inequalities, Side::kNone);
@@ -433,6 +432,27 @@ TEST(Solver, LetsARowGoForTheNormAlone) {
 }
 
 // A replay gives the same bits, whatever the memory held before.
+TEST(Solver, FillsTheCertificateOfItsAnswer) {
+  for (int seed = 0; seed < 100; ++seed) {
+    const HierarchyCase drawn = MakeRandomHierarchy(seed);
+    const int n = drawn.hierarchy.num_variables();
+    Certifier certifier(n, drawn.capacity);
+    for (const int max_iterations : {2, 500}) {
+      Solver solver(n, drawn.capacity);
+      solver.max_iterations = max_iterations;
+      Solution solution(n, drawn.capacity);
+      solution.certificate.stationarity = 1;
+      (void)solver.Solve(drawn.hierarchy, &solution);
+      const Certificate expected = certifier.Certify(drawn.hierarchy, solution);
+      const Certificate& certificate = solution.certificate;
+      EXPECT_EQ(certificate.stationarity, expected.stationarity) << seed;
+      EXPECT_EQ(certificate.feasibility, expected.feasibility) << seed;
+      EXPECT_EQ(certificate.complementarity, expected.complementarity) << seed;
+      EXPECT_EQ(certificate.priority, expected.priority) << seed;
+    }
+  }
+}
+
 TEST(Solver, DoesNotDependOnWhatItsMemoryHeld) {
   RandomHierarchyOptions options;
   options.planted = 100;
@@ -440,12 +460,12 @@ TEST(Solver, DoesNotDependOnWhatItsMemoryHeld) {
   const int n = drawn.hierarchy.num_variables();
   std::vector<Solution> solutions(2, Solution(n, drawn.capacity));
   for (const int fill : {0, 0xff}) {
-    alignas(Solver) unsigned char memory[sizeof(Solver)];
-    std::memset(memory, fill, sizeof(memory));
-    Solver* solver = new (memory) Solver(n, drawn.capacity);
+    // The C library fills new memory with the complement of this byte.
+    mallopt(M_PERTURB, fill == 0 ? 0xff : 1);
+    Solver solver(n, drawn.capacity);
+    mallopt(M_PERTURB, 0);
     Solution& solution = solutions[fill == 0 ? 0 : 1];
-    EXPECT_EQ(solver->Solve(drawn.hierarchy, &solution), Status::kOptimal);
-    solver->~Solver();
+    EXPECT_EQ(solver.Solve(drawn.hierarchy, &solution), Status::kOptimal);
   }
   EXPECT_EQ(solutions[0].y, solutions[1].y);
   EXPECT_EQ(solutions[0].iterations, solutions[1].iterations);

@@ -143,7 +143,7 @@ TEST(Weights, MeetRowsWhoseVariablesHaveUnlikeUnits) {
 
 // With variables in units from 1e-3 to 1e6: those on which `hqp_night --scaled 0
 // --columns 100` has failed. Of the first what rounding leaves of long rows was a
-// price; of the others what holds a row was not, being large beside its wish.
+// multiplier; of the others what holds a row was not, being large beside its wish.
 TEST(Weights, LeaveBothSolversTheSameOptimumInWhateverUnits) {
   RandomHierarchyOptions options;
   options.scaled = 0;

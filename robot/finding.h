@@ -7,39 +7,40 @@
 
 namespace poise {
 
-/// kNote: odd, but means what it says. kWarn: it can be used, but control may
-/// fail or lie. kReject: it cannot be read as a robot.
+/// The severity of a finding. kNote: unusual, but the file is read as written.
+/// kWarn: the file can be used, but control may fail or the result be wrong.
+/// kReject: the file cannot be used as a robot.
 enum class Severity { kNote, kWarn, kReject };
 
-/// What was found in a robot file, each part on one line.
+/// A finding in a robot file. Each part is one line of text.
 struct Finding {
   Severity severity;
   std::string where;  ///< "joint 'l_knee' <limit>".
   std::string what;   ///< "upper is 'abc'".
   std::string why;    ///< "must be a number".
-  int line = 0;       ///< In the file; 0 where it has none.
+  int line = 0;       ///< Line in the file, or 0 if unknown.
 };
 
-/// Whether a text is UTF-8 to its last byte.
+/// Returns whether a text is valid UTF-8 to its last byte.
 bool IsUtf8(std::string_view text);
 
-/// A text from anywhere, for a message of one line: what would break the line,
-/// steer a terminal or turn the direction of writing becomes a blank, what is
-/// not UTF-8 a question mark.
+/// Returns an untrusted text made safe for a message of one line. A character
+/// that ends the line, controls a terminal or turns the direction of writing
+/// becomes a blank; a byte that is not UTF-8 becomes a question mark.
 std::string OneLine(std::string_view text);
 
-/// The shortest text of six digits, in whatever locale.
+/// Returns a number with at most six digits, the same in every locale.
 std::string PrintNumber(double value);
 
-/// A name from a file, for a message: in quotes, on one line, and cut where it
-/// is very long.
+/// Returns a name from a file for a message: in quotes, on one line, and cut
+/// after 60 bytes.
 std::string Quoted(std::string_view name);
 
-/// "FILE:LINE: where: what, why", on one line.
+/// Returns "FILE:LINE: where: what, why", on one line.
 std::string Message(const std::string& file, const Finding& finding);
 
-/// A file that cannot be used, and what in it is to blame; what() is Message()
-/// of the two.
+/// The error that a file cannot be used. what() is Message() of the file and the
+/// finding that is the reason.
 class Refusal : public std::invalid_argument {
  public:
   Refusal(const std::string& file, Finding finding)

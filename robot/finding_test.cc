@@ -11,7 +11,8 @@ TEST(IsUtf8, KnowsWholeCharactersFromBytes) {
                            "\xed\x9f\xbf", "\xf0\x9f\xa4\x96"}) {
     EXPECT_TRUE(IsUtf8(text)) << text;
   }
-  // Alone, cut, too long a way to write it, half a pair, beyond the last.
+  // A later byte alone, a cut character, an encoding that is too long, half a
+  // surrogate pair, a number beyond Unicode.
   for (const char* text :
        {"\xe9", "caf\xe9 ", "\x80", "\xe6\x97", "\xc1\xbf", "\xe0\x9f\xbf",
         "\xf0\x8f\xbf\xbf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xff"}) {
@@ -19,7 +20,7 @@ TEST(IsUtf8, KnowsWholeCharactersFromBytes) {
   }
 }
 
-TEST(OneLine, LeavesWhatPrintsAndBlanksWhatSteers) {
+TEST(OneLine, KeepsPrintableAndBlanksControlCharacters) {
   EXPECT_EQ(OneLine("l\xc3\xa9g \xe6\x97\xa5"), "l\xc3\xa9g \xe6\x97\xa5");
   EXPECT_EQ(OneLine("a\nb\tc\x1b[31m\x7f"), "a b c [31m ");
   EXPECT_EQ(OneLine("a\xc2\x9b"

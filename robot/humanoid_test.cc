@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 
-// What our own robot must be: the paper's 50 joints, in HRP-4's proportions.
+// Checks our own humanoid: the paper's 50 joints, in HRP-4's proportions.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>

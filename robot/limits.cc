@@ -8,7 +8,7 @@
 namespace poise {
 
 bool IsWithin(const JointLimits& limits, double q) {
-  constexpr double kRounding = 1e-6;  // Files are rounded.
+  constexpr double kRounding = 1e-6;  // Files round their numbers.
   return q >= limits.lower - kRounding && q <= limits.upper + kRounding;
 }
 

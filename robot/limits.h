@@ -8,23 +8,23 @@
 
 namespace poise {
 
-/// How fast control lets a joint go whose limit is not known: faster than a limb
-/// moves, rad/s or m/s.
+/// The velocity limit that control assumes for a joint without one, in rad/s or
+/// m/s. A limb moves slower.
 constexpr double kAssumedVelocity = 30;
 
-/// Whether a joint's value is inside its limits, up to 1e-6.
+/// Returns whether a joint's value is inside its limits, up to 1e-6.
 bool IsWithin(const JointLimits& limits, double q);
 
-/// "'l_knee' is at 9, must be inside its limits, 0 to 2".
+/// Returns "'l_knee' is at 9, must be inside its limits, 0 to 2".
 std::string SayOutside(const std::string& joint, const JointLimits& limits,
                        double q);
 
-/// How far the joint that is farthest past a limit is past it, rad or m; 0 if all
-/// are inside.
+/// Returns the largest violation of a position limit, in rad or m, or 0 if all
+/// joints are inside their limits.
 double JointViolation(const RobotModel& model, const Eigen::VectorXd& q);
 
-/// The configuration at rest: each joint at zero or, where that is outside its
-/// limits, at the nearer of them; the base at the world's origin.
+/// Returns the configuration at rest: each joint at zero or, if zero is outside
+/// its limits, at the nearer limit; the base at the world's origin.
 Eigen::VectorXd RestConfiguration(const RobotModel& model);
 
 }  // namespace poise

@@ -10,7 +10,7 @@
 namespace poise {
 namespace {
 
-TEST(JointViolation, IsHowFarTheWorstJointIsPastALimit) {
+TEST(JointViolation, ReturnsTheLargestViolation) {
   Robot robot = MakePendulum();
   robot.model.limits[0].lower = -0.5;
   robot.model.limits[0].upper = 0.75;
@@ -22,8 +22,8 @@ TEST(JointViolation, IsHowFarTheWorstJointIsPastALimit) {
   EXPECT_EQ(at(-0.625), 0.125);
 }
 
-// Without a joint, or a limit, nothing is past one, wherever the base is.
-TEST(JointViolation, IsNoneWithoutALimit) {
+// The position of the base has no limit.
+TEST(JointViolation, IsZeroWithoutALimit) {
   const Robot block = MakeBlock({0.2, 0.1, 0.3}, 5);
   EXPECT_EQ(JointViolation(block.model, Eigen::VectorXd::Constant(7, 9)), 0);
   EXPECT_EQ(

@@ -8,8 +8,8 @@
 namespace poise {
 namespace {
 
-// A number beyond what a double holds, on either side: the power of ten of its
-// first digit that is not 0 says on which.
+// Returns the double for a number that is too large or too small for one. The
+// power of ten of its first nonzero digit decides between infinity and zero.
 double Extreme(std::string_view token) {
   const bool negative = token[0] == '-';
   if (negative) token.remove_prefix(1);
@@ -17,7 +17,7 @@ double Extreme(std::string_view token) {
   const std::string_view digits = token.substr(0, e);
   const size_t point = std::min(digits.find('.'), digits.size());
   const size_t first = digits.find_first_of("123456789");
-  // More digits than these are in no file.
+  // No file has as many digits.
   constexpr long long kMost = 1LL << 60;
   long long exponent = 0;
   if (e < token.size()) {

@@ -7,9 +7,10 @@
 
 namespace poise {
 
-/// The numbers in a text, apart by white space; inf and nan are numbers here,
-/// and one too large for a double is inf, one too small 0. Nothing where the
-/// text is anything else, in whatever locale.
+/// Returns the numbers in a text, separated by white space, or nothing if the
+/// text holds anything else. "inf" and "nan" count as numbers. A number too
+/// large for a double becomes inf, one too small becomes 0. The locale does not
+/// matter.
 std::optional<std::vector<double>> ParseNumbers(std::string_view text);
 
 }  // namespace poise

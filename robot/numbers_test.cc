@@ -13,14 +13,14 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-TEST(ParseNumbers, ReadsWhatIsApartByWhiteSpace) {
+TEST(ParseNumbers, ReadsNumbersSeparatedByWhiteSpace) {
   const auto numbers = ParseNumbers(" 1\t-2.5e1\r\n+.5 ");
   ASSERT_TRUE(numbers.has_value());
   EXPECT_EQ(*numbers, (std::vector<double>{1, -25, 0.5}));
   EXPECT_TRUE(ParseNumbers("").value().empty());
 }
 
-TEST(ParseNumbers, TakesNothingElse) {
+TEST(ParseNumbers, RejectsAnythingElse) {
   for (const char* text :
        {"a", "1a", "0x10", "1,5", "+-1", "--1", "1e", "e5", ".", "1 2 x",
         "\xc2\xa0"

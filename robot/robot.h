@@ -12,7 +12,7 @@
 
 namespace poise {
 
-/// The limits of one joint; infinite where the file gives none.
+/// The limits of one joint. A limit that the file does not give is infinite.
 struct JointLimits {
   double lower;         ///< rad or m.
   double upper;         ///< rad or m.
@@ -22,7 +22,8 @@ struct JointLimits {
   double friction = 0;  ///< N m or N.
 };
 
-/// q[joint] = multiplier q[source] + offset; indices into Tree::joints().
+/// A coupling q[joint] = multiplier q[source] + offset, with indices into
+/// Tree::joints().
 struct MimicCoupling {
   int joint;
   int source;
@@ -46,7 +47,7 @@ struct Mesh {
 };
 using Geometry = std::variant<Sphere, Box, Cylinder, Mesh>;
 
-/// A geometry fixed in a link.
+/// A shape that is fixed to a link.
 struct Shape {
   int frame;  ///< The link, an index into Tree::frames().
   Pose X_FS;  ///< Shape in the link.
@@ -54,7 +55,7 @@ struct Shape {
   Eigen::Vector4d rgba{0.7, 0.7, 0.7, 1};
 };
 
-/// What a URDF says of a robot: the tree, and what control and drawing need.
+/// The contents of a URDF: the tree, and the data for control and drawing.
 struct RobotModel {
   std::string name;
   Tree tree;
@@ -76,17 +77,17 @@ struct Foot {
   std::vector<Eigen::Vector2d> polygon_C;  ///< Convex, counterclockwise, m.
 };
 
-/// A robot as control and simulation see it: what its file says, and what its
-/// profile adds.
+/// A robot for control and simulation: the contents of its URDF, and the feet and
+/// posture from its profile.
 struct Robot {
   RobotModel model;
   std::vector<Foot> feet;  ///< Left, right.
   /// The nominal posture: soles on the ground (z = 0), the middle between them
   /// at the world's origin, facing +x; for the layout see Tree.
   Eigen::VectorXd q_nominal;
-  /// Whether q_nominal is known to be a posture to stand in. If not, its joints
-  /// are at zero or their nearest limit, its base is at the origin, and
-  /// robot/control can look for a better one.
+  /// Whether the robot can stand in q_nominal. If this is not known, the joints
+  /// are at zero or their nearest limit, the base is at the origin, and
+  /// robot/control can search for a posture.
   bool can_stand = false;
 };
 

@@ -18,11 +18,11 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// What hands measure and files round, m and rad.
+// Tolerances for postures measured by hand and rounded in files, m and rad.
 constexpr double kHeight = 5e-3;
 constexpr double kTilt = 0.02;
 
-// Whether a convex polygon, counterclockwise, has a point in it.
+// Returns whether a point is in a convex polygon, given counterclockwise.
 bool IsInside(const Vector2d& p, const std::vector<Vector2d>& polygon) {
   for (size_t i = 0; i < polygon.size(); ++i) {
     const Vector2d& a = polygon[i];

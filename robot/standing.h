@@ -7,15 +7,17 @@
 
 namespace poise {
 
-/// Why, in robot.q_nominal, the feet are no left and right foot of one robot, as
-/// their own axes have it; empty where they are.
-/// @pre two feet, left one first; so below.
+/// Returns the reason why the two feet, in robot.q_nominal, are not a left and a
+/// right foot by the axes of their soles, or "" if they are.
+/// @pre The robot has two feet, the left one first.
 std::string WhyNoPairOfFeet(const Robot& robot);
 
-/// Why robot.q_nominal is no posture to stand in, in words; empty where it is
-/// one: joints inside their limits and as they are coupled, both soles flat on
-/// the ground (to 5 mm and 0.02 rad), the left one to the left, the middle
-/// between them at the origin, facing x, and the center of mass over them.
+/// Returns the reason why the robot cannot stand in robot.q_nominal, or "" if it
+/// can. The joints must be inside their limits and obey their couplings. Both
+/// soles must lie flat on the ground (to 5 mm and 0.02 rad), the left one to the
+/// left. The middle between them must be at the origin and face x, and the
+/// center of mass must be over the soles.
+/// @pre The robot has two feet, the left one first.
 std::string WhyNotStanding(const Robot& robot);
 
 }  // namespace poise

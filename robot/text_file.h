@@ -8,13 +8,13 @@
 
 namespace poise {
 
-/// Reads a whole file of text, up to so many MiB. Throws Refusal where it
-/// cannot be read, is longer, or is no regular file: a pipe might never end.
+/// Reads a text file of at most `most_mib` MiB. Throws Refusal if the file cannot
+/// be read, is longer, or is not a regular file, as a pipe might never end.
 std::string ReadTextFile(const std::filesystem::path& file, size_t most_mib);
 
-/// Throws Refusal about a zero byte, which no text has.
+/// Throws Refusal if the text has a zero byte: the file is binary.
 ///
-/// @param source  what to call it in a message.
+/// @param source  the name of the text in messages.
 void ExpectText(std::string_view text, const std::string& source);
 
 }  // namespace poise

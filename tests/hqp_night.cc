@@ -100,7 +100,7 @@ int Main(int argc, char** argv) {
                  "Hierarchies with weights of many sizes, in percent");
   app.add_option("--decades", night.options.decades,
                  "Those weights are from 1e-decades to 1e+decades");
-  app.add_option("--apex", night.options.apex,
+  app.add_option("--degenerate-vertex", night.options.degenerate_vertex,
                  "Hierarchies whose bounds are all zero, in percent");
   app.add_option(
       "--integer", night.options.integer,

@@ -32,7 +32,7 @@ HierarchyCase DrawHierarchy(bool with_inequalities = true, int weighted = 0) {
   options.planted = *rc::gen::inRange(0, 61);
   options.selecting = *rc::gen::inRange(0, 101);
   options.scaled = 0;
-  options.apex = *rc::gen::inRange(0, 31);
+  options.degenerate_vertex = *rc::gen::inRange(0, 31);
   options.integer = *rc::gen::inRange(0, 31);
   options.weighted = weighted;
   return MakeRandomHierarchy(*rc::gen::inRange(0, 1 << 30), options);

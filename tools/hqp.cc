@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "hqp/certificate.h"
 #include "hqp/reference/cascade.h"
 #include "hqp/solver.h"
 #include "robot/text_file.h"
@@ -112,8 +111,7 @@ int Main(int argc, char** argv) {
     const double microseconds = std::chrono::duration<double, std::micro>(
                                     std::chrono::steady_clock::now() - start)
                                     .count();
-    const Certificate certificate =
-        Certifier(n, problem.capacity).Certify(problem.hierarchy, solution);
+    const Certificate& certificate = solution.certificate;
     if (!json) {
       std::cout << files[i] << ": "
                 << DescribeHqpSolution(problem.hierarchy, solution, certificate,

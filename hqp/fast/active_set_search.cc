@@ -5,143 +5,144 @@
 #include <cmath>
 
 #include "hqp/fast/kernels.h"
+#include "hqp/fast/tolerances.h"
 
 namespace poise {
 namespace {
 
-constexpr double kTolerance = ActiveProblem::kTolerance;
-constexpr double kNoPrice = ActiveProblem::kNoPrice;
-constexpr double kRounding = ActiveProblem::kRounding;
+// Limit of removals of one row on a level, or in AllAtOnce(). Searches need
+// fewer; the limit ends cycles that rounding causes.
+constexpr int kMaxRemovals = 10;
 
-// How often a row may leave on a level, or all at once: more than any search was
-// seen to need, and few enough to end what rounding alone keeps going.
-constexpr int kLeaves = 10;
-
-// In place of that: an equality, for good.
-constexpr int kKept = -1;
+// Replaces the number of removals left: the row is an equality from now on.
+constexpr int kFrozen = -1;
 
 constexpr int kNone = -1;
 
-// Of a row whose sides are one.
+// Returns whether the two bounds of a row are equal.
 bool IsFixed(const Hierarchy& hierarchy, int level, int i) {
   return hierarchy.lower(level)[i] == hierarchy.upper(level)[i];
 }
 
 }  // namespace
 
-Descent::Descent(int num_variables, const std::vector<LevelCapacity>& capacity)
+ActiveSetSearch::ActiveSetSearch(int num_variables,
+                                 const std::vector<LevelCapacity>& capacity)
     : n_(num_variables), y_(num_variables), step_(num_variables) {
   int most = 0;
   for (const LevelCapacity& level : capacity) {
-    leaves_.emplace_back(level.inequalities, kLeaves);
-    broken_.emplace_back(level.inequalities, Side::kNone);
-    settled_.emplace_back(level.inequalities, Side::kNone);
+    removals_left_.emplace_back(level.inequalities, kMaxRemovals);
+    violated_.emplace_back(level.inequalities, Side::kNone);
+    completed_.emplace_back(level.inequalities, Side::kNone);
     most = std::max(most, level.inequalities);
   }
   value_.resize(most);
   slope_.resize(most);
 }
 
-bool Descent::AllAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget,
-                        ActiveProblem* problem,
-                        std::vector<std::vector<Side>>* side) {
+bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
+                                Budget* budget, WorkingSetProblem* problem,
+                                std::vector<std::vector<Side>>* side) {
   const int levels = hierarchy.num_levels();
   if (!budget->Take(limit)) return false;
-  together_ = true;
+  remove_together_ = true;
   problem->Plan(hierarchy, levels);
   problem->Solve(hierarchy, *side);
-  if (!Start(hierarchy, problem, side)) return true;
-  // What is best for the head comes first: steps there are cheaper.
+  if (!InitializeAllLevels(hierarchy, problem, side)) return true;
+  // The leading levels come first, because their steps are cheaper.
   do {
     if (!budget->Take(limit)) return false;
-    problem->SolveHead(hierarchy, *side);
+    problem->SolveLeading(hierarchy, *side);
     problem->Approach(y_);
-  } while (Settle(hierarchy, problem->num_head() - 1, problem, side));
-  problem->SolveTail();
-  while (Settle(hierarchy, levels, problem, side)) {
+  } while (Iterate(hierarchy, problem->num_leading() - 1, problem, side));
+  problem->SolveDiagonal();
+  while (Iterate(hierarchy, levels, problem, side)) {
     if (!budget->Take(limit)) return false;
     problem->Solve(hierarchy, *side);
   }
   return true;
 }
 
-int Descent::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
-                          ActiveProblem* problem,
-                          std::vector<std::vector<Side>>* side) {
+int ActiveSetSearch::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
+                                  WorkingSetProblem* problem,
+                                  std::vector<std::vector<Side>>* side) {
   const int levels = hierarchy.num_levels();
-  together_ = false;
+  remove_together_ = false;
   std::fill(y_.begin(), y_.end(), 0);
-  for (std::vector<Side>& level : settled_) {
+  for (std::vector<Side>& level : completed_) {
     std::fill(level.begin(), level.end(), Side::kNone);
   }
   for (int level = 0; level <= levels; ++level) {
-    // Of all that are optimal on this level, the one closest to y; of all that
-    // are on every level, the smallest.
+    // Among the optima of this level, take the one closest to y. Among the optima
+    // of all levels, take the one of minimum norm.
     problem->Plan(hierarchy, std::min(level + 1, levels),
                   level < levels ? y_.data() : nullptr);
-    if (level < levels) Begin(hierarchy, level, side);
+    if (level < levels) InitializeWorkingSet(hierarchy, level, side);
     bool has_changed = true;
     while (has_changed) {
       if (!budget->Take()) {
-        Unwind(side);
+        RestoreWorkingSet(side);
         return level;
       }
       problem->Solve(hierarchy, *side);
-      has_changed = Settle(hierarchy, level, problem, side);
+      has_changed = Iterate(hierarchy, level, problem, side);
     }
-    if (level < levels) Keep(level, *problem, *side);
-    settled_ = *side;
+    if (level < levels) FreezeViolated(level, *problem, *side);
+    completed_ = *side;
   }
   return levels + 1;
 }
 
-// Back to the rows that were active when the last level was done, but for those
-// that have left: what they held, nothing holds.
-void Descent::Unwind(std::vector<std::vector<Side>>* side) const {
-  for (size_t level = 0; level < settled_.size(); ++level) {
-    for (size_t i = 0; i < settled_[level].size(); ++i) {
+// Restores the working set of the last solved level, without the rows removed
+// since: no multiplier holds them.
+void ActiveSetSearch::RestoreWorkingSet(
+    std::vector<std::vector<Side>>* side) const {
+  for (size_t level = 0; level < completed_.size(); ++level) {
+    for (size_t i = 0; i < completed_[level].size(); ++i) {
       Side& at = (*side)[level][i];
-      if (at != settled_[level][i]) at = Side::kNone;
+      if (at != completed_[level][i]) at = Side::kNone;
     }
   }
 }
 
-// Begins all levels at once; `problem` is solved for the active rows. Returns
-// whether these change; if not, that is the optimum.
-bool Descent::Start(const Hierarchy& hierarchy, ActiveProblem* problem,
-                    std::vector<std::vector<Side>>* side) {
+// Initializes the search on all levels; `problem` is solved for the working set.
+// Returns whether the working set changes. If not, y is the optimum.
+bool ActiveSetSearch::InitializeAllLevels(
+    const Hierarchy& hierarchy, WorkingSetProblem* problem,
+    std::vector<std::vector<Side>>* side) {
   const int levels = hierarchy.num_levels();
   for (int level = 0; level < levels; ++level) {
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-      leaves_[level][i] = IsFixed(hierarchy, level, i) ? kKept : kLeaves;
+      removals_left_[level][i] =
+          IsFixed(hierarchy, level, i) ? kFrozen : kMaxRemovals;
     }
   }
-  const int there = FindBroken(hierarchy, *problem, problem->y(), *side);
-  if (there == 0) {
+  const int violated_at_optimum =
+      FindViolated(hierarchy, *problem, problem->y(), *side);
+  if (violated_at_optimum == 0) {
     y_ = problem->y();
-    return Drop(levels, problem, side);
+    return RemoveConstraints(levels, problem, side);
   }
-  if (there <= FindBroken(hierarchy, *problem, y_, *side)) {
+  if (violated_at_optimum <= FindViolated(hierarchy, *problem, y_, *side)) {
     y_ = problem->y();
-    FindBroken(hierarchy, *problem, y_, *side);
+    FindViolated(hierarchy, *problem, y_, *side);
   }
   for (int level = 0; level < levels; ++level) {
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-      if (broken_[level][i] == Side::kNone) continue;
-      (*side)[level][i] = broken_[level][i];
+      if (violated_[level][i] == Side::kNone) continue;
+      (*side)[level][i] = violated_[level][i];
     }
   }
   return true;
 }
 
-// Finds the sides that y breaks, but for those that are active. Returns how
-// many.
-int Descent::FindBroken(const Hierarchy& hierarchy,
-                        const ActiveProblem& problem,
-                        const std::vector<double>& y,
-                        const std::vector<std::vector<Side>>& side) {
+// Finds the bounds outside the working set that y violates. Returns their number.
+int ActiveSetSearch::FindViolated(const Hierarchy& hierarchy,
+                                  const WorkingSetProblem& problem,
+                                  const std::vector<double>& y,
+                                  const std::vector<std::vector<Side>>& side) {
   const double largest = kernels::Largest(y.data(), n_);
-  const double rounding = kRounding * problem.Size();
+  const double rounding = tolerances::kSolutionRounding * problem.Size();
   int count = 0;
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
@@ -149,19 +150,20 @@ int Descent::FindBroken(const Hierarchy& hierarchy,
     kernels::Dots(hierarchy.C(level).data(), n_, rows, y.data(), n_,
                   value_.data());
     for (int i = 0; i < rows; ++i) {
-      broken_[level][i] = Side::kNone;
+      violated_[level][i] = Side::kNone;
       const double above = value_[i] - upper[i], below = lower[i] - value_[i];
-      if ((above <= 0 && below <= 0) || leaves_[level][i] == kKept ||
+      if ((above <= 0 && below <= 0) || removals_left_[level][i] == kFrozen ||
           problem.norm(level, i) == 0) {
         continue;
       }
-      const Side broken = above > 0 ? Side::kUpper : Side::kLower;
+      const Side violated = above > 0 ? Side::kUpper : Side::kLower;
       const double bound = above > 0 ? upper[i] : lower[i];
       const double norm = problem.norm(level, i);
       const double noise =
-          kTolerance * (norm * largest + std::abs(bound)) + rounding * norm;
-      if (broken != side[level][i] && std::max(above, below) > noise) {
-        broken_[level][i] = broken;
+          tolerances::kZeroSlope * (norm * largest + std::abs(bound)) +
+          rounding * norm;
+      if (violated != side[level][i] && std::max(above, below) > noise) {
+        violated_[level][i] = violated;
         ++count;
       }
     }
@@ -169,15 +171,17 @@ int Descent::FindBroken(const Hierarchy& hierarchy,
   return count;
 }
 
-// The rows of a level that are violated are active to begin with.
-void Descent::Begin(const Hierarchy& hierarchy, int level,
-                    std::vector<std::vector<Side>>* side) {
+// Initializes the working set of a level with the rows that y violates.
+void ActiveSetSearch::InitializeWorkingSet(
+    const Hierarchy& hierarchy, int level,
+    std::vector<std::vector<Side>>* side) {
   const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
   const int rows = hierarchy.num_inequalities(level);
   kernels::Dots(hierarchy.C(level).data(), n_, rows, y_.data(), n_,
                 value_.data());
   for (int i = 0; i < rows; ++i) {
-    leaves_[level][i] = IsFixed(hierarchy, level, i) ? kKept : kLeaves;
+    removals_left_[level][i] =
+        IsFixed(hierarchy, level, i) ? kFrozen : kMaxRemovals;
     (*side)[level][i] = value_[i] > upper[i] || lower[i] == upper[i]
                             ? Side::kUpper
                         : value_[i] < lower[i] ? Side::kLower
@@ -185,25 +189,27 @@ void Descent::Begin(const Hierarchy& hierarchy, int level,
   }
 }
 
-// Goes towards the solution of the problem; if it gets there, lets rows leave.
-// Returns whether the active rows change; if not, the levels up to this one are
-// at their optimum.
-bool Descent::Settle(const Hierarchy& hierarchy, int level,
-                     ActiveProblem* problem,
-                     std::vector<std::vector<Side>>* side) {
-  return Advance(hierarchy, *problem, side) || Drop(level, problem, side);
+// Makes one iteration: a step to a blocking constraint, or, if there is none, a
+// removal. Returns whether the working set changes. If not, the levels up to this
+// one are at their optimum.
+bool ActiveSetSearch::Iterate(const Hierarchy& hierarchy, int level,
+                              WorkingSetProblem* problem,
+                              std::vector<std::vector<Side>>* side) {
+  return StepToBlockingConstraint(hierarchy, *problem, side) ||
+         RemoveConstraints(level, problem, side);
 }
 
-// Goes towards the solution of the problem as far as the other rows, and the
-// other sides of active rows, allow. Returns whether a row is in the way, now
-// active.
-bool Descent::Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
-                      std::vector<std::vector<Side>>* side) {
+// Moves y towards the optimum of the working set, up to the first bound outside
+// the working set, and adds that bound to it. Among bounds at equal distance, the
+// steepest is added. Returns whether there is such a bound.
+bool ActiveSetSearch::StepToBlockingConstraint(
+    const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+    std::vector<std::vector<Side>>* side) {
   for (int j = 0; j < n_; ++j) step_[j] = problem.y()[j] - y_[j];
   const double largest = kernels::Largest(step_.data(), n_);
-  const double rounding =
-      kRounding * (kernels::Largest(y_.data(), n_) + problem.Size());
-  const double noise = kTolerance * largest + rounding;
+  const double rounding = tolerances::kSolutionRounding *
+                          (kernels::Largest(y_.data(), n_) + problem.Size());
+  const double noise = tolerances::kZeroSlope * largest + rounding;
   double length = 1, steepest = 0;
   RowIndex blocking = {kNone, kNone};
   Side at = Side::kNone;
@@ -216,7 +222,7 @@ bool Descent::Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
     for (int i = 0; i < rows; ++i) {
       const double slope = slope_[i], norm = problem.norm(level, i);
       const Side towards = slope > 0 ? Side::kUpper : Side::kLower;
-      if ((*side)[level][i] == towards || leaves_[level][i] <= 0 ||
+      if ((*side)[level][i] == towards || removals_left_[level][i] <= 0 ||
           std::abs(slope) <= noise * norm) {
         continue;
       }
@@ -240,67 +246,72 @@ bool Descent::Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
   }
   for (int j = 0; j < n_; ++j) y_[j] += length * step_[j];
   (*side)[blocking.level][blocking.row] = at;
-  if (!has_moved && blocking.level == left_.level &&
-      blocking.row == left_.row) {
-    // What leaves moves away from its bound: it was for rounding that it left.
-    leaves_[blocking.level][blocking.row] = 0;
+  if (!has_moved && blocking.level == last_removed_.level &&
+      blocking.row == last_removed_.row) {
+    // A removed row moves away from its bound. This one did not: rounding had
+    // made its multiplier negative.
+    removals_left_[blocking.level][blocking.row] = 0;
   }
   return true;
 }
 
-// Lets the rows go that are inside their own bound (the first ones of a descent
-// in company of all that only the tail draws along: steps are dear there); or else
-// the one that holds the levels up to this one back most. Returns whether one
-// does.
-bool Descent::Drop(int level, ActiveProblem* problem,
-                   std::vector<std::vector<Side>>* side) {
-  int leaving = kNone;
+// Removes constraints with a negative multiplier from the working set: all that
+// are strictly inside their bound, or else the one with the most negative
+// multiplier. Once in a search, all whose multiplier comes from a diagonal level
+// are removed together, as a step there is expensive. Returns whether any is.
+bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
+                                        std::vector<std::vector<Side>>* side) {
+  int removed = kNone;
   double worst = 0;
-  bool is_priced = false, any = false;
-  left_ = {kNone, kNone};
-  for (int a = 0; a < problem->head().num_rows(); ++a) {
-    const ActiveProblem::Row& row = problem->row(a);
-    if (!row.is_inequality || leaves_[row.level][row.index] <= 0) {
+  bool has_multipliers = false, any = false;
+  last_removed_ = {kNone, kNone};
+  for (int a = 0; a < problem->leading().num_rows(); ++a) {
+    const WorkingSetProblem::Row& row = problem->row(a);
+    if (!row.is_inequality || removals_left_[row.level][row.index] <= 0) {
       continue;
     }
-    if (!is_priced) problem->FindMultipliers(level + 1);
-    is_priced = true;
+    if (!has_multipliers) problem->FindMultipliers(level + 1);
+    has_multipliers = true;
     Side& at = (*side)[row.level][row.index];
-    double price = 0;
+    double multiplier = 0;
     int l = row.level;
-    while (l <= level && price == 0)
-      price = problem->Price(a, l++, at, kNoPrice);
-    if (price >= 0) continue;
-    if (l == row.level + 1 || (together_ && l > problem->num_head())) {
+    while (l <= level && multiplier == 0)
+      multiplier = problem->Multiplier(a, l++, at, tolerances::kZeroMultiplier);
+    if (multiplier >= 0) continue;
+    if (l == row.level + 1 ||
+        (remove_together_ && l > problem->num_leading())) {
       at = Side::kNone;
-      --leaves_[row.level][row.index];
+      --removals_left_[row.level][row.index];
       any = true;
-    } else if (price < worst) {
-      leaving = a;
-      worst = price;
+    } else if (multiplier < worst) {
+      removed = a;
+      worst = multiplier;
     }
   }
-  if (any) together_ = false;
-  if (any || leaving == kNone) return any;
-  const ActiveProblem::Row& row = problem->row(leaving);
-  left_ = {row.level, row.index};
+  if (any) remove_together_ = false;
+  if (any || removed == kNone) return any;
+  const WorkingSetProblem::Row& row = problem->row(removed);
+  last_removed_ = {row.level, row.index};
   (*side)[row.level][row.index] = Side::kNone;
-  --leaves_[row.level][row.index];
+  --removals_left_[row.level][row.index];
   return true;
 }
 
-// What a level leaves violated stays so; what rounding held may leave again.
-void Descent::Keep(int level, const ActiveProblem& problem,
-                   const std::vector<std::vector<Side>>& side) {
-  for (int a = 0; a < problem.head().num_rows(); ++a) {
-    const ActiveProblem::Row& row = problem.row(a);
+// Makes equalities of the rows that their own level leaves violated. The number
+// of removals left of all other rows is reset.
+void ActiveSetSearch::FreezeViolated(
+    int level, const WorkingSetProblem& problem,
+    const std::vector<std::vector<Side>>& side) {
+  for (int a = 0; a < problem.leading().num_rows(); ++a) {
+    const WorkingSetProblem::Row& row = problem.row(a);
     if (!row.is_inequality) continue;
-    int& leaves = leaves_[row.level][row.index];
+    int& removals_left = removals_left_[row.level][row.index];
     if (row.level == level &&
-        problem.Price(a, level, side[level][row.index], kNoPrice) > 0) {
-      leaves = kKept;
+        problem.Multiplier(a, level, side[level][row.index],
+                           tolerances::kZeroMultiplier) > 0) {
+      removals_left = kFrozen;
     }
-    if (leaves != kKept) leaves = kLeaves;
+    if (removals_left != kFrozen) removals_left = kMaxRemovals;
   }
 }
 

@@ -11,33 +11,37 @@
 
 namespace poise {
 
-/// The search for the active rows: from a y that breaks no row but active ones
-/// to a better such y, until it is the optimum. See docs/hqp.md.
+/// A primal active-set method on all levels of a hierarchy. See README.md.
 ///
-/// Towards the optimum of the active rows as far as the others allow; what is in
-/// the way becomes active. At that optimum, rows that nothing holds at their
-/// bound leave; if there are none, the row that holds the levels back most.
-class Descent {
+/// Invariant: outside the working set, y violates no row by more than rounding.
+/// A step goes from y towards the optimum of the working set, and the first
+/// blocking constraint is added to the working set. At that optimum, rows
+/// strictly inside their bound are removed. If there is none, the row with the
+/// most negative multiplier is removed.
+class ActiveSetSearch {
  public:
-  Descent(int num_variables, const std::vector<LevelCapacity>& capacity);
+  ActiveSetSearch(int num_variables,
+                  const std::vector<LevelCapacity>& capacity);
 
-  /// On all levels at once, from the active rows `side`; false if the budget, or
-  /// `limit` iterations of it, did not suffice. The start is the optimum of
-  /// these rows, or y() if that breaks fewer rows; what is broken there becomes
-  /// active.
+  /// Searches on all levels at once, from the working set `side`. Returns false
+  /// if the budget, or `limit` iterations of it, did not suffice. The start is
+  /// the optimum of this working set, or y() if y() violates fewer rows. Rows
+  /// violated there are added to the working set.
   bool AllAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget,
-                 ActiveProblem* problem, std::vector<std::vector<Side>>* side);
+                 WorkingSetProblem* problem,
+                 std::vector<std::vector<Side>>* side);
 
-  /// Level by level, from y = 0, as the paper's cascade does, but on one
-  /// factorisation of all levels: slower, but what is found for a level stays.
-  /// Rows violated at their own level's optimum are equalities from then on.
+  /// Searches level by level from y = 0, as the cascade of the paper does, on one
+  /// factorisation of all levels. This is slower than AllAtOnce(), but levels
+  /// that are solved stay solved. Rows that are violated at the optimum of their
+  /// own level are equalities from then on.
   ///
-  /// Returns how many levels are at their optimum: all, and one more, the norm
-  /// of y, if the budget allows. `problem` is then solved for the active rows
-  /// `side`, but y() is the answer: if a level is not at its optimum, it is the
-  /// best found that keeps those above it, and `side` what holds these.
+  /// Returns the number of levels at their optimum. If the budget suffices, that
+  /// is all levels and one more, the norm of y. `problem` is then solved for the
+  /// working set `side`, but y() is the answer. If a level is not at its optimum,
+  /// y() is the best found for it, and `side` keeps the levels above it optimal.
   int LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
-                   ActiveProblem* problem,
+                   WorkingSetProblem* problem,
                    std::vector<std::vector<Side>>* side);
 
   const std::vector<double>& y() const { return y_; }
@@ -48,30 +52,34 @@ class Descent {
     int level, row;
   };
 
-  void Unwind(std::vector<std::vector<Side>>* side) const;
-  bool Start(const Hierarchy& hierarchy, ActiveProblem* problem,
-             std::vector<std::vector<Side>>* side);
-  int FindBroken(const Hierarchy& hierarchy, const ActiveProblem& problem,
-                 const std::vector<double>& y,
-                 const std::vector<std::vector<Side>>& side);
-  void Begin(const Hierarchy& hierarchy, int level,
-             std::vector<std::vector<Side>>* side);
-  bool Settle(const Hierarchy& hierarchy, int level, ActiveProblem* problem,
-              std::vector<std::vector<Side>>* side);
-  bool Advance(const Hierarchy& hierarchy, const ActiveProblem& problem,
+  void RestoreWorkingSet(std::vector<std::vector<Side>>* side) const;
+  bool InitializeAllLevels(const Hierarchy& hierarchy,
+                           WorkingSetProblem* problem,
+                           std::vector<std::vector<Side>>* side);
+  int FindViolated(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+                   const std::vector<double>& y,
+                   const std::vector<std::vector<Side>>& side);
+  void InitializeWorkingSet(const Hierarchy& hierarchy, int level,
+                            std::vector<std::vector<Side>>* side);
+  bool Iterate(const Hierarchy& hierarchy, int level,
+               WorkingSetProblem* problem,
                std::vector<std::vector<Side>>* side);
-  bool Drop(int level, ActiveProblem* problem,
-            std::vector<std::vector<Side>>* side);
-  void Keep(int level, const ActiveProblem& problem,
-            const std::vector<std::vector<Side>>& side);
+  bool StepToBlockingConstraint(const Hierarchy& hierarchy,
+                                const WorkingSetProblem& problem,
+                                std::vector<std::vector<Side>>* side);
+  bool RemoveConstraints(int level, WorkingSetProblem* problem,
+                         std::vector<std::vector<Side>>* side);
+  void FreezeViolated(int level, const WorkingSetProblem& problem,
+                      const std::vector<std::vector<Side>>& side);
 
   int n_;
   std::vector<double> y_, step_, value_, slope_;
-  std::vector<std::vector<int>> leaves_;  ///< How often it still may leave.
-  bool together_ = false;     ///< Whether rows may leave for the tail at once.
-  RowIndex left_ = {-1, -1};  ///< The row that left last, if it did alone.
-  std::vector<std::vector<Side>> broken_;   ///< kNone: not broken.
-  std::vector<std::vector<Side>> settled_;  ///< When the last level was done.
+  std::vector<std::vector<int>> removals_left_;  ///< Removals allowed per row.
+  bool remove_together_ = false;                 ///< See RemoveConstraints().
+  RowIndex last_removed_ = {-1, -1};             ///< If alone.
+  std::vector<std::vector<Side>> violated_;      ///< kNone: not violated.
+  std::vector<std::vector<Side>>
+      completed_;  ///< Working set of the last solved level.
 };
 
 }  // namespace poise

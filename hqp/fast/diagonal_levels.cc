@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hqp/fast/kernels.h"
+#include "hqp/fast/tolerances.h"
 #include "math/rank.h"
 
 namespace poise {
@@ -15,15 +16,9 @@ using kernels::AddToRows;
 using kernels::Dots;
 using kernels::SquaredNorm;
 
-// An entry below this, of a row of unit length, is rounding's.
-constexpr double kNoEntry = 1e-15;
-
-// A gradient below this, relative to what it is added up from, is zero.
-constexpr double kZeroGradient = 1e-13;
-
 }  // namespace
 
-SelectionTail::SelectionTail(int num_variables, int max_levels)
+DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
     : n_(num_variables), stride_((num_variables + 3) / 4 * 4) {
   const size_t square = static_cast<size_t>(n_) * stride_;
   level_of_.resize(n_);
@@ -40,12 +35,12 @@ SelectionTail::SelectionTail(int num_variables, int max_levels)
   Clear();
 }
 
-void SelectionTail::Clear() {
+void DiagonalLevels::Clear() {
   num_levels_ = 0;
   std::fill(level_of_.begin(), level_of_.end(), -1);
 }
 
-void SelectionTail::Add(int variable, double weight, double target) {
+void DiagonalLevels::Add(int variable, double weight, double target) {
   int& level = level_of_[variable];
   if (weight == 0 || (level >= 0 && level != num_levels_ - 1)) return;
   if (level < 0) {
@@ -61,7 +56,7 @@ void SelectionTail::Add(int variable, double weight, double target) {
   weight_[variable] = sum;
 }
 
-void SelectionTail::Finish(const double* targets) {
+void DiagonalLevels::Finish(const double* targets) {
   AddLevel();
   for (int j = 0; j < n_; ++j) {
     if (level_of_[j] < 0) Add(j, 1, targets != nullptr ? targets[j] : 0);
@@ -91,7 +86,7 @@ void SelectionTail::Finish(const double* targets) {
 
 // Of the first level's variables, that of the most, if it is that of more than
 // half of them.
-double SelectionTail::UsualWeight() const {
+double DiagonalLevels::UsualWeight() const {
   double weight = 0;
   int lead = 0;
   for (int j = 0; j < n_; ++j) {
@@ -102,19 +97,19 @@ double SelectionTail::UsualWeight() const {
   return weight;
 }
 
-void SelectionTail::Tie(const RowStack& head) {
-  Gather(head.basis(), head.stride(), head.rank());
+void DiagonalLevels::Tie(const LexicographicFactorization& leading) {
+  Gather(leading.basis(), leading.stride(), leading.rank());
   EliminateAll(n_);
 }
 
-void SelectionTail::TieRows(const double* rows, int stride, int count) {
+void DiagonalLevels::TieRows(const double* rows, int stride, int count) {
   Gather(rows, stride, count);
   // The first level gets what is left: its columns do not matter.
   EliminateAll(blocks_[0].begin);
 }
 
 // Of the columns before `end` only.
-void SelectionTail::EliminateAll(int end) {
+void DiagonalLevels::EliminateAll(int end) {
   num_reflections_ = 0;
   int row = 0;
   for (int level = num_levels_ - 1; level >= 0; --level) {
@@ -125,10 +120,11 @@ void SelectionTail::EliminateAll(int end) {
   }
 }
 
-void SelectionTail::Solve(const RowStack& head, double* y) {
-  Tie(head);
+void DiagonalLevels::Solve(const LexicographicFactorization& leading,
+                           double* y) {
+  Tie(leading);
   Separate();
-  Start(head, head.z());
+  Start(leading, leading.z());
   for (int p = 0; p < n_; ++p) {
     const double target = target_[order_[p]];
     ideal_[p] = target - start_[p];
@@ -142,9 +138,9 @@ void SelectionTail::Solve(const RowStack& head, double* y) {
   for (int p = 0; p < n_; ++p) y[order_[p]] = start_[p] + step_[p];
 }
 
-void SelectionTail::Correct(const RowStack& head, const double* change,
-                            bool to_minimum, double* y) {
-  Start(head, change);
+void DiagonalLevels::Correct(const LexicographicFactorization& leading,
+                             const double* change, bool to_minimum, double* y) {
+  Start(leading, change);
   for (int p = 0; p < n_; ++p) {
     const int j = order_[p];
     ideal_[p] = (to_minimum ? target_[j] - y[j] : 0) - start_[p];
@@ -157,7 +153,7 @@ void SelectionTail::Correct(const RowStack& head, const double* change,
   for (int p = 0; p < n_; ++p) y[order_[p]] += start_[p] + step_[p];
 }
 
-void SelectionTail::Gather(const double* rows, int stride, int count) {
+void DiagonalLevels::Gather(const double* rows, int stride, int count) {
   rank_ = count;
   for (int p = 0; p < n_;) {
     // Variables in a row are copied in one go.
@@ -173,14 +169,15 @@ void SelectionTail::Gather(const double* rows, int stride, int count) {
 }
 
 // start = Q' z, by position.
-void SelectionTail::Start(const RowStack& head, const double* z) {
+void DiagonalLevels::Start(const LexicographicFactorization& leading,
+                           const double* z) {
   std::fill(scratch_.begin(), scratch_.end(), 0);
-  AddRows(head.basis(), head.stride(), rank_, z, n_, scratch_.data());
+  AddRows(leading.basis(), leading.stride(), rank_, z, n_, scratch_.data());
   for (int p = 0; p < n_; ++p) start_[p] = scratch_[order_[p]];
 }
 
 // Reflects rows until the level's variables are in as few of them as can be.
-void SelectionTail::Eliminate(int level, int end) {
+void DiagonalLevels::Eliminate(int level, int end) {
   Block& block = blocks_[level];
   for (int steps = block.end - block.begin; steps > 0; --steps) {
     const int row = block.row_end;
@@ -196,7 +193,7 @@ void SelectionTail::Eliminate(int level, int end) {
 // Of the first level, reflects its other variables into its last rows. The rows
 // before have variables of the usual weight only: they are orthonormal, and, as
 // the last ones are orthogonal to them, they stay so when divided by d.
-void SelectionTail::Separate() {
+void DiagonalLevels::Separate() {
   const Block& block = blocks_[0];
   usual_row_end_ = block.row_end;
   const int others = usual_begin_ - block.begin;
@@ -205,7 +202,7 @@ void SelectionTail::Separate() {
     double squared = 0;
     const int pivot = LargestColumn(block.row_begin, usual_row_end_,
                                     block.begin, usual_begin_, &squared);
-    if (squared <= kNoEntry * kNoEntry) return;
+    if (squared <= tolerances::kZeroEntry * tolerances::kZeroEntry) return;
     Reflect(block.row_begin, usual_row_end_, usual_row_end_ - 1, pivot,
             block.begin, n_);
     --usual_row_end_;
@@ -214,17 +211,17 @@ void SelectionTail::Separate() {
 
 // Whether rounding of the first level's heavy variables is no longer nothing for
 // those of the usual weight: by the ratio of their weights it is multiplied.
-bool SelectionTail::RoundsUsual() const {
+bool DiagonalLevels::RoundsUsual() const {
   for (int p = blocks_[0].begin; p < usual_begin_; ++p) {
     const double ratio = scale_[p] / scale_[usual_begin_];
-    if (ratio * ratio > 1e3) return true;
+    if (ratio * ratio > tolerances::kLargeWeightRatio) return true;
   }
   return false;
 }
 
 // Of these rows, the column with the largest sum of squares.
-int SelectionTail::LargestColumn(int row_begin, int row_end, int begin, int end,
-                                 double* squared) {
+int DiagonalLevels::LargestColumn(int row_begin, int row_end, int begin,
+                                  int end, double* squared) {
   if (row_begin >= row_end) return begin;
   double* squares = scratch_.data();
   std::fill_n(squares, n_, 0);
@@ -239,8 +236,8 @@ int SelectionTail::LargestColumn(int row_begin, int row_end, int begin, int end,
 
 // Reflects these rows, H = I - v v', so that of column `pivot` all is in row
 // `target`; of the columns from `begin` on, as before it they are zero.
-void SelectionTail::Reflect(int row_begin, int row_end, int target, int pivot,
-                            int begin, int end) {
+void DiagonalLevels::Reflect(int row_begin, int row_end, int target, int pivot,
+                             int begin, int end) {
   double* first = &t_[static_cast<size_t>(row_begin) * stride_];
   double* v = &reflection_[static_cast<size_t>(num_reflections_) * stride_];
   const int rows = row_end - row_begin;
@@ -267,7 +264,7 @@ void SelectionTail::Reflect(int row_begin, int row_end, int target, int pivot,
 
 // T/d = L Q. A row that depends on others, for rounding alone can do that, is
 // left out.
-void SelectionTail::FactorLevel(int level) {
+void DiagonalLevels::FactorLevel(int level) {
   const Block& block = blocks_[level];
   const int columns = block.end - block.begin;
   const int rows = block.row_end - block.row_begin;
@@ -287,7 +284,7 @@ void SelectionTail::FactorLevel(int level) {
       continue;
     }
     for (int p = 0; p < columns; ++p) {
-      const bool is_rounding = std::abs(t[p]) < kNoEntry;
+      const bool is_rounding = std::abs(t[p]) < tolerances::kZeroEntry;
       q[p] = is_rounding ? 0 : t[p] / scale_[block.begin + p];
     }
     const double before = SquaredNorm(q, columns);
@@ -314,7 +311,7 @@ void SelectionTail::FactorLevel(int level) {
 
 // With x = d (step - ideal): minimum |x|^2 where (T/d) x = -T ideal - (what
 // earlier levels have moved).
-void SelectionTail::SolveLevel(int level) {
+void DiagonalLevels::SolveLevel(int level) {
   const Block& block = blocks_[level];
   const int columns = block.end - block.begin, rest = n_ - block.end;
   const int rows = block.row_end - block.row_begin;
@@ -340,7 +337,7 @@ void SelectionTail::SolveLevel(int level) {
 
 // L' nu = -z. Rounding of what a row asks for is in nu by its part of L, squared:
 // where light variables can meet it, heavy ones do not count.
-void SelectionTail::FindMultipliers(int level) {
+void DiagonalLevels::FindMultipliers(int level) {
   Block& block = blocks_[level];
   double largest = 0, squared = 0, size = 0;
   for (int p = block.begin; p < block.end; ++p) {
@@ -356,21 +353,22 @@ void SelectionTail::FindMultipliers(int level) {
     if (l[i] > 0) size = std::max(size, std::sqrt(squared) / (l[i] * l[i]));
   }
   // What levels before have moved counts in nu alone.
-  block.size = largest > kZeroGradient * size ? std::max(size, largest) : 0;
+  block.size =
+      largest > tolerances::kZeroGradient * size ? std::max(size, largest) : 0;
 }
 
-double SelectionTail::Dual(int level, double* on_head, double* left) {
+double DiagonalLevels::Dual(int level, double* on_leading, double* left) {
   const Block& block = blocks_[level];
   if (block.size == 0) return 0;
   const int rows = block.row_end - block.row_begin;
-  std::fill_n(on_head, rank_, 0);
-  std::copy_n(&nu_[block.row_begin], rows, on_head + block.row_begin);
+  std::fill_n(on_leading, rank_, 0);
+  std::copy_n(&nu_[block.row_begin], rows, on_leading + block.row_begin);
   for (int k = num_reflections_ - 1; k >= 0; --k) {
     const double* v = &reflection_[static_cast<size_t>(k) * stride_];
     double dot;
-    Dots(v, 0, 1, on_head, rank_, &dot);
+    Dots(v, 0, 1, on_leading, rank_, &dot);
     dot = -dot;
-    AddRows(v, 0, 1, &dot, rank_, on_head);
+    AddRows(v, 0, 1, &dot, rank_, on_leading);
   }
   std::fill(scratch_.begin(), scratch_.end(), 0);
   AddRows(&t_[static_cast<size_t>(block.row_begin) * stride_] + block.end,
@@ -380,14 +378,14 @@ double SelectionTail::Dual(int level, double* on_head, double* left) {
   return block.size;
 }
 
-bool SelectionTail::IsMet(int level, const double* y) const {
+bool DiagonalLevels::IsMet(int level, const double* y) const {
   const Block& block = blocks_[level];
   return std::all_of(order_.begin() + block.begin, order_.begin() + block.end,
                      [this, y](int j) { return y[j] == target_[j]; });
 }
 
-void SelectionTail::AddGradient(int level, const double* y, const double* left,
-                                double* sum) const {
+void DiagonalLevels::AddGradient(int level, const double* y, const double* left,
+                                 double* sum) const {
   const Block& block = blocks_[level];
   for (int p = block.begin; p < block.end; ++p) {
     const int j = order_[p];
@@ -396,17 +394,17 @@ void SelectionTail::AddGradient(int level, const double* y, const double* left,
   for (int p = block.end; p < n_; ++p) sum[order_[p]] -= left[order_[p]];
 }
 
-void SelectionTail::DropRounding(int level, const double* y,
-                                 double* sum) const {
+void DiagonalLevels::ZeroRounding(int level, const double* y,
+                                  double* sum) const {
   const Block& block = blocks_[level];
   for (int p = block.begin; p < block.end; ++p) {
     const int j = order_[p];
     const double size = weight_[j] * (std::abs(y[j]) + std::abs(target_[j]));
-    if (std::abs(sum[j]) <= kZeroGradient * size) sum[j] = 0;
+    if (std::abs(sum[j]) <= tolerances::kZeroGradient * size) sum[j] = 0;
   }
 }
 
-int SelectionTail::Nullity(int level) const {
+int DiagonalLevels::Nullity(int level) const {
   // Variables of later levels, less the rows that tie them.
   int nullity = 0;
   for (int later = level + 1; later < num_levels_; ++later) {

@@ -7,10 +7,10 @@
 
 namespace poise {
 
-/// The last levels of a hierarchy where each row is one variable, scaled:
-/// posture, a regulariser of forces, and y itself, for its minimum norm. Level c
-/// minimises 1/2 sum_j d_j^2 (y_j - t_j)^2 over its variables, where the head,
-/// Q y = z, and the levels before c leave them free.
+/// The last levels of a hierarchy if each of their rows is one scaled variable:
+/// posture, a regulariser of forces, and the norm of y. Level c minimises
+/// 1/2 sum_j d_j^2 (y_j - t_j)^2 over its variables, subject to the leading levels,
+/// Q y = z, and to the optimum of the diagonal levels before c.
 ///
 /// A variable is fixed by the first level that has it, so instead of projecting
 /// each level, the rows of Q are combined by reflections, eliminating the
@@ -20,9 +20,9 @@ namespace poise {
 ///            [              T_00]
 /// From the bottom up each level is then a weighted minimum-norm problem in as
 /// many rows as T_cc has: few, however many variables it has.
-class SelectionTail {
+class DiagonalLevels {
  public:
-  SelectionTail(int num_variables, int max_levels);
+  DiagonalLevels(int num_variables, int max_levels);
 
   /// No levels.
   void Clear();
@@ -43,44 +43,44 @@ class SelectionTail {
 
   /// The level that fixes a variable.
   int level(int variable) const { return level_of_[variable]; }
-  /// What its row there asks of a variable.
+  /// Target of a variable on that level.
   double target(int variable) const { return target_[variable]; }
 
-  /// Finds how the head ties the variables: all that Nullity() needs.
-  void Tie(const RowStack& head);
+  /// Eliminates the leading levels: all that Nullity() needs.
+  void Tie(const LexicographicFactorization& leading);
 
-  /// The same of independent rows, `stride` apart, that need not be orthogonal,
+  /// Tie() for independent rows, `stride` apart, that need not be orthogonal,
   /// as far as Nullity() needs it.
   void TieRows(const double* rows, int stride, int count);
 
   /// The y that minimises the levels, one after the other, where Q y = z.
-  void Solve(const RowStack& head, double* y);
+  void Solve(const LexicographicFactorization& leading, double* y);
 
-  /// Improves y, where Q y lacks `change`: towards the minima of the levels, or,
-  /// if not told to, by as little as the levels allow.
-  void Correct(const RowStack& head, const double* change, bool to_minimum,
-               double* y);
+  /// Refines y by a correction with Q dy = `change`. If `to_minimum`, it goes to
+  /// the minima of the levels; else it is the smallest one that they allow.
+  void Correct(const LexicographicFactorization& leading, const double* change,
+               bool to_minimum, double* y);
 
-  /// The multipliers that level c needs, with the gradient
+  /// The multipliers of level c, with the gradient
   /// d_j^2 (y_j - t_j) of its own variables, which they cancel:
-  /// on_head, on the rows of Q, such that the sum of both is 0 on its own and
+  /// on_leading, on the rows of Q, such that the sum of both is 0 on its own and
   /// later variables, and, for each variable of an earlier level, what is then
   /// left of the sum. Returns the size of what the gradient is added up from: 0,
   /// and nothing else, if it is zero.
-  double Dual(int level, double* on_head, double* left);
+  double Dual(int level, double* on_leading, double* left);
 
-  /// Whether a level's own variables are exactly what it asks for.
+  /// Whether a level's own variables are exactly at their targets.
   bool IsMet(int level, const double* y) const;
 
   /// sum += the gradient of a level's own variables, less what Dual() left.
   void AddGradient(int level, const double* y, const double* left,
                    double* sum) const;
 
-  /// Of such a sum that should be zero, puts to zero what is rounding of a
-  /// heavy variable's own gradient: to light ones it could be much.
-  void DropRounding(int level, const double* y, double* sum) const;
+  /// Sets entries of that sum to zero if they are rounding of the gradient of a
+  /// large-weight variable. Small-weight variables would be changed by them.
+  void ZeroRounding(int level, const double* y, double* sum) const;
 
-  /// What the head and the levels up to this one leave free.
+  /// Dimension of the nullspace of the leading levels and levels up to this one.
   int Nullity(int level) const;
 
  private:
@@ -98,7 +98,7 @@ class SelectionTail {
                int end);
   void Gather(const double* rows, int stride, int count);
   void EliminateAll(int end);
-  void Start(const RowStack& head, const double* z);
+  void Start(const LexicographicFactorization& leading, const double* z);
   void Eliminate(int level, int end);
   void FactorLevel(int level);
   void SolveLevel(int level);

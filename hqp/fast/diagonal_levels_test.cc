@@ -14,8 +14,8 @@ namespace poise {
 namespace {
 
 constexpr int kSeeds = 300;
-constexpr int kMaxRows = 24, kMaxHeadLevels = 4;  // Of MakeRandomLevels().
-constexpr int kMaxTailLevels = 3;
+constexpr int kMaxRows = 24, kMaxLeadingLevels = 4;  // Of MakeRandomLevels().
+constexpr int kMaxDiagonalLevels = 3;
 
 // One row of a level of the tail.
 struct Selection {
@@ -44,7 +44,7 @@ std::vector<std::vector<Selection>> MakeSelections(int seed, int n) {
   const auto below = [&](int bound) {
     return static_cast<int>(random() % static_cast<unsigned>(bound));
   };
-  std::vector<std::vector<Selection>> levels(1 + below(kMaxTailLevels));
+  std::vector<std::vector<Selection>> levels(1 + below(kMaxDiagonalLevels));
   for (std::vector<Selection>& level : levels) {
     level.resize(1 + below(n));
     // Of half of them, most of the weights are the same.
@@ -57,44 +57,45 @@ std::vector<std::vector<Selection>> MakeSelections(int seed, int n) {
   return levels;
 }
 
-class RandomSelectionTailTest : public testing::TestWithParam<int> {
+class RandomDiagonalLevelsTest : public testing::TestWithParam<int> {
  protected:
   void SetUp() override {
     for (const LeastSquares& level : levels_) {
       for (int i = 0; i < level.A.rows(); ++i) {
-        const int a = head_.AddRow(level.b[i], std::sqrt(level.weight[i]));
-        Eigen::VectorXd::Map(head_.row(a), n_) = level.A.row(i);
+        const int a = leading_.AddRow(level.b[i], std::sqrt(level.weight[i]));
+        Eigen::VectorXd::Map(leading_.row(a), n_) = level.A.row(i);
       }
-      head_.FactorLevel();
+      leading_.FactorLevel();
     }
     for (const std::vector<Selection>& level : selections_) {
-      tail_.AddLevel();
+      diagonal_.AddLevel();
       for (const Selection& row : level) {
-        tail_.Add(row.variable, row.weight, row.target);
+        diagonal_.Add(row.variable, row.weight, row.target);
       }
       levels_.push_back(Rows(level, n_));
     }
-    tail_.Finish(nullptr);
+    diagonal_.Finish(nullptr);
     std::vector<Selection> rest;
     for (int j = 0; j < n_; ++j) rest.push_back({j, 1, 0});
     selections_.push_back(rest);
     levels_.push_back(Rows(rest, n_));
     optimum_ = SolveLexicographically(n_, levels_);
-    tail_.Solve(head_, y_.data());
+    diagonal_.Solve(leading_, y_.data());
   }
   Eigen::MatrixXd Basis() const {
-    return Eigen::MatrixXd::Map(head_.basis(), head_.stride(), head_.rank())
+    return Eigen::MatrixXd::Map(leading_.basis(), leading_.stride(),
+                                leading_.rank())
         .topRows(n_)
         .transpose();
   }
-  void Fill(SelectionTail* tail) const {
+  void Fill(DiagonalLevels* diagonal) const {
     for (size_t l = 0; l + 1 < selections_.size(); ++l) {
-      tail->AddLevel();
+      diagonal->AddLevel();
       for (const Selection& row : selections_[l]) {
-        tail->Add(row.variable, row.weight, row.target);
+        diagonal->Add(row.variable, row.weight, row.target);
       }
     }
-    tail->Finish(nullptr);
+    diagonal->Finish(nullptr);
   }
   double Tolerance() const {
     return Rounding(10, kMaxRows, optimum_.condition * optimum_.condition);
@@ -102,20 +103,21 @@ class RandomSelectionTailTest : public testing::TestWithParam<int> {
 
   std::vector<LeastSquares> levels_ = MakeRandomLevels(GetParam());
   const int n_ = static_cast<int>(levels_[0].A.cols());
-  const int num_head_levels_ = static_cast<int>(levels_.size());
+  const int num_leading_levels_ = static_cast<int>(levels_.size());
   std::vector<std::vector<Selection>> selections_ =
       MakeSelections(GetParam(), n_);
-  RowStack head_{n_, kMaxRows, kMaxHeadLevels};
-  SelectionTail tail_{n_, kMaxTailLevels};
+  LexicographicFactorization leading_{n_, kMaxRows, kMaxLeadingLevels};
+  DiagonalLevels diagonal_{n_, kMaxDiagonalLevels};
   LexicographicOptimum optimum_;
   Eigen::VectorXd y_ = Eigen::VectorXd::Zero(n_);
 };
 
-TEST_P(RandomSelectionTailTest, AgreesWithSingularValues) {
+TEST_P(RandomDiagonalLevelsTest, AgreesWithSingularValues) {
   EXPECT_LE((y_ - optimum_.y).norm(), Tolerance());
-  ASSERT_EQ(tail_.num_levels(), static_cast<int>(selections_.size()));
-  for (int l = 0; l < tail_.num_levels(); ++l) {
-    EXPECT_EQ(tail_.Nullity(l), n_ - optimum_.rank[num_head_levels_ + l]) << l;
+  ASSERT_EQ(diagonal_.num_levels(), static_cast<int>(selections_.size()));
+  for (int l = 0; l < diagonal_.num_levels(); ++l) {
+    EXPECT_EQ(diagonal_.Nullity(l), n_ - optimum_.rank[num_leading_levels_ + l])
+        << l;
   }
   for (int j = 0; j < n_; ++j) {
     int first = 0;
@@ -126,30 +128,30 @@ TEST_P(RandomSelectionTailTest, AgreesWithSingularValues) {
       return false;
     };
     while (!has(first)) ++first;
-    EXPECT_EQ(tail_.level(j), first) << j;
+    EXPECT_EQ(diagonal_.level(j), first) << j;
   }
 }
 
-TEST_P(RandomSelectionTailTest, MultipliersCancelTheGradient) {
+TEST_P(RandomDiagonalLevelsTest, MultipliersCancelTheGradient) {
   const Eigen::MatrixXd Q = Basis();
-  for (int l = 0; l < tail_.num_levels(); ++l) {
+  for (int l = 0; l < diagonal_.num_levels(); ++l) {
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n_);
     Eigen::VectorXd size = Eigen::VectorXd::Zero(n_);
     for (const Selection& row : selections_[l]) {
-      if (tail_.level(row.variable) != l) continue;
+      if (diagonal_.level(row.variable) != l) continue;
       gradient[row.variable] += row.weight * (y_[row.variable] - row.target);
       size[row.variable] += row.weight * 10;
     }
     const double tolerance = Tolerance() * (1 + size.sum());
-    Eigen::VectorXd on_head = Eigen::VectorXd::Constant(head_.rank(), 5);
+    Eigen::VectorXd on_leading = Eigen::VectorXd::Constant(leading_.rank(), 5);
     Eigen::VectorXd left = Eigen::VectorXd::Constant(n_, 5);
-    if (tail_.Dual(l, on_head.data(), left.data()) == 0) {
+    if (diagonal_.Dual(l, on_leading.data(), left.data()) == 0) {
       EXPECT_LE(gradient.norm(), tolerance) << l;
       continue;
     }
-    const Eigen::VectorXd sum = gradient + Q.transpose() * on_head;
+    const Eigen::VectorXd sum = gradient + Q.transpose() * on_leading;
     for (int j = 0; j < n_; ++j) {
-      const bool is_earlier = tail_.level(j) < l;
+      const bool is_earlier = diagonal_.level(j) < l;
       EXPECT_NEAR(sum[j], is_earlier ? left[j] : 0, tolerance)
           << l << ", " << j;
       if (!is_earlier) {
@@ -159,64 +161,68 @@ TEST_P(RandomSelectionTailTest, MultipliersCancelTheGradient) {
   }
 }
 
-TEST_P(RandomSelectionTailTest, GradientLessWhatIsLeftIsTheRowsOfTheHead) {
+TEST_P(RandomDiagonalLevelsTest, GradientLessWhatIsLeftIsTheRowsOfTheHead) {
   const Eigen::MatrixXd Q = Basis();
-  for (int l = 0; l < tail_.num_levels(); ++l) {
-    Eigen::VectorXd on_head(head_.rank()), left = Eigen::VectorXd::Zero(n_);
-    if (tail_.Dual(l, on_head.data(), left.data()) == 0) continue;
+  for (int l = 0; l < diagonal_.num_levels(); ++l) {
+    Eigen::VectorXd on_leading(leading_.rank()),
+        left = Eigen::VectorXd::Zero(n_);
+    if (diagonal_.Dual(l, on_leading.data(), left.data()) == 0) continue;
     Eigen::VectorXd sum = Eigen::VectorXd::Constant(n_, 1);
-    tail_.AddGradient(l, y_.data(), left.data(), sum.data());
+    diagonal_.AddGradient(l, y_.data(), left.data(), sum.data());
     sum.array() -= 1;
-    EXPECT_LE((sum + Q.transpose() * on_head).norm(), 1000 * Tolerance()) << l;
+    EXPECT_LE((sum + Q.transpose() * on_leading).norm(), 1000 * Tolerance())
+        << l;
   }
 }
 
-TEST_P(RandomSelectionTailTest, CorrectsAnyStartToTheSameOptimum) {
+TEST_P(RandomDiagonalLevelsTest, CorrectsAnyStartToTheSameOptimum) {
   const Eigen::MatrixXd Q = Basis();
   Eigen::VectorXd y = y_;
   for (int j = 0; j < n_; ++j) y[j] += 1 + j % 3;
   const Eigen::VectorXd change = Q * (y_ - y);
   Eigen::VectorXd nearest = y;
-  tail_.Correct(head_, change.data(), true, y.data());
+  diagonal_.Correct(leading_, change.data(), true, y.data());
   EXPECT_LE((y - y_).norm(), 10 * Tolerance());
   // Where no minimum is asked for, the head is met all the same.
-  tail_.Correct(head_, change.data(), false, nearest.data());
+  diagonal_.Correct(leading_, change.data(), false, nearest.data());
   EXPECT_LE((Q * (nearest - y_)).norm(), 10 * Tolerance());
 }
 
-TEST_P(RandomSelectionTailTest, CorrectsByAsLittleAsTheLevelsAllow) {
+TEST_P(RandomDiagonalLevelsTest, CorrectsByAsLittleAsTheLevelsAllow) {
   // Weights and levels alone say how, not targets: so of a tail with other
   // targets, at its own optimum for targets 0, the step is the optimum.
   const Eigen::MatrixXd Q = Basis();
-  const Eigen::VectorXd change = Eigen::VectorXd::LinSpaced(head_.rank(), 1, 2);
+  const Eigen::VectorXd change =
+      Eigen::VectorXd::LinSpaced(leading_.rank(), 1, 2);
   std::vector<LeastSquares> levels(1);
-  levels[0] = {Q, change, Eigen::VectorXd::Ones(head_.rank())};
+  levels[0] = {Q, change, Eigen::VectorXd::Ones(leading_.rank())};
   for (std::vector<Selection> level : selections_) {
     for (Selection& row : level) row.target = 0;
     levels.push_back(Rows(level, n_));
   }
   Eigen::VectorXd y = y_;
-  tail_.Correct(head_, change.data(), false, y.data());
+  diagonal_.Correct(leading_, change.data(), false, y.data());
   EXPECT_LE((y - y_ - SolveLexicographically(n_, levels).y).norm(),
             10 * Tolerance());
 }
 
-TEST_P(RandomSelectionTailTest, TieFindsTheNullitiesAlone) {
-  SelectionTail tail(n_, kMaxTailLevels);
+TEST_P(RandomDiagonalLevelsTest, TieFindsTheNullitiesAlone) {
+  DiagonalLevels diagonal(n_, kMaxDiagonalLevels);
   for (size_t l = 0; l + 1 < selections_.size(); ++l) {
-    tail.AddLevel();
-    for (const Selection& row : selections_[l]) tail.Add(row.variable, 1, 0);
+    diagonal.AddLevel();
+    for (const Selection& row : selections_[l])
+      diagonal.Add(row.variable, 1, 0);
   }
-  tail.Finish(nullptr);
-  tail.Tie(head_);
-  for (int l = 0; l < tail.num_levels(); ++l) {
-    EXPECT_EQ(tail.Nullity(l), tail_.Nullity(l)) << l;
+  diagonal.Finish(nullptr);
+  diagonal.Tie(leading_);
+  for (int l = 0; l < diagonal.num_levels(); ++l) {
+    EXPECT_EQ(diagonal.Nullity(l), diagonal_.Nullity(l)) << l;
   }
 }
 
 // Rows that span the same, neither orthogonal nor of unit length.
-TEST_P(RandomSelectionTailTest, TieRowsFindsTheSameNullities) {
-  const int rank = head_.rank();
+TEST_P(RandomDiagonalLevelsTest, TieRowsFindsTheSameNullities) {
+  const int rank = leading_.rank();
   Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(rank, rank);
   for (int i = 0; i < rank; ++i) {
     for (int k = 0; k < i; ++k) mix(i, k) = 0.1 * ((i + 2 * k) % 5 - 2);
@@ -225,17 +231,17 @@ TEST_P(RandomSelectionTailTest, TieRowsFindsTheSameNullities) {
   const int stride = n_ + 3;
   Eigen::MatrixXd rows = Eigen::MatrixXd::Constant(stride, rank, 100);
   rows.topRows(n_) = (mix * Basis()).transpose();
-  SelectionTail tail(n_, kMaxTailLevels);
-  Fill(&tail);
-  tail.TieRows(rows.data(), stride, rank);
-  for (int l = 0; l < tail.num_levels(); ++l) {
-    EXPECT_EQ(tail.Nullity(l), tail_.Nullity(l)) << l;
+  DiagonalLevels diagonal(n_, kMaxDiagonalLevels);
+  Fill(&diagonal);
+  diagonal.TieRows(rows.data(), stride, rank);
+  for (int l = 0; l < diagonal.num_levels(); ++l) {
+    EXPECT_EQ(diagonal.Nullity(l), diagonal_.Nullity(l)) << l;
   }
 }
 
-TEST_P(RandomSelectionTailTest, ForgetsWhatItSolvedBefore) {
-  SelectionTail tail(n_, kMaxTailLevels);
-  RowStack other(n_, n_, 1);
+TEST_P(RandomDiagonalLevelsTest, ForgetsWhatItSolvedBefore) {
+  DiagonalLevels diagonal(n_, kMaxDiagonalLevels);
+  LexicographicFactorization other(n_, n_, 1);
   Eigen::VectorXd y(n_);
   for (int i = 0; i < n_; ++i) {
     for (int j = 0; j < n_; ++j) other.row(i)[j] = i == j ? n_ : 1 + i + j % 3;
@@ -244,31 +250,32 @@ TEST_P(RandomSelectionTailTest, ForgetsWhatItSolvedBefore) {
     other.Truncate(0);
     for (int a = 0; a <= i; ++a) other.AddRow(a, 1);
     other.FactorLevel();
-    tail.Clear();
+    diagonal.Clear();
     for (const int first : {0, 1}) {
-      tail.AddLevel();
-      for (int j = first; j < n_; j += 2) tail.Add(j, 1 + 7 * j % 5, 0);
+      diagonal.AddLevel();
+      for (int j = first; j < n_; j += 2) diagonal.Add(j, 1 + 7 * j % 5, 0);
     }
-    tail.Finish(nullptr);
-    tail.Solve(other, y.data());
+    diagonal.Finish(nullptr);
+    diagonal.Solve(other, y.data());
   }
-  tail.Clear();
-  Fill(&tail);
-  tail.Solve(head_, y.data());
+  diagonal.Clear();
+  Fill(&diagonal);
+  diagonal.Solve(leading_, y.data());
   EXPECT_EQ(y, y_);
-  for (int l = 0; l < tail.num_levels(); ++l) {
-    Eigen::VectorXd on_head[2], left[2];
+  for (int l = 0; l < diagonal.num_levels(); ++l) {
+    Eigen::VectorXd on_leading[2], left[2];
     for (int k = 0; k < 2; ++k) {
-      on_head[k].setZero(head_.rank());
+      on_leading[k].setZero(leading_.rank());
       left[k].setZero(n_);
-      (k == 0 ? tail_ : tail).Dual(l, on_head[k].data(), left[k].data());
+      (k == 0 ? diagonal_ : diagonal)
+          .Dual(l, on_leading[k].data(), left[k].data());
     }
-    EXPECT_EQ(on_head[0], on_head[1]) << l;
+    EXPECT_EQ(on_leading[0], on_leading[1]) << l;
     EXPECT_EQ(left[0], left[1]) << l;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomSelectionTailTest,
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomDiagonalLevelsTest,
                          testing::Range(0, kSeeds));
 
 }  // namespace

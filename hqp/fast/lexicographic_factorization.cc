@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "hqp/fast/kernels.h"
+#include "hqp/fast/tolerances.h"
 #include "math/rank.h"
 
 namespace poise {
@@ -16,23 +17,13 @@ using kernels::AddToRows;
 using kernels::Dots;
 using kernels::SquaredNorm;
 
-// A rest shorter than this part of what it came from is projected out again.
-constexpr double kTwice = 0.5;
-
-// Of a row, what is orthogonal to those before it.
-constexpr double kGoodPart = 1e-3;
-
-// What a reflection leaves of a zero, relative to the largest.
-constexpr double kRounding = 1e-14;
-
-// A residual below this, relative to what it is added up from, is zero.
-constexpr double kZeroResidual = 1e-12;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-RowStack::RowStack(int num_variables, int max_rows, int max_levels)
+LexicographicFactorization::LexicographicFactorization(int num_variables,
+                                                       int max_rows,
+                                                       int max_levels)
     : n_(num_variables), stride_((num_variables + 7) / 4 * 4) {
   const auto rows = [&](int count) {
     return static_cast<size_t>(count) * stride_;
@@ -59,33 +50,34 @@ RowStack::RowStack(int num_variables, int max_rows, int max_levels)
   chosen_.resize(max_rows);
 }
 
-void RowStack::Truncate(int level) {
+void LexicographicFactorization::Truncate(int level) {
   levels_.resize(std::min<size_t>(levels_.size(), level));
   num_rows_ = levels_.empty() ? 0 : levels_.back().end_row;
   rank_ = levels_.empty() ? 0 : levels_.back().rank_end;
 }
 
-int RowStack::AddRow(double target, double metric) {
+int LexicographicFactorization::AddRow(double target, double metric) {
   target_[num_rows_] = target;
   metric_[num_rows_] = metric;
   return num_rows_++;
 }
 
-bool RowStack::is_deficient(int level) const {
+bool LexicographicFactorization::is_deficient(int level) const {
   return levels_[level].deficient;
 }
 
-bool RowStack::is_well_conditioned() const {
+bool LexicographicFactorization::is_well_conditioned() const {
   if (rank_ < num_rows_) return false;
   for (int e = 0; e < rank_; ++e) {
-    if (effective_[static_cast<size_t>(e) * (stride_ + 1)] < kGoodPart) {
+    if (effective_[static_cast<size_t>(e) * (stride_ + 1)] <
+        tolerances::kIndependentPart) {
       return false;
     }
   }
   return true;
 }
 
-void RowStack::FactorLevel() {
+void LexicographicFactorization::FactorLevel() {
   Level level;
   level.first_row = levels_.empty() ? 0 : levels_.back().end_row;
   level.end_row = num_rows_;
@@ -108,13 +100,13 @@ void RowStack::FactorLevel() {
   levels_.push_back(level);
 }
 
-void RowStack::Merge(int level) {
+void LexicographicFactorization::Merge(int level) {
   Truncate(level);
   for (int l = 0; l + 1 < level; ++l) levels_[l] = {0, 0, 0, 0, false};
   if (level > 0) levels_[level - 1] = {0, num_rows_, 0, rank_, false};
 }
 
-void RowStack::RemoveRow(int a) {
+void LexicographicFactorization::RemoveRow(int a) {
   Level& level = levels_.back();
   const auto l = [&](int e) {
     return &effective_[static_cast<size_t>(e) * stride_];
@@ -151,14 +143,14 @@ void RowStack::RemoveRow(int a) {
   level.rank_end = rank_;
 }
 
-bool RowStack::AppendRow() {
+bool LexicographicFactorization::AppendRow() {
   const int a = num_rows_ - 1;
   Project(a);
-  if (rest_[a] < kTwice * kTwice) {
+  if (rest_[a] < tolerances::kReorthogonalize * tolerances::kReorthogonalize) {
     TakeOut(rank_, row(a), &l_[static_cast<size_t>(a) * stride_]);
   }
   const double norm = std::sqrt(rest_[a]);
-  if (rank_ == n_ || norm < kGoodPart) {
+  if (rank_ == n_ || norm < tolerances::kIndependentPart) {
     --num_rows_;
     return false;
   }
@@ -175,7 +167,7 @@ bool RowStack::AppendRow() {
 }
 
 // Takes the levels before out of row a, once.
-void RowStack::Project(int a) {
+void LexicographicFactorization::Project(int a) {
   double* l = &l_[static_cast<size_t>(a) * stride_];
   std::fill_n(l, rank_, 0);
   TakeOut(rank_, row(a), l);
@@ -183,7 +175,7 @@ void RowStack::Project(int a) {
 }
 
 // Takes the first rows of Q out of x, and adds to l what it had of them.
-void RowStack::TakeOut(int rank, double* x, double* l) {
+void LexicographicFactorization::TakeOut(int rank, double* x, double* l) {
   Dots(q_.data(), stride_, rank, x, n_, scratch_.data());
   for (int e = 0; e < rank; ++e) {
     l[e] += scratch_[e];
@@ -196,7 +188,7 @@ void RowStack::TakeOut(int rank, double* x, double* l) {
 // each is nothing. A row that depends on heavier ones does so exactly, then: what
 // rounding leaves of it, times a residual that cannot be helped, could outweigh a
 // light row.
-void RowStack::PivotRows(Level* level) {
+void LexicographicFactorization::PivotRows(Level* level) {
   const int first = level->first_row, rows = level->end_row - first;
   for (int a = first; a < level->end_row; ++a) {
     chosen_[a] = false;
@@ -218,7 +210,9 @@ void RowStack::PivotRows(Level* level) {
     double* q = &q_[static_cast<size_t>(e) * stride_];
     double* l = &l_[static_cast<size_t>(pivot) * stride_];
     std::copy_n(row(pivot), n_, q);
-    if (rest_[pivot] < kTwice * kTwice) TakeOut(e, q, l);
+    if (rest_[pivot] <
+        tolerances::kReorthogonalize * tolerances::kReorthogonalize)
+      TakeOut(e, q, l);
     const double norm = std::sqrt(SquaredNorm(q, n_));
     chosen_[pivot] = true;
     l[e] = 0;
@@ -247,7 +241,7 @@ void RowStack::PivotRows(Level* level) {
     AddToRows(row(first), stride_, rows, factor_.data(), q, n_);
     for (int a = first; a < level->end_row; ++a) {
       // Below this the difference of squares has lost its digits.
-      if (!chosen_[a] && rest_[a] < 0.01 * fresh_[a]) {
+      if (!chosen_[a] && rest_[a] < tolerances::kDowndate * fresh_[a]) {
         rest_[a] = SquaredNorm(row(a), n_);
         fresh_[a] = rest_[a];
       }
@@ -258,7 +252,7 @@ void RowStack::PivotRows(Level* level) {
 // Reduces the rows d_a l_a, d_a t_a of a deficient level by reflections H among
 // them, from the last column to the first, so that what is left is lower
 // triangular: H [D L, D t] = [effective rows; zeros, residual].
-void RowStack::Reduce(Level* level) {
+void LexicographicFactorization::Reduce(Level* level) {
   const int first = level->first_row, rows = level->end_row - first;
   const int begin = level->rank_begin, end = level->rank_end;
   for (int i = 0; i < rows; ++i) {
@@ -308,7 +302,7 @@ void RowStack::Reduce(Level* level) {
   }
 }
 
-void RowStack::SolveLevel(const Level& level) {
+void LexicographicFactorization::SolveLevel(const Level& level) {
   for (int e = level.rank_begin; e < level.rank_end; ++e) {
     const double* l = &effective_[static_cast<size_t>(e) * stride_];
     double value;
@@ -329,27 +323,29 @@ void RowStack::SolveLevel(const Level& level) {
          &value);
     residual_[a] = value - target_[a];
   }
-  KeepUnreachable(size, level);
+  KeepUnattainableResiduals(size, level);
 }
 
-void RowStack::SetResiduals(int level, const double* residual, double size) {
+void LexicographicFactorization::SetResiduals(int level, const double* residual,
+                                              double size) {
   const Level& of = levels_[level];
   std::copy(residual, residual + of.end_row - of.first_row,
             &residual_[of.first_row]);
-  KeepUnreachable(size, of);
+  KeepUnattainableResiduals(size, of);
 }
 
 // At the optimum of a deficient level H d residual is zero but on rows that
 // depend on others, and the rest is rounding. So what heavy rows lack, which is
 // little, has as many digits as what light ones do.
-void RowStack::KeepUnreachable(double size, const Level& level) {
+void LexicographicFactorization::KeepUnattainableResiduals(double size,
+                                                           const Level& level) {
   if (!level.deficient) return;
   const int first = level.first_row, rows = level.end_row - first;
   double* residual = &residual_[first];
   const double* metric = &metric_[first];
   for (int i = 0; i < rows; ++i) {
     residual[i] *= metric[i];
-    factor_[i] = kZeroResidual * metric[i] * size;
+    factor_[i] = tolerances::kZeroResidual * metric[i] * size;
   }
   for (int e = level.rank_end - 1; e >= level.rank_begin; --e) {
     Reflect(e, rows, residual);
@@ -368,17 +364,19 @@ void RowStack::KeepUnreachable(double size, const Level& level) {
   }
   for (int i = 0; i < rows; ++i) {
     const bool is_zero =
-        metric[i] * std::abs(residual[i]) <= kZeroResidual * force ||
-        std::abs(residual[i]) <= kRounding * largest;
+        metric[i] * std::abs(residual[i]) <=
+            tolerances::kZeroResidual * force ||
+        std::abs(residual[i]) <= tolerances::kReflectionRounding * largest;
     residual[i] = is_zero ? 0 : residual[i] / metric[i];
   }
 }
 
-void RowStack::Correct(const double* lack, double* change) {
+void LexicographicFactorization::Correct(const double* residual,
+                                         double* change) {
   for (const Level& level : levels_) {
     const int first = level.first_row, rows = level.end_row - first;
     double* right = scratch_.data();
-    std::copy_n(lack + first, rows, right);
+    std::copy_n(residual + first, rows, right);
     if (level.deficient) {
       for (int i = 0; i < rows; ++i) right[i] *= metric_[first + i];
       for (int e = level.rank_end - 1; e >= level.rank_begin; --e) {
@@ -395,7 +393,7 @@ void RowStack::Correct(const double* lack, double* change) {
 }
 
 // Applies the reflection of column e to a vector of its level's rows.
-void RowStack::Reflect(int e, int rows, double* x) const {
+void LexicographicFactorization::Reflect(int e, int rows, double* x) const {
   const double* v =
       &reflection_[static_cast<size_t>(e) * (reflection_.size() / n_)];
   double dot;
@@ -404,11 +402,11 @@ void RowStack::Reflect(int e, int rows, double* x) const {
   AddRows(v, 0, 1, &dot, rows, x);
 }
 
-double RowStack::norm_z() const {
+double LexicographicFactorization::norm_z() const {
   return std::sqrt(SquaredNorm(z_.data(), rank_));
 }
 
-double RowStack::Gradient(int level, double* gradient) const {
+double LexicographicFactorization::Gradient(int level, double* gradient) const {
   const Level& of = levels_[level];
   std::fill_n(gradient, of.rank_begin, 0);
   double size = 0, largest = 0;
@@ -422,10 +420,10 @@ double RowStack::Gradient(int level, double* gradient) const {
   for (int e = 0; e < of.rank_begin; ++e) {
     largest = std::max(largest, std::abs(gradient[e]));
   }
-  return largest > kZeroResidual * size ? size : 0;
+  return largest > tolerances::kZeroResidual * size ? size : 0;
 }
 
-void RowStack::SolveDual(int level, double* rhs, double* nu) {
+void LexicographicFactorization::SolveDual(int level, double* rhs, double* nu) {
   for (int above = level - 1; above >= 0; --above) {
     const Level& from = levels_[above];
     const int rows = from.end_row - from.first_row;

@@ -11,20 +11,20 @@ namespace poise {
 ///     1/2 sum_a d_a^2 (r_a y - t_a)^2
 /// among the optima of the levels before it.
 ///
-/// The rows are orthogonalised as they come (Gram-Schmidt, twice where needed,
-/// inside a level the heaviest rest first): R = L Q, with Q orthonormal. A row
-/// whose rest is below kRankTolerance depends on those before. A level of
-/// independent rows is met whatever its metric; one with dependent rows is
-/// reduced further, by reflections among its rows, to as many "effective" rows
-/// as its rank. So L, of all effective rows, is lower triangular, and y = Q' z.
+/// Gram-Schmidt orthogonalises the rows, twice where needed, in a level the
+/// largest weighted remainder first: R = L Q, with Q orthonormal. A row with a
+/// remainder below kRankTolerance depends on the rows before it. Independent rows
+/// are met whatever their metric. In a deficient level, one with dependent rows,
+/// reflections among its rows leave as many "effective" rows as its rank. So L, of
+/// all effective rows, is lower triangular, and y = Q' z.
 ///
-/// Levels can be dropped from the end and added again. Levels before the first
-/// deficient one are all met, so their order does not matter: they can be taken
-/// as one, in which rows come and go one at a time. Nothing allocates after
+/// Levels can be removed from the end and added again. Levels before the first
+/// deficient one are all met, so their order does not matter: they can be merged
+/// into one, to which single rows are added and removed. Nothing allocates after
 /// construction.
-class RowStack {
+class LexicographicFactorization {
  public:
-  RowStack(int num_variables, int max_rows, int max_levels);
+  LexicographicFactorization(int num_variables, int max_rows, int max_levels);
 
   /// Drops the levels from this one on.
   void Truncate(int level);
@@ -71,13 +71,12 @@ class RowStack {
   /// r_a y - t_a; exactly 0 where all rows of the level are independent.
   double residual(int a) const { return residual_[a]; }
 
-  /// Improves a solution y = Q' z (or any other that meets the rows): from what
-  /// its rows lack, t_a - r_a y, summed up from the rows as they were given, the
-  /// change of Q y, of rank() entries.
-  void Correct(const double* lack, double* change);
+  /// Refinement of a solution y: computes the correction of Q y, of rank()
+  /// entries, from the residuals t_a - r_a y of the rows as given.
+  void Correct(const double* residual, double* change);
 
   /// Takes other residuals of a deficient level, added up from numbers of a size,
-  /// as far as its optimum has them: see KeepUnreachable().
+  /// as far as its optimum has them: see KeepUnattainableResiduals().
   void SetResiduals(int level, const double* residual, double size);
 
   /// d_a^2.
@@ -109,7 +108,7 @@ class RowStack {
   void PivotRows(Level* level);
   void Reduce(Level* level);
   void SolveLevel(const Level& level);
-  void KeepUnreachable(double size, const Level& level);
+  void KeepUnattainableResiduals(double size, const Level& level);
   void Reflect(int e, int rows, double* x) const;
 
   int n_, stride_, num_rows_ = 0, rank_ = 0;

@@ -15,9 +15,9 @@ namespace poise {
 namespace {
 
 // y1 = 1 twice and y1 = 3 once, in one level; then y1 = 5, y2 = 7.
-class RowStackTest : public testing::Test {
+class LexicographicFactorizationTest : public testing::Test {
  protected:
-  RowStackTest() {
+  LexicographicFactorizationTest() {
     LeastSquares first;
     first.A.resize(2, 2);
     first.A << 1, 0, 1, 0;
@@ -30,10 +30,10 @@ class RowStackTest : public testing::Test {
     second.weight = Eigen::Vector2d(2, 4);
     AddLevel(second, &stack_);
   }
-  RowStack stack_{2, 4, 2};
+  LexicographicFactorization stack_{2, 4, 2};
 };
 
-TEST_F(RowStackTest, SolvesByHand) {
+TEST_F(LexicographicFactorizationTest, SolvesByHand) {
   const Eigen::VectorXd y = Optimum(stack_, 2);
   EXPECT_NEAR(y[0], 2.5, Rounding(5, 2));
   EXPECT_NEAR(y[1], 7, Rounding(7, 2));
@@ -46,8 +46,9 @@ TEST_F(RowStackTest, SolvesByHand) {
   EXPECT_NEAR(gradient[0] * stack_.basis()[0], -5, Rounding(5, 2));
 }
 
-TEST_F(RowStackTest, MeetsIndependentRowsWhateverTheirMetric) {
-  RowStack stack(2, 2, 1);
+TEST_F(LexicographicFactorizationTest,
+       MeetsIndependentRowsWhateverTheirMetric) {
+  LexicographicFactorization stack(2, 2, 1);
   LeastSquares level;
   level.A.resize(2, 2);
   level.A << 1, 0, 0.6, 0.8;
@@ -58,10 +59,10 @@ TEST_F(RowStackTest, MeetsIndependentRowsWhateverTheirMetric) {
 }
 
 // Two rows at a small angle, in one level or in two.
-TEST_F(RowStackTest, CountsARowOfWhichSomethingIsLeft) {
+TEST_F(LexicographicFactorizationTest, CountsARowOfWhichSomethingIsLeft) {
   for (const int num_levels : {1, 2}) {
     for (const double rest : {0.25, 10.0}) {
-      RowStack stack(3, 2, 2);
+      LexicographicFactorization stack(3, 2, 2);
       stack.AddRow(1, 1);
       Eigen::Vector3d::Map(stack.row(0)) << 0.6, 0.8, 0;
       if (num_levels == 2) stack.FactorLevel();
@@ -74,11 +75,11 @@ TEST_F(RowStackTest, CountsARowOfWhichSomethingIsLeft) {
 }
 
 // What is left of such rows after one projection is far from orthogonal.
-TEST_F(RowStackTest, OrthogonalisesWhatIsNearlyParallel) {
+TEST_F(LexicographicFactorizationTest, OrthogonalisesWhatIsNearlyParallel) {
   constexpr int kSize = 6;
   for (const double angle : {0.5, 1e-2, 1e-5, 1e-8}) {
     for (const int rows_a_level : {1, 2, kSize}) {
-      RowStack stack(kSize, kSize, kSize);
+      LexicographicFactorization stack(kSize, kSize, kSize);
       for (int i = 0; i < kSize; ++i) {
         Eigen::VectorXd row = Eigen::VectorXd::Constant(kSize, 1);
         row[i] += angle * (1 + i);
@@ -98,9 +99,9 @@ TEST_F(RowStackTest, OrthogonalisesWhatIsNearlyParallel) {
 }
 
 // Less than a thousandth of it, or in a space that is full.
-TEST_F(RowStackTest, AppendsNoRowThatNearlyDependsOnOthers) {
+TEST_F(LexicographicFactorizationTest, AppendsNoRowThatNearlyDependsOnOthers) {
   for (const double rest : {0.5e-3, 2e-3}) {
-    RowStack stack(2, 3, 1);
+    LexicographicFactorization stack(2, 3, 1);
     stack.AddRow(1, 1);
     Eigen::Vector2d::Map(stack.row(0)) << 0.6, 0.8;
     stack.FactorLevel();
@@ -119,11 +120,12 @@ TEST_F(RowStackTest, AppendsNoRowThatNearlyDependsOnOthers) {
 }
 
 // The last row, on its own or with the one it nearly depends on.
-TEST_F(RowStackTest, IsWellConditionedWhereEachRowHasAGoodPart) {
+TEST_F(LexicographicFactorizationTest,
+       IsWellConditionedWhereEachRowHasAGoodPart) {
   EXPECT_FALSE(stack_.is_well_conditioned());  // Two rows are the same.
   for (const int num_levels : {1, 2}) {
     for (const double rest : {0.7e-3, 1.4e-3}) {
-      RowStack stack(4, 3, 2);
+      LexicographicFactorization stack(4, 3, 2);
       Eigen::Vector4d::Map(stack.row(stack.AddRow(1, 1))) << 1, 0, 0, 0;
       Eigen::Vector4d::Map(stack.row(stack.AddRow(1, 1))) << 0, 0.6, 0.8, 0;
       if (num_levels == 2) stack.FactorLevel();
@@ -136,12 +138,12 @@ TEST_F(RowStackTest, IsWellConditionedWhereEachRowHasAGoodPart) {
   }
 }
 
-TEST_F(RowStackTest, AResidualOfRoundingIsNone) {
+TEST_F(LexicographicFactorizationTest, AResidualOfRoundingIsNone) {
   // Relative to |y| + |target|, 2; or 11, where another entry is large.
   for (const double other : {0.0, 9.0}) {
     const double size = std::hypot(1, other) + 1;
     for (const double off : {0.7e-12, 1.4e-12}) {
-      RowStack stack(2, 3, 2);
+      LexicographicFactorization stack(2, 3, 2);
       Eigen::Vector2d::Map(stack.row(stack.AddRow(1, 1))) << 1, 0;
       Eigen::Vector2d::Map(stack.row(stack.AddRow(other, 1))) << 0, 1;
       stack.FactorLevel();
@@ -158,9 +160,9 @@ TEST_F(RowStackTest, AResidualOfRoundingIsNone) {
 }
 
 // As long as the good part must be, to the bit, or a little less.
-TEST_F(RowStackTest, AGoodPartIsAThousandthOfARow) {
+TEST_F(LexicographicFactorizationTest, AGoodPartIsAThousandthOfARow) {
   for (const double good : {1e-3, 0.999e-3}) {
-    RowStack stack(2, 3, 1);
+    LexicographicFactorization stack(2, 3, 1);
     stack.row(stack.AddRow(1, 1))[0] = 1;
     stack.FactorLevel();
     stack.row(stack.AddRow(1, 1))[1] = good;
@@ -173,10 +175,10 @@ TEST_F(RowStackTest, AGoodPartIsAThousandthOfARow) {
 }
 
 // Of each row appended, all but a few thousandths is in those before.
-TEST_F(RowStackTest, OrthogonalisesWhatItAppends) {
+TEST_F(LexicographicFactorizationTest, OrthogonalisesWhatItAppends) {
   constexpr int kSize = 6;
   const Eigen::VectorXd mean = Eigen::VectorXd::LinSpaced(kSize, 1, 2.7);
-  RowStack stack(kSize, kSize, 1);
+  LexicographicFactorization stack(kSize, kSize, 1);
   for (int i = 0; i < kSize; ++i) {
     Eigen::VectorXd row = mean;
     if (i > 0) row[i] += 0.013 * mean.norm();
@@ -195,8 +197,8 @@ TEST_F(RowStackTest, OrthogonalisesWhatItAppends) {
   }
 }
 
-TEST_F(RowStackTest, MergedLevelsAreEmptyButTheLast) {
-  RowStack stack(3, 3, 3);
+TEST_F(LexicographicFactorizationTest, MergedLevelsAreEmptyButTheLast) {
+  LexicographicFactorization stack(3, 3, 3);
   for (int level = 0; level < 3; ++level) {
     stack.row(stack.AddRow(5 + level, 2 + level))[level] = 1;
     stack.FactorLevel();
@@ -224,11 +226,11 @@ TEST_F(RowStackTest, MergedLevelsAreEmptyButTheLast) {
 }
 
 // Many more variables than rows, and as many.
-TEST_F(RowStackTest, HasRoomForManyVariables) {
+TEST_F(LexicographicFactorizationTest, HasRoomForManyVariables) {
   constexpr int kSize = 40;
   for (const int rows : {1, kSize}) {
     Eigen::MatrixXd A(rows, kSize);
-    RowStack stack(kSize, rows, 1);
+    LexicographicFactorization stack(kSize, rows, 1);
     for (int i = 0; i < rows; ++i) {
       for (int j = 0; j < kSize; ++j) {
         A(i, j) = (i == j ? kSize : 0) + (7 * i + 3 * j) % 11 / 10.0;
@@ -237,24 +239,24 @@ TEST_F(RowStackTest, HasRoomForManyVariables) {
       Eigen::VectorXd::Map(stack.row(stack.AddRow(i + 1, 1)), kSize) = A.row(i);
     }
     stack.FactorLevel();
-    const Eigen::VectorXd lack =
+    const Eigen::VectorXd residual =
         Eigen::VectorXd::LinSpaced(rows, 1, rows) - A * Optimum(stack, kSize);
-    EXPECT_LE(lack.norm(), Rounding(kSize, kSize));
+    EXPECT_LE(residual.norm(), Rounding(kSize, kSize));
   }
 }
 
-TEST_F(RowStackTest, HasRoomForManyRows) {
+TEST_F(LexicographicFactorizationTest, HasRoomForManyRows) {
   constexpr int kRows = 99;
-  RowStack stack(1, kRows, 1);
+  LexicographicFactorization stack(1, kRows, 1);
   for (int a = 0; a < kRows; ++a) *stack.row(stack.AddRow(a, 1)) = 1;
   stack.FactorLevel();
   EXPECT_NEAR(Optimum(stack, 1)[0], kRows / 2, Rounding(kRows, kRows));
 }
 
 // Two forces that all but cancel, relative to the larger one.
-TEST_F(RowStackTest, AGradientOfRoundingIsNone) {
+TEST_F(LexicographicFactorizationTest, AGradientOfRoundingIsNone) {
   for (const double off : {0.7e-12, 1.4e-12}) {
-    RowStack stack(2, 4, 2);
+    LexicographicFactorization stack(2, 4, 2);
     for (int a = 0; a < 2; ++a) stack.row(stack.AddRow(0, 1))[a] = 1;
     stack.FactorLevel();
     stack.row(stack.AddRow(5, 2))[1] = 1;
@@ -272,7 +274,7 @@ TEST_F(RowStackTest, AGradientOfRoundingIsNone) {
   }
 }
 
-TEST_F(RowStackTest, TakesResidualsForTheGradient) {
+TEST_F(LexicographicFactorizationTest, TakesResidualsForTheGradient) {
   EXPECT_NEAR(stack_.weight(1), 3, Rounding(3, 1));
   EXPECT_NEAR(stack_.weight(2), 2, Rounding(2, 1));
   const double residual[2] = {10, 7};
@@ -286,8 +288,9 @@ TEST_F(RowStackTest, TakesResidualsForTheGradient) {
 
 // y = 0 and, 1e12 times lighter, y = 1: at the optimum the heavy row lacks 1e-12
 // of what the light one does, to the last digit, though y may be off by more.
-TEST_F(RowStackTest, WhatAHeavyRowLacksHasAsManyDigitsAsALightOnes) {
-  RowStack stack(1, 2, 1);
+TEST_F(LexicographicFactorizationTest,
+       WhatAHeavyRowLacksHasAsManyDigitsAsALightOnes) {
+  LexicographicFactorization stack(1, 2, 1);
   *stack.row(stack.AddRow(0, 1e3)) = 1;
   *stack.row(stack.AddRow(1, 1e-3)) = 1;
   stack.FactorLevel();
@@ -304,9 +307,9 @@ TEST_F(RowStackTest, WhatAHeavyRowLacksHasAsManyDigitsAsALightOnes) {
 
 // One of two rows on y1 = 0 and y2 = 0 each is off by 0.7 or 1.4 times what is
 // zero beside what it is added up from; then y1's by that beside y2's.
-TEST_F(RowStackTest, WhatIsKeptIsNoRounding) {
+TEST_F(LexicographicFactorizationTest, WhatIsKeptIsNoRounding) {
   for (const double off : {0.7e-12, 1.4e-12}) {
-    RowStack stack(2, 4, 1);
+    LexicographicFactorization stack(2, 4, 1);
     for (int a = 0; a < 4; ++a) {
       stack.row(stack.AddRow(0, 3))[a / 2] = 1;
       stack.row(a)[1 - a / 2] = 0;
@@ -330,8 +333,8 @@ TEST_F(RowStackTest, WhatIsKeptIsNoRounding) {
 }
 
 // Small numbers, after large ones that are gone.
-TEST_F(RowStackTest, AResidualIsJudgedByItsOwnLevel) {
-  RowStack stack(1, 3, 1);
+TEST_F(LexicographicFactorizationTest, AResidualIsJudgedByItsOwnLevel) {
+  LexicographicFactorization stack(1, 3, 1);
   for (const double scale : {1.0, 1e-15}) {
     stack.Truncate(0);
     *stack.row(stack.AddRow(0, 1)) = 1;
@@ -344,10 +347,10 @@ TEST_F(RowStackTest, AResidualIsJudgedByItsOwnLevel) {
 }
 
 // Rows of y that a level above has fixed, the heavy one at either place.
-TEST_F(RowStackTest, WhatIsKeptIsNoRoundingOfAHeavyRow) {
+TEST_F(LexicographicFactorizationTest, WhatIsKeptIsNoRoundingOfAHeavyRow) {
   for (const int heavy : {0, 1}) {
     for (const double light : {0.7, 1.4}) {
-      RowStack stack(1, 3, 2);
+      LexicographicFactorization stack(1, 3, 2);
       *stack.row(stack.AddRow(0, 1)) = 1;
       stack.FactorLevel();
       for (int i = 0; i < 2; ++i) {
@@ -370,9 +373,9 @@ TEST_F(RowStackTest, WhatIsKeptIsNoRoundingOfAHeavyRow) {
   }
 }
 
-TEST_F(RowStackTest, DoesNotAllocate) {
-  RowStack stack(2, 4, 2);
-  double force[2] = {1, 2}, nu[4], lack[4] = {}, change[2];
+TEST_F(LexicographicFactorizationTest, DoesNotAllocate) {
+  LexicographicFactorization stack(2, 4, 2);
+  double force[2] = {1, 2}, nu[4], residual[4] = {}, change[2];
   const CountMalloc count;
   for (int repeat = 0; repeat < 2; ++repeat) {
     stack.Truncate(0);
@@ -384,7 +387,7 @@ TEST_F(RowStackTest, DoesNotAllocate) {
     }
     stack.Gradient(1, force);
     stack.SolveDual(2, force, nu);
-    stack.Correct(lack, change);
+    stack.Correct(residual, change);
     stack.Merge(1);
     stack.RemoveRow(0);
     stack.AddRow(1, 1);

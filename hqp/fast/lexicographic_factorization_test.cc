@@ -16,7 +16,8 @@ namespace {
 constexpr int kSeeds = 300;
 constexpr int kMaxRows = 24, kMaxLevels = 4;  // Of MakeRandomLevels().
 
-class RandomRowStackTest : public testing::TestWithParam<int> {
+class RandomLexicographicFactorizationTest
+    : public testing::TestWithParam<int> {
  protected:
   void SetUp() override {
     for (const LeastSquares& level : levels_) AddLevel(level, &stack_);
@@ -33,10 +34,10 @@ class RandomRowStackTest : public testing::TestWithParam<int> {
   const int n_ = static_cast<int>(levels_[0].A.cols());
   const int num_levels_ = static_cast<int>(levels_.size());
   const LexicographicOptimum optimum_ = SolveLexicographically(n_, levels_);
-  RowStack stack_{n_, kMaxRows, kMaxLevels};
+  LexicographicFactorization stack_{n_, kMaxRows, kMaxLevels};
 };
 
-TEST_P(RandomRowStackTest, AgreesWithSingularValues) {
+TEST_P(RandomLexicographicFactorizationTest, AgreesWithSingularValues) {
   const Eigen::MatrixXd Q = Basis(stack_, n_);
   EXPECT_LE((Q * Q.transpose() -
              Eigen::MatrixXd::Identity(stack_.rank(), stack_.rank()))
@@ -67,7 +68,7 @@ TEST_P(RandomRowStackTest, AgreesWithSingularValues) {
   EXPECT_EQ(stack_.rank(), optimum_.rank.back());
 }
 
-TEST_P(RandomRowStackTest, HasTheGradientOfItsRows) {
+TEST_P(RandomLexicographicFactorizationTest, HasTheGradientOfItsRows) {
   const Eigen::MatrixXd Q = Basis(stack_, n_);
   for (int l = 0; l < num_levels_; ++l) {
     const int rank = l == 0 ? 0 : optimum_.rank[l - 1];
@@ -92,7 +93,8 @@ TEST_P(RandomRowStackTest, HasTheGradientOfItsRows) {
   }
 }
 
-TEST_P(RandomRowStackTest, MultipliersAddUpToAnyForceOnTheirRows) {
+TEST_P(RandomLexicographicFactorizationTest,
+       MultipliersAddUpToAnyForceOnTheirRows) {
   const Eigen::MatrixXd Q = Basis(stack_, n_);
   for (int l = 0; l <= num_levels_; ++l) {
     const int rank = l == 0 ? 0 : optimum_.rank[l - 1];
@@ -112,26 +114,27 @@ TEST_P(RandomRowStackTest, MultipliersAddUpToAnyForceOnTheirRows) {
   }
 }
 
-TEST_P(RandomRowStackTest, CorrectsAnyStartToTheSameOptimum) {
+TEST_P(RandomLexicographicFactorizationTest, CorrectsAnyStartToTheSameOptimum) {
   // From a y anywhere in the rows' space, what they lack leads back.
   const Eigen::MatrixXd Q = Basis(stack_, n_);
   Eigen::VectorXd z = Eigen::VectorXd::Map(stack_.z(), stack_.rank());
   for (int e = 0; e < stack_.rank(); ++e) z[e] += 1 + e % 3;
   const Eigen::VectorXd y = Q.transpose() * z;
-  Eigen::VectorXd lack(stack_.num_rows());
+  Eigen::VectorXd residual(stack_.num_rows());
   for (int l = 0; l < num_levels_; ++l) {
-    lack.segment(stack_.first_row(l), levels_[l].A.rows()) =
+    residual.segment(stack_.first_row(l), levels_[l].A.rows()) =
         levels_[l].b - levels_[l].A * y;
   }
   Eigen::VectorXd change = Eigen::VectorXd::Constant(stack_.rank() + 1, 5);
-  stack_.Correct(lack.data(), change.data());
+  stack_.Correct(residual.data(), change.data());
   EXPECT_LE(
       (y + Q.transpose() * change.head(stack_.rank()) - optimum_.y).norm(),
       10 * Tolerance());
   EXPECT_EQ(change[stack_.rank()], 5);
 }
 
-TEST_P(RandomRowStackTest, LevelsComeBackAfterTheyWereDropped) {
+TEST_P(RandomLexicographicFactorizationTest,
+       LevelsComeBackAfterTheyWereDropped) {
   const Eigen::VectorXd y = Optimum(stack_, n_);
   for (int from = num_levels_; from >= 0; --from) {
     stack_.Truncate(from);
@@ -148,7 +151,8 @@ TEST_P(RandomRowStackTest, LevelsComeBackAfterTheyWereDropped) {
 // Rows of the levels that are met go, each in turn and then with it the ones
 // before it, and come back; so do levels after them. What is left is solved as
 // if it had been all.
-TEST_P(RandomRowStackTest, UpdatesAreAsGoodAsFactorisingAnew) {
+TEST_P(RandomLexicographicFactorizationTest,
+       UpdatesAreAsGoodAsFactorisingAnew) {
   int met = 0;
   while (met < num_levels_ && !stack_.is_deficient(met)) ++met;
   if (met == 0) return;
@@ -189,12 +193,12 @@ TEST_P(RandomRowStackTest, UpdatesAreAsGoodAsFactorisingAnew) {
     EXPECT_LE((first.A.transpose() * nu - sum).norm(), tolerance);
     for (int a = 0; a < rows; ++a) EXPECT_EQ(stack_.residual(a), 0) << a;
     // What a row lacks, by its number.
-    Eigen::VectorXd lack = Eigen::VectorXd::Zero(stack_.num_rows());
+    Eigen::VectorXd residual = Eigen::VectorXd::Zero(stack_.num_rows());
     Eigen::VectorXd change(stack_.rank());
-    for (int a = 0; a < rows; ++a) lack[a] = 1 + a;
-    stack_.Correct(lack.data(), change.data());
+    for (int a = 0; a < rows; ++a) residual[a] = 1 + a;
+    stack_.Correct(residual.data(), change.data());
     EXPECT_LE((first.A * Q.topRows(rows).transpose() * change.head(rows) -
-               lack.head(rows))
+               residual.head(rows))
                   .norm(),
               tolerance);
     stack_.Truncate(met);
@@ -231,7 +235,8 @@ TEST_P(RandomRowStackTest, UpdatesAreAsGoodAsFactorisingAnew) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomRowStackTest, testing::Range(0, kSeeds));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomLexicographicFactorizationTest,
+                         testing::Range(0, kSeeds));
 
 }  // namespace
 }  // namespace poise

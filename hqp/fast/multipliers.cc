@@ -4,28 +4,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hqp/tolerances.h"
+
 namespace poise {
 namespace {
-
-// A row violated by less than this, relative to what it is added up from, is at
-// its bound; see cascade.cc.
-constexpr double kAtBound = 1e-9;
 
 double Sign(Side side) { return static_cast<double>(side); }
 
 }  // namespace
 
-Reporter::Reporter(int num_variables,
-                   const std::vector<LevelCapacity>& capacity)
+MultiplierWriter::MultiplierWriter(int num_variables,
+                                   const std::vector<LevelCapacity>& capacity)
     : n_(num_variables),
       equalities_(num_variables, NumRows(capacity),
                   static_cast<int>(capacity.size())),
-      left_(num_variables) {}
+      remainder_(num_variables) {}
 
-void Reporter::Report(const Hierarchy& hierarchy,
-                      const std::vector<std::vector<Side>>& side,
-                      double tolerance, ActiveProblem* problem,
-                      Solution* solution) {
+void MultiplierWriter::Write(const Hierarchy& hierarchy,
+                             const std::vector<std::vector<Side>>& side,
+                             double tolerance, WorkingSetProblem* problem,
+                             Solution* solution) {
   std::copy(problem->y().begin(), problem->y().end(), solution->y.data());
   norm_y_ = solution->y.norm();
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
@@ -42,31 +40,31 @@ void Reporter::Report(const Hierarchy& hierarchy,
       }
     }
   }
-  ReportMultipliers(*problem, solution);
-  for (int level = problem->num_head() + 1; level < problem->num_levels();
+  WriteMultipliers(*problem, solution);
+  for (int level = problem->num_leading() + 1; level < problem->num_levels();
        ++level) {
-    ReportTailMultipliers(hierarchy, level, *problem, solution);
+    WriteDiagonalMultipliers(hierarchy, level, *problem, solution);
   }
   MakeNonnegative(hierarchy, tolerance, *problem, solution);
-  ReportNullity(hierarchy, problem, solution);
+  WriteNullity(hierarchy, problem, solution);
 }
 
-bool Reporter::IsViolated(const ActiveProblem::Row& row,
-                          const Solution& solution) const {
+bool MultiplierWriter::IsViolated(const WorkingSetProblem::Row& row,
+                                  const Solution& solution) const {
   return solution.levels[row.level].slack[row.index] >
-         kAtBound * (row.norm * norm_y_ + std::abs(row.bound));
+         tolerances::kAtBound * (row.norm * norm_y_ + std::abs(row.bound));
 }
 
-void Reporter::ReportMultipliers(const ActiveProblem& problem,
-                                 Solution* solution) {
+void MultiplierWriter::WriteMultipliers(const WorkingSetProblem& problem,
+                                        Solution* solution) {
   for (int level = 1; level < problem.num_levels(); ++level) {
-    const ActiveProblem::Multipliers& from = problem.multipliers(level);
+    const WorkingSetProblem::Multipliers& from = problem.multipliers(level);
     if (!from.any) continue;
-    const int rows = level < problem.num_head()
-                         ? problem.head().first_row(level)
-                         : problem.head().num_rows();
+    const int rows = level < problem.num_leading()
+                         ? problem.leading().first_row(level)
+                         : problem.leading().num_rows();
     for (int a = 0; a < rows; ++a) {
-      const ActiveProblem::Row& row = problem.row(a);
+      const WorkingSetProblem::Row& row = problem.row(a);
       LevelMultipliers& to = solution->levels[level].multipliers[row.level];
       (row.is_inequality ? to.inequality : to.equality)[row.index] =
           from.nu[a] / row.norm;
@@ -76,43 +74,44 @@ void Reporter::ReportMultipliers(const ActiveProblem& problem,
 
 // A level of the tail leaves something on variables that levels of the tail
 // before it have fixed: one row of these cancels it.
-void Reporter::ReportTailMultipliers(const Hierarchy& hierarchy, int level,
-                                     const ActiveProblem& problem,
-                                     Solution* solution) {
-  const int num_head = problem.num_head();
+void MultiplierWriter::WriteDiagonalMultipliers(
+    const Hierarchy& hierarchy, int level, const WorkingSetProblem& problem,
+    Solution* solution) {
+  const int num_leading = problem.num_leading();
   const auto fixed_by = [&](int variable) {
-    return problem.tail().level(variable) + num_head;
+    return problem.diagonal().level(variable) + num_leading;
   };
-  const ActiveProblem::Multipliers& of = problem.multipliers(level);
-  std::fill(left_.begin(), left_.end(), 0);
-  if (of.any) std::copy(of.left.begin(), of.left.end(), left_.begin());
+  const WorkingSetProblem::Multipliers& of = problem.multipliers(level);
+  std::fill(remainder_.begin(), remainder_.end(), 0);
+  if (of.any) std::copy(of.left.begin(), of.left.end(), remainder_.begin());
   for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
     const int j = problem.selected(level, i);
     if (fixed_by(j) >= level) continue;
-    left_[j] += hierarchy.weight(level)[i] * hierarchy.B(level)(i, j) *
-                solution->levels[level].equality_residual[i];
+    remainder_[j] += hierarchy.weight(level)[i] * hierarchy.B(level)(i, j) *
+                     solution->levels[level].equality_residual[i];
   }
-  for (int above = num_head; above < level; ++above) {
+  for (int above = num_leading; above < level; ++above) {
     Eigen::VectorXd& to = solution->levels[level].multipliers[above].equality;
     for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
       const int j = problem.selected(above, i);
-      if (left_[j] == 0 || fixed_by(j) != above ||
+      if (remainder_[j] == 0 || fixed_by(j) != above ||
           hierarchy.weight(above)[i] == 0 || hierarchy.B(above)(i, j) == 0) {
         continue;
       }
-      to[i] = -left_[j] / hierarchy.B(above)(i, j);
-      left_[j] = 0;
+      to[i] = -remainder_[j] / hierarchy.B(above)(i, j);
+      remainder_[j] = 0;
     }
   }
 }
 
 // What row a weighs in the equation of a level: its own, where it is violated
 // if so little that it counts as met, or one below.
-double Reporter::Weight(const ActiveProblem& problem, const Solution& solution,
-                        int a, int level) const {
-  const ActiveProblem::Row& row = problem.row(a);
+double MultiplierWriter::Weight(const WorkingSetProblem& problem,
+                                const Solution& solution, int a,
+                                int level) const {
+  const WorkingSetProblem::Row& row = problem.row(a);
   if (level == row.level) {
-    return problem.head().is_deficient(level)
+    return problem.leading().is_deficient(level)
                ? problem.multipliers(level).nu[a] / row.norm
                : 0;
   }
@@ -122,12 +121,12 @@ double Reporter::Weight(const ActiveProblem& problem, const Solution& solution,
 
 // What weighs no more than this in the equation of a level is rounding's; of rows
 // of unit length, so that they can be compared.
-double Reporter::Rounding(const ActiveProblem& problem,
-                          const Solution& solution, int level,
-                          double tolerance) const {
+double MultiplierWriter::Rounding(const WorkingSetProblem& problem,
+                                  const Solution& solution, int level,
+                                  double tolerance) const {
   double largest = 0;
-  for (int a = 0; a < problem.head().num_rows(); ++a) {
-    const ActiveProblem::Row& row = problem.row(a);
+  for (int a = 0; a < problem.leading().num_rows(); ++a) {
+    const WorkingSetProblem::Row& row = problem.row(a);
     if (row.level > level) continue;
     largest = std::max(
         largest, row.norm * std::abs(Weight(problem, solution, a, level)));
@@ -137,11 +136,10 @@ double Reporter::Rounding(const ActiveProblem& problem,
 
 // The first level before this one in whose equation row a weighs anything, and
 // what it weighs there; 0 if there is none.
-std::pair<int, double> Reporter::FirstHeldBack(const ActiveProblem& problem,
-                                               const Solution& solution, int a,
-                                               int level, Side side,
-                                               double tolerance) const {
-  const ActiveProblem::Row& row = problem.row(a);
+std::pair<int, double> MultiplierWriter::FirstPositiveMultiplier(
+    const WorkingSetProblem& problem, const Solution& solution, int a,
+    int level, Side side, double tolerance) const {
+  const WorkingSetProblem::Row& row = problem.row(a);
   for (int l = row.level; l < level; ++l) {
     const double weight = Sign(side) * Weight(problem, solution, a, l);
     if (weight * row.norm > Rounding(problem, solution, l, tolerance)) {
@@ -153,17 +151,18 @@ std::pair<int, double> Reporter::FirstHeldBack(const ActiveProblem& problem,
 
 // A multiplier may be negative where that of a level before is positive. A
 // multiple of that level's own equation, which adds up to zero, makes it right.
-void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
-                               const ActiveProblem& problem,
-                               Solution* solution) {
+void MultiplierWriter::MakeNonnegative(const Hierarchy& hierarchy,
+                                       double tolerance,
+                                       const WorkingSetProblem& problem,
+                                       Solution* solution) {
   for (int level = 1; level < problem.num_levels(); ++level) {
     if (!problem.multipliers(level).any) continue;
     const LevelSolution& of = solution->levels[level];
-    const int rows = level < problem.num_head()
-                         ? problem.head().first_row(level)
-                         : problem.head().num_rows();
+    const int rows = level < problem.num_leading()
+                         ? problem.leading().first_row(level)
+                         : problem.leading().num_rows();
     for (int a = 0; a < rows; ++a) {
-      const ActiveProblem::Row& row = problem.row(a);
+      const WorkingSetProblem::Row& row = problem.row(a);
       if (!row.is_inequality || IsViolated(row, *solution) ||
           hierarchy.lower(row.level)[row.index] ==
               hierarchy.upper(row.level)[row.index]) {
@@ -172,31 +171,34 @@ void Reporter::MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
       const Side side = solution->levels[row.level].active[row.index];
       const double mu =
           Sign(side) * of.multipliers[row.level].inequality[row.index];
-      if (mu >= 0 || problem.Price(a, level, side, tolerance) == 0) continue;
-      const auto [first, price] =
-          FirstHeldBack(problem, *solution, a, level, side, tolerance);
-      if (price == 0) continue;
-      AddEquation(hierarchy, first, -mu / price, problem, level, solution);
+      if (mu >= 0 || problem.Multiplier(a, level, side, tolerance) == 0)
+        continue;
+      const auto [first, multiplier] = FirstPositiveMultiplier(
+          problem, *solution, a, level, side, tolerance);
+      if (multiplier == 0) continue;
+      AddEquation(hierarchy, first, -mu / multiplier, problem, level, solution);
     }
   }
 }
 
 // Adds to the multipliers of `to` a multiple of the equation of the level `from`.
-void Reporter::AddEquation(const Hierarchy& hierarchy, int from, double factor,
-                           const ActiveProblem& problem, int to,
-                           Solution* solution) {
+void MultiplierWriter::AddEquation(const Hierarchy& hierarchy, int from,
+                                   double factor,
+                                   const WorkingSetProblem& problem, int to,
+                                   Solution* solution) {
   std::vector<LevelMultipliers>& sum = solution->levels[to].multipliers;
-  if (from < problem.num_head()) {
-    const ActiveProblem::Multipliers& of = problem.multipliers(from);
-    for (int a = of.any ? problem.head().first_row(from) : 0;
-         a < problem.head().end_row(from); ++a) {
-      const ActiveProblem::Row& row = problem.row(a);
+  if (from < problem.num_leading()) {
+    const WorkingSetProblem::Multipliers& of = problem.multipliers(from);
+    for (int a = of.any ? problem.leading().first_row(from) : 0;
+         a < problem.leading().end_row(from); ++a) {
+      const WorkingSetProblem::Row& row = problem.row(a);
       LevelMultipliers& at = sum[row.level];
       (row.is_inequality ? at.inequality : at.equality)[row.index] +=
           factor * of.nu[a] / row.norm;
     }
   } else {
-    AddOwn(hierarchy, from, factor, problem, *solution, &sum[from].equality);
+    AddOwnMultipliers(hierarchy, from, factor, problem, *solution,
+                      &sum[from].equality);
   }
   for (int above = 0; above < from; ++above) {
     const LevelMultipliers& of = solution->levels[from].multipliers[above];
@@ -208,11 +210,13 @@ void Reporter::AddEquation(const Hierarchy& hierarchy, int from, double factor,
 // What the rows of a level of the tail weigh in its equation. On its own variables
 // that is what cancels the others: of what heavy rows lack rounding leaves few
 // digits.
-void Reporter::AddOwn(const Hierarchy& hierarchy, int level, double factor,
-                      const ActiveProblem& problem, const Solution& solution,
-                      Eigen::VectorXd* sum) {
+void MultiplierWriter::AddOwnMultipliers(const Hierarchy& hierarchy, int level,
+                                         double factor,
+                                         const WorkingSetProblem& problem,
+                                         const Solution& solution,
+                                         Eigen::VectorXd* sum) {
   const LevelSolution& of = solution.levels[level];
-  auto left = Eigen::VectorXd::Map(left_.data(), n_);
+  auto left = Eigen::VectorXd::Map(remainder_.data(), n_);
   left.setZero();
   for (int above = 0; above < level; ++above) {
     const auto B = hierarchy.B(above), C = hierarchy.C(above);
@@ -227,7 +231,7 @@ void Reporter::AddOwn(const Hierarchy& hierarchy, int level, double factor,
     const int j = problem.selected(level, i);
     const double scale = hierarchy.B(level)(i, j);
     if (hierarchy.weight(level)[i] == 0 || scale == 0) continue;
-    if (problem.tail().level(j) + problem.num_head() == level) {
+    if (problem.diagonal().level(j) + problem.num_leading() == level) {
       (*sum)[i] -= factor * left[j] / scale;
       left[j] = 0;
     } else {
@@ -240,15 +244,16 @@ void Reporter::AddOwn(const Hierarchy& hierarchy, int level, double factor,
 // Counts only equalities and violated rows. With rows at their bounds that are
 // left out, it takes a factorisation of what is left; but of independent rows
 // each counts for one, and only the tail must be asked.
-void Reporter::ReportNullity(const Hierarchy& hierarchy, ActiveProblem* problem,
-                             Solution* solution) {
-  const RowStack& head = problem->head();
-  const bool is_quick = head.is_well_conditioned();
+void MultiplierWriter::WriteNullity(const Hierarchy& hierarchy,
+                                    WorkingSetProblem* problem,
+                                    Solution* solution) {
+  const LexicographicFactorization& leading = problem->leading();
+  const bool is_quick = leading.is_well_conditioned();
   bool all_count = true;
   equalities_.Truncate(0);
-  for (int level = 0; level < problem->num_head(); ++level) {
-    for (int a = 0; a < head.num_rows(); ++a) {
-      const ActiveProblem::Row& row = problem->row(a);
+  for (int level = 0; level < problem->num_leading(); ++level) {
+    for (int a = 0; a < leading.num_rows(); ++a) {
+      const WorkingSetProblem::Row& row = problem->row(a);
       if (row.level != level) continue;
       if (row.is_inequality && !IsViolated(row, *solution)) {
         all_count = false;
@@ -264,18 +269,19 @@ void Reporter::ReportNullity(const Hierarchy& hierarchy, ActiveProblem* problem,
     solution->levels[level].nullity =
         n_ - (is_quick ? equalities_.num_rows() : equalities_.rank());
   }
-  SelectionTail& tail = problem->tail();
+  DiagonalLevels& diagonal = problem->diagonal();
   if (all_count) {
     // As it is tied.
   } else if (is_quick) {
-    tail.TieRows(equalities_.row(0), equalities_.stride(),
-                 equalities_.num_rows());
+    diagonal.TieRows(equalities_.row(0), equalities_.stride(),
+                     equalities_.num_rows());
   } else {
-    tail.Tie(equalities_);
+    diagonal.Tie(equalities_);
   }
-  for (int level = problem->num_head(); level < problem->num_levels();
+  for (int level = problem->num_leading(); level < problem->num_levels();
        ++level) {
-    solution->levels[level].nullity = tail.Nullity(level - problem->num_head());
+    solution->levels[level].nullity =
+        diagonal.Nullity(level - problem->num_leading());
   }
 }
 

@@ -11,46 +11,48 @@
 
 namespace poise {
 
-/// Writes what the fast solver found, as a Solution: the multipliers by level
-/// and row, none of them negative where a certificate forbids it, and the
-/// nullities.
-class Reporter {
+/// Writes the answer of the search as a Solution: y, working set, nullities, and
+/// the multipliers by level and row. Inequality multipliers are made nonnegative
+/// where the certificate requires that.
+class MultiplierWriter {
  public:
-  Reporter(int num_variables, const std::vector<LevelCapacity>& capacity);
+  MultiplierWriter(int num_variables,
+                   const std::vector<LevelCapacity>& capacity);
 
-  /// @param tolerance  below it, relative, a multiplier is zero.
-  /// @param problem    solved; its tail is used up by this.
-  void Report(const Hierarchy& hierarchy,
-              const std::vector<std::vector<Side>>& side, double tolerance,
-              ActiveProblem* problem, Solution* solution);
+  /// @param tolerance  a multiplier below this, relative, is zero.
+  /// @param problem    solved; its diagonal levels are overwritten.
+  void Write(const Hierarchy& hierarchy,
+             const std::vector<std::vector<Side>>& side, double tolerance,
+             WorkingSetProblem* problem, Solution* solution);
 
  private:
-  void ReportMultipliers(const ActiveProblem& problem, Solution* solution);
-  void ReportTailMultipliers(const Hierarchy& hierarchy, int level,
-                             const ActiveProblem& problem, Solution* solution);
-  std::pair<int, double> FirstHeldBack(const ActiveProblem& problem,
-                                       const Solution& solution, int a,
-                                       int level, Side side,
-                                       double tolerance) const;
+  void WriteMultipliers(const WorkingSetProblem& problem, Solution* solution);
+  void WriteDiagonalMultipliers(const Hierarchy& hierarchy, int level,
+                                const WorkingSetProblem& problem,
+                                Solution* solution);
+  std::pair<int, double> FirstPositiveMultiplier(
+      const WorkingSetProblem& problem, const Solution& solution, int a,
+      int level, Side side, double tolerance) const;
   void MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
-                       const ActiveProblem& problem, Solution* solution);
+                       const WorkingSetProblem& problem, Solution* solution);
   void AddEquation(const Hierarchy& hierarchy, int from, double factor,
-                   const ActiveProblem& problem, int to, Solution* solution);
-  void AddOwn(const Hierarchy& hierarchy, int level, double factor,
-              const ActiveProblem& problem, const Solution& solution,
-              Eigen::VectorXd* sum);
-  double Weight(const ActiveProblem& problem, const Solution& solution, int a,
-                int level) const;
-  double Rounding(const ActiveProblem& problem, const Solution& solution,
+                   const WorkingSetProblem& problem, int to,
+                   Solution* solution);
+  void AddOwnMultipliers(const Hierarchy& hierarchy, int level, double factor,
+                         const WorkingSetProblem& problem,
+                         const Solution& solution, Eigen::VectorXd* sum);
+  double Weight(const WorkingSetProblem& problem, const Solution& solution,
+                int a, int level) const;
+  double Rounding(const WorkingSetProblem& problem, const Solution& solution,
                   int level, double tolerance) const;
-  void ReportNullity(const Hierarchy& hierarchy, ActiveProblem* problem,
-                     Solution* solution);
-  bool IsViolated(const ActiveProblem::Row& row,
+  void WriteNullity(const Hierarchy& hierarchy, WorkingSetProblem* problem,
+                    Solution* solution);
+  bool IsViolated(const WorkingSetProblem::Row& row,
                   const Solution& solution) const;
 
   int n_;
-  RowStack equalities_;
-  std::vector<double> left_;
+  LexicographicFactorization equalities_;
+  std::vector<double> remainder_;
   double norm_y_ = 0;
 };
 

@@ -52,7 +52,7 @@ HierarchyCase WithRoom(const HierarchyCase& drawn) {
 
 // With levels that only select variables, and without; so many that multipliers
 // of the wrong sign, which there are of few, are made right a hundred times.
-TEST(Report, IsCertifiedAndCountsAsTheCascadeDoes) {
+TEST(MultiplierWriter, IsCertifiedAndCountsAsTheCascadeDoes) {
   for (int seed = 0; seed < 1200; ++seed) {
     SCOPED_TRACE(seed);
     RandomHierarchyOptions options;
@@ -86,7 +86,7 @@ TEST(Report, IsCertifiedAndCountsAsTheCascadeDoes) {
 }
 
 // At y = 0, the bound of a row: it is at work, but not violated.
-TEST(Report, KnowsARowOfSizeZero) {
+TEST(MultiplierWriter, KnowsARowOfSizeZero) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {2, 0}};
   Hierarchy hierarchy(2, capacity);
   InequalityBlock row = hierarchy.AddInequalities(0, 1);
@@ -103,7 +103,7 @@ TEST(Report, KnowsARowOfSizeZero) {
 
 // However short a row is, it counts for one: y0 = 1 and y1 <= 1, above y1 = 3,
 // above y0 = 2 and y2 = 4.
-TEST(Report, CountsShortRowsLikeLongOnes) {
+TEST(MultiplierWriter, CountsShortRowsLikeLongOnes) {
   const double length = std::ldexp(1, -43);  // 1e-13.
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}, {2, 0}};
   Hierarchy hierarchy(3, capacity);
@@ -132,7 +132,7 @@ TEST(Report, CountsShortRowsLikeLongOnes) {
 
 // y = 0 above y = -1, of levels that only select: what is left is 1, exactly; on
 // the row that fixes y, not on one without weight.
-TEST(Report, CancelsWhatALevelOfSelectionsLeaves) {
+TEST(MultiplierWriter, CancelsWhatALevelOfSelectionsLeaves) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {2, 0}, {2, 0}};
   Hierarchy hierarchy(1, capacity);
   for (int k = 0; k < 3; ++k) {
@@ -151,7 +151,7 @@ TEST(Report, CancelsWhatALevelOfSelectionsLeaves) {
 
 // y = 1 and y = 3 as rows of one bound twice: y = 2 is above one, below the
 // other. What is met counts as at the upper one.
-TEST(Report, TellsWhichBoundOfTwoInOneIsViolated) {
+TEST(MultiplierWriter, TellsWhichBoundOfTwoInOneIsViolated) {
   const std::vector<LevelCapacity> capacity{{0, 2}};
   Hierarchy hierarchy(1, capacity);
   InequalityBlock rows = hierarchy.AddInequalities(0, 2);
@@ -169,10 +169,10 @@ TEST(Report, TellsWhichBoundOfTwoInOneIsViolated) {
   EXPECT_EQ(met.levels[0].active[1], Side::kUpper);
 }
 
-// 3 y0 + 4 y1 <= 50, and >= 50 and twice a violation, at y = (10, 5): violated
-// is what is more than 1e-9 (5 |y| + 50).
-TEST(Report, CountsARowAsViolatedFromAnEdgeOn) {
-  for (const double share : {0.98, 1.02}) {
+// 3 y0 + 4 y1 <= 50 and >= 50 plus twice a violation, at y = (10, 5). The rows are
+// violated beyond 1e-9 (5 |y| + 50), and take one from the nullity then.
+TEST(MultiplierWriter, CountsViolatedRowsInTheNullity) {
+  for (const double share : {0.01, 100.}) {
     const std::vector<LevelCapacity> capacity{{1, 2}};
     Hierarchy hierarchy(2, capacity);
     EqualityBlock across = hierarchy.AddEqualities(0, 1);
@@ -182,14 +182,18 @@ TEST(Report, CountsARowAsViolatedFromAnEdgeOn) {
     rows.C << 3, 4, 3, 4;
     rows.upper[0] = 50;
     rows.lower[1] = 50 + 2 * share * 1e-9 * (5 * std::sqrt(125) + 50);
-    EXPECT_EQ(Solve(hierarchy, capacity).levels[0].nullity, share < 1 ? 1 : 0);
+    const Solution solution = Solve(hierarchy, capacity);
+    EXPECT_LE(solution.certificate.worst(), 1e-9);
+    EXPECT_LE((solution.y - Eigen::Vector2d(10, 5)).norm(),
+              (rows.lower[1] - 50) / 5);
+    EXPECT_EQ(solution.levels[0].nullity, share < 1 ? 1 : 0);
   }
 }
 
 // y0 = 1 above y0 <= 1 - 2e-9, which is violated too little to count, and y1 = 0:
 // what is below and asks for y0 + y1 = 0 would draw at the bound as much as at
 // y0 = 1, were it not for these two, which weigh the same. And so in other units.
-TEST(Report, TakesForceOffARowThatIsViolatedTooLittleToCount) {
+TEST(MultiplierWriter, TakesForceOffARowThatIsViolatedTooLittleToCount) {
   for (const double unit : {1., 1e-3}) {
     SCOPED_TRACE(unit);
     const std::vector<LevelCapacity> capacity{{2, 1}, {1, 0}};
@@ -216,7 +220,7 @@ TEST(Report, TakesForceOffARowThatIsViolatedTooLittleToCount) {
 
 // y = 1 and y <= -1 are torn between at y = 0: there both are equalities, and
 // share what y = -5 below draws with, whatever its sign.
-TEST(Report, LeavesTheForceOnARowThatIsViolated) {
+TEST(MultiplierWriter, LeavesTheForceOnARowThatIsViolated) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
   EqualityBlock wish = hierarchy.AddEqualities(0, 1);
@@ -236,7 +240,7 @@ TEST(Report, LeavesTheForceOnARowThatIsViolated) {
 
 // y0 + y1 = 0 above y_i = 1, y_j = 5 and nothing: what the third leaves on the
 // other variable is not there for the fourth, nor for the next solve.
-TEST(Report, ForgetsWhatALevelLeavesOnTheTail) {
+TEST(MultiplierWriter, ForgetsWhatALevelLeavesOnTheTail) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}, {1, 0}, {1, 0}};
   Solver solver(2, capacity);
   for (int j = 0; j < 2; ++j) {
@@ -263,7 +267,7 @@ TEST(Report, ForgetsWhatALevelLeavesOnTheTail) {
 // y0 is between rows of 8e6 that contradict each other and almost depend on each
 // other, so that what some rows weigh is rounding. A multiple of an equation that
 // is divided by that, of 1e31, would make any y pass for an optimum.
-TEST(Report, DividesByNothingThatIsRoundings) {
+TEST(MultiplierWriter, DividesByNothingThatIsRoundings) {
   const std::vector<LevelCapacity> capacity{{2, 2}, {0, 1}, {1, 0}};
   Hierarchy hierarchy(4, capacity);
   EqualityBlock sums = hierarchy.AddEqualities(0, 2);
@@ -289,9 +293,9 @@ TEST(Report, DividesByNothingThatIsRoundings) {
 
 // y0 + y1 = 4 and 2 (y1 + y2) <= 6, above 2 y0 = -2 and, of weight 3, 4 y2 = 8,
 // above 5 y1 = 10.
-class ReportByHandTest : public testing::Test {
+class MultiplierWriterByHandTest : public testing::Test {
  protected:
-  ReportByHandTest() {
+  MultiplierWriterByHandTest() {
     EqualityBlock sum = hierarchy_.AddEqualities(0, 1);
     sum.B << 1, 1, 0;
     sum.b << -4;
@@ -313,7 +317,7 @@ class ReportByHandTest : public testing::Test {
 
 // At its bound y = (t, 4 - t, t - 1): (2 t + 2)^2 + 3 (4 t - 12)^2 is least at
 // t = 35 / 13.
-TEST_F(ReportByHandTest, GivesTheMultipliersOfEachLevel) {
+TEST_F(MultiplierWriterByHandTest, GivesTheMultipliersOfEachLevel) {
   const Solution solution = Solve(hierarchy_, capacity_);
   EXPECT_LE((solution.y - Eigen::Vector3d(35, 17, 22) / 13).norm(), kTolerance);
   EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);

@@ -6,13 +6,10 @@
 #include <limits>
 
 #include "hqp/fast/kernels.h"
+#include "hqp/fast/tolerances.h"
 
 namespace poise {
 namespace {
-
-// What weighs less than this, by its squares, is a row of zeros: they would not
-// be numbers any more.
-constexpr double kWeightless = 1e-300;
 
 double Norm(const double* row, int n) {
   return std::sqrt(kernels::SquaredNorm(row, n));
@@ -20,19 +17,19 @@ double Norm(const double* row, int n) {
 
 }  // namespace
 
-ActiveProblem::ActiveProblem(int num_variables,
-                             const std::vector<LevelCapacity>& capacity)
+WorkingSetProblem::WorkingSetProblem(int num_variables,
+                                     const std::vector<LevelCapacity>& capacity)
     : n_(num_variables),
-      head_(num_variables, NumRows(capacity),
-            static_cast<int>(capacity.size())),
-      tail_(num_variables, static_cast<int>(capacity.size())),
+      leading_(num_variables, NumRows(capacity),
+               static_cast<int>(capacity.size())),
+      diagonal_(num_variables, static_cast<int>(capacity.size())),
       rows_(NumRows(capacity)),
       multipliers_(capacity.size() + 1),
       y_(num_variables),
       gradient_(num_variables),
       change_(num_variables),
       nu_(rows_.size()),
-      lack_(rows_.size()),
+      row_residual_(rows_.size()),
       size_(rows_.size()) {
   for (const LevelCapacity& level : capacity) {
     norm_.emplace_back(level.inequalities);
@@ -47,7 +44,7 @@ ActiveProblem::ActiveProblem(int num_variables,
 }
 
 // Whether there is room for the level.
-bool ActiveProblem::Fits(const Hierarchy& hierarchy, int level) const {
+bool WorkingSetProblem::Fits(const Hierarchy& hierarchy, int level) const {
   return level < static_cast<int>(norm_.size()) &&
          hierarchy.num_equalities(level) <=
              static_cast<int>(B_norm_[level].size()) &&
@@ -55,7 +52,7 @@ bool ActiveProblem::Fits(const Hierarchy& hierarchy, int level) const {
              static_cast<int>(norm_[level].size());
 }
 
-Status ActiveProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
+Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   *failed_level = 0;
   if (hierarchy.num_variables() != n_) return Status::kBadInput;
@@ -72,13 +69,14 @@ Status ActiveProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
       norm = kernels::AbsoluteSum(B.data() + i * n_, n_);
       zero += (norm + b[i] + weight[i]) * 0;
       in_order &= !(weight[i] < 0);
-      if (weight[i] > 0 && norm * norm * weight[i] < kWeightless) norm = 0;
+      if (weight[i] > 0 && norm * norm * weight[i] < tolerances::kZeroRow)
+        norm = 0;
     }
     for (int i = 0; i < C.rows(); ++i) {
       double& norm = norm_[level][i];
       norm = kernels::AbsoluteSum(C.data() + i * n_, n_);
       zero += norm * 0;
-      if (norm * norm < kWeightless) norm = 0;
+      if (norm * norm < tolerances::kZeroRow) norm = 0;
       if (!(lower[i] < kInfinity && upper[i] > -kInfinity)) {
         return Status::kNotFinite;
       }
@@ -91,12 +89,12 @@ Status ActiveProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
   return Status::kOptimal;
 }
 
-void ActiveProblem::Plan(const Hierarchy& hierarchy, int num_levels,
-                         const double* center) {
+void WorkingSetProblem::Plan(const Hierarchy& hierarchy, int num_levels,
+                             const double* center) {
   num_levels_ = num_levels;
-  num_head_ = num_levels;
+  num_leading_ = num_levels;
   is_factored_ = false;
-  tail_.Clear();
+  diagonal_.Clear();
   // The tail: last levels without inequalities whose rows have one variable.
   for (int level = num_levels - 1; level >= 0; --level) {
     if (hierarchy.num_inequalities(level) > 0) break;
@@ -116,40 +114,42 @@ void ActiveProblem::Plan(const Hierarchy& hierarchy, int num_levels,
       selects = std::abs(row[variable]) == B_norm_[level][i];
     }
     if (!selects) break;
-    num_head_ = level;
+    num_leading_ = level;
   }
-  for (int level = num_head_; level < num_levels; ++level) {
-    tail_.AddLevel();
+  for (int level = num_leading_; level < num_levels; ++level) {
+    diagonal_.AddLevel();
     for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
       const double scale = hierarchy.B(level)(i, selected_[level][i]);
       if (scale == 0) continue;
-      tail_.Add(selected_[level][i], hierarchy.weight(level)[i] * scale * scale,
-                -hierarchy.b(level)[i] / scale);
+      diagonal_.Add(selected_[level][i],
+                    hierarchy.weight(level)[i] * scale * scale,
+                    -hierarchy.b(level)[i] / scale);
     }
   }
-  tail_.Finish(center);
+  diagonal_.Finish(center);
 }
 
-void ActiveProblem::AddRow(const Row& row, const double* from, double metric) {
-  const int a = head_.AddRow(row.bound / row.norm, metric * row.norm);
+void WorkingSetProblem::AddRow(const Row& row, const double* from,
+                               double metric) {
+  const int a = leading_.AddRow(row.bound / row.norm, metric * row.norm);
   rows_[a] = row;
-  double* to = head_.row(a);
+  double* to = leading_.row(a);
   for (int j = 0; j < n_; ++j) to[j] = from[j] / row.norm;
 }
 
-void ActiveProblem::AddInequality(const Hierarchy& hierarchy, int level, int i,
-                                  Side side) {
+void WorkingSetProblem::AddInequality(const Hierarchy& hierarchy, int level,
+                                      int i, Side side) {
   const double* row = hierarchy.C(level).data() + i * n_;
   const double bound = side == Side::kUpper ? hierarchy.upper(level)[i]
                                             : hierarchy.lower(level)[i];
   AddRow({level, i, true, Norm(row, n_), bound}, row, 1);
 }
 
-void ActiveProblem::FactorFrom(const Hierarchy& hierarchy,
-                               const std::vector<std::vector<Side>>& side,
-                               int from_level) {
-  head_.Truncate(from_level);
-  for (int level = from_level; level < num_head_; ++level) {
+void WorkingSetProblem::FactorFrom(const Hierarchy& hierarchy,
+                                   const std::vector<std::vector<Side>>& side,
+                                   int from_level) {
+  leading_.Truncate(from_level);
+  for (int level = from_level; level < num_leading_; ++level) {
     for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
       const double weight = hierarchy.weight(level)[i];
       if (weight == 0 || B_norm_[level][i] == 0) continue;
@@ -161,7 +161,7 @@ void ActiveProblem::FactorFrom(const Hierarchy& hierarchy,
       if (side[level][i] == Side::kNone || norm_[level][i] == 0) continue;
       AddInequality(hierarchy, level, i, side[level][i]);
     }
-    head_.FactorLevel();
+    leading_.FactorLevel();
     factored_[level] = side[level];
   }
 }
@@ -169,21 +169,21 @@ void ActiveProblem::FactorFrom(const Hierarchy& hierarchy,
 // Of the levels before the first deficient one, rows that are met in whatever
 // order: one by one they go and come. The others are factored anew. False if a
 // row that comes nearly depends on others.
-bool ActiveProblem::Update(const Hierarchy& hierarchy,
-                           const std::vector<std::vector<Side>>& side) {
+bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
+                               const std::vector<std::vector<Side>>& side) {
   int met = 0;
-  while (met < num_head_ && !head_.is_deficient(met)) ++met;
+  while (met < num_leading_ && !leading_.is_deficient(met)) ++met;
   if (met == 0) return false;
-  head_.Merge(met);
-  for (int a = head_.num_rows() - 1; a >= 0; --a) {
+  leading_.Merge(met);
+  for (int a = leading_.num_rows() - 1; a >= 0; --a) {
     const Row& row = rows_[a];
     if (!row.is_inequality ||
         side[row.level][row.index] == factored_[row.level][row.index]) {
       continue;
     }
     factored_[row.level][row.index] = Side::kNone;
-    head_.RemoveRow(a);
-    rows_[a] = rows_[head_.num_rows()];
+    leading_.RemoveRow(a);
+    rows_[a] = rows_[leading_.num_rows()];
   }
   for (int level = 0; level < met; ++level) {
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
@@ -191,17 +191,17 @@ bool ActiveProblem::Update(const Hierarchy& hierarchy,
         continue;
       }
       AddInequality(hierarchy, level, i, side[level][i]);
-      if (!head_.AppendRow()) return false;
+      if (!leading_.AppendRow()) return false;
       factored_[level][i] = side[level][i];
     }
   }
-  head_.SolveLast();
+  leading_.SolveLast();
   FactorFrom(hierarchy, side, met);
   return true;
 }
 
-void ActiveProblem::SolveHead(const Hierarchy& hierarchy,
-                              const std::vector<std::vector<Side>>& side) {
+void WorkingSetProblem::SolveLeading(
+    const Hierarchy& hierarchy, const std::vector<std::vector<Side>>& side) {
   if (!is_factored_ || !Update(hierarchy, side)) {
     FactorFrom(hierarchy, side, 0);
   }
@@ -209,33 +209,33 @@ void ActiveProblem::SolveHead(const Hierarchy& hierarchy,
 }
 
 // y + Q' (z - Q y).
-void ActiveProblem::Approach(const std::vector<double>& y) {
+void WorkingSetProblem::Approach(const std::vector<double>& y) {
   y_ = y;
-  const int rank = head_.rank();
-  kernels::Dots(head_.basis(), head_.stride(), rank, y_.data(), n_,
+  const int rank = leading_.rank();
+  kernels::Dots(leading_.basis(), leading_.stride(), rank, y_.data(), n_,
                 change_.data());
-  for (int e = 0; e < rank; ++e) change_[e] = head_.z()[e] - change_[e];
-  kernels::AddRows(head_.basis(), head_.stride(), rank, change_.data(), n_,
-                   y_.data());
+  for (int e = 0; e < rank; ++e) change_[e] = leading_.z()[e] - change_[e];
+  kernels::AddRows(leading_.basis(), leading_.stride(), rank, change_.data(),
+                   n_, y_.data());
 }
 
-void ActiveProblem::FindMultipliers(int end) {
+void WorkingSetProblem::FindMultipliers(int end) {
   for (int level = 0; level < end; ++level) {
     Multipliers& out = multipliers_[level];
     const int rows =
-        level < num_head_ ? head_.first_row(level) : head_.num_rows();
-    if (level < num_head_) {
-      out.size = head_.Gradient(level, gradient_.data());
+        level < num_leading_ ? leading_.first_row(level) : leading_.num_rows();
+    if (level < num_leading_) {
+      out.size = leading_.Gradient(level, gradient_.data());
       out.any = out.size > 0;
       if (!out.any) continue;
       for (double& entry : gradient_) entry = -entry;
-      head_.SolveDual(level, gradient_.data(), out.nu.data());
+      leading_.SolveDual(level, gradient_.data(), out.nu.data());
     } else {
-      out.size =
-          tail_.Dual(level - num_head_, gradient_.data(), out.left.data());
+      out.size = diagonal_.Dual(level - num_leading_, gradient_.data(),
+                                out.left.data());
       out.any = out.size > 0;
       if (!out.any) continue;
-      head_.SolveDual(num_head_, gradient_.data(), out.nu.data());
+      leading_.SolveDual(num_leading_, gradient_.data(), out.nu.data());
     }
     for (int a = 0; a < rows; ++a) {
       out.size = std::max(out.size, std::abs(out.nu[a]));
@@ -243,66 +243,67 @@ void ActiveProblem::FindMultipliers(int end) {
   }
 }
 
-void ActiveProblem::RefineMultipliers(const Hierarchy& hierarchy) {
+void WorkingSetProblem::RefineMultipliers(const Hierarchy& hierarchy) {
   for (int level = 0; level < num_levels_; ++level) {
     Multipliers& of = multipliers_[level];
     // A level of the head: its own rows as well, as what they weigh, even where
     // that asks nothing of other rows.
-    const bool in_head = level < num_head_;
+    const bool is_leading = level < num_leading_;
     if (!of.any) {
-      if (!in_head || !head_.is_deficient(level)) continue;
-      std::fill_n(of.nu.begin(), head_.first_row(level), 0);
+      if (!is_leading || !leading_.is_deficient(level)) continue;
+      std::fill_n(of.nu.begin(), leading_.first_row(level), 0);
     }
     // Refinement has met it, of which its multipliers know nothing.
-    if (!in_head && tail_.IsMet(level - num_head_, y_.data())) {
+    if (!is_leading && diagonal_.IsMet(level - num_leading_, y_.data())) {
       of.any = false;
       continue;
     }
-    const int levels = in_head ? level + 1 : num_head_;
-    const int rows = in_head ? head_.end_row(level) : head_.num_rows();
-    const int rank = in_head ? head_.rank(level) : head_.rank();
+    const int levels = is_leading ? level + 1 : num_leading_;
+    const int rows = is_leading ? leading_.end_row(level) : leading_.num_rows();
+    const int rank = is_leading ? leading_.rank(level) : leading_.rank();
     std::vector<double>& left = change_;
     std::fill(left.begin(), left.end(), 0);
-    if (in_head) {
-      for (int a = head_.first_row(level); a < rows; ++a) {
-        of.nu[a] = head_.weight(a) * head_.residual(a);
+    if (is_leading) {
+      for (int a = leading_.first_row(level); a < rows; ++a) {
+        of.nu[a] = leading_.weight(a) * leading_.residual(a);
       }
     } else {
-      tail_.AddGradient(level - num_head_, y_.data(), of.left.data(),
-                        left.data());
+      diagonal_.AddGradient(level - num_leading_, y_.data(), of.left.data(),
+                            left.data());
     }
     for (int a = 0; a < rows; ++a) {
       AddToSum(hierarchy, a, of.nu[a], left.data());
     }
-    if (!in_head) {
-      tail_.DropRounding(level - num_head_, y_.data(), left.data());
+    if (!is_leading) {
+      diagonal_.ZeroRounding(level - num_leading_, y_.data(), left.data());
     }
-    kernels::Dots(head_.basis(), head_.stride(), rank, left.data(), n_,
+    kernels::Dots(leading_.basis(), leading_.stride(), rank, left.data(), n_,
                   gradient_.data());
     for (int e = 0; e < rank; ++e) gradient_[e] = -gradient_[e];
-    head_.SolveDual(levels, gradient_.data(), nu_.data());
+    leading_.SolveDual(levels, gradient_.data(), nu_.data());
     for (int a = 0; a < rows; ++a) of.nu[a] += nu_[a];
   }
 }
 
 // sum += factor (row a, of unit length).
-void ActiveProblem::AddToSum(const Hierarchy& hierarchy, int a, double factor,
-                             double* sum) const {
+void WorkingSetProblem::AddToSum(const Hierarchy& hierarchy, int a,
+                                 double factor, double* sum) const {
   if (factor == 0) return;
   factor /= rows_[a].norm;
   kernels::AddRows(Original(hierarchy, a), 0, 1, &factor, n_, sum);
 }
 
-const double* ActiveProblem::Original(const Hierarchy& hierarchy, int a) const {
+const double* WorkingSetProblem::Original(const Hierarchy& hierarchy,
+                                          int a) const {
   const Row& row = rows_[a];
   return row.is_inequality ? hierarchy.C(row.level).data() + row.index * n_
                            : hierarchy.B(row.level).data() + row.index * n_;
 }
 
-double ActiveProblem::Price(int a, int level, Side side,
-                            double tolerance) const {
+double WorkingSetProblem::Multiplier(int a, int level, Side side,
+                                     double tolerance) const {
   const double sign = static_cast<double>(side);
-  if (level == rows_[a].level) return sign * head_.residual(a);
+  if (level == rows_[a].level) return sign * leading_.residual(a);
   const Multipliers& of = multipliers_[level];
   if (!of.any || std::abs(of.nu[a]) <= tolerance * of.size) return 0;
   return sign * of.nu[a];

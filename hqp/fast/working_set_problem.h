@@ -10,28 +10,29 @@
 
 namespace poise {
 
-/// A hierarchy with a guess of its active rows taken as equalities of their own
-/// levels: solved by one orthogonalisation (RowStack), and a few small problems
-/// for last levels that select variables (SelectionTail). Below the last level
-/// there is one more, the norm of y.
-class ActiveProblem {
+/// A hierarchy whose working set is taken as equalities of their own levels. The
+/// leading levels are solved by one LexicographicFactorization, the last levels
+/// whose rows have one variable by DiagonalLevels. The norm of y is one more level
+/// below the last.
+class WorkingSetProblem {
  public:
-  ActiveProblem(int num_variables, const std::vector<LevelCapacity>& capacity);
+  WorkingSetProblem(int num_variables,
+                    const std::vector<LevelCapacity>& capacity);
 
-  /// A row of the head, as it is in the hierarchy.
+  /// A row of the leading levels, as given in the hierarchy.
   struct Row {
     int level, index;
     bool is_inequality;
     double norm;   ///< |row|_2.
-    double bound;  ///< -b, or the bound at work.
+    double bound;  ///< -b, or the active bound.
   };
 
-  /// What a level, or the norm of y, asks of the rows before it.
+  /// Multipliers of a level, or of the norm of y, on the rows of the levels above.
   struct Multipliers {
     bool any = false;          ///< Whether its gradient is not zero.
-    double size = 0;           ///< Of what they are added up from.
-    std::vector<double> nu;    ///< By row of the head, for unit length.
-    std::vector<double> left;  ///< SelectionTail::Dual(): by variable.
+    double size = 0;           ///< Magnitude of the terms.
+    std::vector<double> nu;    ///< By leading row of unit length.
+    std::vector<double> left;  ///< DiagonalLevels::Dual(): by variable.
   };
 
   /// Reads a hierarchy's sizes and the norms of its rows, and checks its numbers:
@@ -40,92 +41,77 @@ class ActiveProblem {
   /// variables than there is room for. failed_level is the first such level.
   Status Read(const Hierarchy& hierarchy, int* failed_level);
 
-  /// Takes the first num_levels levels, and no others; of what they leave free,
-  /// the y closest to `center`, or to zero.
+  /// Uses the first num_levels levels only. In the nullspace that they leave, y is
+  /// the point closest to `center`, or to zero.
   void Plan(const Hierarchy& hierarchy, int num_levels,
             const double* center = nullptr);
 
-  /// Solves for rows active on these sides, by level: if not the first time, by
-  /// an update of the last factorisation, as far as that is safe. Then its rows
-  /// are not in the order of their levels.
+  /// Solves for the working set `side`, by level. After the first time, the last
+  /// factorisation is updated as far as that is safe. Its rows are then not in the
+  /// order of their levels.
   void Solve(const Hierarchy& hierarchy,
              const std::vector<std::vector<Side>>& side) {
-    SolveHead(hierarchy, side);
-    SolveTail();
+    SolveLeading(hierarchy, side);
+    SolveDiagonal();
   }
 
-  /// The same in two steps: the rows of the head, and the y that is best for
-  /// these and then for the tail.
-  void SolveHead(const Hierarchy& hierarchy,
-                 const std::vector<std::vector<Side>>& side);
-  void SolveTail() { tail_.Solve(head_, y_.data()); }
+  /// Solve() in two steps: the factorisation of the leading levels, and then y.
+  void SolveLeading(const Hierarchy& hierarchy,
+                    const std::vector<std::vector<Side>>& side);
+  void SolveDiagonal() { diagonal_.Solve(leading_, y_.data()); }
 
-  /// In place of the second: of all y that are best for the head, whatever the
-  /// tail asks for, the one closest to this.
+  /// Replaces SolveDiagonal(): takes the optimum of the leading levels closest to y,
+  /// and ignores the diagonal levels.
   void Approach(const std::vector<double>& y);
 
-  /// Improves y, by what the rows as they were given lack, until each is met as
-  /// exactly as its own terms allow: orthogonalisation alone gives it to rounding
-  /// of the largest numbers in y, and a level may hold none of these.
+  /// Iterative refinement: reduces the residuals of the rows as given, until each is
+  /// zero to rounding of its own terms. Orthogonalisation alone leaves rounding of
+  /// the largest entries of y, which a level need not contain.
   void Refine(const Hierarchy& hierarchy) { Refine(hierarchy, true); }
 
-  /// The same of another y that meets the rows, without going on to the optimum
-  /// of what they leave free.
-  void RefineOther(const Hierarchy& hierarchy, const std::vector<double>& y);
+  /// Refines another y that meets the rows, without a step to the optimum in their
+  /// nullspace.
+  void RefineFrom(const Hierarchy& hierarchy, const std::vector<double>& y);
 
-  /// Takes another y as it is.
-  void TakeOther(const Hierarchy& hierarchy, const std::vector<double>& y);
+  /// Sets y as it is.
+  void SetSolution(const Hierarchy& hierarchy, const std::vector<double>& y);
 
-  /// Of a row that y misses, whether it is active or not: the entries of y that may
-  /// be what rounding leaves of a zero become zero, where no active row is met
-  /// worse by more than a last digit; with others of y, if it takes these.
-  /// Returns whether any does.
-  bool TakeZeros(const Hierarchy& hierarchy, const double* row);
+  /// Sets entries of y that may be rounding of zero to zero: those of a row that y
+  /// violates, and others of y if that helps. No residual of the working set may
+  /// increase by more than its last digit. Returns whether an entry changed.
+  bool ZeroRoundingEntries(const Hierarchy& hierarchy, const double* row);
 
-  /// Finds the multipliers of the levels before this one at the last solve; the
-  /// norm of y is level num_levels().
+  /// Computes the multipliers of the levels before `end` at the last solve. The norm
+  /// of y is level num_levels().
   void FindMultipliers(int end);
 
-  /// Improves them, by what is left of the sum that they should bring to zero,
-  /// added up from the rows as they were given. Those of a level of the head
-  /// are then followed by what its own rows weigh in that sum: d_a^2 (r_a y -
-  /// t_a), but for rounding, which is made up for.
+  /// Refines the multipliers by the residual of stationarity, from the rows as
+  /// given. Those of a leading level are followed by the weighted residuals of its
+  /// own rows, d_a^2 (r_a y - t_a), corrected for rounding.
   void RefineMultipliers(const Hierarchy& hierarchy);
 
-  /// The price of an inequality row of the head on a level: positive if the
-  /// level is held back by it, negative if it is drawn along, 0 if below
-  /// tolerance, relative. On its own level that is its violation.
-  double Price(int row, int level, Side side, double tolerance) const;
+  /// Multiplier of an inequality row in a level's optimality condition. Positive:
+  /// binding. Negative: removing the row lowers the cost. Zero if below tolerance,
+  /// relative. On the row's own level it is the violation.
+  double Multiplier(int row, int level, Side side, double tolerance) const;
 
   int num_levels() const { return num_levels_; }
-  int num_head() const { return num_head_; }  ///< Levels before the tail.
-  const RowStack& head() const { return head_; }
-  SelectionTail& tail() { return tail_; }
-  const SelectionTail& tail() const { return tail_; }
+  int num_leading() const { return num_leading_; }  ///< Leading levels.
+  const LexicographicFactorization& leading() const { return leading_; }
+  DiagonalLevels& diagonal() { return diagonal_; }
+  const DiagonalLevels& diagonal() const { return diagonal_; }
   const Row& row(int a) const { return rows_[a]; }
   const Multipliers& multipliers(int level) const {
     return multipliers_[level];
   }
   const std::vector<double>& y() const { return y_; }
 
-  /// The largest of y and of what the active rows and the tail ask for, by
-  /// variable or for rows of unit length: what rounding of y is relative to, also
-  /// where what is asked for leaves nothing of y.
+  /// The largest of |y|, of the targets of the working set by unit row, and of the
+  /// targets of the diagonal levels. Rounding of y is relative to it, even where
+  /// these targets cancel in y.
   double Size() const;
 
-  /// What rounding may leave of an entry of y, relative to that.
-  static constexpr double kRounding = 1e-13;
-
-  /// A violation or a slope below this, relative to what it is added up from, is
-  /// zero: one rule for the search and for what follows it.
-  static constexpr double kTolerance = 1e-11;
-
-  /// The same of a multiplier: below kRankTolerance, as a level that gains rank
-  /// by so little when a row leaves has a price on that row, which may be a
-  /// hundredth of it.
-  static constexpr double kNoPrice = 1e-13;
-
-  /// |C_i|_1, and the only variable of row i of B in the tail.
+  /// |C_i|_1, and the variable of row i of B in a diagonal level.
   double norm(int level, int i) const { return norm_[level][i]; }
   int selected(int level, int i) const { return selected_[level][i]; }
 
@@ -139,25 +125,25 @@ class ActiveProblem {
   void AddToSum(const Hierarchy& hierarchy, int a, double factor,
                 double* sum) const;
   const double* Original(const Hierarchy& hierarchy, int a) const;
-  double FindLack(const Hierarchy& hierarchy);
+  double ComputeRowResiduals(const Hierarchy& hierarchy);
   bool Fits(const Hierarchy& hierarchy, int level) const;
-  bool IsAskedFor(int j) const;
-  double Missed(int a) const;
-  double WorstMissedLevel() const;
+  bool IsAtTarget(int j) const;
+  double RelativeResidual(int a) const;
+  double WorstRelativeLevelResidual() const;
   bool IsUneven() const;
   void Refine(const Hierarchy& hierarchy, bool to_minimum);
-  void FindResiduals(const Hierarchy& hierarchy);
+  void UpdateDeficientResiduals(const Hierarchy& hierarchy);
 
   int n_;
-  int num_levels_ = 0, num_head_ = 0;
+  int num_levels_ = 0, num_leading_ = 0;
   bool is_factored_ = false;
-  std::vector<std::vector<Side>> factored_;  ///< The sides at work in the head.
-  RowStack head_;
-  SelectionTail tail_;
+  std::vector<std::vector<Side>> factored_;  ///< Factored working set.
+  LexicographicFactorization leading_;
+  DiagonalLevels diagonal_;
   std::vector<Row> rows_;
   std::vector<Multipliers> multipliers_;
   std::vector<double> y_, gradient_, change_, nu_;
-  std::vector<double> lack_, size_;  ///< By row of the head.
+  std::vector<double> row_residual_, size_;  ///< By leading row.
   std::vector<std::vector<double>> norm_, B_norm_;
   std::vector<std::vector<int>> selected_;
 };

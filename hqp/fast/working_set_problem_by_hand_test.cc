@@ -16,9 +16,9 @@ constexpr double kRefined = 1e-13;
 
 // Two levels, each of 2 y0 - y1 = 3 and y1 = 4, weight 0, above 1 <= 5 y0 + 7 y1
 // and y0 - 3 y1 <= 2.
-class ActiveProblemReadTest : public testing::Test {
+class WorkingSetProblemReadTest : public testing::Test {
  protected:
-  ActiveProblemReadTest() {
+  WorkingSetProblemReadTest() {
     for (int k = 0; k < 2; ++k) {
       EqualityBlock equalities = hierarchy_.AddEqualities(k, 2);
       equalities.B << 2, -1, 0, 1;
@@ -48,11 +48,11 @@ class ActiveProblemReadTest : public testing::Test {
 
   const std::vector<LevelCapacity> capacity_{{2, 2}, {2, 2}};
   Hierarchy hierarchy_{2, capacity_};
-  ActiveProblem problem_{2, capacity_};
+  WorkingSetProblem problem_{2, capacity_};
   double *B_[2], *b_[2], *weight_[2], *C_[2], *lower_[2], *upper_[2];
 };
 
-TEST_F(ActiveProblemReadTest, FindsTheFirstLevelWithABadNumber) {
+TEST_F(WorkingSetProblemReadTest, FindsTheFirstLevelWithABadNumber) {
   for (int k = 0; k < 2; ++k) {
     for (int i = 0; i < 2; ++i) {
       SCOPED_TRACE(testing::Message() << k << ", " << i);
@@ -88,7 +88,7 @@ TEST_F(ActiveProblemReadTest, FindsTheFirstLevelWithABadNumber) {
 
 // What is so short that its square is none is a row of zeros: an equality by its
 // weight as well, unless that is zero, where it does not count anyway.
-TEST_F(ActiveProblemReadTest, TakesWhatWeighsNothingForZeros) {
+TEST_F(WorkingSetProblemReadTest, TakesWhatWeighsNothingForZeros) {
   int failed_level;
   for (const bool is_nothing : {false, true}) {
     for (const double root : {3., 0.5}) {
@@ -103,13 +103,13 @@ TEST_F(ActiveProblemReadTest, TakesWhatWeighsNothingForZeros) {
       problem_.Plan(hierarchy_, 2);
       problem_.Solve(hierarchy_,
                      {{Side::kNone, Side::kNone}, {Side::kLower, Side::kNone}});
-      EXPECT_EQ(problem_.head().num_rows(), is_nothing ? 1 : 3) << root;
+      EXPECT_EQ(problem_.leading().num_rows(), is_nothing ? 1 : 3) << root;
       for (const double y : problem_.y()) EXPECT_TRUE(std::isfinite(y));
     }
   }
 }
 
-TEST(ActiveProblem, HasATailWhateverItsRowsWeigh) {
+TEST(WorkingSetProblem, HasATailWhateverItsRowsWeigh) {
   for (const double weight : {0., 1e-9, 1e9}) {
     const std::vector<LevelCapacity> capacity{{1, 0}, {2, 0}};
     Hierarchy hierarchy(2, capacity);
@@ -117,19 +117,19 @@ TEST(ActiveProblem, HasATailWhateverItsRowsWeigh) {
     EqualityBlock wishes = hierarchy.AddEqualities(1, 2);
     wishes.B.setIdentity();
     wishes.weight << weight, 1;
-    ActiveProblem problem(2, capacity);
+    WorkingSetProblem problem(2, capacity);
     int failed_level;
     EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
     problem.Plan(hierarchy, 2);
-    EXPECT_EQ(problem.num_head(), 1) << weight;
+    EXPECT_EQ(problem.num_leading(), 1) << weight;
   }
 }
 
 // y0 <= 1 and y1 >= 2, y2 between 3 and 3, above y0 + y1 = 8, and 3 y2 = 6 and
 // y1 = 0: at (1, 2, 3).
-class ActiveProblemTest : public testing::Test {
+class WorkingSetProblemTest : public testing::Test {
  protected:
-  ActiveProblemTest() {
+  WorkingSetProblemTest() {
     InequalityBlock bounds = hierarchy_.AddInequalities(0, 3);
     bounds.C.setIdentity();
     bounds.C(1, 1) = 2;
@@ -152,11 +152,11 @@ class ActiveProblemTest : public testing::Test {
 
   const std::vector<LevelCapacity> capacity_{{0, 3}, {1, 0}, {2, 0}};
   Hierarchy hierarchy_{3, capacity_};
-  ActiveProblem problem_{3, capacity_};
+  WorkingSetProblem problem_{3, capacity_};
 };
 
-TEST_F(ActiveProblemTest, PricesWhatARowHoldsBack) {
-  EXPECT_EQ(problem_.num_head(), 2);
+TEST_F(WorkingSetProblemTest, PricesWhatARowHoldsBack) {
+  EXPECT_EQ(problem_.num_leading(), 2);
   EXPECT_EQ(problem_.selected(2, 0), 2);
   EXPECT_EQ(problem_.selected(2, 1), 1);
   const double rounding = Rounding(10, 3);
@@ -166,32 +166,32 @@ TEST_F(ActiveProblemTest, PricesWhatARowHoldsBack) {
       rounding);
   // Of the sum: -5 on y0 and on y1. To give way upwards helps, downwards does
   // not: at a lower side, that is a row to let go.
-  EXPECT_NEAR(problem_.Price(0, 1, Side::kUpper, 0), 5, rounding);
-  EXPECT_NEAR(problem_.Price(1, 1, Side::kLower, 0), -5, rounding);
-  EXPECT_EQ(problem_.Price(2, 1, Side::kUpper, 1e-12), 0);
+  EXPECT_NEAR(problem_.Multiplier(0, 1, Side::kUpper, 0), 5, rounding);
+  EXPECT_NEAR(problem_.Multiplier(1, 1, Side::kLower, 0), -5, rounding);
+  EXPECT_EQ(problem_.Multiplier(2, 1, Side::kUpper, 1e-12), 0);
   // Of the wishes: 9 on y2, upwards; 10 on y1, downwards.
-  EXPECT_EQ(problem_.Price(0, 2, Side::kUpper, 1e-12), 0);
-  EXPECT_NEAR(problem_.Price(1, 2, Side::kLower, 0), 10, 5 * rounding);
-  EXPECT_NEAR(problem_.Price(2, 2, Side::kUpper, 0), -9, 5 * rounding);
+  EXPECT_EQ(problem_.Multiplier(0, 2, Side::kUpper, 1e-12), 0);
+  EXPECT_NEAR(problem_.Multiplier(1, 2, Side::kLower, 0), 10, 5 * rounding);
+  EXPECT_NEAR(problem_.Multiplier(2, 2, Side::kUpper, 0), -9, 5 * rounding);
   // Its own level is met.
   for (int a = 0; a < 3; ++a) {
-    EXPECT_EQ(problem_.Price(a, 0, Side::kUpper, 0), 0);
+    EXPECT_EQ(problem_.Multiplier(a, 0, Side::kUpper, 0), 0);
   }
   // Relative to the largest of what it is added up from.
-  const ActiveProblem::Multipliers& of_sum = problem_.multipliers(1);
+  const WorkingSetProblem::Multipliers& of_sum = problem_.multipliers(1);
   EXPECT_TRUE(of_sum.any);
   const double share = std::abs(of_sum.nu[0]) / of_sum.size;
-  EXPECT_EQ(problem_.Price(0, 1, Side::kUpper, share * (1 + 1e-12)), 0);
-  EXPECT_NE(problem_.Price(0, 1, Side::kUpper, share * (1 - 1e-12)), 0);
+  EXPECT_EQ(problem_.Multiplier(0, 1, Side::kUpper, share * (1 + 1e-12)), 0);
+  EXPECT_NE(problem_.Multiplier(0, 1, Side::kUpper, share * (1 - 1e-12)), 0);
 }
 
 // y = 1/16 and, four times as heavy, y = 1/16 + gap. In between, a fifth of the gap
 // from the latter, sqrt(4/5) of it is left in any case, on the light row: it
 // counts beside that row's weight times 1/8. What rows of the next level weigh
 // does not matter.
-TEST(ActiveProblem, AResidualOfRoundingIsNone) {
+TEST(WorkingSetProblem, TreatsRoundingResidualAsZero) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {0, 1}};
-  for (const double share : {0.9, 1.1}) {
+  for (const double share : {0.01, 100.}) {
     for (const double sign : {-1, 1}) {
       const double gap = sign * share * 1e-12 / 8 / std::sqrt(0.8);
       Hierarchy hierarchy(1, capacity);
@@ -202,19 +202,19 @@ TEST(ActiveProblem, AResidualOfRoundingIsNone) {
       InequalityBlock next = hierarchy.AddInequalities(1, 1);
       next.C << 100;
       next.upper << 50;
-      ActiveProblem problem(1, capacity);
+      WorkingSetProblem problem(1, capacity);
       int failed_level;
       ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
       problem.Plan(hierarchy, 2);
       problem.Solve(hierarchy, {{}, {Side::kUpper}});
-      ASSERT_EQ(problem.num_head(), 2);
+      ASSERT_EQ(problem.num_leading(), 2);
       // Wherever y is.
       for (const double off : {0., 0.8 * gap, gap}) {
-        problem.TakeOther(hierarchy, {1. / 16 + off});
+        problem.SetSolution(hierarchy, {1. / 16 + off});
         const double rounding = Rounding(0.125, 1);
-        EXPECT_NEAR(problem.head().residual(0), share > 1 ? 0.8 * gap : 0,
+        EXPECT_NEAR(problem.leading().residual(0), share > 1 ? 0.8 * gap : 0,
                     rounding);
-        EXPECT_NEAR(problem.head().residual(1), share > 1 ? -0.2 * gap : 0,
+        EXPECT_NEAR(problem.leading().residual(1), share > 1 ? -0.2 * gap : 0,
                     rounding);
       }
     }
@@ -224,7 +224,7 @@ TEST(ActiveProblem, AResidualOfRoundingIsNone) {
 // y1 + y2 = 5 below y1 + y2 = 0 is held back by 5 of its weight, 3, and its length,
 // squared. Where y is said to be elsewhere, it is by 4 of them, of which 1 too
 // much was found before.
-TEST(ActiveProblem, RefinesMultipliersByWhatIsLeftOfTheirSum) {
+TEST(WorkingSetProblem, RefinesMultipliersByWhatIsLeftOfTheirSum) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
   Hierarchy hierarchy(2, capacity);
   EqualityBlock first = hierarchy.AddEqualities(0, 1);
@@ -234,7 +234,7 @@ TEST(ActiveProblem, RefinesMultipliersByWhatIsLeftOfTheirSum) {
   second.B << 1, 1;
   second.b << -5;
   second.weight << 3;
-  ActiveProblem problem(2, capacity);
+  WorkingSetProblem problem(2, capacity);
   int failed_level;
   ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
   problem.Plan(hierarchy, 2);
@@ -242,19 +242,19 @@ TEST(ActiveProblem, RefinesMultipliersByWhatIsLeftOfTheirSum) {
   problem.FindMultipliers(3);
   const double unit = 6 / std::sqrt(2);
   EXPECT_NEAR(problem.multipliers(1).nu[0], 5 * unit, Rounding(5 * unit, 2));
-  problem.TakeOther(hierarchy, {1, 0});
+  problem.SetSolution(hierarchy, {1, 0});
   problem.RefineMultipliers(hierarchy);
   EXPECT_NEAR(problem.multipliers(1).nu[0], 4 * unit, Rounding(5 * unit, 2));
   EXPECT_NEAR(problem.multipliers(1).nu[1], -4 * unit, Rounding(5 * unit, 2));
 }
 
 // Without variables, no level selects any.
-TEST(ActiveProblem, KnowsLevelsWithoutVariables) {
+TEST(WorkingSetProblem, KnowsLevelsWithoutVariables) {
   const std::vector<LevelCapacity> capacity{{0, 0}};
-  ActiveProblem problem(0, capacity);
+  WorkingSetProblem problem(0, capacity);
   const Hierarchy hierarchy(0, capacity);
   problem.Plan(hierarchy, 1);
-  EXPECT_EQ(problem.num_head(), 1);
+  EXPECT_EQ(problem.num_leading(), 1);
 }
 
 // Rows of two or more variables, which are met, and a last level that wants some
@@ -288,20 +288,20 @@ class RefinementTest : public testing::Test {
       block.B(0, wish.variable) = 1;
       block.b[0] = -wish.target;
     }
-    ActiveProblem problem(n, capacity);
+    WorkingSetProblem problem(n, capacity);
     int failed_level;
     EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
     problem.Plan(hierarchy, 4);
-    EXPECT_GE(problem.num_head(), 1);
+    EXPECT_GE(problem.num_leading(), 1);
     problem.Solve(hierarchy, {{}, {}, {}, {}});
     if (other != nullptr) {
-      problem.RefineOther(hierarchy, *other);
+      problem.RefineFrom(hierarchy, *other);
     } else {
       problem.Refine(hierarchy);
     }
     residual_.clear();
-    for (int a = 0; a < problem.head().num_rows(); ++a) {
-      residual_.push_back(problem.head().residual(a) * problem.row(a).norm);
+    for (int a = 0; a < problem.leading().num_rows(); ++a) {
+      residual_.push_back(problem.leading().residual(a) * problem.row(a).norm);
     }
     return Eigen::VectorXd::Map(problem.y().data(), n);
   }

@@ -32,7 +32,7 @@ HierarchyCase Draw(int seed) {
 }
 
 // A hierarchy, and what some of its rows ask for on some sides.
-class RandomActiveProblemTest : public testing::TestWithParam<int> {
+class RandomWorkingSetProblemTest : public testing::TestWithParam<int> {
  protected:
   void SetUp() override {
     int failed_level = 5;
@@ -88,7 +88,7 @@ class RandomActiveProblemTest : public testing::TestWithParam<int> {
         {Eigen::MatrixXd::Identity(n_, n_), center, Eigen::VectorXd::Ones(n_)});
     return levels;
   }
-  Eigen::VectorXd Original(const ActiveProblem::Row& row) const {
+  Eigen::VectorXd Original(const WorkingSetProblem::Row& row) const {
     if (row.is_inequality) return hierarchy_.C(row.level).row(row.index);
     return hierarchy_.B(row.level).row(row.index);
   }
@@ -96,17 +96,17 @@ class RandomActiveProblemTest : public testing::TestWithParam<int> {
     return Eigen::VectorXd::Map(problem_.y().data(), n_);
   }
   // From how many levels on each row has one variable at most.
-  int NumHead(int num_levels) const {
-    int head = num_levels;
-    while (head > 0 && hierarchy_.num_inequalities(head - 1) == 0) {
-      const auto is_entry = hierarchy_.B(head - 1).array() != 0;
+  int NumLeading(int num_levels) const {
+    int leading = num_levels;
+    while (leading > 0 && hierarchy_.num_inequalities(leading - 1) == 0) {
+      const auto is_entry = hierarchy_.B(leading - 1).array() != 0;
       if (is_entry.rows() > 0 &&
           is_entry.cast<int>().rowwise().sum().maxCoeff() > 1) {
         break;
       }
-      --head;
+      --leading;
     }
-    return head;
+    return leading;
   }
 
   // That y and rows are those of the optimum, with a tolerance that is what
@@ -119,31 +119,31 @@ class RandomActiveProblemTest : public testing::TestWithParam<int> {
         Rounding(kLargest, kMaxRows, optimum.condition * optimum.condition);
     EXPECT_LE((y() - optimum.y).norm(), tolerance_);
     ASSERT_EQ(problem_.num_levels(), num_levels);
-    ASSERT_EQ(problem_.num_head(), NumHead(num_levels));
+    ASSERT_EQ(problem_.num_leading(), NumLeading(num_levels));
     int count = 0;
-    for (int k = 0; k < problem_.num_head(); ++k) {
+    for (int k = 0; k < problem_.num_leading(); ++k) {
       for (int i = 0; i < levels[k].A.rows(); ++i) {
         count += levels[k].weight[i] > 0 && levels[k].A.row(i).norm() > 0;
       }
     }
-    ASSERT_EQ(problem_.head().num_rows(), count);
+    ASSERT_EQ(problem_.leading().num_rows(), count);
     for (int a = 0; a < count; ++a) {
-      const ActiveProblem::Row& row = problem_.row(a);
+      const WorkingSetProblem::Row& row = problem_.row(a);
       const Eigen::VectorXd original = Original(row);
       const double weight =
           row.is_inequality ? 1 : hierarchy_.weight(row.level)[row.index];
       EXPECT_NEAR(row.norm, original.norm(), Rounding(row.norm, n_));
-      EXPECT_NEAR(problem_.head().weight(a), weight * original.squaredNorm(),
-                  Rounding(problem_.head().weight(a), n_));
+      EXPECT_NEAR(problem_.leading().weight(a), weight * original.squaredNorm(),
+                  Rounding(problem_.leading().weight(a), n_));
       EXPECT_EQ(row.bound,
                 row.is_inequality
                     ? Bound(row.level, row.index, sides[row.level][row.index])
                     : -hierarchy_.b(row.level)[row.index]);
-      EXPECT_NEAR(problem_.head().residual(a),
+      EXPECT_NEAR(problem_.leading().residual(a),
                   (original.dot(optimum.y) - row.bound) / row.norm, tolerance_)
           << row.level << ", " << row.index;
       for (int b = 0; b < a; ++b) {  // Each is there once.
-        const ActiveProblem::Row& other = problem_.row(b);
+        const WorkingSetProblem::Row& other = problem_.row(b);
         EXPECT_FALSE(other.level == row.level && other.index == row.index &&
                      other.is_inequality == row.is_inequality);
       }
@@ -152,24 +152,25 @@ class RandomActiveProblemTest : public testing::TestWithParam<int> {
   // That the multipliers of each level cancel its gradient; that of its own rows
   // is among them if `own`.
   void CheckMultipliers(bool own) {
-    const int rows = problem_.head().num_rows();
+    const int rows = problem_.leading().num_rows();
     for (int k = 0; k <= problem_.num_levels(); ++k) {
       SCOPED_TRACE(k);
-      const ActiveProblem::Multipliers& of = problem_.multipliers(k);
-      const bool in_head = k < problem_.num_head();
+      const WorkingSetProblem::Multipliers& of = problem_.multipliers(k);
+      const bool is_leading = k < problem_.num_leading();
       const bool has_own =
-          own && in_head && (of.any || problem_.head().is_deficient(k));
+          own && is_leading && (of.any || problem_.leading().is_deficient(k));
       Eigen::VectorXd sum = Eigen::VectorXd::Zero(n_);
       double size = 1;
       for (int a = 0; a < rows; ++a) {
-        const ActiveProblem::Row& row = problem_.row(a);
+        const WorkingSetProblem::Row& row = problem_.row(a);
         const Eigen::VectorXd unit = Original(row) / row.norm;
         const double force =
-            problem_.head().weight(a) * problem_.head().residual(a);
-        const bool is_own = in_head && a >= problem_.head().first_row(k) &&
-                            a < problem_.head().end_row(k);
+            problem_.leading().weight(a) * problem_.leading().residual(a);
+        const bool is_own = is_leading &&
+                            a >= problem_.leading().first_row(k) &&
+                            a < problem_.leading().end_row(k);
         if (is_own) {
-          size = std::max(size, problem_.head().weight(a) * kLargest);
+          size = std::max(size, problem_.leading().weight(a) * kLargest);
           if (has_own) {
             EXPECT_NEAR(of.nu[a], force, tolerance_ * size);
             sum += of.nu[a] * unit;
@@ -177,17 +178,18 @@ class RandomActiveProblemTest : public testing::TestWithParam<int> {
             sum += force * unit;
           }
         }
-        const bool is_above = !in_head || a < problem_.head().first_row(k);
+        const bool is_above =
+            !is_leading || a < problem_.leading().first_row(k);
         if (is_above && of.any) {
           sum += of.nu[a] * unit;
           size = std::max(size, std::abs(of.nu[a]));
         }
       }
-      if (!in_head) {
+      if (!is_leading) {
         const std::vector<double> none(n_);
         std::vector<double> gradient(n_);
-        problem_.tail().AddGradient(
-            k - problem_.num_head(), problem_.y().data(),
+        problem_.diagonal().AddGradient(
+            k - problem_.num_leading(), problem_.y().data(),
             of.any ? of.left.data() : none.data(), gradient.data());
         sum += Eigen::VectorXd::Map(gradient.data(), n_);
       }
@@ -196,11 +198,11 @@ class RandomActiveProblemTest : public testing::TestWithParam<int> {
         // Of the gradient, and of all that cancels it.
         std::vector<double> gradient(n_ + rows), left(n_);
         double largest =
-            in_head ? problem_.head().Gradient(k, gradient.data())
-                    : problem_.tail().Dual(k - problem_.num_head(),
-                                           gradient.data(), left.data());
+            is_leading ? problem_.leading().Gradient(k, gradient.data())
+                       : problem_.diagonal().Dual(k - problem_.num_leading(),
+                                                  gradient.data(), left.data());
         for (int a = 0; a < rows; ++a) {
-          if (in_head && a >= problem_.head().first_row(k)) continue;
+          if (is_leading && a >= problem_.leading().first_row(k)) continue;
           largest = std::max(largest, std::abs(of.nu[a]));
         }
         EXPECT_EQ(of.size, largest);
@@ -213,11 +215,11 @@ class RandomActiveProblemTest : public testing::TestWithParam<int> {
   const int n_ = hierarchy_.num_variables();
   const int num_levels_ = hierarchy_.num_levels();
   const Eigen::VectorXd zero_ = Eigen::VectorXd::Zero(n_);
-  ActiveProblem problem_{n_, drawn_.capacity};
+  WorkingSetProblem problem_{n_, drawn_.capacity};
   double tolerance_ = 0;
 };
 
-TEST_P(RandomActiveProblemTest, AgreesWithSingularValues) {
+TEST_P(RandomWorkingSetProblemTest, AgreesWithSingularValues) {
   for (int levels = 0; levels <= num_levels_; ++levels) {
     SCOPED_TRACE(levels);
     const Sides sides = MakeSides(levels);
@@ -235,7 +237,7 @@ TEST_P(RandomActiveProblemTest, AgreesWithSingularValues) {
 }
 
 // Rows come, go and change sides, as in a descent.
-TEST_P(RandomActiveProblemTest, UpdatesAreAsGoodAsFactorisingAnew) {
+TEST_P(RandomWorkingSetProblemTest, UpdatesAreAsGoodAsFactorisingAnew) {
   problem_.Plan(hierarchy_, num_levels_);
   for (int salt = 0; salt < 6; ++salt) {
     SCOPED_TRACE(salt);
@@ -247,7 +249,7 @@ TEST_P(RandomActiveProblemTest, UpdatesAreAsGoodAsFactorisingAnew) {
   Check(MakeSides(5), num_levels_, zero_);
 }
 
-TEST_P(RandomActiveProblemTest, StaysCloseToACenter) {
+TEST_P(RandomWorkingSetProblemTest, StaysCloseToACenter) {
   const Eigen::VectorXd center = Eigen::VectorXd::LinSpaced(n_, 1, 3);
   for (int levels = 0; levels <= num_levels_; ++levels) {
     SCOPED_TRACE(levels);
@@ -258,9 +260,9 @@ TEST_P(RandomActiveProblemTest, StaysCloseToACenter) {
 }
 
 // Off in every direction: its rows bring it back, and nothing brings it further.
-TEST_P(RandomActiveProblemTest, RefinesAnotherYToMeetTheRows) {
+TEST_P(RandomWorkingSetProblemTest, RefinesAnotherYToMeetTheRows) {
   const Sides sides = MakeSides(2);
-  const int num_head = NumHead(num_levels_);
+  const int num_leading = NumLeading(num_levels_);
   problem_.Plan(hierarchy_, num_levels_);
   problem_.Solve(hierarchy_, sides);
   Check(sides, num_levels_, zero_);
@@ -268,21 +270,21 @@ TEST_P(RandomActiveProblemTest, RefinesAnotherYToMeetTheRows) {
   std::vector<double> other = problem_.y();
   for (int j = 0; j < n_; ++j) other[j] += 1 + j % 2;
   const Eigen::VectorXd start = Eigen::VectorXd::Map(other.data(), n_);
-  problem_.RefineOther(hierarchy_, other);
+  problem_.RefineFrom(hierarchy_, other);
   // The levels of the tail weigh the way, not their targets.
   std::vector<LeastSquares> levels = Levels(sides, num_levels_, start);
-  for (int k = num_head; k < num_levels_; ++k)
+  for (int k = num_leading; k < num_levels_; ++k)
     levels[k].b = levels[k].A * start;
   const LexicographicOptimum nearest = SolveLexicographically(n_, levels);
   EXPECT_LE(
       (y() - nearest.y).norm(),
       Rounding(kLargest, kMaxRows, nearest.condition * nearest.condition));
 
-  problem_.TakeOther(hierarchy_, other);
+  problem_.SetSolution(hierarchy_, other);
   EXPECT_EQ(problem_.y(), other);
   // Residuals are what a level would lack at its own optimum, those above as
   // they are.
-  for (int k = 0; k < num_head; ++k) {
+  for (int k = 0; k < num_leading; ++k) {
     std::vector<LeastSquares> held = Levels(sides, num_levels_, start);
     held.resize(k + 1);
     for (int above = 0; above < k; ++above)
@@ -290,24 +292,24 @@ TEST_P(RandomActiveProblemTest, RefinesAnotherYToMeetTheRows) {
     const LexicographicOptimum best = SolveLexicographically(n_, held);
     const double tolerance =
         Rounding(kLargest, kMaxRows, best.condition * best.condition);
-    for (int a = problem_.head().first_row(k); a < problem_.head().end_row(k);
-         ++a) {
-      const ActiveProblem::Row& row = problem_.row(a);
+    for (int a = problem_.leading().first_row(k);
+         a < problem_.leading().end_row(k); ++a) {
+      const WorkingSetProblem::Row& row = problem_.row(a);
       const double residual =
-          problem_.head().is_deficient(k)
+          problem_.leading().is_deficient(k)
               ? (Original(row).dot(best.y) - row.bound) / row.norm
               : 0;
-      EXPECT_NEAR(problem_.head().residual(a), residual, tolerance);
+      EXPECT_NEAR(problem_.leading().residual(a), residual, tolerance);
     }
   }
 }
 
 // Of all y that are best for the head, the one closest to another: best for it
 // is what is best for all levels, and nothing but its rows moves y there.
-TEST_P(RandomActiveProblemTest, ApproachesWhatIsBestForTheHead) {
+TEST_P(RandomWorkingSetProblemTest, ApproachesWhatIsBestForTheHead) {
   problem_.Plan(hierarchy_, num_levels_);
   problem_.Solve(hierarchy_, MakeSides(3));
-  const Eigen::MatrixXd Q = Basis(problem_.head(), n_);
+  const Eigen::MatrixXd Q = Basis(problem_.leading(), n_);
   const Eigen::VectorXd best = y();
   std::vector<double> from(n_);
   for (int j = 0; j < n_; ++j) from[j] = 1 + j % 5;
@@ -318,7 +320,7 @@ TEST_P(RandomActiveProblemTest, ApproachesWhatIsBestForTheHead) {
   EXPECT_LE((step - Q.transpose() * (Q * step)).norm(), tolerance);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomActiveProblemTest,
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomWorkingSetProblemTest,
                          testing::Range(0, kSeeds));
 
 }  // namespace

@@ -6,18 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "hqp/tolerances.h"
 #include "math/rank.h"
 
 namespace poise {
 namespace {
-
-// A row violated by less than this, relative to what it is added up from, is at
-// its bound. Solver, reference and certificate each have their own: they check
-// each other.
-constexpr double kAtBound = 1e-9;
-
-// Of a gradient, relative to what it is added up from.
-constexpr double kNegligible = 1e-12;
 
 // How often it is gone through at most; twice was enough for a robot's rows.
 constexpr int kPasses = 3;
@@ -51,7 +44,7 @@ bool IsInside(const Hierarchy& hierarchy, int level, int i, Side side,
                                             : hierarchy.lower(level)[i];
   const double beyond =
       static_cast<double>(side) * (hierarchy.C(level).row(i).dot(y) - bound);
-  return beyond < -kAtBound * Size(hierarchy, level, i, bound, y);
+  return beyond < -tolerances::kAtBound * Size(hierarchy, level, i, bound, y);
 }
 
 // y += step. Entries within the rounding of the step's largest tell nothing; and
@@ -116,13 +109,16 @@ Cascade::Cascade(int num_variables, const std::vector<LevelCapacity>& capacity,
 Status Cascade::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
   solution->Reset();
   solution->status = CheckInput(hierarchy, &solution->failed_level);
-  if (solution->status != Status::kOptimal) return solution->status;
+  if (solution->status != Status::kOptimal) {
+    solution->certificate = certifier_.Certify(hierarchy, *solution);
+    return solution->status;
+  }
   for (int pass = 0; pass < kPasses; ++pass) {
     SolveFromY(hierarchy, solution);
-    if (solution->status != Status::kOptimal ||
-        certifier_.Certify(hierarchy, *solution).worst() <=
-            Certifier::kCertified) {
-      break;
+    if (solution->status != Status::kOptimal) break;
+    solution->certificate = certifier_.Certify(hierarchy, *solution);
+    if (solution->certificate.worst() <= Certifier::kCertified) {
+      return solution->status;
     }
   }
   certifier_.Truncate(hierarchy, solution);
@@ -267,7 +263,8 @@ void Cascade::FixLevel(const Hierarchy& hierarchy, int level,
   const int equalities = hierarchy.num_equalities(level);
   std::vector<int> violated;
   for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-    violated_[level][i] = SideOf(hierarchy, level, i, kAtBound, solution->y);
+    violated_[level][i] =
+        SideOf(hierarchy, level, i, tolerances::kAtBound, solution->y);
     if (violated_[level][i] == Side::kNone) continue;
     violated.push_back(i);
     // A row of which nothing was left has been in no QP. One that was nothing to

@@ -11,9 +11,6 @@
 namespace poise {
 namespace {
 
-// Of a multiplier or a step, relative to what it is added up from.
-constexpr double kNegligible = 1e-12;
-
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 // Iterations a row, after which rows leave by Bland's rule: slow, but it cannot
@@ -23,7 +20,7 @@ constexpr int kPatience = 10;
 // How often a row may leave by Bland's rule. Where a level is met, all that its
 // rows lack is rounding: one that leaves for that need not move away from its
 // bound, as the proof takes it to, and may be in the way at once, over and over.
-constexpr int kLeaves = 10;
+constexpr int kMaxRemovals = 10;
 
 // The least-squares problem L x + l = 0. `norms` are those of the rows before any
 // projection: a row below kRankTolerance of its own is a row of zeros.
@@ -120,7 +117,7 @@ class LeastSquares {
 class ActiveSet {
  public:
   ActiveSet(RowSpaceMethod method, LevelQp* qp)
-      : method_(method), qp_(*qp), leaves_(qp->P.rows(), kLeaves) {}
+      : method_(method), qp_(*qp), removals_left_(qp->P.rows(), kMaxRemovals) {}
 
   // One iteration. Returns whether the optimum is reached.
   bool Iterate() {
@@ -231,7 +228,7 @@ class ActiveSet {
     double worst = 0;
     const bool bland = IsBland();
     const auto consider = [&](int i, double multiplier, double size) {
-      if (leaves_[i] == 0) return;
+      if (removals_left_[i] == 0) return;
       const double signed_ratio =
           (qp_.side[i] == Side::kUpper ? multiplier : -multiplier) / size;
       if (bland ? signed_ratio < 0 && (leaving < 0 || i < leaving)
@@ -263,7 +260,7 @@ class ActiveSet {
   // A soft row may be on the far side of both its bounds by then: it stays, at
   // the other one.
   void Release(int i) {
-    if (IsBland()) --leaves_[i];
+    if (IsBland()) --removals_left_[i];
     const Side side = qp_.side[i];
     const double value = qp_.P.row(i).dot(qp_.z) + qp_.value[i];
     qp_.side[i] = Side::kNone;
@@ -282,7 +279,8 @@ class ActiveSet {
   Eigen::MatrixXd L_, A_;
   Eigen::VectorXd l_, norms_;
   int iterations_ = 0;
-  std::vector<int> leaves_;  // By row: how often it still may, by Bland's rule.
+  std::vector<int>
+      removals_left_;  // By row: how often it still may, by Bland's rule.
 };
 
 }  // namespace

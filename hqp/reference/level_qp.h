@@ -9,6 +9,11 @@
 
 namespace poise {
 
+/// The reference treats a gradient, multiplier or slope as zero if it is below
+/// this, relative to the magnitudes that it is a sum of. Fifty times the
+/// rounding of a sum of a hundred terms.
+constexpr double kNegligible = 1e-12;
+
 /// The QP of one level of the cascade, (5), (6), in the coordinates z of what
 /// the levels above leave:
 ///     min 1/2 |M z + m|^2 + 1/2 |s|^2

@@ -116,8 +116,7 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
       contacts_(robot_.feet.size()),
       hierarchy_(NumVariables(robot_), stack_.capacity()),
       solver_(NumVariables(robot_), stack_.capacity()),
-      solution_(NumVariables(robot_), stack_.capacity()),
-      certifier_(NumVariables(robot_), stack_.capacity()) {
+      solution_(NumVariables(robot_), stack_.capacity()) {
   if (!(options.dt > 0 && options.dt < 1)) {
     throw std::invalid_argument("control period is " +
                                 std::to_string(options.dt) +
@@ -214,7 +213,7 @@ void Controller::Update(const State& state, Command* command) noexcept {
   stack_.Report(solution_, &report_);
 
   if (options_.certify) {
-    report_.certificate = certifier_.Certify(hierarchy_, solution_);
+    report_.certificate = solution_.certificate;
   }
 
   const bool is_truncated =

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "dynamics/tick.h"
-#include "hqp/certificate.h"
 #include "hqp/hierarchy.h"
 #include "hqp/solution.h"
 #include "hqp/solver.h"
@@ -129,7 +128,6 @@ class Controller {
   Hierarchy hierarchy_;
   Solver solver_;
   Solution solution_;
-  Certifier certifier_;
   TickReport report_;
   Eigen::VectorXd normal_force_;  ///< By foot, of the last solution, N.
 

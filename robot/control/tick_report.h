@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "hqp/certificate.h"
 #include "hqp/solution.h"
 #include "robot/control/command.h"
 

@@ -15,8 +15,8 @@ double Cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// The extent in y of a convex polygon at x, (lowest, highest). Where a side is
-// along y up to rounding, all of it counts.
+// Returns the lowest and the highest y of a convex polygon at x. A side that is
+// along y up to rounding counts as a whole.
 std::pair<double, double> ExtentAt(const std::vector<Vector2d>& polygon,
                                    double x) {
   constexpr double kRounding = 1e-9;  // m.
@@ -37,8 +37,8 @@ std::pair<double, double> ExtentAt(const std::vector<Vector2d>& polygon,
   return {low, high};
 }
 
-// Where a function with a single peak has it, by golden section: of the two
-// points inside, one serves the next step too.
+// Finds the maximum of a function with a single peak by golden section. One of
+// the two inner points serves the next step as well.
 template <typename Function>
 double ArgMax(double low, double high, const Function& f) {
   const double golden = (std::sqrt(5.0) - 1) / 2;
@@ -63,7 +63,7 @@ double ArgMax(double low, double high, const Function& f) {
   return 0.5 * (low + high);
 }
 
-// A polygon inside a convex one that has at most so many of its corners.
+// Returns the convex polygon with at most kMostCorners of its corners.
 std::vector<Vector2d> Thin(const std::vector<Vector2d>& polygon) {
   constexpr int kMostCorners = 64;
   if (polygon.size() <= kMostCorners) return polygon;
@@ -106,7 +106,7 @@ std::vector<Vector2d> ConvexHull(std::vector<Vector2d> points) {
 }
 
 bool IsConvex(const std::vector<Vector2d>& corners) {
-  constexpr double kRounding = 1e-3;  // rad, of a file with six digits.
+  constexpr double kRounding = 1e-3;  // rad. Files have six digits.
   std::vector<Vector2d> edges;
   for (size_t i = 0; i < corners.size(); ++i) {
     const Vector2d edge = corners[(i + 1) % corners.size()] - corners[i];
@@ -122,7 +122,7 @@ bool IsConvex(const std::vector<Vector2d>& corners) {
     least = std::min(least, turn);
     most = std::max(most, turn);
   }
-  // All one way, and once around.
+  // All turns have one sign, and add up to one full turn.
   return (least >= -kRounding || most <= kRounding) &&
          std::abs(turned) < 3 * M_PI;
 }
@@ -139,8 +139,8 @@ Rectangle LargestRectangle(const std::vector<Vector2d>& polygon) {
     const auto [low2, high2] = ExtentAt(polygon, x2);
     return std::make_pair(std::max(low1, low2), std::min(high1, high2));
   };
-  // The logarithms of width and height are concave in (x1, x2), so the area has
-  // one peak along either.
+  // The logarithms of width and height are concave in (x1, x2). So the area has
+  // a single peak along x1 and along x2.
   const auto area = [&](double x1, double x2) {
     const auto [low, high] = extent(x1, x2);
     return (x2 - x1) * (high - low);

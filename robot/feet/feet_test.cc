@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector2d;
 using Points = std::vector<Vector2d>;
 
-// LargestRectangle() promises so much of a polygon about one unit wide.
+// The error that LargestRectangle() promises for a polygon one unit wide.
 constexpr double kPromised = 1e-7;
 
 TEST(ConvexHull, IsCounterclockwiseWithoutPointsOnEdges) {
@@ -57,8 +57,8 @@ TEST(LargestRectangle, OfARectangleIsItself) {
   EXPECT_LT((r.half_size - Vector2d(2, 1)).norm(), kPromised);
 }
 
-// A box that was turned and turned back has no side along y to the last bit: it
-// was taken for a quarter narrower, or for nothing.
+// A box that was turned and turned back has no side exactly along y. An exact
+// comparison would make the rectangle a quarter narrower, or empty.
 TEST(LargestRectangle, OfARectangleIsItselfUpToRounding) {
   for (const double e : {3e-17, 3e-16, 1e-15, 1e-13}) {
     const Rectangle r = LargestRectangle(
@@ -212,8 +212,8 @@ TEST(FindFeet, LooksWhereTheToesAre) {
   EXPECT_EQ(model.tree.frames()[turned[0].frame].name, "r6");
 }
 
-// The foot is moved by a roll, whose origin is anywhere along its axis: from there
-// the heel reached further than the toes.
+// A roll joint moves this foot. Its origin may be anywhere along its axis; from
+// this one, the heel reaches further than the toes.
 TEST(FindFeet, LooksFromTheAnkleWhereTheToesAre) {
   std::string biped =
       Biped(Collision("box size='0.2 0.1 0.02'", "-0.02 0 -0.04"), "0 0 0");
@@ -232,8 +232,8 @@ TEST(FindFeet, LooksWhereTheKneesGoIfThereAreNoToes) {
   EXPECT_NEAR(turned[0].X_BC.R(0, 0), -1, kPromised);
 }
 
-// At zero this knee is bent, half of its range: that it goes as far either way from
-// there says nothing, where it is does.
+// At zero this knee is bent to the middle of its range. So the range gives no
+// direction, but the bend does.
 TEST(FindFeet, LooksWhereTheKneesAreBentAtRest) {
   std::string biped = Biped(Collision("box size='0.2 0.1 0.02'", "0 0 -0.04"),
                             "0 -0.6 0", "lower='-1.1' upper='1'");
@@ -264,7 +264,7 @@ TEST(FindFeet, EstimatesASoleThatIsAMesh) {
             kPromised);
 }
 
-// As of an ankle that turns about the side last: along its axis, its origin lies
+// The last joint of this ankle turns about the lateral axis, and its origin lies
 // beside the leg.
 TEST(FindFeet, EstimatesASoleBelowTheMassOfTheFoot) {
   std::string biped =
@@ -279,7 +279,7 @@ TEST(FindFeet, EstimatesASoleBelowTheMassOfTheFoot) {
             kPromised);
 }
 
-// A frame without shapes that hung below the soles was taken for the one foot.
+// A frame without shapes may be below the soles, and is no foot.
 TEST(FindFeet, StandsOnShapesNotOnFrames) {
   const std::string biped =
       Biped(Collision("box size='0.2 0.1 0.02'", "0.03 0 -0.04"), "0 0 0");
@@ -297,7 +297,7 @@ TEST(FindFeet, StandsOnShapesNotOnFrames) {
   }
 }
 
-TEST(FindFeet, SaysWhyThereAreNone) {
+TEST(FindFeet, SaysWhyThereAreNoFeet) {
   EXPECT_EQ(Refusal(Biped("", "0 0 0", "lower='0' upper='2'", 5)),
             "robot 'biped' has no flat sole on link 'l6', nor motors to lay "
             "one flat: the leg has 5, must have 6");
@@ -317,7 +317,7 @@ TEST(MakeFoot, RefusesASoleWithoutArea) {
       MakeFoot(model, "f", 0, {}, {{0, 0}, {1, 0}, {1, 2e-3}, {0, 2e-3}}));
 }
 
-TEST(MakeFoot, KeepsWhatReachesFurthestOfVeryManyCorners) {
+TEST(MakeFoot, KeepsTheFurthestOfVeryManyCorners) {
   const RobotModel model = ParseUrdf(kOneLink, "r");
   std::vector<Vector2d> rim;
   for (int i = 0; i < 100'000; ++i) {

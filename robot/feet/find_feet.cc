@@ -19,23 +19,25 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// What a sole must reach further to one side to tell where the toes are, m.
+// A sole shows where the toes are if it reaches this much further to one side, m.
 constexpr double kToes = 2e-3;
-// Bodies this close to the lowest one stand on the ground too, m.
+// A body at most this far above the lowest body also stands on the ground, m.
 constexpr double kLevel = 0.03;
-// To lay a sole flat anywhere takes six.
+// A leg needs six motors to lay its sole flat anywhere.
 constexpr int kMotorsOfALeg = 6;
 
-// The bodies' poses in the base's axes, with the joints as near 0 as they go.
+// Returns the poses of the bodies in the base's axes, with the joints as near to
+// 0 as their limits allow.
 std::vector<Pose> RestPoses(const RobotModel& model) {
   std::vector<Pose> X_WB(model.tree.num_bodies());
   ComputePoses(model.tree, RestConfiguration(model), &X_WB);
   return X_WB;
 }
 
-// How far down each body reaches, with its shapes, the origins of the links
-// that have any (meshes are not opened), and the joint that moves it. A frame
-// without shapes may be anywhere: `world` and `base_footprint` often are below.
+// Returns the lowest height of each body. Its shapes count, the origins of links
+// with shapes (meshes are not opened), and the joint that moves the body. A frame
+// without shapes does not count: `world` and `base_footprint` are often below the
+// feet.
 std::vector<double> Reach(const RobotModel& model,
                           const std::vector<Outline>& outlines,
                           const std::vector<Pose>& X_WB) {
@@ -56,7 +58,7 @@ std::vector<double> Reach(const RobotModel& model,
   return low;
 }
 
-// The joints between the base and a body that have a motor.
+// Returns the number of joints with a motor between the base and a body.
 int NumMotors(const RobotModel& model, int body) {
   int motors = 0;
   for (int b = body; b > 0; b = model.tree.joints()[b - 1].parent) {
@@ -65,8 +67,8 @@ int NumMotors(const RobotModel& model, int body) {
   return motors;
 }
 
-// The bodies on the ground: of each chain of them, the one with the largest
-// sole or, if none has any, the first with six motors.
+// Returns one body for each chain of bodies on the ground: the body with the
+// largest sole or, if no body has a sole, the first with six motors.
 std::vector<int> BodiesOnGround(const RobotModel& model,
                                 const std::vector<double>& low,
                                 const std::vector<Sole>& soles) {
@@ -92,7 +94,7 @@ std::vector<int> BodiesOnGround(const RobotModel& model,
   return bodies;
 }
 
-// The first link of a body.
+// Returns the name of the first link of a body.
 std::string LinkOf(const RobotModel& model, int body) {
   for (const Frame& frame : model.tree.frames()) {
     if (frame.body == body) return frame.name;
@@ -100,7 +102,7 @@ std::string LinkOf(const RobotModel& model, int body) {
   return "";
 }
 
-// The first body of the leg that ends in a foot.
+// Returns the first body of the leg that ends in a foot.
 int HipOf(const RobotModel& model, int foot) {
   int hip = foot;
   while (model.tree.joints()[hip - 1].parent > 0) {
@@ -109,7 +111,8 @@ int HipOf(const RobotModel& model, int foot) {
   return hip;
 }
 
-// Where the ankle of a foot is, or else the foot's own origin.
+// Returns the position of a foot's ankle or, if no ankle is found, of the foot's
+// origin.
 Vector3d AnkleOf(const RobotModel& model, int foot,
                  const std::vector<Pose>& X_WB, const Vector3d& forward) {
   const auto ankle =
@@ -117,7 +120,7 @@ Vector3d AnkleOf(const RobotModel& model, int foot,
   return X_WB[ankle ? *ankle + 1 : foot].p;
 }
 
-// Where a file has only meshes; see FindFeet().
+// Estimates the sole of a foot that has only meshes, as FindFeet() describes.
 Sole SoleWithoutShape(const RobotModel& model, int body,
                       const std::vector<Pose>& X_WB, const Vector3d& forward,
                       std::vector<Finding>* findings) {
@@ -146,7 +149,7 @@ Sole SoleWithoutShape(const RobotModel& model, int body,
   return sole;
 }
 
-// How far the sole of a foot reaches before its ankle, less how far behind, m.
+// Returns the reach of a sole ahead of the ankle minus its reach behind, in m.
 double Toes(const RobotModel& model, int foot, const std::vector<Pose>& X_WB,
             const Sole& sole, const Vector3d& forward) {
   if (sole.points_B.empty()) return 0;
@@ -161,9 +164,9 @@ double Toes(const RobotModel& model, int foot, const std::vector<Pose>& X_WB,
   return front + back;
 }
 
-// How far the knee above a foot bends forward, less how far backward, rad: by its
-// range, and by how it is bent at rest. To turn about the left moves what is below
-// backward: the knee forward.
+// Returns the range of a knee forward minus its range backward, plus twice its
+// bend at rest, in rad. A positive turn about the left axis moves the shank
+// backward, so the knee bends forward.
 double KneeRange(const RobotModel& model, int body,
                  const std::vector<Pose>& X_WB, const Vector3d& forward) {
   const auto knee =
@@ -201,7 +204,7 @@ std::vector<Foot> FindFeet(const RobotModel& model,
         (bodies.size() == 1 ? " body" : " bodies") + ", must be two feet");
   }
 
-  // The feet stand side by side: along y or, in some robots, along x.
+  // The feet stand apart along y or, in some robots, along x.
   const Vector3d across = X_WB[bodies[1]].p - X_WB[bodies[0]].p;
   Vector3d forward = std::abs(across.y()) >= std::abs(across.x())
                          ? Vector3d::UnitX()

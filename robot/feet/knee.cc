@@ -7,7 +7,8 @@
 namespace poise {
 namespace {
 
-// How a joint turns about the lateral axis: 1, -1, or 0 if not about one near it.
+// Returns the sign of a joint's axis along the lateral axis, 1 or -1, or 0 if the
+// joint does not turn about an axis near the lateral axis.
 int Turns(const Tree& tree, int joint, const std::vector<Pose>& X_WB,
           const Eigen::Vector3d& left) {
   constexpr double kAlong = 0.8;

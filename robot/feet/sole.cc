@@ -16,16 +16,18 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Corners this close to a plane lie in it, m: drawings are rounded to 1 mm.
+// Corners at most this far from a plane count as in the plane, m. Drawings are
+// rounded to 1 mm.
 constexpr double kFlat = 2e-3;
-// A sole's steepest normal and most turned axis at q = 0, rad.
+// Bounds on the tilt of a sole's normal and the turn of its x axis at q = 0, rad.
 constexpr double kSteepest = 0.6;
 constexpr double kMostTurned = 0.3;
 constexpr double kSameAxis = 1e-6;
-// Of a body with very many shapes, the first ones' axes will do.
+// A body uses the axes of its first shapes only, so that very many shapes cost
+// little time.
 constexpr size_t kMostAxes = 64;
 
-// Curved rims become 16 points.
+// Adds the corners and axes of a shape. A curved rim becomes 16 points.
 void AddShape(const Shape& shape, const Pose& X_BF, Outline* outline) {
   const Pose X_BS = X_BF * shape.X_FS;
   const auto add = [&](const Vector3d& p_S, double radius) {
@@ -48,9 +50,9 @@ void AddShape(const Shape& shape, const Pose& X_BF, Outline* outline) {
     }
   } else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
     add(Vector3d::Zero(), sphere->radius);
-    return;  // Any axis is as good.
+    return;  // A sphere has no axis of its own.
   } else {
-    return;  // A mesh is not opened.
+    return;  // Meshes are not opened.
   }
   if (outline->axes_B.size() >= kMostAxes) return;
   for (int i = 0; i < 3; ++i) outline->axes_B.push_back(X_BS.R.col(i));
@@ -72,11 +74,11 @@ double Area(const Sole& sole) {
   return area;
 }
 
-// How far below the body's origin the sole is likely to be, along up, and on
-// which link.
+// Estimates the depth of the sole below the body's origin, along up_B, and the
+// link that carries the sole.
 double EstimateDepth(const RobotModel& model, int body, const Vector3d& up_B,
                      double leg, int* frame) {
-  constexpr double kNone = 0.01;  // A link at the ankle says nothing, m.
+  constexpr double kNone = 0.01;  // A link this near the ankle is ignored, m.
   double depth = 0;
   for (int i = 0; i < static_cast<int>(model.tree.frames().size()); ++i) {
     const Frame& link = model.tree.frames()[i];
@@ -143,7 +145,7 @@ Sole FindSole(const Outline& outline, const Vector3d& up_B) {
       sole.points_B.push_back(corner.p_B - above * normal);
     }
     sole.area = Area(sole);
-    // The same plane again, up to rounding, is no better.
+    // The factor keeps the first of planes that are equal up to rounding.
     if (sole.area > 1.01 * best.area) best = std::move(sole);
   }
   return best.area > kFlat * kFlat ? best : Sole{};
@@ -157,7 +159,8 @@ Sole EstimateSole(const RobotModel& model, int body, const Vector3d& up_B,
   const double depth = EstimateDepth(model, body, up_B, leg, &sole.frame);
   sole.normal_B = up_B;
   const Vector3d side_B = up_B.cross(forward_B);
-  // The foot's origin may be anywhere along the axis that moves it.
+  // The foot's origin may be anywhere along the axis of its joint, so the sole is
+  // placed at the ankle and at the center of mass instead.
   const double ankle = forward_B.dot(p_BA_B);
   const double middle = side_B.dot(model.tree.inertias()[body].p_BoG_B);
   for (const double x : {-0.07, 0.15}) {

@@ -9,8 +9,9 @@
 
 namespace poise {
 
-/// What of a body may touch the ground, from its collision shapes or, where it
-/// has none that say anything, from its visual ones. Meshes are not opened.
+/// The points of a body that may touch the ground. They come from its collision
+/// shapes, or from its visual shapes if those give no point. Meshes are not
+/// opened.
 struct Outline {
   /// A point of the body, or a ball about it.
   struct Corner {
@@ -22,7 +23,7 @@ struct Outline {
   std::vector<Eigen::Vector3d> axes_B;  ///< Of the body and of its shapes.
 };
 
-/// The outline of each body of a robot.
+/// Returns the outline of each body of a robot.
 std::vector<Outline> MakeOutlines(const RobotModel& model);
 
 /// A flat underside of a body.
@@ -33,21 +34,22 @@ struct Sole {
   double area = 0;                                     ///< m².
 };
 
-/// The largest flat underside of a body: of all planes normal to one of its axes
-/// or to `up_B`, and within 35 degrees of level. Without points where there is
-/// none.
+/// Finds the largest flat underside of a body, among the planes that are normal
+/// to one of its axes or to `up_B` and within 35 degrees of level. The result has
+/// no points if there is no such plane.
 Sole FindSole(const Outline& outline, const Eigen::Vector3d& up_B);
 
-/// Where a sole must be whose foot has no shapes to tell: see FindFeet().
+/// Estimates the sole of a foot without shapes, as FindFeet() describes.
 ///
-/// @param p_BA_B  of the ankle.
+/// @param p_BA_B  the position of the ankle.
 /// @param leg  the length of the leg, m.
 Sole EstimateSole(const RobotModel& model, int body,
                   const Eigen::Vector3d& up_B, const Eigen::Vector3d& forward_B,
                   const Eigen::Vector3d& p_BA_B, double leg);
 
-/// The frame S in the plane of a sole, below the body's origin: z along the
-/// normal, x forward, along an axis of the foot if one is near.
+/// Returns the frame S in the plane of a sole, below the body's origin. Its z
+/// axis is the normal. Its x axis points forward, along an axis of the foot if
+/// one is near.
 Pose MakeSoleAxes(const Sole& sole, const Outline& outline,
                   const Eigen::Vector3d& forward_B);
 

@@ -18,7 +18,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-// A file being read, so that every complaint has its line.
+// Reads values of a file, and refuses a bad value with its line.
 struct Reader {
   const std::string file;
 
@@ -27,7 +27,7 @@ struct Reader {
     poise::Refuse(file, at, what);
   }
 
-  // About a value that is there.
+  // Refuses a value, and says what was wanted.
   [[noreturn]] void Refuse(const YAML::Node& value, const std::string& thing,
                            const std::string& wanted) const {
     Refuse(value, thing + " is " + Shown(value) + ", must be " + wanted);
@@ -71,7 +71,7 @@ struct Reader {
     }
   }
 
-  // Roll, pitch and yaw.
+  // Reads roll, pitch and yaw, in rad.
   Eigen::Vector3d Angles(const YAML::Node& node,
                          const std::string& thing) const {
     const Eigen::Vector3d rpy = Numbers<3>(node, thing);
@@ -94,15 +94,15 @@ struct Reader {
     return values;
   }
 
-  // No sole is larger, m.
+  // Refuses a point more than 1 m away, because no sole is larger.
   void ExpectSmall(const Eigen::Vector2d& point, const YAML::Node& at,
                    const std::string& thing) const {
     if (point.cwiseAbs().maxCoeff() <= 1) return;
     Refuse(at, thing + " reaches over 1 m, must be in m");
   }
 
-  // The sole's axes in its link's: z along a normal, x near the link's x or,
-  // if that is along the normal, near its z.
+  // Returns the sole's axes in the link: z along the normal, x near the link's x
+  // axis or, if that is along the normal, near its z axis.
   Eigen::Matrix3d FromNormal(const YAML::Node& node,
                              const std::string& thing) const {
     const Eigen::Vector3d normal = Numbers<3>(node, thing);
@@ -195,7 +195,7 @@ MimicPolicy ReadMimic(const Reader& reader, const YAML::Node& node) {
   reader.Refuse(node, "mimic", "free, coupled or locked");
 }
 
-// The feet that a profile gives.
+// Makes the feet that a profile gives.
 std::vector<Foot> MakeFeet(const RobotModel& model, const Profile& profile) {
   std::vector<Foot> feet;
   for (const SoleProfile& sole : profile.feet) {
@@ -215,10 +215,11 @@ std::vector<Foot> MakeFeet(const RobotModel& model, const Profile& profile) {
   return feet;
 }
 
-// Takes the mimics of which a profile says nothing to where their sources lead.
+// Sets each mimic joint that the profile does not give to the value from its
+// source.
 void Couple(const std::map<std::string, JointValue>& given, Robot* robot) {
   const Tree& tree = robot->model.tree;
-  // A source may be a mimic too; the loader found no cycle.
+  // A source may be a mimic joint too. The loader has refused cycles.
   for (size_t i = 0; i < robot->model.mimics.size(); ++i) {
     bool changed = false;
     for (const MimicCoupling& mimic : robot->model.mimics) {
@@ -273,7 +274,7 @@ std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
   for (const auto& [name, joint] : profile.locked) {
     const std::optional<int> j = tree.FindJoint(name);
     if (!j) refuse(joint, "the robot has no moving joint " + Quoted(name));
-    // A mimic goes where its source leads it.
+    // The source determines a mimic joint, even outside its limits.
     if (!mimic_of[*j] && !IsWithin(model.limits[*j], joint.value)) {
       refuse(joint, SayOutside(name, model.limits[*j], joint.value));
     }
@@ -284,7 +285,8 @@ std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
   const Eigen::VectorXd q_rest = RestConfiguration(model);
   for (const MimicCoupling& mimic : model.mimics) {
     const std::string& name = tree.joints()[mimic.joint].name;
-    // Up to whom all follow, or to who is fixed; the loader found no cycle.
+    // The chain of sources ends at a joint that is fixed or no mimic. The loader
+    // has refused cycles.
     std::vector<const MimicCoupling*> chain;
     int joint = mimic.joint;
     while (mimic_of[joint] != nullptr &&

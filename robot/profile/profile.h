@@ -25,10 +25,11 @@ struct SoleProfile {
   int line;                             ///< In the file.
 };
 
-/// What becomes of joints that mimic others. kFree: they are joints like the
-/// others. kCoupled: control keeps them where their sources put them; if those
-/// are locked, so are they. kLocked: they are fixed where their sources put them
-/// in the profile's posture (in its `locked`, else its `joints`, else at rest).
+/// The treatment of mimic joints. kFree: a mimic joint moves independently.
+/// kCoupled: control keeps a mimic joint at the value that its source gives; if
+/// the source is locked, so is the mimic joint. kLocked: a mimic joint is fixed
+/// at the value that its source gives in the profile's posture (the source's
+/// value in `locked`, else in `joints`, else at rest).
 enum class MimicPolicy { kFree, kCoupled, kLocked };
 
 /// The value of a joint, rad or m, and its line in the file.
@@ -37,7 +38,7 @@ struct JointValue {
   int line;
 };
 
-/// What a URDF does not say of a robot, from a YAML file:
+/// The facts about a robot that its URDF does not contain, read from a YAML file:
 ///
 ///     feet:                      # Left one first. Found, where left out.
 ///       left_foot:
@@ -66,33 +67,34 @@ struct Profile {
   std::string posture_found;                 ///< How, in words.
   std::map<std::string, JointValue> locked;
   MimicPolicy mimic = MimicPolicy::kFree;
-  /// Undefined where there is none; knows its lines.
+  /// The tasks, with their lines in the file; undefined if there are none.
   YAML::Node tasks = YAML::Node(YAML::NodeType::Undefined);
 };
 
-/// Reads a profile. Throws Refusal with file, line, the value and what was
-/// wanted.
+/// Reads a profile. Throws Refusal with the file, the line, the value and what
+/// was wanted.
 Profile LoadProfile(const std::filesystem::path& file);
 
-/// The joints that a profile fixes: those in its `locked`, and the mimics that it
-/// has follow them or be fixed. In a profile's `locked`, all of them say the same
-/// again. Throws Refusal where they do not fit the robot.
+/// Returns the joints that a profile fixes: the joints in its `locked`, and the
+/// mimic joints that follow them or that its `mimic` locks. The result is also a
+/// valid `locked` with the same meaning. Throws Refusal if a joint does not fit
+/// the robot.
 std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
                                                const Profile& profile);
 
-/// What a profile leaves of a robot: its joints without LockedJoints(), and of
-/// the mimics those that control couples. Throws as LoadUrdf() and LockedJoints().
+/// Reads a robot without the joints that the profile locks. Its mimics are those
+/// that control couples. Throws as LoadUrdf() and LockedJoints().
 RobotModel LoadModel(const std::filesystem::path& urdf, const Profile& profile);
 
-/// A robot from its URDF and a profile; an empty Profile will do for a biped
-/// whose feet can be found.
+/// Reads a robot from its URDF and a profile. An empty Profile is enough for a
+/// biped whose feet can be found.
 ///
-/// @param findings  as FindFeet()'s.
+/// @param findings  if not null, receives the warnings of FindFeet().
 ///
-/// Throws Refusal as LoadUrdf(), and where the profile does not fit the robot:
-/// where it names what that does not have, or gives a posture that is outside
-/// its limits or, with a base, not one to stand in. Throws another
-/// std::invalid_argument as FindFeet().
+/// Throws Refusal as LoadUrdf(), and if the profile does not fit the robot: a
+/// name is unknown, the posture is outside the joint limits, or the posture has a
+/// base and the robot cannot stand in it. Throws another std::invalid_argument
+/// as FindFeet().
 Robot LoadRobot(const std::filesystem::path& urdf, const Profile& profile = {},
                 std::vector<Finding>* findings = nullptr);
 

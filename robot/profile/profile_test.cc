@@ -23,7 +23,7 @@ Profile Parse(const std::string& text) {
   return LoadProfile(TestFile("profile.yaml", text));
 }
 
-// The message, from the line number on.
+// Returns the message, from the line number on.
 std::string Refusal(const std::string& text) {
   try {
     LoadRobot(kUrdf, Parse(text));
@@ -76,13 +76,13 @@ const std::string kFeet =
     "  left_foot: {frame: l_sole, size: [0.2, 0.1]}\n"
     "  right_foot: {frame: r_sole, size: [0.2, 0.1]}\n";
 
-// The same, with another left foot, which is in line 2.
+// Returns the soles of the humanoid with another left foot, in line 2.
 std::string LeftFoot(const std::string& foot) {
   return "feet:\n  left_foot: {" + foot +
          "}\n  right_foot: {frame: r_sole, size: [0.2, 0.1]}\n";
 }
 
-TEST(LoadProfile, NamesTheLineOfWhatIsWrong) {
+TEST(LoadProfile, NamesTheLineOfAnError) {
   EXPECT_EQ(Refusal("\nfeets: {}"),
             "2: a profile: unknown key 'feets', must be one of feet locked "
             "mimic posture tasks");
@@ -119,7 +119,7 @@ TEST(LoadProfile, NamesTheLineOfWhatIsWrong) {
             "5: posture.base.xyz is a list, must be 3 numbers");
 }
 
-TEST(LoadProfile, NamesTheFootThatIsNone) {
+TEST(LoadProfile, NamesAnUnknownOrInvalidFoot) {
   EXPECT_EQ(Refusal(LeftFoot("frame: l, size: [0.2, 0.1]")),
             "2: feet.left_foot: the robot has no link 'l'");
   EXPECT_EQ(Refusal(LeftFoot("frame: r_foot, size: [0.2, 0.1]")),
@@ -177,7 +177,7 @@ TEST(LoadProfile, TakesTheNormalForTheAxisOutOfTheGround) {
             1e-15);
 }
 
-// A posture with a base is one to stand in, or it is refused.
+// The robot must stand in a posture with a base.
 TEST(LoadRobot, RefusesAPostureThatDoesNotStand) {
   std::ifstream stream("robot/profiles/humanoid.yaml");
   const std::string good((std::istreambuf_iterator<char>(stream)), {});
@@ -255,7 +255,8 @@ TEST(LoadRobot, LocksJoints) {
   EXPECT_FALSE(robot.model.tree.FindJoint("neck_yaw").has_value());
 }
 
-// A mimic starts where its source leads it, or the profile says otherwise.
+// A mimic joint starts at the value from its source, unless the profile gives
+// another.
 TEST(LoadRobot, CouplesMimicsInThePosture) {
   std::ifstream stream(kUrdf);
   std::string urdf((std::istreambuf_iterator<char>(stream)), {});
@@ -276,8 +277,8 @@ TEST(LoadRobot, CouplesMimicsInThePosture) {
             "'neck_yaw' is 0, must be 0.25 as it is coupled to 'chest_yaw'");
 }
 
-// Of two joints, one follows the other.
-TEST(LoadRobot, DoesWithMimicsAsTheProfileSays) {
+// Returns a profile in which one joint follows another.
+TEST(LoadRobot, TreatsMimicsAsTheProfileSays) {
   std::ifstream stream(kUrdf);
   std::string urdf((std::istreambuf_iterator<char>(stream)), {});
   const std::string axis = "<axis xyz=\"0 0 1\"/>";
@@ -322,7 +323,7 @@ TEST(LoadRobot, LocksMimicsWhereTheirSourcesAre) {
     for (const auto& [name, joint] : LockedJoints(LoadUrdf(file), profile)) {
       values[name] = joint.value;
     }
-    // Written out, they say the same, and the robot goes without them.
+    // Written as `locked`, the result locks the same joints.
     Profile written = profile;
     written.locked = LockedJoints(LoadUrdf(file), profile);
     EXPECT_EQ(LockedJoints(LoadUrdf(file), written).size(), values.size());
@@ -339,7 +340,7 @@ TEST(LoadRobot, LocksMimicsWhereTheirSourcesAre) {
   const Values all = {
       {"chest_yaw", 0.1}, {"neck_yaw", 0.2}, {"neck_pitch", 0.2 + 0.1}};
   EXPECT_EQ(locked("mimic: locked\nlocked: {chest_yaw: 0.1}"), all);
-  // What follows a joint that cannot move cannot move either.
+  // A mimic joint of a locked source is locked as well.
   EXPECT_EQ(locked("mimic: coupled\nlocked: {chest_yaw: 0.1}"), all);
   EXPECT_EQ(locked("mimic: locked\nlocked: {neck_yaw: 0.3}"),
             (Values{{"neck_yaw", 0.3}, {"neck_pitch", 0.3 + 0.1}}));

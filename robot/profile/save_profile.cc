@@ -17,7 +17,7 @@
 namespace poise {
 namespace {
 
-// Nine digits; what is zero but for rounding is zero.
+// Prints a number with nine digits. Rounding residuals become 0.
 std::string Print(double value) {
   constexpr double kZero = 1e-12;
   std::ostringstream text;
@@ -36,14 +36,15 @@ std::string PrintAll(const Vector& values) {
   return text + "]";
 }
 
-// A name as YAML writes it: quoted where it must be.
+// Returns a name as YAML writes it, in quotes if YAML needs them.
 std::string Name(const std::string& name) {
   YAML::Emitter emitter;
   emitter << name;
   return emitter.c_str();
 }
 
-// "NAME: value", as a line or, as YAML asks where a name is very long, as two.
+// Writes "NAME: value" as one line, or as two if the name is too long for a key
+// of YAML on one line.
 void WriteEntry(const std::string& indent, const std::string& name,
                 double value, std::ostream* stream) {
   constexpr size_t kLongest = 1000;

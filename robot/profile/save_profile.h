@@ -9,15 +9,16 @@
 
 namespace poise {
 
-/// Writes what is known of a robot beside its URDF as a profile, with comments,
-/// that LoadRobot() makes the same robot of, to nine digits.
+/// Writes a profile, with comments, from which LoadRobot() makes the same robot
+/// again, to nine digits.
 ///
-/// @param profile  the one the robot was loaded with: what it says of locked
-///                 joints, mimics and tasks is written as well.
+/// @param profile  the profile that the robot was loaded with. Its locked
+///                 joints, mimics and tasks are written as well.
 void WriteProfile(const Robot& robot, const Profile& profile,
                   std::ostream* stream);
 
-/// The same to a file. Throws std::invalid_argument where it cannot be written.
+/// Writes the profile to a file, as WriteProfile() does to a stream. Throws
+/// std::invalid_argument if the file cannot be written.
 void SaveProfile(const Robot& robot, const Profile& profile,
                  const std::filesystem::path& file);
 

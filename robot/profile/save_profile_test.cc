@@ -55,7 +55,7 @@ TEST(SaveProfile, KeepsWhatTheProfileSaid) {
   EXPECT_EQ(again.tasks["com"]["rank"].as<int>(), 4);
 }
 
-// YAML takes a key in one line up to 1024 characters.
+// YAML accepts a key on one line up to 1024 characters.
 TEST(SaveProfile, KeepsNamesOfAnyLength) {
   const std::string name(1100, 'n');
   Profile profile;
@@ -78,7 +78,7 @@ TEST(SaveProfile, SaysHowAPostureWasFoundOnlyWhereItIsThatOne) {
   EXPECT_NE(LoadProfile(file).posture_found, "measured");
 }
 
-TEST(SaveProfile, DoesNotWriteOverWhatItWasMadeFrom) {
+TEST(SaveProfile, DoesNotOverwriteItsSource) {
   const auto file = TestFile("mine.yaml", "# Mine.\nmimic: free\n");
   const Profile profile = LoadProfile(file);
   EXPECT_THROW(SaveProfile(LoadRobot(kUrdf, profile), profile, file),

@@ -19,15 +19,15 @@ namespace {
 
 constexpr size_t kMostMib = 1;
 
-// What yaml-cpp lets through: of two keys it takes either, and an alias can
-// make a map contain itself.
+// Refuses errors that yaml-cpp accepts: it takes either of two equal keys, and an
+// alias can make a map contain itself.
 class Checker : public YAML::EventHandler {
  public:
   explicit Checker(const std::string& source) : source_(source) {}
 
   int documents() const { return documents_; }
 
-  // After all else.
+  // Called last, so that any other error is reported first.
   void RefuseMissingValues() const {
     if (!missing_) return;
     Refuse(missing_->mark,
@@ -41,8 +41,8 @@ class Checker : public YAML::EventHandler {
   void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
     if (!missing_ && !open_.empty() && open_.back().is_map &&
         !open_.back().key_is_next) {
-      // The mark of nothing is somewhere after its key; and a file that is cut
-      // off has a worse fault.
+      // The key is kept, because the mark of a missing value is anywhere after its
+      // key. The refusal waits: a file that is cut off has a worse fault.
       missing_ = open_.back().key;
     }
     AddNode(mark, nullptr);
@@ -78,7 +78,7 @@ class Checker : public YAML::EventHandler {
     bool is_map;
     bool key_is_next;
     std::set<std::string> keys;
-    Key key;  // The last one.
+    Key key;  // The last key.
   };
 
   [[noreturn]] void Refuse(const YAML::Mark& mark,
@@ -102,7 +102,7 @@ class Checker : public YAML::EventHandler {
   }
 
   const std::string& source_;
-  std::optional<Key> missing_;  // The first without a value.
+  std::optional<Key> missing_;  // The first key without a value.
   int documents_ = 0;
   std::vector<Collection> open_;
 };

@@ -9,24 +9,24 @@
 
 namespace poise {
 
-/// Reads a YAML file that people write by hand, up to 1 MiB: one document, each
-/// key a word that its map has once and with a value, no aliases. Throws
-/// Refusal, with the line of what is otherwise.
+/// Reads a YAML file of at most 1 MiB that people write by hand. The file must be
+/// one document without aliases. Each key must be a word, occur once in its map
+/// and have a value. Throws Refusal with the line that breaks these rules.
 YAML::Node LoadYaml(const std::filesystem::path& file);
 
-/// The same from a text.
+/// Reads YAML from a text, as LoadYaml() does from a file.
 ///
-/// @param source  what to call it in a message.
+/// @param source  the name of the text in messages.
 YAML::Node ParseYaml(const std::string& text, const std::string& source);
 
-/// The finite number that a value is, in whatever locale; nothing where it is
-/// anything else.
+/// Returns a value as a finite number, or nothing if it is anything else. The
+/// locale does not matter.
 std::optional<double> ToNumber(const YAML::Node& node);
 
-/// What a message says of a value: 'abc', empty, a list, a map.
+/// Returns the words for a value in a message: 'abc', empty, a list, a map.
 std::string Shown(const YAML::Node& node);
 
-/// Throws Refusal about a node, in its line.
+/// Throws Refusal about a node, with the line of the node.
 [[noreturn]] void Refuse(const std::string& file, const YAML::Node& at,
                          const std::string& what);
 

@@ -48,7 +48,7 @@ TEST(ParseYaml, RefusesAKeyThatIsThereTwice) {
   EXPECT_EQ(Refusal("- {a: 1}\n- {a: 1}\n"), "accepted");
 }
 
-// The line is the key's, wherever its value is missing.
+// The message names the line of the key, wherever its value is missing.
 TEST(ParseYaml, RefusesAKeyWithoutAValue) {
   EXPECT_EQ(Refusal("a: 1\nb:\n\n# End.\n"),
             "f:2: key 'b' has no value, must have one");

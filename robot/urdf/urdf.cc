@@ -17,7 +17,7 @@
 namespace poise {
 namespace {
 
-// With what 16 MiB of markup take, less than 1 GiB of memory.
+// Together with 16 MiB of markup, this takes less than 1 GiB of memory.
 constexpr size_t kMostMib = 112;
 
 Eigen::Vector3d FromUrdf(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
@@ -28,8 +28,8 @@ Pose FromUrdf(const urdf::Pose& X) {
           FromUrdf(X.position)};
 }
 
-// URDF gives the inertia about the center of mass, in the axes of a frame
-// there; ours has the axes of the link.
+// Converts an inertial. URDF gives the inertia about the center of mass in the
+// axes of a frame there; Inertia has the axes of the link.
 Inertia FromUrdf(const urdf::Inertial& inertial) {
   const Pose X_LG = FromUrdf(inertial.origin);
   Eigen::Matrix3d I;
@@ -90,7 +90,7 @@ void AddShapes(const urdf::Link& link, int frame, RobotModel* model) {
   }
 }
 
-// Keeps urdfdom from printing, and from using names as formats to print with.
+// Keeps urdfdom from printing, because it uses names as format strings.
 class Silence {
  public:
   Silence() : level_(console_bridge::getLogLevel()) {
@@ -104,8 +104,8 @@ class Silence {
   console_bridge::LogLevel level_;
 };
 
-// urdfdom's own tree, which it would take down by recursion, link by link: far
-// deeper than the stack for a long chain.
+// Owns urdfdom's tree. urdfdom would destroy it by recursion, link by link, which
+// overflows the stack for a long chain.
 class UrdfdomTree {
  public:
   explicit UrdfdomTree(const std::string& xml) {
@@ -127,8 +127,8 @@ class UrdfdomTree {
   urdf::ModelInterfaceSharedPtr model_;
 };
 
-// What urdfdom is given: the pruned document, without what was read already and
-// what it is stricter about than it need be.
+// Returns the pruned document for urdfdom, without the parts that were read
+// already, about which urdfdom is too strict.
 std::string XmlForUrdfdom(tinyxml2::XMLDocument* document) {
   for (tinyxml2::XMLElement* joint =
            document->RootElement()->FirstChildElement("joint");
@@ -176,7 +176,7 @@ void AddMimics(const urdf::ModelInterface& urdf, RobotModel* model) {
     const auto& mimic = urdf.joints_.at(joint.name)->mimic;
     if (mimic == nullptr) continue;
     const auto source = joint_of.find(mimic->joint_name);
-    if (source == joint_of.end()) continue;  // It does not move.
+    if (source == joint_of.end()) continue;  // The source does not move.
     model->mimics.push_back({joint_of.at(joint.name), source->second,
                              mimic->multiplier, mimic->offset});
   }

@@ -14,18 +14,18 @@ namespace poise {
 
 /// Reads a robot from a URDF file.
 ///
-/// The root link is the floating base, massless or not, also where it is called
-/// `world`; massless links from the root down to a joint of type `floating`
-/// stand for the world and are left out. Mimic joints are joints
-/// like others (RobotModel::mimics says what they follow). A link without
-/// `<inertial>` has no mass. Meshes are named, never opened. Numbers are read
-/// the same in every locale.
+/// The root link is the floating base, even if it has no mass or is called
+/// `world`. Massless links from the root down to a joint of type `floating`
+/// stand for the world and are left out. A mimic joint is a joint of the tree
+/// like any other; RobotModel::mimics gives its source. A link without
+/// `<inertial>` has no mass, and at least one link must have mass. Meshes are
+/// named, never opened. Numbers are read the same in every locale.
 ///
-/// @param locked  joints to fix, by name, at a value in rad or m: the tree is
-///                the reduced one, their links stay as frames.
+/// @param locked  joints to fix, by name, at a value in rad or m. The tree has
+///                no such joint; the links below it remain as frames.
 ///
-/// @param findings  where not null, all that is odd about the file is added, and
-///                  all that is wrong before it is thrown.
+/// @param findings  if not null, receives each note and warning about the file,
+///                  and each reason to reject it before Refusal is thrown.
 ///
 /// Throws Refusal with one line that names the file, the element, its value and
 /// what was wanted. Any file takes less than 10 s and 1 GiB.
@@ -34,14 +34,15 @@ RobotModel LoadUrdf(const std::filesystem::path& file,
                     const std::map<std::string, double>& locked = {},
                     std::vector<Finding>* findings = nullptr);
 
-/// The same from a URDF's text.
+/// Reads a robot from the text of a URDF, as LoadUrdf() does from a file.
 ///
-/// @param source  what to call it in a message.
+/// @param source  the name of the text in messages.
 RobotModel ParseUrdf(std::string_view text, const std::string& source,
                      const std::map<std::string, double>& locked = {},
                      std::vector<Finding>* findings = nullptr);
 
-/// The mass of each link, kg, where RobotModel::tree has those of bodies.
+/// Returns the mass of each link, in kg. RobotModel::tree has the masses of
+/// bodies, which join all links that are fixed to each other.
 /// @pre LoadUrdf() reads the file.
 std::map<std::string, double> LoadLinkMasses(const std::filesystem::path& file);
 

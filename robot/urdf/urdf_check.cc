@@ -15,10 +15,10 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// More links than these are no robot, and would fill the memory.
+// A bound on the memory. No robot has as many links.
 constexpr size_t kMostLinks = 100'000;
 
-// Names in the file's order, and the elements by name.
+// Returns the names in the file's order, and collects the elements by name.
 std::vector<std::string> CheckNames(const XMLElement& robot, const char* kind,
                                     const Critic& critic, Elements* elements) {
   std::vector<std::string> names;
@@ -83,7 +83,7 @@ UrdfFacts CheckRobot(const XMLElement& robot, const Critic& critic) {
   return facts;
 }
 
-// Of materials with one name, the first one counts.
+// Removes each material whose name is taken: the first one counts.
 void PruneMaterials(XMLElement* robot, const Critic& critic) {
   std::unordered_set<std::string> names;
   XMLElement* material = robot->FirstChildElement("material");

@@ -13,15 +13,15 @@
 
 namespace poise {
 
-/// What is read from the XML of a URDF itself, as urdfdom does not keep it.
+/// The facts that are read from the XML itself, because urdfdom drops them.
 struct UrdfFacts {
-  UrdfTree tree;  ///< Of the robot: without what stands for the world.
+  UrdfTree tree;  ///< The robot, without links that stand for the world.
   std::map<std::string, JointLimits> limits;  ///< Of moving joints.
 };
 
-/// Checks a URDF, already parsed as XML, and prunes it to what is read (see
-/// PruneUrdf()). A file without a finding of Severity::kReject is a tree of
-/// links and joints with finite numbers.
+/// Checks a URDF that was parsed as XML, and removes all parts that Poise does
+/// not read (see PruneUrdf()). A file without a finding of Severity::kReject is
+/// a tree of links and joints with finite numbers and a positive total mass.
 UrdfFacts CheckUrdf(tinyxml2::XMLDocument* document,
                     std::vector<Finding>* findings);
 

@@ -18,7 +18,7 @@ using tinyxml2::XMLElement;
 
 struct AttributeRule {
   const char* name;
-  int numbers;  // So many; 0 for text.
+  int numbers;  // Their count; 0 for text.
   bool required = true;
 };
 
@@ -28,13 +28,14 @@ struct ElementRule {
   std::vector<const ElementRule*> children;
   bool required = false;
   bool repeated = false;
-  // What it is to lack a part: the element is taken away, or the file rejected.
+  // The severity if a part is missing or bad: the file is rejected, or the
+  // element removed with a warning or a note.
   Severity fault = Severity::kReject;
 };
 
 constexpr bool kOptional = false;
 
-// What Poise reads of a URDF.
+// The elements and attributes of a URDF that Poise reads.
 const ElementRule kOrigin{
     "origin", {{"xyz", 3, kOptional}, {"rpy", 3, kOptional}}, {}};
 const ElementRule kMass{"mass", {{"value", 1}}, {}, true};
@@ -92,10 +93,12 @@ const ElementRule kMaterialAtTop{
 const ElementRule kRobot{
     "robot", {{"name", 0}}, {&kMaterialAtTop, &kLink, &kJoint}};
 
-// Larger than anything of a robot, and small enough to be squared and summed.
+// A bound on numbers: larger than any of a robot, and small enough to be squared
+// and summed.
 constexpr double kLargest = 1e30;
 
-// Elements that others read. Those with a colon are others' too.
+// Elements that other programs read. An element with a colon in its name is
+// also for other programs.
 const std::set<std::string_view> kOfOthers = {"actuator",
                                               "calibration",
                                               "capsule",
@@ -118,16 +121,12 @@ const std::set<std::string_view> kOfOthers = {"actuator",
                                               "transmission",
                                               "verbose"};
 
-// What is no part of a link's or joint's dynamics may stand in odd places.
+// Elements that change the dynamics. In a wrong place, they give a warning.
 const std::set<std::string_view> kOfDynamics = {
     "axis",  "child", "dynamics", "inertia", "inertial", "joint",
     "limit", "link",  "mass",     "mimic",   "origin",   "parent"};
 
-// Those that xacro had before it had a namespace.
-const std::set<std::string_view> kOfXacro = {"include", "insert_block", "macro",
-                                             "property"};
-
-// Attributes that change what others say.
+// Attributes of an origin that replace rpy in other formats.
 const std::set<std::string_view> kRotations = {"quat", "quat_wxyz",
                                                "quat_xyzw"};
 
@@ -137,8 +136,8 @@ bool Contains(std::string_view text, std::string_view part) {
 
 char Lower(char c) { return 'A' <= c && c <= 'Z' ? c - 'A' + 'a' : c; }
 
-// Whether a word is another one but for the case, and for a letter more, less
-// or other.
+// Returns whether a word differs from another at most by case and by one letter
+// that is added, missing or replaced.
 bool IsSlip(std::string_view word, std::string_view wanted) {
   if (word.size() > wanted.size()) std::swap(word, wanted);
   if (wanted.size() - word.size() > 1) return false;
@@ -150,7 +149,7 @@ bool IsSlip(std::string_view word, std::string_view wanted) {
   return std::equal(is_longer ? here : here + 1, word.end(), there + 1, same);
 }
 
-// Any white space as one blank, none at the ends.
+// Replaces each run of white space by one blank, and removes it at the ends.
 std::string Collapse(std::string_view text) {
   std::string collapsed;
   for (const char c : text) {
@@ -165,7 +164,7 @@ std::string Collapse(std::string_view text) {
   return collapsed;
 }
 
-// Why a text is not the numbers it should be.
+// Returns the reason why a text is not the wanted count of numbers.
 std::string WantedNumbers(std::string_view text, int count) {
   if (HasXacroExpression(text)) return "is xacro, expand it first";
   const std::string wanted =
@@ -181,7 +180,7 @@ class Pruner {
  public:
   explicit Pruner(std::vector<Finding>* findings) : critic_(findings) {}
 
-  // Whether the element may stay.
+  // Prunes an element, and returns whether it may stay.
   bool Prune(const ElementRule& rule, XMLElement* element) {
     PruneAttributes(rule, element);
     bool complete = true;
@@ -199,13 +198,13 @@ class Pruner {
   }
 
  private:
-  // What an element holds, by rule.
+  // The children of an element, by rule.
   struct Parts {
     std::set<const ElementRule*> kept;
-    std::set<const ElementRule*> spoilt;  // There, but of no use.
+    std::set<const ElementRule*> spoilt;  // Removed: a part is bad.
   };
 
-  // Whether a child may stay.
+  // Prunes a child, and returns whether it may stay.
   bool PruneNode(const ElementRule& rule, const XMLElement& element,
                  tinyxml2::XMLNode* node, Parts* parts) {
     XMLElement* child = node->ToElement();
@@ -236,7 +235,8 @@ class Pruner {
     return keep;
   }
 
-  // A fixed joint has no use for an axis or limits; many files have bad ones.
+  // Returns whether a child has no effect. A fixed joint needs no axis and no
+  // limits, and many files have bad ones.
   static bool IsIdle(const XMLElement& element, const ElementRule& child) {
     const char* type = element.Attribute("type");
     return type != nullptr &&
@@ -246,14 +246,14 @@ class Pruner {
             &child == &kMimic);
   }
 
-  // Whether all that is required is there.
+  // Returns whether all required children are there.
   bool CheckParts(const ElementRule& rule, const XMLElement& element,
                   const Parts& parts) {
     bool complete = true;
     for (const ElementRule* wanted : rule.children) {
       if (!wanted->required || parts.kept.count(wanted) != 0) continue;
       complete = false;
-      if (parts.spoilt.count(wanted) != 0) continue;  // It was said why.
+      if (parts.spoilt.count(wanted) != 0) continue;  // A finding says why.
       critic_.Add(
           rule.fault, element, std::string("has no <") + wanted->name + ">",
           rule.fault == Severity::kReject ? "must have one" : "is left out");
@@ -268,7 +268,7 @@ class Pruner {
     return complete;
   }
 
-  // The rule for a child, or null where it is not read.
+  // Returns the rule for a child, or null if Poise does not read the child.
   const ElementRule* Find(const ElementRule& rule, const XMLElement& child) {
     for (const ElementRule* candidate : rule.children) {
       if (child.Name() == std::string_view(candidate->name)) return candidate;
@@ -280,7 +280,7 @@ class Pruner {
       critic_.Note(
           child, "closes a loop",
           "loops are not modeled: the robot moves as if it were cut there");
-    } else if (kOfXacro.count(name) != 0) {
+    } else if (IsXacroWithoutPrefix(child)) {
       critic_.Warn(child, "is xacro of old", "is ignored: expand it first");
     } else if (kOfDynamics.count(name) != 0) {
       critic_.Warn(child, "is no element of URDF here",
@@ -298,9 +298,9 @@ class Pruner {
     return nullptr;
   }
 
-  // Judges an element that xacro should have replaced. Inside a link or beside
-  // it, a macro without an essential part can be left out, as one of sensors.
-  // Inside a joint or an inertial, each element is essential.
+  // Adds a finding about an element that xacro should have replaced. A macro of
+  // sensors, say, can be left out of a robot or a link. Inside a joint or an
+  // inertial, each element is essential.
   void JudgeXacro(const ElementRule& rule, const XMLElement& element) {
     const bool is_inside_essential =
         rule.fault == Severity::kReject && &rule != &kRobot && &rule != &kLink;
@@ -332,7 +332,7 @@ class Pruner {
     }
   }
 
-  // Of an attribute that is not read.
+  // Adds a finding about an attribute that Poise does not read.
   void JudgeAttribute(const ElementRule& rule, const XMLElement& element,
                       const std::string& name) {
     if (Contains(name, ":") || name == "xmlns") return;
@@ -384,11 +384,11 @@ class Pruner {
       const bool is_size =
           &rule == &kBox || &rule == &kSphere || &rule == &kCylinder;
       if (is_size && number < 0) return refuse("must not be negative");
-      // Unlimited is a limit; nothing else is that large.
+      // A limit may be infinite, any other number may not.
       if (&rule == &kLimit || std::abs(number) <= kLargest) continue;
       return refuse("is out of range, must be at most 1e30");
     }
-    // urdfdom splits at blanks alone.
+    // urdfdom splits at blanks only.
     element->SetAttribute(attribute.name, Collapse(text).c_str());
     return true;
   }

@@ -9,14 +9,16 @@
 
 namespace poise {
 
-/// Checks the `<robot>` element of a URDF against the grammar of what Poise
-/// reads, and takes away the rest: afterwards each attribute that is there is
-/// what it must be (so many numbers, or text), and a child that may be there
-/// once is there once. What urdfdom would drop without a word is found here.
+/// Checks the `<robot>` element of a URDF against the grammar that Poise reads,
+/// and removes everything else. Afterwards each attribute has the right count of
+/// numbers, or is text, and each child that may occur once occurs once.
+/// urdfdom would drop the other elements and attributes silently.
 ///
-/// Bad numbers are rejected, but for those of a mesh or a color: these are taken
-/// away with a warning, as is what is there a second time. A word that looks
-/// like a slip of the pen is a warning too, others are notes.
+/// A bad number is rejected, except in a mesh or a color: these are removed with
+/// a warning, as is a second occurrence. An unknown word gives a warning if it
+/// looks like a typing error, else a note. An element that xacro should have
+/// replaced is rejected if the robot would move differently without it (see
+/// HasEssentialPart()), else it is removed with a warning.
 void PruneUrdf(tinyxml2::XMLElement* robot, std::vector<Finding>* findings);
 
 }  // namespace poise

@@ -29,7 +29,7 @@ void CheckSource(const XMLElement& joint, const Elements& joints,
   }
 }
 
-// Whoever follows whom, it must end at a joint that follows nobody.
+// Rejects a chain of mimics that returns to one of its joints.
 void CheckCycles(const std::vector<std::string>& names, const Elements& joints,
                  const Critic& critic) {
   std::unordered_map<std::string, int> visit;
@@ -50,10 +50,10 @@ void CheckCycles(const std::vector<std::string>& names, const Elements& joints,
   }
 }
 
-// Whether a joint that follows another one gets out of its own limits.
+// Notes each mimic joint that its source leads out of its own limits.
 void CheckRanges(const std::map<std::string, JointLimits>& limits,
                  const Elements& joints, const Critic& critic) {
-  constexpr double kTolerance = 1e-2;  // rad or m: files are rounded.
+  constexpr double kTolerance = 1e-2;  // rad or m. Files round their numbers.
   for (const auto& [name, own] : limits) {
     const XMLElement* mimic = joints.at(name)->FirstChildElement("mimic");
     if (mimic == nullptr) continue;

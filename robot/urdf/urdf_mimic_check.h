@@ -10,11 +10,11 @@
 
 namespace poise {
 
-/// Checks every `<mimic>` of moving joints: that it names another one that
-/// moves, that whoever follows whom ends at a joint that follows nobody, and
-/// that it leads no joint out of its own limits.
-/// @param names   of the joints, in the file's order.
-/// @param limits  of moving joints.
+/// Checks each `<mimic>` of a moving joint. Its source must be another moving
+/// joint, each chain of mimics must end at a joint without `<mimic>`, and the
+/// source should lead no joint out of its limits.
+/// @param names   the names of the joints, in the file's order.
+/// @param limits  the limits of moving joints, by name.
 void CheckMimics(const std::vector<std::string>& names, const Elements& joints,
                  const std::map<std::string, JointLimits>& limits,
                  const Critic& critic);

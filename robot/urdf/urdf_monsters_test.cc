@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 
-// Files that are large, deep or broken on purpose: the loader must come to an
-// end with a robot or with one line.
+// Tests with files that are large, deep or broken on purpose. The loader must
+// return a robot or throw an error of one line.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -21,8 +21,8 @@ const char kInertial[] =
     "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
     "iyz='0' izz='1'/></inertial>";
 
-// A root and `links` links, each on a joint of the given type to the link before
-// it, or all to the root.
+// Returns a robot with a root and `links` links. A joint of the given type
+// connects each link to the link before it, or to the root if is_star.
 std::string Many(int links, const std::string& type, bool is_star) {
   std::string text =
       std::string("<robot name='r'><link name='0'>") + kInertial + "</link>";
@@ -43,7 +43,7 @@ std::string Repeat(const std::string& text, int times) {
   return repeated;
 }
 
-// A robot of one link, with `text` in it.
+// Returns a robot of one link, with `text` in it.
 std::string With(const std::string& text) {
   return std::string("<robot name='r'><link name='a'>") + kInertial + text +
          "</link></robot>";
@@ -70,14 +70,14 @@ TEST(Monsters, LongChainsAndWideStarsLoad) {
   }
 }
 
-TEST(Monsters, AHugeCommentIsNoHindrance) {
+TEST(Monsters, AHugeCommentLoads) {
   EXPECT_EQ(
       ParseUrdf(With("<!--" + std::string(100'000'000, '-') + "-->"), "file")
           .tree.num_bodies(),
       1);
 }
 
-TEST(Monsters, TooMuchIsRefusedBeforeItIsParsed) {
+TEST(Monsters, RefusesTooMuchMarkupBeforeParsing) {
   const std::string too_much =
       "file:1: has more than 16 MiB beside comments, must have less";
   EXPECT_EQ(Rejection(With(std::string(20'000'000, 'x'))), too_much);
@@ -101,12 +101,12 @@ TEST(Monsters, TooMuchIsRefusedBeforeItIsParsed) {
             "file:1: <robot>: has 100001 links, must have at most 100000");
 }
 
-TEST(Monsters, DeepNestingIsRefused) {
+TEST(Monsters, RefusesDeepNesting) {
   EXPECT_EQ(Rejection(With(Repeat("<a>", 100'000))),
             "file:1: elements are nested more than 100 deep");
 }
 
-TEST(Monsters, NothingThatIsOpenedNeedsToClose) {
+TEST(Monsters, RefusesAFileThatEndsInsideMarkup) {
   const std::string open = "<robot name='r'>";
   for (const char* tail : {"<", "<a", "<a b='", "<!--", "<![CDATA[", "<?"}) {
     const std::string message = Rejection(open + tail);
@@ -116,14 +116,14 @@ TEST(Monsters, NothingThatIsOpenedNeedsToClose) {
             "file:1: the file ends inside a tag");
 }
 
-TEST(Monsters, EntitiesDoNotExpand) {
+TEST(Monsters, RefusesEntities) {
   EXPECT_EQ(
       Rejection("<!DOCTYPE r [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]>" +
                 With("&b;")),
       "file:1: has a document type or entity declaration, must have none");
 }
 
-TEST(Monsters, ManyFloatingOrMimickingJointsCostNoMoreThanOthers) {
+TEST(Monsters, ManyFloatingOrMimicJointsCostNoMoreThanOthers) {
   EXPECT_NE(
       Rejection(Many(20'000, "floating", true)).find("joint '1': is floating"),
       std::string::npos);
@@ -140,7 +140,7 @@ TEST(Monsters, ManyFloatingOrMimickingJointsCostNoMoreThanOthers) {
   EXPECT_EQ(ParseUrdf(text + "</robot>", "file").mimics.size(), 19'999u);
 }
 
-// Each hostile file from outside: a verdict, and no worse.
+// Each hostile file is loaded or rejected as expected.
 TEST(Monsters, HostileFilesAreJudgedAsExpected) {
   const auto folder = SharedData("urdf_hostile");
   if (!folder) GTEST_SKIP() << "the shared data is not there";
@@ -178,9 +178,9 @@ TEST(Monsters, RealRobotsLoad) {
   }
 }
 
-// One sanitizer keeps what is freed, another as much again for each byte.
+// The address sanitizer keeps freed memory, and the thread sanitizer doubles it.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// Of all tests of this process together.
+// Bounds the memory of all tests of this process together.
 class Memory : public testing::Environment {
   void TearDown() override {
     rusage usage;

@@ -17,22 +17,23 @@ using tinyxml2::XMLElement;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// How far moments of inertia may miss the triangle inequality, relative: thin
-// plates are rounded.
+// Relative tolerance on the triangle inequality of moments of inertia. Files
+// round the moments of thin plates.
 constexpr double kTriangle = 1e-4;
-// A radius of gyration, or an offset, m, that only a file in millimeters has.
+// A radius of gyration or an offset above this, m, suggests a file in
+// millimeters.
 constexpr double kLongest = 10;
-// A radius of gyration that is none, m.
+// A radius of gyration below this counts as zero, m.
 constexpr double kThinnest = 1e-6;
-// Axes shorter than this are likely a mistake; those not of unit length are
-// worth a word.
+// An axis shorter than the first is likely a mistake. A length off by the second
+// from 1 gives a note.
 constexpr double kShortestAxis = 1e-6;
 constexpr double kUnitAxis = 1e-4;
-// From here on a limit only stands for one: N m, rad/s, rad.
+// A limit from here on is taken for a placeholder: N m, rad/s, rad.
 constexpr double kLargestEffort = 1e5;
 constexpr double kLargestVelocity = 1e3;
 constexpr double kLargestPosition = 1e3;
-// More than two turns, or a rotation by more than one, may be in degrees.
+// A limit above two turns, or a rotation above one turn, may be in degrees.
 constexpr double kMostTurns = 4 * M_PI;
 constexpr double kTurn = 6.3;
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Two links and a joint; the tests below change one thing each.
+// A robot of two links and a joint. Each test below changes one part.
 const char kGood[] = R"(<?xml version="1.0"?>
 <robot name="test">
   <material name="red"><color rgba="1 0.5 0.25 1"/></material>
@@ -65,7 +65,7 @@ const char kPoint[] =
     "<inertial><mass value='1'/><inertia ixx='0' ixy='0' ixz='0' iyy='0' "
     "iyz='0' izz='0'/></inertial>";
 
-// kGood with the first `old_text` as `new_text`.
+// Returns kGood with the first `old_text` replaced by `new_text`.
 std::string With(const std::string& old_text, const std::string& new_text) {
   std::string text = kGood;
   const size_t at = text.find(old_text);
@@ -78,7 +78,7 @@ RobotModel Parse(const std::string& text,
   return ParseUrdf(text, "test.urdf", {}, findings);
 }
 
-// The message with which a text is rejected.
+// Returns the message with which a text is rejected.
 std::string Rejection(const std::string& text) {
   try {
     Parse(text);
@@ -89,7 +89,7 @@ std::string Rejection(const std::string& text) {
   return "accepted";
 }
 
-// All that is found about a text that can be read, apart by |.
+// Returns the findings of one severity about a valid text, separated by |.
 std::string Findings(const std::string& text, Severity severity) {
   std::vector<Finding> findings;
   Parse(text, &findings);
@@ -191,7 +191,7 @@ TEST(LoadUrdf, LocksJointsAtAValue) {
   EXPECT_LT((b.X_BF.R - R).norm(), Rounding(2, 20));
 }
 
-TEST(LoadUrdf, TakesTheRootForTheBaseAlsoWhenItIsTheWorld) {
+TEST(LoadUrdf, TakesTheRootForTheBaseEvenIfNamedWorld) {
   const std::string fixed =
       With("<joint",
            "<link name='world'/><joint name='w' type='fixed'><origin "
@@ -217,9 +217,9 @@ TEST(LoadUrdf, LeavesOutAMasslessRootWithAFloatingJoint) {
   EXPECT_EQ(model.tree.num_joints(), 1);
 }
 
-// Whatever has no mass above the floating joint, without a word about mass or
+// A link above the floating joint has no mass if it has no <inertial>, or one
 // with a mass of 0.
-TEST(LoadUrdf, LeavesOutAllThatStandsForTheWorld) {
+TEST(LoadUrdf, LeavesOutAllMasslessLinksAboveAFloatingJoint) {
   const std::string massless =
       "<inertial><mass value='0'/><inertia ixx='0' ixy='0' ixz='0' iyy='0' "
       "iyz='0' izz='0'/></inertial>";
@@ -251,7 +251,7 @@ TEST(LoadUrdf, TakesCommentsInAnyEncoding) {
   EXPECT_EQ(Parse(With("?>", " encoding='ISO-8859-1'?>")).name, "test");
 }
 
-TEST(LoadLinkMasses, KeepsWhatTheTreeMerges) {
+TEST(LoadLinkMasses, KeepsLinksThatTheTreeMerges) {
   const std::filesystem::path file =
       std::filesystem::path(std::getenv("TEST_TMPDIR")) / "masses.urdf";
   std::ofstream(file) << With("revolute\">", "fixed\">");
@@ -273,11 +273,11 @@ TEST(LoadUrdf, ReadsMimics) {
   EXPECT_EQ(model.tree.joints()[model.mimics[0].source].name, "j");
   EXPECT_EQ(model.mimics[0].multiplier, -2);
   EXPECT_EQ(model.mimics[0].offset, 0.5);
-  // Locked, the source leaves nothing to follow.
+  // A mimic joint of a locked source is independent.
   EXPECT_TRUE(ParseUrdf(text, "test.urdf", {{"j", 0}}).mimics.empty());
 }
 
-TEST(LoadUrdf, TakesUnknownLimitsForNone) {
+TEST(LoadUrdf, TakesInvalidLimitsForInfinite) {
   for (const char* limit : {"effort='1' velocity='1'",
                             "lower='-inf' upper='inf' effort='1' "
                             "velocity='1'",
@@ -434,7 +434,7 @@ const Case kRejected[] = {
      "link 'c': is a second root beside 'a', must hang on a joint"},
 };
 
-TEST(LoadUrdf, RejectsInOneLineThatNamesWhatWasWanted) {
+TEST(LoadUrdf, RejectsInOneLineThatSaysWhatWasWanted) {
   for (const Case& c : kRejected) {
     const std::string message = Rejection(With(c.old_text, c.new_text));
     EXPECT_NE(message.find(c.message), std::string::npos)
@@ -443,7 +443,7 @@ TEST(LoadUrdf, RejectsInOneLineThatNamesWhatWasWanted) {
   }
 }
 
-TEST(LoadUrdf, RejectsWhatIsNoUrdf) {
+TEST(LoadUrdf, RejectsOtherFormats) {
   EXPECT_EQ(Rejection(""), "test.urdf: is empty, must be XML");
   EXPECT_EQ(Rejection(" \n"), "test.urdf: is empty, must be XML");
   EXPECT_NE(Rejection("hello").find("is not XML"), std::string::npos);
@@ -491,7 +491,7 @@ TEST(LoadUrdf, RejectsLoops) {
                                joint))
                 .find("<robot>: has no root, the joints form a cycle"),
             std::string::npos);
-  // A cycle beside a tree.
+  // The file has a cycle beside a tree.
   EXPECT_NE(Rejection(With("</robot>",
                            "<link name='c'/><link name='d'/>"
                            "<joint name='k' type='fixed'><parent link='c'/>"
@@ -591,14 +591,14 @@ const Case kWarnedOf[] = {
      "looks like xacro"},
 };
 
-TEST(LoadUrdf, WarnsOfWhatControlShouldKnow) {
+TEST(LoadUrdf, WarnsOfLikelyMistakes) {
   EXPECT_EQ(Findings(kGood, Severity::kWarn), "");
   for (const Case& c : kWarnedOf) {
     const std::string found =
         Findings(With(c.old_text, c.new_text), Severity::kWarn);
     EXPECT_NE(found.find(c.message), std::string::npos)
         << c.new_text << "\n  gave: " << found << "\n  not: " << c.message;
-    // One row for one fault, and one for each word that is xacro.
+    // Each mistake gives one warning; two names with an expression give two.
     const bool is_xacro =
         std::string(c.new_text).find("<link name='${p}c'") == 0;
     EXPECT_EQ(std::count(found.begin(), found.end(), '|'), is_xacro ? 2 : 1)
@@ -606,7 +606,7 @@ TEST(LoadUrdf, WarnsOfWhatControlShouldKnow) {
   }
 }
 
-TEST(LoadUrdf, WarnsOfASlideThatIsVeryLong) {
+TEST(LoadUrdf, WarnsOfAVeryLongPrismaticJoint) {
   const std::string slide = With("revolute", "prismatic");
   EXPECT_EQ(Findings(slide, Severity::kWarn), "");
   std::string text = slide;
@@ -615,7 +615,7 @@ TEST(LoadUrdf, WarnsOfASlideThatIsVeryLong) {
             std::string::npos);
 }
 
-TEST(LoadUrdf, NotesWhatIsOdd) {
+TEST(LoadUrdf, NotesUnusualParts) {
   EXPECT_NE(Findings(kGood, Severity::kNote).find("xyz is '0 3 4'"),
             std::string::npos);
   const Case cases[] = {
@@ -647,8 +647,8 @@ TEST(LoadUrdf, NotesWhatIsOdd) {
   }
 }
 
-// A plate that was rounded, and elements that mean nothing to dynamics.
-TEST(LoadUrdf, FindsNothingWrongWithWhatIsCommon) {
+// Rounded plates and elements without effect on dynamics are common.
+TEST(LoadUrdf, DoesNotWarnOfCommonParts) {
   const Case cases[] = {
       {"ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"",
        "ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='2.00001'", ""},
@@ -687,7 +687,7 @@ TEST(LoadUrdf, CutsLongNamesInMessages) {
   EXPECT_NE(message.find("nnn...'"), std::string::npos);
 }
 
-// Numbers with a decimal point are that also where people write a comma.
+// A decimal point remains one in a locale with a decimal comma.
 TEST(LoadUrdf, ReadsTheSameInEveryLocale) {
   class Comma : public std::numpunct<char> {
     char do_decimal_point() const override { return ','; }

@@ -13,13 +13,14 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Who hangs on whom.
+// The joints as edges between links.
 struct Edges {
-  Elements joint_above;  // By link.
+  Elements joint_above;  // The joint above each link, by link.
   std::unordered_map<std::string, std::vector<std::string>> children;
 };
 
-// None where a joint does not connect two links, or a link has two parents.
+// Returns nothing if a joint does not connect two links, or a link has two
+// parents.
 std::optional<Edges> FindEdges(const UrdfTree& tree, const Elements& links,
                                const Elements& joints, const Critic& critic) {
   Edges edges;
@@ -67,7 +68,7 @@ size_t CountBelow(const std::string& root, const Edges& edges) {
   return reached;
 }
 
-// The one link on which all others hang, if there is one.
+// Returns the root of all links, if there is exactly one.
 std::optional<std::string> FindRoot(const XMLElement& robot,
                                     const std::vector<std::string>& names,
                                     const Elements& links, const Edges& edges,

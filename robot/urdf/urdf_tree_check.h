@@ -18,10 +18,11 @@ struct UrdfTree {
 };
 
 /// Checks that a URDF's joints make one tree of its links: one root, one parent
-/// each, all connected. Then finds the base, and leaves out of the names what
-/// stands for the world: massless links, one below the other, down to a floating
-/// joint. Any other floating joint is rejected, and so is a robot without mass.
-/// @param tree  in: links and joints; out: base, and less of both.
+/// for each other link, all connected. Then finds the base, and removes the
+/// names of massless links from the root down to a floating joint, which stand
+/// for the world. Rejects any other floating joint, and a robot without mass.
+/// @param tree  in: all links and joints; out: the base, and the names that
+///              remain.
 void CheckTree(const tinyxml2::XMLElement& robot, const Elements& links,
                const Elements& joints, const Critic& critic, UrdfTree* tree);
 

@@ -14,6 +14,10 @@ constexpr std::string_view kElements[] = {"inertia", "inertial",    "joint",
                                           "limit",   "link",        "mass",
                                           "mimic",   "transmission"};
 
+// Elements of xacro before it had a prefix.
+constexpr std::string_view kWithoutPrefix[] = {"include", "insert_block",
+                                               "macro", "property"};
+
 // Words in the names of macros.
 constexpr std::string_view kWords[] = {"inerti", "joint", "limit",       "link",
                                        "mass",   "mimic", "transmission"};
@@ -48,7 +52,12 @@ bool IsXacro(const XMLElement& element) {
   return std::string_view(element.Name()).substr(0, kPrefix.size()) == kPrefix;
 }
 
-// The depth of the recursion is that of the file, see ParseXml().
+bool IsXacroWithoutPrefix(const XMLElement& element) {
+  return std::find(std::begin(kWithoutPrefix), std::end(kWithoutPrefix),
+                   element.Name()) != std::end(kWithoutPrefix);
+}
+
+// ParseXml() bounds the depth of the recursion.
 bool HasEssentialPart(const XMLElement& element) {
   if (IsEssential(element)) return true;
   for (const XMLElement* child = element.FirstChildElement(); child != nullptr;

@@ -15,6 +15,9 @@ bool HasXacroExpression(std::string_view text);
 /// replaced the element.
 bool IsXacro(const tinyxml2::XMLElement& element);
 
+/// Returns whether an element is one of xacro from before xacro had a prefix.
+bool IsXacroWithoutPrefix(const tinyxml2::XMLElement& element);
+
 /// Returns whether an element, or any element below it, is a link, a joint, a
 /// limit, a transmission, a mimic or an inertia, or is a macro with one of these
 /// words in its name. Without the element the robot would move differently.

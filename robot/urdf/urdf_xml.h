@@ -12,25 +12,29 @@
 
 namespace poise {
 
-/// The links or the joints of a URDF, by name.
+/// Elements of a URDF by name: its links, or its joints.
 using Elements = std::unordered_map<std::string, const tinyxml2::XMLElement*>;
 
-/// An attribute, empty where it is not there.
+/// Returns the text of an attribute, or "" if the element does not have it.
 std::string Text(const tinyxml2::XMLElement& element, const char* attribute);
 
-/// An attribute that is known to be a number where it is there.
+/// Returns an attribute as a number, or `otherwise` if the element does not
+/// have it.
+/// @pre PruneUrdf() found the attribute to be a number.
 double Number(const tinyxml2::XMLElement& element, const char* attribute,
               double otherwise);
 
-/// An attribute that is known to be three numbers; zero where it is not there.
+/// Returns an attribute as three numbers, or zeros if the element does not have
+/// it.
+/// @pre PruneUrdf() found the attribute to be three numbers.
 Eigen::Vector3d Vector(const tinyxml2::XMLElement& element,
                        const char* attribute);
 
-/// Whether a `<joint>` is revolute, continuous or prismatic.
+/// Returns whether a `<joint>` is revolute, continuous or prismatic.
 bool IsMoving(const tinyxml2::XMLElement& joint);
 
-/// Collects what is found about elements, each named by the link or joint it
-/// is in.
+/// Collects findings about elements. Each finding names the link or joint that
+/// the element belongs to.
 class Critic {
  public:
   explicit Critic(std::vector<Finding>* findings) : findings_(findings) {}

@@ -13,12 +13,13 @@
 namespace poise {
 namespace {
 
-// TinyXML-2 takes up to 30 bytes of memory for each of these.
+// Bound on the bytes of markup. TinyXML-2 takes up to 30 bytes of memory for each.
 constexpr size_t kMostMarkup = size_t{16} << 20;
-// It compares each attribute of an element with all before it.
+// Bound on the attributes of an element. TinyXML-2 compares each of them with all
+// before it.
 constexpr size_t kMostAttributes = 100;
 
-// Whether "65" or "x41" is the number of a character that XML has.
+// Returns whether "65" or "x41" is the number of a character that XML allows.
 bool IsCharacter(std::string_view number) {
   const int base = number.substr(0, 1) == "x" ? 16 : 10;
   if (base == 16) number.remove_prefix(1);
@@ -30,14 +31,14 @@ bool IsCharacter(std::string_view number) {
          (c >= 0xe000 && c <= 0x10ffff && c != 0xfffe && c != 0xffff);
 }
 
-// The text, and where in it we are.
+// Scans the text of an XML file before it is parsed.
 class Scanner {
  public:
   Scanner(std::string_view text, const std::string& source)
       : text_(text), source_(source) {}
 
-  // What parsing would take, asked before anything is parsed, and what
-  // TinyXML-2 does not ask: that nothing is closed which is not open.
+  // Refuses a text that would take too much memory or time to parse, and errors
+  // that TinyXML-2 accepts, such as an end tag without a start tag.
   void Scan() {
     size_t markup = 0;
     size_t at = 0;
@@ -45,7 +46,7 @@ class Scanner {
       const size_t start = std::min(text_.find('<', at), text_.size());
       markup += start - at;
       at = start < text_.size() ? SkipMarkup(start) : start;
-      // The text of a comment takes no more memory than it is long.
+      // TinyXML-2 stores the text of a comment as it is.
       const bool is_comment = text_.substr(start, 4) == "<!--";
       markup += is_comment ? std::string_view("<!---->").size() : at - start;
       if (markup > kMostMarkup) {
@@ -60,7 +61,7 @@ class Scanner {
     throw Refusal(source_, static_cast<int>(line) + 1, what);
   }
 
-  // Where the construct that starts at `at` ends, past `closing`.
+  // Returns the end of the construct that starts at `at`: past `closing`.
   size_t SkipPast(size_t at, std::string_view closing) const {
     const size_t end = text_.find(closing, at);
     if (end == std::string_view::npos) {
@@ -69,7 +70,7 @@ class Scanner {
     return end + closing.size();
   }
 
-  // Where the markup at `start` ends.
+  // Returns the end of the markup at `start`.
   size_t SkipMarkup(size_t start) {
     const auto starts = [&](std::string_view opening) {
       return text_.substr(start, opening.size()) == opening;
@@ -81,7 +82,7 @@ class Scanner {
     Refuse(start, "has a document type or entity declaration, must have none");
   }
 
-  // The end of a tag: the first > outside quotes.
+  // Returns the end of a tag: the first > outside quotes.
   size_t SkipTag(size_t start) {
     std::set<std::string_view> attributes;
     for (size_t i = start; i < text_.size(); ++i) {
@@ -111,7 +112,8 @@ class Scanner {
     Refuse(start, "the file ends inside a tag");
   }
 
-  // TinyXML-2 takes what XML does not have in a value.
+  // Refuses characters and entities that XML forbids in a value, as TinyXML-2
+  // accepts them.
   void CheckValue(size_t start, size_t end) const {
     for (size_t i = start; i < end; ++i) {
       if (text_[i] == '<') Refuse(i, "a value has <, must be &lt;");
@@ -133,7 +135,7 @@ class Scanner {
     }
   }
 
-  // Of NAME = "value", where the value's quote is at `quote`.
+  // Returns NAME of NAME = "value", if the value's first quote is at `quote`.
   std::string_view NameBefore(size_t quote) const {
     constexpr std::string_view kBlankOrEquals = " \t\r\n=";
     const size_t last = text_.find_last_not_of(kBlankOrEquals, quote - 1);
@@ -149,7 +151,7 @@ class Scanner {
 
   const std::string_view text_;
   const std::string& source_;
-  int depth_ = 0;  // Of open elements.
+  int depth_ = 0;  // The number of open elements.
 };
 
 std::string Explain(const tinyxml2::XMLDocument& document) {

@@ -9,14 +9,14 @@
 
 namespace poise {
 
-/// Parses XML from anyone: at most 16 MiB of it beside comments, at most 100
-/// elements deep, without a document type, so that no entity expands, and with
-/// nothing after the root element. A file of 100 MB takes less than 1 GiB and a
-/// few seconds.
+/// Parses XML from an untrusted source. The text may have at most 16 MiB beside
+/// comments, elements at most 100 deep, and nothing after the root element. It
+/// may not declare a document type, so that no entity expands. A file of 100 MB
+/// takes less than 1 GiB and a few seconds.
 ///
-/// @param source  what to call it in a message.
+/// @param source  the name of the text in messages.
 ///
-/// Throws Refusal: source, line, what was wanted.
+/// Throws Refusal with source, line and what was wanted.
 std::unique_ptr<tinyxml2::XMLDocument> ParseXml(std::string_view text,
                                                 const std::string& source);
 

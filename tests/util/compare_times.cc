@@ -59,9 +59,9 @@ int CompareTimes(int argc, char** argv,
   int num_flags = static_cast<int>(flags.size());
   benchmark::Initialize(&num_flags, flags.data());
   if (benchmark::ReportUnrecognizedArguments(num_flags, flags.data())) return 1;
-  FastestReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  reporter.Print(comparisons);
+  FastestReporter writer;
+  benchmark::RunSpecifiedBenchmarks(&writer);
+  writer.Print(comparisons);
   return 0;
 }
 

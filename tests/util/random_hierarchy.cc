@@ -51,7 +51,8 @@ class Drawing {
     scaled_ = source_.Chance(options_.scaled);
     planted_.resize(n);
     for (int j = 0; j < n; ++j) planted_[j] = source_.Number();
-    apex_ = options_.apex > 0 && source_.Chance(options_.apex);
+    degenerate_vertex_ = options_.degenerate_vertex > 0 &&
+                         source_.Chance(options_.degenerate_vertex);
     weighted_ = options_.weighted > 0 && source_.Chance(options_.weighted);
     integer_ = options_.integer > 0 && source_.Chance(options_.integer);
     for (int j = 0; integer_ && j < n; ++j) {
@@ -111,7 +112,7 @@ class Drawing {
     const Eigen::VectorXd row = Row();
     block->C.row(i) = row;
     double bound = Meets() ? row.dot(planted_) : Scale(row) * Wish();
-    if (apex_) bound = 0;
+    if (degenerate_vertex_) bound = 0;
     const int kind = source_.Between(0, 9);
     if (kind < 4) {
       block->upper[i] = bound;
@@ -120,8 +121,8 @@ class Drawing {
     } else if (kind < 9) {
       block->lower[i] = bound;
       block->upper[i] =
-          bound + (apex_      ? 0
-                   : integer_ ? source_.Between(0, 4)
+          bound + (degenerate_vertex_ ? 0
+                   : integer_         ? source_.Between(0, 4)
                               : Scale(row) * source_.Between(0, 300) / 100);
     } else {
       block->lower[i] = block->upper[i] = bound;
@@ -177,7 +178,8 @@ class Drawing {
 
   Source source_;
   RandomHierarchyOptions options_;
-  bool scaled_ = false, apex_ = false, weighted_ = false, integer_ = false;
+  bool scaled_ = false, degenerate_vertex_ = false, weighted_ = false,
+       integer_ = false;
   Eigen::VectorXd planted_;
   Eigen::VectorXd columns_;  // What each variable's unit is worth.
   std::vector<Eigen::VectorXd> rows_;

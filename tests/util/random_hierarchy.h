@@ -36,9 +36,9 @@ struct RandomHierarchyOptions {
   /// Chance that the last levels only select variables.
   int selecting = 50;
 
-  /// Chance that all bounds are zero, as at the apex of friction cones: mostly no
+  /// Chance that all bounds are zero, as at the degenerate_vertex of friction cones: mostly no
   /// y but zero is left then, whatever is asked for.
-  int apex = 0;
+  int degenerate_vertex = 0;
 
   /// Chance that a hierarchy has rows of small whole numbers, most of which meet
   /// in a point of whole numbers, about half of them 0. There nothing is rounded: what

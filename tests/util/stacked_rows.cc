@@ -5,7 +5,7 @@
 
 namespace poise {
 
-void AddLevel(const LeastSquares& level, RowStack* stack) {
+void AddLevel(const LeastSquares& level, LexicographicFactorization* stack) {
   for (int i = 0; i < level.A.rows(); ++i) {
     const int a = stack->AddRow(level.b[i], std::sqrt(level.weight[i]));
     Eigen::VectorXd::Map(stack->row(a), level.A.cols()) = level.A.row(i);
@@ -13,7 +13,7 @@ void AddLevel(const LeastSquares& level, RowStack* stack) {
   stack->FactorLevel();
 }
 
-Eigen::MatrixXd Basis(const RowStack& stack, int n) {
+Eigen::MatrixXd Basis(const LexicographicFactorization& stack, int n) {
   Eigen::MatrixXd Q(stack.rank(), n);
   for (int i = 0; i < stack.rank(); ++i) {
     Q.row(i) = Eigen::RowVectorXd::Map(stack.basis() + i * stack.stride(), n);
@@ -21,7 +21,7 @@ Eigen::MatrixXd Basis(const RowStack& stack, int n) {
   return Q;
 }
 
-Eigen::VectorXd Optimum(const RowStack& stack, int n) {
+Eigen::VectorXd Optimum(const LexicographicFactorization& stack, int n) {
   return Basis(stack, n).transpose() *
          Eigen::VectorXd::Map(stack.z(), stack.rank());
 }

@@ -9,12 +9,12 @@
 namespace poise {
 
 /// Adds the rows of a level, and factors them.
-void AddLevel(const LeastSquares& level, RowStack* stack);
+void AddLevel(const LeastSquares& level, LexicographicFactorization* stack);
 
 /// Q of n variables, a row for each of the stack's rank.
-Eigen::MatrixXd Basis(const RowStack& stack, int n);
+Eigen::MatrixXd Basis(const LexicographicFactorization& stack, int n);
 
 /// The stack's y = Q' z.
-Eigen::VectorXd Optimum(const RowStack& stack, int n);
+Eigen::VectorXd Optimum(const LexicographicFactorization& stack, int n);
 
 }  // namespace poise

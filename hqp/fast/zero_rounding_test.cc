@@ -16,7 +16,7 @@ constexpr double kWished = 3e-15;  // What the tail asks of y3.
 using Vector = std::vector<double>;
 
 // A row of y1 and y2, of a target, above y0 + y4 = 4, above the wish for y3.
-class TakeZerosTest : public testing::Test {
+class ZeroRoundingTest : public testing::Test {
  protected:
   // What becomes of y, asked for by a row.
   Vector Take(double b1, double b2, double target, const Vector& y,
@@ -32,13 +32,13 @@ class TakeZerosTest : public testing::Test {
     EqualityBlock wish = hierarchy.AddEqualities(2, 1);
     wish.B << 0, 0, 0, 1, 0;
     wish.b << -kWished;
-    ActiveProblem problem(5, capacity);
+    WorkingSetProblem problem(5, capacity);
     int failed_level;
     EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
     problem.Plan(hierarchy, 3);
     problem.Solve(hierarchy, {{}, {}, {}});
-    problem.TakeOther(hierarchy, y);
-    any_ = problem.TakeZeros(hierarchy, row.data());
+    problem.SetSolution(hierarchy, y);
+    any_ = problem.ZeroRoundingEntries(hierarchy, row.data());
     EXPECT_EQ(any_, problem.y() != y);
     return problem.y();
   }
@@ -46,7 +46,7 @@ class TakeZerosTest : public testing::Test {
   bool any_ = false;
 };
 
-TEST_F(TakeZerosTest, TakesWhatIsNothingBesideTheLargest) {
+TEST_F(ZeroRoundingTest, TakesWhatIsNothingBesideTheLargest) {
   for (const double sign : {1., -1.}) {
     const double nothing = sign * 3.6e-14, something = sign * 4.4e-14;
     EXPECT_EQ(Take(1, 1, 7, {kLarge, nothing, 7, 0, 0}, {0, 2, 0, 0, 0})[1], 0);
@@ -63,7 +63,7 @@ TEST_F(TakeZerosTest, TakesWhatIsNothingBesideTheLargest) {
   }
 }
 
-TEST_F(TakeZerosTest, LeavesWhatARowNeeds) {
+TEST_F(ZeroRoundingTest, LeavesWhatARowNeeds) {
   const Vector y{kLarge, kSmall, 2 * kSmall, 0, 0};
   EXPECT_EQ(Take(1, 1, 3 * kSmall, y, {0, 1, 0, 0, 0}), y);
   EXPECT_EQ(Take(1, 1, 3 * kSmall, y, {0, 1, 1, 0, 0}), y);
@@ -75,7 +75,7 @@ TEST_F(TakeZerosTest, LeavesWhatARowNeeds) {
   EXPECT_EQ(Take(1, 1, 3 * kSmall, large, {0, 1, 0, 1, 0}), large);
 }
 
-TEST_F(TakeZerosTest, AsksRowsOfYAsItIs) {
+TEST_F(ZeroRoundingTest, AsksRowsOfYAsItIs) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
   Hierarchy hierarchy(3, capacity);
   EqualityBlock sum = hierarchy.AddEqualities(0, 1);
@@ -84,21 +84,21 @@ TEST_F(TakeZerosTest, AsksRowsOfYAsItIs) {
   EqualityBlock large = hierarchy.AddEqualities(1, 1);
   large.B << 1, 0, 0;
   large.b << -kLarge;
-  ActiveProblem problem(3, capacity);
+  WorkingSetProblem problem(3, capacity);
   int failed_level;
   EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
   problem.Plan(hierarchy, 2);
   problem.Solve(hierarchy, {{}, {}});
   const Vector y = problem.y();
-  problem.TakeOther(hierarchy, {kLarge, 1, 1});  // Meets nothing.
+  problem.SetSolution(hierarchy, {kLarge, 1, 1});  // Meets nothing.
   problem.Solve(hierarchy, {{}, {}});
   const Vector row{0, 1, 0};
-  EXPECT_FALSE(problem.TakeZeros(hierarchy, row.data()));
+  EXPECT_FALSE(problem.ZeroRoundingEntries(hierarchy, row.data()));
   EXPECT_EQ(problem.y(), y);
 }
 
 // Of a bound y1 <= 1 that was, y1 = 0 misses all.
-TEST_F(TakeZerosTest, AsksNoRowThatIsNotActiveAnyMore) {
+TEST_F(ZeroRoundingTest, AsksNoRowThatIsNotActiveAnyMore) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {0, 1}};
   Hierarchy hierarchy(2, capacity);
   EqualityBlock large = hierarchy.AddEqualities(0, 1);
@@ -107,20 +107,20 @@ TEST_F(TakeZerosTest, AsksNoRowThatIsNotActiveAnyMore) {
   InequalityBlock bound = hierarchy.AddInequalities(1, 1);
   bound.C << 0, 1;
   bound.upper << 1;
-  ActiveProblem problem(2, capacity);
+  WorkingSetProblem problem(2, capacity);
   int failed_level;
   EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
   problem.Plan(hierarchy, 2);
   for (const Side side : {Side::kUpper, Side::kNone}) {
     problem.Solve(hierarchy, {{}, {side}});
-    problem.TakeOther(hierarchy, {kLarge, kSmall});
+    problem.SetSolution(hierarchy, {kLarge, kSmall});
   }
   const Vector row{0, 1};
-  EXPECT_TRUE(problem.TakeZeros(hierarchy, row.data()));
+  EXPECT_TRUE(problem.ZeroRoundingEntries(hierarchy, row.data()));
   EXPECT_EQ(problem.y(), Vector({kLarge, 0}));
 }
 
-TEST_F(TakeZerosTest, TakesTwoThatMakeUpForEachOther) {
+TEST_F(ZeroRoundingTest, TakesTwoThatMakeUpForEachOther) {
   const Vector y{kLarge, kSmall, kSmall, 0, 0};
   EXPECT_EQ(Take(1, -1, 0, y, {0, 1, 1, 0, 0}), Vector({kLarge, 0, 0, 0, 0}));
   // Also where only one is the row's.
@@ -129,7 +129,7 @@ TEST_F(TakeZerosTest, TakesTwoThatMakeUpForEachOther) {
 }
 
 // 1e-30 is no digit of a target of 1e-15.
-TEST_F(TakeZerosTest, TakesOneWhereTheOtherIsNeeded) {
+TEST_F(ZeroRoundingTest, TakesOneWhereTheOtherIsNeeded) {
   EXPECT_EQ(
       Take(1, 2, 2 * kSmall, {kLarge, 1e-30, kSmall, 0, 0}, {0, 1, 1, 0, 0}),
       Vector({kLarge, 0, kSmall, 0, 0}));
@@ -143,7 +143,7 @@ TEST_F(TakeZerosTest, TakesOneWhereTheOtherIsNeeded) {
 
 // Twice as bad is as good as before: from 0.43 of its terms to 0.54, but not from
 // 0.053 to 0.14.
-TEST_F(TakeZerosTest, CountsNoLastDigit) {
+TEST_F(ZeroRoundingTest, CountsNoLastDigit) {
   const auto take = [&](double y1, double y2, double target) {
     return Take(1, 1, target * kSmall, {kLarge, y1 * kSmall, y2 * kSmall, 0, 0},
                 {0, 1, 0, 0, 0})[1];
@@ -152,7 +152,7 @@ TEST_F(TakeZerosTest, CountsNoLastDigit) {
   EXPECT_EQ(take(0.15, 0.75, 1), 0.15 * kSmall);
 }
 
-TEST_F(TakeZerosTest, LeavesWhatTheTailAsksFor) {
+TEST_F(ZeroRoundingTest, LeavesWhatTheTailAsksFor) {
   const auto take = [&](double y3) {
     return Take(1, 1, 4, {kLarge, 0, kLarge, y3, 0}, {0, 0, 0, 1, 0})[3];
   };

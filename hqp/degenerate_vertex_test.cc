@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Where all bounds are zero, as at the apex of friction cones, and nothing but
+// Where all bounds are zero, as at the degenerate_vertex of friction cones, and nothing but
 // zero is left: what is asked for in vain leaves its rounding in y.
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ struct Row {
 };
 
 // Two variables, three rows above two wishes, one a variable.
-class ApexTest : public testing::Test {
+class DegenerateVertexTest : public testing::Test {
  protected:
   void Expect(const std::vector<Row>& rows, const Eigen::Vector2d& factors,
               const Eigen::Vector2d& wishes, const Eigen::Vector2d& weights) {
@@ -52,7 +52,7 @@ class ApexTest : public testing::Test {
   }
 };
 
-TEST_F(ApexTest, IsZeroBetweenThreeRows) {
+TEST_F(DegenerateVertexTest, IsZeroBetweenThreeRows) {
   Expect({{{1, -1}, 0, INFINITY}, {{0, -1}, -INFINITY, 0}, {{1, 0}, 0, 0}},
          {1, 0.96}, {0, 1.86}, {1, 1});
   Expect({{{1, 1}, -INFINITY, 0},
@@ -62,7 +62,7 @@ TEST_F(ApexTest, IsZeroBetweenThreeRows) {
 }
 
 // The same of wishes that are no numbers to speak of.
-TEST_F(ApexTest, IsZeroInAnyUnit) {
+TEST_F(DegenerateVertexTest, IsZeroInAnyUnit) {
   for (const double unit : {1e-12, 1e12}) {
     Expect({{{1, -1}, 0, INFINITY}, {{0, -1}, -INFINITY, 0}, {{1, 0}, 0, 0}},
            {1, 0.96}, {0, 1.86 * unit}, {1, 1});
@@ -72,10 +72,10 @@ TEST_F(ApexTest, IsZeroInAnyUnit) {
 // Some were not, where rounding of y was judged by |y| alone, or what depends on
 // other rows kept its rounding. (Of the first 20 000 one still is not with
 // -O1 or -O3, seed 1466, and the solver says so; with -O2 all are.)
-TEST(Apex, IsSolvedWhateverIsAskedFor) {
+TEST(DegenerateVertex, IsSolvedWhateverIsAskedFor) {
   RandomHierarchyOptions options;
   options.scaled = 0;
-  options.apex = 100;
+  options.degenerate_vertex = 100;
   for (int seed = 0; seed < 1000; ++seed) {
     const HierarchyCase drawn = MakeRandomHierarchy(seed, options);
     const int n = drawn.hierarchy.num_variables();
@@ -93,7 +93,7 @@ TEST(Apex, IsSolvedWhateverIsAskedFor) {
 // y2 is held at 0 by the first row, and by others: all of it is rounding then, and
 // a last digit of the others must not stand in the way of saying so. (With -O3 18
 // of these were not solved for that; with -O1 all were.)
-TEST(Apex, ALastDigitElsewhereDoesNotKeepAZeroFromBeingOne) {
+TEST(DegenerateVertex, ALastDigitElsewhereDoesNotKeepAZeroFromBeingOne) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 2}};
   std::mt19937 random(1);
   const auto draw = [&random] {
@@ -119,31 +119,31 @@ TEST(Apex, ALastDigitElsewhereDoesNotKeepAZeroFromBeingOne) {
 
 // y0 + y1 = 0, in conflict with 2 (y0 + y1) = 6, above a wish for y1: of 5, which
 // is the largest of what is asked for, or of 1, where 6 / |(2, 2)| is.
-TEST(Apex, RoundingIsRelativeToWhatIsAskedFor) {
+TEST(DegenerateVertex, RoundingIsRelativeToWhatIsAskedFor) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {1, 0}};
-  for (const bool is_in_tail : {false, true}) {
+  for (const bool is_in_diagonal : {false, true}) {
     Hierarchy hierarchy(2, capacity);
     EqualityBlock rows = hierarchy.AddEqualities(0, 2);
     rows.B << 1, 1, 2, 2;
     rows.b << 0, -6;
     EqualityBlock wish = hierarchy.AddEqualities(1, 1);
     wish.B << 0, 2;
-    wish.b << (is_in_tail ? -10 : -2);
-    ActiveProblem problem(2, capacity);
+    wish.b << (is_in_diagonal ? -10 : -2);
+    WorkingSetProblem problem(2, capacity);
     int failed_level;
     ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
     problem.Plan(hierarchy, 2);
     problem.Solve(hierarchy, {{}, {}});
-    EXPECT_EQ(problem.num_head(), 1);
-    problem.TakeOther(hierarchy, {1e-3, -1e-3});
-    const double size = is_in_tail ? 5 : 6 / std::sqrt(8);
+    EXPECT_EQ(problem.num_leading(), 1);
+    problem.SetSolution(hierarchy, {1e-3, -1e-3});
+    const double size = is_in_diagonal ? 5 : 6 / std::sqrt(8);
     EXPECT_NEAR(problem.Size(), size, Rounding(size, 2));
     EXPECT_EQ(problem.y()[1], -1e-3);
     // Of what that y lacks, (0, -6), (1, 2) is not needed: (2.4, -1.2) is left,
     // by the second row's length.
-    EXPECT_NEAR(problem.head().residual(1), -1.2 / std::sqrt(8),
+    EXPECT_NEAR(problem.leading().residual(1), -1.2 / std::sqrt(8),
                 Rounding(6, 2));
-    problem.TakeOther(hierarchy, {0, -1e9});
+    problem.SetSolution(hierarchy, {0, -1e9});
     EXPECT_EQ(problem.Size(), 1e9);
   }
 }
