@@ -153,8 +153,8 @@ class Ledger:
         """Takes in what was tried: verdict_of(mutant) is "killed", "survived",
         None if nobody tried, or another word if the mutant does not count.
 
-        Counts give way to those of a later text of the function, to larger ones,
-        and to new survivors.
+        A run that tried fewer mutants of a function than the ledger counts does
+        not replace these counts, but corrects them.
         """
         for key, mutants in group(pool).items():
             verdicts = {m: verdict_of(m) for m in mutants}
@@ -162,22 +162,34 @@ class Ledger:
             if not tried:
                 continue
             survivors = [m for m in tried if verdicts[m] == "survived"]
-            is_new = any(m.key not in self.entries for m in survivors)
-            old, digest = self.counts.get(key), digest_of(mutants)
+            fresh = [m for m in survivors if m.key not in self.entries]
             caught = [
                 m for m in tried if verdicts[m] == "killed" and m.key in self.entries
             ]
             for mutant in caught:
                 del self.entries[mutant.key]
-            for mutant in survivors:
-                self.entries.setdefault(mutant.key, Entry(SURVIVED, UNEXPLAINED))
-            if old and old.digest == digest and old.tried > len(tried) and not is_new:
-                killed = min(old.tried, old.killed + len(caught))
-                self.counts[key] = old._replace(killed=killed)
+            for mutant in fresh:
+                self.entries[mutant.key] = Entry(SURVIVED, UNEXPLAINED)
+            old = self.counts.get(key)
+            if old and old.tried > len(tried):
+                self.counts[key] = _correct(old, len(caught), len(fresh))
             else:
                 self.counts[key] = Counts(
                     len(tried) - len(survivors), len(tried),
                     sum(1 for m in mutants if not self.is_equivalent(m)
                         and verdicts[m] in ("killed", "survived", None)),
-                    digest,
+                    digest_of(mutants),
                 )
+
+
+def _correct(counts, caught, fresh):
+    """Counts after known survivors were caught, and fresh ones were found.
+
+    Nobody knows which mutants the counts include.  A fresh survivor is taken for
+    one that had not been tried, as long as there are any, then for one that had
+    been killed.
+    """
+    untried = min(fresh, counts.possible - counts.tried)
+    killed = counts.killed + caught - (fresh - untried)
+    tried = counts.tried + untried
+    return counts._replace(killed=max(0, min(killed, tried)), tried=tried)

@@ -109,12 +109,17 @@ class LedgerTest(unittest.TestCase):
         self.assertEqual(str(counts), f"2 of 2 of {len(add)}")
         self.assertNotIn(add[0].key, self.ledger.entries)
 
-    def test_replaces_counts_that_a_new_survivor_contradicts(self):
+    def test_corrects_larger_counts_by_a_new_survivor(self):
         add = [m for m in self.pool if m.place == "Add"]
+        n = len(add)
         self.ledger.record(self.pool, {add[1]: SURVIVED}.get)
         counts = self.ledger.counts["math", "Add"]
-        self.assertEqual(str(counts), f"0 of 1 of {len(add)}")
+        self.assertEqual(str(counts), f"1 of 3 of {n}")  # It had not been tried.
         self.assertIn(add[1].key, self.ledger.entries)
+        self.ledger.counts["math", "Add"] = counts._replace(killed=n - 1, tried=n)
+        self.ledger.record(self.pool, {add[2]: SURVIVED}.get)
+        counts = self.ledger.counts["math", "Add"]
+        self.assertEqual(str(counts), f"{n - 2} of {n} of {n}")
 
 
 if __name__ == "__main__":
