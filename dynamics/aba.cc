@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/aba.h"
+#include "poise/dynamics/aba.h"
 
 #include <Eigen/Cholesky>
 #include <cassert>

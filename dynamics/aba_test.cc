@@ -1,17 +1,17 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/aba.h"
+#include "poise/dynamics/aba.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <limits>
 
-#include "dynamics/crba.h"
-#include "dynamics/rnea.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/decompositions.h"
-#include "tests/util/tolerance.h"
-#include "tests/util/tree_cases.h"
+#include "poise/dynamics/crba.h"
+#include "poise/dynamics/rnea.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/decompositions.h"
+#include "poise/tests/util/tolerance.h"
+#include "poise/tests/util/tree_cases.h"
 
 namespace poise {
 namespace {

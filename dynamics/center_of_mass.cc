@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/center_of_mass.h"
+#include "poise/dynamics/center_of_mass.h"
 
-#include "math/so3.h"
+#include "poise/math/so3.h"
 
 namespace poise {
 

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/simd/recursion.h"
-#include "dynamics/tree.h"
+#include "poise/dynamics/simd/recursion.h"
+#include "poise/dynamics/tree.h"
 
 namespace poise {
 

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/centroidal.h"
+#include "poise/dynamics/centroidal.h"
 
 #include <cassert>
 
-#include "math/so3.h"
+#include "poise/math/so3.h"
 
 namespace poise {
 

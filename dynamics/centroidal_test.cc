@@ -1,19 +1,19 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/centroidal.h"
+#include "poise/dynamics/centroidal.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-#include "dynamics/center_of_mass.h"
-#include "dynamics/crba.h"
-#include "dynamics/integrate.h"
-#include "dynamics/kinematics.h"
-#include "dynamics/rnea.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/ridders.h"
-#include "tests/util/tolerance.h"
-#include "tests/util/tree_cases.h"
+#include "poise/dynamics/center_of_mass.h"
+#include "poise/dynamics/crba.h"
+#include "poise/dynamics/integrate.h"
+#include "poise/dynamics/kinematics.h"
+#include "poise/dynamics/rnea.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/ridders.h"
+#include "poise/tests/util/tolerance.h"
+#include "poise/tests/util/tree_cases.h"
 
 namespace poise {
 namespace {

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/derivatives.h"
+#include "poise/dynamics/derivatives.h"
 
 #include <algorithm>
 #include <cassert>
 
-#include "dynamics/crba.h"
+#include "poise/dynamics/crba.h"
 
 namespace poise {
 

@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/simd/lanes.h"
-#include "dynamics/simd/recursion.h"
-#include "dynamics/tree.h"
-#include "math/spatial.h"
+#include "poise/dynamics/simd/lanes.h"
+#include "poise/dynamics/simd/recursion.h"
+#include "poise/dynamics/tree.h"
+#include "poise/math/spatial.h"
 
 namespace poise {
 

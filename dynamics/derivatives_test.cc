@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/derivatives.h"
+#include "poise/dynamics/derivatives.h"
 
 #include <gtest/gtest.h>
 
-#include "dynamics/integrate.h"
-#include "dynamics/rnea.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/ridders.h"
-#include "tests/util/tolerance.h"
-#include "tests/util/tree_cases.h"
+#include "poise/dynamics/integrate.h"
+#include "poise/dynamics/rnea.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/ridders.h"
+#include "poise/tests/util/tolerance.h"
+#include "poise/tests/util/tree_cases.h"
 
 namespace poise {
 namespace {

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/energy.h"
+#include "poise/dynamics/energy.h"
 
-#include "math/inertia.h"
+#include "poise/math/inertia.h"
 
 namespace poise {
 

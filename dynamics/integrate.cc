@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/integrate.h"
+#include "poise/dynamics/integrate.h"
 
 #include <Eigen/Geometry>
 #include <cassert>
 
-#include "math/quaternion.h"
+#include "poise/math/quaternion.h"
 
 namespace poise {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/tree.h"
+#include "poise/dynamics/tree.h"
 
 namespace poise {
 

@@ -7,15 +7,15 @@
 #include <numeric>
 #include <random>
 
-#include "dynamics/aba.h"
-#include "dynamics/energy.h"
-#include "dynamics/integrate.h"
-#include "dynamics/kinematics.h"
-#include "dynamics/rnea.h"
-#include "dynamics/tick.h"
-#include "tests/util/decompositions.h"
-#include "tests/util/tolerance.h"
-#include "tests/util/tree_cases.h"
+#include "poise/dynamics/aba.h"
+#include "poise/dynamics/energy.h"
+#include "poise/dynamics/integrate.h"
+#include "poise/dynamics/kinematics.h"
+#include "poise/dynamics/rnea.h"
+#include "poise/dynamics/tick.h"
+#include "poise/tests/util/decompositions.h"
+#include "poise/tests/util/tolerance.h"
+#include "poise/tests/util/tree_cases.h"
 
 namespace poise {
 namespace {

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/jacobian.h"
+#include "poise/dynamics/jacobian.h"
 
 #include <Eigen/Geometry>
 #include <cassert>
 
-#include "math/so3.h"
+#include "poise/math/so3.h"
 
 namespace poise {
 

@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/tree.h"
-#include "math/pose.h"
-#include "math/spatial.h"
-#include "math/vector6.h"
+#include "poise/dynamics/tree.h"
+#include "poise/math/pose.h"
+#include "poise/math/spatial.h"
+#include "poise/math/vector6.h"
 
 namespace poise {
 

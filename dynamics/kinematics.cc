@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/kinematics.h"
+#include "poise/dynamics/kinematics.h"
 
 #include <Eigen/Geometry>
 #include <cassert>
 
-#include "math/quaternion.h"
+#include "poise/math/quaternion.h"
 
 namespace poise {
 

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/regressor.h"
+#include "poise/dynamics/regressor.h"
 
 #include <Eigen/Geometry>
 #include <cassert>
 
-#include "math/so3.h"
-#include "math/vector6.h"
+#include "poise/math/so3.h"
+#include "poise/math/vector6.h"
 
 namespace poise {
 

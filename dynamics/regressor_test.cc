@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/regressor.h"
+#include "poise/dynamics/regressor.h"
 
 #include <gtest/gtest.h>
 
-#include "dynamics/rnea.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/tolerance.h"
-#include "tests/util/tree_cases.h"
+#include "poise/dynamics/rnea.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/tolerance.h"
+#include "poise/tests/util/tree_cases.h"
 
 namespace poise {
 namespace {

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/simd/recursion.h"
-#include "dynamics/tree.h"
-#include "math/spatial.h"
+#include "poise/dynamics/simd/recursion.h"
+#include "poise/dynamics/tree.h"
+#include "poise/math/spatial.h"
 
 namespace poise {
 

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/tick.h"
+#include "poise/dynamics/tick.h"
 
 #include <Eigen/Geometry>
 #include <cassert>
 
-#include "dynamics/crba.h"
-#include "math/so3.h"
+#include "poise/dynamics/crba.h"
+#include "poise/math/so3.h"
 
 namespace poise {
 

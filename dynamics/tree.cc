@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/tree.h"
+#include "poise/dynamics/tree.h"
 
 #include <cmath>
 #include <sstream>

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "dynamics/simd/joint_maps.h"
-#include "dynamics/simd/mass_moments.h"
-#include "math/inertia.h"
-#include "math/pose.h"
+#include "poise/dynamics/simd/joint_maps.h"
+#include "poise/dynamics/simd/mass_moments.h"
+#include "poise/math/inertia.h"
+#include "poise/math/pose.h"
 
 namespace poise {
 

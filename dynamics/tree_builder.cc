@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "dynamics/tree.h"
-#include "math/so3.h"
+#include "poise/dynamics/tree.h"
+#include "poise/math/so3.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/tree.h"
+#include "poise/dynamics/tree.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "tests/util/tolerance.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/certificate.h"
+#include "poise/hqp/certificate.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "hqp/tolerances.h"
+#include "poise/hqp/tolerances.h"
 
 namespace poise {
 namespace {

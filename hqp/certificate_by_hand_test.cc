@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "hqp/certificate.h"
+#include "poise/hqp/certificate.h"
 
 namespace poise {
 namespace {

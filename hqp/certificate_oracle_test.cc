@@ -9,9 +9,9 @@
 #include <random>
 #include <vector>
 
-#include "hqp/certificate.h"
-#include "hqp/reference/cascade.h"
-#include "tests/util/random_hierarchy.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/tests/util/random_hierarchy.h"
 
 namespace poise {
 namespace {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // That the judge convicts: a right answer, made wrong in one place each.
-#include "hqp/certificate.h"
+#include "poise/hqp/certificate.h"
 
 #include <gtest/gtest.h>
 

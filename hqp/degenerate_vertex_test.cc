@@ -7,11 +7,11 @@
 #include <random>
 #include <vector>
 
-#include "hqp/certificate.h"
-#include "hqp/fast/working_set_problem.h"
-#include "hqp/solver.h"
-#include "tests/util/random_hierarchy.h"
-#include "tests/util/tolerance.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/fast/working_set_problem.h"
+#include "poise/hqp/solver.h"
+#include "poise/tests/util/random_hierarchy.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

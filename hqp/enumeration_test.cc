@@ -7,11 +7,11 @@
 #include <cmath>
 #include <vector>
 
-#include "hqp/reference/cascade.h"
-#include "hqp/solver.h"
-#include "tests/util/lexicographic.h"
-#include "tests/util/random_hierarchy.h"
-#include "tests/util/tolerance.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solver.h"
+#include "poise/tests/util/lexicographic.h"
+#include "poise/tests/util/random_hierarchy.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

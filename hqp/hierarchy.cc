@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/hierarchy.h"
+#include "poise/hqp/hierarchy.h"
 
 #include <cassert>
 #include <limits>

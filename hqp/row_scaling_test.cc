@@ -7,10 +7,10 @@
 #include <cmath>
 #include <vector>
 
-#include "hqp/certificate.h"
-#include "hqp/solver.h"
-#include "tests/util/hierarchy_by_hand.h"
-#include "tests/util/tolerance.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/solver.h"
+#include "poise/tests/util/hierarchy_by_hand.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/solution.h"
+#include "poise/hqp/solution.h"
 
 #include <algorithm>
 #include <cmath>

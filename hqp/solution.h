@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "hqp/hierarchy.h"
+#include "poise/hqp/hierarchy.h"
 
 namespace poise {
 

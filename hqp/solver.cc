@@ -1,16 +1,16 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/solver.h"
+#include "poise/hqp/solver.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "hqp/certificate.h"
-#include "hqp/fast/active_set_search.h"
-#include "hqp/fast/budget.h"
-#include "hqp/fast/kernels.h"
-#include "hqp/fast/multipliers.h"
-#include "hqp/fast/tolerances.h"
-#include "hqp/fast/working_set_problem.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/fast/active_set_search.h"
+#include "poise/hqp/fast/budget.h"
+#include "poise/hqp/fast/kernels.h"
+#include "poise/hqp/fast/multipliers.h"
+#include "poise/hqp/fast/tolerances.h"
+#include "poise/hqp/fast/working_set_problem.h"
 
 namespace poise {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "hqp/hierarchy.h"
-#include "hqp/solution.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/solution.h"
 
 namespace poise {
 

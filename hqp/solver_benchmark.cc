@@ -18,9 +18,9 @@
 #include <chrono>
 #include <vector>
 
-#include "hqp/certificate.h"
-#include "hqp/reference/cascade.h"
-#include "hqp/solver.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solver.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/solver.h"
+#include "poise/hqp/solver.h"
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <vector>
 
-#include "hqp/certificate.h"
-#include "hqp/fast/active_set_search.h"
-#include "hqp/fast/budget.h"
-#include "hqp/fast/working_set_problem.h"
-#include "hqp/reference/cascade.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/random_hierarchy.h"
-#include "tests/util/tolerance.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/fast/active_set_search.h"
+#include "poise/hqp/fast/budget.h"
+#include "poise/hqp/fast/working_set_problem.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/random_hierarchy.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hqp/reference/cascade.h"
-#include "hqp/solver.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solver.h"
 
 namespace poise {
 namespace {

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "hqp/certificate.h"
-#include "hqp/reference/cascade.h"
-#include "hqp/solver.h"
-#include "tests/util/random_hierarchy.h"
-#include "tests/util/tolerance.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solver.h"
+#include "poise/tests/util/random_hierarchy.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

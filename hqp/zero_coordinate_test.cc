@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "hqp/certificate.h"
-#include "hqp/solver.h"
-#include "tests/util/hierarchy_by_hand.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/solver.h"
+#include "poise/tests/util/hierarchy_by_hand.h"
 
 namespace poise {
 namespace {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "math/measure_accuracy.h"
+#include "poise/math/measure_accuracy.h"
 
 int main(int argc, char** argv) {
   constexpr int kSamples = 50;

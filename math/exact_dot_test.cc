@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/exact_dot.h"
+#include "poise/math/exact_dot.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,7 +8,7 @@
 #include <array>
 #include <limits>
 
-#include "tests/util/arbitrary.h"
+#include "poise/tests/util/arbitrary.h"
 
 namespace poise {
 namespace {

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/inertia.h"
+#include "poise/math/inertia.h"
 
 #include <Eigen/Eigenvalues>
 #include <limits>
 
-#include "math/so3.h"
+#include "poise/math/so3.h"
 
 namespace poise {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "math/pose.h"
-#include "math/spatial.h"
-#include "math/vector6.h"
+#include "poise/math/pose.h"
+#include "poise/math/spatial.h"
+#include "poise/math/vector6.h"
 
 namespace poise {
 

@@ -9,14 +9,14 @@
 #include <functional>
 #include <vector>
 
-#include "math/quaternion.h"
-#include "math/se3.h"
-#include "math/se3_jacobian.h"
-#include "math/so3.h"
-#include "math/so3_jacobian.h"
-#include "tests/util/arbitrary.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/tolerance.h"
+#include "poise/math/quaternion.h"
+#include "poise/math/se3.h"
+#include "poise/math/se3_jacobian.h"
+#include "poise/math/so3.h"
+#include "poise/math/so3_jacobian.h"
+#include "poise/tests/util/arbitrary.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

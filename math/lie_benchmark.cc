@@ -10,11 +10,11 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "math/pose.h"
-#include "math/quaternion.h"
-#include "math/se3.h"
-#include "math/so3.h"
-#include "tests/util/compare_times.h"
+#include "poise/math/pose.h"
+#include "poise/math/quaternion.h"
+#include "poise/math/se3.h"
+#include "poise/math/so3.h"
+#include "poise/tests/util/compare_times.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/measure_accuracy.h"
+#include "poise/math/measure_accuracy.h"
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -13,11 +13,11 @@
 #include <random>
 #include <unsupported/Eigen/MPRealSupport>
 
-#include "math/quaternion.h"
-#include "math/se3.h"
-#include "math/se3_jacobian.h"
-#include "math/so3.h"
-#include "math/so3_jacobian.h"
+#include "poise/math/quaternion.h"
+#include "poise/math/se3.h"
+#include "poise/math/se3_jacobian.h"
+#include "poise/math/so3.h"
+#include "poise/math/so3_jacobian.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/measure_accuracy.h"
+#include "poise/math/measure_accuracy.h"
 
 #include <gtest/gtest.h>
 

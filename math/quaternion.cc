@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/quaternion.h"
+#include "poise/math/quaternion.h"
 
 #include <cmath>
 

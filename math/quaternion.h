@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "math/stumpff.h"
+#include "poise/math/stumpff.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/rank.h"
+#include "poise/math/rank.h"
 
 #include <Eigen/Householder>
 #include <Eigen/Jacobi>

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/rank.h"
+#include "poise/math/rank.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/util/arbitrary.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/decompositions.h"
-#include "tests/util/tolerance.h"
+#include "poise/tests/util/arbitrary.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/decompositions.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

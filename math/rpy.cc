@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/rpy.h"
+#include "poise/math/rpy.h"
 
 #include <cmath>
 

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/se3.h"
+#include "poise/math/se3.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "math/exact_dot.h"
-#include "math/so3.h"
-#include "math/stumpff.h"
+#include "poise/math/exact_dot.h"
+#include "poise/math/so3.h"
+#include "poise/math/stumpff.h"
 
 namespace poise {
 namespace {

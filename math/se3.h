@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "math/pose.h"
-#include "math/vector6.h"
+#include "poise/math/pose.h"
+#include "poise/math/vector6.h"
 
 namespace poise {
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include "math/vector6.h"
+#include "poise/math/vector6.h"
 
 namespace poise {
 

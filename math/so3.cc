@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/so3.h"
+#include "poise/math/so3.h"
 
 #include <Eigen/SVD>
 #include <limits>

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "math/quaternion.h"
-#include "math/stumpff.h"
+#include "poise/math/quaternion.h"
+#include "poise/math/stumpff.h"
 
 namespace poise {
 

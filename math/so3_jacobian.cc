@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/so3_jacobian.h"
+#include "poise/math/so3_jacobian.h"
 
-#include "math/so3.h"
-#include "math/stumpff.h"
+#include "poise/math/so3.h"
+#include "poise/math/stumpff.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/so3.h"
+#include "poise/math/so3.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,10 +7,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "math/quaternion.h"
-#include "tests/util/arbitrary.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/tolerance.h"
+#include "poise/math/quaternion.h"
+#include "poise/tests/util/arbitrary.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <type_traits>
 
-#include "math/pose.h"
-#include "math/so3.h"
-#include "math/vector6.h"
+#include "poise/math/pose.h"
+#include "poise/math/so3.h"
+#include "poise/math/vector6.h"
 
 namespace poise {
 

@@ -1,16 +1,16 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/spatial.h"
+#include "poise/math/spatial.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <type_traits>
 
-#include "math/se3.h"
-#include "math/so3.h"
-#include "tests/util/arbitrary.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/tolerance.h"
+#include "poise/math/se3.h"
+#include "poise/math/so3.h"
+#include "poise/tests/util/arbitrary.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "math/exact_dot.h"
+#include "poise/math/exact_dot.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "math/stumpff.h"
+#include "poise/math/stumpff.h"
 
 #include <gtest/gtest.h>
 #include <mpreal.h>

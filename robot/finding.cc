@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/finding.h"
+#include "poise/robot/finding.h"
 
 #include <algorithm>
 #include <locale>

@@ -6,11 +6,11 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "dynamics/tick.h"
-#include "robot/profile/profile.h"
-#include "robot/robot.h"
-#include "tests/util/load_humanoid.h"
-#include "tests/util/tolerance.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/profile/profile.h"
+#include "poise/robot/robot.h"
+#include "poise/tests/util/load_humanoid.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

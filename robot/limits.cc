@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/limits.h"
+#include "poise/robot/limits.h"
 
 #include <algorithm>
 
-#include "robot/finding.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "robot/robot.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

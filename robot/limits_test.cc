@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/limits.h"
+#include "poise/robot/limits.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 
-#include "tests/util/simple_robots.h"
+#include "poise/tests/util/simple_robots.h"
 
 namespace poise {
 namespace {

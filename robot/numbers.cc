@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/numbers.h"
+#include "poise/robot/numbers.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/standing.h"
+#include "poise/robot/standing.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "dynamics/tick.h"
-#include "robot/feet/feet.h"
-#include "robot/finding.h"
-#include "robot/limits.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/feet/feet.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/limits.h"
 
 namespace poise {
 namespace {

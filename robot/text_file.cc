@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/text_file.h"
+#include "poise/robot/text_file.h"
 
 #include <fstream>
 #include <system_error>
 
-#include "robot/finding.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 

@@ -8,13 +8,13 @@
 #include <functional>
 #include <limits>
 
-#include "robot/control/controller.h"
-#include "robot/control/estimator.h"
-#include "robot/control/measurement.h"
-#include "sim/plants/make_plant.h"
-#include "sim/scenario.h"
-#include "sim/sensors.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/control/estimator.h"
+#include "poise/robot/control/measurement.h"
+#include "poise/sim/plants/make_plant.h"
+#include "poise/sim/scenario.h"
+#include "poise/sim/sensors.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

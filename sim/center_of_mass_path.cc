@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/center_of_mass_path.h"
+#include "poise/sim/center_of_mass_path.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "robot/control/easing/minimum_jerk.h"
+#include "poise/robot/control/easing/minimum_jerk.h"
 
 namespace poise {
 

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "robot/control/reference.h"
-#include "sim/scenario.h"
+#include "poise/robot/control/reference.h"
+#include "poise/sim/scenario.h"
 
 namespace poise {
 

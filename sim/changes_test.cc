@@ -5,11 +5,11 @@
 #include <cmath>
 #include <functional>
 
-#include "robot/control/stack.h"
-#include "robot/control/stand.h"
-#include "sim/closed_loop.h"
-#include "sim/judge.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/robot/control/stack.h"
+#include "poise/robot/control/stand.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/sim/judge.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

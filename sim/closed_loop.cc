@@ -1,15 +1,15 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/closed_loop.h"
+#include "poise/sim/closed_loop.h"
 
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
 
-#include "robot/control/task_set.h"
-#include "robot/finding.h"
-#include "sim/plants/make_plant.h"
-#include "sim/start_state.h"
+#include "poise/robot/control/task_set.h"
+#include "poise/robot/finding.h"
+#include "poise/sim/plants/make_plant.h"
+#include "poise/sim/start_state.h"
 
 namespace poise {
 

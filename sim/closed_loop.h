@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "robot/control/command.h"
-#include "robot/control/controller.h"
-#include "robot/control/estimator.h"
-#include "robot/control/measurement.h"
-#include "robot/robot.h"
-#include "sim/center_of_mass_path.h"
-#include "sim/log/tick_record.h"
-#include "sim/observation.h"
-#include "sim/plants/plant.h"
-#include "sim/push.h"
-#include "sim/scenario.h"
-#include "sim/sensors.h"
+#include "poise/robot/control/command.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/control/estimator.h"
+#include "poise/robot/control/measurement.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/center_of_mass_path.h"
+#include "poise/sim/log/tick_record.h"
+#include "poise/sim/observation.h"
+#include "poise/sim/plants/plant.h"
+#include "poise/sim/push.h"
+#include "poise/sim/scenario.h"
+#include "poise/sim/sensors.h"
 
 namespace poise {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/closed_loop.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/judge.h"
+#include "poise/sim/judge.h"
 
 #include <algorithm>
 #include <cmath>

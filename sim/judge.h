@@ -5,7 +5,7 @@
 #include <deque>
 #include <optional>
 
-#include "sim/observation.h"
+#include "poise/sim/observation.h"
 
 namespace poise {
 

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "robot/control/stand.h"
-#include "robot/limits.h"
-#include "sim/closed_loop.h"
-#include "sim/judge.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/robot/control/stand.h"
+#include "poise/robot/limits.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/sim/judge.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/observation.h"
+#include "poise/sim/observation.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -4,11 +4,11 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/tick.h"
-#include "robot/control/contacts.h"
-#include "robot/robot.h"
-#include "sim/plants/plant.h"
-#include "sim/plants/plant_settings.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/control/contacts.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/plants/plant.h"
+#include "poise/sim/plants/plant_settings.h"
 
 namespace poise {
 

@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/observation.h"
+#include "poise/sim/observation.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "robot/robot.h"
-#include "robot/urdf/urdf.h"
-#include "tests/util/simple_robots.h"
+#include "poise/robot/robot.h"
+#include "poise/robot/urdf/urdf.h"
+#include "poise/tests/util/simple_robots.h"
 
 namespace poise {
 namespace {

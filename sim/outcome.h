@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sim/judge.h"
+#include "poise/sim/judge.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/outcome.h"
+#include "poise/sim/outcome.h"
 
 #include <gtest/gtest.h>
 

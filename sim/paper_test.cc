@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/story_fixture.h"
+#include "poise/sim/story_fixture.h"
 
 namespace poise {
 namespace {

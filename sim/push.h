@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "robot/robot.h"
-#include "sim/plants/plant.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/plants/plant.h"
 
 namespace poise {
 

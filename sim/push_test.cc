@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/push.h"
+#include "poise/sim/push.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "tests/util/simple_robots.h"
-#include "tests/util/tolerance.h"
+#include "poise/tests/util/simple_robots.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

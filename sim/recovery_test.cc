@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/run.h"
-#include "sim/story_fixture.h"
+#include "poise/sim/run.h"
+#include "poise/sim/story_fixture.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/run.h"
+#include "poise/sim/run.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,11 +8,11 @@
 #include <optional>
 #include <vector>
 
-#include "robot/finding.h"
-#include "robot/limits.h"
-#include "sim/closed_loop.h"
-#include "sim/observation.h"
-#include "sim/quantile.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/limits.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/sim/observation.h"
+#include "poise/sim/quantile.h"
 
 namespace poise {
 

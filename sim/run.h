@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "robot/control/stack.h"
-#include "robot/robot.h"
-#include "sim/judge.h"
-#include "sim/log/log_rows.h"
-#include "sim/log/recorder.h"
-#include "sim/scenario.h"
-#include "sim/yardstick.h"
+#include "poise/robot/control/stack.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/judge.h"
+#include "poise/sim/log/log_rows.h"
+#include "poise/sim/log/recorder.h"
+#include "poise/sim/scenario.h"
+#include "poise/sim/yardstick.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/run.h"
+#include "poise/sim/run.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <iterator>
 #include <thread>
 
-#include "sim/log/summary.h"
-#include "sim/story_fixture.h"
-#include "tests/util/shared_data.h"
-#include "tests/util/test_file.h"
+#include "poise/sim/log/summary.h"
+#include "poise/sim/story_fixture.h"
+#include "poise/tests/util/shared_data.h"
+#include "poise/tests/util/test_file.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/scenario.h"
+#include "poise/sim/scenario.h"
 
 #include <cmath>
 #include <limits>
@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "robot/control/stance.h"
-#include "robot/finding.h"
-#include "sim/number_field.h"
-#include "sim/plants/make_plant.h"
-#include "sim/yaml_fields.h"
+#include "poise/robot/control/stance.h"
+#include "poise/robot/finding.h"
+#include "poise/sim/number_field.h"
+#include "poise/sim/plants/make_plant.h"
+#include "poise/sim/yaml_fields.h"
 
 namespace poise {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/plants/plant_settings.h"
-#include "sim/push.h"
-#include "sim/sensor_settings.h"
+#include "poise/sim/plants/plant_settings.h"
+#include "poise/sim/push.h"
+#include "poise/sim/sensor_settings.h"
 
 namespace poise {
 

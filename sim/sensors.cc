@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/sensors.h"
+#include "poise/sim/sensors.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "math/so3.h"
+#include "poise/math/so3.h"
 
 namespace poise {
 

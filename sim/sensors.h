@@ -6,10 +6,10 @@
 #include <deque>
 #include <vector>
 
-#include "robot/control/measurement.h"
-#include "robot/robot.h"
-#include "sim/plants/plant.h"
-#include "sim/sensor_settings.h"
+#include "poise/robot/control/measurement.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/plants/plant.h"
+#include "poise/sim/sensor_settings.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/sensors.h"
+#include "poise/sim/sensors.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "math/so3.h"
-#include "tests/util/random_tree.h"
-#include "tests/util/simple_robots.h"
+#include "poise/math/so3.h"
+#include "poise/tests/util/random_tree.h"
+#include "poise/tests/util/simple_robots.h"
 
 namespace poise {
 namespace {

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "robot/control/controller.h"
-#include "sim/closed_loop.h"
-#include "sim/judge.h"
-#include "sim/observation.h"
-#include "sim/start_state.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/robot/control/controller.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/sim/judge.h"
+#include "poise/sim/observation.h"
+#include "poise/sim/start_state.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/start_state.h"
+#include "poise/sim/start_state.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <vector>
 
-#include "sim/sensors.h"
+#include "poise/sim/sensors.h"
 
 namespace poise {
 

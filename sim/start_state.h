@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include "robot/control/measurement.h"
-#include "robot/robot.h"
-#include "sim/plants/plant_settings.h"
-#include "sim/scenario.h"
+#include "poise/robot/control/measurement.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/plants/plant_settings.h"
+#include "poise/sim/scenario.h"
 
 namespace poise {
 

@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/start_state.h"
+#include "poise/sim/start_state.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "dynamics/tick.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/dynamics/tick.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "robot/control/stand.h"
-#include "robot/limits.h"
-#include "robot/robot.h"
-#include "sim/closed_loop.h"
-#include "sim/judge.h"
-#include "sim/observation.h"
-#include "sim/scenario.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/robot/control/stand.h"
+#include "poise/robot/limits.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/sim/judge.h"
+#include "poise/sim/observation.h"
+#include "poise/sim/scenario.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/yaml_fields.h"
+#include "poise/sim/yaml_fields.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "robot/finding.h"
-#include "robot/profile/yaml_file.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/profile/yaml_file.h"
 
 namespace poise {
 

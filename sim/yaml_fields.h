@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/number_field.h"
+#include "poise/sim/number_field.h"
 
 namespace poise {
 

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/yardstick.h"
+#include "poise/sim/yardstick.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "dynamics/tick.h"
-#include "robot/feet/feet.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/feet/feet.h"
 
 namespace poise {
 

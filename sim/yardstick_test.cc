@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/yardstick.h"
+#include "poise/sim/yardstick.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tests/util/simple_robots.h"
+#include "poise/tests/util/simple_robots.h"
 
 namespace poise {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "sim/run.h"
-#include "sim/scenario.h"
-#include "tests/util/load_humanoid.h"
-#include "tests/util/scenario_files.h"
+#include "poise/sim/run.h"
+#include "poise/sim/scenario.h"
+#include "poise/tests/util/load_humanoid.h"
+#include "poise/tests/util/scenario_files.h"
 
 namespace poise {
 namespace {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/run.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/sim/run.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

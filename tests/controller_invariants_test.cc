@@ -6,12 +6,12 @@
 #include <cmath>
 #include <string>
 
-#include "hqp/reference/cascade.h"
-#include "hqp/solution.h"
-#include "robot/control/controller.h"
-#include "tests/util/arbitrary.h"
-#include "tests/util/random_biped.h"
-#include "tests/util/tolerance.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solution.h"
+#include "poise/robot/control/controller.h"
+#include "poise/tests/util/arbitrary.h"
+#include "poise/tests/util/random_biped.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

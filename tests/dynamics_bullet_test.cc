@@ -6,11 +6,11 @@
 
 #include <functional>
 
-#include "dynamics/crba.h"
-#include "dynamics/rnea.h"
-#include "tests/util/bullet_tree.h"
-#include "tests/util/tolerance.h"
-#include "tests/util/tree_cases.h"
+#include "poise/dynamics/crba.h"
+#include "poise/dynamics/rnea.h"
+#include "poise/tests/util/bullet_tree.h"
+#include "poise/tests/util/tolerance.h"
+#include "poise/tests/util/tree_cases.h"
 
 namespace poise {
 namespace {

@@ -10,11 +10,11 @@
 #include <map>
 #include <string>
 
-#include "dynamics/kinematics.h"
-#include "dynamics/rnea.h"
-#include "tests/util/kdl_tree.h"
-#include "tests/util/tolerance.h"
-#include "tests/util/tree_cases.h"
+#include "poise/dynamics/kinematics.h"
+#include "poise/dynamics/rnea.h"
+#include "poise/tests/util/kdl_tree.h"
+#include "poise/tests/util/tolerance.h"
+#include "poise/tests/util/tree_cases.h"
 
 namespace poise {
 namespace {

@@ -11,9 +11,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "robot/urdf/urdf.h"
-#include "tests/util/shared_data.h"
-#include "tools/commands/dynamics/dynamics_file.h"
+#include "poise/robot/urdf/urdf.h"
+#include "poise/tests/util/shared_data.h"
+#include "poise/tools/commands/dynamics/dynamics_file.h"
 
 namespace poise {
 namespace {

@@ -11,11 +11,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "hqp/certificate.h"
-#include "hqp/reference/cascade.h"
-#include "hqp/solver.h"
-#include "tests/util/shared_data.h"
-#include "tools/commands/hqp/hqp_file.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solver.h"
+#include "poise/tests/util/shared_data.h"
+#include "poise/tools/commands/hqp/hqp_file.h"
 
 namespace poise {
 namespace {

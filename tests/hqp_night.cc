@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "hqp/solver.h"
-#include "tests/util/compare_solvers.h"
-#include "tests/util/shrink_hierarchy.h"
-#include "tools/commands/command_line.h"
-#include "tools/commands/hqp/hqp_file.h"
-#include "tools/commands/user_path.h"
+#include "poise/hqp/solver.h"
+#include "poise/tests/util/compare_solvers.h"
+#include "poise/tests/util/shrink_hierarchy.h"
+#include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/hqp/hqp_file.h"
+#include "poise/tools/commands/user_path.h"
 
 namespace poise {
 namespace {

@@ -9,12 +9,12 @@
 #include <cmath>
 #include <vector>
 
-#include "hqp/certificate.h"
-#include "hqp/reference/cascade.h"
-#include "hqp/solver.h"
-#include "tests/util/compare_solvers.h"
-#include "tests/util/random_hierarchy.h"
-#include "tests/util/ridders.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solver.h"
+#include "poise/tests/util/compare_solvers.h"
+#include "poise/tests/util/random_hierarchy.h"
+#include "poise/tests/util/ridders.h"
 
 namespace poise {
 namespace {

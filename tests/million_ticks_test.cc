@@ -11,12 +11,12 @@
 #include <limits>
 #include <vector>
 
-#include "robot/control/controller.h"
-#include "sim/closed_loop.h"
-#include "sim/quantile.h"
-#include "sim/scenario.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/robot/control/controller.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/sim/quantile.h"
+#include "poise/sim/scenario.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

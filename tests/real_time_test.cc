@@ -15,16 +15,16 @@
 #include <string>
 #include <vector>
 
-#include "robot/control/controller.h"
-#include "robot/control/estimator.h"
-#include "robot/control/measurement.h"
-#include "sim/closed_loop.h"
-#include "sim/scenario.h"
-#include "sim/sensors.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/forbidden_calls.h"
-#include "tests/util/load_humanoid.h"
-#include "tests/util/scenario_files.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/control/estimator.h"
+#include "poise/robot/control/measurement.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/sim/scenario.h"
+#include "poise/sim/sensors.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/forbidden_calls.h"
+#include "poise/tests/util/load_humanoid.h"
+#include "poise/tests/util/scenario_files.h"
 
 namespace poise {
 namespace {

@@ -6,13 +6,13 @@
 #include <random>
 #include <vector>
 
-#include "hqp/hierarchy.h"
-#include "hqp/reference/cascade.h"
-#include "hqp/solution.h"
-#include "robot/control/controller.h"
-#include "robot/control/stance.h"
-#include "tests/util/load_humanoid.h"
-#include "tests/util/random_tree.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solution.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/control/stance.h"
+#include "poise/tests/util/load_humanoid.h"
+#include "poise/tests/util/random_tree.h"
 
 namespace poise {
 namespace {

@@ -8,12 +8,12 @@
 #include <tuple>
 #include <vector>
 
-#include "dynamics/tree.h"
-#include "robot/urdf/urdf.h"
-#include "tests/util/arbitrary.h"
-#include "tests/util/simple_robots.h"
-#include "tests/util/tolerance.h"
-#include "tests/util/urdf_writer.h"
+#include "poise/dynamics/tree.h"
+#include "poise/robot/urdf/urdf.h"
+#include "poise/tests/util/arbitrary.h"
+#include "poise/tests/util/simple_robots.h"
+#include "poise/tests/util/tolerance.h"
+#include "poise/tests/util/urdf_writer.h"
 
 namespace poise {
 namespace {

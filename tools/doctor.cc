@@ -5,11 +5,11 @@
 #include <iostream>
 #include <string>
 
-#include "robot/finding.h"
-#include "tools/commands/command_line.h"
-#include "tools/commands/doctor/diagnosis.h"
-#include "tools/commands/doctor/write_diagnosis.h"
-#include "tools/commands/user_path.h"
+#include "poise/robot/finding.h"
+#include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/doctor/diagnosis.h"
+#include "poise/tools/commands/doctor/write_diagnosis.h"
+#include "poise/tools/commands/user_path.h"
 
 namespace poise {
 namespace {

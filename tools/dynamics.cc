@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/tree.h"
-#include "robot/finding.h"
-#include "robot/text_file.h"
-#include "robot/urdf/urdf.h"
-#include "tools/commands/command_line.h"
-#include "tools/commands/doctor/check_inertia.h"
-#include "tools/commands/dynamics/dynamics_file.h"
-#include "tools/commands/dynamics/dynamics_table.h"
-#include "tools/commands/parse_json.h"
-#include "tools/commands/user_path.h"
+#include "poise/dynamics/tree.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/text_file.h"
+#include "poise/robot/urdf/urdf.h"
+#include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/doctor/check_inertia.h"
+#include "poise/tools/commands/dynamics/dynamics_file.h"
+#include "poise/tools/commands/dynamics/dynamics_table.h"
+#include "poise/tools/commands/parse_json.h"
+#include "poise/tools/commands/user_path.h"
 
 namespace poise {
 namespace {

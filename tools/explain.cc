@@ -3,9 +3,9 @@
 #include <iostream>
 #include <string>
 
-#include "tools/commands/command_line.h"
-#include "tools/commands/explain/explanation.h"
-#include "tools/commands/user_path.h"
+#include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/explain/explanation.h"
+#include "poise/tools/commands/user_path.h"
 
 namespace poise {
 namespace {

@@ -12,11 +12,11 @@
 #include <thread>
 #include <vector>
 
-#include "robot/profile/profile.h"
-#include "tools/commands/command_line.h"
-#include "tools/commands/push/record_run.h"
-#include "tools/commands/user_path.h"
-#include "tools/studies/figures_draw.h"
+#include "poise/robot/profile/profile.h"
+#include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/push/record_run.h"
+#include "poise/tools/commands/user_path.h"
+#include "poise/tools/studies/figures_draw.h"
 
 namespace poise {
 namespace {

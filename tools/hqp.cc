@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "hqp/reference/cascade.h"
-#include "hqp/solver.h"
-#include "robot/text_file.h"
-#include "tools/commands/command_line.h"
-#include "tools/commands/hqp/hqp_file.h"
-#include "tools/commands/user_path.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solver.h"
+#include "poise/robot/text_file.h"
+#include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/hqp/hqp_file.h"
+#include "poise/tools/commands/user_path.h"
 
 namespace poise {
 namespace {

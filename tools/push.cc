@@ -6,12 +6,12 @@
 #include <iostream>
 #include <string>
 
-#include "sim/log/summary.h"
-#include "tools/commands/command_line.h"
-#include "tools/commands/push/dump_solve.h"
-#include "tools/commands/push/push_options.h"
-#include "tools/commands/push/record_run.h"
-#include "tools/commands/report/report_page.h"
+#include "poise/sim/log/summary.h"
+#include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/push/dump_solve.h"
+#include "poise/tools/commands/push/push_options.h"
+#include "poise/tools/commands/push/record_run.h"
+#include "poise/tools/commands/report/report_page.h"
 
 namespace {
 

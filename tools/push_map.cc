@@ -7,9 +7,9 @@
 #include <iostream>
 #include <string>
 
-#include "tools/commands/command_line.h"
-#include "tools/commands/push_map/push_map_options.h"
-#include "tools/commands/push_map/push_map_run.h"
+#include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/push_map/push_map_options.h"
+#include "poise/tools/commands/push_map/push_map_run.h"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/commands/command_line.h"
-#include "tools/commands/report/report_page.h"
-#include "tools/commands/user_path.h"
+#include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/report/report_page.h"
+#include "poise/tools/commands/user_path.h"
 
 namespace poise {
 namespace {

@@ -9,10 +9,10 @@
 #include <thread>
 #include <vector>
 
-#include "robot/finding.h"
-#include "tools/commands/command_line.h"
-#include "tools/commands/user_path.h"
-#include "tools/studies/trials.h"
+#include "poise/robot/finding.h"
+#include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/user_path.h"
+#include "poise/tools/studies/trials.h"
 
 namespace poise {
 namespace {

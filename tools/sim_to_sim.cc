@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "robot/profile/profile.h"
-#include "sim/outcome.h"
-#include "sim/run.h"
-#include "sim/scenario.h"
-#include "tools/commands/command_line.h"
+#include "poise/robot/profile/profile.h"
+#include "poise/sim/outcome.h"
+#include "poise/sim/run.h"
+#include "poise/sim/scenario.h"
+#include "poise/tools/commands/command_line.h"
 
 namespace poise {
 namespace {

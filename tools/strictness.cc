@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "robot/profile/profile.h"
-#include "sim/outcome.h"
-#include "sim/scenario.h"
-#include "tools/commands/command_line.h"
-#include "tools/studies/strictness_study.h"
+#include "poise/robot/profile/profile.h"
+#include "poise/sim/outcome.h"
+#include "poise/sim/scenario.h"
+#include "poise/tools/commands/command_line.h"
+#include "poise/tools/studies/strictness_study.h"
 
 namespace poise {
 namespace {

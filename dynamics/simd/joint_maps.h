@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "dynamics/simd/lanes.h"
+#include "poise/dynamics/simd/lanes.h"
 
 namespace poise {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "math/spatial.h"
+#include "poise/math/spatial.h"
 
 /// Lets the compiler do several rounds of the loop that follows at once: no
 /// round reads what another one writes.

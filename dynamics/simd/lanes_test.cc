@@ -1,15 +1,15 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/simd/lanes.h"
+#include "poise/dynamics/simd/lanes.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <random>
 
-#include "math/spatial.h"
-#include "math/vector6.h"
-#include "tests/util/random_tree.h"
-#include "tests/util/tolerance.h"
+#include "poise/math/spatial.h"
+#include "poise/math/vector6.h"
+#include "poise/tests/util/random_tree.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

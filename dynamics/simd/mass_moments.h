@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "dynamics/simd/lanes.h"
-#include "math/inertia.h"
+#include "poise/dynamics/simd/lanes.h"
+#include "poise/math/inertia.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/simd/mass_moments.h"
+#include "poise/dynamics/simd/mass_moments.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "tests/util/random_tree.h"
-#include "tests/util/tolerance.h"
+#include "poise/tests/util/random_tree.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/simd/recursion.h"
+#include "poise/dynamics/simd/recursion.h"
 
 #include <Eigen/Geometry>
 #include <cassert>
 
-#include "dynamics/simd/sin_cos.h"
-#include "math/quaternion.h"
+#include "poise/dynamics/simd/sin_cos.h"
+#include "poise/math/quaternion.h"
 
 namespace poise {
 namespace {

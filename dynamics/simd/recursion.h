@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/simd/lanes.h"
-#include "dynamics/simd/mass_moments.h"
-#include "dynamics/tree.h"
+#include "poise/dynamics/simd/lanes.h"
+#include "poise/dynamics/simd/mass_moments.h"
+#include "poise/dynamics/tree.h"
 
 namespace poise {
 

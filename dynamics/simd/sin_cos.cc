@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/simd/sin_cos.h"
+#include "poise/dynamics/simd/sin_cos.h"
 
 #include <cmath>
 
-#include "dynamics/simd/lanes.h"
+#include "poise/dynamics/simd/lanes.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "dynamics/simd/sin_cos.h"
+#include "poise/dynamics/simd/sin_cos.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/fast/active_set_search.h"
+#include "poise/hqp/fast/active_set_search.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "hqp/fast/kernels.h"
-#include "hqp/fast/tolerances.h"
+#include "poise/hqp/fast/kernels.h"
+#include "poise/hqp/fast/tolerances.h"
 
 namespace poise {
 namespace {

@@ -1,15 +1,15 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/fast/active_set_search.h"
+#include "poise/hqp/fast/active_set_search.h"
 
 #include <gtest/gtest.h>
 
-#include "hqp/fast/budget.h"
-#include "hqp/fast/working_set_problem.h"
-#include "hqp/hierarchy.h"
-#include "hqp/reference/cascade.h"
-#include "hqp/solution.h"
-#include "tests/util/random_hierarchy.h"
-#include "tests/util/tolerance.h"
+#include "poise/hqp/fast/budget.h"
+#include "poise/hqp/fast/working_set_problem.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solution.h"
+#include "poise/tests/util/random_hierarchy.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

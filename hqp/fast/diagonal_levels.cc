@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/fast/diagonal_levels.h"
+#include "poise/hqp/fast/diagonal_levels.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "hqp/fast/kernels.h"
-#include "hqp/fast/tolerances.h"
-#include "math/rank.h"
+#include "poise/hqp/fast/kernels.h"
+#include "poise/hqp/fast/tolerances.h"
+#include "poise/math/rank.h"
 
 namespace poise {
 namespace {

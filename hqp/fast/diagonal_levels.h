@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "hqp/fast/lexicographic_factorization.h"
+#include "poise/hqp/fast/lexicographic_factorization.h"
 
 namespace poise {
 

@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "hqp/fast/diagonal_levels.h"
-#include "hqp/fast/lexicographic_factorization.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/tolerance.h"
+#include "poise/hqp/fast/diagonal_levels.h"
+#include "poise/hqp/fast/lexicographic_factorization.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

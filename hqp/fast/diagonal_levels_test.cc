@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/fast/diagonal_levels.h"
+#include "poise/hqp/fast/diagonal_levels.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "tests/util/lexicographic.h"
-#include "tests/util/tolerance.h"
+#include "poise/tests/util/lexicographic.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

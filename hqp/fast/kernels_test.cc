@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/fast/kernels.h"
+#include "poise/hqp/fast/kernels.h"
 
 #include <gtest/gtest.h>
 

@@ -4,12 +4,12 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "hqp/fast/lexicographic_factorization.h"
-#include "math/rank.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/lexicographic.h"
-#include "tests/util/stacked_rows.h"
-#include "tests/util/tolerance.h"
+#include "poise/hqp/fast/lexicographic_factorization.h"
+#include "poise/math/rank.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/lexicographic.h"
+#include "poise/tests/util/stacked_rows.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/fast/lexicographic_factorization.h"
+#include "poise/hqp/fast/lexicographic_factorization.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <cmath>
 
-#include "tests/util/lexicographic.h"
-#include "tests/util/stacked_rows.h"
-#include "tests/util/tolerance.h"
+#include "poise/tests/util/lexicographic.h"
+#include "poise/tests/util/stacked_rows.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

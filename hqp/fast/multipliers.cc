@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/fast/multipliers.h"
+#include "poise/hqp/fast/multipliers.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "hqp/tolerances.h"
+#include "poise/hqp/tolerances.h"
 
 namespace poise {
 namespace {

@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "hqp/fast/lexicographic_factorization.h"
-#include "hqp/fast/working_set_problem.h"
-#include "hqp/hierarchy.h"
-#include "hqp/solution.h"
+#include "poise/hqp/fast/lexicographic_factorization.h"
+#include "poise/hqp/fast/working_set_problem.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/solution.h"
 
 namespace poise {
 

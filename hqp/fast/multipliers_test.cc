@@ -1,15 +1,15 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // What the fast solver says of its answer, by hand and against the cascade.
-#include "hqp/fast/multipliers.h"
+#include "poise/hqp/fast/multipliers.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "hqp/certificate.h"
-#include "hqp/reference/cascade.h"
-#include "hqp/solver.h"
-#include "tests/util/random_hierarchy.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solver.h"
+#include "poise/tests/util/random_hierarchy.h"
 
 namespace poise {
 namespace {

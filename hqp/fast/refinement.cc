@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "hqp/fast/kernels.h"
-#include "hqp/fast/tolerances.h"
-#include "hqp/fast/working_set_problem.h"
+#include "poise/hqp/fast/kernels.h"
+#include "poise/hqp/fast/tolerances.h"
+#include "poise/hqp/fast/working_set_problem.h"
 
 namespace poise {
 namespace {

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include "math/rank.h"
+#include "poise/math/rank.h"
 
 /// Every threshold of the fast solver. All but the weights are relative to the
 /// magnitudes that a number is a sum of, so that units do not matter. With

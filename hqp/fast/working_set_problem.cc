@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/fast/working_set_problem.h"
+#include "poise/hqp/fast/working_set_problem.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "hqp/fast/kernels.h"
-#include "hqp/fast/tolerances.h"
+#include "poise/hqp/fast/kernels.h"
+#include "poise/hqp/fast/tolerances.h"
 
 namespace poise {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "hqp/fast/diagonal_levels.h"
-#include "hqp/fast/lexicographic_factorization.h"
-#include "hqp/hierarchy.h"
-#include "hqp/solution.h"
+#include "poise/hqp/fast/diagonal_levels.h"
+#include "poise/hqp/fast/lexicographic_factorization.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/solution.h"
 
 namespace poise {
 

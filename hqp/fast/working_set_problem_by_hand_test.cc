@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hqp/fast/working_set_problem.h"
-#include "tests/util/tolerance.h"
+#include "poise/hqp/fast/working_set_problem.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

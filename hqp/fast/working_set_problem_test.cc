@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/fast/working_set_problem.h"
+#include "poise/hqp/fast/working_set_problem.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/util/lexicographic.h"
-#include "tests/util/random_hierarchy.h"
-#include "tests/util/stacked_rows.h"
-#include "tests/util/tolerance.h"
+#include "poise/tests/util/lexicographic.h"
+#include "poise/tests/util/random_hierarchy.h"
+#include "poise/tests/util/stacked_rows.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "hqp/fast/working_set_problem.h"
+#include "poise/hqp/fast/working_set_problem.h"
 
 namespace poise {
 namespace {

@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/reference/cascade.h"
+#include "poise/hqp/reference/cascade.h"
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "hqp/tolerances.h"
-#include "math/rank.h"
+#include "poise/hqp/tolerances.h"
+#include "poise/math/rank.h"
 
 namespace poise {
 namespace {

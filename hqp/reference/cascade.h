@@ -4,11 +4,11 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "hqp/certificate.h"
-#include "hqp/hierarchy.h"
-#include "hqp/reference/level_qp.h"
-#include "hqp/reference/row_space.h"
-#include "hqp/solution.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/reference/level_qp.h"
+#include "poise/hqp/reference/row_space.h"
+#include "poise/hqp/solution.h"
 
 namespace poise {
 

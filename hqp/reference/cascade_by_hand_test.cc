@@ -5,12 +5,12 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "hqp/certificate.h"
-#include "hqp/reference/cascade.h"
-#include "math/rank.h"
-#include "tests/util/random_hierarchy.h"
-#include "tests/util/solve_cascade.h"
-#include "tests/util/tolerance.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/math/rank.h"
+#include "poise/tests/util/random_hierarchy.h"
+#include "poise/tests/util/solve_cascade.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/reference/cascade.h"
+#include "poise/hqp/reference/cascade.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "hqp/certificate.h"
-#include "tests/util/lexicographic.h"
-#include "tests/util/random_hierarchy.h"
-#include "tests/util/solve_cascade.h"
+#include "poise/hqp/certificate.h"
+#include "poise/tests/util/lexicographic.h"
+#include "poise/tests/util/random_hierarchy.h"
+#include "poise/tests/util/solve_cascade.h"
 
 namespace poise {
 namespace {

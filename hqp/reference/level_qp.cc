@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/reference/level_qp.h"
+#include "poise/hqp/reference/level_qp.h"
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "math/rank.h"
+#include "poise/math/rank.h"
 
 namespace poise {
 namespace {

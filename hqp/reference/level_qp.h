@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "hqp/reference/row_space.h"
-#include "hqp/solution.h"
+#include "poise/hqp/reference/row_space.h"
+#include "poise/hqp/solution.h"
 
 namespace poise {
 

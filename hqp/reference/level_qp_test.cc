@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // One level's QP against the best of all active sets, tried one by one, and at
 // the edges of what counts as nothing.
-#include "hqp/reference/level_qp.h"
+#include "poise/hqp/reference/level_qp.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <random>
 #include <vector>
 
-#include "math/rank.h"
-#include "tests/util/lexicographic.h"
-#include "tests/util/tolerance.h"
+#include "poise/math/rank.h"
+#include "poise/tests/util/lexicographic.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/reference/row_space.h"
+#include "poise/hqp/reference/row_space.h"
 
 #include <Eigen/QR>
 #include <cmath>
 
-#include "math/rank.h"
+#include "poise/math/rank.h"
 
 namespace poise {
 

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "hqp/reference/row_space.h"
+#include "poise/hqp/reference/row_space.h"
 
 #include <gtest/gtest.h>
 
-#include "math/rank.h"
-#include "tests/util/lexicographic.h"
-#include "tests/util/tolerance.h"
+#include "poise/math/rank.h"
+#include "poise/tests/util/lexicographic.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

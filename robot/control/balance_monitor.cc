@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/balance_monitor.h"
+#include "poise/robot/control/balance_monitor.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "math/so3.h"
-#include "robot/control/tasks/support_box.h"
+#include "poise/math/so3.h"
+#include "poise/robot/control/tasks/support_box.h"
 
 namespace poise {
 namespace {

@@ -4,11 +4,11 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/tick.h"
-#include "dynamics/tree.h"
-#include "robot/control/contacts.h"
-#include "robot/control/reference.h"
-#include "robot/robot.h"
+#include "poise/dynamics/tick.h"
+#include "poise/dynamics/tree.h"
+#include "poise/robot/control/contacts.h"
+#include "poise/robot/control/reference.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

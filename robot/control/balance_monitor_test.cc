@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/balance_monitor.h"
+#include "poise/robot/control/balance_monitor.h"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 #include <cmath>
 #include <vector>
 
-#include "dynamics/tick.h"
-#include "math/so3.h"
-#include "robot/control/contacts.h"
-#include "robot/control/reference.h"
-#include "robot/robot.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/dynamics/tick.h"
+#include "poise/math/so3.h"
+#include "poise/robot/control/contacts.h"
+#include "poise/robot/control/reference.h"
+#include "poise/robot/robot.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "robot/control/controller.h"
-#include "tests/util/decompositions.h"
+#include "poise/robot/control/controller.h"
+#include "poise/tests/util/decompositions.h"
 
 namespace poise {
 

@@ -9,8 +9,8 @@
 #include <limits>
 #include <vector>
 
-#include "robot/control/controller.h"
-#include "robot/control/controller_fixture.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/control/controller_fixture.h"
 
 namespace poise {
 namespace {

@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/conflict.h"
+#include "poise/robot/control/conflict.h"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "hqp/solution.h"
-#include "hqp/solver.h"
+#include "poise/hqp/solution.h"
+#include "poise/hqp/solver.h"
 
 namespace poise {
 namespace {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // What cannot all be met, and how the controller says so.
-#include "robot/control/conflict.h"
+#include "poise/robot/control/conflict.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "hqp/hierarchy.h"
-#include "robot/control/controller.h"
-#include "robot/control/controller_fixture.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/control/controller_fixture.h"
 
 namespace poise {
 namespace {

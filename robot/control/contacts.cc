@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/contacts.h"
+#include "poise/robot/control/contacts.h"
 
 #include <Eigen/Geometry>
 
-#include "math/so3.h"
+#include "poise/math/so3.h"
 
 namespace poise {
 

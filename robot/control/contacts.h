@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "dynamics/tick.h"
-#include "robot/robot.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

@@ -1,15 +1,15 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/controller.h"
+#include "poise/robot/control/controller.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "robot/control/default_stack.h"
-#include "robot/control/fail_safe.h"
-#include "robot/control/tasks/scale.h"
-#include "robot/control/torque.h"
-#include "robot/finding.h"
+#include "poise/robot/control/default_stack.h"
+#include "poise/robot/control/fail_safe.h"
+#include "poise/robot/control/tasks/scale.h"
+#include "poise/robot/control/torque.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 namespace {

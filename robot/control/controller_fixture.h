@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "robot/control/controller.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/robot/control/controller.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 

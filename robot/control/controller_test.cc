@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/controller.h"
+#include "poise/robot/control/controller.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "dynamics/integrate.h"
-#include "robot/control/bolted_down_fixture.h"
-#include "robot/control/controller_fixture.h"
-#include "robot/control/torque.h"
-#include "tests/util/count_malloc.h"
+#include "poise/dynamics/integrate.h"
+#include "poise/robot/control/bolted_down_fixture.h"
+#include "poise/robot/control/controller_fixture.h"
+#include "poise/robot/control/torque.h"
+#include "poise/tests/util/count_malloc.h"
 
 namespace poise {
 namespace {

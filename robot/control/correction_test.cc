@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/integrate.h"
-#include "robot/control/controller.h"
-#include "robot/control/controller_fixture.h"
+#include "poise/dynamics/integrate.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/control/controller_fixture.h"
 
 namespace poise {
 namespace {

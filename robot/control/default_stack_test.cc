@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/default_stack.h"
+#include "poise/robot/control/default_stack.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <regex>
 #include <string>
 
-#include "robot/urdf/urdf.h"
+#include "poise/robot/urdf/urdf.h"
 
 namespace poise {
 namespace {

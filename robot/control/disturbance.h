@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/tick.h"
-#include "robot/control/com_gains.h"
-#include "robot/control/reference.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/control/com_gains.h"
+#include "poise/robot/control/reference.h"
 
 namespace poise {
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "dynamics/tick.h"
-#include "robot/control/measurement.h"
-#include "robot/robot.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/control/measurement.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

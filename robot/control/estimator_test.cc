@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/estimator.h"
+#include "poise/robot/control/estimator.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "dynamics/integrate.h"
-#include "math/so3.h"
-#include "tests/util/count_malloc.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/dynamics/integrate.h"
+#include "poise/math/so3.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

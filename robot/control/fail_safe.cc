@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/fail_safe.h"
+#include "poise/robot/control/fail_safe.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // What happens where a tick cannot be solved, or not in its time.
-#include "robot/control/fail_safe.h"
+#include "poise/robot/control/fail_safe.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <limits>
 #include <vector>
 
-#include "robot/control/bolted_down_fixture.h"
-#include "robot/control/controller.h"
-#include "robot/control/controller_fixture.h"
-#include "robot/control/torque.h"
+#include "poise/robot/control/bolted_down_fixture.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/control/controller_fixture.h"
+#include "poise/robot/control/torque.h"
 
 namespace poise {
 namespace {

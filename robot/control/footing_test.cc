@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "robot/control/controller_fixture.h"
+#include "poise/robot/control/controller_fixture.h"
 
 namespace poise {
 namespace {

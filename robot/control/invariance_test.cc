@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "math/so3.h"
-#include "robot/control/controller.h"
-#include "robot/control/controller_fixture.h"
+#include "poise/math/so3.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/control/controller_fixture.h"
 
 namespace poise {
 namespace {

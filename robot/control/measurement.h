@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "math/pose.h"
+#include "poise/math/pose.h"
 
 namespace poise {
 

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/stack.h"
+#include "poise/robot/control/stack.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "robot/finding.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 namespace {

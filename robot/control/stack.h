@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "hqp/hierarchy.h"
-#include "hqp/solution.h"
-#include "robot/control/easing/easing.h"
-#include "robot/control/task.h"
-#include "robot/control/tick_report.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/solution.h"
+#include "poise/robot/control/easing/easing.h"
+#include "poise/robot/control/task.h"
+#include "poise/robot/control/tick_report.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/stance.h"
+#include "poise/robot/control/stance.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "math/so3.h"
-#include "robot/control/easing/minimum_jerk.h"
-#include "robot/finding.h"
+#include "poise/math/so3.h"
+#include "poise/robot/control/easing/minimum_jerk.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 namespace {

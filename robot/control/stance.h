@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "robot/control/contacts.h"
-#include "robot/control/reference.h"
-#include "robot/robot.h"
+#include "poise/robot/control/contacts.h"
+#include "poise/robot/control/reference.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/stance.h"
+#include "poise/robot/control/stance.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include "math/so3.h"
+#include "poise/math/so3.h"
 
 namespace poise {
 namespace {

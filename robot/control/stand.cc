@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/stand.h"
+#include "poise/robot/control/stand.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,14 +8,14 @@
 #include <stdexcept>
 #include <string>
 
-#include "dynamics/integrate.h"
-#include "dynamics/tick.h"
-#include "hqp/hierarchy.h"
-#include "hqp/solution.h"
-#include "hqp/solver.h"
-#include "math/so3.h"
-#include "robot/feet/knee.h"
-#include "robot/finding.h"
+#include "poise/dynamics/integrate.h"
+#include "poise/dynamics/tick.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/solution.h"
+#include "poise/hqp/solver.h"
+#include "poise/math/so3.h"
+#include "poise/robot/feet/knee.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 namespace {

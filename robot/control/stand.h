@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "robot/finding.h"
-#include "robot/profile/profile.h"
-#include "robot/robot.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/profile/profile.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/stand.h"
+#include "poise/robot/control/stand.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "dynamics/tick.h"
-#include "robot/urdf/urdf.h"
-#include "tests/util/shared_data.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/urdf/urdf.h"
+#include "poise/tests/util/shared_data.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/state_guard.h"
+#include "poise/robot/control/state_guard.h"
 
 #include <cmath>
 #include <limits>

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include "dynamics/tree.h"
-#include "robot/control/measurement.h"
-#include "robot/control/tick_report.h"
+#include "poise/dynamics/tree.h"
+#include "poise/robot/control/measurement.h"
+#include "poise/robot/control/tick_report.h"
 
 namespace poise {
 

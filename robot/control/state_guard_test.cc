@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/state_guard.h"
+#include "poise/robot/control/state_guard.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <limits>
 
-#include "robot/robot.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/robot/robot.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

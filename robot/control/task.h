@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "dynamics/tick.h"
-#include "hqp/hierarchy.h"
-#include "robot/control/contacts.h"
-#include "robot/control/measurement.h"
-#include "robot/control/reference.h"
+#include "poise/dynamics/tick.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/robot/control/contacts.h"
+#include "poise/robot/control/measurement.h"
+#include "poise/robot/control/reference.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/task_set.h"
+#include "poise/robot/control/task_set.h"
 
 #include <algorithm>
 #include <charconv>
@@ -8,8 +8,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "robot/finding.h"
-#include "robot/profile/yaml_file.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/profile/yaml_file.h"
 
 namespace poise {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "robot/control/stack.h"
-#include "robot/robot.h"
+#include "poise/robot/control/stack.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/task_set.h"
+#include "poise/robot/control/task_set.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "robot/control/default_stack.h"
-#include "tests/util/load_humanoid.h"
-#include "tests/util/test_file.h"
+#include "poise/robot/control/default_stack.h"
+#include "poise/tests/util/load_humanoid.h"
+#include "poise/tests/util/test_file.h"
 
 namespace poise {
 namespace {

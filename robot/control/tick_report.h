@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "hqp/solution.h"
-#include "robot/control/command.h"
+#include "poise/hqp/solution.h"
+#include "poise/robot/control/command.h"
 
 namespace poise {
 

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/tick.h"
-#include "robot/control/contacts.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/control/contacts.h"
 
 namespace poise {
 

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/unmodelled_acceleration.h"
+#include "poise/robot/control/unmodelled_acceleration.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <cmath>
 
-#include "tests/util/count_malloc.h"
+#include "poise/tests/util/count_malloc.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/feet/feet.h"
+#include "poise/robot/feet/feet.h"
 
 #include <algorithm>
 #include <cmath>

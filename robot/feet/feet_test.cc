@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/feet/feet.h"
+#include "poise/robot/feet/feet.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "robot/feet/find_feet.h"
-#include "robot/urdf/urdf.h"
+#include "poise/robot/feet/find_feet.h"
+#include "poise/robot/urdf/urdf.h"
 
 namespace poise {
 namespace {

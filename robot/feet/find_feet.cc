@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/feet/find_feet.h"
+#include "poise/robot/feet/find_feet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "dynamics/kinematics.h"
-#include "robot/feet/feet.h"
-#include "robot/feet/knee.h"
-#include "robot/feet/sole.h"
-#include "robot/limits.h"
+#include "poise/dynamics/kinematics.h"
+#include "poise/robot/feet/feet.h"
+#include "poise/robot/feet/knee.h"
+#include "poise/robot/feet/sole.h"
+#include "poise/robot/limits.h"
 
 namespace poise {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "robot/finding.h"
-#include "robot/robot.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/feet/knee.h"
+#include "poise/robot/feet/knee.h"
 
 #include <algorithm>
 #include <cmath>

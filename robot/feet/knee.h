@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/tree.h"
-#include "math/pose.h"
+#include "poise/dynamics/tree.h"
+#include "poise/math/pose.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/feet/sole.h"
+#include "poise/robot/feet/sole.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "robot/feet/feet.h"
+#include "poise/robot/feet/feet.h"
 
 namespace poise {
 namespace {

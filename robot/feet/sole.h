@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "math/pose.h"
-#include "robot/robot.h"
+#include "poise/math/pose.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

@@ -1,17 +1,17 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/profile/profile.h"
+#include "poise/robot/profile/profile.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <set>
 
-#include "math/rpy.h"
-#include "robot/feet/feet.h"
-#include "robot/feet/find_feet.h"
-#include "robot/limits.h"
-#include "robot/profile/yaml_file.h"
-#include "robot/standing.h"
-#include "robot/urdf/urdf.h"
+#include "poise/math/rpy.h"
+#include "poise/robot/feet/feet.h"
+#include "poise/robot/feet/find_feet.h"
+#include "poise/robot/limits.h"
+#include "poise/robot/profile/yaml_file.h"
+#include "poise/robot/standing.h"
+#include "poise/robot/urdf/urdf.h"
 
 namespace poise {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "math/pose.h"
-#include "robot/finding.h"
-#include "robot/robot.h"
+#include "poise/math/pose.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

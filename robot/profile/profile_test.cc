@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/profile/profile.h"
+#include "poise/robot/profile/profile.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "math/rpy.h"
-#include "robot/standing.h"
-#include "robot/urdf/urdf.h"
-#include "tests/util/test_file.h"
+#include "poise/math/rpy.h"
+#include "poise/robot/standing.h"
+#include "poise/robot/urdf/urdf.h"
+#include "poise/tests/util/test_file.h"
 
 namespace poise {
 namespace {

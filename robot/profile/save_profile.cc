@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/profile/save_profile.h"
+#include "poise/robot/profile/save_profile.h"
 
 #include <yaml-cpp/yaml.h>
 
@@ -12,7 +12,7 @@
 #include <string>
 #include <system_error>
 
-#include "math/rpy.h"
+#include "poise/math/rpy.h"
 
 namespace poise {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <ostream>
 
-#include "robot/profile/profile.h"
-#include "robot/robot.h"
+#include "poise/robot/profile/profile.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

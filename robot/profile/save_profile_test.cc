@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/profile/save_profile.h"
+#include "poise/robot/profile/save_profile.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "robot/profile/profile.h"
-#include "robot/robot.h"
-#include "tests/util/test_file.h"
+#include "poise/robot/profile/profile.h"
+#include "poise/robot/robot.h"
+#include "poise/tests/util/test_file.h"
 
 namespace poise {
 namespace {

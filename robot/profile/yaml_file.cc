@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/profile/yaml_file.h"
+#include "poise/robot/profile/yaml_file.h"
 
 #include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/eventhandler.h>
@@ -10,9 +10,9 @@
 #include <sstream>
 #include <vector>
 
-#include "robot/finding.h"
-#include "robot/numbers.h"
-#include "robot/text_file.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/numbers.h"
+#include "poise/robot/text_file.h"
 
 namespace poise {
 namespace {

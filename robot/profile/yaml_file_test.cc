@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/profile/yaml_file.h"
+#include "poise/robot/profile/yaml_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/urdf/urdf.h"
+#include "poise/robot/urdf/urdf.h"
 
 #include <console_bridge/console.h>
 #include <tinyxml2.h>
@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "robot/text_file.h"
-#include "robot/urdf/urdf_check.h"
-#include "robot/urdf/urdf_xml.h"
-#include "robot/urdf/xml_file.h"
+#include "poise/robot/text_file.h"
+#include "poise/robot/urdf/urdf_check.h"
+#include "poise/robot/urdf/urdf_xml.h"
+#include "poise/robot/urdf/xml_file.h"
 
 namespace poise {
 namespace {

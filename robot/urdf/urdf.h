@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "robot/finding.h"
-#include "robot/robot.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

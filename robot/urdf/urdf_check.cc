@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/urdf/urdf_check.h"
+#include "poise/robot/urdf/urdf_check.h"
 
 #include <algorithm>
 #include <string_view>
 #include <unordered_set>
 
-#include "robot/urdf/urdf_grammar.h"
-#include "robot/urdf/urdf_mimic_check.h"
-#include "robot/urdf/urdf_part_check.h"
-#include "robot/urdf/urdf_xml.h"
+#include "poise/robot/urdf/urdf_grammar.h"
+#include "poise/robot/urdf/urdf_mimic_check.h"
+#include "poise/robot/urdf/urdf_part_check.h"
+#include "poise/robot/urdf/urdf_xml.h"
 
 namespace poise {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "robot/finding.h"
-#include "robot/robot.h"
-#include "robot/urdf/urdf_tree_check.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/robot.h"
+#include "poise/robot/urdf/urdf_tree_check.h"
 
 namespace poise {
 

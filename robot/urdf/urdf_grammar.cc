@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/urdf/urdf_grammar.h"
+#include "poise/robot/urdf/urdf_grammar.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "robot/numbers.h"
-#include "robot/urdf/urdf_xacro.h"
-#include "robot/urdf/urdf_xml.h"
+#include "poise/robot/numbers.h"
+#include "poise/robot/urdf/urdf_xacro.h"
+#include "poise/robot/urdf/urdf_xml.h"
 
 namespace poise {
 namespace {

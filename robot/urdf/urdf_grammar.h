@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "robot/finding.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/urdf/urdf_mimic_check.h"
+#include "poise/robot/urdf/urdf_mimic_check.h"
 
 #include <cmath>
 #include <unordered_map>
 
-#include "robot/finding.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 namespace {

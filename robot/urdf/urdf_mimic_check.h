@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "robot/robot.h"
-#include "robot/urdf/urdf_xml.h"
+#include "poise/robot/robot.h"
+#include "poise/robot/urdf/urdf_xml.h"
 
 namespace poise {
 

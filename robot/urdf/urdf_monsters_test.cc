@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "robot/urdf/urdf.h"
-#include "tests/util/shared_data.h"
+#include "poise/robot/urdf/urdf.h"
+#include "poise/tests/util/shared_data.h"
 
 namespace poise {
 namespace {

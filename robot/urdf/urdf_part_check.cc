@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/urdf/urdf_part_check.h"
+#include "poise/robot/urdf/urdf_part_check.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "robot/limits.h"
+#include "poise/robot/limits.h"
 
 namespace poise {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <tinyxml2.h>
 
-#include "robot/robot.h"
-#include "robot/urdf/urdf_xml.h"
+#include "poise/robot/robot.h"
+#include "poise/robot/urdf/urdf_xml.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/urdf/urdf.h"
+#include "poise/robot/urdf/urdf.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tests/util/tolerance.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

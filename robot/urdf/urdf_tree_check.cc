@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/urdf/urdf_tree_check.h"
+#include "poise/robot/urdf/urdf_tree_check.h"
 
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "robot/finding.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 namespace {

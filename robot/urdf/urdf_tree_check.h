@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "robot/urdf/urdf_xml.h"
+#include "poise/robot/urdf/urdf_xml.h"
 
 namespace poise {
 

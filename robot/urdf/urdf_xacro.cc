@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/urdf/urdf_xacro.h"
+#include "poise/robot/urdf/urdf_xacro.h"
 
 #include <algorithm>
 #include <string>

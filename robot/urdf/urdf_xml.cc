@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/urdf/urdf_xml.h"
+#include "poise/robot/urdf/urdf_xml.h"
 
 #include <string_view>
 
-#include "robot/numbers.h"
+#include "poise/robot/numbers.h"
 
 namespace poise {
 

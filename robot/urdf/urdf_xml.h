@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "robot/finding.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 

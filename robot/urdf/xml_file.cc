@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/urdf/xml_file.h"
+#include "poise/robot/urdf/xml_file.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,8 +7,8 @@
 #include <iterator>
 #include <set>
 
-#include "robot/finding.h"
-#include "robot/text_file.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/text_file.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/binary_log_reader.h"
+#include "poise/sim/log/binary_log_reader.h"
 
 #include <cstring>
 #include <limits>

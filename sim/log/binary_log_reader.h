@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/log/log_reader.h"
+#include "poise/sim/log/log_reader.h"
 
 namespace poise {
 

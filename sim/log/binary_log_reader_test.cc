@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/binary_log_reader.h"
+#include "poise/sim/log/binary_log_reader.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/log/log_rows.h"
-#include "sim/log/open_log.h"
+#include "poise/sim/log/log_rows.h"
+#include "poise/sim/log/open_log.h"
 
 namespace poise {
 namespace {

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/columns.h"
+#include "poise/sim/log/columns.h"
 
-#include "sim/log/log_reader.h"
+#include "poise/sim/log/log_reader.h"
 
 namespace poise {
 

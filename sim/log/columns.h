@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/log/log_rows.h"
+#include "poise/sim/log/log_rows.h"
 
 namespace poise {
 

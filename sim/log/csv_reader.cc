@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/csv_reader.h"
+#include "poise/sim/log/csv_reader.h"
 
 #include <algorithm>
 #include <charconv>
 #include <limits>
 #include <stdexcept>
 
-#include "robot/finding.h"
-#include "sim/log/columns.h"
+#include "poise/robot/finding.h"
+#include "poise/sim/log/columns.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/log_rows.h"
+#include "poise/sim/log/log_rows.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/open_log.h"
+#include "poise/sim/log/open_log.h"
 
-#include "sim/log/binary_log_reader.h"
-#include "sim/log/csv_reader.h"
+#include "poise/sim/log/binary_log_reader.h"
+#include "poise/sim/log/csv_reader.h"
 
 namespace poise {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "sim/log/log_reader.h"
+#include "poise/sim/log/log_reader.h"
 
 namespace poise {
 

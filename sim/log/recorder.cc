@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/recorder.h"
+#include "poise/sim/log/recorder.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,8 +7,8 @@
 #include <system_error>
 #include <vector>
 
-#include "robot/control/conflict.h"
-#include "sim/log/columns.h"
+#include "poise/robot/control/conflict.h"
+#include "poise/sim/log/columns.h"
 
 namespace poise {
 

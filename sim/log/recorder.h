@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "robot/robot.h"
-#include "sim/log/log_rows.h"
-#include "sim/log/sha256.h"
-#include "sim/log/tick_record.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/log/log_rows.h"
+#include "poise/sim/log/sha256.h"
+#include "poise/sim/log/tick_record.h"
 
 namespace poise {
 

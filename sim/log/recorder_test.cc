@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/recorder.h"
+#include "poise/sim/log/recorder.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -13,9 +13,9 @@
 #include <sstream>
 #include <utility>
 
-#include "robot/profile/profile.h"
-#include "sim/closed_loop.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/robot/profile/profile.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/run_columns.h"
+#include "poise/sim/log/run_columns.h"
 
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
 
-#include "sim/log/columns.h"
-#include "sim/log/open_log.h"
+#include "poise/sim/log/columns.h"
+#include "poise/sim/log/open_log.h"
 
 namespace poise {
 

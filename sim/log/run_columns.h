@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "robot/robot.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

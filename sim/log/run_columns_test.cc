@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/run_columns.h"
+#include "poise/sim/log/run_columns.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <stdexcept>
 
-#include "sim/log/columns.h"
+#include "poise/sim/log/columns.h"
 
 namespace poise {
 namespace {

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/run_summary.h"
+#include "poise/sim/log/run_summary.h"
 
 #include <fstream>
 #include <string_view>
 #include <vector>
 
-#include "sim/log/open_log.h"
-#include "sim/log/sha256.h"
+#include "poise/sim/log/open_log.h"
+#include "poise/sim/log/sha256.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/sha256.h"
+#include "poise/sim/log/sha256.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/summary.h"
+#include "poise/sim/log/summary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <vector>
 
-#include "robot/control/stack.h"
-#include "robot/control/task.h"
-#include "robot/finding.h"
-#include "sim/push.h"
+#include "poise/robot/control/stack.h"
+#include "poise/robot/control/task.h"
+#include "poise/robot/finding.h"
+#include "poise/sim/push.h"
 
 namespace poise {
 

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "robot/robot.h"
-#include "sim/run.h"
-#include "sim/scenario.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/run.h"
+#include "poise/sim/scenario.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/log/summary.h"
+#include "poise/sim/log/summary.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/push.h"
-#include "sim/run.h"
-#include "sim/scenario.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/sim/push.h"
+#include "poise/sim/run.h"
+#include "poise/sim/scenario.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <Eigen/Core>
 
-#include "hqp/hierarchy.h"
-#include "robot/control/stack.h"
-#include "robot/control/stance.h"
-#include "robot/control/tick_report.h"
-#include "sim/observation.h"
-#include "sim/plants/plant.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/robot/control/stack.h"
+#include "poise/robot/control/stance.h"
+#include "poise/robot/control/tick_report.h"
+#include "poise/sim/observation.h"
+#include "poise/sim/plants/plant.h"
 
 namespace poise {
 

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/plants/make_plant.h"
-#include "tests/util/simple_robots.h"
+#include "poise/sim/plants/make_plant.h"
+#include "poise/tests/util/simple_robots.h"
 
 namespace poise {
 namespace {

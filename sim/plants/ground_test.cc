@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "sim/run.h"
-#include "sim/scenario.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/sim/run.h"
+#include "poise/sim/scenario.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

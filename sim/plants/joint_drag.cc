@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/plants/joint_drag.h"
+#include "poise/sim/plants/joint_drag.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>

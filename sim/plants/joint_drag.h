@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/tick.h"
-#include "robot/robot.h"
-#include "sim/plants/plant.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/plants/plant.h"
 
 namespace poise {
 

@@ -1,15 +1,15 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/plants/joint_drag.h"
+#include "poise/sim/plants/joint_drag.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <random>
 
-#include "dynamics/tick.h"
-#include "tests/util/decompositions.h"
-#include "tests/util/random_tree.h"
-#include "tests/util/simple_robots.h"
+#include "poise/dynamics/tick.h"
+#include "poise/tests/util/decompositions.h"
+#include "poise/tests/util/random_tree.h"
+#include "poise/tests/util/simple_robots.h"
 
 namespace poise {
 namespace {

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/plants/make_plant.h"
+#include "poise/sim/plants/make_plant.h"
 
 #include <stdexcept>
 
-#include "robot/finding.h"
-#include "sim/plants/bullet/bullet_plant.h"
-#include "sim/plants/mujoco/mujoco_plant.h"
+#include "poise/robot/finding.h"
+#include "poise/sim/plants/bullet/bullet_plant.h"
+#include "poise/sim/plants/mujoco/mujoco_plant.h"
 
 namespace poise {
 

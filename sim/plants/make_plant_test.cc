@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/plants/make_plant.h"
+#include "poise/sim/plants/make_plant.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <typeinfo>
 
-#include "tests/util/simple_robots.h"
+#include "poise/tests/util/simple_robots.h"
 
 namespace poise {
 namespace {

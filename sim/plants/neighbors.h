@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "dynamics/tree.h"
+#include "poise/dynamics/tree.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/plants/plant_settings.h"
+#include "poise/sim/plants/plant_settings.h"
 
 #include <Eigen/Geometry>
 #include <stdexcept>

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "sim/number_field.h"
+#include "poise/sim/number_field.h"
 
 namespace poise {
 

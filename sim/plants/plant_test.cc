@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/plants/plant.h"
+#include "poise/sim/plants/plant.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 #include <random>
 #include <string>
 
-#include "dynamics/tick.h"
-#include "sim/plants/make_plant.h"
-#include "tests/util/decompositions.h"
-#include "tests/util/random_tree.h"
-#include "tests/util/simple_robots.h"
+#include "poise/dynamics/tick.h"
+#include "poise/sim/plants/make_plant.h"
+#include "poise/tests/util/decompositions.h"
+#include "poise/tests/util/random_tree.h"
+#include "poise/tests/util/simple_robots.h"
 
 namespace poise {
 namespace {

@@ -15,21 +15,21 @@
 #include <random>
 #include <stdexcept>
 
-#include "dynamics/aba.h"
-#include "dynamics/centroidal.h"
-#include "dynamics/crba.h"
-#include "dynamics/derivatives.h"
-#include "dynamics/rnea.h"
-#include "dynamics/tick.h"
-#include "math/so3.h"
-#include "robot/urdf/urdf.h"
-#include "sim/plants/bullet/bullet_body.h"
-#include "sim/plants/mujoco/mujoco_model.h"
-#include "tests/util/bullet_tree.h"
-#include "tests/util/compare_times.h"
-#include "tests/util/kdl_tree.h"
-#include "tests/util/random_tree.h"
-#include "tests/util/simple_robots.h"
+#include "poise/dynamics/aba.h"
+#include "poise/dynamics/centroidal.h"
+#include "poise/dynamics/crba.h"
+#include "poise/dynamics/derivatives.h"
+#include "poise/dynamics/rnea.h"
+#include "poise/dynamics/tick.h"
+#include "poise/math/so3.h"
+#include "poise/robot/urdf/urdf.h"
+#include "poise/sim/plants/bullet/bullet_body.h"
+#include "poise/sim/plants/mujoco/mujoco_model.h"
+#include "poise/tests/util/bullet_tree.h"
+#include "poise/tests/util/compare_times.h"
+#include "poise/tests/util/kdl_tree.h"
+#include "poise/tests/util/random_tree.h"
+#include "poise/tests/util/simple_robots.h"
 
 namespace poise {
 namespace {

@@ -20,12 +20,12 @@
 #include <tuple>
 #include <vector>
 
-#include "hqp/certificate.h"
-#include "hqp/reference/cascade.h"
-#include "hqp/solver.h"
-#include "sim/closed_loop.h"
-#include "sim/quantile.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solver.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/sim/quantile.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

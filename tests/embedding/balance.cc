@@ -3,10 +3,10 @@
 #include <iostream>
 #include <string>
 
-#include "dynamics/tree.h"
-#include "robot/control/controller.h"
-#include "robot/control/task_set.h"
-#include "robot/profile/profile.h"
+#include "poise/dynamics/tree.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/control/task_set.h"
+#include "poise/robot/profile/profile.h"
 
 // Stands for the robot: fill in its encoders, gyroscope and base estimate.
 poise::State ReadSensors(const poise::Robot& robot, double time) {

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/examples/base_still.h"
+#include "poise/tests/examples/base_still.h"
 
-#include "robot/control/tasks/row_names.h"
+#include "poise/robot/control/tasks/row_names.h"
 
 namespace poise {
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include "robot/control/task.h"
+#include "poise/robot/control/task.h"
 
 namespace poise {
 

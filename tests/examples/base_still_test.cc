@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // The example of docs/tasks.md: that it does what it says, and that the page
 // quotes what is built here.
-#include "tests/examples/base_still.h"
+#include "poise/tests/examples/base_still.h"
 
 #include <gtest/gtest.h>
 
@@ -14,13 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "hqp/hierarchy.h"
-#include "hqp/solution.h"
-#include "hqp/solver.h"
-#include "robot/control/default_stack.h"
-#include "robot/control/stack.h"
-#include "robot/control/task_set.h"
-#include "robot/control/tasks/task_fixture.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/solution.h"
+#include "poise/hqp/solver.h"
+#include "poise/robot/control/default_stack.h"
+#include "poise/robot/control/stack.h"
+#include "poise/robot/control/task_set.h"
+#include "poise/robot/control/tasks/task_fixture.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/fuzz/fuzzing.h"
+#include "poise/tests/fuzz/fuzzing.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

@@ -2,10 +2,10 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "hqp/certificate.h"
-#include "hqp/solver.h"
-#include "tests/fuzz/fuzzing.h"
-#include "tools/commands/hqp/hqp_file.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/solver.h"
+#include "poise/tests/fuzz/fuzzing.h"
+#include "poise/tools/commands/hqp/hqp_file.h"
 
 namespace {
 

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <nlohmann/json.hpp>
 
-#include "sim/log/csv_reader.h"
-#include "tests/fuzz/fuzzing.h"
-#include "tools/commands/report/run_log.h"
+#include "poise/sim/log/csv_reader.h"
+#include "poise/tests/fuzz/fuzzing.h"
+#include "poise/tools/commands/report/run_log.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const poise::MemoryFile file(data, size);

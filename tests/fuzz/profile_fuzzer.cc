@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/profile/profile.h"
-#include "tests/fuzz/fuzzing.h"
+#include "poise/robot/profile/profile.h"
+#include "poise/tests/fuzz/fuzzing.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const poise::MemoryFile file(data, size);

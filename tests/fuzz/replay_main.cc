@@ -7,7 +7,7 @@
 #include <iterator>
 #include <vector>
 
-#include "tests/fuzz/fuzzing.h"
+#include "poise/tests/fuzz/fuzzing.h"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <cmath>
 
-#include "sim/scenario.h"
-#include "tests/fuzz/fuzzing.h"
+#include "poise/sim/scenario.h"
+#include "poise/tests/fuzz/fuzzing.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using poise::Require;

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <nlohmann/json.hpp>
 
-#include "dynamics/tree.h"
-#include "tests/fuzz/fuzzing.h"
-#include "tools/commands/dynamics/dynamics_file.h"
-#include "tools/commands/dynamics/dynamics_table.h"
+#include "poise/dynamics/tree.h"
+#include "poise/tests/fuzz/fuzzing.h"
+#include "poise/tools/commands/dynamics/dynamics_file.h"
+#include "poise/tools/commands/dynamics/dynamics_table.h"
 
 namespace {
 

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "robot/feet/find_feet.h"
-#include "robot/urdf/urdf.h"
-#include "tests/fuzz/fuzzing.h"
+#include "poise/robot/feet/find_feet.h"
+#include "poise/robot/urdf/urdf.h"
+#include "poise/tests/fuzz/fuzzing.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using poise::Require;

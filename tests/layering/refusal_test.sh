@@ -36,7 +36,7 @@ attempt() {
 # Usage: add PACKAGE NAME INCLUDE [DEP]: a library of one header, before lint.
 add() {
   printf '#pragma once\n\n#include %s\n' "$3" > "$1/$2.h"
-  printf '#include "%s/%s.h"\n' "$1" "$2" > "$1/$2.cc"
+  printf '#include "poise/%s/%s.h"\n' "$1" "$2" > "$1/$2.cc"
   cp "$original/$1/BUILD" "$1/BUILD"
   cat > "$TEST_TMPDIR/rule" << RULE
 poise_cc_library(
@@ -62,7 +62,7 @@ remove() {
 }
 
 # What is allowed builds here, or a refusal would mean nothing.
-add dynamics downward '"math/so3.h"' //math:so3
+add dynamics downward '"poise/math/so3.h"' //math:so3
 if ! run_bazel build //dynamics:downward; then
   echo "a downward dependency does not build:"
   tail -n 20 "$TEST_TMPDIR/log"
@@ -70,20 +70,20 @@ if ! run_bazel build //dynamics:downward; then
 fi
 remove dynamics downward
 
-add math upward '"dynamics/tree.h"' //dynamics:tree
+add math upward '"poise/dynamics/tree.h"' //dynamics:tree
 attempt "math depends on dynamics" "not visible" build //math:upward
 remove math upward
 
-add math upward '"dynamics/tree.h"'
+add math upward '"poise/dynamics/tree.h"'
 attempt "math includes dynamics without a dependency" \
   "dynamics/tree.h: No such file\|undeclared inclusion" build //math:upward
 remove math upward
 
-add dynamics sideward '"hqp/hierarchy.h"' //hqp:hierarchy
+add dynamics sideward '"poise/hqp/hierarchy.h"' //hqp:hierarchy
 attempt "dynamics depends on hqp" "not visible" build //dynamics:sideward
 remove dynamics sideward
 
-add robot upward '"robot/control/command.h"' //robot/control:command
+add robot upward '"poise/robot/control/command.h"' //robot/control:command
 attempt "robot depends on robot/control" "not visible" build //robot:upward
 remove robot upward
 

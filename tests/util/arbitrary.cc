@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/arbitrary.h"
+#include "poise/tests/util/arbitrary.h"
 
 #include <algorithm>
 #include <cmath>
 #include <ostream>
 #include <vector>
 
-#include "math/so3.h"
+#include "poise/math/so3.h"
 
 namespace poise {
 namespace {

@@ -6,9 +6,9 @@
 #include <Eigen/Core>
 #include <iosfwd>
 
-#include "math/inertia.h"
-#include "math/pose.h"
-#include "math/spatial.h"
+#include "poise/math/inertia.h"
+#include "poise/math/pose.h"
+#include "poise/math/spatial.h"
 
 namespace poise {
 

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/bullet_tree.h"
+#include "poise/tests/util/bullet_tree.h"
 
 #include <Eigen/Geometry>
 #include <stdexcept>
 #include <string>
 
-#include "dynamics/kinematics.h"
-#include "math/pose.h"
+#include "poise/dynamics/kinematics.h"
+#include "poise/math/pose.h"
 
 #ifdef POISE_HAS_BULLET_INVERSE_DYNAMICS
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "dynamics/tree.h"
-#include "math/spatial.h"
+#include "poise/dynamics/tree.h"
+#include "poise/math/spatial.h"
 
 namespace poise {
 

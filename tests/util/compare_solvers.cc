@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/compare_solvers.h"
+#include "poise/tests/util/compare_solvers.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -7,10 +7,10 @@
 #include <limits>
 #include <sstream>
 
-#include "hqp/certificate.h"
-#include "hqp/reference/cascade.h"
-#include "hqp/solver.h"
-#include "math/rank.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solver.h"
+#include "poise/math/rank.h"
 
 namespace poise {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "hqp/certificate.h"
-#include "hqp/solver.h"
-#include "tests/util/random_hierarchy.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/solver.h"
+#include "poise/tests/util/random_hierarchy.h"
 
 namespace poise {
 

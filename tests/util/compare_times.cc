@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/compare_times.h"
+#include "poise/tests/util/compare_times.h"
 
 #include <benchmark/benchmark.h>
 

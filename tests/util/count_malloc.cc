@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/count_malloc.h"
+#include "poise/tests/util/count_malloc.h"
 
 #include <cerrno>
 #include <cstddef>

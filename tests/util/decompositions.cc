@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/decompositions.h"
+#include "poise/tests/util/decompositions.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>

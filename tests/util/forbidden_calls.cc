@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/forbidden_calls.h"
+#include "poise/tests/util/forbidden_calls.h"
 
 // Else these would be replaced by others while they are defined here.
 #undef _FORTIFY_SOURCE

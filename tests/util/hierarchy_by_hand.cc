@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/hierarchy_by_hand.h"
+#include "poise/tests/util/hierarchy_by_hand.h"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "hqp/hierarchy.h"
-#include "hqp/solution.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/solution.h"
 
 namespace poise {
 

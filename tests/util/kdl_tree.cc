@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/kdl_tree.h"
+#include "poise/tests/util/kdl_tree.h"
 
 #include <stdexcept>
 #include <string>

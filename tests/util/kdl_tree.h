@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/tree.h"
+#include "poise/dynamics/tree.h"
 
 namespace poise {
 

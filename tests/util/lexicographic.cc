@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/lexicographic.h"
+#include "poise/tests/util/lexicographic.h"
 
 #include <algorithm>
 #include <random>
 
-#include "tests/util/decompositions.h"
+#include "poise/tests/util/decompositions.h"
 
 namespace poise {
 namespace {

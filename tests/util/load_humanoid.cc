@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/load_humanoid.h"
+#include "poise/tests/util/load_humanoid.h"
 
-#include "robot/profile/profile.h"
+#include "poise/robot/profile/profile.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/random_biped.h"
+#include "poise/tests/util/random_biped.h"
 
 #include <Eigen/Core>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <string>
 #include <tuple>
 
-#include "tests/util/arbitrary.h"
+#include "poise/tests/util/arbitrary.h"
 
 namespace poise {
 namespace {

@@ -7,7 +7,7 @@
 #include <iosfwd>
 #include <vector>
 
-#include "robot/robot.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "hqp/hierarchy.h"
-#include "hqp/solution.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/solution.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/random_hierarchy.h"
+#include "poise/tests/util/random_hierarchy.h"
 
 #include <gtest/gtest.h>
 

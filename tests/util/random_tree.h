@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <random>
 
-#include "dynamics/tree.h"
+#include "poise/dynamics/tree.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/ridders.h"
+#include "poise/tests/util/ridders.h"
 
 #include <ceres/dynamic_numeric_diff_cost_function.h>
 

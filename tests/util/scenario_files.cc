@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/scenario_files.h"
+#include "poise/tests/util/scenario_files.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/shrink_hierarchy.h"
+#include "poise/tests/util/shrink_hierarchy.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "tests/util/random_hierarchy.h"
+#include "poise/tests/util/random_hierarchy.h"
 
 namespace poise {
 

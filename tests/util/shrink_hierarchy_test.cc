@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/shrink_hierarchy.h"
+#include "poise/tests/util/shrink_hierarchy.h"
 
 #include <gtest/gtest.h>
 
-#include "hqp/solver.h"
-#include "tests/util/compare_solvers.h"
-#include "tests/util/random_hierarchy.h"
+#include "poise/hqp/solver.h"
+#include "poise/tests/util/compare_solvers.h"
+#include "poise/tests/util/random_hierarchy.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/simple_robots.h"
+#include "poise/tests/util/simple_robots.h"
 
 #include <limits>
 

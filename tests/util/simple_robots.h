@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/tree.h"
-#include "robot/robot.h"
+#include "poise/dynamics/tree.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

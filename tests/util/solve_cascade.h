@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include "hqp/reference/cascade.h"
-#include "tests/util/random_hierarchy.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/tests/util/random_hierarchy.h"
 
 namespace poise {
 

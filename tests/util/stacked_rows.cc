@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/stacked_rows.h"
+#include "poise/tests/util/stacked_rows.h"
 
 #include <cmath>
 

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "hqp/fast/lexicographic_factorization.h"
-#include "tests/util/lexicographic.h"
+#include "poise/hqp/fast/lexicographic_factorization.h"
+#include "poise/tests/util/lexicographic.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/test_file.h"
+#include "poise/tests/util/test_file.h"
 
 #include <cstdlib>
 #include <fstream>

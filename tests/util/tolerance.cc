@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/tolerance.h"
+#include "poise/tests/util/tolerance.h"
 
 #include <cstdlib>
 #include <limits>

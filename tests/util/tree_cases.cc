@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/tree_cases.h"
+#include "poise/tests/util/tree_cases.h"
 
 #include <rapidcheck.h>
 
@@ -8,7 +8,7 @@
 #include <ostream>
 #include <random>
 
-#include "tests/util/random_tree.h"
+#include "poise/tests/util/random_tree.h"
 
 namespace poise {
 namespace {

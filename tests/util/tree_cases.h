@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/tree.h"
-#include "math/spatial.h"
+#include "poise/dynamics/tree.h"
+#include "poise/math/spatial.h"
 
 namespace poise {
 

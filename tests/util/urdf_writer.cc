@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tests/util/urdf_writer.h"
+#include "poise/tests/util/urdf_writer.h"
 
 #include <cassert>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <locale>
 #include <sstream>
 
-#include "math/rpy.h"
+#include "poise/math/rpy.h"
 
 namespace poise {
 namespace {

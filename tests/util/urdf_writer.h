@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "robot/robot.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

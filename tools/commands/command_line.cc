@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/command_line.h"
+#include "poise/tools/commands/command_line.h"
 
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
 
-#include "robot/finding.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/drawing/canvas.h"
+#include "poise/tools/drawing/canvas.h"
 
 #include <cairo/cairo-svg.h>
 #include <cairo/cairo.h>

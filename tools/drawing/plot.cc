@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/drawing/plot.h"
+#include "poise/tools/drawing/plot.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/drawing/canvas.h"
+#include "poise/tools/drawing/canvas.h"
 
 namespace poise {
 

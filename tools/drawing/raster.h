@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tools/drawing/canvas.h"
+#include "poise/tools/drawing/canvas.h"
 
 namespace poise {
 

@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/drawing/robot_picture.h"
+#include "poise/tools/drawing/robot_picture.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/kinematics.h"
-#include "tools/commands/report/robot_shapes.h"
-#include "tools/drawing/raster.h"
-#include "tools/drawing/solid.h"
+#include "poise/dynamics/kinematics.h"
+#include "poise/tools/commands/report/robot_shapes.h"
+#include "poise/tools/drawing/raster.h"
+#include "poise/tools/drawing/solid.h"
 
 namespace poise {
 namespace {

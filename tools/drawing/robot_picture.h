@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "robot/robot.h"
-#include "tools/drawing/canvas.h"
+#include "poise/robot/robot.h"
+#include "poise/tools/drawing/canvas.h"
 
 namespace poise {
 

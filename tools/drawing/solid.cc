@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/drawing/solid.h"
+#include "poise/tools/drawing/solid.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "tools/commands/report/robot_shapes.h"
+#include "poise/tools/commands/report/robot_shapes.h"
 
 namespace poise {
 

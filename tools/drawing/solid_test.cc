@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/drawing/solid.h"
+#include "poise/tools/drawing/solid.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "tests/util/tolerance.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

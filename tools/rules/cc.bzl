@@ -51,7 +51,14 @@ def _precompiled_eigen(deps):
     return _precompiled("eigen_og" if quick else "eigen")
 
 def poise_cc_library(name, copts = [], deps = [], **kwargs):
+    """A library whose headers are included as "poise/<package>/<header>".
+
+    The prefix keeps them apart from a guest's own "math/..." or "robot/...".
+    """
     header = _precompiled_eigen(deps)
+    if kwargs.get("hdrs"):
+        kwargs["include_prefix"] = "poise"
+        kwargs["strip_include_prefix"] = "/"
     native.cc_library(
         name = name,
         copts = _COPTS + header.copts + copts,

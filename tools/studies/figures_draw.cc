@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/studies/figures_draw.h"
+#include "poise/tools/studies/figures_draw.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "sim/log/columns.h"
-#include "sim/outcome.h"
-#include "tools/drawing/plot.h"
-#include "tools/drawing/robot_picture.h"
-#include "tools/studies/recorded_run.h"
+#include "poise/sim/log/columns.h"
+#include "poise/sim/outcome.h"
+#include "poise/tools/drawing/plot.h"
+#include "poise/tools/drawing/robot_picture.h"
+#include "poise/tools/studies/recorded_run.h"
 
 namespace poise {
 namespace {

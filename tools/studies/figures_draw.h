@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "robot/robot.h"
-#include "sim/scenario.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/scenario.h"
 
 namespace poise {
 

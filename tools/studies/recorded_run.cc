@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/studies/recorded_run.h"
+#include "poise/tools/studies/recorded_run.h"
 
 #include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
-#include "dynamics/kinematics.h"
-#include "sim/log/columns.h"
-#include "sim/log/open_log.h"
-#include "sim/push.h"
+#include "poise/dynamics/kinematics.h"
+#include "poise/sim/log/columns.h"
+#include "poise/sim/log/open_log.h"
+#include "poise/sim/push.h"
 
 namespace poise {
 namespace {

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "robot/robot.h"
-#include "sim/log/columns.h"
-#include "sim/log/run_columns.h"
-#include "tools/drawing/robot_picture.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/log/columns.h"
+#include "poise/sim/log/run_columns.h"
+#include "poise/tools/drawing/robot_picture.h"
 
 namespace poise {
 

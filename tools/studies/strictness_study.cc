@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/studies/strictness_study.h"
+#include "poise/tools/studies/strictness_study.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,10 +8,10 @@
 #include <memory>
 #include <string_view>
 
-#include "robot/control/command.h"
-#include "robot/control/controller.h"
-#include "sim/closed_loop.h"
-#include "sim/observation.h"
+#include "poise/robot/control/command.h"
+#include "poise/robot/control/controller.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/sim/observation.h"
 
 namespace poise {
 namespace {

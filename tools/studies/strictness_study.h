@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "robot/control/stack.h"
-#include "robot/robot.h"
-#include "sim/judge.h"
-#include "sim/scenario.h"
+#include "poise/robot/control/stack.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/judge.h"
+#include "poise/sim/scenario.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/studies/trials.h"
+#include "poise/tools/studies/trials.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +9,14 @@
 #include <system_error>
 #include <utility>
 
-#include "robot/finding.h"
-#include "robot/limits.h"
-#include "robot/numbers.h"
-#include "sim/closed_loop.h"
-#include "sim/observation.h"
-#include "sim/outcome.h"
-#include "sim/yardstick.h"
-#include "tools/commands/push/push_options.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/limits.h"
+#include "poise/robot/numbers.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/sim/observation.h"
+#include "poise/sim/outcome.h"
+#include "poise/sim/yardstick.h"
+#include "poise/tools/commands/push/push_options.h"
 
 namespace poise {
 namespace {

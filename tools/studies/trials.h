@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/judge.h"
+#include "poise/sim/judge.h"
 
 namespace poise {
 

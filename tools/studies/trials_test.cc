@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/studies/trials.h"
+#include "poise/tools/studies/trials.h"
 
 #include <gtest/gtest.h>
 

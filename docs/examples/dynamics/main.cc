@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <string>
 
-#include "dynamics/aba.h"
-#include "dynamics/energy.h"
-#include "dynamics/integrate.h"
-#include "dynamics/tick.h"
+#include "poise/dynamics/aba.h"
+#include "poise/dynamics/energy.h"
+#include "poise/dynamics/integrate.h"
+#include "poise/dynamics/tick.h"
 
 using namespace poise;
 

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "hqp/hierarchy.h"
-#include "robot/control/easing/ramp.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/robot/control/easing/ramp.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/easing/ramp.h"
+#include "poise/robot/control/easing/ramp.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "robot/control/easing/minimum_jerk.h"
+#include "poise/robot/control/easing/minimum_jerk.h"
 
 namespace poise {
 namespace {

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/tasks/capture_point.h"
+#include "poise/robot/control/tasks/capture_point.h"
 
-#include "robot/control/balance_monitor.h"
-#include "robot/control/tasks/row_names.h"
-#include "robot/control/tasks/support_box.h"
+#include "poise/robot/control/balance_monitor.h"
+#include "poise/robot/control/tasks/row_names.h"
+#include "poise/robot/control/tasks/support_box.h"
 
 namespace poise {
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "dynamics/tree.h"
-#include "robot/control/task.h"
-#include "robot/robot.h"
+#include "poise/dynamics/tree.h"
+#include "poise/robot/control/task.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

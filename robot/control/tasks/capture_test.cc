@@ -8,20 +8,20 @@
 #include <cmath>
 #include <vector>
 
-#include "dynamics/tick.h"
-#include "hqp/hierarchy.h"
-#include "math/so3.h"
-#include "robot/control/balance_monitor.h"
-#include "robot/control/contacts.h"
-#include "robot/control/reference.h"
-#include "robot/control/task.h"
-#include "robot/control/tasks/capture_point.h"
-#include "robot/control/tasks/cop.h"
-#include "robot/control/tasks/momentum.h"
-#include "robot/control/tasks/posture.h"
-#include "robot/control/tasks/support_box.h"
-#include "robot/control/tasks/task_fixture.h"
-#include "tests/util/decompositions.h"
+#include "poise/dynamics/tick.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/math/so3.h"
+#include "poise/robot/control/balance_monitor.h"
+#include "poise/robot/control/contacts.h"
+#include "poise/robot/control/reference.h"
+#include "poise/robot/control/task.h"
+#include "poise/robot/control/tasks/capture_point.h"
+#include "poise/robot/control/tasks/cop.h"
+#include "poise/robot/control/tasks/momentum.h"
+#include "poise/robot/control/tasks/posture.h"
+#include "poise/robot/control/tasks/support_box.h"
+#include "poise/robot/control/tasks/task_fixture.h"
+#include "poise/tests/util/decompositions.h"
 
 namespace poise {
 namespace {

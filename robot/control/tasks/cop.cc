@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/tasks/cop.h"
+#include "poise/robot/control/tasks/cop.h"
 
 #include <algorithm>
 #include <string_view>
 
-#include "robot/control/balance_monitor.h"
-#include "robot/control/tasks/row_names.h"
-#include "robot/control/tasks/scale.h"
+#include "poise/robot/control/balance_monitor.h"
+#include "poise/robot/control/tasks/row_names.h"
+#include "poise/robot/control/tasks/scale.h"
 
 namespace poise {
 namespace {

@@ -9,18 +9,18 @@
 #include <string>
 #include <vector>
 
-#include "hqp/hierarchy.h"
-#include "robot/control/contacts.h"
-#include "robot/control/task.h"
-#include "robot/control/tasks/cop.h"
-#include "robot/control/tasks/force_regularizer.h"
-#include "robot/control/tasks/friction.h"
-#include "robot/control/tasks/task_fixture.h"
-#include "robot/control/tasks/unilateral.h"
-#include "robot/control/tasks/yaw.h"
-#include "robot/control/tasks/yaw_constant.h"
-#include "robot/control/tasks/zmp.h"
-#include "robot/control/tasks/zmp_literal.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/robot/control/contacts.h"
+#include "poise/robot/control/task.h"
+#include "poise/robot/control/tasks/cop.h"
+#include "poise/robot/control/tasks/force_regularizer.h"
+#include "poise/robot/control/tasks/friction.h"
+#include "poise/robot/control/tasks/task_fixture.h"
+#include "poise/robot/control/tasks/unilateral.h"
+#include "poise/robot/control/tasks/yaw.h"
+#include "poise/robot/control/tasks/yaw_constant.h"
+#include "poise/robot/control/tasks/zmp.h"
+#include "poise/robot/control/tasks/zmp_literal.h"
 
 namespace poise {
 namespace {

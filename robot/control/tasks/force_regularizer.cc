@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/tasks/force_regularizer.h"
+#include "poise/robot/control/tasks/force_regularizer.h"
 
-#include "robot/control/tasks/row_names.h"
-#include "robot/control/tasks/scale.h"
+#include "poise/robot/control/tasks/row_names.h"
+#include "poise/robot/control/tasks/scale.h"
 
 namespace poise {
 

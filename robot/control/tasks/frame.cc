@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/tasks/frame.h"
+#include "poise/robot/control/tasks/frame.h"
 
-#include "math/so3.h"
-#include "robot/control/tasks/row_names.h"
+#include "poise/math/so3.h"
+#include "poise/robot/control/tasks/row_names.h"
 
 namespace poise {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "robot/control/task.h"
+#include "poise/robot/control/task.h"
 
 namespace poise {
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // What the rows on a sole or a link mean, on the ground and in the air: against
 // its motion a moment later.
-#include "robot/control/tasks/frame.h"
+#include "poise/robot/control/tasks/frame.h"
 
 #include <gtest/gtest.h>
 
@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/tick.h"
-#include "hqp/hierarchy.h"
-#include "math/so3.h"
-#include "robot/control/contacts.h"
-#include "robot/control/reference.h"
-#include "robot/control/task.h"
-#include "robot/control/tasks/contact.h"
-#include "robot/control/tasks/swing.h"
-#include "robot/control/tasks/task_fixture.h"
+#include "poise/dynamics/tick.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/math/so3.h"
+#include "poise/robot/control/contacts.h"
+#include "poise/robot/control/reference.h"
+#include "poise/robot/control/task.h"
+#include "poise/robot/control/tasks/contact.h"
+#include "poise/robot/control/tasks/swing.h"
+#include "poise/robot/control/tasks/task_fixture.h"
 
 namespace poise {
 namespace {

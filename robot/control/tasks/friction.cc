@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/tasks/friction.h"
+#include "poise/robot/control/tasks/friction.h"
 
 #include <cmath>
 
-#include "robot/control/tasks/row_names.h"
-#include "robot/control/tasks/scale.h"
+#include "poise/robot/control/tasks/row_names.h"
+#include "poise/robot/control/tasks/scale.h"
 
 namespace poise {
 

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/tasks/joint_limits.h"
+#include "poise/robot/control/tasks/joint_limits.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "robot/control/tasks/row_names.h"
-#include "robot/limits.h"
+#include "poise/robot/control/tasks/row_names.h"
+#include "poise/robot/limits.h"
 
 namespace poise {
 

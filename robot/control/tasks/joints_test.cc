@@ -12,17 +12,17 @@
 #include <utility>
 #include <vector>
 
-#include "hqp/hierarchy.h"
-#include "robot/control/task.h"
-#include "robot/control/tasks/joint_limits.h"
-#include "robot/control/tasks/light_joints.h"
-#include "robot/control/tasks/mimic.h"
-#include "robot/control/tasks/posture.h"
-#include "robot/control/tasks/task_fixture.h"
-#include "robot/control/tasks/torque_limits.h"
-#include "robot/control/tasks/torque_minimization.h"
-#include "robot/control/torque.h"
-#include "robot/urdf/urdf.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/robot/control/task.h"
+#include "poise/robot/control/tasks/joint_limits.h"
+#include "poise/robot/control/tasks/light_joints.h"
+#include "poise/robot/control/tasks/mimic.h"
+#include "poise/robot/control/tasks/posture.h"
+#include "poise/robot/control/tasks/task_fixture.h"
+#include "poise/robot/control/tasks/torque_limits.h"
+#include "poise/robot/control/tasks/torque_minimization.h"
+#include "poise/robot/control/torque.h"
+#include "poise/robot/urdf/urdf.h"
 
 namespace poise {
 namespace {

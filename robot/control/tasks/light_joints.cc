@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/tasks/light_joints.h"
+#include "poise/robot/control/tasks/light_joints.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "robot/control/tasks/row_names.h"
+#include "poise/robot/control/tasks/row_names.h"
 
 namespace poise {
 namespace {

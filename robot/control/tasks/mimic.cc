@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/tasks/mimic.h"
+#include "poise/robot/control/tasks/mimic.h"
 
 #include <vector>
 
-#include "robot/control/tasks/row_names.h"
+#include "poise/robot/control/tasks/row_names.h"
 
 namespace poise {
 namespace {

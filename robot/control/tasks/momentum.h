@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "dynamics/tree.h"
-#include "robot/control/balance_monitor.h"
-#include "robot/control/com_gains.h"
-#include "robot/control/task.h"
-#include "robot/robot.h"
+#include "poise/dynamics/tree.h"
+#include "poise/robot/control/balance_monitor.h"
+#include "poise/robot/control/com_gains.h"
+#include "poise/robot/control/task.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

@@ -1,23 +1,23 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // What the rows on the robot as a whole mean, its momentum and center of mass:
 // against its own motion a moment later.
-#include "robot/control/tasks/momentum.h"
+#include "poise/robot/control/tasks/momentum.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <cmath>
 
-#include "dynamics/tick.h"
-#include "hqp/hierarchy.h"
-#include "math/so3.h"
-#include "robot/control/reference.h"
-#include "robot/control/task.h"
-#include "robot/control/tasks/angular_momentum.h"
-#include "robot/control/tasks/com.h"
-#include "robot/control/tasks/linear_momentum.h"
-#include "robot/control/tasks/newton_euler.h"
-#include "robot/control/tasks/task_fixture.h"
+#include "poise/dynamics/tick.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/math/so3.h"
+#include "poise/robot/control/reference.h"
+#include "poise/robot/control/task.h"
+#include "poise/robot/control/tasks/angular_momentum.h"
+#include "poise/robot/control/tasks/com.h"
+#include "poise/robot/control/tasks/linear_momentum.h"
+#include "poise/robot/control/tasks/newton_euler.h"
+#include "poise/robot/control/tasks/task_fixture.h"
 
 namespace poise {
 namespace {

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include "dynamics/tree.h"
-#include "robot/control/task.h"
-#include "robot/robot.h"
+#include "poise/dynamics/tree.h"
+#include "poise/robot/control/task.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

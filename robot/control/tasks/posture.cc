@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/tasks/posture.h"
+#include "poise/robot/control/tasks/posture.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "robot/control/balance_monitor.h"
-#include "robot/control/tasks/row_names.h"
+#include "poise/robot/control/balance_monitor.h"
+#include "poise/robot/control/tasks/row_names.h"
 
 namespace poise {
 namespace {

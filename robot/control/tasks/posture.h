@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include "dynamics/tree.h"
-#include "robot/control/task.h"
+#include "poise/dynamics/tree.h"
+#include "poise/robot/control/task.h"
 
 namespace poise {
 

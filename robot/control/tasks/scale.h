@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include "dynamics/tree.h"
+#include "poise/dynamics/tree.h"
 
 namespace poise {
 

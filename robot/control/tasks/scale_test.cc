@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/tasks/scale.h"
+#include "poise/robot/control/tasks/scale.h"
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "math/pose.h"
-#include "robot/control/contacts.h"
-#include "robot/robot.h"
+#include "poise/math/pose.h"
+#include "poise/robot/control/contacts.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

@@ -6,11 +6,11 @@
 #include <Eigen/Core>
 #include <random>
 
-#include "dynamics/integrate.h"
-#include "hqp/hierarchy.h"
-#include "robot/control/controller.h"
-#include "robot/control/task.h"
-#include "tests/util/load_humanoid.h"
+#include "poise/dynamics/integrate.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/control/task.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 

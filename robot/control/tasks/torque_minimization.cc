@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/tasks/torque_minimization.h"
+#include "poise/robot/control/tasks/torque_minimization.h"
 
 #include <cmath>
 
-#include "robot/control/tasks/row_names.h"
+#include "poise/robot/control/tasks/row_names.h"
 
 namespace poise {
 namespace {

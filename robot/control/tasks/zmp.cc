@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "robot/control/tasks/zmp.h"
+#include "poise/robot/control/tasks/zmp.h"
 
-#include "math/so3.h"
-#include "robot/control/tasks/row_names.h"
-#include "robot/control/tasks/scale.h"
+#include "poise/math/so3.h"
+#include "poise/robot/control/tasks/row_names.h"
+#include "poise/robot/control/tasks/scale.h"
 
 namespace poise {
 

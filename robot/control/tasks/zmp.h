@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "robot/control/task.h"
-#include "robot/robot.h"
+#include "poise/robot/control/task.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "robot/control/task.h"
-#include "robot/robot.h"
+#include "poise/robot/control/task.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

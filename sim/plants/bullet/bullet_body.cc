@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/plants/bullet/bullet_body.h"
+#include "poise/sim/plants/bullet/bullet_body.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <stdexcept>
 #include <string>
 
-#include "robot/finding.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "dynamics/tree.h"
-#include "math/pose.h"
+#include "poise/dynamics/tree.h"
+#include "poise/math/pose.h"
 
 namespace poise {
 

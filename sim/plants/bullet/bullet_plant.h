@@ -4,12 +4,12 @@
 #include <memory>
 #include <vector>
 
-#include "robot/robot.h"
-#include "sim/plants/bullet/bullet_settings.h"
-#include "sim/plants/bullet/bullet_world.h"
-#include "sim/plants/joint_drag.h"
-#include "sim/plants/plant.h"
-#include "sim/plants/plant_settings.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/plants/bullet/bullet_settings.h"
+#include "poise/sim/plants/bullet/bullet_world.h"
+#include "poise/sim/plants/joint_drag.h"
+#include "poise/sim/plants/plant.h"
+#include "poise/sim/plants/plant_settings.h"
 
 namespace poise {
 

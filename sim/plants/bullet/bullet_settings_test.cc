@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/plants/bullet/bullet_settings.h"
+#include "poise/sim/plants/bullet/bullet_settings.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <cmath>
 #include <random>
 
-#include "dynamics/tick.h"
-#include "sim/plants/bullet/bullet_plant.h"
-#include "tests/util/decompositions.h"
-#include "tests/util/random_tree.h"
-#include "tests/util/simple_robots.h"
+#include "poise/dynamics/tick.h"
+#include "poise/sim/plants/bullet/bullet_plant.h"
+#include "poise/tests/util/decompositions.h"
+#include "poise/tests/util/random_tree.h"
+#include "poise/tests/util/simple_robots.h"
 
 namespace poise {
 namespace {

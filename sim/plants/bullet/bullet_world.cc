@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/plants/bullet/bullet_world.h"
+#include "poise/sim/plants/bullet/bullet_world.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <variant>
 
-#include "sim/plants/bullet/contact_solver.h"
-#include "sim/plants/neighbors.h"
+#include "poise/sim/plants/bullet/contact_solver.h"
+#include "poise/sim/plants/neighbors.h"
 
 namespace poise {
 

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "robot/robot.h"
-#include "sim/plants/bullet/bullet_body.h"
-#include "sim/plants/bullet/bullet_settings.h"
-#include "sim/plants/plant_settings.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/plants/bullet/bullet_body.h"
+#include "poise/sim/plants/bullet/bullet_settings.h"
+#include "poise/sim/plants/plant_settings.h"
 
 namespace poise {
 

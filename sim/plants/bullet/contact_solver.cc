@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/plants/bullet/contact_solver.h"
+#include "poise/sim/plants/bullet/contact_solver.h"
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 

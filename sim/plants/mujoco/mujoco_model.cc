@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/plants/mujoco/mujoco_model.h"
+#include "poise/sim/plants/mujoco/mujoco_model.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <sstream>
 #include <variant>
 
-#include "math/quaternion.h"
-#include "sim/plants/neighbors.h"
+#include "poise/math/quaternion.h"
+#include "poise/sim/plants/neighbors.h"
 
 namespace poise {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "robot/robot.h"
-#include "sim/plants/plant_settings.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/plants/plant_settings.h"
 
 namespace poise {
 

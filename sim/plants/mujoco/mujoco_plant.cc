@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/plants/mujoco/mujoco_plant.h"
+#include "poise/sim/plants/mujoco/mujoco_plant.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "math/quaternion.h"
-#include "robot/finding.h"
-#include "sim/plants/mujoco/mujoco_model.h"
+#include "poise/math/quaternion.h"
+#include "poise/robot/finding.h"
+#include "poise/sim/plants/mujoco/mujoco_model.h"
 
 namespace poise {
 

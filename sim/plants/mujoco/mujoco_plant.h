@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "robot/robot.h"
-#include "sim/plants/plant.h"
-#include "sim/plants/plant_settings.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/plants/plant.h"
+#include "poise/sim/plants/plant_settings.h"
 
 namespace poise {
 

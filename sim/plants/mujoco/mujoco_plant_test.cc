@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "sim/plants/mujoco/mujoco_plant.h"
+#include "poise/sim/plants/mujoco/mujoco_plant.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "tests/util/simple_robots.h"
+#include "poise/tests/util/simple_robots.h"
 
 namespace poise {
 namespace {

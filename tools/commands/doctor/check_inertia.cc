@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/doctor/check_inertia.h"
+#include "poise/tools/commands/doctor/check_inertia.h"
 
 #include <Eigen/Eigenvalues>
 #include <string>
 
-#include "dynamics/tick.h"
-#include "robot/limits.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/limits.h"
 
 namespace poise {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "robot/finding.h"
-#include "robot/robot.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/doctor/check_inertia.h"
+#include "poise/tools/commands/doctor/check_inertia.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "robot/urdf/urdf.h"
+#include "poise/robot/urdf/urdf.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/doctor/diagnosis.h"
+#include "poise/tools/commands/doctor/diagnosis.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -8,15 +8,15 @@
 #include <limits>
 #include <stdexcept>
 
-#include "dynamics/tick.h"
-#include "robot/control/default_stack.h"
-#include "robot/control/stack.h"
-#include "robot/control/stand.h"
-#include "robot/control/task_set.h"
-#include "robot/urdf/urdf.h"
-#include "tools/commands/doctor/check_inertia.h"
-#include "tools/commands/doctor/parity.h"
-#include "tools/commands/doctor/strength.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/control/default_stack.h"
+#include "poise/robot/control/stack.h"
+#include "poise/robot/control/stand.h"
+#include "poise/robot/control/task_set.h"
+#include "poise/robot/urdf/urdf.h"
+#include "poise/tools/commands/doctor/check_inertia.h"
+#include "poise/tools/commands/doctor/parity.h"
+#include "poise/tools/commands/doctor/strength.h"
 
 namespace poise {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "robot/finding.h"
-#include "robot/profile/profile.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/profile/profile.h"
 
 namespace poise {
 

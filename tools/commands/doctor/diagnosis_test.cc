@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/doctor/diagnosis.h"
+#include "poise/tools/commands/doctor/diagnosis.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <sstream>
 #include <string>
 
-#include "tests/util/shared_data.h"
-#include "tests/util/test_file.h"
-#include "tools/commands/doctor/write_diagnosis.h"
+#include "poise/tests/util/shared_data.h"
+#include "poise/tests/util/test_file.h"
+#include "poise/tools/commands/doctor/write_diagnosis.h"
 
 namespace poise {
 namespace {

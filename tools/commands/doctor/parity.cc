@@ -1,15 +1,15 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/doctor/parity.h"
+#include "poise/tools/commands/doctor/parity.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "dynamics/tick.h"
-#include "robot/limits.h"
-#include "sim/plants/bullet/bullet_plant.h"
-#include "sim/plants/plant_settings.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/limits.h"
+#include "poise/sim/plants/bullet/bullet_plant.h"
+#include "poise/sim/plants/plant_settings.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/doctor/parity.h"
+#include "poise/tools/commands/doctor/parity.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "robot/urdf/urdf.h"
+#include "poise/robot/urdf/urdf.h"
 
 namespace poise {
 namespace {

@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/doctor/strength.h"
+#include "poise/tools/commands/doctor/strength.h"
 
 #include <stdexcept>
 
-#include "robot/control/command.h"
-#include "robot/control/controller.h"
-#include "robot/control/measurement.h"
-#include "robot/control/stack.h"
-#include "robot/control/tick_report.h"
+#include "poise/robot/control/command.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/control/measurement.h"
+#include "poise/robot/control/stack.h"
+#include "poise/robot/control/tick_report.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/doctor/write_diagnosis.h"
+#include "poise/tools/commands/doctor/write_diagnosis.h"
 
 #include <iomanip>
 #include <nlohmann/json.hpp>

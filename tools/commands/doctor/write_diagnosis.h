@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tools/commands/doctor/diagnosis.h"
+#include "poise/tools/commands/doctor/diagnosis.h"
 
 namespace poise {
 

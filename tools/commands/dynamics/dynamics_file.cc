@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/dynamics/dynamics_file.h"
+#include "poise/tools/commands/dynamics/dynamics_file.h"
 
 #include <Eigen/Core>
 #include <cmath>
 #include <stdexcept>
 
-#include "dynamics/rnea.h"
-#include "dynamics/tick.h"
-#include "math/quaternion.h"
+#include "poise/dynamics/rnea.h"
+#include "poise/dynamics/tick.h"
+#include "poise/math/quaternion.h"
 
 namespace poise {
 namespace {

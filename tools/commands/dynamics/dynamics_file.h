@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/tree.h"
+#include "poise/dynamics/tree.h"
 
 namespace poise {
 

@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/dynamics/dynamics_file.h"
+#include "poise/tools/commands/dynamics/dynamics_file.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <stdexcept>
 
-#include "dynamics/kinematics.h"
-#include "dynamics/rnea.h"
-#include "tests/util/tolerance.h"
+#include "poise/dynamics/kinematics.h"
+#include "poise/dynamics/rnea.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

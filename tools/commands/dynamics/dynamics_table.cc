@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/dynamics/dynamics_table.h"
+#include "poise/tools/commands/dynamics/dynamics_table.h"
 
 #include <algorithm>
 #include <cstdio>

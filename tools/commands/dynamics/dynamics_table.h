@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "dynamics/tree.h"
+#include "poise/dynamics/tree.h"
 
 namespace poise {
 

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/dynamics/dynamics_table.h"
+#include "poise/tools/commands/dynamics/dynamics_table.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 #include <vector>
 
-#include "tools/commands/dynamics/dynamics_file.h"
+#include "poise/tools/commands/dynamics/dynamics_file.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/explain/explanation.h"
+#include "poise/tools/commands/explain/explanation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +9,14 @@
 #include <set>
 #include <string_view>
 
-#include "sim/log/open_log.h"
-#include "sim/log/run_summary.h"
-#include "tools/commands/explain/foot_story.h"
-#include "tools/commands/explain/loss_cause.h"
-#include "tools/commands/explain/momentum_cost.h"
-#include "tools/commands/explain/row_phrases.h"
-#include "tools/commands/explain/run_story.h"
-#include "tools/commands/explain/short_story.h"
+#include "poise/sim/log/open_log.h"
+#include "poise/sim/log/run_summary.h"
+#include "poise/tools/commands/explain/foot_story.h"
+#include "poise/tools/commands/explain/loss_cause.h"
+#include "poise/tools/commands/explain/momentum_cost.h"
+#include "poise/tools/commands/explain/row_phrases.h"
+#include "poise/tools/commands/explain/run_story.h"
+#include "poise/tools/commands/explain/short_story.h"
 
 namespace poise {
 namespace {

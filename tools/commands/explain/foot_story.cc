@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/explain/foot_story.h"
+#include "poise/tools/commands/explain/foot_story.h"
 
 #include <cstdio>
 #include <string_view>
 
-#include "sim/log/columns.h"
-#include "tools/commands/explain/row_phrases.h"
+#include "poise/sim/log/columns.h"
+#include "poise/tools/commands/explain/row_phrases.h"
 
 namespace poise {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/log/log_reader.h"
+#include "poise/sim/log/log_reader.h"
 
 namespace poise {
 

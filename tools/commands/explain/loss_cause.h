@@ -4,8 +4,8 @@
 #include <set>
 #include <string>
 
-#include "tools/commands/explain/row_phrases.h"
-#include "tools/commands/explain/run_story.h"
+#include "poise/tools/commands/explain/row_phrases.h"
+#include "poise/tools/commands/explain/run_story.h"
 
 namespace poise {
 

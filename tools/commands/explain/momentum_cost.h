@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/commands/explain/row_phrases.h"
+#include "poise/tools/commands/explain/row_phrases.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/explain/row_phrases.h"
+#include "poise/tools/commands/explain/row_phrases.h"
 
 #include <gtest/gtest.h>
 

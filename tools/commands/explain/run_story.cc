@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/explain/run_story.h"
+#include "poise/tools/commands/explain/run_story.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "robot/finding.h"
-#include "sim/log/columns.h"
-#include "sim/log/open_log.h"
+#include "poise/robot/finding.h"
+#include "poise/sim/log/columns.h"
+#include "poise/sim/log/open_log.h"
 
 namespace poise {
 namespace {

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "sim/log/log_reader.h"
-#include "tools/commands/explain/foot_story.h"
-#include "tools/commands/explain/momentum_cost.h"
-#include "tools/commands/explain/row_phrases.h"
+#include "poise/sim/log/log_reader.h"
+#include "poise/tools/commands/explain/foot_story.h"
+#include "poise/tools/commands/explain/momentum_cost.h"
+#include "poise/tools/commands/explain/row_phrases.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/explain/short_story.h"
+#include "poise/tools/commands/explain/short_story.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <optional>
 #include <string_view>
 
-#include "tools/commands/explain/foot_story.h"
-#include "tools/commands/explain/momentum_cost.h"
-#include "tools/commands/explain/row_phrases.h"
+#include "poise/tools/commands/explain/foot_story.h"
+#include "poise/tools/commands/explain/momentum_cost.h"
+#include "poise/tools/commands/explain/row_phrases.h"
 
 namespace poise {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/commands/explain/run_story.h"
+#include "poise/tools/commands/explain/run_story.h"
 
 namespace poise {
 

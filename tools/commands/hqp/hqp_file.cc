@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/hqp/hqp_file.h"
+#include "poise/tools/commands/hqp/hqp_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "robot/finding.h"
-#include "tools/commands/parse_json.h"
+#include "poise/robot/finding.h"
+#include "poise/tools/commands/parse_json.h"
 
 namespace poise {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "hqp/certificate.h"
-#include "hqp/hierarchy.h"
-#include "hqp/solution.h"
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/solution.h"
 
 namespace poise {
 

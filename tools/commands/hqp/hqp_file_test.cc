@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/hqp/hqp_file.h"
+#include "poise/tools/commands/hqp/hqp_file.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "hqp/solver.h"
+#include "poise/hqp/solver.h"
 
 namespace poise {
 namespace {

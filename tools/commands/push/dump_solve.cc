@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/push/dump_solve.h"
+#include "poise/tools/commands/push/dump_solve.h"
 
 #include <cmath>
 #include <cstdio>
@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/closed_loop.h"
-#include "tools/commands/hqp/hqp_file.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/tools/commands/hqp/hqp_file.h"
 
 namespace poise {
 

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "robot/robot.h"
-#include "sim/scenario.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/scenario.h"
 
 namespace poise {
 

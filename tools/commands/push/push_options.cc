@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/push/push_options.h"
+#include "poise/tools/commands/push/push_options.h"
 
 #include <CLI/CLI.hpp>
 #include <charconv>
@@ -16,20 +16,20 @@
 #include <utility>
 #include <vector>
 
-#include "robot/control/default_stack.h"
-#include "robot/control/stand.h"
-#include "robot/control/task_set.h"
-#include "robot/finding.h"
-#include "robot/profile/profile.h"
-#include "robot/profile/save_profile.h"
-#include "robot/urdf/urdf.h"
-#include "sim/closed_loop.h"
-#include "sim/number_field.h"
-#include "sim/plants/make_plant.h"
-#include "tools/commands/command_line.h"
-#include "tools/commands/doctor/strength.h"
-#include "tools/commands/push/warnings.h"
-#include "tools/commands/user_path.h"
+#include "poise/robot/control/default_stack.h"
+#include "poise/robot/control/stand.h"
+#include "poise/robot/control/task_set.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/profile/profile.h"
+#include "poise/robot/profile/save_profile.h"
+#include "poise/robot/urdf/urdf.h"
+#include "poise/sim/closed_loop.h"
+#include "poise/sim/number_field.h"
+#include "poise/sim/plants/make_plant.h"
+#include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/doctor/strength.h"
+#include "poise/tools/commands/push/warnings.h"
+#include "poise/tools/commands/user_path.h"
 
 namespace poise {
 

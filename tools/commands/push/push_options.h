@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "robot/finding.h"
-#include "robot/robot.h"
-#include "sim/log/log_rows.h"
-#include "sim/scenario.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/log/log_rows.h"
+#include "poise/sim/scenario.h"
 
 namespace poise {
 

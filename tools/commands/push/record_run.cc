@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/push/record_run.h"
+#include "poise/tools/commands/push/record_run.h"
 
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
 
-#include "sim/log/summary.h"
-#include "tools/commands/report/robot_json.h"
+#include "poise/sim/log/summary.h"
+#include "poise/tools/commands/report/robot_json.h"
 
 namespace poise {
 

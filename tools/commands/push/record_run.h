@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <functional>
 
-#include "robot/robot.h"
-#include "sim/log/log_rows.h"
-#include "sim/run.h"
-#include "sim/scenario.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/log/log_rows.h"
+#include "poise/sim/run.h"
+#include "poise/sim/scenario.h"
 
 namespace poise {
 

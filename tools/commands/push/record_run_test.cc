@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/push/record_run.h"
+#include "poise/tools/commands/push/record_run.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tests/util/load_humanoid.h"
+#include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "robot/finding.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/push/warnings.h"
+#include "poise/tools/commands/push/warnings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/push_map/push_map_options.h"
+#include "poise/tools/commands/push_map/push_map_options.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,10 +9,10 @@
 #include <thread>
 #include <vector>
 
-#include "robot/finding.h"
-#include "tools/commands/command_line.h"
-#include "tools/commands/push/push_options.h"
-#include "tools/commands/user_path.h"
+#include "poise/robot/finding.h"
+#include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/push/push_options.h"
+#include "poise/tools/commands/user_path.h"
 
 namespace poise {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tools/commands/push_map/push_map_run.h"
+#include "poise/tools/commands/push_map/push_map_run.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/push_map/push_map_run.h"
+#include "poise/tools/commands/push_map/push_map_run.h"
 
 #include <atomic>
 #include <chrono>
@@ -10,13 +10,13 @@
 #include <stdexcept>
 #include <thread>
 
-#include "sim/push.h"
-#include "sim/run.h"
-#include "sim/yardstick.h"
-#include "tools/commands/push/record_run.h"
-#include "tools/commands/push_map/push_search.h"
-#include "tools/commands/report/report_page.h"
-#include "tools/viewer/pages.h"
+#include "poise/sim/push.h"
+#include "poise/sim/run.h"
+#include "poise/sim/yardstick.h"
+#include "poise/tools/commands/push/record_run.h"
+#include "poise/tools/commands/push_map/push_search.h"
+#include "poise/tools/commands/report/report_page.h"
+#include "poise/tools/viewer/pages.h"
 
 namespace poise {
 namespace {

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "robot/robot.h"
-#include "sim/scenario.h"
-#include "tools/commands/push_map/push_map_files.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/scenario.h"
+#include "poise/tools/commands/push_map/push_map_files.h"
 
 namespace poise {
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/report/channel.h"
+#include "poise/tools/commands/report/channel.h"
 
 #include <algorithm>
 #include <cmath>

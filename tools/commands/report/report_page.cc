@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/report/report_page.h"
+#include "poise/tools/commands/report/report_page.h"
 
 #include <fstream>
 #include <stdexcept>
 
-#include "sim/log/open_log.h"
-#include "sim/log/run_summary.h"
-#include "tools/commands/report/run_log.h"
-#include "tools/viewer/pages.h"
+#include "poise/sim/log/open_log.h"
+#include "poise/sim/log/run_summary.h"
+#include "poise/tools/commands/report/run_log.h"
+#include "poise/tools/viewer/pages.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/report/report_page.h"
+#include "poise/tools/commands/report/report_page.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tools/viewer/pages.h"
+#include "poise/tools/viewer/pages.h"
 
 namespace poise {
 namespace {

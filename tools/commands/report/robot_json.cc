@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/report/robot_json.h"
+#include "poise/tools/commands/report/robot_json.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
 
-#include "tools/commands/report/robot_shapes.h"
+#include "poise/tools/commands/report/robot_shapes.h"
 
 namespace poise {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "robot/robot.h"
+#include "poise/robot/robot.h"
 
 namespace poise {
 

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/report/robot_shapes.h"
+#include "poise/tools/commands/report/robot_shapes.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-#include "tests/util/tolerance.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/report/run_log.h"
+#include "poise/tools/commands/report/run_log.h"
 
 #include <algorithm>
 #include <charconv>
@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/log/columns.h"
-#include "sim/log/csv_reader.h"
-#include "sim/log/open_log.h"
-#include "tools/commands/report/thinning.h"
+#include "poise/sim/log/columns.h"
+#include "poise/sim/log/csv_reader.h"
+#include "poise/sim/log/open_log.h"
+#include "poise/tools/commands/report/thinning.h"
 
 namespace poise {
 namespace {

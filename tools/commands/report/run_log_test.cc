@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/report/run_log.h"
+#include "poise/tools/commands/report/run_log.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tools/commands/report/channel.h"
+#include "poise/tools/commands/report/channel.h"
 
 namespace poise {
 namespace {

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/report/thinning.h"
+#include "poise/tools/commands/report/thinning.h"
 
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "tools/commands/report/channel.h"
+#include "poise/tools/commands/report/channel.h"
 
 namespace poise {
 

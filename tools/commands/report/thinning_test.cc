@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "tools/commands/report/thinning.h"
+#include "poise/tools/commands/report/thinning.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "tools/commands/report/channel.h"
+#include "poise/tools/commands/report/channel.h"
 
 namespace poise {
 namespace {

@@ -10,8 +10,8 @@
 #include <sstream>
 #include <string>
 
-#include "sim/log/columns.h"
-#include "sim/log/log_reader.h"
+#include "poise/sim/log/columns.h"
+#include "poise/sim/log/log_reader.h"
 
 namespace poise {
 namespace {

@@ -124,7 +124,7 @@ class Workspace:
             included = set()
             for each in new:
                 text = (self.root / each).read_text()
-                included.update(re.findall(r'^#include "([^"]+)"', text, re.M))
+                included.update(re.findall(r'^#include "poise/([^"]+)"', text, re.M))
             new = {i for i in included - found if (self.root / i).is_file()}
             found |= new
         return found
@@ -186,7 +186,7 @@ class Workspace:
         return files + [
             file for file in self.library_files(layer)
             if file.endswith(".cc") and defines(file) and re.search(
-                rf'^#include "{re.escape(path)}"', self.source(file).text, re.M
+                rf'^#include "poise/{re.escape(path)}"', self.source(file).text, re.M
             )
         ]
 
