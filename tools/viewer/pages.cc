@@ -5,11 +5,11 @@ namespace poise {
 
 // Each file included is one raw string literal, see BUILD.
 const std::string_view kReportPage =
-#include "poise/tools/viewer/report.inc"
+#include "tools/viewer/report.inc"
     ;
 
 const std::string_view kMapPage =
-#include "poise/tools/viewer/map.inc"
+#include "tools/viewer/map.inc"
     ;
 
 }  // namespace poise
