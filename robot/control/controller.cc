@@ -208,9 +208,7 @@ void Controller::WriteTasks(const State& state) noexcept {
 bool Controller::Solve() noexcept {
   const Status solved = solver_.Solve(hierarchy_, &solution_);
   stack_.Report(solution_, &report_);
-  if (options_.certify) {
-    report_.certificate = solution_.certificate;
-  }
+  report_.certificate = solution_.certificate;
   report_.dynamics_residual =
       DynamicsResidual(tick_, contacts_, solution_.y, force_scale_);
   const bool is_possible = report_.dynamics_residual <= kDynamicsMet;

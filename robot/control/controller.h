@@ -34,7 +34,6 @@ struct ControllerOptions {
   bool inscribed = false;    ///< The friction pyramid; else circumscribed.
   bool feedforward = false;  ///< The reference's v_WG and a_WG are used.
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
-  bool certify = true;       ///< Each solution gets its certificate.
   int max_iterations = 500;  ///< Of the solver, a tick; then truncated.
   /// The same in seconds by now(), if that is given; what it cuts off depends on
   /// the machine, so no replay is exact.

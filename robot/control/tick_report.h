@@ -64,7 +64,7 @@ struct TickReport {
   std::vector<ActiveRow> active;  ///< Its capacity is the number of all rows.
   /// Rows that are violated, except those of the last level.
   std::vector<LostRow> lost;
-  Certificate certificate;  ///< Of the solution, if asked for.
+  Certificate certificate;  ///< The solution's own.
 
   /// Of a tick in which nothing was solved: no numbers of an earlier one.
   void ClearAnswer() noexcept {

@@ -111,9 +111,8 @@ std::vector<WeighingResult> CompareWeighings(const Robot& robot,
   ClosedLoop loop(robot, scenario);
   std::vector<Bystander> bystanders;
   for (const Weighing& weighing : Weighings()) {
-    ControllerOptions options;
-    options.certify = false;
-    Bystander one{std::make_unique<Controller>(robot, options), {}, {}, {}};
+    Bystander one{
+        std::make_unique<Controller>(robot, ControllerOptions()), {}, {}, {}};
     weighing.arrange(&one.controller->stack());
     one.command.tau.setZero(robot.model.tree.num_joints());
     bystanders.push_back(std::move(one));
