@@ -102,6 +102,132 @@ bool SolveBase(const Body& base, const MassMoments& M_locked,
   return true;
 }
 
+bool AreFinite(const Eigen::Ref<const Eigen::VectorXd>& q,
+               const Eigen::Ref<const Eigen::VectorXd>& v,
+               const Eigen::Ref<const Eigen::VectorXd>& tau,
+               const std::vector<SpatialForce>& F_Bo_W) {
+  bool is_finite = q.allFinite() && v.allFinite() && tau.allFinite();
+  for (const SpatialForce& F : F_Bo_W) {
+    is_finite = is_finite && F.vector().allFinite();
+  }
+  return is_finite;
+}
+
+// The bias acceleration c_b of body b, a motion with all joints held at their
+// rates, relative to its parent:
+//     c = [ v_j (w_P x turn); w_P x (w_P x p_PB + 2 v_j slide) ].
+inline Motion3 BiasAcceleration(const Recursion& r, double v_j, int b) {
+  const Vec3 w_WP = r.w_WP[b], p_PB_W = r.p_PB_W[b];
+  return {v_j * Cross(w_WP, r.turn_W[b]),
+          Cross(w_WP, Cross(w_WP, p_PB_W) + 2 * v_j * r.slide_W[b])};
+}
+
+// Step 1 makes the bodies one by one, as if no joint held them together: I_b is
+// the inertia, and p_b the force that a body needs with all joints held at their
+// rates, less the force F_b from outside:
+//     p_b = [ sum of x x (w x (w x x)) dm; sum of w x (w x x) dm ] - F_b.
+// r.M_W becomes that of the locked subtrees, by which step 2 judges D.
+void MakeBodies(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& v,
+                const std::vector<SpatialForce>& F_Bo_W, AbaScratch* scratch) {
+  Recursion& r = scratch->recursion;
+  SweepInertias(tree, &r);
+  SweepAccelerations(tree, v, r.zero, Eigen::Vector3d::Zero(), &r);
+  for (int b = 0; b < tree.num_bodies(); ++b) {
+    Force3 bias = Accelerate(
+        r.M_W[b], AccelerationGradient({0, 0, 0}, r.w_WB[b]), {0, 0, 0});
+    if (!F_Bo_W.empty()) bias = bias - ToForce3(F_Bo_W[b]);
+    scratch->bodies[b] = MakeBody(r.M_W[b], bias);
+  }
+  SumInertias(tree, &r);
+}
+
+// Step 2 eliminates the joints from the leaves to the base. With I_b and p_b the
+// articulated inertia and bias force of the subtree of body b, its joints free,
+//     U = I_b S,   D = S' U + armature,   u = tau_j - S' p_b,
+//     I_b - U U' / D                      and
+//     p_b + (I_b - U U' / D) c + U u / D
+// are added to I and p of the parent, about its origin. Returns false if a joint
+// has no inertia: D is rounding beside the D of the locked subtree.
+bool EliminateJoints(const Tree& tree,
+                     const Eigen::Ref<const Eigen::VectorXd>& v,
+                     const Eigen::Ref<const Eigen::VectorXd>& tau,
+                     AbaScratch* scratch) {
+  const JointMaps& joints = tree.joint_maps();
+  const int v0 = tree.v_start();
+  const Recursion& r = scratch->recursion;
+  std::vector<Body>& bodies = scratch->bodies;
+  for (int b = tree.num_bodies() - 1; b > 0; --b) {
+    const Motion3 S{r.turn_W[b], r.slide_W[b]};
+    Body& body = bodies[b];
+    const Force3 U = body * S;
+    const double D = Dot(S, U) + joints.armature[b];
+    const double locked =
+        Dot(S, Momentum(r.M_W[b], S.angular, S.linear)) + joints.armature[b];
+    if (!(D > kRounding * locked)) return false;
+    const double u = tau[v0 + b - 1] - Dot(S, body.bias);
+    scratch->U[b] = U;
+    scratch->D[b] = D;
+    scratch->u[b] = u;
+
+    body.J = body.J - Square(U.angular, D);
+    body.H = body.H - Outer(U.angular, U.linear, D);
+    body.M = body.M - Square(U.linear, D);
+    body.bias = body.bias + body * BiasAcceleration(r, v[v0 + b - 1], b) +
+                Force3{(u / D) * U.angular, (u / D) * U.linear};
+    AddShifted(body, r.p_PB_W[b], &bodies[joints.parent[b]]);
+  }
+  return true;
+}
+
+// Step 3 computes the acceleration of the base less gravity, in body 0 of the
+// recursion: everything falls, so a base that stands still has A_0 = [0; -g].
+//     A_0 = I_0^-1 ([n; f] of tau - p_0),   v̇_0 = A_0 + [0; g]   if it floats.
+// Returns false if I_0 is singular.
+bool ComputeBaseAcceleration(const Tree& tree,
+                             const Eigen::Ref<const Eigen::VectorXd>& tau,
+                             AbaScratch* scratch,
+                             Eigen::Ref<Eigen::VectorXd> vdot) {
+  Recursion& r = scratch->recursion;
+  const Vec3 g_W = ToVec3(tree.gravity_W());
+  Motion3 A_0{{0, 0, 0}, -1 * g_W};
+  if (tree.is_floating()) {
+    const Force3& bias = scratch->bodies[0].bias;
+    const Force3 push{ToVec3(tau.head<3>()) - bias.angular,
+                      ToVec3(tau.segment<3>(3)) - bias.linear};
+    Vector6d A;
+    if (!SolveBase(scratch->bodies[0], r.M_W[0], push, &A)) return false;
+    A_0 = {ToVec3(A.head<3>()), ToVec3(A.tail<3>())};
+    vdot.head<3>() = A.head<3>();
+    vdot.segment<3>(3) = A.tail<3>() + tree.gravity_W();
+  }
+  r.alpha_WB.Set(0, A_0.angular);
+  r.a_WB.Set(0, A_0.linear);
+  return true;
+}
+
+// Step 4 computes the accelerations of the joints from the base to the leaves,
+//     A = (A_P, shifted) + c,   v̇_j = (u - A' U) / D,   A_B = A + S v̇_j.
+void ComputeJointAccelerations(const Tree& tree,
+                               const Eigen::Ref<const Eigen::VectorXd>& v,
+                               AbaScratch* scratch,
+                               Eigen::Ref<Eigen::VectorXd> vdot) {
+  const JointMaps& joints = tree.joint_maps();
+  const int v0 = tree.v_start();
+  Recursion& r = scratch->recursion;
+  for (int b = 1; b < tree.num_bodies(); ++b) {
+    const int parent = joints.parent[b];
+    const Vec3 alpha_WP = r.alpha_WB[parent];
+    const Motion3 A =
+        Motion3{alpha_WP, r.a_WB[parent] + Cross(alpha_WP, r.p_PB_W[b])} +
+        BiasAcceleration(r, v[v0 + b - 1], b);
+    const double vdot_j =
+        (scratch->u[b] - Dot(A, scratch->U[b])) / scratch->D[b];
+    vdot[v0 + b - 1] = vdot_j;
+    r.alpha_WB.Set(b, A.angular + vdot_j * r.turn_W[b]);
+    r.a_WB.Set(b, A.linear + vdot_j * r.slide_W[b]);
+  }
+}
+
 }  // namespace
 
 AbaScratch::AbaScratch(const Tree& tree)
@@ -121,93 +247,22 @@ AbaStatus ComputeAba(const Tree& tree,
   assert(tau.size() == tree.nv() && vdot.size() == tree.nv());
   assert(F_Bo_W.empty() ||
          static_cast<int>(F_Bo_W.size()) == tree.num_bodies());
-  const JointMaps& joints = tree.joint_maps();
-  const int num_bodies = tree.num_bodies();
-  const int v0 = tree.v_start();
-  Recursion& r = scratch->recursion;
-  std::vector<Body>& bodies = scratch->bodies;
   const auto fail = [&vdot](AbaStatus status) {
     vdot.setConstant(std::numeric_limits<double>::quiet_NaN());
     return status;
   };
-  bool is_finite = q.allFinite() && v.allFinite() && tau.allFinite();
-  for (const SpatialForce& F : F_Bo_W) {
-    is_finite = is_finite && F.vector().allFinite();
-  }
-  if (!is_finite) return fail(AbaStatus::kNotFinite);
-
-  SweepPoses(tree, q, &r);
+  if (!AreFinite(q, v, tau, F_Bo_W)) return fail(AbaStatus::kNotFinite);
+  const Recursion& r = scratch->recursion;
+  SweepPoses(tree, q, &scratch->recursion);
   if (!std::isfinite(r.R_WB[0].x.x)) return fail(AbaStatus::kNotFinite);
-  SweepInertias(tree, &r);
-
-  // The motion with all joints held at their rates, and what it takes.
-  SweepAccelerations(tree, v, r.zero, Eigen::Vector3d::Zero(), &r);
-  for (int b = 0; b < num_bodies; ++b) {
-    Force3 bias = Accelerate(
-        r.M_W[b], AccelerationGradient({0, 0, 0}, r.w_WB[b]), {0, 0, 0});
-    if (!F_Bo_W.empty()) bias = bias - ToForce3(F_Bo_W[b]);
-    bodies[b] = MakeBody(r.M_W[b], bias);
+  MakeBodies(tree, v, F_Bo_W, scratch);
+  if (!EliminateJoints(tree, v, tau, scratch)) {
+    return fail(AbaStatus::kSingular);
   }
-  SumInertias(tree, &r);  // Of the locked subtrees, to judge D by.
-
-  // A_B = (A_P, shifted) + bias + S v̇; r.alpha_WB - r.alpha_WP is the bias's
-  // angular part, and the linear one is what turns with the parent.
-  const auto bias_of = [&r, &v, v0](int b) {
-    const Vec3 w_WP = r.w_WP[b], p_PB_W = r.p_PB_W[b];
-    const double v_j = v[v0 + b - 1];
-    return Motion3{v_j * Cross(w_WP, r.turn_W[b]),
-                   Cross(w_WP, Cross(w_WP, p_PB_W) + 2 * v_j * r.slide_W[b])};
-  };
-
-  for (int b = num_bodies - 1; b > 0; --b) {
-    const Motion3 S{r.turn_W[b], r.slide_W[b]};
-    Body& body = bodies[b];
-    const Force3 U = body * S;
-    const double D = Dot(S, U) + joints.armature[b];
-    const double locked =
-        Dot(S, Momentum(r.M_W[b], S.angular, S.linear)) + joints.armature[b];
-    if (!(D > kRounding * locked)) return fail(AbaStatus::kSingular);
-    const double u = tau[v0 + b - 1] - Dot(S, body.bias);
-    scratch->U[b] = U;
-    scratch->D[b] = D;
-    scratch->u[b] = u;
-
-    body.J = body.J - Square(U.angular, D);
-    body.H = body.H - Outer(U.angular, U.linear, D);
-    body.M = body.M - Square(U.linear, D);
-    body.bias = body.bias + body * bias_of(b) +
-                Force3{(u / D) * U.angular, (u / D) * U.linear};
-    AddShifted(body, r.p_PB_W[b], &bodies[joints.parent[b]]);
+  if (!ComputeBaseAcceleration(tree, tau, scratch, vdot)) {
+    return fail(AbaStatus::kSingular);
   }
-
-  // Everything falls: the base's acceleration here is that less gravity.
-  const Vec3 g_W = ToVec3(tree.gravity_W());
-  Motion3 A_0{{0, 0, 0}, -1 * g_W};
-  if (tree.is_floating()) {
-    const Force3& bias = bodies[0].bias;
-    const Force3 push{ToVec3(tau.head<3>()) - bias.angular,
-                      ToVec3(tau.segment<3>(3)) - bias.linear};
-    Vector6d A;
-    if (!SolveBase(bodies[0], r.M_W[0], push, &A))
-      return fail(AbaStatus::kSingular);
-    A_0 = {ToVec3(A.head<3>()), ToVec3(A.tail<3>())};
-    vdot.head<3>() = A.head<3>();
-    vdot.segment<3>(3) = A.tail<3>() + tree.gravity_W();
-  }
-  r.alpha_WB.Set(0, A_0.angular);
-  r.a_WB.Set(0, A_0.linear);
-  for (int b = 1; b < num_bodies; ++b) {
-    const int parent = joints.parent[b];
-    const Vec3 alpha_WP = r.alpha_WB[parent];
-    const Motion3 A =
-        Motion3{alpha_WP, r.a_WB[parent] + Cross(alpha_WP, r.p_PB_W[b])} +
-        bias_of(b);
-    const double vdot_j =
-        (scratch->u[b] - Dot(A, scratch->U[b])) / scratch->D[b];
-    vdot[v0 + b - 1] = vdot_j;
-    r.alpha_WB.Set(b, A.angular + vdot_j * r.turn_W[b]);
-    r.a_WB.Set(b, A.linear + vdot_j * r.slide_W[b]);
-  }
+  ComputeJointAccelerations(tree, v, scratch, vdot);
   if (!vdot.allFinite()) return fail(AbaStatus::kNotFinite);
   return AbaStatus::kOk;
 }

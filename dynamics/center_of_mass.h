@@ -26,6 +26,8 @@ struct CenterOfMass {
 };
 
 /// Computes it at (q, v), see Tree. A fixed base counts with its mass.
+/// The controller runs ComputeTick()'s step 3, ComputeCentroidalDynamics, instead;
+/// the test Tick.HasTheCenterOfMass holds the two equal.
 /// @param scratch  made for this tree.
 /// Costs O(n). Does not allocate, does not throw.
 void ComputeCenterOfMass(const Tree& tree,

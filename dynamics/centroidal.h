@@ -41,6 +41,9 @@ struct CentroidalMomentum {
 /// p_BoG_W to its q.
 /// Costs 12 (nv + 1) flops. Does not allocate, does not throw.
 ///
+/// The controller runs ComputeTick()'s step 3, ComputeCentroidalDynamics, instead;
+/// the test Tick.HasTheCentroidalMomentum holds the two equal.
+///
 /// Source: the paper, eqs. (15)-(19); Wensing and Orin, "Improved computation of
 /// the humanoid centroidal dynamics ...", IJHR 13(1), 2016.
 void ComputeCentroidalMomentum(const Eigen::Ref<const Eigen::MatrixXd>& M,

@@ -90,31 +90,15 @@ void SumMoments(const Tree& tree, const Recursion& r,
   }
 }
 
-}  // namespace
-
-RneaDerivatives::RneaDerivatives(const Tree& tree)
-    : dtau_dq(Eigen::MatrixXd::Zero(tree.nv(), tree.nv())),
-      dtau_dv(Eigen::MatrixXd::Zero(tree.nv(), tree.nv())),
-      dtau_dvdot(Eigen::MatrixXd::Zero(tree.nv(), tree.nv())),
-      recursion(tree),
-      S(tree.num_bodies()),
-      V(tree.num_bodies()),
-      A(tree.num_bodies()),
-      coriolis(tree.num_bodies()),
-      outside(tree.num_bodies()),
-      H(tree.num_bodies()),
-      S_coriolis(tree.num_bodies()),
-      S_outside(tree.num_bodies()) {}
-
-void ComputeRneaDerivatives(const Tree& tree,
-                            const Eigen::Ref<const Eigen::VectorXd>& q,
-                            const Eigen::Ref<const Eigen::VectorXd>& v,
-                            const Eigen::Ref<const Eigen::VectorXd>& vdot,
-                            const std::vector<SpatialForce>& F_Bo_W,
-                            RneaDerivatives* out) noexcept {
-  assert(F_Bo_W.empty() ||
-         static_cast<int>(F_Bo_W.size()) == tree.num_bodies());
-  const JointMaps& joints = tree.joint_maps();
+// Step 1 runs RNEA and sums, for the subtree of each body, M_W, F_W, H_W and the
+// moments `coriolis` and `outside`:
+//     F_b = sum of (I A - F from outside),   H_b = I_b S_b about O,
+//     S_coriolis_b' x = S_b' Turn(coriolis_b, x),   S_outside likewise.
+void SumSubtrees(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
+                 const Eigen::Ref<const Eigen::VectorXd>& v,
+                 const Eigen::Ref<const Eigen::VectorXd>& vdot,
+                 const std::vector<SpatialForce>& F_Bo_W,
+                 RneaDerivatives* out) {
   const int num_bodies = tree.num_bodies();
   const bool has_outside = !F_Bo_W.empty();
   Recursion& r = out->recursion;
@@ -141,67 +125,121 @@ void ComputeRneaDerivatives(const Tree& tree,
     out->S_coriolis.Set(b, PowerOfTurn(out->coriolis[b], S_Bo));
     if (has_outside) out->S_outside.Set(b, PowerOfTurn(out->outside[b], S_Bo));
   }
+}
 
-  // A variation of one entry of q or v carries a subtree along with S, changes
-  // its velocity by `rate` and its acceleration by `rate_2` beyond that:
-  //     dF_b = S x* F_b + I_b rate_2 + Turn(coriolis_b, angular part of rate)
-  //            + Turn(outside_b, angular part of S);
-  // the first counts for the joints below alone, and the last because what acts
-  // from outside keeps its direction: turned with the subtree in the first, it
-  // is turned back. Of `rate` the linear part is uniform, and no force hangs on
-  // that.
+// How one entry of q or v varies the motion of the subtree of a body: carried
+// along with S, or not; its velocity changes by `rate`, and its acceleration by
+// `rate_2` beyond that.
+struct Variation {
+  const Motion3& S;
+  const Motion3& rate;
+  const Motion3& rate_2;
+  bool is_carried;
+};
+
+// Step 2 fills column k of a derivative. A variation of the motion of `body` and
+// its subtree changes the force on the subtree of a body b by
+//     dF_b = S x* F_b + I_b rate_2 + Turn(coriolis_b, angular part of rate)
+//            + Turn(outside_b, angular part of S).
+// The last term is there because forces from outside keep their directions: the
+// first term turns them with the subtree, the last one turns them back. The
+// linear part of `rate` is uniform, and no force depends on a uniform velocity.
+//     dtau_b = S_b' dF_b                      for b = body and below it to O,
+//     dtau_b = rate_2' H_b + (angular part of rate)' S_coriolis_b
+//              + (angular part of S)' S_outside_b       for b beyond the body:
+// there the joint is carried along too, and so S x* F_b does not count.
+void FillColumn(const Tree& tree, const RneaDerivatives& out, bool has_outside,
+                int k, int body, const Variation& variation,
+                Eigen::MatrixXd* matrix) {
+  const auto& [S, rate, rate_2, is_carried] = variation;
+  const JointMaps& joints = tree.joint_maps();
+  const Recursion& r = out.recursion;
   const int row_0 = tree.v_start() - 1;
-  const auto set = [&](int k, int body, const Motion3& S, const Motion3& rate,
-                       const Motion3& rate_2, bool is_carried,
-                       Eigen::MatrixXd* matrix) {
-    double* column = matrix->col(k).data();
-    const int end = joints.end[body];
-    POISE_LANES
-    for (int b = body + 1; b < end; ++b) {
-      column[row_0 + b] =
-          Dot(rate_2, out->H[b]) + Dot(rate.angular, out->S_coriolis[b]);
-    }
-    const Vec3 p_OB = r.p_OB_W[body];
-    Force3 dF =
-        Shift(p_OB, Turn(out->coriolis[body], rate.angular)) +
-        Momentum(Shift(p_OB, r.M_W[body]), rate_2.angular, rate_2.linear);
-    if (is_carried) {
-      dF = dF + Cross(S, Shift(p_OB, r.F_W[body]));
-      if (has_outside) {
-        POISE_LANES
-        for (int b = body + 1; b < end; ++b) {
-          column[row_0 + b] += Dot(S.angular, out->S_outside[b]);
-        }
-        dF = dF + Shift(p_OB, Turn(out->outside[body], S.angular));
+  double* column = matrix->col(k).data();
+  const int end = joints.end[body];
+  POISE_LANES
+  for (int b = body + 1; b < end; ++b) {
+    column[row_0 + b] =
+        Dot(rate_2, out.H[b]) + Dot(rate.angular, out.S_coriolis[b]);
+  }
+  const Vec3 p_OB = r.p_OB_W[body];
+  Force3 dF = Shift(p_OB, Turn(out.coriolis[body], rate.angular)) +
+              Momentum(Shift(p_OB, r.M_W[body]), rate_2.angular, rate_2.linear);
+  if (is_carried) {
+    dF = dF + Cross(S, Shift(p_OB, r.F_W[body]));
+    if (has_outside) {
+      POISE_LANES
+      for (int b = body + 1; b < end; ++b) {
+        column[row_0 + b] += Dot(S.angular, out.S_outside[b]);
       }
+      dF = dF + Shift(p_OB, Turn(out.outside[body], S.angular));
     }
-    for (int b = body; b > 0; b = joints.parent[b]) {
-      column[row_0 + b] = Dot(out->S[b], dF);
-    }
-    if (tree.is_floating()) {
-      matrix->col(k).head<6>() << ToEigen(dF.angular), ToEigen(dF.linear);
-    }
-  };
+  }
+  for (int b = body; b > 0; b = joints.parent[b]) {
+    column[row_0 + b] = Dot(out.S[b], dF);
+  }
+  if (tree.is_floating()) {
+    matrix->col(k).head<6>() << ToEigen(dF.angular), ToEigen(dF.linear);
+  }
+}
+
+}  // namespace
+
+RneaDerivatives::RneaDerivatives(const Tree& tree)
+    : dtau_dq(Eigen::MatrixXd::Zero(tree.nv(), tree.nv())),
+      dtau_dv(Eigen::MatrixXd::Zero(tree.nv(), tree.nv())),
+      dtau_dvdot(Eigen::MatrixXd::Zero(tree.nv(), tree.nv())),
+      recursion(tree),
+      S(tree.num_bodies()),
+      V(tree.num_bodies()),
+      A(tree.num_bodies()),
+      coriolis(tree.num_bodies()),
+      outside(tree.num_bodies()),
+      H(tree.num_bodies()),
+      S_coriolis(tree.num_bodies()),
+      S_outside(tree.num_bodies()) {}
+
+void ComputeRneaDerivatives(const Tree& tree,
+                            const Eigen::Ref<const Eigen::VectorXd>& q,
+                            const Eigen::Ref<const Eigen::VectorXd>& v,
+                            const Eigen::Ref<const Eigen::VectorXd>& vdot,
+                            const std::vector<SpatialForce>& F_Bo_W,
+                            RneaDerivatives* out) noexcept {
+  assert(F_Bo_W.empty() ||
+         static_cast<int>(F_Bo_W.size()) == tree.num_bodies());
+  const JointMaps& joints = tree.joint_maps();
+  const bool has_outside = !F_Bo_W.empty();
+  SumSubtrees(tree, q, v, vdot, F_Bo_W, out);
+
+  // Step 3 varies each entry of q and v that the forces depend on. With S, V, A
+  // of the base, or S of a joint and V, A of its parent,
+  //     by q:   rate = V x S,   rate_2 = A x S + V x (V x S),   carried;
+  //     by v:   rate = S,       rate_2 = V x S of the base, 2 V x S of a joint.
   if (tree.is_floating()) {
     const Motion3 axes[] = {{{1, 0, 0}, {}}, {{0, 1, 0}, {}}, {{0, 0, 1}, {}}};
     for (int k = 0; k < 3; ++k) {
       const Motion3& S = axes[k];
       const Motion3 rate = Cross(out->V[0], S);
-      set(k, 0, S, rate, Cross(out->A[0], S) + Cross(out->V[0], rate), true,
-          &out->dtau_dq);
-      set(k, 0, {}, S, rate, false, &out->dtau_dv);
+      const Motion3 rate_2 = Cross(out->A[0], S) + Cross(out->V[0], rate);
+      FillColumn(tree, *out, has_outside, k, 0, {S, rate, rate_2, true},
+                 &out->dtau_dq);
+      FillColumn(tree, *out, has_outside, k, 0, {{}, S, rate, false},
+                 &out->dtau_dv);
     }
   }
-  for (int b = 1; b < num_bodies; ++b) {
+  const int row_0 = tree.v_start() - 1;
+  for (int b = 1; b < tree.num_bodies(); ++b) {
     const Motion3& S = out->S[b];
     const Motion3& V_P = out->V[joints.parent[b]];
     const Motion3 rate = Cross(V_P, S);
-    set(row_0 + b, b, S, rate,
-        Cross(out->A[joints.parent[b]], S) + Cross(V_P, rate), true,
-        &out->dtau_dq);
-    set(row_0 + b, b, {}, S, rate + rate, false, &out->dtau_dv);
+    const Motion3 rate_2 =
+        Cross(out->A[joints.parent[b]], S) + Cross(V_P, rate);
+    FillColumn(tree, *out, has_outside, row_0 + b, b, {S, rate, rate_2, true},
+               &out->dtau_dq);
+    FillColumn(tree, *out, has_outside, row_0 + b, b,
+               {{}, S, rate + rate, false}, &out->dtau_dv);
   }
-  FillMassMatrix(tree, r, out->dtau_dvdot);
+  FillMassMatrix(tree, out->recursion, out->dtau_dvdot);
 }
 
 }  // namespace poise

@@ -25,6 +25,9 @@ enum class Axes {
 /// p)], of a prismatic one [0; a], of the base [1 0; -[p_BF]x 1]; those of joints
 /// that do not carry the frame are zero.
 ///
+/// The controller runs ComputeTick()'s step 4, ComputeFrameTick, instead; the test
+/// Tick.HasTheMotionOfFrames holds the two equal.
+///
 /// @param X_WB   by body, from ComputePoses() or a Tick.
 /// @param frame  index into Tree::frames().
 /// @param J_WF   6 x nv. All of it is written.
@@ -39,6 +42,9 @@ void ComputeFrameJacobian(const Tree& tree, const std::vector<Pose>& X_WB,
 /// @param A_WF_W  its classical acceleration at v̇ = 0, from FrameAcceleration().
 /// @param V_WF_W  its velocity, from FrameVelocity().
 /// @param R_WF    its orientation, from FramePose().
+/// The controller runs ComputeTick()'s step 4 instead; the test
+/// Tick.HasTheMotionOfFrames holds its bias equal to FrameAcceleration(), which
+/// is the bias in world axes.
 /// Six plain numbers, to be added to J_WF v̇ as in (11) of the paper. Costs two
 /// rotations of a vector. Does not allocate, does not throw.
 Vector6d FrameBias(const SpatialAcceleration& A_WF_W,

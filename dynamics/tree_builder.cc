@@ -150,6 +150,88 @@ Index MakeIndex(const std::vector<Item>& items, const char* kind) {
   return index;
 }
 
+// Step 1 of Build() turns a locked joint into a fixed one, by the displacement
+// of the joint at its locked value: X_PF becomes X_PF X_FB(value).
+void LockJoint(const std::string& name, double value, const Index& joint_index,
+               std::vector<JointSpec>* joints) {
+  const std::string thing = Quote("joint", name);
+  JointSpec& joint = (*joints)[Find(joint_index, "lock", "joint", name)];
+  if (joint.type == JointType::kFixed) {
+    throw std::invalid_argument(thing + ": it is fixed, or locked twice");
+  }
+  joint.X_PF = joint.X_PF * Displacement(joint, value);
+  joint.type = JointType::kFixed;
+}
+
+// The links as a graph: indices of links and joints as the builder got them.
+struct Graph {
+  std::vector<std::vector<int>> joints_of;  // By link: joints to its children.
+  std::vector<int> joint_above;  // By link: joint to its parent, or -1.
+  std::vector<int> parent_of;    // By joint: its parent link.
+  std::vector<int> child_of;     // By joint: its child link.
+};
+
+// Step 2 of Build() connects the links, none of which may have two parents.
+Graph Connect(const Index& links, const std::vector<JointSpec>& joints) {
+  Graph graph;
+  graph.joints_of.resize(links.size());
+  graph.joint_above.assign(links.size(), -1);
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const std::string thing = Quote("joint", joints[j].name);
+    const int parent = Find(links, thing, "link", joints[j].parent);
+    const int child = Find(links, thing, "link", joints[j].child);
+    int& joint_above = graph.joint_above[child];
+    if (joint_above >= 0) {
+      throw std::invalid_argument(
+          Quote("link", joints[j].child) + " has two parents, by " +
+          Quote("joint", joints[joint_above].name) + " and " + thing);
+    }
+    joint_above = static_cast<int>(j);
+    graph.parent_of.push_back(parent);
+    graph.child_of.push_back(child);
+    graph.joints_of[parent].push_back(static_cast<int>(j));
+  }
+  return graph;
+}
+
+// Step 3 of Build() finds the root, the only link without a parent.
+template <typename Link>
+int FindRoot(const Graph& graph, const std::vector<Link>& links) {
+  int root = -1;
+  for (size_t i = 0; i < links.size(); ++i) {
+    if (graph.joint_above[i] >= 0) continue;
+    if (root >= 0) {
+      throw std::invalid_argument("two roots, " +
+                                  Quote("link", links[root].name) + " and " +
+                                  Quote("link", links[i].name));
+    }
+    root = static_cast<int>(i);
+  }
+  if (root < 0) {
+    throw std::invalid_argument(links.empty()
+                                    ? "there is no link"
+                                    : "no root: every link has a parent");
+  }
+  return root;
+}
+
+// The links in depth-first order from the root: parents before children, and
+// subtrees contiguous. Without recursion: files may be deeper than the stack.
+std::vector<int> DepthFirst(const Graph& graph, int root) {
+  std::vector<int> order;
+  std::vector<int> stack{root};
+  while (!stack.empty()) {
+    const int link = stack.back();
+    stack.pop_back();
+    order.push_back(link);
+    const std::vector<int>& below = graph.joints_of[link];
+    for (auto j = below.rbegin(); j != below.rend(); ++j) {
+      stack.push_back(graph.child_of[*j]);
+    }
+  }
+  return order;
+}
+
 }  // namespace
 
 TreeBuilder& TreeBuilder::AddLink(std::string name, const Inertia& M_L) {
@@ -186,68 +268,27 @@ TreeBuilder& TreeBuilder::SetGravity(const Eigen::Vector3d& gravity_W) {
 Tree TreeBuilder::Build(BaseType base) const {
   const Index links = MakeIndex(links_, "link");
   const Index joint_index = MakeIndex(joints_, "joint");
-
-  // Locked joints become fixed ones.
   std::vector<JointSpec> joints = joints_;
   for (const LockedJoint& lock : locks_) {
-    const std::string thing = Quote("joint", lock.name);
-    JointSpec& joint = joints[Find(joint_index, "lock", "joint", lock.name)];
-    if (joint.type == JointType::kFixed) {
-      throw std::invalid_argument(thing + ": it is fixed, or locked twice");
-    }
-    joint.X_PF = joint.X_PF * Displacement(joint, lock.value);
-    joint.type = JointType::kFixed;
+    LockJoint(lock.name, lock.value, joint_index, &joints);
   }
+  const Graph graph = Connect(links, joints);
+  const int root = FindRoot(graph, links_);
 
-  // Who hangs on whom.
-  std::vector<std::vector<int>> joints_of(links_.size());  // By parent link.
-  std::vector<int> joint_above(links_.size(), -1);
-  std::vector<int> child_of(joints.size());
-  for (size_t j = 0; j < joints.size(); ++j) {
-    const std::string thing = Quote("joint", joints[j].name);
-    const int parent = Find(links, thing, "link", joints[j].parent);
-    const int child = Find(links, thing, "link", joints[j].child);
-    if (joint_above[child] >= 0) {
-      throw std::invalid_argument(
-          Quote("link", joints[j].child) + " has two parents, by " +
-          Quote("joint", joints[joint_above[child]].name) + " and " + thing);
-    }
-    joint_above[child] = static_cast<int>(j);
-    child_of[j] = child;
-    joints_of[parent].push_back(static_cast<int>(j));
-  }
-  int root = -1;
-  for (size_t i = 0; i < links_.size(); ++i) {
-    if (joint_above[i] >= 0) continue;
-    if (root >= 0) {
-      throw std::invalid_argument("two roots, " +
-                                  Quote("link", links_[root].name) + " and " +
-                                  Quote("link", links_[i].name));
-    }
-    root = static_cast<int>(i);
-  }
-  if (root < 0) {
-    throw std::invalid_argument(links_.empty()
-                                    ? "there is no link"
-                                    : "no root: every link has a parent");
-  }
-
-  // Depth first, without recursion: files may be deeper than the stack.
+  // Step 4 makes bodies and frames. A moving joint starts a body; a fixed one
+  // adds its link L to the parent's body B:  X_BL = X_BP X_PF,  M_B += X_BL M_L.
   Tree tree;
   tree.base_ = base;
   tree.gravity_W_ = gravity_W_;
   std::vector<int> frame_of(links_.size(), -1);
-  std::vector<int> stack{root};
-  while (!stack.empty()) {
-    const int link = stack.back();
-    stack.pop_back();
+  for (const int link : DepthFirst(graph, root)) {
     Frame frame{links_[link].name, 0, {}};
-    const int above = joint_above[link];
+    const int above = graph.joint_above[link];
     if (above < 0) {
       tree.inertias_.push_back(links_[link].M);
     } else {
       const JointSpec& joint = joints[above];
-      const Frame& parent = tree.frames_[frame_of[links.at(joint.parent)]];
+      const Frame& parent = tree.frames_[frame_of[graph.parent_of[above]]];
       const Pose X_BF = parent.X_BF * joint.X_PF;
       if (joint.type == JointType::kFixed) {
         frame.body = parent.body;
@@ -264,12 +305,7 @@ Tree TreeBuilder::Build(BaseType base) const {
     frame_of[link] = static_cast<int>(tree.frames_.size());
     tree.frames_.push_back(std::move(frame));
     tree.total_mass_ += links_[link].M.mass;
-    const std::vector<int>& below = joints_of[link];
-    for (auto j = below.rbegin(); j != below.rend(); ++j) {
-      stack.push_back(child_of[*j]);
-    }
   }
-
   for (size_t i = 0; i < links_.size(); ++i) {
     if (frame_of[i] < 0) {
       throw std::invalid_argument(
@@ -277,6 +313,8 @@ Tree TreeBuilder::Build(BaseType base) const {
           Quote("link", links_[root].name) + ": it is in or below a cycle");
     }
   }
+
+  // Step 5 stores joints and inertias once more, as the recursions read them.
   tree.joint_maps_ = MakeJointMaps(tree.joints_);
   tree.mass_moments_ = MassMomentsArray(tree.num_bodies());
   for (int b = 0; b < tree.num_bodies(); ++b) {
