@@ -47,25 +47,9 @@ struct Balance {
   // What the joints did that no solution said, and what the last one said.
   Eigen::VectorXd unexpected, expected_v;
 
-  explicit Balance(const BipedCase& from)
-      : robot(MakeBiped(from)), controller(robot) {
-    const Tree& tree = robot.model.tree;
-    state = {0, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv())};
-    controller.Start(state);
-    command.tau.setZero(tree.num_joints());
-    unexpected.setZero(tree.nv());
-  }
+  explicit Balance(const BipedCase& from);
 
-  void Update() {
-    state.time += kDt;
-    if (expected_v.size() > 0) {
-      const double share = 1 - std::exp(-kDt / 0.02);
-      unexpected += share * ((state.v - expected_v) / kDt - unexpected);
-      unexpected = unexpected.cwiseMax(-100).cwiseMin(100);
-    }
-    controller.Update(state, &command);
-    expected_v = state.v + kDt * y().head(state.v.size());
-  }
+  void Update();
 
   const Eigen::VectorXd& y() const { return controller.report().y; }
   double weight() const { return 9.81 * robot.model.tree.total_mass(); }
@@ -75,112 +59,142 @@ struct Balance {
 
   // How far a row of this rank may be off, by another solver: the root of the
   // sum of squares that no y can be below. Zero where all can be met.
-  double Needed(int rank) const {
-    const Hierarchy& hierarchy = controller.hierarchy();
-    const std::vector<LevelCapacity> capacity = controller.stack().capacity();
-    const int n = static_cast<int>(y().size());
-    Solution solution(n, capacity);
-    if (Cascade(n, capacity).Solve(hierarchy, &solution) != Status::kOptimal) {
-      return 0;
-    }
-    double needed = 0;
-    for (int level = 0; level < hierarchy.num_levels(); ++level) {
-      if (controller.stack().priority_level(level) == rank) {
-        needed = std::sqrt(2 * solution.levels[level].cost);
-      }
-    }
-    return needed;
-  }
+  double Needed(int rank) const;
 
   bool CanMeetLimitsAndCones() const {
     return Needed(2) < kTolerance && Needed(3) < kTolerance;
   }
 
   // What is broken, or nothing: of v̇, λ and τ, not of what the report says.
-  std::string Broken() const {
-    if (!command.tau.allFinite()) return "a torque is not finite";
-    if (command.status != controller.report().status) return "status";
-    if (command.status == TickStatus::kFailSafe) return "it failed safe";
-    // A hierarchy cut off says nothing of the ranks below.
-    const int failed_level = controller.report().failed_level;
-    std::string broken = BrokenByDynamics();
-    if (broken.empty() && (failed_level == 0 || failed_level > 2)) {
-      broken = BrokenByJoints(kTolerance + Needed(2));
-    }
-    if (broken.empty() && (failed_level == 0 || failed_level > 3)) {
-      const double allowed = (kTolerance + Needed(3)) * weight() / 4;
-      for (int i = 0; i < 2 && broken.empty(); ++i) {
-        broken = BrokenBy(wrench(i), robot.feet[i], allowed);
-      }
-    }
-    return broken;
-  }
+  std::string Broken() const;
 
   // (10).
-  Eigen::VectorXd Torque() const {
-    const Tick& tick = controller.tick();
-    const int n = robot.model.tree.num_joints();
-    Eigen::VectorXd tau = (tick.M * y().head(state.v.size()) + tick.N).tail(n);
-    for (int i = 0; i < 2; ++i) {
-      tau -=
-          controller.contacts()[i].J_WC_C.transpose().bottomRows(n) * wrench(i);
-    }
-    return tau;
-  }
+  Eigen::VectorXd Torque() const;
 
   // Torques and accelerations of the joints beyond what limits allow, in units
   // of the limit, and of ω² rad.
-  std::string BrokenByJoints(double allowed) const {
-    const Tree& tree = robot.model.tree;
-    const double w = 40, margin = 0.008;
-    const Eigen::VectorXd tau = Torque();
-    for (int j = 0; j < tree.num_joints(); ++j) {
-      const JointLimits& limits = robot.model.limits[j];
-      const std::string& name = tree.joints()[j].name;
-      if (std::abs(command.tau[j]) > limits.effort) return "torque of " + name;
-      if (std::abs(tau[j]) > limits.effort * (1 + allowed)) {
-        return "torque of " + name + " before it is cut off";
-      }
-      // As if the joint came to rest at the limit with two poles at -ω.
-      const double q = state.q[tree.q_start() + j];
-      const double v = state.v[tree.v_start() + j];
-      const double a = y()[tree.v_start() + j] + unexpected[tree.v_start() + j];
-      const double lower =
-          std::max(w * w * (limits.lower + margin - q) - 2 * w * v,
-                   -w * (limits.velocity + v));
-      const double upper =
-          std::min(w * w * (limits.upper - margin - q) - 2 * w * v,
-                   w * (limits.velocity - v));
-      if (lower > upper) continue;  // Too fast for both.
-      if (a < lower - w * w * allowed) return "lower limit of " + name;
-      if (a > upper + w * w * allowed) return "upper limit of " + name;
-    }
-    return "";
-  }
+  std::string BrokenByJoints(double allowed) const;
 
   // M v̇ + N = S' tau + J' lambda: of the base by rank 1, of the joints by the
   // torques, but where they are cut off.
-  std::string BrokenByDynamics() const {
-    const Tick& tick = controller.tick();
-    const int nv = static_cast<int>(state.v.size());
-    Eigen::VectorXd residual = tick.M * y().head(nv) + tick.N;
-    for (int i = 0; i < 2; ++i) {
-      residual -= controller.contacts()[i].J_WC_C.transpose() * wrench(i);
-    }
-    // The solver's bar, relative to what is added up.
-    const double scale = weight() + (tick.M * y().head(nv)).norm();
-    if (residual.head<6>().norm() > 1e-9 * scale) return "Newton-Euler";
-    const Eigen::VectorXd tau = Torque();
-    for (int j = 0; j < tau.size(); ++j) {
-      const double effort = robot.model.limits[j].effort;
-      if (std::abs(command.tau[j] - std::clamp(tau[j], -effort, effort)) >
-          Rounding(scale, nv + 12)) {
-        return "torques by (10)";
-      }
-    }
-    return "";
-  }
+  std::string BrokenByDynamics() const;
 };
+
+Balance::Balance(const BipedCase& from)
+    : robot(MakeBiped(from)), controller(robot) {
+  const Tree& tree = robot.model.tree;
+  state = {0, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv())};
+  controller.Start(state);
+  command.tau.setZero(tree.num_joints());
+  unexpected.setZero(tree.nv());
+}
+
+void Balance::Update() {
+  state.time += kDt;
+  if (expected_v.size() > 0) {
+    const double share = 1 - std::exp(-kDt / 0.02);
+    unexpected += share * ((state.v - expected_v) / kDt - unexpected);
+    unexpected = unexpected.cwiseMax(-100).cwiseMin(100);
+  }
+  controller.Update(state, &command);
+  expected_v = state.v + kDt * y().head(state.v.size());
+}
+
+double Balance::Needed(int rank) const {
+  const Hierarchy& hierarchy = controller.hierarchy();
+  const std::vector<LevelCapacity> capacity = controller.stack().capacity();
+  const int n = static_cast<int>(y().size());
+  Solution solution(n, capacity);
+  if (Cascade(n, capacity).Solve(hierarchy, &solution) != Status::kOptimal) {
+    return 0;
+  }
+  double needed = 0;
+  for (int level = 0; level < hierarchy.num_levels(); ++level) {
+    if (controller.stack().priority_level(level) == rank) {
+      needed = std::sqrt(2 * solution.levels[level].cost);
+    }
+  }
+  return needed;
+}
+
+std::string Balance::Broken() const {
+  if (!command.tau.allFinite()) return "a torque is not finite";
+  if (command.status != controller.report().status) return "status";
+  if (command.status == TickStatus::kFailSafe) return "it failed safe";
+  // A hierarchy cut off says nothing of the ranks below.
+  const int failed_level = controller.report().failed_level;
+  std::string broken = BrokenByDynamics();
+  if (broken.empty() && (failed_level == 0 || failed_level > 2)) {
+    broken = BrokenByJoints(kTolerance + Needed(2));
+  }
+  if (broken.empty() && (failed_level == 0 || failed_level > 3)) {
+    const double allowed = (kTolerance + Needed(3)) * weight() / 4;
+    for (int i = 0; i < 2 && broken.empty(); ++i) {
+      broken = BrokenBy(wrench(i), robot.feet[i], allowed);
+    }
+  }
+  return broken;
+}
+
+Eigen::VectorXd Balance::Torque() const {
+  const Tick& tick = controller.tick();
+  const int n = robot.model.tree.num_joints();
+  Eigen::VectorXd tau = (tick.M * y().head(state.v.size()) + tick.N).tail(n);
+  for (int i = 0; i < 2; ++i) {
+    tau -=
+        controller.contacts()[i].J_WC_C.transpose().bottomRows(n) * wrench(i);
+  }
+  return tau;
+}
+
+std::string Balance::BrokenByJoints(double allowed) const {
+  const Tree& tree = robot.model.tree;
+  const double w = 40, margin = 0.008;
+  const Eigen::VectorXd tau = Torque();
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    const JointLimits& limits = robot.model.limits[j];
+    const std::string& name = tree.joints()[j].name;
+    if (std::abs(command.tau[j]) > limits.effort) return "torque of " + name;
+    if (std::abs(tau[j]) > limits.effort * (1 + allowed)) {
+      return "torque of " + name + " before it is cut off";
+    }
+    // As if the joint came to rest at the limit with two poles at -ω.
+    const double q = state.q[tree.q_start() + j];
+    const double v = state.v[tree.v_start() + j];
+    const double a = y()[tree.v_start() + j] + unexpected[tree.v_start() + j];
+    const double lower =
+        std::max(w * w * (limits.lower + margin - q) - 2 * w * v,
+                 -w * (limits.velocity + v));
+    const double upper =
+        std::min(w * w * (limits.upper - margin - q) - 2 * w * v,
+                 w * (limits.velocity - v));
+    if (lower > upper) continue;  // Too fast for both.
+    if (a < lower - w * w * allowed) return "lower limit of " + name;
+    if (a > upper + w * w * allowed) return "upper limit of " + name;
+  }
+  return "";
+}
+
+std::string Balance::BrokenByDynamics() const {
+  const Tick& tick = controller.tick();
+  const int nv = static_cast<int>(state.v.size());
+  Eigen::VectorXd residual = tick.M * y().head(nv) + tick.N;
+  for (int i = 0; i < 2; ++i) {
+    residual -= controller.contacts()[i].J_WC_C.transpose() * wrench(i);
+  }
+  // The solver's bar, relative to what is added up.
+  const double scale = weight() + (tick.M * y().head(nv)).norm();
+  if (residual.head<6>().norm() > 1e-9 * scale) return "Newton-Euler";
+  const Eigen::VectorXd tau = Torque();
+  for (int j = 0; j < tau.size(); ++j) {
+    const double effort = robot.model.limits[j].effort;
+    if (std::abs(command.tau[j] - std::clamp(tau[j], -effort, effort)) >
+        Rounding(scale, nv + 12)) {
+      return "torques by (10)";
+    }
+  }
+  return "";
+}
 
 RC_GTEST_PROP(ControllerInvariants, StandingStillHoldsAnyBiped, ()) {
   Balance run(*Bipeds());

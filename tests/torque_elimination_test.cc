@@ -24,85 +24,22 @@ namespace {
 // nor the rows of torque limits.
 class UneliminatedProblem {
  public:
-  explicit UneliminatedProblem(const Controller& controller)
-      : controller_(controller),
-        tree_(controller.robot().model.tree),
-        nv_(tree_.nv()),
-        n_(tree_.num_joints()),
-        ny_(static_cast<int>(controller.report().y.size())),
-        capacity_(Stack::kMaxLevel, {nv_ + 200, n_ + 1000}),
-        hierarchy_(ny_ + n_, capacity_) {}
+  explicit UneliminatedProblem(const Controller& controller);
 
   int num_variables() const { return ny_ + n_; }
 
-  Solution Solve(const State& state) {
-    hierarchy_.Clear(5);
-    AddDynamics();
-    AddTorqueLimits();
-    const Stack& stack = controller_.stack();
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(state.v.size());
-    const TaskInput input{state, controller_.tick(), controller_.contacts(),
-                          controller_.reference(), none};
-    for (int i = 0; i < stack.num_tasks(); ++i) {
-      const Task& task = stack.task(i);
-      if (!stack.settings(i).enabled || !task.HasRows(input)) continue;
-      if (task.name() == "newton_euler" || task.name() == "torque_limits") {
-        continue;
-      }
-      AddTask(task, stack.settings(i), input);
-    }
-    Solution solution(num_variables(), capacity_);
-    Cascade cascade(num_variables(), capacity_);
-    EXPECT_EQ(cascade.Solve(hierarchy_, &solution), Status::kOptimal);
-    return solution;
-  }
+  Solution Solve(const State& state);
 
  private:
   // M v̇ + N = S' tau + J' lambda.
-  void AddDynamics() {
-    const Tick& tick = controller_.tick();
-    EqualityBlock rows = hierarchy_.AddEqualities(0, nv_);
-    rows.B.leftCols(nv_) = tick.M;
-    for (int i = 0; i < static_cast<int>(controller_.contacts().size()); ++i) {
-      rows.B.middleCols<6>(nv_ + 6 * i) =
-          -controller_.contacts()[i].J_WC_C.transpose();
-    }
-    rows.B.bottomRightCorner(n_, n_).diagonal().setConstant(-1);
-    rows.b = tick.N;
-  }
+  void AddDynamics();
 
   // In rank 2, in the unit of the limit.
-  void AddTorqueLimits() {
-    InequalityBlock rows = hierarchy_.AddInequalities(1, n_);
-    for (int j = 0; j < n_; ++j) {
-      const double effort = controller_.robot().model.limits[j].effort;
-      rows.C(j, ny_ + j) = 1 / effort;
-      rows.lower[j] = -1;
-      rows.upper[j] = 1;
-    }
-  }
+  void AddTorqueLimits();
 
   // The rows of a task that does not know of tau.
   void AddTask(const Task& task, const TaskSettings& settings,
-               const TaskInput& input) {
-    const int level = settings.level - 1;
-    const int equalities = static_cast<int>(task.equality_names().size());
-    const int inequalities = static_cast<int>(task.inequality_names().size());
-    Hierarchy narrow(ny_, {{equalities, inequalities}});
-    narrow.Clear(1);
-    EqualityBlock from = narrow.AddEqualities(0, equalities);
-    InequalityBlock from_bounds = narrow.AddInequalities(0, inequalities);
-    task.Write(input, &from, &from_bounds);
-    EqualityBlock to = hierarchy_.AddEqualities(level, equalities);
-    to.B.leftCols(ny_) = from.B;
-    to.b = from.b;
-    to.weight = settings.weight * from.weight;
-    InequalityBlock bounds = hierarchy_.AddInequalities(level, inequalities);
-    const double scale = std::sqrt(settings.weight);
-    bounds.C.leftCols(ny_) = scale * from_bounds.C;
-    bounds.lower = scale * from_bounds.lower;
-    bounds.upper = scale * from_bounds.upper;
-  }
+               const TaskInput& input);
 
   const Controller& controller_;
   const Tree& tree_;
@@ -110,6 +47,81 @@ class UneliminatedProblem {
   std::vector<LevelCapacity> capacity_;
   Hierarchy hierarchy_;
 };
+
+UneliminatedProblem::UneliminatedProblem(const Controller& controller)
+    : controller_(controller),
+      tree_(controller.robot().model.tree),
+      nv_(tree_.nv()),
+      n_(tree_.num_joints()),
+      ny_(static_cast<int>(controller.report().y.size())),
+      capacity_(Stack::kMaxLevel, {nv_ + 200, n_ + 1000}),
+      hierarchy_(ny_ + n_, capacity_) {}
+
+Solution UneliminatedProblem::Solve(const State& state) {
+  hierarchy_.Clear(5);
+  AddDynamics();
+  AddTorqueLimits();
+  const Stack& stack = controller_.stack();
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(state.v.size());
+  const TaskInput input{state, controller_.tick(), controller_.contacts(),
+                        controller_.reference(), none};
+  for (int i = 0; i < stack.num_tasks(); ++i) {
+    const Task& task = stack.task(i);
+    if (!stack.settings(i).enabled || !task.HasRows(input)) continue;
+    if (task.name() == "newton_euler" || task.name() == "torque_limits") {
+      continue;
+    }
+    AddTask(task, stack.settings(i), input);
+  }
+  Solution solution(num_variables(), capacity_);
+  Cascade cascade(num_variables(), capacity_);
+  EXPECT_EQ(cascade.Solve(hierarchy_, &solution), Status::kOptimal);
+  return solution;
+}
+
+void UneliminatedProblem::AddDynamics() {
+  const Tick& tick = controller_.tick();
+  EqualityBlock rows = hierarchy_.AddEqualities(0, nv_);
+  rows.B.leftCols(nv_) = tick.M;
+  for (int i = 0; i < static_cast<int>(controller_.contacts().size()); ++i) {
+    rows.B.middleCols<6>(nv_ + 6 * i) =
+        -controller_.contacts()[i].J_WC_C.transpose();
+  }
+  rows.B.bottomRightCorner(n_, n_).diagonal().setConstant(-1);
+  rows.b = tick.N;
+}
+
+void UneliminatedProblem::AddTorqueLimits() {
+  InequalityBlock rows = hierarchy_.AddInequalities(1, n_);
+  for (int j = 0; j < n_; ++j) {
+    const double effort = controller_.robot().model.limits[j].effort;
+    rows.C(j, ny_ + j) = 1 / effort;
+    rows.lower[j] = -1;
+    rows.upper[j] = 1;
+  }
+}
+
+void UneliminatedProblem::AddTask(const Task& task,
+                                  const TaskSettings& settings,
+                                  const TaskInput& input) {
+  const int level = settings.level - 1;
+  const int equalities = static_cast<int>(task.equality_names().size());
+  const int inequalities = static_cast<int>(task.inequality_names().size());
+  Hierarchy narrow(ny_, {{equalities, inequalities}});
+  narrow.Clear(1);
+  EqualityBlock from = narrow.AddEqualities(0, equalities);
+  InequalityBlock from_bounds = narrow.AddInequalities(0, inequalities);
+  task.Write(input, &from, &from_bounds);
+  EqualityBlock to = hierarchy_.AddEqualities(level, equalities);
+  to.B.leftCols(ny_) = from.B;
+  to.b = from.b;
+  to.weight = settings.weight * from.weight;
+  InequalityBlock bounds = hierarchy_.AddInequalities(level, inequalities);
+  const double scale = std::sqrt(settings.weight);
+  bounds.C.leftCols(ny_) = scale * from_bounds.C;
+  bounds.lower = scale * from_bounds.lower;
+  bounds.upper = scale * from_bounds.upper;
+}
 
 class TorqueEliminationTest : public testing::Test {
  protected:

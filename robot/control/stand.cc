@@ -77,204 +77,42 @@ Vector3d Snap(const Vector3d& v) {
 class Standing {
  public:
   // Knees are bent by `bend`, positive where they go forward.
-  Standing(const Robot& robot, double bend)
-      : robot_(robot),
-        tree_(robot.model.tree),
-        tick_(tree_, FeetFrames(robot)),
-        zero_(VectorXd::Zero(tree_.nv())) {
-    q_ = robot.q_nominal;
-    q_.head<7>() << 0, 0, 0, 0, 0, 0, 1;
-    SetLimits();
-    // Upright is how the soles say it is, the joints at rest.
-    Evaluate();
-    const Vector3d up = Snap(feet_[0].X_WC.R.col(2) + feet_[1].X_WC.R.col(2));
-    Vector3d front = feet_[0].X_WC.R.col(0) + feet_[1].X_WC.R.col(0);
-    front = Snap((front - front.dot(up) * up).normalized());
-    R_WB_.row(0) = front;
-    R_WB_.row(1) = up.cross(front);
-    R_WB_.row(2) = up;
-    q_.segment<4>(3) = Eigen::Quaterniond(R_WB_).coeffs();
-    Evaluate();
-    distance_ = std::max(
-        (feet_[0].X_WC.p - feet_[1].X_WC.p).y(),
-        robot.feet[0].half_size.y() + robot.feet[1].half_size.y() + kFootGap);
-    for (const int i : {0, 1}) forward_ += 0.5 * Forward(i);
-    q_wanted_ = q_;
-    posture_weight_ = VectorXd::Ones(tree_.num_joints());
-    for (const Foot& foot : robot.feet) BendKnee(foot.body, bend);
-    q_ = q_wanted_;
-    Evaluate();
-    q_.head<3>() -= 0.5 * (feet_[0].X_WC.p + feet_[1].X_WC.p);
-    Evaluate();
-  }
+  Standing(const Robot& robot, double bend);
 
   // Goes on until nothing moves; what the configuration found lacks.
-  std::string Solve() {
-    const int n = tree_.num_joints();
-    const int nv = tree_.nv();
-    const std::vector<LevelCapacity> capacity = {
-        {static_cast<int>(robot_.model.mimics.size()) + n, nv},
-        {11, 0},
-        {2, 0},
-        {4, 0},
-        {n, 0}};
-    Hierarchy hierarchy(nv, capacity);
-    Solution solution(nv, capacity);
-    Solver solver(nv, capacity);
-    solver.max_iterations = kSolverIterations;
-    int i = 0;
-    for (double longest = kLongestStep; longest > kConverged; ++i) {
-      if (i >= kFullSteps) longest *= kShrink;
-      hierarchy.Clear(static_cast<int>(capacity.size()));
-      AddLimits(longest, &hierarchy);
-      AddFeet(&hierarchy);
-      AddBalance(&hierarchy);
-      AddPosture(&hierarchy);
-      const Status status = solver.Solve(hierarchy, &solution);
-      if (status != Status::kOptimal && status != Status::kIterationLimit) {
-        return "a step of the search cannot be solved";
-      }
-      Integrate(tree_, q_, solution.y, 1, q_);
-      Evaluate();
-      if (solution.y.lpNorm<Eigen::Infinity>() < kConverged) break;
-    }
-    return Lack();
-  }
+  std::string Solve();
 
   const VectorXd& q() const { return q_; }
 
  private:
-  void Evaluate() {
-    ComputeTick(tree_, q_, zero_, &tick_);
-    for (const int i : {0, 1}) feet_[i] = StateOf(robot_, tick_, i);
-  }
+  void Evaluate();
 
   // Where before the middle of a sole the center of mass is to be, m: there or,
   // where the ankle is too weak to hold it on that foot alone, nearer to the ankle.
-  double Forward(int i) const {
-    const Pose& X_WC = feet_[i].X_WC;
-    const auto ankle =
-        FindAnkle(tree_, robot_.feet[i].body, tick_.X_WB, X_WC.R.col(1));
-    if (!ankle) return 0;
-    const double effort = robot_.model.limits[*ankle].effort;
-    if (!(effort >= 0)) return 0;  // The file gives none.
-    const double weight = tree_.total_mass() * tree_.gravity_W().norm();
-    const double reach = kAnkleShare * effort / weight;
-    const double x = (X_WC.Inverse() * tick_.X_WB[*ankle + 1].p).x();
-    return std::clamp(0., x - reach, x + reach);
-  }
+  double Forward(int i) const;
 
   // Where the joints may go; those at rest outside come in.
-  void SetLimits() {
-    const int n = tree_.num_joints();
-    lower_.resize(n);
-    upper_.resize(n);
-    for (int j = 0; j < n; ++j) {
-      const JointLimits& limits = robot_.model.limits[j];
-      const double margin = std::min(
-          kLargestMargin, kMarginFraction * (limits.upper - limits.lower));
-      lower_[j] = limits.lower + margin;
-      upper_[j] = limits.upper - margin;
-      double& q = q_[tree_.q_start() + j];
-      q = std::max(lower_[j], std::min(q, upper_[j]));
-    }
-  }
+  void SetLimits();
 
   // Bends the knee above a foot, if it is straight.
-  void BendKnee(int body, double bend) {
-    const auto knee = FindKnee(tree_, body, tick_.X_WB, Vector3d::UnitY());
-    if (!knee) return;
-    const int j = knee->joint;
-    double& q = q_wanted_[tree_.q_start() + j];
-    if (std::abs(q) > 0.5 * kKneeBend) return;  // It is bent already.
-    q = std::max(lower_[j], std::min(knee->sign * bend, upper_[j]));
-    posture_weight_[j] = kKneeWeight;
-  }
+  void BendKnee(int body, double bend);
 
-  void AddLimits(double longest, Hierarchy* hierarchy) const {
-    const int nv = tree_.nv();
-    InequalityBlock steps = hierarchy->AddInequalities(0, nv);
-    steps.C.setIdentity();
-    steps.lower.setConstant(-longest);
-    steps.upper.setConstant(longest);
-    for (int j = 0; j < tree_.num_joints(); ++j) {
-      const double q = q_[tree_.q_start() + j];
-      const int row = tree_.v_start() + j;
-      steps.lower[row] = std::max(-longest, std::min(0., lower_[j] - q));
-      steps.upper[row] = std::min(longest, std::max(0., upper_[j] - q));
-      if (lower_[j] < upper_[j]) continue;
-      hierarchy->AddEqualities(0, 1).B(0, row) = 1;  // It cannot move.
-    }
-    for (const MimicCoupling& mimic : robot_.model.mimics) {
-      const auto q = [&](int j) { return q_[tree_.q_start() + j]; };
-      EqualityBlock coupling = hierarchy->AddEqualities(0, 1);
-      coupling.B(0, tree_.v_start() + mimic.joint) = 1;
-      coupling.B(0, tree_.v_start() + mimic.source) = -mimic.multiplier;
-      coupling.b[0] =
-          q(mimic.joint) - mimic.multiplier * q(mimic.source) - mimic.offset;
-    }
-  }
+  void AddLimits(double longest, Hierarchy* hierarchy) const;
 
   // Flat on the ground, facing +x, level with each other, one on each side.
-  void AddFeet(Hierarchy* hierarchy) const {
-    for (const FootState& foot : feet_) {
-      EqualityBlock rows = hierarchy->AddEqualities(1, 5);
-      rows.B.topRows<3>() = foot.J_WC_W.topRows<3>();
-      rows.b.head<3>() = LogSo3(foot.X_WC.R);
-      rows.B.row(3) = foot.J_WC_W.row(3);
-      rows.b[3] = foot.X_WC.p.x();
-      rows.B.row(4) = foot.J_WC_W.row(5);
-      rows.b[4] = foot.X_WC.p.z();
-    }
-    EqualityBlock middle = hierarchy->AddEqualities(1, 1);
-    middle.B.row(0) = feet_[0].J_WC_W.row(4) + feet_[1].J_WC_W.row(4);
-    middle.b[0] = feet_[0].X_WC.p.y() + feet_[1].X_WC.p.y();
-  }
+  void AddFeet(Hierarchy* hierarchy) const;
 
   // Of the center of mass, in the plane, m.
   Eigen::Vector2d OffBalance() const {
     return tick_.p_WG.head<2>() - Eigen::Vector2d(forward_, 0);
   }
 
-  void AddBalance(Hierarchy* hierarchy) const {
-    EqualityBlock com = hierarchy->AddEqualities(2, 2);
-    com.B = tick_.H_G.middleRows<2>(3) / tree_.total_mass();
-    com.b = OffBalance();
-    EqualityBlock lean = hierarchy->AddEqualities(3, 3);
-    lean.B.leftCols<3>().setIdentity();
-    lean.b = LogSo3(tick_.X_WB[0].R * R_WB_.transpose());
-    EqualityBlock apart = hierarchy->AddEqualities(3, 1);
-    apart.B.row(0) = feet_[0].J_WC_W.row(4) - feet_[1].J_WC_W.row(4);
-    apart.b[0] = feet_[0].X_WC.p.y() - feet_[1].X_WC.p.y() - distance_;
-  }
+  void AddBalance(Hierarchy* hierarchy) const;
 
-  void AddPosture(Hierarchy* hierarchy) const {
-    const int n = tree_.num_joints();
-    EqualityBlock posture = hierarchy->AddEqualities(4, n);
-    posture.B.rightCols(n).setIdentity();
-    posture.b = q_.tail(n) - q_wanted_.tail(n);
-    posture.weight = posture_weight_;
-  }
+  void AddPosture(Hierarchy* hierarchy) const;
 
   // In words; empty where it stands.
-  std::string Lack() const {
-    for (const int i : {0, 1}) {
-      const Pose& X_WC = feet_[i].X_WC;
-      const std::string stays = robot_.feet[i].name + " stays ";
-      const double tilt = LogSo3(X_WC.R).norm();
-      if (!(tilt <= kFlat)) {
-        return stays + "turned by " + PrintNumber(tilt) + " rad";
-      }
-      const double off = std::hypot(X_WC.p.x(), X_WC.p.z());
-      if (!(off <= kFlat)) {
-        return stays + PrintNumber(off) + " m off its place";
-      }
-    }
-    const double off = OffBalance().norm();
-    if (off <= kCentered) return "";
-    return "the center of mass stays " + PrintNumber(off) +
-           " m off its place over the soles";
-  }
+  std::string Lack() const;
 
   const Robot& robot_;
   const Tree& tree_;
@@ -288,6 +126,190 @@ class Standing {
   double distance_;
   double forward_ = 0;  // Of the center of mass before the middle, m.
 };
+
+Standing::Standing(const Robot& robot, double bend)
+    : robot_(robot),
+      tree_(robot.model.tree),
+      tick_(tree_, FeetFrames(robot)),
+      zero_(VectorXd::Zero(tree_.nv())) {
+  q_ = robot.q_nominal;
+  q_.head<7>() << 0, 0, 0, 0, 0, 0, 1;
+  SetLimits();
+  // Upright is how the soles say it is, the joints at rest.
+  Evaluate();
+  const Vector3d up = Snap(feet_[0].X_WC.R.col(2) + feet_[1].X_WC.R.col(2));
+  Vector3d front = feet_[0].X_WC.R.col(0) + feet_[1].X_WC.R.col(0);
+  front = Snap((front - front.dot(up) * up).normalized());
+  R_WB_.row(0) = front;
+  R_WB_.row(1) = up.cross(front);
+  R_WB_.row(2) = up;
+  q_.segment<4>(3) = Eigen::Quaterniond(R_WB_).coeffs();
+  Evaluate();
+  distance_ = std::max(
+      (feet_[0].X_WC.p - feet_[1].X_WC.p).y(),
+      robot.feet[0].half_size.y() + robot.feet[1].half_size.y() + kFootGap);
+  for (const int i : {0, 1}) forward_ += 0.5 * Forward(i);
+  q_wanted_ = q_;
+  posture_weight_ = VectorXd::Ones(tree_.num_joints());
+  for (const Foot& foot : robot.feet) BendKnee(foot.body, bend);
+  q_ = q_wanted_;
+  Evaluate();
+  q_.head<3>() -= 0.5 * (feet_[0].X_WC.p + feet_[1].X_WC.p);
+  Evaluate();
+}
+
+std::string Standing::Solve() {
+  const int n = tree_.num_joints();
+  const int nv = tree_.nv();
+  const std::vector<LevelCapacity> capacity = {
+      {static_cast<int>(robot_.model.mimics.size()) + n, nv},
+      {11, 0},
+      {2, 0},
+      {4, 0},
+      {n, 0}};
+  Hierarchy hierarchy(nv, capacity);
+  Solution solution(nv, capacity);
+  Solver solver(nv, capacity);
+  solver.max_iterations = kSolverIterations;
+  int i = 0;
+  for (double longest = kLongestStep; longest > kConverged; ++i) {
+    if (i >= kFullSteps) longest *= kShrink;
+    hierarchy.Clear(static_cast<int>(capacity.size()));
+    AddLimits(longest, &hierarchy);
+    AddFeet(&hierarchy);
+    AddBalance(&hierarchy);
+    AddPosture(&hierarchy);
+    const Status status = solver.Solve(hierarchy, &solution);
+    if (status != Status::kOptimal && status != Status::kIterationLimit) {
+      return "a step of the search cannot be solved";
+    }
+    Integrate(tree_, q_, solution.y, 1, q_);
+    Evaluate();
+    if (solution.y.lpNorm<Eigen::Infinity>() < kConverged) break;
+  }
+  return Lack();
+}
+
+void Standing::Evaluate() {
+  ComputeTick(tree_, q_, zero_, &tick_);
+  for (const int i : {0, 1}) feet_[i] = StateOf(robot_, tick_, i);
+}
+
+double Standing::Forward(int i) const {
+  const Pose& X_WC = feet_[i].X_WC;
+  const auto ankle =
+      FindAnkle(tree_, robot_.feet[i].body, tick_.X_WB, X_WC.R.col(1));
+  if (!ankle) return 0;
+  const double effort = robot_.model.limits[*ankle].effort;
+  if (!(effort >= 0)) return 0;  // The file gives none.
+  const double weight = tree_.total_mass() * tree_.gravity_W().norm();
+  const double reach = kAnkleShare * effort / weight;
+  const double x = (X_WC.Inverse() * tick_.X_WB[*ankle + 1].p).x();
+  return std::clamp(0., x - reach, x + reach);
+}
+
+void Standing::SetLimits() {
+  const int n = tree_.num_joints();
+  lower_.resize(n);
+  upper_.resize(n);
+  for (int j = 0; j < n; ++j) {
+    const JointLimits& limits = robot_.model.limits[j];
+    const double margin = std::min(
+        kLargestMargin, kMarginFraction * (limits.upper - limits.lower));
+    lower_[j] = limits.lower + margin;
+    upper_[j] = limits.upper - margin;
+    double& q = q_[tree_.q_start() + j];
+    q = std::max(lower_[j], std::min(q, upper_[j]));
+  }
+}
+
+void Standing::BendKnee(int body, double bend) {
+  const auto knee = FindKnee(tree_, body, tick_.X_WB, Vector3d::UnitY());
+  if (!knee) return;
+  const int j = knee->joint;
+  double& q = q_wanted_[tree_.q_start() + j];
+  if (std::abs(q) > 0.5 * kKneeBend) return;  // It is bent already.
+  q = std::max(lower_[j], std::min(knee->sign * bend, upper_[j]));
+  posture_weight_[j] = kKneeWeight;
+}
+
+void Standing::AddLimits(double longest, Hierarchy* hierarchy) const {
+  const int nv = tree_.nv();
+  InequalityBlock steps = hierarchy->AddInequalities(0, nv);
+  steps.C.setIdentity();
+  steps.lower.setConstant(-longest);
+  steps.upper.setConstant(longest);
+  for (int j = 0; j < tree_.num_joints(); ++j) {
+    const double q = q_[tree_.q_start() + j];
+    const int row = tree_.v_start() + j;
+    steps.lower[row] = std::max(-longest, std::min(0., lower_[j] - q));
+    steps.upper[row] = std::min(longest, std::max(0., upper_[j] - q));
+    if (lower_[j] < upper_[j]) continue;
+    hierarchy->AddEqualities(0, 1).B(0, row) = 1;  // It cannot move.
+  }
+  for (const MimicCoupling& mimic : robot_.model.mimics) {
+    const auto q = [&](int j) { return q_[tree_.q_start() + j]; };
+    EqualityBlock coupling = hierarchy->AddEqualities(0, 1);
+    coupling.B(0, tree_.v_start() + mimic.joint) = 1;
+    coupling.B(0, tree_.v_start() + mimic.source) = -mimic.multiplier;
+    coupling.b[0] =
+        q(mimic.joint) - mimic.multiplier * q(mimic.source) - mimic.offset;
+  }
+}
+
+void Standing::AddFeet(Hierarchy* hierarchy) const {
+  for (const FootState& foot : feet_) {
+    EqualityBlock rows = hierarchy->AddEqualities(1, 5);
+    rows.B.topRows<3>() = foot.J_WC_W.topRows<3>();
+    rows.b.head<3>() = LogSo3(foot.X_WC.R);
+    rows.B.row(3) = foot.J_WC_W.row(3);
+    rows.b[3] = foot.X_WC.p.x();
+    rows.B.row(4) = foot.J_WC_W.row(5);
+    rows.b[4] = foot.X_WC.p.z();
+  }
+  EqualityBlock middle = hierarchy->AddEqualities(1, 1);
+  middle.B.row(0) = feet_[0].J_WC_W.row(4) + feet_[1].J_WC_W.row(4);
+  middle.b[0] = feet_[0].X_WC.p.y() + feet_[1].X_WC.p.y();
+}
+
+void Standing::AddBalance(Hierarchy* hierarchy) const {
+  EqualityBlock com = hierarchy->AddEqualities(2, 2);
+  com.B = tick_.H_G.middleRows<2>(3) / tree_.total_mass();
+  com.b = OffBalance();
+  EqualityBlock lean = hierarchy->AddEqualities(3, 3);
+  lean.B.leftCols<3>().setIdentity();
+  lean.b = LogSo3(tick_.X_WB[0].R * R_WB_.transpose());
+  EqualityBlock apart = hierarchy->AddEqualities(3, 1);
+  apart.B.row(0) = feet_[0].J_WC_W.row(4) - feet_[1].J_WC_W.row(4);
+  apart.b[0] = feet_[0].X_WC.p.y() - feet_[1].X_WC.p.y() - distance_;
+}
+
+void Standing::AddPosture(Hierarchy* hierarchy) const {
+  const int n = tree_.num_joints();
+  EqualityBlock posture = hierarchy->AddEqualities(4, n);
+  posture.B.rightCols(n).setIdentity();
+  posture.b = q_.tail(n) - q_wanted_.tail(n);
+  posture.weight = posture_weight_;
+}
+
+std::string Standing::Lack() const {
+  for (const int i : {0, 1}) {
+    const Pose& X_WC = feet_[i].X_WC;
+    const std::string stays = robot_.feet[i].name + " stays ";
+    const double tilt = LogSo3(X_WC.R).norm();
+    if (!(tilt <= kFlat)) {
+      return stays + "turned by " + PrintNumber(tilt) + " rad";
+    }
+    const double off = std::hypot(X_WC.p.x(), X_WC.p.z());
+    if (!(off <= kFlat)) {
+      return stays + PrintNumber(off) + " m off its place";
+    }
+  }
+  const double off = OffBalance().norm();
+  if (off <= kCentered) return "";
+  return "the center of mass stays " + PrintNumber(off) +
+         " m off its place over the soles";
+}
 
 }  // namespace
 

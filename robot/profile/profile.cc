@@ -60,39 +60,14 @@ struct Reader {
   }
 
   void ExpectMap(const YAML::Node& node, const std::string& thing,
-                 const std::set<std::string>& keys) const {
-    if (!node.IsMap()) Refuse(node, thing, "a map");
-    for (const auto& item : node) {
-      if (keys.empty() || keys.count(item.first.Scalar()) != 0) continue;
-      std::string known;
-      for (const std::string& key : keys) known += " " + key;
-      Refuse(item.first, thing + ": unknown key " + Shown(item.first) +
-                             ", must be one of" + known);
-    }
-  }
+                 const std::set<std::string>& keys) const;
 
   // Reads roll, pitch and yaw, in rad.
   Eigen::Vector3d Angles(const YAML::Node& node,
-                         const std::string& thing) const {
-    const Eigen::Vector3d rpy = Numbers<3>(node, thing);
-    constexpr double kTurn = 6.3;
-    if (rpy.cwiseAbs().maxCoeff() > kTurn) {
-      Refuse(node, thing + " is more than a turn: in degrees?");
-    }
-    return rpy;
-  }
+                         const std::string& thing) const;
 
   std::map<std::string, JointValue> Joints(const YAML::Node& node,
-                                           const std::string& thing) const {
-    ExpectMap(node, thing, {});
-    std::map<std::string, JointValue> values;
-    for (const auto& item : node) {
-      const std::string& name = item.first.Scalar();
-      values[name] = {Number(item.second, thing + ": " + Quoted(name)),
-                      item.first.Mark().line + 1};
-    }
-    return values;
-  }
+                                           const std::string& thing) const;
 
   // Refuses a point more than 1 m away, because no sole is larger.
   void ExpectSmall(const Eigen::Vector2d& point, const YAML::Node& at,
@@ -104,68 +79,107 @@ struct Reader {
   // Returns the sole's axes in the link: z along the normal, x near the link's x
   // axis or, if that is along the normal, near its z axis.
   Eigen::Matrix3d FromNormal(const YAML::Node& node,
-                             const std::string& thing) const {
-    const Eigen::Vector3d normal = Numbers<3>(node, thing);
-    if (!(normal.norm() > 1e-6)) Refuse(node, thing + " must not be zero");
-    const Eigen::Vector3d z = normal.normalized();
-    constexpr double kAlong = 0.9;
-    const Eigen::Vector3d forward = std::abs(z.x()) < kAlong
-                                        ? Eigen::Vector3d::UnitX()
-                                        : Eigen::Vector3d::UnitZ();
-    Eigen::Matrix3d R;
-    R.col(2) = z;
-    R.col(1) = z.cross(forward).normalized();
-    R.col(0) = R.col(1).cross(z);
-    return R;
-  }
+                             const std::string& thing) const;
 
-  SoleProfile Sole(const std::string& name, const YAML::Node& node) const {
-    const std::string thing = "feet." + name;
-    ExpectMap(node, thing,
-              {"frame", "normal", "polygon", "rpy", "size", "xyz"});
-    SoleProfile sole{name, "", {}, {}, node.Mark().line + 1};
-    if (!node["frame"]) Refuse(node, thing + ": must have a frame, a link");
-    sole.frame = Text(node["frame"], thing + ".frame");
-    if (node["xyz"]) sole.X_FS.p = Numbers<3>(node["xyz"], thing + ".xyz");
-    if (node["rpy"]) {
-      sole.X_FS.R = MatrixFromRpy(Angles(node["rpy"], thing + ".rpy"));
-    }
-    if (const YAML::Node normal = node["normal"]) {
-      if (node["rpy"]) Refuse(node, thing + ": must have rpy or normal alone");
-      sole.X_FS.R = FromNormal(normal, thing + ".normal");
-    }
-    if (node["size"].IsDefined() == node["polygon"].IsDefined()) {
-      Refuse(node, thing + ": must have either size or polygon");
-    }
-    if (const YAML::Node size = node["size"]) {
-      const Eigen::Vector2d half = 0.5 * Numbers<2>(size, thing + ".size");
-      ExpectSmall(half, size, thing + ".size");
-      if (!(half.minCoeff() > 0)) {
-        Refuse(size, thing + ".size is [" + PrintNumber(2 * half.x()) + ", " +
-                         PrintNumber(2 * half.y()) + "], must be positive");
-      }
-      for (const double x : {-1, 1}) {
-        for (const double y : {-1, 1}) {
-          sole.sole_S.emplace_back(x * half.x(), y * half.y());
-        }
-      }
-    } else {
-      if (!node["polygon"].IsSequence()) {
-        Refuse(node["polygon"], thing + ".polygon", "a list of corners");
-      }
-      for (const YAML::Node& corner : node["polygon"]) {
-        sole.sole_S.push_back(Numbers<2>(corner, thing + ".polygon"));
-        ExpectSmall(sole.sole_S.back(), corner, thing + ".polygon");
-      }
-      if (!IsConvex(sole.sole_S)) {
-        Refuse(node["polygon"], thing +
-                                    ".polygon must be convex, its corners "
-                                    "in their order around it");
-      }
-    }
-    return sole;
-  }
+  SoleProfile Sole(const std::string& name, const YAML::Node& node) const;
 };
+
+void Reader::ExpectMap(const YAML::Node& node, const std::string& thing,
+                       const std::set<std::string>& keys) const {
+  if (!node.IsMap()) Refuse(node, thing, "a map");
+  for (const auto& item : node) {
+    if (keys.empty() || keys.count(item.first.Scalar()) != 0) continue;
+    std::string known;
+    for (const std::string& key : keys) known += " " + key;
+    Refuse(item.first, thing + ": unknown key " + Shown(item.first) +
+                           ", must be one of" + known);
+  }
+}
+
+Eigen::Vector3d Reader::Angles(const YAML::Node& node,
+                               const std::string& thing) const {
+  const Eigen::Vector3d rpy = Numbers<3>(node, thing);
+  constexpr double kTurn = 6.3;
+  if (rpy.cwiseAbs().maxCoeff() > kTurn) {
+    Refuse(node, thing + " is more than a turn: in degrees?");
+  }
+  return rpy;
+}
+
+std::map<std::string, JointValue> Reader::Joints(
+    const YAML::Node& node, const std::string& thing) const {
+  ExpectMap(node, thing, {});
+  std::map<std::string, JointValue> values;
+  for (const auto& item : node) {
+    const std::string& name = item.first.Scalar();
+    values[name] = {Number(item.second, thing + ": " + Quoted(name)),
+                    item.first.Mark().line + 1};
+  }
+  return values;
+}
+
+Eigen::Matrix3d Reader::FromNormal(const YAML::Node& node,
+                                   const std::string& thing) const {
+  const Eigen::Vector3d normal = Numbers<3>(node, thing);
+  if (!(normal.norm() > 1e-6)) Refuse(node, thing + " must not be zero");
+  const Eigen::Vector3d z = normal.normalized();
+  constexpr double kAlong = 0.9;
+  const Eigen::Vector3d forward = std::abs(z.x()) < kAlong
+                                      ? Eigen::Vector3d::UnitX()
+                                      : Eigen::Vector3d::UnitZ();
+  Eigen::Matrix3d R;
+  R.col(2) = z;
+  R.col(1) = z.cross(forward).normalized();
+  R.col(0) = R.col(1).cross(z);
+  return R;
+}
+
+SoleProfile Reader::Sole(const std::string& name,
+                         const YAML::Node& node) const {
+  const std::string thing = "feet." + name;
+  ExpectMap(node, thing, {"frame", "normal", "polygon", "rpy", "size", "xyz"});
+  SoleProfile sole{name, "", {}, {}, node.Mark().line + 1};
+  if (!node["frame"]) Refuse(node, thing + ": must have a frame, a link");
+  sole.frame = Text(node["frame"], thing + ".frame");
+  if (node["xyz"]) sole.X_FS.p = Numbers<3>(node["xyz"], thing + ".xyz");
+  if (node["rpy"]) {
+    sole.X_FS.R = MatrixFromRpy(Angles(node["rpy"], thing + ".rpy"));
+  }
+  if (const YAML::Node normal = node["normal"]) {
+    if (node["rpy"]) Refuse(node, thing + ": must have rpy or normal alone");
+    sole.X_FS.R = FromNormal(normal, thing + ".normal");
+  }
+  if (node["size"].IsDefined() == node["polygon"].IsDefined()) {
+    Refuse(node, thing + ": must have either size or polygon");
+  }
+  if (const YAML::Node size = node["size"]) {
+    const Eigen::Vector2d half = 0.5 * Numbers<2>(size, thing + ".size");
+    ExpectSmall(half, size, thing + ".size");
+    if (!(half.minCoeff() > 0)) {
+      Refuse(size, thing + ".size is [" + PrintNumber(2 * half.x()) + ", " +
+                       PrintNumber(2 * half.y()) + "], must be positive");
+    }
+    for (const double x : {-1, 1}) {
+      for (const double y : {-1, 1}) {
+        sole.sole_S.emplace_back(x * half.x(), y * half.y());
+      }
+    }
+  } else {
+    if (!node["polygon"].IsSequence()) {
+      Refuse(node["polygon"], thing + ".polygon", "a list of corners");
+    }
+    for (const YAML::Node& corner : node["polygon"]) {
+      sole.sole_S.push_back(Numbers<2>(corner, thing + ".polygon"));
+      ExpectSmall(sole.sole_S.back(), corner, thing + ".polygon");
+    }
+    if (!IsConvex(sole.sole_S)) {
+      Refuse(node["polygon"], thing +
+                                  ".polygon must be convex, its corners "
+                                  "in their order around it");
+    }
+  }
+  return sole;
+}
 
 void ReadPosture(const Reader& reader, const YAML::Node& node,
                  Profile* profile) {

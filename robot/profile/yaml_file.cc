@@ -28,25 +28,13 @@ class Checker : public YAML::EventHandler {
   int documents() const { return documents_; }
 
   // Called last, so that any other error is reported first.
-  void RefuseMissingValues() const {
-    if (!missing_) return;
-    Refuse(missing_->mark,
-           "key " + Quoted(missing_->name) + " has no value, must have one");
-  }
+  void RefuseMissingValues() const;
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents_ > 1) Refuse(mark, "has a second document, must have one");
   }
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
-    if (!missing_ && !open_.empty() && open_.back().is_map &&
-        !open_.back().key_is_next) {
-      // The key is kept, because the mark of a missing value is anywhere after its
-      // key. The refusal waits: a file that is cut off has a worse fault.
-      missing_ = open_.back().key;
-    }
-    AddNode(mark, nullptr);
-  }
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override;
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
     Refuse(mark, "has an alias (*), must be written out");
   }
@@ -56,17 +44,11 @@ class Checker : public YAML::EventHandler {
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& /*tag*/,
                        YAML::anchor_t /*anchor*/,
-                       YAML::EmitterStyle::value /*style*/) override {
-    AddNode(mark, nullptr);
-    open_.push_back({false, false, {}, {}});
-  }
+                       YAML::EmitterStyle::value /*style*/) override;
   void OnSequenceEnd() override { open_.pop_back(); }
   void OnMapStart(const YAML::Mark& mark, const std::string& /*tag*/,
                   YAML::anchor_t /*anchor*/,
-                  YAML::EmitterStyle::value /*style*/) override {
-    AddNode(mark, nullptr);
-    open_.push_back({true, true, {}, {}});
-  }
+                  YAML::EmitterStyle::value /*style*/) override;
   void OnMapEnd() override { open_.pop_back(); }
 
  private:
@@ -86,26 +68,59 @@ class Checker : public YAML::EventHandler {
     throw Refusal(source_, mark.line + 1, what);
   }
 
-  void AddNode(const YAML::Mark& mark, const std::string* scalar) {
-    if (open_.empty() || !open_.back().is_map) return;
-    Collection& map = open_.back();
-    if (map.key_is_next) {
-      if (scalar == nullptr || scalar->empty()) {
-        Refuse(mark, "has a key that is no word, must be one");
-      }
-      if (!map.keys.insert(*scalar).second) {
-        Refuse(mark, "key " + Quoted(*scalar) + " is there twice");
-      }
-      map.key = {*scalar, mark};
-    }
-    map.key_is_next = !map.key_is_next;
-  }
+  void AddNode(const YAML::Mark& mark, const std::string* scalar);
 
   const std::string& source_;
   std::optional<Key> missing_;  // The first key without a value.
   int documents_ = 0;
   std::vector<Collection> open_;
 };
+
+void Checker::RefuseMissingValues() const {
+  if (!missing_) return;
+  Refuse(missing_->mark,
+         "key " + Quoted(missing_->name) + " has no value, must have one");
+}
+
+void Checker::OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) {
+  if (!missing_ && !open_.empty() && open_.back().is_map &&
+      !open_.back().key_is_next) {
+    // The key is kept, because the mark of a missing value is anywhere after its
+    // key. The refusal waits: a file that is cut off has a worse fault.
+    missing_ = open_.back().key;
+  }
+  AddNode(mark, nullptr);
+}
+
+void Checker::OnSequenceStart(const YAML::Mark& mark,
+                              const std::string& /*tag*/,
+                              YAML::anchor_t /*anchor*/,
+                              YAML::EmitterStyle::value /*style*/) {
+  AddNode(mark, nullptr);
+  open_.push_back({false, false, {}, {}});
+}
+
+void Checker::OnMapStart(const YAML::Mark& mark, const std::string& /*tag*/,
+                         YAML::anchor_t /*anchor*/,
+                         YAML::EmitterStyle::value /*style*/) {
+  AddNode(mark, nullptr);
+  open_.push_back({true, true, {}, {}});
+}
+
+void Checker::AddNode(const YAML::Mark& mark, const std::string* scalar) {
+  if (open_.empty() || !open_.back().is_map) return;
+  Collection& map = open_.back();
+  if (map.key_is_next) {
+    if (scalar == nullptr || scalar->empty()) {
+      Refuse(mark, "has a key that is no word, must be one");
+    }
+    if (!map.keys.insert(*scalar).second) {
+      Refuse(mark, "key " + Quoted(*scalar) + " is there twice");
+    }
+    map.key = {*scalar, mark};
+  }
+  map.key_is_next = !map.key_is_next;
+}
 
 }  // namespace
 

@@ -181,21 +181,7 @@ class Pruner {
   explicit Pruner(std::vector<Finding>* findings) : critic_(findings) {}
 
   // Prunes an element, and returns whether it may stay.
-  bool Prune(const ElementRule& rule, XMLElement* element) {
-    PruneAttributes(rule, element);
-    bool complete = true;
-    for (const AttributeRule& attribute : rule.attributes) {
-      complete &= CheckAttribute(rule, attribute, element);
-    }
-    Parts parts;
-    tinyxml2::XMLNode* node = element->FirstChild();
-    for (tinyxml2::XMLNode* next = nullptr; node != nullptr; node = next) {
-      next = node->NextSibling();
-      if (!PruneNode(rule, *element, node, &parts)) element->DeleteChild(node);
-    }
-    complete &= CheckParts(rule, *element, parts);
-    return complete || rule.fault == Severity::kReject;
-  }
+  bool Prune(const ElementRule& rule, XMLElement* element);
 
  private:
   // The children of an element, by rule.
@@ -206,34 +192,7 @@ class Pruner {
 
   // Prunes a child, and returns whether it may stay.
   bool PruneNode(const ElementRule& rule, const XMLElement& element,
-                 tinyxml2::XMLNode* node, Parts* parts) {
-    XMLElement* child = node->ToElement();
-    if (child == nullptr) {
-      if (node->ToText() != nullptr) {
-        critic_.Warn(element,
-                     "holds the text " + Quoted(Collapse(node->Value())),
-                     "is ignored: URDF has attributes");
-      }
-      return false;
-    }
-    const ElementRule* child_rule = Find(rule, *child);
-    if (child_rule == nullptr || IsIdle(element, *child_rule)) return false;
-    if (!child_rule->repeated && parts->kept.count(child_rule) != 0) {
-      if (child_rule == &kParent || child_rule == &kChild) {
-        critic_.Reject(*child, "is there twice", "a joint connects two links");
-      } else {
-        critic_.Warn(*child, "is there twice", "the first one is read");
-      }
-      return false;
-    }
-    if (&rule == &kGeometry && !parts->kept.empty()) {
-      critic_.Warn(*child, "is a second shape", "the first one is read");
-      return false;
-    }
-    const bool keep = Prune(*child_rule, child);
-    (keep ? parts->kept : parts->spoilt).insert(child_rule);
-    return keep;
-  }
+                 tinyxml2::XMLNode* node, Parts* parts);
 
   // Returns whether a child has no effect. A fixed joint needs no axis and no
   // limits, and many files have bad ones.
@@ -248,75 +207,15 @@ class Pruner {
 
   // Returns whether all required children are there.
   bool CheckParts(const ElementRule& rule, const XMLElement& element,
-                  const Parts& parts) {
-    bool complete = true;
-    for (const ElementRule* wanted : rule.children) {
-      if (!wanted->required || parts.kept.count(wanted) != 0) continue;
-      complete = false;
-      if (parts.spoilt.count(wanted) != 0) continue;  // A finding says why.
-      critic_.Add(
-          rule.fault, element, std::string("has no <") + wanted->name + ">",
-          rule.fault == Severity::kReject ? "must have one" : "is left out");
-    }
-    if (&rule == &kGeometry && parts.kept.empty()) {
-      complete = false;
-      if (parts.spoilt.empty()) {
-        critic_.Warn(element, "has no shape that can be read",
-                     "must be box, sphere, cylinder or mesh");
-      }
-    }
-    return complete;
-  }
+                  const Parts& parts);
 
   // Returns the rule for a child, or null if Poise does not read the child.
-  const ElementRule* Find(const ElementRule& rule, const XMLElement& child) {
-    for (const ElementRule* candidate : rule.children) {
-      if (child.Name() == std::string_view(candidate->name)) return candidate;
-    }
-    const std::string_view name = child.Name();
-    if (IsXacro(child)) {
-      JudgeXacro(rule, child);
-    } else if (&rule == &kRobot && name == "loop_joint") {
-      critic_.Note(
-          child, "closes a loop",
-          "loops are not modeled: the robot moves as if it were cut there");
-    } else if (IsXacroWithoutPrefix(child)) {
-      critic_.Warn(child, "is xacro of old", "is ignored: expand it first");
-    } else if (kOfDynamics.count(name) != 0) {
-      critic_.Warn(child, "is no element of URDF here",
-                   "is ignored: is it in the wrong place?");
-    } else if (kOfOthers.count(name) == 0 && !Contains(name, ":")) {
-      for (const ElementRule* candidate : rule.children) {
-        if (!IsSlip(name, candidate->name)) continue;
-        critic_.Warn(
-            child, "is no element of URDF",
-            std::string("is ignored: must it be <") + candidate->name + ">?");
-        return nullptr;
-      }
-      critic_.Note(child, "is no element of URDF here", "is ignored");
-    }
-    return nullptr;
-  }
+  const ElementRule* Find(const ElementRule& rule, const XMLElement& child);
 
   // Adds a finding about an element that xacro should have replaced. A macro of
   // sensors, say, can be left out of a robot or a link. Inside a joint or an
   // inertial, each element is essential.
-  void JudgeXacro(const ElementRule& rule, const XMLElement& element) {
-    const bool is_inside_essential =
-        rule.fault == Severity::kReject && &rule != &kRobot && &rule != &kLink;
-    if (is_inside_essential || HasEssentialPart(element)) {
-      critic_.Reject(element, "is xacro",
-                     "expand it first: the robot would lose a link, a joint, "
-                     "a limit or mass");
-      return;
-    }
-    const char* file = element.Attribute("filename");
-    critic_.Warn(element,
-                 file != nullptr ? "is xacro of the file " + Quoted(file)
-                                 : std::string("is xacro"),
-                 "is ignored: the robot lacks all that it adds, expand it "
-                 "first to keep that");
-  }
+  void JudgeXacro(const ElementRule& rule, const XMLElement& element);
 
   void PruneAttributes(const ElementRule& rule, XMLElement* element) {
     const tinyxml2::XMLAttribute* attribute = element->FirstAttribute();
@@ -334,67 +233,186 @@ class Pruner {
 
   // Adds a finding about an attribute that Poise does not read.
   void JudgeAttribute(const ElementRule& rule, const XMLElement& element,
-                      const std::string& name) {
-    if (Contains(name, ":") || name == "xmlns") return;
-    const std::string what = "has " + Quoted(name);
-    if (&rule == &kOrigin && kRotations.count(name) != 0) {
-      critic_.Reject(element, what,
-                     "must have rpy: the rotation would be lost");
-      return;
-    }
-    for (const AttributeRule& wanted : rule.attributes) {
-      if (!IsSlip(name, wanted.name)) continue;
-      critic_.Warn(element, what,
-                   std::string("is ignored: must it be ") + wanted.name + "?");
-      return;
-    }
-    critic_.Note(element, what, "is ignored: URDF has no such attribute here");
-  }
+                      const std::string& name);
 
   bool CheckAttribute(const ElementRule& rule, const AttributeRule& attribute,
-                      XMLElement* element) {
-    const char* text = element->Attribute(attribute.name);
-    if (text == nullptr) {
-      if (!attribute.required) return true;
-      critic_.Add(
-          rule.fault, *element, std::string("has no ") + attribute.name,
-          rule.fault == Severity::kReject ? "must have one" : "is left out");
-      return false;
-    }
-    const auto refuse = [&](const std::string& why) {
-      critic_.Add(rule.fault, *element,
-                  std::string(attribute.name) + " is " + Quoted(text), why);
-      return false;
-    };
-    if (!IsUtf8(text)) return refuse("is not UTF-8");
-    if (attribute.numbers == 0) {
-      if (HasXacroExpression(text)) {
-        critic_.Warn(*element,
-                     std::string(attribute.name) + " is " + Quoted(text),
-                     "looks like xacro: expand it first?");
-      }
-      return true;
-    }
-    const auto numbers = ParseNumbers(text);
-    if (!numbers || static_cast<int>(numbers->size()) != attribute.numbers) {
-      return refuse(WantedNumbers(text, attribute.numbers));
-    }
-    for (const double number : *numbers) {
-      if (std::isnan(number)) return refuse("must be finite");
-      const bool is_size =
-          &rule == &kBox || &rule == &kSphere || &rule == &kCylinder;
-      if (is_size && number < 0) return refuse("must not be negative");
-      // A limit may be infinite, any other number may not.
-      if (&rule == &kLimit || std::abs(number) <= kLargest) continue;
-      return refuse("is out of range, must be at most 1e30");
-    }
-    // urdfdom splits at blanks only.
-    element->SetAttribute(attribute.name, Collapse(text).c_str());
-    return true;
-  }
+                      XMLElement* element);
 
   Critic critic_;
 };
+
+bool Pruner::Prune(const ElementRule& rule, XMLElement* element) {
+  PruneAttributes(rule, element);
+  bool complete = true;
+  for (const AttributeRule& attribute : rule.attributes) {
+    complete &= CheckAttribute(rule, attribute, element);
+  }
+  Parts parts;
+  tinyxml2::XMLNode* node = element->FirstChild();
+  for (tinyxml2::XMLNode* next = nullptr; node != nullptr; node = next) {
+    next = node->NextSibling();
+    if (!PruneNode(rule, *element, node, &parts)) element->DeleteChild(node);
+  }
+  complete &= CheckParts(rule, *element, parts);
+  return complete || rule.fault == Severity::kReject;
+}
+
+bool Pruner::PruneNode(const ElementRule& rule, const XMLElement& element,
+                       tinyxml2::XMLNode* node, Parts* parts) {
+  XMLElement* child = node->ToElement();
+  if (child == nullptr) {
+    if (node->ToText() != nullptr) {
+      critic_.Warn(element, "holds the text " + Quoted(Collapse(node->Value())),
+                   "is ignored: URDF has attributes");
+    }
+    return false;
+  }
+  const ElementRule* child_rule = Find(rule, *child);
+  if (child_rule == nullptr || IsIdle(element, *child_rule)) return false;
+  if (!child_rule->repeated && parts->kept.count(child_rule) != 0) {
+    if (child_rule == &kParent || child_rule == &kChild) {
+      critic_.Reject(*child, "is there twice", "a joint connects two links");
+    } else {
+      critic_.Warn(*child, "is there twice", "the first one is read");
+    }
+    return false;
+  }
+  if (&rule == &kGeometry && !parts->kept.empty()) {
+    critic_.Warn(*child, "is a second shape", "the first one is read");
+    return false;
+  }
+  const bool keep = Prune(*child_rule, child);
+  (keep ? parts->kept : parts->spoilt).insert(child_rule);
+  return keep;
+}
+
+bool Pruner::CheckParts(const ElementRule& rule, const XMLElement& element,
+                        const Parts& parts) {
+  bool complete = true;
+  for (const ElementRule* wanted : rule.children) {
+    if (!wanted->required || parts.kept.count(wanted) != 0) continue;
+    complete = false;
+    if (parts.spoilt.count(wanted) != 0) continue;  // A finding says why.
+    critic_.Add(
+        rule.fault, element, std::string("has no <") + wanted->name + ">",
+        rule.fault == Severity::kReject ? "must have one" : "is left out");
+  }
+  if (&rule == &kGeometry && parts.kept.empty()) {
+    complete = false;
+    if (parts.spoilt.empty()) {
+      critic_.Warn(element, "has no shape that can be read",
+                   "must be box, sphere, cylinder or mesh");
+    }
+  }
+  return complete;
+}
+
+const ElementRule* Pruner::Find(const ElementRule& rule,
+                                const XMLElement& child) {
+  for (const ElementRule* candidate : rule.children) {
+    if (child.Name() == std::string_view(candidate->name)) return candidate;
+  }
+  const std::string_view name = child.Name();
+  if (IsXacro(child)) {
+    JudgeXacro(rule, child);
+  } else if (&rule == &kRobot && name == "loop_joint") {
+    critic_.Note(
+        child, "closes a loop",
+        "loops are not modeled: the robot moves as if it were cut there");
+  } else if (IsXacroWithoutPrefix(child)) {
+    critic_.Warn(child, "is xacro of old", "is ignored: expand it first");
+  } else if (kOfDynamics.count(name) != 0) {
+    critic_.Warn(child, "is no element of URDF here",
+                 "is ignored: is it in the wrong place?");
+  } else if (kOfOthers.count(name) == 0 && !Contains(name, ":")) {
+    for (const ElementRule* candidate : rule.children) {
+      if (!IsSlip(name, candidate->name)) continue;
+      critic_.Warn(
+          child, "is no element of URDF",
+          std::string("is ignored: must it be <") + candidate->name + ">?");
+      return nullptr;
+    }
+    critic_.Note(child, "is no element of URDF here", "is ignored");
+  }
+  return nullptr;
+}
+
+void Pruner::JudgeXacro(const ElementRule& rule, const XMLElement& element) {
+  const bool is_inside_essential =
+      rule.fault == Severity::kReject && &rule != &kRobot && &rule != &kLink;
+  if (is_inside_essential || HasEssentialPart(element)) {
+    critic_.Reject(element, "is xacro",
+                   "expand it first: the robot would lose a link, a joint, "
+                   "a limit or mass");
+    return;
+  }
+  const char* file = element.Attribute("filename");
+  critic_.Warn(element,
+               file != nullptr ? "is xacro of the file " + Quoted(file)
+                               : std::string("is xacro"),
+               "is ignored: the robot lacks all that it adds, expand it "
+               "first to keep that");
+}
+
+void Pruner::JudgeAttribute(const ElementRule& rule, const XMLElement& element,
+                            const std::string& name) {
+  if (Contains(name, ":") || name == "xmlns") return;
+  const std::string what = "has " + Quoted(name);
+  if (&rule == &kOrigin && kRotations.count(name) != 0) {
+    critic_.Reject(element, what, "must have rpy: the rotation would be lost");
+    return;
+  }
+  for (const AttributeRule& wanted : rule.attributes) {
+    if (!IsSlip(name, wanted.name)) continue;
+    critic_.Warn(element, what,
+                 std::string("is ignored: must it be ") + wanted.name + "?");
+    return;
+  }
+  critic_.Note(element, what, "is ignored: URDF has no such attribute here");
+}
+
+bool Pruner::CheckAttribute(const ElementRule& rule,
+                            const AttributeRule& attribute,
+                            XMLElement* element) {
+  const char* text = element->Attribute(attribute.name);
+  if (text == nullptr) {
+    if (!attribute.required) return true;
+    critic_.Add(
+        rule.fault, *element, std::string("has no ") + attribute.name,
+        rule.fault == Severity::kReject ? "must have one" : "is left out");
+    return false;
+  }
+  const auto refuse = [&](const std::string& why) {
+    critic_.Add(rule.fault, *element,
+                std::string(attribute.name) + " is " + Quoted(text), why);
+    return false;
+  };
+  if (!IsUtf8(text)) return refuse("is not UTF-8");
+  if (attribute.numbers == 0) {
+    if (HasXacroExpression(text)) {
+      critic_.Warn(*element,
+                   std::string(attribute.name) + " is " + Quoted(text),
+                   "looks like xacro: expand it first?");
+    }
+    return true;
+  }
+  const auto numbers = ParseNumbers(text);
+  if (!numbers || static_cast<int>(numbers->size()) != attribute.numbers) {
+    return refuse(WantedNumbers(text, attribute.numbers));
+  }
+  for (const double number : *numbers) {
+    if (std::isnan(number)) return refuse("must be finite");
+    const bool is_size =
+        &rule == &kBox || &rule == &kSphere || &rule == &kCylinder;
+    if (is_size && number < 0) return refuse("must not be negative");
+    // A limit may be infinite, any other number may not.
+    if (&rule == &kLimit || std::abs(number) <= kLargest) continue;
+    return refuse("is out of range, must be at most 1e30");
+  }
+  // urdfdom splits at blanks only.
+  element->SetAttribute(attribute.name, Collapse(text).c_str());
+  return true;
+}
 
 }  // namespace
 

@@ -39,120 +39,136 @@ class Scanner {
 
   // Refuses a text that would take too much memory or time to parse, and errors
   // that TinyXML-2 accepts, such as an end tag without a start tag.
-  void Scan() {
-    size_t markup = 0;
-    size_t at = 0;
-    while (at < text_.size()) {
-      const size_t start = std::min(text_.find('<', at), text_.size());
-      markup += start - at;
-      at = start < text_.size() ? SkipMarkup(start) : start;
-      // TinyXML-2 stores the text of a comment as it is.
-      const bool is_comment = text_.substr(start, 4) == "<!--";
-      markup += is_comment ? std::string_view("<!---->").size() : at - start;
-      if (markup > kMostMarkup) {
-        Refuse(start, "has more than 16 MiB beside comments, must have less");
-      }
-    }
-  }
+  void Scan();
 
  private:
-  [[noreturn]] void Refuse(size_t at, const std::string& what) const {
-    const auto line = std::count(text_.begin(), text_.begin() + at, '\n');
-    throw Refusal(source_, static_cast<int>(line) + 1, what);
-  }
+  [[noreturn]] void Refuse(size_t at, const std::string& what) const;
 
   // Returns the end of the construct that starts at `at`: past `closing`.
-  size_t SkipPast(size_t at, std::string_view closing) const {
-    const size_t end = text_.find(closing, at);
-    if (end == std::string_view::npos) {
-      Refuse(at, "the file ends before '" + std::string(closing) + "'");
-    }
-    return end + closing.size();
-  }
+  size_t SkipPast(size_t at, std::string_view closing) const;
 
   // Returns the end of the markup at `start`.
-  size_t SkipMarkup(size_t start) {
-    const auto starts = [&](std::string_view opening) {
-      return text_.substr(start, opening.size()) == opening;
-    };
-    if (starts("<!--")) return SkipPast(start + 4, "-->");
-    if (starts("<![CDATA[")) return SkipPast(start, "]]>");
-    if (starts("<?")) return SkipPast(start, "?>");
-    if (!starts("<!")) return SkipTag(start);
-    Refuse(start, "has a document type or entity declaration, must have none");
-  }
+  size_t SkipMarkup(size_t start);
 
   // Returns the end of a tag: the first > outside quotes.
-  size_t SkipTag(size_t start) {
-    std::set<std::string_view> attributes;
-    for (size_t i = start; i < text_.size(); ++i) {
-      if (text_[i] == '>') {
-        CountDepth(start, i);
-        return i + 1;
-      }
-      if (text_[i] != '"' && text_[i] != '\'') continue;
-      if (attributes.size() == kMostAttributes) {
-        Refuse(start, "an element has more than 100 attributes");
-      }
-      const std::string_view name = NameBefore(i);
-      if (!attributes.insert(name).second) {
-        Refuse(i, "the attribute " + Quoted(name) + " is there twice");
-      }
-      const size_t end = text_.find(text_[i], i + 1);
-      if (end == std::string_view::npos) break;
-      CheckValue(i + 1, end);
-      if (end + 1 < text_.size() &&
-          std::string_view(" \t\r\n/?>").find(text_[end + 1]) ==
-              std::string_view::npos) {
-        Refuse(end, "there is no blank after the value of the attribute " +
-                        Quoted(name));
-      }
-      i = end;
-    }
-    Refuse(start, "the file ends inside a tag");
-  }
+  size_t SkipTag(size_t start);
 
   // Refuses characters and entities that XML forbids in a value, as TinyXML-2
   // accepts them.
-  void CheckValue(size_t start, size_t end) const {
-    for (size_t i = start; i < end; ++i) {
-      if (text_[i] == '<') Refuse(i, "a value has <, must be &lt;");
-      if (text_[i] != '&') continue;
-      const std::string_view rest = text_.substr(i + 1, end - i - 1);
-      const std::string_view name = rest.substr(0, rest.find(';'));
-      constexpr std::string_view kEntities[] = {"amp", "lt", "gt", "quot",
-                                                "apos"};
-      const bool is_closed = name.size() < rest.size();
-      if (is_closed && name.substr(0, 1) == "#") {
-        if (IsCharacter(name.substr(1))) continue;
-        Refuse(i, "a value has a character that no XML has, " +
-                      Quoted("&" + std::string(name) + ";"));
-      }
-      if (!is_closed || std::find(std::begin(kEntities), std::end(kEntities),
-                                  name) == std::end(kEntities)) {
-        Refuse(i, "a value has &, must be &amp;");
-      }
-    }
-  }
+  void CheckValue(size_t start, size_t end) const;
 
   // Returns NAME of NAME = "value", if the value's first quote is at `quote`.
-  std::string_view NameBefore(size_t quote) const {
-    constexpr std::string_view kBlankOrEquals = " \t\r\n=";
-    const size_t last = text_.find_last_not_of(kBlankOrEquals, quote - 1);
-    const size_t blank = text_.find_last_of(" \t\r\n\"'<", last);
-    return text_.substr(blank + 1, last - blank);
-  }
+  std::string_view NameBefore(size_t quote) const;
 
-  void CountDepth(size_t start, size_t end) {
-    if (text_[end - 1] == '/') return;
-    depth_ += text_[start + 1] == '/' ? -1 : 1;
-    if (depth_ < 0) Refuse(start, "an element is closed that is not open");
-  }
+  void CountDepth(size_t start, size_t end);
 
   const std::string_view text_;
   const std::string& source_;
   int depth_ = 0;  // The number of open elements.
 };
+
+void Scanner::Scan() {
+  size_t markup = 0;
+  size_t at = 0;
+  while (at < text_.size()) {
+    const size_t start = std::min(text_.find('<', at), text_.size());
+    markup += start - at;
+    at = start < text_.size() ? SkipMarkup(start) : start;
+    // TinyXML-2 stores the text of a comment as it is.
+    const bool is_comment = text_.substr(start, 4) == "<!--";
+    markup += is_comment ? std::string_view("<!---->").size() : at - start;
+    if (markup > kMostMarkup) {
+      Refuse(start, "has more than 16 MiB beside comments, must have less");
+    }
+  }
+}
+
+void Scanner::Refuse(size_t at, const std::string& what) const {
+  const auto line = std::count(text_.begin(), text_.begin() + at, '\n');
+  throw Refusal(source_, static_cast<int>(line) + 1, what);
+}
+
+size_t Scanner::SkipPast(size_t at, std::string_view closing) const {
+  const size_t end = text_.find(closing, at);
+  if (end == std::string_view::npos) {
+    Refuse(at, "the file ends before '" + std::string(closing) + "'");
+  }
+  return end + closing.size();
+}
+
+size_t Scanner::SkipMarkup(size_t start) {
+  const auto starts = [&](std::string_view opening) {
+    return text_.substr(start, opening.size()) == opening;
+  };
+  if (starts("<!--")) return SkipPast(start + 4, "-->");
+  if (starts("<![CDATA[")) return SkipPast(start, "]]>");
+  if (starts("<?")) return SkipPast(start, "?>");
+  if (!starts("<!")) return SkipTag(start);
+  Refuse(start, "has a document type or entity declaration, must have none");
+}
+
+size_t Scanner::SkipTag(size_t start) {
+  std::set<std::string_view> attributes;
+  for (size_t i = start; i < text_.size(); ++i) {
+    if (text_[i] == '>') {
+      CountDepth(start, i);
+      return i + 1;
+    }
+    if (text_[i] != '"' && text_[i] != '\'') continue;
+    if (attributes.size() == kMostAttributes) {
+      Refuse(start, "an element has more than 100 attributes");
+    }
+    const std::string_view name = NameBefore(i);
+    if (!attributes.insert(name).second) {
+      Refuse(i, "the attribute " + Quoted(name) + " is there twice");
+    }
+    const size_t end = text_.find(text_[i], i + 1);
+    if (end == std::string_view::npos) break;
+    CheckValue(i + 1, end);
+    if (end + 1 < text_.size() &&
+        std::string_view(" \t\r\n/?>").find(text_[end + 1]) ==
+            std::string_view::npos) {
+      Refuse(end, "there is no blank after the value of the attribute " +
+                      Quoted(name));
+    }
+    i = end;
+  }
+  Refuse(start, "the file ends inside a tag");
+}
+
+void Scanner::CheckValue(size_t start, size_t end) const {
+  for (size_t i = start; i < end; ++i) {
+    if (text_[i] == '<') Refuse(i, "a value has <, must be &lt;");
+    if (text_[i] != '&') continue;
+    const std::string_view rest = text_.substr(i + 1, end - i - 1);
+    const std::string_view name = rest.substr(0, rest.find(';'));
+    constexpr std::string_view kEntities[] = {"amp", "lt", "gt", "quot",
+                                              "apos"};
+    const bool is_closed = name.size() < rest.size();
+    if (is_closed && name.substr(0, 1) == "#") {
+      if (IsCharacter(name.substr(1))) continue;
+      Refuse(i, "a value has a character that no XML has, " +
+                    Quoted("&" + std::string(name) + ";"));
+    }
+    if (!is_closed || std::find(std::begin(kEntities), std::end(kEntities),
+                                name) == std::end(kEntities)) {
+      Refuse(i, "a value has &, must be &amp;");
+    }
+  }
+}
+
+std::string_view Scanner::NameBefore(size_t quote) const {
+  constexpr std::string_view kBlankOrEquals = " \t\r\n=";
+  const size_t last = text_.find_last_not_of(kBlankOrEquals, quote - 1);
+  const size_t blank = text_.find_last_of(" \t\r\n\"'<", last);
+  return text_.substr(blank + 1, last - blank);
+}
+
+void Scanner::CountDepth(size_t start, size_t end) {
+  if (text_[end - 1] == '/') return;
+  depth_ += text_[start + 1] == '/' ? -1 : 1;
+  if (depth_ < 0) Refuse(start, "an element is closed that is not open");
+}
 
 std::string Explain(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {

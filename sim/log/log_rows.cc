@@ -85,75 +85,16 @@ class BinaryRows final : public LogRows {
     lengths_.reserve(columns.size());
   }
 
-  std::string Header() override {
-    std::string header(kMagic);
-    Append(kVersion, 4, &header);
-    Append(static_cast<uint32_t>(columns_.size()), 4, &header);
-    for (const LogColumn& column : columns_) {
-      header += KindLetter(column.kind);
-      Append(static_cast<uint16_t>(column.name.size()), 2, &header);
-      header += column.name;
-    }
-    return header;
-  }
+  std::string Header() override;
 
-  void Number(double value) override {
-    const size_t i = lengths_.size();
-    assert(columns_[i].kind != LogColumn::Kind::kText);
-    uint64_t now = 0;
-    if (columns_[i].kind == LogColumn::Kind::kTime) {
-      std::memcpy(&now, &value, sizeof(value));
-    } else {
-      // All that is no number has the same bits.
-      const float single = std::isnan(value)
-                               ? std::numeric_limits<float>::quiet_NaN()
-                               : static_cast<float>(value);
-      std::memcpy(&now, &single, sizeof(single));
-    }
-    const uint64_t change = now ^ bits_[i];
-    bits_[i] = now;
-    int length = 0;
-    while (length < 8 && (change >> (8 * length)) != 0) ++length;
-    lengths_.push_back(static_cast<char>(length));
-    Append(change, length, &data_);
-  }
+  void Number(double value) override;
 
-  void Text(std::string_view text) override {
-    const size_t i = lengths_.size();
-    assert(columns_[i].kind == LogColumn::Kind::kText);
-    const bool same = text == texts_[i];
-    lengths_.push_back(same ? 0 : 1);
-    if (same) return;
-    texts_[i] = text;
-    Append(static_cast<uint32_t>(text.size()), 4, &data_);
-    data_ += text;
-  }
+  void Text(std::string_view text) override;
 
-  void EndRow(std::string* bytes) override {
-    assert(lengths_.size() == columns_.size());
-    const size_t packed = (lengths_.size() + 1) / 2;
-    Append(static_cast<uint32_t>(packed + data_.size()), 4, bytes);
-    for (size_t i = 0; i < lengths_.size(); i += 2) {
-      const char high = i + 1 < lengths_.size() ? lengths_[i + 1] : '\0';
-      bytes->push_back(static_cast<char>(lengths_[i] | high << 4));
-    }
-    *bytes += data_;
-    lengths_.clear();
-    data_.clear();
-  }
+  void EndRow(std::string* bytes) override;
 
  private:
-  static char KindLetter(LogColumn::Kind kind) {
-    switch (kind) {
-      case LogColumn::Kind::kTime:
-        return 'd';
-      case LogColumn::Kind::kNumber:
-        return 'f';
-      case LogColumn::Kind::kText:
-        return 't';
-    }
-    return '\0';
-  }
+  static char KindLetter(LogColumn::Kind kind);
 
   std::vector<LogColumn> columns_;
   std::vector<uint64_t> bits_;  // Of each number in the row before.
@@ -161,6 +102,75 @@ class BinaryRows final : public LogRows {
   std::string lengths_;  // Of the cells of this row, so far.
   std::string data_;
 };
+
+std::string BinaryRows::Header() {
+  std::string header(kMagic);
+  Append(kVersion, 4, &header);
+  Append(static_cast<uint32_t>(columns_.size()), 4, &header);
+  for (const LogColumn& column : columns_) {
+    header += KindLetter(column.kind);
+    Append(static_cast<uint16_t>(column.name.size()), 2, &header);
+    header += column.name;
+  }
+  return header;
+}
+
+void BinaryRows::Number(double value) {
+  const size_t i = lengths_.size();
+  assert(columns_[i].kind != LogColumn::Kind::kText);
+  uint64_t now = 0;
+  if (columns_[i].kind == LogColumn::Kind::kTime) {
+    std::memcpy(&now, &value, sizeof(value));
+  } else {
+    // All that is no number has the same bits.
+    const float single = std::isnan(value)
+                             ? std::numeric_limits<float>::quiet_NaN()
+                             : static_cast<float>(value);
+    std::memcpy(&now, &single, sizeof(single));
+  }
+  const uint64_t change = now ^ bits_[i];
+  bits_[i] = now;
+  int length = 0;
+  while (length < 8 && (change >> (8 * length)) != 0) ++length;
+  lengths_.push_back(static_cast<char>(length));
+  Append(change, length, &data_);
+}
+
+void BinaryRows::Text(std::string_view text) {
+  const size_t i = lengths_.size();
+  assert(columns_[i].kind == LogColumn::Kind::kText);
+  const bool same = text == texts_[i];
+  lengths_.push_back(same ? 0 : 1);
+  if (same) return;
+  texts_[i] = text;
+  Append(static_cast<uint32_t>(text.size()), 4, &data_);
+  data_ += text;
+}
+
+void BinaryRows::EndRow(std::string* bytes) {
+  assert(lengths_.size() == columns_.size());
+  const size_t packed = (lengths_.size() + 1) / 2;
+  Append(static_cast<uint32_t>(packed + data_.size()), 4, bytes);
+  for (size_t i = 0; i < lengths_.size(); i += 2) {
+    const char high = i + 1 < lengths_.size() ? lengths_[i + 1] : '\0';
+    bytes->push_back(static_cast<char>(lengths_[i] | high << 4));
+  }
+  *bytes += data_;
+  lengths_.clear();
+  data_.clear();
+}
+
+char BinaryRows::KindLetter(LogColumn::Kind kind) {
+  switch (kind) {
+    case LogColumn::Kind::kTime:
+      return 'd';
+    case LogColumn::Kind::kNumber:
+      return 'f';
+    case LogColumn::Kind::kText:
+      return 't';
+  }
+  return '\0';
+}
 
 }  // namespace
 

@@ -14,130 +14,147 @@ namespace {
 
 class BipedMaker {
  public:
-  explicit BipedMaker(const BipedCase& from)
-      : from_(from),
-        mass_(from.mass),
-        thigh_(from.thigh),
-        shank_(from.shank),
-        ankle_(from.ankle) {}
+  explicit BipedMaker(const BipedCase& from);
 
-  Robot Make() {
-    builder_.AddLink("pelvis", Box(0.2, {0.1, 0.1, 0.05}));
-    AddLeg("l_", from_.hip);
-    AddLeg("r_", -from_.hip);
-    AddChain();
-
-    Robot robot{{"biped", builder_.Build(), {}, {}, {}, {}, 0}, {}, {}, true};
-    robot.model.root_frame = *robot.model.tree.FindFrame("pelvis");
-    for (const char* side : {"l_", "r_"})
-      robot.feet.push_back(MakeFoot(robot, side));
-    robot.q_nominal = Stand(robot.model.tree);
-    for (int j = 0; j < robot.model.tree.num_joints(); ++j) {
-      const double q = robot.q_nominal[robot.model.tree.q_start() + j];
-      robot.model.limits.push_back(
-          {q - from_.room, q + from_.room, 20, 6 * mass_});
-    }
-    return robot;
-  }
+  Robot Make();
 
  private:
   // A box of a share of the mass, with half sides, about its center.
-  Inertia Box(double share, const Eigen::Vector3d& half) {
-    Inertia M;
-    M.mass = share * mass_;
-    const Eigen::Vector3d squares = half.cwiseAbs2();
-    M.I_G_B =
-        (M.mass / 3 * (squares.sum() - squares.array())).matrix().asDiagonal();
-    return M;
-  }
+  Inertia Box(double share, const Eigen::Vector3d& half);
 
   void AddJoint(const std::string& name, const std::string& parent,
                 const std::string& child, const Eigen::Vector3d& p_PF,
-                const Eigen::Vector3d& axis, const Inertia& M) {
-    builder_.AddLink(child, M);
-    JointSpec joint;
-    joint.name = name;
-    joint.type = JointType::kRevolute;
-    joint.parent = parent;
-    joint.child = child;
-    joint.X_PF.p = p_PF;
-    joint.axis_F = axis;
-    builder_.AddJoint(joint);
-  }
+                const Eigen::Vector3d& axis, const Inertia& M);
 
-  void AddLeg(const std::string& side, double y) {
-    const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-    const Eigen::Vector3d X = Eigen::Vector3d::UnitX();
-    const Eigen::Vector3d Y = Eigen::Vector3d::UnitY();
-    const Inertia small = Box(0.01, {0.03, 0.03, 0.03});
-    Inertia thigh = Box(0.1, {0.05, 0.05, thigh_ / 2});
-    thigh.p_BoG_B.z() = -thigh_ / 2;
-    Inertia shank = Box(0.05, {0.04, 0.04, shank_ / 2});
-    shank.p_BoG_B.z() = -shank_ / 2;
-    AddJoint(side + "hip_yaw", "pelvis", side + "hip_1", {0, y, 0},
-             Eigen::Vector3d::UnitZ(), small);
-    AddJoint(side + "hip_roll", side + "hip_1", side + "hip_2", zero, X, small);
-    AddJoint(side + "hip_pitch", side + "hip_2", side + "thigh", zero, Y,
-             thigh);
-    AddJoint(side + "knee", side + "thigh", side + "shank", {0, 0, -thigh_}, Y,
-             shank);
-    AddJoint(side + "ankle_pitch", side + "shank", side + "ankle",
-             {0, 0, -shank_}, Y, small);
-    AddJoint(side + "ankle_roll", side + "ankle", side + "foot", zero, X,
-             Box(0.02, {0.1, 0.05, 0.02}));
-  }
+  void AddLeg(const std::string& side, double y);
 
-  void AddChain() {
-    Inertia M = Box(0.3, {0.1, 0.15, from_.trunk / 2});
-    M.p_BoG_B.z() = from_.trunk / 2;
-    AddJoint("chest", "pelvis", "trunk", {0, 0, 0.05}, Eigen::Vector3d::UnitZ(),
-             M);
-    std::string parent = "trunk";
-    for (std::size_t i = 0; i < from_.chain.size(); ++i) {
-      const std::string child = "chain_" + std::to_string(i);
-      AddJoint("joint_" + std::to_string(i), parent, child,
-               {0, 0, i == 0 ? from_.trunk : 0.1}, from_.chain[i],
-               Box(0.02, {0.05, 0.05, 0.05}));
-      parent = child;
-    }
-  }
+  void AddChain();
 
-  Foot MakeFoot(const Robot& robot, const std::string& side) {
-    const Tree& tree = robot.model.tree;
-    const double x = 0.11, y = 0.06;
-    Foot foot;
-    foot.name = side == "l_" ? "left_foot" : "right_foot";
-    foot.frame = *tree.FindFrame(side + "foot");
-    foot.body = tree.frames()[foot.frame].body;
-    foot.X_BC.p << 0.02, 0, -ankle_;
-    foot.half_size << x, y;
-    foot.polygon_C = {{x, y}, {-x, y}, {-x, -y}, {x, -y}};
-    return foot;
-  }
+  Foot MakeFoot(const Robot& robot, const std::string& side);
 
   // Soles flat on the ground, as the angles of a leg add up to zero; the ankles
   // below the hips, by the sine rule.
-  Eigen::VectorXd Stand(const Tree& tree) {
-    const double knee = from_.knee;
-    const double hip =
-        -std::atan2(shank_ * std::sin(knee), thigh_ + shank_ * std::cos(knee));
-    Eigen::VectorXd q = tree.MakeNeutral();
-    const auto set = [&](const std::string& name, double angle) {
-      q[tree.q_start() + *tree.FindJoint(name)] = angle;
-    };
-    for (const std::string side : {"l_", "r_"}) {
-      set(side + "hip_pitch", hip);
-      set(side + "knee", knee);
-      set(side + "ankle_pitch", -hip - knee);
-    }
-    q[2] = thigh_ * std::cos(hip) + shank_ * std::cos(hip + knee) + ankle_;
-    return q;
-  }
+  Eigen::VectorXd Stand(const Tree& tree);
 
   BipedCase from_;
   TreeBuilder builder_;
   double mass_, thigh_, shank_, ankle_;
 };
+
+BipedMaker::BipedMaker(const BipedCase& from)
+    : from_(from),
+      mass_(from.mass),
+      thigh_(from.thigh),
+      shank_(from.shank),
+      ankle_(from.ankle) {}
+
+Robot BipedMaker::Make() {
+  builder_.AddLink("pelvis", Box(0.2, {0.1, 0.1, 0.05}));
+  AddLeg("l_", from_.hip);
+  AddLeg("r_", -from_.hip);
+  AddChain();
+
+  Robot robot{{"biped", builder_.Build(), {}, {}, {}, {}, 0}, {}, {}, true};
+  robot.model.root_frame = *robot.model.tree.FindFrame("pelvis");
+  for (const char* side : {"l_", "r_"})
+    robot.feet.push_back(MakeFoot(robot, side));
+  robot.q_nominal = Stand(robot.model.tree);
+  for (int j = 0; j < robot.model.tree.num_joints(); ++j) {
+    const double q = robot.q_nominal[robot.model.tree.q_start() + j];
+    robot.model.limits.push_back(
+        {q - from_.room, q + from_.room, 20, 6 * mass_});
+  }
+  return robot;
+}
+
+Inertia BipedMaker::Box(double share, const Eigen::Vector3d& half) {
+  Inertia M;
+  M.mass = share * mass_;
+  const Eigen::Vector3d squares = half.cwiseAbs2();
+  M.I_G_B =
+      (M.mass / 3 * (squares.sum() - squares.array())).matrix().asDiagonal();
+  return M;
+}
+
+void BipedMaker::AddJoint(const std::string& name, const std::string& parent,
+                          const std::string& child, const Eigen::Vector3d& p_PF,
+                          const Eigen::Vector3d& axis, const Inertia& M) {
+  builder_.AddLink(child, M);
+  JointSpec joint;
+  joint.name = name;
+  joint.type = JointType::kRevolute;
+  joint.parent = parent;
+  joint.child = child;
+  joint.X_PF.p = p_PF;
+  joint.axis_F = axis;
+  builder_.AddJoint(joint);
+}
+
+void BipedMaker::AddLeg(const std::string& side, double y) {
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d X = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d Y = Eigen::Vector3d::UnitY();
+  const Inertia small = Box(0.01, {0.03, 0.03, 0.03});
+  Inertia thigh = Box(0.1, {0.05, 0.05, thigh_ / 2});
+  thigh.p_BoG_B.z() = -thigh_ / 2;
+  Inertia shank = Box(0.05, {0.04, 0.04, shank_ / 2});
+  shank.p_BoG_B.z() = -shank_ / 2;
+  AddJoint(side + "hip_yaw", "pelvis", side + "hip_1", {0, y, 0},
+           Eigen::Vector3d::UnitZ(), small);
+  AddJoint(side + "hip_roll", side + "hip_1", side + "hip_2", zero, X, small);
+  AddJoint(side + "hip_pitch", side + "hip_2", side + "thigh", zero, Y, thigh);
+  AddJoint(side + "knee", side + "thigh", side + "shank", {0, 0, -thigh_}, Y,
+           shank);
+  AddJoint(side + "ankle_pitch", side + "shank", side + "ankle",
+           {0, 0, -shank_}, Y, small);
+  AddJoint(side + "ankle_roll", side + "ankle", side + "foot", zero, X,
+           Box(0.02, {0.1, 0.05, 0.02}));
+}
+
+void BipedMaker::AddChain() {
+  Inertia M = Box(0.3, {0.1, 0.15, from_.trunk / 2});
+  M.p_BoG_B.z() = from_.trunk / 2;
+  AddJoint("chest", "pelvis", "trunk", {0, 0, 0.05}, Eigen::Vector3d::UnitZ(),
+           M);
+  std::string parent = "trunk";
+  for (std::size_t i = 0; i < from_.chain.size(); ++i) {
+    const std::string child = "chain_" + std::to_string(i);
+    AddJoint("joint_" + std::to_string(i), parent, child,
+             {0, 0, i == 0 ? from_.trunk : 0.1}, from_.chain[i],
+             Box(0.02, {0.05, 0.05, 0.05}));
+    parent = child;
+  }
+}
+
+Foot BipedMaker::MakeFoot(const Robot& robot, const std::string& side) {
+  const Tree& tree = robot.model.tree;
+  const double x = 0.11, y = 0.06;
+  Foot foot;
+  foot.name = side == "l_" ? "left_foot" : "right_foot";
+  foot.frame = *tree.FindFrame(side + "foot");
+  foot.body = tree.frames()[foot.frame].body;
+  foot.X_BC.p << 0.02, 0, -ankle_;
+  foot.half_size << x, y;
+  foot.polygon_C = {{x, y}, {-x, y}, {-x, -y}, {x, -y}};
+  return foot;
+}
+
+Eigen::VectorXd BipedMaker::Stand(const Tree& tree) {
+  const double knee = from_.knee;
+  const double hip =
+      -std::atan2(shank_ * std::sin(knee), thigh_ + shank_ * std::cos(knee));
+  Eigen::VectorXd q = tree.MakeNeutral();
+  const auto set = [&](const std::string& name, double angle) {
+    q[tree.q_start() + *tree.FindJoint(name)] = angle;
+  };
+  for (const std::string side : {"l_", "r_"}) {
+    set(side + "hip_pitch", hip);
+    set(side + "knee", knee);
+    set(side + "ankle_pitch", -hip - knee);
+  }
+  q[2] = thigh_ * std::cos(hip) + shank_ * std::cos(hip + knee) + ankle_;
+  return q;
+}
 
 Eigen::Vector3d Direction(const Eigen::Vector3d& v) {
   return v.isZero() ? Eigen::Vector3d::UnitX() : v.normalized();

@@ -34,100 +34,16 @@ class Drawing {
   Drawing(std::uint64_t seed, const RandomHierarchyOptions& options)
       : source_(seed), options_(options) {}
 
-  HierarchyCase Draw() {
-    const int n = source_.Between(1, options_.max_variables);
-    const int levels = source_.Between(1, options_.max_levels);
-    std::vector<LevelCapacity> capacity;
-    const bool selecting = source_.Chance(options_.selecting);
-    const int first_selecting =
-        selecting ? source_.Between(0, levels - 1) : levels;
-    for (int level = 0; level < levels; ++level) {
-      const bool selects = level >= first_selecting;
-      capacity.push_back(
-          {source_.Between(0, selects ? n : options_.max_equalities),
-           selects ? 0 : source_.Between(0, options_.max_inequalities)});
-    }
-    HierarchyCase drawn{capacity, Hierarchy(n, capacity)};
-    scaled_ = source_.Chance(options_.scaled);
-    planted_.resize(n);
-    for (int j = 0; j < n; ++j) planted_[j] = source_.Number();
-    degenerate_vertex_ = options_.degenerate_vertex > 0 &&
-                         source_.Chance(options_.degenerate_vertex);
-    weighted_ = options_.weighted > 0 && source_.Chance(options_.weighted);
-    integer_ = options_.integer > 0 && source_.Chance(options_.integer);
-    for (int j = 0; integer_ && j < n; ++j) {
-      planted_[j] = source_.Chance(50) ? 0 : source_.Between(-3, 3);
-    }
-    columns_.setOnes(n);
-    if (options_.columns > 0 && source_.Chance(options_.columns)) {
-      for (double& unit : columns_) unit = PowerOfTen(-3, 6);
-    }
-    for (int level = 0; level < levels; ++level) {
-      EqualityBlock equalities =
-          drawn.hierarchy.AddEqualities(level, capacity[level].equalities);
-      for (int i = 0; i < capacity[level].equalities; ++i) {
-        if (level >= first_selecting) {
-          DrawSelection(i, &equalities);
-        } else {
-          DrawEquality(i, &equalities);
-        }
-      }
-      equalities.B *= columns_.asDiagonal();
-      InequalityBlock inequalities =
-          drawn.hierarchy.AddInequalities(level, capacity[level].inequalities);
-      for (int i = 0; i < capacity[level].inequalities; ++i) {
-        DrawInequality(i, &inequalities);
-      }
-      inequalities.C *= columns_.asDiagonal();
-    }
-    return drawn;
-  }
+  HierarchyCase Draw();
 
  private:
-  void DrawSelection(int i, EqualityBlock* block) {
-    const int j = source_.Between(0, static_cast<int>(planted_.size()) - 1);
-    block->B(i, j) = source_.Chance(50) ? 1
-                     : integer_         ? source_.Between(1, 3)
-                                        : source_.Between(1, 300) / 100.0;
-    block->b[i] = Wish();
-    DrawWeight(30, &block->weight[i]);
-  }
+  void DrawSelection(int i, EqualityBlock* block);
 
-  void DrawEquality(int i, EqualityBlock* block) {
-    const Eigen::VectorXd row = Row();
-    block->B.row(i) = row;
-    block->b[i] = Meets() ? -row.dot(planted_) : Scale(row) * Wish();
-    DrawWeight(20, &block->weight[i]);
-  }
+  void DrawEquality(int i, EqualityBlock* block);
 
-  void DrawWeight(int chance, double* weight) {
-    if (weighted_) {
-      *weight = PowerOfTen(-options_.decades, options_.decades);
-    } else if (source_.Chance(chance)) {
-      *weight = source_.Between(0, 300) / 100.0;
-    }
-  }
+  void DrawWeight(int chance, double* weight);
 
-  void DrawInequality(int i, InequalityBlock* block) {
-    const Eigen::VectorXd row = Row();
-    block->C.row(i) = row;
-    double bound = Meets() ? row.dot(planted_) : Scale(row) * Wish();
-    if (degenerate_vertex_) bound = 0;
-    const int kind = source_.Between(0, 9);
-    if (kind < 4) {
-      block->upper[i] = bound;
-    } else if (kind < 7) {
-      block->lower[i] = bound;
-    } else if (kind < 9) {
-      block->lower[i] = bound;
-      block->upper[i] =
-          bound + (degenerate_vertex_ ? 0
-                   : integer_         ? source_.Between(0, 4)
-                              : Scale(row) * source_.Between(0, 300) / 100);
-    } else {
-      block->lower[i] = block->upper[i] = bound;
-    }
-  }
+  void DrawInequality(int i, InequalityBlock* block);
 
   bool Meets() { return source_.Chance(integer_ ? 80 : options_.planted); }
   double Entry() {
@@ -143,38 +59,7 @@ class Drawing {
     return std::max(row.cwiseAbs().maxCoeff(), 1e-3);
   }
 
-  Eigen::VectorXd Row() {
-    const int n = static_cast<int>(planted_.size());
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
-    const int drawn = static_cast<int>(rows_.size());
-    if (source_.Chance(options_.degenerate)) {
-      switch (source_.Between(0, 4)) {
-        case 0:
-          break;  // Zeros.
-        case 1:
-          if (drawn > 0) row = rows_[source_.Between(0, drawn - 1)];
-          break;
-        case 2:
-          if (drawn > 0) row = -2 * rows_[source_.Between(0, drawn - 1)];
-          break;
-        case 3:
-          for (int k = 0; k < 2 && drawn > 0; ++k) {
-            row += rows_[source_.Between(0, drawn - 1)];
-          }
-          break;
-        default:
-          row[source_.Between(0, n - 1)] = 1;
-      }
-    } else {
-      const int density = source_.Chance(50) ? 100 : 40;
-      for (int j = 0; j < n; ++j) {
-        if (source_.Chance(density)) row[j] = Entry();
-      }
-      if (scaled_) row *= PowerOfTen(-3, 6);
-    }
-    rows_.push_back(row);
-    return row;
-  }
+  Eigen::VectorXd Row();
 
   Source source_;
   RandomHierarchyOptions options_;
@@ -184,6 +69,133 @@ class Drawing {
   Eigen::VectorXd columns_;  // What each variable's unit is worth.
   std::vector<Eigen::VectorXd> rows_;
 };
+
+HierarchyCase Drawing::Draw() {
+  const int n = source_.Between(1, options_.max_variables);
+  const int levels = source_.Between(1, options_.max_levels);
+  std::vector<LevelCapacity> capacity;
+  const bool selecting = source_.Chance(options_.selecting);
+  const int first_selecting =
+      selecting ? source_.Between(0, levels - 1) : levels;
+  for (int level = 0; level < levels; ++level) {
+    const bool selects = level >= first_selecting;
+    capacity.push_back(
+        {source_.Between(0, selects ? n : options_.max_equalities),
+         selects ? 0 : source_.Between(0, options_.max_inequalities)});
+  }
+  HierarchyCase drawn{capacity, Hierarchy(n, capacity)};
+  scaled_ = source_.Chance(options_.scaled);
+  planted_.resize(n);
+  for (int j = 0; j < n; ++j) planted_[j] = source_.Number();
+  degenerate_vertex_ = options_.degenerate_vertex > 0 &&
+                       source_.Chance(options_.degenerate_vertex);
+  weighted_ = options_.weighted > 0 && source_.Chance(options_.weighted);
+  integer_ = options_.integer > 0 && source_.Chance(options_.integer);
+  for (int j = 0; integer_ && j < n; ++j) {
+    planted_[j] = source_.Chance(50) ? 0 : source_.Between(-3, 3);
+  }
+  columns_.setOnes(n);
+  if (options_.columns > 0 && source_.Chance(options_.columns)) {
+    for (double& unit : columns_) unit = PowerOfTen(-3, 6);
+  }
+  for (int level = 0; level < levels; ++level) {
+    EqualityBlock equalities =
+        drawn.hierarchy.AddEqualities(level, capacity[level].equalities);
+    for (int i = 0; i < capacity[level].equalities; ++i) {
+      if (level >= first_selecting) {
+        DrawSelection(i, &equalities);
+      } else {
+        DrawEquality(i, &equalities);
+      }
+    }
+    equalities.B *= columns_.asDiagonal();
+    InequalityBlock inequalities =
+        drawn.hierarchy.AddInequalities(level, capacity[level].inequalities);
+    for (int i = 0; i < capacity[level].inequalities; ++i) {
+      DrawInequality(i, &inequalities);
+    }
+    inequalities.C *= columns_.asDiagonal();
+  }
+  return drawn;
+}
+
+void Drawing::DrawSelection(int i, EqualityBlock* block) {
+  const int j = source_.Between(0, static_cast<int>(planted_.size()) - 1);
+  block->B(i, j) = source_.Chance(50) ? 1
+                   : integer_         ? source_.Between(1, 3)
+                                      : source_.Between(1, 300) / 100.0;
+  block->b[i] = Wish();
+  DrawWeight(30, &block->weight[i]);
+}
+
+void Drawing::DrawEquality(int i, EqualityBlock* block) {
+  const Eigen::VectorXd row = Row();
+  block->B.row(i) = row;
+  block->b[i] = Meets() ? -row.dot(planted_) : Scale(row) * Wish();
+  DrawWeight(20, &block->weight[i]);
+}
+
+void Drawing::DrawWeight(int chance, double* weight) {
+  if (weighted_) {
+    *weight = PowerOfTen(-options_.decades, options_.decades);
+  } else if (source_.Chance(chance)) {
+    *weight = source_.Between(0, 300) / 100.0;
+  }
+}
+
+void Drawing::DrawInequality(int i, InequalityBlock* block) {
+  const Eigen::VectorXd row = Row();
+  block->C.row(i) = row;
+  double bound = Meets() ? row.dot(planted_) : Scale(row) * Wish();
+  if (degenerate_vertex_) bound = 0;
+  const int kind = source_.Between(0, 9);
+  if (kind < 4) {
+    block->upper[i] = bound;
+  } else if (kind < 7) {
+    block->lower[i] = bound;
+  } else if (kind < 9) {
+    block->lower[i] = bound;
+    block->upper[i] =
+        bound + (degenerate_vertex_ ? 0
+                 : integer_         ? source_.Between(0, 4)
+                            : Scale(row) * source_.Between(0, 300) / 100);
+  } else {
+    block->lower[i] = block->upper[i] = bound;
+  }
+}
+
+Eigen::VectorXd Drawing::Row() {
+  const int n = static_cast<int>(planted_.size());
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
+  const int drawn = static_cast<int>(rows_.size());
+  if (source_.Chance(options_.degenerate)) {
+    switch (source_.Between(0, 4)) {
+      case 0:
+        break;  // Zeros.
+      case 1:
+        if (drawn > 0) row = rows_[source_.Between(0, drawn - 1)];
+        break;
+      case 2:
+        if (drawn > 0) row = -2 * rows_[source_.Between(0, drawn - 1)];
+        break;
+      case 3:
+        for (int k = 0; k < 2 && drawn > 0; ++k) {
+          row += rows_[source_.Between(0, drawn - 1)];
+        }
+        break;
+      default:
+        row[source_.Between(0, n - 1)] = 1;
+    }
+  } else {
+    const int density = source_.Chance(50) ? 100 : 40;
+    for (int j = 0; j < n; ++j) {
+      if (source_.Chance(density)) row[j] = Entry();
+    }
+    if (scaled_) row *= PowerOfTen(-3, 6);
+  }
+  rows_.push_back(row);
+  return row;
+}
 
 // The rows of one level, to be changed at will.
 struct LevelRows {

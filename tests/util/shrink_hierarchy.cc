@@ -96,79 +96,26 @@ class Shrinking {
   using Ticks = std::vector<HierarchyCase>;
 
   Shrinking(const Ticks& failing,
-            const std::function<bool(const Ticks&)>& fails)
-      : fails_(fails) {
-    for (const HierarchyCase& tick : failing) {
-      drafts_.push_back(Take(tick.hierarchy));
-    }
-  }
+            const std::function<bool(const Ticks&)>& fails);
 
-  Ticks Run() {
-    do {
-      has_shrunk_ = false;
-      RemoveTicks();
-      for (size_t t = 0; t < drafts_.size(); ++t) RemoveWhatCanGo(t);
-      RemoveFromAll();
-      for (size_t t = 0; t < drafts_.size(); ++t) {
-        for (size_t i = 0; i < drafts_[t].rows.size(); ++i) SimplifyRow(t, i);
-      }
-    } while (has_shrunk_);
-    return MakeAll(drafts_);
-  }
+  Ticks Run();
 
  private:
-  static Ticks MakeAll(const std::vector<Draft>& drafts) {
-    Ticks made;
-    for (const Draft& draft : drafts) made.push_back(Make(draft));
-    return made;
-  }
+  static Ticks MakeAll(const std::vector<Draft>& drafts);
 
   // True, and they are the drafts from now on, if they fail, too.
-  bool Try(const std::vector<Draft>& smaller) {
-    if (!fails_(MakeAll(smaller))) return false;
-    drafts_ = smaller;
-    return has_shrunk_ = true;
-  }
+  bool Try(const std::vector<Draft>& smaller);
 
-  bool Try(size_t tick, const Draft& smaller) {
-    std::vector<Draft> drafts = drafts_;
-    drafts[tick] = smaller;
-    return Try(drafts);
-  }
+  bool Try(size_t tick, const Draft& smaller);
 
   // The earliest first: what comes shortly before a failure matters most.
-  void RemoveTicks() {
-    for (size_t t = 0; t + 1 < drafts_.size();) {
-      std::vector<Draft> fewer = drafts_;
-      fewer.erase(fewer.begin() + t);
-      if (!Try(fewer)) ++t;
-    }
-  }
+  void RemoveTicks();
 
-  void RemoveWhatCanGo(size_t t) {
-    for (int k = drafts_[t].num_levels - 1; k >= 0; --k) {
-      if (drafts_[t].num_levels > 1) Try(t, WithoutLevel(drafts_[t], k));
-    }
-    for (size_t i = drafts_[t].rows.size(); i-- > 0;) {
-      Try(t, WithoutRow(drafts_[t], i));
-    }
-  }
+  void RemoveWhatCanGo(size_t t);
 
   // What all ticks have goes from all at once: a solver knows rows by their
   // place.
-  void RemoveFromAll() {
-    const bool has_others = drafts_.size() > 1;
-    for (size_t i = has_others ? drafts_[0].rows.size() : 0; i-- > 0;) {
-      const bool all = std::all_of(
-          drafts_.begin(), drafts_.end(),
-          [i](const Draft& draft) { return i < draft.rows.size(); });
-      if (all) TryAll([i](const Draft& draft) { return WithoutRow(draft, i); });
-    }
-    for (int j = drafts_[0].num_variables - 1; j >= 0; --j) {
-      if (drafts_[0].num_variables == 1) return;
-      TryAll([j](const Draft& draft) { return WithoutVariable(draft, j); });
-    }
-  }
+  void RemoveFromAll();
 
   template <typename Smaller>
   void TryAll(const Smaller& smaller) {
@@ -177,21 +124,7 @@ class Shrinking {
     Try(drafts);
   }
 
-  void SimplifyRow(size_t t, size_t i) {
-    const Row row = drafts_[t].rows[i];
-    for (size_t j = 0; j < row.entries.size(); ++j) {
-      Simplify(t, [i, j](Draft* draft) { return &draft->rows[i].entries[j]; });
-    }
-    const auto first = [i](Draft* draft) { return &draft->rows[i].first; };
-    const auto second = [i](Draft* draft) { return &draft->rows[i].second; };
-    if (row.is_equality) {
-      Simplify(t, first);
-      Replace(t, second, 1);
-    } else {
-      if (!Replace(t, first, -INFINITY)) Simplify(t, first);
-      if (!Replace(t, second, INFINITY)) Simplify(t, second);
-    }
-  }
+  void SimplifyRow(size_t t, size_t i);
 
   // To zero, or a whole number.
   template <typename Pick>
@@ -211,6 +144,92 @@ class Shrinking {
   const std::function<bool(const Ticks&)>& fails_;
   bool has_shrunk_ = false;
 };
+
+Shrinking::Shrinking(const Ticks& failing,
+                     const std::function<bool(const Ticks&)>& fails)
+    : fails_(fails) {
+  for (const HierarchyCase& tick : failing) {
+    drafts_.push_back(Take(tick.hierarchy));
+  }
+}
+
+Shrinking::Ticks Shrinking::Run() {
+  do {
+    has_shrunk_ = false;
+    RemoveTicks();
+    for (size_t t = 0; t < drafts_.size(); ++t) RemoveWhatCanGo(t);
+    RemoveFromAll();
+    for (size_t t = 0; t < drafts_.size(); ++t) {
+      for (size_t i = 0; i < drafts_[t].rows.size(); ++i) SimplifyRow(t, i);
+    }
+  } while (has_shrunk_);
+  return MakeAll(drafts_);
+}
+
+Shrinking::Ticks Shrinking::MakeAll(const std::vector<Draft>& drafts) {
+  Ticks made;
+  for (const Draft& draft : drafts) made.push_back(Make(draft));
+  return made;
+}
+
+bool Shrinking::Try(const std::vector<Draft>& smaller) {
+  if (!fails_(MakeAll(smaller))) return false;
+  drafts_ = smaller;
+  return has_shrunk_ = true;
+}
+
+bool Shrinking::Try(size_t tick, const Draft& smaller) {
+  std::vector<Draft> drafts = drafts_;
+  drafts[tick] = smaller;
+  return Try(drafts);
+}
+
+void Shrinking::RemoveTicks() {
+  for (size_t t = 0; t + 1 < drafts_.size();) {
+    std::vector<Draft> fewer = drafts_;
+    fewer.erase(fewer.begin() + t);
+    if (!Try(fewer)) ++t;
+  }
+}
+
+void Shrinking::RemoveWhatCanGo(size_t t) {
+  for (int k = drafts_[t].num_levels - 1; k >= 0; --k) {
+    if (drafts_[t].num_levels > 1) Try(t, WithoutLevel(drafts_[t], k));
+  }
+  for (size_t i = drafts_[t].rows.size(); i-- > 0;) {
+    Try(t, WithoutRow(drafts_[t], i));
+  }
+}
+
+void Shrinking::RemoveFromAll() {
+  const bool has_others = drafts_.size() > 1;
+  for (size_t i = has_others ? drafts_[0].rows.size() : 0; i-- > 0;) {
+    const bool all =
+        std::all_of(drafts_.begin(), drafts_.end(),
+                    [i](const Draft& draft) { return i < draft.rows.size(); });
+    if (all) TryAll([i](const Draft& draft) { return WithoutRow(draft, i); });
+  }
+  for (int j = drafts_[0].num_variables - 1; j >= 0; --j) {
+    if (drafts_[0].num_variables == 1) return;
+    TryAll([j](const Draft& draft) { return WithoutVariable(draft, j); });
+  }
+}
+
+void Shrinking::SimplifyRow(size_t t, size_t i) {
+  const Row row = drafts_[t].rows[i];
+  for (size_t j = 0; j < row.entries.size(); ++j) {
+    Simplify(t, [i, j](Draft* draft) { return &draft->rows[i].entries[j]; });
+  }
+  const auto first = [i](Draft* draft) { return &draft->rows[i].first; };
+  const auto second = [i](Draft* draft) { return &draft->rows[i].second; };
+  if (row.is_equality) {
+    Simplify(t, first);
+    Replace(t, second, 1);
+  } else {
+    if (!Replace(t, first, -INFINITY)) Simplify(t, first);
+    if (!Replace(t, second, INFINITY)) Simplify(t, second);
+  }
+}
 
 }  // namespace
 

@@ -63,6 +63,122 @@ std::vector<Eigen::Vector2d> Thin(const std::vector<Eigen::Vector2d>& points) {
   return thin;
 }
 
+// The ranges of a plot's axes, and the numbers printed along them.
+struct Axes {
+  Range x, y;
+  std::vector<double> x_ticks, y_ticks;
+};
+
+Axes MakeAxes(const PlotSpec& spec) {
+  Axes axes;
+  Range& x = axes.x;
+  Range& y = axes.y;
+  for (const PlotLine& line : spec.lines) {
+    for (const double value : line.x) x.Take(value);
+    for (const double value : line.y) y.Take(value);
+  }
+  for (const auto& [value, name] : spec.limits) y.Take(value);
+  x.Widen(0);
+  y.Widen(spec.least_extent);
+  axes.y_ticks = RoundTicks(y.low, y.high, 6);
+  axes.x_ticks = RoundTicks(x.low, x.high, 10);
+  y = {axes.y_ticks.front(), axes.y_ticks.back()};
+  // The last row of a log is one step before its end.
+  const double near_end = x.high + 0.005 * (x.high - x.low);
+  for (const double tick : axes.x_ticks) {
+    if (tick < near_end) x.high = std::max(x.high, tick);
+  }
+  return axes;
+}
+
+// The rectangle between the axes, in points on the canvas.
+struct Frame {
+  Eigen::Vector2d at, area;
+  Range x, y;
+
+  // Returns the point on the canvas of a value at a time.
+  Eigen::Vector2d Map(double time, double value) const {
+    return {at.x() + area.x() * (time - x.low) / (x.high - x.low),
+            at.y() + area.y() * (y.high - value) / (y.high - y.low)};
+  }
+};
+
+void DrawBand(const PlotSpec& spec, const Frame& frame, Canvas* canvas) {
+  if (spec.band) {
+    const double left = frame.Map(spec.band->first, 0).x();
+    const double right =
+        std::max(left + 1, frame.Map(spec.band->second, 0).x());
+    Color shade = HexColor(0xd92d20);
+    shade[3] = 0.13;
+    canvas->Polygon({{left, frame.at.y()},
+                     {right, frame.at.y()},
+                     {right, frame.at.y() + frame.area.y()},
+                     {left, frame.at.y() + frame.area.y()}},
+                    shade);
+  }
+}
+
+// Draws the horizontal grid lines, and the numbers along both axes.
+void DrawGrid(const PlotSpec& spec, const Axes& axes, const Frame& frame,
+              Canvas* canvas) {
+  for (const double tick : axes.y_ticks) {
+    canvas->Line({frame.Map(axes.x.low, tick), frame.Map(axes.x.high, tick)},
+                 kGrid, 0.8);
+    canvas->Text(frame.Map(axes.x.low, tick) + Eigen::Vector2d(-6, 3.3),
+                 TickText(tick, axes.y_ticks[1] - axes.y_ticks[0]), kFont,
+                 kFaint, Anchor::kRight);
+  }
+  for (const double tick : axes.x_ticks) {
+    if (tick < axes.x.low - 1e-9 || tick > axes.x.high + 1e-9) continue;
+    canvas->Text(frame.Map(tick, axes.y.low) + Eigen::Vector2d(0, 14),
+                 TickText(tick, axes.x_ticks[1] - axes.x_ticks[0]), kFont,
+                 kFaint, Anchor::kMiddle);
+  }
+  canvas->Text(frame.at + frame.area + Eigen::Vector2d(0, 27), spec.x_label,
+               kFont, kFaint, Anchor::kRight);
+}
+
+void DrawLines(const PlotSpec& spec, const Axes& axes, const Frame& frame,
+               Canvas* canvas) {
+  canvas->Clipped(
+      frame.at - Eigen::Vector2d(0, 2), frame.area + Eigen::Vector2d(0, 4),
+      [&] {
+        for (const PlotLine& line : spec.lines) {
+          std::vector<Eigen::Vector2d> points;
+          for (std::size_t i = 0; i < line.x.size(); ++i) {
+            if (std::isfinite(line.y[i])) {
+              points.push_back(frame.Map(line.x[i], line.y[i]));
+            }
+          }
+          canvas->Line(Thin(points), line.color, 1.5, line.dashed);
+        }
+        for (const auto& [value, name] : spec.limits) {
+          canvas->Line(
+              {frame.Map(axes.x.low, value), frame.Map(axes.x.high, value)},
+              kLimit, 1, true);
+          canvas->Text(frame.Map(axes.x.high, value) + Eigen::Vector2d(-4, -4),
+                       name, kFont - 1, kLimit, Anchor::kRight);
+        }
+      });
+}
+
+// Draws the title on the left and the names of the lines on the right.
+void DrawTitle(const PlotSpec& spec, const Eigen::Vector2d& corner,
+               const Frame& frame, Canvas* canvas) {
+  canvas->Text(corner + Eigen::Vector2d(12, 15), spec.title, 11, kInk,
+               Anchor::kLeft, /*bold=*/true);
+  double right = frame.at.x() + frame.area.x();
+  for (auto line = spec.lines.rbegin(); line != spec.lines.rend(); ++line) {
+    if (line->name.empty()) continue;
+    right -= canvas->TextWidth(line->name, kFont);
+    canvas->Text({right, corner.y() + 15}, line->name, kFont, kInk);
+    canvas->Line(
+        {{right - 20, corner.y() + 11.5}, {right - 5, corner.y() + 11.5}},
+        line->color, 2, line->dashed);
+    right -= 34;
+  }
+}
+
 }  // namespace
 
 std::vector<double> RoundTicks(double low, double high, int most) {
@@ -83,85 +199,13 @@ std::vector<double> RoundTicks(double low, double high, int most) {
 
 void DrawPlot(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
               const PlotSpec& spec, Canvas* canvas) {
-  Range x, y;
-  for (const PlotLine& line : spec.lines) {
-    for (const double value : line.x) x.Take(value);
-    for (const double value : line.y) y.Take(value);
-  }
-  for (const auto& [value, name] : spec.limits) y.Take(value);
-  x.Widen(0);
-  y.Widen(spec.least_extent);
-  const std::vector<double> y_ticks = RoundTicks(y.low, y.high, 6);
-  const std::vector<double> x_ticks = RoundTicks(x.low, x.high, 10);
-  y = {y_ticks.front(), y_ticks.back()};
-  // The last row of a log is one step before its end.
-  const double near_end = x.high + 0.005 * (x.high - x.low);
-  for (const double tick : x_ticks) {
-    if (tick < near_end) x.high = std::max(x.high, tick);
-  }
-
-  const Eigen::Vector2d at = corner + Eigen::Vector2d(46, 26);
-  const Eigen::Vector2d area = size - Eigen::Vector2d(58, 60);
-  const auto map = [&](double time, double value) {
-    return Eigen::Vector2d(
-        at.x() + area.x() * (time - x.low) / (x.high - x.low),
-        at.y() + area.y() * (y.high - value) / (y.high - y.low));
-  };
-  if (spec.band) {
-    const double left = map(spec.band->first, 0).x();
-    const double right = std::max(left + 1, map(spec.band->second, 0).x());
-    Color shade = HexColor(0xd92d20);
-    shade[3] = 0.13;
-    canvas->Polygon({{left, at.y()},
-                     {right, at.y()},
-                     {right, at.y() + area.y()},
-                     {left, at.y() + area.y()}},
-                    shade);
-  }
-  for (const double tick : y_ticks) {
-    canvas->Line({map(x.low, tick), map(x.high, tick)}, kGrid, 0.8);
-    canvas->Text(map(x.low, tick) + Eigen::Vector2d(-6, 3.3),
-                 TickText(tick, y_ticks[1] - y_ticks[0]), kFont, kFaint,
-                 Anchor::kRight);
-  }
-  for (const double tick : x_ticks) {
-    if (tick < x.low - 1e-9 || tick > x.high + 1e-9) continue;
-    canvas->Text(map(tick, y.low) + Eigen::Vector2d(0, 14),
-                 TickText(tick, x_ticks[1] - x_ticks[0]), kFont, kFaint,
-                 Anchor::kMiddle);
-  }
-  canvas->Text(at + area + Eigen::Vector2d(0, 27), spec.x_label, kFont, kFaint,
-               Anchor::kRight);
-  canvas->Clipped(at - Eigen::Vector2d(0, 2), area + Eigen::Vector2d(0, 4),
-                  [&] {
-                    for (const PlotLine& line : spec.lines) {
-                      std::vector<Eigen::Vector2d> points;
-                      for (std::size_t i = 0; i < line.x.size(); ++i) {
-                        if (std::isfinite(line.y[i])) {
-                          points.push_back(map(line.x[i], line.y[i]));
-                        }
-                      }
-                      canvas->Line(Thin(points), line.color, 1.5, line.dashed);
-                    }
-                    for (const auto& [value, name] : spec.limits) {
-                      canvas->Line({map(x.low, value), map(x.high, value)},
-                                   kLimit, 1, true);
-                      canvas->Text(map(x.high, value) + Eigen::Vector2d(-4, -4),
-                                   name, kFont - 1, kLimit, Anchor::kRight);
-                    }
-                  });
-  canvas->Text(corner + Eigen::Vector2d(12, 15), spec.title, 11, kInk,
-               Anchor::kLeft, /*bold=*/true);
-  double right = at.x() + area.x();
-  for (auto line = spec.lines.rbegin(); line != spec.lines.rend(); ++line) {
-    if (line->name.empty()) continue;
-    right -= canvas->TextWidth(line->name, kFont);
-    canvas->Text({right, corner.y() + 15}, line->name, kFont, kInk);
-    canvas->Line(
-        {{right - 20, corner.y() + 11.5}, {right - 5, corner.y() + 11.5}},
-        line->color, 2, line->dashed);
-    right -= 34;
-  }
+  const Axes axes = MakeAxes(spec);
+  const Frame frame{corner + Eigen::Vector2d(46, 26),
+                    size - Eigen::Vector2d(58, 60), axes.x, axes.y};
+  DrawBand(spec, frame, canvas);
+  DrawGrid(spec, axes, frame, canvas);
+  DrawLines(spec, axes, frame, canvas);
+  DrawTitle(spec, corner, frame, canvas);
 }
 
 }  // namespace poise

@@ -49,130 +49,145 @@ class Doctor {
   Doctor(const std::filesystem::path& urdf, const Profile& profile)
       : urdf_(urdf), profile_(profile) {}
 
-  Diagnosis Examine() {
-    if (const auto whole = Load()) {
-      Describe(*whole);
-      const RobotModel model = LockJoints(*whole);
-      smallest_eigenvalue_ = CheckInertia(model, &diagnosis_.findings);
-      if (IsLarge(model)) {
-        Add(Severity::kNote, "robot",
-            "was not stood up, nor compared with Bullet",
-            "as it has over 100 joints, 1000 links or 10000 shapes");
-      } else {
-        CheckStanding();
-        if (smallest_eigenvalue_) CheckParity({model, {}, {}});
-      }
-    }
-    std::stable_sort(diagnosis_.findings.begin(), diagnosis_.findings.end(),
-                     [](const Finding& a, const Finding& b) {
-                       return a.severity > b.severity;
-                     });
-    return std::move(diagnosis_);
-  }
+  Diagnosis Examine();
 
  private:
   void Add(Severity severity, std::string where, std::string what,
-           std::string why) {
-    diagnosis_.findings.push_back(
-        {severity, std::move(where), std::move(what), std::move(why), 0});
-  }
+           std::string why);
 
   // The robot, or a finding that says why there is none.
-  std::optional<RobotModel> Load() {
-    try {
-      return LoadUrdf(urdf_, {}, &diagnosis_.findings);
-    } catch (const Refusal& refusal) {
-      // What LoadUrdf() found it has told already.
-      if (diagnosis_.worst() != Severity::kReject) {
-        diagnosis_.findings.push_back(refusal.finding());
-      }
-    } catch (const std::invalid_argument& error) {
-      Add(Severity::kReject, "", error.what(), "");
-    }
-    return std::nullopt;
-  }
+  std::optional<RobotModel> Load();
 
-  void Describe(const RobotModel& model) {
-    const Tree& tree = model.tree;
-    diagnosis_.robot = model.name;
-    diagnosis_.root = tree.frames()[model.root_frame].name;
-    diagnosis_.joints = tree.num_joints();
-    diagnosis_.mass = tree.total_mass();
-    for (const Inertia& M : tree.inertias()) {
-      diagnosis_.bodies.push_back({"", M.mass});
-    }
-    auto masses = LoadLinkMasses(urdf_);
-    for (const Frame& frame : tree.frames()) {
-      std::string& link = diagnosis_.bodies[frame.body].link;
-      if (link.empty()) link = frame.name;
-      diagnosis_.links.push_back({frame.name, masses[frame.name]});
-    }
-  }
+  void Describe(const RobotModel& model);
 
   // What the profile leaves of the robot for control, and for M and parity.
-  RobotModel LockJoints(const RobotModel& whole) {
-    const size_t locked = LockedJoints(whole, profile_).size();
-    if (locked == 0) return whole;
-    Add(Severity::kNote, "robot",
-        "has " + std::to_string(locked) + " joints locked by the profile",
-        "M, standing and parity are of the " +
-            std::to_string(whole.tree.num_joints() - locked) + " others");
-    return LoadModel(urdf_, profile_);
-  }
+  RobotModel LockJoints(const RobotModel& whole);
 
   // A profile that does not fit is the caller's mistake, not the robot's.
-  void CheckStanding() {
-    std::string reason = "as M is singular";
-    try {
-      Robot robot = LoadRobot(urdf_, profile_, &diagnosis_.findings);
-      if (profile_.tasks.IsDefined()) {
-        Stack stack =
-            MakeDefaultStack(robot, FindTaskLinks(profile_.tasks, robot));
-        ApplyTasks(profile_.tasks, profile_.file.string(), &stack);
-      }
-      for (const Foot& foot : robot.feet) {
-        diagnosis_.soles.push_back(
-            {foot.name, robot.model.tree.frames()[foot.frame].name,
-             2 * foot.half_size.x(), 2 * foot.half_size.y()});
-      }
-      if (smallest_eigenvalue_) {
-        if (!robot.can_stand) StandUp(&robot);
-        for (const Finding& finding : FindWeakness(robot)) {
-          diagnosis_.findings.push_back(finding);
-        }
-        diagnosis_.com_height = HeightOfMass(robot);
-        return;
-      }
-    } catch (const Refusal&) {
-      throw;
-    } catch (const std::invalid_argument& error) {
-      reason = OneLine(error.what());
-    }
-    Add(Severity::kNote, "robot", "does not stand", reason);
-  }
+  void CheckStanding();
 
-  void CheckParity(const Robot& robot) {
-    try {
-      diagnosis_.parity = CompareWithBullet(robot, robot).worst();
-    } catch (const std::invalid_argument& error) {
-      Add(Severity::kNote, "robot", "was not compared with Bullet",
-          OneLine(error.what()));
-      return;
-    }
-    // M comes from the plant by an inversion, which costs digits.
-    const double rounding = std::numeric_limits<double>::epsilon() *
-                            robot.model.tree.nv() / *smallest_eigenvalue_;
-    if (*diagnosis_.parity <= std::max(kParity, rounding)) return;  // Not NaN.
-    Add(Severity::kWarn, "robot",
-        "differs from its Bullet plant by " + PrintNumber(*diagnosis_.parity),
-        "relative: simulation and control do not agree");
-  }
+  void CheckParity(const Robot& robot);
 
   const std::filesystem::path urdf_;
   const Profile profile_;
   Diagnosis diagnosis_;
   std::optional<double> smallest_eigenvalue_;  // See CheckInertia().
 };
+
+Diagnosis Doctor::Examine() {
+  if (const auto whole = Load()) {
+    Describe(*whole);
+    const RobotModel model = LockJoints(*whole);
+    smallest_eigenvalue_ = CheckInertia(model, &diagnosis_.findings);
+    if (IsLarge(model)) {
+      Add(Severity::kNote, "robot",
+          "was not stood up, nor compared with Bullet",
+          "as it has over 100 joints, 1000 links or 10000 shapes");
+    } else {
+      CheckStanding();
+      if (smallest_eigenvalue_) CheckParity({model, {}, {}});
+    }
+  }
+  std::stable_sort(diagnosis_.findings.begin(), diagnosis_.findings.end(),
+                   [](const Finding& a, const Finding& b) {
+                     return a.severity > b.severity;
+                   });
+  return std::move(diagnosis_);
+}
+
+void Doctor::Add(Severity severity, std::string where, std::string what,
+                 std::string why) {
+  diagnosis_.findings.push_back(
+      {severity, std::move(where), std::move(what), std::move(why), 0});
+}
+
+std::optional<RobotModel> Doctor::Load() {
+  try {
+    return LoadUrdf(urdf_, {}, &diagnosis_.findings);
+  } catch (const Refusal& refusal) {
+    // What LoadUrdf() found it has told already.
+    if (diagnosis_.worst() != Severity::kReject) {
+      diagnosis_.findings.push_back(refusal.finding());
+    }
+  } catch (const std::invalid_argument& error) {
+    Add(Severity::kReject, "", error.what(), "");
+  }
+  return std::nullopt;
+}
+
+void Doctor::Describe(const RobotModel& model) {
+  const Tree& tree = model.tree;
+  diagnosis_.robot = model.name;
+  diagnosis_.root = tree.frames()[model.root_frame].name;
+  diagnosis_.joints = tree.num_joints();
+  diagnosis_.mass = tree.total_mass();
+  for (const Inertia& M : tree.inertias()) {
+    diagnosis_.bodies.push_back({"", M.mass});
+  }
+  auto masses = LoadLinkMasses(urdf_);
+  for (const Frame& frame : tree.frames()) {
+    std::string& link = diagnosis_.bodies[frame.body].link;
+    if (link.empty()) link = frame.name;
+    diagnosis_.links.push_back({frame.name, masses[frame.name]});
+  }
+}
+
+RobotModel Doctor::LockJoints(const RobotModel& whole) {
+  const size_t locked = LockedJoints(whole, profile_).size();
+  if (locked == 0) return whole;
+  Add(Severity::kNote, "robot",
+      "has " + std::to_string(locked) + " joints locked by the profile",
+      "M, standing and parity are of the " +
+          std::to_string(whole.tree.num_joints() - locked) + " others");
+  return LoadModel(urdf_, profile_);
+}
+
+void Doctor::CheckStanding() {
+  std::string reason = "as M is singular";
+  try {
+    Robot robot = LoadRobot(urdf_, profile_, &diagnosis_.findings);
+    if (profile_.tasks.IsDefined()) {
+      Stack stack =
+          MakeDefaultStack(robot, FindTaskLinks(profile_.tasks, robot));
+      ApplyTasks(profile_.tasks, profile_.file.string(), &stack);
+    }
+    for (const Foot& foot : robot.feet) {
+      diagnosis_.soles.push_back(
+          {foot.name, robot.model.tree.frames()[foot.frame].name,
+           2 * foot.half_size.x(), 2 * foot.half_size.y()});
+    }
+    if (smallest_eigenvalue_) {
+      if (!robot.can_stand) StandUp(&robot);
+      for (const Finding& finding : FindWeakness(robot)) {
+        diagnosis_.findings.push_back(finding);
+      }
+      diagnosis_.com_height = HeightOfMass(robot);
+      return;
+    }
+  } catch (const Refusal&) {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    reason = OneLine(error.what());
+  }
+  Add(Severity::kNote, "robot", "does not stand", reason);
+}
+
+void Doctor::CheckParity(const Robot& robot) {
+  try {
+    diagnosis_.parity = CompareWithBullet(robot, robot).worst();
+  } catch (const std::invalid_argument& error) {
+    Add(Severity::kNote, "robot", "was not compared with Bullet",
+        OneLine(error.what()));
+    return;
+  }
+  // M comes from the plant by an inversion, which costs digits.
+  const double rounding = std::numeric_limits<double>::epsilon() *
+                          robot.model.tree.nv() / *smallest_eigenvalue_;
+  if (*diagnosis_.parity <= std::max(kParity, rounding)) return;  // Not NaN.
+  Add(Severity::kWarn, "robot",
+      "differs from its Bullet plant by " + PrintNumber(*diagnosis_.parity),
+      "relative: simulation and control do not agree");
+}
 
 }  // namespace
 

@@ -67,6 +67,14 @@ std::string RefuseNoSeed(std::string& text) {
          std::to_string(std::numeric_limits<unsigned>::max());
 }
 
+// The options that choose the files and the outputs of a run.
+struct Files {
+  std::string scenario = "strong_push", robot, profile, save_profile, out,
+              log = "csv";
+  std::optional<double> dump_solve;
+  bool no_report = false, json = false;
+};
+
 void AddOptions(CLI::App* app, Overrides* o) {
   const CLI::Validator finite(RefuseInfinite, "", "finite");
   app->add_option("--force", o->force, "of the push, N (the scenario's)")
@@ -288,43 +296,65 @@ void CheckFit(const Robot& robot, const Scenario& scenario,
   }
 }
 
+// Reads the command line, or ends the program as ParseCommandLine() does.
+Files ParseOptions(int argc, char** argv, Overrides* overrides) {
+  Files files;
+  CLI::App app("Pushes a humanoid in a simulation: does it recover?", "push");
+  app.footer("Scenarios: " + ScenarioNames() +
+             ".\nTasks: docs/tasks.md. Exit code 0: it recovered; 1: it did "
+             "not; 2: bad input.");
+  app.add_option("--scenario", files.scenario, "a name or a YAML file")
+      ->capture_default_str();
+  app.add_option("--robot", files.robot, "a URDF file (our humanoid)");
+  app.add_option("--profile", files.profile, "feet, posture, tasks of a robot");
+  app.add_option("--save-profile", files.save_profile,
+                 "write the profile that is used, found posture and all");
+  AddOptions(&app, overrides);
+  app.add_option("--out", files.out,
+                 "folder to write into (push-out/SCENARIO)");
+  app.add_option("--log", files.log, "log.csv, or log.bin, for long runs")
+      ->check(CLI::IsMember({"csv", "binary"}))
+      ->capture_default_str();
+  app.add_option(
+         "--dump-solve", files.dump_solve,
+         "write the hierarchy solved at this time, s, for hqp to replay")
+      ->check(CLI::NonNegativeNumber);
+  app.add_flag("--no-report", files.no_report, "write no report.html");
+  app.add_flag("--json", files.json, "print summary.json");
+  ParseCommandLine(argc, argv, &app);
+  return files;
+}
+
+// Loads the profile that the options name. Only our own robot has one by default.
+Profile ChooseProfile(const Files& files) {
+  if (!files.profile.empty()) return LoadProfile(UserPath(files.profile));
+  if (files.robot.empty()) return LoadProfile(kProfile);
+  return {};
+}
+
+// Writes the profile that the run uses, with its locked joints and its tasks.
+void SaveFullProfile(const Robot& standing,
+                     const std::filesystem::path& robot_file, Profile profile,
+                     const std::string& name) {
+  // Mimics are fixed by where their sources were before it stood up.
+  profile.locked = LockedJoints(LoadUrdf(robot_file), profile);
+  if (!profile.tasks.IsDefined()) {
+    profile.tasks = DescribeTasks(MakeDefaultStack(standing, {}));
+  }
+  SaveProfile(standing, profile, UserPath(name));
+}
+
 }  // namespace
 
 PushOptions ReadPushOptions(int argc, char** argv) {
-  Overrides overrides;
-  std::string scenario_name = "strong_push", robot, profile, save_profile, out,
-              log = "csv";
-  std::optional<double> dump_solve;
-  bool no_report = false, json = false;
   if (!std::filesystem::is_directory(kScenarios)) {
     throw std::invalid_argument(std::string(kScenarios) +
                                 " is not here: start by `bazel run`, or in the "
                                 "folder of the sources");
   }
-  CLI::App app("Pushes a humanoid in a simulation: does it recover?", "push");
-  app.footer("Scenarios: " + ScenarioNames() +
-             ".\nTasks: docs/tasks.md. Exit code 0: it recovered; 1: it did "
-             "not; 2: bad input.");
-  app.add_option("--scenario", scenario_name, "a name or a YAML file")
-      ->capture_default_str();
-  app.add_option("--robot", robot, "a URDF file (our humanoid)");
-  app.add_option("--profile", profile, "feet, posture, tasks of a robot");
-  app.add_option("--save-profile", save_profile,
-                 "write the profile that is used, found posture and all");
-  AddOptions(&app, &overrides);
-  app.add_option("--out", out, "folder to write into (push-out/SCENARIO)");
-  app.add_option("--log", log, "log.csv, or log.bin, for long runs")
-      ->check(CLI::IsMember({"csv", "binary"}))
-      ->capture_default_str();
-  app.add_option(
-         "--dump-solve", dump_solve,
-         "write the hierarchy solved at this time, s, for hqp to replay")
-      ->check(CLI::NonNegativeNumber);
-  app.add_flag("--no-report", no_report, "write no report.html");
-  app.add_flag("--json", json, "print summary.json");
-  ParseCommandLine(argc, argv, &app);
-
-  const std::filesystem::path scenario_file = FindScenario(scenario_name);
+  Overrides overrides;
+  const Files files = ParseOptions(argc, argv, &overrides);
+  const std::filesystem::path scenario_file = FindScenario(files.scenario);
   const Scenario as_written = LoadScenario(scenario_file);
   Scenario scenario = as_written;
   try {
@@ -334,21 +364,16 @@ PushOptions ReadPushOptions(int argc, char** argv) {
     throw std::invalid_argument(ByOption(error.what(), overrides));
   }
   const std::filesystem::path robot_file =
-      robot.empty() ? kRobot : UserPath(robot);
-  Profile feet_and_posture;
-  if (!profile.empty()) {
-    feet_and_posture = LoadProfile(UserPath(profile));
-  } else if (robot.empty()) {
-    feet_and_posture = LoadProfile(kProfile);
-  }
+      files.robot.empty() ? kRobot : UserPath(files.robot);
+  const Profile profile = ChooseProfile(files);
   // The robot's own tasks, where none are asked for, not even the default ones.
-  if (feet_and_posture.tasks.IsDefined() && !overrides.tasks &&
+  if (profile.tasks.IsDefined() && !overrides.tasks &&
       scenario.control.tasks == "default") {
-    scenario.control.tasks = feet_and_posture.file.string();
+    scenario.control.tasks = profile.file.string();
   }
   std::vector<Finding> findings;
   LoadUrdf(robot_file, {}, &findings);
-  Robot standing = LoadStandingRobot(robot_file, feet_and_posture, &findings);
+  Robot standing = LoadStandingRobot(robot_file, profile, &findings);
   Scenario rest, pushes_alone;
   rest.plant_kind = scenario.plant_kind;
   std::filesystem::path pushes_file;
@@ -360,23 +385,17 @@ PushOptions ReadPushOptions(int argc, char** argv) {
            {{robot_file.string(), rest},
             {pushes_file.string(), pushes_alone},
             {scenario_file.string(), as_written}});
-  if (!save_profile.empty()) {
-    // Mimics are fixed by where their sources were before it stood up.
-    feet_and_posture.locked =
-        LockedJoints(LoadUrdf(robot_file), feet_and_posture);
-    if (!feet_and_posture.tasks.IsDefined()) {
-      feet_and_posture.tasks = DescribeTasks(MakeDefaultStack(standing, {}));
-    }
-    SaveProfile(standing, feet_and_posture, UserPath(save_profile));
+  if (!files.save_profile.empty()) {
+    SaveFullProfile(standing, robot_file, profile, files.save_profile);
   }
   return {std::move(standing),
           scenario,
           robot_file,
-          UserPath(out.empty() ? "push-out/" + scenario.name : out),
-          log == "binary" ? LogFormat::kBinary : LogFormat::kCsv,
-          dump_solve,
-          !no_report,
-          json,
+          UserPath(files.out.empty() ? "push-out/" + scenario.name : files.out),
+          files.log == "binary" ? LogFormat::kBinary : LogFormat::kCsv,
+          files.dump_solve,
+          !files.no_report,
+          files.json,
           std::move(findings)};
 }
 

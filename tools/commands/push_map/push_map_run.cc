@@ -44,104 +44,24 @@ Yardstick YardstickOf(const PushMapPlan& plan, const PushMapPoint& point) {
 class Workers {
  public:
   Workers(const PushMapPlan& plan, PushMapFiles* files,
-          const std::function<bool(const PushMapProgress&)>& progress)
-      : plan_(plan), files_(*files), progress_(progress) {
-    for (const PushMapPoint& point : plan.points) {
-      if (IsDone(point)) ++done_before_;
-    }
-    done_ = done_before_;
-  }
+          const std::function<bool(const PushMapProgress&)>& progress);
 
-  bool Work() {
-    std::vector<std::thread> threads;
-    for (int i = 0; i < plan_.threads; ++i) {
-      threads.emplace_back([this] { TakePoints(); });
-    }
-    for (std::thread& thread : threads) thread.join();
-    if (error_) std::rethrow_exception(error_);
-    return !stopped_;
-  }
+  bool Work();
 
  private:
-  bool IsDone(const PushMapPoint& point) const {
-    return files_.Found(point) &&
-           (!plan_.replays || fs::exists(plan_.folder / ReplayFile(point)));
-  }
+  bool IsDone(const PushMapPoint& point) const;
 
-  void TakePoints() {
-    try {
-      for (std::size_t i = next_++; i < plan_.points.size() && !stopped_;
-           i = next_++) {
-        const PushMapPoint& point = plan_.points[i];
-        if (IsDone(point) || !Find(point)) continue;
-        ++done_;
-        Report(0);
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      if (!error_) error_ = std::current_exception();
-      stopped_ = true;
-    }
-  }
+  void TakePoints();
 
   // False if stopped before it was found.
-  bool Find(const PushMapPoint& point) {
-    const Yardstick yardstick = YardstickOf(plan_, point);
-    const auto found =
-        FindLargestImpulse([&](double impulse) { return Try(point, impulse); },
-                           yardstick.lipm_height_Ns, plan_.step,
-                           kMostOfYardstick * yardstick.lipm_Ns);
-    if (!found) return false;
-    if (plan_.replays && !Replay(point, *found)) return false;
-    files_.AddFound(
-        point, {found->recovered, yardstick.lipm_Ns, yardstick.lipm_height_Ns});
-    return true;
-  }
+  bool Find(const PushMapPoint& point);
 
-  std::optional<bool> Try(const PushMapPoint& point, double impulse) {
-    if (const auto tried = files_.Tried(point, impulse)) return tried;
-    const RunResult result =
-        Run(plan_.robot, PushScenario(plan_, point, impulse), {},
-            [this](double) { return !stopped_; });
-    if (result.interrupted) return std::nullopt;
-    files_.AddTried(point, impulse, result.verdict.recovered);
-    Report(1);
-    return result.verdict.recovered;
-  }
+  std::optional<bool> Try(const PushMapPoint& point, double impulse);
 
   // The strongest push recovered from, and the weakest that was not.
-  bool Replay(const PushMapPoint& point, const ImpulseBracket& found) {
-    const fs::path page = plan_.folder / ReplayFile(point);
-    std::vector<fs::path> runs;
-    for (const double impulse : {found.recovered, found.failed}) {
-      if (!(impulse > 0) || std::isinf(impulse)) continue;
-      char name[40];
-      std::snprintf(name, sizeof name, "%.2f Ns", impulse);
-      const fs::path folder = fs::path(page).replace_extension() / name;
-      const RunResult result =
-          RecordRun(plan_.robot, PushScenario(plan_, point, impulse), folder,
-                    [this](double) { return !stopped_; });
-      if (result.interrupted) return false;
-      runs.push_back(folder);
-    }
-    // A search ends with one or the other.
-    WriteReport(runs, page);
-    fs::remove_all(fs::path(page).replace_extension());
-    return true;
-  }
+  bool Replay(const PushMapPoint& point, const ImpulseBracket& found);
 
-  void Report(int trials) {
-    const std::lock_guard lock(mutex_);
-    trials_ += trials;
-    const int points = static_cast<int>(plan_.points.size());
-    const int done_now = done_ - done_before_;
-    const std::chrono::duration<double> passed = Clock::now() - start_;
-    const double left =
-        done_now > 0 ? passed.count() / done_now * (points - done_) : -1;
-    if (progress_ && !progress_({done_, points, trials_, left})) {
-      stopped_ = true;
-    }
-  }
+  void Report(int trials);
 
   const PushMapPlan& plan_;
   PushMapFiles& files_;
@@ -155,6 +75,102 @@ class Workers {
   int trials_ = 0;
   std::exception_ptr error_;
 };
+
+Workers::Workers(const PushMapPlan& plan, PushMapFiles* files,
+                 const std::function<bool(const PushMapProgress&)>& progress)
+    : plan_(plan), files_(*files), progress_(progress) {
+  for (const PushMapPoint& point : plan.points) {
+    if (IsDone(point)) ++done_before_;
+  }
+  done_ = done_before_;
+}
+
+bool Workers::Work() {
+  std::vector<std::thread> threads;
+  for (int i = 0; i < plan_.threads; ++i) {
+    threads.emplace_back([this] { TakePoints(); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  if (error_) std::rethrow_exception(error_);
+  return !stopped_;
+}
+
+bool Workers::IsDone(const PushMapPoint& point) const {
+  return files_.Found(point) &&
+         (!plan_.replays || fs::exists(plan_.folder / ReplayFile(point)));
+}
+
+void Workers::TakePoints() {
+  try {
+    for (std::size_t i = next_++; i < plan_.points.size() && !stopped_;
+         i = next_++) {
+      const PushMapPoint& point = plan_.points[i];
+      if (IsDone(point) || !Find(point)) continue;
+      ++done_;
+      Report(0);
+    }
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    if (!error_) error_ = std::current_exception();
+    stopped_ = true;
+  }
+}
+
+bool Workers::Find(const PushMapPoint& point) {
+  const Yardstick yardstick = YardstickOf(plan_, point);
+  const auto found =
+      FindLargestImpulse([&](double impulse) { return Try(point, impulse); },
+                         yardstick.lipm_height_Ns, plan_.step,
+                         kMostOfYardstick * yardstick.lipm_Ns);
+  if (!found) return false;
+  if (plan_.replays && !Replay(point, *found)) return false;
+  files_.AddFound(
+      point, {found->recovered, yardstick.lipm_Ns, yardstick.lipm_height_Ns});
+  return true;
+}
+
+std::optional<bool> Workers::Try(const PushMapPoint& point, double impulse) {
+  if (const auto tried = files_.Tried(point, impulse)) return tried;
+  const RunResult result = Run(plan_.robot, PushScenario(plan_, point, impulse),
+                               {}, [this](double) { return !stopped_; });
+  if (result.interrupted) return std::nullopt;
+  files_.AddTried(point, impulse, result.verdict.recovered);
+  Report(1);
+  return result.verdict.recovered;
+}
+
+bool Workers::Replay(const PushMapPoint& point, const ImpulseBracket& found) {
+  const fs::path page = plan_.folder / ReplayFile(point);
+  std::vector<fs::path> runs;
+  for (const double impulse : {found.recovered, found.failed}) {
+    if (!(impulse > 0) || std::isinf(impulse)) continue;
+    char name[40];
+    std::snprintf(name, sizeof name, "%.2f Ns", impulse);
+    const fs::path folder = fs::path(page).replace_extension() / name;
+    const RunResult result =
+        RecordRun(plan_.robot, PushScenario(plan_, point, impulse), folder,
+                  [this](double) { return !stopped_; });
+    if (result.interrupted) return false;
+    runs.push_back(folder);
+  }
+  // A search ends with one or the other.
+  WriteReport(runs, page);
+  fs::remove_all(fs::path(page).replace_extension());
+  return true;
+}
+
+void Workers::Report(int trials) {
+  const std::lock_guard lock(mutex_);
+  trials_ += trials;
+  const int points = static_cast<int>(plan_.points.size());
+  const int done_now = done_ - done_before_;
+  const std::chrono::duration<double> passed = Clock::now() - start_;
+  const double left =
+      done_now > 0 ? passed.count() / done_now * (points - done_) : -1;
+  if (progress_ && !progress_({done_, points, trials_, left})) {
+    stopped_ = true;
+  }
+}
 
 }  // namespace
 

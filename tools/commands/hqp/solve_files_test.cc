@@ -1,0 +1,49 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/tools/commands/hqp/solve_files.h"
+
+#include <gtest/gtest.h>
+
+namespace poise {
+namespace {
+
+// y >= 3 above y = 0: a cold solve takes two iterations, a warm one takes one.
+HqpProblem TwoLevels() {
+  return ReadHqp(R"({"format": "hqp-1", "variables": 1, "levels": [
+      {"C": [[1]], "lower": [3], "upper": [9]}, {"B": [[1]], "b": [0]}]})");
+}
+
+int SecondIterations(const HqpMethod& method) {
+  const std::vector<HqpProblem> problems = {TwoLevels(), TwoLevels()};
+  HqpSequence sequence(method, problems);
+  Solution solution(1, problems[0].capacity);
+  double microseconds = -1;
+  for (const HqpProblem& problem : problems) {
+    EXPECT_EQ(sequence.Solve(problem, &solution, &microseconds),
+              Status::kOptimal);
+    EXPECT_NEAR(solution.y[0], 3, 1e-9);  // Far above rounding.
+    EXPECT_GE(microseconds, 0);
+  }
+  return solution.iterations;
+}
+
+TEST(HqpSequence, StartsFromTheWorkingSetOfTheProblemBefore) {
+  EXPECT_EQ(SecondIterations({}), 1);
+}
+
+TEST(HqpSequence, StartsColdIfAsked) {
+  HqpMethod method;
+  method.cold = true;
+  EXPECT_EQ(SecondIterations(method), 2);
+}
+
+TEST(HqpSequence, SolvesByTheCascade) {
+  for (const char* name : {"svd", "cod"}) {
+    SCOPED_TRACE(name);
+    HqpMethod method;
+    method.name = name;
+    (void)SecondIterations(method);
+  }
+}
+
+}  // namespace
+}  // namespace poise
