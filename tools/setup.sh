@@ -11,8 +11,7 @@ packages=(
   # The build.
   bazel-bootstrap bazel-rules-java bazel-rules-proto
   clang clang-format g++ git libclang-rt-14-dev pkg-config python3
-  # The libraries: linear algebra, robot files, plants, formats,
-  # digests.
+  # The libraries: linear algebra, robot files, plants, formats, digests.
   libbullet-dev libcairo2-dev libcli11-dev libeigen3-dev libmujoco-dev
   libssl-dev libtinyxml2-dev liburdfdom-dev libyaml-cpp-dev nlohmann-json3-dev
   # What only tests use.
