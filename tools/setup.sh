@@ -11,9 +11,9 @@ packages=(
   # The build.
   bazel-bootstrap bazel-rules-java bazel-rules-proto
   clang clang-format g++ git libclang-rt-14-dev pkg-config python3
-  # The libraries: linear algebra, robot files, plants, formats.
+  # The libraries: linear algebra, robot files, plants, formats, digests.
   libbullet-dev libcairo2-dev libcli11-dev libeigen3-dev libmujoco-dev
-  libtinyxml2-dev liburdfdom-dev libyaml-cpp-dev nlohmann-json3-dev
+  libssl-dev libtinyxml2-dev liburdfdom-dev libyaml-cpp-dev nlohmann-json3-dev
   # What only tests use.
   libbenchmark-dev libceres-dev libgmock-dev libgtest-dev libmpfrc++-dev
   liborocos-kdl-dev librapidcheck-dev

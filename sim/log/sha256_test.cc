@@ -25,6 +25,15 @@ TEST(Sha256, AgreesWithItsStandard) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+TEST(Sha256, ContinuesAfterADigest) {
+  Sha256 hash;
+  hash.Update("a");
+  EXPECT_EQ(hash.Digest(), DigestOf("a"));
+  hash.Update("bc");
+  EXPECT_EQ(hash.Digest(), DigestOf("abc"));
+  EXPECT_EQ(hash.Digest(), DigestOf("abc"));
+}
+
 TEST(Sha256, DoesNotCareHowTheBytesCome) {
   Sha256 hash;
   std::string text;

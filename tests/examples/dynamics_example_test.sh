@@ -34,7 +34,7 @@ else
 fi
 loaded=$(ls "$(run_bazel info output_base 2> /dev/null)/external")
 if ! grep -qx poise <<< "$loaded" ||
-    grep -xE 'urdfdom|bullet|ceres|mujoco|yaml_cpp' <<< "$loaded"; then
+    grep -xE 'urdfdom|bullet|ceres|mujoco|openssl|yaml_cpp' <<< "$loaded"; then
   echo "the example should load poise and Eigen, but it loaded: $loaded"
   exit 1
 fi

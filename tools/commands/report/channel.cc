@@ -1,11 +1,15 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/commands/report/channel.h"
 
+#include <openssl/evp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace poise {
 namespace {
@@ -14,21 +18,15 @@ constexpr std::uint16_t kNoNumber = 65535;
 constexpr double kSteps = 65534;
 
 std::string Base64(const std::vector<std::uint8_t>& bytes) {
-  static constexpr char kDigits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t triple = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      triple = triple << 8 | (k < left ? bytes[i + k] : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      const auto digit = triple >> (18 - 6 * k) & 63u;
-      text += k <= left ? kDigits[digit] : '=';
-    }
+  // EVP_EncodeBlock() returns the length of the text as an int.
+  if (bytes.size() > std::numeric_limits<int>::max() / 4 * 3) {
+    throw std::length_error("base64: a channel has " +
+                            std::to_string(bytes.size()) +
+                            " bytes, must have at most 1.6e9");
   }
+  std::string text((bytes.size() + 2) / 3 * 4 + 1, '\0');
+  text.resize(EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                              bytes.data(), static_cast<int>(bytes.size())));
   return text;
 }
 

@@ -24,7 +24,7 @@ _EXTERNALS = {
     "hqp": ["eigen"],
     "robot": ["eigen", "tinyxml2", "urdfdom", "yaml_cpp"],
     "robot/control": ["eigen", "yaml_cpp"],
-    "sim": ["bullet", "eigen", "mujoco", "nlohmann_json", "yaml_cpp"],
+    "sim": ["bullet", "eigen", "mujoco", "nlohmann_json", "openssl", "yaml_cpp"],
 }
 
 # External repository: its headers, as the start of a <path>.
@@ -38,6 +38,7 @@ _HEADERS = {
     "mpreal": ["mpreal", "mpfr"],
     "mujoco": ["mujoco/"],
     "nlohmann_json": ["nlohmann/"],
+    "openssl": ["openssl/"],
     "rapidcheck": ["rapidcheck"],
     "tinyxml2": ["tinyxml"],
     "urdfdom": ["urdf"],

@@ -34,6 +34,13 @@ def add_default_repositories():
         debian_package = "nlohmann-json3-dev",
     )
     system_repository(
+        # libcrypto only: digests and base64, no TLS.
+        name = "openssl",
+        pkg_config = "libcrypto",
+        atleast_version = "3.0",
+        debian_package = "libssl-dev",
+    )
+    system_repository(
         # cairo.pc adds its own folder to the search path; <cairo/cairo.h>
         # needs none.
         name = "cairo",
