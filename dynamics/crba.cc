@@ -14,7 +14,10 @@ void FillMassMatrix(const Tree& tree, const Recursion& r,
   const int num_bodies = tree.num_bodies();
   const int v0 = tree.v_start();
 
-  // The base's rows: its momentum [n; f] about its origin.
+  // Rows and columns 0-5 are the momentum [n; f] about the base's origin O at unit
+  // rate. With m, h and Sigma of the whole robot,
+  //     M_ll = [ trace(Sigma) 1 - Sigma   [h]x ],   column j: H_j about O.
+  //            [         -[h]x            m 1  ]
   if (tree.is_floating()) {
     const MassMoments M_O = r.M_W[0];
     const Eigen::Matrix3d Sigma = ToEigen(M_O.Sigma);
@@ -29,6 +32,7 @@ void FillMassMatrix(const Tree& tree, const Recursion& r,
     double* f_x = M.col(3).data() + v0 - 1;
     double* f_y = M.col(4).data() + v0 - 1;
     double* f_z = M.col(5).data() + v0 - 1;
+    // H_O = [n + p_Oj x f; f].
     POISE_LANES
     for (int b = 1; b < num_bodies; ++b) {
       const Force3 H_O = Shift(r.p_OB_W[b], r.H_W[b]);
@@ -43,7 +47,8 @@ void FillMassMatrix(const Tree& tree, const Recursion& r,
         M.bottomLeftCorner(num_bodies - 1, 6).transpose();
   }
 
-  // Column k below the diagonal: the momenta of all subtrees in k's, about k.
+  // M_jk = [turn_k; v]' H_j for each body j in the subtree of k, where v = slide_k
+  // + turn_k x p_kj is the velocity of j's origin at unit rate of joint k.
   for (int k = 1; k < num_bodies; ++k) {
     const Vec3 turn_W = r.turn_W[k], slide_W = r.slide_W[k];
     const Vec3 p_OK_W = r.p_OB_W[k];

@@ -7,14 +7,16 @@
 
 namespace poise {
 
-/// The joints as the recursions take them, by the body B that each one moves;
-/// the entries of the base, body 0, are those of a joint that cannot move.
-/// The pose of B in its parent P is
+/// JointMaps stores the constants of all joints as the recursions read them. Entry
+/// B belongs to the joint that moves body B; entry 0, the base, has no motion.
+/// The pose of body B in its parent P is
 ///     R_PB(q) = R_constant + R_sine sin q + R_cosine cos q,
 ///     p_PB(q) = p_PF + slide_P q,
-/// and its velocity at q̇ is [turn_P; slide_P] q̇ more than P's: a revolute joint
-/// has slide_P = 0, a prismatic one turn_P = 0 and R_sine = R_cosine = 0. One
-/// formula, without a branch, for every type, axis and frame.
+/// and the joint adds the velocity
+///     [turn_P; slide_P] q̇
+/// to the velocity of P. A revolute joint has slide_P = 0. A prismatic joint has
+/// turn_P = 0 and R_sine = R_cosine = 0. The formula has no branch on the joint's
+/// type, axis or frame, so that loops over joints can use lanes.
 struct JointMaps {
   explicit JointMaps(int num_bodies = 0)
       : parent(num_bodies),
@@ -27,7 +29,7 @@ struct JointMaps {
         slide_P(num_bodies),
         armature(num_bodies) {}
 
-  std::vector<int> parent;  ///< Body P.
+  std::vector<int> parent;  ///< Index of body P.
   std::vector<int> end;     ///< The subtree of B is bodies B ... end - 1.
   Mat3Array R_constant;
   Mat3Array R_sine;

@@ -6,8 +6,32 @@
 
 #include "poise/math/spatial.h"
 
-/// Lets the compiler do several rounds of the loop that follows at once: no
-/// round reads what another one writes.
+/// POISE_LANES tells the compiler that the iterations of the next loop are
+/// independent: no iteration reads what another one writes. The compiler then
+/// computes one iteration in each lane of a vector register. A lane is the place
+/// of one double; SSE2 has two lanes, AVX four, AVX-512 eight. Lanes do not change
+/// a result: each iteration computes the same sums in the same order.
+///
+/// The lanes are worth the following factors, the time of a call with scalar
+/// loops divided by its time with lanes:
+///
+/// | size | function | --config=opt, SSE2 | --config=native |
+/// | 50 joints | ComputeRnea | 1.60 | 2.13 |
+/// | 50 joints | ComputeBias | 1.58 | 2.12 |
+/// | 50 joints | ComputeCrba | 1.38 | 1.71 |
+/// | 50 joints | ComputeTick, two feet | 1.36 | 1.59 |
+/// | 50 joints | ComputeRneaDerivatives | 1.23 | 1.37 |
+/// | 50 joints | ComputeAba | 1.12 | 1.16 |
+/// | 10 joints | ComputeRnea | 1.57 | 1.68 |
+/// | 100 joints | ComputeRnea | 1.57 | 2.16 |
+/// | 1000 joints | ComputeRnea | 1.62 | 2.09 |
+///
+/// Measured on one core of an AMD EPYC with AVX-512, by GCC 12.2: the fastest of
+/// 36 repetitions, in four runs. 50 joints are the humanoid of robot/models; the
+/// other trees are random. Scalar loops are those of
+///     bazel run --config=opt
+///         --per_file_copt='^dynamics/.*@-fno-tree-loop-vectorize'
+///         //tests/benchmarks:dynamics_benchmark
 #if defined(__clang__)
 #define POISE_LANES _Pragma("clang loop vectorize(assume_safety)")
 #else
@@ -16,9 +40,9 @@
 
 namespace poise {
 
-/// Three numbers, for loops over arrays of them. Eigen's Vector3d would keep
-/// the compiler from doing several bodies at once: it vectorizes inside the
-/// vector.
+/// Vec3 is a vector of three doubles for loops with lanes. Eigen's Vector3d
+/// vectorizes inside one vector, which keeps the compiler from giving each body
+/// a lane.
 struct Vec3 {
   double x, y, z;
 };
@@ -39,9 +63,9 @@ inline Vec3 Cross(const Vec3& a, const Vec3& b) noexcept {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// math's SpatialMotion and SpatialForce (or SpatialMomentum) of Vec3, and so
-/// without the latters' kinds: a motion or acceleration, and a force or momentum
-/// about a named point.
+/// Motion3 is a spatial motion or acceleration, and Force3 a spatial force or
+/// momentum, both about a named point. They are SpatialMotion and SpatialForce
+/// of math/spatial.h, made of Vec3.
 struct Motion3 {
   Vec3 angular, linear;
 };
@@ -61,12 +85,13 @@ inline Force3 operator-(const Force3& F, const Force3& G) noexcept {
 inline double Dot(const Motion3& V, const Force3& F) noexcept {
   return Dot(V.angular, F.angular) + Dot(V.linear, F.linear);
 }
-/// A force about B, taken about P.
+/// Shift() returns the force about P that is equal to the force F about B:
+///     [n + p_PB x f; f].
 inline Force3 Shift(const Vec3& p_PB, const Force3& F) noexcept {
   return {F.angular + Cross(p_PB, F.linear), F.linear};
 }
 
-/// A matrix of three rows.
+/// Mat3 is a 3 x 3 matrix, stored as three rows.
 struct Mat3 {
   Vec3 x, y, z;
 };
@@ -74,7 +99,7 @@ struct Mat3 {
 inline Vec3 operator*(const Mat3& A, const Vec3& v) noexcept {
   return {Dot(A.x, v), Dot(A.y, v), Dot(A.z, v)};
 }
-/// The row a' B.
+/// RowTimes() returns the row a' B.
 inline Vec3 RowTimes(const Vec3& a, const Mat3& B) noexcept {
   return a.x * B.x + a.y * B.y + a.z * B.z;
 }
@@ -88,7 +113,7 @@ inline Mat3 operator*(double s, const Mat3& A) noexcept {
   return {s * A.x, s * A.y, s * A.z};
 }
 
-/// A symmetric matrix.
+/// Sym3 is a symmetric 3 x 3 matrix, stored as six entries.
 struct Sym3 {
   double xx, yy, zz, xy, xz, yz;
 };
@@ -103,7 +128,7 @@ inline Sym3 operator+(const Sym3& S, const Sym3& T) noexcept {
   return {S.xx + T.xx, S.yy + T.yy, S.zz + T.zz,
           S.xy + T.xy, S.xz + T.xz, S.yz + T.yz};
 }
-/// R S R'.
+/// Rotate() returns R S R'; the product computes each entry once.
 inline Sym3 Rotate(const Mat3& R, const Sym3& S) noexcept {
   const Mat3 T = R * Full(S);
   return {Dot(T.x, R.x), Dot(T.y, R.y), Dot(T.z, R.z),
@@ -125,7 +150,9 @@ inline Mat3 ToMat3(const Eigen::Matrix3d& A) {
   return {ToVec3(A.row(0)), ToVec3(A.row(1)), ToVec3(A.row(2))};
 }
 
-/// Many Vec3, component by component.
+/// Vec3Array stores one Vec3 for each body as a structure of arrays: all x, then
+/// all y, then all z. One load then fills the lanes with the same component of
+/// consecutive bodies.
 class Vec3Array {
  public:
   explicit Vec3Array(int size = 0) : x_(size), y_(size), z_(size) {}
@@ -140,7 +167,7 @@ class Vec3Array {
   std::vector<double> x_, y_, z_;
 };
 
-/// Many Force3, component by component.
+/// Force3Array stores one Force3 for each body as a structure of arrays.
 class Force3Array {
  public:
   explicit Force3Array(int size = 0) : angular_(size), linear_(size) {}
@@ -154,7 +181,7 @@ class Force3Array {
   Vec3Array angular_, linear_;
 };
 
-/// Many Mat3, component by component.
+/// Mat3Array stores one Mat3 for each body as a structure of arrays.
 class Mat3Array {
  public:
   explicit Mat3Array(int size = 0) : x_(size), y_(size), z_(size) {}
@@ -169,7 +196,7 @@ class Mat3Array {
   Vec3Array x_, y_, z_;
 };
 
-/// Many Sym3, component by component.
+/// Sym3Array stores one Sym3 for each body as a structure of arrays.
 class Sym3Array {
  public:
   explicit Sym3Array(int size = 0) : diagonal_(size), rest_(size) {}

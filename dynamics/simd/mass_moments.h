@@ -8,20 +8,24 @@
 
 namespace poise {
 
-/// The moments of a body's mass about a point O: sums over its elements dm at x
-/// from O. They rotate and shift as x does, and add up where points and axes
-/// agree. The moment of inertia is I = trace(Sigma) 1 - Sigma.
+/// MassMoments are the moments of order 0, 1 and 2 of a body's mass about a point
+/// O, with x the position of an element dm from O:
+///     m = sum of dm,   h = sum of x dm,   Sigma = sum of x x' dm.
+/// Moments about the same point and in the same axes add up. The moment of
+/// inertia is I = trace(Sigma) 1 - Sigma.
 ///
-/// Why not I itself: a field of accelerations a + A x, A = [alpha]x + [w]x
-/// [w]x, acts on Sigma at once, without a gyroscopic term; the shift is
-/// shorter, too.
+/// Sigma is stored instead of I because accelerations are a linear field,
+///     a + A x,   A = [alpha]x + [w]x [w]x,
+/// whose force is A Sigma without a gyroscopic term. The shift of Sigma also
+/// costs fewer operations than the shift of I.
 struct MassMoments {
-  double mass;  ///< Sum of dm, kg.
-  Vec3 h;       ///< Of x dm, kg m.
-  Sym3 Sigma;   ///< Of x x' dm, kg m2.
+  double mass;  ///< m, kg.
+  Vec3 h;       ///< m p_OG, kg m.
+  Sym3 Sigma;   ///< Second moments, kg m2.
 };
 
-/// The moments about the body's origin, in its axes.
+/// MakeMassMoments() returns the moments about the body's origin, in its axes:
+///     h = m p,   Sigma = trace(I_G) / 2 1 - I_G + m p p',   p = p_BoG_B.
 inline MassMoments MakeMassMoments(const Inertia& M_B) {
   const Eigen::Vector3d h = M_B.mass * M_B.p_BoG_B;
   const Eigen::Matrix3d Sigma =
@@ -33,12 +37,15 @@ inline MassMoments MakeMassMoments(const Inertia& M_B) {
            Sigma(0, 1), Sigma(0, 2), Sigma(1, 2)}};
 }
 
-/// Moments in the axes of B, seen in those of A.
+/// Rotate() returns the moments in the axes of A, from those in the axes of B:
+///     h_A = R_AB h_B,   Sigma_A = R_AB Sigma_B R_AB'.
 inline MassMoments Rotate(const Mat3& R_AB, const MassMoments& M) noexcept {
   return {M.mass, R_AB * M.h, Rotate(R_AB, M.Sigma)};
 }
 
-/// Moments about B, taken about P: x becomes p_PB + x.
+/// Shift() returns the moments about P, from those about B. With d = p_PB and x
+/// replaced by d + x,
+///     h_P = h + m d,   Sigma_P = Sigma + d h_P' + h d'.
 inline MassMoments Shift(const Vec3& p_PB, const MassMoments& M) noexcept {
   const Vec3& d = p_PB;
   const Vec3& h = M.h;
@@ -54,8 +61,8 @@ inline MassMoments Shift(const Vec3& p_PB, const MassMoments& M) noexcept {
 inline MassMoments operator+(const MassMoments& M, const MassMoments& N) {
   return {M.mass + N.mass, M.h + N.h, M.Sigma + N.Sigma};
 }
-/// [alpha]x + [w]x [w]x: a body's points at x from its origin accelerate by A x
-/// more than it does.
+/// AccelerationGradient() returns A = [alpha]x + [w]x [w]x. The point of a body
+/// at x from its origin has the classical acceleration a + A x.
 inline Mat3 AccelerationGradient(const Vec3& alpha, const Vec3& w) noexcept {
   const double xx = w.x * w.x, yy = w.y * w.y, zz = w.z * w.z;
   const double xy = w.x * w.y, xz = w.x * w.z, yz = w.y * w.z;
@@ -64,8 +71,10 @@ inline Mat3 AccelerationGradient(const Vec3& alpha, const Vec3& w) noexcept {
           {xz - alpha.y, yz + alpha.x, -(xx + yy)}};
 }
 
-/// The force about O that the field of accelerations a + A x takes: the sums
-/// of x cross (a + A x) dm and of (a + A x) dm.
+/// Accelerate() returns the force about O that accelerates a body by a + A x:
+///     n = sum of x x (a + A x) dm = h x a + vee(P - P'),   P = A Sigma,
+///     f = sum of (a + A x) dm     = m a + A h,
+/// where vee(P - P') = [P_zy - P_yz; P_xz - P_zx; P_yx - P_xy].
 inline Force3 Accelerate(const MassMoments& M, const Mat3& A,
                          const Vec3& a) noexcept {
   const Mat3 P = A * Full(M.Sigma);  // Sum of (A x) x' dm.
@@ -73,15 +82,16 @@ inline Force3 Accelerate(const MassMoments& M, const Mat3& A,
           M.mass * a + A * M.h};
 }
 
-/// The momentum about O of a rotation w about O and a translation v: I w +
-/// h cross v, mass v - h cross w.
+/// Momentum() returns the momentum about O of a body that turns with w about O
+/// and moves with v:
+///     [I w + h x v; m v - h x w],   I w = trace(Sigma) w - Sigma w.
 inline Force3 Momentum(const MassMoments& M, const Vec3& w,
                        const Vec3& v) noexcept {
   const double trace = M.Sigma.xx + M.Sigma.yy + M.Sigma.zz;
   return {trace * w - M.Sigma * w + Cross(M.h, v), M.mass * v - Cross(M.h, w)};
 }
 
-/// Many MassMoments, component by component.
+/// MassMomentsArray stores the MassMoments of each body as a structure of arrays.
 class MassMomentsArray {
  public:
   explicit MassMomentsArray(int size = 0)

@@ -10,8 +10,9 @@
 namespace poise {
 namespace {
 
-// Whether a sweep comes straight from the parent to a body. Then what it needs
-// of the parent is at hand, and nothing waits for what was just stored.
+// Returns whether the previous iteration of a sequential loop computed the
+// parent. Its result is then still in registers, and the loop need not wait for
+// a store to be read again.
 bool IsNext(int parent, int b) { return parent == b - 1; }
 
 }  // namespace
@@ -45,13 +46,14 @@ void SweepPoses(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
 
   SinCos(q_joint, num_bodies - 1, r.sine.data() + 1, r.cosine.data() + 1);
 
-  // R_PB, kept where R_WB will stand.
+  // R_PB = R_constant + R_sine sin q + R_cosine cos q, stored in R_WB for now.
   POISE_LANES
   for (int b = 1; b < num_bodies; ++b) {
     r.R_WB.Set(b, joints.R_constant[b] + r.sine[b] * joints.R_sine[b] +
                       r.cosine[b] * joints.R_cosine[b]);
   }
 
+  // R_WB = R_WP R_PB.
   Mat3 R_WB = ToMat3(Eigen::Matrix3d::Identity());
   if (tree.is_floating()) {
     R_WB = ToMat3(MatrixFromQuaternion(
@@ -66,6 +68,8 @@ void SweepPoses(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
     r.R_WB.Set(b, R_WB);
   }
 
+  // turn_W = R_WP turn_P,   slide_W = R_WP slide_P,
+  // p_PB_W = R_WP p_PF + q slide_W.
   POISE_LANES
   for (int b = 1; b < num_bodies; ++b) {
     const Mat3 R_WP = r.R_WP[b];
@@ -75,6 +79,7 @@ void SweepPoses(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
     r.p_PB_W.Set(b, R_WP * joints.p_PF[b] + q_joint[b - 1] * slide_W);
   }
 
+  // p_OB = p_OP + p_PB.
   Vec3 p_OB_W{0, 0, 0};
   r.p_OB_W.Set(0, p_OB_W);
   for (int b = 1; b < num_bodies; ++b) {
@@ -97,6 +102,7 @@ void SweepAccelerations(const Tree& tree,
   const double* vdot_joint = vdot.data() + tree.v_start();
   Recursion& r = *recursion;
 
+  // The base: w and alpha of v and v̇, a_WB = v̇ - g; all zero but -g if fixed.
   Vec3 w_WB{0, 0, 0};
   Vec3 alpha_WB{0, 0, 0};
   Vec3 a_WB = ToVec3(-g_W);
@@ -116,7 +122,8 @@ void SweepAccelerations(const Tree& tree,
     r.w_WB.Set(b, w_WB);
   }
 
-  // alpha_WB = alpha_WP + w_WP x turn v + turn v̇; the addends first.
+  // alpha_WB = alpha_WP + w_WP x turn v + turn v̇. The loop with lanes computes
+  // the last two terms, the sequential loop adds alpha_WP.
   POISE_LANES
   for (int b = 1; b < num_bodies; ++b) {
     const Vec3 turn_W = r.turn_W[b];
@@ -132,7 +139,8 @@ void SweepAccelerations(const Tree& tree,
     r.alpha_WB.Set(b, alpha_WB);
   }
 
-  // a_WB = a_WP + alpha_WP x p + w_WP x (w_WP x p + 2 slide v) + slide v̇.
+  // a_WB = a_WP + alpha_WP x p + w_WP x (w_WP x p + 2 slide v) + slide v̇, with
+  // p = p_PB. The loop with lanes computes all terms but a_WP.
   POISE_LANES
   for (int b = 1; b < num_bodies; ++b) {
     const Vec3 w_WP = r.w_WP[b], p_PB_W = r.p_PB_W[b], slide_W = r.slide_W[b];
@@ -154,6 +162,7 @@ void SweepInertias(const Tree& tree, Recursion* recursion) noexcept {
   const MassMomentsArray& M_B = tree.mass_moments();
   const int num_bodies = tree.num_bodies();
   Recursion& r = *recursion;
+  // h_W = R_WB h_B,   Sigma_W = R_WB Sigma_B R_WB'.
   POISE_LANES
   for (int b = 0; b < num_bodies; ++b) {
     r.M_W.Set(b, Rotate(r.R_WB[b], M_B[b]));
@@ -163,6 +172,7 @@ void SweepInertias(const Tree& tree, Recursion* recursion) noexcept {
 void SweepForces(const Tree& tree, Recursion* recursion) noexcept {
   const int num_bodies = tree.num_bodies();
   Recursion& r = *recursion;
+  // F = [h x a + vee(A Sigma - Sigma A'); m a + A h],   A = [alpha]x + [w]x [w]x.
   POISE_LANES
   for (int b = 0; b < num_bodies; ++b) {
     r.F_W.Set(
@@ -174,6 +184,7 @@ void SweepForces(const Tree& tree, Recursion* recursion) noexcept {
 void SumInertias(const Tree& tree, Recursion* recursion) noexcept {
   const std::vector<int>& parent = tree.joint_maps().parent;
   MassMomentsArray& M_W = recursion->M_W;
+  // M_P = M_P + (M_B shifted by p_PB), from the leaves to the base.
   MassMoments M = M_W[tree.num_bodies() - 1];
   for (int b = tree.num_bodies() - 1; b > 0; --b) {
     const MassMoments M_P = M_W[parent[b]] + Shift(recursion->p_PB_W[b], M);
@@ -185,6 +196,7 @@ void SumInertias(const Tree& tree, Recursion* recursion) noexcept {
 void SumForces(const Tree& tree, Recursion* recursion) noexcept {
   const std::vector<int>& parent = tree.joint_maps().parent;
   Force3Array& F_W = recursion->F_W;
+  // F_P = F_P + [n_B + p_PB x f_B; f_B], from the leaves to the base.
   Force3 F = F_W[tree.num_bodies() - 1];
   for (int b = tree.num_bodies() - 1; b > 0; --b) {
     const Force3 F_P = F_W[parent[b]] + Shift(recursion->p_PB_W[b], F);
@@ -196,6 +208,7 @@ void SumForces(const Tree& tree, Recursion* recursion) noexcept {
 void SweepMomenta(const Tree& tree, Recursion* recursion) noexcept {
   const int num_bodies = tree.num_bodies();
   Recursion& r = *recursion;
+  // H = [I turn + h x slide; m slide - h x turn] of the subtree.
   POISE_LANES
   for (int b = 1; b < num_bodies; ++b) {
     r.H_W.Set(b, Momentum(r.M_W[b], r.turn_W[b], r.slide_W[b]));
@@ -211,6 +224,7 @@ void ProjectForces(const Tree& tree, const Recursion& r,
   }
   const int num_bodies = tree.num_bodies();
   double* tau_joint = tau.data() + tree.v_start();
+  // tau_j = turn . n + slide . f.
   POISE_LANES
   for (int b = 1; b < num_bodies; ++b) {
     tau_joint[b - 1] = Dot(Motion3{r.turn_W[b], r.slide_W[b]}, r.F_W[b]);

@@ -10,28 +10,29 @@
 
 namespace poise {
 
-/// Scratch of the recursions over a tree, which all algorithms share. Nothing
-/// in it is read by a call that did not write it.
+/// Recursion is the scratch memory of the recursions over a tree, shared by all
+/// algorithms. A call reads only what the same call has written.
 ///
-/// All vectors have world axes, and those of a body are about its own origin:
-/// from body to body they are shifted and never rotated, the world's origin
-/// enters nowhere, and long chains lose no digits. Arrays are by body,
-/// component by component: a sweep walks the tree for sums alone, a few
-/// additions a body, and does the rest for several bodies at once.
+/// All vectors have world axes, and spatial vectors of a body are about its own
+/// origin. From body to body vectors are shifted and never rotated. The position
+/// of the world's origin is not used, so that long chains lose no digits.
+/// Each array has one entry for each body, as a structure of arrays. The sums
+/// from parent to child are sequential loops of few additions; everything else is
+/// a loop with lanes, see README.md.
 ///
-/// | member | of each body | meaning | point | filled by |
-/// | sine, cosine | 1 | of the joint's angle | | SweepPoses |
+/// | member | size per body | meaning | point | filled by |
+/// | sine, cosine | 1 | sine and cosine of the joint's angle | | SweepPoses |
 /// | R_WB, R_WP | 3 x 3 | orientation, and the parent's | | SweepPoses |
-/// | p_PB_W | 3 | from the parent's origin to its own | | SweepPoses |
-/// | p_OB_W | 3 | from the base's origin to its own | | SweepPoses |
+/// | p_PB_W | 3 | position from the parent's origin | | SweepPoses |
+/// | p_OB_W | 3 | position from the base's origin | | SweepPoses |
 /// | turn_W, slide_W | 3 | velocity at unit joint rate | own | SweepPoses |
 /// | w_WB, w_WP | 3 | angular velocity, the parent's | | SweepAccelerations |
-/// | alpha_WB, alpha_WP | 3 | angular acceleration, the parent's | | same |
-/// | a_WB | 3 | classical acceleration, less gravity | own | same |
+/// | alpha_WB, alpha_WP | 3 | angular acceleration, the parent's | | as w_WB |
+/// | a_WB | 3 | classical acceleration less gravity | own | as w_WB |
 /// | M_W | 10 | mass moments of the body | own | SweepInertias |
-/// |     |    | then of its subtree | own | SumInertias |
-/// | F_W | 6 | force that moves the body so | own | SweepForces |
-/// |     |   | then its subtree | own | SumForces |
+/// |     |    | then mass moments of its subtree | own | SumInertias |
+/// | F_W | 6 | force on the body at its acceleration | own | SweepForces |
+/// |     |   | then force on its subtree | own | SumForces |
 /// | H_W | 6 | momentum of the subtree at unit joint rate | own | SweepMomenta |
 /// | zero | (nv in all) | zeros | | the constructor |
 struct Recursion {
@@ -50,34 +51,38 @@ struct Recursion {
   Eigen::VectorXd zero;
 };
 
-/// Where the bodies are at q, but for the position of the base.
+/// Computes the orientations of the bodies, their positions from the base's
+/// origin, and the joint axes at q. The position of the base is not used.
 void SweepPoses(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
                 Recursion* recursion) noexcept;
 
-/// How they move at (v, v̇), where all fall with g_W: a base at rest in a field
-/// of gravity accelerates by -g_W. After SweepPoses().
+/// Computes the velocities and accelerations of the bodies at (v, v̇). Gravity
+/// enters as an acceleration of the base by -g_W. Call SweepPoses() before.
 void SweepAccelerations(const Tree& tree,
                         const Eigen::Ref<const Eigen::VectorXd>& v,
                         const Eigen::Ref<const Eigen::VectorXd>& vdot,
                         const Eigen::Vector3d& g_W,
                         Recursion* recursion) noexcept;
 
-/// The mass moments of each body. After SweepPoses().
+/// Computes the mass moments of each body in world axes. Call SweepPoses()
+/// before.
 void SweepInertias(const Tree& tree, Recursion* recursion) noexcept;
 
-/// The force that each body needs. After SweepAccelerations(),
-/// SweepInertias().
+/// Computes the force that gives each body its acceleration. Call
+/// SweepAccelerations() and SweepInertias() before.
 void SweepForces(const Tree& tree, Recursion* recursion) noexcept;
 
-/// Turns each body's into its subtree's.
+/// SumInertias() and SumForces() replace the mass moments and the force of each
+/// body by the sums over its subtree.
 void SumInertias(const Tree& tree, Recursion* recursion) noexcept;
 void SumForces(const Tree& tree, Recursion* recursion) noexcept;
 
-/// The momentum of each subtree at unit rate of its joint. After SumInertias().
+/// Computes the momentum of each subtree at unit rate of its joint. Call
+/// SumInertias() before.
 void SweepMomenta(const Tree& tree, Recursion* recursion) noexcept;
 
-/// The generalized forces: [n; f] of the base, then those of the joints, from
-/// the forces on the subtrees. After SumForces().
+/// Computes the generalized forces from the forces on the subtrees: [n; f] of a
+/// floating base, then one for each joint. Call SumForces() before.
 void ProjectForces(const Tree& tree, const Recursion& recursion,
                    Eigen::Ref<Eigen::VectorXd> tau) noexcept;
 

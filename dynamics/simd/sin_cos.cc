@@ -8,14 +8,15 @@
 namespace poise {
 namespace {
 
-// Adding and subtracting it rounds a double below 2^51 to an integer.
+// Adding and subtracting kRound rounds a double below 2^51 to an integer.
 constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52.
 
-// pi/2 in three parts: the first two have 33 bits each, so that their products
-// with an integer below 2^20 are exact.
+// The sum of the three parts is pi/2. The first two parts have 33 bits each, so
+// that their products with an integer below 2^20 are exact.
 constexpr double kHalfPi1 = 0x1.921fb544p+0;
 constexpr double kHalfPi2 = 0x1.0b4611a6p-34;
 constexpr double kHalfPi3 = 0x1.3198a2e037073p-69;
+// Up to this angle, in rad, the error is below 1 ulp.
 constexpr double kLargest = 10000;
 
 constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
@@ -25,7 +26,7 @@ constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
 void SinCos(const double* x, int n, double* sine, double* cosine) noexcept {
   POISE_LANES
   for (int i = 0; i < n; ++i) {
-    // x = quarter pi/2 + y, |y| <= pi/4, with the rounding error of y in z.
+    // x = quarter pi/2 + y + z, |y| <= pi/4, where z is the rounding error of y.
     const double quarter = (x[i] * kTwoOverPi + kRound) - kRound;
     const double a = x[i] - quarter * kHalfPi1;
     const double b = quarter * kHalfPi2;
@@ -33,7 +34,7 @@ void SinCos(const double* x, int n, double* sine, double* cosine) noexcept {
     const double y = c - quarter * kHalfPi3;
     const double z = ((a - c) - b) + ((c - y) - quarter * kHalfPi3);
 
-    // Taylor's series, of which the terms left out are below 2e-18:
+    // Taylor series; the omitted terms are below 2e-18:
     //     sin y = y + y^3 odd(y^2),   cos y = 1 - y^2/2 + y^4 even(y^2).
     const double yy = y * y;
     double odd = 1 / 355687428096000.;
@@ -52,13 +53,15 @@ void SinCos(const double* x, int n, double* sine, double* cosine) noexcept {
     even = even * yy - 1 / 720.;
     even = even * yy + 1 / 24.;
 
-    // At y + z, the small terms added up first.
+    // To first order in z, sin(y + z) = sin y + z cos y and cos(y + z) = cos y -
+    // z sin y. Small terms are added first.
     const double half = 0.5 * yy;
     const double one = 1 - half;
     const double sine_y = y + (one * z + y * yy * odd);
     const double cosine_y = one + (((1 - one) - half) - y * z + yy * yy * even);
 
-    // By the quarter turn, 0, 1, -2 or 2, -1.
+    // The turn is quarter modulo 4: 0, 1, 2 or -2, -1. With s = sin(y + z) and
+    // c = cos(y + z) the sine is s, c, -s, -c and the cosine c, -s, -c, s.
     const double turn = quarter - 4 * ((0.25 * quarter + kRound) - kRound);
     const bool swap = turn * turn == 1;
     const double sine_size = swap ? cosine_y : sine_y;
@@ -66,6 +69,7 @@ void SinCos(const double* x, int n, double* sine, double* cosine) noexcept {
     sine[i] = turn * turn == 4 || turn == -1 ? -sine_size : sine_size;
     cosine[i] = turn * turn == 4 || turn == 1 ? -cosine_size : cosine_size;
   }
+  // Larger angles, and NaN, need the exact reduction of the standard library.
   for (int i = 0; i < n; ++i) {
     if (std::abs(x[i]) <= kLargest) continue;
     sine[i] = std::sin(x[i]);

@@ -3,12 +3,12 @@
 
 namespace poise {
 
-/// Sines and cosines of n angles, several at a time: four times as fast as
-/// std::sin() and std::cos() where the machine has wide registers.
+/// Computes the sines and cosines of n angles, one angle in each lane: four
+/// times as fast as std::sin() and std::cos() with wide vector registers.
 ///
-/// @param x  n angles, rad; of any size. Not finite gives NaN.
-/// @param sine, cosine  n each; must not overlap x. Error below 1 ulp while
-///     |x| <= 10000 rad; beyond, that of std::sin() and std::cos().
+/// @param x  n angles in rad, of any size. An angle that is not finite gives NaN.
+/// @param sine, cosine  n each; must not overlap x. The error is below 1 ulp for
+///     |x| <= 10000 rad, and that of std::sin() and std::cos() beyond.
 /// Does not allocate, does not throw.
 void SinCos(const double* x, int n, double* sine, double* cosine) noexcept;
 
