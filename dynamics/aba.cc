@@ -9,8 +9,7 @@
 namespace poise {
 namespace {
 
-// What rounding may leave of an inertia that is zero, as a part of the one with
-// locked joints.
+// An inertia below this fraction of the inertia with locked joints is rounding.
 constexpr double kRounding = 1e-13;
 
 Vec3 TransposeTimes(const Mat3& A, const Vec3& v) { return RowTimes(v, A); }
@@ -19,18 +18,18 @@ Mat3 Transpose(const Mat3& A) {
   return {{A.x.x, A.y.x, A.z.x}, {A.x.y, A.y.y, A.z.y}, {A.x.z, A.y.z, A.z.z}};
 }
 
-// [d]x A.
+// Returns [d]x A.
 Mat3 CrossTimes(const Vec3& d, const Mat3& A) {
   return {d.y * A.z + -d.z * A.y, d.z * A.x + -d.x * A.z,
           d.x * A.y + -d.y * A.x};
 }
 
-// The symmetric part of a matrix that is symmetric but for rounding.
+// Returns the upper triangle of a matrix that is symmetric up to rounding.
 Sym3 Symmetric(const Mat3& A) {
   return {A.x.x, A.y.y, A.z.z, A.x.y, A.x.z, A.y.z};
 }
 
-// a b' / D, where it is symmetric and where it is not.
+// Square() returns a a' / D, and Outer() returns a b' / D.
 Sym3 Square(const Vec3& a, double D) {
   return {a.x * a.x / D, a.y * a.y / D, a.z * a.z / D,
           a.x * a.y / D, a.x * a.z / D, a.y * a.z / D};
@@ -51,13 +50,14 @@ Mat3 operator-(const Mat3& A, const Mat3& B) {
 
 using Body = AbaScratch::Body;
 
-// [J H; H' M] A.
+// Returns the force [J H; H' M] A.
 Force3 operator*(const Body& body, const Motion3& A) {
   return {body.J * A.angular + body.H * A.linear,
           TransposeTimes(body.H, A.angular) + body.M * A.linear};
 }
 
-// The resistance of a single body: that of its mass moments.
+// Returns the articulated-body inertia of a single body:
+//     J = trace(Sigma) 1 - Sigma,   H = [h]x,   M = m 1.
 Body MakeBody(const MassMoments& M, const Force3& bias) {
   const double trace = M.Sigma.xx + M.Sigma.yy + M.Sigma.zz;
   const Vec3& h = M.h;
@@ -68,8 +68,8 @@ Body MakeBody(const MassMoments& M, const Force3& bias) {
           bias};
 }
 
-// Adds to the parent's resistance, about P, that of a body at p_PB. With
-// a_B = a_P - [d]x alpha, n_P = n_B + [d]x f_B:
+// Adds the articulated-body inertia of a body B to that of its parent P. With
+// d = p_PB, a_B = a_P - [d]x alpha and n_P = n_B + [d]x f_B,
 //     H_P = H + [d]x M,   J_P = J - H [d]x + [d]x H_P'.
 void AddShifted(const Body& B, const Vec3& d, Body* P) {
   const Mat3 H_P = B.H + CrossTimes(d, Full(B.M));
@@ -80,8 +80,9 @@ void AddShifted(const Body& B, const Vec3& d, Body* P) {
   P->bias = P->bias + Shift(d, B.bias);
 }
 
-// The acceleration of a floating base, A = -[J H; H' M]^-1 bias. Scaled to unit
-// diagonal by the locked robot's inertia, so that kg m2 and kg compare.
+// Solves [J H; H' M] A = F for the acceleration A of a floating base. The matrix
+// is scaled to unit diagonal by the locked robot's inertia, so that kg m2 and kg
+// are comparable. Returns false if the matrix is singular.
 bool SolveBase(const Body& base, const MassMoments& M_locked,
                const Force3& push, Vector6d* A) {
   const Body locked = MakeBody(M_locked, base.bias);
@@ -122,11 +123,10 @@ inline Motion3 BiasAcceleration(const Recursion& r, double v_j, int b) {
           Cross(w_WP, Cross(w_WP, p_PB_W) + 2 * v_j * r.slide_W[b])};
 }
 
-// Step 1 makes the bodies one by one, as if no joint held them together: I_b is
-// the inertia, and p_b the force that a body needs with all joints held at their
-// rates, less the force F_b from outside:
+// Step 1 computes the inertia I_b and the bias force p_b of each body alone. p_b
+// is the force that the body needs to turn with w, less the external force F_b:
 //     p_b = [ sum of x x (w x (w x x)) dm; sum of w x (w x x) dm ] - F_b.
-// r.M_W becomes that of the locked subtrees, by which step 2 judges D.
+// r.M_W becomes the mass moments of the locked subtrees, for the test in step 2.
 void MakeBodies(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& v,
                 const std::vector<SpatialForce>& F_Bo_W, AbaScratch* scratch) {
   Recursion& r = scratch->recursion;
@@ -179,8 +179,8 @@ bool EliminateJoints(const Tree& tree,
   return true;
 }
 
-// Step 3 computes the acceleration of the base less gravity, in body 0 of the
-// recursion: everything falls, so a base that stands still has A_0 = [0; -g].
+// Step 3 computes the acceleration of the base less gravity, into body 0 of the
+// recursion. A base at rest has A_0 = [0; -g].
 //     A_0 = I_0^-1 ([n; f] of tau - p_0),   v̇_0 = A_0 + [0; g]   if it floats.
 // Returns false if I_0 is singular.
 bool ComputeBaseAcceleration(const Tree& tree,

@@ -10,24 +10,26 @@
 
 namespace poise {
 
-/// How ComputeAba() ended.
+/// AbaStatus is the result of ComputeAba().
 enum class AbaStatus {
   kOk,
-  /// M is singular, or not positive: some motion, such as that of a joint with a
-  /// massless body, has no inertia, and no acceleration is the answer. vdot is
-  /// NaN. Give the body a mass or the joint an armature, or lock the joint.
+  /// M is singular or not positive definite: a motion has no inertia, for example
+  /// of a joint with a massless body. vdot is NaN. Give the body a mass or the
+  /// joint an armature, or lock the joint.
   kSingular,
-  /// A number given was not finite, the base's quaternion was 0, or the answer
-  /// overflows. vdot is NaN.
+  /// An input is not finite, the base's quaternion is 0, or the result overflows.
+  /// vdot is NaN.
   kNotFinite,
 };
 
-/// Scratch of ComputeAba().
+/// AbaScratch is the scratch memory of ComputeAba().
 struct AbaScratch {
   explicit AbaScratch(const Tree& tree);
 
-  /// Resistance of a body to a push when all joints beyond it are free:
-  /// [n; f] = [J H; H' M] [alpha; a] + bias, about its origin, world axes.
+  /// Body is the articulated-body inertia [J H; H' M] and bias force of a subtree
+  /// with free joints: the force on the body that accelerates it by [alpha; a] is
+  ///     [n; f] = [J H; H' M] [alpha; a] + bias,
+  /// about the origin of the body, in world axes.
   struct Body {
     Sym3 J;
     Mat3 H;
@@ -37,10 +39,9 @@ struct AbaScratch {
 
   Recursion recursion;
   std::vector<Body> bodies;
-  std::vector<Force3> U;  ///< By body: its momentum at unit joint rate.
-  std::vector<double> D;  ///< By body: resistance of the joint that moves it.
-  std::vector<double>
-      u;  ///< By body: force of the joint left to accelerate it.
+  std::vector<Force3> U;  ///< By body: [J H; H' M] S.
+  std::vector<double> D;  ///< By body: S' U, inertia of the joint.
+  std::vector<double> u;  ///< By body: tau_j - S' bias.
 };
 
 /// Computes the acceleration of a robot, the forward dynamics
@@ -49,11 +50,11 @@ struct AbaScratch {
 ///
 /// @param q, v     see Tree.
 /// @param tau      nv: [torque about the base's origin; force; joints].
-/// @param F_Bo_W   what acts on the bodies from outside, as in ComputeRnea().
+/// @param F_Bo_W   external forces on the bodies, as in ComputeRnea().
 /// @param scratch  made for this tree.
 /// @param vdot     nv, the derivative of v, rad/s2 and m/s2.
-/// A joint counts as without inertia if, with those beyond it free, less than
-/// 1e-13 is left of what it has with them locked: that much is rounding.
+/// A joint has no inertia if its D, with the joints beyond it free, is below 1e-13
+/// times its D with these joints locked: the remainder is rounding.
 /// Costs O(n): 8 us for 50 joints. Does not allocate, does not throw.
 /// Source: Featherstone, "Rigid body dynamics algorithms", 2008, table 7.1, with
 /// classical accelerations and all vectors in world axes.

@@ -11,21 +11,21 @@
 
 namespace poise {
 
-/// The momentum of a whole robot about its center of mass G, world axes, angular
-/// first:
+/// CentroidalMomentum holds the matrix H_G and the bias of a robot's momentum L_G
+/// about its center of mass G, in world axes, angular part first:
 ///     L_G = H_G v,     d/dt L_G = H_G v̇ + bias.
 struct CentroidalMomentum {
   explicit CentroidalMomentum(const Tree& tree)
       : H_G(Matrix6Xd::Zero(6, tree.nv())), bias(Vector6d::Zero()) {}
 
   Matrix6Xd H_G;  ///< 6 x nv, the centroidal momentum matrix (CMM).
-  Vector6d bias;  ///< The momentum's rate at v̇ = 0, and so without gravity.
+  Vector6d bias;  ///< Rate of L_G at v̇ = 0, without gravity.
 };
 
 /// Computes the centroidal momentum matrix and its bias from the first six rows
-/// of the joint-space dynamics: a shift of the floating base's equation to the
-/// center of mass, instead of a second recursion over the bodies. The base's
-/// rates in v are V_WB_W, so Phi of (16) is the identity, and with p = p_BoG_W
+/// of the joint-space dynamics. The floating base's equation of motion is shifted
+/// to the center of mass, which saves a second recursion over the bodies. The
+/// base's rates in v are V_WB_W, so Phi of (16) is the identity. With p = p_BoG_W
 ///     H_G = X M_l,   bias = X c_l,   X = [ 1  -[p]x ]   (6 x 6).
 ///                                        [ 0    1   ]
 /// The lower three rows of H_G are the mass times the Jacobian of G.
@@ -51,7 +51,7 @@ void ComputeCentroidalMomentum(const Eigen::Ref<const Eigen::MatrixXd>& M,
                                const Eigen::Vector3d& p_BoG_W,
                                CentroidalMomentum* out) noexcept;
 
-/// The inertia of the whole robot as if its joints were locked, about its center
+/// Computes the inertia of the whole robot with its joints locked, about its center
 /// of mass and in world axes: mass, p_WoG_W and I_G_W.
 /// @param X_WB  by body, from ComputePoses() or a Tick.
 /// Costs O(n). Does not allocate, does not throw.

@@ -12,24 +12,24 @@ namespace {
 
 using Moments = RneaDerivatives::Moments;
 
-// How a motion changes when V carries it along.
+// Returns the rate of a motion y that is fixed in a body with velocity V: V x y.
 Motion3 Cross(const Motion3& V, const Motion3& y) {
   return {Cross(V.angular, y.angular),
           Cross(V.angular, y.linear) + Cross(V.linear, y.angular)};
 }
 
-// The same for a force.
+// Returns the rate of a force y that is fixed in a body with velocity V: V x* y.
 Force3 Cross(const Motion3& V, const Force3& y) {
   return {Cross(V.angular, y.angular) + Cross(V.linear, y.linear),
           Cross(V.angular, y.linear)};
 }
 
-// The matrix a b'.
+// Returns the matrix a b'.
 Mat3 Outer(const Vec3& a, const Vec3& b) { return {a.x * b, a.y * b, a.z * b}; }
 
 double Trace(const Mat3& A) { return A.x.x + A.y.y + A.z.z; }
 
-// Moments about B, taken about P.
+// Returns the moments about P, from those about B.
 Moments Shift(const Vec3& p_PB, const Moments& M) {
   return {M.n, M.f, M.fp + Outer(M.f, p_PB)};
 }
@@ -38,22 +38,24 @@ Moments operator+(const Moments& M, const Moments& N) {
   return {M.n + N.n, M.f + N.f, M.fp + N.fp};
 }
 
-// What the sum of the forces changes by when each turns by x about its point:
-// [sum of x x n + p x (x x f); sum of x x f].
+// Returns the change of the total force when each force turns by x about its own
+// point:
+//     [sum of x x n + p x (x x f); sum of x x f].
 Force3 Turn(const Moments& M, const Vec3& x) {
   return {Cross(x, M.n) + Trace(M.fp) * x - M.fp * x, Cross(x, M.f)};
 }
 
-// y such that y'x is the power of Turn(M, x) along a motion about its origin.
+// Returns y, where y'x is the power of Turn(M, x) along a motion S about the same
+// point.
 Vec3 PowerOfTurn(const Moments& M, const Motion3& S) {
   const Vec3& t = S.angular;
   return Cross(M.n, t) + Trace(M.fp) * t - RowTimes(t, M.fp) +
          Cross(M.f, S.linear);
 }
 
-// S, V, A and each body's own part of `coriolis`. An element dm at x from the
-// body's origin has the momentum u dm, u = v_B + w x x, and takes the Coriolis
-// force 2 r x u dm when the body turns by r faster.
+// Computes S, V, A and each body's own part of `coriolis`. An element dm at x from
+// the body's origin has the momentum u dm, u = v_B + w x x. If the body turns by r
+// faster, the Coriolis force on the element is 2 r x u dm.
 void SweepMotions(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& v,
                   RneaDerivatives* out) {
   const JointMaps& joints = tree.joint_maps();
@@ -68,7 +70,8 @@ void SweepMotions(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& v,
                  v[tree.v_start() + b - 1] * out->S[b].linear;
     }
     out->V[b] = V;
-    // The classical acceleration of the body's point at O, less w x v there.
+    // The spatial acceleration at O is the classical one of the body's point at O,
+    // less w x v.
     out->A[b] = {alpha, r.a_WB[b] - AccelerationGradient(alpha, w) * p_OB -
                             Cross(w, V.linear)};
     const MassMoments M = r.M_W[b];
@@ -127,9 +130,9 @@ void SumSubtrees(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
   }
 }
 
-// How one entry of q or v varies the motion of the subtree of a body: carried
-// along with S, or not; its velocity changes by `rate`, and its acceleration by
-// `rate_2` beyond that.
+// Variation describes how one entry of q or v varies the motion of a subtree. The
+// velocity changes by `rate` and the acceleration by `rate_2`. A variation of q
+// also carries the subtree along S.
 struct Variation {
   const Motion3& S;
   const Motion3& rate;
@@ -144,10 +147,10 @@ struct Variation {
 // The last term is there because forces from outside keep their directions: the
 // first term turns them with the subtree, the last one turns them back. The
 // linear part of `rate` is uniform, and no force depends on a uniform velocity.
-//     dtau_b = S_b' dF_b                      for b = body and below it to O,
+//     dtau_b = S_b' dF_body    for b = body and the joints between it and the base,
 //     dtau_b = rate_2' H_b + (angular part of rate)' S_coriolis_b
-//              + (angular part of S)' S_outside_b       for b beyond the body:
-// there the joint is carried along too, and so S x* F_b does not count.
+//              + (angular part of S)' S_outside_b    for b in the subtree of body.
+// A joint in the subtree is carried along S too, so that S x* F_b has no effect.
 void FillColumn(const Tree& tree, const RneaDerivatives& out, bool has_outside,
                 int k, int body, const Variation& variation,
                 Eigen::MatrixXd* matrix) {

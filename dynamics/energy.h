@@ -10,8 +10,8 @@
 
 namespace poise {
 
-/// The kinetic energy in J, v' M v / 2, as the sum over the bodies and, with
-/// their armatures, the joints.
+/// Computes the kinetic energy v' M v / 2 in J, as the sum over the bodies and the
+/// armatures of the joints.
 /// @param X_WB    from ComputePoses().
 /// @param V_WB_W  from ComputeVelocities() at v.
 /// @param v       nv, see Tree; read for the armatures.
@@ -20,7 +20,8 @@ double KineticEnergy(const Tree& tree, const std::vector<Pose>& X_WB,
                      const std::vector<SpatialMotion>& V_WB_W,
                      const Eigen::Ref<const Eigen::VectorXd>& v) noexcept;
 
-/// The potential energy in J, - mass g_W' p_WG: zero with G at the origin.
+/// Computes the potential energy -m g_W' p_WG in J, with m the total mass. It is
+/// zero with the center of mass G at the world's origin.
 /// @param X_WB  from ComputePoses().
 /// Costs O(n). Does not allocate, does not throw.
 double PotentialEnergy(const Tree& tree,

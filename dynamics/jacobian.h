@@ -11,19 +11,21 @@
 
 namespace poise {
 
-/// The axes in which the velocity of a frame is expressed; it is that of the
-/// frame's own origin in either.
+/// Axes selects the axes of a frame's velocity. The linear part is the velocity of
+/// the frame's own origin for both values.
 enum class Axes {
   kWorld,  ///< [w_WF_W; v_WF_W].
   kFrame   ///< [w_WF_F; v_WF_F].
 };
 
 /// Computes the Jacobian of a frame,
-///     V_WF = J_WF v,   [w; v of its origin],
-/// of a foot in contact J_c of the paper's (7) and (11).
-/// In world axes the column of a revolute joint about a at p is [a; a x (p_WF -
-/// p)], of a prismatic one [0; a], of the base [1 0; -[p_BF]x 1]; those of joints
-/// that do not carry the frame are zero.
+///     V_WF = J_WF v,   [w; v of its origin].
+/// J_WF of a foot in contact is J_c of the paper's (7) and (11).
+/// The columns in world axes are
+///     [a; a x (p_WF - p)]     of a revolute joint about axis a at p,
+///     [0; a]                  of a prismatic joint along a,
+///     [1 0; -[p_BF]x 1]       of the floating base,
+///     0                       of a joint that does not carry the frame.
 ///
 /// The controller runs ComputeTick()'s step 4, ComputeFrameTick, instead; the test
 /// Tick.HasTheMotionOfFrames holds the two equal.
@@ -36,17 +38,17 @@ void ComputeFrameJacobian(const Tree& tree, const std::vector<Pose>& X_WB,
                           int frame, Axes axes,
                           Eigen::Ref<Matrix6Xd> J_WF) noexcept;
 
-/// The bias J̇v of a frame, the rate of [w; v] at v̇ = 0 (rad/s2, m/s2). In the
-/// frame's axes these turn with it: d/dt (R' V) = R' (V̇ - [w x w; w x v]).
+/// Computes the bias J̇v of a frame, the rate of [w; v] at v̇ = 0 (rad/s2, m/s2).
+/// The frame's axes turn with the frame: d/dt (R' V) = R' (V̇ - [w x w; w x v]).
 ///
-/// @param A_WF_W  its classical acceleration at v̇ = 0, from FrameAcceleration().
-/// @param V_WF_W  its velocity, from FrameVelocity().
-/// @param R_WF    its orientation, from FramePose().
+/// @param A_WF_W  classical acceleration at v̇ = 0, from FrameAcceleration().
+/// @param V_WF_W  velocity of the frame, from FrameVelocity().
+/// @param R_WF    orientation of the frame, from FramePose().
 /// The controller runs ComputeTick()'s step 4 instead; the test
 /// Tick.HasTheMotionOfFrames holds its bias equal to FrameAcceleration(), which
 /// is the bias in world axes.
-/// Six plain numbers, to be added to J_WF v̇ as in (11) of the paper. Costs two
-/// rotations of a vector. Does not allocate, does not throw.
+/// The result is a plain vector, to be added to J_WF v̇ as in (11) of the paper.
+/// Costs two rotations of a vector. Does not allocate, does not throw.
 Vector6d FrameBias(const SpatialAcceleration& A_WF_W,
                    const SpatialMotion& V_WF_W, const Eigen::Matrix3d& R_WF,
                    Axes axes) noexcept;

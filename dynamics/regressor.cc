@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kPerBody = 10;
 
-// I w as a linear function of [Ixx; Iyy; Izz; Ixy; Ixz; Iyz].
+// Returns the matrix of I w as a linear function of [Ixx; Iyy; Izz; Ixy; Ixz; Iyz].
 Eigen::Matrix<double, 3, 6> InertiaTimes(const Vector3d& w) {
   Eigen::Matrix<double, 3, 6> result;
   result << w.x(), 0, 0, w.y(), w.z(), 0,  //
@@ -25,9 +25,9 @@ Eigen::Matrix<double, 3, 6> InertiaTimes(const Vector3d& w) {
   return result;
 }
 
-// The wrench on a body about its origin as a linear function of its ten
-// numbers, all in the body's axes:
-//     n = h x a + I alpha + w x I w,   f = m a + A h.
+// Returns the matrix of the wrench on a body as a linear function of its ten
+// inertial parameters, about the body's origin and in its axes:
+//     n = h x a + I alpha + w x I w,   f = m a + ([alpha]x + [w]x [w]x) h.
 Eigen::Matrix<double, 6, kPerBody> BodyRegressor(const Vector3d& w,
                                                  const Vector3d& alpha,
                                                  const Vector3d& a) {
@@ -68,7 +68,7 @@ void ComputeRegressor(const Tree& tree,
     Y_B.topRows<3>() = (R_WB * Y_B.topRows<3>()).eval();
     Y_B.bottomRows<3>() = (R_WB * Y_B.bottomRows<3>()).eval();
 
-    // Down to the base, each joint takes its share.
+    // Row k is S_k' [n; f], for each joint k between the body and the base.
     auto columns = Y.middleCols<kPerBody>(kPerBody * b);
     const Vector3d p_OB_W = ToEigen(r.p_OB_W[b]);
     for (int k = b; k > 0; k = joints.parent[k]) {

@@ -8,16 +8,16 @@
 
 namespace poise {
 
-/// Computes the joint-space regressor, which says how the generalized forces of
-/// a motion depend on the inertias:
-///     Y(q, v, v̇) pi = tau = M v̇ + N,
-/// with pi = [10 numbers of each body; armature of each joint], and of a body B,
-/// about its origin and in its axes,
-///     [m; m p_BoG (3); Ixx; Iyy; Izz; Ixy; Ixz; Iyz].
-/// Fixed links count with the body that carries them. The force on a body is
-/// linear in its ten numbers,
+/// Computes the joint-space regressor Y. The generalized forces of a motion are
+/// linear in the inertial parameters pi:
+///     Y(q, v, v̇) pi = tau = M v̇ + N.
+/// pi has ten parameters for each body B, about its origin and in its axes,
+///     [m; m p_BoG (3); Ixx; Iyy; Izz; Ixy; Ixz; Iyz],
+/// and then the armature of each joint. The mass of a fixed link belongs to the
+/// body that carries the link. The force on a body is linear in its parameters,
 ///     n = h x a + I alpha + w x I w,   f = m a + [alpha]x h + [w]x [w]x h,
-/// with h = m p_BoG and gravity in a; its joint and those below take their parts.
+/// with h = m p_BoG and a the acceleration less gravity. The rows of the joint that moves the
+/// body, and of all joints between it and the base, are S_j' [n; f].
 ///
 /// @param q, v, vdot  see Tree.
 /// @param scratch     made for this tree.
@@ -33,7 +33,8 @@ void ComputeRegressor(const Tree& tree,
                       Recursion* scratch,
                       Eigen::Ref<Eigen::MatrixXd> Y) noexcept;
 
-/// The pi of a tree, by which identification starts: kg, kg m, kg m2. Allocates.
+/// Returns the inertial parameters pi of a tree, in kg, kg m and kg m2. They are
+/// the initial values of an identification. Allocates.
 Eigen::VectorXd MakeInertialParameters(const Tree& tree);
 
 }  // namespace poise

@@ -6,7 +6,7 @@
 namespace poise {
 namespace {
 
-// The forces of a motion in a field of gravity, less the armatures'.
+// Computes the generalized forces with gravity g_W, without armatures.
 void Compute(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
              const Eigen::Ref<const Eigen::VectorXd>& v,
              const Eigen::Ref<const Eigen::VectorXd>& vdot,

@@ -13,9 +13,9 @@
 namespace poise {
 namespace {
 
-// How far from orthonormal the rotation of a joint's frame may be; a matrix
-// typed with six digits passes, one that scales or mirrors does not. It is taken
-// as the nearest rotation, unless it is one to rounding.
+// kRotationTolerance bounds the deviation of a joint's rotation from orthonormal. A
+// matrix with six digits passes, a matrix that scales or mirrors does not. The
+// nearest rotation replaces a matrix that deviates by more than kRotationRounding.
 constexpr double kRotationTolerance = 1e-5;
 constexpr double kRotationRounding = 1e-14;
 
@@ -46,7 +46,7 @@ Pose Displacement(const JointSpec& joint, double value) {
           Eigen::Vector3d::Zero()};
 }
 
-// Checks a link, and makes its inertia symmetric to the bit.
+// Checks a link and makes its inertia symmetric to the bit.
 void CheckLink(const std::string& name, bool is_physical, Inertia* M_L) {
   const Inertia& M = *M_L;
   if (name.empty()) throw std::invalid_argument("a link has no name");
@@ -55,7 +55,7 @@ void CheckLink(const std::string& name, bool is_physical, Inertia* M_L) {
   if (M.mass < 0) Refuse(link, "mass", M.mass, "zero or positive");
   CheckFinite(link, "center of mass", M.p_BoG_B);
   CheckFinite(link, "inertia", M.I_G_B);
-  // Whatever the mass.
+  // Symmetry and sign of the moments are checked for every mass, zero included.
   const InertiaDefect defect = FindDefect({1, M.p_BoG_B, M.I_G_B});
   if (defect == InertiaDefect::kNotSymmetric) {
     throw std::invalid_argument(link + ": inertia must be symmetric");
@@ -104,7 +104,7 @@ JointMaps MakeJointMaps(const std::vector<Joint>& joints) {
   return maps;
 }
 
-// Checks a joint by itself, and normalizes its axis and its rotation.
+// Checks a joint alone, and normalizes its axis and its rotation.
 void CheckJoint(JointSpec* joint) {
   if (joint->name.empty()) throw std::invalid_argument("a joint has no name");
   const std::string thing = Quote("joint", joint->name);
@@ -129,7 +129,7 @@ void CheckJoint(JointSpec* joint) {
 
 using Index = std::unordered_map<std::string, int>;
 
-// The position of a name, or a complaint that thing refers to none.
+// Returns the index of a name. Throws if the name is unknown.
 int Find(const Index& index, const std::string& thing, const char* kind,
          const std::string& name) {
   const auto found = index.find(name);
@@ -163,7 +163,8 @@ void LockJoint(const std::string& name, double value, const Index& joint_index,
   joint.type = JointType::kFixed;
 }
 
-// The links as a graph: indices of links and joints as the builder got them.
+// Graph stores the tree by indices of links and joints in the order of AddLink()
+// and AddJoint().
 struct Graph {
   std::vector<std::vector<int>> joints_of;  // By link: joints to its children.
   std::vector<int> joint_above;  // By link: joint to its parent, or -1.
@@ -215,8 +216,8 @@ int FindRoot(const Graph& graph, const std::vector<Link>& links) {
   return root;
 }
 
-// The links in depth-first order from the root: parents before children, and
-// subtrees contiguous. Without recursion: files may be deeper than the stack.
+// Returns the links in depth-first order from the root: parents before children,
+// and subtrees contiguous. The explicit stack allows trees of any depth.
 std::vector<int> DepthFirst(const Graph& graph, int root) {
   std::vector<int> order;
   std::vector<int> stack{root};
