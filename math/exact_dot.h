@@ -6,13 +6,13 @@
 
 namespace poise {
 
-/// The number near + rest: near is the double next to it.
+/// TwoDoubles is the number near + rest, where near is the double closest to it.
 struct TwoDoubles {
   double near, rest;
 };
 
-/// a'b to 2^-100 |a| |b|: terms that cancel do not cost digits. NaN where
-/// a'b overflows, or an entry is not finite. About 30 flops.
+/// Computes a'b with an error of 2^-100 |a| |b|: cancellation costs no digits.
+/// Returns NaN if a'b overflows or an entry is not finite. About 30 flops.
 ///
 /// Source: Ogita, Rump and Oishi, "Accurate sum and dot product", SIAM Journal
 /// on Scientific Computing 26(6), 2005, algorithm 5.3.
@@ -24,7 +24,7 @@ inline TwoDoubles ExactDot(const Eigen::Vector3d& a,
     const double product = a[i] * b[i];
     const double before = sum;
     sum = before + product;
-    // What the sum and what the product left out; both are exact.
+    // The rounding errors of the sum and of the product; both are exact.
     const double added = sum - before;
     rest += (before - (sum - added)) + (product - added);
     rest += std::fma(a[i], b[i], -product);

@@ -9,14 +9,14 @@
 namespace poise {
 namespace {
 
-// p'p I - p p', the inertia of a unit mass at p about the origin.
+// Returns p'p I - p p', the inertia of a unit mass at p about the origin.
 Eigen::Matrix3d PointInertia(const Eigen::Vector3d& p) {
   Eigen::Matrix3d I = -p * p.transpose();
   I.diagonal().array() += p.squaredNorm();
   return I;
 }
 
-// The velocity of the center of mass.
+// Returns the velocity of the center of mass.
 Eigen::Vector3d CenterVelocity(const Inertia& M_B, const SpatialMotion& V_B) {
   return V_B.linear + V_B.angular.cross(M_B.p_BoG_B);
 }

@@ -9,9 +9,9 @@
 
 namespace poise {
 
-/// The inertia of a rigid body, in the axes of a frame B fixed in it: M_BBo_B.
-/// As the center of mass and the inertia about it are kept, not the inertia
-/// about Bo, a change of B is exact in I_G and costs nothing for a Shift().
+/// Inertia is the inertia M_BBo_B of a rigid body, in the axes of a frame B fixed
+/// in the body. It stores the center of mass G and the inertia about G, not about
+/// Bo: so a Shift() of B leaves I_G exact and costs three subtractions.
 ///
 /// All functions allocate nothing and throw nothing; NaN and infinity
 /// propagate.
@@ -21,53 +21,53 @@ struct Inertia {
   Eigen::Matrix3d I_G_B = Eigen::Matrix3d::Zero();    ///< About G, kg m2.
 };
 
-/// The same inertia, about another point Q and the same axes.
+/// Returns the same inertia, with origin Q instead of Bo and the same axes.
 inline Inertia Shift(const Inertia& M_B,
                      const Eigen::Vector3d& p_BQ_B) noexcept {
   return {M_B.mass, M_B.p_BoG_B - p_BQ_B, M_B.I_G_B};
 }
 
-/// The same inertia about the same point, in the axes of A:
+/// Returns the same inertia about the same point, in the axes of A:
 ///     I_G_A = R_AB I_G_B R_AB', symmetric to the bit.
 Inertia operator*(const Eigen::Matrix3d& R_AB, const Inertia& M_B) noexcept;
 
-/// The same inertia about the origin and in the axes of A.
+/// Returns the same inertia about the origin and in the axes of A.
 inline Inertia operator*(const Pose& X_AB, const Inertia& M_B) noexcept {
   return Shift(X_AB.R * M_B, -X_AB.p);
 }
 
-/// The inertia of two bodies, welded; both of one frame:
+/// Returns the inertia of two bodies welded together, both in the same frame:
 ///     m = m_1 + m_2,   p = (m_1 p_1 + m_2 p_2) / m,
 ///     I_G = I_1 + I_2 + m_1 m_2 / m (r'r I - r r'),   r = p_2 - p_1.
-/// Of two without mass, the center of mass is that of the first.
+/// If both masses are zero, the center of mass is that of M_1.
 Inertia operator+(const Inertia& M_1, const Inertia& M_2) noexcept;
 
-/// The momentum, about Bo, of a body that moves with V_B (at Bo): with p =
-/// p_BoG and v_G = v + w x p,
+/// Returns the momentum about Bo of a body that moves with V_B (at Bo). With
+/// p = p_BoG and v_G = v + w x p,
 ///     [I_G w + p x m v_G; m v_G].
 SpatialMomentum operator*(const Inertia& M_B,
                           const SpatialMotion& V_B) noexcept;
 
-/// The force, about Bo, that accelerates a body at rest by A_B. One that turns
-/// takes more, and by Newton and Euler
-///     F_B = M A + Cross(W, M W),   W = [w; 0]:
-/// the linear velocity of Bo takes none.
+/// Returns the force about Bo that accelerates a body at rest by A_B. For a body
+/// that turns with w, Newton and Euler's equations are
+///     F_B = M A + Cross(W, M W),   W = [w; 0].
+/// The linear velocity of Bo has no effect on F_B.
 SpatialForce operator*(const Inertia& M_B,
                        const SpatialAcceleration& A_B) noexcept;
 
-/// The kinetic energy of a body that moves with V_B (at Bo), J:
+/// Returns the kinetic energy in J of a body that moves with V_B (at Bo):
 ///     1/2 (m v_G'v_G + w' I_G w).
 double KineticEnergy(const Inertia& M_B, const SpatialMotion& V_B) noexcept;
 
-/// The matrix of the above about Bo, symmetric to the bit: momentum = M V,
+/// Returns the 6 x 6 matrix M of momentum = M V about Bo, symmetric to the bit:
 ///     M = [ I_G + m (p'p I - p p')   m Hat(p) ],   p = p_BoG_B.
 ///         [      -m Hat(p)            m I     ]
 Matrix6d Matrix6FromInertia(const Inertia& M_B) noexcept;
 
-/// Why an inertia cannot be that of a body, if it cannot.
+/// InertiaDefect says why no body has a given inertia.
 enum class InertiaDefect {
   kNone,
-  kNotFinite,     ///< A NaN or an infinity.
+  kNotFinite,     ///< An entry is NaN or infinite.
   kMass,          ///< The mass is not positive.
   kNotSymmetric,  ///< I_G differs from its transpose.
   kNotPositive,   ///< A principal moment is negative.
@@ -76,10 +76,10 @@ enum class InertiaDefect {
 
 /// Checks that some distribution of positive mass has this inertia: mass > 0,
 /// and I_G symmetric with principal moments 0 <= I_1, I_2, I_3 <= the sum of
-/// the other two. A point and a thin rod, the limits of that, pass. Tolerance:
-/// 16 eps of the largest entry of I_G, as rounding leaves from a rotation.
+/// the other two. A point and a thin rod pass. The tolerance for rounding errors of
+/// a rotation is 16 eps times the largest entry of I_G.
 ///
-/// The first defect found, in the order of the enumeration.
+/// Returns the first defect in the order of the enumeration.
 [[nodiscard]] InertiaDefect FindDefect(const Inertia& M_B) noexcept;
 
 }  // namespace poise

@@ -27,12 +27,12 @@ using MatrixXmp = Eigen::Matrix<mpreal, Eigen::Dynamic, Eigen::Dynamic>;
 
 constexpr double kPi = M_PI;
 
-// sum of A^n / (n + shift)! for n = 0, 1, ...
+// Returns the sum of A^n / (n + shift)! for n = 0, 1, ...
 MatrixXmp PowerSeries(const MatrixXmp& A, int shift) {
   const int size = static_cast<int>(A.rows());
   MatrixXmp term = MatrixXmp::Identity(size, size) * (1 / mpfr::fac_ui(shift));
   MatrixXmp sum = term;
-  // |A| <= 4 π + |v|: from n = 25 on the terms fall by half and more.
+  // |A| <= 4 π + |v|: from n = 25 on each term is at most half of the one before.
   for (int n = 1; n < 25 || term.squaredNorm() > 1e-100; ++n) {
     term = (term.lazyProduct(A) / mpreal(n + shift)).eval();
     sum += term;
@@ -50,12 +50,12 @@ MatrixXmp AdExactly(const Vector6d& x) {
   return ad;
 }
 
-// |actual - exact| / scale, in eps.
+// Returns |actual - exact| / scale, in eps.
 template <typename Actual>
 double Error(const Actual& actual, const MatrixXmp& exact,
              const mpreal& scale) {
   const MatrixXmp difference = actual.template cast<mpreal>() - exact;
-  // Scaled before it is squared: of 1e-300 the square is no double.
+  // The difference is scaled first, since the square of 1e-300 underflows.
   return (difference / scale).norm().toDouble() /
          std::numeric_limits<double>::epsilon();
 }
@@ -88,7 +88,7 @@ constexpr Range kRanges[] = {
     {2 * kPi + 0.1, 4 * kPi},
 };
 
-// Draws what the maps are tried on.
+// Sampler draws random arguments of the maps.
 class Sampler {
  public:
   double Angle(const Range& range) {
@@ -136,7 +136,7 @@ void MeasureSo3(const Eigen::Vector3d& w, Errors* errors) {
       condition;
   const Eigen::Quaterniond q = ExpQuaternion(w);
   const MatrixXmp half = PowerSeries(HatExactly(w) / 2, 0);
-  // cos(angle/2), and the sine times the direction, as series of the half.
+  // The series of w/2 gives cos(angle/2), and sin(angle/2) times the direction.
   MatrixXmp q_exact(4, 1);
   q_exact << (half(2, 1) - half(1, 2)) / 2, (half(0, 2) - half(2, 0)) / 2,
       (half(1, 0) - half(0, 1)) / 2, (half.trace() - 1) / 2;
@@ -218,7 +218,7 @@ std::vector<Accuracy> MeasureAccuracy(int samples) {
       MeasureSe3(x, &errors);
       for (const auto& [map, error] : errors) {
         Accuracy& a = worst[map];
-        // Not (error > a.error): a NaN must show.
+        // The condition is not (error > a.error), because a NaN must be reported.
         if (i == 0 || !(error <= a.error)) {
           const bool is_jacobian = map.find("Jacobian") != std::string::npos;
           a = {map,  range.from, range.to, error, is_jacobian ? 8.0 : 4.0,

@@ -7,33 +7,33 @@
 
 namespace poise {
 
-/// The largest error of one map of SO(3) or SE(3), met on one range of angles.
+/// Accuracy is the largest error of one map of SO(3) or SE(3) on one range of
+/// angles.
 struct Accuracy {
   std::string map;  ///< "ExpSo3", "ExpSe3, translation", ...
   double from, to;  ///< Angles, rad.
-  double error;     ///< In eps = 2.2e-16, over the condition of the map.
-  double bar;       ///< What error must not exceed.
-  double angle;     ///< Where error was met, rad.
+  double error;     ///< In eps = 2.2e-16, divided by the condition.
+  double bar;       ///< Upper bound of error.
+  double angle;     ///< Angle of the largest error, rad.
 };
 
 /// Measures the maps of math/so3.h, quaternion.h, so3_jacobian.h, se3.h and
 /// se3_jacobian.h against power series in 400 bits:
 ///     exp(A) = sum A^n / n!,   J(A) = sum A^n / (n + 1)!,   A = ad(x),
-/// and their inverses against what they invert. Angles are drawn on a log grid
-/// below 1 and evenly above, and thickly around the switch of math/stumpff.h,
-/// π and 2 π; directions evenly, a third with a small or zero component. Linear
-/// velocities are 1e-6 to 1e6 long, a quarter nearly across and a quarter nearly
-/// along the axis.
+/// and the inverse maps against the maps that they invert. Random angles are
+/// logarithmic below 1 rad and uniform above, with more samples near the switch of
+/// math/stumpff.h, π and 2 π. Random directions are uniform; a third have a small
+/// or zero component. Linear velocities have norms from 1e-6 to 1e6; a quarter are
+/// nearly normal and a quarter nearly parallel to the axis.
 ///
-/// Error: |computed - exact| / |exact| in the Frobenius norm, divided by the
+/// The error is |computed - exact| / |exact| in the Frobenius norm, divided by the
 /// condition: the angle above π for exp, max(1, θ/|2 π - θ|) for inverse
-/// Jacobians, else 1. "antisymmetric part" is (R - R')/2, compared with the
-/// angle.
+/// Jacobians, else 1. "antisymmetric part" is (R - R')/2, relative to the angle.
 ///
-/// @param samples  drawn of each range and map.
+/// @param samples  number of samples for each range and map.
 std::vector<Accuracy> MeasureAccuracy(int samples);
 
-/// Writes it as a table in Markdown.
+/// Writes the accuracy as a table in Markdown.
 void WriteAccuracy(const std::vector<Accuracy>& accuracy, std::ostream& os);
 
 }  // namespace poise

@@ -6,7 +6,7 @@
 
 namespace poise {
 
-/// The pose X_AB of a frame B in a frame A, an element of SE(3):
+/// Pose is the pose X_AB of a frame B in a frame A, an element of SE(3):
 ///     p_AQ_A = X_AB p_BQ_B = R p_BQ_B + p.
 /// Adjacent letters must match: X_AC = X_AB * X_BC.
 struct Pose {
@@ -18,9 +18,9 @@ struct Pose {
   }
 };
 
-/// [R_AB R_BC, R_AB p_BC_B + p_AB_A], of which each column is a sum of columns
-/// of R_AB. They are taken as fours of numbers, which a register holds; the
-/// fourth is that of the next column, and not kept.
+/// Returns X_AC = [R_AB R_BC, R_AB p_BC_B + p_AB_A]. Each column is a linear
+/// combination of the columns of R_AB. A vector register holds one column and the
+/// first entry of the next column, which is discarded at the end.
 inline Pose operator*(const Pose& X_AB, const Pose& X_BC) noexcept {
   using Four = double __attribute__((vector_size(4 * sizeof(double))));
   const double* R_AB = X_AB.R.data();
@@ -45,7 +45,7 @@ inline Pose operator*(const Pose& X_AB, const Pose& X_BC) noexcept {
   return X_AC;
 }
 
-/// The point p_BQ_B, as p_AQ_A.
+/// Returns the position p_AQ_A of the point with position p_BQ_B.
 inline Eigen::Vector3d operator*(const Pose& X_AB,
                                  const Eigen::Vector3d& p_BQ_B) noexcept {
   return X_AB.R * p_BQ_B + X_AB.p;

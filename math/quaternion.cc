@@ -8,14 +8,14 @@ namespace poise {
 Eigen::Quaterniond QuaternionFromMatrix(const Eigen::Matrix3d& R) noexcept {
   Eigen::Quaterniond q(R);
   if (q.w() < 0) q.coeffs() = -q.coeffs();
-  // Every entry of R is in some of q: this adds nothing, or NaN to all.
+  // Adds zero, or NaN to all components if an entry of R is not finite.
   q.coeffs().array() += 0 * q.coeffs().sum();
   return q;
 }
 
 Eigen::Quaterniond Rescale(const Eigen::Quaterniond& q) noexcept {
   const Eigen::Vector4d x = q.coeffs() / q.coeffs().lpNorm<Eigen::Infinity>();
-  // Adds nothing, or NaN to all.
+  // Adds zero, or NaN to all components if one of them is not finite.
   return Eigen::Quaterniond(Eigen::Vector4d(x.array() + 0 * x.sum()));
 }
 

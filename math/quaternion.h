@@ -8,40 +8,42 @@
 
 namespace poise {
 
-/// The unit quaternion of R_AB, with w >= 0. Stored (x, y, z, w), as in q.
+/// Returns the unit quaternion of R_AB, with w >= 0. Stored (x, y, z, w), as in q.
 ///
-/// pre: R is a rotation; one that is off by e gives a quaternion off by O(e).
-/// The component that is divided by is at least 1/2, so no angle is worse than
-/// another: error at most 4 eps. A NaN or an infinity gives NaN in all.
+/// pre: R is a rotation. An error e of R gives an error O(e) of the quaternion.
+/// The error is at most 4 eps for all angles, because each divisor is at least
+/// 1/2. A NaN or an infinity gives NaN in all components.
 /// Source: Shepperd, "Quaternion from rotation matrix", JGC 1(3), 1978.
 Eigen::Quaterniond QuaternionFromMatrix(const Eigen::Matrix3d& R) noexcept;
 
-/// Whether a sum of squares lost no digits, and did not overflow.
+/// Returns whether a sum of squares neither underflows nor overflows.
 inline bool IsSafeSquare(double square) noexcept {
   return square > 1e-200 && square < 1e200;
 }
 
-/// q over its largest component. Of 0, a NaN or an infinity NaN in all.
+/// Returns q divided by its largest component. Zero, a NaN or an infinity gives
+/// NaN in all components.
 Eigen::Quaterniond Rescale(const Eigen::Quaterniond& q) noexcept;
 
-/// The unit quaternion in the direction of q, whatever its norm. Of 0, which
-/// has none, of a NaN or an infinity NaN in all.
+/// Returns the unit quaternion in the direction of q, for any norm of q but 0. Zero,
+/// a NaN or an infinity gives NaN in all components.
 inline Eigen::Quaterniond Normalize(const Eigen::Quaterniond& q) noexcept {
   const double square = q.squaredNorm();
   if (!IsSafeSquare(square)) return Rescale(q).normalized();
   return Eigen::Quaterniond(q.coeffs() / std::sqrt(square));
 }
 
-/// The rotation matrix of a unit quaternion: 1 - 2 (y² + z²), ... The inverse
-/// of QuaternionFromMatrix(). Of q and -q the same.
+/// Returns the rotation matrix of a unit quaternion: 1 - 2 (y² + z²), ... It is the
+/// inverse of QuaternionFromMatrix(). q and -q give the same matrix.
 inline Eigen::Matrix3d MatrixFromQuaternion(
     const Eigen::Quaterniond& q) noexcept {
   return q.toRotationMatrix();
 }
 
-/// The unit quaternion of the rotation by |w| about w, for any |w|:
+/// Returns the unit quaternion of the rotation by |w| about w, for any |w|:
 ///     [sin(|w|/2) w/|w|; cos(|w|/2)].
-/// Error as ExpSo3(). A NaN, an infinity or |w| > 1e154 gives NaN in all.
+/// The error is that of ExpSo3(). A NaN, an infinity or |w| > 1e154 gives NaN in
+/// all components.
 inline Eigen::Quaterniond ExpQuaternion(const Eigen::Vector3d& w) noexcept {
   const Eigen::Vector3d half = 0.5 * w;
   const Stumpff c = ComputeStumpff(half);
@@ -49,10 +51,11 @@ inline Eigen::Quaterniond ExpQuaternion(const Eigen::Vector3d& w) noexcept {
           c.c1 * half.z()};
 }
 
-/// The rotation vector of norm at most π of q; q and -q have the same.
+/// Returns the rotation vector of q, of norm at most π. q and -q give the same
+/// vector.
 ///
-/// q may have any norm: only its direction counts. Error as LogSo3(). 0, which
-/// has none, a NaN or an infinity gives NaN in all.
+/// q may have any norm but 0. The error is that of LogSo3(). Zero, a NaN or an
+/// infinity gives NaN in all components.
 inline Eigen::Vector3d LogQuaternion(const Eigen::Quaterniond& q) noexcept {
   double w = q.w();
   Eigen::Vector3d v = q.vec();
@@ -63,26 +66,28 @@ inline Eigen::Vector3d LogQuaternion(const Eigen::Quaterniond& q) noexcept {
     v = rescaled.vec();
     square = v.squaredNorm();
   }
-  // The square of a tiny x may have been rounded, but atan2(x, y) / x is the
-  // same for both. Only where it came to nothing is there nothing to divide by.
+  // An underflow may round the square of a tiny sine, but atan2(x, y) / x hardly
+  // depends on x there. Only a sine of zero needs a limit instead of the quotient.
   const double sine = std::sqrt(square);
   if (sine == 0) return 2 / w * v;
   return std::copysign(2 / sine, w) * std::atan2(sine, std::abs(w)) * v;
 }
 
-/// (w, x, y, z), the order of URDF tools, MuJoCo and most books. For borders.
+/// Returns (w, x, y, z), the order of URDF tools, MuJoCo and most books. Use it at
+/// the borders of the program.
 inline Eigen::Vector4d WxyzFromQuaternion(
     const Eigen::Quaterniond& q) noexcept {
   return {q.w(), q.x(), q.y(), q.z()};
 }
 
-/// The inverse of WxyzFromQuaternion().
+/// Returns the quaternion of (w, x, y, z), the inverse of WxyzFromQuaternion().
 inline Eigen::Quaterniond QuaternionFromWxyz(
     const Eigen::Vector4d& wxyz) noexcept {
   return {wxyz[0], wxyz[1], wxyz[2], wxyz[3]};
 }
 
-/// A rotation drawn uniformly, from three numbers drawn uniformly in [0, 1).
+/// Returns a uniformly distributed rotation, from three numbers that are uniformly
+/// distributed in [0, 1).
 ///
 /// Source: Shoemake, "Uniform random rotations", Graphics Gems III, 1992.
 Eigen::Quaterniond UniformQuaternion(const Eigen::Vector3d& u) noexcept;

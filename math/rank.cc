@@ -39,7 +39,7 @@ void RankRevealing::Compute(const Eigen::Ref<const Eigen::MatrixXd>& A,
     threshold_ = kNan;
     return;
   }
-  // Of a largest entry of 1, no square overflows.
+  // The scaled matrix has a largest entry of 1, so that no square overflows.
   const double largest = A.lpNorm<Eigen::Infinity>();
   const double unit = largest == 0 ? 1 : largest;
   qr_.topLeftCorner(cols_, rows_) = A.transpose() / unit;
@@ -52,8 +52,8 @@ void RankRevealing::Compute(const Eigen::Ref<const Eigen::MatrixXd>& A,
   while (rank_ < size_ && sigma_[rank_] > threshold_) ++rank_;
 }
 
-// A' P = Q R, with the longest of what is left of the rows of A next; then
-// U_ = R'.
+// Computes A' P = Q R, and U_ = R'. The pivot is the row of A with the longest
+// remainder.
 void RankRevealing::FactorTransposed() noexcept {
   std::iota(row_order_.begin(), row_order_.begin() + rows_, 0);
   auto R = qr_.topLeftCorner(cols_, rows_);
@@ -80,10 +80,10 @@ void RankRevealing::FactorTransposed() noexcept {
   }
 }
 
-// Rotates pairs of columns of U_ until all are orthogonal: it is U S then, but
-// for the order of rows. V_ is Q times the rotations.
+// Rotates pairs of columns of U_ until all are orthogonal. U_ is then U S with
+// permuted rows, and V_ is Q times the rotations.
 void RankRevealing::Orthogonalize() noexcept {
-  // More than ever met; only what is not finite would not converge.
+  // Finite matrices converge in fewer sweeps; the bound stops NaN.
   constexpr int kMaxSweeps = 60;
   auto L = U_.topLeftCorner(rows_, size_);
   auto V = V_.topLeftCorner(cols_, cols_);
@@ -95,12 +95,12 @@ void RankRevealing::Orthogonalize() noexcept {
       for (int q = p + 1; q < size_; ++q) {
         const double pp = L.col(p).squaredNorm(), qq = L.col(q).squaredNorm();
         const double pq = L.col(p).dot(L.col(q));
-        // The rounding of the product itself.
+        // The columns are orthogonal up to the rounding of the product.
         if (std::abs(pq) <= rows_ * kEps * std::sqrt(pp) * std::sqrt(qq)) {
           continue;
         }
         rotated = true;
-        // tan of the smaller angle that makes them orthogonal.
+        // t is the tangent of the smaller angle that makes them orthogonal.
         const double z = (qq - pp) / (2 * pq);
         const double t = std::copysign(1, z) / (std::abs(z) + std::hypot(1, z));
         const Eigen::JacobiRotation<double> G(1 / std::hypot(1, t),
@@ -116,7 +116,7 @@ void RankRevealing::Orthogonalize() noexcept {
   }
 }
 
-// Splits U S, and puts the singular values in descending order.
+// Splits U S into U and S, and sorts the singular values in descending order.
 void RankRevealing::Sort() noexcept {
   for (int j = 0; j < size_; ++j) {
     sigma_[j] = U_.col(j).head(rows_).norm();
@@ -142,7 +142,7 @@ void RankRevealing::Solve(const Eigen::Ref<const Eigen::VectorXd>& b,
   assert(b.size() == rows_ && x.size() == cols_);
   x.setConstant(std::isnan(threshold_) ? kNan : 0);
   for (int j = 0; j < rank_; ++j) {
-    double product = 0;  // Of column j of U with b.
+    double product = 0;  // u_j' b.
     for (int i = 0; i < rows_; ++i) product += U_(i, j) * b[row_order_[i]];
     x += product / sigma_[j] * V_.col(j).head(cols_);
   }

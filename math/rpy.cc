@@ -19,12 +19,12 @@ Eigen::Matrix3d MatrixFromRpy(const Eigen::Vector3d& rpy) noexcept {
 Eigen::Vector3d RpyFromMatrix(const Eigen::Matrix3d& R) noexcept {
   const double roll = std::atan2(R(2, 1), R(2, 2));
   const double pitch = std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2)));
-  // Yaw is what is left when roll is undone: it stays right near pitch ± π/2,
-  // where R(0, 0) and R(1, 0) vanish.
+  // Yaw is the angle of R Rx(roll)'. It stays accurate near pitch ± π/2, where
+  // R(0, 0) and R(1, 0) vanish.
   const double cr = std::cos(roll), sr = std::sin(roll);
   const double yaw =
       std::atan2(sr * R(0, 2) - cr * R(0, 1), cr * R(1, 1) - sr * R(1, 2));
-  // Adds nothing, or NaN where an entry is not finite.
+  // Adds zero, or NaN if an entry is not finite.
   return Eigen::Vector3d(roll, pitch, yaw).array() + 0 * R.sum();
 }
 

@@ -5,15 +5,15 @@
 
 namespace poise {
 
-// Roll, pitch and yaw as URDF means them: fixed axes x, y, z in turn. For files
-// and screens only; nothing here is computed with them.
+// Roll, pitch and yaw have the meaning of URDF: rotations about the fixed axes x,
+// y, z in this order. Only files and displays use them, no algorithm does.
 
-/// R = Rz(yaw) Ry(pitch) Rx(roll), of rpy = (roll, pitch, yaw).
+/// Returns R = Rz(yaw) Ry(pitch) Rx(roll) for rpy = (roll, pitch, yaw).
 Eigen::Matrix3d MatrixFromRpy(const Eigen::Vector3d& rpy) noexcept;
 
-/// The inverse of MatrixFromRpy(), with |pitch| <= π/2 and |roll|, |yaw| <= π.
-/// Where R(2, 1) = R(2, 2) = 0 (pitch ± π/2 exactly) roll and yaw are not
-/// unique, and roll is 0. A NaN or an infinity gives NaN in all.
+/// Returns rpy of R, the inverse of MatrixFromRpy(), with |pitch| <= π/2 and |roll|,
+/// |yaw| <= π. If R(2, 1) = R(2, 2) = 0 (pitch exactly ± π/2), roll and yaw are not
+/// unique, and roll is 0. A NaN or an infinity gives NaN in all components.
 Eigen::Vector3d RpyFromMatrix(const Eigen::Matrix3d& R) noexcept;
 
 }  // namespace poise

@@ -11,9 +11,11 @@
 namespace poise {
 namespace {
 
-// From about half a turn on, |w|² > 10, J_l(w) v as that along w and that across,
-//     p = k / θ² w + sin θ / θ (v - k / θ² w) + (1 - cos θ) / θ² w x v,   k = w'v,
-// each to the last digit of itself: near a turn the latter two come to nothing.
+// TranslationBeyondHalfATurn() computes J_l(w) v for |w|² > 10, about half a turn
+// and more. With k = w'v it splits v into parts parallel and normal to w:
+//     p = k / θ² w + sin θ / θ (v - k / θ² w) + (1 - cos θ) / θ² w x v.
+// Each term is accurate to its own last digit. The last two terms vanish near a
+// full turn.
 constexpr double kHalfTurn = 10;
 
 Eigen::Vector3d TranslationBeyondHalfATurn(const Eigen::Vector3d& w,
@@ -53,7 +55,7 @@ Pose ExpSe3(const Vector6d& x) noexcept {
   } else {
     p = TranslationBeyondHalfATurn(w, v);
   }
-  // Adds nothing, or NaN where an entry of v is not finite.
+  // Adds zero, or NaN if an entry of v is not finite.
   return {ExpSo3(w), p.array() + 0 * v.sum()};
 }
 
@@ -64,7 +66,7 @@ Vector6d LogSe3(const Pose& X) noexcept {
   const Eigen::Vector3d v =
       c.e * X.p - 0.5 * w.cross(X.p) + c.d * w.dot(X.p) * w;
   Vector6d x;
-  // Adds nothing, or NaN where an entry of p is not finite.
+  // Adds zero, or NaN if an entry of p is not finite.
   x << w, v.array() + 0 * X.p.sum();
   return x;
 }

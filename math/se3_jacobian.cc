@@ -7,22 +7,22 @@
 namespace poise {
 namespace {
 
-// A function a I + b Hat(w) + c w w' of Hat(w), and the coefficients of its
-// derivative: a', b', c'.
+// Coefficients holds the coefficients of a function a I + b Hat(w) + c w w' of
+// Hat(w), and of its derivative: a', b', c'.
 struct Coefficients {
   double a, b, c;
   double da, db, dc;
 };
 
-// The function of ad([w; v]), by blocks.
+// Returns the same function of ad([w; v]), by blocks.
 Matrix6d FunctionOfAd(const Coefficients& f, const Vector6d& x) {
   const Eigen::Vector3d w = x.head<3>(), v = x.tail<3>();
   const double k = w.dot(v);
   Eigen::Matrix3d J = f.c * w * w.transpose() + f.b * Hat(w);
   J.diagonal().array() += f.a;
-  // The outer products of w with c v + c' k w / 2, and back.
+  // Q has the terms u w' + w u' with u = c v + c' k w / 2.
   Eigen::Vector3d u = f.c * v + 0.5 * f.dc * k * w;
-  // Adds nothing, or NaN where an entry of v is not finite.
+  // Adds zero, or NaN if an entry of v is not finite.
   u.array() += 0 * v.sum();
   Eigen::Matrix3d Q =
       u * w.transpose() + w * u.transpose() + Hat(f.b * v + f.db * k * w);

@@ -10,14 +10,13 @@
 
 namespace poise {
 
-/// The kinds of spatial vector: how a body moves, how that changes, what acts on
-/// it, what it carries.
+/// SpatialKind is the kind of a spatial vector.
 enum class SpatialKind { kMotion, kAcceleration, kForce, kMomentum };
 
-/// A spatial vector at a point and in the axes of a frame, both of which its
-/// name says: V_WB_E is the motion of B in W, at B's origin, in E's axes. Only
-/// those of one kind add; only those of one point and one frame should, and
-/// then their names match.
+/// SpatialVector is a spatial vector at a point and in the axes of a frame. The
+/// name of a variable says both: V_WB_E is the motion of B in W, at B's origin, in
+/// E's axes. The compiler adds only vectors of the same kind; the caller must add
+/// only vectors at the same point and in the same axes.
 ///
 /// | kind | angular | linear | name |
 /// | motion | velocity w, rad/s | velocity of the point, m/s | V_WB_E |
@@ -25,10 +24,10 @@ enum class SpatialKind { kMotion, kAcceleration, kForce, kMomentum };
 /// | force | moment about the point, N m | force, N | F_Bo_E |
 /// | momentum | about the point, kg m2/s | kg m/s | L_G_E |
 ///
-/// Accelerations are classical, what an accelerometer at the point feels: that
-/// of another point hangs on the angular velocity too. (The spatial acceleration
-/// of the books is this one less [0; w x v].) All functions are inline, allocate
-/// nothing and throw nothing; NaN and infinity propagate.
+/// Accelerations are classical: the linear part is the rate of the point's
+/// velocity. A shift to another point depends on the angular velocity. (The spatial
+/// acceleration of Featherstone is the classical one less [0; w x v].) All functions
+/// are inline, allocate nothing and throw nothing; NaN and infinity propagate.
 template <SpatialKind kind>
 struct SpatialVector {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
@@ -38,11 +37,11 @@ struct SpatialVector {
   SpatialVector(const Eigen::Vector3d& angular_part,
                 const Eigen::Vector3d& linear_part) noexcept
       : angular(angular_part), linear(linear_part) {}
-  /// From [angular; linear], which says nothing of its kind: the name must.
+  /// Converts [angular; linear]; the caller chooses the kind.
   explicit SpatialVector(const Vector6d& x) noexcept
       : angular(x.head<3>()), linear(x.tail<3>()) {}
 
-  /// [angular; linear].
+  /// Returns [angular; linear].
   Vector6d vector() const noexcept {
     return (Vector6d() << angular, linear).finished();
   }
@@ -76,16 +75,17 @@ SpatialVector<kind> operator*(double factor,
   return {factor * x.angular, factor * x.linear};
 }
 
-/// The same vector at the same point, in the axes of A: R_AB x_B.
+/// Returns the same vector at the same point, in the axes of A: R_AB x_B.
 template <SpatialKind kind>
 SpatialVector<kind> operator*(const Eigen::Matrix3d& R_AB,
                               const SpatialVector<kind>& x_B) noexcept {
   return {R_AB * x_B.angular, R_AB * x_B.linear};
 }
 
-/// The same vector at another point Q of the same axes: p_BQ_E leads from the
-/// point it is at to Q. Of a motion the velocity changes, v_Q = v_B + w x p_BQ;
-/// of a force or momentum the moment, m_Q = m_B - p_BQ x f.
+/// Returns the same vector at another point Q, in the same axes. p_BQ_E is the
+/// position of Q from the vector's point Bo:
+///     v_Q = v_B + w x p_BQ    of a motion,
+///     m_Q = m_B - p_BQ x f    of a force or momentum.
 template <SpatialKind kind,
           typename = std::enable_if_t<kind != SpatialKind::kAcceleration>>
 SpatialVector<kind> Shift(const SpatialVector<kind>& x_Bo_E,
@@ -97,7 +97,7 @@ SpatialVector<kind> Shift(const SpatialVector<kind>& x_Bo_E,
   }
 }
 
-/// The acceleration of another point Q of a body that moves with V_B:
+/// Returns the acceleration of another point Q of a body that moves with V_B:
 ///     a_Q = a_B + alpha x p_BQ + w x (w x p_BQ).
 inline SpatialAcceleration Shift(const SpatialAcceleration& A_Bo_E,
                                  const SpatialMotion& V_Bo_E,
@@ -107,8 +107,9 @@ inline SpatialAcceleration Shift(const SpatialAcceleration& A_Bo_E,
                               w.cross(w.cross(p_BQ_E))};
 }
 
-/// The same vector at the origin and in the axes of A, from those of B:
-/// Adjoint(X_AB) for motions, DualAdjoint(X_AB) for forces and momenta.
+/// Returns the same vector at the origin and in the axes of A, from those of B.
+/// The matrix is Adjoint(X_AB) for motions, DualAdjoint(X_AB) for forces and
+/// momenta.
 template <SpatialKind kind,
           typename = std::enable_if_t<kind != SpatialKind::kAcceleration>>
 SpatialVector<kind> operator*(const Pose& X_AB,
@@ -117,19 +118,20 @@ SpatialVector<kind> operator*(const Pose& X_AB,
   return Shift(X_AB.R * x_Bo_B, -X_AB.p);
 }
 
-/// The power of a force along a motion of the same point and axes, W.
+/// Returns the power in W of a force along a motion at the same point and in the
+/// same axes.
 inline double Dot(const SpatialMotion& V_B, const SpatialForce& F_B) noexcept {
   return V_B.angular.dot(F_B.angular) + V_B.linear.dot(F_B.linear);
 }
 
-/// V'L, of the same point and axes: twice the kinetic energy if L is the
-/// momentum of a rigid body that moves with V, J.
+/// Returns V'L in J, with both at the same point and in the same axes. If L is the
+/// momentum of a rigid body that moves with V, it is twice the kinetic energy.
 inline double Dot(const SpatialMotion& V_B,
                   const SpatialMomentum& L_B) noexcept {
   return V_B.angular.dot(L_B.angular) + V_B.linear.dot(L_B.linear);
 }
 
-/// The rate of change of a motion y fixed in what moves with V: ad(V) y =
+/// Returns the rate ad(V) y of a motion y that is fixed in a body with velocity V:
 ///     [w x y.angular; w x y.linear + v x y.angular].
 inline SpatialMotion Cross(const SpatialMotion& V,
                            const SpatialMotion& y) noexcept {
@@ -137,7 +139,7 @@ inline SpatialMotion Cross(const SpatialMotion& V,
           V.angular.cross(y.linear) + V.linear.cross(y.angular)};
 }
 
-/// The rate of change of a force y fixed in what moves with V: -ad(V)' y =
+/// Returns the rate -ad(V)' y of a force y that is fixed in a body with velocity V:
 ///     [w x y.angular + v x y.linear; w x y.linear].
 inline SpatialForce Cross(const SpatialMotion& V,
                           const SpatialForce& y) noexcept {
@@ -145,16 +147,17 @@ inline SpatialForce Cross(const SpatialMotion& V,
           V.angular.cross(y.linear)};
 }
 
-/// The rate of change, a force, of a momentum y fixed in what moves with V: as
-/// of a force.
+/// Returns the rate of a momentum y that is fixed in a body with velocity V. The
+/// rate is a force, and has the same formula as the rate of a force.
 inline SpatialForce Cross(const SpatialMotion& V,
                           const SpatialMomentum& y) noexcept {
   return Cross(V, SpatialForce(y.angular, y.linear));
 }
 
-/// The matrix of y -> Cross(V, y) for motions y, ad(V):  [ Hat(w)    0    ]
-///                                                       [ Hat(v)  Hat(w) ].
-/// That for forces and momenta is -CrossMatrix(V)'.
+/// Returns the matrix ad(V) of y -> Cross(V, y) for motions y:
+///     [ Hat(w)    0    ]
+///     [ Hat(v)  Hat(w) ].
+/// The matrix for forces and momenta is -CrossMatrix(V)'.
 inline Matrix6d CrossMatrix(const SpatialMotion& V) noexcept {
   const Eigen::Matrix3d W = Hat(V.angular);
   Matrix6d ad;

@@ -8,29 +8,31 @@
 
 namespace poise {
 
-/// The Stumpff functions c1, c2, c3 of s = θ²,
+/// Stumpff holds the Stumpff functions c1, c2, c3 of s = θ²,
 ///     cm(s) = 1/m! - s/(m+2)! + s²/(m+4)! - ...,
-/// of which every map of SO(3) and SE(3) in this folder is made:
 ///     c1 = sin θ / θ,   c2 = (1 - cos θ) / θ²,   c3 = (θ - sin θ) / θ³,
-/// and their derivatives dcm = 2 d/ds cm = 1/θ d/dθ cm.
+/// and their derivatives dcm = 2 d/ds cm = 1/θ d/dθ cm. Every map of SO(3) and
+/// SE(3) in this folder is a combination of them.
 struct Stumpff {
   double c1, c2, c3;
   double dc1, dc2, dc3;
 };
 
-/// Where the ways to compute them change, of s = θ²; θ = 1.58.
+/// kStumpffSwitch is the value of s = θ² below which series replace the closed
+/// forms; θ = 1.58 rad.
 ///
-/// Both ways must be good there. Above, c3 is (1 - c1) / s and dc3 (c2 - 3 c3)
-/// / s: an error e of c1 becomes e/s and 3 e/s², so s must not be below 1.
-/// Below, c1 is 1 - s c3, which loses nothing while s c3 < 1/2, that is s <
-/// 3.4. In between lies (π/2)² = 2.47, up to which the quaternion of a rotation
-/// by at most π asks for: it never needs a sine.
+/// Both must be accurate at the switch. Above, c3 is (1 - c1) / s and dc3 is
+/// (c2 - 3 c3) / s: an error e of c1 becomes e/s and 3 e/s², so s must be at least
+/// 1. Below, c1 is 1 - s c3, which loses no digits for s c3 < 1/2, that is s < 3.4.
+/// The quaternion of a rotation by at most π needs s up to (π/2)² = 2.47. With the
+/// switch above this value it needs no sine.
 constexpr double kStumpffSwitch = 2.5;
 
-/// c1 to c6 by their series, for 0 <= s < kStumpffSwitch.
+/// StumpffSeries computes c1 to c6 by their series, for 0 <= s < kStumpffSwitch.
 ///
-/// The series of c5 and c6 are summed, the others follow from cm = 1/m! - s
-/// c(m+2). The first terms left out are at most 2e-17 of the sums.
+/// The series of c5 and c6 are summed; the others follow from
+///     cm = 1/m! - s c(m+2).
+/// The first omitted terms are at most 2e-17 times the sums.
 struct StumpffSeries {
   explicit StumpffSeries(double s) noexcept;
   double c1, c2, c3, c4, c5, c6;
@@ -38,11 +40,11 @@ struct StumpffSeries {
 
 /// Computes the Stumpff functions of s = |w|².
 ///
-/// Below the switch by their series, and by the rule dcm = m c(m+2) - c(m+1);
-/// above, from sine and cosine, and by the rule dcm = (c(m-1) - m cm) / s.
+/// Below the switch the series are used, and dcm = m c(m+2) - c(m+1). Above, sine
+/// and cosine are used, and dcm = (c(m-1) - m cm) / s.
 ///
-/// A NaN, an infinity or |w| > 1e154 gives NaN in all. 40 flops below the
-/// switch. Inline, so that members which are not used cost nothing.
+/// A NaN, an infinity or |w| > 1e154 gives NaN in all members. 40 flops below the
+/// switch. The function is inline, so that unused members cost nothing.
 ///
 /// Source: Stumpff, Himmelsmechanik I, 1959, ch. V.
 inline Stumpff ComputeStumpff(const Eigen::Vector3d& w) noexcept {
@@ -62,16 +64,16 @@ inline Stumpff ComputeStumpff(const Eigen::Vector3d& w) noexcept {
   return c;
 }
 
-/// What the inverse Jacobians are made of: of s = θ²,
+/// InverseStumpff holds the coefficients of the inverse Jacobians. With s = θ²,
 ///     e = θ/2 cot θ/2,   d = (1 - e) / s,
-/// and their derivatives de = 2 d/ds e and dd = 2 d/ds d.
+/// and their derivatives are de = 2 d/ds e and dd = 2 d/ds d.
 struct InverseStumpff {
   double e, d, de, dd;
 };
 
-/// The norm of w, as near + rest, and its square: right to 2^-100, since the
-/// sine near π and 2 π, and the cotangent, enlarge what is relative in the angle.
-/// NaN where |w| > 1e154.
+/// AccurateAngle computes the norm of w as near + rest, with an error of 2^-100, and
+/// its square. The accuracy is needed because the sine near π and 2 π, and the
+/// cotangent, enlarge a relative error of the angle. |w| > 1e154 gives NaN.
 struct AccurateAngle {
   explicit AccurateAngle(const Eigen::Vector3d& w) noexcept {
     const TwoDoubles s = ExactDot(w, w);
@@ -84,10 +86,11 @@ struct AccurateAngle {
 
 /// Computes InverseStumpff of s = |w|².
 ///
-/// Below the switch from Stumpff's functions, since e = c1 / (2 c2) and d = -c2' /
-/// (2 c2) with ' for 2 d/ds; above, where 1 - e is no longer small, from sine
-/// and cosine of θ/2. Singular where θ is a multiple of 2 π other than 0. A
-/// NaN, an infinity or |w| > 1e154 gives NaN in all.
+/// Below the switch Stumpff's functions are used. With ' for 2 d/ds,
+///     e = c1 / (2 c2),   d = -c2' / (2 c2).
+/// Above, 1 - e is not small, and sine and cosine of θ/2 are used. The result is
+/// singular if θ is a multiple of 2 π other than 0. A NaN, an infinity or
+/// |w| > 1e154 gives NaN in all members.
 inline InverseStumpff ComputeInverseStumpff(const Eigen::Vector3d& w) noexcept {
   InverseStumpff inverse;
   const double s = w.squaredNorm();

@@ -5,7 +5,8 @@
 
 namespace poise {
 
-/// Two threes, the angular one first, and matrices of such columns.
+/// Vector6d holds two vectors of three entries, the angular one first. Matrix6d and
+/// Matrix6Xd have such columns.
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Matrix6Xd = Eigen::Matrix<double, 6, Eigen::Dynamic>;
