@@ -18,7 +18,7 @@ namespace poise {
 /// This reader is our own because fast-cpp-csv-parser cannot read a log:
 /// - The parser fixes the number of columns at compile time. A log has about
 ///   300, and their number depends on the robot.
-/// - The parser does not round correctly: most numbers of 17 digits change in
+/// - The parser does not round correctly: most numbers of full precision change in
 ///   their last bits.
 /// - The parser rejects nan and inf, and reads an empty cell as 0.
 /// - The parser accepts a last row without line end, which may be cut short.
