@@ -58,22 +58,9 @@ class ActiveSetSearchTest : public testing::TestWithParam<int> {
     }
     return levels;
   }
-  // What is violated on these levels is active, and nothing is on others.
-  void ExpectHeldBack(int levels) const {
-    for (int level = 0; level < num_levels_; ++level) {
-      const Eigen::VectorXd value = hierarchy_.C(level) * found_.y;
-      for (int i = 0; i < hierarchy_.num_inequalities(level); ++i) {
-        const Side side = side_[level][i];
-        if (level >= levels) {
-          EXPECT_EQ(side, Side::kNone) << level << ", " << i;
-        } else if (value[i] > hierarchy_.upper(level)[i] + kViolated) {
-          EXPECT_EQ(side, Side::kUpper) << level << ", " << i;
-        } else if (value[i] < hierarchy_.lower(level)[i] - kViolated) {
-          EXPECT_NE(side, Side::kNone) << level << ", " << i;
-        }
-      }
-    }
-  }
+  // Violated rows of the first `levels` levels are in the working set; no row of
+  // another level is.
+  void ExpectHeldBack(int levels) const;
   double Tolerance(int level) const {
     return kCertified * CostSize(hierarchy_, level, reference_);
   }
@@ -88,6 +75,22 @@ class ActiveSetSearchTest : public testing::TestWithParam<int> {
   int iterations_ = 0;
   std::vector<std::vector<Side>> side_;
 };
+
+void ActiveSetSearchTest::ExpectHeldBack(int levels) const {
+  for (int level = 0; level < num_levels_; ++level) {
+    const Eigen::VectorXd value = hierarchy_.C(level) * found_.y;
+    for (int i = 0; i < hierarchy_.num_inequalities(level); ++i) {
+      const Side side = side_[level][i];
+      if (level >= levels) {
+        EXPECT_EQ(side, Side::kNone) << level << ", " << i;
+      } else if (value[i] > hierarchy_.upper(level)[i] + kViolated) {
+        EXPECT_EQ(side, Side::kUpper) << level << ", " << i;
+      } else if (value[i] < hierarchy_.lower(level)[i] - kViolated) {
+        EXPECT_NE(side, Side::kNone) << level << ", " << i;
+      }
+    }
+  }
+}
 
 TEST_P(ActiveSetSearchTest, AgreesWithTheCascade) {
   ASSERT_EQ(Search(10000), num_levels_ + 1);
@@ -278,25 +281,30 @@ class ActiveSetSearchByHandTest : public testing::Test {
 
  private:
   template <typename Function>
-  int Search(int max_iterations, const Function& function) {
-    const int n = hierarchy_.num_variables();
-    WorkingSetProblem problem(n, capacity_);
-    int failed_level;
-    EXPECT_EQ(problem.Read(hierarchy_, &failed_level), Status::kOptimal);
-    const std::function<double()> no_clock;
-    Budget budget(max_iterations, 0, &no_clock);
-    ActiveSetSearch descent(n, capacity_);
-    side_ = NoSides(capacity_);
-    for (int i = 0; i < hierarchy_.num_inequalities(0); ++i) {
-      side_[0][i] = begin_;
-    }
-    const int result = function(&descent, &budget, &problem);
-    iterations_ = budget.iterations();
-    y_ = Eigen::VectorXd::Map(descent.y().data(), n);
-    return result;
-  }
+  int Search(int max_iterations, const Function& function);
+
   std::vector<std::vector<Side>> side_;
 };
+
+template <typename Function>
+int ActiveSetSearchByHandTest::Search(int max_iterations,
+                                      const Function& function) {
+  const int n = hierarchy_.num_variables();
+  WorkingSetProblem problem(n, capacity_);
+  int failed_level;
+  EXPECT_EQ(problem.Read(hierarchy_, &failed_level), Status::kOptimal);
+  const std::function<double()> no_clock;
+  Budget budget(max_iterations, 0, &no_clock);
+  ActiveSetSearch descent(n, capacity_);
+  side_ = NoSides(capacity_);
+  for (int i = 0; i < hierarchy_.num_inequalities(0); ++i) {
+    side_[0][i] = begin_;
+  }
+  const int result = function(&descent, &budget, &problem);
+  iterations_ = budget.iterations();
+  y_ = Eigen::VectorXd::Map(descent.y().data(), n);
+  return result;
+}
 
 // On the way to (2, 5) a row is in the way at half of it.
 TEST_F(ActiveSetSearchByHandTest, StopsAtTheRowInItsWay) {

@@ -148,94 +148,134 @@ TEST_P(RandomLexicographicFactorizationTest,
   }
 }
 
-// Rows of the levels that are met go, each in turn and then with it the ones
-// before it, and come back; so do levels after them. What is left is solved as
-// if it had been all.
-TEST_P(RandomLexicographicFactorizationTest,
-       UpdatesAreAsGoodAsFactorisingAnew) {
-  int met = 0;
-  while (met < num_levels_ && !stack_.is_deficient(met)) ++met;
-  if (met == 0) return;
-  stack_.Merge(met);
-  ASSERT_EQ(stack_.num_levels(), met);
+// The levels before the first deficient one are merged, and rows of the merged
+// level are removed and appended. The test keeps a copy of the rows in `merged_`.
+class UpdatedLexicographicFactorizationTest
+    : public RandomLexicographicFactorizationTest {
+ protected:
+  void SetUp() override {
+    RandomLexicographicFactorizationTest::SetUp();
+    while (met_ < num_levels_ && !stack_.is_deficient(met_)) ++met_;
+    if (met_ == 0) return;
+    stack_.Merge(met_);
+    LeastSquares& merged = merged_[0];
+    const int count = stack_.num_rows();
+    merged.A.resize(count, n_);
+    merged.b.resize(count);
+    merged.weight.setOnes(count);
+    for (int l = 0, row = 0; l < met_; ++l) {
+      for (int i = 0; i < levels_[l].A.rows(); ++i, ++row) {
+        merged.A.row(row) = levels_[l].A.row(i);
+        merged.b[row] = levels_[l].b[i];
+      }
+    }
+    merged_.insert(merged_.end(), levels_.begin() + met_, levels_.end());
+  }
+  // The last row gets the number of the removed row.
+  void RemoveRow(int a) {
+    LeastSquares& merged = merged_[0];
+    const auto last = merged.A.rows() - 1;
+    stack_.RemoveRow(a);
+    ASSERT_EQ(stack_.num_rows(), last);
+    merged.A.row(a) = Eigen::RowVectorXd(merged.A.row(last));
+    merged.b[a] = merged.b[last];
+    merged.A.conservativeResize(last, n_);
+    merged.b.conservativeResize(last);
+    merged.weight.conservativeResize(last);
+  }
+  void AppendRow(const Eigen::RowVectorXd& row, double target) {
+    LeastSquares& merged = merged_[0];
+    const int a = stack_.AddRow(target, 1);
+    const auto end = merged.A.rows();
+    ASSERT_EQ(a, end);
+    Eigen::VectorXd::Map(stack_.row(a), n_) = row;
+    ASSERT_TRUE(stack_.AppendRow());
+    merged.A.conservativeResize(end + 1, n_);
+    merged.b.conservativeResize(end + 1);
+    merged.weight.setOnes(end + 1);
+    merged.A.row(end) = row;
+    merged.b[end] = target;
+  }
+  // Adds the other levels, compares the optimum with that of singular values,
+  // and removes these levels again.
+  void Check();
+  // The multipliers of the merged level reproduce a force on its rows.
+  void CheckDual(const Eigen::MatrixXd& Q, double tolerance);
+  // A correction changes each row by the residual with the row's number.
+  void CheckCorrection(const Eigen::MatrixXd& Q, double tolerance);
+
+  int met_ = 0;  // Levels before the first deficient one.
+  std::vector<LeastSquares> merged_{LeastSquares()};
+};
+
+void UpdatedLexicographicFactorizationTest::Check() {
+  stack_.SolveLast();
+  for (size_t l = 1; l < merged_.size(); ++l) AddLevel(merged_[l], &stack_);
+  const auto rows = static_cast<int>(merged_[0].A.rows());
+  const LexicographicOptimum optimum = SolveLexicographically(n_, merged_);
+  const double tolerance =
+      Rounding(10, kMaxRows, optimum.condition * optimum.condition);
+  ASSERT_EQ(stack_.end_row(met_ - 1), rows);
+  ASSERT_EQ(stack_.rank(met_ - 1), rows);
+  const Eigen::MatrixXd Q = Basis(stack_, n_);
+  EXPECT_LE((Q * Q.transpose() -
+             Eigen::MatrixXd::Identity(stack_.rank(), stack_.rank()))
+                .norm(),
+            Rounding(1, n_));
+  EXPECT_LE((Optimum(stack_, n_) - optimum.y).norm(), tolerance);
+  for (int a = 0; a < rows; ++a) EXPECT_EQ(stack_.residual(a), 0) << a;
+  CheckDual(Q, tolerance);
+  CheckCorrection(Q, tolerance);
+  stack_.Truncate(met_);
+}
+
+void UpdatedLexicographicFactorizationTest::CheckDual(const Eigen::MatrixXd& Q,
+                                                      double tolerance) {
+  const auto rows = static_cast<int>(merged_[0].A.rows());
+  Eigen::VectorXd force = Eigen::VectorXd::LinSpaced(rows, 1, 2), nu(rows);
+  const Eigen::VectorXd sum = Q.topRows(rows).transpose() * force;
+  stack_.SolveDual(met_, force.data(), nu.data());
+  EXPECT_LE((merged_[0].A.transpose() * nu - sum).norm(), tolerance);
+}
+
+void UpdatedLexicographicFactorizationTest::CheckCorrection(
+    const Eigen::MatrixXd& Q, double tolerance) {
+  const auto rows = static_cast<int>(merged_[0].A.rows());
+  Eigen::VectorXd residual = Eigen::VectorXd::Zero(stack_.num_rows());
+  Eigen::VectorXd change(stack_.rank());
+  for (int a = 0; a < rows; ++a) residual[a] = 1 + a;
+  stack_.Correct(residual.data(), change.data());
+  EXPECT_LE((merged_[0].A * Q.topRows(rows).transpose() * change.head(rows) -
+             residual.head(rows))
+                .norm(),
+            tolerance);
+}
+
+TEST_P(UpdatedLexicographicFactorizationTest, AgreesWithSingularValues) {
+  if (met_ == 0) return;
+  ASSERT_EQ(stack_.num_levels(), met_);
   const int count = stack_.num_rows();
   EXPECT_EQ(stack_.rank(), count);
-  EXPECT_EQ(stack_.first_row(met - 1), 0);
-  std::vector<LeastSquares> levels(levels_.begin() + (met - 1), levels_.end());
-  LeastSquares& first = levels[0];
-  first.A.resize(count, n_);
-  first.b.resize(count);
-  first.weight.setOnes(count);
-  for (int l = 0, row = 0; l < met; ++l) {
-    for (int i = 0; i < levels_[l].A.rows(); ++i, ++row) {
-      first.A.row(row) = levels_[l].A.row(i);
-      first.b[row] = levels_[l].b[i];
-    }
-  }
-  const auto check = [&] {
-    stack_.SolveLast();
-    for (size_t l = 1; l < levels.size(); ++l) AddLevel(levels[l], &stack_);
-    const int rows = static_cast<int>(first.A.rows());
-    const LexicographicOptimum optimum = SolveLexicographically(n_, levels);
-    const double tolerance =
-        Rounding(10, kMaxRows, optimum.condition * optimum.condition);
-    ASSERT_EQ(stack_.end_row(met - 1), rows);
-    ASSERT_EQ(stack_.rank(met - 1), rows);
-    const Eigen::MatrixXd Q = Basis(stack_, n_);
-    EXPECT_LE((Q * Q.transpose() -
-               Eigen::MatrixXd::Identity(stack_.rank(), stack_.rank()))
-                  .norm(),
-              Rounding(1, n_));
-    EXPECT_LE((Optimum(stack_, n_) - optimum.y).norm(), tolerance);
-    Eigen::VectorXd force = Eigen::VectorXd::LinSpaced(rows, 1, 2), nu(rows);
-    const Eigen::VectorXd sum = Q.topRows(rows).transpose() * force;
-    stack_.SolveDual(met, force.data(), nu.data());
-    EXPECT_LE((first.A.transpose() * nu - sum).norm(), tolerance);
-    for (int a = 0; a < rows; ++a) EXPECT_EQ(stack_.residual(a), 0) << a;
-    // What a row lacks, by its number.
-    Eigen::VectorXd residual = Eigen::VectorXd::Zero(stack_.num_rows());
-    Eigen::VectorXd change(stack_.rank());
-    for (int a = 0; a < rows; ++a) residual[a] = 1 + a;
-    stack_.Correct(residual.data(), change.data());
-    EXPECT_LE((first.A * Q.topRows(rows).transpose() * change.head(rows) -
-               residual.head(rows))
-                  .norm(),
-              tolerance);
-    stack_.Truncate(met);
-  };
+  EXPECT_EQ(stack_.first_row(met_ - 1), 0);
   for (int removed = 0; removed < count; ++removed) {
     SCOPED_TRACE(removed);
-    const LeastSquares all = first;
+    const LeastSquares all = merged_[0];
     std::vector<int> gone;  // By number in `all`.
     for (int a = removed; a >= 0; a -= 2) {
-      const auto last = first.A.rows() - 1;
       gone.push_back(a);
-      stack_.RemoveRow(a);
-      ASSERT_EQ(stack_.num_rows(), last);
-      first.A.row(a) = Eigen::RowVectorXd(first.A.row(last));
-      first.b[a] = first.b[last];
-      first.A.conservativeResize(last, n_);
-      first.b.conservativeResize(last);
-      first.weight.conservativeResize(last);
-      check();
+      RemoveRow(a);
+      Check();
     }
     for (const int from : gone) {
-      const int a = stack_.AddRow(all.b[from], 1);
-      const auto end = first.A.rows();
-      ASSERT_EQ(a, end);
-      Eigen::VectorXd::Map(stack_.row(a), n_) = all.A.row(from);
-      ASSERT_TRUE(stack_.AppendRow());
-      first.A.conservativeResize(end + 1, n_);
-      first.b.conservativeResize(end + 1);
-      first.weight.setOnes(end + 1);
-      first.A.row(end) = all.A.row(from);
-      first.b[end] = all.b[from];
-      check();
+      AppendRow(all.A.row(from), all.b[from]);
+      Check();
     }
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomLexicographicFactorizationTest,
+                         testing::Range(0, kSeeds));
+INSTANTIATE_TEST_SUITE_P(Seeds, UpdatedLexicographicFactorizationTest,
                          testing::Range(0, kSeeds));
 
 }  // namespace

@@ -270,41 +270,10 @@ class RefinementTest : public testing::Test {
     int variable;
     double target;
   };
-  // From the solution, or from another y.
+  // Solves and refines, from the solution or from another y.
   Eigen::VectorXd Refine(const std::vector<Met>& rows,
                          const std::vector<Wish>& wishes,
-                         const std::vector<double>* other = nullptr) {
-    const auto n = static_cast<int>(rows[0].row.size());
-    // With room for more than there is.
-    const std::vector<LevelCapacity> capacity{{8, 0}, {8, 0}, {8, 0}, {8, 0}};
-    Hierarchy hierarchy(n, capacity);
-    for (const Met& met : rows) {
-      EqualityBlock block = hierarchy.AddEqualities(met.level, 1);
-      block.B = met.row;
-      block.b[0] = -met.target;
-    }
-    for (const Wish& wish : wishes) {
-      EqualityBlock block = hierarchy.AddEqualities(3, 1);
-      block.B(0, wish.variable) = 1;
-      block.b[0] = -wish.target;
-    }
-    WorkingSetProblem problem(n, capacity);
-    int failed_level;
-    EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
-    problem.Plan(hierarchy, 4);
-    EXPECT_GE(problem.num_leading(), 1);
-    problem.Solve(hierarchy, {{}, {}, {}, {}});
-    if (other != nullptr) {
-      problem.RefineFrom(hierarchy, *other);
-    } else {
-      problem.Refine(hierarchy);
-    }
-    residual_.clear();
-    for (int a = 0; a < problem.leading().num_rows(); ++a) {
-      residual_.push_back(problem.leading().residual(a) * problem.row(a).norm);
-    }
-    return Eigen::VectorXd::Map(problem.y().data(), n);
-  }
+                         const std::vector<double>* other = nullptr);
   static Eigen::RowVectorXd Row(const std::vector<double>& entries) {
     return Eigen::RowVectorXd::Map(entries.data(), entries.size());
   }
@@ -317,6 +286,41 @@ class RefinementTest : public testing::Test {
 
   std::vector<double> residual_;  // By row, as it is in the hierarchy.
 };
+
+Eigen::VectorXd RefinementTest::Refine(const std::vector<Met>& rows,
+                                       const std::vector<Wish>& wishes,
+                                       const std::vector<double>* other) {
+  const auto n = static_cast<int>(rows[0].row.size());
+  // With room for more than there is.
+  const std::vector<LevelCapacity> capacity{{8, 0}, {8, 0}, {8, 0}, {8, 0}};
+  Hierarchy hierarchy(n, capacity);
+  for (const Met& met : rows) {
+    EqualityBlock block = hierarchy.AddEqualities(met.level, 1);
+    block.B = met.row;
+    block.b[0] = -met.target;
+  }
+  for (const Wish& wish : wishes) {
+    EqualityBlock block = hierarchy.AddEqualities(3, 1);
+    block.B(0, wish.variable) = 1;
+    block.b[0] = -wish.target;
+  }
+  WorkingSetProblem problem(n, capacity);
+  int failed_level;
+  EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+  problem.Plan(hierarchy, 4);
+  EXPECT_GE(problem.num_leading(), 1);
+  problem.Solve(hierarchy, {{}, {}, {}, {}});
+  if (other != nullptr) {
+    problem.RefineFrom(hierarchy, *other);
+  } else {
+    problem.Refine(hierarchy);
+  }
+  residual_.clear();
+  for (int a = 0; a < problem.leading().num_rows(); ++a) {
+    residual_.push_back(problem.leading().residual(a) * problem.row(a).norm);
+  }
+  return Eigen::VectorXd::Map(problem.y().data(), n);
+}
 
 // y0 + y1 = L, and two rows of y1 and y2, which are small: rounding of L leaves
 // nothing of them, at first, and it takes as many passes as L has of digits to

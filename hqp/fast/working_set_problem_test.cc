@@ -59,35 +59,10 @@ class RandomWorkingSetProblemTest : public testing::TestWithParam<int> {
     return side == Side::kUpper ? hierarchy_.upper(k)[i]
                                 : hierarchy_.lower(k)[i];
   }
-  // The first levels, with rows on these sides, and last the way to `center`.
+  // The first levels with the rows in the working set, and a last level with the
+  // target `center`.
   std::vector<LeastSquares> Levels(const Sides& sides, int num_levels,
-                                   const Eigen::VectorXd& center) const {
-    std::vector<LeastSquares> levels;
-    for (int k = 0; k < num_levels; ++k) {
-      LeastSquares level;
-      const int most = hierarchy_.num_equalities(k) + 4;
-      level.A.resize(most, n_);
-      level.b.resize(most);
-      level.weight.resize(most);
-      int count = 0;
-      for (int i = 0; i < hierarchy_.num_equalities(k); ++i) {
-        level.A.row(count) = hierarchy_.B(k).row(i);
-        level.b[count] = -hierarchy_.b(k)[i];
-        level.weight[count++] = hierarchy_.weight(k)[i];
-      }
-      for (int i = 0; i < hierarchy_.num_inequalities(k); ++i) {
-        if (sides[k][i] == Side::kNone) continue;
-        level.A.row(count) = hierarchy_.C(k).row(i);
-        level.b[count] = Bound(k, i, sides[k][i]);
-        level.weight[count++] = 1;
-      }
-      levels.push_back({level.A.topRows(count), level.b.head(count),
-                        level.weight.head(count)});
-    }
-    levels.push_back(
-        {Eigen::MatrixXd::Identity(n_, n_), center, Eigen::VectorXd::Ones(n_)});
-    return levels;
-  }
+                                   const Eigen::VectorXd& center) const;
   Eigen::VectorXd Original(const WorkingSetProblem::Row& row) const {
     if (row.is_inequality) return hierarchy_.C(row.level).row(row.index);
     return hierarchy_.B(row.level).row(row.index);
@@ -109,106 +84,16 @@ class RandomWorkingSetProblemTest : public testing::TestWithParam<int> {
     return leading;
   }
 
-  // That y and rows are those of the optimum, with a tolerance that is what
-  // comes of rounding by way of the levels' condition.
-  void Check(const Sides& sides, int num_levels,
-             const Eigen::VectorXd& center) {
-    const std::vector<LeastSquares> levels = Levels(sides, num_levels, center);
-    const LexicographicOptimum optimum = SolveLexicographically(n_, levels);
-    tolerance_ =
-        Rounding(kLargest, kMaxRows, optimum.condition * optimum.condition);
-    EXPECT_LE((y() - optimum.y).norm(), tolerance_);
-    ASSERT_EQ(problem_.num_levels(), num_levels);
-    ASSERT_EQ(problem_.num_leading(), NumLeading(num_levels));
-    int count = 0;
-    for (int k = 0; k < problem_.num_leading(); ++k) {
-      for (int i = 0; i < levels[k].A.rows(); ++i) {
-        count += levels[k].weight[i] > 0 && levels[k].A.row(i).norm() > 0;
-      }
-    }
-    ASSERT_EQ(problem_.leading().num_rows(), count);
-    for (int a = 0; a < count; ++a) {
-      const WorkingSetProblem::Row& row = problem_.row(a);
-      const Eigen::VectorXd original = Original(row);
-      const double weight =
-          row.is_inequality ? 1 : hierarchy_.weight(row.level)[row.index];
-      EXPECT_NEAR(row.norm, original.norm(), Rounding(row.norm, n_));
-      EXPECT_NEAR(problem_.leading().weight(a), weight * original.squaredNorm(),
-                  Rounding(problem_.leading().weight(a), n_));
-      EXPECT_EQ(row.bound,
-                row.is_inequality
-                    ? Bound(row.level, row.index, sides[row.level][row.index])
-                    : -hierarchy_.b(row.level)[row.index]);
-      EXPECT_NEAR(problem_.leading().residual(a),
-                  (original.dot(optimum.y) - row.bound) / row.norm, tolerance_)
-          << row.level << ", " << row.index;
-      for (int b = 0; b < a; ++b) {  // Each is there once.
-        const WorkingSetProblem::Row& other = problem_.row(b);
-        EXPECT_FALSE(other.level == row.level && other.index == row.index &&
-                     other.is_inequality == row.is_inequality);
-      }
-    }
-  }
-  // That the multipliers of each level cancel its gradient; that of its own rows
-  // is among them if `own`.
-  void CheckMultipliers(bool own) {
-    const int rows = problem_.leading().num_rows();
-    for (int k = 0; k <= problem_.num_levels(); ++k) {
-      SCOPED_TRACE(k);
-      const WorkingSetProblem::Multipliers& of = problem_.multipliers(k);
-      const bool is_leading = k < problem_.num_leading();
-      const bool has_own =
-          own && is_leading && (of.any || problem_.leading().is_deficient(k));
-      Eigen::VectorXd sum = Eigen::VectorXd::Zero(n_);
-      double size = 1;
-      for (int a = 0; a < rows; ++a) {
-        const WorkingSetProblem::Row& row = problem_.row(a);
-        const Eigen::VectorXd unit = Original(row) / row.norm;
-        const double force =
-            problem_.leading().weight(a) * problem_.leading().residual(a);
-        const bool is_own = is_leading &&
-                            a >= problem_.leading().first_row(k) &&
-                            a < problem_.leading().end_row(k);
-        if (is_own) {
-          size = std::max(size, problem_.leading().weight(a) * kLargest);
-          if (has_own) {
-            EXPECT_NEAR(of.nu[a], force, tolerance_ * size);
-            sum += of.nu[a] * unit;
-          } else {
-            sum += force * unit;
-          }
-        }
-        const bool is_above =
-            !is_leading || a < problem_.leading().first_row(k);
-        if (is_above && of.any) {
-          sum += of.nu[a] * unit;
-          size = std::max(size, std::abs(of.nu[a]));
-        }
-      }
-      if (!is_leading) {
-        const std::vector<double> none(n_);
-        std::vector<double> gradient(n_);
-        problem_.diagonal().AddGradient(
-            k - problem_.num_leading(), problem_.y().data(),
-            of.any ? of.left.data() : none.data(), gradient.data());
-        sum += Eigen::VectorXd::Map(gradient.data(), n_);
-      }
-      EXPECT_LE(sum.norm(), 100 * tolerance_ * size);
-      if (of.any && !own) {
-        // Of the gradient, and of all that cancels it.
-        std::vector<double> gradient(n_ + rows), left(n_);
-        double largest =
-            is_leading ? problem_.leading().Gradient(k, gradient.data())
-                       : problem_.diagonal().Dual(k - problem_.num_leading(),
-                                                  gradient.data(), left.data());
-        for (int a = 0; a < rows; ++a) {
-          if (is_leading && a >= problem_.leading().first_row(k)) continue;
-          largest = std::max(largest, std::abs(of.nu[a]));
-        }
-        EXPECT_EQ(of.size, largest);
-      }
-    }
-  }
+  // Compares y and the rows with those of the optimum. The tolerance is rounding
+  // times the squared condition of the levels.
+  void Check(const Sides& sides, int num_levels, const Eigen::VectorXd& center);
+  // The rows of the leading levels are those of the hierarchy, each one once.
+  void CheckRows(const Sides& sides, const Eigen::VectorXd& optimum);
+  // The multipliers of each level cancel its gradient. With `own`, they include
+  // those on the rows of the level itself.
+  void CheckMultipliers(bool own);
+  // The size of multipliers is the largest of the gradient's terms and of them.
+  void CheckSize(int level);
 
   const HierarchyCase drawn_ = Draw(GetParam());
   const Hierarchy& hierarchy_ = drawn_.hierarchy;
@@ -218,6 +103,140 @@ class RandomWorkingSetProblemTest : public testing::TestWithParam<int> {
   WorkingSetProblem problem_{n_, drawn_.capacity};
   double tolerance_ = 0;
 };
+
+std::vector<LeastSquares> RandomWorkingSetProblemTest::Levels(
+    const Sides& sides, int num_levels, const Eigen::VectorXd& center) const {
+  std::vector<LeastSquares> levels;
+  for (int k = 0; k < num_levels; ++k) {
+    LeastSquares level;
+    const int most = hierarchy_.num_equalities(k) + 4;
+    level.A.resize(most, n_);
+    level.b.resize(most);
+    level.weight.resize(most);
+    int count = 0;
+    for (int i = 0; i < hierarchy_.num_equalities(k); ++i) {
+      level.A.row(count) = hierarchy_.B(k).row(i);
+      level.b[count] = -hierarchy_.b(k)[i];
+      level.weight[count++] = hierarchy_.weight(k)[i];
+    }
+    for (int i = 0; i < hierarchy_.num_inequalities(k); ++i) {
+      if (sides[k][i] == Side::kNone) continue;
+      level.A.row(count) = hierarchy_.C(k).row(i);
+      level.b[count] = Bound(k, i, sides[k][i]);
+      level.weight[count++] = 1;
+    }
+    levels.push_back({level.A.topRows(count), level.b.head(count),
+                      level.weight.head(count)});
+  }
+  levels.push_back(
+      {Eigen::MatrixXd::Identity(n_, n_), center, Eigen::VectorXd::Ones(n_)});
+  return levels;
+}
+
+void RandomWorkingSetProblemTest::Check(const Sides& sides, int num_levels,
+                                        const Eigen::VectorXd& center) {
+  const std::vector<LeastSquares> levels = Levels(sides, num_levels, center);
+  const LexicographicOptimum optimum = SolveLexicographically(n_, levels);
+  tolerance_ =
+      Rounding(kLargest, kMaxRows, optimum.condition * optimum.condition);
+  EXPECT_LE((y() - optimum.y).norm(), tolerance_);
+  ASSERT_EQ(problem_.num_levels(), num_levels);
+  ASSERT_EQ(problem_.num_leading(), NumLeading(num_levels));
+  int count = 0;
+  for (int k = 0; k < problem_.num_leading(); ++k) {
+    for (int i = 0; i < levels[k].A.rows(); ++i) {
+      count += levels[k].weight[i] > 0 && levels[k].A.row(i).norm() > 0;
+    }
+  }
+  ASSERT_EQ(problem_.leading().num_rows(), count);
+  CheckRows(sides, optimum.y);
+}
+
+void RandomWorkingSetProblemTest::CheckRows(const Sides& sides,
+                                            const Eigen::VectorXd& optimum) {
+  for (int a = 0; a < problem_.leading().num_rows(); ++a) {
+    const WorkingSetProblem::Row& row = problem_.row(a);
+    const Eigen::VectorXd original = Original(row);
+    const double weight =
+        row.is_inequality ? 1 : hierarchy_.weight(row.level)[row.index];
+    EXPECT_NEAR(row.norm, original.norm(), Rounding(row.norm, n_));
+    EXPECT_NEAR(problem_.leading().weight(a), weight * original.squaredNorm(),
+                Rounding(problem_.leading().weight(a), n_));
+    EXPECT_EQ(row.bound,
+              row.is_inequality
+                  ? Bound(row.level, row.index, sides[row.level][row.index])
+                  : -hierarchy_.b(row.level)[row.index]);
+    EXPECT_NEAR(problem_.leading().residual(a),
+                (original.dot(optimum) - row.bound) / row.norm, tolerance_)
+        << row.level << ", " << row.index;
+    for (int b = 0; b < a; ++b) {  // Each is there once.
+      const WorkingSetProblem::Row& other = problem_.row(b);
+      EXPECT_FALSE(other.level == row.level && other.index == row.index &&
+                   other.is_inequality == row.is_inequality);
+    }
+  }
+}
+
+void RandomWorkingSetProblemTest::CheckMultipliers(bool own) {
+  const int rows = problem_.leading().num_rows();
+  for (int k = 0; k <= problem_.num_levels(); ++k) {
+    SCOPED_TRACE(k);
+    const WorkingSetProblem::Multipliers& of = problem_.multipliers(k);
+    const bool is_leading = k < problem_.num_leading();
+    const bool has_own =
+        own && is_leading && (of.any || problem_.leading().is_deficient(k));
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(n_);
+    double size = 1;
+    for (int a = 0; a < rows; ++a) {
+      const WorkingSetProblem::Row& row = problem_.row(a);
+      const Eigen::VectorXd unit = Original(row) / row.norm;
+      const double force =
+          problem_.leading().weight(a) * problem_.leading().residual(a);
+      const bool is_own = is_leading && a >= problem_.leading().first_row(k) &&
+                          a < problem_.leading().end_row(k);
+      if (is_own) {
+        size = std::max(size, problem_.leading().weight(a) * kLargest);
+        if (has_own) {
+          EXPECT_NEAR(of.nu[a], force, tolerance_ * size);
+          sum += of.nu[a] * unit;
+        } else {
+          sum += force * unit;
+        }
+      }
+      const bool is_above = !is_leading || a < problem_.leading().first_row(k);
+      if (is_above && of.any) {
+        sum += of.nu[a] * unit;
+        size = std::max(size, std::abs(of.nu[a]));
+      }
+    }
+    if (!is_leading) {
+      const std::vector<double> none(n_);
+      std::vector<double> gradient(n_);
+      problem_.diagonal().AddGradient(
+          k - problem_.num_leading(), problem_.y().data(),
+          of.any ? of.left.data() : none.data(), gradient.data());
+      sum += Eigen::VectorXd::Map(gradient.data(), n_);
+    }
+    EXPECT_LE(sum.norm(), 100 * tolerance_ * size);
+    if (of.any && !own) CheckSize(k);
+  }
+}
+
+void RandomWorkingSetProblemTest::CheckSize(int level) {
+  const WorkingSetProblem::Multipliers& of = problem_.multipliers(level);
+  const bool is_leading = level < problem_.num_leading();
+  const int rows = problem_.leading().num_rows();
+  std::vector<double> gradient(n_ + rows), left(n_);
+  double largest =
+      is_leading ? problem_.leading().Gradient(level, gradient.data())
+                 : problem_.diagonal().Dual(level - problem_.num_leading(),
+                                            gradient.data(), left.data());
+  for (int a = 0; a < rows; ++a) {
+    if (is_leading && a >= problem_.leading().first_row(level)) continue;
+    largest = std::max(largest, std::abs(of.nu[a]));
+  }
+  EXPECT_EQ(of.size, largest);
+}
 
 TEST_P(RandomWorkingSetProblemTest, AgreesWithSingularValues) {
   for (int levels = 0; levels <= num_levels_; ++levels) {

@@ -14,6 +14,14 @@ namespace poise {
 /// Reads log.csv, or another table of numbers. Words are in the columns that a
 /// log has for them (docs/log.md) only; an empty cell is no number. No quotes; a
 /// cell does not hold a comma. A row that has no line end is where it was cut short.
+///
+/// This reader is our own because fast-cpp-csv-parser cannot read a log:
+/// - The parser fixes the number of columns at compile time. A log has about
+///   300, and their number depends on the robot.
+/// - The parser does not round correctly: most numbers of full precision change in
+///   their last bits.
+/// - The parser rejects nan and inf, and reads an empty cell as 0.
+/// - The parser accepts a last row without line end, which may be cut short.
 class CsvReader final : public LogReader {
  public:
   /// Reads the header. Throws std::invalid_argument, naming the file, if it

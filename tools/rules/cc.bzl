@@ -41,13 +41,17 @@ def _precompiled_eigen(deps):
     """Of what is not a test: by its optimization in .bazelrc."""
     if not deps:  # No Eigen either; some of it defines what libc declares.
         return struct(copts = [], deps = [])
-    folder = native.package_name().split("/")[0]
-    quick = folder in ("tests", "tools") or native.package_name() in (
+    package = native.package_name()
+    quick = package.split("/")[0] in ("tests", "tools") or package in (
         "robot",
         "robot/feet",
         "robot/profile",
         "robot/urdf",
+        "sim/log",
     )
+    slow = "@cli11" in deps or "@nlohmann_json" in deps
+    if slow and package.split("/")[0] == "tools":
+        return _precompiled("commands")
     return _precompiled("eigen_og" if quick else "eigen")
 
 def poise_cc_library(name, copts = [], deps = [], **kwargs):
