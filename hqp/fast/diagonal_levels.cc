@@ -49,7 +49,7 @@ void DiagonalLevels::Add(int variable, double weight, double target) {
     target_[variable] = target;
     return;
   }
-  // Two rows of one level: the sum of squares has its minimum between them.
+  // Two rows of one level have their minimum at the weighted mean.
   const double sum = weight_[variable] + weight;
   target_[variable] =
       (weight_[variable] * target_[variable] + weight * target) / sum;
@@ -77,15 +77,16 @@ void DiagonalLevels::Finish(const double* targets) {
   for (int level = num_levels_ - 1; level >= 0; --level) {
     blocks_[level].begin = position;
     add(level, false);
-    usual_begin_ = position;  // At last, that of level 0.
+    usual_begin_ = position;  // The last value is level 0's.
     add(level, true);
     blocks_[level].end = position;
   }
   for (int p = 0; p < n_; ++p) scale_[p] = std::sqrt(weight_[order_[p]]);
 }
 
-// Of the first level's variables, that of the most, if it is that of more than
-// half of them.
+// Returns the weight that more than half of the first level's variables have,
+// by a majority vote. If no weight has a majority, it returns one of the
+// weights.
 double DiagonalLevels::UsualWeight() const {
   double weight = 0;
   int lead = 0;
@@ -104,11 +105,12 @@ void DiagonalLevels::Tie(const LexicographicFactorization& leading) {
 
 void DiagonalLevels::TieRows(const double* rows, int stride, int count) {
   Gather(rows, stride, count);
-  // The first level gets what is left: its columns do not matter.
+  // The first level gets the remaining rows, so its columns are not needed.
   EliminateAll(blocks_[0].begin);
 }
 
-// Of the columns before `end` only.
+// Eliminates the levels from the last to the first, in the columns before
+// `end`.
 void DiagonalLevels::EliminateAll(int end) {
   num_reflections_ = 0;
   int row = 0;
@@ -156,7 +158,7 @@ void DiagonalLevels::Correct(const LexicographicFactorization& leading,
 void DiagonalLevels::Gather(const double* rows, int stride, int count) {
   rank_ = count;
   for (int p = 0; p < n_;) {
-    // Variables in a row are copied in one go.
+    // Consecutive variables are copied together.
     int run = 1;
     while (p + run < n_ && order_[p + run] == order_[p] + run) ++run;
     const double* from = rows + order_[p];
@@ -168,7 +170,7 @@ void DiagonalLevels::Gather(const double* rows, int stride, int count) {
   }
 }
 
-// start = Q' z, by position.
+// Computes start = Q' z, by position.
 void DiagonalLevels::Start(const LexicographicFactorization& leading,
                            const double* z) {
   std::fill(scratch_.begin(), scratch_.end(), 0);
@@ -176,7 +178,8 @@ void DiagonalLevels::Start(const LexicographicFactorization& leading,
   for (int p = 0; p < n_; ++p) start_[p] = scratch_[order_[p]];
 }
 
-// Reflects rows until the level's variables are in as few of them as can be.
+// Reflects the rows until as few rows as possible contain the level's
+// variables.
 void DiagonalLevels::Eliminate(int level, int end) {
   Block& block = blocks_[level];
   for (int steps = block.end - block.begin; steps > 0; --steps) {
@@ -190,9 +193,9 @@ void DiagonalLevels::Eliminate(int level, int end) {
   }
 }
 
-// Of the first level, reflects its other variables into its last rows. The rows
-// before have variables of the usual weight only: they are orthonormal, and, as
-// the last ones are orthogonal to them, they stay so when divided by d.
+// Reflects the first level's variables of unusual weight into its last rows.
+// The rows before have variables of the usual weight only. They are orthonormal
+// and orthogonal to the last rows, and stay so when divided by d.
 void DiagonalLevels::Separate() {
   const Block& block = blocks_[0];
   usual_row_end_ = block.row_end;
@@ -209,8 +212,8 @@ void DiagonalLevels::Separate() {
   }
 }
 
-// Whether rounding of the first level's heavy variables is no longer nothing for
-// those of the usual weight: by the ratio of their weights it is multiplied.
+// Returns whether rounding of the first level's large-weight variables disturbs
+// those of the usual weight. The ratio of the weights multiplies that rounding.
 bool DiagonalLevels::RoundsUsual() const {
   for (int p = blocks_[0].begin; p < usual_begin_; ++p) {
     const double ratio = scale_[p] / scale_[usual_begin_];
@@ -219,7 +222,7 @@ bool DiagonalLevels::RoundsUsual() const {
   return false;
 }
 
-// Of these rows, the column with the largest sum of squares.
+// Returns the column with the largest sum of squares over the given rows.
 int DiagonalLevels::LargestColumn(int row_begin, int row_end, int begin,
                                   int end, double* squared) {
   if (row_begin >= row_end) return begin;
@@ -234,8 +237,8 @@ int DiagonalLevels::LargestColumn(int row_begin, int row_end, int begin,
   return static_cast<int>(largest - squares);
 }
 
-// Reflects these rows, H = I - v v', so that of column `pivot` all is in row
-// `target`; of the columns from `begin` on, as before it they are zero.
+// Reflects the given rows by H = I - v v', so that column `pivot` is zero
+// except in row `target`. The rows are zero in the columns before `begin`.
 void DiagonalLevels::Reflect(int row_begin, int row_end, int target, int pivot,
                              int begin, int end) {
   double* first = &t_[static_cast<size_t>(row_begin) * stride_];
@@ -262,8 +265,8 @@ void DiagonalLevels::Reflect(int row_begin, int row_end, int target, int pivot,
   ++num_reflections_;
 }
 
-// T/d = L Q. A row that depends on others, for rounding alone can do that, is
-// left out.
+// Factors T/d = L Q by Gram-Schmidt. A dependent row, which only rounding can
+// cause, is set to zero.
 void DiagonalLevels::FactorLevel(int level) {
   const Block& block = blocks_[level];
   const int columns = block.end - block.begin;
@@ -309,8 +312,8 @@ void DiagonalLevels::FactorLevel(int level) {
   }
 }
 
-// With x = d (step - ideal): minimum |x|^2 where (T/d) x = -T ideal - (what
-// earlier levels have moved).
+// Minimises |x|^2, with x = d (step - ideal), subject to
+// (T/d) x = -T ideal - (T of the earlier levels) (their step).
 void DiagonalLevels::SolveLevel(int level) {
   const Block& block = blocks_[level];
   const int columns = block.end - block.begin, rest = n_ - block.end;
@@ -335,8 +338,9 @@ void DiagonalLevels::SolveLevel(int level) {
   }
 }
 
-// L' nu = -z. Rounding of what a row asks for is in nu by its part of L, squared:
-// where light variables can meet it, heavy ones do not count.
+// Solves L' nu = -z. Rounding of a row's target appears in nu divided by the
+// squared diagonal of L. So a row that small-weight variables can meet has a
+// small threshold.
 void DiagonalLevels::FindMultipliers(int level) {
   Block& block = blocks_[level];
   double largest = 0, squared = 0, size = 0;
@@ -352,7 +356,7 @@ void DiagonalLevels::FindMultipliers(int level) {
     largest = std::max(largest, std::abs(minus));
     if (l[i] > 0) size = std::max(size, std::sqrt(squared) / (l[i] * l[i]));
   }
-  // What levels before have moved counts in nu alone.
+  // The steps of earlier levels are in nu, but not in the threshold.
   block.size =
       largest > tolerances::kZeroGradient * size ? std::max(size, largest) : 0;
 }
@@ -405,7 +409,7 @@ void DiagonalLevels::ZeroRounding(int level, const double* y,
 }
 
 int DiagonalLevels::Nullity(int level) const {
-  // Variables of later levels, less the rows that tie them.
+  // The variables of later levels, minus the rows that determine them.
   int nullity = 0;
   for (int later = level + 1; later < num_levels_; ++later) {
     const Block& block = blocks_[later];

@@ -9,8 +9,8 @@ namespace poise {
 
 /// The last levels of a hierarchy if each of their rows is one scaled variable:
 /// posture, a regulariser of forces, and the norm of y. Level c minimises
-/// 1/2 sum_j d_j^2 (y_j - t_j)^2 over its variables, subject to the leading levels,
-/// Q y = z, and to the optimum of the diagonal levels before c.
+/// 1/2 sum_j d_j^2 (y_j - t_j)^2 over its variables, subject to the leading
+/// levels, Q y = z, and to the optimum of the diagonal levels before c.
 ///
 /// A variable is fixed by the first level that has it, so instead of projecting
 /// each level, the rows of Q are combined by reflections, eliminating the
@@ -24,70 +24,73 @@ class DiagonalLevels {
  public:
   DiagonalLevels(int num_variables, int max_levels);
 
-  /// No levels.
+  /// Removes all levels.
   void Clear();
-  /// The next level; its variables follow.
+  /// Begins the next level. Add() adds its variables.
   void AddLevel() { ++num_levels_; }
-  /// Adds weight/2 (y_variable - target)^2 to the level last added. Ignored if a
-  /// level before has the variable: it is fixed.
+  /// Adds weight/2 (y_variable - target)^2 to the last level. Ignored if an
+  /// earlier level has fixed the variable.
   void Add(int variable, double weight, double target);
-  /// Closes it by a level of all other variables, with these targets, by
-  /// variable, or with target 0.
+  /// Adds a last level of all other variables, with these targets by variable,
+  /// or with target 0 if `targets` is null.
   void Finish(const double* targets);
 
-  /// Of all variables.
+  /// Largest absolute target of all variables.
   double largest_target() const { return largest_target_; }
 
-  /// With Finish()'s.
+  /// Number of levels, including the one that Finish() adds.
   int num_levels() const { return num_levels_; }
 
-  /// The level that fixes a variable.
+  /// Level that fixes a variable.
   int level(int variable) const { return level_of_[variable]; }
   /// Target of a variable on that level.
   double target(int variable) const { return target_[variable]; }
 
-  /// Eliminates the leading levels: all that Nullity() needs.
+  /// Eliminates variables with the rows of the leading levels. Nullity() needs
+  /// only this step.
   void Tie(const LexicographicFactorization& leading);
 
-  /// Tie() for independent rows, `stride` apart, that need not be orthogonal,
-  /// as far as Nullity() needs it.
+  /// Tie() for independent rows, `stride` apart, that need not be orthogonal.
+  /// Only Nullity() is valid afterwards.
   void TieRows(const double* rows, int stride, int count);
 
-  /// The y that minimises the levels, one after the other, where Q y = z.
+  /// Computes the y that minimises the levels in order, subject to Q y = z.
   void Solve(const LexicographicFactorization& leading, double* y);
 
-  /// Refines y by a correction with Q dy = `change`. If `to_minimum`, it goes to
-  /// the minima of the levels; else it is the smallest one that they allow.
+  /// Refines y by a correction dy with Q dy = `change`. If `to_minimum`, y + dy
+  /// minimises the levels; else dy has minimum weighted norm, level by level.
   void Correct(const LexicographicFactorization& leading, const double* change,
                bool to_minimum, double* y);
 
-  /// The multipliers of level c, with the gradient
-  /// d_j^2 (y_j - t_j) of its own variables, which they cancel:
-  /// on_leading, on the rows of Q, such that the sum of both is 0 on its own and
-  /// later variables, and, for each variable of an earlier level, what is then
-  /// left of the sum. Returns the size of what the gradient is added up from: 0,
-  /// and nothing else, if it is zero.
+  /// Computes the multipliers of level c. Its gradient is d_j^2 (y_j - t_j) on
+  /// its own variables. The multipliers on the rows of Q, on_leading, cancel
+  /// the gradient on the variables of level c and of later levels. `left` is
+  /// the rest of the sum on the variables of earlier levels. Returns the
+  /// magnitude of the gradient's terms. If the gradient is zero, returns 0 and
+  /// writes nothing.
   double Dual(int level, double* on_leading, double* left);
 
-  /// Whether a level's own variables are exactly at their targets.
+  /// Returns whether all variables of a level are exactly at their targets.
   bool IsMet(int level, const double* y) const;
 
-  /// sum += the gradient of a level's own variables, less what Dual() left.
+  /// Adds the gradient of a level's own variables to `sum`, and subtracts the
+  /// rest `left` that Dual() computed.
   void AddGradient(int level, const double* y, const double* left,
                    double* sum) const;
 
-  /// Sets entries of that sum to zero if they are rounding of the gradient of a
-  /// large-weight variable. Small-weight variables would be changed by them.
+  /// Sets entries of `sum` to zero if they are rounding of the gradient of a
+  /// large-weight variable. They would change the small-weight variables.
   void ZeroRounding(int level, const double* y, double* sum) const;
 
-  /// Dimension of the nullspace of the leading levels and levels up to this one.
+  /// Dimension of the nullspace of the leading levels and the levels up to
+  /// `level`.
   int Nullity(int level) const;
 
  private:
   struct Block {
     int begin, end;          ///< Positions of its variables.
-    int row_begin, row_end;  ///< Its rows of U' Q.
-    double size;             ///< Of its gradient: see Dual().
+    int row_begin, row_end;  ///< Rows of its T_cc in U' Q.
+    double size;             ///< Magnitude of the gradient's terms.
   };
   double UsualWeight() const;
   void Separate();
@@ -105,20 +108,19 @@ class DiagonalLevels {
   void FindMultipliers(int level);
 
   int n_, stride_, num_levels_ = 0, rank_ = 0, num_reflections_ = 0;
-  std::vector<int> level_of_;            ///< By variable; -1: none yet.
+  std::vector<int> level_of_;            ///< By variable; -1: not fixed yet.
   std::vector<double> weight_, target_;  ///< By variable.
   double largest_target_ = 0;
-  std::vector<int> order_;  ///< Variable by position.
-  int usual_begin_ =
-      0;  ///< Level 0: where variables of its usual weight begin.
-  int usual_row_end_ = 0;           ///< Its rows before have none but these.
-  std::vector<Block> blocks_;       ///< By level.
-  std::vector<double> t_;           ///< U' Q, by position, n x stride.
-  std::vector<double> reflection_;  ///< n x stride.
+  std::vector<int> order_;     ///< Variable by position.
+  int usual_begin_ = 0;        ///< Level 0: first position of the usual weight.
+  int usual_row_end_ = 0;      ///< Rows before have no other variables.
+  std::vector<Block> blocks_;  ///< By level.
+  std::vector<double> t_;      ///< U' Q, by position, n x stride.
+  std::vector<double> reflection_;                    ///< n x stride.
   std::vector<double> start_, step_, ideal_, scale_;  ///< By position.
   std::vector<double> x_, magnitude_;                 ///< By position.
   std::vector<double> z_, nu_;                        ///< By row of U' Q.
-  std::vector<double> q_, l_;                         ///< Levels' T/d = L Q.
+  std::vector<double> q_, l_;  ///< T_cc/d = L Q, by level.
   std::vector<double> scratch_, factor_;
 };
 

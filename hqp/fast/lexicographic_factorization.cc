@@ -116,8 +116,8 @@ void LexicographicFactorization::RemoveRow(int a) {
   int removed = 0;
   while (carrier_[removed] != a) ++removed;
   for (int e = removed; e + 1 < rank_; ++e) {
-    // The next row of L moves up, and has one entry too many: a rotation of its
-    // last two columns, and so of two rows of Q, takes it away.
+    // The next row of L moves up and has one entry too many. A rotation of its
+    // last two columns, and of the two rows of Q, eliminates that entry.
     double* row = l(e);
     std::copy_n(l(e + 1), e + 2, row);
     for (int k = removed; k < e; ++k) {
@@ -166,7 +166,7 @@ bool LexicographicFactorization::AppendRow() {
   return true;
 }
 
-// Takes the levels before out of row a, once.
+// Projects row a once onto the complement of the levels before.
 void LexicographicFactorization::Project(int a) {
   double* l = &l_[static_cast<size_t>(a) * stride_];
   std::fill_n(l, rank_, 0);
@@ -174,7 +174,8 @@ void LexicographicFactorization::Project(int a) {
   rest_[a] = SquaredNorm(row(a), n_);
 }
 
-// Takes the first rows of Q out of x, and adds to l what it had of them.
+// Subtracts the projection on the first rows of Q from x, and adds its
+// coefficients to l.
 void LexicographicFactorization::TakeOut(int rank, double* x, double* l) {
   Dots(q_.data(), stride_, rank, x, n_, scratch_.data());
   for (int e = 0; e < rank; ++e) {
@@ -184,10 +185,10 @@ void LexicographicFactorization::TakeOut(int rank, double* x, double* l) {
   AddRows(q_.data(), stride_, rank, scratch_.data(), n_, x);
 }
 
-// Orthogonalises the level's rests, the heaviest first, until what is left of
-// each is nothing. A row that depends on heavier ones does so exactly, then: what
-// rounding leaves of it, times a residual that cannot be helped, could outweigh a
-// light row.
+// Orthogonalises the remainders of the level's rows, the largest weighted one
+// first, until each is zero. A row that depends on large-weight rows then
+// depends on them exactly. Otherwise the rounding of its remainder, times an
+// unattainable residual, could outweigh a small-weight row.
 void LexicographicFactorization::PivotRows(Level* level) {
   const int first = level->first_row, rows = level->end_row - first;
   for (int a = first; a < level->end_row; ++a) {
@@ -217,7 +218,7 @@ void LexicographicFactorization::PivotRows(Level* level) {
     chosen_[pivot] = true;
     l[e] = 0;
     if (norm <= kRankTolerance) {
-      // Its rest was another's doing. It stays a dependent row.
+      // The remainder was rounding of other rows. The row is dependent.
       rest_[pivot] = 0;
       continue;
     }
@@ -225,7 +226,7 @@ void LexicographicFactorization::PivotRows(Level* level) {
     for (int i = 0; i < n_; ++i) q[i] /= norm;
     carrier_[e] = pivot;
     ++level->rank_end;
-    // Out of the others: the coefficient, the rest, and its length.
+    // Update the other rows: coefficient, remainder, and squared norm.
     Dots(row(first), stride_, rows, q, n_, factor_.data());
     for (int i = 0; i < rows; ++i) {
       const int a = first + i;
@@ -240,7 +241,7 @@ void LexicographicFactorization::PivotRows(Level* level) {
     }
     AddToRows(row(first), stride_, rows, factor_.data(), q, n_);
     for (int a = first; a < level->end_row; ++a) {
-      // Below this the difference of squares has lost its digits.
+      // The difference of squares has lost its digits: compute the norm again.
       if (!chosen_[a] && rest_[a] < tolerances::kDowndate * fresh_[a]) {
         rest_[a] = SquaredNorm(row(a), n_);
         fresh_[a] = rest_[a];
@@ -249,9 +250,9 @@ void LexicographicFactorization::PivotRows(Level* level) {
   }
 }
 
-// Reduces the rows d_a l_a, d_a t_a of a deficient level by reflections H among
-// them, from the last column to the first, so that what is left is lower
-// triangular: H [D L, D t] = [effective rows; zeros, residual].
+// Reduces the rows d_a l_a, d_a t_a of a deficient level by reflections H, from
+// the last column to the first. The result is lower triangular:
+//     H [D L, D t] = [effective rows; zeros, residual].
 void LexicographicFactorization::Reduce(Level* level) {
   const int first = level->first_row, rows = level->end_row - first;
   const int begin = level->rank_begin, end = level->rank_end;
@@ -265,8 +266,8 @@ void LexicographicFactorization::Reduce(Level* level) {
     chosen_[a] = false;
   }
   for (int e = end - 1; e >= begin; --e) {
-    // The reflection that moves column e of the rows not yet chosen into the
-    // one where it is largest.
+    // The reflection moves column e of the rows not yet chosen into the row
+    // where its entry is largest.
     double* v =
         &reflection_[static_cast<size_t>(e) * (reflection_.size() / n_)];
     int pivot = -1;
@@ -309,7 +310,7 @@ void LexicographicFactorization::SolveLevel(const Level& level) {
     Dots(l, 0, 1, z_.data(), e, &value);
     z_[e] = (effective_target_[e] - value) / l[e];
   }
-  // z is rounded by what any row of the level asks for.
+  // Rounding of z is relative to the targets of all rows of the level.
   double size = 0;
   for (int a = level.first_row; a < level.end_row; ++a) {
     size = std::max(size, std::abs(target_[a]));
@@ -334,9 +335,10 @@ void LexicographicFactorization::SetResiduals(int level, const double* residual,
   KeepUnattainableResiduals(size, of);
 }
 
-// At the optimum of a deficient level H d residual is zero but on rows that
-// depend on others, and the rest is rounding. So what heavy rows lack, which is
-// little, has as many digits as what light ones do.
+// Sets rounding of the residuals of a deficient level to zero. At the optimum,
+// H d residual is zero except on dependent rows; other entries are rounding. So
+// the small residuals of large-weight rows have as many digits as those of
+// small-weight rows.
 void LexicographicFactorization::KeepUnattainableResiduals(double size,
                                                            const Level& level) {
   if (!level.deficient) return;
@@ -392,7 +394,7 @@ void LexicographicFactorization::Correct(const double* residual,
   }
 }
 
-// Applies the reflection of column e to a vector of its level's rows.
+// Applies the reflection of column e to a vector over the rows of its level.
 void LexicographicFactorization::Reflect(int e, int rows, double* x) const {
   const double* v =
       &reflection_[static_cast<size_t>(e) * (reflection_.size() / n_)];
@@ -435,7 +437,7 @@ void LexicographicFactorization::SolveDual(int level, double* rhs, double* nu) {
       nu[carrier_[e]] = value;
     }
     if (!from.deficient) continue;
-    // Through the reflections, back to the rows.
+    // The reflections map the multipliers of effective rows back to the rows.
     for (int e = from.rank_begin; e < from.rank_end; ++e) {
       Reflect(e, rows, nu + from.first_row);
     }

@@ -6,51 +6,54 @@
 
 namespace poise {
 
-/// The lexicographic least-squares solution of levels of rows: with rows r_a of
-/// unit length, targets t_a and metrics d_a, each level minimises
+/// Solves a lexicographic least-squares problem. With rows r_a of unit length,
+/// targets t_a and metrics d_a, each level minimises
 ///     1/2 sum_a d_a^2 (r_a y - t_a)^2
 /// among the optima of the levels before it.
 ///
-/// Gram-Schmidt orthogonalises the rows, twice where needed, in a level the
-/// largest weighted remainder first: R = L Q, with Q orthonormal. A row with a
-/// remainder below kRankTolerance depends on the rows before it. Independent rows
-/// are met whatever their metric. In a deficient level, one with dependent rows,
-/// reflections among its rows leave as many "effective" rows as its rank. So L, of
-/// all effective rows, is lower triangular, and y = Q' z.
+/// Gram-Schmidt orthogonalises the rows, R = L Q with Q orthonormal, and
+/// repeats a projection where needed. Within a level it takes the largest
+/// weighted remainder first. A row with a remainder below kRankTolerance
+/// depends on the rows before it. Independent rows are met whatever their
+/// metric. In a deficient level, one with dependent rows, reflections among its
+/// rows leave as many "effective" rows as its rank. So L, of all effective
+/// rows, is lower triangular, and y = Q' z.
 ///
 /// Levels can be removed from the end and added again. Levels before the first
-/// deficient one are all met, so their order does not matter: they can be merged
-/// into one, to which single rows are added and removed. Nothing allocates after
-/// construction.
+/// deficient one are all met, so their order does not matter: they can be
+/// merged into one, to which single rows are added and removed. Nothing
+/// allocates after construction.
 class LexicographicFactorization {
  public:
   LexicographicFactorization(int num_variables, int max_rows, int max_levels);
 
-  /// Drops the levels from this one on.
+  /// Removes `level` and all later levels.
   void Truncate(int level);
 
-  /// A new row of the level about to be factored: to be filled with
-  /// num_variables numbers, not all zero. Returns its number, a.
+  /// Adds a row to the level that is factored next, and returns its number a.
+  /// The caller fills row(a) with num_variables numbers, not all zero.
   int AddRow(double target, double metric);
   double* row(int a) { return &work_[static_cast<std::size_t>(a) * stride_]; }
 
   /// Factors the rows added since the last level; row(a) is overwritten.
   void FactorLevel();
 
-  /// Makes one level of those before `level`, none of them deficient: it takes
-  /// the number of the last one, the others are empty. Drops the levels from
-  /// this one on.
+  /// Merges the levels before `level`, none of which may be deficient. The
+  /// merged level has the number of the last of them, and the others are empty.
+  /// Removes `level` and all later levels.
   void Merge(int level);
 
-  /// Takes row a out of the last level, which is not deficient; the last row gets
-  /// its number. Takes rank() - e rotations, where it was the e-th.
+  /// Removes row a from the last level, which must not be deficient. The last
+  /// row gets the number a. If row a was the e-th, this takes rank() - e
+  /// rotations.
   void RemoveRow(int a);
 
-  /// Factors one row added to the last level, which is not deficient. False if
-  /// no good part of it is independent: then it is not in it.
+  /// Factors one row added to the last level, which must not be deficient.
+  /// Returns false, without adding the row, if its independent part is below
+  /// kIndependentPart.
   [[nodiscard]] bool AppendRow();
 
-  /// Solves the last level anew: after all RemoveRow() and AppendRow().
+  /// Solves the last level again, after all RemoveRow() and AppendRow().
   void SolveLast() { SolveLevel(levels_.back()); }
 
   int num_levels() const { return static_cast<int>(levels_.size()); }
@@ -60,40 +63,40 @@ class LexicographicFactorization {
   int first_row(int level) const { return levels_[level].first_row; }
   int end_row(int level) const { return levels_[level].end_row; }
 
-  /// Whether some row of the level depends on others, or on levels above: only
-  /// then its residual need not be zero.
+  /// Returns whether a row of the level depends on others, or on levels above.
+  /// Only then the level can have a residual.
   bool is_deficient(int level) const;
 
-  /// Whether all rows are independent, and none nearly not: each has a good part
-  /// that those before it have not.
+  /// Returns whether the part of each row that is independent of the rows
+  /// before it is at least kIndependentPart.
   bool is_well_conditioned() const;
 
-  /// r_a y - t_a; exactly 0 where all rows of the level are independent.
+  /// Residual r_a y - t_a; exactly 0 if all rows of the level are independent.
   double residual(int a) const { return residual_[a]; }
 
   /// Refinement of a solution y: computes the correction of Q y, of rank()
   /// entries, from the residuals t_a - r_a y of the rows as given.
   void Correct(const double* residual, double* change);
 
-  /// Takes other residuals of a deficient level, added up from numbers of a size,
-  /// as far as its optimum has them: see KeepUnattainableResiduals().
+  /// Replaces the residuals of a deficient level, and removes their rounding
+  /// with KeepUnattainableResiduals(). `size` is the magnitude of their terms.
   void SetResiduals(int level, const double* residual, double size);
 
-  /// d_a^2.
+  /// Weight d_a^2 of row a.
   double weight(int a) const { return metric_[a] * metric_[a]; }
 
-  /// Q, rank x num_variables, its rows `stride` apart; and y = Q' z.
+  /// Q is rank x num_variables, with rows `stride` apart, and y = Q' z.
   const double* basis() const { return q_.data(); }
   int stride() const { return stride_; }
   const double* z() const { return z_.data(); }
 
-  /// The level's gradient in z, sum_a d_a^2 residual_a (row a of L), its first
-  /// rank(level - 1) entries. Returns the size of what it is added up from: 0,
-  /// and nothing else, if it is zero.
+  /// Computes the first rank(level - 1) entries of the level's gradient in z,
+  /// sum_a d_a^2 residual_a (row a of L). Returns the magnitude of its terms,
+  /// or 0 if the gradient is zero.
   double Gradient(int level, double* gradient) const;
 
-  /// The multipliers nu, by row, that rows of the levels < level need for
-  /// sum_a nu_a r_a = Q' rhs. rhs, of rank(level - 1) entries, is overwritten.
+  /// Computes multipliers nu of the rows of the levels before `level`, by row,
+  /// with sum_a nu_a r_a = Q' rhs. Overwrites rhs, of rank(level - 1) entries.
   void SolveDual(int level, double* rhs, double* nu);
 
   double norm_z() const;
@@ -113,14 +116,14 @@ class LexicographicFactorization {
 
   int n_, stride_, num_rows_ = 0, rank_ = 0;
   std::vector<Level> levels_;
-  std::vector<double> work_;     ///< max_rows x stride: rows, then their rests.
+  std::vector<double> work_;     ///< max_rows x stride: rows, then remainders.
   std::vector<double> l_;        ///< max_rows x stride: rows of L.
-  std::vector<double> reduced_;  ///< max_rows x stride: one level's, reduced.
+  std::vector<double> reduced_;  ///< max_rows x stride: a level, reduced.
   std::vector<double> q_;        ///< n x stride.
   std::vector<double> effective_;  ///< n x stride: effective rows of L.
   std::vector<double> effective_target_, z_;
   std::vector<double> target_, metric_, residual_, rest_, fresh_;
-  std::vector<int> carrier_;  ///< Effective row: the row it is, or replaces.
+  std::vector<int> carrier_;        ///< Row that an effective row replaces.
   std::vector<double> reflection_;  ///< n x max_rows.
   std::vector<double> factor_, scratch_, cosine_, sine_;
   std::vector<bool> chosen_;

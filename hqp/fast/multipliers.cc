@@ -31,7 +31,7 @@ void MultiplierWriter::Write(const Hierarchy& hierarchy,
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       Side& active = solution->levels[level].active[i];
       active = side[level][i];
-      // Of a row with lower = upper, the one that is violated, if any.
+      // A row with lower = upper is active at the side that is violated.
       if (hierarchy.lower(level)[i] == hierarchy.upper(level)[i]) {
         active = hierarchy.C(level).row(i).dot(solution->y) <
                          hierarchy.lower(level)[i]
@@ -72,8 +72,9 @@ void MultiplierWriter::WriteMultipliers(const WorkingSetProblem& problem,
   }
 }
 
-// A level of the tail leaves something on variables that levels of the tail
-// before it have fixed: one row of these cancels it.
+// The stationarity of a diagonal level has a remainder on variables that
+// earlier diagonal levels have fixed. The multiplier of one row of these levels
+// cancels it.
 void MultiplierWriter::WriteDiagonalMultipliers(
     const Hierarchy& hierarchy, int level, const WorkingSetProblem& problem,
     Solution* solution) {
@@ -104,8 +105,9 @@ void MultiplierWriter::WriteDiagonalMultipliers(
   }
 }
 
-// What row a weighs in the equation of a level: its own, where it is violated
-// if so little that it counts as met, or one below.
+// Returns the coefficient of row a in the stationarity equation of a level. On
+// the row's own level this is its weighted residual, which counts as zero for
+// the certificate if it is small.
 double MultiplierWriter::Weight(const WorkingSetProblem& problem,
                                 const Solution& solution, int a,
                                 int level) const {
@@ -119,8 +121,9 @@ double MultiplierWriter::Weight(const WorkingSetProblem& problem,
   return (row.is_inequality ? of.inequality : of.equality)[row.index];
 }
 
-// What weighs no more than this in the equation of a level is rounding's; of rows
-// of unit length, so that they can be compared.
+// Returns the rounding of a coefficient in the stationarity equation of a
+// level. Rows are scaled to unit length, so that their coefficients can be
+// compared.
 double MultiplierWriter::Rounding(const WorkingSetProblem& problem,
                                   const Solution& solution, int level,
                                   double tolerance) const {
@@ -134,8 +137,9 @@ double MultiplierWriter::Rounding(const WorkingSetProblem& problem,
   return tolerance * largest;
 }
 
-// The first level before this one in whose equation row a weighs anything, and
-// what it weighs there; 0 if there is none.
+// Returns the first level before `level` whose stationarity equation has a
+// positive coefficient of row a, and this coefficient. Returns {level, 0} if
+// there is none.
 std::pair<int, double> MultiplierWriter::FirstPositiveMultiplier(
     const WorkingSetProblem& problem, const Solution& solution, int a,
     int level, Side side, double tolerance) const {
@@ -149,8 +153,9 @@ std::pair<int, double> MultiplierWriter::FirstPositiveMultiplier(
   return {level, 0};
 }
 
-// A multiplier may be negative where that of a level before is positive. A
-// multiple of that level's own equation, which adds up to zero, makes it right.
+// Makes multipliers nonnegative. A multiplier may be negative if that of an
+// earlier level is positive. Adding a multiple of the earlier level's
+// stationarity equation, which sums to zero, makes it zero.
 void MultiplierWriter::MakeNonnegative(const Hierarchy& hierarchy,
                                        double tolerance,
                                        const WorkingSetProblem& problem,
@@ -181,7 +186,8 @@ void MultiplierWriter::MakeNonnegative(const Hierarchy& hierarchy,
   }
 }
 
-// Adds to the multipliers of `to` a multiple of the equation of the level `from`.
+// Adds a multiple of the stationarity equation of level `from` to the
+// multipliers of level `to`.
 void MultiplierWriter::AddEquation(const Hierarchy& hierarchy, int from,
                                    double factor,
                                    const WorkingSetProblem& problem, int to,
@@ -207,9 +213,9 @@ void MultiplierWriter::AddEquation(const Hierarchy& hierarchy, int from,
   }
 }
 
-// What the rows of a level of the tail weigh in its equation. On its own variables
-// that is what cancels the others: of what heavy rows lack rounding leaves few
-// digits.
+// Adds the coefficients of a diagonal level's own rows in its stationarity
+// equation. On its own variables they are computed from the other terms of the
+// equation, because the residual of a large-weight row has few correct digits.
 void MultiplierWriter::AddOwnMultipliers(const Hierarchy& hierarchy, int level,
                                          double factor,
                                          const WorkingSetProblem& problem,
@@ -241,9 +247,10 @@ void MultiplierWriter::AddOwnMultipliers(const Hierarchy& hierarchy, int level,
   }
 }
 
-// Counts only equalities and violated rows. With rows at their bounds that are
-// left out, it takes a factorisation of what is left; but of independent rows
-// each counts for one, and only the tail must be asked.
+// Counts equalities and violated rows only. Active rows at their bounds are
+// left out, so the remaining rows must be factored again. If the rows are well
+// conditioned, each counts for one, and only the diagonal levels need a
+// factorisation.
 void MultiplierWriter::WriteNullity(const Hierarchy& hierarchy,
                                     WorkingSetProblem* problem,
                                     Solution* solution) {
@@ -271,7 +278,7 @@ void MultiplierWriter::WriteNullity(const Hierarchy& hierarchy,
   }
   DiagonalLevels& diagonal = problem->diagonal();
   if (all_count) {
-    // As it is tied.
+    // The diagonal levels are tied to the same rows already.
   } else if (is_quick) {
     diagonal.TieRows(equalities_.row(0), equalities_.stride(),
                      equalities_.num_rows());

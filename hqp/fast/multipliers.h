@@ -11,16 +11,16 @@
 
 namespace poise {
 
-/// Writes the answer of the search as a Solution: y, working set, nullities, and
-/// the multipliers by level and row. Inequality multipliers are made nonnegative
-/// where the certificate requires that.
+/// Writes the answer of the search as a Solution: y, working set, nullities,
+/// and the multipliers by level and row. Inequality multipliers are made
+/// nonnegative where the certificate requires that.
 class MultiplierWriter {
  public:
   MultiplierWriter(int num_variables,
                    const std::vector<LevelCapacity>& capacity);
 
-  /// @param tolerance  a multiplier below this, relative, is zero.
-  /// @param problem    solved; its diagonal levels are overwritten.
+  /// @param tolerance  relative threshold below which a multiplier is zero.
+  /// @param problem    the solved problem; its diagonal levels are overwritten.
   void Write(const Hierarchy& hierarchy,
              const std::vector<std::vector<Side>>& side, double tolerance,
              WorkingSetProblem* problem, Solution* solution);

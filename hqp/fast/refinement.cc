@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Of WorkingSetProblem, how y is improved by the rows as they were given.
+// WorkingSetProblem, second part: iterative refinement of y with the rows as
+// given.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,7 +12,7 @@
 namespace poise {
 namespace {
 
-// Each brings 15 digits back or so: numbers of 1e-6 from beside those of 1e90.
+// Each pass recovers about 15 digits. So numbers of 1e-6 are exact beside 1e90.
 constexpr int kMaxPasses = 8;
 
 }  // namespace
@@ -25,8 +26,8 @@ double WorkingSetProblem::Size() const {
   return largest;
 }
 
-// By what the rows miss their targets, and what that is added up from. Returns
-// the worst ratio of the two on levels where it should be zero.
+// Computes the residuals of the rows, and the magnitude of their terms. Returns
+// the largest ratio of the two among rows whose residual should be zero.
 double WorkingSetProblem::ComputeRowResiduals(const Hierarchy& hierarchy) {
   double worst = 0;
   for (int level = 0; level < num_leading_; ++level) {
@@ -43,14 +44,15 @@ double WorkingSetProblem::ComputeRowResiduals(const Hierarchy& hierarchy) {
   return worst;
 }
 
-// The same of one row, as last found.
+// Returns this ratio for one row, from the residuals computed last.
 double WorkingSetProblem::RelativeResidual(int a) const {
   return leading_.residual(a) == 0 && size_[a] > 0
              ? std::abs(row_residual_[a]) / size_[a]
              : 0;
 }
 
-// The same by level, each as a whole, by what its rows weigh in its gradient.
+// Returns the largest ratio by level. The weights of the rows in the gradient
+// of the level multiply the residuals and the magnitudes of their terms.
 double WorkingSetProblem::WorstRelativeLevelResidual() const {
   double worst = 0;
   for (int level = 0; level < num_leading_; ++level) {
@@ -66,7 +68,8 @@ double WorkingSetProblem::WorstRelativeLevelResidual() const {
   return worst;
 }
 
-// Whether a level that cannot be met has rows of weights as unlike as that.
+// Returns whether the weights of a deficient level differ by more than
+// kUnevenWeights.
 bool WorkingSetProblem::IsUneven() const {
   for (int level = 0; level < num_leading_; ++level) {
     if (!leading_.is_deficient(level)) continue;
@@ -94,8 +97,9 @@ void WorkingSetProblem::SetSolution(const Hierarchy& hierarchy,
 
 void WorkingSetProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   double largest = Size();
-  // First all levels; then, as what the tail asks for may be large and its
-  // rounding with it, the head alone.
+  // The first pass corrects all levels. Later passes correct the leading levels
+  // only: targets of the diagonal levels may be large, and so may their
+  // rounding.
   const int enough = IsUneven() ? 2 : 1;
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     const double worst = ComputeRowResiduals(hierarchy);
@@ -106,8 +110,9 @@ void WorkingSetProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   }
   largest = std::max(largest, Size());
   if (ComputeRowResiduals(hierarchy) > tolerances::kRefined) {
-    // Where zero was meant, rounding is left, unless it is what the tail asks for,
-    // or levels are met worse without: by more than a last digit.
+    // Rows that are still not met have rounding where y should be zero. An
+    // entry is kept if a diagonal level has it as target. All are kept if
+    // setting them to zero doubles the residual of a level.
     const double missed = WorstRelativeLevelResidual();
     change_ = y_;
     for (int j = 0; j < n_; ++j) {
@@ -126,7 +131,7 @@ void WorkingSetProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   UpdateDeficientResiduals(hierarchy);
 }
 
-// Whether an entry of y is what the tail asks for.
+// Returns whether an entry of y is at the target of its diagonal level.
 bool WorkingSetProblem::IsAtTarget(int j) const {
   const double target = diagonal_.target(j);
   return std::abs(y_[j] - target) <= tolerances::kRefined * std::abs(target);
@@ -160,8 +165,9 @@ bool WorkingSetProblem::ZeroRoundingEntries(const Hierarchy& hierarchy,
     y_ = change_;
     return false;
   };
-  // All of the row together, as one may be there to make up for another; or all
-  // of y, as other rows may have brought it there; or one by one.
+  // First all entries of the row are set to zero together, as one may
+  // compensate another. Then all entries of y, as they may stem from other
+  // rows. Then one by one.
   if (!zero_all(true) && !zero_all(false)) {
     for (int j = 0; j < n_; ++j) {
       if (row[j] == 0 || !may_be_zero(j)) continue;
@@ -173,7 +179,8 @@ bool WorkingSetProblem::ZeroRoundingEntries(const Hierarchy& hierarchy,
   return y_ != change_;
 }
 
-// Those of levels that are deficient: of y, or zero.
+// Computes the residuals of the deficient levels at y, with rounding set to
+// zero.
 void WorkingSetProblem::UpdateDeficientResiduals(const Hierarchy& hierarchy) {
   ComputeRowResiduals(hierarchy);
   for (int level = 0; level < num_leading_; ++level) {

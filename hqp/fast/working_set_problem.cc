@@ -43,7 +43,7 @@ WorkingSetProblem::WorkingSetProblem(int num_variables,
   }
 }
 
-// Whether there is room for the level.
+// Returns whether the level fits into the capacity.
 bool WorkingSetProblem::Fits(const Hierarchy& hierarchy, int level) const {
   return level < static_cast<int>(norm_.size()) &&
          hierarchy.num_equalities(level) <=
@@ -62,7 +62,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     const auto B = hierarchy.B(level), C = hierarchy.C(level);
     const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
-    double zero = 0;  // Times what is not finite it is NaN.
+    double zero = 0;  // NaN if a number is not finite.
     bool in_order = true;
     for (int i = 0; i < B.rows(); ++i) {
       double& norm = B_norm_[level][i];
@@ -95,13 +95,14 @@ void WorkingSetProblem::Plan(const Hierarchy& hierarchy, int num_levels,
   num_leading_ = num_levels;
   is_factored_ = false;
   diagonal_.Clear();
-  // The tail: last levels without inequalities whose rows have one variable.
+  // Diagonal levels are the last levels without inequalities whose rows have
+  // one variable each.
   for (int level = num_levels - 1; level >= 0; --level) {
     if (hierarchy.num_inequalities(level) > 0) break;
     const auto B = hierarchy.B(level);
     bool selects = n_ > 0;
     for (int i = 0; i < B.rows() && selects; ++i) {
-      // Mostly the same one as in the last tick.
+      // The variable is usually the same as in the last tick.
       const double* row = B.data() + i * n_;
       int& variable = selected_[level][i];
       if (std::abs(row[variable]) == B_norm_[level][i]) continue;
@@ -166,9 +167,10 @@ void WorkingSetProblem::FactorFrom(const Hierarchy& hierarchy,
   }
 }
 
-// Of the levels before the first deficient one, rows that are met in whatever
-// order: one by one they go and come. The others are factored anew. False if a
-// row that comes nearly depends on others.
+// Updates the factorisation of the levels before the first deficient one, by
+// removing and appending single rows. All of these rows are met, so their order
+// does not matter. The other levels are factored again. Returns false if a new
+// row nearly depends on others.
 bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
                                const std::vector<std::vector<Side>>& side) {
   int met = 0;
@@ -208,7 +210,7 @@ void WorkingSetProblem::SolveLeading(
   is_factored_ = true;
 }
 
-// y + Q' (z - Q y).
+// Computes y + Q' (z - Q y).
 void WorkingSetProblem::Approach(const std::vector<double>& y) {
   y_ = y;
   const int rank = leading_.rank();
@@ -246,14 +248,14 @@ void WorkingSetProblem::FindMultipliers(int end) {
 void WorkingSetProblem::RefineMultipliers(const Hierarchy& hierarchy) {
   for (int level = 0; level < num_levels_; ++level) {
     Multipliers& of = multipliers_[level];
-    // A level of the head: its own rows as well, as what they weigh, even where
-    // that asks nothing of other rows.
+    // A leading level also stores the weighted residuals of its own rows, even
+    // if its multipliers on other rows are zero.
     const bool is_leading = level < num_leading_;
     if (!of.any) {
       if (!is_leading || !leading_.is_deficient(level)) continue;
       std::fill_n(of.nu.begin(), leading_.first_row(level), 0);
     }
-    // Refinement has met it, of which its multipliers know nothing.
+    // Refinement has met the level after its multipliers were computed.
     if (!is_leading && diagonal_.IsMet(level - num_leading_, y_.data())) {
       of.any = false;
       continue;
@@ -285,7 +287,7 @@ void WorkingSetProblem::RefineMultipliers(const Hierarchy& hierarchy) {
   }
 }
 
-// sum += factor (row a, of unit length).
+// Adds factor times row a, scaled to unit length, to `sum`.
 void WorkingSetProblem::AddToSum(const Hierarchy& hierarchy, int a,
                                  double factor, double* sum) const {
   if (factor == 0) return;

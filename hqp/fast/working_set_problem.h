@@ -10,10 +10,10 @@
 
 namespace poise {
 
-/// A hierarchy whose working set is taken as equalities of their own levels. The
-/// leading levels are solved by one LexicographicFactorization, the last levels
-/// whose rows have one variable by DiagonalLevels. The norm of y is one more level
-/// below the last.
+/// A hierarchy whose working set is taken as equalities of their own levels.
+/// The leading levels are solved by one LexicographicFactorization, the last
+/// levels whose rows have one variable by DiagonalLevels. The norm of y is one
+/// more level below the last.
 class WorkingSetProblem {
  public:
   WorkingSetProblem(int num_variables,
@@ -27,28 +27,30 @@ class WorkingSetProblem {
     double bound;  ///< -b, or the active bound.
   };
 
-  /// Multipliers of a level, or of the norm of y, on the rows of the levels above.
+  /// Multipliers of a level, or of the norm of y, on the rows of the levels
+  /// above.
   struct Multipliers {
-    bool any = false;          ///< Whether its gradient is not zero.
+    bool any = false;          ///< Whether the gradient is nonzero.
     double size = 0;           ///< Magnitude of the terms.
     std::vector<double> nu;    ///< By leading row of unit length.
     std::vector<double> left;  ///< DiagonalLevels::Dual(): by variable.
   };
 
-  /// Reads a hierarchy's sizes and the norms of its rows, and checks its numbers:
-  /// kNotFinite if one is not finite, or a bound infinite on the wrong side;
-  /// kBadInput if lower > upper, a weight is negative, or it has more rows or other
-  /// variables than there is room for. failed_level is the first such level.
+  /// Reads a hierarchy's sizes and the norms of its rows, and checks its
+  /// numbers: kNotFinite if one is not finite, or a bound infinite on the wrong
+  /// side; kBadInput if lower > upper, a weight is negative, or it has more
+  /// rows or other variables than there is room for. failed_level is the first
+  /// such level.
   Status Read(const Hierarchy& hierarchy, int* failed_level);
 
-  /// Uses the first num_levels levels only. In the nullspace that they leave, y is
-  /// the point closest to `center`, or to zero.
+  /// Uses the first num_levels levels only. In the nullspace that they leave, y
+  /// is the point closest to `center`, or to zero.
   void Plan(const Hierarchy& hierarchy, int num_levels,
             const double* center = nullptr);
 
-  /// Solves for the working set `side`, by level. After the first time, the last
-  /// factorisation is updated as far as that is safe. Its rows are then not in the
-  /// order of their levels.
+  /// Solves for the working set `side`, by level. After the first time, the
+  /// last factorisation is updated as far as that is safe. Its rows are then
+  /// not in the order of their levels.
   void Solve(const Hierarchy& hierarchy,
              const std::vector<std::vector<Side>>& side) {
     SolveLeading(hierarchy, side);
@@ -60,39 +62,40 @@ class WorkingSetProblem {
                     const std::vector<std::vector<Side>>& side);
   void SolveDiagonal() { diagonal_.Solve(leading_, y_.data()); }
 
-  /// Replaces SolveDiagonal(): takes the optimum of the leading levels closest to y,
-  /// and ignores the diagonal levels.
+  /// Replaces SolveDiagonal(): takes the optimum of the leading levels closest
+  /// to y, and ignores the diagonal levels.
   void Approach(const std::vector<double>& y);
 
-  /// Iterative refinement: reduces the residuals of the rows as given, until each is
-  /// zero to rounding of its own terms. Orthogonalisation alone leaves rounding of
-  /// the largest entries of y, which a level need not contain.
+  /// Iterative refinement: reduces the residuals of the rows as given, until
+  /// each is zero to rounding of its own terms. Orthogonalisation alone leaves
+  /// rounding of the largest entries of y, which a level need not contain.
   void Refine(const Hierarchy& hierarchy) { Refine(hierarchy, true); }
 
-  /// Refines another y that meets the rows, without a step to the optimum in their
-  /// nullspace.
+  /// Refines another y that meets the rows, without a step to the optimum in
+  /// their nullspace.
   void RefineFrom(const Hierarchy& hierarchy, const std::vector<double>& y);
 
-  /// Sets y as it is.
+  /// Sets y without refinement, and computes the residuals at this y.
   void SetSolution(const Hierarchy& hierarchy, const std::vector<double>& y);
 
-  /// Sets entries of y that may be rounding of zero to zero: those of a row that y
-  /// violates, and others of y if that helps. No residual of the working set may
-  /// increase by more than its last digit. Returns whether an entry changed.
+  /// Sets entries of y that may be rounding of zero to zero: those of a row
+  /// that y violates, and others of y if that helps. No residual of the working
+  /// set may increase by more than its last digit. Returns whether an entry
+  /// changed.
   bool ZeroRoundingEntries(const Hierarchy& hierarchy, const double* row);
 
-  /// Computes the multipliers of the levels before `end` at the last solve. The norm
-  /// of y is level num_levels().
+  /// Computes the multipliers of the levels before `end` at the last solve. The
+  /// norm of y is level num_levels().
   void FindMultipliers(int end);
 
   /// Refines the multipliers by the residual of stationarity, from the rows as
-  /// given. Those of a leading level are followed by the weighted residuals of its
-  /// own rows, d_a^2 (r_a y - t_a), corrected for rounding.
+  /// given. Those of a leading level are followed by the weighted residuals of
+  /// its own rows, d_a^2 (r_a y - t_a), corrected for rounding.
   void RefineMultipliers(const Hierarchy& hierarchy);
 
-  /// Multiplier of an inequality row in a level's optimality condition. Positive:
-  /// binding. Negative: removing the row lowers the cost. Zero if below tolerance,
-  /// relative. On the row's own level it is the violation.
+  /// Multiplier of an inequality row in a level's optimality condition.
+  /// Positive: binding. Negative: removing the row lowers the cost. Zero if
+  /// below tolerance, relative. On the row's own level it is the violation.
   double Multiplier(int row, int level, Side side, double tolerance) const;
 
   int num_levels() const { return num_levels_; }
@@ -106,13 +109,14 @@ class WorkingSetProblem {
   }
   const std::vector<double>& y() const { return y_; }
 
-  /// The largest of |y|, of the targets of the working set by unit row, and of the
-  /// targets of the diagonal levels. Rounding of y is relative to it, even where
-  /// these targets cancel in y.
+  /// The largest of |y|, of the targets of the working set by unit row, and of
+  /// the targets of the diagonal levels. Rounding of y is relative to it, even
+  /// where these targets cancel in y.
   double Size() const;
 
-  /// |C_i|_1, and the variable of row i of B in a diagonal level.
+  /// Sum of absolute entries of row i of C.
   double norm(int level, int i) const { return norm_[level][i]; }
+  /// Variable of row i of B in a diagonal level.
   int selected(int level, int i) const { return selected_[level][i]; }
 
  private:
