@@ -24,12 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // All runs, on all cores; each into its folder.
-void RecordAll(const Robot& robot, const std::vector<FigureRun>& runs,
-               const fs::path& folder) {
+void RecordAll(const std::vector<FigureRun>& runs, const fs::path& folder) {
   std::atomic<std::size_t> next{0}, done{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < runs.size(); i = next++) {
-      RecordRun(robot, runs[i].scenario, folder / runs[i].name);
+      RecordRun(runs[i].experiment, folder / runs[i].name);
       const std::size_t count = ++done;
       if (isatty(STDERR_FILENO) != 0) {
         std::fprintf(stderr, "\r  %zu of %zu runs%s", count, runs.size(),
@@ -64,7 +63,7 @@ int Main(int argc, char** argv) {
   const Robot robot = LoadRobot("robot/models/humanoid.urdf",
                                 LoadProfile("robot/profiles/humanoid.yaml"));
   const fs::path runs = folder / "figure-runs";
-  RecordAll(robot, MakeFigureRuns("sim/scenarios"), runs);
+  RecordAll(MakeFigureRuns(robot, "sim/scenarios"), runs);
   WriteResults(DrawFigures(robot, runs, folder / "figures"),
                folder / "results.md", "figures");
   if (!keep_runs) fs::remove_all(runs);

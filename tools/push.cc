@@ -11,6 +11,7 @@
 #include "poise/tools/commands/push/dump_solve.h"
 #include "poise/tools/commands/push/push_options.h"
 #include "poise/tools/commands/push/record_run.h"
+#include "poise/tools/commands/push/warnings.h"
 #include "poise/tools/commands/report/report_page.h"
 
 namespace {
@@ -29,24 +30,24 @@ bool ShowProgress(double fraction) {
 }
 
 int Push(const poise::PushOptions& options) {
+  const auto& [robot, scenario] = options.experiment;
   std::string dumped;
   if (options.dump_solve) {
-    dumped = "\nThe solve: bazel run //tools:hqp -- " +
-             poise::DumpSolve(options.robot, options.scenario,
-                              *options.dump_solve, options.out)
-                 .string();
+    dumped =
+        "\nThe solve: bazel run //tools:hqp -- " +
+        poise::DumpSolve(options.experiment, *options.dump_solve, options.out)
+            .string();
   }
   const poise::RunResult result = poise::RecordRun(
-      options.robot, options.scenario, options.out, ShowProgress, options.log);
+      options.experiment, options.out, ShowProgress, options.log);
   if (options.report) {
     poise::WriteReport({options.out}, options.out / "report.html");
   }
   if (options.json) {
-    std::cout << poise::ToJson(options.robot, options.scenario, result).dump(2)
-              << '\n';
+    std::cout << poise::ToJson(robot, scenario, result).dump(2) << '\n';
   } else {
-    std::cout << poise::ToTable(options.robot, options.scenario, result)
-              << "\nWritten into " << options.out.string() << dumped << '\n';
+    std::cout << poise::ToTable(robot, scenario, result) << "\nWritten into "
+              << options.out.string() << dumped << '\n';
   }
   return result.verdict.recovered && !result.interrupted ? 0 : 1;
 }
@@ -56,7 +57,8 @@ int Push(const poise::PushOptions& options) {
 int main(int argc, char** argv) {
   return poise::RunTool("push", [=] {
     const poise::PushOptions options = poise::ReadPushOptions(argc, argv);
-    poise::Warn(options);
+    poise::PrintWarnings(options.robot_file.string(), options.experiment.robot,
+                         options.findings);
     std::signal(SIGINT, [](int) { g_interrupted = 1; });
     std::signal(SIGTERM, [](int) { g_interrupted = 1; });
     return Push(options);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "poise/robot/profile/profile.h"
+#include "poise/sim/experiment.h"
 #include "poise/sim/outcome.h"
 #include "poise/sim/run.h"
 #include "poise/sim/scenario.h"
@@ -51,10 +52,11 @@ int Main(int argc, char** argv) {
   for (const std::string name : kScenarios) {
     std::array<std::future<Verdict>, 2> verdicts;
     for (const int i : {0, 1}) {
-      Scenario scenario = LoadScenario("sim/scenarios/" + name + ".yaml");
-      scenario.plant_kind = i == 0 ? "bullet" : "mujoco";
-      verdicts[i] = std::async(std::launch::async, [&robot, scenario] {
-        return Run(robot, scenario).verdict;
+      Experiment experiment{robot,
+                            LoadScenario("sim/scenarios/" + name + ".yaml")};
+      experiment.scenario.plant_kind = i == 0 ? "bullet" : "mujoco";
+      verdicts[i] = std::async(std::launch::async, [experiment] {
+        return Run(experiment.robot, experiment.scenario).verdict;
       });
     }
     const Verdict bullet = verdicts[0].get();

@@ -261,20 +261,22 @@ Figure ZmpPlots(const RecordedRun& run, const fs::path& stem) {
 
 }  // namespace
 
-std::vector<FigureRun> MakeFigureRuns(const fs::path& scenarios) {
+std::vector<FigureRun> MakeFigureRuns(const Robot& robot,
+                                      const fs::path& scenarios) {
   std::vector<FigureRun> runs;
   for (const char* name : {"posture_off", "com_sinusoid", "weak_push",
                            "strong_push_without_zmp", "strong_push"}) {
     runs.push_back(
-        {name, LoadScenario(scenarios / (std::string(name) + ".yaml"))});
+        {name,
+         {robot, LoadScenario(scenarios / (std::string(name) + ".yaml"))}});
   }
-  runs.push_back({"posture_on", runs[0].scenario});
-  runs.back().scenario.control.without.clear();
-  runs.push_back({"com_sinusoid_feedforward", runs[1].scenario});
-  runs.back().scenario.control.feedforward = true;
-  runs.push_back({"strong_push_zmp_box", runs[4].scenario});
-  runs.back().scenario.control.with.push_back("zmp");
-  runs.back().scenario.pushes.at(0).duration = 0.12;
+  runs.push_back({"posture_on", runs[0].experiment});
+  runs.back().experiment.scenario.control.without.clear();
+  runs.push_back({"com_sinusoid_feedforward", runs[1].experiment});
+  runs.back().experiment.scenario.control.feedforward = true;
+  runs.push_back({"strong_push_zmp_box", runs[4].experiment});
+  runs.back().experiment.scenario.control.with.push_back("zmp");
+  runs.back().experiment.scenario.pushes.at(0).duration = 0.12;
   return runs;
 }
 

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "poise/robot/robot.h"
-#include "poise/sim/scenario.h"
+#include "poise/sim/experiment.h"
 
 namespace poise {
 
 /// A run that figures are drawn from.
 struct FigureRun {
   std::string name;  ///< Of its folder.
-  Scenario scenario;
+  Experiment experiment;
 };
 
 /// A figure of the paper, and what ours is.
@@ -25,8 +25,9 @@ struct Figure {
   std::string ours;   ///< What ours shows, with its numbers.
 };
 
-/// The runs that the figures need, from the scenarios in a folder.
-std::vector<FigureRun> MakeFigureRuns(const std::filesystem::path& scenarios);
+/// The runs of a robot that the figures need, from the scenarios in a folder.
+std::vector<FigureRun> MakeFigureRuns(const Robot& robot,
+                                      const std::filesystem::path& scenarios);
 
 /// Draws figures 3 to 12 of the paper, figure-NN.svg and figure-NN.png, from
 /// runs recorded in RUNS/NAME. Throws std::invalid_argument about what it cannot

@@ -53,7 +53,8 @@ grep -q '^robustness: box.urdf is skipped: ' <<< "$err" ||
 
 # Without a profile it is found, as by push; knees so weak do not hold it.
 rm "$robots/mine.urdf" "$robots/mine.yaml"
-sed '/<joint name="._knee"/,/<\/joint>/s/effort="[^"]*"/effort="2.5"/' \
+sed -e '/<joint name="._knee"/,/<\/joint>/s/effort="[^"]*"/effort="2.5"/' \
+  -e 's/<robot name="humanoid"/<robot name="weak"/' \
   robot/models/humanoid.urdf > "$robots/weak.urdf"
 run 1 --robots "$robots" --only 'weak stands'
 grep -q '^| weak stands |.* weak.urdf` | falls at .*| \*\*no\*\* |$' <<< "$out" ||

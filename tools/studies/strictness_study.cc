@@ -106,8 +106,8 @@ std::vector<Weighing> Weighings() {
           {"one QP, 1000 a rank", one_qp(1000)}};
 }
 
-std::vector<WeighingResult> CompareWeighings(const Robot& robot,
-                                             const Scenario& scenario) {
+std::vector<WeighingResult> CompareWeighings(const Experiment& experiment) {
+  const auto& [robot, scenario] = experiment;
   ClosedLoop loop(robot, scenario);
   std::vector<Bystander> bystanders;
   for (const Weighing& weighing : Weighings()) {
@@ -139,8 +139,8 @@ std::vector<WeighingResult> CompareWeighings(const Robot& robot,
   return results;
 }
 
-Verdict RunWeighing(const Robot& robot, const Scenario& scenario,
-                    const Weighing& weighing) {
+Verdict RunWeighing(const Experiment& experiment, const Weighing& weighing) {
+  const auto& [robot, scenario] = experiment;
   ClosedLoop loop(robot, scenario);
   weighing.arrange(&loop.controller().stack());
   Judge judge(StandingHeight(robot));

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "poise/robot/control/stack.h"
-#include "poise/robot/robot.h"
+#include "poise/sim/experiment.h"
 #include "poise/sim/judge.h"
-#include "poise/sim/scenario.h"
 
 namespace poise {
 
@@ -36,12 +35,10 @@ struct WeighingResult {
   int failures = 0;  ///< Ticks that were not solved to the last rank.
 };
 
-/// All ways, on the states of one run of the scenario.
-std::vector<WeighingResult> CompareWeighings(const Robot& robot,
-                                             const Scenario& scenario);
+/// All ways, on the states of one run of the experiment.
+std::vector<WeighingResult> CompareWeighings(const Experiment& experiment);
 
-/// The scenario controlled in one way, to its end.
-Verdict RunWeighing(const Robot& robot, const Scenario& scenario,
-                    const Weighing& weighing);
+/// The experiment controlled in one way, to its end.
+Verdict RunWeighing(const Experiment& experiment, const Weighing& weighing);
 
 }  // namespace poise

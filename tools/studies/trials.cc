@@ -4,25 +4,30 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
+#include <functional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
+#include "poise/robot/control/stand.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/limits.h"
-#include "poise/robot/numbers.h"
+#include "poise/robot/profile/find_profile.h"
+#include "poise/robot/profile/profile.h"
+#include "poise/robot/urdf/urdf.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/observation.h"
 #include "poise/sim/outcome.h"
+#include "poise/sim/push.h"
 #include "poise/sim/yardstick.h"
-#include "poise/tools/commands/push/push_options.h"
+#include "poise/tools/commands/push/warnings.h"
 
 namespace poise {
 namespace {
 
 using Bar = Trial::Bar;
 
+constexpr double kPi = 3.14159265358979323846;
 constexpr double kSteadyError = 3e-3;  // m.
 constexpr double kFlatFoot = 0.02;     // rad.
 constexpr double kUprightLean = 0.02;  // rad.
@@ -36,41 +41,123 @@ constexpr double kOurPush = 0.9;
 constexpr double kPushTime = 0.1;  // s.
 constexpr int kDirections = 16;
 
-std::vector<std::string> Words(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
+constexpr const char* kHumanoid = "robot/models/humanoid.urdf";
+constexpr const char* kScenarios = "sim/scenarios";
+
+// A change of a scenario, and the option of `push` that makes the same change.
+struct Change {
+  std::string option;
+  std::function<void(Scenario*)> apply;
+};
+
+// A change of one number, which `set` writes.
+Change Number(const std::string& option, double value,
+              void (*set)(double, Scenario*)) {
+  return {option + " " + PrintNumber(value),
+          [=](Scenario* scenario) { set(value, scenario); }};
 }
 
-Trial Make(const std::string& what, const std::string& options,
+Change Time(double s) {
+  return Number("--time", s, [](double x, Scenario* to) { to->duration = x; });
+}
+
+Change MassError(double fraction) {
+  return Number("--mass-error", fraction,
+                [](double x, Scenario* to) { to->control.mass_error = x; });
+}
+
+Change Delay(double s) {
+  return Number("--delay", s,
+                [](double x, Scenario* to) { to->control.delay = x; });
+}
+
+Change Noise() {
+  return Number("--noise", 1,
+                [](double x, Scenario* to) { to->sensors.noise = x; });
+}
+
+Change Seed(unsigned seed) {
+  return {"--seed " + std::to_string(seed),
+          [=](Scenario* scenario) { scenario->seed = seed; }};
+}
+
+Change GroundFriction(double mu) {
+  return Number("--mu-plant", mu,
+                [](double x, Scenario* to) { to->plant.friction = x; });
+}
+
+Change TorqueScale(double scale) {
+  return Number("--torque-scale", scale,
+                [](double x, Scenario* to) { to->plant.torque_scale = x; });
+}
+
+Change Freeze(double at, double duration) {
+  return {"--freeze " + PrintNumber(at) + "," + PrintNumber(duration),
+          [=](Scenario* scenario) {
+            scenario->sensors.freeze_at = at;
+            scenario->sensors.freeze_for = duration;
+          }};
+}
+
+Change ControlRate(double hz) {
+  return Number("--control-rate", hz,
+                [](double x, Scenario* to) { to->control.dt = 1 / x; });
+}
+
+Change With(const std::string& task) {
+  return {"--with " + task,
+          [=](Scenario* scenario) { scenario->control.with.push_back(task); }};
+}
+
+// Changes of the first push.
+Change Force(double newton) {
+  return Number("--force", newton, [](double x, Scenario* to) {
+    Eigen::Vector3d& force = to->pushes.at(0).force;
+    force = x * force.normalized();
+  });
+}
+
+Change PushDuration(double s) {
+  return Number("--duration", s,
+                [](double x, Scenario* to) { to->pushes.at(0).duration = x; });
+}
+
+Change Direction(double degrees) {
+  return Number("--direction", degrees, [](double x, Scenario* to) {
+    Eigen::Vector3d& force = to->pushes.at(0).force;
+    const double angle = x * kPi / 180;
+    force = force.norm() * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+  });
+}
+
+void Apply(const Change& change, Trial* trial) {
+  change.apply(&trial->experiment.scenario);
+  trial->options += " " + change.option;
+}
+
+// A robot with one of our scenarios, changed.
+Trial Make(const std::string& what, const Robot& robot,
+           const std::string& scenario, const std::vector<Change>& changes,
            Bar bar = Bar::kRecovers) {
-  return {what, Words(options), bar};
-}
-
-PushOptions Read(const std::vector<std::string>& options) {
-  std::vector<std::string> words = options;
-  words.insert(words.begin(), "push");
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  return ReadPushOptions(static_cast<int>(argv.size()), argv.data());
+  const std::filesystem::path file =
+      std::filesystem::path(kScenarios) / (scenario + ".yaml");
+  Trial trial{what, {robot, LoadScenario(file)}, "--scenario " + scenario, bar};
+  for (const Change& change : changes) Apply(change, &trial);
+  return trial;
 }
 
 // The paper's scenarios at another rate of control.
-void AddRate(const std::string& rate, std::vector<Trial>* trials) {
-  const std::string at = " --control-rate " + rate;
-  const std::string hz = rate + " Hz: ";
+void AddRate(const Robot& robot, double rate, std::vector<Trial>* trials) {
+  const std::string hz = PrintNumber(rate) + " Hz: ";
   for (const char* name :
        {"stand", "posture_off", "com_sinusoid", "weak_push", "strong_push"}) {
-    trials->push_back(Make(hz + name, "--scenario " + std::string(name) + at));
+    trials->push_back(Make(hz + name, robot, name, {ControlRate(rate)}));
   }
-  trials->push_back(Make(hz + "strong_push_without_zmp",
-                         "--scenario strong_push_without_zmp" + at,
-                         Bar::kFalls));
-  trials->push_back(
-      Make(hz + "figure 12",
-           "--scenario strong_push --with zmp --duration 0.12" + at,
-           Bar::kRecovers));
+  const char* without_zmp = "strong_push_without_zmp";
+  trials->push_back(Make(hz + without_zmp, robot, without_zmp,
+                         {ControlRate(rate)}, Bar::kFalls));
+  trials->push_back(Make(hz + "figure 12", robot, "strong_push",
+                         {With("zmp"), PushDuration(0.12), ControlRate(rate)}));
 }
 
 // In alphabetical order.
@@ -91,60 +178,107 @@ std::vector<std::filesystem::path> UrdfFiles(
   return files;
 }
 
-// What a robot is called, and its profile; empty: it is to be found.
-std::pair<std::string, std::filesystem::path> NameAndProfile(
-    const std::filesystem::path& urdf) {
-  const std::pair<const char*, const char*> ours[] = {
-      {"talos_reduced", "talos"},   {"jvrc1", "jvrc1"},
-      {"icub_erd_reduced", "icub"}, {"hrp4c", "hrp4c"},
-      {"atlas", "atlas"},           {"booster_t1", "t1"},
-      {"draco3", "draco3"},         {"g1_29dof", "g1"}};
-  const std::string stem = urdf.stem().string();
-  const std::filesystem::path beside =
-      std::filesystem::path(urdf).replace_extension(".yaml");
-  if (std::filesystem::exists(beside)) return {stem, beside};
-  for (const auto& [name, profile] : ours) {
-    if (stem != name) continue;
-    return {profile, std::filesystem::absolute(std::string("robot/profiles/") +
-                                               profile + ".yaml")};
-  }
-  return {stem, {}};
-}
-
-// What a pendulum on the robot's feet takes of its first push, N.
-double PendulumForce(const PushOptions& read) {
-  const Push& push = read.scenario.pushes[0];
-  const PushOnRobot aimed(read.robot, push);
+// The force that a pendulum on the robot's feet can take in the direction of the
+// first push, N.
+double PendulumForce(const Experiment& experiment) {
+  const Robot& robot = experiment.robot;
+  const Push& push = experiment.scenario.pushes.at(0);
+  const PushOnRobot aimed(robot, push);
   const Eigen::Vector2d u = push.force.head<2>();
-  return ComputeYardstick(read.robot, read.robot.q_nominal, u, kPushTime,
-                          aimed.body(), aimed.p_BoQ_B())
+  return ComputeYardstick(robot, robot.q_nominal, u, kPushTime, aimed.body(),
+                          aimed.p_BoQ_B())
              .lipm_Ns /
          kPushTime;
 }
 
-// Throws where its robot cannot be had; says what doctor would warn of. A push
-// becomes as strong as its robot is to bear.
-void Aim(Trial* trial) {
-  const PushOptions read = Read(trial->options);
-  Warn(read);
-  if (read.scenario.pushes.empty()) return;
-  trial->options[3] = std::to_string(kRobotsPush * PendulumForce(read));
+// A push with a fraction of the force that a pendulum on the robot's feet takes.
+Trial MakePush(const std::string& what, const Robot& robot, double fraction,
+               const std::vector<Change>& changes) {
+  Trial unit = Make(what, robot, "strong_push", {Force(1)});
+  for (const Change& change : changes) Apply(change, &unit);
+  // Some rows are chaotic: they depend on this rounding to 1e-6 N.
+  const double force =
+      std::round(1e6 * fraction * PendulumForce(unit.experiment)) / 1e6;
+  std::vector<Change> all = {Force(force)};
+  all.insert(all.end(), changes.begin(), changes.end());
+  return Make(what, robot, "strong_push", all);
 }
 
-void AddDirections(std::vector<Trial>* trials) {
+void AddDirections(const Robot& robot, std::vector<Trial>* trials) {
   for (int k = 0; k < kDirections; ++k) {
-    std::ostringstream direction;
-    direction << 360. * k / kDirections;
-    Trial trial =
-        Make("0.9 of a pendulum's push at " + direction.str() + " degrees",
-             "--scenario strong_push --force 1 --duration " +
-                 std::to_string(kPushTime) + " --time 5 --direction " +
-                 direction.str());
-    trial.options[3] =
-        std::to_string(kOurPush * PendulumForce(Read(trial.options)));
-    trials->push_back(trial);
+    const double degrees = 360. * k / kDirections;
+    trials->push_back(MakePush(
+        "0.9 of a pendulum's push at " + PrintNumber(degrees) + " degrees",
+        robot, kOurPush,
+        {PushDuration(kPushTime), Time(5), Direction(degrees)}));
   }
 }
+
+// The names of the two trials of a robot.
+std::string Stands(const std::string& robot) { return robot + " stands"; }
+std::string Pushed(const std::string& robot) { return robot + ", pushed"; }
+
+bool Contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// A robot that others have built.
+class Candidate {
+ public:
+  // Throws if the file is no robot.
+  explicit Candidate(const std::filesystem::path& urdf)
+      : urdf_(urdf),
+        profile_(FindProfile(LoadUrdf(urdf, {}, &findings_).name, urdf)) {
+    const bool is_beside = profile_.parent_path() == urdf.parent_path();
+    name_ = (profile_.empty() || is_beside ? urdf : profile_).stem().string();
+  }
+
+  const std::string& name() const { return name_; }
+
+  // Appends those of its trials whose name contains `only`. Throws if the robot
+  // cannot be simulated.
+  void AddTrials(const std::string& only, std::vector<Trial>* trials) {
+    const bool has_stands = Contains(Stands(name_), only);
+    const bool has_pushed = Contains(Pushed(name_), only);
+    if (!has_stands && !has_pushed) return;
+    const Profile profile =
+        profile_.empty() ? Profile() : LoadProfile(profile_);
+    const Robot robot = LoadStandingRobot(urdf_, profile, &findings_);
+    std::vector<Trial> both;
+    if (has_stands) both.push_back(Make(Stands(name_), robot, "stand", {}));
+    if (has_pushed) {
+      both.push_back(MakePush(Pushed(name_), robot, kRobotsPush,
+                              {PushDuration(kPushTime)}));
+    }
+    for (Trial& trial : both) {
+      UseTasksOf(profile, &trial.experiment.scenario);
+      trial.options += " --robot " + urdf_.filename().string();
+      if (!profile_.empty()) {
+        trial.options += " --profile " + profile_.filename().string();
+      }
+    }
+    CheckLoop(both.back().experiment);
+    PrintWarnings(urdf_.string(), robot, findings_);
+    trials->insert(trials->end(), both.begin(), both.end());
+  }
+
+ private:
+  // Throws if plant or controller refuse the robot.
+  void CheckLoop(const Experiment& experiment) const {
+    try {
+      ClosedLoop(experiment.robot, experiment.scenario);
+    } catch (const Refusal&) {  // Names the file itself.
+      throw;
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(urdf_.string() + ": " + error.what());
+    }
+  }
+
+  std::filesystem::path urdf_;
+  std::vector<Finding> findings_;
+  std::filesystem::path profile_;
+  std::string name_;
+};
 
 bool Holds(Bar bar, const TrialResult& result) {
   const Verdict& verdict = result.verdict;
@@ -163,47 +297,46 @@ bool Holds(Bar bar, const TrialResult& result) {
   }
 }
 
-// A word of a command as a person would write it: a file without its folder, a
-// number to six digits.
-std::string Shortened(const std::string& word) {
-  const std::filesystem::path path = word;
-  if (path.is_absolute()) return path.filename().string();
-  const auto numbers = ParseNumbers(word);
-  return numbers && numbers->size() == 1 ? PrintNumber(numbers->front()) : word;
-}
-
 }  // namespace
 
 std::vector<Trial> RobustnessTrials() {
-  const std::string strong = "--scenario strong_push --time 8";
-  std::vector<Trial> trials = {
-      Make("nothing wrong", strong, Bar::kSteady),
-      Make("model 10 % too heavy", strong + " --mass-error 0.1", Bar::kSteady),
-      Make("model 10 % too light", strong + " --mass-error -0.1", Bar::kSteady),
-      Make("delay of 2 ms", strong + " --delay 0.002"),
-      Make("delay of 5 ms", strong + " --delay 0.005"),
-      Make("noise: 2 mrad, 0.1 rad/s", strong + " --noise 1"),
-      Make("noise, another seed", strong + " --noise 1 --seed 2"),
-      Make("noise, a third seed", strong + " --noise 1 --seed 3"),
-      Make("friction 0.3 in the plant", strong + " --mu-plant 0.3"),
-      Make("torque limits halved", strong + " --torque-scale 0.5"),
-      Make("sensors frozen for 20 ms", strong + " --freeze 1.05,0.02")};
-  const std::string all =
-      "--scenario weak_push --delay 0.002 --noise 1 --mu-plant 0.3 ";
-  trials.push_back(Make("all of it, too heavy", all + "--mass-error 0.1"));
-  trials.push_back(Make("all of it, too light", all + "--mass-error -0.1"));
-  for (const char* name : {"stand", "weak_push", "strong_push"}) {
-    trials.push_back(Make("base estimated: " + std::string(name),
-                          "--estimator --scenario " + std::string(name)));
+  const Robot robot = LoadStandingRobot(
+      kHumanoid, LoadProfile(FindProfile("humanoid", kHumanoid)));
+  std::vector<Trial> trials;
+  const auto strong = [&](const std::string& what, std::vector<Change> changes,
+                          Bar bar = Bar::kRecovers) {
+    changes.insert(changes.begin(), Time(8));
+    trials.push_back(Make(what, robot, "strong_push", changes, bar));
+  };
+  strong("nothing wrong", {}, Bar::kSteady);
+  strong("model 10 % too heavy", {MassError(0.1)}, Bar::kSteady);
+  strong("model 10 % too light", {MassError(-0.1)}, Bar::kSteady);
+  strong("delay of 2 ms", {Delay(0.002)});
+  strong("delay of 5 ms", {Delay(0.005)});
+  strong("noise: 2 mrad, 0.1 rad/s", {Noise()});
+  strong("noise, another seed", {Noise(), Seed(2)});
+  strong("noise, a third seed", {Noise(), Seed(3)});
+  strong("friction 0.3 in the plant", {GroundFriction(0.3)});
+  strong("torque limits halved", {TorqueScale(0.5)});
+  strong("sensors frozen for 20 ms", {Freeze(1.05, 0.02)});
+  for (const auto& [what, error] : {std::pair("all of it, too heavy", 0.1),
+                                    std::pair("all of it, too light", -0.1)}) {
+    trials.push_back(
+        Make(what, robot, "weak_push",
+             {Delay(0.002), Noise(), GroundFriction(0.3), MassError(error)}));
   }
-  trials.push_back(Make("the sinusoid for 64 s",
-                        "--scenario com_sinusoid --time 64", Bar::kUpright));
-  trials.push_back(Make("50 N for 0.4 s", strong + " --force 50 --duration 0.4",
-                        Bar::kFlat));
-  trials.push_back(Make("100 N for 0.2 s",
-                        strong + " --force 100 --duration 0.2", Bar::kFlat));
-  for (const char* rate : {"500", "200", "100"}) AddRate(rate, &trials);
-  AddDirections(&trials);
+  for (const char* name : {"stand", "weak_push", "strong_push"}) {
+    Trial trial = Make("base estimated: " + std::string(name), robot, name, {});
+    trial.experiment.scenario.control.estimator = true;
+    trial.options = "--estimator " + trial.options;
+    trials.push_back(trial);
+  }
+  trials.push_back(Make("the sinusoid for 64 s", robot, "com_sinusoid",
+                        {Time(64)}, Bar::kUpright));
+  strong("50 N for 0.4 s", {Force(50), PushDuration(0.4)}, Bar::kFlat);
+  strong("100 N for 0.2 s", {Force(100), PushDuration(0.2)}, Bar::kFlat);
+  for (const double rate : {500, 200, 100}) AddRate(robot, rate, &trials);
+  AddDirections(robot, &trials);
   return trials;
 }
 
@@ -212,39 +345,26 @@ std::vector<Trial> RobotTrials(const std::filesystem::path& robots,
                                std::vector<std::string>* skipped) {
   std::vector<Trial> trials;
   for (const std::filesystem::path& file : UrdfFiles(robots)) {
-    const auto [name, profile] = NameAndProfile(file);
-    std::vector<std::string> robot = {"--robot", file.string()};
-    if (!profile.empty()) {
-      robot.insert(robot.end(), {"--profile", profile.string()});
-    }
-    Trial stand = Make(name + " stands", "--scenario stand");
-    Trial push =
-        Make(name + ", pushed", "--scenario strong_push --force 1 --duration " +
-                                    std::to_string(kPushTime));
-    std::vector<Trial> both;
-    for (Trial* trial : {&stand, &push}) {
-      if (trial->what.find(only) == std::string::npos) continue;
-      trial->options.insert(trial->options.end(), robot.begin(), robot.end());
-      both.push_back(*trial);
-    }
-    if (both.empty()) continue;
+    std::string name = file.stem().string();
     try {
-      Aim(&both.back());
+      Candidate candidate(file);
+      name = candidate.name();
+      candidate.AddTrials(only, &trials);
     } catch (const std::invalid_argument& error) {
+      if (!Contains(Stands(name), only) && !Contains(Pushed(name), only)) {
+        continue;
+      }
       skipped->push_back(file.filename().string() +
                          " is skipped: " + OneLine(error.what()));
-      continue;
     }
-    trials.insert(trials.end(), both.begin(), both.end());
   }
   return trials;
 }
 
 TrialResult Try(const Trial& trial) {
-  const PushOptions options = Read(trial.options);
-  const Scenario& scenario = options.scenario;
-  ClosedLoop loop(options.robot, scenario);
-  Judge judge(StandingHeight(options.robot));
+  const auto& [robot, scenario] = trial.experiment;
+  ClosedLoop loop(robot, scenario);
+  Judge judge(StandingHeight(robot));
   TrialResult result;
   const long ticks = std::lround(scenario.duration / scenario.control.dt);
   for (long k = 0; k < ticks && !judge.is_down(); ++k) {
@@ -258,9 +378,8 @@ TrialResult Try(const Trial& trial) {
                                            : nullptr;
     if (quarter != nullptr) *quarter = std::max(*quarter, lean);
     if (!record.end.self_contacts.empty()) ++result.self_contact_ticks;
-    result.joint_violation =
-        std::max(result.joint_violation,
-                 JointViolation(options.robot.model, record.end.q));
+    result.joint_violation = std::max(
+        result.joint_violation, JointViolation(robot.model, record.end.q));
   }
   result.verdict = judge.Conclude();
   result.holds = Holds(trial.bar, result);
@@ -268,10 +387,6 @@ TrialResult Try(const Trial& trial) {
 }
 
 std::string ToRow(const Trial& trial, const TrialResult& result) {
-  std::string options;
-  for (const std::string& word : trial.options) {
-    options += (options.empty() ? "" : " ") + Shortened(word);
-  }
   const Verdict& verdict = result.verdict;
   char violation[40] = "0";
   if (result.joint_violation > 0) {
@@ -287,7 +402,7 @@ std::string ToRow(const Trial& trial, const TrialResult& result) {
                 last.x(), last.y(), last.z(), verdict.foot_tilt_peak,
                 result.lean_peak, result.lean_late, violation,
                 result.self_contact_ticks, result.holds ? "yes" : "**no**");
-  return "| " + trial.what + " | `" + options + "`" + text;
+  return "| " + trial.what + " | `" + trial.options + "`" + text;
 }
 
 }  // namespace poise

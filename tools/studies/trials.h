@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "poise/sim/experiment.h"
 #include "poise/sim/judge.h"
 
 namespace poise {
 
-/// A run of `push` with something wrong in it, and what it must do all the same.
+/// A run under adverse conditions, and what it must do all the same.
 struct Trial {
   enum class Bar {
     kRecovers,
@@ -20,7 +21,10 @@ struct Trial {
   };
 
   std::string what;
-  std::vector<std::string> options;  ///< Of `push`.
+  Experiment experiment;
+  /// The options with which `push` runs the same experiment, for the table: files
+  /// without their folder, numbers with six digits.
+  std::string options;
   Bar bar = Bar::kRecovers;
 };
 
@@ -42,8 +46,8 @@ std::vector<Trial> RobustnessTrials();
 
 /// Robots that others have built: each stands off its equilibrium, and is pushed
 /// sideways by 40 % of what a pendulum on its feet takes. A robot has the profile
-/// of its name beside it, else ours of it, else what is found. What doctor warns
-/// of is said on stderr.
+/// of FindProfile(), or feet and a posture that are found. The warnings about each
+/// robot are printed on stderr.
 ///
 /// @param robots  the folder of their URDF files.
 /// @param only    rows whose name contains this.
@@ -54,7 +58,7 @@ std::vector<Trial> RobotTrials(const std::filesystem::path& robots,
                                const std::string& only,
                                std::vector<std::string>* skipped);
 
-/// Throws as ReadPushOptions() and ClosedLoop.
+/// Throws as ClosedLoop.
 TrialResult Try(const Trial& trial);
 
 /// A row of a table in Markdown.

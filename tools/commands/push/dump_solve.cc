@@ -12,9 +12,9 @@
 
 namespace poise {
 
-std::filesystem::path DumpSolve(const Robot& robot, const Scenario& scenario,
-                                double time,
+std::filesystem::path DumpSolve(const Experiment& experiment, double time,
                                 const std::filesystem::path& folder) {
+  const auto& [robot, scenario] = experiment;
   char name[32];
   std::snprintf(name, sizeof name, "solve_%.3f.json", time);
   if (!(time >= 0 && time < scenario.duration)) {

@@ -3,8 +3,7 @@
 
 #include <filesystem>
 
-#include "poise/robot/robot.h"
-#include "poise/sim/scenario.h"
+#include "poise/sim/experiment.h"
 
 namespace poise {
 
@@ -14,8 +13,7 @@ namespace poise {
 ///
 /// Returns the file. Throws std::invalid_argument if the time is not in the
 /// scenario, as ClosedLoop does, or if the file cannot be written.
-std::filesystem::path DumpSolve(const Robot& robot, const Scenario& scenario,
-                                double time,
+std::filesystem::path DumpSolve(const Experiment& experiment, double time,
                                 const std::filesystem::path& folder);
 
 }  // namespace poise

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <iostream>
 #include <limits>
 #include <optional>
 #include <set>
@@ -24,11 +23,10 @@
 #include "poise/robot/profile/save_profile.h"
 #include "poise/robot/urdf/urdf.h"
 #include "poise/sim/closed_loop.h"
+#include "poise/sim/experiment.h"
 #include "poise/sim/number_field.h"
 #include "poise/sim/plants/make_plant.h"
 #include "poise/tools/commands/command_line.h"
-#include "poise/tools/commands/doctor/strength.h"
-#include "poise/tools/commands/push/warnings.h"
 #include "poise/tools/commands/user_path.h"
 
 namespace poise {
@@ -366,11 +364,8 @@ PushOptions ReadPushOptions(int argc, char** argv) {
   const std::filesystem::path robot_file =
       files.robot.empty() ? kRobot : UserPath(files.robot);
   const Profile profile = ChooseProfile(files);
-  // The robot's own tasks, where none are asked for, not even the default ones.
-  if (profile.tasks.IsDefined() && !overrides.tasks &&
-      scenario.control.tasks == "default") {
-    scenario.control.tasks = profile.file.string();
-  }
+  // --tasks default asks for the default tasks, not for the robot's own.
+  if (!overrides.tasks) UseTasksOf(profile, &scenario);
   std::vector<Finding> findings;
   LoadUrdf(robot_file, {}, &findings);
   Robot standing = LoadStandingRobot(robot_file, profile, &findings);
@@ -388,8 +383,7 @@ PushOptions ReadPushOptions(int argc, char** argv) {
   if (!files.save_profile.empty()) {
     SaveFullProfile(standing, robot_file, profile, files.save_profile);
   }
-  return {std::move(standing),
-          scenario,
+  return {{std::move(standing), scenario},
           robot_file,
           UserPath(files.out.empty() ? "push-out/" + scenario.name : files.out),
           files.log == "binary" ? LogFormat::kBinary : LogFormat::kCsv,
@@ -397,17 +391,6 @@ PushOptions ReadPushOptions(int argc, char** argv) {
           !files.no_report,
           files.json,
           std::move(findings)};
-}
-
-void Warn(const PushOptions& options) {
-  std::vector<Finding> findings = options.findings;
-  for (Finding& finding : FindWeakness(options.robot)) {
-    findings.push_back(std::move(finding));
-  }
-  for (const std::string& line :
-       WarningLines(options.robot_file.string(), findings)) {
-    std::cerr << line << "\n";
-  }
 }
 
 }  // namespace poise

@@ -7,16 +7,14 @@
 #include <vector>
 
 #include "poise/robot/finding.h"
-#include "poise/robot/robot.h"
+#include "poise/sim/experiment.h"
 #include "poise/sim/log/log_rows.h"
-#include "poise/sim/scenario.h"
 
 namespace poise {
 
 /// What `push` was told.
 struct PushOptions {
-  Robot robot;
-  Scenario scenario;
+  Experiment experiment;
   std::filesystem::path robot_file;
   std::filesystem::path out;
   LogFormat log = LogFormat::kCsv;
@@ -30,8 +28,5 @@ struct PushOptions {
 ///
 /// Throws as ParseCommandLine(), and std::invalid_argument about what it names.
 PushOptions ReadPushOptions(int argc, char** argv);
-
-/// Says on stderr, in a few lines, what a doctor would warn of.
-void Warn(const PushOptions& options);
 
 }  // namespace poise

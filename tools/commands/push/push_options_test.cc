@@ -18,8 +18,8 @@ PushOptions Read(std::vector<std::string> words) {
 }
 
 TEST(PushOptions, RampIsTheScenarioSetting) {
-  EXPECT_EQ(Read({}).scenario.control.ramp, 0);
-  EXPECT_EQ(Read({"--ramp", "0.3"}).scenario.control.ramp, 0.3);
+  EXPECT_EQ(Read({}).experiment.scenario.control.ramp, 0);
+  EXPECT_EQ(Read({"--ramp", "0.3"}).experiment.scenario.control.ramp, 0.3);
 }
 
 TEST(PushOptions, RefusesNegativeRampByNameOfTheOption) {
@@ -32,11 +32,13 @@ TEST(PushOptions, RefusesNegativeRampByNameOfTheOption) {
 }
 
 TEST(PushOptions, FrictionPyramidHasTheOldNameAsAnAlias) {
-  EXPECT_FALSE(Read({}).scenario.control.inscribed);
+  EXPECT_FALSE(Read({}).experiment.scenario.control.inscribed);
   for (const char* name : {"--friction-pyramid", "--friction"}) {
     SCOPED_TRACE(name);
-    EXPECT_TRUE(Read({name, "inscribed"}).scenario.control.inscribed);
-    EXPECT_FALSE(Read({name, "circumscribed"}).scenario.control.inscribed);
+    EXPECT_TRUE(
+        Read({name, "inscribed"}).experiment.scenario.control.inscribed);
+    EXPECT_FALSE(
+        Read({name, "circumscribed"}).experiment.scenario.control.inscribed);
   }
 }
 

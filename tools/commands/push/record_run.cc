@@ -22,10 +22,11 @@ void RemoveOld(const std::filesystem::path& folder) {
 
 }  // namespace
 
-RunResult RecordRun(const Robot& robot, const Scenario& scenario,
+RunResult RecordRun(const Experiment& experiment,
                     const std::filesystem::path& folder,
                     const std::function<bool(double)>& progress,
                     LogFormat format) {
+  const auto& [robot, scenario] = experiment;
   // Once there is a new log: a run that is refused leaves the old one whole.
   bool has_begun = false;
   const auto watch = [&](double fraction) {

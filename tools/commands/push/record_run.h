@@ -4,20 +4,19 @@
 #include <filesystem>
 #include <functional>
 
-#include "poise/robot/robot.h"
+#include "poise/sim/experiment.h"
 #include "poise/sim/log/log_rows.h"
 #include "poise/sim/run.h"
-#include "poise/sim/scenario.h"
 
 namespace poise {
 
-/// Runs a scenario into a folder that holds all that a report is made of:
+/// Runs an experiment into a folder that holds all that a report is made of:
 /// log.csv or log.bin, timing.csv, summary.json, robot.json. See Run() for
 /// `progress` and `format`. What another run left there, its report.html too, is
 /// removed.
 ///
 /// Throws std::invalid_argument as Run() does, or if a file cannot be written.
-RunResult RecordRun(const Robot& robot, const Scenario& scenario,
+RunResult RecordRun(const Experiment& experiment,
                     const std::filesystem::path& folder,
                     const std::function<bool(double)>& progress = {},
                     LogFormat format = LogFormat::kCsv);

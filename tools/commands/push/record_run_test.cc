@@ -19,7 +19,7 @@ class RecordRunTest : public testing::Test {
   RecordRunTest() {
     fs::create_directories(folder_);
     for (const char* name : kOld) std::ofstream(folder_ / name) << "old";
-    scenario_.duration = 0.05;
+    experiment_.scenario.duration = 0.05;
   }
   std::string Read(const char* name) const {
     std::ifstream stream(folder_ / name);
@@ -28,15 +28,14 @@ class RecordRunTest : public testing::Test {
 
   static constexpr const char* kOld[] = {"log.csv", "summary.json",
                                          "robot.json", "report.html"};
-  const Robot robot_ = LoadHumanoid();
   const fs::path folder_ = fs::path(testing::TempDir()) / "run";
-  Scenario scenario_;
+  Experiment experiment_{LoadHumanoid(), {}};
 };
 
 // A kill then leaves a log that goes with nothing, not with another summary.
 TEST_F(RecordRunTest, RemovesWhatAnotherRunLeft) {
   bool was_asked = false;
-  RecordRun(robot_, scenario_, folder_, [&](double) {
+  RecordRun(experiment_, folder_, [&](double) {
     was_asked = true;
     for (const char* name : {"summary.json", "robot.json", "report.html"}) {
       EXPECT_FALSE(fs::exists(folder_ / name)) << name;
@@ -50,9 +49,9 @@ TEST_F(RecordRunTest, RemovesWhatAnotherRunLeft) {
 }
 
 TEST_F(RecordRunTest, LeavesItWhereTheRunIsRefused) {
-  scenario_.pushes.emplace_back();
-  scenario_.pushes[0].link = "nose";
-  EXPECT_THROW(RecordRun(robot_, scenario_, folder_), std::invalid_argument);
+  experiment_.scenario.pushes.emplace_back();
+  experiment_.scenario.pushes[0].link = "nose";
+  EXPECT_THROW(RecordRun(experiment_, folder_), std::invalid_argument);
   for (const char* name : kOld) EXPECT_EQ(Read(name), "old") << name;
 }
 

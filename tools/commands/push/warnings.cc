@@ -2,6 +2,10 @@
 #include "poise/tools/commands/push/warnings.h"
 
 #include <algorithm>
+#include <iostream>
+#include <utility>
+
+#include "poise/tools/commands/doctor/strength.h"
 
 namespace poise {
 namespace {
@@ -43,6 +47,16 @@ std::vector<std::string> WarningLines(const std::string& file,
     lines.push_back(line);
   }
   return lines;
+}
+
+void PrintWarnings(const std::string& file, const Robot& robot,
+                   std::vector<Finding> findings) {
+  for (Finding& finding : FindWeakness(robot)) {
+    findings.push_back(std::move(finding));
+  }
+  for (const std::string& line : WarningLines(file, findings)) {
+    std::cerr << line << "\n";
+  }
 }
 
 }  // namespace poise

@@ -12,6 +12,7 @@
 #include "poise/robot/finding.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/push/push_options.h"
+#include "poise/tools/commands/push/warnings.h"
 #include "poise/tools/commands/user_path.h"
 
 namespace poise {
@@ -136,8 +137,8 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
   const Shard shard = ParseShard(shard_text);
   const std::vector<std::string> rest = app.remaining();
   PushOptions push = ReadRest(rest);
-  Warn(push);
-  ControlSettings& control = push.scenario.control;
+  PrintWarnings(push.robot_file.string(), push.experiment.robot, push.findings);
+  ControlSettings& control = push.experiment.scenario.control;
   control.with.insert(control.with.end(), with.begin(), with.end());
   control.without.insert(control.without.end(), without.begin(), without.end());
   if (out.empty()) {
@@ -147,7 +148,7 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
              std::to_string(shard.count);
     }
   }
-  return {{std::move(push.robot), std::move(push.scenario),
+  return {{std::move(push.experiment),
            Points(directions, durations, TaskSetName(with, without), shard),
            UserPath(out), std::max(1, threads), step, !no_replays},
           "step " + std::to_string(step) + '\n' + Joined(rest),

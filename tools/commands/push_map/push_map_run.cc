@@ -35,8 +35,9 @@ Eigen::Vector2d DirectionOf(const PushMapPoint& point) {
 }
 
 Yardstick YardstickOf(const PushMapPlan& plan, const PushMapPoint& point) {
-  const PushOnRobot push(plan.robot, plan.scenario.pushes[0]);
-  return ComputeYardstick(plan.robot, plan.robot.q_nominal, DirectionOf(point),
+  const Robot& robot = plan.experiment.robot;
+  const PushOnRobot push(robot, plan.experiment.scenario.pushes[0]);
+  return ComputeYardstick(robot, robot.q_nominal, DirectionOf(point),
                           point.duration, push.body(), push.p_BoQ_B());
 }
 
@@ -131,8 +132,9 @@ bool Workers::Find(const PushMapPoint& point) {
 
 std::optional<bool> Workers::Try(const PushMapPoint& point, double impulse) {
   if (const auto tried = files_.Tried(point, impulse)) return tried;
-  const RunResult result = Run(plan_.robot, PushScenario(plan_, point, impulse),
-                               {}, [this](double) { return !stopped_; });
+  const Experiment experiment = PushExperiment(plan_, point, impulse);
+  const RunResult result = Run(experiment.robot, experiment.scenario, {},
+                               [this](double) { return !stopped_; });
   if (result.interrupted) return std::nullopt;
   files_.AddTried(point, impulse, result.verdict.recovered);
   Report(1);
@@ -148,7 +150,7 @@ bool Workers::Replay(const PushMapPoint& point, const ImpulseBracket& found) {
     std::snprintf(name, sizeof name, "%.2f Ns", impulse);
     const fs::path folder = fs::path(page).replace_extension() / name;
     const RunResult result =
-        RecordRun(plan_.robot, PushScenario(plan_, point, impulse), folder,
+        RecordRun(PushExperiment(plan_, point, impulse), folder,
                   [this](double) { return !stopped_; });
     if (result.interrupted) return false;
     runs.push_back(folder);
@@ -174,14 +176,14 @@ void Workers::Report(int trials) {
 
 }  // namespace
 
-Scenario PushScenario(const PushMapPlan& plan, const PushMapPoint& point,
-                      double impulse) {
-  Scenario scenario = plan.scenario;
-  Push& push = scenario.pushes.at(0);
+Experiment PushExperiment(const PushMapPlan& plan, const PushMapPoint& point,
+                          double impulse) {
+  Experiment experiment = plan.experiment;
+  Push& push = experiment.scenario.pushes.at(0);
   push.duration = point.duration;
   const double force = impulse / ProfileIntegral(push);
   push.force << force * DirectionOf(point), 0;
-  return scenario;
+  return experiment;
 }
 
 fs::path ReplayFile(const PushMapPoint& point) {
@@ -211,8 +213,8 @@ nlohmann::json MapToJson(const PushMapPlan& plan, const PushMapFiles& files) {
     rows.push_back(std::move(row));
   }
   return {{"format", "poise-map-1"},
-          {"robot", plan.robot.model.name},
-          {"scenario", plan.scenario.name},
+          {"robot", plan.experiment.robot.model.name},
+          {"scenario", plan.experiment.scenario.name},
           {"step", plan.step},
           {"rows", std::move(rows)}};
 }

@@ -6,16 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "poise/robot/robot.h"
-#include "poise/sim/scenario.h"
+#include "poise/sim/experiment.h"
 #include "poise/tools/commands/push_map/push_map_files.h"
 
 namespace poise {
 
-/// What a map is made of: a scenario whose first push is turned and scaled.
+/// What a map is made of: an experiment whose first push is turned and scaled.
 struct PushMapPlan {
-  Robot robot;
-  Scenario scenario;
+  Experiment experiment;
   std::vector<PushMapPoint> points;  ///< Of this run or shard.
   std::filesystem::path folder;
   int threads = 1;
@@ -31,9 +29,9 @@ struct PushMapProgress {
   double seconds_left;  ///< As far as can be told; negative if it cannot.
 };
 
-/// The scenario of a point of the map: its first push with this impulse, N s.
-Scenario PushScenario(const PushMapPlan& plan, const PushMapPoint& point,
-                      double impulse);
+/// The experiment of a point of the map: its first push with this impulse, N s.
+Experiment PushExperiment(const PushMapPlan& plan, const PushMapPoint& point,
+                          double impulse);
 
 /// Where the replay of a point is, in the plan's folder.
 std::filesystem::path ReplayFile(const PushMapPoint& point);
