@@ -8,6 +8,7 @@
 
 #include "poise/robot/control/task_set.h"
 #include "poise/robot/finding.h"
+#include "poise/robot/input_error.h"
 #include "poise/sim/plants/make_plant.h"
 #include "poise/sim/start_state.h"
 
@@ -32,10 +33,30 @@ Robot MakeBelievedRobot(const Robot& robot, const Scenario& scenario) {
   return believed;
 }
 
+// Makes something of a field of the scenario, or of the "robot". An error that
+// does not say which field it is about gets this one.
+template <typename Make>
+auto MakeOf(const std::string& field, Make make) -> decltype(make()) {
+  try {
+    return make();
+  } catch (const InputError&) {
+    throw;
+  } catch (const Refusal&) {  // Names the file itself.
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw InputError(field, error.what());
+  }
+}
+
+std::string Entry(const char* list, std::size_t i) {
+  return std::string(list) + "[" + std::to_string(i) + "]";
+}
+
 void Switch(const std::vector<std::string>& tasks, bool on, Stack* stack) {
-  for (const std::string& task : tasks) {
-    if (stack->Enable(task, on)) continue;
-    throw std::invalid_argument(UnknownTask(task, *stack));
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (stack->Enable(tasks[i], on)) continue;
+    throw InputError(Entry(on ? "tasks.with" : "tasks.without", i),
+                     UnknownTask(tasks[i], *stack));
   }
 }
 
@@ -50,15 +71,18 @@ std::unique_ptr<Controller> MakeController(const Robot& robot,
   std::vector<std::string> switched = settings.with;
   switched.insert(switched.end(), settings.without.begin(),
                   settings.without.end());
-  options.frames = FindTaskLinks(settings.tasks, switched, robot);
-  auto controller = std::make_unique<Controller>(robot, options);
-  ApplyTaskSet(settings.tasks, &controller->stack());
+  const char* set = "tasks.set";
+  options.frames = MakeOf(
+      set, [&] { return FindTaskLinks(settings.tasks, switched, robot); });
+  auto controller = MakeOf(
+      "robot", [&] { return std::make_unique<Controller>(robot, options); });
+  MakeOf(set, [&] { ApplyTaskSet(settings.tasks, &controller->stack()); });
   Switch(settings.without, false, &controller->stack());
   Switch(settings.with, true, &controller->stack());
   if (!controller->stack().set_ramp(settings.ramp)) {
-    throw std::invalid_argument("control.ramp is " +
-                                PrintNumber(settings.ramp) +
-                                ", must be finite and not negative");
+    throw InputError::OfValue("control.ramp",
+                              " is " + PrintNumber(settings.ramp) +
+                                  ", must be finite and not negative");
   }
   return controller;
 }
@@ -75,16 +99,28 @@ State ToState(const Measurement& measurement) {
 std::vector<PushOnRobot> Aim(const std::vector<Push>& pushes,
                              const Robot& robot) {
   std::vector<PushOnRobot> aimed;
-  for (const Push& push : pushes) aimed.emplace_back(robot, push);
+  for (std::size_t i = 0; i < pushes.size(); ++i) {
+    MakeOf(Entry("pushes", i) + ".link",
+           [&] { aimed.emplace_back(robot, pushes[i]); });
+  }
   return aimed;
+}
+
+const Scenario& Valid(const Scenario& scenario) {
+  Validate(scenario);
+  return scenario;
 }
 
 }  // namespace
 
 ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
     : robot_(robot),
-      scenario_(scenario),
-      plant_(MakePlant(robot, scenario.plant_kind, scenario.plant)),
+      scenario_(Valid(scenario)),
+      plant_(MakeOf("robot",
+                    [&] {
+                      return MakePlant(robot, scenario.plant_kind,
+                                       scenario.plant);
+                    })),
       controller_(
           MakeController(MakeBelievedRobot(robot, scenario), scenario.control)),
       sensors_(robot, scenario.sensors, scenario.seed ^ kSensorSeed),
@@ -95,7 +131,6 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
           std::lround(scenario.control.dt / scenario.plant.dt))),
       delay_steps_(static_cast<int>(
           std::lround(scenario.control.delay / scenario.plant.dt))) {
-  Validate(scenario);
   const State start = MakeStartState(robot, scenario.start,
                                      scenario.plant.ground, scenario.seed);
   plant_->Reset(start.q, start.v);
@@ -105,14 +140,16 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
   controller_->Start(
       MakeStartState(robot, on_ground, scenario.plant.ground, scenario.seed));
   if (scenario.control.estimator) {
-    estimator_ = std::make_unique<Estimator>(robot);
+    estimator_ =
+        MakeOf("robot", [&] { return std::make_unique<Estimator>(robot); });
     estimator_->Start(sensors_.Measure(plant_->Sense()));
     state_ = ToState(sensors_.measurement());
   }
   com_start_ = controller_->reference().p_WG;
   com_path_ = {scenario.com, com_start_};
-  for (const StanceEvent& event : scenario.stance) {
-    if (!event.foot.empty()) FindFoot(event.foot);
+  for (std::size_t i = 0; i < scenario.stance.size(); ++i) {
+    const std::string& foot = scenario.stance[i].foot;
+    if (!foot.empty()) MakeOf(Entry("stance", i), [&] { FindFoot(foot); });
   }
   command_.tau.setZero(robot.model.tree.num_joints());
   start_ = plant_->Sense();

@@ -30,14 +30,17 @@ namespace poise {
 /// runs beside them: all that is random comes from the scenario's seed.
 class ClosedLoop {
  public:
-  /// Throws std::invalid_argument about what the scenario asks for and cannot
-  /// have: a task that is not there, a link, a plant.
+  /// Throws InputError as Validate(), and if the robot does not have what the
+  /// scenario names, such as a task or a link; its field is "robot" if the plant
+  /// or the controller cannot use the robot. Throws Refusal about a file.
   ClosedLoop(const Robot& robot, const Scenario& scenario);
 
   /// Runs one control tick.
   void Tick();
 
   double time() const { return plant_->Sense().time; }
+  const Robot& robot() const { return robot_; }
+  const Scenario& scenario() const { return scenario_; }
 
   /// Of the last tick. Valid until the next one.
   TickRecord record() const;

@@ -2,9 +2,9 @@
 #include "poise/sim/number_field.h"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "poise/robot/finding.h"
+#include "poise/robot/input_error.h"
 
 namespace poise {
 
@@ -32,9 +32,9 @@ void Check(const std::string& group, const std::vector<NumberField>& fields) {
     for (int i = 0; i < field.size; ++i) {
       const double value = field.inverse ? 1 / field.value[i] : field.value[i];
       if (IsWithin(field, value)) continue;
-      throw std::invalid_argument((group.empty() ? "" : group + ".") +
-                                  field.key + " is " + PrintNumber(value) +
-                                  ", " + Wanted(field));
+      throw InputError::OfValue(
+          (group.empty() ? "" : group + ".") + field.key,
+          " is " + PrintNumber(value) + ", " + Wanted(field));
     }
   }
 }

@@ -24,8 +24,8 @@ bool IsWithin(const NumberField& field, double number);
 /// "must be 0 to 10 m".
 std::string Wanted(const NumberField& field);
 
-/// Throws std::invalid_argument("GROUP.KEY is VALUE, must be ...") about the
-/// first that is out of its bounds.
+/// Throws InputError("GROUP.KEY is VALUE, must be ...") about the first that is
+/// out of its bounds.
 void Check(const std::string& group, const std::vector<NumberField>& fields);
 
 }  // namespace poise

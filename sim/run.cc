@@ -10,7 +10,6 @@
 
 #include "poise/robot/finding.h"
 #include "poise/robot/limits.h"
-#include "poise/sim/closed_loop.h"
 #include "poise/sim/observation.h"
 #include "poise/sim/quantile.h"
 
@@ -69,15 +68,15 @@ std::string FellBy(const RunResult& result) {
   return by_itself ? result.verdict.fell_by : result.blew_up;
 }
 
-RunResult Run(const Robot& robot, const Scenario& scenario,
-              const std::filesystem::path& folder,
+RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
               const std::function<bool(double)>& progress, LogFormat format) {
   using Clock = std::chrono::steady_clock;
-  ClosedLoop loop(robot, scenario);
+  const Robot& robot = loop->robot();
+  const Scenario& scenario = loop->scenario();
   std::unique_ptr<Recorder> recorder;
   if (!folder.empty()) {
     recorder = std::make_unique<Recorder>(folder, robot,
-                                          loop.controller().stack(), format);
+                                          loop->controller().stack(), format);
   }
   // The nominal posture stands on the ground.
   Judge judge(StandingHeight(robot));
@@ -95,8 +94,8 @@ RunResult Run(const Robot& robot, const Scenario& scenario,
   }
   const auto before = Clock::now();
   while (result.ticks < ticks && !judge.is_down() && !result.interrupted) {
-    loop.Tick();
-    const TickRecord record = loop.record();
+    loop->Tick();
+    const TickRecord record = loop->record();
     if (push != nullptr &&
         push->start < record.observation.time + scenario.control.dt / 2) {
       result.yardstick = Measure(robot, *push, record);
@@ -137,9 +136,16 @@ RunResult Run(const Robot& robot, const Scenario& scenario,
   if (recorder != nullptr) {
     recorder->Flush();
     result.log_sha256 = recorder->log_sha256();
-    result.rows = loop.controller().stack().DescribeRows();
+    result.rows = loop->controller().stack().DescribeRows();
   }
   return result;
+}
+
+RunResult Run(const Robot& robot, const Scenario& scenario,
+              const std::filesystem::path& folder,
+              const std::function<bool(double)>& progress, LogFormat format) {
+  ClosedLoop loop(robot, scenario);
+  return Run(&loop, folder, progress, format);
 }
 
 }  // namespace poise

@@ -8,6 +8,7 @@
 
 #include "poise/robot/control/stack.h"
 #include "poise/robot/robot.h"
+#include "poise/sim/closed_loop.h"
 #include "poise/sim/judge.h"
 #include "poise/sim/log/log_rows.h"
 #include "poise/sim/log/recorder.h"
@@ -54,14 +55,19 @@ struct RunResult {
 /// What a robot fell by, in words; empty where it did not.
 std::string FellBy(const RunResult& result);
 
-/// Runs a scenario to its end, or until the robot lies.
+/// Runs a new loop to the end of its scenario, or until the robot lies.
 ///
 /// @param folder    where a Recorder writes; empty: nothing is written.
 /// @param format    of the log, see Recorder.
 /// @param progress  called a hundred times or more with the fraction done;
 ///                  stops the run by returning false. May be empty.
 ///
-/// Throws std::invalid_argument, see ClosedLoop and Recorder.
+/// Throws std::invalid_argument, see Recorder.
+RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder = {},
+              const std::function<bool(double)>& progress = {},
+              LogFormat format = LogFormat::kCsv);
+
+/// Runs a loop of a robot and a scenario. Throws also as ClosedLoop.
 RunResult Run(const Robot& robot, const Scenario& scenario,
               const std::filesystem::path& folder = {},
               const std::function<bool(double)>& progress = {},

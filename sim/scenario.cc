@@ -3,13 +3,13 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "poise/robot/control/stance.h"
 #include "poise/robot/finding.h"
+#include "poise/robot/input_error.h"
 #include "poise/sim/number_field.h"
 #include "poise/sim/plants/make_plant.h"
 #include "poise/sim/yaml_fields.h"
@@ -207,52 +207,81 @@ std::vector<Push> ReadPushes(YamlFields* fields) {
   return pushes;
 }
 
+// "pushes[2]".
+std::string Entry(const char* list, std::size_t i) {
+  return std::string(list) + "[" + std::to_string(i) + "]";
+}
+
 bool IsMultiple(double a, double b) {
   const double ratio = a / b;
   return std::abs(ratio - std::round(ratio)) < 1e-6;
 }
 
-// Of numbers that are in their bounds, which cannot be had together.
-void Require(bool holds, const char* what, double value, const char* wanted) {
-  if (holds) return;
-  throw std::invalid_argument(std::string(what) + " is " + PrintNumber(value) +
-                              ", must be " + wanted);
-}
-
-void RequireFew(const char* list, std::size_t size) {
+void RequireFew(const std::string& list, std::size_t size) {
   if (size <= kMostEntries) return;
-  throw std::invalid_argument(
-      std::string(list) + " has " + std::to_string(size) +
-      " entries, must have at most " + std::to_string(kMostEntries));
+  throw InputError::OfValue(list, " has " + std::to_string(size) +
+                                      " entries, must have at most " +
+                                      std::to_string(kMostEntries));
 }
 
-// Entries that are good each by itself, but not after those before them.
+// Checks that no entry contradicts the entries before it.
 void CheckOrder(const std::vector<StanceEvent>& stance) {
   double before = 0;
   std::string in_the_air;
   for (std::size_t i = 0; i < stance.size(); ++i) {
     const StanceEvent& event = stance[i];
-    const std::string which = "stance[" + std::to_string(i) + "].";
-    Require(event.at >= before, (which + "at").c_str(), event.at,
-            ("at least " + PrintNumber(before) +
-             ", as the entry before: they stand in the order of time")
-                .c_str());
+    const std::string which = Entry("stance", i) + ".";
+    if (event.at < before) {
+      throw InputError::OfValue(
+          which + "at", " is " + PrintNumber(event.at) + ", must be at least " +
+                            PrintNumber(before) +
+                            ", as the entry before: they stand in the order "
+                            "of time");
+    }
     before = event.at;
     if (event.kind == StanceEvent::Kind::kLift) {
       if (!in_the_air.empty()) {
-        throw std::invalid_argument(
-            which + "lift is " + Quoted(event.foot) + ", must come after " +
-            Quoted(in_the_air) + " is put down: one foot is lifted at a time");
+        throw InputError::OfValue(
+            which + "lift", " is " + Quoted(event.foot) + ", must come after " +
+                                Quoted(in_the_air) +
+                                " is put down: one foot is lifted at a time");
       }
       in_the_air = event.foot;
     } else if (event.kind == StanceEvent::Kind::kPutDown) {
       if (in_the_air != event.foot) {
-        throw std::invalid_argument(which + "put_down is " +
-                                    Quoted(event.foot) +
-                                    ", must be a foot that is lifted");
+        throw InputError::OfValue(
+            which + "put_down",
+            " is " + Quoted(event.foot) + ", must be a foot that is lifted");
       }
       in_the_air.clear();
     }
+  }
+}
+
+// Checks that control ticks, plant steps, delay and duration go together.
+void CheckTimes(const Scenario& scenario) {
+  const double step = scenario.plant.dt, tick = scenario.control.dt;
+  const std::string rate = " is " + PrintNumber(1 / tick) + ", must be ";
+  const std::string plant_rate = ", which is " + PrintNumber(1 / step);
+  if (!(tick > step / 2 && IsMultiple(tick, step))) {
+    throw InputError::OfValue("control.rate", rate + "a whole part of ",
+                              "plant.rate", plant_rate);
+  }
+  if (!(tick < (kMostStepsInATick + 0.5) * step)) {
+    throw InputError::OfValue("control.rate",
+                              rate + "at least a thousandth of ", "plant.rate",
+                              plant_rate);
+  }
+  const double delay = scenario.control.delay;
+  if (!IsMultiple(delay, step)) {
+    throw InputError::OfValue("control.delay",
+                              " is " + PrintNumber(delay) +
+                                  ", must be a multiple of the plant's step");
+  }
+  if (!(scenario.duration <= kMostTicks * tick)) {
+    throw InputError::OfValue("duration",
+                              " is " + PrintNumber(scenario.duration) +
+                                  ", must be at most 1e8 control ticks");
   }
 }
 
@@ -266,7 +295,7 @@ bool IsPlainName(const std::string& name) {
 
 }  // namespace
 
-Scenario LoadScenario(const std::filesystem::path& file) {
+Scenario ReadScenario(const std::filesystem::path& file) {
   YamlFields fields = ReadYaml(file.string());
   Scenario scenario;
   scenario.name = fields.Text("name", file.stem().string());
@@ -291,10 +320,15 @@ Scenario LoadScenario(const std::filesystem::path& file) {
     ReadNumbers(*sensors, &scenario.sensors);
   }
   fields.Finish();
+  return scenario;
+}
+
+Scenario LoadScenario(const std::filesystem::path& file) {
+  Scenario scenario = ReadScenario(file);
   try {
     Validate(scenario);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(file.string() + ": " + error.what());
+  } catch (const InputError& error) {
+    throw InputError(error.field(), file.string() + ": " + error.what());
   }
   return scenario;
 }
@@ -314,21 +348,16 @@ void Validate(const Scenario& scenario) {
   Check("com", Fields(&copy.com));
   Check("control", Fields(&copy.control));
   Check("sensors", Fields(&copy.sensors));
-  for (Push& push : copy.pushes) Check("pushes", Fields(&push));
-  for (StanceEvent& event : copy.stance) Check("stance", Fields(&event));
   RequireFew("pushes", copy.pushes.size());
   RequireFew("stance", copy.stance.size());
+  for (std::size_t i = 0; i < copy.pushes.size(); ++i) {
+    Check(Entry("pushes", i), Fields(&copy.pushes[i]));
+  }
+  for (std::size_t i = 0; i < copy.stance.size(); ++i) {
+    Check(Entry("stance", i), Fields(&copy.stance[i]));
+  }
   CheckOrder(copy.stance);
-  const double step = copy.plant.dt, tick = copy.control.dt;
-  const std::string rates = " of plant.rate, which is " + PrintNumber(1 / step);
-  Require(tick > step / 2 && IsMultiple(tick, step), "control.rate", 1 / tick,
-          ("a whole part" + rates).c_str());
-  Require(tick < (kMostStepsInATick + 0.5) * step, "control.rate", 1 / tick,
-          ("at least a thousandth" + rates).c_str());
-  Require(IsMultiple(copy.control.delay, step), "control.delay",
-          copy.control.delay, "a multiple of the plant's step");
-  Require(copy.duration <= kMostTicks * tick, "duration", copy.duration,
-          "at most 1e8 control ticks");
+  CheckTimes(copy);
 }
 
 }  // namespace poise

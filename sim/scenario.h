@@ -73,14 +73,19 @@ struct Scenario {
   SensorSettings sensors;
 };
 
-/// Reads a scenario. Throws std::invalid_argument("FILE:LINE: ...") with the
-/// key, its value and what was wanted; an unknown key is refused.
+/// Reads a scenario, without Validate(), so that options can change it first.
+/// Throws std::invalid_argument("FILE:LINE: ...") with the key, its value and
+/// what was wanted; an unknown key is refused.
+Scenario ReadScenario(const std::filesystem::path& file);
+
+/// Reads a scenario as ReadScenario(), and throws also as Validate().
 Scenario LoadScenario(const std::filesystem::path& file);
 
 /// Reads a list of pushes from a file whose one key is `pushes`.
 std::vector<Push> LoadPushes(const std::filesystem::path& file);
 
-/// Throws std::invalid_argument about what is out of range.
+/// Throws InputError about the first field that is out of range, or that does not
+/// go with another. Its path is that in the file: "control.rate".
 void Validate(const Scenario& scenario);
 
 }  // namespace poise

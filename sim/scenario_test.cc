@@ -457,9 +457,9 @@ TEST(Scenario, WhatOptionsChangeIsCheckedToo) {
   EXPECT_EQ(complaint([](Scenario* s) { s->sensors.noise = 1e9; }),
             "sensors.noise is 1e+09, must be 0 to 1000");
   EXPECT_EQ(complaint([](Scenario* s) { s->pushes[0].force.y() = 1e9; }),
-            "pushes.force is 1e+09, must be -1e+06 to 1e+06 N");
+            "pushes[0].force is 1e+09, must be -1e+06 to 1e+06 N");
   EXPECT_EQ(complaint([](Scenario* s) { s->stance[0].at = -1; }),
-            "stance.at is -1, must be 0 to 86400 s");
+            "stance[0].at is -1, must be 0 to 86400 s");
   EXPECT_EQ(complaint([](Scenario* s) { s->pushes.resize(1001); }),
             "pushes has 1001 entries, must have at most 1000");
   EXPECT_EQ(complaint([](Scenario* s) { s->stance.resize(1001); }),

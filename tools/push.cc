@@ -6,6 +6,7 @@
 #include <iostream>
 #include <string>
 
+#include "poise/sim/closed_loop.h"
 #include "poise/sim/log/summary.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/push/dump_solve.h"
@@ -30,18 +31,19 @@ bool ShowProgress(double fraction) {
 }
 
 int Push(const poise::PushOptions& options) {
-  const auto& [robot, scenario] = options.experiment;
+  const poise::Robot& robot = options.loop->robot();
+  const poise::Scenario& scenario = options.loop->scenario();
   std::string dumped;
   if (options.dump_solve) {
     dumped =
         "\nThe solve: bazel run //tools:hqp -- " +
-        poise::DumpSolve(options.experiment, *options.dump_solve, options.out)
+        poise::DumpSolve({robot, scenario}, *options.dump_solve, options.out)
             .string();
   }
-  const poise::RunResult result = poise::RecordRun(
-      options.experiment, options.out, ShowProgress, options.log);
+  const auto [result, files] = poise::RecordRun(options.loop.get(), options.out,
+                                                ShowProgress, options.log);
   if (options.report) {
-    poise::WriteReport({options.out}, options.out / "report.html");
+    poise::WriteRunReport(files, options.out / "report.html");
   }
   if (options.json) {
     std::cout << poise::ToJson(robot, scenario, result).dump(2) << '\n';
@@ -57,7 +59,7 @@ int Push(const poise::PushOptions& options) {
 int main(int argc, char** argv) {
   return poise::RunTool("push", [=] {
     const poise::PushOptions options = poise::ReadPushOptions(argc, argv);
-    poise::PrintWarnings(options.robot_file.string(), options.experiment.robot,
+    poise::PrintWarnings(options.robot_file.string(), options.loop->robot(),
                          options.findings);
     std::signal(SIGINT, [](int) { g_interrupted = 1; });
     std::signal(SIGTERM, [](int) { g_interrupted = 1; });

@@ -336,18 +336,23 @@ void StandUp(Robot* robot) {
       " cannot be stood up inside its joint limits: " + first);
 }
 
-Robot LoadStandingRobot(const std::filesystem::path& urdf,
-                        const Profile& profile,
+Robot MakeStandingRobot(const UrdfDocument& urdf, const Profile& profile,
                         std::vector<Finding>* findings) {
   try {
-    Robot robot = LoadRobot(urdf, profile, findings);
+    Robot robot = MakeRobot(urdf, profile, findings);
     if (!robot.can_stand) StandUp(&robot);
     return robot;
   } catch (const Refusal&) {  // Names the file itself.
     throw;
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(urdf.string() + ": " + error.what());
+    throw std::invalid_argument(urdf.source() + ": " + error.what());
   }
+}
+
+Robot LoadStandingRobot(const std::filesystem::path& urdf,
+                        const Profile& profile,
+                        std::vector<Finding>* findings) {
+  return MakeStandingRobot(UrdfDocument(urdf, findings), profile, findings);
 }
 
 }  // namespace poise

@@ -7,6 +7,7 @@
 #include "poise/robot/finding.h"
 #include "poise/robot/profile/profile.h"
 #include "poise/robot/robot.h"
+#include "poise/robot/urdf/urdf.h"
 
 namespace poise {
 
@@ -28,9 +29,14 @@ namespace poise {
 /// pre: two feet, left one first.
 void StandUp(Robot* robot);
 
-/// LoadRobot(), and StandUp() if the profile gives no posture to stand in.
+/// Makes a robot as MakeRobot(), and stands it up if the profile gives no posture
+/// to stand in. Throws as MakeRobot() and StandUp(), naming the file.
+Robot MakeStandingRobot(const UrdfDocument& urdf, const Profile& profile = {},
+                        std::vector<Finding>* findings = nullptr);
+
+/// Reads a robot from a URDF file, as MakeStandingRobot().
 ///
-/// @param findings  as FindFeet()'s.
+/// @param findings  as LoadRobot()'s.
 Robot LoadStandingRobot(const std::filesystem::path& urdf,
                         const Profile& profile = {},
                         std::vector<Finding>* findings = nullptr);

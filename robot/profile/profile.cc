@@ -335,20 +335,20 @@ std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
   return locked;
 }
 
-RobotModel LoadModel(const Path& urdf, const Profile& profile) {
-  RobotModel model = LoadUrdf(urdf);
+RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile) {
+  RobotModel model = urdf.MakeModel();
   std::map<std::string, double> locked;
   for (const auto& [name, joint] : LockedJoints(model, profile)) {
     locked[name] = joint.value;
   }
-  if (!locked.empty()) model = LoadUrdf(urdf, locked);
+  if (!locked.empty()) model = urdf.MakeModel(locked);
   if (profile.mimic != MimicPolicy::kCoupled) model.mimics.clear();
   return model;
 }
 
-Robot LoadRobot(const Path& urdf, const Profile& profile,
+Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
                 std::vector<Finding>* findings) {
-  Robot robot{LoadModel(urdf, profile), {}, {}, false};
+  Robot robot{MakeModel(urdf, profile), {}, {}, false};
   const Tree& tree = robot.model.tree;
   robot.q_nominal = RestConfiguration(robot.model);
   for (const auto& [name, joint] : profile.joints) {
@@ -356,7 +356,7 @@ Robot LoadRobot(const Path& urdf, const Profile& profile,
       throw Refusal(profile.file.string(), line, "posture.joints: " + what);
     };
     const std::optional<int> j = tree.FindJoint(name);
-    if (!j && LockedJoints(LoadUrdf(urdf), profile).count(name) != 0) {
+    if (!j && LockedJoints(urdf.MakeModel(), profile).count(name) != 0) {
       refuse(Quoted(name) + " is locked");
     }
     if (!j) refuse("the robot has no moving joint " + Quoted(name));
@@ -385,6 +385,11 @@ Robot LoadRobot(const Path& urdf, const Profile& profile,
   const std::string reason = WhyNotStanding(robot);
   if (reason.empty()) return robot;
   throw Refusal(profile.file.string(), profile.base_line, "posture: " + reason);
+}
+
+Robot LoadRobot(const Path& urdf, const Profile& profile,
+                std::vector<Finding>* findings) {
+  return MakeRobot(UrdfDocument(urdf, findings), profile, findings);
 }
 
 }  // namespace poise

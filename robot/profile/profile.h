@@ -13,6 +13,7 @@
 #include "poise/math/pose.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/robot.h"
+#include "poise/robot/urdf/urdf.h"
 
 namespace poise {
 
@@ -82,19 +83,26 @@ Profile LoadProfile(const std::filesystem::path& file);
 std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
                                                const Profile& profile);
 
-/// Reads a robot without the joints that the profile locks. Its mimics are those
-/// that control couples. Throws as LoadUrdf() and LockedJoints().
-RobotModel LoadModel(const std::filesystem::path& urdf, const Profile& profile);
+/// Makes a robot without the joints that the profile locks. Its mimics are those
+/// that control couples. Throws as LockedJoints().
+RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile);
 
-/// Reads a robot from its URDF and a profile. An empty Profile is enough for a
+/// Makes a robot from its URDF and a profile. An empty Profile is enough for a
 /// biped whose feet can be found.
 ///
 /// @param findings  if not null, receives the warnings of FindFeet().
 ///
-/// Throws Refusal as LoadUrdf(), and if the profile does not fit the robot: a
-/// name is unknown, the posture is outside the joint limits, or the posture has a
-/// base and the robot cannot stand in it. Throws another std::invalid_argument
-/// as FindFeet().
+/// Throws Refusal if the profile does not fit the robot: a name is unknown, the
+/// posture is outside the joint limits, or the posture has a base and the robot
+/// cannot stand in it. Throws another std::invalid_argument as FindFeet().
+Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
+                std::vector<Finding>* findings = nullptr);
+
+/// Reads a robot from a URDF file, as MakeRobot(). Throws Refusal also as
+/// UrdfDocument does.
+///
+/// @param findings  if not null, receives the findings of UrdfDocument and of
+///                  FindFeet().
 Robot LoadRobot(const std::filesystem::path& urdf, const Profile& profile = {},
                 std::vector<Finding>* findings = nullptr);
 

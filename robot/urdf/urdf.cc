@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <stdexcept>
 #include <unordered_map>
+#include <utility>
 
 #include "poise/robot/text_file.h"
 #include "poise/robot/urdf/urdf_check.h"
@@ -193,27 +194,36 @@ void ThrowIfRejected(const std::string& file,
 
 }  // namespace
 
-RobotModel LoadUrdf(const std::filesystem::path& file,
-                    const std::map<std::string, double>& locked,
-                    std::vector<Finding>* findings) {
-  return ParseUrdf(ReadTextFile(file, kMostMib), file.string(), locked,
-                   findings);
-}
+struct UrdfDocument::Content {
+  Content(tinyxml2::XMLDocument* xml, UrdfFacts facts_from_xml)
+      : facts(std::move(facts_from_xml)), urdfdom(XmlForUrdfdom(xml)) {}
 
-RobotModel ParseUrdf(std::string_view text, const std::string& source,
-                     const std::map<std::string, double>& locked,
-                     std::vector<Finding>* findings) {
+  UrdfFacts facts;
+  UrdfdomTree urdfdom;
+};
+
+UrdfDocument::UrdfDocument(const std::filesystem::path& file,
+                           std::vector<Finding>* findings)
+    : UrdfDocument(ReadTextFile(file, kMostMib), file.string(), findings) {}
+
+UrdfDocument::UrdfDocument(std::string_view text, std::string source,
+                           std::vector<Finding>* findings)
+    : source_(std::move(source)) {
   std::vector<Finding> unasked;
   if (findings == nullptr) findings = &unasked;
-  const auto document = ParseXml(text, source);
-  const UrdfFacts facts = CheckUrdf(document.get(), findings);
-  ThrowIfRejected(source, *findings);
-  const UrdfdomTree urdfdom(XmlForUrdfdom(document.get()));
-  if (urdfdom.get() == nullptr) {
-    throw Refusal(source, 0, "urdfdom cannot read it");
+  const auto xml = ParseXml(text, source_);
+  UrdfFacts facts = CheckUrdf(xml.get(), findings);
+  ThrowIfRejected(source_, *findings);
+  content_ = std::make_shared<const Content>(xml.get(), std::move(facts));
+  if (content_->urdfdom.get() == nullptr) {
+    throw Refusal(source_, 0, "urdfdom cannot read it");
   }
-  const urdf::ModelInterface& urdf = *urdfdom.get();
+}
 
+RobotModel UrdfDocument::MakeModel(
+    const std::map<std::string, double>& locked) const {
+  const UrdfFacts& facts = content_->facts;
+  const urdf::ModelInterface& urdf = *content_->urdfdom.get();
   RobotModel model{
       urdf.getName(), MakeTree(urdf, facts, locked), {}, {}, {}, {}, 0};
   for (const Joint& joint : model.tree.joints()) {
@@ -226,6 +236,18 @@ RobotModel ParseUrdf(std::string_view text, const std::string& source,
     AddShapes(*urdf.links_.at(name), i, &model);
   }
   return model;
+}
+
+RobotModel LoadUrdf(const std::filesystem::path& file,
+                    const std::map<std::string, double>& locked,
+                    std::vector<Finding>* findings) {
+  return UrdfDocument(file, findings).MakeModel(locked);
+}
+
+RobotModel ParseUrdf(std::string_view text, const std::string& source,
+                     const std::map<std::string, double>& locked,
+                     std::vector<Finding>* findings) {
+  return UrdfDocument(text, source, findings).MakeModel(locked);
 }
 
 std::map<std::string, double> LoadLinkMasses(

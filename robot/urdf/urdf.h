@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +13,7 @@
 
 namespace poise {
 
-/// Reads a robot from a URDF file.
+/// A URDF that has been read and checked once, from which models are made.
 ///
 /// The root link is the floating base, even if it has no mass or is called
 /// `world`. Massless links from the root down to a joint of type `floating`
@@ -20,16 +21,42 @@ namespace poise {
 /// like any other; RobotModel::mimics gives its source. A link without
 /// `<inertial>` has no mass, and at least one link must have mass. Meshes are
 /// named, never opened. Numbers are read the same in every locale.
-///
-/// @param locked  joints to fix, by name, at a value in rad or m. The tree has
-///                no such joint; the links below it remain as frames.
-///
-/// @param findings  if not null, receives each note and warning about the file,
-///                  and each reason to reject it before Refusal is thrown.
-///
-/// Throws Refusal with one line that names the file, the element, its value and
-/// what was wanted. Any file takes less than 10 s and 1 GiB.
-/// Costs O(n log n) in the length of the file.
+class UrdfDocument {
+ public:
+  /// Reads a file. Any file takes less than 10 s and 1 GiB; the cost is
+  /// O(n log n) in its length.
+  ///
+  /// @param findings  if not null, receives each note and warning about the file,
+  ///                  and each reason to reject it before Refusal is thrown.
+  ///
+  /// Throws Refusal with one line that names the file, the element, its value and
+  /// what was wanted.
+  explicit UrdfDocument(const std::filesystem::path& file,
+                        std::vector<Finding>* findings = nullptr);
+
+  /// Reads the text of a URDF.
+  ///
+  /// @param source  the name of the text in messages.
+  UrdfDocument(std::string_view text, std::string source,
+               std::vector<Finding>* findings = nullptr);
+
+  /// Returns the file, or the name of the text.
+  const std::string& source() const { return source_; }
+
+  /// Makes a model.
+  ///
+  /// @param locked  joints to fix, by name, at a value in rad or m. The tree has
+  ///                no such joint; the links below it remain as frames.
+  RobotModel MakeModel(const std::map<std::string, double>& locked = {}) const;
+
+ private:
+  struct Content;
+
+  std::string source_;
+  std::shared_ptr<const Content> content_;
+};
+
+/// Reads a robot from a URDF file: UrdfDocument(file, findings).MakeModel(locked).
 RobotModel LoadUrdf(const std::filesystem::path& file,
                     const std::map<std::string, double>& locked = {},
                     std::vector<Finding>* findings = nullptr);

@@ -2,8 +2,9 @@
 #include "poise/sim/plants/plant_settings.h"
 
 #include <Eigen/Geometry>
-#include <stdexcept>
 #include <string>
+
+#include "poise/robot/input_error.h"
 
 namespace poise {
 
@@ -48,9 +49,10 @@ void Validate(const PlantSettings& settings) {
   Check("plant", Fields(&copy));
   for (Board& board : copy.ground.boards) Check("boards", Fields(&board));
   if (copy.ground.boards.size() > kMostBoards) {
-    throw std::invalid_argument(
-        "plant.boards has " + std::to_string(copy.ground.boards.size()) +
-        " entries, must have at most " + std::to_string(kMostBoards));
+    throw InputError::OfValue(
+        "plant.boards", " has " + std::to_string(copy.ground.boards.size()) +
+                            " entries, must have at most " +
+                            std::to_string(kMostBoards));
   }
 }
 

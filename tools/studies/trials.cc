@@ -228,7 +228,8 @@ class Candidate {
   // Throws if the file is no robot.
   explicit Candidate(const std::filesystem::path& urdf)
       : urdf_(urdf),
-        profile_(FindProfile(LoadUrdf(urdf, {}, &findings_).name, urdf)) {
+        document_(urdf, &findings_),
+        profile_(FindProfile(document_.MakeModel().name, urdf)) {
     const bool is_beside = profile_.parent_path() == urdf.parent_path();
     name_ = (profile_.empty() || is_beside ? urdf : profile_).stem().string();
   }
@@ -243,7 +244,7 @@ class Candidate {
     if (!has_stands && !has_pushed) return;
     const Profile profile =
         profile_.empty() ? Profile() : LoadProfile(profile_);
-    const Robot robot = LoadStandingRobot(urdf_, profile, &findings_);
+    const Robot robot = MakeStandingRobot(document_, profile, &findings_);
     std::vector<Trial> both;
     if (has_stands) both.push_back(Make(Stands(name_), robot, "stand", {}));
     if (has_pushed) {
@@ -276,6 +277,7 @@ class Candidate {
 
   std::filesystem::path urdf_;
   std::vector<Finding> findings_;
+  UrdfDocument document_;
   std::filesystem::path profile_;
   std::string name_;
 };

@@ -50,9 +50,9 @@ void ExpectSame(const Scenario& a, const Scenario& b) {
 TEST(RobustnessTrials, AreTheExperimentsOfTheirOptions) {
   for (const Trial& trial : RobustnessTrials()) {
     SCOPED_TRACE(trial.what + ": " + trial.options);
-    const Experiment read = ReadOptions(trial.options).experiment;
-    ExpectSame(trial.experiment.scenario, read.scenario);
-    EXPECT_EQ(trial.experiment.robot.q_nominal, read.robot.q_nominal);
+    const PushOptions read = ReadOptions(trial.options);
+    ExpectSame(trial.experiment.scenario, read.loop->scenario());
+    EXPECT_EQ(trial.experiment.robot.q_nominal, read.loop->robot().q_nominal);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "poise/math/quaternion.h"
 #include "poise/robot/finding.h"
+#include "poise/robot/input_error.h"
 #include "poise/sim/plants/mujoco/mujoco_model.h"
 
 namespace poise {
@@ -50,9 +51,10 @@ MujocoPlant::MujocoPlant(const Robot& robot, const PlantSettings& settings)
     : robot_(robot), settings_(settings) {
   Validate(settings);
   if (settings.restitution > 0) {
-    throw std::invalid_argument("plant: restitution is " +
-                                std::to_string(settings.restitution) +
-                                ", must be 0 in a MuJoCo plant");
+    throw InputError("plant.restitution",
+                     "plant: restitution is " +
+                         std::to_string(settings.restitution) +
+                         ", must be 0 in a MuJoCo plant");
   }
   const Tree& tree = robot_.model.tree;
   state_.q.resize(tree.nq());

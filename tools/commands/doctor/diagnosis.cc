@@ -70,6 +70,7 @@ class Doctor {
 
   const std::filesystem::path urdf_;
   const Profile profile_;
+  std::optional<UrdfDocument> document_;  // Set by Load().
   Diagnosis diagnosis_;
   std::optional<double> smallest_eigenvalue_;  // See CheckInertia().
 };
@@ -103,9 +104,10 @@ void Doctor::Add(Severity severity, std::string where, std::string what,
 
 std::optional<RobotModel> Doctor::Load() {
   try {
-    return LoadUrdf(urdf_, {}, &diagnosis_.findings);
+    document_.emplace(urdf_, &diagnosis_.findings);
+    return document_->MakeModel();
   } catch (const Refusal& refusal) {
-    // What LoadUrdf() found it has told already.
+    // UrdfDocument has added what it found already.
     if (diagnosis_.worst() != Severity::kReject) {
       diagnosis_.findings.push_back(refusal.finding());
     }
@@ -139,13 +141,13 @@ RobotModel Doctor::LockJoints(const RobotModel& whole) {
       "has " + std::to_string(locked) + " joints locked by the profile",
       "M, standing and parity are of the " +
           std::to_string(whole.tree.num_joints() - locked) + " others");
-  return LoadModel(urdf_, profile_);
+  return MakeModel(*document_, profile_);
 }
 
 void Doctor::CheckStanding() {
   std::string reason = "as M is singular";
   try {
-    Robot robot = LoadRobot(urdf_, profile_, &diagnosis_.findings);
+    Robot robot = MakeRobot(*document_, profile_, &diagnosis_.findings);
     if (profile_.tasks.IsDefined()) {
       Stack stack =
           MakeDefaultStack(robot, FindTaskLinks(profile_.tasks, robot));

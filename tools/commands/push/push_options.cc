@@ -19,6 +19,7 @@
 #include "poise/robot/control/stand.h"
 #include "poise/robot/control/task_set.h"
 #include "poise/robot/finding.h"
+#include "poise/robot/input_error.h"
 #include "poise/robot/profile/profile.h"
 #include "poise/robot/profile/save_profile.h"
 #include "poise/robot/urdf/urdf.h"
@@ -210,8 +211,19 @@ void Apply(const Overrides& o, Scenario* scenario) {
   }
 }
 
-// A refusal of a scenario, with each setting that an option gave by the name of that.
-std::string ByOption(std::string text, const Overrides& o) {
+// The files of an experiment, and how much of the scenario is from its own.
+struct Sources {
+  std::string robot, scenario, pushes;  // Names of files, or empty.
+  std::size_t num_pushes = 0, num_with = 0, num_without = 0;
+};
+
+std::string Entry(const char* list, std::size_t i) {
+  return std::string(list) + "[" + std::to_string(i) + "]";
+}
+
+// Returns the option that gave a field its value, or an empty string.
+std::string OptionOf(const std::string& field, const Overrides& o,
+                     const Sources& sources) {
   const std::tuple<bool, const char*, const char*> options[] = {
       {o.time.has_value(), "duration", "--time"},
       {o.control_rate.has_value(), "control.rate", "--control-rate"},
@@ -224,19 +236,49 @@ std::string ByOption(std::string text, const Overrides& o) {
       {o.noise.has_value(), "sensors.noise", "--noise"},
       {!o.freeze.empty(), "sensors.freeze_at", "--freeze"},
       {!o.freeze.empty(), "sensors.freeze_for", "--freeze"},
-      {!o.pushes && o.force, "pushes.force", "--force"},
-      {!o.pushes && o.duration, "pushes.duration", "--duration"},
-      {!o.pushes && o.at, "pushes.at", "--at"},
-      {!o.pushes && !o.point.empty(), "pushes.point", "--point"},
-      {o.direction.has_value(), "direction", "--direction"}};
+      {o.force.has_value(), "pushes[0].force", "--force"},
+      {o.duration.has_value(), "pushes[0].duration", "--duration"},
+      {o.at.has_value(), "pushes[0].at", "--at"},
+      {!o.point.empty(), "pushes[0].point", "--point"},
+      {o.link.has_value(), "pushes[0].link", "--link"},
+      {o.direction.has_value(), "direction", "--direction"},
+      {o.tasks.has_value(), "tasks.set", "--tasks"}};
   for (const auto& [is_given, setting, option] : options) {
-    if (!is_given) continue;
-    const std::string name = setting;
-    if (text.rfind(name + " is ", 0) == 0) text.replace(0, name.size(), option);
-    const size_t at = text.find(" of " + name);
-    if (at != std::string::npos) text.replace(at + 4, name.size(), option);
+    if (is_given && field == setting) return option;
   }
-  return text;
+  // The options' tasks come after those of the scenario's file.
+  for (std::size_t i = 0; i < o.with.size(); ++i) {
+    if (field == Entry("tasks.with", sources.num_with + i)) return "--with";
+  }
+  for (std::size_t i = 0; i < o.without.size(); ++i) {
+    if (field == Entry("tasks.without", sources.num_without + i)) {
+      return "--without";
+    }
+  }
+  return "";
+}
+
+// Returns the file that gave a field its value, or an empty string.
+std::string FileOf(const std::string& field, const Sources& sources) {
+  if (field == "robot") return sources.robot;
+  if (field.rfind("pushes", 0) != 0) return sources.scenario;
+  if (!sources.pushes.empty()) return sources.pushes;
+  return sources.num_pushes > 0 ? sources.scenario : "";
+}
+
+// Returns the message of an error, with the option or the file that is to blame.
+std::string Blame(const InputError& error, const Overrides& o,
+                  const Sources& sources) {
+  bool is_by_option = false;
+  const auto name = [&](const std::string& field) {
+    const std::string option = OptionOf(field, o, sources);
+    return option.empty() ? field : option;
+  };
+  for (const std::string& field : {error.field(), error.other()}) {
+    is_by_option |= !OptionOf(field, o, sources).empty();
+  }
+  const std::string file = FileOf(error.field(), sources);
+  return (is_by_option || file.empty() ? "" : file + ": ") + error.Say(name);
 }
 
 // The names of our scenarios, in alphabetical order.
@@ -265,33 +307,6 @@ std::filesystem::path FindScenario(const std::string& name) {
   throw std::invalid_argument("scenario '" + name +
                               "' is unknown, must be a file or one of " +
                               ScenarioNames());
-}
-
-// What a robot and a scenario have against each other; empty: nothing.
-std::string Complaint(const Robot& robot, const Scenario& scenario) {
-  try {
-    ClosedLoop loop(robot, scenario);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
-
-// Throws what a robot and a scenario have against each other, by the name of
-// the first file whose part of it says the same.
-void CheckFit(const Robot& robot, const Scenario& scenario,
-              const std::vector<std::pair<std::string, Scenario>>& parts) {
-  try {
-    ClosedLoop loop(robot, scenario);
-  } catch (const Refusal&) {  // Names the file itself.
-    throw;
-  } catch (const std::invalid_argument& error) {
-    for (const auto& [file, part] : parts) {
-      if (Complaint(robot, part) != error.what()) continue;
-      throw std::invalid_argument(file + ": " + error.what());
-    }
-    throw;
-  }
 }
 
 // Reads the command line, or ends the program as ParseCommandLine() does.
@@ -331,11 +346,10 @@ Profile ChooseProfile(const Files& files) {
 }
 
 // Writes the profile that the run uses, with its locked joints and its tasks.
-void SaveFullProfile(const Robot& standing,
-                     const std::filesystem::path& robot_file, Profile profile,
-                     const std::string& name) {
+void SaveFullProfile(const Robot& standing, const UrdfDocument& urdf,
+                     Profile profile, const std::string& name) {
   // Mimics are fixed by where their sources were before it stood up.
-  profile.locked = LockedJoints(LoadUrdf(robot_file), profile);
+  profile.locked = LockedJoints(urdf.MakeModel(), profile);
   if (!profile.tasks.IsDefined()) {
     profile.tasks = DescribeTasks(MakeDefaultStack(standing, {}));
   }
@@ -353,37 +367,33 @@ PushOptions ReadPushOptions(int argc, char** argv) {
   Overrides overrides;
   const Files files = ParseOptions(argc, argv, &overrides);
   const std::filesystem::path scenario_file = FindScenario(files.scenario);
-  const Scenario as_written = LoadScenario(scenario_file);
-  Scenario scenario = as_written;
-  try {
-    Apply(overrides, &scenario);
-    Validate(scenario);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(ByOption(error.what(), overrides));
-  }
   const std::filesystem::path robot_file =
       files.robot.empty() ? kRobot : UserPath(files.robot);
-  const Profile profile = ChooseProfile(files);
-  // --tasks default asks for the default tasks, not for the robot's own.
-  if (!overrides.tasks) UseTasksOf(profile, &scenario);
+  Scenario scenario = ReadScenario(scenario_file);
+  const Sources sources{
+      robot_file.string(),
+      scenario_file.string(),
+      overrides.pushes ? UserPath(*overrides.pushes).string() : "",
+      scenario.pushes.size(),
+      scenario.control.with.size(),
+      scenario.control.without.size()};
   std::vector<Finding> findings;
-  LoadUrdf(robot_file, {}, &findings);
-  Robot standing = LoadStandingRobot(robot_file, profile, &findings);
-  Scenario rest, pushes_alone;
-  rest.plant_kind = scenario.plant_kind;
-  std::filesystem::path pushes_file;
-  if (overrides.pushes) {
-    pushes_file = UserPath(*overrides.pushes);
-    pushes_alone.pushes = LoadPushes(pushes_file);
+  std::unique_ptr<ClosedLoop> loop;
+  try {
+    Apply(overrides, &scenario);
+    const Profile profile = ChooseProfile(files);
+    // --tasks default asks for the default tasks, not for the robot's own.
+    if (!overrides.tasks) UseTasksOf(profile, &scenario);
+    const UrdfDocument urdf(robot_file, &findings);
+    const Robot robot = MakeStandingRobot(urdf, profile, &findings);
+    loop = std::make_unique<ClosedLoop>(robot, scenario);
+    if (!files.save_profile.empty()) {
+      SaveFullProfile(robot, urdf, profile, files.save_profile);
+    }
+  } catch (const InputError& error) {
+    throw std::invalid_argument(Blame(error, overrides, sources));
   }
-  CheckFit(standing, scenario,
-           {{robot_file.string(), rest},
-            {pushes_file.string(), pushes_alone},
-            {scenario_file.string(), as_written}});
-  if (!files.save_profile.empty()) {
-    SaveFullProfile(standing, robot_file, profile, files.save_profile);
-  }
-  return {{std::move(standing), scenario},
+  return {std::move(loop),
           robot_file,
           UserPath(files.out.empty() ? "push-out/" + scenario.name : files.out),
           files.log == "binary" ? LogFormat::kBinary : LogFormat::kCsv,

@@ -2,19 +2,20 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "poise/robot/finding.h"
-#include "poise/sim/experiment.h"
+#include "poise/sim/closed_loop.h"
 #include "poise/sim/log/log_rows.h"
 
 namespace poise {
 
 /// What `push` was told.
 struct PushOptions {
-  Experiment experiment;
+  std::unique_ptr<ClosedLoop> loop;  ///< At its start.
   std::filesystem::path robot_file;
   std::filesystem::path out;
   LogFormat log = LogFormat::kCsv;

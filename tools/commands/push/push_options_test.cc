@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "poise/tests/util/test_file.h"
+
 namespace poise {
 namespace {
 
@@ -18,27 +20,69 @@ PushOptions Read(std::vector<std::string> words) {
 }
 
 TEST(PushOptions, RampIsTheScenarioSetting) {
-  EXPECT_EQ(Read({}).experiment.scenario.control.ramp, 0);
-  EXPECT_EQ(Read({"--ramp", "0.3"}).experiment.scenario.control.ramp, 0.3);
+  EXPECT_EQ(Read({}).loop->scenario().control.ramp, 0);
+  EXPECT_EQ(Read({"--ramp", "0.3"}).loop->scenario().control.ramp, 0.3);
 }
 
-TEST(PushOptions, RefusesNegativeRampByNameOfTheOption) {
+// Returns the message with which the options are refused.
+std::string Refusal(const std::vector<std::string>& words) {
   try {
-    (void)Read({"--ramp", "-1"});
-    FAIL() << "accepts a negative ramp";
+    (void)Read(words);
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "--ramp is -1, must be 0 to 100 s");
+    return error.what();
   }
+  return "";
+}
+
+TEST(PushOptions, RefusesAValueByTheNameOfItsOption) {
+  EXPECT_EQ(Refusal({"--ramp", "-1"}), "--ramp is -1, must be 0 to 100 s");
+  EXPECT_EQ(Refusal({"--plant-rate", "300"}),
+            "control.rate is 1000, must be a whole part of --plant-rate, which "
+            "is 300");
+  EXPECT_EQ(Refusal({"--link", "nose"}),
+            "link 'nose' is unknown, must be a link of robot 'humanoid'");
+}
+
+TEST(PushOptions, RefusesAValueByTheNameOfItsFile) {
+  const std::string pushes =
+      TestFile("pushes.yaml", "pushes: [{force: [1, 0, 0]}, {link: nose}]\n")
+          .string();
+  EXPECT_EQ(
+      Refusal({"--pushes", pushes}),
+      pushes + ": link 'nose' is unknown, must be a link of robot 'humanoid'");
+  const std::string scenario =
+      TestFile("rates.yaml", "control: {rate: 300}\n").string();
+  EXPECT_EQ(Refusal({"--scenario", scenario}),
+            scenario +
+                ": control.rate is 300, must be a whole part of plant.rate, "
+                "which is 1000");
+}
+
+// Both lists end with the options' tasks; only those are the options' fault.
+TEST(PushOptions, TellsTasksOfTheFileFromTasksOfTheOptions) {
+  const std::string scenario =
+      TestFile("tasks.yaml", "tasks: {with: [frame.nose]}\n").string();
+  const std::string unknown =
+      "task 'frame.nose' is unknown, must be frame. and a link of the robot";
+  EXPECT_EQ(Refusal({"--scenario", scenario, "--with", "zmp"}),
+            scenario + ": " + unknown);
+  EXPECT_EQ(Refusal({"--with", "frame.nose"}), unknown);
+}
+
+// A value that an option replaces need not be valid.
+TEST(PushOptions, ValidatesWhatIsRun) {
+  const std::string scenario =
+      TestFile("slow.yaml", "control: {rate: 300}\n").string();
+  EXPECT_EQ(Refusal({"--scenario", scenario, "--control-rate", "500"}), "");
 }
 
 TEST(PushOptions, FrictionPyramidHasTheOldNameAsAnAlias) {
-  EXPECT_FALSE(Read({}).experiment.scenario.control.inscribed);
+  EXPECT_FALSE(Read({}).loop->scenario().control.inscribed);
   for (const char* name : {"--friction-pyramid", "--friction"}) {
     SCOPED_TRACE(name);
-    EXPECT_TRUE(
-        Read({name, "inscribed"}).experiment.scenario.control.inscribed);
+    EXPECT_TRUE(Read({name, "inscribed"}).loop->scenario().control.inscribed);
     EXPECT_FALSE(
-        Read({name, "circumscribed"}).experiment.scenario.control.inscribed);
+        Read({name, "circumscribed"}).loop->scenario().control.inscribed);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 
 #include "poise/sim/log/summary.h"
@@ -20,13 +21,19 @@ void RemoveOld(const std::filesystem::path& folder) {
   }
 }
 
+void Write(const std::string& text, const std::filesystem::path& file) {
+  std::ofstream stream(file);
+  stream << text << '\n';
+  if (!stream.flush()) {
+    throw std::invalid_argument(file.string() + ": cannot be written");
+  }
+}
+
 }  // namespace
 
-RunResult RecordRun(const Experiment& experiment,
-                    const std::filesystem::path& folder,
+RunRecord RecordRun(ClosedLoop* loop, const std::filesystem::path& folder,
                     const std::function<bool(double)>& progress,
                     LogFormat format) {
-  const auto& [robot, scenario] = experiment;
   // Once there is a new log: a run that is refused leaves the old one whole.
   bool has_begun = false;
   const auto watch = [&](double fraction) {
@@ -34,16 +41,22 @@ RunResult RecordRun(const Experiment& experiment,
     has_begun = true;
     return !progress || progress(fraction);
   };
-  const RunResult result = Run(robot, scenario, folder, watch, format);
+  RunRecord record{Run(loop, folder, watch, format), {}};
   RemoveOld(folder);
-  const std::filesystem::path file = folder / "summary.json";
-  std::ofstream stream(file);
-  stream << ToJson(robot, scenario, result).dump(2) << '\n';
-  if (!stream.flush()) {
-    throw std::invalid_argument(file.string() + ": cannot be written");
-  }
-  WriteRobotJson(robot, folder / "robot.json");
-  return result;
+  const auto summary = ToJson(loop->robot(), loop->scenario(), record.result);
+  record.files = {folder, summary, MakeRobotJson(loop->robot()),
+                  record.result.ticks};
+  Write(summary.dump(2), folder / "summary.json");
+  Write(record.files.robot.dump(1), folder / "robot.json");
+  return record;
+}
+
+RunRecord RecordRun(const Experiment& experiment,
+                    const std::filesystem::path& folder,
+                    const std::function<bool(double)>& progress,
+                    LogFormat format) {
+  ClosedLoop loop(experiment.robot, experiment.scenario);
+  return RecordRun(&loop, folder, progress, format);
 }
 
 }  // namespace poise

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 
+#include "poise/sim/log/log_rows.h"
 #include "poise/tests/util/load_humanoid.h"
+#include "poise/tools/commands/report/report_page.h"
 
 namespace poise {
 namespace {
@@ -46,6 +49,16 @@ TEST_F(RecordRunTest, RemovesWhatAnotherRunLeft) {
   EXPECT_FALSE(fs::exists(folder_ / "report.html"));
   EXPECT_EQ(Read("summary.json")[0], '{');
   EXPECT_EQ(Read("robot.json")[0], '{');
+}
+
+// The report needs no file again that the run has just written.
+TEST_F(RecordRunTest, ReturnsWhatTheFilesHold) {
+  for (const LogFormat format : {LogFormat::kCsv, LogFormat::kBinary}) {
+    const RunRecord record = RecordRun(experiment_, folder_, {}, format);
+    EXPECT_EQ(ReadRun(record.files), ReadRun(folder_));
+    EXPECT_EQ(nlohmann::json::parse(Read("robot.json")), record.files.robot);
+    fs::remove(folder_ / "log.csv");
+  }
 }
 
 TEST_F(RecordRunTest, LeavesItWhereTheRunIsRefused) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "poise/robot/finding.h"
+#include "poise/sim/experiment.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/push/push_options.h"
 #include "poise/tools/commands/push/warnings.h"
@@ -136,9 +137,10 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
 
   const Shard shard = ParseShard(shard_text);
   const std::vector<std::string> rest = app.remaining();
-  PushOptions push = ReadRest(rest);
-  PrintWarnings(push.robot_file.string(), push.experiment.robot, push.findings);
-  ControlSettings& control = push.experiment.scenario.control;
+  const PushOptions push = ReadRest(rest);
+  Experiment experiment{push.loop->robot(), push.loop->scenario()};
+  PrintWarnings(push.robot_file.string(), experiment.robot, push.findings);
+  ControlSettings& control = experiment.scenario.control;
   control.with.insert(control.with.end(), with.begin(), with.end());
   control.without.insert(control.without.end(), without.begin(), without.end());
   if (out.empty()) {
@@ -148,7 +150,7 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
              std::to_string(shard.count);
     }
   }
-  return {{std::move(push.experiment),
+  return {{std::move(experiment),
            Points(directions, durations, TaskSetName(with, without), shard),
            UserPath(out), std::max(1, threads), step, !no_replays},
           "step " + std::to_string(step) + '\n' + Joined(rest),

@@ -149,7 +149,7 @@ bool Workers::Replay(const PushMapPoint& point, const ImpulseBracket& found) {
     char name[40];
     std::snprintf(name, sizeof name, "%.2f Ns", impulse);
     const fs::path folder = fs::path(page).replace_extension() / name;
-    const RunResult result =
+    const auto [result, files] =
         RecordRun(PushExperiment(plan_, point, impulse), folder,
                   [this](double) { return !stopped_; });
     if (result.interrupted) return false;

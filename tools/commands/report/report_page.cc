@@ -2,6 +2,7 @@
 #include "poise/tools/commands/report/report_page.h"
 
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 
 #include "poise/sim/log/open_log.h"
@@ -40,6 +41,42 @@ double ControlPeriod(const json& summary) {
   return dt != summary.end() && dt->is_number() ? dt->get<double>() : kUsual;
 }
 
+// Takes the notes out of what ReadRunLog() has read.
+json TakeNotes(json* log) {
+  json notes = std::move((*log)["notes"]);
+  log->erase("notes");
+  return notes;
+}
+
+// Returns null if there is no timing.csv.
+json ReadTimingOf(const path& run_dir, const json& summary,
+                  std::optional<long> num_rows) {
+  const path file = run_dir / "timing.csv";
+  if (!std::filesystem::exists(file)) return nullptr;
+  return ReadTiming(file, ControlPeriod(summary), num_rows);
+}
+
+// Returns the name of a run: that of its folder.
+std::string NameOf(const path& run_dir) {
+  path name = std::filesystem::absolute(run_dir).lexically_normal();
+  if (!name.has_filename()) name = name.parent_path();
+  return name.filename().string();
+}
+
+void WritePage(json runs, const path& html) {
+  const std::string page = FillPage(
+      kReportPage, {{"format", "poise-report-1"}, {"runs", std::move(runs)}});
+  if (html.has_parent_path()) {
+    std::error_code ignored;
+    std::filesystem::create_directories(html.parent_path(), ignored);
+  }
+  std::ofstream stream(html, std::ios::binary);
+  stream << page;
+  if (!stream.flush()) {
+    throw std::invalid_argument(html.string() + ": cannot be written");
+  }
+}
+
 void ReplaceAll(std::string_view from, std::string_view to, std::string* text) {
   for (std::size_t at = text->find(from); at != std::string::npos;
        at = text->find(from, at + to.size())) {
@@ -54,21 +91,26 @@ json ReadRun(const path& run_dir) {
     throw std::invalid_argument(run_dir.string() + ": is not a run's folder");
   }
   json log = ReadRunLog(FindLog(run_dir));
-  json notes = std::move(log["notes"]);
-  log.erase("notes");
+  json notes = TakeNotes(&log);
   RunSummary read = ReadRunSummary(run_dir);
   if (!read.note.empty()) notes.push_back(read.note);
   json summary = std::move(read.values);
   json robot = ReadOptional(run_dir / "robot.json", &notes);
-  json timing = nullptr;
-  if (std::filesystem::exists(run_dir / "timing.csv")) {
-    timing = ReadTiming(run_dir / "timing.csv", ControlPeriod(summary));
-  }
-  path name = std::filesystem::absolute(run_dir).lexically_normal();
-  if (!name.has_filename()) name = name.parent_path();
-  return {{"name", name.filename().string()}, {"summary", std::move(summary)},
-          {"robot", std::move(robot)},        {"log", std::move(log)},
-          {"timing", std::move(timing)},      {"notes", std::move(notes)}};
+  json timing = ReadTimingOf(run_dir, summary, {});
+  return {{"name", NameOf(run_dir)},     {"summary", std::move(summary)},
+          {"robot", std::move(robot)},   {"log", std::move(log)},
+          {"timing", std::move(timing)}, {"notes", std::move(notes)}};
+}
+
+json ReadRun(const RunFiles& run) {
+  json log = ReadRunLog(FindLog(run.folder), run.num_rows);
+  json notes = TakeNotes(&log);
+  return {{"name", NameOf(run.folder)},
+          {"summary", run.summary},
+          {"robot", run.robot},
+          {"log", std::move(log)},
+          {"timing", ReadTimingOf(run.folder, run.summary, run.num_rows)},
+          {"notes", std::move(notes)}};
 }
 
 std::string FillPage(std::string_view page, const json& document) {
@@ -93,17 +135,11 @@ void WriteReport(const std::vector<path>& run_dirs, const path& html) {
   }
   json runs = json::array();
   for (const path& run_dir : run_dirs) runs.push_back(ReadRun(run_dir));
-  const std::string page = FillPage(
-      kReportPage, {{"format", "poise-report-1"}, {"runs", std::move(runs)}});
-  if (html.has_parent_path()) {
-    std::error_code ignored;
-    std::filesystem::create_directories(html.parent_path(), ignored);
-  }
-  std::ofstream stream(html, std::ios::binary);
-  stream << page;
-  if (!stream.flush()) {
-    throw std::invalid_argument(html.string() + ": cannot be written");
-  }
+  WritePage(std::move(runs), html);
+}
+
+void WriteRunReport(const RunFiles& run, const path& html) {
+  WritePage(json::array({ReadRun(run)}), html);
 }
 
 }  // namespace poise

@@ -147,12 +147,4 @@ json MakeRobotJson(const Robot& robot) {
           {"feet", FeetToJson(robot.feet)},   {"limits", LimitsToJson(model)}};
 }
 
-void WriteRobotJson(const Robot& robot, const std::filesystem::path& file) {
-  std::ofstream stream(file);
-  stream << MakeRobotJson(robot).dump(1) << '\n';
-  if (!stream.flush()) {
-    throw std::invalid_argument(file.string() + ": cannot be written");
-  }
-}
-
 }  // namespace poise

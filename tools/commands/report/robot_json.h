@@ -25,8 +25,4 @@ namespace poise {
 /// Quaternions are (x, y, z, w); SI units.
 nlohmann::json MakeRobotJson(const Robot& robot);
 
-/// Writes MakeRobotJson() to a file, for a run's folder: robot.json. Throws
-/// std::invalid_argument if it cannot be written.
-void WriteRobotJson(const Robot& robot, const std::filesystem::path& file);
-
 }  // namespace poise

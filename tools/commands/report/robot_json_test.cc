@@ -100,14 +100,5 @@ TEST(RobotJson, HoldsFeetShapesAndLimits) {
   EXPECT_EQ(robot["shapes"][0]["rgba"].size(), 4u);
 }
 
-TEST(RobotJson, IsWrittenAndReadBack) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "robot.json";
-  WriteRobotJson(Leg(), file);
-  std::ifstream stream(file);
-  EXPECT_EQ(json::parse(stream), MakeRobotJson(Leg()));
-  EXPECT_THROW(WriteRobotJson(Leg(), "no/such/folder/robot.json"),
-               std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace poise

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -231,7 +232,8 @@ void MarkTouching(std::string_view cell, long row, double time, double dt,
 
 }  // namespace
 
-json ReadRunLog(const std::filesystem::path& file) {
+json ReadRunLog(const std::filesystem::path& file,
+                std::optional<long> num_rows) {
   const std::unique_ptr<LogReader> reader = OpenLog(file);
   LogReader& log = *reader;
   const std::string name = file.filename().string();
@@ -241,7 +243,7 @@ json ReadRunLog(const std::filesystem::path& file) {
                                                      ? ": has no columns"
                                                      : ": has no column time"));
   }
-  const long expected = log.CountRows();
+  const long expected = num_rows ? *num_rows : log.CountRows();
   const long motion_rows =
       std::clamp(expected / 33, kFewestMotionRows, kMostMotionRows);
   LogTable motion(Table::kMotion, log, ThinnedTable::Keep::kEvery,
@@ -298,14 +300,15 @@ json ReadRunLog(const std::filesystem::path& file) {
           {"notes", std::move(notes)}};
 }
 
-json ReadTiming(const std::filesystem::path& timing_csv, double dt) {
+json ReadTiming(const std::filesystem::path& timing_csv, double dt,
+                std::optional<long> num_rows) {
   CsvReader timing(timing_csv);
   const auto tick = timing.Find("tick");
   const auto us = timing.Find("us");
   const auto iterations = timing.Find("iterations");
-  ThinnedTable table({{"us", "us"}, {"iterations", ""}},
-                     ThinnedTable::Keep::kExtremes,
-                     StrideFor(timing.CountRows(), kTimingRows));
+  ThinnedTable table(
+      {{"us", "us"}, {"iterations", ""}}, ThinnedTable::Keep::kExtremes,
+      StrideFor(num_rows ? *num_rows : timing.CountRows(), kTimingRows));
   while (tick && us && timing.Next()) {
     table.Add(timing.Number(*tick) * dt,
               {timing.Number(*us),

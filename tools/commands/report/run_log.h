@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace poise {
 
@@ -26,12 +27,17 @@ namespace poise {
 /// A log without rows, or one cut short, is read as far as it goes and noted.
 /// Throws std::invalid_argument, naming the file, if there is none, if it has no
 /// column time, or holds what is no number where one must be, or a whole row of
-/// another length than its header. Two passes, memory
-/// of the result.
-nlohmann::json ReadRunLog(const std::filesystem::path& file);
+/// another length than its header.
+///
+/// @param num_rows  of the log; if it is not given, a first pass counts them.
+///
+/// Takes one pass over the log and the memory of the result.
+nlohmann::json ReadRunLog(const std::filesystem::path& file,
+                          std::optional<long> num_rows = {});
 
 /// The same for timing.csv: {rows, time, channels} with us and iterations; the
 /// time is that of the tick number, given the control period dt, s.
-nlohmann::json ReadTiming(const std::filesystem::path& timing_csv, double dt);
+nlohmann::json ReadTiming(const std::filesystem::path& timing_csv, double dt,
+                          std::optional<long> num_rows = {});
 
 }  // namespace poise
