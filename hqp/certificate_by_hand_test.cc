@@ -138,13 +138,16 @@ TEST_F(CertifierByHandTest, MakesAnAnswerSayNoMoreThanIsCertified) {
   EXPECT_EQ(truncated(0, true, true), 0);
 }
 
-// An error of 1e-10 is certified, one of 1e-8 is not.
+// A multiplier that is off by far less than kCertified is accepted, by far more not.
 TEST_F(CertifierByHandTest, TruncatesAnswersThatAreNotCertified) {
-  for (const double share : {0.1, 10.}) {
+  for (const double error : {0., 1e-15, 1e-11, 1e-7, 1e-3, 1.}) {
     Bound(0, 1, 2);
-    solution_.levels[1].multipliers[0].inequality << 1 - share * 1e-9 * kSize;
+    solution_.levels[1].multipliers[0].inequality << 1 - error * kSize;
     certifier_.Truncate(hierarchy_, &solution_);
-    EXPECT_EQ(solution_.failed_level, share < 1 ? -1 : 1);
+    const bool is_certified = error < Certifier::kCertified;
+    EXPECT_EQ(solution_.failed_level, is_certified ? -1 : 1) << error;
+    EXPECT_EQ(solution_.status,
+              is_certified ? Status::kOptimal : Status::kIterationLimit);
   }
 }
 

@@ -16,7 +16,7 @@
 namespace poise {
 namespace {
 
-constexpr double kCertified = 1e-9;  // What the solver promises.
+constexpr double kCertified = Certifier::kCertified;
 
 struct Row {
   Eigen::RowVector2d row;

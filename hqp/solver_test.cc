@@ -20,7 +20,7 @@ namespace poise {
 namespace {
 
 constexpr double kTolerance = 1e-14;  // A few operations on numbers near 1.
-constexpr double kCertified = 1e-9;   // What the solver promises.
+constexpr double kCertified = Certifier::kCertified;
 
 TEST(Solver, AgreesWithTheCascade) {
   RandomHierarchyOptions options;

@@ -14,7 +14,7 @@
 namespace poise {
 namespace {
 
-constexpr double kCertified = 1e-9;  // What the solver promises.
+constexpr double kCertified = Certifier::kCertified;
 
 Solution Solve(const HierarchyByHand& problem) {
   const int n = problem.hierarchy.num_variables();
