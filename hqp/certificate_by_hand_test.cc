@@ -144,7 +144,7 @@ TEST_F(CertifierByHandTest, TruncatesAnswersThatAreNotCertified) {
     Bound(0, 1, 2);
     solution_.levels[1].multipliers[0].inequality << 1 - error * kSize;
     certifier_.Truncate(hierarchy_, &solution_);
-    const bool is_certified = error < Certifier::kCertified;
+    const bool is_certified = error <= 1e-11;
     EXPECT_EQ(solution_.failed_level, is_certified ? -1 : 1) << error;
     EXPECT_EQ(solution_.status,
               is_certified ? Status::kOptimal : Status::kIterationLimit);

@@ -88,15 +88,17 @@ TEST_F(WorkingSetProblemReadTest, FindsTheFirstLevelWithABadNumber) {
   ExpectStatus(b_[1] + 1, 0, Status::kBadInput, 0);
 }
 
-// Rows whose squared norm, times the weight, would underflow are rows of zeros, and
-// y is as without them. Longer rows are met, however short.
+// y0 + y1 = 2 as an equality or as an active row. If its squared norm, times the
+// weight, would underflow, it is a row of zeros, and y is as without it. Any longer
+// row is met, however short.
 TEST_F(WorkingSetProblemReadTest, IgnoresRowsWhoseSquareUnderflows) {
   int failed_level;
-  const auto solve = [&](double length, double root) {
-    C_[1][0] = C_[1][1] = length / 2;
-    *lower_[1] = length;  // y0 + y1 = 2, which replaces y0 + 7/5 y1 = 1/5.
-    B_[1][0] = B_[1][1] = length / 2 / root;
-    *b_[1] = -length / root;
+  const auto solve = [&](double length, double root, bool is_equality) {
+    const double zero = 0;
+    C_[1][0] = C_[1][1] = is_equality ? zero : length / 2;
+    *lower_[1] = is_equality ? -1 : length;
+    B_[1][0] = B_[1][1] = is_equality ? length / 2 / root : zero;
+    *b_[1] = is_equality ? -length / root : zero;
     *weight_[1] = root * root;
     EXPECT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
     problem_.Plan(hierarchy_, 2);
@@ -104,17 +106,19 @@ TEST_F(WorkingSetProblemReadTest, IgnoresRowsWhoseSquareUnderflows) {
                    {{Side::kNone, Side::kNone}, {Side::kLower, Side::kNone}});
     return Eigen::Vector2d(Eigen::Vector2d::Map(problem_.y().data()));
   };
-  for (const double root : {3., 0.5}) {
-    for (const double length : {0., 1e-300, 1e-200, 1e-153}) {
-      SCOPED_TRACE(testing::Message() << root << ", " << length);
-      const Eigen::Vector2d y = solve(length, root);
-      // The shortest y of 2 y0 - y1 = 3.
-      EXPECT_LE((y - Eigen::Vector2d(1.2, -0.6)).norm(), Rounding(2, 2));
-    }
-    for (const double length : {1e-147, 1e-100, 1e-9, 1., 1e9, 1e100}) {
-      SCOPED_TRACE(testing::Message() << root << ", " << length);
-      const Eigen::Vector2d y = solve(length, root);
-      EXPECT_LE((y - Eigen::Vector2d(5, 1) / 3).norm(), Rounding(3, 2, 4));
+  for (const bool is_equality : {false, true}) {
+    for (const double root : {3., 0.5}) {
+      for (const double length : {0., 1e-300, 1e-200, 1e-153}) {
+        SCOPED_TRACE(testing::Message() << is_equality << root << length);
+        const Eigen::Vector2d y = solve(length, root, is_equality);
+        // The shortest y of 2 y0 - y1 = 3.
+        EXPECT_LE((y - Eigen::Vector2d(1.2, -0.6)).norm(), Rounding(2, 2));
+      }
+      for (const double length : {1e-147, 1e-100, 1e-9, 1., 1e9, 1e100}) {
+        SCOPED_TRACE(testing::Message() << is_equality << root << length);
+        const Eigen::Vector2d y = solve(length, root, is_equality);
+        EXPECT_LE((y - Eigen::Vector2d(5, 1) / 3).norm(), Rounding(3, 2, 4));
+      }
     }
   }
 }

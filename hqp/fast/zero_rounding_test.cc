@@ -163,6 +163,9 @@ TEST_F(ZeroRoundingTest, KeepsEntriesAtTheirTarget) {
   };
   EXPECT_EQ(take(kTarget), kTarget);
   EXPECT_EQ(take(-kTarget), 0);
+  const double nearly = kTarget * (1 + 1e-15);  // A few eps.
+  EXPECT_EQ(take(nearly), nearly);
+  EXPECT_EQ(take(kTarget * (1 + 1e-11)), 0);
   EXPECT_EQ(take(kTarget / 2), 0);
   EXPECT_EQ(take(2 * kTarget), 0);
 }
