@@ -52,7 +52,7 @@ class CertifierByHandTest : public testing::Test {
   Certifier certifier_{2, capacity_};
 };
 
-TEST_F(CertifierByHandTest, FindsNothingWrongWithTheOptimum) {
+TEST_F(CertifierByHandTest, AcceptsTheOptimum) {
   EXPECT_EQ(Certify().worst(), 0);  // At the upper bound.
   Bound(0, 1, -2);                  // At the lower one.
   EXPECT_EQ(Certify().worst(), 0);
@@ -64,7 +64,7 @@ TEST_F(CertifierByHandTest, FindsNothingWrongWithTheOptimum) {
   EXPECT_EQ(Certify().worst(), 0);
 }
 
-TEST_F(CertifierByHandTest, FindsAGradientThatIsLeft) {
+TEST_F(CertifierByHandTest, FindsANonzeroGradient) {
   solution_.levels[1].multipliers[0].inequality << 0.5;
   EXPECT_EQ(Certify().stationarity, (1 - 0.5) / kSize);
   EXPECT_EQ(Certify().worst(), (1 - 0.5) / kSize);
@@ -86,7 +86,7 @@ TEST_F(CertifierByHandTest, FindsAMultiplierAcrossAGap) {
   EXPECT_EQ(certificate.complementarity, 1.5 / kSize);
 }
 
-TEST_F(CertifierByHandTest, FindsAResidualACostOrASlackThatIsNotThatOfY) {
+TEST_F(CertifierByHandTest, FindsAWrongResidualCostOrSlack) {
   solution_.levels[1].equality_residual[1] = -0.5;
   EXPECT_GT(Certify().feasibility, 0.01);
   Bound(0, 1, 2);
@@ -98,7 +98,7 @@ TEST_F(CertifierByHandTest, FindsAResidualACostOrASlackThatIsNotThatOfY) {
   EXPECT_EQ(Certify().feasibility, 0);
 }
 
-TEST_F(CertifierByHandTest, JudgesTheLevelsAboveTheOneThatFailed) {
+TEST_F(CertifierByHandTest, CertifiesTheLevelsAboveTheFailedOne) {
   solution_.levels[1].multipliers[0].inequality << -1;
   solution_.failed_level = 1;
   EXPECT_EQ(Certify().worst(), 0);
@@ -117,7 +117,7 @@ TEST_F(CertifierByHandTest, IsInfiniteWhereAnythingIsNan) {
 }
 
 // Truncated is what is not certified, down to the first level that is wrong.
-TEST_F(CertifierByHandTest, MakesAnAnswerSayNoMoreThanIsCertified) {
+TEST_F(CertifierByHandTest, TruncatesToTheCertifiedLevels) {
   const auto truncated = [&](int failed_level, bool spoils_0, bool spoils_1) {
     Bound(0, 1, 2);
     if (spoils_0) solution_.levels[0].slack << 0.5;

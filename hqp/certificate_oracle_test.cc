@@ -186,7 +186,7 @@ std::vector<double*> Numbers(const Hierarchy& hierarchy, Solution* solution) {
   return numbers;
 }
 
-TEST(CertificateOracle, AgreesWithTheDefinitionWhateverIsSpoiled) {
+TEST(CertificateOracle, AgreesWithTheDefinitionOnWrongAnswers) {
   RandomHierarchyOptions options;
   options.max_variables = 5;
   options.max_levels = 4;

@@ -72,7 +72,7 @@ TEST_F(DegenerateVertexTest, IsZeroInAnyUnit) {
 // Some were not, where rounding of y was judged by |y| alone, or what depends on
 // other rows kept its rounding. (Of the first 20 000 one still is not with
 // -O1 or -O3, seed 1466, and the solver says so; with -O2 all are.)
-TEST(DegenerateVertex, IsSolvedWhateverIsAskedFor) {
+TEST(DegenerateVertex, IsSolvedForAnyTarget) {
   RandomHierarchyOptions options;
   options.scaled = 0;
   options.degenerate_vertex = 100;
@@ -93,7 +93,7 @@ TEST(DegenerateVertex, IsSolvedWhateverIsAskedFor) {
 // y2 is held at 0 by the first row, and by others: all of it is rounding then, and
 // a last digit of the others must not stand in the way of saying so. (With -O3 18
 // of these were not solved for that; with -O1 all were.)
-TEST(DegenerateVertex, ALastDigitElsewhereDoesNotKeepAZeroFromBeingOne) {
+TEST(DegenerateVertex, KeepsAZeroBesideARoundedTarget) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 2}};
   std::mt19937 random(1);
   const auto draw = [&random] {
@@ -119,7 +119,7 @@ TEST(DegenerateVertex, ALastDigitElsewhereDoesNotKeepAZeroFromBeingOne) {
 
 // y0 + y1 = 0, in conflict with 2 (y0 + y1) = 6, above a wish for y1: of 5, which
 // is the largest of what is asked for, or of 1, where 6 / |(2, 2)| is.
-TEST(DegenerateVertex, RoundingIsRelativeToWhatIsAskedFor) {
+TEST(DegenerateVertex, MeasuresRoundingRelativeToTheTargets) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {1, 0}};
   for (const bool is_in_diagonal : {false, true}) {
     Hierarchy hierarchy(2, capacity);

@@ -53,7 +53,7 @@ void ExpectSolution(const HierarchyByHand& problem,
 
 // A foot that carries nothing: along its row momentum wants hardly anything, but
 // more than nothing, and posture wants the other way.
-TEST(RowScaling, HoldsARowThatItsLevelHardlyAsksFor) {
+TEST(RowScaling, KeepsARowWithASmallMultiplier) {
   constexpr double kHardly = 3e-11;
   // The third asks z for 5e-12 of what the last two cannot agree on.
   const HierarchyByHand problem(3, {{0, {0, 1, 0}, -INFINITY, 0},
@@ -66,7 +66,7 @@ TEST(RowScaling, HoldsARowThatItsLevelHardlyAsksFor) {
 }
 
 // What small rows ask for is 1e-12 of what large ones of their level lack.
-TEST(RowScaling, IsMetWhereTheLargeOneCannotBe) {
+TEST(RowScaling, MeetsASmallRowBesideALargeConflict) {
   ExpectSolution(HierarchyByHand(2, {{0, {-1, 1}, -INFINITY, -1},
                                      {1, {0, 1}, -INFINITY, -1},
                                      {2, {0.001, 0}, 0.003, 0.003},
@@ -81,7 +81,7 @@ TEST(RowScaling, IsMetWhereTheLargeOneCannotBe) {
 
 // The first row is active on the way; when it leaves, rotations leave rounding of
 // the large wish in the row that stays.
-TEST(RowScaling, TakesNoRoundingOfTheLargeOne) {
+TEST(RowScaling, IgnoresRoundingOfALargeRow) {
   for (int k = 1; k <= 20; ++k) {
     SCOPED_TRACE(k);
     ExpectSolution(HierarchyByHand(2, {{0, {-1, 1. * k}, -INFINITY, -1},
@@ -94,7 +94,7 @@ TEST(RowScaling, TakesNoRoundingOfTheLargeOne) {
 
 // y1 is 0 where the last level says so, by 1e-12 of what y0 lacks there. Before,
 // the first row was at its bound.
-TEST(RowScaling, LetsARowGoThatWasActiveBefore) {
+TEST(RowScaling, RemovesARowThatWasActiveBefore) {
   ExpectSolution(HierarchyByHand(2, {{0, {1, 1}, -INFINITY, -1},
                                      {1, {1, 0}, -INFINITY, 0}}),
                  HierarchyByHand(2, {{0, {1, 1}, -INFINITY, 0},
@@ -107,7 +107,7 @@ TEST(RowScaling, LetsARowGoThatWasActiveBefore) {
 
 // Two wishes of one variable, 0 and 1: where 1 weighs 1e-12, it is 1e-12 / (1 +
 // 1e-12), whichever comes first.
-TEST(RowScaling, CountsInAMeanOfTwoWishes) {
+TEST(RowScaling, CountsASmallWeightInAMean) {
   const RowByHand light{0, {0.001}, -1, -1}, heavy{0, {1000}, 0, 0};
   const double mean = -0.001 / (1e6 + 1e-6);
   ExpectSolution(HierarchyByHand(1, {light, heavy}), {mean});
@@ -116,7 +116,7 @@ TEST(RowScaling, CountsInAMeanOfTwoWishes) {
 
 // The second level, (1000 y0)^2 + (0.01 y1)^2 where y0 + y1 = -2, moves y0 by 1e-10
 // of y1.
-TEST(RowScaling, LacksWhatItMustToAllDigits) {
+TEST(RowScaling, FindsASmallResidualToAllDigits) {
   const double y1 = -2 / (1 + 1e-10);
   ExpectSolution(HierarchyByHand(2, {{0, {1, 1}, -INFINITY, -2},
                                      {1, {1000, 0}, 0, 0},
@@ -127,7 +127,7 @@ TEST(RowScaling, LacksWhatItMustToAllDigits) {
 
 // What others call no bound is none: where y were, nothing of the last rows would
 // be left. Before, another row in the place of the first bound was active.
-TEST(RowScaling, IsLeftBesideABoundOf1e30) {
+TEST(RowScaling, TreatsABoundOf1e30AsInfinite) {
   constexpr double kNone = 1e30;
   ExpectSolution(HierarchyByHand(3, {{0, {0, 0, -2}, -INFINITY, 0},
                                      {0, {1, 0, 1}, -INFINITY, -2}}),

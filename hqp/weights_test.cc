@@ -54,7 +54,7 @@ class WeightsTest : public testing::TestWithParam<int> {
 
 INSTANTIATE_TEST_SUITE_P(Decades, WeightsTest, testing::Values(4, 6, 8));
 
-TEST_P(WeightsTest, LeaveBothSolversTheSameOptimum) {
+TEST_P(WeightsTest, GiveBothSolversTheSameOptimum) {
   RandomHierarchyOptions options;
   options.scaled = 0;
   options.weighted = 100;
@@ -63,7 +63,7 @@ TEST_P(WeightsTest, LeaveBothSolversTheSameOptimum) {
 }
 
 // Three rows above hold both variables between them, whatever these weigh below.
-TEST(Weights, DoNotMoveWhatLevelsAboveHaveFixed) {
+TEST(Weights, DoNotChangeLevelsAbove) {
   const std::vector<LevelCapacity> capacity{{3, 0}, {2, 0}};
   Eigen::Matrix<double, 3, 2> A;
   A << 2.87, 0.41, -1.43, -1.66, 0, 1.35;
@@ -94,7 +94,7 @@ TEST(Weights, DoNotMoveWhatLevelsAboveHaveFixed) {
 // Two rows of one direction contradict each other on level 1, one 1e7 times as
 // heavy: at their optimum they ask nothing of the bound above, but by rounding of
 // what the heavy one lacks. So it leaves as soon as level 2 does not need it.
-TEST(Weights, AskNothingByWhatRoundingLeavesOfAHeavyRow) {
+TEST(Weights, IgnoreRoundingOfALargeWeightRow) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {2, 0}, {1, 0}};
   for (int seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
@@ -125,7 +125,7 @@ TEST(Weights, AskNothingByWhatRoundingLeavesOfAHeavyRow) {
 
 // The unit of one variable is millions of that of the other, and both levels can
 // be met. What a row asks for of the other is no rounding because of that.
-TEST(Weights, MeetRowsWhoseVariablesHaveUnlikeUnits) {
+TEST(Weights, MeetRowsWithVariablesOfUnlikeUnits) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {0, 1}};
   Hierarchy hierarchy(2, capacity);
   InequalityBlock first = hierarchy.AddInequalities(0, 2);
@@ -144,7 +144,7 @@ TEST(Weights, MeetRowsWhoseVariablesHaveUnlikeUnits) {
 // With variables in units from 1e-3 to 1e6: those on which `hqp_night --scaled 0
 // --columns 100` has failed. Of the first what rounding leaves of long rows was a
 // multiplier; of the others what holds a row was not, being large beside its wish.
-TEST(Weights, LeaveBothSolversTheSameOptimumInWhateverUnits) {
+TEST(Weights, GiveBothSolversTheSameOptimumInAnyUnits) {
   RandomHierarchyOptions options;
   options.scaled = 0;
   options.columns = 100;
@@ -155,7 +155,7 @@ TEST(Weights, LeaveBothSolversTheSameOptimumInWhateverUnits) {
 
 // (0, -6/0.017): with y0 held, the row can be met by y1 alone, of which it has little
 // and of which the last level wants nothing. So what holds it is large beside that.
-TEST(Weights, LeaveAMultiplierThatIsLargeBesideItsWish) {
+TEST(Weights, AllowAMultiplierLargerThanTheTarget) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {1, 0}, {1, 0}};
   Hierarchy hierarchy(2, capacity);
   InequalityBlock row = hierarchy.AddInequalities(0, 1);

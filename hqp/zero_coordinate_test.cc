@@ -29,7 +29,7 @@ Solution Solve(const HierarchyByHand& problem) {
 }
 
 // -6e-17 for 0 is enough to break the row of the second level.
-TEST(ZeroCoordinate, HasAZeroWhereTwoRowsMeet) {
+TEST(ZeroCoordinate, IsZeroWhereTwoRowsMeet) {
   const HierarchyByHand problem(2, {{0, {4, 5}, -INFINITY, -5},
                                     {0, {-2, 5}, -INFINITY, -5},
                                     {1, {1, 0}, 0, INFINITY}});
@@ -39,7 +39,7 @@ TEST(ZeroCoordinate, HasAZeroWhereTwoRowsMeet) {
 }
 
 // No rows are missed but the one that asks for zero: (0, 3) meets them all.
-TEST(ZeroCoordinate, HasAZeroWhereFiveRowsMeet) {
+TEST(ZeroCoordinate, IsZeroWhereFiveRowsMeet) {
   const HierarchyByHand problem(2, {{0, {1, 2}, -INFINITY, 6},
                                     {0, {-1, 0}, 0, INFINITY},
                                     {0, {3, -1}, -3, INFINITY},
@@ -53,7 +53,7 @@ TEST(ZeroCoordinate, HasAZeroWhereFiveRowsMeet) {
 
 // y2 is not alone: (0, -2, 0, 0) has three zeros, each of which another row ties
 // to it.
-TEST(ZeroCoordinate, HasZerosThatOtherRowsTie) {
+TEST(ZeroCoordinate, IsZeroInRowsThatShareVariables) {
   const HierarchyByHand problem(4, {{0, {0, -4, -1, 0}, 8, 8},
                                     {0, {-3, 1, 0, 0}, -2, -2},
                                     {1, {-3, 0, 0, 1}, 0, 0},
@@ -65,7 +65,7 @@ TEST(ZeroCoordinate, HasZerosThatOtherRowsTie) {
 }
 
 // The last level asks for what three rows have already met, once refined.
-TEST(ZeroCoordinate, AsksNothingOfALevelThatRefinementHasMet) {
+TEST(ZeroCoordinate, GivesNoMultiplierToALevelThatRefinementMeets) {
   const HierarchyByHand problem(2, {{0, {2, 0}, 2, 2},
                                     {0, {0, -3}, 0, 0},
                                     {0, {-4, 5}, -4, -4},
@@ -78,7 +78,7 @@ TEST(ZeroCoordinate, AsksNothingOfALevelThatRefinementHasMet) {
 
 // Whatever rows of small integers go through a point of small integers, on
 // whatever side of them y may be: the point meets them all.
-TEST(ZeroCoordinate, IsFoundByWhateverRows) {
+TEST(ZeroCoordinate, IsFoundInRandomHierarchies) {
   for (int seed = 1; seed <= 2000; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);

@@ -161,7 +161,7 @@ TEST_P(RandomDiagonalLevelsTest, MultipliersCancelTheGradient) {
   }
 }
 
-TEST_P(RandomDiagonalLevelsTest, GradientLessWhatIsLeftIsTheRowsOfTheHead) {
+TEST_P(RandomDiagonalLevelsTest, SplitsTheGradientIntoLeadingRowsAndTheRest) {
   const Eigen::MatrixXd Q = Basis();
   for (int l = 0; l < diagonal_.num_levels(); ++l) {
     Eigen::VectorXd on_leading(leading_.rank()),
@@ -188,7 +188,7 @@ TEST_P(RandomDiagonalLevelsTest, CorrectsAnyStartToTheSameOptimum) {
   EXPECT_LE((Q * (nearest - y_)).norm(), 10 * Tolerance());
 }
 
-TEST_P(RandomDiagonalLevelsTest, CorrectsByAsLittleAsTheLevelsAllow) {
+TEST_P(RandomDiagonalLevelsTest, CorrectsByTheMinimumNorm) {
   // Weights and levels alone say how, not targets: so of a tail with other
   // targets, at its own optimum for targets 0, the step is the optimum.
   const Eigen::MatrixXd Q = Basis();
@@ -239,7 +239,7 @@ TEST_P(RandomDiagonalLevelsTest, TieRowsFindsTheSameNullities) {
   }
 }
 
-TEST_P(RandomDiagonalLevelsTest, ForgetsWhatItSolvedBefore) {
+TEST_P(RandomDiagonalLevelsTest, DoesNotDependOnTheLastSolve) {
   DiagonalLevels diagonal(n_, kMaxDiagonalLevels);
   LexicographicFactorization other(n_, n_, 1);
   Eigen::VectorXd y(n_);

@@ -133,8 +133,7 @@ TEST_P(RandomLexicographicFactorizationTest, CorrectsAnyStartToTheSameOptimum) {
   EXPECT_EQ(change[stack_.rank()], 5);
 }
 
-TEST_P(RandomLexicographicFactorizationTest,
-       LevelsComeBackAfterTheyWereDropped) {
+TEST_P(RandomLexicographicFactorizationTest, RestoresLevelsAfterTruncation) {
   const Eigen::VectorXd y = Optimum(stack_, n_);
   for (int from = num_levels_; from >= 0; --from) {
     stack_.Truncate(from);

@@ -256,7 +256,7 @@ TEST_P(RandomWorkingSetProblemTest, AgreesWithSingularValues) {
 }
 
 // Rows come, go and change sides, as in a descent.
-TEST_P(RandomWorkingSetProblemTest, UpdatesAreAsGoodAsFactorisingAnew) {
+TEST_P(RandomWorkingSetProblemTest, UpdatesAreAsExactAsANewFactorisation) {
   problem_.Plan(hierarchy_, num_levels_);
   for (int salt = 0; salt < 6; ++salt) {
     SCOPED_TRACE(salt);
@@ -325,7 +325,7 @@ TEST_P(RandomWorkingSetProblemTest, RefinesAnotherYToMeetTheRows) {
 
 // Of all y that are best for the head, the one closest to another: best for it
 // is what is best for all levels, and nothing but its rows moves y there.
-TEST_P(RandomWorkingSetProblemTest, ApproachesWhatIsBestForTheHead) {
+TEST_P(RandomWorkingSetProblemTest, ApproachesTheOptimumOfTheLeadingLevels) {
   problem_.Plan(hierarchy_, num_levels_);
   problem_.Solve(hierarchy_, MakeSides(3));
   const Eigen::MatrixXd Q = Basis(problem_.leading(), n_);

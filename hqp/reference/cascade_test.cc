@@ -61,7 +61,7 @@ TEST_F(CascadeTest, SolvesByHand) {
   EXPECT_LE(certifier_.Certify(hierarchy_, solution_).worst(), kTolerance);
 }
 
-TEST_F(CascadeTest, ReportsWhatIsNotFinite) {
+TEST_F(CascadeTest, ReportsNumbersThatAreNotFinite) {
   ASSERT_EQ(cascade_.Solve(hierarchy_, &solution_), Status::kOptimal);
   target_[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(cascade_.Solve(hierarchy_, &solution_), Status::kNotFinite);
@@ -166,7 +166,7 @@ TEST_P(EitherCascadeTest, CountsEqualitiesAndViolatedRows) {
 
 // To the bit: what a level was solved to does not know of levels below, and no
 // threshold is absolute.
-TEST_P(EitherCascadeTest, KeepsEachLevelsCostAndKnowsNoUnit) {
+TEST_P(EitherCascadeTest, KeepsCostsInAnyUnit) {
   for (int seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const HierarchyCase drawn = Draw(seed);
@@ -230,7 +230,7 @@ TEST_P(EitherCascadeTest, KeepsToItsBudget) {
 }
 
 // What a scale hides from it, the certificate sees.
-TEST_P(EitherCascadeTest, CallsNothingOptimalThatIsNotCertified) {
+TEST_P(EitherCascadeTest, ReportsOnlyCertifiedAnswersAsOptimal) {
   RandomHierarchyOptions options;
   options.scaled = 100;
   int optimal = 0;

@@ -193,7 +193,7 @@ TEST_P(LevelQpTest, FindsTheBestOfAllActiveSets) {
   }
 }
 
-TEST_P(LevelQpTest, TakesTheShortestOfManyOptima) {
+TEST_P(LevelQpTest, ReturnsTheMinimumNormSolution) {
   LevelQp qp =
       MakeQp(Row(Eigen::Vector2d(3, 4)), Numbers(-25), MatrixXd(0, 2), false);
   EXPECT_EQ(Solve(&qp), 1);
