@@ -381,7 +381,7 @@ TEST(Solver, AddsRowsThatOnlyRefinementFindsViolated) {
       for (const double sign : {-1.0, 1.0}) {
         for (const bool is_upper : {false, true}) {
           for (const double violation :
-               {0., 1e-15, rounding, 1e-8, 1e-6, 1e-3, 1e-1}) {
+               {0., 1e-15, rounding, 1e-9, 1e-6, 1e-3, 1e-1}) {
             SCOPED_TRACE(testing::Message()
                          << level << at << sign << " " << violation);
             Hierarchy hierarchy(3, capacity);
