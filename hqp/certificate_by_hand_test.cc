@@ -138,7 +138,8 @@ TEST_F(CertifierByHandTest, TruncatesToTheCertifiedLevels) {
   EXPECT_EQ(truncated(0, true, true), 0);
 }
 
-// A multiplier that is off by far less than kCertified is accepted, by far more not.
+// A multiplier that is off by far less than kCertified is accepted, by far more
+// not.
 TEST_F(CertifierByHandTest, TruncatesAnswersThatAreNotCertified) {
   for (const double error : {0., 1e-15, 1e-11, 1e-7, 1e-3, 1.}) {
     Bound(0, 1, 2);

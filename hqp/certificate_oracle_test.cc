@@ -19,9 +19,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A term of the definition: the margin of a row at its bound, and the part of its
-// terms that a cost of zero is relative to.
+// Both are terms of the definition.
 using tolerances::kAtBound;
+using tolerances::kZeroCost;
 
 // Quotients of small whole numbers.
 constexpr double kRounding = 1e-15;
@@ -106,7 +106,7 @@ Certificate CertifyByDefinition(const Hierarchy& hierarchy,
     result.priority = std::max(
         result.priority,
         LargestRatio(VectorXd::Constant(1, cost - answer.cost),
-                     VectorXd::Constant(1, cost + kAtBound * cost_size)));
+                     VectorXd::Constant(1, cost + kZeroCost * cost_size)));
 
     VectorXd g = B.transpose() * (W * w) + own.A.transpose() * v;
     VectorXd g_size = B.cwiseAbs().transpose() * (W * w_size) +
@@ -216,12 +216,12 @@ TEST(CertificateOracle, AgreesWithTheDefinitionOnWrongAnswers) {
   }
 }
 
-// 5 y1 <= 5 at about y = (10, 1), above y = 0. The margin of the row is relative to
-// 5 |y| + 5 = 55, not to 5 1 + 5.
+// 5 y1 <= 5 at about y = (10, 1), above y = 0. The margin of the row is
+// relative to 5 |y| + 5 = 55, not to 5 1 + 5.
 class MarginTest : public testing::Test {
  protected:
-  // Returns the complementarity of a multiplier on this row, which is violated by
-  // `violation` margins.
+  // Returns the complementarity of a multiplier on this row, which is violated
+  // by `violation` margins.
   double Wrong(double violation, double multiplier, double width = INFINITY) {
     Solution solution(2, capacity_);
     solution.y << 10, 1;
@@ -284,8 +284,8 @@ TEST(CertificateOracle, IgnoresARowWithoutBounds) {
   Solution solution(1, capacity);
   Certifier certifier(1, capacity);
   EXPECT_EQ(certifier.Certify(hierarchy, solution).worst(), 0);
-  solution.levels[0].cost =
-      kAtBound;  // Of kAtBound 1^2 / 2, of the bounded row alone.
+  // Twice kZeroCost 1^2 / 2, of the bounded row alone.
+  solution.levels[0].cost = kZeroCost;
   EXPECT_NEAR(certifier.Certify(hierarchy, solution).priority, 2, kRounding);
   solution.levels[0].cost = 0;
   solution.levels[0].slack[1] = 1;  // Of nothing.
@@ -325,7 +325,7 @@ TEST(CertificateOracle, UsesTheUpperOfTwoEquallyDistantBounds) {
   row.upper << 3;
   Solution solution(1, capacity);
   solution.y << 1;
-  solution.levels[0].cost = kAtBound;
+  solution.levels[0].cost = kZeroCost;
   EXPECT_NEAR(Certifier(1, capacity).Certify(hierarchy, solution).priority,
               1. / 8, kRounding);
 }

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Where all bounds are zero, as at the degenerate_vertex of friction cones, and nothing but
-// zero is left: what is asked for in vain leaves its rounding in y.
+// All bounds are zero, as at the vertex of friction cones, and y is zero. Targets
+// that cannot be met leave their rounding in y.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,8 +69,8 @@ TEST_F(DegenerateVertexTest, IsZeroInAnyUnit) {
   }
 }
 
-// Some were not, where rounding of y was judged by |y| alone, or what depends on
-// other rows kept its rounding. (Of the first 20 000 one still is not with
+// Some were not, where rounding of y was judged by |y| alone, or what depends
+// on other rows kept its rounding. (Of the first 20 000 one still is not with
 // -O1 or -O3, seed 1466, and the solver says so; with -O2 all are.)
 TEST(DegenerateVertex, IsSolvedForAnyTarget) {
   RandomHierarchyOptions options;
@@ -90,9 +90,9 @@ TEST(DegenerateVertex, IsSolvedForAnyTarget) {
   }
 }
 
-// y2 is held at 0 by the first row, and by others: all of it is rounding then, and
-// a last digit of the others must not stand in the way of saying so. (With -O3 18
-// of these were not solved for that; with -O1 all were.)
+// y2 is held at 0 by the first row, and by others: all of it is rounding then,
+// and a last digit of the others must not stand in the way of saying so. (With
+// -O3 18 of these were not solved for that; with -O1 all were.)
 TEST(DegenerateVertex, KeepsAZeroBesideARoundedTarget) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 2}};
   std::mt19937 random(1);
@@ -117,8 +117,8 @@ TEST(DegenerateVertex, KeepsAZeroBesideARoundedTarget) {
   }
 }
 
-// y0 + y1 = 0, in conflict with 2 (y0 + y1) = 6, above a wish for y1: of 5, which
-// is the largest of what is asked for, or of 1, where 6 / |(2, 2)| is.
+// y0 + y1 = 0, in conflict with 2 (y0 + y1) = 6, above a wish for y1: of 5,
+// which is the largest of what is asked for, or of 1, where 6 / |(2, 2)| is.
 TEST(DegenerateVertex, MeasuresRoundingRelativeToTheTargets) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {1, 0}};
   for (const bool is_in_diagonal : {false, true}) {

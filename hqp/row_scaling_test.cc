@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Rows on one level of which one asks for next to nothing beside another: what
-// is small is no rounding. What is right was found on paper.
+// Rows of one level with residuals of unlike size: the small ones are not
+// rounding. The answers were found on paper.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,8 +51,8 @@ void ExpectSolution(const HierarchyByHand& problem,
   ExpectSolution(problem, problem, y);
 }
 
-// A foot that carries nothing: along its row momentum wants hardly anything, but
-// more than nothing, and posture wants the other way.
+// A foot that carries nothing: along its row momentum wants hardly anything,
+// but more than nothing, and posture wants the other way.
 TEST(RowScaling, KeepsARowWithASmallMultiplier) {
   constexpr double kHardly = 3e-11;
   // The third asks z for 5e-12 of what the last two cannot agree on.
@@ -65,7 +65,7 @@ TEST(RowScaling, KeepsARowWithASmallMultiplier) {
   ExpectSolution(problem, {0.5, 0, 3});
 }
 
-// What small rows ask for is 1e-12 of what large ones of their level lack.
+// The gradient of the small rows is 1e-12 of that of the large ones.
 TEST(RowScaling, MeetsASmallRowBesideALargeConflict) {
   ExpectSolution(HierarchyByHand(2, {{0, {-1, 1}, -INFINITY, -1},
                                      {1, {0, 1}, -INFINITY, -1},
@@ -79,8 +79,8 @@ TEST(RowScaling, MeetsASmallRowBesideALargeConflict) {
                  {0, -3});
 }
 
-// The first row is active on the way; when it leaves, rotations leave rounding of
-// the large wish in the row that stays.
+// The first row is active on the way; when it leaves, rotations leave rounding
+// of the large wish in the row that stays.
 TEST(RowScaling, IgnoresRoundingOfALargeRow) {
   for (int k = 1; k <= 20; ++k) {
     SCOPED_TRACE(k);
@@ -92,8 +92,8 @@ TEST(RowScaling, IgnoresRoundingOfALargeRow) {
   }
 }
 
-// y1 is 0 where the last level says so, by 1e-12 of what y0 lacks there. Before,
-// the first row was at its bound.
+// y1 is 0 where the last level says so, by 1e-12 of what y0 lacks there.
+// Before, the first row was at its bound.
 TEST(RowScaling, RemovesARowThatWasActiveBefore) {
   ExpectSolution(HierarchyByHand(2, {{0, {1, 1}, -INFINITY, -1},
                                      {1, {1, 0}, -INFINITY, 0}}),
@@ -114,8 +114,8 @@ TEST(RowScaling, CountsASmallWeightInAMean) {
   ExpectSolution(HierarchyByHand(1, {heavy, light}), {mean});
 }
 
-// The second level, (1000 y0)^2 + (0.01 y1)^2 where y0 + y1 = -2, moves y0 by 1e-10
-// of y1.
+// The second level, (1000 y0)^2 + (0.01 y1)^2 where y0 + y1 = -2, moves y0 by
+// 1e-10 of y1.
 TEST(RowScaling, FindsASmallResidualToAllDigits) {
   const double y1 = -2 / (1 + 1e-10);
   ExpectSolution(HierarchyByHand(2, {{0, {1, 1}, -INFINITY, -2},
@@ -125,8 +125,9 @@ TEST(RowScaling, FindsASmallResidualToAllDigits) {
                  {1e-10 * y1, y1});
 }
 
-// What others call no bound is none: where y were, nothing of the last rows would
-// be left. Before, another row in the place of the first bound was active.
+// What others call no bound is none: where y were, nothing of the last rows
+// would be left. Before, another row in the place of the first bound was
+// active.
 TEST(RowScaling, TreatsABoundOf1e30AsInfinite) {
   constexpr double kNone = 1e30;
   ExpectSolution(HierarchyByHand(3, {{0, {0, 0, -2}, -INFINITY, 0},

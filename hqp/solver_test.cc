@@ -307,8 +307,8 @@ TEST(Solver, KeepsTheOptimumOfUpperLevels) {
   }
 }
 
-// Half of the budget is for the search on all levels at once. The rest solves as
-// many levels as a search level by level with that budget.
+// Half of the budget is for the search on all levels at once. The rest solves
+// as many levels as a search level by level with that budget.
 TEST(Solver, SpendsHalfOfItsBudgetLevelByLevel) {
   RandomHierarchyOptions options;
   options.scaled = 0;
@@ -371,8 +371,9 @@ TEST(Solver, SpendsHalfOfItsBudgetLevelByLevel) {
   EXPECT_GT(truncated, 0);
 }
 
-// 2 y0 <= 2, beside y1 = 1e8, whose rounding hides violations below 1e-3 from the
-// search. Refinement finds them and adds the row, down to rounding of 2 |y0| + 2.
+// 2 y0 <= 2, beside y1 = 1e8, whose rounding hides violations below 1e-3 from
+// the search. Refinement finds them and adds the row, down to rounding of 2
+// |y0| + 2.
 TEST(Solver, AddsRowsThatOnlyRefinementFindsViolated) {
   const std::vector<LevelCapacity> capacity{{0, 3}, {0, 3}, {2, 0}};
   const double rounding = 100 * std::numeric_limits<double>::epsilon() * 4;
@@ -416,8 +417,8 @@ TEST(Solver, AddsRowsThatOnlyRefinementFindsViolated) {
   }
 }
 
-// y0 + y1 >= 0 above y0 = target: y has minimum norm, also where the last solve had
-// the row active.
+// y0 + y1 >= 0 above y0 = target: y has minimum norm, also where the last solve
+// had the row active.
 TEST(Solver, RemovesARowForTheNormAlone) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {1, 0}};
   Solver solver(2, capacity);

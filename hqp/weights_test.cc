@@ -62,7 +62,8 @@ TEST_P(WeightsTest, GiveBothSolversTheSameOptimum) {
   for (const int seed : Seeds()) ExpectSameOptimum(seed, options);
 }
 
-// Three rows above hold both variables between them, whatever these weigh below.
+// Three rows above hold both variables between them, whatever these weigh
+// below.
 TEST(Weights, DoNotChangeLevelsAbove) {
   const std::vector<LevelCapacity> capacity{{3, 0}, {2, 0}};
   Eigen::Matrix<double, 3, 2> A;
@@ -92,8 +93,9 @@ TEST(Weights, DoNotChangeLevelsAbove) {
 }
 
 // Two rows of one direction contradict each other on level 1, one 1e7 times as
-// heavy: at their optimum they ask nothing of the bound above, but by rounding of
-// what the heavy one lacks. So it leaves as soon as level 2 does not need it.
+// heavy: at their optimum they ask nothing of the bound above, but by rounding
+// of what the heavy one lacks. So it leaves as soon as level 2 does not need
+// it.
 TEST(Weights, IgnoreRoundingOfALargeWeightRow) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {2, 0}, {1, 0}};
   for (int seed = 0; seed < 200; ++seed) {
@@ -123,8 +125,8 @@ TEST(Weights, IgnoreRoundingOfALargeWeightRow) {
   }
 }
 
-// The unit of one variable is millions of that of the other, and both levels can
-// be met. What a row asks for of the other is no rounding because of that.
+// The unit of one variable is millions of that of the other, and both levels
+// can be met. What a row asks for of the other is no rounding because of that.
 TEST(Weights, MeetRowsWithVariablesOfUnlikeUnits) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {0, 1}};
   Hierarchy hierarchy(2, capacity);
@@ -141,9 +143,10 @@ TEST(Weights, MeetRowsWithVariablesOfUnlikeUnits) {
   EXPECT_NEAR(solution.levels[1].cost, 0, 1e-20);
 }
 
-// With variables in units from 1e-3 to 1e6: those on which `hqp_night --scaled 0
-// --columns 100` has failed. Of the first what rounding leaves of long rows was a
-// multiplier; of the others what holds a row was not, being large beside its wish.
+// Hierarchies with variables in units from 1e-3 to 1e6, on which
+// `hqp_night --scaled 0 --columns 100` failed. The first took rounding of
+// large-norm rows for a multiplier. The others took a multiplier that is large
+// beside its target for rounding.
 TEST(Weights, GiveBothSolversTheSameOptimumInAnyUnits) {
   RandomHierarchyOptions options;
   options.scaled = 0;
@@ -153,8 +156,9 @@ TEST(Weights, GiveBothSolversTheSameOptimumInAnyUnits) {
   }
 }
 
-// (0, -6/0.017): with y0 held, the row can be met by y1 alone, of which it has little
-// and of which the last level wants nothing. So what holds it is large beside that.
+// (0, -6/0.017): with y0 held, the row can be met by y1 alone, of which it has
+// little and of which the last level wants nothing. So what holds it is large
+// beside that.
 TEST(Weights, AllowAMultiplierLargerThanTheTarget) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {1, 0}, {1, 0}};
   Hierarchy hierarchy(2, capacity);

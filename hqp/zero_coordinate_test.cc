@@ -51,8 +51,8 @@ TEST(ZeroCoordinate, IsZeroWhereFiveRowsMeet) {
   EXPECT_NEAR(solution.y[1], 3, 3e-15);
 }
 
-// y2 is not alone: (0, -2, 0, 0) has three zeros, each of which another row ties
-// to it.
+// y2 is not alone: (0, -2, 0, 0) has three zeros, each of which another row
+// ties to it.
 TEST(ZeroCoordinate, IsZeroInRowsThatShareVariables) {
   const HierarchyByHand problem(4, {{0, {0, -4, -1, 0}, 8, 8},
                                     {0, {-3, 1, 0, 0}, -2, -2},

@@ -21,7 +21,8 @@ namespace {
 
 constexpr double kCertified = Certifier::kCertified;  // Of costs as well.
 
-// Of rows of numbers in hundredths: far above rounding, and no less is violated.
+// Of rows of numbers in hundredths: far above rounding, and no less is
+// violated.
 constexpr double kViolated = 1e-6;
 
 // Of y, relative: rounding by way of the square of the worst condition of such
@@ -63,8 +64,8 @@ class ActiveSetSearchTest : public testing::TestWithParam<int> {
     }
     return levels;
   }
-  // Violated rows of the first `levels` levels are in the working set; no row of
-  // another level is.
+  // Violated rows of the first `levels` levels are in the working set; no row
+  // of another level is.
   void ExpectHeldBack(int levels) const;
   double Tolerance(int level) const {
     return kCertified * CostSize(hierarchy_, level, reference_);
@@ -198,8 +199,8 @@ TEST(ActiveSetSearch, NeedsNoMoreIterationsThanBefore) {
   EXPECT_LE(at_once.iterations(), 979);
 }
 
-// y <= 1 and y >= -1 by one row, active at its upper bound, with a target of -3:
-// the lower bound blocks the step and replaces the upper one.
+// y <= 1 and y >= -1 by one row, active at its upper bound, with a target of
+// -3: the lower bound blocks the step and replaces the upper one.
 TEST(ActiveSetSearch, ChangesTheSideOfARow) {
   const std::vector<LevelCapacity> capacity = {{0, 1}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
@@ -337,8 +338,8 @@ TEST_F(ActiveSetSearchByHandTest, RestoresTheWorkingSetOfTheLastSolvedLevel) {
   EXPECT_EQ(side(0, 0), Side::kLower);
 }
 
-// Two rows block at the same point. With the steeper one added, the other does not
-// block any more.
+// Two rows block at the same point. With the steeper one added, the other does
+// not block any more.
 TEST_F(ActiveSetSearchByHandTest, AddsTheSteepestOfTwoBlockingConstraints) {
   for (const bool first : {false, true}) {
     for (const double scale : {0.1, 1.0, 10.0}) {
@@ -372,8 +373,8 @@ TEST_F(ActiveSetSearchByHandTest, DoesNotAddRowsThatItOnlyTouches) {
   }
 }
 
-// 2 y0 <= 2 with y1 = 10, and a target beyond the bound, in any unit: y keeps the
-// row as the certificate asks. Rounding of a hundred terms costs no step.
+// 2 y0 <= 2 with y1 = 10, and a target beyond the bound, in any unit: y keeps
+// the row as the certificate asks. Rounding of a hundred terms costs no step.
 TEST_F(ActiveSetSearchByHandTest, KeepsARowWhateverItsViolationAtTheStart) {
   const double size = 2 * 10 + 2;
   const double rounding = 100 * std::numeric_limits<double>::epsilon() * size;
@@ -395,9 +396,9 @@ TEST_F(ActiveSetSearchByHandTest, KeepsARowWhateverItsViolationAtTheStart) {
   }
 }
 
-// y0 + y2 <= 1 where y0 = 1 is fixed, y2 has a positive target, and y1 is 1e8, from
-// before or in the same step. The row is kept to the rank tolerance of 1e8; a step
-// of rounding of 1e8 does not add it to the working set.
+// y0 + y2 <= 1 where y0 = 1 is fixed, y2 has a positive target, and y1 is 1e8,
+// from before or in the same step. The row is kept to the rank tolerance of
+// 1e8; a step of rounding of 1e8 does not add it to the working set.
 TEST_F(ActiveSetSearchByHandTest, IgnoresRoundingAsABlockingConstraint) {
   constexpr double kLarge = 1e8;
   const double rounding = 100 * std::numeric_limits<double>::epsilon() * kLarge;

@@ -12,7 +12,8 @@
 namespace poise {
 namespace {
 
-// y1 + y2 = sqrt(2) above y1 = 3, of weight 1, and y2 = 5, of weight 3; y3 free.
+// y1 + y2 = sqrt(2) above y1 = 3, of weight 1, and y2 = 5, of weight 3; y3
+// free.
 class DiagonalLevelsTest : public testing::Test {
  protected:
   DiagonalLevelsTest() {
@@ -65,8 +66,8 @@ TEST_F(DiagonalLevelsTest, ScalesAMultiplierByTheSmallestWeightOfItsRow) {
               1e-10);  // By 1e-12.
 }
 
-// An entry of the gradient changes by rounding of weight (|y| + |target|) at most;
-// a few eps of that become zero.
+// An entry of the gradient changes by rounding of weight (|y| + |target|) at
+// most; a few eps of that become zero.
 TEST_F(DiagonalLevelsTest, ZeroesRoundingOfAGradient) {
   const double y[3] = {-1, 2, 0}, size[2] = {4, 21};
   for (const double part : {1e-20, 1e-15, 1e-11, 1e-6, 1.}) {
@@ -122,8 +123,8 @@ TEST_F(DiagonalLevelsTest, UsesTargetsForTheLastLevel) {
 }
 
 // y = 1 + off above y = 1: the multiplier is -weight off, to rounding of weight
-// (|y| + 1), at the solution or after a correction from another y. Rounding gives
-// no multiplier at all.
+// (|y| + 1), at the solution or after a correction from another y. Rounding
+// gives no multiplier at all.
 TEST_F(DiagonalLevelsTest, FindsAMultiplierToRoundingOfItsTerms) {
   for (const double weight : {0.01, 4.0}) {
     for (const double part : {0., 1e-15, 1e-11, 1e-6, 1e-2}) {

@@ -112,9 +112,9 @@ TEST_F(LexicographicFactorizationTest, OrthogonalisesNearlyParallelRows) {
   }
 }
 
-// An appended row is met like a factored one. A row that nearly depends on others,
-// or has no room, is refused, so that no update loses its digits, and the
-// factorisation is as before.
+// An appended row is met like a factored one. A row that nearly depends on
+// others, or has no room, is refused, so that no update loses its digits, and
+// the factorisation is as before.
 TEST_F(LexicographicFactorizationTest, RefusesToAppendANearlyDependentRow) {
   for (const double rest : {0., 1e-12, 1e-9, 1e-6, 3e-6, 1e-2, 0.1, 1.}) {
     SCOPED_TRACE(rest);
@@ -141,8 +141,8 @@ TEST_F(LexicographicFactorizationTest, RefusesToAppendANearlyDependentRow) {
   }
 }
 
-// In a well-conditioned factorisation each row counts for one in the nullity. The
-// last row is alone in its level or with the one that it depends on.
+// In a well-conditioned factorisation each row counts for one in the nullity.
+// The last row is alone in its level or with the one that it depends on.
 TEST_F(LexicographicFactorizationTest, KnowsNearlyDependentRows) {
   EXPECT_FALSE(stack_.is_well_conditioned());  // Two rows are the same.
   for (const int num_levels : {1, 2}) {
@@ -160,8 +160,9 @@ TEST_F(LexicographicFactorizationTest, KnowsNearlyDependentRows) {
   }
 }
 
-// y0 = 1 below y0 = 1 + off: the residual is off, to rounding of |y| + |target|,
-// which is 2; or 11, where another entry is large. Rounding becomes zero.
+// y0 = 1 below y0 = 1 + off: the residual is off, to rounding of |y| +
+// |target|, which is 2; or 11, where another entry is large. Rounding becomes
+// zero.
 TEST_F(LexicographicFactorizationTest, TreatsRoundingResidualAsZero) {
   for (const double other : {0.0, 9.0}) {
     const double size = std::hypot(1, other) + 1;
@@ -260,8 +261,8 @@ TEST_F(LexicographicFactorizationTest, HasRoomForManyRows) {
   EXPECT_NEAR(Optimum(stack, 1)[0], kRows / 2, Rounding(kRows, kRows));
 }
 
-// Two terms of 4 that cancel but for 4 part, relative to the larger one. Rounding
-// gives no gradient.
+// Two terms of 4 that cancel but for 4 part, relative to the larger one.
+// Rounding gives no gradient.
 TEST_F(LexicographicFactorizationTest, TreatsRoundingGradientAsZero) {
   for (const double part : {0., kEps, 100 * kEps, 1e-10, 1e-6, 1e-2}) {
     SCOPED_TRACE(part);
@@ -298,8 +299,9 @@ TEST_F(LexicographicFactorizationTest, ComputesTheGradientFromGivenResiduals) {
   EXPECT_NEAR(gradient[0] * stack_.basis()[0], 20, Rounding(20, 2));
 }
 
-// y = 0 and, with 1e-12 of the weight, y = 1: at the optimum the residual of the
-// first row is 1e-12 of the second's, to the last digit, though y has fewer.
+// y = 0 and, with 1e-12 of the weight, y = 1: at the optimum the residual of
+// the first row is 1e-12 of the second's, to the last digit, though y has
+// fewer.
 TEST_F(LexicographicFactorizationTest,
        FindsTheResidualOfALargeWeightRowToAllDigits) {
   LexicographicFactorization stack(1, 2, 1);
@@ -317,9 +319,9 @@ TEST_F(LexicographicFactorizationTest,
   }
 }
 
-// Two rows of y0 = 0 and two of y1 = 0. A residual of y0's rows that no y removes
-// is kept; rounding of its own terms, here 5, or beside the residual of y1's, is
-// set to zero.
+// Two rows of y0 = 0 and two of y1 = 0. A residual of y0's rows that no y
+// removes is kept; rounding of its own terms, here 5, or beside the residual of
+// y1's, is set to zero.
 TEST_F(LexicographicFactorizationTest, KeepsUnattainableResiduals) {
   for (const double part : {0., kEps, 100 * kEps, 1e-10, 1e-6, 1e-2}) {
     SCOPED_TRACE(part);
@@ -359,9 +361,10 @@ TEST_F(LexicographicFactorizationTest, JudgesAResidualByItsOwnLevel) {
   }
 }
 
-// Rows of a y that a level above has fixed, of weights 1 and 1e12. A residual of
-// the small-weight row is rounding beside a gradient of 1e12 of the other's, and
-// the large-weight row's is rounding of the reflections beside a residual of 1.
+// Rows of a y that a level above has fixed, of weights 1 and 1e12. A residual
+// of the small-weight row is rounding beside a gradient of 1e12 of the other's,
+// and the large-weight row's is rounding of the reflections beside a residual
+// of 1.
 TEST_F(LexicographicFactorizationTest, TreatsRoundingOfALargeWeightRowAsZero) {
   for (const int large : {0, 1}) {
     LexicographicFactorization stack(1, 3, 2);

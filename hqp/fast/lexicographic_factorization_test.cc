@@ -148,7 +148,8 @@ TEST_P(RandomLexicographicFactorizationTest, RestoresLevelsAfterTruncation) {
 }
 
 // The levels before the first deficient one are merged, and rows of the merged
-// level are removed and appended. The test keeps a copy of the rows in `merged_`.
+// level are removed and appended. The test keeps a copy of the rows in
+// `merged_`.
 class UpdatedLexicographicFactorizationTest
     : public RandomLexicographicFactorizationTest {
  protected:

@@ -131,8 +131,8 @@ TEST(MultiplierWriter, CountsSmallRowsLikeLargeOnes) {
               kTolerance);
 }
 
-// y = 0 above y = -1, of levels that only select: what is left is 1, exactly; on
-// the row that fixes y, not on one without weight.
+// y = 0 above y = -1, of levels that only select: what is left is 1, exactly;
+// on the row that fixes y, not on one without weight.
 TEST(MultiplierWriter, CancelsTheGradientOfADiagonalLevel) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {2, 0}, {2, 0}};
   Hierarchy hierarchy(1, capacity);
@@ -170,8 +170,8 @@ TEST(MultiplierWriter, FindsTheViolatedOneOfTwoEqualBounds) {
   EXPECT_EQ(met.levels[0].active[1], Side::kUpper);
 }
 
-// 3 y0 + 4 y1 <= 50 and >= 50 + conflict: y = (10, 5), between the two. A violated
-// row counts in the nullity, a row within rounding does not.
+// 3 y0 + 4 y1 <= 50 and >= 50 + conflict: y = (10, 5), between the two. A
+// violated row counts in the nullity, a row within rounding does not.
 TEST(MultiplierWriter, CountsViolatedRowsInTheNullity) {
   for (const double conflict : {1e-15, 1e-12, 1e-9, 1e-5, 1e-2, 1.}) {
     SCOPED_TRACE(conflict);
@@ -192,9 +192,10 @@ TEST(MultiplierWriter, CountsViolatedRowsInTheNullity) {
   }
 }
 
-// y0 = 1 above y0 <= 1 - 2e-9, which is violated too little to count, and y1 = 0:
-// what is below and asks for y0 + y1 = 0 would draw at the bound as much as at
-// y0 = 1, were it not for these two, which weigh the same. And so in other units.
+// y0 = 1 above y0 <= 1 - 2e-9, which is violated too little to count, and y1 =
+// 0: what is below and asks for y0 + y1 = 0 would draw at the bound as much as
+// at y0 = 1, were it not for these two, which weigh the same. And so in other
+// units.
 TEST(MultiplierWriter, MovesTheMultiplierOffARowAtItsBound) {
   for (const double unit : {1., 1e-3}) {
     SCOPED_TRACE(unit);
@@ -266,9 +267,10 @@ TEST(MultiplierWriter, ClearsTheGradientOfDiagonalLevels) {
   }
 }
 
-// y0 is between rows of 8e6 that contradict each other and almost depend on each
-// other, so that what some rows weigh is rounding. A multiple of an equation that
-// is divided by that, of 1e31, would make any y pass for an optimum.
+// y0 is between rows of 8e6 that contradict each other and almost depend on
+// each other, so that what some rows weigh is rounding. A multiple of an
+// equation that is divided by that, of 1e31, would make any y pass for an
+// optimum.
 TEST(MultiplierWriter, DoesNotDivideByRounding) {
   const std::vector<LevelCapacity> capacity{{2, 2}, {0, 1}, {1, 0}};
   Hierarchy hierarchy(4, capacity);

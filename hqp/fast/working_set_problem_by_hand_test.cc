@@ -16,8 +16,8 @@ namespace {
 // Refinement of a row ends at this part of its terms.
 using tolerances::kRefined;
 
-// Two levels, each of 2 y0 - y1 = 3 and y1 = 4, weight 0, above 1 <= 5 y0 + 7 y1
-// and y0 - 3 y1 <= 2.
+// Two levels, each of 2 y0 - y1 = 3 and y1 = 4, weight 0, above 1 <= 5 y0 + 7
+// y1 and y0 - 3 y1 <= 2.
 class WorkingSetProblemReadTest : public testing::Test {
  protected:
   WorkingSetProblemReadTest() {
@@ -88,9 +88,9 @@ TEST_F(WorkingSetProblemReadTest, FindsTheFirstLevelWithABadNumber) {
   ExpectStatus(b_[1] + 1, 0, Status::kBadInput, 0);
 }
 
-// y0 + y1 = 2 as an equality or as an active row. If its squared norm, times the
-// weight, would underflow, it is a row of zeros, and y is as without it. Any longer
-// row is met, however short.
+// y0 + y1 = 2 as an equality or as an active row. If its squared norm, times
+// the weight, would underflow, it is a row of zeros, and y is as without it.
+// Any longer row is met, however short.
 TEST_F(WorkingSetProblemReadTest, IgnoresRowsWhoseSquareUnderflows) {
   int failed_level;
   const auto solve = [&](double length, double root, bool is_equality) {
@@ -178,8 +178,8 @@ TEST_F(WorkingSetProblemTest, FindsTheMultipliersOfEachRow) {
       (Eigen::Vector3d::Map(problem_.y().data()) - Eigen::Vector3d(1, 2, 3))
           .norm(),
       rounding);
-  // The gradient of the sum is -5 on y0 and on y1. An upper bound holds y back; a
-  // lower bound does not, and its multiplier is negative.
+  // The gradient of the sum is -5 on y0 and on y1. An upper bound holds y back;
+  // a lower bound does not, and its multiplier is negative.
   EXPECT_NEAR(problem_.Multiplier(0, 1, Side::kUpper, 0), 5, rounding);
   EXPECT_NEAR(problem_.Multiplier(1, 1, Side::kLower, 0), -5, rounding);
   EXPECT_EQ(problem_.Multiplier(2, 1, Side::kUpper, 1e-12), 0);
@@ -200,8 +200,8 @@ TEST_F(WorkingSetProblemTest, FindsTheMultipliersOfEachRow) {
 }
 
 // y = 1/16 and, with four times the weight, y = 1/16 + gap. At the optimum the
-// residuals are 4/5 and -1/5 of the gap, also where y is off by as much. Rounding
-// of the terms, 1/16 + 1/16, becomes zero.
+// residuals are 4/5 and -1/5 of the gap, also where y is off by as much.
+// Rounding of the terms, 1/16 + 1/16, becomes zero.
 TEST(WorkingSetProblem, TreatsRoundingResidualAsZero) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {0, 1}};
   constexpr double kEps = std::numeric_limits<double>::epsilon();
@@ -238,8 +238,9 @@ TEST(WorkingSetProblem, TreatsRoundingResidualAsZero) {
   }
 }
 
-// y1 + y2 = 5 below y1 + y2 = 0: the multiplier is the residual 5, times the weight
-// 3 and the squared norm. At a y with the residual 4, refinement subtracts 1 of 5.
+// y1 + y2 = 5 below y1 + y2 = 0: the multiplier is the residual 5, times the
+// weight 3 and the squared norm. At a y with the residual 4, refinement
+// subtracts 1 of 5.
 TEST(WorkingSetProblem, RefinesMultipliersByTheRemainingGradient) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
   Hierarchy hierarchy(2, capacity);
@@ -273,8 +274,8 @@ TEST(WorkingSetProblem, HasNoDiagonalLevelWithoutVariables) {
   EXPECT_EQ(problem.num_leading(), 1);
 }
 
-// Rows of two or more variables, which are met, and a last level with targets for
-// some variables.
+// Rows of two or more variables, which are met, and a last level with targets
+// for some variables.
 class RefinementTest : public testing::Test {
  protected:
   struct Met {
@@ -338,8 +339,8 @@ Eigen::VectorXd RefinementTest::Refine(const std::vector<Met>& rows,
   return Eigen::VectorXd::Map(problem.y().data(), n);
 }
 
-// y0 + y1 = L, and two rows of y1 and y2, which are small. At first, rounding of L
-// is larger than both; each pass recovers 15 digits. Small targets stay.
+// y0 + y1 = L, and two rows of y1 and y2, which are small. At first, rounding
+// of L is larger than both; each pass recovers 15 digits. Small targets stay.
 TEST_F(RefinementTest, RecoversSmallNumbersBesideLargeOnes) {
   for (const double large : {1e10, 1e20, 1e36, 1e90}) {
     std::vector<Met> rows{{Row({1, 1, 0, 0, 0, 0}), large},
@@ -372,9 +373,9 @@ TEST_F(RefinementTest, RecoversTheResidualOfALevel) {
   EXPECT_NEAR(residual_[3], 3e-6 - 1, Rounding(1, 3));
 }
 
-// Two rows of y1 and y2 with target zero cannot be met relative to their own terms.
-// The remainders are rounding, and so is every entry far below 1e-18 of the largest
-// one, before or after refinement, unless it is at its target.
+// Two rows of y1 and y2 with target zero cannot be met relative to their own
+// terms. The remainders are rounding, and so is every entry far below 1e-18 of
+// the largest one, before or after refinement, unless it is at its target.
 TEST_F(RefinementTest, SetsRoundingEntriesToZero) {
   const auto refine = [this](double large, double wish,
                              const std::vector<double>& other) {
@@ -413,8 +414,8 @@ TEST_F(RefinementTest, SetsRoundingEntriesToZero) {
   }
 }
 
-// Three rows meet at y0 = 0. Rounding of y0 would be all terms of the row y0 = 0,
-// in any order of the rows.
+// Three rows meet at y0 = 0. Rounding of y0 would be all terms of the row y0 =
+// 0, in any order of the rows.
 TEST_F(RefinementTest, SetsRoundingToZeroWhereThreeRowsMeet) {
   std::vector<Met> rows{
       {Row({1, 0}), 0}, {Row({4, 5}), -5}, {Row({-2, 5}), -5}};

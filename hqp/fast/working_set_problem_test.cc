@@ -59,8 +59,8 @@ class RandomWorkingSetProblemTest : public testing::TestWithParam<int> {
     return side == Side::kUpper ? hierarchy_.upper(k)[i]
                                 : hierarchy_.lower(k)[i];
   }
-  // The first levels with the rows in the working set, and a last level with the
-  // target `center`.
+  // The first levels with the rows in the working set, and a last level with
+  // the target `center`.
   std::vector<LeastSquares> Levels(const Sides& sides, int num_levels,
                                    const Eigen::VectorXd& center) const;
   Eigen::VectorXd Original(const WorkingSetProblem::Row& row) const {
@@ -84,8 +84,8 @@ class RandomWorkingSetProblemTest : public testing::TestWithParam<int> {
     return leading;
   }
 
-  // Compares y and the rows with those of the optimum. The tolerance is rounding
-  // times the squared condition of the levels.
+  // Compares y and the rows with those of the optimum. The tolerance is
+  // rounding times the squared condition of the levels.
   void Check(const Sides& sides, int num_levels, const Eigen::VectorXd& center);
   // The rows of the leading levels are those of the hierarchy, each one once.
   void CheckRows(const Sides& sides, const Eigen::VectorXd& optimum);
@@ -278,7 +278,8 @@ TEST_P(RandomWorkingSetProblemTest, StaysCloseToACenter) {
   }
 }
 
-// Off in every direction: its rows bring it back, and nothing brings it further.
+// Off in every direction: its rows bring it back, and nothing brings it
+// further.
 TEST_P(RandomWorkingSetProblemTest, RefinesAnotherYToMeetTheRows) {
   const Sides sides = MakeSides(2);
   const int num_leading = NumLeading(num_levels_);

@@ -46,8 +46,8 @@ class ZeroRoundingTest : public testing::Test {
   bool any_ = false;
 };
 
-// An entry of rounding of the largest one becomes zero if it is in the row. An entry
-// of 1e-11 of it stays.
+// An entry of rounding of the largest one becomes zero if it is in the row. An
+// entry of 1e-11 of it stays.
 TEST_F(ZeroRoundingTest, ZeroesRoundingOfTheLargestEntry) {
   for (const double sign : {1., -1.}) {
     for (const double part : {1e-30, 1e-20, 1e-16, 1e-15}) {
@@ -146,8 +146,8 @@ TEST_F(ZeroRoundingTest, ZeroesOneEntryWhereTheOtherIsNeeded) {
             Vector({0, 2 * kSmall, 0, 0, kLarge}));
 }
 
-// The relative residual of a row may double: from 0.43 to 0.54 of its terms, not
-// from 0.053 to 0.14.
+// The relative residual of a row may double: from 0.43 to 0.54 of its terms,
+// not from 0.053 to 0.14.
 TEST_F(ZeroRoundingTest, AllowsAResidualToDouble) {
   const auto take = [&](double y1, double y2, double target) {
     return Take(1, 1, target * kSmall, {kLarge, y1 * kSmall, y2 * kSmall, 0, 0},

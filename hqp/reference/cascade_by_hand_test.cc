@@ -157,8 +157,8 @@ TEST_P(CascadeByHandTest, KeepsASmallEntry) {
   }
 }
 
-// y0 = -1 below 3 y0 + 2 y1 <= 0 and 2 y0 + y1 >= 0, which leave only zero:
-// (1, 0) + (3, 2) - 2 (2, 1) = 0. The row y1 = 0 has weight 0 and no part in that.
+// y0 = -1 below 3 y0 + 2 y1 <= 0 and 2 y0 + y1 >= 0, which leave only zero: (1,
+// 0) + (3, 2) - 2 (2, 1) = 0. The row y1 = 0 has weight 0 and no part in that.
 TEST_P(CascadeByHandTest, GivesARowWithoutWeightNoMultiplier) {
   const std::vector<LevelCapacity> capacity{{1, 2}, {1, 0}};
   HierarchyCase corner{capacity, Hierarchy(2, capacity)};
@@ -181,8 +181,9 @@ TEST_P(CascadeByHandTest, GivesARowWithoutWeightNoMultiplier) {
   EXPECT_NEAR(multipliers.inequality[1], 2, kTolerance);
 }
 
-// A row with two equal bounds is crossed while it is active. When it is removed,
-// other rows block at once. The second sign is the same with the row negated.
+// A row with two equal bounds is crossed while it is active. When it is
+// removed, other rows block at once. The second sign is the same with the row
+// negated.
 TEST_P(CascadeByHandTest, KeepsARowViolatedAcrossBothBounds) {
   for (const double sign : {1., -1.}) {
     const std::vector<LevelCapacity> capacity{{2, 5}, {3, 1}};
@@ -239,8 +240,8 @@ TEST_P(CascadeByHandTest, EndsWhereALevelIsMet) {
   EXPECT_LE(WorstOf(met, solution), kTolerance);
 }
 
-// y0 = 1 above y0 <= -1, y0 >= 3 and y1 >= 2. The first two rows depend on y0 = 1
-// and are in no QP, but they are violated. The last is met.
+// y0 = 1 above y0 <= -1, y0 >= 3 and y1 >= 2. The first two rows depend on y0 =
+// 1 and are in no QP, but they are violated. The last is met.
 TEST_P(CascadeByHandTest, ReportsTheViolatedSideOfAFixedRow) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {0, 3}, {2, 0}};
   HierarchyCase fixed{capacity, Hierarchy(2, capacity)};
@@ -261,8 +262,9 @@ TEST_P(CascadeByHandTest, ReportsTheViolatedSideOfAFixedRow) {
   EXPECT_EQ(solution.levels[1].active[2], Side::kNone);
 }
 
-// y0 = 0 above 4 y0 + 4 rest y1 <= -4: rounding of the row's projection does not
-// become y1 = -1 / rest, and the row is violated. Every larger rest is used.
+// y0 = 0 above 4 y0 + 4 rest y1 <= -4: rounding of the row's projection does
+// not become y1 = -1 / rest, and the row is violated. Every larger rest is
+// used.
 TEST_P(CascadeByHandTest, TreatsRoundingRemainderOfARowAsZero) {
   const auto solve = [](double rest) {
     const std::vector<LevelCapacity> capacity{{1, 0}, {0, 1}};
@@ -383,8 +385,8 @@ TEST_P(CascadeByHandTest, SolvesSmallTargetsBesideLargeOnes) {
   EXPECT_EQ(solution.iterations, 8);  // Three levels and the norm, twice.
 }
 
-// Two large parallel rows conflict. A small row across them is met to rounding of
-// its own terms.
+// Two large parallel rows conflict. A small row across them is met to rounding
+// of its own terms.
 TEST_P(CascadeByHandTest, MeetsASmallRowBesideAConflict) {
   for (int place = 0; place < 3; ++place) {
     for (const double factor : {1.0, -2.0}) {
@@ -405,8 +407,8 @@ TEST_P(CascadeByHandTest, MeetsASmallRowBesideAConflict) {
 }
 
 // All rows are met at integers, most of them at their bound. At the optimum the
-// residuals are rounding, for which rows could be removed and added for ever: by
-// SVD in the first example, by COD in the second.
+// residuals are rounding, for which rows could be removed and added for ever:
+// by SVD in the first example, by COD in the second.
 TEST_P(CascadeByHandTest, EndsWhereMultipliersAreRounding) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 5}};
   HierarchyCase five{capacity, Hierarchy(5, capacity)};

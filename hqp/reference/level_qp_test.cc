@@ -209,8 +209,8 @@ TEST_P(LevelQpTest, IgnoresARowOfZeros) {
   EXPECT_LE((qp.z - Eigen::Vector2d(2, 0)).norm(), Rounding(2, 2));
 }
 
-// A projection leaves 4 rest of a row of length 4. Rounding of a sum of a hundred
-// terms is not to become a step of 1 / rest; every larger row is met.
+// A projection leaves 4 rest of a row of length 4. Rounding of a sum of a
+// hundred terms is not to become a step of 1 / rest; every larger row is met.
 TEST_P(LevelQpTest, TreatsRoundingRemainderOfARowAsZero) {
   const auto solve = [](double rest) {
     LevelQp qp = MakeQp(Number(4 * rest), Numbers(-4), MatrixXd(0, 1), false);
@@ -226,8 +226,8 @@ TEST_P(LevelQpTest, TreatsRoundingRemainderOfARowAsZero) {
   }
 }
 
-// A large row after small ones in conflict: the point of its line that is next to
-// (1, 0).
+// A large row after small ones in conflict: the point of its line that is next
+// to (1, 0).
 TEST_P(LevelQpTest, KeepsSmallRowsAccurateBesideALargeOne) {
   const double large = 1e12;
   MatrixXd M(3, 2);
@@ -258,8 +258,8 @@ TEST_P(LevelQpTest, KeepsAHardRowWhateverItsSlopeAlongTheStep) {
   }
 }
 
-// A soft row, guessed to be violated, would hold z at half of -sign 6 gap. It is
-// removed, whatever the gap is; below rounding of its size 3, z is the same.
+// A soft row, guessed to be violated, would hold z at half of -sign 6 gap. It
+// is removed, whatever the gap is; below rounding of its size 3, z is the same.
 TEST_P(LevelQpTest, RemovesASoftRowThatIsNotViolated) {
   for (const double gap : {1e-20, kEps, 1e-14, 1e-13, 1e-9, 1e-3, 1e3}) {
     for (const Side side : {Side::kLower, Side::kUpper}) {
@@ -275,9 +275,10 @@ TEST_P(LevelQpTest, RemovesASoftRowThatIsNotViolated) {
   }
 }
 
-// z >= 3 and, 1e7 times as long, z >= 2, both in the working set. The optimum of
-// the two is inside the long row's bound by 1e-14 of it, less than rounding of
-// many terms. The row is removed all the same, because the short one misses 1.
+// z >= 3 and, 1e7 times as long, z >= 2, both in the working set. The optimum
+// of the two is inside the long row's bound by 1e-14 of it, less than rounding
+// of many terms. The row is removed all the same, because the short one misses
+// 1.
 TEST_P(LevelQpTest, RemovesALargeRowForTheResidualOfASmallOne) {
   LevelQp qp =
       MakeQp(MatrixXd(0, 1), VectorXd(0), Eigen::Vector2d(1e7, 1), true);
@@ -289,8 +290,8 @@ TEST_P(LevelQpTest, RemovesALargeRowForTheResidualOfASmallOne) {
   EXPECT_NEAR(qp.z[0], 3, Rounding(3, 2));
 }
 
-// A hard row at its bound, with a multiplier that is a difference: `rest` of
-// 2 |1| + 1 |2 - rest|. The optimum is -rest / 5, or the bound if that is nearer;
+// A hard row at its bound, with a multiplier that is a difference: `rest` of 2
+// |1| + 1 |2 - rest|. The optimum is -rest / 5, or the bound if that is nearer;
 // a multiplier below kNegligible of its four terms moves z by no more.
 TEST_P(LevelQpTest, RemovesAHardRowWithANegativeMultiplier) {
   for (const double size : {0., 1e-20, 1e-15, 1e-10, 1e-6, 1e-3, 1.}) {
@@ -335,8 +336,8 @@ TEST_P(LevelQpTest, RemovesTheRowWithTheMostNegativeMultiplierFirst) {
   EXPECT_EQ(even.side[1], Side::kLower);
 }
 
-// A row of size zero, at its bound where z starts, is not violated at the optimum:
-// by least squares, z = (-3, 83) / 17.
+// A row of size zero, at its bound where z starts, is not violated at the
+// optimum: by least squares, z = (-3, 83) / 17.
 TEST_P(LevelQpTest, RemovesARowThatIsZeroAtTheStart) {
   MatrixXd P(2, 2);
   P << 1, 0, 10, 1;
@@ -350,8 +351,8 @@ TEST_P(LevelQpTest, RemovesARowThatIsZeroAtTheStart) {
   EXPECT_EQ(qp.side[1], Side::kUpper);
 }
 
-// Beale's example: removing the most negative multiplier cycles through steps of
-// length zero. min -3/4 z0 + 20 z1 - 1/2 z2 + 6 z3.
+// Beale's example: removing the most negative multiplier cycles through steps
+// of length zero. min -3/4 z0 + 20 z1 - 1/2 z2 + 6 z3.
 TEST_P(LevelQpTest, EndsOnBealesCyclingExample) {
   MatrixXd P(7, 4);
   P << 0.25, -8, -1, 9,   //
@@ -371,8 +372,8 @@ TEST_P(LevelQpTest, EndsOnBealesCyclingExample) {
   EXPECT_LE((qp.z - Eigen::Vector4d(1, 0, 1, 0)).norm(), Rounding(20, 4, 20));
 }
 
-// The row is violated above 2. A target of -10 is beyond its other bound, 1: the
-// row is added there. At a target of 1.5 the row is inactive.
+// The row is violated above 2. A target of -10 is beyond its other bound, 1:
+// the row is added there. At a target of 1.5 the row is inactive.
 TEST_P(LevelQpTest, MovesASoftRowFromOneBoundToTheOther) {
   for (const double sign : {1., -1.}) {
     for (const double wish : {-10., 1.5}) {
@@ -396,8 +397,9 @@ TEST_P(LevelQpTest, MovesASoftRowFromOneBoundToTheOther) {
   }
 }
 
-// z >= start would be left for start - wish. A difference of ones, of those that m
-// is made of or of z, has eps: a wish below that may stay unmet, no other.
+// z >= start would be left for start - wish. A difference of ones, of those
+// that m is made of or of z, has eps: a wish below that may stay unmet, no
+// other.
 TEST_P(LevelQpTest, RemovesARowForAResidualAboveRounding) {
   for (const double start : {0., 1.}) {
     for (const double wish : {1e-20, 1e-16, 1e-14, 1e-13, 1e-6, 1.}) {

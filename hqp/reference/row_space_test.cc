@@ -28,8 +28,8 @@ TEST_P(RowSpaceTest, IsAllOrNothingWithoutRowsOrVariables) {
   EXPECT_EQ(no_variables.V.size(), 0);
 }
 
-// A unit row that a projection has shortened: rounding of a sum of a hundred terms
-// does not count, 1e-9 does. The threshold itself does not count.
+// A unit row that a projection has shortened: rounding of a sum of a hundred
+// terms does not count, 1e-9 does. The threshold itself does not count.
 TEST_P(RowSpaceTest, IgnoresRoundingOfADependentRow) {
   const auto rank = [](double entry) {
     return Make(Eigen::MatrixXd::Constant(1, 1, entry)).rank;
