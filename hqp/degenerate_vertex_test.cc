@@ -90,9 +90,9 @@ TEST(DegenerateVertex, IsSolvedForAnyTarget) {
   }
 }
 
-// y2 is held at 0 by the first row, and by others: all of it is rounding then,
-// and a last digit of the others must not stand in the way of saying so. (With
-// -O3 18 of these were not solved for that; with -O1 all were.)
+// The first row and others hold y2 at 0, so y2 is rounding. It is set to zero,
+// although the residuals of the others then change in their last digit. (With
+// -O3 18 of these were not solved without that; with -O1 all were.)
 TEST(DegenerateVertex, KeepsAZeroBesideARoundedTarget) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 2}};
   std::mt19937 random(1);
@@ -117,8 +117,8 @@ TEST(DegenerateVertex, KeepsAZeroBesideARoundedTarget) {
   }
 }
 
-// y0 + y1 = 0, in conflict with 2 (y0 + y1) = 6, above a wish for y1: of 5,
-// which is the largest of what is asked for, or of 1, where 6 / |(2, 2)| is.
+// y0 + y1 = 0, in conflict with 2 (y0 + y1) = 6, above a target for y1: of 5,
+// the largest of all targets, or of 1, where 6 / |(2, 2)| is the largest.
 TEST(DegenerateVertex, MeasuresRoundingRelativeToTheTargets) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {1, 0}};
   for (const bool is_in_diagonal : {false, true}) {
@@ -139,8 +139,8 @@ TEST(DegenerateVertex, MeasuresRoundingRelativeToTheTargets) {
     const double size = is_in_diagonal ? 5 : 6 / std::sqrt(8);
     EXPECT_NEAR(problem.Size(), size, Rounding(size, 2));
     EXPECT_EQ(problem.y()[1], -1e-3);
-    // Of what that y lacks, (0, -6), (1, 2) is not needed: (2.4, -1.2) is left,
-    // by the second row's length.
+    // The residual (0, -6) of that y has the component (2.4, -1.2) orthogonal
+    // to (1, 2), here divided by the second row's norm.
     EXPECT_NEAR(problem.leading().residual(1), -1.2 / std::sqrt(8),
                 Rounding(6, 2));
     problem.SetSolution(hierarchy, {0, -1e9});

@@ -51,11 +51,11 @@ void ExpectSolution(const HierarchyByHand& problem,
   ExpectSolution(problem, problem, y);
 }
 
-// A foot that carries nothing: along its row momentum wants hardly anything,
-// but more than nothing, and posture wants the other way.
+// A foot without load: the gradient of momentum along its row is tiny, but not
+// zero, and that of posture is opposite.
 TEST(RowScaling, KeepsARowWithASmallMultiplier) {
   constexpr double kHardly = 3e-11;
-  // The third asks z for 5e-12 of what the last two cannot agree on.
+  // The gradient of the third is 5e-12 of the residual of the last two.
   const HierarchyByHand problem(3, {{0, {0, 1, 0}, -INFINITY, 0},
                                     {1, {1, 0, 0}, 0, 0},
                                     {1, {1, kHardly, 0}, 1, 1},
@@ -79,8 +79,8 @@ TEST(RowScaling, MeetsASmallRowBesideALargeConflict) {
                  {0, -3});
 }
 
-// The first row is active on the way; when it leaves, rotations leave rounding
-// of the large wish in the row that stays.
+// The first row is added and removed again. The rotations of the removal leave
+// rounding of the large target in the other row.
 TEST(RowScaling, IgnoresRoundingOfALargeRow) {
   for (int k = 1; k <= 20; ++k) {
     SCOPED_TRACE(k);
@@ -92,8 +92,8 @@ TEST(RowScaling, IgnoresRoundingOfALargeRow) {
   }
 }
 
-// y1 is 0 where the last level says so, by 1e-12 of what y0 lacks there.
-// Before, the first row was at its bound.
+// The last level moves y1 to 0, with a gradient of 1e-12 of that of y0. In the
+// solve before, the first row was active.
 TEST(RowScaling, RemovesARowThatWasActiveBefore) {
   ExpectSolution(HierarchyByHand(2, {{0, {1, 1}, -INFINITY, -1},
                                      {1, {1, 0}, -INFINITY, 0}}),
@@ -105,8 +105,8 @@ TEST(RowScaling, RemovesARowThatWasActiveBefore) {
                  {-1, 0});
 }
 
-// Two wishes of one variable, 0 and 1: where 1 weighs 1e-12, it is 1e-12 / (1 +
-// 1e-12), whichever comes first.
+// Two targets of one variable, 0 and 1: with the weight 1e-12 of the latter, y
+// is 1e-12 / (1 + 1e-12), in either order.
 TEST(RowScaling, CountsASmallWeightInAMean) {
   const RowByHand light{0, {0.001}, -1, -1}, heavy{0, {1000}, 0, 0};
   const double mean = -0.001 / (1e6 + 1e-6);
@@ -125,8 +125,8 @@ TEST(RowScaling, FindsASmallResidualToAllDigits) {
                  {1e-10 * y1, y1});
 }
 
-// What others call no bound is none: where y were, nothing of the last rows
-// would be left. Before, another row in the place of the first bound was
+// Bounds of 1e30 mean none in other solvers. At such a y the other rows would
+// lose all digits. In the solve before, a row in the place of the first was
 // active.
 TEST(RowScaling, TreatsABoundOf1e30AsInfinite) {
   constexpr double kNone = 1e30;

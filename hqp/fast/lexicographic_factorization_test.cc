@@ -115,7 +115,7 @@ TEST_P(RandomLexicographicFactorizationTest,
 }
 
 TEST_P(RandomLexicographicFactorizationTest, CorrectsAnyStartToTheSameOptimum) {
-  // From a y anywhere in the rows' space, what they lack leads back.
+  // From any y in the row space, the residuals lead back to the optimum.
   const Eigen::MatrixXd Q = Basis(stack_, n_);
   Eigen::VectorXd z = Eigen::VectorXd::Map(stack_.z(), stack_.rank());
   for (int e = 0; e < stack_.rank(); ++e) z[e] += 1 + e % 3;

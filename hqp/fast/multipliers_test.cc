@@ -86,7 +86,7 @@ TEST(MultiplierWriter, IsCertifiedWithTheCascadesNullity) {
   }
 }
 
-// At y = 0, the bound of a row: it is at work, but not violated.
+// At y = 0 the row is at its bound and active, but not violated.
 TEST(MultiplierWriter, AllowsARowOfSizeZero) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {2, 0}};
   Hierarchy hierarchy(2, capacity);
@@ -192,10 +192,9 @@ TEST(MultiplierWriter, CountsViolatedRowsInTheNullity) {
   }
 }
 
-// y0 = 1 above y0 <= 1 - 2e-9, which is violated too little to count, and y1 =
-// 0: what is below and asks for y0 + y1 = 0 would draw at the bound as much as
-// at y0 = 1, were it not for these two, which weigh the same. And so in other
-// units.
+// y0 = 1, y0 <= 1 - 2e-9 and y1 = 0, above y0 + y1 = 0. The bound is at its
+// bound within kAtBound, where its multiplier must not be negative. So the
+// equalities of its level take the whole multiplier, in any unit.
 TEST(MultiplierWriter, MovesTheMultiplierOffARowAtItsBound) {
   for (const double unit : {1., 1e-3}) {
     SCOPED_TRACE(unit);
@@ -213,7 +212,7 @@ TEST(MultiplierWriter, MovesTheMultiplierOffARowAtItsBound) {
     EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
     EXPECT_EQ(solution.levels[0].nullity, 0);
     const LevelMultipliers& of_sum = solution.levels[1].multipliers[0];
-    // Of the two numbers that cancel, 1e-9 each, seven digits are left.
+    // The multiple is a quotient of residuals of 1e-9, which have seven digits.
     EXPECT_LE((of_sum.equality / unit - Eigen::Vector2d(-1, -1)).norm(), 1e-6);
     EXPECT_NEAR(of_sum.inequality[0] / unit, 0, 1e-6);
     EXPECT_LE(Certifier(2, capacity).Certify(hierarchy, solution).worst(),
@@ -221,8 +220,8 @@ TEST(MultiplierWriter, MovesTheMultiplierOffARowAtItsBound) {
   }
 }
 
-// y = 1 and y <= -1 are torn between at y = 0: there both are equalities, and
-// share what y = -5 below draws with, whatever its sign.
+// y = 1 and y <= -1 have their optimum at y = 0. Both are equalities there, and
+// share the multiplier of y = -5 below, of either sign.
 TEST(MultiplierWriter, KeepsTheMultiplierOfAViolatedRow) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
@@ -241,8 +240,8 @@ TEST(MultiplierWriter, KeepsTheMultiplierOfAViolatedRow) {
   EXPECT_NEAR(multipliers.inequality[0], -2.5, kTolerance);
 }
 
-// y0 + y1 = 0 above y_i = 1, y_j = 5 and nothing: what the third leaves on the
-// other variable is not there for the fourth, nor for the next solve.
+// y0 + y1 = 0 above y_i = 1, y_j = 5 and an empty level. The gradient that the
+// third level has on the other variable is zero again for the fourth.
 TEST(MultiplierWriter, ClearsTheGradientOfDiagonalLevels) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}, {1, 0}, {1, 0}};
   Solver solver(2, capacity);
@@ -257,7 +256,7 @@ TEST(MultiplierWriter, ClearsTheGradientOfDiagonalLevels) {
     second.b << -5;
     Solution solution(2, capacity);
     ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal) << j;
-    // g = -6 on y_(1-j): the sum takes it, and leaves as much on y_j.
+    // g = -6 on y_(1-j): the multiplier of the sum cancels it, with -6 on y_j.
     const std::vector<LevelMultipliers>& of = solution.levels[2].multipliers;
     EXPECT_NEAR(of[0].equality[0], 6, kTolerance) << j;
     EXPECT_NEAR(of[1].equality[0], -6, kTolerance) << j;

@@ -79,8 +79,7 @@ HierarchyCase Draw(int seed) {
   return MakeRandomHierarchy(seed, options);
 }
 
-// The first levels of a hierarchy, with all that its rows ask for in another
-// unit.
+// The first levels of a hierarchy, with targets and bounds in another unit.
 HierarchyCase Part(const HierarchyCase& drawn, int levels, double unit = 1) {
   const Hierarchy& from = drawn.hierarchy;
   HierarchyCase part{drawn.capacity,
@@ -114,8 +113,8 @@ TEST_P(EitherCascadeTest, IsCertified) {
   }
 }
 
-// Variables less the rank of the rows that are equalities by then; and the side
-// of each row that is violated is at work.
+// The nullity is the number of variables less the rank of all equalities so
+// far. Each violated row is active at the violated side.
 TEST_P(EitherCascadeTest, CountsEqualitiesAndViolatedRows) {
   for (int seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
