@@ -28,9 +28,9 @@ class CertifierByHandTest : public testing::Test {
     bound.C << 0, 1;
     bound.lower << lower;
     bound.upper << upper;
-    EqualityBlock wish = hierarchy_.AddEqualities(1, 2);
-    wish.B.setIdentity();
-    wish.b << -3, -target;
+    EqualityBlock desired = hierarchy_.AddEqualities(1, 2);
+    desired.B.setIdentity();
+    desired.b << -3, -target;
     const double y = std::min(std::max(target, lower), upper);
     Answer(y, y - target, target - y);
   }

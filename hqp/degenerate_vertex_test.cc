@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// All bounds are zero, as at the vertex of friction cones, and y is zero. Targets
-// that cannot be met leave their rounding in y.
+// All bounds are zero, as at the vertex of friction cones, and y is zero.
+// Targets that cannot be met leave their rounding in y.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,11 +23,11 @@ struct Row {
   double lower, upper;
 };
 
-// Two variables, three rows above two wishes, one a variable.
+// Three rows of two variables above a target for each variable.
 class DegenerateVertexTest : public testing::Test {
  protected:
   void Expect(const std::vector<Row>& rows, const Eigen::Vector2d& factors,
-              const Eigen::Vector2d& wishes, const Eigen::Vector2d& weights) {
+              const Eigen::Vector2d& targets, const Eigen::Vector2d& weights) {
     const std::vector<LevelCapacity> capacity{{0, 3}, {2, 0}};
     Hierarchy hierarchy(2, capacity);
     for (const Row& from : rows) {
@@ -36,10 +36,10 @@ class DegenerateVertexTest : public testing::Test {
       to.lower[0] = from.lower;
       to.upper[0] = from.upper;
     }
-    EqualityBlock wish = hierarchy.AddEqualities(1, 2);
-    wish.B = factors.asDiagonal();
-    wish.b = -wishes;
-    wish.weight = weights;
+    EqualityBlock desired = hierarchy.AddEqualities(1, 2);
+    desired.B = factors.asDiagonal();
+    desired.b = -targets;
+    desired.weight = weights;
     Solver solver(2, capacity);
     Solution solution(2, capacity);
     for (const char* start : {"cold", "warm", "warm again"}) {
@@ -61,7 +61,7 @@ TEST_F(DegenerateVertexTest, IsZeroBetweenThreeRows) {
          {1, 1}, {0, -1}, {2.14, 1});
 }
 
-// The same of wishes that are no numbers to speak of.
+// Targets of any size.
 TEST_F(DegenerateVertexTest, IsZeroInAnyUnit) {
   for (const double unit : {1e-12, 1e12}) {
     Expect({{{1, -1}, 0, INFINITY}, {{0, -1}, -INFINITY, 0}, {{1, 0}, 0, 0}},
@@ -126,9 +126,9 @@ TEST(DegenerateVertex, MeasuresRoundingRelativeToTheTargets) {
     EqualityBlock rows = hierarchy.AddEqualities(0, 2);
     rows.B << 1, 1, 2, 2;
     rows.b << 0, -6;
-    EqualityBlock wish = hierarchy.AddEqualities(1, 1);
-    wish.B << 0, 2;
-    wish.b << (is_in_diagonal ? -10 : -2);
+    EqualityBlock desired = hierarchy.AddEqualities(1, 1);
+    desired.B << 0, 2;
+    desired.b << (is_in_diagonal ? -10 : -2);
     WorkingSetProblem problem(2, capacity);
     int failed_level;
     ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);

@@ -397,9 +397,9 @@ TEST(Solver, AddsRowsThatOnlyRefinementFindsViolated) {
               rows.upper[at] = is_upper ? 2 : INFINITY;
             }
             const double out = is_upper ? sign : -sign;
-            EqualityBlock wishes = hierarchy.AddEqualities(2, 2);
-            wishes.B << 1, 0, 0, 0, 1, 0;
-            wishes.b << -out * (1 + violation / 2), -1e8;
+            EqualityBlock targets = hierarchy.AddEqualities(2, 2);
+            targets.B << 1, 0, 0, 0, 1, 0;
+            targets.b << -out * (1 + violation / 2), -1e8;
             Solution solution(3, capacity);
             ASSERT_EQ(Solver(3, capacity).Solve(hierarchy, &solution),
                       Status::kOptimal);
@@ -407,7 +407,7 @@ TEST(Solver, AddsRowsThatOnlyRefinementFindsViolated) {
             const bool is_rounding = violation <= rounding;
             EXPECT_EQ(solution.levels[level].active[at],
                       is_rounding ? Side::kNone : side);
-            EXPECT_EQ(solution.y[0], is_rounding ? -wishes.b[0] : out);
+            EXPECT_EQ(solution.y[0], is_rounding ? -targets.b[0] : out);
             EXPECT_EQ(solution.y[1], 1e8);
             EXPECT_LE(solution.certificate.worst(), kCertified);
           }
@@ -422,18 +422,18 @@ TEST(Solver, AddsRowsThatOnlyRefinementFindsViolated) {
 TEST(Solver, RemovesARowForTheNormAlone) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {1, 0}};
   Solver solver(2, capacity);
-  for (const double wish : {-1., 1., 2., -2.}) {
+  for (const double desired : {-1., 1., 2., -2.}) {
     Hierarchy hierarchy(2, capacity);
     InequalityBlock row = hierarchy.AddInequalities(0, 1);
     row.C << 1, 1;
     row.lower << 0;
     EqualityBlock equality = hierarchy.AddEqualities(1, 1);
     equality.B << 1, 0;
-    equality.b << -wish;
+    equality.b << -desired;
     Solution solution(2, capacity);
     ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
-    EXPECT_NEAR(solution.y[0], wish, kTolerance);
-    EXPECT_NEAR(solution.y[1], std::max(-wish, 0.), kTolerance);
+    EXPECT_NEAR(solution.y[0], desired, kTolerance);
+    EXPECT_NEAR(solution.y[1], std::max(-desired, 0.), kTolerance);
   }
 }
 

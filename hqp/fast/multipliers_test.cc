@@ -93,9 +93,9 @@ TEST(MultiplierWriter, AllowsARowOfSizeZero) {
   InequalityBlock row = hierarchy.AddInequalities(0, 1);
   row.C << 1, 0;
   row.upper << 0;
-  EqualityBlock wish = hierarchy.AddEqualities(1, 2);
-  wish.B << 1, 1, 1, -1;
-  wish.b << -1, -1;
+  EqualityBlock desired = hierarchy.AddEqualities(1, 2);
+  desired.B << 1, 1, 1, -1;
+  desired.b << -1, -1;
   const Solution solution = Solve(hierarchy, capacity);
   EXPECT_EQ(solution.y[0], 0);
   EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
@@ -114,12 +114,12 @@ TEST(MultiplierWriter, CountsSmallRowsLikeLargeOnes) {
   InequalityBlock bound = hierarchy.AddInequalities(0, 1);
   bound.C << 0, length, 0;
   bound.upper << length;
-  EqualityBlock wish = hierarchy.AddEqualities(1, 1);
-  wish.B << 0, 1, 0;
-  wish.b << -3;
-  EqualityBlock wishes = hierarchy.AddEqualities(2, 2);
-  wishes.B << 1, 0, 0, 0, 0, 1;
-  wishes.b << -2, -4;
+  EqualityBlock desired = hierarchy.AddEqualities(1, 1);
+  desired.B << 0, 1, 0;
+  desired.b << -3;
+  EqualityBlock targets = hierarchy.AddEqualities(2, 2);
+  targets.B << 1, 0, 0, 0, 0, 1;
+  targets.b << -2, -4;
   const Solution solution = Solve(hierarchy, capacity);
   EXPECT_LE((solution.y - Eigen::Vector3d(1, 1, 4)).norm(), kTolerance);
   EXPECT_EQ(solution.levels[0].nullity, 2);
@@ -137,10 +137,10 @@ TEST(MultiplierWriter, CancelsTheGradientOfADiagonalLevel) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {2, 0}, {2, 0}};
   Hierarchy hierarchy(1, capacity);
   for (int k = 0; k < 3; ++k) {
-    EqualityBlock wish = hierarchy.AddEqualities(k, 2);
-    wish.B << 5, 1 + k;
-    wish.b << 7, (k == 1 ? 0.5 : 0);
-    wish.weight << 0, 1;
+    EqualityBlock desired = hierarchy.AddEqualities(k, 2);
+    desired.B << 5, 1 + k;
+    desired.b << 7, (k == 1 ? 0.5 : 0);
+    desired.weight << 0, 1;
   }
   const Solution solution = Solve(hierarchy, capacity);
   EXPECT_EQ(solution.levels[1].multipliers[0].equality, Eigen::Vector2d(0, -1));
@@ -200,9 +200,9 @@ TEST(MultiplierWriter, MovesTheMultiplierOffARowAtItsBound) {
     SCOPED_TRACE(unit);
     const std::vector<LevelCapacity> capacity{{2, 1}, {1, 0}};
     Hierarchy hierarchy(2, capacity);
-    EqualityBlock wishes = hierarchy.AddEqualities(0, 2);
-    wishes.B << 1, 0, 0, 1;
-    wishes.b << -unit, 0;
+    EqualityBlock targets = hierarchy.AddEqualities(0, 2);
+    targets.B << 1, 0, 0, 1;
+    targets.b << -unit, 0;
     InequalityBlock bound = hierarchy.AddInequalities(0, 1);
     bound.C << 1, 0;
     bound.upper << unit * (1 - 2e-9);
@@ -225,9 +225,9 @@ TEST(MultiplierWriter, MovesTheMultiplierOffARowAtItsBound) {
 TEST(MultiplierWriter, KeepsTheMultiplierOfAViolatedRow) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
-  EqualityBlock wish = hierarchy.AddEqualities(0, 1);
-  wish.B << 1;
-  wish.b << -1;
+  EqualityBlock desired = hierarchy.AddEqualities(0, 1);
+  desired.B << 1;
+  desired.b << -1;
   InequalityBlock bound = hierarchy.AddInequalities(0, 1);
   bound.C << 1;
   bound.upper << -1;
@@ -305,10 +305,10 @@ class MultiplierWriterByHandTest : public testing::Test {
     InequalityBlock bound = hierarchy_.AddInequalities(0, 1);
     bound.C << 0, 2, 2;
     bound.upper << 6;
-    EqualityBlock wishes = hierarchy_.AddEqualities(1, 2);
-    wishes.B << 2, 0, 0, 0, 0, 4;
-    wishes.b << 2, -8;
-    wishes.weight << 1, 3;
+    EqualityBlock targets = hierarchy_.AddEqualities(1, 2);
+    targets.B << 2, 0, 0, 0, 0, 4;
+    targets.b << 2, -8;
+    targets.weight << 1, 3;
     EqualityBlock last = hierarchy_.AddEqualities(2, 1);
     last.B << 0, 5, 0;
     last.b << -10;

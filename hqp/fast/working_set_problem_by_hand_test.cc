@@ -128,9 +128,9 @@ TEST(WorkingSetProblem, FindsDiagonalLevelsOfAnyWeight) {
     const std::vector<LevelCapacity> capacity{{1, 0}, {2, 0}};
     Hierarchy hierarchy(2, capacity);
     hierarchy.AddEqualities(0, 1).B << 1, 1;
-    EqualityBlock wishes = hierarchy.AddEqualities(1, 2);
-    wishes.B.setIdentity();
-    wishes.weight << weight, 1;
+    EqualityBlock targets = hierarchy.AddEqualities(1, 2);
+    targets.B.setIdentity();
+    targets.weight << weight, 1;
     WorkingSetProblem problem(2, capacity);
     int failed_level;
     EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
@@ -152,10 +152,10 @@ class WorkingSetProblemTest : public testing::Test {
     EqualityBlock sum = hierarchy_.AddEqualities(1, 1);
     sum.B << 1, 1, 0;
     sum.b << -8;
-    EqualityBlock wishes = hierarchy_.AddEqualities(2, 2);
-    wishes.B << 0, 0, 3, 0, 1, 0;
-    wishes.b << -6, 0;
-    wishes.weight << 1, 5;
+    EqualityBlock targets = hierarchy_.AddEqualities(2, 2);
+    targets.B << 0, 0, 3, 0, 1, 0;
+    targets.b << -6, 0;
+    targets.weight << 1, 5;
     int failed_level;
     EXPECT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
     problem_.Plan(hierarchy_, 3);
@@ -283,13 +283,13 @@ class RefinementTest : public testing::Test {
     double target;
     int level = 0;
   };
-  struct Wish {
+  struct Target {
     int variable;
     double target;
   };
   // Solves and refines, from the solution or from another y.
   Eigen::VectorXd Refine(const std::vector<Met>& rows,
-                         const std::vector<Wish>& wishes,
+                         const std::vector<Target>& targets,
                          const std::vector<double>* other = nullptr);
   static Eigen::RowVectorXd Row(const std::vector<double>& entries) {
     return Eigen::RowVectorXd::Map(entries.data(), entries.size());
@@ -305,7 +305,7 @@ class RefinementTest : public testing::Test {
 };
 
 Eigen::VectorXd RefinementTest::Refine(const std::vector<Met>& rows,
-                                       const std::vector<Wish>& wishes,
+                                       const std::vector<Target>& targets,
                                        const std::vector<double>* other) {
   const auto n = static_cast<int>(rows[0].row.size());
   // With room for more than there is.
@@ -316,10 +316,10 @@ Eigen::VectorXd RefinementTest::Refine(const std::vector<Met>& rows,
     block.B = met.row;
     block.b[0] = -met.target;
   }
-  for (const Wish& wish : wishes) {
+  for (const Target& desired : targets) {
     EqualityBlock block = hierarchy.AddEqualities(3, 1);
-    block.B(0, wish.variable) = 1;
-    block.b[0] = -wish.target;
+    block.B(0, desired.variable) = 1;
+    block.b[0] = -desired.target;
   }
   WorkingSetProblem problem(n, capacity);
   int failed_level;
@@ -377,12 +377,12 @@ TEST_F(RefinementTest, RecoversTheResidualOfALevel) {
 // terms. The remainders are rounding, and so is every entry far below 1e-18 of
 // the largest one, before or after refinement, unless it is at its target.
 TEST_F(RefinementTest, SetsRoundingEntriesToZero) {
-  const auto refine = [this](double large, double wish,
+  const auto refine = [this](double large, double desired,
                              const std::vector<double>& other) {
     return Refine({{Row({1, 1, 0, 0}), large},
                    {Row({0, 1, 2, 0}), 0},
                    {Row({0, 3, -1, 0}), 0}},
-                  {{3, wish}}, other.empty() ? nullptr : &other);
+                  {{3, desired}}, other.empty() ? nullptr : &other);
   };
   const Eigen::VectorXd y = refine(1e18, 0.7, {});
   EXPECT_EQ(y[0], 1e18);

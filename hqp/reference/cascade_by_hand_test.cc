@@ -168,9 +168,9 @@ TEST_P(CascadeByHandTest, GivesARowWithoutWeightNoMultiplier) {
   InequalityBlock rows = corner.hierarchy.AddInequalities(0, 2);
   rows.C << 3, 2, -2, -1;
   rows.upper << 0, 0;
-  EqualityBlock wish = corner.hierarchy.AddEqualities(1, 1);
-  wish.B << 1, 0;
-  wish.b << 1;
+  EqualityBlock desired = corner.hierarchy.AddEqualities(1, 1);
+  desired.B << 1, 0;
+  desired.b << 1;
   const Solution solution = SolveCascade(corner, GetParam());
   EXPECT_EQ(solution.y, Eigen::Vector2d(0, 0));
   EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
@@ -227,9 +227,9 @@ TEST_P(CascadeByHandTest, EndsWhereALevelIsMet) {
       -2.83, -0.08, 0;
   bounds.lower[0] = 0.588;
   bounds.upper[1] = -3.3683;
-  EqualityBlock wish = met.hierarchy.AddEqualities(1, 1);
-  wish.B << 1, 0, 0;
-  wish.b << -1.21;
+  EqualityBlock desired = met.hierarchy.AddEqualities(1, 1);
+  desired.B << 1, 0, 0;
+  desired.b << -1.21;
   InequalityBlock rows = met.hierarchy.AddInequalities(1, 2);
   rows.C << 1, 0.38, 2,  //
       0, 2, -2.81;
@@ -252,9 +252,9 @@ TEST_P(CascadeByHandTest, ReportsTheViolatedSideOfAFixedRow) {
   rows.C << 1, 0, 1, 0, 0, 1;
   rows.upper[0] = -1;
   rows.lower.tail(2) << 3, 2;
-  EqualityBlock wish = fixed.hierarchy.AddEqualities(2, 2);
-  wish.B.setIdentity();
-  wish.b << 0, -5;
+  EqualityBlock desired = fixed.hierarchy.AddEqualities(2, 2);
+  desired.B.setIdentity();
+  desired.b << 0, -5;
   const Solution solution = SolveCascade(fixed, GetParam());
   EXPECT_LE((solution.y - Eigen::Vector2d(1, 5)).norm(), Rounding(5, 2));
   EXPECT_EQ(solution.levels[1].active[0], Side::kUpper);
@@ -299,9 +299,9 @@ TEST_P(CascadeByHandTest, TreatsSmallRowsLikeLargeOnes) {
   InequalityBlock bound = drawn.hierarchy.AddInequalities(0, 1);
   bound.C << 0, 0, length;
   bound.upper << length;
-  EqualityBlock wishes = drawn.hierarchy.AddEqualities(1, 3);
-  wishes.B.setIdentity();
-  wishes.b << -2, -3, -4;
+  EqualityBlock targets = drawn.hierarchy.AddEqualities(1, 3);
+  targets.B.setIdentity();
+  targets.b << -2, -3, -4;
   const Solution solution = SolveCascade(drawn, GetParam());
   EXPECT_LE((solution.y - Eigen::Vector3d(1, 1, 1)).norm(), kTolerance);
   EXPECT_EQ(solution.levels[0].nullity, 1);
@@ -335,9 +335,9 @@ TEST_P(CascadeByHandTest, SharesAMultiplierBetweenEqualRows) {
   EqualityBlock rows = twice.hierarchy.AddEqualities(0, 2);
   rows.B << 1, 0, 1, 1e-13;
   rows.b << -1, -1;
-  EqualityBlock wishes = twice.hierarchy.AddEqualities(1, 2);
-  wishes.B.setIdentity();
-  wishes.b << -3, -5;
+  EqualityBlock targets = twice.hierarchy.AddEqualities(1, 2);
+  targets.B.setIdentity();
+  targets.b << -3, -5;
   const Solution solution = SolveCascade(twice, GetParam());
   EXPECT_EQ(solution.levels[0].nullity, 1);
   const LevelMultipliers& multipliers = solution.levels[1].multipliers[0];
@@ -418,9 +418,9 @@ TEST_P(CascadeByHandTest, EndsWhereMultipliersAreRounding) {
   InequalityBlock bound = five.hierarchy.AddInequalities(0, 1);
   bound.C << -2, -5, 1, -1, -5;
   bound.upper << 0;
-  EqualityBlock wish = five.hierarchy.AddEqualities(1, 1);
-  wish.B << 3, -1, 5, -2, -1;
-  wish.b << -3;
+  EqualityBlock desired = five.hierarchy.AddEqualities(1, 1);
+  desired.B << 3, -1, 5, -2, -1;
+  desired.b << -3;
   InequalityBlock rows = five.hierarchy.AddInequalities(1, 5);
   rows.C << -1, -1, 0, -2, 5,  //
       1, -4, 1, -1, 2,         //

@@ -376,18 +376,18 @@ TEST_P(LevelQpTest, EndsOnBealesCyclingExample) {
 // the row is added there. At a target of 1.5 the row is inactive.
 TEST_P(LevelQpTest, MovesASoftRowFromOneBoundToTheOther) {
   for (const double sign : {1., -1.}) {
-    for (const double wish : {-10., 1.5}) {
+    for (const double desired : {-10., 1.5}) {
       LevelQp qp =
-          MakeQp(Number(10), Numbers(-10 * wish * sign), Number(1), true);
+          MakeQp(Number(10), Numbers(-10 * desired * sign), Number(1), true);
       qp.value[0] = -20 * sign;
       qp.lower[0] = -18.5 * sign - 0.5;
       qp.upper[0] = -18.5 * sign + 0.5;
       qp.z[0] = 5 * sign;
       qp.side[0] = sign > 0 ? Side::kUpper : Side::kLower;
       EXPECT_EQ(Solve(&qp), 2);
-      if (wish > 0) {
+      if (desired > 0) {
         EXPECT_EQ(qp.side[0], Side::kNone);
-        EXPECT_NEAR(qp.z[0], wish * sign, Rounding(2, 2));
+        EXPECT_NEAR(qp.z[0], desired * sign, Rounding(2, 2));
       } else {
         EXPECT_EQ(qp.side[0], sign > 0 ? Side::kLower : Side::kUpper);
         // 10 (10 z + 100) = 1 - z.
@@ -397,14 +397,14 @@ TEST_P(LevelQpTest, MovesASoftRowFromOneBoundToTheOther) {
   }
 }
 
-// z >= start would be left for start - wish. A difference of ones, of those
-// that m is made of or of z, has eps: a wish below that may stay unmet, no
-// other.
+// z <= start is in the working set, and the optimum is start - off. The
+// residual is a difference of ones and has rounding of eps: only for less may
+// the row stay.
 TEST_P(LevelQpTest, RemovesARowForAResidualAboveRounding) {
   for (const double start : {0., 1.}) {
-    for (const double wish : {1e-20, 1e-16, 1e-14, 1e-13, 1e-6, 1.}) {
-      SCOPED_TRACE(testing::Message() << start << ", " << wish);
-      LevelQp qp = MakeQp(Number(1), Numbers(wish), Number(1), false);
+    for (const double off : {1e-20, 1e-16, 1e-14, 1e-13, 1e-6, 1.}) {
+      SCOPED_TRACE(testing::Message() << start << ", " << off);
+      LevelQp qp = MakeQp(Number(1), Numbers(off), Number(1), false);
       qp.M_size << 1 - start;
       qp.upper << 0;
       qp.side[0] = Side::kUpper;
@@ -412,7 +412,7 @@ TEST_P(LevelQpTest, RemovesARowForAResidualAboveRounding) {
       qp.m[0] -= start;
       qp.value[0] = -start;
       EXPECT_GT(Solve(&qp), 0);
-      EXPECT_NEAR(qp.z[0], start - wish, Rounding(2, 1));
+      EXPECT_NEAR(qp.z[0], start - off, Rounding(2, 1));
     }
   }
 }
