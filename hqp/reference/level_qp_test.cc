@@ -226,6 +226,18 @@ TEST_P(LevelQpTest, TreatsRoundingRemainderOfARowAsZero) {
   }
 }
 
+// Independent rows are all met, whatever their norms.
+TEST_P(LevelQpTest, MeetsIndependentRowsOfAnyNorm) {
+  for (const double norm : {1e-100, 1e-20, 1e-9, 1., 1e9, 1e20, 1e100}) {
+    MatrixXd M(2, 2);
+    M << norm, 0, 0, 4;
+    LevelQp qp =
+        MakeQp(M, Eigen::Vector2d(-3 * norm, -8), MatrixXd(0, 2), false);
+    EXPECT_EQ(Solve(&qp), 1);
+    EXPECT_LE((qp.z - Eigen::Vector2d(3, 2)).norm(), Rounding(4, 2)) << norm;
+  }
+}
+
 // A large row after small ones in conflict: the point of its line that is next
 // to (1, 0).
 TEST_P(LevelQpTest, KeepsSmallRowsAccurateBesideALargeOne) {
