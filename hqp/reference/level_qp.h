@@ -11,7 +11,9 @@ namespace poise {
 
 /// A gradient, multiplier or slope of the reference is zero if it is below
 /// this, relative to the magnitudes of its terms. Fifty times the rounding of a
-/// sum of a hundred terms.
+/// sum of a hundred terms. Ten times larger,
+/// WeightsTest.GiveBothSolversTheSameOptimum fails. Ten times smaller, 17
+/// instead of 18 of 3000 hierarchies with rows from 1e-3 to 1e6 fail.
 constexpr double kNegligible = 1e-12;
 
 /// The QP of one level of the cascade, (5), (6), in coordinates z of the
