@@ -12,14 +12,11 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A cost below this share of what it is added up from is none.
-constexpr double kNoCost = 1e-9;
-
 double Ratio(double error, double size) {
   return error == 0 ? 0 : std::abs(error) / size;
 }
 
-// The larger; infinity if either is NaN.
+// Returns the larger one, or infinity if either is NaN.
 double Worse(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? kInfinity : std::max(a, b);
 }
@@ -109,15 +106,15 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     }
   }
   certificate->feasibility = feasibility;
-  certificate->priority =
-      Worse(certificate->priority,
-            Ratio(cost - answer.cost, cost + kNoCost * cost_size));
+  certificate->priority = Worse(
+      certificate->priority,
+      Ratio(cost - answer.cost, cost + tolerances::kZeroCost * cost_size));
 }
 
 void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
                                  const Solution& solution,
                                  Certificate* certificate) {
-  double worst = 0;  // Multiplier against complementarity.
+  double worst = 0;  // Largest multiplier of the wrong sign.
   for (int above = 0; above < level; ++above) {
     const LevelMultipliers& multipliers =
         solution.levels[level].multipliers[above];
@@ -142,7 +139,7 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
         wrong = std::abs(mu);
       } else if (hierarchy.upper(above)[i] - hierarchy.lower(above)[i] <=
                  margin) {
-        wrong = 0;  // At both bounds: an equality.
+        wrong = 0;  // The row is at both bounds: an equality.
       } else {
         wrong = rows.side[i] == Side::kUpper ? -mu : mu;
       }

@@ -15,9 +15,9 @@ class Certifier {
  public:
   Certifier(int num_variables, const std::vector<LevelCapacity>& capacity);
 
-  /// Certifies all levels, or those above solution.failed_level if there is one.
-  /// Does not read solution.certificate. Costs some 4 n flops a row, and as many
-  /// a nonzero multiplier. Does not allocate.
+  /// Certifies all levels, or those above solution.failed_level if there is
+  /// one. Does not read solution.certificate. Costs about 4 n flops a row and 4
+  /// n a nonzero multiplier. Does not allocate.
   Certificate Certify(const Hierarchy& hierarchy,
                       const Solution& solution) noexcept;
 
@@ -31,9 +31,9 @@ class Certifier {
 
  private:
   struct LevelRows {
-    Eigen::VectorXd violation;  ///< Of the side at work; negative: the gap.
-    Eigen::VectorXd size;       ///< |C_i| |y| + |bound|: 1e-9 of it is nothing.
-    std::vector<Side> side;     ///< The side at work.
+    Eigen::VectorXd violation;  ///< Of the nearer bound; negative: a gap.
+    Eigen::VectorXd size;       ///< |C_i| |y| + |bound|.
+    std::vector<Side> side;     ///< The nearer bound.
   };
   void JudgeRows(const Hierarchy& hierarchy, int level,
                  const Solution& solution, Certificate* certificate);

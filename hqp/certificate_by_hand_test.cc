@@ -28,9 +28,9 @@ class CertifierByHandTest : public testing::Test {
     bound.C << 0, 1;
     bound.lower << lower;
     bound.upper << upper;
-    EqualityBlock wish = hierarchy_.AddEqualities(1, 2);
-    wish.B.setIdentity();
-    wish.b << -3, -target;
+    EqualityBlock desired = hierarchy_.AddEqualities(1, 2);
+    desired.B.setIdentity();
+    desired.b << -3, -target;
     const double y = std::min(std::max(target, lower), upper);
     Answer(y, y - target, target - y);
   }
@@ -52,7 +52,7 @@ class CertifierByHandTest : public testing::Test {
   Certifier certifier_{2, capacity_};
 };
 
-TEST_F(CertifierByHandTest, FindsNothingWrongWithTheOptimum) {
+TEST_F(CertifierByHandTest, AcceptsTheOptimum) {
   EXPECT_EQ(Certify().worst(), 0);  // At the upper bound.
   Bound(0, 1, -2);                  // At the lower one.
   EXPECT_EQ(Certify().worst(), 0);
@@ -64,7 +64,7 @@ TEST_F(CertifierByHandTest, FindsNothingWrongWithTheOptimum) {
   EXPECT_EQ(Certify().worst(), 0);
 }
 
-TEST_F(CertifierByHandTest, FindsAGradientThatIsLeft) {
+TEST_F(CertifierByHandTest, FindsANonzeroGradient) {
   solution_.levels[1].multipliers[0].inequality << 0.5;
   EXPECT_EQ(Certify().stationarity, (1 - 0.5) / kSize);
   EXPECT_EQ(Certify().worst(), (1 - 0.5) / kSize);
@@ -86,7 +86,7 @@ TEST_F(CertifierByHandTest, FindsAMultiplierAcrossAGap) {
   EXPECT_EQ(certificate.complementarity, 1.5 / kSize);
 }
 
-TEST_F(CertifierByHandTest, FindsAResidualACostOrASlackThatIsNotThatOfY) {
+TEST_F(CertifierByHandTest, FindsAWrongResidualCostOrSlack) {
   solution_.levels[1].equality_residual[1] = -0.5;
   EXPECT_GT(Certify().feasibility, 0.01);
   Bound(0, 1, 2);
@@ -98,7 +98,7 @@ TEST_F(CertifierByHandTest, FindsAResidualACostOrASlackThatIsNotThatOfY) {
   EXPECT_EQ(Certify().feasibility, 0);
 }
 
-TEST_F(CertifierByHandTest, JudgesTheLevelsAboveTheOneThatFailed) {
+TEST_F(CertifierByHandTest, CertifiesTheLevelsAboveTheFailedOne) {
   solution_.levels[1].multipliers[0].inequality << -1;
   solution_.failed_level = 1;
   EXPECT_EQ(Certify().worst(), 0);
@@ -117,7 +117,7 @@ TEST_F(CertifierByHandTest, IsInfiniteWhereAnythingIsNan) {
 }
 
 // Truncated is what is not certified, down to the first level that is wrong.
-TEST_F(CertifierByHandTest, MakesAnAnswerSayNoMoreThanIsCertified) {
+TEST_F(CertifierByHandTest, TruncatesToTheCertifiedLevels) {
   const auto truncated = [&](int failed_level, bool spoils_0, bool spoils_1) {
     Bound(0, 1, 2);
     if (spoils_0) solution_.levels[0].slack << 0.5;
@@ -138,13 +138,17 @@ TEST_F(CertifierByHandTest, MakesAnAnswerSayNoMoreThanIsCertified) {
   EXPECT_EQ(truncated(0, true, true), 0);
 }
 
-// An error of 1e-10 is certified, one of 1e-8 is not.
+// A multiplier that is off by far less than kCertified is accepted, by far more
+// not.
 TEST_F(CertifierByHandTest, TruncatesAnswersThatAreNotCertified) {
-  for (const double share : {0.1, 10.}) {
+  for (const double error : {0., 1e-15, 1e-11, 1e-7, 1e-3, 1.}) {
     Bound(0, 1, 2);
-    solution_.levels[1].multipliers[0].inequality << 1 - share * 1e-9 * kSize;
+    solution_.levels[1].multipliers[0].inequality << 1 - error * kSize;
     certifier_.Truncate(hierarchy_, &solution_);
-    EXPECT_EQ(solution_.failed_level, share < 1 ? -1 : 1);
+    const bool is_certified = error <= 1e-11;
+    EXPECT_EQ(solution_.failed_level, is_certified ? -1 : 1) << error;
+    EXPECT_EQ(solution_.status,
+              is_certified ? Status::kOptimal : Status::kIterationLimit);
   }
 }
 

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// The certificate against its definition, written down in matrices: of right
-// answers to random hierarchies, with one number spoiled or with all, and of
-// rows at the edge of what counts as at a bound.
+// Compares the certificate with its definition in matrices: optimal answers to
+// random hierarchies, with one number or all replaced, and rows near a bound.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/tolerances.h"
 #include "poise/tests/util/random_hierarchy.h"
 
 namespace poise {
@@ -19,11 +19,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// The certificate's own, by its definition: how far a row at its bound may be
-// from it, and what a cost of zero is measured by.
-constexpr double kAtBound = 1e-9;
+// Both are terms of the definition.
+using tolerances::kAtBound;
+using tolerances::kZeroCost;
 
-// Small whole numbers, divided by such.
+// Quotients of small whole numbers.
 constexpr double kRounding = 1e-15;
 
 // The rows with a bound, as A y + a <= 0: of two bounds the one nearer to being
@@ -106,7 +106,7 @@ Certificate CertifyByDefinition(const Hierarchy& hierarchy,
     result.priority = std::max(
         result.priority,
         LargestRatio(VectorXd::Constant(1, cost - answer.cost),
-                     VectorXd::Constant(1, cost + kAtBound * cost_size)));
+                     VectorXd::Constant(1, cost + kZeroCost * cost_size)));
 
     VectorXd g = B.transpose() * (W * w) + own.A.transpose() * v;
     VectorXd g_size = B.cwiseAbs().transpose() * (W * w_size) +
@@ -186,7 +186,7 @@ std::vector<double*> Numbers(const Hierarchy& hierarchy, Solution* solution) {
   return numbers;
 }
 
-TEST(CertificateOracle, AgreesWithTheDefinitionWhateverIsSpoiled) {
+TEST(CertificateOracle, AgreesWithTheDefinitionOnWrongAnswers) {
   RandomHierarchyOptions options;
   options.max_variables = 5;
   options.max_levels = 4;
@@ -216,19 +216,20 @@ TEST(CertificateOracle, AgreesWithTheDefinitionWhateverIsSpoiled) {
   }
 }
 
-// 3 y0 + 4 y1 <= 50 at about y = (10, 5), above y = 0. The row is at its bound
-// within 1e-9 (5 |y| + 50), not of 3 10 + 4 5 + 50.
-class EdgeTest : public testing::Test {
+// 5 y1 <= 5 at about y = (10, 1), above y = 0. The margin of the row is
+// relative to 5 |y| + 5 = 55, not to 5 1 + 5.
+class MarginTest : public testing::Test {
  protected:
-  // What is said of a multiplier if the row is violated so much, in margins.
+  // Returns the complementarity of a multiplier on this row, which is violated
+  // by `violation` margins.
   double Wrong(double violation, double multiplier, double width = INFINITY) {
     Solution solution(2, capacity_);
-    solution.y << 10, 5;
-    const double margin = kAtBound * (5 * std::sqrt(125) + 50);
+    solution.y << 10, 1;
+    const double margin = kAtBound * (5 * std::sqrt(101) + 5);
     Hierarchy hierarchy(2, capacity_);
     InequalityBlock row = hierarchy.AddInequalities(0, 1);
-    row.C << 3, 4;
-    row.upper << 50 - violation * margin;
+    row.C << 0, 5;
+    row.upper << 5 - violation * margin;
     row.lower << row.upper[0] - width * margin;
     EqualityBlock target = hierarchy.AddEqualities(1, 2);
     target.B.setIdentity();
@@ -238,33 +239,42 @@ class EdgeTest : public testing::Test {
     return Certifier(2, capacity_).Certify(hierarchy, solution).complementarity;
   }
 
+  static constexpr double kWrong = 2. * 5 / (1 + 2 * 5);
   const std::vector<LevelCapacity> capacity_{{0, 1}, {2, 0}};
 };
 
-TEST_F(EdgeTest, OfBeingViolatedSetsTheMultiplierFree) {
-  EXPECT_EQ(Wrong(1.02, -2), 0);
-  EXPECT_EQ(Wrong(1.02, 2), 0);
-  EXPECT_EQ(Wrong(0.98, -2), 8. / 16);  // 2 max(3, 4) / (10 + 2 3).
-  EXPECT_EQ(Wrong(0.98, 2), 0);
+TEST_F(MarginTest, AllowsAnyMultiplierOnAViolatedRow) {
+  for (const double violation : {2., 1e3, 1e6}) {
+    EXPECT_EQ(Wrong(violation, -2), 0);
+    EXPECT_EQ(Wrong(violation, 2), 0);
+  }
+  for (const double violation : {0., 1e-3, 0.5}) {
+    EXPECT_EQ(Wrong(violation, -2), kWrong);
+    EXPECT_EQ(Wrong(violation, 2), 0);
+  }
 }
 
-TEST_F(EdgeTest, OfAGapAllowsNone) {
-  EXPECT_EQ(Wrong(-0.98, 2), 0);
-  EXPECT_EQ(Wrong(-0.98, -2), 8. / 16);
-  EXPECT_EQ(Wrong(-1.02, 2), 8. / 16);
-  EXPECT_EQ(Wrong(-1.02, -2), 8. / 16);
+TEST_F(MarginTest, AllowsNoMultiplierInsideABound) {
+  for (const double gap : {1e-3, 0.5}) {
+    EXPECT_EQ(Wrong(-gap, 2), 0);
+    EXPECT_EQ(Wrong(-gap, -2), kWrong);
+  }
+  for (const double gap : {2., 1e3, 1e6}) {
+    EXPECT_EQ(Wrong(-gap, 2), kWrong);
+    EXPECT_EQ(Wrong(-gap, -2), kWrong);
+  }
 }
 
-TEST_F(EdgeTest, OfTwoBoundsInOneFreesTheMultiplier) {
-  EXPECT_EQ(Wrong(-0.2, -2, 0.98), 0);
-  EXPECT_EQ(Wrong(-0.2, 2, 0.98), 0);
-  EXPECT_EQ(Wrong(-0.2, -2, 1.02), 8. / 16);
-  EXPECT_EQ(Wrong(-0.2, 2, 1.02), 0);
-  EXPECT_EQ(Wrong(-0.8, -2, 1.02), 0);  // Nearer to the lower one.
-  EXPECT_EQ(Wrong(-0.8, 2, 1.02), 8. / 16);
+TEST_F(MarginTest, AllowsAnyMultiplierBetweenTwoNearlyEqualBounds) {
+  EXPECT_EQ(Wrong(-0.2, -2, 0.5), 0);
+  EXPECT_EQ(Wrong(-0.2, 2, 0.5), 0);
+  EXPECT_EQ(Wrong(-0.2, -2, 1.5), kWrong);
+  EXPECT_EQ(Wrong(-0.2, 2, 1.5), 0);
+  EXPECT_EQ(Wrong(-1.2, -2, 1.5), 0);  // The lower bound is nearer.
+  EXPECT_EQ(Wrong(-1.2, 2, 1.5), kWrong);
 }
 
-TEST(CertificateOracle, KnowsARowWithoutBounds) {
+TEST(CertificateOracle, IgnoresARowWithoutBounds) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
   InequalityBlock rows = hierarchy.AddInequalities(0, 2);
@@ -274,8 +284,8 @@ TEST(CertificateOracle, KnowsARowWithoutBounds) {
   Solution solution(1, capacity);
   Certifier certifier(1, capacity);
   EXPECT_EQ(certifier.Certify(hierarchy, solution).worst(), 0);
-  solution.levels[0].cost =
-      kAtBound;  // Of kAtBound 1^2 / 2, of the bounded row alone.
+  // Twice kZeroCost 1^2 / 2, of the bounded row alone.
+  solution.levels[0].cost = kZeroCost;
   EXPECT_NEAR(certifier.Certify(hierarchy, solution).priority, 2, kRounding);
   solution.levels[0].cost = 0;
   solution.levels[0].slack[1] = 1;  // Of nothing.
@@ -285,8 +295,8 @@ TEST(CertificateOracle, KnowsARowWithoutBounds) {
   EXPECT_EQ(certifier.Certify(hierarchy, solution).complementarity, 1);
 }
 
-// At y = 0 a row with bound 0 has no margin at all, and is at its bound.
-TEST(CertificateOracle, KnowsARowOfSizeZero) {
+// At y = 0 a row with bound 0 has the margin 0, and is at its bound.
+TEST(CertificateOracle, TreatsARowOfSizeZeroAsAtItsBound) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {2, 0}};
   Hierarchy hierarchy(2, capacity);
   InequalityBlock row = hierarchy.AddInequalities(0, 1);
@@ -305,8 +315,8 @@ TEST(CertificateOracle, KnowsARowOfSizeZero) {
   EXPECT_EQ(wrong(-2), 0);
 }
 
-// Of two bounds as far away, the upper one counts: 1e-9 (1 + 3)^2 / 2.
-TEST(CertificateOracle, TakesTheUpperOfTwoBoundsHalfwayBetweenThem) {
+// The upper one of two equally distant bounds counts: 1e-9 (1 + 3)^2 / 2.
+TEST(CertificateOracle, UsesTheUpperOfTwoEquallyDistantBounds) {
   const std::vector<LevelCapacity> capacity{{0, 1}};
   Hierarchy hierarchy(1, capacity);
   InequalityBlock row = hierarchy.AddInequalities(0, 1);
@@ -315,12 +325,12 @@ TEST(CertificateOracle, TakesTheUpperOfTwoBoundsHalfwayBetweenThem) {
   row.upper << 3;
   Solution solution(1, capacity);
   solution.y << 1;
-  solution.levels[0].cost = kAtBound;
+  solution.levels[0].cost = kZeroCost;
   EXPECT_NEAR(Certifier(1, capacity).Certify(hierarchy, solution).priority,
               1. / 8, kRounding);
 }
 
-TEST(CertificateOracle, KnowsRowsWithoutVariables) {
+TEST(CertificateOracle, CertifiesRowsWithoutVariables) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 1}};
   Hierarchy hierarchy(0, capacity);
   hierarchy.AddEqualities(0, 1);

@@ -41,7 +41,7 @@ class CertificateTest : public testing::Test {
   Certifier certifier_{2, capacity_};
 };
 
-TEST_F(CertificateTest, AcquitsTheRightAnswer) {
+TEST_F(CertificateTest, AcceptsTheOptimum) {
   EXPECT_LE(Certify().worst(), kRounding);
   EXPECT_NEAR(solution_.levels[1].cost, 40.5, kRounding);
 }
@@ -74,23 +74,23 @@ TEST_F(CertificateTest, FindsAMultiplierOnARowWithAGap) {
   EXPECT_NEAR(Certify().complementarity, 1e-3 / 30, kRounding);
 }
 
-TEST_F(CertificateTest, FindsAResidualThatIsNotOfY) {
+TEST_F(CertificateTest, FindsAWrongResidual) {
   solution_.levels[1].equality_residual[0] += 6e-3;
   EXPECT_NEAR(Certify().feasibility, 1e-3, kRounding);  // Of |y0| + |b0| = 6.
 }
 
-TEST_F(CertificateTest, FindsASlackThatIsNotOfY) {
+TEST_F(CertificateTest, FindsAWrongSlack) {
   solution_.levels[0].slack[2] += 6e-3;
   EXPECT_NEAR(Certify().feasibility, 1e-3, kRounding);  // Of 1 + 3 + 2.
 }
 
-TEST_F(CertificateTest, FindsACostThatWasNotKept) {
+TEST_F(CertificateTest, FindsAWrongCost) {
   solution_.levels[1].cost -= 1e-3;
   // Of (2 (1 + 5)^2 + 3^2) / 2 = 40.5, and 1e-9 of what that is added up from.
   EXPECT_NEAR(Certify().priority, 1e-3 / (40.5 * (1 + 1e-9)), kRounding);
 }
 
-TEST_F(CertificateTest, FindsACostWhereThereShouldBeNone) {
+TEST_F(CertificateTest, FindsACostOfALevelThatIsMet) {
   solution_.levels[0].cost = 1e-9;
   // Of 1e-9 of ((1 + 1)^2 + (3 + 3)^2 + (1 + 3 + 2)^2) / 2 = 38.
   EXPECT_NEAR(Certify().priority, 1. / 38, kRounding);
@@ -109,13 +109,13 @@ TEST_F(CertificateTest, FindsAWrongY) {
   EXPECT_GE(Certify().worst(), 1e-3 / 38);  // Of no more than 38: see above.
 }
 
-TEST_F(CertificateTest, JudgesOnlyWhatWasSolved) {
+TEST_F(CertificateTest, CertifiesSolvedLevelsOnly) {
   solution_.levels[1].cost = 0;
   solution_.failed_level = 1;
   EXPECT_LE(Certify().worst(), kRounding);
 }
 
-TEST(Certificate, LeavesMultipliersOfViolatedRowsFree) {
+TEST(Certificate, AllowsAnyMultiplierOnAViolatedRow) {
   // y <= -1 and y >= 1: violated by 1 both. Below, y = 2 pulls either way.
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
@@ -137,7 +137,7 @@ TEST(Certificate, LeavesMultipliersOfViolatedRowsFree) {
   }
 }
 
-TEST(Certificate, LeavesTheMultiplierOfATightPairFree) {
+TEST(Certificate, AllowsAnyMultiplierBetweenEqualBounds) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {1, 0}};
   for (const double target : {-3., 3.}) {
     Hierarchy hierarchy(1, capacity);

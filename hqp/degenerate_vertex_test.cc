@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Where all bounds are zero, as at the degenerate_vertex of friction cones, and nothing but
-// zero is left: what is asked for in vain leaves its rounding in y.
+// All bounds are zero, as at the vertex of friction cones, and y is zero.
+// Targets that cannot be met leave their rounding in y.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,18 +16,18 @@
 namespace poise {
 namespace {
 
-constexpr double kCertified = 1e-9;  // What the solver promises.
+constexpr double kCertified = Certifier::kCertified;
 
 struct Row {
   Eigen::RowVector2d row;
   double lower, upper;
 };
 
-// Two variables, three rows above two wishes, one a variable.
+// Three rows of two variables above a target for each variable.
 class DegenerateVertexTest : public testing::Test {
  protected:
   void Expect(const std::vector<Row>& rows, const Eigen::Vector2d& factors,
-              const Eigen::Vector2d& wishes, const Eigen::Vector2d& weights) {
+              const Eigen::Vector2d& targets, const Eigen::Vector2d& weights) {
     const std::vector<LevelCapacity> capacity{{0, 3}, {2, 0}};
     Hierarchy hierarchy(2, capacity);
     for (const Row& from : rows) {
@@ -36,10 +36,10 @@ class DegenerateVertexTest : public testing::Test {
       to.lower[0] = from.lower;
       to.upper[0] = from.upper;
     }
-    EqualityBlock wish = hierarchy.AddEqualities(1, 2);
-    wish.B = factors.asDiagonal();
-    wish.b = -wishes;
-    wish.weight = weights;
+    EqualityBlock desired = hierarchy.AddEqualities(1, 2);
+    desired.B = factors.asDiagonal();
+    desired.b = -targets;
+    desired.weight = weights;
     Solver solver(2, capacity);
     Solution solution(2, capacity);
     for (const char* start : {"cold", "warm", "warm again"}) {
@@ -61,7 +61,7 @@ TEST_F(DegenerateVertexTest, IsZeroBetweenThreeRows) {
          {1, 1}, {0, -1}, {2.14, 1});
 }
 
-// The same of wishes that are no numbers to speak of.
+// Targets of any size.
 TEST_F(DegenerateVertexTest, IsZeroInAnyUnit) {
   for (const double unit : {1e-12, 1e12}) {
     Expect({{{1, -1}, 0, INFINITY}, {{0, -1}, -INFINITY, 0}, {{1, 0}, 0, 0}},
@@ -69,10 +69,10 @@ TEST_F(DegenerateVertexTest, IsZeroInAnyUnit) {
   }
 }
 
-// Some were not, where rounding of y was judged by |y| alone, or what depends on
-// other rows kept its rounding. (Of the first 20 000 one still is not with
+// Some were not, where rounding of y was judged by |y| alone, or what depends
+// on other rows kept its rounding. (Of the first 20 000 one still is not with
 // -O1 or -O3, seed 1466, and the solver says so; with -O2 all are.)
-TEST(DegenerateVertex, IsSolvedWhateverIsAskedFor) {
+TEST(DegenerateVertex, IsSolvedForAnyTarget) {
   RandomHierarchyOptions options;
   options.scaled = 0;
   options.degenerate_vertex = 100;
@@ -90,10 +90,10 @@ TEST(DegenerateVertex, IsSolvedWhateverIsAskedFor) {
   }
 }
 
-// y2 is held at 0 by the first row, and by others: all of it is rounding then, and
-// a last digit of the others must not stand in the way of saying so. (With -O3 18
-// of these were not solved for that; with -O1 all were.)
-TEST(DegenerateVertex, ALastDigitElsewhereDoesNotKeepAZeroFromBeingOne) {
+// The first row and others hold y2 at 0, so y2 is rounding. It is set to zero,
+// although the residuals of the others then change in their last digit. (With
+// -O3 18 of these were not solved without that; with -O1 all were.)
+TEST(DegenerateVertex, KeepsAZeroBesideARoundedTarget) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 2}};
   std::mt19937 random(1);
   const auto draw = [&random] {
@@ -117,18 +117,18 @@ TEST(DegenerateVertex, ALastDigitElsewhereDoesNotKeepAZeroFromBeingOne) {
   }
 }
 
-// y0 + y1 = 0, in conflict with 2 (y0 + y1) = 6, above a wish for y1: of 5, which
-// is the largest of what is asked for, or of 1, where 6 / |(2, 2)| is.
-TEST(DegenerateVertex, RoundingIsRelativeToWhatIsAskedFor) {
+// y0 + y1 = 0, in conflict with 2 (y0 + y1) = 6, above a target for y1: of 5,
+// the largest of all targets, or of 1, where 6 / |(2, 2)| is the largest.
+TEST(DegenerateVertex, MeasuresRoundingRelativeToTheTargets) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {1, 0}};
   for (const bool is_in_diagonal : {false, true}) {
     Hierarchy hierarchy(2, capacity);
     EqualityBlock rows = hierarchy.AddEqualities(0, 2);
     rows.B << 1, 1, 2, 2;
     rows.b << 0, -6;
-    EqualityBlock wish = hierarchy.AddEqualities(1, 1);
-    wish.B << 0, 2;
-    wish.b << (is_in_diagonal ? -10 : -2);
+    EqualityBlock desired = hierarchy.AddEqualities(1, 1);
+    desired.B << 0, 2;
+    desired.b << (is_in_diagonal ? -10 : -2);
     WorkingSetProblem problem(2, capacity);
     int failed_level;
     ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
@@ -139,8 +139,8 @@ TEST(DegenerateVertex, RoundingIsRelativeToWhatIsAskedFor) {
     const double size = is_in_diagonal ? 5 : 6 / std::sqrt(8);
     EXPECT_NEAR(problem.Size(), size, Rounding(size, 2));
     EXPECT_EQ(problem.y()[1], -1e-3);
-    // Of what that y lacks, (0, -6), (1, 2) is not needed: (2.4, -1.2) is left,
-    // by the second row's length.
+    // The residual (0, -6) of that y has the component (2.4, -1.2) orthogonal
+    // to (1, 2), here divided by the second row's norm.
     EXPECT_NEAR(problem.leading().residual(1), -1.2 / std::sqrt(8),
                 Rounding(6, 2));
     problem.SetSolution(hierarchy, {0, -1e9});

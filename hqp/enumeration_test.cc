@@ -147,7 +147,7 @@ void CompareBoth(const Candidate& expected, const HierarchyCase& drawn) {
   Compare(expected, drawn, solution);
 }
 
-TEST(Enumeration, OfAllActiveSetsFindsWhatBothSolversFind) {
+TEST(Enumeration, AgreesWithBothSolvers) {
   RandomHierarchyOptions options;
   options.max_variables = 4;
   options.max_levels = 3;
@@ -162,7 +162,7 @@ TEST(Enumeration, OfAllActiveSetsFindsWhatBothSolversFind) {
   }
 }
 
-TEST(ClosedForm, OfEqualitiesIsWhatBothSolversFind) {
+TEST(ClosedForm, AgreesWithBothSolversOnEqualities) {
   for (int seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(seed);
     const std::vector<LeastSquares> levels = MakeRandomLevels(seed);

@@ -9,17 +9,17 @@ namespace poise {
 using RowMajorMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// How many rows a level can hold.
+/// Largest numbers of rows of a level.
 struct LevelCapacity {
   int equalities = 0;
   int inequalities = 0;
 };
 
-/// How many all levels can hold together.
+/// Returns the largest number of rows of all levels together.
 int NumRows(const std::vector<LevelCapacity>& capacity);
 
 /// A block of rows B y + b = 0, in the least-squares sense with a weight a row:
-/// the level's cost gains 1/2 sum_i weight_i (B_i y + b_i)^2.
+/// the cost of the level has the term 1/2 sum_i weight_i (B_i y + b_i)^2.
 struct EqualityBlock {
   Eigen::Map<RowMajorMatrix> B;
   Eigen::Map<Eigen::VectorXd> b;
@@ -28,7 +28,8 @@ struct EqualityBlock {
 
 /// A block of rows lower <= C y <= upper; an infinite side is absent. A y + a
 /// <= 0 is C = A, lower = -inf, upper = -a. The violation of a row, max(lower -
-/// C y, C y - upper, 0), is its slack; the level's cost gains half its square.
+/// C y, C y - upper, 0), is its slack. The cost of the level has half its
+/// square.
 struct InequalityBlock {
   Eigen::Map<RowMajorMatrix> C;
   Eigen::Map<Eigen::VectorXd> lower;
@@ -36,8 +37,8 @@ struct InequalityBlock {
 };
 
 /// A stack of levels of rows, highest priority first: the problem of the paper,
-/// (1)-(6). All is allocated by the constructor; each tick clears it and adds
-/// its blocks anew.
+/// (1)-(6). The constructor allocates all memory. Each tick clears the
+/// hierarchy and adds its blocks again.
 class Hierarchy {
  public:
   Hierarchy(int num_variables, const std::vector<LevelCapacity>& capacity);
@@ -45,18 +46,19 @@ class Hierarchy {
   int num_variables() const { return num_variables_; }
   int num_levels() const { return used_levels_; }
 
-  /// Removes all rows; with fewer levels than the capacity if told.
+  /// Removes all rows, and sets the number of levels, at most the capacity's.
   void Clear(int num_levels) noexcept;
 
-  /// The next rows of a level: B and C zero, weights 1, bounds infinite. Valid
-  /// until Clear(). pre: the level's capacity is not exceeded (asserted).
+  /// Returns the next rows of a level: B and C zero, weights 1, bounds
+  /// infinite. Valid until Clear(). pre: the level's capacity is not exceeded
+  /// (asserted).
   EqualityBlock AddEqualities(int level, int rows) noexcept;
   InequalityBlock AddInequalities(int level, int rows) noexcept;
 
   int num_equalities(int level) const;
   int num_inequalities(int level) const;
 
-  /// The rows of a level.
+  /// Returns the rows of a level.
   Eigen::Map<const RowMajorMatrix> B(int level) const;
   Eigen::Map<const Eigen::VectorXd> b(int level) const;
   Eigen::Map<const Eigen::VectorXd> weight(int level) const;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-TEST(Hierarchy, AddsRowsThatAskForNothingWhateverWasThere) {
+TEST(Hierarchy, ClearsTheRowsThatItAdds) {
   Hierarchy hierarchy(3, {{2, 2}});
   for (int round = 0; round < 2; ++round) {
     SCOPED_TRACE(round);
@@ -69,7 +69,7 @@ TEST(Hierarchy, KeepsBlocksInOrderAndLevelsApart) {
   EXPECT_EQ(hierarchy.num_inequalities(1), 0);
 }
 
-TEST(NumRows, IsTheSumOfWhatTheLevelsTake) {
+TEST(NumRows, SumsTheCapacitiesOfLevels) {
   const std::vector<LevelCapacity> capacity = {{2, 3}, {0, 0}, {0, 4}, {5, 0}};
   Hierarchy hierarchy(1, capacity);
   hierarchy.Clear(hierarchy.num_levels());
@@ -84,7 +84,7 @@ TEST(NumRows, IsTheSumOfWhatTheLevelsTake) {
   EXPECT_EQ(NumRows({}), 0);
 }
 
-TEST(Hierarchy, RefusesSizesThatAreNone) {
+TEST(Hierarchy, RejectsNegativeSizes) {
   EXPECT_THROW(Hierarchy(-1, {}), std::invalid_argument);
   EXPECT_THROW(Hierarchy(1, {{-1, 0}}), std::invalid_argument);
   EXPECT_THROW(Hierarchy(1, {{0, -1}}), std::invalid_argument);

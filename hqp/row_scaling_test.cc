@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Rows on one level of which one asks for next to nothing beside another: what
-// is small is no rounding. What is right was found on paper.
+// Rows of one level with residuals of unlike size: the small ones are not
+// rounding. The answers were found on paper.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,11 +51,11 @@ void ExpectSolution(const HierarchyByHand& problem,
   ExpectSolution(problem, problem, y);
 }
 
-// A foot that carries nothing: along its row momentum wants hardly anything, but
-// more than nothing, and posture wants the other way.
-TEST(RowScaling, HoldsARowThatItsLevelHardlyAsksFor) {
+// A foot without load: the gradient of momentum along its row is tiny, but not
+// zero, and that of posture is opposite.
+TEST(RowScaling, KeepsARowWithASmallMultiplier) {
   constexpr double kHardly = 3e-11;
-  // The third asks z for 5e-12 of what the last two cannot agree on.
+  // The gradient of the third is 5e-12 of the residual of the last two.
   const HierarchyByHand problem(3, {{0, {0, 1, 0}, -INFINITY, 0},
                                     {1, {1, 0, 0}, 0, 0},
                                     {1, {1, kHardly, 0}, 1, 1},
@@ -65,8 +65,8 @@ TEST(RowScaling, HoldsARowThatItsLevelHardlyAsksFor) {
   ExpectSolution(problem, {0.5, 0, 3});
 }
 
-// What small rows ask for is 1e-12 of what large ones of their level lack.
-TEST(RowScaling, IsMetWhereTheLargeOneCannotBe) {
+// The gradient of the small rows is 1e-12 of that of the large ones.
+TEST(RowScaling, MeetsASmallRowBesideALargeConflict) {
   ExpectSolution(HierarchyByHand(2, {{0, {-1, 1}, -INFINITY, -1},
                                      {1, {0, 1}, -INFINITY, -1},
                                      {2, {0.001, 0}, 0.003, 0.003},
@@ -79,9 +79,9 @@ TEST(RowScaling, IsMetWhereTheLargeOneCannotBe) {
                  {0, -3});
 }
 
-// The first row is active on the way; when it leaves, rotations leave rounding of
-// the large wish in the row that stays.
-TEST(RowScaling, TakesNoRoundingOfTheLargeOne) {
+// The first row is added and removed again. The rotations of the removal leave
+// rounding of the large target in the other row.
+TEST(RowScaling, IgnoresRoundingOfALargeRow) {
   for (int k = 1; k <= 20; ++k) {
     SCOPED_TRACE(k);
     ExpectSolution(HierarchyByHand(2, {{0, {-1, 1. * k}, -INFINITY, -1},
@@ -92,9 +92,9 @@ TEST(RowScaling, TakesNoRoundingOfTheLargeOne) {
   }
 }
 
-// y1 is 0 where the last level says so, by 1e-12 of what y0 lacks there. Before,
-// the first row was at its bound.
-TEST(RowScaling, LetsARowGoThatWasActiveBefore) {
+// The last level moves y1 to 0, with a gradient of 1e-12 of that of y0. In the
+// solve before, the first row was active.
+TEST(RowScaling, RemovesARowThatWasActiveBefore) {
   ExpectSolution(HierarchyByHand(2, {{0, {1, 1}, -INFINITY, -1},
                                      {1, {1, 0}, -INFINITY, 0}}),
                  HierarchyByHand(2, {{0, {1, 1}, -INFINITY, 0},
@@ -105,18 +105,18 @@ TEST(RowScaling, LetsARowGoThatWasActiveBefore) {
                  {-1, 0});
 }
 
-// Two wishes of one variable, 0 and 1: where 1 weighs 1e-12, it is 1e-12 / (1 +
-// 1e-12), whichever comes first.
-TEST(RowScaling, CountsInAMeanOfTwoWishes) {
+// Two targets of one variable, 0 and 1: with the weight 1e-12 of the latter, y
+// is 1e-12 / (1 + 1e-12), in either order.
+TEST(RowScaling, CountsASmallWeightInAMean) {
   const RowByHand light{0, {0.001}, -1, -1}, heavy{0, {1000}, 0, 0};
   const double mean = -0.001 / (1e6 + 1e-6);
   ExpectSolution(HierarchyByHand(1, {light, heavy}), {mean});
   ExpectSolution(HierarchyByHand(1, {heavy, light}), {mean});
 }
 
-// The second level, (1000 y0)^2 + (0.01 y1)^2 where y0 + y1 = -2, moves y0 by 1e-10
-// of y1.
-TEST(RowScaling, LacksWhatItMustToAllDigits) {
+// The second level, (1000 y0)^2 + (0.01 y1)^2 where y0 + y1 = -2, moves y0 by
+// 1e-10 of y1.
+TEST(RowScaling, FindsASmallResidualToAllDigits) {
   const double y1 = -2 / (1 + 1e-10);
   ExpectSolution(HierarchyByHand(2, {{0, {1, 1}, -INFINITY, -2},
                                      {1, {1000, 0}, 0, 0},
@@ -125,9 +125,10 @@ TEST(RowScaling, LacksWhatItMustToAllDigits) {
                  {1e-10 * y1, y1});
 }
 
-// What others call no bound is none: where y were, nothing of the last rows would
-// be left. Before, another row in the place of the first bound was active.
-TEST(RowScaling, IsLeftBesideABoundOf1e30) {
+// Bounds of 1e30 mean none in other solvers. At such a y the other rows would
+// lose all digits. In the solve before, a row in the place of the first was
+// active.
+TEST(RowScaling, TreatsABoundOf1e30AsInfinite) {
   constexpr double kNone = 1e30;
   ExpectSolution(HierarchyByHand(3, {{0, {0, 0, -2}, -INFINITY, 0},
                                      {0, {1, 0, 1}, -INFINITY, -2}}),

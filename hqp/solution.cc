@@ -77,7 +77,7 @@ Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     *failed_level = level;
-    // One sum a block: NaN and infinity survive it.
+    // A sum over the block is NaN if any entry is NaN or infinite.
     const auto is_finite = [](const auto& block) {
       return std::isfinite((block.array() * 0).sum());
     };

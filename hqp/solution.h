@@ -11,10 +11,10 @@ namespace poise {
 /// How a solve ended.
 enum class Status {
   kOptimal,
-  kIterationLimit,  ///< Budget spent: y respects the hierarchy, as far as it
-                    ///< got.
+  kIterationLimit,  ///< Budget spent: y is optimal above failed_level.
   kNotFinite,       ///< NaN or infinity in the rows; y is zero.
-  kBadInput,  ///< lower > upper, a negative weight, or no room; y is zero.
+  kBadInput,  ///< lower > upper, a negative weight, or too many rows; y is
+              ///< zero.
 };
 
 /// The active bound of a row lower <= C y <= upper at y.
@@ -66,23 +66,24 @@ struct Certificate {
   double worst() const noexcept;
 };
 
-/// A solve's answer, sized once for a hierarchy's capacity; only the first
-/// num_equalities(level) or num_inequalities(level) entries are meaningful.
+/// The answer of a solve, sized for a hierarchy's capacity. Only the first
+/// num_equalities(level) or num_inequalities(level) entries of a level are
+/// used.
 struct Solution {
   explicit Solution(int num_variables,
                     const std::vector<LevelCapacity>& capacity);
 
-  /// As constructed: y zero, no multipliers, a certificate of zeros.
+  /// Restores the initial state: y, multipliers and certificate are zero.
   void Reset() noexcept;
 
   Status status;
-  int failed_level;  ///< Where status came from; -1 if optimal.
+  int failed_level;  ///< First level without an optimum; -1 if optimal.
   int iterations;
   Eigen::VectorXd y;
   std::vector<LevelSolution> levels;
 
-  /// Certificate of the levels above failed_level, or of all levels. Each solver
-  /// fills it before it returns.
+  /// Certificate of the levels above failed_level, or of all levels. Each
+  /// solver fills it before it returns.
   Certificate certificate;
 };
 
@@ -90,9 +91,10 @@ struct Solution {
 void EvaluateLevel(const Hierarchy& hierarchy, int level,
                    Solution* solution) noexcept;
 
-/// kNotFinite if a number is NaN, or infinite where only a bound may be (and a
-/// lower one only to -inf); kBadInput if lower > upper or a weight is negative;
-/// else kOptimal. The first level with an error, or -1.
+/// Returns kNotFinite if a number is NaN, or infinite and no bound; a lower
+/// bound may be -inf only, an upper one +inf only. Returns kBadInput if lower >
+/// upper or a weight is negative, else kOptimal. Sets *failed_level to the
+/// first level with an error, or to -1.
 Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept;
 
 }  // namespace poise

@@ -32,7 +32,7 @@ void ExpectAsConstructed(const Solution& solution, int num_variables) {
   }
 }
 
-TEST(Solution, ResetMakesItAsConstructed) {
+TEST(Solution, ResetRestoresTheInitialState) {
   Solution solution(3, {{1, 2}, {3, 4}});
   ExpectAsConstructed(solution, 3);
   ASSERT_EQ(solution.levels[1].multipliers.size(), 1u);
@@ -61,7 +61,7 @@ TEST(Solution, ResetMakesItAsConstructed) {
   ExpectAsConstructed(solution, 3);
 }
 
-TEST(Solution, IsTheSameWhereverItIsConstructed) {
+TEST(Solution, IsIndependentOfItsMemory) {
   alignas(Solution) unsigned char memory[sizeof(Solution)];
   std::memset(memory, 7, sizeof(memory));
   Solution* solution = new (memory) Solution(2, {{0, 0}, {0, 0}});
@@ -114,7 +114,7 @@ class CheckInputTest : public testing::Test {
   int failed_level_ = 7;
 };
 
-TEST_F(CheckInputTest, FindsWhatIsNotFinite) {
+TEST_F(CheckInputTest, FindsNumbersThatAreNotFinite) {
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     SCOPED_TRACE(bad);
     EXPECT_EQ(With(equalities_.B.data(), bad), Status::kNotFinite);
@@ -128,7 +128,7 @@ TEST_F(CheckInputTest, FindsWhatIsNotFinite) {
   EXPECT_EQ(With(inequalities_.upper.data(), -kInfinity), Status::kNotFinite);
 }
 
-TEST_F(CheckInputTest, TellsTheFirstLevelWithAnError) {
+TEST_F(CheckInputTest, ReportsTheFirstLevelWithAnError) {
   hierarchy_.AddEqualities(0, 1).weight << -1;
   EXPECT_EQ(CheckInput(hierarchy_, &failed_level_), Status::kBadInput);
   EXPECT_EQ(failed_level_, 0);
@@ -147,12 +147,12 @@ TEST(CheckInput, AcceptsTheLargestNumbers) {
   EXPECT_EQ(failed_level, -1);
 }
 
-TEST_F(CheckInputTest, FindsBoundsAndWeightsThatAreNone) {
+TEST_F(CheckInputTest, RejectsInvalidBoundsAndWeights) {
   EXPECT_EQ(With(inequalities_.lower.data(), 1.5), Status::kBadInput);
   EXPECT_EQ(With(equalities_.weight.data(), -1), Status::kBadInput);
 }
 
-TEST_F(CheckInputTest, LetsPassWhatIsAtTheEdge) {
+TEST_F(CheckInputTest, AcceptsEqualBoundsAndZeroWeights) {
   EXPECT_EQ(With(inequalities_.lower.data(), 1), Status::kOptimal);
   EXPECT_EQ(With(inequalities_.lower.data(), -kInfinity), Status::kOptimal);
   EXPECT_EQ(With(inequalities_.upper.data(), kInfinity), Status::kOptimal);

@@ -89,8 +89,8 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, Budget* budget,
   return solution->status;
 }
 
-// Removes rows from the working set whose bound became infinite. Rows with equal
-// bounds are always in it.
+// Removes rows from the working set whose bound became infinite. Rows with
+// equal bounds are always in it.
 void Solver::Impl::Prepare(const Hierarchy& hierarchy) {
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);

@@ -38,8 +38,8 @@ class Solver {
   /// above failed_level are optimal, and y is the best found for failed_level.
   int max_iterations = 500;
 
-  /// Time limit in seconds by now(), if now is given; 0: none. Unlike iterations,
-  /// time makes a replay inexact.
+  /// Time limit in seconds by now(), if now is given; 0: none. Unlike
+  /// iterations, time makes a replay inexact.
   double max_seconds = 0;
   std::function<double()> now;
 

@@ -1,17 +1,17 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // How long a solve takes, beside the literal cascade in the same run.
 //   bazel run //hqp:solver_benchmark
-// Each solve is of a hierarchy that has changed since the one before: what is asked
-// for and the bounds move by up to a hundredth, as from tick to tick, which is
-// not timed. To solve the same one again would be the best case of a solver that
-// starts from what was active. Time is the mean; median_us, p999_us and max_us
-// are of single solves.
+// Each solve is of a hierarchy that has changed since the one before: what is
+// asked for and the bounds move by up to a hundredth, as from tick to tick,
+// which is not timed. To solve the same one again would be the best case of a
+// solver that starts from what was active. Time is the mean; median_us, p999_us
+// and max_us are of single solves.
 //
-// The dense cases have rows as no robot has: 20, 40 or 60 inequalities of normal
-// numbers on each of 5 levels of 68 variables. With 20 about half as many are
-// active as there are variables. With more most levels cannot be met, and each
-// step factors such a level anew: from nothing the fast solver is slower there
-// than our own cascade by COD.
+// The dense cases have rows as no robot has: 20, 40 or 60 inequalities of
+// normal numbers on each of 5 levels of 68 variables. With 20 about half as
+// many are active as there are variables. With more most levels cannot be met,
+// and each step factors such a level anew: from nothing the fast solver is
+// slower there than our own cascade by COD.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -96,7 +96,8 @@ Problem MakePaper(int n, int levels, int limits, double limit) {
   return problem;
 }
 
-// Levels of 6 equalities and as many inequalities as told, all of normal numbers.
+// Levels of 6 equalities and as many inequalities as told, all of normal
+// numbers.
 Problem MakeDense(int n, int levels, int rows) {
   const std::vector<LevelCapacity> capacity(levels, {6, rows});
   Problem problem{capacity, Hierarchy(n, capacity)};
@@ -117,8 +118,8 @@ Problem MakeDense(int n, int levels, int rows) {
   return problem;
 }
 
-// What comes a tick later: targets and bounds are not those of `problem`, but off
-// by up to a hundredth.
+// What comes a tick later: targets and bounds are not those of `problem`, but
+// off by up to a hundredth.
 void Change(const Problem& problem, Numbers* numbers, Hierarchy* hierarchy) {
   constexpr double kChange = 0.01;
   const Hierarchy& from = problem.hierarchy;
@@ -196,7 +197,8 @@ void Run(const Problem& problem, Prepare&& prepare, Solve&& solve,
 void RunFast(const Problem& problem, bool is_warm, benchmark::State* state) {
   const int n = problem.hierarchy.num_variables();
   Solver solver(n, problem.capacity);
-  // The dense cases have no tick to be in time for; others need no more than 500.
+  // The dense cases have no tick to be in time for; others need no more than
+  // 500.
   solver.max_iterations = 10000;
   // Also the first one that is timed has one before.
   Solution first(n, problem.capacity);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// The answer is continuous wherever no level changes rank; and what happens
-// where one does, as the leg's does when the knee is straight.
+// The answer is continuous wherever no level changes rank. A leg changes rank
+// when the knee is straight.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace {
 constexpr double kTolerance = 1e-13;  // Some operations on numbers to 4.
 constexpr double kExact = 1e-15;      // One or two of them on ones and zeros.
 
-// What is left of a leg: two joints, a row above that keeps the trunk upright,
-// and one that lifts it, of which that row leaves sin(knee).
+// A leg of two joints: a row above keeps the trunk upright, and a row below
+// lifts it. In the nullspace of the first, the norm of the second is sin(knee).
 class StraightKneeTest : public testing::Test {
  protected:
   // With a row of damping for each joint beside the one that lifts.

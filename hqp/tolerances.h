@@ -9,4 +9,10 @@ namespace poise::tolerances {
 /// gives 1e-15, so six digits remain for badly conditioned rows.
 constexpr double kAtBound = 1e-9;
 
+/// The error of a level's cost is relative to the cost plus kZeroCost times the
+/// cost of the magnitudes of its terms. This too is a term of the definition of
+/// a Certificate. A level that is met to rounding has 1e-30 of these, so 1e-9
+/// divides no rounding by rounding.
+constexpr double kZeroCost = 1e-9;
+
 }  // namespace poise::tolerances

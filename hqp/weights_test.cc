@@ -32,8 +32,8 @@ void ExpectSameOptimum(int seed, const RandomHierarchyOptions& options) {
 }
 
 // The first draws of `hqp_night --scaled 0 --weighted 100`, and those on which
-// it has failed: of the first list some were certified, and wrong; those of the
-// others had no optimum.
+// it failed. Some of the first list were certified and wrong; the others were
+// not solved.
 class WeightsTest : public testing::TestWithParam<int> {
  protected:
   std::vector<int> Seeds() const {
@@ -54,7 +54,7 @@ class WeightsTest : public testing::TestWithParam<int> {
 
 INSTANTIATE_TEST_SUITE_P(Decades, WeightsTest, testing::Values(4, 6, 8));
 
-TEST_P(WeightsTest, LeaveBothSolversTheSameOptimum) {
+TEST_P(WeightsTest, GiveBothSolversTheSameOptimum) {
   RandomHierarchyOptions options;
   options.scaled = 0;
   options.weighted = 100;
@@ -62,8 +62,9 @@ TEST_P(WeightsTest, LeaveBothSolversTheSameOptimum) {
   for (const int seed : Seeds()) ExpectSameOptimum(seed, options);
 }
 
-// Three rows above hold both variables between them, whatever these weigh below.
-TEST(Weights, DoNotMoveWhatLevelsAboveHaveFixed) {
+// Three rows above hold both variables between them, whatever these weigh
+// below.
+TEST(Weights, DoNotChangeLevelsAbove) {
   const std::vector<LevelCapacity> capacity{{3, 0}, {2, 0}};
   Eigen::Matrix<double, 3, 2> A;
   A << 2.87, 0.41, -1.43, -1.66, 0, 1.35;
@@ -91,10 +92,10 @@ TEST(Weights, DoNotMoveWhatLevelsAboveHaveFixed) {
   }
 }
 
-// Two rows of one direction contradict each other on level 1, one 1e7 times as
-// heavy: at their optimum they ask nothing of the bound above, but by rounding of
-// what the heavy one lacks. So it leaves as soon as level 2 does not need it.
-TEST(Weights, AskNothingByWhatRoundingLeavesOfAHeavyRow) {
+// Two parallel rows conflict on level 1, one of them with 1e7 times the weight.
+// At their optimum, the gradient along the bound above is rounding of the
+// residual of that row. So the bound is removed for level 2.
+TEST(Weights, IgnoreRoundingOfALargeWeightRow) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {2, 0}, {1, 0}};
   for (int seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
@@ -117,15 +118,14 @@ TEST(Weights, AskNothingByWhatRoundingLeavesOfAHeavyRow) {
       ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
       EXPECT_NEAR(solution.y[1], bound + std::min(beyond, 0.), Rounding(30, 3));
     }
-    // What is active is solved for, and once more without the row; not level by
-    // level.
+    // One solve with the row and one without, and no search level by level.
     EXPECT_LE(solution.iterations, 3);
   }
 }
 
-// The unit of one variable is millions of that of the other, and both levels can
-// be met. What a row asks for of the other is no rounding because of that.
-TEST(Weights, MeetRowsWhoseVariablesHaveUnlikeUnits) {
+// The units of the two variables differ by 1e6 and more, and both levels can be
+// met. Neither variable is rounding of the other.
+TEST(Weights, MeetRowsWithVariablesOfUnlikeUnits) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {0, 1}};
   Hierarchy hierarchy(2, capacity);
   InequalityBlock first = hierarchy.AddInequalities(0, 2);
@@ -141,10 +141,11 @@ TEST(Weights, MeetRowsWhoseVariablesHaveUnlikeUnits) {
   EXPECT_NEAR(solution.levels[1].cost, 0, 1e-20);
 }
 
-// With variables in units from 1e-3 to 1e6: those on which `hqp_night --scaled 0
-// --columns 100` has failed. Of the first what rounding leaves of long rows was a
-// multiplier; of the others what holds a row was not, being large beside its wish.
-TEST(Weights, LeaveBothSolversTheSameOptimumInWhateverUnits) {
+// Hierarchies with variables in units from 1e-3 to 1e6, on which
+// `hqp_night --scaled 0 --columns 100` failed. The first took rounding of
+// large-norm rows for a multiplier. The others took a multiplier that is large
+// beside its target for rounding.
+TEST(Weights, GiveBothSolversTheSameOptimumInAnyUnits) {
   RandomHierarchyOptions options;
   options.scaled = 0;
   options.columns = 100;
@@ -153,9 +154,9 @@ TEST(Weights, LeaveBothSolversTheSameOptimumInWhateverUnits) {
   }
 }
 
-// (0, -6/0.017): with y0 held, the row can be met by y1 alone, of which it has little
-// and of which the last level wants nothing. So what holds it is large beside that.
-TEST(Weights, LeaveAMultiplierThatIsLargeBesideItsWish) {
+// (0, -6/0.017): with y0 fixed, only y1 can meet the row. The row's entry of y1
+// is small, and the target of y1 is 0, so the multiplier is large beside it.
+TEST(Weights, AllowAMultiplierLargerThanTheTarget) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {1, 0}, {1, 0}};
   Hierarchy hierarchy(2, capacity);
   InequalityBlock row = hierarchy.AddInequalities(0, 1);

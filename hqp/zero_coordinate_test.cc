@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Rows that meet in a point with coordinates that are zero: what rounding leaves
-// of these violates a row that asks for no less than zero by all that it has.
+// Rows meet at a point with coordinates that are zero. Rounding of these would
+// violate a row y_j >= 0 by 100 % of its terms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace poise {
 namespace {
 
-constexpr double kCertified = 1e-9;  // What the solver promises.
+constexpr double kCertified = Certifier::kCertified;
 
 Solution Solve(const HierarchyByHand& problem) {
   const int n = problem.hierarchy.num_variables();
@@ -28,8 +28,8 @@ Solution Solve(const HierarchyByHand& problem) {
   return solution;
 }
 
-// -6e-17 for 0 is enough to break the row of the second level.
-TEST(ZeroCoordinate, HasAZeroWhereTwoRowsMeet) {
+// y0 = -6e-17 in place of 0 would violate the row of the second level.
+TEST(ZeroCoordinate, IsZeroWhereTwoRowsMeet) {
   const HierarchyByHand problem(2, {{0, {4, 5}, -INFINITY, -5},
                                     {0, {-2, 5}, -INFINITY, -5},
                                     {1, {1, 0}, 0, INFINITY}});
@@ -38,8 +38,8 @@ TEST(ZeroCoordinate, HasAZeroWhereTwoRowsMeet) {
   EXPECT_NEAR(solution.y[1], -1, 1e-15);  // Five roundings of 1.
 }
 
-// No rows are missed but the one that asks for zero: (0, 3) meets them all.
-TEST(ZeroCoordinate, HasAZeroWhereFiveRowsMeet) {
+// (0, 3) meets all rows; rounding would violate the row y0 = 0 only.
+TEST(ZeroCoordinate, IsZeroWhereFiveRowsMeet) {
   const HierarchyByHand problem(2, {{0, {1, 2}, -INFINITY, 6},
                                     {0, {-1, 0}, 0, INFINITY},
                                     {0, {3, -1}, -3, INFINITY},
@@ -51,9 +51,8 @@ TEST(ZeroCoordinate, HasAZeroWhereFiveRowsMeet) {
   EXPECT_NEAR(solution.y[1], 3, 3e-15);
 }
 
-// y2 is not alone: (0, -2, 0, 0) has three zeros, each of which another row ties
-// to it.
-TEST(ZeroCoordinate, HasZerosThatOtherRowsTie) {
+// (0, -2, 0, 0) has three zeros, which other rows relate to each other.
+TEST(ZeroCoordinate, IsZeroInRowsThatShareVariables) {
   const HierarchyByHand problem(4, {{0, {0, -4, -1, 0}, 8, 8},
                                     {0, {-3, 1, 0, 0}, -2, -2},
                                     {1, {-3, 0, 0, 1}, 0, 0},
@@ -64,8 +63,8 @@ TEST(ZeroCoordinate, HasZerosThatOtherRowsTie) {
   EXPECT_NEAR(solution.y[1], -2, 2e-15);
 }
 
-// The last level asks for what three rows have already met, once refined.
-TEST(ZeroCoordinate, AsksNothingOfALevelThatRefinementHasMet) {
+// Three rows meet the target of the last level, once they are refined.
+TEST(ZeroCoordinate, GivesNoMultiplierToALevelThatRefinementMeets) {
   const HierarchyByHand problem(2, {{0, {2, 0}, 2, 2},
                                     {0, {0, -3}, 0, 0},
                                     {0, {-4, 5}, -4, -4},
@@ -76,9 +75,9 @@ TEST(ZeroCoordinate, AsksNothingOfALevelThatRefinementHasMet) {
   EXPECT_TRUE(solution.levels[1].multipliers[0].equality.isZero(0));
 }
 
-// Whatever rows of small integers go through a point of small integers, on
-// whatever side of them y may be: the point meets them all.
-TEST(ZeroCoordinate, IsFoundByWhateverRows) {
+// Random rows of small integers through a point of small integers, with the
+// bound on either side: the point meets them all.
+TEST(ZeroCoordinate, IsFoundInRandomHierarchies) {
   for (int seed = 1; seed <= 2000; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);

@@ -73,8 +73,8 @@ int ActiveSetSearch::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
     std::fill(level.begin(), level.end(), Side::kNone);
   }
   for (int level = 0; level <= levels; ++level) {
-    // Among the optima of this level, take the one closest to y. Among the optima
-    // of all levels, take the one of minimum norm.
+    // Among the optima of this level, take the one closest to y. Among the
+    // optima of all levels, take the one of minimum norm.
     problem->Plan(hierarchy, std::min(level + 1, levels),
                   level < levels ? y_.data() : nullptr);
     if (level < levels) InitializeWorkingSet(hierarchy, level, side);
@@ -105,8 +105,8 @@ void ActiveSetSearch::RestoreWorkingSet(
   }
 }
 
-// Initializes the search on all levels; `problem` is solved for the working set.
-// Returns whether the working set changes. If not, y is the optimum.
+// Initializes the search on all levels; `problem` is solved for the working
+// set. Returns whether the working set changes. If not, y is the optimum.
 bool ActiveSetSearch::InitializeAllLevels(
     const Hierarchy& hierarchy, WorkingSetProblem* problem,
     std::vector<std::vector<Side>>* side) {
@@ -136,7 +136,8 @@ bool ActiveSetSearch::InitializeAllLevels(
   return true;
 }
 
-// Finds the bounds outside the working set that y violates. Returns their number.
+// Finds the bounds outside the working set that y violates. Returns their
+// number.
 int ActiveSetSearch::FindViolated(const Hierarchy& hierarchy,
                                   const WorkingSetProblem& problem,
                                   const std::vector<double>& y,
@@ -190,8 +191,8 @@ void ActiveSetSearch::InitializeWorkingSet(
 }
 
 // Makes one iteration: a step to a blocking constraint, or, if there is none, a
-// removal. Returns whether the working set changes. If not, the levels up to this
-// one are at their optimum.
+// removal. Returns whether the working set changes. If not, the levels up to
+// this one are at their optimum.
 bool ActiveSetSearch::Iterate(const Hierarchy& hierarchy, int level,
                               WorkingSetProblem* problem,
                               std::vector<std::vector<Side>>* side) {
@@ -200,8 +201,8 @@ bool ActiveSetSearch::Iterate(const Hierarchy& hierarchy, int level,
 }
 
 // Moves y towards the optimum of the working set, up to the first bound outside
-// the working set, and adds that bound to it. Among bounds at equal distance, the
-// steepest is added. Returns whether there is such a bound.
+// the working set, and adds that bound to it. Among bounds at equal distance,
+// the steepest is added. Returns whether there is such a bound.
 bool ActiveSetSearch::StepToBlockingConstraint(
     const Hierarchy& hierarchy, const WorkingSetProblem& problem,
     std::vector<std::vector<Side>>* side) {
@@ -257,8 +258,9 @@ bool ActiveSetSearch::StepToBlockingConstraint(
 
 // Removes constraints with a negative multiplier from the working set: all that
 // are strictly inside their bound, or else the one with the most negative
-// multiplier. Once in a search, all whose multiplier comes from a diagonal level
-// are removed together, as a step there is expensive. Returns whether any is.
+// multiplier. Once in a search, all whose multiplier comes from a diagonal
+// level are removed together, as a step there is expensive. Returns whether any
+// is.
 bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
                                         std::vector<std::vector<Side>>* side) {
   int removed = kNone;

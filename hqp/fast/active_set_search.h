@@ -31,15 +31,16 @@ class ActiveSetSearch {
                  WorkingSetProblem* problem,
                  std::vector<std::vector<Side>>* side);
 
-  /// Searches level by level from y = 0, as the cascade of the paper does, on one
-  /// factorisation of all levels. This is slower than AllAtOnce(), but levels
-  /// that are solved stay solved. Rows that are violated at the optimum of their
-  /// own level are equalities from then on.
+  /// Searches level by level from y = 0, as the cascade of the paper does, on
+  /// one factorisation of all levels. This is slower than AllAtOnce(), but
+  /// levels that are solved stay solved. Rows that are violated at the optimum
+  /// of their own level are equalities from then on.
   ///
-  /// Returns the number of levels at their optimum. If the budget suffices, that
-  /// is all levels and one more, the norm of y. `problem` is then solved for the
-  /// working set `side`, but y() is the answer. If a level is not at its optimum,
-  /// y() is the best found for it, and `side` keeps the levels above it optimal.
+  /// Returns the number of levels at their optimum. If the budget suffices,
+  /// that is all levels and one more, the norm of y. `problem` is then solved
+  /// for the working set `side`, but y() is the answer. If a level is not at
+  /// its optimum, y() is the best found for it, and `side` keeps the levels
+  /// above it optimal.
   int LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
                    WorkingSetProblem* problem,
                    std::vector<std::vector<Side>>* side);

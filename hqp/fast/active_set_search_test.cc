@@ -3,20 +3,26 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "poise/hqp/certificate.h"
 #include "poise/hqp/fast/budget.h"
 #include "poise/hqp/fast/working_set_problem.h"
 #include "poise/hqp/hierarchy.h"
 #include "poise/hqp/reference/cascade.h"
 #include "poise/hqp/solution.h"
+#include "poise/hqp/tolerances.h"
+#include "poise/math/rank.h"
 #include "poise/tests/util/random_hierarchy.h"
 #include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {
 
-constexpr double kCertified = 1e-9;  // What Solver promises of costs.
+constexpr double kCertified = Certifier::kCertified;  // Of costs as well.
 
-// Of rows of numbers in hundredths: far above rounding, and no less is violated.
+// Of rows of numbers in hundredths: far above rounding, and no less is
+// violated.
 constexpr double kViolated = 1e-6;
 
 // Of y, relative: rounding by way of the square of the worst condition of such
@@ -43,7 +49,7 @@ class ActiveSetSearchTest : public testing::TestWithParam<int> {
     options.scaled = 0;
     return MakeRandomHierarchy(GetParam(), options);
   }
-  // As many levels as the budget pays for, and what they cost.
+  // Searches within the budget. Returns the number of levels solved.
   int Search(int max_iterations) {
     WorkingSetProblem problem(n_, drawn_.capacity);
     EXPECT_EQ(problem.Read(hierarchy_, &found_.failed_level), Status::kOptimal);
@@ -58,8 +64,8 @@ class ActiveSetSearchTest : public testing::TestWithParam<int> {
     }
     return levels;
   }
-  // Violated rows of the first `levels` levels are in the working set; no row of
-  // another level is.
+  // Violated rows of the first `levels` levels are in the working set; no row
+  // of another level is.
   void ExpectHeldBack(int levels) const;
   double Tolerance(int level) const {
     return kCertified * CostSize(hierarchy_, level, reference_);
@@ -104,8 +110,8 @@ TEST_P(ActiveSetSearchTest, AgreesWithTheCascade) {
             kSameY * (1 + reference_.y.norm()));
 }
 
-// What the budget leaves unsolved is at the bottom; the levels above hold.
-TEST_P(ActiveSetSearchTest, KeepsWhatItHasSolvedWhenItsBudgetEnds) {
+// A spent budget costs the lowest levels; the levels above are optimal.
+TEST_P(ActiveSetSearchTest, KeepsSolvedLevelsWhenTheBudgetEnds) {
   ASSERT_EQ(Search(10000), num_levels_ + 1);
   const int needed = iterations_;
   for (int budget = 0; budget < needed; ++budget) {
@@ -122,7 +128,7 @@ TEST_P(ActiveSetSearchTest, KeepsWhatItHasSolvedWhenItsBudgetEnds) {
   }
 }
 
-// From anywhere: any rows active, any y.
+// From any working set and any y.
 TEST_P(ActiveSetSearchTest, AgreesWithTheCascadeAllAtOnce) {
   for (int start = 0; start < 4; ++start) {
     SCOPED_TRACE(start);
@@ -152,15 +158,15 @@ TEST_P(ActiveSetSearchTest, AgreesWithTheCascadeAllAtOnce) {
     }
     EXPECT_LE((found_.y - reference_.y).norm(),
               kSameY * (1 + reference_.y.norm()));
-    // Once more: it is there.
+    // A second search, from the optimum, takes one iteration.
     const int needed = budget.iterations();
     ASSERT_TRUE(search_.AllAtOnce(hierarchy_, 10000, &budget, &problem, &side));
     EXPECT_EQ(budget.iterations(), needed + 1);
   }
 }
 
-// A wrong step is made up for by later ones, and shows in how many there are.
-TEST(ActiveSetSearch, TakesAsManyStepsAsItDid) {
+// Later steps correct a wrong one, so that only their number shows it.
+TEST(ActiveSetSearch, NeedsNoMoreIterationsThanBefore) {
   RandomHierarchyOptions options;
   options.scaled = 0;
   const std::function<double()> no_clock;
@@ -172,10 +178,10 @@ TEST(ActiveSetSearch, TakesAsManyStepsAsItDid) {
     int failed;
     ASSERT_EQ(problem.Read(drawn.hierarchy, &failed), Status::kOptimal);
     std::vector<std::vector<Side>> side = NoSides(drawn.capacity);
-    ActiveSetSearch descent(n, drawn.capacity);
-    ASSERT_EQ(descent.LevelByLevel(drawn.hierarchy, &by_level, &problem, &side),
+    ActiveSetSearch search(n, drawn.capacity);
+    ASSERT_EQ(search.LevelByLevel(drawn.hierarchy, &by_level, &problem, &side),
               drawn.hierarchy.num_levels() + 1);
-    // From there, with nothing active that need not be.
+    // From that y, with fixed rows only in the working set.
     side = NoSides(drawn.capacity);
     for (int level = 0; level < drawn.hierarchy.num_levels(); ++level) {
       for (int i = 0; i < drawn.hierarchy.num_inequalities(level); ++i) {
@@ -186,15 +192,15 @@ TEST(ActiveSetSearch, TakesAsManyStepsAsItDid) {
       }
     }
     ASSERT_TRUE(
-        descent.AllAtOnce(drawn.hierarchy, 100000, &at_once, &problem, &side));
+        search.AllAtOnce(drawn.hierarchy, 100000, &at_once, &problem, &side));
   }
   // A few more or less by rounding.
   EXPECT_LE(by_level.iterations(), 1680);
   EXPECT_LE(at_once.iterations(), 979);
 }
 
-// y <= 1 and y >= -1 by one row, from its upper side with an aim at -3: the
-// lower side is in the way, and takes its place.
+// y <= 1 and y >= -1 by one row, active at its upper bound, with a target of
+// -3: the lower bound blocks the step and replaces the upper one.
 TEST(ActiveSetSearch, ChangesTheSideOfARow) {
   const std::vector<LevelCapacity> capacity = {{0, 1}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
@@ -211,11 +217,11 @@ TEST(ActiveSetSearch, ChangesTheSideOfARow) {
   std::vector<std::vector<Side>> side = {{Side::kUpper}, {}};
   const std::function<double()> no_clock;
   Budget budget(100, 0, &no_clock);
-  ActiveSetSearch descent(1, capacity);
-  ASSERT_TRUE(descent.AllAtOnce(hierarchy, 100, &budget, &problem, &side));
+  ActiveSetSearch search(1, capacity);
+  ASSERT_TRUE(search.AllAtOnce(hierarchy, 100, &budget, &problem, &side));
   EXPECT_EQ(side[0][0], Side::kLower);
-  EXPECT_EQ(descent.y()[0], -1);
-  // At 1; lets go; towards -3, and stopped; there.
+  EXPECT_EQ(search.y()[0], -1);
+  // Solved at 1, removed; blocked on the way to -3; solved at -1.
   EXPECT_EQ(budget.iterations(), 3);
   for (int too_few = 0; too_few < 3; ++too_few) {
     Budget short_of_it(too_few, 0, &no_clock);
@@ -227,11 +233,11 @@ TEST(ActiveSetSearch, ChangesTheSideOfARow) {
     EXPECT_FALSE(ActiveSetSearch(1, capacity)
                      .AllAtOnce(hierarchy, too_few, &ample, &problem, &side));
   }
-  descent.Forget();
-  EXPECT_EQ(descent.y()[0], 0);
+  search.Forget();
+  EXPECT_EQ(search.y()[0], 0);
 }
 
-// Rows and wishes to be told one by one, and a search on either way.
+// Adds rows and targets one by one, and searches in either way.
 class ActiveSetSearchByHandTest : public testing::Test {
  protected:
   explicit ActiveSetSearchByHandTest(int n = 3) : hierarchy_(n, capacity_) {}
@@ -243,32 +249,32 @@ class ActiveSetSearchByHandTest : public testing::Test {
     block.lower[0] = lower;
     block.upper[0] = upper;
   }
-  void AddWish(int level, int variable, double target) {
+  void AddTarget(int level, int variable, double target) {
     EqualityBlock block = hierarchy_.AddEqualities(level, 1);
     block.B(0, variable) = 1;
     block.b[0] = -target;
   }
-  // y = (1, 1, 1), held by three rows, where a level wishes for (2, 3, 4).
+  // Three rows hold y at (1, 1, 1), where a level has the target (2, 3, 4).
   void HoldAtOne(int level) {
     for (int j = 0; j < 3; ++j) {
       std::vector<double> row(3);
       row[j] = 1;
       AddRow(0, row, 1, INFINITY);
-      AddWish(level, j, 2 + j);
+      AddTarget(level, j, 2 + j);
     }
     begin_ = Side::kLower;
   }
   // Returns the levels that are done.
   int ByLevel(int max_iterations = 100) {
-    return Search(max_iterations, [&](ActiveSetSearch* descent, Budget* budget,
+    return Search(max_iterations, [&](ActiveSetSearch* search, Budget* budget,
                                       WorkingSetProblem* problem) {
-      return descent->LevelByLevel(hierarchy_, budget, problem, &side_);
+      return search->LevelByLevel(hierarchy_, budget, problem, &side_);
     });
   }
   bool AtOnce(int max_iterations = 100) {
-    return Search(max_iterations, [&](ActiveSetSearch* descent, Budget* budget,
+    return Search(max_iterations, [&](ActiveSetSearch* search, Budget* budget,
                                       WorkingSetProblem* problem) {
-      return descent->AllAtOnce(hierarchy_, 100, budget, problem, &side_);
+      return search->AllAtOnce(hierarchy_, 100, budget, problem, &side_);
     });
   }
   Side side(int level, int i) const { return side_[level][i]; }
@@ -295,36 +301,36 @@ int ActiveSetSearchByHandTest::Search(int max_iterations,
   EXPECT_EQ(problem.Read(hierarchy_, &failed_level), Status::kOptimal);
   const std::function<double()> no_clock;
   Budget budget(max_iterations, 0, &no_clock);
-  ActiveSetSearch descent(n, capacity_);
+  ActiveSetSearch search(n, capacity_);
   side_ = NoSides(capacity_);
   for (int i = 0; i < hierarchy_.num_inequalities(0); ++i) {
     side_[0][i] = begin_;
   }
-  const int result = function(&descent, &budget, &problem);
+  const int result = function(&search, &budget, &problem);
   iterations_ = budget.iterations();
-  y_ = Eigen::VectorXd::Map(descent.y().data(), n);
+  y_ = Eigen::VectorXd::Map(search.y().data(), n);
   return result;
 }
 
-// On the way to (2, 5) a row is in the way at half of it.
-TEST_F(ActiveSetSearchByHandTest, StopsAtTheRowInItsWay) {
+// On the way to (2, 5) a row blocks at half of the step.
+TEST_F(ActiveSetSearchByHandTest, StopsAtABlockingConstraint) {
   AddRow(0, {4, 0, 0}, -INFINITY, 4);
-  AddWish(1, 0, 2);
-  AddWish(1, 1, 5);
-  // None; level 0, where nothing is to be done; the way; there; the norm of y.
+  AddTarget(1, 0, 2);
+  AddTarget(1, 1, 5);
+  // No level; level 0, without a step; the blocked step; the optimum; the norm.
   EXPECT_EQ(ByLevel(0), 0);
   EXPECT_EQ(y_, Eigen::Vector3d(0, 0, 0));
   EXPECT_EQ(ByLevel(2), 1);
   EXPECT_EQ(y_, Eigen::Vector3d(1, 2.5, 0));
-  EXPECT_EQ(side(0, 0), Side::kNone);  // Which nothing has settled yet.
+  EXPECT_EQ(side(0, 0), Side::kNone);  // The level is not solved.
   EXPECT_EQ(ByLevel(), 4);
   EXPECT_EQ(y_, Eigen::Vector3d(1, 5, 0));
   EXPECT_EQ(side(0, 0), Side::kUpper);
   EXPECT_EQ(iterations_, 5);
 }
 
-// What a level began with, and did not end, is no longer active.
-TEST_F(ActiveSetSearchByHandTest, UnwindsALevelThatItHasNotDone) {
+// Rows added on a level that is not solved are removed again.
+TEST_F(ActiveSetSearchByHandTest, RestoresTheWorkingSetOfTheLastSolvedLevel) {
   AddRow(0, {1, 0, 0}, 1, INFINITY);
   EXPECT_EQ(ByLevel(0), 0);
   EXPECT_EQ(side(0, 0), Side::kNone);
@@ -332,16 +338,16 @@ TEST_F(ActiveSetSearchByHandTest, UnwindsALevelThatItHasNotDone) {
   EXPECT_EQ(side(0, 0), Side::kLower);
 }
 
-// Of two rows in the way at the same point, the one that the way goes across:
-// the other is in the way no more.
-TEST_F(ActiveSetSearchByHandTest, TakesTheSteepestOfRowsThatMeet) {
+// Two rows block at the same point. With the steeper one added, the other does
+// not block any more.
+TEST_F(ActiveSetSearchByHandTest, AddsTheSteepestOfTwoBlockingConstraints) {
   for (const bool first : {false, true}) {
     for (const double scale : {0.1, 1.0, 10.0}) {
       hierarchy_.Clear(3);
       if (first) AddRow(0, {1, 0, 0}, -INFINITY, 1);
       AddRow(0, {scale, scale, 0}, -INFINITY, scale);
       if (!first) AddRow(0, {1, 0, 0}, -INFINITY, 1);
-      AddWish(1, 0, 2);
+      AddTarget(1, 0, 2);
       ASSERT_EQ(ByLevel(), 4);
       EXPECT_EQ(side(0, first ? 0 : 1), Side::kUpper) << scale;
       EXPECT_EQ(side(0, first ? 1 : 0), Side::kNone) << scale;
@@ -350,16 +356,16 @@ TEST_F(ActiveSetSearchByHandTest, TakesTheSteepestOfRowsThatMeet) {
   }
 }
 
-// What is touched, at the start or at the end, is not in the way.
-TEST_F(ActiveSetSearchByHandTest, LeavesRowsThatItOnlyTouches) {
+// A bound that y touches at the start or at the end does not block.
+TEST_F(ActiveSetSearchByHandTest, DoesNotAddRowsThatItOnlyTouches) {
   for (const double sign : {-1.0, 1.0}) {
     hierarchy_.Clear(3);
     AddRow(0, {sign, 0, 0}, -INFINITY, 0);  // At the start,
     AddRow(0, {0, sign, 0}, 0, INFINITY);
     AddRow(0, {0, 0, 1}, -1, 1);  // and at the end.
-    AddWish(1, 0, -sign);
-    AddWish(1, 1, sign);
-    AddWish(1, 2, sign);
+    AddTarget(1, 0, -sign);
+    AddTarget(1, 1, sign);
+    AddTarget(1, 2, sign);
     ASSERT_EQ(ByLevel(), 4);
     EXPECT_EQ(y_, Eigen::Vector3d(-sign, sign, sign));
     for (int i = 0; i < 3; ++i) EXPECT_EQ(side(0, i), Side::kNone) << i;
@@ -367,80 +373,91 @@ TEST_F(ActiveSetSearchByHandTest, LeavesRowsThatItOnlyTouches) {
   }
 }
 
-// 2 y0 <= 2, with y1 = 10: broken from 1e-11 (2 10 + 2) on, in any unit.
-TEST_F(ActiveSetSearchByHandTest, BreaksARowFromAnEdgeOn) {
+// 2 y0 <= 2 with y1 = 10, and a target beyond the bound, in any unit: y keeps
+// the row as the certificate asks. Rounding of a hundred terms costs no step.
+TEST_F(ActiveSetSearchByHandTest, KeepsARowWhateverItsViolationAtTheStart) {
+  const double size = 2 * 10 + 2;
+  const double rounding = 100 * std::numeric_limits<double>::epsilon() * size;
   for (const double unit : {1.0, 0x1p-40}) {
-    for (const double violation : {2.1e-10, 2.3e-10}) {
+    for (const double violation : {0., 1e-16, rounding, 1e-7, 1e-5, 1e-2, 1.}) {
       for (const double sign : {-1.0, 1.0}) {
+        SCOPED_TRACE(testing::Message() << violation << ", " << sign);
         hierarchy_.Clear(3);
         AddRow(0, {2 * sign, 0, 0}, -INFINITY, 2 * unit);
-        AddWish(1, 0, sign * unit * (1 + violation / 2));
-        AddWish(1, 1, 10 * unit);
+        AddTarget(1, 0, sign * unit * (1 + violation / 2));
+        AddTarget(1, 1, 10 * unit);
         ASSERT_TRUE(AtOnce());
-        EXPECT_EQ(iterations_, violation < 2.2e-10 ? 1 : 3);
-        EXPECT_EQ(side(0, 0), violation < 2.2e-10 ? Side::kNone : Side::kUpper);
+        EXPECT_LE(iterations_, violation <= rounding ? 1 : 3);
+        EXPECT_LE(2 * sign * y_[0], unit * (2 + tolerances::kAtBound * size));
+        EXPECT_GE(sign * y_[0], unit * (1 - Rounding(1, 2)));
+        EXPECT_NEAR(y_[1], 10 * unit, unit * Rounding(10, 2));
       }
     }
   }
 }
 
-// y0 + y2 <= 1 where y0 = 1 is settled, and y2 wants a little: that is in the
-// way from 1e-13 (|y| before + |y| after) and 1e-11 of the way on, times a norm
-// of 2.
+// y0 + y2 <= 1 where y0 = 1 is fixed, y2 has a positive target, and y1 is 1e8,
+// from before or in the same step. The row is kept to the rank tolerance of
+// 1e8; a step of rounding of 1e8 does not add it to the working set.
 TEST_F(ActiveSetSearchByHandTest, IgnoresRoundingAsABlockingConstraint) {
+  constexpr double kLarge = 1e8;
+  const double rounding = 100 * std::numeric_limits<double>::epsilon() * kLarge;
   for (const bool moves : {false, true}) {
-    const double edge = moves ? 2 * (1e-3 + 1e-5) : 2 * 2e-5;
-    for (const double share : {0.01, 100.}) {
+    for (const double target : {0., rounding, 1e-2, 0.5, 1e2, 1e6}) {
+      SCOPED_TRACE(testing::Message() << moves << ", " << target);
       hierarchy_.Clear(3);
       AddRow(0, {1, 0, 1}, -INFINITY, 1);
-      AddWish(0, 0, 1);
-      AddWish(moves ? 1 : 0, 1, 1e8);
-      AddWish(1, 2, share * edge);
+      AddTarget(0, 0, 1);
+      AddTarget(moves ? 1 : 0, 1, kLarge);
+      AddTarget(1, 2, target);
       ASSERT_EQ(ByLevel(), 4);
-      // y0 is 1 but for its rounding, and that is what is left for y2.
-      EXPECT_NEAR(y_[2], share < 1 ? share * edge : 0, Rounding(1, 3)) << moves;
+      EXPECT_LE(iterations_, target <= rounding ? 4 : 5);
+      EXPECT_NEAR(y_[0], 1, Rounding(1, 3));
+      EXPECT_LE(y_[0] + y_[2] - 1, 3 * kRankTolerance * kLarge);
+      EXPECT_GE(y_[2], -Rounding(1, 3));
     }
   }
 }
 
-// y0 >= 1, and in the last level y1 = 5, which breaks y1 <= 2: not before the
-// head is at its best does y1 move.
-TEST_F(ActiveSetSearchByHandTest, SparesTheTailUntilTheHeadIsAtItsBest) {
+// y0 >= 1, and in the last level y1 = 5, which violates y1 <= 2: y1 moves only
+// once the leading levels are optimal.
+TEST_F(ActiveSetSearchByHandTest, SolvesDiagonalLevelsAfterTheLeadingOnes) {
   AddRow(0, {1, 0, 0}, 1, INFINITY);
   AddRow(0, {0, 1, 0}, -INFINITY, 2);
-  AddWish(2, 1, 5);
+  AddTarget(2, 1, 5);
   EXPECT_FALSE(AtOnce(2));
   EXPECT_EQ(y_, Eigen::Vector3d(1, 2, 0));
   EXPECT_TRUE(AtOnce(3));
   EXPECT_EQ(y_, Eigen::Vector3d(1, 2, 0));
 }
 
-// Where only the tail draws at them, rows leave together.
-TEST_F(ActiveSetSearchByHandTest, LetsGoOfRowsForTheTailTogether) {
+// Rows whose multiplier comes from a diagonal level are removed together.
+TEST_F(ActiveSetSearchByHandTest, RemovesRowsTogetherForADiagonalLevel) {
   HoldAtOne(2);
   ASSERT_TRUE(AtOnce());
   EXPECT_EQ(y_, Eigen::Vector3d(2, 3, 4));
-  // Held; the head without them; which is done, and the tail with it.
+  // Once with the rows, and once without.
   EXPECT_EQ(iterations_, 2);
 }
 
-// Where a level of the head draws at them, they leave one by one: letting several
-// go there costs more steps than it saves.
-TEST_F(ActiveSetSearchByHandTest, LetsGoOfRowsForTheHeadOneByOne) {
+// Rows whose multiplier comes from a leading level are removed one by one:
+// removing several at once costs more steps than it saves.
+TEST_F(ActiveSetSearchByHandTest, RemovesRowsOneByOneForALeadingLevel) {
   HoldAtOne(1);
-  AddRow(1, {1, 1, 1}, -INFINITY, 100);  // It has a row: it is no tail.
+  AddRow(1, {1, 1, 1}, -INFINITY,
+         100);  // With an inequality, the level is not diagonal.
   ASSERT_TRUE(AtOnce());
   EXPECT_EQ(y_, Eigen::Vector3d(2, 3, 4));
   EXPECT_EQ(iterations_, 4);
 }
 
-// As many rows as there is room for.
+// As many rows as the capacity allows.
 TEST_F(ActiveSetSearchByHandTest, HasRoomForManyRows) {
   for (int i = 0; i < 50; ++i) {
     AddRow(0, {1, 0, 0}, i == 30 ? 2 : -INFINITY, i == 49 ? 3 : 4 + i);
   }
-  AddWish(1, 0, 5);
-  AddWish(1, 1, 1);
+  AddTarget(1, 0, 5);
+  AddTarget(1, 1, 1);
   ASSERT_TRUE(AtOnce());
   EXPECT_EQ(y_, Eigen::Vector3d(3, 1, 0));
   ASSERT_EQ(ByLevel(), 4);

@@ -5,8 +5,8 @@
 
 namespace poise {
 
-/// The budget of one solve: a number of factorisations, and seconds by a clock if
-/// there is one.
+/// The budget of one solve: a number of factorisations, and seconds by a clock
+/// if there is one.
 class Budget {
  public:
   Budget(int max_iterations, double max_seconds,
@@ -16,8 +16,8 @@ class Budget {
         now_(max_seconds > 0 && *now ? now : nullptr),
         start_(now_ != nullptr ? (*now_)() : 0) {}
 
-  /// Uses one factorisation. Returns false if the budget is spent, or if `limit`
-  /// factorisations have been used.
+  /// Uses one factorisation. Returns false if the budget is spent, or if
+  /// `limit` factorisations have been used.
   bool Take(int limit) {
     if (iterations_ >= max_iterations_ || iterations_ >= limit ||
         (now_ != nullptr && (*now_)() - start_ > max_seconds_)) {

@@ -6,7 +6,7 @@
 namespace poise {
 namespace {
 
-TEST(Budget, GivesAsMuchAsItHas) {
+TEST(Budget, EndsAfterItsIterations) {
   const std::function<double()> no_clock;
   Budget budget(3, 1, &no_clock);
   EXPECT_EQ(budget.max_iterations(), 3);
@@ -30,7 +30,7 @@ TEST(Budget, StopsAtALimit) {
 }
 
 // The clock starts when the budget does, and counts only if asked to.
-TEST(Budget, StopsWhenItsTimeIsOver) {
+TEST(Budget, StopsAtItsTimeLimit) {
   double time = 100;
   const std::function<double()> now = [&] { return time; };
   Budget budget(9, 2, &now), endless(9, 0, &now);

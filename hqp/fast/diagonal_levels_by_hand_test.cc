@@ -12,7 +12,8 @@
 namespace poise {
 namespace {
 
-// y1 + y2 = sqrt(2) above y1 = 3, of weight 1, and y2 = 5, of weight 3; y3 free.
+// y1 + y2 = sqrt(2) above y1 = 3, of weight 1, and y2 = 5, of weight 3; y3
+// free.
 class DiagonalLevelsTest : public testing::Test {
  protected:
   DiagonalLevelsTest() {
@@ -34,16 +35,16 @@ class DiagonalLevelsTest : public testing::Test {
 
 TEST_F(DiagonalLevelsTest, SolvesByHand) {
   diagonal_.Solve(leading_, y_);
-  // The weights share out what the sum lacks: 8 - sqrt(2).
+  // The weights share the residual of the sum: 8 - sqrt(2).
   const double residual = 8 - std::sqrt(2);
   EXPECT_NEAR(y_[0], 3 - 0.75 * residual, Rounding(10, 3));
   EXPECT_NEAR(y_[1], 5 - 0.25 * residual, Rounding(10, 3));
   EXPECT_EQ(y_[2], 0);
   double on_leading[1], left[3];
-  // What is asked for, beside a part of L of 1/2 + 1/6, squared.
-  const double asked = std::hypot(std::sqrt(0.5) + 3, std::sqrt(0.5) + 5);
-  EXPECT_NEAR(diagonal_.Dual(0, on_leading, left), 1.5 * asked,
-              Rounding(asked, 3));
+  // The norm of |start| + |target|, over a squared entry of L of 1/2 + 1/6.
+  const double size = std::hypot(std::sqrt(0.5) + 3, std::sqrt(0.5) + 5);
+  EXPECT_NEAR(diagonal_.Dual(0, on_leading, left), 1.5 * size,
+              Rounding(size, 3));
   EXPECT_NEAR(std::abs(on_leading[0]), 0.75 * residual * std::sqrt(2),
               Rounding(20, 3));
   EXPECT_EQ(diagonal_.Dual(1, on_leading, left), 0);
@@ -51,8 +52,8 @@ TEST_F(DiagonalLevelsTest, SolvesByHand) {
   EXPECT_EQ(diagonal_.Nullity(1), 0);
 }
 
-// Beside a light variable a heavy one's rounding does not count.
-TEST_F(DiagonalLevelsTest, AGradientIsRelativeToTheLightestThatCanMeetARow) {
+// Rounding of a large-weight variable does not count beside a small-weight one.
+TEST_F(DiagonalLevelsTest, ScalesAMultiplierByTheSmallestWeightOfItsRow) {
   diagonal_.Clear();
   diagonal_.AddLevel();
   diagonal_.Add(0, 1, 3);
@@ -60,27 +61,30 @@ TEST_F(DiagonalLevelsTest, AGradientIsRelativeToTheLightestThatCanMeetARow) {
   diagonal_.Finish(nullptr);
   diagonal_.Solve(leading_, y_);
   double on_leading[1], left[3];
-  const double asked = std::hypot(std::sqrt(0.5) + 3, std::sqrt(0.5) + 5);
-  EXPECT_NEAR(diagonal_.Dual(0, on_leading, left), 2 * asked,
+  const double size = std::hypot(std::sqrt(0.5) + 3, std::sqrt(0.5) + 5);
+  EXPECT_NEAR(diagonal_.Dual(0, on_leading, left), 2 * size,
               1e-10);  // By 1e-12.
 }
 
-// Of each variable's own sum, what is below 1e-13 of weight (|y| + |target|).
+// An entry of the gradient changes by rounding of weight (|y| + |target|) at
+// most; a few eps of that become zero.
 TEST_F(DiagonalLevelsTest, ZeroesRoundingOfAGradient) {
-  const double y[3] = {-1, 2, 0}, size[2] = {4e-13, 21e-13};
-  for (const double share : {0.01, 100.}) {
+  const double y[3] = {-1, 2, 0}, size[2] = {4, 21};
+  for (const double part : {1e-20, 1e-15, 1e-11, 1e-6, 1.}) {
     for (const double sign : {-1, 1}) {
-      double sum[3] = {sign * share * size[0], -sign * share * size[1], 1e-30};
+      const double given[2] = {sign * part * size[0], -sign * part * size[1]};
+      double sum[3] = {given[0], given[1], 1e-30};
       diagonal_.ZeroRounding(0, y, sum);
       for (int j = 0; j < 2; ++j) {
-        EXPECT_EQ(sum[j] == 0, share < 1) << j;
+        const double tolerance = part <= 1e-15 ? 0 : 1e-12 * size[j];
+        EXPECT_NEAR(sum[j], part <= 1e-15 ? 0 : given[j], tolerance) << j;
       }
-      EXPECT_EQ(sum[2], 1e-30);  // Of another level.
+      EXPECT_EQ(sum[2], 1e-30);  // This variable is of another level.
     }
   }
 }
 
-// Of the level's own variables, each.
+// All variables of the level count, and no others.
 TEST_F(DiagonalLevelsTest, IsMetWhereEachVariableIsAtItsTarget) {
   const double met[3] = {3, 5, -1}, first[3] = {3, 4, 0},
                second[3] = {-3, 5, 0};
@@ -92,21 +96,21 @@ TEST_F(DiagonalLevelsTest, IsMetWhereEachVariableIsAtItsTarget) {
   EXPECT_TRUE(diagonal_.IsMet(1, other));
 }
 
-TEST_F(DiagonalLevelsTest, TakesTwoTargetsOfALevelForTheirMean) {
+TEST_F(DiagonalLevelsTest, AveragesTwoTargetsOfALevel) {
   diagonal_.Clear();
   EXPECT_EQ(diagonal_.num_levels(), 0);
   diagonal_.AddLevel();
   diagonal_.Add(2, 1, 4);
   diagonal_.Add(2, 3, 8);
-  diagonal_.Add(2, 0, 100);  // Asks for nothing.
+  diagonal_.Add(2, 0, 100);  // Weight zero: no effect.
   diagonal_.AddLevel();
-  diagonal_.Add(2, 5, 100);  // Too late.
+  diagonal_.Add(2, 5, 100);  // The level before fixes the variable.
   diagonal_.Finish(nullptr);
   diagonal_.Solve(leading_, y_);
   EXPECT_NEAR(y_[2], 7, Rounding(8, 3));
 }
 
-TEST_F(DiagonalLevelsTest, FinishesAtTargetsWhereThereAreSome) {
+TEST_F(DiagonalLevelsTest, UsesTargetsForTheLastLevel) {
   diagonal_.Clear();
   const double targets[3] = {1, 2, 9};
   diagonal_.AddLevel();
@@ -118,12 +122,15 @@ TEST_F(DiagonalLevelsTest, FinishesAtTargetsWhereThereAreSome) {
   EXPECT_NEAR(y_[2], 9, Rounding(9, 3));
 }
 
-// y = 1 + off above y = 1: relative to the two of them, or to where a correction
-// starts.
-TEST_F(DiagonalLevelsTest, AGradientOfRoundingIsNone) {
+// y = 1 + off above y = 1: the multiplier is -weight off, to rounding of weight
+// (|y| + 1), at the solution or after a correction from another y. Rounding
+// gives no multiplier at all.
+TEST_F(DiagonalLevelsTest, FindsAMultiplierToRoundingOfItsTerms) {
   for (const double weight : {0.01, 4.0}) {
-    for (const double part : {0.7e-13, 1.4e-13}) {
+    for (const double part : {0., 1e-15, 1e-11, 1e-6, 1e-2}) {
       for (const double start : {1.0, 7.0}) {
+        SCOPED_TRACE(testing::Message()
+                     << weight << " " << part << " " << start);
         const double size = start + 1, off = part * size;
         LexicographicFactorization leading(1, 1, 1);
         *leading.row(leading.AddRow(1 + off, 1)) = 1;
@@ -132,30 +139,28 @@ TEST_F(DiagonalLevelsTest, AGradientOfRoundingIsNone) {
         diagonal.AddLevel();
         diagonal.Add(0, weight, 1);
         diagonal.Finish(nullptr);
-        double y, on_leading = 5, left = 5;
+        double y, on_leading = 0, left = 5;
         diagonal.Solve(leading, &y);
         if (start != 1) {
           y = start;
           const double change = (1 + off - start) * leading.basis()[0];
           diagonal.Correct(leading, &change, true, &y);
         }
-        const double found = diagonal.Dual(0, &on_leading, &left);
+        EXPECT_NEAR(y, 1 + off, Rounding(size, 1));
+        const double terms = diagonal.Dual(0, &on_leading, &left);
         EXPECT_EQ(left, 5);
-        if (part < 1e-13) {
-          EXPECT_EQ(found, 0) << weight << ", " << start;
-          EXPECT_EQ(on_leading, 5) << weight << ", " << start;
-        } else {
-          EXPECT_NEAR(found, weight * size, weight * (off + Rounding(size, 1)))
-              << weight << ", " << start;
-        }
+        EXPECT_NEAR(on_leading * leading.basis()[0], -weight * off,
+                    1e-12 * weight * size);
+        EXPECT_NEAR(terms, part <= 1e-15 ? 0 : weight * size,
+                    1e-12 * weight * size + weight * off);
       }
     }
   }
 }
 
-// y0 + y1 and y0 + y1 + y2 are given: with y2, nothing more of y0 and y1. The
+// y0 + y1 and y0 + y1 + y2 are given, which fixes y2 and one of y0 and y1. The
 // levels are y2, y1, y0.
-TEST_F(DiagonalLevelsTest, CountsRowsWithoutWhatLaterLevelsHaveOfThem) {
+TEST_F(DiagonalLevelsTest, CountsOnlyRowsThatLaterLevelsLeave) {
   diagonal_.Clear();
   for (const int variable : {2, 1}) {
     diagonal_.AddLevel();
@@ -169,7 +174,7 @@ TEST_F(DiagonalLevelsTest, CountsRowsWithoutWhatLaterLevelsHaveOfThem) {
 }
 
 // Divided by such weights, rows are nearly parallel.
-TEST_F(DiagonalLevelsTest, MeetsTheHeadWhereOneWeightIsSmall) {
+TEST_F(DiagonalLevelsTest, MeetsTheLeadingLevelsWhereOneWeightIsSmall) {
   Eigen::Matrix<double, 3, 4> A;
   A << 1, 2, 3, -1, 2, 1, -1, 1, 1, -1, 1, 3;
   A.rowwise().normalize();
@@ -185,7 +190,7 @@ TEST_F(DiagonalLevelsTest, MeetsTheHeadWhereOneWeightIsSmall) {
   diagonal.Finish(nullptr);
   Eigen::Vector4d y;
   diagonal.Solve(leading, y.data());
-  // Of rows of length 1e6, each entry to its last digit.
+  // The rows have length 1e6 after the division.
   EXPECT_LE((A * y - Eigen::Vector3d(1, 2, 3)).norm(), Rounding(10, 4, 1e6));
 }
 

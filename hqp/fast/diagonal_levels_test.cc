@@ -17,7 +17,7 @@ constexpr int kSeeds = 300;
 constexpr int kMaxRows = 24, kMaxLeadingLevels = 4;  // Of MakeRandomLevels().
 constexpr int kMaxDiagonalLevels = 3;
 
-// One row of a level of the tail.
+// One row of a diagonal level.
 struct Selection {
   int variable;
   double weight, target;
@@ -161,7 +161,7 @@ TEST_P(RandomDiagonalLevelsTest, MultipliersCancelTheGradient) {
   }
 }
 
-TEST_P(RandomDiagonalLevelsTest, GradientLessWhatIsLeftIsTheRowsOfTheHead) {
+TEST_P(RandomDiagonalLevelsTest, SplitsTheGradientIntoLeadingRowsAndTheRest) {
   const Eigen::MatrixXd Q = Basis();
   for (int l = 0; l < diagonal_.num_levels(); ++l) {
     Eigen::VectorXd on_leading(leading_.rank()),
@@ -183,13 +183,13 @@ TEST_P(RandomDiagonalLevelsTest, CorrectsAnyStartToTheSameOptimum) {
   Eigen::VectorXd nearest = y;
   diagonal_.Correct(leading_, change.data(), true, y.data());
   EXPECT_LE((y - y_).norm(), 10 * Tolerance());
-  // Where no minimum is asked for, the head is met all the same.
+  // Without a step to the minimum, the leading levels are met all the same.
   diagonal_.Correct(leading_, change.data(), false, nearest.data());
   EXPECT_LE((Q * (nearest - y_)).norm(), 10 * Tolerance());
 }
 
-TEST_P(RandomDiagonalLevelsTest, CorrectsByAsLittleAsTheLevelsAllow) {
-  // Weights and levels alone say how, not targets: so of a tail with other
+TEST_P(RandomDiagonalLevelsTest, CorrectsByTheMinimumNorm) {
+  // The step depends on weights and levels, not on targets: so with other
   // targets, at its own optimum for targets 0, the step is the optimum.
   const Eigen::MatrixXd Q = Basis();
   const Eigen::VectorXd change =
@@ -239,7 +239,7 @@ TEST_P(RandomDiagonalLevelsTest, TieRowsFindsTheSameNullities) {
   }
 }
 
-TEST_P(RandomDiagonalLevelsTest, ForgetsWhatItSolvedBefore) {
+TEST_P(RandomDiagonalLevelsTest, DoesNotDependOnTheLastSolve) {
   DiagonalLevels diagonal(n_, kMaxDiagonalLevels);
   LexicographicFactorization other(n_, n_, 1);
   Eigen::VectorXd y(n_);

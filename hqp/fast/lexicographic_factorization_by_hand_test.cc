@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 
 #include "poise/hqp/fast/lexicographic_factorization.h"
-#include "poise/math/rank.h"
 #include "poise/tests/util/count_malloc.h"
 #include "poise/tests/util/lexicographic.h"
 #include "poise/tests/util/stacked_rows.h"
@@ -13,6 +13,8 @@
 
 namespace poise {
 namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 // y1 = 1 twice and y1 = 3 once, in one level; then y1 = 5, y2 = 7.
 class LexicographicFactorizationTest : public testing::Test {
@@ -46,8 +48,7 @@ TEST_F(LexicographicFactorizationTest, SolvesByHand) {
   EXPECT_NEAR(gradient[0] * stack_.basis()[0], -5, Rounding(5, 2));
 }
 
-TEST_F(LexicographicFactorizationTest,
-       MeetsIndependentRowsWhateverTheirMetric) {
+TEST_F(LexicographicFactorizationTest, MeetsIndependentRowsOfAnyMetric) {
   LexicographicFactorization stack(2, 2, 1);
   LeastSquares level;
   level.A.resize(2, 2);
@@ -58,24 +59,37 @@ TEST_F(LexicographicFactorizationTest,
   EXPECT_LE((level.A * Optimum(stack, 2) - level.b).norm(), Rounding(2, 2, 4));
 }
 
-// Two rows at a small angle, in one level or in two.
-TEST_F(LexicographicFactorizationTest, CountsARowOfWhichSomethingIsLeft) {
+// Two rows at an angle `rest`, in one level or in two, with targets 1 and 2. An
+// angle of rounding does not become y2 = 1 / rest; at any other both are met.
+TEST_F(LexicographicFactorizationTest, TreatsRoundingRemainderOfARowAsZero) {
   for (const int num_levels : {1, 2}) {
-    for (const double rest : {0.25, 10.0}) {
+    const auto solve = [&](double rest) {
       LexicographicFactorization stack(3, 2, 2);
       stack.AddRow(1, 1);
       Eigen::Vector3d::Map(stack.row(0)) << 0.6, 0.8, 0;
       if (num_levels == 2) stack.FactorLevel();
-      const int a = stack.AddRow(1, 1);
-      Eigen::Vector3d::Map(stack.row(a)) << 0.6, 0.8, rest * kRankTolerance;
+      const int a = stack.AddRow(2, 1);
+      Eigen::Vector3d::Map(stack.row(a)) << 0.6, 0.8, rest;
       stack.FactorLevel();
-      EXPECT_EQ(stack.rank(), rest > 1 ? 2 : 1) << num_levels << ", " << rest;
+      return Optimum(stack, 3);
+    };
+    for (const double rest : {0., 1e-30, kEps, 100 * kEps}) {
+      SCOPED_TRACE(testing::Message() << num_levels << ", " << rest);
+      const double along = num_levels == 1 ? 1.5 : 1;
+      EXPECT_LE((solve(rest) - along * Eigen::Vector3d(0.6, 0.8, 0)).norm(),
+                Rounding(2, 3) + 2 * rest);
+    }
+    for (const double rest : {1e-9, 1e-6, 1e-3, 1.}) {
+      SCOPED_TRACE(testing::Message() << num_levels << ", " << rest);
+      const Eigen::Vector3d y = solve(rest);
+      EXPECT_NEAR(0.6 * y[0] + 0.8 * y[1], 1, Rounding(1, 3, 1 / rest));
+      EXPECT_NEAR(y[2] * rest, 1, Rounding(1, 3, 1 / rest));
     }
   }
 }
 
-// What is left of such rows after one projection is far from orthogonal.
-TEST_F(LexicographicFactorizationTest, OrthogonalisesWhatIsNearlyParallel) {
+// The remainder of such rows after one projection is far from orthogonal.
+TEST_F(LexicographicFactorizationTest, OrthogonalisesNearlyParallelRows) {
   constexpr int kSize = 6;
   for (const double angle : {0.5, 1e-2, 1e-5, 1e-8}) {
     for (const int rows_a_level : {1, 2, kSize}) {
@@ -98,33 +112,41 @@ TEST_F(LexicographicFactorizationTest, OrthogonalisesWhatIsNearlyParallel) {
   }
 }
 
-// Less than a thousandth of it, or in a space that is full.
-TEST_F(LexicographicFactorizationTest, AppendsNoRowThatNearlyDependsOnOthers) {
-  for (const double rest : {0.5e-3, 2e-3}) {
+// An appended row is met like a factored one. A row that nearly depends on
+// others, or has no room, is refused, so that no update loses its digits, and
+// the factorisation is as before.
+TEST_F(LexicographicFactorizationTest, RefusesToAppendANearlyDependentRow) {
+  for (const double rest : {0., 1e-12, 1e-9, 1e-6, 3e-6, 1e-2, 0.1, 1.}) {
+    SCOPED_TRACE(rest);
     LexicographicFactorization stack(2, 3, 1);
     stack.AddRow(1, 1);
     Eigen::Vector2d::Map(stack.row(0)) << 0.6, 0.8;
     stack.FactorLevel();
-    Eigen::Vector2d::Map(stack.row(stack.AddRow(1, 1))) << 0.6 - 0.8 * rest,
-        0.8 + 0.6 * rest;
-    const bool is_good = rest > 1e-3;
-    EXPECT_EQ(stack.AppendRow(), is_good) << rest;
-    EXPECT_EQ(stack.num_rows(), is_good ? 2 : 1) << rest;
-    EXPECT_EQ(stack.rank(), is_good ? 2 : 1) << rest;
-    EXPECT_EQ(stack.is_well_conditioned(), true) << rest;
-    if (!is_good) continue;
+    const Eigen::Vector2d row =
+        Eigen::Vector2d(0.6 - 0.8 * rest, 0.8 + 0.6 * rest).normalized();
+    Eigen::Vector2d::Map(stack.row(stack.AddRow(2, 1))) = row;
+    const bool is_independent = rest > 1e-3;
+    EXPECT_EQ(stack.AppendRow(), is_independent);
+    EXPECT_EQ(stack.num_rows(), is_independent ? 2 : 1);
+    EXPECT_EQ(stack.rank(), is_independent ? 2 : 1);
+    EXPECT_TRUE(stack.is_well_conditioned());
+    stack.SolveLast();
+    const Eigen::VectorXd y = Optimum(stack, 2);
+    EXPECT_NEAR(0.6 * y[0] + 0.8 * y[1], 1, Rounding(1, 2, 1e2));
+    if (!is_independent) continue;
+    EXPECT_NEAR(row.dot(y), 2, Rounding(2, 2, 1e2));
     Eigen::Vector2d::Map(stack.row(stack.AddRow(1, 1))) << 0, 1;
     EXPECT_FALSE(stack.AppendRow());
     EXPECT_EQ(stack.num_rows(), 2);
   }
 }
 
-// The last row, on its own or with the one it nearly depends on.
-TEST_F(LexicographicFactorizationTest,
-       IsWellConditionedWhereEachRowHasAGoodPart) {
+// In a well-conditioned factorisation each row counts for one in the nullity.
+// The last row is alone in its level or with the one that it depends on.
+TEST_F(LexicographicFactorizationTest, KnowsNearlyDependentRows) {
   EXPECT_FALSE(stack_.is_well_conditioned());  // Two rows are the same.
   for (const int num_levels : {1, 2}) {
-    for (const double rest : {0.7e-3, 1.4e-3}) {
+    for (const double rest : {1e-9, 3e-6, 1e-2, 1.}) {
       LexicographicFactorization stack(4, 3, 2);
       Eigen::Vector4d::Map(stack.row(stack.AddRow(1, 1))) << 1, 0, 0, 0;
       Eigen::Vector4d::Map(stack.row(stack.AddRow(1, 1))) << 0, 0.6, 0.8, 0;
@@ -138,44 +160,30 @@ TEST_F(LexicographicFactorizationTest,
   }
 }
 
-TEST_F(LexicographicFactorizationTest, AResidualOfRoundingIsNone) {
-  // Relative to |y| + |target|, 2; or 11, where another entry is large.
+// y0 = 1 below y0 = 1 + off: the residual is off, to rounding of |y| +
+// |target|, which is 2; or 11, where another entry is large. Rounding becomes
+// zero.
+TEST_F(LexicographicFactorizationTest, TreatsRoundingResidualAsZero) {
   for (const double other : {0.0, 9.0}) {
     const double size = std::hypot(1, other) + 1;
-    for (const double off : {0.7e-12, 1.4e-12}) {
+    for (const double part : {0., kEps, 100 * kEps, 1e-10, 1e-6, 1e-2}) {
+      SCOPED_TRACE(testing::Message() << other << ", " << part);
       LexicographicFactorization stack(2, 3, 2);
       Eigen::Vector2d::Map(stack.row(stack.AddRow(1, 1))) << 1, 0;
       Eigen::Vector2d::Map(stack.row(stack.AddRow(other, 1))) << 0, 1;
       stack.FactorLevel();
-      const int a = stack.AddRow(1 + off * size, 1);
+      const int a = stack.AddRow(1 + part * size, 1);
       Eigen::Vector2d::Map(stack.row(a)) << 1, 0;
       stack.FactorLevel();
-      if (off < 1e-12) {
-        EXPECT_EQ(stack.residual(a), 0) << other;
-      } else {
-        EXPECT_NEAR(stack.residual(a), -off * size, Rounding(2, 2)) << other;
-      }
+      const bool is_rounding = part <= 100 * kEps;
+      EXPECT_NEAR(stack.residual(a), is_rounding ? 0 : -part * size,
+                  is_rounding ? 0 : Rounding(size, 2));
     }
   }
 }
 
-// As long as the good part must be, to the bit, or a little less.
-TEST_F(LexicographicFactorizationTest, AGoodPartIsAThousandthOfARow) {
-  for (const double good : {1e-3, 0.999e-3}) {
-    LexicographicFactorization stack(2, 3, 1);
-    stack.row(stack.AddRow(1, 1))[0] = 1;
-    stack.FactorLevel();
-    stack.row(stack.AddRow(1, 1))[1] = good;
-    EXPECT_EQ(stack.AppendRow(), good == 1e-3);
-    stack.Truncate(0);
-    Eigen::Vector2d::Map(stack.row(stack.AddRow(1, 1))) << good, 0;
-    stack.FactorLevel();
-    EXPECT_EQ(stack.is_well_conditioned(), good == 1e-3);
-  }
-}
-
-// Of each row appended, all but a few thousandths is in those before.
-TEST_F(LexicographicFactorizationTest, OrthogonalisesWhatItAppends) {
+// Each appended row depends on those before but for some thousandths.
+TEST_F(LexicographicFactorizationTest, OrthogonalisesAppendedRows) {
   constexpr int kSize = 6;
   const Eigen::VectorXd mean = Eigen::VectorXd::LinSpaced(kSize, 1, 2.7);
   LexicographicFactorization stack(kSize, kSize, 1);
@@ -197,7 +205,7 @@ TEST_F(LexicographicFactorizationTest, OrthogonalisesWhatItAppends) {
   }
 }
 
-TEST_F(LexicographicFactorizationTest, MergedLevelsAreEmptyButTheLast) {
+TEST_F(LexicographicFactorizationTest, MergesLevelsIntoTheLast) {
   LexicographicFactorization stack(3, 3, 3);
   for (int level = 0; level < 3; ++level) {
     stack.row(stack.AddRow(5 + level, 2 + level))[level] = 1;
@@ -214,7 +222,7 @@ TEST_F(LexicographicFactorizationTest, MergedLevelsAreEmptyButTheLast) {
     EXPECT_EQ(stack.Gradient(level, &gradient), 0) << level;
     EXPECT_EQ(gradient, 5) << level;
   }
-  stack.RemoveRow(0);  // The last one takes its number, and its weight.
+  stack.RemoveRow(0);  // The last row moves into its place.
   EXPECT_EQ(stack.weight(0), 16);
   EXPECT_EQ(stack.weight(1), 9);
   stack.SolveLast();
@@ -253,28 +261,33 @@ TEST_F(LexicographicFactorizationTest, HasRoomForManyRows) {
   EXPECT_NEAR(Optimum(stack, 1)[0], kRows / 2, Rounding(kRows, kRows));
 }
 
-// Two forces that all but cancel, relative to the larger one.
-TEST_F(LexicographicFactorizationTest, AGradientOfRoundingIsNone) {
-  for (const double off : {0.7e-12, 1.4e-12}) {
+// Two terms of 4 that cancel but for 4 part, relative to the larger one.
+// Rounding gives no gradient.
+TEST_F(LexicographicFactorizationTest, TreatsRoundingGradientAsZero) {
+  for (const double part : {0., kEps, 100 * kEps, 1e-10, 1e-6, 1e-2}) {
+    SCOPED_TRACE(part);
     LexicographicFactorization stack(2, 4, 2);
     for (int a = 0; a < 2; ++a) stack.row(stack.AddRow(0, 1))[a] = 1;
     stack.FactorLevel();
     stack.row(stack.AddRow(5, 2))[1] = 1;
     stack.row(stack.AddRow(5, 1))[1] = 1;
     stack.FactorLevel();
-    const double residual[2] = {1, -4 * (1 + off)};
+    const double residual[2] = {1, -4 * (1 + part)};
     stack.SetResiduals(1, residual, 0);
     double gradient[2];
     const double size = stack.Gradient(1, gradient);
-    if (off < 1e-12) {
+    if (part <= 100 * kEps) {
       EXPECT_EQ(size, 0);
-    } else {
-      EXPECT_NEAR(size, 4, Rounding(4, 2) + 4 * off);
+      continue;
     }
+    EXPECT_NEAR(size, 4 * (1 + part), Rounding(4, 2));
+    EXPECT_NEAR(gradient[0] * stack.basis()[1] +
+                    gradient[1] * stack.basis()[stack.stride() + 1],
+                -4 * part, Rounding(4, 2));
   }
 }
 
-TEST_F(LexicographicFactorizationTest, TakesResidualsForTheGradient) {
+TEST_F(LexicographicFactorizationTest, ComputesTheGradientFromGivenResiduals) {
   EXPECT_NEAR(stack_.weight(1), 3, Rounding(3, 1));
   EXPECT_NEAR(stack_.weight(2), 2, Rounding(2, 1));
   const double residual[2] = {10, 7};
@@ -286,10 +299,11 @@ TEST_F(LexicographicFactorizationTest, TakesResidualsForTheGradient) {
   EXPECT_NEAR(gradient[0] * stack_.basis()[0], 20, Rounding(20, 2));
 }
 
-// y = 0 and, 1e12 times lighter, y = 1: at the optimum the heavy row lacks 1e-12
-// of what the light one does, to the last digit, though y may be off by more.
+// y = 0 and, with 1e-12 of the weight, y = 1: at the optimum the residual of
+// the first row is 1e-12 of the second's, to the last digit, though y has
+// fewer.
 TEST_F(LexicographicFactorizationTest,
-       WhatAHeavyRowLacksHasAsManyDigitsAsALightOnes) {
+       FindsTheResidualOfALargeWeightRowToAllDigits) {
   LexicographicFactorization stack(1, 2, 1);
   *stack.row(stack.AddRow(0, 1e3)) = 1;
   *stack.row(stack.AddRow(1, 1e-3)) = 1;
@@ -299,41 +313,42 @@ TEST_F(LexicographicFactorizationTest,
       const double residual[2] = {off, -1};
       stack.SetResiduals(0, residual, 1);
     }
-    const double light = (1 + off) / (1 + 1e-12);
-    EXPECT_NEAR(stack.residual(0), 1e-12 * light, Rounding(1e-12, 4));
-    EXPECT_NEAR(stack.residual(1), -light, Rounding(1, 4));
+    const double small = (1 + off) / (1 + 1e-12);
+    EXPECT_NEAR(stack.residual(0), 1e-12 * small, Rounding(1e-12, 4));
+    EXPECT_NEAR(stack.residual(1), -small, Rounding(1, 4));
   }
 }
 
-// One of two rows on y1 = 0 and y2 = 0 each is off by 0.7 or 1.4 times what is
-// zero beside what it is added up from; then y1's by that beside y2's.
-TEST_F(LexicographicFactorizationTest, WhatIsKeptIsNoRounding) {
-  for (const double off : {0.7e-12, 1.4e-12}) {
+// Two rows of y0 = 0 and two of y1 = 0. A residual of y0's rows that no y
+// removes is kept; rounding of its own terms, here 5, or beside the residual of
+// y1's, is set to zero.
+TEST_F(LexicographicFactorizationTest, KeepsUnattainableResiduals) {
+  for (const double part : {0., kEps, 100 * kEps, 1e-10, 1e-6, 1e-2}) {
+    SCOPED_TRACE(part);
     LexicographicFactorization stack(2, 4, 1);
     for (int a = 0; a < 4; ++a) {
       stack.row(stack.AddRow(0, 3))[a / 2] = 1;
       stack.row(a)[1 - a / 2] = 0;
     }
     stack.FactorLevel();
-    const double lonely[4] = {-5 * off, 5 * off, 0, 0};
-    stack.SetResiduals(0, lonely, 5);
-    // A half of it is each row's.
-    const double left = off < 1e-12 ? 0 : 5 * off;
+    const bool is_rounding = part <= 100 * kEps;
+    const double alone[4] = {-5 * part, 5 * part, 0, 0};
+    stack.SetResiduals(0, alone, 5);
     for (int a = 0; a < 2; ++a) {
-      EXPECT_NEAR(std::abs(stack.residual(a)), left, Rounding(left, 4)) << off;
+      EXPECT_NEAR(stack.residual(a), is_rounding ? 0 : alone[a],
+                  Rounding(is_rounding ? 0 : 5 * part, 4));
     }
-    const double beside[4] = {-off, off, -1, 1};
+    const double beside[4] = {-part, part, -1, 1};
     stack.SetResiduals(0, beside, 0);
     for (int a = 0; a < 2; ++a) {
-      EXPECT_NEAR(std::abs(stack.residual(a)), off < 1e-12 ? 0 : off,
-                  Rounding(1, 4))
-          << off;
+      EXPECT_NEAR(stack.residual(a), is_rounding ? 0 : beside[a],
+                  is_rounding ? 0 : Rounding(1, 4));
     }
   }
 }
 
-// Small numbers, after large ones that are gone.
-TEST_F(LexicographicFactorizationTest, AResidualIsJudgedByItsOwnLevel) {
+// Small numbers, after a level of large ones was removed.
+TEST_F(LexicographicFactorizationTest, JudgesAResidualByItsOwnLevel) {
   LexicographicFactorization stack(1, 3, 1);
   for (const double scale : {1.0, 1e-15}) {
     stack.Truncate(0);
@@ -346,29 +361,33 @@ TEST_F(LexicographicFactorizationTest, AResidualIsJudgedByItsOwnLevel) {
   }
 }
 
-// Rows of y that a level above has fixed, the heavy one at either place.
-TEST_F(LexicographicFactorizationTest, WhatIsKeptIsNoRoundingOfAHeavyRow) {
-  for (const int heavy : {0, 1}) {
-    for (const double light : {0.7, 1.4}) {
-      LexicographicFactorization stack(1, 3, 2);
-      *stack.row(stack.AddRow(0, 1)) = 1;
-      stack.FactorLevel();
-      for (int i = 0; i < 2; ++i) {
-        *stack.row(stack.AddRow(0, i == heavy ? 1e6 : 1)) = 1;
-      }
-      stack.FactorLevel();
-      double residual[2] = {light, light};
-      residual[heavy] = 1;  // Its force is 1e12.
+// Rows of a y that a level above has fixed, of weights 1 and 1e12. A residual
+// of the small-weight row is rounding beside a gradient of 1e12 of the other's,
+// and the large-weight row's is rounding of the reflections beside a residual
+// of 1.
+TEST_F(LexicographicFactorizationTest, TreatsRoundingOfALargeWeightRowAsZero) {
+  for (const int large : {0, 1}) {
+    LexicographicFactorization stack(1, 3, 2);
+    *stack.row(stack.AddRow(0, 1)) = 1;
+    stack.FactorLevel();
+    for (int i = 0; i < 2; ++i) {
+      *stack.row(stack.AddRow(0, i == large ? 1e6 : 1)) = 1;
+    }
+    stack.FactorLevel();
+    for (const double small : {0., 1e-6, 1e-2, 1e2, 1e6}) {
+      SCOPED_TRACE(testing::Message() << large << ", " << small);
+      double residual[2] = {small, small};
+      residual[large] = 1;  // Its part of the gradient is 1e12.
       stack.SetResiduals(1, residual, 0);
-      EXPECT_EQ(stack.residual(1 + heavy), 1);
-      EXPECT_EQ(stack.residual(2 - heavy), light < 1 ? 0 : light) << heavy;
-      // Beside 1 of the light one, 1e-14 by its length is rounding, whatever it
-      // weighs.
-      residual[heavy] = light * 1e-20;
-      residual[1 - heavy] = 1;
+      EXPECT_EQ(stack.residual(1 + large), 1);
+      EXPECT_EQ(stack.residual(2 - large), small <= 1e-2 ? 0 : small);
+      // By length, metric times residual, eps is 2e-16 of the other's 1.
+      residual[large] = small * 1e-20;
+      residual[1 - large] = 1;
       stack.SetResiduals(1, residual, 0);
-      EXPECT_EQ(stack.residual(2 - heavy), 1);
-      EXPECT_EQ(stack.residual(1 + heavy), light < 1 ? 0 : light * 1e-20);
+      EXPECT_EQ(stack.residual(2 - large), 1);
+      const double kept = small <= 1e-2 ? 0 : small * 1e-20;
+      EXPECT_NEAR(stack.residual(1 + large), kept, Rounding(kept, 1));
     }
   }
 }

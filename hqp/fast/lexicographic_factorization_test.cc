@@ -115,7 +115,7 @@ TEST_P(RandomLexicographicFactorizationTest,
 }
 
 TEST_P(RandomLexicographicFactorizationTest, CorrectsAnyStartToTheSameOptimum) {
-  // From a y anywhere in the rows' space, what they lack leads back.
+  // From any y in the row space, the residuals lead back to the optimum.
   const Eigen::MatrixXd Q = Basis(stack_, n_);
   Eigen::VectorXd z = Eigen::VectorXd::Map(stack_.z(), stack_.rank());
   for (int e = 0; e < stack_.rank(); ++e) z[e] += 1 + e % 3;
@@ -133,8 +133,7 @@ TEST_P(RandomLexicographicFactorizationTest, CorrectsAnyStartToTheSameOptimum) {
   EXPECT_EQ(change[stack_.rank()], 5);
 }
 
-TEST_P(RandomLexicographicFactorizationTest,
-       LevelsComeBackAfterTheyWereDropped) {
+TEST_P(RandomLexicographicFactorizationTest, RestoresLevelsAfterTruncation) {
   const Eigen::VectorXd y = Optimum(stack_, n_);
   for (int from = num_levels_; from >= 0; --from) {
     stack_.Truncate(from);
@@ -149,7 +148,8 @@ TEST_P(RandomLexicographicFactorizationTest,
 }
 
 // The levels before the first deficient one are merged, and rows of the merged
-// level are removed and appended. The test keeps a copy of the rows in `merged_`.
+// level are removed and appended. The test keeps a copy of the rows in
+// `merged_`.
 class UpdatedLexicographicFactorizationTest
     : public RandomLexicographicFactorizationTest {
  protected:

@@ -10,6 +10,7 @@
 #include "poise/hqp/reference/cascade.h"
 #include "poise/hqp/solver.h"
 #include "poise/tests/util/random_hierarchy.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {
@@ -52,7 +53,7 @@ HierarchyCase WithRoom(const HierarchyCase& drawn) {
 
 // With levels that only select variables, and without; so many that multipliers
 // of the wrong sign, which there are of few, are made right a hundred times.
-TEST(MultiplierWriter, IsCertifiedAndCountsAsTheCascadeDoes) {
+TEST(MultiplierWriter, IsCertifiedWithTheCascadesNullity) {
   for (int seed = 0; seed < 1200; ++seed) {
     SCOPED_TRACE(seed);
     RandomHierarchyOptions options;
@@ -85,16 +86,16 @@ TEST(MultiplierWriter, IsCertifiedAndCountsAsTheCascadeDoes) {
   }
 }
 
-// At y = 0, the bound of a row: it is at work, but not violated.
-TEST(MultiplierWriter, KnowsARowOfSizeZero) {
+// At y = 0 the row is at its bound and active, but not violated.
+TEST(MultiplierWriter, AllowsARowOfSizeZero) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {2, 0}};
   Hierarchy hierarchy(2, capacity);
   InequalityBlock row = hierarchy.AddInequalities(0, 1);
   row.C << 1, 0;
   row.upper << 0;
-  EqualityBlock wish = hierarchy.AddEqualities(1, 2);
-  wish.B << 1, 1, 1, -1;
-  wish.b << -1, -1;
+  EqualityBlock desired = hierarchy.AddEqualities(1, 2);
+  desired.B << 1, 1, 1, -1;
+  desired.b << -1, -1;
   const Solution solution = Solve(hierarchy, capacity);
   EXPECT_EQ(solution.y[0], 0);
   EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
@@ -103,7 +104,7 @@ TEST(MultiplierWriter, KnowsARowOfSizeZero) {
 
 // However short a row is, it counts for one: y0 = 1 and y1 <= 1, above y1 = 3,
 // above y0 = 2 and y2 = 4.
-TEST(MultiplierWriter, CountsShortRowsLikeLongOnes) {
+TEST(MultiplierWriter, CountsSmallRowsLikeLargeOnes) {
   const double length = std::ldexp(1, -43);  // 1e-13.
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}, {2, 0}};
   Hierarchy hierarchy(3, capacity);
@@ -113,12 +114,12 @@ TEST(MultiplierWriter, CountsShortRowsLikeLongOnes) {
   InequalityBlock bound = hierarchy.AddInequalities(0, 1);
   bound.C << 0, length, 0;
   bound.upper << length;
-  EqualityBlock wish = hierarchy.AddEqualities(1, 1);
-  wish.B << 0, 1, 0;
-  wish.b << -3;
-  EqualityBlock wishes = hierarchy.AddEqualities(2, 2);
-  wishes.B << 1, 0, 0, 0, 0, 1;
-  wishes.b << -2, -4;
+  EqualityBlock desired = hierarchy.AddEqualities(1, 1);
+  desired.B << 0, 1, 0;
+  desired.b << -3;
+  EqualityBlock targets = hierarchy.AddEqualities(2, 2);
+  targets.B << 1, 0, 0, 0, 0, 1;
+  targets.b << -2, -4;
   const Solution solution = Solve(hierarchy, capacity);
   EXPECT_LE((solution.y - Eigen::Vector3d(1, 1, 4)).norm(), kTolerance);
   EXPECT_EQ(solution.levels[0].nullity, 2);
@@ -130,16 +131,16 @@ TEST(MultiplierWriter, CountsShortRowsLikeLongOnes) {
               kTolerance);
 }
 
-// y = 0 above y = -1, of levels that only select: what is left is 1, exactly; on
-// the row that fixes y, not on one without weight.
-TEST(MultiplierWriter, CancelsWhatALevelOfSelectionsLeaves) {
+// y = 0 above y = -1, of levels that only select: what is left is 1, exactly;
+// on the row that fixes y, not on one without weight.
+TEST(MultiplierWriter, CancelsTheGradientOfADiagonalLevel) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {2, 0}, {2, 0}};
   Hierarchy hierarchy(1, capacity);
   for (int k = 0; k < 3; ++k) {
-    EqualityBlock wish = hierarchy.AddEqualities(k, 2);
-    wish.B << 5, 1 + k;
-    wish.b << 7, (k == 1 ? 0.5 : 0);
-    wish.weight << 0, 1;
+    EqualityBlock desired = hierarchy.AddEqualities(k, 2);
+    desired.B << 5, 1 + k;
+    desired.b << 7, (k == 1 ? 0.5 : 0);
+    desired.weight << 0, 1;
   }
   const Solution solution = Solve(hierarchy, capacity);
   EXPECT_EQ(solution.levels[1].multipliers[0].equality, Eigen::Vector2d(0, -1));
@@ -151,7 +152,7 @@ TEST(MultiplierWriter, CancelsWhatALevelOfSelectionsLeaves) {
 
 // y = 1 and y = 3 as rows of one bound twice: y = 2 is above one, below the
 // other. What is met counts as at the upper one.
-TEST(MultiplierWriter, TellsWhichBoundOfTwoInOneIsViolated) {
+TEST(MultiplierWriter, FindsTheViolatedOneOfTwoEqualBounds) {
   const std::vector<LevelCapacity> capacity{{0, 2}};
   Hierarchy hierarchy(1, capacity);
   InequalityBlock rows = hierarchy.AddInequalities(0, 2);
@@ -169,10 +170,11 @@ TEST(MultiplierWriter, TellsWhichBoundOfTwoInOneIsViolated) {
   EXPECT_EQ(met.levels[0].active[1], Side::kUpper);
 }
 
-// 3 y0 + 4 y1 <= 50 and >= 50 plus twice a violation, at y = (10, 5). The rows are
-// violated beyond 1e-9 (5 |y| + 50), and take one from the nullity then.
+// 3 y0 + 4 y1 <= 50 and >= 50 + conflict: y = (10, 5), between the two. A
+// violated row counts in the nullity, a row within rounding does not.
 TEST(MultiplierWriter, CountsViolatedRowsInTheNullity) {
-  for (const double share : {0.01, 100.}) {
+  for (const double conflict : {1e-15, 1e-12, 1e-9, 1e-5, 1e-2, 1.}) {
+    SCOPED_TRACE(conflict);
     const std::vector<LevelCapacity> capacity{{1, 2}};
     Hierarchy hierarchy(2, capacity);
     EqualityBlock across = hierarchy.AddEqualities(0, 1);
@@ -181,26 +183,26 @@ TEST(MultiplierWriter, CountsViolatedRowsInTheNullity) {
     InequalityBlock rows = hierarchy.AddInequalities(0, 2);
     rows.C << 3, 4, 3, 4;
     rows.upper[0] = 50;
-    rows.lower[1] = 50 + 2 * share * 1e-9 * (5 * std::sqrt(125) + 50);
+    rows.lower[1] = 50 + conflict;
     const Solution solution = Solve(hierarchy, capacity);
-    EXPECT_LE(solution.certificate.worst(), 1e-9);
+    EXPECT_LE(solution.certificate.worst(), Certifier::kCertified);
     EXPECT_LE((solution.y - Eigen::Vector2d(10, 5)).norm(),
-              (rows.lower[1] - 50) / 5);
-    EXPECT_EQ(solution.levels[0].nullity, share < 1 ? 1 : 0);
+              conflict / 5 + Rounding(12, 2, 5));
+    EXPECT_EQ(solution.levels[0].nullity, conflict <= 1e-9 ? 1 : 0);
   }
 }
 
-// y0 = 1 above y0 <= 1 - 2e-9, which is violated too little to count, and y1 = 0:
-// what is below and asks for y0 + y1 = 0 would draw at the bound as much as at
-// y0 = 1, were it not for these two, which weigh the same. And so in other units.
-TEST(MultiplierWriter, TakesForceOffARowThatIsViolatedTooLittleToCount) {
+// y0 = 1, y0 <= 1 - 2e-9 and y1 = 0, above y0 + y1 = 0. The bound is at its
+// bound within kAtBound, where its multiplier must not be negative. So the
+// equalities of its level take the whole multiplier, in any unit.
+TEST(MultiplierWriter, MovesTheMultiplierOffARowAtItsBound) {
   for (const double unit : {1., 1e-3}) {
     SCOPED_TRACE(unit);
     const std::vector<LevelCapacity> capacity{{2, 1}, {1, 0}};
     Hierarchy hierarchy(2, capacity);
-    EqualityBlock wishes = hierarchy.AddEqualities(0, 2);
-    wishes.B << 1, 0, 0, 1;
-    wishes.b << -unit, 0;
+    EqualityBlock targets = hierarchy.AddEqualities(0, 2);
+    targets.B << 1, 0, 0, 1;
+    targets.b << -unit, 0;
     InequalityBlock bound = hierarchy.AddInequalities(0, 1);
     bound.C << 1, 0;
     bound.upper << unit * (1 - 2e-9);
@@ -210,7 +212,7 @@ TEST(MultiplierWriter, TakesForceOffARowThatIsViolatedTooLittleToCount) {
     EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
     EXPECT_EQ(solution.levels[0].nullity, 0);
     const LevelMultipliers& of_sum = solution.levels[1].multipliers[0];
-    // Of the two numbers that cancel, 1e-9 each, seven digits are left.
+    // The multiple is a quotient of residuals of 1e-9, which have seven digits.
     EXPECT_LE((of_sum.equality / unit - Eigen::Vector2d(-1, -1)).norm(), 1e-6);
     EXPECT_NEAR(of_sum.inequality[0] / unit, 0, 1e-6);
     EXPECT_LE(Certifier(2, capacity).Certify(hierarchy, solution).worst(),
@@ -218,14 +220,14 @@ TEST(MultiplierWriter, TakesForceOffARowThatIsViolatedTooLittleToCount) {
   }
 }
 
-// y = 1 and y <= -1 are torn between at y = 0: there both are equalities, and
-// share what y = -5 below draws with, whatever its sign.
-TEST(MultiplierWriter, LeavesTheForceOnARowThatIsViolated) {
+// y = 1 and y <= -1 have their optimum at y = 0. Both are equalities there, and
+// share the multiplier of y = -5 below, of either sign.
+TEST(MultiplierWriter, KeepsTheMultiplierOfAViolatedRow) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
-  EqualityBlock wish = hierarchy.AddEqualities(0, 1);
-  wish.B << 1;
-  wish.b << -1;
+  EqualityBlock desired = hierarchy.AddEqualities(0, 1);
+  desired.B << 1;
+  desired.b << -1;
   InequalityBlock bound = hierarchy.AddInequalities(0, 1);
   bound.C << 1;
   bound.upper << -1;
@@ -238,9 +240,9 @@ TEST(MultiplierWriter, LeavesTheForceOnARowThatIsViolated) {
   EXPECT_NEAR(multipliers.inequality[0], -2.5, kTolerance);
 }
 
-// y0 + y1 = 0 above y_i = 1, y_j = 5 and nothing: what the third leaves on the
-// other variable is not there for the fourth, nor for the next solve.
-TEST(MultiplierWriter, ForgetsWhatALevelLeavesOnTheTail) {
+// y0 + y1 = 0 above y_i = 1, y_j = 5 and an empty level. The gradient that the
+// third level has on the other variable is zero again for the fourth.
+TEST(MultiplierWriter, ClearsTheGradientOfDiagonalLevels) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}, {1, 0}, {1, 0}};
   Solver solver(2, capacity);
   for (int j = 0; j < 2; ++j) {
@@ -254,7 +256,7 @@ TEST(MultiplierWriter, ForgetsWhatALevelLeavesOnTheTail) {
     second.b << -5;
     Solution solution(2, capacity);
     ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal) << j;
-    // g = -6 on y_(1-j): the sum takes it, and leaves as much on y_j.
+    // g = -6 on y_(1-j): the multiplier of the sum cancels it, with -6 on y_j.
     const std::vector<LevelMultipliers>& of = solution.levels[2].multipliers;
     EXPECT_NEAR(of[0].equality[0], 6, kTolerance) << j;
     EXPECT_NEAR(of[1].equality[0], -6, kTolerance) << j;
@@ -264,10 +266,11 @@ TEST(MultiplierWriter, ForgetsWhatALevelLeavesOnTheTail) {
   }
 }
 
-// y0 is between rows of 8e6 that contradict each other and almost depend on each
-// other, so that what some rows weigh is rounding. A multiple of an equation that
-// is divided by that, of 1e31, would make any y pass for an optimum.
-TEST(MultiplierWriter, DividesByNothingThatIsRoundings) {
+// y0 is between rows of 8e6 that contradict each other and almost depend on
+// each other, so that what some rows weigh is rounding. A multiple of an
+// equation that is divided by that, of 1e31, would make any y pass for an
+// optimum.
+TEST(MultiplierWriter, DoesNotDivideByRounding) {
   const std::vector<LevelCapacity> capacity{{2, 2}, {0, 1}, {1, 0}};
   Hierarchy hierarchy(4, capacity);
   EqualityBlock sums = hierarchy.AddEqualities(0, 2);
@@ -302,10 +305,10 @@ class MultiplierWriterByHandTest : public testing::Test {
     InequalityBlock bound = hierarchy_.AddInequalities(0, 1);
     bound.C << 0, 2, 2;
     bound.upper << 6;
-    EqualityBlock wishes = hierarchy_.AddEqualities(1, 2);
-    wishes.B << 2, 0, 0, 0, 0, 4;
-    wishes.b << 2, -8;
-    wishes.weight << 1, 3;
+    EqualityBlock targets = hierarchy_.AddEqualities(1, 2);
+    targets.B << 2, 0, 0, 0, 0, 4;
+    targets.b << 2, -8;
+    targets.weight << 1, 3;
     EqualityBlock last = hierarchy_.AddEqualities(2, 1);
     last.B << 0, 5, 0;
     last.b << -10;

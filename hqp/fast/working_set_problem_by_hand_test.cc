@@ -4,18 +4,20 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "poise/hqp/fast/tolerances.h"
 #include "poise/hqp/fast/working_set_problem.h"
 #include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {
 
-// Of what a row is added up from: where refinement ends.
-constexpr double kRefined = 1e-13;
+// Refinement of a row ends at this part of its terms.
+using tolerances::kRefined;
 
-// Two levels, each of 2 y0 - y1 = 3 and y1 = 4, weight 0, above 1 <= 5 y0 + 7 y1
-// and y0 - 3 y1 <= 2.
+// Two levels, each of 2 y0 - y1 = 3 and y1 = 4, weight 0, above 1 <= 5 y0 + 7
+// y1 and y0 - 3 y1 <= 2.
 class WorkingSetProblemReadTest : public testing::Test {
  protected:
   WorkingSetProblemReadTest() {
@@ -36,7 +38,7 @@ class WorkingSetProblemReadTest : public testing::Test {
       upper_[k] = rows.upper.data();
     }
   }
-  // With one number in the place of another.
+  // Expects this status with one number replaced by `value`.
   void ExpectStatus(double* number, double value, Status status, int level) {
     const double good = *number;
     *number = value;
@@ -78,7 +80,7 @@ TEST_F(WorkingSetProblemReadTest, FindsTheFirstLevelWithABadNumber) {
     EXPECT_EQ(problem_.norm(k, 0), 12);
     EXPECT_EQ(problem_.norm(k, 1), 4);
   }
-  // What is not finite comes first, level by level.
+  // Level by level, kNotFinite comes before kBadInput.
   *weight_[1] = -1;
   *b_[1] = NAN;
   ExpectStatus(b_[1] + 1, 0, Status::kNotFinite, 1);
@@ -86,37 +88,49 @@ TEST_F(WorkingSetProblemReadTest, FindsTheFirstLevelWithABadNumber) {
   ExpectStatus(b_[1] + 1, 0, Status::kBadInput, 0);
 }
 
-// What is so short that its square is none is a row of zeros: an equality by its
-// weight as well, unless that is zero, where it does not count anyway.
-TEST_F(WorkingSetProblemReadTest, TakesWhatWeighsNothingForZeros) {
+// y0 + y1 = 2 as an equality or as an active row. If its squared norm, times
+// the weight, would underflow, it is a row of zeros, and y is as without it.
+// Any longer row is met, however short.
+TEST_F(WorkingSetProblemReadTest, IgnoresRowsWhoseSquareUnderflows) {
   int failed_level;
-  for (const bool is_nothing : {false, true}) {
+  const auto solve = [&](double length, double root, bool is_equality) {
+    const double zero = 0;
+    C_[1][0] = C_[1][1] = is_equality ? zero : length / 2;
+    *lower_[1] = is_equality ? -1 : length;
+    B_[1][0] = B_[1][1] = is_equality ? length / 2 / root : zero;
+    *b_[1] = is_equality ? -length / root : zero;
+    *weight_[1] = root * root;
+    EXPECT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
+    problem_.Plan(hierarchy_, 2);
+    problem_.Solve(hierarchy_,
+                   {{Side::kNone, Side::kNone}, {Side::kLower, Side::kNone}});
+    return Eigen::Vector2d(Eigen::Vector2d::Map(problem_.y().data()));
+  };
+  for (const bool is_equality : {false, true}) {
     for (const double root : {3., 0.5}) {
-      const double length = is_nothing ? 0.9e-150 : 1.1e-150;
-      C_[1][0] = C_[1][1] = length / 2;
-      B_[1][0] = B_[1][1] = length / 2 / root;
-      b_[1][0] = 0;
-      weight_[1][0] = root * root;
-      ASSERT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
-      EXPECT_EQ(problem_.norm(1, 0) == 0, is_nothing);
-      EXPECT_EQ(problem_.norm(1, 1), 4);
-      problem_.Plan(hierarchy_, 2);
-      problem_.Solve(hierarchy_,
-                     {{Side::kNone, Side::kNone}, {Side::kLower, Side::kNone}});
-      EXPECT_EQ(problem_.leading().num_rows(), is_nothing ? 1 : 3) << root;
-      for (const double y : problem_.y()) EXPECT_TRUE(std::isfinite(y));
+      for (const double length : {0., 1e-300, 1e-200, 1e-153}) {
+        SCOPED_TRACE(testing::Message() << is_equality << root << length);
+        const Eigen::Vector2d y = solve(length, root, is_equality);
+        // The shortest y of 2 y0 - y1 = 3.
+        EXPECT_LE((y - Eigen::Vector2d(1.2, -0.6)).norm(), Rounding(2, 2));
+      }
+      for (const double length : {1e-147, 1e-100, 1e-9, 1., 1e9, 1e100}) {
+        SCOPED_TRACE(testing::Message() << is_equality << root << length);
+        const Eigen::Vector2d y = solve(length, root, is_equality);
+        EXPECT_LE((y - Eigen::Vector2d(5, 1) / 3).norm(), Rounding(3, 2, 4));
+      }
     }
   }
 }
 
-TEST(WorkingSetProblem, HasATailWhateverItsRowsWeigh) {
+TEST(WorkingSetProblem, FindsDiagonalLevelsOfAnyWeight) {
   for (const double weight : {0., 1e-9, 1e9}) {
     const std::vector<LevelCapacity> capacity{{1, 0}, {2, 0}};
     Hierarchy hierarchy(2, capacity);
     hierarchy.AddEqualities(0, 1).B << 1, 1;
-    EqualityBlock wishes = hierarchy.AddEqualities(1, 2);
-    wishes.B.setIdentity();
-    wishes.weight << weight, 1;
+    EqualityBlock targets = hierarchy.AddEqualities(1, 2);
+    targets.B.setIdentity();
+    targets.weight << weight, 1;
     WorkingSetProblem problem(2, capacity);
     int failed_level;
     EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
@@ -138,10 +152,10 @@ class WorkingSetProblemTest : public testing::Test {
     EqualityBlock sum = hierarchy_.AddEqualities(1, 1);
     sum.B << 1, 1, 0;
     sum.b << -8;
-    EqualityBlock wishes = hierarchy_.AddEqualities(2, 2);
-    wishes.B << 0, 0, 3, 0, 1, 0;
-    wishes.b << -6, 0;
-    wishes.weight << 1, 5;
+    EqualityBlock targets = hierarchy_.AddEqualities(2, 2);
+    targets.B << 0, 0, 3, 0, 1, 0;
+    targets.b << -6, 0;
+    targets.weight << 1, 5;
     int failed_level;
     EXPECT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
     problem_.Plan(hierarchy_, 3);
@@ -155,7 +169,7 @@ class WorkingSetProblemTest : public testing::Test {
   WorkingSetProblem problem_{3, capacity_};
 };
 
-TEST_F(WorkingSetProblemTest, PricesWhatARowHoldsBack) {
+TEST_F(WorkingSetProblemTest, FindsTheMultipliersOfEachRow) {
   EXPECT_EQ(problem_.num_leading(), 2);
   EXPECT_EQ(problem_.selected(2, 0), 2);
   EXPECT_EQ(problem_.selected(2, 1), 1);
@@ -164,12 +178,12 @@ TEST_F(WorkingSetProblemTest, PricesWhatARowHoldsBack) {
       (Eigen::Vector3d::Map(problem_.y().data()) - Eigen::Vector3d(1, 2, 3))
           .norm(),
       rounding);
-  // Of the sum: -5 on y0 and on y1. To give way upwards helps, downwards does
-  // not: at a lower side, that is a row to let go.
+  // The gradient of the sum is -5 on y0 and on y1. An upper bound holds y back;
+  // a lower bound does not, and its multiplier is negative.
   EXPECT_NEAR(problem_.Multiplier(0, 1, Side::kUpper, 0), 5, rounding);
   EXPECT_NEAR(problem_.Multiplier(1, 1, Side::kLower, 0), -5, rounding);
   EXPECT_EQ(problem_.Multiplier(2, 1, Side::kUpper, 1e-12), 0);
-  // Of the wishes: 9 on y2, upwards; 10 on y1, downwards.
+  // The gradient of the targets is 9 on y2 and 10 on y1.
   EXPECT_EQ(problem_.Multiplier(0, 2, Side::kUpper, 1e-12), 0);
   EXPECT_NEAR(problem_.Multiplier(1, 2, Side::kLower, 0), 10, 5 * rounding);
   EXPECT_NEAR(problem_.Multiplier(2, 2, Side::kUpper, 0), -9, 5 * rounding);
@@ -177,28 +191,30 @@ TEST_F(WorkingSetProblemTest, PricesWhatARowHoldsBack) {
   for (int a = 0; a < 3; ++a) {
     EXPECT_EQ(problem_.Multiplier(a, 0, Side::kUpper, 0), 0);
   }
-  // Relative to the largest of what it is added up from.
+  // The tolerance is relative to the largest term of the multiplier.
   const WorkingSetProblem::Multipliers& of_sum = problem_.multipliers(1);
   EXPECT_TRUE(of_sum.any);
   const double share = std::abs(of_sum.nu[0]) / of_sum.size;
-  EXPECT_EQ(problem_.Multiplier(0, 1, Side::kUpper, share * (1 + 1e-12)), 0);
-  EXPECT_NE(problem_.Multiplier(0, 1, Side::kUpper, share * (1 - 1e-12)), 0);
+  EXPECT_EQ(problem_.Multiplier(0, 1, Side::kUpper, 2 * share), 0);
+  EXPECT_NEAR(problem_.Multiplier(0, 1, Side::kUpper, share / 2), 5, rounding);
 }
 
-// y = 1/16 and, four times as heavy, y = 1/16 + gap. In between, a fifth of the gap
-// from the latter, sqrt(4/5) of it is left in any case, on the light row: it
-// counts beside that row's weight times 1/8. What rows of the next level weigh
-// does not matter.
+// y = 1/16 and, with four times the weight, y = 1/16 + gap. At the optimum the
+// residuals are 4/5 and -1/5 of the gap, also where y is off by as much.
+// Rounding of the terms, 1/16 + 1/16, becomes zero.
 TEST(WorkingSetProblem, TreatsRoundingResidualAsZero) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {0, 1}};
-  for (const double share : {0.01, 100.}) {
+  constexpr double kEps = std::numeric_limits<double>::epsilon();
+  for (const double part : {0., kEps, 100 * kEps, 1e-10, 1e-6, 1e-2}) {
     for (const double sign : {-1, 1}) {
-      const double gap = sign * share * 1e-12 / 8 / std::sqrt(0.8);
+      SCOPED_TRACE(testing::Message() << part << ", " << sign);
+      const double gap = sign * part / 8;
       Hierarchy hierarchy(1, capacity);
       EqualityBlock twice = hierarchy.AddEqualities(0, 2);
       twice.B << 1, 1;
       twice.b << -1. / 16, -(1. / 16 + gap);
       twice.weight << 1, 4;
+      // Rows of the next level do not count, whatever their norm.
       InequalityBlock next = hierarchy.AddInequalities(1, 1);
       next.C << 100;
       next.upper << 50;
@@ -208,23 +224,24 @@ TEST(WorkingSetProblem, TreatsRoundingResidualAsZero) {
       problem.Plan(hierarchy, 2);
       problem.Solve(hierarchy, {{}, {Side::kUpper}});
       ASSERT_EQ(problem.num_leading(), 2);
-      // Wherever y is.
+      EXPECT_NEAR(problem.y()[0], 1. / 16 + 0.8 * gap, Rounding(0.125, 1));
+      const bool is_rounding = part <= 100 * kEps;
+      const double rounding = is_rounding ? 0 : Rounding(0.125, 1);
       for (const double off : {0., 0.8 * gap, gap}) {
         problem.SetSolution(hierarchy, {1. / 16 + off});
-        const double rounding = Rounding(0.125, 1);
-        EXPECT_NEAR(problem.leading().residual(0), share > 1 ? 0.8 * gap : 0,
+        EXPECT_NEAR(problem.leading().residual(0), is_rounding ? 0 : 0.8 * gap,
                     rounding);
-        EXPECT_NEAR(problem.leading().residual(1), share > 1 ? -0.2 * gap : 0,
+        EXPECT_NEAR(problem.leading().residual(1), is_rounding ? 0 : -0.2 * gap,
                     rounding);
       }
     }
   }
 }
 
-// y1 + y2 = 5 below y1 + y2 = 0 is held back by 5 of its weight, 3, and its length,
-// squared. Where y is said to be elsewhere, it is by 4 of them, of which 1 too
-// much was found before.
-TEST(WorkingSetProblem, RefinesMultipliersByWhatIsLeftOfTheirSum) {
+// y1 + y2 = 5 below y1 + y2 = 0: the multiplier is the residual 5, times the
+// weight 3 and the squared norm. At a y with the residual 4, refinement
+// subtracts 1 of 5.
+TEST(WorkingSetProblem, RefinesMultipliersByTheRemainingGradient) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
   Hierarchy hierarchy(2, capacity);
   EqualityBlock first = hierarchy.AddEqualities(0, 1);
@@ -248,8 +265,8 @@ TEST(WorkingSetProblem, RefinesMultipliersByWhatIsLeftOfTheirSum) {
   EXPECT_NEAR(problem.multipliers(1).nu[1], -4 * unit, Rounding(5 * unit, 2));
 }
 
-// Without variables, no level selects any.
-TEST(WorkingSetProblem, KnowsLevelsWithoutVariables) {
+// A level without variables is a leading level.
+TEST(WorkingSetProblem, HasNoDiagonalLevelWithoutVariables) {
   const std::vector<LevelCapacity> capacity{{0, 0}};
   WorkingSetProblem problem(0, capacity);
   const Hierarchy hierarchy(0, capacity);
@@ -257,8 +274,8 @@ TEST(WorkingSetProblem, KnowsLevelsWithoutVariables) {
   EXPECT_EQ(problem.num_leading(), 1);
 }
 
-// Rows of two or more variables, which are met, and a last level that wants some
-// variables somewhere.
+// Rows of two or more variables, which are met, and a last level with targets
+// for some variables.
 class RefinementTest : public testing::Test {
  protected:
   struct Met {
@@ -266,13 +283,13 @@ class RefinementTest : public testing::Test {
     double target;
     int level = 0;
   };
-  struct Wish {
+  struct Target {
     int variable;
     double target;
   };
   // Solves and refines, from the solution or from another y.
   Eigen::VectorXd Refine(const std::vector<Met>& rows,
-                         const std::vector<Wish>& wishes,
+                         const std::vector<Target>& targets,
                          const std::vector<double>* other = nullptr);
   static Eigen::RowVectorXd Row(const std::vector<double>& entries) {
     return Eigen::RowVectorXd::Map(entries.data(), entries.size());
@@ -288,7 +305,7 @@ class RefinementTest : public testing::Test {
 };
 
 Eigen::VectorXd RefinementTest::Refine(const std::vector<Met>& rows,
-                                       const std::vector<Wish>& wishes,
+                                       const std::vector<Target>& targets,
                                        const std::vector<double>* other) {
   const auto n = static_cast<int>(rows[0].row.size());
   // With room for more than there is.
@@ -299,10 +316,10 @@ Eigen::VectorXd RefinementTest::Refine(const std::vector<Met>& rows,
     block.B = met.row;
     block.b[0] = -met.target;
   }
-  for (const Wish& wish : wishes) {
+  for (const Target& desired : targets) {
     EqualityBlock block = hierarchy.AddEqualities(3, 1);
-    block.B(0, wish.variable) = 1;
-    block.b[0] = -wish.target;
+    block.B(0, desired.variable) = 1;
+    block.b[0] = -desired.target;
   }
   WorkingSetProblem problem(n, capacity);
   int failed_level;
@@ -322,15 +339,14 @@ Eigen::VectorXd RefinementTest::Refine(const std::vector<Met>& rows,
   return Eigen::VectorXd::Map(problem.y().data(), n);
 }
 
-// y0 + y1 = L, and two rows of y1 and y2, which are small: rounding of L leaves
-// nothing of them, at first, and it takes as many passes as L has of digits to
-// bring them back. What others want stays, if small itself.
-TEST_F(RefinementTest, BringsSmallNumbersBackFromBesideLargeOnes) {
+// y0 + y1 = L, and two rows of y1 and y2, which are small. At first, rounding
+// of L is larger than both; each pass recovers 15 digits. Small targets stay.
+TEST_F(RefinementTest, RecoversSmallNumbersBesideLargeOnes) {
   for (const double large : {1e10, 1e20, 1e36, 1e90}) {
     std::vector<Met> rows{{Row({1, 1, 0, 0, 0, 0}), large},
                           {Row({0, 1, 1, 0, 0, 0}), 3e-6},
                           {Row({0, 1, -1, 0, 0, 0}), 1e-6}};
-    // And two at odds with each other, of which nothing is asked.
+    // Two rows conflict; their residual is not refined away.
     const Met torn[] = {{Row({0, 1, 0, 0, 1, 1}), 1, 1},
                         {Row({0, 1, 0, 0, 1, 1}), 3, 1}};
     std::vector<int> order{0, 1, 2};
@@ -347,8 +363,8 @@ TEST_F(RefinementTest, BringsSmallNumbersBackFromBesideLargeOnes) {
   }
 }
 
-// And with them what a row lacks that is at odds with these: to 1e-6 at first.
-TEST_F(RefinementTest, BringsBackWhatALevelLacks) {
+// The residual of a row that conflicts with these has six digits at first.
+TEST_F(RefinementTest, RecoversTheResidualOfALevel) {
   Refine({{Row({1, 1, 0}), 1e10},
           {Row({0, 1, 1}), 3e-6},
           {Row({0, 1, -1}), 1e-6},
@@ -357,16 +373,16 @@ TEST_F(RefinementTest, BringsBackWhatALevelLacks) {
   EXPECT_NEAR(residual_[3], 3e-6 - 1, Rounding(1, 3));
 }
 
-// Two rows of y1 and y2 that ask for zero cannot be met, relative to themselves.
-// What is left is rounding's, and so is all that is as small, 1e-18 of the
-// largest, before or after, unless it is just what is asked for.
-TEST_F(RefinementTest, LeavesNoRoundingWhereZeroWasMeant) {
-  const auto refine = [this](double large, double wish,
+// Two rows of y1 and y2 with target zero cannot be met relative to their own
+// terms. The remainders are rounding, and so is every entry far below 1e-18 of
+// the largest one, before or after refinement, unless it is at its target.
+TEST_F(RefinementTest, SetsRoundingEntriesToZero) {
+  const auto refine = [this](double large, double desired,
                              const std::vector<double>& other) {
     return Refine({{Row({1, 1, 0, 0}), large},
                    {Row({0, 1, 2, 0}), 0},
                    {Row({0, 3, -1, 0}), 0}},
-                  {{3, wish}}, other.empty() ? nullptr : &other);
+                  {{3, desired}}, other.empty() ? nullptr : &other);
   };
   const Eigen::VectorXd y = refine(1e18, 0.7, {});
   EXPECT_EQ(y[0], 1e18);
@@ -375,27 +391,32 @@ TEST_F(RefinementTest, LeavesNoRoundingWhereZeroWasMeant) {
   for (const double large : {1e18, -1e18}) {
     const double unit = 1e-18 * std::abs(large);
     for (const double sign : {1, -1}) {
-      const double nothing = sign * 0.7 * unit, something = sign * 1.4 * unit;
-      EXPECT_EQ(refine(1, 0, {large, 0, 0, nothing})[3], 0);
-      // As the first variable.
-      const std::vector<double> turned{nothing, 0, 0, large};
-      EXPECT_EQ(Refine({{Row({0, 0, 1, 1}), 1},
-                        {Row({0, 2, 1, 0}), 0},
-                        {Row({0, -1, 3, 0}), 0}},
-                       {{0, 0}}, &turned)[0],
-                0);
-      EXPECT_EQ(refine(large, 0, {1, 0, 0, nothing})[3], 0);
-      EXPECT_EQ(refine(1, 0, {large, 0, 0, something})[3], something);
-      EXPECT_EQ(refine(large, 0, {1, 0, 0, something})[3], something);
-      // Not what is asked for, by a few digits.
-      EXPECT_EQ(refine(large, nothing, {1, 0, 0, 0.9 * nothing})[3], 0);
+      for (const double part : {1e-30, 1e-6, 1e-3}) {
+        const double nothing = sign * part * unit;
+        EXPECT_EQ(refine(1, 0, {large, 0, 0, nothing})[3], 0);
+        // As the first variable.
+        const std::vector<double> turned{nothing, 0, 0, large};
+        EXPECT_EQ(Refine({{Row({0, 0, 1, 1}), 1},
+                          {Row({0, 2, 1, 0}), 0},
+                          {Row({0, -1, 3, 0}), 0}},
+                         {{0, 0}}, &turned)[0],
+                  0);
+        EXPECT_EQ(refine(large, 0, {1, 0, 0, nothing})[3], 0);
+        // The target is a thousand times as large: the entry is not at it.
+        EXPECT_EQ(refine(large, 1e3 * nothing, {1, 0, 0, nothing})[3], 0);
+      }
+      for (const double part : {1e2, 1e6, 1e12}) {
+        const double something = sign * part * unit;
+        EXPECT_EQ(refine(1, 0, {large, 0, 0, something})[3], something);
+        EXPECT_EQ(refine(large, 0, {1, 0, 0, something})[3], something);
+      }
     }
   }
 }
 
-// What rounding leaves of y0 where three rows meet is all that the row y0 = 0 has,
-// whichever of the three it is.
-TEST_F(RefinementTest, LeavesNoRoundingWhereThreeRowsMeet) {
+// Three rows meet at y0 = 0. Rounding of y0 would be all terms of the row y0 =
+// 0, in any order of the rows.
+TEST_F(RefinementTest, SetsRoundingToZeroWhereThreeRowsMeet) {
   std::vector<Met> rows{
       {Row({1, 0}), 0}, {Row({4, 5}), -5}, {Row({-2, 5}), -5}};
   for (int turn = 0; turn < 3; ++turn) {
@@ -406,8 +427,8 @@ TEST_F(RefinementTest, LeavesNoRoundingWhereThreeRowsMeet) {
   }
 }
 
-// What cannot be met is not missed: where all else is met, what is small stays.
-TEST_F(RefinementTest, LeavesWhatIsSmallBesideRowsAtOdds) {
+// Conflicting rows have a residual that is right: small entries stay.
+TEST_F(RefinementTest, KeepsSmallEntriesBesideConflictingRows) {
   const std::vector<double> other{1e18, 1e18, 0.7};
   const Eigen::VectorXd y = Refine(
       {{Row({1, 1, 0}), 1e18}, {Row({1, 1, 0}), 3e18}}, {{2, 0}}, &other);
@@ -415,8 +436,8 @@ TEST_F(RefinementTest, LeavesWhatIsSmallBesideRowsAtOdds) {
   EXPECT_EQ(y[2], 0.7);
 }
 
-// As where zero was meant, beside a level to which the small numbers matter.
-TEST_F(RefinementTest, LeavesWhatALevelNeeds) {
+// Rounding becomes zero, beside a level that needs small numbers.
+TEST_F(RefinementTest, KeepsSmallEntriesThatALevelNeeds) {
   for (const int needs : {0, 1}) {
     for (const bool first : {false, true}) {
       SCOPED_TRACE(testing::Message() << needs << first);
@@ -435,9 +456,9 @@ TEST_F(RefinementTest, LeavesWhatALevelNeeds) {
   }
 }
 
-// Unless that is less, relative to its own terms, than what the rows of rounding
-// miss; and where all is met, whatever is small stays.
-TEST_F(RefinementTest, JudgesALevelByWhatItIsAddedUpFrom) {
+// The residual of such a level may grow below that of the rows of rounding,
+// relative to its terms. Where all rows are met, small entries stay.
+TEST_F(RefinementTest, JudgesTheResidualOfALevelByItsTerms) {
   const Met large{Row({1, 1, 0, 0, 0, 0}), 1e18};
   const Eigen::VectorXd y = Refine({large,
                                     {Row({0, 1, 2, 0, 0, 0}), 0, 1},

@@ -31,7 +31,7 @@ HierarchyCase Draw(int seed) {
   return MakeRandomHierarchy(seed, options);
 }
 
-// A hierarchy, and what some of its rows ask for on some sides.
+// A hierarchy with a working set.
 class RandomWorkingSetProblemTest : public testing::TestWithParam<int> {
  protected:
   void SetUp() override {
@@ -59,8 +59,8 @@ class RandomWorkingSetProblemTest : public testing::TestWithParam<int> {
     return side == Side::kUpper ? hierarchy_.upper(k)[i]
                                 : hierarchy_.lower(k)[i];
   }
-  // The first levels with the rows in the working set, and a last level with the
-  // target `center`.
+  // The first levels with the rows in the working set, and a last level with
+  // the target `center`.
   std::vector<LeastSquares> Levels(const Sides& sides, int num_levels,
                                    const Eigen::VectorXd& center) const;
   Eigen::VectorXd Original(const WorkingSetProblem::Row& row) const {
@@ -84,8 +84,8 @@ class RandomWorkingSetProblemTest : public testing::TestWithParam<int> {
     return leading;
   }
 
-  // Compares y and the rows with those of the optimum. The tolerance is rounding
-  // times the squared condition of the levels.
+  // Compares y and the rows with those of the optimum. The tolerance is
+  // rounding times the squared condition of the levels.
   void Check(const Sides& sides, int num_levels, const Eigen::VectorXd& center);
   // The rows of the leading levels are those of the hierarchy, each one once.
   void CheckRows(const Sides& sides, const Eigen::VectorXd& optimum);
@@ -255,8 +255,8 @@ TEST_P(RandomWorkingSetProblemTest, AgreesWithSingularValues) {
   }
 }
 
-// Rows come, go and change sides, as in a descent.
-TEST_P(RandomWorkingSetProblemTest, UpdatesAreAsGoodAsFactorisingAnew) {
+// Rows are added, removed and change sides, as in a search.
+TEST_P(RandomWorkingSetProblemTest, UpdatesAreAsExactAsANewFactorisation) {
   problem_.Plan(hierarchy_, num_levels_);
   for (int salt = 0; salt < 6; ++salt) {
     SCOPED_TRACE(salt);
@@ -278,7 +278,8 @@ TEST_P(RandomWorkingSetProblemTest, StaysCloseToACenter) {
   }
 }
 
-// Off in every direction: its rows bring it back, and nothing brings it further.
+// From a y that is off in every direction, refinement makes the smallest step
+// that meets the rows.
 TEST_P(RandomWorkingSetProblemTest, RefinesAnotherYToMeetTheRows) {
   const Sides sides = MakeSides(2);
   const int num_leading = NumLeading(num_levels_);
@@ -290,7 +291,7 @@ TEST_P(RandomWorkingSetProblemTest, RefinesAnotherYToMeetTheRows) {
   for (int j = 0; j < n_; ++j) other[j] += 1 + j % 2;
   const Eigen::VectorXd start = Eigen::VectorXd::Map(other.data(), n_);
   problem_.RefineFrom(hierarchy_, other);
-  // The levels of the tail weigh the way, not their targets.
+  // The weights of the diagonal levels determine the step, not their targets.
   std::vector<LeastSquares> levels = Levels(sides, num_levels_, start);
   for (int k = num_leading; k < num_levels_; ++k)
     levels[k].b = levels[k].A * start;
@@ -301,8 +302,7 @@ TEST_P(RandomWorkingSetProblemTest, RefinesAnotherYToMeetTheRows) {
 
   problem_.SetSolution(hierarchy_, other);
   EXPECT_EQ(problem_.y(), other);
-  // Residuals are what a level would lack at its own optimum, those above as
-  // they are.
+  // Residuals are those of the level's optimum among the optima above.
   for (int k = 0; k < num_leading; ++k) {
     std::vector<LeastSquares> held = Levels(sides, num_levels_, start);
     held.resize(k + 1);
@@ -323,9 +323,9 @@ TEST_P(RandomWorkingSetProblemTest, RefinesAnotherYToMeetTheRows) {
   }
 }
 
-// Of all y that are best for the head, the one closest to another: best for it
-// is what is best for all levels, and nothing but its rows moves y there.
-TEST_P(RandomWorkingSetProblemTest, ApproachesWhatIsBestForTheHead) {
+// Among the optima of the leading levels, y is the one closest to another y. So
+// the step is in the row space of the leading levels.
+TEST_P(RandomWorkingSetProblemTest, ApproachesTheOptimumOfTheLeadingLevels) {
   problem_.Plan(hierarchy_, num_levels_);
   problem_.Solve(hierarchy_, MakeSides(3));
   const Eigen::MatrixXd Q = Basis(problem_.leading(), n_);

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Which entries of y are taken for what rounding leaves of a zero.
+// Tests which entries of y are set to zero as rounding.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -9,16 +9,16 @@
 namespace poise {
 namespace {
 
-constexpr double kLarge = 4;  // The largest of y: 4e-14 is nothing beside it.
+constexpr double kLarge = 4;       // The largest entry of y.
 constexpr double kSmall = 1e-15;   // Far below that.
-constexpr double kWished = 3e-15;  // What the tail asks of y3.
+constexpr double kTarget = 3e-15;  // Target of the last level for y3.
 
 using Vector = std::vector<double>;
 
-// A row of y1 and y2, of a target, above y0 + y4 = 4, above the wish for y3.
+// A row of y1 and y2 with a target, above y0 + y4 = 4, above the target for y3.
 class ZeroRoundingTest : public testing::Test {
  protected:
-  // What becomes of y, asked for by a row.
+  // Returns y after rounding entries of `row` were set to zero.
   Vector Take(double b1, double b2, double target, const Vector& y,
               const Vector& row) {
     const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}, {1, 0}};
@@ -29,9 +29,9 @@ class ZeroRoundingTest : public testing::Test {
     EqualityBlock sum = hierarchy.AddEqualities(1, 1);
     sum.B << 1, 0, 0, 0, 1;
     sum.b << -kLarge;
-    EqualityBlock wish = hierarchy.AddEqualities(2, 1);
-    wish.B << 0, 0, 0, 1, 0;
-    wish.b << -kWished;
+    EqualityBlock last = hierarchy.AddEqualities(2, 1);
+    last.B << 0, 0, 0, 1, 0;
+    last.b << -kTarget;
     WorkingSetProblem problem(5, capacity);
     int failed_level;
     EXPECT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
@@ -46,36 +46,41 @@ class ZeroRoundingTest : public testing::Test {
   bool any_ = false;
 };
 
-TEST_F(ZeroRoundingTest, TakesWhatIsNothingBesideTheLargest) {
+// An entry of rounding of the largest one becomes zero if it is in the row. An
+// entry of 1e-11 of it stays.
+TEST_F(ZeroRoundingTest, ZeroesRoundingOfTheLargestEntry) {
   for (const double sign : {1., -1.}) {
-    const double nothing = sign * 3.6e-14, something = sign * 4.4e-14;
-    EXPECT_EQ(Take(1, 1, 7, {kLarge, nothing, 7, 0, 0}, {0, 2, 0, 0, 0})[1], 0);
-    const double just = sign * 1e-14 * kLarge;
-    EXPECT_EQ(Take(1, 1, 4, {kLarge, just, kLarge, 0, 0}, {0, 2, 0, 0, 0})[1],
-              0);
-    EXPECT_EQ(
-        Take(1, 1, 4, {kLarge, something, kLarge, 0, 0}, {0, 2, 0, 0, 0})[1],
-        something);
-    // Of the row alone.
-    EXPECT_EQ(
-        Take(1, 1, 4, {kLarge, nothing, kLarge, 0, 0}, {0, 0, 2, 1, 1})[1],
-        nothing);
+    for (const double part : {1e-30, 1e-20, 1e-16, 1e-15}) {
+      const double nothing = sign * part * kLarge;
+      EXPECT_EQ(Take(1, 1, 7, {kLarge, nothing, 7, 0, 0}, {0, 2, 0, 0, 0})[1],
+                0);
+      // The row does not contain the entry.
+      EXPECT_EQ(
+          Take(1, 1, 4, {kLarge, nothing, kLarge, 0, 0}, {0, 0, 2, 1, 1})[1],
+          nothing);
+    }
+    for (const double part : {1e-12, 1e-9, 1e-3}) {
+      const double something = sign * part * kLarge;
+      EXPECT_EQ(
+          Take(1, 1, 4, {kLarge, something, kLarge, 0, 0}, {0, 2, 0, 0, 0})[1],
+          something);
+    }
   }
 }
 
-TEST_F(ZeroRoundingTest, LeavesWhatARowNeeds) {
+TEST_F(ZeroRoundingTest, KeepsEntriesThatARowNeeds) {
   const Vector y{kLarge, kSmall, 2 * kSmall, 0, 0};
   EXPECT_EQ(Take(1, 1, 3 * kSmall, y, {0, 1, 0, 0, 0}), y);
   EXPECT_EQ(Take(1, 1, 3 * kSmall, y, {0, 1, 1, 0, 0}), y);
-  // Beside zeros, which need not become any, be it against a wish.
+  // Entries that are zero, at their target or not, do not matter.
   const Vector one{kLarge, 0, 3 * kSmall, 0, 0};
   EXPECT_EQ(Take(1, 1, 3 * kSmall, one, {0, 1, 1, 1, 0}), one);
-  // And beside a large number that no other row holds.
+  // Neither does a large entry that no other row contains.
   const Vector large{kLarge, 3 * kSmall, 0, 1, 0};
   EXPECT_EQ(Take(1, 1, 3 * kSmall, large, {0, 1, 0, 1, 0}), large);
 }
 
-TEST_F(ZeroRoundingTest, AsksRowsOfYAsItIs) {
+TEST_F(ZeroRoundingTest, UsesTheResidualsOfTheCurrentY) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
   Hierarchy hierarchy(3, capacity);
   EqualityBlock sum = hierarchy.AddEqualities(0, 1);
@@ -97,8 +102,8 @@ TEST_F(ZeroRoundingTest, AsksRowsOfYAsItIs) {
   EXPECT_EQ(problem.y(), y);
 }
 
-// Of a bound y1 <= 1 that was, y1 = 0 misses all.
-TEST_F(ZeroRoundingTest, AsksNoRowThatIsNotActiveAnyMore) {
+// y1 = 0 would violate y1 = 1, but that bound is no longer active.
+TEST_F(ZeroRoundingTest, IgnoresRowsThatAreNotActive) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {0, 1}};
   Hierarchy hierarchy(2, capacity);
   EqualityBlock large = hierarchy.AddEqualities(0, 1);
@@ -120,16 +125,16 @@ TEST_F(ZeroRoundingTest, AsksNoRowThatIsNotActiveAnyMore) {
   EXPECT_EQ(problem.y(), Vector({kLarge, 0}));
 }
 
-TEST_F(ZeroRoundingTest, TakesTwoThatMakeUpForEachOther) {
+TEST_F(ZeroRoundingTest, ZeroesTwoEntriesThatCancel) {
   const Vector y{kLarge, kSmall, kSmall, 0, 0};
   EXPECT_EQ(Take(1, -1, 0, y, {0, 1, 1, 0, 0}), Vector({kLarge, 0, 0, 0, 0}));
-  // Also where only one is the row's.
+  // The row may contain only one of them.
   EXPECT_EQ(Take(1, -1, 0, y, {0, 1, 0, 0, 0}), Vector({kLarge, 0, 0, 0, 0}));
   EXPECT_EQ(Take(1, -1, 0, y, {1, 0, 0, 1, 1}), y);
 }
 
-// 1e-30 is no digit of a target of 1e-15.
-TEST_F(ZeroRoundingTest, TakesOneWhereTheOtherIsNeeded) {
+// An entry of 1e-30 does not change a residual of a target of 1e-15.
+TEST_F(ZeroRoundingTest, ZeroesOneEntryWhereTheOtherIsNeeded) {
   EXPECT_EQ(
       Take(1, 2, 2 * kSmall, {kLarge, 1e-30, kSmall, 0, 0}, {0, 1, 1, 0, 0}),
       Vector({kLarge, 0, kSmall, 0, 0}));
@@ -141,9 +146,9 @@ TEST_F(ZeroRoundingTest, TakesOneWhereTheOtherIsNeeded) {
             Vector({0, 2 * kSmall, 0, 0, kLarge}));
 }
 
-// Twice as bad is as good as before: from 0.43 of its terms to 0.54, but not from
-// 0.053 to 0.14.
-TEST_F(ZeroRoundingTest, CountsNoLastDigit) {
+// The relative residual of a row may double: from 0.43 to 0.54 of its terms,
+// not from 0.053 to 0.14.
+TEST_F(ZeroRoundingTest, AllowsAResidualToDouble) {
   const auto take = [&](double y1, double y2, double target) {
     return Take(1, 1, target * kSmall, {kLarge, y1 * kSmall, y2 * kSmall, 0, 0},
                 {0, 1, 0, 0, 0})[1];
@@ -152,14 +157,17 @@ TEST_F(ZeroRoundingTest, CountsNoLastDigit) {
   EXPECT_EQ(take(0.15, 0.75, 1), 0.15 * kSmall);
 }
 
-TEST_F(ZeroRoundingTest, LeavesWhatTheTailAsksFor) {
+TEST_F(ZeroRoundingTest, KeepsEntriesAtTheirTarget) {
   const auto take = [&](double y3) {
     return Take(1, 1, 4, {kLarge, 0, kLarge, y3, 0}, {0, 0, 0, 1, 0})[3];
   };
-  EXPECT_EQ(take(kWished), kWished);
-  EXPECT_EQ(take(-kWished), 0);
-  EXPECT_EQ(take(0.9 * kWished), 0);
-  EXPECT_EQ(take(1.1 * kWished), 0);
+  EXPECT_EQ(take(kTarget), kTarget);
+  EXPECT_EQ(take(-kTarget), 0);
+  const double nearly = kTarget * (1 + 1e-15);  // A few eps.
+  EXPECT_EQ(take(nearly), nearly);
+  EXPECT_EQ(take(kTarget * (1 + 1e-11)), 0);
+  EXPECT_EQ(take(kTarget / 2), 0);
+  EXPECT_EQ(take(2 * kTarget), 0);
 }
 
 }  // namespace

@@ -12,10 +12,10 @@
 namespace poise {
 namespace {
 
-// How often it is gone through at most; twice was enough for a robot's rows.
+// Largest number of passes. Two were enough for the rows of a robot.
 constexpr int kPasses = 3;
 
-// What rounding in row i of C y is relative to.
+// Returns the magnitude that rounding of row i of C y is relative to.
 double Size(const Hierarchy& hierarchy, int level, int i, double bound,
             const Eigen::VectorXd& y) {
   return hierarchy.C(level).row(i).norm() * y.norm() +
@@ -36,7 +36,7 @@ Side SideOf(const Hierarchy& hierarchy, int level, int i, double margin,
   return Side::kNone;
 }
 
-// Whether row i is well inside its bound on that side.
+// Returns whether y is strictly inside the bound of row i on that side.
 bool IsInside(const Hierarchy& hierarchy, int level, int i, Side side,
               const Eigen::VectorXd& y) {
   if (side == Side::kNone) return true;
@@ -47,8 +47,9 @@ bool IsInside(const Hierarchy& hierarchy, int level, int i, Side side,
   return beyond < -tolerances::kAtBound * Size(hierarchy, level, i, bound, y);
 }
 
-// y += step. Entries within the rounding of the step's largest tell nothing; and
-// of rows that hold only such, rounding would be all there is.
+// Adds the step to y. Entries of y within rounding of the largest entry of the
+// step become zero. Otherwise rounding would be all terms of a row with such
+// entries only.
 void AddStep(const Eigen::VectorXd& step, Eigen::VectorXd* y) {
   *y += step;
   const double rounding = static_cast<double>(y->size()) *
@@ -57,7 +58,7 @@ void AddStep(const Eigen::VectorXd& step, Eigen::VectorXd* y) {
   *y = (y->array().abs() <= rounding).select(0, *y);
 }
 
-// Of a level's cost, at y.
+// Returns the gradient of the level's cost at y.
 Eigen::VectorXd Gradient(const Hierarchy& hierarchy, int level,
                          const LevelSolution& own, const Eigen::VectorXd& y) {
   Eigen::VectorXd gradient =
@@ -72,7 +73,7 @@ Eigen::VectorXd Gradient(const Hierarchy& hierarchy, int level,
   return gradient;
 }
 
-// What that is added up from, by variable.
+// Returns the magnitude of the terms of the gradient, by variable.
 Eigen::VectorXd GradientSize(const Hierarchy& hierarchy, int level,
                              const LevelSolution& own,
                              const Eigen::VectorXd& y) {
@@ -125,8 +126,8 @@ Status Cascade::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
   return solution->status;
 }
 
-// From y on: what is left to do the second time is little, and so is the rounding
-// of it.
+// Makes one pass, from solution->y. The steps of the second pass are small, and
+// so is their rounding.
 void Cascade::SolveFromY(const Hierarchy& hierarchy, Solution* solution) {
   const int n = hierarchy.num_variables();
   const int iterations = solution->iterations;
@@ -135,7 +136,7 @@ void Cascade::SolveFromY(const Hierarchy& hierarchy, Solution* solution) {
   solution->iterations = iterations;
   solution->y = y;
   Z_.setIdentity(n, n);
-  // One level more than there are: y itself, for its minimum norm.
+  // One more level, y = 0, selects the optimum of minimum norm.
   for (int level = 0; level <= hierarchy.num_levels(); ++level) {
     if (!SolveLevel(hierarchy, level, solution)) {
       solution->status = Status::kIterationLimit;
@@ -150,7 +151,7 @@ void Cascade::SolveFromY(const Hierarchy& hierarchy, Solution* solution) {
     if (solution->failed_level < 0 || level < solution->failed_level) {
       solution->levels[level].cost = solved_to;
     }
-    // What was at work in a QP, and is still at its bound.
+    // Active are the rows of a working set that are still at their bound.
     std::vector<Side>& active = solution->levels[level].active;
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       if (IsInside(hierarchy, level, i, active[i], solution->y)) {
@@ -160,7 +161,7 @@ void Cascade::SolveFromY(const Hierarchy& hierarchy, Solution* solution) {
   }
 }
 
-// One QP, (5) and (6), in z = u of (3): y + Z z.
+// Solves one QP, (5) and (6), in the u of (3), here z: the new y is y + Z z.
 bool Cascade::SolveLevel(const Hierarchy& hierarchy, int level,
                          Solution* solution) {
   const std::vector<RowIndex> rows = FindRows(hierarchy, level);
@@ -186,8 +187,9 @@ bool Cascade::SolveLevel(const Hierarchy& hierarchy, int level,
   return true;
 }
 
-// The rows of (6): the level's own inequalities, and the inherited ones that are
-// not equalities by now. Rows of zeros, for lack of any freedom left, are dropped.
+// Returns the rows of (6): the level's own inequalities, and those inherited
+// ones that are not equalities. Rows that depend on the levels above are left
+// out.
 std::vector<Cascade::RowIndex> Cascade::FindRows(const Hierarchy& hierarchy,
                                                  int level) const {
   std::vector<RowIndex> rows;
@@ -204,7 +206,7 @@ std::vector<Cascade::RowIndex> Cascade::FindRows(const Hierarchy& hierarchy,
   return rows;
 }
 
-// (5): the level's own equalities; below the last level, y itself.
+// Sets the cost (5): the level's own equalities, or y after the last level.
 void Cascade::SetCost(const Hierarchy& hierarchy, int level,
                       const Eigen::VectorXd& y, LevelQp* qp) const {
   if (level == hierarchy.num_levels()) {
@@ -223,8 +225,8 @@ void Cascade::SetCost(const Hierarchy& hierarchy, int level,
       y.norm() * qp->M_norm + root.cwiseProduct(hierarchy.b(level).cwiseAbs());
 }
 
-// (6): the level's own rows, soft, their slack being its v, and the inherited
-// ones, (4), hard.
+// Sets the constraints (6): the level's own rows are soft, with the slack v;
+// the inherited rows (4) are hard.
 void Cascade::SetBounds(const Hierarchy& hierarchy, int level,
                         const std::vector<RowIndex>& rows,
                         const Eigen::VectorXd& y, LevelQp* qp) const {
@@ -248,7 +250,7 @@ void Cascade::SetBounds(const Hierarchy& hierarchy, int level,
     const bool soft = from == level;
     qp->soft.push_back(soft);
     qp->side.push_back(soft ? SideOf(hierarchy, from, i, 0, y) : Side::kNone);
-    // v* at this y, so that z = 0 is feasible.
+    // A hard row has the slack v* of this y, so that z = 0 is feasible.
     qp->lower[r] = soft ? lower : std::min(lower, value);
     qp->upper[r] = soft ? upper : std::max(upper, value);
   }
@@ -259,7 +261,7 @@ void Cascade::FixLevel(const Hierarchy& hierarchy, int level,
   EvaluateLevel(hierarchy, level, solution);
   FindMultipliers(hierarchy, level, solution);
 
-  // (3): Z <- Z null(B Z), the violated rows counted into B.
+  // Update (3), Z <- Z null(B Z), with the violated rows in B.
   const int equalities = hierarchy.num_equalities(level);
   std::vector<int> violated;
   for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
@@ -267,8 +269,8 @@ void Cascade::FixLevel(const Hierarchy& hierarchy, int level,
         SideOf(hierarchy, level, i, tolerances::kAtBound, solution->y);
     if (violated_[level][i] == Side::kNone) continue;
     violated.push_back(i);
-    // A row of which nothing was left has been in no QP. One that was nothing to
-    // begin with is at work nowhere.
+    // A row that depends on the levels above was in no QP. A row of zeros is
+    // never active.
     if (hierarchy.C(level).row(i).norm() > 0) {
       solution->levels[level].active[i] = violated_[level][i];
     }
@@ -290,7 +292,7 @@ void Cascade::FixLevel(const Hierarchy& hierarchy, int level,
   solution->levels[level].nullity = static_cast<int>(Z_.cols());
 }
 
-// Those that, times the carriers, bring the gradient of the level's cost to zero.
+// Finds the multipliers for which the gradient of the level's cost vanishes.
 void Cascade::FindMultipliers(const Hierarchy& hierarchy, int level,
                               Solution* solution) {
   const LevelSolution& own = solution->levels[level];
@@ -298,7 +300,7 @@ void Cascade::FindMultipliers(const Hierarchy& hierarchy, int level,
   if (carriers.empty()) return;
   const Eigen::VectorXd gradient = Gradient(hierarchy, level, own, solution->y);
   const Eigen::VectorXd size = GradientSize(hierarchy, level, own, solution->y);
-  // What rounding leaves of a level that is met asks for nothing.
+  // The gradient of a level that is met is rounding.
   if (gradient.norm() <= kNegligible * size.norm()) return;
 
   const int count = static_cast<int>(carriers.size());
@@ -326,8 +328,9 @@ void Cascade::FindMultipliers(const Hierarchy& hierarchy, int level,
   }
 }
 
-// The rows of the levels above that can carry a multiplier: equalities that
-// weigh, violated rows, and the active ones of this level's QP.
+// Returns the rows of the levels above that can have a multiplier: equalities
+// with a positive weight, violated rows, and the working set of this level's
+// QP.
 std::vector<Cascade::Carrier> Cascade::FindCarriers(const Hierarchy& hierarchy,
                                                     int level) const {
   std::vector<Carrier> carriers;

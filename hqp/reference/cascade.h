@@ -12,30 +12,31 @@
 
 namespace poise {
 
-/// The paper's algorithm, literally: a cascade of QPs (5), (6), each in the
-/// nullspace (3) that the levels above leave. The reference: readable, not
-/// fast.
+/// Cascade solves the hierarchy as the paper does: a cascade of QPs (5), (6),
+/// each in the nullspace (3) of the levels above. It is the reference, written
+/// to be read, not to be fast.
 ///
-/// Three things are done that the paper does not say. Rows that are violated at
-/// their own optimum are equalities for all lower levels: they are counted into
-/// Z. And v* is evaluated at the y that is returned, never below zero, so that
-/// u = 0 is feasible in the next QP. And where an answer is not certified, since
-/// large numbers in y have left their rounding to small ones, the cascade is gone
-/// through again, from that y on.
+/// Three points are not in the paper. Rows that are violated at the optimum of
+/// their own level are equalities for all lower levels, and count in Z. The
+/// violation v* is that of the returned y and never negative, so that u = 0 is
+/// feasible in the next QP. If the answer is not certified, because rounding of
+/// large entries of y is left in small ones, the cascade is repeated from that
+/// y.
 class Cascade {
  public:
-  /// @param nullspace  kSvd as in the paper; kCod, a complete orthogonal
-  ///                   decomposition, is the cheaper usual choice.
+  /// @param nullspace  kSvd is the paper's choice; kCod, a complete orthogonal
+  ///                   decomposition, is cheaper.
   Cascade(int num_variables, const std::vector<LevelCapacity>& capacity,
           RowSpaceMethod nullspace = RowSpaceMethod::kSvd);
 
-  /// Minimises the levels one after the other; the y of minimum norm where
-  /// freedom is left after the last. What is not certified is not called optimal.
+  /// Minimises the levels one after the other. If several y are optimal on all
+  /// levels, it returns the one of minimum norm. kOptimal implies a certificate
+  /// of at most 1e-9.
   [[nodiscard]] Status Solve(const Hierarchy& hierarchy,
                              Solution* solution) noexcept;
 
-  /// The iterations that a solve may take in all; the levels above the one
-  /// where they are spent then hold.
+  /// Largest number of iterations of all QPs of a solve. If they are spent, the
+  /// levels above failed_level are optimal.
   int max_iterations = 10000;
 
  private:
@@ -62,9 +63,11 @@ class Cascade {
 
   RowSpaceMethod method_;
   Certifier certifier_;
-  Eigen::MatrixXd Z_;  ///< Orthonormal columns: what the levels above leave.
-  std::vector<std::vector<Side>> violated_;  ///< By level, at its optimum.
-  std::vector<RowIndex> active_;             ///< Of the last QP.
+  Eigen::MatrixXd
+      Z_;  ///< Orthonormal basis of the nullspace of the levels so far.
+  std::vector<std::vector<Side>>
+      violated_;                  ///< At the optimum of the row's level.
+  std::vector<RowIndex> active_;  ///< Working set of the last QP.
 };
 
 }  // namespace poise

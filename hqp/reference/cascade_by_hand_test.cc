@@ -1,9 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// The reference where something is at an edge, or within rounding of it.
+// The reference at degenerate points, and with numbers within rounding of zero.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/reference/cascade.h"
@@ -25,85 +26,95 @@ double WorstOf(const HierarchyCase& drawn, const Solution& solution) {
       .worst();
 }
 
-// 3 y0 + 4 y1 <= 50 and >= 50 plus twice a violation, at y = (10, 5). The rows are
-// violated beyond 1e-9 (5 |y| + 50), and take one from the nullity then.
-TEST_P(CascadeByHandTest, CountsViolatedRowsInTheNullity) {
-  for (const double share : {0.01, 100.}) {
-    HierarchyCase edge{{{1, 2}}, Hierarchy(2, {{1, 2}})};
+// 3 y0 + 4 y1 <= 50 and >= 50 + conflict, at y = (10, 5), above a target that
+// pulls away: y stays between the two bounds. A violated row is an equality for
+// the levels below, and counts in the nullity; a row within rounding does not.
+TEST_P(CascadeByHandTest, KeepsTheLevelsBelowFromViolatedRows) {
+  for (const double conflict : {1e-15, 1e-12, 1e-9, 1e-7, 1e-5, 1e-2, 1.}) {
+    SCOPED_TRACE(conflict);
+    const std::vector<LevelCapacity> capacity{{1, 2}, {2, 0}};
+    HierarchyCase edge{capacity, Hierarchy(2, capacity)};
     EqualityBlock across = edge.hierarchy.AddEqualities(0, 1);
     across.B << -4, 3;
     across.b << 25;
     InequalityBlock rows = edge.hierarchy.AddInequalities(0, 2);
     rows.C << 3, 4, 3, 4;
     rows.upper[0] = 50;
-    rows.lower[1] = 50 + 2 * share * 1e-9 * (5 * std::sqrt(125) + 50);
+    rows.lower[1] = 50 + conflict;
+    edge.hierarchy.AddEqualities(1, 2).B.setIdentity();
     const Solution solution = SolveCascade(edge, GetParam());
     // Between the two bounds, along (3, 4) / 5.
     EXPECT_LE((solution.y - Eigen::Vector2d(10, 5)).norm(),
-              (rows.lower[1] - 50) / 5);
-    EXPECT_LE(solution.certificate.worst(), 1e-9);
-    EXPECT_EQ(solution.levels[0].nullity, share < 1 ? 1 : 0);
+              conflict / 5 + Rounding(12, 2, 5));
+    EXPECT_LE(solution.certificate.worst(), Certifier::kCertified);
+    if (conflict <= 1e-9) {
+      EXPECT_EQ(solution.levels[0].nullity, 1);
+    }
+    if (conflict >= 1e-5) {
+      EXPECT_EQ(solution.levels[0].nullity, 0);
+    }
   }
 }
 
-// y = (1, 2) above 3 y0 = 3 with weight 2, missed by a little, and y0 + 2 y1
-// within 5, missed by a little: gradients are relative to (36 + 5, 10).
-TEST_P(CascadeByHandTest, AsksForNothingWhereALevelIsMet) {
-  for (const double share : {0.01, 100.}) {
+// y = (1, 2) above 3 y0 = 3 with weight 2, which misses `residual`, and above
+// y0 + 2 y1 within 5, violated by `slack`. The gradient is relative to (36 + 5,
+// 10); each multiplier is right to kNegligible of that.
+TEST_P(CascadeByHandTest, FindsTheMultipliersOfSmallResiduals) {
+  for (const double part : {1e-16, 1e-14, 1e-10, 1e-6, 1e-2}) {
     for (const Side side : {Side::kLower, Side::kUpper}) {
-      SCOPED_TRACE(testing::Message() << share << static_cast<int>(side));
+      SCOPED_TRACE(testing::Message() << part << static_cast<int>(side));
       const double sign = static_cast<double>(side);
       const std::vector<LevelCapacity> capacity{{2, 0}, {1, 2}};
       HierarchyCase met{capacity, Hierarchy(2, capacity)};
       EqualityBlock fixed = met.hierarchy.AddEqualities(0, 2);
       fixed.B.setIdentity();
       fixed.b << -1, -2;
-      const double size = 1e-12 * std::hypot(41, 10) * share;
-      const double slack = 0.3 * size;
-      const double residual =
-          sign * (std::sqrt(size * size - 4 * slack * slack) - slack) / 6;
+      const double size = std::hypot(41, 10);
+      const double slack = part * size, residual = sign * 2 * part * size;
       EqualityBlock missed = met.hierarchy.AddEqualities(1, 1);
       missed.B << 3, 0;
       missed.b << -3 + residual;
       missed.weight << 2;
-      // A row that is not violated takes no part.
+      // A row that is not violated has no part in the gradient.
       met.hierarchy.AddInequalities(1, 1).C << 100, 100;
       InequalityBlock row = met.hierarchy.AddInequalities(1, 1);
       row.C << 1, 2;
       (side == Side::kLower ? row.lower : row.upper) << 5 - sign * slack;
+      const Solution solution = SolveCascade(met, GetParam());
       const Eigen::VectorXd multipliers =
-          SolveCascade(met, GetParam()).levels[1].multipliers[0].equality;
-      if (share < 1) {
+          solution.levels[1].multipliers[0].equality;
+      EXPECT_NEAR(multipliers[0], -6 * residual - sign * slack, 2e-12 * size);
+      EXPECT_NEAR(multipliers[1], -2 * sign * slack, 2e-12 * size);
+      if (part <= 1e-14) {
         EXPECT_EQ(multipliers, Eigen::Vector2d(0, 0));
-      } else {
-        EXPECT_NEAR(multipliers[0], -6 * residual - sign * slack, kTolerance);
-        EXPECT_NEAR(multipliers[1], -2 * sign * slack, kTolerance);
       }
+      EXPECT_LE(solution.certificate.worst(), Certifier::kCertified);
     }
   }
 }
 
-// y = 1 above y <= 0 and y >= 2, but for a little of 1 + 1 from each of these.
-TEST_P(CascadeByHandTest, AsksForNothingWhereRowsDrawAlike) {
-  for (const double share : {0.01, 100.}) {
-    const double off = 2e-12 * share;
+// y = 1 + off above y <= 0 and y >= 2, which balance at 1.
+TEST_P(CascadeByHandTest, FindsTheMultiplierOfOpposedRows) {
+  for (const double off : {0., 1e-16, 1e-14, 1e-10, 1e-6, 1e-2}) {
     const std::vector<LevelCapacity> capacity{{1, 0}, {0, 2}};
-    HierarchyCase torn{capacity, Hierarchy(1, capacity)};
-    EqualityBlock fixed = torn.hierarchy.AddEqualities(0, 1);
+    HierarchyCase opposed{capacity, Hierarchy(1, capacity)};
+    EqualityBlock fixed = opposed.hierarchy.AddEqualities(0, 1);
     fixed.B << 1;
     fixed.b << -(1 + off);
-    InequalityBlock rows = torn.hierarchy.AddInequalities(1, 2);
+    InequalityBlock rows = opposed.hierarchy.AddInequalities(1, 2);
     rows.C << 1, 1;
     rows.upper[0] = 0;
     rows.lower[1] = 2;
-    const Solution solution = SolveCascade(torn, GetParam());
-    // Of a difference of ones.
+    const Solution solution = SolveCascade(opposed, GetParam());
+    // To kNegligible of 1 + 1 from each row; rounding of these gives none.
     EXPECT_NEAR(solution.levels[1].multipliers[0].equality[0],
-                share < 1 ? 0 : -2 * off, Rounding(1, 4));
+                off <= 1e-14 ? 0 : -2 * off, off <= 1e-14 ? 0 : 8e-12)
+        << off;
+    EXPECT_LE(solution.certificate.worst(), Certifier::kCertified);
   }
 }
 
-// y >= 1 and y <= -1, then <= 5: what was violated need not be any more.
+// y >= 1 and y <= -1, then <= 5: the second solve violates no row.
 TEST_P(CascadeByHandTest, ForgetsWhichRowsWereViolated) {
   const std::vector<LevelCapacity> capacity{{0, 2}};
   Hierarchy hierarchy(1, capacity);
@@ -119,8 +130,8 @@ TEST_P(CascadeByHandTest, ForgetsWhichRowsWereViolated) {
   }
 }
 
-// y0 is 8 times the other one's unit: its rounding is not to be asked about.
-TEST_P(CascadeByHandTest, TakesRoundingForZero) {
+// y0 = -8 leaves rounding in y1, which the next level must not see.
+TEST_P(CascadeByHandTest, SetsARoundingEntryToZero) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
   HierarchyCase two{capacity, Hierarchy(2, capacity)};
   EqualityBlock both = two.hierarchy.AddEqualities(0, 1);
@@ -134,21 +145,21 @@ TEST_P(CascadeByHandTest, TakesRoundingForZero) {
   EXPECT_LE(WorstOf(two, solution), kTolerance);
 }
 
-// No more than that: an entry a thousand times the rounding is one.
-TEST_P(CascadeByHandTest, TakesASmallEntryForWhatItIs) {
-  for (const double small : {1e-12, 1e-16}) {
+// An entry of y that a row determines is exact, however small beside another;
+// only rounding of the largest step is set to zero.
+TEST_P(CascadeByHandTest, KeepsASmallEntry) {
+  for (const double small : {1e-13, 1e-9, 1e-6, 1e-3, 1.}) {
     HierarchyCase two{{{2, 0}}, Hierarchy(2, {{2, 0}})};
-    EqualityBlock wishes = two.hierarchy.AddEqualities(0, 2);
-    wishes.B.setIdentity();
-    wishes.b << -8, -small;
-    EXPECT_EQ(SolveCascade(two, GetParam()).y[1], small == 1e-12 ? small : 0);
+    EqualityBlock targets = two.hierarchy.AddEqualities(0, 2);
+    targets.B.setIdentity();
+    targets.b << -8, -small;
+    EXPECT_EQ(SolveCascade(two, GetParam()).y[1], small);
   }
 }
 
-// y0 = -1 below 3 y0 + 2 y1 <= 0 and 2 y0 + y1 >= 0, which leave only zero:
-// (1, 0) + (3, 2) - 2 (2, 1) = 0, without any help of y1 = 0, which weighs
-// nothing.
-TEST_P(CascadeByHandTest, LeavesARowWithoutWeightWithoutMultiplier) {
+// y0 = -1 below 3 y0 + 2 y1 <= 0 and 2 y0 + y1 >= 0, which leave only zero: (1,
+// 0) + (3, 2) - 2 (2, 1) = 0. The row y1 = 0 has weight 0 and no part in that.
+TEST_P(CascadeByHandTest, GivesARowWithoutWeightNoMultiplier) {
   const std::vector<LevelCapacity> capacity{{1, 2}, {1, 0}};
   HierarchyCase corner{capacity, Hierarchy(2, capacity)};
   EqualityBlock nothing = corner.hierarchy.AddEqualities(0, 1);
@@ -157,9 +168,9 @@ TEST_P(CascadeByHandTest, LeavesARowWithoutWeightWithoutMultiplier) {
   InequalityBlock rows = corner.hierarchy.AddInequalities(0, 2);
   rows.C << 3, 2, -2, -1;
   rows.upper << 0, 0;
-  EqualityBlock wish = corner.hierarchy.AddEqualities(1, 1);
-  wish.B << 1, 0;
-  wish.b << 1;
+  EqualityBlock desired = corner.hierarchy.AddEqualities(1, 1);
+  desired.B << 1, 0;
+  desired.b << 1;
   const Solution solution = SolveCascade(corner, GetParam());
   EXPECT_EQ(solution.y, Eigen::Vector2d(0, 0));
   EXPECT_EQ(solution.levels[0].active[0], Side::kUpper);
@@ -170,9 +181,10 @@ TEST_P(CascadeByHandTest, LeavesARowWithoutWeightWithoutMultiplier) {
   EXPECT_NEAR(multipliers.inequality[1], 2, kTolerance);
 }
 
-// A row of one bound for both sides, crossed while it was active, and other rows
-// in the way at once when it leaves; and the same upside down.
-TEST_P(CascadeByHandTest, KeepsARowThatHasCrossedBothItsBounds) {
+// A row with two equal bounds is crossed while it is active. When it is
+// removed, other rows block at once. The second sign is the same with the row
+// negated.
+TEST_P(CascadeByHandTest, KeepsARowViolatedAcrossBothBounds) {
   for (const double sign : {1., -1.}) {
     const std::vector<LevelCapacity> capacity{{2, 5}, {3, 1}};
     HierarchyCase crossed{capacity, Hierarchy(6, capacity)};
@@ -206,7 +218,7 @@ TEST_P(CascadeByHandTest, KeepsARowThatHasCrossedBothItsBounds) {
   }
 }
 
-// Once all of a level is met, multipliers are rounding, and no row leaves for them.
+// The level is met, so its multipliers are rounding, and no row is removed.
 TEST_P(CascadeByHandTest, EndsWhereALevelIsMet) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 2}};
   HierarchyCase met{capacity, Hierarchy(3, capacity)};
@@ -215,9 +227,9 @@ TEST_P(CascadeByHandTest, EndsWhereALevelIsMet) {
       -2.83, -0.08, 0;
   bounds.lower[0] = 0.588;
   bounds.upper[1] = -3.3683;
-  EqualityBlock wish = met.hierarchy.AddEqualities(1, 1);
-  wish.B << 1, 0, 0;
-  wish.b << -1.21;
+  EqualityBlock desired = met.hierarchy.AddEqualities(1, 1);
+  desired.B << 1, 0, 0;
+  desired.b << -1.21;
   InequalityBlock rows = met.hierarchy.AddInequalities(1, 2);
   rows.C << 1, 0.38, 2,  //
       0, 2, -2.81;
@@ -228,9 +240,9 @@ TEST_P(CascadeByHandTest, EndsWhereALevelIsMet) {
   EXPECT_LE(WorstOf(met, solution), kTolerance);
 }
 
-// y0 = 1 above y0 <= -1, y0 >= 3 and y1 >= 2: nothing is left of the first two, so
-// they are in no QP, but they are violated all the same; the last is met.
-TEST_P(CascadeByHandTest, KnowsTheSideOfAViolatedRowOfWhichNothingIsLeft) {
+// y0 = 1 above y0 <= -1, y0 >= 3 and y1 >= 2. The first two rows depend on y0 =
+// 1 and are in no QP, but they are violated. The last is met.
+TEST_P(CascadeByHandTest, ReportsTheViolatedSideOfAFixedRow) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {0, 3}, {2, 0}};
   HierarchyCase fixed{capacity, Hierarchy(2, capacity)};
   EqualityBlock one = fixed.hierarchy.AddEqualities(0, 1);
@@ -240,9 +252,9 @@ TEST_P(CascadeByHandTest, KnowsTheSideOfAViolatedRowOfWhichNothingIsLeft) {
   rows.C << 1, 0, 1, 0, 0, 1;
   rows.upper[0] = -1;
   rows.lower.tail(2) << 3, 2;
-  EqualityBlock wish = fixed.hierarchy.AddEqualities(2, 2);
-  wish.B.setIdentity();
-  wish.b << 0, -5;
+  EqualityBlock desired = fixed.hierarchy.AddEqualities(2, 2);
+  desired.B.setIdentity();
+  desired.b << 0, -5;
   const Solution solution = SolveCascade(fixed, GetParam());
   EXPECT_LE((solution.y - Eigen::Vector2d(1, 5)).norm(), Rounding(5, 2));
   EXPECT_EQ(solution.levels[1].active[0], Side::kUpper);
@@ -250,23 +262,34 @@ TEST_P(CascadeByHandTest, KnowsTheSideOfAViolatedRowOfWhichNothingIsLeft) {
   EXPECT_EQ(solution.levels[1].active[2], Side::kNone);
 }
 
-// What the levels above leave of a row is judged by what it was before.
-TEST_P(CascadeByHandTest, DropsARowOfWhichNothingIsLeft) {
-  for (const double rest : {0.9e-11, 1.1e-11}) {
+// y0 = 0 above 4 y0 + 4 rest y1 <= -4: rounding of the row's projection does
+// not become y1 = -1 / rest, and the row is violated. Every larger rest is
+// used.
+TEST_P(CascadeByHandTest, TreatsRoundingRemainderOfARowAsZero) {
+  const auto solve = [](double rest) {
     const std::vector<LevelCapacity> capacity{{1, 0}, {0, 1}};
-    HierarchyCase dropped{capacity, Hierarchy(2, capacity)};
-    dropped.hierarchy.AddEqualities(0, 1).B << 1, 0;
-    InequalityBlock row = dropped.hierarchy.AddInequalities(1, 1);
+    HierarchyCase dependent{capacity, Hierarchy(2, capacity)};
+    dependent.hierarchy.AddEqualities(0, 1).B << 1, 0;
+    InequalityBlock row = dependent.hierarchy.AddInequalities(1, 1);
     row.C << 4, 4 * rest;
     row.upper << -4;
-    const Solution solution = SolveCascade(dropped, GetParam());
-    EXPECT_EQ(solution.levels[1].active[0], Side::kUpper);
-    EXPECT_EQ(solution.y[1] == 0, rest < kRankTolerance);
+    const Solution solution = SolveCascade(dependent, GetParam());
+    EXPECT_EQ(solution.levels[1].active[0], Side::kUpper) << rest;
+    EXPECT_LE(solution.certificate.worst(), Certifier::kCertified) << rest;
+    EXPECT_EQ(solution.y[0], 0) << rest;
+    return solution.y[1];
+  };
+  constexpr double kEps = std::numeric_limits<double>::epsilon();
+  for (const double rest : {1e-30, kEps, 100 * kEps}) {
+    EXPECT_EQ(solve(rest), 0) << rest;
+  }
+  for (const double rest : {1e-9, 1e-6, 1e-3, 1.}) {
+    EXPECT_NEAR(solve(rest), -1 / rest, Rounding(1 / rest, 2)) << rest;
   }
 }
 
-// However short a row is, it says what it says; unless it is of no length.
-TEST_P(CascadeByHandTest, TakesShortRowsLikeLongOnes) {
+// A row of norm 1e-13 counts as one of norm 4 does; a row of zeros is ignored.
+TEST_P(CascadeByHandTest, TreatsSmallRowsLikeLargeOnes) {
   const double length = std::ldexp(1, -43);  // 1e-13.
   const std::vector<LevelCapacity> capacity{{3, 1}, {3, 0}};
   HierarchyCase drawn{capacity, Hierarchy(3, capacity)};
@@ -276,9 +299,9 @@ TEST_P(CascadeByHandTest, TakesShortRowsLikeLongOnes) {
   InequalityBlock bound = drawn.hierarchy.AddInequalities(0, 1);
   bound.C << 0, 0, length;
   bound.upper << length;
-  EqualityBlock wishes = drawn.hierarchy.AddEqualities(1, 3);
-  wishes.B.setIdentity();
-  wishes.b << -2, -3, -4;
+  EqualityBlock targets = drawn.hierarchy.AddEqualities(1, 3);
+  targets.B.setIdentity();
+  targets.b << -2, -3, -4;
   const Solution solution = SolveCascade(drawn, GetParam());
   EXPECT_LE((solution.y - Eigen::Vector3d(1, 1, 1)).norm(), kTolerance);
   EXPECT_EQ(solution.levels[0].nullity, 1);
@@ -289,7 +312,7 @@ TEST_P(CascadeByHandTest, TakesShortRowsLikeLongOnes) {
   EXPECT_NEAR(multipliers.inequality[0] * length, 3, kTolerance);
 }
 
-TEST_P(CascadeByHandTest, TakesARowWithoutWeightForNone) {
+TEST_P(CascadeByHandTest, IgnoresARowWithoutWeight) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {2, 0}};
   HierarchyCase weightless{capacity, Hierarchy(2, capacity)};
   EqualityBlock rows = weightless.hierarchy.AddEqualities(0, 2);
@@ -305,16 +328,16 @@ TEST_P(CascadeByHandTest, TakesARowWithoutWeightForNone) {
   EXPECT_EQ(solution.levels[1].nullity, 0);
 }
 
-// Two rows that are one, but for rounding, share what is asked of them.
-TEST_P(CascadeByHandTest, SharesMultipliersAmongRowsThatAreOne) {
+// Two rows that are equal to rounding share the multiplier.
+TEST_P(CascadeByHandTest, SharesAMultiplierBetweenEqualRows) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {2, 0}};
   HierarchyCase twice{capacity, Hierarchy(2, capacity)};
   EqualityBlock rows = twice.hierarchy.AddEqualities(0, 2);
   rows.B << 1, 0, 1, 1e-13;
   rows.b << -1, -1;
-  EqualityBlock wishes = twice.hierarchy.AddEqualities(1, 2);
-  wishes.B.setIdentity();
-  wishes.b << -3, -5;
+  EqualityBlock targets = twice.hierarchy.AddEqualities(1, 2);
+  targets.B.setIdentity();
+  targets.b << -3, -5;
   const Solution solution = SolveCascade(twice, GetParam());
   EXPECT_EQ(solution.levels[0].nullity, 1);
   const LevelMultipliers& multipliers = solution.levels[1].multipliers[0];
@@ -322,8 +345,8 @@ TEST_P(CascadeByHandTest, SharesMultipliersAmongRowsThatAreOne) {
   EXPECT_NEAR(multipliers.equality[1], 1, 1e-10);
 }
 
-// Of all y, the shortest; and still above what the rows allow.
-TEST_P(CascadeByHandTest, TakesTheShortestOfManyOptima) {
+// Of all optima, the one of minimum norm, without and with an active bound.
+TEST_P(CascadeByHandTest, ReturnsTheMinimumNormSolution) {
   HierarchyCase free{{{1, 1}}, Hierarchy(3, {{1, 1}})};
   EqualityBlock sum = free.hierarchy.AddEqualities(0, 1);
   sum.B << 1, 1, 0;
@@ -340,9 +363,9 @@ TEST_P(CascadeByHandTest, TakesTheShortestOfManyOptima) {
       kTolerance);
 }
 
-// y0 + y1 + y2 = 500 above y1 and y2 of 1e-6: what rounding of 500 leaves of
-// these the first time, the second takes away.
-TEST_P(CascadeByHandTest, IsAsExactWhereNumbersAreSmall) {
+// y0 + y1 + y2 = 500 above y1 and y2 of 1e-6: the first pass leaves rounding of
+// 500 in y1 and y2, the second corrects it.
+TEST_P(CascadeByHandTest, SolvesSmallTargetsBesideLargeOnes) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}, {1, 0}};
   HierarchyCase small{capacity, Hierarchy(3, capacity)};
   EqualityBlock sum = small.hierarchy.AddEqualities(0, 1);
@@ -362,8 +385,8 @@ TEST_P(CascadeByHandTest, IsAsExactWhereNumbersAreSmall) {
   EXPECT_EQ(solution.iterations, 8);  // Three levels and the norm, twice.
 }
 
-// Two large rows of one direction conflict, beside a small one across them that
-// is met: to rounding of its own, not of theirs.
+// Two large parallel rows conflict. A small row across them is met to rounding
+// of its own terms.
 TEST_P(CascadeByHandTest, MeetsASmallRowBesideAConflict) {
   for (int place = 0; place < 3; ++place) {
     for (const double factor : {1.0, -2.0}) {
@@ -383,10 +406,10 @@ TEST_P(CascadeByHandTest, MeetsASmallRowBesideAConflict) {
   }
 }
 
-// All rows are met at integers, most of them just so. Once a level is there, what
-// its rows lack is rounding, for which they leave, and are in the way at once:
-// by SVD in the first of these, by COD in the second.
-TEST_P(CascadeByHandTest, EndsWhereRowsComeAndGoForRounding) {
+// All rows are met at integers, most of them at their bound. At the optimum the
+// residuals are rounding, for which rows could be removed and added for ever:
+// by SVD in the first example, by COD in the second.
+TEST_P(CascadeByHandTest, EndsWhereMultipliersAreRounding) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 5}};
   HierarchyCase five{capacity, Hierarchy(5, capacity)};
   EqualityBlock sum = five.hierarchy.AddEqualities(0, 1);
@@ -395,9 +418,9 @@ TEST_P(CascadeByHandTest, EndsWhereRowsComeAndGoForRounding) {
   InequalityBlock bound = five.hierarchy.AddInequalities(0, 1);
   bound.C << -2, -5, 1, -1, -5;
   bound.upper << 0;
-  EqualityBlock wish = five.hierarchy.AddEqualities(1, 1);
-  wish.B << 3, -1, 5, -2, -1;
-  wish.b << -3;
+  EqualityBlock desired = five.hierarchy.AddEqualities(1, 1);
+  desired.B << 3, -1, 5, -2, -1;
+  desired.b << -3;
   InequalityBlock rows = five.hierarchy.AddInequalities(1, 5);
   rows.C << -1, -1, 0, -2, 5,  //
       1, -4, 1, -1, 2,         //

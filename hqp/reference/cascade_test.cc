@@ -61,7 +61,7 @@ TEST_F(CascadeTest, SolvesByHand) {
   EXPECT_LE(certifier_.Certify(hierarchy_, solution_).worst(), kTolerance);
 }
 
-TEST_F(CascadeTest, ReportsWhatIsNotFinite) {
+TEST_F(CascadeTest, ReportsNumbersThatAreNotFinite) {
   ASSERT_EQ(cascade_.Solve(hierarchy_, &solution_), Status::kOptimal);
   target_[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(cascade_.Solve(hierarchy_, &solution_), Status::kNotFinite);
@@ -79,8 +79,7 @@ HierarchyCase Draw(int seed) {
   return MakeRandomHierarchy(seed, options);
 }
 
-// The first levels of a hierarchy, with all that its rows ask for in another
-// unit.
+// The first levels of a hierarchy, with targets and bounds in another unit.
 HierarchyCase Part(const HierarchyCase& drawn, int levels, double unit = 1) {
   const Hierarchy& from = drawn.hierarchy;
   HierarchyCase part{drawn.capacity,
@@ -114,8 +113,8 @@ TEST_P(EitherCascadeTest, IsCertified) {
   }
 }
 
-// Variables less the rank of the rows that are equalities by then; and the side
-// of each row that is violated is at work.
+// The nullity is the number of variables less the rank of all equalities so
+// far. Each violated row is active at the violated side.
 TEST_P(EitherCascadeTest, CountsEqualitiesAndViolatedRows) {
   for (int seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
@@ -166,7 +165,7 @@ TEST_P(EitherCascadeTest, CountsEqualitiesAndViolatedRows) {
 
 // To the bit: what a level was solved to does not know of levels below, and no
 // threshold is absolute.
-TEST_P(EitherCascadeTest, KeepsEachLevelsCostAndKnowsNoUnit) {
+TEST_P(EitherCascadeTest, KeepsCostsInAnyUnit) {
   for (int seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const HierarchyCase drawn = Draw(seed);
@@ -230,7 +229,7 @@ TEST_P(EitherCascadeTest, KeepsToItsBudget) {
 }
 
 // What a scale hides from it, the certificate sees.
-TEST_P(EitherCascadeTest, CallsNothingOptimalThatIsNotCertified) {
+TEST_P(EitherCascadeTest, ReportsOnlyCertifiedAnswersAsOptimal) {
   RandomHierarchyOptions options;
   options.scaled = 100;
   int optimal = 0;

@@ -13,17 +13,18 @@ namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
-// Iterations a row, after which rows leave by Bland's rule: slow, but it cannot
-// cycle in exact arithmetic.
-constexpr int kPatience = 10;
+// Iterations a row, after which Bland's rule selects the row to remove. The
+// rule is slow, but cannot cycle in exact arithmetic.
+constexpr int kIterationsBeforeBland = 10;
 
-// How often a row may leave by Bland's rule. Where a level is met, all that its
-// rows lack is rounding: one that leaves for that need not move away from its
-// bound, as the proof takes it to, and may be in the way at once, over and over.
+// Limit of removals of one row by Bland's rule. On a level that is met,
+// residuals are rounding. A row removed for rounding need not move away from
+// its bound, so it can block the next step, and the search could repeat this
+// for ever.
 constexpr int kMaxRemovals = 10;
 
-// The least-squares problem L x + l = 0. `norms` are those of the rows before any
-// projection: a row below kRankTolerance of its own is a row of zeros.
+// The least-squares problem L x + l = 0. `norms` are the norms of the rows
+// before any projection. A row below kRankTolerance of its norm is zero.
 class LeastSquares {
  public:
   LeastSquares() = default;
@@ -38,15 +39,16 @@ class LeastSquares {
     order_ = Eigen::VectorXi::LinSpaced(rows, 0, rows - 1);
     range_ = space.V.leftCols(rank_);
     if (rank_ == 0) return;
-    // The rows as combinations of an orthonormal basis, the heaviest first, and
-    // in that order, which keeps the small ones accurate. A row that depends on
-    // those before does so exactly: what rounding leaves of it, times a residual
-    // that cannot be helped, could outweigh a small row.
+    // The rows are combinations of an orthonormal basis, in the order of their
+    // remaining norms, which keeps small-norm rows accurate. A row that depends
+    // on the rows before does so exactly. Otherwise the rounding of its
+    // remainder, times an unattainable residual, could outweigh a small-norm
+    // row.
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> basis(
         (L * range_).transpose());
     range_ = range_ * basis.householderQ();
     order_ = basis.colsPermutation().indices();
-    // With all rows independent each can be met, so their scales do not matter.
+    // Independent rows can all be met, so their scales do not matter.
     if (rank_ == rows) factor_ = scale;
     parts_ = Eigen::MatrixXd::Zero(rows, rank_);
     for (int place = 0; place < rows; ++place) {
@@ -62,7 +64,7 @@ class LeastSquares {
     qr_.compute(parts_);
   }
 
-  // Of minimum norm.
+  // Returns the solution of minimum norm.
   Eigen::VectorXd Solve(const Eigen::VectorXd& l) const {
     if (rank_ == 0) return Eigen::VectorXd::Zero(range_.rows());
     const Eigen::VectorXd right = -InOrder(factor_.cwiseProduct(l));
@@ -71,9 +73,10 @@ class LeastSquares {
     return range_ * x;
   }
 
-  // Of a residual, what no x can help: at the solution the rest is rounding. So
-  // what heavy rows lack, which is little, has as many digits as what light ones
-  // do. `size` is what each is added up from.
+  // Returns the part of a residual that no x reduces. At the solution, the rest
+  // is rounding. So the small residuals of large-norm rows have as many digits
+  // as those of small-norm rows. `size` is the magnitude of the terms of each
+  // residual.
   Eigen::VectorXd Unreachable(const Eigen::VectorXd& residual,
                               const Eigen::VectorXd& size) const {
     Eigen::VectorXd left = InOrder(residual);
@@ -91,7 +94,8 @@ class LeastSquares {
     return unreachable;
   }
 
-  // These numbers, by row, where a row depends on heavier ones; else 0.
+  // Returns these numbers for rows that depend on rows before, and 0 for
+  // others.
   Eigen::VectorXd Dependent(const Eigen::VectorXd& of) const {
     Eigen::VectorXd dependent = of;
     for (int place = 0; place < rank_; ++place) dependent[order_[place]] = 0;
@@ -119,27 +123,27 @@ class ActiveSet {
   ActiveSet(RowSpaceMethod method, LevelQp* qp)
       : method_(method), qp_(*qp), removals_left_(qp->P.rows(), kMaxRemovals) {}
 
-  // One iteration. Returns whether the optimum is reached.
+  // Makes one iteration. Returns whether z is the optimum.
   bool Iterate() {
     ++iterations_;
     Collect();
     const Eigen::VectorXd step = Step();
-    const int blocking = Advance(step);
+    const int blocking = StepToBlockingConstraint(step);
     if (blocking >= 0) return false;
-    const int leaving = FindLeaving();
-    if (leaving >= 0) Release(leaving);
-    return leaving < 0;
+    const int removed = FindConstraintToRemove();
+    if (removed >= 0) RemoveConstraint(removed);
+    return removed < 0;
   }
 
  private:
   int rows() const { return static_cast<int>(qp_.P.rows()); }
-  bool IsBland() const { return iterations_ > kPatience * rows(); }
+  bool IsBland() const { return iterations_ > kIterationsBeforeBland * rows(); }
 
   double Bound(int i) const {
     return qp_.side[i] == Side::kUpper ? qp_.upper[i] : qp_.lower[i];
   }
 
-  // Gathers the rows of the equality-constrained problem.
+  // Collects the rows of the equality-constrained problem of the working set.
   void Collect() {
     hard_.clear();
     soft_.clear();
@@ -166,7 +170,7 @@ class ActiveSet {
     }
   }
 
-  // To the optimum of the active rows.
+  // Returns the step to the optimum of the working set.
   Eigen::VectorXd Step() {
     const RowSpace space = MakeRowSpace(A_, RowSpaceMethod::kCod);
     const Eigen::MatrixXd N = space.V.rightCols(A_.cols() - space.rank);
@@ -174,9 +178,9 @@ class ActiveSet {
     return N * least_squares_.Solve(l_);
   }
 
-  // Goes as far along the step as inactive rows allow. Returns the row that is
-  // in the way, now active, or -1.
-  int Advance(const Eigen::VectorXd& step) {
+  // Moves z along the step, up to the first bound outside the working set, and
+  // adds that row to it. Returns the row, or -1 if none blocks.
+  int StepToBlockingConstraint(const Eigen::VectorXd& step) {
     int blocking = -1;
     double length = 1;
     for (int i = 0; i < rows(); ++i) {
@@ -202,7 +206,7 @@ class ActiveSet {
     return blocking;
   }
 
-  // What the residuals of the rows of L_ are added up from.
+  // Returns the magnitude of the terms of each residual of L_.
   Eigen::VectorXd TermsSize() const {
     Eigen::VectorXd size = qp_.z.norm() * norms_;
     size.head(qp_.M.rows()) += qp_.M_size;
@@ -212,8 +216,9 @@ class ActiveSet {
     return size;
   }
 
-  // The active row that holds the optimum back most, or -1.
-  int FindLeaving() {
+  // Returns the row with the most negative multiplier, or, by Bland's rule, the
+  // first row with a negative one; -1 if there is none.
+  int FindConstraintToRemove() {
     const int met = static_cast<int>(qp_.M.rows());
     Eigen::VectorXd residual(L_.rows());
     residual.head(met) = qp_.M * qp_.z + qp_.m;
@@ -224,17 +229,17 @@ class ActiveSet {
     const Eigen::VectorXd sizes = TermsSize();
     residual = least_squares_.Unreachable(residual, sizes);
     const Eigen::VectorXd force = norms_.cwiseProduct(residual.cwiseAbs());
-    int leaving = -1;
+    int removed = -1;
     double worst = 0;
     const bool bland = IsBland();
     const auto consider = [&](int i, double multiplier, double size) {
       if (removals_left_[i] == 0) return;
       const double signed_ratio =
           (qp_.side[i] == Side::kUpper ? multiplier : -multiplier) / size;
-      if (bland ? signed_ratio < 0 && (leaving < 0 || i < leaving)
+      if (bland ? signed_ratio < 0 && (removed < 0 || i < removed)
                 : signed_ratio < worst) {
         worst = signed_ratio;
-        leaving = i;
+        removed = i;
       }
     };
     for (size_t s = 0; s < soft_.size(); ++s) {
@@ -243,7 +248,7 @@ class ActiveSet {
     }
     if (!hard_.empty()) {
       const Eigen::VectorXd gradient = L_.transpose() * residual;
-      // Residuals, and the rounding of what they are differences of.
+      // The terms are the residuals, and the rounding of their own terms.
       const double size =
           force.sum() +
           kEps / kNegligible * norms_.dot(least_squares_.Dependent(sizes));
@@ -254,12 +259,12 @@ class ActiveSet {
         consider(hard_[h], multipliers[h], size);
       }
     }
-    return leaving;
+    return removed;
   }
 
-  // A soft row may be on the far side of both its bounds by then: it stays, at
-  // the other one.
-  void Release(int i) {
+  // Removes a row from the working set. If z violates the other bound of a soft
+  // row, the row stays, at that bound.
+  void RemoveConstraint(int i) {
     if (IsBland()) --removals_left_[i];
     const Side side = qp_.side[i];
     const double value = qp_.P.row(i).dot(qp_.z) + qp_.value[i];
@@ -275,12 +280,11 @@ class ActiveSet {
   RowSpaceMethod method_;
   LevelQp& qp_;
   LeastSquares least_squares_;
-  std::vector<int> hard_, soft_;  // Active rows.
+  std::vector<int> hard_, soft_;  // Rows in the working set.
   Eigen::MatrixXd L_, A_;
   Eigen::VectorXd l_, norms_;
   int iterations_ = 0;
-  std::vector<int>
-      removals_left_;  // By row: how often it still may, by Bland's rule.
+  std::vector<int> removals_left_;  // By row, with Bland's rule.
 };
 
 }  // namespace

@@ -5,21 +5,21 @@
 
 namespace poise {
 
-/// How the reference solver splits space.
+/// Method by which the reference solver computes a row space.
 enum class RowSpaceMethod {
   kSvd,  ///< Singular value decomposition, as in the paper.
   kCod,  ///< Orthogonal decomposition with pivoting, the cheaper usual choice.
 };
 
-/// What the rows of a matrix span, and what they leave.
+/// Orthonormal bases of the row space and the nullspace of a matrix.
 struct RowSpace {
   int rank;
   Eigen::MatrixXd V;  ///< Orthonormal; the first `rank` columns span the rows.
 };
 
-/// Splits the space of the rows of M, which should be of unit length before any
-/// projection: what is not above kRankTolerance (math/rank.h) of it, singular
-/// values or what is left of rows, counts as zero.
+/// Computes the row space of M, whose rows should have had unit norm before any
+/// projection. A singular value (kSvd) or a remainder of a row (kCod) of at
+/// most kRankTolerance (math/rank.h) counts as zero.
 RowSpace MakeRowSpace(const Eigen::MatrixXd& M, RowSpaceMethod method);
 
 }  // namespace poise
