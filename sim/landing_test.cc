@@ -19,7 +19,7 @@ struct Landing {
   double bent = 0;         // in these the joint farthest from its posture, rad,
   double force = 0;        // and the largest wrench asked of a foot.
   double certificate = 0;  // The worst of all ticks,
-  int unsolved = 0;        // and how many were not solved to the last rank.
+  int unsolved = 0;        // and how many were not solved to the last level.
   double sunk = 0;         // The center of mass below its reference, m.
   double beyond = 0;       // A joint beyond its limits, rad.
 };

@@ -37,7 +37,7 @@ struct RunResult {
   TickTimes tick_us;
   int iterations_max = 0;
   double certificate_max = 0;  ///< Of all ticks, see hqp/certificate.h.
-  int failures = 0;            ///< Ticks that were not solved to the last rank.
+  int failures = 0;  ///< Ticks that were not solved to the last level.
   double joint_limit_violation_peak = 0;   ///< rad or m.
   double torque_limit_violation_peak = 0;  ///< N m or N.
   int self_contact_ticks = 0;

@@ -145,11 +145,11 @@ TEST(ClosedLoop, HasAFrameTaskForAnyLink) {
   scenario.control.with = {"frame.torso"};
   const ClosedLoop loop(Humanoid(), scenario);
   const Stack& stack = loop.controller().stack();
-  for (const auto& [task, rank] :
+  for (const auto& [task, level] :
        {std::pair("frame.torso", 4), std::pair("frame.l_hand", 5)}) {
     const TaskSettings& settings = stack.settings(stack.Find(task).value());
     EXPECT_TRUE(settings.enabled) << task;
-    EXPECT_EQ(settings.level, rank) << task;
+    EXPECT_EQ(settings.level, level) << task;
   }
 }
 

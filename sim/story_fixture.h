@@ -35,7 +35,7 @@ inline Scenario Ours(const std::string& name, double duration) {
 // What happened in the ticks of a run, beside its verdict.
 struct Story {
   Verdict verdict;
-  int failures = 0;  // Ticks that were not solved to the last rank.
+  int failures = 0;  // Ticks that were not solved to the last level.
   // Of the wrenches that the controller asked for: how far a CoP was beyond its
   // sole, m, and the largest force along the ground over the one into it.
   double asked_beyond = -1, asked_friction = 0;

@@ -131,7 +131,7 @@ RC_GTEST_PROP(ClosedLoopFuzz, NoNumberIsLostAndNoLimitBroken, ()) {
   const RunResult result = Run(HumanoidWithRoom(room), scenario, folder);
   RC_ASSERT(result.ticks > 0);
   RC_ASSERT(WrongWithLog(folder / "log.csv", result.ticks) == "");
-  // Of a tick that was not solved to the last rank, the ranks that were.
+  // Of a tick that was not solved to the last level, the levels that were.
   RC_ASSERT(result.certificate_max <= 1e-9);
   // Torques are cut off at their limits: to the last bit.
   RC_ASSERT(result.torque_limit_violation_peak <= 0);

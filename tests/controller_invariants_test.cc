@@ -121,7 +121,7 @@ std::string Balance::Broken() const {
   if (!command.tau.allFinite()) return "a torque is not finite";
   if (command.status != controller.report().status) return "status";
   if (command.status == TickStatus::kFailSafe) return "it failed safe";
-  // A hierarchy cut off says nothing of the ranks below.
+  // A hierarchy cut off says nothing of the levels below.
   const int failed_level = controller.report().failed_level;
   std::string broken = BrokenByDynamics();
   if (broken.empty() && (failed_level == 0 || failed_level > 2)) {

@@ -68,7 +68,8 @@ void PrintOutcomes(const std::vector<Experiment>& pushes) {
 
 int Main(int argc, char** argv) {
   CLI::App app(
-      "The same tasks strictly by rank and weighted: on the same problems, and "
+      "The same tasks strictly by level and weighted: on the same problems, "
+      "and "
       "each in its own loop. Prints the tables of docs/control.md.",
       "strictness");
   ParseCommandLine(argc, argv, &app);

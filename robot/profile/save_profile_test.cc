@@ -3,12 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "poise/dynamics/kinematics.h"
+#include "poise/dynamics/tree.h"
+#include "poise/math/pose.h"
+#include "poise/math/rpy.h"
 #include "poise/robot/profile/profile.h"
 #include "poise/robot/robot.h"
 #include "poise/tests/util/test_file.h"
@@ -40,6 +47,41 @@ TEST(SaveProfile, MakesTheSameRobot) {
     EXPECT_LT((again.feet[i].half_size - robot.feet[i].half_size).norm(),
               written);
   }
+}
+
+// The humanoid leans forward, and the hips turn its legs back upright.
+Profile MakeLeaningProfile(double pitch) {
+  Profile profile = LoadProfile("robot/profiles/humanoid.yaml");
+  const Robot robot = LoadRobot(kUrdf, profile);
+  const Tree& tree = robot.model.tree;
+  std::vector<Pose> X_WB(tree.num_bodies());
+  ComputePoses(tree, robot.q_nominal, &X_WB);
+  profile.base_rpy = {0, pitch, 0};
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    const std::string& name = tree.joints()[j].name;
+    if (name != "l_hip_pitch" && name != "r_hip_pitch") continue;
+    profile.joints.at(name).value -= pitch;
+    // The hip stays where it was.
+    const Eigen::Vector3d p_BH = X_WB[j + 1].p - X_WB[0].p;
+    Eigen::Vector3d p_WB =
+        X_WB[j + 1].p - MatrixFromRpy(profile.base_rpy) * p_BH;
+    p_WB.y() = 0;
+    profile.base_xyz = p_WB;
+  }
+  return profile;
+}
+
+TEST(SaveProfile, KeepsOrientationOfALeaningBase) {
+  constexpr double kPitch = 0.1;
+  const Profile profile = MakeLeaningProfile(kPitch);
+  const Robot robot = LoadRobot(kUrdf, profile);
+  const Eigen::Vector4d wanted(0, std::sin(kPitch / 2), 0,
+                               std::cos(kPitch / 2));  // x, y, z, w.
+  EXPECT_LT((robot.q_nominal.segment<4>(3) - wanted).norm(), 1e-12);
+  const auto file = TestFile("leaning.yaml", "");
+  SaveProfile(robot, profile, file);
+  const Robot again = LoadRobot(kUrdf, LoadProfile(file));
+  EXPECT_LT((again.q_nominal - robot.q_nominal).norm(), 1e-8);  // Nine digits.
 }
 
 TEST(SaveProfile, KeepsWhatTheProfileSaid) {

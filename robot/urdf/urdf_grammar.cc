@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "poise/robot/numbers.h"
+#include "poise/robot/urdf/urdf_rules.h"
 #include "poise/robot/urdf/urdf_xacro.h"
 #include "poise/robot/urdf/urdf_xml.h"
 
@@ -15,83 +16,19 @@ namespace poise {
 namespace {
 
 using tinyxml2::XMLElement;
-
-struct AttributeRule {
-  const char* name;
-  int numbers;  // Their count; 0 for text.
-  bool required = true;
-};
-
-struct ElementRule {
-  const char* name;
-  std::vector<AttributeRule> attributes;
-  std::vector<const ElementRule*> children;
-  bool required = false;
-  bool repeated = false;
-  // The severity if a part is missing or bad: the file is rejected, or the
-  // element removed with a warning or a note.
-  Severity fault = Severity::kReject;
-};
-
-constexpr bool kOptional = false;
-
-// The elements and attributes of a URDF that Poise reads.
-const ElementRule kOrigin{
-    "origin", {{"xyz", 3, kOptional}, {"rpy", 3, kOptional}}, {}};
-const ElementRule kMass{"mass", {{"value", 1}}, {}, true};
-const ElementRule kInertia{
-    "inertia",
-    {{"ixx", 1}, {"ixy", 1}, {"ixz", 1}, {"iyy", 1}, {"iyz", 1}, {"izz", 1}},
-    {},
-    true};
-const ElementRule kInertial{"inertial", {}, {&kOrigin, &kMass, &kInertia}};
-const ElementRule kBox{"box", {{"size", 3}}, {}};
-const ElementRule kSphere{"sphere", {{"radius", 1}}, {}};
-const ElementRule kCylinder{"cylinder", {{"radius", 1}, {"length", 1}}, {}};
-const ElementRule kMesh{"mesh", {{"filename", 0}, {"scale", 3, kOptional}},
-                        {},     false,
-                        false,  Severity::kWarn};
-const ElementRule kGeometry{
-    "geometry", {},    {&kBox, &kSphere, &kCylinder, &kMesh},
-    true,       false, Severity::kWarn};
-const ElementRule kColor{"color", {{"rgba", 4}}, {},
-                         false,   false,         Severity::kWarn};
-const ElementRule kTexture{"texture", {{"filename", 0}}, {}, false,
-                           false,     Severity::kNote};
-const ElementRule kMaterial{"material", {{"name", 0}}, {&kColor, &kTexture},
-                            false,      false,         Severity::kWarn};
-const ElementRule kVisual{"visual", {},   {&kOrigin, &kGeometry, &kMaterial},
-                          false,    true, Severity::kWarn};
-const ElementRule kCollision{"collision", {},   {&kOrigin, &kGeometry},
-                             false,       true, Severity::kWarn};
-const ElementRule kLink{
-    "link", {{"name", 0}}, {&kInertial, &kVisual, &kCollision}, false, true};
-const ElementRule kParent{"parent", {{"link", 0}}, {}, true};
-const ElementRule kChild{"child", {{"link", 0}}, {}, true};
-const ElementRule kAxis{"axis", {{"xyz", 3}}, {}};
-const ElementRule kLimit{"limit",
-                         {{"lower", 1, kOptional},
-                          {"upper", 1, kOptional},
-                          {"effort", 1},
-                          {"velocity", 1}},
-                         {}};
-const ElementRule kDynamics{
-    "dynamics", {{"damping", 1, kOptional}, {"friction", 1, kOptional}}, {}};
-const ElementRule kMimic{
-    "mimic",
-    {{"joint", 0}, {"multiplier", 1, kOptional}, {"offset", 1, kOptional}},
-    {}};
-const ElementRule kJoint{
-    "joint",
-    {{"name", 0}, {"type", 0}},
-    {&kOrigin, &kParent, &kChild, &kAxis, &kLimit, &kDynamics, &kMimic},
-    false,
-    true};
-const ElementRule kMaterialAtTop{
-    "material", {{"name", 0}}, {&kColor, &kTexture},
-    false,      true,          Severity::kWarn};
-const ElementRule kRobot{
-    "robot", {{"name", 0}}, {&kMaterialAtTop, &kLink, &kJoint}};
+using urdf_rules::kAxis;
+using urdf_rules::kBox;
+using urdf_rules::kChild;
+using urdf_rules::kCylinder;
+using urdf_rules::kDynamics;
+using urdf_rules::kGeometry;
+using urdf_rules::kLimit;
+using urdf_rules::kLink;
+using urdf_rules::kMimic;
+using urdf_rules::kOrigin;
+using urdf_rules::kParent;
+using urdf_rules::kRobot;
+using urdf_rules::kSphere;
 
 // A bound on numbers: larger than any of a robot, and small enough to be squared
 // and summed.

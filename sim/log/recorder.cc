@@ -52,16 +52,16 @@ std::string WithoutSeparators(std::string name) {
 
 // The level of the highest rows that could not be met; -1 if all could.
 int LevelNotMet(const TickRecord& record) {
-  int rank = Stack::kMaxLevel + 1;
+  int not_met = Stack::kMaxLevel + 1;
   for (const LostRow& lost : record.report.lost) {
-    rank = std::min(rank, record.report.tasks[lost.task].level);
+    not_met = std::min(not_met, record.report.tasks[lost.task].level);
   }
   for (const ActiveRow& active : record.report.active) {
     if (active.slack < kNoticeableSlack) continue;
-    rank = std::min(rank, record.report.tasks[active.task].level);
+    not_met = std::min(not_met, record.report.tasks[active.task].level);
   }
   for (int level = 0; level < record.hierarchy.num_levels(); ++level) {
-    if (record.stack.priority_level(level) == rank) return level;
+    if (record.stack.priority_level(level) == not_met) return level;
   }
   return -1;
 }

@@ -143,7 +143,7 @@ TEST(Recorder, WritesHowFeetStandAndWhyATickFailedSafe) {
   EXPECT_EQ(row["reason"], "clock");
 }
 
-// Which limit gave way, and at which rank the solver stopped.
+// Which limit gave way, and at which level the solver stopped.
 TEST(Recorder, WritesWhatATickIsAbout) {
   ClosedLoop loop(Humanoid(), Pushed());
   Recorder recorder(Folder("reasons"), Humanoid(), loop.controller().stack());

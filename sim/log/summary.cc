@@ -239,7 +239,7 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
   if (result.self_contact_ticks > 0) {
     table += Line("links touched", "in %d ticks", result.self_contact_ticks);
   }
-  table += Line("ticks", "%ld, of which %d not solved to the last rank",
+  table += Line("ticks", "%ld, of which %d not solved to the last level",
                 result.ticks, result.failures);
   table += Line("a tick took", "%.0f us (99 %%: %.0f, 99.9 %%: %.0f, max %.0f)",
                 result.tick_us.median, result.tick_us.p99, result.tick_us.p999,

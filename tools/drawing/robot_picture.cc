@@ -148,7 +148,7 @@ void DrawFloor(const Projection& to, const Eigen::Vector3d& around,
 
 void DrawRobot(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
                const RobotModel& robot, const Eigen::VectorXd& q,
-               const std::optional<PushArrow>& push, const Camera& camera,
+               const std::vector<PushArrow>& pushes, const Camera& camera,
                Canvas* canvas) {
   canvas->Clipped(corner, size, [&] {
     DrawFloor(Projection(corner, size, camera), camera.target, canvas);
@@ -163,12 +163,12 @@ void DrawRobot(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
   for (const BodyShape& shape : MakeBodyShapes(robot)) {
     model.Add(shape, X_WB[shape.body] * shape.X_BS);
   }
-  if (push) AddArrow(*push, &model);
+  for (const PushArrow& push : pushes) AddArrow(push, &model);
   canvas->Image(corner, size, raster.width(), raster.height(), raster.Pixels());
 }
 
 Camera FitCamera(const Eigen::Vector2d& size, const RobotModel& robot,
-                 const Eigen::VectorXd& q, const std::optional<PushArrow>& push,
+                 const Eigen::VectorXd& q, const std::vector<PushArrow>& pushes,
                  Camera camera) {
   const Projection to({0, 0}, size, camera);
   std::vector<Pose> X_WB(robot.tree.num_bodies());
@@ -177,9 +177,9 @@ Camera FitCamera(const Eigen::Vector2d& size, const RobotModel& robot,
   for (const BodyShape& shape : MakeBodyShapes(robot)) {
     points.push_back((X_WB[shape.body] * shape.X_BS).p);
   }
-  if (push) {
-    points.push_back(push->point - kMetersPerNewton * push->force -
-                     kArrowAway * push->force.normalized());
+  for (const PushArrow& push : pushes) {
+    points.push_back(push.point - kMetersPerNewton * push.force -
+                     kArrowAway * push.force.normalized());
   }
   // What is seen grows with the height, about the middle.
   double zoom = 1;

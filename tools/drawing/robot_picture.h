@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "poise/robot/robot.h"
@@ -24,16 +23,16 @@ struct PushArrow {
 };
 
 /// Draws a robot in a configuration q (see Tree), standing on a floor with a
-/// grid of 0.25 m, with its shadow.
+/// grid of 0.25 m, with its shadow, and an arrow for each push.
 void DrawRobot(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
                const RobotModel& robot, const Eigen::VectorXd& q,
-               const std::optional<PushArrow>& push, const Camera& camera,
+               const std::vector<PushArrow>& pushes, const Camera& camera,
                Canvas* canvas);
 
-/// The camera drawn back until that robot, and the arrow, fit into a picture of
+/// The camera drawn back until that robot, and the arrows, fit into a picture of
 /// that size with a margin; as it was if they do.
 Camera FitCamera(const Eigen::Vector2d& size, const RobotModel& robot,
-                 const Eigen::VectorXd& q, const std::optional<PushArrow>& push,
+                 const Eigen::VectorXd& q, const std::vector<PushArrow>& pushes,
                  Camera camera);
 
 }  // namespace poise

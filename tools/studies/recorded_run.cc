@@ -8,7 +8,7 @@
 #include "poise/dynamics/kinematics.h"
 #include "poise/sim/log/columns.h"
 #include "poise/sim/log/open_log.h"
-#include "poise/sim/push.h"
+#include "poise/tools/drawing/push_arrows.h"
 
 namespace poise {
 namespace {
@@ -69,15 +69,10 @@ std::optional<std::pair<double, double>> RecordedRun::Push() const {
   return push;
 }
 
-std::optional<PushArrow> RecordedRun::ArrowAt(double time) const {
-  const Eigen::Vector3d force(At(PushColumn('x'), time),
-                              At(PushColumn('y'), time),
-                              At(PushColumn('z'), time));
-  if (force.isZero()) return std::nullopt;
-  const PushOnRobot push(robot_, {});
+std::vector<PushArrow> RecordedRun::ArrowAt(double time) const {
   std::vector<Pose> X_WB(robot_.model.tree.num_bodies());
   ComputePoses(robot_.model.tree, q(time), &X_WB);
-  return PushArrow{X_WB[push.body()] * push.p_BoQ_B(), force};
+  return FindPushArrows(summary_, At(kTimeColumn, time), X_WB);
 }
 
 }  // namespace poise

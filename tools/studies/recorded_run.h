@@ -45,8 +45,8 @@ class RecordedRun {
   /// From when to when somebody pushed; nothing if nobody did.
   std::optional<std::pair<double, double>> Push() const;
 
-  /// The push at a time, taken to act where it does by default.
-  std::optional<PushArrow> ArrowAt(double time) const;
+  /// Returns an arrow for each push that acts at a time, see FindPushArrows().
+  std::vector<PushArrow> ArrowAt(double time) const;
 
  private:
   const Robot& robot_;

@@ -42,6 +42,8 @@ void CapturePointTask::Write(const TaskInput& input, EqualityBlock*,
     const double bound = reach - margin_;
 
     const int row = 2 * axis + (side > 0 ? 0 : 1);
+    // Not Balance::xi_Mid: it holds a term of angular momentum, whose rate is
+    // missing in the bound on d/dt xi.
     const double xi = side * (p_G[axis] + v_G[axis] / w);
     // In units of length: T / w a_G <= d - xi - T v_G.
     const Eigen::RowVector3d n_W =

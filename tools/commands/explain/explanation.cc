@@ -75,14 +75,14 @@ std::string LossSentence(const Span& span, const LossCause& cause,
     said.push_back(row);
     if (said.size() > kMostCauses) continue;
     text += (said.size() == 1 ? begin : ", ") + row;
-    if (cause.has_ranks) text += Format(" (rank %.0f)", value);
+    if (cause.has_levels) text += Format(" (level %.0f)", value);
   }
   text += AndMore(said.size(), kMostCauses);
   if (!cause.is_known && !said.empty()) text += " acted";
   return text + ".";
 }
 
-// In the order of their ranks, the lowest first: it gave way.
+// Sorts by level, the last one first: its rows are violated by the others.
 std::string ConflictSentence(double time, Values rows, const RunStory& story,
                              const RowPhrases& phrases) {
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
@@ -90,13 +90,13 @@ std::string ConflictSentence(double time, Values rows, const RunStory& story,
   });
   std::string text;
   std::vector<std::string> said;
-  for (const auto& [name, rank] : rows) {
+  for (const auto& [name, level] : rows) {
     const std::string group = Group(name, story, phrases);
     if (std::find(said.begin(), said.end(), group) != said.end()) continue;
     said.push_back(group);
     if (said.size() > kMostRows) continue;
     text += (said.size() == 1 ? "" : "; ") + group;
-    text += Format(" (rank %.0f)", rank);
+    text += Format(" (level %.0f)", level);
   }
   return Format("%.3f s: cannot all be met: ", time) + text +
          AndMore(said.size(), kMostRows) + ".";
@@ -104,9 +104,9 @@ std::string ConflictSentence(double time, Values rows, const RunStory& story,
 
 // Why a tick is not ok, after what happened.
 std::string SayWhy(const std::string& reason, const RowPhrases& phrases) {
-  constexpr std::string_view kRank = "rank_";
-  if (reason.rfind(kRank, 0) == 0) {
-    return ": rank " + reason.substr(kRank.size()) +
+  constexpr std::string_view kLevel = "rank_";  // As log.csv has it.
+  if (reason.rfind(kLevel, 0) == 0) {
+    return ": level " + reason.substr(kLevel.size()) +
            " is not solved, nor what comes after it";
   }
   if (reason == "state") return ": what it is told of the robot cannot be";
@@ -204,8 +204,8 @@ json ExplainConflicts(const RunStory& story, const RowPhrases& phrases,
   std::string last;
   for (const auto& [at, found] : story.conflicts) {
     json names = json::array();
-    for (const auto& [name, rank] : found) {
-      names.push_back({{"name", name}, {"rank", rank}});
+    for (const auto& [name, level] : found) {
+      names.push_back({{"name", name}, {"level", level}, {"rank", level}});
     }
     out.push_back({{"at", at}, {"rows", names}});
     // The same again is not said again.

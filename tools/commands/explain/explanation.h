@@ -21,8 +21,9 @@ namespace poise {
 ///                conflict within 60 ms, the constraints or, where there are
 ///                none, the rows of tasks that come before; where there is no
 ///                conflict, the constraints that acted. Hardest first; sentences name five.
-///     conflicts  [{at, rows: [{name, rank}]}]: rows that contradict each other,
-///                none of which can be spared, where the log has them.
+///     conflicts  [{at, rows: [{name, level}]}]: rows that contradict each other,
+///                none of which can be spared, where the log has them. `rank`
+///                is an alias of `level`.
 ///     status     [{name, from, to, reason}]: where it was not "ok"; reason as
 ///                in docs/log.md, null where there is none.
 ///     pushes     [{from, to, at, force}]: while something pushed, N, at its most.

@@ -118,16 +118,17 @@ TEST(Explanation, SaysOnceWhatContradictsItself) {
   EXPECT_EQ(said["conflicts"][0]["at"], 0.62);
   ASSERT_EQ(said["conflicts"][0]["rows"].size(), 5u);
   EXPECT_EQ(said["conflicts"][0]["rows"][2]["name"], "left_foot.cop.y_max");
-  EXPECT_EQ(said["conflicts"][0]["rows"][2]["rank"], 3);
+  EXPECT_EQ(said["conflicts"][0]["rows"][2]["level"], 3);
+  EXPECT_EQ(said["conflicts"][0]["rows"][2]["rank"], 3);  // The alias.
   int times = 0;
   for (const std::string sentence : said["sentences"]) {
     if (sentence.find("cannot all be met") == std::string::npos) continue;
     ++times;
     EXPECT_EQ(
         sentence,
-        "0.620 s: cannot all be met: momentum (rank 4); the CoP of the "
-        "left foot at its outer edge (rank 3); the torque of l knee at its "
-        "upper limit (rank 2); newton euler (rank 1).");
+        "0.620 s: cannot all be met: momentum (level 4); the CoP of the "
+        "left foot at its outer edge (level 3); the torque of l knee at its "
+        "upper limit (level 2); newton euler (level 1).");
   }
   EXPECT_EQ(times, 1);
 }
@@ -294,7 +295,7 @@ TEST(Explanation, SaysWhyATickFailedSafe) {
             "1.300 s: the controller says limit relaxed, until 1.300 s.");
 }
 
-// Dozens of joints at their limits are no explanation; nor is a rank how hard a
+// Dozens of joints at their limits are no explanation; nor is a level how hard a
 // row presses.
 TEST(Explanation, NamesTheStrongestOfManyCauses) {
   std::string active, conflict = "momentum.ly=4";
@@ -321,7 +322,7 @@ TEST(Explanation, NamesTheStrongestOfManyCauses) {
     if (!cell.empty()) {
       EXPECT_EQ(said["conflicts"][0]["rows"].size(), 43u);
       const std::string text = said["sentences"][1];
-      EXPECT_NE(text.find("j8.max (rank 2) and 33 more."), std::string::npos)
+      EXPECT_NE(text.find("j8.max (level 2) and 33 more."), std::string::npos)
           << text;
     }
   }
@@ -360,10 +361,10 @@ TEST(Explanation, NamesTheTasksThatComeBefore) {
       (std::vector<std::string>{
           "1.650 s: the linear momentum along x missed its target by 47.4 N "
           "(at 1.667 s), because of "
-          "posture (rank 4), newton euler (rank 1).",
+          "posture (level 4), newton euler (level 1).",
           "1.667 s: the center of mass along x missed its target by 2 m/s2 (at "
           "1.667 s), because of "
-          "momentum (rank 5), posture (rank 4), newton euler (rank 1)."}));
+          "momentum (level 5), posture (level 4), newton euler (level 1)."}));
 }
 
 // A task of a user's own: nothing is guessed from its name.
@@ -525,7 +526,7 @@ TEST(Explanation, SaysWhatGaveWay) {
             "0.000 s: the controller says limit relaxed, until 0.000 s: what "
             "gave way most is the torque of l knee at its upper limit.");
   EXPECT_EQ(said["sentences"][1],
-            "0.100 s: the controller says truncated, until 0.100 s: rank 5 is "
+            "0.100 s: the controller says truncated, until 0.100 s: level 5 is "
             "not solved, nor what comes after it.");
 }
 

@@ -24,7 +24,7 @@ Values HardestFirst(Values rows) {
 Values Constraints(const Values& rows, const Values& acting,
                    const RunStory& story, const RowPhrases& phrases) {
   Values bounds;
-  for (const auto& [name, rank] : rows) {
+  for (const auto& [name, level] : rows) {
     if (!IsConstraint(name, story.constraints, phrases)) continue;
     bounds.emplace_back(name, 0);
     for (const auto& acts : acting) {
@@ -37,17 +37,17 @@ Values Constraints(const Values& rows, const Values& acting,
   return HardestFirst(bounds);
 }
 
-// The rank of a task among rows that contradict each other.
-std::optional<double> RankOf(const std::string& task, const Values& rows,
-                             const RowPhrases& phrases) {
-  for (const auto& [name, rank] : rows) {
-    if (phrases.task(name) == task) return rank;
+// The level of a task among rows that contradict each other.
+std::optional<double> LevelOf(const std::string& task, const Values& rows,
+                              const RowPhrases& phrases) {
+  for (const auto& [name, level] : rows) {
+    if (phrases.task(name) == task) return level;
   }
   return std::nullopt;
 }
 
 // The nearest conflict that the task of a loss is part of or, where there is none,
-// the nearest of all: it is of the highest rank that was not met, and what comes
+// the nearest of all: it is of the highest level that was not met, and what comes
 // after that is left with less, too.
 const LoggedConflict* FindNearest(const Span& loss, const RunStory& story,
                                   const RowPhrases& phrases) {
@@ -57,7 +57,8 @@ const LoggedConflict* FindNearest(const Span& loss, const RunStory& story,
     double least = kConflictLasts;
     for (const LoggedConflict& conflict : story.conflicts) {
       const double away = std::abs(conflict.time - loss.at);
-      if (away >= least || (is_part && !RankOf(task, conflict.ranks, phrases)))
+      if (away >= least ||
+          (is_part && !LevelOf(task, conflict.levels, phrases)))
         continue;
       nearest = &conflict;
       least = away;
@@ -82,19 +83,19 @@ LossCause FindCause(const Span& loss, const RunStory& story,
   const LoggedConflict* nearest = FindNearest(loss, story, phrases);
   if (nearest == nullptr) return {false, false, HardestFirst(loss.with)};
   LossCause cause{true, false,
-                  Constraints(nearest->ranks, loss.with, story, phrases)};
+                  Constraints(nearest->levels, loss.with, story, phrases)};
   if (!cause.rows.empty()) return cause;
-  cause.has_ranks = true;
+  cause.has_levels = true;
   const std::string task = phrases.task(loss.name);
-  const double own_rank =
-      RankOf(task, nearest->ranks, phrases)
+  const double own_level =
+      LevelOf(task, nearest->levels, phrases)
           .value_or(std::numeric_limits<double>::infinity());
-  for (const auto& [name, rank] : nearest->ranks) {
-    if (phrases.task(name) != task && rank <= own_rank) {
-      cause.rows.emplace_back(name, rank);
+  for (const auto& [name, level] : nearest->levels) {
+    if (phrases.task(name) != task && level <= own_level) {
+      cause.rows.emplace_back(name, level);
     }
   }
-  cause.rows = HardestFirst(cause.rows);  // The lowest rank, the nearest.
+  cause.rows = HardestFirst(cause.rows);  // The last level, the nearest.
   return cause;
 }
 

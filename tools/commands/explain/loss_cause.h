@@ -11,9 +11,9 @@ namespace poise {
 
 /// Why a row of a task was not met.
 struct LossCause {
-  bool is_known = false;   ///< Or the rows are what else was so, no more.
-  bool has_ranks = false;  ///< The rows are of tasks, with their ranks.
-  Values rows;             ///< Hardest first; of ranks, the lowest.
+  bool is_known = false;    ///< Or the rows are what else was so, no more.
+  bool has_levels = false;  ///< The rows are of tasks, with their levels.
+  Values rows;              ///< Hardest first; of levels, the last.
 };
 
 /// Whether a row is a constraint, and no target of a task: by its description or,

@@ -51,10 +51,10 @@ class Spans {
   std::map<std::string, size_t> open_;
 };
 
-/// Rows that contradict each other, with their ranks.
+/// Rows that contradict each other, with their levels.
 struct LoggedConflict {
   double time;  ///< s.
-  Values ranks;
+  Values levels;
 };
 
 /// What a log tells of a run.
