@@ -2,10 +2,6 @@
 #include "poise/tools/commands/push/push_options.h"
 
 #include <CLI/CLI.hpp>
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -25,46 +21,17 @@
 #include "poise/robot/urdf/urdf.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/experiment.h"
-#include "poise/sim/number_field.h"
-#include "poise/sim/plants/make_plant.h"
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/push/overrides.h"
 #include "poise/tools/commands/user_path.h"
 
 namespace poise {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr const char* kRobot = "robot/models/humanoid.urdf";
 constexpr const char* kProfile = "robot/profiles/humanoid.yaml";
 constexpr const char* kScenarios = "sim/scenarios";
-
-// The options that go over a scenario; those not given change nothing.
-struct Overrides {
-  std::optional<double> force, direction, duration, at, time, control_rate,
-      plant_rate, mu_plant, mass_error, torque_scale, noise, delay, ramp;
-  std::optional<std::string> link, tasks, friction, plant, pushes;
-  std::vector<double> point, freeze;
-  std::vector<std::string> with, without;
-  bool weighted = false, feedforward = false, estimator = false;
-  std::optional<unsigned> seed;
-};
-
-// CLI11 reads "nan" and "inf" as numbers.
-std::string RefuseInfinite(std::string& text) {
-  const double value = std::strtod(text.c_str(), nullptr);
-  return std::isfinite(value) ? "" : "is " + text + ", must be finite";
-}
-
-// CLI11 calls a number that is too large none.
-std::string RefuseNoSeed(std::string& text) {
-  unsigned seed = 0;
-  const char* text_end = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), text_end, seed);
-  if (error == std::errc() && end == text_end) return "";
-  return "is " + Quoted(text) + ", must be a whole number from 0 to " +
-         std::to_string(std::numeric_limits<unsigned>::max());
-}
 
 // The options that choose the files and the outputs of a run.
 struct Files {
@@ -73,143 +40,6 @@ struct Files {
   std::optional<double> dump_solve;
   bool no_report = false, json = false;
 };
-
-void AddOptions(CLI::App* app, Overrides* o) {
-  const CLI::Validator finite(RefuseInfinite, "", "finite");
-  app->add_option("--force", o->force, "of the push, N (the scenario's)")
-      ->check(finite);
-  app->add_option("--direction", o->direction,
-                  "deg: 0 is +x, forward; 90 is +y, left (the scenario's)")
-      ->check(finite);
-  app->add_option("--duration", o->duration, "of the push, s (the scenario's)")
-      ->check(finite);
-  app->add_option("--at", o->at, "when the push begins, s (the scenario's)")
-      ->check(finite);
-  app->add_option("--link", o->link,
-                  "where it acts, at the center of mass (the torso)");
-  app->add_option("--point", o->point, "where on the link, X,Y,Z in m")
-      ->delimiter(',')
-      ->expected(3)
-      ->check(finite);
-  app->add_option("--pushes", o->pushes, "a YAML file of pushes, instead");
-  app->add_option("--time", o->time, "to simulate, s")->check(finite);
-  app->add_option("--tasks", o->tasks, "task set: a name or a YAML file");
-  app->add_option("--with", o->with, "tasks to switch on")->delimiter(',');
-  app->add_option("--without", o->without, "tasks to switch off")
-      ->delimiter(',');
-  app->add_flag("--weighted", o->weighted,
-                "one weighted QP instead of the hierarchy");
-  app->add_option("--friction-pyramid,--friction", o->friction,
-                  "shape of the controller's friction pyramid (circumscribed); "
-                  "inscribed divides its mu by sqrt(2)")
-      ->check(CLI::IsMember({"circumscribed", "inscribed"}));
-  app->add_flag("--feedforward", o->feedforward, "of the reference's motion");
-  app->add_option("--control-rate", o->control_rate, "Hz (1000)")
-      ->check(finite);
-  app->add_option("--plant", o->plant,
-                  "the simulator (" + PlantNames()[0] + ")")
-      ->check(CLI::IsMember(PlantNames()));
-  app->add_option("--plant-rate", o->plant_rate, "Hz (1000)")->check(finite);
-  app->add_flag("--estimator", o->estimator,
-                "the base from sensors, not from the simulator");
-  app->add_option("--mu-plant", o->mu_plant, "friction of the ground (0.8)")
-      ->check(finite);
-  app->add_option("--mass-error", o->mass_error,
-                  "of all links in the controller's model, a fraction")
-      ->check(finite);
-  app->add_option("--torque-scale", o->torque_scale,
-                  "on the limits, on both sides")
-      ->check(finite);
-  app->add_option("--noise", o->noise,
-                  "1 is 2 mrad and 0.1 rad/s a joint, 4 mrad and 0.02 rad/s "
-                  "on the base")
-      ->check(finite);
-  app->add_option("--delay", o->delay, "from measurement to torque, s")
-      ->check(finite);
-  app->add_option(
-         "--ramp", o->ramp,
-         "time in which a change of tasks takes effect, s (0: at once)")
-      ->check(finite);
-  app->add_option("--freeze", o->freeze,
-                  "AT,FOR in s: sensors that repeat their last word")
-      ->delimiter(',')
-      ->expected(2)
-      ->check(finite);
-  app->add_option("--seed", o->seed, "of all that is random (the scenario's)")
-      ->check(CLI::Validator(RefuseNoSeed, "", "seed"));
-}
-
-template <typename T>
-void Take(const std::optional<T>& from, T* to) {
-  if (from) *to = *from;
-}
-
-void TakeRate(const std::optional<double>& rate, double* dt) {
-  if (rate) *dt = 1 / *rate;
-}
-
-// The first push of the scenario, or a new one, as the options want it.
-void TakePush(const Overrides& o, Scenario* scenario) {
-  if (o.pushes) scenario->pushes = LoadPushes(UserPath(*o.pushes));
-  if (!o.force && !o.direction && !o.duration && !o.at && !o.link &&
-      o.point.empty()) {
-    return;
-  }
-  if (scenario->pushes.empty()) {
-    scenario->pushes.emplace_back();
-    scenario->pushes[0].force = {0, 50, 0};
-  }
-  Push& push = scenario->pushes[0];
-  const double force = o.force.value_or(push.force.norm());
-  if (o.direction) {
-    double degrees = *o.direction;
-    Check("", {{"direction", &degrees, -360, 360, "deg"}});
-    const double angle = degrees * kPi / 180;
-    push.force = force * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
-  } else if (o.force) {
-    push.force = push.force.isZero() ? Eigen::Vector3d(0, force, 0)
-                                     : force * push.force.normalized();
-  }
-  Take(o.duration, &push.duration);
-  Take(o.at, &push.start);
-  Take(o.link, &push.link);
-  if (!o.point.empty()) {
-    push.point = Eigen::Vector3d(o.point[0], o.point[1], o.point[2]);
-  }
-}
-
-void Apply(const Overrides& o, Scenario* scenario) {
-  TakePush(o, scenario);
-  ControlSettings& control = scenario->control;
-  PlantSettings& plant = scenario->plant;
-  Take(o.time, &scenario->duration);
-  Take(o.seed, &scenario->seed);
-  if (o.tasks) {
-    std::error_code too_long;
-    const bool is_file = std::filesystem::exists(UserPath(*o.tasks), too_long);
-    control.tasks = is_file ? UserPath(*o.tasks).string() : *o.tasks;
-  }
-  control.with.insert(control.with.end(), o.with.begin(), o.with.end());
-  control.without.insert(control.without.end(), o.without.begin(),
-                         o.without.end());
-  control.weighted |= o.weighted;
-  control.feedforward |= o.feedforward;
-  control.estimator |= o.estimator;
-  if (o.friction) control.inscribed = *o.friction == "inscribed";
-  TakeRate(o.control_rate, &control.dt);
-  TakeRate(o.plant_rate, &plant.dt);
-  if (o.plant) scenario->plant_kind = *o.plant;
-  Take(o.mu_plant, &plant.friction);
-  Take(o.mass_error, &control.mass_error);
-  Take(o.torque_scale, &plant.torque_scale);
-  Take(o.noise, &scenario->sensors.noise);
-  Take(o.delay, &control.delay);
-  Take(o.ramp, &control.ramp);
-  if (!o.freeze.empty()) {
-    scenario->sensors.freeze_at = o.freeze[0];
-    scenario->sensors.freeze_for = o.freeze[1];
-  }
-}
 
 // The files of an experiment, and how much of the scenario is from its own.
 struct Sources {

@@ -1,0 +1,33 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "poise/sim/scenario.h"
+
+namespace poise {
+
+/// The options of `push` that replace settings of a scenario. An option that is
+/// not given changes nothing.
+struct Overrides {
+  std::optional<double> force, direction, duration, at, time, control_rate,
+      plant_rate, mu_plant, mass_error, torque_scale, noise, delay, ramp;
+  std::optional<std::string> link, tasks, friction, plant, pushes;
+  std::vector<double> point, freeze;
+  std::vector<std::string> with, without;
+  bool weighted = false, feedforward = false, estimator = false;
+  std::optional<unsigned> seed;
+};
+
+/// Adds the options to an application, which writes them to *overrides.
+void AddOptions(CLI::App* app, Overrides* overrides);
+
+/// Writes the options that were given to a scenario. The options of a push
+/// change the first push, or add one. Throws std::invalid_argument about a file
+/// of pushes, and InputError about a direction.
+void Apply(const Overrides& overrides, Scenario* scenario);
+
+}  // namespace poise
