@@ -458,6 +458,22 @@ TEST(Solver, FillsTheCertificateOfItsAnswer) {
   }
 }
 
+// The levels above the bad one are readable, and y = 0 does not solve them.
+TEST(Solver, CertifiesNoAnswerToBadInput) {
+  Hierarchy hierarchy(1, {{1, 0}, {1, 0}});
+  const EqualityBlock first = hierarchy.AddEqualities(0, 1);
+  first.B << 1;
+  first.b << -2;
+  const EqualityBlock second = hierarchy.AddEqualities(1, 1);
+  second.B << std::numeric_limits<double>::quiet_NaN();
+  second.b << 0;
+  Solver solver(1, {{1, 0}, {1, 0}});
+  Solution solution(1, {{1, 0}, {1, 0}});
+  EXPECT_EQ(solver.Solve(hierarchy, &solution), Status::kNotFinite);
+  EXPECT_EQ(solution.failed_level, 1);
+  EXPECT_GT(solution.certificate.worst(), 0.1);
+}
+
 // A replay gives the same bits, whatever the memory held before.
 TEST(Solver, DoesNotReadUninitialisedMemory) {
   RandomHierarchyOptions options;

@@ -20,7 +20,7 @@ constexpr const char* kForceTasks[] = {"cop", "friction", "unilateral", "yaw"};
 // Multipliers below this are rounding.
 constexpr double kActs = 1e-6;
 
-// The tasks below the constraints in one rank, the last ones so much lighter.
+// The tasks below the constraints in one level, the last ones so much lighter.
 void PutTasksTogether(Stack* stack, double weight) {
   for (const char* task : {"posture", "force_regularizer"}) {
     const double own = stack->settings(*stack->Find(task)).weight;
@@ -98,12 +98,12 @@ std::vector<Weighing> Weighings() {
   const auto two_levels = [](double weight) {
     return [weight](Stack* stack) { PutTasksTogether(stack, weight); };
   };
-  return {{"strict, five ranks", [](Stack*) {}},
+  return {{"strict, five levels", [](Stack*) {}},
           {"tasks weighted, 1 : 1e-2", two_levels(1e-2)},
           {"tasks weighted, 1 : 1e-4", two_levels(1e-4)},
-          {"one QP, 10 a rank", one_qp(10)},
-          {"one QP, 100 a rank", one_qp(100)},
-          {"one QP, 1000 a rank", one_qp(1000)}};
+          {"one QP, 10 a level", one_qp(10)},
+          {"one QP, 100 a level", one_qp(100)},
+          {"one QP, 1000 a level", one_qp(1000)}};
 }
 
 std::vector<WeighingResult> CompareWeighings(const Experiment& experiment) {

@@ -17,7 +17,7 @@ struct Weighing {
   std::function<void(Stack*)> arrange;
 };
 
-/// Strictly by rank; the constraints strictly before all tasks, which are
+/// Strictly by level; the constraints strictly before all tasks, which are
 /// weighted; all as one weighted QP.
 std::vector<Weighing> Weighings();
 
@@ -32,7 +32,7 @@ struct WeighingResult {
   /// of the inequalities of forces, as a fraction of a quarter of the weight.
   double contact = 0, force = 0;
   double median_us = 0, p99_us = 0;  ///< Of all ticks.
-  int failures = 0;  ///< Ticks that were not solved to the last rank.
+  int failures = 0;  ///< Ticks that were not solved to the last level.
 };
 
 /// All ways, on the states of one run of the experiment.
