@@ -461,10 +461,10 @@ TEST(Solver, FillsTheCertificateOfItsAnswer) {
 // The levels above the bad one are readable, and y = 0 does not solve them.
 TEST(Solver, CertifiesNoAnswerToBadInput) {
   Hierarchy hierarchy(1, {{1, 0}, {1, 0}});
-  const EqualityBlock first = hierarchy.AddEqualities(0, 1);
+  EqualityBlock first = hierarchy.AddEqualities(0, 1);
   first.B << 1;
   first.b << -2;
-  const EqualityBlock second = hierarchy.AddEqualities(1, 1);
+  EqualityBlock second = hierarchy.AddEqualities(1, 1);
   second.B << std::numeric_limits<double>::quiet_NaN();
   second.b << 0;
   Solver solver(1, {{1, 0}, {1, 0}});
