@@ -40,8 +40,10 @@ inline Pose operator*(const Pose& X_AB, const Pose& X_BC) noexcept {
   double* R_AC = X_AC.R.data();
   std::memcpy(R_AC, &x, sizeof(Four));
   std::memcpy(R_AC + 3, &y, sizeof(Four));
-  X_AC.R.col(2) << z[0], z[1], z[2];
-  X_AC.p << p[0] + X_AB.p[0], p[1] + X_AB.p[1], p[2] + X_AB.p[2];
+  for (int i = 0; i < 3; ++i) {
+    R_AC[6 + i] = z[i];
+    X_AC.p[i] = p[i] + X_AB.p[i];
+  }
   return X_AC;
 }
 
