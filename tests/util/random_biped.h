@@ -13,15 +13,13 @@ namespace poise {
 
 /// Parameters of a biped.
 struct BipedCase {
-  double mass = 50;                 ///< kg.
-  double shank = 0.4, thigh = 0.4;  ///< Lengths, m.
-  double ankle = 0.08,
-         hip = 0.1;    ///< Ankle height; hip offset to each side, m.
-  double trunk = 0.4;  ///< Length, m.
-  double knee = 0.6;   ///< Knee angle when standing, rad.
-  double room = 2.5;   ///< Range of each joint to each side, rad.
-  std::vector<Eigen::Vector3d>
-      chain;  ///< Joint axes of the chain on the trunk.
+  double mass = 50;                    ///< kg.
+  double shank = 0.4, thigh = 0.4;     ///< Lengths, m.
+  double ankle = 0.08, hip = 0.1;      ///< Height; half distance of hips, m.
+  double trunk = 0.4;                  ///< Length, m.
+  double knee = 0.6;                   ///< Knee angle when standing, rad.
+  double room = 2.5;                   ///< Joint range to each side, rad.
+  std::vector<Eigen::Vector3d> chain;  ///< Joint axes, from the trunk on.
 };
 
 /// Makes a robot with two legs of six joints each, a trunk, and a chain of

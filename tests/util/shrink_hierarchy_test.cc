@@ -44,8 +44,7 @@ TEST(ShrinkHierarchy, LeavesOneBlockingBound) {
       inequalities += hierarchy.num_inequalities(k);
     }
     EXPECT_EQ(inequalities, 1);
-    EXPECT_LE(NumRows(hierarchy),
-              2);  // The bound, and at most one row that violates it.
+    EXPECT_LE(NumRows(hierarchy), 2);  // At most one row violates the bound.
   }
   EXPECT_GT(failures, 10);
 }
