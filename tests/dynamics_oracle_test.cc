@@ -148,7 +148,7 @@ TEST(DynamicsOracle, DetectsWrongNumber) {
 
 TEST(DynamicsOracle, AgreesOnAllRobots) {
   const auto oracle = SharedData("oracle"), robots = SharedData("robots");
-  if (!oracle || !robots) GTEST_SKIP() << "POISE_SHARED has no such folder";
+  if (!oracle || !robots) GTEST_SKIP() << "no oracle data in POISE_SHARED";
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(*oracle)) {
     if (entry.path().extension() != ".json") continue;

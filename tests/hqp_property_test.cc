@@ -20,7 +20,7 @@
 namespace poise {
 namespace {
 
-constexpr double kCertified = 1e-9;  // Largest certificate of the solver.
+constexpr double kCertified = 1e-9;  // Largest allowed.
 
 // Draws a random hierarchy, which shrinks to few variables, levels and rows.
 HierarchyCase DrawHierarchy(bool with_inequalities = true, int weighted = 0) {

@@ -88,7 +88,7 @@ struct LinkCase {
   Pose X_PF;
   Eigen::Vector3d axis;
   Inertia M;
-  Eigen::VectorXd numbers;  // Give the limits and the mimic coupling.
+  Eigen::VectorXd numbers;  // For limits and mimic coupling.
 };
 
 void showValue(const LinkCase& link, std::ostream& os) {

@@ -156,7 +156,7 @@ void BM_RneaDerivatives(benchmark::State& state) {
 }
 BENCHMARK(BM_RneaDerivatives);
 
-// Random trees of 10 to 1000 bodies. The time per body should not grow.
+// Random trees of 10, 100 and 1000 joints. The time per body should not grow.
 void BM_RneaOfBodies(benchmark::State& state) {
   std::mt19937 draw(1);
   const Tree tree = MakeRandomTree(static_cast<int>(state.range(0)), &draw);

@@ -15,7 +15,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       }
     }
   });
-  // The report writes its page in this way, for any bytes in a log.
+  // The report is written with this error handler, which accepts any bytes of a
+  // log.
   poise::ExpectReadsOrRefuses([&] {
     (void)poise::ReadRunLog(file.path())
         .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

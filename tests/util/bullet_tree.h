@@ -28,8 +28,8 @@ class BulletTree {
            const Eigen::VectorXd& vdot,
            const std::vector<SpatialForce>& F_Bo_W);
 
-  /// Compute tau() and M() by calls of Bullet only, so that their time is
-  /// Bullet's time.
+  /// These two call only Bullet, so that a benchmark measures only Bullet.
+  /// tau() and M() return their results.
   void ComputeInverseDynamics();
   void ComputeMassMatrix();
 

@@ -34,10 +34,11 @@ std::string DisagreementAfter(const std::vector<HierarchyCase>& ticks,
 
 /// Returns the largest |multiplier| |row| of all levels, as a multiple of its
 /// level's gradient. The gradient is the sum of weight |residual| |row| and
-/// |slack| |row| over the level's own rows. Added are 1e-9 of the terms from
-/// which residuals and slacks are computed, so that a multiplier that is only
-/// rounding does not count. A certificate is relative to the sum of multipliers
-/// and gradient: where this ratio is 1e20, any answer has a small certificate.
+/// |slack| |row| over the level's own rows. It also contains 1e-9 of the terms
+/// from which residuals and slacks are computed, so that a multiplier that is
+/// only a rounding error does not count. A certificate is relative to the sum
+/// of multipliers and gradient: where this ratio is 1e20, any answer has a
+/// small certificate.
 double LargestMultiplier(const Hierarchy& hierarchy, const Solution& solution);
 
 /// Certifies that y has minimum norm among all optima. Returns the certificate

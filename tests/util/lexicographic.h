@@ -17,7 +17,7 @@ struct LeastSquares {
 /// The minimum-norm y that minimises the levels in order of priority.
 struct LexicographicOptimum {
   Eigen::VectorXd y;
-  std::vector<int> rank;  ///< Rank of the rows of all levels down to each.
+  std::vector<int> rank;  ///< Rank of all rows up to each level.
   /// Condition number of the worst level. The relative error of y is about its
   /// square times eps.
   double condition = 1;

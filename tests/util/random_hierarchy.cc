@@ -55,8 +55,8 @@ class Drawing {
     return std::pow(10.0, source_.Between(low, high));
   }
 
-  // Scale of a target or bound that does not pass through the common point.
-  // Rows of integers get integers.
+  // Scale of a target or bound that does not pass through the common point. For
+  // a nonzero row of integers the scale is an integer, too.
   double Scale(const Eigen::VectorXd& row) const {
     return std::max(row.cwiseAbs().maxCoeff(), 1e-3);
   }

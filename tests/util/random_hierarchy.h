@@ -29,8 +29,7 @@ struct RandomHierarchyOptions {
   /// Chance that a hierarchy has rows of scales from 1e-3 to 1e6.
   int scaled = 20;
 
-  /// Chance that a hierarchy has weights from 1e-decades to 1e+decades in the
-  /// same level.
+  /// Chance that a hierarchy mixes weights from 1e-decades to 1e+decades.
   int weighted = 0;
   int decades = 4;
 

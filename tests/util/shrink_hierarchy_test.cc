@@ -161,7 +161,8 @@ TEST(CertifyShortest, RejectsYThatDoesNotHaveMinimumNorm) {
 
 // Two rows 2 y = 0 are above 4 y >= 8 and 3 y = 3. With 1e20 and -1e20 added to
 // their multipliers, the certificate is as good as before. A level that is
-// satisfied, or has zero weight, justifies no multiplier.
+// satisfied, or has zero weight, has zero gradient: any multiplier is then
+// infinitely large in comparison.
 TEST(LargestMultiplier, DetectsMultipliersThatHideResiduals) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {0, 1}, {1, 0}};
   HierarchyCase drawn{capacity, Hierarchy(1, capacity)};

@@ -14,7 +14,7 @@ namespace poise {
 struct Trial {
   enum class Bar {
     kRecovers,
-    kFalls,    ///< Does not recover, as the paper's robot.
+    kFalls,    ///< Does not recover, like the paper's robot.
     kSteady,   ///< Recovers with a final CoM error below 3 mm in each axis.
     kFlat,     ///< Recovers, and its feet tilt by less than 0.02 rad.
     kUpright,  ///< Recovers; its pelvis leans below 0.02 rad, not increasing.
