@@ -13,15 +13,17 @@ namespace {
 
 class ClosedLoopCertificate : public testing::TestWithParam<std::string> {};
 
-// A solve reported optimal has a certificate of 1e-9 at most, see
-// hqp/certificate.h: in every tick of a run, to its end or to the fall.
-TEST_P(ClosedLoopCertificate, IsHeldInEveryTick) {
+// Each solve that reports kOptimal must have a certificate of at most 1e-9, see
+// hqp/certificate.h. The test checks every tick of a run, to its end or until
+// the robot falls.
+TEST_P(ClosedLoopCertificate, IsBelowToleranceInEveryTick) {
   const Robot robot = LoadHumanoid();
   const Scenario scenario = LoadScenario(GetParam());
   const RunResult result = poise::Run(robot, scenario);
   EXPECT_EQ(result.failures, 0);
   EXPECT_LE(result.certificate_max, 1e-9);
-  // Who falls early has few ticks to judge.
+  // The robot must fall in this scenario only: an early fall would leave few
+  // ticks to check.
   EXPECT_EQ(result.verdict.fell_at.has_value(),
             scenario.name == "strong_push_without_zmp");
 }
@@ -29,7 +31,7 @@ TEST_P(ClosedLoopCertificate, IsHeldInEveryTick) {
 INSTANTIATE_TEST_SUITE_P(Scenarios, ClosedLoopCertificate,
                          testing::ValuesIn(ScenarioFiles()), ScenarioTestName);
 
-TEST(ClosedLoop, HasAllScenariosToRun) {
+TEST(ClosedLoop, FindsAllScenarioFiles) {
   EXPECT_EQ(ScenarioFiles().size(), kNumScenarios);
 }
 

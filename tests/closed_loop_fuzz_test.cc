@@ -18,7 +18,8 @@
 namespace poise {
 namespace {
 
-// A case is a run of 0.6 s: a few will do, unless RC_PARAMS asks for more.
+// Each case simulates 0.6 s, so 8 cases are the default. RC_PARAMS may set
+// another max_success.
 const bool kFewCases = [] {
   const char* given = std::getenv("RC_PARAMS");
   const std::string parameters = given != nullptr ? given : "";
@@ -31,7 +32,8 @@ const Robot& Humanoid() {
   return robot;
 }
 
-// A push from anywhere, mild or far too strong, with sensors good or bad.
+// Draws a push from any direction, mild or far too strong, and sensors of any
+// quality.
 Scenario RandomScenario() {
   Scenario scenario;
   scenario.name = "fuzz";
@@ -51,7 +53,8 @@ Scenario RandomScenario() {
   scenario.control.mass_error = 0.01 * *rc::gen::inRange(-10, 11);
   scenario.sensors.noise = 0.1 * *rc::gen::inRange(0, 20);
   scenario.sensors.dropout = 0.01 * *rc::gen::inRange(0, 20);
-  // What is mild must not need the stops to keep a joint's limit.
+  // The plant has joint stops only for strong pushes. After a mild push the
+  // controller alone must keep the joint limits.
   scenario.plant.joint_limits = strong;
   scenario.plant.torque_scale = 1 - 0.1 * *rc::gen::inRange(0, 6);
   scenario.plant.friction = 0.1 * *rc::gen::inRange(2, 10);
@@ -60,16 +63,17 @@ Scenario RandomScenario() {
 
 std::vector<std::string> Cells(const std::string& line) {
   std::vector<std::string> cells;
-  std::istringstream stream(line + ",");  // Or a last, empty one were lost.
+  std::istringstream stream(line + ",");  // Keeps an empty last cell.
   for (std::string cell; std::getline(stream, cell, ',');) {
     cells.push_back(cell);
   }
   return cells;
 }
 
-// What is wrong with a log: it must have a row a tick, and in each column but
-// those of words numbers only; but feet that bear nothing have no center of
-// pressure.
+// Describes the first fault of a log file, or returns "". The log must have one
+// row per tick. Each cell must be a finite number, except in the columns of
+// words. The center of pressure may be NaN: it is undefined while the feet
+// carry no load.
 std::string WrongWithLog(const std::filesystem::path& file, long ticks) {
   std::ifstream stream(file);
   std::string line;
@@ -100,8 +104,9 @@ std::string WrongWithLog(const std::filesystem::path& file, long ticks) {
   return "";
 }
 
-// Whose joints may go so far from the nominal posture, in rad: little farther
-// than a push makes them, so that limits act.
+// Returns the humanoid with joint limits at most `room` [rad] from its nominal
+// posture. The room is only a little larger than the motion after a push, so
+// that the limits become active.
 Robot HumanoidWithRoom(double room) {
   Robot robot = Humanoid();
   for (int j = 0; j < robot.model.tree.num_joints(); ++j) {
@@ -113,17 +118,18 @@ Robot HumanoidWithRoom(double room) {
   return robot;
 }
 
-// Whether a push is no more than this part of what a pendulum on the same feet
-// takes. From about 0.8 of that on, arms swing with all that they have and jolts
-// throw fingers, which weigh a few grams, past their stops, sometimes by more
-// than a hundredth of a rad; and who falls is thrown past any.
+// Returns whether the push has at most kMild of the impulse that a linear
+// inverted pendulum on the same feet can take. From about 0.8 of that impulse
+// on, the arms swing with full torque. Their jolts throw the fingers, which
+// weigh a few grams, past their stops, sometimes by more than 0.01 rad. A
+// falling robot can exceed any joint limit.
 bool IsMild(const RunResult& result) {
   constexpr double kMild = 0.6;
   return !result.yardstick ||
          result.impulse_Ns <= kMild * result.yardstick->lipm_height_Ns;
 }
 
-RC_GTEST_PROP(ClosedLoopFuzz, NoNumberIsLostAndNoLimitBroken, ()) {
+RC_GTEST_PROP(ClosedLoopFuzz, LogIsCompleteAndLimitsHold, ()) {
   const Scenario scenario = RandomScenario();
   const std::filesystem::path folder =
       std::filesystem::path(testing::TempDir()) / "run";
@@ -131,16 +137,18 @@ RC_GTEST_PROP(ClosedLoopFuzz, NoNumberIsLostAndNoLimitBroken, ()) {
   const RunResult result = Run(HumanoidWithRoom(room), scenario, folder);
   RC_ASSERT(result.ticks > 0);
   RC_ASSERT(WrongWithLog(folder / "log.csv", result.ticks) == "");
-  // Of a tick that was not solved to the last level, the levels that were.
+  // In a tick that was not solved to the last level, the certificate covers the
+  // solved levels only.
   RC_ASSERT(result.certificate_max <= 1e-9);
-  // Torques are cut off at their limits: to the last bit.
+  // Torques are clamped to their limits, so the limits hold to the last bit.
   RC_ASSERT(result.torque_limit_violation_peak <= 0);
-  // The 8 mrad by which the controller keeps joints off their limits are for
-  // what its sensors and its model are wrong by: nothing of that is beyond.
+  // The controller keeps joints 8 mrad off their limits. This margin covers the
+  // errors of its sensors and its model: no true joint angle may exceed a
+  // limit.
   RC_ASSERT(!IsMild(result) || result.joint_limit_violation_peak <= 1e-6);
 }
 
-TEST(ClosedLoopFuzz, NoticesAJointBeyondItsLimit) {
+TEST(ClosedLoopFuzz, DetectsJointBeyondItsLimit) {
   Scenario scenario;
   scenario.duration = 0.6;
   scenario.plant.joint_limits = false;
@@ -157,7 +165,7 @@ TEST(ClosedLoopFuzz, NoticesAJointBeyondItsLimit) {
   EXPECT_GT(poise::Run(robot, scenario).joint_limit_violation_peak, 1e-3);
 }
 
-TEST(ClosedLoopFuzz, NoticesALogThatIsWrong) {
+TEST(ClosedLoopFuzz, DetectsInvalidLog) {
   (void)kFewCases;
   const std::filesystem::path file =
       std::filesystem::path(testing::TempDir()) / "log.csv";

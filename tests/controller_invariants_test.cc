@@ -16,17 +16,19 @@
 namespace poise {
 namespace {
 
-// What each tick must keep, whatever the robot and its state; in the problem's
-// own scale, where a limit or a quarter of a robot's weight is about 1. The
-// solver keeps a row to 1e-9 |C_i| |y|, and |y| goes up to 1e3.
+// Tolerance of the conditions that each tick must satisfy, for any robot and
+// any state. The tolerance is in the problem's own scale, where a limit or a
+// quarter of a robot's weight is about 1. The solver satisfies a row to 1e-9
+// |C_i| |y|, and |y| goes up to 1e3.
 constexpr double kTolerance = 1e-6;
 constexpr double kMu = 0.5;
 constexpr double kDt = 1e-3;
 
 using Wrench = Eigen::Matrix<double, 6, 1>;
 
-// Which condition of a sole the ground's wrench on it, about and in the axes of
-// C, breaks by more than `allowed`, N or N m; or nothing.
+// Names the contact condition that the ground's wrench F on a sole violates by
+// more than `allowed` [N or N m], or returns "". F is about the origin of C and
+// in the axes of C.
 std::string BrokenBy(const Wrench& F, const Foot& foot, double allowed) {
   const double fz = std::max(F[5], 0.0);
   const Eigen::Vector2d half = foot.half_size;
@@ -44,7 +46,8 @@ struct Balance {
   Controller controller;
   State state;
   Command command;
-  // What the joints did that no solution said, and what the last one said.
+  // Low-pass filtered unmodelled acceleration, and the velocity that the last
+  // solution predicts for the next tick.
   Eigen::VectorXd unexpected, expected_v;
 
   explicit Balance(const BipedCase& from);
@@ -57,26 +60,30 @@ struct Balance {
     return y().segment<6>(state.v.size() + 6 * foot);
   }
 
-  // How far a row of this rank may be off, by another solver: the root of the
-  // sum of squares that no y can be below. Zero where all can be met.
+  // Returns the smallest violation that this priority level needs: the norm of
+  // its residuals at the optimum, computed by the reference solver. No row of
+  // the level has to be violated by more. Zero if all rows can be satisfied.
   double Needed(int rank) const;
 
   bool CanMeetLimitsAndCones() const {
     return Needed(2) < kTolerance && Needed(3) < kTolerance;
   }
 
-  // What is broken, or nothing: of v̇, λ and τ, not of what the report says.
+  // Names the first violated condition, or returns "". Checks v̇, λ and τ
+  // themselves, not the controller's report about them.
   std::string Broken() const;
 
-  // (10).
+  // Joint torques τ by equation (10).
   Eigen::VectorXd Torque() const;
 
-  // Torques and accelerations of the joints beyond what limits allow, in units
-  // of the limit, and of ω² rad.
+  // Names a joint whose torque or acceleration violates a limit by more than
+  // `allowed`, or returns "". `allowed` is in units of the limit for torques,
+  // and of ω² rad for accelerations.
   std::string BrokenByJoints(double allowed) const;
 
-  // M v̇ + N = S' tau + J' lambda: of the base by rank 1, of the joints by the
-  // torques, but where they are cut off.
+  // Checks M v̇ + N = S' τ + J' λ, or names what is violated. The base rows are
+  // level 1 of the hierarchy. The joint rows define the torques, unless these
+  // are clamped.
   std::string BrokenByDynamics() const;
 };
 
@@ -119,9 +126,9 @@ double Balance::Needed(int rank) const {
 
 std::string Balance::Broken() const {
   if (!command.tau.allFinite()) return "a torque is not finite";
-  if (command.status != controller.report().status) return "status";
-  if (command.status == TickStatus::kFailSafe) return "it failed safe";
-  // A hierarchy cut off says nothing of the levels below.
+  if (command.status != controller.report().status) return "report's status";
+  if (command.status == TickStatus::kFailSafe) return "the tick failed safe";
+  // A truncated solve guarantees nothing for failed_level and the levels below.
   const int failed_level = controller.report().failed_level;
   std::string broken = BrokenByDynamics();
   if (broken.empty() && (failed_level == 0 || failed_level > 2)) {
@@ -156,9 +163,9 @@ std::string Balance::BrokenByJoints(double allowed) const {
     const std::string& name = tree.joints()[j].name;
     if (std::abs(command.tau[j]) > limits.effort) return "torque of " + name;
     if (std::abs(tau[j]) > limits.effort * (1 + allowed)) {
-      return "torque of " + name + " before it is cut off";
+      return "torque of " + name + " before it is clamped";
     }
-    // As if the joint came to rest at the limit with two poles at -ω.
+    // The bounds let the joint come to rest at its limit, with two poles at -ω.
     const double q = state.q[tree.q_start() + j];
     const double v = state.v[tree.v_start() + j];
     const double a = y()[tree.v_start() + j] + unexpected[tree.v_start() + j];
@@ -168,7 +175,7 @@ std::string Balance::BrokenByJoints(double allowed) const {
     const double upper =
         std::min(w * w * (limits.upper - margin - q) - 2 * w * v,
                  w * (limits.velocity - v));
-    if (lower > upper) continue;  // Too fast for both.
+    if (lower > upper) continue;  // No acceleration satisfies both bounds.
     if (a < lower - w * w * allowed) return "lower limit of " + name;
     if (a > upper + w * w * allowed) return "upper limit of " + name;
   }
@@ -182,7 +189,7 @@ std::string Balance::BrokenByDynamics() const {
   for (int i = 0; i < 2; ++i) {
     residual -= controller.contacts()[i].J_WC_C.transpose() * wrench(i);
   }
-  // The solver's bar, relative to what is added up.
+  // The solver's tolerance, relative to the terms of the sum.
   const double scale = weight() + (tick.M * y().head(nv)).norm();
   if (residual.head<6>().norm() > 1e-9 * scale) return "Newton-Euler";
   const Eigen::VectorXd tau = Torque();
@@ -196,13 +203,13 @@ std::string Balance::BrokenByDynamics() const {
   return "";
 }
 
-RC_GTEST_PROP(ControllerInvariants, StandingStillHoldsAnyBiped, ()) {
+RC_GTEST_PROP(ControllerInvariants, HoldForAnyBipedStandingStill, ()) {
   Balance run(*Bipeds());
   run.Update();
   RC_ASSERT(run.Broken() == "");
   RC_ASSERT(run.command.status == TickStatus::kOk);
   RC_ASSERT(run.CanMeetLimitsAndCones());
-  // At rest in its posture: the feet carry its weight.
+  // At rest in the nominal posture the feet carry the robot's weight.
   const double force = run.wrench(0)[5] + run.wrench(1)[5];
   RC_ASSERT(std::abs(force - run.weight()) < 0.2 * run.weight());
 }
@@ -210,14 +217,15 @@ RC_GTEST_PROP(ControllerInvariants, StandingStillHoldsAnyBiped, ()) {
 RC_GTEST_PROP(ControllerInvariants, HoldInAnyPostureAndUnderAnyPush, ()) {
   Balance run(*Bipeds());
   const Tree& tree = run.robot.model.tree;
-  // From a posture and push in which all can be met to those in which not.
+  // At 0.03 posture and push are so small that all limits and cones can be
+  // satisfied. At 1 they often cannot.
   const double part = *rc::gen::element(0.03, 1.0);
   const int ticks = *rc::gen::inRange(1, 4);
   run.state.q.tail(tree.num_joints()) +=
       *VectorsXd(tree.num_joints(), 0.2 * part);
   for (int i = 0; i < ticks; ++i) {
     run.state.v = *VectorsXd(tree.nv(), part);
-    run.state.v.segment<3>(3) *= 3;  // Enough for a foot to want to slip.
+    run.state.v.segment<3>(3) *= 3;  // Reaches the friction limits.
     run.Update();
     RC_ASSERT(run.Broken() == "");
     RC_ASSERT(part == 1 || run.CanMeetLimitsAndCones());
@@ -234,7 +242,8 @@ TEST(ControllerInvariants, NoticeATorqueBeyondItsLimit) {
   EXPECT_EQ(run.Broken(), "torques by (10)");
 }
 
-// Each just inside and just outside of what it may be, to either side.
+// Each component is tested 1e-6 inside and 1e-6 outside its bounds, on both
+// sides.
 TEST(ControllerInvariants, NoticeAWrenchJustOutsideOfItsCone) {
   const Foot foot = MakeBiped({}).feet[0];
   const double fz = 400, X = foot.half_size.x(), Y = foot.half_size.y();
@@ -262,8 +271,8 @@ TEST(ControllerInvariants, NoticeAWrenchJustOutsideOfItsCone) {
   EXPECT_EQ(BrokenBy(-1e-6 * Wrench::Unit(5), foot, 0), "a foot pulls");
 }
 
-// A knee as near to its limit, and as fast, as it may be with this
-// acceleration, and a little nearer.
+// The knee is first 1e-5 rad farther from its limit than its acceleration
+// requires, then 1e-5 rad closer.
 TEST(ControllerInvariants, NoticeAJointThatCannotStopBeforeItsLimit) {
   Balance run({});
   run.Update();

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Inverse dynamics and the mass matrix against Bullet's InverseDynamics, on
-// random trees, where it is installed.
+// Compares inverse dynamics and the mass matrix with Bullet's InverseDynamics
+// on random trees. The tests are skipped if Bullet's library is not installed.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Compares what the two make of a motion; Bullet knows no armatures.
+// Compares Poise and Bullet on random motions. Bullet has no armatures, so
+// `compare` receives them and adds their effect.
 bool AgreesWithBullet(
     const char* what,
     const std::function<Residual(const TreeMotion&, const VectorXd& armatures,

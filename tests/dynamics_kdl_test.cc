@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Inverse dynamics against another library's, Orocos KDL, on random trees.
-// dynamics_bullet_test.cc has a second one. Forward dynamics against Bullet's:
-// sim/plants/bullet/bullet_plant_test.cc.
+// Compares inverse dynamics with another library, Orocos KDL, on random trees.
+// dynamics_bullet_test.cc compares with a second library. Forward dynamics are
+// compared with Bullet's in sim/plants/bullet/bullet_plant_test.cc.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// The angles of KDL's base, about x, y and z, as a motion of ours has them:
+// Converts the angles of KDL's base, about x, y and z, to Poise's rotation and
+// angular velocity w of the base:
 //     w = E rates,   w' = E rates' + E' rates.
 struct BaseAngles {
   BaseAngles(const Vector3d& angles, const Vector3d& rates) {
@@ -42,9 +43,10 @@ struct BaseAngles {
   Matrix3d E, E_dot;
 };
 
-// KDL's inverse dynamics of a motion, in the tree's order. In v and v̇ of a
-// floating base stand the rates of the three angles, and theirs, first; and so
-// the forces that belong to them in the result.
+// Computes KDL's inverse dynamics of a motion, in the tree's order. For a
+// floating base, the first three entries of m.v and m.vdot are the first and
+// second derivatives of the three angles. The first three entries of the result
+// are the generalised forces of these angles.
 VectorXd KdlOf(const TreeMotion& m, const Vector3d& angles) {
   const Tree& tree = m.tree;
   const KDL::Tree kdl = MakeKdlTree(tree);
@@ -61,7 +63,7 @@ VectorXd KdlOf(const TreeMotion& m, const Vector3d& angles) {
     qd(numbers[j]) = m.v[tree.v_start() + j];
     qdd(numbers[j]) = m.vdot[tree.v_start() + j];
   }
-  // It wants the forces in the axes of the bodies.
+  // KDL expects each force in the axes of its body.
   std::vector<Pose> X_WB(tree.num_bodies());
   ComputePoses(tree, m.q, &X_WB);
   std::map<std::string, KDL::Wrench> forces;

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Real robots and random trees, through their URDF, against the numbers that two
-// other libraries agree on: all quantities in all states.
+// Compares the dynamics of real robots and random trees, read from URDF, with
+// numbers on which two other libraries agree. All quantities are compared in
+// all states.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-// Asked for by the format of the oracle's files.
+// Largest relative difference that the format of the oracle's files allows.
 constexpr double kAgreement = 1e-9;
 
 json Read(const std::filesystem::path& path) {
@@ -28,7 +29,7 @@ json Read(const std::filesystem::path& path) {
   return json::parse(file);
 }
 
-// All numbers of an array of arrays.
+// Returns all numbers of nested arrays, in order.
 std::vector<double> Flatten(const json& array) {
   if (!array.is_array()) return {array.get<double>()};
   std::vector<double> numbers;
@@ -45,8 +46,8 @@ double LargestOf(const std::vector<double>& numbers) {
   return largest;
 }
 
-// The largest difference, each entry over a scale of its own; a scale of zero
-// asks for zero.
+// Returns the largest relative difference, where each entry has its own scale.
+// Where the scale is zero, both entries must be equal.
 double Disagreement(const json& ours, const json& theirs,
                     const std::function<double(int, int)>& scale_of) {
   double largest = 0;
@@ -67,12 +68,13 @@ double Disagreement(const json& ours, const json& theirs,
 
 double BlockDisagreement(const json& ours, const json& theirs) {
   const double scale = LargestOf(Flatten(theirs));
-  // What is zero for them may be a rounding error of ours, in SI units.
+  // Where the reference is zero, our value may be a rounding error. It is then
+  // compared with 1e-3, in SI units.
   return Disagreement(ours, theirs,
                       [scale](int, int) { return scale > 0 ? scale : 1e-3; });
 }
 
-// The largest disagreement of a state.
+// Returns the largest relative difference in one state.
 double StateDisagreement(const json& ours, const json& theirs) {
   double largest = 0;
   for (const char* key : {"bias_h", "gravity_g", "tau_inverse_dynamics", "com",
@@ -108,7 +110,7 @@ double StateDisagreement(const json& ours, const json& theirs) {
   return std::max({largest, M, A_G});
 }
 
-// The largest disagreement over all states of a file.
+// Returns the largest relative difference over all states of a file.
 double FileDisagreement(const std::filesystem::path& oracle,
                         const std::filesystem::path& urdf) {
   const json theirs = Read(oracle);
@@ -133,7 +135,7 @@ TEST(DynamicsOracle, AgreesOnTheTreeOfTheRepository) {
             kAgreement);
 }
 
-TEST(DynamicsOracle, TellsAWrongNumber) {
+TEST(DynamicsOracle, DetectsWrongNumber) {
   json theirs = Read("tests/dynamics/tree01.json");
   const json ours =
       ComputeDynamics(LoadUrdf("tests/dynamics/tree01.urdf").tree, theirs, {});
@@ -146,7 +148,7 @@ TEST(DynamicsOracle, TellsAWrongNumber) {
 
 TEST(DynamicsOracle, AgreesOnAllRobots) {
   const auto oracle = SharedData("oracle"), robots = SharedData("robots");
-  if (!oracle || !robots) GTEST_SKIP() << "the shared oracles are not there";
+  if (!oracle || !robots) GTEST_SKIP() << "no oracle data in POISE_SHARED";
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(*oracle)) {
     if (entry.path().extension() != ".json") continue;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Both solvers against solved hierarchies from files.
+// Compares both solvers with reference solutions of hierarchies in files.
 
 #include <gtest/gtest.h>
 
@@ -35,8 +35,8 @@ std::vector<std::filesystem::path> Files(const std::filesystem::path& folder) {
   return files;
 }
 
-// Costs, residuals and y as accurate as the files are: to 1e-6; but our own
-// answer's certificate to 1e-9.
+// Compares costs, residuals and y to 1e-6, the accuracy of the files. The
+// certificate of our own solution must be at most 1e-9.
 void Compare(const HqpProblem& problem, const nlohmann::json& reference,
              const Solution& solution) {
   const Hierarchy& hierarchy = problem.hierarchy;
@@ -108,15 +108,16 @@ void CompareAll(const std::filesystem::path& folder) {
         EXPECT_EQ(solution.levels[level].nullity, nullity[level]);
       }
     }
-    EXPECT_EQ(solution.iterations, 1) << "The active set was right.";
+    EXPECT_EQ(solution.iterations, 1)
+        << "A warm start at the optimal active set needs one factorisation.";
   }
 }
 
-TEST(HqpFamilies, AreSolvedByBoth) { CompareAll("tests/hqp"); }
+TEST(HqpFamilies, AreSolvedByBothSolvers) { CompareAll("tests/hqp"); }
 
-TEST(HqpFamilies, FromOutsideAreSolvedByBoth) {
+TEST(HqpFamilies, SharedFilesAreSolvedByBothSolvers) {
   const auto folder = SharedData("hqp");
-  if (!folder) GTEST_SKIP() << "POISE_SHARED is not set.";
+  if (!folder) GTEST_SKIP() << "POISE_SHARED does not name a folder with hqp/";
   CompareAll(*folder);
 }
 

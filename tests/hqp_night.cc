@@ -1,7 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Draws hierarchies, compares the two solvers and the certificate, and writes
-// each failure, shrunk, as a file that //tools:hqp replays, or as some that it
-// replays in their order where only a solver that has solved others fails:
+// Draws random hierarchies and compares the fast solver, the cascade and the
+// certificate. Each failure is shrunk and written as a file that //tools:hqp
+// replays. If only a solver that has solved other hierarchies fails, the
+// failure is written as several files, which //tools:hqp replays in their
+// order.
 //   bazel run //tests:hqp_night -- --problems 100000 --seed 1 --out DIR
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -29,8 +31,8 @@ struct Night {
   RandomHierarchyOptions options;
 };
 
-// What a disagreement is about: its first words, without numbers. A failure
-// shrinks to one of its own kind.
+// Returns the kind of a disagreement: its first words, without numbers. A
+// failure is shrunk to a failure of the same kind.
 std::string Kind(const std::string& disagreement) {
   return disagreement.substr(0, disagreement.find_first_of("0123456789;"));
 }
@@ -44,9 +46,10 @@ std::string Write(const std::filesystem::path& path,
   return " " + path.string();
 }
 
-// What a new solver gets wrong as well is shrunk, and written, alone; else it is
-// with the ticks before it, in the order of their files, as the living solver's
-// history matters.
+// Shrinks and writes a failure. If a new solver also fails in the last tick,
+// that tick is written alone. Otherwise only the warm solver fails, which has
+// solved the ticks before, and these ticks are written as well, in the order of
+// their files.
 void Report(const Night& night, std::uint64_t seed,
             const std::string& disagreement, std::vector<HierarchyCase> ticks) {
   const size_t tick = ticks.size() - 1;
@@ -64,7 +67,7 @@ void Report(const Night& night, std::uint64_t seed,
   if (ticks.size() == 1) {
     files = Write(folder / (name + ".json"), ticks.front());
   } else {
-    // A budget as the living solver has it.
+    // The replay needs the same iteration limit as the warm solver.
     files = " --max-iterations " + std::to_string(Solver(1, {}).max_iterations);
     for (size_t t = 0; t < ticks.size(); ++t) {
       files +=
@@ -80,39 +83,46 @@ int Main(int argc, char** argv) {
   Night night;
   CLI::App app("Compares the two solvers on random hierarchies.", "hqp_night");
   app.option_defaults()->always_capture_default();
-  app.add_option("--problems", night.problems, "How many to draw");
-  app.add_option("--seed", night.seed, "Of the first; the next has the next");
-  app.add_option("--out", night.out, "The folder for failures");
-  app.add_option("--tolerance", night.tolerance, "0 makes all rounding fail");
-  app.add_option("--variables", night.options.max_variables, "At most");
-  app.add_option("--levels", night.options.max_levels, "At most");
+  app.add_option("--problems", night.problems, "Number of hierarchies to draw");
+  app.add_option("--seed", night.seed,
+                 "Seed of the first hierarchy; each further one adds 1");
+  app.add_option("--out", night.out, "Folder for the files of failures");
+  app.add_option(
+      "--tolerance", night.tolerance,
+      "Largest relative error; with 0 rounding errors count as failures");
+  app.add_option("--variables", night.options.max_variables,
+                 "Largest number of variables");
+  app.add_option("--levels", night.options.max_levels,
+                 "Largest number of levels");
   app.add_option("--equalities", night.options.max_equalities,
-                 "Of a level, at most");
+                 "Largest number of equality rows of a level");
   app.add_option("--inequalities", night.options.max_inequalities,
-                 "Of a level, at most");
+                 "Largest number of inequality rows of a level");
   app.add_option("--degenerate", night.options.degenerate,
-                 "Rows that are zero or depend on others, in percent");
+                 "Percentage of rows that are zero or depend on other rows");
   app.add_option("--planted", night.options.planted,
-                 "Rows that meet in one point, in percent");
+                 "Percentage of rows that meet in one point");
   app.add_option("--scaled", night.options.scaled,
-                 "Hierarchies of rows from 1e-3 to 1e6, in percent");
+                 "Percentage of hierarchies with rows scaled by 1e-3 to 1e6");
   app.add_option("--weighted", night.options.weighted,
-                 "Hierarchies with weights of many sizes, in percent");
+                 "Percentage of hierarchies with weights of many sizes");
   app.add_option("--decades", night.options.decades,
-                 "Those weights are from 1e-decades to 1e+decades");
+                 "The weights of --weighted are from 1e-decades to 1e+decades");
   app.add_option("--degenerate-vertex", night.options.degenerate_vertex,
-                 "Hierarchies whose bounds are all zero, in percent");
+                 "Percentage of hierarchies whose bounds are all zero");
   app.add_option(
       "--integer", night.options.integer,
-      "Hierarchies of small whole numbers whose rows meet where many "
-      "coordinates are 0, in percent");
+      "Percentage of hierarchies of small integers whose rows meet in a point "
+      "where many coordinates are 0");
   app.add_option(
       "--columns", night.options.columns,
-      "Hierarchies of variables in units from 1e-3 to 1e6, in percent");
-  app.add_option("--ticks", night.ticks,
-                 "Ticks of one solver, in which each hierarchy changes");
-  app.add_option("--selecting", night.options.selecting,
-                 "Hierarchies whose last levels select, in percent");
+      "Percentage of hierarchies with variables in units from 1e-3 to 1e6");
+  app.add_option(
+      "--ticks", night.ticks,
+      "Number of ticks that one solver solves while its hierarchy changes");
+  app.add_option(
+      "--selecting", night.options.selecting,
+      "Percentage of hierarchies whose last levels only select variables");
   ParseCommandLine(argc, argv, &app);
   std::uint64_t failures = 0;
   for (std::uint64_t i = 0; i < night.problems; ++i) {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Any hierarchy: two unlike solvers and the certificate agree, and the optimum
-// does not depend on what it must not depend on.
+// Properties of any hierarchy. Two independent solvers and the certificate
+// agree. Lower levels do not change the optimum of the levels above, nor does a
+// rotation of the variables change any cost.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -19,9 +20,9 @@
 namespace poise {
 namespace {
 
-constexpr double kCertified = 1e-9;  // What the solver promises.
+constexpr double kCertified = 1e-9;  // Largest allowed.
 
-// Shrinks to few variables, few levels, few rows.
+// Draws a random hierarchy, which shrinks to few variables, levels and rows.
 HierarchyCase DrawHierarchy(bool with_inequalities = true, int weighted = 0) {
   RandomHierarchyOptions options;
   options.max_variables = *rc::gen::inRange(1, 13);
@@ -57,8 +58,9 @@ void ExpectSameCosts(const HierarchyCase& drawn, const Solution& solution,
   }
 }
 
-// The levels of a hierarchy with y = Q z, the last ones left out, and the
-// targets of one of them moved.
+// Returns the first num_levels levels of a hierarchy in variables z, with
+//     y = Q z.
+// `by` is added to b of the level `moved`.
 HierarchyCase Transform(const HierarchyCase& drawn, const Eigen::MatrixXd& Q,
                         int num_levels, int moved = -1, double by = 0) {
   const Hierarchy& from = drawn.hierarchy;
@@ -94,9 +96,9 @@ RC_GTEST_PROP(AnyHierarchy, IsSolvedAlikeByTwoSolversAndCertified, ()) {
   ExpectSameCosts(drawn, solution, reference, drawn.hierarchy.num_levels());
 }
 
-// Ticks of one solver: each as certified, as close to the cascade, and as short
-// as a new solver's.
-RC_GTEST_PROP(AnyHierarchy, IsFollowedByALivingSolverAsItChanges, ()) {
+// One solver solves several ticks. Each solution is certified, agrees with the
+// cascade and has minimum norm, as a new solver's does.
+RC_GTEST_PROP(AnyHierarchy, IsSolvedByOneSolverWhileItChanges, ()) {
   HierarchyCase drawn = WithRoomToChange(DrawHierarchy());
   Solver living(drawn.hierarchy.num_variables(), drawn.capacity);
   for (int tick = 0; tick < 6; ++tick) {
@@ -105,7 +107,7 @@ RC_GTEST_PROP(AnyHierarchy, IsFollowedByALivingSolverAsItChanges, ()) {
   }
 }
 
-RC_GTEST_PROP(AnyHierarchy, KeepsItsUpperLevelsWithoutTheLowerOnes, ()) {
+RC_GTEST_PROP(AnyHierarchy, HasTheSameUpperCostsWithoutLowerLevels, ()) {
   const HierarchyCase drawn = DrawHierarchy();
   const int n = drawn.hierarchy.num_variables();
   const int num_levels = *rc::gen::inRange(1, drawn.hierarchy.num_levels() + 1);
@@ -127,8 +129,8 @@ RC_GTEST_PROP(AnyHierarchy, HasTheSameCostsInRotatedVariables, ()) {
                   num_levels);
 }
 
-// What holds y for a level: the equalities of the levels above it, and their
-// inequalities at work.
+// Returns the rows that constrain y for a level: the equalities of the levels
+// above it and their active inequalities.
 Eigen::MatrixXd RowsAbove(const Hierarchy& hierarchy, const Solution& solution,
                           int level) {
   std::vector<Eigen::VectorXd> rows;
@@ -146,7 +148,8 @@ Eigen::MatrixXd RowsAbove(const Hierarchy& hierarchy, const Solution& solution,
   return above;
 }
 
-// Twice the cost of a level at y, of the inequalities that `solution` violates.
+// Returns twice the cost of a level at y. Of the inequalities, only those that
+// `solution` violates count.
 double SumOfSquares(const Hierarchy& hierarchy, const Solution& solution,
                     int level, const Eigen::VectorXd& y) {
   const Eigen::VectorXd w = hierarchy.B(level) * y + hierarchy.b(level);
@@ -172,9 +175,11 @@ bool HasSameSides(const Hierarchy& hierarchy, const Solution& a,
   return true;
 }
 
-// The projection, by Ceres: where a level's targets go, no residual above it
-// follows, and along the nullspace of the rows above its cost is at rest.
-RC_GTEST_PROP(AnyHierarchy, HasLevelsThatKeepToTheNullspaceOfThoseAbove, ()) {
+// Checks the nullspace projection by numerical derivatives with Ceres. A change
+// of a level's targets must not change the residuals of the levels above. Along
+// the nullspace of the rows above, the level's cost must have zero gradient.
+RC_GTEST_PROP(AnyHierarchy, OptimisesEachLevelInTheNullspaceOfTheLevelsAbove,
+              ()) {
   const HierarchyCase drawn = DrawHierarchy(*rc::gen::element(false, true));
   const Hierarchy& hierarchy = drawn.hierarchy;
   const int n = hierarchy.num_variables();
@@ -191,7 +196,7 @@ RC_GTEST_PROP(AnyHierarchy, HasLevelsThatKeepToTheNullspaceOfThoseAbove, ()) {
   const Solution solution = solve(0);
   const Eigen::VectorXd y = solution.y;
   const Eigen::MatrixXd above = RowsAbove(hierarchy, solution, level);
-  // Between two targets with the same rows at work y is linear.
+  // While the active rows stay the same, y is a linear function of the targets.
   if (HasSameSides(hierarchy, solution, solve(kRiddersReach)) &&
       HasSameSides(hierarchy, solution, solve(-kRiddersReach))) {
     const Eigen::VectorXd rate =
@@ -209,8 +214,9 @@ RC_GTEST_PROP(AnyHierarchy, HasLevelsThatKeepToTheNullspaceOfThoseAbove, ()) {
   };
   const Eigen::MatrixXd gradient =
       RiddersJacobian(cost, Eigen::VectorXd::Zero(N.cols()));
-  // Of each row |row N| (|row y| + |its target|), that of an inequality both
-  // its value and its bound, which is that value less a slack.
+  // The scale of the gradient: each row contributes |row N| (|row y| +
+  // |target|). An inequality contributes both its value and its bound, which is
+  // the value less a slack; hence 2 C.
   const auto B = hierarchy.B(level), C = hierarchy.C(level);
   const double size =
       (1 + (B * N).norm() + (C * N).norm()) *

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// A minute of pushes, each tick of which the controller does over and over: a
-// million ticks, how long they take, and that none of them allocates.
+// Simulates a minute of pushes and replays its states 17 times: a million ticks
+// of the controller. The test prints the times of the ticks and checks that no
+// tick allocates memory.
 //   bazel test --config=opt --test_output=all //tests:million_ticks_test
 #include <gtest/gtest.h>
 
@@ -23,11 +24,12 @@ namespace {
 
 constexpr double kMinute = 60;        // s.
 constexpr double kBetweenPushes = 3;  // s.
-constexpr int kTimed = 5;             // Rounds, of which the fastest counts.
-constexpr int kRounds = 17;           // Of 60,000 ticks.
-constexpr double kFullTurns = 7;      // Of the pushes' directions.
+constexpr int kTimed = 5;             // Timed rounds; the fastest counts.
+constexpr int kRounds = 17;           // Each of 60,000 ticks.
+constexpr double kFullTurns = 7;      // Of the push direction, in the minute.
 
-// Pushed all around, by up to two thirds of what it can take.
+// Pushes from all directions, with up to two thirds of the force that the robot
+// can take.
 Scenario Pushes() {
   Scenario scenario = LoadScenario("sim/scenarios/stand.yaml");
   scenario.duration = kMinute;

@@ -29,12 +29,13 @@
 namespace poise {
 namespace {
 
-// Past the push of each scenario, and what follows at once.
+// Covers the push of each scenario and the reaction right after it.
 constexpr double kDuration = 1.3;  // s.
-// A shift of the weight, a foot's way up or down take less.
+// Longer than a weight shift, and than lifting or lowering a foot.
 constexpr double kStanceTime = 1.5;  // s.
 
-// The scenario in a short time: what it does with the feet follows at once.
+// Shortens a scenario: stance events follow each other every kStanceTime, and
+// pushes start at 1 s at the latest. Returns the new duration [s].
 double Hasten(Scenario* scenario) {
   double end = kDuration;
   for (size_t i = 1; i < scenario->stance.size(); ++i) {
@@ -45,7 +46,8 @@ double Hasten(Scenario* scenario) {
   return end;
 }
 
-// Lifts and puts down the feet that another stance begins to.
+// Starts to lift or lower each foot that `leader` has just started to lift or
+// lower.
 void Follow(const Stance& leader, const Scenario& scenario, Stance* stance) {
   for (int foot = 0; foot < 2; ++foot) {
     if (leader.phase(foot) == stance->phase(foot)) continue;
@@ -59,8 +61,9 @@ void Follow(const Stance& leader, const Scenario& scenario, Stance* stance) {
 
 class RealTimeTest : public testing::TestWithParam<std::string> {};
 
-// A second controller sees what the one in the loop sees, and is watched; so is
-// what estimates the base, of what a robot's sensors say.
+// A second controller runs on the same states as the one in the loop, and an
+// estimator runs on simulated sensors. Forbidden calls are counted while these
+// two update.
 TEST_P(RealTimeTest, TheControlLoopNeitherAllocatesNorThrowsNorLocksNorWrites) {
   const Robot robot = LoadHumanoid();
   Scenario scenario = LoadScenario(GetParam());
@@ -83,7 +86,7 @@ TEST_P(RealTimeTest, TheControlLoopNeitherAllocatesNorThrowsNorLocksNorWrites) {
     ASSERT_TRUE(controller.stack().Enable(task, true));
   }
 
-  std::set<ContactPhase> phases;  // Of the foot that is lifted.
+  std::set<ContactPhase> phases;  // Phases of the lifted foot.
   while (loop.time() < duration) {
     state = {truth.time, truth.q, truth.v};
     const Measurement& measurement = sensors.Measure(truth);
@@ -114,12 +117,12 @@ TEST_P(RealTimeTest, TheControlLoopNeitherAllocatesNorThrowsNorLocksNorWrites) {
 INSTANTIATE_TEST_SUITE_P(Scenarios, RealTimeTest,
                          testing::ValuesIn(ScenarioFiles()), ScenarioTestName);
 
-TEST(RealTime, HasAllScenariosToRun) {
+TEST(RealTime, FindsAllScenarioFiles) {
   EXPECT_EQ(ScenarioFiles().size(), kNumScenarios);
 }
 
-TEST(ForbiddenCalls, AreSeen) {
-  if (!ForbiddenCalls::IsSupported()) GTEST_SKIP() << "under a sanitizer";
+TEST(ForbiddenCalls, AreCounted) {
+  if (!ForbiddenCalls::IsSupported()) GTEST_SKIP() << "not under a sanitizer";
   const ForbiddenCalls forbidden;
   EXPECT_EQ(forbidden.throws() + forbidden.locks() + forbidden.writes(), 0);
   try {
@@ -129,9 +132,10 @@ TEST(ForbiddenCalls, AreSeen) {
   EXPECT_EQ(forbidden.throws(), 1);
 }
 
-// Each way to lock or write by itself: none hides behind another.
-TEST(ForbiddenCalls, AreSeenInEachWay) {
-  if (!ForbiddenCalls::IsSupported()) GTEST_SKIP() << "under a sanitizer";
+// Each locking or writing function is called alone, so that no counted function
+// hides another that is not counted.
+TEST(ForbiddenCalls, AreCountedForEachFunction) {
+  if (!ForbiddenCalls::IsSupported()) GTEST_SKIP() << "not under a sanitizer";
   std::mutex mutex;
   std::shared_mutex shared;
   int number = 7;
@@ -164,8 +168,8 @@ TEST(ForbiddenCalls, AreSeenInEachWay) {
   }
 }
 
-TEST(CountMalloc, SeesEachWay) {
-  if (!CountMalloc::IsSupported()) GTEST_SKIP() << "under a sanitizer";
+TEST(CountMalloc, CountsEachAllocationFunction) {
+  if (!CountMalloc::IsSupported()) GTEST_SKIP() << "not under a sanitizer";
   void* pointer = nullptr;
   const std::vector<std::function<void()>> ways = {
       [&] { pointer = std::malloc(8); },

@@ -17,11 +17,12 @@
 namespace poise {
 namespace {
 
-// The controller's problem before torques are eliminated by (10): variables
-//     x = [v̇ (n + 6); lambda (12); tau (n)],
-// all n + 6 rows of the dynamics in rank 1, and effort limits as bounds on tau.
-// It shares the tasks' other rows with the controller, but neither (9), (10)
-// nor the rows of torque limits.
+// The controller's problem before (10) eliminates the torques. Its variables
+// are
+//     x = [v̇ (n + 6); lambda (12); tau (n)].
+// All n + 6 rows of the dynamics are in priority level 1, and the effort limits
+// are bounds on tau. The rows of the other tasks are the controller's own, but
+// (9), (10) and the rows of the torque limits are not used.
 class UneliminatedProblem {
  public:
   explicit UneliminatedProblem(const Controller& controller);
@@ -34,10 +35,10 @@ class UneliminatedProblem {
   // M v̇ + N = S' tau + J' lambda.
   void AddDynamics();
 
-  // In rank 2, in the unit of the limit.
+  // Adds the limits to priority level 2, in units of the limit.
   void AddTorqueLimits();
 
-  // The rows of a task that does not know of tau.
+  // Adds the rows of a task that does not depend on tau.
   void AddTask(const Task& task, const TaskSettings& settings,
                const TaskInput& input);
 
@@ -135,14 +136,14 @@ class TorqueEliminationTest : public testing::Test {
 
   void MakeController() {
     controller_ = std::make_unique<Controller>(robot_);
-    // The input above knows of no correction, nor of a fall.
+    // The input in Solve() has no integral correction and no capture blend.
     (void)controller_->stack().SetParameter("momentum", "ki", 0);
     (void)controller_->stack().SetParameter("momentum", "ki_height", 0);
     (void)controller_->stack().SetParameter("momentum", "capture", 0);
     controller_->Start(state_);
   }
 
-  // With the other foot in the air, at once.
+  // Lifts the other foot within three ticks.
   void StandOn(int foot) {
     state_.v.setZero();
     MakeController();
@@ -168,8 +169,9 @@ class TorqueEliminationTest : public testing::Test {
 
     const Eigen::VectorXd& y = controller_->report().y;
     const int nv = tree().nv();
-    // As they stand, in rad/s2, m/s2, N and N m: rounding of 400 N, times the
-    // condition 1e4 of a force regularizer of weight 1e-2 beside the posture.
+    // Absolute tolerance, in rad/s2, m/s2, N and N m. It is the rounding error
+    // of 400 N times the condition number 1e4, which comes from a force
+    // regularizer of weight 1e-2 next to the posture.
     const auto expect_near = [](const Eigen::VectorXd& a,
                                 const Eigen::VectorXd& b, const char* what) {
       EXPECT_LT((a - b).lpNorm<Eigen::Infinity>(), 1e-9) << what;
@@ -189,9 +191,9 @@ class TorqueEliminationTest : public testing::Test {
   Command command_;
 };
 
-TEST_F(TorqueEliminationTest, StandingStill) { ExpectSameAnswer(); }
+TEST_F(TorqueEliminationTest, AgreesWhenStandingStill) { ExpectSameAnswer(); }
 
-TEST_F(TorqueEliminationTest, MovingInAnyPosture) {
+TEST_F(TorqueEliminationTest, AgreesWhenMovingInAnyPosture) {
   std::mt19937 draw(1);
   for (int i = 0; i < 3; ++i) {
     SCOPED_TRACE(i);
@@ -203,13 +205,13 @@ TEST_F(TorqueEliminationTest, MovingInAnyPosture) {
   }
 }
 
-TEST_F(TorqueEliminationTest, PushedSoThatInequalitiesAreActive) {
+TEST_F(TorqueEliminationTest, AgreesWithActiveInequalities) {
   state_.v[4] = 0.35;  // m/s, to the left: a strong push.
   ExpectSameAnswer();
   EXPECT_GT(num_active(), 0);
 }
 
-TEST_F(TorqueEliminationTest, OnOneLeg) {
+TEST_F(TorqueEliminationTest, AgreesOnOneLeg) {
   std::mt19937 draw(2);
   for (const int stance : {0, 1}) {
     for (const double speed : {0.0, 0.2}) {
@@ -225,7 +227,7 @@ TEST_F(TorqueEliminationTest, OnOneLeg) {
   }
 }
 
-TEST_F(TorqueEliminationTest, WithTorqueLimitsActive) {
+TEST_F(TorqueEliminationTest, AgreesWithActiveTorqueLimits) {
   for (JointLimits& limits : robot_.model.limits) limits.effort *= 0.3;
   MakeController();
   state_.v[4] = 0.25;

@@ -18,8 +18,8 @@
 namespace poise {
 namespace {
 
-// An entry goes through sine and cosine of three angles, and a product of
-// rotations.
+// The tolerance covers rounding: each entry is computed from sines and cosines
+// of three angles and from a product of rotations.
 bool IsNear(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).norm() <= Rounding(1 + b.norm(), 9);
 }
@@ -44,8 +44,8 @@ bool IsSame(const MimicCoupling& a, const MimicCoupling& b) {
          a.multiplier == b.multiplier && a.offset == b.offset;
 }
 
-// Names and numbers the same, frames and inertias to rounding: what first
-// differs, or nothing.
+// Describes the first difference of two models, or returns "". Names and
+// numbers must be equal; frames and inertias may differ by rounding errors.
 std::string Difference(const RobotModel& read, const RobotModel& written) {
   const Tree &a = read.tree, &b = written.tree;
   if (read.name != written.name) return "name";
@@ -81,14 +81,14 @@ std::string Difference(const RobotModel& read, const RobotModel& written) {
   return "";
 }
 
-// A link and the joint that it hangs on.
+// A link and the joint that connects it to its parent.
 struct LinkCase {
-  int back;  // Its parent is so many links before the last one.
+  int back;  // The parent is this many links before the last one.
   bool is_prismatic;
   Pose X_PF;
   Eigen::Vector3d axis;
   Inertia M;
-  Eigen::VectorXd numbers;  // Limits of any size, and of a coupling.
+  Eigen::VectorXd numbers;  // For limits and mimic coupling.
 };
 
 void showValue(const LinkCase& link, std::ostream& os) {
@@ -99,7 +99,8 @@ void showValue(const LinkCase& link, std::ostream& os) {
   os << " numbers " << link.numbers.transpose();
 }
 
-// They shrink to fewer links, and each to a simpler one.
+// Draws links. A failure shrinks to fewer links, and each link to a simpler
+// one.
 rc::Gen<std::vector<LinkCase>> Links() {
   const rc::Gen<LinkCase> link = rc::gen::map(
       rc::gen::tuple(rc::gen::inRange(0, 6), rc::gen::inRange(0, 5), Poses(),
@@ -109,12 +110,13 @@ rc::Gen<std::vector<LinkCase>> Links() {
         const auto& [back, kind, X_PF, axis, M, numbers] = x;
         return {back, kind == 4, X_PF, axis, M, numbers};
       });
-  // Up to 40 of them, each drawn as if it were the only one.
+  // Up to 40 links. The inner scale 2.5 cancels the outer 0.4, so that each
+  // link is drawn at full size.
   return rc::gen::scale(0.4, rc::gen::container<std::vector<LinkCase>>(
                                  rc::gen::scale(2.5, link)));
 }
 
-// The joints of even number mimic the first.
+// Makes the model. Joints 2, 4, 6, ... mimic joint 0.
 RobotModel MakeModel(const Inertia& base, const std::vector<LinkCase>& links) {
   const auto name = [](const char* what, int i) {
     return what + std::to_string(i);
@@ -140,7 +142,7 @@ RobotModel MakeModel(const Inertia& base, const std::vector<LinkCase>& links) {
   for (int i = 0; i < static_cast<int>(links.size()); ++i) {
     // The tree has its joints in another order than the links.
     const int j = *model.tree.FindJoint(name("joint", i + 1));
-    // A velocity limit of 0 would be taken as not known.
+    // The reader takes a velocity limit of 0 as unknown.
     Eigen::VectorXd x = links[i].numbers.cwiseAbs();
     x[2] = std::max(x[2], 1e-3);
     model.limits[j] = {-x[0], x[1], 10 * x[2], 100 * x[3], x[4], x[5]};
@@ -152,18 +154,18 @@ RobotModel MakeModel(const Inertia& base, const std::vector<LinkCase>& links) {
   return model;
 }
 
-RC_GTEST_PROP(UrdfRoundTrip, AnyTreeComesBack, ()) {
+RC_GTEST_PROP(UrdfRoundTrip, PreservesAnyTree, ()) {
   const RobotModel model = MakeModel(*Inertias(), *Links());
   RC_ASSERT(Difference(ParseUrdf(WriteUrdf(model), "written"), model) == "");
 }
 
-TEST(UrdfRoundTrip, TheHumanoidComesBackWithItsFrames) {
+TEST(UrdfRoundTrip, PreservesTheHumanoidAndItsFrames) {
   const RobotModel model = LoadUrdf("robot/models/humanoid.urdf");
   ASSERT_GT(model.tree.frames().size(), model.tree.inertias().size());
   EXPECT_EQ(Difference(ParseUrdf(WriteUrdf(model), "written"), model), "");
 }
 
-TEST(UrdfRoundTrip, NoticesAnotherModel) {
+TEST(UrdfRoundTrip, DetectsDifferentModels) {
   const Inertia M{1, {0.1, 0, 0}, Eigen::Matrix3d::Identity()};
   const Eigen::VectorXd numbers = Eigen::VectorXd::LinSpaced(6, 0.1, 0.6);
   std::vector<LinkCase> links(3, {0, false, Pose(), {0, 0, 1}, M, numbers});

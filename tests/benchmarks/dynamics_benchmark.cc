@@ -1,10 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What the dynamics of the 50-joint humanoid cost, beside MuJoCo, KDL and Bullet
-// in the same run; and how inverse dynamics grows with the number of bodies.
+// Measures the time of the 50-joint humanoid's dynamics, and of MuJoCo, KDL and
+// Bullet in the same run. Also measures how the time of inverse dynamics grows
+// with the number of bodies.
 //
 //     bazel run --config=native //tests/benchmarks:dynamics_benchmark
 //
-// prints the fastest time of each on one core, and the ratios.
+// prints the fastest time of each benchmark on one core, and the ratios.
 
 #include <benchmark/benchmark.h>
 #include <mujoco/mujoco.h>
@@ -38,7 +39,8 @@ using Eigen::Map;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Another one each round, so that nothing is learned by heart.
+// Each iteration uses another state, so that caches and branch prediction
+// cannot adapt to one.
 constexpr int kStates = 64;
 
 struct States {
@@ -113,18 +115,18 @@ void BM_Cmm(benchmark::State& state) {
   const Tree& tree = Humanoid();
   Recursion scratch(tree);
   MatrixXd M(tree.nv(), tree.nv());
-  const Vector6d c = Vector6d::Zero();  // And so without the bias.
+  const Vector6d c = Vector6d::Zero();  // Zero: without the bias.
   CentroidalMomentum out(tree);
   Run(state, tree, [&](const VectorXd& q, const VectorXd&) {
     ComputeCrba(tree, q, &scratch, M);
-    // The block of M that is the mass times Hat(p_BoG_W).
+    // This block of M is the mass times Hat(p_BoG_W).
     const Eigen::Vector3d p_BoG_W = Vee(M.block<3, 3>(0, 3)) / M(3, 3);
     ComputeCentroidalMomentum(M, c, p_BoG_W, &out);
   });
 }
 BENCHMARK(BM_Cmm);
 
-// As BM_Tick, but without feet: M, N, the momentum matrix and its bias.
+// Same as BM_Tick, but without feet: M, N, the momentum matrix and its bias.
 void BM_TickWithoutFeet(benchmark::State& state) {
   const Tree& tree = Humanoid();
   Tick tick(tree, {});
@@ -154,7 +156,7 @@ void BM_RneaDerivatives(benchmark::State& state) {
 }
 BENCHMARK(BM_RneaDerivatives);
 
-// Chains, stars and all between: the time per body should not grow.
+// Random trees of 10, 100 and 1000 joints. The time per body should not grow.
 void BM_RneaOfBodies(benchmark::State& state) {
   std::mt19937 draw(1);
   const Tree tree = MakeRandomTree(static_cast<int>(state.range(0)), &draw);
@@ -191,14 +193,14 @@ struct Mujoco {
   void Set(const VectorXd& q, const VectorXd& v) const {
     std::memcpy(data->qpos, q.data(), sizeof(double) * model->nq);
     std::memcpy(data->qvel, v.data(), sizeof(double) * model->nv);
-    std::swap(data->qpos[3], data->qpos[6]);  // Some unit quaternion.
+    std::swap(data->qpos[3], data->qpos[6]);  // Any unit quaternion will do.
   }
 
   mjModel* model;
   mjData* data;
 };
 
-// As BM_Tick, less H_G, its bias and J̇v.
+// Same as BM_Tick, but without H_G, its bias and J̇v.
 void BM_MujocoTick(benchmark::State& state) {
   const Mujoco mujoco;
   const mjModel* m = mujoco.model;
@@ -258,8 +260,8 @@ void BM_KdlRnea(benchmark::State& state) {
   KDL::TreeIdSolver_RNE solver(kdl, KDL::Vector(0, 0, -9.81));
   KDL::JntArray q_kdl(tree.nv()), v_kdl(tree.nv()), tau(tree.nv());
   Run(state, tree, [&](const VectorXd& q, const VectorXd& v) {
-    // Through maps: Eigen takes KDL's vectors to stand at multiples of 32 bytes
-    // with AVX, but KDL's library was built without.
+    // Writes through maps: with AVX, Eigen assumes that KDL's vectors are
+    // aligned to 32 bytes, but KDL's library was built without AVX.
     Map<VectorXd>(q_kdl.data.data(), tree.nv()) = q.tail(tree.nv());
     Map<VectorXd>(v_kdl.data.data(), tree.nv()) = v;
     solver.CartToJnt(q_kdl, v_kdl, v_kdl, {}, tau);
@@ -267,12 +269,13 @@ void BM_KdlRnea(benchmark::State& state) {
 }
 BENCHMARK(BM_KdlRnea);
 
-// Bullet's InverseDynamics, where it is installed. To set the state, which is
-// timed too, takes it a twentieth of the time.
+// Runs Bullet's InverseDynamics if it is installed. The time includes setting
+// the state, which is about a twentieth of it.
 template <typename Function>
 void RunBullet(benchmark::State& state, Function f) {
   if (!BulletTree::IsHere()) {
-    state.SkipWithError("not installed: run tools/setup.sh --baselines");
+    state.SkipWithError(
+        "Bullet is not installed: run tools/setup.sh --baselines");
     return;
   }
   const Tree& tree = Humanoid();
@@ -299,7 +302,7 @@ void BM_BulletSetState(benchmark::State& state) {
 }
 BENCHMARK(BM_BulletSetState);
 
-// The recursion of Bullet's own simulation.
+// The articulated-body algorithm of Bullet's own simulation.
 void BM_BulletAba(benchmark::State& state) {
   const Tree& tree = Humanoid();
   BulletBody bullet(tree);

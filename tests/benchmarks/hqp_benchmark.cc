@@ -1,14 +1,19 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// How long a tick's hierarchy takes to solve: each tick of recorded sequences,
-// beside the literal cascade in the same run.
+// Measures the time to solve a tick's hierarchy, for each tick of recorded
+// sequences. The literal cascade is measured in the same run.
 //   bazel run //tests/benchmarks:hqp_benchmark
-// A sequence is 0.4 s of our own simulation, from 50 ms before the push on. Its
-// arguments: the push in N; whether there are limits of torques and joints (100
-// rows each, as 50 and 50 with two sides); the share of the torque that there
-// is, in percent. Columns in us: of each tick the fastest of 5 repeats, of these
-// the median, p99 and worst; "raw", of all repeats. The rows that are active,
-// the factorisations, the worst certificate, and how many of how many ticks were
-// not solved; of cold solves every 4th tick, of the cascade every 20th.
+// A sequence is 0.4 s of our own simulation and begins 50 ms before the push.
+// It has three arguments:
+// - push: the force of the push, N.
+// - limits: whether torque and joint limits are on. Each has 50 two-sided rows,
+//   that is 100 inequalities.
+// - torque: the available share of the torque limits, percent.
+//
+// Times are in us. Each tick counts with the fastest of 5 repeats; median, p99
+// and worst are over the ticks. "raw" is over all repeats. Further columns are
+// the active rows, the factorisations, the worst certificate, the unsolved
+// ticks and all ticks. Cold solves are measured every 4th tick, the cascade
+// every 20th.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -30,9 +35,10 @@
 namespace poise {
 namespace {
 
-constexpr double kStart = 0.1, kLead = 0.05;  // s.
+// Start of the push, and recorded time before it, s.
+constexpr double kStart = 0.1, kLead = 0.05;
 
-// Set to less where only to see whether it runs.
+// Reduced by main() if --benchmark_min_time=0 only checks that all run.
 int repeats = 5;
 double end = 0.45;  // s.
 
@@ -80,7 +86,7 @@ const Sequence& Recorded(const benchmark::State& state) {
 
 using Solve = std::function<Status(const Hierarchy&, Solution*)>;
 
-// Goes through a sequence some times, each time with a new solver.
+// Solves a sequence `repeats` times, each time with a new solver.
 void Measure(const Sequence& sequence, int every,
              const std::function<Solve()>& make, benchmark::State* state) {
   using Clock = std::chrono::steady_clock;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What a robot's own program looks like: state in, torques out, no simulator.
+// A robot's own program: state in, torques out, no simulator.
 #include <iostream>
 #include <string>
 
@@ -8,7 +8,7 @@
 #include "poise/robot/control/task_set.h"
 #include "poise/robot/profile/profile.h"
 
-// Stands for the robot: fill in its encoders, gyroscope and base estimate.
+// A placeholder: read the robot's encoders, gyroscope and base estimate here.
 poise::State ReadSensors(const poise::Robot& robot, double time) {
   return {time, robot.q_nominal, Eigen::VectorXd::Zero(robot.model.tree.nv())};
 }
@@ -19,16 +19,16 @@ int main(int argc, char** argv) {
   const poise::Profile profile = poise::LoadProfile(yaml);
   const poise::Robot robot = poise::LoadRobot(urdf, profile);
 
-  poise::Controller controller(robot);  // All memory is taken here.
+  poise::Controller controller(robot);  // All memory is allocated here.
   if (profile.tasks.IsDefined()) {
     poise::ApplyTasks(profile.tasks, yaml, &controller.stack());
   }
   controller.Start(ReadSensors(robot, 0));
-  controller.reference().p_WG.z() -= 0.01;  // Go down by a centimeter.
+  controller.reference().p_WG.z() -= 0.01;  // Lower the center of mass by 1 cm.
 
   poise::Command command;
   command.tau.setZero(robot.model.tree.num_joints());
-  for (int tick = 1; tick <= 10; ++tick) {  // Every millisecond.
+  for (int tick = 1; tick <= 10; ++tick) {  // One tick per millisecond.
     controller.Update(ReadSensors(robot, 1e-3 * tick), &command);
     if (command.status != poise::TickStatus::kOk) return 1;
   }

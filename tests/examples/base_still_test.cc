@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// The example of docs/tasks.md: that it does what it says, and that the page
-// quotes what is built here.
+// Tests the example of docs/tasks.md: the task works, and the page quotes the
+// files that are built here.
 #include "poise/tests/examples/base_still.h"
 
 #include <gtest/gtest.h>
@@ -27,12 +27,12 @@ namespace {
 
 constexpr bool kOff = false;
 
-TEST_F(TaskTest, BaseStillBrakesWhatTurns) {
+TEST_F(TaskTest, BaseStillBrakesARotation) {
   const BaseStillTask task;
   Eigen::VectorXd y = RandomY();
   y.head<3>() = -10 * state_.v.head<3>();
   EXPECT_LT(Residual(task, y).norm(), 1e-12);
-  y.head<3>() *= -1;  // That would turn it ever faster.
+  y.head<3>() *= -1;  // This acceleration speeds it up.
   EXPECT_GT(Residual(task, y).norm(), 10 * state_.v.head<3>().norm());
 }
 
@@ -40,7 +40,7 @@ class BaseStillTest : public TaskTest {
  protected:
   BaseStillTest() : stack_(MakeDefaultStack(robot_, {})) {
     Stack& stack = stack_;
-    if (stack.Find("base_still")) return;  // Somebody has followed the page.
+    if (stack.Find("base_still")) return;  // Added by a reader of the page.
     stack.Add(std::make_unique<BaseStillTask>(), {kOff, 4, 1});
   }
 
@@ -54,12 +54,12 @@ class BaseStillTest : public TaskTest {
     return solution.y.head<3>();
   }
 
-  // Solved to 1e-9 of what is asked for, which is below 10 rad/s2.
+  // The solver's tolerance: 1e-9 of a target that is below 10 rad/s2.
   static constexpr double kSolved = 1e-8;
   Stack stack_;
 };
 
-TEST_F(BaseStillTest, IsSwitchedByNameBetweenTwoTicks) {
+TEST_F(BaseStillTest, IsEnabledByNameBetweenTwoTicks) {
   const Eigen::Vector3d wanted = -5 * state_.v.head<3>();
   EXPECT_GT((SolvedAcceleration() - wanted).norm(), 0.1);
   Stack& stack = stack_;
@@ -70,7 +70,7 @@ TEST_F(BaseStillTest, IsSwitchedByNameBetweenTwoTicks) {
   EXPECT_LT((SolvedAcceleration() - wanted).norm(), kSolved);
 }
 
-TEST_F(BaseStillTest, IsSwitchedByATaskSet) {
+TEST_F(BaseStillTest, IsEnabledByATaskSet) {
   ApplyTaskSet("tests/examples/base_still.yaml", &stack_);
   const Eigen::Vector3d wanted = -5 * state_.v.head<3>();
   EXPECT_LT((SolvedAcceleration() - wanted).norm(), kSolved);
@@ -113,9 +113,9 @@ std::string Unindented(const std::string& text) {
   return lines;
 }
 
-// What a reader copies compiles and does what it should, as it is built here:
-// but for where the files are, and how deep a line stands.
-TEST(TasksPage, QuotesWhatIsBuilt) {
+// Each code block of the page must be part of the files built here, so that
+// copied code compiles and works. Only folders and indentation may differ.
+TEST(TasksPage, QuotesTheBuiltFiles) {
   std::string built;
   for (const char* name : {"base_still.h", "base_still.cc", "base_still.yaml",
                            "base_still_test.cc", "BUILD"}) {

@@ -1,9 +1,10 @@
 #!/bin/bash
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-# Loads the example of the dynamics in a workspace of its own, runs it, and fails
-# unless energy and momentum stay and nothing above the dynamics is loaded. What
-# runs is built in this workspace: there, all of the dynamics would be compiled
-# once more, as with POISE_WHOLE_EXAMPLE=1, which .ci/run sets.
+# Loads the dynamics example in its own workspace and runs it. Fails if energy or
+# momentum change, or if the example loads a library above the dynamics. The
+# program that runs is built in this workspace, because the example's workspace
+# would compile all of the dynamics again. POISE_WHOLE_EXAMPLE=1, which .ci/run
+# sets, builds it there.
 set -euo pipefail
 
 simulate=$PWD/tests/examples/simulate
@@ -18,7 +19,7 @@ run_bazel() {
 }
 trap 'run_bazel shutdown > /dev/null 2>&1' EXIT
 
-# As quick to compile as the workspace around it, see its .bazelrc.
+# Compiles as quickly as the workspace around it, see its .bazelrc.
 quick=(--copt=-Og --copt=--param=ggc-min-heapsize=524288
   --strategy=CppCompile=local)
 build() {
@@ -29,20 +30,20 @@ if [ -n "${POISE_WHOLE_EXAMPLE:-}" ]; then
   simulate=bazel-bin/simulate
 else
   build --nobuild //:simulate
-  # That a library compiles from there.
+  # One library is enough to show that the workspace compiles.
   build @poise//math:so3
 fi
 loaded=$(ls "$(run_bazel info output_base 2> /dev/null)/external")
 if ! grep -qx poise <<< "$loaded" ||
     grep -xE 'urdfdom|bullet|ceres|mujoco|openssl|yaml_cpp' <<< "$loaded"; then
-  echo "the example should load poise and Eigen, but it loaded: $loaded"
+  echo "the example must load only poise and Eigen, but it loaded: $loaded"
   exit 1
 fi
 "$simulate" | tee output
 
-# The energies of each system must agree to a part in 1e4. The center of mass of
-# the chain falls: its second differences over 0.5 s are (0, 0, -9.81 / 4), but
-# for the last of three decimals.
+# The energies of each system must agree to 1e-4. The center of mass of the chain
+# falls freely: its second differences over 0.5 s are (0, 0, -9.81 / 4), up to
+# rounding in the third decimal.
 awk '
 function size(x) { return x < 0 ? -x : x }
 {
@@ -50,7 +51,7 @@ function size(x) { return x < 0 ? -x : x }
   if (!($1 in first)) first[$1] = energy
   drift = size(energy - first[$1])
   if (drift > 1e-4 * (size(first[$1]) + 10)) {
-    print $1 " drifts by " drift " J"; bad = 1
+    print $1 ": energy drifts by " drift " J"; bad = 1
   }
   rows++
 }
@@ -59,7 +60,7 @@ function size(x) { return x < 0 ? -x : x }
     x = $(9 + i)
     bend = x - 2 * last[i] + before[i] + (i == 2 ? 9.81 / 4 : 0)
     if (falling > 1 && size(bend) > 3e-3) {
-      print "the center of mass is off by " bend " m"; bad = 1
+      print "the center of mass misses free fall by " bend " m"; bad = 1
     }
     before[i] = last[i]; last[i] = x
   }

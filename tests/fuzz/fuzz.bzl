@@ -5,8 +5,8 @@ load("//tools/rules:cc.bzl", "poise_cc_test")
 def poise_fuzz_test(name, seeds, deps):
     """Tests <name>.cc, which defines LLVMFuzzerTestOneInput(), on its seeds.
 
-    As it is, the seeds are replayed, whole and with slips; with --config=fuzz
-    the same target is a fuzzer, which tools/quality/fuzz.sh runs.
+    By default the test replays the seeds, both intact and corrupted. With
+    --config=fuzz the same target is a fuzzer, which tools/quality/fuzz.sh runs.
     """
     poise_cc_test(
         name = name,

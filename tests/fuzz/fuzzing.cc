@@ -14,7 +14,7 @@ namespace poise {
 
 MemoryFile::MemoryFile(const std::uint8_t* data, std::size_t size)
     : descriptor_(memfd_create("fuzz", 0)) {
-  Require(descriptor_ >= 0, "a file in memory can be made");
+  Require(descriptor_ >= 0, "a file in memory can be created");
   while (size > 0) {
     const ssize_t written = write(descriptor_, data, size);
     Require(written > 0, "a file in memory can be written");
@@ -34,17 +34,18 @@ void ExpectReadsOrRefuses(const std::function<void()>& read) {
     read();
   } catch (const std::invalid_argument& refusal) {
     const std::string_view message = refusal.what();
-    Require(!message.empty(), "a refusal says why");
-    Require(message.find('\n') == message.npos, "a refusal is one line");
+    Require(!message.empty(), "the error message is not empty");
+    Require(message.find('\n') == message.npos,
+            "the error message is one line");
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "refused with: %s\n", error.what());
-    Require(false, "a refusal is a std::invalid_argument");
+    std::fprintf(stderr, "input rejected with: %s\n", error.what());
+    Require(false, "input is rejected with std::invalid_argument");
   }
 }
 
 void Require(bool holds, const char* what) {
   if (holds) return;
-  std::fprintf(stderr, "does not hold: %s\n", what);
+  std::fprintf(stderr, "requirement violated: %s\n", what);
   std::abort();
 }
 

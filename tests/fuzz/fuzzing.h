@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <functional>
 
-/// What each fuzzer defines. Aborts where something is wrong with the code
-/// under test, whatever the input.
+/// Each fuzzer defines this function. It aborts if the code under test does
+/// something wrong, for any input.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size);
 
 namespace poise {
 
-/// A file in memory, for readers that take a path.
+/// A file in memory, for readers that take a path. Aborts if it cannot be made.
 class MemoryFile {
  public:
   MemoryFile(const std::uint8_t* data, std::size_t size);
@@ -27,11 +27,12 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// Calls a reader. It may refuse its input by std::invalid_argument with one
-/// line that says something; aborts if it refuses in any other way.
+/// Calls a reader, which may reject its input with std::invalid_argument. The
+/// message must be one line and not empty. Aborts if the reader throws anything
+/// else.
 void ExpectReadsOrRefuses(const std::function<void()>& read);
 
-/// Aborts, and says what was to hold, if it does not.
+/// If `holds` is false, prints `what`, the requirement, and aborts.
 void Require(bool holds, const char* what);
 
 }  // namespace poise

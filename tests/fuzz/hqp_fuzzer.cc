@@ -9,7 +9,7 @@
 
 namespace {
 
-// Larger problems are read, not solved: a fuzzer is to try many.
+// Larger problems are only read, so that the fuzzer can try many inputs.
 bool IsSmall(const poise::Hierarchy& hierarchy) {
   int rows = 0;
   for (int k = 0; k < hierarchy.num_levels(); ++k) {
@@ -18,7 +18,7 @@ bool IsSmall(const poise::Hierarchy& hierarchy) {
   return hierarchy.num_variables() <= 20 && rows <= 60;
 }
 
-// Zeros, and absent bounds, are harmless.
+// Zeros and absent bounds are always allowed.
 bool AreModest(const Eigen::MatrixXd& numbers) {
   constexpr double kLarge = 1e30;
   const auto size = numbers.array().abs();
@@ -26,9 +26,10 @@ bool AreModest(const Eigen::MatrixXd& numbers) {
       .all();
 }
 
-// Whether no number is so large or small that a cost, in which it stands in the
-// third power, and by y as an inverse, may be beyond doubles. Where one is, the
-// solver has to say that it gave up, but what it has found by then may be NaN.
+// Returns whether all numbers are so moderate that no cost can overflow a
+// double. A cost contains numbers to the third power, and through y also their
+// inverses. If a number is too large or small, the solver must report the
+// iteration limit, but its y may be NaN.
 bool HasModestNumbers(const poise::Hierarchy& hierarchy) {
   for (int k = 0; k < hierarchy.num_levels(); ++k) {
     if (!AreModest(hierarchy.B(k)) || !AreModest(hierarchy.b(k)) ||
@@ -50,25 +51,25 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const poise::HqpProblem problem = poise::ReadHqp(text);
     const std::string written = poise::WriteHqp(problem.hierarchy);
     Require(poise::WriteHqp(poise::ReadHqp(written).hierarchy) == written,
-            "what is written reads as the same");
+            "a written problem reads back unchanged");
     if (!IsSmall(problem.hierarchy)) return;
     const int n = problem.hierarchy.num_variables();
     poise::Solution solution(n, problem.capacity);
     const Status status =
         poise::Solver(n, problem.capacity).Solve(problem.hierarchy, &solution);
-    Require(status == solution.status, "the status is in the solution");
-    // Bad input gives zeros.
+    Require(status == solution.status, "the solution has the returned status");
+    // For bad input the solver returns zeros.
     Require(solution.y.allFinite() || (status == Status::kIterationLimit &&
                                        !HasModestNumbers(problem.hierarchy)),
-            "an answer is finite");
+            "y is finite");
     const bool is_bad =
         status == Status::kNotFinite || status == Status::kBadInput;
-    // By a certifier of its own; of an answer that was cut off, the levels above
-    // that where it was.
+    // A separate certifier checks the solution. If the solver stopped early, it
+    // checks only the levels above the one where the solver stopped.
     Require(is_bad || poise::Certifier(n, problem.capacity)
                               .Certify(problem.hierarchy, solution)
                               .worst() <= poise::Certifier::kCertified,
-            "an answer is certified as far as it says");
+            "all levels that the solver reports as solved are certified");
   });
   return 0;
 }

@@ -15,7 +15,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       }
     }
   });
-  // A page is written so, whatever bytes a log holds.
+  // The report is written with this error handler, which accepts any bytes of a
+  // log.
   poise::ExpectReadsOrRefuses([&] {
     (void)poise::ReadRunLog(file.path())
         .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

@@ -8,10 +8,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const poise::Profile profile = poise::LoadProfile(file.path());
     poise::Require((!profile.base_xyz || profile.base_xyz->allFinite()) &&
                        profile.base_rpy.allFinite(),
-                   "the base is finite");
+                   "the pose of the base is finite");
     for (const poise::SoleProfile& sole : profile.feet) {
       for (const Eigen::Vector2d& corner : sole.sole_S) {
-        poise::Require(corner.allFinite(), "a sole is finite");
+        poise::Require(corner.allFinite(), "the corners of a sole are finite");
       }
     }
   });

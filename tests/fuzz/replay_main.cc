@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Runs a fuzzer without libFuzzer on the files that it is given: each whole,
-// cut short, and with a byte changed or left out.
+// Runs a fuzzer without libFuzzer on the given files. Each file is tried
+// intact, truncated, with a changed byte and with a removed byte.
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -13,7 +13,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::size_t kSlips = 40;  // Of each kind, spread over a file.
+constexpr std::size_t kSlips = 40;  // Faults of each kind, spread over a file.
 
 void Run(const Bytes& bytes) {
   LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
@@ -40,6 +40,6 @@ int main(int argc, char** argv) {
       Run(changed);
     }
   }
-  std::printf("%d seeds, each with slips\n", argc - 1);
+  std::printf("%d seeds tried, each intact and corrupted\n", argc - 1);
   return argc > 1 ? 0 : 1;
 }

@@ -8,7 +8,8 @@
 
 namespace {
 
-// A base with an arm of a hinge and a slide: what the seed names.
+// A base with an arm of one hinge and one slide, with the joint names of the
+// seed.
 poise::Tree MakeArm() {
   poise::Inertia M;
   M.mass = 2;
@@ -44,9 +45,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   poise::ExpectReadsOrRefuses([&] {
     const json result = poise::ComputeDynamics(tree, document, {});
     poise::Require(result["states"].size() == document["states"].size(),
-                   "each state has its dynamics");
+                   "the result has one entry per state");
     poise::Require(!poise::FormatDynamics(tree, result).empty(),
-                   "tables are made");
+                   "the tables are not empty");
     (void)result.dump(-1, ' ', false, json::error_handler_t::replace);
   });
   return 0;

@@ -20,14 +20,15 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       Require(limits.lower <= limits.upper, "limits are ordered");
     }
     for (const poise::Joint& joint : tree.joints()) {
-      Require(std::abs(joint.axis_F.norm() - 1) < 1e-9, "axes are unit");
+      Require(std::abs(joint.axis_F.norm() - 1) < 1e-9,
+              "joint axes are unit vectors");
     }
     for (const poise::Frame& frame : tree.frames()) {
       Require(frame.X_BF.R.allFinite() && frame.X_BF.p.allFinite(),
               "frames are finite");
     }
     for (const poise::Foot& foot : poise::FindFeet(model)) {
-      Require(foot.half_size.minCoeff() > 0, "a sole has an area");
+      Require(foot.half_size.minCoeff() > 0, "a sole has a positive area");
     }
   });
   return 0;

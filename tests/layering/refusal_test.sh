@@ -1,7 +1,8 @@
 #!/bin/bash
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-# Tries what the layers forbid, in a copy of the workspace with an output root
-# of its own, and fails unless the build refuses each and says why.
+# Tries forbidden dependencies between layers in a copy of the workspace with a
+# separate output root. Fails unless the build rejects each one with the expected
+# message.
 set -uo pipefail
 
 original=$(dirname "$(readlink -f WORKSPACE)")
@@ -17,23 +18,25 @@ run_bazel() {
     > "$TEST_TMPDIR/log" 2>&1
 }
 
-# Usage: attempt WHAT WANTED COMMAND...: the command must fail, and say WANTED.
+# Usage: attempt WHAT WANTED COMMAND...: COMMAND must fail with an output that
+# contains WANTED.
 attempt() {
   local what=$1 wanted=$2
   shift 2
   if run_bazel "$@"; then
-    echo "NOT REFUSED: $what"
+    echo "NOT REJECTED: $what"
     failures=$((failures + 1))
   elif ! grep -q "$wanted" "$TEST_TMPDIR/log"; then
-    echo "refused for another reason than '$wanted': $what"
+    echo "rejected, but without the message '$wanted': $what"
     tail -n 20 "$TEST_TMPDIR/log"
     failures=$((failures + 1))
   else
-    echo "refused: $what"
+    echo "rejected: $what"
   fi
 }
 
-# Usage: add PACKAGE NAME INCLUDE [DEP]: a library of one header, before lint.
+# Usage: add PACKAGE NAME INCLUDE [DEP]: adds a library of one header to a
+# package.
 add() {
   printf '#pragma once\n\n#include %s\n' "$3" > "$1/$2.h"
   printf '#include "poise/%s/%s.h"\n' "$1" "$2" > "$1/$2.cc"
@@ -51,7 +54,7 @@ RULE
     r $TEST_TMPDIR/rule
     N
   }" "$1/BUILD"
-  # What reads existing rules must stay the last line.
+  # lint_test() reads the existing rules, so it must stay the last line.
   sed -i '/^lint_test()/d' "$1/BUILD"
   echo 'lint_test()' >> "$1/BUILD"
 }
@@ -61,10 +64,10 @@ remove() {
   cp "$original/$1/BUILD" "$1/BUILD"
 }
 
-# What is allowed builds here, or a refusal would mean nothing.
+# An allowed dependency must build here, or the rejections would prove nothing.
 add dynamics downward '"poise/math/so3.h"' //math:so3
 if ! run_bazel build //dynamics:downward; then
-  echo "a downward dependency does not build:"
+  echo "a downward dependency must build, but it does not:"
   tail -n 20 "$TEST_TMPDIR/log"
   exit 1
 fi

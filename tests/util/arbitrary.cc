@@ -11,12 +11,13 @@
 namespace poise {
 namespace {
 
-// 0, -1, 1, -2, ...: inRange() shrinks to its lower end.
+// Maps 0, 1, 2, 3, ... to 0, -1, 1, -2, ... so that numbers shrink to 0:
+// inRange() shrinks to its lower end.
 double Unfold(int folded) {
   return folded % 2 == 0 ? folded / 2 : -(folded + 1) / 2;
 }
 
-// [1 2 3]
+// Prints a vector as [1 2 3].
 void Print(const Eigen::VectorXd& x, std::ostream& os) {
   os << '[' << x.transpose() << ']';
 }
@@ -94,8 +95,9 @@ rc::Gen<SpatialForce> Forces() {
 }
 
 rc::Gen<Inertia> Inertias() {
-  // Second moments of the mass, s >= 0 in each of three directions, give the
-  // principal moments s_y + s_z, ...: just those that a body can have.
+  // Second moments s >= 0 of the mass in three directions give the principal
+  // moments s_y + s_z, s_z + s_x and s_x + s_y. These are exactly the moments
+  // that a body can have.
   return rc::gen::map(
       rc::gen::tuple(
           rc::gen::inRange(1, 1001), Vectors(),

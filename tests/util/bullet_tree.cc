@@ -13,8 +13,8 @@
 #include <LinearMath/btMatrix3x3.h>
 #include <LinearMath/btMatrixX.h>
 
-// What we call of libBulletInverseDynamics-float64.so.3.24: Debian has the
-// library, but not its headers.
+// Declares the part of libBulletInverseDynamics-float64.so.3.24 that we call:
+// Debian has the library, but not its headers.
 namespace btInverseDynamicsBullet3 {
 
 struct vec3 : btVector3 {
@@ -48,7 +48,7 @@ class MultiBodyTree {
   int calculateMassMatrix(const vecx& q, matxx* M);
 
  private:
-  // Three flags and two pointers, and room to spare.
+  // Bullet has three flags and two pointers here; the rest is reserve.
   alignas(16) unsigned char members_[64];
 };
 
@@ -78,8 +78,8 @@ void Check(int error, const char* what) {
 
 }  // namespace
 
-// Of a floating base Bullet's entries of q are the angles of R_WB = R_x R_y R_z
-// and p_WB, those of u the angular and the linear velocity in the base's axes.
+// For a floating base, Bullet's q holds the angles of R_WB = R_x R_y R_z and
+// p_WB. Its u holds the angular and the linear velocity in the base's axes.
 struct BulletTree::Bullet {
   explicit Bullet(const Tree& t)
       : tree(t),
@@ -95,7 +95,8 @@ struct BulletTree::Bullet {
   id::matxx inertia;
   Matrix3d R_WB = Matrix3d::Identity();
 
-  // The rows of a floating base, which Bullet has in its axes, in the world's.
+  // Converts the rows of a floating base from the base's axes, which Bullet
+  // uses, to the world's axes.
   MatrixXd ToOurAxes(MatrixXd rows) const {
     if (tree.is_floating()) {
       rows.topRows<3>() = (R_WB * rows.topRows<3>()).eval();
@@ -213,7 +214,7 @@ BulletTree::BulletTree(const Tree&) {
 }
 BulletTree::~BulletTree() = default;
 
-// Nobody has one to call these of.
+// These are never called, because the constructor throws.
 void BulletTree::Set(const Eigen::VectorXd&, const Eigen::VectorXd&,
                      const Eigen::VectorXd&, const std::vector<SpatialForce>&) {
 }

@@ -10,24 +10,26 @@
 
 namespace poise {
 
-/// A tree as Bullet's InverseDynamics has it, for comparison. Motions and forces
-/// are ours: see Tree and ComputeRnea(). Armatures are left out.
+/// A tree in Bullet's InverseDynamics, for comparison. Motions and forces are
+/// in Poise's conventions: see Tree and ComputeRnea(). Armatures are left out.
 class BulletTree {
  public:
-  /// Whether Debian's libbullet-extras-dev was there when this was built: only
-  /// then can one be made. tools/setup.sh --baselines installs it.
+  /// Returns whether Debian's libbullet-extras-dev was installed at build time.
+  /// If not, the constructor throws. tools/setup.sh --baselines installs it.
   static bool IsHere();
 
-  /// Throws std::runtime_error if IsHere() is false, or Bullet refuses the tree.
+  /// Throws std::runtime_error if IsHere() is false or Bullet rejects the tree.
   explicit BulletTree(const Tree& tree);
   ~BulletTree();
 
-  /// What the next computation is of. F_Bo_W is by body, or empty for none.
+  /// Sets the motion for the next computation. F_Bo_W has one force per body,
+  /// or is empty if there are no forces.
   void Set(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
            const Eigen::VectorXd& vdot,
            const std::vector<SpatialForce>& F_Bo_W);
 
-  /// These two are Bullet's work alone; the results are theirs to be asked for.
+  /// These two call only Bullet, so that a benchmark measures only Bullet.
+  /// tau() and M() return their results.
   void ComputeInverseDynamics();
   void ComputeMassMatrix();
 

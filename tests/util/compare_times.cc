@@ -22,7 +22,8 @@ class FastestReporter : public benchmark::BenchmarkReporter {
                               ? 1e9 * run.cpu_accumulated_time /
                                     static_cast<double>(run.iterations)
                               : 1e9 / items->second;
-      // Without what the flags add, as "/repeats:9" or "/min_time:0.100".
+      // The name without the suffixes that flags add, such as "/repeats:9" or
+      // "/min_time:0.100".
       std::string name = run.run_name.function_name;
       if (!run.run_name.args.empty()) name += "/" + run.run_name.args;
       const auto known = times_.emplace(name, time).first;
@@ -51,7 +52,8 @@ class FastestReporter : public benchmark::BenchmarkReporter {
 
 int CompareTimes(int argc, char** argv,
                  const std::vector<Comparison>& comparisons) {
-  // The last of two flags of one name counts.
+  // The user's flags come last and override these: of two equal flags Google
+  // Benchmark uses the last.
   std::string repetitions = "--benchmark_repetitions=9";
   std::string interleaving = "--benchmark_enable_random_interleaving=true";
   std::vector<char*> flags(argv, argv + argc);

@@ -6,18 +6,18 @@
 
 namespace poise {
 
-/// Two benchmarks of one run, and so that ours / theirs is a ratio to quote.
+/// Two benchmarks of one run whose ratio of times, ours / theirs, is printed.
 struct Comparison {
   std::string ours;
   std::string theirs;
 };
 
-/// The main() of a benchmark that compares: runs the benchmarks that argv asks
-/// for, nine times in random order unless it says otherwise, and prints the
-/// fastest time of each, then the ratios. Where a benchmark says how many items
-/// it processes, times are per item.
+/// Main function of a benchmark that compares. Runs the benchmarks that argv
+/// selects, by default nine times in random order. Prints the fastest time of
+/// each, then the ratios. If a benchmark reports processed items, its time is
+/// per item.
 ///
-/// 0, or 1 where argv has an option that Google Benchmark does not know.
+/// Returns 0, or 1 if argv has an option that Google Benchmark does not know.
 int CompareTimes(int argc, char** argv,
                  const std::vector<Comparison>& comparisons);
 

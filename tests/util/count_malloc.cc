@@ -40,7 +40,8 @@ void Count() {
 }  // namespace
 }  // namespace poise
 
-// Replaces glibc's, which keeps its own under these names.
+// These functions replace glibc's, which stay available under the names
+// __libc_*.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);

@@ -3,7 +3,7 @@
 
 namespace poise {
 
-/// Counts the heap allocations of this thread while it lives.
+/// Counts the heap allocations of this thread during the object's lifetime.
 ///
 ///     CountMalloc count;
 ///     Control(...);  // No allocation allowed from here ...
@@ -19,7 +19,7 @@ class CountMalloc {
 
   int allocations() const;
 
-  /// Whether allocations are seen in this build.
+  /// Returns whether this build can count allocations.
   static bool IsSupported();
 };
 

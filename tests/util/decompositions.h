@@ -3,11 +3,12 @@
 
 #include <Eigen/Core>
 
-/// Eigen's decompositions, as oracles: the textbook's algorithms, and not ours.
-/// Each takes seconds to compile, so it is compiled here, once for all tests.
+/// Eigen's decompositions of matrices, as references for tests that are
+/// independent of Poise's own. Each takes seconds to compile, so all tests
+/// share this library.
 namespace poise {
 
-/// The eigenvalues of a symmetric matrix, ascending.
+/// Returns the eigenvalues of a symmetric matrix in ascending order.
 Eigen::VectorXd Eigenvalues(const Eigen::MatrixXd& A);
 
 /// A = U diag(sigma) V', with U and V square and sigma descending.
@@ -19,8 +20,8 @@ struct JacobiSvd {
   Eigen::MatrixXd V;
 };
 
-/// The shortest of all x that make |A x - b| least, by a complete orthogonal
-/// decomposition; and the rank that it gave A.
+/// The x of minimum norm that minimises |A x - b|, by a complete orthogonal
+/// decomposition, and the rank of A that it finds.
 struct LeastSquaresSolution {
   LeastSquaresSolution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 

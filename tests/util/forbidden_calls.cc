@@ -1,7 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tests/util/forbidden_calls.h"
 
-// Else these would be replaced by others while they are defined here.
+// With _FORTIFY_SOURCE, the headers would replace functions that this file
+// defines.
 #undef _FORTIFY_SOURCE
 
 #include <dlfcn.h>
@@ -50,7 +51,7 @@ bool ForbiddenCalls::IsSupported() { return true; }
 
 namespace {
 
-// The function of this name that this file's stands in front of.
+// Returns the original function that a function of this file replaces.
 template <typename Function>
 Function* Next(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
@@ -69,7 +70,7 @@ extern "C" {
   __builtin_unreachable();
 }
 
-// Of C's functions, by how they are declared.
+// Defines a C function that counts its calls and then calls the original.
 #define POISE_COUNT(counter, result, name, parameters, arguments)    \
   result name parameters {                                           \
     if (poise::g_counting) ++poise::counter;                         \

@@ -3,12 +3,14 @@
 
 namespace poise {
 
-/// Counts what a control loop must not do, in this thread, while it lives:
-/// throw (also if it is caught), lock (a mutex or other lock, also by trying, or
-/// wait), write to a file or terminal, by the system's call or by stdio, as
-/// streams do. For allocations there is CountMalloc.
+/// Counts calls of this thread that a control loop must not make, during the
+/// object's lifetime:
+/// - throw, also if the exception is caught;
+/// - lock a mutex or other lock, also by a try or a wait;
+/// - write to a file or terminal, by system call or by stdio (streams use it).
 ///
-/// Under a sanitizer, which has its own of these functions, nothing is seen.
+/// CountMalloc counts allocations. Under a sanitizer, which replaces these
+/// functions by its own, all counts stay 0.
 class ForbiddenCalls {
  public:
   ForbiddenCalls();
@@ -20,7 +22,7 @@ class ForbiddenCalls {
   int locks() const;
   int writes() const;
 
-  /// Whether calls are seen in this build.
+  /// Returns whether this build can count calls.
   static bool IsSupported();
 };
 

@@ -8,14 +8,15 @@
 
 namespace poise {
 
-/// lower <= row y <= upper on a level, or row y = lower where both are one: a
-/// hierarchy written down row by row.
+/// One row of a hierarchy: lower <= row y <= upper on a level, or row y = lower
+/// if both bounds are equal.
 struct RowByHand {
   int level;
   std::vector<double> row;
   double lower, upper;
 };
 
+/// A hierarchy that a test writes down row by row.
 struct HierarchyByHand {
   HierarchyByHand(int num_variables, const std::vector<RowByHand>& rows);
 

@@ -11,8 +11,8 @@ KDL::Vector ToKdl(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 KDL::RigidBodyInertia ToKdl(const Inertia& M) {
   const Eigen::Matrix3d& I = M.I_G_B;
-  // Its inertia is about the origin of the frame, the center of mass's shift
-  // added.
+  // KDL's inertia is about the origin of the frame: the product with a frame
+  // shifts it there from the center of mass.
   const KDL::RigidBodyInertia about_G(
       M.mass, KDL::Vector::Zero(),
       KDL::RotationalInertia(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2),
@@ -63,7 +63,7 @@ KDL::Tree MakeKdlTree(const Tree& tree) {
     if (!kdl.addSegment(KDL::Segment(KdlBodyName(j + 1), moving, X_PF,
                                      ToKdl(tree.inertias()[j + 1])),
                         KdlBodyName(joint.parent))) {
-      throw std::runtime_error("KDL refuses joint " + joint.name);
+      throw std::runtime_error("KDL rejects joint " + joint.name);
     }
   }
   return kdl;

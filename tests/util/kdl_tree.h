@@ -10,17 +10,16 @@
 
 namespace poise {
 
-/// A tree as Orocos KDL's, for comparison. A floating base hangs on three
-/// prismatic joints along the world's axes and three revolute ones, about x, y
-/// and z in this order; KDL's joint 0 is the first of them, and the others
-/// follow as in the tree. The root of KDL's tree carries no inertia, so a fixed
-/// base hangs on a fixed joint.
+/// Converts a tree to Orocos KDL, for comparison. A floating base hangs on
+/// three prismatic joints along the world's axes and three revolute ones about
+/// x, y and z, in this order. KDL's joint 0 is the first of these six. The root
+/// of KDL's tree has no inertia, so a fixed base hangs on a fixed joint.
 KDL::Tree MakeKdlTree(const Tree& tree);
 
-/// The name of a body's segment there.
+/// Returns the name of a body's segment in KDL's tree.
 std::string KdlBodyName(int body);
 
-/// KDL's number of each joint of the tree, in the tree's order.
+/// Returns KDL's index of each joint, in the tree's order of joints.
 std::vector<int> KdlJoints(const Tree& tree, const KDL::Tree& kdl);
 
 }  // namespace poise

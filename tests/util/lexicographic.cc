@@ -9,8 +9,9 @@
 namespace poise {
 namespace {
 
-// Far above the rounding of a row that depends on others, far below any that
-// MakeRandomLevels() draws.
+// Singular values below this are zero. It is far above the rounding error of
+// dependent rows, and far below the singular values of the independent rows
+// that MakeRandomLevels() draws.
 constexpr double kRankThreshold = 1e-9;
 
 }  // namespace

@@ -14,22 +14,23 @@ struct LeastSquares {
   Eigen::VectorXd weight;
 };
 
-/// The shortest y that minimises the levels, one after the other.
+/// The minimum-norm y that minimises the levels in order of priority.
 struct LexicographicOptimum {
   Eigen::VectorXd y;
-  std::vector<int> rank;  ///< Of all rows down to each level.
-  /// Of the worst level: y is as exact as its square times eps.
+  std::vector<int> rank;  ///< Rank of all rows up to each level.
+  /// Condition number of the worst level. The relative error of y is about its
+  /// square times eps.
   double condition = 1;
 };
 
-/// An oracle by textbook: each level's singular value decomposition in the
-/// nullspace of those before.
+/// Solves the levels by the textbook method, as a reference: a singular value
+/// decomposition of each level in the nullspace of the levels before.
 LexicographicOptimum SolveLexicographically(
     int num_variables, const std::vector<LeastSquares>& levels);
 
-/// Draws up to 4 levels of up to 6 rows of unit length in up to 9 variables; of
-/// three rows, about one is a combination of rows before. The same from the same
-/// seed everywhere.
+/// Draws up to 4 levels of up to 6 rows of unit length in up to 9 variables.
+/// About one row in three is a combination of earlier rows. The same seed gives
+/// the same levels on every platform.
 std::vector<LeastSquares> MakeRandomLevels(std::uint64_t seed);
 
 }  // namespace poise

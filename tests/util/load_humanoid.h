@@ -5,7 +5,7 @@
 
 namespace poise {
 
-/// Our humanoid, with its profile.
+/// Loads Poise's humanoid with its profile.
 Robot LoadHumanoid();
 
 }  // namespace poise

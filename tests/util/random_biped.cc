@@ -19,7 +19,8 @@ class BipedMaker {
   Robot Make();
 
  private:
-  // A box of a share of the mass, with half sides, about its center.
+  // Returns the inertia of a box about its center. `share` is its part of the
+  // total mass; `half` are its half side lengths, m.
   Inertia Box(double share, const Eigen::Vector3d& half);
 
   void AddJoint(const std::string& name, const std::string& parent,
@@ -32,8 +33,9 @@ class BipedMaker {
 
   Foot MakeFoot(const Robot& robot, const std::string& side);
 
-  // Soles flat on the ground, as the angles of a leg add up to zero; the ankles
-  // below the hips, by the sine rule.
+  // Returns the nominal posture. The pitch angles of each leg add up to zero,
+  // so the soles are flat on the ground. By the sine rule the ankles are below
+  // the hips.
   Eigen::VectorXd Stand(const Tree& tree);
 
   BipedCase from_;

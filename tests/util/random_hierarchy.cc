@@ -8,12 +8,13 @@
 namespace poise {
 namespace {
 
-// SplitMix64: the standard's distributions differ between libraries.
+// SplitMix64: unlike the standard's distributions, it gives the same numbers
+// with every standard library.
 class Source {
  public:
   explicit Source(std::uint64_t seed) : state_(seed) {}
 
-  int Between(int low, int high) {  // Both included.
+  int Between(int low, int high) {  // Both ends included.
     return low + static_cast<int>(Next() % (high - low + 1));
   }
   bool Chance(int percent) { return Between(0, 99) < percent; }
@@ -54,7 +55,8 @@ class Drawing {
     return std::pow(10.0, source_.Between(low, high));
   }
 
-  // Of a bound that does not meet the others. Whole numbers stay such.
+  // Scale of a target or bound that does not pass through the common point. For
+  // a nonzero row of integers the scale is an integer, too.
   double Scale(const Eigen::VectorXd& row) const {
     return std::max(row.cwiseAbs().maxCoeff(), 1e-3);
   }
@@ -66,7 +68,7 @@ class Drawing {
   bool scaled_ = false, degenerate_vertex_ = false, weighted_ = false,
        integer_ = false;
   Eigen::VectorXd planted_;
-  Eigen::VectorXd columns_;  // What each variable's unit is worth.
+  Eigen::VectorXd columns_;  // Unit of each variable.
   std::vector<Eigen::VectorXd> rows_;
 };
 
@@ -197,7 +199,7 @@ Eigen::VectorXd Drawing::Row() {
   return row;
 }
 
-// The rows of one level, to be changed at will.
+// The rows of one level, which can be changed.
 struct LevelRows {
   RowMajorMatrix B, C;
   Eigen::VectorXd b, weight, lower, upper;
@@ -231,7 +233,8 @@ void Put(const std::vector<LevelRows>& levels, Hierarchy* hierarchy) {
   }
 }
 
-// One row turns, or gets a copy of another, or nearly.
+// Changes one entry of a row, or makes the row a copy of another row, exactly
+// or nearly.
 void ChangeRow(Source* source, const std::vector<LevelRows>& levels,
                RowMajorMatrix* rows) {
   if (rows->rows() == 0) return;
@@ -251,7 +254,7 @@ void ChangeRow(Source* source, const std::vector<LevelRows>& levels,
         from.row(source->Between(0, static_cast<int>(from.rows()) - 1));
 }
 
-// One of the bounds comes or goes, or both meet.
+// Adds or removes a bound of an inequality, or makes both bounds equal.
 void ChangeBounds(Source* source, LevelRows* level) {
   if (level->C.rows() == 0) return;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

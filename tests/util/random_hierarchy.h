@@ -9,72 +9,80 @@
 
 namespace poise {
 
-/// What a random hierarchy is drawn from.
+/// Options of a random hierarchy. Chances are in percent.
 struct RandomHierarchyOptions {
   int max_variables = 12;
   int max_levels = 5;
-  int max_equalities = 6;    ///< A level.
-  int max_inequalities = 8;  ///< A level.
+  int max_equalities = 6;    ///< Per level.
+  int max_inequalities = 8;  ///< Per level.
 
-  /// Chance, in percent, that a row is not drawn afresh but is a row of zeros, a
-  /// copy of one before, scaled or combined with another: of its own level or
-  /// of one above, met with it or in conflict.
+  /// Chance that a row is degenerate: a row of zeros, a row that selects one
+  /// variable, or an earlier row, copied, scaled or combined with another. The
+  /// earlier row is on the same level or on one above, and compatible or in
+  /// conflict.
   int degenerate = 25;
 
-  /// Chance that the bound of a row is where a certain y is: many rows then
-  /// meet in one point.
+  /// Chance that the bound of a row passes through one common point: many rows
+  /// then meet in that point.
   int planted = 30;
 
   /// Chance that a hierarchy has rows of scales from 1e-3 to 1e6.
   int scaled = 20;
 
-  /// Chance that a hierarchy has weights from 1e-decades to 1e+decades, side by
-  /// side.
+  /// Chance that a hierarchy mixes weights from 1e-decades to 1e+decades.
   int weighted = 0;
   int decades = 4;
 
   /// Chance that the last levels only select variables.
   int selecting = 50;
 
-  /// Chance that all bounds are zero, as at the degenerate_vertex of friction cones: mostly no
-  /// y but zero is left then, whatever is asked for.
+  /// Chance that all bounds are zero, as at the degenerate vertex of friction
+  /// cones. In most of these hierarchies only y = 0 satisfies the bounds,
+  /// whatever the targets.
   int degenerate_vertex = 0;
 
-  /// Chance that a hierarchy has rows of small whole numbers, most of which meet
-  /// in a point of whole numbers, about half of them 0. There nothing is rounded: what
-  /// depends on others does so exactly, and where y is 0 nothing tells how large
-  /// its rounding may be.
+  /// Chance that a hierarchy has rows of small integers. Most of these rows
+  /// meet in a point of integers, about half of which are 0. There nothing is
+  /// rounded: dependent rows depend exactly. Where y is 0, nothing shows how
+  /// large its rounding error may be.
   int integer = 0;
 
-  /// Chance that each variable has a unit of its own: columns are scaled by
-  /// powers of ten from 1e-3 to 1e6.
+  /// Chance that each variable has its own unit: columns are scaled by powers
+  /// of ten from 1e-3 to 1e6.
   int columns = 0;
 };
 
-/// A hierarchy and the sizes to solve it with.
+/// A hierarchy and the capacity of the solver that solves it.
 struct HierarchyCase {
   std::vector<LevelCapacity> capacity;
   Hierarchy hierarchy;
 };
 
-/// Draws one; the same from the same seed everywhere. Numbers are whole
-/// hundredths, so that files of it are short. What an option of 0 leaves out
-/// draws nothing: with it at 0 a seed gives what it gave before there was one.
+/// Draws a hierarchy. The same seed gives the same hierarchy on every platform.
+/// Numbers are multiples of 0.01, so that files are short. The options
+/// `weighted`, `degenerate_vertex`, `integer` and `columns` consume no random
+/// number if they are 0: hierarchies of known seeds do not change.
 HierarchyCase MakeRandomHierarchy(std::uint64_t seed,
                                   const RandomHierarchyOptions& options = {});
 
-/// The same hierarchy with room for what ChangeHierarchy() makes of it.
+/// Returns the same hierarchy with capacity for the changes of
+/// ChangeHierarchy().
 HierarchyCase WithRoomToChange(const HierarchyCase& drawn);
 
-/// Makes of a hierarchy with room to change what may come a tick later: a few
-/// of these at once, drawn by the seed. Targets and bounds move; bounds come, go
-/// and meet; all of a level's get zero; rows turn, and go; a row gets a copy of
-/// another, or nearly, so that its level loses rank; a level takes another's
-/// place, or the last one is left out.
+/// Changes a hierarchy as the next tick may change it. It must have room, see
+/// WithRoomToChange(). The seed draws one to three of these changes:
+/// - The targets or the bounds of a level move.
+/// - Bounds of an inequality are added, removed or made equal.
+/// - All bounds of a level become zero.
+/// - A row turns, or an inequality is removed.
+/// - A row becomes a copy of another row, or nearly, so that its level loses
+///   rank.
+/// - Two levels swap places, and the last level may be removed.
 void ChangeHierarchy(std::uint64_t seed, HierarchyCase* drawn);
 
-/// What the cost of a level is added up from at a solution's y: its rounding is
-/// a multiple of eps of that.
+/// Returns the size of the terms that add up to the cost of a level at a
+/// solution's y. The rounding error of the cost is a multiple of eps times this
+/// size.
 double CostSize(const Hierarchy& hierarchy, int level,
                 const Solution& solution);
 

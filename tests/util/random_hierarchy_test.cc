@@ -9,7 +9,7 @@
 namespace poise {
 namespace {
 
-// All rows of a hierarchy.
+// Returns all rows of a hierarchy.
 Eigen::MatrixXd Rows(const Hierarchy& hierarchy) {
   Eigen::MatrixXd rows(0, hierarchy.num_variables());
   for (int k = 0; k < hierarchy.num_levels(); ++k) {
@@ -24,11 +24,11 @@ Eigen::MatrixXd Rows(const Hierarchy& hierarchy) {
 RandomHierarchyOptions Plain() {
   RandomHierarchyOptions options;
   options.scaled = 0;
-  options.degenerate = 0;  // A row of zeros has a bound all the same, of 1e-3.
+  options.degenerate = 0;  // A zero row has bounds of scale 1e-3.
   return options;
 }
 
-TEST(MakeRandomHierarchy, DrawsWholeNumbers) {
+TEST(MakeRandomHierarchy, DrawsIntegers) {
   RandomHierarchyOptions options = Plain();
   options.integer = 100;
   options.max_equalities = 0;
@@ -54,7 +54,7 @@ TEST(MakeRandomHierarchy, DrawsWholeNumbers) {
   EXPECT_GT(at_zero, bounds / 20);
 }
 
-TEST(MakeRandomHierarchy, GivesVariablesUnits) {
+TEST(MakeRandomHierarchy, ScalesColumnsByUnits) {
   RandomHierarchyOptions options = Plain();
   options.columns = 100;
   double least = 1, most = 1;

@@ -10,7 +10,8 @@ namespace poise {
 namespace {
 
 double Uniform(std::mt19937* draw) {
-  // 32 bits, by hand: the standard does not say what its distributions return.
+  // Scales 32 bits itself, because the standard does not specify which numbers
+  // its distributions return.
   return 2 * static_cast<double>((*draw)()) / 4294967295.0 - 1;
 }
 
@@ -18,7 +19,7 @@ Inertia MakeRandomInertia(std::mt19937* draw) {
   Inertia M;
   M.mass = 1 + 0.9 * Uniform(draw);
   M.p_BoG_B = 0.1 * MakeRandomVector(3, draw);
-  // The inertia of a cloud of points with the second moments S.
+  // This is the inertia of a cloud of points with the second moments S.
   Eigen::Matrix3d points;
   for (int i = 0; i < 3; ++i) points.col(i) = MakeRandomVector(3, draw);
   const Eigen::Matrix3d product = 0.01 * M.mass * points * points.transpose();
@@ -47,7 +48,8 @@ Tree MakeRandomTree(int num_joints, std::mt19937* draw, BaseType base,
     JointSpec joint;
     joint.name = "joint" + std::to_string(i);
     joint.type = i % 5 == 0 ? JointType::kPrismatic : JointType::kRevolute;
-    // Near the last link, so that there are branches and long chains.
+    // The parent is one of the last six links, which gives both branches and
+    // long chains.
     const int first = std::max(0, i - 6);
     joint.parent = LinkName(first + static_cast<int>((*draw)() % (i - first)));
     joint.child = LinkName(i);

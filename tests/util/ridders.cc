@@ -28,7 +28,8 @@ Eigen::MatrixXd RiddersJacobian(const Function& function,
                                 const Eigen::VectorXd& x) {
   const Eigen::Index rows = function(x).size();
   ceres::NumericDiffOptions options;
-  // Ceres begins with steps 32 times as long and halves them nine times.
+  // Ceres begins with steps 32 times as long and halves them nine times. The
+  // longest step is therefore about kRiddersReach.
   options.ridders_relative_initial_step_size = 1e-3;
   ceres::DynamicNumericDiffCostFunction<Functor, ceres::RIDDERS> cost(
       new Functor{function, x.size()}, ceres::TAKE_OWNERSHIP, options);
@@ -47,7 +48,8 @@ Eigen::MatrixXd RiddersJacobian(const Function& function,
 
 Eigen::VectorXd RiddersRate(
     const std::function<Eigen::VectorXd(double)>& function) {
-  // Around 1, so that the relative steps are absolute ones.
+  // The argument is around 1, so that Ceres' relative steps equal absolute
+  // steps.
   return RiddersJacobian(
       [&function](const Eigen::VectorXd& t) { return function(t[0] - 1); },
       Eigen::VectorXd::Ones(1));

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-TEST(RiddersJacobian, IsThatOnPaper) {
+TEST(RiddersJacobian, MatchesAnalyticJacobian) {
   const Eigen::MatrixXd J = RiddersJacobian(
       [](const VectorXd& x) {
         return VectorXd(Eigen::Vector2d(std::sin(3 * x[0]) * x[1], x[1]));
@@ -21,13 +21,13 @@ TEST(RiddersJacobian, IsThatOnPaper) {
   EXPECT_LT((J - expected).norm(), kRiddersPrecision);
 }
 
-TEST(RiddersRate, IsThatOnPaper) {
+TEST(RiddersRate, MatchesAnalyticDerivative) {
   const VectorXd rate = RiddersRate(
       [](double t) { return VectorXd::Constant(1, std::exp(2 * t)); });
   EXPECT_LT(std::abs(rate[0] - 2), kRiddersPrecision);
 }
 
-TEST(RiddersJacobian, TellsAWrongOne) {
+TEST(RiddersJacobian, DetectsWrongDerivative) {
   const VectorXd rate =
       RiddersRate([](double t) { return VectorXd::Constant(1, t * t + t); });
   EXPECT_GT(std::abs(rate[0] - 1.0001), kRiddersPrecision);

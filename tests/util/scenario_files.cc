@@ -12,7 +12,8 @@ std::vector<std::string> ScenarioFiles() {
        std::filesystem::directory_iterator("sim/scenarios")) {
     files.push_back(entry.path().string());
   }
-  // The folder is in no order, and shards must agree on one.
+  // A folder lists its files in no fixed order, but all shards must use the
+  // same.
   std::sort(files.begin(), files.end());
   return files;
 }

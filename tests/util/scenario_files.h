@@ -8,14 +8,16 @@
 
 namespace poise {
 
-/// How many files //sim:scenarios has: a test that goes through ScenarioFiles()
-/// asserts that it has seen so many.
+/// Number of files in //sim:scenarios. A test that goes through ScenarioFiles()
+/// asserts that it has seen this number.
 constexpr int kNumScenarios = 9;
 
-/// The paths of //sim:scenarios, which must be in the test's data, by name.
+/// Returns the paths of //sim:scenarios, sorted. The scenarios must be in the
+/// test's data.
 std::vector<std::string> ScenarioFiles();
 
-/// The name of the test that runs one of them: the file's, without a folder.
+/// Returns the test name of a scenario: the file's name without folder and
+/// extension.
 std::string ScenarioTestName(const testing::TestParamInfo<std::string>& file);
 
 }  // namespace poise

@@ -12,8 +12,8 @@ std::optional<std::filesystem::path> SharedData(std::string_view sub) {
     const std::filesystem::path path = std::filesystem::path(shared) / sub;
     if (std::filesystem::exists(path)) return path;
   }
-  std::cout << "Without " << sub
-            << ", as POISE_SHARED does not name a folder that has it.\n";
+  std::cout << "Runs without " << sub
+            << ": POISE_SHARED does not name a folder that contains it.\n";
   return std::nullopt;
 }
 

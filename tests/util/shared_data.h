@@ -7,10 +7,10 @@
 
 namespace poise {
 
-/// A file or folder of the data that is not in this repository: `sub` in the
-/// folder that the environment variable POISE_SHARED names. Nothing where the
-/// variable is not set or the data is not there, which the test's output then
-/// says; a test must check something without it.
+/// Returns a file or folder of data that is not in this repository: `sub` in
+/// the folder that the environment variable POISE_SHARED names. If the variable
+/// is not set or the data does not exist, prints a note and returns nothing. A
+/// test must check something without the data as well.
 std::optional<std::filesystem::path> SharedData(std::string_view sub);
 
 }  // namespace poise

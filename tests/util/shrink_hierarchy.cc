@@ -14,7 +14,7 @@ struct Row {
   double first, second;  // b and weight, or lower and upper.
 };
 
-// A hierarchy in pieces that can be taken away.
+// A hierarchy from which levels, rows and variables can be removed.
 struct Draft {
   int num_variables, num_levels;
   std::vector<Row> rows;
@@ -103,18 +103,20 @@ class Shrinking {
  private:
   static Ticks MakeAll(const std::vector<Draft>& drafts);
 
-  // True, and they are the drafts from now on, if they fail, too.
+  // Replaces the drafts by smaller ones if these fail, too. Returns whether
+  // they do.
   bool Try(const std::vector<Draft>& smaller);
 
   bool Try(size_t tick, const Draft& smaller);
 
-  // The earliest first: what comes shortly before a failure matters most.
+  // Removes the earliest ticks first: the ticks shortly before a failure matter
+  // most.
   void RemoveTicks();
 
   void RemoveWhatCanGo(size_t t);
 
-  // What all ticks have goes from all at once: a solver knows rows by their
-  // place.
+  // Removes a row or variable from all ticks at once, because a solver
+  // identifies rows by their position.
   void RemoveFromAll();
 
   template <typename Smaller>
@@ -126,7 +128,8 @@ class Shrinking {
 
   void SimplifyRow(size_t t, size_t i);
 
-  // To zero, or a whole number.
+  // Replaces a number by zero or by the nearest integer, if the drafts still
+  // fail.
   template <typename Pick>
   void Simplify(size_t t, const Pick& pick) {
     if (!Replace(t, pick, 0)) Replace(t, pick, std::round(*pick(&drafts_[t])));

@@ -8,16 +8,16 @@
 
 namespace poise {
 
-/// A hierarchy that fails, made as small as it still does: without the levels,
-/// rows, variables and bounds that do not matter, with weights 1 and whole
-/// numbers where these do. Nothing of what is left can be left out alone.
+/// Shrinks a failing hierarchy while it still fails. Removes levels, rows,
+/// variables and bounds that do not matter, and replaces numbers by integers
+/// and weights by 1 where possible. Nothing that is left can be removed alone.
 HierarchyCase ShrinkHierarchy(
     const HierarchyCase& failing,
     const std::function<bool(const HierarchyCase&)>& fails);
 
-/// The same of ticks that one solver solves in their order, of which the last one
-/// fails: first without the ticks before it that do not matter, then what does
-/// not matter of each that is left. All keep the same variables.
+/// Shrinks a failing sequence of ticks, which one solver solves in order and
+/// whose last tick fails. First removes earlier ticks that do not matter, then
+/// shrinks each tick that is left. All ticks keep the same variables.
 std::vector<HierarchyCase> ShrinkTicks(
     const std::vector<HierarchyCase>& failing,
     const std::function<bool(const std::vector<HierarchyCase>&)>& fails);

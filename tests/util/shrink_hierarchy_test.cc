@@ -18,7 +18,8 @@ int NumRows(const Hierarchy& hierarchy) {
   return rows;
 }
 
-// Needs more than one factorisation as soon as one bound is in the way.
+// Returns whether the solver needs more than one factorisation. One bound that
+// must become active is enough for this.
 bool NeedsASearch(const HierarchyCase& drawn) {
   const int n = drawn.hierarchy.num_variables();
   Solution solution(n, drawn.capacity);
@@ -27,7 +28,7 @@ bool NeedsASearch(const HierarchyCase& drawn) {
          solution.iterations > 1;
 }
 
-TEST(ShrinkHierarchy, LeavesOneBoundThatIsInTheWay) {
+TEST(ShrinkHierarchy, LeavesOneBlockingBound) {
   int failures = 0;
   for (int seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
@@ -43,13 +44,14 @@ TEST(ShrinkHierarchy, LeavesOneBoundThatIsInTheWay) {
       inequalities += hierarchy.num_inequalities(k);
     }
     EXPECT_EQ(inequalities, 1);
-    EXPECT_LE(NumRows(hierarchy), 2);  // What goes beyond the bound, at most.
+    EXPECT_LE(NumRows(hierarchy), 2);  // At most one row violates the bound.
   }
   EXPECT_GT(failures, 10);
 }
 
-// What only a weight, a level or a fraction makes fail keeps it.
-TEST(ShrinkHierarchy, LeavesWhatMatters) {
+// The case fails only with a certain weight, level and fraction, so shrinking
+// keeps these.
+TEST(ShrinkHierarchy, KeepsWhatTheFailureNeeds) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {2, 0}, {1, 0}};
   HierarchyCase drawn{capacity, Hierarchy(3, capacity)};
   drawn.hierarchy.AddEqualities(0, 1).B << 1, 2, 3;
@@ -81,9 +83,9 @@ TEST(ShrinkHierarchy, LeavesWhatMatters) {
   EXPECT_EQ(hierarchy.B(1), Eigen::RowVector2d(7, 8));
 }
 
-// A solver that has lived needs fewer factorisations than a new one where a bound
-// was in the way before: one tick before is enough, and little of it.
-TEST(ShrinkTicks, LeavesTheHistoryThatMatters) {
+// A warm solver needs fewer factorisations than a new one where a bound was
+// active before. One earlier tick with few rows is enough for this.
+TEST(ShrinkTicks, KeepsTheTickThatTheFailureNeeds) {
   int failures = 0;
   const auto fails = [](const std::vector<HierarchyCase>& ticks) {
     std::vector<LevelCapacity> capacity(5, {40, 40});
@@ -117,7 +119,7 @@ TEST(ShrinkTicks, LeavesTheHistoryThatMatters) {
   EXPECT_GT(failures, 5);
 }
 
-TEST(Disagreement, IsWhatAToleranceOfZeroFinds) {
+TEST(Disagreement, FindsRoundingErrorsAtZeroTolerance) {
   int found = 0;
   for (int seed = 0; seed < 50; ++seed) {
     RandomHierarchyOptions options;
@@ -129,10 +131,10 @@ TEST(Disagreement, IsWhatAToleranceOfZeroFinds) {
   EXPECT_GT(found, 25);
 }
 
-// y0 + y1 = 2, or at least that: (1, 1). Off it by so much a certificate is not
-// 1e-9 any more; (2, 0) is as good for that level, and so is (3, 3) for the
-// bound, which then asks for nothing.
-TEST(CertifyShortest, SeesAYThatIsNotTheShortest) {
+// For y0 + y1 = 2, or >= 2, the optimum of minimum norm is (1, 1). A point 1e-8
+// away has a certificate above 1e-9. (2, 0) is also optimal for that level, and
+// (3, 3) is for the inequality, but neither has minimum norm.
+TEST(CertifyShortest, RejectsYThatDoesNotHaveMinimumNorm) {
   for (const bool is_equality : {false, true}) {
     const std::vector<LevelCapacity> capacity{{1, 1}};
     HierarchyCase drawn{capacity, Hierarchy(2, capacity)};
@@ -157,10 +159,11 @@ TEST(CertifyShortest, SeesAYThatIsNotTheShortest) {
   }
 }
 
-// 2 y = 0, twice, above 4 y >= 8 and 3 y = 3. With 1e20 and -1e20 added to the
-// multipliers the certificate is as good as before. A level that is met, or has
-// no weight, is worth no multiplier.
-TEST(LargestMultiplier, SeesWhatBuysACertificate) {
+// Two rows 2 y = 0 are above 4 y >= 8 and 3 y = 3. With 1e20 and -1e20 added to
+// their multipliers, the certificate is as good as before. A level that is
+// satisfied, or has zero weight, has zero gradient: any multiplier is then
+// infinitely large in comparison.
+TEST(LargestMultiplier, DetectsMultipliersThatHideResiduals) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {0, 1}, {1, 0}};
   HierarchyCase drawn{capacity, Hierarchy(1, capacity)};
   drawn.hierarchy.AddEqualities(0, 2).B << 2, 2;
@@ -184,7 +187,7 @@ TEST(LargestMultiplier, SeesWhatBuysACertificate) {
     EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(), 1e-9);
     EXPECT_GT(LargestMultiplier(drawn.hierarchy, solution), 1e18);
   }
-  // A slack of 8 on a row of 4, against 32 on one of 2.
+  // The multiplier 32 on a row 2 is compared with the slack 8 on a row 4.
   solution = honest;
   solution.levels[1].multipliers[0].equality << 32, 0;
   EXPECT_NEAR(LargestMultiplier(drawn.hierarchy, solution), 2, 1e-6);
@@ -196,19 +199,20 @@ TEST(LargestMultiplier, SeesWhatBuysACertificate) {
   EXPECT_EQ(LargestMultiplier(drawn.hierarchy, solution), INFINITY);
 }
 
-// A solver that has solved others is judged like a new one, and beside it.
-TEST(Disagreement, JudgesALivingSolverAsWell) {
+// A warm solver is compared like a new one, and in addition to it.
+TEST(Disagreement, ComparesAWarmSolverAsWell) {
   HierarchyCase drawn = WithRoomToChange(MakeRandomHierarchy(7));
   Solver living(drawn.hierarchy.num_variables(), drawn.capacity);
   EXPECT_EQ(Disagreement(drawn, 1e-9, &living), "");
   living.max_iterations = 0;
-  EXPECT_NE(Disagreement(drawn, 1e-9, &living).find("the living solver has no"),
+  EXPECT_NE(Disagreement(drawn, 1e-9, &living).find("the warm solver found no"),
             std::string::npos);
   EXPECT_EQ(Disagreement(drawn), "");
 }
 
-// A tolerance of 0 tells a living solver from a new one by what it prints.
-TEST(DisagreementAfter, SolvesTheTicksBeforeWithOneSolver) {
+// With tolerance 0 the text shows rounding errors, in which a warm solver and a
+// new one differ.
+TEST(DisagreementAfter, SolvesEarlierTicksWithOneSolver) {
   HierarchyCase drawn = WithRoomToChange(MakeRandomHierarchy(7));
   std::vector<HierarchyCase> ticks{drawn};
   EXPECT_EQ(DisagreementAfter(ticks, 0), Disagreement(drawn, 0));
@@ -221,7 +225,7 @@ TEST(DisagreementAfter, SolvesTheTicksBeforeWithOneSolver) {
   }
   EXPECT_EQ(DisagreementAfter(ticks), "");
   const std::string all = DisagreementAfter(ticks, 0);
-  EXPECT_NE(all.find("the living solver"), std::string::npos) << all;
+  EXPECT_NE(all.find("the warm solver"), std::string::npos) << all;
   EXPECT_EQ(all, Disagreement(drawn, 0, &living));
 }
 

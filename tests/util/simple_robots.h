@@ -8,18 +8,19 @@
 
 namespace poise {
 
-/// A robot of a tree alone: no limits, no shapes, no feet.
+/// Makes a robot from a tree, without limits, shapes or feet.
 Robot MakeRobot(const Tree& tree);
 
-/// A homogeneous box as a robot without joints, its frame at its center; its
-/// underside is its one sole.
+/// Makes a homogeneous box as a robot without joints. Its frame is at its
+/// center, and its underside is its only sole.
 Robot MakeBlock(const Eigen::Vector3d& size, double mass);
 
-/// A homogeneous ball as a robot without joints and without feet.
+/// Makes a homogeneous ball as a robot without joints and feet.
 Robot MakeBall(double radius, double mass);
 
-/// A rod of 2 kg that hangs from a fixed base by a hinge along y: its mass
-/// center 0.3 m below, its moment of inertia about the hinge 0.19 kg m2.
+/// Makes a rod of 2 kg that hangs from a fixed base by a hinge along y. Its
+/// center of mass is 0.3 m below the hinge, and its moment of inertia about the
+/// hinge is 0.19 kg m2.
 Robot MakePendulum();
 
 }  // namespace poise

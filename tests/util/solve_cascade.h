@@ -6,7 +6,8 @@
 
 namespace poise {
 
-/// Solves it by a new cascade; a test failure if that finds no optimum.
+/// Solves a hierarchy with a new cascade. The test fails if the cascade finds
+/// no optimum.
 Solution SolveCascade(const HierarchyCase& drawn, RowSpaceMethod method);
 
 }  // namespace poise

@@ -8,13 +8,13 @@
 
 namespace poise {
 
-/// Adds the rows of a level, and factors them.
+/// Adds the rows of a level to a stack and factors them.
 void AddLevel(const LeastSquares& level, LexicographicFactorization* stack);
 
-/// Q of n variables, a row for each of the stack's rank.
+/// Returns the stack's basis Q, rank x n.
 Eigen::MatrixXd Basis(const LexicographicFactorization& stack, int n);
 
-/// The stack's y = Q' z.
+/// Returns the stack's y = Q' z.
 Eigen::VectorXd Optimum(const LexicographicFactorization& stack, int n);
 
 }  // namespace poise

@@ -6,7 +6,8 @@
 
 namespace poise {
 
-/// A file of this text in the folder that the test may write into.
+/// Writes a file with this text into the test's temporary folder. Returns its
+/// path.
 std::filesystem::path TestFile(const std::string& name,
                                const std::string& text);
 

@@ -3,16 +3,16 @@
 
 namespace poise {
 
-/// The rounding error to expect of a sum of n terms,
+/// Returns the expected rounding error of a sum of n terms,
 ///     8 n eps condition scale,
-/// for tests that compare two ways to the same number.
+/// for tests that compute the same number in two ways.
 ///
-/// @param scale      the norm of what was added up, in the unit of the result.
-/// @param n          how many terms were added up, or the size of the matrix.
-/// @param condition  of the system that was solved; 1 where none was.
+/// @param scale      norm of the terms, in the unit of the result.
+/// @param n          number of terms, or size of the matrix.
+/// @param condition  condition number of the solved system, 1 if there is none.
 ///
-/// The environment variable POISE_TOLERANCE_SCALE multiplies it: with 0 every
-/// comparison fails and prints its true residual.
+/// The environment variable POISE_TOLERANCE_SCALE multiplies the result: with 0
+/// every comparison fails and prints its true residual.
 double Rounding(double scale, int n, double condition = 1);
 
 }  // namespace poise

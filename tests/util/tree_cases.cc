@@ -26,7 +26,7 @@ Inertia MakeRandomInertia(std::mt19937* draw) {
   M.p_BoG_B = 0.1 * MakeRandomVector(3, draw);
   const Eigen::Vector3d d = MakeRandomVector(3, draw).cwiseAbs();
   const Eigen::Matrix3d R = MakeRandomRotation(draw);
-  // Second moments of mass, all positive: a body that could exist.
+  // All second moments of the mass are positive, so the body is possible.
   const Eigen::Vector3d s = 0.01 * M.mass * (d.array() + 0.1).matrix();
   const Eigen::Vector3d I(s.y() + s.z(), s.z() + s.x(), s.x() + s.y());
   const Eigen::Matrix3d I_G = R * I.asDiagonal() * R.transpose();
@@ -114,7 +114,7 @@ Residual Compare(const Eigen::Ref<const Eigen::MatrixXd>& A,
   double largest = 0;
   for (Eigen::Index i = 0; i < A.size(); ++i) {
     const double difference = std::abs(A.reshaped()[i] - B.reshaped()[i]);
-    if (!(difference <= largest)) largest = difference;  // NaN stays.
+    if (!(difference <= largest)) largest = difference;  // Keeps NaN.
   }
   return {largest, tolerance};
 }

@@ -11,10 +11,11 @@
 
 namespace poise {
 
-/// How the links of a random tree hang together.
+/// Shape of a random tree.
 enum class TreeShape { kAny, kChain, kStar };
 
-/// What a random tree is made from; fewer joints are tried when a case fails.
+/// Parameters of a random tree. When a case fails, RapidCheck tries fewer
+/// joints.
 struct TreeCase {
   TreeShape shape;
   BaseType base;
@@ -22,10 +23,14 @@ struct TreeCase {
   int seed;
 };
 
-/// A tree of any kind, and a motion of it. Joints of all types, about any axes,
-/// some with armatures; massless links inside; fixed links that carry joints,
-/// and one joint locked in each tree that has three; gravity askew. Its M is
-/// positive definite: no massless links at the ends, nor two in a row.
+/// A random tree and a motion of it. The tree has:
+/// - joints of all types about any axes, some with armatures;
+/// - massless links, but neither at an end nor two in a row;
+/// - fixed links that carry joints;
+/// - one locked joint, if there are at least three;
+/// - gravity in any direction.
+///
+/// Its mass matrix M is positive definite.
 struct TreeMotion {
   Tree tree;
   Eigen::VectorXd q, v, vdot;
@@ -35,18 +40,19 @@ struct TreeMotion {
 
 TreeMotion MakeTreeMotion(const TreeCase& from);
 
-/// What a property compares: it holds if value <= tolerance.
+/// Residual of a property, which holds if value <= tolerance.
 struct Residual {
   double value;
   double tolerance;
 };
 
-/// The largest difference of two matrices, to be within a tolerance.
+/// Returns the largest difference of two matrices, and its tolerance.
 Residual Compare(const Eigen::Ref<const Eigen::MatrixXd>& A,
                  const Eigen::Ref<const Eigen::MatrixXd>& B, double tolerance);
 
-/// Tries a property on random trees by RapidCheck, a failure of which prints the
-/// case and how to reproduce it. Returns whether it holds: EXPECT_TRUE() it.
+/// Checks a property on random trees with RapidCheck. A failure prints the case
+/// and how to reproduce it. Returns whether the property holds, for
+/// EXPECT_TRUE().
 bool HoldsForTrees(
     const std::string& property,
     const std::function<Residual(const TreeMotion&)>& residual_of,

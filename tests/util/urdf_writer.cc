@@ -24,7 +24,7 @@ std::string Print(const Eigen::Vector3d& v) {
   return Print(v.x()) + " " + Print(v.y()) + " " + Print(v.z());
 }
 
-// name="value" with a space before it.
+// Returns name="value" with a space before it.
 template <typename Value>
 std::string Attribute(const std::string& name, const Value& value) {
   return " " + name + "=\"" + Print(value) + "\"";
@@ -84,7 +84,7 @@ std::string Limits(const JointLimits& limits) {
          Attribute("friction", limits.friction) + "/>";
 }
 
-// The frame at a body's origin.
+// Returns the index of the frame at a body's origin.
 int OwnFrame(const Tree& tree, int body) {
   const auto& frames = tree.frames();
   for (int i = 0; i < static_cast<int>(frames.size()); ++i) {

@@ -7,10 +7,10 @@
 
 namespace poise {
 
-/// The URDF of a model, so that reading it gives the model again to rounding:
-/// each body is a link with its inertia, each frame that is no body's own a
-/// massless link on a fixed joint. Infinite limits are left out. Shapes and
-/// armature, which URDF does not know, are not written.
+/// Writes the URDF of a model. Reading it gives the same model up to rounding.
+/// Each body is a link with its inertia. Each frame that is not a body's own is
+/// a massless link on a fixed joint. Infinite limits are left out. Shapes are
+/// not written, nor are armatures, which URDF does not have.
 ///
 /// pre: each body has a frame of its own, at its origin.
 std::string WriteUrdf(const RobotModel& model);

@@ -50,7 +50,7 @@ double TimeOfLargest(const RecordedRun& run,
   return run[kTimeColumn][largest - values.begin()];
 }
 
-// From when on a quantity stays within a bound, s after `since`.
+// Returns the time after `since` from which a quantity stays within a bound, s.
 double SettledAfter(const RecordedRun& run, const std::vector<double>& values,
                     double bound, double since) {
   double last = since;
@@ -60,7 +60,7 @@ double SettledAfter(const RecordedRun& run, const std::vector<double>& values,
   return last - since;
 }
 
-// Poses side by side, each with its time.
+// Draws poses side by side, each with its time.
 void DrawPoses(const Robot& robot, const RecordedRun& run,
                const std::vector<double>& times, const fs::path& stem) {
   constexpr double kWidth = 370, kHeight = 400;
@@ -117,7 +117,8 @@ std::string Outcome(const RecordedRun& run) {
   return Outcome(verdict);
 }
 
-// A pose figure of a push: before, when the CoM is farthest, and the end.
+// Draws three poses of a push: during the push, at the largest CoM error or
+// during the fall, and at the end.
 Figure PushPoses(const Robot& robot, const RecordedRun& run, int number,
                  const std::string& caption, const std::string& paper,
                  const fs::path& stem) {
@@ -129,17 +130,19 @@ Figure PushPoses(const Robot& robot, const RecordedRun& run, int number,
             {(push.first + push.second) / 2, middle,
              run.recovered() ? std::min(run.end(), push.first + 3) : run.end()},
             stem);
-  return {number, caption, paper,
-          Format("In the push, %s, and at the end. The robot %s; its pelvis "
-                 "tilts by up to %.2f rad, a foot that should stay flat by "
-                 "%.3f rad.%s",
-                 run.recovered() ? "at its farthest" : "on its way down",
-                 Outcome(run).c_str(), Largest(run[kBaseTiltColumn]),
-                 run.summary()["foot_tilt_peak"].get<double>(),
-                 run.recovered() ? ""
-                                 : " The wrenches that it asks for reach "
-                                   "outside the soles: the feet roll over "
-                                   "their edges, and leave the ground.")};
+  return {
+      number, caption, paper,
+      Format("Poses: during the push, %s, and at the end. The robot %s. "
+             "Its pelvis tilts by up to %.2f rad, a foot that should stay "
+             "flat by up to %.3f rad.%s",
+             run.recovered() ? "at the largest CoM error" : "during the fall",
+             Outcome(run).c_str(), Largest(run[kBaseTiltColumn]),
+             run.summary()["foot_tilt_peak"].get<double>(),
+             run.recovered() ? ""
+                             : " The controller commands centers of "
+                               "pressure outside the soles, so the feet "
+                               "roll over their edges and leave the "
+                               "ground.")};
 }
 
 Figure ErrorPlots(const RecordedRun& run, int number,
@@ -153,19 +156,22 @@ Figure ErrorPlots(const RecordedRun& run, int number,
              Largest(x));
   if (run.recovered()) {
     ours += Format(
-        "It stays under 5 mm in y from %.2f s after the push on, and ends at "
-        "%.2f mm.",
+        "In y the error stays below 5 mm from %.2f s after the push, and ends "
+        "at %.2f mm.",
         SettledAfter(run, y, 5, push.second),
         1e3 * std::abs(run.summary()["com_error_final"][1].get<double>()));
   } else {
-    ours += "It diverges: the robot " + Outcome(run) +
-            Format("; the run ends when it lies or is about to, at %.2f s.",
-                   run.end());
+    ours += "The error diverges: the robot " + Outcome(run) +
+            Format(
+                ". The run ends at %.2f s, when the robot lies on the "
+                "ground or is about to.",
+                run.end());
   }
   return {number, caption, paper, ours};
 }
 
-// By how much the joint that moved most was moved from its start.
+// Returns the largest displacement of a joint between start and end of the run,
+// rad, and the name of the joint.
 std::pair<double, std::string> FarthestJoint(const Robot& robot,
                                              const RecordedRun& run) {
   const Eigen::VectorXd moved = (run.q(run.end()) - run.q(0))
@@ -182,10 +188,10 @@ Figure ArmPoses(const Robot& robot, const RecordedRun& run, int number,
   DrawPoses(robot, run, {0, run.end() / 2, run.end()}, stem);
   const auto [angle, joint] = FarthestJoint(robot, run);
   return {number, caption, paper,
-          Format("Pushed by 20 N for 0.1 s: after %.0f s the joint farthest "
-                 "from where it began, %s, has moved by %.2f rad; parts of the "
-                 "robot touched each other in %d ticks. The CoM ends %.2f mm "
-                 "from its reference.",
+          Format("The robot is pushed with 20 N for 0.1 s. After %.0f s the "
+                 "joint with the largest displacement, %s, has moved by %.2f "
+                 "rad. Parts of the robot touched each other in %d ticks. The "
+                 "CoM ends %.2f mm from its reference.",
                  run.end(), joint.c_str(), angle,
                  run.summary()["self_contact_ticks"].get<int>(),
                  1e3 * std::hypot(
@@ -193,9 +199,9 @@ Figure ArmPoses(const Robot& robot, const RecordedRun& run, int number,
                            run.summary()["com_error_final"][1].get<double>()))};
 }
 
-constexpr double kSettled = 3;  // s.
+constexpr double kSettled = 3;  // The start transient is over, s.
 
-// The largest error once the start is over, mm.
+// Returns the largest error after the start transient, mm.
 double TrackingError(const RecordedRun& run, char axis) {
   const std::vector<double> error = run.ComError(axis);
   const auto settled = std::lower_bound(run[kTimeColumn].begin(),
@@ -222,10 +228,10 @@ Figure SinusoidPlots(const RecordedRun& run, const RecordedRun& feedforward,
       "The CoM tracks a sinusoidal reference in x and y, slightly behind "
       "by a constant offset.",
       Format(
-          "Once its start is over, after %.0f s, the error stays within %.1f "
-          "mm in x and %.1f mm in y, a constant lag. With velocity and "
-          "acceleration of the reference fed forward it stays within %.3f "
-          "and %.3f mm.",
+          "After the start transient of %.0f s, the error stays within %.1f "
+          "mm in x and %.1f mm in y, a constant lag. With feedforward of the "
+          "reference's velocity and acceleration, the error stays within %.3f "
+          "mm in x and %.3f mm in y.",
           kSettled, TrackingError(run, 'x'), TrackingError(run, 'y'),
           TrackingError(feedforward, 'x'), TrackingError(feedforward, 'y'))};
 }
@@ -250,9 +256,9 @@ Figure ZmpPlots(const RecordedRun& run, const fs::path& stem) {
   return {12, "The ZMP under its constraint",
           "The constraint becomes active where y reaches 0.1 m, its limit; "
           "then the robot recovers.",
-          Format("With the combined box |y| <= 0.1 m of (12), and 100 N for "
-                 "0.12 s: the ZMP reaches %.4f m in y and stays within half a "
-                 "millimeter of the limit for %.0f ms; the robot %s.",
+          Format("The combined box |y| <= 0.1 m of (12) is on, and the push is "
+                 "100 N for 0.12 s. The ZMP reaches %.4f m in y and stays "
+                 "within 0.5 mm of the limit for %.0f ms. The robot %s.",
                  *std::max_element(y.begin(), y.end()),
                  1e3 * static_cast<double>(at_limit) *
                      run.summary()["control_dt"].get<double>(),
@@ -336,12 +342,13 @@ void WriteResults(const std::vector<Figure>& figures, const fs::path& markdown,
                   const std::string& pictures) {
   std::ofstream stream(markdown);
   stream << "# The paper's results, and ours\n\n"
-            "Written by `bazel run //tools:figures`, from fresh runs in "
-            "Bullet. Numbers are the\nplant's truth. The paper does not say "
-            "for how long it pushes; we push for 0.15 s,\nfigure 12 for 0.12 "
-            "s. Figures 1 and 2 are drawings of forces and friction cones. How "
-            "large a push\nthe robot recovers from, in every direction, is in "
-            "[push_map.md](push_map.md).\n";
+            "`bazel run //tools:figures` writes this page from new runs in "
+            "Bullet. Numbers are the\nsimulator's true values, not the "
+            "controller's estimates. The paper does not give the\nduration of "
+            "its pushes. We push for 0.15 s, and for 0.12 s in figure 12. "
+            "Figures 1 and 2 are\ndrawings of forces and friction cones. The "
+            "largest push that the robot recovers from in each\ndirection is "
+            "in [push_map.md](push_map.md).\n";
   for (const Figure& figure : figures) {
     stream << "\n## Figure " << figure.number << ": " << figure.caption
            << "\n\n![" << figure.caption << "](" << pictures << '/'

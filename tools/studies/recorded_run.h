@@ -16,18 +16,18 @@
 
 namespace poise {
 
-/// A run's folder, as figures look at it.
+/// A recorded run, read from its folder to draw figures of it.
 class RecordedRun {
  public:
-  /// Reads the log and summary.json. The robot must outlive it. Throws
-  /// std::invalid_argument about what it cannot read.
+  /// Reads the log and summary.json. The robot must outlive this object. Throws
+  /// std::invalid_argument if a file cannot be read.
   RecordedRun(const Robot& robot, const std::filesystem::path& folder);
 
-  /// A column of the log, by its name in sim/log/columns.h.
+  /// Returns a column of the log by its name in sim/log/columns.h.
   const std::vector<double>& operator[](const std::string& name) const {
     return columns_[name];
   }
-  /// The same at a time.
+  /// Returns the value of a column at a time.
   double At(const std::string& name, double time) const;
 
   const nlohmann::json& summary() const { return summary_; }
@@ -36,13 +36,13 @@ class RecordedRun {
   }
   double end() const { return columns_[kTimeColumn].back(); }
 
-  /// The configuration at a time, see Tree.
+  /// Returns the configuration at a time, see Tree.
   Eigen::VectorXd q(double time) const;
 
-  /// CoM minus its reference along an axis, mm.
+  /// Returns the CoM minus its reference along an axis, mm.
   std::vector<double> ComError(char axis) const;
 
-  /// From when to when somebody pushed; nothing if nobody did.
+  /// Returns start and end of the push, s, or nothing if there was no push.
   std::optional<std::pair<double, double>> Push() const;
 
   /// Returns an arrow for each push that acts at a time, see FindPushArrows().

@@ -17,10 +17,11 @@ namespace poise {
 namespace {
 
 constexpr const char* kForceTasks[] = {"cop", "friction", "unilateral", "yaw"};
-// Multipliers below this are rounding.
+// Multipliers below this are rounding errors.
 constexpr double kActs = 1e-6;
 
-// The tasks below the constraints in one level, the last ones so much lighter.
+// Puts the tasks below the constraints into one level. `weight` multiplies the
+// weights of the lower tasks.
 void PutTasksTogether(Stack* stack, double weight) {
   for (const char* task : {"posture", "force_regularizer"}) {
     const double own = stack->settings(*stack->Find(task)).weight;
@@ -43,7 +44,8 @@ bool HasActiveForce(const Controller& controller) {
   return false;
 }
 
-// One way, beside the loop.
+// A controller that uses one way. It computes the same ticks as the controller
+// in the loop, but its torques are not applied.
 struct Bystander {
   std::unique_ptr<Controller> controller;
   Command command;

@@ -11,34 +11,34 @@
 
 namespace poise {
 
-/// A way to weigh the same tasks against each other.
+/// A way to prioritise the same tasks: by levels, by weights, or by both.
 struct Weighing {
   std::string name;
   std::function<void(Stack*)> arrange;
 };
 
-/// Strictly by level; the constraints strictly before all tasks, which are
-/// weighted; all as one weighted QP.
+/// Returns the ways that are compared: strict levels; constraints strictly
+/// before all tasks, which are weighted; all in one weighted QP.
 std::vector<Weighing> Weighings();
 
-/// What a way to weigh makes of the ticks in which a constraint of the contacts
-/// is active, on the very problems that the strict hierarchy meets on its way.
+/// Result of one way in the ticks in which a contact constraint is active. All
+/// ways solve the same problems, which the strict hierarchy meets in its run.
 struct WeighingResult {
-  long ticks = 0;  ///< With an active constraint.
-  /// Residuals, root of the mean square: of the momentum, N, and of the
-  /// posture, rad/s2.
+  long ticks = 0;  ///< Ticks with an active contact constraint.
+  /// Root mean square of the residuals: of the momentum, N, and of the posture,
+  /// rad/s2.
   double momentum = 0, posture = 0;
-  /// The largest violation in all ticks: of the contacts, m/s2 and rad/s2, and
-  /// of the inequalities of forces, as a fraction of a quarter of the weight.
+  /// Largest violation in all ticks: of the contacts, m/s2 and rad/s2, and of
+  /// the force inequalities, as a fraction of a quarter of the weight.
   double contact = 0, force = 0;
-  double median_us = 0, p99_us = 0;  ///< Of all ticks.
+  double median_us = 0, p99_us = 0;  ///< Time of a tick, over all.
   int failures = 0;  ///< Ticks that were not solved to the last level.
 };
 
-/// All ways, on the states of one run of the experiment.
+/// Compares all ways on the states of one run of the experiment.
 std::vector<WeighingResult> CompareWeighings(const Experiment& experiment);
 
-/// The experiment controlled in one way, to its end.
+/// Runs the experiment to its end with one way and returns its verdict.
 Verdict RunWeighing(const Experiment& experiment, const Weighing& weighing);
 
 }  // namespace poise

@@ -31,11 +31,11 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kSteadyError = 3e-3;  // m.
 constexpr double kFlatFoot = 0.02;     // rad.
 constexpr double kUprightLean = 0.02;  // rad.
-// By how much the lean of a later time may be above that of an earlier one.
+// Largest growth of the tilt from the second quarter to the last one.
 constexpr double kNoGrowth = 1e-3;  // rad.
 
-// Of what a pendulum on a robot's feet takes, over this time: sideways, by any
-// robot; in every direction, by ours.
+// Fractions of the force that a pendulum on the robot's feet can take for
+// kPushTime: sideways for any robot, in every direction for our humanoid.
 constexpr double kRobotsPush = 0.4;
 constexpr double kOurPush = 0.9;
 constexpr double kPushTime = 0.1;  // s.
@@ -135,7 +135,7 @@ void Apply(const Change& change, Trial* trial) {
   trial->options += " " + change.option;
 }
 
-// A robot with one of our scenarios, changed.
+// Makes a trial of a robot in one of our scenarios, with changes.
 Trial Make(const std::string& what, const Robot& robot,
            const std::string& scenario, const std::vector<Change>& changes,
            Bar bar = Bar::kRecovers) {
@@ -146,7 +146,7 @@ Trial Make(const std::string& what, const Robot& robot,
   return trial;
 }
 
-// The paper's scenarios at another rate of control.
+// Adds the paper's scenarios at another control rate, Hz.
 void AddRate(const Robot& robot, double rate, std::vector<Trial>* trials) {
   const std::string hz = PrintNumber(rate) + " Hz: ";
   for (const char* name :
@@ -160,7 +160,7 @@ void AddRate(const Robot& robot, double rate, std::vector<Trial>* trials) {
                          {With("zmp"), PushDuration(0.12), ControlRate(rate)}));
 }
 
-// In alphabetical order.
+// Returns the URDF files of a folder in alphabetical order.
 std::vector<std::filesystem::path> UrdfFiles(
     const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
@@ -178,8 +178,8 @@ std::vector<std::filesystem::path> UrdfFiles(
   return files;
 }
 
-// The force that a pendulum on the robot's feet can take in the direction of the
-// first push, N.
+// Returns the force that a pendulum on the robot's feet can take in the
+// direction of the first push, N.
 double PendulumForce(const Experiment& experiment) {
   const Robot& robot = experiment.robot;
   const Push& push = experiment.scenario.pushes.at(0);
@@ -191,12 +191,13 @@ double PendulumForce(const Experiment& experiment) {
          kPushTime;
 }
 
-// A push with a fraction of the force that a pendulum on the robot's feet takes.
+// Makes a trial that pushes with a fraction of the force that a pendulum on the
+// robot's feet can take.
 Trial MakePush(const std::string& what, const Robot& robot, double fraction,
                const std::vector<Change>& changes) {
   Trial unit = Make(what, robot, "strong_push", {Force(1)});
   for (const Change& change : changes) Apply(change, &unit);
-  // Some rows are chaotic: they depend on this rounding to 1e-6 N.
+  // Some trials are chaotic: their result depends on this rounding to 1e-6 N.
   const double force =
       std::round(1e6 * fraction * PendulumForce(unit.experiment)) / 1e6;
   std::vector<Change> all = {Force(force)};
@@ -225,7 +226,7 @@ bool Contains(const std::string& text, const std::string& part) {
 // A robot that others have built.
 class Candidate {
  public:
-  // Throws if the file is no robot.
+  // Throws if the file does not describe a robot.
   explicit Candidate(const std::filesystem::path& urdf)
       : urdf_(urdf),
         document_(urdf, &findings_),
@@ -236,7 +237,7 @@ class Candidate {
 
   const std::string& name() const { return name_; }
 
-  // Appends those of its trials whose name contains `only`. Throws if the robot
+  // Appends the robot's trials whose name contains `only`. Throws if the robot
   // cannot be simulated.
   void AddTrials(const std::string& only, std::vector<Trial>* trials) {
     const bool has_stands = Contains(Stands(name_), only);
@@ -264,11 +265,11 @@ class Candidate {
   }
 
  private:
-  // Throws if plant or controller refuse the robot.
+  // Throws if the plant or the controller rejects the robot.
   void CheckLoop(const Experiment& experiment) const {
     try {
       ClosedLoop(experiment.robot, experiment.scenario);
-    } catch (const Refusal&) {  // Names the file itself.
+    } catch (const Refusal&) {  // Its message names the file.
       throw;
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(urdf_.string() + ": " + error.what());

@@ -10,58 +10,60 @@
 
 namespace poise {
 
-/// A run under adverse conditions, and what it must do all the same.
+/// A run under adverse conditions, and the result that it must have.
 struct Trial {
   enum class Bar {
     kRecovers,
-    kFalls,    ///< As the paper's robot does.
-    kSteady,   ///< Recovers, to 3 mm in each axis.
-    kFlat,     ///< Recovers, its feet within 0.02 rad.
-    kUpright,  ///< Recovers, its pelvis within 0.02 rad, and not ever farther.
+    kFalls,    ///< Does not recover, like the paper's robot.
+    kSteady,   ///< Recovers with a final CoM error below 3 mm in each axis.
+    kFlat,     ///< Recovers, and its feet tilt by less than 0.02 rad.
+    kUpright,  ///< Recovers; its pelvis leans below 0.02 rad, not increasing.
   };
 
   std::string what;
   Experiment experiment;
-  /// The options with which `push` runs the same experiment, for the table: files
-  /// without their folder, numbers with six digits.
+  /// The options of `push` that run the same experiment, for the table. Files
+  /// are printed without folder, numbers with six digits.
   std::string options;
   Bar bar = Bar::kRecovers;
 };
 
-/// What a trial came to.
+/// The result of a trial.
 struct TrialResult {
   Verdict verdict;
-  double lean_peak = 0;        ///< Of the pelvis from how it stood, rad.
-  double lean_late = 0;        ///< Its peak in the last quarter, rad,
-  double lean_early = 0;       ///< and in the second one.
-  double joint_violation = 0;  ///< Of joint limits, the largest, rad or m.
+  double lean_peak = 0;        ///< Largest tilt of the pelvis, rad.
+  double lean_late = 0;        ///< Largest tilt in the last quarter, rad.
+  double lean_early = 0;       ///< Largest tilt in the second quarter, rad.
+  double joint_violation = 0;  ///< Of a joint limit, the largest, rad or m.
   int self_contact_ticks = 0;
-  bool holds = false;  ///< It did what the bar says.
+  bool holds = false;  ///< The trial has the result that it must have.
 };
 
-/// Pushes in all directions, and what a controller meets outside of a simulator:
-/// wrong masses, delays, noise, slippery ground, weak motors, slow clocks; each row
-/// of docs/control.md.
+/// Returns trials with pushes in all directions, and with errors that a
+/// controller meets outside of a simulator: wrong masses, delays, noise,
+/// slippery ground, weak motors, low control rates. Each trial is a row of
+/// docs/control.md.
 std::vector<Trial> RobustnessTrials();
 
-/// Robots that others have built: each stands off its equilibrium, and is pushed
-/// sideways by 40 % of what a pendulum on its feet takes. A robot has the profile
-/// of FindProfile(), or feet and a posture that are found. The warnings about each
-/// robot are printed on stderr.
+/// Returns trials of robots that others have built. Each robot stands after a
+/// start off its equilibrium, and is pushed sideways with 40 % of the force
+/// that a pendulum on its feet can take. A robot has the profile of
+/// FindProfile(); without one, its feet and posture are found. Warnings about
+/// each robot are printed on stderr.
 ///
-/// @param robots  the folder of their URDF files.
-/// @param only    rows whose name contains this.
-/// @param skipped  "FILE is skipped: why", of those that cannot be simulated or
-///                 have no feet.
-/// Throws std::invalid_argument about a folder without URDF files.
+/// @param robots  folder of the URDF files.
+/// @param only    text that the names of the returned rows contain.
+/// @param skipped  receives "FILE is skipped: why" for each robot that cannot
+/// be simulated or has no feet.
+/// Throws std::invalid_argument if the folder has no URDF files.
 std::vector<Trial> RobotTrials(const std::filesystem::path& robots,
                                const std::string& only,
                                std::vector<std::string>* skipped);
 
-/// Throws as ClosedLoop.
+/// Runs a trial. Throws as ClosedLoop does.
 TrialResult Try(const Trial& trial);
 
-/// A row of a table in Markdown.
+/// Returns the row of the trial in a table in Markdown.
 std::string ToRow(const Trial& trial, const TrialResult& result);
 
 }  // namespace poise

@@ -46,8 +46,8 @@ void ExpectSame(const Scenario& a, const Scenario& b) {
   }
 }
 
-// The table says which command repeats a row.
-TEST(RobustnessTrials, AreTheExperimentsOfTheirOptions) {
+// The table names the command that repeats each row.
+TEST(RobustnessTrials, MatchTheExperimentsOfTheirOptions) {
   for (const Trial& trial : RobustnessTrials()) {
     SCOPED_TRACE(trial.what + ": " + trial.options);
     const PushOptions read = ReadOptions(trial.options);
@@ -56,7 +56,7 @@ TEST(RobustnessTrials, AreTheExperimentsOfTheirOptions) {
   }
 }
 
-TEST(ToRow, SaysWhatBecameOfARobotThatStaysUpElsewhere) {
+TEST(ToRow, DescribesARobotThatStaysUpButDoesNotReturn) {
   const Trial trial{"far off", {LoadHumanoid(), {}}, "--scenario stand"};
   EXPECT_EQ(
       ToRow(trial, {}),
@@ -64,7 +64,7 @@ TEST(ToRow, SaysWhatBecameOfARobotThatStaysUpElsewhere) {
       "0.0 | 0.00, 0.00, 0.00 | 0.0000 | 0.000, 0.000 | 0 | 0 | **no** |");
 }
 
-TEST(ToRow, PrintsAViolationWithOneDigit) {
+TEST(ToRow, PrintsViolationWithOneDigit) {
   TrialResult result;
   result.joint_violation = 2.1e-3;
   const std::string row = ToRow({"pushed", {LoadHumanoid(), {}}, ""}, result);

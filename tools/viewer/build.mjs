@@ -1,7 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 //
-// Builds the pages: dist/NAME.html, each with its script and style inside and a
-// place for data, and dist/sources.sha256, which says from what.
+// Builds the pages dist/NAME.html, each of which contains its script, its style
+// and a placeholder for data. Also writes dist/sources.sha256, the check sums of
+// all sources and pages.
 //     npm ci --ignore-scripts && node build.mjs [--out DIR]
 import {createHash} from 'node:crypto';
 import {mkdirSync, readFileSync, readdirSync, writeFileSync} from 'node:fs';
@@ -13,7 +14,7 @@ const here = path.dirname(fileURLToPath(import.meta.url));
 const pages = ['report', 'map'];
 const placeholder = '"POISE-DATA"';
 
-/** Every file that the pages are built from, in a fixed order. */
+/** Returns all files from which the pages are built, in a fixed order. */
 export function sourceFiles() {
   const sources = readdirSync(path.join(here, 'src')).sort();
   return ['package.json', 'package-lock.json', 'build.mjs']
@@ -42,9 +43,9 @@ async function buildPage(name) {
     target: ['chrome100', 'firefox100', 'safari15'],
     write: false,
   });
-  // Inside a page, nothing may look like the end of the script.
+  // Inside a page, no part of the script may look like its end.
   const script = result.outputFiles[0].text.replaceAll('</script', '<\\/script');
-  // A function, as a string would have its $ signs read as patterns.
+  // A replacement by a function, because $ signs in a string are patterns.
   const page = read(`src/${name}.html`).replace('/* SCRIPT */', () => script);
   if (page.split(placeholder).length !== 2) {
     throw new Error(`${name}.html must have ${placeholder} exactly once`);

@@ -3,7 +3,7 @@
 
 namespace poise {
 
-// Each file included is one raw string literal, see BUILD.
+// Each included file is one raw string literal, see BUILD.
 const std::string_view kReportPage =
 #include "tools/viewer/report.inc"
     ;

@@ -5,8 +5,8 @@
 
 namespace poise {
 
-/// The built pages of dist/, inside the program that fills them: no data file
-/// has to be found when it runs.
+/// The built pages of dist/. They are inside the program that fills them, so
+/// that it needs no data file when it runs.
 extern const std::string_view kReportPage;
 extern const std::string_view kMapPage;
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 
-/** The one time of a page: everything drawn follows it. */
+/** The time of a page, which all its views show. */
 export class Clock {
   #listeners = [];
   #last = null;
@@ -13,7 +13,7 @@ export class Clock {
     this.playing = false;
   }
 
-  /** Calls back after every change of time, speed, or playing. */
+  /** Registers a callback for each change of time, speed or playing. */
   listen(listener) {
     this.#listeners.push(listener);
   }
@@ -50,10 +50,11 @@ export class Clock {
     this.#tell();
   }
 
-  /** Called once a frame with its time, ms. */
+  /** Advances the clock. Call it once per frame with the frame's time, ms. */
   frame(now) {
     if (!this.playing) return;
-    // A page in the background gets no frames: do not jump when it is back.
+    // A page in the background gets no frames. Limit the step, so that the
+    // clock does not jump when the page is visible again.
     const passed = this.#last === null ? 0 : Math.min(0.1, (now - this.#last) / 1e3);
     this.#last = now;
     if (this.time + passed * this.speed >= this.end) {

@@ -3,9 +3,9 @@ import * as THREE from 'three';
 import {convexHull, copOf} from './geometry.js';
 
 /**
- * What the ground does to the robot at a time: per foot its force in the world
- * and where it acts; together the support polygon and the common CoP. The robot
- * must already be in its pose.
+ * Returns the contacts with the ground at a time: each foot's force in the world
+ * and its point of action, the support polygon, and the CoP of both feet. The
+ * robot must already be in its pose of that time.
  */
 export function contactsAt(run, robot, time) {
   const feet = robot.feet.map((foot) => {

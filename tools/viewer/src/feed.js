@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 //
-// Runs as data: no drawing here, and no page. What draws asks a Run for values
-// at a time; a live feed would be another class with the same face.
+// The data of runs, without drawing. The views ask a Run for values at a time. A
+// live feed would be another class with the same methods.
 import {forceAt} from './pushes.js';
 
 const NO_NUMBER = 65535;
@@ -35,7 +35,7 @@ export function decodeFloats(data) {
   return values;
 }
 
-/** Named quantities over a rising time. Channels are decoded when asked for. */
+/** Named channels over increasing time. A channel is decoded at its first use. */
 export class Table {
   #channels = new Map();
   #decoded = new Map();
@@ -64,7 +64,7 @@ export class Table {
     return [min, max];
   }
 
-  /** All values of a channel; undefined if there is no such channel. */
+  /** Returns all values of a channel, or undefined if it does not exist. */
   values(name) {
     if (!this.#channels.has(name)) return undefined;
     if (!this.#decoded.has(name)) {
@@ -73,7 +73,7 @@ export class Table {
     return this.#decoded.get(name);
   }
 
-  /** The last row at or before a time; 0 before the first. */
+  /** Returns the last row at or before a time; 0 before the first row. */
   row(time) {
     let low = 0;
     let high = this.time.length - 1;
@@ -85,7 +85,7 @@ export class Table {
     return low;
   }
 
-  /** Where a time lies: rows [i, j] and the part of the way between them. */
+  /** Returns the rows i, j around a time and its fraction between them. */
   between(time) {
     const i = this.row(time);
     const j = Math.min(i + 1, this.rows - 1);
@@ -94,7 +94,7 @@ export class Table {
     return {i, j, part: Math.min(1, Math.max(0, part))};
   }
 
-  /** A channel at a time, linear between rows; `fallback` if there is none. */
+  /** Returns a channel at a time, interpolated; `fallback` without values. */
   at(name, time, fallback = NaN) {
     const values = this.values(name);
     if (!values || values.length === 0) return fallback;
@@ -103,7 +103,7 @@ export class Table {
   }
 }
 
-/** One run: what was recorded, and what was said about it. */
+/** One run: its log, its summary, its robot, and notes about them. */
 export class Run {
   constructor(document, label) {
     this.label = label;
@@ -130,7 +130,7 @@ export class Run {
     return Math.max(0, ...tables.map((table) => table.time[table.rows - 1]));
   }
 
-  /** The intervals in which somebody pushed: [[from, to], ...]. */
+  /** The time intervals of pushes: [[from, to], ...]. */
   get pushes() {
     const axes = ['x', 'y', 'z'].map((a) => this.signals.values(`push.f${a}`));
     if (axes.some((axis) => !axis)) return [];
@@ -149,13 +149,13 @@ export class Run {
     return pushes;
   }
 
-  /** A vector of channels PREFIXx, PREFIXy, PREFIXz at a time. */
+  /** Returns the channels PREFIXx, PREFIXy, PREFIXz at a time as a vector. */
   vector(prefix, time) {
     return ['x', 'y', 'z'].map(
         (axis) => this.motion.at(prefix + axis, time, 0));
   }
 
-  /** The push at a time, N, not smoothed: a push has sharp ends. */
+  /** Returns the push at a time, N. Not interpolated: a push starts abruptly. */
   push(time) {
     const row = this.signals.row(time);
     return ['x', 'y', 'z'].map(
@@ -163,9 +163,9 @@ export class Run {
   }
 
   /**
-   * The pushes that act at a time: [{force, frame, body, point}, ...], the force
-   * in N along the axes of `frame`, 'world' or 'body'; the point in m along
-   * those of the body.
+   * Returns the pushes that act at a time: [{force, frame, body, point}, ...].
+   * The force [N] is in the axes of `frame`, 'world' or 'body'; the point [m] is
+   * in the axes of the body.
    */
   pushesAt(time) {
     const {pushes, control_dt: dt = 1e-3, push_body: body,
@@ -178,8 +178,9 @@ export class Run {
   }
 
   /**
-   * The capture point's x and y: x + v / w, w the pendulum's frequency at the
-   * present height. The velocity is that of the CoM over a few rows.
+   * Returns x and y of the capture point x + v / w. w is the frequency of the
+   * inverted pendulum at the present height. v is the velocity of the CoM, from
+   * differences over 20 ms.
    */
   capturePoint(time) {
     const com = this.vector('com.', time);
@@ -195,11 +196,12 @@ export class Run {
   }
 }
 
-/** The runs in a page's block of data. */
+/** Returns the runs in the data block of a page. */
 export function readRuns(text) {
   const document = JSON.parse(text);
   if (document.format !== 'poise-report-1') {
-    throw new Error(`This page was filled with "${document.format}" data.`);
+    throw new Error('The data of this page has the format ' +
+        `"${document.format}", but must have "poise-report-1".`);
   }
   return document.runs.map((run, i) => new Run(run, 'AB'[i]));
 }

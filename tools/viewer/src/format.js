@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 
-/** A number to read in a moving display: three digits, a true minus sign. */
+/** Formats a number for a live display: three digits, a true minus sign. */
 export function formatNumber(value) {
   if (value === undefined || value === null || Number.isNaN(value)) return '–';
   if (!Number.isFinite(value)) return value > 0 ? '∞' : '−∞';
@@ -16,13 +16,13 @@ export function formatNumber(value) {
   return text.replaceAll('-', '−').replace('e+', 'e');
 }
 
-/** "strong_push" as a title: "Strong push". */
+/** Returns "strong_push" as a title: "Strong push". */
 export function titleOf(name) {
   const words = String(name).replaceAll('_', ' ').trim();
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
-/** Text that is safe between tags. */
+/** Escapes text for use in HTML. */
 export function escapeHtml(text) {
   return String(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 }

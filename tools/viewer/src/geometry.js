@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 
-/** The convex hull of points [x, y], counterclockwise (Andrew's chain). */
+/** Returns the convex hull of [x, y] points, counterclockwise (Andrew's chain). */
 export function convexHull(points) {
   const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
   if (sorted.length < 3) return sorted;
@@ -20,7 +20,7 @@ export function convexHull(points) {
   return [...chain(sorted), ...chain(sorted.reverse())];
 }
 
-/** The center of pressure of a wrench, in its own frame; null if unloaded. */
+/** Returns a wrench's center of pressure in its frame; null if fz <= 1 N. */
 export function copOf({mx, my, fz}) {
   return fz > 1 ? [-my / fz, mx / fz] : null;
 }

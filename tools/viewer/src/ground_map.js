@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 
-const TRAIL = 0.5;  // s.
+const TRAIL = 0.5;  // Shown past of CoM and capture point, s.
 
-// How far the feet may go off the middle, as a part of what is shown, before
-// the map goes with them.
+// The map follows the feet when they are farther from its middle than this part
+// of its width.
 const FREE = 0.12;
 
-/** The middle of the soles' bounds, and their larger side. */
+/** Returns the middle and the larger side of the box around the soles. */
 function boundsOf(feet) {
   const points = feet.flatMap((foot) => foot.sole);
   if (points.length === 0) return null;
@@ -17,8 +17,8 @@ function boundsOf(feet) {
 }
 
 /**
- * The ground from above, forward up: soles, support polygon, and on it CoM, CoP
- * and capture point. Drawn on a small canvas over a stage.
+ * A map of the ground, with forward up. It shows the soles, the support polygon,
+ * CoM, CoP and capture point on a small canvas over a stage.
  */
 export class GroundMap {
   constructor(canvas, stage, palette) {
@@ -32,8 +32,8 @@ export class GroundMap {
     this.palette = palette;
   }
 
-  // Shows what is under the robot's first stance, and all that is near it; goes
-  // with the robot when that walks off, and stays where it only sways.
+  // Centers the map on the robot's first stance. It follows when the robot
+  // walks away, and does not move when the robot only sways.
   #fit(contacts) {
     const bounds = boundsOf(contacts.feet);
     if (!bounds) return;
@@ -59,7 +59,7 @@ export class GroundMap {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, size, size);
     const scale = size / this.span;
-    // Forward is up, left is left.
+    // Forward (+x) is up, left (+y) is left.
     const to = ([x, y]) => [size / 2 - (y - this.center[1]) * scale,
                             size / 2 - (x - this.center[0]) * scale];
     const path = (points, close) => {

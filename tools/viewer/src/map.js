@@ -1,7 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 //
-// The push map: the largest impulse that the robot recovers from, by direction,
-// against what a pendulum takes. A click on a point replays it.
+// The push map: the largest impulse from which the robot recovers, by direction,
+// compared with the impulse that a pendulum can take. A click on a point replays
+// its runs.
 import {escapeHtml, formatNumber} from './format.js';
 import {readPalette, Theme, THEME_BUTTON} from './palette.js';
 import style from './style.css';
@@ -12,7 +13,7 @@ const CENTER = SIZE / 2;
 const RADIUS = 0.39 * SIZE;
 const COLORS = ['c1', 'c2', 'c3', 'c4'];
 
-/** "-cop-yaw+yaw_constant" as "without cop, yaw, with yaw_constant". */
+/** Returns "-cop-yaw+yaw_constant" as "without cop, yaw, with yaw_constant". */
 function nameOfTasks(tasks) {
   if (tasks === 'default') return 'Default hierarchy';
   const changes = tasks.match(/[+-][^+-]+/g) ?? [tasks];
@@ -24,7 +25,7 @@ function nameOfTasks(tasks) {
   return [named('-', 'without'), named('+', 'with')].filter(Boolean).join(', ');
 }
 
-/** How much of the pendulum's impulse a ring reaches: "78–84 % of LIPM". */
+/** Returns a ring's impulses relative to the pendulum: "78–84 % of LIPM". */
 function shareOf(ring) {
   const shares = ring.map((row) => Math.round(100 * row.eta))
       .filter(Number.isFinite);
@@ -33,7 +34,7 @@ function shareOf(ring) {
   return `: ${least === most ? least : `${least}–${most}`} % of LIPM`;
 }
 
-/** A round step for about four rings up to a value. */
+/** Returns a round step that gives about four rings up to a value. */
 function ringStep(value) {
   const step = 10 ** Math.floor(Math.log10(value / 4));
   for (const factor of [1, 2, 5]) {
@@ -49,7 +50,7 @@ class PushMap {
     this.durations = [...new Set(rows.map((row) => row.duration_s))]
         .sort((a, b) => a - b);
     this.duration = this.durations[0];
-    // The default first, whatever the order of the file.
+    // The default task set is first, in any order of the file.
     this.tasks = [...new Set(rows.map((row) => row.tasks))].sort(
         (a, b) => (b === 'default') - (a === 'default'));
     this.theme = new Theme(() => this.draw());
@@ -62,14 +63,16 @@ class PushMap {
       ${THEME_BUTTON}</header>
       ${note ? `<div class="notes"><p>${escapeHtml(note)}</p></div>` : ''}
       <div class="map-work"><div class="polar"></div><div class="replay">
-      <p class="ask">Choose a point to replay the strongest push that the robot
-      recovered from in that direction, beside the weakest that it did not.</p>
+      <p class="ask">Choose a point to replay two runs in its direction: the
+      strongest push from which the robot recovered, and the weakest push from
+      which it did not.</p>
       </div></div><div class="table"></div>
-      <footer><p>Each point was found by bisection, so it is the largest impulse
-      only if every smaller one is recovered from too. <b>LIPM</b>: what an
-      inverted pendulum on the same feet can take when it is pushed at its mass
-      and does not step. <b>LIPM at height</b>: pushed as high as this robot was,
-      and not turning. A robot can beat the second with its arms and trunk.</p>
+      <footer><p>Each point was found by bisection. It is the largest impulse only
+      if the robot also recovers from every smaller one. <b>LIPM</b>: the largest
+      impulse that a linear inverted pendulum on the same feet can take without a
+      step, pushed at its mass. <b>LIPM at height</b>: the same for a push as high
+      as the robot's, if the pendulum does not rotate. A robot can exceed this
+      value with its arms and trunk.</p>
       </footer>`;
     root.querySelector('.theme').addEventListener(
         'click', () => this.theme.toggle());
@@ -95,7 +98,7 @@ class PushMap {
     }
   }
 
-  /** Rows of a task set, around the clock. */
+  /** Returns the rows of a task set, sorted by direction. */
   #ring(tasks) {
     return this.rows.filter((row) => row.tasks === tasks &&
                             row.duration_s === this.duration)
@@ -111,7 +114,7 @@ class PushMap {
             .filter(Number.isFinite)));
     const step = ringStep(most);
     const outer = step * Math.ceil(most / step);
-    // Forward is up, left is left.
+    // Forward (0°) is up, left (90°) is left.
     const at = (direction, value) => {
       const angle = direction * Math.PI / 180;
       const radius = RADIUS * value / outer;
@@ -144,7 +147,8 @@ class PushMap {
       svg += `<path class="reached" style="--c:${color(i)}"
         d="${path(ring, 'impulse_Ns')}"/>`;
     });
-    // Midway between two directions, near 22.5°: where no point is.
+    // The labels of the scale are midway between two directions, near 22.5°,
+    // where no point lies.
     const count = new Set(all.map((row) => row.direction_deg)).size;
     const gap = Math.min(45, 360 / count);
     const between = gap * (Math.floor(22.5 / gap) + 0.5);
@@ -196,7 +200,7 @@ class PushMap {
     this.root.querySelector('.table').innerHTML = `<details><summary>All numbers
       </summary><table><thead><tr><th>Direction</th><th>Tasks</th>
       <th>Recovered, N·s</th><th>LIPM, N·s</th><th>η</th>
-      <th>LIPM at height, N·s</th><th>of that</th></tr></thead>
+      <th>LIPM at height, N·s</th><th>η at height</th></tr></thead>
       <tbody>${rows.join('')}</tbody></table></details>`;
   }
 
@@ -209,11 +213,11 @@ class PushMap {
     const title = `${row.direction_deg}°, ${row.duration_s} s, ` +
         `${nameOfTasks(row.tasks)}: ${formatNumber(row.impulse_Ns)} N·s`;
     if (!row.replay) {
-      replay.innerHTML = `<p class="ask">${escapeHtml(title)}: no replay was
-        made of this point.</p>`;
+      replay.innerHTML = `<p class="ask">${escapeHtml(title)}: there is no replay
+        of this point.</p>`;
       return;
     }
-    // Themes follow: a page from disk may not read its frame's storage.
+    // The theme is in the address: pages from disk cannot share storage.
     const theme = readPalette().dark ? 'dark' : 'light';
     replay.innerHTML = `<p class="which"><b>${escapeHtml(title)}</b>
       <a href="${encodeURI(row.replay)}" target="_blank">Open alone</a></p>
@@ -229,7 +233,8 @@ function main() {
   const root = document.getElementById('page');
   const data = JSON.parse(document.getElementById('data').textContent);
   if (data.format !== 'poise-map-1') {
-    root.textContent = 'This page was not filled with a push map.';
+    root.textContent = `The data of this page has the format "${data.format}", ` +
+        'but must have "poise-map-1".';
     return;
   }
   window.poise = new PushMap(root, data);

@@ -4,8 +4,8 @@ import {escapeHtml, formatNumber} from './format.js';
 const horizontal = (vector) => Math.hypot(vector[0], vector[1]);
 
 /**
- * The numbers of summary.json worth a tile. `value` gives what is shown, in
- * `unit`; `limit` what it is judged by; `why` says what it means.
+ * The numbers of summary.json that have a tile at the top. `value` returns the
+ * shown number in `unit`, `limit` the largest good value, `why` its meaning.
  */
 const NUMBERS = [
   {
@@ -19,7 +19,7 @@ const NUMBERS = [
     title: 'CoM error, peak',
     unit: 'mm',
     value: (s) => 1e3 * Math.max(...s.com_error_peak.slice(0, 2).map(Math.abs)),
-    why: 'How far the push moved the center of mass off its reference.',
+    why: 'Largest error of the center of mass in x or y.',
   },
   {
     title: 'Impulse',
@@ -27,38 +27,41 @@ const NUMBERS = [
     value: (s) => s.impulse_Ns,
     limit: (s) => s.lipm_Ns,
     why: (s) => s.lipm_Ns ? `${Math.round(100 * s.impulse_Ns / s.lipm_Ns)} % of ` +
-        `${formatNumber(s.lipm_Ns)} N·s, the most that an inverted pendulum ` +
-        'with feet in place can take.' :
-        'Of the largest push: the integral of its force over time.',
+        `${formatNumber(s.lipm_Ns)} N·s, the largest impulse that an inverted ` +
+        'pendulum can take without a step.' :
+        'Integral of the force over time, for the largest push.',
   },
   {
     title: 'CoP, peak in y',
     unit: 'mm',
     value: (s) => 1e3 * Math.abs(s.cop_peak[1]),
-    why: 'How far the center of pressure went sideways between the feet.',
+    why: 'Largest distance of the center of pressure from the middle of the ' +
+        'feet, sideways.',
   },
   {
     title: 'Foot tilt, peak',
     unit: 'mrad',
     value: (s) => 1e3 * s.foot_tilt_peak,
     limit: () => 100,
-    why: 'Of a foot that should stay flat. Recovered: under 100 mrad.',
+    why: 'Largest tilt of a foot that should stay flat. Recovered: under ' +
+        '100 mrad.',
   },
   {
     title: 'Foot slide, peak',
     unit: 'mm',
     value: (s) => 1e3 * s.foot_slide_peak,
     limit: () => 30,
-    why: 'Since it was put down. Recovered: under 30 mm.',
+    why: 'Largest slide of a foot since it was put down. Recovered: under ' +
+        '30 mm.',
   },
   {
     title: 'Control tick, median',
     unit: 'µs',
     value: (s) => s.tick_us.median,
     limit: (s) => 1e6 * s.control_dt,
-    why: (s) => `99 % in ${formatNumber(s.tick_us.p99)}, all in ` +
-        `${formatNumber(s.tick_us.max)} µs, of ` +
-        `${formatNumber(1e6 * s.control_dt)} µs a tick.`,
+    why: (s) => `99 % take at most ${formatNumber(s.tick_us.p99)} µs, the ` +
+        `longest takes ${formatNumber(s.tick_us.max)} µs. A tick may take ` +
+        `${formatNumber(1e6 * s.control_dt)} µs.`,
   },
   {
     title: 'KKT residual, worst',
@@ -70,35 +73,36 @@ const NUMBERS = [
   },
 ];
 
-/** Those that are worth a line, but no place at the top. */
+/** Further numbers, shown below the replay. */
 const MORE_NUMBERS = [
   {
     title: 'Joint limit overrun',
     unit: 'mrad',
     value: (s) => 1e3 * s.joint_limit_violation_peak,
-    why: 'How far any joint went beyond its range.',
+    why: 'Largest violation of a joint limit.',
   },
   {
     title: 'Torque limit overrun',
     unit: 'N·m',
     value: (s) => s.torque_limit_violation_peak,
-    why: 'How far any torque went beyond its limit.',
+    why: 'Largest violation of a torque limit.',
   },
   {
     title: 'Speed',
     unit: '× real time',
     value: (s) => s.real_time_factor,
-    why: 'Of controller and physics together on this computer.',
+    why: 'Of controller and physics together, on the computer of the run.',
   },
   {
-    title: 'Height of the yardstick',
+    title: 'LIPM at height',
     unit: 'N·s',
     value: (s) => s.lipm_height_Ns,
-    why: 'What the pendulum takes when pushed as high as this robot was.',
+    why: 'Largest impulse that the inverted pendulum can take, pushed as high ' +
+        'as the robot.',
   },
 ];
 
-// A summary may lack any key: what cannot be computed is not shown.
+// Any key may be missing in a summary: a number that needs it is not shown.
 function tryValue(compute, summary) {
   try {
     const value = compute(summary);
@@ -148,7 +152,7 @@ function tilesHtml(numbers, runs) {
   return tiles.length ? `<div class="tiles">${tiles.join('')}</div>` : '';
 }
 
-/** The tiles of one run or, in pairs, of two. Empty without a summary. */
+/** Returns the tiles of one run, or of two in pairs. '' without a summary. */
 export function numbersHtml(runs) {
   return tilesHtml(NUMBERS, runs);
 }
@@ -157,7 +161,7 @@ export function moreNumbersHtml(runs) {
   return tilesHtml(MORE_NUMBERS, runs);
 }
 
-/** How a run ended, as a badge. */
+/** Returns a badge that shows how a run ended. */
 export function verdictHtml({summary}) {
   if (summary.interrupted === true && !Number.isFinite(summary.fell_at)) {
     return '<span class="verdict none">Interrupted</span>';

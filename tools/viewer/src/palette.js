@@ -4,12 +4,12 @@ const NAMES = ['ink', 'faint', 'line', 'surface', 'limit', 'c1', 'c2', 'c3',
                'c4', 'com', 'cop', 'capture', 'support', 'force', 'push'];
 const KEY = 'poise-theme';
 
-/** What turns light into dark, and back. */
+/** The button that switches between the light and the dark theme. */
 export const THEME_BUTTON = `<button class="icon theme"
   aria-label="Light or dark" title="Light or dark"><svg viewBox="0 0 16 16">
   <path d="M6.2 1.2a7 7 0 1 0 8.6 8.6A6 6 0 0 1 6.2 1.2z"/></svg></button>`;
 
-/** The colors of style.css as they are now, for what CSS does not draw. */
+/** Returns the present colors of style.css, for drawing on a canvas. */
 export function readPalette() {
   const style = getComputedStyle(document.documentElement);
   const palette = {dark: document.documentElement.dataset.theme === 'dark'};
@@ -19,8 +19,8 @@ export function readPalette() {
   return palette;
 }
 
-// What was chosen: by the page around this one, or before. A page from disk may
-// have no storage, and throws when asked for it.
+// Returns the chosen theme: by the page around this one, or else from storage.
+// A page from disk may have no storage; access to it then throws.
 function remembered() {
   const told = /theme=(light|dark)/.exec(location.hash);
   if (told) return told[1];
@@ -32,8 +32,8 @@ function remembered() {
 }
 
 /**
- * Sets the theme that was chosen last, or else follows the system's; calls back
- * when it changes.
+ * Sets the theme that was chosen last, or else the system's theme. Calls back at
+ * each change.
  */
 export class Theme {
   #changed;
@@ -59,7 +59,7 @@ export class Theme {
     try {
       localStorage.setItem(KEY, theme);
     } catch {
-      // It then lasts as long as the page.
+      // Without storage the choice is lost when the page is closed.
     }
     this.#set(theme);
   }

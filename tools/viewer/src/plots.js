@@ -2,7 +2,7 @@
 import uPlot from 'uplot';
 import {formatNumber} from './format.js';
 
-/** Joins series of several runs on one time: [times, values, values, ...]. */
+/** Joins the series of runs on common times: [times, values, values, ...]. */
 function joinedData(series) {
   const tables = series.map(({time, values}) => [time, values]);
   const same = tables.every(([time]) => time === tables[0][0]);
@@ -10,16 +10,16 @@ function joinedData(series) {
   return uPlot.join(tables);
 }
 
-// What is no number as what uPlot leaves out of a line.
+// Replaces NaN by null, for which uPlot leaves a gap in the line.
 function withGaps(values) {
   return values.some(Number.isNaN) ?
     Array.from(values, (v) => (Number.isNaN(v) ? null : v)) : values;
 }
 
 /**
- * One plot on the page's time: a label column with live values, and a uPlot.
- * `spec` is {title, unit, hint, scale, lines: [{name, color, dash, time,
- * values}], marks: [{value, name}], floor}.
+ * A plot over time: a label column with live values, and a uPlot. `spec` is
+ * {title, unit, hint, scale, lines: [{name, color, dash, time, values}], marks:
+ * [{value, name}], floor}.
  */
 export class Plot {
   #cursor;
@@ -60,7 +60,8 @@ export class Plot {
     return this.palette[name] ?? name;
   }
 
-  // What the y axis must hold: the lines, and marks that they come near.
+  // Returns the range of the y axis. It contains the lines, and the marks that
+  // are close to a line.
   #yRange(low, high) {
     const {marks = [], floor, least = 0} = this.spec;
     if (low === null || !Number.isFinite(low)) return [-1, 1];
@@ -174,8 +175,8 @@ export class Plot {
     ctx.restore();
   }
 
-  // How near the lines come to a value, from a fraction of the shown time on,
-  // for three tenths of it.
+  // Returns the smallest distance of the lines to a value. It looks at three
+  // tenths of the shown time, from `fraction` of the shown time on.
   #distance(value, fraction) {
     const [from, to] = this.xRange();
     const start = from + fraction * (to - from);
@@ -192,7 +193,7 @@ export class Plot {
     return nearest;
   }
 
-  // Press and drag to scrub; a vertical swipe still scrolls the page.
+  // Dragging moves through time; a vertical swipe still scrolls the page.
   #listen(over) {
     const seek = (event) => {
       const box = over.getBoundingClientRect();
@@ -222,7 +223,7 @@ export class Plot {
     this.outputs = [...legend.querySelectorAll('output')];
   }
 
-  /** Moves the cursor, and the values beside it, to a time. */
+  /** Moves the cursor to a time and shows the values at that time. */
   update(time) {
     this.time = time;
     const x = this.plot.valToPos(time, 'x');
@@ -236,7 +237,7 @@ export class Plot {
     });
   }
 
-  /** Draws anew for another range of time. */
+  /** Draws the plot again for a new time range. */
   rescale() {
     this.plot.setData(this.data, true);
   }

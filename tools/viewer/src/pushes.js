@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 //
 // The pushes of a run, from `pushes` of its summary.json. A force is always the
-// peak that was applied; an impulse divided by a duration is only its mean.
+// applied peak. Impulse divided by duration would be only the mean force.
 import {formatNumber} from './format.js';
 
 const MOST_NAMED = 3;
 
-/** The force of a push at a time, N; sim/push.h defines the shapes. */
+/** Returns the force of a push at a time, N. sim/push.h defines the shapes. */
 export function forceAt({shape, at, duration, force}, time, dt) {
   let part = 0;
   if (shape === 'impulse') {
@@ -19,7 +19,7 @@ export function forceAt({shape, at, duration, force}, time, dt) {
   return force.map((f) => part * f);
 }
 
-/** The largest number of pushes that act at one time. */
+/** Returns the largest number of pushes that act at the same time. */
 export function mostAtOnce(pushes) {
   const overlaps = (a, b) =>
     a.at <= b.at && b.at <= a.at + a.duration;
@@ -27,7 +27,7 @@ export function mostAtOnce(pushes) {
       (push) => pushes.filter((other) => overlaps(other, push)).length));
 }
 
-/** One push in words: "half sine of 100 N for 0.15 s on torso". */
+/** Describes a push: "half sine of 100 N for 0.15 s on torso". */
 export function pushText({shape, force, duration, link, impulse_Ns: impulse}) {
   const on = link ? ` on ${link}` : '';
   if (shape === 'impulse') return `${formatNumber(impulse)} N·s at once${on}`;
@@ -36,9 +36,9 @@ export function pushText({shape, force, duration, link, impulse_Ns: impulse}) {
       `${formatNumber(duration)} s${on}`;
 }
 
-/** All pushes of a run in words; '' if nothing pushed. */
+/** Describes all pushes of a run; '' if there were none. */
 export function pushesText({pushes, impulse_Ns: impulse, push_link: link}) {
-  if (!pushes) {  // A summary of an older version: its forces are not known.
+  if (!pushes) {  // Summaries of older versions have no forces.
     return impulse > 0 ?
         `${formatNumber(impulse)} N·s${link ? ` on ${link}` : ''}` : '';
   }

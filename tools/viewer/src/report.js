@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 //
-// The page of a run, or of two on one clock: puts the parts together.
+// The page of one run, or of two runs at the same time. It combines all views.
 import {Clock} from './clock.js';
 import {convexHull} from './geometry.js';
 import {readRuns} from './feed.js';
@@ -43,7 +43,7 @@ function describe(run) {
   ].filter(Boolean).join(' · ');
 }
 
-/** How a run's tasks differ from its set: "without cop, yaw". */
+/** Returns the changes of a run to its task set: "without cop, yaw". */
 function changesOf({summary: {tasks}}) {
   if (!tasks) return '';
   return [tasks.set !== 'default' && `tasks ${tasks.set}`,
@@ -52,7 +52,7 @@ function changesOf({summary: {tasks}}) {
       .filter(Boolean).join(', ');
 }
 
-/** What sets a run apart from the other, in a few words. */
+/** Returns a short label: the first trait in which a run differs from others. */
 function labelOf(run, runs) {
   const traits = [
     nameOf, pushOf, changesOf, ({summary}) => summary.plant,
@@ -80,7 +80,7 @@ function headHtml(runs) {
     <b>${escapeHtml(nameOf(run))}</b>
     ${escapeHtml(describe(run))}</p></div>`;
   return `<header class="head"><div class="titles"><p class="brand">Poise</p>
-    <h1>Two runs on one clock</h1>${runs.map(line).join('')}</div>${THEME_BUTTON}</header>`;
+    <h1>Two runs side by side</h1>${runs.map(line).join('')}</div>${THEME_BUTTON}</header>`;
 }
 
 function notesHtml(runs) {
@@ -93,15 +93,17 @@ function notesHtml(runs) {
 function footerHtml(runs) {
   const hash = runs.map(({summary}) => summary.log_sha256).filter(Boolean)
       .map((sum) => sum.slice(0, 12)).join(' and ');
-  return `<footer><p>What is drawn is the plant's truth, not the controller's
-    belief. Values are stored in 16 bits of each quantity's range; long logs are
-    thinned so that peaks stay${hash ? `. SHA-256 of log.csv: ${hash}…` : ''}.</p>
-    <p>Drag in a plot or in the time bar to move through time; space plays,
-    arrows step 20 ms, with shift 1 ms. Ctrl and wheel zoom the plots.</p>
+  return `<footer><p>The page shows the simulator's true values, not the
+    controller's estimates. Values are stored in 16 bits over the range of each
+    quantity. Long logs are thinned, but keep their peaks${
+      hash ? `. SHA-256 of log.csv: ${hash}…` : ''}.</p>
+    <p>Drag in a plot or in the time bar to move through time. Space plays and
+    pauses, an arrow key steps by 20 ms, with Shift by 1 ms. Ctrl and the mouse
+    wheel zoom the plots.</p>
     </footer>`;
 }
 
-/** All that is on the page, moved by one clock. */
+/** The page with all its views, which follow one clock. */
 class Page {
   #views = [];
 
@@ -113,13 +115,13 @@ class Page {
     this.clock = new Clock(start, end);
     this.range = [start, end > start ? end : start + 1];
     root.classList.toggle('compare', runs.length > 1);
-    // Inside another page, which has its own head.
+    // A page inside another page does not show its own header.
     root.classList.toggle('embedded', /\bembed\b/.test(location.hash));
     root.innerHTML = `${headHtml(runs)}${notesHtml(runs)}${numbersHtml(runs)}
       <div class="work"><div class="left"><div class="stages"></div>
       <div class="under"><ul class="keys">${KEYS.map(([name, text]) =>
         `<li><i class="${name}"></i>${text}</li>`).join('')}</ul>
-      <div class="views" role="group" aria-label="Look from">${
+      <div class="views" role="group" aria-label="Viewpoint">${
         VIEW_NAMES.map(([view, text]) =>
           `<button data-view="${view}">${text}</button>`).join('')}</div></div>
       ${moreNumbersHtml(runs)}</div>
@@ -163,16 +165,17 @@ class Page {
             `${tagHtml(run)}<b>${escapeHtml(labelOf(run, this.runs))}</b>` +
             verdictHtml(run);
       }
-      const problem = !run.robot ? 'No robot.json: the robot cannot be drawn.' :
-          !run.motion.rows ? 'The log has no rows: nothing moved.' : '';
+      const problem = !run.robot ?
+          'robot.json is missing: the robot cannot be drawn.' :
+          !run.motion.rows ? 'The log has no rows: there is no motion.' : '';
       let stage = null;
       try {
         stage = new Stage(element, run, palette);
       } catch (error) {
         console.warn(error);
         element.insertAdjacentHTML(
-            'beforeend', '<div class="nothing">This browser shows no 3D ' +
-            '(WebGL 2); the plots still work.</div>');
+            'beforeend', '<div class="nothing">This browser has no WebGL 2, ' +
+            'which the 3D replay needs. The plots still work.</div>');
       }
       if (problem) {
         element.insertAdjacentHTML(
@@ -276,16 +279,16 @@ class Page {
       if (run.rows === 0) continue;
       strip({
         title: tagged('Active constraints', run),
-        hint: 'Rows of the hierarchy that held the solution back; stronger ' +
-            'where their multiplier is larger.',
-        rows: activeRows(run), few: 14, empty: 'None was active.',
+        hint: 'Inequalities that limited the solution; darker where their ' +
+            'multiplier is larger.',
+        rows: activeRows(run), few: 14, empty: 'No constraint was active.',
       });
       const residuals = residualRows(run);
       if (residuals.length) {
         strip({
-          title: tagged('What each task lost', run),
-          hint: 'Residual of its rows, darkest where largest; the number is ' +
-              'the largest. Tasks that were met are left out.',
+          title: tagged('Residual of each task', run),
+          hint: 'Darker where larger; the number is the largest residual. ' +
+              'Tasks without residual are left out.',
           rows: residuals, few: 8,
         });
       }
@@ -296,8 +299,8 @@ class Page {
       const touching = touchingRows(run);
       if (touching.length) {
         strip({
-          title: tagged('Links that touched', run),
-          hint: 'Each other, not the ground.',
+          title: tagged('Links that touched each other', run),
+          hint: 'Contacts with the ground are not shown.',
           rows: touching, few: 6,
         });
       }
@@ -328,10 +331,10 @@ class Page {
     select.addEventListener('change', () => show(select.value));
     for (const run of runs) {
       strip({
-        title: tagged('Torque used of its limit', run),
-        hint: 'By joint, most used first; choose one to plot it.',
+        title: tagged('Torque, relative to its limit', run),
+        hint: 'Joints by largest peak; choose one to plot its torque.',
         rows: torqueRows(run), few: 10, onPick: show,
-        empty: 'No limits are known.',
+        empty: 'robot.json has no torque limits.',
       });
     }
   }
@@ -393,7 +396,7 @@ class Page {
   }
 }
 
-/** Where the soles' hull ends in the frame between the feet, at the start. */
+/** Returns the extent of the soles' hull in the mid-feet frame, at the start. */
 function soleEdgesOf(stage) {
   const {contacts, robot} = stage;
   const hull = convexHull(contacts?.feet.flatMap((foot) => foot.sole) ?? []);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 import * as THREE from 'three';
 
-// three.js has the axes of cylinders along y, URDF along z.
+// Cylinder axes are along y in three.js, along z in URDF.
 const Y_TO_Z = new THREE.Quaternion().setFromAxisAngle(
     new THREE.Vector3(1, 0, 0), Math.PI / 2);
 
@@ -24,8 +24,8 @@ function place(object, {p, quat}) {
 }
 
 /**
- * A robot to look at, from robot.json: one group a body, moved by the channels
- * base.* and q.JOINT of a run.
+ * A robot of robot.json in 3D: one group per body. The channels base.* and
+ * q.JOINT of a run move the groups.
  */
 export class RobotView {
   #joints = [];
@@ -83,7 +83,7 @@ export class RobotView {
     return this.#materials.get(key);
   }
 
-  /** Takes the posture of a run at a time, between its rows. */
+  /** Sets the posture of a run at a time, interpolated between its rows. */
   pose(run, time) {
     const {motion} = run;
     const [x, y, z] = run.vector('base.', time);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 //
-// What is plotted: each entry names channels of a run, nothing is drawn here.
+// The plots of a run. Each entry names channels of a run; plots.js draws them.
 
 const AXIS_COLORS = {x: 'c1', y: 'c2', z: 'c3'};
 const RUN_COLORS = ['c1', 'c2'];
@@ -18,21 +18,21 @@ function footLines(run, part) {
   }));
 }
 
-/** The soles' common extent in the mid-feet frame at the start: {x, y}. */
+/** Returns marks at the soles' extent in the mid-feet frame: {x, y}. */
 function soleEdges(run) {
   const edges = run.soleEdges;
   const marks = (axis) => edges ? [
     {value: 1e3 * edges[axis][0], name: 'edge of the soles'},
     {value: 1e3 * edges[axis][1], name: 'edge of the soles'},
   ] : [];
-  // The combined box of equation (12), where it is on.
+  // The combined box of equation (12), if its task is on.
   const half = run.summary.tasks?.with?.includes('zmp') ? 100 : null;
   const box = half ? [{value: half, name: 'zmp limit', always: true},
                       {value: -half, name: 'zmp limit', always: true}] : [];
   return {x: marks('x'), y: [...marks('y'), ...box]};
 }
 
-/** The plots of a run, in the order in which one reads them. */
+/** Returns the plots of a run, the most important ones first. */
 export function plotsOf(run) {
   const edges = soleEdges(run);
   return [
@@ -40,22 +40,22 @@ export function plotsOf(run) {
      hint: 'Center of mass minus its reference.',
      lines: vectorLines('com_error.', ['x', 'y'])},
     {title: 'CoP in y', unit: 'mm', scale: 1e3, least: 20, marks: edges.y,
-     hint: 'Center of pressure (ZMP) of both feet, to the left, from their middle.',
+     hint: 'Center of pressure (ZMP) of both feet, left of their middle.',
      lines: vectorLines('cop.', ['y'])},
     {title: 'CoP in x', unit: 'mm', scale: 1e3, least: 20, marks: edges.x,
-     hint: 'The same, forward.',
+     hint: 'Center of pressure (ZMP) of both feet, in front of their middle.',
      lines: vectorLines('cop.', ['x'])},
     {title: 'Foot load', unit: 'N', floor: 0, least: 20,
-     hint: 'Normal force of the ground.',
+     hint: 'Normal force of the ground on each foot.',
      lines: footLines(run, 'fz')},
     {title: 'Foot force in y', unit: 'N', least: 10,
-     hint: 'Friction, to the left, in the sole\'s axes.',
+     hint: 'Friction force to the left, in the sole\'s axes.',
      lines: footLines(run, 'fy')},
     {title: 'Foot force in x', unit: 'N', least: 10,
-     hint: 'The same, forward.',
+     hint: 'Friction force forward, in the sole\'s axes.',
      lines: footLines(run, 'fx')},
     {title: 'CoM in y', unit: 'm', least: 0.002,
-     hint: 'With its reference.',
+     hint: 'Center of mass and its reference.',
      lines: [
        {name: 'CoM', channel: 'com.y', color: 'c2'},
        {name: 'reference', channel: 'com_ref.y', color: 'faint', dash: [5, 4]},
@@ -66,15 +66,15 @@ export function plotsOf(run) {
        {name: 'reference', channel: 'com_ref.x', color: 'faint', dash: [5, 4]},
      ]},
     {title: 'Foot tilt', unit: 'mrad', scale: 1e3, floor: 0, least: 2,
-     hint: 'Over 100 mrad is not recovered.',
+     hint: 'Above 100 mrad the robot has not recovered.',
      marks: [{value: 100, name: 'limit'}],
      lines: footLines(run, 'tilt')},
     {title: 'Foot slide', unit: 'mm', scale: 1e3, floor: 0, least: 1,
-     hint: 'Over 30 mm is not recovered.',
+     hint: 'Above 30 mm the robot has not recovered.',
      marks: [{value: 30, name: 'limit'}],
      lines: footLines(run, 'slide')},
     {title: 'Base tilt', unit: '°', scale: 180 / Math.PI, floor: 0, least: 2,
-     hint: 'Over 60° is a fall.',
+     hint: 'Above 60° the robot has fallen.',
      marks: [{value: 60, name: 'fallen'}],
      lines: [{name: 'tilt', channel: 'base.tilt', color: 'c1'}]},
     {title: 'Base height', unit: 'm', least: 0.01,
@@ -82,7 +82,7 @@ export function plotsOf(run) {
   ];
 }
 
-/** The time that each tick took, against the time it has. */
+/** Returns the plot of the time of each tick, with the control period. */
 export function timingPlot(run) {
   const period = 1e6 * (run.summary.control_dt ?? NaN);
   return {
@@ -93,7 +93,7 @@ export function timingPlot(run) {
   };
 }
 
-/** A joint's torque with its limits. */
+/** Returns the plot of a joint's torque with its limits. */
 export function torquePlot(run, joint) {
   const effort = run.robot?.limits?.[joint]?.effort;
   return {
@@ -105,7 +105,8 @@ export function torquePlot(run, joint) {
   };
 }
 
-// The lines of a plot with their values; those the log does not have fall out.
+// Returns the lines of a plot with their values. Lines that the log does not
+// have are left out.
 function filled(lines, table) {
   return lines.filter((line) => table.has(line.channel) && table.rows > 0)
       .map((line) => ({...line, time: table.time,
@@ -113,8 +114,8 @@ function filled(lines, table) {
 }
 
 /**
- * A plot's lines for one run; for two, each line becomes a plot in which the
- * runs differ by color.
+ * Returns a plot with its values for one run. For two runs, each line becomes a
+ * plot of its own, in which the color shows the run.
  */
 export function fillPlots(runs, specOf, tableOf) {
   const specs = runs.map((run) => specOf(run));
@@ -123,7 +124,7 @@ export function fillPlots(runs, specOf, tableOf) {
     return [{...spec, lines: filled(spec.lines, tableOf(runs[0]))}];
   }
   const [first] = specs;
-  // A reference is drawn once beside both.
+  // A reference is drawn once for both runs.
   const own = first.lines.filter((line) => !line.dash);
   return own.map((line) => {
     const lines = runs.flatMap((run, i) => {

@@ -7,8 +7,8 @@ import {RobotView} from './robot_view.js';
 
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
-// Lengths of arrows, as parts of the robot's height: of a force on a foot, and
-// of a push, that equals the robot's weight.
+// Lengths of the arrows of a foot force and of a push that equal the robot's
+// weight, relative to the robot's height.
 const FOOT_FORCE_LENGTH = 0.4;
 const PUSH_LENGTH = 1.15;
 
@@ -27,7 +27,7 @@ void main() {
   place = position.xy;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
-// Lines every 0.1 m and 1 m, as thin as a pixel, fading with distance.
+// Draws grid lines every 0.1 m and 1 m, one pixel wide, fading with distance.
 const GRID_FRAGMENT = `
 varying vec2 place;
 uniform vec3 line;
@@ -45,7 +45,7 @@ void main() {
   gl_FragColor = vec4(line, strength);
 }`;
 
-/** The geometry of at most `capacity` points that change. */
+/** Returns a geometry of at most `capacity` points that can change. */
 function pointsGeometry(capacity) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(
@@ -61,7 +61,7 @@ function setPoints(object, points) {
   return count;
 }
 
-/** An arrow from a point along a vector, in meters; or seen through bodies. */
+/** An arrow from a point along a vector, m. It can be visible through bodies. */
 class Arrow {
   constructor(seenThrough) {
     this.group = new THREE.Group();
@@ -99,7 +99,7 @@ class Arrow {
   }
 }
 
-/** The 3D replay of one run, in an element of the page. */
+/** The 3D replay of a run, in an element of the page. */
 export class Stage {
   #listeners = [];
 
@@ -166,7 +166,7 @@ export class Stage {
     this.scene.add(this.shadow, this.grid);
   }
 
-  // Marks are seen through the feet that stand on them.
+  // The marks on the ground are visible through the feet on them.
   #addMarks() {
     const flat = (geometry, opacity = 1) => {
       const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({
@@ -189,7 +189,7 @@ export class Stage {
     const fan = [];
     for (let i = 2; i < MOST_CORNERS; ++i) fan.push(0, i - 1, i);
     this.supportFill.geometry.setIndex(fan);
-    // Their points move: they are never out of sight by a stale bound.
+    // Their points move, so a bound of them would be out of date and hide them.
     this.supportFill.frustumCulled = this.supportEdge.frustumCulled = false;
     this.scene.add(this.supportFill, this.supportEdge);
     this.comRing = flat(new THREE.RingGeometry(0.013, 0.019, 32));
@@ -204,7 +204,7 @@ export class Stage {
     this.plumb.frustumCulled = false;
     this.scene.add(this.plumb);
     this.footArrows = (this.robot?.feet ?? []).map(() => new Arrow(true));
-    this.pushes = [];  // That are drawn: {newtons, tail}.
+    this.pushes = [];  // The drawn pushes: {newtons, tail}.
     const most = Math.max(1, mostAtOnce(this.run.summary.pushes ?? []));
     this.pushArrows = Array.from({length: most}, () => new Arrow(false));
     for (const arrow of [...this.footArrows, ...this.pushArrows]) {
@@ -233,13 +233,13 @@ export class Stage {
     this.dirty = true;
   }
 
-  // Its size and middle at the start, for the camera.
+  // Computes the robot's size and middle at the start, for the camera.
   #frameRobot() {
     const box = new THREE.Box3(new THREE.Vector3(-0.3, -0.3, 0),
                                new THREE.Vector3(0.3, 0.3, 1));
     if (this.robot) {
       box.setFromObject(this.robot.root);
-      // Without a log it stands on the ground all the same.
+      // Without a log, puts the robot on the ground.
       if (!this.run.motion.rows) {
         this.robot.root.position.z = -box.min.z;
         box.translate(this.robot.root.position);
@@ -264,7 +264,7 @@ export class Stage {
     }
   }
 
-  /** Looks from one of VIEWS. */
+  /** Moves the camera to one of VIEWS. */
   setView(name) {
     const direction = new THREE.Vector3(...VIEWS[name]).normalize();
     this.controls.target.copy(this.followed);
@@ -275,12 +275,12 @@ export class Stage {
     this.dirty = true;
   }
 
-  /** Calls back when the user moved the camera. */
+  /** Registers a callback for camera moves by the user. */
   onCamera(listener) {
     this.#listeners.push(listener);
   }
 
-  /** Looks as another stage does. */
+  /** Copies the camera of another stage, relative to the robot. */
   copyCamera(other) {
     const offset = other.camera.position.clone().sub(other.controls.target);
     const target = other.controls.target.clone().sub(other.followed);
@@ -316,12 +316,12 @@ export class Stage {
     this.#drawPushes(time, com);
   }
 
-  // Height of the robot over its weight.
+  // Height of the robot divided by its weight, m/N.
   get #lengthPerNewton() {
     return (this.height ?? 1) / ((this.run.robot.mass || 1) * 9.81);
   }
 
-  // The camera goes with the robot when that walks off; sway it shows.
+  // The camera follows when the robot walks away, but not when it sways.
   #follow() {
     const at = this.robot.bodies[0].position;
     if (!this.followed) return;
@@ -374,7 +374,7 @@ export class Stage {
     if (body && frame === 'body') {
       force.applyQuaternion(body.getWorldQuaternion(new THREE.Quaternion()));
     }
-    // Drawn up to the surface it pushes on, from outside.
+    // The arrow is outside the body and points at the surface that is pushed.
     const vector = force.clone().multiplyScalar(
         PUSH_LENGTH * this.#lengthPerNewton);
     vector.clampLength(0, 1.2 * this.height);
@@ -384,7 +384,7 @@ export class Stage {
     return {newtons: force.length(), tail};
   }
 
-  /** Where a point of the world is on the canvas, in CSS pixels. */
+  /** Returns the position of a world point on the canvas, in CSS pixels. */
   project(point) {
     const on = point.clone().project(this.camera);
     return [(on.x + 1) / 2 * this.element.clientWidth,
@@ -396,7 +396,7 @@ export class Stage {
     if (!width || !height) return;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
-    // Upright canvases need a wider angle to hold the arms.
+    // Tall canvases need a wider angle to show the arms.
     this.camera.fov = width < 0.75 * height ?
         2 * Math.atan(Math.tan(Math.PI / 12) * 0.75 * height / width) * 180 /
             Math.PI :

@@ -1,16 +1,16 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 import {escapeHtml, formatNumber} from './format.js';
 
-// CSS pixels a row: its height, and where its bar is. On a narrow page the name
-// stands above the bar, see style.css.
+// Height of a row, and position and height of its bar, in CSS pixels. On a
+// narrow page the name is above the bar, see style.css.
 const BESIDE = {row: 18, bar: 3, height: 12};
 const ABOVE = {row: 30, bar: 16, height: 9};
 const narrow = window.matchMedia('(max-width: 720px)');
 
 /**
- * Rows of bars on the page's time, each with a name: a canvas that is as wide
- * as the plots and ends where they end. `spec` is {title, hint, rows: [{name,
- * draw(context, toX, y, height)}], few, onPick, empty}.
+ * Rows of bars over time, each with a name, on a canvas that is aligned with the
+ * plots. `spec` is {title, hint, rows: [{name, draw(context, toX, y, height)}],
+ * few, onPick, empty}.
  */
 export class Strip {
   #cursor;
@@ -123,7 +123,7 @@ export class Strip {
   }
 }
 
-/** What a row of the hierarchy is about, by its name: a color of the palette. */
+/** Returns the palette color of a row of the hierarchy, by the row's name. */
 export function kindOf(name) {
   if (/(^|\.)(cop|zmp|zmp_literal)\./.test(name)) return 'cop';
   if (/(^|\.)yaw(_constant)?(\.|$)/.test(name)) return 'c4';
@@ -133,7 +133,7 @@ export function kindOf(name) {
   return 'c1';
 }
 
-/** Rows of a strip: when each constraint was active, darker where it cost more. */
+/** Rows of a strip: the active constraints, darker for larger multipliers. */
 export function activeRows(run) {
   return run.active.map(({name, peak, spans}) => ({
     name,
@@ -149,7 +149,7 @@ export function activeRows(run) {
   }));
 }
 
-// A channel as a bar: each pixel as dark as the most that falls on it, 0 to 1.
+// Draws a channel as a bar. Each pixel is as dark as its largest value, 0 to 1.
 function drawIntensity(context, toX, y, height, table, channel, of, colorOf) {
   const values = table.values(channel);
   const {time} = table;
@@ -166,7 +166,7 @@ function drawIntensity(context, toX, y, height, table, channel, of, colorOf) {
     const x = Math.floor(toX(time[i]));
     if (x !== at) {
       paint(at);
-      // A pixel without a row of its own keeps the color of the last one.
+      // A pixel without a row has the color of the last pixel with one.
       for (let gap = Math.max(0, at + 1); at >= 0 && gap < Math.min(x, width);
         ++gap) {
         paint(gap);
@@ -180,8 +180,8 @@ function drawIntensity(context, toX, y, height, table, channel, of, colorOf) {
 }
 
 /**
- * Rows of a strip: what each task lost, against the most that it lost. Those
- * that were met throughout are left out.
+ * Rows of a strip: the residual of each task, relative to its largest value.
+ * Tasks without residual are left out.
  */
 export function residualRows(run) {
   const rows = [];
@@ -201,7 +201,7 @@ export function residualRows(run) {
   return rows;
 }
 
-/** Rows of a strip: how much of its limit each joint's torque used. */
+/** Rows of a strip: the torque of each joint, relative to its limit. */
 export function torqueRows(run) {
   const limits = run.robot?.limits ?? {};
   const rows = [];
@@ -224,7 +224,7 @@ export function torqueRows(run) {
   return rows;
 }
 
-// Rows of a strip from [[name, from, to], ...], in the colors of a palette.
+// Returns the rows of a strip from [[name, from, to], ...], in palette colors.
 function spanRows(list, colorOf) {
   const byName = new Map();
   for (const [name, from, to] of list) {
@@ -243,13 +243,13 @@ function spanRows(list, colorOf) {
   }));
 }
 
-/** Rows of a strip: where the controller's status was not "ok". */
+/** Rows of a strip: when the controller's status was not "ok". */
 export function statusRows(run) {
   return spanRows(run.status,
                   (name) => (name === 'fail_safe' ? 'push' : 'capture'));
 }
 
-/** Rows of a strip: when two links pressed on each other. */
+/** Rows of a strip: when two links touched each other. */
 export function touchingRows(run) {
   return spanRows(
       run.touching.map(([pair, ...span]) => [pair.replace('|', ' on '), ...span]),

@@ -4,7 +4,7 @@ const PLAY = '<svg viewBox="0 0 16 16"><path d="M3 1.5v13l11-6.5z"/></svg>';
 const PAUSE =
     '<svg viewBox="0 0 16 16"><path d="M3 1.5h3.6v13H3zm6.4 0H13v13H9.4z"/></svg>';
 
-/** Play, pause, scrub and speed: the hands on a Clock. */
+/** The controls of a Clock: play, pause, time bar and speed. */
 export class Transport {
   constructor(parent, clock, {pushes, falls}) {
     this.clock = clock;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 //
-// The pages in a real browser. From the environment:
+// Tests the pages in a real browser. Environment variables:
 //     POISE_REPORT   the program report
 //     POISE_STANDS   a run that recovers from a push
 //     POISE_FALLS    a run that falls
@@ -20,7 +20,7 @@ const {POISE_REPORT, POISE_STANDS, POISE_FALLS, POISE_OUT} = process.env;
 const dist = fileURLToPath(new URL('../dist/', import.meta.url));
 const out = (name) => path.join(POISE_OUT, name);
 
-// A busy machine draws slowly; one that hangs is told by Bazel's own limit.
+// Drawing is slow on a busy machine. Bazel's time limit stops a hanging test.
 const PATIENCE = 600e3;
 
 let browser;
@@ -57,7 +57,7 @@ before(async () => {
 
 after(() => browser?.close());
 
-/** Opens a page; an error in it, or a look at the network, fails the test. */
+/** Opens a page. An error in it or a request to the network fails the test. */
 async function withPage(name, options, act) {
   const page = await browser.newPage(
       {viewport: {width: 1440, height: 900}, ...options});
@@ -69,7 +69,7 @@ async function withPage(name, options, act) {
   });
   page.on('request', (request) => {
     if (!/^(file|data|blob|about):/.test(request.url())) {
-      errors.push(`asked the network for ${request.url()}`);
+      errors.push(`the page requested ${request.url()} from the network`);
     }
   });
   try {
@@ -83,7 +83,7 @@ async function withPage(name, options, act) {
   }
 }
 
-/** Waits until all that was asked for is on the screen. */
+/** Waits until all changes are on the screen. */
 const drawn = (page, frames = 3) => page.evaluate((count) =>
   new Promise((resolve) => {
     const next = () => (count-- > 0 ? requestAnimationFrame(next) : resolve());
@@ -93,13 +93,13 @@ const drawn = (page, frames = 3) => page.evaluate((count) =>
 const seek = (page, time) =>
   page.evaluate((t) => window.poise.clock.seek(t), time);
 
-/** Where the robots are: the base, and the last body, in the world. */
+/** Returns the poses of each robot's base and last body in the world. */
 const whereRobots = (page) => page.evaluate(() =>
   window.poise.stages.map(({stage}) => [
     ...stage.robot.bodies[0].matrixWorld.elements,
     ...stage.robot.bodies.at(-1).matrixWorld.elements]));
 
-/** How many colors a stage shows, read back from its canvas. */
+/** Returns the number of colors that a stage shows, from its canvas. */
 const colorsOf = (page, index = 0) => page.evaluate((i) => {
   const {stage} = window.poise.stages[i];
   stage.dirty = true;
@@ -126,7 +126,7 @@ test('a report of ten seconds is one file of less than 5 MB', () => {
   assert.ok(size < 5e6, String(size));
 });
 
-test('a run is shown: numbers, plots, and a robot that is not blank',
+test('a run is shown with numbers, plots and a visible robot',
   () => withPage('stands', {}, async (page) => {
     assert.equal(await page.locator('.verdict').textContent(), 'Recovered');
     assert.ok(await page.locator('.tile').count() >= 8);
@@ -228,7 +228,7 @@ test('plots zoom to the push and back',
     assert.equal((await page.evaluate(() => window.poise.range))[0], 0);
   }));
 
-test('light turns dark',
+test('the theme button switches from light to dark',
   () => withPage('stands', {colorScheme: 'light'}, async (page) => {
     const ground = () => page.evaluate(
         () => getComputedStyle(document.body).backgroundColor);
@@ -245,7 +245,7 @@ test('the report of a fall shows the fall',
     assert.match(await page.locator('.verdict').textContent(), /^Fell at \d/);
     const base = () => page.evaluate(() => {
       const {matrixWorld} = window.poise.stages[0].stage.robot.bodies[0];
-      // How upright: z of the base's z axis.
+      // Is 1 if upright: the z component of the base's z axis.
       return {height: matrixWorld.elements[14], up: matrixWorld.elements[10]};
     });
     const standing = await base();
@@ -258,7 +258,7 @@ test('the report of a fall shows the fall',
     await page.screenshot({path: out('falls.png')});
   }));
 
-test('two runs stand side by side on one clock',
+test('two runs are shown side by side at the same time',
   () => withPage('compare', {}, async (page) => {
     assert.equal(await page.locator('.stage').count(), 2);
     await seek(page, 1.6);
@@ -267,7 +267,7 @@ test('two runs stand side by side on one clock',
     const labels = await page.locator('.stage .who b').allTextContents();
     assert.match(labels[0], /without zmp/);
     assert.notEqual(labels[0], labels[1]);
-    // As in the heads above: no name is cut.
+    // The legend names runs by A and B as the headers do: no name is truncated.
     assert.deepEqual(
         await page.locator('.plot .legend').first().locator('span')
             .allTextContents(), ['A', 'B']);
@@ -307,7 +307,7 @@ for (const [name, note] of [
     }));
 }
 
-test('ten minutes are shown in a file that is still small',
+test('a report of ten minutes is a file of less than 12 MB',
   () => withPage('long', {}, async (page) => {
     const {size} = statSync(pages.long);
     assert.ok(size < 12e6, String(size));
@@ -329,7 +329,7 @@ test('another robot is shown', () => withPage('hopper', {}, async (page) => {
   await seek(page, 2);
   assert.notDeepEqual(await whereRobots(page), before);
   assert.match(await page.locator('.notes').textContent(), /summary\.json/);
-  // It hops away: the map of the ground goes with it.
+  // The hopper moves away, and the map of the ground follows it.
   await page.keyboard.press('End');
   const {foot, center, span} = await page.evaluate(() => {
     const [{stage, map}] = window.poise.stages;

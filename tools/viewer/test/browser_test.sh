@@ -1,8 +1,8 @@
 #!/bin/bash
 # Usage: browser_test.sh REPORT PUSH
-# Builds the pages anew and compares them with dist/, then tries them in a real
-# browser, with fresh runs. Needs Node and Chromium (tools/setup.sh --browser),
-# and npm's registry unless tools/viewer/node_modules is there.
+# Builds the pages again and compares them with dist/. Then tests them in a real
+# browser with new runs. Needs Node and Chromium (tools/setup.sh --browser), and
+# npm's registry unless tools/viewer/node_modules exists.
 set -euo pipefail
 
 for program in node npm chromium; do
@@ -16,7 +16,7 @@ done
 
 report=$PWD/$1
 push=$PWD/$2
-# Where the sources are: npm's folder is beside them, if anywhere.
+# The folder of the sources: npm's folder, if there is one, is inside it.
 viewer=$(dirname "$(readlink -f tools/viewer/package.json)")
 work=$TEST_TMPDIR/viewer
 out=${TEST_UNDECLARED_OUTPUTS_DIR:-$TEST_TMPDIR/out}
@@ -34,7 +34,7 @@ cd "$work"
 node build.mjs --out "$TEST_TMPDIR/built"
 for page in report map; do
   cmp "dist/$page.html" "$TEST_TMPDIR/built/$page.html" || {
-    echo "dist/$page.html is not what the sources build: npm run build" >&2
+    echo "dist/$page.html was not built from these sources: npm run build" >&2
     exit 1
   }
 done

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 //
-// What needs no browser: data, time, geometry, numbers as text.
+// Tests that need no browser: data, time, geometry, numbers as text.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {Clock} from '../src/clock.js';
@@ -20,7 +20,7 @@ const table = (time, ...channels) => ({
   rows: time.length, time: base64(Float32Array.from(time)), channels,
 });
 
-test('a channel is decoded as tools/commands/report/channel.h says', () => {
+test('a channel is decoded as tools/commands/report/channel.h defines', () => {
   const values = decodeChannel(channel('q', -1, 3, [0, 65534, 32767, 65535]));
   assert.deepEqual([...values.slice(0, 3)], [-1, 3, 1]);
   assert.ok(Number.isNaN(values[3]));
@@ -30,7 +30,7 @@ test('floats keep their bits', () => {
   assert.deepEqual([...decodeFloats('AACAPwAAgD8=')], [1, 1]);
 });
 
-test('a table is linear between its rows and level outside', () => {
+test('a table is linear between its rows and constant outside', () => {
   const data = new Table(table([0, 1, 3], channel('a', 0, 4, [0, 32767, 65534])));
   assert.equal(data.at('a', -5), 0);
   assert.equal(data.at('a', 0.5), 1);
@@ -48,7 +48,7 @@ test('an empty table has no rows and no values', () => {
   assert.equal(data.at('a', 1, 7), 7);
 });
 
-test('a run knows its pushes, and where a moving mass is caught', () => {
+test('a run finds the times of its pushes and its capture point', () => {
   const still = (name) => channel(name, 0, 0, [0, 0, 0, 0]);
   const run = new Run({
     name: 'r', summary: null, robot: null, notes: [], timing: null,
@@ -68,13 +68,14 @@ test('a run knows its pushes, and where a moving mass is caught', () => {
   assert.deepEqual(run.push(0.9), [0, 0, 0]);
   assert.equal(run.start, 0);
   assert.equal(run.end, 3);
-  // At 1 m/s and a height of 0.8 m: ahead by sqrt(0.8 / 9.81) s.
+  // The CoM moves at 1 m/s at a height of 0.8 m, so the capture point is ahead
+  // by sqrt(0.8 / 9.81) s times 1 m/s.
   const [x, y] = run.capturePoint(1.5);
   assert.ok(Math.abs(x - (1.5 + Math.sqrt(0.8 / 9.81))) < 1e-3, String(x));
   assert.ok(Math.abs(y) < 1e-9);
 });
 
-test('each of two unlike pushes keeps its force, shape and point', () => {
+test('each push keeps its own force, shape and point', () => {
   const box = {
     link: 'head', body: 3, point: [0, 0, 0.1], force: [30, 0, 0],
     frame: 'world', at: 1, duration: 1, shape: 'box', impulse_Ns: 30,
@@ -111,7 +112,8 @@ test('each of two unlike pushes keeps its force, shape and point', () => {
       pushesText(summary),
       '30.0 N for 1.00 s on head, then half sine of 100 N for 1.00 s on torso' +
       ', then 3.00 N·s at once on head');
-  // An older summary does not hold the force, and a mean is not the force.
+  // Summaries of older versions do not contain the force, and the mean is not
+  // the force.
   assert.equal(pushesText({impulse_Ns: 15, push_duration: 0.15}), '15.0 N·s');
 });
 
@@ -124,7 +126,7 @@ test('a clock plays at its speed, stops at the end, and starts again', () => {
   clock.frame(1000);
   clock.frame(1050);
   assert.ok(Math.abs(clock.time - 0.025) < 1e-12);
-  // A page that slept does not jump.
+  // After a pause without frames the clock does not jump.
   clock.frame(60000);
   assert.ok(Math.abs(clock.time - 0.075) < 1e-12);
   clock.seek(0.99);
@@ -139,7 +141,7 @@ test('a clock plays at its speed, stops at the end, and starts again', () => {
   assert.ok(told > 5);
 });
 
-test('a clock without length does not play', () => {
+test('a clock with equal start and end does not play', () => {
   const clock = new Clock(2, 2);
   clock.play();
   assert.equal(clock.playing, false);
@@ -154,12 +156,12 @@ test('a convex hull is counterclockwise and without inner points', () => {
 });
 
 test('the center of pressure is where the force acts', () => {
-  // 100 N at (0.03, -0.02): m = p x f.
+  // A force of 100 N at (0.03, -0.02) has the moment m = p x f.
   assert.deepEqual(copOf({mx: -2, my: -3, fz: 100}), [0.03, -0.02]);
   assert.equal(copOf({mx: 0, my: 0, fz: 0}), null);
 });
 
-test('numbers are short, and say so when they are none', () => {
+test('numbers are short, and NaN is shown as a dash', () => {
   assert.deepEqual(
       [0, 12.345, -0.4567, 123.4, 1234567, 3e-11, NaN, undefined, Infinity]
           .map(formatNumber),

@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 //
-// Folders of runs for the browser test, made from a real one: what happens to
-// logs. And a robot that is no humanoid.
+// Makes run folders for the browser test: copies of a real run with damaged or
+// unusual logs, and a run of a robot that is not a humanoid.
 import {once} from 'node:events';
 import {copyFileSync, createWriteStream, mkdirSync, readFileSync,
   writeFileSync} from 'node:fs';
 import path from 'node:path';
 
-/** A copy of a run with another log, which its summary is taken for. */
+/** Copies a run with another log. Removes the check sum from the summary. */
 function withLog(run, folder, log) {
   mkdirSync(folder, {recursive: true});
   copyFileSync(path.join(run, 'robot.json'), path.join(folder, 'robot.json'));
@@ -27,7 +27,7 @@ export function emptyRun(run, folder) {
   return withLog(run, folder, linesOf(run)[0] + '\n');
 }
 
-/** Stopped by a user, the robot still up. */
+/** A run that the user stopped while the robot was standing. */
 export function interruptedRun(run, folder) {
   withLog(run, folder, linesOf(run).join('\n') + '\n');
   writeFileSync(path.join(folder, 'summary.json'),
@@ -35,7 +35,7 @@ export function interruptedRun(run, folder) {
   return folder;
 }
 
-/** Stopped by a full disk: in the middle of a number, of row 500. */
+/** A run that a full disk stopped, in the middle of a number in row 500. */
 export function cutRun(run, folder) {
   const lines = linesOf(run);
   return withLog(run, folder, lines.slice(0, 500).join('\n') + '\n' +
@@ -46,7 +46,7 @@ export function oneTickRun(run, folder) {
   return withLog(run, folder, linesOf(run).slice(0, 2).join('\n') + '\n');
 }
 
-/** Ten minutes at the rate of the run: it, again and again. */
+/** A run of ten minutes: the same run repeated at its own rate. */
 export async function longRun(run, folder, seconds = 600) {
   const [header, ...rows] = linesOf(run);
   withLog(run, folder, '');
@@ -68,7 +68,7 @@ export async function longRun(run, folder, seconds = 600) {
   return folder;
 }
 
-/** A hopper on one foot: every kind of shape, a sliding joint, no limits. */
+/** A one-legged hopper with each kind of shape, a sliding joint, no limits. */
 export function hopperRun(folder) {
   mkdirSync(folder, {recursive: true});
   const still = [0, 0, 0, 1];
@@ -110,8 +110,8 @@ export function hopperRun(folder) {
 }
 
 /**
- * A push map of which one point of each ring has a replay. In each of 16
- * directions a point lies on a ring of the scale.
+ * A push map with 16 directions and two rings. One point of each ring has a
+ * replay. The points of one ring lie on a circle of the scale.
  */
 export function mapPage(template, replay) {
   const rows = [];
