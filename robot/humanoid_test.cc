@@ -21,7 +21,8 @@ constexpr double kWritten = 1e-7;
 
 class Humanoid : public testing::Test {
  protected:
-  // Returns a tick with the state of every link, in the order of Tree::frames().
+  // Returns a tick with the state of every link, in the order of
+  // Tree::frames().
   static Tick TickAt(const Robot& robot, const Eigen::VectorXd& q) {
     std::vector<int> frames(robot.model.tree.frames().size());
     for (size_t i = 0; i < frames.size(); ++i) frames[i] = static_cast<int>(i);

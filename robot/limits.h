@@ -12,12 +12,12 @@ namespace poise {
 /// is above the speed of real limbs.
 constexpr double kAssumedVelocity = 30;
 
-/// Returns whether a joint's value is inside its limits, with a tolerance of 1e-6
-/// rad or m.
+/// Returns whether a joint's value is inside its limits, with a tolerance of
+/// 1e-6 rad or m.
 bool IsWithin(const JointLimits& limits, double q);
 
-/// Returns the message for a joint outside its limits: "'l_knee' is at 9, must be
-/// inside its limits, 0 to 2".
+/// Returns the message for a joint outside its limits: "'l_knee' is at 9, must
+/// be inside its limits, 0 to 2".
 std::string SayOutside(const std::string& joint, const JointLimits& limits,
                        double q);
 

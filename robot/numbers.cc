@@ -8,8 +8,8 @@
 namespace poise {
 namespace {
 
-// Returns infinity or zero for a number outside the range of a double. The power
-// of ten of the first nonzero digit tells overflow from underflow.
+// Returns infinity or zero for a number outside the range of a double. The
+// power of ten of the first nonzero digit tells overflow from underflow.
 double Extreme(std::string_view token) {
   const bool negative = token[0] == '-';
   if (negative) token.remove_prefix(1);

@@ -67,7 +67,8 @@ struct RobotModel {
 };
 
 /// A flat sole. The contact frame C lies at the center of the largest rectangle
-/// in the sole polygon. Its z axis points out of the ground, its x axis forward.
+/// in the sole polygon. Its z axis points out of the ground, its x axis
+/// forward.
 struct Foot {
   std::string name;  ///< "left_foot", "right_foot".
   int body;          ///< Index of the body in the tree.
@@ -78,13 +79,13 @@ struct Foot {
   std::vector<Eigen::Vector2d> polygon_C;  ///< Convex, counterclockwise, m.
 };
 
-/// A robot for control and simulation. It combines the contents of the URDF with
-/// the feet and the posture of the profile.
+/// A robot for control and simulation. It combines the contents of the URDF
+/// with the feet and the posture of the profile.
 struct Robot {
   RobotModel model;
   std::vector<Foot> feet;  ///< The left foot, then the right foot.
-  /// The nominal posture. The soles are on the ground (z = 0), their midpoint is
-  /// at the world's origin, and the robot faces +x. For the layout see Tree.
+  /// The nominal posture. The soles are on the ground (z = 0), their midpoint
+  /// is at the world's origin, and the robot faces +x. For the layout see Tree.
   Eigen::VectorXd q_nominal;
   /// Whether the robot can stand in q_nominal. If false, the joints are at the
   /// profile's values, else at zero or at their nearest limit. The base is then

@@ -7,13 +7,14 @@
 
 namespace poise {
 
-/// Checks from the axes of the soles, in robot.q_nominal, that the two feet are a
-/// left and a right foot. Returns the reason if they are not, or "" if they are.
+/// Checks from the axes of the soles, in robot.q_nominal, that the two feet are
+/// a left and a right foot. Returns the reason if they are not, or "" if they
+/// are.
 /// @pre The robot has two feet, the left one first.
 std::string WhyNoPairOfFeet(const Robot& robot);
 
-/// Returns the reason why the robot cannot stand in robot.q_nominal, or "" if it
-/// can. The conditions are:
+/// Returns the reason why the robot cannot stand in robot.q_nominal, or "" if
+/// it can. The conditions are:
 /// - the joints are inside their limits and obey their mimic couplings;
 /// - both soles lie flat on the ground, to 5 mm and 0.02 rad, the left sole to
 ///   the left;

@@ -28,12 +28,13 @@ bool IsConvex(const std::vector<Eigen::Vector2d>& corners);
 /// Returns the largest rectangle with sides along x and y inside a convex
 /// polygon. The error is at most 1e-9 of the polygon's size.
 ///
-/// @pre The polygon is convex, counterclockwise, and has at least three corners.
+/// @pre The polygon is convex, counterclockwise, and has at least three
+/// corners.
 Rectangle LargestRectangle(const std::vector<Eigen::Vector2d>& polygon);
 
-/// Makes a foot on a link from a sole polygon. The polygon is given in a frame S
-/// that is fixed to the link, with z out of the ground and x forward. The contact
-/// frame C has S's axes and lies at the center of the polygon's largest
+/// Makes a foot on a link from a sole polygon. The polygon is given in a frame
+/// S that is fixed to the link, with z out of the ground and x forward. The
+/// contact frame C has S's axes and lies at the center of the polygon's largest
 /// rectangle. A polygon with more than 64 corners is reduced: only the extreme
 /// corners in 64 directions remain.
 ///

@@ -75,8 +75,8 @@ TEST(LargestRectangle, CoversHalfOfATriangle) {
   EXPECT_LT((r.center - Vector2d(0.25, 0)).norm(), kPromised);
 }
 
-// The trapezoid is 2 wide at x = 0 and 4 wide at x = 2. Its largest rectangle has
-// its full length and is 2 wide.
+// The trapezoid is 2 wide at x = 0 and 4 wide at x = 2. Its largest rectangle
+// has its full length and is 2 wide.
 TEST(LargestRectangle, HasTheFullLengthOfATrapezoid) {
   const Rectangle r = LargestRectangle({{0, -1}, {2, -2}, {2, 2}, {0, 1}});
   EXPECT_LT((r.half_size - Vector2d(1, 1)).norm(), kPromised);
@@ -101,8 +101,8 @@ const char kOneLink[] =
 
 // Returns the URDF of a biped. Each leg has six joints, of which the first
 // `motors` have a motor, and ends in a foot with the given shapes. `foot_rpy`
-// orients the foot's link, and `knee_range` is the limit of the knee. At rest the
-// ankle is 1 m below the base.
+// orients the foot's link, and `knee_range` is the limit of the knee. At rest
+// the ankle is 1 m below the base.
 std::string Biped(const std::string& shapes, const std::string& foot_rpy,
                   const std::string& knee_range = "lower='0' upper='2'",
                   int motors = 6) {
@@ -268,8 +268,8 @@ TEST(FindFeet, EstimatesTheSoleOfAMesh) {
             kPromised);
 }
 
-// The center of mass of the left foot lies beside its joint origin. The estimated
-// sole is centered sideways below this center of mass.
+// The center of mass of the left foot lies beside its joint origin. The
+// estimated sole is centered sideways below this center of mass.
 TEST(FindFeet, EstimatesASoleBelowTheCenterOfMass) {
   std::string biped =
       Biped(Collision("mesh filename='foot.stl'", "0 0 0"), "0 0 0");
@@ -334,8 +334,8 @@ TEST(MakeFoot, ReducesAPolygonTo64ExtremeCorners) {
   const Foot foot = MakeFoot(model, "f", 0, {}, rim).value();
   EXPECT_LE(foot.polygon_C.size(), 64u);
   EXPECT_GT(foot.polygon_C.size(), 60u);
-  // The result is the square inside the circle, slightly reduced: a chord between
-  // two of 64 corners is off the circle by 0.12 % of the radius.
+  // The result is the square inside the circle, slightly reduced: a chord
+  // between two of 64 corners is off the circle by 0.12 % of the radius.
   const double half = 0.1 * std::sqrt(0.5);
   for (const double side : {foot.half_size.x(), foot.half_size.y()}) {
     EXPECT_NEAR(side, half, 0.01 * half);

@@ -167,8 +167,8 @@ double Toes(const RobotModel& model, int foot, const std::vector<Pose>& X_WB,
 }
 
 // Returns the range of a knee forward minus its range backward, plus twice its
-// bend at rest, in rad. A positive rotation about the axis to the left moves the
-// shank backward, so that the knee points forward.
+// bend at rest, in rad. A positive rotation about the axis to the left moves
+// the shank backward, so that the knee points forward.
 double KneeRange(const RobotModel& model, int body,
                  const std::vector<Pose>& X_WB, const Vector3d& forward) {
   const auto knee =

@@ -10,8 +10,8 @@
 
 namespace poise {
 
-/// A knee: the index of its joint, and the sign of its axis, 1 or -1. The sign is
-/// 1 if the axis points to the left.
+/// A knee: the index of its joint, and the sign of its axis, 1 or -1. The sign
+/// is 1 if the axis points to the left.
 struct Knee {
   int joint;
   int sign;
@@ -31,9 +31,9 @@ std::optional<Knee> FindKnee(const Tree& tree, int foot,
                              const Eigen::Vector3d& left);
 
 /// Finds the ankle of the leg that ends in a foot. Among the joints that rotate
-/// about the lateral axis, the ankle is the last one before the foot, unless this
-/// joint is the knee. If a roll joint follows, the foot's origin may lie in front
-/// of or behind the ankle. The parameters are those of FindKnee().
+/// about the lateral axis, the ankle is the last one before the foot, unless
+/// this joint is the knee. If a roll joint follows, the foot's origin may lie
+/// in front of or behind the ankle. The parameters are those of FindKnee().
 /// @return the joint's index, or nothing if there is no ankle.
 std::optional<int> FindAnkle(const Tree& tree, int foot,
                              const std::vector<Pose>& X_WB,

@@ -24,8 +24,8 @@ constexpr double kFlat = 2e-3;
 constexpr double kSteepest = 0.6;
 constexpr double kMostTurned = 0.3;
 constexpr double kSameAxis = 1e-6;
-// At most about this many axes of a body are used, so that a body with very many
-// shapes does not take long.
+// At most about this many axes of a body are used, so that a body with very
+// many shapes does not take long.
 constexpr size_t kMostAxes = 64;
 
 // Adds the corners and axes of a shape. A curved rim becomes 16 points.
@@ -147,7 +147,8 @@ Sole FindSole(const Outline& outline, const Vector3d& up_B) {
       sole.points_B.push_back(corner.p_B - above * normal);
     }
     sole.area = Area(sole);
-    // The factor 1.01 prefers the first plane if areas are equal up to rounding.
+    // The factor 1.01 prefers the first plane if areas are equal up to
+    // rounding.
     if (sole.area > 1.01 * best.area) best = std::move(sole);
   }
   return best.area > kFlat * kFlat ? best : Sole{};
@@ -161,8 +162,9 @@ Sole EstimateSole(const RobotModel& model, int body, const Vector3d& up_B,
   const double depth = EstimateDepth(model, body, up_B, leg, &sole.frame);
   sole.normal_B = up_B;
   const Vector3d side_B = up_B.cross(forward_B);
-  // The foot's origin may lie anywhere along the axis of its joint. So the sole is
-  // placed relative to the ankle (forward) and the center of mass (sideways).
+  // The foot's origin may lie anywhere along the axis of its joint. So the sole
+  // is placed relative to the ankle (forward) and the center of mass
+  // (sideways).
   const double ankle = forward_B.dot(p_BA_B);
   const double middle = side_B.dot(model.tree.inertias()[body].p_BoG_B);
   for (const double x : {-0.07, 0.15}) {

@@ -35,9 +35,9 @@ struct Sole {
   double area = 0;                                     ///< m².
 };
 
-/// Finds the largest flat underside of a body. The candidate planes are normal to
-/// one of the outline's axes or to `up_B`, and at most 35 degrees from horizontal.
-/// The result has no points if no such plane has an area.
+/// Finds the largest flat underside of a body. The candidate planes are normal
+/// to one of the outline's axes or to `up_B`, and at most 35 degrees from
+/// horizontal. The result has no points if no such plane has an area.
 Sole FindSole(const Outline& outline, const Eigen::Vector3d& up_B);
 
 /// Estimates the sole of a foot that has only meshes, as FindFeet() describes.
@@ -48,9 +48,10 @@ Sole EstimateSole(const RobotModel& model, int body,
                   const Eigen::Vector3d& up_B, const Eigen::Vector3d& forward_B,
                   const Eigen::Vector3d& p_BA_B, double leg);
 
-/// Returns the pose of the sole frame S in the body. Its origin is the projection
-/// of the body's origin onto the plane of the sole. Its z axis is the normal. Its
-/// x axis points forward, along an axis of the outline if one is within 0.3 rad.
+/// Returns the pose of the sole frame S in the body. Its origin is the
+/// projection of the body's origin onto the plane of the sole. Its z axis is
+/// the normal. Its x axis points forward, along an axis of the outline if one
+/// is within 0.3 rad.
 Pose MakeSoleAxes(const Sole& sole, const Outline& outline,
                   const Eigen::Vector3d& forward_B);
 

@@ -70,8 +70,8 @@ struct Reader {
   std::map<std::string, JointValue> Joints(const YAML::Node& node,
                                            const std::string& thing) const;
 
-  // Refuses a point with a coordinate above 1 m, because no sole is as large. The
-  // file is then likely in another unit.
+  // Refuses a point with a coordinate above 1 m, because no sole is as large.
+  // The file is then likely in another unit.
   void ExpectSmall(const Eigen::Vector2d& point, const YAML::Node& at,
                    const std::string& thing) const {
     if (point.cwiseAbs().maxCoeff() <= 1) return;
@@ -80,8 +80,8 @@ struct Reader {
   }
 
   // Returns the sole's axes in the link. The z axis is along the normal. The x
-  // axis is near the link's x axis or, if the normal is within 26 degrees of the
-  // link's x axis, near its z axis.
+  // axis is near the link's x axis or, if the normal is within 26 degrees of
+  // the link's x axis, near its z axis.
   Eigen::Matrix3d FromNormal(const YAML::Node& node,
                              const std::string& thing) const;
 
@@ -299,8 +299,8 @@ std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
   for (const auto& [name, joint] : profile.locked) {
     const std::optional<int> j = tree.FindJoint(name);
     if (!j) refuse(joint, "the robot has no moving joint " + Quoted(name));
-    // The limits of a mimic joint are not checked, because its source determines
-    // its value.
+    // The limits of a mimic joint are not checked, because its source
+    // determines its value.
     if (!mimic_of[*j] && !IsWithin(model.limits[*j], joint.value)) {
       refuse(joint, SayOutside(name, model.limits[*j], joint.value));
     }
@@ -311,8 +311,8 @@ std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
   const Eigen::VectorXd q_rest = RestConfiguration(model);
   for (const MimicCoupling& mimic : model.mimics) {
     const std::string& name = tree.joints()[mimic.joint].name;
-    // The chain of sources ends at a joint that is locked or is not a mimic joint.
-    // The URDF loader rejects cycles.
+    // The chain of sources ends at a joint that is locked or is not a mimic
+    // joint. The URDF loader rejects cycles.
     std::vector<const MimicCoupling*> chain;
     int joint = mimic.joint;
     while (mimic_of[joint] != nullptr &&

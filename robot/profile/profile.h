@@ -30,8 +30,9 @@ struct SoleProfile {
 /// - kFree: a mimic joint moves independently.
 /// - kCoupled: control keeps a mimic joint at multiplier * source + offset. If
 ///   the source is locked, the mimic joint is locked too.
-/// - kLocked: a mimic joint is locked at multiplier * source + offset. The value
-///   of the source is from `locked`, else from `joints`, else the value at rest.
+/// - kLocked: a mimic joint is locked at multiplier * source + offset. The
+///   value of the source is from `locked`, else from `joints`, else the value
+///   at rest.
 enum class MimicPolicy { kFree, kCoupled, kLocked };
 
 /// The value of a joint, rad or m, and its line in the file.
@@ -40,7 +41,8 @@ struct JointValue {
   int line;
 };
 
-/// The facts about a robot that its URDF does not contain, read from a YAML file:
+/// The facts about a robot that its URDF does not contain, read from a YAML
+/// file:
 ///
 ///     feet:                      # Optional: default is FindFeet().
 ///       left_foot:
@@ -48,8 +50,8 @@ struct JointValue {
 ///         xyz: [0, 0, 0]         # Pose of the sole in the link, m and rad:
 ///         rpy: [0, 0, 0]         # z up, x forward. Default: 0.
 ///                                # Instead of rpy, normal: [0, 0, 1] gives the
-///                                # sole's z axis in the link's axes. Its x axis
-///                                # is then as near the link's x as possible.
+///                                # sole's z axis in the link's axes. The
+///                                # sole's x is then near the link's x.
 ///         size: [0.23, 0.13]     # m. Or polygon: [[x, y], ...], m.
 ///       right_foot: ...
 ///     posture:                   # The nominal posture.
@@ -64,8 +66,8 @@ struct JointValue {
 struct Profile {
   std::filesystem::path file;
   std::vector<SoleProfile> feet;
-  /// Position of the base in the nominal posture, m. If it is absent, the profile
-  /// gives no posture in which the robot can stand.
+  /// Position of the base in the nominal posture, m. If it is absent, the
+  /// profile gives no posture in which the robot can stand.
   std::optional<Eigen::Vector3d> base_xyz;
   Eigen::Vector3d base_rpy = Eigen::Vector3d::Zero();  ///< rad.
   int base_line = 0;                                   ///< Line in the file.
@@ -74,24 +76,26 @@ struct Profile {
   std::string posture_found;  ///< How the posture was found, a text.
   std::map<std::string, JointValue> locked;
   MimicPolicy mimic = MimicPolicy::kFree;
-  /// The `tasks` of the file, with line numbers. Undefined if the file has none.
+  /// The `tasks` of the file, with line numbers. Undefined if the file has
+  /// none.
   YAML::Node tasks = YAML::Node(YAML::NodeType::Undefined);
 };
 
-/// Reads a profile. Throws Refusal with the file, the line, the invalid value and
-/// the valid ones.
+/// Reads a profile. Throws Refusal with the file, the line, the invalid value
+/// and the valid ones.
 Profile LoadProfile(const std::filesystem::path& file);
 
-/// Returns the joints that a profile locks. They are the joints in `locked`, the
-/// mimic joints of locked sources (unless `mimic` is free), and all mimic joints
-/// if `mimic` is locked. The result can replace `locked` without changing the
-/// robot. Throws Refusal if the robot has no such joint, if a value is outside
-/// the joint's limits, or if a coupled joint is in `locked` but not its source.
+/// Returns the joints that a profile locks. They are the joints in `locked`,
+/// the mimic joints of locked sources (unless `mimic` is free), and all mimic
+/// joints if `mimic` is locked. The result can replace `locked` without
+/// changing the robot. Throws Refusal if the robot has no such joint, if a
+/// value is outside the joint's limits, or if a coupled joint is in `locked`
+/// but not its source.
 std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
                                                const Profile& profile);
 
-/// Makes a model without the joints that the profile locks. RobotModel::mimics is
-/// empty unless the profile's `mimic` is coupled. Throws as LockedJoints().
+/// Makes a model without the joints that the profile locks. RobotModel::mimics
+/// is empty unless the profile's `mimic` is coupled. Throws as LockedJoints().
 RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile);
 
 /// Makes a robot from its URDF and a profile. An empty Profile is enough for a

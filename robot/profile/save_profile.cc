@@ -43,8 +43,8 @@ std::string Name(const std::string& name) {
   return emitter.c_str();
 }
 
-// Writes "NAME: value" on one line. If the name is too long for a YAML key on one
-// line (1024 characters), writes two lines.
+// Writes "NAME: value" on one line. If the name is too long for a YAML key on
+// one line (1024 characters), writes two lines.
 void WriteEntry(const std::string& indent, const std::string& name,
                 double value, std::ostream* stream) {
   constexpr size_t kLongest = 1000;

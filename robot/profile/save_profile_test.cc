@@ -49,8 +49,8 @@ TEST(SaveProfile, MakesTheSameRobot) {
   }
 }
 
-// Returns a profile in which the base is pitched. The hips compensate the pitch,
-// so that the legs keep their orientation.
+// Returns a profile in which the base is pitched. The hips compensate the
+// pitch, so that the legs keep their orientation.
 Profile MakeLeaningProfile(double pitch) {
   Profile profile = LoadProfile("robot/profiles/humanoid.yaml");
   const Robot robot = LoadRobot(kUrdf, profile);

@@ -27,8 +27,8 @@ class Checker : public YAML::EventHandler {
 
   int documents() const { return documents_; }
 
-  // Refuses the first key without a value. Must be called last, so that any other
-  // error is reported first.
+  // Refuses the first key without a value. Must be called last, so that any
+  // other error is reported first.
   void RefuseMissingValues() const;
 
   void OnDocumentStart(const YAML::Mark& mark) override {
@@ -86,9 +86,9 @@ void Checker::RefuseMissingValues() const {
 void Checker::OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) {
   if (!missing_ && !open_.empty() && open_.back().is_map &&
       !open_.back().key_is_next) {
-    // The key is stored, because the mark of a missing value can be far below the
-    // key. The key is refused later: in a truncated file, another error is more
-    // important.
+    // The key is stored, because the mark of a missing value can be far below
+    // the key. The key is refused later: in a truncated file, another error is
+    // more important.
     missing_ = open_.back().key;
   }
   AddNode(mark, nullptr);

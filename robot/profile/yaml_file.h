@@ -10,8 +10,9 @@
 namespace poise {
 
 /// Reads a YAML file of at most 1 MiB that a person wrote. The file must be one
-/// document without aliases. Each key must be a plain text, occur once in its map
-/// and have a value. Throws Refusal with the line that breaks one of these rules.
+/// document without aliases. Each key must be a plain text, occur once in its
+/// map and have a value. Throws Refusal with the line that breaks one of these
+/// rules.
 YAML::Node LoadYaml(const std::filesystem::path& file);
 
 /// Reads YAML from a text, as LoadYaml() does from a file.
@@ -19,8 +20,8 @@ YAML::Node LoadYaml(const std::filesystem::path& file);
 /// @param source  the name of the text in messages.
 YAML::Node ParseYaml(const std::string& text, const std::string& source);
 
-/// Returns a value as a number, or nothing if the value is not one finite number.
-/// The result does not depend on the locale.
+/// Returns a value as a number, or nothing if the value is not one finite
+/// number. The result does not depend on the locale.
 std::optional<double> ToNumber(const YAML::Node& node);
 
 /// Returns a short description of a value for a message: "'abc'" (the text

@@ -18,8 +18,8 @@
 namespace poise {
 namespace {
 
-// Bound on the file's size. Together with the bound of 16 MiB on markup, it keeps
-// the memory below 1 GiB.
+// Bound on the file's size. Together with the bound of 16 MiB on markup, it
+// keeps the memory below 1 GiB.
 constexpr size_t kMostMib = 112;
 
 Eigen::Vector3d FromUrdf(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
@@ -30,8 +30,8 @@ Pose FromUrdf(const urdf::Pose& X) {
           FromUrdf(X.position)};
 }
 
-// Converts an inertial. Both give the inertia about the center of mass. URDF uses
-// the axes of the frame in <origin>; Inertia uses the axes of the link.
+// Converts an inertial. Both give the inertia about the center of mass. URDF
+// uses the axes of the frame in <origin>; Inertia uses the axes of the link.
 Inertia FromUrdf(const urdf::Inertial& inertial) {
   const Pose X_LG = FromUrdf(inertial.origin);
   Eigen::Matrix3d I;
@@ -107,8 +107,9 @@ class Silence {
   console_bridge::LogLevel level_;
 };
 
-// Owns urdfdom's tree. urdfdom destroys the tree recursively, link by link, which
-// would overflow the stack for a long chain. The destructor avoids the recursion.
+// Owns urdfdom's tree. urdfdom destroys the tree recursively, link by link,
+// which would overflow the stack for a long chain. The destructor avoids the
+// recursion.
 class UrdfdomTree {
  public:
   explicit UrdfdomTree(const std::string& xml) {
@@ -130,8 +131,8 @@ class UrdfdomTree {
   urdf::ModelInterfaceSharedPtr model_;
 };
 
-// Returns the pruned document as text for urdfdom. Parts for which urdfdom is too
-// strict are removed or set to 0, because they have already been read.
+// Returns the pruned document as text for urdfdom. Parts for which urdfdom is
+// too strict are removed or set to 0, because they have already been read.
 std::string XmlForUrdfdom(tinyxml2::XMLDocument* document) {
   for (tinyxml2::XMLElement* joint =
            document->RootElement()->FirstChildElement("joint");

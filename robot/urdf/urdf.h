@@ -13,25 +13,25 @@
 
 namespace poise {
 
-/// A URDF that has been read and checked once. MakeModel() makes models from it.
+/// A URDF that has been read and checked once. MakeModel() makes its models.
 ///
 /// The root link is the floating base, even if it has no mass or is called
 /// `world`. Exception: massless links from the root down to a joint of type
-/// `floating` represent the world, and are left out. A mimic joint is an ordinary
-/// joint of the tree; RobotModel::mimics gives its source. A link without
-/// `<inertial>` has mass 0, and at least one link must have a positive mass. Mesh
-/// files are not opened. The result does not depend on the locale.
+/// `floating` represent the world, and are left out. A mimic joint is an
+/// ordinary joint of the tree; RobotModel::mimics gives its source. A link
+/// without `<inertial>` has mass 0, and at least one link must have a positive
+/// mass. Mesh files are not opened. The result does not depend on the locale.
 class UrdfDocument {
  public:
-  /// Reads a file. The cost is O(n log n) in the length of the file, and less than
-  /// 10 s and 1 GiB for any file.
+  /// Reads a file. The cost is O(n log n) in the length of the file, and less
+  /// than 10 s and 1 GiB for any file.
   ///
-  /// @param findings  if not null, receives each note and warning about the file.
-  ///                  Also receives each reason to reject the file, before Refusal
-  ///                  is thrown.
+  /// @param findings  if not null, receives each note and warning about the
+  ///                  file. Also receives each reason to reject the file,
+  ///                  before Refusal is thrown.
   ///
-  /// Throws Refusal with one line that gives the file, the element, its value and
-  /// the valid values.
+  /// Throws Refusal with one line that gives the file, the element, its value
+  /// and the valid values.
   explicit UrdfDocument(const std::filesystem::path& file,
                         std::vector<Finding>* findings = nullptr);
 
@@ -46,8 +46,9 @@ class UrdfDocument {
 
   /// Makes a model.
   ///
-  /// @param locked  the joints to fix, with their values in rad or m. These joints
-  ///                are not in the tree; the links below them remain as frames.
+  /// @param locked  the joints to fix, with their values in rad or m. These
+  ///                joints are not in the tree; the links below them remain as
+  ///                frames.
   RobotModel MakeModel(const std::map<std::string, double>& locked = {}) const;
 
  private:
@@ -57,7 +58,8 @@ class UrdfDocument {
   std::shared_ptr<const Content> content_;
 };
 
-/// Reads a robot from a URDF file: UrdfDocument(file, findings).MakeModel(locked).
+/// Reads a robot from a URDF file: UrdfDocument(file,
+/// findings).MakeModel(locked).
 RobotModel LoadUrdf(const std::filesystem::path& file,
                     const std::map<std::string, double>& locked = {},
                     std::vector<Finding>* findings = nullptr);

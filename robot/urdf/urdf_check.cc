@@ -83,7 +83,8 @@ UrdfFacts CheckRobot(const XMLElement& robot, const Critic& critic) {
   return facts;
 }
 
-// Removes each material whose name occurred before, so that the first one is used.
+// Removes each material whose name occurred before, so that the first one is
+// used.
 void PruneMaterials(XMLElement* robot, const Critic& critic) {
   std::unordered_set<std::string> names;
   XMLElement* material = robot->FirstChildElement("material");

@@ -21,8 +21,8 @@ struct UrdfFacts {
 };
 
 /// Checks a URDF that was parsed as XML, and removes all parts that Poise does
-/// not read (see PruneUrdf()). If no finding has Severity::kReject, the file is a
-/// tree of links and joints with finite numbers and a positive total mass.
+/// not read (see PruneUrdf()). If no finding has Severity::kReject, the file is
+/// a tree of links and joints with finite numbers and a positive total mass.
 UrdfFacts CheckUrdf(tinyxml2::XMLDocument* document,
                     std::vector<Finding>* findings);
 

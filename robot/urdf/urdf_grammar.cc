@@ -30,8 +30,8 @@ using urdf_rules::kParent;
 using urdf_rules::kRobot;
 using urdf_rules::kSphere;
 
-// Bound on numbers. It is larger than any number of a robot, and small enough that
-// sums of squares do not overflow.
+// Bound on numbers. It is larger than any number of a robot, and small enough
+// that sums of squares do not overflow.
 constexpr double kLargest = 1e30;
 
 // Elements that other programs read. They give no finding. An element with a
@@ -74,8 +74,8 @@ bool Contains(std::string_view text, std::string_view part) {
 
 char Lower(char c) { return 'A' <= c && c <= 'Z' ? c - 'A' + 'a' : c; }
 
-// Returns whether two words are equal except for case and for at most one letter
-// that is added, missing or replaced.
+// Returns whether two words are equal except for case and for at most one
+// letter that is added, missing or replaced.
 bool IsSlip(std::string_view word, std::string_view wanted) {
   if (word.size() > wanted.size()) std::swap(word, wanted);
   if (wanted.size() - word.size() > 1) return false;
@@ -87,8 +87,8 @@ bool IsSlip(std::string_view word, std::string_view wanted) {
   return std::equal(is_longer ? here : here + 1, word.end(), there + 1, same);
 }
 
-// Replaces each run of white space by one space, and removes white space at both
-// ends.
+// Replaces each run of white space by one space, and removes white space at
+// both ends.
 std::string Collapse(std::string_view text) {
   std::string collapsed;
   for (const char c : text) {
@@ -151,9 +151,9 @@ class Pruner {
   // Returns the rule for a child, or null if Poise does not read the child.
   const ElementRule* Find(const ElementRule& rule, const XMLElement& child);
 
-  // Adds a finding about an element that xacro should have replaced. For example,
-  // a macro of sensors can be left out of a robot or a link. Inside a joint or an
-  // inertial, each element is essential.
+  // Adds a finding about an element that xacro should have replaced. For
+  // example, a macro of sensors can be left out of a robot or a link. Inside a
+  // joint or an inertial, each element is essential.
   void JudgeXacro(const ElementRule& rule, const XMLElement& element);
 
   void PruneAttributes(const ElementRule& rule, XMLElement* element) {

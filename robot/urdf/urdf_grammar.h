@@ -16,11 +16,13 @@ namespace poise {
 ///
 /// - An invalid number is a reason to reject the file. Exception: a mesh or a
 ///   color with an invalid number is removed with a warning.
-/// - If an element repeats that must not, only the first is kept, with a warning.
-/// - An unknown name gives a warning if it looks like a typing error, else a note.
-/// - An element that xacro should have replaced is a reason to reject the file if
-///   the robot would move differently without it (see HasEssentialPart()). Other
-///   such elements are removed with a warning.
+/// - If an element repeats that must not, only the first is kept, with a
+///   warning.
+/// - An unknown name gives a warning if it looks like a typing error, else a
+///   note.
+/// - An element that xacro should have replaced is a reason to reject the file
+///   if the robot would move differently without it (see HasEssentialPart()).
+///   Other such elements are removed with a warning.
 void PruneUrdf(tinyxml2::XMLElement* robot, std::vector<Finding>* findings);
 
 }  // namespace poise

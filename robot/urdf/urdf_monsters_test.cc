@@ -21,8 +21,9 @@ const char kInertial[] =
     "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
     "iyz='0' izz='1'/></inertial>";
 
-// Returns the URDF of a robot with a root and `links` more links. A joint of the
-// given type connects each link to the previous link, or to the root if is_star.
+// Returns the URDF of a robot with a root and `links` more links. A joint of
+// the given type connects each link to the previous link, or to the root if
+// is_star.
 std::string Many(int links, const std::string& type, bool is_star) {
   std::string text =
       std::string("<robot name='r'><link name='0'>") + kInertial + "</link>";

@@ -20,17 +20,17 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Relative tolerance on the triangle inequality of the principal moments of
 // inertia. Thin plates are at equality, and files round their moments.
 constexpr double kTriangle = 1e-4;
-// A radius of gyration, an offset or a prismatic range above this [m] suggests a
-// file in millimeters.
+// A radius of gyration, an offset or a prismatic range above this [m] suggests
+// a file in millimeters.
 constexpr double kLongest = 10;
 // A radius of gyration below this [m] is treated as zero.
 constexpr double kThinnest = 1e-6;
-// An axis shorter than kShortestAxis gives a warning. An axis whose length differs
-// from 1 by more than kUnitAxis gives a note.
+// An axis shorter than kShortestAxis gives a warning. An axis whose length
+// differs from 1 by more than kUnitAxis gives a note.
 constexpr double kShortestAxis = 1e-6;
 constexpr double kUnitAxis = 1e-4;
-// A limit at or above these values is likely a placeholder. Units: N m or N, rad/s
-// or m/s, rad or m.
+// A limit at or above these values is likely a placeholder. Units: N m or N,
+// rad/s or m/s, rad or m.
 constexpr double kLargestEffort = 1e5;
 constexpr double kLargestVelocity = 1e3;
 constexpr double kLargestPosition = 1e3;

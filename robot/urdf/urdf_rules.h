@@ -21,8 +21,8 @@ struct ElementRule {
   std::vector<const ElementRule*> children;
   bool required = false;
   bool repeated = false;
-  /// The severity if an attribute or a child is missing or invalid. kReject rejects
-  /// the file. kWarn and kNote remove the element.
+  /// The severity if an attribute or a child is missing or invalid. kReject
+  /// rejects the file. kWarn and kNote remove the element.
   Severity fault = Severity::kReject;
 };
 

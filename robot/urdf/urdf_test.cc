@@ -89,7 +89,8 @@ std::string Rejection(const std::string& text) {
   return "accepted";
 }
 
-// Returns the findings of one severity about a valid text. A | ends each finding.
+// Returns the findings of one severity about a valid text. A | ends each
+// finding.
 std::string Findings(const std::string& text, Severity severity) {
   std::vector<Finding> findings;
   Parse(text, &findings);
@@ -217,8 +218,8 @@ TEST(LoadUrdf, LeavesOutAMasslessRootWithAFloatingJoint) {
   EXPECT_EQ(model.tree.num_joints(), 1);
 }
 
-// A link above the floating joint is massless if it has no <inertial>, or if the
-// mass in its <inertial> is 0.
+// A link above the floating joint is massless if it has no <inertial>, or if
+// the mass in its <inertial> is 0.
 TEST(LoadUrdf, LeavesOutAllMasslessLinksAboveAFloatingJoint) {
   const std::string massless =
       "<inertial><mass value='0'/><inertia ixx='0' ixy='0' ixz='0' iyy='0' "

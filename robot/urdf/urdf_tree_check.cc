@@ -19,8 +19,8 @@ struct Edges {
   std::unordered_map<std::string, std::vector<std::string>> children;
 };
 
-// Returns the edges. Returns nothing if a joint does not connect two links, or if
-// a link has two parents.
+// Returns the edges. Returns nothing if a joint does not connect two links, or
+// if a link has two parents.
 std::optional<Edges> FindEdges(const UrdfTree& tree, const Elements& links,
                                const Elements& joints, const Critic& critic) {
   Edges edges;
@@ -130,8 +130,8 @@ void LeaveOutWorld(const std::string& root, const Elements& links,
   Remove(world_joints, &tree->joints);
 }
 
-// Rejects a robot without mass, because its joint-space inertia M is zero in each
-// posture.
+// Rejects a robot without mass, because its joint-space inertia M is zero in
+// each posture.
 void CheckMass(const XMLElement& robot, const Elements& links,
                const std::vector<std::string>& names, const Critic& critic) {
   if (std::any_of(names.begin(), names.end(), [&](const std::string& name) {

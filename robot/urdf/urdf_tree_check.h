@@ -17,11 +17,11 @@ struct UrdfTree {
   std::vector<std::string> joints;
 };
 
-/// Checks that the joints of a URDF connect its links to one tree: one root, one
-/// parent for each other link, no cycle. Then finds the base, and removes the
-/// names of massless links from the root down to a floating joint, because they
-/// represent the world. Rejects any other floating joint, and a robot without
-/// mass.
+/// Checks that the joints of a URDF connect its links to one tree: one root,
+/// one parent for each other link, no cycle. Then finds the base, and removes
+/// the names of massless links from the root down to a floating joint, because
+/// they represent the world. Rejects any other floating joint, and a robot
+/// without mass.
 ///
 /// @param tree  in: the names of all links and joints; out: the base, and the
 ///              names that remain.

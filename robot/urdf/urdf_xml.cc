@@ -33,7 +33,8 @@ bool IsMoving(const XMLElement& joint) {
 
 void Critic::Add(Severity severity, const XMLElement& element, std::string what,
                  std::string why) const {
-  // Bounds the memory. At least one finding that rejects the file is always kept.
+  // Bounds the memory. At least one finding that rejects the file is always
+  // kept.
   constexpr size_t kMostFindings = 10'000;
   if (findings_->size() >= kMostFindings &&
       (severity != Severity::kReject ||

@@ -33,8 +33,8 @@ Eigen::Vector3d Vector(const tinyxml2::XMLElement& element,
 /// Returns whether a `<joint>` is revolute, continuous or prismatic.
 bool IsMoving(const tinyxml2::XMLElement& joint);
 
-/// Collects findings about elements. Each finding names the link or the joint to
-/// which the element belongs.
+/// Collects findings about elements. Each finding names the link or the joint
+/// to which the element belongs.
 class Critic {
  public:
   explicit Critic(std::vector<Finding>* findings) : findings_(findings) {}

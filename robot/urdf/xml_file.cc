@@ -13,7 +13,8 @@
 namespace poise {
 namespace {
 
-// Bound on the bytes of markup. TinyXML-2 uses up to 30 bytes of memory per byte.
+// Bound on the bytes of markup. TinyXML-2 uses up to 30 bytes of memory per
+// byte.
 constexpr size_t kMostMarkup = size_t{16} << 20;
 // Bound on the attributes of an element. TinyXML-2 compares each attribute with
 // all previous ones, so the time is quadratic.
@@ -38,9 +39,9 @@ class Scanner {
   Scanner(std::string_view text, const std::string& source)
       : text_(text), source_(source) {}
 
-  // Throws Refusal if the text would take too much memory or time to parse. Also
-  // throws for errors that TinyXML-2 accepts, such as an end tag without a start
-  // tag.
+  // Throws Refusal if the text would take too much memory or time to parse.
+  // Also throws for errors that TinyXML-2 accepts, such as an end tag without a
+  // start tag.
   void Scan();
 
  private:
@@ -76,7 +77,8 @@ void Scanner::Scan() {
     const size_t start = std::min(text_.find('<', at), text_.size());
     markup += start - at;
     at = start < text_.size() ? SkipMarkup(start) : start;
-    // The text of a comment is not counted: TinyXML-2 stores it without overhead.
+    // The text of a comment is not counted: TinyXML-2 stores it without
+    // overhead.
     const bool is_comment = text_.substr(start, 4) == "<!--";
     markup += is_comment ? std::string_view("<!---->").size() : at - start;
     if (markup > kMostMarkup) {

@@ -10,9 +10,9 @@
 namespace poise {
 
 /// Parses XML from an untrusted source. Without comments, the text may have at
-/// most 16 MiB. Elements may be nested at most 100 levels deep. The text must not
-/// declare a document type, so that no entity can expand. A file of 100 MB takes
-/// less than 1 GiB and a few seconds.
+/// most 16 MiB. Elements may be nested at most 100 levels deep. The text must
+/// not declare a document type, so that no entity can expand. A file of 100 MB
+/// takes less than 1 GiB and a few seconds.
 ///
 /// @param source  the name of the text in messages.
 ///
