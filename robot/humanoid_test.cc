@@ -181,7 +181,7 @@ TEST_F(Humanoid, StandsInItsNominalPosture) {
   }
   EXPECT_LT(middle.norm(), written);
   EXPECT_LT(tick.p_WG.head<2>().norm(), written);
-  EXPECT_NEAR(tick.p_WG.z(), 0.79, 0.01);  // As in a prototype.
+  EXPECT_NEAR(tick.p_WG.z(), 0.79, 0.01);  // From a prototype, m.
   for (int j = 0; j < 50; ++j) {
     const double q = robot_.q_nominal[7 + j];
     EXPECT_GE(q, robot_.model.limits[j].lower);

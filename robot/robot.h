@@ -70,12 +70,11 @@ struct RobotModel {
 /// in the sole polygon. Its z axis points out of the ground, its x axis
 /// forward.
 struct Foot {
-  std::string name;  ///< "left_foot", "right_foot".
-  int body;          ///< Index of the body in the tree.
-  int frame;         ///< The foot's link, an index in Tree::frames().
-  Pose X_BC;         ///< Contact frame in the body.
-  Eigen::Vector2d
-      half_size;  ///< Half sides of the rectangle along C's x, y, m.
+  std::string name;           ///< "left_foot", "right_foot".
+  int body;                   ///< Index of the body in the tree.
+  int frame;                  ///< The foot's link, an index in Tree::frames().
+  Pose X_BC;                  ///< Contact frame in the body.
+  Eigen::Vector2d half_size;  ///< Half of the rectangle's sides, x and y, m.
   std::vector<Eigen::Vector2d> polygon_C;  ///< Convex, counterclockwise, m.
 };
 

@@ -233,7 +233,7 @@ std::vector<Foot> MakeFeet(const RobotModel& model, const Profile& profile) {
     if (!foot) refuse(": its sole is under 1 mm wide or long, must be larger");
     feet.push_back(*std::move(foot));
     if (feet.front().body == feet.back().body && feet.size() > 1) {
-      refuse(": is on the same body as left_foot, must be another foot");
+      refuse(": is on the same body as left_foot, must be on another");
     }
   }
   return feet;

@@ -20,8 +20,8 @@ namespace poise {
 /// The description of a sole in a profile.
 struct SoleProfile {
   std::string name;                     ///< "left_foot", "right_foot".
-  std::string frame;                    ///< Name of a link, F.
-  Pose X_FS;                            ///< Sole: z up, x forward.
+  std::string frame;                    ///< Name of the link F.
+  Pose X_FS;                            ///< Pose of the sole: z up, x forward.
   std::vector<Eigen::Vector2d> sole_S;  ///< Corners, m.
   int line;                             ///< Line in the file.
 };

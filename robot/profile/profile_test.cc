@@ -124,8 +124,8 @@ TEST(LoadProfile, NamesAnUnknownOrInvalidFoot) {
   EXPECT_EQ(Refusal(LeftFoot("frame: l, size: [0.2, 0.1]")),
             "2: feet.left_foot: the robot has no link 'l'");
   EXPECT_EQ(Refusal(LeftFoot("frame: r_foot, size: [0.2, 0.1]")),
-            "3: feet.right_foot: is on the same body as left_foot, must be "
-            "another foot");
+            "3: feet.right_foot: is on the same body as left_foot, must be on "
+            "another");
   EXPECT_EQ(
       Refusal("feet:\n  left_foot: {frame: r_sole, size: [0.2, 0.1]}\n"
               "  right_foot: {frame: l_sole, size: [0.2, 0.1]}\n"),

@@ -58,8 +58,8 @@ class UrdfDocument {
   std::shared_ptr<const Content> content_;
 };
 
-/// Reads a robot from a URDF file: UrdfDocument(file,
-/// findings).MakeModel(locked).
+/// Reads a robot from a URDF file. Returns
+/// UrdfDocument(file, findings).MakeModel(locked).
 RobotModel LoadUrdf(const std::filesystem::path& file,
                     const std::map<std::string, double>& locked = {},
                     std::vector<Finding>* findings = nullptr);

@@ -141,8 +141,7 @@ void CheckInertial(const XMLElement& link, const Critic& critic) {
   const Eigen::Vector3d moments =
       scale *
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(I / scale).eigenvalues();
-  if (scale < mass * kThinnest * kThinnest)
-    return;  // A point mass, to rounding.
+  if (scale < mass * kThinnest * kThinnest) return;  // A point mass.
   if (moments[0] < -kTriangle * moments[2]) {
     critic.Warn(inertia,
                 "has the negative principal moment " + PrintNumber(moments[0]),

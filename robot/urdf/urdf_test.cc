@@ -407,8 +407,7 @@ const Case kRejected[] = {
     {"velocity=\"5\"", "", "<limit>: has no velocity, must have one"},
     {"effort=\"10\"", "effort=\"-10\"",
      ":33: joint 'j' <limit>: effort is -10, must be zero or positive: give "
-     "the "
-     "largest torque or force"},
+     "the largest torque or force"},
     {"effort=\"10\"", "effort=\"-inf\"",
      "<limit>: effort is -inf, must be zero"},
     {"upper=\"2\"", "upper=\"nan\"", "<limit>: upper is 'nan'"},
@@ -528,7 +527,7 @@ const Case kWarnedOf[] = {
      "1e+06 kg m2 for 1 kg"},
     {"0.1 0.2 0.3", "100 0 0", "over 10 m away: is it in millimeters?"},
     {"1 2 3\" rpy", "0 0 -350\" rpy", "over 10 m away: is it in millimeters?"},
-    {"0 0 1", "0 0 11", "link 'a' <origin>: xyz is '0 0 11', over 10 m"},
+    {"0 0 1", "0 0 11", "link 'a' <origin>: xyz is '0 0 11', which is over"},
     {"0.4 0.5 0.6", "0 90 0", "more than one turn: is it in degrees?"},
     {"lower=\"-1\" upper=\"2\"", "lower='-90' upper='90'", "in degrees?"},
     {"value=\"2\"", "value=\"0\"", "has inertia but mass 0"},

@@ -115,7 +115,7 @@ void Canvas::Image(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
   cairo_paint(cairo_);
   cairo_restore(cairo_);
   // Cairo writes the SVG later, when `pixels` no longer exists. Finishing the
-  // image makes cairo copy the pixels now.
+  // image now prevents cairo from reading `pixels` then.
   cairo_surface_finish(image);
   cairo_surface_destroy(image);
 }
