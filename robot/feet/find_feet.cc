@@ -68,8 +68,8 @@ int NumMotors(const RobotModel& model, int body) {
 }
 
 // Returns one body for each chain of connected bodies on the ground. It is the
-// body with the largest sole or, if no body of the chain has a sole, the first
-// body with six motors above it.
+// body with the largest sole. If no body of the chain has a sole, it is the
+// first body with six motors above it.
 std::vector<int> BodiesOnGround(const RobotModel& model,
                                 const std::vector<double>& low,
                                 const std::vector<Sole>& soles) {

@@ -10,13 +10,13 @@ namespace poise {
 
 /// Finds the two feet of a biped, the left one first.
 ///
-/// The feet are the two bodies that reach lowest when the joints are at zero
-/// (or at their nearest limit) and the base's z axis points up. A sole is the
-/// flat underside of the body's collision boxes, cylinders and spheres. If the
-/// body has no such collision shapes, its visual shapes are used. Candidate
-/// planes are normal to an axis of the shapes, to an axis of the body, or to
-/// the vertical, and at most 35 degrees from horizontal. The plane with the
-/// largest area is chosen.
+/// The feet are the two bodies that reach lowest in the configuration at rest,
+/// with the base's z axis up. At rest, joints are at zero or at their nearest
+/// limit. A sole is the flat underside of the body's collision boxes, cylinders
+/// and spheres. If the body has no such collision shapes, its visual shapes are
+/// used. Candidate planes are normal to an axis of the shapes, to an axis of
+/// the body, or to the vertical. They are at most 35 degrees from horizontal.
+/// The plane with the largest area is chosen.
 ///
 /// The forward direction is along the base's x axis, or along its y axis if the
 /// feet are apart in x. Its sign is the side on which the soles reach further

@@ -19,8 +19,9 @@ using Eigen::Vector3d;
 // A corner at most this far from a plane belongs to the plane, m. Drawings are
 // often rounded to 1 mm.
 constexpr double kFlat = 2e-3;
-// Bounds on the tilt of a sole's normal from the vertical, and on the angle of
-// its x axis from the forward direction, at q = 0, rad.
+// Bounds for a sole in the configuration at rest, rad. kSteepest: angle between
+// the normal and the vertical. kMostTurned: angle between the x axis and the
+// forward direction.
 constexpr double kSteepest = 0.6;
 constexpr double kMostTurned = 0.3;
 constexpr double kSameAxis = 1e-6;

@@ -80,8 +80,8 @@ struct Reader {
   }
 
   // Returns the sole's axes in the link. The z axis is along the normal. The x
-  // axis is near the link's x axis or, if the normal is within 26 degrees of
-  // the link's x axis, near its z axis.
+  // axis is near the link's x axis. If the normal is within 26 degrees of the
+  // link's x axis, the x axis is near the link's z axis instead.
   Eigen::Matrix3d FromNormal(const YAML::Node& node,
                              const std::string& thing) const;
 

@@ -88,9 +88,9 @@ Profile LoadProfile(const std::filesystem::path& file);
 /// Returns the joints that a profile locks. They are the joints in `locked`,
 /// the mimic joints of locked sources (unless `mimic` is free), and all mimic
 /// joints if `mimic` is locked. The result can replace `locked` without
-/// changing the robot. Throws Refusal if the robot has no such joint, if a
-/// value is outside the joint's limits, or if a coupled joint is in `locked`
-/// but not its source.
+/// changing the robot. Throws Refusal if the robot has no such joint, or if
+/// a value is outside the joint's limits. Also throws if a coupled joint is in
+/// `locked` but its source is not.
 std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
                                                const Profile& profile);
 

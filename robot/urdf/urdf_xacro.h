@@ -18,10 +18,10 @@ bool IsXacro(const tinyxml2::XMLElement& element);
 /// Returns whether an element belongs to an old xacro version without a prefix.
 bool IsXacroWithoutPrefix(const tinyxml2::XMLElement& element);
 
-/// Returns whether the robot would move differently without an element. This is
-/// so if the element, or any element below it, is a link, a joint, a limit, a
-/// mass, a transmission, a mimic or an inertia. It is also so for a macro with
-/// one of these words in its name.
+/// Returns whether the robot would move differently without an element. Such
+/// elements are links, joints, limits, masses, transmissions, mimics, inertias,
+/// and macros with one of these words in the name. The elements below are also
+/// checked.
 bool HasEssentialPart(const tinyxml2::XMLElement& element);
 
 }  // namespace poise

@@ -29,9 +29,9 @@ void DrawRobot(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
                const std::vector<PushArrow>& pushes, const Camera& camera,
                Canvas* canvas);
 
-/// Returns the camera with a height that is increased until the robot and the
-/// arrows fit into a picture of the given size, with a margin of 6 %. If they
-/// already fit, returns the camera unchanged.
+/// Returns the camera with an increased height, so that the robot and the
+/// arrows fit into a picture of the given size. The margin is 6 % of the size
+/// on each side. If they already fit, returns the camera unchanged.
 Camera FitCamera(const Eigen::Vector2d& size, const RobotModel& robot,
                  const Eigen::VectorXd& q, const std::vector<PushArrow>& pushes,
                  Camera camera);
