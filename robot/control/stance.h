@@ -38,12 +38,12 @@ struct StanceSettings {
 };
 
 /// Decides which feet are in contact. On command, the force of a foot fades out
-/// before the foot is lifted, and fades in after the foot is put down. Without a
-/// command, contact is detected by geometry with hysteresis, never by force: a
+/// before the foot is lifted, and fades in after the foot is put down. Without
+/// a command, contact is detected by geometry with hysteresis, never by force: a
 /// foot that is assumed to be in the air carries no load, so a force test would
-/// never find its contact again. A foot rolled onto its edge is still in contact.
-/// A foot in the air is in contact again when its sole lies on the ground. While
-/// no foot is in contact, all feet move with the body. A foot whose edge then
+/// never find its contact again. A foot rolled onto its edge is in contact. A
+/// foot in the air is in contact again when its sole lies on the ground. While no
+/// foot is in contact, all feet move with the body. A foot whose edge then
 /// lands is in contact at once, with its full normal force.
 class Stance {
  public:
