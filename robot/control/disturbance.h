@@ -22,8 +22,8 @@ class Disturbance {
  public:
   void Forget() noexcept { c_W_.setZero(); }
 
-  /// A tick of dt in which the center of mass was asked to go to its reference by
-  /// these gains, and was free to.
+  /// Integrates over dt. Call this only in a tick in which a task moved the center
+  /// of mass to its reference with these gains and nothing blocked it.
   void Update(double dt, const ComGains& gains, const Reference& reference,
               const Tick& tick) noexcept;
 

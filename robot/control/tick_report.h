@@ -65,7 +65,7 @@ struct TickReport {
   std::vector<LostRow> lost;
   Certificate certificate;  ///< Certificate of the solution.
 
-  /// Clears the results, for a tick without a solution.
+  /// Resets the numbers of the solution, for a tick in which nothing was solved.
   void ClearAnswer() noexcept {
     solver_status = Status::kOptimal;
     failed_level = iterations = 0;
