@@ -30,8 +30,8 @@ char32_t TakeCharacter(std::string_view* text) {
     if ((byte(i) & 0xc0) != 0x80) return take(1, kInvalid);
     character = character << 6 | (byte(i) & 0x3f);
   }
-  // UTF-8 forbids an encoding longer than needed, a half of a surrogate pair,
-  // and a number beyond Unicode.
+  // UTF-8 forbids an encoding that is longer than needed, half of a surrogate
+  // pair, and a code point above U+10FFFF.
   constexpr char32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
   const bool is_half = character >= 0xd800 && character < 0xe000;
   if (character < kLeast[size] || is_half || character > 0x10ffff) {
@@ -40,8 +40,8 @@ char32_t TakeCharacter(std::string_view* text) {
   return take(size, character);
 }
 
-// Returns whether a character is a control, ends a line, or turns the direction
-// of writing.
+// Returns whether a character is a control character, ends a line, or changes
+// the writing direction.
 bool IsUnprintable(char32_t c) {
   return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0x61c ||
          (c >= 0x200b && c <= 0x200f) || (c >= 0x2028 && c <= 0x202e) ||
@@ -83,7 +83,7 @@ std::string PrintNumber(double value) {
 std::string Quoted(std::string_view name) {
   constexpr size_t kLongest = 60;
   size_t end = std::min(name.size(), kLongest);
-  // A cut inside a character would break it; its later bytes are 10xxxxxx.
+  // The cut must not split a character. Continuation bytes are 10xxxxxx.
   while (end > 0 && end < name.size() && (name[end] & 0xc0) == 0x80) --end;
   const char* rest = end < name.size() ? "...'" : "'";
   return "'" + OneLine(name.substr(0, end)) + rest;

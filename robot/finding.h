@@ -15,21 +15,22 @@ enum class Severity { kNote, kWarn, kReject };
 /// A finding in a robot file. Each part is one line of text.
 struct Finding {
   Severity severity;
-  std::string where;  ///< "joint 'l_knee' <limit>".
-  std::string what;   ///< "upper is 'abc'".
-  std::string why;    ///< "must be a number".
+  std::string where;  ///< The element: "joint 'l_knee' <limit>".
+  std::string what;   ///< The observation: "upper is 'abc'".
+  std::string why;    ///< The rule or the consequence: "must be a number".
   int line = 0;       ///< Line in the file, or 0 if unknown.
 };
 
 /// Returns whether a text is valid UTF-8 to its last byte.
 bool IsUtf8(std::string_view text);
 
-/// Returns an untrusted text made safe for a message of one line. A character
-/// that ends the line, controls a terminal or turns the direction of writing
-/// becomes a blank; a byte that is not UTF-8 becomes a question mark.
+/// Returns an untrusted text, made safe for a message of one line. Line breaks,
+/// control characters and characters that change the writing direction become
+/// spaces. A byte that is not valid UTF-8 becomes a question mark.
 std::string OneLine(std::string_view text);
 
-/// Returns a number with at most six digits, the same in every locale.
+/// Returns a number as text with at most six significant digits. The text does
+/// not depend on the locale.
 std::string PrintNumber(double value);
 
 /// Returns a name from a file for a message: in quotes, on one line, and cut
@@ -39,8 +40,8 @@ std::string Quoted(std::string_view name);
 /// Returns "FILE:LINE: where: what, why", on one line.
 std::string Message(const std::string& file, const Finding& finding);
 
-/// The error that a file cannot be used. what() is Message() of the file and the
-/// finding that is the reason.
+/// Thrown if a file cannot be used. what() returns Message() of the file and of
+/// the finding that is the reason.
 class Refusal : public std::invalid_argument {
  public:
   Refusal(const std::string& file, Finding finding)

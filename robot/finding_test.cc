@@ -6,13 +6,13 @@
 namespace poise {
 namespace {
 
-TEST(IsUtf8, KnowsWholeCharactersFromBytes) {
+TEST(IsUtf8, AcceptsOnlyCompleteCharacters) {
   for (const char* text : {"", "a", "\xc2\x80", "\xc3\xa9", "\xe6\x97\xa5",
                            "\xed\x9f\xbf", "\xf0\x9f\xa4\x96"}) {
     EXPECT_TRUE(IsUtf8(text)) << text;
   }
-  // A later byte alone, a cut character, an encoding that is too long, half a
-  // surrogate pair, a number beyond Unicode.
+  // Invalid: a continuation byte alone, a truncated character, an encoding that
+  // is too long, half of a surrogate pair, a code point above U+10FFFF.
   for (const char* text :
        {"\xe9", "caf\xe9 ", "\x80", "\xe6\x97", "\xc1\xbf", "\xe0\x9f\xbf",
         "\xf0\x8f\xbf\xbf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xff"}) {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 
-// Checks our own humanoid: the paper's 50 joints, in HRP-4's proportions.
+// Checks the project's own humanoid model. It has the paper's 50 joints and the
+// proportions of HRP-4.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -15,12 +16,13 @@
 namespace poise {
 namespace {
 
-// Lengths in the file are written to 0.1 mm or better.
+// Tolerance on lengths [m], above their rounding in the file.
 constexpr double kWritten = 1e-7;
 
 class Humanoid : public testing::Test {
  protected:
-  // The state of every link, its frame's index being its place.
+  // Returns a tick with the state of every link, in the order of
+  // Tree::frames().
   static Tick TickAt(const Robot& robot, const Eigen::VectorXd& q) {
     std::vector<int> frames(robot.model.tree.frames().size());
     for (size_t i = 0; i < frames.size(); ++i) frames[i] = static_cast<int>(i);
@@ -90,7 +92,7 @@ TEST_F(Humanoid, HasSolesOf23By13Centimeters) {
   }
 }
 
-TEST_F(Humanoid, HasItsEffortLimits) {
+TEST_F(Humanoid, HasExpectedEffortLimits) {
   for (const std::string side : {"l_", "r_"}) {
     EXPECT_EQ(LimitsOf(side + "hip_roll").effort, 225);
     EXPECT_EQ(LimitsOf(side + "hip_pitch").effort, 115);
@@ -113,7 +115,7 @@ TEST_F(Humanoid, HasPhysicalInertias) {
   for (int b = 0; b < tree.num_bodies(); ++b) {
     SCOPED_TRACE(b == 0 ? "base" : tree.joints()[b - 1].name);
     const Inertia& M = tree.inertias()[b];
-    EXPECT_GE(M.mass, 0.004 * (1 - 1e-9));  // A finger's.
+    EXPECT_GE(M.mass, 0.004 * (1 - 1e-9));  // The mass of a finger link.
     const Eigen::Vector3d moments =
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(M.I_G_B).eigenvalues();
     EXPECT_GT(moments[0], 0);
@@ -121,7 +123,7 @@ TEST_F(Humanoid, HasPhysicalInertias) {
   }
 }
 
-// Mirroring in the plane y = 0 turns each link into its opposite.
+// A reflection in the plane y = 0 maps each left link to its right counterpart.
 TEST_F(Humanoid, IsMirrorSymmetric) {
   const Tree& tree = robot_.model.tree;
   const Tick tick = TickAt(robot_, tree.MakeNeutral());
@@ -142,7 +144,8 @@ TEST_F(Humanoid, IsMirrorSymmetric) {
     EXPECT_LT((M_l.p_BoG_B - mirror * M_r.p_BoG_B).norm(), Rounding(1, 10));
     EXPECT_LT((M_l.I_G_B - mirror * M_r.I_G_B * mirror).norm(),
               Rounding(M_l.I_G_B.norm(), 10));
-    // A reflected turn about y is the same turn; about x or z the opposite.
+    // The reflection keeps the sign of a rotation about y, and changes the sign
+    // of a rotation about x or z.
     EXPECT_EQ(left.axis_F, right.axis_F);
     const JointLimits& limits_l = robot_.model.limits[j];
     const JointLimits& limits_r = robot_.model.limits[k];
@@ -155,7 +158,7 @@ TEST_F(Humanoid, IsMirrorSymmetric) {
   EXPECT_EQ(pairs, 23);
 }
 
-TEST_F(Humanoid, IsDrawnWithPrimitivesAlone) {
+TEST_F(Humanoid, HasNoMeshes) {
   EXPECT_GT(robot_.model.visuals.size(), 50u);
   EXPECT_GT(robot_.model.collisions.size(), 10u);
   for (const auto* shapes : {&robot_.model.visuals, &robot_.model.collisions}) {
@@ -178,7 +181,7 @@ TEST_F(Humanoid, StandsInItsNominalPosture) {
   }
   EXPECT_LT(middle.norm(), written);
   EXPECT_LT(tick.p_WG.head<2>().norm(), written);
-  EXPECT_NEAR(tick.p_WG.z(), 0.79, 0.01);  // As in the trial of the reference.
+  EXPECT_NEAR(tick.p_WG.z(), 0.79, 0.01);  // From a prototype, m.
   for (int j = 0; j < 50; ++j) {
     const double q = robot_.q_nominal[7 + j];
     EXPECT_GE(q, robot_.model.limits[j].lower);
@@ -186,7 +189,8 @@ TEST_F(Humanoid, StandsInItsNominalPosture) {
   }
   EXPECT_EQ(robot_.q_nominal[7 + robot_.model.tree.FindJoint("l_knee").value()],
             0.7);
-  // The push is at the torso's center of mass, 1.16 m high in the trial.
+  // The push acts at the torso's center of mass. Its expected height of 1.16 m
+  // comes from a prototype with the same robot.
   const int torso = robot_.model.tree.FindFrame("torso").value();
   const int body = robot_.model.tree.frames()[torso].body;
   const Eigen::Vector3d p =
@@ -194,8 +198,8 @@ TEST_F(Humanoid, StandsInItsNominalPosture) {
   EXPECT_NEAR(p.z(), 1.16, 0.01);
 }
 
-// The feet are also found without a profile.
-TEST_F(Humanoid, HasFeetThatCanBeFound) {
+// FindFeet() returns the same feet as the profile.
+TEST_F(Humanoid, HasFeetThatAreFoundWithoutAProfile) {
   const Robot found = LoadRobot("robot/models/humanoid.urdf");
   EXPECT_FALSE(found.can_stand);
   ASSERT_EQ(found.feet.size(), 2u);

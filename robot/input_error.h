@@ -7,21 +7,22 @@
 
 namespace poise {
 
-/// The error that an input cannot be used. It carries the path of the field that
-/// is wrong, so that a program can name the file or the option that set it.
+/// Thrown if an input cannot be used. The error carries the path of the invalid
+/// field, so that a program can name the file or the option that set the field.
 class InputError : public std::invalid_argument {
  public:
-  /// Makes an error whose message does not name the field by its path.
+  /// Makes an error whose message does not contain the path of the field.
   ///
-  /// @param field    "pushes[2].link", or "robot".
-  /// @param message  is what().
+  /// @param field    the path of the field: "pushes[2].link", or "robot".
+  /// @param message  the text that what() returns.
   InputError(std::string field, const std::string& message)
       : std::invalid_argument(message), field_(std::move(field)) {}
 
-  /// Makes an error whose message begins with the path: what() is `field`, text,
-  /// `other`, rest, without anything between them.
+  /// Makes an error whose message begins with the path of the field. what()
+  /// returns `field`, `text`, `other` and `rest`, joined without separators.
   ///
-  /// @param other  a second field that the value does not go with, or empty.
+  /// @param other  the path of a second field that contradicts the value, or
+  ///               empty.
   static InputError OfValue(const std::string& field, const std::string& text,
                             const std::string& other = "",
                             const std::string& rest = "");
@@ -29,7 +30,7 @@ class InputError : public std::invalid_argument {
   const std::string& field() const { return field_; }
   const std::string& other() const { return other_; }
 
-  /// Returns what() with each field by the name that a function gives it.
+  /// Returns what(), with the path of each field replaced by name(path).
   std::string Say(
       const std::function<std::string(const std::string& field)>& name) const;
 

@@ -8,7 +8,7 @@ namespace {
 
 std::string Option(const std::string& field) { return "--" + field; }
 
-TEST(InputError, NamesItsFieldsAsAsked) {
+TEST(InputError, ReplacesBothFieldPaths) {
   const InputError error =
       InputError::OfValue("rate", " is 3, must be a part of ", "step", ", 4");
   EXPECT_STREQ(error.what(), "rate is 3, must be a part of step, 4");
@@ -17,13 +17,13 @@ TEST(InputError, NamesItsFieldsAsAsked) {
   EXPECT_EQ(error.other(), "step");
 }
 
-TEST(InputError, NamesOneFieldAsAsked) {
+TEST(InputError, ReplacesASingleFieldPath) {
   const InputError error = InputError::OfValue("rate", " is 3, must be 4");
   EXPECT_EQ(error.Say(Option), "--rate is 3, must be 4");
   EXPECT_EQ(error.other(), "");
 }
 
-TEST(InputError, KeepsAMessageThatDoesNotNameTheField) {
+TEST(InputError, KeepsAMessageWithoutAFieldPath) {
   const InputError error("robot", "robot 'box' has no foot");
   EXPECT_STREQ(error.what(), "robot 'box' has no foot");
   EXPECT_EQ(error.Say(Option), error.what());

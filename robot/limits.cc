@@ -8,7 +8,7 @@
 namespace poise {
 
 bool IsWithin(const JointLimits& limits, double q) {
-  constexpr double kRounding = 1e-6;  // Files round their numbers.
+  constexpr double kRounding = 1e-6;  // rad or m. Files round numbers.
   return q >= limits.lower - kRounding && q <= limits.upper + kRounding;
 }
 

@@ -22,7 +22,7 @@ TEST(JointViolation, ReturnsTheLargestViolation) {
   EXPECT_EQ(at(-0.625), 0.125);
 }
 
-// The position of the base has no limit.
+// The position of the base has no limits.
 TEST(JointViolation, IsZeroWithoutALimit) {
   const Robot block = MakeBlock({0.2, 0.1, 0.3}, 5);
   EXPECT_EQ(JointViolation(block.model, Eigen::VectorXd::Constant(7, 9)), 0);

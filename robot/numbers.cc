@@ -8,8 +8,8 @@
 namespace poise {
 namespace {
 
-// Returns the double for a number that is too large or too small for one. The
-// power of ten of its first nonzero digit decides between infinity and zero.
+// Returns infinity or zero for a number outside the range of a double. The
+// power of ten of the first nonzero digit tells overflow from underflow.
 double Extreme(std::string_view token) {
   const bool negative = token[0] == '-';
   if (negative) token.remove_prefix(1);
@@ -17,7 +17,7 @@ double Extreme(std::string_view token) {
   const std::string_view digits = token.substr(0, e);
   const size_t point = std::min(digits.find('.'), digits.size());
   const size_t first = digits.find_first_of("123456789");
-  // No file has as many digits.
+  // Larger than the number of digits in any file.
   constexpr long long kMost = 1LL << 60;
   long long exponent = 0;
   if (e < token.size()) {

@@ -8,9 +8,9 @@
 namespace poise {
 
 /// Returns the numbers in a text, separated by white space, or nothing if the
-/// text holds anything else. "inf" and "nan" count as numbers. A number too
-/// large for a double becomes inf, one too small becomes 0. The locale does not
-/// matter.
+/// text contains anything else. "inf" and "nan" are numbers. A number too large
+/// for a double becomes inf, and a number too small for a double becomes 0. The
+/// result does not depend on the locale.
 std::optional<std::vector<double>> ParseNumbers(std::string_view text);
 
 }  // namespace poise

@@ -29,13 +29,13 @@ TEST(ParseNumbers, RejectsAnythingElse) {
   }
 }
 
-TEST(ParseNumbers, KnowsInfinityAndNan) {
+TEST(ParseNumbers, ReadsInfinityAndNan) {
   EXPECT_EQ(ParseNumbers("inf").value()[0], kInfinity);
   EXPECT_EQ(ParseNumbers("-inf").value()[0], -kInfinity);
   EXPECT_TRUE(std::isnan(ParseNumbers("nan").value()[0]));
 }
 
-TEST(ParseNumbers, TellsTooLargeFromTooSmall) {
+TEST(ParseNumbers, OverflowsToInfinityAndUnderflowsToZero) {
   const std::string zeros(400, '0');
   for (const std::string& large :
        std::vector<std::string>{std::string("1e400"), "1" + zeros,

@@ -50,7 +50,7 @@ using Geometry = std::variant<Sphere, Box, Cylinder, Mesh>;
 /// A shape that is fixed to a link.
 struct Shape {
   int frame;  ///< The link, an index into Tree::frames().
-  Pose X_FS;  ///< Shape in the link.
+  Pose X_FS;  ///< The pose of the shape in the link.
   Geometry geometry;
   Eigen::Vector4d rgba{0.7, 0.7, 0.7, 1};
 };
@@ -59,7 +59,7 @@ struct Shape {
 struct RobotModel {
   std::string name;
   Tree tree;
-  std::vector<JointLimits> limits;  ///< By joint of the tree.
+  std::vector<JointLimits> limits;  ///< One entry per joint of the tree.
   std::vector<MimicCoupling> mimics;
   std::vector<Shape> visuals;
   std::vector<Shape> collisions;
@@ -67,27 +67,28 @@ struct RobotModel {
 };
 
 /// A flat sole. The contact frame C lies at the center of the largest rectangle
-/// in the sole polygon, z out of the ground, x forward.
+/// in the sole polygon. Its z axis points out of the ground, its x axis
+/// forward.
 struct Foot {
   std::string name;           ///< "left_foot", "right_foot".
-  int body;                   ///< Body of the tree.
-  int frame;                  ///< The link it belongs to, in Tree::frames().
+  int body;                   ///< Index of the body in the tree.
+  int frame;                  ///< The foot's link, an index in Tree::frames().
   Pose X_BC;                  ///< Contact frame in the body.
-  Eigen::Vector2d half_size;  ///< Of the rectangle, along x and y of C, m.
+  Eigen::Vector2d half_size;  ///< Half of the rectangle's sides, x and y, m.
   std::vector<Eigen::Vector2d> polygon_C;  ///< Convex, counterclockwise, m.
 };
 
-/// A robot for control and simulation: the contents of its URDF, and the feet and
-/// posture from its profile.
+/// A robot for control and simulation. It combines the contents of the URDF
+/// with the feet and the posture of the profile.
 struct Robot {
   RobotModel model;
-  std::vector<Foot> feet;  ///< Left, right.
-  /// The nominal posture: soles on the ground (z = 0), the middle between them
-  /// at the world's origin, facing +x; for the layout see Tree.
+  std::vector<Foot> feet;  ///< The left foot, then the right foot.
+  /// The nominal posture. The soles are on the ground (z = 0), their midpoint
+  /// is at the world's origin, and the robot faces +x. For the layout see Tree.
   Eigen::VectorXd q_nominal;
-  /// Whether the robot can stand in q_nominal. If this is not known, the joints
-  /// are at zero or their nearest limit, the base is at the origin, and
-  /// robot/control can search for a posture.
+  /// Whether the robot can stand in q_nominal. If false, the joints are at the
+  /// profile's values, else at zero or at their nearest limit. The base is then
+  /// at the origin, and robot/control can search for a posture.
   bool can_stand = false;
 };
 

@@ -17,7 +17,7 @@ std::string ReadTextFile(const std::filesystem::path& file, size_t most_mib) {
       std::filesystem::status(file, error);
   if (std::filesystem::exists(status) &&
       !std::filesystem::is_regular_file(status)) {
-    refuse("is no regular file");
+    refuse("is not a regular file");
   }
   std::ifstream stream(file, std::ios::binary);
   if (!stream) refuse("cannot be read");
@@ -26,8 +26,8 @@ std::string ReadTextFile(const std::filesystem::path& file, size_t most_mib) {
   while (stream.read(chunk.data(), chunk.size()), stream.gcount() > 0) {
     text.append(chunk, 0, stream.gcount());
     if (text.size() > most_mib << 20) {
-      refuse("is longer than " + std::to_string(most_mib) +
-             " MiB, must be shorter");
+      refuse("is larger than " + std::to_string(most_mib) +
+             " MiB, must be smaller");
     }
   }
   if (!stream.eof()) refuse("cannot be read");

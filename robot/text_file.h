@@ -8,11 +8,12 @@
 
 namespace poise {
 
-/// Reads a text file of at most `most_mib` MiB. Throws Refusal if the file cannot
-/// be read, is longer, or is not a regular file, as a pipe might never end.
+/// Reads a text file of at most `most_mib` MiB. Throws Refusal if the file
+/// cannot be read, is larger, or is not a regular file: a pipe might never end.
 std::string ReadTextFile(const std::filesystem::path& file, size_t most_mib);
 
-/// Throws Refusal if the text has a zero byte: the file is binary.
+/// Throws Refusal if the text contains a zero byte, because the file is then
+/// binary.
 ///
 /// @param source  the name of the text in messages.
 void ExpectText(std::string_view text, const std::string& source);

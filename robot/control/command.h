@@ -13,7 +13,7 @@ enum class TickStatus {
   kFailSafe,      ///< Gravity compensation and damping, inside the limits.
 };
 
-/// What the controller asks of the robot.
+/// Output of the controller.
 struct Command {
   Eigen::VectorXd tau;  ///< By joint, N m or N; inside the effort limits.
   TickStatus status = TickStatus::kOk;

@@ -10,7 +10,7 @@
 
 namespace poise {
 
-/// What a tick needs of one foot, in the axes of its contact frame C.
+/// Data of one foot in a tick, in the axes of its contact frame C.
 struct ContactTick {
   Pose X_WC;
   Vector6d V_WC_C;                                  ///< [w; v of C's origin].
@@ -20,8 +20,8 @@ struct ContactTick {
   bool in_contact = true;  ///< If not, its λ is zero.
   /// In the air: on the way that Reference::feet gives, or with the body.
   bool is_guided = true;
-  /// What its normal force may not exceed: less than infinite while the
-  /// contact is faded in or out, N.
+  /// Upper bound of the normal force, N. Finite only while the contact force
+  /// fades in or out.
   double max_normal_force = std::numeric_limits<double>::infinity();
 };
 

@@ -27,16 +27,16 @@
 
 namespace poise {
 
-/// What a controller is told when it is made.
+/// Options of a Controller, fixed at its construction.
 struct ControllerOptions {
-  double dt = 1e-3;          ///< From one Update() to the next, s.
+  double dt = 1e-3;          ///< Time between two updates, s.
   double friction = 0.5;     ///< mu of the tasks friction and yaw.
   bool inscribed = false;    ///< The friction pyramid; else circumscribed.
   bool feedforward = false;  ///< The reference's v_WG and a_WG are used.
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
   int max_iterations = 500;  ///< Of the solver, a tick; then truncated.
-  /// The same in seconds by now(), if that is given; what it cuts off depends on
-  /// the machine, so no replay is exact.
+  /// Time budget of the solver in a tick, s, measured by now(); used only if
+  /// now() is given. The result depends on the machine: no replay is exact.
   double max_seconds = 0;
   std::function<double()> now;
   std::vector<std::string> frames;  ///< Links with a task frame.NAME.
@@ -92,7 +92,7 @@ class Controller {
   /// pre: command->tau has the size of the joints.
   void Update(const State& state, Command* command) noexcept;
 
-  /// What the last Update() did, and what it found.
+  /// Report on the last Update(): its status and its findings.
   const TickReport& report() const { return report_; }
   const Tick& tick() const { return tick_; }
   const std::vector<ContactTick>& contacts() const { return contacts_; }
@@ -119,14 +119,14 @@ class Controller {
 
   Robot robot_;
   ControllerOptions options_;
-  double weight_;       ///< Of the robot, N.
+  double weight_;       ///< Weight of the robot, N.
   double force_scale_;  ///< Of rows in forces, N.
   Reference reference_;
   Stack stack_;
   int momentum_;  ///< Index into the stack's tasks.
   const MomentumTask& momentum_task_;
-  int torque_limits_, joint_limits_;  ///< The same.
-  int com_;                           ///< The same.
+  int torque_limits_, joint_limits_;  ///< Indices, too.
+  int com_;                           ///< Index, too.
   const ComTask& com_task_;
   StateGuard guard_;
   Stance stance_;

@@ -9,25 +9,25 @@
 
 namespace poise {
 
-/// What the model does not know of and the center of mass feels, as an
-/// acceleration: a wrong model lets the robot stand beside its reference, by 17
-/// to 29 mm where its mass is wrong by a tenth. The integral of what the gains do
-/// not explain,
-///     c' = k_i (e + (k_d / k_p) e'),    e = p_ref - p_G,
-/// finds it: an error on its way back, k_p e = -k_d e', is none of the model's
-/// faults. In the plane it waits while the robot or its reference moves, as a lag
-/// is none either; and it is at most 0.5 m/s2 there, for a center of mass that is
-/// wrong by 4 cm, and 1.6 m/s2 up, for a sixth of the mass.
+/// Integral action on the center of mass: estimates the acceleration that the
+/// model does not contain. With a mass error of 10 %, the steady-state error is
+/// 17 to 29 mm without this correction. The correction c integrates
+///     c' = k_i (e + (k_d / k_p) e'),    e = p_ref - p_G.
+/// An error that decays as the PD gains predict, k_p e = -k_d e', is no model
+/// error and adds nothing. In the plane, integration pauses while the robot or
+/// its reference moves, because a tracking lag is not a model error either. The
+/// correction is clamped to 0.5 m/s2 in the plane (a center-of-mass error of
+/// 4 cm) and to 1.6 m/s2 along z (a sixth of the mass).
 class Disturbance {
  public:
   void Forget() noexcept { c_W_.setZero(); }
 
-  /// A tick of dt in which the center of mass was asked to go to its reference by
-  /// these gains, and was free to.
+  /// Integrates over dt. Call this only in a tick in which a task moved the center
+  /// of mass to its reference with these gains and nothing blocked it.
   void Update(double dt, const ComGains& gains, const Reference& reference,
               const Tick& tick) noexcept;
 
-  /// What the center of mass is to be accelerated by beyond its reference, m/s2.
+  /// Acceleration to add to the reference of the center of mass, m/s2.
   const Eigen::Vector3d& correction_W() const { return c_W_; }
 
  private:

@@ -8,16 +8,16 @@
 
 namespace poise {
 
-/// What the force/torque sensor of one foot says, about and in the axes of its
-/// contact frame C.
+/// Measured contact wrench of one foot, about and in the axes of its contact
+/// frame C.
 struct FootMeasurement {
   Eigen::Matrix<double, 6, 1> F_Co_C;  ///< [torque; force] of the ground on it.
   bool in_contact = true;
 };
 
-/// What a robot, or a plant in its place, senses at one instant. Sized once.
+/// Sensor values of a robot, or of a simulated plant, at one instant. Sized once.
 struct Measurement {
-  double time = 0;           ///< Of the sensors' own clock, s.
+  double time = 0;           ///< Clock of the sensors, s.
   Eigen::VectorXd q_joints;  ///< By joint of the tree, rad or m.
   Eigen::VectorXd v_joints;  ///< rad/s or m/s.
 
@@ -33,14 +33,15 @@ struct Measurement {
   std::vector<FootMeasurement> feet;  ///< In the order of the robot's feet.
 };
 
-/// Finite, and no larger than what a robot can be or do: beyond 1e6 (m, rad, and
-/// these by s or s2) the dynamics overflow. Does not allocate.
+/// Whether all values are finite and plausible: above 1e6 (m, rad, and these
+/// per s or s2) the dynamics overflow. Does not allocate.
 inline bool IsBelievable(const Eigen::Ref<const Eigen::MatrixXd>& x) noexcept {
   constexpr double kLargest = 1e6;
   return x.allFinite() && x.lpNorm<Eigen::Infinity>() < kLargest;
 }
 
-/// The robot's state as the controller believes it, see dynamics/tree.h.
+/// Estimated state of the robot, the input of the controller, see
+/// dynamics/tree.h.
 struct State {
   double time = 0;    ///< s.
   Eigen::VectorXd q;  ///< nq.

@@ -135,9 +135,11 @@ bool Stance::HasLanded(const Clearance& sole) const noexcept {
   return sole.height < settings_.found_below && sole.rising < kSeparating;
 }
 
-// One that is thought to be in contact while it still sinks is pressed onto what
-// is not there: it tilts, and lands on a corner, and on another one. Where it is to
-// be nearly at rest, it does not tell, but at the end of its way.
+// Whether the ground has stopped a descending sole. If contact were declared
+// while the sole still descends, the controller would push on thin air: the foot
+// would tilt and land on one corner after another. Where the reference itself is
+// nearly at rest, the speed of the sole is no evidence; there, only the end of the
+// motion counts.
 bool Stance::IsStopped(const FootState& foot,
                        const Clearance& sole) const noexcept {
   if (foot.phase != ContactPhase::kLanding) return true;
@@ -146,13 +148,13 @@ bool Stance::IsStopped(const FootState& foot,
                                   : motion.is_over;
 }
 
-// Whether no foot bears: the robot flies.
+// Whether no foot is in contact: the robot is in flight.
 bool Stance::flies() const noexcept {
   return std::none_of(feet_.begin(), feet_.end(),
                       [](const FootState& foot) { return Bears(foot.phase); });
 }
 
-// Whether its way ends on the ground.
+// Whether the motion of the foot ends on the ground.
 bool Stance::Lands(const FootState& foot) noexcept { return foot.to < 0; }
 
 void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {

@@ -37,21 +37,22 @@ struct StanceSettings {
   double found_below = 0.004;
 };
 
-/// Decides which feet are in contact: on command, a foot's force fades out
-/// before it is lifted, and fades in once it is put down; and, unasked, by
-/// geometry with hysteresis, never by force, as a foot that is not loaded
-/// because it is thought to be in the air would stay so for ever. A foot rolled
-/// onto its edge is still in contact; one in the air is found again when its
-/// sole lies on the ground. While no foot is in contact all go with the body, and
-/// whose edge lands stands, with all that it can bear.
+/// Decides which feet are in contact. On command, the force of a foot fades out
+/// before the foot is lifted, and fades in after the foot is put down. Without
+/// a command, contact is detected by geometry with hysteresis, never by force: a
+/// foot that is assumed to be in the air carries no load, so a force test would
+/// never find its contact again. A foot rolled onto its edge is in contact. A
+/// foot in the air is in contact again when its sole lies on the ground. While no
+/// foot is in contact, all feet move with the body. A foot whose edge then
+/// lands is in contact at once, with its full normal force.
 class Stance {
  public:
-  /// What a foot may be lifted by, m: less is no step, more no leg can.
+  /// Range of the height argument of Lift(), m.
   static constexpr double kLeastHeight = 1e-3;
   static constexpr double kMostHeight = 1;
 
-  static constexpr double kMostTime = 60;        ///< Of StanceSettings, s.
-  static constexpr double kMostThreshold = 0.5;  ///< Of StanceSettings, m.
+  static constexpr double kMostTime = 60;        ///< Upper bound of times, s.
+  static constexpr double kMostThreshold = 0.5;  ///< Upper bound of heights, m.
 
   /// All feet down. weight is the robot's, N.
   Stance(const std::vector<Foot>& feet, double weight);
@@ -64,17 +65,17 @@ class Stance {
   /// All feet down, at once.
   void Reset() noexcept;
 
-  /// Fades the force of a foot out and then lifts it by height, m; where it is
-  /// in the air already, brings it to that height; where it was let go, from where
-  /// it is now to that height over its place. False, and nothing happens, if the
-  /// height is out of its range.
+  /// Fades the force of a foot out and then lifts the foot by height, m. A foot
+  /// already in the air moves to that height. A released foot moves from its
+  /// present pose to that height above the place where it took off. Returns
+  /// false, and does nothing, if the height is out of its range.
   [[nodiscard]] bool Lift(int foot, double height) noexcept;
 
-  /// Puts a foot down where it is, or was before it was let go.
+  /// Puts a foot down at its place; a released foot returns there first.
   void PutDown(int foot) noexcept;
 
-  /// Lets go of a foot at once: it goes with the body, until PutDown() brings it
-  /// back to where it was.
+  /// Releases a foot at once: the foot moves with the body until PutDown() or
+  /// Lift() brings it back.
   void LetGo(int foot) noexcept;
 
   ContactPhase phase(int foot) const { return feet_[foot].phase; }
@@ -103,7 +104,7 @@ class Stance {
     std::vector<Eigen::Vector2d> polygon_C;
   };
 
-  // Of a point of a sole.
+  // Clearance of a point of a sole.
   struct Clearance {
     double height;  // Above the ground, m.
     double rising;  // m/s.

@@ -39,10 +39,10 @@ struct Parameter {
   double upper;
 };
 
-/// Kinds of rows, by what a row is about.
+/// Kinds of rows, by the quantity that a row sets or bounds.
 enum class RowKind {
-  kTarget,            ///< An equality: what a task is to bring about.
-  kDynamics,          ///< An equality that nature keeps, too.
+  kTarget,            ///< An equality: the target of a task.
+  kDynamics,          ///< An equality: a law of physics.
   kTorqueLimit,       ///< Of an actuator.
   kJointLimit,        ///< Of a joint's position or velocity.
   kCopLimit,          ///< Of the center of pressure, by an edge.
@@ -77,7 +77,7 @@ constexpr std::string_view RowKindName(RowKind kind) {
   return "";
 }
 
-/// A row of a task, for people. All who print a row print this.
+/// Description of a row for the user; every output of a row uses this text.
 struct RowDescription {
   std::string name;  ///< "left_foot.cop.x_max", as in the log.
   /// Unit of the bounded quantity or, of an equality, of the residual times
@@ -89,7 +89,7 @@ struct RowDescription {
   RowKind kind = RowKind::kTarget;
 };
 
-/// One thing to do or to respect: rows in y = [v̇ (nv); λ (6 per foot)], see
+/// A target or a constraint: rows in y = [v̇ (nv); λ (6 per foot)], see
 /// (1) and (2). A task has always the same rows, named once, here; rows that do
 /// not matter in a tick (of a foot in the air) stay zero and unbounded.
 class Task {
@@ -116,8 +116,8 @@ class Task {
   virtual bool HasRows(const TaskInput&) const noexcept { return true; }
 
   /// Whether its inequality rows are bounded on both sides, so that their names
-  /// get the one on which they act, .min or .max; what is bounded on one side only
-  /// says so in its name, or has no other.
+  /// get a suffix for the active bound, .min or .max. The name of a row with one
+  /// bound already names the bound, or needs no suffix.
   virtual bool is_two_sided() const noexcept { return false; }
 
   /// Factor that brings the residual of an equality row to the row's unit, see

@@ -10,27 +10,27 @@
 
 namespace poise {
 
-/// A row that acts at the solution of a tick. Stack::RowName() names it.
+/// A row that is active at the solution of a tick. Stack::RowName() names it.
 struct ActiveRow {
   int task;            ///< Index into Stack::tasks().
   int row;             ///< Index into Task::inequality_names().
-  Side side;           ///< Where it acts.
+  Side side;           ///< Active bound.
   int pressing_level;  ///< Highest priority level with a multiplier on it.
   double multiplier;   ///< Multiplier of that level on the row, always >= 0.
-  double slack;        ///< By how much the row is violated, in its own scale.
+  double slack;        ///< Violation of the row, in the scale of the row.
 };
 
-/// What became of one task in a tick.
+/// Result of one task in a tick.
 struct TaskReport {
   bool enabled = false;
   int level = 0;
-  /// Norm of its equality residuals, in their own scale; of what they ask for in
-  /// this tick, where a ramp eases them.
+  /// Norm of its equality residuals, in the scale of the rows. During a ramp the
+  /// residuals refer to the eased targets of this tick.
   double residual = 0;
   double slack = 0;  ///< Largest slack of its inequalities.
 };
 
-/// An equality row that had to give.
+/// A violated equality row.
 struct LostRow {
   int task;       ///< Index into Stack::tasks().
   int row;        ///< Index into Task::equality_names().
@@ -40,13 +40,12 @@ struct LostRow {
 /// Why a tick failed safe.
 enum class FailSafeReason {
   kNone,      ///< It did not.
-  kState,     ///< The state is not to be believed.
+  kState,     ///< The state is invalid.
   kClock,     ///< The state's time stamp stands still.
-  kNoAnswer,  ///< None that meets the dynamics.
+  kNoAnswer,  ///< No solution meets the dynamics.
 };
 
-/// What the controller can say of its last tick. Of fixed size: filling it does
-/// not allocate.
+/// Report on the last tick. Its size is fixed: filling it does not allocate.
 struct TickReport {
   TickStatus status = TickStatus::kOk;
   FailSafeReason fail_safe_reason = FailSafeReason::kNone;
@@ -56,7 +55,7 @@ struct TickReport {
   /// motor cannot give was cut off.
   std::optional<ActiveRow> relaxed;
   int failed_level = 0;  ///< Priority level that was not solved; 0: none.
-  int iterations = 0;    ///< Of the solver.
+  int iterations = 0;    ///< Solver iterations.
   /// DynamicsResidual() of y; above 1e-9 the tick fails safe.
   double dynamics_residual = 0;
   Eigen::VectorXd y;  ///< [v̇; λ], λ by foot, about and in the axes of C.
@@ -64,9 +63,9 @@ struct TickReport {
   std::vector<ActiveRow> active;  ///< Its capacity is the number of all rows.
   /// Rows that are violated, except those of the last level.
   std::vector<LostRow> lost;
-  Certificate certificate;  ///< The solution's own.
+  Certificate certificate;  ///< Certificate of the solution.
 
-  /// Of a tick in which nothing was solved: no numbers of an earlier one.
+  /// Resets the numbers of the solution, for a tick in which nothing was solved.
   void ClearAnswer() noexcept {
     solver_status = Status::kOptimal;
     failed_level = iterations = 0;

@@ -15,8 +15,8 @@ double Cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// Returns the lowest and the highest y of a convex polygon at x. A side that is
-// along y up to rounding counts as a whole.
+// Returns the lowest and the highest y of a convex polygon at x. If a side at x
+// is parallel to y up to rounding, both of its ends are included.
 std::pair<double, double> ExtentAt(const std::vector<Vector2d>& polygon,
                                    double x) {
   constexpr double kRounding = 1e-9;  // m.
@@ -37,12 +37,12 @@ std::pair<double, double> ExtentAt(const std::vector<Vector2d>& polygon,
   return {low, high};
 }
 
-// Finds the maximum of a function with a single peak by golden section. One of
-// the two inner points serves the next step as well.
+// Finds the maximum of a unimodal function by golden-section search. Each step
+// reuses one of the two inner points.
 template <typename Function>
 double ArgMax(double low, double high, const Function& f) {
   const double golden = (std::sqrt(5.0) - 1) / 2;
-  constexpr int kSteps = 80;  // golden^80 is below rounding.
+  constexpr int kSteps = 80;  // golden^80 is below 2e-17.
   double a = high - golden * (high - low), b = low + golden * (high - low);
   double f_a = f(a), f_b = f(b);
   for (int i = 0; i < kSteps; ++i) {
@@ -63,7 +63,7 @@ double ArgMax(double low, double high, const Function& f) {
   return 0.5 * (low + high);
 }
 
-// Returns the convex polygon with at most kMostCorners of its corners.
+// Returns the convex polygon, reduced to at most kMostCorners of its corners.
 std::vector<Vector2d> Thin(const std::vector<Vector2d>& polygon) {
   constexpr int kMostCorners = 64;
   if (polygon.size() <= kMostCorners) return polygon;
@@ -87,7 +87,7 @@ std::vector<Vector2d> ConvexHull(std::vector<Vector2d> points) {
       points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
         return std::make_pair(a.x(), a.y()) < std::make_pair(b.x(), b.y());
       });
-  // Andrew's monotone chain: the lower side, then the upper one.
+  // Andrew's monotone chain: first the lower hull, then the upper hull.
   std::vector<Vector2d> hull;
   for (const int side : {0, 1}) {
     const size_t start = hull.size();
@@ -99,14 +99,14 @@ std::vector<Vector2d> ConvexHull(std::vector<Vector2d> points) {
       }
       hull.push_back(point);
     }
-    if (!hull.empty()) hull.pop_back();  // The next side starts there.
+    if (!hull.empty()) hull.pop_back();  // The next chain starts with it.
     if (side == 0) std::reverse(points.begin(), points.end());
   }
   return hull;
 }
 
 bool IsConvex(const std::vector<Vector2d>& corners) {
-  constexpr double kRounding = 1e-3;  // rad. Files have six digits.
+  constexpr double kRounding = 1e-3;  // rad. Files round to six digits.
   std::vector<Vector2d> edges;
   for (size_t i = 0; i < corners.size(); ++i) {
     const Vector2d edge = corners[(i + 1) % corners.size()] - corners[i];
@@ -122,7 +122,8 @@ bool IsConvex(const std::vector<Vector2d>& corners) {
     least = std::min(least, turn);
     most = std::max(most, turn);
   }
-  // All turns have one sign, and add up to one full turn.
+  // A polygon is convex if all turns have the same sign and add up to 2 pi. The
+  // bound 3 pi excludes polygons that go around twice, such as a star.
   return (least >= -kRounding || most <= kRounding) &&
          std::abs(turned) < 3 * M_PI;
 }
@@ -139,8 +140,8 @@ Rectangle LargestRectangle(const std::vector<Vector2d>& polygon) {
     const auto [low2, high2] = ExtentAt(polygon, x2);
     return std::make_pair(std::max(low1, low2), std::min(high1, high2));
   };
-  // The logarithms of width and height are concave in (x1, x2). So the area has
-  // a single peak along x1 and along x2.
+  // The logarithms of width and height are concave in (x1, x2). So is the
+  // logarithm of the area, which is therefore unimodal in x1 and in x2.
   const auto area = [&](double x1, double x2) {
     const auto [low, high] = extent(x1, x2);
     return (x2 - x1) * (high - low);
@@ -159,7 +160,7 @@ Rectangle LargestRectangle(const std::vector<Vector2d>& polygon) {
 std::optional<Foot> MakeFoot(const RobotModel& model, std::string name,
                              int frame, const Pose& X_FS,
                              const std::vector<Vector2d>& sole_S) {
-  constexpr double kSmallest = 5e-4;  // Half a side, m.
+  constexpr double kSmallest = 5e-4;  // Half of a side, m.
   std::vector<Vector2d> polygon = Thin(ConvexHull(sole_S));
   if (polygon.size() < 3) return std::nullopt;
   const Rectangle rectangle = LargestRectangle(polygon);

@@ -10,31 +10,33 @@
 
 namespace poise {
 
-/// A rectangle with sides along x and y.
+/// A rectangle with sides along x and y, m.
 struct Rectangle {
   Eigen::Vector2d center;
   Eigen::Vector2d half_size;
 };
 
-/// Returns the convex hull of points in the plane, counterclockwise, without
-/// points on its edges. If all points lie on a line, fewer than three remain.
+/// Returns the convex hull of points in the plane, counterclockwise. Points on
+/// the edges of the hull are left out. If all points lie on a line, the result
+/// has fewer than three points.
 std::vector<Eigen::Vector2d> ConvexHull(std::vector<Eigen::Vector2d> points);
 
-/// Returns whether corners, in either direction, are the corners of a convex
-/// polygon. Corners may lie on its edges, up to rounding.
+/// Returns whether the points are the corners of a convex polygon, in clockwise
+/// or counterclockwise order. Corners may also lie on an edge, up to 1e-3 rad.
 bool IsConvex(const std::vector<Eigen::Vector2d>& corners);
 
 /// Returns the largest rectangle with sides along x and y inside a convex
-/// polygon, to 1e-9 of the polygon's size.
+/// polygon. The error is at most 1e-9 of the polygon's size.
 ///
-/// @pre The polygon is convex, counterclockwise, with three corners or more.
+/// @pre The polygon is convex, counterclockwise, and has at least three
+/// corners.
 Rectangle LargestRectangle(const std::vector<Eigen::Vector2d>& polygon);
 
-/// Returns a foot on a link, made from a sole polygon. The polygon is given in a
-/// frame S of the link with z out of the ground and x forward. The contact frame
-/// C has S's axes and lies at the center of the polygon's largest rectangle. If
-/// a polygon has more than 64 corners, the corners that reach furthest in 64
-/// directions remain.
+/// Makes a foot on a link from a sole polygon. The polygon is given in a frame
+/// S that is fixed to the link, with z out of the ground and x forward. The
+/// contact frame C has S's axes and lies at the center of the polygon's largest
+/// rectangle. A polygon with more than 64 corners is reduced: only the extreme
+/// corners in 64 directions remain.
 ///
 /// Returns nothing if the rectangle is less than 1 mm wide or long.
 std::optional<Foot> MakeFoot(const RobotModel& model, std::string name,

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector2d;
 using Points = std::vector<Vector2d>;
 
-// The error that LargestRectangle() promises for a polygon one unit wide.
+// Tolerance on the results of LargestRectangle() for polygons of size 1, m.
 constexpr double kPromised = 1e-7;
 
 TEST(ConvexHull, IsCounterclockwiseWithoutPointsOnEdges) {
@@ -32,15 +32,15 @@ TEST(ConvexHull, IsCounterclockwiseWithoutPointsOnEdges) {
   EXPECT_EQ(twice_area, 2);
 }
 
-TEST(ConvexHull, OfPointsOnALineIsNoPolygon) {
+TEST(ConvexHull, HasFewerThanThreeCornersForPointsOnALine) {
   EXPECT_LT(ConvexHull({{0, 0}, {1, 1}, {2, 2}}).size(), 3u);
   EXPECT_LT(ConvexHull({{1, 2}, {1, 2}}).size(), 3u);
 }
 
-TEST(IsConvex, RefusesNotchesAndCrossings) {
+TEST(IsConvex, RejectsNotchesAndCrossings) {
   EXPECT_TRUE(IsConvex({{0, 0}, {2, 0}, {2, 1}, {0, 1}}));
   EXPECT_TRUE(IsConvex({{0, 1}, {2, 1}, {2, 0}, {0, 0}}));
-  // Corners on an edge, and one twice.
+  // One corner lies on an edge, and another occurs twice.
   EXPECT_TRUE(IsConvex({{0, 0}, {1, 1e-6}, {2, 0}, {2, 0}, {1, 1}}));
   EXPECT_FALSE(IsConvex({{0, 0}, {1, 0.1}, {2, 0}, {2, 1}, {0, 1}}));
   EXPECT_FALSE(IsConvex({{0, 0}, {2, 1}, {2, 0}, {0, 1}}));
@@ -51,15 +51,15 @@ TEST(IsConvex, RefusesNotchesAndCrossings) {
   EXPECT_FALSE(IsConvex(star));
 }
 
-TEST(LargestRectangle, OfARectangleIsItself) {
+TEST(LargestRectangle, ReturnsARectangleUnchanged) {
   const Rectangle r = LargestRectangle({{-1, -2}, {3, -2}, {3, 0}, {-1, 0}});
   EXPECT_LT((r.center - Vector2d(1, -1)).norm(), kPromised);
   EXPECT_LT((r.half_size - Vector2d(2, 1)).norm(), kPromised);
 }
 
-// A box that was turned and turned back has no side exactly along y. An exact
-// comparison would make the rectangle a quarter narrower, or empty.
-TEST(LargestRectangle, OfARectangleIsItselfUpToRounding) {
+// A box that was rotated and rotated back has no side exactly along y. With an
+// exact comparison, the result would be a quarter narrower, or empty.
+TEST(LargestRectangle, ToleratesRoundingOfSidesAlongY) {
   for (const double e : {3e-17, 3e-16, 1e-15, 1e-13}) {
     const Rectangle r = LargestRectangle(
         {{-0.08 + e, -0.03}, {0.08, -0.03}, {0.08, 0.03}, {-0.08 - e, 0.03}});
@@ -68,38 +68,41 @@ TEST(LargestRectangle, OfARectangleIsItselfUpToRounding) {
   }
 }
 
-// Half the base and half the height, wherever it lies.
-TEST(LargestRectangle, OfATriangleHasHalfItsArea) {
+// The largest rectangle in a triangle has half its base and half its height.
+TEST(LargestRectangle, CoversHalfOfATriangle) {
   const Rectangle r = LargestRectangle({{0, -1}, {1, 0}, {0, 1}});
   EXPECT_LT((r.half_size - Vector2d(0.25, 0.5)).norm(), kPromised);
   EXPECT_LT((r.center - Vector2d(0.25, 0)).norm(), kPromised);
 }
 
-// A trapezoid, 2 wide at x = 0 and 4 at x = 2: all its length, 2 wide.
-TEST(LargestRectangle, OfATrapezoidTakesItsLength) {
+// The trapezoid is 2 wide at x = 0 and 4 wide at x = 2. Its largest rectangle
+// has its full length and is 2 wide.
+TEST(LargestRectangle, HasTheFullLengthOfATrapezoid) {
   const Rectangle r = LargestRectangle({{0, -1}, {2, -2}, {2, 2}, {0, 1}});
   EXPECT_LT((r.half_size - Vector2d(1, 1)).norm(), kPromised);
 }
 
-TEST(LargestRectangle, OfACircleIsASquare) {
+TEST(LargestRectangle, IsASquareInACircle) {
   Points circle;
   for (int i = 0; i < 64; ++i) {
     const double angle = 2 * M_PI * (i + 0.5) / 64;
     circle.emplace_back(std::cos(angle), std::sin(angle));
   }
   const Rectangle r = LargestRectangle(circle);
-  EXPECT_NEAR(r.half_size.x(), std::sqrt(0.5), 2e-3);  // It has 64 corners.
+  EXPECT_NEAR(r.half_size.x(), std::sqrt(0.5), 2e-3);  // A 64-gon.
   EXPECT_NEAR(r.half_size.y(), std::sqrt(0.5), 2e-3);
 }
 
-// A robot of one link, 1 kg without extent.
+// A robot with one link: a point mass of 1 kg.
 const char kOneLink[] =
     "<robot name='r'><link name='a'><inertial><mass value='1'/><inertia "
     "ixx='0' "
     "ixy='0' ixz='0' iyy='0' iyz='0' izz='0'/></inertial></link></robot>";
 
-// A biped: a base, and on each side a leg of the given joints that ends in a
-// foot with the given shapes. At rest the ankle is 1 m below the base.
+// Returns the URDF of a biped. Each leg has six joints, of which the first
+// `motors` have a motor, and ends in a foot with the given shapes. `foot_rpy`
+// orients the foot's link, and `knee_range` is the limit of the knee. At rest
+// the ankle is 1 m below the base.
 std::string Biped(const std::string& shapes, const std::string& foot_rpy,
                   const std::string& knee_range = "lower='0' upper='2'",
                   int motors = 6) {
@@ -189,8 +192,9 @@ TEST(FindFeet, FindsTheEndOfACylinder) {
   EXPECT_NEAR(feet[0].X_BC.p.z(), -0.04, kPromised);
 }
 
-// A foot whose link has z down, as some have: the contact frame has it up.
-TEST(FindFeet, TurnsTheContactFrameOutOfTheGround) {
+// The z axis of this foot's link points down, as in some robots. The z axis of
+// the contact frame still points up.
+TEST(FindFeet, PointsTheContactFrameOutOfTheGround) {
   const auto feet =
       Find(Biped(Collision("box size='0.2 0.1 0.02'", "0.03 0 0.04"),
                  "3.14159265358979 0 0"));
@@ -199,11 +203,11 @@ TEST(FindFeet, TurnsTheContactFrameOutOfTheGround) {
   EXPECT_NEAR(feet[0].X_BC.p.z(), 0.05, kPromised);
 }
 
-TEST(FindFeet, LooksWhereTheToesAre) {
+TEST(FindFeet, TakesTheToesAsForward) {
   const auto feet = Find(
       Biped(Collision("box size='0.2 0.1 0.02'", "0.03 0 -0.04"), "0 0 0"));
   EXPECT_NEAR(feet[0].X_BC.R(0, 0), 1, kPromised);
-  // With the toes behind, what was left is right.
+  // If the toes are behind the ankle, forward is reversed: left becomes right.
   const RobotModel model = ParseUrdf(
       Biped(Collision("box size='0.2 0.1 0.02'", "-0.03 0 -0.04"), "0 0 0"),
       "biped");
@@ -212,9 +216,9 @@ TEST(FindFeet, LooksWhereTheToesAre) {
   EXPECT_EQ(model.tree.frames()[turned[0].frame].name, "r6");
 }
 
-// A roll joint moves this foot. Its origin may be anywhere along its axis; from
-// this one, the heel reaches further than the toes.
-TEST(FindFeet, LooksFromTheAnkleWhereTheToesAre) {
+// A roll joint moves this foot, so the foot's origin may lie anywhere along the
+// roll axis. Seen from this origin, the heel reaches further than the toes.
+TEST(FindFeet, MeasuresTheToesFromTheAnkle) {
   std::string biped =
       Biped(Collision("box size='0.2 0.1 0.02'", "-0.02 0 -0.04"), "0 0 0");
   for (const std::string side : {"l", "r"}) {
@@ -224,7 +228,7 @@ TEST(FindFeet, LooksFromTheAnkleWhereTheToesAre) {
   EXPECT_GT(Find(biped)[0].X_BC.R(0, 0), 0);
 }
 
-TEST(FindFeet, LooksWhereTheKneesGoIfThereAreNoToes) {
+TEST(FindFeet, UsesTheKneeRangeIfSolesAreSymmetric) {
   const std::string box = Collision("box size='0.2 0.1 0.02'", "0 0 -0.04");
   EXPECT_NEAR(Find(Biped(box, "0 0 0"))[0].X_BC.R(0, 0), 1, kPromised);
   const auto turned =
@@ -234,7 +238,7 @@ TEST(FindFeet, LooksWhereTheKneesGoIfThereAreNoToes) {
 
 // At zero this knee is bent to the middle of its range. So the range gives no
 // direction, but the bend does.
-TEST(FindFeet, LooksWhereTheKneesAreBentAtRest) {
+TEST(FindFeet, UsesTheKneeBendAtRest) {
   std::string biped = Biped(Collision("box size='0.2 0.1 0.02'", "0 0 -0.04"),
                             "0 -0.6 0", "lower='-1.1' upper='1'");
   for (const std::string side : {"l", "r"}) {
@@ -250,7 +254,7 @@ TEST(FindFeet, LooksWhereTheKneesAreBentAtRest) {
   EXPECT_GT(Find(biped)[0].X_BC.R(0, 0), 0);
 }
 
-TEST(FindFeet, EstimatesASoleThatIsAMesh) {
+TEST(FindFeet, EstimatesTheSoleOfAMesh) {
   std::vector<Finding> findings;
   const auto feet =
       Find(Biped(Collision("mesh filename='foot.stl'", "0 0 0"), "0 0 0"),
@@ -258,15 +262,15 @@ TEST(FindFeet, EstimatesASoleThatIsAMesh) {
   ASSERT_EQ(findings.size(), 2u);
   EXPECT_EQ(findings[0].severity, Severity::kWarn);
   EXPECT_EQ(findings[0].what,
-            "is taken for 0.22 x 0.12 m, 0.1 m below the ankle");
+            "is estimated as 0.22 x 0.12 m, 0.1 m below the ankle");
   EXPECT_LT((feet[0].half_size - Vector2d(0.11, 0.06)).norm(), kPromised);
   EXPECT_LT((feet[0].X_BC.p - Eigen::Vector3d(0.04, 0, -0.1)).norm(),
             kPromised);
 }
 
-// The last joint of this ankle turns about the lateral axis, and its origin lies
-// beside the leg.
-TEST(FindFeet, EstimatesASoleBelowTheMassOfTheFoot) {
+// The center of mass of the left foot lies beside its joint origin. The
+// estimated sole is centered sideways below this center of mass.
+TEST(FindFeet, EstimatesASoleBelowTheCenterOfMass) {
   std::string biped =
       Biped(Collision("mesh filename='foot.stl'", "0 0 0"), "0 0 0");
   const std::string foot = "<link name='l6'><inertial>";
@@ -279,8 +283,8 @@ TEST(FindFeet, EstimatesASoleBelowTheMassOfTheFoot) {
             kPromised);
 }
 
-// A frame without shapes may be below the soles, and is no foot.
-TEST(FindFeet, StandsOnShapesNotOnFrames) {
+// A link without shapes may be below the soles, but is not a foot.
+TEST(FindFeet, IgnoresLinksWithoutShapes) {
   const std::string biped =
       Biped(Collision("box size='0.2 0.1 0.02'", "0.03 0 -0.04"), "0 0 0");
   const std::string fixed = "<joint name='f' type='fixed'>";
@@ -297,18 +301,22 @@ TEST(FindFeet, StandsOnShapesNotOnFrames) {
   }
 }
 
-TEST(FindFeet, SaysWhyThereAreNoFeet) {
+TEST(FindFeet, ReportsWhyNoFeetAreFound) {
   EXPECT_EQ(Refusal(Biped("", "0 0 0", "lower='0' upper='2'", 5)),
-            "robot 'biped' has no flat sole on link 'l6', nor motors to lay "
-            "one flat: the leg has 5, must have 6");
+            "robot 'biped' has no flat sole on link 'l6', and its leg has 5 "
+            "motors, must have 6 to lay a sole flat: give the feet in a "
+            "profile");
   EXPECT_EQ(Refusal(kOneLink),
-            "robot 'r' reaches the ground with 1 body, must be two feet");
-  EXPECT_EQ(Refusal(Biped(Collision("box size='0.2 0.0008 0.02'", "0 0 -0.04"),
-                          "0 0 0")),
-            "robot 'biped' has hardly a sole on link 'l6'");
+            "robot 'r' reaches the ground with 1 body, must be two feet: give "
+            "the feet in a profile");
+  EXPECT_EQ(
+      Refusal(
+          Biped(Collision("box size='0.2 0.0008 0.02'", "0 0 -0.04"), "0 0 0")),
+      "robot 'biped' has a sole under 1 mm wide or long, give the sole in "
+      "a profile: link 'l6'");
 }
 
-TEST(MakeFoot, RefusesASoleWithoutArea) {
+TEST(MakeFoot, RejectsASoleUnderOneMillimeter) {
   const RobotModel model = ParseUrdf(kOneLink, "r");
   EXPECT_FALSE(MakeFoot(model, "f", 0, {}, {{0, 0}, {1, 1}, {2, 2}}));
   EXPECT_FALSE(
@@ -317,7 +325,7 @@ TEST(MakeFoot, RefusesASoleWithoutArea) {
       MakeFoot(model, "f", 0, {}, {{0, 0}, {1, 0}, {1, 2e-3}, {0, 2e-3}}));
 }
 
-TEST(MakeFoot, KeepsTheFurthestOfVeryManyCorners) {
+TEST(MakeFoot, ReducesAPolygonTo64ExtremeCorners) {
   const RobotModel model = ParseUrdf(kOneLink, "r");
   std::vector<Vector2d> rim;
   for (int i = 0; i < 100'000; ++i) {
@@ -326,8 +334,8 @@ TEST(MakeFoot, KeepsTheFurthestOfVeryManyCorners) {
   const Foot foot = MakeFoot(model, "f", 0, {}, rim).value();
   EXPECT_LE(foot.polygon_C.size(), 64u);
   EXPECT_GT(foot.polygon_C.size(), 60u);
-  // The square in the circle, less what the corners left out took: a chord
-  // between two of 64 corners is off the circle by a 0.12 % of its radius.
+  // The result is the square inside the circle, slightly reduced: a chord
+  // between two of 64 corners is off the circle by 0.12 % of the radius.
   const double half = 0.1 * std::sqrt(0.5);
   for (const double side : {foot.half_size.x(), foot.half_size.y()}) {
     EXPECT_NEAR(side, half, 0.01 * half);

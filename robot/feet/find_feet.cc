@@ -19,25 +19,25 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A sole shows where the toes are if it reaches this much further to one side, m.
+// A sole tells forward from backward if its reaches differ by at least this, m.
 constexpr double kToes = 2e-3;
-// A body at most this far above the lowest body also stands on the ground, m.
+// A body at most this far above the lowest body is also on the ground, m.
 constexpr double kLevel = 0.03;
-// A leg needs six motors to lay its sole flat anywhere.
+// A leg needs six motors to place its sole flat at any position and heading.
 constexpr int kMotorsOfALeg = 6;
 
-// Returns the poses of the bodies in the base's axes, with the joints as near to
-// 0 as their limits allow.
+// Returns the poses of the bodies relative to the base, in the configuration at
+// rest.
 std::vector<Pose> RestPoses(const RobotModel& model) {
   std::vector<Pose> X_WB(model.tree.num_bodies());
   ComputePoses(model.tree, RestConfiguration(model), &X_WB);
   return X_WB;
 }
 
-// Returns the lowest height of each body. Its shapes count, the origins of links
-// with shapes (meshes are not opened), and the joint that moves the body. A frame
-// without shapes does not count: `world` and `base_footprint` are often below the
-// feet.
+// Returns the height [m] of the lowest point of each body. The points are those
+// of its shapes, the origins of links with shapes (because meshes are not
+// opened), and the joint that moves the body. A link without shapes is ignored,
+// because `world` and `base_footprint` are often below the feet.
 std::vector<double> Reach(const RobotModel& model,
                           const std::vector<Outline>& outlines,
                           const std::vector<Pose>& X_WB) {
@@ -58,7 +58,7 @@ std::vector<double> Reach(const RobotModel& model,
   return low;
 }
 
-// Returns the number of joints with a motor between the base and a body.
+// Returns the number of motorized joints between the base and a body.
 int NumMotors(const RobotModel& model, int body) {
   int motors = 0;
   for (int b = body; b > 0; b = model.tree.joints()[b - 1].parent) {
@@ -67,8 +67,9 @@ int NumMotors(const RobotModel& model, int body) {
   return motors;
 }
 
-// Returns one body for each chain of bodies on the ground: the body with the
-// largest sole or, if no body has a sole, the first with six motors.
+// Returns one body for each chain of connected bodies on the ground. It is the
+// body with the largest sole. If no body of the chain has a sole, it is the
+// first body with six motors above it.
 std::vector<int> BodiesOnGround(const RobotModel& model,
                                 const std::vector<double>& low,
                                 const std::vector<Sole>& soles) {
@@ -102,7 +103,7 @@ std::string LinkOf(const RobotModel& model, int body) {
   return "";
 }
 
-// Returns the first body of the leg that ends in a foot.
+// Returns the first body of the leg that ends in a foot: a child of the base.
 int HipOf(const RobotModel& model, int foot) {
   int hip = foot;
   while (model.tree.joints()[hip - 1].parent > 0) {
@@ -111,8 +112,8 @@ int HipOf(const RobotModel& model, int foot) {
   return hip;
 }
 
-// Returns the position of a foot's ankle or, if no ankle is found, of the foot's
-// origin.
+// Returns the position of a foot's ankle or, if no ankle is found, the position
+// of the foot's origin.
 Vector3d AnkleOf(const RobotModel& model, int foot,
                  const std::vector<Pose>& X_WB, const Vector3d& forward) {
   const auto ankle =
@@ -127,10 +128,10 @@ Sole SoleWithoutShape(const RobotModel& model, int body,
   const std::string link = LinkOf(model, body);
   const int motors = NumMotors(model, body);
   if (motors < kMotorsOfALeg) {
-    throw std::invalid_argument("robot " + Quoted(model.name) +
-                                " has no flat sole on link " + Quoted(link) +
-                                ", nor motors to lay one flat: the leg has " +
-                                std::to_string(motors) + ", must have 6");
+    throw std::invalid_argument(
+        "robot " + Quoted(model.name) + " has no flat sole on link " +
+        Quoted(link) + ", and its leg has " + std::to_string(motors) +
+        " motors, must have 6 to lay a sole flat: give the feet in a profile");
   }
   const double leg = X_WB[HipOf(model, body)].p.z() - X_WB[body].p.z();
   const Vector3d up_B = X_WB[body].R.row(2).transpose();
@@ -140,16 +141,17 @@ Sole SoleWithoutShape(const RobotModel& model, int body,
   const Sole sole = EstimateSole(model, body, up_B, forward_B, p_BA_B, leg);
   if (findings != nullptr) {
     findings->push_back({Severity::kWarn, "sole of link " + Quoted(link),
-                         "is taken for " + PrintNumber(0.22 * leg) + " x " +
+                         "is estimated as " + PrintNumber(0.22 * leg) + " x " +
                              PrintNumber(0.12 * leg) + " m, " +
                              PrintNumber(-up_B.dot(sole.points_B[0])) +
                              " m below the ankle",
-                         "as the file has only meshes: give it in a profile"});
+                         "because the foot has only meshes: give the sole in a "
+                         "profile"});
   }
   return sole;
 }
 
-// Returns the reach of a sole ahead of the ankle minus its reach behind, in m.
+// Returns the reach of a sole in front of the ankle minus its reach behind, m.
 double Toes(const RobotModel& model, int foot, const std::vector<Pose>& X_WB,
             const Sole& sole, const Vector3d& forward) {
   if (sole.points_B.empty()) return 0;
@@ -165,8 +167,8 @@ double Toes(const RobotModel& model, int foot, const std::vector<Pose>& X_WB,
 }
 
 // Returns the range of a knee forward minus its range backward, plus twice its
-// bend at rest, in rad. A positive turn about the left axis moves the shank
-// backward, so the knee bends forward.
+// bend at rest, in rad. A positive rotation about the axis to the left moves
+// the shank backward, so that the knee points forward.
 double KneeRange(const RobotModel& model, int body,
                  const std::vector<Pose>& X_WB, const Vector3d& forward) {
   const auto knee =
@@ -201,10 +203,11 @@ std::vector<Foot> FindFeet(const RobotModel& model,
     throw std::invalid_argument(
         "robot " + Quoted(model.name) + " reaches the ground with " +
         std::to_string(bodies.size()) +
-        (bodies.size() == 1 ? " body" : " bodies") + ", must be two feet");
+        (bodies.size() == 1 ? " body" : " bodies") +
+        ", must be two feet: give the feet in a profile");
   }
 
-  // The feet stand apart along y or, in some robots, along x.
+  // The feet are apart along y or, in some robots, along x.
   const Vector3d across = X_WB[bodies[1]].p - X_WB[bodies[0]].p;
   Vector3d forward = std::abs(across.y()) >= std::abs(across.x())
                          ? Vector3d::UnitX()
@@ -236,7 +239,8 @@ std::vector<Foot> FindFeet(const RobotModel& model,
                          X_BF.Inverse() * X_BS, points);
     if (!foot) {
       throw std::invalid_argument("robot " + Quoted(model.name) +
-                                  " has hardly a sole on link " +
+                                  " has a sole under 1 mm wide or long, give "
+                                  "the sole in a profile: link " +
                                   Quoted(LinkOf(model, body)));
     }
     feet.push_back(*std::move(foot));

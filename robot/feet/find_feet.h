@@ -10,29 +10,31 @@ namespace poise {
 
 /// Finds the two feet of a biped, the left one first.
 ///
-/// The feet are the two bodies that reach lowest when the joints are at zero (or
-/// at their nearest limit) and the base's z axis points up. A sole is the flat
-/// underside of the body's collision boxes, cylinders and spheres, or of its
-/// visual ones if it has no other. Candidate planes are normal to an axis of the
-/// shapes, of the body, or to the vertical, and within 35 degrees of level. The
-/// plane with the largest area wins.
+/// The feet are the two bodies that reach lowest in the configuration at rest,
+/// with the base's z axis up. At rest, joints are at zero or at their nearest
+/// limit. A sole is the flat underside of the body's collision boxes, cylinders
+/// and spheres. If the body has no such collision shapes, its visual shapes are
+/// used. Candidate planes are normal to an axis of the shapes, to an axis of
+/// the body, or to the vertical. They are at most 35 degrees from horizontal.
+/// The plane with the largest area is chosen.
 ///
-/// Forward is along the base's x axis, or along y if the feet stand apart in x.
-/// The sign is the side on which the soles reach further from their ankles. If
-/// they reach equally far, it is the side to which the knees bend, or are bent at
-/// rest.
+/// The forward direction is along the base's x axis, or along its y axis if the
+/// feet are apart in x. Its sign is the side on which the soles reach further
+/// from their ankles. If the soles are symmetric about the ankles, the knees
+/// decide: by the direction of their range, and by their bend at rest.
 ///
-/// Meshes are not opened. If a foot has no other shape, and the leg of length L
-/// has six motors or more, the sole is estimated:
-///  - height: that of a link named `sole`, or of the foot's lowest link, or
-///    0.1 L below the ankle;
-///  - length: from 0.07 L behind the ankle to 0.15 L before it;
-///  - width: 0.12 L, with its middle below the foot's center of mass.
-/// Most feet are larger than this estimate. A profile should give the sole.
+/// Meshes are not opened. If a foot has only meshes, and the leg of length L
+/// has at least six motors, the sole is estimated:
+///  - height: that of a link named `sole`, else of the foot's lowest link,
+///    else 0.1 L below the ankle;
+///  - length: from 0.07 L behind the ankle to 0.15 L in front of the ankle;
+///  - width: 0.12 L, centered below the foot's center of mass.
+/// Most real feet are larger than this estimate, so a profile should give the
+/// sole.
 ///
 /// @param findings  if not null, receives a warning for each estimate.
 ///
-/// Throws std::invalid_argument with the reason if there are no two such feet.
+/// Throws std::invalid_argument with the reason if two feet are not found.
 std::vector<Foot> FindFeet(const RobotModel& model,
                            std::vector<Finding>* findings = nullptr);
 

@@ -7,8 +7,8 @@
 namespace poise {
 namespace {
 
-// Returns the sign of a joint's axis along the lateral axis, 1 or -1, or 0 if the
-// joint does not turn about an axis near the lateral axis.
+// Returns the sign of a joint's axis along the lateral axis, 1 or -1. Returns 0
+// if the joint does not rotate about an axis near the lateral axis.
 int Turns(const Tree& tree, int joint, const std::vector<Pose>& X_WB,
           const Eigen::Vector3d& left) {
   constexpr double kAlong = 0.8;

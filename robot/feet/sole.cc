@@ -16,15 +16,17 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Corners at most this far from a plane count as in the plane, m. Drawings are
-// rounded to 1 mm.
+// A corner at most this far from a plane belongs to the plane, m. Drawings are
+// often rounded to 1 mm.
 constexpr double kFlat = 2e-3;
-// Bounds on the tilt of a sole's normal and the turn of its x axis at q = 0, rad.
+// Bounds for a sole in the configuration at rest, rad. kSteepest: angle between
+// the normal and the vertical. kMostTurned: angle between the x axis and the
+// forward direction.
 constexpr double kSteepest = 0.6;
 constexpr double kMostTurned = 0.3;
 constexpr double kSameAxis = 1e-6;
-// A body uses the axes of its first shapes only, so that very many shapes cost
-// little time.
+// At most about this many axes of a body are used, so that a body with very
+// many shapes does not take long.
 constexpr size_t kMostAxes = 64;
 
 // Adds the corners and axes of a shape. A curved rim becomes 16 points.
@@ -50,7 +52,7 @@ void AddShape(const Shape& shape, const Pose& X_BF, Outline* outline) {
     }
   } else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
     add(Vector3d::Zero(), sphere->radius);
-    return;  // A sphere has no axis of its own.
+    return;  // The axes of a sphere have no meaning.
   } else {
     return;  // Meshes are not opened.
   }
@@ -78,7 +80,8 @@ double Area(const Sole& sole) {
 // link that carries the sole.
 double EstimateDepth(const RobotModel& model, int body, const Vector3d& up_B,
                      double leg, int* frame) {
-  constexpr double kNone = 0.01;  // A link this near the ankle is ignored, m.
+  // A link less than this below the body's origin is not at the sole, m.
+  constexpr double kNone = 0.01;
   double depth = 0;
   for (int i = 0; i < static_cast<int>(model.tree.frames().size()); ++i) {
     const Frame& link = model.tree.frames()[i];
@@ -145,7 +148,8 @@ Sole FindSole(const Outline& outline, const Vector3d& up_B) {
       sole.points_B.push_back(corner.p_B - above * normal);
     }
     sole.area = Area(sole);
-    // The factor keeps the first of planes that are equal up to rounding.
+    // The factor 1.01 prefers the first plane if areas are equal up to
+    // rounding.
     if (sole.area > 1.01 * best.area) best = std::move(sole);
   }
   return best.area > kFlat * kFlat ? best : Sole{};
@@ -159,8 +163,9 @@ Sole EstimateSole(const RobotModel& model, int body, const Vector3d& up_B,
   const double depth = EstimateDepth(model, body, up_B, leg, &sole.frame);
   sole.normal_B = up_B;
   const Vector3d side_B = up_B.cross(forward_B);
-  // The foot's origin may be anywhere along the axis of its joint, so the sole is
-  // placed at the ankle and at the center of mass instead.
+  // The foot's origin may lie anywhere along the axis of its joint. So the sole
+  // is placed relative to the ankle (forward) and the center of mass
+  // (sideways).
   const double ankle = forward_B.dot(p_BA_B);
   const double middle = side_B.dot(model.tree.inertias()[body].p_BoG_B);
   for (const double x : {-0.07, 0.15}) {
@@ -182,7 +187,7 @@ Pose MakeSoleAxes(const Sole& sole, const Outline& outline,
   Vector3d x = wanted;
   double best = std::cos(kMostTurned);
   for (const Vector3d& axis : outline.axes_B) {
-    if (std::abs(axis.dot(z)) > 0.5) continue;  // Not in the plane.
+    if (std::abs(axis.dot(z)) > 0.5) continue;  // Far from the plane.
     const double along = in_plane(axis).dot(wanted);
     if (std::abs(along) > best + 1e-9) {
       best = std::abs(along);

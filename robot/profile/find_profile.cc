@@ -6,7 +6,7 @@
 namespace poise {
 namespace {
 
-// Letters outside ASCII are left as they are, in every locale.
+// Converts ASCII letters to lower case and keeps all others, in every locale.
 std::string Lower(std::string text) {
   for (char& c : text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -14,7 +14,7 @@ std::string Lower(std::string text) {
   return text;
 }
 
-// Returns whether a name is `start`, or goes on after it with a new word.
+// Returns whether a name is `start`, or is `start` followed by _ or -.
 bool BeginsWithWord(const std::string& name, const std::string& start) {
   if (start.empty() || name.rfind(start, 0) != 0) return false;
   return name.size() == start.size() || name[start.size()] == '_' ||

@@ -40,7 +40,7 @@ TEST_F(FindProfileTest, PrefersTheLongestName) {
   EXPECT_EQ(Find("g1_23dof", "a.urdf"), "g1.yaml");
 }
 
-TEST_F(FindProfileTest, IgnoresNamesThatOnlyShareLetters) {
+TEST_F(FindProfileTest, IgnoresNamesThatShareOnlyPartOfAWord) {
   EXPECT_EQ(Find("t12", "t.urdf"), "");
   EXPECT_EQ(Find("", "t.urdf"), "");
   EXPECT_EQ(Find("my_t1", "my_g1.urdf"), "");
@@ -51,11 +51,11 @@ TEST_F(FindProfileTest, PrefersTheFileBesideTheUrdf) {
   EXPECT_EQ(Find("T1", "booster.urdf"), "booster.yaml");
 }
 
-TEST_F(FindProfileTest, ReturnsNothingWithoutAFolder) {
+TEST_F(FindProfileTest, ReturnsAnEmptyPathWithoutAFolder) {
   EXPECT_EQ(FindProfile("t1", "t1.urdf", folder_ / "none"), "");
 }
 
-// The robots that the table of docs/control.md runs with our profiles.
+// Each robot for which robot/profiles has a profile.
 TEST(FindProfile, FindsOurProfiles) {
   const std::pair<const char*, std::pair<const char*, const char*>> ours[] = {
       {"atlas", {"atlas", "atlas"}},

@@ -18,7 +18,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-// Reads values of a file, and refuses a bad value with its line.
+// Reads values of a file. Throws Refusal with the line of an invalid value.
 struct Reader {
   const std::string file;
 
@@ -27,7 +27,7 @@ struct Reader {
     poise::Refuse(file, at, what);
   }
 
-  // Refuses a value, and says what was wanted.
+  // Throws Refusal about a value, with the description of valid values.
   [[noreturn]] void Refuse(const YAML::Node& value, const std::string& thing,
                            const std::string& wanted) const {
     Refuse(value, thing + " is " + Shown(value) + ", must be " + wanted);
@@ -37,7 +37,8 @@ struct Reader {
     const auto value = ToNumber(node);
     if (!value) Refuse(node, thing, "a finite number");
     constexpr double kLargest = 1e6;  // m or rad.
-    if (std::abs(*value) > kLargest) Refuse(node, thing, "within 1e6");
+    if (std::abs(*value) > kLargest)
+      Refuse(node, thing, "between -1e6 and 1e6");
     return *value;
   }
 
@@ -69,15 +70,18 @@ struct Reader {
   std::map<std::string, JointValue> Joints(const YAML::Node& node,
                                            const std::string& thing) const;
 
-  // Refuses a point more than 1 m away, because no sole is larger.
+  // Refuses a point with a coordinate above 1 m, because no sole is as large.
+  // The file is then likely in another unit.
   void ExpectSmall(const Eigen::Vector2d& point, const YAML::Node& at,
                    const std::string& thing) const {
     if (point.cwiseAbs().maxCoeff() <= 1) return;
-    Refuse(at, thing + " reaches over 1 m, must be in m");
+    Refuse(at,
+           thing + " reaches over 1 m from the center, must be at most 1 m");
   }
 
-  // Returns the sole's axes in the link: z along the normal, x near the link's x
-  // axis or, if that is along the normal, near its z axis.
+  // Returns the sole's axes in the link. The z axis is along the normal. The x
+  // axis is near the link's x axis. If the normal is within 26 degrees of the
+  // link's x axis, the x axis is near the link's z axis instead.
   Eigen::Matrix3d FromNormal(const YAML::Node& node,
                              const std::string& thing) const;
 
@@ -101,7 +105,9 @@ Eigen::Vector3d Reader::Angles(const YAML::Node& node,
   const Eigen::Vector3d rpy = Numbers<3>(node, thing);
   constexpr double kTurn = 6.3;
   if (rpy.cwiseAbs().maxCoeff() > kTurn) {
-    Refuse(node, thing + " is more than a turn: in degrees?");
+    Refuse(node, thing +
+                     " is more than one turn, must be in rad: is it in "
+                     "degrees?");
   }
   return rpy;
 }
@@ -121,7 +127,8 @@ std::map<std::string, JointValue> Reader::Joints(
 Eigen::Matrix3d Reader::FromNormal(const YAML::Node& node,
                                    const std::string& thing) const {
   const Eigen::Vector3d normal = Numbers<3>(node, thing);
-  if (!(normal.norm() > 1e-6)) Refuse(node, thing + " must not be zero");
+  if (!(normal.norm() > 1e-6))
+    Refuse(node, thing + " is zero, must be a direction");
   const Eigen::Vector3d z = normal.normalized();
   constexpr double kAlong = 0.9;
   const Eigen::Vector3d forward = std::abs(z.x()) < kAlong
@@ -139,18 +146,20 @@ SoleProfile Reader::Sole(const std::string& name,
   const std::string thing = "feet." + name;
   ExpectMap(node, thing, {"frame", "normal", "polygon", "rpy", "size", "xyz"});
   SoleProfile sole{name, "", {}, {}, node.Mark().line + 1};
-  if (!node["frame"]) Refuse(node, thing + ": must have a frame, a link");
+  if (!node["frame"])
+    Refuse(node, thing + ": has no frame, must have the name of a link");
   sole.frame = Text(node["frame"], thing + ".frame");
   if (node["xyz"]) sole.X_FS.p = Numbers<3>(node["xyz"], thing + ".xyz");
   if (node["rpy"]) {
     sole.X_FS.R = MatrixFromRpy(Angles(node["rpy"], thing + ".rpy"));
   }
   if (const YAML::Node normal = node["normal"]) {
-    if (node["rpy"]) Refuse(node, thing + ": must have rpy or normal alone");
+    if (node["rpy"])
+      Refuse(node, thing + ": has rpy and normal, must have one of them");
     sole.X_FS.R = FromNormal(normal, thing + ".normal");
   }
   if (node["size"].IsDefined() == node["polygon"].IsDefined()) {
-    Refuse(node, thing + ": must have either size or polygon");
+    Refuse(node, thing + ": must have one of size and polygon");
   }
   if (const YAML::Node size = node["size"]) {
     const Eigen::Vector2d half = 0.5 * Numbers<2>(size, thing + ".size");
@@ -174,8 +183,8 @@ SoleProfile Reader::Sole(const std::string& name,
     }
     if (!IsConvex(sole.sole_S)) {
       Refuse(node["polygon"], thing +
-                                  ".polygon must be convex, its corners "
-                                  "in their order around it");
+                                  ".polygon is not convex, must be convex "
+                                  "with its corners in order");
     }
   }
   return sole;
@@ -186,7 +195,8 @@ void ReadPosture(const Reader& reader, const YAML::Node& node,
   reader.ExpectMap(node, "posture", {"base", "found", "joints"});
   if (const YAML::Node base = node["base"]) {
     reader.ExpectMap(base, "posture.base", {"rpy", "xyz"});
-    if (!base["xyz"]) reader.Refuse(base, "posture.base: must have xyz");
+    if (!base["xyz"])
+      reader.Refuse(base, "posture.base: has no xyz, must have xyz");
     profile->base_line = node["base"].Mark().line + 1;
     profile->base_xyz = reader.Numbers<3>(base["xyz"], "posture.base.xyz");
     if (base["rpy"]) {
@@ -209,7 +219,7 @@ MimicPolicy ReadMimic(const Reader& reader, const YAML::Node& node) {
   reader.Refuse(node, "mimic", "free, coupled or locked");
 }
 
-// Makes the feet that a profile gives.
+// Makes the feet that a profile describes.
 std::vector<Foot> MakeFeet(const RobotModel& model, const Profile& profile) {
   std::vector<Foot> feet;
   for (const SoleProfile& sole : profile.feet) {
@@ -220,20 +230,21 @@ std::vector<Foot> MakeFeet(const RobotModel& model, const Profile& profile) {
     const std::optional<int> frame = model.tree.FindFrame(sole.frame);
     if (!frame) refuse(": the robot has no link " + Quoted(sole.frame));
     auto foot = MakeFoot(model, sole.name, *frame, sole.X_FS, sole.sole_S);
-    if (!foot) refuse(": its sole is a point or a line, must have an area");
+    if (!foot) refuse(": its sole is under 1 mm wide or long, must be larger");
     feet.push_back(*std::move(foot));
     if (feet.front().body == feet.back().body && feet.size() > 1) {
-      refuse(": no joint moves it against left_foot, must be another foot");
+      refuse(": is on the same body as left_foot, must be on another");
     }
   }
   return feet;
 }
 
-// Sets each mimic joint that the profile does not give to the value from its
-// source.
+// Sets each mimic joint to the value that follows from its source, except the
+// joints that the profile gives.
 void Couple(const std::map<std::string, JointValue>& given, Robot* robot) {
   const Tree& tree = robot->model.tree;
-  // A source may be a mimic joint too. The loader has refused cycles.
+  // A source may be a mimic joint too, so one pass may not be enough. The URDF
+  // loader rejects cycles.
   for (size_t i = 0; i < robot->model.mimics.size(); ++i) {
     bool changed = false;
     for (const MimicCoupling& mimic : robot->model.mimics) {
@@ -260,7 +271,7 @@ Profile LoadProfile(const Path& file) {
   if (const YAML::Node feet = root["feet"]) {
     reader.ExpectMap(feet, "feet", {"left_foot", "right_foot"});
     for (const char* name : {"left_foot", "right_foot"}) {
-      if (!feet[name]) reader.Refuse(feet, std::string("feet: no ") + name);
+      if (!feet[name]) reader.Refuse(feet, std::string("feet: has no ") + name);
       profile.feet.push_back(reader.Sole(name, feet[name]));
     }
   }
@@ -288,7 +299,8 @@ std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
   for (const auto& [name, joint] : profile.locked) {
     const std::optional<int> j = tree.FindJoint(name);
     if (!j) refuse(joint, "the robot has no moving joint " + Quoted(name));
-    // The source determines a mimic joint, even outside its limits.
+    // The limits of a mimic joint are not checked, because its source
+    // determines its value.
     if (!mimic_of[*j] && !IsWithin(model.limits[*j], joint.value)) {
       refuse(joint, SayOutside(name, model.limits[*j], joint.value));
     }
@@ -299,8 +311,8 @@ std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
   const Eigen::VectorXd q_rest = RestConfiguration(model);
   for (const MimicCoupling& mimic : model.mimics) {
     const std::string& name = tree.joints()[mimic.joint].name;
-    // The chain of sources ends at a joint that is fixed or no mimic. The loader
-    // has refused cycles.
+    // The chain of sources ends at a joint that is locked or is not a mimic
+    // joint. The URDF loader rejects cycles.
     std::vector<const MimicCoupling*> chain;
     int joint = mimic.joint;
     while (mimic_of[joint] != nullptr &&
@@ -314,7 +326,7 @@ std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
       const std::string& source = tree.joints()[mimic.source].name;
       if (given == profile.locked.end() || locked.count(source) != 0) continue;
       refuse(given->second, Quoted(name) + " is coupled to " + Quoted(source) +
-                                ": lock that one instead");
+                                ": lock the source joint instead");
     }
     const std::string& source = tree.joints()[joint].name;
     const auto fixed = locked.find(source);
@@ -357,7 +369,7 @@ Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
     };
     const std::optional<int> j = tree.FindJoint(name);
     if (!j && LockedJoints(urdf.MakeModel(), profile).count(name) != 0) {
-      refuse(Quoted(name) + " is locked");
+      refuse(Quoted(name) + " is locked, must not be in the posture");
     }
     if (!j) refuse("the robot has no moving joint " + Quoted(name));
     const JointLimits& limits = robot.model.limits[*j];

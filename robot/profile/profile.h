@@ -17,20 +17,22 @@
 
 namespace poise {
 
-/// A sole as a profile gives it.
+/// The description of a sole in a profile.
 struct SoleProfile {
   std::string name;                     ///< "left_foot", "right_foot".
-  std::string frame;                    ///< Name of a link.
-  Pose X_FS;                            ///< z out of the ground, x forward.
+  std::string frame;                    ///< Name of the link F.
+  Pose X_FS;                            ///< Pose of the sole: z up, x forward.
   std::vector<Eigen::Vector2d> sole_S;  ///< Corners, m.
-  int line;                             ///< In the file.
+  int line;                             ///< Line in the file.
 };
 
-/// The treatment of mimic joints. kFree: a mimic joint moves independently.
-/// kCoupled: control keeps a mimic joint at the value that its source gives; if
-/// the source is locked, so is the mimic joint. kLocked: a mimic joint is fixed
-/// at the value that its source gives in the profile's posture (the source's
-/// value in `locked`, else in `joints`, else at rest).
+/// The treatment of mimic joints.
+/// - kFree: a mimic joint moves independently.
+/// - kCoupled: control keeps a mimic joint at multiplier * source + offset. If
+///   the source is locked, the mimic joint is locked too.
+/// - kLocked: a mimic joint is locked at multiplier * source + offset. The
+///   value of the source is from `locked`, else from `joints`, else the value
+///   at rest.
 enum class MimicPolicy { kFree, kCoupled, kLocked };
 
 /// The value of a joint, rad or m, and its line in the file.
@@ -39,67 +41,76 @@ struct JointValue {
   int line;
 };
 
-/// The facts about a robot that its URDF does not contain, read from a YAML file:
+/// The facts about a robot that its URDF does not contain, read from a YAML
+/// file:
 ///
-///     feet:                      # Left one first. Found, where left out.
+///     feet:                      # Optional: default is FindFeet().
 ///       left_foot:
 ///         frame: l_sole          # A link.
-///         xyz: [0, 0, 0]         # The sole in it: z out of the ground,
-///         rpy: [0, 0, 0]         # x forward. Zero where left out.
-///                                # Or normal: [0, 0, 1], z in the link's axes;
-///                                # x is then as near the link's x as can be.
-///         size: [0.23, 0.13]     # Or polygon: [[x, y], ...], in m.
+///         xyz: [0, 0, 0]         # Pose of the sole in the link, m and rad:
+///         rpy: [0, 0, 0]         # z up, x forward. Default: 0.
+///                                # Instead of rpy, normal: [0, 0, 1] gives the
+///                                # sole's z axis in the link's axes. The
+///                                # sole's x is then near the link's x.
+///         size: [0.23, 0.13]     # m. Or polygon: [[x, y], ...], m.
 ///       right_foot: ...
-///     posture:                   # Nominal.
-///       found: how
+///     posture:                   # The nominal posture.
+///       found: text              # How it was found.
 ///       base: {xyz: [0, 0, 0.75], rpy: [0, 0, 0]}
-///       joints: {l_knee: 0.7}    # The others rest near 0.
-///                                # Without base, it is found near the joints.
-///     locked: {neck_yaw: 0}      # Joints that the model does without.
-///     mimic: coupled             # Or locked, or free, as where left out.
-///     tasks: ...                 # For robot/control to read.
+///                                # m and rad. Without base, robot/control
+///                                # searches for a posture near the joints.
+///       joints: {l_knee: 0.7}    # rad or m. Others: 0 or the nearest limit.
+///     locked: {neck_yaw: 0}      # Joints to fix and remove from the model.
+///     mimic: coupled             # Or locked, or free (the default).
+///     tasks: ...                 # Read by robot/control.
 struct Profile {
   std::filesystem::path file;
   std::vector<SoleProfile> feet;
-  std::optional<Eigen::Vector3d> base_xyz;  ///< The nominal posture is known
-  Eigen::Vector3d base_rpy = Eigen::Vector3d::Zero();  ///< if this is.
-  int base_line = 0;                                   ///< In the file.
-  std::map<std::string, JointValue> joints;  ///< The others rest near 0.
-  std::string posture_found;                 ///< How, in words.
+  /// Position of the base in the nominal posture, m. If it is absent, the
+  /// profile gives no posture in which the robot can stand.
+  std::optional<Eigen::Vector3d> base_xyz;
+  Eigen::Vector3d base_rpy = Eigen::Vector3d::Zero();  ///< rad.
+  int base_line = 0;                                   ///< Line in the file.
+  /// Joints of the nominal posture. Others are at 0 or their nearest limit.
+  std::map<std::string, JointValue> joints;
+  std::string posture_found;  ///< How the posture was found, a text.
   std::map<std::string, JointValue> locked;
   MimicPolicy mimic = MimicPolicy::kFree;
-  /// The tasks, with their lines in the file; undefined if there are none.
+  /// The `tasks` of the file, with line numbers. Undefined if the file has
+  /// none.
   YAML::Node tasks = YAML::Node(YAML::NodeType::Undefined);
 };
 
-/// Reads a profile. Throws Refusal with the file, the line, the value and what
-/// was wanted.
+/// Reads a profile. Throws Refusal with the file, the line, the invalid value
+/// and the valid ones.
 Profile LoadProfile(const std::filesystem::path& file);
 
-/// Returns the joints that a profile fixes: the joints in its `locked`, and the
-/// mimic joints that follow them or that its `mimic` locks. The result is also a
-/// valid `locked` with the same meaning. Throws Refusal if a joint does not fit
-/// the robot.
+/// Returns the joints that a profile locks. They are the joints in `locked`,
+/// the mimic joints of locked sources (unless `mimic` is free), and all mimic
+/// joints if `mimic` is locked. The result can replace `locked` without
+/// changing the robot. Throws Refusal if the robot has no such joint, or if
+/// a value is outside the joint's limits. Also throws if a coupled joint is in
+/// `locked` but its source is not.
 std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
                                                const Profile& profile);
 
-/// Makes a robot without the joints that the profile locks. Its mimics are those
-/// that control couples. Throws as LockedJoints().
+/// Makes a model without the joints that the profile locks. RobotModel::mimics
+/// is empty unless the profile's `mimic` is coupled. Throws as LockedJoints().
 RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile);
 
 /// Makes a robot from its URDF and a profile. An empty Profile is enough for a
-/// biped whose feet can be found.
+/// biped whose feet FindFeet() can find.
 ///
 /// @param findings  if not null, receives the warnings of FindFeet().
 ///
-/// Throws Refusal if the profile does not fit the robot: a name is unknown, the
-/// posture is outside the joint limits, or the posture has a base and the robot
-/// cannot stand in it. Throws another std::invalid_argument as FindFeet().
+/// Throws Refusal if the profile does not match the robot: a name is unknown, a
+/// joint is outside its limits, or the posture has a base but the robot cannot
+/// stand in the posture. Throws another std::invalid_argument as FindFeet().
 Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
                 std::vector<Finding>* findings = nullptr);
 
-/// Reads a robot from a URDF file, as MakeRobot(). Throws Refusal also as
-/// UrdfDocument does.
+/// Reads a robot from a URDF file, and then works as MakeRobot(). Also throws
+/// Refusal as UrdfDocument does.
 ///
 /// @param findings  if not null, receives the findings of UrdfDocument and of
 ///                  FindFeet().

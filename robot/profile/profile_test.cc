@@ -23,7 +23,7 @@ Profile Parse(const std::string& text) {
   return LoadProfile(TestFile("profile.yaml", text));
 }
 
-// Returns the message, from the line number on.
+// Returns the message without the file's name: it begins with the line number.
 std::string Refusal(const std::string& text) {
   try {
     LoadRobot(kUrdf, Parse(text));
@@ -36,7 +36,7 @@ std::string Refusal(const std::string& text) {
   return "accepted";
 }
 
-TEST(LoadProfile, ReadsAllItMayHold) {
+TEST(LoadProfile, ReadsEveryKey) {
   const Profile profile = Parse(R"(
 feet:
   left_foot: {frame: l_foot, xyz: [1, 2, 3], rpy: [0.1, 0.2, 0.3], size: [0.4, 0.2]}
@@ -70,13 +70,13 @@ tasks:
   EXPECT_EQ(profile.tasks["com"].Mark().line + 1, 12);
 }
 
-// Soles of the humanoid.
+// Two soles for the humanoid.
 const std::string kFeet =
     "feet:\n"
     "  left_foot: {frame: l_sole, size: [0.2, 0.1]}\n"
     "  right_foot: {frame: r_sole, size: [0.2, 0.1]}\n";
 
-// Returns the soles of the humanoid with another left foot, in line 2.
+// Returns two soles for the humanoid, with the given left foot in line 2.
 std::string LeftFoot(const std::string& foot) {
   return "feet:\n  left_foot: {" + foot +
          "}\n  right_foot: {frame: r_sole, size: [0.2, 0.1]}\n";
@@ -89,15 +89,15 @@ TEST(LoadProfile, NamesTheLineOfAnError) {
   EXPECT_EQ(Refusal("a"), "1: a profile is 'a', must be a map");
   EXPECT_EQ(Refusal(""), " is empty, must be a map");
   EXPECT_EQ(Refusal("feet:\n  left_foot: {frame: l_sole, size: [1, 1]}"),
-            "2: feet: no right_foot");
+            "2: feet: has no right_foot");
   EXPECT_EQ(Refusal("feet: {left_foot: {size: [1, 1]}}"),
-            "1: feet.left_foot: must have a frame, a link");
+            "1: feet.left_foot: has no frame, must have the name of a link");
   EXPECT_EQ(Refusal(kFeet + "mimic: maybe"),
             "4: mimic is 'maybe', must be free, coupled or locked");
   EXPECT_EQ(Refusal(kFeet + "locked:\n  neck_yaw: a"),
             "5: locked: 'neck_yaw' is 'a', must be a finite number");
   EXPECT_EQ(Refusal(kFeet + "locked:\n  neck_yaw: 1e7"),
-            "5: locked: 'neck_yaw' is '1e7', must be within 1e6");
+            "5: locked: 'neck_yaw' is '1e7', must be between -1e6 and 1e6");
   EXPECT_EQ(Refusal(kFeet + "locked:\n  neck_yaw: 9"),
             "5: locked: 'neck_yaw' is at 9, must be inside its limits, -1.4 "
             "to 1.4");
@@ -112,9 +112,10 @@ TEST(LoadProfile, NamesTheLineOfAnError) {
             "-1.4 to 1.4");
   EXPECT_EQ(Refusal(kFeet + "locked: {neck_yaw: 0}\nposture:\n"
                             "  joints: {neck_yaw: 0}"),
-            "6: posture.joints: 'neck_yaw' is locked");
+            "6: posture.joints: 'neck_yaw' is locked, must not be in the "
+            "posture");
   EXPECT_EQ(Refusal(kFeet + "posture:\n  base: {rpy: [0, 0, 0]}"),
-            "5: posture.base: must have xyz");
+            "5: posture.base: has no xyz, must have xyz");
   EXPECT_EQ(Refusal(kFeet + "posture:\n  base: {xyz: [0, 0]}"),
             "5: posture.base.xyz is a list, must be 3 numbers");
 }
@@ -123,44 +124,48 @@ TEST(LoadProfile, NamesAnUnknownOrInvalidFoot) {
   EXPECT_EQ(Refusal(LeftFoot("frame: l, size: [0.2, 0.1]")),
             "2: feet.left_foot: the robot has no link 'l'");
   EXPECT_EQ(Refusal(LeftFoot("frame: r_foot, size: [0.2, 0.1]")),
-            "3: feet.right_foot: no joint moves it against left_foot, must be "
-            "another foot");
+            "3: feet.right_foot: is on the same body as left_foot, must be on "
+            "another");
   EXPECT_EQ(
       Refusal("feet:\n  left_foot: {frame: r_sole, size: [0.2, 0.1]}\n"
               "  right_foot: {frame: l_sole, size: [0.2, 0.1]}\n"),
-      "2: feet: left_foot is to the right of right_foot, as their x axes say");
+      "2: feet: left_foot is to the right of right_foot when looking along the "
+      "soles' x axes, must be to the left");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [1, 0]")),
             "2: feet.left_foot.size is [1, 0], must be positive");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [a, 0]")),
             "2: feet.left_foot.size is 'a', must be a finite number");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [100, 1]")),
-            "2: feet.left_foot.size reaches over 1 m, must be in m");
+            "2: feet.left_foot.size reaches over 1 m from the center, must be "
+            "at most 1 m");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, polygon: [[0, 0], [1, 1]]")),
-            "2: feet.left_foot: its sole is a point or a line, must have an "
-            "area");
+            "2: feet.left_foot: its sole is under 1 mm wide or long, must be "
+            "larger");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, polygon: {a: 1}")),
             "2: feet.left_foot.polygon is a map, must be a list of corners");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole")),
-            "2: feet.left_foot: must have either size or polygon");
+            "2: feet.left_foot: must have one of size and polygon");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, polygon: [[0, 0], [0.2, 0.1], "
                              "[0.2, 0], [0, 0.1]]")),
-            "2: feet.left_foot.polygon must be convex, its corners in their "
-            "order around it");
+            "2: feet.left_foot.polygon is not convex, must be convex with its "
+            "corners in order");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [0.2, 0.1], normal: "
                              "[0, 0, -1]")),
-            "2: feet: the normals of the two soles point apart, must point out "
-            "of the ground");
-  EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [1, 1], rpy: [0, 0, 90]")),
-            "2: feet.left_foot.rpy is more than a turn: in degrees?");
+            "2: feet: the normals of the two soles point in opposite "
+            "directions, both must point out of the ground");
+  EXPECT_EQ(
+      Refusal(LeftFoot("frame: l_sole, size: [1, 1], rpy: [0, 0, 90]")),
+      "2: feet.left_foot.rpy is more than one turn, must be in rad: is it "
+      "in degrees?");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [1, 1], rpy: [0, 0, 0], "
                              "normal: [0, 0, 1]")),
-            "2: feet.left_foot: must have rpy or normal alone");
+            "2: feet.left_foot: has rpy and normal, must have one of them");
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [1, 1], "
                              "normal: [0, 0, 0]")),
-            "2: feet.left_foot.normal must not be zero");
+            "2: feet.left_foot.normal is zero, must be a direction");
 }
 
-TEST(LoadProfile, TakesTheNormalForTheAxisOutOfTheGround) {
+TEST(LoadProfile, AlignsTheZAxisOfTheSoleWithTheNormal) {
   const auto axes = [](const std::string& normal) {
     return Parse(LeftFoot("frame: l, size: [0.2, 0.1], normal: " + normal))
         .feet[0]
@@ -168,17 +173,17 @@ TEST(LoadProfile, TakesTheNormalForTheAxisOutOfTheGround) {
   };
   EXPECT_LT((axes("[0, 0, 2]") - Eigen::Matrix3d::Identity()).norm(), 1e-15);
   Eigen::Matrix3d R;
-  R << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // z along -y, x stays.
+  R << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // z is -y, x is kept.
   EXPECT_LT((axes("[0, -1, 0]") - R).norm(), 1e-15);
-  R << 0, 0, 1, 0, 1, 0, -1, 0, 0;  // z along x; x cannot stay.
+  R << 0, 0, 1, 0, 1, 0, -1, 0, 0;  // z is x, so x changes.
   EXPECT_LT((axes("[1, 0, 0]").col(2) - R.col(2)).norm(), 1e-15);
   EXPECT_NEAR(axes("[1, 0, 0]").determinant(), 1, 1e-15);
   EXPECT_LT((axes("[1, 0, 0]").col(0) - Eigen::Vector3d::UnitZ()).norm(),
             1e-15);
 }
 
-// The robot must stand in a posture with a base.
-TEST(LoadRobot, RefusesAPostureThatDoesNotStand) {
+// If a posture has a base, the robot must be able to stand in the posture.
+TEST(LoadRobot, RejectsAPostureThatDoesNotStand) {
   std::ifstream stream("robot/profiles/humanoid.yaml");
   const std::string good((std::istreambuf_iterator<char>(stream)), {});
   EXPECT_EQ(Refusal(good), "accepted");
@@ -208,33 +213,34 @@ TEST(LoadRobot, RefusesAPostureThatDoesNotStand) {
   };
   EXPECT_EQ(with_base(x, z, 0), "accepted");
   EXPECT_EQ(with_base(x + 5, z, 0)
-                .find("posture: the middle between its feet is "
-                      "at x = 5"),
+                .find("posture: the midpoint of the feet is at x = 5"),
             0u);
   EXPECT_EQ(with_base(x, z + 1, 0),
-            "posture: left_foot is 1 m above the ground, must be on it");
+            "posture: left_foot is 1 m above the ground, must be on the ground "
+            "(z = 0)");
   EXPECT_EQ(with_base(x, z - 0.01, 0).find("posture: left_foot is -0.0"), 0u);
   EXPECT_NE(with_base(x, z, 0.1).find("left_foot is "), std::string::npos);
-  EXPECT_EQ(refusal("l_sole", "r_sole").find("feet.right_foot: no joint"), 0u);
+  EXPECT_EQ(refusal("l_sole", "r_sole").find("feet.right_foot: is on the"), 0u);
 }
 
-TEST(LoadRobot, RefusesAPostureThatLooksAway) {
+TEST(LoadRobot, RejectsAPostureThatDoesNotFaceX) {
   Robot robot = LoadRobot(kUrdf, LoadProfile("robot/profiles/humanoid.yaml"));
   const Eigen::Quaterniond turned(MatrixFromRpy({0, 0, 1}));
   robot.q_nominal.segment<4>(3) = turned.coeffs();
   robot.q_nominal.head<3>() = turned * robot.q_nominal.head<3>();
   EXPECT_EQ(WhyNotStanding(robot),
-            "its feet are turned by 1 rad, must look along x");
+            "the feet are turned by 1 rad about z, must point along x");
 }
 
-TEST(LoadRobot, KnowsLeftFromRightAndWhereTheWeightIs) {
+TEST(LoadRobot, RejectsSwappedFeetAndAFallingPosture) {
   Robot robot = LoadRobot(kUrdf, LoadProfile("robot/profiles/humanoid.yaml"));
   EXPECT_EQ(WhyNotStanding(robot), "");
   std::swap(robot.feet[0], robot.feet[1]);
   EXPECT_EQ(WhyNotStanding(robot),
-            "left_foot is to the right of right_foot, as their x axes say");
+            "left_foot is to the right of right_foot when looking along the "
+            "soles' x axes, must be to the left");
   std::swap(robot.feet[0], robot.feet[1]);
-  // The soles behind the center of mass.
+  // Move the soles behind the center of mass.
   for (Foot& foot : robot.feet) {
     for (Eigen::Vector2d& corner : foot.polygon_C) corner.x() -= 0.3;
   }
@@ -245,7 +251,7 @@ TEST(LoadRobot, KnowsLeftFromRightAndWhereTheWeightIs) {
             std::string::npos);
 }
 
-TEST(LoadProfile, NamesAFileThatIsNotThere) {
+TEST(LoadProfile, ThrowsIfTheFileIsMissing) {
   EXPECT_THROW(LoadProfile("no/such.yaml"), std::invalid_argument);
 }
 
@@ -255,8 +261,8 @@ TEST(LoadRobot, LocksJoints) {
   EXPECT_FALSE(robot.model.tree.FindJoint("neck_yaw").has_value());
 }
 
-// A mimic joint starts at the value from its source, unless the profile gives
-// another.
+// In the nominal posture, a mimic joint has the value that follows from its
+// source, unless the profile gives another value.
 TEST(LoadRobot, CouplesMimicsInThePosture) {
   std::ifstream stream(kUrdf);
   std::string urdf((std::istreambuf_iterator<char>(stream)), {});
@@ -274,11 +280,12 @@ TEST(LoadRobot, CouplesMimicsInThePosture) {
   Robot broken = robot;
   broken.q_nominal[neck] = 0;
   EXPECT_EQ(WhyNotStanding(broken),
-            "'neck_yaw' is 0, must be 0.25 as it is coupled to 'chest_yaw'");
+            "'neck_yaw' is at 0, must be at 0.25 because it is coupled to "
+            "'chest_yaw'");
 }
 
-// Returns a profile in which one joint follows another.
-TEST(LoadRobot, TreatsMimicsAsTheProfileSays) {
+// In this URDF, neck_yaw mimics chest_yaw.
+TEST(LoadRobot, AppliesTheMimicPolicyOfTheProfile) {
   std::ifstream stream(kUrdf);
   std::string urdf((std::istreambuf_iterator<char>(stream)), {});
   const std::string axis = "<axis xyz=\"0 0 1\"/>";
@@ -299,7 +306,8 @@ TEST(LoadRobot, TreatsMimicsAsTheProfileSays) {
   EXPECT_LT((neck.X_BF.R - MatrixFromRpy({0, 0, 2 * 0.1 + 0.5})).norm(), 1e-12);
 }
 
-// chest_yaw leads neck_yaw, which leads neck_pitch.
+// Returns a URDF in which neck_yaw mimics chest_yaw, and neck_pitch mimics
+// neck_yaw.
 std::filesystem::path ChainOfMimics() {
   std::ifstream stream(kUrdf);
   std::string urdf((std::istreambuf_iterator<char>(stream)), {});
@@ -315,7 +323,7 @@ std::filesystem::path ChainOfMimics() {
 
 using Values = std::map<std::string, double>;
 
-TEST(LoadRobot, LocksMimicsWhereTheirSourcesAre) {
+TEST(LoadRobot, LocksMimicJointsOfLockedSources) {
   const auto file = ChainOfMimics();
   const auto locked = [&](const std::string& text) {
     const Profile profile = Parse(text);
@@ -323,7 +331,7 @@ TEST(LoadRobot, LocksMimicsWhereTheirSourcesAre) {
     for (const auto& [name, joint] : LockedJoints(LoadUrdf(file), profile)) {
       values[name] = joint.value;
     }
-    // Written as `locked`, the result locks the same joints.
+    // If the result is written to `locked`, the same joints are locked.
     Profile written = profile;
     written.locked = LockedJoints(LoadUrdf(file), profile);
     EXPECT_EQ(LockedJoints(LoadUrdf(file), written).size(), values.size());
@@ -348,11 +356,11 @@ TEST(LoadRobot, LocksMimicsWhereTheirSourcesAre) {
   EXPECT_EQ(LoadRobot(file, Parse("mimic: coupled")).model.mimics.size(), 2u);
   try {
     locked("mimic: coupled\nlocked: {neck_yaw: 0.3}");
-    ADD_FAILURE() << "The source cannot move, but was not locked.";
+    ADD_FAILURE() << "accepted a locked mimic joint with a moving source";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what())
                   .find("profile.yaml:2: locked: 'neck_yaw' is coupled to "
-                        "'chest_yaw': lock that one instead"),
+                        "'chest_yaw': lock the source joint instead"),
               std::string::npos)
         << error.what();
   }

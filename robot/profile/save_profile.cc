@@ -43,8 +43,8 @@ std::string Name(const std::string& name) {
   return emitter.c_str();
 }
 
-// Writes "NAME: value" as one line, or as two if the name is too long for a key
-// of YAML on one line.
+// Writes "NAME: value" on one line. If the name is too long for a YAML key on
+// one line (1024 characters), writes two lines.
 void WriteEntry(const std::string& indent, const std::string& name,
                 double value, std::ostream* stream) {
   constexpr size_t kLongest = 1000;
@@ -55,9 +55,10 @@ void WriteEntry(const std::string& indent, const std::string& name,
 }
 
 void WriteFeet(const Robot& robot, std::ostream* stream) {
-  *stream << "# The soles: the pose of the contact frame in a link, z out of\n"
-             "# the ground, x forward, and the corners in it, m and rad.\n"
-             "feet:\n";
+  *stream
+      << "# The soles. xyz and rpy: the contact frame in a link, m and rad;\n"
+         "# z out of the ground, x forward. polygon: the corners in it, m.\n"
+         "feet:\n";
   for (const Foot& foot : robot.feet) {
     const Frame& link = robot.model.tree.frames()[foot.frame];
     const Pose X_FC = link.X_BF.Inverse() * foot.X_BC;
@@ -76,9 +77,9 @@ void WritePosture(const Robot& robot, const Profile& profile,
   const Tree& tree = robot.model.tree;
   const Eigen::Vector3d xyz = robot.q_nominal.head<3>();
   const Eigen::Quaterniond base(Eigen::Vector4d(robot.q_nominal.segment<4>(3)));
-  *stream << "\n# The nominal posture: on the ground, the middle between the "
-             "soles at the\n# origin. Joints that are not named rest at 0 or "
-             "their nearest limit.\nposture:\n  found: "
+  *stream << "\n# The nominal posture: the soles on the ground, their midpoint "
+             "at the\n# origin. A joint that is not listed is at 0 or at its "
+             "nearest limit.\nposture:\n  found: "
           << Name(profile.base_xyz && !profile.posture_found.empty()
                       ? profile.posture_found
                       : "by standing up, see robot/control/stand.h")
@@ -99,7 +100,7 @@ void WriteProfile(const Robot& robot, const Profile& profile,
   WriteFeet(robot, stream);
   if (robot.can_stand) WritePosture(robot, profile, stream);
   if (!profile.locked.empty()) {
-    *stream << "\n# The joints that the model does without.\nlocked:\n";
+    *stream << "\n# Joints that are fixed, rad or m.\nlocked:\n";
     for (const auto& [name, joint] : profile.locked) {
       WriteEntry("  ", name, joint.value, stream);
     }
@@ -113,7 +114,7 @@ void WriteProfile(const Robot& robot, const Profile& profile,
     YAML::Emitter emitter;
     emitter << YAML::BeginMap << YAML::Key << "tasks" << YAML::Value
             << profile.tasks << YAML::EndMap;
-    *stream << "\n# The tasks, level 1 before the others: docs/tasks.md.\n"
+    *stream << "\n# The tasks, by priority level (1 first): docs/tasks.md.\n"
             << emitter.c_str() << "\n";
   }
 }
@@ -123,7 +124,7 @@ void SaveProfile(const Robot& robot, const Profile& profile,
   std::error_code error;
   if (std::filesystem::equivalent(file, profile.file, error)) {
     throw std::invalid_argument(
-        file.string() + ": is the profile that was read, must be another file");
+        file.string() + ": is the profile that was read, must be a new file");
   }
   std::ofstream stream(file);
   WriteProfile(robot, profile, &stream);

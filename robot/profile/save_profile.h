@@ -9,8 +9,8 @@
 
 namespace poise {
 
-/// Writes a profile, with comments, from which LoadRobot() makes the same robot
-/// again, to nine digits.
+/// Writes a profile with comments. LoadRobot() makes the same robot from this
+/// profile, with numbers rounded to nine digits.
 ///
 /// @param profile  the profile that the robot was loaded with. Its locked
 ///                 joints, mimics and tasks are written as well.
@@ -18,7 +18,8 @@ void WriteProfile(const Robot& robot, const Profile& profile,
                   std::ostream* stream);
 
 /// Writes the profile to a file, as WriteProfile() does to a stream. Throws
-/// std::invalid_argument if the file cannot be written.
+/// std::invalid_argument if the file cannot be written, or is the file that the
+/// profile was read from.
 void SaveProfile(const Robot& robot, const Profile& profile,
                  const std::filesystem::path& file);
 

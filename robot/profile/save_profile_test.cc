@@ -49,7 +49,8 @@ TEST(SaveProfile, MakesTheSameRobot) {
   }
 }
 
-// The humanoid leans forward, and the hips turn its legs back upright.
+// Returns a profile in which the base is pitched. The hips compensate the
+// pitch, so that the legs keep their orientation.
 Profile MakeLeaningProfile(double pitch) {
   Profile profile = LoadProfile("robot/profiles/humanoid.yaml");
   const Robot robot = LoadRobot(kUrdf, profile);
@@ -61,7 +62,7 @@ Profile MakeLeaningProfile(double pitch) {
     const std::string& name = tree.joints()[j].name;
     if (name != "l_hip_pitch" && name != "r_hip_pitch") continue;
     profile.joints.at(name).value -= pitch;
-    // The hip stays where it was.
+    // The base moves so that the hips keep their position.
     const Eigen::Vector3d p_BH = X_WB[j + 1].p - X_WB[0].p;
     Eigen::Vector3d p_WB =
         X_WB[j + 1].p - MatrixFromRpy(profile.base_rpy) * p_BH;
@@ -84,7 +85,7 @@ TEST(SaveProfile, KeepsOrientationOfALeaningBase) {
   EXPECT_LT((again.q_nominal - robot.q_nominal).norm(), 1e-8);  // Nine digits.
 }
 
-TEST(SaveProfile, KeepsWhatTheProfileSaid) {
+TEST(SaveProfile, KeepsLockedJointsMimicPolicyAndTasks) {
   const Profile profile = LoadProfile(TestFile(
       "given.yaml",
       "locked: {neck_yaw: 0.25}\nmimic: coupled\ntasks: {com: {rank: 4}}"));
@@ -97,7 +98,7 @@ TEST(SaveProfile, KeepsWhatTheProfileSaid) {
   EXPECT_EQ(again.tasks["com"]["rank"].as<int>(), 4);
 }
 
-// YAML accepts a key on one line up to 1024 characters.
+// In YAML, a key on one line has at most 1024 characters.
 TEST(SaveProfile, KeepsNamesOfAnyLength) {
   const std::string name(1100, 'n');
   Profile profile;
@@ -108,7 +109,7 @@ TEST(SaveProfile, KeepsNamesOfAnyLength) {
   EXPECT_EQ(LoadProfile(file).locked.at(name).value, 0.5);
 }
 
-TEST(SaveProfile, SaysHowAPostureWasFoundOnlyWhereItIsThatOne) {
+TEST(SaveProfile, KeepsPostureFoundOnlyIfTheProfileGaveTheBase) {
   Profile profile = LoadProfile("robot/profiles/humanoid.yaml");
   const Robot robot = LoadRobot(kUrdf, profile);
   profile.posture_found = "measured";
@@ -120,7 +121,7 @@ TEST(SaveProfile, SaysHowAPostureWasFoundOnlyWhereItIsThatOne) {
   EXPECT_NE(LoadProfile(file).posture_found, "measured");
 }
 
-TEST(SaveProfile, DoesNotOverwriteItsSource) {
+TEST(SaveProfile, DoesNotOverwriteTheProfileThatWasRead) {
   const auto file = TestFile("mine.yaml", "# Mine.\nmimic: free\n");
   const Profile profile = LoadProfile(file);
   EXPECT_THROW(SaveProfile(LoadRobot(kUrdf, profile), profile, file),
@@ -128,13 +129,13 @@ TEST(SaveProfile, DoesNotOverwriteItsSource) {
   EXPECT_EQ(TextOf(file), "# Mine.\nmimic: free\n");
 }
 
-TEST(SaveProfile, SaysWhichFileCannotBeWritten) {
+TEST(SaveProfile, NamesTheFileThatIsNotWritable) {
   const Profile profile;
   const Robot robot = LoadRobot(kUrdf, profile);
-  const auto file = TestFile("plain", "") / "saved.yaml";  // In no folder.
+  const auto file = TestFile("plain", "") / "saved.yaml";  // "plain" is a file.
   try {
     SaveProfile(robot, profile, file);
-    ADD_FAILURE() << "it is written";
+    ADD_FAILURE() << "SaveProfile() did not throw";
   } catch (const std::invalid_argument& error) {
     EXPECT_EQ(error.what(), file.string() + ": cannot be written");
   }

@@ -19,15 +19,16 @@ namespace {
 
 constexpr size_t kMostMib = 1;
 
-// Refuses errors that yaml-cpp accepts: it takes either of two equal keys, and an
-// alias can make a map contain itself.
+// Refuses errors that yaml-cpp accepts. yaml-cpp ignores one of two equal keys,
+// and an alias can make a map contain itself.
 class Checker : public YAML::EventHandler {
  public:
   explicit Checker(const std::string& source) : source_(source) {}
 
   int documents() const { return documents_; }
 
-  // Called last, so that any other error is reported first.
+  // Refuses the first key without a value. Must be called last, so that any
+  // other error is reported first.
   void RefuseMissingValues() const;
 
   void OnDocumentStart(const YAML::Mark& mark) override {
@@ -36,7 +37,7 @@ class Checker : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override;
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
-    Refuse(mark, "has an alias (*), must be written out");
+    Refuse(mark, "has an alias (*), must repeat the value instead");
   }
   void OnScalar(const YAML::Mark& mark, const std::string& /*tag*/,
                 YAML::anchor_t /*anchor*/, const std::string& value) override {
@@ -85,8 +86,9 @@ void Checker::RefuseMissingValues() const {
 void Checker::OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) {
   if (!missing_ && !open_.empty() && open_.back().is_map &&
       !open_.back().key_is_next) {
-    // The key is kept, because the mark of a missing value is anywhere after its
-    // key. The refusal waits: a file that is cut off has a worse fault.
+    // The key is stored, because the mark of a missing value can be far below
+    // the key. The key is refused later: in a truncated file, another error is
+    // more important.
     missing_ = open_.back().key;
   }
   AddNode(mark, nullptr);
@@ -112,10 +114,10 @@ void Checker::AddNode(const YAML::Mark& mark, const std::string* scalar) {
   Collection& map = open_.back();
   if (map.key_is_next) {
     if (scalar == nullptr || scalar->empty()) {
-      Refuse(mark, "has a key that is no word, must be one");
+      Refuse(mark, "has a key that is not a text, must be a text");
     }
     if (!map.keys.insert(*scalar).second) {
-      Refuse(mark, "key " + Quoted(*scalar) + " is there twice");
+      Refuse(mark, "key " + Quoted(*scalar) + " occurs twice, must occur once");
     }
     map.key = {*scalar, mark};
   }
@@ -142,9 +144,10 @@ YAML::Node ParseYaml(const std::string& text, const std::string& source) {
     checker.RefuseMissingValues();
     return YAML::Load(text);
   } catch (const YAML::DeepRecursion& error) {
-    throw Refusal(source, error.mark.line + 1, "is nested too deep");
+    throw Refusal(source, error.mark.line + 1, "is nested too deeply");
   } catch (const YAML::Exception& error) {
-    throw Refusal(source, error.mark.line + 1, "is no YAML: " + error.msg);
+    throw Refusal(source, error.mark.line + 1,
+                  "is not valid YAML: " + error.msg);
   }
 }
 

@@ -30,7 +30,7 @@ std::string Refusal(const std::string& text) {
   return "accepted";
 }
 
-TEST(ParseYaml, ReadsWhatPeopleWrite) {
+TEST(ParseYaml, ReadsNestedMapsAndLists) {
   const YAML::Node root =
       ParseYaml("# Hello.\na: {b: [1, {c: d}]}\ne:\n  b: 2\n", "f");
   EXPECT_EQ(root["a"]["b"][1]["c"].Scalar(), "d");
@@ -38,18 +38,19 @@ TEST(ParseYaml, ReadsWhatPeopleWrite) {
   EXPECT_EQ(root["e"].Mark().line, 3);
 }
 
-TEST(ParseYaml, RefusesAKeyThatIsThereTwice) {
-  EXPECT_EQ(Refusal("a: 1\nb: 2\na: 3\n"), "f:3: key 'a' is there twice");
+TEST(ParseYaml, RejectsADuplicateKey) {
+  EXPECT_EQ(Refusal("a: 1\nb: 2\na: 3\n"),
+            "f:3: key 'a' occurs twice, must occur once");
   EXPECT_EQ(Refusal("a:\n  b: [x, x]\n  c: {b: 1,\n    b: 2}\n"),
-            "f:4: key 'b' is there twice");
+            "f:4: key 'b' occurs twice, must occur once");
   EXPECT_EQ(Refusal("\"a\\nb\": 1\n\"a\\nb\": 1"),
-            "f:2: key 'a b' is there twice");
+            "f:2: key 'a b' occurs twice, must occur once");
   EXPECT_EQ(Refusal("a: {b: 1}\nc: {b: 1}\nb: a\n"), "accepted");
   EXPECT_EQ(Refusal("- {a: 1}\n- {a: 1}\n"), "accepted");
 }
 
-// The message names the line of the key, wherever its value is missing.
-TEST(ParseYaml, RefusesAKeyWithoutAValue) {
+// The message gives the line of the key.
+TEST(ParseYaml, RejectsAKeyWithoutAValue) {
   EXPECT_EQ(Refusal("a: 1\nb:\n\n# End.\n"),
             "f:2: key 'b' has no value, must have one");
   EXPECT_EQ(Refusal("a:\n  b:\nc: 1\n"),
@@ -80,24 +81,27 @@ TEST(ToNumber, ReadsOneFiniteNumber) {
   EXPECT_EQ(numbers, wanted);
 }
 
-TEST(ParseYaml, RefusesWhatIsNoSimpleDocument) {
+TEST(ParseYaml, RejectsInvalidAndUnsupportedDocuments) {
   EXPECT_EQ(Refusal("a: 1\n---\nb: 1\n"),
             "f:2: has a second document, must have one");
   EXPECT_EQ(Refusal(""), "f: is empty, must be a map");
   EXPECT_EQ(Refusal("# Only this.\n"), "f: is empty, must be a map");
   EXPECT_EQ(Refusal("a: &x 1\nb: *x\n"),
-            "f:2: has an alias (*), must be written out");
+            "f:2: has an alias (*), must repeat the value instead");
   EXPECT_EQ(Refusal("a: &x\n  b: *x\n"),
-            "f:2: has an alias (*), must be written out");
-  EXPECT_EQ(Refusal("[a]: 1\n"), "f:1: has a key that is no word, must be one");
-  EXPECT_EQ(Refusal("~: 1\n"), "f:1: has a key that is no word, must be one");
+            "f:2: has an alias (*), must repeat the value instead");
+  EXPECT_EQ(Refusal("[a]: 1\n"),
+            "f:1: has a key that is not a text, must be a text");
+  EXPECT_EQ(Refusal("~: 1\n"),
+            "f:1: has a key that is not a text, must be a text");
   EXPECT_EQ(Refusal(std::string("a: \0b", 5)),
             "f: is binary, must be UTF-8 text");
-  EXPECT_EQ(Refusal(Repeat("- ", 10'000)), "f:1: is nested too deep");
-  EXPECT_EQ(Refusal("a: {b"), "f:1: is no YAML: end of map flow not found");
+  EXPECT_EQ(Refusal(Repeat("- ", 10'000)), "f:1: is nested too deeply");
+  EXPECT_EQ(Refusal("a: {b"),
+            "f:1: is not valid YAML: end of map flow not found");
 }
 
-TEST(LoadYaml, RefusesWhatIsNoFileOfThatKind) {
+TEST(LoadYaml, RejectsMissingSpecialAndLargeFiles) {
   const std::string folder = std::getenv("TEST_TMPDIR");
   const auto refusal = [&](const std::string& file) -> std::string {
     try {
@@ -108,17 +112,17 @@ TEST(LoadYaml, RefusesWhatIsNoFileOfThatKind) {
     return "accepted";
   };
   EXPECT_EQ(refusal("no/such.yaml"), "no/such.yaml: cannot be read");
-  EXPECT_EQ(refusal(folder), folder + ": is no regular file");
-  EXPECT_EQ(refusal("/dev/zero"), "/dev/zero: is no regular file");
+  EXPECT_EQ(refusal(folder), folder + ": is not a regular file");
+  EXPECT_EQ(refusal("/dev/zero"), "/dev/zero: is not a regular file");
   const std::string pipe = folder + "/pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(refusal(pipe), pipe + ": is no regular file");
+  EXPECT_EQ(refusal(pipe), pipe + ": is not a regular file");
   const std::string large = folder + "/large.yaml";
   std::ofstream(large) << "a: " << Repeat("b", (1 << 20) + 1);
-  EXPECT_EQ(refusal(large), large + ": is longer than 1 MiB, must be shorter");
+  EXPECT_EQ(refusal(large), large + ": is larger than 1 MiB, must be smaller");
 }
 
-TEST(Shown, NamesWhateverIsThere) {
+TEST(Shown, DescribesEveryTypeOfValue) {
   const YAML::Node root = ParseYaml("a: {b: 1}\nc: [1]\nd: [~]\ne: x\n", "f");
   EXPECT_EQ(Shown(root["a"]), "a map");
   EXPECT_EQ(Shown(root["c"]), "a list");

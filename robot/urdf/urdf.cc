@@ -18,7 +18,8 @@
 namespace poise {
 namespace {
 
-// Together with 16 MiB of markup, this takes less than 1 GiB of memory.
+// Bound on the file's size. Together with the bound of 16 MiB on markup, it
+// keeps the memory below 1 GiB.
 constexpr size_t kMostMib = 112;
 
 Eigen::Vector3d FromUrdf(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
@@ -29,8 +30,8 @@ Pose FromUrdf(const urdf::Pose& X) {
           FromUrdf(X.position)};
 }
 
-// Converts an inertial. URDF gives the inertia about the center of mass in the
-// axes of a frame there; Inertia has the axes of the link.
+// Converts an inertial. Both give the inertia about the center of mass. URDF
+// uses the axes of the frame in <origin>; Inertia uses the axes of the link.
 Inertia FromUrdf(const urdf::Inertial& inertial) {
   const Pose X_LG = FromUrdf(inertial.origin);
   Eigen::Matrix3d I;
@@ -91,7 +92,8 @@ void AddShapes(const urdf::Link& link, int frame, RobotModel* model) {
   }
 }
 
-// Keeps urdfdom from printing, because it uses names as format strings.
+// Prevents urdfdom from printing messages, because urdfdom uses names from the
+// file as format strings.
 class Silence {
  public:
   Silence() : level_(console_bridge::getLogLevel()) {
@@ -105,8 +107,9 @@ class Silence {
   console_bridge::LogLevel level_;
 };
 
-// Owns urdfdom's tree. urdfdom would destroy it by recursion, link by link, which
-// overflows the stack for a long chain.
+// Owns urdfdom's tree. urdfdom destroys the tree recursively, link by link,
+// which would overflow the stack for a long chain. The destructor avoids the
+// recursion.
 class UrdfdomTree {
  public:
   explicit UrdfdomTree(const std::string& xml) {
@@ -128,8 +131,8 @@ class UrdfdomTree {
   urdf::ModelInterfaceSharedPtr model_;
 };
 
-// Returns the pruned document for urdfdom, without the parts that were read
-// already, about which urdfdom is too strict.
+// Returns the pruned document as text for urdfdom. Parts for which urdfdom is
+// too strict are removed or set to 0, because they have already been read.
 std::string XmlForUrdfdom(tinyxml2::XMLDocument* document) {
   for (tinyxml2::XMLElement* joint =
            document->RootElement()->FirstChildElement("joint");
@@ -151,7 +154,7 @@ std::string XmlForUrdfdom(tinyxml2::XMLDocument* document) {
 Tree MakeTree(const urdf::ModelInterface& urdf, const UrdfFacts& facts,
               const std::map<std::string, double>& locked) {
   TreeBuilder builder;
-  builder.AcceptUnphysicalInertias();  // CheckInertial() warns of them.
+  builder.AcceptUnphysicalInertias();  // CheckInertial() warns.
   for (const std::string& name : facts.tree.links) {
     const auto& inertial = urdf.links_.at(name)->inertial;
     builder.AddLink(name,
@@ -177,7 +180,7 @@ void AddMimics(const urdf::ModelInterface& urdf, RobotModel* model) {
     const auto& mimic = urdf.joints_.at(joint.name)->mimic;
     if (mimic == nullptr) continue;
     const auto source = joint_of.find(mimic->joint_name);
-    if (source == joint_of.end()) continue;  // The source does not move.
+    if (source == joint_of.end()) continue;  // The source is fixed.
     model->mimics.push_back({joint_of.at(joint.name), source->second,
                              mimic->multiplier, mimic->offset});
   }
@@ -216,7 +219,7 @@ UrdfDocument::UrdfDocument(std::string_view text, std::string source,
   ThrowIfRejected(source_, *findings);
   content_ = std::make_shared<const Content>(xml.get(), std::move(facts));
   if (content_->urdfdom.get() == nullptr) {
-    throw Refusal(source_, 0, "urdfdom cannot read it");
+    throw Refusal(source_, 0, "urdfdom cannot read the file");
   }
 }
 

@@ -13,24 +13,25 @@
 
 namespace poise {
 
-/// A URDF that has been read and checked once, from which models are made.
+/// A URDF that has been read and checked once. MakeModel() makes its models.
 ///
 /// The root link is the floating base, even if it has no mass or is called
-/// `world`. Massless links from the root down to a joint of type `floating`
-/// stand for the world and are left out. A mimic joint is a joint of the tree
-/// like any other; RobotModel::mimics gives its source. A link without
-/// `<inertial>` has no mass, and at least one link must have mass. Meshes are
-/// named, never opened. Numbers are read the same in every locale.
+/// `world`. Exception: massless links from the root down to a joint of type
+/// `floating` represent the world, and are left out. A mimic joint is an
+/// ordinary joint of the tree; RobotModel::mimics gives its source. A link
+/// without `<inertial>` has mass 0, and at least one link must have a positive
+/// mass. Mesh files are not opened. The result does not depend on the locale.
 class UrdfDocument {
  public:
-  /// Reads a file. Any file takes less than 10 s and 1 GiB; the cost is
-  /// O(n log n) in its length.
+  /// Reads a file. The cost is O(n log n) in the length of the file, and less
+  /// than 10 s and 1 GiB for any file.
   ///
-  /// @param findings  if not null, receives each note and warning about the file,
-  ///                  and each reason to reject it before Refusal is thrown.
+  /// @param findings  if not null, receives each note and warning about the
+  ///                  file. Also receives each reason to reject the file,
+  ///                  before Refusal is thrown.
   ///
-  /// Throws Refusal with one line that names the file, the element, its value and
-  /// what was wanted.
+  /// Throws Refusal with one line that gives the file, the element, its value
+  /// and the valid values.
   explicit UrdfDocument(const std::filesystem::path& file,
                         std::vector<Finding>* findings = nullptr);
 
@@ -45,8 +46,9 @@ class UrdfDocument {
 
   /// Makes a model.
   ///
-  /// @param locked  joints to fix, by name, at a value in rad or m. The tree has
-  ///                no such joint; the links below it remain as frames.
+  /// @param locked  the joints to fix, with their values in rad or m. These
+  ///                joints are not in the tree; the links below them remain as
+  ///                frames.
   RobotModel MakeModel(const std::map<std::string, double>& locked = {}) const;
 
  private:
@@ -56,7 +58,8 @@ class UrdfDocument {
   std::shared_ptr<const Content> content_;
 };
 
-/// Reads a robot from a URDF file: UrdfDocument(file, findings).MakeModel(locked).
+/// Reads a robot from a URDF file. Returns
+/// UrdfDocument(file, findings).MakeModel(locked).
 RobotModel LoadUrdf(const std::filesystem::path& file,
                     const std::map<std::string, double>& locked = {},
                     std::vector<Finding>* findings = nullptr);
@@ -68,9 +71,9 @@ RobotModel ParseUrdf(std::string_view text, const std::string& source,
                      const std::map<std::string, double>& locked = {},
                      std::vector<Finding>* findings = nullptr);
 
-/// Returns the mass of each link, in kg. RobotModel::tree has the masses of
-/// bodies, which join all links that are fixed to each other.
-/// @pre LoadUrdf() reads the file.
+/// Returns the mass of each link, in kg. In contrast, RobotModel::tree has the
+/// masses of bodies; a body merges all links that are fixed to each other.
+/// @pre LoadUrdf() accepts the file.
 std::map<std::string, double> LoadLinkMasses(const std::filesystem::path& file);
 
 }  // namespace poise

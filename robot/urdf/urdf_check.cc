@@ -15,7 +15,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// A bound on the memory. No robot has as many links.
+// Bounds the memory. It is far above the number of links of any robot.
 constexpr size_t kMostLinks = 100'000;
 
 // Returns the names in the file's order, and collects the elements by name.
@@ -27,10 +27,10 @@ std::vector<std::string> CheckNames(const XMLElement& robot, const char* kind,
     const std::string name = Text(*element, "name");
     if (name.empty()) {
       if (element->Attribute("name") != nullptr) {
-        critic.Reject(*element, "its name is empty", "must have one");
+        critic.Reject(*element, "its name is empty", "must have a name");
       }
     } else if (!elements->emplace(name, element).second) {
-      critic.Reject(*element, "is there twice", "names must be unique");
+      critic.Reject(*element, "occurs twice", "names must be unique");
     } else {
       names.push_back(name);
     }
@@ -62,7 +62,7 @@ UrdfFacts CheckRobot(const XMLElement& robot, const Critic& critic) {
   tree.links = CheckNames(robot, "link", critic, &links);
   tree.joints = CheckNames(robot, "joint", critic, &joints);
   if (tree.links.empty()) {
-    critic.Reject(robot, "has no link", "must have one");
+    critic.Reject(robot, "has no link", "must have at least one");
   }
   if (tree.links.size() > kMostLinks) {
     critic.Reject(robot, "has " + std::to_string(tree.links.size()) + " links",
@@ -83,14 +83,15 @@ UrdfFacts CheckRobot(const XMLElement& robot, const Critic& critic) {
   return facts;
 }
 
-// Removes each material whose name is taken: the first one counts.
+// Removes each material whose name occurred before, so that the first one is
+// used.
 void PruneMaterials(XMLElement* robot, const Critic& critic) {
   std::unordered_set<std::string> names;
   XMLElement* material = robot->FirstChildElement("material");
   while (material != nullptr) {
     XMLElement* next = material->NextSiblingElement("material");
     if (!names.insert(Text(*material, "name")).second) {
-      critic.Warn(*material, "is there twice", "the first one is read");
+      critic.Warn(*material, "occurs twice", "only the first one is used");
       robot->DeleteChild(material);
     }
     material = next;
@@ -120,7 +121,7 @@ UrdfFacts CheckUrdf(tinyxml2::XMLDocument* document,
     return {};
   }
   if (const XMLElement* second = robot->NextSiblingElement()) {
-    reject("has a second root element", "must have <robot> alone",
+    reject("has a second root element", "must have only one <robot>",
            second->GetLineNum());
     return {};
   }

@@ -13,14 +13,15 @@
 
 namespace poise {
 
-/// The facts that are read from the XML itself, because urdfdom drops them.
+/// Contents of a URDF that are read directly from the XML, because urdfdom does
+/// not keep them.
 struct UrdfFacts {
-  UrdfTree tree;  ///< The robot, without links that stand for the world.
-  std::map<std::string, JointLimits> limits;  ///< Of moving joints.
+  UrdfTree tree;  ///< The robot, without links that represent the world.
+  std::map<std::string, JointLimits> limits;  ///< Limits of the moving joints.
 };
 
 /// Checks a URDF that was parsed as XML, and removes all parts that Poise does
-/// not read (see PruneUrdf()). A file without a finding of Severity::kReject is
+/// not read (see PruneUrdf()). If no finding has Severity::kReject, the file is
 /// a tree of links and joints with finite numbers and a positive total mass.
 UrdfFacts CheckUrdf(tinyxml2::XMLDocument* document,
                     std::vector<Finding>* findings);

@@ -30,12 +30,12 @@ using urdf_rules::kParent;
 using urdf_rules::kRobot;
 using urdf_rules::kSphere;
 
-// A bound on numbers: larger than any of a robot, and small enough to be squared
-// and summed.
+// Bound on numbers. It is larger than any number of a robot, and small enough
+// that sums of squares do not overflow.
 constexpr double kLargest = 1e30;
 
-// Elements that other programs read. An element with a colon in its name is
-// also for other programs.
+// Elements that other programs read. They give no finding. An element with a
+// colon in its name is also for other programs.
 const std::set<std::string_view> kOfOthers = {"actuator",
                                               "calibration",
                                               "capsule",
@@ -58,12 +58,13 @@ const std::set<std::string_view> kOfOthers = {"actuator",
                                               "transmission",
                                               "verbose"};
 
-// Elements that change the dynamics. In a wrong place, they give a warning.
+// Elements that change the dynamics. They give a warning if they are in a wrong
+// place.
 const std::set<std::string_view> kOfDynamics = {
     "axis",  "child", "dynamics", "inertia", "inertial", "joint",
     "limit", "link",  "mass",     "mimic",   "origin",   "parent"};
 
-// Attributes of an origin that replace rpy in other formats.
+// Attributes of <origin> that replace rpy in other formats.
 const std::set<std::string_view> kRotations = {"quat", "quat_wxyz",
                                                "quat_xyzw"};
 
@@ -73,8 +74,8 @@ bool Contains(std::string_view text, std::string_view part) {
 
 char Lower(char c) { return 'A' <= c && c <= 'Z' ? c - 'A' + 'a' : c; }
 
-// Returns whether a word differs from another at most by case and by one letter
-// that is added, missing or replaced.
+// Returns whether two words are equal except for case and for at most one
+// letter that is added, missing or replaced.
 bool IsSlip(std::string_view word, std::string_view wanted) {
   if (word.size() > wanted.size()) std::swap(word, wanted);
   if (wanted.size() - word.size() > 1) return false;
@@ -86,7 +87,8 @@ bool IsSlip(std::string_view word, std::string_view wanted) {
   return std::equal(is_longer ? here : here + 1, word.end(), there + 1, same);
 }
 
-// Replaces each run of white space by one blank, and removes it at the ends.
+// Replaces each run of white space by one space, and removes white space at
+// both ends.
 std::string Collapse(std::string_view text) {
   std::string collapsed;
   for (const char c : text) {
@@ -101,9 +103,9 @@ std::string Collapse(std::string_view text) {
   return collapsed;
 }
 
-// Returns the reason why a text is not the wanted count of numbers.
+// Returns the rule that a text breaks if it is not `count` numbers.
 std::string WantedNumbers(std::string_view text, int count) {
-  if (HasXacroExpression(text)) return "is xacro, expand it first";
+  if (HasXacroExpression(text)) return "is xacro, expand the file first";
   const std::string wanted =
       count == 1 ? "must be a number"
                  : "must be " + std::to_string(count) + " numbers";
@@ -117,22 +119,22 @@ class Pruner {
  public:
   explicit Pruner(std::vector<Finding>* findings) : critic_(findings) {}
 
-  // Prunes an element, and returns whether it may stay.
+  // Prunes an element, and returns whether the element can be kept.
   bool Prune(const ElementRule& rule, XMLElement* element);
 
  private:
   // The children of an element, by rule.
   struct Parts {
     std::set<const ElementRule*> kept;
-    std::set<const ElementRule*> spoilt;  // Removed: a part is bad.
+    std::set<const ElementRule*> spoilt;  // Removed: a part is invalid.
   };
 
-  // Prunes a child, and returns whether it may stay.
+  // Prunes a child, and returns whether the child can be kept.
   bool PruneNode(const ElementRule& rule, const XMLElement& element,
                  tinyxml2::XMLNode* node, Parts* parts);
 
-  // Returns whether a child has no effect. A fixed joint needs no axis and no
-  // limits, and many files have bad ones.
+  // Returns whether a child has no effect. A fixed joint needs neither axis nor
+  // limits, and many files have invalid ones.
   static bool IsIdle(const XMLElement& element, const ElementRule& child) {
     const char* type = element.Attribute("type");
     return type != nullptr &&
@@ -142,16 +144,16 @@ class Pruner {
             &child == &kMimic);
   }
 
-  // Returns whether all required children are there.
+  // Returns whether an element has all required children.
   bool CheckParts(const ElementRule& rule, const XMLElement& element,
                   const Parts& parts);
 
   // Returns the rule for a child, or null if Poise does not read the child.
   const ElementRule* Find(const ElementRule& rule, const XMLElement& child);
 
-  // Adds a finding about an element that xacro should have replaced. A macro of
-  // sensors, say, can be left out of a robot or a link. Inside a joint or an
-  // inertial, each element is essential.
+  // Adds a finding about an element that xacro should have replaced. For
+  // example, a macro of sensors can be left out of a robot or a link. Inside a
+  // joint or an inertial, each element is essential.
   void JudgeXacro(const ElementRule& rule, const XMLElement& element);
 
   void PruneAttributes(const ElementRule& rule, XMLElement* element) {
@@ -200,7 +202,7 @@ bool Pruner::PruneNode(const ElementRule& rule, const XMLElement& element,
   if (child == nullptr) {
     if (node->ToText() != nullptr) {
       critic_.Warn(element, "holds the text " + Quoted(Collapse(node->Value())),
-                   "is ignored: URDF has attributes");
+                   "is ignored: URDF stores values in attributes");
     }
     return false;
   }
@@ -208,14 +210,14 @@ bool Pruner::PruneNode(const ElementRule& rule, const XMLElement& element,
   if (child_rule == nullptr || IsIdle(element, *child_rule)) return false;
   if (!child_rule->repeated && parts->kept.count(child_rule) != 0) {
     if (child_rule == &kParent || child_rule == &kChild) {
-      critic_.Reject(*child, "is there twice", "a joint connects two links");
+      critic_.Reject(*child, "occurs twice", "a joint connects two links");
     } else {
-      critic_.Warn(*child, "is there twice", "the first one is read");
+      critic_.Warn(*child, "occurs twice", "only the first one is used");
     }
     return false;
   }
   if (&rule == &kGeometry && !parts->kept.empty()) {
-    critic_.Warn(*child, "is a second shape", "the first one is read");
+    critic_.Warn(*child, "is a second shape", "only the first one is used");
     return false;
   }
   const bool keep = Prune(*child_rule, child);
@@ -229,7 +231,7 @@ bool Pruner::CheckParts(const ElementRule& rule, const XMLElement& element,
   for (const ElementRule* wanted : rule.children) {
     if (!wanted->required || parts.kept.count(wanted) != 0) continue;
     complete = false;
-    if (parts.spoilt.count(wanted) != 0) continue;  // A finding says why.
+    if (parts.spoilt.count(wanted) != 0) continue;  // Already reported.
     critic_.Add(
         rule.fault, element, std::string("has no <") + wanted->name + ">",
         rule.fault == Severity::kReject ? "must have one" : "is left out");
@@ -255,21 +257,22 @@ const ElementRule* Pruner::Find(const ElementRule& rule,
   } else if (&rule == &kRobot && name == "loop_joint") {
     critic_.Note(
         child, "closes a loop",
-        "loops are not modeled: the robot moves as if it were cut there");
+        "loops are not modeled: the robot moves as if the loop were cut");
   } else if (IsXacroWithoutPrefix(child)) {
-    critic_.Warn(child, "is xacro of old", "is ignored: expand it first");
+    critic_.Warn(child, "is xacro without a prefix",
+                 "is ignored: expand the file with xacro first");
   } else if (kOfDynamics.count(name) != 0) {
-    critic_.Warn(child, "is no element of URDF here",
+    critic_.Warn(child, "is not a URDF element here",
                  "is ignored: is it in the wrong place?");
   } else if (kOfOthers.count(name) == 0 && !Contains(name, ":")) {
     for (const ElementRule* candidate : rule.children) {
       if (!IsSlip(name, candidate->name)) continue;
       critic_.Warn(
-          child, "is no element of URDF",
-          std::string("is ignored: must it be <") + candidate->name + ">?");
+          child, "is not a URDF element",
+          std::string("is ignored: did you mean <") + candidate->name + ">?");
       return nullptr;
     }
-    critic_.Note(child, "is no element of URDF here", "is ignored");
+    critic_.Note(child, "is not a URDF element here", "is ignored");
   }
   return nullptr;
 }
@@ -279,16 +282,16 @@ void Pruner::JudgeXacro(const ElementRule& rule, const XMLElement& element) {
       rule.fault == Severity::kReject && &rule != &kRobot && &rule != &kLink;
   if (is_inside_essential || HasEssentialPart(element)) {
     critic_.Reject(element, "is xacro",
-                   "expand it first: the robot would lose a link, a joint, "
-                   "a limit or mass");
+                   "expand the file with xacro first: the robot would lose a "
+                   "link, a joint, a limit or mass");
     return;
   }
   const char* file = element.Attribute("filename");
   critic_.Warn(element,
                file != nullptr ? "is xacro of the file " + Quoted(file)
                                : std::string("is xacro"),
-               "is ignored: the robot lacks all that it adds, expand it "
-               "first to keep that");
+               "is ignored: expand the file with xacro first to keep the parts "
+               "that it adds");
 }
 
 void Pruner::JudgeAttribute(const ElementRule& rule, const XMLElement& element,
@@ -302,10 +305,10 @@ void Pruner::JudgeAttribute(const ElementRule& rule, const XMLElement& element,
   for (const AttributeRule& wanted : rule.attributes) {
     if (!IsSlip(name, wanted.name)) continue;
     critic_.Warn(element, what,
-                 std::string("is ignored: must it be ") + wanted.name + "?");
+                 std::string("is ignored: did you mean ") + wanted.name + "?");
     return;
   }
-  critic_.Note(element, what, "is ignored: URDF has no such attribute here");
+  critic_.Note(element, what, "is ignored: is not a URDF attribute here");
 }
 
 bool Pruner::CheckAttribute(const ElementRule& rule,
@@ -324,12 +327,12 @@ bool Pruner::CheckAttribute(const ElementRule& rule,
                 std::string(attribute.name) + " is " + Quoted(text), why);
     return false;
   };
-  if (!IsUtf8(text)) return refuse("is not UTF-8");
+  if (!IsUtf8(text)) return refuse("must be UTF-8");
   if (attribute.numbers == 0) {
     if (HasXacroExpression(text)) {
       critic_.Warn(*element,
                    std::string(attribute.name) + " is " + Quoted(text),
-                   "looks like xacro: expand it first?");
+                   "looks like xacro: was the file expanded?");
     }
     return true;
   }
@@ -341,12 +344,12 @@ bool Pruner::CheckAttribute(const ElementRule& rule,
     if (std::isnan(number)) return refuse("must be finite");
     const bool is_size =
         &rule == &kBox || &rule == &kSphere || &rule == &kCylinder;
-    if (is_size && number < 0) return refuse("must not be negative");
-    // A limit may be infinite, any other number may not.
+    if (is_size && number < 0) return refuse("must be zero or positive");
+    // A limit may be infinite; all other numbers must be finite.
     if (&rule == &kLimit || std::abs(number) <= kLargest) continue;
-    return refuse("is out of range, must be at most 1e30");
+    return refuse("is out of range, must be within -1e30 and 1e30");
   }
-  // urdfdom splits at blanks only.
+  // urdfdom accepts only spaces between numbers.
   element->SetAttribute(attribute.name, Collapse(text).c_str());
   return true;
 }

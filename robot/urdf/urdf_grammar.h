@@ -10,15 +10,19 @@
 namespace poise {
 
 /// Checks the `<robot>` element of a URDF against the grammar that Poise reads,
-/// and removes everything else. Afterwards each attribute has the right count of
-/// numbers, or is text, and each child that may occur once occurs once.
-/// urdfdom would drop the other elements and attributes silently.
+/// and removes everything else. Afterwards each attribute is a text, or has the
+/// right count of numbers. Each child that must not repeat occurs at most once.
+/// urdfdom would ignore the other elements and attributes without a message.
 ///
-/// A bad number is rejected, except in a mesh or a color: these are removed with
-/// a warning, as is a second occurrence. An unknown word gives a warning if it
-/// looks like a typing error, else a note. An element that xacro should have
-/// replaced is rejected if the robot would move differently without it (see
-/// HasEssentialPart()), else it is removed with a warning.
+/// - An invalid number is a reason to reject the file. Exception: a mesh or a
+///   color with an invalid number is removed with a warning.
+/// - If an element repeats that must not, only the first is kept, with a
+///   warning.
+/// - An unknown name gives a warning if it looks like a typing error, else a
+///   note.
+/// - An element that xacro should have replaced is a reason to reject the file
+///   if the robot would move differently without it (see HasEssentialPart()).
+///   Other such elements are removed with a warning.
 void PruneUrdf(tinyxml2::XMLElement* robot, std::vector<Finding>* findings);
 
 }  // namespace poise

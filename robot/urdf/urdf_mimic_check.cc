@@ -22,14 +22,15 @@ void CheckSource(const XMLElement& joint, const Elements& joints,
   } else if (joints.count(source) == 0) {
     critic.Reject(joint, what, "there is no such joint");
   } else if (!IsMoving(*joints.at(source))) {
-    critic.Warn(joint, what, "which does not move: the joint is independent");
+    critic.Warn(joint, what, "which is fixed: the joint moves independently");
   } else {
-    critic.Note(joint, what,
-                "it is independent unless the profile says otherwise");
+    critic.Note(
+        joint, what,
+        "it moves independently unless the profile couples or locks it");
   }
 }
 
-// Rejects a chain of mimics that returns to one of its joints.
+// Rejects a chain of mimic joints that forms a cycle.
 void CheckCycles(const std::vector<std::string>& names, const Elements& joints,
                  const Critic& critic) {
   std::unordered_map<std::string, int> visit;
@@ -43,17 +44,18 @@ void CheckCycles(const std::vector<std::string>& names, const Elements& joints,
       const auto seen = visit.find(source);
       if (seen != visit.end() && seen->second == static_cast<int>(i)) {
         critic.Reject(*joints.at(name), "mimics " + Quoted(source),
-                      "which mimics it in turn");
+                      "which mimics it in turn: mimics must not form a cycle");
       }
       name = source;
     }
   }
 }
 
-// Notes each mimic joint that its source leads out of its own limits.
+// Notes each mimic joint that leaves its own limits when its source reaches an
+// end of its range.
 void CheckRanges(const std::map<std::string, JointLimits>& limits,
                  const Elements& joints, const Critic& critic) {
-  constexpr double kTolerance = 1e-2;  // rad or m. Files round their numbers.
+  constexpr double kTolerance = 1e-2;  // rad or m. Files round numbers.
   for (const auto& [name, own] : limits) {
     const XMLElement* mimic = joints.at(name)->FirstChildElement("mimic");
     if (mimic == nullptr) continue;
@@ -67,7 +69,7 @@ void CheckRanges(const std::map<std::string, JointLimits>& limits,
           (q >= own.lower - kTolerance && q <= own.upper + kTolerance)) {
         continue;
       }
-      critic.Note(*mimic, "leads the joint to " + PrintNumber(q),
+      critic.Note(*mimic, "moves the joint to " + PrintNumber(q),
                   "which is outside its limits");
       break;
     }

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 
-// Tests with files that are large, deep or broken on purpose. The loader must
-// return a robot or throw an error of one line.
+// Tests the URDF loader with files that are extremely large, deeply nested or
+// broken. The loader must return a robot, or throw an error of one line.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -21,8 +21,9 @@ const char kInertial[] =
     "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
     "iyz='0' izz='1'/></inertial>";
 
-// Returns a robot with a root and `links` links. A joint of the given type
-// connects each link to the link before it, or to the root if is_star.
+// Returns the URDF of a robot with a root and `links` more links. A joint of
+// the given type connects each link to the previous link, or to the root if
+// is_star.
 std::string Many(int links, const std::string& type, bool is_star) {
   std::string text =
       std::string("<robot name='r'><link name='0'>") + kInertial + "</link>";
@@ -43,7 +44,7 @@ std::string Repeat(const std::string& text, int times) {
   return repeated;
 }
 
-// Returns a robot of one link, with `text` in it.
+// Returns the URDF of a robot with one link. The link contains `text`.
 std::string With(const std::string& text) {
   return std::string("<robot name='r'><link name='a'>") + kInertial + text +
          "</link></robot>";
@@ -58,7 +59,7 @@ std::string Rejection(const std::string& text) {
   return "accepted";
 }
 
-TEST(Monsters, LongChainsAndWideStarsLoad) {
+TEST(Monsters, LoadsLongChainsAndWideStars) {
   for (const bool is_star : {false, true}) {
     const RobotModel fixed = ParseUrdf(Many(20'000, "fixed", is_star), "file");
     EXPECT_EQ(fixed.tree.num_joints(), 0);
@@ -70,7 +71,7 @@ TEST(Monsters, LongChainsAndWideStarsLoad) {
   }
 }
 
-TEST(Monsters, AHugeCommentLoads) {
+TEST(Monsters, LoadsAHugeComment) {
   EXPECT_EQ(
       ParseUrdf(With("<!--" + std::string(100'000'000, '-') + "-->"), "file")
           .tree.num_bodies(),
@@ -79,7 +80,7 @@ TEST(Monsters, AHugeCommentLoads) {
 
 TEST(Monsters, RefusesTooMuchMarkupBeforeParsing) {
   const std::string too_much =
-      "file:1: has more than 16 MiB beside comments, must have less";
+      "file:1: has more than 16 MiB without comments, must have less";
   EXPECT_EQ(Rejection(With(std::string(20'000'000, 'x'))), too_much);
   EXPECT_EQ(Rejection(With(Repeat("<!---->", 4'000'000))), too_much);
   EXPECT_EQ(Rejection(With(Repeat("<a/>", 5'000'000))), too_much);
@@ -88,7 +89,7 @@ TEST(Monsters, RefusesTooMuchMarkupBeforeParsing) {
     attributes += " a" + std::to_string(i) + "=''";
   }
   EXPECT_EQ(Rejection("<robot" + attributes + "/>"),
-            "file:1: an element has more than 100 attributes");
+            "file:1: an element has more than 100 attributes, must have fewer");
   EXPECT_EQ(Rejection("<robot name='r'>" +
                       [] {
                         std::string links;
@@ -103,7 +104,7 @@ TEST(Monsters, RefusesTooMuchMarkupBeforeParsing) {
 
 TEST(Monsters, RefusesDeepNesting) {
   EXPECT_EQ(Rejection(With(Repeat("<a>", 100'000))),
-            "file:1: elements are nested more than 100 deep");
+            "file:1: elements are nested more than 100 levels deep");
 }
 
 TEST(Monsters, RefusesAFileThatEndsInsideMarkup) {
@@ -123,7 +124,7 @@ TEST(Monsters, RefusesEntities) {
       "file:1: has a document type or entity declaration, must have none");
 }
 
-TEST(Monsters, ManyFloatingOrMimicJointsCostNoMoreThanOthers) {
+TEST(Monsters, HandlesManyFloatingOrMimicJoints) {
   EXPECT_NE(
       Rejection(Many(20'000, "floating", true)).find("joint '1': is floating"),
       std::string::npos);
@@ -141,9 +142,9 @@ TEST(Monsters, ManyFloatingOrMimicJointsCostNoMoreThanOthers) {
 }
 
 // Each hostile file is loaded or rejected as expected.
-TEST(Monsters, HostileFilesAreJudgedAsExpected) {
+TEST(Monsters, JudgesHostileFilesAsExpected) {
   const auto folder = SharedData("urdf_hostile");
-  if (!folder) GTEST_SKIP() << "the shared data is not there";
+  if (!folder) GTEST_SKIP() << "the shared data is missing";
   std::ifstream stream(*folder / "EXPECTED.json");
   const nlohmann::json all = nlohmann::json::parse(stream);
   int files = 0;
@@ -166,9 +167,9 @@ TEST(Monsters, HostileFilesAreJudgedAsExpected) {
   EXPECT_GT(files, 0);
 }
 
-TEST(Monsters, RealRobotsLoad) {
+TEST(Monsters, LoadsRealRobots) {
   const auto folder = SharedData("robots");
-  if (!folder) GTEST_SKIP() << "the shared data is not there";
+  if (!folder) GTEST_SKIP() << "the shared data is missing";
   for (const auto& entry : std::filesystem::directory_iterator(*folder)) {
     if (entry.path().extension() != ".urdf") continue;
     SCOPED_TRACE(entry.path().filename());
@@ -178,14 +179,16 @@ TEST(Monsters, RealRobotsLoad) {
   }
 }
 
-// The address sanitizer keeps freed memory, and the thread sanitizer doubles it.
+// Sanitizers use more memory: the address sanitizer keeps freed memory, and the
+// thread sanitizer doubles the memory. So the bound is not checked with them.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// Bounds the memory of all tests of this process together.
+// Checks the peak memory of the process after all tests.
 class Memory : public testing::Environment {
   void TearDown() override {
     rusage usage;
     ASSERT_EQ(getrusage(RUSAGE_SELF, &usage), 0);
-    EXPECT_LT(usage.ru_maxrss, 1L << 20) << "KiB: more than 1 GiB";
+    EXPECT_LT(usage.ru_maxrss, 1L << 20)
+        << "the peak memory in KiB is above 1 GiB";
   }
 };
 

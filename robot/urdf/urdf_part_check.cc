@@ -17,45 +17,48 @@ using tinyxml2::XMLElement;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Relative tolerance on the triangle inequality of moments of inertia. Files
-// round the moments of thin plates.
+// Relative tolerance on the triangle inequality of the principal moments of
+// inertia. Thin plates are at equality, and files round their moments.
 constexpr double kTriangle = 1e-4;
-// A radius of gyration or an offset above this, m, suggests a file in
-// millimeters.
+// A radius of gyration, an offset or a prismatic range above this [m] suggests
+// a file in millimeters.
 constexpr double kLongest = 10;
-// A radius of gyration below this counts as zero, m.
+// A radius of gyration below this [m] is treated as zero.
 constexpr double kThinnest = 1e-6;
-// An axis shorter than the first is likely a mistake. A length off by the second
-// from 1 gives a note.
+// An axis shorter than kShortestAxis gives a warning. An axis whose length
+// differs from 1 by more than kUnitAxis gives a note.
 constexpr double kShortestAxis = 1e-6;
 constexpr double kUnitAxis = 1e-4;
-// A limit from here on is taken for a placeholder: N m, rad/s, rad.
+// A limit at or above these values is likely a placeholder. Units: N m or N,
+// rad/s or m/s, rad or m.
 constexpr double kLargestEffort = 1e5;
 constexpr double kLargestVelocity = 1e3;
 constexpr double kLargestPosition = 1e3;
-// A limit above two turns, or a rotation above one turn, may be in degrees.
+// A limit above two turns, or a rotation above one turn, is likely in degrees.
+// Units: rad.
 constexpr double kMostTurns = 4 * M_PI;
 constexpr double kTurn = 6.3;
 
-// An effort or velocity limit. A negative effort is rejected: no torque fulfills
-// -effort <= torque <= effort.
+// Reads and checks an effort or velocity limit. A negative effort is rejected,
+// because no torque satisfies -effort <= torque <= effort.
 double CheckMost(const XMLElement& limit, const char* name, double largest,
                  const Critic& critic) {
   const double value = Number(limit, name, kInfinity);
   const std::string what = std::string(name) + " is " + PrintNumber(value);
   if (value < 0 && name == std::string_view("effort")) {
     critic.Reject(limit, what,
-                  "must not be negative: write the largest torque or force");
+                  "must be zero or positive: give the largest torque or force");
     return kInfinity;
   }
   if (value < 0) {
-    critic.Warn(limit, what, "must not be negative: is taken as not known");
+    critic.Warn(limit, what, "must be positive: is treated as unknown");
     return kInfinity;
   }
   if (value == kInfinity) {
-    critic.Warn(limit, what, "is taken as not known");
+    critic.Warn(limit, what, "is treated as unknown");
   } else if (value >= largest) {
-    critic.Warn(limit, what, "must be a placeholder, as no motor does that");
+    critic.Warn(limit, what,
+                "looks like a placeholder: no motor reaches this value");
   }
   return value;
 }
@@ -67,43 +70,44 @@ void CheckRange(const XMLElement& limit, const std::string& type,
   const bool has_upper = limit.Attribute("upper") != nullptr;
   if (type == "continuous") {
     if (has_lower || has_upper) {
-      critic.Note(limit, "bounds a continuous joint",
-                  "the bounds do not count");
+      critic.Note(limit, "has lower or upper for a continuous joint",
+                  "they are ignored");
     }
     return;
   }
   if (!has_lower && !has_upper) {
     critic.Warn(limit, "has neither lower nor upper",
-                "is taken as not known, not as 0");
+                "the range is treated as unknown, not as 0");
     return;
   }
   if (!has_lower || !has_upper) {
     critic.Warn(limit, has_lower ? "has no upper" : "has no lower",
-                "which counts as 0, as URDF says");
+                "the URDF default 0 is used");
   }
   const double lower = Number(limit, "lower", 0);
   const double upper = Number(limit, "upper", 0);
   const std::string what =
       "from " + PrintNumber(lower) + " to " + PrintNumber(upper);
   if (!(lower <= upper) || lower == kInfinity || upper == -kInfinity) {
-    critic.Warn(limit, what, "is no range: is taken as not known");
+    critic.Warn(limit, what, "is not a range: is treated as unknown");
     return;
   }
   limits->lower = lower;
   limits->upper = upper;
   if (std::isinf(lower) || std::isinf(upper)) {
-    critic.Warn(limit, what, "an infinite end is no limit");
+    critic.Warn(limit, what, "an infinite end is not a limit");
   } else if (lower == upper) {
     critic.Warn(limit, what, "the joint cannot move");
   } else if (std::max(-lower, upper) >= kLargestPosition) {
-    critic.Warn(limit, what, "must be a placeholder");
+    critic.Warn(limit, what, "looks like a placeholder");
   } else if (!is_prismatic && std::max(-lower, upper) > kMostTurns) {
-    critic.Warn(limit, what, "in degrees?");
+    critic.Warn(limit, what, "must be in rad: is it in degrees?");
   } else if (is_prismatic && std::max(-lower, upper) > kLongest) {
-    critic.Warn(limit, what, "in millimeters?");
+    critic.Warn(limit, what, "must be in m: is it in millimeters?");
   }
   if (lower > 0 || upper < 0) {
-    critic.Note(limit, what, "0 is outside: the joint rests at the nearer end");
+    critic.Note(limit, what,
+                "0 is outside: the joint's rest value is the nearer limit");
   }
 }
 
@@ -128,25 +132,25 @@ void CheckInertial(const XMLElement& link, const Critic& critic) {
   const double scale = I.cwiseAbs().maxCoeff();
   if (scale == 0) return;
   if (mass == 0) {
-    critic.Warn(inertia, "has inertia but no mass", "one of the two is wrong");
+    critic.Warn(inertia, "has inertia but mass 0", "one of the two is wrong");
   } else if (scale > mass * kLongest * kLongest) {
     critic.Warn(inertia,
                 PrintNumber(scale) + " kg m2 for " + PrintNumber(mass) + " kg",
-                "as of a body over 10 m wide: millimeters?");
+                "which means a body over 10 m wide: is it in millimeters?");
   }
   const Eigen::Vector3d moments =
       scale *
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(I / scale).eigenvalues();
-  if (scale < mass * kThinnest * kThinnest) return;  // A point, and rounding.
+  if (scale < mass * kThinnest * kThinnest) return;  // A point mass.
   if (moments[0] < -kTriangle * moments[2]) {
     critic.Warn(inertia,
                 "has the negative principal moment " + PrintNumber(moments[0]),
-                "no body has: the robot may gain energy from nothing");
+                "no body has one: the simulated robot may gain energy");
   } else if (moments[0] + moments[1] < (1 - kTriangle) * moments[2]) {
     critic.Warn(inertia,
                 "has principal moments " + PrintNumber(moments[0]) + ", " +
                     PrintNumber(moments[1]) + ", " + PrintNumber(moments[2]),
-                "no body has one larger than the sum of the others");
+                "none may be larger than the sum of the other two");
   }
 }
 
@@ -155,18 +159,18 @@ void CheckOrigin(const XMLElement& element, const Critic& critic) {
   if (origin == nullptr) return;
   if (Vector(*origin, "xyz").cwiseAbs().maxCoeff() > kLongest) {
     critic.Warn(*origin, "xyz is " + Quoted(Text(*origin, "xyz")),
-                "over 10 m off: in millimeters?");
+                "which is over 10 m away: is it in millimeters?");
   }
   if (Vector(*origin, "rpy").cwiseAbs().maxCoeff() > kTurn) {
     critic.Warn(*origin, "rpy is " + Quoted(Text(*origin, "rpy")),
-                "more than a turn: in degrees?");
+                "which is more than one turn: is it in degrees?");
   }
 }
 
 void CheckAxis(const XMLElement& joint, const Critic& critic) {
   const XMLElement* axis = joint.FirstChildElement("axis");
   if (axis == nullptr) {
-    critic.Note(joint, "has no <axis>", "it is (1, 0, 0)");
+    critic.Note(joint, "has no <axis>", "the URDF default (1, 0, 0) is used");
     return;
   }
   const double length = Vector(*axis, "xyz").stableNorm();
@@ -175,10 +179,10 @@ void CheckAxis(const XMLElement& joint, const Critic& critic) {
                   "must not be zero");
   } else if (length < kShortestAxis) {
     critic.Warn(*axis, "xyz is " + Quoted(Text(*axis, "xyz")),
-                "is normalized, but hardly has a direction");
+                "is normalized, but is too short for a reliable direction");
   } else if (std::abs(length - 1) > kUnitAxis) {
     critic.Note(*axis, "xyz is " + Quoted(Text(*axis, "xyz")),
-                "is normalized: the joint's value is in rad or m all the same");
+                "is normalized: the joint's value stays in rad or m");
   }
 }
 
@@ -193,17 +197,18 @@ JointLimits CheckLimits(const XMLElement& joint, const Critic& critic) {
           std::make_pair("friction", &limits.friction)}) {
       if (*value >= 0) continue;
       critic.Warn(*dynamics, std::string(name) + " is " + PrintNumber(*value),
-                  "must not be negative: is taken as 0");
+                  "must be zero or positive: is treated as 0");
       *value = 0;
     }
   }
   const XMLElement* limit = joint.FirstChildElement("limit");
   if (limit == nullptr) {
     if (type == "continuous") {
-      critic.Note(joint, "has no <limit>",
-                  "no limit is known, not even of effort: control keeps it "
-                  "below " +
-                      PrintNumber(kAssumedVelocity) + " rad/s");
+      critic.Note(
+          joint, "has no <limit>",
+          "no limit is known, including effort: control keeps the speed "
+          "below " +
+              PrintNumber(kAssumedVelocity) + " rad/s");
     } else {
       critic.Reject(joint, "has no <limit>", "must have one");
     }
@@ -212,7 +217,7 @@ JointLimits CheckLimits(const XMLElement& joint, const Critic& critic) {
   limits.effort = CheckMost(*limit, "effort", kLargestEffort, critic);
   limits.velocity = CheckMost(*limit, "velocity", kLargestVelocity, critic);
   if (limits.velocity == 0) {
-    critic.Warn(*limit, "velocity is 0", "is taken as not known");
+    critic.Warn(*limit, "velocity is 0", "is treated as unknown");
     limits.velocity = kInfinity;
   }
   if (limits.effort == 0) {

@@ -8,20 +8,21 @@
 
 namespace poise {
 
-/// Checks the `<inertial>` of a link, if it has one.
-/// @pre here and below: the element went through PruneUrdf() unrejected.
+/// Checks the `<inertial>` of a link, if the link has one.
+/// @pre For all functions of this file: PruneUrdf() accepted the element.
 void CheckInertial(const tinyxml2::XMLElement& link, const Critic& critic);
 
-/// Checks the `<origin>` of a joint or a shape for units that are not m and rad.
+/// Checks the `<origin>` of a joint, a shape or an inertial. Warns if its
+/// numbers seem to be in other units than m and rad.
 void CheckOrigin(const tinyxml2::XMLElement& element, const Critic& critic);
 
 /// Checks the `<axis>` of a moving joint.
 void CheckAxis(const tinyxml2::XMLElement& joint, const Critic& critic);
 
-/// Reads and checks the limits of a moving joint. A negative effort is rejected.
-/// Any other limit that is absent, infinite or impossible (lower above upper, a
-/// velocity that is not positive) becomes infinite, with a warning where the
-/// file should have one.
+/// Reads and checks the limits of a moving joint. A negative effort is
+/// rejected. Any other limit that is absent, infinite or invalid becomes
+/// infinite. Invalid are lower above upper, and a velocity that is not
+/// positive. The finding is a warning if the joint's type requires the limit.
 JointLimits CheckLimits(const tinyxml2::XMLElement& joint,
                         const Critic& critic);
 

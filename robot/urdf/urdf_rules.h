@@ -10,19 +10,19 @@ namespace poise {
 /// An attribute that Poise reads.
 struct AttributeRule {
   const char* name;
-  int numbers;  ///< Their count; 0 for text.
+  int numbers;  ///< The count of numbers in it; 0 for a text.
   bool required = true;
 };
 
-/// An element that Poise reads, with its parts.
+/// An element that Poise reads, with its attributes and children.
 struct ElementRule {
   const char* name;
   std::vector<AttributeRule> attributes;
   std::vector<const ElementRule*> children;
   bool required = false;
   bool repeated = false;
-  /// The severity if a part is missing or bad: the file is rejected, or the
-  /// element removed with a warning or a note.
+  /// The severity if an attribute or a child is missing or invalid. kReject
+  /// rejects the file. kWarn and kNote remove the element.
   Severity fault = Severity::kReject;
 };
 

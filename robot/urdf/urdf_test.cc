@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A robot of two links and a joint. Each test below changes one part.
+// A valid robot with two links and a joint. The tests below change one part.
 const char kGood[] = R"(<?xml version="1.0"?>
 <robot name="test">
   <material name="red"><color rgba="1 0.5 0.25 1"/></material>
@@ -60,7 +60,7 @@ const char kGood[] = R"(<?xml version="1.0"?>
 </robot>
 )";
 
-// A body of 1 kg without extent.
+// A point mass of 1 kg.
 const char kPoint[] =
     "<inertial><mass value='1'/><inertia ixx='0' ixy='0' ixz='0' iyy='0' "
     "iyz='0' izz='0'/></inertial>";
@@ -69,7 +69,7 @@ const char kPoint[] =
 std::string With(const std::string& old_text, const std::string& new_text) {
   std::string text = kGood;
   const size_t at = text.find(old_text);
-  if (at == std::string::npos) throw std::logic_error("no " + old_text);
+  if (at == std::string::npos) throw std::logic_error("not found: " + old_text);
   return text.replace(at, old_text.size(), new_text);
 }
 
@@ -89,7 +89,8 @@ std::string Rejection(const std::string& text) {
   return "accepted";
 }
 
-// Returns the findings of one severity about a valid text, separated by |.
+// Returns the findings of one severity about a valid text. A | ends each
+// finding.
 std::string Findings(const std::string& text, Severity severity) {
   std::vector<Finding> findings;
   Parse(text, &findings);
@@ -191,7 +192,7 @@ TEST(LoadUrdf, LocksJointsAtAValue) {
   EXPECT_LT((b.X_BF.R - R).norm(), Rounding(2, 20));
 }
 
-TEST(LoadUrdf, TakesTheRootForTheBaseEvenIfNamedWorld) {
+TEST(LoadUrdf, UsesTheRootAsTheBaseEvenIfNamedWorld) {
   const std::string fixed =
       With("<joint",
            "<link name='world'/><joint name='w' type='fixed'><origin "
@@ -217,8 +218,8 @@ TEST(LoadUrdf, LeavesOutAMasslessRootWithAFloatingJoint) {
   EXPECT_EQ(model.tree.num_joints(), 1);
 }
 
-// A link above the floating joint has no mass if it has no <inertial>, or one
-// with a mass of 0.
+// A link above the floating joint is massless if it has no <inertial>, or if
+// the mass in its <inertial> is 0.
 TEST(LoadUrdf, LeavesOutAllMasslessLinksAboveAFloatingJoint) {
   const std::string massless =
       "<inertial><mass value='0'/><inertia ixx='0' ixy='0' ixz='0' iyy='0' "
@@ -241,11 +242,11 @@ TEST(LoadUrdf, LeavesOutAllMasslessLinksAboveAFloatingJoint) {
 
 TEST(LoadUrdf, RejectsFloatingJointsElsewhere) {
   EXPECT_EQ(Rejection(With("revolute", "floating")),
-            "test.urdf:28: joint 'j': is floating, only one below massless "
-            "links from the root may be");
+            "test.urdf:28: joint 'j': is floating, only one joint below the "
+            "massless root may be floating");
 }
 
-TEST(LoadUrdf, TakesCommentsInAnyEncoding) {
+TEST(LoadUrdf, AcceptsCommentsInAnyEncoding) {
   EXPECT_EQ(Parse(With("<joint", "<!-- caf\xe9 --><joint")).tree.num_joints(),
             1);
   EXPECT_EQ(Parse(With("?>", " encoding='ISO-8859-1'?>")).name, "test");
@@ -273,11 +274,11 @@ TEST(LoadUrdf, ReadsMimics) {
   EXPECT_EQ(model.tree.joints()[model.mimics[0].source].name, "j");
   EXPECT_EQ(model.mimics[0].multiplier, -2);
   EXPECT_EQ(model.mimics[0].offset, 0.5);
-  // A mimic joint of a locked source is independent.
+  // If the source is locked, the mimic joint is independent.
   EXPECT_TRUE(ParseUrdf(text, "test.urdf", {{"j", 0}}).mimics.empty());
 }
 
-TEST(LoadUrdf, TakesInvalidLimitsForInfinite) {
+TEST(LoadUrdf, TreatsInvalidLimitsAsInfinite) {
   for (const char* limit : {"effort='1' velocity='1'",
                             "lower='-inf' upper='inf' effort='1' "
                             "velocity='1'",
@@ -298,7 +299,7 @@ TEST(LoadUrdf, TakesInvalidLimitsForInfinite) {
   EXPECT_EQ(limits.velocity, kInfinity);
 }
 
-TEST(LoadUrdf, TakesAContinuousJointForUnbounded) {
+TEST(LoadUrdf, TreatsAContinuousJointAsUnbounded) {
   const JointLimits limits = Parse(With("revolute", "continuous")).limits[0];
   EXPECT_EQ(limits.lower, -kInfinity);
   EXPECT_EQ(limits.upper, kInfinity);
@@ -306,51 +307,52 @@ TEST(LoadUrdf, TakesAContinuousJointForUnbounded) {
   EXPECT_EQ(limits.velocity, 5);
 }
 
-TEST(LoadUrdf, TakesAMissingUpperLimitForZeroAsUrdfSays) {
+TEST(LoadUrdf, TreatsAMissingUpperLimitAsZero) {
   const JointLimits limits = Parse(With("upper=\"2\"", "")).limits[0];
   EXPECT_EQ(limits.lower, -1);
   EXPECT_EQ(limits.upper, 0);
 }
 
-TEST(LoadUrdf, TakesAnyWhiteSpaceBetweenNumbers) {
+TEST(LoadUrdf, AcceptsAnyWhiteSpaceBetweenNumbers) {
   const RobotModel model =
       Parse(With("\"1 2 3\" rpy", "\" +1\t2\n 3.0 \" rpy"));
   EXPECT_EQ(model.tree.joints()[0].X_PF.p, Eigen::Vector3d(1, 2, 3));
 }
 
-// A change of kGood, and a part of the message that follows.
+// A change of kGood, and a part of the expected message.
 struct Case {
   const char* old_text;
   const char* new_text;
   const char* message;
 };
 
-// Changes of kGood that are rejected, each with a part of the message.
+// Changes of kGood for which the file is rejected.
 const Case kRejected[] = {
     {"<robot", "<!DOCTYPE x [<!ENTITY a \"b\">]><robot",
      ":2: has a document type or entity declaration, must have none"},
-    {"</robot>", "", "an element is not closed, or by another name"},
+    {"</robot>", "",
+     "an element is not closed, or its end tag has another name"},
     {"</robot>", "</robot></x>", "an element is closed that is not open"},
     {"</robot>", "</robot>hello", "there is text outside the root element"},
     {"<?xml", "hello<?xml", "has a <?...?> that is not at its very start"},
     {"name=\"test\"", "name=\"te&#0;st\"",
-     ":2: a value has a character that no XML has, '&#0;'"},
-    {"name=\"test\"", "name=\"te&#x00;st\"", "no XML has, '&#x00;'"},
-    {"name=\"test\"", "name=\"te&#1;st\"", "no XML has, '&#1;'"},
-    {"name=\"test\"", "name=\"te&#;st\"", "no XML has, '&#;'"},
-    {"name=\"test\"", "name=\"te&#xZZ;st\"", "no XML has, '&#xZZ;'"},
-    {"name=\"test\"", "name=\"te&#99999999999;st\"", "no XML has"},
+     ":2: a value has a character that XML forbids, '&#0;'"},
+    {"name=\"test\"", "name=\"te&#x00;st\"", "XML forbids, '&#x00;'"},
+    {"name=\"test\"", "name=\"te&#1;st\"", "XML forbids, '&#1;'"},
+    {"name=\"test\"", "name=\"te&#;st\"", "XML forbids, '&#;'"},
+    {"name=\"test\"", "name=\"te&#xZZ;st\"", "XML forbids, '&#xZZ;'"},
+    {"name=\"test\"", "name=\"te&#99999999999;st\"", "XML forbids"},
     {"name=\"test\"", "name=\"caf\xe9\"",
-     "<robot>: name is 'caf?', is not UTF-8"},
+     "<robot>: name is 'caf?', must be UTF-8"},
     {"name=\"j\"", "name = \"j\" type='a' name='k'",
-     ":28: the attribute 'name' is there twice"},
+     ":28: the attribute 'name' occurs twice"},
     {"</robot>\n", "</robot", "the file ends inside a tag"},
     {"</robot>", "</robot><robot name='b'/>",
-     "has a second root element, must have <robot> alone"},
+     "has a second root element, must have only one <robot>"},
     {" name=\"test\"", "", "<robot>: has no name, must have one"},
     {" name=\"a\"", "", "<link>: has no name, must have one"},
     {"name=\"a\"", "name=\"\"", "link '': its name is empty"},
-    {"name=\"b\"", "name=\"a\"", "link 'a': is there twice"},
+    {"name=\"b\"", "name=\"a\"", "link 'a': occurs twice"},
     {"name=\"j\"", "name=\"\"", "joint '': its name is empty"},
     {"<mass value=\"2\"/>", "", "link 'a' <inertial>: has no <mass>"},
     {"value=\"2\"", "value=\"-2\"",
@@ -358,17 +360,17 @@ const Case kRejected[] = {
     {"value=\"2\"", "value=\"2,5\"",
      ":7: link 'a' <mass>: value is '2,5', must be a number with a decimal "
      "point, not a comma"},
-    {"value=\"2\"", "value=\"${m}\"", "is xacro, expand it first"},
+    {"value=\"2\"", "value=\"${m}\"", "is xacro, expand the file first"},
     {"value=\"2\"", "value=\"nan\"", "must be finite"},
-    {"value=\"2\"", "value=\"inf\"", "is out of range, must be at most"},
-    {"value=\"2\"", "value=\"1e999\"", "is out of range, must be at most"},
-    {"value=\"2\"", "value=\"1e31\"", "is out of range, must be at most"},
+    {"value=\"2\"", "value=\"inf\"", "is out of range, must be within"},
+    {"value=\"2\"", "value=\"1e999\"", "is out of range, must be within"},
+    {"value=\"2\"", "value=\"1e31\"", "is out of range, must be within"},
     {"ixx=\"0.02\"", "ixx=\"-1e308\"", ":8: link 'a' <inertia>: ixx is '-1e3"},
-    {"radius=\"0.5\"", "radius=\"-0.5\"", "must not be negative"},
+    {"radius=\"0.5\"", "radius=\"-0.5\"", "must be zero or positive"},
     {"value=\"2\"", "value=\"0x2\"", "must be a number"},
     {"value=\"2\"", "value=\"+-2\"", "must be a number"},
     {"value=\"2\"", "value=\"2\" value=\"3\"",
-     ":7: the attribute 'value' is there twice"},
+     ":7: the attribute 'value' occurs twice"},
     {"value=\"2\"", "value=2", "attribute is malformed"},
     {"ixx=\"0.02\"", "ixx=\"1.0d-2\"", "<inertia>: ixx is '1.0d-2'"},
     {"ixy=\"0.001\"", "", "<inertia>: has no ixy, must have one"},
@@ -381,13 +383,13 @@ const Case kRejected[] = {
     {"<parent link=\"a\"/>", "", "joint 'j': has no <parent>"},
     {"<child link=\"b\"/>", "", "joint 'j': has no <child>"},
     {"<child link=\"b\"/>", "<child link='b'/><child link='a'/>",
-     "joint 'j' <child>: is there twice, a joint connects two links"},
+     "joint 'j' <child>: occurs twice, a joint connects two links"},
     {"<parent link=\"a\"/>", "<parent link='a'/><parent link='b'/>",
-     "joint 'j' <parent>: is there twice"},
+     "joint 'j' <parent>: occurs twice"},
     {"<origin xyz=\"0 0 1\"/>", "<origin xyz='0 0 1' quat_xyzw='0 0 0 1'/>",
      "<origin>: has 'quat_xyzw', must have rpy"},
     {"value=\"2\"", "value=\"2\"a=\"3\"",
-     ":7: there is no blank after the value of the attribute 'value'"},
+     ":7: there is no space after the value of the attribute 'value'"},
     {"value=\"2\"", "value=\"2\" a=\"1&2\"",
      ":7: a value has &, must be &amp;"},
     {"value=\"2\"", "value=\"2\" a=\"1&b;2\"", "a value has &"},
@@ -404,9 +406,10 @@ const Case kRejected[] = {
     {"effort=\"10\"", "", "<limit>: has no effort, must have one"},
     {"velocity=\"5\"", "", "<limit>: has no velocity, must have one"},
     {"effort=\"10\"", "effort=\"-10\"",
-     ":33: joint 'j' <limit>: effort is -10, must not be negative: write the "
-     "largest torque or force"},
-    {"effort=\"10\"", "effort=\"-inf\"", "<limit>: effort is -inf, must not"},
+     ":33: joint 'j' <limit>: effort is -10, must be zero or positive: give "
+     "the largest torque or force"},
+    {"effort=\"10\"", "effort=\"-inf\"",
+     "<limit>: effort is -inf, must be zero"},
     {"upper=\"2\"", "upper=\"nan\"", "<limit>: upper is 'nan'"},
     {"damping=\"0.5\"", "damping=\"much\"", "<dynamics>: damping is 'much'"},
     {"<axis", "<mimic/><axis", "<mimic>: has no joint, must have one"},
@@ -415,9 +418,8 @@ const Case kRejected[] = {
     {"<axis", "<mimic joint='k'/><axis",
      "joint 'j': mimics 'k', there is no such joint"},
     {"<link name=\"b\">", "<xacro:leg_Joint side='l'/><link name=\"b\">",
-     ":19: <xacro:leg_Joint>: is xacro, expand it first: the robot would "
-     "lose "
-     "a link, a joint, a limit or mass"},
+     ":19: <xacro:leg_Joint>: is xacro, expand the file with xacro first: the "
+     "robot would lose a link, a joint, a limit or mass"},
     {"<link name=\"b\">",
      "<xacro:if value='1'><xacro:a><link/></xacro:a></xacro:if><link "
      "name=\"b\">",
@@ -429,16 +431,17 @@ const Case kRejected[] = {
      "link 'b' <xacro:box_inertia>: is xacro"},
     {"<axis", "<xacro:default/><axis", "joint 'j' <xacro:default>: is xacro"},
     {"effort=\"10\"", "effort=\"${e}\"",
-     "effort is '${e}', is xacro, expand it first"},
+     "effort is '${e}', is xacro, expand the file first"},
     {"<link name=\"b\">", "<link name=\"c\"/><link name=\"b\">",
-     "link 'c': is a second root beside 'a', must hang on a joint"},
+     "link 'c': is a second root beside 'a', must be the child of a joint"},
 };
 
-TEST(LoadUrdf, RejectsInOneLineThatSaysWhatWasWanted) {
+TEST(LoadUrdf, RejectsInvalidFilesWithAOneLineMessage) {
   for (const Case& c : kRejected) {
     const std::string message = Rejection(With(c.old_text, c.new_text));
     EXPECT_NE(message.find(c.message), std::string::npos)
-        << c.new_text << "\n  gave: " << message << "\n  not: " << c.message;
+        << c.new_text << "\n  gives: " << message
+        << "\n  without: " << c.message;
     EXPECT_EQ(message.find("test.urdf:"), 0u) << message;
   }
 }
@@ -457,10 +460,10 @@ TEST(LoadUrdf, RejectsOtherFormats) {
   EXPECT_EQ(Rejection("<!-- -->"),
             "test.urdf: has no element, must have a <robot>");
   EXPECT_EQ(Rejection("<robot name='r'/>"),
-            "test.urdf:1: <robot>: has no link, must have one");
+            "test.urdf:1: <robot>: has no link, must have at least one");
 }
 
-// Massless links are legal, but with no mass at all M is zero.
+// Massless links are allowed. But if all links are massless, M is zero.
 TEST(LoadUrdf, RejectsARobotWithoutMass) {
   const std::string joint =
       "<joint name='j' type='continuous'><parent link='a'/><child link='b'/>"
@@ -468,7 +471,7 @@ TEST(LoadUrdf, RejectsARobotWithoutMass) {
   const std::string links = "\n<robot name='r'><link name='a'/><link name='b'";
   const std::string wanted =
       "test.urdf:2: <robot>: the mass of all links together is 0, must be "
-      "positive, or M is singular: give each link its <inertial>";
+      "positive, else M is singular: give the links an <inertial>";
   EXPECT_EQ(Rejection(links + "/>" + joint), wanted);
   std::string massless = kPoint;
   massless.replace(massless.find("'1'"), 3, "'0'");
@@ -491,14 +494,14 @@ TEST(LoadUrdf, RejectsLoops) {
                                joint))
                 .find("<robot>: has no root, the joints form a cycle"),
             std::string::npos);
-  // The file has a cycle beside a tree.
+  // The file has a tree and a separate cycle.
   EXPECT_NE(Rejection(With("</robot>",
                            "<link name='c'/><link name='d'/>"
                            "<joint name='k' type='fixed'><parent link='c'/>"
                            "<child link='d'/></joint>"
                            "<joint name='l' type='fixed'><parent link='d'/>"
                            "<child link='c'/></joint></robot>"))
-                .find("2 of its links do not hang on its root 'a'"),
+                .find("2 of its links are not below its root 'a'"),
             std::string::npos);
 }
 
@@ -515,38 +518,39 @@ TEST(LoadUrdf, RejectsCyclesOfMimics) {
             std::string::npos);
 }
 
-// Changes of kGood that give one warning, each with a part of the message.
+// Changes of kGood that give a warning.
 const Case kWarnedOf[] = {
     {"ixx=\"0.02\"", "ixx=\"-0.02\"", "negative principal moment"},
-    {"izz=\"0.04\"", "izz=\"0.06\"", "larger than the sum of the others"},
+    {"izz=\"0.04\"", "izz=\"0.06\"", "larger than the sum of the other two"},
     {"ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"",
      "ixx='1e6' ixy='0' ixz='0' iyy='1e6' iyz='0' izz='1e6'",
      "1e+06 kg m2 for 1 kg"},
-    {"0.1 0.2 0.3", "100 0 0", "over 10 m off: in millimeters?"},
-    {"1 2 3\" rpy", "0 0 -350\" rpy", "over 10 m off: in millimeters?"},
-    {"0 0 1", "0 0 11", "link 'a' <origin>: xyz is '0 0 11', over 10 m"},
-    {"0.4 0.5 0.6", "0 90 0", "more than a turn: in degrees?"},
+    {"0.1 0.2 0.3", "100 0 0", "over 10 m away: is it in millimeters?"},
+    {"1 2 3\" rpy", "0 0 -350\" rpy", "over 10 m away: is it in millimeters?"},
+    {"0 0 1", "0 0 11", "link 'a' <origin>: xyz is '0 0 11', which is over"},
+    {"0.4 0.5 0.6", "0 90 0", "more than one turn: is it in degrees?"},
     {"lower=\"-1\" upper=\"2\"", "lower='-90' upper='90'", "in degrees?"},
-    {"value=\"2\"", "value=\"0\"", "has inertia but no mass"},
-    {"0 3 4", "0 0 1e-9", "hardly has a direction"},
-    {"lower=\"-1\" upper=\"2\"", "lower='1' upper='-1'", "is no range"},
+    {"value=\"2\"", "value=\"0\"", "has inertia but mass 0"},
+    {"0 3 4", "0 0 1e-9", "too short for a reliable direction"},
+    {"lower=\"-1\" upper=\"2\"", "lower='1' upper='-1'", "is not a range"},
     {"lower=\"-1\" upper=\"2\"", "lower='1' upper='1'", "cannot move"},
     {"lower=\"-1\" upper=\"2\"", "", "neither lower nor upper"},
-    {"upper=\"2\"", "", "has no upper, which counts as 0"},
-    {"lower=\"-1\"", "", "has no lower, which counts as 0"},
+    {"upper=\"2\"", "", "has no upper, the URDF default 0"},
+    {"lower=\"-1\"", "", "has no lower, the URDF default 0"},
     {"<limit", "<Limits/><limit",
-     ":33: joint 'j' <Limits>: is no element of URDF, is ignored: must it be "
+     ":33: joint 'j' <Limits>: is not a URDF element, is ignored: did you mean "
      "<limit>?"},
-    {"<axis", "<!-- --><mimick/><axis", "must it be <mimic>?"},
-    {"<axis", "<Axis/><axis", "must it be <axis>?"},
-    {"<axis", "<axes/><axis", "must it be <axis>?"},
-    {"<axis", "<xis/><axis", "must it be <axis>?"},
-    {"<axis", "<mass/><axis", "<mass>: is no element of URDF here"},
-    {"<link name=\"b\">", "<macro/><link name=\"b\">", "is xacro of old"},
+    {"<axis", "<!-- --><mimick/><axis", "did you mean <mimic>?"},
+    {"<axis", "<Axis/><axis", "did you mean <axis>?"},
+    {"<axis", "<axes/><axis", "did you mean <axis>?"},
+    {"<axis", "<xis/><axis", "did you mean <axis>?"},
+    {"<axis", "<mass/><axis", "<mass>: is not a URDF element here"},
+    {"<link name=\"b\">", "<macro/><link name=\"b\">",
+     "is xacro without a prefix"},
     {"<link name=\"b\">",
      "<xacro:pelvis_imu parent='pelvis_link' port='${p}'/><link name=\"b\">",
-     ":19: <xacro:pelvis_imu>: is xacro, is ignored: the robot lacks all "
-     "that it adds, expand it first to keep that"},
+     ":19: <xacro:pelvis_imu>: is xacro, is ignored: expand the file "
+     "with xacro first to keep the parts that it adds"},
     {"<link name=\"b\">",
      "<xacro:include filename='imu.xacro'/><link name=\"b\">",
      "<xacro:include>: is xacro of the file 'imu.xacro', is ignored"},
@@ -559,31 +563,31 @@ const Case kWarnedOf[] = {
     {"<mass value=\"2\"/>", "<mass value=\"2\">3</mass>",
      "<mass>: holds the text '3', is ignored"},
     {"damping=", "Damping=",
-     "<dynamics>: has 'Damping', is ignored: must it be damping?"},
-    {"damping=", "dampin=", "must it be damping?"},
+     "<dynamics>: has 'Damping', is ignored: did you mean damping?"},
+    {"damping=", "dampin=", "did you mean damping?"},
     {"<box size=\"1 2 3\"/>", "<box size='1 2 3'/><sphere radius='1'/>",
-     "is a second shape, the first one is read"},
+     "is a second shape, only the first one is used"},
     {"<link name=\"b\">", "<material name='${m}'/><link name=\"b\">",
      "looks like xacro"},
     {"lower=\"-1\" upper=\"2\"", "lower='-inf' upper='2'", "infinite end"},
     {"lower=\"-1\" upper=\"2\"", "lower='-1e9' upper='2'", "a placeholder"},
     {"effort=\"10\"", "effort=\"1e9\"", "placeholder"},
     {"effort=\"10\"", "effort=\"0\"", "it is passive"},
-    {"velocity=\"5\"", "velocity=\"-1\"", "must not be negative"},
-    {"effort=\"10\"", "effort=\"inf\"", "taken as not known"},
+    {"velocity=\"5\"", "velocity=\"-1\"", "must be positive"},
+    {"effort=\"10\"", "effort=\"inf\"", "treated as unknown"},
     {"velocity=\"5\"", "velocity=\"0\"", "velocity is 0"},
     {"velocity=\"5\"", "velocity=\"1e4\"", "placeholder"},
-    {"damping=\"0.5\"", "damping=\"-0.5\"", "damping is -0.5, must not be"},
-    {"friction=\"0.25\"", "friction=\"-1\"", "friction is -1, must not be"},
+    {"damping=\"0.5\"", "damping=\"-0.5\"", "damping is -0.5, must be"},
+    {"friction=\"0.25\"", "friction=\"-1\"", "friction is -1, must be"},
     {"name=\"test\"",
      "name='test'><material name='red'><color rgba='1 1 1 "
      "1'/></material",
-     "material 'red': is there twice"},
+     "material 'red': occurs twice"},
     {"1 0.5 0.25 1", "1 0.5", "material 'red' <color>: rgba is '1 0.5'"},
     {"<box size=\"1 2 3\"/>", "<capsule radius='1'/>",
      "has no shape that can be read"},
     {"<origin xyz=\"0 0 1\"/>", "<origin xyz='0 0 1'/><origin xyz='0 0 2'/>",
-     "is there twice"},
+     "occurs twice"},
     {"<link name=\"b\">",
      "<link name='${p}c'/><joint name='k' type='fixed'>"
      "<parent link='a'/><child link='${p}c'/></joint>"
@@ -597,7 +601,7 @@ TEST(LoadUrdf, WarnsOfLikelyMistakes) {
     const std::string found =
         Findings(With(c.old_text, c.new_text), Severity::kWarn);
     EXPECT_NE(found.find(c.message), std::string::npos)
-        << c.new_text << "\n  gave: " << found << "\n  not: " << c.message;
+        << c.new_text << "\n  gives: " << found << "\n  without: " << c.message;
     // Each mistake gives one warning; two names with an expression give two.
     const bool is_xacro =
         std::string(c.new_text).find("<link name='${p}c'") == 0;
@@ -620,25 +624,25 @@ TEST(LoadUrdf, NotesUnusualParts) {
             std::string::npos);
   const Case cases[] = {
       {"<axis xyz=\"0 3 4\"/>", "", "has no <axis>"},
-      {"revolute", "continuous", "bounds a continuous joint"},
+      {"revolute", "continuous", "has lower or upper for a continuous joint"},
       {"lower=\"-1\"", "lower=\"1\"", "0 is outside"},
       {"<link name=\"b\">", "<loop_joint/><link name=\"b\">", "closes a loop"},
       {"<limit", "<unlimited/><limit",
-       ":33: joint 'j' <unlimited>: is no element of URDF here, is ignored"},
+       ":33: joint 'j' <unlimited>: is not a URDF element here, is ignored"},
       {"<box size", "<box weight='1' size", "has 'weight', is ignored"},
       {"</robot>",
        "<link name='c'/><joint name='k' type='continuous'><parent "
        "link='b'/><child link='c'/></joint></robot>",
-       "link 'c': has no <inertial>, its mass counts as 0"},
+       "link 'c': has no <inertial>, its mass is treated as 0"},
       {"</robot>",
        "<link name='world'/><joint name='k' type='fixed'><parent "
        "link='world'/><child link='a'/></joint></robot>",
-       "link 'world': is the root, the robot floats: it is not welded"},
+       "link 'world': is the root, the robot has a floating base"},
       {"</robot>",
        "<link name='c'/><joint name='k' type='revolute'><parent link='b'/>"
        "<child link='c'/><limit lower='-1' upper='1' effort='1' velocity='1'/>"
        "<mimic joint='j'/></joint></robot>",
-       "joint 'k' <mimic>: leads the joint to 2, which is outside its limits"},
+       "joint 'k' <mimic>: moves the joint to 2, which is outside its limits"},
   };
   for (const Case& c : cases) {
     const std::string found =
@@ -647,7 +651,8 @@ TEST(LoadUrdf, NotesUnusualParts) {
   }
 }
 
-// Rounded plates and elements without effect on dynamics are common.
+// The moments of thin plates are often rounded, and elements without effect on
+// the dynamics are common.
 TEST(LoadUrdf, DoesNotWarnOfCommonParts) {
   const Case cases[] = {
       {"ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"",
@@ -665,7 +670,7 @@ TEST(LoadUrdf, DoesNotWarnOfCommonParts) {
   }
 }
 
-TEST(LoadUrdf, KeepsNamesAsTheyAre) {
+TEST(LoadUrdf, KeepsNamesUnchanged) {
   const std::string name = "l <a> \"q\" %s %n \\ \xc3\xa9 \xe6\x97\xa5";
   std::string text =
       std::string("<robot name='%n%s'><material name='%n'/>") +
@@ -687,8 +692,8 @@ TEST(LoadUrdf, CutsLongNamesInMessages) {
   EXPECT_NE(message.find("nnn...'"), std::string::npos);
 }
 
-// A decimal point remains one in a locale with a decimal comma.
-TEST(LoadUrdf, ReadsTheSameInEveryLocale) {
+// In a locale with a decimal comma, the decimal separator is still a point.
+TEST(LoadUrdf, DoesNotDependOnTheLocale) {
   class Comma : public std::numpunct<char> {
     char do_decimal_point() const override { return ','; }
     char do_thousands_sep() const override { return '.'; }
@@ -706,7 +711,7 @@ TEST(LoadUrdf, ReadsTheSameInEveryLocale) {
   EXPECT_NE(message.find("mass is -2.5,"), std::string::npos) << message;
 }
 
-TEST(LoadUrdf, NamesTheFileThatItCannotRead) {
+TEST(LoadUrdf, NamesAFileThatCannotBeRead) {
   const std::string pipe = std::string(std::getenv("TEST_TMPDIR")) + "/pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   for (const std::string file : {"no/such.urdf", "/", pipe.c_str()}) {
@@ -716,7 +721,7 @@ TEST(LoadUrdf, NamesTheFileThatItCannotRead) {
     } catch (const std::invalid_argument& error) {
       EXPECT_EQ(error.what(),
                 file + (file == "no/such.urdf" ? ": cannot be read"
-                                               : ": is no regular file"));
+                                               : ": is not a regular file"));
     }
   }
 }

@@ -13,14 +13,14 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// The joints as edges between links.
+// The joints, as edges of a graph of links.
 struct Edges {
-  Elements joint_above;  // The joint above each link, by link.
+  Elements joint_above;  // The parent joint of each link, by link.
   std::unordered_map<std::string, std::vector<std::string>> children;
 };
 
-// Returns nothing if a joint does not connect two links, or a link has two
-// parents.
+// Returns the edges. Returns nothing if a joint does not connect two links, or
+// if a link has two parents.
 std::optional<Edges> FindEdges(const UrdfTree& tree, const Elements& links,
                                const Elements& joints, const Critic& critic) {
   Edges edges;
@@ -36,7 +36,7 @@ std::optional<Edges> FindEdges(const UrdfTree& tree, const Elements& links,
     }
     if (parent == child) {
       critic.Reject(joint, "connects " + Quoted(parent) + " to itself",
-                    "must connect two links");
+                    "must connect two different links");
       is_sound = false;
     }
     const auto [above, is_first] = edges.joint_above.emplace(child, &joint);
@@ -68,7 +68,7 @@ size_t CountBelow(const std::string& root, const Edges& edges) {
   return reached;
 }
 
-// Returns the root of all links, if there is exactly one.
+// Returns the root of all links, or nothing if there is not exactly one.
 std::optional<std::string> FindRoot(const XMLElement& robot,
                                     const std::vector<std::string>& names,
                                     const Elements& links, const Edges& edges,
@@ -84,15 +84,15 @@ std::optional<std::string> FindRoot(const XMLElement& robot,
   if (roots.size() > 1) {
     critic.Reject(*links.at(roots[1]),
                   "is a second root beside " + Quoted(roots[0]),
-                  "must hang on a joint");
+                  "must be the child of a joint");
     return std::nullopt;
   }
   const size_t reached = CountBelow(roots[0], edges);
   if (reached == names.size()) return roots[0];
   critic.Reject(robot,
                 std::to_string(names.size() - reached) +
-                    " of its links do not hang on its root " + Quoted(roots[0]),
-                "they are in or below a cycle");
+                    " of its links are not below its root " + Quoted(roots[0]),
+                "they are in or below a cycle of joints");
   return std::nullopt;
 }
 
@@ -130,7 +130,8 @@ void LeaveOutWorld(const std::string& root, const Elements& links,
   Remove(world_joints, &tree->joints);
 }
 
-// The joint-space inertia M of a robot without mass is zero in each posture.
+// Rejects a robot without mass, because its joint-space inertia M is zero in
+// each posture.
 void CheckMass(const XMLElement& robot, const Elements& links,
                const std::vector<std::string>& names, const Critic& critic) {
   if (std::any_of(names.begin(), names.end(), [&](const std::string& name) {
@@ -139,7 +140,7 @@ void CheckMass(const XMLElement& robot, const Elements& links,
     return;
   }
   critic.Reject(robot, "the mass of all links together is 0",
-                "must be positive, or M is singular: give each link its "
+                "must be positive, else M is singular: give the links an "
                 "<inertial>");
 }
 
@@ -156,17 +157,18 @@ void CheckTree(const XMLElement& robot, const Elements& links,
   for (const std::string& name : tree->joints) {
     if (Text(*joints.at(name), "type") != "floating") continue;
     critic.Reject(*joints.at(name), "is floating",
-                  "only one below massless links from the root may be");
+                  "only one joint below the massless root may be floating");
   }
   for (const std::string& name : tree->links) {
     const XMLElement& link = *links.at(name);
     const bool is_base = name == tree->base;
     if (is_base && name == "world") {
       critic.Note(link, "is the root",
-                  "the robot floats: it is not welded to the ground");
+                  "the robot has a floating base: it is not fixed to the "
+                  "ground");
     } else if (link.FirstChildElement("inertial") == nullptr &&
                (is_base || IsMoving(*edges->joint_above.at(name)))) {
-      critic.Note(link, "has no <inertial>", "its mass counts as 0");
+      critic.Note(link, "has no <inertial>", "its mass is treated as 0");
     }
   }
 }

@@ -12,17 +12,19 @@ namespace poise {
 
 /// The names of a robot's links and joints, in the file's order.
 struct UrdfTree {
-  std::string base;  ///< The link that floats.
+  std::string base;  ///< The link that is the floating base.
   std::vector<std::string> links;
   std::vector<std::string> joints;
 };
 
-/// Checks that a URDF's joints make one tree of its links: one root, one parent
-/// for each other link, all connected. Then finds the base, and removes the
-/// names of massless links from the root down to a floating joint, which stand
-/// for the world. Rejects any other floating joint, and a robot without mass.
-/// @param tree  in: all links and joints; out: the base, and the names that
-///              remain.
+/// Checks that the joints of a URDF connect its links to one tree: one root,
+/// one parent for each other link, no cycle. Then finds the base, and removes
+/// the names of massless links from the root down to a floating joint, because
+/// they represent the world. Rejects any other floating joint, and a robot
+/// without mass.
+///
+/// @param tree  in: the names of all links and joints; out: the base, and the
+///              names that remain.
 void CheckTree(const tinyxml2::XMLElement& robot, const Elements& links,
                const Elements& joints, const Critic& critic, UrdfTree* tree);
 

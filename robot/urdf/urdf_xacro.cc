@@ -9,16 +9,16 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Elements of URDF, known by their whole names.
+// URDF elements that are essential for the robot's motion, by their full names.
 constexpr std::string_view kElements[] = {"inertia", "inertial",    "joint",
                                           "limit",   "link",        "mass",
                                           "mimic",   "transmission"};
 
-// Elements of xacro before it had a prefix.
+// Elements of old xacro versions, which had no prefix `xacro:`.
 constexpr std::string_view kWithoutPrefix[] = {"include", "insert_block",
                                                "macro", "property"};
 
-// Words in the names of macros.
+// Words that mark a macro as essential if its name contains one of them.
 constexpr std::string_view kWords[] = {"inerti", "joint", "limit",       "link",
                                        "mass",   "mimic", "transmission"};
 

@@ -7,20 +7,21 @@
 
 namespace poise {
 
-/// Returns whether an attribute's text has an expression ${...} or $(...) that
-/// xacro should have replaced by its value.
+/// Returns whether an attribute's text contains an expression ${...} or $(...),
+/// which xacro should have replaced by a value.
 bool HasXacroExpression(std::string_view text);
 
-/// Returns whether an element has the prefix `xacro:`: xacro should have
-/// replaced the element.
+/// Returns whether an element has the prefix `xacro:`. xacro should have
+/// replaced such an element.
 bool IsXacro(const tinyxml2::XMLElement& element);
 
-/// Returns whether an element is one of xacro from before xacro had a prefix.
+/// Returns whether an element belongs to an old xacro version without a prefix.
 bool IsXacroWithoutPrefix(const tinyxml2::XMLElement& element);
 
-/// Returns whether an element, or any element below it, is a link, a joint, a
-/// limit, a transmission, a mimic or an inertia, or is a macro with one of these
-/// words in its name. Without the element the robot would move differently.
+/// Returns whether the robot would move differently without an element. Such
+/// elements are links, joints, limits, masses, transmissions, mimics, inertias,
+/// and macros with one of these words in the name. The elements below are also
+/// checked.
 bool HasEssentialPart(const tinyxml2::XMLElement& element);
 
 }  // namespace poise

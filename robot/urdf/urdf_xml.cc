@@ -33,7 +33,7 @@ bool IsMoving(const XMLElement& joint) {
 
 void Critic::Add(Severity severity, const XMLElement& element, std::string what,
                  std::string why) const {
-  // A bound on the memory. The first finding that rejects the file is always
+  // Bounds the memory. At least one finding that rejects the file is always
   // kept.
   constexpr size_t kMostFindings = 10'000;
   if (findings_->size() >= kMostFindings &&
@@ -45,7 +45,7 @@ void Critic::Add(Severity severity, const XMLElement& element, std::string what,
   std::string where =
       "<" + OneLine(std::string_view(element.Name()).substr(0, kLongest)) + ">";
   const tinyxml2::XMLNode* robot = element.GetDocument()->RootElement();
-  const tinyxml2::XMLNode* top = &element;  // Becomes the link or joint.
+  const tinyxml2::XMLNode* top = &element;  // Becomes the link or the joint.
   while (top != robot && top->Parent() != robot) top = top->Parent();
   const char* name = top->ToElement()->Attribute("name");
   if (top != robot && name != nullptr) {

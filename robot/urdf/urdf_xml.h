@@ -12,7 +12,7 @@
 
 namespace poise {
 
-/// Elements of a URDF by name: its links, or its joints.
+/// The links of a URDF by name, or its joints by name.
 using Elements = std::unordered_map<std::string, const tinyxml2::XMLElement*>;
 
 /// Returns the text of an attribute, or "" if the element does not have it.
@@ -33,8 +33,8 @@ Eigen::Vector3d Vector(const tinyxml2::XMLElement& element,
 /// Returns whether a `<joint>` is revolute, continuous or prismatic.
 bool IsMoving(const tinyxml2::XMLElement& joint);
 
-/// Collects findings about elements. Each finding names the link or joint that
-/// the element belongs to.
+/// Collects findings about elements. Each finding names the link or the joint
+/// to which the element belongs.
 class Critic {
  public:
   explicit Critic(std::vector<Finding>* findings) : findings_(findings) {}

@@ -13,13 +13,15 @@
 namespace poise {
 namespace {
 
-// Bound on the bytes of markup. TinyXML-2 takes up to 30 bytes of memory for each.
+// Bound on the bytes of markup. TinyXML-2 uses up to 30 bytes of memory per
+// byte.
 constexpr size_t kMostMarkup = size_t{16} << 20;
-// Bound on the attributes of an element. TinyXML-2 compares each of them with all
-// before it.
+// Bound on the attributes of an element. TinyXML-2 compares each attribute with
+// all previous ones, so the time is quadratic.
 constexpr size_t kMostAttributes = 100;
 
-// Returns whether "65" or "x41" is the number of a character that XML allows.
+// Returns whether a text such as "65" or "x41" is the code point of a character
+// that XML allows.
 bool IsCharacter(std::string_view number) {
   const int base = number.substr(0, 1) == "x" ? 16 : 10;
   if (base == 16) number.remove_prefix(1);
@@ -37,27 +39,28 @@ class Scanner {
   Scanner(std::string_view text, const std::string& source)
       : text_(text), source_(source) {}
 
-  // Refuses a text that would take too much memory or time to parse, and errors
-  // that TinyXML-2 accepts, such as an end tag without a start tag.
+  // Throws Refusal if the text would take too much memory or time to parse.
+  // Also throws for errors that TinyXML-2 accepts, such as an end tag without a
+  // start tag.
   void Scan();
 
  private:
   [[noreturn]] void Refuse(size_t at, const std::string& what) const;
 
-  // Returns the end of the construct that starts at `at`: past `closing`.
+  // Returns the position after the next `closing`, searched from `at`.
   size_t SkipPast(size_t at, std::string_view closing) const;
 
-  // Returns the end of the markup at `start`.
+  // Returns the position after the markup that begins at `start`.
   size_t SkipMarkup(size_t start);
 
-  // Returns the end of a tag: the first > outside quotes.
+  // Returns the position after a tag, which ends at the first > outside quotes.
   size_t SkipTag(size_t start);
 
-  // Refuses characters and entities that XML forbids in a value, as TinyXML-2
-  // accepts them.
+  // Throws Refusal for characters and entities that XML forbids in a value,
+  // because TinyXML-2 accepts them.
   void CheckValue(size_t start, size_t end) const;
 
-  // Returns NAME of NAME = "value", if the value's first quote is at `quote`.
+  // Returns NAME of NAME = "value". The first quote of the value is at `quote`.
   std::string_view NameBefore(size_t quote) const;
 
   void CountDepth(size_t start, size_t end);
@@ -74,11 +77,12 @@ void Scanner::Scan() {
     const size_t start = std::min(text_.find('<', at), text_.size());
     markup += start - at;
     at = start < text_.size() ? SkipMarkup(start) : start;
-    // TinyXML-2 stores the text of a comment as it is.
+    // The text of a comment is not counted: TinyXML-2 stores it without
+    // overhead.
     const bool is_comment = text_.substr(start, 4) == "<!--";
     markup += is_comment ? std::string_view("<!---->").size() : at - start;
     if (markup > kMostMarkup) {
-      Refuse(start, "has more than 16 MiB beside comments, must have less");
+      Refuse(start, "has more than 16 MiB without comments, must have less");
     }
   }
 }
@@ -116,11 +120,11 @@ size_t Scanner::SkipTag(size_t start) {
     }
     if (text_[i] != '"' && text_[i] != '\'') continue;
     if (attributes.size() == kMostAttributes) {
-      Refuse(start, "an element has more than 100 attributes");
+      Refuse(start, "an element has more than 100 attributes, must have fewer");
     }
     const std::string_view name = NameBefore(i);
     if (!attributes.insert(name).second) {
-      Refuse(i, "the attribute " + Quoted(name) + " is there twice");
+      Refuse(i, "the attribute " + Quoted(name) + " occurs twice in a tag");
     }
     const size_t end = text_.find(text_[i], i + 1);
     if (end == std::string_view::npos) break;
@@ -128,7 +132,7 @@ size_t Scanner::SkipTag(size_t start) {
     if (end + 1 < text_.size() &&
         std::string_view(" \t\r\n/?>").find(text_[end + 1]) ==
             std::string_view::npos) {
-      Refuse(end, "there is no blank after the value of the attribute " +
+      Refuse(end, "there is no space after the value of the attribute " +
                       Quoted(name));
     }
     i = end;
@@ -147,7 +151,7 @@ void Scanner::CheckValue(size_t start, size_t end) const {
     const bool is_closed = name.size() < rest.size();
     if (is_closed && name.substr(0, 1) == "#") {
       if (IsCharacter(name.substr(1))) continue;
-      Refuse(i, "a value has a character that no XML has, " +
+      Refuse(i, "a value has a character that XML forbids, " +
                     Quoted("&" + std::string(name) + ";"));
     }
     if (!is_closed || std::find(std::begin(kEntities), std::end(kEntities),
@@ -174,11 +178,11 @@ std::string Explain(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {
     case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
       return "is empty, must be XML";
-    case tinyxml2::XML_ERROR_PARSING:  // The end, where a tag should be.
+    case tinyxml2::XML_ERROR_PARSING:  // The file ends too early.
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-      return "an element is not closed, or by another name";
+      return "an element is not closed, or its end tag has another name";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
-      return "elements are nested more than 100 deep";
+      return "elements are nested more than 100 levels deep";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
       return "an attribute is malformed, must be name=\"value\"";
     case tinyxml2::XML_ERROR_PARSING_TEXT:

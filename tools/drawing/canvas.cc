@@ -104,7 +104,7 @@ void Canvas::Clipped(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
 
 void Canvas::Image(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
                    int width, int height, std::vector<std::uint32_t> pixels) {
-  // Rows of 32-bit pixels need no padding.
+  // Rows of 32-bit pixels need no padding, so the stride is 4 * width.
   cairo_surface_t* image = cairo_image_surface_create_for_data(
       reinterpret_cast<unsigned char*>(pixels.data()), CAIRO_FORMAT_ARGB32,
       width, height, 4 * width);
@@ -114,7 +114,8 @@ void Canvas::Image(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
   cairo_set_source_surface(cairo_, image, 0, 0);
   cairo_paint(cairo_);
   cairo_restore(cairo_);
-  // The SVG is written later, and must not look for these pixels then.
+  // Cairo writes the SVG later, when `pixels` no longer exists. Finishing the
+  // image now prevents cairo from reading `pixels` then.
   cairo_surface_finish(image);
   cairo_surface_destroy(image);
 }

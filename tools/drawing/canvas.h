@@ -15,12 +15,13 @@ namespace poise {
 /// Red, green, blue and opacity, each in [0, 1].
 using Color = Eigen::Vector4d;
 
-/// 0x1f66d1 is "#1f66d1" elsewhere; opaque.
+/// Returns an opaque color from its RGB code: 0x1f66d1 for CSS "#1f66d1".
 Color HexColor(unsigned rgb);
 
 enum class Anchor { kLeft, kMiddle, kRight };
 
-/// Where figures are drawn: points, x to the right and y down.
+/// A surface to draw on. Coordinates are in points (1/72 inch in the SVG), with
+/// x to the right and y down from the top left corner.
 class Canvas {
  public:
   explicit Canvas(_cairo* cairo) : cairo_(cairo) {}
@@ -34,10 +35,11 @@ class Canvas {
             bool bold = false);
   double TextWidth(const std::string& text, double size, bool bold = false);
 
-  /// What `draw` draws shows only in the rectangle.
+  /// Calls `draw`, and clips its drawing to the rectangle.
   void Clipped(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
                const std::function<void()>& draw);
-  /// An image of premultiplied ARGB pixels by row, stretched to the rectangle.
+  /// Draws an image, stretched to the rectangle. The pixels are premultiplied
+  /// ARGB, stored row by row.
   void Image(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
              int width, int height, std::vector<std::uint32_t> pixels);
 
@@ -48,11 +50,12 @@ class Canvas {
   _cairo* cairo_;
 };
 
-/// Pixels of a PNG for each point of a picture, along x and y.
+/// Pixels of the PNG per point of a picture, along x and along y.
 constexpr double kPixelsPerPoint = 2;
 
-/// Draws the same picture twice: STEM.svg and STEM.png. Throws
-/// std::invalid_argument if a file cannot be written.
+/// Writes a picture to two files, STEM.svg and STEM.png. Calls `draw` once for
+/// each file. The size is in points. Throws std::invalid_argument if a file
+/// cannot be written.
 void WritePicture(const std::filesystem::path& stem,
                   const Eigen::Vector2d& size,
                   const std::function<void(Canvas*)>& draw);

@@ -45,7 +45,8 @@ std::string TickText(double value, double step) {
   return negative ? "\u2212" + std::string(text) : text;
 }
 
-// Points to draw: several of one pixel become its lowest and highest.
+// Returns fewer points that give the same picture. Of all points in one column
+// of pixels, only the lowest and the highest remain.
 std::vector<Eigen::Vector2d> Thin(const std::vector<Eigen::Vector2d>& points) {
   std::vector<Eigen::Vector2d> thin;
   for (std::size_t i = 0; i < points.size();) {
@@ -83,7 +84,8 @@ Axes MakeAxes(const PlotSpec& spec) {
   axes.y_ticks = RoundTicks(y.low, y.high, 6);
   axes.x_ticks = RoundTicks(x.low, x.high, 10);
   y = {axes.y_ticks.front(), axes.y_ticks.back()};
-  // The last row of a log is one step before its end.
+  // The last row of a log is one time step before the end. So the x axis
+  // extends to the next tick if that is within 0.5 % of the range.
   const double near_end = x.high + 0.005 * (x.high - x.low);
   for (const double tick : axes.x_ticks) {
     if (tick < near_end) x.high = std::max(x.high, tick);

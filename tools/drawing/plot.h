@@ -11,7 +11,7 @@
 
 namespace poise {
 
-/// A quantity over time.
+/// One line of a plot: a quantity over time. x and y have the same size.
 struct PlotLine {
   std::string name;
   Color color;
@@ -20,25 +20,27 @@ struct PlotLine {
   bool dashed = false;
 };
 
-/// A plot, as data.
+/// The contents of a plot.
 struct PlotSpec {
   std::string title;
   std::string x_label = "time, s";
   std::vector<PlotLine> lines;
-  /// Limits: dashed lines across, each with a name; in view, always.
+  /// Limits: a y value and a name each. They are drawn as horizontal dashed
+  /// lines, and the y axis always includes them.
   std::vector<std::pair<double, std::string>> limits;
-  /// A time to shade: that of a push.
+  /// An interval of x to shade: the time of a push, s.
   std::optional<std::pair<double, double>> band;
-  /// The least extent of the y axis.
+  /// Minimum extent of the y axis, in the unit of y.
   double least_extent = 0;
 };
 
-/// Draws a plot into the rectangle: axes with round ticks, lines, a legend.
+/// Draws a plot into a rectangle, with round numbers at the axes and a legend.
 void DrawPlot(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
               const PlotSpec& spec, Canvas* canvas);
 
-/// Round numbers, at most `most` + 1 of them, from below `low` or at it to
-/// above `high` or at it; multiples of 1, 2 or 5 times a power of ten.
+/// Returns at most `most` + 1 equidistant round numbers. Their distance is 1, 2
+/// or 5 times a power of ten. The first number is at or below `low`, the last
+/// number is at or above `high`.
 std::vector<double> RoundTicks(double low, double high, int most);
 
 }  // namespace poise

@@ -8,7 +8,7 @@
 namespace poise {
 namespace {
 
-TEST(Plot, TicksAreRoundAndHoldTheRange) {
+TEST(Plot, TicksAreRoundAndCoverTheRange) {
   for (const auto& [low, high] : {std::pair{0.0, 1.0},
                                   {-0.013, 0.0371},
                                   {0.0, 6.0},

@@ -9,12 +9,13 @@
 
 namespace poise {
 
-/// Returns an arrow for each push of a run whose mean force over the tick from
-/// `time` is not zero, at its own link and point.
+/// Returns an arrow for each push of a run whose mean force during a control
+/// tick is not zero. Each arrow is at the link and point of its push.
 ///
-/// @param summary  summary.json of the run, see sim/log/summary.h.
-/// @param time     start of a tick, s.
-/// @param X_WB     poses of the robot's bodies at `time`.
+/// @param summary  the contents of the run's summary.json, see
+///                 sim/log/summary.h.
+/// @param time     the start of the tick, s.
+/// @param X_WB     the poses of the robot's bodies at `time`.
 std::vector<PushArrow> FindPushArrows(const nlohmann::json& summary,
                                       double time,
                                       const std::vector<Pose>& X_WB);

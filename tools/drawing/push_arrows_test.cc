@@ -23,8 +23,9 @@ using Eigen::Vector3d;
 
 constexpr double kEpsilon = 1e-12;
 
-// A box on the head from 0.01 to 0.03 s, and a half sine on a hand, along the
-// axes of its link, from 0.02 to 0.06 s.
+// Two pushes. One has a box profile, from 0.01 to 0.03 s, on the head. The
+// other has a half-sine profile, from 0.02 to 0.06 s, on a hand, and its force
+// is given in the axes of the hand.
 class FindPushArrowsTest : public testing::Test {
  protected:
   FindPushArrowsTest() {
@@ -55,7 +56,7 @@ class FindPushArrowsTest : public testing::Test {
     return FindPushArrows(ToJson(robot_, scenario, {}), time, X_WB_);
   }
 
-  // The point that a push acts on, in the world.
+  // Returns the point on which a push acts, in the world.
   Vector3d PointOf(const Push& push) const {
     const PushOnRobot aimed(robot_, push);
     return X_WB_[aimed.body()] * aimed.p_BoQ_B();
@@ -74,7 +75,7 @@ TEST_F(FindPushArrowsTest, DrawsEachPushAtItsOwnLinkAndPoint) {
   EXPECT_GT((arrows[0].point - arrows[1].point).norm(), 0.1);
 }
 
-TEST_F(FindPushArrowsTest, DrawsEachPushWhileItActs) {
+TEST_F(FindPushArrowsTest, DrawsEachPushOnlyDuringItsInterval) {
   EXPECT_TRUE(At(0.005).empty());
   ASSERT_EQ(At(0.015).size(), 1u);
   EXPECT_NEAR((At(0.015)[0].point - PointOf(box_)).norm(), 0, kEpsilon);
@@ -87,7 +88,8 @@ TEST_F(FindPushArrowsTest, DrawsEachPushWithItsOwnForce) {
   const std::vector<PushArrow> arrows = At(0.025);
   ASSERT_EQ(arrows.size(), 2u);
   EXPECT_NEAR((arrows[0].force - Vector3d(-20, 0, 0)).norm(), 0, 1e-9);
-  // 1 ms of a half sine, an eighth of its duration after its start.
+  // The expected force is the mean of the half sine over a tick of 1 ms, one
+  // eighth of the duration after the start.
   const PushOnRobot aimed(robot_, sine_);
   const Vector3d along = X_WB_[aimed.body()].R * aimed.force() / 100;
   EXPECT_NEAR(arrows[1].force.dot(along), 100 * std::sin(M_PI * 5.5 / 40),

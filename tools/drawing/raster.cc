@@ -8,7 +8,7 @@
 namespace poise {
 namespace {
 
-// Twice the signed area of the triangle a, b, p.
+// Returns twice the signed area of the triangle a, b, (x, y).
 double Cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double x,
              double y) {
   return (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());

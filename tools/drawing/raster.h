@@ -9,22 +9,24 @@
 
 namespace poise {
 
-/// A picture of triangles, the nearest on top, with smooth edges: each pixel is
-/// the mean of kSamples x kSamples samples.
+/// Draws triangles into a picture with a depth buffer, so that the nearest
+/// surface is visible. Edges are antialiased: each pixel is the mean of
+/// kSamples x kSamples samples.
 class Raster {
  public:
   static constexpr int kSamples = 3;
 
-  /// Of so many pixels.
+  /// Makes an empty picture. The width and the height are in pixels.
   Raster(int width, int height);
 
-  /// Corners are [x, y, depth]: pixels to the right and down, and a depth that
-  /// is linear on the picture and smaller nearby (-1 / distance is).
+  /// Draws a triangle. A corner is [x, y, depth], with x to the right and y
+  /// down in pixels. The depth must be linear over the picture, and smaller for
+  /// nearer points; -1 / distance satisfies both.
   void Triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                 const Eigen::Vector3d& c, const Color& color);
 
-  /// Premultiplied, 8 bits each: alpha, red, green, blue from the highest; by
-  /// row. Transparent where nothing is.
+  /// Returns the pixels, row by row, as premultiplied ARGB with 8 bits each and
+  /// alpha in the highest bits. Pixels without a triangle are transparent.
   std::vector<std::uint32_t> Pixels() const;
 
   int width() const { return width_; }
@@ -33,8 +35,8 @@ class Raster {
  private:
   int width_;
   int height_;
-  std::vector<float> depth_;            // By sample.
-  std::vector<Eigen::Vector4f> color_;  // By sample.
+  std::vector<float> depth_;            // One entry per sample.
+  std::vector<Eigen::Vector4f> color_;  // One entry per sample.
 };
 
 }  // namespace poise

@@ -8,14 +8,14 @@ namespace {
 
 const Color kRed(1, 0, 0, 1), kBlue(0, 0, 1, 1), kGlass(0, 0, 0, 0.2);
 
-// Two triangles, corner to corner.
+// Draws an axis-aligned rectangle of constant depth, as two triangles.
 void Square(double x0, double y0, double x1, double y1, double depth,
             const Color& color, Raster* raster) {
   raster->Triangle({x0, y0, depth}, {x1, y0, depth}, {x1, y1, depth}, color);
   raster->Triangle({x0, y0, depth}, {x1, y1, depth}, {x0, y1, depth}, color);
 }
 
-TEST(Raster, FillsWhatATriangleCovers) {
+TEST(Raster, FillsThePixelsInsideTriangles) {
   Raster raster(4, 2);
   Square(1, 0, 3, 1, 0, kRed, &raster);
   const std::vector<std::uint32_t> expected = {0, 0xffff0000, 0xffff0000, 0,
@@ -23,14 +23,14 @@ TEST(Raster, FillsWhatATriangleCovers) {
   EXPECT_EQ(raster.Pixels(), expected);
 }
 
-TEST(Raster, DrawsWhicheverWayAroundTheCornersAre) {
+TEST(Raster, DrawsTrianglesOfEitherOrientation) {
   Raster raster(1, 1);
   raster.Triangle({-9, -9, 0}, {-9, 9, 0}, {9, 9, 0}, kRed);
   raster.Triangle({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, kRed);
   EXPECT_EQ(raster.Pixels()[0], 0xffff0000u);
 }
 
-TEST(Raster, ShowsTheNearest) {
+TEST(Raster, ShowsTheNearestSurface) {
   for (const bool red_first : {true, false}) {
     Raster raster(1, 1);
     if (red_first) Square(0, 0, 1, 1, -2, kRed, &raster);
@@ -40,10 +40,10 @@ TEST(Raster, ShowsTheNearest) {
   }
 }
 
-TEST(Raster, LetsSurfacesReachThroughEachOther) {
+TEST(Raster, DrawsIntersectingSurfaces) {
   Raster raster(2, 1);
   Square(0, 0, 2, 1, 0.5, kBlue, &raster);
-  // From depth 0 at the left to 1 at the right.
+  // The depth increases from 0 at the left to 1 at the right.
   raster.Triangle({0, -9, 0}, {2, -9, 1}, {2, 9, 1}, kRed);
   raster.Triangle({0, -9, 0}, {2, 9, 1}, {0, 9, 0}, kRed);
   EXPECT_EQ(raster.Pixels(),
@@ -54,12 +54,12 @@ TEST(Raster, SmoothsEdgesAndKeepsOpacity) {
   Raster raster(2, 1);
   Square(0, 0, 1.0 / 3, 1, 0, kRed, &raster);
   Square(1, 0, 2, 1, 0, kGlass, &raster);
-  // A third of 255, premultiplied; a fifth of 255.
+  // Premultiplied: a third of 255 is 0x55, and a fifth of 255 is 0x33.
   EXPECT_EQ(raster.Pixels(),
             (std::vector<std::uint32_t>{0x55550000, 0x33000000}));
 }
 
-TEST(Raster, IgnoresWhatIsNotInThePicture) {
+TEST(Raster, IgnoresTrianglesOutsideThePicture) {
   Raster raster(1, 1);
   Square(5, 5, 6, 6, 0, kRed, &raster);
   Square(-6, 0, -5, 1, 0, kRed, &raster);

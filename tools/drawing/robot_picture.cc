@@ -18,10 +18,10 @@ constexpr double kAmbient = 0.46;
 constexpr double kExposure = 1.12;
 const Color kShadow(0.1, 0.12, 0.16, 0.2);
 constexpr double kMetersPerNewton = 0.0042;
-constexpr double kArrowAway = 0.25;  // Its tip from the point it pushes, m.
-constexpr double kMargin = 0.06;     // Of a picture's width and height.
+constexpr double kArrowAway = 0.25;  // From an arrow's tip to its point, m.
+constexpr double kMargin = 0.06;     // Fraction of the width and height.
 
-// World points on the canvas: a pinhole camera.
+// Projects points in the world onto the canvas, as a pinhole camera.
 class Projection {
  public:
   Projection(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
@@ -38,7 +38,7 @@ class Projection {
     const Eigen::Vector3d p_C = R_CW_ * (p - eye_);
     return middle_ + scale_ * p_C.head<2>() / std::max(0.05, p_C.z());
   }
-  // With a depth that is linear on the picture.
+  // Returns the projected point with a depth that is linear over the picture.
   Eigen::Vector3d WithDepth(const Eigen::Vector3d& p) const {
     const double distance = R_CW_.row(2).dot(p - eye_);
     Eigen::Vector3d on;
@@ -54,7 +54,7 @@ class Projection {
   double scale_;
 };
 
-// A robot's shapes, and its shadow on the floor, as seen by a camera.
+// Draws shapes, and their shadows on the floor, as a camera sees them.
 class Model {
  public:
   Model(const Projection& to, Raster* raster) : to_(to), raster_(*raster) {}
@@ -84,7 +84,7 @@ class Model {
   static Eigen::Vector3d ShadowOf(const Eigen::Vector3d& p) {
     const double height = std::max(0.0, p.z());
     Eigen::Vector3d on = p - kToSun * (height / kToSun.z());
-    // Below the soles that stand on it.
+    // The shadow is slightly below the floor, so that the soles hide it.
     on.z() = -0.002;
     return on;
   }
@@ -100,7 +100,8 @@ class Model {
   Raster& raster_;
 };
 
-// A shaft and a head, its tip just before the point that it pushes.
+// Adds an arrow of a shaft and a head. The tip is kArrowAway before the point
+// of application.
 void AddArrow(const PushArrow& push, Model* model) {
   constexpr double kRadius = 0.013, kHead = 0.085;
   const Color red(0.85, 0.16, 0.12, 1);
@@ -113,7 +114,7 @@ void AddArrow(const PushArrow& push, Model* model) {
   const Eigen::Vector3d tip = push.point - kArrowAway * z;
   X_WS.p = tip - (kHead + shaft / 2) * z;
   model->Add({0, {}, BodyShapeKind::kCylinder, {kRadius, shaft, 0}, red}, X_WS);
-  // A cone, as a stack of ever thinner disks.
+  // The head is a cone, drawn as a stack of disks with decreasing radius.
   constexpr int kDisks = 40;
   for (int i = 0; i < kDisks; ++i) {
     X_WS.p = tip - kHead * (i + 0.5) / kDisks * z;
@@ -130,7 +131,7 @@ void DrawFloor(const Projection& to, const Eigen::Vector3d& around,
   const double x0 = kStep * std::round(around.x() / kStep);
   const double y0 = kStep * std::round(around.y() / kStep);
   for (double a = -kReach; a <= kReach; a += kStep) {
-    // In pieces that fade towards the horizon.
+    // The lines are drawn in pieces that fade towards the horizon.
     for (double b = -kReach; b < kReach; b += kStep) {
       const double far = std::hypot(a, b) / kReach;
       Color line = HexColor(0x8a95a1);
@@ -181,7 +182,7 @@ Camera FitCamera(const Eigen::Vector2d& size, const RobotModel& robot,
     points.push_back(push.point - kMetersPerNewton * push.force -
                      kArrowAway * push.force.normalized());
   }
-  // What is seen grows with the height, about the middle.
+  // The visible area grows in proportion to the height, about its center.
   double zoom = 1;
   for (const Eigen::Vector3d& point : points) {
     const Eigen::Vector2d off = to(point) - size / 2;

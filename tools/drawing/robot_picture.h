@@ -9,28 +9,29 @@
 
 namespace poise {
 
-/// From where a picture is taken.
+/// The pose and zoom of the camera that takes a picture.
 struct Camera {
   Eigen::Vector3d eye{3.0, -2.2, 1.35};   ///< World, m.
-  Eigen::Vector3d target{0, 0.02, 0.68};  ///< What is in the middle.
-  double height = 1.75;  ///< Of what is seen at the target's distance, m.
+  Eigen::Vector3d target{0, 0.02, 0.68};  ///< Center of the picture, world, m.
+  double height = 1.75;  ///< Visible height at the target's distance, m.
 };
 
-/// An arrow that ends on a robot.
+/// An arrow for a force that acts on a robot.
 struct PushArrow {
-  Eigen::Vector3d point;  ///< Where it acts, world, m.
-  Eigen::Vector3d force;  ///< N.
+  Eigen::Vector3d point;  ///< The point of application, world, m.
+  Eigen::Vector3d force;  ///< World, N.
 };
 
-/// Draws a robot in a configuration q (see Tree), standing on a floor with a
-/// grid of 0.25 m, with its shadow, and an arrow for each push.
+/// Draws a robot in the configuration q (see Tree), its shadow, and an arrow
+/// for each push. The floor has a grid of 0.25 m.
 void DrawRobot(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
                const RobotModel& robot, const Eigen::VectorXd& q,
                const std::vector<PushArrow>& pushes, const Camera& camera,
                Canvas* canvas);
 
-/// The camera drawn back until that robot, and the arrows, fit into a picture of
-/// that size with a margin; as it was if they do.
+/// Returns the camera with an increased height, so that the robot and the
+/// arrows fit into a picture of the given size. The margin is 6 % of the size
+/// on each side. If they already fit, returns the camera unchanged.
 Camera FitCamera(const Eigen::Vector2d& size, const RobotModel& robot,
                  const Eigen::VectorXd& q, const std::vector<PushArrow>& pushes,
                  Camera camera);

@@ -9,13 +9,13 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kAround = 48;
-constexpr int kRings = 12;  // From a pole to the equator.
+constexpr int kRings = 12;  // Rings from a pole to the equator.
 
 using Ring = std::vector<Eigen::Vector3d>;
 
 void Add(const std::vector<Eigen::Vector3d>& corners,
          std::vector<Facet>* facets) {
-  // Newell's sum: also for corners that coincide, as at a pole.
+  // Newell's formula also works if corners coincide, as at a pole.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     normal += corners[i].cross(corners[(i + 1) % corners.size()]);
@@ -33,8 +33,8 @@ Ring MakeRing(double radius, double z) {
   return ring;
 }
 
-// A surface of revolution about z, from its lowest ring to its highest; those
-// two are closed by a face.
+// Returns a surface of revolution about z, given by its rings from the lowest
+// to the highest. A flat facet closes the first and the last ring.
 std::vector<Facet> Revolve(const std::vector<Ring>& rings) {
   std::vector<Facet> facets;
   const Ring& bottom = rings.front();
@@ -50,7 +50,8 @@ std::vector<Facet> Revolve(const std::vector<Ring>& rings) {
   return facets;
 }
 
-// A cylinder of a length, with half balls on its ends; either may be nothing.
+// Returns a cylinder with a half sphere on each end. The radius or the length
+// may be 0; with length 0 the result is a sphere.
 std::vector<Facet> MakeCapsule(double radius, double length) {
   std::vector<Ring> rings;
   for (int r = -kRings; r <= kRings; ++r) {

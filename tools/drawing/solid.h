@@ -8,14 +8,15 @@
 
 namespace poise {
 
-/// A flat piece of a surface, its corners counterclockwise seen from outside.
+/// A flat piece of a surface. Seen from outside, its corners are in
+/// counterclockwise order.
 struct Facet {
   std::vector<Eigen::Vector3d> corners;
-  Eigen::Vector3d normal;  ///< Unit, outwards.
+  Eigen::Vector3d normal;  ///< Unit vector, outwards.
 };
 
-/// The surface of a shape in the shape's own axes: closed and convex, its
-/// corners on the true surface.
+/// Returns the surface of a shape, in the axes of the shape. The facets form a
+/// closed convex polyhedron whose corners lie on the exact surface.
 std::vector<Facet> MakeFacets(const BodyShape& shape);
 
 }  // namespace poise

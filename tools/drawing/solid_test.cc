@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Area, area vector (zero if closed) and volume, by the divergence theorem.
+// Area, vector area (zero if the surface is closed) and volume of a surface, by
+// the divergence theorem.
 struct Measures {
   double area = 0;
   Eigen::Vector3d closure = Eigen::Vector3d::Zero();
@@ -33,7 +34,8 @@ Measures Measure(const BodyShape& shape) {
       measures.closure += twice / 2;
       measures.volume += facet.corners[0].dot(twice) / 6;
     }
-    // Convex, around the origin: every normal points outwards.
+    // The shape is convex and contains the origin, so every normal must point
+    // away from the origin.
     EXPECT_GT(facet.normal.dot(facet.corners[0]), 0);
   }
   return measures;
@@ -43,7 +45,8 @@ BodyShape Shape(BodyShapeKind kind, const Eigen::Vector3d& size) {
   return {0, {}, kind, size, Eigen::Vector4d::Ones()};
 }
 
-// Facets lie inside the true surface, and 48 around miss little of it.
+// Expects a value slightly below the exact one. The facets lie inside the exact
+// surface; with 48 around the axis, they lose less than 1 %.
 void ExpectNearBelow(double value, double exact) {
   EXPECT_LT(value, exact);
   EXPECT_GT(value, 0.99 * exact);
@@ -56,7 +59,7 @@ TEST(Solid, BoxIsExact) {
   EXPECT_LE(box.closure.norm(), Rounding(0.62, 36));
 }
 
-TEST(Solid, CylinderIsClosedAndOfItsSize) {
+TEST(Solid, CylinderIsClosedAndHasTheRightVolume) {
   const Measures cylinder =
       Measure(Shape(BodyShapeKind::kCylinder, {0.1, 0.4, 0}));
   ExpectNearBelow(cylinder.volume, kPi * 0.01 * 0.4);
@@ -64,14 +67,14 @@ TEST(Solid, CylinderIsClosedAndOfItsSize) {
   EXPECT_LE(cylinder.closure.norm(), Rounding(cylinder.area, 200));
 }
 
-TEST(Solid, CapsuleIsClosedAndOfItsSize) {
+TEST(Solid, CapsuleIsClosedAndHasTheRightVolume) {
   const Measures capsule =
       Measure(Shape(BodyShapeKind::kCapsule, {0.1, 0.4, 0}));
   ExpectNearBelow(capsule.volume, kPi * 0.01 * (0.4 + 4.0 / 3 * 0.1));
   EXPECT_LE(capsule.closure.norm(), Rounding(capsule.area, 3000));
 }
 
-TEST(Solid, EllipsoidIsClosedAndOfItsSize) {
+TEST(Solid, EllipsoidIsClosedAndHasTheRightVolume) {
   const Measures ellipsoid =
       Measure(Shape(BodyShapeKind::kEllipsoid, {0.1, 0.2, 0.3}));
   ExpectNearBelow(ellipsoid.volume, 4.0 / 3 * kPi * 0.006);

@@ -69,14 +69,14 @@ echo '{"format": "hqp-1", "variables": 1, "levels": [
 refuse "hqp: crossed.json: levels[0].lower[0]: is 2, must not be above $(
   )upper[0], 1" "$hqp" --json good.json crossed.json
 
-refuse "hqp: /tmp: is no regular file" "$hqp" /tmp
-refuse "hqp: /dev/zero: is no regular file" "$hqp" /dev/zero
+refuse "hqp: /tmp: is not a regular file" "$hqp" /tmp
+refuse "hqp: /dev/zero: is not a regular file" "$hqp" /dev/zero
 refuse "hqp: gone.json: cannot be read" "$hqp" gone.json
 refuse "hqp: option '--foo' is unknown" "$hqp" --foo
 refuse "hqp: option '--foo' is unknown" "$hqp" --foo good.json
 refuse "hqp: files is required" "$hqp"
 
-refuse "dynamics: /dev/zero: is no regular file" \
+refuse "dynamics: /dev/zero: is not a regular file" \
   "$dynamics" --urdf "$urdf" --states /dev/zero
 refuse "dynamics: option '--foo' is unknown" "$dynamics" --foo
 

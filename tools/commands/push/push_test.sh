@@ -134,7 +134,8 @@ refuse_file --scenario ": control.rate is 1000, must be a whole part of $(
   )plant.rate, which is 300" rate.yaml 'plant: {rate: 300}'
 
 refuse "$gone: cannot be read" --robot "$gone"
-refuse_file --robot ":2: an element is not closed, or by another name" \
+refuse_file --robot ":2: an element is not closed, or its end tag has $(
+  )another name" \
   cut.urdf '<robot name="a">' '  <link name="b">'
 refuse_file --robot ":3: joint 'j': has no <limit>, must have one" \
   joint.urdf '<robot name="a"><link name="b"/><link name="c"/>' \
