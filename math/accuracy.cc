@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Writes docs/accuracy.md: bazel run //math:accuracy
+// Writes docs/generated/accuracy.md: bazel run //math:accuracy
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::string path =
-      argc > 1 ? argv[1] : std::string(workspace) + "/docs/accuracy.md";
+      argc > 1 ? argv[1] : std::string(workspace) + "/docs/generated/accuracy.md";
   // Before the file is opened, and so emptied: it takes a minute.
   const auto rows = poise::MeasureAccuracy(kSamples);
   std::ofstream file(path);

@@ -25,9 +25,9 @@ Vector6d VeeSe3(const Eigen::Matrix4d& W) noexcept;
 ///
 /// The errors of rotation and translation are at most 4 eps max(1, |w|), each
 /// relative to its own norm. This holds near |w| = 2 π too, where J_l(w) maps the
-/// normal plane of w to nearly zero. See docs/accuracy.md. A NaN or an infinity in
-/// w, or |w| > 1e154, gives NaN in R and p; one in v gives NaN in p. Does not
-/// allocate.
+/// normal plane of w to nearly zero. docs/generated/accuracy.md has the measured
+/// errors. A NaN or an infinity in w, or |w| > 1e154, gives NaN in R and p; one in
+/// v gives NaN in p. Does not allocate.
 Pose ExpSe3(const Vector6d& x) noexcept;
 
 /// Returns the twist of a pose, the inverse of ExpSe3(), with |w| <= π:

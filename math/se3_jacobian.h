@@ -24,8 +24,8 @@ namespace poise {
 // The inverse has the same form, with e, -1/2 and d for c1, c2 and c3.
 //
 // The error of all four functions is at most 8 eps in the norm of the result, as
-// for SO(3). See docs/accuracy.md. A NaN, an infinity or |w| > 1e154 gives NaN.
-// About 150 flops; no allocation.
+// for SO(3). See docs/generated/accuracy.md. A NaN, an infinity or |w| > 1e154
+// gives NaN. About 150 flops; no allocation.
 //
 // Source: Barfoot, State Estimation for Robotics, 2017, (7.86), which gives Q as
 // products of matrices. A test compares both forms.

@@ -29,7 +29,8 @@ inline Eigen::Vector3d Vee(const Eigen::Matrix3d& W) noexcept {
 ///
 /// The error is at most 4 eps max(1, |w|) in the norm of the result. The error of
 /// the antisymmetric part has this bound relative to |w| too, down to |w| = 1e-300.
-/// See docs/accuracy.md. A NaN, an infinity or |w| > 1e154 gives NaN in all entries.
+/// See docs/generated/accuracy.md. A NaN, an infinity or |w| > 1e154 gives NaN in
+/// all entries.
 inline Eigen::Matrix3d ExpSo3(const Eigen::Vector3d& w) noexcept {
   const Stumpff c = ComputeStumpff(w);
   const double x = w.x(), y = w.y(), z = w.z();

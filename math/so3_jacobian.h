@@ -13,8 +13,8 @@ namespace poise {
 //
 // The error of all four functions is at most 8 eps in the norm of the result, for
 // |w| from 1e-300 to 4 π. The error of the inverses, which exist for |w| < 2 π, is
-// larger by the factor max(1, |w| / |2 π - |w||). See docs/accuracy.md. A NaN, an
-// infinity or |w| > 1e154 gives NaN. About 60 flops; no allocation.
+// larger by the factor max(1, |w| / |2 π - |w||). See docs/generated/accuracy.md.
+// A NaN, an infinity or |w| > 1e154 gives NaN. About 60 flops; no allocation.
 
 /// Returns the left Jacobian, the sum of Hat(w)^n / (n + 1)! for n = 0, 1, ...:
 ///     J_l = c1 I + c2 Hat(w) + c3 w w',   with Stumpff's c1, c2, c3.

@@ -43,10 +43,12 @@ void RecordAll(const std::vector<FigureRun>& runs, const fs::path& folder) {
   for (std::future<void>& worker : workers) worker.get();
 }
 
-// `bazel run` knows where the sources are; else the folder that we are in.
+// `bazel run` sets BUILD_WORKSPACE_DIRECTORY. Without it, the current folder is
+// the workspace.
 fs::path DocsFolder() {
   const char* workspace = std::getenv("BUILD_WORKSPACE_DIRECTORY");
-  return workspace ? fs::path(workspace) / "docs" : fs::path("docs");
+  return workspace ? fs::path(workspace) / "docs/generated"
+                   : fs::path("docs/generated");
 }
 
 int Main(int argc, char** argv) {
@@ -55,7 +57,7 @@ int Main(int argc, char** argv) {
   std::string out;
   bool keep_runs = false;
   app.add_option("--out", out,
-                 "Folder for results.md and figures/ [the workspace's docs]");
+                 "Folder for results.md and figures/ [docs/generated]");
   app.add_flag("--keep-runs", keep_runs, "Keep the runs, in OUT/figure-runs");
   ParseCommandLine(argc, argv, &app);
   const fs::path folder = out.empty() ? DocsFolder() : UserPath(out);

@@ -62,11 +62,10 @@ std::vector<Trial> MakeTrials(const std::string& robots,
 
 int Main(int argc, char** argv) {
   CLI::App app(
-      "Runs the humanoid pushed in all directions, and with wrong masses, "
-      "delays, noise, slippery ground, "
-      "weak motors and slow clocks, and prints the table of docs/control.md; "
-      "or "
-      "that of real robots. Exit code 1 if one does not do what it must.",
+      "Pushes the humanoid in all directions, and with wrong masses, delays, "
+      "noise, slippery ground, weak motors and low control rates. With "
+      "--robots, runs every URDF of a folder. Prints a table. Exit code 1 if a "
+      "row is not as required.",
       "robustness");
   std::string robots, only;
   app.add_option("--robots", robots,

@@ -68,9 +68,9 @@ void PrintOutcomes(const std::vector<Experiment>& pushes) {
 
 int Main(int argc, char** argv) {
   CLI::App app(
-      "The same tasks strictly by level and weighted: on the same problems, "
-      "and "
-      "each in its own loop. Prints the tables of docs/control.md.",
+      "Compares strict levels with weights: on the same states, and each in "
+      "its "
+      "own closed loop. Prints the tables of docs/notebook.",
       "strictness");
   ParseCommandLine(argc, argv, &app);
   const Experiment strong_push{

@@ -42,7 +42,7 @@ struct TrialResult {
 /// Returns trials with pushes in all directions, and with errors that a
 /// controller meets outside of a simulator: wrong masses, delays, noise,
 /// slippery ground, weak motors, low control rates. Each trial is a row of
-/// docs/control.md.
+/// docs/notebook.
 std::vector<Trial> RobustnessTrials();
 
 /// Returns trials of robots that others have built. Each robot stands after a

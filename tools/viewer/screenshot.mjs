@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 //
 // Writes a picture of a page, or of the part that a CSS selector names, as in
-// docs/figures:
+// docs/generated/figures:
 //     node screenshot.mjs PAGE.html OUT.png [SELECTOR]
 import path from 'node:path';
 import {chromium} from 'playwright-core';

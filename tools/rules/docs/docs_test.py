@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+"""Checks links, widths, lengths and tables of the pages, and equations.md."""
+
+import pathlib
+import re
+import unittest
+
+import pages
+
+ROOT = pages.tree()
+HANDBOOK = sorted((ROOT / "docs").glob("*.md"))
+
+
+class DocsTest(unittest.TestCase):
+    def test_each_link_leads_to_a_file_or_a_heading(self):
+        messages = []
+        for path in pages.pages(ROOT):
+            messages += pages.broken_links(path, path.read_text())
+        self.assertEqual(messages, [])
+
+    def test_lines_have_at_most_120_columns(self):
+        # Programs write the generated pages. A table of the notebook has one row
+        # a run.
+        messages = []
+        for path in pages.pages(ROOT):
+            if path.parent.name == "generated":
+                continue
+            for number, line in enumerate(path.read_text().split("\n"), 1):
+                if len(line) > 120 and not (line.startswith("|") and
+                                            path not in HANDBOOK):
+                    messages.append(f"{path}:{number}: {len(line)} columns")
+        self.assertEqual(messages, [])
+
+    def test_handbook_pages_have_at_most_150_lines(self):
+        messages = []
+        for path in HANDBOOK:
+            length = path.read_text().count("\n")
+            if length > 150:
+                messages.append(f"{path}: {length} lines")
+        self.assertEqual(messages, [])
+
+    def test_handbook_tables_have_at_most_6_columns_and_15_rows(self):
+        messages = []
+        for path in HANDBOOK:
+            for number, columns, rows in pages.tables(path.read_text()):
+                if columns > 6 or rows > 15:
+                    messages.append(
+                        f"{path}:{number}: {columns} columns, {rows} rows")
+        self.assertEqual(messages, [])
+
+    def test_the_index_names_each_page(self):
+        index = (ROOT / "docs/index.md").read_text()
+        targets = {target for _, target in pages.links(index)}
+        for path in [*HANDBOOK, *(ROOT / "docs/generated").glob("*.md")]:
+            if path.name != "index.md":
+                self.assertIn(str(path.relative_to(ROOT / "docs")), targets)
+
+    def test_generated_pages_name_their_command(self):
+        for path in (ROOT / "docs/generated").glob("*.md"):
+            first_lines = "\n".join(path.read_text().split("\n")[:12])
+            self.assertIn("bazel run //", first_lines, path)
+
+
+class EquationsTest(unittest.TestCase):
+    """Each equation has code and a test, and both exist."""
+
+    def setUp(self):
+        self.text = (ROOT / "docs/equations.md").read_text()
+        self.items = re.findall(
+            r"^- \*\*(\S+)\*\* .*\n  - code: (.*)\n  - test: (.*)$",
+            re.sub(r"\n    ", " ", self.text), re.M)
+
+    def test_every_numbered_equation_of_the_paper_is_there_once(self):
+        numbers = [number for number, _, _ in self.items]
+        self.assertEqual(numbers,
+                         [f"({i})" for i in range(1, 22)] + ["3.7"])
+
+    def test_each_file_has_the_name(self):
+        for number, code, _ in self.items:
+            pairs = re.findall(r"`(\S+)` `(\w+)`", code)
+            self.assertTrue(pairs, number)
+            for file, name in pairs:
+                self.assertRegex((ROOT / file).read_text(), rf"\b{name}\b")
+
+    def test_each_test_exists(self):
+        for number, _, test in self.items:
+            pairs = re.findall(r"`(\S+)` `(\w+)\.(\w+)`", test)
+            self.assertTrue(pairs, number)
+            for file, suite, name in pairs:
+                self.assertRegex((ROOT / file).read_text(),
+                                 rf"\(\s*{suite},\s*{name}\b")
+
+
+class PagesTest(unittest.TestCase):
+    """The checks above notice what they are for."""
+
+    def test_notices_broken_links(self):
+        path = ROOT / "docs/index.md"
+        text = "[a](tour.md) [b](none.md) [c](tour.md#nowhere) [d](#here)\n# Here"
+        self.assertEqual(
+            [message.split(": ")[1] for message in
+             pages.broken_links(path, text)],
+            ["no file 'none.md'", "no heading 'tour.md#nowhere'"])
+
+    def test_makes_the_anchors_of_headings(self):
+        self.assertEqual(pages.anchors("## If it's `ok`, go\n```\n# no\n```"),
+                         {"if-its-ok-go"})
+
+    def test_counts_the_columns_and_rows_of_tables(self):
+        text = "a\n| x \\| y | z |\n| --- | --- |\n| 1 | 2 |\n| 3 | 4 |\n"
+        self.assertEqual(list(pages.tables(text)), [(2, 2, 2)])
+
+    def test_ignores_links_in_code_and_to_the_web(self):
+        text = "[a](https://b.c)\n```\n[d](e)\n```\n[f](g.md)"
+        self.assertEqual(list(pages.links(text)), [(5, "g.md")])
+
+
+if __name__ == "__main__":
+    unittest.main()
