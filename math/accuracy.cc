@@ -27,12 +27,12 @@ The largest error of each map on each range of angles, in eps = 2.2e-16, among
 )" << kSamples
       << R"( random arguments, against power series in 400 bits. What is compared
 with what, and divided by which condition, is said in
-[math/measure_accuracy.h](../math/measure_accuracy.h); the bars are tested by
+[math/measure_accuracy.h](../../math/measure_accuracy.h); the bars are tested by
 `//math:measure_accuracy_test`, with fewer arguments. The input of a logarithm
 is the exact rotation rounded to double, and its error includes that rounding.
 
 Where the maps switch from series to closed form, |w|² = 2.5, and why, is
-said in [math/stumpff.h](../math/stumpff.h).
+said in [math/stumpff.h](../../math/stumpff.h).
 
 )";
   poise::WriteAccuracy(rows, file);
