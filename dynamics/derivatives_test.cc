@@ -82,7 +82,7 @@ TEST(RneaDerivatives, WithRespectToAccelerationAgreeWithCeres) {
 TEST(RneaDerivatives, WithoutOutsideForcesAreThoseOfZeroForces) {
   EXPECT_TRUE(HoldsForTrees("no forces", [](const TreeMotion& motion) {
     TreeMotion m = motion;
-    // What another call has left must not count.
+    // Values of an earlier call must not change the result.
     RneaDerivatives none = DerivativesOf(m);
     ComputeRneaDerivatives(m.tree, m.q, m.v, m.vdot, {}, &none);
     m.F_Bo_W.assign(m.tree.num_bodies(), SpatialForce());

@@ -70,7 +70,7 @@ TEST(PotentialEnergy, IsThatOnPaper) {
   EXPECT_EQ(EnergiesAt(tree, q, VectorXd::Zero(6)).potential, 2 * 10 * 3.5);
 }
 
-// What the forces F_Bo_W put in, W.
+// Returns the power of the forces F_Bo_W [W].
 double PowerOf(const TreeMotion& m) {
   std::vector<Pose> X_WB(m.tree.num_bodies());
   std::vector<SpatialMotion> V_WB_W(m.tree.num_bodies());

@@ -25,8 +25,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// The same robot with body `root` as its base. A joint on the way is turned
-// round: its child becomes the parent, its axis points the other way, and the
+// A robot with body `root` as its base. A joint between the old and the new base
+// is reversed: its child becomes the parent, its axis points the other way, and the
 // origin of the body that was the parent moves to it.
 struct Rerooted {
   Rerooted(const Tree& from, int root)
@@ -38,7 +38,7 @@ struct Rerooted {
 
   std::vector<Pose> X_NB;  // By body: its frame in the tree, in the new one.
   Tree tree;
-  std::vector<int> order;  // Of each old joint: its new number.
+  std::vector<int> order;  // New number of each old joint.
 
  private:
   Tree Build(const Tree& from, int root) {
@@ -159,10 +159,10 @@ TEST(Dynamics, OfTheJointsDoesNotHangOnTheRoot) {
   }));
 }
 
-// The same robot, its links and joints given to the builder in another order.
+// A robot whose links and joints the builder received in another order.
 struct Renumbered {
   Renumbered(const Tree& from, std::mt19937* draw) : tree(Build(from, draw)) {
-    // Of each entry of the old v: its place in the new one.
+    // Place of each entry of the old v in the new one.
     const int v0 = from.v_start();
     Eigen::VectorXi places(from.nv());
     for (int i = 0; i < v0; ++i) places[i] = i;
@@ -221,8 +221,8 @@ TEST(Dynamics, DoesNotHangOnTheNumbersOfTheJoints) {
   }));
 }
 
-// The same robot in a world that is turned by R, gravity and all. Frame b is
-// that of body b.
+// Returns the robot in a world that is rotated by R, with its gravity. Frame b
+// is that of body b.
 TreeMotion Turn(const TreeMotion& m, const Matrix3d& R) {
   TreeBuilder builder;
   builder.SetGravity(R * m.tree.gravity_W());
@@ -257,7 +257,7 @@ TEST(Dynamics, TurnsWithTheWorld) {
     MatrixXd T = MatrixXd::Identity(nv, nv);
     T.block<3, 3>(0, 0) = T.block<3, 3>(3, 3) = R;
     const Eigen::MatrixXd T_6 = T.topLeftCorner<6, 6>();
-    // Of all, what must be equal: numbers of the turned robot, turned back.
+    // All numbers that must be equal; those of the rotated robot are rotated back.
     const auto numbers_of = [last, nv](const TreeMotion& motion,
                                        const MatrixXd& T_v,
                                        const MatrixXd& T_x) {
@@ -289,8 +289,8 @@ TEST(Dynamics, TurnsWithTheWorld) {
   }));
 }
 
-// What a robot keeps in free fall: [L_G turning; p_WG and v_WG with the fall
-// taken out; energy].
+// Returns the invariants of free fall: [angular part of L_G; p_WG and v_WG minus
+// the fall; energy].
 VectorXd KeptOf(const TreeMotion& m, double time) {
   std::vector<Pose> X_WB(m.tree.num_bodies());
   ComputePoses(m.tree, m.q, &X_WB);

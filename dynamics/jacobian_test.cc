@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-// What the tests look at: the last frame of a tree in a motion.
+// The last frame of a tree in a motion.
 struct LastFrame {
   explicit LastFrame(const TreeMotion& m) : LastFrame(m.tree, m.q, m.v) {}
   LastFrame(const Tree& tree, const VectorXd& q, const VectorXd& v)

@@ -199,8 +199,8 @@ TEST(Tick, HasTheMomentumOfAFixedBaseToo) {
 }
 
 TEST(Tick, TurnsWithTheWorld) {
-  // The same robot in a world that is turned and far away: joint torques stay,
-  // what has the world's axes turns.
+  // In a world that is rotated and far away, joint torques are the same and
+  // quantities in world axes rotate.
   EXPECT_TRUE(HoldsForTrees("R N, R H_G", [](const TreeMotion& m) {
     if (!m.tree.is_floating()) return Residual{0, 0};
     const Eigen::Quaterniond R(

@@ -34,7 +34,7 @@ JointSpec MakeJoint(const std::string& name, const std::string& parent,
   return joint;
 }
 
-// What a refusal says; empty if there is none.
+// Returns the message of the exception; empty if there is none.
 template <typename Action>
 std::string MessageOf(Action action) {
   try {
@@ -45,7 +45,7 @@ std::string MessageOf(Action action) {
   return "";
 }
 
-// What Build() says of the links a, b, c and these joints.
+// Returns the message of Build() for the links a, b, c and these joints.
 std::string MessageOf(const std::vector<JointSpec>& joints) {
   TreeBuilder builder;
   for (const char* name : {"a", "b", "c"}) builder.AddLink(name, MakePoint(1));
@@ -53,7 +53,7 @@ std::string MessageOf(const std::vector<JointSpec>& joints) {
   return MessageOf([&] { builder.Build(); });
 }
 
-// What AddJoint() says of a change to a good joint.
+// Returns the message of AddJoint() after a change to a valid joint.
 template <typename Change>
 std::string MessageOfJoint(Change change) {
   JointSpec joint = MakeJoint("hip", "a", "b");

@@ -13,7 +13,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// What the gradient is relative to: the residual of y_0 adds up |3| and |-3|.
+// Scale of the gradient: the terms of the residual of y_0 are |3| and |-3|.
 constexpr double kSize = 6;
 
 // Level 0 bounds y_1, level 1 asks for y = (3, target). What is optimal, with

@@ -288,7 +288,7 @@ TEST(CertificateOracle, IgnoresARowWithoutBounds) {
   solution.levels[0].cost = kZeroCost;
   EXPECT_NEAR(certifier.Certify(hierarchy, solution).priority, 2, kRounding);
   solution.levels[0].cost = 0;
-  solution.levels[0].slack[1] = 1;  // Of nothing.
+  solution.levels[0].slack[1] = 1;  // No row violates it.
   EXPECT_EQ(certifier.Certify(hierarchy, solution).feasibility, INFINITY);
   solution.levels[0].slack[1] = 0;
   solution.levels[1].multipliers[0].inequality[1] = 3;

@@ -76,23 +76,24 @@ TEST_F(CertificateTest, FindsAMultiplierOnARowWithAGap) {
 
 TEST_F(CertificateTest, FindsAWrongResidual) {
   solution_.levels[1].equality_residual[0] += 6e-3;
-  EXPECT_NEAR(Certify().feasibility, 1e-3, kRounding);  // Of |y0| + |b0| = 6.
+  EXPECT_NEAR(Certify().feasibility, 1e-3,
+              kRounding);  // Scale |y0| + |b0| = 6.
 }
 
 TEST_F(CertificateTest, FindsAWrongSlack) {
   solution_.levels[0].slack[2] += 6e-3;
-  EXPECT_NEAR(Certify().feasibility, 1e-3, kRounding);  // Of 1 + 3 + 2.
+  EXPECT_NEAR(Certify().feasibility, 1e-3, kRounding);  // Scale 1 + 3 + 2.
 }
 
 TEST_F(CertificateTest, FindsAWrongCost) {
   solution_.levels[1].cost -= 1e-3;
-  // Of (2 (1 + 5)^2 + 3^2) / 2 = 40.5, and 1e-9 of what that is added up from.
+  // The scale is (2 (1 + 5)^2 + 3^2) / 2 = 40.5, plus 1e-9 of its terms.
   EXPECT_NEAR(Certify().priority, 1e-3 / (40.5 * (1 + 1e-9)), kRounding);
 }
 
 TEST_F(CertificateTest, FindsACostOfALevelThatIsMet) {
   solution_.levels[0].cost = 1e-9;
-  // Of 1e-9 of ((1 + 1)^2 + (3 + 3)^2 + (1 + 3 + 2)^2) / 2 = 38.
+  // The scale is 1e-9 of ((1 + 1)^2 + (3 + 3)^2 + (1 + 3 + 2)^2) / 2 = 38.
   EXPECT_NEAR(Certify().priority, 1. / 38, kRounding);
 }
 
@@ -106,7 +107,7 @@ TEST_F(CertificateTest, FindsAWrongY) {
   for (int level = 0; level < 2; ++level) {
     EvaluateLevel(hierarchy_, level, &solution_);
   }
-  EXPECT_GE(Certify().worst(), 1e-3 / 38);  // Of no more than 38: see above.
+  EXPECT_GE(Certify().worst(), 1e-3 / 38);  // Scale at most 38, see above.
 }
 
 TEST_F(CertificateTest, CertifiesSolvedLevelsOnly) {

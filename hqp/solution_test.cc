@@ -98,7 +98,7 @@ class CheckInputTest : public testing::Test {
     inequalities_.upper << 1;
   }
 
-  // What it says after one number has become another, which it takes back.
+  // Returns the status with one number replaced; restores the number afterwards.
   Status With(double* number, double value) {
     const double good = *number;
     *number = value;
@@ -137,7 +137,7 @@ TEST_F(CheckInputTest, ReportsTheFirstLevelWithAnError) {
   EXPECT_EQ(failed_level_, 0);
 }
 
-// What is finite may overflow where it is added up.
+// Sums of finite numbers may overflow.
 TEST(CheckInput, AcceptsTheLargestNumbers) {
   Hierarchy hierarchy(2, {{1, 0}});
   hierarchy.AddEqualities(0, 1).B.setConstant(

@@ -32,7 +32,7 @@ class Numbers {
     state_ = state_ * 1664525u + 1013904223u;
     return state_ / 2147483648.0 - 1;
   }
-  // Of unit variance: the sum of as many as that takes.
+  // Returns a number of unit variance, as a sum of twelve uniform ones.
   double Normal() {
     double sum = 0;
     for (int i = 0; i < 12; ++i) sum += Uniform() / 2;
@@ -118,8 +118,8 @@ Problem MakeDense(int n, int levels, int rows) {
   return problem;
 }
 
-// What comes a tick later: targets and bounds are not those of `problem`, but
-// off by up to a hundredth.
+// Writes the next tick: targets and bounds differ from those of `problem` by up
+// to a hundredth.
 void Change(const Problem& problem, Numbers* numbers, Hierarchy* hierarchy) {
   constexpr double kChange = 0.01;
   const Hierarchy& from = problem.hierarchy;
@@ -136,7 +136,7 @@ void Change(const Problem& problem, Numbers* numbers, Hierarchy* hierarchy) {
         hierarchy->AddInequalities(level, from.num_inequalities(level));
     inequalities.C = from.C(level);
     for (int i = 0; i < inequalities.upper.size(); ++i) {
-      // Of both sides the same: they do not cross.
+      // Both bounds move by the same amount, so that they do not cross.
       const double by = kChange * numbers->Uniform();
       inequalities.lower[i] = from.lower(level)[i] + by;
       inequalities.upper[i] = from.upper(level)[i] + by;

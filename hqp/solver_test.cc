@@ -175,7 +175,7 @@ TEST_F(SolverTest, RejectsAHierarchyBeyondItsCapacity) {
   }
 }
 
-// What the budget leaves unsolved is at the bottom; the levels above hold.
+// A spent budget leaves the last levels unsolved; the levels above hold.
 TEST_F(SolverTest, RespectsTheHierarchyWithinItsBudget) {
   Certifier certifier(2, capacity_);
   int truncated = 0;
@@ -253,7 +253,8 @@ TEST(Solver, MeetsASmallRowBesideAConflict) {
   }
 }
 
-// What a scale hides from the search, the certificate sees.
+// The certificate detects errors that a difference of scales hides from the
+// search.
 TEST(Solver, ReportsOnlyCertifiedAnswersAsOptimal) {
   RandomHierarchyOptions options;
   options.scaled = 100;

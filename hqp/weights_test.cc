@@ -85,7 +85,7 @@ TEST(Weights, DoNotChangeLevelsAbove) {
       ASSERT_EQ(Solver(2, capacity).Solve(hierarchy, &solution),
                 Status::kOptimal)
           << heavy << " on " << j;
-      // Of A, singular values are 3.4 and 2.0.
+      // The singular values of A are 3.4 and 2.0.
       EXPECT_LE((solution.y - closest).norm(), Rounding(closest.norm(), 3, 2))
           << heavy << " on " << j;
     }

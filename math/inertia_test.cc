@@ -142,7 +142,7 @@ RC_GTEST_PROP(Inertia, MatrixIsItsAction, ()) {
             100 * kTolerance);
 }
 
-// What rounding leaves of a rotation must not come into a mass matrix.
+// Rounding errors of a rotation must not make a mass matrix unsymmetric.
 TEST(Inertia, MatrixIsSymmetricToTheBit) {
   Inertia M{2, {0.1, 0.2, 0.3}, Matrix3d::Identity()};
   M.I_G_B(0, 1) = 0.1;

@@ -24,7 +24,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// What Ridders' method reaches, by Ceres' own tests.
+// Accuracy of Ridders' method according to Ceres' own tests.
 constexpr double kRidders = 1e-9;  // Relative, of each entry: none is tiny.
 
 Vector6d Twist(const Vector3d& w, const Vector3d& v) {
@@ -149,8 +149,8 @@ TEST(So3Jacobians, AreDerivativesOnCeresManifold) {
           return LogQuaternion(Eigen::Quaterniond(x));
         },
         [J, plus](const Eigen::Vector4d&) -> Eigen::Matrix<double, 3, 4> {
-          // Of all derivatives in the surrounding space with this one along the
-          // manifold, that without part across it.
+          // Several derivatives in the surrounding space agree along the
+          // manifold. This one is zero across the manifold.
           return J * plus.transpose() / plus.col(0).squaredNorm();
         });
     EXPECT_TRUE(claim.Holds(q.coeffs(), &manifold));

@@ -160,7 +160,7 @@ TEST(Wxyz, PutsWFirst) {
   EXPECT_EQ(QuaternionFromWxyz({0.1, 0.2, 0.3, 0.4}).coeffs(), q.coeffs());
 }
 
-// Of uniform rotations each entry of R has mean 0 and mean square 1/3, each
+// For uniform rotations, each entry of R has mean 0 and mean square 1/3, each
 // component of q mean 0 and mean square 1/4, and no two are correlated.
 RC_GTEST_PROP(Wxyz, ComesBackWhateverTheNumbers, ()) {
   const Eigen::Vector3d a = *Vectors(), b = *Vectors();

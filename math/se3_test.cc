@@ -18,7 +18,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Of positions to 10 m, turned a few times.
+// Rounding of positions up to 10 m after a few rotations.
 const double kTolerance = Rounding(10, 16);
 
 double Distance(const Pose& X, const Pose& Y) {

@@ -25,7 +25,7 @@ SpatialMomentum AsMomentum(const SpatialForce& F) {
   return {F.angular, F.linear};
 }
 
-// What a type refuses costs nothing to refuse.
+// The compiler rejects a forbidden operation, at no run-time cost.
 template <typename A, typename B, typename = void>
 constexpr bool kAdd = false;
 template <typename A, typename B>

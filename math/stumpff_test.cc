@@ -153,7 +153,7 @@ TEST_F(StumpffTest, DerivativeRuleHolds) {
     const mpreal s = mpreal(angle) * angle;
     const InverseStumpff c = ComputeInverseStumpff({0, angle, 0});
     const Reference above = MakeReference(s + h), below = MakeReference(s - h);
-    // Of 100 roundings or less; the difference itself errs by 1e-30.
+    // At most 100 roundings; the error of the difference itself is 1e-30.
     EXPECT_NEAR(c.de, ((above.e - below.e) / h).toDouble(), 1e-13) << angle;
     EXPECT_NEAR(c.dd, ((above.d - below.d) / h).toDouble(), 1e-13) << angle;
     for (int m = 1; m <= 4; ++m) {

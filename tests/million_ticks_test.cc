@@ -26,7 +26,7 @@ constexpr double kMinute = 60;        // s.
 constexpr double kBetweenPushes = 3;  // s.
 constexpr int kTimed = 5;             // Timed rounds; the fastest counts.
 constexpr int kRounds = 17;           // Each of 60,000 ticks.
-constexpr double kFullTurns = 7;      // Of the push direction, in the minute.
+constexpr double kFullTurns = 7;      // Push direction, within the minute.
 
 // Pushes from all directions, with up to two thirds of the force that the robot
 // can take.

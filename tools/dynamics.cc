@@ -20,7 +20,7 @@
 namespace poise {
 namespace {
 
-constexpr size_t kMostMib = 1024;  // Of states.
+constexpr size_t kMostMib = 1024;  // Largest states file, MiB.
 
 // M is printed all the same, but whoever inverts it shall know.
 void WarnOfInertia(const std::string& urdf, const RobotModel& robot) {

@@ -14,7 +14,7 @@ packages=(
   # The libraries: linear algebra, robot files, plants, formats, digests.
   libbullet-dev libcairo2-dev libcli11-dev libeigen3-dev libmujoco-dev
   libssl-dev libtinyxml2-dev liburdfdom-dev libyaml-cpp-dev nlohmann-json3-dev
-  # What only tests use.
+  # Packages that only tests use.
   libbenchmark-dev libceres-dev libgmock-dev libgtest-dev libmpfrc++-dev
   liborocos-kdl-dev librapidcheck-dev
 )

@@ -19,13 +19,13 @@
 namespace poise {
 namespace {
 
-constexpr double kCertified = Certifier::kCertified;  // Of costs as well.
+constexpr double kCertified = Certifier::kCertified;  // Costs too.
 
-// Of rows of numbers in hundredths: far above rounding, and no less is
-// violated.
+// Rows have entries in hundredths, so a violated row is violated by much more
+// than this, and this is far above rounding.
 constexpr double kViolated = 1e-6;
 
-// Of y, relative: rounding by way of the square of the worst condition of such
+// Relative error of y: rounding times the square of the worst condition of such
 // rows, about 1e4.
 constexpr double kSameY = 1e-6;
 

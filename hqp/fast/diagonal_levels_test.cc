@@ -14,7 +14,7 @@ namespace poise {
 namespace {
 
 constexpr int kSeeds = 300;
-constexpr int kMaxRows = 24, kMaxLeadingLevels = 4;  // Of MakeRandomLevels().
+constexpr int kMaxRows = 24, kMaxLeadingLevels = 4;  // In MakeRandomLevels().
 constexpr int kMaxDiagonalLevels = 3;
 
 // One row of a diagonal level.
@@ -23,7 +23,7 @@ struct Selection {
   double weight, target;
 };
 
-// The same as a level of rows.
+// Returns a diagonal level as a level of dense rows.
 LeastSquares Rows(const std::vector<Selection>& level, int n) {
   const auto count = static_cast<int>(level.size());
   LeastSquares rows;
@@ -47,7 +47,7 @@ std::vector<std::vector<Selection>> MakeSelections(int seed, int n) {
   std::vector<std::vector<Selection>> levels(1 + below(kMaxDiagonalLevels));
   for (std::vector<Selection>& level : levels) {
     level.resize(1 + below(n));
-    // Of half of them, most of the weights are the same.
+    // Half of the levels have mostly equal weights.
     const bool has_usual = below(2) == 0;
     for (Selection& row : level) {
       row = {below(n), 1 + below(100) / 10.0, below(21) - 10.0};

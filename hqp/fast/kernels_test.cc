@@ -20,7 +20,8 @@ std::vector<double> Eighths(int count, int seed) {
   return numbers;
 }
 
-// Of all sizes that are cut into fours, eights and single ones otherwise.
+// Tests all sizes at which the kernels change between blocks of eight, blocks of
+// four and single entries.
 class KernelsTest : public testing::Test {
  protected:
   static constexpr int kMaxRows = 9, kMaxSize = 19, kStride = 21;
@@ -56,7 +57,7 @@ TEST_F(KernelsTest, DotsAreTheSumsOfProducts) {
 }
 
 TEST_F(KernelsTest, SquaredNormIsTheSumOfOddNumbers) {
-  // Of whole numbers: k^2 = 1 + 3 + ... + (2k - 1), whatever the sign.
+  // For whole numbers k^2 = 1 + 3 + ... + (2k - 1), for either sign.
   for (int n = 0; n <= kMaxSize; ++n) {
     std::vector<double> x(kMaxSize + 1, kUntouched);
     double sum = 0;

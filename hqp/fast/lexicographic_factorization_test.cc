@@ -14,7 +14,7 @@ namespace poise {
 namespace {
 
 constexpr int kSeeds = 300;
-constexpr int kMaxRows = 24, kMaxLevels = 4;  // Of MakeRandomLevels().
+constexpr int kMaxRows = 24, kMaxLevels = 4;  // In MakeRandomLevels().
 
 class RandomLexicographicFactorizationTest
     : public testing::TestWithParam<int> {
@@ -22,7 +22,7 @@ class RandomLexicographicFactorizationTest
   void SetUp() override {
     for (const LeastSquares& level : levels_) AddLevel(level, &stack_);
   }
-  // Of numbers up to 10, through a level's condition, twice.
+  // Rounding of numbers up to 10 times the condition of a level, twice.
   double Tolerance() const {
     return Rounding(10, kMaxRows, optimum_.condition * optimum_.condition);
   }

@@ -27,7 +27,7 @@ Solution Solve(const Hierarchy& hierarchy,
   return solution;
 }
 
-// The same in a hierarchy with room for more.
+// Returns the drawn case in a hierarchy with a larger capacity.
 HierarchyCase WithRoom(const HierarchyCase& drawn) {
   const Hierarchy& from = drawn.hierarchy;
   std::vector<LevelCapacity> capacity = drawn.capacity;

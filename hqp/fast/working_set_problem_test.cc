@@ -16,8 +16,8 @@ namespace poise {
 namespace {
 
 constexpr int kSeeds = 150;
-constexpr int kMaxRows = 4 * 8 + 8;  // Of Draw(), and the norm of y.
-constexpr double kLargest = 30;  // Of its numbers, and of y by rows of them.
+constexpr int kMaxRows = 4 * 8 + 8;  // In Draw(), plus the norm of y.
+constexpr double kLargest = 30;      // Bounds its numbers, and y of such rows.
 
 using Sides = std::vector<std::vector<Side>>;
 

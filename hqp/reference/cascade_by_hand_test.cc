@@ -345,7 +345,7 @@ TEST_P(CascadeByHandTest, SharesAMultiplierBetweenEqualRows) {
   EXPECT_NEAR(multipliers.equality[1], 1, 1e-10);
 }
 
-// Of all optima, the one of minimum norm, without and with an active bound.
+// The answer is the optimum of minimum norm, without and with an active bound.
 TEST_P(CascadeByHandTest, ReturnsTheMinimumNormSolution) {
   HierarchyCase free{{{1, 1}}, Hierarchy(3, {{1, 1}})};
   EqualityBlock sum = free.hierarchy.AddEqualities(0, 1);

@@ -188,7 +188,7 @@ TEST_P(EitherCascadeTest, KeepsCostsInAnyUnit) {
   }
 }
 
-// What is not solved is at the bottom, and evaluated where y is.
+// The last levels are unsolved, and their costs are those of the returned y.
 TEST_P(EitherCascadeTest, KeepsToItsBudget) {
   for (int seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
@@ -228,7 +228,8 @@ TEST_P(EitherCascadeTest, KeepsToItsBudget) {
   }
 }
 
-// What a scale hides from it, the certificate sees.
+// The certificate detects errors that a difference of scales hides from the
+// cascade.
 TEST_P(EitherCascadeTest, ReportsOnlyCertifiedAnswersAsOptimal) {
   RandomHierarchyOptions options;
   options.scaled = 100;

@@ -168,8 +168,8 @@ TEST_P(LevelQpTest, FindsTheBestOfAllActiveSets) {
     ASSERT_GT(iterations, 0);
     EXPECT_TRUE(KeepsHardRows(qp, qp.z));
     EXPECT_NEAR(Cost(qp, qp.z), LeastCost(qp), kSame * (1 + Cost(qp, qp.z)));
-    // What is active is at its bound or, if soft, violated; and all that is
-    // violated is active.
+    // An active row is at its bound or, if soft, violated. Every violated row is
+    // active.
     const VectorXd at = qp.P * qp.z + qp.value;
     for (int i = 0; i < at.size(); ++i) {
       SCOPED_TRACE(i);
@@ -324,7 +324,7 @@ TEST_P(LevelQpTest, RemovesAHardRowWithANegativeMultiplier) {
   }
 }
 
-// Of two rows with the same multiplier, the first is removed.
+// If two rows have the same multiplier, the first is removed.
 TEST_P(LevelQpTest, RemovesTheRowWithTheMostNegativeMultiplierFirst) {
   for (int most = 0; most < 2; ++most) {
     LevelQp qp = MakeQp(MatrixXd::Identity(2, 2), Eigen::Vector2d(-1, -1),

@@ -24,7 +24,7 @@ def _precompiled(name):
             "tools/rules/precompiled/{}.h".format(name),
             # Say so if it cannot be used.
             "-Winvalid-pch",
-            # What is in it counts as included: a change of that rebuilds.
+            # A change of a header in it rebuilds its users.
             "-fpch-deps",
         ]),
         deps = _if_precompiled(["//tools/rules/precompiled:" + name]),

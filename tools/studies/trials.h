@@ -31,10 +31,11 @@ struct Trial {
 /// The result of a trial.
 struct TrialResult {
   Verdict verdict;
-  double lean_peak = 0;        ///< Largest tilt of the pelvis, rad.
-  double lean_late = 0;        ///< Largest tilt in the last quarter, rad.
-  double lean_early = 0;       ///< Largest tilt in the second quarter, rad.
-  double joint_violation = 0;  ///< Of a joint limit, the largest, rad or m.
+  double lean_peak = 0;   ///< Largest tilt of the pelvis, rad.
+  double lean_late = 0;   ///< Largest tilt in the last quarter, rad.
+  double lean_early = 0;  ///< Largest tilt in the second quarter, rad.
+  double joint_violation =
+      0;  ///< Largest violation of a joint limit, rad or m.
   int self_contact_ticks = 0;
   bool holds = false;  ///< The trial has the result that it must have.
 };

@@ -23,7 +23,7 @@ EQUIVALENT, SURVIVED = "equivalent", "survived"
 _COUNTS = re.compile(r"(\w+): (\d+) of (\d+) of (\d+)$")
 UNEXPLAINED = "Nobody has looked into this one yet."
 _HEAD = """\
-# What is known of mutants, see ledger.py. `bazel run //tools:mutate -- --ledger`
+# Results of mutants, see ledger.py. `bazel run //tools:mutate -- --ledger`
 # shows each entry with its source line, `-- --stale` those whose code is gone.
 """
 

@@ -105,8 +105,8 @@ class Workshop:
             verdict, by = self._judge_quickly(build, text, quick_stages, limit)
             stages = stages[len(quick_stages):]
         if verdict in (SAME, SURVIVED) and stages:
-            # What is the same code in a header's own tests may be other code
-            # in those of others, who call more of it.
+            # Code that is unchanged for a header's own tests may differ for
+            # other tests, which call more of the header.
             last, by = self._judge(path, text, stages, limit)
             verdict = last if last != SAME else verdict
         return verdict, by, time.monotonic() - start

@@ -12,8 +12,8 @@ KINDS = ("oracle", "property", "Ceres", "closed form")
 # A number worked out by hand stands in the table, but is no proof alone.
 PROOFS = KINDS[:3]
 
-# What tells an unlike second derivation: another library, another algorithm, or
-# a test that says of two ways that they lead to one thing.
+# Words that mark an independent second derivation: another library, another
+# algorithm, or a test that compares two ways to the same result.
 _ORACLE_WORDS = {
     "mpreal", "mpfr", "KDL", "MultiBodyTree", "mjModel", "mj_forward",
     "Certify", "Certifier",
@@ -27,7 +27,7 @@ _ORACLE_NAME = re.compile(
 _BY_HAND_NAME = re.compile(r"ByHand|OnPaper|IsFinite|Constructed")
 # Where the certificate is what is tested, it vouches for nothing.
 _CERTIFICATE_TEST = re.compile(r"^hqp/certificate\w*_test\.cc$")
-# What is put in comes back, or stays, whatever it was.
+# Names of round trips and of invariants.
 _PROPERTY_NAME = re.compile(r"ComeBack|KeepEach")
 # That it does not allocate or takes no nonsense says nothing of its numbers.
 _ASIDE_NAME = re.compile(r"Alloc|Throw|Refuse|NotFinite")
@@ -196,8 +196,8 @@ class Workspace:
             for path in sorted((self.root / "tests/util").glob("*"))
             if path.suffix in (".h", ".cc") and not path.stem.endswith("_test")
         ]
-        # Of tests/util what a test includes: words such as Set or Solve are names
-        # of many things there.
+        # Only the headers of tests/util that a test includes: there, words such as
+        # Set or Solve name many functions.
         common = functools.lru_cache(None)(
             lambda paths: Helpers(self.source(path) for path in sorted(paths))
         )

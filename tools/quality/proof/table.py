@@ -7,7 +7,8 @@ from evidence import KINDS, LAYERS, PROOFS
 from ledger import Counts, add_up
 from mutants import make_mutants
 
-# What has a derivative or is a projection, so that Ceres has something to say.
+# Functions that have a derivative or are a projection, so that Ceres can check
+# them.
 _DIFFERENTIABLE = {
     "math/so3.h": ["ExpSo3", "LogSo3"],
     "math/so3_jacobian.h": [

@@ -84,7 +84,7 @@ precompiled_header = rule(
     attrs = {
         # As in #include <...>.
         "includes": attr.string_list(mandatory = True),
-        # Those of .bazelrc's per_file_copt, which no rule is told.
+        # The per_file_copt flags of .bazelrc, which rules cannot read.
         "copts": attr.string_list(),
         "deps": attr.label_list(providers = [CcInfo]),
         "_cc_toolchain": attr.label(
