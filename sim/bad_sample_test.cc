@@ -91,8 +91,8 @@ TEST(BadSample, OfTheHeightInEachTickLosesNoFoot) {
   EXPECT_LT(stand.moved, 5e-3);
 }
 
-// Ten times a second one sensor says what is no number.
-TEST(BadSample, ThatIsNoNumberIsOneTickOfTheEstimate) {
+// Ten times a second one sensor returns NaN.
+TEST(BadSample, KeepsTheEstimateForOneTickOnNaN) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   int spoilt = 0, joints = 0;
   const Stand stand = StandOn(

@@ -16,13 +16,13 @@ namespace poise {
 
 namespace {
 
-// Of the sole's half width.
+// Fraction of the sole's half width.
 constexpr double kInside = 0.25;
 
 // The sensors' noise has a stream of its own.
 constexpr unsigned kSensorSeed = 0x5eed;
 
-// What the controller takes the robot for.
+// Returns the robot of the controller, with the wrong masses of the scenario.
 Robot MakeBelievedRobot(const Robot& robot, const Scenario& scenario) {
   Robot believed = robot;
   believed.model.tree =

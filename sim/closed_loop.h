@@ -42,7 +42,7 @@ class ClosedLoop {
   const Robot& robot() const { return robot_; }
   const Scenario& scenario() const { return scenario_; }
 
-  /// Of the last tick. Valid until the next one.
+  /// Returns the record of the last tick. Valid until the next one.
   TickRecord record() const;
   const Observation& observation() const { return observer_.observation(); }
   Controller& controller() { return *controller_; }
@@ -68,13 +68,13 @@ class ClosedLoop {
   int delay_steps_;
 
   State state_;                          // As the controller is told.
-  PlantState start_;                     // Of the tick, as it was.
-  Command command_;                      // The newest.
+  PlantState start_;                     // State at the start of the tick.
+  Command command_;                      // Newest command.
   std::deque<Eigen::VectorXd> torques_;  // By step of the plant, to come.
   Eigen::Vector3d com_start_;
   CenterOfMassPath com_path_;
-  size_t next_event_ = 0;  // Of the scenario's stance.
-  PlantState during_;      // The end of the tick; what acted is its mean.
+  size_t next_event_ = 0;  // Index in the scenario's stance.
+  PlantState during_;      // At the end of the tick; forces are means.
   Eigen::Vector3d push_force_W_ = Eigen::Vector3d::Zero();
   long ticks_ = 0;
   double microseconds_ = 0;

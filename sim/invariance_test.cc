@@ -17,7 +17,7 @@ constexpr double kFarthest = 0.035;   // m: the push has moved it by more.
 
 Scenario Pushed(const Eigen::Vector3d& force) {
   Scenario scenario = LoadScenario("sim/scenarios/strong_push.yaml");
-  scenario.start.joints = 0;  // The same on both sides.
+  scenario.start.joints = 0;  // Random offsets would differ between both sides.
   scenario.pushes[0].start = 0.2;
   scenario.pushes[0].force = force;
   return scenario;

@@ -7,7 +7,7 @@
 namespace poise {
 
 void Judge::Look(const Observation& now) {
-  // Written so that a state that is no number counts as fallen.
+  // The comparison is negated so that a NaN counts as a fall.
   const bool is_low = !(now.base_height >= kLowestBase * standing_height_);
   const bool is_tilted = !(now.base_tilt <= kLargestTilt);
   down_ = down_ || is_low || is_tilted;

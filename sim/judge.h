@@ -9,12 +9,12 @@
 
 namespace poise {
 
-/// What a run came to.
+/// The outcome of a run.
 struct Verdict {
   bool recovered = false;
   /// When it first became not recovered; nothing where it did so at the end.
   std::optional<double> fell_at;
-  const char* fell_by = "";  ///< What it did then, in words.
+  const char* fell_by = "";  ///< Cause of the fall, in words.
   Eigen::Vector3d com_error_peak = Eigen::Vector3d::Zero();   ///< m.
   Eigen::Vector3d com_error_final = Eigen::Vector3d::Zero();  ///< Signed, m.
   Eigen::Vector2d cop_peak = Eigen::Vector2d::Zero();         ///< m.

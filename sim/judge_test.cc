@@ -61,7 +61,7 @@ TEST(Judge, TiltedBaseIsAFall) {
   EXPECT_FALSE(Once([](auto* now) { now->base_tilt = 1.048; }).recovered);
 }
 
-TEST(Judge, NoNumberIsAFall) {
+TEST(Judge, CountsNaNAsAFall) {
   EXPECT_FALSE(Once([](auto* now) {
                  now->base_height = std::numeric_limits<double>::quiet_NaN();
                }).recovered);

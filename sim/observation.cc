@@ -13,7 +13,7 @@ namespace {
 // Below this normal force, in N, a CoP has no meaning.
 constexpr double kNoForce = 1;
 
-// Of two unit vectors; acos() loses all digits where they agree.
+// Returns the angle of two unit vectors. acos() would lose all digits near 0.
 double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }

@@ -12,25 +12,25 @@
 
 namespace poise {
 
-/// What is true of one foot.
+/// True state of one foot.
 struct FootObservation {
-  Pose X_WC;         ///< Of its contact frame.
-  bool down = true;  ///< It is meant to be in contact.
+  Pose X_WC;         ///< Contact frame.
+  bool down = true;  ///< Planned to be in contact.
   /// The ground presses on its sole in the tick that follows, as measured.
   bool in_contact = true;
-  double tilt = 0;   ///< Of the sole against where it was put down, rad.
+  double tilt = 0;   ///< Tilt of the sole since it was put down, rad.
   double slide = 0;  ///< Along the ground since it was put down, m.
   Eigen::Matrix<double, 6, 1> F_Co_C =
       Eigen::Matrix<double, 6, 1>::Zero();  ///< Over the tick that follows.
 };
 
-/// What is true of the robot at the start of a tick, and of the forces on it
-/// during the tick: what the log holds and the judge judges by.
+/// True state of the robot at the start of a tick, and mean forces during the
+/// tick. The log records it, and the judge decides by it.
 struct Observation {
   double time = 0;
   Pose X_WB;
-  double base_height = 0;  ///< Of BasePoint() above the ground, m.
-  double base_tilt = 0;    ///< Of the base's z from where it stood, rad.
+  double base_height = 0;  ///< Height of BasePoint() above the ground, m.
+  double base_tilt = 0;    ///< Angle of the base's z from the start, rad.
   Eigen::Vector3d com = Eigen::Vector3d::Zero();
   Eigen::Vector3d com_ref = Eigen::Vector3d::Zero();
   std::vector<FootObservation> feet;

@@ -17,8 +17,8 @@ using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// What a few multiplications of numbers near 1 leave, and sqrt() of it where an
-// angle near 0 comes from a difference.
+// Rounding of a few multiplications of numbers near 1. For an angle near 0 that
+// comes from a difference, the tolerance is its square root.
 constexpr double kRounding = 1e-14;
 
 // A block whose underside is its sole.

@@ -10,9 +10,9 @@
 namespace poise {
 namespace {
 
-// What holds in every tick of a scenario of the paper in which the robot stays
-// on its feet: the CoP 5 mm inside each sole, the ground's friction 0.8 and the
-// controller's 0.5, the feet where they are, no limit passed.
+// Checks every tick of a scenario of the paper in which the robot does not fall:
+// the CoP is 5 mm inside each sole, friction is within 0.8 of the ground and 0.5
+// of the controller, the feet do not move, and no limit is violated.
 void ExpectStaysOnItsFeet(const Story& story) {
   EXPECT_TRUE(story.verdict.recovered);
   EXPECT_EQ(story.failures, 0);
@@ -165,7 +165,7 @@ TEST(Standing, MeasuredCopIsTheCommandedOneUntilItSaturates) {
     }
   }
   EXPECT_LT(worst, 1e-3);  // A fifth of the controller's margin to the edge.
-  EXPECT_GT(most, 0.059);  // Of a sole that ends at 0.065 m.
+  EXPECT_GT(most, 0.059);  // The sole ends at 0.065 m.
   EXPECT_LT(least, 0.01);
 }
 

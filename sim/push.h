@@ -37,8 +37,8 @@ struct Push {
   double duration = 0.15;  ///< s.
 };
 
-/// What of a push's peak acts on average in [time, time + dt]: exact for any
-/// dt, so that the impulse does not depend on the step.
+/// Returns the mean of the push over [time, time + dt], divided by its peak. The
+/// mean is exact for any dt, so that the impulse does not depend on the step.
 double MeanOfProfile(const Push& push, double time, double dt);
 
 /// The integral of a push's profile up to a time, s: its impulse, until then, is

@@ -55,7 +55,7 @@ TEST(OneLeg, StandsOnOneFootIsPushedThereAndPutsTheOtherDown) {
   EXPECT_GT(right.F_Co_C[5], 150);  // 379 N on two feet.
 }
 
-// What a pendulum takes was that of two feet and of the start.
+// The yardstick uses the one foot on the ground when the push begins.
 TEST(OneLeg, IsMeasuredAgainstAPendulumOnOneFoot) {
   const RunResult result = RunOurs("one_leg", 6.2);
   ASSERT_TRUE(result.yardstick.has_value());
@@ -69,8 +69,8 @@ TEST(OneLeg, IsMeasuredAgainstAPendulumOnOneFoot) {
   EXPECT_FALSE(RunOurs("one_leg", 0.1).yardstick.has_value());
 }
 
-// Nine tenths of what a pendulum on its feet takes: the foot that the push
-// unloads is let go, comes back to where it was, and the robot stands as before.
+// Pushes by nine tenths of the impulse of a pendulum on the feet. The unloaded
+// foot is released and returns to its place, and the robot stands as before.
 void ExpectAFootLeavesAndComesBack(const Eigen::Vector3d& force) {
   Scenario scenario = Ours("strong_push", 2.6);
   scenario.pushes[0].start = 0.1;
@@ -94,7 +94,7 @@ void ExpectAFootLeavesAndComesBack(const Eigen::Vector3d& force) {
   EXPECT_LT(loop.observation().base_tilt, 0.05);
 }
 
-TEST(LargestPush, SidewaysAFootIsLetGoAndComesBack) {
+TEST(LargestPush, ReleasesAFootSidewaysAndBringsItBack) {
   ExpectAFootLeavesAndComesBack({0, 209, 0});
 }
 

@@ -45,8 +45,8 @@ std::string FindBlowUp(const Tree& tree, const Eigen::VectorXd& v) {
   return "";
 }
 
-// What a pendulum could take of it in this robot's place, on the feet that are
-// meant to be down as it begins.
+// Returns the impulse that a pendulum in place of this robot recovers from, on
+// the feet that are planned to be down when the push begins.
 std::optional<Yardstick> Measure(const Robot& robot, const Push& push,
                                  const TickRecord& begin) {
   if (push.frame != PushFrame::kWorld || push.force.head<2>().isZero()) {

@@ -25,7 +25,7 @@ struct TickTimes {
   double max = 0;
 };
 
-/// What a run came to, and what it took.
+/// Outcome and cost of a run.
 struct RunResult {
   Verdict verdict;
   /// Where a joint was flung off before the robot fell, as no body does by
@@ -36,15 +36,15 @@ struct RunResult {
   long ticks = 0;
   TickTimes tick_us;
   int iterations_max = 0;
-  double certificate_max = 0;  ///< Of all ticks, see hqp/certificate.h.
-  int failures = 0;  ///< Ticks that were not solved to the last level.
+  double certificate_max = 0;  ///< Largest of all ticks, hqp/certificate.h.
+  int failures = 0;            ///< Ticks with an unsolved level.
   double joint_limit_violation_peak = 0;   ///< rad or m.
   double torque_limit_violation_peak = 0;  ///< N m or N.
   int self_contact_ticks = 0;
-  double impulse_Ns = 0;     ///< Of the largest push, within the duration.
-  double push_duration = 0;  ///< Of the largest push, s.
-  /// In that push's direction, on the feet that are down as it begins; nothing
-  /// where it never does.
+  double impulse_Ns = 0;     ///< Largest push, part within the run.
+  double push_duration = 0;  ///< Largest push, s.
+  /// Bound in the direction of the largest push, on the feet that are down when
+  /// the push begins. Empty if the push does not begin.
   std::optional<Yardstick> yardstick;
   double wall_seconds = 0;
   std::string log_sha256;  ///< Empty if nothing was recorded.
@@ -52,7 +52,7 @@ struct RunResult {
   std::vector<StackRow> rows;
 };
 
-/// What a robot fell by, in words; empty where it did not.
+/// Returns the cause of the fall in words; empty without a fall.
 std::string FellBy(const RunResult& result);
 
 /// Runs a new loop to the end of its scenario, or until the robot lies.

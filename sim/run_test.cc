@@ -72,7 +72,7 @@ TEST(Run, WritesARowATickAndStopsWhenTold) {
   EXPECT_EQ(summary["fell_at"], nullptr);
 }
 
-// Who still stands may still fall, and who has fallen has.
+// A robot that stands may fall later; a fall is final.
 TEST(Run, DoesNotJudgeARobotThatWasUpWhenItWasInterrupted) {
   const Scenario scenario = Ours("weak_push", 2);
   RunResult result;

@@ -21,7 +21,7 @@ namespace {
 constexpr double kLongest = 86400;  // s.
 constexpr double kMostTicks = 1e8;
 constexpr double kMostStepsInATick = 1000;
-constexpr std::size_t kMostEntries = 1000;  // Of a list.
+constexpr std::size_t kMostEntries = 1000;  // Largest list.
 
 std::vector<NumberField> Fields(StartSettings* start) {
   return {{"joints", &start->joints, 0, 3.2, "rad"},

@@ -16,8 +16,8 @@ namespace poise {
 struct StartSettings {
   double joints = 0;   ///< Joints outside the legs, each drawn in +- this, rad.
   double drop = 0;     ///< Height of the soles above the ground, m.
-  double heading = 0;  ///< Of the robot in the world, rad.
-  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< Of its feet, m.
+  double heading = 0;  ///< Heading of the robot in the world, rad.
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< Place of the feet, m.
 };
 
 /// How the desired center of mass moves about where it starts:
@@ -28,9 +28,9 @@ struct ComMotion {
   double period = 10;                                ///< s.
 };
 
-/// What the feet do, from a time on. A foot is lifted or put down; or the
-/// desired center of mass goes over a foot, a quarter of its half width inside,
-/// or back between the feet.
+/// An event of the stance. A foot is lifted or put down; or the desired center of
+/// mass moves over a foot, a quarter of its half width inside, or back between the
+/// feet.
 struct StanceEvent {
   enum class Kind { kLift, kPutDown, kShift };
 
@@ -41,15 +41,15 @@ struct StanceEvent {
   double over = 1.5;     ///< How long a shift takes, s.
 };
 
-/// What the controller is told, beside its robot.
+/// Settings of the controller, besides its robot.
 struct ControlSettings {
   double dt = 1e-3;          ///< s.
   double delay = 0;          ///< From measurement to torque, s.
   double friction = 0.5;     ///< Its mu.
-  double mass_error = 0;     ///< Of all links in its model, a fraction.
+  double mass_error = 0;     ///< Relative error of all masses of its model.
   double ramp = 0;           ///< Changes of tasks take effect in this time, s.
   bool inscribed = false;    ///< Its friction pyramid.
-  bool feedforward = false;  ///< Of the reference's motion.
+  bool feedforward = false;  ///< Uses the reference's motion.
   bool weighted = false;     ///< One weighted QP.
   bool estimator = false;    ///< The base from sensors, not from the truth.
   std::string tasks = "default";     ///< A task set, by name or file.

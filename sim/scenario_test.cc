@@ -22,7 +22,7 @@ std::filesystem::path Write(const std::string& text) {
 
 Scenario Read(const std::string& text) { return LoadScenario(Write(text)); }
 
-// What is wrong with a scenario, after the folder's name.
+// Returns the error message of a scenario, after the folder's name.
 std::string Complaint(const std::string& text) {
   try {
     Read(text);

@@ -3,8 +3,8 @@
 
 namespace poise {
 
-/// What is wrong with the sensors: nothing, by default. `noise`, `bias` and
-/// `resolution` scale the standard deviations below them; 0 leaves them all out.
+/// Errors of the sensors; none by default. `noise`, `bias` and `resolution` scale
+/// the values below them; 0 switches them off.
 struct SensorSettings {
   double noise = 0;       ///< Each reading is off by so much.
   double bias = 0;        ///< Each sensor is, drawn once.
@@ -21,17 +21,17 @@ struct SensorSettings {
   double accelerometer = 0.05;     ///< m/s2.
   double gyroscope = 5e-3;         ///< rad/s.
 
-  double joint_bias = 0;        ///< Of each joint, drawn once in +- this, rad.
-  double gyroscope_bias = 0;    ///< Of each axis, drawn once in +- this, rad/s.
-  double force_bias = 0;        ///< Of each axis, drawn once in +- this, N.
-  double joint_resolution = 0;  ///< Quantisation of joint positions, rad.
-  double force_resolution = 0;  ///< Quantisation of forces, N.
-  double joint_delay = 0;       ///< How old what the joints say is, s;
-  double base_delay = 0;        ///< the base and the inertial unit, s;
-  double foot_delay = 0;        ///< the feet and their contact flags, s.
-  double dropout = 0;           ///< Chance that a tick brings nothing new.
-  double freeze_at = 0;         ///< From this time on, s, nothing new comes
-  double freeze_for = 0;        ///< during so many s; 0: this never happens.
+  double joint_bias = 0;         ///< Per joint, drawn once in +- this, rad.
+  double gyroscope_bias = 0;     ///< Per axis, drawn once in +- this, rad/s.
+  double force_bias = 0;         ///< Per axis, drawn once in +- this, N.
+  double joint_resolution = 0;   ///< Quantisation of joint positions, rad.
+  double force_resolution = 0;   ///< Quantisation of forces, N.
+  double joint_delay = 0;        ///< How old what the joints say is, s;
+  double base_delay = 0;         ///< the base and the inertial unit, s;
+  double foot_delay = 0;         ///< the feet and their contact flags, s.
+  double dropout = 0;            ///< Chance that a tick brings nothing new.
+  double freeze_at = 0;          ///< From this time on, s, nothing new comes
+  double freeze_for = 0;         ///< during so many s; 0: this never happens.
   double contact_threshold = 5;  ///< Normal force of a contact flag, N.
 };
 

@@ -32,7 +32,7 @@ class Sensors {
  public:
   Sensors(const Robot& robot, const SensorSettings& settings, unsigned seed);
 
-  /// What the sensors say of a state; in a drop-out, what they said last.
+  /// Returns the measurement of a state; during a dropout the last measurement.
   const Measurement& Measure(const PlantState& state);
   const Measurement& measurement() const { return measurement_; }
 

@@ -12,7 +12,7 @@
 namespace poise {
 namespace {
 
-// What the search for the nominal posture leaves between soles and ground, m.
+// Largest distance of soles and ground after the posture search, m.
 constexpr double kStanding = 1e-8;
 
 const Robot& Humanoid() {

@@ -32,12 +32,12 @@ inline Scenario Ours(const std::string& name, double duration) {
   return scenario;
 }
 
-// What happened in the ticks of a run, beside its verdict.
+// Extreme values over the ticks of a run, and its verdict.
 struct Story {
   Verdict verdict;
   int failures = 0;  // Ticks that were not solved to the last level.
-  // Of the wrenches that the controller asked for: how far a CoP was beyond its
-  // sole, m, and the largest force along the ground over the one into it.
+  // Extremes of the commanded wrenches: distance of a CoP beyond its sole, m, and
+  // the largest ratio of tangential to normal force.
   double asked_beyond = -1, asked_friction = 0;
   // And of those that the ground gave.
   double given_beyond = -1, given_friction = 0;

@@ -8,8 +8,8 @@
 
 namespace poise {
 
-/// What a linear inverted pendulum on the same feet can take: the measure for
-/// the pushes that a robot survives without a step.
+/// Bounds by a linear inverted pendulum on the same feet: the yardstick for pushes
+/// that a robot recovers from without a step.
 struct Yardstick {
   double lipm_Ns;         ///< Pushed at the center of mass.
   double lipm_height_Ns;  ///< Pushed at its height, without turning.
@@ -38,9 +38,9 @@ Yardstick ComputeYardstick(double mass, double gravity,
                            const Eigen::Vector2d& u, double duration,
                            double push_height);
 
-/// The same for a robot in the configuration q, pushed at the point Q of a
-/// body; heights are above its lowest sole. `down` says which feet are on the
-/// ground, nothing being all.
+/// Returns the yardstick of a robot in the configuration q, pushed at the point Q
+/// of a body. Heights are above its lowest sole. `down` marks the feet on the
+/// ground; empty means all.
 Yardstick ComputeYardstick(const Robot& robot, const Eigen::VectorXd& q,
                            const Eigen::Vector2d& u, double duration, int body,
                            const Eigen::Vector3d& p_BoQ_B,

@@ -36,7 +36,7 @@ class BinaryLogReader final : public LogReader {
 
   std::filesystem::path file_;
   std::ifstream stream_;
-  std::streamoff size_ = 0;  // Of the file, when it was opened.
+  std::streamoff size_ = 0;  // Size of the file when it was opened.
   std::streamoff rows_begin_ = 0;
   std::string kinds_;  // By column: d, f or t.
   std::string row_;

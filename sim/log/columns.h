@@ -52,7 +52,7 @@ std::vector<LogColumn> LogColumns(const std::vector<std::string>& feet,
                                   const std::vector<std::string>& joints,
                                   const std::vector<std::string>& tasks);
 
-/// What a column holds.
+/// The quantity of a column.
 enum class ColumnGroup {
   kTime,
   kBasePose,
@@ -63,14 +63,14 @@ enum class ColumnGroup {
   kPush,
   kOtherForce,
   kSelfContacts,
-  kContact,          ///< Of a foot.
-  kTiltOrSlide,      ///< Of a foot.
-  kMoment,           ///< Of the ground on a foot.
-  kForce,            ///< Of the ground on a foot.
-  kCommandedWrench,  ///< Of a foot.
-  kTorque,           ///< Of a joint.
-  kPosition,         ///< Of a joint.
-  kResidual,         ///< Of a task.
+  kContact,          ///< Foot is in contact.
+  kTiltOrSlide,      ///< Motion of a foot.
+  kMoment,           ///< Ground on a foot.
+  kForce,            ///< Ground on a foot.
+  kCommandedWrench,  ///< Wrench of a foot.
+  kTorque,           ///< Joint torque.
+  kPosition,         ///< Joint position.
+  kResidual,         ///< Residual of a task.
   kText,
   kUnknown,  ///< No column of a log.
 };

@@ -23,7 +23,7 @@ void Split(std::string_view line, std::vector<std::string_view>* cells) {
   }
 }
 
-// False if the text is no number; an empty one is NaN.
+// Returns false if the text is not a number. An empty text is NaN.
 bool ParseNumber(std::string_view text, double* value) {
   *value = std::numeric_limits<double>::quiet_NaN();
   if (text.empty()) return true;

@@ -11,9 +11,9 @@
 
 namespace poise {
 
-/// Reads log.csv, or another table of numbers. Words are in the columns that a
-/// log has for them (docs/log.md) only; an empty cell is no number. No quotes; a
-/// cell does not hold a comma. A row that has no line end is where it was cut short.
+/// Reads log.csv, or another table of numbers. Only the text columns of a log
+/// (docs/log.md) have words. An empty cell is NaN. Cells have neither quotes nor
+/// commas. A last row without line end counts as cut short.
 ///
 /// This reader is our own because fast-cpp-csv-parser cannot read a log:
 /// - The parser fixes the number of columns at compile time. A log has about

@@ -71,7 +71,7 @@ TEST(CsvReader, RefusesARowOfAnotherLength) {
   }
 }
 
-TEST(CsvReader, GivesNoNumberForWhatIsNone) {
+TEST(CsvReader, ReadsAnEmptyCellAsNaN) {
   CsvReader csv(Written("a,b,status\nnan,,7\n"));
   ASSERT_TRUE(csv.Next());
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(std::isnan(csv.Number(i))) << i;

@@ -97,9 +97,9 @@ class BinaryRows final : public LogRows {
   static char KindLetter(LogColumn::Kind kind);
 
   std::vector<LogColumn> columns_;
-  std::vector<uint64_t> bits_;  // Of each number in the row before.
+  std::vector<uint64_t> bits_;  // Bits of each number in the last row.
   std::vector<std::string> texts_;
-  std::string lengths_;  // Of the cells of this row, so far.
+  std::string lengths_;  // Lengths of the cells of this row.
   std::string data_;
 };
 
@@ -122,7 +122,7 @@ void BinaryRows::Number(double value) {
   if (columns_[i].kind == LogColumn::Kind::kTime) {
     std::memcpy(&now, &value, sizeof(value));
   } else {
-    // All that is no number has the same bits.
+    // Every NaN has the same bits.
     const float single = std::isnan(value)
                              ? std::numeric_limits<float>::quiet_NaN()
                              : static_cast<float>(value);

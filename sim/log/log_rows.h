@@ -32,7 +32,7 @@ class LogRows {
  public:
   virtual ~LogRows() = default;
 
-  /// What the file begins with.
+  /// Returns the beginning of the file.
   virtual std::string Header() = 0;
 
   /// The next cell of the row that grows, as the column's kind wants it.

@@ -79,7 +79,7 @@ TEST(LogRows, AreWhatChangedInBinary) {
             header + first + second("\x48\0"s, "\0\0\0\x80"s));
   EXPECT_EQ(TwoRows(LogFormat::kBinary, 1 + std::ldexp(1, -23)),
             header + first + second("\x18\0"s, "\1"));
-  // All that is no number is the same.
+  // Every NaN has the same bytes.
   EXPECT_EQ(TwoRows(LogFormat::kBinary, kNan),
             TwoRows(LogFormat::kBinary, -kNan));
 }

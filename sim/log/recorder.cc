@@ -146,7 +146,7 @@ Recorder::Recorder(const std::filesystem::path& folder, const Robot& robot,
     throw std::invalid_argument(folder.string() +
                                 ": cannot be made: " + error.message());
   }
-  // What another run may have left would be taken for this one's.
+  // Readers would take a log that another run left for the log of this run.
   for (const LogFormat other : {LogFormat::kCsv, LogFormat::kBinary}) {
     std::filesystem::remove(folder / LogFileName(other), error);
   }

@@ -52,8 +52,8 @@ class Recorder {
   std::ofstream log_;
   std::ofstream timing_;
   std::unique_ptr<LogRows> rows_;
-  std::string entries_;   // Of a cell that lists, growing: "a=1;b=2".
-  std::string log_rows_;  // Whole rows, not yet in the file.
+  std::string entries_;   // Cell of a list while it grows: "a=1;b=2".
+  std::string log_rows_;  // Rows that are not yet in the file.
   std::string timing_rows_;
   int rows_waiting_ = 0;
   double next_conflict_ = 0;  // Not before, s.

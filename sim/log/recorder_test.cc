@@ -119,7 +119,7 @@ TEST(Recorder, WritesWhatWasAndWhatTheControllerSaid) {
   EXPECT_EQ(timing.size(), 5u);  // The last is what follows the last line.
 }
 
-// What explains why the CoP may not be where it was, or the torques jump.
+// These columns explain why the range of the CoP changes or torques jump.
 TEST(Recorder, WritesHowFeetStandAndWhyATickFailedSafe) {
   Scenario scenario = Pushed();
   scenario.stance = {{StanceEvent::Kind::kLift, 0, "right_foot"}};
@@ -143,8 +143,8 @@ TEST(Recorder, WritesHowFeetStandAndWhyATickFailedSafe) {
   EXPECT_EQ(row["reason"], "clock");
 }
 
-// Which limit gave way, and at which level the solver stopped.
-TEST(Recorder, WritesWhatATickIsAbout) {
+// The log has the limit with slack and the level at which the solver stopped.
+TEST(Recorder, WritesLimitsAndFailedLevels) {
   ClosedLoop loop(Humanoid(), Pushed());
   Recorder recorder(Folder("reasons"), Humanoid(), loop.controller().stack());
   loop.Tick();

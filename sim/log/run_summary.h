@@ -7,7 +7,7 @@
 
 namespace poise {
 
-/// What a run's folder says of how the run ended.
+/// The end of a run, as its folder has it.
 struct RunSummary {
   /// summary.json; null if it is not there, cannot be read, or is not of the
   /// log beside it, by its log_sha256.

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of "abc": FIPS 180-4, its first example.
+// Digest of "abc", the first example of FIPS 180-4.
 constexpr char kHash[] =
     "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
 
@@ -56,7 +56,7 @@ TEST_F(RunSummaryTest, IsNotThatOfALogThatWasCut) {
   }
 }
 
-TEST_F(RunSummaryTest, SaysThatThereIsNone) {
+TEST_F(RunSummaryTest, ReportsAMissingSummary) {
   Write("log.csv", "abc");
   RunSummary summary = ReadRunSummary(run_);
   EXPECT_TRUE(summary.values.is_null());

@@ -159,7 +159,7 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
   json["tasks"] = {{"set", control.tasks},
                    {"with", control.with},
                    {"without", control.without}};
-  // Who was still up when a run was interrupted may still have fallen.
+  // A robot that stood when the run was interrupted might have fallen later.
   const bool is_judged = !result.interrupted || verdict.fell_at;
   json["recovered"] = is_judged ? Json(verdict.recovered) : Json(nullptr);
   json["fell_at"] = verdict.fell_at ? Json(*verdict.fell_at) : Json(nullptr);

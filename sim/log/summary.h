@@ -16,7 +16,7 @@ namespace poise {
 nlohmann::ordered_json ToJson(const Robot& robot, const Scenario& scenario,
                               const RunResult& result);
 
-/// The same as a table for people, some twenty lines.
+/// Returns the summary as a table of some twenty lines for the terminal.
 std::string ToTable(const Robot& robot, const Scenario& scenario,
                     const RunResult& result);
 

@@ -19,12 +19,12 @@ struct TickRecord {
   const Observation& observation;
   const PlantState& start;       ///< When the tick began.
   const PlantState& end;         ///< When it ended, with what acted during it.
-  const Eigen::VectorXd& tau;    ///< What the controller asked for.
-  Eigen::Vector3d push_force_W;  ///< The mean over the tick, N.
+  const Eigen::VectorXd& tau;    ///< Torques of the controller.
+  Eigen::Vector3d push_force_W;  ///< Mean over the tick, N.
   const Stack& stack;
-  const Hierarchy& hierarchy;  ///< What the controller solved.
+  const Hierarchy& hierarchy;  ///< Problem of this tick.
   const TickReport& report;
-  const Stance& stance;  ///< Of the feet, by the controller.
+  const Stance& stance;  ///< Contacts, as the controller's stance has them.
   int nv;
   double microseconds;  ///< That the controller took.
 };

@@ -146,7 +146,7 @@ TEST_P(GroundTest, BlockAtRestPressesWithItsWeightAtItsCenter) {
   }
   const auto& F_Co_C = plant->Sense().F_Co_C[0];
   const double weight = 5 * kGravity;
-  // What 50 iterations leave of a load that they share out among 4 points.
+  // Error of 50 iterations that distribute a load over 4 points.
   EXPECT_NEAR(F_Co_C[5], weight + 10, 1e-3);
   EXPECT_NEAR(F_Co_C[0], 0.03 * 10, 1e-3);   // m_x = y f_z.
   EXPECT_NEAR(F_Co_C[1], -0.06 * 10, 1e-3);  // m_y = -x f_z.

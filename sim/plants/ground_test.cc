@@ -20,7 +20,7 @@ RunResult RunOurs(const std::string& name, double duration) {
 TEST(Ground, SlopeIsStoodOnAndPushedDown) {
   const RunResult result = RunOurs("slope", 3);
   EXPECT_TRUE(result.verdict.recovered);
-  EXPECT_LT(result.verdict.foot_tilt_peak, 0.02);  // Of the slope.
+  EXPECT_LT(result.verdict.foot_tilt_peak, 0.02);  // Relative to the slope.
   EXPECT_LT(result.verdict.foot_slide_peak, 5e-3);
   EXPECT_EQ(result.failures, 0);
 }

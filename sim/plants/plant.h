@@ -9,8 +9,8 @@ namespace poise {
 
 /// A torque and a force on the point Q of a body, in world axes.
 struct AppliedForce {
-  int body;                  ///< Of the tree; 0 is the base.
-  Eigen::Vector3d p_BoQ_B;   ///< Where, in the body's frame, m.
+  int body;                  ///< Index in the tree; 0 is the base.
+  Eigen::Vector3d p_BoQ_B;   ///< Point of application, m.
   Eigen::Vector3d torque_W;  ///< N m.
   Eigen::Vector3d force_W;   ///< N.
 };
@@ -22,7 +22,7 @@ struct PlantState {
   Eigen::VectorXd q;     ///< See dynamics/tree.h.
   Eigen::VectorXd v;     ///< See dynamics/tree.h.
   Eigen::VectorXd vdot;  ///< Change of v over the last step, a second.
-  Eigen::VectorXd tau;   ///< What the actuators gave: saturated, N m or N.
+  Eigen::VectorXd tau;   ///< Torques after saturation, N m or N.
   /// By foot: the ground's wrench on it, about and in the axes of its contact
   /// frame C, [torque; force].
   std::vector<Eigen::Matrix<double, 6, 1>> F_Co_C;
@@ -52,7 +52,7 @@ class Plant {
   /// limits.
   virtual void Step(const Eigen::VectorXd& tau) = 0;
 
-  /// What is true now.
+  /// Returns the true state.
   virtual const PlantState& Sense() const = 0;
 
   virtual double dt() const = 0;

@@ -17,17 +17,17 @@ struct Board {
 
 /// The ground: a plane through the world's origin, and boards.
 struct Ground {
-  double roll = 0;   ///< Of the plane about x, rad.
-  double pitch = 0;  ///< Of the plane about y, then, rad.
+  double roll = 0;   ///< Rotation of the plane about x, rad.
+  double pitch = 0;  ///< Then its rotation about y, rad.
   std::vector<Board> boards;
 };
 
-/// What a scenario may say of any plant.
+/// Settings that every plant has.
 struct PlantSettings {
   double dt = 1e-3;         ///< s.
-  double friction = 0.8;    ///< Of robot on ground.
-  double restitution = 0;   ///< Of robot on ground; 1 loses nothing.
-  double torque_scale = 1;  ///< On the effort limits.
+  double friction = 0.8;    ///< Robot on ground.
+  double restitution = 0;   ///< Robot on ground; 1: no loss.
+  double torque_scale = 1;  ///< Factor on the effort limits.
   bool joint_limits = true;
   bool joint_damping = true;   ///< The model's damping and friction.
   bool self_collision = true;  ///< Links that touch push each other away.

@@ -18,7 +18,7 @@
 namespace poise {
 namespace {
 
-// What any plant must do, whoever computes it.
+// Tests that every plant must pass.
 class PlantTest : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Plant> Make(const Robot& robot,
@@ -134,7 +134,7 @@ TEST_P(PlantTest, LetsJointsPassTheirLimitsIfTold) {
   EXPECT_GT(plant->Sense().q[0], 1);
 }
 
-// What acts on it for a step acts in that step alone.
+// A force acts in one step only.
 TEST_P(PlantTest, ForgetsAForceAfterAStep) {
   const auto plant = Make(MakePendulum());
   // 2 N at 0.3 m below the hinge turn it by 0.6 N m.

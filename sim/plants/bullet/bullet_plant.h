@@ -43,7 +43,7 @@ class BulletPlant final : public Plant {
   BulletSettings bullet_;
   JointDrag drag_;
   PlantState state_;
-  std::vector<Pose> X_WC_;  // Of each foot when the last step began.
+  std::vector<Pose> X_WC_;  // Per foot, when the last step began.
   int steps_ = 0;
   std::unique_ptr<BulletWorld> world_;
 };

@@ -62,7 +62,7 @@ struct Drift {
   double energy;    // Relative to the kinetic energy.
 };
 
-// What a second of free flight without gravity loses.
+// Returns the drift in a second of free flight without gravity.
 Drift MeasureDrift(double dt) {
   std::mt19937 draw(4);
   const Tree tree =

@@ -10,14 +10,14 @@ struct BulletSettings {
   int solver_iterations = 50;           ///< Bullet's 10 let the feet creep.
   double residual_threshold = 0;        ///< More ends Bullet's sweeps early.
   double linear_damping = 0;            ///< Bullet's 0.04 eats energy.
-  double angular_damping = 0;           ///< The same.
-  bool gyroscopic_term = true;          ///< Off, angular momentum drifts.
+  double angular_damping = 0;           ///< See above.
+  bool gyroscopic_term = true;          ///< Without it angular momentum drifts.
   bool rk4 = false;                     ///< On, it is not the RK4 of the book.
   bool global_velocities = false;       ///< On, the accelerations are wrong.
-  bool can_sleep = false;               ///< What stands still ignores forces.
+  bool can_sleep = false;               ///< A sleeping body ignores forces.
   double max_velocity = 1e9;            ///< Bullet's 100 rad/s clamps fingers.
   bool two_friction_directions = true;  ///< One lets a foot drift sideways.
-  double sole_radius = 0.005;  ///< Of the spheres at a sole's corners, m.
+  double sole_radius = 0.005;           ///< Spheres at a sole's corners, m.
 };
 
 }  // namespace poise

@@ -18,7 +18,7 @@ namespace {
 
 // A free flight without gravity, of which each setting spoils something.
 struct Flight {
-  double acceleration_error;  // Of the first step against dynamics, relative.
+  double acceleration_error;  // First step against dynamics, relative.
   double momentum_drift;      // Over 1 s, relative.
   double energy_drift;        // Over 1 s, relative, signed.
 };

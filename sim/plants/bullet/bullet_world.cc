@@ -55,7 +55,7 @@ void BulletWorld::PairFilter::Exclude(int body_a, int body_b) {
 
 bool BulletWorld::PairFilter::needBroadphaseCollision(
     btBroadphaseProxy* a, btBroadphaseProxy* b) const {
-  // What has no shape of its own belongs to no group.
+  // A body without a shape belongs to no group.
   if (a->m_collisionFilterGroup == 0 || b->m_collisionFilterGroup == 0) {
     return false;
   }

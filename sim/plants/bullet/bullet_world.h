@@ -99,7 +99,7 @@ class BulletWorld {
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btCollisionObject>> ground_;
   Colliders colliders_;       // By body; feet with their soles.
-  Colliders foot_colliders_;  // What else there is of the feet.
+  Colliders foot_colliders_;  // Shapes of the feet except the soles.
   std::vector<std::unique_ptr<btMultiBodyConstraint>> limits_;
   std::vector<GroundContact> contacts_;
 };

@@ -14,7 +14,7 @@ namespace poise {
 
 namespace {
 
-// Of the spheres at the corners of a sole, as in Bullet, m.
+// Radius of the spheres at the corners of a sole, as in Bullet, m.
 constexpr double kSoleRadius = 0.005;
 
 // Contacts and limits as stiff as a step of 1 ms lets them be: a time constant

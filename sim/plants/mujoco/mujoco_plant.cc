@@ -25,8 +25,8 @@ constexpr int kWorld = 0;
 using ConstVector3 = Eigen::Map<const Eigen::Vector3d>;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-// Of a robot that is flung apart MuJoCo would warn on stderr and in a file of
-// whatever folder this is. Who judges the run says it.
+// Silences MuJoCo, which would warn of a diverging simulation on stderr and in a
+// file of the current folder. The judge of the run reports the divergence.
 [[maybe_unused]] const bool kIsQuiet = (
     mju_user_warning = [](const char*) {}, true);
 
