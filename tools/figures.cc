@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// All runs, on all cores; each into its folder.
+// Records all runs on all cores, each run into its own folder.
 void RecordAll(const std::vector<FigureRun>& runs, const fs::path& folder) {
   std::atomic<std::size_t> next{0}, done{0};
   const auto work = [&] {
@@ -43,20 +43,21 @@ void RecordAll(const std::vector<FigureRun>& runs, const fs::path& folder) {
   for (std::future<void>& worker : workers) worker.get();
 }
 
-// `bazel run` knows where the sources are; else the folder that we are in.
+// Returns the folder docs of the sources if `bazel run` gives their place, or
+// docs in the current folder otherwise.
 fs::path DocsFolder() {
   const char* workspace = std::getenv("BUILD_WORKSPACE_DIRECTORY");
   return workspace ? fs::path(workspace) / "docs" : fs::path("docs");
 }
 
 int Main(int argc, char** argv) {
-  CLI::App app("Draws figures 3 to 12 of the paper, from fresh runs.",
-               "figures");
+  CLI::App app("Draws figures 3 to 12 of the paper from new runs.", "figures");
   std::string out;
   bool keep_runs = false;
   app.add_option("--out", out,
-                 "Folder for results.md and figures/ [the workspace's docs]");
-  app.add_flag("--keep-runs", keep_runs, "Keep the runs, in OUT/figure-runs");
+                 "Folder for results.md and figures/ [docs of the workspace]");
+  app.add_flag("--keep-runs", keep_runs,
+               "Keep the recorded runs, in OUT/figure-runs");
   ParseCommandLine(argc, argv, &app);
   const fs::path folder = out.empty() ? DocsFolder() : UserPath(out);
   fs::create_directories(folder);

@@ -30,8 +30,8 @@ Experiment Pushed(const Experiment& strong_push, double force,
 }
 
 void PrintSameProblems(const Experiment& experiment) {
-  std::cout << "| way | momentum [N] | posture [rad/s2] | contacts broken by "
-               "[m/s2] | cones broken by | median, p99 [us] | not solved |\n"
+  std::cout << "| way | momentum [N] | posture [rad/s2] | contacts violated by "
+               "[m/s2] | cones violated by | median, p99 [us] | not solved |\n"
                "| --- | --- | --- | --- | --- | --- | --- |\n";
   const std::vector<Weighing> ways = Weighings();
   const std::vector<WeighingResult> results = CompareWeighings(experiment);
@@ -68,9 +68,8 @@ void PrintOutcomes(const std::vector<Experiment>& pushes) {
 
 int Main(int argc, char** argv) {
   CLI::App app(
-      "The same tasks strictly by level and weighted: on the same problems, "
-      "and "
-      "each in its own loop. Prints the tables of docs/control.md.",
+      "Compares strict levels with weighted tasks: on the same problems, and "
+      "each in its own closed loop. Prints one table for each.",
       "strictness");
   ParseCommandLine(argc, argv, &app);
   const Experiment strong_push{
