@@ -26,7 +26,7 @@ echo '{"format": "hqp-1", "variables": 1, "levels": [{"B": [[2]], "b": [-4]}]}' 
   > good.json
 "$hqp" --json good.json > said 2> error || fail "exit code $? for good.json"
 grep -q '"status":"optimal","y":\[2.0\]' said || fail "good.json prints: $(cat said)"
-[ ! -s error ] || fail "stderr of a good file: $(cat error)"
+[ ! -s error ] || fail "a good file prints on stderr: $(cat error)"
 
 # y >= 3 above y = 0 takes two iterations: the first finds the violated bound, the
 # second has the bound in the working set.
@@ -102,5 +102,5 @@ echo '{"joints": ["hinge"], "states": []}' > states.json
   )(link 'tip' and beyond), M is singular or indefinite: $(
   )no acceleration can be computed" ] ||
   fail "dynamics prints for a leaf without mass: $(cat error)"
-refuse "dynamics: good.json: document: there is no 'joints'" \
+refuse "dynamics: good.json: document: has no key 'joints'" \
   "$dynamics" --urdf leaf.urdf --states good.json
