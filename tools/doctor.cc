@@ -15,13 +15,16 @@ namespace poise {
 namespace {
 
 int Main(int argc, char** argv) {
-  CLI::App app("Checks a robot file: all that would make control fail or lie.",
-               "doctor");
+  CLI::App app(
+      "Checks a robot file for everything that would make the controller fail "
+      "or compute wrong values.",
+      "doctor");
   std::string file;
   std::string profile_file;
   bool json = false;
-  app.add_option("file", file, "A URDF")->required();
-  app.add_option("--profile", profile_file, "Its profile: feet, posture, ...");
+  app.add_option("file", file, "The robot, a URDF file")->required();
+  app.add_option("--profile", profile_file,
+                 "Profile of the robot (YAML): feet, posture, ...");
   app.add_flag("--json", json, "Print one JSON document");
   ParseCommandLine(argc, argv, &app);
   try {
@@ -31,7 +34,7 @@ int Main(int argc, char** argv) {
     std::cout << (json ? WriteJson(diagnosis) + "\n" : WriteTable(diagnosis));
     if (diagnosis.worst() != Severity::kReject) return 0;
     std::cerr << Message(file, diagnosis.findings[0]) << "\n";
-  } catch (const Refusal& refusal) {  // About the profile.
+  } catch (const Refusal& refusal) {  // The profile is invalid.
     Diagnosis diagnosis;
     diagnosis.findings.push_back(refusal.finding());
     std::string& where = diagnosis.findings[0].where;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// The dynamics of a robot: bazel run //tools:dynamics -- --urdf FILE ...
+// Computes the dynamics of a robot: bazel run //tools:dynamics -- --urdf FILE ...
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -22,7 +22,8 @@ namespace {
 
 constexpr size_t kMostMib = 1024;  // Largest states file, MiB.
 
-// M is printed all the same, but whoever inverts it shall know.
+// Warns if M cannot be inverted. M is printed anyway, so without the warning a
+// user might invert it.
 void WarnOfInertia(const std::string& urdf, const RobotModel& robot) {
   std::vector<Finding> findings;
   CheckInertia(robot, &findings);
@@ -34,16 +35,18 @@ void WarnOfInertia(const std::string& urdf, const RobotModel& robot) {
 
 int Main(int argc, char** argv) {
   CLI::App app(
-      "Mass matrix, bias forces, inverse dynamics, centroidal momentum and "
-      "frame Jacobians of a robot in given states.",
+      "Computes mass matrix, bias forces, inverse dynamics, centroidal "
+      "momentum "
+      "and frame Jacobians of a robot in given states.",
       "dynamics");
   std::string urdf, states;
   std::vector<std::string> frames;
   bool json = false;
-  app.add_option("--urdf", urdf, "The robot")->required();
-  app.add_option("--states", states, "The states, JSON")->required();
+  app.add_option("--urdf", urdf, "The robot, a URDF file")->required();
+  app.add_option("--states", states, "The states, a JSON file")->required();
   app.add_option("--frames", frames,
-                 "Links, a,b,...; default: those that the states name")
+                 "Links a,b,... to compute frames of; default: the keys of "
+                 "'frames' in each state")
       ->delimiter(',');
   app.add_flag("--json", json, "Print one JSON document");
   ParseCommandLine(argc, argv, &app);

@@ -11,12 +11,14 @@ namespace poise {
 namespace {
 
 int Main(int argc, char** argv) {
-  CLI::App app("Says when, what and why in a recorded run.", "explain");
+  CLI::App app("Explains a recorded run: what happened, when, and why.",
+               "explain");
   std::string run;
   bool as_json = false, all = false;
-  app.add_option("RUN_DIR", run, "The folder of a run")->required();
-  app.add_flag("--json", as_json, "One JSON document, with all the numbers");
-  app.add_flag("--all", all, "All sentences, in the order of time");
+  app.add_option("RUN_DIR", run, "The folder that push wrote")->required();
+  app.add_flag("--json", as_json, "Print one JSON document with all numbers");
+  app.add_flag("--all", all,
+               "Print all sentences in order of time, not the summary");
   ParseCommandLine(argc, argv, &app);
   const nlohmann::json explanation = Explain(UserPath(run));
   if (as_json) {

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// All runs, on all cores; each into its folder.
+// Records all runs on all cores, each run into its own folder.
 void RecordAll(const std::vector<FigureRun>& runs, const fs::path& folder) {
   std::atomic<std::size_t> next{0}, done{0};
   const auto work = [&] {
@@ -52,8 +52,7 @@ fs::path DocsFolder() {
 }
 
 int Main(int argc, char** argv) {
-  CLI::App app("Draws figures 3 to 12 of the paper, from fresh runs.",
-               "figures");
+  CLI::App app("Draws figures 3 to 12 of the paper from new runs.", "figures");
   std::string out;
   bool keep_runs = false;
   app.add_option("--out", out,

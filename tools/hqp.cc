@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // Solves hierarchies from files: bazel run //tools:hqp -- FILE.json ...
-// Several are the ticks of one fast solver, in their order: each starts from what
-// was active in the one before, as in a controller.
+// The fast solver treats several files as successive ticks of a controller: each
+// solve starts from the working set of the file before.
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -18,25 +18,27 @@ namespace poise {
 namespace {
 
 int Main(int argc, char** argv) {
-  CLI::App app("Solves hierarchies of rows (format hqp-1).", "hqp");
+  CLI::App app("Solves hierarchical quadratic programs (format hqp-1).", "hqp");
   std::vector<std::string> files;
   HqpMethod method;
   bool json = false;
   app.add_option(
          "files", files,
-         "Files in the format hqp-1; several are ticks of one fast "
-         "solver, in their order, as long as they have as many variables")
+         "Files in the format hqp-1. Each fast solve starts from the working "
+         "set of the file before, if both have as many variables")
       ->required();
   app.add_option("--method", method.name,
-                 "svd or cod: the paper's cascade; or fast")
+                 "svd or cod: the cascade of the paper; fast: the active-set "
+                 "solver of the controller")
       ->check(CLI::IsMember({"svd", "cod", "fast"}))
       ->capture_default_str();
   app.add_option("--max-iterations", method.max_iterations,
-                 "Budget of fast; that of a controller's tick is 500")
+                 "Maximum number of iterations of fast per file; a controller "
+                 "allows 500 per tick")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--cold", method.cold,
-               "Solve each file with a solver of its own");
+               "Solve each file with a new solver, from an empty working set");
   app.add_flag("--json", json,
                "Print one JSON document, an array if there are several files");
   ParseCommandLine(argc, argv, &app);
@@ -47,7 +49,7 @@ int Main(int argc, char** argv) {
     problems.push_back(LoadHqp(name));
     for (const std::string& key : problems.back().ignored) {
       std::cerr << "hqp: " << name << ": " << key
-                << " is not a key of hqp-1: ignored\n";
+                << " is not a key of hqp-1, ignored\n";
     }
   }
   HqpSequence sequence(method, problems);

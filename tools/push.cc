@@ -36,7 +36,7 @@ int Push(const poise::PushOptions& options) {
   std::string dumped;
   if (options.dump_solve) {
     dumped =
-        "\nThe solve: bazel run //tools:hqp -- " +
+        "\nTo replay the solve: bazel run //tools:hqp -- " +
         poise::DumpSolve({robot, scenario}, *options.dump_solve, options.out)
             .string();
   }
@@ -48,7 +48,7 @@ int Push(const poise::PushOptions& options) {
   if (options.json) {
     std::cout << poise::ToJson(robot, scenario, result).dump(2) << '\n';
   } else {
-    std::cout << poise::ToTable(robot, scenario, result) << "\nWritten into "
+    std::cout << poise::ToTable(robot, scenario, result) << "\nWritten to "
               << options.out.string() << dumped << '\n';
   }
   return result.verdict.recovered && !result.interrupted ? 0 : 1;

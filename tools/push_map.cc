@@ -48,7 +48,8 @@ int Map(const poise::PushMapOptions& options) {
   const bool all = poise::RunPushMap(plan, &files, ShowProgress);
   poise::WriteMapPage(plan, files);
   if (!all) {
-    std::cerr << "\npush_map: interrupted; the same command goes on\n";
+    std::cerr
+        << "\npush_map: interrupted; run the same command again to continue\n";
     return 1;
   }
   if (options.json) {

@@ -14,16 +14,19 @@ namespace {
 
 int Main(int argc, char** argv) {
   CLI::App app(
-      "Shows a run, or two on one clock, in one page that opens from disk.",
+      "Writes one HTML page that shows a run, or two runs side by side at the "
+      "same time. The page needs no server.",
       "report");
   std::vector<std::string> runs;
   std::string out;
-  app.add_option("RUN_DIR", runs, "The folder of a run, or of two to compare")
+  app.add_option("RUN_DIR", runs,
+                 "The folder of a run, or two folders to compare")
       ->required()
       ->expected(1, 2);
-  app.add_option("--out", out,
-                 "The page to write [RUN_DIR/report.html, or of two "
-                 "./compare.html]");
+  app.add_option(
+      "--out", out,
+      "The page to write [RUN_DIR/report.html, or ./compare.html for "
+      "two runs]");
   ParseCommandLine(argc, argv, &app);
   std::vector<std::filesystem::path> folders;
   for (const std::string& run : runs) {

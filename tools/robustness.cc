@@ -17,8 +17,8 @@
 namespace poise {
 namespace {
 
-// Runs all, as many at a time as there are cores, and prints them in order;
-// whether all did what they must.
+// Runs all trials, one per core at a time, and prints their rows in order.
+// Returns true if each trial had the outcome that it must have.
 bool RunAll(const std::vector<Trial>& trials) {
   const size_t cores = std::max(1u, std::thread::hardware_concurrency());
   std::deque<std::future<TrialResult>> running;
@@ -36,7 +36,8 @@ bool RunAll(const std::vector<Trial>& trials) {
   return all_hold;
 }
 
-// Throws std::invalid_argument where there is none: no row is no success.
+// Returns the trials that the options select. Throws std::invalid_argument if
+// there are none, because an empty table must not count as success.
 std::vector<Trial> MakeTrials(const std::string& robots,
                               const std::string& only) {
   std::vector<std::string> skipped;
@@ -68,10 +69,13 @@ int Main(int argc, char** argv) {
       "row is not as required.",
       "robustness");
   std::string robots, only;
-  app.add_option("--robots", robots,
-                 "a folder of URDF files: these robots, instead; each with the "
-                 "profile NAME.yaml beside it, ours, or what is found");
-  app.add_option("--only", only, "only rows whose name contains this");
+  app.add_option(
+      "--robots", robots,
+      "push the robots of this folder of URDF files instead. A robot "
+      "uses the profile NAME.yaml beside it, or a profile of Poise, or "
+      "the feet and posture that Poise finds");
+  app.add_option("--only", only,
+                 "run only the rows whose name contains this text");
   ParseCommandLine(argc, argv, &app);
   const std::vector<Trial> trials = MakeTrials(robots, only);
   std::cout

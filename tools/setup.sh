@@ -1,10 +1,10 @@
 #!/bin/bash
 # Usage: tools/setup.sh [--baselines] [--browser]
-# Installs what Poise needs on Debian 12; a quick no-op where it is all there.
-#   --baselines  also what tests and benchmarks compare with where it is there
-#   --browser  also what rebuilding the viewer and its browser test need
-# Runs as root, or as a user with sudo. Exit code 1, and one line that says what
-# is missing, if it cannot.
+# Installs the packages that Poise needs on Debian 12, if they are missing.
+#   --baselines  also packages that some tests and benchmarks compare with
+#   --browser  also packages to rebuild the viewer and to run its browser test
+# Runs as root, or as a user with sudo. If an installation fails, prints one line
+# that names the missing packages, and exits with code 1.
 set -euo pipefail
 
 packages=(
@@ -31,7 +31,8 @@ for argument in "$@"; do
       ;;
     --browser)
       packages+=(chromium)
-      # Debian's npm conflicts with a Node.js from elsewhere: leave that alone.
+      # Debian's npm conflicts with a Node.js from elsewhere, so keep such a one
+      # if it is installed.
       command -v node > /dev/null || packages+=(nodejs)
       command -v npm > /dev/null || packages+=(npm)
       ;;
@@ -40,7 +41,7 @@ for argument in "$@"; do
       exit 0
       ;;
     *)
-      echo "tools/setup.sh: unknown option '$argument', want --baselines or --browser" >&2
+      echo "tools/setup.sh: unknown option '$argument', must be --baselines or --browser" >&2
       exit 2
       ;;
   esac
@@ -51,11 +52,11 @@ is_installed() {
 }
 
 command -v dpkg-query > /dev/null ||
-  fail "this is not Debian; install by hand: ${packages[*]}"
+  fail "this is not Debian; install these packages by hand: ${packages[*]}"
 
 missing=()
 for package in "${packages[@]}"; do
-  # A release of Bazel, as bazelisk brings it, serves as well as Debian's.
+  # A Bazel release from elsewhere, such as by bazelisk, replaces Debian's.
   if [[ $package == bazel-* ]] && command -v bazel > /dev/null; then
     [[ $(readlink -f "$(command -v bazel)") == /usr/bin/bazel* ]] || continue
   fi
@@ -66,7 +67,7 @@ done
 as_root=()
 if [ "$(id -u)" != 0 ]; then
   command -v sudo > /dev/null ||
-    fail "not root and no sudo; missing: ${missing[*]}"
+    fail "needs root or sudo to install: ${missing[*]}"
   as_root=(sudo)
 fi
 

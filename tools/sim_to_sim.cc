@@ -22,7 +22,7 @@ constexpr const char* kScenarios[] = {
     "strong_push", "com_sinusoid", "posture_off",
     "one_leg",     "slope",        "board"};
 
-// A row of the table in docs/plants.md.
+// Prints a row of the table in docs/plants.md.
 void PrintRow(const std::string& name, const Verdict& bullet,
               const Verdict& mujoco) {
   std::printf("| `%s` | %s | %s |", name.c_str(), Outcome(bullet).c_str(),
@@ -38,9 +38,9 @@ void PrintRow(const std::string& name, const Verdict& bullet,
 
 int Main(int argc, char** argv) {
   CLI::App app(
-      "Runs each scenario in Bullet and in MuJoCo, and prints how they differ "
-      "as the table in docs/plants.md. Exit code 1 if one recovers where the "
-      "other does not.",
+      "Runs each scenario in Bullet and in MuJoCo, and prints both results as "
+      "the table in docs/plants.md. Exit code 1 if the robot recovers in only "
+      "one of them.",
       "sim_to_sim");
   ParseCommandLine(argc, argv, &app);
   const Robot robot = LoadRobot("robot/models/humanoid.urdf",

@@ -30,8 +30,8 @@ Experiment Pushed(const Experiment& strong_push, double force,
 }
 
 void PrintSameProblems(const Experiment& experiment) {
-  std::cout << "| way | momentum [N] | posture [rad/s2] | contacts broken by "
-               "[m/s2] | cones broken by | median, p99 [us] | not solved |\n"
+  std::cout << "| way | momentum [N] | posture [rad/s2] | contacts violated by "
+               "[m/s2] | cones violated by | median, p99 [us] | not solved |\n"
                "| --- | --- | --- | --- | --- | --- | --- |\n";
   const std::vector<Weighing> ways = Weighings();
   const std::vector<WeighingResult> results = CompareWeighings(experiment);

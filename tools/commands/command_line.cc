@@ -12,7 +12,7 @@
 namespace poise {
 namespace {
 
-// CLI11 says "Could not convert: --force = strong".
+// Rewrites the message of CLI11, "Could not convert: --force = strong".
 std::string SayNoNumber(const std::string& message) {
   const size_t name = message.find(": ") + 2;
   const size_t value = message.find(" = ", name);
@@ -21,7 +21,8 @@ std::string SayNoNumber(const std::string& message) {
          Quoted(message.substr(value + 3)) + ", must be a number";
 }
 
-// CLI11 misses what is required before it says what it does not know.
+// CLI11 reports a missing required option before an unknown option. Returns a
+// message about the first unknown option, or `otherwise` if there is none.
 std::string SayUnknown(const CLI::App& app, const std::string& otherwise) {
   for (const std::string& word : app.remaining()) {
     if (word[0] == '-') return "option " + Quoted(word) + " is unknown";
@@ -41,7 +42,7 @@ void ParseCommandLine(int argc, char** argv, CLI::App* app) {
     if (word.empty()) {
       throw std::invalid_argument(
           (i > 1 ? "the word after " + Quoted(argv[i - 1]) : "the first word") +
-          " is empty, must not be");
+          " is empty, must have text");
     }
     if (word.size() > 3 && word.substr(0, 2) == "--" && word.back() == '=') {
       throw std::invalid_argument(Quoted(word) +

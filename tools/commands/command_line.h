@@ -7,14 +7,16 @@
 
 namespace poise {
 
-/// Reads a command line. Throws std::invalid_argument with one line about what
-/// does not fit; an empty word, as an unset variable of a shell leaves it, fits
-/// nowhere. Where help is asked for, throws that too: for RunTool().
+/// Reads a command line into the options of `app`. Throws std::invalid_argument
+/// with one line about the first error. An empty word is an error, because an
+/// unset shell variable may leave one. If the user requests help, throws the help
+/// text, which RunTool() prints.
 void ParseCommandLine(int argc, char** argv, CLI::App* app);
 
-/// The main() of a command: its exit code is that of `body`. What that throws
-/// becomes one line on stderr and exit code 2, and so does output that could not
-/// be written; help is printed, with exit code 0.
+/// Runs `body` as the main() of a command and returns its exit code. If `body`
+/// throws a std::exception, or stdout cannot be written, prints one line on
+/// stderr and returns 2. If ParseCommandLine() throws the help text, prints it
+/// and returns 0.
 int RunTool(const std::string& name, const std::function<int()>& body);
 
 }  // namespace poise

@@ -11,10 +11,10 @@ namespace poise {
 nlohmann::json ParseJson(std::string_view text) {
   constexpr int kDeepest = 100;
   using Event = nlohmann::json::parse_event_t;
-  std::vector<std::set<std::string>> keys;  // Of the objects that are open.
+  std::vector<std::set<std::string>> keys;  // Of each open object.
   const auto keep = [&keys](int depth, Event event, nlohmann::json& parsed) {
     if (depth > kDeepest) {
-      throw std::invalid_argument("is nested over 100 deep");
+      throw std::invalid_argument("is nested more than 100 levels deep");
     }
     if (event == Event::object_start) keys.emplace_back();
     if (event == Event::object_end) keys.pop_back();

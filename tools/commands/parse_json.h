@@ -6,10 +6,12 @@
 
 namespace poise {
 
-/// A JSON document from outside. Throws std::invalid_argument with one line
-/// where the text is none, where an object has a key twice, of which one would be
-/// lost, or where it is nested over 100 deep: to copy or to write such a one would
-/// exhaust the stack.
+/// Parses a JSON document from outside. Throws std::invalid_argument with one
+/// line if:
+/// - the text is not JSON;
+/// - an object has a key twice, because one of the values would be lost;
+/// - the nesting is deeper than 100 levels, because to copy or to write such a
+///   document would exhaust the stack.
 nlohmann::json ParseJson(std::string_view text);
 
 }  // namespace poise

@@ -7,7 +7,7 @@ namespace poise {
 
 std::filesystem::path UserPath(const std::string& typed) {
   const char* start = std::getenv("BUILD_WORKING_DIRECTORY");
-  // An absolute right side wins.
+  // If `typed` is absolute, operator/ ignores `start`.
   return start ? std::filesystem::path(start) / typed
                : std::filesystem::path(typed);
 }

@@ -6,8 +6,9 @@
 
 namespace poise {
 
-/// A path that the user typed, meant from where it was typed: `bazel run` moves
-/// its program elsewhere, and says in BUILD_WORKING_DIRECTORY from where.
+/// Resolves a path that the user typed, relative to the folder where the user
+/// typed it. `bazel run` starts a program in another folder, and passes the
+/// user's folder in BUILD_WORKING_DIRECTORY.
 std::filesystem::path UserPath(const std::string& typed);
 
 }  // namespace poise

@@ -14,24 +14,26 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMostJoints = 500;
-// Of M with a unit diagonal: the smallest eigenvalue that is not rounding.
+// Smallest eigenvalue per degree of freedom that exceeds rounding errors. It is
+// that of M, scaled to a unit diagonal.
 constexpr double kSingular = 1e-13;
-// Where its inverse loses half the digits.
+// Eigenvalue below which the inverse of M loses half the digits.
 constexpr double kIllConditioned = 1e-8;
 
-// What coordinate i of v moves.
+// Names the joint or base that coordinate i of v moves.
 std::string Coordinate(const RobotModel& model, int i) {
   const int j = i - model.tree.v_start();
   if (j >= 0) return "joint " + Quoted(model.tree.joints()[j].name);
   return "base " + Quoted(model.tree.frames()[model.root_frame].name);
 }
 
-// " from link 'hand' on": what hangs on a joint; nothing of the base.
+// Returns " (link 'hand' and beyond)", the links that a joint moves, or nothing
+// for the base.
 std::string From(const RobotModel& model, int i) {
   const int j = i - model.tree.v_start();
   for (const Frame& frame : model.tree.frames()) {
     if (j < 0 || frame.body != j + 1) continue;
-    return " from link " + Quoted(frame.name) + " on";
+    return " (link " + Quoted(frame.name) + " and beyond)";
   }
   return "";
 }
@@ -48,15 +50,15 @@ std::optional<double> CheckInertia(const RobotModel& model,
   if (tree.num_joints() > kMostJoints) {
     add(Severity::kNote, "robot",
         "has " + std::to_string(tree.num_joints()) + " joints",
-        "M was not computed, as there are more than 500");
+        "M was not computed, because the limit is 500 joints");
     return std::nullopt;
   }
   Tick tick(tree, {});
   ComputeTick(tree, RestConfiguration(model), VectorXd::Zero(tree.nv()), &tick);
-  constexpr double kTooLarge = 1e20;  // Against which 1 is rounding.
+  constexpr double kTooLarge = 1e20;  // Next to it, 1 is lost in rounding.
   if (!tick.M.allFinite() || tick.M.maxCoeff() > kTooLarge) {
     add(Severity::kWarn, "robot", "M is too large or not finite",
-        "numbers this large cannot be computed with");
+        "masses, inertias or lengths are too large to compute with");
     return std::nullopt;
   }
   const VectorXd diagonal = tick.M.diagonal();
@@ -65,7 +67,7 @@ std::optional<double> CheckInertia(const RobotModel& model,
     const bool nothing = diagonal[i] == 0;
     add(Severity::kWarn, Coordinate(model, i),
         (nothing ? "moves no mass" : "has negative inertia") + From(model, i),
-        "M is singular or worse: no acceleration can be computed");
+        "M is singular or indefinite: no acceleration can be computed");
     return std::nullopt;
   }
   const VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
@@ -81,13 +83,14 @@ std::optional<double> CheckInertia(const RobotModel& model,
   }
   if (smallest < kSingular * tree.nv()) {
     add(Severity::kWarn, Coordinate(model, i), "makes M singular",
-        "others move the same mass: no acceleration can be computed");
+        "other joints move the same mass: no acceleration can be computed");
     return std::nullopt;
   }
   if (smallest < kIllConditioned) {
     add(Severity::kNote, Coordinate(model, i),
-        "makes M ill-conditioned, by " + PrintNumber(1 / smallest),
-        "accelerations lose as many digits");
+        "makes M ill-conditioned, with a condition number of at least " +
+            PrintNumber(1 / smallest),
+        "rounding errors of accelerations grow by this factor");
   }
   return smallest;
 }

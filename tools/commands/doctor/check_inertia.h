@@ -9,12 +9,13 @@
 
 namespace poise {
 
-/// Whether the mass matrix M of a robot at rest, its joints as near zero as
-/// their limits let them, can be inverted. Adds a finding that names the joint
-/// to blame where it cannot, or where that loses half the digits or more.
+/// Checks if the mass matrix M of a robot can be inverted. The joints are as near
+/// zero as their limits allow. If M cannot be inverted, or if the inversion loses
+/// at least half the digits, adds a finding that names the joint.
 ///
-/// Returns the smallest eigenvalue of M, scaled to a diagonal of 1; nothing
-/// where M is singular or worse, or the robot has over 500 joints. Costs O(n^3).
+/// Returns the smallest eigenvalue of M, scaled to a diagonal of 1. Returns
+/// nothing if M is singular, indefinite or not finite, or if the robot has more
+/// than 500 joints. Costs O(n^3).
 std::optional<double> CheckInertia(const RobotModel& model,
                                    std::vector<Finding>* findings);
 

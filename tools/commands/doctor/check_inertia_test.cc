@@ -15,7 +15,7 @@ constexpr char kInertial[] =
     "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
     "iyz='0' izz='1'/></inertial>";
 
-// base - j1 about z - a - j2 - b.
+// Makes the chain base - j1 - a - j2 - b. Joint j1 turns about z.
 RobotModel Chain(const std::string& base, const std::string& a,
                  const std::string& b, const std::string& axis2 = "0 1 0") {
   const auto joint = [](const std::string& name, const std::string& parent,
@@ -31,7 +31,7 @@ RobotModel Chain(const std::string& base, const std::string& a,
                    "chain.urdf");
 }
 
-// The findings of a robot whose M cannot be inverted.
+// Returns the findings of a robot whose M cannot be inverted.
 std::string Findings(const RobotModel& model) {
   std::vector<Finding> findings;
   EXPECT_FALSE(CheckInertia(model, &findings).has_value());
@@ -45,25 +45,26 @@ std::string Findings(const RobotModel& model) {
 
 TEST(CheckInertia, NamesJointAndLinkThatMoveNoMass) {
   EXPECT_EQ(Findings(Chain(kInertial, kInertial, "")),
-            ": joint 'j2': moves no mass from link 'b' on, M is singular or "
-            "worse: no acceleration can be computed");
+            ": joint 'j2': moves no mass (link 'b' and beyond), M is singular "
+            "or indefinite: no acceleration can be computed");
   EXPECT_EQ(Findings(Chain(kInertial, "", "")),
-            ": joint 'j1': moves no mass from link 'a' on, M is singular or "
-            "worse: no acceleration can be computed");
+            ": joint 'j1': moves no mass (link 'a' and beyond), M is singular "
+            "or indefinite: no acceleration can be computed");
 }
 
-TEST(CheckInertia, NamesAJointThatMovesWhatAnotherMoves) {
+TEST(CheckInertia, NamesOneOfTwoJointsThatMoveTheSameMass) {
   const std::string found = Findings(Chain(kInertial, "", kInertial, "0 0 1"));
   EXPECT_NE(found.find("makes M singular"), std::string::npos) << found;
 }
 
-TEST(CheckInertia, IsContentWithALinkBetweenThatHasNoMass) {
+TEST(CheckInertia, AcceptsMasslessLinkBetweenJoints) {
   std::vector<Finding> findings;
   const auto smallest =
       CheckInertia(Chain(kInertial, "", kInertial), &findings);
   EXPECT_TRUE(findings.empty());
-  // One body of mass at the other's center, each turning about one axis: the
-  // scaled M of j1 and the base's turn about z is [1 r; r 1], r = sqrt(1/2).
+  // Both bodies have their mass at the same point. The smallest eigenvalue is
+  // that of the block of M for j1 and the rotation of the base about z. Scaled,
+  // this block is [1 r; r 1] with r = sqrt(1/2).
   EXPECT_NEAR(smallest.value(), 1 - std::sqrt(0.5), 1e-12);
 }
 

@@ -26,17 +26,18 @@ using Eigen::VectorXd;
 constexpr int kMostJointsToStand = 100;
 constexpr size_t kMostLinksToStand = 1000;
 constexpr size_t kMostShapesToStand = 10'000;
-// Two dynamics of one robot agree to this, relative.
+// Largest relative difference between the dynamics of Poise and of Bullet.
 constexpr double kParity = 1e-9;
 
-// Too large for what takes more time than reading it.
+// Returns true if the robot is too large for the checks that take more time than
+// to read the file.
 bool IsLarge(const RobotModel& model) {
   return model.tree.num_joints() > kMostJointsToStand ||
          model.tree.frames().size() > kMostLinksToStand ||
          model.visuals.size() + model.collisions.size() > kMostShapesToStand;
 }
 
-// Of its center of mass as it stands, m.
+// Returns the height of the center of mass in the standing posture, m.
 double HeightOfMass(const Robot& robot) {
   const Tree& tree = robot.model.tree;
   Tick tick(tree, {});
@@ -55,15 +56,18 @@ class Doctor {
   void Add(Severity severity, std::string where, std::string what,
            std::string why);
 
-  // The robot, or a finding that says why there is none.
+  // Returns the robot. If the file is invalid, adds a finding with the reason and
+  // returns nothing.
   std::optional<RobotModel> Load();
 
   void Describe(const RobotModel& model);
 
-  // What the profile leaves of the robot for control, and for M and parity.
+  // Returns the robot without the joints that the profile locks. Control, M and
+  // parity use this robot.
   RobotModel LockJoints(const RobotModel& whole);
 
-  // A profile that does not fit is the caller's mistake, not the robot's.
+  // Throws Refusal if the profile does not match the robot: this is an error of
+  // the caller, not a finding about the robot.
   void CheckStanding();
 
   void CheckParity(const Robot& robot);
@@ -82,8 +86,8 @@ Diagnosis Doctor::Examine() {
     smallest_eigenvalue_ = CheckInertia(model, &diagnosis_.findings);
     if (IsLarge(model)) {
       Add(Severity::kNote, "robot",
-          "was not stood up, nor compared with Bullet",
-          "as it has over 100 joints, 1000 links or 10000 shapes");
+          "was not tested for standing or compared with Bullet",
+          "because it has more than 100 joints, 1000 links or 10000 shapes");
     } else {
       CheckStanding();
       if (smallest_eigenvalue_) CheckParity({model, {}, {}});
@@ -107,7 +111,7 @@ std::optional<RobotModel> Doctor::Load() {
     document_.emplace(urdf_, &diagnosis_.findings);
     return document_->MakeModel();
   } catch (const Refusal& refusal) {
-    // UrdfDocument has added what it found already.
+    // UrdfDocument may have added the reason already.
     if (diagnosis_.worst() != Severity::kReject) {
       diagnosis_.findings.push_back(refusal.finding());
     }
@@ -139,13 +143,13 @@ RobotModel Doctor::LockJoints(const RobotModel& whole) {
   if (locked == 0) return whole;
   Add(Severity::kNote, "robot",
       "has " + std::to_string(locked) + " joints locked by the profile",
-      "M, standing and parity are of the " +
-          std::to_string(whole.tree.num_joints() - locked) + " others");
+      "M, standing and parity are computed with the " +
+          std::to_string(whole.tree.num_joints() - locked) + " other joints");
   return MakeModel(*document_, profile_);
 }
 
 void Doctor::CheckStanding() {
-  std::string reason = "as M is singular";
+  std::string reason = "because M is singular";
   try {
     Robot robot = MakeRobot(*document_, profile_, &diagnosis_.findings);
     if (profile_.tasks.IsDefined()) {
@@ -182,13 +186,15 @@ void Doctor::CheckParity(const Robot& robot) {
         OneLine(error.what()));
     return;
   }
-  // M comes from the plant by an inversion, which costs digits.
+  // The M of the plant is the inverse of measured accelerations. The inversion
+  // amplifies rounding errors by 1 / smallest_eigenvalue_.
   const double rounding = std::numeric_limits<double>::epsilon() *
                           robot.model.tree.nv() / *smallest_eigenvalue_;
-  if (*diagnosis_.parity <= std::max(kParity, rounding)) return;  // Not NaN.
+  if (*diagnosis_.parity <= std::max(kParity, rounding))
+    return;  // False for NaN.
   Add(Severity::kWarn, "robot",
       "differs from its Bullet plant by " + PrintNumber(*diagnosis_.parity),
-      "relative: simulation and control do not agree");
+      "relative error: simulation and controller do not agree");
 }
 
 }  // namespace

@@ -11,35 +11,38 @@
 
 namespace poise {
 
-/// What a robot file says, and everything in it that would make control fail or
-/// lie.
+/// The contents of a robot file, and everything in the file that would make the
+/// controller fail or compute wrong values. Units are SI.
 struct Diagnosis {
   std::string robot;
   std::string root;
-  int joints = 0;  ///< That move.
+  int joints = 0;  ///< Number of movable joints.
   double mass = 0;
   struct Mass {
     std::string link;
     double mass;
   };
-  std::vector<Mass> links;   ///< Each link alone.
-  std::vector<Mass> bodies;  ///< With all that is fixed to them.
+  std::vector<Mass> links;   ///< Mass of each link alone.
+  std::vector<Mass> bodies;  ///< Links with all links fixed to them.
   struct Sole {
     std::string name, link;
     double length, width;
   };
   std::vector<Sole> soles;
-  std::optional<double> com_height;  ///< In its standing posture, if it stands.
-  std::optional<double> parity;      ///< With Bullet: the worst, relative.
-  std::vector<Finding> findings;     ///< The worst first.
+  std::optional<double>
+      com_height;                 ///< In the standing posture, if there is one.
+  std::optional<double> parity;   ///< See Parity::worst().
+  std::vector<Finding> findings;  ///< The most severe first.
 
   Severity worst() const;
 };
 
-/// Looks a robot file over. Throws Refusal where the profile does not fit the
-/// robot, and never for what the robot's own file may hold; takes less
-/// than 10 s and 1 GiB: above 500 joints M is not computed; above 100, or 1000
-/// links or 10000 shapes, the robot is not stood up.
+/// Examines a robot file. Errors in the robot file become findings. Throws Refusal
+/// if the profile does not match the robot.
+///
+/// Takes less than 10 s and 1 GiB. To limit the time, M is not computed for more
+/// than 500 joints. Standing and parity are not examined for more than 100
+/// joints, 1000 links or 10000 shapes.
 Diagnosis Diagnose(const std::filesystem::path& urdf,
                    const Profile& profile = {});
 

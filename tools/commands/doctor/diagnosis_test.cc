@@ -22,8 +22,8 @@ const char kInertial[] =
     "<inertial><mass value='1'/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' "
     "iyz='0' izz='0.1'/></inertial>";
 
-// A chain of links 0, 1, 2 ... on joints about the given axes, with the given
-// parts inside each link.
+// Makes a chain of links 0, 1, 2 ..., with joints about the given axes and with
+// the given elements inside each link.
 std::string Chain(const std::vector<std::string>& parts,
                   const std::vector<std::string>& axes) {
   std::string text = "<robot name='chain'>";
@@ -52,7 +52,7 @@ std::string Findings(const Diagnosis& diagnosis) {
   return all;
 }
 
-TEST(Diagnose, FindsTheHumanoidWell) {
+TEST(Diagnose, FindsNoFaultInTheHumanoid) {
   const Diagnosis diagnosis =
       Diagnose("robot/models/humanoid.urdf",
                LoadProfile("robot/profiles/humanoid.yaml"));
@@ -68,7 +68,7 @@ TEST(Diagnose, FindsTheHumanoidWell) {
   for (const Diagnosis::Mass& link : diagnosis.links) mass += link.mass;
   EXPECT_NEAR(mass, diagnosis.mass, 1e-12);
   EXPECT_GT(diagnosis.links.size(), diagnosis.bodies.size());
-  // The parity that the plant is asked for.
+  // Bullet must agree with our dynamics to this relative error.
   EXPECT_LT(diagnosis.parity.value(), 1e-9);
 }
 
@@ -79,9 +79,10 @@ std::string HumanoidText() {
   return text.str();
 }
 
-TEST(Diagnose, NamesTheMotorThatCannotHoldTheRobot) {
+TEST(Diagnose, NamesMotorsTooWeakToStand) {
   std::string text = HumanoidText();
-  // One weak knee does not matter: friction of the feet straightens it.
+  // Both knees are weak. A single weak knee would not matter, because the
+  // friction of the feet straightens it.
   for (const char* knee :
        {"<joint name=\"l_knee\"", "<joint name=\"r_knee\""}) {
     const size_t effort = text.find("effort=\"", text.find(knee)) + 8;
@@ -94,8 +95,8 @@ TEST(Diagnose, NamesTheMotorThatCannotHoldTheRobot) {
       << Findings(diagnosis);
 }
 
-TEST(Diagnose, LooksAtWhatTheProfileLeaves) {
-  // A massless head moves nothing, unless it is locked.
+TEST(Diagnose, ExaminesTheRobotWithoutItsLockedJoints) {
+  // The joints of a massless head make M singular, unless they are locked.
   std::string text = HumanoidText();
   for (const char* link : {"<link name=\"neck\"", "<link name=\"head\""}) {
     const size_t start = text.find("<inertial>", text.find(link));
@@ -110,13 +111,14 @@ TEST(Diagnose, LooksAtWhatTheProfileLeaves) {
                    "locked.yaml", "locked: {neck_yaw: 0.1, neck_pitch: 0}\n")));
   EXPECT_EQ(Findings(reduced).find("moves no mass"), std::string::npos);
   EXPECT_NE(Findings(reduced).find("has 2 joints locked by the profile, M, "
-                                   "standing and parity are of the 48 others"),
+                                   "standing and parity are computed with the "
+                                   "48 other joints"),
             std::string::npos)
       << Findings(reduced);
   EXPECT_LT(reduced.parity.value(), 1e-9);
 }
 
-TEST(Diagnose, WarnsOfASingularInertia) {
+TEST(Diagnose, WarnsOfSingularMassMatrix) {
   const Diagnosis leaf =
       Examine(Chain({kInertial, kInertial, ""}, {"0 0 1", "0 1 0"}));
   EXPECT_EQ(VerdictWord(leaf), "warn");
@@ -126,13 +128,13 @@ TEST(Diagnose, WarnsOfASingularInertia) {
       Examine(Chain({kInertial, "", kInertial}, {"0 0 1", "0 0 1"}));
   EXPECT_EQ(VerdictWord(collinear), "warn");
   EXPECT_NE(Findings(collinear).find("makes M singular"), std::string::npos);
-  // About another axis, the link between may be massless.
+  // If the axes differ, the link between the joints may be massless.
   EXPECT_EQ(VerdictWord(
                 Examine(Chain({kInertial, "", kInertial}, {"0 0 1", "1 0 0"}))),
             "ok");
 }
 
-TEST(Diagnose, RejectsWithTheReason) {
+TEST(Diagnose, NamesElementAndValueThatItRejects) {
   const Diagnosis diagnosis = Examine(Chain({kInertial, kInertial}, {"0 0 0"}));
   EXPECT_EQ(VerdictWord(diagnosis), "reject");
   EXPECT_EQ(diagnosis.findings[0].where, "joint 'j1' <axis>");
@@ -140,14 +142,14 @@ TEST(Diagnose, RejectsWithTheReason) {
   EXPECT_EQ(VerdictWord(Diagnose("no/such.urdf")), "reject");
 }
 
-TEST(Diagnose, RejectsARobotWithoutMass) {
+TEST(Diagnose, RejectsRobotWithoutMass) {
   const Diagnosis diagnosis = Examine(Chain({"", ""}, {"0 0 1"}));
   EXPECT_EQ(VerdictWord(diagnosis), "reject") << Findings(diagnosis);
   EXPECT_EQ(diagnosis.findings[0].what, "the mass of all links together is 0");
   EXPECT_EQ(diagnosis.findings[0].line, 1);
 }
 
-TEST(Diagnose, NamesTheLineOfWhatIsNoXml) {
+TEST(Diagnose, NamesTheLineOfInvalidXml) {
   const Diagnosis diagnosis = Examine("<robot>\n<!DOCTYPE a></robot>");
   ASSERT_EQ(VerdictWord(diagnosis), "reject");
   EXPECT_EQ(diagnosis.findings[0].line, 2);
@@ -155,7 +157,7 @@ TEST(Diagnose, NamesTheLineOfWhatIsNoXml) {
             "has a document type or entity declaration, must have none");
 }
 
-TEST(Diagnose, LeavesLargeRobotsUncomputed) {
+TEST(Diagnose, SkipsMassMatrixAbove500Joints) {
   const Diagnosis diagnosis =
       Examine(Chain(std::vector<std::string>(602, kInertial),
                     std::vector<std::string>(601, "0 0 1")));
@@ -163,8 +165,8 @@ TEST(Diagnose, LeavesLargeRobotsUncomputed) {
   EXPECT_NE(Findings(diagnosis).find("M was not computed"), std::string::npos);
 }
 
-// 80 000 corners a foot, which took 16 s.
-TEST(Diagnose, TakesFeetOfVeryManyShapes) {
+// Each foot has 80 000 corners, so the search for the sole must be fast.
+TEST(Diagnose, ExaminesFeetWithThousandsOfShapes) {
   std::string feet;
   for (int i = 0; i < 4990; ++i) {
     feet += "<collision><origin rpy='0 0 " + std::to_string(i * 1e-4) +
@@ -192,15 +194,15 @@ TEST(Diagnose, TakesFeetOfVeryManyShapes) {
       parent = name;
     }
   }
-  // Less than a second.
+  // Takes less than a second.
   const Diagnosis diagnosis = Examine(text + "</robot>");
   EXPECT_EQ(VerdictWord(diagnosis), "ok") << Findings(diagnosis);
   ASSERT_EQ(diagnosis.soles.size(), 2u);
-  // The square in a circle of 0.1 m.
+  // The sole is the square inside a circle with a radius of 0.1 m.
   EXPECT_NEAR(diagnosis.soles[0].length, 0.1414, 0.002);
 }
 
-TEST(Diagnose, RefusesAProfileThatDoesNotFit) {
+TEST(Diagnose, RejectsProfileThatDoesNotMatchTheRobot) {
   for (const char* text :
        {"feet:\n  left_foot: {frame: nope, size: [0.2, 0.1]}\n"
         "  right_foot: {frame: r_sole, size: [0.2, 0.1]}\n",
@@ -217,7 +219,7 @@ TEST(Diagnose, RefusesAProfileThatDoesNotFit) {
   }
 }
 
-TEST(WriteJson, HasTheKeysOfTheFormatWhateverTheNames) {
+TEST(WriteJson, HasTheKeysOfTheFormatForAnyRobotName) {
   const Diagnosis diagnosis =
       Examine(std::string("<robot name='\"\\ \xc3\xa9'><link name='a'>") +
               kInertial + "</link></robot>");
@@ -231,7 +233,7 @@ TEST(WriteJson, HasTheKeysOfTheFormatWhateverTheNames) {
   }
 }
 
-TEST(WriteTable, SaysWhatMatters) {
+TEST(WriteTable, ShowsRobotFindingsAndVerdict) {
   const std::string table =
       WriteTable(Examine(Chain({kInertial, ""}, {"0 0 1"})));
   EXPECT_NE(table.find("robot    'chain', root '0', 2 links, 1 moving joints"),
@@ -242,8 +244,8 @@ TEST(WriteTable, SaysWhatMatters) {
   EXPECT_NE(table.find("verdict  warn"), std::string::npos);
 }
 
-// What of a link or a joint makes which verdict.
-TEST(Diagnose, JudgesByWhatIsWorst) {
+// Each case changes one part of a good robot file.
+TEST(Diagnose, GivesTheVerdictOfTheWorstFault) {
   const std::string good = Chain({kInertial, kInertial}, {"0 0 1"});
   const struct {
     const char* old_text;
@@ -289,7 +291,7 @@ TEST(Diagnose, JudgesByWhatIsWorst) {
   }
 }
 
-TEST(WriteTable, SaysHowMuchItLeavesOut) {
+TEST(WriteTable, SaysHowManyLinesItOmits) {
   Diagnosis diagnosis;
   diagnosis.links.resize(1003, {"l", 1});
   diagnosis.findings.resize(1002, {Severity::kNote, "", "odd", "", 0});
@@ -301,9 +303,9 @@ TEST(WriteTable, SaysHowMuchItLeavesOut) {
   EXPECT_EQ(json["findings_left_out"], 2);
 }
 
-TEST(Diagnose, FindsRealRobotsTheSameInThePlant) {
+TEST(Diagnose, AgreesWithBulletOnRealRobots) {
   const auto folder = SharedData("robots");
-  if (!folder) GTEST_SKIP() << "the shared robots are not there";
+  if (!folder) GTEST_SKIP() << "the shared robot files are missing";
   for (const char* name : {"atlas", "booster_t1", "draco3", "g1_29dof",
                            "icub_erd_reduced", "jvrc1", "talos_reduced"}) {
     const Diagnosis diagnosis =
@@ -324,7 +326,7 @@ TEST(Diagnose, FindsRealRobotsTheSameInThePlant) {
 
 TEST(Diagnose, JudgesHostileFilesAsExpected) {
   const auto folder = SharedData("urdf_hostile");
-  if (!folder) GTEST_SKIP() << "the hostile files are not there";
+  if (!folder) GTEST_SKIP() << "the shared hostile files are missing";
   std::ifstream stream(*folder / "EXPECTED.json");
   const nlohmann::json all = nlohmann::json::parse(stream);
   for (const auto& [name, expected] : all.items()) {

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Usage: doctor_test.sh DOCTOR URDF
-# What scripts rely on: exit codes, one line on stderr, JSON alone on stdout.
+# Checks what scripts rely on: exit codes, one line on stderr, only JSON on stdout.
 set -euo pipefail
 doctor=$PWD/$1 urdf=$PWD/$2
 cd "$TEST_TMPDIR"
@@ -10,25 +10,26 @@ fail() {
   exit 1
 }
 
-# Usage: expect CODE LINES ARGUMENT...: how it ends, and what stderr has.
+# Usage: expect CODE LINES ARGUMENT...: doctor must exit with CODE and print LINES
+# lines on stderr.
 expect() {
   local wanted=$1 lines=$2 code=0
   shift 2
   "$doctor" "$@" > out 2> err || code=$?
-  [ "$code" = "$wanted" ] || fail "exit code $code for $*, wanted $wanted"
-  [ "$(wc -l < err)" = "$lines" ] || fail "stderr of $*: $(cat err)"
+  [ "$code" = "$wanted" ] || fail "$*: exit code is $code, must be $wanted"
+  [ "$(wc -l < err)" = "$lines" ] || fail "$*: stderr must have $lines lines: $(cat err)"
 }
 
 expect 0 0 "$urdf"
 grep -q '^verdict  ok$' out || fail "the table has no verdict: $(cat out)"
 expect 0 0 "$urdf" --json
-[ "$(head -c 1 out)$(tail -n 1 out)" = "{}" ] || fail "not JSON alone"
+[ "$(head -c 1 out)$(tail -n 1 out)" = "{}" ] || fail "stdout has more than one JSON document: $(cat out)"
 grep -q '"verdict": "ok"' out || fail "the JSON has no verdict"
 
 sed 's/<mass value="[^"]*"/<mass value="x"/' "$urdf" > bad.urdf
 expect 2 1 bad.urdf
 grep -q "^bad.urdf:[0-9]*: link '.*' <mass>: value is 'x', must be a number$" err ||
-  fail "the message does not say what is wrong: $(cat err)"
+  fail "the message does not name the mass and its value: $(cat err)"
 expect 2 1 bad.urdf --json
 grep -q '"verdict": "reject"' out || fail "the JSON has no verdict"
 
@@ -36,13 +37,13 @@ expect 2 1 no_such.urdf
 expect 2 1 "$urdf" --profile no_such.yaml
 printf 'feet:\n  left_foot: 1\n' > bad.yaml
 expect 2 1 "$urdf" --profile bad.yaml
-grep -q '^bad.yaml:2: ' err || fail "no line of the profile: $(cat err)"
+grep -q '^bad.yaml:2: ' err || fail "the message has no line number of the profile: $(cat err)"
 expect 2 1
 expect 2 1 "$urdf" --nonsense
 expect 0 0 --help
 
 code=0
 "$doctor" "$urdf" > /dev/full 2> err || code=$?
-[ "$code" = 2 ] || fail "exit code $code where the output is lost, wanted 2"
+[ "$code" = 2 ] || fail "output to a full device: exit code is $code, must be 2"
 [ "$(cat err)" = "doctor: the output cannot be written" ] ||
-  fail "stderr of lost output: $(cat err)"
+  fail "output to a full device: stderr is $(cat err)"

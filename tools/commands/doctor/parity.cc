@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// The plant's accelerations under a generalized force at rest.
+// Returns the accelerations of the plant, at rest, under a generalized force.
 VectorXd Accelerations(const VectorXd& q, const VectorXd& force,
                        BulletPlant* plant) {
   const int n = static_cast<int>(force.size()) - 6;
@@ -28,7 +28,8 @@ VectorXd Accelerations(const VectorXd& q, const VectorXd& force,
   return plant->Sense().vdot;
 }
 
-// Where the center of mass is from the base's origin, as M has it.
+// Returns the center of mass relative to the base's origin, in world axes, from
+// the off-diagonal entries of M.
 Vector3d CenterOfMass(const MatrixXd& M) {
   const double mass = M(3, 3);
   return Vector3d(M(2, 4), M(0, 5), M(1, 3)) / mass;
@@ -42,7 +43,8 @@ double Parity::worst() const {
 }
 
 Parity CompareWithBullet(const Robot& robot, const Robot& plant_of) {
-  // Nothing to touch, and nothing to cut a force off.
+  // Without feet and collision shapes the robot touches nothing. Without effort
+  // limits no force is clamped.
   Robot free = plant_of;
   free.feet.clear();
   free.model.collisions.clear();
@@ -61,7 +63,8 @@ Parity CompareWithBullet(const Robot& robot, const Robot& plant_of) {
   MatrixXd answers(nv, nv);
   Tick tick(tree, {});
   ComputeTick(tree, q, VectorXd::Zero(nv), &tick);
-  // Forces in proportion to what they move, so that no answer drowns.
+  // Forces are proportional to the inertia that they move. So all accelerations
+  // have similar magnitudes and none is lost in rounding.
   const VectorXd unit = tick.M.diagonal();
   for (int i = 0; i < nv; ++i) {
     answers.col(i) =

@@ -5,24 +5,28 @@
 
 namespace poise {
 
-/// How far the Bullet plant of a robot is from our own dynamics, each relative
-/// to its own scale.
+/// Differences between the Bullet plant of a robot and our own dynamics, each
+/// relative to its own scale. M and g are ours, M' and g' those of Bullet.
 struct Parity {
-  double mass;            ///< Of the total mass.
-  double center_of_mass;  ///< Of its distance from the base's origin, or 1 m.
-  double inertia;         ///< |M - M'|_ij over sqrt(M_ii M_jj), the largest.
-  double gravity;         ///< |g - g'|_i over |g|, the largest.
+  double mass;            ///< Relative to the total mass.
+  double center_of_mass;  ///< Relative to its distance from the base
+                          ///< origin or 1 m, whichever is larger.
+  double inertia;         ///< Largest |M - M'|_ij / sqrt(M_ii M_jj).
+  double gravity;         ///< Largest |g - g'|_i / max_j |g_j|.
 
+  /// Returns the largest of the four, or NaN if one is NaN.
   double worst() const;
 };
 
-/// Asks the plant for its accelerations under unit forces, at rest with its
-/// joints as near zero as their limits let them, which gives it away: M' is the
-/// inverse of what it answers, and g' = -M' v̇ under gravity alone.
+/// Measures M' and g' of the Bullet plant and compares them with M and g. The
+/// plant is at rest, with its joints as near zero as their limits allow. Its
+/// accelerations under one unit force after the other are the columns of M'^-1.
+/// Under gravity alone its acceleration v̇ gives g' = -M' v̇.
 ///
-/// Throws std::invalid_argument where Bullet cannot represent the robot.
+/// Throws std::invalid_argument if Bullet cannot represent the robot.
 ///
-/// @param plant_of  what to make the plant from: the robot itself, but in a test.
+/// @param plant_of  the robot to make the plant from. Only tests pass another
+///                  robot than `robot`.
 Parity CompareWithBullet(const Robot& robot, const Robot& plant_of);
 
 }  // namespace poise

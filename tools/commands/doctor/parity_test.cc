@@ -27,8 +27,8 @@ Robot With(const std::string& old_text, const std::string& new_text) {
   return {ParseUrdf(text, "test.urdf"), {}, {}, false};
 }
 
-// The relative errors are those of the numbers that are changed.
-TEST(CompareWithBullet, SeesWhatDiffers) {
+// Each expected difference follows from the number that is changed.
+TEST(CompareWithBullet, DetectsOtherMassCenterAndInertia) {
   const Robot robot = With("", "");
   EXPECT_LT(CompareWithBullet(robot, robot).worst(), 1e-12);
 
@@ -37,7 +37,7 @@ TEST(CompareWithBullet, SeesWhatDiffers) {
   EXPECT_NEAR(heavy.mass, 0.1, 1e-9);
   EXPECT_NEAR(heavy.gravity, 0.1, 1e-9);
 
-  // Of 3 kg, 2 kg move by 0.3 m.
+  // 2 kg of 3 kg are shifted by 0.3 m.
   const Parity shifted = CompareWithBullet(robot, With("0.1 0 0", "0.4 0 0"));
   EXPECT_LT(shifted.mass, 1e-12);
   EXPECT_NEAR(shifted.center_of_mass, 0.2, 1e-9);
@@ -51,7 +51,7 @@ TEST(CompareWithBullet, SeesWhatDiffers) {
   EXPECT_LT(wide.inertia, 0.1);
 }
 
-TEST(Parity, IsAsBadAsTheWorst) {
+TEST(Parity, WorstIsTheLargestOrNaN) {
   EXPECT_EQ((Parity{1, 2, 3, 4}.worst()), 4);
   EXPECT_EQ((Parity{4, 3, 2, 1}.worst()), 4);
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -11,11 +11,12 @@
 
 namespace poise {
 
-// Torque limits come after the posture here, and one that is missed shows what
-// the posture takes.
+// Solves one tick at rest with the torque limits on a level below the posture.
+// The slack of a violated torque limit then shows how much torque the posture
+// needs.
 std::vector<Finding> FindWeakness(const Robot& robot) {
-  constexpr double kHeld = 1e-3;    // rad/s² or m/s²: what rounding leaves.
-  constexpr double kMissed = 1e-6;  // Of the limit.
+  constexpr double kHeld = 1e-3;    // Bound of rounding, rad/s² or m/s².
+  constexpr double kMissed = 1e-6;  // Fraction of the limit.
   const Tree& tree = robot.model.tree;
   Controller controller(robot);
   Stack& stack = controller.stack();
@@ -35,16 +36,18 @@ std::vector<Finding> FindWeakness(const Robot& robot) {
     if (row.task != limits || row.slack <= kMissed) continue;
     const Joint& joint = tree.joints()[row.row];
     const double effort = robot.model.limits[row.row].effort;
-    const double scale = effort > 0 ? effort : 1;  // Of the row.
+    const double scale = effort > 0 ? effort : 1;  // The row is divided by it.
     const char* unit = joint.type == JointType::kPrismatic ? " N" : " N m";
     findings.push_back({Severity::kWarn, "joint " + Quoted(joint.name),
                         "needs " + PrintNumber(effort + row.slack * scale) +
-                            " of " + PrintNumber(effort) + unit + " to stand",
-                        "its posture cannot be held"});
+                            " (limit " + PrintNumber(effort) + unit +
+                            ") to stand",
+                        "the motor is too weak for the standing posture"});
   }
   if (!(report.y.head(tree.nv()).lpNorm<Eigen::Infinity>() <= kHeld)) {
-    findings.push_back({Severity::kWarn, "robot", "cannot hold its posture",
-                        "not with the contact forces that its soles can give"});
+    findings.push_back(
+        {Severity::kWarn, "robot", "cannot hold its posture",
+         "its soles cannot give the contact forces that balance it"});
   }
   return findings;
 }

@@ -8,8 +8,10 @@
 
 namespace poise {
 
-/// Warnings where there are no contact forces with which the motors hold the
-/// robot up as it stands: each motor that is too weak, or the whole robot.
+/// Checks if the motors can hold the robot in its standing posture with contact
+/// forces that its soles can give. Returns a warning for each motor that is too
+/// weak, and one for the robot if the forces cannot balance it. Returns nothing
+/// if the robot can stand.
 /// @pre robot.can_stand.
 std::vector<Finding> FindWeakness(const Robot& robot);
 

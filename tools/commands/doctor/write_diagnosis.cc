@@ -59,11 +59,12 @@ std::string WriteTable(const Diagnosis& diagnosis) {
           << sole.width << " m on " << Quoted(sole.link) << "\n";
     }
     if (diagnosis.com_height) {
-      out << "stands   with its center of mass at " << *diagnosis.com_height
-          << " m\n";
+      out << "stands   with its center of mass at a height of "
+          << *diagnosis.com_height << " m\n";
     }
     if (diagnosis.parity) {
-      out << "parity   with the Bullet plant: " << *diagnosis.parity << "\n";
+      out << "parity   largest relative difference to the Bullet plant: "
+          << *diagnosis.parity << "\n";
     }
   }
   size_t shown = 0;
@@ -118,7 +119,7 @@ std::string WriteJson(const Diagnosis& diagnosis) {
   if (diagnosis.com_height) robot["com_height"] = *diagnosis.com_height;
   if (diagnosis.parity) robot["bullet_parity"] = *diagnosis.parity;
   json["robot"] = robot;
-  // Names need not be UTF-8; JSON must be.
+  // Names of the robot file may be invalid UTF-8, but JSON must be valid.
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

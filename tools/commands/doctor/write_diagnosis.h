@@ -7,14 +7,14 @@
 
 namespace poise {
 
-/// "ok", "warn" or "reject".
+/// Returns the verdict: "ok", "warn" or "reject".
 std::string VerdictWord(const Diagnosis& diagnosis);
 
-/// For a person, at most 1000 findings.
+/// Returns a text for people, with at most 1000 links and 1000 findings.
 std::string WriteTable(const Diagnosis& diagnosis);
 
-/// For a script: {"verdict", "findings": [{"severity", "where", "what", "why",
-/// "line"}], "robot": {...}}, at most 1000 findings.
+/// Returns a JSON document for scripts, with at most 1000 findings: {"verdict",
+/// "findings": [{"severity", "where", "what", "why", "line"}], "robot": {...}}.
 std::string WriteJson(const Diagnosis& diagnosis);
 
 }  // namespace poise

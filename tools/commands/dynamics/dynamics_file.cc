@@ -19,7 +19,7 @@ using nlohmann::json;
 const json& Entry(const json& object, const char* key,
                   const std::string& where) {
   if (!object.is_object() || !object.contains(key)) {
-    throw std::invalid_argument(where + ": there is no '" + key + "'");
+    throw std::invalid_argument(where + ": has no key '" + key + "'");
   }
   return object[key];
 }
@@ -56,7 +56,7 @@ json VectorToJson(const VectorXd& vector) {
   return std::vector<double>(vector.data(), vector.data() + vector.size());
 }
 
-// By position in the file: the index of the joint in the tree.
+// Returns the index in the tree of each joint, in the order of the file.
 std::vector<int> ReadJoints(const Tree& tree, const json& document) {
   const json& names = Entry(document, "joints", "document");
   std::vector<int> order;
@@ -70,7 +70,8 @@ std::vector<int> ReadJoints(const Tree& tree, const json& document) {
                                   name.dump());
     }
     if (found[*joint]) {
-      throw std::invalid_argument("joints: " + name.dump() + " is there twice");
+      throw std::invalid_argument("joints: " + name.dump() +
+                                  " is listed twice");
     }
     found[*joint] = true;
     order.push_back(*joint);
@@ -84,7 +85,7 @@ std::vector<int> ReadJoints(const Tree& tree, const json& document) {
   return order;
 }
 
-// q, v and v̇ as the tree has them, of what stands in the order of the file.
+// q, v and v̇ in the order of the tree.
 struct Motion {
   VectorXd q, v, vdot;
 };
@@ -100,8 +101,8 @@ Motion ReadMotion(const json& state, const std::vector<int>& order,
     throw std::invalid_argument(where +
                                 ": 'base_quaternion_wxyz' must not be zero");
   }
-  // Read before they are put together: a refusal must not leave Eigen's comma
-  // list half done.
+  // All vectors are read first, because an exception inside Eigen's comma
+  // initializer would leave the initializer incomplete.
   const VectorXd p = read("base_position", 3);
   const VectorXd w = read("base_angular_velocity", 3);
   const VectorXd v = read("base_linear_velocity", 3);
@@ -159,7 +160,7 @@ void ComputeState(const Tree& tree, const std::vector<int>& order,
         where + ": the results are not finite, the numbers must be smaller");
   }
 
-  // From the tree's order to the file's.
+  // P permutes from the order of the tree to the order of the file.
   Eigen::PermutationMatrix<Eigen::Dynamic> P(tree.nv());
   P.setIdentity();
   for (size_t i = 0; i < order.size(); ++i) {

@@ -16,7 +16,7 @@ namespace {
 using Eigen::VectorXd;
 using nlohmann::json;
 
-// A body with two arms, whose order the file swaps.
+// Makes a body with two arms. The file lists the arms in the opposite order.
 Tree MakeTree() {
   TreeBuilder builder;
   for (const char* name : {"body", "a", "b"}) {
@@ -70,7 +70,7 @@ TEST(ComputeDynamics, TakesJointsInTheOrderOfTheFile) {
   for (int i = 0; i < 8; ++i) {
     EXPECT_NEAR(state["tau_inverse_dynamics"][i].get<double>(), tau[i],
                 Rounding(500, 10));
-    // tau = M v̇ + h, with v̇ in the file's order.
+    // tau = M v̇ + h, with v̇ in the order of the file.
     std::swap(vdot[6], vdot[7]);
     double sum = state["bias_h"][i];
     for (int j = 0; j < 8; ++j) {
@@ -84,12 +84,12 @@ TEST(ComputeDynamics, TakesJointsInTheOrderOfTheFile) {
   const json& b = state["frames"]["b"];
   EXPECT_NEAR(b["p"][0].get<double>(), X_WB[2].p.x(), Rounding(4, 5));
   EXPECT_NEAR(b["R"][0][1].get<double>(), X_WB[2].R(0, 1), Rounding(1, 5));
-  // Of the two joints, the first one of the file carries b.
+  // The first joint of the file, to_b, moves b; the second does not.
   EXPECT_NE(b["J"][0][6].get<double>(), 0);
   EXPECT_EQ(b["J"][0][7].get<double>(), 0);
 }
 
-TEST(ComputeDynamics, KeepsWhatItDoesNotKnow) {
+TEST(ComputeDynamics, KeepsUnknownKeys) {
   const json result = ComputeDynamics(MakeTree(), MakeDocument(), {});
   EXPECT_EQ(result["note"], 1);
   EXPECT_EQ(result["nv"], 8);
@@ -98,7 +98,7 @@ TEST(ComputeDynamics, KeepsWhatItDoesNotKnow) {
   EXPECT_EQ(result["states"][0]["gravity_g"][5], 6 * 9.81);
 }
 
-TEST(ComputeDynamics, TakesTheFramesThatAStateNames) {
+TEST(ComputeDynamics, ComputesTheFramesNamedInAState) {
   json document = MakeDocument();
   document["states"][0]["frames"]["a"] = 0;
   const json result = ComputeDynamics(MakeTree(), document, {});
@@ -106,25 +106,25 @@ TEST(ComputeDynamics, TakesTheFramesThatAStateNames) {
   EXPECT_TRUE(result["states"][0]["frames"]["a"].contains("Jdot_nu"));
 }
 
-TEST(ComputeDynamics, SaysWhatIsWrong) {
-  EXPECT_EQ(MessageOf(json::array()), "document: there is no 'joints'");
+TEST(ComputeDynamics, NamesTheInvalidEntry) {
+  EXPECT_EQ(MessageOf(json::array()), "document: has no key 'joints'");
   json document = MakeDocument();
   document["joints"][0] = "c";
   EXPECT_EQ(MessageOf(document), "joints: the robot has no joint \"c\"");
   document["joints"][0] = 7;
   EXPECT_EQ(MessageOf(document), "joints: the robot has no joint 7");
   document["joints"][0] = "to_a";
-  EXPECT_EQ(MessageOf(document), "joints: \"to_a\" is there twice");
+  EXPECT_EQ(MessageOf(document), "joints: \"to_a\" is listed twice");
   document["joints"] = {"to_a"};
   EXPECT_EQ(MessageOf(document), "joints: 'to_b' is missing");
   document = MakeDocument();
   document["states"] = 1;
   EXPECT_EQ(MessageOf(document), "document: 'states' must be an array");
   document.erase("states");
-  EXPECT_EQ(MessageOf(document), "document: there is no 'states'");
+  EXPECT_EQ(MessageOf(document), "document: has no key 'states'");
   document = MakeDocument();
   document["states"][0].erase("qd");
-  EXPECT_EQ(MessageOf(document), "state 0: there is no 'qd'");
+  EXPECT_EQ(MessageOf(document), "state 0: has no key 'qd'");
   document["states"][0]["qd"] = {1, 2, 3};
   EXPECT_EQ(MessageOf(document), "state 0: 'qd' must be 2 finite numbers");
   document["states"][0]["qd"] = {1, "x"};
@@ -137,7 +137,7 @@ TEST(ComputeDynamics, SaysWhatIsWrong) {
             "state 0: 'base_quaternion_wxyz' must not be zero");
   document = MakeDocument();
   document["states"][0].erase("base_linear_velocity");
-  EXPECT_EQ(MessageOf(document), "state 0: there is no 'base_linear_velocity'");
+  EXPECT_EQ(MessageOf(document), "state 0: has no key 'base_linear_velocity'");
   EXPECT_EQ(MessageOf(MakeDocument(), {"foot"}),
             "state 0: the robot has no link 'foot'");
   document = MakeDocument();
@@ -150,7 +150,7 @@ TEST(ComputeDynamics, SaysWhatIsWrong) {
             "state 0: the results are not finite, the numbers must be smaller");
 }
 
-TEST(CheckFrames, NamesTheLinkThatIsNotThere) {
+TEST(CheckFrames, NamesTheMissingLink) {
   CheckFrames(MakeTree(), {"a", "b"});
   try {
     CheckFrames(MakeTree(), {"a", "foot"});

@@ -16,8 +16,8 @@ std::string Number(double x) {
   return text;
 }
 
-// How many columns a terminal gives to UTF-8 text: one for each character, none
-// for the dot above, which stands on the letter before.
+// Returns how many columns UTF-8 text takes in a terminal. Each character takes
+// one. The combining dot above takes none, as it is drawn on the letter before.
 size_t WidthOf(const std::string& text) {
   size_t width = 0;
   for (size_t i = 0; i < text.size(); ++i) {
@@ -31,7 +31,7 @@ std::string Padding(size_t width, const std::string& text) {
   return std::string(width - std::min(width, WidthOf(text)), ' ');
 }
 
-// Lines of a name, a unit and cells, each below the one of the line before.
+// Rows of a name, a unit and cells, printed in aligned columns.
 class Table {
  public:
   void AddTitles(const std::string& name, const std::string& unit,
@@ -68,7 +68,7 @@ class Table {
   }
 
  private:
-  static constexpr size_t kCellWidth = 13;  // Of -1.23457e-100.
+  static constexpr size_t kCellWidth = 13;  // Length of -1.23457e-100.
 
   struct Row {
     std::string name, unit;
@@ -77,7 +77,7 @@ class Table {
   std::vector<Row> rows_;
 };
 
-// An entry of v: its name, and the units of its rate, its force, its inertia.
+// The name of an entry of v, and the units of its rate, force and inertia.
 struct Freedom {
   std::string name;
   const char* rate;
@@ -104,7 +104,7 @@ std::vector<Freedom> FreedomsOf(const Tree& tree, const json& joints) {
   return all;
 }
 
-// The columns of a matrix of six rows, a line each.
+// Adds each column of a matrix with six rows as a line.
 void AddColumns(const std::vector<Freedom>& freedoms, const json& matrix,
                 Table* table) {
   for (size_t j = 0; j < freedoms.size(); ++j) {

@@ -8,9 +8,10 @@
 
 namespace poise {
 
-/// What ComputeDynamics() returns, as tables to be read, with units: of M the
-/// diagonal, of A_G and J the columns, a row for each degree of freedom. Six
-/// digits; columns stand below one another whatever the names are.
+/// Returns the result of ComputeDynamics() as tables for people, with units and
+/// six digits. The tables have a row for each degree of freedom. They show the
+/// diagonal of M, and the columns of A_G and J. The columns of the tables are
+/// aligned for names of any length.
 std::string FormatDynamics(const Tree& tree, const nlohmann::json& document);
 
 }  // namespace poise

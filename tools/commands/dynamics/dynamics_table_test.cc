@@ -15,7 +15,7 @@ using nlohmann::json;
 
 constexpr char kLongName[] = "slide_with_a_name_longer_than_any_title";
 
-// A body with an arm that turns and one that slides.
+// Makes a body with two arms, one on a revolute and one on a prismatic joint.
 Tree MakeTree() {
   TreeBuilder builder;
   for (const char* name : {"body", "a", "b"}) {
@@ -34,7 +34,7 @@ Tree MakeTree() {
   return builder.AddJoint(turn).AddJoint(slide).Build();
 }
 
-// The lines of the table of a state.
+// Returns the lines of the tables of one state.
 std::vector<std::string> Lines() {
   const json document = json::parse(std::string(R"({"joints": ["turn", ")") +
                                     kLongName + R"("], "states": [{
@@ -63,14 +63,14 @@ TEST(FormatDynamics, HasARowForEachJoint) {
   EXPECT_EQ(Lines()[0],
             "body: 8 degrees of freedom, 6 kg. World axes; angular before "
             "linear.");
-  // Of forces, of A_G and of J.
+  // The three rows are those of the forces, of A_G and of J.
   for (const char* name : {"turn", kLongName, "base w_x", "base v_z"}) {
     SCOPED_TRACE(name);
     EXPECT_EQ(LinesThatStartWith("  " + std::string(name) + " ").size(), 3);
   }
 }
 
-TEST(FormatDynamics, SaysTheUnits) {
+TEST(FormatDynamics, ShowsTheUnits) {
   for (const char* name : {"turn", "base w_y"}) {
     SCOPED_TRACE(name);
     const auto rows = LinesThatStartWith("  " + std::string(name) + " ");
@@ -86,13 +86,13 @@ TEST(FormatDynamics, SaysTheUnits) {
 }
 
 TEST(FormatDynamics, HasTheColumnsOfTheMomentumMatrix) {
-  // At a rate of 1 m/s along z: the mass, as the last of six numbers.
+  // At 1 m/s along z the momentum, the last of six numbers, is the mass.
   const std::string row = LinesThatStartWith("  base v_z ")[1];
   EXPECT_EQ(row.substr(row.size() - 14), "             6");
 }
 
-// The columns that a line takes on a screen. The dot above v and J is a
-// character of two bytes, and takes none.
+// Returns how many columns a line takes in a terminal. The combining dot above v
+// and J has two bytes and takes no column.
 int WidthOf(std::string line) {
   for (size_t dot; (dot = line.find("\u0307")) != std::string::npos;) {
     line.erase(dot, 2);
@@ -100,7 +100,7 @@ int WidthOf(std::string line) {
   return static_cast<int>(line.size());
 }
 
-TEST(FormatDynamics, ColumnsStandBelowOneAnother) {
+TEST(FormatDynamics, AlignsColumns) {
   const int width = WidthOf(LinesThatStartWith("  A_G ")[0]);
   for (const char* start :
        {"  momentum about it, h_G ", "    its rate at v̇ = 0 ", "  base w_x ",
@@ -108,7 +108,7 @@ TEST(FormatDynamics, ColumnsStandBelowOneAnother) {
     SCOPED_TRACE(start);
     EXPECT_EQ(WidthOf(LinesThatStartWith(start).back()), width);
   }
-  // Of those with four or three cells the last end two or three before.
+  // Rows with four or three cells end two or three columns of 14 earlier.
   const std::string long_name = "  " + std::string(kLongName) + " ";
   EXPECT_EQ(WidthOf(LinesThatStartWith("  forces, ")[0]), width - 28);
   EXPECT_EQ(WidthOf(LinesThatStartWith(long_name)[0]), width - 28);
@@ -116,7 +116,7 @@ TEST(FormatDynamics, ColumnsStandBelowOneAnother) {
   EXPECT_EQ(WidthOf(LinesThatStartWith("  a ")[0]), width - 42);
 }
 
-TEST(FormatDynamics, HasNoNegativeZeroAndNoBlankAtTheEnd) {
+TEST(FormatDynamics, PrintsNoNegativeZeroAndNoTrailingBlanks) {
   for (const std::string& line : Lines()) {
     SCOPED_TRACE(line);
     EXPECT_EQ((line + " ").find(" -0 "), std::string::npos);

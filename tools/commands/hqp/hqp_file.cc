@@ -25,8 +25,8 @@ constexpr int kMostVariables = 10000;
   throw std::invalid_argument(where + ": " + what);
 }
 
-// Keys that are none of these, as `lowr` is: nothing else would say that what they
-// hold has no effect.
+// Appends the keys that the format does not have, such as `lowr` instead of
+// `lower`. Without this list, nobody would notice that they have no effect.
 void ListOthers(const json& object, const std::string& where,
                 const std::set<std::string>& known,
                 std::vector<std::string>* others) {
@@ -35,7 +35,7 @@ void ListOthers(const json& object, const std::string& where,
   }
 }
 
-// The array `key` of an object: empty if it is absent.
+// Returns the array `key` of an object, or an empty array if the key is absent.
 const json& Array(const json& object, const char* key,
                   const std::string& where) {
   static const json kEmpty = json::array();
@@ -50,12 +50,13 @@ double Number(const json& value, const std::string& where) {
   return value.get<double>();
 }
 
-// A bound: null is absent.
+// Returns a bound, or `absent` for null.
 double Bound(const json& value, double absent, const std::string& where) {
   return value.is_null() ? absent : Number(value, where);
 }
 
-// The solvers take no row that cannot be met by itself: see CheckInput().
+// Rejects rows with lower > upper, because the solvers reject them: see
+// CheckInput().
 void RefuseCrossed(const InequalityBlock& block, const std::string& lower,
                    const std::string& upper) {
   for (int i = 0; i < block.lower.size(); ++i) {
@@ -172,7 +173,7 @@ ordered_json Head(const Vector& vector, int size) {
   return array;
 }
 
-// JSON has no infinity: an absent bound is null.
+// Writes an infinite bound as null, because JSON has no infinity.
 ordered_json Bounds(const Eigen::Map<const Eigen::VectorXd>& bounds) {
   ordered_json array = ordered_json::array();
   for (const double bound : bounds) {
@@ -272,7 +273,7 @@ int CertifiedLevels(const Hierarchy& hierarchy, const Solution& solution) {
   switch (solution.status) {
     case Status::kOptimal:
       return hierarchy.num_levels();
-    case Status::kIterationLimit:  // Where y's norm failed, beyond all levels.
+    case Status::kIterationLimit:  // num_levels() if y's norm failed.
       return std::min(solution.failed_level, hierarchy.num_levels());
     case Status::kNotFinite:
     case Status::kBadInput:
@@ -346,7 +347,7 @@ std::string WriteHqpSolution(const Hierarchy& hierarchy,
                             : ordered_json(solution.failed_level);
   const int certified = CertifiedLevels(hierarchy, solution);
   out["certified_levels"] = certified;
-  // Zeros would say that all is well.
+  // Zeros would look like a perfect certificate, so write null if there is none.
   const auto number = [&](double value) {
     return certified > 0 ? ordered_json(value) : ordered_json();
   };

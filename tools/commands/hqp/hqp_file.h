@@ -10,7 +10,7 @@
 
 namespace poise {
 
-/// A hierarchy from a file, with the sizes to solve it with.
+/// A hierarchy read from a file, and the capacity that its solver needs.
 struct HqpProblem {
   std::vector<LevelCapacity> capacity;
   Hierarchy hierarchy;
@@ -19,37 +19,40 @@ struct HqpProblem {
 
 /// Reads the format hqp-1: {"format": "hqp-1", "variables": n, "levels": [{"B",
 /// "b", "weight", "A", "a", "C", "lower", "upper"}, ...], "y_lower", "y_upper",
-/// "y_bounds_level"}, where all but the first three may be absent. The
-/// inequalities of a level are those of A, of C, then the bounds on y. Bounds
-/// that cross and negative weights are refused, as CheckInput() would.
+/// "y_bounds_level"}. All keys but the first three may be absent. The inequalities
+/// of a level are the rows of A, then those of C, then the bounds on y.
 ///
-/// Throws std::invalid_argument with one line: which entry, and what is wrong.
+/// Throws std::invalid_argument with one line that names the entry and the error.
+/// As in CheckInput(), a lower bound above its upper bound and a negative weight
+/// are errors.
 HqpProblem ReadHqp(const std::string& text);
 
-/// The same, of a hierarchy: what a running controller dumps, to be replayed.
-/// Reading it gives the same numbers to the last bit.
+/// Returns a hierarchy in the format hqp-1. A running controller can dump its
+/// problem this way, to replay the solve later. ReadHqp() restores each number
+/// exactly.
 std::string WriteHqp(const Hierarchy& hierarchy);
 
-/// How many levels, from the first on, the certificate of an answer is about:
-/// all if it is optimal, those above the one that failed if it is not.
+/// Returns how many leading levels the certificate of a solution covers. These are
+/// all levels if the solution is optimal, otherwise the levels above the failed
+/// one.
 int CertifiedLevels(const Hierarchy& hierarchy, const Solution& solution);
 
-/// An answer for people: a line, and one more a level. Says of which levels the
-/// certificate is.
+/// Returns a description for people: one line, and one line for each level. It
+/// says which levels the certificate covers.
 std::string DescribeHqpSolution(const Hierarchy& hierarchy,
                                 const Solution& solution,
                                 const Certificate& certificate,
                                 double microseconds);
 
-/// An answer, as `//tools:hqp -- --json` prints it: `failed_level` is null if
-/// it is optimal, `certified_levels` is CertifiedLevels(), and the numbers of a
-/// certificate of no levels are null.
+/// Returns a solution as JSON, as `//tools:hqp -- --json` prints it.
+/// `failed_level` is null if the solution is optimal. `certified_levels` is
+/// CertifiedLevels(); if it is 0, the numbers of the certificate are null.
 std::string WriteHqpSolution(const Hierarchy& hierarchy,
                              const Solution& solution,
                              const Certificate& certificate,
                              double microseconds);
 
-/// "optimal", "iteration_limit", "not_finite" or "bad_input".
+/// Returns "optimal", "iteration_limit", "not_finite" or "bad_input".
 std::string Name(Status status);
 
 }  // namespace poise

@@ -48,7 +48,7 @@ TEST(ReadHqp, ReadsAllBlocks) {
   EXPECT_EQ(hierarchy.upper(2), Eigen::Vector2d(8, INFINITY));
 }
 
-TEST(ReadHqp, ListsWhatItIgnores) {
+TEST(ReadHqp, ListsIgnoredKeys) {
   const HqpProblem problem = ReadHqp(R"({
       "format": "hqp-1", "name": "a", "variables": 1, "y_uper": [1],
       "levels": [{"name": "b", "B": [[1]], "b": [1]},
@@ -57,7 +57,7 @@ TEST(ReadHqp, ListsWhatItIgnores) {
             (std::vector<std::string>{"y_uper", "levels[1].lowr"}));
 }
 
-TEST(WriteHqp, IsReadAsTheSameNumbers) {
+TEST(WriteHqp, ReadHqpRestoresTheSameNumbers) {
   HqpProblem problem = ReadHqp(kFile);
   const std::string once = WriteHqp(problem.hierarchy);
   const HqpProblem again = ReadHqp(once);
@@ -72,7 +72,7 @@ TEST(WriteHqp, IsReadAsTheSameNumbers) {
   }
 }
 
-TEST(WriteHqpSolution, HasWhatTheFormatSays) {
+TEST(WriteHqpSolution, HasAllKeysOfTheFormat) {
   const HqpProblem problem = ReadHqp(kFile);
   Solver solver(2, problem.capacity);
   Solution solution(2, problem.capacity);
@@ -85,7 +85,7 @@ TEST(WriteHqpSolution, HasWhatTheFormatSays) {
   const json out = json::parse(
       WriteHqpSolution(problem.hierarchy, solution, certificate, 5));
   EXPECT_EQ(out["status"], "optimal");
-  EXPECT_NEAR(out["y"][0], 1, 1e-14);  // Some operations on numbers near 1.
+  EXPECT_NEAR(out["y"][0], 1, 1e-14);  // Rounding of a few operations.
   EXPECT_NEAR(out["y"][1], 3, 1e-14);
   EXPECT_NEAR(out["levels"][2]["cost"], 12.5, 1e-13);
   EXPECT_EQ(out["levels"][2]["equality_residual"].size(), 2);
@@ -105,7 +105,7 @@ TEST(WriteHqpSolution, HasWhatTheFormatSays) {
   EXPECT_EQ(out["certified_levels"], 3);
 }
 
-// An answer that is no good from a level on, the certificate of those above.
+// Describes a solution whose solve failed at a level.
 class UnfinishedTest : public testing::Test {
  protected:
   UnfinishedTest() : problem_(ReadHqp(kFile)), solution_(2, problem_.capacity) {
@@ -143,7 +143,7 @@ TEST_F(UnfinishedTest, SaysWhichLevelsAreCertified) {
       << said;
 }
 
-TEST_F(UnfinishedTest, HasNoCertificateOfNoLevels) {
+TEST_F(UnfinishedTest, WritesNoCertificateIfNoLevelIsCertified) {
   for (const json& out :
        {Written(Status::kIterationLimit, 0), Written(Status::kNotFinite, 1)}) {
     EXPECT_EQ(out["certified_levels"], 0);
@@ -152,18 +152,18 @@ TEST_F(UnfinishedTest, HasNoCertificateOfNoLevels) {
     }
     EXPECT_NE(Said().find("us, no certificate\n"), std::string::npos);
   }
-  // The Cascade has a level more, for the norm of y.
+  // The Cascade has an additional last level, the norm of y.
   EXPECT_EQ(Written(Status::kIterationLimit, 3)["certified_levels"], 3);
 }
 
-TEST(Name, IsTheFormats) {
+TEST(Name, GivesStatusWordsOfTheFormat) {
   EXPECT_EQ(Name(Status::kOptimal), "optimal");
   EXPECT_EQ(Name(Status::kIterationLimit), "iteration_limit");
   EXPECT_EQ(Name(Status::kNotFinite), "not_finite");
   EXPECT_EQ(Name(Status::kBadInput), "bad_input");
 }
 
-// The line with which a file is refused.
+// Returns the message with which ReadHqp() rejects a file.
 std::string Refusal(const std::string& text) {
   try {
     ReadHqp(text);
@@ -173,7 +173,7 @@ std::string Refusal(const std::string& text) {
   return "";
 }
 
-TEST(ReadHqp, RefusesInOneLine) {
+TEST(ReadHqp, RejectsInOneLine) {
   const std::string head = R"({"format": "hqp-1", "variables": 2, "levels": )";
   EXPECT_NE(Refusal("{").find("not JSON"), std::string::npos);
   EXPECT_EQ(Refusal("{").find('\n'), std::string::npos);
@@ -205,7 +205,7 @@ TEST(ReadHqp, RefusesInOneLine) {
             "y_bounds_level: is 1, must be a whole number from 0 to 0");
 }
 
-TEST(ReadHqp, RefusesWhatNoSolverTakes) {
+TEST(ReadHqp, RejectsCrossedBoundsAndNegativeWeights) {
   const std::string head =
       R"({"format": "hqp-1", "variables": 2, "levels": [{}, )";
   EXPECT_EQ(Refusal(head + R"({"C": [[1, 0], [0, 1]], "lower": [1, 2.5],

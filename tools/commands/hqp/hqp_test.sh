@@ -1,6 +1,7 @@
 #!/bin/bash
 # Usage: hqp_test.sh HQP DYNAMICS URDF
-# What scripts rely on: exit codes, one line on stderr that names the file.
+# Checks what scripts rely on: exit codes, and one line on stderr that names the
+# file.
 set -euo pipefail
 hqp=$PWD/$1 dynamics=$PWD/$2 urdf=$PWD/$3
 cd "$TEST_TMPDIR"
@@ -10,50 +11,54 @@ fail() {
   exit 1
 }
 
-# Usage: refuse MESSAGE COMMAND...: that a command says this line, and no more.
+# Usage: refuse MESSAGE COMMAND...: the command must exit with code 2 and print
+# only this line, on stderr.
 refuse() {
   local message=$1 code=0
   shift
   timeout 60 "$@" > said 2> error || code=$?
-  [ "$code" = 2 ] || fail "exit code $code for $*, wanted 2"
-  [ "$(cat error)" = "$message" ] || fail "$* says: $(cat error)"
-  [ ! -s said ] || fail "$* is refused, and prints all the same"
+  [ "$code" = 2 ] || fail "$*: exit code is $code, must be 2"
+  [ "$(cat error)" = "$message" ] || fail "$* prints: $(cat error)"
+  [ ! -s said ] || fail "$* is rejected, but prints on stdout: $(cat said)"
 }
 
 echo '{"format": "hqp-1", "variables": 1, "levels": [{"B": [[2]], "b": [-4]}]}' \
   > good.json
 "$hqp" --json good.json > said 2> error || fail "exit code $? for good.json"
-grep -q '"status":"optimal","y":\[2.0\]' said || fail "it says: $(cat said)"
-[ ! -s error ] || fail "stderr of a good file: $(cat error)"
+grep -q '"status":"optimal","y":\[2.0\]' said || fail "good.json prints: $(cat said)"
+[ ! -s error ] || fail "a good file prints on stderr: $(cat error)"
 
-# y >= 3 on top of y = 0: one factorisation to see it, one to do it.
+# y >= 3 above y = 0 takes two iterations: the first finds the violated bound, the
+# second has the bound in the working set.
 echo '{"format": "hqp-1", "variables": 1, "levels": [
   {"C": [[1]], "lower": [3], "upper": [9]}, {"B": [[1]], "b": [0]}]}' > two.json
 "$hqp" --json two.json > said || fail "exit code $? for two.json"
 code=0
 "$hqp" --json --max-iterations 1 two.json > said || code=$?
-[ "$code" = 1 ] || fail "exit code $code for one iteration, wanted 1"
+[ "$code" = 1 ] || fail "one iteration: exit code is $code, must be 1"
 grep -q '"status":"iteration_limit"' said || fail "one iteration: $(cat said)"
 
-# Several files are ticks of one solver: what was active then is tried first, so
-# the second time, and with a row less, one factorisation is enough. Not where it
-# is to forget, nor after a file with other variables.
+# Several files are ticks of one solver, and a solve starts from the working set of
+# the file before. So one iteration is enough for the second file, even if the file
+# has a row less. With --cold, or after a file with another number of variables, the
+# solver starts anew.
 echo '{"format": "hqp-1", "variables": 1, "levels": [
   {"C": [[1]], "lower": [4]}]}' > after.json
 echo '{"format": "hqp-1", "variables": 2, "levels": [
   {"B": [[1, 0], [0, 1]], "b": [-1, -2]}]}' > wide.json
-# Usage: iterations COUNTS ARGUMENTS...: that the files take so many.
+# Usage: iterations COUNTS ARGUMENTS...: the files must take these numbers of
+# iterations.
 iterations() {
   local wanted=$1 got
   shift
   "$hqp" --json "$@" > said || fail "exit code $? for $*"
   got=$(grep -o '"iterations":[0-9]*' said | cut -d: -f2 | tr '\n' ' ')
-  [ "$got" = "$wanted " ] || fail "$* take $got iterations, not $wanted"
-  [ "$(head -c 1 said)" = "[" ] || fail "$* print no array: $(cat said)"
+  [ "$got" = "$wanted " ] || fail "$*: iterations are $got, must be $wanted"
+  [ "$(head -c 1 said)" = "[" ] || fail "$*: the output is not an array: $(cat said)"
 }
 iterations "2 1 1" two.json two.json after.json
 grep -q '"y":\[3.0\].*"y":\[3.0\].*"y":\[4.0\]' said ||
-  fail "ticks have other answers: $(cat said)"
+  fail "ticks have wrong solutions: $(cat said)"
 iterations "2 2 2" --cold two.json two.json after.json
 iterations "2 1 2 1" two.json wide.json two.json two.json
 iterations "1 1" good.json good.json
@@ -62,7 +67,7 @@ iterations "1 1" good.json good.json
 "$hqp" --json --method svd two.json wide.json > said || fail "exit code $? for svd"
 code=0
 "$hqp" --json --max-iterations 1 good.json two.json > said || code=$?
-[ "$code" = 1 ] || fail "exit code $code for one iteration of ticks, wanted 1"
+[ "$code" = 1 ] || fail "one iteration of ticks: exit code is $code, must be 1"
 
 echo '{"format": "hqp-1", "variables": 1, "levels": [
   {"C": [[1]], "lower": [2], "upper": [1]}]}' > crossed.json
@@ -80,7 +85,7 @@ refuse "dynamics: /dev/zero: is not a regular file" \
   "$dynamics" --urdf "$urdf" --states /dev/zero
 refuse "dynamics: option '--foo' is unknown" "$dynamics" --foo
 
-# A leaf without <inertial>: M is singular, and printed.
+# The last link has no <inertial>, so M is singular. M is printed anyway.
 cat > leaf.urdf << 'EOF'
 <robot name="leaf">
   <link name="base"><inertial><mass value="1"/>
@@ -94,7 +99,8 @@ echo '{"joints": ["hinge"], "states": []}' > states.json
 "$dynamics" --urdf leaf.urdf --states states.json --json > said 2> error ||
   fail "exit code $? for a leaf without mass"
 [ "$(cat error)" = "dynamics: warning: leaf.urdf: joint 'hinge': moves no mass $(
-  )from link 'tip' on, M is singular or worse: no acceleration can be computed" ] ||
-  fail "dynamics says of a leaf without mass: $(cat error)"
-refuse "dynamics: good.json: document: there is no 'joints'" \
+  )(link 'tip' and beyond), M is singular or indefinite: $(
+  )no acceleration can be computed" ] ||
+  fail "dynamics prints for a leaf without mass: $(cat error)"
+refuse "dynamics: good.json: document: has no key 'joints'" \
   "$dynamics" --urdf leaf.urdf --states good.json

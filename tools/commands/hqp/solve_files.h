@@ -12,21 +12,22 @@
 namespace poise {
 
 /// Reads a file in the format hqp-1. Throws std::invalid_argument, with the name
-/// of the file, if it cannot be read.
+/// of the file, if the file cannot be read.
 HqpProblem LoadHqp(const std::string& name);
 
-/// The choice of a solver.
+/// The choice of a solver and its settings.
 struct HqpMethod {
-  std::string name = "fast";   ///< Or "svd" or "cod", for the cascade.
-  int max_iterations = 10000;  ///< Budget of "fast"; no tick limits the time.
-  bool cold = false;           ///< Each problem gets a new solver.
+  std::string name = "fast";   ///< Or "svd" or "cod" for the cascade.
+  int max_iterations = 10000;  ///< Limit for "fast"; no tick limits the time.
+  bool cold = false;           ///< True: each problem gets a new solver.
 };
 
-/// Solves hierarchies one after the other. With "fast", a problem starts from
-/// the working set of the problem before, if both have as many variables.
+/// Solves hierarchies one after the other. With "fast", the solver starts from the
+/// working set of the previous problem if both have the same number of variables.
 class HqpSequence {
  public:
-  /// @param problems  all problems to come: the solver gets room for their rows.
+  /// @param problems  all problems that Solve() will receive. The solver allocates
+  ///                  memory for their rows.
   HqpSequence(const HqpMethod& method, const std::vector<HqpProblem>& problems);
 
   [[nodiscard]] Status Solve(const HqpProblem& problem, Solution* solution,
@@ -37,7 +38,7 @@ class HqpSequence {
 
   const HqpMethod method_;
   const std::vector<LevelCapacity> room_;
-  std::unique_ptr<Solver> solver_;  // Of the problem before, if any.
+  std::unique_ptr<Solver> solver_;  // Of the previous problem, if any.
   int num_variables_ = 0;
 };
 

@@ -20,23 +20,23 @@ int SecondIterations(const HqpMethod& method) {
   for (const HqpProblem& problem : problems) {
     EXPECT_EQ(sequence.Solve(problem, &solution, &microseconds),
               Status::kOptimal);
-    EXPECT_NEAR(solution.y[0], 3, 1e-9);  // Far above rounding.
+    EXPECT_NEAR(solution.y[0], 3, 1e-9);  // Far above rounding errors.
     EXPECT_GE(microseconds, 0);
   }
   return solution.iterations;
 }
 
-TEST(HqpSequence, StartsFromTheWorkingSetOfTheProblemBefore) {
+TEST(HqpSequence, StartsFromThePreviousWorkingSet) {
   EXPECT_EQ(SecondIterations({}), 1);
 }
 
-TEST(HqpSequence, StartsColdIfAsked) {
+TEST(HqpSequence, StartsColdIfRequested) {
   HqpMethod method;
   method.cold = true;
   EXPECT_EQ(SecondIterations(method), 2);
 }
 
-TEST(HqpSequence, SolvesByTheCascade) {
+TEST(HqpSequence, SolvesWithTheCascade) {
   for (const char* name : {"svd", "cod"}) {
     SCOPED_TRACE(name);
     HqpMethod method;

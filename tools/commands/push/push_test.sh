@@ -173,7 +173,7 @@ refuse_file --scenario ": task set '$(printf 'a%.0s' {1..60})...': is neither $(
   long.yaml "tasks: {set: $(printf 'a%.0s' {1..300000})}"
 
 refuse "--force is 'strong', must be a number" --force strong
-refuse "the word after '--force' is empty, must not be" --force ""
+refuse "the word after '--force' is empty, must have text" --force ""
 refuse "'--force=' is empty, must have a value" --force= --time 2
 refuse "--time: is nan, must be finite" --time nan
 for seed in 99999999999 -1 1.5 one; do

@@ -77,7 +77,8 @@ def problem(words):
     labels = [word for word in words[2:split] if word.startswith("//")]
     for word in words[2:split]:
         config = re.match(r"--config=(\w+)", word)
-        if config and f"build:{config[1]} " not in (ROOT / ".bazelrc").read_text():
+        if config and not re.search(
+                rf"^\w+:{config[1]} ", (ROOT / ".bazelrc").read_text(), re.M):
             return f"no configuration {config[1]} in .bazelrc"
     for label in labels:
         if not label_exists(label):
