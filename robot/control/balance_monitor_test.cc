@@ -18,7 +18,7 @@
 namespace poise {
 namespace {
 
-constexpr double kHeight = 0.9;  // Of the center of mass above the soles, m.
+constexpr double kHeight = 0.9;      // Center of mass above the soles, m.
 constexpr double kHalfStance = 0.1;  // From the middle to each foot, m.
 
 // A robot at rest above two feet on flat ground; each test sets what differs.

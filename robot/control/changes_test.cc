@@ -26,8 +26,8 @@ TEST_F(ControllerTest, DoesNotJumpWhereWhatIsSwitchedDoesNotAct) {
   EXPECT_LT((command_.tau - before).norm(), 1e-6);
 }
 
-// What a change does to the torques, from tick to tick, the state being the
-// same: at once, or eased in.
+// Measures the change of the torques from tick to tick while the state is
+// constant, with and without a ramp.
 class RampTest : public ControllerTest {
  protected:
   RampTest() {
@@ -144,7 +144,7 @@ TEST_F(RampTest, EndsWhereItsDurationBecomesNone) {
   EXPECT_FALSE(stack.is_eased());
 }
 
-// What the reference asks for on the way acts as if nothing was eased.
+// During a ramp, a moving reference acts as it would without the ramp.
 TEST_F(RampTest, HoldsBackNothingElse) {
   const auto change = [](Stack* stack, bool eases) {
     DoNotIntegrate(stack);
@@ -183,7 +183,7 @@ TEST_F(RampTest, HoldsBackNothingElse) {
   EXPECT_GT((torques(true, true) - torques(false, true)).norm(), 0.5);
 }
 
-TEST_F(RampTest, RefusesADurationThatIsNone) {
+TEST_F(RampTest, RejectsNegativeAndNaNDurations) {
   EXPECT_FALSE(controller_.stack().set_ramp(-1));
   EXPECT_FALSE(
       controller_.stack().set_ramp(std::numeric_limits<double>::quiet_NaN()));

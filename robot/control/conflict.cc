@@ -12,7 +12,7 @@
 namespace poise {
 namespace {
 
-// What rounding leaves of a violation that is none, over the row's norm.
+// Violations below this, divided by the row's norm, are rounding.
 constexpr double kRounding = 1e-10;
 
 double Norm(const Hierarchy& hierarchy, const HierarchyRow& row) {
@@ -20,7 +20,7 @@ double Norm(const Hierarchy& hierarchy, const HierarchyRow& row) {
                       : hierarchy.C(row.level).row(row.row).norm();
 }
 
-// Rows, all in one level: each violated as little as can be.
+// All rows in one level, so that the violations are as small as possible.
 class Feasibility {
  public:
   Feasibility(const Hierarchy& hierarchy, int num_rows)
@@ -29,8 +29,8 @@ class Feasibility {
         solver_(hierarchy.num_variables(), {{num_rows, num_rows}}),
         solution_(hierarchy.num_variables(), {{num_rows, num_rows}}) {}
 
-  // What each row is violated by, over its norm, where all together are as
-  // little as can be.
+  // Returns the violation of each row, divided by its norm, where the sum of
+  // squares is as small as possible.
   Eigen::VectorXd Violations(const std::vector<HierarchyRow>& rows) {
     one_level_.Clear(1);
     const int equalities = static_cast<int>(

@@ -13,7 +13,7 @@ struct HierarchyRow {
   int level;
   int row;
   bool equality;
-  Side side = Side::kNone;  ///< Of an inequality, which of its bounds is meant.
+  Side side = Side::kNone;  ///< Bound of an inequality that is meant.
 };
 
 /// The smallest answer to why a level cannot be met: rows of it and of the

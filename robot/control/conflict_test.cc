@@ -15,8 +15,8 @@
 namespace poise {
 namespace {
 
-// All joints run into their stops: torques give way too, each named with the
-// end that it is at.
+// All joints run into their stops. Torque rows have slack too, and the report
+// names each with its bound.
 TEST_F(ControllerTest, SaysThatATorqueLimitCannotBeMet) {
   constexpr double kEffort = 0.01;  // N m.
   for (int j = 0; j < tree().num_joints(); ++j) {
@@ -175,7 +175,7 @@ TEST_F(ControllerTest, NamesTheRowsOfAContradiction) {
   EXPECT_EQ(conflict[1].side, Side::kLower);
 }
 
-// Of rows with two sides, each on the one that is in the way.
+// The report names the contradicting bound of each row with two bounds.
 TEST_F(ControllerTest, SaysWhichBoundsContradict) {
   // -1 <= x <= 1, 2 <= x + y <= 9, and y = 0.
   Hierarchy hierarchy(2, {{1, 2}, {1, 0}});
@@ -194,7 +194,7 @@ TEST_F(ControllerTest, SaysWhichBoundsContradict) {
   EXPECT_EQ(conflict[2].side, Side::kNone);
 }
 
-TEST_F(ControllerTest, FindsNoConflictWhereThereIsNone) {
+TEST_F(ControllerTest, FindsNoConflictAmongCompatibleRows) {
   Update();
   EXPECT_TRUE(FindConflict(controller_.hierarchy(), 2).empty());
 }

@@ -34,7 +34,7 @@ struct ControllerOptions {
   bool inscribed = false;    ///< The friction pyramid; else circumscribed.
   bool feedforward = false;  ///< The reference's v_WG and a_WG are used.
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
-  int max_iterations = 500;  ///< Of the solver, a tick; then truncated.
+  int max_iterations = 500;  ///< Solver iterations per tick.
   /// Time budget of the solver in a tick, s, measured by now(); used only if
   /// now() is given. The result depends on the machine: no replay is exact.
   double max_seconds = 0;
@@ -120,7 +120,7 @@ class Controller {
   Robot robot_;
   ControllerOptions options_;
   double weight_;       ///< Weight of the robot, N.
-  double force_scale_;  ///< Of rows in forces, N.
+  double force_scale_;  ///< Scale of rows in forces, N.
   Reference reference_;
   Stack stack_;
   int momentum_;  ///< Index into the stack's tasks.

@@ -99,7 +99,7 @@ TEST_F(ControllerTest, ReplaysToTheBitAfterItIsStartedAnew) {
     controller_.Start(state_);
     Eigen::MatrixXd tau(tree().num_joints(), 60);
     for (int i = 0; i < tau.cols(); ++i) {
-      // A shove that many rows meet, until a foot is let go.
+      // A push that activates many rows, until a foot is released.
       state_.v.segment<3>(3) << 0.005 * i, 0.01 * i, 0;
       Update();
       tau.col(i) = command_.tau;
@@ -150,7 +150,7 @@ TEST_F(ControllerTest, DoesAsItsOptionsSay) {
   controller.Update(state_, &command_);
   EXPECT_EQ(controller_.hierarchy().num_levels(), 5);
   EXPECT_EQ(controller.hierarchy().num_levels(), 2);
-  // Of the levels in one QP, each weighs more than the next.
+  // In one QP, each level has a larger weight than the next.
   const auto residual = [&](const char* task) {
     return controller.report().tasks[*stack.Find(task)].residual;
   };
@@ -177,7 +177,7 @@ TEST_F(ControllerTest, GivesMoreToWhatWeighsMoreInOneLevel) {
 TEST_F(ControllerTest, IsCertified) {
   state_.v.segment<3>(3) << 0.05, 0.1, 0;
   Update();
-  // What hqp/certificate.h asks of an optimal answer.
+  // The bounds of hqp/certificate.h for an optimal answer.
   const Certificate& certificate = controller_.report().certificate;
   EXPECT_LT(certificate.stationarity, 1e-9);
   EXPECT_LT(certificate.feasibility, 1e-9);

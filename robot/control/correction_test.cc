@@ -15,8 +15,8 @@
 namespace poise {
 namespace {
 
-// What acts on an elbow that is near its stop, rad/s2, and how far it then
-// gets, rad beyond the stop; the rest does what the solution says.
+// Accelerates an elbow near its stop by rad/s2 that the model does not know, and
+// measures how far it moves beyond the stop, rad. All else follows the solution.
 class PushedElbow : public ControllerTest {
  protected:
   PushedElbow() {
@@ -83,8 +83,8 @@ TEST_F(PushedElbow, LearnsNothingFromAClockThatStandsStill) {
   EXPECT_NEAR(bound(), before, 0.1);
 }
 
-// What is wrong with the model, as the controller has found it: what it asks of
-// the center of mass beyond its gains.
+// Reads the integral correction of the model: the acceleration of the center of
+// mass that the controller adds to its PD law.
 class CorrectionTest : public ControllerTest {
  protected:
   Eigen::Vector3d Correction() {
@@ -160,7 +160,7 @@ TEST_F(CorrectionTest, WaitsWhileTheMomentumCannotFollow) {
   EXPECT_LT(Correction().norm(), 1e-7);
 }
 
-// What a ramp holds back, it is not asked for.
+// The correction does not integrate an error that a ramp causes.
 TEST_F(CorrectionTest, WaitsWhileItsTaskIsEasedIn) {
   Stack& stack = controller_.stack();
   ASSERT_TRUE(stack.Enable("momentum", false));
@@ -170,7 +170,7 @@ TEST_F(CorrectionTest, WaitsWhileItsTaskIsEasedIn) {
   ASSERT_TRUE(stack.Enable("momentum", true));
   for (int i = 0; i <= 100; ++i) Update();
   EXPECT_FALSE(stack.is_eased());
-  // Of the one tick in which nothing was eased; 0.12 in all of them.
+  // Integral of the one tick without a ramp; all ticks would give 0.12.
   EXPECT_LT(Correction().norm(), 1.1 * 60 * 0.02 * 1e-3);
 }
 

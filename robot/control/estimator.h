@@ -43,7 +43,8 @@ class Estimator {
   void Update(const Measurement& measurement, State* state) noexcept;
 
  private:
-  // Of each foot's contact frame, at base X_WB = (R_WB, 0) with twist (w, 0).
+  // Computes each foot's contact frame for the base X_WB = (R_WB, 0) with twist
+  // (w, 0).
   void ComputeFeet(const Measurement& measurement, State* state) noexcept;
 
   Robot robot_;
@@ -58,8 +59,7 @@ class Estimator {
   std::vector<FootState> feet_;
   Eigen::Vector3d p_WB_;
   Eigen::Vector3d v_WB_;
-  Eigen::Matrix<double, 7, 1>
-      q_base_;  // Of the last measurement that was used.
+  Eigen::Matrix<double, 7, 1> q_base_;  // From the last accepted measurement.
   Eigen::Matrix<double, 6, 1> v_base_;
   double time_ = 0;
 };

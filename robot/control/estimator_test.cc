@@ -30,7 +30,8 @@ class EstimatorTest : public testing::Test {
     right_ankle_ = *robot_.model.tree.FindJoint("r_ankle_roll");
   }
 
-  // Of the base, when the left ankle has rolled by angle, the foot at rest.
+  // Returns the base pose when the left ankle has rolled by angle and the foot is at
+  // rest.
   Pose BaseAt(double angle) {
     Eigen::VectorXd q = robot_.q_nominal;
     q[7 + left_ankle_] = angle;
@@ -160,8 +161,8 @@ TEST_F(EstimatorTest, DoesNotFallThroughAGapInItsMeasurements) {
   EXPECT_NEAR(state.v[3], 0.3, 1e-9);
 }
 
-// One sample that is no number costs its own tick: the base stays, with its stamp,
-// and the next one says what was missed. The joints are not the estimator's.
+// A NaN sample affects its own tick only: base pose and stamp stay, and the next
+// sample makes up for it. The estimator does not change joint positions.
 TEST_F(EstimatorTest, LeavesAMeasurementOutThatIsNotFinite) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
@@ -188,7 +189,7 @@ TEST_F(EstimatorTest, LeavesAMeasurementOutThatIsNotFinite) {
           EXPECT_EQ(state.time, last.time);
           EXPECT_EQ(state.q.head<7>(), last.q.head<7>());
           EXPECT_EQ(state.v.head<6>(), last.v.head<6>());
-          // What is not finite is passed on: the controller must know.
+          // Values that are not finite are passed on to the controller.
           EXPECT_EQ(state.q.tail(n_).allFinite(),
                     measurement_.q_joints.allFinite());
           EXPECT_EQ(state.v.tail(n_).allFinite(),

@@ -31,7 +31,7 @@ class FailSafeTest : public ControllerTest {
   }
 };
 
-TEST_F(FailSafeTest, FailsSafeOnANumberThatIsNone) {
+TEST_F(FailSafeTest, FailsSafeOnNaN) {
   Update();
   ASSERT_EQ(command_.status, TickStatus::kOk);
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
@@ -203,7 +203,7 @@ TEST_F(FailSafeTest, FailsSafeWhileTheClockOfTheStateStandsStill) {
 }
 
 // Ten periods of 1 ms are 10 ms, and no more, whatever else is wrong.
-TEST_F(FailSafeTest, BlamesTheClockForNoStateThatIsNone) {
+TEST_F(FailSafeTest, DoesNotBlameTheClockForAnInvalidState) {
   Update();
   for (int i = 1; i <= 12; ++i) {
     State state = state_;
@@ -228,8 +228,8 @@ TEST_F(FailSafeTest, StartsItsClockAnew) {
   }
 }
 
-// A clock that is set, or one wrong stamp, costs no tick; one that is no number
-// costs its own. Afterwards a clock that stands still is seen as before.
+// A clock reset or one wrong stamp causes no failed tick; a NaN stamp fails its
+// own tick. Afterwards a frozen clock is detected as before.
 TEST_F(FailSafeTest, GoesOnAfterAStampThatJumps) {
   Update();
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -335,7 +335,7 @@ TEST_F(FailSafeTest, FailsSafeWhereTheDynamicsAreNotMet) {
   EXPECT_LT(controller_.report().dynamics_residual, 1e-9);
 }
 
-// Of all that it is added up from, and of no less than what rows are scaled by.
+// The residual is relative to the sum of its terms, at least to the scale of rows.
 TEST_F(FailSafeTest, TellsWhatTheDynamicsAreOffBy) {
   Update();
   const Tick& tick = controller_.tick();

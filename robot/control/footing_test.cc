@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Which feet the controller stands on, as a foot loses the ground, is let go or
+// Tests which feet are in contact after a foot loses the ground, is released or
 // is lifted.
 #include <gtest/gtest.h>
 

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// The controller as a function, at work: joints moving, feet not flat, pushed
-// so hard that the robot is captured and a foot let go.
+// Tests the controller as a function in a demanding state: joints move, feet are
+// not flat, and the push is so large that capture begins and a foot is released.
 class InvarianceTest : public ControllerTest {
  protected:
   InvarianceTest() {
@@ -52,7 +52,7 @@ class InvarianceTest : public ControllerTest {
 
   bool with_boxes_ = true;
   int let_go_ = 0;
-  const double kSame = 1e-9;  // Of the torques.
+  const double kSame = 1e-9;  // Relative, of torques.
 };
 
 TEST_F(InvarianceTest, TurnedAndMovedInputGivesTheSameTorques) {

@@ -15,8 +15,8 @@ struct FrameReference {
   Eigen::Matrix<double, 6, 1> A_WF_W = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
-/// What the robot should do. Whoever commands the robot writes it between two
-/// ticks; tasks read it.
+/// The desired motion of the robot. The caller writes it between two ticks; tasks
+/// read it.
 struct Reference {
   Eigen::Vector3d p_WG = Eigen::Vector3d::Zero();      ///< Center of mass, m.
   Eigen::Vector3d v_WG = Eigen::Vector3d::Zero();      ///< m/s.
@@ -24,7 +24,7 @@ struct Reference {
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();  ///< Base orientation.
   Eigen::VectorXd posture;                             ///< By joint, rad or m.
   double ground_z = 0;                 ///< Height of the floor, m.
-  std::vector<FrameReference> feet;    ///< Of the feet in the air.
+  std::vector<FrameReference> feet;    ///< Swing feet.
   std::vector<FrameReference> frames;  ///< By ControllerOptions::frames.
 };
 

@@ -263,7 +263,7 @@ void Stack::BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
   }
 }
 
-// What the task would write now if it had not been tuned.
+// Returns the rows that the task would write with its earlier parameters.
 EqualityBlock Stack::RowsBefore(const TaskInput& input, Entry* entry) noexcept {
   const Task& task = *entry->task;
   const auto exchange = [&] {

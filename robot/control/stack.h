@@ -34,11 +34,11 @@ struct StackRow {
 class Stack {
  public:
   static constexpr int kMaxLevel = 8;
-  /// What is farther from 1 is lost in rounding, and costs the solver hundreds of
-  /// steps.
+  /// Weights outside [1e-6, 1e6] lose all digits to rounding and slow the active-set
+  /// search.
   static constexpr double kLeastWeight = 1e-6;
   static constexpr double kMostWeight = 1e6;
-  static constexpr double kMostRatio = 1e6;  ///< Of set_weighted().
+  static constexpr double kMostRatio = 1e6;  ///< For set_weighted().
 
   /// For rows in num_variables variables.
   explicit Stack(int num_variables);
@@ -68,9 +68,9 @@ class Stack {
   /// kMostRatio.
   [[nodiscard]] bool set_weighted(bool weighted, double ratio = 100) noexcept;
 
-  /// What is changed from now on takes effect little by little, in so many
-  /// seconds, see Easing; what is not changed, pushes, references and limits,
-  /// acts in full. 0, the default: at once. False, and nothing happens, if it is
+  /// Sets the time in which later changes of tasks take effect, s, see Easing.
+  /// Unchanged rows, references and limits are not delayed. With 0, the default,
+  /// a change acts at once. Returns false, and changes nothing, if `seconds` is
   /// negative or not finite.
   [[nodiscard]] bool set_ramp(double seconds) noexcept;
 
@@ -80,8 +80,8 @@ class Stack {
   void EndRamp() noexcept { easing_.End(); }
   bool is_eased() const { return easing_.is_on(); }
 
-  /// What a Hierarchy, and its solver, must hold for every setting of the
-  /// tasks.
+  /// Returns the capacity of a Hierarchy and its solver that suffices for every
+  /// setting of the tasks.
   std::vector<LevelCapacity> capacity() const;
 
   /// Clears the hierarchy and writes the rows of the tasks that are on.
@@ -119,7 +119,7 @@ class Stack {
     std::unique_ptr<Task> task;
     TaskSettings settings;
     int eased_rows = 0;  // Where they begin, see Easing.
-    // What became of it since the last Write(), and what it was like before.
+    // Changes since the last Write(), and the settings before.
     bool was_switched_on = false;
     bool was_moved = false;
     bool was_tuned = false;
@@ -148,8 +148,8 @@ class Stack {
   int num_variables_;
   Easing easing_;
   int loose_from_ = kTight;
-  LevelCapacity most_rows_;  // Of a task.
-  Hierarchy before_;         // One task's rows, as they were.
+  LevelCapacity most_rows_;  // Largest task.
+  Hierarchy before_;         // One task's rows before a change.
   bool weighted_ = false;
   double level_ratio_ = 100;
   std::vector<Entry> entries_;

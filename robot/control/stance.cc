@@ -33,10 +33,10 @@ constexpr double kSeparating = 0.02;  // m/s.
 // A foot on its way back is flat, and over its place, after this part of it.
 constexpr double kThereAfter = 0.7;
 
-// What takes no time takes this: a tick later it is done, and nothing is 0/0.
+// Duration of a phase without duration; positive, so that no quotient is 0/0.
 constexpr double kInstant = 1e-9;  // s.
 
-// Of a sum of some periods, s.
+// Rounding of a sum of some periods, s.
 constexpr double kRounding = 1e-9;
 
 // How fast a foot looks for ground that it has lost.
@@ -164,7 +164,7 @@ void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {
   foot->has_flown = false;
 }
 
-// In the tick in which a foot is let go, it is still where it was.
+// In the tick in which a foot is released, it is still in its place.
 void Stance::CallBack(FootState* foot) noexcept {
   if (foot->phase != ContactPhase::kFree) return;
   Enter(foot, foot->since > 0 ? ContactPhase::kReturning : ContactPhase::kDown);
@@ -287,7 +287,7 @@ void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
 void Stance::ChangePhase(double dt, const ContactTick& contact,
                          const Reference& reference, FootState* of) noexcept {
   FootState& foot = *of;
-  // What has begun.
+  // Starts a phase.
   if (foot.phase == ContactPhase::kFree && foot.since == 0) {
     TakeOff(&foot, contact, reference);
   }
@@ -298,7 +298,7 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
   }
   foot.since += dt;
 
-  // What ends.
+  // Ends a phase.
   switch (foot.phase) {
     case ContactPhase::kDown:
     case ContactPhase::kLoading:
@@ -326,7 +326,7 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
           Enter(&foot, ContactPhase::kUp);
         }
       } else if (foot.has_flown) {
-        // Who lands needs all of its feet at once, and as they are.
+        // A landing robot needs all of its feet at once, at any tilt.
         if (HasLanded(LowestCorner(foot, contact, reference.ground_z))) {
           Enter(&foot, ContactPhase::kDown);
         }

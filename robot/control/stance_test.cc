@@ -98,8 +98,8 @@ TEST_F(StanceTest, LosesAFootThatGoesUp) {
   EXPECT_TRUE(contacts_[1].in_contact);
 }
 
-// What one sample says, or two, is none of the ground's affair; but a foot that was
-// not yet seen on the ground is not taken to be there.
+// One or two wrong samples do not end a contact. A foot that has not yet touched
+// the ground does not count as in contact.
 TEST_F(StanceTest, LosesAFootThatHasLeftForAWhile) {
   const auto lost_at = [this](bool is_high) {
     contacts_[0].X_WC.p.z() = is_high ? 0.03 : 0;
@@ -246,8 +246,8 @@ TEST_F(StanceTest, KeepsALiftedFootUpInFlight) {
   EXPECT_FALSE(contacts_[1].in_contact);
 }
 
-// A foot that is let go and called back from afar: its target begins where it
-// is, ends where it was, and moves as its velocity and acceleration say.
+// The target of a released foot that returns begins at the foot and ends at its old
+// place. Its velocity and acceleration are the derivatives of its position.
 TEST_F(StanceTest, LetsAFootGoAndBringsItBack) {
   contacts_[0].X_WC.p = Vector3d(1, 2, 0);
   stance_.LetGo(0);
@@ -313,9 +313,9 @@ TEST_F(StanceTest, BringsAFootBackFromTheTurnThatItHas) {
             1e-6);
 }
 
-// Of a foot that is let go nothing is told but where it is: there its way begins,
-// with the speed that it has, and ends upright over where it took off.
-TEST_F(StanceTest, LiftsAFootThatWasLetGoFromWhereItIs) {
+// The path of a released foot begins at its position with its velocity, and ends
+// upright above the place where it left the ground.
+TEST_F(StanceTest, LiftsAReleasedFootFromItsPosition) {
   const FrameReference& target = reference_.feet[0];
   const Pose away{ExpSo3(Vector3d(0.4, -0.2, 0.1)), Vector3d(0.9, 2.3, 0.1)};
   const Vector3d v_W(0.2, -0.5, -0.15);
@@ -380,7 +380,7 @@ TEST_F(StanceTest, PutsAFootDownThatRisesAgain) {
 }
 
 // Once it is up it is like any other.
-TEST_F(StanceTest, PutsAFootDownThatWasLetGoAndLifted) {
+TEST_F(StanceTest, PutsDownAReleasedAndLiftedFoot) {
   stance_.LetGo(0);
   Update();
   contacts_[0].X_WC.p = Vector3d(0.1, 0.2, 0.1);
@@ -420,7 +420,7 @@ TEST_F(StanceTest, BelievesThatAFootIsDownWhenItIsStopped) {
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
 }
 
-TEST_F(StanceTest, LiftsAFootAsAnyOtherInTheTickInWhichItIsLetGo) {
+TEST_F(StanceTest, LiftsAFootInTheTickOfItsRelease) {
   contacts_[0].X_WC.p = Vector3d(1, 2, 0);
   stance_.LetGo(0);
   ASSERT_TRUE(stance_.Lift(0, 0.05));
@@ -543,7 +543,7 @@ TEST_F(StanceTest, LiftsAFootThatHasLostTheGroundFromWhereItIs) {
   ASSERT_EQ(stance_.phase(0), ContactPhase::kLost);
   const double reached = reference_.feet[0].X_WF.p.z();
   EXPECT_LT(reached, 0.025);
-  EXPECT_GT(reached, 0.01);  // Of 35 mm, at 0.2 m/s.
+  EXPECT_GT(reached, 0.01);  // Full height 35 mm, at 0.2 m/s.
   ASSERT_TRUE(stance_.Lift(0, 0.05));
   Update();
   EXPECT_EQ(stance_.phase(0), ContactPhase::kUp);
@@ -580,8 +580,8 @@ TEST_F(StanceTest, PutsAFootDown) {
   EXPECT_LT(last, 0.005);
 }
 
-// A height that is none went into the references, and tick after tick failed safe.
-TEST_F(StanceTest, RefusesAHeightThatIsNone) {
+// An invalid height in the references would fail every later tick.
+TEST_F(StanceTest, RejectsAnInvalidHeight) {
   for (const double height :
        {std::nan(""), HUGE_VAL, -HUGE_VAL, -0.05, 0.0, 1.1}) {
     EXPECT_FALSE(stance_.Lift(0, height)) << height;

@@ -25,7 +25,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Of a joint's range, and at most in rad or m, to stay away from its ends.
+// Margin to the ends of a joint's range, as a fraction and at most in rad or m.
 constexpr double kMarginFraction = 0.05;
 constexpr double kLargestMargin = 0.05;
 constexpr double kKneeBend = 0.6;     // rad.
@@ -36,9 +36,9 @@ constexpr int kFullSteps = 30;  // Then each is shorter, so that none cycle.
 constexpr double kShrink = 0.6;
 // A step that is not the best one will do.
 constexpr int kSolverIterations = 60;
-// Of an ankle's torque, to hold the robot on one foot; the rest moves it.
+// Fraction of an ankle's torque that may hold the robot on one foot.
 constexpr double kAnkleShare = 0.5;
-// What is left of an error that can be met, m or rad.
+// An error below this counts as zero, m or rad.
 constexpr double kConverged = 1e-9;
 // The center of mass is over its place, m; soles lie flat, m and rad.
 constexpr double kCentered = 5e-3;
@@ -102,7 +102,7 @@ class Standing {
   // Flat on the ground, facing +x, level with each other, one on each side.
   void AddFeet(Hierarchy* hierarchy) const;
 
-  // Of the center of mass, in the plane, m.
+  // Returns the horizontal error of the center of mass, m.
   Eigen::Vector2d OffBalance() const {
     return tick_.p_WG.head<2>() - Eigen::Vector2d(forward_, 0);
   }
@@ -124,7 +124,7 @@ class Standing {
   FootState feet_[2];
   Matrix3d R_WB_;
   double distance_;
-  double forward_ = 0;  // Of the center of mass before the middle, m.
+  double forward_ = 0;  // Center of mass ahead of the middle, m.
 };
 
 Standing::Standing(const Robot& robot, double bend)

@@ -12,7 +12,7 @@
 namespace poise {
 namespace {
 
-// What StandUp() leaves of an error that can be met, m or rad.
+// Largest error of StandUp() where zero is possible, m or rad.
 constexpr double kMet = 1e-6;
 
 void ExpectStands(const Robot& robot) {
@@ -48,7 +48,7 @@ TEST(StandUp, StandsTheHumanoidUpWithBentKnees) {
   EXPECT_NEAR(robot.q_nominal[7 + knee], 0.6, 0.05);
 }
 
-TEST(StandUp, StaysNearTheJointsThatTheProfileWishes) {
+TEST(StandUp, StaysNearTheJointPositionsOfTheProfile) {
   Profile profile = LoadProfile("robot/profiles/humanoid.yaml");
   const Robot given = LoadStandingRobot("robot/models/humanoid.urdf", profile);
   profile.base_xyz.reset();

@@ -43,12 +43,12 @@ struct Parameter {
 enum class RowKind {
   kTarget,            ///< An equality: the target of a task.
   kDynamics,          ///< An equality: a law of physics.
-  kTorqueLimit,       ///< Of an actuator.
-  kJointLimit,        ///< Of a joint's position or velocity.
-  kCopLimit,          ///< Of the center of pressure, by an edge.
-  kFrictionLimit,     ///< Of the tangential force on a foot.
-  kYawLimit,          ///< Of the moment about a foot's normal.
-  kNormalForceLimit,  ///< Of the normal force on a foot.
+  kTorqueLimit,       ///< Torque of an actuator.
+  kJointLimit,        ///< Position or velocity of a joint.
+  kCopLimit,          ///< Center of pressure at an edge.
+  kFrictionLimit,     ///< Tangential force on a foot.
+  kYawLimit,          ///< Moment about a foot's normal.
+  kNormalForceLimit,  ///< Normal force on a foot.
   kLimit,             ///< Any other inequality.
 };
 

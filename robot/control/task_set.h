@@ -11,7 +11,7 @@
 
 namespace poise {
 
-/// What is wrong with a name that no task of a stack has, and what was wanted.
+/// Returns the error message for a name that no task of a stack has.
 std::string UnknownTask(const std::string& name, const Stack& stack);
 
 /// Changes a stack as a `tasks:` section says, by name of the task:
@@ -20,7 +20,7 @@ std::string UnknownTask(const std::string& name, const Stack& stack);
 ///       yaw: off                       # Or on.
 ///       momentum: {level: 3, kp: 40}    # Level, weight, on, any parameter.
 ///
-/// What is not named stays as it is. `rank` is an alias of `level`.
+/// Tasks and parameters without an entry do not change. `rank` is an alias of `level`.
 ///
 /// @param file  of the section, for messages.
 /// Throws std::invalid_argument("FILE:LINE: ...") about a task or a parameter
@@ -37,7 +37,7 @@ std::vector<std::string> FindTaskLinks(const YAML::Node& tasks,
 /// whether it is on, its level, weight and parameters, to the last digit.
 YAML::Node DescribeTasks(const Stack& stack);
 
-/// The same of a task set, and of the names of tasks to switch.
+/// Finds the links in a task set and in names of tasks to switch.
 /// Throws std::invalid_argument about the file.
 std::vector<std::string> FindTaskLinks(const std::string& set,
                                        const std::vector<std::string>& tasks,

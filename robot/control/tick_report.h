@@ -50,9 +50,9 @@ struct TickReport {
   TickStatus status = TickStatus::kOk;
   FailSafeReason fail_safe_reason = FailSafeReason::kNone;
   Status solver_status = Status::kOptimal;
-  /// Where the status is kLimitRelaxed, the row of a torque or joint limit that
-  /// gave way most, in its own scale; also where its task is off, and what the
-  /// motor cannot give was cut off.
+  /// If the status is kLimitRelaxed: the torque or joint limit with the largest
+  /// scaled slack. If the task of the limits is off: the torque that was clamped
+  /// most.
   std::optional<ActiveRow> relaxed;
   int failed_level = 0;  ///< Priority level that was not solved; 0: none.
   int iterations = 0;    ///< Solver iterations.

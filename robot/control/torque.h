@@ -18,13 +18,12 @@ namespace poise {
 void ComputeTorque(const Tick& tick, const std::vector<ContactTick>& contacts,
                    const Eigen::VectorXd& y, Eigen::VectorXd* tau) noexcept;
 
-/// What a solution leaves of the rows of the dynamics that no motor acts on, (9):
-/// summed over them,
+/// Computes the residual of the unactuated rows of the dynamics, (9), summed over
+/// the rows,
 ///     | M_l v̇ + N_l - J_{c,l}' lambda |,
 /// relative to the sum of the moduli of all its terms, or to `scale` where that is
-/// more. Where it is more than rounding, the torques of ComputeTorque() are those
-/// of a motion that the robot cannot make. No number, if y is none. Does not
-/// allocate.
+/// more. If it is above rounding, the torques of ComputeTorque() do not produce the
+/// accelerations of y. NaN if y has a NaN. Does not allocate.
 double DynamicsResidual(const Tick& tick,
                         const std::vector<ContactTick>& contacts,
                         const Eigen::VectorXd& y, double scale) noexcept;

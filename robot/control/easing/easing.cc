@@ -63,8 +63,8 @@ void Easing::BeginAtLast(int rows, const EqualityBlock& now) noexcept {
   }
 }
 
-// What the last y lacks of a row pulls at it by weight times residual: with
-// another weight, as much of the residual is left as pulls the same.
+// The pull of a row on y is its weight times its residual. With another weight,
+// the offset leaves the residual that gives the same pull.
 void Easing::BeginAsBefore(int rows, const EqualityBlock& now,
                            const EqualityBlock& before,
                            double weight_ratio) noexcept {

@@ -31,7 +31,7 @@ class Easing {
   /// below. Allocates.
   int AddTask(int equalities, int inequalities);
 
-  /// Of a ramp, s; 0, and nothing is eased, nor what was begun.
+  /// Sets the duration of a ramp, s. 0 switches ramps off and ends running ones.
   void set_duration(double seconds) noexcept;
 
   /// A tick of dt has found y; Remember() follows, for each task that took part:
@@ -41,7 +41,7 @@ class Easing {
                 const Eigen::Ref<const Eigen::VectorXd>& slack,
                 double scale) noexcept;
 
-  /// What comes next is not eased, and its y not known yet.
+  /// Ends all ramps. The next tick has no last y.
   void End() noexcept;
 
   /// Whether there is a y to begin at, and time to ease.
@@ -77,12 +77,12 @@ class Easing {
   void Hold(EqualityBlock* equalities) const noexcept;
 
  private:
-  // Of y, then of each task: its equalities, the lower sides of its
-  // inequalities, and their upper sides.
+  // Offsets of y, then of each task: equalities, lower bounds and upper bounds of
+  // its inequalities.
   Ramp ramp_;
-  Eigen::VectorXd lacked_;  // What the last tick left of each.
+  Eigen::VectorXd lacked_;  // Residual of each in the last tick.
   Eigen::VectorXd y_last_;
-  double dt_ = 0;  // Of the last tick; 0 as long as there is none.
+  double dt_ = 0;  // Period of the last tick; 0 before it.
   bool holds_ = false;
 };
 

@@ -21,7 +21,7 @@ class EasingTest : public ::testing::Test {
     easing_.set_duration(0.01);
   }
 
-  // What the last y is off by: 4 and -2.
+  // Adds rows with residuals 4 and -2 at the last y.
   static EqualityBlock AddEqualities(Hierarchy* rows) {
     rows->Clear(1);
     EqualityBlock equalities = rows->AddEqualities(0, 2);
@@ -30,7 +30,7 @@ class EasingTest : public ::testing::Test {
     return equalities;
   }
 
-  // What is left of the two rows' right sides.
+  // Returns the offsets of the two rows.
   Eigen::Vector2d Offsets() {
     EqualityBlock equalities = AddEqualities(&before_);
     const Eigen::Vector2d b = equalities.b;
@@ -76,8 +76,8 @@ TEST_F(EasingTest, LetsRowsThatAreNewBeginWhereTheLastYIs) {
   EXPECT_EQ(Offsets(), Eigen::Vector2d::Zero());
 }
 
-// The first row asks for something else, the second counts more, and the task
-// half: what pulls at the last y, weight times residual, is the same as before.
+// The first row has a new target, the second a larger weight, and the task half
+// of its weight. The pull on the last y, weight times residual, stays the same.
 TEST_F(EasingTest, LetsRowsThatAreTunedPullAsBefore) {
   const Eigen::Vector2d lacked(0.5, -0.25);
   easing_.Advance(kDt, kLast);
@@ -88,7 +88,7 @@ TEST_F(EasingTest, LetsRowsThatAreTunedPullAsBefore) {
   EqualityBlock now = AddEqualities(&rows_);
   now.weight[1] = 5;
   easing_.BeginAsBefore(task_, now, before, 2);
-  // What the last y is off by is more than it lacked by the offsets of before.
+  // The residual at the last y is larger than before by the earlier offsets.
   const Eigen::Vector2d offsets_before(3.5 - 0.5, -2 + 0.25);
   const Eigen::Vector2d left =
       Eigen::Vector2d(4, -2) - (offsets_before + Offsets());
@@ -146,7 +146,7 @@ TEST_F(EasingTest, LetsLimitsBeginWhereTheLastYIs) {
     EXPECT_EQ(Eigen::Vector3d(rows.lower), Eigen::Vector3d(-kInf, 1, -5));
     EXPECT_EQ(Eigen::Vector3d(rows.upper), Eigen::Vector3d(1, kInf, 5));
   }
-  // What was violated before is so now, and pulls as it did.
+  // A row that was violated is still violated, with the same pull.
   easing_.End();
   easing_.Advance(kDt, kLast);
   easing_.Remember(task_, Eigen::Vector2d::Zero(), Eigen::Vector3d(0.6, 3, 0),

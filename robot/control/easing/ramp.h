@@ -16,7 +16,7 @@ class Ramp {
   /// So many numbers, all zero. Allocates.
   void Resize(int size);
 
-  /// Of a ramp, s; 0, and what is added is forgotten.
+  /// Sets the duration of a ramp, s. With 0, offsets are dropped.
   void set_duration(double seconds) { duration_ = seconds; }
   double duration() const { return duration_; }
 

@@ -60,8 +60,8 @@ class Quintic {
   Eigen::Matrix<double, 6, 1> coefficients_;
 };
 
-// What is added on the way bends each curve from where it is, with its rate and
-// acceleration, to zero a whole duration later.
+// An offset that is added during a ramp continues each curve with its value, rate
+// and acceleration, and ends at zero one duration later.
 TEST(Ramp, GoesOnSmoothlyWhereSomethingIsAdded) {
   constexpr double kDuration = 2;
   constexpr double kStep = 0.25;

@@ -129,7 +129,7 @@ class CaptureTest : public TaskTest {
     return share;
   }
 
-  // What brings the capture point so far along an axis, as speed.
+  // Returns the velocity that moves the capture point so far along an axis.
   Vector6d Fast(int axis, double way) const {
     Vector6d momentum = Vector6d::Zero();
     momentum[3 + axis] = way * w_;
@@ -139,7 +139,7 @@ class CaptureTest : public TaskTest {
   MomentumTask task_{tree_, robot_.feet};
   BalanceMonitor monitor_{tree_, robot_.feet};
   Tick tick_{tree_, {}};
-  double left_ = 0, right_ = 0;  // Of the last Share().
+  double left_ = 0, right_ = 0;  // From the last Share().
   const double height_ = controller_.tick().p_WG.z();
   const double w_ = std::sqrt(9.81 / height_);
   const double front_ = half_.x();

@@ -190,7 +190,7 @@ TEST_F(FootWrenchTest, ZmpReadLiterallyLetsFeetCancel) {
   EXPECT_GT(Violation(literal, y), 0);
   y = Loaded({0, -0.3}, Eigen::Vector3d(0, 0, 100));
   EXPECT_GT(Violation(literal, y), 0);
-  // Of the box, each side by itself.
+  // Tests each side of the box by itself.
   const Eigen::Vector3d up(0, 0, 100);
   for (const Eigen::Vector2d& side :
        {Eigen::Vector2d(half_.x(), 0), Eigen::Vector2d(-half_.x(), 0),

@@ -32,8 +32,7 @@ TEST_F(TaskTest, JointLimitsBringAJointToRestAtItsStop) {
   const int j = *tree_.FindJoint("l_elbow");
   for (const auto& [side, push] : {std::pair(1., 0.), std::pair(-1., 0.),
                                    std::pair(1., 30.), std::pair(-1., 30.)}) {
-    unmodelled_vdot_[6 + j] =
-        push;  // Of which the solution knows nothing, rad/s2.
+    unmodelled_vdot_[6 + j] = push;  // Unmodelled acceleration, rad/s2.
     const JointLimits& limits = robot_.model.limits[j];
     constexpr double kMargin = 0.008;  // rad.
     const double stop =
@@ -169,7 +168,7 @@ TEST_F(TaskTest, RowsKnowThatAJointHasNoMotor) {
                std::isfinite(limits.upper(0)[j]));
 }
 
-// What no motor gives is not to be asked for, by a slip in a profile.
+// A wrong profile must not raise a limit above that of the motor.
 TEST_F(TaskTest, TorqueLimitsAreNeverMoreThanTheMotors) {
   const TorqueLimitsTask task(robot_.model);
   ASSERT_EQ(task.parameters().size(), 1u);
@@ -220,7 +219,7 @@ TEST_F(TaskTest, LightJointsFollowThePosture) {
               1e-12);
 }
 
-// What a coupling is off by comes to rest at 0 as a damped spring does.
+// The error of a coupling decays to 0 as a damped spring does.
 TEST_F(TaskTest, MimicIsASpringOnWhatACouplingIsOffBy) {
   const int joint = *tree_.FindJoint("l_index_2");
   const int source = *tree_.FindJoint("l_index_1");

@@ -9,7 +9,7 @@
 namespace poise {
 namespace {
 
-// Of the robot's mass. The lightest fingers that matter have 1e-4.
+// Fraction of the robot's mass. The lightest fingers in use have 1e-4.
 constexpr double kLight = 1e-5;
 
 std::vector<RowDescription> Rows(const RobotModel& model) {
@@ -26,7 +26,7 @@ std::vector<RowDescription> Rows(const RobotModel& model) {
 
 std::vector<int> FindLightJoints(const RobotModel& model) {
   const Tree& tree = model.tree;
-  std::vector<double> mass;  // Of each body and all that it carries.
+  std::vector<double> mass;  // Each body and all bodies beyond it.
   for (const Inertia& M : tree.inertias()) mass.push_back(M.mass);
   for (int j = tree.num_joints() - 1; j >= 0; --j) {
     mass[tree.joints()[j].parent] += mass[j + 1];

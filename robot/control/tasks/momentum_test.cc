@@ -68,9 +68,8 @@ TEST_F(TaskTest, RatesOfMomentumAndFeetAreThoseOfTheMotion) {
       1e-12);
 }
 
-// What a task asks of y, less what it asks where nothing is to be done: here by
-// a reference that moves, feed-forward, and a base that is turned.
-// What is lost of a momentum is so many N, or N m, however its rows are scaled.
+// The residual of a momentum row in the report is in N or N m, whatever the scale of
+// the row. The reference moves, with feed-forward, and the base is rotated.
 TEST_F(TaskTest, LossesOfMomentumAreForces) {
   const Eigen::VectorXd y = RandomY();
   const auto loss = [&](const Task& task, const Eigen::VectorXd& at) {
