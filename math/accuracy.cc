@@ -14,7 +14,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::string path =
-      argc > 1 ? argv[1] : std::string(workspace) + "/docs/generated/accuracy.md";
+      argc > 1 ? argv[1]
+               : std::string(workspace) + "/docs/generated/accuracy.md";
   // Before the file is opened, and so emptied: it takes a minute.
   const auto rows = poise::MeasureAccuracy(kSamples);
   std::ofstream file(path);
