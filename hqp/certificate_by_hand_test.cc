@@ -16,8 +16,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // Scale of the gradient: the terms of the residual of y_0 are |3| and |-3|.
 constexpr double kSize = 6;
 
-// Level 0 bounds y_1, level 1 asks for y = (3, target). What is optimal, with
-// its multiplier, is known by hand; each test spoils one number of it.
+// Level 0 bounds y_1, level 1 has the target y = (3, target). The optimum and its
+// multiplier were computed by hand. Each test changes one of their numbers.
 class CertifierByHandTest : public testing::Test {
  protected:
   CertifierByHandTest() { Bound(0, 1, 2); }
@@ -35,7 +35,7 @@ class CertifierByHandTest : public testing::Test {
     Answer(y, y - target, target - y);
   }
 
-  // The answer y_1, with the residual that it leaves and a multiplier.
+  // Sets the answer: y_1, its residual and a multiplier.
   void Answer(double y, double residual, double multiplier) {
     solution_.Reset();
     solution_.y << 3, y;
@@ -56,7 +56,7 @@ TEST_F(CertifierByHandTest, AcceptsTheOptimum) {
   EXPECT_EQ(Certify().worst(), 0);  // At the upper bound.
   Bound(0, 1, -2);                  // At the lower one.
   EXPECT_EQ(Certify().worst(), 0);
-  Bound(0, 1, 0.5);  // At none.
+  Bound(0, 1, 0.5);  // At neither bound.
   EXPECT_EQ(Certify().worst(), 0);
   Bound(1, 1, -2);  // At both: the multiplier may have either sign.
   EXPECT_EQ(Certify().worst(), 0);
@@ -116,7 +116,7 @@ TEST_F(CertifierByHandTest, IsInfiniteWhereAnythingIsNan) {
   EXPECT_EQ(Certify().worst(), kInfinity);
 }
 
-// Truncated is what is not certified, down to the first level that is wrong.
+// Truncate() keeps the levels above the first wrong one.
 TEST_F(CertifierByHandTest, TruncatesToTheCertifiedLevels) {
   const auto truncated = [&](int failed_level, bool spoils_0, bool spoils_1) {
     Bound(0, 1, 2);
@@ -138,8 +138,8 @@ TEST_F(CertifierByHandTest, TruncatesToTheCertifiedLevels) {
   EXPECT_EQ(truncated(0, true, true), 0);
 }
 
-// A multiplier that is off by far less than kCertified is accepted, by far more
-// not.
+// A multiplier with an error far below kCertified is accepted, with an error far
+// above it is not.
 TEST_F(CertifierByHandTest, TruncatesAnswersThatAreNotCertified) {
   for (const double error : {0., 1e-15, 1e-11, 1e-7, 1e-3, 1.}) {
     Bound(0, 1, 2);

@@ -26,12 +26,12 @@ using tolerances::kZeroCost;
 // Quotients of small whole numbers.
 constexpr double kRounding = 1e-15;
 
-// The rows with a bound, as A y + a <= 0: of two bounds the one nearer to being
-// violated.
+// The rows with a bound, as A y + a <= 0. If a row has two bounds, the one with the
+// smaller distance counts.
 struct OneSided {
   MatrixXd A;
   VectorXd a, mu, slack;
-  std::vector<bool> is_tight;  // The other bound is there as well.
+  std::vector<bool> is_tight;  // The row has another bound.
 
   VectorXd Violation(const VectorXd& y) const { return A * y + a; }
   VectorXd Size(const VectorXd& y) const {
@@ -143,7 +143,8 @@ Certificate CertifyByDefinition(const Hierarchy& hierarchy,
   return result;
 }
 
-// Rounding is 1e-16 of what is added up; what is spoiled, by far more.
+// Rounding is 1e-16 of the sum of the terms. A changed number has a far larger
+// effect.
 void ExpectSame(double actual, double expected) {
   if (std::isinf(expected)) {
     EXPECT_EQ(actual, expected);
@@ -166,7 +167,7 @@ void ExpectAsDefined(const HierarchyCase& drawn, const Solution& solution) {
                       actual.complementarity, actual.priority}));
 }
 
-// Every number of an answer that a certificate reads.
+// Returns every number of an answer that a certificate reads.
 std::vector<double*> Numbers(const Hierarchy& hierarchy, Solution* solution) {
   std::vector<double*> numbers;
   const auto add = [&](VectorXd* from, int count) {

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// That the judge convicts: a right answer, made wrong in one place each.
+// Tests that the certificate detects errors: each test changes one number of an
+// optimal answer.
 #include "poise/hqp/certificate.h"
 
 #include <gtest/gtest.h>
@@ -48,8 +49,8 @@ TEST_F(CertificateTest, AcceptsTheOptimum) {
 
 TEST_F(CertificateTest, FindsAWrongMultiplier) {
   solution_.levels[1].multipliers[0].inequality[2] += 1e-6;
-  // |B|'W(|B||y| + |b|) + |C|'|mu| of y0 is 12 + 12, of y1 3 + 15 + 12, and
-  // what it is wrong by.
+  // |B|'W(|B||y| + |b|) + |C|'|mu| of y0 is 12 + 12, of y1 3 + 15 + 12; the scale
+  // includes the error itself.
   EXPECT_NEAR(Certify().stationarity, 1e-6 / (30 + 1e-6), kRounding);
   EXPECT_LE(Certify().feasibility, kRounding);
   EXPECT_LE(Certify().complementarity, kRounding);
@@ -58,7 +59,7 @@ TEST_F(CertificateTest, FindsAWrongMultiplier) {
 TEST_F(CertificateTest, FindsAMultiplierOfTheWrongSign) {
   hierarchy_.Clear(2);
   InequalityBlock rows = hierarchy_.AddInequalities(0, 3);
-  rows.C << 1, 0, 0, 1, -1, -1;  // The last row turned, not its multiplier.
+  rows.C << 1, 0, 0, 1, -1, -1;  // Reverses the last row, not its multiplier.
   rows.upper << 1, 3, 8;
   rows.lower[2] = -8;
   EqualityBlock target = hierarchy_.AddEqualities(1, 2);
@@ -117,7 +118,7 @@ TEST_F(CertificateTest, CertifiesSolvedLevelsOnly) {
 }
 
 TEST(Certificate, AllowsAnyMultiplierOnAViolatedRow) {
-  // y <= -1 and y >= 1: violated by 1 both. Below, y = 2 pulls either way.
+  // y <= -1 and y >= 1: at y = 0 both are violated by 1. The level below has y = 2.
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
   InequalityBlock rows = hierarchy.AddInequalities(0, 2);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// All bounds are zero, as at the vertex of friction cones, and y is zero.
-// Targets that cannot be met leave their rounding in y.
+// Tests hierarchies whose bounds are all zero, as at the vertex of friction cones,
+// with y = 0. Unattainable targets add their rounding to y.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -61,7 +61,7 @@ TEST_F(DegenerateVertexTest, IsZeroBetweenThreeRows) {
          {1, 1}, {0, -1}, {2.14, 1});
 }
 
-// Targets of any size.
+// Targets may have any size.
 TEST_F(DegenerateVertexTest, IsZeroInAnyUnit) {
   for (const double unit : {1e-12, 1e12}) {
     Expect({{{1, -1}, 0, INFINITY}, {{0, -1}, -INFINITY, 0}, {{1, 0}, 0, 0}},
@@ -69,9 +69,9 @@ TEST_F(DegenerateVertexTest, IsZeroInAnyUnit) {
   }
 }
 
-// Some were not, where rounding of y was judged by |y| alone, or what depends
-// on other rows kept its rounding. (Of the first 20 000 one still is not with
-// -O1 or -O3, seed 1466, and the solver says so; with -O2 all are.)
+// The rounding of y must be judged by the targets and not by |y| alone, and
+// dependent rows must lose their rounding. Otherwise some seeds fail. (With -O1 or
+// -O3 the solver reports failure for seed 1466; with -O2 all seeds are solved.)
 TEST(DegenerateVertex, IsSolvedForAnyTarget) {
   RandomHierarchyOptions options;
   options.scaled = 0;
@@ -90,9 +90,9 @@ TEST(DegenerateVertex, IsSolvedForAnyTarget) {
   }
 }
 
-// The first row and others hold y2 at 0, so y2 is rounding. It is set to zero,
-// although the residuals of the others then change in their last digit. (With
-// -O3 18 of these were not solved without that; with -O1 all were.)
+// The first row and others fix y2 at 0, so y2 is rounding. The solver sets it to
+// zero, although the residuals of the other rows then change in their last digit.
+// (Without this step 18 of these cases fail with -O3, none with -O1.)
 TEST(DegenerateVertex, KeepsAZeroBesideARoundedTarget) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 2}};
   std::mt19937 random(1);

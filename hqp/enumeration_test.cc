@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Both solvers against what needs no search. Equalities only: the closed form,
-// level by level through pseudo-inverses. Inequalities: all active sets tried.
+// Compares both solvers with methods that need no search. Equalities only: the
+// closed form by pseudo-inverses, level by level. Inequalities: all active sets.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,16 +16,16 @@
 namespace poise {
 namespace {
 
-// Two costs are the same: far above rounding, far below what two different
-// active sets of numbers in hundredths give.
+// Tolerance for equal costs. It is far above rounding, and far below the
+// difference of two active sets whose entries are hundredths.
 constexpr double kSameCost = 1e-9;
 
 struct InequalityRow {
   int level, index;
 };
 
-// The hierarchy with equalities only, where each inequality row is absent or
-// one more equality of its own level, at the lower or the upper bound.
+// Returns the hierarchy with equalities only. Each inequality row is left out or
+// is an equality of its own level, at the lower or the upper bound.
 std::vector<LeastSquares> EqualitiesOnly(const Hierarchy& hierarchy,
                                          const std::vector<InequalityRow>& rows,
                                          const std::vector<Side>& sides) {
@@ -56,12 +56,12 @@ std::vector<LeastSquares> EqualitiesOnly(const Hierarchy& hierarchy,
 
 struct Candidate {
   Eigen::VectorXd y;
-  Eigen::VectorXd cost;  // By level: the hierarchy's own at y.
+  Eigen::VectorXd cost;  // By level, of the given hierarchy at y.
   double condition;
 };
 
-// The optimum is that of the equalities that are violated or tight at it, and
-// no y is better: so the lexicographically least of all active sets' answers.
+// The optimum solves the equalities that are violated or active at it, and no y is
+// better. So it is the lexicographic minimum over all active sets.
 Candidate FindByEnumeration(const HierarchyCase& drawn) {
   const Hierarchy& hierarchy = drawn.hierarchy;
   const int n = hierarchy.num_variables(), num_levels = hierarchy.num_levels();
@@ -112,8 +112,8 @@ Candidate FindByEnumeration(const HierarchyCase& drawn) {
                            });
 }
 
-// An answer's rounding: of y by the square of the condition of a level, of the
-// costs by what they are added up from.
+// The rounding of y grows with the square of the condition of a level; that of a
+// cost is relative to the sum of its terms.
 void Compare(const Candidate& expected, const HierarchyCase& drawn,
              const Solution& solution) {
   const Hierarchy& hierarchy = drawn.hierarchy;

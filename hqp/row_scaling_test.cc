@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Rows of one level with residuals of unlike size: the small ones are not
-// rounding. The answers were found on paper.
+// Tests levels whose rows have residuals of very different size: the small
+// residuals are not rounding. The answers were computed by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,8 @@
 namespace poise {
 namespace {
 
-// Certified by a solver that has solved `before`, and by a new one.
+// Expects the certified solution from a solver that has solved `before`, and from a
+// new one.
 void ExpectSolution(const HierarchyByHand& before,
                     const HierarchyByHand& problem,
                     const std::vector<double>& y) {
@@ -39,7 +40,7 @@ void ExpectSolution(const HierarchyByHand& before,
         Certifier(n, capacity).Certify(problem.hierarchy, solution).worst(),
         Certifier::kCertified);
     for (int j = 0; j < n; ++j) {
-      // A few operations on each, or on what cancels.
+      // Each entry takes a few operations; terms that cancel have size 1.
       const double size = y[j] != 0 ? std::abs(y[j]) : 1;
       EXPECT_NEAR(solution.y[j], y[j], Rounding(size, 4)) << j;
     }

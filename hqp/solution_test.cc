@@ -82,7 +82,7 @@ TEST(EvaluateLevel, AgreesWithNumbersByHand) {
   Solution solution(2, {{2, 3}});
   solution.y << 1, 2;
   const LevelSolution& level = solution.levels[0];
-  solution.levels[0].cost = 7;  // Whatever was there.
+  solution.levels[0].cost = 7;  // An old value.
   EvaluateLevel(hierarchy, 0, &solution);
   EXPECT_EQ(level.equality_residual, Eigen::Vector2d(1, 12));
   EXPECT_EQ(level.slack, Eigen::Vector3d(2, 0.5, 0));

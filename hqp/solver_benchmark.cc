@@ -1,17 +1,16 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// How long a solve takes, beside the literal cascade in the same run.
+// Measures the time of a solve, and that of the cascade in the same run.
 //   bazel run //hqp:solver_benchmark
-// Each solve is of a hierarchy that has changed since the one before: what is
-// asked for and the bounds move by up to a hundredth, as from tick to tick,
-// which is not timed. To solve the same one again would be the best case of a
-// solver that starts from what was active. Time is the mean; median_us, p999_us
-// and max_us are of single solves.
+// Before each solve, targets and bounds move by up to a hundredth, as from tick to
+// tick; this change is not timed. Solving the same hierarchy again would be the
+// best case of a warm start. Time is the mean; median_us, p999_us and max_us are of
+// single solves.
 //
-// The dense cases have rows as no robot has: 20, 40 or 60 inequalities of
-// normal numbers on each of 5 levels of 68 variables. With 20 about half as
-// many are active as there are variables. With more most levels cannot be met,
-// and each step factors such a level anew: from nothing the fast solver is
-// slower there than our own cascade by COD.
+// The dense cases are unlike a robot: 20, 40 or 60 inequalities of normal numbers
+// on each of 5 levels of 68 variables. With 20, the number of active rows is about
+// half the number of variables. With more, most levels cannot be met, and each
+// iteration factors such a level again. From a cold start the fast solver is then
+// slower than the cascade by COD.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -25,7 +24,7 @@
 namespace poise {
 namespace {
 
-// Numbers in [-1, 1], the same each time.
+// Pseudo-random numbers in [-1, 1] with a fixed seed.
 class Numbers {
  public:
   double Uniform() {
@@ -48,11 +47,11 @@ struct Problem {
   Hierarchy hierarchy;
 };
 
-// A hierarchy of the paper's shape: of n variables the last 12 are forces. 6
-// equalities; `limits` two-sided rows; 12 equalities and 16 inequalities; 6
-// equalities, and again 6 in each level more than 5; posture and forces. In
-// fewer than 5 levels, the first ones share one. The tighter the limits, the
-// more rows are active.
+// Returns the shape of the paper's hierarchy. The last 12 of n variables are
+// forces. The levels: 6 equalities; `limits` two-sided rows; 12 equalities and 16
+// inequalities; 6 equalities, repeated for each level above 5; posture and forces.
+// With fewer than 5 levels the first ones share a level. Tighter limits make more
+// rows active.
 std::vector<LevelCapacity> PaperCapacity(int n, int levels, int limits) {
   std::vector<LevelCapacity> rows = {{6, 0}, {0, limits}, {12, 16}};
   while (static_cast<int>(rows.size()) < std::max(levels - 1, 4)) {
@@ -96,8 +95,7 @@ Problem MakePaper(int n, int levels, int limits, double limit) {
   return problem;
 }
 
-// Levels of 6 equalities and as many inequalities as told, all of normal
-// numbers.
+// Makes levels of 6 equalities and `rows` inequalities, all of normal numbers.
 Problem MakeDense(int n, int levels, int rows) {
   const std::vector<LevelCapacity> capacity(levels, {6, rows});
   Problem problem{capacity, Hierarchy(n, capacity)};
@@ -152,7 +150,7 @@ int NumActive(const Solution& solution) {
   return active;
 }
 
-// Solves what the problem changes to, each time anew. `prepare` is not timed.
+// Changes the problem and solves it, repeatedly. `prepare` is not timed.
 template <typename Prepare, typename Solve>
 void Run(const Problem& problem, Prepare&& prepare, Solve&& solve,
          benchmark::State* state) {
@@ -197,10 +195,10 @@ void Run(const Problem& problem, Prepare&& prepare, Solve&& solve,
 void RunFast(const Problem& problem, bool is_warm, benchmark::State* state) {
   const int n = problem.hierarchy.num_variables();
   Solver solver(n, problem.capacity);
-  // The dense cases have no tick to be in time for; others need no more than
-  // 500.
+  // The dense cases need more iterations than a control tick allows; the others need
+  // at most 500.
   solver.max_iterations = 10000;
-  // Also the first one that is timed has one before.
+  // The first timed solve needs a solve before it, too.
   Solution first(n, problem.capacity);
   benchmark::DoNotOptimize(solver.Solve(problem.hierarchy, &first));
   Run(
@@ -225,7 +223,7 @@ void RunCascade(const Problem& problem, RowSpaceMethod method,
       state);
 }
 
-// By limit in tenths: 100 leaves nothing active.
+// The argument is the limit in tenths; with 100 no row is active.
 Problem Limited(const benchmark::State& state) {
   return MakePaper(68, 5, 50, static_cast<double>(state.range(0)) / 10);
 }
@@ -238,7 +236,7 @@ void Reference(benchmark::State& state, RowSpaceMethod method) {
   RunCascade(Limited(state), method, &state);
 }
 
-// By inequalities of a level.
+// The argument is the number of inequalities of a level.
 Problem Dense(const benchmark::State& state) {
   return MakeDense(68, 5, static_cast<int>(state.range(0)));
 }
@@ -251,7 +249,7 @@ void DenseReference(benchmark::State& state, RowSpaceMethod method) {
   RunCascade(Dense(state), method, &state);
 }
 
-// By variables and by levels.
+// The arguments are the numbers of variables and of levels.
 Problem Grown(const benchmark::State& state) {
   return MakePaper(static_cast<int>(state.range(0)),
                    static_cast<int>(state.range(1)), 50, 10);

@@ -52,8 +52,8 @@ TEST(Solver, AgreesWithTheCascade) {
     EXPECT_EQ(count.allocations(), 0);
     EXPECT_LE(solution.iterations, 2);
   }
-  // A wrong step is made up for by later ones, and shows in how many there are:
-  // 1216 when this was written, a few more or less by rounding.
+  // Later iterations correct a wrong step, so it shows in their number only: 1216
+  // when this was written. Rounding changes it by a few.
   EXPECT_LE(iterations, 1220);
 }
 
@@ -206,8 +206,7 @@ TEST_F(SolverTest, StopsAtItsTimeLimit) {
   EXPECT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
 }
 
-// The bound on the work: of all that is drawn, most in a handful of solves, and
-// none beyond what it is told to take.
+// max_iterations bounds the work. Most random hierarchies need a few iterations.
 TEST(Solver, TakesNoMoreIterationsThanItsLimit) {
   for (int seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
@@ -222,15 +221,15 @@ TEST(Solver, TakesNoMoreIterationsThanItsLimit) {
       const Status status = solver.Solve(drawn.hierarchy, &solution);
       EXPECT_LE(solution.iterations, budget);
       EXPECT_EQ(status == Status::kOptimal, solution.failed_level < 0);
-      // Whatever is left of the hierarchy is certified.
+      // The levels that are solved are certified.
       EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(),
                 kCertified);
     }
   }
 }
 
-// Two large rows of one direction conflict, beside a small one across them that
-// is met: to rounding of its own, not of theirs.
+// Two parallel large-norm rows conflict. A small-norm row orthogonal to them is met
+// to rounding of its own terms.
 TEST(Solver, MeetsASmallRowBesideAConflict) {
   const std::vector<LevelCapacity> capacity{{3, 0}};
   for (int place = 0; place < 3; ++place) {
@@ -269,7 +268,7 @@ TEST(Solver, ReportsOnlyCertifiedAnswersAsOptimal) {
                Status::kOptimal;
     EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(), kCertified);
   }
-  EXPECT_GE(optimal, 290);  // 292 when this was written.
+  EXPECT_GE(optimal, 290);  // 292 when written; rounding changes it.
 }
 
 // A lower level never changes an upper one's optimum.
@@ -418,8 +417,8 @@ TEST(Solver, AddsRowsThatOnlyRefinementFindsViolated) {
   }
 }
 
-// y0 + y1 >= 0 above y0 = target: y has minimum norm, also where the last solve
-// had the row active.
+// y0 + y1 >= 0 above y0 = target: y has minimum norm, even if the row was active in
+// the last solve.
 TEST(Solver, RemovesARowForTheNormAlone) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {1, 0}};
   Solver solver(2, capacity);
@@ -459,7 +458,7 @@ TEST(Solver, FillsTheCertificateOfItsAnswer) {
   }
 }
 
-// The levels above the bad one are readable, and y = 0 does not solve them.
+// The levels above the invalid one are valid, and y = 0 does not solve them.
 TEST(Solver, CertifiesNoAnswerToBadInput) {
   Hierarchy hierarchy(1, {{1, 0}, {1, 0}});
   EqualityBlock first = hierarchy.AddEqualities(0, 1);
@@ -475,7 +474,7 @@ TEST(Solver, CertifiesNoAnswerToBadInput) {
   EXPECT_GT(solution.certificate.worst(), 0.1);
 }
 
-// A replay gives the same bits, whatever the memory held before.
+// A replay gives the same bits for any initial content of the memory.
 TEST(Solver, DoesNotReadUninitialisedMemory) {
   RandomHierarchyOptions options;
   options.planted = 100;

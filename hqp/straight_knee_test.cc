@@ -12,14 +12,14 @@
 namespace poise {
 namespace {
 
-constexpr double kTolerance = 1e-13;  // Some operations on numbers to 4.
+constexpr double kTolerance = 1e-13;  // Some operations on numbers up to 4.
 constexpr double kExact = 1e-15;      // One or two of them on ones and zeros.
 
 // A leg of two joints: a row above keeps the trunk upright, and a row below
 // lifts it. In the nullspace of the first, the norm of the second is sin(knee).
 class StraightKneeTest : public testing::Test {
  protected:
-  // With a row of damping for each joint beside the one that lifts.
+  // The level of the lifting row also has a damping row for each joint.
   Solution Solve(double knee, double damping, double limit) {
     const std::vector<LevelCapacity> capacity{{0, 2}, {1, 0}, {3, 0}};
     Hierarchy hierarchy(2, capacity);
@@ -38,14 +38,14 @@ class StraightKneeTest : public testing::Test {
               Status::kOptimal);
     EXPECT_EQ(Cascade(2, capacity).Solve(hierarchy, &reference),
               Status::kOptimal);
-    // Both solve for sin(knee), which is lost to rounding as knee gets small.
+    // Both divide by sin(knee), so the error grows as knee goes to zero.
     EXPECT_LE((solution.y - reference.y).norm(),
               1e-14 * (1 + solution.y.norm()) * (1 + solution.y.norm()));
     EXPECT_EQ(solution.levels[2].nullity, reference.levels[2].nullity);
     return solution;
   }
 
-  // The largest |y(knee + h) - y(knee)| on the way from one knee to another.
+  // Returns the largest |y(knee + h) - y(knee)| between two knee angles.
   double LargestStep(double from, double to, int steps, double damping,
                      double limit) {
     double largest = 0;
@@ -62,7 +62,7 @@ class StraightKneeTest : public testing::Test {
   static constexpr double kUnlimited = 1e12;
 };
 
-// y = (1, -1) / sin(knee), cut off at the limit of 4 where sin(knee) < 1/4: a
+// y = (1, -1) / sin(knee), clamped to the limit of 4 where sin(knee) < 1/4: a
 // slope of at most sqrt(2) cos(knee) / sin^2(knee) < 16 sqrt(2).
 TEST_F(StraightKneeTest, IsContinuousWhereNoRankChanges) {
   for (const int steps : {100, 200, 400}) {
@@ -73,8 +73,8 @@ TEST_F(StraightKneeTest, IsContinuousWhereNoRankChanges) {
   EXPECT_NEAR(Solve(0.01, 0, 4).y[0], 4, kTolerance);
 }
 
-// On the way to it y has no bound; there, the row counts for nothing, and y is
-// the shortest of all.
+// y is unbounded as the knee becomes straight. At the straight knee the row is
+// zero, and y is the minimum-norm solution.
 TEST_F(StraightKneeTest, JumpsWhereItsRankChanges) {
   for (const double knee : {1e-2, 1e-4, 1e-6, 1e-8, -1e-8}) {
     const Solution near = Solve(knee, 0, kUnlimited);
@@ -90,7 +90,7 @@ TEST_F(StraightKneeTest, JumpsWhereItsRankChanges) {
   EXPECT_NEAR(straight.y.norm(), 0, kExact);
 }
 
-// Limits above bound the jump, to twice themselves.
+// Limits on a higher level bound the jump to twice the limit.
 TEST_F(StraightKneeTest, JumpsNoFurtherThanItsLimits) {
   EXPECT_NEAR(Solve(1e-6, 0, 4).y[0], 4, kTolerance);
   EXPECT_NEAR(Solve(0, 0, 4).y[0], 0, kTolerance);

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Weights of any size, side by side in one level.
+// Tests weights of very different size in one level.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -31,9 +31,8 @@ void ExpectSameOptimum(int seed, const RandomHierarchyOptions& options) {
   }
 }
 
-// The first draws of `hqp_night --scaled 0 --weighted 100`, and those on which
-// it failed. Some of the first list were certified and wrong; the others were
-// not solved.
+// The first draws of `hqp_night --scaled 0 --weighted 100`, and draws on which an
+// earlier solver failed: it certified a wrong answer or found none.
 class WeightsTest : public testing::TestWithParam<int> {
  protected:
   std::vector<int> Seeds() const {
@@ -46,7 +45,7 @@ class WeightsTest : public testing::TestWithParam<int> {
     if (GetParam() == 8) {
       seeds = {138, 280, 303, 358, 624, 768, 863, 1266, 1378, 1792, 1899, 1931};
     }
-    // At 94 weights of 16 decades part the solvers.
+    // At seed 94, weights of 16 decades make the solvers differ.
     for (int seed = 1; seed < 94; ++seed) seeds.push_back(seed);
     return seeds;
   }
@@ -62,8 +61,8 @@ TEST_P(WeightsTest, GiveBothSolversTheSameOptimum) {
   for (const int seed : Seeds()) ExpectSameOptimum(seed, options);
 }
 
-// Three rows above hold both variables between them, whatever these weigh
-// below.
+// Three rows on the upper level fix both variables, whatever their weights on the
+// level below.
 TEST(Weights, DoNotChangeLevelsAbove) {
   const std::vector<LevelCapacity> capacity{{3, 0}, {2, 0}};
   Eigen::Matrix<double, 3, 2> A;
@@ -118,13 +117,13 @@ TEST(Weights, IgnoreRoundingOfALargeWeightRow) {
       ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
       EXPECT_NEAR(solution.y[1], bound + std::min(beyond, 0.), Rounding(30, 3));
     }
-    // One solve with the row and one without, and no search level by level.
+    // One iteration with the row and one without; no search level by level.
     EXPECT_LE(solution.iterations, 3);
   }
 }
 
 // The units of the two variables differ by 1e6 and more, and both levels can be
-// met. Neither variable is rounding of the other.
+// met. Neither variable is rounding error beside the other.
 TEST(Weights, MeetRowsWithVariablesOfUnlikeUnits) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {0, 1}};
   Hierarchy hierarchy(2, capacity);
@@ -141,10 +140,10 @@ TEST(Weights, MeetRowsWithVariablesOfUnlikeUnits) {
   EXPECT_NEAR(solution.levels[1].cost, 0, 1e-20);
 }
 
-// Hierarchies with variables in units from 1e-3 to 1e6, on which
-// `hqp_night --scaled 0 --columns 100` failed. The first took rounding of
-// large-norm rows for a multiplier. The others took a multiplier that is large
-// beside its target for rounding.
+// Hierarchies with variables in units from 1e-3 to 1e6, found by
+// `hqp_night --scaled 0 --columns 100`. In the first, rounding of large-norm rows
+// must not count as a multiplier. In the others, a multiplier that is much larger
+// than its target must not count as rounding.
 TEST(Weights, GiveBothSolversTheSameOptimumInAnyUnits) {
   RandomHierarchyOptions options;
   options.scaled = 0;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Rows meet at a point with coordinates that are zero. Rounding of these would
-// violate a row y_j >= 0 by 100 % of its terms.
+// Tests rows that meet at a point with zero coordinates. Rounding of a zero
+// coordinate would violate a row y_j >= 0 by 100 % of its terms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -63,7 +63,7 @@ TEST(ZeroCoordinate, IsZeroInRowsThatShareVariables) {
   EXPECT_NEAR(solution.y[1], -2, 2e-15);
 }
 
-// Three rows meet the target of the last level, once they are refined.
+// After refinement, three rows meet the target of the last level.
 TEST(ZeroCoordinate, GivesNoMultiplierToALevelThatRefinementMeets) {
   const HierarchyByHand problem(2, {{0, {2, 0}, 2, 2},
                                     {0, {0, -3}, 0, 0},
@@ -75,8 +75,8 @@ TEST(ZeroCoordinate, GivesNoMultiplierToALevelThatRefinementMeets) {
   EXPECT_TRUE(solution.levels[1].multipliers[0].equality.isZero(0));
 }
 
-// Random rows of small integers through a point of small integers, with the
-// bound on either side: the point meets them all.
+// Random rows of small integers pass through a point of small integers, with the
+// bound on either side. The point satisfies all rows.
 TEST(ZeroCoordinate, IsFoundInRandomHierarchies) {
   for (int seed = 1; seed <= 2000; ++seed) {
     SCOPED_TRACE(seed);
@@ -103,7 +103,7 @@ TEST(ZeroCoordinate, IsFoundInRandomHierarchies) {
     const HierarchyByHand problem(n, rows);
     const Solution solution = Solve(problem);
     for (int level = 0; level < levels; ++level) {
-      // Terms of 5 * 3, of 6 variables, to 1e-13 of them, in 8 rows.
+      // 8 rows of 6 terms of at most 5 * 3, each met to 1e-13 of its terms.
       EXPECT_LE(solution.levels[level].cost, 8 * std::pow(90e-13, 2));
     }
   }
