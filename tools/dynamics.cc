@@ -1,5 +1,5 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Computes the dynamics of a robot: bazel run //tools:dynamics -- --urdf FILE ...
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE. Computes
+// the dynamics of a robot: bazel run //tools:dynamics -- --urdf FILE ...
 
 #include <CLI/CLI.hpp>
 #include <iostream>

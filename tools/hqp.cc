@@ -1,7 +1,7 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Solves hierarchies from files: bazel run //tools:hqp -- FILE.json ...
-// The fast solver treats several files as successive ticks of a controller: each
-// solve starts from the working set of the file before.
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE. Solves
+// hierarchies from files: bazel run //tools:hqp -- FILE.json ... The fast
+// solver treats several files as successive ticks of a controller: each solve
+// starts from the working set of the file before.
 
 #include <CLI/CLI.hpp>
 #include <iostream>

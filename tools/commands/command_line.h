@@ -9,8 +9,8 @@ namespace poise {
 
 /// Reads a command line into the options of `app`. Throws std::invalid_argument
 /// with one line about the first error. An empty word is an error, because an
-/// unset shell variable may leave one. If the user requests help, throws the help
-/// text, which RunTool() prints.
+/// unset shell variable may leave one. If the user requests help, throws the
+/// help text, which RunTool() prints.
 void ParseCommandLine(int argc, char** argv, CLI::App* app);
 
 /// Runs `body` as the main() of a command and returns its exit code. If `body`

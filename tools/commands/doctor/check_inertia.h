@@ -9,9 +9,10 @@
 
 namespace poise {
 
-/// Checks if the mass matrix M of a robot can be inverted. The joints are as near
-/// zero as their limits allow. If M cannot be inverted, or if the inversion loses
-/// at least half the digits, adds a finding that names the joint.
+/// Checks if the mass matrix M of a robot can be inverted. The joints are as
+/// near zero as their limits allow. If M cannot be inverted, or if the
+/// inversion loses at least half the digits, adds a finding that names the
+/// joint.
 ///
 /// Returns the smallest eigenvalue of M, scaled to a diagonal of 1. Returns
 /// nothing if M is singular, indefinite or not finite, or if the robot has more

@@ -29,8 +29,8 @@ constexpr size_t kMostShapesToStand = 10'000;
 // Largest relative difference between the dynamics of Poise and of Bullet.
 constexpr double kParity = 1e-9;
 
-// Returns true if the robot is too large for the checks that take more time than
-// to read the file.
+// Returns true if the robot is too large for the checks that take more time
+// than to read the file.
 bool IsLarge(const RobotModel& model) {
   return model.tree.num_joints() > kMostJointsToStand ||
          model.tree.frames().size() > kMostLinksToStand ||
@@ -56,8 +56,8 @@ class Doctor {
   void Add(Severity severity, std::string where, std::string what,
            std::string why);
 
-  // Returns the robot. If the file is invalid, adds a finding with the reason and
-  // returns nothing.
+  // Returns the robot. If the file is invalid, adds a finding with the reason
+  // and returns nothing.
   std::optional<RobotModel> Load();
 
   void Describe(const RobotModel& model);

@@ -37,11 +37,11 @@ struct Diagnosis {
   Severity worst() const;
 };
 
-/// Examines a robot file. Errors in the robot file become findings. Throws Refusal
-/// if the profile does not match the robot.
+/// Examines a robot file. Errors in the robot file become findings. Throws
+/// Refusal if the profile does not match the robot.
 ///
-/// Takes less than 10 s and 1 GiB. To limit the time, M is not computed for more
-/// than 500 joints. Standing and parity are not examined for more than 100
+/// Takes less than 10 s and 1 GiB. To limit the time, M is not computed for
+/// more than 500 joints. Standing and parity are not examined for more than 100
 /// joints, 1000 links or 10000 shapes.
 Diagnosis Diagnose(const std::filesystem::path& urdf,
                    const Profile& profile = {});

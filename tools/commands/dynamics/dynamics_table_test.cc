@@ -91,8 +91,8 @@ TEST(FormatDynamics, HasTheColumnsOfTheMomentumMatrix) {
   EXPECT_EQ(row.substr(row.size() - 14), "             6");
 }
 
-// Returns how many columns a line takes in a terminal. The combining dot above v
-// and J has two bytes and takes no column.
+// Returns how many columns a line takes in a terminal. The combining dot above
+// v and J has two bytes and takes no column.
 int WidthOf(std::string line) {
   for (size_t dot; (dot = line.find("\u0307")) != std::string::npos;) {
     line.erase(dot, 2);

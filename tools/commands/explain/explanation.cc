@@ -23,11 +23,11 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t kMostCauses = 5;   // Named in a sentence about a loss.
-constexpr size_t kMostRows = 10;    // In one about a conflict.
-constexpr double kShort = 0.005;    // s: not worth a sentence.
-constexpr double kRounding = 1e-6;  // s, of a sum of ticks.
-constexpr double kSmallLoss = 0.5;  // N, N m, m/s2: not worth a sentence.
+constexpr size_t kMostCauses = 5;   // Maximum in a sentence about a loss.
+constexpr size_t kMostRows = 10;    // Maximum in a sentence about a conflict.
+constexpr double kShort = 0.005;    // s. Shorter events get no sentence.
+constexpr double kRounding = 1e-6;  // s, rounding of a sum of ticks.
+constexpr double kSmallLoss = 0.5;  // N, N m, m/s2. Less gets no sentence.
 
 std::string Format(const char* format, double value) {
   char text[64];
@@ -40,19 +40,19 @@ std::string Milliseconds(double seconds) {
 }
 
 std::string Sentence(const Span& span) {
-  return Format("%.3f s: ", span.from) + span.name +
+  return Format("%.3f s: active constraint: ", span.from) + span.name +
          Milliseconds(span.lasted()) +
-         Format(" (multiplier %.3g", std::abs(span.peak)) +
+         Format(" (largest multiplier %.3g", std::abs(span.peak)) +
          Format(" at %.3f s).", span.at);
 }
 
-// What a list that ends early leaves unsaid.
+// Returns how many entries a shortened list omits, as text.
 std::string AndMore(size_t count, size_t said) {
   return count <= said ? "" : " and " + std::to_string(count - said) + " more";
 }
 
-// What to call a row among others of its task: constraints one by one, tasks by
-// their name.
+// Names a row in a list. A constraint has its own name; rows of a task share
+// the name of the task.
 std::string Group(const std::string& name, const RunStory& story,
                   const RowPhrases& phrases) {
   return IsConstraint(name, story.constraints, phrases)
@@ -65,9 +65,10 @@ std::string LossSentence(const Span& span, const LossCause& cause,
   const std::string unit = phrases.unit(span.name);
   std::string text =
       Format("%.3f s: ", span.from) + phrases.phrase(span.name) +
-      " missed its target by " + Format("%.3g", std::abs(span.peak)) +
+      " missed its target by up to " + Format("%.3g", std::abs(span.peak)) +
       (unit.empty() ? "" : " " + unit) + Format(" (at %.3f s)", span.at);
-  const char* begin = cause.is_known ? ", because of " : ", while ";
+  const char* begin =
+      cause.is_known ? ", because of " : ", with active constraints ";
   std::vector<std::string> said;
   for (const auto& [name, value] : cause.rows) {
     const std::string row = Group(name, story, phrases);
@@ -78,11 +79,12 @@ std::string LossSentence(const Span& span, const LossCause& cause,
     if (cause.has_levels) text += Format(" (level %.0f)", value);
   }
   text += AndMore(said.size(), kMostCauses);
-  if (!cause.is_known && !said.empty()) text += " acted";
+  if (!cause.is_known && !said.empty()) text += " (perhaps not the cause)";
   return text + ".";
 }
 
-// Sorts by level, the last one first: its rows are violated by the others.
+// Sorts the rows by level, the lowest priority first, because the other rows
+// violate the rows of that level.
 std::string ConflictSentence(double time, Values rows, const RunStory& story,
                              const RowPhrases& phrases) {
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
@@ -98,43 +100,47 @@ std::string ConflictSentence(double time, Values rows, const RunStory& story,
     text += (said.size() == 1 ? "" : "; ") + group;
     text += Format(" (level %.0f)", level);
   }
-  return Format("%.3f s: cannot all be met: ", time) + text +
-         AndMore(said.size(), kMostRows) + ".";
+  return Format("%.3f s: these requirements contradict each other: ", time) +
+         text + AndMore(said.size(), kMostRows) + ".";
 }
 
-// Why a tick is not ok, after what happened.
+// Returns the reason of a status other than ok, as the end of a sentence.
 std::string SayWhy(const std::string& reason, const RowPhrases& phrases) {
   constexpr std::string_view kLevel = "rank_";  // As log.csv has it.
   if (reason.rfind(kLevel, 0) == 0) {
     return ": level " + reason.substr(kLevel.size()) +
-           " is not solved, nor what comes after it";
+           " and the levels below it are not solved";
   }
-  if (reason == "state") return ": what it is told of the robot cannot be";
+  if (reason == "state")
+    return ": the robot's state is invalid (not finite, too large, or the "
+           "quaternion is not normalized)";
   if (reason == "clock") return ": the time of the robot's state stands still";
-  if (reason == "no_answer") return ": no answer that meets the dynamics";
+  if (reason == "no_answer") return ": no solution satisfies the dynamics";
   if (!reason.empty())
-    return ": what gave way most is " + phrases.phrase(reason);
+    return ": the most violated limit is " + phrases.phrase(reason);
   return "";
 }
 
-// Whether a run was stopped while the robot was up: nobody saw the end.
+// Returns true if the run was stopped before the robot fell, so that its
+// outcome is unknown.
 bool WasInterrupted(const json& summary) {
   return summary.value("interrupted", json()) == true &&
          !summary.value("fell_at", json()).is_number();
 }
 
 std::string Ending(const json& summary) {
-  if (!summary.contains("recovered")) return "How it ended is not recorded.";
+  if (!summary.contains("recovered"))
+    return "The end of the run is not recorded.";
   if (WasInterrupted(summary)) {
     const json at = summary.value("duration", json());
     return "The run was interrupted" +
            (at.is_number() ? Format(" at %.3f s", at.get<double>()) : "") +
-           ", the robot still up: how it would have ended is not known.";
+           " while the robot was still standing: the outcome is not known.";
   }
   if (summary["recovered"] == true) return "The robot recovered.";
   const json fell_at = summary.value("fell_at", json());
   if (!fell_at.is_number()) {
-    return "The robot stayed up, but did not come back to its place.";
+    return "The robot did not fall, but did not return to its reference.";
   }
   const json by = summary.value("fell_by", json());
   return "The robot fell at " + Format("%.3f s", fell_at.get<double>()) +
@@ -143,7 +149,8 @@ std::string Ending(const json& summary) {
 
 using Sentences = std::vector<std::pair<double, std::string>>;  // By time, s.
 
-// Each of the next seven is a list of Explain(), and adds its sentences.
+// Each of the next seven functions returns one list of Explain() and appends
+// the sentences about the list.
 json ExplainRows(const RunStory& story, Sentences* sentences) {
   json out = json::array();
   for (const Span& span : story.rows.spans()) {
@@ -208,7 +215,7 @@ json ExplainConflicts(const RunStory& story, const RowPhrases& phrases,
       names.push_back({{"name", name}, {"level", level}, {"rank", level}});
     }
     out.push_back({{"at", at}, {"rows", names}});
-    // The same again is not said again.
+    // A repeated conflict gets one sentence only.
     const std::string sentence = ConflictSentence(at, found, story, phrases);
     const std::string what = sentence.substr(sentence.find(':'));
     if (what != last) sentences->emplace_back(at, sentence);
@@ -229,8 +236,8 @@ json ExplainStatus(const RunStory& story, const RowPhrases& phrases,
                    {"to", span.to},
                    {"reason", why.empty() ? json() : json(why)}});
     sentences->emplace_back(
-        span.from, Format("%.3f s: ", span.from) + "the controller says " +
-                       Spaced(name) + Format(", until %.3f s", span.to) +
+        span.from, Format("%.3f s: ", span.from) + "the controller reports " +
+                       Spaced(name) + Format(" until %.3f s", span.to) +
                        SayWhy(why, phrases) + ".");
   }
   return out;
@@ -247,7 +254,7 @@ json ExplainPushes(const RunStory& story, Sentences* sentences) {
                    {"force", force}});
     sentences->emplace_back(
         span.from,
-        Format("%.3f s: pushed with ", span.from) +
+        Format("%.3f s: the robot is pushed with ", span.from) +
             Format(span.peak < 100 ? "%.3g N," : "%.0f N,", span.peak) +
             Milliseconds(span.lasted()) + ".");
   }
@@ -284,27 +291,29 @@ json ExplainCauses(const RunStory& story) {
   return out;
 }
 
-// Of a run about the tasks of which there is no sentence.
+// Returns a sentence for a run without a sentence about constraints or tasks.
 std::string SayNothing(const RunStory& story) {
   std::set<std::string> rows, losses;
   for (const Span& span : story.rows.spans()) rows.insert(span.name);
   for (const Span& span : story.losses.spans()) losses.insert(span.name);
   if (rows.empty() && losses.empty()) {
-    return "No row acted: every task got what it asked.";
+    return "No constraint was active, and every task reached its target.";
   }
   const auto count = [](const std::set<std::string>& names, const char* did) {
     const char* noun = names.size() == 1 ? " row that " : " rows that ";
     return std::to_string(names.size()) + noun + did;
   };
-  std::string text = "Nothing lasted for 5 ms; --json has ";
-  if (!rows.empty()) text += count(rows, "acted");
+  std::string text = "No event lasted for 5 ms; --json lists ";
+  if (!rows.empty()) text += count(rows, "became active");
   if (!rows.empty() && !losses.empty()) text += " and ";
-  if (!losses.empty()) text += count(losses, "gave up less than 0.5");
+  if (!losses.empty())
+    text += count(losses, "missed a target by less than 0.5");
   return text + ".";
 }
 
-// Says all in the order of time, up to a fall: what falling limbs press against
-// explains nothing. Returns how many come after it.
+// Appends the sentences to `out` in order of time, up to the fall. Contacts of
+// a falling robot explain nothing. Returns the number of sentences after the
+// fall.
 size_t SayInOrder(const json& summary, Sentences sentences, json* out) {
   std::stable_sort(
       sentences.begin(), sentences.end(),
@@ -342,7 +351,7 @@ json Explain(const std::filesystem::path& run) {
   json notes = json::array();
   if (reader->cut_short()) {
     notes.push_back(log.filename().string() +
-                    " was cut short: its last row is not whole.");
+                    " was cut short: its last row is incomplete.");
   }
   if (read.is_of_other_log) notes.push_back(read.note);
 
@@ -351,7 +360,7 @@ json Explain(const std::filesystem::path& run) {
        WasInterrupted(summary) ? json() : summary.value("recovered", json())},
       {"fell_at", fell_at},
       {"notes", notes}};
-  // What begins at the same time is said in this order.
+  // Sentences with the same time keep this order.
   Sentences sentences;
   out["rows"] = ExplainRows(story, &sentences);
   out["stance"] = ExplainStance(story, &sentences);
@@ -372,7 +381,7 @@ json Explain(const std::filesystem::path& run) {
   for (const json& note : notes) said.push_back(note);
   said.push_back(Ending(summary));
   if (left_out > 0) {
-    said.push_back(Format("After that, %.0f more; --json has its rows.",
+    said.push_back(Format("Events after the fall: %.0f. --json lists them.",
                           static_cast<double>(left_out)));
   }
   out["sentences"] = said;

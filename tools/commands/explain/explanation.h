@@ -8,39 +8,44 @@
 
 namespace poise {
 
-/// Says of a recorded run when, what and why: which rows of the hierarchy came
-/// to act, what each task lost to them, how the ticks ended, and how the run
-/// did.
+/// Explains a recorded run: what happened, when and why. Times are in seconds.
+/// `from` and `to` are the times at which the first and the last tick of an
+/// interval begin. `at` is the time of the largest value.
 ///
-///     rows       [{name, from, to, at, multiplier}]: while a row acted (gaps
-///                below 20 ms, or of a tick, are none), and when its multiplier
-///                was largest. Here and below, from and to are the times at
-///                which the first and the last of its ticks begin.
-///     losses     [{name, from, to, at, amount, unit, because, while}]: while a
-///                row of a task was not met, and the worst of it; of the nearest
-///                conflict within 60 ms, the constraints or, where there are
-///                none, the rows of tasks that come before; where there is no
-///                conflict, the constraints that acted. Hardest first; sentences name five.
-///     conflicts  [{at, rows: [{name, level}]}]: rows that contradict each other,
-///                none of which can be spared, where the log has them. `rank`
-///                is an alias of `level`.
-///     status     [{name, from, to, reason}]: where it was not "ok"; reason as
-///                in docs/log.md, null where there is none.
-///     pushes     [{from, to, at, force}]: while something pushed, N, at its most.
-///     touches    [{links, from, to}]: while two links pressed on each other.
-///     stance     [{foot, phase, from, to}]: the phases of each foot, in the
-///                order of time; see docs/log.md.
-///     recovered, fell_at   from summary.json; null where there is none of this
-///                log, and recovered where the run was interrupted.
-///     notes      [sentence, ...]: that the log was cut, or is not the summary's.
-///     sentences  the same for a person, in the order of time.
-///     causes     [{task, kind, from, cost_Ns, rows: [{phrase, cost_Ns}]}]: what
-///                kept the momentum from its target, see MomentumCost.
-///     story      [sentence, ...]: the run in at most six sentences, in order of
-///                cause.
+///     rows       [{name, from, to, at, multiplier}]: intervals in which a row
+///                was active, and its largest multiplier. Gaps of one tick, or
+///                below 20 ms, do not end an interval.
+///     losses     [{name, from, to, at, amount, unit, because, while}]:
+///                intervals in which a row of a task had a residual, and the
+///                largest residual. `because` lists the constraints in the
+///                nearest conflict within 60 ms. If the conflict has no
+///                constraints, `because` lists its task rows of the same or a
+///                higher level. If there is no conflict, `while` lists the
+///                active constraints. The largest multiplier is first;
+///                sentences name five rows.
+///     conflicts  [{at, rows: [{name, level}]}]: minimal sets of rows that
+///                contradict each other, if the log has them. `rank` is an
+///                alias of `level`.
+///     status     [{name, from, to, reason}]: intervals in which the status was
+///                not "ok". See docs/log.md for reason; null if there is none.
+///     pushes     [{from, to, at, force}]: pushes, with the largest force, N.
+///     touches    [{links, from, to}]: intervals in which two links touched.
+///     stance     [{foot, phase, from, to}]: the phases of each foot in order
+///                of time; see docs/log.md.
+///     recovered, fell_at   from summary.json; null if summary.json is missing
+///                or belongs to another log. recovered is also null if the run
+///                was interrupted.
+///     notes      [sentence, ...]: faults of the files: the log is cut short,
+///                or the summary belongs to another log.
+///     sentences  [sentence, ...]: the same for people, in order of time.
+///     causes     [{task, kind, from, cost_Ns, rows: [{phrase, cost_Ns}]}]: the
+///                limits that kept the momentum from its target, see
+///                MomentumCost.
+///     story      [sentence, ...]: a summary of at most six sentences, in order
+///                of cause.
 ///
-/// Throws std::invalid_argument, naming the file, if there is no log, or it
-/// does not hold what the controller said.
+/// Throws std::invalid_argument with the name of the file if there is no log,
+/// or if the log lacks the columns of the controller.
 nlohmann::json Explain(const std::filesystem::path& run);
 
 }  // namespace poise

@@ -24,7 +24,7 @@ std::filesystem::path MakeRun(const std::string& name, const std::string& log,
   return run;
 }
 
-// Rows as a run's summary describes them: name, unit, phrase, kind, task.
+// Returns descriptions of rows as in a summary: name, unit, phrase, kind, task.
 const nlohmann::json& Rows() {
   static const nlohmann::json rows = [] {
     nlohmann::json object;
@@ -68,7 +68,7 @@ const nlohmann::json& Rows() {
   return rows;
 }
 
-// A summary with the descriptions of Rows().
+// Returns a summary with the descriptions of Rows().
 std::string Described(const std::string& summary = "{}") {
   nlohmann::json json = nlohmann::json::parse(summary);
   json["rows"] = Rows();
@@ -89,7 +89,7 @@ constexpr char kPushed[] =
     "0.90,ok,left_foot.cop.y_max=7,,\n"
     "0.91,ok,,,\n";
 
-TEST(Explanation, SaysWhenWhatAndWhy) {
+TEST(Explanation, ReportsTimesRowsAndCauses) {
   const nlohmann::json said =
       Explain(MakeRun("pushed", kPushed, Described(R"({"recovered": true})")));
   ASSERT_EQ(said["rows"].size(), 3u);
@@ -106,12 +106,12 @@ TEST(Explanation, SaysWhenWhatAndWhy) {
   ASSERT_EQ(said["status"].size(), 1u);
   EXPECT_EQ(said["status"][0]["name"], "limit_relaxed");
   EXPECT_EQ(said["sentences"][0],
-            "0.620 s: the CoP of the left foot at its outer edge for 30 ms "
-            "(multiplier 41 at 0.630 s).");
+            "0.620 s: active constraint: the CoP of the left foot at its outer "
+            "edge for 30 ms (largest multiplier 41 at 0.630 s).");
   EXPECT_EQ(said["sentences"].back(), "The robot recovered.");
 }
 
-TEST(Explanation, SaysOnceWhatContradictsItself) {
+TEST(Explanation, PrintsRepeatedConflictOnce) {
   const nlohmann::json said =
       Explain(MakeRun("conflict", kPushed, Described()));
   ASSERT_EQ(said["conflicts"].size(), 2u);
@@ -122,24 +122,25 @@ TEST(Explanation, SaysOnceWhatContradictsItself) {
   EXPECT_EQ(said["conflicts"][0]["rows"][2]["rank"], 3);  // The alias.
   int times = 0;
   for (const std::string sentence : said["sentences"]) {
-    if (sentence.find("cannot all be met") == std::string::npos) continue;
+    if (sentence.find("contradict each other") == std::string::npos) continue;
     ++times;
     EXPECT_EQ(
         sentence,
-        "0.620 s: cannot all be met: momentum (level 4); the CoP of the "
-        "left foot at its outer edge (level 3); the torque of l knee at its "
+        "0.620 s: these requirements contradict each other: momentum (level "
+        "4); the CoP of the left foot at its outer edge (level 3); the torque "
+        "of l knee at its "
         "upper limit (level 2); newton euler (level 1).");
   }
   EXPECT_EQ(times, 1);
 }
 
-TEST(Explanation, SaysThatTheRobotFell) {
+TEST(Explanation, ReportsTheFall) {
   const nlohmann::json said = Explain(
       MakeRun("fell", kPushed, R"({"recovered": false, "fell_at": 1.25})"));
   EXPECT_EQ(said["sentences"].back(), "The robot fell at 1.250 s.");
 }
 
-TEST(Explanation, LeavesOutWhatCameAfterAFall) {
+TEST(Explanation, OmitsEventsAfterAFall) {
   const nlohmann::json said = Explain(MakeRun(
       "fell_early",
       std::string(kPushed) +
@@ -149,22 +150,22 @@ TEST(Explanation, LeavesOutWhatCameAfterAFall) {
   const size_t count = said["sentences"].size();
   EXPECT_EQ(said["sentences"][count - 2],
             "The robot fell at 0.700 s: a foot slid over 30 mm.");
-  // The CoP at its edge again.
+  // The omitted event is the CoP at its edge again.
   EXPECT_EQ(said["sentences"][count - 1],
-            "After that, 1 more; --json has its rows.");
+            "Events after the fall: 1. --json lists them.");
   EXPECT_EQ(said["rows"].size(), 3u);
 }
 
-// A robot that still stands may still fall.
-TEST(Explanation, DoesNotSayHowAnInterruptedRunWouldHaveEnded) {
+// A robot that stands when the run is interrupted could have fallen later.
+TEST(Explanation, GivesNoOutcomeForInterruptedRun) {
   const nlohmann::json said = Explain(
       MakeRun("interrupted", kPushed,
               R"({"recovered": true, "fell_at": null, "interrupted": true,
                   "duration": 0.91})"));
   EXPECT_TRUE(said["recovered"].is_null());
   EXPECT_EQ(said["sentences"].back(),
-            "The run was interrupted at 0.910 s, the robot still up: how it "
-            "would have ended is not known.");
+            "The run was interrupted at 0.910 s while the robot was still "
+            "standing: the outcome is not known.");
   EXPECT_EQ(Explain(MakeRun("interrupted_late", kPushed,
                             R"({"recovered": false, "fell_at": 1.25,
                                 "interrupted": true})"))["sentences"]
@@ -172,7 +173,7 @@ TEST(Explanation, DoesNotSayHowAnInterruptedRunWouldHaveEnded) {
             "The robot fell at 1.250 s.");
 }
 
-TEST(Explanation, TakesNoSummaryOfAnotherLog) {
+TEST(Explanation, IgnoresSummaryOfAnotherLog) {
   const nlohmann::json said =
       Explain(MakeRun("other_log", std::string(kPushed) + "0.92,o",
                       R"({"recovered": true, "fell_at": 0.7,
@@ -181,21 +182,22 @@ TEST(Explanation, TakesNoSummaryOfAnotherLog) {
   EXPECT_TRUE(said["fell_at"].is_null());
   const size_t count = said["sentences"].size();
   EXPECT_EQ(said["sentences"][count - 3],
-            "log.csv was cut short: its last row is not whole.");
+            "log.csv was cut short: its last row is incomplete.");
   EXPECT_EQ(said["sentences"][count - 2],
             "summary.json is not of this log.csv, by its log_sha256: that is "
             "of another run, or was cut or changed.");
-  EXPECT_EQ(said["sentences"][count - 1], "How it ended is not recorded.");
+  EXPECT_EQ(said["sentences"][count - 1],
+            "The end of the run is not recorded.");
   EXPECT_EQ(said["notes"].size(), 2u);
 }
 
-TEST(Explanation, SaysThatThereAreNoRows) {
+TEST(Explanation, ReportsLogWithoutRows) {
   const nlohmann::json said =
       Explain(MakeRun("no_rows", "time[s],status,active\n", "{}"));
   EXPECT_EQ(said["sentences"][0], "log.csv has a header and no rows.");
 }
 
-TEST(Explanation, SaysWhenAFootRollsOrSlides) {
+TEST(Explanation, ReportsFootThatRollsOrSlides) {
   const nlohmann::json said = Explain(
       MakeRun("rolled",
               "time[s],status,active,left_foot.contact,left_foot.tilt[rad],"
@@ -211,7 +213,7 @@ TEST(Explanation, SaysWhenAFootRollsOrSlides) {
             "0.400 s: the left foot has slid by more than 5 mm.");
 }
 
-TEST(Explanation, SaysOnceWhatSeveralRowsMean) {
+TEST(Explanation, PrintsRowsWithTheSamePhraseOnce) {
   const nlohmann::json said = Explain(
       MakeRun("friction",
               "time[s],status,active,lost\n"
@@ -223,11 +225,11 @@ TEST(Explanation, SaysOnceWhatSeveralRowsMean) {
   EXPECT_EQ(said["rows"].size(), 4u);
   ASSERT_EQ(said["sentences"].size(), 2u);
   EXPECT_EQ(said["sentences"][0],
-            "0.200 s: the left foot at its friction limit for 11 ms "
-            "(multiplier 4 at 0.210 s).");
+            "0.200 s: active constraint: the left foot at its friction limit "
+            "for 11 ms (largest multiplier 4 at 0.210 s).");
 }
 
-TEST(Explanation, RefusesWhatIsNoRun) {
+TEST(Explanation, RejectsFolderWithoutValidLog) {
   EXPECT_THROW(Explain("nowhere"), std::invalid_argument);
   EXPECT_THROW(Explain(MakeRun("other", "a,b\n1,2\n", "{}")),
                std::invalid_argument);
@@ -235,7 +237,7 @@ TEST(Explanation, RefusesWhatIsNoRun) {
       MakeRun("garbled", "time[s],com.x[m],status,active\n0,0.0a1,ok,\n", "{}");
   try {
     Explain(garbled);
-    ADD_FAILURE() << "a letter among digits is taken for a number";
+    ADD_FAILURE() << "0.0a1 was accepted as a number";
   } catch (const std::invalid_argument& error) {
     EXPECT_EQ(error.what(),
               (garbled / "log.csv").string() +
@@ -243,7 +245,7 @@ TEST(Explanation, RefusesWhatIsNoRun) {
   }
 }
 
-TEST(Explanation, SaysWhatTheFeetDid) {
+TEST(Explanation, ReportsPhasesOfTheFeet) {
   const nlohmann::json said =
       Explain(MakeRun("let_go",
                       "time[s],status,active,left_foot.phase,right_foot.phase\n"
@@ -258,18 +260,19 @@ TEST(Explanation, SaysWhatTheFeetDid) {
   const std::vector<std::string> sentences = said["sentences"];
   EXPECT_EQ(sentences,
             (std::vector<std::string>{
-                "0.000 s: the right foot has lost the ground, for 0.5 s.",
-                "0.450 s: the left foot is let go, for 1.2 s.",
+                "0.000 s: the right foot has lost contact with the ground, for "
+                "0.5 s.",
+                "0.450 s: the left foot is released, for 1.2 s.",
                 "0.500 s: the right foot is down again.",
-                "1.650 s: the left foot comes back, for 0.45 s.",
-                "2.100 s: the left foot has landed, and takes load, for 0.3 s.",
+                "1.650 s: the left foot returns to its place, for 0.45 s.",
+                "2.100 s: the left foot has landed and is loaded, for 0.3 s.",
                 "2.400 s: the left foot is down again.",
-                "2.400 s: the right foot gives up its load, for 0.3 s.",
+                "2.400 s: the right foot is unloaded, for 0.3 s.",
                 "2.700 s: the right foot is lifted.",
-                "How it ended is not recorded."}));
+                "The end of the run is not recorded."}));
 }
 
-TEST(Explanation, SaysWhyATickFailedSafe) {
+TEST(Explanation, ReportsReasonOfFailSafe) {
   const nlohmann::json said = Explain(
       MakeRun("froze",
               "time[s],status,active,reason\n0,ok,,\n0.1,fail_safe,,clock\n"
@@ -283,21 +286,22 @@ TEST(Explanation, SaysWhyATickFailedSafe) {
   EXPECT_EQ(said["status"][3]["name"], "limit_relaxed");
   EXPECT_TRUE(said["status"][3]["reason"].is_null());
   EXPECT_EQ(said["sentences"][0],
-            "0.100 s: the controller says fail safe, until 0.110 s: the time "
+            "0.100 s: the controller reports fail safe until 0.110 s: the time "
             "of the robot's state stands still.");
   EXPECT_EQ(said["sentences"][1],
-            "0.500 s: the controller says fail safe, until 0.500 s: what it is "
-            "told of the robot cannot be.");
+            "0.500 s: the controller reports fail safe until 0.500 s: the "
+            "robot's state is invalid (not finite, too large, or the "
+            "quaternion is not normalized).");
   EXPECT_EQ(said["sentences"][2],
-            "0.900 s: the controller says fail safe, until 0.900 s: no answer "
-            "that meets the dynamics.");
+            "0.900 s: the controller reports fail safe until 0.900 s: no "
+            "solution satisfies the dynamics.");
   EXPECT_EQ(said["sentences"][3],
-            "1.300 s: the controller says limit relaxed, until 1.300 s.");
+            "1.300 s: the controller reports limit relaxed until 1.300 s.");
 }
 
-// Dozens of joints at their limits are no explanation; nor is a level how hard a
-// row presses.
-TEST(Explanation, NamesTheStrongestOfManyCauses) {
+// A list of dozens of joints at their limits would explain nothing. The order
+// is that of the multipliers, not that of the levels.
+TEST(Explanation, NamesFiveCausesWithTheLargestMultipliers) {
   std::string active, conflict = "momentum.ly=4";
   for (int i = 0; i < 42; ++i) {
     const std::string row = "torque.j" + std::to_string(i);
@@ -311,7 +315,7 @@ TEST(Explanation, NamesTheStrongestOfManyCauses) {
     const nlohmann::json said = Explain(MakeRun(
         "causes" + std::to_string(cell.size()),
         head + active + "torque.late.min=0.5" + loss + cell + "\n", "{}"));
-    // What acts where no conflict is known need not press on the task.
+    // Without a conflict the active constraints need not be the cause.
     const nlohmann::json all =
         said["losses"][0][cell.empty() ? "while" : "because"];
     EXPECT_TRUE(said["losses"][0][cell.empty() ? "because" : "while"].empty());
@@ -327,16 +331,18 @@ TEST(Explanation, NamesTheStrongestOfManyCauses) {
     }
   }
   const std::string begin =
-      "0.100 s: momentum.ly missed its target by 12 (at 0.100 s), ";
+      "0.100 s: momentum.ly missed its target by up to 12 (at 0.100 s), ";
   const std::string five =
       "torque.j41.max, torque.j40.max, torque.j39.max, torque.j38.max, "
       "torque.j37.max and ";
-  EXPECT_EQ(spoken[0], begin + "while " + five + "38 more acted.");
+  EXPECT_EQ(spoken[0], begin + "with active constraints " + five +
+                           "38 more (perhaps not the cause).");
   EXPECT_EQ(spoken[1], begin + "because of " + five + "37 more.");
 }
 
-// A task that comes before one is why it is not met, where no constraint is.
-TEST(Explanation, NamesTheTasksThatComeBefore) {
+// If a conflict has no constraints, tasks of the same or a higher level are the
+// cause.
+TEST(Explanation, NamesTasksAsCauseIfNoConstraintConflicts) {
   const nlohmann::json said = Explain(MakeRun(
       "before",
       "time[s],status,active,lost,conflict\n"
@@ -359,15 +365,16 @@ TEST(Explanation, NamesTheTasksThatComeBefore) {
   EXPECT_EQ(
       losses,
       (std::vector<std::string>{
-          "1.650 s: the linear momentum along x missed its target by 47.4 N "
-          "(at 1.667 s), because of "
+          "1.650 s: the linear momentum along x missed its target by up to "
+          "47.4 "
+          "N (at 1.667 s), because of "
           "posture (level 4), newton euler (level 1).",
-          "1.667 s: the center of mass along x missed its target by 2 m/s2 (at "
-          "1.667 s), because of "
+          "1.667 s: the center of mass along x missed its target by up to 2 "
+          "m/s2 (at 1.667 s), because of "
           "momentum (level 5), posture (level 4), newton euler (level 1)."}));
 }
 
-// A task of a user's own: nothing is guessed from its name.
+// A task that a user adds has any name. Unit and phrase come from the summary.
 TEST(Explanation, PrintsUnitAndPhraseOfAUsersTask) {
   const nlohmann::json said =
       Explain(MakeRun("users_task",
@@ -384,14 +391,15 @@ TEST(Explanation, PrintsUnitAndPhraseOfAUsersTask) {
                     "task": "warm"}}})"));
   EXPECT_EQ(said["losses"][0]["unit"], "rad/s2");
   EXPECT_EQ(said["losses"][0]["because"], nlohmann::json{"warm.room.max"});
-  EXPECT_EQ(said["sentences"][1],
-            "0.000 s: the rotation of the base about x missed its target by 2 "
-            "rad/s2 (at 0.000 s), because of the heat of the room at its upper "
-            "limit.");
+  EXPECT_EQ(
+      said["sentences"][1],
+      "0.000 s: the rotation of the base about x missed its target by up "
+      "to 2 rad/s2 (at 0.000 s), because of the heat of the room at its upper "
+      "limit.");
 }
 
-// An old run does not describe its rows, and a row may be new to the reader.
-TEST(Explanation, BlamesAnUnknownConstraintByItsName) {
+// Summaries of older versions do not describe their rows.
+TEST(Explanation, NamesUnknownConstraintAsCause) {
   const nlohmann::json said =
       Explain(MakeRun("unknown_row",
                       "time[s],status,active,lost,conflict\n"
@@ -400,13 +408,14 @@ TEST(Explanation, BlamesAnUnknownConstraintByItsName) {
                       Described()));
   EXPECT_EQ(said["losses"][0]["because"], nlohmann::json{"tether.length"});
   EXPECT_EQ(said["sentences"][0],
-            "0.100 s: the linear momentum along x missed its target by 12 N "
-            "(at 0.100 s), because of tether.length.");
+            "0.100 s: the linear momentum along x missed its target by up to "
+            "12 N (at 0.100 s), because of tether.length.");
   EXPECT_EQ(said["causes"][0]["rows"][0]["phrase"], "tether.length");
 }
 
-// At 20 Hz each tick was a span of 0 ms, and none was said.
-TEST(Explanation, CountsATickToItsEnd) {
+// A span includes its last tick. Otherwise a span of one tick at 20 Hz would
+// last 0 ms and would get no sentence.
+TEST(Explanation, CountsDurationToTheEndOfTheLastTick) {
   const auto sentences = [](const std::string& name, const std::string& rows) {
     const std::vector<std::string> said = Explain(MakeRun(
         name, "time[s],status,active,lost\n" + rows, Described()))["sentences"];
@@ -416,20 +425,20 @@ TEST(Explanation, CountsATickToItsEnd) {
                       "0,ok,,\n0.05,ok,torque.l_knee.max=1,\n"
                       "0.1,ok,torque.l_knee.max=2,\n0.15,ok,,\n"
                       "0.2,ok,,\n0.25,ok,torque.l_knee.max=2,\n")[0],
-            "0.050 s: the torque of l knee at its upper limit for 100 ms "
-            "(multiplier 2 at 0.100 s).");
+            "0.050 s: active constraint: the torque of l knee at its upper "
+            "limit for 100 ms (largest multiplier 2 at 0.100 s).");
   const std::string quick = "0,ok,,\n0.001,ok,torque.l_knee.max=1,\n";
   EXPECT_EQ(sentences("quick", quick + "0.002,ok,,\n")[0],
-            "Nothing lasted for 5 ms; --json has 1 row that acted.");
+            "No event lasted for 5 ms; --json lists 1 row that became active.");
   EXPECT_EQ(sentences("small", quick + "0.002,ok,joint.l_knee.max=1,com.x=0.1;"
                                        "com.y=0.1\n")[0],
-            "Nothing lasted for 5 ms; --json has 2 rows that acted and 2 rows "
-            "that gave up less than 0.5.");
+            "No event lasted for 5 ms; --json lists 2 rows that became active "
+            "and 2 rows that missed a target by less than 0.5.");
   EXPECT_EQ(sentences("clear", "0,ok,,\n0.05,ok,,\n")[0],
-            "No row acted: every task got what it asked.");
+            "No constraint was active, and every task reached its target.");
 }
 
-TEST(Explanation, SaysWhatPushedAndWhatTouched) {
+TEST(Explanation, ReportsPushesAndTouchingLinks) {
   const nlohmann::json said = Explain(
       MakeRun("pushed_and_touched",
               "time[s],push.fx[N],push.fy[N],push.fz[N],touching,status,"
@@ -440,10 +449,11 @@ TEST(Explanation, SaysWhatPushedAndWhatTouched) {
               R"({"recovered": true})"));
   const std::vector<std::string> sentences = said["sentences"];
   EXPECT_EQ(sentences, (std::vector<std::string>{
-                           "1.001 s: pushed with 167 N, for 2 ms.",
+                           "1.001 s: the robot is pushed with 167 N, for 2 ms.",
                            "1.002 s: l hand touches r thigh, for 2 ms.",
-                           "1.004 s: pushed with 5 N, for 1 ms.",
-                           "No row acted: every task got what it asked.",
+                           "1.004 s: the robot is pushed with 5 N, for 1 ms.",
+                           "No constraint was active, and every task reached "
+                           "its target.",
                            "The robot recovered."}));
   ASSERT_EQ(said["pushes"].size(), 2u);
   EXPECT_EQ(said["pushes"][0],
@@ -454,8 +464,9 @@ TEST(Explanation, SaysWhatPushedAndWhatTouched) {
                                        "from": 1.002, "to": 1.003}])"));
 }
 
-// The knees reach their stops because the robot falls.
-TEST(Explanation, TellsAFallInOrderOfCause) {
+// The knees reach their limits as a consequence of the fall, so they are not
+// named.
+TEST(Explanation, SummarizesAFallInOrderOfCause) {
   std::string log =
       "time[s],push.fx[N],push.fy[N],push.fz[N],left_foot.fz[N],"
       "right_foot.fz[N],status,active,lost,conflict\n";
@@ -481,21 +492,22 @@ TEST(Explanation, TellsAFallInOrderOfCause) {
   EXPECT_EQ(
       story,
       (std::vector<std::string>{
-          "0.400 s: the robot is pushed forward with 300 N for 20 ms, 6.0 "
-          "N s in all.",
+          "0.400 s: the robot is pushed forward with 300 N for 20 ms, an "
+          "impulse of 6.0 N s.",
           "0.400 s: the most costly limit is reached: the CoP of the left "
           "foot at its front edge and the CoP of the right foot at its "
           "front edge, until the fall.",
-          "0.400 s: momentum cannot reach its target, by up to 1580 N at "
+          "0.400 s: the momentum task misses its target by up to 1580 N at "
           "0.420 s, because of the CoP of the left foot at its front edge "
           "and the CoP of the right foot at its front edge (100 %).",
           "The robot fell at 0.425 s: a foot tilted over 0.1 rad.",
           "A step or larger soles would have helped; so would a smaller "
-          "push: of 6.0 N s, a pendulum on these feet takes 4.0 N s."}));
+          "push: its impulse was 6.0 N s, a pendulum on these feet recovers "
+          "from 4.0 N s."}));
   EXPECT_GT(said["sentences"].size(), story.size());
 }
 
-TEST(Explanation, BlamesTheGroundForASlip) {
+TEST(Explanation, NamesSlipAsCauseOfAFall) {
   const nlohmann::json said = Explain(
       MakeRun("slip",
               "time[s],status,active,lost,left_foot.contact,"
@@ -511,11 +523,11 @@ TEST(Explanation, BlamesTheGroundForASlip) {
             "0.200 s: the left foot slips on the ground: it has slid by more "
             "than 5 mm.");
   EXPECT_EQ(story[3],
-            "A rougher ground, or a lower friction coefficient in the "
+            "Rougher ground, or a lower friction coefficient in the "
             "controller, would have helped.");
 }
 
-TEST(Explanation, SaysWhatGaveWay) {
+TEST(Explanation, ReportsMostViolatedLimitAndFailedLevel) {
   const nlohmann::json said =
       Explain(MakeRun("gave_way",
                       "time[s],status,active,reason\n0,limit_relaxed,,"
@@ -523,15 +535,15 @@ TEST(Explanation, SaysWhatGaveWay) {
                       Described()));
   EXPECT_EQ(said["status"][0]["reason"], "torque.l_knee.max");
   EXPECT_EQ(said["sentences"][0],
-            "0.000 s: the controller says limit relaxed, until 0.000 s: what "
-            "gave way most is the torque of l knee at its upper limit.");
+            "0.000 s: the controller reports limit relaxed until 0.000 s: the "
+            "most violated limit is the torque of l knee at its upper limit.");
   EXPECT_EQ(said["sentences"][1],
-            "0.100 s: the controller says truncated, until 0.100 s: level 5 is "
-            "not solved, nor what comes after it.");
+            "0.100 s: the controller reports truncated until 0.100 s: level 5 "
+            "and the levels below it are not solved.");
 }
 
-// JSON has no other text; what is said names the place.
-TEST(Explanation, RefusesWhatIsNoText) {
+// JSON allows only UTF-8. The message names the line.
+TEST(Explanation, RejectsInvalidUtf8) {
   const auto refusal = [](const std::string& name, const std::string& rows) {
     const auto run = MakeRun(name, "time[s],status,active\n" + rows, "{}");
     try {

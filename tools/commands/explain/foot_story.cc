@@ -10,20 +10,20 @@
 namespace poise {
 namespace {
 
-constexpr double kRolls = 0.02;   // rad.
-constexpr double kSlides = 5e-3;  // m.
+constexpr double kRolls = 0.02;   // Tilt, rad.
+constexpr double kSlides = 5e-3;  // Displacement, m.
 
-// What a phase is that begins; empty of one that a log should not have.
+// Returns words for the begin of a phase, or nothing for an unknown phase.
 std::string_view Begins(std::string_view phase) {
   constexpr std::pair<std::string_view, std::string_view> kWords[] = {
       {"down", "is down again"},
-      {"unloading", "gives up its load"},
+      {"unloading", "is unloaded"},
       {"up", "is lifted"},
       {"landing", "is put down"},
-      {"loading", "has landed, and takes load"},
-      {"lost", "has lost the ground"},
-      {"free", "is let go"},
-      {"returning", "comes back"}};
+      {"loading", "has landed and is loaded"},
+      {"lost", "has lost contact with the ground"},
+      {"free", "is released"},
+      {"returning", "returns to its place"}};
   for (const auto& [name, words] : kWords) {
     if (phase == name) return words;
   }
@@ -68,7 +68,7 @@ std::vector<std::pair<double, std::string>> FootStory::Sentences() const {
   for (size_t i = 0; i < phases_.size(); ++i) {
     const std::string words(Begins(phases_[i].name));
     const bool is_down = phases_[i].name == "down";
-    if (words.empty() || (is_down && i == 0)) continue;  // It began down.
+    if (words.empty() || (is_down && i == 0)) continue;  // The initial phase.
     const bool ends = i + 1 < phases_.size() && !is_down;
     const double end = ends ? phases_[i + 1].from : 0;
     say(phases_[i].from,

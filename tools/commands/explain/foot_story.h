@@ -10,34 +10,37 @@
 
 namespace poise {
 
-/// What became of a foot in a run: its phases, and when, meant to be down, it
-/// first rolled or slid. A log that does not have the columns has no story.
+/// Collects the phases of a foot in a run, and the times at which the foot
+/// first rolled or slid while it should have been in contact. If the log lacks
+/// the columns, there are no phases and no times.
 class FootStory {
  public:
   struct Phase {
     std::string name;  ///< As in the log: "down", "free", ...
-    double from, to;   ///< The first and the last row of it, s.
+    double from, to;   ///< Times of its first and its last row, s.
   };
 
   FootStory(const std::string& foot, const LogReader& log);
 
-  /// Takes in a row of the log.
+  /// Adds the current row of the log.
   void Look(double time, const LogReader& log);
 
   const std::string& foot() const { return foot_; }
   const std::vector<Phase>& phases() const { return phases_; }
 
-  /// When the foot, meant to be down, first rolled over an edge or slid, s.
+  /// The times at which the foot first rolled over an edge, or slid, while it
+  /// should have been in contact, s.
   std::optional<double> rolls() const { return rolls_; }
   std::optional<double> slides() const { return slides_; }
 
-  /// The same for a person, each with its time, s; not in order.
+  /// Returns sentences about the phases, rolls() and slides(). Each has its
+  /// time, s. The sentences are not sorted.
   std::vector<std::pair<double, std::string>> Sentences() const;
 
  private:
   std::string foot_;
   std::optional<int> contact_, tilt_, slide_, phase_;
-  std::optional<double> rolls_, slides_;  // Since when, s.
+  std::optional<double> rolls_, slides_;  // See rolls(), s.
   std::vector<Phase> phases_;
 };
 

@@ -9,7 +9,8 @@
 namespace poise {
 namespace {
 
-// What contradicts itself is logged once in a while.
+// Longest time between a loss and the conflict that explains it. The log has a
+// conflict every 50 ms.
 constexpr double kConflictLasts = 0.06;  // s.
 
 Values HardestFirst(Values rows) {
@@ -19,8 +20,9 @@ Values HardestFirst(Values rows) {
   return rows;
 }
 
-// Of rows that contradict each other, those that bound, each as it acts: a
-// conflict does not say how hard, nor, in older logs, on which side.
+// Returns the constraints of a conflict, with their names and multipliers as in
+// `acting`. A conflict has no multipliers. In older logs it also does not say
+// which side of a constraint is meant.
 Values Constraints(const Values& rows, const Values& acting,
                    const RunStory& story, const RowPhrases& phrases) {
   Values bounds;
@@ -37,7 +39,7 @@ Values Constraints(const Values& rows, const Values& acting,
   return HardestFirst(bounds);
 }
 
-// The level of a task among rows that contradict each other.
+// Returns the level of a task in a conflict, if the conflict has its rows.
 std::optional<double> LevelOf(const std::string& task, const Values& rows,
                               const RowPhrases& phrases) {
   for (const auto& [name, level] : rows) {
@@ -46,9 +48,10 @@ std::optional<double> LevelOf(const std::string& task, const Values& rows,
   return std::nullopt;
 }
 
-// The nearest conflict that the task of a loss is part of or, where there is none,
-// the nearest of all: it is of the highest level that was not met, and what comes
-// after that is left with less, too.
+// Returns the conflict nearest in time that contains the task of a loss. If
+// there is none, returns the nearest of all conflicts. That conflict is about
+// the highest level with a residual, and such a conflict also restricts all
+// levels below.
 const LoggedConflict* FindNearest(const Span& loss, const RunStory& story,
                                   const RowPhrases& phrases) {
   const std::string task = phrases.task(loss.name);
@@ -73,7 +76,8 @@ const LoggedConflict* FindNearest(const Span& loss, const RunStory& story,
 bool IsConstraint(const std::string& name, const std::set<std::string>& active,
                   const RowPhrases& phrases) {
   if (phrases.is_described(name)) return phrases.is_limit(name);
-  // Only constraints are ever active. Older logs have no sides in a conflict.
+  // Only constraints are ever active. In older logs a conflict has no suffix
+  // ".min" or ".max".
   return active.count(name) > 0 || active.count(name + ".min") > 0 ||
          active.count(name + ".max") > 0;
 }
@@ -95,7 +99,8 @@ LossCause FindCause(const Span& loss, const RunStory& story,
       cause.rows.emplace_back(name, level);
     }
   }
-  cause.rows = HardestFirst(cause.rows);  // The last level, the nearest.
+  cause.rows =
+      HardestFirst(cause.rows);  // The lowest level is the nearest one.
   return cause;
 }
 

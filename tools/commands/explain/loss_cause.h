@@ -9,21 +9,23 @@
 
 namespace poise {
 
-/// Why a row of a task was not met.
+/// The cause of the residual of a task row.
 struct LossCause {
-  bool is_known = false;    ///< Or the rows are what else was so, no more.
-  bool has_levels = false;  ///< The rows are of tasks, with their levels.
-  Values rows;              ///< Hardest first; of levels, the last.
+  bool is_known = false;    ///< Else the rows are only active as well.
+  bool has_levels = false;  ///< Each number in `rows` is a level.
+  Values rows;              ///< Largest multiplier or level first.
 };
 
-/// Whether a row is a constraint, and no target of a task: by its description or,
-/// without one, because the log lists the row as active at some time.
+/// Returns true if a row is a constraint and false if it is a target of a task.
+/// The description of the row decides. A row without a description is a
+/// constraint if the log lists it as active at some time.
 bool IsConstraint(const std::string& name, const std::set<std::string>& active,
                   const RowPhrases& phrases);
 
-/// What the nearest conflict says: the constraints in it or, where there are none,
-/// the tasks that come before. Where no conflict is known, the constraints that
-/// acted, of which none need press on the task.
+/// Finds the cause of a loss in the nearest conflict. The cause is the
+/// constraints of the conflict. If it has none, the cause is its tasks of the
+/// same or a higher level. Without a conflict, the rows are the active
+/// constraints, which need not be related to the task.
 LossCause FindCause(const Span& loss, const RunStory& story,
                     const RowPhrases& phrases);
 

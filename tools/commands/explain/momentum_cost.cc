@@ -8,13 +8,15 @@
 namespace poise {
 namespace {
 
-constexpr double kSmallLoss = 0.5;   // N: rounding, and no news.
-constexpr double kEpisodeGap = 0.5;  // s.
-constexpr int kEnoughLoads = 20;     // Ticks until the mean is the weight.
+constexpr double kSmallLoss = 0.5;   // N. Smaller losses are ignored.
+constexpr double kEpisodeGap = 0.5;  // s, see MomentumCost.
+constexpr int kEnoughLoads = 20;     // Ticks for a mean load of one weight.
 
-// See MomentumCost. Rows in forces are in quarters of the weight, of which a foot
-// bears two: 1 cm of sole is 0.02 of such a row, 0.05 of friction is 0.1. A joint's
-// row is its acceleration over omega^2 = 1600 1/s2: 1.6 rad/s2 is 0.001 rad.
+// Returns by how much a limit of this kind is widened in the unit of its row,
+// see MomentumCost. The unit of force rows is a quarter of the weight, and a
+// foot carries two such units. So 1 cm of sole is 0.02 of a row, and 0.05 of
+// friction is 0.1. The row of a joint limit is an acceleration divided by
+// omega^2 = 1600 1/s2, so 1.6 rad/s2 is 0.001 rad.
 double Relief(const std::string& kind) {
   constexpr std::pair<std::string_view, double> kReliefs[] = {
       {"cop_limit", 0.02},   {"friction_limit", 0.1},
@@ -26,14 +28,14 @@ double Relief(const std::string& kind) {
   return 0.1;
 }
 
-// The force by which the momentum task misses its target, in N.
+// Returns the force by which the momentum task misses its target, N.
 double LostForce(const RowPhrases& phrases,
                  const std::vector<std::pair<std::string, double>>& lost) {
   double square = 0;
   for (const auto& [name, amount] : lost) {
     const std::string task = phrases.task(name);
     if (task != "momentum" && task != "linear_momentum") continue;
-    // Angular momentum has another unit.
+    // Rows of the angular momentum have another unit and do not count.
     if (phrases.is_described(name) && phrases.unit(name) != "N") continue;
     square += amount * amount;
   }

@@ -29,9 +29,9 @@ const RowPhrases& Phrases() {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// Two feet at their edges cost more together than one knee, whose multiplier is
-// the largest.
-TEST(MomentumCost, OrdersTasksByWhatTheyCost) {
+// The CoP limits of two feet together cost more than the torque limit of a
+// knee, although a single CoP limit costs less than the knee.
+TEST(MomentumCost, OrdersTasksByCost) {
   MomentumCost cost;
   cost.Look(1, 0.01, Phrases(),
             {{"left.cop", 10}, {"right.cop", 10}, {"torque.knee", 3}},
@@ -41,13 +41,13 @@ TEST(MomentumCost, OrdersTasksByWhatTheyCost) {
   EXPECT_EQ(causes[0].task, "cop");
   EXPECT_EQ(causes[0].kind, "cop_limit");
   EXPECT_EQ(causes[0].rows.size(), 2u);
-  // 0.2, 0.2 and 0.3 of 0.7 N s.
+  // The rows cost 0.2, 0.2 and 0.3 of 0.7 N s.
   EXPECT_NEAR(causes[0].cost, 0.4, 1e-12);
   EXPECT_NEAR(causes[1].cost, 0.3, 1e-12);
   EXPECT_NEAR(cost.cost(), 0.7, 1e-12);
 }
 
-TEST(MomentumCost, BlamesOnlyWhatTheConflictNames) {
+TEST(MomentumCost, CountsOnlyConstraintsOfTheConflict) {
   MomentumCost cost;
   const auto look = [&](double time, bool has_conflict) {
     cost.Look(
@@ -67,8 +67,8 @@ TEST(MomentumCost, BlamesOnlyWhatTheConflictNames) {
   EXPECT_EQ(cost.Causes().size(), 2u);
 }
 
-// The joints reach their stops because the robot falls.
-TEST(MomentumCost, DoesNotCountWhatIsActiveAfterTheRobotIsLost) {
+// The joints reach their limits as a consequence of the fall.
+TEST(MomentumCost, IgnoresConstraintsAfterTheLossExceedsTheWeight) {
   MomentumCost cost;
   constexpr double kWeight = 400;  // N.
   double time = 0;
@@ -89,7 +89,7 @@ TEST(MomentumCost, DoesNotCountWhatIsActiveAfterTheRobotIsLost) {
   EXPECT_EQ(cost.Causes()[0].task, "cop");
 }
 
-TEST(MomentumCost, CountsTheLastEpisode) {
+TEST(MomentumCost, CountsOnlyTheLastEpisode) {
   MomentumCost cost;
   cost.Look(1, 0.01, Phrases(), {{"left.cop", 1}}, {{"momentum.lx", 100}}, {},
             kUnknown);
@@ -101,8 +101,8 @@ TEST(MomentumCost, CountsTheLastEpisode) {
   EXPECT_EQ(cost.Causes()[0].task, "torque_limits");
 }
 
-// Rounding, and angular momentum, which has another unit.
-TEST(MomentumCost, LeavesOutWhatIsNoForce) {
+// A loss below 0.5 N is rounding; angular momentum has another unit.
+TEST(MomentumCost, IgnoresRoundingAndAngularMomentum) {
   MomentumCost cost;
   cost.Look(1, 0.01, Phrases(), {{"left.cop", 1}},
             {{"momentum.lx", 0.4}, {"momentum.kx", 100}}, {}, kUnknown);

@@ -7,20 +7,21 @@
 
 namespace poise {
 
-/// Phrases, units, kinds and tasks of rows, as the run's summary has them. A row
-/// that the summary does not describe has its name as its phrase.
+/// Phrases, units, kinds and tasks of rows, from the run's summary. If the
+/// summary does not describe a row, the phrase of the row is its name.
 class RowPhrases {
  public:
   RowPhrases() = default;
 
-  /// @param summary  of a run; its key `rows` may be absent or malformed.
+  /// @param summary  summary of a run. Its key `rows` may be absent or
+  /// malformed.
   explicit RowPhrases(const nlohmann::json& summary);
 
   std::string phrase(const std::string& name) const;
   std::string unit(const std::string& name) const;  ///< May be empty.
   std::string kind(const std::string& name) const;  ///< May be empty.
 
-  /// The task of a row; without a description, its name up to the last dot.
+  /// The task of a row. Without a description, the name up to the last dot.
   std::string task(const std::string& name) const;
 
   bool is_described(const std::string& name) const {
@@ -35,7 +36,7 @@ class RowPhrases {
   std::map<std::string, Row> rows_;
 };
 
-/// A name as words: "left_foot" is "left foot".
+/// Replaces underscores by blanks: "left_foot" becomes "left foot".
 std::string Spaced(std::string text);
 
 }  // namespace poise

@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-TEST(RowPhrases, PrintsWhatTheSummarySays) {
+TEST(RowPhrases, ReadsDescriptionsFromTheSummary) {
   const RowPhrases phrases(json::parse(R"({"rows": {"warm.x.max": {
       "unit": "K", "phrase": "the heat at its upper limit", "kind": "limit",
       "task": "warm"}}})"));
@@ -19,7 +19,7 @@ TEST(RowPhrases, PrintsWhatTheSummarySays) {
   EXPECT_TRUE(phrases.is_limit("warm.x.max"));
 }
 
-TEST(RowPhrases, PrintsTheNameOfARowWithoutADescription) {
+TEST(RowPhrases, UsesTheNameOfARowWithoutDescription) {
   const RowPhrases phrases;
   EXPECT_EQ(phrases.phrase("left_foot.cop.x_max"), "left_foot.cop.x_max");
   EXPECT_EQ(phrases.unit("momentum.lx"), "");

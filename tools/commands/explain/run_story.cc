@@ -17,10 +17,10 @@
 namespace poise {
 namespace {
 
-// Two ticks that follow each other are no farther apart than this, in ticks.
+// Maximum time between two successive ticks, in tick periods.
 constexpr double kNextTick = 1.5;
 
-// "a=1;b=-2", as the recorder writes it.
+// Parses a cell such as "a=1;b=-2".
 Values Parse(std::string_view cell) {
   Values values;
   while (!cell.empty()) {
@@ -37,7 +37,8 @@ Values Parse(std::string_view cell) {
   return values;
 }
 
-// A cell of text of the row that was read, valid until the next one.
+// Returns a text cell of the current row, valid until the next row is read.
+// Throws std::invalid_argument if the cell is not UTF-8.
 std::string_view Text(const LogReader& reader, int column) {
   const std::string_view cell = reader.cell(column);
   if (IsUtf8(cell)) return cell;
@@ -45,7 +46,7 @@ std::string_view Text(const LogReader& reader, int column) {
                               " is " + Quoted(cell) + ", is not UTF-8");
 }
 
-// The columns of a vector; none, if the log has not all of them.
+// Returns the columns of a vector, or nothing if the log lacks one of them.
 std::vector<int> FindAll(const LogReader& reader,
                          std::initializer_list<std::string> names) {
   std::vector<int> columns;
@@ -69,7 +70,7 @@ void AddPush(const LogReader& reader, const std::vector<int>& columns,
   if (square > 0) pushes->Add("push", tick, std::sqrt(square), parts);
 }
 
-// "a|b;c|d", as the recorder writes it.
+// Parses a cell such as "a|b;c|d" and adds each pair of links.
 void AddTouches(std::string_view cell, const LogTick& tick, Spans* touches) {
   while (!cell.empty()) {
     const size_t end = std::min(cell.find(';'), cell.size());
@@ -78,7 +79,7 @@ void AddTouches(std::string_view cell, const LogTick& tick, Spans* touches) {
   }
 }
 
-// NaN where there are no columns.
+// Returns the sum of some columns, or NaN if there are no columns.
 double Sum(const LogReader& reader, const std::vector<int>& columns) {
   if (columns.empty()) return std::numeric_limits<double>::quiet_NaN();
   double sum = 0;
@@ -86,7 +87,8 @@ double Sum(const LogReader& reader, const std::vector<int>& columns) {
   return sum;
 }
 
-// From the first row of a log to the second, s; 0 where there is none.
+// Returns the time from the first row to the second, s, or 0 if there are fewer
+// than two rows.
 double FindPeriod(const std::filesystem::path& log, int time) {
   const std::unique_ptr<LogReader> reader = OpenLog(log);
   if (!reader->Next()) return 0;
@@ -127,8 +129,8 @@ RunStory ReadRunStory(const std::filesystem::path& log,
              reason = reader.Find(kReasonColumn),
              touching = reader.Find(kTouchingColumn);
   if (!time || !status || !active) {
-    throw std::invalid_argument(log.string() +
-                                ": has no columns time, status and active");
+    throw std::invalid_argument(
+        log.string() + ": must have the columns time, status and active");
   }
   const std::vector<int> push =
       FindAll(reader, {PushColumn('x'), PushColumn('y'), PushColumn('z')});

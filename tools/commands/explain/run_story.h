@@ -18,27 +18,29 @@ namespace poise {
 /// Names of rows, each with a number.
 using Values = std::vector<std::pair<std::string, double>>;
 
-/// A tick of a log: when it began, and how long it took, s.
+/// Begin and period of a tick of a log, s.
 struct LogTick {
   double time, period;
 };
 
-/// While something was so, and the worst of it.
+/// An interval in which a named state lasted, and its largest value.
 struct Span {
   std::string name;
-  double from, to, at,
-      peak;     ///< `from`, `to`: where its first and last tick begin.
-  double end;   ///< Of its last tick.
-  Values with;  ///< What else was so at the worst of it.
+  /// `from` and `to`: times at which the first and the last tick begin, s.
+  /// `peak`: the value with the largest magnitude, with its sign. `at`: its
+  /// time, s.
+  double from, to, at, peak;
+  double end;   ///< End of the last tick, s.
+  Values with;  ///< Other values at the time `at`.
 
   double lasted() const { return end - from; }
 };
 
-/// Spans by name, as rows of a log are added in the order of time; short pauses
-/// join two, one of a tick always.
+/// Collects spans by name, from rows of a log in order of time. A short pause
+/// does not end a span. A pause of one tick is always short.
 class Spans {
  public:
-  /// Pauses of up to this, s, are short.
+  /// @param pause  longest short pause, s.
   explicit Spans(double pause = 0.020) : pause_(pause) {}
 
   void Add(const std::string& name, const LogTick& tick, double value,
@@ -53,27 +55,32 @@ class Spans {
 
 /// Rows that contradict each other, with their levels.
 struct LoggedConflict {
-  double time;  ///< s.
+  double time;  ///< Time of the tick, s.
   Values levels;
 };
 
-/// What a log tells of a run.
+/// The contents of a log as spans.
 struct RunStory {
-  Spans rows;  ///< That acted, with their multipliers.
-  Spans said;  ///< By what they mean: a friction pyramid has four.
+  Spans rows;  ///< Active rows by name, with their multipliers.
+  Spans said;  ///< The same by phrase. Several rows may share a phrase, such as
+               ///< the four rows of a friction pyramid.
   std::set<std::string> constraints;  ///< Rows that were active, by name.
-  Spans losses;     ///< Of rows of tasks, each with the rows that acted then.
-  Spans states;     ///< Where the status was not ok: that, and the reason.
-  Spans pushes{0};  ///< Their force, N, with its parts.
-  Spans touches;    ///< Of two links: "a|b".
+  Spans losses;     ///< Residuals of task rows, with the active rows.
+  Spans states;     ///< Status other than ok; the name is "STATUS REASON".
+  Spans pushes{0};  ///< Norm of the push force, N, with its components.
+  Spans touches;    ///< Two links that touch: "a|b".
   std::vector<FootStory> feet;
   std::vector<LoggedConflict> conflicts;
   MomentumCost momentum;  ///< Up to the fall.
   bool has_rows = false;
 };
 
-/// Reads all rows of a log; fell_at is when the robot fell, s, or infinite. Throws std::invalid_argument, naming the file, if it
-/// does not hold what the controller said; and the row, if that is no UTF-8.
+/// Reads all rows of a log. Throws std::invalid_argument with the name of the
+/// file if the log lacks the columns of the controller. Also throws, with the
+/// row, if a text is not UTF-8.
+///
+/// @param fell_at  time at which the robot fell, s; infinite if it did not
+/// fall.
 RunStory ReadRunStory(const std::filesystem::path& log,
                       const RowPhrases& phrases, double fell_at,
                       LogReader* reader);

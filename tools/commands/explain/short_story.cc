@@ -18,12 +18,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t kMostCauses = 2;    // Named as reasons of a loss.
-constexpr size_t kMostRows = 2;      // Named of one cause.
-constexpr double kSmallShare = 0.1;  // Of a loss: not worth a mention.
-constexpr double kBefore = 0.010;    // s: a push that begins with its effect.
+constexpr size_t kMostCauses = 2;  // Maximum number of named reasons of a loss.
+constexpr size_t kMostRows = 2;    // Maximum number of named rows of a cause.
+constexpr double kSmallShare = 0.1;  // Of a loss. Smaller shares are not named.
+constexpr double kBefore =
+    0.010;  // s. A push may begin this much after its effect.
 
-// The shorter story of a slip.
+// The foot that slips and the time, s.
 struct Slip {
   std::string foot;
   double at;
@@ -41,7 +42,8 @@ std::optional<double> Number(const json& summary, const char* key) {
   return at->get<double>();
 }
 
-// "forward", or "at 30 deg" where 0 is forward and 90 is left.
+// Returns the direction of a force, such as " forward" or " at 30 deg". 0 is
+// forward and 90 is left.
 std::string Direction(const Values& force) {
   if (force.size() < 2) return "";
   const double x = force[0].second, y = force[1].second;
@@ -59,7 +61,7 @@ std::string Direction(const Values& force) {
   return Format(" at %.0f deg (0 forward, 90 left)", degrees);
 }
 
-// The last push that began before the momentum was lost.
+// Returns the last push that began before momentum was lost.
 const Span* FindPush(const RunStory& story) {
   const std::vector<Span>& pushes = story.pushes.spans();
   const Span* found = pushes.empty() ? nullptr : &pushes.front();
@@ -80,13 +82,13 @@ std::string SayPush(const Span& push, const RunStory& story,
       Format(" for %.0f ms", 1e3 * push.lasted());
   const auto impulse = Number(summary, "impulse_Ns");
   if (impulse && story.pushes.spans().size() == 1) {
-    text += Format(", %.1f N s in all", *impulse);
+    text += Format(", an impulse of %.1f N s", *impulse);
   }
   return text + ".";
 }
 
-// A foot that slides while it is flat on the ground, before all was lost: the
-// ground gives less friction than the controller counts on.
+// Returns the first foot that slides while it is flat on the ground, before the
+// robot is lost. The ground then has less friction than the controller assumes.
 std::optional<Slip> FindSlip(const RunStory& story, const json& summary) {
   const double end =
       story.momentum.is_lost()
@@ -104,7 +106,7 @@ std::optional<Slip> FindSlip(const RunStory& story, const json& summary) {
   return first;
 }
 
-// "A", "A and B", "A, B and 3 more": the rows that cost most.
+// Lists the most costly rows: "A", "A and B", or "A, B and 3 more".
 std::string Rows(const MomentumCause& cause) {
   const double least = kSmallShare * cause.rows.front().second;
   const auto count = static_cast<size_t>(
@@ -141,8 +143,8 @@ std::string SayLoss(const RunStory& story,
                     const std::vector<MomentumCause>& causes) {
   const MomentumCost& momentum = story.momentum;
   std::string text =
-      Format("%.3f s: momentum cannot reach its target", momentum.from()) +
-      Format(momentum.peak() < 100 ? ", by up to %.3g N" : ", by up to %.0f N",
+      Format("%.3f s: the momentum task misses its target", momentum.from()) +
+      Format(momentum.peak() < 100 ? " by up to %.3g N" : " by up to %.0f N",
              momentum.peak()) +
       Format(" at %.3f s", momentum.at());
   size_t said = 0;
@@ -168,7 +170,7 @@ std::string SayWhatHelps(const std::string& kind, const std::string& first,
        "Joints with more range, or a posture farther from their stops, would "
        "have helped"},
       {"slip",
-       "A rougher ground, or a lower friction coefficient in the controller, "
+       "Rougher ground, or a lower friction coefficient in the controller, "
        "would have helped"}};
   std::string text;
   for (const auto& [name, help] : kHelp) {
@@ -178,13 +180,15 @@ std::string SayWhatHelps(const std::string& kind, const std::string& first,
   const auto impulse = Number(summary, "impulse_Ns");
   const auto bearable = Number(summary, "lipm_height_Ns");
   if (is_pushed && impulse && bearable && *impulse > *bearable) {
-    text += Format("; so would a smaller push: of %.1f N s", *impulse) +
-            Format(", a pendulum on these feet takes %.1f N s", *bearable);
+    text +=
+        Format("; so would a smaller push: its impulse was %.1f N s",
+               *impulse) +
+        Format(", a pendulum on these feet recovers from %.1f N s", *bearable);
   }
   return text + ".";
 }
 
-// What the feet and the controller did before a fall, in the order of time.
+// Returns the sentences about the feet before the time `end`, in order of time.
 std::vector<std::string> Events(const RunStory& story, double end) {
   std::vector<std::pair<double, std::string>> events;
   for (const FootStory& foot : story.feet) {

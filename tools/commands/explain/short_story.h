@@ -9,16 +9,16 @@
 
 namespace poise {
 
-/// The most sentences of a story.
+/// Maximum number of sentences of a story.
 constexpr size_t kStoryLength = 6;
 
-/// What a run is about, in order of cause: the push, the first cause, what the
-/// momentum lost by it, the ending, and what would have helped after a fall.
+/// Summarizes a run in order of cause: the push, the first cause, the momentum
+/// lost because of it, and the end of the run. After a fall, adds what would
+/// have helped. Returns at most kStoryLength sentences.
 ///
-/// @param summary  of the run; an empty object if there is none.
-/// @param notes    sentences that must be said, too.
-/// @param ending   sentence on how the run ended.
-/// Returns at most kStoryLength sentences.
+/// @param summary  summary of the run; an empty object if there is none.
+/// @param notes    sentences that the result must contain.
+/// @param ending   sentence about the end of the run.
 std::vector<std::string> TellShortStory(const RunStory& story,
                                         const nlohmann::json& summary,
                                         const std::vector<std::string>& notes,

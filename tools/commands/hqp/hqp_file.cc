@@ -347,7 +347,8 @@ std::string WriteHqpSolution(const Hierarchy& hierarchy,
                             : ordered_json(solution.failed_level);
   const int certified = CertifiedLevels(hierarchy, solution);
   out["certified_levels"] = certified;
-  // Zeros would look like a perfect certificate, so write null if there is none.
+  // Zeros would look like a perfect certificate, so write null if there is
+  // none.
   const auto number = [&](double value) {
     return certified > 0 ? ordered_json(value) : ordered_json();
   };

@@ -19,12 +19,13 @@ struct HqpProblem {
 
 /// Reads the format hqp-1: {"format": "hqp-1", "variables": n, "levels": [{"B",
 /// "b", "weight", "A", "a", "C", "lower", "upper"}, ...], "y_lower", "y_upper",
-/// "y_bounds_level"}. All keys but the first three may be absent. The inequalities
-/// of a level are the rows of A, then those of C, then the bounds on y.
+/// "y_bounds_level"}. All keys but the first three may be absent. The
+/// inequalities of a level are the rows of A, then those of C, then the bounds
+/// on y.
 ///
-/// Throws std::invalid_argument with one line that names the entry and the error.
-/// As in CheckInput(), a lower bound above its upper bound and a negative weight
-/// are errors.
+/// Throws std::invalid_argument with one line that names the entry and the
+/// error. As in CheckInput(), a lower bound above its upper bound and a
+/// negative weight are errors.
 HqpProblem ReadHqp(const std::string& text);
 
 /// Returns a hierarchy in the format hqp-1. A running controller can dump its
@@ -32,9 +33,9 @@ HqpProblem ReadHqp(const std::string& text);
 /// exactly.
 std::string WriteHqp(const Hierarchy& hierarchy);
 
-/// Returns how many leading levels the certificate of a solution covers. These are
-/// all levels if the solution is optimal, otherwise the levels above the failed
-/// one.
+/// Returns how many leading levels the certificate of a solution covers. These
+/// are all levels if the solution is optimal, otherwise the levels above the
+/// failed one.
 int CertifiedLevels(const Hierarchy& hierarchy, const Solution& solution);
 
 /// Returns a description for people: one line, and one line for each level. It

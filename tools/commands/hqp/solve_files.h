@@ -11,8 +11,8 @@
 
 namespace poise {
 
-/// Reads a file in the format hqp-1. Throws std::invalid_argument, with the name
-/// of the file, if the file cannot be read.
+/// Reads a file in the format hqp-1. Throws std::invalid_argument, with the
+/// name of the file, if the file cannot be read.
 HqpProblem LoadHqp(const std::string& name);
 
 /// The choice of a solver and its settings.
@@ -22,12 +22,13 @@ struct HqpMethod {
   bool cold = false;           ///< True: each problem gets a new solver.
 };
 
-/// Solves hierarchies one after the other. With "fast", the solver starts from the
-/// working set of the previous problem if both have the same number of variables.
+/// Solves hierarchies one after the other. With "fast", the solver starts from
+/// the working set of the previous problem if both have the same number of
+/// variables.
 class HqpSequence {
  public:
-  /// @param problems  all problems that Solve() will receive. The solver allocates
-  ///                  memory for their rows.
+  /// @param problems  all problems that Solve() will receive. The solver
+  ///                  allocates memory for their rows.
   HqpSequence(const HqpMethod& method, const std::vector<HqpProblem>& problems);
 
   [[nodiscard]] Status Solve(const HqpProblem& problem, Solution* solution,

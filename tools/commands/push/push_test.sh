@@ -45,7 +45,7 @@ killed=$TEST_TMPDIR/killed
 stop "$killed" KILL
 [ "$code" = 137 ] || fail "exit code $code after SIGKILL, wanted 137"
 is_whole "$killed"
-"$explain" "$killed" | grep -q 'How it ended is not recorded.' ||
+"$explain" "$killed" | grep -q 'The end of the run is not recorded.' ||
   fail "explain does not read what a kill left"
 
 run=(--scenario strong_push --time 1.3 --no-report)

@@ -286,7 +286,7 @@ json ReadRunLog(const std::filesystem::path& file,
     ++rows;
   }
   if (log.cut_short()) {
-    notes.push_back(name + " was cut short: its last row is not whole.");
+    notes.push_back(name + " was cut short: its last row is incomplete.");
   } else if (rows == 0 && notes.empty()) {
     notes.push_back(name + " has a header and no rows.");
   }

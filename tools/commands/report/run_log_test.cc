@@ -101,7 +101,7 @@ TEST(RunLog, ReadsWhatIsThereOfALogCutShort) {
       Written(std::string(kHeader) + "0,0,0,0,0,0,0,0,ok,\n0.001,0,0,0,0.0"));
   EXPECT_EQ(log["rows"], 1);
   EXPECT_EQ(log["notes"],
-            json({"log.csv was cut short: its last row is not whole."}));
+            json({"log.csv was cut short: its last row is incomplete."}));
 }
 
 TEST(RunLog, SaysThatThereAreNoRows) {
