@@ -21,14 +21,14 @@ struct CaptureSettings {
   double sideways = 1.25;  ///< Factor of the way to the left and right edges.
 };
 
-/// The verdict of a BalanceMonitor on one tick.
+/// Result of a BalanceMonitor for one tick.
 struct Balance {
   /// Capture point xi with the angular momentum given back, in the mid-feet
   /// frame, m.
   Eigen::Vector3d xi_Mid = Eigen::Vector3d::Zero();
   /// Capture blend, 0 to 1. 0: ankle torque alone can stop the robot. 1: the
   /// capture point is at the edge of support, and angular momentum is needed.
-  /// The largest of the shares of the four sides.
+  /// It is the largest share of the four sides.
   double capture = 0;
   double left = 0;   ///< Share of the left side.
   double right = 0;  ///< Share of the right side.
@@ -47,16 +47,16 @@ struct Balance {
 /// The share of a side is the part of the way from the reference of xi to the
 /// edge of the soles that xi has covered: 0 at `from`, 1 at `full`.
 ///
-/// A foot is released if the robot falls to the other side, and the foot bears
-/// almost nothing while another one stands. The leg of a released foot is free
-/// to swing, and its mass takes up angular momentum. The foot comes back once
-/// the robot is slow and upright, or falls to the side of the foot.
+/// A foot is released if the robot falls to the other side and the foot carries
+/// almost no load while another foot is in contact. The leg of a released foot
+/// swings freely and absorbs angular momentum. The foot returns when the robot is
+/// slow and upright, or falls to the side of the foot.
 class BalanceMonitor {
  public:
   BalanceMonitor(const Tree& tree, const std::vector<Foot>& feet);
 
-  /// Judges the state of this tick.
-  /// @param contacts      as the last tick left them, with the poses of this one.
+  /// Computes the result of this tick.
+  /// @param contacts      of the last tick, with the poses of this tick.
   /// @param normal_force  by foot, of the last solution, N.
   /// Does not allocate.
   void Update(const Tick& tick, const std::vector<ContactTick>& contacts,
@@ -81,19 +81,19 @@ class BalanceMonitor {
   Balance balance_;
 };
 
-/// Natural frequency w = sqrt(g / h) of the linear inverted pendulum, 1/s. The
+/// Returns the natural frequency w = sqrt(g / h) of the linear inverted pendulum, 1/s. The
 /// height h is at least 0.05 m: below that, the robot has fallen.
 double PendulumFrequency(double gravity, double height) noexcept;
 
-/// Target of the center of mass in the world: the reference, but over the feet
-/// in contact. While a foot is in the air, the reference is clamped to the middle
-/// half of the soles in contact. Does not allocate.
+/// Returns the target of the center of mass in the world. While a foot is in the
+/// air, the reference is clamped to the middle half of the soles in contact. Does
+/// not allocate.
 Eigen::Vector3d FindComTarget(const std::vector<Foot>& feet,
                               const std::vector<ContactTick>& contacts,
                               const Reference& reference) noexcept;
 
-/// Value of a gain or margin between its normal value (capture 0) and the one of
-/// the largest pushes (capture 1).
+/// Interpolates a gain or margin between its normal value (capture 0) and its value
+/// for the largest pushes (capture 1).
 inline double BlendByCapture(double normal, double captured, double capture) {
   return normal + capture * (captured - normal);
 }

@@ -8,10 +8,10 @@
 
 namespace poise {
 
-/// A robot whose feet are bolted to the floor: for v̇ and the floor's wrenches,
+/// A robot whose feet are fixed to the floor. It solves for v̇ and the wrenches:
 ///     [ M  -J' ] [ v̇      ]   [ S' tau - N + f ]
 ///     [ J   0  ] [ lambda ] = [ -J̇ v           ].
-/// It knows nothing of how the controller found its torques.
+/// It is independent of the controller: it uses only the torques.
 class BoltedDown {
  public:
   explicit BoltedDown(const Controller& controller)

@@ -16,16 +16,16 @@ struct HierarchyRow {
   Side side = Side::kNone;  ///< Bound of an inequality that is meant.
 };
 
-/// The smallest answer to why a level cannot be met: rows of it and of the
-/// levels above that contradict each other, of which each one is needed, so
-/// that without it the others could all be met. Empty if the level can be met.
+/// Finds a minimal set of contradicting rows, in a level that cannot be met and in
+/// the levels above it. Without any one of these rows the others could all be met.
+/// Returns an empty vector if the level can be met.
 ///
-/// Found by least squares: the rows that its optimum violates contradict each
-/// other. Of these one after the other is left out, lowest levels last, as long
-/// as the rest cannot be met (a deletion filter). For explaining, not for the
-/// control loop: it solves a small problem a row, and allocates.
+/// The rows that a least-squares optimum violates contradict each other. A deletion
+/// filter then leaves out one row after the other, lowest levels last, as long as
+/// the remaining rows still contradict each other. The function is for explanations
+/// and not for the control loop: it solves a small problem a row, and allocates.
 ///
-/// @param tolerance  on a row's violation, over its norm.
+/// @param tolerance  bound of a row's violation, divided by its norm.
 std::vector<HierarchyRow> FindConflict(const Hierarchy& hierarchy, int level,
                                        double tolerance = 1e-6);
 

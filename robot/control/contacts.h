@@ -18,7 +18,7 @@ struct ContactTick {
   Vector6d Jdot_v_C;  ///< Its classical acceleration at v̇ = 0.
 
   bool in_contact = true;  ///< If not, its λ is zero.
-  /// In the air: on the way that Reference::feet gives, or with the body.
+  /// For a foot in the air: it follows Reference::feet; if false, the body.
   bool is_guided = true;
   /// Upper bound of the normal force, N. Finite only while the contact force
   /// fades in or out.
@@ -28,15 +28,16 @@ struct ContactTick {
 /// Moves the motion of the foot's link, frame F, to its contact frame C:
 ///     V_WC_C = [  R'       0  ] V_WF_W,   p = p_FC_W,  R = R_WC,
 ///              [ -R' [p]x  R' ]
-/// likewise its Jacobian; and the classical acceleration
+/// and likewise its Jacobian. The classical acceleration is
 ///     a_C = a_F + alpha x p + w x (w x p).
-/// Leaves in_contact and max_normal_force. pre: out->J_WC_C has frame's size.
+/// Does not change in_contact and max_normal_force. pre: out->J_WC_C has the size
+/// of the frame's Jacobian.
 /// Does not allocate.
 void ComputeContact(const FrameTick& frame, const Pose& X_FC,
                     ContactTick* out) noexcept;
 
-/// The frame amid the feet in contact (all, if none is): its origin the mean of
-/// theirs, z up, x along their mean heading. Does not allocate.
+/// Returns the mid-feet frame of the feet in contact, or of all feet if none is in
+/// contact: mean origin, z up, x along the mean heading. Does not allocate.
 Pose MidFeet(const std::vector<ContactTick>& contacts) noexcept;
 
 }  // namespace poise

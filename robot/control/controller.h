@@ -42,13 +42,13 @@ struct ControllerOptions {
   std::vector<std::string> frames;  ///< Links with a task frame.NAME.
 };
 
-/// Momentum control with hierarchical inverse dynamics: a robot's state in, its
-/// joint torques out.
+/// Computes joint torques from the robot's state: momentum control with
+/// hierarchical inverse dynamics.
 ///
 ///     Controller controller(robot);
 ///     controller.Start(state);
 ///     for (;;) {
-///       controller.reference().p_WG = ...;  // If it is to move.
+///       controller.reference().p_WG = ...;  // Optional.
 ///       controller.Update(state, &command);
 ///     }
 ///
@@ -73,30 +73,31 @@ class Controller {
   explicit Controller(const Robot& robot,
                       const ControllerOptions& options = {});
 
-  /// Sets reference() to standing in the nominal posture on the feet where they
-  /// are in this state. If Update() would reject the state, the last valid one
-  /// counts. Only the settings of stack() and stance() outlive a start, so a run
-  /// repeats bit for bit. Does not allocate.
+  /// Sets reference() to standing in the nominal posture, with the feet where they
+  /// are in this state. If the state is invalid, the last valid one is used. Only
+  /// the settings of stack() and stance() are kept, so that a run repeats bit for
+  /// bit. Does not allocate.
   void Start(const State& state) noexcept;
 
   Reference& reference() { return reference_; }
   const Reference& reference() const { return reference_; }
   Stack& stack() { return stack_; }
   const Stack& stack() const { return stack_; }
-  /// Which feet are in contact: to lift one, shift the weight off it before.
+  /// Decides which feet are in contact. Shift the weight off a foot before you lift
+  /// it.
   Stance& stance() { return stance_; }
   const Stance& stance() const { return stance_; }
 
-  /// One tick. Never throws, allocates or waits; whatever the state holds, the
-  /// torques are finite and inside the effort limits, see TickStatus.
+  /// Computes one tick. Never throws, allocates or waits. For any state, the torques
+  /// are finite and inside the effort limits, see TickStatus.
   /// pre: command->tau has the size of the joints.
   void Update(const State& state, Command* command) noexcept;
 
-  /// Report on the last Update(): its status and its findings.
+  /// Returns the report on the last Update().
   const TickReport& report() const { return report_; }
   const Tick& tick() const { return tick_; }
   const std::vector<ContactTick>& contacts() const { return contacts_; }
-  /// The problem of the last tick, for FindConflict().
+  /// Returns the problem of the last tick, for FindConflict().
   const Hierarchy& hierarchy() const { return hierarchy_; }
   const Robot& robot() const { return robot_; }
 

@@ -10,8 +10,8 @@
 
 namespace poise {
 
-/// The humanoid in its nominal posture, at rest, and a controller that has
-/// started there, tick by tick.
+/// Runs a controller tick by tick. The humanoid starts at rest in its nominal
+/// posture.
 class ControllerTest : public testing::Test {
  protected:
   ControllerTest() {

@@ -9,7 +9,8 @@
 
 namespace poise {
 
-/// Every task of tasks/, in the levels and switched as Controller says.
+/// Makes a stack of every task of tasks/. Levels and switches are those in the
+/// documentation of Controller.
 ///
 /// @param frames  links that get a task frame.NAME, the i-th by
 ///                Tick::frames[feet + i] and Reference::frames[i].

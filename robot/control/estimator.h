@@ -9,33 +9,31 @@
 
 namespace poise {
 
-/// Estimates the state of the base from what a robot senses: the orientation
-/// and the gyroscope of the inertial unit, its accelerometer, and the joints of
-/// the legs whose feet stand still.
+/// Estimates the state of the base from orientation, gyroscope and accelerometer of
+/// the inertial unit, and from the joints of the legs in contact.
 ///
-/// A foot in contact stays where it was when it touched down, p_WC: with the
+/// A foot in contact does not move from p_WC, the place of its touchdown. With the
 /// orientation R_WB of the inertial unit,
 ///     p_WB = p_WC - R_WB p_BC(q),       v_WB = -(w x R_WB p_BC + R_WB v_BC),
-/// the mean over the feet, each by its normal force. The accelerometer carries
-/// the velocity between, and through a flight, as
+/// weighted over the feet by their normal forces. The accelerometer predicts the
+/// velocity, also during a flight,
 ///     v+ = v + dt (R_WB f + g),  then  v+ += dt / tau (v_legs - v+).
-/// The heading is as good as that of the inertial unit.
+/// The heading is that of the inertial unit.
 ///
-/// A measurement whose stamp, inertial unit or joints are not finite, or beyond
-/// 1e6, is not used. The state then has the base and the stamp of the last one
-/// that was, and the joints of this one, as they are; the next good measurement
-/// bridges the gap. So a joint that is not finite reaches the controller, which
-/// fails safe at once; and if nothing good is heard of the base, the state's stamp
-/// stands still, and the controller fails safe after its usual time for that. A
-/// foot whose force is not finite counts as unloaded.
+/// A measurement is not used if its stamp, inertial unit or joints are not finite or
+/// beyond 1e6. The state then keeps base and stamp of the last used measurement and
+/// has the joints of this one; the next valid measurement bridges the gap. So an
+/// invalid joint reaches the controller, which fails safe at once. If all
+/// measurements of the base are invalid, the stamp stands still, and the controller
+/// fails safe after 10 ms. A foot whose force is not finite counts as unloaded.
 class Estimator {
  public:
-  /// @param velocity_time  tau, s: smaller trusts the legs, larger the
-  ///                       accelerometer.
+  /// @param velocity_time  tau, s. A smaller value weights the legs more, a larger
+  ///                       value the accelerometer.
   explicit Estimator(const Robot& robot, double velocity_time = 0.01);
 
-  /// Begins where the base is known to be: X_WB and V_WB_W of the measurement
-  /// are believed once, here, and never after. pre: all of it is finite.
+  /// Starts from the base pose X_WB and twist V_WB_W of the measurement; later calls
+  /// do not read them. pre: all values are finite.
   void Start(const Measurement& measurement);
 
   /// Fills state from a measurement; does not read its X_WB and V_WB_W.
@@ -52,9 +50,9 @@ class Estimator {
   Tick tick_;
   struct FootState {
     bool in_contact = true;
-    Eigen::Vector3d p_WC;    // Where it stands.
-    Eigen::Vector3d p_BC_W;  // Where the leg has it.
-    Eigen::Vector3d v_BC_W;  // How the leg and the base's rotation move it.
+    Eigen::Vector3d p_WC;    // Place of its touchdown.
+    Eigen::Vector3d p_BC_W;  // From the joint positions.
+    Eigen::Vector3d v_BC_W;  // From joint rates and base rotation.
   };
   std::vector<FootState> feet_;
   Eigen::Vector3d p_WB_;

@@ -9,16 +9,15 @@
 
 namespace poise {
 
-/// The torques for when nothing better is to be had: what holds the robot
-/// against gravity, with its weight on the feet in contact, and damps its
-/// joints,
+/// Computes the torques of a tick without a valid solution. They hold the robot
+/// against gravity with its weight on the feet in contact, and damp its joints,
 ///     tau_j = g_j - (J_{c,u}' lambda_0)_j - d M_jj q̇_j,
 /// where g = N - c, and lambda_0 is the smallest with J_{c,l}' lambda_0 = g_l.
 ///
-/// @param tick, contacts  of the last state that was any good.
+/// @param tick, contacts  of the last valid state.
 /// @param v_joints        joint rates; one that is not finite is not damped.
 /// @param damping         d, 1/s.
-/// Does not allocate; finite whatever v_joints holds.
+/// Does not allocate. The torques are finite for any v_joints.
 void ComputeFailSafeTorque(const Tick& tick,
                            const std::vector<ContactTick>& contacts,
                            const Eigen::Ref<const Eigen::VectorXd>& v_joints,

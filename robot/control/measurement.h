@@ -33,8 +33,8 @@ struct Measurement {
   std::vector<FootMeasurement> feet;  ///< In the order of the robot's feet.
 };
 
-/// Whether all values are finite and plausible: above 1e6 (m, rad, and these
-/// per s or s2) the dynamics overflow. Does not allocate.
+/// Returns whether all values are finite and below 1e6 (m, rad, and these per s or
+/// s2). Beyond that the dynamics would overflow. Does not allocate.
 inline bool IsBelievable(const Eigen::Ref<const Eigen::MatrixXd>& x) noexcept {
   constexpr double kLargest = 1e6;
   return x.allFinite() && x.lpNorm<Eigen::Infinity>() < kLargest;

@@ -8,7 +8,7 @@
 
 namespace poise {
 
-/// Where a frame F should be, and how it should move.
+/// Desired pose and motion of a frame F.
 struct FrameReference {
   Pose X_WF;
   Eigen::Matrix<double, 6, 1> V_WF_W = Eigen::Matrix<double, 6, 1>::Zero();

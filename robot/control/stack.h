@@ -15,7 +15,7 @@
 
 namespace poise {
 
-/// How a task takes part in the hierarchy.
+/// Place of a task in the hierarchy.
 struct TaskSettings {
   bool enabled = true;
   int level = 1;      ///< 1 is the highest; at most Stack::kMaxLevel.
@@ -40,11 +40,11 @@ class Stack {
   static constexpr double kMostWeight = 1e6;
   static constexpr double kMostRatio = 1e6;  ///< For set_weighted().
 
-  /// For rows in num_variables variables.
+  /// Makes a stack for rows in num_variables variables.
   explicit Stack(int num_variables);
 
-  /// Adds a task; before the first tick only. Throws std::invalid_argument if
-  /// its name is taken, or a setting out of range.
+  /// Adds a task; only before the first tick. Throws std::invalid_argument if the
+  /// name exists already or a setting is out of range.
   void Add(std::unique_ptr<Task> task, const TaskSettings& settings);
 
   int num_tasks() const { return static_cast<int>(entries_.size()); }
@@ -52,8 +52,8 @@ class Stack {
   const TaskSettings& settings(int i) const { return entries_[i].settings; }
   std::optional<int> Find(std::string_view name) const noexcept;
 
-  /// False, and nothing happens, if there is no such task or parameter, or the
-  /// value is out of its range.
+  /// Each returns false, and changes nothing, if the task or parameter does not exist
+  /// or the value is out of its range.
   [[nodiscard]] bool Enable(std::string_view name, bool enabled) noexcept;
   [[nodiscard]] bool SetLevel(std::string_view name, int level) noexcept;
   [[nodiscard]] bool SetWeight(std::string_view name, double weight) noexcept;
@@ -118,14 +118,14 @@ class Stack {
   struct Entry {
     std::unique_ptr<Task> task;
     TaskSettings settings;
-    int eased_rows = 0;  // Where they begin, see Easing.
+    int eased_rows = 0;  // First index, see Easing.
     // Changes since the last Write(), and the settings before.
     bool was_switched_on = false;
     bool was_moved = false;
     bool was_tuned = false;
     std::vector<double> parameters_before;
     double weight_before = 1;
-    // Whether and where it has rows, since the last Write().
+    // Rows of the last Write().
     bool takes_part = false;
     int hierarchy_level = -1;
     int equality_start = 0;

@@ -10,7 +10,7 @@
 
 namespace poise {
 
-/// How a foot and the ground stand to each other.
+/// Phases of the contact of a foot with the ground.
 enum class ContactPhase {
   kDown,       ///< In contact.
   kUnloading,  ///< In contact; its force fades out, then it is up.
@@ -54,7 +54,7 @@ class Stance {
   static constexpr double kMostTime = 60;        ///< Upper bound of times, s.
   static constexpr double kMostThreshold = 0.5;  ///< Upper bound of heights, m.
 
-  /// All feet down. weight is the robot's, N.
+  /// Starts with all feet in contact. weight is that of the robot, N.
   Stance(const std::vector<Foot>& feet, double weight);
 
   /// Throws std::invalid_argument, and changes nothing, if a time is not 0 to
@@ -62,7 +62,7 @@ class Stance {
   void Configure(const StanceSettings& settings);
   const StanceSettings& settings() const { return settings_; }
 
-  /// All feet down, at once.
+  /// Puts all feet in contact at once.
   void Reset() noexcept;
 
   /// Fades the force of a foot out and then lifts the foot by height, m. A foot
@@ -79,7 +79,7 @@ class Stance {
   void LetGo(int foot) noexcept;
 
   ContactPhase phase(int foot) const { return feet_[foot].phase; }
-  /// Whether the foot is meant to be in contact.
+  /// Returns whether the foot is planned to be in contact.
   bool is_meant_down(int foot) const;
 
   /// Advances by dt: writes in_contact and max_normal_force of the contacts,
@@ -93,14 +93,14 @@ class Stance {
  private:
   struct FootState {
     ContactPhase phase = ContactPhase::kDown;
-    double since = 0;         // How long in this phase, s.
-    double left_for = 0;      // How long it has been off the ground, s.
+    double since = 0;         // Time in this phase, s.
+    double left_for = 0;      // Time off the ground, s.
     double force = 0;         // At the beginning of the phase, N.
-    Pose X_WC;                // Where it took off, upright.
-    Pose X_WC_away;           // Where it began to return,
-    Vector6d V_WC_away;       // and how it moved there, in world axes.
-    double from = 0, to = 0;  // Heights that it swings between, m.
-    bool has_flown = false;   // In this phase, no foot bore for a while.
+    Pose X_WC;                // Pose at take-off, made upright.
+    Pose X_WC_away;           // Pose at the start of the return,
+    Vector6d V_WC_away;       // and velocity, in world axes.
+    double from = 0, to = 0;  // Heights of the swing, m.
+    bool has_flown = false;   // No foot carried load for a while.
     std::vector<Eigen::Vector2d> polygon_C;
   };
 

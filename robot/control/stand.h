@@ -11,12 +11,11 @@
 
 namespace poise {
 
-/// Stands a robot up: finds base and joints such that both soles lie flat on the
-/// ground (z = 0), side by side and facing +x, their middle at the world's
-/// origin, and the center of mass is over it or, where an ankle could not hold it
-/// there on one foot with half of its torque, as much nearer to the ankles; by
-/// inverse kinematics with the hierarchical solver. Each step minimizes, one after
-/// the other,
+/// Finds a standing posture by inverse kinematics with the hierarchical solver.
+/// Both soles lie flat on the ground (z = 0), side by side and facing +x, with their
+/// middle at the world's origin. The center of mass is above the middle. If half of
+/// an ankle's torque could not hold it there on one foot, the center of mass is
+/// nearer to the ankles. Each step minimizes by priority:
 ///  1. joint limits, with 0.05 rad or 5 % of the range to spare, and couplings,
 ///  2. the soles' tilt, height, heading and place,
 ///  3. the distance of the center of mass from there, in the plane,
@@ -25,12 +24,12 @@ namespace poise {
 ///     0.6 rad where those have them straight.
 ///
 /// Writes robot->q_nominal and robot->can_stand. Throws std::invalid_argument
-/// with the reason where no such posture is found.
+/// with the reason if no such posture is found.
 /// pre: two feet, left one first.
 void StandUp(Robot* robot);
 
-/// Makes a robot as MakeRobot(), and stands it up if the profile gives no posture
-/// to stand in. Throws as MakeRobot() and StandUp(), naming the file.
+/// Makes a robot as MakeRobot(), and calls StandUp() if the profile gives no
+/// posture. Throws as MakeRobot() and StandUp(), with the name of the file.
 Robot MakeStandingRobot(const UrdfDocument& urdf, const Profile& profile = {},
                         std::vector<Finding>* findings = nullptr);
 

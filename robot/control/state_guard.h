@@ -17,22 +17,22 @@ class StateGuard {
   /// Forgets the clock of earlier states.
   void Reset() noexcept;
 
-  /// Judges the state of a new tick, dt seconds after the last one. A time stamp
+  /// Checks the state of a new tick, dt seconds after the last one. A time stamp
   /// may stand still for 10 ms; a jump in time is a clock reset, and a time stamp
   /// that is not finite counts as a frozen clock.
   /// @return kNone, kClock or kState.
   [[nodiscard]] FailSafeReason Check(double dt, const State& state) noexcept;
 
-  /// Whether q and v of a state are valid; its clock does not matter.
+  /// Returns whether q and v of a state are valid; ignores its clock.
   bool IsValid(const State& state) const noexcept;
 
-  /// Whether the time stamp of the last state differed from the one before.
+  /// Returns whether the last two time stamps differ.
   bool clock_moves() const { return frozen_for_ == 0; }
 
  private:
   bool is_floating_;
   double last_time_;   // Last finite time stamp, s.
-  double frozen_for_;  // How long the time stamp has stood still, s.
+  double frozen_for_;  // Time since the stamp last changed, s.
 };
 
 }  // namespace poise

@@ -15,7 +15,7 @@
 
 namespace poise {
 
-/// All that a task may read to write its rows.
+/// Input of a task.
 struct TaskInput {
   const State& state;
   const Tick& tick;
@@ -30,8 +30,8 @@ struct TaskInput {
   double capture = 0;
 };
 
-/// A number of a task that may be set by name, in a profile or between two
-/// ticks: a gain, a margin, a coefficient.
+/// A number of a task that profiles and callers set by name: a gain, a margin, a
+/// coefficient.
 struct Parameter {
   std::string name;
   double* value;
@@ -89,9 +89,9 @@ struct RowDescription {
   RowKind kind = RowKind::kTarget;
 };
 
-/// A target or a constraint: rows in y = [v̇ (nv); λ (6 per foot)], see
-/// (1) and (2). A task has always the same rows, named once, here; rows that do
-/// not matter in a tick (of a foot in the air) stay zero and unbounded.
+/// A goal or a constraint: rows in y = [v̇ (nv); λ (6 per foot)], (1) and (2). The
+/// rows of a task and their names are fixed. Unused rows, as of a foot in the air,
+/// stay zero and unbounded.
 class Task {
  public:
   virtual ~Task() = default;
@@ -103,7 +103,7 @@ class Task {
   const std::vector<RowDescription>& inequalities() const {
     return inequalities_;
   }
-  /// The names of these rows, in the same order.
+  /// Returns the names of the rows, in their order.
   const std::vector<std::string>& equality_names() const {
     return equality_names_;
   }
@@ -112,11 +112,11 @@ class Task {
   }
   const std::vector<Parameter>& parameters() const { return parameters_; }
 
-  /// Whether it has rows at all in this tick; if not, Write() is left out.
+  /// Returns whether the task has rows in this tick. If not, Write() is not called.
   virtual bool HasRows(const TaskInput&) const noexcept { return true; }
 
-  /// Whether its inequality rows are bounded on both sides, so that their names
-  /// get a suffix for the active bound, .min or .max. The name of a row with one
+  /// Returns whether the inequality rows have two bounds, so that their names get a
+  /// suffix for the active bound, .min or .max. The name of a row with one
   /// bound already names the bound, or needs no suffix.
   virtual bool is_two_sided() const noexcept { return false; }
 

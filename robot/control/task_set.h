@@ -14,7 +14,7 @@ namespace poise {
 /// Returns the error message for a name that no task of a stack has.
 std::string UnknownTask(const std::string& name, const Stack& stack);
 
-/// Changes a stack as a `tasks:` section says, by name of the task:
+/// Applies a `tasks:` section to a stack. Tasks are found by name:
 ///
 ///     tasks:
 ///       yaw: off                       # Or on.
@@ -23,18 +23,18 @@ std::string UnknownTask(const std::string& name, const Stack& stack);
 /// Tasks and parameters without an entry do not change. `rank` is an alias of `level`.
 ///
 /// @param file  of the section, for messages.
-/// Throws std::invalid_argument("FILE:LINE: ...") about a task or a parameter
-/// that is not there, or a value out of its range.
+/// Throws std::invalid_argument("FILE:LINE: ...") if a task or a parameter does not
+/// exist, or a value is out of its range.
 void ApplyTasks(const YAML::Node& tasks, const std::string& file, Stack* stack);
 
-/// The links X of a `tasks:` section's tasks frame.X, for
-/// ControllerOptions::frames: those that the robot has, but no foot has the name
-/// of. Throws nothing about what is wrong: ApplyTasks() does.
+/// Returns the links X of the tasks frame.X of a `tasks:` section, for
+/// ControllerOptions::frames. Feet and unknown links are left out. Does not throw;
+/// ApplyTasks() reports errors.
 std::vector<std::string> FindTaskLinks(const YAML::Node& tasks,
                                        const Robot& robot);
 
-/// The section `tasks` that makes any stack of the same tasks this one: of each,
-/// whether it is on, its level, weight and parameters, to the last digit.
+/// Returns the section `tasks` with which ApplyTasks() restores this stack: switch,
+/// level, weight and parameters of each task, to the last digit.
 YAML::Node DescribeTasks(const Stack& stack);
 
 /// Finds the links in a task set and in names of tasks to switch.
@@ -43,8 +43,8 @@ std::vector<std::string> FindTaskLinks(const std::string& set,
                                        const std::vector<std::string>& tasks,
                                        const Robot& robot);
 
-/// Changes a stack to a task set: `default` (nothing to do); `paper`, the table
-/// of the paper's section 3; else the section `tasks` of a YAML file.
+/// Applies a task set to a stack: `default` changes nothing; `paper` is the table of
+/// the paper's section 3; any other name is a YAML file with a section `tasks`.
 /// Throws std::invalid_argument as ApplyTasks(), or about the file.
 void ApplyTaskSet(const std::string& name, Stack* stack);
 

@@ -37,7 +37,7 @@ struct LostRow {
   double amount;  ///< Its residual, in the unit of Task::equality_scale().
 };
 
-/// Why a tick failed safe.
+/// Reasons for a fail-safe tick.
 enum class FailSafeReason {
   kNone,      ///< It did not.
   kState,     ///< The state is invalid.
@@ -65,7 +65,7 @@ struct TickReport {
   std::vector<LostRow> lost;
   Certificate certificate;  ///< Certificate of the solution.
 
-  /// Resets the numbers of the solution, for a tick in which nothing was solved.
+  /// Resets the numbers of the solution, for a tick without a solve.
   void ClearAnswer() noexcept {
     solver_status = Status::kOptimal;
     failed_level = iterations = 0;

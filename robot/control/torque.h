@@ -9,7 +9,7 @@
 
 namespace poise {
 
-/// The joint torques that make a solution happen, (10):
+/// Computes the joint torques of a solution, (10):
 ///     tau = M_u v̇ + N_u - J_{c,u}' lambda.
 ///
 /// @param y    [v̇ (nv); lambda (6 per foot)].

@@ -12,7 +12,7 @@ namespace poise {
 /// clamped to 100 rad/s2 or m/s2: a larger value is no push.
 class UnmodelledAcceleration {
  public:
-  /// For nv rates; the estimate is zero.
+  /// Starts with the estimate zero for nv rates.
   explicit UnmodelledAcceleration(int nv);
 
   /// Sets the estimate to zero and forgets the prediction.
