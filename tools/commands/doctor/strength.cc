@@ -40,7 +40,7 @@ std::vector<Finding> FindWeakness(const Robot& robot) {
     const char* unit = joint.type == JointType::kPrismatic ? " N" : " N m";
     findings.push_back({Severity::kWarn, "joint " + Quoted(joint.name),
                         "needs " + PrintNumber(effort + row.slack * scale) +
-                            " (limit " + PrintNumber(effort) + unit +
+                            unit + " (limit " + PrintNumber(effort) + unit +
                             ") to stand",
                         "the motor is too weak for the standing posture"});
   }

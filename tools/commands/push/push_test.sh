@@ -102,7 +102,7 @@ refuse "the solve at 0.200000 s is not in the scenario, which takes $(
   )0.100000 s" --time 0.1 --dump-solve 0.2 --no-report \
   --out "$TEST_TMPDIR/late"
 
-# What an option gives is refused by its name, not by that of a file's key.
+# An invalid option is refused by its own name, not by the key of a file.
 refuse "--control-rate is 333, must be a whole part of plant.rate, which is 1000" \
   --control-rate 333
 refuse "control.rate is 1000, must be a whole part of --plant-rate, which is 1500" \
@@ -110,14 +110,14 @@ refuse "control.rate is 1000, must be a whole part of --plant-rate, which is 150
 refuse "--time is 0, must be 0.001 to 86400 s" --time 0
 refuse "--duration is -1, must be 0 to 86400 s" --duration=-1
 
-# What a doctor warns of is said: one knee too weak, twice, in one line.
+# push prints the warnings of doctor: both knees are too weak, in one line.
 weak=$(write weak.urdf "$(sed '/<joint name="._knee"/,/<\/joint>/s/effort="[^"]*"/effort="2.5"/' \
   robot/models/humanoid.urdf)")
 "$push" --robot "$weak" --scenario stand --time 0.01 --no-report \
   --out "$TEST_TMPDIR/weak" > "$TEST_TMPDIR/said" 2> "$TEST_TMPDIR/error" || true
-grep -q "^$weak: joint 'l_knee': needs .* of 2.5 N m to stand, its posture cannot be $(
-  )held; also joint 'r_knee'" "$TEST_TMPDIR/error" ||
-  fail "nothing is said of weak knees: $(cat "$TEST_TMPDIR/error")"
+grep -q "^$weak: joint 'l_knee': needs .* (limit 2.5 N m) to stand, the motor is $(
+  )too weak .*; also joint 'r_knee'" "$TEST_TMPDIR/error" ||
+  fail "no warning of weak knees: $(cat "$TEST_TMPDIR/error")"
 [ "$(wc -l < "$TEST_TMPDIR/error")" = 1 ] || fail "weak knees take several lines"
 
 scenarios='board, com_sinusoid, one_leg, posture_off, slope, stand,'
@@ -153,7 +153,7 @@ refuse_file --pushes ":2: 'force' is a list, must be a list of numbers" \
 nose="link 'nose' is unknown, must be a link of robot 'humanoid'"
 refuse_file --pushes ": $nose" pushes.yaml 'pushes: [{link: nose}]'
 
-# What does not fit the robot is refused by the name of the file that says it,
+# Settings that do not fit the robot are refused with the name of their file,
 # before anything is written.
 refuse_file --scenario ": $nose" link.yaml 'pushes: [{link: nose}]'
 refuse_file --scenario ": task set 'nope': is neither default, paper, nor a file" \
