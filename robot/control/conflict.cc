@@ -64,7 +64,7 @@ class Feasibility {
     return violations;
   }
 
-  // On which side each row is violated that the last Violations() were of.
+  // Writes the violated side of each row of the last Violations().
   void TellSides(std::vector<HierarchyRow>* rows) const {
     Eigen::Index i = 0;
     for (HierarchyRow& row : *rows) {
@@ -72,9 +72,9 @@ class Feasibility {
     }
   }
 
-  // Rows among these that contradict each other; nothing if none do. At the
-  // optimum the violated rows, each times its violation, add up to zero: they
-  // contradict each other without the rest.
+  // Returns those of the rows that contradict each other, or nothing if none do. At
+  // the optimum, the sum of the violated rows times their violations is zero, so
+  // the violated rows alone contradict each other.
   std::optional<std::vector<HierarchyRow>> Contradicting(
       const std::vector<HierarchyRow>& rows, double tolerance) {
     if (rows.empty()) return std::nullopt;
@@ -129,7 +129,7 @@ std::vector<HierarchyRow> FindConflict(const Hierarchy& hierarchy, int level,
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
     fewer = feasibility.Contradicting(rest, tolerance);
     if (fewer) {
-      rows = *fewer;  // With all before i, as each of them is needed.
+      rows = *fewer;  // Rows before i stay: each is needed.
     } else {
       ++i;
     }

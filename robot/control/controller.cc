@@ -14,7 +14,7 @@
 namespace poise {
 namespace {
 
-// Slack of a limit above this is reported, as a part of the limit.
+// A slack above this fraction of the limit is reported.
 constexpr double kLimitSlack = 1e-6;
 
 // A motion whose DynamicsResidual() is above this is impossible for this robot.
@@ -182,7 +182,7 @@ void Controller::UpdateStance(const State& state) noexcept {
   stance_.Update(options_.dt, normal_force_, &contacts_, &reference_);
 }
 
-// The balance monitor decides which feet stance releases and brings back.
+// Releases feet and brings them back, as the balance monitor decides.
 void Controller::JudgeBalance() noexcept {
   CaptureSettings settings = momentum_task_.capture_settings();
   if (!stack_.settings(momentum_).enabled) settings.capture = 0;
@@ -204,7 +204,7 @@ void Controller::WriteTasks(const State& state) noexcept {
                &hierarchy_);
 }
 
-// False if the tick has no solution that meets the dynamics.
+// Returns false if the tick has no solution that meets the dynamics.
 bool Controller::Solve() noexcept {
   const Status solved = solver_.Solve(hierarchy_, &solution_);
   stack_.Report(solution_, &report_);
@@ -228,14 +228,14 @@ void Controller::ComputeCommand(const State& state, Command* command) noexcept {
   command->status = report_.status;
 }
 
-// Keeps what the next tick needs of this solution.
+// Stores the parts of this solution that the next tick needs.
 void Controller::Remember(const State& state) noexcept {
   const int nv = robot_.model.tree.nv();
   for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
     normal_force_[i] = solution_.y[nv + 6 * i + 5];
   }
   stack_.Advance(options_.dt, solution_);
-  // A state whose clock stands still is no base for a prediction.
+  // A prediction needs a running clock.
   if (guard_.clock_moves()) {
     unmodelled_.Predict(options_.dt, state.v, solution_.y.head(nv));
   } else {
@@ -244,8 +244,8 @@ void Controller::Remember(const State& state) noexcept {
   EstimateDisturbance();
 }
 
-// A residual of the task is no model error while the task is infeasible, as in a
-// push, or eased in. If both momentum and com are on, momentum counts.
+// While the task is infeasible, as in a push, or under a ramp, its residual is not
+// a model error. If both momentum and com are on, momentum counts.
 void Controller::EstimateDisturbance() noexcept {
   const bool by_momentum = stack_.settings(momentum_).enabled;
   const int task = by_momentum ? momentum_ : com_;
@@ -281,9 +281,9 @@ void Controller::LimitTorque(Command* command) noexcept {
   for (Eigen::Index j = 0; j < command->tau.size(); ++j) {
     const double limit = scale * robot_.model.limits[j].effort;
     double& tau = command->tau[j];
-    if (!std::isfinite(tau)) tau = 0;  // Whatever went wrong, no motor sees it.
-    if (!(limit >= 0)) continue;       // The file gives none.
-    // Where there is no motor the row's own scale is 1 N m.
+    if (!std::isfinite(tau)) tau = 0;  // A motor never receives NaN.
+    if (!(limit >= 0)) continue;       // The file has no limit.
+    // Without a motor the scale of the row is 1 N m.
     const double row_scale = limit > 0 ? limit : 1;
     const double slack = (std::abs(tau) - limit) / row_scale;
     Relax({torque_limits_, static_cast<int>(j),

@@ -8,14 +8,14 @@
 namespace poise {
 namespace {
 
-// Below this a foot is in contact, but says nothing of where the robot is.
+// A foot with a smaller normal force is not used to estimate the base.
 constexpr double kLeastForce = 5;  // N.
 
-// A clock that jumps by more than this has lost its measurements between.
+// After a larger jump of the clock, measurements are missing.
 constexpr double kLongestStep = 0.05;  // s.
 
-// Whether all that the base follows from is there. A foot whose force is not finite
-// is one that says nothing.
+// Returns whether a measurement suffices for the base. A foot whose force is not
+// finite is not used.
 bool IsUsable(const Measurement& measurement) {
   return std::isfinite(measurement.time) &&
          IsBelievable(measurement.R_WB_imu) &&
@@ -89,14 +89,14 @@ void Estimator::Update(const Measurement& measurement, State* state) noexcept {
   const double dt = std::clamp(measurement.time - time_, 0.0, kLongestStep);
   time_ = measurement.time;
 
-  // The accelerometer's word.
+  // Prediction by the accelerometer.
   const Eigen::Vector3d a_W =
       measurement.R_WB_imu * measurement.specific_force_Bo_B +
       robot_.model.tree.gravity_W();
   v_WB_ += dt * a_W;
   p_WB_ += dt * v_WB_;
 
-  // The legs' word, each as loud as its foot is loaded.
+  // Estimate by the legs, weighted by normal force.
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
   double load = 0;
@@ -114,7 +114,7 @@ void Estimator::Update(const Measurement& measurement, State* state) noexcept {
     v_WB_ += std::min(1.0, dt / velocity_time_) * (v / load - v_WB_);
   }
 
-  // A foot that touches down, or stands unloaded, stands where it is now.
+  // A foot that touches down or is unloaded gets a new place of contact.
   for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
     const FootMeasurement& sensed = measurement.feet[i];
     const bool in_contact = sensed.in_contact && sensed.F_Co_C[5] > kLeastForce;

@@ -17,20 +17,20 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A foot is put down to a little below the ground, so that it gets there; from the
-// ground on so slowly that it does not knock.
+// The path of a foot ends a little below the ground, so that the foot surely arrives.
+// Below the ground it is slow, so that the foot does not knock.
 constexpr double kReach = 0.005;   // m.
 constexpr double kSinkTime = 0.4;  // s.
 
-// A sole that sinks by less than this part of what it should has been stopped, if it
-// should by more than that.
+// A sole has been stopped if it sinks slower than kStopped times its reference, and
+// the reference sinks faster than kTelling.
 constexpr double kStopped = 0.5;
 constexpr double kTelling = 0.01;  // m/s.
 
-// Faster than this upwards, a sole is leaving the ground.
+// A sole that rises faster than this leaves the ground.
 constexpr double kSeparating = 0.02;  // m/s.
 
-// A foot on its way back is flat, and over its place, after this part of it.
+// A returning foot is flat and above its place after this fraction of the return.
 constexpr double kThereAfter = 0.7;
 
 // Duration of a phase without duration; positive, so that no quotient is 0/0.
@@ -39,13 +39,13 @@ constexpr double kInstant = 1e-9;  // s.
 // Rounding of a sum of some periods, s.
 constexpr double kRounding = 1e-9;
 
-// How fast a foot looks for ground that it has lost.
+// Speed of a foot that searches the ground.
 constexpr double kSearchSpeed = 0.2;  // m/s.
 
 // A foot fades in up to this many times the robot's weight.
 constexpr double kFullLoad = 1.5;
 
-// How long a foot in the air takes for its way, s.
+// Returns the duration of a swing, s.
 double Duration(ContactPhase phase, double down, double swing_time) {
   if (phase != ContactPhase::kLost) return std::max(kInstant, swing_time);
   return std::max(0.05, down / kSearchSpeed);
@@ -56,7 +56,7 @@ bool Bears(ContactPhase phase) {
          phase == ContactPhase::kLoading;
 }
 
-// Upright, with the heading of R_WC.
+// Returns the upright orientation with the heading of R_WC.
 Eigen::Matrix3d Upright(const Eigen::Matrix3d& R_WC) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
   Eigen::Matrix3d R;
@@ -135,11 +135,10 @@ bool Stance::HasLanded(const Clearance& sole) const noexcept {
   return sole.height < settings_.found_below && sole.rising < kSeparating;
 }
 
-// Whether the ground has stopped a descending sole. If contact were declared
+// Returns whether the ground has stopped a descending sole. If contact were declared
 // while the sole still descends, the controller would push on thin air: the foot
-// would tilt and land on one corner after another. Where the reference itself is
-// nearly at rest, the speed of the sole is no evidence; there, only the end of the
-// motion counts.
+// would tilt and land on one corner after another. If the reference is nearly at
+// rest, the speed of the sole proves nothing, and only the end of the motion counts.
 bool Stance::IsStopped(const FootState& foot,
                        const Clearance& sole) const noexcept {
   if (foot.phase != ContactPhase::kLanding) return true;
@@ -148,13 +147,13 @@ bool Stance::IsStopped(const FootState& foot,
                                   : motion.is_over;
 }
 
-// Whether no foot is in contact: the robot is in flight.
+// Returns whether no foot is in contact.
 bool Stance::flies() const noexcept {
   return std::none_of(feet_.begin(), feet_.end(),
                       [](const FootState& foot) { return Bears(foot.phase); });
 }
 
-// Whether the motion of the foot ends on the ground.
+// Returns whether the motion of the foot ends on the ground.
 bool Stance::Lands(const FootState& foot) noexcept { return foot.to < 0; }
 
 void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {
@@ -177,7 +176,7 @@ bool Stance::Lift(int i, double height) noexcept {
   return true;
 }
 
-// From where it is to a height, or to the ground.
+// Swings a foot from its position to a height, or to the ground.
 void Stance::Swing(FootState* of, double height) noexcept {
   FootState& foot = *of;
   switch (foot.phase) {
@@ -191,7 +190,7 @@ void Stance::Swing(FootState* of, double height) noexcept {
       foot.to = height;
       return;
     case ContactPhase::kReturning:
-      // Anew, from where it is now.
+      // Restarts from the present pose.
       Enter(&foot, ContactPhase::kReturning);
       foot.to = height;
       return;
@@ -235,9 +234,9 @@ void Stance::TakeOff(FootState* foot, const ContactTick& contact,
   foot->from = contact.X_WC.p.z() - reference.ground_z;
 }
 
-// From where it was when it was called back, and as it moved there, to where it
-// took off, on the ground or at a height above: x = s X + (1 - s) t V. It is over
-// its place, its sole flat, some time before it is down there.
+// Moves a returning foot from its pose and velocity at the call to the place where it
+// took off, on the ground or above it: x = s X + (1 - s) t V. The sole is flat and
+// above its place some time before it is down.
 void Stance::Return(const FootState& foot,
                     FrameReference* target) const noexcept {
   Vector6d whole;
@@ -253,7 +252,7 @@ void Stance::Return(const FootState& foot,
     const MinimumJerk s(t / time);
     const double rate = s.rate / time;
     const double acceleration = s.acceleration / (time * time);
-    // Falling faster than this, it would be on the ground before it is there.
+    // A faster fall would reach the ground before the place.
     const double fastest = i < 5 ? kInfinity : fall / whole_time;
     const double v = std::max(foot.V_WC_away[i], -fastest);
     moved[i] = s.value * whole[i] + (1 - s.value) * t * v;
@@ -362,7 +361,7 @@ double Stance::MaxNormalForce(double normal_force,
   return kInfinity;
 }
 
-// Where a foot in the air is to be.
+// Writes the reference of a foot in the air.
 void Stance::Guide(const FootState& foot,
                    FrameReference* target) const noexcept {
   if (foot.phase == ContactPhase::kFree) return;
@@ -379,7 +378,7 @@ void Stance::Guide(const FootState& foot,
   target->A_WF_W[5] = motion.acceleration;
 }
 
-// A foot that is put down comes to rest on the ground, and sinks on from there.
+// The path of a foot that is put down comes to rest on the ground, and then sinks.
 Stance::VerticalMotion Stance::VerticalMotionOf(
     const FootState& foot) const noexcept {
   const double down =

@@ -31,20 +31,20 @@ constexpr double kLargestMargin = 0.05;
 constexpr double kKneeBend = 0.6;     // rad.
 constexpr double kKneeWeight = 100;   // Hip and ankle follow the knee.
 constexpr double kFootGap = 0.02;     // Between the soles at least, m.
-constexpr double kLongestStep = 0.3;  // rad or m an iteration.
-constexpr int kFullSteps = 30;  // Then each is shorter, so that none cycle.
+constexpr double kLongestStep = 0.3;  // Per iteration, rad or m.
+constexpr int kFullSteps = 30;        // Later steps shrink, against cycles.
 constexpr double kShrink = 0.6;
-// A step that is not the best one will do.
+// An approximate step is sufficient.
 constexpr int kSolverIterations = 60;
 // Fraction of an ankle's torque that may hold the robot on one foot.
 constexpr double kAnkleShare = 0.5;
 // An error below this counts as zero, m or rad.
 constexpr double kConverged = 1e-9;
-// The center of mass is over its place, m; soles lie flat, m and rad.
+// Largest error of a standing robot: center of mass, m; soles, m and rad.
 constexpr double kCentered = 5e-3;
 constexpr double kFlat = 1e-6;
 
-// A foot as seen from the world.
+// State of a foot in world axes.
 struct FootState {
   Pose X_WC;
   MatrixXd J_WC_W;  // 6 x nv.
@@ -64,7 +64,7 @@ FootState StateOf(const Robot& robot, const Tick& tick, int i) {
   return state;
 }
 
-// The axis of the base that is nearest to v, or v if none is near.
+// Returns the axis of the base that is nearest to v, or v if none is near.
 Vector3d Snap(const Vector3d& v) {
   constexpr double kNear = 0.35;  // rad.
   int i = 0;
@@ -73,13 +73,14 @@ Vector3d Snap(const Vector3d& v) {
   return axis.dot(v) > std::cos(kNear) * v.norm() ? axis : v.normalized();
 }
 
-// The problem: what stays the same from step to step.
+// The inverse-kinematics problem of StandUp().
 class Standing {
  public:
-  // Knees are bent by `bend`, positive where they go forward.
+  // `bend` is the angle of the knees; positive moves the knees forward.
   Standing(const Robot& robot, double bend);
 
-  // Goes on until nothing moves; what the configuration found lacks.
+  // Iterates until it converges. Returns the reason if the posture does not stand,
+  // else an empty string.
   std::string Solve();
 
   const VectorXd& q() const { return q_; }
@@ -87,11 +88,11 @@ class Standing {
  private:
   void Evaluate();
 
-  // Where before the middle of a sole the center of mass is to be, m: there or,
-  // where the ankle is too weak to hold it on that foot alone, nearer to the ankle.
+  // Returns the desired place of the center of mass ahead of the middle of a sole, m.
+  // It is nearer to the ankle if the ankle is too weak for one foot.
   double Forward(int i) const;
 
-  // Where the joints may go; those at rest outside come in.
+  // Sets the ranges of the joints and moves rest positions inside.
   void SetLimits();
 
   // Bends the knee above a foot, if it is straight.
@@ -99,7 +100,7 @@ class Standing {
 
   void AddLimits(double longest, Hierarchy* hierarchy) const;
 
-  // Flat on the ground, facing +x, level with each other, one on each side.
+  // Adds rows for both feet: flat on the ground, facing +x, side by side.
   void AddFeet(Hierarchy* hierarchy) const;
 
   // Returns the horizontal error of the center of mass, m.
@@ -111,7 +112,7 @@ class Standing {
 
   void AddPosture(Hierarchy* hierarchy) const;
 
-  // In words; empty where it stands.
+  // Returns the reason why the posture does not stand; empty if it does.
   std::string Lack() const;
 
   const Robot& robot_;
@@ -135,7 +136,7 @@ Standing::Standing(const Robot& robot, double bend)
   q_ = robot.q_nominal;
   q_.head<7>() << 0, 0, 0, 0, 0, 0, 1;
   SetLimits();
-  // Upright is how the soles say it is, the joints at rest.
+  // The soles define the upright direction at the rest posture.
   Evaluate();
   const Vector3d up = Snap(feet_[0].X_WC.R.col(2) + feet_[1].X_WC.R.col(2));
   Vector3d front = feet_[0].X_WC.R.col(0) + feet_[1].X_WC.R.col(0);
@@ -201,7 +202,7 @@ double Standing::Forward(int i) const {
       FindAnkle(tree_, robot_.feet[i].body, tick_.X_WB, X_WC.R.col(1));
   if (!ankle) return 0;
   const double effort = robot_.model.limits[*ankle].effort;
-  if (!(effort >= 0)) return 0;  // The file gives none.
+  if (!(effort >= 0)) return 0;  // The file has no limit.
   const double weight = tree_.total_mass() * tree_.gravity_W().norm();
   const double reach = kAnkleShare * effort / weight;
   const double x = (X_WC.Inverse() * tick_.X_WB[*ankle + 1].p).x();
@@ -228,7 +229,7 @@ void Standing::BendKnee(int body, double bend) {
   if (!knee) return;
   const int j = knee->joint;
   double& q = q_wanted_[tree_.q_start() + j];
-  if (std::abs(q) > 0.5 * kKneeBend) return;  // It is bent already.
+  if (std::abs(q) > 0.5 * kKneeBend) return;  // The knee is bent already.
   q = std::max(lower_[j], std::min(knee->sign * bend, upper_[j]));
   posture_weight_[j] = kKneeWeight;
 }
@@ -245,7 +246,7 @@ void Standing::AddLimits(double longest, Hierarchy* hierarchy) const {
     steps.lower[row] = std::max(-longest, std::min(0., lower_[j] - q));
     steps.upper[row] = std::min(longest, std::max(0., upper_[j] - q));
     if (lower_[j] < upper_[j]) continue;
-    hierarchy->AddEqualities(0, 1).B(0, row) = 1;  // It cannot move.
+    hierarchy->AddEqualities(0, 1).B(0, row) = 1;  // The joint cannot move.
   }
   for (const MimicCoupling& mimic : robot_.model.mimics) {
     const auto q = [&](int j) { return q_[tree_.q_start() + j]; };
@@ -319,7 +320,7 @@ void StandUp(Robot* robot) {
                                 " cannot stand: it must have two feet and "
                                 "a mass");
   }
-  // Knees forward; where that fails, as they are, or backward.
+  // Tries knees forward, then unchanged, then backward.
   std::string first;
   for (const double bend : {kKneeBend, 0., -kKneeBend}) {
     Standing standing(*robot, bend);
@@ -342,7 +343,7 @@ Robot MakeStandingRobot(const UrdfDocument& urdf, const Profile& profile,
     Robot robot = MakeRobot(urdf, profile, findings);
     if (!robot.can_stand) StandUp(&robot);
     return robot;
-  } catch (const Refusal&) {  // Names the file itself.
+  } catch (const Refusal&) {  // The message has the file already.
     throw;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(urdf.source() + ": " + error.what());

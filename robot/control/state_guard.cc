@@ -7,13 +7,13 @@
 namespace poise {
 namespace {
 
-// The clock is frozen once its stamp stands still for longer than 10 ms. The
-// margin covers rounding: ten periods of 1 ms add up to 10 ms and no more.
+// The clock is frozen if its stamp stands still for longer than 10 ms. The margin
+// covers the rounding of ten periods of 1 ms.
 constexpr double kFrozenAfter = 0.010 + 1e-9;  // s.
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-// Rounding, also in single precision, and some steps of integration change the
-// norm of a quaternion by far less than this. Beyond, it is no orientation.
+// Rounding, even in single precision, and steps of integration change the norm of a
+// quaternion by far less than this. A larger error means an invalid orientation.
 constexpr double kQuaternionOff = 1e-3;
 
 }  // namespace

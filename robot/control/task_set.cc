@@ -14,7 +14,7 @@
 namespace poise {
 namespace {
 
-// Four levels, no limits, no yaw rows, nothing that holds the pelvis.
+// The paper's table: four levels, no limits, no yaw rows, no orientation of the base.
 constexpr char kPaper[] = R"(
 torque_limits: off
 joint_limits: off
@@ -46,7 +46,7 @@ std::string NamesOf(const Task& task) {
   return names;
 }
 
-// Nothing, if the task, which is there, has none of this name.
+// Returns null if the task has no parameter of this name.
 const Parameter* FindParameter(const Stack& stack, const std::string& task,
                                const std::string& name) {
   for (const Parameter& each : stack.task(*stack.Find(task)).parameters()) {
@@ -115,9 +115,9 @@ void ApplyTask(const std::string& name, const YAML::Node& node,
   }
 }
 
-// The section of a file.
+// Loads the section `tasks` of a file.
 YAML::Node LoadTasks(const std::string& file) {
-  std::error_code too_long;  // No file has such a name.
+  std::error_code too_long;  // An invalid file name.
   if (!std::filesystem::exists(file, too_long)) {
     throw std::invalid_argument("task set " + Quoted(file) +
                                 ": is neither default, paper, nor a file");
@@ -138,14 +138,14 @@ void AddLink(const std::string& task, const Robot& robot,
   if (!IsFrame(task)) return;
   const std::string link = task.substr(kFrame.size());
   for (const Foot& foot : robot.feet) {
-    if (foot.name == link) return;  // Has its task.
+    if (foot.name == link) return;  // A foot has its own task.
   }
   if (!robot.model.tree.FindFrame(link)) return;
   if (std::find(links->begin(), links->end(), link) != links->end()) return;
   links->push_back(link);
 }
 
-// The shortest text that reads as the same number.
+// Returns the shortest text that reads as the same number.
 std::string Shortest(double value) {
   char text[32];
   const auto [end, error] = std::to_chars(text, text + sizeof(text), value);

@@ -6,8 +6,8 @@
 namespace poise {
 namespace {
 
-// Time constant of the mean, s: long against delays, short against the time
-// that a joint takes to its limit.
+// Time constant of the mean, s: longer than delays, shorter than the time in which a
+// joint reaches its limit.
 constexpr double kMemory = 0.02;
 
 constexpr double kLargest = 100;  // rad/s2, m/s2.

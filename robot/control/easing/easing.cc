@@ -107,13 +107,13 @@ void Easing::BeginInside(int rows, int equalities,
 void Easing::Ease(int rows, EqualityBlock* equalities) const noexcept {
   for (int i = 0; i < static_cast<int>(equalities->b.size()); ++i) {
     const double offset = ramp_[rows + i];
-    // A row that does not matter in this tick asks for nothing.
+    // An unused row of this tick has no offset.
     if (offset == 0 || equalities->B.row(i).isZero(0)) continue;
     equalities->b[i] -= offset;
   }
 }
 
-// An offset that comes back to zero with some speed goes past it a little.
+// An offset that reaches zero with some rate overshoots a little.
 void Easing::Ease(int rows, int equalities,
                   InequalityBlock* inequalities) const noexcept {
   const int size = static_cast<int>(inequalities->lower.size());

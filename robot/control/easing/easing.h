@@ -8,34 +8,31 @@
 
 namespace poise {
 
-/// Eases rows that were changed between two ticks into what they ask for. Each
-/// row has an offset,
+/// Ramps of rows that were changed between two ticks. Each row has an offset,
 ///     B y + b = offset,    lower - offset <= C y <= upper + offset,
-/// and so has y, which is its offset in what the rows leave free. A change adds as
-/// much to them as lets the last y be the optimum of the changed rows, too, and
-/// Ramp brings them to zero; so y, and the torques of it, go from the one
-/// hierarchy to the other without a jump, and every level is still strict. What
-/// else asks for something new, a push or a reference, is not held back: only
-/// what was changed is.
+/// and y has an offset in the nullspace of the rows. A change adds offsets with which
+/// the last y is an optimum of the changed rows, and Ramp brings the offsets to zero.
+/// So y and its torques change without a jump, and every level stays strict. Only
+/// changed rows are delayed; pushes and references act at once.
 ///
-/// Where limits of a level that was changed are violated, what else is asked for in
-/// that level may still jump: their slacks pull as before, but equalities are eased.
+/// If limits of a changed level are violated, other rows of that level may still
+/// jump: the slacks of the limits keep their pull, but equalities have offsets.
 ///
-/// (Intermediate desired values, as of Lee, Mansard and Park, 2012, but of the
-/// last solution instead of a second one.)
+/// Source: the intermediate desired values of Lee, Mansard and Park, 2012, applied
+/// to the last solution instead of a second one.
 class Easing {
  public:
   explicit Easing(int num_variables);
 
-  /// Makes room for the rows of a task and returns where it begins: at `rows`
-  /// below. Allocates.
+  /// Reserves rows for a task and returns their first index, `rows` below.
+  /// Allocates.
   int AddTask(int equalities, int inequalities);
 
   /// Sets the duration of a ramp, s. 0 switches ramps off and ends running ones.
   void set_duration(double seconds) noexcept;
 
-  /// A tick of dt has found y; Remember() follows, for each task that took part:
-  /// what is left of its equalities, and of its inequalities times a scale.
+  /// Stores y of a tick of length dt. Call Remember() afterwards for each active
+  /// task, with the residuals of its equalities and scaled inequalities.
   void Advance(double dt, const Eigen::VectorXd& y) noexcept;
   void Remember(int rows, const Eigen::Ref<const Eigen::VectorXd>& residual,
                 const Eigen::Ref<const Eigen::VectorXd>& slack,
@@ -44,36 +41,36 @@ class Easing {
   /// Ends all ramps. The next tick has no last y.
   void End() noexcept;
 
-  /// Whether there is a y to begin at, and time to ease.
+  /// Returns whether there is a last y and a positive duration.
   bool IsPossible() const { return dt_ > 0 && ramp_.duration() > 0; }
   bool is_on() const { return ramp_.is_on(); }
-  /// Whether y is held in what the rows leave free.
+  /// Returns whether y has an offset in the nullspace of the rows.
   bool holds() const { return is_on() && holds_; }
 
-  /// These five add offsets after a change; `rows` is where a task begins, as
-  /// AddTask() said, and `now` its rows as they are after the change.
+  /// The next five functions add offsets after a change. `rows` is the result of
+  /// AddTask() for the task, and `now` has its rows after the change.
   ///
-  /// For equalities that were not there in the last tick: the last y meets them.
+  /// For new equalities: the last y meets them with the offset.
   void BeginAtLast(int rows, const EqualityBlock& now) noexcept;
-  /// For equalities that were `before`, of a task that weighed weight_ratio times
-  /// as much: they draw at the last y as they did.
+  /// For equalities that had the values `before` and weight_ratio times the present
+  /// weight: they keep their pull on the last y.
   void BeginAsBefore(int rows, const EqualityBlock& now,
                      const EqualityBlock& before, double weight_ratio) noexcept;
-  /// For equalities that the last y missed, where what kept it from them may be
-  /// gone: their offsets grow by what it missed, and so it meets them.
+  /// For equalities with a residual at the last y, after a change of rows above them:
+  /// their offsets grow by the residual, so that the last y meets them.
   void KeepResiduals(int rows, int equalities) noexcept;
-  /// For what the rows leave free, where rows that determined it may be gone: y
-  /// is held where it was.
+  /// For the nullspace of the rows, after rows were removed: y keeps its last value
+  /// there.
   void KeepFree() noexcept;
-  /// For inequalities: the last y violates them by no more than it did.
+  /// For inequalities: the last y does not violate them more than before.
   void BeginInside(int rows, int equalities,
                    const InequalityBlock& now) noexcept;
 
-  /// Moves right sides by their offsets. Do not allocate.
+  /// Adds the offsets to right sides and bounds. Does not allocate.
   void Ease(int rows, EqualityBlock* equalities) const noexcept;
   void Ease(int rows, int equalities,
             InequalityBlock* inequalities) const noexcept;
-  /// Writes the rows y = offset, of a level below all others.
+  /// Writes the rows y = offset of the last level.
   void Hold(EqualityBlock* equalities) const noexcept;
 
  private:

@@ -3,8 +3,8 @@
 
 namespace poise {
 
-/// From 0 to 1 for t from 0 to 1, at rest at both ends, with the least integral of
-/// its squared jerk:
+/// The curve from 0 to 1 for t from 0 to 1 that is at rest at both ends and has the
+/// smallest integral of squared jerk:
 ///     s = 10 t³ - 15 t⁴ + 6 t⁵,
 /// its rate s' = 30 t² (1 - t)² and its acceleration s'' = 60 t (1 - t) (1 - 2 t).
 struct MinimumJerk {

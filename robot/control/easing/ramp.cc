@@ -25,7 +25,7 @@ void Ramp::Advance(double dt) noexcept {
   if (!is_on()) return;
   const double T = left_;
   const double s = dt / T;
-  // Rounding: what is left after the last tick is none.
+  // After the last tick the remainder is rounding.
   if (s > 1 - 1e-6) {
     Clear();
     return;
@@ -35,7 +35,7 @@ void Ramp::Advance(double dt) noexcept {
   coefficients << 1, 0, 0,       //
       3, T, 0,                   //
       6, 3 * T, T * T / 2;
-  // The value, the rate and the acceleration at s.
+  // Value, rate and acceleration at s.
   Eigen::Matrix3d at;
   at << r * r * r, r * r * r * s, r * r * r * s * s,  //
       -3 * r * r / T, r * r * (r - 3 * s) / T,        //

@@ -5,22 +5,22 @@
 
 namespace poise {
 
-/// Numbers that go to zero together, whatever is added on the way: each along
-/// the curve of minimum jerk that leads from its value, rate and acceleration to
-/// rest at zero in the time that is left; from rest, that of MinimumJerk. That is
-/// the whole duration again whenever something is added. So what is added once is
-/// gone after the duration, and what is added in every tick is filtered: it goes
-/// with s^3 + 9/T s^2 + 36/T^2 s + 60/T^3, stable.
+/// Numbers that decay to zero together. Each follows the minimum-jerk curve from its
+/// value, rate and acceleration to rest at zero within the remaining time; from rest
+/// this is MinimumJerk. Adding to the numbers restarts the remaining time. So a
+/// single addition is gone after the duration T. Additions in every tick are
+/// filtered, with the stable characteristic polynomial
+/// s^3 + 9/T s^2 + 36/T^2 s + 60/T^3.
 class Ramp {
  public:
-  /// So many numbers, all zero. Allocates.
+  /// Sets the number of values, all zero. Allocates.
   void Resize(int size);
 
   /// Sets the duration of a ramp, s. With 0, offsets are dropped.
   void set_duration(double seconds) { duration_ = seconds; }
   double duration() const { return duration_; }
 
-  /// A time dt has passed, s.
+  /// Advances by the time dt, s.
   void Advance(double dt) noexcept;
   void Add(int i, double jump) noexcept;
   void Clear() noexcept;
@@ -31,7 +31,7 @@ class Ramp {
  private:
   Eigen::Matrix3Xd x_;  // Values, rates and accelerations.
   double duration_ = 0;
-  double left_ = 0;  // Until all is zero, s.
+  double left_ = 0;  // Remaining time, s.
 };
 
 }  // namespace poise

@@ -38,7 +38,7 @@ void CapturePointTask::Write(const TaskInput& input, EqualityBlock*,
     const int axis = to == kFront || to == kBack ? 0 : 1;
     const int side = to == kFront || to == kLeft ? 1 : -1;
     const double reach = SupportReach(feet_, input.contacts, X_MidW, to);
-    if (reach < 0) continue;  // Nothing to stand on.
+    if (reach < 0) continue;  // No foot is in contact.
     const double bound = reach - margin_;
 
     const int row = 2 * axis + (side > 0 ? 0 : 1);

@@ -10,7 +10,7 @@ namespace poise {
 /// Brings the center of mass G to its reference, the linear half of
 /// MomentumTask:
 ///     (H_G v̇ + bias)_linear / m = kp (p_ref - p_G) + kd (v_ref - v_G) + a_ref
-/// and, as for MomentumTask, what Disturbance adds.
+/// plus the correction of Disturbance, as in MomentumTask.
 class ComTask final : public Task {
  public:
   /// Parameters: kp (30 1/s2), kd (10 1/s), ki and ki_height (15 and 60 1/s3),

@@ -12,10 +12,10 @@ namespace poise {
 ///                       + kp [ log(R_ref R_WF') ; p_ref - p_WF ].
 class FrameTask final : public Task {
  public:
-  /// Called "frame." and name: the link of Tick::frames[tick_frame], by
-  /// Reference::frames[index].
-  /// Parameters: kp (100 1/s2), kd (20 1/s); orientation, position (1): with 0
-  /// it is left free.
+  /// Makes the task "frame." + name for the link of Tick::frames[tick_frame] and the
+  /// reference Reference::frames[index].
+  /// Parameters: kp (100 1/s2), kd (20 1/s); orientation, position (1): 0
+  /// switches these rows off.
   FrameTask(const std::string& name, int tick_frame, int index);
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;

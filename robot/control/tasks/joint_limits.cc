@@ -42,12 +42,12 @@ void JointLimitsTask::Write(const TaskInput& input, EqualityBlock*,
     const double v = input.state.v[v_start_ + j];
     double lower = w * w * (lower_[j] + margin_ - q) - 2 * w * v;
     double upper = w * w * (upper_[j] - margin_ - q) - 2 * w * v;
-    // A range that is narrower than its margins: to its middle.
+    // A range that is narrower than its margins shrinks to its middle.
     if (lower > upper) lower = upper = (lower + upper) / 2;
     const double unmodelled_vdot = input.unmodelled_vdot[v_start_ + j];
     inequalities->C(j, v_start_ + j) = scale;
-    // Clamped, and not the larger and the smaller one: where the limits contradict
-    // each other, that of the position wins, on either side.
+    // Clamping, instead of max and min, lets the position limit win on either side
+    // if position and velocity limits contradict each other.
     inequalities->lower[j] =
         scale *
         (std::clamp(w * (-velocity_[j] - v), lower, upper) - unmodelled_vdot);

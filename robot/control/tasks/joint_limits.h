@@ -11,18 +11,17 @@ namespace poise {
 
 /// Keeps each joint inside its position limits, by bounds on its acceleration:
 ///     w² (lower - q) - 2 w q̇ <= q̈ <= w² (upper - q) - 2 w q̇,
-/// along which it comes to rest at the limit, critically damped; and inside its
-/// velocity limits, which are approached as exp(-w t):
+/// On the bound the joint comes to rest at the limit, critically damped. The joint
+/// approaches its velocity limits as exp(-w t):
 ///     w (-q̇_max - q̇) <= q̈ <= w (q̇_max - q̇).
-/// Where these contradict each other, far beyond a position limit or fast towards
-/// it, the position wins; a range narrower than its margins shrinks to its middle.
-/// A joint whose file has no velocity limit, as a finger that mimics another, is
-/// taken to have kAssumedVelocity: were its acceleration free, a few milligrams
-/// would buy the momentum that the feet cannot give with 1e6 rad/s². A joint
-/// without a motor, of effort 0, has no bound: nothing can hold it, and all that the
-/// robot has would be spent on trying.
-/// There q̈ is what the joint will do: v̇_j and TaskInput::unmodelled_vdot, or a push
-/// would press it w⁻² of that beyond where it comes to rest. Rows are divided by
+/// If the two contradict each other, far beyond a position limit or fast towards it,
+/// the position limit wins. A range narrower than its margins shrinks to its middle.
+/// A joint without velocity limit, such as a finger that mimics another, gets
+/// kAssumedVelocity; otherwise a few milligrams would be accelerated by 1e6 rad/s²
+/// to supply the momentum that the feet cannot. A joint without a motor (effort 0)
+/// has no bound, because no torque can hold it.
+/// q̈ is v̇_j plus TaskInput::unmodelled_vdot. Without the latter, a push would move
+/// the joint by w⁻² times that acceleration beyond the limit. Rows are divided by
 /// w² rad.
 class JointLimitsTask final : public Task {
  public:

@@ -6,7 +6,7 @@
 
 namespace poise {
 
-/// Brings the linear momentum to its reference, wherever the robot is:
+/// Brings the linear momentum to its reference, without position feedback:
 ///     (H_G v̇ + bias)_linear / m = kd (v_ref - v_G) + a_ref.
 class LinearMomentumTask final : public Task {
  public:

@@ -45,7 +45,7 @@ void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
   const Eigen::Matrix3d& R_WB = tick.X_WB[0].R;
   const Eigen::Vector3d e_W = LogSo3(reference.R_WB * R_WB.transpose());
 
-  // The height keeps its normal gains: it is stable by itself.
+  // The height keeps its normal gains, because it is not unstable.
   const double share = input.capture;
   const double plane_kp = BlendByCapture(gains_.kp, captured_.kp, share);
   const double plane_kd = BlendByCapture(gains_.kd, captured_.kd, share);

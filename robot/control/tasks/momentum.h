@@ -11,17 +11,17 @@
 
 namespace poise {
 
-/// Steers the momentum of the robot about its center of mass G, (20), with
+/// Controls the momentum of the robot about its center of mass G, (20), with
 /// feed-forward, over the mass m:
 ///     (H_G v̇ + bias) / m = [ (-kd_angular k + K e) / m ;
 ///                            kp (p_ref - p_G) + kd (v_ref - v_G) + a_ref ],
 /// where k is the angular momentum, and e the rotation from the base's
-/// orientation back to its reference: without it the pelvis drifts, as angular
-/// momentum is no derivative of an orientation.
+/// orientation back to its reference: without it the pelvis drifts,
+/// because angular momentum is not the derivative of an orientation.
 ///
-/// With TaskInput::capture, the blend that BalanceMonitor finds, the gains of the
-/// horizontal position rise, and the rows of angular momentum and height weigh
-/// less: the robot then turns its trunk and arms to stop a fall.
+/// With TaskInput::capture, the capture blend of BalanceMonitor, the gains of the
+/// horizontal position rise and the weights of angular momentum and height fall. The
+/// robot then rotates its trunk and arms to stop a fall.
 ///
 /// p_ref is the target of FindComTarget(): over the feet in contact.
 class MomentumTask final : public Task {

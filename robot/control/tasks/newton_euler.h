@@ -7,9 +7,9 @@
 
 namespace poise {
 
-/// The six rows of the dynamics that no motor acts on, (9):
+/// The six unactuated rows of the dynamics, (9):
 ///     M_l v̇ + N_l - J_{c,l}' lambda = 0,
-/// divided by a quarter of the robot's weight. It can always be met.
+/// divided by a quarter of the robot's weight. They can always be met.
 class NewtonEulerTask final : public Task {
  public:
   explicit NewtonEulerTask(const Tree& tree);

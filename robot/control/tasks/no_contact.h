@@ -8,9 +8,9 @@
 
 namespace poise {
 
-/// A foot in the air feels no force: lambda = 0, over a quarter of the robot's
-/// weight; no rows for a foot in contact. Belongs in the level of
-/// NewtonEulerTask, with which it can always be met.
+/// Sets the wrench of a foot in the air to zero: lambda = 0, divided by a quarter of
+/// the robot's weight. A foot in contact has no rows. The task belongs on the level
+/// of NewtonEulerTask; both together can always be met.
 class NoContactTask final : public Task {
  public:
   NoContactTask(const Tree& tree, const std::vector<Foot>& feet);

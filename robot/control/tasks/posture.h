@@ -6,7 +6,7 @@
 
 namespace poise {
 
-/// Brings each joint to its place in the reference posture, (21):
+/// Brings each joint to the reference posture, (21):
 ///     q̈ = kp (q_ref - q) - kd q̇.
 /// The row of joint j has the weight M_jj^e, with M_jj the inertia that the joint
 /// moves. If the rows conflict, arms yield before the trunk. The exponent e grows

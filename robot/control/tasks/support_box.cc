@@ -11,7 +11,7 @@ double SupportReach(const std::vector<Foot>& feet,
                     const Pose& X_MidW, SupportSide side) noexcept {
   const int axis = side == kFront || side == kBack ? 0 : 1;
   const int sign = side == kFront || side == kLeft ? 1 : -1;
-  // The farthest corner of a sole this way.
+  // Distance of the farthest corner of a sole.
   double reach = -1;
   for (int i = 0; i < static_cast<int>(feet.size()); ++i) {
     if (!contacts[i].in_contact) continue;

@@ -10,10 +10,10 @@ namespace poise {
 /// C's axes, R = R_CW:
 ///     J_WC_C v̇ + J̇ v = R A_ref + kd (R V_ref - V_WC_C)
 ///                       + kp R [ log(R_ref R_WC') ; p_ref - p_WC ].
-/// While the foot is in contact it has no rows.
+/// The task has no rows while the foot is in contact.
 class SwingTask final : public Task {
  public:
-  /// Called "frame." and the foot's name.
+  /// Makes the task "frame." + name of the foot.
   /// Parameters: kp (200 1/s2), kd (28 1/s).
   SwingTask(const Foot& foot, int index);
   bool HasRows(const TaskInput& input) const noexcept override;

@@ -14,8 +14,8 @@
 
 namespace poise {
 
-/// The humanoid in its nominal posture, but moving, all of it, and what a task
-/// makes of a tick there.
+/// Evaluates tasks in one tick of the humanoid. It is in its nominal posture, and
+/// base and all joints move.
 class TaskTest : public testing::Test {
  protected:
   TaskTest() {
@@ -37,7 +37,7 @@ class TaskTest : public testing::Test {
             controller_.reference(), unmodelled_vdot_};
   }
 
-  /// The rows of a task, read from a hierarchy of its own.
+  /// Returns the rows of a task, written into a hierarchy of its own.
   const Hierarchy& Write(const Task& task) {
     const int equalities = static_cast<int>(task.equality_names().size());
     const int inequalities = static_cast<int>(task.inequality_names().size());
@@ -54,7 +54,7 @@ class TaskTest : public testing::Test {
     return rows.B(0) * y + rows.b(0);
   }
 
-  /// The tick after the motion has gone on along v̇ for so long.
+  /// Returns the tick after the time t with the accelerations v̇ of y.
   Tick After(double t, const Eigen::VectorXd& y) {
     State state{1, robot_.q_nominal, state_.v + t * y.head(nv_)};
     Integrate(tree_, state_.q, state_.v, t, state.q);

@@ -11,18 +11,18 @@ namespace poise {
 
 /// Keeps each torque of (10) inside the effort limit of its joint:
 ///     -1 <= (M_u v̇ + N_u - J_{c,u}' lambda) / (scale tau_max) <= 1.
-/// A joint without a limit has no bound; one without a motor, of effort 0, is
+/// A joint without a limit has no bound. A joint without a motor (effort 0) is
 /// passive: tau = 0, in N m or N.
 class TorqueLimitsTask final : public Task {
  public:
-  /// Parameter: scale (1, and no more: no motor gives more), on all limits.
+  /// Parameter: scale (1, at most 1), a factor on all limits.
   explicit TorqueLimitsTask(const RobotModel& model);
   bool is_two_sided() const noexcept override { return true; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 
  private:
-  Eigen::VectorXd inverse_effort_;  // 0 without a limit, or a motor.
+  Eigen::VectorXd inverse_effort_;  // 0 without a limit or a motor.
   std::vector<bool> is_passive_;
   double scale_ = 1;
 };

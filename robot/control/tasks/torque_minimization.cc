@@ -8,7 +8,7 @@
 namespace poise {
 namespace {
 
-// For a joint without a limit: that of a humanoid's knee, roughly.
+// For a joint without a limit: about that of a humanoid's knee.
 constexpr double kTypicalEffort = 100;
 
 }  // namespace

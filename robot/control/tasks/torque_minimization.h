@@ -8,7 +8,7 @@
 
 namespace poise {
 
-/// Makes the torques of (10) small, each by its effort limit:
+/// Minimizes the torques of (10), each divided by its effort limit:
 ///     (M_u v̇ + N_u - J_{c,u}' lambda) / tau_max = 0.
 class TorqueMinimizationTask final : public Task {
  public:

@@ -8,7 +8,7 @@
 
 namespace poise {
 
-/// The ground pushes and never pulls: 0 <= f_z <= ContactTick::max_normal_force
+/// Keeps the normal force of the ground from pulling: 0 <= f_z <= ContactTick::max_normal_force
 /// for each foot, over a quarter of the robot's weight.
 class UnilateralTask final : public Task {
  public:

@@ -9,11 +9,11 @@
 
 namespace poise {
 
-/// Keeps the center of pressure of all feet together inside a box in the
-/// mid-feet frame (12): its origin amid the feet in contact, z up, x along
-/// their mean heading. With [m; f] the sum of their wrenches about that origin,
+/// Keeps the combined center of pressure of all feet inside a box in the mid-feet
+/// frame, (12). With [m; f] the sum of the foot wrenches about the origin of that
+/// frame,
 ///     CoP = (-m_y, m_x) / f_z,   |CoP_x| <= dx,  |CoP_y| <= dy,
-/// times f_z, over a quarter of the robot's weight.
+/// multiplied by f_z and divided by a quarter of the robot's weight.
 class ZmpTask final : public Task {
  public:
   /// Parameters: dx (half a sole's length), dy (0.1), m.
