@@ -145,8 +145,9 @@ std::filesystem::path FindScenario(const std::string& name) {
 // Reads the command line. Throws as ParseCommandLine() does.
 Files ParseOptions(int argc, char** argv, Overrides* overrides) {
   Files files;
-  CLI::App app("Pushes a humanoid in a simulation and reports whether it recovers.",
-               "push");
+  CLI::App app(
+      "Pushes a humanoid in a simulation and reports whether it recovers.",
+      "push");
   app.footer("Scenarios: " + ScenarioNames() +
              ".\nTasks: see docs/tasks.md. Exit code 0: the robot recovered; "
              "1: it did not recover; 2: bad input.");
