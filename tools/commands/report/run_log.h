@@ -10,8 +10,8 @@ namespace poise {
 /// Reads the part of a run's log that a page shows, with fewer rows so that the
 /// page stays small. Returns:
 ///
-///     rows     number of rows of the log.
-///     motion   {rows, time, channels}: base, joints, CoM and foot wrenches, for
+///     rows     number of rows of the log. motion   {rows, time, channels}:
+///     base, joints, CoM and foot wrenches, for
 ///              the replay. One row of a constant number of rows is kept.
 ///     signals  {rows, time, channels}, for the plots, with
 ///              com_error = com - com_ref.

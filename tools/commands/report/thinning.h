@@ -16,7 +16,7 @@ class ThinnedTable {
   };
   enum class Keep {
     kEvery,     ///< Keeps the first of every `stride` rows.
-    kExtremes,  ///< Of 2 `stride` rows, keeps minimum and maximum in order.
+    kExtremes,  ///< Keeps minimum and maximum of 2 `stride` rows in order.
   };
 
   ThinnedTable(std::vector<Column> columns, Keep keep, long stride);
