@@ -11,7 +11,7 @@ namespace poise {
 nlohmann::json ParseJson(std::string_view text) {
   constexpr int kDeepest = 100;
   using Event = nlohmann::json::parse_event_t;
-  std::vector<std::set<std::string>> keys;  // Of each open object.
+  std::vector<std::set<std::string>> keys;  // Keys of each open object.
   const auto keep = [&keys](int depth, Event event, nlohmann::json& parsed) {
     if (depth > kDeepest) {
       throw std::invalid_argument("is nested more than 100 levels deep");

@@ -45,7 +45,7 @@ namespace poise {
 ///                of cause.
 ///
 /// Throws std::invalid_argument with the name of the file if there is no log,
-/// or if the log lacks the columns of the controller.
+/// or if the log does not have the columns of the controller.
 nlohmann::json Explain(const std::filesystem::path& run);
 
 }  // namespace poise

@@ -11,8 +11,8 @@
 namespace poise {
 
 /// Collects the phases of a foot in a run, and the times at which the foot
-/// first rolled or slid while it should have been in contact. If the log lacks
-/// the columns, there are no phases and no times.
+/// first rolled or slid while it should have been in contact. If the log does
+/// not have the columns, there are no phases and no times.
 class FootStory {
  public:
   struct Phase {

@@ -73,7 +73,7 @@ class MomentumCost {
   void Begin(double time);
 
   std::map<std::string, Charge> charges_;  // The key is a phrase.
-  std::set<std::string> conflicting_;      // Of this episode.
+  std::set<std::string> conflicting_;      // Rows of this episode.
   double load_sum_ = 0;
   int loads_ = 0;
   double from_ = 0, peak_ = 0, at_ = 0, cost_ = 0, last_ = 0, lost_at_ = 0;

@@ -62,7 +62,7 @@ struct LoggedConflict {
 /// The contents of a log as spans.
 struct RunStory {
   Spans rows;  ///< Active rows by name, with their multipliers.
-  Spans said;  ///< The same by phrase. Several rows may share a phrase, such as
+  Spans said;  ///< Active rows by phrase. Several rows may share a phrase, as
                ///< the four rows of a friction pyramid.
   std::set<std::string> constraints;  ///< Rows that were active, by name.
   Spans losses;     ///< Residuals of task rows, with the active rows.
@@ -76,8 +76,8 @@ struct RunStory {
 };
 
 /// Reads all rows of a log. Throws std::invalid_argument with the name of the
-/// file if the log lacks the columns of the controller. Also throws, with the
-/// row, if a text is not UTF-8.
+/// file if the log does not have the columns of the controller. Also throws,
+/// with the row, if a text is not UTF-8.
 ///
 /// @param fell_at  time at which the robot fell, s; infinite if it did not
 /// fall.

@@ -39,7 +39,7 @@ class HqpSequence {
 
   const HqpMethod method_;
   const std::vector<LevelCapacity> room_;
-  std::unique_ptr<Solver> solver_;  // Of the previous problem, if any.
+  std::unique_ptr<Solver> solver_;  // Solver of the previous problem, if any.
   int num_variables_ = 0;
 };
 

@@ -19,7 +19,7 @@ std::filesystem::path DumpSolve(const Experiment& experiment, double time,
   std::snprintf(name, sizeof name, "solve_%.3f.json", time);
   if (!(time >= 0 && time < scenario.duration)) {
     throw std::invalid_argument("the solve at " + std::to_string(time) +
-                                " s is not in the scenario, which takes " +
+                                " s is outside the scenario, which ends at " +
                                 std::to_string(scenario.duration) + " s");
   }
   ClosedLoop loop(robot, scenario);

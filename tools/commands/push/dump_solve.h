@@ -8,11 +8,12 @@
 namespace poise {
 
 /// Writes the hierarchy that the controller solves at a time of a scenario, s,
-/// for `//tools:hqp` to replay: solve_TIME.json, in the format hqp-1. To that
-/// end it runs the scenario again up to there, which is the same to the bit.
+/// to FOLDER/solve_TIME.json in the format hqp-1. `//tools:hqp` can replay the
+/// file. The function runs the scenario again up to this time. The run is the
+/// same to the bit, so the hierarchy is exactly that of the original run.
 ///
-/// Returns the file. Throws std::invalid_argument if the time is not in the
-/// scenario, as ClosedLoop does, or if the file cannot be written.
+/// Returns the name of the file. Throws std::invalid_argument if the time is
+/// not in the scenario, if the file cannot be written, or as ClosedLoop does.
 std::filesystem::path DumpSolve(const Experiment& experiment, double time,
                                 const std::filesystem::path& folder);
 

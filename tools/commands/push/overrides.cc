@@ -18,13 +18,14 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// CLI11 reads "nan" and "inf" as numbers.
+// Rejects NaN and infinity, which CLI11 accepts as numbers.
 std::string RefuseInfinite(std::string& text) {
   const double value = std::strtod(text.c_str(), nullptr);
   return std::isfinite(value) ? "" : "is " + text + ", must be finite";
 }
 
-// CLI11 calls a number that is too large none.
+// Rejects an invalid seed with its range. The message of CLI11 about a number
+// that is too large says that it is not a number.
 std::string RefuseNoSeed(std::string& text) {
   unsigned seed = 0;
   const char* text_end = text.data() + text.size();
@@ -43,7 +44,8 @@ void TakeRate(const std::optional<double>& rate, double* dt) {
   if (rate) *dt = 1 / *rate;
 }
 
-// The first push of the scenario, or a new one, as the options want it.
+// Writes the options about a push into the first push of the scenario, or into
+// a new push.
 void TakePush(const Overrides& o, Scenario* scenario) {
   if (o.pushes) scenario->pushes = LoadPushes(UserPath(*o.pushes));
   if (!o.force && !o.direction && !o.duration && !o.at && !o.link &&
@@ -77,23 +79,30 @@ void TakePush(const Overrides& o, Scenario* scenario) {
 
 void AddOptions(CLI::App* app, Overrides* o) {
   const CLI::Validator finite(RefuseInfinite, "", "finite");
-  app->add_option("--force", o->force, "of the push, N (the scenario's)")
+  app->add_option("--force", o->force,
+                  "force of the push, N (from the scenario)")
       ->check(finite);
-  app->add_option("--direction", o->direction,
-                  "deg: 0 is +x, forward; 90 is +y, left (the scenario's)")
+  app->add_option(
+         "--direction", o->direction,
+         "direction of the push, deg: 0 is +x, forward; 90 is +y, left "
+         "(from the scenario)")
       ->check(finite);
-  app->add_option("--duration", o->duration, "of the push, s (the scenario's)")
+  app->add_option("--duration", o->duration,
+                  "duration of the push, s (from the scenario)")
       ->check(finite);
-  app->add_option("--at", o->at, "when the push begins, s (the scenario's)")
+  app->add_option("--at", o->at,
+                  "time at which the push begins, s (from the scenario)")
       ->check(finite);
   app->add_option("--link", o->link,
-                  "where it acts, at the center of mass (the torso)");
-  app->add_option("--point", o->point, "where on the link, X,Y,Z in m")
+                  "pushed link; the force acts at its center of mass (torso)");
+  app->add_option("--point", o->point,
+                  "point of the force in the link's frame, X,Y,Z in m")
       ->delimiter(',')
       ->expected(3)
       ->check(finite);
-  app->add_option("--pushes", o->pushes, "a YAML file of pushes, instead");
-  app->add_option("--time", o->time, "to simulate, s")->check(finite);
+  app->add_option("--pushes", o->pushes,
+                  "YAML file of pushes, which replace those of the scenario");
+  app->add_option("--time", o->time, "time to simulate, s")->check(finite);
   app->add_option("--tasks", o->tasks, "task set: a name or a YAML file");
   app->add_option("--with", o->with, "tasks to switch on")->delimiter(',');
   app->add_option("--without", o->without, "tasks to switch off")
@@ -104,39 +113,46 @@ void AddOptions(CLI::App* app, Overrides* o) {
                   "shape of the controller's friction pyramid (circumscribed); "
                   "inscribed divides its mu by sqrt(2)")
       ->check(CLI::IsMember({"circumscribed", "inscribed"}));
-  app->add_flag("--feedforward", o->feedforward, "of the reference's motion");
-  app->add_option("--control-rate", o->control_rate, "Hz (1000)")
+  app->add_flag("--feedforward", o->feedforward,
+                "use velocity and acceleration of the reference");
+  app->add_option("--control-rate", o->control_rate,
+                  "rate of the controller, Hz (1000)")
       ->check(finite);
-  app->add_option("--plant", o->plant,
-                  "the simulator (" + PlantNames()[0] + ")")
+  app->add_option("--plant", o->plant, "simulator (" + PlantNames()[0] + ")")
       ->check(CLI::IsMember(PlantNames()));
-  app->add_option("--plant-rate", o->plant_rate, "Hz (1000)")->check(finite);
-  app->add_flag("--estimator", o->estimator,
-                "the base from sensors, not from the simulator");
-  app->add_option("--mu-plant", o->mu_plant, "friction of the ground (0.8)")
+  app->add_option("--plant-rate", o->plant_rate,
+                  "rate of the simulator, Hz (1000)")
+      ->check(finite);
+  app->add_flag(
+      "--estimator", o->estimator,
+      "estimate the base from sensors, instead of from the simulator");
+  app->add_option("--mu-plant", o->mu_plant,
+                  "friction coefficient of the ground (0.8)")
       ->check(finite);
   app->add_option("--mass-error", o->mass_error,
-                  "of all links in the controller's model, a fraction")
+                  "relative error of all masses in the controller's model")
       ->check(finite);
   app->add_option("--torque-scale", o->torque_scale,
-                  "on the limits, on both sides")
+                  "factor on the torque limits of controller and motors")
       ->check(finite);
-  app->add_option("--noise", o->noise,
-                  "1 is 2 mrad and 0.1 rad/s a joint, 4 mrad and 0.02 rad/s "
-                  "on the base")
+  app->add_option(
+         "--noise", o->noise,
+         "scale of the sensor noise; 1 is 2 mrad and 0.1 rad/s on each "
+         "joint, 4 mrad and 0.02 rad/s on the base")
       ->check(finite);
-  app->add_option("--delay", o->delay, "from measurement to torque, s")
+  app->add_option("--delay", o->delay, "delay from measurement to torque, s")
       ->check(finite);
   app->add_option(
          "--ramp", o->ramp,
-         "time in which a change of tasks takes effect, s (0: at once)")
+         "time over which a change of tasks takes effect, s (0: at once)")
       ->check(finite);
   app->add_option("--freeze", o->freeze,
-                  "AT,FOR in s: sensors that repeat their last word")
+                  "AT,FOR in s: from AT on, sensors repeat their last reading")
       ->delimiter(',')
       ->expected(2)
       ->check(finite);
-  app->add_option("--seed", o->seed, "of all that is random (the scenario's)")
+  app->add_option("--seed", o->seed,
+                  "seed of all random numbers (from the scenario)")
       ->check(CLI::Validator(RefuseNoSeed, "", "seed"));
 }
 

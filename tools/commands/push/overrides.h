@@ -22,12 +22,13 @@ struct Overrides {
   std::optional<unsigned> seed;
 };
 
-/// Adds the options to an application, which writes them to *overrides.
+/// Adds the options to an application, which writes their values to *overrides.
 void AddOptions(CLI::App* app, Overrides* overrides);
 
-/// Writes the options that were given to a scenario. The options of a push
-/// change the first push, or add one. Throws std::invalid_argument about a file
-/// of pushes, and InputError about a direction.
+/// Writes the given options into a scenario. The options about a push change
+/// the first push of the scenario, or add a push if there is none. Throws
+/// std::invalid_argument if the file of pushes is invalid, and InputError if
+/// the direction is out of range.
 void Apply(const Overrides& overrides, Scenario* scenario);
 
 }  // namespace poise

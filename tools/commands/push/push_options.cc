@@ -41,9 +41,10 @@ struct Files {
   bool no_report = false, json = false;
 };
 
-// The files of an experiment, and how much of the scenario is from its own.
+// The files of an experiment, and the sizes of the scenario's lists before
+// options are applied.
 struct Sources {
-  std::string robot, scenario, pushes;  // Names of files, or empty.
+  std::string robot, scenario, pushes;  // File names, or empty.
   std::size_t num_pushes = 0, num_with = 0, num_without = 0;
 };
 
@@ -76,7 +77,7 @@ std::string OptionOf(const std::string& field, const Overrides& o,
   for (const auto& [is_given, setting, option] : options) {
     if (is_given && field == setting) return option;
   }
-  // The options' tasks come after those of the scenario's file.
+  // Tasks from options follow the tasks from the scenario file.
   for (std::size_t i = 0; i < o.with.size(); ++i) {
     if (field == Entry("tasks.with", sources.num_with + i)) return "--with";
   }
@@ -96,7 +97,8 @@ std::string FileOf(const std::string& field, const Sources& sources) {
   return sources.num_pushes > 0 ? sources.scenario : "";
 }
 
-// Returns the message of an error, with the option or the file that is to blame.
+// Returns the message of an error, with the option or the file that has the
+// invalid value.
 std::string Blame(const InputError& error, const Overrides& o,
                   const Sources& sources) {
   bool is_by_option = false;
@@ -111,7 +113,7 @@ std::string Blame(const InputError& error, const Overrides& o,
   return (is_by_option || file.empty() ? "" : file + ": ") + error.Say(name);
 }
 
-// The names of our scenarios, in alphabetical order.
+// Returns the names of Poise's scenarios in alphabetical order.
 std::string ScenarioNames() {
   std::set<std::string> names;
   for (const auto& file : std::filesystem::directory_iterator(kScenarios)) {
@@ -124,9 +126,10 @@ std::string ScenarioNames() {
   return text;
 }
 
-// The file of a scenario of ours by name, else one of the user's.
+// Returns the file of a scenario of Poise with this name, or else the user's
+// file with this name. Throws std::invalid_argument if neither exists.
 std::filesystem::path FindScenario(const std::string& name) {
-  std::error_code too_long;  // No file has such a name.
+  std::error_code too_long;  // Too long for the name of a file.
   if (name.find('/') == std::string::npos) {
     const std::filesystem::path ours =
         std::filesystem::path(kScenarios) / (name + ".yaml");
@@ -139,36 +142,44 @@ std::filesystem::path FindScenario(const std::string& name) {
                               ScenarioNames());
 }
 
-// Reads the command line, or ends the program as ParseCommandLine() does.
+// Reads the command line. Throws as ParseCommandLine() does.
 Files ParseOptions(int argc, char** argv, Overrides* overrides) {
   Files files;
-  CLI::App app("Pushes a humanoid in a simulation: does it recover?", "push");
+  CLI::App app(
+      "Pushes a humanoid in a simulation and reports whether it recovers.",
+      "push");
   app.footer("Scenarios: " + ScenarioNames() +
-             ".\nTasks: docs/tasks.md. Exit code 0: it recovered; 1: it did "
-             "not; 2: bad input.");
-  app.add_option("--scenario", files.scenario, "a name or a YAML file")
+             ".\nTasks: see docs/tasks.md. Exit code 0: the robot recovered; "
+             "1: it did not recover; 2: bad input.");
+  app.add_option("--scenario", files.scenario,
+                 "name of a scenario, or a YAML file")
       ->capture_default_str();
-  app.add_option("--robot", files.robot, "a URDF file (our humanoid)");
-  app.add_option("--profile", files.profile, "feet, posture, tasks of a robot");
+  app.add_option("--robot", files.robot,
+                 "URDF file of the robot (Poise's humanoid)");
+  app.add_option("--profile", files.profile,
+                 "YAML file with feet, posture and tasks of the robot");
   app.add_option("--save-profile", files.save_profile,
-                 "write the profile that is used, found posture and all");
+                 "write the profile in use to this file, with the feet and "
+                 "posture that Poise found");
   AddOptions(&app, overrides);
   app.add_option("--out", files.out,
                  "folder to write into (push-out/SCENARIO)");
-  app.add_option("--log", files.log, "log.csv, or log.bin, for long runs")
+  app.add_option("--log", files.log,
+                 "csv writes log.csv; binary writes log.bin, for long runs")
       ->check(CLI::IsMember({"csv", "binary"}))
       ->capture_default_str();
-  app.add_option(
-         "--dump-solve", files.dump_solve,
-         "write the hierarchy solved at this time, s, for hqp to replay")
+  app.add_option("--dump-solve", files.dump_solve,
+                 "write the hierarchy solved at this time, s, so that hqp can "
+                 "replay it")
       ->check(CLI::NonNegativeNumber);
-  app.add_flag("--no-report", files.no_report, "write no report.html");
-  app.add_flag("--json", files.json, "print summary.json");
+  app.add_flag("--no-report", files.no_report, "do not write report.html");
+  app.add_flag("--json", files.json, "print summary.json on stdout");
   ParseCommandLine(argc, argv, &app);
   return files;
 }
 
-// Loads the profile that the options name. Only our own robot has one by default.
+// Loads the profile that the options name. Only Poise's humanoid has a default
+// profile.
 Profile ChooseProfile(const Files& files) {
   if (!files.profile.empty()) return LoadProfile(UserPath(files.profile));
   if (files.robot.empty()) return LoadProfile(kProfile);
@@ -178,7 +189,8 @@ Profile ChooseProfile(const Files& files) {
 // Writes the profile that the run uses, with its locked joints and its tasks.
 void SaveFullProfile(const Robot& standing, const UrdfDocument& urdf,
                      Profile profile, const std::string& name) {
-  // Mimics are fixed by where their sources were before it stood up.
+  // The angles of mimic joints depend on their source joints before the robot
+  // stands up, so they come from a new model.
   profile.locked = LockedJoints(urdf.MakeModel(), profile);
   if (!profile.tasks.IsDefined()) {
     profile.tasks = DescribeTasks(MakeDefaultStack(standing, {}));
@@ -190,9 +202,10 @@ void SaveFullProfile(const Robot& standing, const UrdfDocument& urdf,
 
 PushOptions ReadPushOptions(int argc, char** argv) {
   if (!std::filesystem::is_directory(kScenarios)) {
-    throw std::invalid_argument(std::string(kScenarios) +
-                                " is not here: start by `bazel run`, or in the "
-                                "folder of the sources");
+    throw std::invalid_argument(
+        std::string(kScenarios) +
+        " is missing: start the command by `bazel run`, "
+        "or in the folder of the sources");
   }
   Overrides overrides;
   const Files files = ParseOptions(argc, argv, &overrides);
@@ -212,7 +225,8 @@ PushOptions ReadPushOptions(int argc, char** argv) {
   try {
     Apply(overrides, &scenario);
     const Profile profile = ChooseProfile(files);
-    // --tasks default asks for the default tasks, not for the robot's own.
+    // `--tasks default` selects the default tasks even if the profile has
+    // tasks.
     if (!overrides.tasks) UseTasksOf(profile, &scenario);
     const UrdfDocument urdf(robot_file, &findings);
     const Robot robot = MakeStandingRobot(urdf, profile, &findings);

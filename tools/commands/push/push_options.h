@@ -13,21 +13,23 @@
 
 namespace poise {
 
-/// What `push` was told.
+/// The options of `push`, with the robot and the scenario that they select.
 struct PushOptions {
-  std::unique_ptr<ClosedLoop> loop;  ///< At its start.
+  std::unique_ptr<ClosedLoop> loop;  ///< Before its first tick.
   std::filesystem::path robot_file;
   std::filesystem::path out;
   LogFormat log = LogFormat::kCsv;
-  std::optional<double> dump_solve;  ///< When to dump a hierarchy, s.
+  std::optional<double> dump_solve;  ///< Time of the hierarchy to dump, s.
   bool report = true;
   bool json = false;
-  std::vector<Finding> findings;  ///< About the robot's file.
+  std::vector<Finding> findings;  ///< Findings about the robot file.
 };
 
 /// Reads the command line of `push`, the robot and the scenario.
 ///
-/// Throws as ParseCommandLine(), and std::invalid_argument about what it names.
+/// Throws as ParseCommandLine() does. Throws std::invalid_argument if an
+/// option, the robot, its profile or the scenario is invalid; the message names
+/// the option or the file.
 PushOptions ReadPushOptions(int argc, char** argv);
 
 }  // namespace poise

@@ -24,7 +24,7 @@ TEST(PushOptions, RampIsTheScenarioSetting) {
   EXPECT_EQ(Read({"--ramp", "0.3"}).loop->scenario().control.ramp, 0.3);
 }
 
-// Returns the message with which the options are refused.
+// Returns the message with which the options are rejected, or an empty string.
 std::string Refusal(const std::vector<std::string>& words) {
   try {
     (void)Read(words);
@@ -34,7 +34,7 @@ std::string Refusal(const std::vector<std::string>& words) {
   return "";
 }
 
-TEST(PushOptions, RefusesAValueByTheNameOfItsOption) {
+TEST(PushOptions, NamesTheOptionOfAnInvalidValue) {
   EXPECT_EQ(Refusal({"--ramp", "-1"}), "--ramp is -1, must be 0 to 100 s");
   EXPECT_EQ(Refusal({"--plant-rate", "300"}),
             "control.rate is 1000, must be a whole part of --plant-rate, which "
@@ -43,7 +43,7 @@ TEST(PushOptions, RefusesAValueByTheNameOfItsOption) {
             "link 'nose' is unknown, must be a link of robot 'humanoid'");
 }
 
-TEST(PushOptions, RefusesAValueByTheNameOfItsFile) {
+TEST(PushOptions, NamesTheFileOfAnInvalidValue) {
   const std::string pushes =
       TestFile("pushes.yaml", "pushes: [{force: [1, 0, 0]}, {link: nose}]\n")
           .string();
@@ -58,8 +58,9 @@ TEST(PushOptions, RefusesAValueByTheNameOfItsFile) {
                 "which is 1000");
 }
 
-// Both lists end with the options' tasks; only those are the options' fault.
-TEST(PushOptions, TellsTasksOfTheFileFromTasksOfTheOptions) {
+// Tasks from options follow tasks from the file. The message names the file
+// only for a task from the file.
+TEST(PushOptions, DistinguishesTasksOfFileAndOptions) {
   const std::string scenario =
       TestFile("tasks.yaml", "tasks: {with: [frame.nose]}\n").string();
   const std::string unknown =
@@ -69,14 +70,14 @@ TEST(PushOptions, TellsTasksOfTheFileFromTasksOfTheOptions) {
   EXPECT_EQ(Refusal({"--with", "frame.nose"}), unknown);
 }
 
-// A value that an option replaces need not be valid.
-TEST(PushOptions, ValidatesWhatIsRun) {
+// A value in the file may be invalid if an option replaces it.
+TEST(PushOptions, ValidatesOnlyTheFinalSettings) {
   const std::string scenario =
       TestFile("slow.yaml", "control: {rate: 300}\n").string();
   EXPECT_EQ(Refusal({"--scenario", scenario, "--control-rate", "500"}), "");
 }
 
-TEST(PushOptions, FrictionPyramidHasTheOldNameAsAnAlias) {
+TEST(PushOptions, FrictionIsAnAliasOfFrictionPyramid) {
   EXPECT_FALSE(Read({}).loop->scenario().control.inscribed);
   for (const char* name : {"--friction-pyramid", "--friction"}) {
     SCOPED_TRACE(name);

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Usage: push_test.sh PUSH EXPLAIN HQP
-# What a run leaves when it is stopped, and that its two logs say the same.
+# Tests the files of an interrupted run, that both log formats have the same
+# contents, and the messages about bad input.
 set -euo pipefail
 push=$1 explain=$2 hqp=$3
 
@@ -9,8 +10,8 @@ fail() {
   exit 1
 }
 
-# Starts a run of an hour, waits for a tenth of a second of it in FOLDER, and
-# sends SIGNAL. Sets $code to how it ended.
+# Usage: stop FOLDER SIGNAL: starts a run of an hour, waits until the log in FOLDER
+# has a tenth of a second, and sends SIGNAL. Sets $code to the exit code.
 stop() {
   local folder=$1 signal=$2 child
   "$push" --scenario stand --time 3600 --no-report --out "$folder" > "$folder.out" &
@@ -25,28 +26,28 @@ stop() {
 }
 
 is_whole() {
-  [ "$(tail -c 1 "$1/log.csv")" = "" ] || fail "$1: the last line is cut"
+  [ "$(tail -c 1 "$1/log.csv")" = "" ] || fail "$1: the last line of log.csv is incomplete"
   [ "$(awk -F, '{ print NF }' "$1/log.csv" | sort -u | wc -l)" = 1 ] ||
-    fail "$1: not all rows are as long as the header"
+    fail "$1: not all rows of log.csv have as many cells as the header"
 }
 
 interrupted=$TEST_TMPDIR/interrupted
 stop "$interrupted" INT
-[ "$code" = 1 ] || fail "exit code $code after SIGINT, wanted 1"
+[ "$code" = 1 ] || fail "after SIGINT: exit code is $code, must be 1"
 is_whole "$interrupted"
 grep -q '"interrupted": true' "$interrupted/summary.json" ||
   fail "summary.json does not say that the run was interrupted"
 grep -q '"recovered": null' "$interrupted/summary.json" ||
-  fail "summary.json judges a run that was interrupted"
+  fail "summary.json has an outcome for a run that was interrupted"
 "$explain" "$interrupted" | grep -q 'The run was interrupted at ' ||
   fail "explain does not say that the run was interrupted"
 
 killed=$TEST_TMPDIR/killed
 stop "$killed" KILL
-[ "$code" = 137 ] || fail "exit code $code after SIGKILL, wanted 137"
+[ "$code" = 137 ] || fail "after SIGKILL: exit code is $code, must be 137"
 is_whole "$killed"
 "$explain" "$killed" | grep -q 'The end of the run is not recorded.' ||
-  fail "explain does not read what a kill left"
+  fail "explain cannot read the files of a run that was killed"
 
 run=(--scenario strong_push --time 1.3 --no-report)
 "$push" "${run[@]}" --out "$TEST_TMPDIR/csv" > /dev/null || [ $? = 1 ]
@@ -54,23 +55,24 @@ run=(--scenario strong_push --time 1.3 --no-report)
 text=$(stat -c %s "$TEST_TMPDIR/csv/log.csv")
 binary=$(stat -c %s "$TEST_TMPDIR/binary/log.bin")
 echo "1.3 s: log.csv has $text bytes, log.bin $binary"
-[ $((3 * binary)) -lt "$text" ] || fail "log.bin is not compact"
+[ $((3 * binary)) -lt "$text" ] || fail "log.bin has $binary bytes, must be below a third of $text"
 [ "$("$explain" "$TEST_TMPDIR/csv")" = "$("$explain" "$TEST_TMPDIR/binary")" ] ||
-  fail "the two logs do not say the same"
+  fail "explain gives different texts for log.csv and log.bin"
 
-# Usage: refuse MESSAGE OPTION...: that PUSH refuses with one line, and code 2.
+# Usage: refuse MESSAGE OPTION...: push must exit with code 2 and print only the line
+# MESSAGE, on stderr.
 refuse() {
   local message=$1 code=0
   shift
   "$push" "$@" > "$TEST_TMPDIR/said" 2> "$TEST_TMPDIR/error" || code=$?
-  [ "$code" = 2 ] || fail "exit code $code for $*, wanted 2"
+  [ "$code" = 2 ] || fail "$*: exit code is $code, must be 2"
   [ "$(cat "$TEST_TMPDIR/error")" = "push: $message" ] ||
-    fail "$* says: $(cat "$TEST_TMPDIR/error")"
-  [ "$(wc -l < "$TEST_TMPDIR/error")" = 1 ] || fail "$* says more than a line"
-  [ ! -s "$TEST_TMPDIR/said" ] || fail "$* is refused, and prints all the same"
+    fail "$* prints: $(cat "$TEST_TMPDIR/error")"
+  [ "$(wc -l < "$TEST_TMPDIR/error")" = 1 ] || fail "$* prints more than one line"
+  [ ! -s "$TEST_TMPDIR/said" ] || fail "$* is rejected, but prints on stdout"
 }
 
-# Usage: write NAME LINE...: a file; prints its path.
+# Usage: write NAME LINE...: writes a file and prints its path.
 write() {
   local file=$TEST_TMPDIR/$1
   shift
@@ -78,8 +80,8 @@ write() {
   echo "$file"
 }
 
-# Usage: refuse_file OPTION MESSAGE NAME LINE...: that what a file holds is
-# refused by its name, MESSAGE going on after it.
+# Usage: refuse_file OPTION MESSAGE NAME LINE...: push must reject a file with these
+# lines. The message is the name of the file, followed by MESSAGE.
 refuse_file() {
   local option=$1 message=$2 file
   shift 2
@@ -87,22 +89,22 @@ refuse_file() {
   refuse "$file$message" "$option" "$file"
 }
 
-# A tick of the push, solved again by the three solvers.
+# Each of the three solvers can solve a dumped tick of the push.
 "$push" --scenario strong_push --time 0.2 --dump-solve 0.1 --no-report \
   --out "$TEST_TMPDIR/dump" > "$TEST_TMPDIR/said" || [ $? = 1 ]
 grep -q solve_0.100.json "$TEST_TMPDIR/said" ||
   fail "the name of the dumped solve is not printed"
 for method in svd cod fast; do
   "$hqp" --method "$method" --json "$TEST_TMPDIR/dump/solve_0.100.json" \
-    > "$TEST_TMPDIR/solved" || fail "hqp --method $method fails on it"
+    > "$TEST_TMPDIR/solved" || fail "hqp --method $method fails on the dumped solve"
   grep -q '"status": *"optimal"' "$TEST_TMPDIR/solved" ||
-    fail "hqp --method $method does not solve it"
+    fail "hqp --method $method does not solve the dumped solve"
 done
-refuse "the solve at 0.200000 s is not in the scenario, which takes $(
+refuse "the solve at 0.200000 s is outside the scenario, which ends at $(
   )0.100000 s" --time 0.1 --dump-solve 0.2 --no-report \
   --out "$TEST_TMPDIR/late"
 
-# An invalid option is refused by its own name, not by the key of a file.
+# A message about the value of an option names the option, not a key of a file.
 refuse "--control-rate is 333, must be a whole part of plant.rate, which is 1000" \
   --control-rate 333
 refuse "control.rate is 1000, must be a whole part of --plant-rate, which is 1500" \
@@ -110,15 +112,15 @@ refuse "control.rate is 1000, must be a whole part of --plant-rate, which is 150
 refuse "--time is 0, must be 0.001 to 86400 s" --time 0
 refuse "--duration is -1, must be 0 to 86400 s" --duration=-1
 
-# push prints the warnings of doctor: both knees are too weak, in one line.
+# push prints the warnings of doctor: two weak knees give one line.
 weak=$(write weak.urdf "$(sed '/<joint name="._knee"/,/<\/joint>/s/effort="[^"]*"/effort="2.5"/' \
   robot/models/humanoid.urdf)")
 "$push" --robot "$weak" --scenario stand --time 0.01 --no-report \
   --out "$TEST_TMPDIR/weak" > "$TEST_TMPDIR/said" 2> "$TEST_TMPDIR/error" || true
-grep -q "^$weak: joint 'l_knee': needs .* (limit 2.5 N m) to stand, the motor is $(
-  )too weak .*; also joint 'r_knee'" "$TEST_TMPDIR/error" ||
-  fail "no warning of weak knees: $(cat "$TEST_TMPDIR/error")"
-[ "$(wc -l < "$TEST_TMPDIR/error")" = 1 ] || fail "weak knees take several lines"
+grep -q "^$weak: joint 'l_knee': needs .* (limit 2.5 N m) to stand, the motor is too $(
+  )weak for the standing posture; also joint 'r_knee'" "$TEST_TMPDIR/error" ||
+  fail "there is no warning about weak knees: $(cat "$TEST_TMPDIR/error")"
+[ "$(wc -l < "$TEST_TMPDIR/error")" = 1 ] || fail "the warning about weak knees has several lines"
 
 scenarios='board, com_sinusoid, one_leg, posture_off, slope, stand,'
 scenarios+=' strong_push, strong_push_without_zmp, weak_push'
@@ -153,8 +155,8 @@ refuse_file --pushes ":2: 'force' is a list, must be a list of numbers" \
 nose="link 'nose' is unknown, must be a link of robot 'humanoid'"
 refuse_file --pushes ": $nose" pushes.yaml 'pushes: [{link: nose}]'
 
-# Settings that do not fit the robot are refused with the name of their file,
-# before anything is written.
+# If a file does not match the robot, the message names the file, and nothing is
+# written.
 refuse_file --scenario ": $nose" link.yaml 'pushes: [{link: nose}]'
 refuse_file --scenario ": task set 'nope': is neither default, paper, nor a file" \
   tasks.yaml 'tasks: {set: nope}'
@@ -188,16 +190,16 @@ refuse "--plant: mars not in {bullet,mujoco}" --plant mars
 refuse "link 'nose' is unknown, must be a link of robot 'humanoid'" --link nose
 refuse "task set 'none': is neither default, paper, nor a file" --tasks none
 
-# A Cartesian task on any link, from wherever a task is named; one on a link that
-# is not there is refused by the link.
+# A Cartesian task may be on any link, and may come from an option or any file. If
+# the link does not exist, the message names the link.
 frame="task 'frame.nose' is unknown, must be frame. and a link of the robot"
 refuse "$frame" --with frame.nose
 refuse_file --tasks ":1: $frame" frames.yaml 'tasks: {frame.nose: on}'
 refuse_file --scenario ": $frame" frames.yaml 'tasks: {with: [frame.nose]}'
 refuse_file --profile ":1: $frame" frames.yaml 'tasks: {frame.nose: on}'
 
-# Usage: residuals OPTION...: the tasks frame.LINK that a run's log has, in the
-# order of the table.
+# Usage: residuals OPTION...: prints the links of the tasks frame.LINK in the log of
+# a run, in the order of the columns.
 residuals() {
   "$push" --scenario stand --time 0.01 --no-report \
     --out "$TEST_TMPDIR/frames" "$@" > "$TEST_TMPDIR/said" || [ $? = 1 ]
@@ -207,7 +209,7 @@ residuals() {
 
 # Usage: expect WANTED GOT
 expect() {
-  [ "$1" = "$2" ] || fail "is '$2', wanted '$1'"
+  [ "$1" = "$2" ] || fail "the links are '$2', must be '$1'"
 }
 
 own=$(write own.yaml "$(cat robot/profiles/humanoid.yaml)" 'tasks:' \
@@ -217,7 +219,7 @@ expect 'torso l_hand ' "$(residuals \
   --tasks "$(write set.yaml 'tasks: {frame.torso: on}')" --with frame.l_hand)"
 expect 'head ' "$(residuals --profile "$own")"
 
-# A profile's own tasks are those where none are asked for, by any name.
+# The tasks of a profile apply only if no option selects a task set.
 expect '' "$(residuals --profile "$own" --tasks default)"
 grep -q '"set": "default"' "$TEST_TMPDIR/frames/summary.json" ||
-  fail "--tasks default does not go over the profile's"
+  fail "--tasks default does not replace the tasks of the profile"

@@ -13,7 +13,8 @@ namespace poise {
 
 namespace {
 
-// What another run left, and would be taken for this one's.
+// Removes the files of an earlier run, because they would seem to belong to the
+// new log.
 void RemoveOld(const std::filesystem::path& folder) {
   for (const char* name : {"summary.json", "robot.json", "report.html"}) {
     std::error_code ignored;
@@ -34,7 +35,8 @@ void Write(const std::string& text, const std::filesystem::path& file) {
 RunRecord RecordRun(ClosedLoop* loop, const std::filesystem::path& folder,
                     const std::function<bool(double)>& progress,
                     LogFormat format) {
-  // Once there is a new log: a run that is refused leaves the old one whole.
+  // Old files are removed only after the new log has begun. So a run that is
+  // rejected does not damage the earlier run.
   bool has_begun = false;
   const auto watch = [&](double fraction) {
     if (!has_begun) RemoveOld(folder);

@@ -15,15 +15,17 @@ namespace poise {
 /// A run that has just been recorded.
 struct RunRecord {
   RunResult result;
-  RunFiles files;  ///< What WriteRunReport() needs, without reading it again.
+  RunFiles
+      files;  ///< Input of WriteRunReport(), so that no file is read again.
 };
 
-/// Runs a new loop into a folder that holds all that a report is made of:
-/// log.csv or log.bin, timing.csv, summary.json, robot.json. See Run() for
-/// `progress` and `format`. What another run left there, its report.html too, is
-/// removed.
+/// Runs a new loop and writes all files of a report into a folder: log.csv or
+/// log.bin, timing.csv, summary.json and robot.json. See Run() for `progress`
+/// and `format`. Removes these files of an earlier run, and its report.html,
+/// from the folder.
 ///
 /// Throws std::invalid_argument as Run() does, or if a file cannot be written.
+/// If Run() rejects the scenario, the files of the earlier run remain.
 RunRecord RecordRun(ClosedLoop* loop, const std::filesystem::path& folder,
                     const std::function<bool(double)>& progress = {},
                     LogFormat format = LogFormat::kCsv);

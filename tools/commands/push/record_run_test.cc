@@ -35,8 +35,9 @@ class RecordRunTest : public testing::Test {
   Experiment experiment_{LoadHumanoid(), {}};
 };
 
-// A kill then leaves a log that goes with nothing, not with another summary.
-TEST_F(RecordRunTest, RemovesWhatAnotherRunLeft) {
+// The old files are removed during the run. Otherwise, after a kill, the new
+// log would be next to the summary of another run.
+TEST_F(RecordRunTest, RemovesFilesOfAnEarlierRun) {
   bool was_asked = false;
   RecordRun(experiment_, folder_, [&](double) {
     was_asked = true;
@@ -51,8 +52,8 @@ TEST_F(RecordRunTest, RemovesWhatAnotherRunLeft) {
   EXPECT_EQ(Read("robot.json")[0], '{');
 }
 
-// The report needs no file again that the run has just written.
-TEST_F(RecordRunTest, ReturnsWhatTheFilesHold) {
+// A report from the returned data equals a report from the files.
+TEST_F(RecordRunTest, ReturnsTheContentsOfTheFiles) {
   for (const LogFormat format : {LogFormat::kCsv, LogFormat::kBinary}) {
     const RunRecord record = RecordRun(experiment_, folder_, {}, format);
     EXPECT_EQ(ReadRun(record.files), ReadRun(folder_));
@@ -61,7 +62,7 @@ TEST_F(RecordRunTest, ReturnsWhatTheFilesHold) {
   }
 }
 
-TEST_F(RecordRunTest, LeavesItWhereTheRunIsRefused) {
+TEST_F(RecordRunTest, KeepsEarlierRunIfScenarioIsRejected) {
   experiment_.scenario.pushes.emplace_back();
   experiment_.scenario.pushes[0].link = "nose";
   EXPECT_THROW(RecordRun(experiment_, folder_), std::invalid_argument);

@@ -17,7 +17,7 @@ constexpr size_t kMostNames = 3;
 
 std::vector<std::string> WarningLines(const std::string& file,
                                       const std::vector<Finding>& findings) {
-  // Of one kind is what has the same reason.
+  // Findings with the same reason are of one kind.
   std::vector<std::vector<const Finding*>> kinds;
   for (const Finding& finding : findings) {
     if (finding.severity != Severity::kWarn) continue;
@@ -34,7 +34,7 @@ std::vector<std::string> WarningLines(const std::string& file,
   for (const auto& kind : kinds) {
     if (lines.size() == kMostLines) {
       lines.push_back(file + ": " + std::to_string(kinds.size() - kMostLines) +
-                      " more kinds of warnings: bazel run //tools:doctor");
+                      " more kinds of warnings, see bazel run //tools:doctor");
       break;
     }
     std::string line = Message(file, *kind[0]);

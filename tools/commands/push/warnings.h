@@ -9,13 +9,13 @@
 
 namespace poise {
 
-/// The warnings among findings about a file, for people who asked for something
-/// else: those of one kind in one line, and no more than a few lines.
+/// Returns the warnings among the findings about a file, in short form.
+/// Warnings of one kind share a line, and there are at most six lines.
 std::vector<std::string> WarningLines(const std::string& file,
                                       const std::vector<Finding>& findings);
 
-/// Prints these lines on stderr, with the motors that are too weak to hold the
-/// robot up. @pre robot.can_stand.
+/// Prints these lines on stderr. Adds a warning about motors that are too weak
+/// for the standing posture. @pre robot.can_stand.
 void PrintWarnings(const std::string& file, const Robot& robot,
                    std::vector<Finding> findings);
 

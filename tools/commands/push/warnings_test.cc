@@ -12,12 +12,12 @@ Finding Warn(const std::string& where, const std::string& why) {
   return {Severity::kWarn, where, "is odd", why, 0};
 }
 
-TEST(WarningLines, LeaveNotesOut) {
+TEST(WarningLines, OmitNotes) {
   EXPECT_EQ(WarningLines("a.urdf", {{Severity::kNote, "b", "c", "d", 1}}),
             Lines{});
 }
 
-TEST(WarningLines, HaveOneKindInALine) {
+TEST(WarningLines, JoinWarningsOfOneKind) {
   EXPECT_EQ(
       WarningLines("a.urdf", {Warn("l_sole", "guessed"), Warn("knee", "weak"),
                               Warn("r_sole", "guessed")}),
@@ -25,7 +25,7 @@ TEST(WarningLines, HaveOneKindInALine) {
              "a.urdf: knee: is odd, weak"}));
 }
 
-TEST(WarningLines, AreFewAndShort) {
+TEST(WarningLines, LimitLinesAndNames) {
   std::vector<Finding> findings(10, Warn("x", "same"));
   for (const char* why : {"1", "2", "3", "4", "5", "6"}) {
     findings.push_back(Warn("y", why));
@@ -34,7 +34,7 @@ TEST(WarningLines, AreFewAndShort) {
   ASSERT_EQ(lines.size(), 6u);
   EXPECT_EQ(lines[0], "a.urdf: x: is odd, same; also x, x, x and 6 more");
   EXPECT_EQ(lines[5],
-            "a.urdf: 2 more kinds of warnings: bazel run //tools:doctor");
+            "a.urdf: 2 more kinds of warnings, see bazel run //tools:doctor");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ constexpr char kMapHeader[] =
 constexpr char kTrialsHeader[] =
     "direction_deg,duration_s,tasks,impulse_Ns,recovered\n";
 
-// The shortest text that reads back as the same number.
+// Returns the shortest text that reads back as the same number.
 std::string Text(double value) {
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof digits, value);
@@ -34,7 +34,8 @@ std::string ReadAll(const fs::path& file) {
   return text.str();
 }
 
-// In one step: a reader, or an interruption, sees the old file or the new one.
+// Replaces a file in one step. So a reader, or an interrupted program, sees
+// either the old file or the new one.
 void Replace(const fs::path& file, const std::string& text) {
   const fs::path draft = file.string() + ".new";
   std::ofstream stream(draft, std::ios::binary);
@@ -46,7 +47,8 @@ void Replace(const fs::path& file, const std::string& text) {
   fs::rename(draft, file);
 }
 
-// Rows as lists of cells, header lines left out, also where maps were joined.
+// Returns the rows as lists of cells, without header lines. Joined maps may
+// have header lines in the middle.
 std::vector<std::vector<std::string>> Rows(const fs::path& file,
                                            const std::string& header) {
   std::vector<std::vector<std::string>> rows;
@@ -70,7 +72,7 @@ double Number(const std::string& text, const fs::path& file) {
       std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) {
     throw std::invalid_argument(file.string() + ": '" + text +
-                                "' is not a number");
+                                "' must be a number");
   }
   return value;
 }
@@ -93,20 +95,21 @@ PushMapFiles::PushMapFiles(const fs::path& folder, const std::string& settings,
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    throw std::invalid_argument(folder.string() +
-                                ": cannot be made: " + error.message());
+    throw std::invalid_argument(
+        folder.string() + ": the folder cannot be created: " + error.message());
   }
   const fs::path settings_file = folder / "settings.txt";
   const std::string text = settings + '\n';
   if (fs::exists(settings_file) && ReadAll(settings_file) != text) {
-    throw std::invalid_argument(
-        folder.string() +
-        ": holds a map of other settings (settings.txt); choose another --out");
+    throw std::invalid_argument(folder.string() +
+                                ": has a map with other settings, see "
+                                "settings.txt; choose another --out");
   }
   Replace(settings_file, text);
   const fs::path map = folder / "map.csv", trials = folder / "trials.csv";
   for (const auto& cells : Rows(map, kMapHeader)) {
-    const PushMapPoint point = PointOf(cells, 7, map);  // Counts the cells.
+    const PushMapPoint point =
+        PointOf(cells, 7, map);  // Checks the number of cells.
     found_[point] = {Number(cells[3], map), Number(cells[4], map),
                      Number(cells[5], map)};
   }
@@ -156,7 +159,8 @@ std::map<PushMapPoint, PushMapValue> PushMapFiles::found() const {
   return found_;
 }
 
-// A few dozen lines: written anew each time, in order, whoever came first.
+// Writes the whole map again, in order of its points. It has a few dozen lines,
+// and results come in any order.
 void PushMapFiles::WriteMap() const {
   std::string text = header_ ? kMapHeader : "";
   for (const auto& [point, value] : found_) {

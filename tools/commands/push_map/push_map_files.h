@@ -11,10 +11,10 @@
 
 namespace poise {
 
-/// A point of the map: from where, how long, and under which tasks.
+/// A point of the map: direction and duration of the push, and the task set.
 struct PushMapPoint {
   double direction_deg;
-  double duration;  ///< Of the push, s.
+  double duration;  ///< Duration of the push, s.
   std::string tasks;
 
   friend bool operator<(const PushMapPoint& a, const PushMapPoint& b) {
@@ -23,23 +23,23 @@ struct PushMapPoint {
   }
 };
 
-/// What was found there, N s.
+/// The result at a point of the map. All values are impulses, N s.
 struct PushMapValue {
-  double impulse;
-  double lipm;
-  double lipm_height;
+  double impulse;      ///< Largest impulse that the robot recovers from.
+  double lipm;         ///< See Yardstick::lipm_Ns.
+  double lipm_height;  ///< See Yardstick::lipm_height_Ns.
 };
 
-/// The files of a push map in a folder: map.csv, what was found, and
-/// trials.csv, every run that led there. Written line by line as results come,
-/// so that a map that was interrupted goes on with the next run. A last line
-/// cut short is written over. All members may be called from any thread.
+/// The files of a push map in a folder: map.csv has the results, trials.csv has
+/// every run that led to them. The files are written line by line as results
+/// come, so that an interrupted map can continue. An incomplete last line is
+/// ignored and overwritten. All members may be called from any thread.
 class PushMapFiles {
  public:
-  /// @param settings  what a result depends on beside its point. A folder with
-  ///                  a map of other settings is refused.
-  /// @param header    map.csv begins with the names of its columns.
-  /// Throws std::invalid_argument if the folder cannot be used.
+  /// @param settings  all settings that results depend on, except the point.
+  /// @param header    if true, map.csv begins with the names of its columns.
+  /// Throws std::invalid_argument if the folder cannot be used, or if it has a
+  /// map with other settings.
   PushMapFiles(const std::filesystem::path& folder, const std::string& settings,
                bool header);
 
@@ -62,7 +62,8 @@ class PushMapFiles {
   std::map<PushMapPoint, std::map<double, bool>> tried_;
 };
 
-/// The name of a task set: "default", or its changes: "-cop-yaw+yaw_constant".
+/// Returns the name of a task set: "default", or its changes, such as
+/// "-cop-yaw+yaw_constant".
 std::string TaskSetName(const std::vector<std::string>& with,
                         const std::vector<std::string>& without);
 

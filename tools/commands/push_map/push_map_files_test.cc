@@ -27,7 +27,7 @@ std::string Read(const fs::path& file) {
   return text.str();
 }
 
-TEST(PushMapFiles, WritesWhatWasFoundInOrder) {
+TEST(PushMapFiles, WritesResultsInOrderOfPoints) {
   const fs::path folder = NewFolder("map_order");
   PushMapFiles files(folder, "seed 1", true);
   EXPECT_EQ(Read(folder / "map.csv"), kHeader);
@@ -38,7 +38,7 @@ TEST(PushMapFiles, WritesWhatWasFoundInOrder) {
                                           "90,0.1,default,20,25,16,0.8\n");
 }
 
-TEST(PushMapFiles, GoOnWhereTheyWere) {
+TEST(PushMapFiles, ContinueAnInterruptedMap) {
   const fs::path folder = NewFolder("map_again");
   const PushMapPoint point{90, 0.1, "-cop-yaw+yaw_constant"};
   {
@@ -47,7 +47,7 @@ TEST(PushMapFiles, GoOnWhereTheyWere) {
     files.AddTried(point, 12.5, false);
     files.AddFound({0, 0.1, "default"}, {16, 20, 12.5});
   }
-  // Interrupted in the middle of a line.
+  // The map was interrupted in the middle of a line.
   std::ofstream(folder / "trials.csv", std::ios::app) << "90,0.1,-cop-yaw+ya";
   const PushMapFiles files(folder, "seed 1", true);
   EXPECT_EQ(files.Tried(point, 12.25), true);
@@ -75,14 +75,14 @@ TEST(PushMapFiles, OfShardsMergeByConcatenation) {
   EXPECT_EQ(PushMapFiles(all, "s", true).found().size(), 2u);
 }
 
-TEST(PushMapFiles, RefuseAMapOfOtherSettings) {
+TEST(PushMapFiles, RejectMapWithOtherSettings) {
   const fs::path folder = NewFolder("map_other");
   { PushMapFiles(folder, "seed 1", true); }
   EXPECT_NO_THROW(PushMapFiles(folder, "seed 1", true));
   EXPECT_THROW(PushMapFiles(folder, "seed 2", true), std::invalid_argument);
 }
 
-TEST(PushMapFiles, RefuseWhatIsNoMap) {
+TEST(PushMapFiles, RejectInvalidMap) {
   const fs::path folder = NewFolder("map_broken");
   fs::create_directories(folder);
   std::ofstream(folder / "map.csv") << "0,0.1,default,16\n";

@@ -39,7 +39,8 @@ Shard ParseShard(const std::string& text) {
                               "', must be I/N with 1 <= I <= N");
 }
 
-// CLI's own Range lets NaN through, and spells its numbers out.
+// Returns a validator for a range. CLI::Range accepts NaN and prints numbers
+// with too many digits.
 CLI::Validator Between(double least, double most, const std::string& unit) {
   const auto check = [=](const std::string& text) -> std::string {
     double value = 0;
@@ -55,7 +56,7 @@ CLI::Validator Between(double least, double most, const std::string& unit) {
   return CLI::Validator(check, "");
 }
 
-// Every point, in the order of the map; then those of this shard.
+// Returns the points of a shard: every count-th point, in the order of the map.
 std::vector<PushMapPoint> Points(int directions,
                                  const std::vector<double>& durations,
                                  const std::string& tasks, const Shard& shard) {
@@ -70,7 +71,7 @@ std::vector<PushMapPoint> Points(int directions,
   return points;
 }
 
-// What `push` is told, under its own name.
+// Reads the options of `push`. Error messages name the option of the user.
 PushOptions ReadRest(std::vector<std::string> arguments) {
   for (const char* taken : {"--force", "--direction", "--duration", "--pushes",
                             "--scenario", "--no-report"}) {
@@ -78,9 +79,10 @@ PushOptions ReadRest(std::vector<std::string> arguments) {
       if (argument.rfind(taken, 0) == 0 &&
           (argument.size() == std::string(taken).size() ||
            argument[std::string(taken).size()] == '=')) {
-        throw std::invalid_argument(argument +
-                                    " is not for a map: it varies "
-                                    "direction, duration and force itself");
+        throw std::invalid_argument(
+            argument +
+            " cannot be used here: push_map sets "
+            "scenario, direction, duration and force itself");
       }
     }
   }
@@ -108,30 +110,34 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
   double step = 0.25;
   bool json = false;
   CLI::App app(
-      "The largest impulse that the robot recovers from, in each direction. "
-      "Interrupted, the same command goes on where it was; a second set of "
-      "tasks goes into the same map. Other options are those of push.",
+      "Finds the largest impulse that the robot recovers from, in each "
+      "direction. Run the same command again to continue after an "
+      "interruption. A second set of tasks is added to the same map. Other "
+      "options are those of push.",
       "push_map");
   app.allow_extras();
-  app.add_option("--directions", directions, "how many, around the circle")
+  app.add_option("--directions", directions,
+                 "number of directions around the circle")
       ->capture_default_str()
       ->check(CLI::Range(1, 3600));
-  app.add_option("--durations", durations, "of the push, S,... in s")
+  app.add_option("--durations", durations, "durations of the push, S,... in s")
       ->delimiter(',')
       ->capture_default_str()
       ->check(Between(1e-3, 10, "s"));
   app.add_option("--with", with, "tasks to switch on")->delimiter(',');
   app.add_option("--without", without, "tasks to switch off")->delimiter(',');
-  app.add_option("--step", step, "of impulses, N s")
+  app.add_option("--step", step, "difference between successive impulses, N s")
       ->capture_default_str()
       ->check(Between(0.01, 100, "N s"));
   app.add_option("--shard", shard_text,
-                 "I/N: every N-th point, beginning with the I-th");
-  app.add_option("--jobs", threads, "pushes at once (all cores)")
+                 "I/N: compute every N-th point, from the I-th on");
+  app.add_option("--jobs", threads,
+                 "number of pushes simulated at the same time (all cores)")
       ->check(CLI::Range(1, 256));
-  app.add_option("--out", out,
-                 "folder (push-map-out; of a shard push-map-out/shard-I-of-N)");
-  app.add_flag("--no-replays", no_replays, "make no replays");
+  app.add_option(
+      "--out", out,
+      "folder (push-map-out; push-map-out/shard-I-of-N for a shard)");
+  app.add_flag("--no-replays", no_replays, "do not write replay pages");
   app.add_flag("--json", json, "print the map as JSON");
   ParseCommandLine(argc, argv, &app);
 

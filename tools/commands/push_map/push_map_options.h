@@ -7,7 +7,7 @@
 
 namespace poise {
 
-/// What `push_map` was told.
+/// The options of `push_map`.
 struct PushMapOptions {
   PushMapPlan plan;
   std::string settings;  ///< See PushMapFiles.
@@ -15,10 +15,12 @@ struct PushMapOptions {
   bool json = false;
 };
 
-/// Reads the command line of `push_map`: its own options and, for the rest,
-/// those of `push`.
+/// Reads the command line of `push_map`. Options that `push_map` does not have
+/// are options of `push`.
 ///
-/// Throws as ParseCommandLine(), and std::invalid_argument about what it names.
+/// Throws as ParseCommandLine() and ReadPushOptions() do. Also throws
+/// std::invalid_argument if a shard is invalid, or if an option of `push`
+/// cannot be used in a map.
 PushMapOptions ReadPushMapOptions(int argc, char** argv);
 
 }  // namespace poise

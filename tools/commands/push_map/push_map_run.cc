@@ -26,7 +26,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kPi = 3.14159265358979323846;
 
-// A robot that recovers from so many times the yardstick is not falling at all.
+// The search stops at this multiple of the yardstick. A robot that recovers
+// from such an impulse does not fall at all.
 constexpr double kMostOfYardstick = 4;
 
 Eigen::Vector2d DirectionOf(const PushMapPoint& point) {
@@ -41,7 +42,7 @@ Yardstick YardstickOf(const PushMapPlan& plan, const PushMapPoint& point) {
                           point.duration, push.body(), push.p_BoQ_B());
 }
 
-// What the threads share.
+// The state that the threads share.
 class Workers {
  public:
   Workers(const PushMapPlan& plan, PushMapFiles* files,
@@ -54,12 +55,13 @@ class Workers {
 
   void TakePoints();
 
-  // False if stopped before it was found.
+  // Returns false if the map was stopped before the point was found.
   bool Find(const PushMapPoint& point);
 
   std::optional<bool> Try(const PushMapPoint& point, double impulse);
 
-  // The strongest push recovered from, and the weakest that was not.
+  // Writes a page with the largest push that the robot recovers from and the
+  // next one, from which it does not. Returns false if the map was stopped.
   bool Replay(const PushMapPoint& point, const ImpulseBracket& found);
 
   void Report(int trials);
@@ -155,7 +157,7 @@ bool Workers::Replay(const PushMapPoint& point, const ImpulseBracket& found) {
     if (result.interrupted) return false;
     runs.push_back(folder);
   }
-  // A search ends with one or the other.
+  // `runs` is not empty: a search finds at least one of the two impulses.
   WriteReport(runs, page);
   fs::remove_all(fs::path(page).replace_extension());
   return true;

@@ -11,47 +11,52 @@
 
 namespace poise {
 
-/// What a map is made of: an experiment whose first push is turned and scaled.
+/// The plan of a map. Each point changes direction, duration and force of the
+/// first push of the experiment.
 struct PushMapPlan {
   Experiment experiment;
-  std::vector<PushMapPoint> points;  ///< Of this run or shard.
+  std::vector<PushMapPoint> points;  ///< Points of this run or shard.
   std::filesystem::path folder;
   int threads = 1;
-  double step = 0.25;   ///< Of impulses, N s.
-  bool replays = true;  ///< A page for each point, in replays/.
+  double step = 0.25;   ///< Between successive impulses, N s.
+  bool replays = true;  ///< Write a page for each point, in replays/.
 };
 
-/// How far a map is.
+/// The progress of a map.
 struct PushMapProgress {
   int points_done;
   int points;
-  int trials;           ///< Of this run.
-  double seconds_left;  ///< As far as can be told; negative if it cannot.
+  int trials;           ///< Simulated pushes of this run.
+  double seconds_left;  ///< Estimate; negative if unknown.
 };
 
-/// The experiment of a point of the map: its first push with this impulse, N s.
+/// Returns the experiment of a point of the map, with an impulse of the first
+/// push, N s.
 Experiment PushExperiment(const PushMapPlan& plan, const PushMapPoint& point,
                           double impulse);
 
-/// Where the replay of a point is, in the plan's folder.
+/// Returns the path of a point's replay, relative to the plan's folder.
 std::filesystem::path ReplayFile(const PushMapPoint& point);
 
-/// Finds the largest recovered impulse of each point, with so many threads. What
-/// the files hold already is not done again.
+/// Finds the largest impulse of each point that the robot recovers from, with
+/// plan.threads threads. Results that the files already have are not computed
+/// again.
 ///
-/// @param progress  called after every trial, never by two threads at once;
-///                  stops all by returning false.
+/// @param progress  called after every trial, never by two threads at the same
+///                  time. If it returns false, all threads stop.
 ///
-/// Returns whether all points were found. Rethrows what a trial threw.
+/// Returns true if all points were found. Rethrows the first exception of a
+/// trial.
 bool RunPushMap(const PushMapPlan& plan, PushMapFiles* files,
                 const std::function<bool(const PushMapProgress&)>& progress);
 
-/// The map as JSON: {format, robot, scenario, step, rows: [{direction_deg,
-/// duration_s, tasks, impulse_Ns, lipm_Ns, lipm_height_Ns, eta, replay}]}, the
-/// replay being the path of a page in the folder, where there is one.
+/// Returns the map as JSON: {format, robot, scenario, step, rows:
+/// [{direction_deg, duration_s, tasks, impulse_Ns, lipm_Ns, lipm_height_Ns,
+/// eta, replay}]}. replay is the path of a page in the folder; it is absent if
+/// there is no page.
 nlohmann::json MapToJson(const PushMapPlan& plan, const PushMapFiles& files);
 
-/// Writes the folder's map.html, from all that its map holds.
+/// Writes map.html of the folder, with all results in `files`.
 void WriteMapPage(const PushMapPlan& plan, const PushMapFiles& files);
 
 }  // namespace poise

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Usage: push_map_test.sh PUSH_MAP
-# A map in one go, in shards, and interrupted is the same map. Its runs are cut
-# short, and so say nothing of the robot.
+# Tests that a map is the same if computed at once, in shards, or with an
+# interruption. The runs are too short to be results about the robot.
 set -euo pipefail
 push_map=$1
 
@@ -12,7 +12,7 @@ fail() {
 
 small=(--step 8 --at 0.02 --time 0.1 --jobs 1 --no-replays)
 
-# Usage: map FOLDER OPTION...
+# Usage: map FOLDER OPTION...: computes a map in FOLDER.
 map() {
   local folder=$TEST_TMPDIR/$1
   shift
@@ -33,8 +33,8 @@ map second --directions 2 --shard 2/2
 cat "$TEST_TMPDIR"/{first,second}/map.csv | sort | cmp - <(sort "$whole") ||
   fail "the shards do not join to the map"
 
-# A map of very many directions, stopped once a push was tried: it is gone on
-# with, here to the few that the whole one has.
+# A map of very many directions is stopped once a push was tried. The next command
+# continues it with the two directions of the whole map.
 cut=$TEST_TMPDIR/cut
 "$push_map" "${small[@]}" --directions 3600 --out "$cut" > "$cut.out" \
   2> "$cut.err" &
@@ -46,33 +46,33 @@ done
 kill -INT "$child"
 code=0
 wait "$child" || code=$?
-[ "$code" = 1 ] || fail "exit code $code after SIGINT, wanted 1"
-grep -q 'the same command goes on' "$cut.err" ||
-  fail "it says: $(cat "$cut.err")"
+[ "$code" = 1 ] || fail "after SIGINT: exit code is $code, must be 1"
+grep -q 'run the same command again to continue' "$cut.err" ||
+  fail "after SIGINT it prints: $(cat "$cut.err")"
 map cut --directions 2
 while read -r row; do
-  grep -qxF -- "$row" "$cut/map.csv" || fail "gone on with, it lacks $row"
+  grep -qxF -- "$row" "$cut/map.csv" || fail "the continued map has no row $row"
 done < "$whole"
 [ -z "$(sort "$cut/trials.csv" | uniq -d)" ] || fail "a push was tried twice"
 
-# A second set of tasks goes into the same map; other settings do not.
+# A second set of tasks is added to the same map. Other settings are rejected.
 map whole --directions 2 --without cop,yaw --with yaw_constant
 [ "$(grep -c -- ',-cop-yaw+yaw_constant,' "$whole")" = 2 ] ||
-  fail "the second set is not in $(cat "$whole")"
+  fail "the second set of tasks is not in $(cat "$whole")"
 
-# Usage: refuse MESSAGE OPTION...
+# Usage: refuse MESSAGE OPTION...: push_map must exit with code 2 and MESSAGE.
 refuse() {
   local message=$1 code=0
   shift
   map whole "$@" 2> "$TEST_TMPDIR/error" || code=$?
-  [ "$code" = 2 ] || fail "exit code $code for $*, wanted 2"
+  [ "$code" = 2 ] || fail "$*: exit code is $code, must be 2"
   [ "$(cat "$TEST_TMPDIR/error")" = "push_map: $message" ] ||
-    fail "$* says: $(cat "$TEST_TMPDIR/error")"
+    fail "$* prints: $(cat "$TEST_TMPDIR/error")"
 }
 
-refuse "$TEST_TMPDIR/whole: holds a map of other settings (settings.txt); $(
+refuse "$TEST_TMPDIR/whole: has a map with other settings, see settings.txt; $(
   )choose another --out" --mu-plant 0.5
 refuse "--shard is '3/2', must be I/N with 1 <= I <= N" --shard 3/2
-refuse "--force=50 is not for a map: it varies direction, duration and $(
-  )force itself" --force=50
+refuse "--force=50 cannot be used here: push_map sets scenario, direction, $(
+  )duration and force itself" --force=50
 refuse "--durations: '0' must be 0.001 to 10 s" --durations 0

@@ -10,7 +10,8 @@ namespace poise {
 std::optional<ImpulseBracket> FindLargestImpulse(
     const std::function<std::optional<bool>(double)>& recovers, double guess,
     double step, double most) {
-  // In steps: [good, bad) holds the edge; 0 counts as recovered from.
+  // Impulses are counted in steps. The largest recovered one is in [good, bad).
+  // Impulse 0 counts as recovered.
   const long end = std::max(1l, std::lround(most / step));
   long good = 0;
   long bad = std::numeric_limits<long>::max();

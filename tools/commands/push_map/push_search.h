@@ -6,25 +6,26 @@
 
 namespace poise {
 
-/// Two neighboring impulses: the largest that is recovered from, as far as
-/// bisection can tell, and the next one, that is not.
+/// Two neighboring impulses: the largest impulse with recovery that bisection
+/// finds, and the next one, without recovery.
 struct ImpulseBracket {
-  double recovered;  ///< N s; 0 if none was.
-  double failed;     ///< N s; infinite if every one tried was recovered from.
+  double recovered;  ///< N s; 0 if there was no recovery.
+  double failed;     ///< N s; infinite if each trial recovered.
 };
 
-/// Looks for the largest impulse that is recovered from, among the multiples of
-/// `step`: doubles or halves the distance from `guess` until it lies between
-/// two, then bisects. It is the largest only if recovery from an impulse means
-/// recovery from all smaller ones; near the edge that need not be so.
+/// Finds the largest impulse with recovery among the multiples of `step`. The
+/// search moves away from `guess` with doubling distance until it has bracketed
+/// the impulse. Then it bisects. The result is the largest only if recovery
+/// from an impulse implies recovery from all smaller ones. Near the limit this
+/// may be false.
 ///
-/// @param recovers  tries an impulse, N s; nothing: the search is given up.
-/// @param guess     where to begin, N s; any number.
-/// @param step      of impulses, N s, positive.
-/// @param most      where to stop looking for a failure, N s.
+/// @param recovers  tries an impulse, N s. Returns nothing to abort the search.
+/// @param guess     first impulse to try, N s; any number.
+/// @param step      difference between successive impulses, N s, positive.
+/// @param most      largest impulse to try, N s.
 ///
-/// Returns nothing if a trial did. Tries no impulse twice, and the same ones if
-/// called again.
+/// Returns nothing if a trial aborts the search. Tries no impulse twice. With
+/// the same results of `recovers`, another call tries the same impulses.
 std::optional<ImpulseBracket> FindLargestImpulse(
     const std::function<std::optional<bool>(double)>& recovers, double guess,
     double step, double most);

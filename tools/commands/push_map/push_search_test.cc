@@ -12,14 +12,15 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-TEST(PushSearch, FindsTheEdgeFromAnyGuess) {
+TEST(PushSearch, FindsTheLargestImpulseFromAnyGuess) {
   for (const double edge : {0.3, 1.0, 7.9, 16.1, 39.9}) {
     for (const double guess : {0.0, 0.5, 7.0, 16.0, 40.0, 1e9, kInf}) {
       SCOPED_TRACE(testing::Message() << edge << " from " << guess);
       std::set<double> tried;
       const auto found = FindLargestImpulse(
           [&](double impulse) -> std::optional<bool> {
-            EXPECT_TRUE(tried.insert(impulse).second) << "tried twice";
+            EXPECT_TRUE(tried.insert(impulse).second)
+                << "the impulse was tried twice";
             return impulse <= edge;
           },
           guess, 0.25, 40);
@@ -31,7 +32,7 @@ TEST(PushSearch, FindsTheEdgeFromAnyGuess) {
   }
 }
 
-TEST(PushSearch, TriesFewNearAGoodGuess) {
+TEST(PushSearch, NeedsFewTrialsFromAGoodGuess) {
   int trials = 0;
   FindLargestImpulse(
       [&](double impulse) -> std::optional<bool> {
@@ -42,7 +43,7 @@ TEST(PushSearch, TriesFewNearAGoodGuess) {
   EXPECT_LE(trials, 4);
 }
 
-TEST(PushSearch, SaysThatNothingOrEverythingWasRecoveredFrom) {
+TEST(PushSearch, ReportsNoRecoveryAndNoFailure) {
   const auto none = FindLargestImpulse(
       [](double) -> std::optional<bool> { return false; }, 5, 0.25, 40);
   EXPECT_EQ(none->recovered, 0);
@@ -57,7 +58,7 @@ TEST(PushSearch, SaysThatNothingOrEverythingWasRecoveredFrom) {
   EXPECT_EQ(all->failed, kInf);
 }
 
-TEST(PushSearch, IsGivenUpWithATrial) {
+TEST(PushSearch, StopsIfATrialIsAborted) {
   int trials = 0;
   const auto found = FindLargestImpulse(
       [&](double) -> std::optional<bool> {

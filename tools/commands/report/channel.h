@@ -8,18 +8,18 @@
 
 namespace poise {
 
-/// One quantity over time in 16 bits a value, for a page that has to stay
-/// small:
-///     value = min + (max - min) u / 65534,   u = 65535 for no number.
-/// The error is at most (max - min) / 131068: 0.8 um for a CoM that moved
-/// 0.1 m.
+/// Encodes a quantity over time with 16 bits per value, to keep pages small:
+///     value = min + (max - min) u / 65534,   u = 65535 if not finite.
+/// The error is at most (max - min) / 131068, for example 0.8 um for a CoM that
+/// moved by 0.1 m.
 ///
-/// As JSON: {name, unit, min, max, data}, data being the u's, little-endian, in
-/// base64.
+/// Returns JSON: {name, unit, min, max, data}. data has all u, little-endian,
+/// in base64.
 nlohmann::json EncodeChannel(std::string_view name, std::string_view unit,
                              const std::vector<float>& values);
 
-/// 32-bit floats, little-endian, in base64: for time, which wants more digits.
+/// Encodes 32-bit floats, little-endian, in base64. It is used for time, which
+/// needs more digits than EncodeChannel() keeps.
 std::string EncodeFloats(const std::vector<float>& values);
 
 }  // namespace poise

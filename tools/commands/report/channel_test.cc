@@ -13,7 +13,7 @@
 namespace poise {
 namespace {
 
-// An own decoder, by the definition of base64.
+// Decodes base64 by its definition, independent of the encoder.
 std::vector<std::uint8_t> Decode(const std::string& base64) {
   std::vector<std::uint8_t> bytes;
   std::uint32_t bits = 0;
@@ -54,7 +54,7 @@ std::vector<double> Values(const nlohmann::json& channel) {
   return values;
 }
 
-TEST(Channel, KeepsValuesWithinTheErrorItStates) {
+TEST(Channel, KeepsValuesWithinTheStatedError) {
   const std::vector<float> values = {-0.02f, 0.0f, 0.013f, 0.08f, 0.0799f};
   const nlohmann::json channel = EncodeChannel("com.x", "m", values);
   const std::vector<double> decoded = Values(channel);
@@ -69,13 +69,13 @@ TEST(Channel, KeepsValuesWithinTheErrorItStates) {
   EXPECT_EQ(channel["unit"], "m");
 }
 
-TEST(Channel, KeepsAConstant) {
+TEST(Channel, KeepsAConstantExactly) {
   for (const double value : Values(EncodeChannel("q", "", {0.7f, 0.7f}))) {
     EXPECT_EQ(value, static_cast<double>(0.7f));
   }
 }
 
-TEST(Channel, MarksWhatIsNoNumberAndLeavesItOutOfTheRange) {
+TEST(Channel, MarksNonFiniteValuesAndExcludesThemFromTheRange) {
   const float inf = std::numeric_limits<float>::infinity();
   const nlohmann::json channel =
       EncodeChannel("q", "", {std::nanf(""), 1, inf, 3, -inf});
@@ -87,12 +87,12 @@ TEST(Channel, MarksWhatIsNoNumberAndLeavesItOutOfTheRange) {
   EXPECT_TRUE(std::isnan(decoded[4]));
 }
 
-TEST(Channel, OfNothingIsEmpty) {
+TEST(Channel, EncodesEmptyAndAllNaNChannels) {
   EXPECT_EQ(EncodeChannel("q", "", {})["data"], "");
   EXPECT_TRUE(std::isnan(Values(EncodeChannel("q", "", {std::nanf("")}))[0]));
 }
 
-TEST(Channel, PadsAsBase64Does) {
+TEST(Channel, PadsBase64) {
   EXPECT_EQ(EncodeFloats({}), "");
   // 1.0f is 0x3f800000: 00 00 80 3f.
   EXPECT_EQ(EncodeFloats({1.0f}), "AACAPw==");
@@ -100,7 +100,7 @@ TEST(Channel, PadsAsBase64Does) {
   EXPECT_EQ(EncodeFloats({1.0f, 1.0f, 1.0f}), "AACAPwAAgD8AAIA/");
 }
 
-TEST(Channel, KeepsFloatsToTheBit) {
+TEST(Channel, KeepsFloatsExactly) {
   const std::vector<float> values = {0.001f, 599.999f, -3e-30f};
   const std::vector<std::uint8_t> bytes = Decode(EncodeFloats(values));
   ASSERT_EQ(bytes.size(), 4 * values.size());

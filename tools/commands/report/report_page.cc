@@ -16,14 +16,15 @@ namespace {
 using nlohmann::json;
 using std::filesystem::path;
 
-// Stands in the page where the data go.
+// Marks the place in the page where the data are inserted.
 constexpr std::string_view kPlaceholder = "\"POISE-DATA\"";
 
-// A file of the run that the page can do without.
+// Reads a file that may be missing. If it is missing or not a JSON object, adds
+// a note and returns null.
 json ReadOptional(const path& file, json* notes) {
   std::ifstream stream(file);
   if (!stream) {
-    notes->push_back(file.filename().string() + " is not there.");
+    notes->push_back(file.filename().string() + " is missing.");
     return nullptr;
   }
   json value = json::parse(stream, nullptr, /*allow_exceptions=*/false);
@@ -41,7 +42,7 @@ double ControlPeriod(const json& summary) {
   return dt != summary.end() && dt->is_number() ? dt->get<double>() : kUsual;
 }
 
-// Takes the notes out of what ReadRunLog() has read.
+// Removes the notes from the result of ReadRunLog() and returns them.
 json TakeNotes(json* log) {
   json notes = std::move((*log)["notes"]);
   log->erase("notes");
@@ -56,7 +57,7 @@ json ReadTimingOf(const path& run_dir, const json& summary,
   return ReadTiming(file, ControlPeriod(summary), num_rows);
 }
 
-// Returns the name of a run: that of its folder.
+// Returns the name of a run, which is the name of its folder.
 std::string NameOf(const path& run_dir) {
   path name = std::filesystem::absolute(run_dir).lexically_normal();
   if (!name.has_filename()) name = name.parent_path();
@@ -88,7 +89,8 @@ void ReplaceAll(std::string_view from, std::string_view to, std::string* text) {
 
 json ReadRun(const path& run_dir) {
   if (!std::filesystem::is_directory(run_dir)) {
-    throw std::invalid_argument(run_dir.string() + ": is not a run's folder");
+    throw std::invalid_argument(run_dir.string() +
+                                ": must be the folder of a run");
   }
   json log = ReadRunLog(FindLog(run_dir));
   json notes = TakeNotes(&log);
@@ -116,7 +118,7 @@ json ReadRun(const RunFiles& run) {
 std::string FillPage(std::string_view page, const json& document) {
   std::string data = document.dump(-1, ' ', /*ensure_ascii=*/false,
                                    json::error_handler_t::replace);
-  // Of JSON only strings can hold a '<', and they may spell it so.
+  // In JSON only strings may contain '<', and strings may contain this escape.
   ReplaceAll("<", "\\u003c", &data);
   const std::size_t at = page.find(kPlaceholder);
   if (at == std::string_view::npos) {
@@ -130,7 +132,7 @@ std::string FillPage(std::string_view page, const json& document) {
 
 void WriteReport(const std::vector<path>& run_dirs, const path& html) {
   if (run_dirs.empty() || run_dirs.size() > 2) {
-    throw std::invalid_argument("a report shows one run or two, not " +
+    throw std::invalid_argument("a report must show one run or two, not " +
                                 std::to_string(run_dirs.size()));
   }
   json runs = json::array();

@@ -9,39 +9,41 @@
 
 namespace poise {
 
-/// A run's folder as the report shows it:
-///     name     the folder's.
+/// Reads the folder of a run. Returns the data of a report:
+///     name     name of the folder.
 ///     summary  summary.json, or null, see ReadRunSummary().
-///     robot    robot.json (see MakeRobotJson()), or null: nothing to draw.
+///     robot    robot.json, see MakeRobotJson(). If null, no robot is drawn.
 ///     log      see ReadRunLog().
 ///     timing   see ReadTiming(), or null.
-///     notes    [sentence, ...]: what is missing or broken.
-/// A log is needed; the rest may be missing. Throws std::invalid_argument,
-/// naming the file, if the folder or its log is not there, or that is no log.
+///     notes    [sentence, ...]: missing files and errors in files.
+/// Only the log is required. Throws std::invalid_argument with the name of the
+/// file if the folder or its log is missing, or if the log is invalid.
 nlohmann::json ReadRun(const std::filesystem::path& run_dir);
 
-/// A run that was recorded by this process, with what need not be read again.
+/// A run that this process has recorded, with the data that need not be read
+/// again.
 struct RunFiles {
   std::filesystem::path folder;
   nlohmann::json summary;  ///< See ToJson().
   nlohmann::json robot;    ///< See MakeRobotJson().
-  long num_rows = 0;       ///< Of the log.
+  long num_rows = 0;       ///< Number of rows of the log.
 };
 
-/// Reads the log of a recorded run, once. Returns the same as ReadRun(folder).
+/// Reads the log of a recorded run once. Returns the same as
+/// ReadRun(run.folder).
 nlohmann::json ReadRun(const RunFiles& run);
 
-/// Puts a document into a page of tools/viewer/dist as its block of data.
-/// Nothing in the document can end that block.
+/// Inserts a document into a page of tools/viewer/dist as its block of data.
+/// Text in the document is escaped, so that no text can end the block.
 std::string FillPage(std::string_view page, const nlohmann::json& document);
 
-/// Writes one self-contained page that shows a run, or compares two on one
-/// clock. Throws std::invalid_argument if there is not one run or two, if one
-/// cannot be read, or if the page cannot be written.
+/// Writes a self-contained page that shows one run, or compares two runs at the
+/// same time. Throws std::invalid_argument if the number of runs is not one or
+/// two, if a run cannot be read, or if the page cannot be written.
 void WriteReport(const std::vector<std::filesystem::path>& run_dirs,
                  const std::filesystem::path& html);
 
-/// Writes the same page for one run that was recorded by this process.
+/// Writes the same page for one run that this process has recorded.
 void WriteRunReport(const RunFiles& run, const std::filesystem::path& html);
 
 }  // namespace poise

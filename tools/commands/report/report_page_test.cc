@@ -34,14 +34,14 @@ std::string Read(const fs::path& file) {
   return text.str();
 }
 
-// The block of data in a page, as a browser finds it.
+// Returns the block of data in a page, as a browser finds it.
 json DataOf(const std::string& page) {
   const std::string open = "id=\"data\">";
   const std::size_t start = page.find(open) + open.size();
   return json::parse(page.substr(start, page.find("</script", start) - start));
 }
 
-TEST(ReportPage, NothingInTheDataEndsTheBlockOfData) {
+TEST(ReportPage, EscapesTextThatWouldEndTheBlockOfData) {
   const json document = {{"a", "</script><script>alert(1)</script>"},
                          {"b", "<!-- <script"},
                          {"c", "\"POISE-DATA\" $& $1"}};
@@ -52,12 +52,12 @@ TEST(ReportPage, NothingInTheDataEndsTheBlockOfData) {
                 page.substr(page.find("id=\"data\">") + 10).find("</script>"));
 }
 
-TEST(ReportPage, KeepsGoingOverBytesThatAreNoText) {
+TEST(ReportPage, ReplacesInvalidUtf8) {
   const std::string page = FillPage("\"POISE-DATA\"", json("a\xff z"));
   EXPECT_EQ(json::parse(page).get<std::string>().substr(0, 1), "a");
 }
 
-TEST(ReportPage, IsWrittenFromARunAlone) {
+TEST(ReportPage, ShowsOneRun) {
   const fs::path run = EmptyFolder("run_alone");
   Write(run / "log.csv", "time[s],com.x[m]\n0,0.5\n0.002,0.5\n");
   Write(run / "timing.csv", "tick,us,iterations\n0,200,4\n1,210,4\n");
@@ -76,7 +76,7 @@ TEST(ReportPage, IsWrittenFromARunAlone) {
   EXPECT_TRUE(shown["notes"].empty());
 }
 
-TEST(ReportPage, SaysWhatIsMissing) {
+TEST(ReportPage, NotesMissingAndUnreadableFiles) {
   const fs::path run = EmptyFolder("run_missing");
   Write(run / "log.csv", "time[s]\n");
   Write(run / "summary.json", "{\"scenario\": \"sta");
@@ -87,10 +87,10 @@ TEST(ReportPage, SaysWhatIsMissing) {
   EXPECT_TRUE(shown["timing"].is_null());
   EXPECT_EQ(shown["notes"], json({"log.csv has a header and no rows.",
                                   "summary.json cannot be read as JSON.",
-                                  "robot.json is not there."}));
+                                  "robot.json is missing."}));
 }
 
-TEST(ReportPage, ShowsNoSummaryOfAnotherLog) {
+TEST(ReportPage, IgnoresSummaryOfAnotherLog) {
   const fs::path run = EmptyFolder("run_cut");
   Write(run / "log.csv", "time[s]\n0\n");
   Write(run / "summary.json", R"({"recovered": true, "log_sha256": "other"})");
@@ -111,7 +111,7 @@ TEST(ReportPage, ShowsTwoRuns) {
   EXPECT_EQ(data["runs"][1]["name"], "run_b");
 }
 
-TEST(ReportPage, NamesWhatItCannotReadOrWrite) {
+TEST(ReportPage, NamesTheFileThatCannotBeReadOrWritten) {
   const auto error = [](const auto& act) -> std::string {
     try {
       act();
@@ -122,7 +122,7 @@ TEST(ReportPage, NamesWhatItCannotReadOrWrite) {
   };
   const fs::path run = EmptyFolder("run_broken");
   EXPECT_EQ(error([&] { ReadRun("no/such/run"); }),
-            "no/such/run: is not a run's folder");
+            "no/such/run: must be the folder of a run");
   EXPECT_EQ(error([&] { ReadRun(run); }),
             (run / "log.csv").string() + ": cannot be opened");
   Write(run / "log.csv", "");
@@ -132,11 +132,11 @@ TEST(ReportPage, NamesWhatItCannotReadOrWrite) {
   EXPECT_EQ(error([&] { WriteReport({run}, run); }),
             run.string() + ": cannot be written");
   EXPECT_EQ(error([&] { WriteReport({}, run / "a.html"); }),
-            "a report shows one run or two, not 0");
+            "a report must show one run or two, not 0");
   EXPECT_EQ(error([&] {
               WriteReport({run, run, run}, run / "a.html");
             }),
-            "a report shows one run or two, not 3");
+            "a report must show one run or two, not 3");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-// A vector of any length.
+// Returns a vector of any length as an array.
 template <typename Derived>
 json ToJson(const Eigen::MatrixBase<Derived>& vector) {
   json array = json::array();
@@ -58,7 +58,8 @@ const char* Name(BodyShapeKind kind) {
   return "";
 }
 
-// A body goes by the name of the first link in it, which carries its joint.
+// Returns the name of a body. It is the name of the first link in the body,
+// which is the child link of the body's joint.
 std::string BodyName(const Tree& tree, int body) {
   for (const Frame& frame : tree.frames()) {
     if (frame.body == body && frame.X_BF.p.isZero(0)) return frame.name;

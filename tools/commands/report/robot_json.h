@@ -8,21 +8,22 @@
 
 namespace poise {
 
-/// What a reader of a run's log needs to know of the robot in order to draw it:
-/// the tree, shapes, soles and limits.
+/// Returns the data that are needed to draw the robot of a log: its tree,
+/// shapes, soles and limits.
 ///
 ///     format  "poise-robot-1"
 ///     name, mass (kg)
 ///     bodies  [{name, parent, joint, type, p, quat, axis}]: body 0 is the base
-///             with parent -1 and no joint; p and quat are X_PF, the joint
-///             frame on the parent, before the joint's own motion.
-///     links   [{name, body, p, quat}]: every link of the URDF, X_BF.
+///             with parent -1 and no joint. p and quat are X_PF, the joint
+///             frame on the parent at joint position 0.
+///     links   [{name, body, p, quat}]: every link of the URDF; p and quat are
+///             X_BF.
 ///     shapes  [{body, kind, size, p, quat, rgba}], see BodyShape;
 ///             kind is "box", "ellipsoid", "cylinder" or "capsule".
 ///     feet    [{name, body, p, quat, half_size, polygon}], see Foot.
-///     limits  {JOINT: {lower, upper, velocity, effort}}, null where infinite.
+///     limits  {JOINT: {lower, upper, velocity, effort}}; null if infinite.
 ///
-/// Quaternions are (x, y, z, w); SI units.
+/// Quaternions are in the order (x, y, z, w). Units are SI.
 nlohmann::json MakeRobotJson(const Robot& robot);
 
 }  // namespace poise

@@ -25,7 +25,7 @@ Robot Leg() {
   ankle.name = "ankle";
   ankle.parent = "shank";
   ankle.child = "foot";
-  // A quarter turn about z.
+  // The ankle frame is rotated by 90 degrees about z.
   ankle.X_PF.R << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   ankle.X_PF.p = {0, 0, -0.3};
   Inertia M;
@@ -58,7 +58,7 @@ Robot Leg() {
   return leg;
 }
 
-TEST(RobotJson, HoldsTheTree) {
+TEST(RobotJson, ContainsTheTree) {
   const json robot = MakeRobotJson(Leg());
   EXPECT_EQ(robot["format"], "poise-robot-1");
   EXPECT_EQ(robot["name"], "leg");
@@ -71,7 +71,7 @@ TEST(RobotJson, HoldsTheTree) {
       "quat": [0.0, 0.0, 0.0, 1.0]})"));
 }
 
-TEST(RobotJson, HoldsLinksThatAreFixedInABody) {
+TEST(RobotJson, ContainsFixedLinks) {
   const json links = MakeRobotJson(Leg())["links"];
   ASSERT_EQ(links.size(), 3u);
   for (const json& link : links) {
@@ -83,7 +83,7 @@ TEST(RobotJson, HoldsLinksThatAreFixedInABody) {
   }
 }
 
-TEST(RobotJson, HoldsFeetShapesAndLimits) {
+TEST(RobotJson, ContainsFeetShapesAndLimits) {
   const json robot = MakeRobotJson(Leg());
   const json& foot = robot["feet"][0];
   EXPECT_EQ(foot["name"], "left_foot");

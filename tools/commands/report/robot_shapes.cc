@@ -12,15 +12,18 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Cool grey for flesh and a darker one for bones: the colors of "no color".
+// Default colors, for shapes whose color the robot file does not give: grey for
+// ellipsoids, and darker grey for the capsules between joints.
 const Eigen::Vector4d kEllipsoidColor{0.66, 0.70, 0.76, 1};
 const Eigen::Vector4d kBoneColor{0.42, 0.46, 0.52, 1};
 
-// Half axes that can be seen and that do not fill the scene, m.
+// Range of half axes, m. Smaller ones would be invisible, larger ones would
+// fill the scene.
 constexpr double kSmallestHalfAxis = 0.004;
 constexpr double kLargestHalfAxis = 0.4;
 
-// Primitives below this part of the ellipsoid's volume are not the body.
+// Primitives with less than this fraction of the ellipsoid's volume cannot be
+// the whole body.
 constexpr double kTooSmall = 0.05;
 
 struct KindAndSize {
@@ -73,8 +76,8 @@ std::vector<BodyShape> PrimitivesOf(const std::vector<Shape>& shapes,
   return primitives;
 }
 
-// Half axes a, b, c of the uniform ellipsoid with principal moments I and mass
-// m: I_x = m (b^2 + c^2) / 5, and so on.
+// Returns the uniform ellipsoid with the inertia of a body. With half axes a,
+// b, c, mass m and principal moments I, I_x = m (b^2 + c^2) / 5, and so on.
 std::optional<BodyShape> EllipsoidOf(const Inertia& inertia, int body) {
   if (!(inertia.mass > 0)) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia.I_G_B);
@@ -94,7 +97,8 @@ std::optional<BodyShape> EllipsoidOf(const Inertia& inertia, int body) {
                    kEllipsoidColor};
 }
 
-// A capsule from a body's origin to p_BF_B.
+// Returns a capsule from a body's origin to p_BF_B, or nothing if it would be
+// too short to be visible.
 std::optional<BodyShape> BoneTo(const Eigen::Vector3d& p_BF_B, int body) {
   const double length = p_BF_B.norm();
   if (length < 2 * kSmallestHalfAxis) return std::nullopt;

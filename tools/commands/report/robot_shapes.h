@@ -16,20 +16,22 @@ struct BodyShape {
   int body;
   Pose X_BS;
   BodyShapeKind kind;
-  /// Box: edge lengths. Ellipsoid: half axes. Cylinder: radius, length along z,
-  /// 0. Capsule: the same, the length without its two half balls. m.
+  /// Size, m. Box: edge lengths. Ellipsoid: half axes. Cylinder: radius, length
+  /// along z, 0. Capsule: radius, length along z without its two half spheres,
+  /// 0.
   Eigen::Vector3d size;
   Eigen::Vector4d rgba;
 };
 
-/// The robot as something to look at, although its meshes are not at hand. Each
-/// body is drawn by the first of these that says anything of it:
+/// Returns shapes to draw a robot without its meshes, which are not available.
+/// The shapes of a body are the first of these that exist:
 ///  - the boxes, spheres and cylinders among its visuals,
-///  - those among its collisions,
-///  - the uniform ellipsoid that has its inertia, and a capsule from its origin
-///    to each joint it carries. They are also added to primitives so small (a
-///    sensor on a torso that is a mesh) that they cannot be the body itself.
-/// Shapes without extent, of which some files make contact points, are left out.
+///  - the boxes, spheres and cylinders among its collisions,
+///  - the uniform ellipsoid with the body's inertia, and a capsule from the
+///    body's origin to each joint on the body. They are also added if the
+///    primitives are too small to be the whole body, such as a sensor on a
+///    torso that is a mesh.
+/// Shapes of size zero are ignored; some files use them as contact points.
 std::vector<BodyShape> MakeBodyShapes(const RobotModel& robot);
 
 }  // namespace poise

@@ -10,7 +10,7 @@
 namespace poise {
 namespace {
 
-// The inertia of a uniform ellipsoid.
+// Returns the inertia of a uniform ellipsoid.
 Inertia EllipsoidInertia(double mass, const Eigen::Vector3d& half_axes) {
   const Eigen::Vector3d s = half_axes.cwiseAbs2();
   Inertia M;
@@ -21,7 +21,7 @@ Inertia EllipsoidInertia(double mass, const Eigen::Vector3d& half_axes) {
   return M;
 }
 
-// Two links, joined at p, the first with a fixed link on it.
+// Makes two links with a joint at p. A camera is fixed to the first link.
 RobotModel Arm(const Inertia& M_upper, const Eigen::Vector3d& p) {
   JointSpec elbow;
   elbow.name = "elbow";
@@ -50,14 +50,14 @@ RobotModel Arm(const Inertia& M_upper, const Eigen::Vector3d& p) {
   return robot;
 }
 
-TEST(RobotShapes, BodyWithoutPrimitivesIsItsEllipsoidAndABoneToEachJoint) {
+TEST(RobotShapes, DrawsBodyWithoutPrimitivesAsEllipsoidAndCapsules) {
   const Eigen::Vector3d half_axes(0.05, 0.2, 0.1);
   Inertia M = EllipsoidInertia(3, half_axes);
   M.p_BoG_B = {0.01, 0.02, 0.03};
   const Eigen::Matrix3d R(
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
   const Eigen::Matrix3d I = R * M.I_G_B * R.transpose();
-  M.I_G_B = (I + I.transpose()) / 2;  // To the bit.
+  M.I_G_B = (I + I.transpose()) / 2;  // Exactly symmetric.
   const auto shapes = MakeBodyShapes(Arm(M, {0, 0.3, 0}));
   ASSERT_EQ(shapes.size(), 3u);
 
@@ -66,7 +66,7 @@ TEST(RobotShapes, BodyWithoutPrimitivesIsItsEllipsoidAndABoneToEachJoint) {
   EXPECT_EQ(ellipsoid.kind, BodyShapeKind::kEllipsoid);
   EXPECT_EQ(ellipsoid.X_BS.p, M.p_BoG_B);
   EXPECT_GT(ellipsoid.X_BS.R.determinant(), 0);
-  // Its axes in the order of growing moments, so compare as a tensor.
+  // The axes are in order of increasing moments, so tensors are compared.
   const auto tensor = [](const Eigen::Matrix3d& axes,
                          const Eigen::Vector3d& lengths) {
     return Eigen::Matrix3d(axes * lengths.cwiseAbs2().asDiagonal() *
@@ -108,7 +108,7 @@ TEST(RobotShapes, PrefersVisualsToCollisionsAndPlacesThemInTheBody) {
   EXPECT_EQ(shapes[0].rgba, Eigen::Vector4d(1, 0, 0, 1));
 }
 
-TEST(RobotShapes, FallsBackToCollisionsWhereVisualsAreMeshes) {
+TEST(RobotShapes, UsesCollisionsIfVisualsAreMeshes) {
   RobotModel robot = Arm(EllipsoidInertia(3, {0.1, 0.1, 0.1}), {0, 0.3, 0});
   robot.visuals.push_back({0, {}, Mesh{"a.stl", {1, 1, 1}}});
   robot.collisions.push_back({0, {}, Cylinder{0.1, 0.4}});
@@ -121,25 +121,26 @@ TEST(RobotShapes, FallsBackToCollisionsWhereVisualsAreMeshes) {
   EXPECT_EQ(shapes[1].size, Eigen::Vector3d(0.15, 0.15, 0.15));
 }
 
-TEST(RobotShapes, PrimitivesTooSmallToBeTheBodyDoNotReplaceIt) {
+TEST(RobotShapes, AddsEllipsoidIfPrimitivesAreTooSmall) {
   RobotModel robot = Arm(EllipsoidInertia(3, {0.1, 0.1, 0.1}), {0, 0.3, 0});
   robot.visuals.push_back({0, {}, Box{{0.05, 0.05, 0.05}}});
-  // 125 cm3 of 4189 cm3: a sensor, and the body still to draw.
+  // The box has 125 cm3, the ellipsoid 4189 cm3. So the box is a sensor, and
+  // the ellipsoid is drawn, too.
   EXPECT_EQ(MakeBodyShapes(robot).size(), 4u);
   robot.visuals.back().geometry = Box{{0.1, 0.1, 0.1}};
   EXPECT_EQ(MakeBodyShapes(robot).size(), 2u);
 }
 
-TEST(RobotShapes, LeavesOutWhatHasNoExtent) {
+TEST(RobotShapes, IgnoresShapesOfSizeZero) {
   RobotModel robot = Arm({}, {0, 0.001, 0});
   robot.collisions.push_back({0, {}, Sphere{0}});
-  // No mass, no bone that could be seen: nothing of body 0.
+  // Body 0 has no mass and too short a capsule, so it has no shapes.
   const auto shapes = MakeBodyShapes(robot);
   ASSERT_EQ(shapes.size(), 1u);
   EXPECT_EQ(shapes[0].body, 1);
 }
 
-TEST(RobotShapes, KeepsAbsurdInertiasVisible) {
+TEST(RobotShapes, LimitsTheSizeOfEllipsoids) {
   Inertia needle;
   needle.mass = 1;
   needle.I_G_B = Eigen::Vector3d(0, 100, 100).asDiagonal();

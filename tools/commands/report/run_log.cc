@@ -22,15 +22,16 @@ namespace {
 
 using nlohmann::json;
 
-// Rows a page carries. A run of 10 s at 1 kHz keeps every tick in its plots,
-// and fits twice into 5 MB; one of 10 minutes still replays at 30 Hz.
+// Numbers of rows in a page. A run of 10 s at 1 kHz keeps every tick in its
+// plots, and two such runs take at most 5 MB. A run of 10 minutes replays at 30
+// Hz.
 constexpr long kFewestMotionRows = 3400;
 constexpr long kMostMotionRows = 18000;
 constexpr long kSignalRows = 10000;
 constexpr long kTorqueRows = 5000;
 constexpr long kTimingRows = 10000;
 
-// Pauses shorter than this part of the log do not split a span.
+// Pauses shorter than the log divided by this number do not split a span.
 constexpr long kSpansPerLog = 1000;
 
 enum class Table { kMotion, kSignals, kTorques };
@@ -61,14 +62,14 @@ bool BelongsTo(Table table, ColumnGroup group) {
 }
 
 bool BelongsTo(Table table, const std::string& column) {
-  // Of the base's pose, its height is plotted.
+  // The plots show only the height of the base's pose.
   const bool is_height =
       WithoutUnit(column) == WithoutUnit(BasePositionColumn('z'));
   return BelongsTo(table, GroupOf(column)) ||
          (table == Table::kSignals && is_height);
 }
 
-// The columns of the log that a table keeps, with its thinning.
+// The columns of the log that a table keeps, with fewer rows.
 class LogTable {
  public:
   LogTable(Table table, const LogReader& log, ThinnedTable::Keep keep,
@@ -106,7 +107,8 @@ class LogTable {
     return sources;
   }
 
-  // Taken before thinning: a difference of extremes is not one of differences.
+  // Errors are computed before rows are dropped, because the extremes of a
+  // difference are not the difference of the extremes.
   static std::vector<Error> Errors(Table table, const LogReader& log) {
     std::vector<Error> errors;
     if (table != Table::kSignals) return errors;
@@ -138,7 +140,7 @@ class LogTable {
   std::vector<double> row_;
 };
 
-// When something named was the case.
+// Collects the intervals in which named states lasted.
 class Spans {
  public:
   explicit Spans(long longest_pause) : longest_pause_(longest_pause) {}
@@ -159,7 +161,7 @@ class Spans {
     if (std::abs(value) > std::abs(span.value)) span.value = value;
   }
 
-  // Those that were it for the longest first.
+  // Returns the states, that with the longest total time first.
   json ActiveToJson() const {
     std::vector<std::pair<double, json>> rows;
     for (const auto& [name, spans] : spans_) {
@@ -200,14 +202,16 @@ class Spans {
   std::map<std::string, std::vector<Span>, std::less<>> spans_;
 };
 
-// Takes the first of what semicolons separate off a cell.
+// Removes the first entry of a cell and returns it. Semicolons separate
+// entries.
 std::string_view TakeEntry(std::string_view* cell) {
   const std::string_view entry = cell->substr(0, cell->find(';'));
   cell->remove_prefix(std::min(cell->size(), entry.size() + 1));
   return entry;
 }
 
-// "left_foot.cop.x_max=41.2;torque.l_knee.max=3.0"
+// Marks the entries of a cell such as
+// "left_foot.cop.x_max=41.2;torque.l_knee.max=3.0".
 void MarkActive(std::string_view cell, long row, double time, double dt,
                 Spans* active) {
   while (!cell.empty()) {
@@ -221,7 +225,7 @@ void MarkActive(std::string_view cell, long row, double time, double dt,
   }
 }
 
-// "l_foot|r_foot;l_hand|l_thigh"
+// Marks the entries of a cell such as "l_foot|r_foot;l_hand|l_thigh".
 void MarkTouching(std::string_view cell, long row, double time, double dt,
                   Spans* touching) {
   while (!cell.empty()) {
@@ -265,8 +269,8 @@ json ReadRunLog(const std::filesystem::path& file,
     const double time = log.Number(*time_column);
     if (!std::isfinite(time) || (rows > 0 && time <= previous)) {
       notes.push_back("Row " + std::to_string(rows + 1) + " of " + name +
-                      " has no time after the row before; the log "
-                      "is shown up to there.");
+                      " must have a later time than the row before. The log "
+                      "is shown up to this row.");
       break;
     }
     if (rows > 0) dt = time - previous;

@@ -7,36 +7,42 @@
 
 namespace poise {
 
-/// What a page shows of a run's log, thinned so that it stays small:
+/// Reads the part of a run's log that a page shows, with fewer rows so that the
+/// page stays small. Returns:
 ///
-///     rows     of the log.
-///     motion   {rows, time, channels}: base, joints, CoM, foot wrenches and
-///              push, every so many ticks, for the replay.
-///     signals  the same shape, for the plots, with com_error = com - com_ref.
-///     torques  the same shape.
-///     active   [{name, peak, spans: [[from, to, multiplier], ...]}]: when each
-///              row of the hierarchy was active, in s, the largest multiplier.
-///     status   [[status, from, to], ...]: where it was not "ok".
-///     touching [["A|B", from, to], ...]: when two links pressed on each other.
-///     notes    [sentence, ...]: what is wrong with the log.
+///     rows     number of rows of the log. motion   {rows, time, channels}:
+///     base, joints, CoM and foot wrenches, for
+///              the replay. One row of a constant number of rows is kept.
+///     signals  {rows, time, channels}, for the plots, with
+///              com_error = com - com_ref.
+///     torques  {rows, time, channels}, for the plots.
+///     active   [{name, peak, spans: [[from, to, multiplier], ...]}]: intervals
+///              in which a row of the hierarchy was active, s, and the largest
+///              multiplier in each. peak is the largest of all.
+///     status   [[status, from, to], ...]: intervals with a status other than
+///              "ok", s.
+///     touching [["A|B", from, to], ...]: times at which two links touched, s.
+///     notes    [sentence, ...]: errors in the log.
 ///
-/// See EncodeChannel() for channels, EncodeFloats() for time. Where plots are
-/// thinned, 2 n rows give two points, their least and greatest value in the
-/// order they came in: a peak of one tick stays visible.
+/// See EncodeChannel() for channels, EncodeFloats() for time. If a plot has too
+/// many rows, 2 n rows become two points: their smallest and their largest
+/// value, in order of time. So a peak of one tick stays visible.
 ///
-/// A log without rows, or one cut short, is read as far as it goes and noted.
-/// Throws std::invalid_argument, naming the file, if there is none, if it has no
-/// column time, or holds what is no number where one must be, or a whole row of
-/// another length than its header.
+/// If the log has no rows or is cut short, the existing rows are returned with
+/// a note. Throws std::invalid_argument with the name of the file if there is
+/// no log or no column time. Also throws if a cell that must be a number is
+/// not, or if a complete row has another length than the header.
 ///
-/// @param num_rows  of the log; if it is not given, a first pass counts them.
+/// @param num_rows  number of rows of the log. If it is not given, a first pass
+///                  over the log counts them.
 ///
-/// Takes one pass over the log and the memory of the result.
+/// Reads the log once, apart from that pass. Needs the memory of the result.
 nlohmann::json ReadRunLog(const std::filesystem::path& file,
                           std::optional<long> num_rows = {});
 
-/// The same for timing.csv: {rows, time, channels} with us and iterations; the
-/// time is that of the tick number, given the control period dt, s.
+/// Reads timing.csv in the same way. Returns {rows, time, channels} with the
+/// channels us and iterations. The time is the number of the tick times the
+/// control period dt, s.
 nlohmann::json ReadTiming(const std::filesystem::path& timing_csv, double dt,
                           std::optional<long> num_rows = {});
 

@@ -43,11 +43,11 @@ TEST(RunLog, SortsColumnsIntoTheTablesThatNeedThem) {
   EXPECT_EQ(Names(log["torques"]), json({"tau.knee"}));
   EXPECT_EQ(log["motion"]["channels"][0]["unit"], "m");
   EXPECT_NEAR(log["signals"]["channels"][4]["min"].get<double>(), -0.01,
-              1e-9);  // A float of it.
+              1e-9);  // Rounding to float.
   EXPECT_TRUE(log["notes"].empty());
 }
 
-TEST(RunLog, LeavesOutWhatThePageDoesNotShow) {
+TEST(RunLog, OmitsColumnsThatThePageDoesNotShow) {
   const json log = ReadRunLog(
       Written("time[s],lambda.left_foot.fz[N],other.fx[N],push.fx[N],"
               "right_foot.mx[Nm],residual.momentum,self_contacts,status\n"
@@ -63,14 +63,14 @@ TEST(RunLog, PlotsAFootsForceInAllThreeAxes) {
   EXPECT_EQ(Names(log["signals"]), json({"paw.fx", "paw.fy", "paw.fz"}));
 }
 
-TEST(RunLog, SaysWhenLinksTouched) {
+TEST(RunLog, ReportsWhenLinksTouched) {
   const json log = ReadRunLog(
       Written("time[s],touching\n0,\n1,a|b\n2,a|b;c|d\n3,c|d\n4,\n"));
   EXPECT_EQ(log["touching"],
             json::parse(R"([["a|b", 1.0, 3.0], ["c|d", 2.0, 4.0]])"));
 }
 
-TEST(RunLog, SaysWhenEachConstraintWasActive) {
+TEST(RunLog, ReportsWhenEachConstraintWasActive) {
   const json log =
       ReadRunLog(Written(std::string(kHeader) +
                          "0,0,0,0,0,0,0,0,ok,cop=2\n"
@@ -87,7 +87,7 @@ TEST(RunLog, SaysWhenEachConstraintWasActive) {
                    {"spans", {{0.5, 1.0, 1.0}}}}}));
 }
 
-TEST(RunLog, SaysWhereTheStatusWasNotOk) {
+TEST(RunLog, ReportsWhenTheStatusWasNotOk) {
   const json log =
       ReadRunLog(Written(std::string(kHeader) + "0,0,0,0,0,0,0,0,ok,\n"
                                                 "1,0,0,0,0,0,0,0,fail_safe,\n"
@@ -96,7 +96,7 @@ TEST(RunLog, SaysWhereTheStatusWasNotOk) {
   EXPECT_EQ(log["status"], json::parse(R"([["fail_safe", 1.0, 3.0]])"));
 }
 
-TEST(RunLog, ReadsWhatIsThereOfALogCutShort) {
+TEST(RunLog, ReadsCompleteRowsOfALogCutShort) {
   const json log = ReadRunLog(
       Written(std::string(kHeader) + "0,0,0,0,0,0,0,0,ok,\n0.001,0,0,0,0.0"));
   EXPECT_EQ(log["rows"], 1);
@@ -104,13 +104,13 @@ TEST(RunLog, ReadsWhatIsThereOfALogCutShort) {
             json({"log.csv was cut short: its last row is incomplete."}));
 }
 
-TEST(RunLog, SaysThatThereAreNoRows) {
+TEST(RunLog, NotesThatThereAreNoRows) {
   const json log = ReadRunLog(Written(kHeader));
   EXPECT_EQ(log["rows"], 0);
   EXPECT_EQ(log["notes"], json({"log.csv has a header and no rows."}));
 }
 
-TEST(RunLog, RefusesWhatIsNoLog) {
+TEST(RunLog, RejectsInvalidLog) {
   const auto refusal = [](const std::string& text) -> std::string {
     const auto file = Written(text);
     try {
@@ -121,7 +121,7 @@ TEST(RunLog, RefusesWhatIsNoLog) {
     return "accepted";
   };
   EXPECT_EQ(refusal(""), ": has no columns");
-  EXPECT_EQ(refusal("POISELOG\1"), ": has no columns");  // A binary one, cut.
+  EXPECT_EQ(refusal("POISELOG\1"), ": has no columns");  // A binary log, cut.
   EXPECT_EQ(refusal("a,b\n1,2\n"), ": has no column time");
   EXPECT_EQ(refusal("\x8f\xa3,\x01\n\xff"), ": has no column time");
   EXPECT_EQ(refusal("time[s],q.knee[rad]\n0,0.1\n1,0.l\n"),
@@ -135,7 +135,7 @@ TEST(RunLog, StopsWhereTimeDoesNotAdvance) {
   EXPECT_EQ(ReadRunLog(Written("time[s]\n0\nnan\n"))["rows"], 1);
 }
 
-TEST(RunLog, ThinsALongLogAndKeepsItsPeak) {
+TEST(RunLog, ReducesALongLogAndKeepsItsPeak) {
   std::string text = "time[s],com.x[m],q.knee[rad]\n";
   constexpr int kRows = 50000;
   for (int i = 0; i < kRows; ++i) {
@@ -150,7 +150,7 @@ TEST(RunLog, ThinsALongLogAndKeepsItsPeak) {
   EXPECT_EQ(log["signals"]["channels"][0]["max"], 5);
 }
 
-TEST(RunLog, NamesALogThatIsNotThere) {
+TEST(RunLog, RejectsMissingLog) {
   EXPECT_THROW(ReadRunLog("no/such/log.csv"), std::invalid_argument);
 }
 

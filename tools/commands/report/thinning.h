@@ -7,7 +7,7 @@
 
 namespace poise {
 
-/// A table over time that thins itself while it is filled.
+/// A table over time that keeps only part of the rows that are added.
 class ThinnedTable {
  public:
   struct Column {
@@ -15,16 +15,16 @@ class ThinnedTable {
     std::string unit;
   };
   enum class Keep {
-    kEvery,     ///< The first row of every `stride`.
-    kExtremes,  ///< The least and greatest of every 2 `stride`, as they came.
+    kEvery,     ///< Keeps the first of every `stride` rows.
+    kExtremes,  ///< Keeps minimum and maximum of 2 `stride` rows in order.
   };
 
   ThinnedTable(std::vector<Column> columns, Keep keep, long stride);
 
-  /// @param values one for each column.
+  /// Adds a row. @param values  one value for each column.
   void Add(double time, const std::vector<double>& values);
 
-  /// {rows, time, channels}; the table is complete.
+  /// Returns {rows, time, channels}. No row may be added afterwards.
   nlohmann::json Finish();
 
  private:
@@ -47,7 +47,7 @@ class ThinnedTable {
   std::vector<std::vector<float>> values_;
 };
 
-/// The stride by which `rows` become at most `wanted`.
+/// Returns the smallest stride with which `rows` rows become at most `wanted`.
 long StrideFor(long rows, long wanted);
 
 }  // namespace poise

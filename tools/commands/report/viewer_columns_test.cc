@@ -1,6 +1,6 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// The scripts of the viewer spell the columns of the log themselves. Here each
-// name in them is compared with the table of sim/log/columns.h.
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE. The scripts
+// of the viewer contain names of columns of the log. These tests compare each
+// name with the table of sim/log/columns.h.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,7 +16,7 @@
 namespace poise {
 namespace {
 
-// A script writes `tau.${joint}`; any name stands for the expression.
+// Replaces expressions such as ${joint} in `tau.${joint}`.
 constexpr char kAnyName[] = "NAME";
 
 std::string Contents(const std::filesystem::path& file) {
@@ -25,8 +25,8 @@ std::string Contents(const std::filesystem::path& file) {
   return text.str();
 }
 
-// The strings of all scripts that begin as the name of a column does, or, as
-// '.contact', end as one does.
+// Returns the strings of all scripts that begin like the name of a column, or
+// that, as '.contact', end like one.
 std::set<std::string> NamesInScripts() {
   const std::regex name(
       "['`]((?:base|com|com_ref|cop|push|other|tau|q|lambda|residual)"
@@ -46,7 +46,8 @@ std::set<std::string> NamesInScripts() {
   return names;
 }
 
-// A script may hold a part of a name and add the axis later.
+// Returns true if the text is the begin or the end of a column's name. A script
+// may contain only a part of a name and add the axis later.
 bool IsPartOfAColumn(const std::string& part) {
   const std::regex any(
       std::regex_replace(std::regex_replace(part, std::regex("\\."), "\\."),
@@ -63,9 +64,9 @@ bool IsPartOfAColumn(const std::string& part) {
   return false;
 }
 
-TEST(ViewerColumns, AreColumnsOfTheLog) {
+TEST(ViewerColumns, AllNamesAreColumnsOfTheLog) {
   const std::set<std::string> names = NamesInScripts();
-  // The search finds the names at all.
+  // The regular expression finds names of each kind.
   for (const char* known :
        {"base.qw", "com.", "cop.", ".contact", "tau.NAME"}) {
     EXPECT_EQ(names.count(known), 1u) << known;
@@ -75,7 +76,7 @@ TEST(ViewerColumns, AreColumnsOfTheLog) {
   }
 }
 
-TEST(ViewerColumns, WouldMissARenamedColumn) {
+TEST(ViewerColumns, CheckDetectsWrongNames) {
   EXPECT_TRUE(IsPartOfAColumn("base.z"));
   for (const char* name : {"com.w", "copp.", "tau_NAME", ".touch"}) {
     EXPECT_FALSE(IsPartOfAColumn(name)) << name;
