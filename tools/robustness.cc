@@ -64,9 +64,10 @@ std::vector<Trial> MakeTrials(const std::string& robots,
 int Main(int argc, char** argv) {
   CLI::App app(
       "Pushes the humanoid in all directions, with wrong masses, delays, "
-      "noise, slippery ground, weak motors and slow clocks, and prints a table "
-      "of the results. With --robots, pushes other robots. Exit code 1 if a "
-      "result is not the expected one.",
+      "noise, "
+      "slippery ground, weak motors and slow clocks, and prints a table of the "
+      "results. With --robots, pushes other robots. Exit code 1 if a result is "
+      "not the expected one.",
       "robustness");
   std::string robots, only;
   app.add_option(
