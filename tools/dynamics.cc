@@ -1,5 +1,5 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE. Computes
-// the dynamics of a robot: bazel run //tools:dynamics -- --urdf FILE ...
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Computes the dynamics of a robot: bazel run //tools:dynamics -- --urdf ...
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -36,8 +36,7 @@ void WarnOfInertia(const std::string& urdf, const RobotModel& robot) {
 int Main(int argc, char** argv) {
   CLI::App app(
       "Computes mass matrix, bias forces, inverse dynamics, centroidal "
-      "momentum "
-      "and frame Jacobians of a robot in given states.",
+      "momentum and frame Jacobians of a robot in given states.",
       "dynamics");
   std::string urdf, states;
   std::vector<std::string> frames;

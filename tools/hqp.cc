@@ -1,7 +1,7 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE. Solves
-// hierarchies from files: bazel run //tools:hqp -- FILE.json ... The fast
-// solver treats several files as successive ticks of a controller: each solve
-// starts from the working set of the file before.
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Solves hierarchies from files: bazel run //tools:hqp -- FILE.json ...
+// The fast solver treats several files as successive ticks of a controller:
+// each solve starts from the working set of the previous file.
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -25,7 +25,7 @@ int Main(int argc, char** argv) {
   app.add_option(
          "files", files,
          "Files in the format hqp-1. Each fast solve starts from the working "
-         "set of the file before, if both have as many variables")
+         "set of the previous file, if both have as many variables")
       ->required();
   app.add_option("--method", method.name,
                  "svd or cod: the cascade of the paper; fast: the active-set "

@@ -190,8 +190,8 @@ void Doctor::CheckParity(const Robot& robot) {
   // amplifies rounding errors by 1 / smallest_eigenvalue_.
   const double rounding = std::numeric_limits<double>::epsilon() *
                           robot.model.tree.nv() / *smallest_eigenvalue_;
-  if (*diagnosis_.parity <= std::max(kParity, rounding))
-    return;  // False for NaN.
+  // The comparison is false for NaN.
+  if (*diagnosis_.parity <= std::max(kParity, rounding)) return;
   Add(Severity::kWarn, "robot",
       "differs from its Bullet plant by " + PrintNumber(*diagnosis_.parity),
       "relative error: simulation and controller do not agree");

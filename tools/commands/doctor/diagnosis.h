@@ -29,10 +29,9 @@ struct Diagnosis {
     double length, width;
   };
   std::vector<Sole> soles;
-  std::optional<double>
-      com_height;                 ///< In the standing posture, if there is one.
-  std::optional<double> parity;   ///< See Parity::worst().
-  std::vector<Finding> findings;  ///< The most severe first.
+  std::optional<double> com_height;  ///< In the standing posture, if any.
+  std::optional<double> parity;      ///< See Parity::worst().
+  std::vector<Finding> findings;     ///< The most severe first.
 
   Severity worst() const;
 };

@@ -20,7 +20,8 @@ struct Parity {
 
 /// Measures M' and g' of the Bullet plant and compares them with M and g. The
 /// plant is at rest, with its joints as near zero as their limits allow. Its
-/// accelerations under one unit force after the other are the columns of M'^-1.
+/// accelerations under one unit force after the other, minus the acceleration
+/// under gravity alone, are the columns of M'^-1.
 /// Under gravity alone its acceleration v̇ gives g' = -M' v̇.
 ///
 /// Throws std::invalid_argument if Bullet cannot represent the robot.

@@ -13,7 +13,7 @@ namespace {
 constexpr double kRolls = 0.02;   // Tilt, rad.
 constexpr double kSlides = 5e-3;  // Displacement, m.
 
-// Returns words for the begin of a phase, or nothing for an unknown phase.
+// Returns words for the start of a phase, or nothing for an unknown phase.
 std::string_view Begins(std::string_view phase) {
   constexpr std::pair<std::string_view, std::string_view> kWords[] = {
       {"down", "is down again"},

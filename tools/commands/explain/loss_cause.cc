@@ -99,8 +99,8 @@ LossCause FindCause(const Span& loss, const RunStory& story,
       cause.rows.emplace_back(name, level);
     }
   }
-  cause.rows =
-      HardestFirst(cause.rows);  // The lowest level is the nearest one.
+  // The lowest level is the nearest one, so its rows come first.
+  cause.rows = HardestFirst(cause.rows);
   return cause;
 }
 

@@ -11,7 +11,7 @@ namespace poise {
 
 /// The cause of the residual of a task row.
 struct LossCause {
-  bool is_known = false;    ///< Else the rows are only active as well.
+  bool is_known = false;    ///< False: `rows` only lists active constraints.
   bool has_levels = false;  ///< Each number in `rows` is a level.
   Values rows;              ///< Largest multiplier or level first.
 };

@@ -28,10 +28,10 @@ struct MomentumCause {
 /// has named. If the log has no conflict, its causes are all active
 /// constraints. Row i causes the share
 ///     F dt mu_i r_i / (sum_j mu_j r_j).
-/// Here mu_i is the multiplier in the log. The relief r_i is a slightly wider
-/// limit: 1 cm of sole, 0.05 of friction, 10 % of torque, or 1.6 rad/s2 of a
-/// joint at its limit. The product mu_i r_i is the decrease of the momentum
-/// task's cost that the relief gives.
+/// Here mu_i is the multiplier in the log. The relief r_i is the amount by
+/// which the limit is widened: 1 cm of sole, 0.05 of friction, 10 % of torque,
+/// or 1.6 rad/s2 of a joint at its limit. The product mu_i r_i is the decrease
+/// of the momentum task's cost that the relief gives.
 ///
 /// Once F exceeds the robot's weight, active constraints are a consequence of
 /// the fall and do not count. Losses more than 0.5 s apart are separate
@@ -53,13 +53,12 @@ class MomentumCost {
   std::vector<MomentumCause> Causes() const;
 
   bool has_loss() const { return peak_ > 0; }
-  double from() const { return from_; }  ///< Begin of the loss, s.
+  double from() const { return from_; }  ///< Start of the loss, s.
   double peak() const { return peak_; }  ///< Largest loss, N.
   double at() const { return at_; }      ///< Time of peak(), s.
   double cost() const { return cost_; }  ///< Lost momentum, N s.
-  bool is_lost() const {
-    return is_lost_;
-  }  ///< F exceeded the weight, at lost_at().
+  /// True if F exceeded the weight; lost_at() is the time of this tick, s.
+  bool is_lost() const { return is_lost_; }
   double lost_at() const { return lost_at_; }
 
  private:

@@ -14,7 +14,7 @@ class RowPhrases {
   RowPhrases() = default;
 
   /// @param summary  summary of a run. Its key `rows` may be absent or
-  /// malformed.
+  ///                 malformed.
   explicit RowPhrases(const nlohmann::json& summary);
 
   std::string phrase(const std::string& name) const;

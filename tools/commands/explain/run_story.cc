@@ -46,7 +46,7 @@ std::string_view Text(const LogReader& reader, int column) {
                               " is " + Quoted(cell) + ", is not UTF-8");
 }
 
-// Returns the columns of a vector, or nothing if the log has not all of them.
+// Returns the columns of a vector, or nothing if one of them is missing.
 std::vector<int> FindAll(const LogReader& reader,
                          std::initializer_list<std::string> names) {
   std::vector<int> columns;

@@ -18,7 +18,7 @@ namespace poise {
 /// Names of rows, each with a number.
 using Values = std::vector<std::pair<std::string, double>>;
 
-/// Begin and period of a tick of a log, s.
+/// Start and period of a tick of a log, s.
 struct LogTick {
   double time, period;
 };
@@ -80,7 +80,7 @@ struct RunStory {
 /// with the row, if a text is not UTF-8.
 ///
 /// @param fell_at  time at which the robot fell, s; infinite if it did not
-/// fall.
+///                 fall.
 RunStory ReadRunStory(const std::filesystem::path& log,
                       const RowPhrases& phrases, double fell_at,
                       LogReader* reader);

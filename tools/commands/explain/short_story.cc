@@ -21,8 +21,8 @@ using nlohmann::json;
 constexpr size_t kMostCauses = 2;  // Maximum number of named reasons of a loss.
 constexpr size_t kMostRows = 2;    // Maximum number of named rows of a cause.
 constexpr double kSmallShare = 0.1;  // Smaller shares of a loss are not named.
-constexpr double kBefore =
-    0.010;  // s. A push may begin this much after its effect.
+// A push may start this much after its effect, s.
+constexpr double kBefore = 0.010;
 
 // The foot that slips and the time, s.
 struct Slip {

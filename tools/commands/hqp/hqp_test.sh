@@ -39,8 +39,8 @@ code=0
 grep -q '"status":"iteration_limit"' said || fail "one iteration: $(cat said)"
 
 # Several files are ticks of one solver, and a solve starts from the working set of
-# the file before. So one iteration is enough for the second file, even if the file
-# has a row less. With --cold, or after a file with another number of variables, the
+# the previous file. So one iteration is enough for the second file, even if the file
+# has one row fewer. With --cold, or after a file with another number of variables, the
 # solver starts anew.
 echo '{"format": "hqp-1", "variables": 1, "levels": [
   {"C": [[1]], "lower": [4]}]}' > after.json

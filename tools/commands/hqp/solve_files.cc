@@ -13,7 +13,7 @@
 namespace poise {
 namespace {
 
-constexpr size_t kMostMib = 1024;  // Maximum size of a file.
+constexpr size_t kMostMib = 1024;  // Largest file, MiB.
 
 // Returns the largest number of rows of each level over all problems.
 std::vector<LevelCapacity> Room(const std::vector<HqpProblem>& problems) {

@@ -15,8 +15,8 @@ namespace poise {
 /// A run that has just been recorded.
 struct RunRecord {
   RunResult result;
-  RunFiles
-      files;  ///< Input of WriteRunReport(), so that no file is read again.
+  /// Input of WriteRunReport(), so that no file is read again.
+  RunFiles files;
 };
 
 /// Runs a new loop and writes all files of a report into a folder: log.csv or

@@ -108,8 +108,8 @@ PushMapFiles::PushMapFiles(const fs::path& folder, const std::string& settings,
   Replace(settings_file, text);
   const fs::path map = folder / "map.csv", trials = folder / "trials.csv";
   for (const auto& cells : Rows(map, kMapHeader)) {
-    const PushMapPoint point =
-        PointOf(cells, 7, map);  // Checks the number of cells.
+    // PointOf() checks the number of cells.
+    const PushMapPoint point = PointOf(cells, 7, map);
     found_[point] = {Number(cells[3], map), Number(cells[4], map),
                      Number(cells[5], map)};
   }

@@ -71,7 +71,7 @@ std::vector<PushMapPoint> Points(int directions,
   return points;
 }
 
-// Reads the options of `push`. Error messages name the option of the user.
+// Reads the options of `push`, with `push_map` as the name of the program.
 PushOptions ReadRest(std::vector<std::string> arguments) {
   for (const char* taken : {"--force", "--direction", "--duration", "--pushes",
                             "--scenario", "--no-report"}) {

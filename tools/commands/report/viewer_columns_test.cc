@@ -1,6 +1,6 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE. The scripts
-// of the viewer contain names of columns of the log. These tests compare each
-// name with the table of sim/log/columns.h.
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// The scripts of the viewer contain names of columns of the log. These tests
+// compare each name with the table of sim/log/columns.h.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -46,7 +46,7 @@ std::set<std::string> NamesInScripts() {
   return names;
 }
 
-// Returns true if the text is the begin or the end of a column's name. A script
+// Returns true if the text is the start or the end of a column's name. A script
 // may contain only a part of a name and add the axis later.
 bool IsPartOfAColumn(const std::string& part) {
   const std::regex any(
