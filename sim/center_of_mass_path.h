@@ -8,16 +8,16 @@
 
 namespace poise {
 
-/// Where the desired center of mass is: a place that it shifts to smoothly, as
-/// told, and a sinusoid about it.
+/// The path of the desired center of mass: smooth shifts between places, plus a
+/// sinusoid about the place.
 class CenterOfMassPath {
  public:
   CenterOfMassPath() = default;
   CenterOfMassPath(const ComMotion& motion, const Eigen::Vector3d& start)
       : motion_(motion), from_(start), to_(start) {}
 
-  /// From where it now is, or is going, to a place, in `over` seconds from
-  /// `time` on: with minimum jerk, at rest at both ends.
+  /// Shifts from the present target to a place, in `over` seconds from `time` on. The
+  /// path has minimum jerk and is at rest at both ends.
   void ShiftTo(const Eigen::Vector3d& place, double time, double over);
 
   /// Writes p_WG, v_WG and a_WG.

@@ -22,17 +22,17 @@
 
 namespace poise {
 
-/// A robot, its plant and its controller, tick by tick:
+/// Runs a robot, its plant and its controller tick by tick:
 ///
-///     plant -> sensors -> controller -> (delay) -> plant, pushed.
+///     plant -> sensors -> controller -> (delay) -> plant, with pushes.
 ///
-/// Two loops of the same robot and scenario do the same to the bit, whatever
-/// runs beside them: all that is random comes from the scenario's seed.
+/// Two loops of the same robot and scenario give the same bits. All random numbers
+/// come from the scenario's seed.
 class ClosedLoop {
  public:
-  /// Throws InputError as Validate(), and if the robot does not have what the
-  /// scenario names, such as a task or a link; its field is "robot" if the plant
-  /// or the controller cannot use the robot. Throws Refusal about a file.
+  /// Throws InputError as Validate(), and if the robot lacks a task or a link that
+  /// the scenario names. The field is "robot" if the plant or the controller cannot
+  /// use the robot. Throws Refusal about a file.
   ClosedLoop(const Robot& robot, const Scenario& scenario);
 
   /// Runs one control tick.
@@ -60,17 +60,17 @@ class ClosedLoop {
   std::unique_ptr<Plant> plant_;
   std::unique_ptr<Controller> controller_;
   Sensors sensors_;
-  std::unique_ptr<Estimator> estimator_;  // If the scenario wants one.
+  std::unique_ptr<Estimator> estimator_;  // If the scenario enables it.
   Observer observer_;
   std::vector<PushOnRobot> pushes_;
-  std::vector<bool> down_;  // By foot: it is meant to be.
+  std::vector<bool> down_;  // By foot: planned to be down.
   int steps_per_tick_;
   int delay_steps_;
 
-  State state_;                          // As the controller is told.
+  State state_;                          // State that the controller receives.
   PlantState start_;                     // State at the start of the tick.
   Command command_;                      // Newest command.
-  std::deque<Eigen::VectorXd> torques_;  // By step of the plant, to come.
+  std::deque<Eigen::VectorXd> torques_;  // Future steps of the plant.
   Eigen::Vector3d com_start_;
   CenterOfMassPath com_path_;
   size_t next_event_ = 0;  // Index in the scenario's stance.

@@ -12,7 +12,7 @@ namespace poise {
 /// The outcome of a run.
 struct Verdict {
   bool recovered = false;
-  /// When it first became not recovered; nothing where it did so at the end.
+  /// Time of the first failure, s; empty if the failure is at the end only.
   std::optional<double> fell_at;
   const char* fell_by = "";  ///< Cause of the fall, in words.
   Eigen::Vector3d com_error_peak = Eigen::Vector3d::Zero();   ///< m.
@@ -22,10 +22,10 @@ struct Verdict {
   double foot_slide_peak = 0;                                 ///< m.
 };
 
-/// Judges by the plant's truth whether a robot recovered: its base was never
-/// below 60 % of where it stood nor tilted over 60 degrees, no foot that is
-/// meant to be down tilted by more than 0.1 rad or slid by more than 30 mm, and
-/// the mean of com - com_ref over the last half second is less than 20 mm, in
+/// Decides from the plant's true state whether a robot recovered. The base was
+/// always above 60 % of its standing height and tilted by less than 60 degrees. No
+/// foot that is planned to be down tilted by more than 0.1 rad or slid by more than
+/// 30 mm. The mean of com - com_ref over the last half second is less than 20 mm in
 /// the plane.
 class Judge {
  public:
@@ -36,15 +36,15 @@ class Judge {
   static constexpr double kLargestComError = 0.02;
   static constexpr double kEnd = 0.5;
 
-  /// `standing_height` is that of the base above the ground.
+  /// @param standing_height  height of the base above the ground, m.
   explicit Judge(double standing_height) : standing_height_(standing_height) {}
 
   void Look(const Observation& now);
 
-  /// The robot lies, or is about to: there is nothing more to see.
+  /// Returns whether the robot lies or is about to, so that the run can end.
   bool is_down() const { return down_; }
 
-  /// Verdict::fell_at is known.
+  /// Returns whether Verdict::fell_at has a value.
   bool has_fallen() const { return verdict_.fell_at.has_value(); }
 
   Verdict Conclude() const;

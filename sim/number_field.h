@@ -6,9 +6,8 @@
 
 namespace poise {
 
-/// A number of a setting, or three of them: under which key a file has it, and
-/// what it may be. The bounds are wide; what lies beyond is a slip, and would
-/// overflow, hang or eat the memory.
+/// One or three numbers of a setting, with their key in a file and their bounds. The
+/// bounds are wide. A value beyond them would overflow, hang or exhaust the memory.
 struct NumberField {
   const char* key;
   double* value;
@@ -18,14 +17,14 @@ struct NumberField {
   bool inverse = false;   ///< A file has 1 / value: a rate for a step.
 };
 
-/// Whether a number, as a file has it, is within a field's bounds; NaN is not.
+/// Returns whether a number is within a field's bounds; false for NaN.
 bool IsWithin(const NumberField& field, double number);
 
-/// "must be 0 to 10 m".
+/// Returns "must be 0 to 10 m".
 std::string Wanted(const NumberField& field);
 
-/// Throws InputError("GROUP.KEY is VALUE, must be ...") about the first that is
-/// out of its bounds.
+/// Throws InputError("GROUP.KEY is VALUE, must be ...") about the first number out of
+/// its bounds.
 void Check(const std::string& group, const std::vector<NumberField>& fields);
 
 }  // namespace poise

@@ -8,8 +8,8 @@
 
 namespace poise {
 
-/// The smallest of some values such that a fraction of all, 0 to 1, is no larger:
-/// one of them, and nothing between two. Orders them anew. pre: there is one.
+/// Returns the smallest of the values such that a fraction of all, 0 to 1, is not
+/// larger. Does not interpolate. Reorders the values. pre: there is a value.
 template <typename Number>
 Number Quantile(std::vector<Number>* values, double fraction) {
   const auto rank = static_cast<std::size_t>(

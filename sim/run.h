@@ -28,8 +28,8 @@ struct TickTimes {
 /// Outcome and cost of a run.
 struct RunResult {
   Verdict verdict;
-  /// Where a joint was flung off before the robot fell, as no body does by
-  /// itself: which one, in words. Then the controller is to blame, or the plant.
+  /// The joint, in words, that moved impossibly fast before the robot fell; empty if
+  /// none did. The cause is then the controller or the plant.
   std::string blew_up;
   double duration = 0;  ///< Simulated, s; less than asked for after a fall.
   bool interrupted = false;
@@ -48,16 +48,16 @@ struct RunResult {
   std::optional<Yardstick> yardstick;
   double wall_seconds = 0;
   std::string log_sha256;  ///< Empty if nothing was recorded.
-  /// The rows that the log names; empty if nothing was recorded.
+  /// Rows that the log names; empty without a recorder.
   std::vector<StackRow> rows;
 };
 
 /// Returns the cause of the fall in words; empty without a fall.
 std::string FellBy(const RunResult& result);
 
-/// Runs a new loop to the end of its scenario, or until the robot lies.
+/// Runs a new loop to the end of its scenario or until the robot lies.
 ///
-/// @param folder    where a Recorder writes; empty: nothing is written.
+/// @param folder    folder of a Recorder; empty: no files.
 /// @param format    of the log, see Recorder.
 /// @param progress  called a hundred times or more with the fraction done;
 ///                  stops the run by returning false. May be empty.

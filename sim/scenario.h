@@ -12,7 +12,7 @@
 
 namespace poise {
 
-/// How far from equilibrium the robot starts.
+/// Deviation of the start state from equilibrium.
 struct StartSettings {
   double joints = 0;   ///< Joints outside the legs, each drawn in +- this, rad.
   double drop = 0;     ///< Height of the soles above the ground, m.
@@ -20,7 +20,7 @@ struct StartSettings {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< Place of the feet, m.
 };
 
-/// How the desired center of mass moves about where it starts:
+/// Motion of the desired center of mass about its start:
 ///     sine sin(2 pi t / period) + cosine cos(2 pi t / period).
 struct ComMotion {
   Eigen::Vector3d sine = Eigen::Vector3d::Zero();    ///< m.
@@ -57,8 +57,8 @@ struct ControlSettings {
   std::vector<std::string> without;  ///< Tasks switched off in it.
 };
 
-/// One experiment, as data: what main() would else hide. docs/scenarios.md has
-/// it as YAML, every key with what stands where it is left out.
+/// One experiment as data. docs/scenarios.md has the YAML with every key and its
+/// default.
 struct Scenario {
   std::string name;
   double duration = 5;
@@ -74,8 +74,8 @@ struct Scenario {
 };
 
 /// Reads a scenario, without Validate(), so that options can change it first.
-/// Throws std::invalid_argument("FILE:LINE: ...") with the key, its value and
-/// what was wanted; an unknown key is refused.
+/// Throws std::invalid_argument("FILE:LINE: ...") with the key, its value and the
+/// valid range. An unknown key is refused.
 Scenario ReadScenario(const std::filesystem::path& file);
 
 /// Reads a scenario as ReadScenario(), and throws also as Validate().
@@ -84,8 +84,8 @@ Scenario LoadScenario(const std::filesystem::path& file);
 /// Reads a list of pushes from a file whose one key is `pushes`.
 std::vector<Push> LoadPushes(const std::filesystem::path& file);
 
-/// Throws InputError about the first field that is out of range, or that does not
-/// go with another. Its path is that in the file: "control.rate".
+/// Throws InputError about the first field that is out of range or contradicts another
+/// field. The path is that in the file: "control.rate".
 void Validate(const Scenario& scenario);
 
 }  // namespace poise

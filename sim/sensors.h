@@ -13,7 +13,7 @@
 
 namespace poise {
 
-/// A stream of random numbers that is the same on every machine.
+/// A stream of random numbers; the same on every machine.
 class RandomStream {
  public:
   explicit RandomStream(std::uint64_t seed) : state_(seed) {}
@@ -26,8 +26,8 @@ class RandomStream {
   std::uint64_t state_;
 };
 
-/// The robot's sensors, as bad as their settings say. Each instance draws its
-/// own errors from its seed: the same for the same calls.
+/// The robot's sensors with the errors of their settings. Each instance draws its
+/// errors from its seed; the same calls give the same errors.
 class Sensors {
  public:
   Sensors(const Robot& robot, const SensorSettings& settings, unsigned seed);
@@ -57,7 +57,8 @@ class Sensors {
   SensorSettings settings_;
   RandomStream random_;
   Bias bias_;
-  std::deque<PlantState> past_;  // Back to the longest delay; the last is now.
+  std::deque<PlantState>
+      past_;  // Up to the longest delay; the last is the newest.
   Measurement measurement_;
   bool first_ = true;
 };

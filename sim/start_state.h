@@ -8,10 +8,9 @@
 
 namespace poise {
 
-/// The state that a robot starts in, at rest: its nominal posture, laid on the
-/// ground's slope, turned by the heading, lifted by the drop, its feet about the
-/// place, with the joints outside its legs awry by what the seed draws, inside
-/// their limits.
+/// Returns the start state, at rest. The nominal posture is rotated by the ground's
+/// slope and the heading, moved to the place, and lifted by the drop. Joints outside
+/// the legs get random offsets from the seed, inside their limits.
 State MakeStartState(const Robot& robot, const StartSettings& start,
                      const Ground& ground, unsigned seed);
 

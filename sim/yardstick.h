@@ -15,7 +15,7 @@ struct Yardstick {
   double lipm_height_Ns;  ///< Pushed at its height, without turning.
 };
 
-/// With omega = sqrt(g / h), h the height of the center of mass above the
+/// Computes the bounds. With omega = sqrt(g / h), h the height of the center of mass above the
 /// soles, and rho the distance from its projection to the edge of the support
 /// polygon along the push u,
 ///     lipm_Ns = m omega rho omega T / (1 - exp(-omega T)),
@@ -27,9 +27,9 @@ struct Yardstick {
 /// @param soles     corners of all soles on the ground, m, in any order.
 /// @param u         horizontal direction of the push, of any length but 0.
 /// @param duration  T of a constant force, s; 0 for an impulse.
-/// @param push_height  z_p, where the force acts, above the soles, m.
+/// @param push_height  z_p, height of the force above the soles, m.
 ///
-/// Both are 0 where the center of mass lies outside the soles' hull.
+/// Both are 0 if the center of mass is outside the hull of the soles.
 /// Source: Koolen et al., "Capturability-based analysis ...", IJRR 31(9), 2012,
 /// with the force of a push in the pendulum's own equation.
 Yardstick ComputeYardstick(double mass, double gravity,

@@ -39,7 +39,7 @@ std::string PhaseColumn(const std::string& foot);    ///< "FOOT.phase".
 std::string MomentColumn(const std::string& foot,
                          char axis);                          ///< "FOOT.mx[Nm]"
 std::string ForceColumn(const std::string& foot, char axis);  ///< "FOOT.fx[N]"
-/// The wrench that the controller asked of a foot: "lambda.FOOT.mx[Nm]".
+/// Returns the column of the commanded wrench of a foot: "lambda.FOOT.mx[Nm]".
 std::string CommandedMomentColumn(const std::string& foot, char axis);
 std::string CommandedForceColumn(const std::string& foot, char axis);
 
@@ -47,7 +47,7 @@ std::string TorqueColumn(const std::string& joint);    ///< "tau.JOINT[Nm]".
 std::string PositionColumn(const std::string& joint);  ///< "q.JOINT[rad]".
 std::string ResidualColumn(const std::string& task);   ///< "residual.TASK".
 
-/// All columns of a log, in their order.
+/// Returns all columns of a log, in their order.
 std::vector<LogColumn> LogColumns(const std::vector<std::string>& feet,
                                   const std::vector<std::string>& joints,
                                   const std::vector<std::string>& tasks);
@@ -75,7 +75,7 @@ enum class ColumnGroup {
   kUnknown,  ///< No column of a log.
 };
 
-/// The group of a column by its name, with or without its unit.
+/// Returns the group of a column, given its name with or without unit.
 ColumnGroup GroupOf(std::string_view column);
 
 }  // namespace poise

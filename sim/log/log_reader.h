@@ -8,8 +8,8 @@
 
 namespace poise {
 
-/// Reads the log of a run row by row, in constant memory: ten minutes of it
-/// have a gigabyte. See docs/log.md for the formats.
+/// Reads the log of a run row by row, in constant memory. The log of ten minutes has
+/// a gigabyte. docs/log.md describes the formats.
 class LogReader {
  public:
   LogReader() = default;
@@ -17,30 +17,30 @@ class LogReader {
   LogReader& operator=(const LogReader&) = delete;
   virtual ~LogReader() = default;
 
-  /// The names of the columns, units included: "com.x[m]". An empty file has no
-  /// columns and no rows.
+  /// Returns the names of the columns with units: "com.x[m]". An empty file has
+  /// neither columns nor rows.
   const std::vector<std::string>& columns() const { return columns_; }
 
-  /// The column of this name, with or without its unit.
+  /// Returns the column of this name, with or without unit.
   std::optional<int> Find(std::string_view name) const;
 
-  /// Reads the next whole row; false at the end, or where the log was cut
-  /// short. Throws std::invalid_argument about one that holds what it must not.
+  /// Reads the next complete row. Returns false at the end or if the log was cut
+  /// short. Throws std::invalid_argument about an invalid row.
   virtual bool Next() = 0;
 
-  /// A cell of text of this row, valid until the next one.
+  /// Returns a text cell of this row, valid until the next row.
   virtual std::string_view cell(int column) const = 0;
 
-  /// A cell as a number; NaN if it is none.
+  /// Returns a cell as a number; NaN for a text.
   virtual double Number(int column) const = 0;
 
-  /// The file and, in it, the row that was read last: "FILE:LINE".
+  /// Returns the file and the line that was read last: "FILE:LINE".
   virtual std::string place() const = 0;
 
-  /// About how many rows the whole file has, from a quick look at it.
+  /// Estimates the number of rows of the file from its beginning.
   virtual long CountRows() const = 0;
 
-  /// Next() came to a row that is not whole.
+  /// Returns whether Next() found an incomplete row.
   bool cut_short() const { return cut_short_; }
 
  protected:
@@ -48,10 +48,10 @@ class LogReader {
   bool cut_short_ = false;
 };
 
-/// "com.x[m]" without its unit: "com.x".
+/// Returns "com.x" for "com.x[m]".
 std::string_view WithoutUnit(std::string_view column);
 
-/// The unit of "com.x[m]": "m"; empty if there is none.
+/// Returns "m" for "com.x[m]"; empty without a unit.
 std::string_view UnitOf(std::string_view column);
 
 }  // namespace poise

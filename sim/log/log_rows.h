@@ -8,11 +8,11 @@
 
 namespace poise {
 
-/// How a run's log is written: as text that every program reads, or, for runs
-/// of many minutes, in a quarter of the bytes.
+/// Format of a log. CSV is text that every program reads. Binary takes a quarter of
+/// the bytes, for runs of many minutes.
 enum class LogFormat { kCsv, kBinary };
 
-/// The name of the log in a run's folder: "log.csv" or "log.bin".
+/// Returns the name of the log in a run's folder: "log.csv" or "log.bin".
 std::string_view LogFileName(LogFormat format);
 
 struct LogColumn {
@@ -26,8 +26,8 @@ struct LogColumn {
   Kind kind = Kind::kNumber;
 };
 
-/// Turns the rows of a log into the bytes of its file; docs/log.md has both
-/// formats. The same rows give the same bytes on any machine, in any locale.
+/// Converts the rows of a log to the bytes of its file; docs/log.md has both formats.
+/// The bytes are the same on any machine and in any locale.
 class LogRows {
  public:
   virtual ~LogRows() = default;
@@ -35,12 +35,12 @@ class LogRows {
   /// Returns the beginning of the file.
   virtual std::string Header() = 0;
 
-  /// The next cell of the row that grows, as the column's kind wants it.
+  /// Adds the next cell of the present row; the type must be that of its column.
   virtual void Number(double value) = 0;
   virtual void Text(std::string_view text) = 0;
 
-  /// Appends the row to `bytes`, whole, and begins the next one. There must
-  /// have been a cell for each column.
+  /// Appends the row to `bytes` and begins the next one. pre: the row has a cell for
+  /// each column.
   virtual void EndRow(std::string* bytes) = 0;
 };
 

@@ -8,11 +8,11 @@
 
 namespace poise {
 
-/// The log in a run's folder: log.csv, or log.bin where only that is there.
+/// Returns the log in a run's folder: log.csv, or log.bin if only that exists.
 std::filesystem::path FindLog(const std::filesystem::path& run);
 
-/// Opens a log, in whichever format its first bytes say it is. Throws
-/// std::invalid_argument, naming the file.
+/// Opens a log; its first bytes determine the format. Throws std::invalid_argument
+/// with the file's name.
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& file);
 
 }  // namespace poise

@@ -17,17 +17,17 @@ namespace poise {
 
 /// Writes a run into a folder:
 ///
-///     log.csv     a row a tick: what was true, then what the controller said.
-///                 The same run gives the same bytes, in any locale. Or, if
-///                 told, log.bin: see LogRows.
-///     timing.csv  tick, us, iterations: what is never twice the same.
+///     log.csv     a row a tick: the plant's true state, then the controller's
+///                 output. The same run gives the same bytes in any locale. The
+///                 alternative is log.bin, see LogRows.
+///     timing.csv  tick, us, iterations: these differ from run to run.
 ///
-/// Only whole rows are handed to the files, every 50 ticks, so that a run that
-/// is cut short, by a crash or a kill, leaves files that can be read.
+/// The files get complete rows only, every 50 ticks, so that they can be read after
+/// a crash or a kill.
 class Recorder {
  public:
-  /// Makes the folder, and writes over what is in it. Throws
-  /// std::invalid_argument if it cannot.
+  /// Makes the folder and overwrites files of an earlier run. Throws
+  /// std::invalid_argument if that fails.
   Recorder(const std::filesystem::path& folder, const Robot& robot,
            const Stack& stack, LogFormat format = LogFormat::kCsv);
   ~Recorder() { Flush(); }
@@ -36,10 +36,10 @@ class Recorder {
 
   void Record(const TickRecord& record);
 
-  /// Brings all rows to the files.
+  /// Writes all rows to the files.
   void Flush();
 
-  /// The SHA-256 of the log so far.
+  /// Returns the SHA-256 of the log so far.
   std::string log_sha256() const { return hash_.Digest(); }
 
  private:
@@ -56,17 +56,17 @@ class Recorder {
   std::string log_rows_;  // Rows that are not yet in the file.
   std::string timing_rows_;
   int rows_waiting_ = 0;
-  double next_conflict_ = 0;  // Not before, s.
+  double next_conflict_ = 0;  // Earliest time of the next conflict, s.
   Sha256 hash_;
 };
 
-/// "ok", "limit_relaxed", "truncated" or "fail_safe".
+/// Returns "ok", "limit_relaxed", "truncated" or "fail_safe".
 std::string_view StatusName(TickStatus status);
 
-/// "", "state", "clock" or "no_answer".
+/// Returns "", "state", "clock" or "no_answer".
 std::string_view ReasonName(FailSafeReason reason);
 
-/// "down", "unloading", "up", "landing", "loading", "lost", "free" or
+/// Returns "down", "unloading", "up", "landing", "loading", "lost", "free" or
 /// "returning".
 std::string_view PhaseName(ContactPhase phase);
 

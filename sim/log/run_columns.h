@@ -11,12 +11,12 @@
 
 namespace poise {
 
-/// Columns of a run's log, whole, by the names that were asked for, as
-/// columns.h has them. kTimeColumn is always among them.
+/// Selected columns of a run's log, with the names of columns.h. kTimeColumn is always
+/// among them.
 class RunColumns {
  public:
-  /// Reads columns. Throws std::invalid_argument, naming file and column, if
-  /// one is not there, or if the log has no rows.
+  /// Reads columns. Throws std::invalid_argument with file and column if a column does
+  /// not exist or the log has no rows.
   RunColumns(const std::filesystem::path& file,
              const std::vector<std::string>& names);
 
@@ -24,17 +24,17 @@ class RunColumns {
     return columns_.at(name);
   }
 
-  /// The row at which a time was reached, or the last one.
+  /// Returns the first row at or after a time, or the last row.
   int RowAt(double time) const;
 
  private:
   std::map<std::string, std::vector<double>> columns_;
 };
 
-/// The names of the columns that hold q, in the order of Tree's q.
+/// Returns the names of the columns of q, in the order of Tree's q.
 std::vector<std::string> ConfigurationColumns(const RobotModel& robot);
 
-/// q, see Tree, as a row of those columns has it.
+/// Returns q, see Tree, from a row of those columns.
 Eigen::VectorXd ConfigurationAt(const RobotModel& robot,
                                 const RunColumns& columns, int row);
 

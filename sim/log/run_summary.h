@@ -9,15 +9,15 @@ namespace poise {
 
 /// The end of a run, as its folder has it.
 struct RunSummary {
-  /// summary.json; null if it is not there, cannot be read, or is not of the
-  /// log beside it, by its log_sha256.
+  /// summary.json; null if it does not exist, cannot be read, or belongs to another
+  /// log according to its log_sha256.
   nlohmann::json values;
   std::string note;  ///< A sentence: why it is null. Else empty.
   bool is_of_other_log = false;
 };
 
-/// Reads summary.json, and the whole log once. A summary without log_sha256 is
-/// taken for the log's.
+/// Reads summary.json, and the whole log once. A summary without log_sha256 counts
+/// as that of the log.
 RunSummary ReadRunSummary(const std::filesystem::path& run);
 
 }  // namespace poise

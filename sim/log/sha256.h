@@ -18,7 +18,7 @@ class Sha256 {
 
   void Update(std::string_view bytes);
 
-  /// The digest of all bytes so far, in 64 hexadecimal digits. More bytes may
+  /// Returns the digest of all bytes so far, as 64 hexadecimal digits. More bytes may
   /// follow.
   std::string Digest() const;
 

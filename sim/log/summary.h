@@ -10,7 +10,7 @@
 
 namespace poise {
 
-/// A run as summary.json: SI units, radians; what has no value is null. `pushes`
+/// Returns a run as summary.json: SI units, radians, null without a value. `pushes`
 /// describes each push; impulse_Ns, push_duration, push_link, push_body and
 /// push_point describe the one with the largest impulse.
 nlohmann::ordered_json ToJson(const Robot& robot, const Scenario& scenario,

@@ -12,8 +12,8 @@
 
 namespace poise {
 
-/// One tick, as it happened: what a recorder writes. Refers to what its maker
-/// owns, for the length of a call.
+/// All data of one tick for the recorder. The references are valid during the call
+/// only.
 struct TickRecord {
   long tick;
   const Observation& observation;

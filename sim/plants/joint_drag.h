@@ -10,21 +10,21 @@
 
 namespace poise {
 
-/// The damping d and dry friction f of a model's joints as torques, for a plant
-/// that has none: implicit, so that no damping is too large for a light link.
+/// Computes damping d and dry friction f of joints as torques, for a plant without
+/// them. The torques are implicit, so that any damping is stable for a light link.
 ///
 /// With D = diag(d + f / max(|v|, v_0)), the end of a step has the velocity of
 ///     (M + dt D) v̇ + N + D v = S' tau + J' F,
-/// and the drag is -D (v + dt v̇), which brings a joint to rest but never turns
-/// it round. F is what pressed on the feet in the last step.
+/// and the drag is -D (v + dt v̇). The drag brings a joint to rest and never reverses
+/// it. F has the contact wrenches of the last step.
 class JointDrag {
  public:
   JointDrag(const Robot& robot, double dt);
 
-  /// Whether the model has any.
+  /// Returns whether the model has damping or friction.
   bool exists() const { return exists_; }
 
-  /// The drag over the step that begins in a state, under torques tau. Costs a
+  /// Returns the drag of the step that begins in a state, with torques tau. Costs a
   /// ComputeTick() and a Cholesky decomposition.
   const Eigen::VectorXd& Compute(const PlantState& state,
                                  const Eigen::VectorXd& tau);

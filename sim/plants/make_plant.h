@@ -11,17 +11,17 @@
 
 namespace poise {
 
-/// The names of all plants, the default one first. make_plant.cc has the one
+/// Returns the names of all plants, the default first. make_plant.cc has the only
 /// table of names and factories; docs/plants.md says how to add a plant.
 std::vector<std::string> PlantNames();
 
 bool IsPlant(const std::string& name);
 
-/// "bullet or mujoco", for messages.
+/// Returns "bullet or mujoco", for messages.
 std::string PlantNamesInWords();
 
-/// The plant of a name. Throws std::invalid_argument if there is none, with the
-/// names that there are, or if the plant cannot represent the robot.
+/// Makes the plant of a name. Throws std::invalid_argument with all names if there is
+/// no such plant, or if the plant cannot represent the robot.
 std::unique_ptr<Plant> MakePlant(const Robot& robot, const std::string& name,
                                  const PlantSettings& settings);
 

@@ -8,10 +8,10 @@
 
 namespace poise {
 
-/// The pairs of bodies (smaller first) whose shapes overlap by construction and
-/// so must not collide: those that a joint parts, or several joints that lie
-/// so close together that they are as one (a hip's thigh is the pelvis's
-/// neighbor, whatever lies between), and those that share a parent.
+/// Returns the pairs of bodies (smaller index first) whose shapes overlap by
+/// construction, so that they must not collide. These are bodies connected by a joint
+/// or by several joints that are close together, as pelvis and thigh by a hip, and
+/// bodies with the same parent.
 std::vector<std::pair<int, int>> FindNeighbors(const Tree& tree);
 
 }  // namespace poise

@@ -34,17 +34,16 @@ struct PlantSettings {
   Ground ground;
 };
 
-/// The plane's normal, out of the ground.
+/// Returns the plane's normal, out of the ground.
 Eigen::Vector3d GroundNormal(const Ground& ground);
-/// R_WG, the least rotation that turns the world's z axis to the normal.
+/// Returns R_WG, the smallest rotation from the world's z axis to the normal.
 Eigen::Quaterniond GroundRotation(const Ground& ground);
 
-/// The numbers of them, to be read or checked.
+/// Returns the numbers of the settings, to read or check them.
 std::vector<NumberField> Fields(PlantSettings* settings);
 std::vector<NumberField> Fields(Board* board);
 
-/// Throws std::invalid_argument that names the setting, its value and what was
-/// wanted.
+/// Throws std::invalid_argument with the setting, its value and the valid range.
 void Validate(const PlantSettings& settings);
 
 }  // namespace poise

@@ -12,16 +12,16 @@
 
 namespace poise {
 
-/// Our vectors, rotations and poses as Bullet has them.
+/// Converts vectors, rotations and poses to Bullet's types.
 btVector3 ToBullet(const Eigen::Vector3d& p);
 btTransform ToBullet(const Pose& X);
 
-/// Bullet's, as we have them.
+/// Converts Bullet's types back.
 Eigen::Vector3d FromBullet(const btVector3& p);
 Eigen::Matrix3d FromBullet(const btQuaternion& q);
 
-/// A tree as a btMultiBody: the border between two conventions, crossed by one
-/// function a direction.
+/// A tree as a btMultiBody. One function in each direction converts between the two
+/// conventions.
 ///
 /// Bullet puts the frame L of each link at its center of mass, along its
 /// principal axes, so that its inertia is diagonal; body i of the tree is link
@@ -36,7 +36,7 @@ class BulletBody {
   btMultiBody& body() { return *body_; }
   const btMultiBody& body() const { return *body_; }
 
-  /// Bullet's link frame in the tree's body.
+  /// Returns Bullet's link frame in the tree's body.
   const Pose& X_BL(int body) const { return X_BL_[body]; }
 
   void SetState(const Eigen::VectorXd& q, const Eigen::VectorXd& v);

@@ -15,13 +15,11 @@ namespace poise {
 
 /// Bullet's Featherstone multibody, built from our own model, as a plant.
 ///
-/// Semi-implicit Euler: v' = v + dt a(q, v), contact impulses on v', then q
-/// moves with v'. Under gravity it loses m g^2 dt / 2 of energy a second. A
-/// foot stands on small spheres at the corners of its sole polygon; the
-/// collision shapes of all other links touch the ground too. Links touch each
-/// other, feet with all their shapes, except those that already do when Reset()
-/// puts the robot down, and neighbors: links that one joint parts, or several
-/// that are as one, or that share a parent.
+/// Integration is semi-implicit Euler: v' = v + dt a(q, v), contact impulses change
+/// v', then q moves with v'. A free fall loses m g^2 dt / 2 of energy a second. A foot
+/// stands on small spheres at the corners of its sole polygon. The collision shapes
+/// of all other links collide with the ground too. Links collide with each other,
+/// except links that overlap at Reset() and the pairs of FindNeighbors().
 class BulletPlant final : public Plant {
  public:
   /// Throws std::invalid_argument if Bullet cannot represent the model, see

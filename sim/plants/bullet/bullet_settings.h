@@ -3,8 +3,8 @@
 
 namespace poise {
 
-/// How Bullet is run. These defaults have measured physics, which most of
-/// Bullet's own have not; bullet_settings_test.cc shows what each one does.
+/// Settings of Bullet. bullet_settings_test.cc shows the effect of each. Most of
+/// Bullet's own defaults have wrong physics.
 struct BulletSettings {
   bool own_sweeps = true;               ///< See ContactSolver; else Bullet's.
   int solver_iterations = 50;           ///< Bullet's 10 let the feet creep.

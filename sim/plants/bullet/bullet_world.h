@@ -19,16 +19,15 @@
 
 namespace poise {
 
-/// A point where the ground presses on the robot.
+/// A contact point of the robot with the ground.
 struct GroundContact {
   int body;
   Eigen::Vector3d p_WQ;     ///< m.
   Eigen::Vector3d force_W;  ///< On the robot, N.
 };
 
-/// A Bullet world with a ground and one robot. Bullet leaves the ownership of
-/// all its objects to its user: here it is. Made anew for each episode, because
-/// a used world does not repeat itself to the bit.
+/// A Bullet world with a ground and one robot. It owns all of Bullet's objects. Make a
+/// new one for each episode, because a used world does not repeat bit for bit.
 class BulletWorld {
  public:
   /// Throws std::invalid_argument, see BulletBody.
@@ -40,14 +39,14 @@ class BulletWorld {
 
   BulletBody& body() { return body_; }
 
-  /// The pose of Bullet's link frame of a body, see BulletBody.
+  /// Returns the pose of Bullet's link frame of a body, see BulletBody.
   Pose X_WL(int body) const {
     const btTransform& X = colliders_[body]->getWorldTransform();
     return {FromBullet(X.getRotation()), FromBullet(X.getOrigin())};
   }
 
-  /// Brings the colliders to where the robot is, and lets all pairs of links
-  /// that touch there pass through each other from now on.
+  /// Moves the colliders to the robot's pose. Pairs of links that overlap there do not
+  /// collide from now on.
   void Place();
 
   void Step(double dt) {
@@ -55,15 +54,15 @@ class BulletWorld {
     MoveFootColliders();
   }
 
-  /// The points of the ground that pressed on the robot in the last step.
-  /// Valid until the next call.
+  /// Returns the contact points of the ground in the last step. Valid until the next
+  /// call.
   const std::vector<GroundContact>& FindGroundContacts(double dt);
 
-  /// The pairs of bodies that pressed on each other in the last step.
+  /// Finds the pairs of bodies that collided in the last step.
   void FindSelfContacts(std::vector<std::pair<int, int>>* pairs);
 
  private:
-  // Lets Bullet try only the pairs of links that can meet.
+  // Restricts collision tests to the pairs of links that can collide.
   class PairFilter : public btOverlapFilterCallback {
    public:
     explicit PairFilter(int num_bodies)
@@ -86,7 +85,7 @@ class BulletWorld {
                     double sole_radius);
   void AddLimits(const RobotModel& model);
 
-  // Bullet moves the one collider that a link knows of.
+  // Bullet moves only one collider of a link; this moves the others.
   void MoveFootColliders();
 
   BulletBody body_;

@@ -8,14 +8,14 @@
 
 namespace poise {
 
-/// Bullet's sequential impulses, swept in the space of the contacts.
+/// Bullet's sequential impulses, computed in contact space.
 ///
 /// Bullet keeps the velocity of all n joints while it sweeps over its rows, at
-/// 4 n flops a row. What the rows do to each other is the matrix
+/// 4 n flops a row. The rows interact by the matrix
 ///     A_ij = J_i M^-1 J_j',
-/// made once; a sweep over m rows then costs 2 m^2, which for two feet is a
+/// which is computed once. A sweep over m rows then costs 2 m^2 flops, for two feet a
 /// ninth. The sweeps, their order and their number are Bullet's, so the
-/// impulses are too, up to rounding; and they end when nothing moves any more.
+/// impulses agree up to rounding. The sweeps end early if the impulses are constant.
 ///
 /// For worlds whose only moving body is one multibody.
 class ContactSolver final : public btMultiBodyConstraintSolver {

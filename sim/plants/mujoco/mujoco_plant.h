@@ -14,16 +14,16 @@
 
 namespace poise {
 
-/// MuJoCo as a plant: another's dynamics and another's contact model, to see
-/// that what holds in Bullet holds of the robot and not of Bullet.
+/// MuJoCo as a plant. Its dynamics and its contact model are independent of Bullet's,
+/// so a result on both plants is a result of the robot.
 ///
-/// Its contacts are soft (2 steps and more) and convex, where Bullet's are hard
-/// and sequential; its joints have armature, implicit damping and dry friction.
-/// It has no restitution.
+/// Contacts are soft (at least 2 steps) and solved as a convex problem; Bullet's are
+/// hard and sequential. Joints have armature, implicit damping and dry friction.
+/// There is no restitution.
 class MujocoPlant final : public Plant {
  public:
-  /// Throws std::invalid_argument if MuJoCo refuses the model, or a setting is
-  /// out of range, or asks for restitution.
+  /// Throws std::invalid_argument if MuJoCo refuses the model, a setting is out of
+  /// range, or restitution is not zero.
   MujocoPlant(const Robot& robot, const PlantSettings& settings = {});
 
   void Reset(const Eigen::VectorXd& q, const Eigen::VectorXd& v) override;
