@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// A sensor that is wrong for a tick, or noisy: the robot stands on.
+// Tests that the robot keeps standing with a sensor that is wrong for a tick, or noisy.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -20,13 +20,13 @@ namespace poise {
 namespace {
 
 struct Stand {
-  int failed = 0;    // Ticks that failed safe,
-  int in_air = 0;    // and in which a foot was not held to be in contact.
-  double moved = 0;  // The base from where it began, the farthest, m.
+  int failed = 0;    // Fail-safe ticks.
+  int in_air = 0;    // Ticks with a foot that does not count as in contact.
+  double moved = 0;  // Largest distance of the base from its start, m.
 };
 
-// Stands for so many ticks of 1 ms, on what `spoil` leaves of the measurements, the
-// base as it is or estimated.
+// Stands for some ticks of 1 ms. `spoil` changes the measurements. The base is true or
+// estimated.
 Stand StandOn(const std::function<void(int, Measurement*)>& spoil, int ticks,
               bool estimates, const SensorSettings& settings = {}) {
   const Robot robot = LoadHumanoid();
@@ -65,8 +65,8 @@ Stand StandOn(const std::function<void(int, Measurement*)>& spoil, int ticks,
   return stand;
 }
 
-// As an estimator may say for a moment: no foot rises by so much at once.
-TEST(BadSample, OfTheHeightLosesNoFoot) {
+// A wrong estimate for a moment: no foot can rise by so much in one tick.
+TEST(BadSample, KeepsContactsIfTheHeightIsWrong) {
   for (const double spike : {0.03, 0.1, -0.03}) {
     const Stand stand = StandOn(
         [spike](int i, Measurement* measurement) {
@@ -79,9 +79,9 @@ TEST(BadSample, OfTheHeightLosesNoFoot) {
   }
 }
 
-// Now and then it is above what loses a foot, but not for long; with all other
-// noise, that of speeds too, the robot fell so.
-TEST(BadSample, OfTheHeightInEachTickLosesNoFoot) {
+// The height is now and then above the limit for a lost foot, but not for long.
+// Without debouncing, the robot would fall with this noise.
+TEST(BadSample, KeepsContactsIfTheHeightIsNoisy) {
   SensorSettings settings;
   settings.noise = 1;
   settings.base_position = 6e-3;

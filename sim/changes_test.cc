@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What is eased in does not hold back what the robot does against a push.
+// Tests that a ramp does not weaken the reaction to a push.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,10 +14,10 @@
 namespace poise {
 namespace {
 
-constexpr int kPush = 1000;  // The tick in which it begins.
+constexpr int kPush = 1000;  // Tick in which the push begins.
 
-// How far the center of mass goes where 100 N push for 0.15 s, and the stack is
-// changed before each tick, m.
+// Returns how far the center of mass moves after a push of 100 N for 0.15 s, m.
+// `change` changes the stack before each tick.
 double Push(double ramp, const std::function<void(int, Stack*)>& change) {
   const Robot robot = LoadHumanoid();
   Scenario scenario;
@@ -40,7 +40,7 @@ double Push(double ramp, const std::function<void(int, Stack*)>& change) {
   return verdict.com_error_peak.y();
 }
 
-// To a hundredth of what it does where all takes effect at once: 47 mm.
+// Compares with changes that take effect at once, 47 mm, to 1 %.
 void ExpectToDoAsMuch(const std::function<void(int, Stack*)>& change) {
   EXPECT_NEAR(Push(0.2, change) / Push(0, change), 1, 0.01);
 }

@@ -33,15 +33,14 @@ Robot MakeBelievedRobot(const Robot& robot, const Scenario& scenario) {
   return believed;
 }
 
-// Makes something of a field of the scenario, or of the "robot". An error that
-// does not say which field it is about gets this one.
+// Calls `make`. An error without a field gets this field of the scenario, or "robot".
 template <typename Make>
 auto MakeOf(const std::string& field, Make make) -> decltype(make()) {
   try {
     return make();
   } catch (const InputError&) {
     throw;
-  } catch (const Refusal&) {  // Names the file itself.
+  } catch (const Refusal&) {  // The message has the file already.
     throw;
   } catch (const std::invalid_argument& error) {
     throw InputError(field, error.what());
@@ -134,7 +133,7 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
   const State start = MakeStartState(robot, scenario.start,
                                      scenario.plant.ground, scenario.seed);
   plant_->Reset(start.q, start.v);
-  // The controller is told where the floor is, not how far the robot falls.
+  // The controller knows the floor, but not the height of the drop.
   StartSettings on_ground = scenario.start;
   on_ground.drop = 0;
   controller_->Start(
@@ -169,7 +168,7 @@ void ClosedLoop::MoveFeet() {
   const std::vector<StanceEvent>& events = scenario_.stance;
   for (; next_event_ < events.size(); ++next_event_) {
     const StanceEvent& event = events[next_event_];
-    // Half a step early, so that rounding does not delay it by a tick.
+    // Half a step early, so that rounding does not delay the event by a tick.
     if (event.at > time() + plant_->dt() / 2) break;
     switch (event.kind) {
       case StanceEvent::Kind::kLift:
@@ -185,8 +184,8 @@ void ClosedLoop::MoveFeet() {
   }
 }
 
-// As far before the ankles as it stands on both feet, and on the inner side of the
-// sole: hips and ankles, which come to their limits there, go less far.
+// Returns the target above one foot: as far ahead of the ankles as on both feet, and
+// on the inner side of the sole, where hips and ankles are farther from their limits.
 Eigen::Vector3d ClosedLoop::ShiftPlace(const std::string& name) const {
   if (name.empty()) return com_start_;
   const int foot = FindFoot(name);
@@ -225,7 +224,7 @@ void ClosedLoop::Tick() {
 }
 
 void ClosedLoop::StepPlant() {
-  // The first command finds no older one to wait for.
+  // There is no older command before the first one.
   while (static_cast<int>(torques_.size()) < delay_steps_ + steps_per_tick_) {
     torques_.push_back(command_.tau);
   }

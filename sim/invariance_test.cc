@@ -11,9 +11,9 @@
 namespace poise {
 namespace {
 
-constexpr double kEnd = 1.2;          // s, of which the push begins at 0.2.
+constexpr double kEnd = 1.2;          // s; the push begins at 0.2 s.
 constexpr double kSameWithin = 1e-3;  // m; measured: 4e-6.
-constexpr double kFarthest = 0.035;   // m: the push has moved it by more.
+constexpr double kFarthest = 0.035;   // m; the push moves the robot farther.
 
 Scenario Pushed(const Eigen::Vector3d& force) {
   Scenario scenario = LoadScenario("sim/scenarios/strong_push.yaml");
@@ -23,7 +23,7 @@ Scenario Pushed(const Eigen::Vector3d& force) {
   return scenario;
 }
 
-// Where the center of mass goes, from where it began.
+// Returns the path of the center of mass from its start.
 std::vector<Eigen::Vector3d> Path(const Scenario& scenario) {
   static const Robot robot = LoadHumanoid();
   ClosedLoop loop(robot, scenario);
@@ -37,13 +37,13 @@ std::vector<Eigen::Vector3d> Path(const Scenario& scenario) {
   return path;
 }
 
-// The path of the robot that is pushed to the left where others are not.
+// The reference: the path after a push to the left.
 const std::vector<Eigen::Vector3d>& Plain() {
   static const auto path = Path(Pushed({20, 100, 0}));
   return path;
 }
 
-// The path of another, by what brings it back.
+// Compares another path after mapping it back.
 void ExpectSame(const std::vector<Eigen::Vector3d>& path,
                 const Eigen::Matrix3d& back) {
   ASSERT_EQ(path.size(), Plain().size());

@@ -9,7 +9,7 @@
 namespace poise {
 namespace {
 
-// A robot that stands still at a time.
+// Returns the observation of a standing robot.
 Observation Standing(double time) {
   Observation now;
   now.time = time;
@@ -18,7 +18,7 @@ Observation Standing(double time) {
   return now;
 }
 
-// The verdict over two seconds of which `spoil` changes some.
+// Returns the verdict on two seconds; `spoil` changes observations.
 template <typename Spoil>
 Verdict Over(Spoil spoil) {
   Judge judge(1);
@@ -30,7 +30,7 @@ Verdict Over(Spoil spoil) {
   return judge.Conclude();
 }
 
-// From one second on, one field has a value; it is back after a tick.
+// Changes one field for one tick, after one second.
 template <typename Set>
 Verdict Once(Set set) {
   return Over([&set](Observation* now) {
@@ -89,9 +89,9 @@ TEST(Judge, RolledOrSlidFootIsAFallThatIsNotTheEnd) {
 }
 
 TEST(Judge, OnlyTheMeanErrorAtTheEndCounts) {
-  // A transient, however large, does not.
+  // A transient does not count, however large.
   EXPECT_TRUE(Once([](auto* now) { now->com.x() = 0.3; }).recovered);
-  // 25 mm to and fro has no mean; 25 mm to one side has.
+  // The mean of 25 mm to and fro is zero; that of 25 mm to one side is not.
   EXPECT_TRUE(Over([](auto* now) {
                 now->com.x() = static_cast<int>(now->time * 1000 + 0.5) % 2
                                    ? 0.025
@@ -100,9 +100,10 @@ TEST(Judge, OnlyTheMeanErrorAtTheEndCounts) {
   const Verdict away = Over([](auto* now) { now->com_ref.y() = 0.0201; });
   EXPECT_FALSE(away.recovered);
   EXPECT_FALSE(away.fell_at);
-  EXPECT_NEAR(away.com_error_final.y(), -0.0201, 1e-12);  // A sum of 500.
+  EXPECT_NEAR(away.com_error_final.y(), -0.0201,
+              1e-12);  // A mean of 500 values.
   EXPECT_EQ(away.com_error_peak.y(), 0.0201);
-  // In the plane: x and y together, z not at all.
+  // The error is that in the plane, without z.
   EXPECT_FALSE(
       Over([](auto* now) { now->com.x() = now->com.y() = 0.0142; }).recovered);
   EXPECT_TRUE(Over([](auto* now) {

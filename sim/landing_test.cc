@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// No foot in contact: the robot falls, and lands on its feet.
+// Tests a robot that falls without contact and lands on its feet.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,13 +15,13 @@ namespace {
 
 struct Landing {
   Verdict verdict;
-  int flying = 0;          // Ticks without a foot in contact,
-  double bent = 0;         // in these the joint farthest from its posture, rad,
-  double force = 0;        // and the largest wrench asked of a foot.
-  double certificate = 0;  // The worst of all ticks,
-  int unsolved = 0;        // and how many were not solved to the last level.
-  double sunk = 0;         // The center of mass below its reference, m.
-  double beyond = 0;       // A joint beyond its limits, rad.
+  int flying = 0;          // Ticks without a foot in contact.
+  double bent = 0;         // Largest joint error in flight, rad.
+  double force = 0;        // Largest commanded wrench in flight.
+  double certificate = 0;  // Largest certificate of all ticks.
+  int unsolved = 0;        // Ticks with an unsolved level.
+  double sunk = 0;         // Largest height error of the CoM, m.
+  double beyond = 0;       // Largest violation of a joint limit, rad.
 };
 
 Landing Land(const Scenario& scenario) {
@@ -56,8 +56,8 @@ Landing Land(const Scenario& scenario) {
   return landing;
 }
 
-// 10 cm take 143 ms, of which its soles see the last 4 mm. Its legs do not reach
-// for the ground meanwhile, nor stay behind: they would be bent when it comes.
+// A fall of 10 cm takes 143 ms. The legs must keep their posture meanwhile; otherwise
+// they would be bent at the landing.
 TEST(Landing, FallsInItsPostureAndStands) {
   Scenario scenario;
   scenario.duration = 4;
@@ -65,8 +65,8 @@ TEST(Landing, FallsInItsPostureAndStands) {
   const Landing landing = Land(scenario);
   EXPECT_TRUE(landing.verdict.recovered);
   EXPECT_NEAR(landing.flying, 140, 3);
-  // The joints' dry friction and damping are not in the model, and at rest in
-  // free fall nothing else moves them.
+  // In free fall, only dry friction and damping could move the joints, and these are
+  // zero at rest.
   EXPECT_LT(landing.bent, 1e-3);
   EXPECT_LT(landing.force, 1e-9);
   EXPECT_LT(landing.certificate, 1e-9);
@@ -77,7 +77,7 @@ TEST(Landing, FallsInItsPostureAndStands) {
   EXPECT_LT(landing.verdict.foot_slide_peak, 2e-3);
 }
 
-// Edges first, and not all at once.
+// The edges of the soles land first, one after the other.
 TEST(Landing, StandsOnASlope) {
   Scenario scenario;
   scenario.duration = 4;

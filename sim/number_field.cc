@@ -10,7 +10,7 @@ namespace poise {
 
 namespace {
 
-// 1 / (1 / x) need not be x.
+// Margin for rounding: 1 / (1 / x) may differ from x.
 constexpr double kRounding = 1e-12;
 
 }  // namespace

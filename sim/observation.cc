@@ -94,7 +94,7 @@ void Observer::ObserveForces(
     contacts_[i].in_contact = now.feet[i].in_contact;
   }
   const Pose X_WM = MidFeet(contacts_);
-  // The whole wrench about M's origin, in its axes.
+  // Total wrench about the origin of M, in the axes of M.
   Eigen::Vector3d moment_M = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_M = Eigen::Vector3d::Zero();
   for (size_t i = 0; i < now.feet.size(); ++i) {

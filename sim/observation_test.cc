@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 // comes from a difference, the tolerance is its square root.
 constexpr double kRounding = 1e-14;
 
-// A block whose underside is its sole.
+// Returns the state of a block whose lower face is its sole.
 PlantState StateAt(const Vector3d& p_WB, const Quaterniond& R_WB,
                    double time = 0) {
   PlantState state;
@@ -52,8 +52,7 @@ TEST(Observer, SeesWhereTheRobotIs) {
   EXPECT_TRUE(observer.R_WB(0).isApprox(Turn(0.3, kUp).toRotationMatrix()));
 }
 
-// On a slope, standing upright against it is no tilt, and the height is that
-// above the plane.
+// On a slope, tilt is relative to the normal and height is above the plane.
 TEST(Observer, MeasuresTiltAndHeightFromTheGroundTheRobotStandsOn) {
   Ground slope;
   slope.pitch = 0.2;
@@ -70,8 +69,8 @@ TEST(Observer, MeasuresTiltAndHeightFromTheGroundTheRobotStandsOn) {
   EXPECT_NEAR(observer.observation().base_tilt, 0.1, kRounding);
 }
 
-// A robot whose base is mounted askew stands upright all the same.
-TEST(Observer, TakesForUprightHowTheRobotBegan) {
+// A robot with a tilted base frame stands upright at the start.
+TEST(Observer, MeasuresTiltFromTheStart) {
   Observer observer(MakeBlock({0.2, 0.2, 0.1}, 5), {});
   const Quaterniond askew = Turn(1.2, Vector3d::UnitX());
   observer.ObserveState(StateAt({0, 0, 1}, askew), {}, Vector3d::Zero());
@@ -82,7 +81,7 @@ TEST(Observer, TakesForUprightHowTheRobotBegan) {
   EXPECT_NEAR(observer.observation().base_tilt, 0.4, kRounding);
 }
 
-// A root frame on the floor under the robot was taken for a robot that lies.
+// A root frame on the floor must not count as a robot that lies.
 TEST(Observer, TakesTheHeightOfABaseThatHasAShape) {
   Robot robot{
       ParseUrdf(
@@ -102,7 +101,7 @@ TEST(Observer, TakesTheHeightOfABaseThatHasAShape) {
       StateAt(Vector3d::Zero(), Turn(M_PI / 3, Vector3d::UnitY())), {},
       Vector3d::Zero());
   EXPECT_NEAR(observer.observation().base_height, 0.45, kRounding);
-  // Where no link says better, it is the root's origin.
+  // Without such a link, it is the origin of the root.
   EXPECT_TRUE(BasePoint(MakeBlock({0.2, 0.2, 0.1}, 5).model).isZero());
 }
 
@@ -115,13 +114,13 @@ TEST(Observer, CountsTiltAndSlideFromWhereAFootWasPutDown) {
   };
   see({0, 0, 0.05}, Turn(0, kUp), true);
   EXPECT_EQ(foot.slide, 0);
-  // 3-4-5; what is lost in height is no slide, and a turn about z no tilt.
+  // A 3-4-5 triangle. A change of height is no slide, a rotation about z no tilt.
   see({0.003, 0.004, 0.06}, Turn(0.5, kUp), true);
   EXPECT_NEAR(foot.slide, 0.005, kRounding);
   EXPECT_NEAR(foot.tilt, 0, kRounding);
   see({0, 0, 0.05}, Turn(0.01, Vector3d::UnitX()), true);
   EXPECT_NEAR(foot.tilt, 0.01, kRounding);
-  // In the air neither counts; put down elsewhere and askew, both begin anew.
+  // Neither counts in the air. Both start again when the foot is put down.
   see({1, 1, 0.3}, Turn(0.2, Vector3d::UnitX()), false);
   EXPECT_FALSE(foot.down);
   EXPECT_EQ(foot.slide, 0);
@@ -131,11 +130,11 @@ TEST(Observer, CountsTiltAndSlideFromWhereAFootWasPutDown) {
   EXPECT_EQ(foot.slide, 0);
   EXPECT_NEAR(foot.tilt, 0, kRounding);
   see({2.01, 1, 0.05}, Turn(0.23, Vector3d::UnitX()), true);
-  EXPECT_NEAR(foot.slide, 0.01, 1e-3);  // The sole's middle turns along.
+  EXPECT_NEAR(foot.slide, 0.01, 1e-3);  // The center of the sole rotates too.
   EXPECT_NEAR(foot.tilt, 0.03, kRounding);
 }
 
-// Two soles of one block, side by side, turned outwards by the same angle.
+// Two soles of one block, side by side, rotated outwards by the same angle.
 Robot MakeTwoSoles() {
   Robot robot = MakeBlock({0.2, 0.4, 0.1}, 5);
   robot.feet.push_back(robot.feet[0]);
@@ -159,7 +158,7 @@ TEST(Observer, FindsTheCenterOfPressureBetweenTheFeet) {
   weight[5] = 30;
   EXPECT_TRUE(cop(weight, weight).isMuchSmallerThan(1, kRounding));
   EXPECT_TRUE(cop(weight, 3 * weight).isApprox(Eigen::Vector2d(0, -0.05)));
-  // 30 N at (0.02, -0.01) of the left sole, which is turned by 0.2.
+  // 30 N at (0.02, -0.01) of the left sole, which is rotated by 0.2 rad.
   Vector6d off = weight;
   off.head<3>() = Vector3d(0.02, -0.01, 0).cross(off.tail<3>());
   const Eigen::Vector2d at(0.02 * std::cos(0.2) + 0.01 * std::sin(0.2),
@@ -167,10 +166,10 @@ TEST(Observer, FindsTheCenterOfPressureBetweenTheFeet) {
   EXPECT_TRUE(cop(off, weight).isApprox((at + Eigen::Vector2d(0, -0.1)) / 2));
   EXPECT_EQ(observer.observation().feet[0].F_Co_C, off);
   EXPECT_EQ(observer.observation().feet[1].F_Co_C, weight);
-  // Sideways forces at the height of the soles do not move it.
+  // Horizontal forces at the height of the soles do not change the CoP.
   weight[3] = 10;
   EXPECT_TRUE(cop(weight, 3 * weight).isApprox(Eigen::Vector2d(0, -0.05)));
-  // Less than 1 N bears nothing.
+  // Below 1 N a foot is unloaded.
   weight[5] = 0.99;
   EXPECT_TRUE(cop(weight, none).array().isNaN().all());
 }

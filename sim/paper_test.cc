@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// The scenarios of the paper, and a robot that stands: the physics of each.
+// Tests the physics of the scenarios of the paper and of a standing robot.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,9 +17,11 @@ void ExpectStaysOnItsFeet(const Story& story) {
   EXPECT_TRUE(story.verdict.recovered);
   EXPECT_EQ(story.failures, 0);
   EXPECT_LT(story.asked_beyond, -0.005 + 1e-6);
-  EXPECT_LT(story.given_beyond, 1e-4);  // A sole of spheres of 5 mm rolls.
+  EXPECT_LT(story.given_beyond,
+            1e-4);  // A sole of spheres of 5 mm rolls a little.
   EXPECT_LT(story.asked_friction, 0.5 + 1e-6);
-  EXPECT_LT(story.given_friction, 0.81);  // 50 sweeps come so near to 0.8.
+  EXPECT_LT(story.given_friction,
+            0.81);  // The plant has 0.8; 50 sweeps leave an error.
   EXPECT_LT(story.verdict.foot_tilt_peak, 0.02);
   EXPECT_LT(story.verdict.foot_slide_peak, 2e-3);
   EXPECT_LE(story.torque_violation, 1e-6);
@@ -30,14 +32,15 @@ TEST(Paper, StandsWhenStartedOffEquilibrium) {
   const Story story = Tell(Ours("stand", 3));
   ExpectStaysOnItsFeet(story);
   const Verdict& verdict = story.verdict;
-  EXPECT_LT(verdict.com_error_final.norm(), 1e-4);  // A tenth of a millimeter.
-  EXPECT_GT(verdict.com_error_peak.norm(), 1e-3);   // It was off equilibrium.
+  EXPECT_LT(verdict.com_error_final.norm(), 1e-4);  // 0.1 mm.
+  EXPECT_GT(verdict.com_error_peak.norm(),
+            1e-3);  // The start is off equilibrium.
 }
 
 TEST(Paper, RecoversFromTheWeakPush) {
   const Story story = Tell(Ours("weak_push", 4));
   ExpectStaysOnItsFeet(story);
-  // A seventh of what it is at its peak.
+  // A seventh of the peak.
   EXPECT_LT(story.verdict.com_error_final.norm(), 2e-3);
   // A large error at the push, then a transient that converges to zero.
   EXPECT_GT(story.ErrorIn(1, 1.5), 0.01);
@@ -50,8 +53,8 @@ TEST(Paper, FallsFromTheStrongPushWithoutCop) {
   EXPECT_FALSE(story.verdict.recovered);
   ASSERT_TRUE(story.verdict.fell_at);
   EXPECT_GT(*story.verdict.fell_at, 1);
-  EXPECT_LT(story.com_error.size(), 4000u);  // The end was not waited for.
-  // It asks for what no sole gives; the error diverges.
+  EXPECT_LT(story.com_error.size(), 4000u);  // The run ends early.
+  // The commanded CoP is outside the sole, and the error diverges.
   EXPECT_GT(story.asked_beyond, 0.05);
   EXPECT_GT(story.com_error.back(), 0.1);
 }
@@ -78,8 +81,7 @@ TEST(Paper, CombinedBoxPinsTheCop) {
     if (std::abs(y - 0.1) < 0.5e-3) ++pinned;
     highest = std::max(highest, y);
   }
-  // Half a millimeter is what the plant's contacts give; an arm that hit the
-  // trunk on its way back showed as 9 mm.
+  // The plant's contacts cause 0.5 mm; an arm that hits the trunk would cause 9 mm.
   EXPECT_GT(pinned, 150);
   EXPECT_LT(highest, 0.101);
 }
@@ -96,7 +98,7 @@ TEST(Paper, SinusoidLagsByTheGainsOrNotAtAll) {
       loop.Tick();
       const Observation& now = loop.observation();
       if (now.time < 3) continue;
-      // K_d v / K_p with 10 / 30; the acceleration's share is a tenth of it.
+      // The lag is K_d v / K_p with 10 / 30; acceleration adds a tenth.
       const double lag =
           feedforward ? 0 : -0.08 * w * std::cos(w * now.time) / 3;
       worst = std::max(worst, std::abs(now.com.x() - now.com_ref.x() - lag));
@@ -132,7 +134,7 @@ TEST(Standing, MeasuredWrenchIsTheCommandedOne) {
   for (int i = 0; i < 2; ++i) {
     const auto measured = loop.observation().feet[i].F_Co_C;
     const auto commanded = record.report.foot_wrench(nv, i);
-    // N, of the 190 that a foot bears.
+    // N; a foot carries 190 N.
     EXPECT_LT((measured - commanded).tail<3>().norm(), 0.05);
     EXPECT_NEAR(measured[1] / measured[5], commanded[1] / commanded[5], 1e-3);
     EXPECT_NEAR(measured[0] / measured[5], commanded[0] / commanded[5], 1e-3);
@@ -141,7 +143,7 @@ TEST(Standing, MeasuredWrenchIsTheCommandedOne) {
   EXPECT_NEAR(sum, Humanoid().model.tree.total_mass() * 9.81, 1e-3);
 }
 
-// The weight goes over the left foot, to the edge that the controller keeps to.
+// The weight moves over the left foot, to the margin that the controller keeps.
 TEST(Standing, MeasuredCopIsTheCommandedOneUntilItSaturates) {
   Scenario scenario = Ours("stand", 1.2);
   scenario.start = {};
@@ -155,7 +157,7 @@ TEST(Standing, MeasuredCopIsTheCommandedOneUntilItSaturates) {
     for (int i = 0; i < 2; ++i) {
       const auto measured = loop.observation().feet[i].F_Co_C;
       const auto commanded = record.report.foot_wrench(nv, i);
-      if (commanded[5] < 20) continue;  // A foot that bears next to nothing.
+      if (commanded[5] < 20) continue;  // An unloaded foot.
       const Eigen::Vector2d cop(-commanded[1] / commanded[5],
                                 commanded[0] / commanded[5]);
       worst = std::max({worst, std::abs(-measured[1] / measured[5] - cop.x()),
@@ -164,7 +166,7 @@ TEST(Standing, MeasuredCopIsTheCommandedOneUntilItSaturates) {
       most = std::max(most, cop.y());
     }
   }
-  EXPECT_LT(worst, 1e-3);  // A fifth of the controller's margin to the edge.
+  EXPECT_LT(worst, 1e-3);  // A fifth of the controller's margin.
   EXPECT_GT(most, 0.059);  // The sole ends at 0.065 m.
   EXPECT_LT(least, 0.01);
 }

@@ -14,7 +14,7 @@
 namespace poise {
 namespace {
 
-// The impulse that a push gives in steps of dt over ten seconds.
+// Returns the impulse of a push in steps of dt over ten seconds.
 double Impulse(const Push& push, double dt) {
   double impulse = 0;
   const int steps = static_cast<int>(std::lround(10 / dt));
@@ -46,7 +46,7 @@ TEST(Push, IntegralsAreThoseOfTheProfiles) {
   EXPECT_DOUBLE_EQ(ProfileIntegral(push), 0.2);
   push.profile = PushProfile::kHalfSine;
   EXPECT_DOUBLE_EQ(ProfileIntegral(push), 0.4 / M_PI);
-  // Half of it is over in the middle, none before the start.
+  // The integral is half in the middle and zero before the start.
   EXPECT_NEAR(ProfileIntegral(push, push.start + 0.5 * push.duration),
               0.2 / M_PI, Rounding(push.start, 2));
   EXPECT_EQ(ProfileIntegral(push, push.start), 0);
@@ -59,7 +59,7 @@ TEST(Push, HalfSinePeaksInTheMiddle) {
   push.profile = PushProfile::kHalfSine;
   push.start = 1;
   push.duration = 0.2;
-  // The mean over dt about the peak: 1 - (pi dt / T)^2 / 24.
+  // The mean over dt around the peak is 1 - (pi dt / T)^2 / 24.
   EXPECT_NEAR(MeanOfProfile(push, 1.1 - 5e-4, 1e-3), 1, 1.1e-5);
   EXPECT_NEAR(MeanOfProfile(push, 1.05 - 5e-4, 1e-3), std::sqrt(0.5), 1.1e-5);
   EXPECT_EQ(MeanOfProfile(push, 0.9, 0.05), 0);
@@ -69,7 +69,7 @@ TEST(Push, HalfSinePeaksInTheMiddle) {
 TEST(Push, ImpulseFallsIntoOneStep) {
   Push push;
   push.profile = PushProfile::kImpulse;
-  push.start = 0.3;  // 300 * 1e-3 is not 0.3 in binary.
+  push.start = 0.3;  // 300 * 1e-3 differs from 0.3 in binary.
   push.duration = 0.1;
   int steps = 0;
   for (int k = 0; k < 1000; ++k) {

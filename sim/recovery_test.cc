@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Beyond the paper: a wrong model, one leg, the largest pushes.
+// Tests recovery beyond the paper: wrong models, one leg, the largest pushes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 namespace poise {
 namespace {
 
-// Each axis, within half of the 3 mm that //tools:robustness allows: without a
-// correction a model that is too light leaves 4 mm in x, and 17 in z.
-TEST(WrongModel, LeavesNoErrorBehind) {
+// The error of each axis is within half of the 3 mm of //tools:robustness. Without
+// correction a model that is too light leaves 4 mm in x and 17 mm in z.
+TEST(WrongModel, LeavesNoSteadyError) {
   Scenario scenario = Ours("stand", 4);
   scenario.control.mass_error = -0.1;
   const Verdict verdict = poise::Run(Humanoid(), scenario).verdict;
@@ -21,8 +21,8 @@ TEST(WrongModel, LeavesNoErrorBehind) {
   EXPECT_LT(verdict.com_error_final.cwiseAbs().maxCoeff(), 1.5e-3);
 }
 
-// 17.8 mm without.
-TEST(WrongModel, LeavesNoErrorBehindWhereThePlaceAloneIsSteered) {
+// 17.8 mm without correction.
+TEST(WrongModel, LeavesNoErrorWithTheComTask) {
   Scenario scenario = Ours("stand", 4);
   scenario.control.mass_error = 0.1;
   scenario.control.without = {"momentum"};
@@ -50,7 +50,7 @@ TEST(OneLeg, StandsOnOneFootIsPushedThereAndPutsTheOtherDown) {
   EXPECT_LE(story.torque_violation, 1e-6);
   EXPECT_LE(story.joint_violation, 1e-6);
   EXPECT_GT(in_the_air, 5);
-  EXPECT_NEAR(pushed_there, 15 * 0.15, 1e-9);  // All of it.
+  EXPECT_NEAR(pushed_there, 15 * 0.15, 1e-9);  // The whole push.
   EXPECT_TRUE(right.down);
   EXPECT_GT(right.F_Co_C[5], 150);  // 379 N on two feet.
 }
@@ -59,13 +59,13 @@ TEST(OneLeg, StandsOnOneFootIsPushedThereAndPutsTheOtherDown) {
 TEST(OneLeg, IsMeasuredAgainstAPendulumOnOneFoot) {
   const RunResult result = RunOurs("one_leg", 6.2);
   ASSERT_TRUE(result.yardstick.has_value());
-  const double omega = std::sqrt(9.81 / 0.79);  // Its height, to 2 cm.
+  const double omega = std::sqrt(9.81 / 0.79);  // Height of the CoM, to 2 cm.
   const double stretch = omega * 0.15 / -std::expm1(-omega * 0.15);
   const double reach = result.yardstick->lipm_Ns /
                        (Humanoid().model.tree.total_mass() * omega * stretch);
-  // Half the width of a sole, and the quarter of that by which it stands inside.
+  // Half the width of a sole, plus the quarter of it by which the CoM is inside.
   EXPECT_NEAR(reach, 1.25 * 0.065, 0.005);
-  // A push that is never reached is measured against nothing.
+  // A push after the end of the run has no yardstick.
   EXPECT_FALSE(RunOurs("one_leg", 0.1).yardstick.has_value());
 }
 
@@ -98,8 +98,8 @@ TEST(LargestPush, ReleasesAFootSidewaysAndBringsItBack) {
   ExpectAFootLeavesAndComesBack({0, 209, 0});
 }
 
-// There it is still falling when it is called back, from far in front.
-TEST(LargestPush, AcrossAFootComesBackToItsPlace) {
+// The foot is still falling, and far in front, when it is called back.
+TEST(LargestPush, DiagonallyBringsTheFootBackToItsPlace) {
   ExpectAFootLeavesAndComesBack({-177, 177, 0});
 }
 

@@ -37,7 +37,7 @@ std::string FindBlowUp(const Tree& tree, const Eigen::VectorXd& v) {
   constexpr double kAbsurd = 1000;  // rad/s or m/s.
   for (int j = 0; j < tree.num_joints(); ++j) {
     const double speed = v[tree.v_start() + j];
-    if (std::abs(speed) <= kAbsurd) continue;  // Not NaN.
+    if (std::abs(speed) <= kAbsurd) continue;  // NaN does not pass.
     const bool slides = tree.joints()[j].type == JointType::kPrismatic;
     return "the controller blew up: joint " + Quoted(tree.joints()[j].name) +
            " went at " + PrintNumber(speed) + (slides ? " m/s" : " rad/s");
@@ -78,10 +78,10 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
     recorder = std::make_unique<Recorder>(folder, robot,
                                           loop->controller().stack(), format);
   }
-  // The nominal posture stands on the ground.
+  // The nominal posture is that of a standing robot.
   Judge judge(StandingHeight(robot));
   const long ticks = std::lround(scenario.duration / scenario.control.dt);
-  // Often enough to be stopped at once, however long the run or slow its ticks.
+  // Frequent calls let the caller stop a long run at once.
   const long steps = std::lround(scenario.control.dt / scenario.plant.dt);
   const long between = std::clamp(ticks / 100, 1L, std::max(1L, 1000 / steps));
   std::vector<float> us;

@@ -94,8 +94,8 @@ TEST(Run, RefusesTasksThatAreNotThere) {
   EXPECT_THROW(poise::Run(Humanoid(), scenario), std::invalid_argument);
 }
 
-// Its fingers, of 2 mg and without limits, were flung off at 1e8 rad/s2 to make
-// up for a push that its feet can bear, and the robot with them.
+// Fingers of 2 mg without limits must not be accelerated by 1e8 rad/s2 to supply
+// momentum during a push.
 TEST(Run, NaoKeepsItsFingers) {
   const auto robots = SharedData("robots");
   if (!robots) GTEST_SKIP() << "the shared robots are not there";
@@ -107,12 +107,13 @@ TEST(Run, NaoKeepsItsFingers) {
   EXPECT_EQ(result.failures, 0);
 }
 
-// Over the middle of a foot its hip was at its limit, and all else had to give.
+// With the CoM over the middle of a foot, the hip would be at its limit. The CoM must
+// stay on the inner side.
 TEST(Run, NaoStandsOnOneLeg) {
   const auto robots = SharedData("robots");
   if (!robots) GTEST_SKIP() << "the shared robots are not there";
   Scenario scenario = Ours("one_leg", 9);
-  scenario.pushes.clear();  // One that our robot can bear would fell it.
+  scenario.pushes.clear();  // A push for our robot is too large for Nao.
   const RunResult result =
       poise::Run(LoadStandingRobot(*robots / "nao_v50.urdf"), scenario);
   EXPECT_TRUE(result.verdict.recovered) << result.verdict.fell_by;
@@ -124,7 +125,7 @@ TEST(ClosedLoop, ShiftsOverTheInnerSideOfAFoot) {
   StanceEvent shift;
   shift.foot = "left_foot";
   shift.over = 0.01;
-  for (const double at : {0.0, 0.001}) {  // Before the first tick, and later.
+  for (const double at : {0.0, 0.001}) {  // Before the first tick and later.
     shift.at = at;
     scenario.stance = {shift};
     ClosedLoop loop(Humanoid(), scenario);
@@ -137,7 +138,7 @@ TEST(ClosedLoop, ShiftsOverTheInnerSideOfAFoot) {
   }
 }
 
-// Only the feet had such tasks.
+// Not only feet have frame tasks.
 TEST(ClosedLoop, HasAFrameTaskForAnyLink) {
   Scenario scenario = Ours("stand", 1);
   scenario.control.tasks =
@@ -153,8 +154,7 @@ TEST(ClosedLoop, HasAFrameTaskForAnyLink) {
   }
 }
 
-// Gains that 100 Hz cannot have, without limits: no physics makes a robot fall
-// like that.
+// Gains that are unstable at 100 Hz, without limits, cause an impossible motion.
 TEST(Run, TellsABlowUpFromAFall) {
   Scenario scenario = Ours("stand", 1);
   scenario.control.dt = 0.01;
@@ -167,7 +167,7 @@ TEST(Run, TellsABlowUpFromAFall) {
   EXPECT_EQ(FellBy(wild).find("the controller blew up: joint '"), 0u)
       << FellBy(wild);
   EXPECT_EQ(ToJson(Humanoid(), scenario, wild)["fell_by"], FellBy(wild));
-  // A push that no controller could bear is a fall.
+  // A push that is too large for any controller causes a fall.
   Scenario hard = Ours("strong_push", 3);
   hard.pushes[0].force *= 3;
   const RunResult fallen = poise::Run(Humanoid(), hard);
@@ -176,7 +176,7 @@ TEST(Run, TellsABlowUpFromAFall) {
   EXPECT_EQ(FellBy(RunResult()), "");
 }
 
-// A delay of three ticks: what acts is what was asked for three ticks ago.
+// With a delay of three ticks, the plant receives the torques of three ticks ago.
 TEST(ClosedLoop, DelaysTorques) {
   Scenario scenario = Ours("strong_push", 1);
   scenario.control.delay = 3e-3;

@@ -207,7 +207,7 @@ std::vector<Push> ReadPushes(YamlFields* fields) {
   return pushes;
 }
 
-// "pushes[2]".
+// Returns "pushes[2]".
 std::string Entry(const char* list, std::size_t i) {
   return std::string(list) + "[" + std::to_string(i) + "]";
 }
@@ -258,7 +258,7 @@ void CheckOrder(const std::vector<StanceEvent>& stance) {
   }
 }
 
-// Checks that control ticks, plant steps, delay and duration go together.
+// Checks that control ticks, plant steps, delay and duration are compatible.
 void CheckTimes(const Scenario& scenario) {
   const double step = scenario.plant.dt, tick = scenario.control.dt;
   const std::string rate = " is " + PrintNumber(1 / tick) + ", must be ";
@@ -285,7 +285,7 @@ void CheckTimes(const Scenario& scenario) {
   }
 }
 
-// The name goes into JSON, and where nothing else is asked for, a folder gets it.
+// The name is used in JSON and, by default, for a folder.
 bool IsPlainName(const std::string& name) {
   constexpr std::size_t kMostBytes = 100;
   return !name.empty() && name.size() <= kMostBytes && name != "." &&

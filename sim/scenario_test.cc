@@ -181,7 +181,7 @@ TEST(Scenario, ReadsEachKeyOfSensors) {
   EXPECT_EQ(n.foot_delay, 0.3);
 }
 
-// The YAML in docs/scenarios.md.
+// Returns the YAML of docs/scenarios.md.
 std::string Documented() {
   std::ifstream stream("docs/scenarios.md");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
@@ -313,7 +313,7 @@ TEST(Scenario, StanceEntriesThatMakeNoSenseAreRefused) {
             "none");
 }
 
-// It becomes a folder, and a string of JSON.
+// The name becomes a folder and a JSON string.
 TEST(Scenario, NameMustBeThatOfAFile) {
   const std::string wanted =
       "', must be the name of a file, in UTF-8, of at most 100 bytes";
@@ -332,7 +332,7 @@ TEST(Scenario, NameMustBeThatOfAFile) {
   EXPECT_LT(Complaint(std::string(300'000, 'a') + ": 1\n").size(), 300u);
 }
 
-// One number of each kind that would overflow, hang or eat the memory.
+// One number of each kind that would overflow, hang or exhaust the memory.
 TEST(Scenario, AbsurdNumbersAreRefusedWithTheirLine) {
   EXPECT_EQ(Complaint("\nduration: -1\n"),
             "trial.yaml:2: 'duration' is '-1', must be 0.001 to 86400 s");

@@ -49,7 +49,7 @@ TEST(Sensors, TellTheTruthIfNothingIsWrongWithThem) {
   EXPECT_TRUE(m.X_WB.R.isApprox(ExpSo3({0, 0, M_PI / 2})));
   EXPECT_TRUE(m.R_WB_imu.isApprox(m.X_WB.R));
   EXPECT_TRUE(m.V_WB_W.isApprox(MakeState().v.head<6>()));
-  // Turned back by 90 degrees: x is y, y is -x.
+  // Rotated back by 90 degrees: x becomes y, y becomes -x.
   EXPECT_TRUE(m.w_WB_B.isApprox(Eigen::Vector3d(0.2, -0.1, 0.3)));
   EXPECT_TRUE(m.specific_force_Bo_B.isApprox(Eigen::Vector3d(2, -1, 3 + 9.81)));
   EXPECT_EQ(m.feet[0].F_Co_C, MakeState().F_Co_C[0]);
@@ -66,7 +66,7 @@ TEST(Sensors, SayWhetherAFootBears) {
   EXPECT_TRUE(sensors.Measure(state).feet[0].in_contact);
 }
 
-// The deviation of n numbers that should be 0.
+// Standard deviation of n numbers with mean 0.
 struct Spread {
   double sum = 0, squares = 0;
   int n = 0;
@@ -103,8 +103,8 @@ TEST(Sensors, NoiseHasTheDeviationsItShould) {
     gyro.Add(m.w_WB_B[0] - 0.2);
     acc.Add(m.specific_force_Bo_B[1] + 1);
   }
-  // 20000 draws: a deviation is known to 0.5 %, a mean to 0.7 % of it; four
-  // times that.
+  // With 20000 draws the deviation is known to 0.5 %, a mean to 0.7 % of it. The
+  // tolerance is four times that.
   const auto expect = [](const Spread& spread, double deviation) {
     EXPECT_NEAR(spread.deviation(), deviation, 0.02 * deviation);
     EXPECT_NEAR(spread.mean(), 0, 0.03 * deviation);
@@ -156,8 +156,8 @@ TEST(Sensors, QuantiseToTheNearestStep) {
   EXPECT_DOUBLE_EQ(m.feet[0].F_Co_C[5], 63);
 }
 
-// All that a controller is told, as one vector; its orientation as a rotation
-// from R.
+// Returns the whole input of a controller as one vector, with the orientation as a
+// rotation from R.
 Eigen::VectorXd Everything(
     const Measurement& m,
     const Eigen::Matrix3d& R = Eigen::Matrix3d::Identity()) {
@@ -167,7 +167,7 @@ Eigen::VectorXd Everything(
   return all;
 }
 
-// The deviation of each of them, as set below.
+// Deviations of the entries, as set below.
 Eigen::VectorXd Deviations() {
   const Eigen::Vector3d one = Eigen::Vector3d::Ones();
   Eigen::VectorXd all(28);
@@ -199,7 +199,7 @@ TEST(Sensors, EachHasABiasOfItsOwnThatStays) {
     ASSERT_EQ(Everything(sensors.Measure(MakeState()), R_WB) - truth, off);
     squares += off.cwiseAbs2();
   }
-  // A deviation of 2000 draws is known to 1.6 %; four times that.
+  // With 2000 draws a deviation is known to 1.6 %. The tolerance is four times that.
   const Eigen::VectorXd spread = (squares / kRobots).cwiseSqrt();
   for (int i = 0; i < 28; ++i) {
     EXPECT_NEAR(spread[i] / Deviations()[i], 3, 0.2) << i;
@@ -285,8 +285,8 @@ TEST(Sensors, SameSeedSameErrors) {
   EXPECT_NE(a.Measure(MakeState()).q_joints, c.Measure(MakeState()).q_joints);
 }
 
-// The stream's first numbers, from the reference implementation's recursion
-// done by hand for the seed 0: 0xe220a8397b1dcdaf, 0x6e789e6aa1b965f4.
+// First numbers of the stream for the seed 0, computed by hand with the recursion of
+// the reference implementation: 0xe220a8397b1dcdaf, 0x6e789e6aa1b965f4.
 TEST(RandomStream, IsSplitMix64) {
   RandomStream stream(0);
   EXPECT_EQ(stream.Uniform(),

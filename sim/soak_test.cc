@@ -20,14 +20,14 @@ namespace {
 constexpr double kMinutes = 10;
 constexpr double kBetweenPushes = 3;  // s.
 
-// Pages that this process has in memory.
+// Returns the resident pages of this process.
 long ResidentPages() {
   long total = 0, resident = 0;
   std::ifstream("/proc/self/statm") >> total >> resident;
   return resident;
 }
 
-// Random pushes, every three seconds, up to a third of what the pendulum takes.
+// Random pushes every three seconds, up to a third of the impulse of the pendulum.
 std::vector<Push> MakePushes() {
   std::vector<Push> pushes;
   RandomStream random(1);
@@ -53,7 +53,7 @@ TEST(Soak, TenMinutesOfRandomPushesLeaveTheRobotAsItWas) {
   scenario.pushes = MakePushes();
   ClosedLoop loop(robot, scenario);
   Judge judge(StandingHeight(robot));
-  // Sees what the loop's own controller does, one tick in ten, and is watched.
+  // Receives the states of the loop, one tick in ten, and counts its allocations.
   Controller beside(robot);
   beside.Start(MakeStartState(robot, {}, {}, scenario.seed));
   Command command;
@@ -75,7 +75,7 @@ TEST(Soak, TenMinutesOfRandomPushesLeaveTheRobotAsItWas) {
       beside.Update(state, &command);
       allocations += count.allocations();
     }
-    // By then everything has grown to its size.
+    // By then all buffers have their final size.
     if (pages == 0 && loop.time() > 60) pages = ResidentPages();
   }
   const Verdict verdict = judge.Conclude();

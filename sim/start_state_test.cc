@@ -52,13 +52,13 @@ TEST(StartState, LaysTheSolesOnASlopeTurnedAndLifted) {
     EXPECT_NEAR(normal.dot(X_WC.p), 0.03, kStanding);
     EXPECT_NEAR(normal.dot(X_WC.R.col(2)), 1, kStanding);
   }
-  // The middle of the feet stays over the origin; from foot to foot it turned.
+  // The middle of the feet stays at the origin; the line between them is rotated.
   const Eigen::Vector3d middle = (soles[0].p + soles[1].p) / 2;
   EXPECT_TRUE((middle - 0.03 * normal).isZero(kStanding));
   const Eigen::Vector3d side = soles[0].p - soles[1].p;
   const Eigen::Vector3d flat_side = flat[0].p - flat[1].p;
   EXPECT_NEAR(side.norm(), flat_side.norm(), kStanding);
-  // The least rotation onto the slope does not turn about its normal.
+  // The smallest rotation onto the slope has no part about its normal.
   const Eigen::AngleAxisd R_WS(
       std::acos(normal.z()),
       Eigen::Vector3d::UnitZ().cross(normal).normalized());
@@ -86,7 +86,7 @@ TEST(StartState, DrawsJointsOutsideTheLegsWithinTheirLimits) {
     (moved[j] == 0 ? still : awry) += 1;
     far += std::abs(moved[j]) > 0.25;
   }
-  // Twelve are in the legs; some others may start at a limit.
+  // Twelve joints are in the legs; others may start at a limit.
   EXPECT_GE(still, 12);
   EXPECT_GE(awry, 30);
   EXPECT_GE(far, 8);

@@ -16,8 +16,8 @@ double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// How far p can go along the unit vector u inside a convex polygon; 0 if p is
-// outside, or there is none.
+// Returns the distance from p along the unit vector u to the edge of a convex polygon;
+// 0 if p is outside or the polygon is empty.
 double DistanceToEdge(const std::vector<Eigen::Vector2d>& polygon,
                       const Eigen::Vector2d& p, const Eigen::Vector2d& u) {
   if (polygon.size() < 3) return 0;

@@ -14,9 +14,9 @@ const std::vector<Eigen::Vector2d> kSoles = {
     {0.1, 0.05}, {-0.1, 0.15}, {0.1, -0.15}, {-0.1, -0.15},
     {0.1, 0.15}, {0, 0},       {-0.1, 0.05}};
 
-// Whether the pendulum x'' = w^2 (x - p) + F / m, its CoP p always at the edge
-// it can reach, comes back from a force over T: by integration, without the
-// formula of the yardstick.
+// Returns whether the pendulum x'' = w^2 (x - p) + F / m recovers from a force over T,
+// with the CoP p always at the edge. Uses integration and not the formula of the
+// yardstick.
 bool Survives(double mass, double height, double edge, double force, double T) {
   const double w2 = 9.81 / height, dt = 1e-5;
   double x = 0, v = 0;

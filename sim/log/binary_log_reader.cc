@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kMagic = "POISELOG";
 constexpr uint64_t kVersion = 1;
-// More than any log has: what is larger is damage, not data.
+// Larger than any log; a larger number means a damaged file.
 constexpr uint64_t kMostColumns = 1 << 20;
 
 uint64_t LittleEndian(std::string_view bytes) {
@@ -22,7 +22,7 @@ uint64_t LittleEndian(std::string_view bytes) {
   return value;
 }
 
-// Takes bytes off the front; false if there are not so many.
+// Removes bytes from the front. Returns false if there are too few.
 bool Take(std::size_t count, std::string_view* from, std::string_view* taken) {
   if (from->size() < count) return false;
   *taken = from->substr(0, count);

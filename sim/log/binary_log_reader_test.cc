@@ -72,7 +72,7 @@ TEST(OpenLog, GivesTheSameRowsFromBothFormats) {
     for (int i = 0; i < kRows; ++i) {
       SCOPED_TRACE(i);
       ASSERT_TRUE(log->Next());
-      // Nine digits as text, all in binary.
+      // Text has nine digits, binary all.
       EXPECT_NEAR(log->Number(0), TimeOf(i), 1e-12);
       if (format == LogFormat::kBinary) {
         EXPECT_EQ(log->Number(0), TimeOf(i));
@@ -93,7 +93,7 @@ TEST(OpenLog, GivesTheSameRowsFromBothFormats) {
   }
 }
 
-// Every byte at which a run can be killed: whole rows are read, no other.
+// A run can be killed at every byte. Complete rows are read, others are not.
 TEST(BinaryLogReader, ReadsALogThatWasCutAnywhereAsFarAsItGoes) {
   const std::string whole = Log(LogFormat::kBinary);
   const std::size_t header =

@@ -11,7 +11,7 @@ namespace {
 
 using Kind = LogColumn::Kind;
 
-// Users' scripts read these names: docs/log.md.
+// Scripts of users depend on these names, see docs/log.md.
 TEST(Columns, AreThoseOfTheDocumentedLog) {
   std::string header;
   for (const LogColumn& column :

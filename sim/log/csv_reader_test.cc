@@ -56,7 +56,7 @@ TEST(CsvReader, StopsWhereTheLogWasCutShort) {
   }
 }
 
-// Whole, and still not the header's: it was not cut short.
+// The row has a line end, so it was not cut short; but its length is wrong.
 TEST(CsvReader, RefusesARowOfAnotherLength) {
   const auto file = Written("a,b\n0,1\n2\n4,5\n");
   CsvReader csv(file);

@@ -37,7 +37,7 @@ class LogReader {
   /// Returns the file and the line that was read last: "FILE:LINE".
   virtual std::string place() const = 0;
 
-  /// Estimates the number of rows of the file from its beginning.
+  /// Returns about the number of rows of the file, by a quick pass.
   virtual long CountRows() const = 0;
 
   /// Returns whether Next() found an incomplete row.

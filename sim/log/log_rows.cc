@@ -29,11 +29,11 @@ class CsvRows final : public LogRows {
 
   void Number(double value) override {
     BeginCell();
-    if (std::isnan(value)) {  // Whatever its sign.
+    if (std::isnan(value)) {  // Of either sign.
       row_ += "nan";
       return;
     }
-    // Nine digits: a nanometer on a meter, a millionth of a newton on the
+    // Nine digits resolve a nanometer in a meter, and a millionth of a newton in the
     // weight.
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof(digits), value,
@@ -43,7 +43,7 @@ class CsvRows final : public LogRows {
 
   void Text(std::string_view text) override {
     BeginCell();
-    // A robot may call its joints what it likes; the table stays one.
+    // Names of joints may contain separators, which would break the table.
     for (const char c : text) {
       row_ += c == ',' || c == '\n' || c == '\r' ? '_' : c;
     }
@@ -67,7 +67,7 @@ class CsvRows final : public LogRows {
   size_t cells_ = 0;
 };
 
-// Little-endian, whatever the machine is.
+// Appends a number in little-endian order on any machine.
 template <typename T>
 void Append(T value, int bytes, std::string* out) {
   for (int i = 0; i < bytes; ++i) {
@@ -76,8 +76,8 @@ void Append(T value, int bytes, std::string* out) {
   }
 }
 
-// A cell is written as what changed in its bits since the row before: of a
-// quantity that changes slowly, sign, exponent and leading digits are the same.
+// Writes the changed bits of each cell since the last row. Sign, exponent and leading
+// digits of a slowly changing quantity are the same.
 class BinaryRows final : public LogRows {
  public:
   explicit BinaryRows(const std::vector<LogColumn>& columns)

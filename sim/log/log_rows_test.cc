@@ -32,7 +32,7 @@ std::string TwoRows(LogFormat format, double second_x) {
   return bytes;
 }
 
-// As docs/log.md says.
+// The format of docs/log.md.
 TEST(LogRows, AreLinesOfCommaSeparatedValues) {
   EXPECT_EQ(LogFileName(LogFormat::kCsv), "log.csv");
   EXPECT_EQ(TwoRows(LogFormat::kCsv, 0.123456789123),
@@ -53,8 +53,8 @@ TEST(LogRows, StayOneTableWhateverThingsAreCalled) {
   EXPECT_EQ(bytes, "a_b_\n1_2__\n");
 }
 
-// As docs/log.md says, byte by byte.
-TEST(LogRows, AreWhatChangedInBinary) {
+// The binary format of docs/log.md, byte by byte.
+TEST(LogRows, AreTheChangedBytesInBinary) {
   EXPECT_EQ(LogFileName(LogFormat::kBinary), "log.bin");
   const std::string header =
       "POISELOG\1\0\0\0\3\0\0\0"
@@ -74,7 +74,8 @@ TEST(LogRows, AreWhatChangedInBinary) {
   };
   EXPECT_EQ(TwoRows(LogFormat::kBinary, 1),
             header + first + second("\x08\0"s, ""));
-  // -1 differs in its first bit: all four bytes. 1 + 2^-23 in its last: one.
+  // -1 differs in the first bit, so four bytes are written. 1 + 2^-23 differs in the
+  // last bit: one byte.
   EXPECT_EQ(TwoRows(LogFormat::kBinary, -1),
             header + first + second("\x48\0"s, "\0\0\0\x80"s));
   EXPECT_EQ(TwoRows(LogFormat::kBinary, 1 + std::ldexp(1, -23)),

@@ -15,9 +15,9 @@ namespace poise {
 namespace {
 
 constexpr int kRowsAtOnce = 50;
-// In the scale of a row, where 1 is a typical value.
+// Smallest slack that is recorded, in the scale of a row (typical value 1).
 constexpr double kNoticeableSlack = 1e-6;
-// A conflict lasts, and takes some ten solutions to find.
+// Period of the search for conflicts, which takes about ten solves.
 constexpr double kBetweenConflicts = 0.05;  // s.
 
 std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
@@ -32,7 +32,7 @@ std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
   return LogColumns(feet, joints, tasks);
 }
 
-// Why a tick is not ok.
+// Returns the reason why a tick is not ok.
 std::string Reason(const TickRecord& record) {
   const TickReport& report = record.report;
   if (report.status == TickStatus::kTruncated) {
@@ -42,7 +42,7 @@ std::string Reason(const TickRecord& record) {
   return std::string(ReasonName(report.fail_safe_reason));
 }
 
-// A name in a cell that lists: what separates its entries is not part of one.
+// Returns a name for a list cell, with separators replaced.
 std::string WithoutSeparators(std::string name) {
   for (char& c : name) {
     if (c == ';' || c == '=' || c == '|') c = '_';
@@ -50,7 +50,7 @@ std::string WithoutSeparators(std::string name) {
   return name;
 }
 
-// The level of the highest rows that could not be met; -1 if all could.
+// Returns the first level with a violated row; -1 if all rows are met.
 int LevelNotMet(const TickRecord& record) {
   int not_met = Stack::kMaxLevel + 1;
   for (const LostRow& lost : record.report.lost) {
@@ -66,7 +66,7 @@ int LevelNotMet(const TickRecord& record) {
   return -1;
 }
 
-// Each body by the first link that is fixed in it.
+// Returns the name of each body: its first link.
 std::vector<std::string> BodyNames(const Tree& tree) {
   std::vector<std::string> names(tree.num_bodies());
   for (const Frame& frame : tree.frames()) {

@@ -28,7 +28,7 @@ Json Numbers(const Vector& values) {
   return list;
 }
 
-// The link that a push acts on, also where the push left it to us.
+// Returns the link of a push, or the default link.
 std::string LinkName(const Robot& robot, const PushOnRobot& push) {
   if (!push.push().link.empty()) return push.push().link;
   for (const Frame& frame : robot.model.tree.frames()) {
@@ -37,8 +37,8 @@ std::string LinkName(const Robot& robot, const PushOnRobot& push) {
   return "";
 }
 
-// The push that the keys of a single push describe: the largest one, or the
-// first one where none has an impulse.
+// Returns the push for the keys of a single push: the largest one, or the first one
+// if all impulses are zero.
 const Push& MainPush(const Scenario& scenario) {
   const Push* largest = LargestPush(scenario.pushes, scenario.duration);
   return largest != nullptr ? *largest : scenario.pushes[0];
@@ -63,7 +63,7 @@ Json PushesToJson(const Robot& robot, const Scenario& scenario) {
   return list;
 }
 
-// The key of a row: its name as log.csv has it.
+// Returns the key of a row: its name in log.csv.
 std::string LogName(std::string name) {
   for (char& c : name) {
     const bool separates = c == ',' || c == ';' || c == '=' || c == '|';
@@ -83,7 +83,7 @@ Json Rows(const std::vector<StackRow>& rows) {
   return object;
 }
 
-// A line of the table: a label, then what printf() makes of the rest.
+// Returns a line of the table: a label and a text formatted by printf().
 __attribute__((format(printf, 2, 3))) std::string Line(const char* label,
                                                        const char* format,
                                                        ...) {
@@ -96,7 +96,7 @@ __attribute__((format(printf, 2, 3))) std::string Line(const char* label,
   return line;
 }
 
-// One push as a line of the table, with its start where there are several.
+// Returns one push as a line of the table, with its start if there are several.
 std::string PushLine(const Robot& robot, const Push& push, double until,
                      bool with_start) {
   constexpr double kDegree = M_PI / 180;

@@ -20,8 +20,8 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::ordered_json;
 
-// A weak box on the head, then a strong half sine on a hand. A later push on
-// the waist would have been the largest one.
+// A small box push on the head, then a large half-sine push on a hand. A push on the
+// waist would be larger, but begins after the run.
 Scenario MakeThreePushes() {
   Scenario scenario;
   scenario.name = "three";
@@ -102,12 +102,12 @@ TEST(Summary, PrintsALineForEachPushWithItsOwnForce) {
       has("1.91 N s over 0.030 s: half sine, peak 100 N at 90 deg on l_hand"));
   scenario.pushes.erase(scenario.pushes.begin());
   EXPECT_TRUE(has("none before the end of the run"));
-  // A long list is cut.
+  // A long list is shortened.
   scenario.pushes = std::vector<Push>(8, MakeThreePushes().pushes[0]);
   EXPECT_TRUE(has("and 3 more"));
 }
 
-// A force that turns with its link is given in the axes of the link's body.
+// A force in link axes is reported in the axes of the link's body.
 TEST(Summary, NamesTheAxesOfAForce) {
   const Robot robot = LoadHumanoid();
   Scenario scenario = MakeThreePushes();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-// Puts a body down, its center `height` above the ground.
+// Places a body with its center `height` above the ground.
 void PutDown(const Ground& ground, double height, Plant* plant) {
   Eigen::VectorXd q(7);
   q << height * GroundNormal(ground), GroundRotation(ground).coeffs();
@@ -44,7 +44,7 @@ class GroundTest : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(, GroundTest, testing::ValuesIn(PlantNames()),
                          [](const auto& plant) { return plant.param; });
 
-// How far a block slides down a slope of a given pitch within a second.
+// Returns the slide of a block on a slope of a given pitch in a second.
 double GroundTest::Slide(double friction, double pitch) const {
   PlantSettings settings;
   settings.friction = friction;
@@ -62,7 +62,6 @@ TEST_P(GroundTest, BlockSlidesAtTheFrictionAngleWithinOnePercent) {
     const double angle = std::atan(friction);
     EXPECT_LT(Slide(friction, 0.99 * angle), 1e-4);
     EXPECT_LT(Slide(friction, -0.99 * angle), 1e-4);
-    // g (sin - friction cos) t^2 / 2, less what Bullet needs to get it going.
     // s = g (sin - friction cos) t^2 / 2, solved for the friction.
     const double way = Slide(friction, 1.01 * angle);
     EXPECT_NEAR(
@@ -72,7 +71,7 @@ TEST_P(GroundTest, BlockSlidesAtTheFrictionAngleWithinOnePercent) {
   }
 }
 
-// How far a tall block on a rough slope leans over within a second.
+// Returns the tilt of a tall block on a rough slope after a second.
 double GroundTest::Tip(double roll) const {
   PlantSettings settings;
   settings.friction = 2;
@@ -92,13 +91,13 @@ TEST_P(GroundTest, TallBlockTipsAtItsGeometricLimitWithinOnePercent) {
   EXPECT_GT(Tip(-1.01 * limit), 0.1);
 }
 
-// How high a ball comes back that falls from rest over 0.5 m.
+// Returns the rebound height of a ball that falls by 0.5 m.
 double GroundTest::Rebound(double restitution) const {
   PlantSettings settings;
   settings.restitution = restitution;
   const auto plant = Make(MakeBall(0.1, 2), settings);
   PutDown({}, 0.6, plant.get());
-  Simulate(0.35, plant.get());  // It lands after 0.319 s.
+  Simulate(0.35, plant.get());  // The ball lands after 0.319 s.
   double top = 0;
   for (int k = 0; k < 500; ++k) {
     Simulate(1e-3, plant.get());
@@ -112,7 +111,7 @@ TEST_P(GroundTest, BallBouncesToTheSquareOfItsRestitution) {
     EXPECT_THROW(Rebound(0.5), std::invalid_argument);
     return;
   }
-  // The impact is seen up to a step too soon, at 3 m/s and 1 ms.
+  // The impact is detected up to a step early, at 3 m/s and 1 ms.
   constexpr double kStep = 6e-3;
   EXPECT_NEAR(Rebound(0.8), 0.5 * 0.64, kStep);
   EXPECT_NEAR(Rebound(0.5), 0.5 * 0.25, kStep);
@@ -129,7 +128,7 @@ TEST_P(GroundTest, BallRollsDownASlopeAtFiveSevenths) {
   const double way = (plant->Sense().q.head<3>() - start).norm();
   const double free = 5.0 / 7 * kGravity * std::sin(0.2) / 2;
   EXPECT_NEAR(way, free, 0.01 * free);
-  // It rolls: no slip.
+  // The ball rolls without slip.
   EXPECT_NEAR(plant->Sense().v.head<3>().norm() * 0.1,
               plant->Sense().v.tail<3>().norm(), 1e-3);
 }
@@ -171,8 +170,8 @@ TEST_P(GroundTest, BoardCarriesAtItsHeight) {
   EXPECT_NEAR(plant->Sense().q.z(), 0.03 + 0.05, 1e-4);
 }
 
-// Two legs that slide out of a wall along x, each with a box of a foot that
-// slides along y: the left one is body 2, the right one body 4.
+// Two legs that slide out of a wall along x. Each has a box as foot that slides along
+// y. The left foot is body 2, the right foot body 4.
 Robot MakeTwoFeet() {
   Inertia M;
   M.mass = 1;
@@ -210,7 +209,7 @@ Robot MakeTwoFeet() {
   return robot;
 }
 
-// Presses the feet together for a second; they meet when each has gone 0.1 m.
+// Presses the feet together for a second. They meet after 0.1 m each.
 double PressFeetTogether(Plant* plant) {
   const Robot robot = MakeTwoFeet();
   Eigen::VectorXd tau = Eigen::VectorXd::Zero(4);
@@ -241,8 +240,8 @@ TEST_P(GroundTest, FeetThatMeetAreHeldApartAndNamed) {
   EXPECT_NEAR(PressFeetTogether(Make(MakeTwoFeet(), ghosts).get()), 0.5, 1e-3);
 }
 
-// Its sole alone bears it: a foot's own shapes, which reach 10 mm deeper here,
-// pass through the ground.
+// Only the sole carries load. The other shapes of the foot reach 10 mm deeper here
+// and do not collide with the ground.
 TEST_P(GroundTest, FootStandsOnItsSoleNotOnItsShapes) {
   Robot robot = MakeBlock({0.3, 0.2, 0.1}, 5);
   robot.model.collisions.push_back({0, {}, Box{{0.3, 0.2, 0.12}}});

@@ -10,7 +10,7 @@
 namespace poise {
 namespace {
 
-// One of our scenarios, cut short.
+// Runs one of our scenarios with a shorter duration.
 RunResult RunOurs(const std::string& name, double duration) {
   Scenario scenario = LoadScenario("sim/scenarios/" + name + ".yaml");
   scenario.duration = duration;
@@ -28,7 +28,7 @@ TEST(Ground, SlopeIsStoodOnAndPushedDown) {
 TEST(Ground, BoardUnderAFootThatIsNotKnownOfIsStoodOn) {
   const RunResult result = RunOurs("board", 3.5);
   EXPECT_TRUE(result.verdict.recovered);
-  // Its soles are 0.2 m apart: 10 mm are 0.05 rad.
+  // The soles are 0.2 m apart, so 10 mm are 0.05 rad.
   EXPECT_NEAR(result.verdict.foot_tilt_peak, 0.05, 0.03);
   EXPECT_LT(result.verdict.com_error_final.norm(), 2e-3);
   EXPECT_EQ(result.failures, 0);

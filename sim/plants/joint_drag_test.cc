@@ -15,7 +15,7 @@ namespace poise {
 namespace {
 
 constexpr double kDt = 1e-3;
-// Two solutions of one system whose condition is some 1e4.
+// Tolerance for two solutions of a system with condition 1e4.
 constexpr double kAgreement = 1e-10;
 
 PlantState StateOf(const Robot& robot, std::mt19937* draw) {
@@ -38,8 +38,8 @@ TEST(JointDrag, ExistsWhereAModelHasAny) {
   EXPECT_TRUE(JointDrag(robot, kDt).exists());
 }
 
-// The definition, the other way round: with the drag as a force, the step ends
-// at the speed that the drag was computed for.
+// With the drag as a force, the step ends at the speed for which the drag was
+// computed.
 TEST(JointDrag, IsTheForceOfTheSpeedThatItLeaves) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(seed);
@@ -77,7 +77,7 @@ TEST(JointDrag, IsTheForceOfTheSpeedThatItLeaves) {
   }
 }
 
-// A hinge on an inertia of 2, alone: dry friction of 3 N m.
+// A hinge with inertia 2 kg m2 and dry friction of 3 N m.
 TEST(JointDrag, HoldsByDryFrictionAndNeverTurnsRound) {
   Inertia M;
   M.mass = 1;
@@ -101,13 +101,13 @@ TEST(JointDrag, HoldsByDryFrictionAndNeverTurnsRound) {
     state.v = Eigen::VectorXd::Constant(1, v);
     return joint_drag.Compute(state, Eigen::VectorXd::Constant(1, tau))[0];
   };
-  // Fast: the whole of it, against the motion, whatever the torque.
+  // Fast motion: full friction against the motion for any torque.
   EXPECT_NEAR(drag(10, 0), -3, 1e-3);
   EXPECT_NEAR(drag(-10, 5), 3, 2e-3);
-  // At rest: as much as holds it, but for what it creeps by.
+  // At rest: friction balances the torque, up to creep.
   EXPECT_NEAR(drag(0, 1), -1, 0.07);
   EXPECT_NEAR(drag(0, -1), 1, 0.07);
-  // The step that stops it does not turn it: v + dt (tau + drag) / I has the
+  // The step that stops the hinge does not reverse it: v + dt (tau + drag) / I has the
   // sign of v.
   for (const double v : {1e-3, 1e-4, 1e-5}) {
     EXPECT_GT(v + kDt * drag(v, 0) / 2, 0) << v;

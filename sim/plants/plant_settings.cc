@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFar = 1e3;  // m.
 constexpr std::size_t kMostBoards = 100;
-// An effort limit of 0 is none at all.
+// Smallest torque scale; an effort limit of 0 would mean no motor.
 constexpr double kWeakest = 1e-6;
 
 }  // namespace
@@ -23,7 +23,8 @@ Eigen::Vector3d GroundNormal(const Ground& ground) {
           Eigen::Vector3d::UnitZ());
 }
 
-// The bisector of both is half the way; roll and pitch keep it from zero.
+// The rotation axis follows from the bisector of both axes. Limits of roll and pitch
+// keep the bisector from zero.
 Eigen::Quaterniond GroundRotation(const Ground& ground) {
   const Eigen::Vector3d n = GroundNormal(ground);
   return Eigen::Quaterniond(1 + n.z(), -n.y(), n.x(), 0).normalized();

@@ -44,9 +44,9 @@ TEST_P(PlantTest, ReturnsTheStateItWasGiven) {
 
 // M v̇ + N = S' tau + J' F, with v̇ from the plant and all else from dynamics.
 TEST_P(PlantTest, AgreesWithDynamicsInFreeFlight) {
-  // Two dynamics that share no code agree to what rounding leaves of a velocity
-  // of 1 / s that changes within 1 ms, amplified by the condition of M; MuJoCo
-  // finds the principal axes of an inertia to some seven digits.
+  // Tolerance for two independent dynamics: rounding of a velocity of 1 / s that
+  // changes within 1 ms, amplified by the condition of M. MuJoCo computes principal
+  // axes of an inertia to about seven digits.
   const double agreement = GetParam() == "bullet" ? 1e-9 : 1e-6;
   for (unsigned seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
@@ -54,7 +54,7 @@ TEST_P(PlantTest, AgreesWithDynamicsInFreeFlight) {
     const Tree tree = MakeRandomTree(50, &draw);
     const auto plant = Make(MakeRobot(tree));
     Eigen::VectorXd q = MakeRandomConfiguration(tree, &draw);
-    q.z() += 100;  // Nothing to touch.
+    q.z() += 100;  // Far from the ground.
     const Eigen::VectorXd v = MakeRandomVector(tree.nv(), &draw);
     const Eigen::VectorXd tau = 10 * MakeRandomVector(50, &draw);
     const int frame = *tree.FindFrame("link30");
@@ -97,16 +97,16 @@ TEST_P(PlantTest, CutsTorquesOffAtTheEffortLimit) {
   const auto plant = Make(robot, settings);
   plant->Step(Eigen::VectorXd::Constant(1, 10));
   EXPECT_EQ(plant->Sense().tau[0], 1.5);
-  // I = 0.01 + 2 * 0.3^2; hanging, gravity has no moment. MuJoCo's inertias
-  // are good to seven digits.
+  // I = 0.01 + 2 * 0.3^2. The rod hangs, so gravity has no moment. MuJoCo's inertias
+  // have seven digits.
   EXPECT_NEAR(plant->Sense().vdot[0], 1.5 / 0.19, 1e-6 * 1.5 / 0.19);
   plant->Step(Eigen::VectorXd::Constant(1, -10));
   EXPECT_EQ(plant->Sense().tau[0], -1.5);
 }
 
 TEST_P(PlantTest, StopsJointsAtTheirLimits) {
-  // Bullet's is passed by a step at the speed of the impact, 4 rad/s; MuJoCo's
-  // is soft for 4 ms.
+  // Bullet's limit is exceeded by one step at the impact speed, 4 rad/s. MuJoCo's is
+  // soft for 4 ms.
   const double overrun = GetParam() == "bullet" ? 5e-3 : 1.6e-2;
   for (const double sign : {-1, 1}) {
     SCOPED_TRACE(sign);
@@ -137,12 +137,12 @@ TEST_P(PlantTest, LetsJointsPassTheirLimitsIfTold) {
 // A force acts in one step only.
 TEST_P(PlantTest, ForgetsAForceAfterAStep) {
   const auto plant = Make(MakePendulum());
-  // 2 N at 0.3 m below the hinge turn it by 0.6 N m.
+  // 2 N at 0.3 m below the hinge have a moment of 0.6 N m.
   plant->Apply({1, {0, 0, -0.3}, {0, 0, 0}, {-2, 0, 0}});
   plant->Step(Eigen::VectorXd::Zero(1));
   EXPECT_NEAR(plant->Sense().vdot[0], 0.6 / 0.19, 1e-6 * 0.6 / 0.19);
   plant->Step(Eigen::VectorXd::Zero(1));
-  // The rod has moved by 3 urad, and hangs back by 6 N m / rad.
+  // The rod has moved by 3 urad; gravity pulls back with 6 N m / rad.
   EXPECT_NEAR(plant->Sense().vdot[0], 0, 1e-3);
 }
 

@@ -19,7 +19,7 @@ btQuaternion ToQuaternion(const Eigen::Matrix3d& R) {
   return {q.x(), q.y(), q.z(), q.w()};
 }
 
-// A frame L at the center of mass of a body B, along its principal axes.
+// Returns the frame L at the center of mass of a body B, along its principal axes.
 Pose PrincipalFrame(const Inertia& M_B) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(M_B.I_G_B);
   Eigen::Matrix3d R_BL = axes.eigenvectors();
@@ -95,7 +95,7 @@ BulletBody::BulletBody(const Tree& tree)
     }
   }
   body_->finalizeMultiDof();
-  // A floating base is put in its place by SetState().
+  // SetState() places a floating base.
   body_->setBaseWorldTransform(ToBullet(X_BL_[0]));
 }
 

@@ -8,9 +8,9 @@ namespace poise {
 
 namespace {
 
-// The mean acceleration over a step of a base whose origin lies at r_W from its
-// center of mass L: Bullet integrates the velocity of L, and the step's
-// acceleration belongs to its start.
+// Returns the mean acceleration over a step of a base whose origin is at r_W from its
+// center of mass L. Bullet integrates the velocity of L, and its acceleration is that
+// at the start of the step.
 Eigen::Matrix<double, 6, 1> BaseAcceleration(const Eigen::Vector3d& w_W,
                                              const Eigen::Vector3d& dw_W,
                                              const Eigen::Vector3d& dv_L_W,
@@ -63,7 +63,7 @@ void BulletPlant::Reset(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
 void BulletPlant::Apply(const AppliedForce& force) {
   btMultiBody& body = world_->body().body();
   const Pose& X_BL = world_->body().X_BL(force.body);
-  // Bullet takes a force at the link's center of mass.
+  // Bullet applies a force at the link's center of mass.
   const Eigen::Vector3d p_LQ_W =
       world_->X_WL(force.body).R * (X_BL.Inverse() * force.p_BoQ_B);
   const btVector3 force_W = ToBullet(force.force_W);

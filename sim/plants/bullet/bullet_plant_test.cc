@@ -16,8 +16,8 @@
 namespace poise {
 namespace {
 
-// Two dynamics that share no code agree to what rounding leaves of a velocity
-// of 1 / s that changes within 1 ms, amplified by the condition of M.
+// Tolerance for two independent dynamics: rounding of a velocity of 1 / s that changes
+// within 1 ms, amplified by the condition of M.
 constexpr double kAgreement = 1e-9;
 
 TEST(BulletPlant, MomentumRateInFreeFlightIsGravity) {
@@ -52,7 +52,7 @@ TEST(BulletPlant, FallsByItsIntegratorsOwnRecursion) {
   for (int k = 0; k < 1000; ++k) plant.Step(tau);
   ComputeTick(tree, plant.Sense().q, plant.Sense().v, &tick);
   const Eigen::Vector3d fallen = tree.gravity_W() * 1e-6 * 1000 * 1001 / 2;
-  // 100 m, rounded a thousand times; the parabola is 4.9 mm away.
+  // Rounding of 100 m a thousand times; the parabola differs by 4.9 mm.
   EXPECT_LE((tick.p_WG - start - fallen).norm(), 1e-11);
   EXPECT_DOUBLE_EQ(plant.Sense().time, 1.0);
 }
@@ -87,9 +87,9 @@ Drift MeasureDrift(double dt) {
 
 TEST(BulletPlant, DriftsLittleInFreeFlightAndHalfAsMuchInHalfTheStep) {
   const Drift coarse = MeasureDrift(1e-3), fine = MeasureDrift(0.5e-3);
-  EXPECT_LT(coarse.momentum, 2e-4);  // Measured: 7e-5,
-  EXPECT_LT(coarse.energy, 2e-4);    // and 8e-5.
-  // First order, up to the second: to a tenth.
+  EXPECT_LT(coarse.momentum, 2e-4);  // Measured: 7e-5.
+  EXPECT_LT(coarse.energy, 2e-4);    // Measured: 8e-5.
+  // Errors are of first order; the second order adds a tenth.
   EXPECT_NEAR(coarse.momentum / fine.momentum, 2, 0.2);
   EXPECT_NEAR(coarse.energy / fine.energy, 2, 0.2);
 }
@@ -112,17 +112,17 @@ TEST(BulletPlant, RepeatsToTheBitAfterReset) {
   EXPECT_EQ(run(), once);
 }
 
-// w' = -d w / I on a hinge, I = 0.19, here without gravity's moment at rest.
+// w' = -d w / I on a hinge with I = 0.19; gravity has no moment at rest.
 TEST(BulletPlant, DampsJointsHoweverLight) {
   Robot robot = MakePendulum();
-  // Explicitly, 1 ms would multiply the speed by 1 - 1000 * 1e-3 / 0.19 = -4.
+  // Explicit damping would multiply the speed by 1 - 1000 * 1e-3 / 0.19 = -4 a step.
   robot.model.limits[0].damping = 1000;
   BulletPlant plant(robot);
   plant.Reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
   double last = 1;
   for (int k = 0; k < 5; ++k) {
     plant.Step(Eigen::VectorXd::Zero(1));
-    // Implicit Euler: by 1 / (1 + d dt / I) a step.
+    // Implicit Euler multiplies by 1 / (1 + d dt / I) a step.
     EXPECT_NEAR(plant.Sense().v[0], last / (1 + 1 / 0.19), 1e-4);
     last = plant.Sense().v[0];
   }
@@ -130,7 +130,7 @@ TEST(BulletPlant, DampsJointsHoweverLight) {
   BulletPlant slow(robot);
   slow.Reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
   for (int k = 0; k < 100; ++k) slow.Step(Eigen::VectorXd::Zero(1));
-  // exp(-d t / I), and gravity's pull back, w0^2 q / 2 with w0^2 = 31 / s^2.
+  // exp(-d t / I) times the effect of gravity, w0^2 q / 2 with w0^2 = 31 / s^2.
   EXPECT_NEAR(slow.Sense().v[0], std::exp(-0.1) * std::cos(0.557), 2e-2);
   PlantSettings undamped;
   undamped.joint_damping = false;

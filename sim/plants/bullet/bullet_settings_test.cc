@@ -16,7 +16,7 @@
 namespace poise {
 namespace {
 
-// A free flight without gravity, of which each setting spoils something.
+// A free flight without gravity; each setting changes one of its errors.
 struct Flight {
   double acceleration_error;  // First step against dynamics, relative.
   double momentum_drift;      // Over 1 s, relative.
@@ -92,7 +92,7 @@ TEST(BulletSettings, VelocitiesAreClamped) {
   EXPECT_GT(Fly(bullet).acceleration_error, 0.1);
 }
 
-// How fast a block creeps down a slope at 99 % of the friction angle, m/s.
+// Returns the creep of a block on a slope at 99 % of the friction angle, m/s.
 double Creep(const BulletSettings& bullet) {
   PlantSettings settings;
   settings.ground.pitch = 0.99 * std::atan(settings.friction);
@@ -114,7 +114,7 @@ TEST(BulletSettings, FewIterationsCreep) {
   EXPECT_GT(Creep(few), 5 * Creep({}));
 }
 
-// Bullet's own sweeps, ended as soon as little changes, leave the same.
+// Bullet's own sweeps end early and leave the same error.
 TEST(BulletSettings, ResidualThresholdEndsBulletsSweepsEarly) {
   BulletSettings exact, early;
   exact.own_sweeps = early.own_sweeps = false;
@@ -123,8 +123,8 @@ TEST(BulletSettings, ResidualThresholdEndsBulletsSweepsEarly) {
   EXPECT_GT(Creep(early), 5 * Creep(exact));
 }
 
-// The speed of a block that stood still for 3 s, Bullet's time to sleep being
-// 2 s, and is then pushed.
+// Returns the speed of a block that is pushed after 3 s at rest; Bullet lets bodies
+// sleep after 2 s.
 double SpeedAfterRest(const BulletSettings& bullet) {
   BulletPlant plant(MakeBlock({0.3, 0.3, 0.02}, 5), {}, bullet);
   Eigen::VectorXd q = Eigen::VectorXd::Zero(7);
@@ -147,7 +147,7 @@ TEST(BulletSettings, WhatSleepsIgnoresForces) {
   EXPECT_EQ(SpeedAfterRest(sleepy), 0);
 }
 
-// The height of the middle of a sole tilted by 0.5 rad at which it touches.
+// Returns the height of the center of a sole, tilted by 0.5 rad, at first contact.
 double TouchingHeight(double sole_radius) {
   BulletSettings bullet;
   bullet.sole_radius = sole_radius;
@@ -166,10 +166,11 @@ double TouchingHeight(double sole_radius) {
 }
 
 TEST(BulletSettings, SolesEndInSpheresOfTheirRadius) {
-  // The corner is at 0.1 sin; a sphere there of radius r, whose middle is r
-  // above the sole, reaches r (1 - cos) deeper.
+  // The corner is at 0.1 sin. A sphere of radius r there, with its center r above the
+  // sole, reaches deeper by r (1 - cos).
   const double corner = 0.1 * std::sin(0.5);
-  // Bullet stops what would touch within a step: 0.1 mm and a step's fall.
+  // Bullet stops bodies that would touch within a step: 0.1 mm plus the fall of a
+  // step.
   constexpr double kStep = 2e-4;
   for (const double radius : {0.005, 0.05}) {
     EXPECT_NEAR(TouchingHeight(radius), corner + radius * (1 - std::cos(0.5)),
@@ -177,7 +178,7 @@ TEST(BulletSettings, SolesEndInSpheresOfTheirRadius) {
   }
 }
 
-// How far a turned block slides off its line on a steep slope, m.
+// Returns the sideways slide of a rotated block on a steep slope, m.
 double Sideways(const BulletSettings& bullet) {
   PlantSettings settings;
   settings.friction = 0.2;
@@ -202,7 +203,7 @@ TEST(BulletSettings, OneFrictionDirectionLetsABlockDriftSideways) {
   EXPECT_GT(Sideways(one), 1e-2);
 }
 
-// A tumbling block, lands: with our sweeps and with Bullet's own.
+// A tumbling block lands, with our sweeps and with Bullet's own.
 TEST(ContactSolver, GivesBulletsImpulses) {
   const auto land = [](bool own) {
     BulletSettings bullet;
@@ -220,8 +221,8 @@ TEST(ContactSolver, GivesBulletsImpulses) {
     return forces;
   };
   const Eigen::VectorXd ours = land(true), bullets = land(false);
-  EXPECT_GT(bullets.cwiseAbs().maxCoeff(), 49);  // It bears.
-  // Ours end where nothing moves in 12 digits, Bullet's after 50 sweeps.
+  EXPECT_GT(bullets.cwiseAbs().maxCoeff(), 49);  // The block is loaded.
+  // Ours end if 12 digits are constant, Bullet's after 50 sweeps.
   EXPECT_LT((ours - bullets).norm(), 1e-7 * bullets.norm());
 }
 

@@ -17,11 +17,11 @@ namespace {
 // Radius of the spheres at the corners of a sole, as in Bullet, m.
 constexpr double kSoleRadius = 0.005;
 
-// Contacts and limits as stiff as a step of 1 ms lets them be: a time constant
-// of two steps and more, and an impedance near 1.
+// Contacts and limits are as stiff as a step of 1 ms allows: a time constant of two
+// steps or more and an impedance near 1.
 constexpr const char* kStiff = "solref=\"0.004 1\" solimp=\"0.95 0.99 0.001\"";
 
-// Geoms meet where one's contype shares a bit with the other's conaffinity. The
+// Geoms collide if one's contype shares a bit with the other's conaffinity. The
 // first bit is for the ground, the second for links among themselves. Without
 // and with self-collision:
 constexpr const char* kGround = " contype=\"1\" conaffinity=\"1\"";
@@ -45,12 +45,12 @@ class Xml {
   Xml& operator<<(const Eigen::Vector3d& v) {
     return *this << v.x() << ' ' << v.y() << ' ' << v.z();
   }
-  // MuJoCo's order of a quaternion is w, x, y, z.
+  // MuJoCo's quaternions are w, x, y, z.
   Xml& operator<<(const Eigen::Quaterniond& q) {
     const Eigen::Vector4d wxyz = WxyzFromQuaternion(q);
     return *this << wxyz[0] << ' ' << Eigen::Vector3d(wxyz.tail<3>());
   }
-  // The attributes pos and quat.
+  // Writes the attributes pos and quat.
   Xml& operator<<(const Pose& X) {
     return *this << "pos=\"" << X.p << "\" quat=\"" << Eigen::Quaterniond(X.R)
                  << '"';
@@ -64,7 +64,7 @@ class Xml {
 
 void WriteGround(const PlantSettings& settings, Xml* xml) {
   const Eigen::Quaterniond R_WG = GroundRotation(settings.ground);
-  // MuJoCo takes the larger friction of two; the robot says it.
+  // MuJoCo uses the larger friction of two geoms; the robot has it.
   *xml << "<geom type=\"plane\" size=\"0 0 1\" quat=\"" << R_WG
        << "\" friction=\"0 0 0\"" << kGround << "/>\n";
   for (const Board& board : settings.ground.boards) {
@@ -76,7 +76,7 @@ void WriteGround(const PlantSettings& settings, Xml* xml) {
   }
 }
 
-// The type and size of a shape; false for what MuJoCo is not to touch.
+// Writes type and size of a shape. Returns false for a shape without collision.
 bool WriteGeometry(const Geometry& geometry, Xml* xml) {
   if (const auto* sphere = std::get_if<Sphere>(&geometry)) {
     *xml << "<geom type=\"sphere\" size=\"" << sphere->radius << "\" ";
@@ -110,7 +110,7 @@ void WriteShapes(const Robot& robot, int body, bool collides, Xml* xml) {
     const Frame& frame = robot.model.tree.frames()[shape.frame];
     if (frame.body != body || !WriteGeometry(shape.geometry, xml)) continue;
     *xml << frame.X_BF * shape.X_FS;
-    // A foot meets the ground with its sole alone.
+    // A foot collides with the ground by its sole only.
     if (is_foot) *xml << kAboveGround[collides];
     *xml << "/>\n";
   }

@@ -160,7 +160,7 @@ void MujocoPlant::Step(const Eigen::VectorXd& tau) {
   state_.time = ++steps_ * settings_.dt;
   ReadContacts();
   ReadState();
-  // So that poses belong to the state, for the next forces.
+  // Updates the poses for the next forces.
   mj_kinematics(model_.get(), data_.get());
   mj_comPos(model_.get(), data_.get());
 }

@@ -61,7 +61,7 @@ TEST(MujocoPlant, DampsAndHoldsJointsAsTheModelSays) {
   MujocoPlant plant(robot);
   plant.Reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
   for (int k = 0; k < 1000; ++k) plant.Step(Eigen::VectorXd::Zero(1));
-  // Rotor and armature: I = 2. Implicit Euler: to half a step of the rate.
+  // Rotor and armature give I = 2. The error of implicit Euler is half a step.
   EXPECT_NEAR(plant.Sense().v[0], std::exp(-2.0), 1e-3 * std::exp(-2.0) * 2.1);
 
   robot.model.limits[0].friction = 0.5;
