@@ -31,10 +31,10 @@ namespace poise {
 struct ControllerOptions {
   double dt = 1e-3;          ///< Time between two updates, s.
   double friction = 0.5;     ///< mu of the tasks friction and yaw.
-  bool inscribed = false;    ///< The friction pyramid; else circumscribed.
-  bool feedforward = false;  ///< The reference's v_WG and a_WG are used.
+  bool inscribed = false;    ///< Friction pyramid inside the friction cone.
+  bool feedforward = false;  ///< Uses v_WG and a_WG of the reference.
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
-  int max_iterations = 500;  ///< Of the solver, a tick; then truncated.
+  int max_iterations = 500;  ///< Per tick of the solver; then truncated.
   /// Time budget of the solver in a tick, s, measured by now(); used only if
   /// now() is given. The result depends on the machine: no replay is exact.
   double max_seconds = 0;
@@ -42,13 +42,13 @@ struct ControllerOptions {
   std::vector<std::string> frames;  ///< Links with a task frame.NAME.
 };
 
-/// Momentum control with hierarchical inverse dynamics: a robot's state in, its
-/// joint torques out.
+/// Computes the joint torques from the state of a robot, by momentum control with
+/// hierarchical inverse dynamics.
 ///
 ///     Controller controller(robot);
 ///     controller.Start(state);
 ///     for (;;) {
-///       controller.reference().p_WG = ...;  // If it is to move.
+///       controller.reference().p_WG = ...;  // To move the robot.
 ///       controller.Update(state, &command);
 ///     }
 ///
@@ -64,8 +64,8 @@ struct ControllerOptions {
 ///            (com, linear_momentum, angular_momentum, frame.LINK)
 ///     5      posture, force_regularizer, (torque_minimization)
 ///
-/// A robot has mimic and light_joints if it has such joints. frame.FOOT is
-/// active while that foot is in the air.
+/// The tasks mimic and light_joints exist only if the robot has such joints.
+/// frame.FOOT has rows only while this foot is in the air.
 class Controller {
  public:
   /// Throws std::invalid_argument if the robot has no foot, or an option is out
@@ -73,23 +73,25 @@ class Controller {
   explicit Controller(const Robot& robot,
                       const ControllerOptions& options = {});
 
-  /// Sets reference() to standing in the nominal posture on the feet where they
-  /// are in this state. If Update() would reject the state, the last valid one
-  /// counts. Only the settings of stack() and stance() outlive a start, so a run
-  /// repeats bit for bit. Does not allocate.
+  /// Sets reference() to standing still in the nominal posture, with the feet
+  /// where they are in this state. If q or v of the state is invalid, the last
+  /// valid state is used. Start() resets everything but the settings of stack()
+  /// and stance(), so that a run repeats bit for bit. Does not allocate.
   void Start(const State& state) noexcept;
 
   Reference& reference() { return reference_; }
   const Reference& reference() const { return reference_; }
   Stack& stack() { return stack_; }
   const Stack& stack() const { return stack_; }
-  /// Which feet are in contact: to lift one, shift the weight off it before.
+  /// Decides which feet are in contact. Before you lift a foot, shift the weight
+  /// to the other foot.
   Stance& stance() { return stance_; }
   const Stance& stance() const { return stance_; }
 
-  /// One tick. Never throws, allocates or waits; whatever the state holds, the
-  /// torques are finite and inside the effort limits, see TickStatus.
-  /// pre: command->tau has the size of the joints.
+  /// Computes the torques of one tick. Never throws, allocates or waits. For
+  /// every state, even an invalid one, the torques are finite and inside the
+  /// effort limits; see TickStatus.
+  /// pre: command->tau has one entry per joint.
   void Update(const State& state, Command* command) noexcept;
 
   /// Report on the last Update(): its status and its findings.
@@ -120,13 +122,13 @@ class Controller {
   Robot robot_;
   ControllerOptions options_;
   double weight_;       ///< Weight of the robot, N.
-  double force_scale_;  ///< Of rows in forces, N.
+  double force_scale_;  ///< Scale of rows in forces, N.
   Reference reference_;
   Stack stack_;
   int momentum_;  ///< Index into the stack's tasks.
   const MomentumTask& momentum_task_;
-  int torque_limits_, joint_limits_;  ///< Indices, too.
-  int com_;                           ///< Index, too.
+  int torque_limits_, joint_limits_;  ///< Indices into the tasks.
+  int com_;                           ///< Index into the tasks.
   const ComTask& com_task_;
   StateGuard guard_;
   Stance stance_;
@@ -137,7 +139,7 @@ class Controller {
   Solver solver_;
   Solution solution_;
   TickReport report_;
-  Eigen::VectorXd normal_force_;  ///< By foot, of the last solution, N.
+  Eigen::VectorXd normal_force_;  ///< By foot, last solution, N.
 
   Pose X_MidB_;             ///< Nominal base, in the mid-feet frame.
   Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.

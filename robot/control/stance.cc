@@ -17,35 +17,39 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A foot is put down to a little below the ground, so that it gets there; from the
-// ground on so slowly that it does not knock.
+// The reference of a landing foot ends kReach below the ground, so that the foot
+// reaches the ground. Below ground level, the reference takes kSinkTime, so that
+// the foot does not hit the ground hard.
 constexpr double kReach = 0.005;   // m.
 constexpr double kSinkTime = 0.4;  // s.
 
-// A sole that sinks by less than this part of what it should has been stopped, if it
-// should by more than that.
+// The ground has stopped a descending sole if the sole is slower than kStopped
+// times its reference. The reference must be faster than kTelling for this test.
 constexpr double kStopped = 0.5;
 constexpr double kTelling = 0.01;  // m/s.
 
-// Faster than this upwards, a sole is leaving the ground.
+// A sole that rises faster than this is leaving the ground.
 constexpr double kSeparating = 0.02;  // m/s.
 
-// A foot on its way back is flat, and over its place, after this part of it.
+// A returning foot is level and above its place after this fraction of
+// return_time; only its height still changes then.
 constexpr double kThereAfter = 0.7;
 
-// What takes no time takes this: a tick later it is done, and nothing is 0/0.
+// Replaces a duration of 0: the motion then ends within one tick, and nothing is
+// divided by zero.
 constexpr double kInstant = 1e-9;  // s.
 
-// Of a sum of some periods, s.
+// Rounding error of a sum of several control periods, s.
 constexpr double kRounding = 1e-9;
 
-// How fast a foot looks for ground that it has lost.
+// Speed at which a foot moves down after it has lost the ground.
 constexpr double kSearchSpeed = 0.2;  // m/s.
 
-// A foot fades in up to this many times the robot's weight.
+// While a foot is loading, the bound on its normal force rises to this many times
+// the weight of the robot.
 constexpr double kFullLoad = 1.5;
 
-// How long a foot in the air takes for its way, s.
+// Duration of the vertical motion of a foot in the air, s.
 double Duration(ContactPhase phase, double down, double swing_time) {
   if (phase != ContactPhase::kLost) return std::max(kInstant, swing_time);
   return std::max(0.05, down / kSearchSpeed);
@@ -56,7 +60,7 @@ bool Bears(ContactPhase phase) {
          phase == ContactPhase::kLoading;
 }
 
-// Upright, with the heading of R_WC.
+// Returns the orientation with z up and the heading of R_WC.
 Eigen::Matrix3d Upright(const Eigen::Matrix3d& R_WC) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
   Eigen::Matrix3d R;
@@ -164,7 +168,8 @@ void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {
   foot->has_flown = false;
 }
 
-// In the tick in which a foot is let go, it is still where it was.
+// Ends the release of a foot. A foot that was released after the last Update() has
+// not moved yet: it is simply down again.
 void Stance::CallBack(FootState* foot) noexcept {
   if (foot->phase != ContactPhase::kFree) return;
   Enter(foot, foot->since > 0 ? ContactPhase::kReturning : ContactPhase::kDown);
@@ -177,21 +182,22 @@ bool Stance::Lift(int i, double height) noexcept {
   return true;
 }
 
-// From where it is to a height, or to the ground.
+// Starts the motion of a foot to a height above the ground, or (negative height)
+// to the ground.
 void Stance::Swing(FootState* of, double height) noexcept {
   FootState& foot = *of;
   switch (foot.phase) {
     case ContactPhase::kDown:
     case ContactPhase::kLoading:
       Enter(&foot, ContactPhase::kUnloading);
-      foot.force = -1;  // Not known yet.
+      foot.force = -1;  // Set at the next Update().
       foot.to = height;
       return;
     case ContactPhase::kUnloading:
       foot.to = height;
       return;
     case ContactPhase::kReturning:
-      // Anew, from where it is now.
+      // Restarts the return from the present pose.
       Enter(&foot, ContactPhase::kReturning);
       foot.to = height;
       return;
@@ -235,9 +241,10 @@ void Stance::TakeOff(FootState* foot, const ContactTick& contact,
   foot->from = contact.X_WC.p.z() - reference.ground_z;
 }
 
-// From where it was when it was called back, and as it moved there, to where it
-// took off, on the ground or at a height above: x = s X + (1 - s) t V. It is over
-// its place, its sole flat, some time before it is down there.
+// Moves the target of a returning foot from the pose and twist V at the start of
+// the return to the take-off pose, on the ground or at a height above it, by the
+// displacement X: x = s X + (1 - s) t V. The foot is above its place, and its sole
+// is level, before it reaches the final height.
 void Stance::Return(const FootState& foot,
                     FrameReference* target) const noexcept {
   Vector6d whole;
@@ -253,7 +260,8 @@ void Stance::Return(const FootState& foot,
     const MinimumJerk s(t / time);
     const double rate = s.rate / time;
     const double acceleration = s.acceleration / (time * time);
-    // Falling faster than this, it would be on the ground before it is there.
+    // A foot that falls faster than this would touch the ground before it is above
+    // its place.
     const double fastest = i < 5 ? kInfinity : fall / whole_time;
     const double v = std::max(foot.V_WC_away[i], -fastest);
     moved[i] = s.value * whole[i] + (1 - s.value) * t * v;
@@ -287,7 +295,7 @@ void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
 void Stance::ChangePhase(double dt, const ContactTick& contact,
                          const Reference& reference, FootState* of) noexcept {
   FootState& foot = *of;
-  // What has begun.
+  // Records the state at the start of a phase.
   if (foot.phase == ContactPhase::kFree && foot.since == 0) {
     TakeOff(&foot, contact, reference);
   }
@@ -298,7 +306,7 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
   }
   foot.since += dt;
 
-  // What ends.
+  // Ends the phase if its end condition is met.
   switch (foot.phase) {
     case ContactPhase::kDown:
     case ContactPhase::kLoading:
@@ -326,7 +334,7 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
           Enter(&foot, ContactPhase::kUp);
         }
       } else if (foot.has_flown) {
-        // Who lands needs all of its feet at once, and as they are.
+        // After a flight, each foot must carry load at once, even if not level.
         if (HasLanded(LowestCorner(foot, contact, reference.ground_z))) {
           Enter(&foot, ContactPhase::kDown);
         }
@@ -362,7 +370,7 @@ double Stance::MaxNormalForce(double normal_force,
   return kInfinity;
 }
 
-// Where a foot in the air is to be.
+// Writes the reference of a foot in the air.
 void Stance::Guide(const FootState& foot,
                    FrameReference* target) const noexcept {
   if (foot.phase == ContactPhase::kFree) return;
@@ -379,7 +387,8 @@ void Stance::Guide(const FootState& foot,
   target->A_WF_W[5] = motion.acceleration;
 }
 
-// A foot that is put down comes to rest on the ground, and sinks on from there.
+// A landing foot first comes to rest on the ground; then its reference sinks below
+// the ground.
 Stance::VerticalMotion Stance::VerticalMotionOf(
     const FootState& foot) const noexcept {
   const double down =
