@@ -12,7 +12,7 @@
 namespace poise {
 namespace {
 
-// What rounding leaves of a violation that is none, over the row's norm.
+// Violations below this, relative to the norm of the row, are rounding.
 constexpr double kRounding = 1e-10;
 
 double Norm(const Hierarchy& hierarchy, const HierarchyRow& row) {
@@ -20,7 +20,7 @@ double Norm(const Hierarchy& hierarchy, const HierarchyRow& row) {
                       : hierarchy.C(row.level).row(row.row).norm();
 }
 
-// Rows, all in one level: each violated as little as can be.
+// Least-squares problem with all given rows in one level.
 class Feasibility {
  public:
   Feasibility(const Hierarchy& hierarchy, int num_rows)
@@ -29,8 +29,8 @@ class Feasibility {
         solver_(hierarchy.num_variables(), {{num_rows, num_rows}}),
         solution_(hierarchy.num_variables(), {{num_rows, num_rows}}) {}
 
-  // What each row is violated by, over its norm, where all together are as
-  // little as can be.
+  // Returns the violation of each row, over its norm, at the least-squares
+  // optimum of all rows.
   Eigen::VectorXd Violations(const std::vector<HierarchyRow>& rows) {
     one_level_.Clear(1);
     const int equalities = static_cast<int>(
@@ -64,7 +64,8 @@ class Feasibility {
     return violations;
   }
 
-  // On which side each row is violated that the last Violations() were of.
+  // Sets the violated side of each row; pre: `rows` are those of the last call
+  // of Violations().
   void TellSides(std::vector<HierarchyRow>* rows) const {
     Eigen::Index i = 0;
     for (HierarchyRow& row : *rows) {
@@ -72,9 +73,9 @@ class Feasibility {
     }
   }
 
-  // Rows among these that contradict each other; nothing if none do. At the
-  // optimum the violated rows, each times its violation, add up to zero: they
-  // contradict each other without the rest.
+  // Returns the rows among these that contradict each other, or nullopt if all
+  // can be met. At the optimum, the sum of the violated rows, each times its
+  // violation, is zero. So they contradict each other without the other rows.
   std::optional<std::vector<HierarchyRow>> Contradicting(
       const std::vector<HierarchyRow>& rows, double tolerance) {
     if (rows.empty()) return std::nullopt;
@@ -129,7 +130,7 @@ std::vector<HierarchyRow> FindConflict(const Hierarchy& hierarchy, int level,
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
     fewer = feasibility.Contradicting(rest, tolerance);
     if (fewer) {
-      rows = *fewer;  // With all before i, as each of them is needed.
+      rows = *fewer;  // Still contains all rows before i: each is needed.
     } else {
       ++i;
     }

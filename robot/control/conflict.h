@@ -13,19 +13,21 @@ struct HierarchyRow {
   int level;
   int row;
   bool equality;
-  Side side = Side::kNone;  ///< Of an inequality, which of its bounds is meant.
+  Side side = Side::kNone;  ///< For an inequality: the bound in question.
 };
 
-/// The smallest answer to why a level cannot be met: rows of it and of the
-/// levels above that contradict each other, of which each one is needed, so
-/// that without it the others could all be met. Empty if the level can be met.
+/// Finds a minimal set of rows that explains why a level cannot be met. These
+/// rows of this level and of the levels above contradict each other. Without
+/// any one of them, the others can all be met. Returns an empty set if the
+/// level can be met.
 ///
-/// Found by least squares: the rows that its optimum violates contradict each
-/// other. Of these one after the other is left out, lowest levels last, as long
-/// as the rest cannot be met (a deletion filter). For explaining, not for the
-/// control loop: it solves a small problem a row, and allocates.
+/// The method is a deletion filter. A least-squares problem over all rows gives
+/// the violated rows, which contradict each other. Then each row is removed on
+/// trial, lowest levels last. The row stays out if the rest still cannot be
+/// met. The function is meant for diagnosis, not for the control loop: it
+/// solves one small problem per row, and allocates.
 ///
-/// @param tolerance  on a row's violation, over its norm.
+/// @param tolerance  largest violation of a row that is met, over its norm.
 std::vector<HierarchyRow> FindConflict(const Hierarchy& hierarchy, int level,
                                        double tolerance = 1e-6);
 

@@ -38,9 +38,9 @@ void ComputeContact(const FrameTick& frame, const Pose& X_FC,
                     ContactTick* out) noexcept;
 
 /// Returns the mid-feet frame: its origin is the mean of the contact frames'
-/// origins, z is up, and x is along the mean heading of the feet. Uses the feet in
-/// contact, or all feet if none is in contact. Without a heading (soles vertical),
-/// the axes are those of the world. Does not allocate.
+/// origins, z is up, and x is along the mean heading of the feet. Uses the feet
+/// in contact, or all feet if none is in contact. Without a heading (soles
+/// vertical), the axes are those of the world. Does not allocate.
 Pose MidFeet(const std::vector<ContactTick>& contacts) noexcept;
 
 }  // namespace poise

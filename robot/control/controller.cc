@@ -14,8 +14,8 @@
 namespace poise {
 namespace {
 
-// A limit is reported as relaxed if its slack is above this. The slack is in the
-// scale of the row; for a torque, this is a fraction of the limit.
+// A limit is reported as relaxed if its slack is above this. The slack is in
+// the scale of the row; for a torque, this is a fraction of the limit.
 constexpr double kLimitSlack = 1e-6;
 
 // A solution whose DynamicsResidual() is above this does not meet the dynamics.
@@ -41,7 +41,8 @@ const Robot& Checked(const Robot& robot) {
   return robot;
 }
 
-// Returns the frames of the feet, then those of the links with a task frame.LINK.
+// Returns the frames of the feet, then those of the links with a task
+// frame.LINK.
 std::vector<int> TickFrames(const Robot& robot,
                             const std::vector<std::string>& links) {
   std::vector<int> frames;
@@ -245,8 +246,8 @@ void Controller::Remember(const State& state) noexcept {
   EstimateDisturbance();
 }
 
-// The residual of the task is not a model error while the task is infeasible (as
-// in a push) or eased in. If both momentum and com are on, momentum counts.
+// The residual of the task is not a model error while the task is infeasible
+// (as in a push) or eased in. If both momentum and com are on, momentum counts.
 void Controller::EstimateDisturbance() noexcept {
   const bool by_momentum = stack_.settings(momentum_).enabled;
   const int task = by_momentum ? momentum_ : com_;

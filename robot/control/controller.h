@@ -42,8 +42,8 @@ struct ControllerOptions {
   std::vector<std::string> frames;  ///< Links with a task frame.NAME.
 };
 
-/// Computes the joint torques from the state of a robot, by momentum control with
-/// hierarchical inverse dynamics.
+/// Computes the joint torques from the state of a robot, by momentum control
+/// with hierarchical inverse dynamics.
 ///
 ///     Controller controller(robot);
 ///     controller.Start(state);
@@ -83,8 +83,8 @@ class Controller {
   const Reference& reference() const { return reference_; }
   Stack& stack() { return stack_; }
   const Stack& stack() const { return stack_; }
-  /// Decides which feet are in contact. Before you lift a foot, shift the weight
-  /// to the other foot.
+  /// Decides which feet are in contact. Before you lift a foot, shift the
+  /// weight to the other foot.
   Stance& stance() { return stance_; }
   const Stance& stance() const { return stance_; }
 

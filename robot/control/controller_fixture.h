@@ -10,8 +10,8 @@
 
 namespace poise {
 
-/// The humanoid in its nominal posture, at rest, and a controller that has
-/// started there, tick by tick.
+/// Test fixture: the humanoid at rest in its nominal posture, and a controller
+/// that was started in this state.
 class ControllerTest : public testing::Test {
  protected:
   ControllerTest() {

@@ -13,11 +13,11 @@ namespace poise {
 /// model does not contain. With a mass error of 10 %, the steady-state error is
 /// 17 to 29 mm without this correction. The correction c integrates
 ///     c' = k_i (e + (k_d / k_p) e'),    e = p_ref - p_G.
-/// An error that decays as the PD gains predict, k_p e = -k_d e', is not a model
-/// error and adds nothing. In the plane, integration pauses while the robot or
-/// its reference moves, because a tracking lag is not a model error either. The
-/// correction is clamped to 0.5 m/s2 in the plane (a center-of-mass error of
-/// 4 cm) and to 1.6 m/s2 along z (a mass error of one sixth).
+/// An error that decays as the PD gains predict, k_p e = -k_d e', is not a
+/// model error and adds nothing. In the plane, integration pauses while the
+/// robot or its reference moves, because a tracking lag is not a model error
+/// either. The correction is clamped to 0.5 m/s2 in the plane (a center-of-mass
+/// error of 4 cm) and to 1.6 m/s2 along z (a mass error of one sixth).
 class Disturbance {
  public:
   /// Sets the correction to zero.

@@ -9,41 +9,43 @@
 
 namespace poise {
 
-/// Estimates the state of the base from what a robot senses: the orientation
-/// and the gyroscope of the inertial unit, its accelerometer, and the joints of
-/// the legs whose feet stand still.
+/// Estimates the state of the base from the sensors of a robot: orientation,
+/// gyroscope and accelerometer of the inertial unit, and the joints of the legs
+/// whose feet are in contact.
 ///
-/// A foot in contact stays where it was when it touched down, p_WC: with the
-/// orientation R_WB of the inertial unit,
+/// A foot in contact is assumed to stay at its touchdown position p_WC. With
+/// the orientation R_WB of the inertial unit,
 ///     p_WB = p_WC - R_WB p_BC(q),       v_WB = -(w x R_WB p_BC + R_WB v_BC),
-/// the mean over the feet, each by its normal force. The accelerometer carries
-/// the velocity between, and through a flight, as
+/// averaged over the feet with their normal forces as weights. Between two
+/// measurements, and in flight, the accelerometer is integrated:
 ///     v+ = v + dt (R_WB f + g),  then  v+ += dt / tau (v_legs - v+).
-/// The heading is as good as that of the inertial unit.
+/// The heading is that of the inertial unit, with its drift.
 ///
-/// A measurement whose stamp, inertial unit or joints are not finite, or beyond
-/// 1e6, is not used. The state then has the base and the stamp of the last one
-/// that was, and the joints of this one, as they are; the next good measurement
-/// bridges the gap. So a joint that is not finite reaches the controller, which
-/// fails safe at once; and if nothing good is heard of the base, the state's stamp
-/// stands still, and the controller fails safe after its usual time for that. A
-/// foot whose force is not finite counts as unloaded.
+/// A measurement is not used if a value of its inertial unit or its joints is
+/// not finite or above 1e6, or if its time stamp is not finite. The state then
+/// has the base and the time stamp of the last good measurement, and the joints
+/// of this one, unchanged. The next good measurement bridges the gap. An
+/// invalid joint value thus reaches the controller, which fails safe at once.
+/// If the inertial unit stays invalid, the time stamp of the state stands
+/// still, and the controller fails safe after the time that StateGuard allows.
+/// A foot whose force is not finite counts as unloaded.
 class Estimator {
  public:
-  /// @param velocity_time  tau, s: smaller trusts the legs, larger the
-  ///                       accelerometer.
+  /// @param velocity_time  tau, s. A small value trusts the legs more, a large
+  ///                       value the accelerometer.
   explicit Estimator(const Robot& robot, double velocity_time = 0.01);
 
-  /// Begins where the base is known to be: X_WB and V_WB_W of the measurement
-  /// are believed once, here, and never after. pre: all of it is finite.
+  /// Starts from a known pose of the base: uses X_WB and V_WB_W of the
+  /// measurement. Update() does not use them. pre: all values are finite.
   void Start(const Measurement& measurement);
 
-  /// Fills state from a measurement; does not read its X_WB and V_WB_W.
+  /// Writes the state from a measurement. Does not read X_WB and V_WB_W.
   /// pre: state has the sizes of the tree. Does not allocate.
   void Update(const Measurement& measurement, State* state) noexcept;
 
  private:
-  // Of each foot's contact frame, at base X_WB = (R_WB, 0) with twist (w, 0).
+  // Computes p_BC_W and v_BC_W of each foot, with the base at X_WB = (R_WB, 0)
+  // and its twist (w, 0).
   void ComputeFeet(const Measurement& measurement, State* state) noexcept;
 
   Robot robot_;
@@ -51,15 +53,15 @@ class Estimator {
   Tick tick_;
   struct FootState {
     bool in_contact = true;
-    Eigen::Vector3d p_WC;    // Where it stands.
-    Eigen::Vector3d p_BC_W;  // Where the leg has it.
-    Eigen::Vector3d v_BC_W;  // How the leg and the base's rotation move it.
+    Eigen::Vector3d p_WC;    // Touchdown position.
+    Eigen::Vector3d p_BC_W;  // Position from the base, by the leg.
+    Eigen::Vector3d v_BC_W;  // Velocity from the leg and the base's rotation.
   };
   std::vector<FootState> feet_;
   Eigen::Vector3d p_WB_;
   Eigen::Vector3d v_WB_;
   Eigen::Matrix<double, 7, 1>
-      q_base_;  // Of the last measurement that was used.
+      q_base_;  // From the last measurement that was used.
   Eigen::Matrix<double, 6, 1> v_base_;
   double time_ = 0;
 };

@@ -9,16 +9,16 @@
 
 namespace poise {
 
-/// The torques for when nothing better is to be had: what holds the robot
-/// against gravity, with its weight on the feet in contact, and damps its
-/// joints,
+/// Computes the fail-safe torques: gravity compensation with the weight on the
+/// feet in contact, and joint damping,
 ///     tau_j = g_j - (J_{c,u}' lambda_0)_j - d M_jj q̇_j,
-/// where g = N - c, and lambda_0 is the smallest with J_{c,l}' lambda_0 = g_l.
+/// where g = N - c, and lambda_0 is the minimum-norm solution of
+/// J_{c,l}' lambda_0 = g_l.
 ///
-/// @param tick, contacts  of the last state that was any good.
-/// @param v_joints        joint rates; one that is not finite is not damped.
+/// @param tick, contacts  of the last valid state.
+/// @param v_joints        joint rates; a rate that is not finite is not damped.
 /// @param damping         d, 1/s.
-/// Does not allocate; finite whatever v_joints holds.
+/// Does not allocate. A rate that is NaN or infinite does not make tau so.
 void ComputeFailSafeTorque(const Tick& tick,
                            const std::vector<ContactTick>& contacts,
                            const Eigen::Ref<const Eigen::VectorXd>& v_joints,

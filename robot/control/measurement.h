@@ -15,8 +15,8 @@ struct FootMeasurement {
   bool in_contact = true;
 };
 
-/// Sensor values of a robot, or of a simulated plant, at one instant. Resize the
-/// vectors only once, before the control loop.
+/// Sensor values of a robot, or of a simulated plant, at one instant. Resize
+/// the vectors only once, before the control loop.
 struct Measurement {
   double time = 0;           ///< Clock of the sensors, s.
   Eigen::VectorXd q_joints;  ///< By joint of the tree, rad or m.

@@ -8,24 +8,27 @@
 
 namespace poise {
 
-/// Where a frame F should be, and how it should move.
+/// Desired pose, twist and acceleration of a frame F.
 struct FrameReference {
   Pose X_WF;
+  /// [angular; linear], rad/s and m/s.
   Eigen::Matrix<double, 6, 1> V_WF_W = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, 1> A_WF_W = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
-/// What the robot should do. Whoever commands the robot writes it between two
-/// ticks; tasks read it.
+/// Desired motion of the robot. The caller writes it between two ticks; tasks
+/// read it.
 struct Reference {
   Eigen::Vector3d p_WG = Eigen::Vector3d::Zero();      ///< Center of mass, m.
   Eigen::Vector3d v_WG = Eigen::Vector3d::Zero();      ///< m/s.
   Eigen::Vector3d a_WG = Eigen::Vector3d::Zero();      ///< m/s2.
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();  ///< Base orientation.
   Eigen::VectorXd posture;                             ///< By joint, rad or m.
-  double ground_z = 0;                 ///< Height of the floor, m.
-  std::vector<FrameReference> feet;    ///< Of the feet in the air.
-  std::vector<FrameReference> frames;  ///< By ControllerOptions::frames.
+  double ground_z = 0;  ///< Height of the floor, m.
+  std::vector<FrameReference>
+      feet;  ///< For feet in the air, written by Stance.
+  std::vector<FrameReference>
+      frames;  ///< In the order of ControllerOptions::frames.
 };
 
 }  // namespace poise

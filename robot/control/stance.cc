@@ -17,14 +17,15 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The reference of a landing foot ends kReach below the ground, so that the foot
-// reaches the ground. Below ground level, the reference takes kSinkTime, so that
-// the foot does not hit the ground hard.
+// The reference of a landing foot ends kReach below the ground, so that the
+// foot reaches the ground. Below ground level, the reference sinks over
+// kSinkTime, so that the foot does not hit the ground hard.
 constexpr double kReach = 0.005;   // m.
 constexpr double kSinkTime = 0.4;  // s.
 
 // The ground has stopped a descending sole if the sole is slower than kStopped
-// times its reference. The reference must be faster than kTelling for this test.
+// times its reference. The reference must be faster than kTelling for this
+// test.
 constexpr double kStopped = 0.5;
 constexpr double kTelling = 0.01;  // m/s.
 
@@ -35,8 +36,8 @@ constexpr double kSeparating = 0.02;  // m/s.
 // return_time; only its height still changes then.
 constexpr double kThereAfter = 0.7;
 
-// Replaces a duration of 0: the motion then ends within one tick, and nothing is
-// divided by zero.
+// Replaces a duration of 0: the motion then ends within one tick, and nothing
+// is divided by zero.
 constexpr double kInstant = 1e-9;  // s.
 
 // Rounding error of a sum of several control periods, s.
@@ -45,8 +46,8 @@ constexpr double kRounding = 1e-9;
 // Speed at which a foot moves down after it has lost the ground.
 constexpr double kSearchSpeed = 0.2;  // m/s.
 
-// While a foot is loading, the bound on its normal force rises to this many times
-// the weight of the robot.
+// While a foot is loading, the bound on its normal force rises to this many
+// times the weight of the robot.
 constexpr double kFullLoad = 1.5;
 
 // Duration of the vertical motion of a foot in the air, s.
@@ -140,10 +141,10 @@ bool Stance::HasLanded(const Clearance& sole) const noexcept {
 }
 
 // Whether the ground has stopped a descending sole. If contact were declared
-// while the sole still descends, the controller would push on thin air: the foot
-// would tilt and land on one corner after another. Where the reference itself is
-// nearly at rest, the speed of the sole is no evidence; there, only the end of the
-// motion counts.
+// while the sole still descends, the controller would push on thin air: the
+// foot would tilt and land on one corner after another. While the reference
+// itself is nearly at rest, a slow sole proves nothing; then only the end of
+// the motion counts.
 bool Stance::IsStopped(const FootState& foot,
                        const Clearance& sole) const noexcept {
   if (foot.phase != ContactPhase::kLanding) return true;
@@ -168,8 +169,8 @@ void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {
   foot->has_flown = false;
 }
 
-// Ends the release of a foot. A foot that was released after the last Update() has
-// not moved yet: it is simply down again.
+// Ends the release of a foot. A foot that was released after the last Update()
+// has not moved yet: it is simply down again.
 void Stance::CallBack(FootState* foot) noexcept {
   if (foot->phase != ContactPhase::kFree) return;
   Enter(foot, foot->since > 0 ? ContactPhase::kReturning : ContactPhase::kDown);
@@ -182,8 +183,8 @@ bool Stance::Lift(int i, double height) noexcept {
   return true;
 }
 
-// Starts the motion of a foot to a height above the ground, or (negative height)
-// to the ground.
+// Starts the motion of a foot to a height above the ground, or (negative
+// height) to the ground.
 void Stance::Swing(FootState* of, double height) noexcept {
   FootState& foot = *of;
   switch (foot.phase) {
@@ -241,10 +242,10 @@ void Stance::TakeOff(FootState* foot, const ContactTick& contact,
   foot->from = contact.X_WC.p.z() - reference.ground_z;
 }
 
-// Moves the target of a returning foot from the pose and twist V at the start of
-// the return to the take-off pose, on the ground or at a height above it, by the
-// displacement X: x = s X + (1 - s) t V. The foot is above its place, and its sole
-// is level, before it reaches the final height.
+// Moves the target of a returning foot from the pose and twist V at the start
+// of the return to the take-off pose, on the ground or at a height above it, by
+// the displacement X: x = s X + (1 - s) t V. The foot is above its place, and
+// its sole is level, before it reaches the final height.
 void Stance::Return(const FootState& foot,
                     FrameReference* target) const noexcept {
   Vector6d whole;
@@ -260,8 +261,8 @@ void Stance::Return(const FootState& foot,
     const MinimumJerk s(t / time);
     const double rate = s.rate / time;
     const double acceleration = s.acceleration / (time * time);
-    // A foot that falls faster than this would touch the ground before it is above
-    // its place.
+    // A foot that falls faster than this would touch the ground before it is
+    // above its place.
     const double fastest = i < 5 ? kInfinity : fall / whole_time;
     const double v = std::max(foot.V_WC_away[i], -fastest);
     moved[i] = s.value * whole[i] + (1 - s.value) * t * v;
@@ -387,8 +388,8 @@ void Stance::Guide(const FootState& foot,
   target->A_WF_W[5] = motion.acceleration;
 }
 
-// A landing foot first comes to rest on the ground; then its reference sinks below
-// the ground.
+// A landing foot first comes to rest on the ground; then its reference sinks
+// below the ground.
 Stance::VerticalMotion Stance::VerticalMotionOf(
     const FootState& foot) const noexcept {
   const double down =

@@ -39,13 +39,13 @@ struct StanceSettings {
 
 /// Decides which feet are in contact. On command, the force of a foot fades out
 /// before the foot is lifted, and fades in after the foot is put down. Without
-/// a command, contact is detected by geometry with hysteresis, never by force: a
-/// foot that is assumed to be in the air carries no load, so a force test would
-/// never find its contact again. A foot that
-/// stands on its edge stays in contact. A foot in the air is in contact again when
+/// a command, contact is detected by geometry with hysteresis, never by force:
+/// a foot that is assumed to be in the air carries no load, so a force test
+/// would never find its contact again. A foot that stands on its edge stays in
+/// contact. A foot that is landing, lost or returning is in contact again when
 /// its sole lies on the ground. While no foot is in contact, all feet move with
-/// the body without a reference. In this case, a foot is in contact as soon as an
-/// edge touches the ground, with its full normal force.
+/// the body without a reference. In this case, a foot is in contact as soon as
+/// an edge touches the ground, with its full normal force.
 class Stance {
  public:
   /// Range of the height argument of Lift(), m.
@@ -59,7 +59,8 @@ class Stance {
   Stance(const std::vector<Foot>& feet, double weight);
 
   /// Throws std::invalid_argument, and changes nothing, if a time is not 0 to
-  /// kMostTime, or a height not 0 to kMostThreshold. Call this between two ticks.
+  /// kMostTime, or a height not 0 to kMostThreshold. Call this between two
+  /// ticks.
   void Configure(const StanceSettings& settings);
   const StanceSettings& settings() const { return settings_; }
 

@@ -30,8 +30,8 @@ struct TaskInput {
   double capture = 0;
 };
 
-/// Tunable number of a task: a gain, a margin or a coefficient. It is set by name,
-/// in a profile or between two ticks.
+/// Tunable number of a task: a gain, a margin or a coefficient. It is set by
+/// name, in a profile or between two ticks.
 struct Parameter {
   std::string name;
   double* value;
@@ -52,7 +52,8 @@ enum class RowKind {
   kLimit,             ///< Any other inequality.
 };
 
-/// Returns the name of a kind in files: "target", "dynamics", "torque_limit", ...
+/// Returns the name of a kind in files: "target", "dynamics", "torque_limit",
+/// ...
 constexpr std::string_view RowKindName(RowKind kind) {
   switch (kind) {
     case RowKind::kTarget:
@@ -83,16 +84,16 @@ struct RowDescription {
   /// Unit, as "N m". For an inequality: unit of the bounded quantity. For an
   /// equality: unit of the residual times Task::equality_scale().
   std::string unit;
-  /// Text for an active row: "the CoP of the left foot at its front edge". For a
-  /// two-sided row only the quantity: "the torque of l knee". May be empty.
+  /// Text for an active row: "the CoP of the left foot at its front edge". For
+  /// a two-sided row only the quantity: "the torque of l knee". May be empty.
   std::string phrase;
   RowKind kind = RowKind::kTarget;
 };
 
-/// A target or a constraint: rows in y = [v̇ (nv); λ (6 per foot)], see
-/// (1) and (2). A task always has the same rows; their names are set at
-/// construction. Rows without effect in a tick (as of a foot in the air) stay zero
-/// and unbounded.
+/// A target or a constraint: rows in y = [v̇ (nv); λ (6 per foot)], see (1) and
+/// (2). A task always has the same rows; their names are set at construction.
+/// Rows without effect in a tick (as of a foot in the air) stay zero and
+/// unbounded.
 class Task {
  public:
   virtual ~Task() = default;
@@ -116,9 +117,9 @@ class Task {
   /// Whether the task has any rows in this tick; if not, Write() is not called.
   virtual bool HasRows(const TaskInput&) const noexcept { return true; }
 
-  /// Whether the inequality rows are bounded on both sides. Their names then get
-  /// a suffix for the active bound, .min or .max. The name of a row with one bound
-  /// already names the bound, or needs no suffix.
+  /// Whether the inequality rows are bounded on both sides. Their names then
+  /// get a suffix for the active bound, .min or .max. The name of a row with
+  /// one bound already names the bound, or needs no suffix.
   virtual bool is_two_sided() const noexcept { return false; }
 
   /// Factor that converts the residual of an equality row to the unit of the

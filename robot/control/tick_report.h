@@ -25,8 +25,8 @@ struct ActiveRow {
 struct TaskReport {
   bool enabled = false;
   int level = 0;
-  /// Norm of the equality residuals, in the scale of the rows. During a ramp the
-  /// residuals refer to the eased targets of this tick.
+  /// Norm of the equality residuals, in the scale of the rows. During a ramp
+  /// the residuals refer to the eased targets of this tick.
   double residual = 0;
   double slack = 0;  ///< Largest slack of the inequalities.
 };
@@ -51,9 +51,9 @@ struct TickReport {
   TickStatus status = TickStatus::kOk;
   FailSafeReason fail_safe_reason = FailSafeReason::kNone;
   Status solver_status = Status::kOptimal;
-  /// Set if the status is kLimitRelaxed: the row of a torque or joint limit with
-  /// the largest slack, in the scale of the row. A torque limit also counts if its
-  /// task is off and the torque was clamped to the limit.
+  /// Set if the status is kLimitRelaxed: the row of a torque or joint limit
+  /// with the largest slack, in the scale of the row. A torque limit also
+  /// counts if its task is off and the torque was clamped to the limit.
   std::optional<ActiveRow> relaxed;
   int failed_level = 0;  ///< Priority level that was not solved; 0: none.
   int iterations = 0;    ///< Solver iterations.

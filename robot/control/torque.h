@@ -9,7 +9,7 @@
 
 namespace poise {
 
-/// The joint torques that make a solution happen, (10):
+/// Computes the joint torques that realise a solution y, (10):
 ///     tau = M_u v̇ + N_u - J_{c,u}' lambda.
 ///
 /// @param y    [v̇ (nv); lambda (6 per foot)].
@@ -18,13 +18,13 @@ namespace poise {
 void ComputeTorque(const Tick& tick, const std::vector<ContactTick>& contacts,
                    const Eigen::VectorXd& y, Eigen::VectorXd* tau) noexcept;
 
-/// What a solution leaves of the rows of the dynamics that no motor acts on, (9):
-/// summed over them,
+/// Returns the relative residual of a solution in the six unactuated rows of
+/// the dynamics, (9): the sum over these rows of
 ///     | M_l v̇ + N_l - J_{c,l}' lambda |,
-/// relative to the sum of the moduli of all its terms, or to `scale` where that is
-/// more. Where it is more than rounding, the torques of ComputeTorque() are those
-/// of a motion that the robot cannot make. No number, if y is none. Does not
-/// allocate.
+/// divided by the sum of the absolute values of all terms, or by `scale` if
+/// that is larger. If the residual is above rounding, the torques of
+/// ComputeTorque() belong to a motion that the robot cannot make. NaN if y is
+/// not finite. Does not allocate.
 double DynamicsResidual(const Tick& tick,
                         const std::vector<ContactTick>& contacts,
                         const Eigen::VectorXd& y, double scale) noexcept;
