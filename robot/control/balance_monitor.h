@@ -58,7 +58,7 @@ class BalanceMonitor {
   BalanceMonitor(const Tree& tree, const std::vector<Foot>& feet);
 
   /// Updates balance() with the state of this tick.
-  /// @param contacts      poses of this tick, phases of the last tick.
+  /// @param contacts      poses of this tick, in_contact of the last one.
   /// @param normal_force  by foot, of the last solution, N.
   /// Does not allocate.
   void Update(const Tick& tick, const std::vector<ContactTick>& contacts,

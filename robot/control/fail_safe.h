@@ -18,7 +18,7 @@ namespace poise {
 /// @param tick, contacts  of the last valid state.
 /// @param v_joints        joint rates; a rate that is not finite is not damped.
 /// @param damping         d, 1/s.
-/// Does not allocate. A rate that is NaN or infinite does not make tau so.
+/// Does not allocate. tau is finite even if a rate is NaN or infinite.
 void ComputeFailSafeTorque(const Tick& tick,
                            const std::vector<ContactTick>& contacts,
                            const Eigen::Ref<const Eigen::VectorXd>& v_joints,

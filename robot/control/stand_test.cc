@@ -68,7 +68,8 @@ TEST(StandUp, KeepsCouplings) {
               kMet);
 }
 
-// Over the middle of its soles it would fall as soon as it stood on one of them.
+// Over the middle of its soles it would fall as soon as it stood on one of
+// them.
 TEST(StandUp, StandsNearerToAnklesThatAreWeak) {
   Robot robot = LoadRobot("robot/models/humanoid.urdf");
   const Tree& tree = robot.model.tree;
@@ -104,7 +105,7 @@ TEST(StandUp, SaysWhyARobotCannot) {
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(
         std::string(error.what())
-            .find("'humanoid' cannot be stood up inside its joint limits"),
+            .find("'humanoid': no standing posture within the joint limits"),
         std::string::npos)
         << error.what();
   }

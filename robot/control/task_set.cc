@@ -14,7 +14,8 @@
 namespace poise {
 namespace {
 
-// Four levels, no limits, no yaw rows, nothing that holds the pelvis.
+// Four levels, without torque, joint and yaw limits, and without a task for the
+// orientation of the pelvis.
 constexpr char kPaper[] = R"(
 torque_limits: off
 joint_limits: off
@@ -46,7 +47,8 @@ std::string NamesOf(const Task& task) {
   return names;
 }
 
-// Nothing, if the task, which is there, has none of this name.
+// Returns nullptr if the task has no parameter of this name. pre: the task
+// exists.
 const Parameter* FindParameter(const Stack& stack, const std::string& task,
                                const std::string& name) {
   for (const Parameter& each : stack.task(*stack.Find(task)).parameters()) {
@@ -115,9 +117,9 @@ void ApplyTask(const std::string& name, const YAML::Node& node,
   }
 }
 
-// The section of a file.
+// Returns the section `tasks` of a file.
 YAML::Node LoadTasks(const std::string& file) {
-  std::error_code too_long;  // No file has such a name.
+  std::error_code too_long;  // Set if the name is too long for a file.
   if (!std::filesystem::exists(file, too_long)) {
     throw std::invalid_argument("task set " + Quoted(file) +
                                 ": is neither default, paper, nor a file");
@@ -138,14 +140,14 @@ void AddLink(const std::string& task, const Robot& robot,
   if (!IsFrame(task)) return;
   const std::string link = task.substr(kFrame.size());
   for (const Foot& foot : robot.feet) {
-    if (foot.name == link) return;  // Has its task.
+    if (foot.name == link) return;  // A foot has its task already.
   }
   if (!robot.model.tree.FindFrame(link)) return;
   if (std::find(links->begin(), links->end(), link) != links->end()) return;
   links->push_back(link);
 }
 
-// The shortest text that reads as the same number.
+// Returns the shortest text that is read back as the same number.
 std::string Shortest(double value) {
   char text[32];
   const auto [end, error] = std::to_chars(text, text + sizeof(text), value);

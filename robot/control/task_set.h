@@ -11,41 +11,47 @@
 
 namespace poise {
 
-/// What is wrong with a name that no task of a stack has, and what was wanted.
+/// Returns the error message for a task name that is not in the stack, with the
+/// valid names.
 std::string UnknownTask(const std::string& name, const Stack& stack);
 
-/// Changes a stack as a `tasks:` section says, by name of the task:
+/// Applies a section `tasks` to a stack, by the names of the tasks:
 ///
 ///     tasks:
 ///       yaw: off                       # Or on.
 ///       momentum: {level: 3, kp: 40}    # Level, weight, on, any parameter.
 ///
-/// What is not named stays as it is. `rank` is an alias of `level`.
+/// Tasks and fields that are not named stay unchanged. `rank` is an alias of
+/// `level`.
 ///
-/// @param file  of the section, for messages.
-/// Throws std::invalid_argument("FILE:LINE: ...") about a task or a parameter
-/// that is not there, or a value out of its range.
+/// @param file  file of the section, for messages.
+/// Throws std::invalid_argument("FILE:LINE: ...") if a task or a parameter is
+/// unknown, or a value is out of its range.
 void ApplyTasks(const YAML::Node& tasks, const std::string& file, Stack* stack);
 
-/// The links X of a `tasks:` section's tasks frame.X, for
-/// ControllerOptions::frames: those that the robot has, but no foot has the name
-/// of. Throws nothing about what is wrong: ApplyTasks() does.
+/// Returns the links X of the tasks frame.X in a section `tasks`, for
+/// ControllerOptions::frames. Feet are left out (they have their task already),
+/// and so are links that the robot does not have. Does not report errors in the
+/// section: ApplyTasks() does.
 std::vector<std::string> FindTaskLinks(const YAML::Node& tasks,
                                        const Robot& robot);
 
-/// The section `tasks` that makes any stack of the same tasks this one: of each,
-/// whether it is on, its level, weight and parameters, to the last digit.
+/// Returns a section `tasks` with all settings of a stack: of each task whether
+/// the task is on, its level, weight and parameters, to the last digit. Applied
+/// to a stack with the same tasks, the section gives the same settings.
 YAML::Node DescribeTasks(const Stack& stack);
 
-/// The same of a task set, and of the names of tasks to switch.
-/// Throws std::invalid_argument about the file.
+/// Returns the links X of the tasks frame.X in a task set (see ApplyTaskSet())
+/// and in a list of task names. Throws std::invalid_argument if the file of the
+/// set cannot be read.
 std::vector<std::string> FindTaskLinks(const std::string& set,
                                        const std::vector<std::string>& tasks,
                                        const Robot& robot);
 
-/// Changes a stack to a task set: `default` (nothing to do); `paper`, the table
-/// of the paper's section 3; else the section `tasks` of a YAML file.
-/// Throws std::invalid_argument as ApplyTasks(), or about the file.
+/// Applies a task set to a stack: `default` changes nothing; `paper` is the
+/// table of section 3 of the paper; any other name is a YAML file with a
+/// section `tasks`. Throws std::invalid_argument like ApplyTasks(), or if the
+/// file cannot be read.
 void ApplyTaskSet(const std::string& name, Stack* stack);
 
 }  // namespace poise

@@ -274,7 +274,8 @@ TEST(Stack, RefusesATaskThatIsThereOrOutOfRange) {
     }
     return "accepted";
   };
-  EXPECT_EQ(message("posture", 1, 1), "task 'posture': is there already");
+  EXPECT_EQ(message("posture", 1, 1),
+            "task 'posture': exists already, must have a new name");
   EXPECT_EQ(message("idle", 0, 1), "task 'idle': level is 0, must be 1 to 8");
   EXPECT_EQ(message("idle", 9, 1), "task 'idle': level is 9, must be 1 to 8");
   EXPECT_EQ(message("idle", 8, 0),

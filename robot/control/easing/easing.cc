@@ -63,8 +63,9 @@ void Easing::BeginAtLast(int rows, const EqualityBlock& now) noexcept {
   }
 }
 
-// What the last y lacks of a row pulls at it by weight times residual: with
-// another weight, as much of the residual is left as pulls the same.
+// In the optimality condition, a row counts with weight times residual. After a
+// change of the weight, the residual is scaled so that this product stays the
+// same.
 void Easing::BeginAsBefore(int rows, const EqualityBlock& now,
                            const EqualityBlock& before,
                            double weight_ratio) noexcept {
@@ -107,13 +108,15 @@ void Easing::BeginInside(int rows, int equalities,
 void Easing::Ease(int rows, EqualityBlock* equalities) const noexcept {
   for (int i = 0; i < static_cast<int>(equalities->b.size()); ++i) {
     const double offset = ramp_[rows + i];
-    // A row that does not matter in this tick asks for nothing.
+    // A zero row has no effect in this tick: its right-hand side must stay
+    // zero.
     if (offset == 0 || equalities->B.row(i).isZero(0)) continue;
     equalities->b[i] -= offset;
   }
 }
 
-// An offset that comes back to zero with some speed goes past it a little.
+// An offset that reaches zero with nonzero rate overshoots. A negative offset
+// must not tighten a bound.
 void Easing::Ease(int rows, int equalities,
                   InequalityBlock* inequalities) const noexcept {
   const int size = static_cast<int>(inequalities->lower.size());

@@ -8,81 +8,88 @@
 
 namespace poise {
 
-/// Eases rows that were changed between two ticks into what they ask for. Each
-/// row has an offset,
-///     B y + b = offset,    lower - offset <= C y <= upper + offset,
-/// and so has y, which is its offset in what the rows leave free. A change adds as
-/// much to them as lets the last y be the optimum of the changed rows, too, and
-/// Ramp brings them to zero; so y, and the torques of it, go from the one
-/// hierarchy to the other without a jump, and every level is still strict. What
-/// else asks for something new, a push or a reference, is not held back: only
-/// what was changed is.
+/// Eases changes of tasks: after a change between two ticks, the solution y and
+/// the torques move to the new optimum without a jump. Each row has an offset,
+///     B y + b = offset,    lower - offset <= C y <= upper + offset.
+/// y has an offset as well: rows y = offset, on a level below all others,
+/// determine what the other rows leave free. A change adds to the offsets such
+/// that the last y is an optimum of the changed rows too. Ramp then brings the
+/// offsets to zero. All levels stay strict. A push or a new reference acts in
+/// full: only changes of tasks are eased.
 ///
-/// Where limits of a level that was changed are violated, what else is asked for in
-/// that level may still jump: their slacks pull as before, but equalities are eased.
+/// If limits of a changed level are violated, the other rows of this level may
+/// still jump: the slacks of the limits act as before, but equalities are
+/// eased.
 ///
-/// (Intermediate desired values, as of Lee, Mansard and Park, 2012, but of the
-/// last solution instead of a second one.)
+/// The method is that of intermediate desired values (Lee, Mansard and Park,
+/// 2012), but with the last solution instead of a second one.
 class Easing {
  public:
   explicit Easing(int num_variables);
 
-  /// Makes room for the rows of a task and returns where it begins: at `rows`
-  /// below. Allocates.
+  /// Adds the rows of a task. Returns the index of the first one, the argument
+  /// `rows` of the functions below. Allocates.
   int AddTask(int equalities, int inequalities);
 
-  /// Of a ramp, s; 0, and nothing is eased, nor what was begun.
+  /// Sets the duration of a ramp, s. 0 ends a running ramp and switches easing
+  /// off.
   void set_duration(double seconds) noexcept;
 
-  /// A tick of dt has found y; Remember() follows, for each task that took part:
-  /// what is left of its equalities, and of its inequalities times a scale.
+  /// Advances the ramp by dt and records y, the solution of this tick. Then
+  /// call Remember() for each task with rows: it records the residuals of the
+  /// equalities, and the slacks of the inequalities, whose rows were multiplied
+  /// by `scale`.
   void Advance(double dt, const Eigen::VectorXd& y) noexcept;
   void Remember(int rows, const Eigen::Ref<const Eigen::VectorXd>& residual,
                 const Eigen::Ref<const Eigen::VectorXd>& slack,
                 double scale) noexcept;
 
-  /// What comes next is not eased, and its y not known yet.
+  /// Ends the ramp and forgets the last y. The next change is not eased.
   void End() noexcept;
 
-  /// Whether there is a y to begin at, and time to ease.
+  /// Whether a change can be eased: there is a last y, and the duration is not
+  /// 0.
   bool IsPossible() const { return dt_ > 0 && ramp_.duration() > 0; }
   bool is_on() const { return ramp_.is_on(); }
-  /// Whether y is held in what the rows leave free.
+  /// Whether the rows of Hold() are needed, see KeepFree().
   bool holds() const { return is_on() && holds_; }
 
-  /// These five add offsets after a change; `rows` is where a task begins, as
-  /// AddTask() said, and `now` its rows as they are after the change.
+  /// The next five functions add offsets after a change. `rows` is the index
+  /// from AddTask(), and `now` holds the rows of the task after the change.
   ///
-  /// For equalities that were not there in the last tick: the last y meets them.
+  /// For equalities that are new in this tick: the last y meets them exactly.
   void BeginAtLast(int rows, const EqualityBlock& now) noexcept;
-  /// For equalities that were `before`, of a task that weighed weight_ratio times
-  /// as much: they draw at the last y as they did.
+  /// For equalities that were `before` in the last tick, when the weight of the
+  /// task was weight_ratio times the present one: weight times residual at the
+  /// last y stays the same.
   void BeginAsBefore(int rows, const EqualityBlock& now,
                      const EqualityBlock& before, double weight_ratio) noexcept;
-  /// For equalities that the last y missed, where what kept it from them may be
-  /// gone: their offsets grow by what it missed, and so it meets them.
+  /// For equalities that the last y did not meet, if the rows that prevented
+  /// this may have changed: the offsets grow by the residuals, so that the last
+  /// y meets the equalities.
   void KeepResiduals(int rows, int equalities) noexcept;
-  /// For what the rows leave free, where rows that determined it may be gone: y
-  /// is held where it was.
+  /// For the variables that the rows leave free, if rows that determined them
+  /// may have been removed: Hold() keeps y at its last value.
   void KeepFree() noexcept;
-  /// For inequalities: the last y violates them by no more than it did.
+  /// For inequalities: the last y violates them at most as much as before.
   void BeginInside(int rows, int equalities,
                    const InequalityBlock& now) noexcept;
 
-  /// Moves right sides by their offsets. Do not allocate.
+  /// Shift the right-hand sides by their offsets. Do not allocate.
   void Ease(int rows, EqualityBlock* equalities) const noexcept;
   void Ease(int rows, int equalities,
             InequalityBlock* inequalities) const noexcept;
-  /// Writes the rows y = offset, of a level below all others.
+  /// Writes the rows y = offset for a level below all others.
   void Hold(EqualityBlock* equalities) const noexcept;
 
  private:
-  // Of y, then of each task: its equalities, the lower sides of its
-  // inequalities, and their upper sides.
+  // Offsets of y, then of each task: its equalities, the lower bounds of its
+  // inequalities, and the upper bounds.
   Ramp ramp_;
-  Eigen::VectorXd lacked_;  // What the last tick left of each.
+  // Residuals and slacks of the last tick, in the same order.
+  Eigen::VectorXd lacked_;
   Eigen::VectorXd y_last_;
-  double dt_ = 0;  // Of the last tick; 0 as long as there is none.
+  double dt_ = 0;  // Duration of the last tick, s; 0 if there is none.
   bool holds_ = false;
 };
 

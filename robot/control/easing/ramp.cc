@@ -19,13 +19,14 @@ void Ramp::Add(int i, double jump) noexcept {
   left_ = duration_;
 }
 
-// With s = dt / T of the time left and x, v T, a T^2 at its beginning,
+// Advances by the fraction s = dt / T of the remaining time T. With value x,
+// rate v and acceleration a at its start,
 //     x(s) = (1 - s)^3 (x + (3 x + v T) s + (6 x + 3 v T + a T^2 / 2) s^2).
 void Ramp::Advance(double dt) noexcept {
   if (!is_on()) return;
   const double T = left_;
   const double s = dt / T;
-  // Rounding: what is left after the last tick is none.
+  // Only one tick is left, up to rounding: all values end at zero.
   if (s > 1 - 1e-6) {
     Clear();
     return;
@@ -35,7 +36,7 @@ void Ramp::Advance(double dt) noexcept {
   coefficients << 1, 0, 0,       //
       3, T, 0,                   //
       6, 3 * T, T * T / 2;
-  // The value, the rate and the acceleration at s.
+  // Value, rate and acceleration at s.
   Eigen::Matrix3d at;
   at << r * r * r, r * r * r * s, r * r * r * s * s,  //
       -3 * r * r / T, r * r * (r - 3 * s) / T,        //

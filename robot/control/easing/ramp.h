@@ -5,23 +5,25 @@
 
 namespace poise {
 
-/// Numbers that go to zero together, whatever is added on the way: each along
-/// the curve of minimum jerk that leads from its value, rate and acceleration to
-/// rest at zero in the time that is left; from rest, that of MinimumJerk. That is
-/// the whole duration again whenever something is added. So what is added once is
-/// gone after the duration, and what is added in every tick is filtered: it goes
-/// with s^3 + 9/T s^2 + 36/T^2 s + 60/T^3, stable.
+/// Brings a set of numbers to zero at the same time, even if a number is
+/// increased on the way. Each number follows the minimum-jerk curve from its
+/// value, rate and acceleration to rest at zero in the remaining time; from
+/// rest, this is the curve of MinimumJerk. Any addition sets the remaining time
+/// to the whole duration T again. A number that is added once is zero after T.
+/// Numbers that are added in every tick are filtered; the characteristic
+/// polynomial of the filter, s^3 + 9/T s^2 + 36/T^2 s + 60/T^3, is stable.
 class Ramp {
  public:
-  /// So many numbers, all zero. Allocates.
+  /// Sets the number of values, and all values to zero. Allocates.
   void Resize(int size);
 
-  /// Of a ramp, s; 0, and what is added is forgotten.
+  /// Sets the duration T of a ramp, s. With 0, Add() has no effect.
   void set_duration(double seconds) { duration_ = seconds; }
   double duration() const { return duration_; }
 
-  /// A time dt has passed, s.
+  /// Advances all values by a time dt, s.
   void Advance(double dt) noexcept;
+  /// Adds `jump` to value i, and restarts the remaining time.
   void Add(int i, double jump) noexcept;
   void Clear() noexcept;
 
@@ -31,7 +33,7 @@ class Ramp {
  private:
   Eigen::Matrix3Xd x_;  // Values, rates and accelerations.
   double duration_ = 0;
-  double left_ = 0;  // Until all is zero, s.
+  double left_ = 0;  // Remaining time until all values are zero, s.
 };
 
 }  // namespace poise
