@@ -51,7 +51,7 @@ class Stack {
   int num_tasks() const { return static_cast<int>(entries_.size()); }
   const Task& task(int i) const { return *entries_[i].task; }
   const TaskSettings& settings(int i) const { return entries_[i].settings; }
-  /// Returns the index of a task, or nullopt if there is none of this name.
+  /// Returns the index of a task, or nullopt if no task has this name.
   std::optional<int> Find(std::string_view name) const noexcept;
 
   /// These four return false and change nothing if there is no such task or
