@@ -162,7 +162,7 @@ TEST_F(ControllerTest, AppliesItsOptions) {
   EXPECT_LT(residual("momentum"), 0.1 * residual("posture"));
 }
 
-TEST_F(ControllerTest, LargerWeightGetsSmallerResidual) {
+TEST_F(ControllerTest, LargerPostureWeightIncreasesMomentumResidual) {
   const auto residual = [&](double weight) {
     EXPECT_TRUE(controller_.stack().SetLevel("posture", 4));
     EXPECT_TRUE(controller_.stack().SetWeight("posture", weight));
