@@ -15,11 +15,11 @@ namespace {
 // fallen, and the pendulum model is invalid.
 constexpr double kMinHeight = 0.05;  // m.
 
-// The way from the reference of xi to an edge counts as at least this long.
+// Lower bound on the way from the reference of xi to an edge.
 constexpr double kLeastWay = 0.01;  // m.
 
-// The width of the blend is at least this, as a part of the way, so that gains
-// do not jump.
+// Lower bound on the width of the blend, full - from, so that gains do not
+// jump.
 constexpr double kLeastWidth = 1e-3;
 
 // Fraction of the soles in contact to which the target of the center of mass is

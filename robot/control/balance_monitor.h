@@ -35,8 +35,8 @@ struct Balance {
   double right = 0;  ///< Share of the right side.
 
   struct FootVerdict {
-    bool is_released = false;  ///< A foot that is down should be released.
-    bool comes_back = false;   ///< A released foot should be put down.
+    bool is_released = false;  ///< The foot should be released if it is down.
+    bool comes_back = false;   ///< The foot should be put down if released.
   };
   std::vector<FootVerdict> feet;  ///< By foot of the robot.
 };

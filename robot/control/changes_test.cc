@@ -1,6 +1,6 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE. Tests that
-// the torques do not jump if tasks are switched, moved to another level or
-// tuned between two ticks.
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Tests that the torques do not jump if tasks are switched, moved to another
+// level or tuned between two ticks.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>

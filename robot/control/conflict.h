@@ -27,7 +27,8 @@ struct HierarchyRow {
 /// met. The function is meant for diagnosis, not for the control loop: it
 /// solves one small problem per row, and allocates.
 ///
-/// @param tolerance  largest violation of a row that is met, over its norm.
+/// @param tolerance  a row counts as met if its violation, over the norm of the
+///                   row, is at most this.
 std::vector<HierarchyRow> FindConflict(const Hierarchy& hierarchy, int level,
                                        double tolerance = 1e-6);
 

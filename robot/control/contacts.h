@@ -26,7 +26,7 @@ struct ContactTick {
   double max_normal_force = std::numeric_limits<double>::infinity();
 };
 
-/// Moves the motion of the foot's link, frame F, to its contact frame C:
+/// Transforms the motion of the foot's link, frame F, to the contact frame C:
 ///     V_WC_C = [  R'       0  ] V_WF_W,   p = p_FC_W,  R = R_WC,
 ///              [ -R' [p]x  R' ]
 /// The Jacobian transforms in the same way; the classical acceleration is

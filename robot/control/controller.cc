@@ -230,7 +230,7 @@ void Controller::ComputeCommand(const State& state, Command* command) noexcept {
   command->status = report_.status;
 }
 
-// Keeps what the next tick needs of this solution.
+// Stores the data of this solution that the next tick needs.
 void Controller::Remember(const State& state) noexcept {
   const int nv = robot_.model.tree.nv();
   for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {

@@ -34,7 +34,7 @@ struct ControllerOptions {
   bool inscribed = false;    ///< Friction pyramid inside the friction cone.
   bool feedforward = false;  ///< Uses v_WG and a_WG of the reference.
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
-  int max_iterations = 500;  ///< Per tick of the solver; then truncated.
+  int max_iterations = 500;  ///< Solver iterations per tick; then truncated.
   /// Time budget of the solver in a tick, s, measured by now(); used only if
   /// now() is given. The result depends on the machine: no replay is exact.
   double max_seconds = 0;
@@ -139,10 +139,10 @@ class Controller {
   Solver solver_;
   Solution solution_;
   TickReport report_;
-  Eigen::VectorXd normal_force_;  ///< By foot, last solution, N.
+  Eigen::VectorXd normal_force_;  ///< By foot, from the last solution, N.
 
   Pose X_MidB_;             ///< Nominal base, in the mid-feet frame.
-  Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.
+  Eigen::Vector3d p_MidG_;  ///< Nominal center of mass, same frame.
   Disturbance disturbance_;
   UnmodelledAcceleration unmodelled_;
 };

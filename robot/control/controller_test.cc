@@ -53,8 +53,7 @@ TEST_F(ControllerTest, ComesToRestAfterAPush) {
         largest_error,
         (controller_.tick().p_WG - controller_.reference().p_WG).norm());
   }
-  // 1 N s on 38.6 kg gives 26 mm/s: the error is a few millimeters, then
-  // decays.
+  // 1 N s on 38.6 kg gives 26 mm/s: the error is a few mm, then decays.
   EXPECT_GT(largest_error, 1e-3);
   EXPECT_LT(largest_error, 1e-2);
   EXPECT_LT((controller_.tick().p_WG - controller_.reference().p_WG).norm(),

@@ -1,6 +1,6 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE. Tests how
-// the controller compensates effects that its model does not contain: a push on
-// a joint near its stop, and a disturbance of the center of mass.
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Tests how the controller compensates effects that its model does not contain:
+// a push on a joint near its stop, and a disturbance of the center of mass.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -135,7 +135,7 @@ TEST_F(CorrectionTest, IntegratesErrorBeyondPdGains) {
   EXPECT_LT(Correction().norm(), 1e-7);
 }
 
-// The task com has its own integral gains.
+// If the task com moves the center of mass, its integral gains are used.
 TEST_F(CorrectionTest, UsesGainsOfComTask) {
   Stack& stack = controller_.stack();
   ASSERT_TRUE(stack.Enable("momentum", false));

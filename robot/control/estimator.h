@@ -60,8 +60,8 @@ class Estimator {
   std::vector<FootState> feet_;
   Eigen::Vector3d p_WB_;
   Eigen::Vector3d v_WB_;
-  Eigen::Matrix<double, 7, 1>
-      q_base_;  // From the last measurement that was used.
+  // Base state from the last measurement that was used.
+  Eigen::Matrix<double, 7, 1> q_base_;
   Eigen::Matrix<double, 6, 1> v_base_;
   double time_ = 0;
 };

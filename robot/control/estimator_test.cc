@@ -208,8 +208,8 @@ TEST_F(EstimatorTest, SkipsInvalidMeasurement) {
   }
 }
 
-// In flight, only the accelerometer is used. The next valid sample
-// covers the gap: no part of the fall is lost.
+// In flight, only the accelerometer is used. The next valid sample covers the
+// gap: no part of the fall is lost.
 TEST_F(EstimatorTest, BridgesInvalidMeasurementsInFlight) {
   Estimator estimator(robot_);
   MeasureAt(0);

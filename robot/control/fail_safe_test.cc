@@ -1,5 +1,6 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE. Tests the
-// fail-safe command, and ticks that the solver cannot solve, or not in time.
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Tests the fail-safe command, and ticks that the solver cannot solve, or not
+// in time.
 #include "poise/robot/control/fail_safe.h"
 
 #include <gtest/gtest.h>

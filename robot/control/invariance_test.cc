@@ -1,6 +1,6 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE. Tests that
-// the torques do not depend on the position and heading of the robot, and that
-// a mirrored state gives mirrored torques.
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Tests that the torques do not depend on the position and heading of the
+// robot, and that a mirrored state gives mirrored torques.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -24,11 +24,9 @@ struct Reference {
   Eigen::Vector3d a_WG = Eigen::Vector3d::Zero();      ///< m/s2.
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();  ///< Base orientation.
   Eigen::VectorXd posture;                             ///< By joint, rad or m.
-  double ground_z = 0;  ///< Height of the floor, m.
-  std::vector<FrameReference>
-      feet;  ///< For feet in the air, written by Stance.
-  std::vector<FrameReference>
-      frames;  ///< In the order of ControllerOptions::frames.
+  double ground_z = 0;                 ///< Height of the floor, m.
+  std::vector<FrameReference> feet;    ///< Stance writes feet in the air.
+  std::vector<FrameReference> frames;  ///< By ControllerOptions::frames.
 };
 
 }  // namespace poise

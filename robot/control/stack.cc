@@ -14,7 +14,8 @@ namespace {
 // Multipliers and slacks below this are rounding.
 constexpr double kNoticeable = 1e-6;
 
-// A residual above this counts as a violation, in the scale of its row.
+// A target with a residual above this is reported as lost, in the scale of its
+// row.
 constexpr double kNoticeableLoss = 1e-4;
 
 bool IsValidWeight(double weight) {

@@ -38,7 +38,7 @@ class Stack {
   /// and cost the active-set search hundreds of steps.
   static constexpr double kLeastWeight = 1e-6;
   static constexpr double kMostWeight = 1e6;
-  static constexpr double kMostRatio = 1e6;  ///< Bound of set_weighted().
+  static constexpr double kMostRatio = 1e6;  ///< For set_weighted().
 
   /// Creates an empty stack. Its rows have num_variables columns.
   explicit Stack(int num_variables);
@@ -150,13 +150,13 @@ class Stack {
 
   // First priority level that may be less constrained since the last Write(),
   // because a task or limit at or above it was switched off, moved or tuned.
-  // kTight if there is none.
+  // kTight means: no level.
   static constexpr int kTight = kMaxLevel + 1;
 
   int num_variables_;
   Easing easing_;
   int loose_from_ = kTight;
-  LevelCapacity most_rows_;  // Of the largest task.
+  LevelCapacity most_rows_;  // Largest numbers of rows of a task.
   Hierarchy before_;         // Rows of one task before it was tuned.
   bool weighted_ = false;
   double level_ratio_ = 100;

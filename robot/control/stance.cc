@@ -24,8 +24,7 @@ constexpr double kReach = 0.005;   // m.
 constexpr double kSinkTime = 0.4;  // s.
 
 // The ground has stopped a descending sole if the sole is slower than kStopped
-// times its reference. The reference must be faster than kTelling for this
-// test.
+// times its reference. This test needs a reference faster than kTelling.
 constexpr double kStopped = 0.5;
 constexpr double kTelling = 0.01;  // m/s.
 

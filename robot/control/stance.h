@@ -59,8 +59,7 @@ class Stance {
   Stance(const std::vector<Foot>& feet, double weight);
 
   /// Throws std::invalid_argument, and changes nothing, if a time is not 0 to
-  /// kMostTime, or a height not 0 to kMostThreshold. Call this between two
-  /// ticks.
+  /// kMostTime, or a height not 0 to kMostThreshold. Call only between ticks.
   void Configure(const StanceSettings& settings);
   const StanceSettings& settings() const { return settings_; }
 

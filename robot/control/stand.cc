@@ -25,8 +25,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Margin to the joint limits: fraction of the range, and upper bound in rad or
-// m.
+// Margin to each joint limit: kMarginFraction of the range, but at most
+// kLargestMargin, rad or m.
 constexpr double kMarginFraction = 0.05;
 constexpr double kLargestMargin = 0.05;
 constexpr double kKneeBend = 0.6;     // rad.
@@ -82,8 +82,7 @@ Vector3d Snap(const Vector3d& v) {
 // The inverse-kinematics problem of StandUp().
 class Standing {
  public:
-  // `bend` is the angle of straight knees after bending, rad; positive:
-  // forward.
+  // Straight knees are bent to the angle `bend`, rad; positive: knees forward.
   Standing(const Robot& robot, double bend);
 
   // Iterates until the posture converges. Returns the error in words, or an
@@ -100,8 +99,7 @@ class Standing {
   // on that foot alone.
   double Forward(int i) const;
 
-  // Sets the range of each joint, and moves joints outside it to its nearest
-  // end.
+  // Sets the range of each joint. A joint outside moves to the nearest end.
   void SetLimits();
 
   // Bends the knee of the leg with the foot `body`, if the knee is straight.
@@ -109,8 +107,8 @@ class Standing {
 
   void AddLimits(double longest, Hierarchy* hierarchy) const;
 
-  // Soles flat on the ground, facing +x, side by side, with their middle at the
-  // origin.
+  // Adds the rows that put the soles flat on the ground, facing +x, side by
+  // side, with their middle at the origin.
   void AddFeet(Hierarchy* hierarchy) const;
 
   // Horizontal error of the center of mass, m.

@@ -13,8 +13,7 @@ constexpr double kFrozenAfter = 0.010 + 1e-9;  // s.
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 // Rounding, also in single precision, and a few integration steps change the
-// norm of a quaternion by far less than this. A larger error means invalid
-// data.
+// norm of a quaternion by far less. A larger error means invalid data.
 constexpr double kQuaternionOff = 1e-3;
 
 }  // namespace

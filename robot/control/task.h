@@ -52,8 +52,7 @@ enum class RowKind {
   kLimit,             ///< Any other inequality.
 };
 
-/// Returns the name of a kind in files: "target", "dynamics", "torque_limit",
-/// ...
+/// Returns the name of a kind in files, as "target" or "torque_limit".
 constexpr std::string_view RowKindName(RowKind kind) {
   switch (kind) {
     case RowKind::kTarget:

@@ -47,8 +47,7 @@ std::string NamesOf(const Task& task) {
   return names;
 }
 
-// Returns nullptr if the task has no parameter of this name. pre: the task
-// exists.
+// Returns nullptr if the task has no such parameter. pre: the task exists.
 const Parameter* FindParameter(const Stack& stack, const std::string& task,
                                const std::string& name) {
   for (const Parameter& each : stack.task(*stack.Find(task)).parameters()) {
@@ -158,7 +157,7 @@ std::string Shortest(double value) {
 
 std::string UnknownTask(const std::string& name, const Stack& stack) {
   return "task " + Quoted(name) + " is unknown, must be " +
-         (IsFrame(name) ? "frame. and a link of the robot"
+         (IsFrame(name) ? "frame.LINK with a link of the robot"
                         : "one of " + NamesOf(stack));
 }
 

@@ -13,11 +13,11 @@ namespace poise {
 /// A row that is active at the solution of a tick. Stack::RowName() returns its
 /// name.
 struct ActiveRow {
-  int task;            ///< Index into Stack::tasks().
+  int task;            ///< Index for Stack::task().
   int row;             ///< Index into Task::inequality_names().
   Side side;           ///< Active bound.
   int pressing_level;  ///< Highest priority level with a multiplier on it.
-  double multiplier;   ///< Its absolute value, from pressing_level.
+  double multiplier;   ///< Absolute multiplier of pressing_level.
   double slack;        ///< Violation of the row, in the scale of the row.
 };
 
@@ -33,7 +33,7 @@ struct TaskReport {
 
 /// A violated equality row.
 struct LostRow {
-  int task;       ///< Index into Stack::tasks().
+  int task;       ///< Index for Stack::task().
   int row;        ///< Index into Task::equality_names().
   double amount;  ///< Residual times Task::equality_scale().
 };

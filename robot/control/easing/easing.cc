@@ -108,8 +108,7 @@ void Easing::BeginInside(int rows, int equalities,
 void Easing::Ease(int rows, EqualityBlock* equalities) const noexcept {
   for (int i = 0; i < static_cast<int>(equalities->b.size()); ++i) {
     const double offset = ramp_[rows + i];
-    // A zero row has no effect in this tick: its right-hand side must stay
-    // zero.
+    // A zero row has no effect in this tick: b must stay zero.
     if (offset == 0 || equalities->B.row(i).isZero(0)) continue;
     equalities->b[i] -= offset;
   }

@@ -118,7 +118,7 @@ TEST_F(EasingTest, KeepFreeHoldsYAndNothingElse) {
   easing_.Advance(kDt, kLast);
   easing_.KeepFree();
   EXPECT_EQ(held(), kLast);
-  // y has changed in the meantime: the new value is held.
+  // y has moved away from its offset: KeepFree() adds the difference.
   easing_.Advance(kDt, 3 * kLast);
   const Eigen::Vector2d left = held();
   EXPECT_LT((left - kLast).norm(), 0.01 * kLast.norm());

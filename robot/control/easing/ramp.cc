@@ -32,7 +32,7 @@ void Ramp::Advance(double dt) noexcept {
     return;
   }
   const double r = 1 - s;
-  Eigen::Matrix3d coefficients;  // Of 1, s and s^2 in the second factor.
+  Eigen::Matrix3d coefficients;  // For 1, s, s^2, second factor.
   coefficients << 1, 0, 0,       //
       3, T, 0,                   //
       6, 3 * T, T * T / 2;

@@ -189,7 +189,7 @@ refuse "task set 'none': is neither default, paper, nor a file" --tasks none
 
 # A Cartesian task on any link, from wherever a task is named; one on a link that
 # is not there is refused by the link.
-frame="task 'frame.nose' is unknown, must be frame. and a link of the robot"
+frame="task 'frame.nose' is unknown, must be frame.LINK with a link of the robot"
 refuse "$frame" --with frame.nose
 refuse_file --tasks ":1: $frame" frames.yaml 'tasks: {frame.nose: on}'
 refuse_file --scenario ": $frame" frames.yaml 'tasks: {with: [frame.nose]}'
