@@ -11,28 +11,29 @@
 namespace poise {
 namespace {
 
-// Below this height above its soles a robot has fallen: the pendulum is invalid.
+// Below this height of the center of mass above the soles, the robot has
+// fallen, and the pendulum model is invalid.
 constexpr double kMinHeight = 0.05;  // m.
 
-// The way from the reference of xi to an edge counts as at least this long.
+// Lower bound on the way from the reference of xi to an edge.
 constexpr double kLeastWay = 0.01;  // m.
 
-// The width of the blend is at least this, as a part of the way, so that gains
-// do not jump.
+// Lower bound on the width of the blend, full - from, so that gains do not
+// jump.
 constexpr double kLeastWidth = 1e-3;
 
-// Part of the soles in contact that holds the center of mass while a foot is in
-// the air.
+// Fraction of the soles in contact to which the target of the center of mass is
+// clamped while a foot is in the air.
 constexpr double kMiddle = 0.5;
 
-// A foot is released if it bears less than kUnloaded of the weight, another one
-// more than kLoaded, and the share of the other side is above kReleasing.
+// A foot is released if it carries less than kUnloaded of the weight, another
+// foot more than kLoaded, and the share of the other side is above kReleasing.
 constexpr double kUnloaded = 0.03;
 constexpr double kLoaded = 0.5;
 constexpr double kReleasing = 0.5;
 
-// The push is over once no share is left, the base is within kUprightBase of its
-// reference, and the center of mass is slower than kSlow.
+// The push is over once all shares are 0, the base is within kUprightBase of
+// its reference, and the center of mass is slower than kSlow.
 constexpr double kUprightBase = 0.4;  // rad.
 constexpr double kSlow = 0.3;         // m/s.
 

@@ -12,18 +12,19 @@
 
 namespace poise {
 
-/// Settings of the capture blend. Profiles and task sets name them as parameters
-/// of the task momentum: capture, capture_from, capture_full, capture_sideways.
+/// Settings of the capture blend. In profiles and task sets, these are
+/// parameters of the task momentum: capture, capture_from, capture_full,
+/// capture_sideways.
 struct CaptureSettings {
-  double capture = 1;      ///< Factor of all shares; 0 switches them off.
-  double from = 0.65;      ///< Part of the way to the edge where a share is 0.
-  double full = 1;         ///< The part where it is 1.
-  double sideways = 1.25;  ///< Factor of the way to the left and right edges.
+  double capture = 1;      ///< Factor on all shares; 0 switches them off.
+  double from = 0.65;      ///< Fraction of the way to the edge with share 0.
+  double full = 1;         ///< Fraction of the way to the edge with share 1.
+  double sideways = 1.25;  ///< Factor on the way to the left and right edges.
 };
 
 /// Result of a BalanceMonitor for one tick.
 struct Balance {
-  /// Capture point xi with the angular momentum given back, in the mid-feet
+  /// Capture point xi, corrected for the angular momentum, in the mid-feet
   /// frame, m.
   Eigen::Vector3d xi_Mid = Eigen::Vector3d::Zero();
   /// Capture blend, 0 to 1. 0: ankle torque alone can stop the robot. 1: the
@@ -34,29 +35,30 @@ struct Balance {
   double right = 0;  ///< Share of the right side.
 
   struct FootVerdict {
-    bool is_released = false;  ///< A foot that is down should be released.
-    bool comes_back = false;   ///< A released foot should be put down.
+    bool is_released = false;  ///< The foot should be released if it is down.
+    bool comes_back = false;   ///< The foot should be put down if released.
   };
   std::vector<FootVerdict> feet;  ///< By foot of the robot.
 };
 
-/// Judges how near the robot is to a fall, from its capture point. With G the
+/// Computes how near the robot is to a fall, from its capture point. With G the
 /// center of mass, h its height above the soles, m the mass and k the angular
 /// momentum about G, in the mid-feet frame,
 ///     xi = p_G + (v_G + k x z / (m h)) / w,    w = sqrt(g / h).
-/// The share of a side is the part of the way from the reference of xi to the
-/// edge of the soles that xi has covered: 0 at `from`, 1 at `full`.
+/// The share of a side depends on the fraction of the way from the reference of
+/// xi to the edge of the soles that xi has covered. The share grows linearly
+/// from 0 at the fraction `from` to 1 at the fraction `full`.
 ///
-/// A foot is released if the robot falls to the other side and the foot carries
-/// almost no load while another foot is in contact. The leg of a released foot
-/// swings freely and absorbs angular momentum. The foot returns when the robot is
-/// slow and upright, or falls to the side of the foot.
+/// A foot is released if the robot falls to the other side, the foot carries
+/// almost no load, and another foot carries the robot. The leg of a released
+/// foot can swing, and its mass takes up angular momentum. The foot comes back
+/// once the robot is slow and upright, or falls to the side of the foot.
 class BalanceMonitor {
  public:
   BalanceMonitor(const Tree& tree, const std::vector<Foot>& feet);
 
-  /// Computes the result of this tick.
-  /// @param contacts      of the last tick, with the poses of this tick.
+  /// Updates balance() with the state of this tick.
+  /// @param contacts      poses of this tick, in_contact of the last one.
   /// @param normal_force  by foot, of the last solution, N.
   /// Does not allocate.
   void Update(const Tick& tick, const std::vector<ContactTick>& contacts,
@@ -81,19 +83,19 @@ class BalanceMonitor {
   Balance balance_;
 };
 
-/// Returns the natural frequency w = sqrt(g / h) of the linear inverted pendulum, 1/s. The
-/// height h is at least 0.05 m: below that, the robot has fallen.
+/// Natural frequency w = sqrt(g / h) of the linear inverted pendulum, 1/s. The
+/// height h is clamped to at least 0.05 m: below, the robot has fallen.
 double PendulumFrequency(double gravity, double height) noexcept;
 
-/// Returns the target of the center of mass in the world. While a foot is in the
-/// air, the reference is clamped to the middle half of the soles in contact. Does
-/// not allocate.
+/// Returns the target of the center of mass in the world: the reference, which
+/// is clamped to the middle half of the soles in contact while a foot is in the
+/// air. Does not allocate.
 Eigen::Vector3d FindComTarget(const std::vector<Foot>& feet,
                               const std::vector<ContactTick>& contacts,
                               const Reference& reference) noexcept;
 
-/// Interpolates a gain or margin between its normal value (capture 0) and its value
-/// for the largest pushes (capture 1).
+/// Interpolates a gain or margin between its normal value (capture 0) and its
+/// value for the largest pushes (capture 1).
 inline double BlendByCapture(double normal, double captured, double capture) {
   return normal + capture * (captured - normal);
 }

@@ -21,7 +21,7 @@ namespace {
 constexpr double kHeight = 0.9;      // Center of mass above the soles, m.
 constexpr double kHalfStance = 0.1;  // From the middle to each foot, m.
 
-// A robot at rest above two feet on flat ground; each test sets what differs.
+// A robot at rest above two feet on flat ground; each test changes some values.
 class BalanceMonitorTest : public testing::Test {
  protected:
   BalanceMonitorTest() {
@@ -40,7 +40,7 @@ class BalanceMonitorTest : public testing::Test {
     return monitor_.balance();
   }
 
-  // Moves the capture point to a place by the speed of the center of mass.
+  // Sets the speed of the center of mass that puts the capture point at (x, y).
   void PushTo(double x, double y) { tick_.v_WG << x * w_, y * w_, 0; }
 
   const Robot robot_ = LoadHumanoid();
@@ -108,9 +108,10 @@ TEST_F(BalanceMonitorTest, ReleasesUnloadedFootAwayFromFall) {
   EXPECT_FALSE(feet[0].comes_back);
   EXPECT_FALSE(feet[1].is_released);
 
-  normal_force_[0] = 0.04 * weight_;  // The foot still bears.
+  normal_force_[0] = 0.04 * weight_;  // The foot still carries load.
   EXPECT_FALSE(Update().feet[0].is_released);
-  normal_force_ << 0.02 * weight_, 0.4 * weight_;  // No other foot stands.
+  // No other foot carries the robot.
+  normal_force_ << 0.02 * weight_, 0.4 * weight_;
   EXPECT_FALSE(Update().feet[0].is_released);
   normal_force_ << 0.02 * weight_, 0.9 * weight_;
   PushTo(0, -0.8 * 1.25 * edge_);  // The share is below one half.

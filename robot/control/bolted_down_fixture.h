@@ -8,10 +8,12 @@
 
 namespace poise {
 
-/// A robot whose feet are fixed to the floor. It solves for v̇ and the wrenches:
+/// Solves the dynamics of a robot whose feet are bolted to the floor, for v̇
+/// and the wrenches of the floor:
 ///     [ M  -J' ] [ v̇      ]   [ S' tau - N + f ]
 ///     [ J   0  ] [ lambda ] = [ -J̇ v           ].
-/// It is independent of the controller: it uses only the torques.
+/// This is an independent check: it uses the torques of the controller, but not
+/// its solution.
 class BoltedDown {
  public:
   explicit BoltedDown(const Controller& controller)

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What is switched, moved or tuned between two ticks does not make the torques
-// jump.
+// Tests that the torques do not jump if tasks are switched, moved to another
+// level or tuned between two ticks.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -15,23 +15,23 @@
 namespace poise {
 namespace {
 
-TEST_F(ControllerTest, DoesNotJumpWhereWhatIsSwitchedDoesNotAct) {
+TEST_F(ControllerTest, KeepsTorqueWhenInactiveRowsAreSwitched) {
   Update();
   const Eigen::VectorXd before = command_.tau;
   ASSERT_TRUE(controller_.stack().Enable("zmp", true));
   ASSERT_TRUE(controller_.stack().Enable("cop", false));
   ASSERT_TRUE(controller_.stack().SetWeight("momentum", 7));
   Update();
-  // N m: rounding, and what the ground's height is corrected by in a tick.
+  // N m: rounding, and the integral action of one tick.
   EXPECT_LT((command_.tau - before).norm(), 1e-6);
 }
 
-// Measures the change of the torques from tick to tick while the state is
-// constant, with and without a ramp.
+// Compares the torques after a change of the stack, tick by tick in a constant
+// state: once with the change eased in, and once with the change at once.
 class RampTest : public ControllerTest {
  protected:
   RampTest() {
-    // Off its reference, so that each gain and weight matters.
+    // The state is off its reference, so that each gain and weight matters.
     controller_.reference().p_WG += Eigen::Vector3d(0.01, 0.01, 0.005);
     for (const char* joint : {"chest_pitch", "l_shoulder_pitch", "r_elbow"}) {
       state_.q[tree().q_start() + *tree().FindJoint(joint)] += 0.1;
@@ -39,7 +39,7 @@ class RampTest : public ControllerTest {
     DoNotIntegrate(&controller_.stack());
   }
 
-  // Or an error that stays is corrected ever more.
+  // Without this, the integral action grows with the constant error.
   static void DoNotIntegrate(Stack* stack) {
     EXPECT_TRUE(stack->SetParameter("momentum", "ki", 0));
     EXPECT_TRUE(stack->SetParameter("momentum", "ki_height", 0));
@@ -72,9 +72,11 @@ class RampTest : public ControllerTest {
     // N m: rounding of torques of 100 N m.
     EXPECT_LT((command_.tau - command.tau).norm(), 1e-7);
     ASSERT_GT(jump, 0.5);
-    // A curve of minimum jerk goes 15/8 as fast as a line, and begins at rest.
+    // The largest rate of a minimum-jerk curve is 15/8 of the mean rate; at the
+    // start, the rate is 0.
     const double largest = *std::max_element(steps.begin(), steps.end());
-    EXPECT_LT(largest, 1.9 * jump / kTicks) << "of " << jump << " N m";
+    EXPECT_LT(largest, 1.9 * jump / kTicks)
+        << "for a total change of " << jump << " N m";
     EXPECT_LT(steps.front(), 1e-4 * jump);
   }
 
@@ -82,39 +84,40 @@ class RampTest : public ControllerTest {
   static constexpr double kSeconds = 0.2;
 };
 
-TEST_F(RampTest, EasesAGainIn) {
+TEST_F(RampTest, EasesInChangeOfGain) {
   Try([](Stack* stack) {
     EXPECT_TRUE(stack->SetParameter("momentum", "kp", 60));
   });
 }
 
-TEST_F(RampTest, EasesATaskOut) {
+TEST_F(RampTest, EasesOutTaskSwitchedOff) {
   Try([](Stack* stack) { EXPECT_TRUE(stack->Enable("posture", false)); });
 }
 
-TEST_F(RampTest, EasesATaskIn) {
+TEST_F(RampTest, EasesInTaskSwitchedOn) {
   Try([](Stack* stack) {
     EXPECT_TRUE(stack->Enable("torque_minimization", true));
   });
 }
 
-TEST_F(RampTest, EasesALimitIn) {
+TEST_F(RampTest, EasesInTighterLimit) {
   Try([](Stack* stack) {
     EXPECT_TRUE(stack->SetParameter("cop", "margin", 0.05));
   });
 }
 
-TEST_F(RampTest, EasesALevelIn) {
+TEST_F(RampTest, EasesInChangeOfLevel) {
   Try([](Stack* stack) { EXPECT_TRUE(stack->SetLevel("posture", 4)); });
 }
 
-TEST_F(RampTest, EasesAWeightIn) {
+TEST_F(RampTest, EasesInChangeOfWeight) {
   Try([](Stack* stack) { EXPECT_TRUE(stack->SetWeight("posture", 100)); },
       [](Stack* stack) { EXPECT_TRUE(stack->SetLevel("posture", 4)); });
 }
 
-// As one weighted QP a level that comes weighs all above it anew.
-TEST_F(RampTest, EasesATaskIntoAWeightedProblem) {
+// In one weighted QP, a level that is added changes the weights of all levels
+// above it.
+TEST_F(RampTest, EasesInTaskOfWeightedQp) {
   Try([](Stack* stack) { EXPECT_TRUE(stack->Enable("momentum", true)); },
       [](Stack* stack) {
         EXPECT_TRUE(stack->set_weighted(true));
@@ -122,7 +125,7 @@ TEST_F(RampTest, EasesATaskIntoAWeightedProblem) {
       });
 }
 
-TEST_F(RampTest, HoldsNothingForATaskThatIsOff) {
+TEST_F(RampTest, DoesNotEaseTuningOfDisabledTask) {
   Update();
   const int levels = controller_.hierarchy().num_levels();
   Stack& stack = controller_.stack();
@@ -133,7 +136,7 @@ TEST_F(RampTest, HoldsNothingForATaskThatIsOff) {
   EXPECT_EQ(controller_.hierarchy().num_levels(), levels);
 }
 
-TEST_F(RampTest, EndsWhereItsDurationBecomesNone) {
+TEST_F(RampTest, EndsWhenDurationIsSetToZero) {
   Update();
   Stack& stack = controller_.stack();
   ASSERT_TRUE(stack.set_ramp(kSeconds));
@@ -144,8 +147,8 @@ TEST_F(RampTest, EndsWhereItsDurationBecomesNone) {
   EXPECT_FALSE(stack.is_eased());
 }
 
-// During a ramp, a moving reference acts as it would without the ramp.
-TEST_F(RampTest, HoldsBackNothingElse) {
+// A reference that changes during a ramp acts as without a ramp.
+TEST_F(RampTest, DoesNotEaseChangeOfReference) {
   const auto change = [](Stack* stack, bool eases) {
     DoNotIntegrate(stack);
     if (eases) {
@@ -156,7 +159,8 @@ TEST_F(RampTest, HoldsBackNothingElse) {
     EXPECT_TRUE(stack->Enable("torque_minimization", true));
     EXPECT_TRUE(stack->SetWeight("posture", 3));
   };
-  // The torques half way, where the reference moves in the last tick.
+  // Returns the torques at half of the ramp. If `moves`, the reference changes
+  // in the last tick.
   const auto torques = [&](bool eases, bool moves) {
     Controller controller(robot_);
     controller.Start(state_);
@@ -183,13 +187,13 @@ TEST_F(RampTest, HoldsBackNothingElse) {
   EXPECT_GT((torques(true, true) - torques(false, true)).norm(), 0.5);
 }
 
-TEST_F(RampTest, RejectsNegativeAndNaNDurations) {
+TEST_F(RampTest, RejectsInvalidDuration) {
   EXPECT_FALSE(controller_.stack().set_ramp(-1));
   EXPECT_FALSE(
       controller_.stack().set_ramp(std::numeric_limits<double>::quiet_NaN()));
 }
 
-TEST_F(RampTest, EasesNothingAfterAFailure) {
+TEST_F(RampTest, DoesNotEaseAfterFailSafe) {
   Update();
   ASSERT_TRUE(controller_.stack().set_ramp(kSeconds));
   ASSERT_TRUE(controller_.stack().SetParameter("momentum", "kp", 120));
@@ -201,7 +205,7 @@ TEST_F(RampTest, EasesNothingAfterAFailure) {
   Update();
   const Eigen::VectorXd tau = command_.tau;
   Update();
-  EXPECT_LT((command_.tau - tau).norm(), 1e-7);  // N m: it is all there.
+  EXPECT_LT((command_.tau - tau).norm(), 1e-7);  // N m: the change is complete.
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ struct ComGains {
   double kp = 30;         ///< 1/s2.
   double kd = 10;         ///< 1/s.
   double ki = 15;         ///< In the plane, 1/s3.
-  double ki_height = 60;  ///< 1/s3.
+  double ki_height = 60;  ///< Along z, 1/s3.
 };
 
 }  // namespace poise

@@ -9,13 +9,13 @@ namespace poise {
 enum class TickStatus {
   kOk,
   kLimitRelaxed,  ///< Solved; a torque or joint limit has slack.
-  kTruncated,     ///< A level was not solved, or not to 1e-9: those above hold.
-  kFailSafe,      ///< Gravity compensation and damping, inside the limits.
+  kTruncated,     ///< A level is not solved to 1e-9; the levels above are.
+  kFailSafe,      ///< Gravity compensation and damping within the limits.
 };
 
 /// Output of the controller.
 struct Command {
-  Eigen::VectorXd tau;  ///< By joint, N m or N; inside the effort limits.
+  Eigen::VectorXd tau;  ///< By joint, N m or N; within the effort limits.
   TickStatus status = TickStatus::kOk;
 };
 

@@ -12,7 +12,7 @@
 namespace poise {
 namespace {
 
-// Violations below this, divided by the row's norm, are rounding.
+// Violations below this, relative to the norm of the row, are rounding.
 constexpr double kRounding = 1e-10;
 
 double Norm(const Hierarchy& hierarchy, const HierarchyRow& row) {
@@ -20,7 +20,7 @@ double Norm(const Hierarchy& hierarchy, const HierarchyRow& row) {
                       : hierarchy.C(row.level).row(row.row).norm();
 }
 
-// All rows in one level, so that the violations are as small as possible.
+// Least-squares problem with all given rows in one level.
 class Feasibility {
  public:
   Feasibility(const Hierarchy& hierarchy, int num_rows)
@@ -29,8 +29,8 @@ class Feasibility {
         solver_(hierarchy.num_variables(), {{num_rows, num_rows}}),
         solution_(hierarchy.num_variables(), {{num_rows, num_rows}}) {}
 
-  // Returns the violation of each row, divided by its norm, where the sum of
-  // squares is as small as possible.
+  // Returns the violation of each row, over its norm, at the least-squares
+  // optimum of all rows.
   Eigen::VectorXd Violations(const std::vector<HierarchyRow>& rows) {
     one_level_.Clear(1);
     const int equalities = static_cast<int>(
@@ -64,7 +64,8 @@ class Feasibility {
     return violations;
   }
 
-  // Writes the violated side of each row of the last Violations().
+  // Sets the violated side of each row; pre: `rows` are those of the last call
+  // of Violations().
   void TellSides(std::vector<HierarchyRow>* rows) const {
     Eigen::Index i = 0;
     for (HierarchyRow& row : *rows) {
@@ -72,9 +73,9 @@ class Feasibility {
     }
   }
 
-  // Returns those of the rows that contradict each other, or nothing if none do. At
-  // the optimum, the sum of the violated rows times their violations is zero, so
-  // the violated rows alone contradict each other.
+  // Returns the rows among these that contradict each other, or nullopt if all
+  // can be met. At the optimum, the sum of the violated rows, each times its
+  // violation, is zero. So they contradict each other without the other rows.
   std::optional<std::vector<HierarchyRow>> Contradicting(
       const std::vector<HierarchyRow>& rows, double tolerance) {
     if (rows.empty()) return std::nullopt;
@@ -129,7 +130,7 @@ std::vector<HierarchyRow> FindConflict(const Hierarchy& hierarchy, int level,
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
     fewer = feasibility.Contradicting(rest, tolerance);
     if (fewer) {
-      rows = *fewer;  // Rows before i stay: each is needed.
+      rows = *fewer;  // Still contains all rows before i: each is needed.
     } else {
       ++i;
     }

@@ -13,19 +13,22 @@ struct HierarchyRow {
   int level;
   int row;
   bool equality;
-  Side side = Side::kNone;  ///< Bound of an inequality that is meant.
+  Side side = Side::kNone;  ///< For an inequality: the bound in question.
 };
 
-/// Finds a minimal set of contradicting rows, in a level that cannot be met and in
-/// the levels above it. Without any one of these rows the others could all be met.
-/// Returns an empty vector if the level can be met.
+/// Finds a minimal set of rows that explains why a level cannot be met. These
+/// rows of this level and of the levels above contradict each other. Without
+/// any one of them, the others can all be met. Returns an empty set if the
+/// level can be met.
 ///
-/// The rows that a least-squares optimum violates contradict each other. A deletion
-/// filter then leaves out one row after the other, lowest levels last, as long as
-/// the remaining rows still contradict each other. The function is for explanations
-/// and not for the control loop: it solves a small problem a row, and allocates.
+/// The method is a deletion filter. A least-squares problem over all rows gives
+/// the violated rows, which contradict each other. Then each row is removed on
+/// trial, lowest levels last. The row stays out if the rest still cannot be
+/// met. The function is meant for diagnosis, not for the control loop: it
+/// solves one small problem per row, and allocates.
 ///
-/// @param tolerance  bound of a row's violation, divided by its norm.
+/// @param tolerance  a row counts as met if its violation, over the norm of the
+///                   row, is at most this.
 std::vector<HierarchyRow> FindConflict(const Hierarchy& hierarchy, int level,
                                        double tolerance = 1e-6);
 

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What cannot all be met, and how the controller says so.
+// Tests how the controller reports infeasible limits and lost targets, and how
+// FindConflict() finds contradicting rows.
 #include "poise/robot/control/conflict.h"
 
 #include <gtest/gtest.h>
@@ -15,9 +16,9 @@
 namespace poise {
 namespace {
 
-// All joints run into their stops. Torque rows have slack too, and the report
-// names each with its bound.
-TEST_F(ControllerTest, SaysThatATorqueLimitCannotBeMet) {
+// All joints run into their stops, and the motors are too weak. Torque limits
+// are violated too, and the name of each row ends with the violated side.
+TEST_F(ControllerTest, ReportsTorqueLimitThatIsInfeasible) {
   constexpr double kEffort = 0.01;  // N m.
   for (int j = 0; j < tree().num_joints(); ++j) {
     state_.q[7 + j] = robot_.model.limits[j].upper - 0.01;
@@ -45,13 +46,13 @@ TEST_F(ControllerTest, SaysThatATorqueLimitCannotBeMet) {
   };
   const double plain = slack([](Stack*) {});
   EXPECT_GT(plain, 1e-3);
-  // Where a whole level weighs more it is all the same, and in the same unit.
+  // A common weight on the whole level changes nothing, not even the unit.
   const double heavy = slack([](Stack* stack) {
     EXPECT_TRUE(stack->SetWeight("torque_limits", 4));
     EXPECT_TRUE(stack->SetWeight("joint_limits", 4));
   });
   EXPECT_NEAR(heavy, plain, 1e-6 * plain);
-  // Without the rows, what the motors cannot give is cut off, and said.
+  // With the limit tasks off, the torque is clamped, and this is reported.
   EXPECT_EQ(slack([](Stack* stack) {
               EXPECT_TRUE(stack->Enable("torque_limits", false));
               EXPECT_TRUE(stack->Enable("joint_limits", false));
@@ -61,8 +62,9 @@ TEST_F(ControllerTest, SaysThatATorqueLimitCannotBeMet) {
   EXPECT_NEAR(command_.tau.cwiseAbs().maxCoeff(), 0.5 * kEffort, 1e-15);
 }
 
-// Torques hold, as they are above: a joint passes its limit, and it is said.
-TEST_F(ControllerTest, SaysThatAJointLimitCannotBeMet) {
+// The torque limits are on a higher level and are met. A joint limit is
+// violated, and this is reported.
+TEST_F(ControllerTest, ReportsJointLimitThatIsInfeasible) {
   for (int j = 0; j < tree().num_joints(); ++j) {
     state_.q[7 + j] = robot_.model.limits[j].upper - 0.01;
     state_.v[6 + j] = 3;
@@ -84,8 +86,9 @@ TEST_F(ControllerTest, SaysThatAJointLimitCannotBeMet) {
   EXPECT_EQ(command_.status, TickStatus::kLimitRelaxed);
 }
 
-// The center of mass is to go to the left faster than the feet allow.
-TEST_F(ControllerTest, SaysWhatGaveWayAndToWhat) {
+// The target of the center of mass needs more acceleration to the left than the
+// feet allow.
+TEST_F(ControllerTest, ReportsLostTargetAndBindingLimit) {
   ASSERT_TRUE(controller_.stack().SetParameter("momentum", "capture", 0));
   controller_.reference().p_WG.y() += 0.2;
   Update();
@@ -101,7 +104,7 @@ TEST_F(ControllerTest, SaysWhatGaveWayAndToWhat) {
   for (const LostRow& row : controller_.report().lost) {
     if (row.task == momentum && row.row == 4) lost = row.amount;
   }
-  // In N, of the 0.2 m times kp.
+  // N: the target acceleration is 0.2 m times kp.
   EXPECT_NEAR(lost, mass * (got - 30 * 0.2), 1e-6);
   EXPECT_LT(lost, -10);
   bool is_at_its_edge = false;
@@ -114,7 +117,7 @@ TEST_F(ControllerTest, SaysWhatGaveWayAndToWhat) {
 }
 
 // All joints run into their stops, with motors too weak to hold them.
-TEST_F(ControllerTest, NamesALimitThatCannotBeMetAndWhatItContradicts) {
+TEST_F(ControllerTest, NamesInfeasibleLimitAndConflictingRows) {
   for (int j = 0; j < tree().num_joints(); ++j) {
     state_.q[7 + j] = robot_.model.limits[j].upper - 0.01;
     state_.v[6 + j] = 3;
@@ -153,13 +156,13 @@ TEST_F(ControllerTest, NamesALimitThatCannotBeMetAndWhatItContradicts) {
     upper += name.rfind("joint.", 0) == 0 && row.side == Side::kUpper;
   }
   EXPECT_GT(joints, 0);
-  EXPECT_GT(upper, 0);  // The stops that they run into.
+  EXPECT_GT(upper, 0);  // The stops of the joints.
   EXPECT_GT(torques, 0);
   EXPECT_LT(joints + torques, 2 * tree().num_joints());
 }
 
-TEST_F(ControllerTest, NamesTheRowsOfAContradiction) {
-  // x <= -1 and x >= 1; y <= 5 has no part in it.
+TEST_F(ControllerTest, FindConflictReturnsContradictingRows) {
+  // x <= -1 and x >= 1; y <= 5 does not matter.
   Hierarchy hierarchy(2, {{1, 3}});
   hierarchy.Clear(1);
   InequalityBlock rows = hierarchy.AddInequalities(0, 3);
@@ -175,8 +178,8 @@ TEST_F(ControllerTest, NamesTheRowsOfAContradiction) {
   EXPECT_EQ(conflict[1].side, Side::kLower);
 }
 
-// The report names the contradicting bound of each row with two bounds.
-TEST_F(ControllerTest, SaysWhichBoundsContradict) {
+// For two-sided rows, `side` is the bound that causes the conflict.
+TEST_F(ControllerTest, FindConflictReturnsContradictingSides) {
   // -1 <= x <= 1, 2 <= x + y <= 9, and y = 0.
   Hierarchy hierarchy(2, {{1, 2}, {1, 0}});
   hierarchy.Clear(2);
@@ -194,7 +197,7 @@ TEST_F(ControllerTest, SaysWhichBoundsContradict) {
   EXPECT_EQ(conflict[2].side, Side::kNone);
 }
 
-TEST_F(ControllerTest, FindsNoConflictAmongCompatibleRows) {
+TEST_F(ControllerTest, FindConflictReturnsNothingIfFeasible) {
   Update();
   EXPECT_TRUE(FindConflict(controller_.hierarchy(), 2).empty());
 }

@@ -41,7 +41,7 @@ Pose MidFeet(const std::vector<ContactTick>& contacts) noexcept {
   }
   if (count > 0) X_WMid.p /= count;
   x_W.z() = 0;
-  if (x_W.norm() < 1e-6) return X_WMid;  // Without a heading: world axes.
+  if (x_W.norm() < 1e-6) return X_WMid;  // No heading.
   X_WMid.R.col(0) = x_W.normalized();
   X_WMid.R.col(1) = Eigen::Vector3d::UnitZ().cross(X_WMid.R.col(0));
   X_WMid.R.col(2) = Eigen::Vector3d::UnitZ();

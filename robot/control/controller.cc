@@ -14,10 +14,11 @@
 namespace poise {
 namespace {
 
-// A slack above this fraction of the limit is reported.
+// A limit is reported as relaxed if its slack is above this. The slack is in
+// the scale of the row; for a torque, this is a fraction of the limit.
 constexpr double kLimitSlack = 1e-6;
 
-// A motion whose DynamicsResidual() is above this is impossible for this robot.
+// A solution whose DynamicsResidual() is above this does not meet the dynamics.
 constexpr double kDynamicsMet = 1e-9;
 
 // The center of mass follows its task if the residual is below this, m/s2.
@@ -40,7 +41,8 @@ const Robot& Checked(const Robot& robot) {
   return robot;
 }
 
-// Frames of the feet, then of the links with a task frame.LINK.
+// Returns the frames of the feet, then those of the links with a task
+// frame.LINK.
 std::vector<int> TickFrames(const Robot& robot,
                             const std::vector<std::string>& links) {
   std::vector<int> frames;
@@ -228,14 +230,14 @@ void Controller::ComputeCommand(const State& state, Command* command) noexcept {
   command->status = report_.status;
 }
 
-// Stores the parts of this solution that the next tick needs.
+// Stores the data of this solution that the next tick needs.
 void Controller::Remember(const State& state) noexcept {
   const int nv = robot_.model.tree.nv();
   for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
     normal_force_[i] = solution_.y[nv + 6 * i + 5];
   }
   stack_.Advance(options_.dt, solution_);
-  // A prediction needs a running clock.
+  // A state whose clock stands still may be old: no prediction starts from it.
   if (guard_.clock_moves()) {
     unmodelled_.Predict(options_.dt, state.v, solution_.y.head(nv));
   } else {
@@ -244,8 +246,8 @@ void Controller::Remember(const State& state) noexcept {
   EstimateDisturbance();
 }
 
-// While the task is infeasible, as in a push, or under a ramp, its residual is not
-// a model error. If both momentum and com are on, momentum counts.
+// The residual of the task is not a model error while the task is infeasible
+// (as in a push) or eased in. If both momentum and com are on, momentum counts.
 void Controller::EstimateDisturbance() noexcept {
   const bool by_momentum = stack_.settings(momentum_).enabled;
   const int task = by_momentum ? momentum_ : com_;
@@ -281,9 +283,9 @@ void Controller::LimitTorque(Command* command) noexcept {
   for (Eigen::Index j = 0; j < command->tau.size(); ++j) {
     const double limit = scale * robot_.model.limits[j].effort;
     double& tau = command->tau[j];
-    if (!std::isfinite(tau)) tau = 0;  // A motor never receives NaN.
-    if (!(limit >= 0)) continue;       // The file has no limit.
-    // Without a motor the scale of the row is 1 N m.
+    if (!std::isfinite(tau)) tau = 0;  // Never send NaN or infinity to a motor.
+    if (!(limit >= 0)) continue;       // The robot file gives no limit.
+    // For a joint without a motor (limit 0), the scale of the row is 1 N m.
     const double row_scale = limit > 0 ? limit : 1;
     const double slack = (std::abs(tau) - limit) / row_scale;
     Relax({torque_limits_, static_cast<int>(j),

@@ -31,10 +31,10 @@ namespace poise {
 struct ControllerOptions {
   double dt = 1e-3;          ///< Time between two updates, s.
   double friction = 0.5;     ///< mu of the tasks friction and yaw.
-  bool inscribed = false;    ///< The friction pyramid; else circumscribed.
-  bool feedforward = false;  ///< The reference's v_WG and a_WG are used.
+  bool inscribed = false;    ///< Friction pyramid inside the friction cone.
+  bool feedforward = false;  ///< Uses v_WG and a_WG of the reference.
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
-  int max_iterations = 500;  ///< Solver iterations per tick.
+  int max_iterations = 500;  ///< Solver iterations per tick; then truncated.
   /// Time budget of the solver in a tick, s, measured by now(); used only if
   /// now() is given. The result depends on the machine: no replay is exact.
   double max_seconds = 0;
@@ -42,13 +42,13 @@ struct ControllerOptions {
   std::vector<std::string> frames;  ///< Links with a task frame.NAME.
 };
 
-/// Computes joint torques from the robot's state: momentum control with
-/// hierarchical inverse dynamics.
+/// Computes the joint torques from the state of a robot, by momentum control
+/// with hierarchical inverse dynamics.
 ///
 ///     Controller controller(robot);
 ///     controller.Start(state);
 ///     for (;;) {
-///       controller.reference().p_WG = ...;  // Optional.
+///       controller.reference().p_WG = ...;  // To move the robot.
 ///       controller.Update(state, &command);
 ///     }
 ///
@@ -64,8 +64,8 @@ struct ControllerOptions {
 ///            (com, linear_momentum, angular_momentum, frame.LINK)
 ///     5      posture, force_regularizer, (torque_minimization)
 ///
-/// A robot has mimic and light_joints if it has such joints. frame.FOOT is
-/// active while that foot is in the air.
+/// The tasks mimic and light_joints exist only if the robot has such joints.
+/// frame.FOOT has rows only while this foot is in the air.
 class Controller {
  public:
   /// Throws std::invalid_argument if the robot has no foot, or an option is out
@@ -73,24 +73,25 @@ class Controller {
   explicit Controller(const Robot& robot,
                       const ControllerOptions& options = {});
 
-  /// Sets reference() to standing in the nominal posture, with the feet where they
-  /// are in this state. If the state is invalid, the last valid one is used. Only
-  /// the settings of stack() and stance() are kept, so that a run repeats bit for
-  /// bit. Does not allocate.
+  /// Sets reference() to standing still in the nominal posture, with the feet
+  /// where they are in this state. If q or v of the state is invalid, the last
+  /// valid state is used. Start() resets everything but the settings of stack()
+  /// and stance(), so that a run repeats bit for bit. Does not allocate.
   void Start(const State& state) noexcept;
 
   Reference& reference() { return reference_; }
   const Reference& reference() const { return reference_; }
   Stack& stack() { return stack_; }
   const Stack& stack() const { return stack_; }
-  /// Decides which feet are in contact. Shift the weight off a foot before you lift
-  /// it.
+  /// Decides which feet are in contact. Before you lift a foot, shift the
+  /// weight to the other foot.
   Stance& stance() { return stance_; }
   const Stance& stance() const { return stance_; }
 
-  /// Computes one tick. Never throws, allocates or waits. For any state, the torques
-  /// are finite and inside the effort limits, see TickStatus.
-  /// pre: command->tau has the size of the joints.
+  /// Computes the torques of one tick. Never throws, allocates or waits. For
+  /// every state, even an invalid one, the torques are finite and inside the
+  /// effort limits; see TickStatus.
+  /// pre: command->tau has one entry per joint.
   void Update(const State& state, Command* command) noexcept;
 
   /// Returns the report on the last Update().
@@ -126,8 +127,8 @@ class Controller {
   Stack stack_;
   int momentum_;  ///< Index into the stack's tasks.
   const MomentumTask& momentum_task_;
-  int torque_limits_, joint_limits_;  ///< Indices, too.
-  int com_;                           ///< Index, too.
+  int torque_limits_, joint_limits_;  ///< Indices into the tasks.
+  int com_;                           ///< Index into the tasks.
   const ComTask& com_task_;
   StateGuard guard_;
   Stance stance_;
@@ -138,10 +139,10 @@ class Controller {
   Solver solver_;
   Solution solution_;
   TickReport report_;
-  Eigen::VectorXd normal_force_;  ///< By foot, of the last solution, N.
+  Eigen::VectorXd normal_force_;  ///< By foot, from the last solution, N.
 
   Pose X_MidB_;             ///< Nominal base, in the mid-feet frame.
-  Eigen::Vector3d p_MidG_;  ///< Nominal center of mass.
+  Eigen::Vector3d p_MidG_;  ///< Nominal center of mass, same frame.
   Disturbance disturbance_;
   UnmodelledAcceleration unmodelled_;
 };

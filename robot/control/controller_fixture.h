@@ -10,8 +10,8 @@
 
 namespace poise {
 
-/// Runs a controller tick by tick. The humanoid starts at rest in its nominal
-/// posture.
+/// Test fixture: the humanoid at rest in its nominal posture, and a controller
+/// that was started in this state.
 class ControllerTest : public testing::Test {
  protected:
   ControllerTest() {

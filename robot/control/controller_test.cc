@@ -18,7 +18,7 @@
 namespace poise {
 namespace {
 
-TEST_F(ControllerTest, ItsTorquesBringWhatItsSolutionSays) {
+TEST_F(ControllerTest, TorquesRealiseTheSolution) {
   state_.v.tail(tree().num_joints()).setConstant(0.02);
   Update();
   ASSERT_EQ(command_.status, TickStatus::kOk);
@@ -32,7 +32,7 @@ TEST_F(ControllerTest, ItsTorquesBringWhatItsSolutionSays) {
     residual -= controller_.contacts()[i].J_WC_C.transpose() *
                 controller_.report().foot_wrench(tree().nv(), i);
   }
-  // Newtons, of 380 that the robot weighs.
+  // N; the weight of the robot is 380 N.
   EXPECT_LT(residual.norm(), 1e-9);
 }
 
@@ -53,7 +53,7 @@ TEST_F(ControllerTest, ComesToRestAfterAPush) {
         largest_error,
         (controller_.tick().p_WG - controller_.reference().p_WG).norm());
   }
-  // 1 N s on 38.6 kg is 26 mm/s: some millimeters away, and back again.
+  // 1 N s on 38.6 kg gives 26 mm/s: the error is a few mm, then decays.
   EXPECT_GT(largest_error, 1e-3);
   EXPECT_LT(largest_error, 1e-2);
   EXPECT_LT((controller_.tick().p_WG - controller_.reference().p_WG).norm(),
@@ -79,7 +79,7 @@ TEST_F(ControllerTest, DoesNotAllocate) {
   EXPECT_EQ(count.allocations(), 0);
 }
 
-TEST_F(ControllerTest, SaysTheSameTwiceToTheBit) {
+TEST_F(ControllerTest, IsDeterministicToTheBit) {
   Controller other(robot_);
   other.Start(state_);
   Command command = command_;
@@ -92,14 +92,14 @@ TEST_F(ControllerTest, SaysTheSameTwiceToTheBit) {
   }
 }
 
-TEST_F(ControllerTest, ReplaysToTheBitAfterItIsStartedAnew) {
+TEST_F(ControllerTest, RepeatsToTheBitAfterRestart) {
   const State start = state_;
   const auto run = [&] {
     state_ = start;
     controller_.Start(state_);
     Eigen::MatrixXd tau(tree().num_joints(), 60);
     for (int i = 0; i < tau.cols(); ++i) {
-      // A push that activates many rows, until a foot is released.
+      // A push that makes many rows active, until a foot is released.
       state_.v.segment<3>(3) << 0.005 * i, 0.01 * i, 0;
       Update();
       tau.col(i) = command_.tau;
@@ -117,7 +117,7 @@ TEST_F(ControllerTest, ReplaysToTheBitAfterItIsStartedAnew) {
   }
 }
 
-TEST_F(ControllerTest, StartsFromWhereItIs) {
+TEST_F(ControllerTest, StartSetsReferencesToPresentState) {
   ControllerOptions options;
   options.frames = {"l_hand"};
   Controller controller(robot_, options);
@@ -135,7 +135,7 @@ TEST_F(ControllerTest, StartsFromWhereItIs) {
   EXPECT_EQ(controller.reference().posture, fresh.posture);
 }
 
-TEST_F(ControllerTest, DoesAsItsOptionsSay) {
+TEST_F(ControllerTest, AppliesItsOptions) {
   ControllerOptions options;
   options.feedforward = options.inscribed = options.weighted = true;
   options.friction = 0.3;
@@ -150,7 +150,7 @@ TEST_F(ControllerTest, DoesAsItsOptionsSay) {
   controller.Update(state_, &command_);
   EXPECT_EQ(controller_.hierarchy().num_levels(), 5);
   EXPECT_EQ(controller.hierarchy().num_levels(), 2);
-  // In one QP, each level has a larger weight than the next.
+  // In one weighted QP, each level has a larger weight than the next.
   const auto residual = [&](const char* task) {
     return controller.report().tasks[*stack.Find(task)].residual;
   };
@@ -161,7 +161,7 @@ TEST_F(ControllerTest, DoesAsItsOptionsSay) {
   EXPECT_LT(residual("momentum"), 0.1 * residual("posture"));
 }
 
-TEST_F(ControllerTest, GivesMoreToWhatWeighsMoreInOneLevel) {
+TEST_F(ControllerTest, LargerPostureWeightIncreasesMomentumResidual) {
   const auto residual = [&](double weight) {
     EXPECT_TRUE(controller_.stack().SetLevel("posture", 4));
     EXPECT_TRUE(controller_.stack().SetWeight("posture", weight));
@@ -174,17 +174,17 @@ TEST_F(ControllerTest, GivesMoreToWhatWeighsMoreInOneLevel) {
   EXPECT_GT(heavy, 1.02 * light);
 }
 
-TEST_F(ControllerTest, IsCertified) {
+TEST_F(ControllerTest, SolutionHasOptimalCertificate) {
   state_.v.segment<3>(3) << 0.05, 0.1, 0;
   Update();
-  // The bounds of hqp/certificate.h for an optimal answer.
+  // The tolerances of hqp/certificate.h for an optimal solution.
   const Certificate& certificate = controller_.report().certificate;
   EXPECT_LT(certificate.stationarity, 1e-9);
   EXPECT_LT(certificate.feasibility, 1e-9);
   EXPECT_LT(certificate.priority, 1e-9);
 }
 
-TEST_F(ControllerTest, MeetsTheDynamicsAsOneWeightedQpToo) {
+TEST_F(ControllerTest, MeetsDynamicsInWeightedQp) {
   ControllerOptions options;
   options.weighted = true;
   Controller weighted(robot_, options);
@@ -196,7 +196,7 @@ TEST_F(ControllerTest, MeetsTheDynamicsAsOneWeightedQpToo) {
   EXPECT_LT(weighted.report().tasks[newton_euler].residual, 1e-9);
 }
 
-TEST_F(ControllerTest, MovesALinkAsItIsTold) {
+TEST_F(ControllerTest, LinkFollowsItsReference) {
   ControllerOptions options;
   options.frames = {"l_hand"};
   Controller controller(robot_, options);
@@ -209,7 +209,7 @@ TEST_F(ControllerTest, MovesALinkAsItIsTold) {
     const FrameTick& hand = controller.tick().frames[2];
     return hand.J_WF_W * controller.report().y.head(tree().nv()) + hand.Jdot_v;
   };
-  // It is where it was when it was started, and stays.
+  // The link is at its reference from Start(), so it does not accelerate.
   EXPECT_LT(acceleration().norm(), 1e-6);
   const double kp = *controller.stack().GetParameter("frame.l_hand", "kp");
   controller.reference().frames[0].X_WF.p.z() += 0.01;
@@ -220,7 +220,7 @@ TEST_F(ControllerTest, MovesALinkAsItIsTold) {
   EXPECT_LT((acceleration() - up).norm(), 1e-6);
 }
 
-TEST_F(ControllerTest, KeepsACoupling) {
+TEST_F(ControllerTest, KeepsMimicCoupling) {
   const int joint = *tree().FindJoint("neck_yaw");
   const int source = *tree().FindJoint("chest_yaw");
   robot_.model.mimics = {{joint, source, -2, 0.1}};
@@ -234,11 +234,11 @@ TEST_F(ControllerTest, KeepsACoupling) {
   const double kp = *controller.stack().GetParameter("mimic", "kp");
   const double kd = *controller.stack().GetParameter("mimic", "kd");
   const Eigen::VectorXd& y = controller.report().y;
-  // The joint is 0.1 rad short of where it should be, and -0.4 rad/s slow.
+  // The position error of the joint is 0.1 rad, the velocity error -0.4 rad/s.
   EXPECT_NEAR(y[6 + joint] + 2 * y[6 + source], 0.1 * kp - 0.4 * kd, 1e-6);
 }
 
-TEST_F(ControllerTest, RefusesWhatItCannotDo) {
+TEST_F(ControllerTest, RejectsInvalidOptionsAndRobots) {
   const auto message = [&](const ControllerOptions& options) -> std::string {
     try {
       const Controller controller(robot_, options);
@@ -271,9 +271,9 @@ TEST_F(ControllerTest, RefusesWhatItCannotDo) {
             "robot 'humanoid': has no foot, must have one or more");
 }
 
-// A file's effort of 0 was taken for no limit: an elbow was held that nothing holds,
-// and one past its stop was to be brought back by all that the robot has.
-TEST_F(ControllerTest, AsksNothingOfAJointWithoutAMotor) {
+// An effort of 0 means: no motor. The torque of this joint is 0, and its limits
+// are not enforced, or the whole robot would be used to enforce them.
+TEST_F(ControllerTest, SendsNoTorqueToJointWithoutMotor) {
   const int j = *tree().FindJoint("l_elbow");
   robot_.model.limits[j].effort = 0;
   for (const double beyond : {-0.3, 0.2}) {
@@ -286,14 +286,14 @@ TEST_F(ControllerTest, AsksNothingOfAJointWithoutAMotor) {
     Eigen::VectorXd tau(tree().num_joints());
     ComputeTorque(controller.tick(), controller.contacts(),
                   controller.report().y, &tau);
-    EXPECT_NEAR(tau[j], 0, 1e-9);  // The solution knows that, not only the cut.
+    EXPECT_NEAR(tau[j], 0, 1e-9);  // In the solution too, before the clamp.
     for (const ActiveRow& row : controller.report().active) {
       EXPECT_NE(controller.stack().RowName(row).substr(0, 13), "joint.l_elbow");
     }
   }
 }
 
-TEST_F(ControllerTest, SwitchesATaskByName) {
+TEST_F(ControllerTest, SwitchesTaskByName) {
   EXPECT_FALSE(controller_.stack().Enable("posturing", false));
   ASSERT_TRUE(controller_.stack().Enable("posture", false));
   Update();

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What the controller does about what its model does not explain, once it has
-// found it: what pushes a joint into its stop, and what draws the center of mass
-// aside.
+// Tests how the controller compensates effects that its model does not contain:
+// a push on a joint near its stop, and a disturbance of the center of mass.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -15,8 +14,8 @@
 namespace poise {
 namespace {
 
-// Accelerates an elbow near its stop by rad/s2 that the model does not know, and
-// measures how far it moves beyond the stop, rad. All else follows the solution.
+// Simulates a push on an elbow near its stop. All other joints follow the
+// solution.
 class PushedElbow : public ControllerTest {
  protected:
   PushedElbow() {
@@ -24,6 +23,8 @@ class PushedElbow : public ControllerTest {
     controller_.reference().posture[elbow_] = stop_ + 0.1;
   }
 
+  // Applies the push, rad/s2. Returns the largest position beyond the stop,
+  // rad.
   double Run(double push, double seconds) {
     double farthest = -1;
     for (int i = 0; i < std::lround(1e3 * seconds); ++i) {
@@ -41,19 +42,19 @@ class PushedElbow : public ControllerTest {
   const double stop_ = robot_.model.limits[elbow_].upper;
 };
 
-TEST_F(PushedElbow, StopsShortOfItsStop) {
+TEST_F(PushedElbow, StaysInsideLimitUnderPush) {
   EXPECT_LT(Run(30, 1), -1e-3);
-  // Where it would be without a push: a margin from the stop.
+  // The same position as without a push: the margin from the stop.
   EXPECT_NEAR(state_.q[7 + elbow_], stop_ - 0.008, 1e-4);
 }
 
-TEST_F(PushedElbow, IsHeldNoLongerThanThePush) {
+TEST_F(PushedElbow, ReturnsToMarginAfterPushEnds) {
   (void)Run(-30, 0.3);
   (void)Run(0, 1);
   EXPECT_NEAR(state_.q[7 + elbow_], stop_ - 0.008, 1e-4);
 }
 
-TEST_F(PushedElbow, ForgetsWhereItStartsAnew) {
+TEST_F(PushedElbow, StartResetsTheEstimate) {
   (void)Run(30, 0.3);
   const State pushed = state_;
   controller_.Start(pushed);
@@ -67,7 +68,7 @@ TEST_F(PushedElbow, ForgetsWhereItStartsAnew) {
   EXPECT_LT((other.report().y - y).norm(), 1e-9 * y.norm());
 }
 
-TEST_F(PushedElbow, LearnsNothingFromAClockThatStandsStill) {
+TEST_F(PushedElbow, KeepsEstimateWhileClockIsFrozen) {
   (void)Run(30, 0.3);
   const auto bound = [this] {
     return controller_.report().y[6 + elbow_] +
@@ -78,13 +79,13 @@ TEST_F(PushedElbow, LearnsNothingFromAClockThatStandsStill) {
   EXPECT_NEAR(before, -30, 0.1);
   for (int i = 0; i < 5; ++i) controller_.Update(state_, &command_);
   EXPECT_NEAR(bound(), before, 0.1);
-  state_.v[6 + elbow_] -= 0.01;  // While it was not looked at.
+  state_.v[6 + elbow_] -= 0.01;  // Changed while the clock stood still.
   Update();
   EXPECT_NEAR(bound(), before, 0.1);
 }
 
-// Reads the integral correction of the model: the acceleration of the center of
-// mass that the controller adds to its PD law.
+// Measures the correction of Disturbance: the acceleration of the center of
+// mass in the solution, minus the PD part.
 class CorrectionTest : public ControllerTest {
  protected:
   Eigen::Vector3d Correction() {
@@ -97,7 +98,7 @@ class CorrectionTest : public ControllerTest {
            10 * tick.v_WG;
   }
 
-  // How much of it comes in so many ticks.
+  // Returns the change of the correction in a number of ticks.
   Eigen::Vector3d Gained(int ticks) {
     Update();
     const Eigen::Vector3d before = Correction();
@@ -110,16 +111,16 @@ class CorrectionTest : public ControllerTest {
   }
 };
 
-TEST_F(CorrectionTest, FindsWhatTheGainsDoNotExplain) {
+TEST_F(CorrectionTest, IntegratesErrorBeyondPdGains) {
   controller_.reference().p_WG += Eigen::Vector3d(0.004, -0.003, 0.005);
   const double kx = 15 * 0.004, ky = -15 * 0.003, kz = 60 * 0.005;
   ExpectGains({kx, ky, kz});
-  controller_.reference().v_WG.x() = 0.01;  // The plane waits: a lag is none.
+  controller_.reference().v_WG.x() = 0.01;  // Pauses in the plane: a lag.
   ExpectGains({0, 0, kz});
   controller_.reference().v_WG.setZero();
-  state_.v.segment<3>(3) << 0.03, 0, 0;  // Or as the robot moves.
+  state_.v.segment<3>(3) << 0.03, 0, 0;  // Pauses while the robot moves.
   ExpectGains({0, 0, kz});
-  // On its way back as its gains have it: kd v = kp e.
+  // An error along z that decays as the gains predict, kd v = kp e.
   state_.v.segment<3>(3) << 0, 0, 3 * 0.005;
   ExpectGains({kx, ky, 0});
   state_.v.setZero();
@@ -134,8 +135,8 @@ TEST_F(CorrectionTest, FindsWhatTheGainsDoNotExplain) {
   EXPECT_LT(Correction().norm(), 1e-7);
 }
 
-// Where a task of the place alone steers it.
-TEST_F(CorrectionTest, IsOfThePlaceAlone) {
+// If the task com moves the center of mass, its integral gains are used.
+TEST_F(CorrectionTest, UsesGainsOfComTask) {
   Stack& stack = controller_.stack();
   ASSERT_TRUE(stack.Enable("momentum", false));
   ASSERT_TRUE(stack.Enable("com", true));
@@ -143,7 +144,7 @@ TEST_F(CorrectionTest, IsOfThePlaceAlone) {
   ASSERT_TRUE(stack.SetParameter("com", "ki_height", 40));
   controller_.reference().p_WG += Eigen::Vector3d(0.004, -0.003, 0.005);
   ExpectGains({20 * 0.004, -20 * 0.003, 40 * 0.005});
-  // Not while it cannot be met.
+  // Pauses while the target is infeasible.
   controller_.Start(state_);
   controller_.reference().p_WG += Eigen::Vector3d(0, 0.5, 0.01);
   for (int i = 0; i < 5; ++i) Update();
@@ -152,7 +153,7 @@ TEST_F(CorrectionTest, IsOfThePlaceAlone) {
   EXPECT_LT(Correction().norm(), 1e-7);
 }
 
-TEST_F(CorrectionTest, WaitsWhileTheMomentumCannotFollow) {
+TEST_F(CorrectionTest, PausesWhileMomentumTaskIsInfeasible) {
   controller_.reference().p_WG += Eigen::Vector3d(0, 0.5, 0.01);
   for (int i = 0; i < 5; ++i) Update();
   controller_.reference().p_WG -= Eigen::Vector3d(0, 0.5, 0.01);
@@ -160,8 +161,8 @@ TEST_F(CorrectionTest, WaitsWhileTheMomentumCannotFollow) {
   EXPECT_LT(Correction().norm(), 1e-7);
 }
 
-// The correction does not integrate an error that a ramp causes.
-TEST_F(CorrectionTest, WaitsWhileItsTaskIsEasedIn) {
+// A residual that is due to a ramp is not integrated.
+TEST_F(CorrectionTest, PausesWhileItsTaskIsEasedIn) {
   Stack& stack = controller_.stack();
   ASSERT_TRUE(stack.Enable("momentum", false));
   ASSERT_TRUE(stack.set_ramp(0.1));
@@ -170,11 +171,12 @@ TEST_F(CorrectionTest, WaitsWhileItsTaskIsEasedIn) {
   ASSERT_TRUE(stack.Enable("momentum", true));
   for (int i = 0; i <= 100; ++i) Update();
   EXPECT_FALSE(stack.is_eased());
-  // Integral of the one tick without a ramp; all ticks would give 0.12.
+  // One tick is not eased and integrates; with all ticks the value would be
+  // 0.12.
   EXPECT_LT(Correction().norm(), 1.1 * 60 * 0.02 * 1e-3);
 }
 
-TEST_F(CorrectionTest, IsBoundedAndForgottenWithItsTask) {
+TEST_F(CorrectionTest, IsClampedAndResetWithItsTask) {
   ASSERT_TRUE(controller_.stack().SetParameter("momentum", "ki", 100));
   ASSERT_TRUE(controller_.stack().SetParameter("momentum", "ki_height", 100));
   for (const double side : {1.0, -1.0}) {
@@ -182,7 +184,7 @@ TEST_F(CorrectionTest, IsBoundedAndForgottenWithItsTask) {
     const Eigen::Vector3d e = side * Eigen::Vector3d(0.012, 0.016, 0.03);
     controller_.reference().p_WG += e;
     Update();
-    EXPECT_LT(Correction().norm(), 1e-7);  // Start() forgets it.
+    EXPECT_LT(Correction().norm(), 1e-7);  // Start() resets it.
     Gained(600);
     EXPECT_LT(
         (Correction().head<2>() - side * Eigen::Vector2d(0.3, 0.4)).norm(),

@@ -34,8 +34,8 @@ namespace {
 constexpr bool kOn = true;
 constexpr bool kOff = false;
 
-// Momentum and posture do not determine the internal forces. The small weight
-// keeps the regularizer from competing with the posture.
+// Momentum and posture do not determine the internal forces: the regularizer
+// does. The small weight keeps it from competing with the posture on its level.
 constexpr double kRegularizerWeight = 1e-2;
 
 }  // namespace

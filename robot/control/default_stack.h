@@ -9,11 +9,12 @@
 
 namespace poise {
 
-/// Makes a stack of every task of tasks/. Levels and switches are those in the
-/// documentation of Controller.
+/// Returns a stack with every task of tasks/, on the levels and switched on or
+/// off as in the table of Controller.
 ///
-/// @param frames  links that get a task frame.NAME, the i-th by
-///                Tick::frames[feet + i] and Reference::frames[i].
+/// @param frames  links with a task frame.NAME. The i-th one uses
+///                Tick::frames[feet + i] and Reference::frames[i]; feet is the
+///                number of feet.
 Stack MakeDefaultStack(const Robot& robot,
                        const std::vector<std::string>& frames);
 

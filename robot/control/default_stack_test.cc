@@ -14,7 +14,8 @@
 namespace poise {
 namespace {
 
-// A body of 1 kg with a foot FOOT, a joint of 2 mg and one that follows it.
+// Returns a robot with a body of 1 kg, a foot FOOT, a joint that moves 2 mg,
+// and a joint that mimics it.
 Robot MakeRobotWithAllTasks() {
   std::string text = "<robot name='r'>";
   for (const std::string link : {"body", "light", "coupled"}) {
@@ -36,7 +37,8 @@ Robot MakeRobotWithAllTasks() {
   return robot;
 }
 
-// By name, as the table says: "3", or "(3)" of a task that is off.
+// Reads the table in controller.h: name of a task to level, "3", or "(3)" for a
+// task that is off.
 std::map<std::string, std::string> ReadTable() {
   std::ifstream file("robot/control/controller.h");
   std::string text(std::istreambuf_iterator<char>(file), {});
@@ -60,7 +62,7 @@ std::map<std::string, std::string> ReadTable() {
   return table;
 }
 
-TEST(MakeDefaultStack, IsTheTableOfController) {
+TEST(MakeDefaultStack, MatchesTableInControllerHeader) {
   const Stack stack = MakeDefaultStack(MakeRobotWithAllTasks(), {"LINK"});
   std::map<std::string, std::string> made;
   for (int i = 0; i < stack.num_tasks(); ++i) {

@@ -6,10 +6,10 @@
 namespace poise {
 namespace {
 
-constexpr double kLargestLift = 1.6;   // m/s2.
-constexpr double kLargestShift = 0.5;  // m/s2.
+constexpr double kLargestLift = 1.6;   // Clamp along z, m/s2.
+constexpr double kLargestShift = 0.5;  // Clamp in the plane, m/s2.
 
-// A robot whose center of mass is slower than this stands, m/s.
+// Below this speed of the center of mass, the robot counts as standing, m/s.
 constexpr double kStanding = 0.02;
 
 }  // namespace

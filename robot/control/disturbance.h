@@ -13,17 +13,18 @@ namespace poise {
 /// model does not contain. With a mass error of 10 %, the steady-state error is
 /// 17 to 29 mm without this correction. The correction c integrates
 ///     c' = k_i (e + (k_d / k_p) e'),    e = p_ref - p_G.
-/// An error that decays as the PD gains predict, k_p e = -k_d e', is no model
-/// error and adds nothing. In the plane, integration pauses while the robot or
-/// its reference moves, because a tracking lag is not a model error either. The
-/// correction is clamped to 0.5 m/s2 in the plane (a center-of-mass error of
-/// 4 cm) and to 1.6 m/s2 along z (a sixth of the mass).
+/// An error that decays as the PD gains predict, k_p e = -k_d e', is not a
+/// model error and adds nothing. In the plane, integration pauses while the
+/// robot or its reference moves, because a tracking lag is not a model error
+/// either. The correction is clamped to 0.5 m/s2 in the plane (a center-of-mass
+/// error of 4 cm) and to 1.6 m/s2 along z (a mass error of one sixth).
 class Disturbance {
  public:
+  /// Sets the correction to zero.
   void Forget() noexcept { c_W_.setZero(); }
 
-  /// Integrates over dt. Call this only in a tick in which a task moved the center
-  /// of mass to its reference with these gains and nothing blocked it.
+  /// Integrates over dt, s. Call this only in a tick in which a task with these
+  /// gains moved the center of mass, and the residual of the task was small.
   void Update(double dt, const ComGains& gains, const Reference& reference,
               const Tick& tick) noexcept;
 

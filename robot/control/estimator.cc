@@ -8,14 +8,15 @@
 namespace poise {
 namespace {
 
-// A foot with a smaller normal force is not used to estimate the base.
+// A foot with a smaller normal force is not used to locate the base.
 constexpr double kLeastForce = 5;  // N.
 
-// After a larger jump of the clock, measurements are missing.
+// Longest time over which the accelerometer is integrated in one update. After
+// a longer gap, the measurements between are unknown.
 constexpr double kLongestStep = 0.05;  // s.
 
-// Returns whether a measurement suffices for the base. A foot whose force is not
-// finite is not used.
+// Whether all values that determine the base are valid. The forces of the feet
+// do not matter: a foot whose force is not finite counts as unloaded.
 bool IsUsable(const Measurement& measurement) {
   return std::isfinite(measurement.time) &&
          IsBelievable(measurement.R_WB_imu) &&
@@ -89,14 +90,14 @@ void Estimator::Update(const Measurement& measurement, State* state) noexcept {
   const double dt = std::clamp(measurement.time - time_, 0.0, kLongestStep);
   time_ = measurement.time;
 
-  // Prediction by the accelerometer.
+  // Integrates the accelerometer.
   const Eigen::Vector3d a_W =
       measurement.R_WB_imu * measurement.specific_force_Bo_B +
       robot_.model.tree.gravity_W();
   v_WB_ += dt * a_W;
   p_WB_ += dt * v_WB_;
 
-  // Estimate by the legs, weighted by normal force.
+  // Corrects by the legs, weighted by the normal forces of their feet.
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
   double load = 0;
@@ -114,7 +115,8 @@ void Estimator::Update(const Measurement& measurement, State* state) noexcept {
     v_WB_ += std::min(1.0, dt / velocity_time_) * (v / load - v_WB_);
   }
 
-  // A foot that touches down or is unloaded gets a new place of contact.
+  // Renews the touchdown position of a foot that just touched down or is
+  // unloaded.
   for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
     const FootMeasurement& sensed = measurement.feet[i];
     const bool in_contact = sensed.in_contact && sensed.F_Co_C[5] > kLeastForce;

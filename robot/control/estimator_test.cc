@@ -15,8 +15,9 @@
 namespace poise {
 namespace {
 
-// A robot that sways over feet that stand still: the base follows from one foot
-// by forward kinematics, differentiated numerically.
+// A robot sways over the left foot, which does not move. The true motion of the
+// base follows from this foot by forward kinematics and numerical
+// differentiation.
 class EstimatorTest : public testing::Test {
  protected:
   EstimatorTest() {
@@ -30,8 +31,8 @@ class EstimatorTest : public testing::Test {
     right_ankle_ = *robot_.model.tree.FindJoint("r_ankle_roll");
   }
 
-  // Returns the base pose when the left ankle has rolled by angle and the foot is at
-  // rest.
+  // Returns the pose of the base for an angle of the left ankle roll; the left
+  // foot stays at its place.
   Pose BaseAt(double angle) {
     Eigen::VectorXd q = robot_.q_nominal;
     q[7 + left_ankle_] = angle;
@@ -59,7 +60,7 @@ class EstimatorTest : public testing::Test {
     const Eigen::Vector3d a_W = (next.p - 2 * now.p + last.p) / (h * h);
     measurement_.specific_force_Bo_B =
         now.R.transpose() * (a_W - robot_.model.tree.gravity_W());
-    // The other foot swings along.
+    // The right foot is in the air.
     measurement_.feet[1].in_contact = false;
     measurement_.feet[1].F_Co_C.setZero();
   }
@@ -70,7 +71,7 @@ class EstimatorTest : public testing::Test {
   int left_ankle_, right_ankle_;
 };
 
-TEST_F(EstimatorTest, FollowsTheBaseOverAFootThatStands) {
+TEST_F(EstimatorTest, FollowsBaseAboveFootInContact) {
   Estimator estimator(robot_);
   MeasureAt(0);
   estimator.Start(measurement_);
@@ -79,17 +80,17 @@ TEST_F(EstimatorTest, FollowsTheBaseOverAFootThatStands) {
     MeasureAt(1e-3 * i);
     const Pose X_WB = measurement_.X_WB;
     const Eigen::Matrix<double, 6, 1> V_WB_W = measurement_.V_WB_W;
-    measurement_.X_WB.p.setConstant(7);  // Not to be looked at.
+    measurement_.X_WB.p.setConstant(7);  // Must not be used.
     measurement_.V_WB_W.setConstant(7);
     estimator.Update(measurement_, &state);
-    // The foot gives the position; the velocity is a filter of 10 ms.
+    // The position follows from the foot; the velocity filter has 10 ms.
     ASSERT_LT((state.q.head<3>() - X_WB.p).norm(), 1e-9) << i;
     ASSERT_LT((state.v.segment<3>(3) - V_WB_W.tail<3>()).norm(), 2e-3) << i;
     ASSERT_LT((state.v.head<3>() - V_WB_W.head<3>()).norm(), 1e-6) << i;
   }
 }
 
-TEST_F(EstimatorTest, FallsWithTheAccelerometerWhereNoFootStands) {
+TEST_F(EstimatorTest, IntegratesAccelerometerWithoutContact) {
   Estimator estimator(robot_);
   MeasureAt(0);
   measurement_.V_WB_W.setZero();
@@ -104,13 +105,13 @@ TEST_F(EstimatorTest, FallsWithTheAccelerometerWhereNoFootStands) {
     estimator.Update(measurement_, &state);
   }
   EXPECT_NEAR(state.v[5], -0.981, 1e-9);
-  // Half g t^2, and half a step more.
+  // g t^2 / 2, up to half a step of integration.
   EXPECT_NEAR(state.q[2] - start.z(), -0.5 * 9.81 * 0.01, 1e-3);
 }
 
-// The other foot, which swung along, touches down; the first one goes up, while
-// the robot sways on: the second's place carries on from where it stood.
-TEST_F(EstimatorTest, GoesOnFromFootToFoot) {
+// The right foot touches down, then the left foot is lifted. The estimate
+// continues from the touchdown position of the right foot without a jump.
+TEST_F(EstimatorTest, ContinuesWhenFeetChange) {
   Estimator estimator(robot_);
   MeasureAt(0);
   estimator.Start(measurement_);
@@ -123,7 +124,7 @@ TEST_F(EstimatorTest, GoesOnFromFootToFoot) {
     MeasureAt(1e-3 * i);
     estimator.Update(measurement_, &state);
   }
-  // From here on nothing moves. The right foot is where it is.
+  // From here on, nothing moves.
   measurement_.v_joints.setZero();
   measurement_.w_WB_B.setZero();
   measurement_.specific_force_Bo_B =
@@ -136,7 +137,7 @@ TEST_F(EstimatorTest, GoesOnFromFootToFoot) {
     estimator.Update(measurement_, &state);
     ASSERT_LT((state.q.head<3>() - there).norm(), 1e-9) << i;
   }
-  // A foot that says contact but bears nothing says nothing.
+  // A foot in contact with less than 5 N is not used.
   touch(1, true);
   measurement_.feet[1].F_Co_C[5] = 4;
   const Eigen::Vector3d v = state.v.segment<3>(3);
@@ -146,8 +147,8 @@ TEST_F(EstimatorTest, GoesOnFromFootToFoot) {
   EXPECT_NEAR(state.v[5] - v.z(), -9.81e-3, 1e-12);
 }
 
-// A clock that jumps: the accelerometer is not believed for all that time.
-TEST_F(EstimatorTest, DoesNotFallThroughAGapInItsMeasurements) {
+// After a jump of the clock, the accelerometer is integrated for 50 ms only.
+TEST_F(EstimatorTest, LimitsIntegrationOverGapInMeasurements) {
   Estimator estimator(robot_);
   MeasureAt(0);
   measurement_.V_WB_W << 0, 0, 0, 0.3, 0, 0;
@@ -161,9 +162,9 @@ TEST_F(EstimatorTest, DoesNotFallThroughAGapInItsMeasurements) {
   EXPECT_NEAR(state.v[3], 0.3, 1e-9);
 }
 
-// A NaN sample affects its own tick only: base pose and stamp stay, and the next
-// sample makes up for it. The estimator does not change joint positions.
-TEST_F(EstimatorTest, LeavesAMeasurementOutThatIsNotFinite) {
+// After one invalid sample, the base and its time stamp stay unchanged for one
+// tick. The next sample bridges the gap. Joint values are passed on unchanged.
+TEST_F(EstimatorTest, SkipsInvalidMeasurement) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {none, infinity, -infinity, 1e300}) {
@@ -174,7 +175,7 @@ TEST_F(EstimatorTest, LeavesAMeasurementOutThatIsNotFinite) {
           &measurement_.v_joints[left_ankle_],
           &measurement_.q_joints[right_ankle_]}) {
       SCOPED_TRACE(bad);
-      // A clock may be set to any time.
+      // Any finite time is valid: a clock may be set.
       if (sensor == &measurement_.time && std::isfinite(bad)) continue;
       Estimator estimator(robot_);
       MeasureAt(0);
@@ -189,7 +190,8 @@ TEST_F(EstimatorTest, LeavesAMeasurementOutThatIsNotFinite) {
           EXPECT_EQ(state.time, last.time);
           EXPECT_EQ(state.q.head<7>(), last.q.head<7>());
           EXPECT_EQ(state.v.head<6>(), last.v.head<6>());
-          // Values that are not finite are passed on to the controller.
+          // Invalid joint values are passed on, so that the controller fails
+          // safe.
           EXPECT_EQ(state.q.tail(n_).allFinite(),
                     measurement_.q_joints.allFinite());
           EXPECT_EQ(state.v.tail(n_).allFinite(),
@@ -206,8 +208,9 @@ TEST_F(EstimatorTest, LeavesAMeasurementOutThatIsNotFinite) {
   }
 }
 
-// In flight, where only the accelerometer speaks: nothing of the fall is missed.
-TEST_F(EstimatorTest, FallsOnThroughAMeasurementThatIsNotFinite) {
+// In flight, only the accelerometer is used. The next valid sample covers the
+// gap: no part of the fall is lost.
+TEST_F(EstimatorTest, BridgesInvalidMeasurementsInFlight) {
   Estimator estimator(robot_);
   MeasureAt(0);
   measurement_.V_WB_W.setZero();
@@ -224,8 +227,8 @@ TEST_F(EstimatorTest, FallsOnThroughAMeasurementThatIsNotFinite) {
   EXPECT_NEAR(state.v[5], -0.981, 1e-9);
 }
 
-// A foot whose force is unknown says nothing; the other one goes on.
-TEST_F(EstimatorTest, StandsOnTheOtherFootWhereAForceIsNotFinite) {
+// A foot whose force is NaN is not used; the other foot still is.
+TEST_F(EstimatorTest, UsesOtherFootWhenForceIsNaN) {
   Estimator estimator(robot_);
   MeasureAt(0);
   measurement_.v_joints.setZero();

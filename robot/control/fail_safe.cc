@@ -14,7 +14,7 @@ void ComputeFailSafeTorque(const Tick& tick,
   const auto start = tick.M.rows() - n;
   *tau = (tick.N - tick.c).tail(n);
 
-  // lambda_0 = J_l (J_l' J_l)^-1 g_l, summed over the feet.
+  // lambda_0 = J_l (J_l' J_l)^-1 g_l, foot by foot.
   Matrix6d gram = Matrix6d::Zero();
   bool standing = false;
   for (const ContactTick& contact : contacts) {

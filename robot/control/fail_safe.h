@@ -9,15 +9,16 @@
 
 namespace poise {
 
-/// Computes the torques of a tick without a valid solution. They hold the robot
-/// against gravity with its weight on the feet in contact, and damp its joints,
+/// Computes the fail-safe torques: gravity compensation with the weight on the
+/// feet in contact, and joint damping,
 ///     tau_j = g_j - (J_{c,u}' lambda_0)_j - d M_jj q̇_j,
-/// where g = N - c, and lambda_0 is the smallest with J_{c,l}' lambda_0 = g_l.
+/// where g = N - c, and lambda_0 is the minimum-norm solution of
+/// J_{c,l}' lambda_0 = g_l.
 ///
 /// @param tick, contacts  of the last valid state.
-/// @param v_joints        joint rates; one that is not finite is not damped.
+/// @param v_joints        joint rates; a rate that is not finite is not damped.
 /// @param damping         d, 1/s.
-/// Does not allocate. The torques are finite for any v_joints.
+/// Does not allocate. tau is finite even if a rate is NaN or infinite.
 void ComputeFailSafeTorque(const Tick& tick,
                            const std::vector<ContactTick>& contacts,
                            const Eigen::Ref<const Eigen::VectorXd>& v_joints,

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What happens where a tick cannot be solved, or not in its time.
+// Tests the fail-safe command, and ticks that the solver cannot solve, or not
+// in time.
 #include "poise/robot/control/fail_safe.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ class FailSafeTest : public ControllerTest {
   }
 };
 
-TEST_F(FailSafeTest, FailsSafeOnNaN) {
+TEST_F(FailSafeTest, FailsSafeOnNaNAndInfinity) {
   Update();
   ASSERT_EQ(command_.status, TickStatus::kOk);
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
@@ -51,8 +52,9 @@ TEST_F(FailSafeTest, FailsSafeOnNaN) {
   EXPECT_EQ(command_.status, TickStatus::kOk);
 }
 
-TEST_F(FailSafeTest, ReportsNoAnswerOfAnEarlierTick) {
-  controller_.reference().p_WG.y() += 0.2;  // Rows act, tasks are lost.
+TEST_F(FailSafeTest, ClearsReportOfEarlierTick) {
+  // Limits become active, and targets are violated.
+  controller_.reference().p_WG.y() += 0.2;
   Update();
   const TickReport& report = controller_.report();
   ASSERT_GT(report.y.norm(), 1);
@@ -72,9 +74,9 @@ TEST_F(FailSafeTest, ReportsNoAnswerOfAnEarlierTick) {
   }
 }
 
-// No rotation has such a norm. What is done in that tick and in the next comes of
-// the last good one.
-TEST_F(FailSafeTest, FailsSafeOnAQuaternionThatIsNoRotation) {
+// Quaternions with a wrong norm are invalid. The torques then follow from the
+// last valid state.
+TEST_F(FailSafeTest, FailsSafeOnQuaternionWithWrongNorm) {
   Update();
   const Eigen::Vector4d good = state_.q.segment<4>(3);
   const auto fail_safe = [&](double norm, double rate) {
@@ -92,13 +94,13 @@ TEST_F(FailSafeTest, FailsSafeOnAQuaternionThatIsNoRotation) {
     EXPECT_EQ(fail_safe(norm, 0), held) << norm;
     EXPECT_EQ(fail_safe(1, none), held) << norm;
   }
-  // As single precision rounds it.
+  // An error of the norm as from single precision is accepted.
   state_.q.segment<4>(3) = (1 + 1e-6) * good;
   Update();
   EXPECT_EQ(command_.status, TickStatus::kOk);
 }
 
-TEST_F(FailSafeTest, StartsFromTheLastGoodStateWhereItIsToldNone) {
+TEST_F(FailSafeTest, StartUsesLastValidStateIfStateIsInvalid) {
   Update();
   const Eigen::Vector3d p_WG = controller_.reference().p_WG;
   State bad = state_;
@@ -112,8 +114,9 @@ TEST_F(FailSafeTest, StartsFromTheLastGoodStateWhereItIsToldNone) {
   EXPECT_EQ(command_.status, TickStatus::kOk);
 }
 
-// No limit cuts off the brakes of a joint as fast as this.
-TEST_F(FailSafeTest, AsksForNoTorqueThatIsNotFinite) {
+// The damping torque of a joint this fast overflows, and no effort limit clamps
+// it.
+TEST_F(FailSafeTest, NeverSendsTorqueThatIsNotFinite) {
   const int n = tree().num_joints();
   for (const double effort : {0.0, std::numeric_limits<double>::infinity()}) {
     robot_.model.limits[0].effort = effort;
@@ -128,20 +131,20 @@ TEST_F(FailSafeTest, AsksForNoTorqueThatIsNotFinite) {
   }
 }
 
-TEST_F(FailSafeTest, FailSafeHoldsTheRobotAgainstGravity) {
+TEST_F(FailSafeTest, FailSafeTorqueBalancesGravity) {
   Update();
   state_.q[10] = std::numeric_limits<double>::quiet_NaN();
   Update();
   const Eigen::VectorXd rest =
       BoltedDown(controller_)
           .Solve(command_.tau, Eigen::VectorXd::Zero(tree().nv()));
-  // m/s2 and rad/s2: what is left is rounding, by the light fingers' inertia.
+  // m/s2 and rad/s2: rounding, divided by the small inertia of the fingers.
   EXPECT_LT(rest.head(tree().nv()).norm(), 1e-5);
 }
 
-// In motion: gravity's part alone is held, and the joints are braked by what
-// they move; whatever was active is forgotten.
-TEST_F(FailSafeTest, FailSafeBrakesEachJoint) {
+// In motion, the torque is gravity compensation plus damping by the inertia of
+// each joint. The list of active rows is cleared.
+TEST_F(FailSafeTest, FailSafeTorqueDampsEachJoint) {
   Update();
   const double q = state_.q[10];
   const auto fail_safe = [&] {
@@ -164,7 +167,7 @@ TEST_F(FailSafeTest, FailSafeBrakesEachJoint) {
   }
 }
 
-TEST_F(FailSafeTest, FailSafeStandsOnTheFootThatIsDown) {
+TEST_F(FailSafeTest, FailSafeTorqueUsesFeetInContactOnly) {
   Update();
   std::vector<ContactTick> contacts = controller_.contacts();
   contacts[1].in_contact = false;
@@ -172,7 +175,7 @@ TEST_F(FailSafeTest, FailSafeStandsOnTheFootThatIsDown) {
   const Tick& tick = controller_.tick();
   Eigen::VectorXd tau(n);
   ComputeFailSafeTorque(tick, contacts, Eigen::VectorXd::Zero(n), 10, &tau);
-  // The leg in the air bears itself: gravity's torques, and no others.
+  // The leg in the air has the torques of gravity only.
   int joints = 0;
   for (int j = 0; j < n; ++j) {
     if (contacts[1].J_WC_C.col(6 + j).norm() < 1e-9) continue;
@@ -180,7 +183,7 @@ TEST_F(FailSafeTest, FailSafeStandsOnTheFootThatIsDown) {
     ++joints;
   }
   EXPECT_EQ(joints, 6);
-  // A joint whose speed is unknown is not braked.
+  // A joint whose rate is NaN is not damped.
   Eigen::VectorXd v = Eigen::VectorXd::Constant(n, 0.1);
   v[3] = std::numeric_limits<double>::quiet_NaN();
   Eigen::VectorXd braked(n);
@@ -189,7 +192,7 @@ TEST_F(FailSafeTest, FailSafeStandsOnTheFootThatIsDown) {
   EXPECT_NEAR(braked[4], tau[4] - tick.M(10, 10), 1e-9);
 }
 
-TEST_F(FailSafeTest, FailsSafeWhileTheClockOfTheStateStandsStill) {
+TEST_F(FailSafeTest, FailsSafeWhileClockIsFrozen) {
   Update();
   for (int i = 1; i <= 20; ++i) {
     controller_.Update(state_, &command_);
@@ -202,8 +205,9 @@ TEST_F(FailSafeTest, FailsSafeWhileTheClockOfTheStateStandsStill) {
   EXPECT_EQ(Reason(), FailSafeReason::kNone);
 }
 
-// Ten periods of 1 ms are 10 ms, and no more, whatever else is wrong.
-TEST_F(FailSafeTest, DoesNotBlameTheClockForAnInvalidState) {
+// Up to 10 ms of invalid states with a frozen clock, the reason is the state;
+// afterwards, the reason is the clock.
+TEST_F(FailSafeTest, ReportsClockOnlyAfterTenMilliseconds) {
   Update();
   for (int i = 1; i <= 12; ++i) {
     State state = state_;
@@ -216,7 +220,7 @@ TEST_F(FailSafeTest, DoesNotBlameTheClockForAnInvalidState) {
   }
 }
 
-TEST_F(FailSafeTest, StartsItsClockAnew) {
+TEST_F(FailSafeTest, StartResetsTheClock) {
   for (int i = 0; i < 100; ++i) Update();
   for (int i = 0; i < 20; ++i) controller_.Update(state_, &command_);
   ASSERT_EQ(command_.status, TickStatus::kFailSafe);
@@ -228,9 +232,10 @@ TEST_F(FailSafeTest, StartsItsClockAnew) {
   }
 }
 
-// A clock reset or one wrong stamp causes no failed tick; a NaN stamp fails its
-// own tick. Afterwards a frozen clock is detected as before.
-TEST_F(FailSafeTest, GoesOnAfterAStampThatJumps) {
+// A time stamp that jumps does not fail safe. A time stamp that is not finite
+// fails safe in its own tick only. Afterwards, a frozen clock is still
+// detected.
+TEST_F(FailSafeTest, ContinuesAfterWrongTimeStamp) {
   Update();
   const double none = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
@@ -250,7 +255,7 @@ TEST_F(FailSafeTest, GoesOnAfterAStampThatJumps) {
   }
 }
 
-TEST_F(FailSafeTest, FailsSafeWhereTheDynamicsWouldOverflow) {
+TEST_F(FailSafeTest, FailsSafeWhenDynamicsWouldOverflow) {
   Update();
   state_.v.setConstant(1e200);
   Update();
@@ -259,12 +264,12 @@ TEST_F(FailSafeTest, FailsSafeWhereTheDynamicsWouldOverflow) {
   ExpectInsideLimits();
 }
 
-TEST_F(FailSafeTest, TruncatesWhereItsBudgetIsSpent) {
+TEST_F(FailSafeTest, TruncatesAtIterationLimit) {
   ControllerOptions options;
   options.max_iterations = 1;
   Controller hasty(robot_, options);
   hasty.Start(state_);
-  // A shove: rows come into play that were not so before.
+  // A push: rows become active that were inactive before.
   state_.v.segment<3>(3) << 0, 0.6, 0;
   state_.time = 1e-3;
   hasty.Update(state_, &command_);
@@ -275,9 +280,9 @@ TEST_F(FailSafeTest, TruncatesWhereItsBudgetIsSpent) {
   EXPECT_LT(hasty.report().tasks[newton_euler].residual, 1e-9);
 }
 
-// A clock of the test's own, on which each look takes 0.4 ms: time for two
-// factorisations.
-TEST_F(FailSafeTest, StopsWhereItsTimeIsSpent) {
+// The clock of this test advances by 0.4 ms with each reading: the budget
+// suffices for two factorisations.
+TEST_F(FailSafeTest, StopsAtTimeLimit) {
   double seconds = 0;
   ControllerOptions options;
   options.max_seconds = 1e-3;
@@ -294,9 +299,9 @@ TEST_F(FailSafeTest, StopsWhereItsTimeIsSpent) {
   ExpectInsideLimits();
 }
 
-// Torques of a motion that the robot cannot make are worse than none. It is held
-// instead, and goes on where the dynamics are met again.
-TEST_F(FailSafeTest, FailsSafeWhereTheDynamicsAreNotMet) {
+// Torques of an impossible motion are worse than the fail-safe torques. Control
+// continues when a solution meets the dynamics again.
+TEST_F(FailSafeTest, FailsSafeIfDynamicsAreNotMet) {
   Update();
   ASSERT_EQ(command_.status, TickStatus::kOk);
   EXPECT_LT(controller_.report().dynamics_residual, 1e-9);
@@ -321,13 +326,14 @@ TEST_F(FailSafeTest, FailsSafeWhereTheDynamicsAreNotMet) {
   EXPECT_EQ(command_.status, TickStatus::kOk);
   EXPECT_LT(controller_.report().dynamics_residual, 1e-9);
 
-  // Contacts and limits above it that it cannot be met in.
+  // Contacts and torque limits on higher levels make the dynamics infeasible.
   ASSERT_TRUE(stack.SetParameter("torque_limits", "scale", 0.05));
   ASSERT_TRUE(stack.SetLevel("torque_limits", 1));
   ASSERT_TRUE(stack.SetLevel("newton_euler", 4));
   expect_held();
   ExpectInsideLimits();
-  // Above them again: the contacts give, it sinks as the limits have it.
+  // With the dynamics on level 1 again, the contact rows are violated: the
+  // robot sinks, within its torque limits.
   ASSERT_TRUE(stack.SetLevel("newton_euler", 1));
   ASSERT_TRUE(stack.SetLevel("torque_limits", 2));
   Update();
@@ -335,8 +341,9 @@ TEST_F(FailSafeTest, FailsSafeWhereTheDynamicsAreNotMet) {
   EXPECT_LT(controller_.report().dynamics_residual, 1e-9);
 }
 
-// The residual is relative to the sum of its terms, at least to the scale of rows.
-TEST_F(FailSafeTest, TellsWhatTheDynamicsAreOffBy) {
+// The residual is relative to the sum of all terms, or to the scale if that is
+// larger.
+TEST_F(FailSafeTest, DynamicsResidualIsRelativeToTermsOrScale) {
   Update();
   const Tick& tick = controller_.tick();
   const auto& contacts = controller_.contacts();
@@ -349,11 +356,11 @@ TEST_F(FailSafeTest, TellsWhatTheDynamicsAreOffBy) {
   EXPECT_DOUBLE_EQ(residual(2 * all), 0.5);
   y = controller_.report().y;
   EXPECT_LT(residual(0), 1e-12);
-  // N, of the left foot: that, and its moments about the base.
+  // 1 mN more on the left foot, with its moments about the base.
   y[tree().nv() + 5] += 1e-3;
   const double off = contacts[0].J_WC_C.row(5).head<6>().lpNorm<1>() * 1e-3;
   EXPECT_NEAR(residual(10 * all), off / (10 * all), 1e-12);
-  // An acceleration, of the base.
+  // 1 mm/s2 more acceleration of the base.
   y = controller_.report().y;
   y[4] += 1e-3;
   EXPECT_NEAR(residual(10 * all),
@@ -362,7 +369,7 @@ TEST_F(FailSafeTest, TellsWhatTheDynamicsAreOffBy) {
   EXPECT_FALSE(residual(all) <= 1);
 }
 
-TEST_F(FailSafeTest, FailsSafeWhereNotEvenTheFirstLevelIsSolved) {
+TEST_F(FailSafeTest, FailsSafeIfFirstLevelIsNotSolved) {
   double seconds = 0;
   ControllerOptions options;
   options.max_seconds = 1e-3;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests which feet are in contact after a foot loses the ground, is released or
-// is lifted.
+// Tests which feet the controller treats as in contact when a foot loses the
+// ground, is released or is lifted.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,9 +11,9 @@
 namespace poise {
 namespace {
 
-// All of its feet: it flies, its legs go with the body, and it stands as soon as
-// there is ground.
-TEST_F(ControllerTest, SeesThatItsFeetHaveLostTheGround) {
+// Both feet lose the ground: the robot is in flight, and its legs move with the
+// body. The robot stands again as soon as the feet touch the ground.
+TEST_F(ControllerTest, DetectsLossOfGround) {
   Update();
   ASSERT_EQ(controller_.stance().phase(0), ContactPhase::kDown);
   const double ground = controller_.reference().ground_z;
@@ -26,7 +26,7 @@ TEST_F(ControllerTest, SeesThatItsFeetHaveLostTheGround) {
   EXPECT_FALSE(controller_.contacts()[0].in_contact);
   EXPECT_NE(command_.status, TickStatus::kFailSafe);
   EXPECT_LT(controller_.report().foot_wrench(tree().nv(), 0).norm(), 1e-9);
-  // In free fall, at rest in its posture: no joint is accelerated.
+  // In free fall, with the joints at rest in the posture, no joint accelerates.
   const int n = tree().num_joints();
   EXPECT_LT(controller_.report().y.segment(6, n).lpNorm<Eigen::Infinity>(),
             1e-9);
@@ -36,10 +36,11 @@ TEST_F(ControllerTest, SeesThatItsFeetHaveLostTheGround) {
   EXPECT_GT(controller_.report().foot_wrench(tree().nv(), 0)[5], 100);
 }
 
-// Falling to the left, or to the right: the other foot, which bears nothing, is
-// let go. It comes back when the robot is slow and faces where it should, or
-// falls to its side; on the ground it is at once, as it never left it.
-TEST_F(ControllerTest, LetsTheFootGoThatAFallUnloads) {
+// In a fall to one side, the foot on the other side is unloaded and is
+// released. The foot comes back when the robot is slow and has its reference
+// orientation, or when the robot falls to the side of the foot. Here the foot
+// is still on the ground, so contact is found at once.
+TEST_F(ControllerTest, ReleasesFootUnloadedByFall) {
   for (const int side : {1, -1}) {
     const int away = side > 0 ? 1 : 0;
     const auto phase_at = [&](double speed, double yaw) {
@@ -73,14 +74,14 @@ TEST_F(ControllerTest, LetsTheFootGoThatAFallUnloads) {
   }
 }
 
-TEST_F(ControllerTest, LetsNoFootGoWithoutCapture) {
+TEST_F(ControllerTest, ReleasesNoFootWithoutCapture) {
   ASSERT_TRUE(controller_.stack().SetParameter("momentum", "capture", 0));
   state_.v[4] = 0.6;
   for (int i = 0; i < 3; ++i) Update();
   EXPECT_EQ(controller_.stance().phase(1), ContactPhase::kDown);
 }
 
-TEST_F(ControllerTest, FadesAForceOutBeforeAFootIsLifted) {
+TEST_F(ControllerTest, FadesForceOutBeforeLift) {
   Update();
   ASSERT_TRUE(controller_.stance().Lift(1, 0.05));
   double last = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Where the robot stands, which way it faces, and which of its sides is which
-// make no difference.
+// Tests that the torques do not depend on the position and heading of the
+// robot, and that a mirrored state gives mirrored torques.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -17,8 +17,9 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Tests the controller as a function in a demanding state: joints move, feet are
-// not flat, and the push is so large that capture begins and a foot is released.
+// Evaluates the controller in a general state: joints move, feet are not flat,
+// and the push is so large that the capture blend is active and a foot is
+// released.
 class InvarianceTest : public ControllerTest {
  protected:
   InvarianceTest() {
@@ -29,7 +30,8 @@ class InvarianceTest : public ControllerTest {
     state_.v.head<6>() << 0.1, -0.05, 0.02, 0.2, 0.6, 0;
   }
 
-  // A few ticks in one state: what came before matters too.
+  // Runs a few ticks in one state, so that internal states of the controller
+  // count.
   Command Answer(const State& state) {
     Controller controller(robot_);
     EXPECT_TRUE(controller.stack().Enable("capture_point", with_boxes_));
@@ -52,7 +54,7 @@ class InvarianceTest : public ControllerTest {
 
   bool with_boxes_ = true;
   int let_go_ = 0;
-  const double kSame = 1e-9;  // Relative, of torques.
+  const double kSame = 1e-9;  // Relative tolerance of the torques.
 };
 
 TEST_F(InvarianceTest, TurnedAndMovedInputGivesTheSameTorques) {
@@ -70,7 +72,7 @@ TEST_F(InvarianceTest, TurnedAndMovedInputGivesTheSameTorques) {
     moved.v.segment<3>(0) = R * state_.v.segment<3>(0);
     moved.v.segment<3>(3) = R * state_.v.segment<3>(3);
     EXPECT_LT((Answer(moved).tau - tau).norm(), kSame * tau.norm());
-    moved.q[0] += 1000;  // There places are known to 1e-13 m, a thousandth.
+    moved.q[0] += 1000;  // Positions there have 1e-13 m rounding.
     EXPECT_LT((Answer(moved).tau - tau).norm(), 100 * kSame * tau.norm());
   }
 }
@@ -89,7 +91,7 @@ TEST_F(InvarianceTest, MirroredInputGivesMirroredTorques) {
     std::string name = joint.name;
     if (name[1] == '_') name[0] = name[0] == 'l' ? 'r' : 'l';
     twin[j] = *tree().FindJoint(name);
-    // A mirror turns the axes of roll and yaw over, not that of pitch.
+    // A reflection reverses the axes of roll and yaw, but not of pitch.
     sign[j] = std::abs(joint.axis_F.y()) > 0.5 ? 1 : -1;
     mirrored.q[7 + twin[j]] = sign[j] * state_.q[7 + j];
     mirrored.v[6 + twin[j]] = sign[j] * state_.v[6 + j];

@@ -11,11 +11,12 @@ namespace poise {
 /// Measured contact wrench of one foot, about and in the axes of its contact
 /// frame C.
 struct FootMeasurement {
-  Eigen::Matrix<double, 6, 1> F_Co_C;  ///< [torque; force] of the ground on it.
+  Eigen::Matrix<double, 6, 1> F_Co_C;  ///< [torque; force] from the ground.
   bool in_contact = true;
 };
 
-/// Sensor values of a robot, or of a simulated plant, at one instant. Sized once.
+/// Sensor values of a robot, or of a simulated plant, at one instant. Resize
+/// the vectors only once, before the control loop.
 struct Measurement {
   double time = 0;           ///< Clock of the sensors, s.
   Eigen::VectorXd q_joints;  ///< By joint of the tree, rad or m.
@@ -28,20 +29,20 @@ struct Measurement {
   /// Inertial measurement unit at the base's origin, in the base's axes.
   Eigen::Vector3d w_WB_B;               ///< Gyroscope, rad/s.
   Eigen::Vector3d specific_force_Bo_B;  ///< Accelerometer: a - g, m/s2.
-  Eigen::Matrix3d R_WB_imu;             ///< Its orientation estimate.
+  Eigen::Matrix3d R_WB_imu;             ///< Orientation estimate of the unit.
 
   std::vector<FootMeasurement> feet;  ///< In the order of the robot's feet.
 };
 
-/// Returns whether all values are finite and below 1e6 (m, rad, and these per s or
-/// s2). Beyond that the dynamics would overflow. Does not allocate.
+/// Whether all values are finite and below 1e6 (in m or rad, also per s or s2).
+/// For larger values, the dynamics would overflow. Does not allocate.
 inline bool IsBelievable(const Eigen::Ref<const Eigen::MatrixXd>& x) noexcept {
   constexpr double kLargest = 1e6;
   return x.allFinite() && x.lpNorm<Eigen::Infinity>() < kLargest;
 }
 
-/// Estimated state of the robot, the input of the controller, see
-/// dynamics/tree.h.
+/// Estimated state of the robot, the input of the controller. dynamics/tree.h
+/// defines q and v.
 struct State {
   double time = 0;    ///< s.
   Eigen::VectorXd q;  ///< nq.

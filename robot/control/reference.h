@@ -8,14 +8,15 @@
 
 namespace poise {
 
-/// Desired pose and motion of a frame F.
+/// Desired pose, twist and acceleration of a frame F.
 struct FrameReference {
   Pose X_WF;
+  /// [angular; linear], rad/s and m/s.
   Eigen::Matrix<double, 6, 1> V_WF_W = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, 1> A_WF_W = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
-/// The desired motion of the robot. The caller writes it between two ticks; tasks
+/// Desired motion of the robot. The caller writes it between two ticks; tasks
 /// read it.
 struct Reference {
   Eigen::Vector3d p_WG = Eigen::Vector3d::Zero();      ///< Center of mass, m.
@@ -24,7 +25,7 @@ struct Reference {
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();  ///< Base orientation.
   Eigen::VectorXd posture;                             ///< By joint, rad or m.
   double ground_z = 0;                 ///< Height of the floor, m.
-  std::vector<FrameReference> feet;    ///< Swing feet.
+  std::vector<FrameReference> feet;    ///< Stance writes feet in the air.
   std::vector<FrameReference> frames;  ///< By ControllerOptions::frames.
 };
 

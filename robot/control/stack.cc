@@ -14,14 +14,15 @@ namespace {
 // Multipliers and slacks below this are rounding.
 constexpr double kNoticeable = 1e-6;
 
-// A residual below this, in the scale of its row, is not reported.
+// A target with a residual above this is reported as lost, in the scale of its
+// row.
 constexpr double kNoticeableLoss = 1e-4;
 
 bool IsValidWeight(double weight) {
   return weight >= Stack::kLeastWeight && weight <= Stack::kMostWeight;
 }
 
-// Returns the name of an inequality with its active bound.
+// Returns the name of an inequality row that is active on a side.
 std::string SidedName(const Task& task, int row, Side side) {
   const std::string& name = task.inequality_names()[row];
   if (!task.is_two_sided()) return name;
@@ -38,7 +39,7 @@ Stack::Stack(int num_variables)
 void Stack::Add(std::unique_ptr<Task> task, const TaskSettings& settings) {
   const std::string what = "task " + Quoted(task->name()) + ": ";
   if (Find(task->name())) {
-    throw std::invalid_argument(what + "is there already");
+    throw std::invalid_argument(what + "exists already, must have a new name");
   }
   if (settings.level < 1 || settings.level > kMaxLevel) {
     throw std::invalid_argument(what + "level is " +
@@ -76,8 +77,8 @@ bool Stack::Enable(std::string_view name, bool enabled) noexcept {
   if (!i) return false;
   Entry& entry = entries_[*i];
   if (entry.settings.enabled == enabled) return true;
-  // In one weighted QP, a level that is added or removed changes the weights of all
-  // levels above it.
+  // In one weighted QP, a level that is added or removed changes the weights of
+  // all levels above it.
   if (!enabled || weighted_) Loosen(entry.settings.level);
   entry.was_switched_on |= enabled && !entry.takes_part;
   entry.settings.enabled = enabled;
@@ -148,7 +149,7 @@ void Stack::Tune(Entry* entry) noexcept {
   for (size_t i = 0; i < parameters.size(); ++i) {
     entry->parameters_before[i] = *parameters[i].value;
   }
-  // The new value may widen a limit.
+  // A tuned limit may be wider than before.
   if (entry->settings.enabled && !entry->task->inequality_names().empty()) {
     Loosen(entry->settings.level);
   }
@@ -187,8 +188,8 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
     entry.hierarchy_level = -1;
     entry.takes_part = entry.settings.enabled && entry.task->HasRows(input);
   }
-  // Each priority level in use is a level of the hierarchy. One weighted QP has two
-  // levels: level 1 and the rest.
+  // Each priority level in use becomes one level of the hierarchy. With one
+  // weighted QP there are two levels: level 1 and the rest.
   num_levels_ = 0;
   for (int level = 1; level <= kMaxLevel; ++level) {
     bool used = false;
@@ -218,7 +219,7 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
     task.Write(input, &equalities, &inequalities);
     if (eases) BeginEasing(input, equalities, inequalities, &entry);
     if (easing_.is_on()) {
-      // Equalities of level 1 always hold in full; its limits may be eased.
+      // Equalities of level 1 are never eased; inequalities of level 1 may be.
       if (entry.settings.level > 1) easing_.Ease(entry.eased_rows, &equalities);
       easing_.Ease(entry.eased_rows, static_cast<int>(equalities.b.size()),
                    &inequalities);
@@ -226,7 +227,7 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
     const double weight = RowWeight(entry);
     if (weight == 1) continue;
     equalities.weight *= weight;
-    // A slack has no weight of its own: its row is scaled.
+    // The solver has no weights for slacks: the row is scaled instead.
     const double scale = std::sqrt(weight);
     inequalities.C *= scale;
     inequalities.lower *= scale;
@@ -264,7 +265,7 @@ void Stack::BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
   }
 }
 
-// Returns the rows that the task would write with its earlier parameters.
+// Returns the rows that the task would write now if it had not been tuned.
 EqualityBlock Stack::RowsBefore(const TaskInput& input, Entry* entry) noexcept {
   const Task& task = *entry->task;
   const auto exchange = [&] {
@@ -354,15 +355,15 @@ void Stack::ReportInequalities(int i, const Solution& solution,
   const int rows = static_cast<int>(entry.task->inequality_names().size());
   for (int row = 0; row < rows; ++row) {
     const int index = entry.inequality_start + row;
-    // The multiplier of a row on its own level is the slack.
+    // The multiplier of a level on a row of the same level is the slack.
     ActiveRow active{i,
                      row,
                      level.active[index],
                      entry.settings.level,
                      level.slack[index],
                      level.slack[index] / scale};
-    // The first level with a multiplier counts, because the row is already active
-    // there. Multipliers of lower levels may have any size.
+    // The first level with a multiplier counts. It already holds the row, so
+    // the multipliers of lower levels may have any size.
     for (int k = entry.hierarchy_level + 1;
          k < num_levels_ && active.multiplier <= kNoticeable; ++k) {
       const double multiplier = solution.levels[k]

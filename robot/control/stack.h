@@ -15,45 +15,47 @@
 
 namespace poise {
 
-/// Place of a task in the hierarchy.
+/// Settings of a task in the hierarchy.
 struct TaskSettings {
   bool enabled = true;
   int level = 1;      ///< 1 is the highest; at most Stack::kMaxLevel.
-  double weight = 1;  ///< Among the tasks of its level; see Stack::kMostWeight.
+  double weight = 1;  ///< Weight within its level; see Stack::kMostWeight.
 };
 
-/// A row of a stack under the name that the log uses, and its task.
+/// A row of a stack, with its name in the log, and the name of its task.
 struct StackRow {
   std::string task;
   RowDescription row;
 };
 
-/// The tasks of a controller in their order of priority. Any of them may be
-/// switched, moved to another level, weighted or tuned by name between two
-/// ticks: that takes effect at the next Write(), and does not allocate.
+/// The tasks of a controller with their priority levels. Between two ticks, any
+/// task can be switched, moved to another level, weighted or tuned by its name.
+/// The change takes effect at the next Write() and does not allocate.
 class Stack {
  public:
   static constexpr int kMaxLevel = 8;
-  /// Weights outside [1e-6, 1e6] lose all digits to rounding and slow the active-set
-  /// search.
+  /// Range of a weight. Weights outside [1e-6, 1e6] lose all digits to rounding
+  /// and cost the active-set search hundreds of steps.
   static constexpr double kLeastWeight = 1e-6;
   static constexpr double kMostWeight = 1e6;
   static constexpr double kMostRatio = 1e6;  ///< For set_weighted().
 
-  /// Makes a stack for rows in num_variables variables.
+  /// Creates an empty stack. Its rows have num_variables columns.
   explicit Stack(int num_variables);
 
-  /// Adds a task; only before the first tick. Throws std::invalid_argument if the
-  /// name exists already or a setting is out of range.
+  /// Adds a task. Call this only before the first tick. Throws
+  /// std::invalid_argument if the name exists already or a setting is out of
+  /// range.
   void Add(std::unique_ptr<Task> task, const TaskSettings& settings);
 
   int num_tasks() const { return static_cast<int>(entries_.size()); }
   const Task& task(int i) const { return *entries_[i].task; }
   const TaskSettings& settings(int i) const { return entries_[i].settings; }
+  /// Returns the index of a task, or nullopt if no task has this name.
   std::optional<int> Find(std::string_view name) const noexcept;
 
-  /// Each returns false, and changes nothing, if the task or parameter does not exist
-  /// or the value is out of its range.
+  /// These four return false and change nothing if there is no such task or
+  /// parameter, or the value is out of its range.
   [[nodiscard]] bool Enable(std::string_view name, bool enabled) noexcept;
   [[nodiscard]] bool SetLevel(std::string_view name, int level) noexcept;
   [[nodiscard]] bool SetWeight(std::string_view name, double weight) noexcept;
@@ -63,53 +65,58 @@ class Stack {
   std::optional<double> GetParameter(std::string_view name,
                                      std::string_view parameter) const noexcept;
 
-  /// One weighted QP below level 1 instead of a hierarchy: each level counts
-  /// `ratio` times the next. False, and nothing happens, if that is not 1 to
-  /// kMostRatio.
+  /// Replaces the levels below level 1 by one weighted QP, in which the weight
+  /// of each level is `ratio` times that of the next one. Returns false and
+  /// changes nothing if `ratio` is not 1 to kMostRatio.
   [[nodiscard]] bool set_weighted(bool weighted, double ratio = 100) noexcept;
 
-  /// Sets the time in which later changes of tasks take effect, s, see Easing.
-  /// Unchanged rows, references and limits are not delayed. With 0, the default,
-  /// a change acts at once. Returns false, and changes nothing, if `seconds` is
-  /// negative or not finite.
+  /// Sets the duration of a ramp: later changes of tasks take effect gradually
+  /// in this time, see Easing. Pushes, references and unchanged limits still
+  /// act in full. With 0, the default, a change takes effect at once. Returns
+  /// false and changes nothing if `seconds` is negative or not finite.
   [[nodiscard]] bool set_ramp(double seconds) noexcept;
 
-  /// A tick of dt has found this for the last Write(), or nothing: then what is
-  /// changed next is changed at once.
+  /// Advances the ramp by dt, and records the solution of the last Write(). The
+  /// next change is eased from this solution.
   void Advance(double dt, const Solution& solution) noexcept;
+  /// Ends the ramp, for a tick without a solution. A change before the next
+  /// Advance() takes effect at once.
   void EndRamp() noexcept { easing_.End(); }
   bool is_eased() const { return easing_.is_on(); }
 
-  /// Returns the capacity of a Hierarchy and its solver that suffices for every
-  /// setting of the tasks.
+  /// Returns the capacity that a Hierarchy and its solver need, whatever the
+  /// settings of the tasks are. The last level is for Easing::Hold().
   std::vector<LevelCapacity> capacity() const;
 
-  /// Clears the hierarchy and writes the rows of the tasks that are on.
+  /// Clears the hierarchy and writes the rows of all enabled tasks.
   void Write(const TaskInput& input, Hierarchy* hierarchy) noexcept;
 
   /// Sizes the members of a report that depend on the tasks.
   void Resize(TickReport* report) const;
 
-  /// Copies into the report what became of the rows of the last Write().
+  /// Writes residuals, slacks and active rows of the last Write() to the
+  /// report.
   void Report(const Solution& solution, TickReport* report) const noexcept;
 
-  /// An inequality row by name; of a row with two sides, which one:
-  /// "left_foot.cop.x_max", "torque.l_knee.min", "left_foot.unilateral.fz.max".
-  /// Allocates.
+  /// Returns the name of an inequality row; for a two-sided row, with the
+  /// suffix of the active side: "left_foot.cop.x_max", "torque.l_knee.min",
+  /// "left_foot.unilateral.fz.max". Allocates.
   std::string RowName(const ActiveRow& row) const;
 
-  /// A row of the last Write() by name, an equality or, as it acts on a side, an
-  /// inequality; empty if there is none. Allocates.
+  /// Returns the name of a row of the last Write(): an equality, or an
+  /// inequality that is active on `side`. Empty if there is no such row.
+  /// Allocates.
   std::string RowName(int hierarchy_level, int row, bool is_equality,
                       Side side) const;
 
-  /// The rows of all tasks, by the names that RowName() and equality_names() have:
-  /// a row with two sides is there twice, as .min and .max. Allocates.
+  /// Returns the rows of all tasks, with the names of RowName() and
+  /// equality_names(). A two-sided row appears twice, as .min and .max.
+  /// Allocates.
   std::vector<StackRow> DescribeRows() const;
 
-  /// Priority level, 1 to kMaxLevel, of the rows that the last Write() put into a
-  /// level of the hierarchy, an index from 0. Rows that a ramp holds below all
-  /// priority levels have kMaxLevel + 1.
+  /// Returns the priority level, 1 to kMaxLevel, of a level of the hierarchy,
+  /// an index from 0, at the last Write(). The rows of Easing::Hold(), below
+  /// all priority levels, have kMaxLevel + 1.
   int priority_level(int hierarchy_level) const {
     return priority_level_[hierarchy_level];
   }
@@ -118,14 +125,14 @@ class Stack {
   struct Entry {
     std::unique_ptr<Task> task;
     TaskSettings settings;
-    int eased_rows = 0;  // First index, see Easing.
-    // Changes since the last Write(), and the settings before.
+    int eased_rows = 0;  // Index of the first row in easing_.
+    // Changes since the last Write(), and the values before them.
     bool was_switched_on = false;
     bool was_moved = false;
     bool was_tuned = false;
     std::vector<double> parameters_before;
     double weight_before = 1;
-    // Rows of the last Write().
+    // Whether and where the task has rows in the hierarchy of the last Write().
     bool takes_part = false;
     int hierarchy_level = -1;
     int equality_start = 0;
@@ -141,15 +148,16 @@ class Stack {
   void ReportInequalities(int i, const Solution& solution,
                           TickReport* report) const noexcept;
 
-  // First priority level that may be less constrained since the last Write(), as
-  // a task or limit above was switched off or widened; kTight if none.
+  // First priority level that may be less constrained since the last Write(),
+  // because a task or limit at or above it was switched off, moved or tuned.
+  // kTight means: no level.
   static constexpr int kTight = kMaxLevel + 1;
 
   int num_variables_;
   Easing easing_;
   int loose_from_ = kTight;
-  LevelCapacity most_rows_;  // Largest task.
-  Hierarchy before_;         // One task's rows before a change.
+  LevelCapacity most_rows_;  // Largest numbers of rows of a task.
+  Hierarchy before_;         // Rows of one task before it was tuned.
   bool weighted_ = false;
   double level_ratio_ = 100;
   std::vector<Entry> entries_;

@@ -17,35 +17,39 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The path of a foot ends a little below the ground, so that the foot surely arrives.
-// Below the ground it is slow, so that the foot does not knock.
+// The reference of a landing foot ends kReach below the ground, so that the
+// foot reaches the ground. Below ground level, the reference sinks over
+// kSinkTime, so that the foot does not hit the ground hard.
 constexpr double kReach = 0.005;   // m.
 constexpr double kSinkTime = 0.4;  // s.
 
-// A sole has been stopped if it sinks slower than kStopped times its reference, and
-// the reference sinks faster than kTelling.
+// The ground has stopped a descending sole if the sole is slower than kStopped
+// times its reference. This test needs a reference faster than kTelling.
 constexpr double kStopped = 0.5;
 constexpr double kTelling = 0.01;  // m/s.
 
-// A sole that rises faster than this leaves the ground.
+// A sole that rises faster than this is leaving the ground.
 constexpr double kSeparating = 0.02;  // m/s.
 
-// A returning foot is flat and above its place after this fraction of the return.
+// A returning foot is level and above its place after this fraction of
+// return_time; only its height still changes then.
 constexpr double kThereAfter = 0.7;
 
-// Duration of a phase without duration; positive, so that no quotient is 0/0.
+// Replaces a duration of 0: the motion then ends within one tick, and nothing
+// is divided by zero.
 constexpr double kInstant = 1e-9;  // s.
 
-// Rounding of a sum of some periods, s.
+// Rounding error of a sum of several control periods, s.
 constexpr double kRounding = 1e-9;
 
-// Speed of a foot that searches the ground.
+// Speed at which a foot moves down after it has lost the ground.
 constexpr double kSearchSpeed = 0.2;  // m/s.
 
-// A foot fades in up to this many times the robot's weight.
+// While a foot is loading, the bound on its normal force rises to this many
+// times the weight of the robot.
 constexpr double kFullLoad = 1.5;
 
-// Returns the duration of a swing, s.
+// Duration of the vertical motion of a foot in the air, s.
 double Duration(ContactPhase phase, double down, double swing_time) {
   if (phase != ContactPhase::kLost) return std::max(kInstant, swing_time);
   return std::max(0.05, down / kSearchSpeed);
@@ -56,7 +60,7 @@ bool Bears(ContactPhase phase) {
          phase == ContactPhase::kLoading;
 }
 
-// Returns the upright orientation with the heading of R_WC.
+// Returns the orientation with z up and the heading of R_WC.
 Eigen::Matrix3d Upright(const Eigen::Matrix3d& R_WC) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
   Eigen::Matrix3d R;
@@ -135,10 +139,11 @@ bool Stance::HasLanded(const Clearance& sole) const noexcept {
   return sole.height < settings_.found_below && sole.rising < kSeparating;
 }
 
-// Returns whether the ground has stopped a descending sole. If contact were declared
-// while the sole still descends, the controller would push on thin air: the foot
-// would tilt and land on one corner after another. If the reference is nearly at
-// rest, the speed of the sole proves nothing, and only the end of the motion counts.
+// Whether the ground has stopped a descending sole. If contact were declared
+// while the sole still descends, the controller would push on thin air: the
+// foot would tilt and land on one corner after another. While the reference
+// itself is nearly at rest, a slow sole proves nothing; then only the end of
+// the motion counts.
 bool Stance::IsStopped(const FootState& foot,
                        const Clearance& sole) const noexcept {
   if (foot.phase != ContactPhase::kLanding) return true;
@@ -163,7 +168,8 @@ void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {
   foot->has_flown = false;
 }
 
-// In the tick in which a foot is released, it is still in its place.
+// Ends the release of a foot. A foot that was released after the last Update()
+// has not moved yet: it is simply down again.
 void Stance::CallBack(FootState* foot) noexcept {
   if (foot->phase != ContactPhase::kFree) return;
   Enter(foot, foot->since > 0 ? ContactPhase::kReturning : ContactPhase::kDown);
@@ -176,21 +182,22 @@ bool Stance::Lift(int i, double height) noexcept {
   return true;
 }
 
-// Swings a foot from its position to a height, or to the ground.
+// Starts the motion of a foot to a height above the ground, or (negative
+// height) to the ground.
 void Stance::Swing(FootState* of, double height) noexcept {
   FootState& foot = *of;
   switch (foot.phase) {
     case ContactPhase::kDown:
     case ContactPhase::kLoading:
       Enter(&foot, ContactPhase::kUnloading);
-      foot.force = -1;  // Not known yet.
+      foot.force = -1;  // Set at the next Update().
       foot.to = height;
       return;
     case ContactPhase::kUnloading:
       foot.to = height;
       return;
     case ContactPhase::kReturning:
-      // Restarts from the present pose.
+      // Restarts the return from the present pose.
       Enter(&foot, ContactPhase::kReturning);
       foot.to = height;
       return;
@@ -234,9 +241,10 @@ void Stance::TakeOff(FootState* foot, const ContactTick& contact,
   foot->from = contact.X_WC.p.z() - reference.ground_z;
 }
 
-// Moves a returning foot from its pose and velocity at the call to the place where it
-// took off, on the ground or above it: x = s X + (1 - s) t V. The sole is flat and
-// above its place some time before it is down.
+// Moves the target of a returning foot from the pose and twist V at the start
+// of the return to the take-off pose, on the ground or at a height above it, by
+// the displacement X: x = s X + (1 - s) t V. The foot is above its place, and
+// its sole is level, before it reaches the final height.
 void Stance::Return(const FootState& foot,
                     FrameReference* target) const noexcept {
   Vector6d whole;
@@ -252,7 +260,8 @@ void Stance::Return(const FootState& foot,
     const MinimumJerk s(t / time);
     const double rate = s.rate / time;
     const double acceleration = s.acceleration / (time * time);
-    // A faster fall would reach the ground before the place.
+    // A foot that falls faster than this would touch the ground before it is
+    // above its place.
     const double fastest = i < 5 ? kInfinity : fall / whole_time;
     const double v = std::max(foot.V_WC_away[i], -fastest);
     moved[i] = s.value * whole[i] + (1 - s.value) * t * v;
@@ -286,7 +295,7 @@ void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
 void Stance::ChangePhase(double dt, const ContactTick& contact,
                          const Reference& reference, FootState* of) noexcept {
   FootState& foot = *of;
-  // Starts a phase.
+  // Records the state at the start of a phase.
   if (foot.phase == ContactPhase::kFree && foot.since == 0) {
     TakeOff(&foot, contact, reference);
   }
@@ -297,7 +306,7 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
   }
   foot.since += dt;
 
-  // Ends a phase.
+  // Ends the phase if its end condition is met.
   switch (foot.phase) {
     case ContactPhase::kDown:
     case ContactPhase::kLoading:
@@ -325,7 +334,7 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
           Enter(&foot, ContactPhase::kUp);
         }
       } else if (foot.has_flown) {
-        // A landing robot needs all of its feet at once, at any tilt.
+        // After a flight, each foot must carry load at once, even if not level.
         if (HasLanded(LowestCorner(foot, contact, reference.ground_z))) {
           Enter(&foot, ContactPhase::kDown);
         }
@@ -378,7 +387,8 @@ void Stance::Guide(const FootState& foot,
   target->A_WF_W[5] = motion.acceleration;
 }
 
-// The path of a foot that is put down comes to rest on the ground, and then sinks.
+// A landing foot first comes to rest on the ground; then its reference sinks
+// below the ground.
 Stance::VerticalMotion Stance::VerticalMotionOf(
     const FootState& foot) const noexcept {
   const double down =

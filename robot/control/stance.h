@@ -10,19 +10,19 @@
 
 namespace poise {
 
-/// Phases of the contact of a foot with the ground.
+/// Contact phase of a foot.
 enum class ContactPhase {
   kDown,       ///< In contact.
-  kUnloading,  ///< In contact; its force fades out, then it is up.
-  kUp,         ///< In the air, on purpose.
-  kLanding,    ///< In the air, on its way down.
-  kLoading,    ///< In contact; its force fades in, then it is down.
-  kLost,       ///< Meant to be in contact, but the ground is not there.
-  kFree,       ///< In the air, where the body moves it.
-  kReturning,  ///< In the air, on its way back to where it took off, or above.
+  kUnloading,  ///< In contact; the force fades out, then the foot is lifted.
+  kUp,         ///< In the air, on command.
+  kLanding,    ///< In the air, moving down.
+  kLoading,    ///< In contact; the force fades in, then the phase is kDown.
+  kLost,       ///< Commanded to be in contact, but not on the ground.
+  kFree,       ///< Released: in the air, without a reference.
+  kReturning,  ///< In the air, moving back to or above its take-off place.
 };
 
-/// Times and heights of a Stance. A time of 0 means at once.
+/// Times and heights of a Stance. A time of 0 means: within one tick.
 struct StanceSettings {
   double fade_time = 0.3;    ///< Time for a force to fade in or out, s.
   double swing_time = 0.8;   ///< Time to lift a foot or to put it down, s.
@@ -39,12 +39,13 @@ struct StanceSettings {
 
 /// Decides which feet are in contact. On command, the force of a foot fades out
 /// before the foot is lifted, and fades in after the foot is put down. Without
-/// a command, contact is detected by geometry with hysteresis, never by force: a
-/// foot that is assumed to be in the air carries no load, so a force test would
-/// never find its contact again. A foot rolled onto its edge is in contact. A
-/// foot in the air is in contact again when its sole lies on the ground. While no
-/// foot is in contact, all feet move with the body. A foot whose edge then
-/// lands is in contact at once, with its full normal force.
+/// a command, contact is detected by geometry with hysteresis, never by force:
+/// a foot that is assumed to be in the air carries no load, so a force test
+/// would never find its contact again. A foot that stands on its edge stays in
+/// contact. A foot that is landing, lost or returning is in contact again when
+/// its sole lies on the ground. While no foot is in contact, all feet move with
+/// the body without a reference. In this case, a foot is in contact as soon as
+/// an edge touches the ground, with its full normal force.
 class Stance {
  public:
   /// Range of the height argument of Lift(), m.
@@ -54,15 +55,15 @@ class Stance {
   static constexpr double kMostTime = 60;        ///< Upper bound of times, s.
   static constexpr double kMostThreshold = 0.5;  ///< Upper bound of heights, m.
 
-  /// Starts with all feet in contact. weight is that of the robot, N.
+  /// All feet start in contact. `weight` is the weight of the robot, N.
   Stance(const std::vector<Foot>& feet, double weight);
 
   /// Throws std::invalid_argument, and changes nothing, if a time is not 0 to
-  /// kMostTime, or a height not 0 to kMostThreshold. Call this between two ticks.
+  /// kMostTime, or a height not 0 to kMostThreshold. Call only between ticks.
   void Configure(const StanceSettings& settings);
   const StanceSettings& settings() const { return settings_; }
 
-  /// Puts all feet in contact at once.
+  /// Sets all feet to kDown at once.
   void Reset() noexcept;
 
   /// Fades the force of a foot out and then lifts the foot by height, m. A foot
@@ -71,15 +72,16 @@ class Stance {
   /// false, and does nothing, if the height is out of its range.
   [[nodiscard]] bool Lift(int foot, double height) noexcept;
 
-  /// Puts a foot down at its place; a released foot returns there first.
+  /// Puts a foot down at the place where it took off; a released foot returns
+  /// there first. A foot that is still unloading is loaded again.
   void PutDown(int foot) noexcept;
 
-  /// Releases a foot at once: the foot moves with the body until PutDown() or
-  /// Lift() brings it back.
+  /// Releases a foot at once: its reference is switched off, and the foot moves
+  /// with the body until PutDown() or Lift() brings it back.
   void LetGo(int foot) noexcept;
 
   ContactPhase phase(int foot) const { return feet_[foot].phase; }
-  /// Returns whether the foot is planned to be in contact.
+  /// Whether the foot is commanded to be in contact (kDown, kLost, kLoading).
   bool is_meant_down(int foot) const;
 
   /// Advances by dt: writes in_contact and max_normal_force of the contacts,
@@ -95,12 +97,12 @@ class Stance {
     ContactPhase phase = ContactPhase::kDown;
     double since = 0;         // Time in this phase, s.
     double left_for = 0;      // Time off the ground, s.
-    double force = 0;         // At the beginning of the phase, N.
-    Pose X_WC;                // Pose at take-off, made upright.
-    Pose X_WC_away;           // Pose at the start of the return,
-    Vector6d V_WC_away;       // and velocity, in world axes.
-    double from = 0, to = 0;  // Heights of the swing, m.
-    bool has_flown = false;   // No foot carried load for a while.
+    double force = 0;         // Normal force at the start of the phase, N.
+    Pose X_WC;                // Take-off pose, made upright.
+    Pose X_WC_away;           // Pose at the start of kReturning.
+    Vector6d V_WC_away;       // Twist at the start of kReturning, world axes.
+    double from = 0, to = 0;  // Start and end height of the swing, m.
+    bool has_flown = false;   // No foot was in contact at a time in this phase.
     std::vector<Eigen::Vector2d> polygon_C;
   };
 
@@ -110,7 +112,7 @@ class Stance {
     double rising;  // m/s.
   };
 
-  // Straight up or down, from the ground on, in m, m/s and m/s2.
+  // Vertical motion of a sole above the ground, in m, m/s and m/s2.
   struct VerticalMotion {
     double height, speed, acceleration;
     bool is_over;

@@ -27,17 +27,19 @@ std::vector<Foot> TwoFeet() {
   return feet;
 }
 
-// From tick to tick a target goes where its velocity and acceleration say.
+// Expects that the pose, velocity and acceleration of a target are consistent
+// from tick to tick.
 void ExpectMovesAsItSays(const FrameReference& last,
                          const FrameReference& now) {
   Eigen::Matrix<double, 6, 1> moved;
   moved << LogSo3(now.X_WF.R * last.X_WF.R.transpose()),
       now.X_WF.p - last.X_WF.p;
-  // Trapezoids: the third derivative, of 60 * 0.6 / (0.35 s)^3, by dt^3/12.
+  // Error of the trapezoidal rule: third derivative, 60 * 0.6 / (0.35 s)^3,
+  // times dt^3 / 12.
   EXPECT_LT((moved - 5e-4 * (last.V_WF_W + now.V_WF_W)).norm(), 7e-8);
   EXPECT_LT(
       (now.V_WF_W - last.V_WF_W - 5e-4 * (last.A_WF_W + now.A_WF_W)).norm(),
-      3e-6);  // The fourth: 360 * 0.6 / (0.35 s)^4.
+      3e-6);  // Fourth derivative: 360 * 0.6 / (0.35 s)^4.
 }
 
 class StanceTest : public testing::Test {
@@ -47,7 +49,7 @@ class StanceTest : public testing::Test {
     reference_.feet.resize(2);
   }
 
-  // As long as a foot must have left to be lost.
+  // Updates for the debounce time lost_after, 3 ms.
   void UpdateForLost() {
     for (int i = 0; i < 3; ++i) {
       EXPECT_NE(stance_.phase(0), ContactPhase::kLost);
@@ -71,11 +73,11 @@ class StanceTest : public testing::Test {
   Reference reference_;
 };
 
-// Its center is 3 cm up, and rises.
-TEST_F(StanceTest, KeepsAFootThatStandsOnItsEdge) {
+// The center of the sole is 3 cm above the ground, and rises.
+TEST_F(StanceTest, KeepsContactOfFootOnItsEdge) {
   for (const double angle : {0.6, -0.6}) {
     Roll(angle, 0);
-    // It turns about that edge: at the center, up.
+    // The foot turns about this edge, so that its center moves up.
     contacts_[0].V_WC_C.head<3>() = Vector3d(angle, 0, 0);
     contacts_[0].V_WC_C.tail<3>() =
         Vector3d(angle, 0, 0)
@@ -86,10 +88,10 @@ TEST_F(StanceTest, KeepsAFootThatStandsOnItsEdge) {
   }
 }
 
-TEST_F(StanceTest, LosesAFootThatGoesUp) {
+TEST_F(StanceTest, LosesContactOfRisingFoot) {
   Roll(0.6, 0.011);
   Update();
-  EXPECT_TRUE(contacts_[0].in_contact);  // It does not rise.
+  EXPECT_TRUE(contacts_[0].in_contact);  // The foot does not rise.
   contacts_[0].V_WC_C[5] = 0.03;
   UpdateForLost();
   EXPECT_FALSE(contacts_[0].in_contact);
@@ -98,9 +100,9 @@ TEST_F(StanceTest, LosesAFootThatGoesUp) {
   EXPECT_TRUE(contacts_[1].in_contact);
 }
 
-// One or two wrong samples do not end a contact. A foot that has not yet touched
-// the ground does not count as in contact.
-TEST_F(StanceTest, LosesAFootThatHasLeftForAWhile) {
+// One or two samples above the ground do not end the contact. A foot that was
+// not seen on the ground since Reset() is lost at once.
+TEST_F(StanceTest, DebouncesLossOfContact) {
   const auto lost_at = [this](bool is_high) {
     contacts_[0].X_WC.p.z() = is_high ? 0.03 : 0;
     Update();
@@ -117,7 +119,7 @@ TEST_F(StanceTest, LosesAFootThatHasLeftForAWhile) {
   EXPECT_TRUE(lost_at(true));
   stance_.Reset();
   EXPECT_TRUE(lost_at(true));
-  // In time, not in ticks.
+  // The debounce counts time, not ticks.
   stance_.Reset();
   EXPECT_FALSE(lost_at(false));
   contacts_[0].X_WC.p.z() = 0.03;
@@ -125,8 +127,9 @@ TEST_F(StanceTest, LosesAFootThatHasLeftForAWhile) {
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLost);
 }
 
-// Rolled onto an edge that is 11 mm up: what that edge does counts, and no more.
-TEST_F(StanceTest, LosesAFootByTheSpeedOfItsLowestEdge) {
+// The lowest edge of a rolled foot is at 11 mm: only the speed of this edge
+// counts.
+TEST_F(StanceTest, UsesSpeedOfLowestEdgeForLossOfContact) {
   for (const double angle : {0.6, -0.6}) {
     SCOPED_TRACE(angle);
     stance_.Reset();
@@ -142,20 +145,20 @@ TEST_F(StanceTest, LosesAFootByTheSpeedOfItsLowestEdge) {
   }
 }
 
-TEST_F(StanceTest, KeepsAFootThatIsHardlyUpHoweverFast) {
+TEST_F(StanceTest, KeepsContactBelowThresholdAtAnySpeed) {
   Roll(0, 0.009);
   contacts_[0].V_WC_C[5] = 1;
   Update();
   EXPECT_TRUE(contacts_[0].in_contact);
 }
 
-TEST_F(StanceTest, LosesAFootThatIsHighEvenAtRest) {
+TEST_F(StanceTest, LosesContactOfHighFootAtRest) {
   Roll(0.6, 0.021);
   Update();
   EXPECT_FALSE(contacts_[0].in_contact);
 }
 
-TEST_F(StanceTest, FindsAFootWhenItsSoleLiesOnTheGround) {
+TEST_F(StanceTest, FindsContactWhenSoleLiesOnGround) {
   Roll(0, 0.03);
   Update();
   ASSERT_EQ(stance_.phase(0), ContactPhase::kLost);
@@ -165,31 +168,32 @@ TEST_F(StanceTest, FindsAFootWhenItsSoleLiesOnTheGround) {
   Roll(0, 0.003);
   contacts_[0].V_WC_C[5] = 0.03;
   Update();
-  EXPECT_FALSE(contacts_[0].in_contact);  // It leaves again.
+  EXPECT_FALSE(contacts_[0].in_contact);  // The sole rises.
   contacts_[0].X_WC.R = ExpSo3(Vector3d(0.5, 0, 0));
   contacts_[0].V_WC_C.tail<3>() = Vector3d(0, 0.1, 0);
   Update();
-  EXPECT_FALSE(contacts_[0].in_contact);  // Up, along its own y.
+  EXPECT_FALSE(contacts_[0].in_contact);  // Moves up, along its y axis.
   Roll(0, 0.005);
   contacts_[0].V_WC_C.tail<3>() = Vector3d(0, 0, -0.03);
   Update();
-  EXPECT_FALSE(contacts_[0].in_contact);  // Not there yet.
+  EXPECT_FALSE(contacts_[0].in_contact);  // Still too high.
   Roll(0, 0.003);
   Update();
   EXPECT_TRUE(contacts_[0].in_contact);
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
   EXPECT_LT(contacts_[0].max_normal_force, 10);
   for (int i = 0; i < 150; ++i) Update();
-  // Half of one and a half times the weight.
+  // Half of the final bound, 1.5 times the weight.
   EXPECT_NEAR(contacts_[0].max_normal_force, 300, 3);
   for (int i = 0; i <= 150; ++i) Update();
   EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);
   EXPECT_TRUE(std::isinf(contacts_[0].max_normal_force));
 }
 
-// No foot bears: they go with the body, and whose lower edge lands is down at
-// once, not flat as it is, and bears what it can.
-TEST_F(StanceTest, LandsOnTheFeetAsTheyAre) {
+// While no foot is in contact, the feet move with the body. A foot whose lower
+// edge lands is then in contact at once, with its full force, even if not
+// level.
+TEST_F(StanceTest, LandsOnTiltedFootAfterFlight) {
   const auto lift_all = [&] {
     for (ContactTick& contact : contacts_) {
       contact.X_WC.R.setIdentity();
@@ -216,7 +220,7 @@ TEST_F(StanceTest, LandsOnTheFeetAsTheyAre) {
   contacts_[1].X_WC.p.z() = 0.003;
   Update();
   EXPECT_EQ(stance_.phase(1), ContactPhase::kDown);
-  // That was then: a foot that is lost alone fades in, flat.
+  // Without a flight: a foot that lost contact alone is loaded gradually.
   contacts_[1].X_WC.p.z() = 0.03;
   UpdateForLost();
   ASSERT_EQ(stance_.phase(1), ContactPhase::kLost);
@@ -226,8 +230,9 @@ TEST_F(StanceTest, LandsOnTheFeetAsTheyAre) {
   EXPECT_EQ(stance_.phase(1), ContactPhase::kLoading);
 }
 
-// A foot that is up on purpose goes with the body too, and does not stand.
-TEST_F(StanceTest, KeepsALiftedFootUpInFlight) {
+// In flight, a foot that was lifted on command moves with the body too. It does
+// not become a contact at landing.
+TEST_F(StanceTest, KeepsLiftedFootUpInFlight) {
   ASSERT_TRUE(stance_.Lift(1, 0.05));
   for (int i = 0; i < 302; ++i) Update();
   ASSERT_EQ(stance_.phase(1), ContactPhase::kUp);
@@ -246,9 +251,10 @@ TEST_F(StanceTest, KeepsALiftedFootUpInFlight) {
   EXPECT_FALSE(contacts_[1].in_contact);
 }
 
-// The target of a released foot that returns begins at the foot and ends at its old
-// place. Its velocity and acceleration are the derivatives of its position.
-TEST_F(StanceTest, LetsAFootGoAndBringsItBack) {
+// A released foot is put down from a distant pose. Its target starts at the
+// present pose, ends at the take-off place, and is consistent with its velocity
+// and acceleration.
+TEST_F(StanceTest, ReleasesFootAndBringsItBack) {
   contacts_[0].X_WC.p = Vector3d(1, 2, 0);
   stance_.LetGo(0);
   Update();
@@ -269,7 +275,7 @@ TEST_F(StanceTest, LetsAFootGoAndBringsItBack) {
   Update();
   EXPECT_TRUE(contacts_[0].is_guided);
   EXPECT_FALSE(contacts_[0].in_contact);
-  // A millisecond of minimum jerk.
+  // Tolerance: effect of the minimum-jerk curve in 1 ms.
   EXPECT_LT((target.X_WF.p - away.p - 1e-3 * v_W).norm(), 1e-6);
   EXPECT_LT((target.V_WF_W.tail<3>() - v_W).norm(), 1e-3);
   EXPECT_LT(LogSo3(target.X_WF.R * away.R.transpose()).norm(), 1e-6);
@@ -298,7 +304,7 @@ TEST_F(StanceTest, LetsAFootGoAndBringsItBack) {
   EXPECT_TRUE(stance_.is_meant_down(0));
 }
 
-TEST_F(StanceTest, BringsAFootBackFromTheTurnThatItHas) {
+TEST_F(StanceTest, ReturnStartsFromPresentRotation) {
   stance_.LetGo(0);
   Update();
   const Eigen::Matrix3d R_WC = ExpSo3(Vector3d(0.4, -0.2, 0.1));
@@ -313,9 +319,9 @@ TEST_F(StanceTest, BringsAFootBackFromTheTurnThatItHas) {
             1e-6);
 }
 
-// The path of a released foot begins at its position with its velocity, and ends
-// upright above the place where it left the ground.
-TEST_F(StanceTest, LiftsAReleasedFootFromItsPosition) {
+// The motion of a released foot that is lifted starts from its present pose and
+// speed. It ends upright above the take-off place.
+TEST_F(StanceTest, LiftsReleasedFootFromPresentPose) {
   const FrameReference& target = reference_.feet[0];
   const Pose away{ExpSo3(Vector3d(0.4, -0.2, 0.1)), Vector3d(0.9, 2.3, 0.1)};
   const Vector3d v_W(0.2, -0.5, -0.15);
@@ -338,7 +344,7 @@ TEST_F(StanceTest, LiftsAReleasedFootFromItsPosition) {
     Update();
     EXPECT_FALSE(contacts_[0].in_contact);
     EXPECT_TRUE(contacts_[0].is_guided);
-    // A millisecond of minimum jerk.
+    // Tolerance: effect of the minimum-jerk curve in 1 ms.
     EXPECT_LT((target.X_WF.p - away.p - 1e-3 * v_W).norm(), 1e-6);
     EXPECT_LT((target.V_WF_W.tail<3>() - v_W).norm(), 1e-3);
     EXPECT_LT(LogSo3(target.X_WF.R * away.R.transpose()).norm(), 1e-6);
@@ -356,9 +362,9 @@ TEST_F(StanceTest, LiftsAReleasedFootFromItsPosition) {
   }
 }
 
-// On its way up it is not meant to land, however low it is, and comes down from
-// where it is when it is put down.
-TEST_F(StanceTest, PutsAFootDownThatRisesAgain) {
+// A returning foot on its way up is not a contact, even at a small height. When
+// it is put down, it moves down from its present pose.
+TEST_F(StanceTest, PutsReturningFootDown) {
   stance_.LetGo(0);
   Update();
   contacts_[0].X_WC.p = Vector3d(0.1, 0.2, 0.003);
@@ -379,8 +385,9 @@ TEST_F(StanceTest, PutsAFootDownThatRisesAgain) {
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
 }
 
-// Once it is up it is like any other.
-TEST_F(StanceTest, PutsDownAReleasedAndLiftedFoot) {
+// A foot in the phase kUp lands in the same way, whether it was released or
+// not.
+TEST_F(StanceTest, PutsDownFootThatWasReleasedAndLifted) {
   stance_.LetGo(0);
   Update();
   contacts_[0].X_WC.p = Vector3d(0.1, 0.2, 0.1);
@@ -400,14 +407,14 @@ TEST_F(StanceTest, PutsDownAReleasedAndLiftedFoot) {
   EXPECT_LT((last.X_WF.p - Vector3d(0, 0, -0.005)).norm(), 1e-9);
 }
 
-// Pressed onto the ground before it was there, a foot tilted and landed on three
-// corners, one after the other.
-TEST_F(StanceTest, BelievesThatAFootIsDownWhenItIsStopped) {
+// Contact is found only after the ground has stopped the sole. With contact too
+// early, the controller would press on a foot in the air, which would tilt.
+TEST_F(StanceTest, FindsContactWhenSoleIsStopped) {
   ASSERT_TRUE(stance_.Lift(0, 0.05));
   for (int i = 0; i < 1200; ++i) Update();
   ASSERT_EQ(stance_.phase(0), ContactPhase::kUp);
   stance_.PutDown(0);
-  // It is where it should be.
+  // The foot follows its reference exactly.
   const FrameReference& target = reference_.feet[0];
   do {
     contacts_[0].X_WC = target.X_WF;
@@ -420,7 +427,7 @@ TEST_F(StanceTest, BelievesThatAFootIsDownWhenItIsStopped) {
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
 }
 
-TEST_F(StanceTest, LiftsAFootInTheTickOfItsRelease) {
+TEST_F(StanceTest, LiftRightAfterReleaseUnloadsFirst) {
   contacts_[0].X_WC.p = Vector3d(1, 2, 0);
   stance_.LetGo(0);
   ASSERT_TRUE(stance_.Lift(0, 0.05));
@@ -431,9 +438,9 @@ TEST_F(StanceTest, LiftsAFootInTheTickOfItsRelease) {
   EXPECT_LT((reference_.feet[0].X_WF.p - Vector3d(1, 2, 0)).norm(), 1e-6);
 }
 
-// From high up and far away, falling: a foot that came down on its way would
-// stand where it is not to be.
-TEST_F(StanceTest, BringsAFallingFootToItsPlaceBeforeTheGround) {
+// A falling foot that is high and far from its place must be above its place
+// before it lands.
+TEST_F(StanceTest, ReturnsFallingFootToItsPlaceBeforeLanding) {
   stance_.LetGo(0);
   Update();
   const Vector3d away(0.55, -0.15, 0.4);
@@ -459,7 +466,7 @@ TEST_F(StanceTest, BringsAFallingFootToItsPlaceBeforeTheGround) {
   EXPECT_EQ(stance_.phase(0), ContactPhase::kReturning);
 }
 
-TEST_F(StanceTest, TakesALettingGoBack) {
+TEST_F(StanceTest, PutDownRightAfterReleaseKeepsContact) {
   stance_.LetGo(0);
   stance_.PutDown(0);
   EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);
@@ -467,7 +474,7 @@ TEST_F(StanceTest, TakesALettingGoBack) {
   EXPECT_TRUE(contacts_[0].in_contact);
 }
 
-TEST_F(StanceTest, FadesAForceOutBeforeItLiftsAFoot) {
+TEST_F(StanceTest, FadesForceOutBeforeLift) {
   ASSERT_TRUE(stance_.Lift(0, 0.05));
   Update();
   EXPECT_TRUE(contacts_[0].in_contact);
@@ -494,7 +501,7 @@ TEST_F(StanceTest, FadesAForceOutBeforeItLiftsAFoot) {
   EXPECT_TRUE(contacts_[0].in_contact);
 }
 
-TEST_F(StanceTest, FadesEachFootFromTheForceThatItBears) {
+TEST_F(StanceTest, FadesEachFootFromItsOwnForce) {
   ASSERT_TRUE(stance_.Lift(0, 0.05));
   ASSERT_TRUE(stance_.Lift(1, 0.05));
   Update();
@@ -502,8 +509,8 @@ TEST_F(StanceTest, FadesEachFootFromTheForceThatItBears) {
   EXPECT_NEAR(contacts_[1].max_normal_force, 100 * (1 - 1 / 300.), 1e-9);
 }
 
-// On a floor of any height; the sole comes level on its way up.
-TEST_F(StanceTest, LiftsAFootUprightFromWhereItStands) {
+// The floor has any height; the sole becomes level while it rises.
+TEST_F(StanceTest, LiftsFootUprightFromItsPlace) {
   reference_.ground_z = 0.3;
   const Eigen::Matrix3d heading = ExpSo3(Vector3d(0, 0, 0.4));
   contacts_[0].X_WC = {heading * ExpSo3(Vector3d(0.02, -0.03, 0)),
@@ -513,14 +520,14 @@ TEST_F(StanceTest, LiftsAFootUprightFromWhereItStands) {
   while (stance_.phase(0) != ContactPhase::kUp) Update();
   const Pose& target = reference_.feet[0].X_WF;
   EXPECT_LT((target.p - Vector3d(1, 2, 0.3)).norm(), 1e-6);
-  // Tilts turn the heading by half of their product.
+  // The tilts change the heading by half of their product.
   EXPECT_LT((target.R - heading).norm(), 1e-3);
   EXPECT_LT((target.R.col(2) - Vector3d::UnitZ()).norm(), 1e-12);
   for (int i = 0; i <= 800; ++i) Update();
   EXPECT_LT((target.p - Vector3d(1, 2, 0.35)).norm(), 1e-9);
 }
 
-TEST_F(StanceTest, LiftsToTheHeightThatWasToldLast) {
+TEST_F(StanceTest, LiftsToLastCommandedHeight) {
   ASSERT_TRUE(stance_.Lift(0, 0.05));
   Update();
   ASSERT_TRUE(stance_.Lift(0, 0.03));
@@ -537,13 +544,13 @@ TEST_F(StanceTest, LiftsToTheHeightThatWasToldLast) {
   EXPECT_NEAR(reference_.feet[0].X_WF.p.z(), 0.08, 1e-12);
 }
 
-TEST_F(StanceTest, LiftsAFootThatHasLostTheGroundFromWhereItIs) {
+TEST_F(StanceTest, LiftsLostFootFromPresentHeight) {
   Roll(0, 0.03);
   for (int i = 0; i < 80; ++i) Update();
   ASSERT_EQ(stance_.phase(0), ContactPhase::kLost);
   const double reached = reference_.feet[0].X_WF.p.z();
   EXPECT_LT(reached, 0.025);
-  EXPECT_GT(reached, 0.01);  // Full height 35 mm, at 0.2 m/s.
+  EXPECT_GT(reached, 0.01);  // The way is 35 mm, at 0.2 m/s.
   ASSERT_TRUE(stance_.Lift(0, 0.05));
   Update();
   EXPECT_EQ(stance_.phase(0), ContactPhase::kUp);
@@ -551,15 +558,15 @@ TEST_F(StanceTest, LiftsAFootThatHasLostTheGroundFromWhereItIs) {
   EXPECT_NEAR(reference_.feet[0].X_WF.p.z(), reached, 1e-6);  // No jump.
 }
 
-TEST_F(StanceTest, PutsAFootDown) {
+TEST_F(StanceTest, PutsFootDown) {
   stance_.PutDown(0);
-  EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);  // It is.
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);  // No effect.
   ASSERT_TRUE(stance_.Lift(0, 0.05));
   Update();
   stance_.PutDown(0);
   Update();
   EXPECT_EQ(stance_.phase(0), ContactPhase::kLoading);
-  // The ground carries it still.
+  // The bound starts at the weight of the robot: the foot still carries load.
   EXPECT_GE(contacts_[0].max_normal_force, 400);
   ASSERT_TRUE(stance_.Lift(0, 0.05));
   for (int i = 0; i < 1200; ++i) Update();
@@ -580,8 +587,8 @@ TEST_F(StanceTest, PutsAFootDown) {
   EXPECT_LT(last, 0.005);
 }
 
-// An invalid height in the references would fail every later tick.
-TEST_F(StanceTest, RejectsAnInvalidHeight) {
+// An invalid height in the references would make every tick fail safe.
+TEST_F(StanceTest, RejectsInvalidHeight) {
   for (const double height :
        {std::nan(""), HUGE_VAL, -HUGE_VAL, -0.05, 0.0, 1.1}) {
     EXPECT_FALSE(stance_.Lift(0, height)) << height;
@@ -611,14 +618,14 @@ TEST_F(StanceTest, RejectsInvalidSettings) {
   settings.fade_time = -1;
   try {
     stance_.Configure(settings);
-    FAIL() << "accepts a negative time";
+    FAIL() << "Configure() accepted a negative time";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(), "stance: fade_time is -1 s, must be 0 to 60 s");
   }
 }
 
-// No time is 0/0.
-TEST_F(StanceTest, DoesAtOnceWhatTakesNoTime) {
+// Times of 0 must not cause a division 0/0.
+TEST_F(StanceTest, TimesOfZeroActAtOnce) {
   StanceSettings at_once;
   at_once.fade_time = at_once.swing_time = 0;
   at_once.return_time = at_once.lost_after = 0;
@@ -639,7 +646,8 @@ TEST_F(StanceTest, DoesAtOnceWhatTakesNoTime) {
   contacts_[0].X_WC.p.z() = 0.05;
   stance_.PutDown(0);
   update(ContactPhase::kLanding);
-  EXPECT_NEAR(target.X_WF.p.z(), 0, 1e-8);  // It sinks on, for a tick.
+  EXPECT_NEAR(target.X_WF.p.z(), 0,
+              1e-8);  // The reference sinks for one more tick.
   contacts_[0].X_WC.p.z() = 0;
   for (int i = 0; i < 1000 && !contacts_[0].in_contact; ++i) Update();
   update(ContactPhase::kDown);
@@ -651,7 +659,7 @@ TEST_F(StanceTest, DoesAtOnceWhatTakesNoTime) {
   EXPECT_NEAR(target.X_WF.p.z(), -0.005, 1e-12);
 }
 
-TEST(MidFeet, IsLevelAmidTheFeetThatStand) {
+TEST(MidFeet, IsLevelAtMeanOfFeetInContact) {
   const auto turn = [](double yaw, double pitch) {
     return Eigen::Matrix3d(ExpSo3(Vector3d(0, 0, yaw)) *
                            ExpSo3(Vector3d(0, pitch, 0)));
@@ -662,7 +670,7 @@ TEST(MidFeet, IsLevelAmidTheFeetThatStand) {
   const double heading =
       std::atan2(std::cos(0.3) * std::sin(0.2) + std::cos(0.1) * std::sin(0.6),
                  std::cos(0.3) * std::cos(0.2) + std::cos(0.1) * std::cos(0.6));
-  for (const bool all : {true, false}) {  // If none stands, amid all.
+  for (const bool all : {true, false}) {  // Without contact, all feet count.
     contacts[0].in_contact = contacts[1].in_contact = all;
     const Pose X_WMid = MidFeet(contacts);
     EXPECT_LT((X_WMid.p - Vector3d(2, 4, 0.2)).norm(), 1e-12);
@@ -672,7 +680,7 @@ TEST(MidFeet, IsLevelAmidTheFeetThatStand) {
   const Pose X_WMid = MidFeet(contacts);
   EXPECT_LT((X_WMid.p - contacts[1].X_WC.p).norm(), 1e-12);
   EXPECT_LT((X_WMid.R - turn(0.6, 0)).norm(), 1e-12);
-  contacts[1].X_WC.R = turn(0.6, -M_PI / 2);  // On its heel: no heading.
+  contacts[1].X_WC.R = turn(0.6, -M_PI / 2);  // Sole vertical: no heading.
   EXPECT_TRUE(MidFeet(contacts).R.isIdentity(0));
 }
 

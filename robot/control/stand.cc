@@ -25,26 +25,31 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Margin to the ends of a joint's range, as a fraction and at most in rad or m.
+// Margin to each joint limit: kMarginFraction of the range, but at most
+// kLargestMargin, rad or m.
 constexpr double kMarginFraction = 0.05;
 constexpr double kLargestMargin = 0.05;
 constexpr double kKneeBend = 0.6;     // rad.
-constexpr double kKneeWeight = 100;   // Hip and ankle follow the knee.
-constexpr double kFootGap = 0.02;     // Between the soles at least, m.
+constexpr double kKneeWeight = 100;   // Large, so that hip and ankle adapt.
+constexpr double kFootGap = 0.02;     // Smallest gap between the soles, m.
 constexpr double kLongestStep = 0.3;  // Per iteration, rad or m.
-constexpr int kFullSteps = 30;        // Later steps shrink, against cycles.
+// After kFullSteps iterations, each step is bounded by kShrink times the bound
+// of the step before, so that the search cannot cycle.
+constexpr int kFullSteps = 30;
 constexpr double kShrink = 0.6;
-// An approximate step is sufficient.
+// A step need not be optimal: the next one corrects it.
 constexpr int kSolverIterations = 60;
-// Fraction of an ankle's torque that may hold the robot on one foot.
+// Fraction of the ankle torque that may hold the robot on one foot. The rest is
+// kept for motion.
 constexpr double kAnkleShare = 0.5;
-// An error below this counts as zero, m or rad.
+// The search ends once a step is shorter than this, rad or m.
 constexpr double kConverged = 1e-9;
-// Largest error of a standing robot: center of mass, m; soles, m and rad.
+// Tolerances of the result: distance of the center of mass from its target, m;
+// tilt and position error of the soles, rad and m.
 constexpr double kCentered = 5e-3;
 constexpr double kFlat = 1e-6;
 
-// State of a foot in world axes.
+// Pose of a foot in the world, and its Jacobian.
 struct FootState {
   Pose X_WC;
   MatrixXd J_WC_W;  // 6 x nv.
@@ -64,7 +69,8 @@ FootState StateOf(const Robot& robot, const Tick& tick, int i) {
   return state;
 }
 
-// Returns the axis of the base that is nearest to v, or v if none is near.
+// Returns the coordinate axis that is nearest to v, or the direction of v if no
+// axis is within kNear.
 Vector3d Snap(const Vector3d& v) {
   constexpr double kNear = 0.35;  // rad.
   int i = 0;
@@ -76,11 +82,11 @@ Vector3d Snap(const Vector3d& v) {
 // The inverse-kinematics problem of StandUp().
 class Standing {
  public:
-  // `bend` is the angle of the knees; positive moves the knees forward.
+  // Straight knees are bent to the angle `bend`, rad; positive: knees forward.
   Standing(const Robot& robot, double bend);
 
-  // Iterates until it converges. Returns the reason if the posture does not stand,
-  // else an empty string.
+  // Iterates until the posture converges. Returns the error in words, or an
+  // empty text if the robot stands.
   std::string Solve();
 
   const VectorXd& q() const { return q_; }
@@ -88,22 +94,24 @@ class Standing {
  private:
   void Evaluate();
 
-  // Returns the desired place of the center of mass ahead of the middle of a sole, m.
-  // It is nearer to the ankle if the ankle is too weak for one foot.
+  // Target of the center of mass: distance in front of the middle of sole i, m.
+  // It is 0, or nearer to the ankle if the ankle is too weak to hold the robot
+  // on that foot alone.
   double Forward(int i) const;
 
-  // Sets the ranges of the joints and moves rest positions inside.
+  // Sets the range of each joint. A joint outside moves to the nearest end.
   void SetLimits();
 
-  // Bends the knee above a foot, if it is straight.
+  // Bends the knee of the leg with the foot `body`, if the knee is straight.
   void BendKnee(int body, double bend);
 
   void AddLimits(double longest, Hierarchy* hierarchy) const;
 
-  // Adds rows for both feet: flat on the ground, facing +x, side by side.
+  // Adds the rows that put the soles flat on the ground, facing +x, side by
+  // side, with their middle at the origin.
   void AddFeet(Hierarchy* hierarchy) const;
 
-  // Returns the horizontal error of the center of mass, m.
+  // Horizontal error of the center of mass, m.
   Eigen::Vector2d OffBalance() const {
     return tick_.p_WG.head<2>() - Eigen::Vector2d(forward_, 0);
   }
@@ -112,7 +120,7 @@ class Standing {
 
   void AddPosture(Hierarchy* hierarchy) const;
 
-  // Returns the reason why the posture does not stand; empty if it does.
+  // Returns the remaining error in words; empty if the robot stands.
   std::string Lack() const;
 
   const Robot& robot_;
@@ -125,7 +133,7 @@ class Standing {
   FootState feet_[2];
   Matrix3d R_WB_;
   double distance_;
-  double forward_ = 0;  // Center of mass ahead of the middle, m.
+  double forward_ = 0;  // x of the target of the center of mass, m.
 };
 
 Standing::Standing(const Robot& robot, double bend)
@@ -136,7 +144,7 @@ Standing::Standing(const Robot& robot, double bend)
   q_ = robot.q_nominal;
   q_.head<7>() << 0, 0, 0, 0, 0, 0, 1;
   SetLimits();
-  // The soles define the upright direction at the rest posture.
+  // The base is upright when the soles are level with the joints at rest.
   Evaluate();
   const Vector3d up = Snap(feet_[0].X_WC.R.col(2) + feet_[1].X_WC.R.col(2));
   Vector3d front = feet_[0].X_WC.R.col(0) + feet_[1].X_WC.R.col(0);
@@ -182,7 +190,7 @@ std::string Standing::Solve() {
     AddPosture(&hierarchy);
     const Status status = solver.Solve(hierarchy, &solution);
     if (status != Status::kOptimal && status != Status::kIterationLimit) {
-      return "a step of the search cannot be solved";
+      return "the solver failed in a step of the inverse kinematics";
     }
     Integrate(tree_, q_, solution.y, 1, q_);
     Evaluate();
@@ -202,7 +210,7 @@ double Standing::Forward(int i) const {
       FindAnkle(tree_, robot_.feet[i].body, tick_.X_WB, X_WC.R.col(1));
   if (!ankle) return 0;
   const double effort = robot_.model.limits[*ankle].effort;
-  if (!(effort >= 0)) return 0;  // The file has no limit.
+  if (!(effort >= 0)) return 0;  // The robot file gives no effort limit.
   const double weight = tree_.total_mass() * tree_.gravity_W().norm();
   const double reach = kAnkleShare * effort / weight;
   const double x = (X_WC.Inverse() * tick_.X_WB[*ankle + 1].p).x();
@@ -246,7 +254,7 @@ void Standing::AddLimits(double longest, Hierarchy* hierarchy) const {
     steps.lower[row] = std::max(-longest, std::min(0., lower_[j] - q));
     steps.upper[row] = std::min(longest, std::max(0., upper_[j] - q));
     if (lower_[j] < upper_[j]) continue;
-    hierarchy->AddEqualities(0, 1).B(0, row) = 1;  // The joint cannot move.
+    hierarchy->AddEqualities(0, 1).B(0, row) = 1;  // No range: fixed joint.
   }
   for (const MimicCoupling& mimic : robot_.model.mimics) {
     const auto q = [&](int j) { return q_[tree_.q_start() + j]; };
@@ -296,20 +304,20 @@ void Standing::AddPosture(Hierarchy* hierarchy) const {
 std::string Standing::Lack() const {
   for (const int i : {0, 1}) {
     const Pose& X_WC = feet_[i].X_WC;
-    const std::string stays = robot_.feet[i].name + " stays ";
+    const std::string stays = robot_.feet[i].name + " remains ";
     const double tilt = LogSo3(X_WC.R).norm();
     if (!(tilt <= kFlat)) {
-      return stays + "turned by " + PrintNumber(tilt) + " rad";
+      return stays + "rotated by " + PrintNumber(tilt) + " rad";
     }
     const double off = std::hypot(X_WC.p.x(), X_WC.p.z());
     if (!(off <= kFlat)) {
-      return stays + PrintNumber(off) + " m off its place";
+      return stays + PrintNumber(off) + " m from its target";
     }
   }
   const double off = OffBalance().norm();
   if (off <= kCentered) return "";
-  return "the center of mass stays " + PrintNumber(off) +
-         " m off its place over the soles";
+  return "the center of mass remains " + PrintNumber(off) +
+         " m from its target above the soles";
 }
 
 }  // namespace
@@ -320,7 +328,7 @@ void StandUp(Robot* robot) {
                                 " cannot stand: it must have two feet and "
                                 "a mass");
   }
-  // Tries knees forward, then unchanged, then backward.
+  // Tries bent knees: forward, then unchanged, then backward.
   std::string first;
   for (const double bend : {kKneeBend, 0., -kKneeBend}) {
     Standing standing(*robot, bend);
@@ -334,7 +342,7 @@ void StandUp(Robot* robot) {
   }
   throw std::invalid_argument(
       "robot " + Quoted(robot->model.name) +
-      " cannot be stood up inside its joint limits: " + first);
+      ": no standing posture within the joint limits: " + first);
 }
 
 Robot MakeStandingRobot(const UrdfDocument& urdf, const Profile& profile,
@@ -343,7 +351,7 @@ Robot MakeStandingRobot(const UrdfDocument& urdf, const Profile& profile,
     Robot robot = MakeRobot(urdf, profile, findings);
     if (!robot.can_stand) StandUp(&robot);
     return robot;
-  } catch (const Refusal&) {  // The message has the file already.
+  } catch (const Refusal&) {  // Its message already names the file.
     throw;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(urdf.source() + ": " + error.what());

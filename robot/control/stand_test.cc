@@ -12,7 +12,7 @@
 namespace poise {
 namespace {
 
-// Largest error of StandUp() where zero is possible, m or rad.
+// Largest error of a feasible target after StandUp(), m or rad.
 constexpr double kMet = 1e-6;
 
 void ExpectStands(const Robot& robot) {
@@ -41,14 +41,14 @@ void ExpectStands(const Robot& robot) {
   }
 }
 
-TEST(StandUp, StandsTheHumanoidUpWithBentKnees) {
+TEST(StandUp, StandsHumanoidUpWithBentKnees) {
   const Robot robot = LoadStandingRobot("robot/models/humanoid.urdf");
   ExpectStands(robot);
   const int knee = robot.model.tree.FindJoint("l_knee").value();
   EXPECT_NEAR(robot.q_nominal[7 + knee], 0.6, 0.05);
 }
 
-TEST(StandUp, StaysNearTheJointPositionsOfTheProfile) {
+TEST(StandUp, StaysNearPostureOfProfile) {
   Profile profile = LoadProfile("robot/profiles/humanoid.yaml");
   const Robot given = LoadStandingRobot("robot/models/humanoid.urdf", profile);
   profile.base_xyz.reset();
@@ -57,7 +57,7 @@ TEST(StandUp, StaysNearTheJointPositionsOfTheProfile) {
   EXPECT_LT((found.q_nominal - given.q_nominal).norm(), kMet);
 }
 
-TEST(StandUp, KeepsCouplings) {
+TEST(StandUp, KeepsMimicCouplings) {
   Robot robot = LoadRobot("robot/models/humanoid.urdf");
   const int chest = robot.model.tree.FindJoint("chest_yaw").value();
   const int neck = robot.model.tree.FindJoint("neck_yaw").value();
@@ -68,11 +68,12 @@ TEST(StandUp, KeepsCouplings) {
               kMet);
 }
 
-// Over the middle of its soles it would fall as soon as it stood on one of them.
-TEST(StandUp, StandsNearerToAnklesThatAreWeak) {
+// With the center of mass above the middle of the soles, weak ankles could not
+// hold the robot on one foot.
+TEST(StandUp, MovesCenterOfMassNearerToWeakAnkles) {
   Robot robot = LoadRobot("robot/models/humanoid.urdf");
   const Tree& tree = robot.model.tree;
-  const double reach = 0.01;  // m, of half an ankle's torque.
+  const double reach = 0.01;  // Lever arm for half of the ankle torque, m.
   const double weight = tree.total_mass() * tree.gravity_W().norm();
   for (const char* ankle : {"l_ankle_pitch", "r_ankle_pitch"}) {
     robot.model.limits[tree.FindJoint(ankle).value()].effort =
@@ -87,9 +88,9 @@ TEST(StandUp, StandsNearerToAnklesThatAreWeak) {
   EXPECT_NEAR(tick.p_WG.x(), behind + reach, kMet);
 }
 
-TEST(StandUp, SaysWhyARobotCannot) {
+TEST(StandUp, ReportsWhyRobotCannotStand) {
   Robot robot = LoadRobot("robot/models/humanoid.urdf");
-  // The left leg wants the base to lean one way, the right leg the other.
+  // The fixed joints of the two legs need opposite roll angles of the base.
   for (const std::string name : {"ankle_roll", "hip_roll"}) {
     for (const std::string side : {"l_", "r_"}) {
       const double roll = side == "l_" ? 0.2 : -0.2;
@@ -100,11 +101,11 @@ TEST(StandUp, SaysWhyARobotCannot) {
   }
   try {
     StandUp(&robot);
-    ADD_FAILURE() << "it stands";
+    ADD_FAILURE() << "StandUp() did not throw";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(
         std::string(error.what())
-            .find("'humanoid' cannot be stood up inside its joint limits"),
+            .find("'humanoid': no standing posture within the joint limits"),
         std::string::npos)
         << error.what();
   }

@@ -7,13 +7,13 @@
 namespace poise {
 namespace {
 
-// The clock is frozen if its stamp stands still for longer than 10 ms. The margin
-// covers the rounding of ten periods of 1 ms.
+// The clock counts as frozen if the time stamp stands still for longer than
+// 10 ms. The margin covers rounding: ten periods of 1 ms must not exceed 10 ms.
 constexpr double kFrozenAfter = 0.010 + 1e-9;  // s.
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-// Rounding, even in single precision, and steps of integration change the norm of a
-// quaternion by far less than this. A larger error means an invalid orientation.
+// Rounding, also in single precision, and a few integration steps change the
+// norm of a quaternion by far less. A larger error means invalid data.
 constexpr double kQuaternionOff = 1e-3;
 
 }  // namespace

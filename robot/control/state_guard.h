@@ -7,7 +7,7 @@
 
 namespace poise {
 
-/// Decides whether the controller may act on a state: its numbers must be valid
+/// Decides whether the controller may use a state: its numbers must be valid,
 /// and its clock must run. A state is valid if all numbers are finite and below
 /// 1e6, and the base quaternion is normalised to 1e-3.
 class StateGuard {
@@ -17,9 +17,9 @@ class StateGuard {
   /// Forgets the clock of earlier states.
   void Reset() noexcept;
 
-  /// Checks the state of a new tick, dt seconds after the last one. A time stamp
-  /// may stand still for 10 ms; a jump in time is a clock reset, and a time stamp
-  /// that is not finite counts as a frozen clock.
+  /// Checks the state of a new tick, dt seconds after the last one. A time
+  /// stamp may stand still for 10 ms; a jump in time is a clock reset, and a
+  /// time stamp that is not finite counts as a frozen clock.
   /// @return kNone, kClock or kState.
   [[nodiscard]] FailSafeReason Check(double dt, const State& state) noexcept;
 

@@ -28,14 +28,14 @@ class StateGuardTest : public testing::Test {
   State state_{0, robot_.q_nominal, Eigen::VectorXd::Zero(tree_.nv())};
 };
 
-TEST_F(StateGuardTest, AcceptsStateWhoseClockRuns) {
+TEST_F(StateGuardTest, AcceptsStateWithRunningClock) {
   for (int i = 0; i < 20; ++i) {
     EXPECT_EQ(CheckAt(i * kDt), FailSafeReason::kNone);
     EXPECT_TRUE(guard_.clock_moves());
   }
 }
 
-TEST_F(StateGuardTest, AcceptsClockThatStandsStillForTenMilliseconds) {
+TEST_F(StateGuardTest, AcceptsFrozenClockForTenMilliseconds) {
   (void)CheckAt(0);
   for (int i = 1; i <= 10; ++i) {
     EXPECT_EQ(CheckAt(0), FailSafeReason::kNone);
@@ -51,7 +51,7 @@ TEST_F(StateGuardTest, AcceptsClockReset) {
   EXPECT_EQ(CheckAt(1e3), FailSafeReason::kNone);
 }
 
-TEST_F(StateGuardTest, RejectsTimeThatIsNotFinite) {
+TEST_F(StateGuardTest, RejectsNaNTime) {
   (void)CheckAt(0);
   for (int i = 1; i <= 10; ++i) {
     EXPECT_EQ(CheckAt(kNaN), FailSafeReason::kState);

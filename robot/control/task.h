@@ -15,44 +15,44 @@
 
 namespace poise {
 
-/// Input of a task.
+/// Input of Task::Write(): everything that a task may read.
 struct TaskInput {
   const State& state;
   const Tick& tick;
   const std::vector<ContactTick>& contacts;  ///< By foot of the robot.
   const Reference& reference;
-  /// Unmodelled part of v̇, nv, see UnmodelledAcceleration.
+  /// Unmodelled part of v̇, size nv; see UnmodelledAcceleration.
   const Eigen::VectorXd& unmodelled_vdot;
-  /// Acceleration of the center of mass against model errors, in addition to its
-  /// reference, m/s2; see Disturbance.
+  /// Acceleration to add to the reference of the center of mass, against model
+  /// errors, m/s2; see Disturbance.
   Eigen::Vector3d correction_W = Eigen::Vector3d::Zero();
   /// Capture blend, 0 to 1, see Balance::capture.
   double capture = 0;
 };
 
-/// A number of a task that profiles and callers set by name: a gain, a margin, a
-/// coefficient.
+/// Tunable number of a task: a gain, a margin or a coefficient. It is set by
+/// name, in a profile or between two ticks.
 struct Parameter {
   std::string name;
   double* value;
-  double lower;  ///< Its range, both ends allowed.
-  double upper;
+  double lower;  ///< Smallest value allowed.
+  double upper;  ///< Largest value allowed.
 };
 
-/// Kinds of rows, by the quantity that a row sets or bounds.
+/// Kind of a row: the quantity that the row sets or bounds.
 enum class RowKind {
   kTarget,            ///< An equality: the target of a task.
   kDynamics,          ///< An equality: a law of physics.
   kTorqueLimit,       ///< Torque of an actuator.
   kJointLimit,        ///< Position or velocity of a joint.
-  kCopLimit,          ///< Center of pressure at an edge.
+  kCopLimit,          ///< Center of pressure, at one edge of a sole.
   kFrictionLimit,     ///< Tangential force on a foot.
-  kYawLimit,          ///< Moment about a foot's normal.
+  kYawLimit,          ///< Moment about the normal of a foot.
   kNormalForceLimit,  ///< Normal force on a foot.
   kLimit,             ///< Any other inequality.
 };
 
-/// "target", "dynamics", "torque_limit", ...: the name of a kind in files.
+/// Returns the name of a kind in files, as "target" or "torque_limit".
 constexpr std::string_view RowKindName(RowKind kind) {
   switch (kind) {
     case RowKind::kTarget:
@@ -80,18 +80,19 @@ constexpr std::string_view RowKindName(RowKind kind) {
 /// Description of a row for the user; every output of a row uses this text.
 struct RowDescription {
   std::string name;  ///< "left_foot.cop.x_max", as in the log.
-  /// Unit of the bounded quantity or, of an equality, of the residual times
-  /// Task::equality_scale(): "N m".
+  /// Unit, as "N m". For an inequality: unit of the bounded quantity. For an
+  /// equality: unit of the residual times Task::equality_scale().
   std::string unit;
-  /// "the CoP of the left foot at its front edge", as the row is active; of a
-  /// row with two sides the quantity alone, "the torque of l knee". May be empty.
+  /// Text for an active row: "the CoP of the left foot at its front edge". For
+  /// a two-sided row only the quantity: "the torque of l knee". May be empty.
   std::string phrase;
   RowKind kind = RowKind::kTarget;
 };
 
-/// A goal or a constraint: rows in y = [v̇ (nv); λ (6 per foot)], (1) and (2). The
-/// rows of a task and their names are fixed. Unused rows, as of a foot in the air,
-/// stay zero and unbounded.
+/// A target or a constraint: rows in y = [v̇ (nv); λ (6 per foot)], see (1) and
+/// (2). A task always has the same rows; their names are set at construction.
+/// Rows without effect in a tick (as of a foot in the air) stay zero and
+/// unbounded.
 class Task {
  public:
   virtual ~Task() = default;
@@ -112,22 +113,23 @@ class Task {
   }
   const std::vector<Parameter>& parameters() const { return parameters_; }
 
-  /// Returns whether the task has rows in this tick. If not, Write() is not called.
+  /// Whether the task has any rows in this tick; if not, Write() is not called.
   virtual bool HasRows(const TaskInput&) const noexcept { return true; }
 
-  /// Returns whether the inequality rows have two bounds, so that their names get a
-  /// suffix for the active bound, .min or .max. The name of a row with one
-  /// bound already names the bound, or needs no suffix.
+  /// Whether the inequality rows are bounded on both sides. Their names then
+  /// get a suffix for the active bound, .min or .max. The name of a row with
+  /// one bound already names the bound, or needs no suffix.
   virtual bool is_two_sided() const noexcept { return false; }
 
-  /// Factor that brings the residual of an equality row to the row's unit, see
-  /// RowDescription.
+  /// Factor that converts the residual of an equality row to the unit of the
+  /// row, see RowDescription.
   virtual double equality_scale(int) const noexcept { return 1; }
 
   /// Writes the rows B y + b = 0 and lower <= C y <= upper of this tick.
-  /// @param equalities    as many rows as equality_names(), B and b zero.
-  /// @param inequalities  as many rows as inequality_names(), C zero,
-  /// unbounded. Does not allocate.
+  /// @param equalities    as many rows as equality_names(); B and b are zero.
+  /// @param inequalities  as many rows as inequality_names(); C is zero, and the
+  ///                      bounds are infinite.
+  /// Does not allocate.
   virtual void Write(const TaskInput& input, EqualityBlock* equalities,
                      InequalityBlock* inequalities) const noexcept = 0;
 

@@ -14,7 +14,8 @@
 namespace poise {
 namespace {
 
-// The paper's table: four levels, no limits, no yaw rows, no orientation of the base.
+// Four levels, without torque, joint and yaw limits, and without a task for the
+// orientation of the pelvis.
 constexpr char kPaper[] = R"(
 torque_limits: off
 joint_limits: off
@@ -46,7 +47,7 @@ std::string NamesOf(const Task& task) {
   return names;
 }
 
-// Returns null if the task has no parameter of this name.
+// Returns nullptr if the task has no such parameter. pre: the task exists.
 const Parameter* FindParameter(const Stack& stack, const std::string& task,
                                const std::string& name) {
   for (const Parameter& each : stack.task(*stack.Find(task)).parameters()) {
@@ -115,9 +116,9 @@ void ApplyTask(const std::string& name, const YAML::Node& node,
   }
 }
 
-// Loads the section `tasks` of a file.
+// Returns the section `tasks` of a file.
 YAML::Node LoadTasks(const std::string& file) {
-  std::error_code too_long;  // An invalid file name.
+  std::error_code too_long;  // Set if the name is too long for a file.
   if (!std::filesystem::exists(file, too_long)) {
     throw std::invalid_argument("task set " + Quoted(file) +
                                 ": is neither default, paper, nor a file");
@@ -138,14 +139,14 @@ void AddLink(const std::string& task, const Robot& robot,
   if (!IsFrame(task)) return;
   const std::string link = task.substr(kFrame.size());
   for (const Foot& foot : robot.feet) {
-    if (foot.name == link) return;  // A foot has its own task.
+    if (foot.name == link) return;  // A foot has its task already.
   }
   if (!robot.model.tree.FindFrame(link)) return;
   if (std::find(links->begin(), links->end(), link) != links->end()) return;
   links->push_back(link);
 }
 
-// Returns the shortest text that reads as the same number.
+// Returns the shortest text that is read back as the same number.
 std::string Shortest(double value) {
   char text[32];
   const auto [end, error] = std::to_chars(text, text + sizeof(text), value);
@@ -156,7 +157,7 @@ std::string Shortest(double value) {
 
 std::string UnknownTask(const std::string& name, const Stack& stack) {
   return "task " + Quoted(name) + " is unknown, must be " +
-         (IsFrame(name) ? "frame. and a link of the robot"
+         (IsFrame(name) ? "frame.LINK with a link of the robot"
                         : "one of " + NamesOf(stack));
 }
 

@@ -11,41 +11,47 @@
 
 namespace poise {
 
-/// Returns the error message for a name that no task of a stack has.
+/// Returns the error message for a task name that is not in the stack, with the
+/// valid names.
 std::string UnknownTask(const std::string& name, const Stack& stack);
 
-/// Applies a `tasks:` section to a stack. Tasks are found by name:
+/// Applies a section `tasks` to a stack, by the names of the tasks:
 ///
 ///     tasks:
 ///       yaw: off                       # Or on.
 ///       momentum: {level: 3, kp: 40}    # Level, weight, on, any parameter.
 ///
-/// Tasks and parameters without an entry do not change. `rank` is an alias of `level`.
+/// Tasks and fields that are not named stay unchanged. `rank` is an alias of
+/// `level`.
 ///
-/// @param file  of the section, for messages.
-/// Throws std::invalid_argument("FILE:LINE: ...") if a task or a parameter does not
-/// exist, or a value is out of its range.
+/// @param file  file of the section, for messages.
+/// Throws std::invalid_argument("FILE:LINE: ...") if a task or a parameter is
+/// unknown, or a value is out of its range.
 void ApplyTasks(const YAML::Node& tasks, const std::string& file, Stack* stack);
 
-/// Returns the links X of the tasks frame.X of a `tasks:` section, for
-/// ControllerOptions::frames. Feet and unknown links are left out. Does not throw;
-/// ApplyTasks() reports errors.
+/// Returns the links X of the tasks frame.X in a section `tasks`, for
+/// ControllerOptions::frames. Feet are left out (they have their task already),
+/// and so are links that the robot does not have. Does not report errors in the
+/// section: ApplyTasks() does.
 std::vector<std::string> FindTaskLinks(const YAML::Node& tasks,
                                        const Robot& robot);
 
-/// Returns the section `tasks` with which ApplyTasks() restores this stack: switch,
-/// level, weight and parameters of each task, to the last digit.
+/// Returns a section `tasks` with all settings of a stack: of each task whether
+/// the task is on, its level, weight and parameters, to the last digit. Applied
+/// to a stack with the same tasks, the section gives the same settings.
 YAML::Node DescribeTasks(const Stack& stack);
 
-/// Finds the links in a task set and in names of tasks to switch.
-/// Throws std::invalid_argument about the file.
+/// Returns the links X of the tasks frame.X in a task set (see ApplyTaskSet())
+/// and in a list of task names. Throws std::invalid_argument if the file of the
+/// set cannot be read.
 std::vector<std::string> FindTaskLinks(const std::string& set,
                                        const std::vector<std::string>& tasks,
                                        const Robot& robot);
 
-/// Applies a task set to a stack: `default` changes nothing; `paper` is the table of
-/// the paper's section 3; any other name is a YAML file with a section `tasks`.
-/// Throws std::invalid_argument as ApplyTasks(), or about the file.
+/// Applies a task set to a stack: `default` changes nothing; `paper` is the
+/// table of section 3 of the paper; any other name is a YAML file with a
+/// section `tasks`. Throws std::invalid_argument like ApplyTasks(), or if the
+/// file cannot be read.
 void ApplyTaskSet(const std::string& name, Stack* stack);
 
 }  // namespace poise

@@ -41,7 +41,7 @@ std::string SetRefusal(const std::string& text) {
   return "accepted";
 }
 
-TEST(DescribeTasks, MakesAnotherStackTheSame) {
+TEST(DescribeTasks, RestoresAllSettingsInAnotherStack) {
   Stack stack = MakeStack();
   ASSERT_TRUE(stack.Enable("yaw", false));
   ASSERT_TRUE(stack.SetLevel("posture", 7));
@@ -63,7 +63,7 @@ TEST(DescribeTasks, MakesAnotherStackTheSame) {
   }
 }
 
-TEST(ApplyTasks, RefusesInOneLineWithTheValue) {
+TEST(ApplyTasks, ErrorIsOneLineWithTheValue) {
   EXPECT_EQ(Refusal("[a]"), "f:1: tasks is a list, must be a map");
   EXPECT_EQ(Refusal("\"a\\nb\": on").find("f:1: task 'a b' is unknown"), 0u);
   EXPECT_EQ(Refusal("yaw: on\nposture: maybe"),
@@ -84,7 +84,7 @@ TEST(ApplyTasks, RefusesInOneLineWithTheValue) {
   EXPECT_EQ(Refusal("posture: {kp: 30}"), "accepted");
 }
 
-TEST(ApplyTasks, TakesRankAsAnAliasOfLevel) {
+TEST(ApplyTasks, AcceptsRankAsAliasOfLevel) {
   for (const std::string key : {"level", "rank"}) {
     SCOPED_TRACE(key);
     Stack stack = MakeStack();
@@ -96,7 +96,7 @@ TEST(ApplyTasks, TakesRankAsAnAliasOfLevel) {
             "have one");
 }
 
-TEST(FindTaskLinks, FindsThoseOfFramesThatTheRobotHas) {
+TEST(FindTaskLinks, FindsLinksOfFrameTasksThatExist) {
   const Robot robot = LoadHumanoid();
   using Links = std::vector<std::string>;
   const std::filesystem::path file = TestFile(
@@ -109,7 +109,7 @@ TEST(FindTaskLinks, FindsThoseOfFramesThatTheRobotHas) {
   EXPECT_EQ(FindTaskLinks(YAML::Load("[frame.torso]"), robot), Links{});
 }
 
-TEST(ApplyTaskSet, ReadsAFile) {
+TEST(ApplyTaskSet, ReadsFile) {
   Stack stack = MakeStack();
   ApplyTaskSet(TestFile("set.yaml", "tasks: {posture: {kp: 30}, yaw: off}"),
                &stack);
@@ -122,7 +122,7 @@ TEST(ApplyTaskSet, ReadsAFile) {
             "1e+06");
 }
 
-TEST(TaskSet, RefusesWhatIsNotThereByLine) {
+TEST(TaskSet, ErrorsNameFileAndLine) {
   Stack stack = MakeStack();
   const auto message = [&](const char* yaml) -> std::string {
     try {
@@ -148,7 +148,7 @@ TEST(TaskSet, RefusesWhatIsNotThereByLine) {
             "x.yaml:1: task 'cop': 'margin' is '-1', must be 0 to 1");
 }
 
-TEST(TaskSet, KnowsThatOfThePaper) {
+TEST(TaskSet, AppliesTaskSetOfPaper) {
   Stack stack = MakeStack();
   ApplyTaskSet("paper", &stack);
   EXPECT_FALSE(stack.settings(*stack.Find("joint_limits")).enabled);
@@ -157,7 +157,7 @@ TEST(TaskSet, KnowsThatOfThePaper) {
   EXPECT_THROW(ApplyTaskSet("papers", &stack), std::invalid_argument);
 }
 
-TEST(Stack, ChangesNothingWhereANameOrAValueIsWrong) {
+TEST(Stack, ChangesNothingOnInvalidNameOrValue) {
   Stack stack = MakeStack();
   const double kp = *stack.GetParameter("posture", "kp");
   EXPECT_FALSE(stack.SetParameter("posture", "kq", 1));
@@ -181,8 +181,9 @@ TEST(Stack, ChangesNothingWhereANameOrAValueIsWrong) {
   EXPECT_EQ(stack.RowName(0, 1000, true, Side::kNone), "");
 }
 
-// Without load, and at what a foot that fades in may bear, is not the same.
-TEST(Stack, SaysOnWhichSideARowActs) {
+// The two bounds differ: zero load, and the force limit of a foot that is
+// loading.
+TEST(Stack, RowNameContainsActiveSide) {
   const Stack stack = MakeStack();
   const auto name = [&stack](const char* task, Side side) {
     return stack.RowName({*stack.Find(task), 0, side, 5, 1, 0});
@@ -193,11 +194,11 @@ TEST(Stack, SaysOnWhichSideARowActs) {
   EXPECT_EQ(name("torque_limits", Side::kUpper).substr(0, 7), "torque.");
   EXPECT_NE(name("torque_limits", Side::kLower),
             name("torque_limits", Side::kUpper));
-  // A bound on one side says so itself.
+  // The name of a one-sided row already contains its side.
   EXPECT_EQ(name("cop", Side::kUpper), "left_foot.cop.x_max");
 }
 
-// A task of a user's own.
+// A user-defined task.
 class Band : public Task {
  public:
   Band() : Task("band", {}, {{"band.x", "K", "the heat", RowKind::kLimit}}) {}
@@ -206,7 +207,7 @@ class Band : public Task {
              InequalityBlock*) const noexcept override {}
 };
 
-TEST(Stack, SaysOnWhichSideARowOfATaskOfOnesOwnActs) {
+TEST(Stack, RowNameContainsActiveSideForUserTask) {
   Stack stack = MakeStack();
   stack.Add(std::make_unique<Band>(), {});
   const int band = *stack.Find("band");
@@ -214,7 +215,7 @@ TEST(Stack, SaysOnWhichSideARowOfATaskOfOnesOwnActs) {
   EXPECT_EQ(stack.RowName({band, 0, Side::kUpper, 5, 1, 0}), "band.x.max");
 }
 
-TEST(Stack, DescribesEachRowUnderItsNameInTheLog) {
+TEST(Stack, DescribesEachRowByItsLogName) {
   const Stack stack = MakeStack();
   std::map<std::string, RowDescription> rows;
   for (const StackRow& described : stack.DescribeRows()) {
@@ -241,7 +242,7 @@ TEST(Stack, DescribesEachRowUnderItsNameInTheLog) {
             "the normal force of the right foot at its upper limit");
 }
 
-TEST(Stack, DescribesBothSidesOfARowOfAUsersTask) {
+TEST(Stack, DescribesBothSidesOfRowOfUserTask) {
   Stack stack = MakeStack();
   stack.Add(std::make_unique<Band>(), {});
   std::vector<std::string> phrases;
@@ -262,7 +263,7 @@ class Idle : public Task {
              InequalityBlock*) const noexcept override {}
 };
 
-TEST(Stack, RefusesATaskThatIsThereOrOutOfRange) {
+TEST(Stack, AddRejectsExistingNameAndInvalidSettings) {
   Stack stack = MakeStack();
   const int tasks = stack.num_tasks();
   const auto message = [&](const char* name, int rank,
@@ -274,7 +275,8 @@ TEST(Stack, RefusesATaskThatIsThereOrOutOfRange) {
     }
     return "accepted";
   };
-  EXPECT_EQ(message("posture", 1, 1), "task 'posture': is there already");
+  EXPECT_EQ(message("posture", 1, 1),
+            "task 'posture': exists already, must have a new name");
   EXPECT_EQ(message("idle", 0, 1), "task 'idle': level is 0, must be 1 to 8");
   EXPECT_EQ(message("idle", 9, 1), "task 'idle': level is 9, must be 1 to 8");
   EXPECT_EQ(message("idle", 8, 0),

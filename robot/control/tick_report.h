@@ -10,13 +10,14 @@
 
 namespace poise {
 
-/// A row that is active at the solution of a tick. Stack::RowName() names it.
+/// A row that is active at the solution of a tick. Stack::RowName() returns its
+/// name.
 struct ActiveRow {
-  int task;            ///< Index into Stack::tasks().
+  int task;            ///< Index for Stack::task().
   int row;             ///< Index into Task::inequality_names().
   Side side;           ///< Active bound.
   int pressing_level;  ///< Highest priority level with a multiplier on it.
-  double multiplier;   ///< Multiplier of that level on the row, always >= 0.
+  double multiplier;   ///< Absolute multiplier of pressing_level.
   double slack;        ///< Violation of the row, in the scale of the row.
 };
 
@@ -24,22 +25,22 @@ struct ActiveRow {
 struct TaskReport {
   bool enabled = false;
   int level = 0;
-  /// Norm of its equality residuals, in the scale of the rows. During a ramp the
-  /// residuals refer to the eased targets of this tick.
+  /// Norm of the equality residuals, in the scale of the rows. During a ramp
+  /// the residuals refer to the eased targets of this tick.
   double residual = 0;
-  double slack = 0;  ///< Largest slack of its inequalities.
+  double slack = 0;  ///< Largest slack of the inequalities.
 };
 
 /// A violated equality row.
 struct LostRow {
-  int task;       ///< Index into Stack::tasks().
+  int task;       ///< Index for Stack::task().
   int row;        ///< Index into Task::equality_names().
-  double amount;  ///< Its residual, in the unit of Task::equality_scale().
+  double amount;  ///< Residual times Task::equality_scale().
 };
 
 /// Reasons for a fail-safe tick.
 enum class FailSafeReason {
-  kNone,      ///< It did not.
+  kNone,      ///< The tick did not fail safe.
   kState,     ///< The state is invalid.
   kClock,     ///< The state's time stamp stands still.
   kNoAnswer,  ///< No solution meets the dynamics.
@@ -50,9 +51,9 @@ struct TickReport {
   TickStatus status = TickStatus::kOk;
   FailSafeReason fail_safe_reason = FailSafeReason::kNone;
   Status solver_status = Status::kOptimal;
-  /// If the status is kLimitRelaxed: the torque or joint limit with the largest
-  /// scaled slack. If the task of the limits is off: the torque that was clamped
-  /// most.
+  /// Set if the status is kLimitRelaxed: the row of a torque or joint limit
+  /// with the largest slack, in the scale of the row. A torque limit also
+  /// counts if its task is off and the torque was clamped to the limit.
   std::optional<ActiveRow> relaxed;
   int failed_level = 0;  ///< Priority level that was not solved; 0: none.
   int iterations = 0;    ///< Solver iterations.
@@ -65,7 +66,8 @@ struct TickReport {
   std::vector<LostRow> lost;
   Certificate certificate;  ///< Certificate of the solution.
 
-  /// Resets the numbers of the solution, for a tick without a solve.
+  /// Resets the numbers of the solution, for a tick in which the solver did not
+  /// run.
   void ClearAnswer() noexcept {
     solver_status = Status::kOptimal;
     failed_level = iterations = 0;
@@ -75,7 +77,7 @@ struct TickReport {
     certificate = {};
   }
 
-  /// λ of a foot, [moment; force]; nv is Tree::nv().
+  /// Returns λ of a foot, [moment; force]; nv is Tree::nv().
   Eigen::Matrix<double, 6, 1> foot_wrench(int nv, int foot) const {
     return y.segment<6>(nv + 6 * foot);
   }

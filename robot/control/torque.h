@@ -9,7 +9,7 @@
 
 namespace poise {
 
-/// Computes the joint torques of a solution, (10):
+/// Computes the joint torques that realise a solution y, (10):
 ///     tau = M_u v̇ + N_u - J_{c,u}' lambda.
 ///
 /// @param y    [v̇ (nv); lambda (6 per foot)].
@@ -18,12 +18,13 @@ namespace poise {
 void ComputeTorque(const Tick& tick, const std::vector<ContactTick>& contacts,
                    const Eigen::VectorXd& y, Eigen::VectorXd* tau) noexcept;
 
-/// Computes the residual of the unactuated rows of the dynamics, (9), summed over
-/// the rows,
+/// Returns the relative residual of a solution in the six unactuated rows of
+/// the dynamics, (9): the sum over these rows of
 ///     | M_l v̇ + N_l - J_{c,l}' lambda |,
-/// relative to the sum of the moduli of all its terms, or to `scale` where that is
-/// more. If it is above rounding, the torques of ComputeTorque() do not produce the
-/// accelerations of y. NaN if y has a NaN. Does not allocate.
+/// divided by the sum of the absolute values of all terms, or by `scale` if
+/// that is larger. If the residual is above rounding, the torques of
+/// ComputeTorque() belong to a motion that the robot cannot make. NaN if y is
+/// not finite. Does not allocate.
 double DynamicsResidual(const Tick& tick,
                         const std::vector<ContactTick>& contacts,
                         const Eigen::VectorXd& y, double scale) noexcept;

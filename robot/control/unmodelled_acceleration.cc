@@ -6,11 +6,11 @@
 namespace poise {
 namespace {
 
-// Time constant of the mean, s: longer than delays, shorter than the time in which a
-// joint reaches its limit.
+// Time constant of the mean, s: longer than the delays of a robot, shorter than
+// the time in which a joint reaches its limit.
 constexpr double kMemory = 0.02;
 
-constexpr double kLargest = 100;  // rad/s2, m/s2.
+constexpr double kLargest = 100;  // Clamp, rad/s2 or m/s2.
 
 }  // namespace
 

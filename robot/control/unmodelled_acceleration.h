@@ -5,20 +5,22 @@
 
 namespace poise {
 
-/// Estimates the unmodelled acceleration: the part of v̇ that the last solutions
-/// did not predict. A push or a wrong model causes it. With v_predicted = v + dt v̇
-/// of the last solution, the estimate is the first-order mean over 20 ms of
+/// Estimates the unmodelled acceleration: the part of v̇ that the last
+/// solutions did not predict. A push or a wrong model causes it. With
+/// v_predicted = v + dt v̇ of the last solution, the estimate is the
+/// first-order mean over 20 ms of
 ///     (v - v_predicted) / dt,
-/// clamped to 100 rad/s2 or m/s2: a larger value is no push.
+/// clamped to 100 rad/s2 or m/s2: a larger value is not from a push.
 class UnmodelledAcceleration {
  public:
-  /// Starts with the estimate zero for nv rates.
+  /// `nv` is the number of velocities. The estimate starts at zero.
   explicit UnmodelledAcceleration(int nv);
 
   /// Sets the estimate to zero and forgets the prediction.
   void Reset() noexcept;
 
-  /// Keeps the estimate until the next Predict(): this tick predicts nothing.
+  /// Drops the prediction: Update() keeps the estimate until the next
+  /// Predict().
   void ForgetPrediction() noexcept { predicts_ = false; }
 
   /// Compares v, dt after the state of the last Predict(), with its prediction.

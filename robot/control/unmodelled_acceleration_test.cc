@@ -15,7 +15,7 @@ constexpr double kDt = 1e-3;
 
 class UnmodelledAccelerationTest : public testing::Test {
  protected:
-  // Ticks in which v̇ exceeds its prediction by `unmodelled`.
+  // Simulates ticks in which v̇ exceeds its prediction by `unmodelled`.
   void Run(int ticks, const Eigen::Vector2d& unmodelled) {
     for (int i = 0; i < ticks; ++i) {
       estimate_.Predict(kDt, v_, vdot_);
@@ -29,7 +29,7 @@ class UnmodelledAccelerationTest : public testing::Test {
   const Eigen::VectorXd vdot_ = Eigen::Vector2d(5, -7);
 };
 
-TEST_F(UnmodelledAccelerationTest, IsZeroWhileThePredictionHolds) {
+TEST_F(UnmodelledAccelerationTest, IsZeroWhilePredictionIsRight) {
   Run(50, {0, 0});
   EXPECT_LT(estimate_.vdot().norm(), 1e-9);
 }

@@ -63,8 +63,9 @@ void Easing::BeginAtLast(int rows, const EqualityBlock& now) noexcept {
   }
 }
 
-// The pull of a row on y is its weight times its residual. With another weight,
-// the offset leaves the residual that gives the same pull.
+// In the optimality condition, a row counts with weight times residual. After a
+// change of the weight, the residual is scaled so that this product stays the
+// same.
 void Easing::BeginAsBefore(int rows, const EqualityBlock& now,
                            const EqualityBlock& before,
                            double weight_ratio) noexcept {
@@ -107,13 +108,14 @@ void Easing::BeginInside(int rows, int equalities,
 void Easing::Ease(int rows, EqualityBlock* equalities) const noexcept {
   for (int i = 0; i < static_cast<int>(equalities->b.size()); ++i) {
     const double offset = ramp_[rows + i];
-    // An unused row of this tick has no offset.
+    // A zero row has no effect in this tick: b must stay zero.
     if (offset == 0 || equalities->B.row(i).isZero(0)) continue;
     equalities->b[i] -= offset;
   }
 }
 
-// An offset that reaches zero with some rate overshoots a little.
+// An offset that reaches zero with nonzero rate overshoots. A negative offset
+// must not tighten a bound.
 void Easing::Ease(int rows, int equalities,
                   InequalityBlock* inequalities) const noexcept {
   const int size = static_cast<int>(inequalities->lower.size());

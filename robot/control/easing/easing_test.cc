@@ -21,7 +21,7 @@ class EasingTest : public ::testing::Test {
     easing_.set_duration(0.01);
   }
 
-  // Adds rows with residuals 4 and -2 at the last y.
+  // The residuals at the last y are 4 and -2.
   static EqualityBlock AddEqualities(Hierarchy* rows) {
     rows->Clear(1);
     EqualityBlock equalities = rows->AddEqualities(0, 2);
@@ -30,7 +30,7 @@ class EasingTest : public ::testing::Test {
     return equalities;
   }
 
-  // Returns the offsets of the two rows.
+  // Returns the offsets of the two equalities.
   Eigen::Vector2d Offsets() {
     EqualityBlock equalities = AddEqualities(&before_);
     const Eigen::Vector2d b = equalities.b;
@@ -44,7 +44,7 @@ class EasingTest : public ::testing::Test {
   Hierarchy before_;
 };
 
-TEST_F(EasingTest, IsNotPossibleWithoutALastYOrADuration) {
+TEST_F(EasingTest, IsPossibleOnlyWithLastYAndDuration) {
   EXPECT_FALSE(easing_.IsPossible());
   easing_.Advance(kDt, kLast);
   EXPECT_TRUE(easing_.IsPossible());
@@ -60,15 +60,15 @@ TEST_F(EasingTest, IsNotPossibleWithoutALastYOrADuration) {
   EXPECT_FALSE(easing_.holds());
 }
 
-TEST_F(EasingTest, LetsRowsThatAreNewBeginWhereTheLastYIs) {
+TEST_F(EasingTest, LastYMeetsNewEqualities) {
   easing_.Advance(kDt, kLast);
   easing_.BeginAtLast(task_, AddEqualities(&rows_));
   EXPECT_EQ(Offsets(), Eigen::Vector2d(4, -2));
   EXPECT_FALSE(easing_.holds());
-  // Once more, nothing is left to do.
+  // A second call changes nothing.
   easing_.BeginAtLast(task_, AddEqualities(&rows_));
   EXPECT_EQ(Offsets(), Eigen::Vector2d(4, -2));
-  // Half of the way of minimum jerk is behind it.
+  // Half of the minimum-jerk curve has passed.
   for (int i = 0; i < 5; ++i) easing_.Advance(kDt, kLast);
   EXPECT_LT((Offsets() - Eigen::Vector2d(2, -1)).norm(), 1e-14);
   for (int i = 0; i < 5; ++i) easing_.Advance(kDt, kLast);
@@ -76,9 +76,10 @@ TEST_F(EasingTest, LetsRowsThatAreNewBeginWhereTheLastYIs) {
   EXPECT_EQ(Offsets(), Eigen::Vector2d::Zero());
 }
 
-// The first row has a new target, the second a larger weight, and the task half
-// of its weight. The pull on the last y, weight times residual, stays the same.
-TEST_F(EasingTest, LetsRowsThatAreTunedPullAsBefore) {
+// The first row has a new target, the second row a larger weight, and the
+// weight of the task is halved. Weight times residual at the last y stays the
+// same.
+TEST_F(EasingTest, KeepsWeightTimesResidualOfTunedEqualities) {
   const Eigen::Vector2d lacked(0.5, -0.25);
   easing_.Advance(kDt, kLast);
   easing_.Remember(task_, lacked, Eigen::Vector3d::Zero(), 1);
@@ -88,7 +89,7 @@ TEST_F(EasingTest, LetsRowsThatAreTunedPullAsBefore) {
   EqualityBlock now = AddEqualities(&rows_);
   now.weight[1] = 5;
   easing_.BeginAsBefore(task_, now, before, 2);
-  // The residual at the last y is larger than before by the earlier offsets.
+  // Residual without offset at the last y = recorded residual + earlier offset.
   const Eigen::Vector2d offsets_before(3.5 - 0.5, -2 + 0.25);
   const Eigen::Vector2d left =
       Eigen::Vector2d(4, -2) - (offsets_before + Offsets());
@@ -96,17 +97,17 @@ TEST_F(EasingTest, LetsRowsThatAreTunedPullAsBefore) {
   EXPECT_NEAR(left[1] * 5, lacked[1] * 3 * 2, 1e-15);
 }
 
-TEST_F(EasingTest, LetsRowsLackWhatTheyLacked) {
+TEST_F(EasingTest, KeepResidualsAddsThemToOffsets) {
   easing_.Advance(kDt, kLast);
   easing_.Remember(task_, Eigen::Vector2d(0.5, -0.25), Eigen::Vector3d::Zero(),
                    1);
   easing_.KeepResiduals(task_, 2);
   EXPECT_EQ(Offsets(), Eigen::Vector2d(0.5, -0.25));
-  easing_.KeepResiduals(task_, 2);  // That is all there is to keep.
+  easing_.KeepResiduals(task_, 2);  // A second call changes nothing.
   EXPECT_EQ(Offsets(), Eigen::Vector2d(0.5, -0.25));
 }
 
-TEST_F(EasingTest, HoldsWhatIsFreeAndThatIsAll) {
+TEST_F(EasingTest, KeepFreeHoldsYAndNothingElse) {
   const auto held = [&] {
     rows_.Clear(2);
     EqualityBlock rows = rows_.AddEqualities(1, 2);
@@ -117,7 +118,7 @@ TEST_F(EasingTest, HoldsWhatIsFreeAndThatIsAll) {
   easing_.Advance(kDt, kLast);
   easing_.KeepFree();
   EXPECT_EQ(held(), kLast);
-  // It had come to something else meanwhile, of which this is kept, too.
+  // y has moved away from its offset: KeepFree() adds the difference.
   easing_.Advance(kDt, 3 * kLast);
   const Eigen::Vector2d left = held();
   EXPECT_LT((left - kLast).norm(), 0.01 * kLast.norm());
@@ -126,13 +127,13 @@ TEST_F(EasingTest, HoldsWhatIsFreeAndThatIsAll) {
   EXPECT_EQ(Offsets(), Eigen::Vector2d::Zero());
 }
 
-TEST_F(EasingTest, LetsLimitsBeginWhereTheLastYIs) {
+TEST_F(EasingTest, LastYIsInsideEasedLimits) {
   const auto limits = [&] {
     rows_.Clear(1);
     InequalityBlock rows = rows_.AddInequalities(0, 3);
     rows.C << 1, 0, 1, 0, 0, 1;
-    rows.upper[0] = 0.5;  // Half too large.
-    rows.lower[1] = 3;    // Two too small.
+    rows.upper[0] = 0.5;  // The last y is 0.5 above.
+    rows.lower[1] = 3;    // The last y is 2 below.
     rows.lower[2] = -5;
     rows.upper[2] = 5;
     return rows;
@@ -146,7 +147,7 @@ TEST_F(EasingTest, LetsLimitsBeginWhereTheLastYIs) {
     EXPECT_EQ(Eigen::Vector3d(rows.lower), Eigen::Vector3d(-kInf, 1, -5));
     EXPECT_EQ(Eigen::Vector3d(rows.upper), Eigen::Vector3d(1, kInf, 5));
   }
-  // A row that was violated is still violated, with the same pull.
+  // Limits that were violated before keep their violation.
   easing_.End();
   easing_.Advance(kDt, kLast);
   easing_.Remember(task_, Eigen::Vector2d::Zero(), Eigen::Vector3d(0.6, 3, 0),

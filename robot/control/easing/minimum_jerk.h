@@ -3,10 +3,11 @@
 
 namespace poise {
 
-/// The curve from 0 to 1 for t from 0 to 1 that is at rest at both ends and has the
-/// smallest integral of squared jerk:
+/// Minimum-jerk curve from 0 to 1 for t from 0 to 1, at rest at both ends: the
+/// curve with the smallest integral of the squared jerk,
 ///     s = 10 t³ - 15 t⁴ + 6 t⁵,
-/// its rate s' = 30 t² (1 - t)² and its acceleration s'' = 60 t (1 - t) (1 - 2 t).
+/// with the rate s' = 30 t² (1 - t)² and the acceleration s'' = 60 t (1 - t) (1
+/// - 2 t).
 struct MinimumJerk {
   explicit MinimumJerk(double t)
       : value(t * t * t * (10 + t * (-15 + 6 * t))),

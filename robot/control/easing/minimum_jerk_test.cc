@@ -13,14 +13,14 @@ TEST(MinimumJerk, GoesFromRestAtZeroToRestAtOne) {
     EXPECT_EQ(s.rate, 0);
     EXPECT_EQ(s.acceleration, 0);
   }
-  // Half of it is behind after half the time, 15/8 as fast as a line.
+  // At half of the time, half of the way has passed; the rate is 15/8.
   const MinimumJerk s(0.5);
   EXPECT_EQ(s.value, 0.5);
   EXPECT_EQ(s.rate, 1.875);
   EXPECT_EQ(s.acceleration, 0);
 }
 
-TEST(MinimumJerk, SaysHowItMoves) {
+TEST(MinimumJerk, RateAndAccelerationAreDerivatives) {
   constexpr double kStep = 1e-4;
   for (double t = 0.05; t < 1; t += 0.05) {
     const MinimumJerk before(t - kStep), now(t), after(t + kStep);

@@ -19,19 +19,20 @@ void Ramp::Add(int i, double jump) noexcept {
   left_ = duration_;
 }
 
-// With s = dt / T of the time left and x, v T, a T^2 at its beginning,
+// Advances by the fraction s = dt / T of the remaining time T. With value x,
+// rate v and acceleration a at its start,
 //     x(s) = (1 - s)^3 (x + (3 x + v T) s + (6 x + 3 v T + a T^2 / 2) s^2).
 void Ramp::Advance(double dt) noexcept {
   if (!is_on()) return;
   const double T = left_;
   const double s = dt / T;
-  // After the last tick the remainder is rounding.
+  // Only one tick is left, up to rounding: all values end at zero.
   if (s > 1 - 1e-6) {
     Clear();
     return;
   }
   const double r = 1 - s;
-  Eigen::Matrix3d coefficients;  // Factors of 1, s and s^2 in the polynomial.
+  Eigen::Matrix3d coefficients;  // For 1, s, s^2, second factor.
   coefficients << 1, 0, 0,       //
       3, T, 0,                   //
       6, 3 * T, T * T / 2;

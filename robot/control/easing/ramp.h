@@ -5,23 +5,25 @@
 
 namespace poise {
 
-/// Numbers that decay to zero together. Each follows the minimum-jerk curve from its
-/// value, rate and acceleration to rest at zero within the remaining time; from rest
-/// this is MinimumJerk. Adding to the numbers restarts the remaining time. So a
-/// single addition is gone after the duration T. Additions in every tick are
-/// filtered, with the stable characteristic polynomial
-/// s^3 + 9/T s^2 + 36/T^2 s + 60/T^3.
+/// Brings a set of numbers to zero at the same time, even if a number is
+/// increased on the way. Each number follows the minimum-jerk curve from its
+/// value, rate and acceleration to rest at zero in the remaining time; from
+/// rest, this is the curve of MinimumJerk. Any addition sets the remaining time
+/// to the whole duration T again. A number that is added once is zero after T.
+/// Numbers that are added in every tick are filtered; the characteristic
+/// polynomial of the filter, s^3 + 9/T s^2 + 36/T^2 s + 60/T^3, is stable.
 class Ramp {
  public:
-  /// Sets the number of values, all zero. Allocates.
+  /// Sets the number of values, and all values to zero. Allocates.
   void Resize(int size);
 
-  /// Sets the duration of a ramp, s. With 0, offsets are dropped.
+  /// Sets the duration T of a ramp, s. With 0, Add() has no effect.
   void set_duration(double seconds) { duration_ = seconds; }
   double duration() const { return duration_; }
 
-  /// Advances by the time dt, s.
+  /// Advances all values by a time dt, s.
   void Advance(double dt) noexcept;
+  /// Adds `jump` to value i, and restarts the remaining time.
   void Add(int i, double jump) noexcept;
   void Clear() noexcept;
 
@@ -31,7 +33,7 @@ class Ramp {
  private:
   Eigen::Matrix3Xd x_;  // Values, rates and accelerations.
   double duration_ = 0;
-  double left_ = 0;  // Remaining time, s.
+  double left_ = 0;  // Remaining time until all values are zero, s.
 };
 
 }  // namespace poise

@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kDt = 1e-3;
 
-// From 1 to 0 for s from 0 to 1.
+// Minimum-jerk curve from 1 to 0 for s from 0 to 1.
 double Falling(double s) { return 1 - MinimumJerk(s).value; }
 
-TEST(Ramp, BringsANumberToZeroAlongACurveOfMinimumJerk) {
+TEST(Ramp, FollowsMinimumJerkCurveToZero) {
   Ramp ramp;
   ramp.Resize(2);
   ramp.set_duration(0.01);
@@ -31,8 +31,8 @@ TEST(Ramp, BringsANumberToZeroAlongACurveOfMinimumJerk) {
   }
 }
 
-// The polynomial of degree 5 with this value, rate and acceleration at 0, and
-// none at T, by its six equations.
+// Polynomial of degree 5 with the given value, rate and acceleration at 0, and
+// zero value, rate and acceleration at T; computed from these six equations.
 class Quintic {
  public:
   Quintic(const Eigen::Vector3d& begin, double T) {
@@ -60,9 +60,9 @@ class Quintic {
   Eigen::Matrix<double, 6, 1> coefficients_;
 };
 
-// An offset that is added during a ramp continues each curve with its value, rate
-// and acceleration, and ends at zero one duration later.
-TEST(Ramp, GoesOnSmoothlyWhereSomethingIsAdded) {
+// After an addition, each number follows the minimum-jerk curve from its
+// present value, rate and acceleration to zero, in a whole duration.
+TEST(Ramp, RestartsSmoothlyAfterAddition) {
   constexpr double kDuration = 2;
   constexpr double kStep = 0.25;
   Ramp ramp;
@@ -77,7 +77,7 @@ TEST(Ramp, GoesOnSmoothlyWhereSomethingIsAdded) {
   const Quintic second(
       {first.At(0.75, 0) + 2, first.At(0.75, 1), first.At(0.75, 2)}, kDuration);
   for (int i = 0; i <= 8; ++i) {
-    // Rounding, of the test's LU, too.
+    // Rounding, also of the LU decomposition in this test.
     EXPECT_NEAR(ramp[0], second.At(kStep * i, 0), 1e-12) << i;
     EXPECT_NEAR(ramp[1], 5 * Falling(kStep * i / kDuration), 1e-13) << i;
     ramp.Advance(kStep);
@@ -86,9 +86,9 @@ TEST(Ramp, GoesOnSmoothlyWhereSomethingIsAdded) {
   EXPECT_EQ(ramp[0], 0);
 }
 
-// As s^3 + 9/T s^2 + 36/T^2 s + 60/T^3 does: where c is added a second, it comes
-// to rest at c T 36 / 60.
-TEST(Ramp, FiltersWhatIsAddedInEachTick) {
+// The characteristic polynomial is s^3 + 9/T s^2 + 36/T^2 s + 60/T^3. If c is
+// added per second, the steady state is c T 36 / 60.
+TEST(Ramp, FiltersAdditionsInEveryTick) {
   constexpr double kDuration = 0.2;
   Ramp ramp;
   ramp.Resize(1);
@@ -97,12 +97,12 @@ TEST(Ramp, FiltersWhatIsAddedInEachTick) {
     ramp.Add(0, 7 * kDt);
     ramp.Advance(kDt);
   }
-  // Ticks are not as short as that: of dt / T.
+  // The relative error of the discrete ticks is dt / T.
   EXPECT_NEAR(ramp[0], 7 * kDuration * 36 / 60,
               7 * kDuration * kDt / kDuration);
 }
 
-TEST(Ramp, ForgetsWhatIsAddedWithoutADuration) {
+TEST(Ramp, IgnoresAdditionWithoutDuration) {
   Ramp ramp;
   ramp.Resize(1);
   ramp.Add(0, 1);
@@ -110,7 +110,7 @@ TEST(Ramp, ForgetsWhatIsAddedWithoutADuration) {
   EXPECT_EQ(ramp[0], 0);
 }
 
-TEST(Ramp, IsClear) {
+TEST(Ramp, ClearResetsValueAndRate) {
   Ramp ramp;
   ramp.Resize(1);
   ramp.set_duration(1);
@@ -118,7 +118,7 @@ TEST(Ramp, IsClear) {
   ramp.Advance(0.5);
   ramp.Clear();
   EXPECT_FALSE(ramp.is_on());
-  ramp.Add(0, 1);  // Without the rate that it had.
+  ramp.Add(0, 1);  // Starts at rate 0 again.
   ramp.Advance(0.5);
   EXPECT_NEAR(ramp[0], 0.5, 1e-15);
 }

@@ -64,7 +64,8 @@ TEST(PushOptions, DistinguishesTasksOfFileAndOptions) {
   const std::string scenario =
       TestFile("tasks.yaml", "tasks: {with: [frame.nose]}\n").string();
   const std::string unknown =
-      "task 'frame.nose' is unknown, must be frame. and a link of the robot";
+      "task 'frame.nose' is unknown, must be frame.LINK with a link of the "
+      "robot";
   EXPECT_EQ(Refusal({"--scenario", scenario, "--with", "zmp"}),
             scenario + ": " + unknown);
   EXPECT_EQ(Refusal({"--with", "frame.nose"}), unknown);

@@ -190,9 +190,9 @@ refuse "--plant: mars not in {bullet,mujoco}" --plant mars
 refuse "link 'nose' is unknown, must be a link of robot 'humanoid'" --link nose
 refuse "task set 'none': is neither default, paper, nor a file" --tasks none
 
-# A Cartesian task may be on any link, and may come from an option or any file. If
-# the link does not exist, the message names the link.
-frame="task 'frame.nose' is unknown, must be frame. and a link of the robot"
+# A Cartesian task on any link, from wherever a task is named; one on a link that
+# is not there is refused by the link.
+frame="task 'frame.nose' is unknown, must be frame.LINK with a link of the robot"
 refuse "$frame" --with frame.nose
 refuse_file --tasks ":1: $frame" frames.yaml 'tasks: {frame.nose: on}'
 refuse_file --scenario ": $frame" frames.yaml 'tasks: {with: [frame.nose]}'
