@@ -29,7 +29,7 @@ struct Balance {
   Eigen::Vector3d xi_Mid = Eigen::Vector3d::Zero();
   /// Capture blend, 0 to 1. 0: ankle torque alone can stop the robot. 1: the
   /// capture point is at the edge of support, and angular momentum is needed.
-  /// It is the largest share of the four sides.
+  /// The largest of the shares of the four sides.
   double capture = 0;
   double left = 0;   ///< Share of the left side.
   double right = 0;  ///< Share of the right side.

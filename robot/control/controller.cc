@@ -184,7 +184,7 @@ void Controller::UpdateStance(const State& state) noexcept {
   stance_.Update(options_.dt, normal_force_, &contacts_, &reference_);
 }
 
-// Releases feet and brings them back, as the balance monitor decides.
+// The balance monitor decides which feet stance releases and brings back.
 void Controller::JudgeBalance() noexcept {
   CaptureSettings settings = momentum_task_.capture_settings();
   if (!stack_.settings(momentum_).enabled) settings.capture = 0;

@@ -94,11 +94,11 @@ class Controller {
   /// pre: command->tau has one entry per joint.
   void Update(const State& state, Command* command) noexcept;
 
-  /// Returns the report on the last Update().
+  /// Report on the last Update(): its status and its findings.
   const TickReport& report() const { return report_; }
   const Tick& tick() const { return tick_; }
   const std::vector<ContactTick>& contacts() const { return contacts_; }
-  /// Returns the problem of the last tick, for FindConflict().
+  /// The problem of the last tick, for FindConflict().
   const Hierarchy& hierarchy() const { return hierarchy_; }
   const Robot& robot() const { return robot_; }
 

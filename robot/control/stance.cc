@@ -152,13 +152,13 @@ bool Stance::IsStopped(const FootState& foot,
                                   : motion.is_over;
 }
 
-// Returns whether no foot is in contact.
+// Whether no foot is in contact: the robot is in flight.
 bool Stance::flies() const noexcept {
   return std::none_of(feet_.begin(), feet_.end(),
                       [](const FootState& foot) { return Bears(foot.phase); });
 }
 
-// Returns whether the motion of the foot ends on the ground.
+// Whether the motion of the foot ends on the ground.
 bool Stance::Lands(const FootState& foot) noexcept { return foot.to < 0; }
 
 void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {

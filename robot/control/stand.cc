@@ -237,7 +237,7 @@ void Standing::BendKnee(int body, double bend) {
   if (!knee) return;
   const int j = knee->joint;
   double& q = q_wanted_[tree_.q_start() + j];
-  if (std::abs(q) > 0.5 * kKneeBend) return;  // The knee is bent already.
+  if (std::abs(q) > 0.5 * kKneeBend) return;  // It is bent already.
   q = std::max(lower_[j], std::min(knee->sign * bend, upper_[j]));
   posture_weight_[j] = kKneeWeight;
 }

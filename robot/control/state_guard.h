@@ -23,16 +23,16 @@ class StateGuard {
   /// @return kNone, kClock or kState.
   [[nodiscard]] FailSafeReason Check(double dt, const State& state) noexcept;
 
-  /// Returns whether q and v of a state are valid; ignores its clock.
+  /// Whether q and v of a state are valid; its clock does not matter.
   bool IsValid(const State& state) const noexcept;
 
-  /// Returns whether the last two time stamps differ.
+  /// Whether the time stamp of the last state differed from the one before.
   bool clock_moves() const { return frozen_for_ == 0; }
 
  private:
   bool is_floating_;
   double last_time_;   // Last finite time stamp, s.
-  double frozen_for_;  // Time since the stamp last changed, s.
+  double frozen_for_;  // How long the time stamp has stood still, s.
 };
 
 }  // namespace poise

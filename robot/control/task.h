@@ -104,7 +104,7 @@ class Task {
   const std::vector<RowDescription>& inequalities() const {
     return inequalities_;
   }
-  /// Returns the names of the rows, in their order.
+  /// The names of these rows, in the same order.
   const std::vector<std::string>& equality_names() const {
     return equality_names_;
   }

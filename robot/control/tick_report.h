@@ -38,7 +38,7 @@ struct LostRow {
   double amount;  ///< Residual times Task::equality_scale().
 };
 
-/// Reasons for a fail-safe tick.
+/// Why a tick failed safe.
 enum class FailSafeReason {
   kNone,      ///< The tick did not fail safe.
   kState,     ///< The state is invalid.

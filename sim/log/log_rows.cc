@@ -29,7 +29,7 @@ class CsvRows final : public LogRows {
 
   void Number(double value) override {
     BeginCell();
-    if (std::isnan(value)) {  // Of either sign.
+    if (std::isnan(value)) {  // NaN of either sign.
       row_ += "nan";
       return;
     }
