@@ -44,7 +44,7 @@ class PushedElbow : public ControllerTest {
 
 TEST_F(PushedElbow, StaysInsideLimitUnderPush) {
   EXPECT_LT(Run(30, 1), -1e-3);
-  // The same position as without a push: the margin from the stop.
+  // As without a push, the joint keeps the margin from its stop.
   EXPECT_NEAR(state_.q[7 + elbow_], stop_ - 0.008, 1e-4);
 }
 
