@@ -36,7 +36,7 @@ Forward AbaOf(const Tree& tree, const VectorXd& q, const VectorXd& v,
   return result;
 }
 
-// base - upper - lower, both joints about z, with a last link of this inertia.
+// Makes an arm base - upper - lower with both joints about z.
 Tree MakeArm(const Inertia& upper, const Inertia& lower, double armature = 0,
              BaseType base = BaseType::kFloating) {
   TreeBuilder builder;
@@ -76,8 +76,8 @@ TEST(Aba, UndoesRnea) {
     if (forward.status != AbaStatus::kOk) return Residual{1, 0};
     if (m.tree.nv() == 0) return Residual{0, 0};
     const VectorXd eigenvalues = Eigenvalues(M);
-    // The force that is left over is a rounding error, in units of the largest
-    // force; what moves least resists it with the smallest eigenvalue.
+    // The residual force is rounding, relative to the largest force. The smallest
+    // eigenvalue of M bounds the resulting error of v̇.
     const double scale = tau.norm() + M.norm() * m.vdot.norm() + 100;
     return Compare(forward.vdot, m.vdot,
                    Rounding(scale, m.tree.nv() + 10) / eigenvalues[0]);
@@ -97,7 +97,7 @@ TEST(Aba, OfAFreeBodyIsNewtonAndEuler) {
   EXPECT_NEAR((forward.vdot - expected).norm(), 0, Rounding(20, 6));
 }
 
-TEST(Aba, SaysThatAMasslessLeafMakesMSingular) {
+TEST(Aba, ReportsAMasslessLeafAsSingular) {
   for (const BaseType base : {BaseType::kFloating, BaseType::kFixed}) {
     const Forward forward = AtRest(MakeArm(kLink, {}, 0, base));
     EXPECT_EQ(forward.status, AbaStatus::kSingular);
@@ -105,16 +105,16 @@ TEST(Aba, SaysThatAMasslessLeafMakesMSingular) {
   }
 }
 
-TEST(Aba, TakesAMasslessLeafWithAnArmature) {
+TEST(Aba, AcceptsAMasslessLeafWithAnArmature) {
   const Tree tree = MakeArm(kLink, {}, 0.25, BaseType::kFixed);
   const Forward forward = AtRest(tree);
   EXPECT_EQ(forward.status, AbaStatus::kOk);
   EXPECT_NEAR(forward.vdot[1], 1 / 0.25, Rounding(4, 3));
 }
 
-TEST(Aba, SeesThroughAMasslessLinkBetweenParallelAxes) {
-  // Joint 1 has inertia with joint 2 locked, and none with it free: what is left
-  // after subtraction is rounding.
+TEST(Aba, SolvesAMasslessLinkBetweenParallelAxes) {
+  // Joint 1 has inertia if joint 2 is locked, and none if joint 2 is free. After the
+  // subtraction only rounding remains.
   const Tree tree = MakeArm({}, kLink);
   Tree collinear = tree;
   TreeBuilder builder;
@@ -132,9 +132,9 @@ TEST(Aba, SeesThroughAMasslessLinkBetweenParallelAxes) {
   EXPECT_EQ(AtRest(builder.Build()).status, AbaStatus::kSingular);
 }
 
-TEST(Aba, DrawsTheLineBetweenInertiaAndRounding) {
-  // Wheels on one axis, each on the one before: of the inertia of x + 1 kg m2
-  // that the last but one has with the last, x is left with its joint free.
+TEST(Aba, TellsInertiaFromRounding) {
+  // Wheels on one axis, each mounted on the one before. The last but one has x + 1 kg
+  // m2 with the last one locked, and x with the joint of the last one free.
   const auto wheel = [](double inertia) {
     return Inertia{1, {0, 0, 0}, Vector3d(1, 1, inertia).asDiagonal()};
   };
@@ -163,7 +163,7 @@ TEST(Aba, DrawsTheLineBetweenInertiaAndRounding) {
   }
 }
 
-TEST(Aba, SaysThatAMasslessBaseIsSingular) {
+TEST(Aba, ReportsAMasslessBaseAsSingular) {
   // 7 coordinates move one body.
   TreeBuilder builder;
   builder.AddLink("base").AddLink("body", kLink);
@@ -178,7 +178,7 @@ TEST(Aba, SaysThatAMasslessBaseIsSingular) {
             AbaStatus::kSingular);
 }
 
-TEST(Aba, IsRightForAFingerOfFourGrams) {
+TEST(Aba, SolvesAFingerOfFourGrams) {
   // M's condition is above 1e9; the finger's own inertia is 1e-7 kg m2.
   TreeBuilder builder;
   builder.AddLink("robot", {60, {0, 0, 0}, 200 * Matrix3d::Identity()});
@@ -204,13 +204,13 @@ TEST(Aba, IsRightForAFingerOfFourGrams) {
   const Forward forward =
       AbaOf(tree, tree.MakeNeutral(), VectorXd::Zero(7), tau, {});
   EXPECT_EQ(forward.status, AbaStatus::kOk);
-  // The finger's torque, of 2e-4 N m, cancels from terms of 0.04 N m.
+  // The finger's torque of 2e-4 N m is a difference of terms of 0.04 N m.
   EXPECT_NEAR((forward.vdot - vdot).cwiseQuotient(vdot).norm(), 0,
               Rounding(1, 7, 200));
 }
 
-// The forces that are left over, in units of what was added up: M grows with the
-// cube of the length, and v̇ itself is known to its condition only.
+// Compares residual forces, relative to the sum of their terms. M grows with the cube
+// of the length, so v̇ itself has an error proportional to the condition.
 TEST(Aba, SolvesLongChains) {
   for (const TreeShape shape :
        {TreeShape::kChain, TreeShape::kStar, TreeShape::kAny}) {
@@ -234,7 +234,7 @@ TEST(Aba, SolvesLongChains) {
   }
 }
 
-TEST(Aba, SaysThatInputIsNotFinite) {
+TEST(Aba, ReportsInputThatIsNotFinite) {
   const Tree tree = MakeArm(kLink, kLink);
   const VectorXd q = tree.MakeNeutral(), zero = VectorXd::Zero(tree.nv());
   const auto status_of = [&](VectorXd q_bad, VectorXd v, VectorXd tau,

@@ -22,12 +22,12 @@ CenterOfMass CenterOfMassAt(const Tree& tree, const VectorXd& q,
                             const VectorXd& v) {
   Recursion scratch(tree);
   CenterOfMass G(tree);
-  G.J_WG.setConstant(7);  // Old numbers must not show through.
+  G.J_WG.setConstant(7);  // The function must overwrite old values.
   ComputeCenterOfMass(tree, q, v, &scratch, &G);
   return G;
 }
 
-// The second derivation: the mean over the bodies.
+// Second derivation: the mean over the bodies.
 struct Mean {
   Vector3d p = Vector3d::Zero();
   Vector3d v = Vector3d::Zero();

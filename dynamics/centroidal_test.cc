@@ -37,7 +37,7 @@ CentroidalMomentum CentroidalMomentumAt(const Tree& tree, const VectorXd& q,
   return out;
 }
 
-// The second derivation: the sum of the bodies' momenta about G.
+// Second derivation: the sum of the bodies' momenta about G.
 Vector6d MomentumOf(const Tree& tree, const VectorXd& q, const VectorXd& v) {
   std::vector<Pose> X_WB(tree.num_bodies());
   std::vector<SpatialMotion> V(tree.num_bodies());
@@ -58,7 +58,7 @@ Vector6d MomentumOf(const Tree& tree, const VectorXd& q, const VectorXd& v) {
   return L;
 }
 
-// On trees with a floating base.
+// Checks a property on trees with a floating base.
 bool HoldsForFloatingTrees(
     const std::string& property,
     const std::function<Residual(const TreeMotion&)>& residual_of) {
@@ -114,7 +114,7 @@ TEST(CompositeInertia, IsTheMomentumOfTheLockedRobot) {
     locked.topLeftCorner<3, 3>() = composite.I_G_B;
     locked.bottomRightCorner<3, 3>() = composite.mass * Matrix3d::Identity();
     Matrix6d ours = H_G.leftCols<6>();
-    // v_WG = v_WB + w x p_BoG: to a pure rotation about G.
+    // v_WG = v_WB + w x p_BoG is zero for a pure rotation about G.
     const Vector3d p = composite.p_BoG_B - m.q.head<3>();
     for (int k = 0; k < 3; ++k) {
       const Vector3d v = Vector3d::Unit(k).cross(p);

@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 
 MatrixXd CrbaOf(const TreeMotion& m) {
   Recursion scratch(m.tree);
-  // Old numbers must not show through.
+  // The function must overwrite old values.
   MatrixXd M = MatrixXd::Constant(m.tree.nv(), m.tree.nv(), 7);
   ComputeCrba(m.tree, m.q, &scratch, M);
   return M;
@@ -57,7 +57,7 @@ TEST(Crba, IsPositiveDefinite) {
   }));
 }
 
-TEST(Crba, OfADoublePendulumIsThatOnPaper) {
+TEST(Crba, OfADoublePendulumIsTheClosedForm) {
   // Point masses 2 kg and 3 kg at the ends of links of 1 m and 0.5 m.
   TreeBuilder builder;
   builder.AddLink("base");

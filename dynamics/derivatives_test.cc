@@ -39,7 +39,7 @@ Residual CompareWithCeres(const TreeMotion& m, const MatrixXd& ours,
   return Compare(ours, ceres, kRiddersPrecision * (1000 + ours.norm()));
 }
 
-constexpr int kMaxJoints = 8;  // Each takes some thousand evaluations.
+constexpr int kMaxJoints = 8;  // Each joint takes some thousand evaluations.
 
 TEST(RneaDerivatives, WithRespectToQAgreeWithCeres) {
   EXPECT_TRUE(HoldsForTrees(

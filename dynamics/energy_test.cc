@@ -59,7 +59,7 @@ TEST(PotentialEnergy, FallsByTheWorkOfGravity) {
   }));
 }
 
-TEST(PotentialEnergy, IsThatOnPaper) {
+TEST(PotentialEnergy, IsTheClosedForm) {
   const Tree tree =
       TreeBuilder()
           .AddLink("body", {2, {0, 0, 0.5}, Eigen::Matrix3d::Zero()})

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 Tree MakeBody() { return TreeBuilder().AddLink("body").Build(); }
 
 TEST(Integrate, TurnsAboutTheWorldsAxes) {
-  // Turned by 90 degrees about x, then by 90 about the world's z.
+  // Rotation by 90 degrees about x, then by 90 degrees about the world's z.
   const double half = std::sqrt(0.5);
   VectorXd q(7), v(6), expected(7);
   q << 1, 2, 3, half, 0, 0, half;

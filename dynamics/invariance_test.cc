@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What must not hang on how a robot is described, and what nature keeps.
+// Tests that results do not depend on the description of a robot, and conservation
+// laws.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +37,7 @@ struct Rerooted {
     }
   }
 
-  std::vector<Pose> X_NB;  // By body: its frame in the tree, in the new one.
+  std::vector<Pose> X_NB;  // By body: its old frame in its new frame.
   Tree tree;
   std::vector<int> order;  // New number of each old joint.
 
@@ -70,7 +71,7 @@ struct Rerooted {
   }
 };
 
-// The accelerations of the bodies' origins at v̇.
+// Returns the accelerations of the bodies' origins at v̇.
 std::vector<SpatialAcceleration> AccelerationsOf(const TreeMotion& m,
                                                  const VectorXd& vdot) {
   std::vector<Pose> X_WB(m.tree.num_bodies());
@@ -82,7 +83,7 @@ std::vector<SpatialAcceleration> AccelerationsOf(const TreeMotion& m,
   return A_WB_W;
 }
 
-// The state of a robot whose base is another one of its bodies.
+// Returns the state of the robot with another body as base.
 TreeMotion Move(const TreeMotion& m, int root, const Rerooted& rerooted) {
   std::vector<Pose> X_WB(m.tree.num_bodies());
   std::vector<SpatialMotion> V_WB_W(X_WB.size());
@@ -109,7 +110,7 @@ Tick TickOf(const TreeMotion& m) {
   return tick;
 }
 
-TEST(Dynamics, OfTheWholeDoesNotHangOnTheRoot) {
+TEST(Dynamics, OfTheRobotDoesNotDependOnTheRoot) {
   EXPECT_TRUE(HoldsForTrees(
       "p_WG, v_WG, L_G and its rate, energy", [](const TreeMotion& m) {
         if (!m.tree.is_floating()) return Residual{0, 0};
@@ -127,7 +128,7 @@ TEST(Dynamics, OfTheWholeDoesNotHangOnTheRoot) {
       }));
 }
 
-TEST(Dynamics, OfTheJointsDoesNotHangOnTheRoot) {
+TEST(Dynamics, OfTheJointsDoesNotDependOnTheRoot) {
   // No wrench acts on either base, so the joints' torques are the same.
   EXPECT_TRUE(HoldsForTrees("v̇ of the joints", [](const TreeMotion& m) {
     if (!m.tree.is_floating()) return Residual{0, 0};
@@ -197,7 +198,7 @@ struct Renumbered {
   }
 };
 
-TEST(Dynamics, DoesNotHangOnTheNumbersOfTheJoints) {
+TEST(Dynamics, DoesNotDependOnTheOrderOfJoints) {
   EXPECT_TRUE(HoldsForTrees("M, N, H_G, p_WG, v̇", [](const TreeMotion& m) {
     std::mt19937 draw(static_cast<unsigned>(m.tree.nv()));
     const Renumbered other(m.tree, &draw);
@@ -247,7 +248,7 @@ TreeMotion Turn(const TreeMotion& m, const Matrix3d& R) {
   return turned;
 }
 
-TEST(Dynamics, TurnsWithTheWorld) {
+TEST(Dynamics, RotatesWithTheWorld) {
   EXPECT_TRUE(HoldsForTrees("M, N, J, L_G, bias, tau", [](const TreeMotion& m) {
     if (!m.tree.is_floating()) return Residual{0, 0};
     const Matrix3d R =
@@ -303,7 +304,8 @@ VectorXd KeptOf(const TreeMotion& m, double time) {
   return kept;
 }
 
-// The largest change of what is kept over half a second, by the midpoint rule.
+// Returns the largest change of the invariants over half a second, integrated by the
+// midpoint rule.
 double DriftOf(TreeMotion m, int steps) {
   const double dt = 0.5 / steps;
   const VectorXd zero = VectorXd::Zero(m.tree.nv());
@@ -323,15 +325,15 @@ double DriftOf(TreeMotion m, int steps) {
   return (KeptOf(m, 0.5) - before).cwiseAbs().maxCoeff();
 }
 
-TEST(Dynamics, OfFreeFallKeepsMomentumAboutTheCenterOfMass) {
+TEST(Dynamics, ConservesMomentumInFreeFall) {
   for (const int seed : {1, 2, 3}) {
     SCOPED_TRACE(seed);
     const TreeMotion m =
         MakeTreeMotion({TreeShape::kAny, BaseType::kFloating, 6, seed});
     ASSERT_GT(TickOf(m).L_G.head<3>().norm(), 0.1);
-    // The rule is of second order: with rates of up to 10/s a step dt of 2.5e-4 s
-    // drifts by a hundred dt^2 at most, and half of a step drifts a quarter as
-    // much, but for terms of third order, a part of 10 dt.
+    // The rule has second order. With rates up to 10/s, a step dt of 2.5e-4 s gives a
+    // drift of at most 100 dt^2, and half the step a quarter of that, up to a relative
+    // error of 10 dt from the third order.
     const double coarse = DriftOf(m, 1000), fine = DriftOf(m, 2000);
     EXPECT_LT(fine, 1e-5);
     EXPECT_NEAR(coarse / fine, 4, 0.01);

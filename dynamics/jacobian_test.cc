@@ -33,7 +33,7 @@ struct LastFrame {
   }
 
   Matrix6Xd Jacobian(const Tree& tree, Axes axes) const {
-    // Old numbers must not show through.
+    // The function must overwrite old values.
     Matrix6Xd J = Matrix6Xd::Constant(6, tree.nv(), 7);
     ComputeFrameJacobian(tree, X_WB, frame, axes, J);
     return J;
@@ -65,7 +65,7 @@ TEST(FrameJacobian, TimesVIsTheVelocity) {
 }
 
 TEST(FrameJacobian, HasNoOtherColumns) {
-  // By unit velocities, one at a time.
+  // Compares columns by unit velocities.
   EXPECT_TRUE(HoldsForTrees("J e = V", [](const TreeMotion& m) {
     Matrix6Xd velocities(6, m.tree.nv());
     for (int j = 0; j < m.tree.nv(); ++j) {

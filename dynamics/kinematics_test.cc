@@ -18,12 +18,12 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// The state at time t of the flow with constant v̇.
+// Returns the velocity at time t with constant v̇.
 VectorXd FlowVelocity(const TreeMotion& m, double t) {
   return m.v + t * m.vdot;
 }
 
-// The configuration at time t along v alone: exact to first order in t.
+// Returns the configuration at time t along v, exact to first order in t.
 VectorXd FlowConfiguration(const TreeMotion& m, double t) {
   VectorXd q(m.tree.nq());
   Integrate(m.tree, m.q, m.v + 0.5 * t * m.vdot, t, q);
@@ -50,8 +50,8 @@ std::vector<SpatialAcceleration> AccelerationsOf(const TreeMotion& m) {
   return A_WB_W;
 }
 
-// An arm of two links of 1 m and 2 m in the plane z = 0, a slide at its end
-// along the second link.
+// An arm of two links of 1 m and 2 m in the plane z = 0, with a prismatic joint at
+// its end along the second link.
 Tree MakeArm() {
   TreeBuilder builder;
   for (const char* name : {"base", "upper", "lower", "slide"}) {
@@ -74,7 +74,7 @@ Tree MakeArm() {
   return builder.Build(BaseType::kFixed);
 }
 
-TEST(Kinematics, OfAnArmAreThoseOnPaper) {
+TEST(Kinematics, OfAnArmAreTheClosedForm) {
   const Tree tree = MakeArm();
   const double a = 0.4, b = 0.9, s = 0.3;
   const double a_dot = 1.1, b_dot = -0.7, s_dot = 0.6;
@@ -83,7 +83,7 @@ TEST(Kinematics, OfAnArmAreThoseOnPaper) {
   v << a_dot, b_dot, s_dot;
   std::vector<Pose> X_WB(4);
   ComputePoses(tree, q, &X_WB);
-  // The end, by polar coordinates.
+  // Position of the end by polar coordinates.
   const Vector3d e(std::cos(a + b), std::sin(a + b), 0);
   const Vector3d n(-e.y(), e.x(), 0);
   const Vector3d p_elbow(std::cos(a), std::sin(a), 0);
@@ -106,7 +106,7 @@ TEST(Kinematics, OfAnArmAreThoseOnPaper) {
   EXPECT_NEAR((A_WB_W[3].linear - a_end).norm(), 0, Rounding(8, 6));
 }
 
-TEST(Kinematics, DoNotMindTheNormOfTheQuaternion) {
+TEST(Kinematics, DoNotDependOnTheNormOfTheQuaternion) {
   const TreeMotion m =
       MakeTreeMotion({TreeShape::kAny, BaseType::kFloating, 5, 1});
   const std::vector<Pose> expected = PosesAt(m, m.q);
@@ -154,7 +154,7 @@ TEST(Kinematics, AccelerationsAreTheRatesOfVelocities) {
 }
 
 TEST(Kinematics, FramesMoveAsTheirBodies) {
-  // A frame moves as the body would that has it as its own.
+  // A frame moves like a body with this frame as its own.
   const auto rotation = Eigen::AngleAxisd(0.8, Vector3d(1, 2, 2) / 3);
   TreeBuilder builder;
   for (const char* name : {"base", "body", "frame"}) builder.AddLink(name);

@@ -18,7 +18,7 @@ TEST(Regressor, TimesParametersIsRnea) {
   EXPECT_TRUE(HoldsForTrees("Y pi = tau", [](const TreeMotion& m) {
     Recursion scratch(m.tree);
     const VectorXd pi = MakeInertialParameters(m.tree);
-    // Old numbers must not show through.
+    // The function must overwrite old values.
     MatrixXd Y = MatrixXd::Constant(m.tree.nv(), pi.size(), 7);
     VectorXd tau(m.tree.nv());
     ComputeRegressor(m.tree, m.q, m.v, m.vdot, &scratch, Y);

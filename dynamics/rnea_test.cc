@@ -43,7 +43,7 @@ VectorXd CoriolisOf(const TreeMotion& m) {
 }
 
 TEST(Rnea, IsNewtonAndEulerForEachBody) {
-  // The second derivation: each body's own equations about its center of mass,
+  // Second derivation: Newton-Euler equations of each body about its center of mass,
   // and the principle of virtual power with the bodies' Jacobians.
   EXPECT_TRUE(HoldsForTrees("tau = sum J'F", [](const TreeMotion& m) {
     const Tree& tree = m.tree;
@@ -56,7 +56,7 @@ TEST(Rnea, IsNewtonAndEulerForEachBody) {
     VectorXd tau = VectorXd::Zero(tree.nv());
     double scale = 10;
     for (size_t f = 0; f < tree.frames().size(); ++f) {
-      // The frame that is the body's own.
+      // The own frame of the body.
       const int b = tree.frames()[f].body;
       if (!tree.frames()[f].X_BF.p.isZero(0) ||
           !tree.frames()[f].X_BF.R.isIdentity(0)) {
@@ -95,7 +95,7 @@ TEST(Rnea, IsMTimesAccelerationPlusBias) {
   }));
 }
 
-TEST(Rnea, TakesForcesByTheirJacobians) {
+TEST(Rnea, AddsForcesByTheirJacobians) {
   EXPECT_TRUE(HoldsForTrees("tau - sum J'F", [](const TreeMotion& m) {
     std::vector<Pose> X_WB(m.tree.num_bodies());
     ComputePoses(m.tree, m.q, &X_WB);
@@ -104,7 +104,7 @@ TEST(Rnea, TakesForcesByTheirJacobians) {
     std::vector<bool> done(m.tree.num_bodies(), false);
     for (size_t f = 0; f < m.tree.frames().size(); ++f) {
       const int b = m.tree.frames()[f].body;
-      if (done[b]) continue;  // The first frame of a body is its own.
+      if (done[b]) continue;  // The first frame is that of the body.
       done[b] = true;
       Matrix6Xd J(6, m.tree.nv());
       ComputeFrameJacobian(m.tree, X_WB, static_cast<int>(f), Axes::kWorld, J);
@@ -116,7 +116,7 @@ TEST(Rnea, TakesForcesByTheirJacobians) {
 }
 
 TEST(Rnea, BiasIsCoriolisPlusGravity) {
-  // Gravity is what a robot at rest feels.
+  // Gravity is the bias force of a robot at rest.
   EXPECT_TRUE(HoldsForTrees("N = c + g", [](const TreeMotion& m) {
     TreeMotion rest = m;
     rest.v.setZero();
@@ -134,7 +134,7 @@ TEST(Rnea, CoriolisIsQuadraticInVelocity) {
   }));
 }
 
-TEST(Rnea, DoesNotFeelAUniformMotion) {
+TEST(Rnea, DoesNotDependOnUniformMotion) {
   EXPECT_TRUE(HoldsForTrees("tau(v_WB + u)", [](const TreeMotion& m) {
     TreeMotion train = m;
     if (m.tree.is_floating()) {
@@ -145,7 +145,7 @@ TEST(Rnea, DoesNotFeelAUniformMotion) {
   }));
 }
 
-TEST(Rnea, OfAPendulumIsThatOnPaper) {
+TEST(Rnea, OfAPendulumIsTheClosedForm) {
   TreeBuilder builder;
   builder.AddLink("base").AddLink(
       "bob", {2, {0, 0, -0.5}, 0.1 * Matrix3d::Identity()});

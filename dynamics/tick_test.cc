@@ -33,7 +33,7 @@ std::vector<int> AllFrames(const Tree& tree) {
   return frames;
 }
 
-// The tick of a motion, computed over that of another one.
+// Returns the tick of a motion, computed into the tick of another motion.
 Tick TickOf(const TreeMotion& m) {
   Tick tick(m.tree, AllFrames(m.tree));
   VectorXd q(m.tree.nq());
@@ -52,7 +52,7 @@ TEST(Tick, HasTheMassMatrixToTheBit) {
   }));
 }
 
-TEST(Tick, DoesNotMindTheNormOfTheQuaternion) {
+TEST(Tick, DoesNotDependOnTheNormOfTheQuaternion) {
   TreeMotion m = MakeTreeMotion({TreeShape::kAny, BaseType::kFloating, 5, 1});
   const Tick tick = TickOf(m);
   for (const double norm : {1e-170, 1e170}) {
@@ -64,8 +64,8 @@ TEST(Tick, DoesNotMindTheNormOfTheQuaternion) {
   EXPECT_TRUE(TickOf(m).N.array().isNaN().all());
 }
 
-// Twice the mass everywhere: twice M and N to the bit, the same center of mass.
-TEST(Tick, OfAHeavierRobotIsHeavier) {
+// Doubling all masses doubles M and N to the bit and keeps the center of mass.
+TEST(Tick, ScalesWithMass) {
   EXPECT_TRUE(HoldsForTrees("M, N, p_WG, scaled", [](const TreeMotion& m) {
     const Tree heavy_tree = m.tree.WithScaledInertias(2);
     const Tick tick = TickOf(m);
@@ -176,7 +176,7 @@ TEST(Tick, HasTheCentroidalMomentum) {
 }
 
 TEST(Tick, HasTheMomentumOfAFixedBaseToo) {
-  // A free base that stands still moves the joints' bodies as a fixed one does.
+  // With the base at rest, bodies move as with a fixed base.
   for (int seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     TreeCase from{TreeShape::kAny, BaseType::kFixed, 8, seed};
@@ -198,7 +198,7 @@ TEST(Tick, HasTheMomentumOfAFixedBaseToo) {
   }
 }
 
-TEST(Tick, TurnsWithTheWorld) {
+TEST(Tick, RotatesWithTheWorld) {
   // In a world that is rotated and far away, joint torques are the same and
   // quantities in world axes rotate.
   EXPECT_TRUE(HoldsForTrees("R N, R H_G", [](const TreeMotion& m) {
@@ -230,8 +230,8 @@ TEST(Tick, TurnsWithTheWorld) {
   }));
 }
 
-TEST(Tick, DoesNotHangOnTheOrderOfTheJoints) {
-  // Two arms, given in either order.
+TEST(Tick, DoesNotDependOnTheOrderOfTheJoints) {
+  // Two arms in either order.
   const auto build = [](bool swap) {
     TreeBuilder builder;
     builder.AddLink("base", {3, {0.1, 0.2, 0.3}, Matrix3d::Identity()});
@@ -279,8 +279,8 @@ TEST(Tick, OfATreeWithoutMassHasNoCenterOfMass) {
 }
 
 TEST(Tick, KeepsItsDigitsOverAThousandLinks) {
-  // A straight chain of 1000 rods of 0.3 m, which turns as one: M over the
-  // base's axes is that of one rod of 300 m.
+  // A straight chain of 1000 rods of 0.3 m that rotates as one body: the base's block
+  // of M is that of one rod of 300 m.
   TreeBuilder builder;
   const double m = 0.5, l = 0.3;
   const Inertia rod{m,
@@ -304,7 +304,7 @@ TEST(Tick, KeepsItsDigitsOverAThousandLinks) {
   EXPECT_NEAR(tick.M(2, 2), inertia, Rounding(inertia, 1000));
   EXPECT_NEAR(tick.p_WG.x(), 150, Rounding(150, 1000));
   EXPECT_NEAR(tick.H_G(2, 2), inertia / 4, Rounding(inertia, 1000));
-  // The last joint turns the last rod alone.
+  // The last joint moves the last rod only.
   EXPECT_NEAR(tick.M(1004, 1004), m * l * l / 3, Rounding(m * l * l, 10));
 }
 

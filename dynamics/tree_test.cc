@@ -61,7 +61,7 @@ std::string MessageOfJoint(Change change) {
   return MessageOf([&] { TreeBuilder().AddJoint(joint); });
 }
 
-TEST(TreeBuilder, NamesTheLinkThatIsWrong) {
+TEST(TreeBuilder, NamesAnInvalidLink) {
   const auto message_of = [](const std::string& name, const Inertia& M) {
     return MessageOf([&] { TreeBuilder().AddLink(name, M); });
   };
@@ -89,7 +89,7 @@ TEST(TreeBuilder, NamesTheLinkThatIsWrong) {
   EXPECT_EQ(message_of("foot", MakePoint(0)), "");
 }
 
-TEST(TreeBuilder, TakesInertiasThatNoBodyHasWhereTold) {
+TEST(TreeBuilder, AcceptsImpossibleInertiasOnRequest) {
   TreeBuilder builder;
   builder.AcceptUnphysicalInertias();
   builder.AddLink("a", {0, {0, 0, 0}, Matrix3d::Identity()});
@@ -102,12 +102,12 @@ TEST(TreeBuilder, TakesInertiasThatNoBodyHasWhereTold) {
             "link 'c': mass is -1, must be zero or positive");
 }
 
-TEST(TreeBuilder, TakesAPlateWhoseMomentsWereRounded) {
+TEST(TreeBuilder, AcceptsAPlateWithRoundedMoments) {
   const Inertia plate{1, {0, 0, 0}, Vector3d(1, 2, 3.00001).asDiagonal()};
   EXPECT_EQ(TreeBuilder().AddLink("a", plate).Build().total_mass(), 1);
 }
 
-TEST(TreeBuilder, TakesWhatRoundingLeavesOfASymmetricInertia) {
+TEST(TreeBuilder, AcceptsARoundedSymmetricInertia) {
   Inertia M{1, {0, 0, 0}, Matrix3d::Identity()};
   M.I_G_B(0, 2) = 0.1;
   M.I_G_B(2, 0) = std::nextafter(0.1, 1);
@@ -116,7 +116,7 @@ TEST(TreeBuilder, TakesWhatRoundingLeavesOfASymmetricInertia) {
   EXPECT_NEAR(I(0, 2), 0.1, Rounding(0.1, 1));
 }
 
-TEST(TreeBuilder, NamesTheJointThatIsWrong) {
+TEST(TreeBuilder, NamesAnInvalidJoint) {
   EXPECT_EQ(MessageOfJoint([](JointSpec* j) { j->name = ""; }),
             "a joint has no name");
   EXPECT_EQ(MessageOfJoint([](JointSpec* j) { j->X_PF.R(1, 1) = kNaN; }),
@@ -138,7 +138,7 @@ TEST(TreeBuilder, NamesTheJointThatIsWrong) {
   EXPECT_EQ(MessageOfJoint([](JointSpec*) {}), "");
 }
 
-TEST(TreeBuilder, TakesTheRotationThatIsNearestToOneOfSixDigits) {
+TEST(TreeBuilder, ProjectsARotationOfSixDigits) {
   JointSpec joint = MakeJoint("1", "a", "b");
   const auto rotation_of = [&joint] {
     const Tree tree =
@@ -148,20 +148,20 @@ TEST(TreeBuilder, TakesTheRotationThatIsNearestToOneOfSixDigits) {
   const Matrix3d R =
       Eigen::AngleAxisd(0.8, Vector3d(1, 2, 2) / 3).toRotationMatrix();
   joint.X_PF.R = R;
-  EXPECT_EQ(rotation_of(), R);  // To the bit.
+  EXPECT_EQ(rotation_of(), R);  // Equal to the bit.
   joint.X_PF.R(0, 1) += 3e-6;
   joint.X_PF.R *= 1 + 1e-6;
   const Matrix3d nearest = rotation_of();
   EXPECT_NEAR((nearest.transpose() * nearest - Matrix3d::Identity()).norm(), 0,
               Rounding(1, 9));
-  // Off by half of what was added: the antisymmetric half is a rotation.
+  // The error is half of the change, because its antisymmetric part is a rotation.
   EXPECT_NEAR((nearest - R).norm(), 0, 3e-6);
   joint.X_PF.R = R;
   joint.X_PF.R.col(0) *= 1 + 1e-13;
   EXPECT_NE(rotation_of(), joint.X_PF.R);
 }
 
-TEST(TreeBuilder, DoesNotLookAtTheAxisOfAFixedJoint) {
+TEST(TreeBuilder, IgnoresTheAxisOfAFixedJoint) {
   EXPECT_EQ(MessageOfJoint([](JointSpec* j) {
               j->type = JointType::kFixed;
               j->axis_F.setZero();
@@ -169,7 +169,7 @@ TEST(TreeBuilder, DoesNotLookAtTheAxisOfAFixedJoint) {
             "");
 }
 
-TEST(TreeBuilder, NamesWhatIsWrongWithTheTree) {
+TEST(TreeBuilder, NamesTheErrorOfATree) {
   EXPECT_EQ(MessageOf([] { TreeBuilder().Build(); }), "there is no link");
   EXPECT_EQ(MessageOf({MakeJoint("1", "a", "b"), MakeJoint("1", "b", "c")}),
             "joint '1' is there twice");
@@ -194,7 +194,7 @@ TEST(TreeBuilder, NamesWhatIsWrongWithTheTree) {
             "link 'a' is there twice");
 }
 
-TEST(TreeBuilder, NamesWhatCannotBeLocked) {
+TEST(TreeBuilder, NamesAJointThatCannotBeLocked) {
   TreeBuilder builder;
   builder.AddLink("a").AddLink("b").AddLink("c");
   builder.AddJoint(MakeJoint("1", "a", "b"));
@@ -211,7 +211,7 @@ TEST(TreeBuilder, NamesWhatCannotBeLocked) {
             "joint '1': it is fixed, or locked twice");
 }
 
-TEST(TreeBuilder, RefusesAGravityThatIsNotFinite) {
+TEST(TreeBuilder, RejectsNonfiniteGravity) {
   EXPECT_EQ(MessageOf([] {
               TreeBuilder().SetGravity({0, 0, kNaN});
             }),
@@ -256,7 +256,7 @@ TEST(TreeBuilder, OrdersBodiesDepthFirstAndBranchesAsGiven) {
 }
 
 TEST(TreeBuilder, WeldsFixedLinksAndKeepsTheirFrames) {
-  // Two points 1 kg and 3 kg, the second 0.4 m along y of the turned frame.
+  // Two points of 1 kg and 3 kg; the second is 0.4 m along y of the rotated frame.
   JointSpec joint = MakeJoint("1", "a", "b", JointType::kFixed);
   joint.X_PF.p = Vector3d(1, 0, 0);
   joint.X_PF.R =
@@ -320,7 +320,7 @@ TEST(TreeBuilder, LocksAtTheValue) {
   }
 }
 
-TEST(Tree, SaysHowLargeItIs) {
+TEST(Tree, ReturnsItsSizes) {
   TreeBuilder builder;
   builder.AddLink("a", MakePoint(2)).AddLink("b", MakePoint(3));
   builder.AddJoint(MakeJoint("1", "a", "b"));
@@ -353,7 +353,7 @@ TEST(JointMaps, HoldABaseThatCannotMove) {
   EXPECT_EQ(ToEigen(R), Matrix3d::Identity());
 }
 
-TEST(Tree, ScalesAllThatIsInertia) {
+TEST(Tree, ScalesAllInertias) {
   JointSpec joint = MakeJoint("hip", "a", "b");
   joint.armature = 0.5;
   const Inertia M{2, {1, 2, 3}, Matrix3d::Identity()};
@@ -371,7 +371,7 @@ TEST(Tree, ScalesAllThatIsInertia) {
   }
 }
 
-TEST(Tree, RefusesToScaleInertiasByWhatIsNotPositive) {
+TEST(Tree, RejectsANonpositiveScale) {
   const Tree tree = TreeBuilder().AddLink("a", MakePoint(1)).Build();
   EXPECT_EQ(MessageOf([&] { tree.WithScaledInertias(-1); }),
             "tree: factor of the inertias is -1, must be positive and finite");
@@ -394,7 +394,7 @@ TEST(Tree, FindsByName) {
   EXPECT_FALSE(tree.FindFrame("bc").has_value());
 }
 
-TEST(TreeBuilder, TakesChainsDeeperThanTheStack) {
+TEST(TreeBuilder, AcceptsVeryDeepChains) {
   TreeBuilder builder;
   builder.AddLink("0", MakePoint(1));
   for (int i = 1; i <= 20000; ++i) {

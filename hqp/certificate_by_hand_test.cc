@@ -108,7 +108,7 @@ TEST_F(CertifierByHandTest, CertifiesTheLevelsAboveTheFailedOne) {
   EXPECT_EQ(Certify().worst(), 0);
 }
 
-TEST_F(CertifierByHandTest, IsInfiniteWhereAnythingIsNan) {
+TEST_F(CertifierByHandTest, IsInfiniteForAnyNaN) {
   solution_.levels[1].multipliers[0].inequality << kNan;
   EXPECT_EQ(Certify().worst(), kInfinity);
   Bound(0, 1, 2);

@@ -341,7 +341,7 @@ TEST(CertificateOracle, CertifiesRowsWithoutVariables) {
       0);
 }
 
-TEST(CertificateOracle, IsInfiniteWhereAnyNumberIsNan) {
+TEST(CertificateOracle, IsInfiniteForAnyNaN) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}};
   Hierarchy hierarchy(2, capacity);
   hierarchy.AddEqualities(0, 1).B << 0, 1;

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Whatever the order of the terms, the same.
+// Expects the same result for any order of the terms.
 void ExpectDot(const Vector3d& a, const Vector3d& b, double near, double rest) {
   std::array<int, 3> order{0, 1, 2};
   do {
@@ -31,20 +31,20 @@ TEST(ExactDot, OfSmallNumbersIsTheirDotProduct) {
   ExpectDot({1, 2, 3}, {4, 5, 6}, 32, 0);
 }
 
-TEST(ExactDot, KeepsWhatIsLeftWhenTermsCancel) {
-  // (1 + e) (1 - e) - 1 = -e², which 1 - e² rounds away.
+TEST(ExactDot, KeepsTheRemainderWhenTermsCancel) {
+  // (1 + e) (1 - e) - 1 = -e²; in double, 1 - e² is 1.
   const double e = std::ldexp(1, -30);
   ExpectDot({1 + e, 1, 0}, {1 - e, -1, 5}, -e * e, 0);
   ExpectDot({1e20, 3, -1e20}, {1, 7, 1}, 21, 0);
 }
 
-TEST(ExactDot, KeepsWhatOneDoubleCannotHold) {
+TEST(ExactDot, KeepsDigitsBeyondOneDouble) {
   const double tiny = std::ldexp(1, -60);
   ExpectDot({1, 1, 0}, {1, tiny, 0}, 1, tiny);
   ExpectDot({1, -1, 1}, {1, tiny, tiny / 4}, 1, -0.75 * tiny);
 }
 
-// In units of 2^-40 all products and sums are whole, and below 2^106.
+// In units of 2^-40 all products and sums are integers below 2^106.
 RC_GTEST_PROP(ExactDot, IsRightToTheLastBitOfTwoDoubles, ()) {
   __int128 exact = 0;
   Vector3d a, b;

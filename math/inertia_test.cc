@@ -21,7 +21,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A mass to 10 kg within 20 m that moves at 200 m/s.
+// Rounding for masses to 10 kg within 20 m at 200 m/s.
 const double kTolerance = Rounding(1e5, 8);
 
 struct Particle {
@@ -29,7 +29,7 @@ struct Particle {
   Vector3d p;  // From the body's origin.
 };
 
-// The inertia of particles, from its definition.
+// Returns the inertia of particles from its definition.
 Inertia Assemble(const std::vector<Particle>& particles) {
   Inertia M;
   for (const Particle& particle : particles) {
@@ -52,7 +52,7 @@ rc::Gen<std::vector<Particle>> Particles() {
                    })));
 }
 
-// The rounding to expect of a sum over particles.
+// Returns the expected rounding of a sum over particles.
 double ToleranceFor(const std::vector<Particle>& particles) {
   return Rounding(4000, 8 * static_cast<int>(particles.size()));
 }
@@ -104,7 +104,7 @@ RC_GTEST_PROP(Inertia, HasTheMomentumOfItsParticles, ()) {
   RC_ASSERT(std::abs(KineticEnergy(M, V) - energy) <= 20 * tolerance);
 }
 
-// Newton and Euler: what accelerates a body is what accelerates its particles.
+// By Newton and Euler, the force on a body is the sum of the forces on its particles.
 RC_GTEST_PROP(Inertia, TakesTheForceOfItsParticles, ()) {
   const std::vector<Particle> particles = *Particles();
   const SpatialMotion V = *Motions();
@@ -122,7 +122,7 @@ RC_GTEST_PROP(Inertia, TakesTheForceOfItsParticles, ()) {
             1000 * ToleranceFor(particles));
 }
 
-RC_GTEST_PROP(Inertia, StaysSymmetricToTheBitWhereverItIsSeen, ()) {
+RC_GTEST_PROP(Inertia, StaysSymmetricToTheBitInAnyFrame, ()) {
   const Inertia M_B = *Inertias();
   const Matrix3d I_A = (*Poses() * M_B).I_G_B;
   RC_ASSERT(I_A == I_A.transpose());
@@ -185,13 +185,13 @@ TEST(Inertia, SumOfTwoMassesHasTheReducedMassBetweenThem) {
   EXPECT_EQ(sum.I_G_B, expected);
 }
 
-RC_GTEST_PROP(FindDefect, FindsNoneInABodyThatExists, ()) {
+RC_GTEST_PROP(FindDefect, AcceptsAPhysicalBody, ()) {
   RC_ASSERT(FindDefect(*Inertias()) == InertiaDefect::kNone);
   const Inertia M = Assemble(*Particles());
   RC_ASSERT(FindDefect(*Rotations() * M) == InertiaDefect::kNone);
 }
 
-// A body of which the moment about z alone is wrong by a factor.
+// Returns a body whose moment about z is wrong by a factor.
 Inertia Body(double factor, const Matrix3d& R = Matrix3d::Identity()) {
   const Vector3d moments(2, 3, factor * 5);
   return {1, Vector3d::Zero(), R * moments.asDiagonal() * R.transpose()};
@@ -202,13 +202,13 @@ TEST(FindDefect, AllowsAThinRodAndAPoint) {
   EXPECT_EQ(FindDefect({1, {1, 2, 3}, Matrix3d::Zero()}), InertiaDefect::kNone);
 }
 
-RC_GTEST_PROP(FindDefect, FindsTheTriangleInequalityBroken, ()) {
+RC_GTEST_PROP(FindDefect, FindsAViolatedTriangleInequality, ()) {
   const Matrix3d R = *Rotations();
   RC_ASSERT(FindDefect(Body(1 + 1e-12, R)) == InertiaDefect::kTriangle);
   RC_ASSERT(FindDefect(Body(1 - 1e-12, R)) == InertiaDefect::kNone);
 }
 
-TEST(FindDefect, FindsTheTriangleInequalityBrokenOnEachSide) {
+TEST(FindDefect, FindsAViolatedTriangleInequalityOfEachAxis) {
   for (int i = 0; i < 3; ++i) {
     Vector3d moments(1, 1, 1);
     moments[i] = 2.5;
@@ -247,8 +247,8 @@ TEST(FindDefect, FindsAnAsymmetry) {
   }
 }
 
-// The tolerance is 16 eps of the largest entry, here 5: both sides of it.
-TEST(FindDefect, AllowsSixteenRoundingsAndNoMore) {
+// Tests both sides of the tolerance, 16 eps of the largest entry (5).
+TEST(FindDefect, AllowsSixteenRoundings) {
   constexpr double kEps = std::numeric_limits<double>::epsilon();
   Inertia M{1, Vector3d::Zero(), Matrix3d::Identity()};
   M.I_G_B(0, 1) = 16 * kEps;
@@ -273,7 +273,7 @@ TEST(FindDefect, AllowsRounding) {
   EXPECT_EQ(FindDefect(thin(18)), InertiaDefect::kNotPositive);
 }
 
-TEST(FindDefect, FindsWhatIsNotFinite) {
+TEST(FindDefect, FindsNumbersThatAreNotFinite) {
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     Inertia M = Body(1);
     M.mass = bad;

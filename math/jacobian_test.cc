@@ -25,7 +25,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // Accuracy of Ridders' method according to Ceres' own tests.
-constexpr double kRidders = 1e-9;  // Relative, of each entry: none is tiny.
+constexpr double kRidders =
+    1e-9;  // Relative error of each entry; no entry is tiny.
 
 Vector6d Twist(const Vector3d& w, const Vector3d& v) {
   return (Vector6d() << w, v).finished();
@@ -38,8 +39,8 @@ rc::Gen<Vector6d> Twists(double max_angle) {
                       });
 }
 
-// A function of n numbers with m values, and its derivative as we believe it.
-// Ceres differentiates the function and compares.
+// A function of n numbers with m values, and its analytic derivative. Ceres
+// differentiates the function and compares.
 template <int m, int n>
 class Claim final : public ceres::SizedCostFunction<m, n> {
  public:
@@ -76,8 +77,8 @@ class Claim final : public ceres::SizedCostFunction<m, n> {
   std::function<Jacobian(const Argument&)> jacobian_;
 };
 
-// d -> log(exp(w + d) exp(w)^-1) has the derivative J_l(w) at d = 0, and with
-// the inverse on the other side J_r(w).
+// d -> log(exp(w + d) exp(w)^-1) has the derivative J_l(w) at d = 0. With the inverse
+// on the left, the derivative is J_r(w).
 Claim<3, 3> LeftSo3(const Vector3d& w, const Matrix3d& J) {
   return {[w](const Vector3d& d) -> Vector3d {
             return LogSo3(ExpSo3(w + d) * ExpSo3(-w));
@@ -115,7 +116,7 @@ TEST(So3Jacobians, AreDerivativesByCeres) {
     SCOPED_TRACE(w.transpose());
     EXPECT_TRUE(LeftSo3(w, LeftJacobianSo3(w)).Holds(Vector3d::Zero()));
     EXPECT_TRUE(RightSo3(w, RightJacobianSo3(w)).Holds(Vector3d::Zero()));
-    if (w.norm() > 3) continue;  // The logarithm has another value there.
+    if (w.norm() > 3) continue;  // There, the logarithm is on another branch.
     EXPECT_TRUE(
         InverseLeftSo3(w, InverseLeftJacobianSo3(w)).Holds(Vector3d::Zero()));
     EXPECT_TRUE(
@@ -123,7 +124,7 @@ TEST(So3Jacobians, AreDerivativesByCeres) {
   }
 }
 
-TEST(So3Jacobians, TheCheckerFindsTheWrongOne) {
+TEST(So3Jacobians, CheckerFindsAWrongJacobian) {
   const Vector3d w(0.3, -0.5, 0.2), zero = Vector3d::Zero();
   EXPECT_FALSE(LeftSo3(w, RightJacobianSo3(w)).Holds(zero));
   EXPECT_FALSE(RightSo3(w, LeftJacobianSo3(w)).Holds(zero));
@@ -133,14 +134,14 @@ TEST(So3Jacobians, TheCheckerFindsTheWrongOne) {
   EXPECT_FALSE(LeftSo3(w, J).Holds(zero));
 }
 
-// On the manifold of unit quaternions: of f(q) = log(q), by the coordinates d
-// of q exp(d/2) that Ceres uses, J_l^-1 resp. J_r^-1 times 2.
+// On the manifold of unit quaternions, f(q) = log(q) has the derivative 2 J_l^-1 or 2
+// J_r^-1 in Ceres' coordinates d of q exp(d/2).
 TEST(So3Jacobians, AreDerivativesOnCeresManifold) {
   const ceres::EigenQuaternionManifold manifold;
   for (const Vector3d& w : {Vector3d(0.3, -0.5, 0.2), Vector3d(-1, 1.2, 0.5)}) {
     SCOPED_TRACE(w.transpose());
     const Eigen::Quaterniond q = ExpQuaternion(w);
-    // Ceres moves by q <- [sin|d| d/|d|, cos|d|] q: a turn by 2 d on the left.
+    // Ceres moves by q <- [sin|d| d/|d|, cos|d|] q, a rotation by 2 d on the left.
     const Eigen::Matrix<double, 3, 3> J = 2 * InverseLeftJacobianSo3(w);
     Eigen::Matrix<double, 4, 3, Eigen::RowMajor> plus;
     manifold.PlusJacobian(q.coeffs().data(), plus.data());
@@ -202,13 +203,13 @@ TEST(Se3Jacobians, AreDerivativesByCeres) {
     const Vector6d x = Twist(w, {0.7, 0.4, -0.9});
     EXPECT_TRUE(LeftSe3(x, LeftJacobianSe3(x)).Holds(zero));
     EXPECT_TRUE(RightSe3(x, RightJacobianSe3(x)).Holds(zero));
-    if (w.norm() > 3) continue;  // The logarithm has another value there.
+    if (w.norm() > 3) continue;  // There, the logarithm is on another branch.
     EXPECT_TRUE(InverseLeftSe3(x, InverseLeftJacobianSe3(x)).Holds(zero));
     EXPECT_TRUE(InverseRightSe3(x, InverseRightJacobianSe3(x)).Holds(zero));
   }
 }
 
-TEST(Se3Jacobians, TheCheckerFindsTheWrongOne) {
+TEST(Se3Jacobians, CheckerFindsAWrongJacobian) {
   const Vector6d x = Twist({0.3, -0.5, 0.2}, {0.7, 0.4, -0.9});
   const Vector6d zero = Vector6d::Zero();
   EXPECT_FALSE(LeftSe3(x, RightJacobianSe3(x)).Holds(zero));
@@ -221,7 +222,7 @@ TEST(Se3Jacobians, TheCheckerFindsTheWrongOne) {
 
 RC_GTEST_PROP(So3Jacobians, InvertEachOther, ()) {
   const Vector3d w = *RotationVectors(6);
-  // Six is 20 times nearer to 2 π than to 0.
+  // Six is 20 times closer to 2 π than to 0.
   const double tolerance = Rounding(1, 9, 25);
   RC_ASSERT(
       (LeftJacobianSo3(w) * InverseLeftJacobianSo3(w) - Matrix3d::Identity())
@@ -233,7 +234,7 @@ RC_GTEST_PROP(So3Jacobians, InvertEachOther, ()) {
 
 RC_GTEST_PROP(So3Jacobians, DifferByTheRotation, ()) {
   const Vector3d w = *RotationVectors(4 * M_PI);
-  // The rotation's rounding, 4 eps times the angle.
+  // Rounding of the rotation: 4 eps times the angle.
   const double tolerance = Rounding(4 * M_PI, 2);
   RC_ASSERT((LeftJacobianSo3(w) - ExpSo3(w) * RightJacobianSo3(w)).norm() <=
             tolerance);
@@ -242,7 +243,7 @@ RC_GTEST_PROP(So3Jacobians, DifferByTheRotation, ()) {
   RC_ASSERT(RightJacobianSo3(w) == LeftJacobianSo3(-w));
 }
 
-// exp(w) - I = J_l(w) Hat(w): the derivative along w, integrated.
+// exp(w) - I = J_l(w) Hat(w) is the integral of the derivative along w.
 RC_GTEST_PROP(So3Jacobians, IntegrateToTheExponential, ()) {
   const Vector3d w = *RotationVectors(4 * M_PI);
   RC_ASSERT(
@@ -252,7 +253,7 @@ RC_GTEST_PROP(So3Jacobians, IntegrateToTheExponential, ()) {
 
 RC_GTEST_PROP(Se3Jacobians, InvertEachOther, ()) {
   const Vector6d x = *Twists(6);
-  // Condition as for SO(3), once more for the derivative; velocities to 17.
+  // The condition of SO(3), squared because of the derivative; velocities up to 17.
   const double tolerance = Rounding(17, 18, 25 * 25);
   RC_ASSERT(
       (LeftJacobianSe3(x) * InverseLeftJacobianSe3(x) - Matrix6d::Identity())
@@ -269,10 +270,11 @@ RC_GTEST_PROP(Se3Jacobians, DifferByTheAdjoint, ()) {
       Rounding(17 * 4 * M_PI, 6));
 }
 
-// Barfoot's (7.86): Q by products of matrices.
+// Compares with Barfoot's (7.86), Q by products of matrices.
 RC_GTEST_PROP(Se3Jacobians, QIsBarfootsQ, ()) {
   const Vector3d w = *RotationVectors(6), v = *Vectors();
-  // His coefficients cancel below; as the fifth power of the angle.
+  // For small angles Barfoot's coefficients lose digits like the fifth power of the
+  // angle.
   RC_PRE(w.norm() > 1);
   const double a = w.norm(), c = std::cos(a), s = std::sin(a);
   const Matrix3d W = Hat(w), V = Hat(v);

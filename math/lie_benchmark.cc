@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// The maps of SO(3) and SE(3), each beside Eigen's own way to it: AngleAxis and
-// Quaternion. Angles from 0.01 to 3.1, so on both sides of Stumpff's switch.
+// Benchmarks the maps of SO(3) and SE(3) against Eigen's AngleAxis and Quaternion.
+// Angles are from 0.01 to 3.1 rad, on both sides of Stumpff's switch.
 //
 //     bazel run --config=native //math:lie_benchmark
 //
-// prints the fastest time of each, per call, and the ratios.
+// prints the fastest time per call of each, and the ratios.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Geometry>
@@ -26,7 +26,7 @@ using Eigen::Vector3d;
 
 constexpr int kCases = 256;
 
-// A pose as Eigen's users keep it.
+// A pose as users of Eigen store it.
 struct QuaternionPose {
   Quaterniond q;
   Vector3d p;
@@ -156,7 +156,7 @@ void ComposeRotations(benchmark::State& state) {
 }
 BENCHMARK(ComposeRotations);
 
-// To a matrix as well. Quaternions themselves compose by Eigen's own product.
+// Composes quaternions and converts the result to a matrix.
 void ComposeRotationsByQuaternion(benchmark::State& state) {
   Run(state, [](const Cases& c, int i) -> Matrix3d {
     return (c.q[i] * c.q[kCases - 1 - i]).toRotationMatrix();

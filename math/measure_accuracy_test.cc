@@ -11,7 +11,7 @@ namespace {
 
 TEST(Accuracy, IsWithinTheBarEverywhere) {
   const std::vector<Accuracy> accuracy = MeasureAccuracy(20);
-  // 17 results of 16 ranges, less what is not defined above π or 2 π.
+  // 17 results on 16 ranges, without those that are undefined above π or 2 π.
   EXPECT_EQ(accuracy.size(), 9 * 16 + 4 * 10 + 4 * 14);
   for (const Accuracy& a : accuracy) {
     EXPECT_LE(a.error, a.bar) << a.map << " at " << a.angle;

@@ -48,7 +48,7 @@ RC_GTEST_PROP(LogQuaternion, InvertsExp, ()) {
   RC_ASSERT((LogQuaternion(q) - w).norm() <= kTolerance * w.norm());
 }
 
-RC_GTEST_PROP(LogQuaternion, DoesNotMindSignNorScale, ()) {
+RC_GTEST_PROP(LogQuaternion, DoesNotDependOnSignOrScale, ()) {
   const Vector3d w = *RotationVectors(M_PI - 1e-9);
   const Quaterniond q = ExpQuaternion(w);
   const Quaterniond minus(Eigen::Vector4d(-q.coeffs()));
@@ -72,7 +72,7 @@ TEST(Rescale, DividesByTheLargestComponent) {
             kTolerance);
 }
 
-TEST(IsSafeSquare, DrawsTheLineWhereNothingIsLost) {
+TEST(IsSafeSquare, RejectsSquaresThatLoseDigits) {
   EXPECT_TRUE(IsSafeSquare(1.1e-200) && IsSafeSquare(0.9e200));
   EXPECT_FALSE(IsSafeSquare(1e-200) || IsSafeSquare(1e200));
   EXPECT_FALSE(IsSafeSquare(std::nan("")));
@@ -142,7 +142,7 @@ TEST(QuaternionFromMatrix, OfHalfTurns) {
   }
 }
 
-TEST(MatrixFromQuaternion, HasTheEntriesOfTheBooks) {
+TEST(MatrixFromQuaternion, HasTheTextbookEntries) {
   const double x = 0.1, y = 0.5, z = -0.7, w = 0.5;
   Matrix3d expected;
   expected << w * w + x * x - y * y - z * z, 2 * (x * y - w * z),
@@ -162,7 +162,7 @@ TEST(Wxyz, PutsWFirst) {
 
 // For uniform rotations, each entry of R has mean 0 and mean square 1/3, each
 // component of q mean 0 and mean square 1/4, and no two are correlated.
-RC_GTEST_PROP(Wxyz, ComesBackWhateverTheNumbers, ()) {
+RC_GTEST_PROP(Wxyz, RoundTripKeepsAllNumbers, ()) {
   const Eigen::Vector3d a = *Vectors(), b = *Vectors();
   const Eigen::Vector4d wxyz(a.x(), a.y(), a.z(), b.x());
   const Quaterniond q = QuaternionFromWxyz(wxyz);

@@ -25,7 +25,7 @@ MatrixXd Reshape(const VectorXd& x, int rows, int cols) {
   return Eigen::Map<const MatrixXd>(x.data(), rows, cols);
 }
 
-// A matrix of up to 8 x 8, and of the rank it was drawn with or less.
+// Matrices up to 8 x 8. The rank is at most the drawn one.
 rc::Gen<MatrixXd> Matrices() {
   return rc::gen::mapcat(
       rc::gen::tuple(rc::gen::inRange(1, 9), rc::gen::inRange(1, 9),
@@ -43,7 +43,7 @@ rc::Gen<MatrixXd> Matrices() {
       });
 }
 
-// An orthogonal matrix, that of the singular vectors of fixed numbers.
+// Returns an orthogonal matrix: singular vectors of a fixed matrix.
 MatrixXd Orthogonal(int size, double seed) {
   MatrixXd A(size, size);
   for (int i = 0; i < size; ++i) {
@@ -76,7 +76,7 @@ RC_GTEST_PROP(RankRevealing, SplitsSpace, ()) {
   RC_ASSERT((V.transpose() * V - MatrixXd::Identity(n, n)).norm() <=
             Rounding(1, 8 * n));
   RC_ASSERT((A * decomposition.nullspace()).norm() <= RoundingOf(A));
-  // The first are the right singular vectors: A'A v = sigma² v.
+  // The first columns are right singular vectors: A'A v = sigma² v.
   for (int i = 0; i < decomposition.rank(); ++i) {
     const VectorXd v = V.col(i);
     const double sigma = decomposition.singular_values()[i];
@@ -91,7 +91,7 @@ RC_GTEST_PROP(RankRevealing, SolvesAsAnotherDecompositionDoes, ()) {
   RankRevealing decomposition(9, 8);
   decomposition.Compute(A);
   const LeastSquaresSolution other(A, b);
-  // Where rank is a matter of rounding the two need not agree.
+  // If rounding decides the rank, the two may differ.
   RC_PRE(other.rank == decomposition.rank());
   VectorXd x(A.cols());
   decomposition.Solve(b, x);
@@ -100,7 +100,7 @@ RC_GTEST_PROP(RankRevealing, SolvesAsAnotherDecompositionDoes, ()) {
             Rounding(1 + other.x.norm() + b.norm(), 16, condition * condition));
 }
 
-TEST(RankRevealing, FindsTheRankItWasGiven) {
+TEST(RankRevealing, FindsAKnownRank) {
   for (const int rows : {1, 3, 7, 12}) {
     for (const int cols : {1, 4, 7, 11}) {
       for (int rank = 0; rank <= std::min(rows, cols); ++rank) {
@@ -128,7 +128,7 @@ TEST(RankRevealing, FindsTheRankItWasGiven) {
   }
 }
 
-TEST(RankRevealing, CountsWhatIsAboveTheThreshold) {
+TEST(RankRevealing, CountsSingularValuesAboveTheThreshold) {
   RankRevealing decomposition(2, 3);
   MatrixXd A = MatrixXd::Zero(2, 3);
   A(0, 2) = 2;
@@ -142,7 +142,7 @@ TEST(RankRevealing, CountsWhatIsAboveTheThreshold) {
   EXPECT_EQ(decomposition.rank(), 2);
 }
 
-TEST(RankRevealing, ARemainderIsJudgedByWhatItWasOf) {
+TEST(RankRevealing, ComparesARemainderWithItsOriginal) {
   RankRevealing decomposition(2, 2);
   const MatrixXd A = 1e-11 * MatrixXd::Identity(2, 2);
   decomposition.Compute(A);
@@ -154,8 +154,8 @@ TEST(RankRevealing, ARemainderIsJudgedByWhatItWasOf) {
 }
 
 TEST(RankRevealing, FindsSmallSingularValuesOfScaledRows) {
-  // Rows of sizes 1 to 1e-12, else orthogonal: each singular value is a row's
-  // norm, to some digits of itself.
+  // Orthogonal rows of norm 1 to 1e-12. Each singular value is the norm of a row, to a
+  // few digits.
   const int n = 5;
   const MatrixXd Q = Orthogonal(n, 3);
   const VectorXd scales =
@@ -169,7 +169,7 @@ TEST(RankRevealing, FindsSmallSingularValuesOfScaledRows) {
   }
 }
 
-TEST(RankRevealing, NumbersOfAnySizeDoNotOverflow) {
+TEST(RankRevealing, HandlesNumbersOfAnySize) {
   const MatrixXd A = Orthogonal(4, 1);
   RankRevealing decomposition(4, 4);
   for (const double scale : {1e-290, 1e-200, 1e200, 1e300}) {
@@ -183,7 +183,7 @@ TEST(RankRevealing, NumbersOfAnySizeDoNotOverflow) {
   }
 }
 
-TEST(RankRevealing, OfNoRowsAllIsNullspace) {
+TEST(RankRevealing, WithoutRowsAllIsNullspace) {
   RankRevealing decomposition(3, 4);
   decomposition.Compute(MatrixXd(0, 4));
   EXPECT_EQ(decomposition.rank(), 0);

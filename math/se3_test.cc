@@ -79,14 +79,14 @@ RC_GTEST_PROP(VeeSe3, InvertsHat, ()) {
   RC_ASSERT(VeeSe3(HatSe3(x)) == x);
 }
 
-TEST(ExpSe3, OfATwistWithoutTurnIsAShift) {
+TEST(ExpSe3, OfAPureTranslationIsATranslation) {
   const Pose X = ExpSe3((Vector6d() << 0, 0, 0, 4, 5, 6).finished());
   EXPECT_EQ(X.R, Matrix3d::Identity());
   EXPECT_EQ(X.p, Vector3d(4, 5, 6));
 }
 
-TEST(ExpSe3, OfATurnAboutAnAxisElsewhere) {
-  // A quarter turn about the vertical axis through (1, 0, 0).
+TEST(ExpSe3, OfARotationAboutADistantAxis) {
+  // A rotation by 90 degrees about the vertical axis through (1, 0, 0).
   const Vector3d w(0, 0, M_PI_2);
   const Pose X =
       ExpSe3((Vector6d() << w, -w.cross(Vector3d(1, 0, 0))).finished());
@@ -94,8 +94,8 @@ TEST(ExpSe3, OfATurnAboutAnAxisElsewhere) {
   EXPECT_LE((X * Vector3d(1, 0, 7) - Vector3d(1, 0, 7)).norm(), kTolerance);
 }
 
-TEST(ExpSe3, OfNearlyAFullTurnTakesWhatIsAcrossToTheLastDigit) {
-  // The double below 2 π is 2.4e-16 off, and so is the chord of the circle.
+TEST(ExpSe3, OfNearlyAFullTurnIsExactAcrossTheAxis) {
+  // The double below 2 π has an error of 2.4e-16, and so has the chord of the circle.
   const double angle = 2 * M_PI;
   const Pose X = ExpSe3((Vector6d() << 0, 0, angle, 3, 0, 0).finished());
   const double off = std::sin(angle);  // -2.4e-16.
@@ -104,7 +104,7 @@ TEST(ExpSe3, OfNearlyAFullTurnTakesWhatIsAcrossToTheLastDigit) {
   EXPECT_EQ(X.p.z(), 0);
 }
 
-// Repeated squaring of (I + A/2^n + ...), as unlike as can be.
+// Compares with repeated squaring of (I + A/2^n + ...), an independent algorithm.
 RC_GTEST_PROP(ExpSe3, IsTheMatrixExponential, ()) {
   const Vector6d x = *Twists(4 * M_PI);
   const Eigen::Matrix4d A = HatSe3(x) / 64;
@@ -113,7 +113,7 @@ RC_GTEST_PROP(ExpSe3, IsTheMatrixExponential, ()) {
     E = (Eigen::Matrix4d::Identity() + A * E / n).eval();
   }
   for (int i = 0; i < 6; ++i) E = (E * E).eval();
-  // Six squarings double the error as often.
+  // Six squarings double the error six times.
   RC_ASSERT((Homogeneous(ExpSe3(x)) - E).norm() <= 64 * kTolerance);
 }
 

@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 const double kNan = std::nan("");
 const double kInfinity = HUGE_VAL;
 
-// To the rounding of a product of a few rotations.
+// Rounding of a product of a few rotations.
 const double kRotationTolerance = Rounding(1, 4);
 
 TEST(Hat, HasTheEntriesOfTheCrossProduct) {
@@ -74,17 +74,17 @@ RC_GTEST_PROP(ExpSo3, AgreesWithAngleAxis, ()) {
   const Matrix3d expected =
       Eigen::AngleAxisd(w.stableNorm(), w.stableNormalized())
           .toRotationMatrix();
-  // The angle's rounding, in AngleAxis, is up to 4 π as large in the result.
+  // AngleAxis amplifies the rounding of the angle by up to 4 π.
   RC_ASSERT((ExpSo3(w) - expected).norm() <= 4 * kRotationTolerance);
 }
 
 RC_GTEST_PROP(ExpSo3, TurnsOnePlaneAtATime, ()) {
   const Vector3d w = *RotationVectors(M_PI);
   const double t = *Numbers(1);
-  // One-parameter subgroup.
+  // exp(t w) is a one-parameter subgroup.
   RC_ASSERT((ExpSo3(t * w) * ExpSo3((1 - t) * w) - ExpSo3(w)).norm() <=
             4 * kRotationTolerance);
-  // Its axis stays.
+  // The axis is invariant.
   RC_ASSERT((ExpSo3(w) * w - w).norm() <= kRotationTolerance * w.norm());
 }
 
@@ -111,7 +111,7 @@ RC_GTEST_PROP(LogSo3, InvertsExp, ()) {
   const Vector3d w = *RotationVectors(M_PI);
   const Vector3d log = LogSo3(ExpSo3(w));
   const double tolerance = 4 * kRotationTolerance;
-  // At π the other vector is right too.
+  // At π the opposite vector is correct too.
   RC_ASSERT((log - w).norm() <= tolerance * w.norm() ||
             (w.norm() > M_PI - 1e-15 && (log + w).norm() <= tolerance));
 }
@@ -130,7 +130,7 @@ TEST(LogSo3, HalfTurns) {
         Vector3d(0.6, 0.8, 0), Vector3d(0, 0.6, -0.8), Vector3d(-0.6, 0, 0.8),
         (Vector3d(2, -1, 2) / 3).eval()}) {
     SCOPED_TRACE(axis.transpose());
-    // A rotation by π exactly, symmetric.
+    // A rotation by exactly π is symmetric.
     const Matrix3d R = 2 * axis * axis.transpose() - Matrix3d::Identity();
     const Vector3d w = LogSo3(R);
     EXPECT_NEAR(w.norm(), M_PI, Rounding(M_PI, 1));
@@ -182,8 +182,8 @@ RC_GTEST_PROP(ProjectToSo3, LeavesRotationsAlone, ()) {
   RC_ASSERT((ProjectToSo3(R) - R).norm() <= 4 * kRotationTolerance);
 }
 
-// The nearest rotation R of A is where R'A is symmetric, with a positive sum of
-// each two of its eigenvalues.
+// R is the rotation nearest to A if R'A is symmetric and each two of its eigenvalues
+// have a positive sum.
 RC_GTEST_PROP(ProjectToSo3, IsTheNearestRotation, ()) {
   const Matrix3d R = *Rotations();
   const Vector3d a = *Vectors(), b = *Vectors(), c = *Vectors();
@@ -201,7 +201,7 @@ RC_GTEST_PROP(ProjectToSo3, IsTheNearestRotation, ()) {
 }
 
 TEST(ProjectToSo3, OfAReflectionIsARotation) {
-  // The smallest singular value changes its sign, whichever it is.
+  // The smallest singular value changes its sign, at any position.
   const Matrix3d A = Vector3d(-0.5, 1, 2).asDiagonal();
   EXPECT_LE((ProjectToSo3(A) - Matrix3d::Identity()).norm(),
             kRotationTolerance);

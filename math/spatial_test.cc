@@ -18,7 +18,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Numbers to 10, and products of two or three of them.
+// Rounding of products of two or three numbers up to 10.
 const double kTolerance = Rounding(1000, 8);
 
 SpatialMomentum AsMomentum(const SpatialForce& F) {
@@ -38,7 +38,7 @@ template <typename A, typename B>
 constexpr bool kDot<
     A, B, std::void_t<decltype(Dot(std::declval<A>(), std::declval<B>()))>> =
     true;
-// Whether X moves alone: an acceleration does not without the velocity.
+// Whether Shift(X) needs no velocity; an acceleration needs one.
 template <typename X, typename = void>
 constexpr bool kShifts = false;
 template <typename X>
@@ -93,7 +93,7 @@ RC_GTEST_PROP(SpatialVector, AddsAsItsNumbersDo, ()) {
 }
 
 TEST(Shift, OfAMotionIsTheVelocityOfAnotherPoint) {
-  // A turn about z at 2 rad/s: the point at x = 3 moves along y.
+  // Rotation about z at 2 rad/s: the point at x = 3 moves along y.
   const SpatialMotion V_Q =
       Shift(SpatialMotion({0, 0, 2}, {1, 0, 0}), {3, 0, 0});
   EXPECT_EQ(V_Q.angular, Vector3d(0, 0, 2));
@@ -112,8 +112,8 @@ TEST(Shift, OfAForceIsTheMomentAboutAnotherPoint) {
 }
 
 TEST(Shift, OfAnAccelerationIsThatOfAnotherPoint) {
-  // A table that turns about z at 2 rad/s, and by 3 rad/s2 ever faster: the point
-  // at x = 3 gains 9 m/s2 along y, and falls towards the axis by 4 * 3 m/s2.
+  // A table rotates about z at 2 rad/s and accelerates by 3 rad/s2. The point at x = 3
+  // has 9 m/s2 along y and 4 * 3 m/s2 towards the axis.
   const SpatialMotion V({0, 0, 2}, {7, 8, 9});
   const SpatialAcceleration A_Q =
       Shift(SpatialAcceleration({0, 0, 3}, {1, 0, 0}), V, {3, 0, 0});
@@ -130,7 +130,7 @@ RC_GTEST_PROP(Shift, OfAnAccelerationInTwoStepsIsThatInOne, ()) {
             20 * kTolerance);
 }
 
-RC_GTEST_PROP(Shift, ThereAndBackIsNoShift, ()) {
+RC_GTEST_PROP(Shift, InverseShiftUndoes, ()) {
   const Vector3d p = *Vectors(), r = *Vectors();
   const SpatialMotion V = *Motions();
   const SpatialForce F = *Forces();
@@ -185,8 +185,8 @@ RC_GTEST_PROP(Cross, ObeysJacobi, ()) {
   RC_ASSERT(Cross(a, a).vector().norm() <= kTolerance);
 }
 
-// d/dt of a vector that is carried along by a motion V, by central differences.
-RC_GTEST_PROP(Cross, IsTheRateOfWhatIsCarriedAlong, ()) {
+// Compares with the rate of a vector that moves with V, by central differences.
+RC_GTEST_PROP(Cross, IsTheRateOfAVectorThatMovesAlong, ()) {
   const SpatialMotion V = *Motions(), y = *Motions();
   const SpatialForce F = *Forces();
   const double h = 1e-5;  // About eps^(1/3).

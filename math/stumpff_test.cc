@@ -14,7 +14,7 @@ using mpfr::mpreal;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
-// cm by its series, in 400 bits: another way than either of the code's.
+// Returns cm by its series in 400 bits, independent of the code.
 mpreal Series(int m, const mpreal& s) {
   mpreal term = 1 / mpfr::fac_ui(m), sum = term;
   for (int k = 1; abs(term) > abs(sum) * mpreal("1e-60"); ++k) {
@@ -50,7 +50,7 @@ TEST_F(StumpffTest, SeriesIsRightToTheLastDigits) {
     const double values[] = {c.c1, c.c2, c.c3, c.c4, c.c5, c.c6};
     for (int m = 1; m <= 6; ++m) {
       const mpreal s = mpreal(angle) * angle, expected = Series(m, s);
-      // One rounding of s, one of the sum; c1 is half of what it was 1 of.
+      // One rounding of s and one of the sum; c1 is half of a number near 1.
       EXPECT_LE(abs((values[m - 1] - expected) / expected),
                 m == 1 ? 2 * kEps : kEps)
           << m;
@@ -66,9 +66,8 @@ TEST_F(StumpffTest, ClosedFormIsRightToTheLastDigits) {
     const Stumpff c = ComputeStumpff(w);
     const double values[] = {c.c1, c.c2, c.c3, c.dc1, c.dc2, c.dc3};
     for (int m = 1; m <= 3; ++m) {
-      // sin θ / θ and (1 - cos θ) / θ² err by what sine and cosine do: by their
-      // last digit, and by that of θ; c3, a quotient by s, by no more, and a
-      // derivative by m times that.
+      // Errors of sin θ / θ and (1 - cos θ) / θ²: the last digits of sine, cosine and θ.
+      // c3, a quotient by s, has no larger error. A derivative has m times this error.
       const double error = (2 + angle) * kEps;
       const double divisor = m == 1 ? angle : angle * angle;
       EXPECT_LE(abs(values[m - 1] - Series(m, s)) * divisor, error) << m;
@@ -90,13 +89,13 @@ TEST_F(StumpffTest, DerivativesBelowTheSwitchAreRight) {
     for (int m = 1; m <= 3; ++m) {
       const mpreal s = mpreal(angle) * angle;
       const mpreal derivative = m * Series(m + 2, s) - Series(m + 1, s);
-      // A difference of two, the larger twice the result.
+      // A difference; the larger term is twice the result.
       EXPECT_LE(abs(values[m - 1] / derivative - 1), 4 * kEps) << m;
     }
   }
 }
 
-// e and d from their definition, and their derivatives by the quotient rule.
+// e and d by definition, and derivatives by the quotient rule.
 struct Reference {
   mpreal e, d, de, dd;
 };
@@ -119,8 +118,8 @@ TEST_F(StumpffTest, InverseIsRightToTheLastDigitsBelowTheSwitch) {
     const InverseStumpff actual = ComputeInverseStumpff({0, 0, angle});
     const Reference r = MakeReference(mpreal(angle) * angle);
     EXPECT_LE(abs(actual.e / r.e - 1), 2 * kEps);
-    // dc2 is twice smaller than what is taken apart for it; dd is a difference
-    // of five times itself, of terms with three roundings and dc2's twice.
+    // dc2 is half of the terms of its difference. The terms of dd are five times dd and
+    // have three roundings plus twice those of dc2.
     EXPECT_LE(abs(actual.d / r.d - 1), 4 * kEps);
     EXPECT_LE(abs(actual.de / r.de - 1), 4 * kEps);
     EXPECT_LE(abs(actual.dd / r.dd - 1), 32 * kEps);
@@ -133,7 +132,7 @@ TEST_F(StumpffTest, InverseIsRightToTheLastDigitsAboveTheSwitch) {
     const InverseStumpff actual = ComputeInverseStumpff({angle, 0, 0});
     const mpreal s = mpreal(angle) * angle;
     const Reference r = MakeReference(s);
-    // The condition of the cotangent; e is at least 1 apart from it.
+    // Condition of the cotangent, from which e differs by at least 1.
     const double turn = 2 * M_PI;
     const double condition =
         1 + angle / std::abs(angle - turn * std::max(1., round(angle / turn)));
@@ -146,7 +145,7 @@ TEST_F(StumpffTest, InverseIsRightToTheLastDigitsAboveTheSwitch) {
   }
 }
 
-// Derivatives by their rule against central differences in 400 bits.
+// Compares the derivative rule with central differences in 400 bits.
 TEST_F(StumpffTest, DerivativeRuleHolds) {
   const mpreal h("1e-30");
   for (const double angle : {0.3, 1.0, 2.0, 5.0, 9.0}) {

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A body of five mass points, whose moments are sums that anyone can check.
+// A body of five mass points, whose moments are plain sums.
 struct Points {
   std::vector<double> mass;
   std::vector<Vector3d> x;

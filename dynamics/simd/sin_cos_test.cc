@@ -10,7 +10,7 @@
 namespace poise {
 namespace {
 
-// The error in units of the last place of the exact value.
+// Returns the error in units of the last place of the exact value.
 double Ulps(double value, long double exact) {
   const double rounded = static_cast<double>(exact);
   const double ulp =
@@ -18,7 +18,7 @@ double Ulps(double value, long double exact) {
   return static_cast<double>(std::abs(value - exact)) / ulp;
 }
 
-// The largest error over sines and cosines of the angles.
+// Returns the largest error of sines and cosines of the angles.
 double LargestUlps(const std::vector<double>& x) {
   const int n = static_cast<int>(x.size());
   std::vector<double> sine(n), cosine(n);
@@ -49,14 +49,14 @@ TEST(SinCos, KeepsSmallAngles) {
 }
 
 TEST(SinCos, KeepsDigitsNearMultiplesOfARightAngle) {
-  // The double nearest to k pi/2 is off it by something tiny, which the sine or
-  // the cosine shows.
+  // The double nearest to k pi/2 differs from it by a tiny number, which is the sine or
+  // cosine.
   std::vector<double> x;
   for (int k = -6000; k <= 6000; ++k) x.push_back(k * (M_PI / 2));
   EXPECT_LT(LargestUlps(x), 0.85);  // Measured: 0.81.
 }
 
-TEST(SinCos, TakesHugeAngles) {
+TEST(SinCos, HandlesHugeAngles) {
   EXPECT_LT(LargestUlps({10000, 10001, -10001, 1e5, -1e9, 1e15, 1e300}), 0.85);
 }
 
@@ -68,7 +68,7 @@ TEST(SinCos, IsExactAtZero) {
   EXPECT_EQ(cosine, 1);
 }
 
-TEST(SinCos, GivesNaNForWhatIsNotFinite) {
+TEST(SinCos, ReturnsNaNForNonfiniteAngles) {
   const double x[] = {std::numeric_limits<double>::quiet_NaN(),
                       std::numeric_limits<double>::infinity()};
   double sine[2], cosine[2];

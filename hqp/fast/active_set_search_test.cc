@@ -375,7 +375,7 @@ TEST_F(ActiveSetSearchByHandTest, DoesNotAddRowsThatItOnlyTouches) {
 
 // 2 y0 <= 2 with y1 = 10, and a target beyond the bound, in any unit: y keeps
 // the row as the certificate asks. Rounding of a hundred terms costs no step.
-TEST_F(ActiveSetSearchByHandTest, KeepsARowWhateverItsViolationAtTheStart) {
+TEST_F(ActiveSetSearchByHandTest, KeepsARowForAnyInitialViolation) {
   const double size = 2 * 10 + 2;
   const double rounding = 100 * std::numeric_limits<double>::epsilon() * size;
   for (const double unit : {1.0, 0x1p-40}) {

@@ -143,7 +143,7 @@ TEST_F(LexicographicFactorizationTest, RefusesToAppendANearlyDependentRow) {
 
 // In a well-conditioned factorisation each row counts for one in the nullity.
 // The last row is alone in its level or with the one that it depends on.
-TEST_F(LexicographicFactorizationTest, KnowsNearlyDependentRows) {
+TEST_F(LexicographicFactorizationTest, ReportsNearlyDependentRows) {
   EXPECT_FALSE(stack_.is_well_conditioned());  // Two rows are the same.
   for (const int num_levels : {1, 2}) {
     for (const double rest : {1e-9, 3e-6, 1e-2, 1.}) {

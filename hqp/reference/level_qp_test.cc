@@ -252,7 +252,7 @@ TEST_P(LevelQpTest, KeepsSmallRowsAccurateBesideALargeOne) {
 
 // 4 (slope z0 + z1) = 0 at z0 = 8: z1 follows to the last digit that a rank
 // decision leaves. Rounding of a sum of a hundred terms blocks no step.
-TEST_P(LevelQpTest, KeepsAHardRowWhateverItsSlopeAlongTheStep) {
+TEST_P(LevelQpTest, KeepsAHardRowForAnySlopeAlongTheStep) {
   for (const double size :
        {0., 1e-20, 100 * kEps, 1e-12, 1e-9, 1e-6, 1e-3, 1.}) {
     for (const double slope : {-size, size}) {

@@ -1,6 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What tasks do about pushes that bring the capture point to the edge of the
-// soles.
+// Tests the tasks during pushes that move the capture point to the edge of the soles.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -26,7 +25,7 @@
 namespace poise {
 namespace {
 
-TEST_F(TaskTest, TheBoxAroundTheSolesHoldsTheirCorners) {
+TEST_F(TaskTest, SupportBoxContainsTheCorners) {
   std::vector<ContactTick> contacts = controller_.contacts();
   contacts[0].X_WC.p << 0.02, 0.1, 0;
   contacts[1].X_WC.p << -0.03, -0.2, 0;
@@ -56,7 +55,7 @@ TEST_F(TaskTest, TheBoxAroundTheSolesHoldsTheirCorners) {
   }
 }
 
-TEST_F(TaskTest, TakesTheLastMillimetersAndTheArmsForTheLargestPushes) {
+TEST_F(TaskTest, UsesTheCopMarginAndTheArmsInLargePushes) {
   const auto write = [this](const Task& task, double capture) {
     const int equalities = static_cast<int>(task.equality_names().size());
     const int inequalities = static_cast<int>(task.inequality_names().size());
@@ -87,14 +86,14 @@ TEST_F(TaskTest, TakesTheLastMillimetersAndTheArmsForTheLargestPushes) {
   }
 }
 
-// Pushed along u, m/s of the center of mass alone: by how much the momentum
-// task answers as in a capture, from 0 to 1; its gains say the same.
+// Reads the capture blend, 0 to 1, of the momentum task after a velocity change of
+// the center of mass along u, m/s, and checks it against the gains.
 class CaptureTest : public TaskTest {
  protected:
   CaptureTest() { state_.v.setZero(); }
 
   double Share(const Vector6d& momentum_over_mass) {
-    // A motion of all joints that has this momentum, and no other.
+    // A motion of all joints with this momentum.
     const Tick& rest = controller_.tick();
     const Eigen::MatrixXd H = rest.H_G / tree_.total_mass();
     state_.v = LeastSquaresSolution(H, momentum_over_mass).x;
@@ -112,7 +111,7 @@ class CaptureTest : public TaskTest {
     right_ = balance.right;
     now.capture = balance.capture;
     task_.Write(now, &rows, &none);
-    // b = bias - wanted, and of what is wanted only -kd v_G is not zero.
+    // b = bias - desired; only -kd v_G of the desired value is not zero.
     const Eigen::Vector3d v = momentum_over_mass.tail<3>();
     const Eigen::Vector3d wanted =
         tick_.H_G_bias.tail<3>() / tree_.total_mass() - rows.b.tail<3>();
@@ -146,13 +145,13 @@ class CaptureTest : public TaskTest {
   const double edge_ = controller_.contacts()[0].X_WC.p.y() + half_.y();
 };
 
-TEST_F(CaptureTest, BeginsShortOfTheEdgeAndIsWholeAtIt) {
+TEST_F(CaptureTest, BlendsFromShortOfTheEdgeToTheEdge) {
   for (const double side : {1.0, -1.0}) {
     EXPECT_EQ(Share(Fast(0, 0.64 * side * front_)), 0);
     EXPECT_NEAR(Share(Fast(0, 0.825 * side * front_)), 0.5, 0.01);
     EXPECT_NEAR(Share(Fast(0, 1.1 * side * front_)), 1, 1e-12);
     EXPECT_EQ(left_ + right_, 0);
-    // A quarter farther sideways.
+    // Sideways the blend begins 25 % farther out.
     EXPECT_EQ(Share(Fast(1, 0.8 * side * edge_)), 0);
     EXPECT_NEAR(Share(Fast(1, 1.031 * side * edge_)), 0.5, 0.01);
     EXPECT_NEAR(side > 0 ? left_ : right_, 0.5, 0.01);
@@ -165,21 +164,21 @@ TEST_F(CaptureTest, BeginsShortOfTheEdgeAndIsWholeAtIt) {
   EXPECT_EQ(Share(Fast(0, 1.1 * front_)), 0);
 }
 
-TEST_F(CaptureTest, CountsTheAngularMomentumThatIsToBeGivenBack) {
-  // Bent forward at such a rate that to stop it moves the capture point so far;
-  // bent to the left is about -x.
+TEST_F(CaptureTest, IncludesAngularMomentumInTheCapturePoint) {
+  // Bending forward at this rate: stopping it moves the capture point so far. Bending
+  // to the left is about -x.
   Vector6d forward = Vector6d::Zero(), left = Vector6d::Zero();
   forward[1] = 0.825 * front_ * w_ * height_;
   left[0] = -1.031 * edge_ * w_ * height_;
   EXPECT_NEAR(Share(forward), 0.5, 0.01);
   EXPECT_NEAR(Share(left), 0.5, 0.01);
-  // Moving forward and bending back: there is nothing to do.
+  // Forward motion and backward bending cancel.
   EXPECT_EQ(Share(Fast(0, 0.825 * front_) - forward), 0);
 }
 
-// In the middle half of the sole that stands, or where it shall be, if that is
-// there.
-TEST_F(CaptureTest, StandsOverTheFootThatIsLeft) {
+// The target is the middle half of the sole in contact, or the reference if it is
+// inside.
+TEST_F(CaptureTest, MovesTheTargetOverTheRemainingFoot) {
   std::vector<ContactTick> contacts = controller_.contacts();
   Reference reference = controller_.reference();
   const auto pull = [&](const Eigen::Vector2d& at) {
@@ -209,17 +208,17 @@ TEST_F(CaptureTest, StandsOverTheFootThatIsLeft) {
       EXPECT_LT((pull({x, y}) - corner).norm(), 1e-6);
     }
   }
-  contacts[0].in_contact = false;  // Nothing stands: as it is told.
+  contacts[0].in_contact = false;  // No foot in contact: the reference.
   EXPECT_LT((pull(there) - there).norm(), 1e-9);
 }
 
-TEST_F(CaptureTest, SeesAReferenceThatMoves) {
+TEST_F(CaptureTest, IncludesTheVelocityOfTheReference) {
   controller_.reference().v_WG.x() = 0.5 * front_ * w_;
   EXPECT_NEAR(Share(Fast(0, (0.5 + 0.4125) * front_)), 0.5, 0.02);
 }
 
-// Nothing is left of the way but a centimeter, and 8.25 mm of that gone.
-TEST_F(CaptureTest, SeesAReferenceBeyondTheEdge) {
+// The way to the edge counts as at least 1 cm; 8.25 mm of it are covered.
+TEST_F(CaptureTest, HandlesAReferenceBeyondTheEdge) {
   controller_.reference().p_WG.x() += front_ + 0.02;
   for (const Parameter& each : task_.parameters()) {
     if (each.name == "kp" || each.name == "capture_kp") *each.value = 0;
@@ -227,8 +226,8 @@ TEST_F(CaptureTest, SeesAReferenceBeyondTheEdge) {
   EXPECT_NEAR(Share(Fast(0, front_ + 0.02 + 0.00825)), 0.5, 0.02);
 }
 
-TEST_F(CaptureTest, SeesAReferenceNearTheEdge) {
-  // Half of the way is left, and 82.5 % of that gone.
+TEST_F(CaptureTest, HandlesAReferenceNearTheEdge) {
+  // Half of the way remains, and 82.5 % of it are covered.
   controller_.reference().p_WG.x() += 0.5 * front_;
   for (const Parameter& each : task_.parameters()) {
     if (each.name == "kp" || each.name == "capture_kp") *each.value = 0;
@@ -238,8 +237,8 @@ TEST_F(CaptureTest, SeesAReferenceNearTheEdge) {
 
 TEST_F(TaskTest, CapturePointStopsShortOfTheEdge) {
   const CapturePointTask task(tree_, robot_.feet);
-  // Under the greatest acceleration that the row of the left allows, the
-  // capture point decays toward the bound with the horizon's time constant.
+  // With the largest acceleration that the row of the left side allows, the capture
+  // point approaches the bound with the time constant of the horizon.
   const Eigen::Vector3d p = controller_.tick().p_WG;
   const Eigen::Vector3d v = controller_.tick().v_WG;
   const double w = std::sqrt(9.81 / p.z());

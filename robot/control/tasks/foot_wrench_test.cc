@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What the rows on the wrench of a foot mean: against forces that a sole can
-// and cannot give.
+// Tests the rows on the wrench of a foot with forces that a sole can and cannot
+// transmit.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -27,7 +27,7 @@ namespace {
 
 class FootWrenchTest : public TaskTest {
  protected:
-  // By how much the worst row is violated; negative: the least gap.
+  // Returns the largest violation of a row; negative: the smallest gap.
   double Violation(const Task& task, const Eigen::VectorXd& y) {
     const Hierarchy& rows = Write(task);
     const Eigen::VectorXd value = rows.C(0) * y;
@@ -35,7 +35,7 @@ class FootWrenchTest : public TaskTest {
                     (rows.lower(0) - value).maxCoeff());
   }
 
-  // y of foot 0 loaded by a force f at a point of its sole, C's axes.
+  // Returns y with a force f at a point of the sole of foot 0, in C's axes.
   Eigen::VectorXd Loaded(const Eigen::Vector2d& at, const Eigen::Vector3d& f) {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(nv_ + 12);
     const Eigen::Vector3d p(at.x(), at.y(), 0);
@@ -44,7 +44,7 @@ class FootWrenchTest : public TaskTest {
   }
 };
 
-TEST_F(FootWrenchTest, CopIsInsideWhereTheForceIsOnTheSole) {
+TEST_F(FootWrenchTest, CopRowsHoldForForcesOnTheSole) {
   const CopTask cop(tree_, robot_.feet);
   const double x = half_.x() - 0.005, y = half_.y() - 0.005;
   const Eigen::Vector3d f(20, -10, 300);
@@ -73,7 +73,7 @@ TEST_F(FootWrenchTest, CopRowsAreNamedForTheirEdges) {
   }
 }
 
-TEST_F(FootWrenchTest, FrictionPyramidsTouchTheConeFromOutsideAndFromInside) {
+TEST_F(FootWrenchTest, FrictionPyramidsTouchTheConeOutsideAndInside) {
   FrictionTask friction(tree_, robot_.feet);
   const double mu = 0.5, fz = 200;
   const auto pulled = [&](double share, double angle) {
@@ -99,10 +99,9 @@ TEST_F(FootWrenchTest, FrictionPyramidsTouchTheConeFromOutsideAndFromInside) {
   }
 }
 
-// Four corner forces inside their pyramids are what a rectangular sole can
-// give: they meet all rows of the cone; and its corner cases meet one with
-// equality.
-TEST_F(FootWrenchTest, YawConeHoldsWhatCornersCanGive) {
+// A rectangular sole can transmit four corner forces inside their pyramids. Their
+// wrench satisfies all rows of the cone, and extreme cases satisfy one with equality.
+TEST_F(FootWrenchTest, YawConeAcceptsCornerForces) {
   const YawTask yaw(tree_, robot_.feet);
   const double mu = 0.5;
   double closest = -1e9;
@@ -113,7 +112,7 @@ TEST_F(FootWrenchTest, YawConeHoldsWhatCornersCanGive) {
     for (const int sx : {-1, 1}) {
       for (const int sy : {-1, 1}) {
         const double fz = Uniform(0, 100);
-        // Extreme: all corners push around the same way.
+        // Extreme case: all corners push in the same sense of rotation.
         const double fx =
             extreme ? -spin * sy * mu * fz : Uniform(-mu, mu) * fz;
         const double fy = extreme ? spin * sx * mu * fz : Uniform(-mu, mu) * fz;
@@ -128,7 +127,7 @@ TEST_F(FootWrenchTest, YawConeHoldsWhatCornersCanGive) {
   EXPECT_NEAR(closest, 0, 1e-12);
 }
 
-TEST_F(FootWrenchTest, YawConeRefusesMoreThanFrictionGives) {
+TEST_F(FootWrenchTest, YawConeRejectsMoreThanFriction) {
   const YawTask yaw(tree_, robot_.feet);
   const double most = 0.5 * (half_.x() + half_.y()) * 100;
   for (const double sign : {1.0, -1.0}) {
@@ -154,7 +153,7 @@ TEST_F(FootWrenchTest, YawConstantIsProportionalToTheLoad) {
 TEST_F(FootWrenchTest, GroundDoesNotPull) {
   const UnilateralTask unilateral(tree_, robot_.feet);
   std::vector<ContactTick> contacts = controller_.contacts();
-  contacts[0].max_normal_force = 30;  // It fades.
+  contacts[0].max_normal_force = 30;  // The contact fades.
   hierarchy_ = Hierarchy(nv_ + 12, {{0, 2}});
   hierarchy_.Clear(1);
   EqualityBlock none = hierarchy_.AddEqualities(0, 0);
@@ -171,7 +170,7 @@ TEST_F(FootWrenchTest, GroundDoesNotPull) {
 TEST_F(FootWrenchTest, ZmpIsTheCopOfBothFeetInTheirMiddle) {
   const ZmpTask zmp(tree_, robot_.feet);
   const double foot_y = controller_.contacts()[0].X_WC.p.y();
-  // All weight on the left foot, at 0.099 and 0.101 m from the middle.
+  // The left foot carries all weight, at 0.099 and 0.101 m from the middle.
   const Eigen::Vector3d f(0, 0, 300);
   EXPECT_LE(Violation(zmp, Loaded({0, 0.099 - foot_y}, f)), 0);
   EXPECT_GT(Violation(zmp, Loaded({0, 0.101 - foot_y}, f)), 0);
@@ -180,7 +179,7 @@ TEST_F(FootWrenchTest, ZmpIsTheCopOfBothFeetInTheirMiddle) {
   EXPECT_GT(Violation(zmp, Loaded({-1.01 * half_.x(), 0}, f)), 0);
 }
 
-TEST_F(FootWrenchTest, ZmpReadLiterallyLetsFeetCancel) {
+TEST_F(FootWrenchTest, ZmpLiteralLetsFeetCancel) {
   const ZmpLiteralTask literal(tree_, robot_.feet);
   Eigen::VectorXd y = Loaded({0.3, 0}, Eigen::Vector3d(0, 0, 100));
   EXPECT_GT(Violation(literal, y), 0);

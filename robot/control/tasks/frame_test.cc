@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What the rows on a sole or a link mean, on the ground and in the air: against
-// its motion a moment later.
+// Compares the rows on a sole or a link, on the ground and in the air, with its motion
+// a moment later.
 #include "poise/robot/control/tasks/frame.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@
 namespace poise {
 namespace {
 
-// The sole's frame, anywhere on the foot's link, moves as its Jacobian says.
+// The sole's frame, anywhere on the foot's link, moves as its Jacobian predicts.
 TEST_F(TaskTest, AContactMovesAsItsLinkDoes) {
   const Pose X_FC{ExpSo3({0.3, -0.2, 0.5}), Eigen::Vector3d(0.05, -0.03, -0.4)};
   const auto at = [&](const Tick& tick) {
@@ -45,7 +45,7 @@ TEST_F(TaskTest, AContactMovesAsItsLinkDoes) {
   Vector6d moved;
   moved << LogSo3(after.X_WC.R * before.X_WC.R.transpose()),
       after.X_WC.p - before.X_WC.p;
-  // Central differences over 1e-6 s: good to 1e-5 of the rates.
+  // Central differences over 1e-6 s have an error of 1e-5 of the rates.
   EXPECT_LT((moved / (2 * h) - twist_W(now)).norm(), 1e-5);
   const Vector6d rate = (twist_W(after) - twist_W(before)) / (2 * h);
   const Vector6d A_C = now.J_WC_C * y.head(nv_) + now.Jdot_v_C;
@@ -55,7 +55,7 @@ TEST_F(TaskTest, AContactMovesAsItsLinkDoes) {
             1e-4);
 }
 
-TEST_F(TaskTest, AFootInTheAirFollowsItsReference) {
+TEST_F(TaskTest, ASwingFootFollowsItsReference) {
   SwingTask task(robot_.feet[0], 0);
   for (const Parameter& each : task.parameters()) {
     *each.value = each.name == "kp" ? 7 : 3;
@@ -86,7 +86,7 @@ TEST_F(TaskTest, AFootInTheAirFollowsItsReference) {
   EXPECT_LT((Residual(task, y) - expected).norm(), 1e-9);
 }
 
-TEST_F(TaskTest, ContactPullsASoleUprightAndToTheGround) {
+TEST_F(TaskTest, ContactMovesASoleUprightAndToTheGround) {
   const ContactTask task(robot_.feet);
   const ContactTick& contact = controller_.contacts()[0];
   const Eigen::VectorXd y = RandomY();
@@ -94,12 +94,12 @@ TEST_F(TaskTest, ContactPullsASoleUprightAndToTheGround) {
   const Eigen::VectorXd expected =
       (contact.J_WC_C * y.head(nv_) + contact.Jdot_v_C + 30 * contact.V_WC_C);
   EXPECT_LT((at_ground.head<6>() - expected).norm(), 1e-9);
-  // A floor 1 cm lower: the foot shall accelerate down by kp 1 cm.
+  // The floor is 1 cm lower: the foot accelerates down by kp times 1 cm.
   controller_.reference().ground_z -= 0.01;
   const Eigen::VectorXd above = Residual(task, y);
   EXPECT_NEAR((above - at_ground)[5], 100 * 0.01, 1e-9);
 
-  // A tilted sole turns back the way that it tilted; of a turned one only that.
+  // A tilted sole rotates back against its tilt. Its heading is not corrected.
   std::vector<ContactTick> contacts = controller_.contacts();
   const Eigen::Matrix3d heading = ExpSo3({0, 0, 0.7});
   const Eigen::Vector3d tilt(0.03, -0.02, 0);  // rad, in the foot's axes.
@@ -143,11 +143,11 @@ TEST_F(TaskTest, FrameFollowsItsReference) {
   controller_.reference().frames = {reference};
   const Vector6d wanted =
       reference.A_WF_W + kd * (reference.V_WF_W - frame.V_WF_W) + kp * e;
-  // Central differences over 1e-6 s: good to 1e-5 of the rates.
+  // Central differences over 1e-6 s have an error of 1e-5 of the rates.
   EXPECT_LT((Residual(task, y) - (rate - wanted)).norm(), 1e-4);
 }
 
-TEST_F(TaskTest, FrameLeavesOutWhatIsNotAsked) {
+TEST_F(TaskTest, FrameOmitsDisabledRows) {
   FrameTask task("l_foot", 0, 0);
   controller_.reference().frames.resize(1);
   const Eigen::VectorXd y = RandomY();

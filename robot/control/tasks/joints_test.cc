@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What the rows on joints mean: their limits, torques, couplings and posture.
+// Tests the rows on joints: limits, torques, couplings and posture.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -38,7 +38,7 @@ TEST_F(TaskTest, JointLimitsBringAJointToRestAtItsStop) {
     const double stop =
         side > 0 ? limits.upper - kMargin : limits.lower + kMargin;
     state_.q[7 + j] = stop - side * 0.2;
-    state_.v[6 + j] = side * 7.9;  // Just slow enough: w 0.2 rad.
+    state_.v[6 + j] = side * 7.9;  // Slow enough: below w 0.2 rad.
     double nearest = 1;
     for (int i = 0; i < 1000; ++i) {
       const Hierarchy& rows = Write(task);
@@ -63,18 +63,18 @@ TEST_F(TaskTest, JointLimitsHoldTheSpeed) {
   EXPECT_LE(Write(task).upper(0)[j], 1e-12);
   state_.v[6 + j] = -fastest;
   EXPECT_GE(Write(task).lower(0)[j], -1e-12);
-  // Not beyond what it is: at rest it may still speed up, as much either way.
+  // At rest the joint may accelerate equally in both directions.
   state_.v[6 + j] = 0;
   EXPECT_GT(Write(task).upper(0)[j], 0);
   EXPECT_LT(Write(task).lower(0)[j], 0);
 }
 
-// Left and right are the same, beyond the limits too, where what brings a joint
-// back contradicts its speed limit.
+// Left and right are the same, also beyond the limits, where position and speed limits
+// contradict each other.
 TEST_F(TaskTest, JointLimitsAreTheSameForAMirroredState) {
   const int j = *tree_.FindJoint("l_elbow");
   constexpr double kSpeed = 8;
-  // The latter is narrower than its margins.
+  // The second range is narrower than its margins.
   for (const double limit : {1.0, 0.004}) {
     robot_.model.limits[j] = {-limit, limit, kSpeed, 10};
     const JointLimitsTask task(robot_.model);
@@ -96,8 +96,8 @@ TEST_F(TaskTest, JointLimitsAreTheSameForAMirroredState) {
   }
 }
 
-// Back from beyond a limit, at rest: as its position asks, whatever the speed
-// limit would leave it.
+// At rest beyond a limit, a joint returns as its position limit demands, whatever its
+// speed limit.
 TEST_F(TaskTest, JointLimitsBringAJointBackFromBeyond) {
   const int j = *tree_.FindJoint("l_elbow");
   robot_.model.limits[j] = {-1, 1, 8, 10};
@@ -111,8 +111,9 @@ TEST_F(TaskTest, JointLimitsBringAJointBackFromBeyond) {
   }
 }
 
-// A finger of 2 mg without <limit> was flung off to make up for a push.
-TEST_F(TaskTest, JointLimitsHoldAJointOfWhichNoneIsKnown) {
+// Without a bound, a finger of 2 mg without <limit> would supply the momentum of a
+// push.
+TEST_F(TaskTest, JointLimitsBoundAJointWithoutLimits) {
   const int j = *tree_.FindJoint("l_elbow");
   constexpr double kNone = std::numeric_limits<double>::infinity();
   for (const double velocity : {kNone, 0.0}) {
@@ -120,7 +121,7 @@ TEST_F(TaskTest, JointLimitsHoldAJointOfWhichNoneIsKnown) {
     const JointLimitsTask task(robot_.model);
     state_.v[6 + j] = 0;
     const Hierarchy& rows = Write(task);
-    // At rest, no more than what takes it to 30 rad/s in 1/40 s.
+    // At rest, the bound reaches 30 rad/s in 1/40 s.
     EXPECT_NEAR(rows.upper(0)[j] / rows.C(0)(j, 6 + j), 30 * 40, 1e-9);
     EXPECT_NEAR(rows.lower(0)[j] / rows.C(0)(j, 6 + j), -30 * 40, 1e-9);
   }
@@ -135,7 +136,7 @@ TEST_F(TaskTest, TorqueRowsAreThoseOfTheSolution) {
   const Eigen::VectorXd value = rows.C(0) * y;
   for (int j = 0; j < n_; ++j) {
     const double effort = robot_.model.limits[j].effort;
-    // Where C y is at its upper bound, the torque is at the limit.
+    // If C y is at its upper bound, the torque is at its limit.
     EXPECT_NEAR(1 - (rows.upper(0)[j] - value[j]), tau[j] / effort, 1e-9);
     EXPECT_NEAR((value[j] - rows.lower(0)[j]) - 1, tau[j] / effort, 1e-9);
   }
@@ -147,9 +148,9 @@ TEST_F(TaskTest, TorqueRowsAreThoseOfTheSolution) {
   }
 }
 
-// A joint that is passive has the torque 0, whatever the others are scaled by, and no
-// row that would hold it at its stop.
-TEST_F(TaskTest, RowsKnowThatAJointHasNoMotor) {
+// A passive joint has torque 0 for any scale of the other joints, and no joint-limit
+// row.
+TEST_F(TaskTest, RowsRespectAJointWithoutMotor) {
   const int j = *tree_.FindJoint("l_elbow");
   robot_.model.limits[j].effort = 0;
   const TorqueLimitsTask torques(robot_.model);
@@ -169,7 +170,7 @@ TEST_F(TaskTest, RowsKnowThatAJointHasNoMotor) {
 }
 
 // A wrong profile must not raise a limit above that of the motor.
-TEST_F(TaskTest, TorqueLimitsAreNeverMoreThanTheMotors) {
+TEST_F(TaskTest, TorqueLimitsNeverExceedTheMotors) {
   const TorqueLimitsTask task(robot_.model);
   ASSERT_EQ(task.parameters().size(), 1u);
   EXPECT_EQ(task.parameters()[0].name, "scale");
@@ -177,7 +178,7 @@ TEST_F(TaskTest, TorqueLimitsAreNeverMoreThanTheMotors) {
 }
 
 // A tip of 2 mg on a finger of 1 g on a body of 1 kg.
-TEST(LightJoints, AreThoseThatMoveNextToNothing) {
+TEST(LightJoints, AreJointsOfNegligibleMass) {
   std::string text = "<robot name='r'>";
   const auto link = [&](const std::string& name, const std::string& mass) {
     text += "<link name='" + name + "'><inertial><mass value='" + mass +
@@ -220,7 +221,7 @@ TEST_F(TaskTest, LightJointsFollowThePosture) {
 }
 
 // The error of a coupling decays to 0 as a damped spring does.
-TEST_F(TaskTest, MimicIsASpringOnWhatACouplingIsOffBy) {
+TEST_F(TaskTest, MimicIsASpringOnTheCouplingError) {
   const int joint = *tree_.FindJoint("l_index_2");
   const int source = *tree_.FindJoint("l_index_1");
   const int other = *tree_.FindJoint("l_middle_2");
@@ -254,7 +255,7 @@ TEST_F(TaskTest, PostureIsAPdOnEachJoint) {
   }
 }
 
-TEST_F(TaskTest, PostureWeighsAJointByWhatItMoves) {
+TEST_F(TaskTest, PostureWeightsAJointByItsInertia) {
   const Eigen::VectorXd weight = Write(PostureTask(tree_)).weight(0);
   for (int j = 0; j < n_; ++j) {
     const double moved = controller_.tick().M(6 + j, 6 + j);
@@ -264,8 +265,8 @@ TEST_F(TaskTest, PostureWeighsAJointByWhatItMoves) {
             weight[*tree_.FindJoint("chest_pitch")]);
 }
 
-// A joint that slides has forces, and moves along a line.
-TEST(JointTasks, DescribeAJointThatSlidesInItsOwnUnits) {
+// A prismatic joint has forces in N and positions in m.
+TEST(JointTasks, DescribeAPrismaticJointInItsUnits) {
   const std::string mass =
       "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' "
       "ixz='0' iyz='0'/></inertial>";

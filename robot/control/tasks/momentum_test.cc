@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What the rows on the robot as a whole mean, its momentum and center of mass:
-// against its own motion a moment later.
+// Compares the rows on momentum and center of mass with the motion of the robot a
+// moment later.
 #include "poise/robot/control/tasks/momentum.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@
 namespace poise {
 namespace {
 
-TEST_F(TaskTest, NewtonEulerIsTheBaseOfTheEquationOfMotion) {
+TEST_F(TaskTest, NewtonEulerHasTheBaseRowsOfTheDynamics) {
   const Eigen::VectorXd y = RandomY();
   const Tick& tick = controller_.tick();
   Eigen::VectorXd wanted = tick.M * y.head(nv_) + tick.N;
@@ -35,8 +35,8 @@ TEST_F(TaskTest, NewtonEulerIsTheBaseOfTheEquationOfMotion) {
   EXPECT_LT((residual * weight / 4 - wanted.head<6>()).norm(), 1e-9);
 }
 
-// Along v̇ the robot's own momentum, center of mass and feet change as the rows
-// say: by differences of the same state a moment later.
+// Along v̇, momentum, center of mass and feet change as the rows predict; compares with
+// differences of states.
 TEST_F(TaskTest, RatesOfMomentumAndFeetAreThoseOfTheMotion) {
   const double h = 1e-6;
   const Eigen::VectorXd y = RandomY();
@@ -47,14 +47,14 @@ TEST_F(TaskTest, RatesOfMomentumAndFeetAreThoseOfTheMotion) {
   const Eigen::Vector3d e = reference.p_WG - controller_.tick().p_WG;
   const Eigen::Vector3d v_G = controller_.tick().v_WG;
   const Vector6d L = controller_.tick().L_G;
-  // Central differences over 1e-6 s: good to 1e-5 of the rates.
+  // Central differences over 1e-6 s have an error of 1e-5 of the rates.
   const double tolerance = 1e-4;
 
   const Eigen::VectorXd momentum =
       Residual(MomentumTask(tree_, robot_.feet), y);
   const Eigen::Vector3d linear = rate.tail<3>() / m - 30 * e + 10 * v_G;
   EXPECT_LT((momentum.tail<3>() - linear).norm(), tolerance);
-  // The base is where it should be: no rotation to correct.
+  // The base is at its reference, so there is no rotation to correct.
   EXPECT_LT(
       (momentum.head<3>() - (rate.head<3>() + 10 * L.head<3>()) / m).norm(),
       tolerance);
@@ -70,7 +70,7 @@ TEST_F(TaskTest, RatesOfMomentumAndFeetAreThoseOfTheMotion) {
 
 // The residual of a momentum row in the report is in N or N m, whatever the scale of
 // the row. The reference moves, with feed-forward, and the base is rotated.
-TEST_F(TaskTest, LossesOfMomentumAreForces) {
+TEST_F(TaskTest, MomentumResidualsAreForces) {
   const Eigen::VectorXd y = RandomY();
   const auto loss = [&](const Task& task, const Eigen::VectorXd& at) {
     Eigen::VectorXd residual = Residual(task, at);
@@ -91,7 +91,7 @@ TEST_F(TaskTest, LossesOfMomentumAreForces) {
   EXPECT_LT((loss(both, more) - loss(both, y) - F).norm(), 1e-9);
 }
 
-TEST_F(TaskTest, MomentumGoesWhereItsReferenceGoes) {
+TEST_F(TaskTest, MomentumFollowsItsReference) {
   MomentumTask momentum(tree_, robot_.feet);
   ComTask com(tree_);
   LinearMomentumTask linear(tree_);
@@ -122,8 +122,8 @@ TEST_F(TaskTest, MomentumGoesWhereItsReferenceGoes) {
   EXPECT_LT((asked.tail<3>() - (30 * p + 10 * v + a)).norm(), 1e-9);
 }
 
-// The height has its own gains always: it does not fall over.
-TEST_F(TaskTest, MomentumIsStifferInTheLargestPushesButNotInItsHeight) {
+// The height keeps its own gains, because it is not unstable.
+TEST_F(TaskTest, MomentumIsStifferInLargePushesExceptInHeight) {
   MomentumTask momentum(tree_, robot_.feet);
   for (const Parameter& each : momentum.parameters()) {
     if (each.name == "angular_weight") *each.value = 2;
@@ -150,7 +150,7 @@ TEST_F(TaskTest, MomentumIsStifferInTheLargestPushesButNotInItsHeight) {
     EXPECT_LT((asked - Eigen::Vector3d(kp, kp, 30).cwiseProduct(p)).norm(),
               1e-9);
   }
-  // A correction is an acceleration like any other.
+  // A correction adds to the acceleration.
   const Eigen::Vector3d corrected = write(0);
   const Eigen::VectorXd plain = Write(momentum).b(0);
   EXPECT_LT(
