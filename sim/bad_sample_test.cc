@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// A sensor that is wrong for a tick, or noisy: the robot stands on.
+// Tests that the robot stays standing when a sensor is wrong for a tick, or noisy.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -20,13 +20,13 @@ namespace poise {
 namespace {
 
 struct Stand {
-  int failed = 0;    // Ticks that failed safe,
-  int in_air = 0;    // and in which a foot was not held to be in contact.
-  double moved = 0;  // The base from where it began, the farthest, m.
+  int failed = 0;    // Ticks that failed safe.
+  int in_air = 0;    // Ticks in which the controller had lost a contact.
+  double moved = 0;  // Largest distance of the base from its start, m.
 };
 
-// Stands for so many ticks of 1 ms, on what `spoil` leaves of the measurements, the
-// base as it is or estimated.
+// Stands for a number of ticks of 1 ms. `spoil` changes each measurement. The base
+// is the measured one or, with `estimates`, the estimated one.
 Stand StandOn(const std::function<void(int, Measurement*)>& spoil, int ticks,
               bool estimates, const SensorSettings& settings = {}) {
   const Robot robot = LoadHumanoid();
@@ -65,8 +65,9 @@ Stand StandOn(const std::function<void(int, Measurement*)>& spoil, int ticks,
   return stand;
 }
 
-// As an estimator may say for a moment: no foot rises by so much at once.
-TEST(BadSample, OfTheHeightLosesNoFoot) {
+// An estimator can be wrong by this much for a tick. No foot rises so fast, so the
+// controller must keep the contact.
+TEST(BadSample, KeepsContactAfterASpikeOfTheHeight) {
   for (const double spike : {0.03, 0.1, -0.03}) {
     const Stand stand = StandOn(
         [spike](int i, Measurement* measurement) {
@@ -79,9 +80,10 @@ TEST(BadSample, OfTheHeightLosesNoFoot) {
   }
 }
 
-// Now and then it is above what loses a foot, but not for long; with all other
-// noise, that of speeds too, the robot fell so.
-TEST(BadSample, OfTheHeightInEachTickLosesNoFoot) {
+// The error of the height is sometimes above the threshold at which a foot is
+// lost, but never for the whole debounce time. All other noise is on too, also
+// that of the velocities.
+TEST(BadSample, KeepsContactWithNoiseOfTheHeight) {
   SensorSettings settings;
   settings.noise = 1;
   settings.base_position = 6e-3;

@@ -16,10 +16,11 @@ namespace poise {
 
 namespace {
 
-// Fraction of the sole's half width.
+// Distance of a shifted CoM from the sole's center, as a fraction of the sole's
+// half width.
 constexpr double kInside = 0.25;
 
-// The sensors' noise has a stream of its own.
+// The noise of the sensors must not depend on the random start state.
 constexpr unsigned kSensorSeed = 0x5eed;
 
 // Returns the robot of the controller, with the wrong masses of the scenario.
@@ -33,15 +34,15 @@ Robot MakeBelievedRobot(const Robot& robot, const Scenario& scenario) {
   return believed;
 }
 
-// Makes something of a field of the scenario, or of the "robot". An error that
-// does not say which field it is about gets this one.
+// Calls make(). An error that does not name a field gets `field`: a field of the
+// scenario, or "robot".
 template <typename Make>
 auto MakeOf(const std::string& field, Make make) -> decltype(make()) {
   try {
     return make();
   } catch (const InputError&) {
     throw;
-  } catch (const Refusal&) {  // Names the file itself.
+  } catch (const Refusal&) {  // Already names its file.
     throw;
   } catch (const std::invalid_argument& error) {
     throw InputError(field, error.what());
@@ -134,7 +135,7 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
   const State start = MakeStartState(robot, scenario.start,
                                      scenario.plant.ground, scenario.seed);
   plant_->Reset(start.q, start.v);
-  // The controller is told where the floor is, not how far the robot falls.
+  // The controller starts with the robot on the floor: it must not know the drop.
   StartSettings on_ground = scenario.start;
   on_ground.drop = 0;
   controller_->Start(
@@ -169,7 +170,7 @@ void ClosedLoop::MoveFeet() {
   const std::vector<StanceEvent>& events = scenario_.stance;
   for (; next_event_ < events.size(); ++next_event_) {
     const StanceEvent& event = events[next_event_];
-    // Half a step early, so that rounding does not delay it by a tick.
+    // Half a step of tolerance, so that rounding does not delay an event by a tick.
     if (event.at > time() + plant_->dt() / 2) break;
     switch (event.kind) {
       case StanceEvent::Kind::kLift:
@@ -185,8 +186,10 @@ void ClosedLoop::MoveFeet() {
   }
 }
 
-// As far before the ankles as it stands on both feet, and on the inner side of the
-// sole: hips and ankles, which come to their limits there, go less far.
+// Shifts the CoM by the way from the middle of the feet to the foot, less kInside.
+// So the distance in front of the ankle stays as it is on both feet. The CoM ends
+// on the inner side of the sole, because hips and ankles are near their limits
+// there and then have to move less.
 Eigen::Vector3d ClosedLoop::ShiftPlace(const std::string& name) const {
   if (name.empty()) return com_start_;
   const int foot = FindFoot(name);
@@ -225,7 +228,7 @@ void ClosedLoop::Tick() {
 }
 
 void ClosedLoop::StepPlant() {
-  // The first command finds no older one to wait for.
+  // In the first ticks there is no older command: the first one fills the delay.
   while (static_cast<int>(torques_.size()) < delay_steps_ + steps_per_tick_) {
     torques_.push_back(command_.tau);
   }

@@ -12,7 +12,8 @@ namespace poise {
 /// The outcome of a run.
 struct Verdict {
   bool recovered = false;
-  /// When it first became not recovered; nothing where it did so at the end.
+  /// Time at which the robot first broke a rule of Judge, s. Empty if no rule
+  /// was broken, also if only the final error of the CoM is too large.
   std::optional<double> fell_at;
   const char* fell_by = "";  ///< Cause of the fall, in words.
   Eigen::Vector3d com_error_peak = Eigen::Vector3d::Zero();   ///< m.
@@ -22,29 +23,31 @@ struct Verdict {
   double foot_slide_peak = 0;                                 ///< m.
 };
 
-/// Judges by the plant's truth whether a robot recovered: its base was never
-/// below 60 % of where it stood nor tilted over 60 degrees, no foot that is
-/// meant to be down tilted by more than 0.1 rad or slid by more than 30 mm, and
-/// the mean of com - com_ref over the last half second is less than 20 mm, in
-/// the plane.
+/// Judges by the plant's true state whether a robot recovered. It did if
+/// - its base was never below 60 % of its standing height, nor tilted by more
+///   than 60 degrees;
+/// - no foot that is meant to be down tilted by more than 0.1 rad or slid by more
+///   than 30 mm; and
+/// - the mean of com - com_ref over the last 0.5 s has a horizontal norm below
+///   20 mm.
 class Judge {
  public:
-  static constexpr double kLowestBase = 0.6;
+  static constexpr double kLowestBase = 0.6;  // Of the standing height.
   static constexpr double kLargestTilt = 1.0471975511965976;  // 60 degrees.
   static constexpr double kLargestFootTilt = 0.1;
   static constexpr double kLargestSlide = 0.03;
   static constexpr double kLargestComError = 0.02;
   static constexpr double kEnd = 0.5;
 
-  /// `standing_height` is that of the base above the ground.
+  /// @param standing_height  height of the base above the ground, m.
   explicit Judge(double standing_height) : standing_height_(standing_height) {}
 
   void Look(const Observation& now);
 
-  /// The robot lies, or is about to: there is nothing more to see.
+  /// Returns whether the base is too low or too tilted. The run can stop then.
   bool is_down() const { return down_; }
 
-  /// Verdict::fell_at is known.
+  /// Returns whether Verdict::fell_at is set.
   bool has_fallen() const { return verdict_.fell_at.has_value(); }
 
   Verdict Conclude() const;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// No foot in contact: the robot falls, and lands on its feet.
+// Tests that a robot that is dropped lands on its feet.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,13 +15,13 @@ namespace {
 
 struct Landing {
   Verdict verdict;
-  int flying = 0;          // Ticks without a foot in contact,
-  double bent = 0;         // in these the joint farthest from its posture, rad,
-  double force = 0;        // and the largest wrench asked of a foot.
-  double certificate = 0;  // The worst of all ticks,
-  int unsolved = 0;        // and how many were not solved to the last level.
-  double sunk = 0;         // The center of mass below its reference, m.
-  double beyond = 0;       // A joint beyond its limits, rad.
+  int flying = 0;    // Ticks without a foot in contact.
+  double bent = 0;   // In flight: largest joint error from the posture, rad.
+  double force = 0;  // In flight: largest norm of a commanded foot wrench.
+  double certificate = 0;  // Worst of all ticks.
+  int unsolved = 0;        // Ticks that were not solved to the last level.
+  double sunk = 0;         // Largest height of com_ref above the CoM, m.
+  double beyond = 0;       // Largest violation of a joint limit, rad.
 };
 
 Landing Land(const Scenario& scenario) {
@@ -56,28 +56,29 @@ Landing Land(const Scenario& scenario) {
   return landing;
 }
 
-// 10 cm take 143 ms, of which its soles see the last 4 mm. Its legs do not reach
-// for the ground meanwhile, nor stay behind: they would be bent when it comes.
-TEST(Landing, FallsInItsPostureAndStands) {
+// A fall of 10 cm takes 143 ms. The soles detect the ground in the last 4 mm. In
+// flight the legs must keep their posture, so that they are not bent at landing.
+TEST(Landing, KeepsThePostureInFlightAndStands) {
   Scenario scenario;
   scenario.duration = 4;
   scenario.start.drop = 0.1;
   const Landing landing = Land(scenario);
   EXPECT_TRUE(landing.verdict.recovered);
   EXPECT_NEAR(landing.flying, 140, 3);
-  // The joints' dry friction and damping are not in the model, and at rest in
-  // free fall nothing else moves them.
+  // Dry friction and damping of the joints are not in the controller's model. In
+  // free fall from rest, nothing but them could move the joints.
   EXPECT_LT(landing.bent, 1e-3);
   EXPECT_LT(landing.force, 1e-9);
   EXPECT_LT(landing.certificate, 1e-9);
   EXPECT_EQ(landing.unsolved, 0);
-  EXPECT_LT(landing.sunk, 0.08);  // From 1.4 m/s, as kd / (m s) = 10 stop it.
+  EXPECT_LT(landing.sunk,
+            0.08);  // It lands at 1.4 m/s; kd / m = 10 / s stops it.
   EXPECT_LE(landing.beyond, 1e-6);
   EXPECT_LT(landing.verdict.foot_tilt_peak, 0.02);
   EXPECT_LT(landing.verdict.foot_slide_peak, 2e-3);
 }
 
-// Edges first, and not all at once.
+// On a slope the edges of the soles touch first, one after the other.
 TEST(Landing, StandsOnASlope) {
   Scenario scenario;
   scenario.duration = 4;

@@ -16,12 +16,12 @@ namespace poise {
 struct FootObservation {
   Pose X_WC;         ///< Contact frame.
   bool down = true;  ///< Planned to be in contact.
-  /// The ground presses on its sole in the tick that follows, as measured.
+  /// The ground presses on the sole during the tick that begins here.
   bool in_contact = true;
   double tilt = 0;   ///< Tilt of the sole since it was put down, rad.
-  double slide = 0;  ///< Along the ground since it was put down, m.
+  double slide = 0;  ///< Slide along the ground since it was put down, m.
   Eigen::Matrix<double, 6, 1> F_Co_C =
-      Eigen::Matrix<double, 6, 1>::Zero();  ///< Over the tick that follows.
+      Eigen::Matrix<double, 6, 1>::Zero();  ///< Mean over the tick.
 };
 
 /// True state of the robot at the start of a tick, and mean forces during the
@@ -34,28 +34,29 @@ struct Observation {
   Eigen::Vector3d com = Eigen::Vector3d::Zero();
   Eigen::Vector3d com_ref = Eigen::Vector3d::Zero();
   std::vector<FootObservation> feet;
-  /// Center of pressure of all feet together in MidFeet() of the feet that the
-  /// ground presses on, as the controller's task zmp has it; NaN where they bear
-  /// nothing.
+  /// Center of pressure of all feet together, m, in the frame MidFeet() of the
+  /// feet that the ground presses on, as in the controller's task zmp. NaN if no
+  /// foot has load.
   Eigen::Vector2d cop = Eigen::Vector2d::Zero();
 };
 
-/// Computes observations from the plant's truth, with the true model.
+/// Computes observations from the plant's true state, with the true model.
 class Observer {
  public:
   Observer(const Robot& robot, const Ground& ground);
 
-  /// Takes the start of a tick; `down` says which feet are meant to be in
-  /// contact, nothing being all. A foot counts from where it is put down.
+  /// Observes the state at the start of a tick. `down` marks the feet that are
+  /// meant to be in contact; empty means all. Tilt and slide of a foot count from
+  /// the tick in which it is put down.
   void ObserveState(const PlantState& state, const std::vector<bool>& down,
                     const Eigen::Vector3d& com_ref);
 
-  /// Takes what acted during the tick.
+  /// Observes the mean contact wrenches during the tick, by foot.
   void ObserveForces(const std::vector<Eigen::Matrix<double, 6, 1>>& F_Co_C);
 
   const Observation& observation() const { return observation_; }
 
-  /// The orientation of a body at the start of the tick.
+  /// Returns the orientation of a body at the start of the tick.
   const Eigen::Matrix3d& R_WB(int body) const { return tick_.X_WB[body].R; }
 
  private:
@@ -64,19 +65,22 @@ class Observer {
   Eigen::Vector3d normal_W_;
   Tick tick_;
   Observation observation_;
-  std::vector<ContactTick> contacts_;  // Pose and measured contact alone.
+  std::vector<ContactTick> contacts_;  // Only pose and measured contact.
   std::vector<Pose> put_down_;         // Each foot's pose when it was put down.
   std::vector<bool> was_down_;
   Eigen::Vector3d standing_z_B_ = Eigen::Vector3d::UnitZ();
   bool first_ = true;
 };
 
-/// The point of the base, in its axes, by whose height it is seen to lie: the
-/// origin of the root link or, where that is a mere frame that may be anywhere,
-/// as `world` on the floor, of the first link with a shape that is fixed to it.
+/// Returns the point of the base whose height shows whether the robot fell, in
+/// the base's axes, m. The point is the origin of the root link. If the root link
+/// has no shape, it is only a frame that may be anywhere, as `world` on the
+/// floor. Then the point is the origin of the first link with a shape that is
+/// fixed to the root link, or the base's origin if no such link exists.
 Eigen::Vector3d BasePoint(const RobotModel& model);
 
-/// The height of BasePoint() in the nominal posture, which stands on the ground.
+/// Returns the height of BasePoint() above the ground in the nominal posture, in
+/// which the robot stands on the ground, m.
 double StandingHeight(const Robot& robot);
 
 }  // namespace poise

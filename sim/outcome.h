@@ -7,8 +7,8 @@
 
 namespace poise {
 
-/// "recovers", "falls at 1.06 s", or, of a robot that stays up elsewhere, "does
-/// not come back".
+/// Returns "recovers", "falls at 1.06 s", or "does not come back" for a robot
+/// that stays up but ends too far from the desired place.
 std::string Outcome(const Verdict& verdict);
 
 }  // namespace poise

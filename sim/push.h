@@ -12,22 +12,22 @@
 
 namespace poise {
 
-/// How a push goes over its duration T. All of them have the impulse of their
-/// peak force F: F T for kBox, 2/pi F T for kHalfSine. kImpulse gives all F T
-/// within one step.
+/// Time profile of a push of duration T and peak force F. The impulse is F T for
+/// kBox and 2/pi F T for kHalfSine. kImpulse applies all of F T within one step.
 enum class PushProfile { kBox, kHalfSine, kImpulse };
 
-/// The name of a profile in files: "box", "half_sine" or "impulse".
+/// Returns the name of a profile in files: "box", "half_sine" or "impulse".
 const char* NameOf(PushProfile profile);
 
 /// The axes in which a push's force and moment are given.
 enum class PushFrame { kWorld, kLink };
 
-/// A force and a moment on a link, of which the controller does not know.
+/// A force and a moment on a link. The controller receives no information about
+/// a push.
 struct Push {
   std::string link;  ///< Empty: the torso, see FindTorso().
-  /// In the link's frame, m; where there is none, the center of mass of the
-  /// body that the link belongs to.
+  /// Point where the force acts, in the link's frame, m. Empty: the center of
+  /// mass of the body that the link belongs to.
   std::optional<Eigen::Vector3d> point;
   PushFrame frame = PushFrame::kWorld;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< Peak, N.
@@ -41,29 +41,29 @@ struct Push {
 /// mean is exact for any dt, so that the impulse does not depend on the step.
 double MeanOfProfile(const Push& push, double time, double dt);
 
-/// The integral of a push's profile up to a time, s: its impulse, until then, is
-/// this times its force.
+/// Returns the integral of a push's profile up to a time, s. The impulse up to
+/// that time is the integral times the peak force.
 double ProfileIntegral(const Push& push,
                        double until = std::numeric_limits<double>::infinity());
 
-/// The impulse of a push up to a time, N s: ProfileIntegral() times the norm of
-/// its peak force.
+/// Returns the impulse of a push up to a time, N s: ProfileIntegral() times the
+/// norm of the peak force.
 double ImpulseOf(const Push& push,
                  double until = std::numeric_limits<double>::infinity());
 
-/// The push with the largest impulse up to a time, the first one of equals;
-/// null where none has any.
+/// Returns the push with the largest impulse up to a time, the first of equals.
+/// Null if no push has an impulse by then.
 const Push* LargestPush(const std::vector<Push>& pushes, double until);
 
-/// A push on a robot, its link looked up.
+/// A push on a robot, with its link resolved to a body.
 class PushOnRobot {
  public:
-  /// Throws std::invalid_argument if the robot has no such link, or a number is
-  /// not finite, or the duration negative.
+  /// Throws std::invalid_argument if the robot has no such link, a number is not
+  /// finite, or the duration is negative.
   PushOnRobot(const Robot& robot, const Push& push);
 
-  /// Its mean over [time, time + dt], its body having the orientation R_WB;
-  /// nothing where it does not act.
+  /// Returns the mean of the push over [time, time + dt], for a body with the
+  /// orientation R_WB. Empty if the push is not active in this interval.
   std::optional<AppliedForce> At(double time, double dt,
                                  const Eigen::Matrix3d& R_WB) const;
 
@@ -71,8 +71,8 @@ class PushOnRobot {
   int body() const { return body_; }
   const Eigen::Vector3d& p_BoQ_B() const { return p_BoQ_B_; }
 
-  /// The peak force in the world's axes, or in its body's axes where it is
-  /// given in its link's: then it turns with the body.
+  /// Returns the peak force, N. It is in world axes, or in the body's axes if the
+  /// push is given in the link's axes; then the force turns with the body.
   Eigen::Vector3d force() const;
 
  private:
@@ -82,8 +82,8 @@ class PushOnRobot {
   Eigen::Matrix3d R_BF_;
 };
 
-/// The heaviest body that is no part of a leg, which is what lies between the
-/// base and a foot; the base counts as none.
+/// Returns the heaviest body that is not part of a leg. A leg is the chain from
+/// the base, without the base, to a foot.
 int FindTorso(const Robot& robot);
 
 }  // namespace poise

@@ -8,8 +8,9 @@
 
 namespace poise {
 
-/// The smallest of some values such that a fraction of all, 0 to 1, is no larger:
-/// one of them, and nothing between two. Orders them anew. pre: there is one.
+/// Returns the smallest of the values such that a fraction of all values, 0 to 1,
+/// is at most as large. The result is one of the values, without interpolation.
+/// Reorders the values. pre: there is at least one value.
 template <typename Number>
 Number Quantile(std::vector<Number>* values, double fraction) {
   const auto rank = static_cast<std::size_t>(

@@ -28,46 +28,47 @@ struct TickTimes {
 /// Outcome and cost of a run.
 struct RunResult {
   Verdict verdict;
-  /// Where a joint was flung off before the robot fell, as no body does by
-  /// itself: which one, in words. Then the controller is to blame, or the plant.
+  /// Set if a joint was flung off before the robot fell: which joint, in words.
+  /// A body does not do so by itself, so the cause is the controller or the plant.
   std::string blew_up;
-  double duration = 0;  ///< Simulated, s; less than asked for after a fall.
+  double duration = 0;  ///< Simulated time, s; shorter after a fall.
   bool interrupted = false;
   long ticks = 0;
   TickTimes tick_us;
   int iterations_max = 0;
-  double certificate_max = 0;  ///< Largest of all ticks, hqp/certificate.h.
+  double certificate_max = 0;  ///< Largest of all ticks, see hqp/certificate.h.
   int failures = 0;            ///< Ticks with an unsolved level.
   double joint_limit_violation_peak = 0;   ///< rad or m.
   double torque_limit_violation_peak = 0;  ///< N m or N.
   int self_contact_ticks = 0;
-  double impulse_Ns = 0;     ///< Largest push, part within the run.
-  double push_duration = 0;  ///< Largest push, s.
-  /// Bound in the direction of the largest push, on the feet that are down when
+  double impulse_Ns = 0;     ///< Of the largest push, up to the end of the run.
+  double push_duration = 0;  ///< Of the largest push, s.
+  /// Pendulum bound in the direction of the largest push, on the feet that are down when
   /// the push begins. Empty if the push does not begin.
   std::optional<Yardstick> yardstick;
   double wall_seconds = 0;
   std::string log_sha256;  ///< Empty if nothing was recorded.
-  /// The rows that the log names; empty if nothing was recorded.
+  /// Rows of the stack that the log names; empty if nothing was recorded.
   std::vector<StackRow> rows;
 };
 
 /// Returns the cause of the fall in words; empty without a fall.
 std::string FellBy(const RunResult& result);
 
-/// Runs a new loop to the end of its scenario, or until the robot lies.
+/// Runs a new loop to the end of its scenario, or until Judge::is_down().
 ///
-/// @param folder    where a Recorder writes; empty: nothing is written.
+/// @param folder    folder in which a Recorder writes; empty: nothing is
+///                  written.
 /// @param format    of the log, see Recorder.
 /// @param progress  called a hundred times or more with the fraction done;
 ///                  stops the run by returning false. May be empty.
 ///
-/// Throws std::invalid_argument, see Recorder.
+/// Throws std::invalid_argument as Recorder does.
 RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder = {},
               const std::function<bool(double)>& progress = {},
               LogFormat format = LogFormat::kCsv);
 
-/// Runs a loop of a robot and a scenario. Throws also as ClosedLoop.
+/// Runs a new loop of a robot and a scenario. Throws also as ClosedLoop does.
 RunResult Run(const Robot& robot, const Scenario& scenario,
               const std::filesystem::path& folder = {},
               const std::function<bool(double)>& progress = {},

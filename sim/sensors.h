@@ -26,8 +26,8 @@ class RandomStream {
   std::uint64_t state_;
 };
 
-/// The robot's sensors, as bad as their settings say. Each instance draws its
-/// own errors from its seed: the same for the same calls.
+/// The robot's sensors, with the errors of their settings. Each instance draws
+/// its errors from its own seed, so that equal calls give equal measurements.
 class Sensors {
  public:
   Sensors(const Robot& robot, const SensorSettings& settings, unsigned seed);
@@ -57,7 +57,8 @@ class Sensors {
   SensorSettings settings_;
   RandomStream random_;
   Bias bias_;
-  std::deque<PlantState> past_;  // Back to the longest delay; the last is now.
+  std::deque<PlantState>
+      past_;  // As far back as the longest delay; newest last.
   Measurement measurement_;
   bool first_ = true;
 };

@@ -11,34 +11,34 @@
 
 namespace poise {
 
-/// The fields of one YAML map, read by key. Whatever is not as wanted is
-/// refused: all members throw std::invalid_argument("FILE:LINE: ...") that
-/// names the key, its value and what was wanted.
+/// Reads the fields of one YAML map by key. Every member rejects invalid values:
+/// it throws std::invalid_argument("FILE:LINE: ...") with the key, its value and
+/// the allowed values.
 class YamlFields {
  public:
   /// Throws if the node is not a map.
   YamlFields(const YAML::Node& node, std::string file);
 
-  /// Sets those fields that are there.
+  /// Sets the fields that the map contains; the others keep their values.
   void Read(const std::vector<NumberField>& fields);
 
-  /// The value of a key, or what stands in for it where there is none.
+  /// Returns the value of a key, or `otherwise` if the map does not have the key.
   double Number(const std::string& key, double otherwise);
   bool Flag(const std::string& key, bool otherwise);
   std::string Text(const std::string& key, const std::string& otherwise);
   std::vector<std::string> Words(const std::string& key);
   std::vector<double> Numbers(const std::string& key);
 
-  /// The maps inside: one, or a list of them.
+  /// Returns the map, or the list of maps, that is the value of a key.
   std::optional<YamlFields> Map(const std::string& key);
   std::vector<YamlFields> Maps(const std::string& key);
 
   bool Has(const std::string& key);
 
-  /// Throws if there is a key that was not asked for.
+  /// Throws if the map has a key that no other member has looked up.
   void Finish() const;
 
-  /// Throws about a key.
+  /// Throws an error about a key.
   [[noreturn]] void Refuse(const std::string& key,
                            const std::string& why) const;
 
@@ -50,8 +50,8 @@ class YamlFields {
   std::vector<std::string> known_;
 };
 
-/// Reads a file; throws std::invalid_argument with its name, and the line where
-/// it is no YAML.
+/// Reads a file. Throws std::invalid_argument with the file's name and, if the
+/// text is not valid YAML, the line.
 YamlFields ReadYaml(const std::string& file);
 
 }  // namespace poise

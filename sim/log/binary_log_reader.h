@@ -12,15 +12,15 @@
 
 namespace poise {
 
-/// Reads log.bin, what LogRows writes as LogFormat::kBinary.
+/// Reads log.bin, which LogRows writes as LogFormat::kBinary.
 class BinaryLogReader final : public LogReader {
  public:
-  /// Whether a file begins as such a log does.
+  /// Returns whether a file begins with the magic bytes of a binary log.
   static bool IsOne(const std::filesystem::path& file);
 
-  /// Reads the header; one that is not whole counts as a log cut short. Throws
-  /// std::invalid_argument, naming the file, if it cannot be opened or is no
-  /// such log.
+  /// Reads the header. An incomplete header counts as a log that was cut short.
+  /// Throws std::invalid_argument with the file's name if the file cannot be
+  /// opened or is not a binary log.
   explicit BinaryLogReader(const std::filesystem::path& file);
 
   bool Next() override;

@@ -12,7 +12,7 @@ namespace {
 using Kind = LogColumn::Kind;
 
 // Users' scripts read these names: docs/log.md.
-TEST(Columns, AreThoseOfTheDocumentedLog) {
+TEST(Columns, AreTheDocumentedColumns) {
   std::string header;
   for (const LogColumn& column :
        LogColumns({"left_foot", "paw"}, {"hip", "knee"}, {"com", "posture"})) {

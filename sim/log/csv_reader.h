@@ -24,13 +24,13 @@ namespace poise {
 /// - The parser accepts a last row without line end, which may be cut short.
 class CsvReader final : public LogReader {
  public:
-  /// Reads the header. Throws std::invalid_argument, naming the file, if it
-  /// cannot be opened.
+  /// Reads the header. Throws std::invalid_argument with the file's name if the
+  /// file cannot be opened.
   explicit CsvReader(const std::filesystem::path& file);
 
-  /// Throws std::invalid_argument, naming file and line, if a whole row has not
-  /// as many cells as the header, and column and cell, if one of a column of
-  /// numbers holds none.
+  /// Throws std::invalid_argument with file and line if the number of cells of a
+  /// complete row differs from the header. Throws it also, with column and cell,
+  /// if a cell in a column of numbers is not a number.
   bool Next() override;
   std::string_view cell(int column) const override { return cells_[column]; }
   double Number(int column) const override { return numbers_[column]; }

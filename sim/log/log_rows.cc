@@ -29,12 +29,11 @@ class CsvRows final : public LogRows {
 
   void Number(double value) override {
     BeginCell();
-    if (std::isnan(value)) {  // Whatever its sign.
+    if (std::isnan(value)) {  // Also a negative NaN.
       row_ += "nan";
       return;
     }
-    // Nine digits: a nanometer on a meter, a millionth of a newton on the
-    // weight.
+    // Nine digits resolve 1 nm at 1 m, and about 1 uN at the robot's weight.
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof(digits), value,
                                    std::chars_format::general, 9);
@@ -43,7 +42,7 @@ class CsvRows final : public LogRows {
 
   void Text(std::string_view text) override {
     BeginCell();
-    // A robot may call its joints what it likes; the table stays one.
+    // Names of joints may have commas or line ends, which would break the table.
     for (const char c : text) {
       row_ += c == ',' || c == '\n' || c == '\r' ? '_' : c;
     }
@@ -67,7 +66,7 @@ class CsvRows final : public LogRows {
   size_t cells_ = 0;
 };
 
-// Little-endian, whatever the machine is.
+// Appends bytes in little-endian order on any machine.
 template <typename T>
 void Append(T value, int bytes, std::string* out) {
   for (int i = 0; i < bytes; ++i) {
@@ -76,8 +75,9 @@ void Append(T value, int bytes, std::string* out) {
   }
 }
 
-// A cell is written as what changed in its bits since the row before: of a
-// quantity that changes slowly, sign, exponent and leading digits are the same.
+// Writes each number as the exclusive or of its bits with those of the row before.
+// A slowly changing quantity keeps its sign, exponent and leading digits, so the
+// difference is short.
 class BinaryRows final : public LogRows {
  public:
   explicit BinaryRows(const std::vector<LogColumn>& columns)

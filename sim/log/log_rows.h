@@ -8,17 +8,17 @@
 
 namespace poise {
 
-/// How a run's log is written: as text that every program reads, or, for runs
-/// of many minutes, in a quarter of the bytes.
+/// Format of a run's log. kCsv is text that every program reads. kBinary needs a
+/// quarter of the bytes, for runs of many minutes.
 enum class LogFormat { kCsv, kBinary };
 
-/// The name of the log in a run's folder: "log.csv" or "log.bin".
+/// Returns the name of the log in a run's folder: "log.csv" or "log.bin".
 std::string_view LogFileName(LogFormat format);
 
 struct LogColumn {
   enum class Kind {
-    kTime,    ///< A number that keeps all its digits.
-    kNumber,  ///< Kept to 9 digits as text, to 7 in binary.
+    kTime,    ///< A number; the binary log keeps all digits.
+    kNumber,  ///< 9 digits as text, 7 digits in binary.
     kText,
   };
 
@@ -26,7 +26,7 @@ struct LogColumn {
   Kind kind = Kind::kNumber;
 };
 
-/// Turns the rows of a log into the bytes of its file; docs/log.md has both
+/// Converts the rows of a log into the bytes of its file. docs/log.md has both
 /// formats. The same rows give the same bytes on any machine, in any locale.
 class LogRows {
  public:
@@ -35,12 +35,13 @@ class LogRows {
   /// Returns the beginning of the file.
   virtual std::string Header() = 0;
 
-  /// The next cell of the row that grows, as the column's kind wants it.
+  /// Appends the next cell to the current row. The column's kind determines
+  /// which of the two functions must be called.
   virtual void Number(double value) = 0;
   virtual void Text(std::string_view text) = 0;
 
-  /// Appends the row to `bytes`, whole, and begins the next one. There must
-  /// have been a cell for each column.
+  /// Appends the complete row to `bytes` and begins the next row. pre: every
+  /// column has a cell.
   virtual void EndRow(std::string* bytes) = 0;
 };
 

@@ -8,11 +8,12 @@
 
 namespace poise {
 
-/// The log in a run's folder: log.csv, or log.bin where only that is there.
+/// Returns the path of the log in a run's folder: log.bin if only that file
+/// exists, else log.csv.
 std::filesystem::path FindLog(const std::filesystem::path& run);
 
-/// Opens a log, in whichever format its first bytes say it is. Throws
-/// std::invalid_argument, naming the file.
+/// Opens a log. Its first bytes tell the format. Throws std::invalid_argument with
+/// the file's name.
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& file);
 
 }  // namespace poise

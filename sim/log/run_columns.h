@@ -11,12 +11,12 @@
 
 namespace poise {
 
-/// Columns of a run's log, whole, by the names that were asked for, as
-/// columns.h has them. kTimeColumn is always among them.
+/// Whole columns of a run's log in memory, by the names that the caller chose from
+/// columns.h. kTimeColumn is always included.
 class RunColumns {
  public:
-  /// Reads columns. Throws std::invalid_argument, naming file and column, if
-  /// one is not there, or if the log has no rows.
+  /// Reads columns. Throws std::invalid_argument with the file's name if a column
+  /// is missing, which it names, or if the log has no rows.
   RunColumns(const std::filesystem::path& file,
              const std::vector<std::string>& names);
 
@@ -24,17 +24,17 @@ class RunColumns {
     return columns_.at(name);
   }
 
-  /// The row at which a time was reached, or the last one.
+  /// Returns the first row at or after a time, s, or the last row.
   int RowAt(double time) const;
 
  private:
   std::map<std::string, std::vector<double>> columns_;
 };
 
-/// The names of the columns that hold q, in the order of Tree's q.
+/// Returns the names of the columns that hold q, in the order of Tree's q.
 std::vector<std::string> ConfigurationColumns(const RobotModel& robot);
 
-/// q, see Tree, as a row of those columns has it.
+/// Returns q, see Tree, of a row. pre: `columns` has ConfigurationColumns().
 Eigen::VectorXd ConfigurationAt(const RobotModel& robot,
                                 const RunColumns& columns, int row);
 

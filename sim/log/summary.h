@@ -10,9 +10,9 @@
 
 namespace poise {
 
-/// A run as summary.json: SI units, radians; what has no value is null. `pushes`
-/// describes each push; impulse_Ns, push_duration, push_link, push_body and
-/// push_point describe the one with the largest impulse.
+/// Returns summary.json of a run: SI units, radians, null for a missing value.
+/// `pushes` describes each push. impulse_Ns, push_duration, push_link, push_body
+/// and push_point describe the push with the largest impulse.
 nlohmann::ordered_json ToJson(const Robot& robot, const Scenario& scenario,
                               const RunResult& result);
 

@@ -11,17 +11,17 @@
 
 namespace poise {
 
-/// The names of all plants, the default one first. make_plant.cc has the one
-/// table of names and factories; docs/plants.md says how to add a plant.
+/// Returns the names of all plants, the default plant first. make_plant.cc has the
+/// table of names and factories; docs/plants.md explains how to add a plant.
 std::vector<std::string> PlantNames();
 
 bool IsPlant(const std::string& name);
 
-/// "bullet or mujoco", for messages.
+/// Returns the names of all plants for messages: "bullet or mujoco".
 std::string PlantNamesInWords();
 
-/// The plant of a name. Throws std::invalid_argument if there is none, with the
-/// names that there are, or if the plant cannot represent the robot.
+/// Makes the plant of a name. Throws std::invalid_argument if the name is unknown,
+/// with the known names, or if the plant cannot represent the robot.
 std::unique_ptr<Plant> MakePlant(const Robot& robot, const std::string& name,
                                  const PlantSettings& settings);
 

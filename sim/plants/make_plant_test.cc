@@ -26,7 +26,7 @@ TEST(MakePlant, MakesADifferentPlantForEachName) {
   }
 }
 
-// An unknown name was once Bullet.
+// An unknown name must not silently give the default plant.
 TEST(MakePlant, RefusesAnUnknownNameAndListsTheKnownOnes) {
   for (const char* name : {"mars", "", "Bullet", "mujoco "}) {
     EXPECT_FALSE(IsPlant(name));

@@ -13,15 +13,16 @@
 
 namespace poise {
 
-/// Bullet's Featherstone multibody, built from our own model, as a plant.
+/// A plant with Bullet's Featherstone multibody, built from the robot's model.
 ///
-/// Semi-implicit Euler: v' = v + dt a(q, v), contact impulses on v', then q
-/// moves with v'. Under gravity it loses m g^2 dt / 2 of energy a second. A
-/// foot stands on small spheres at the corners of its sole polygon; the
-/// collision shapes of all other links touch the ground too. Links touch each
-/// other, feet with all their shapes, except those that already do when Reset()
-/// puts the robot down, and neighbors: links that one joint parts, or several
-/// that are as one, or that share a parent.
+/// The integrator is semi-implicit Euler: v' = v + dt a(q, v), contact impulses
+/// act on v', then q moves with v'. Under gravity the plant loses m g^2 dt / 2 of
+/// energy per second.
+///
+/// A foot stands on small spheres at the corners of its sole polygon. All other
+/// links touch the ground with their collision shapes. Links also collide with
+/// each other; feet do so with all their shapes. Exceptions are neighbors, see
+/// FindNeighbors(), and links that already touch when Reset() places the robot.
 class BulletPlant final : public Plant {
  public:
   /// Throws std::invalid_argument if Bullet cannot represent the model, see

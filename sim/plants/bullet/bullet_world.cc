@@ -14,10 +14,11 @@ namespace poise {
 
 namespace {
 
-// The user index of what belongs to the ground; that of a link is its body.
+// User index of collision objects of the ground. The user index of a link is the
+// index of its body.
 constexpr int kGround = -1;
 
-// The collision group of what meets links, but not the ground.
+// Collision group of shapes that collide with links, but not with the ground.
 constexpr int kAboveGround = btBroadphaseProxy::CharacterFilter;
 
 std::unique_ptr<btCollisionShape> MakeShape(const Geometry& geometry) {
@@ -31,14 +32,14 @@ std::unique_ptr<btCollisionShape> MakeShape(const Geometry& geometry) {
     return std::make_unique<btCylinderShapeZ>(
         btVector3(cylinder->radius, cylinder->radius, cylinder->length / 2));
   }
-  return nullptr;  // A mesh: drawn, but never touched.
+  return nullptr;  // A mesh is only drawn; it does not collide.
 }
 
 bool IsGround(const btCollisionObject* object) {
   return object->getUserIndex() == kGround;
 }
 
-// The force over a step that a manifold point puts on its object A.
+// Returns the mean force over a step of a manifold point on its object A, N.
 btVector3 ForceOnA(const btManifoldPoint& point, double dt) {
   return (point.m_appliedImpulse * point.m_normalWorldOnB +
           point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
@@ -122,7 +123,7 @@ void BulletWorld::AddGround(const PlantSettings& settings) {
     auto object = std::make_unique<btCollisionObject>();
     object->setCollisionShape(shape.get());
     object->setWorldTransform(ToBullet(X_WS));
-    // Bullet multiplies the friction, and the restitution, of the two.
+    // Bullet multiplies the coefficients of the two objects, so the ground has 1.
     object->setFriction(1);
     object->setRestitution(1);
     object->setUserIndex(kGround);
@@ -150,9 +151,10 @@ void BulletWorld::AddCollider(const PlantSettings& settings, int body,
   collider->setCollisionShape(shape);
   collider->setFriction(settings.friction);
   collider->setRestitution(settings.restitution);
-  // Bullet stops what will touch within a step, short of the ground; then
-  // nothing is left to bounce. So what bounces sinks in first, by up to a
-  // step's way, and is not pushed out, which would add to its speed.
+  // By default Bullet stops a body just above the ground, if it would touch within
+  // a step, so that it cannot bounce. With restitution a body therefore penetrates
+  // first, by up to one step of motion. It is not pushed out (m_erp2 = 0), because
+  // that would add speed.
   if (settings.restitution > 0) collider->setContactProcessingThreshold(0);
   collider->setUserIndex(body);
   world_.addCollisionObject(collider.get(), group,
@@ -187,20 +189,21 @@ void BulletWorld::AddColliders(const Robot& robot,
   }
   for (const Shape& shape : robot.model.collisions) {
     const Frame& frame = tree.frames()[shape.frame];
-    // Box on box is where Bullet is bad: a foot meets the ground with its sole
-    // alone, and with its shapes what else it may run into.
+    // Bullet's contacts between two boxes are poor. So a foot touches the ground
+    // only with the spheres of its sole, and other links with its own shapes.
     if (auto made = MakeShape(shape.geometry)) {
       add(frame.body, frame.X_BF * shape.X_FS, std::move(made),
           is_foot[frame.body] ? &feet : &links);
     }
   }
 
-  // Before the colliders come: Bullet asks about a pair once, when its boxes
-  // first overlap, and here all of them still lie at the origin.
+  // The filter must be complete before colliders are added. Bullet asks about a pair
+  // once, when its bounding boxes first overlap. Here all colliders are still at the
+  // origin and overlap.
   for (const auto& [a, b] : FindNeighbors(tree)) filter_.Exclude(a, b);
   for (int i = 0; i < tree.num_bodies(); ++i) filter_.Exclude(i, i);
 
-  // A link without a collider would be without its joint limits, too.
+  // Bullet ignores the joint limits of a link without a collider.
   auto nothing = std::make_unique<btSphereShape>(1e-3);
   for (int i = 0; i < tree.num_bodies(); ++i) {
     if (links[i] != nullptr) {
@@ -264,7 +267,7 @@ void BulletWorld::Place() {
     filter_.Exclude(pair->getBody0()->getUserIndex(),
                     pair->getBody1()->getUserIndex());
   }
-  // Pairs that are excluded by now, and those that Bullet had let in.
+  // Removes the pairs that are now excluded from Bullet's cache.
   btBroadphasePairArray pairs =
       world_.getPairCache()->getOverlappingPairArray();
   for (int i = 0; i < pairs.size(); ++i) {
@@ -310,7 +313,7 @@ void BulletWorld::FindSelfContacts(std::vector<std::pair<int, int>>* pairs) {
       break;
     }
   }
-  // A foot has two colliders: its sole, and the rest of it.
+  // A foot has two colliders, its sole and its shapes, so a pair can occur twice.
   std::sort(pairs->begin(), pairs->end());
   pairs->erase(std::unique(pairs->begin(), pairs->end()), pairs->end());
 }

@@ -10,8 +10,8 @@ namespace poise {
 
 namespace {
 
-// Sweeps end when the largest change of an impulse is this part of the largest
-// impulse: some digits below what a force is logged with.
+// Sweeps end when the largest change of an impulse is below this fraction of the
+// sum of all impulses. The log has nine digits, so the error is not visible.
 constexpr double kSettled = 1e-12;
 
 }  // namespace
@@ -27,7 +27,7 @@ btScalar ContactSolver::solveSingleIteration(
     if (change <= kSettled * impulses_.cwiseAbs().sum()) break;
   }
   Apply();
-  return 0;  // No residual: Bullet calls no more.
+  return 0;  // Bullet stops at a residual of 0.
 }
 
 void ContactSolver::Gather() {
@@ -52,7 +52,7 @@ void ContactSolver::Gather() {
   J_.setZero(m, n);
   W_.setZero(m, n);
   for (int i = 0; i < m; ++i) {
-    // Two links of the one body that touch are both of its sides.
+    // If two links of the robot touch, both sides are the same multibody.
     const auto take = [this, i, n](int index) {
       J_.row(i) +=
           Eigen::Map<const Eigen::RowVectorXd>(&m_data.m_jacobians[index], n);
@@ -107,7 +107,7 @@ double ContactSolver::Sweep(bool forward) {
       ++row;
       continue;
     }
-    // Into the cone's circle, along its radius.
+    // Projects the pair radially onto the circle of the friction cone.
     const double first = Candidate(row), second = Candidate(row + 1);
     const double size = std::hypot(first, second);
     const double scale = size > limit ? limit / size : 1;
