@@ -102,7 +102,7 @@ TEST(Observer, TakesTheHeightOfABaseThatHasAShape) {
       StateAt(Vector3d::Zero(), Turn(M_PI / 3, Vector3d::UnitY())), {},
       Vector3d::Zero());
   EXPECT_NEAR(observer.observation().base_height, 0.45, kRounding);
-  // A root link with a shape: the point is its origin.
+  // Without any shape, the point is the origin of the root link.
   EXPECT_TRUE(BasePoint(MakeBlock({0.2, 0.2, 0.1}, 5).model).isZero());
 }
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Beyond the paper: a wrong model, one leg, the largest pushes.
+// Tests beyond the paper: a wrong model, standing on one leg, the largest pushes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,9 +11,10 @@
 namespace poise {
 namespace {
 
-// Each axis, within half of the 3 mm that //tools:robustness allows: without a
-// correction a model that is too light leaves 4 mm in x, and 17 in z.
-TEST(WrongModel, LeavesNoErrorBehind) {
+// The bound for each axis is half of the 3 mm that //tools:robustness allows.
+// Without the integral correction, a model whose masses are too small leaves an
+// error of 4 mm in x and 17 mm in z.
+TEST(WrongModel, HasNoFinalError) {
   Scenario scenario = Ours("stand", 4);
   scenario.control.mass_error = -0.1;
   const Verdict verdict = poise::Run(Humanoid(), scenario).verdict;
@@ -21,8 +22,8 @@ TEST(WrongModel, LeavesNoErrorBehind) {
   EXPECT_LT(verdict.com_error_final.cwiseAbs().maxCoeff(), 1.5e-3);
 }
 
-// 17.8 mm without.
-TEST(WrongModel, LeavesNoErrorBehindWhereThePlaceAloneIsSteered) {
+// Without the integral correction the error is 17.8 mm.
+TEST(WrongModel, HasNoFinalErrorWithTheComTask) {
   Scenario scenario = Ours("stand", 4);
   scenario.control.mass_error = 0.1;
   scenario.control.without = {"momentum"};
@@ -36,7 +37,7 @@ RunResult RunOurs(const std::string& name, double duration) {
   return poise::Run(Humanoid(), Ours(name, duration));
 }
 
-TEST(OneLeg, StandsOnOneFootIsPushedThereAndPutsTheOtherDown) {
+TEST(OneLeg, RecoversFromAPushAndPutsTheOtherFootDown) {
   double in_the_air = 0, pushed_there = 0;  // s, N s.
   FootObservation right;
   const Story story = Tell(Ours("one_leg", 14), [&](const ClosedLoop& loop) {
@@ -50,22 +51,22 @@ TEST(OneLeg, StandsOnOneFootIsPushedThereAndPutsTheOtherDown) {
   EXPECT_LE(story.torque_violation, 1e-6);
   EXPECT_LE(story.joint_violation, 1e-6);
   EXPECT_GT(in_the_air, 5);
-  EXPECT_NEAR(pushed_there, 15 * 0.15, 1e-9);  // All of it.
+  EXPECT_NEAR(pushed_there, 15 * 0.15, 1e-9);  // The whole push.
   EXPECT_TRUE(right.down);
   EXPECT_GT(right.F_Co_C[5], 150);  // 379 N on two feet.
 }
 
 // The yardstick uses the one foot on the ground when the push begins.
-TEST(OneLeg, IsMeasuredAgainstAPendulumOnOneFoot) {
+TEST(OneLeg, UsesThePendulumBoundOfOneFoot) {
   const RunResult result = RunOurs("one_leg", 6.2);
   ASSERT_TRUE(result.yardstick.has_value());
-  const double omega = std::sqrt(9.81 / 0.79);  // Its height, to 2 cm.
+  const double omega = std::sqrt(9.81 / 0.79);  // CoM height within 2 cm.
   const double stretch = omega * 0.15 / -std::expm1(-omega * 0.15);
   const double reach = result.yardstick->lipm_Ns /
                        (Humanoid().model.tree.total_mass() * omega * stretch);
-  // Half the width of a sole, and the quarter of that by which it stands inside.
+  // Half the width of a sole, plus a quarter of it: the CoM is that far inside.
   EXPECT_NEAR(reach, 1.25 * 0.065, 0.005);
-  // A push that is never reached is measured against nothing.
+  // A push that never begins has no yardstick.
   EXPECT_FALSE(RunOurs("one_leg", 0.1).yardstick.has_value());
 }
 
@@ -98,8 +99,9 @@ TEST(LargestPush, ReleasesAFootSidewaysAndBringsItBack) {
   ExpectAFootLeavesAndComesBack({0, 209, 0});
 }
 
-// There it is still falling when it is called back, from far in front.
-TEST(LargestPush, AcrossAFootComesBackToItsPlace) {
+// After this push, to the left and backward, the robot is still falling when the
+// foot begins its return, from far in front of its place.
+TEST(LargestPush, ReleasesAFootDiagonallyAndBringsItBack) {
   ExpectAFootLeavesAndComesBack({-177, 177, 0});
 }
 

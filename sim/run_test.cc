@@ -51,7 +51,7 @@ TEST(Run, SameSeedGivesTheSameBytesInAnyOrderAndInParallel) {
   EXPECT_NE(poise::Run(Humanoid(), scenario, Folder("other")).log_sha256, once);
 }
 
-TEST(Run, WritesARowATickAndStopsWhenTold) {
+TEST(Run, WritesOneRowPerTickAndStopsOnRequest) {
   Scenario scenario = Ours("weak_push", 2);
   const RunResult result = poise::Run(Humanoid(), scenario, Folder("stopped"),
                                       [](double done) { return done < 0.105; });
@@ -73,7 +73,7 @@ TEST(Run, WritesARowATickAndStopsWhenTold) {
 }
 
 // A robot that stands may fall later; a fall is final.
-TEST(Run, DoesNotJudgeARobotThatWasUpWhenItWasInterrupted) {
+TEST(Run, DoesNotJudgeAnInterruptedRunWithoutAFall) {
   const Scenario scenario = Ours("weak_push", 2);
   RunResult result;
   result.interrupted = true;
@@ -88,17 +88,17 @@ TEST(Run, DoesNotJudgeARobotThatWasUpWhenItWasInterrupted) {
             0u);
 }
 
-TEST(Run, RefusesTasksThatAreNotThere) {
+TEST(Run, RejectsUnknownTasks) {
   Scenario scenario = Ours("stand", 1);
   scenario.control.with = {"levitate"};
   EXPECT_THROW(poise::Run(Humanoid(), scenario), std::invalid_argument);
 }
 
-// Its fingers, of 2 mg and without limits, were flung off at 1e8 rad/s2 to make
-// up for a push that its feet can bear, and the robot with them.
-TEST(Run, NaoKeepsItsFingers) {
+// Nao's fingers have a mass of 2 mg and no limits. The controller must not balance
+// a push by accelerating them, at 1e8 rad/s2, if the feet can balance the push.
+TEST(Run, NaoRecoversWithoutFlingingItsFingers) {
   const auto robots = SharedData("robots");
-  if (!robots) GTEST_SKIP() << "the shared robots are not there";
+  if (!robots) GTEST_SKIP() << "the shared robot files are missing";
   const Robot nao = LoadStandingRobot(*robots / "nao_v50.urdf");
   Scenario scenario = Ours("strong_push", 3);
   scenario.pushes[0].force *= 0.15;
@@ -107,12 +107,13 @@ TEST(Run, NaoKeepsItsFingers) {
   EXPECT_EQ(result.failures, 0);
 }
 
-// Over the middle of a foot its hip was at its limit, and all else had to give.
+// With the CoM over the middle of a foot, Nao's hip would be at its limit and other
+// tasks would be violated. The CoM must stay on the inner side of the sole.
 TEST(Run, NaoStandsOnOneLeg) {
   const auto robots = SharedData("robots");
-  if (!robots) GTEST_SKIP() << "the shared robots are not there";
+  if (!robots) GTEST_SKIP() << "the shared robot files are missing";
   Scenario scenario = Ours("one_leg", 9);
-  scenario.pushes.clear();  // One that our robot can bear would fell it.
+  scenario.pushes.clear();  // The push is too strong for Nao.
   const RunResult result =
       poise::Run(LoadStandingRobot(*robots / "nao_v50.urdf"), scenario);
   EXPECT_TRUE(result.verdict.recovered) << result.verdict.fell_by;
@@ -137,7 +138,7 @@ TEST(ClosedLoop, ShiftsOverTheInnerSideOfAFoot) {
   }
 }
 
-// Only the feet had such tasks.
+// Frame tasks exist for every link, not only for the feet.
 TEST(ClosedLoop, HasAFrameTaskForAnyLink) {
   Scenario scenario = Ours("stand", 1);
   scenario.control.tasks =
@@ -153,9 +154,9 @@ TEST(ClosedLoop, HasAFrameTaskForAnyLink) {
   }
 }
 
-// Gains that 100 Hz cannot have, without limits: no physics makes a robot fall
-// like that.
-TEST(Run, TellsABlowUpFromAFall) {
+// The gains are unstable at 100 Hz and the limits are off. So joints move faster
+// than in any fall.
+TEST(Run, DistinguishesABlowUpFromAFall) {
   Scenario scenario = Ours("stand", 1);
   scenario.control.dt = 0.01;
   scenario.control.tasks =
@@ -167,7 +168,7 @@ TEST(Run, TellsABlowUpFromAFall) {
   EXPECT_EQ(FellBy(wild).find("the controller blew up: joint '"), 0u)
       << FellBy(wild);
   EXPECT_EQ(ToJson(Humanoid(), scenario, wild)["fell_by"], FellBy(wild));
-  // A push that no controller could bear is a fall.
+  // A push that no controller could balance gives an ordinary fall.
   Scenario hard = Ours("strong_push", 3);
   hard.pushes[0].force *= 3;
   const RunResult fallen = poise::Run(Humanoid(), hard);
@@ -176,7 +177,8 @@ TEST(Run, TellsABlowUpFromAFall) {
   EXPECT_EQ(FellBy(RunResult()), "");
 }
 
-// A delay of three ticks: what acts is what was asked for three ticks ago.
+// With a delay of three ticks, the plant applies the torques that the controller
+// commanded three ticks before.
 TEST(ClosedLoop, DelaysTorques) {
   Scenario scenario = Ours("strong_push", 1);
   scenario.control.delay = 3e-3;
@@ -191,7 +193,7 @@ TEST(ClosedLoop, DelaysTorques) {
   }
 }
 
-TEST(ClosedLoop, ControlsSlowerThanThePlantSteps) {
+TEST(ClosedLoop, ControlsAtALowerRateThanThePlant) {
   Scenario scenario = Ours("strong_push", 1);
   scenario.control.dt = 5e-3;
   ClosedLoop loop(Humanoid(), scenario);

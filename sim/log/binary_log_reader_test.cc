@@ -137,7 +137,7 @@ std::string MessageOf(const std::string& bytes) {
   return "";
 }
 
-TEST(BinaryLogReader, RefusesWhatItCannotRead) {
+TEST(BinaryLogReader, RejectsInvalidLogs) {
   using namespace std::string_literals;
   EXPECT_EQ(MessageOf("POISELAG"), "is not a binary log of Poise");
   EXPECT_EQ(MessageOf("POISELOG\2\0\0\0"s),

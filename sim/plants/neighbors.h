@@ -8,10 +8,11 @@
 
 namespace poise {
 
-/// The pairs of bodies (smaller first) whose shapes overlap by construction and
-/// so must not collide: those that a joint parts, or several joints that lie
-/// so close together that they are as one (a hip's thigh is the pelvis's
-/// neighbor, whatever lies between), and those that share a parent.
+/// Returns the pairs of bodies, smaller index first, whose shapes overlap by
+/// construction and so must not collide:
+/// - bodies connected by one joint, or by several joints that are within 5 cm (so
+///   the thigh is a neighbor of the pelvis, with all hip bodies between them);
+/// - bodies with the same parent.
 std::vector<std::pair<int, int>> FindNeighbors(const Tree& tree);
 
 }  // namespace poise

@@ -15,41 +15,41 @@ struct AppliedForce {
   Eigen::Vector3d force_W;   ///< N.
 };
 
-/// The plant's truth at one instant, all of it: no robot could measure it.
-/// What acts during a step is its mean over the last step.
+/// Complete true state of the plant at one instant; sensors measure only a part.
+/// Forces and torques are means over the last step.
 struct PlantState {
   double time = 0;       ///< s.
   Eigen::VectorXd q;     ///< See dynamics/tree.h.
   Eigen::VectorXd v;     ///< See dynamics/tree.h.
-  Eigen::VectorXd vdot;  ///< Change of v over the last step, a second.
+  Eigen::VectorXd vdot;  ///< Change of v over the last step, divided by dt.
   Eigen::VectorXd tau;   ///< Torques after saturation, N m or N.
-  /// By foot: the ground's wrench on it, about and in the axes of its contact
-  /// frame C, [torque; force].
+  /// By foot: wrench of the ground on the foot, [torque; force], about the origin
+  /// and in the axes of the contact frame C, N m and N.
   std::vector<Eigen::Matrix<double, 6, 1>> F_Co_C;
-  /// By foot: how many points of its sole bear a force.
+  /// By foot: number of points of the sole that carry a load.
   std::vector<int> contact_points;
-  /// The ground's force on everything but the feet, N.
+  /// Force of the ground on all bodies except the feet, N.
   Eigen::Vector3d other_force_W = Eigen::Vector3d::Zero();
-  /// The pairs of bodies that press on each other, the smaller index first.
+  /// Pairs of bodies that press on each other, the smaller index first.
   std::vector<std::pair<int, int>> self_contacts;
 };
 
-/// A world with one robot in it: what stands in for the machine. A plant knows
-/// neither a controller nor a scenario. It may allocate; it throws only from
-/// its constructor.
+/// A simulated world with one robot, in place of a real robot. A plant does not
+/// depend on a controller or a scenario. Its members may allocate. Only the
+/// constructor throws.
 class Plant {
  public:
   virtual ~Plant() = default;
 
-  /// Puts the robot into the state (q, v) at time 0 and forgets all else: what
-  /// follows depends on nothing that was before, to the bit.
+  /// Puts the robot into the state (q, v) at time 0. Nothing from before Reset()
+  /// affects the following steps, so they repeat to the bit.
   virtual void Reset(const Eigen::VectorXd& q, const Eigen::VectorXd& v) = 0;
 
-  /// A force for the length of the next step; several add up.
+  /// Adds a force that acts during the next step only. Several forces add up.
   virtual void Apply(const AppliedForce& force) = 0;
 
-  /// Advances by dt() under the joint torques tau, cut off at the effort
-  /// limits.
+  /// Advances by dt() under the joint torques tau, N m or N, which are clamped to
+  /// the effort limits.
   virtual void Step(const Eigen::VectorXd& tau) = 0;
 
   /// Returns the true state.

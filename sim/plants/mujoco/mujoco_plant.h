@@ -14,16 +14,16 @@
 
 namespace poise {
 
-/// MuJoCo as a plant: another's dynamics and another's contact model, to see
-/// that what holds in Bullet holds of the robot and not of Bullet.
+/// MuJoCo as a plant. Its dynamics and contact model are independent of Bullet's,
+/// so a result in both plants is a property of the robot and not of Bullet.
 ///
-/// Its contacts are soft (2 steps and more) and convex, where Bullet's are hard
-/// and sequential; its joints have armature, implicit damping and dry friction.
-/// It has no restitution.
+/// MuJoCo's contacts are soft (a time constant of 4 ms) and a convex problem.
+/// Bullet's are hard and solved sequentially. MuJoCo's joints have armature,
+/// implicit damping and dry friction. This plant has no restitution.
 class MujocoPlant final : public Plant {
  public:
-  /// Throws std::invalid_argument if MuJoCo refuses the model, or a setting is
-  /// out of range, or asks for restitution.
+  /// Throws std::invalid_argument if MuJoCo rejects the model, a setting is out of
+  /// range, or restitution is not 0.
   MujocoPlant(const Robot& robot, const PlantSettings& settings = {});
 
   void Reset(const Eigen::VectorXd& q, const Eigen::VectorXd& v) override;
