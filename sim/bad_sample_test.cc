@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests that the robot stays standing when a sensor is wrong for a tick, or noisy.
+// Tests that the robot stays standing when a sensor is wrong for a tick, or
+// noisy.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -25,8 +26,8 @@ struct Stand {
   double moved = 0;  // Largest distance of the base from its start, m.
 };
 
-// Stands for a number of ticks of 1 ms. `spoil` changes each measurement. The base
-// is the measured one or, with `estimates`, the estimated one.
+// Stands for a number of ticks of 1 ms. `spoil` changes each measurement. The
+// base is the measured one or, with `estimates`, the estimated one.
 Stand StandOn(const std::function<void(int, Measurement*)>& spoil, int ticks,
               bool estimates, const SensorSettings& settings = {}) {
   const Robot robot = LoadHumanoid();
@@ -65,8 +66,8 @@ Stand StandOn(const std::function<void(int, Measurement*)>& spoil, int ticks,
   return stand;
 }
 
-// An estimator can be wrong by this much for a tick. No foot rises so fast, so the
-// controller must keep the contact.
+// An estimator can be wrong by this much for a tick. No foot rises so fast, so
+// the controller must keep the contact.
 TEST(BadSample, KeepsContactAfterASpikeOfTheHeight) {
   for (const double spike : {0.03, 0.1, -0.03}) {
     const Stand stand = StandOn(

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests that changes of the stack that are ramped in do not weaken the reaction to
-// a push.
+// Tests that changes of the stack that are ramped in do not weaken the reaction
+// to a push.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kPush = 1000;  // Tick in which the push begins.
 
-// Returns the peak error of the center of mass, m, for a push of 100 N for 0.15 s.
-// `change` may change the stack before each tick.
+// Returns the peak error of the center of mass, m, after a push of 100 N that
+// lasts 0.15 s. `change` may change the stack before each tick.
 double Push(double ramp, const std::function<void(int, Stack*)>& change) {
   const Robot robot = LoadHumanoid();
   Scenario scenario;
@@ -41,7 +41,7 @@ double Push(double ramp, const std::function<void(int, Stack*)>& change) {
   return verdict.com_error_peak.y();
 }
 
-// The peak error must be within 1 % of the error without a ramp, which is 47 mm.
+// The peak error must be within 1 % of the error without a ramp, 47 mm.
 void ExpectToDoAsMuch(const std::function<void(int, Stack*)>& change) {
   EXPECT_NEAR(Push(0.2, change) / Push(0, change), 1, 0.01);
 }

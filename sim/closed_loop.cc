@@ -34,8 +34,8 @@ Robot MakeBelievedRobot(const Robot& robot, const Scenario& scenario) {
   return believed;
 }
 
-// Calls make(). An error that does not name a field gets `field`: a field of the
-// scenario, or "robot".
+// Calls make(). An error that does not name a field gets `field`: a field of
+// the scenario, or "robot".
 template <typename Make>
 auto MakeOf(const std::string& field, Make make) -> decltype(make()) {
   try {
@@ -135,7 +135,7 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
   const State start = MakeStartState(robot, scenario.start,
                                      scenario.plant.ground, scenario.seed);
   plant_->Reset(start.q, start.v);
-  // The controller starts with the robot on the floor: it must not know the drop.
+  // The controller starts from the robot on the floor, without the drop.
   StartSettings on_ground = scenario.start;
   on_ground.drop = 0;
   controller_->Start(
@@ -170,7 +170,7 @@ void ClosedLoop::MoveFeet() {
   const std::vector<StanceEvent>& events = scenario_.stance;
   for (; next_event_ < events.size(); ++next_event_) {
     const StanceEvent& event = events[next_event_];
-    // Half a step of tolerance, so that rounding does not delay an event by a tick.
+    // With this tolerance, rounding cannot delay an event by a tick.
     if (event.at > time() + plant_->dt() / 2) break;
     switch (event.kind) {
       case StanceEvent::Kind::kLift:
@@ -186,10 +186,10 @@ void ClosedLoop::MoveFeet() {
   }
 }
 
-// Shifts the CoM by the way from the middle of the feet to the foot, less kInside.
-// So the distance in front of the ankle stays as it is on both feet. The CoM ends
-// on the inner side of the sole, because hips and ankles are near their limits
-// there and then have to move less.
+// Shifts the CoM by the vector from the middle of the feet to the foot, less
+// kInside. So the CoM stays as far in front of the ankles as on both feet. It
+// ends on the inner side of the sole, because hips and ankles come to their
+// limits during such a shift and have to move less then.
 Eigen::Vector3d ClosedLoop::ShiftPlace(const std::string& name) const {
   if (name.empty()) return com_start_;
   const int foot = FindFoot(name);
@@ -228,7 +228,7 @@ void ClosedLoop::Tick() {
 }
 
 void ClosedLoop::StepPlant() {
-  // In the first ticks there is no older command: the first one fills the delay.
+  // The first command fills the delay, because there is no older command.
   while (static_cast<int>(torques_.size()) < delay_steps_ + steps_per_tick_) {
     torques_.push_back(command_.tau);
   }

@@ -26,14 +26,14 @@ namespace poise {
 ///
 ///     plant -> sensors -> controller -> (delay) -> plant, with pushes.
 ///
-/// Two loops of the same robot and scenario agree to the bit, even if other loops
-/// run in parallel: all random numbers come from the scenario's seed.
+/// Two loops of the same robot and scenario agree to the bit, even if other
+/// loops run in parallel: all random numbers come from the scenario's seed.
 class ClosedLoop {
  public:
   /// Throws InputError as Validate(), and if the scenario names something that
   /// the robot does not have, such as a task or a link. The error's field is
-  /// "robot" if the plant or the controller cannot use the robot. Throws Refusal
-  /// about a file.
+  /// "robot" if the plant or the controller cannot use the robot. Throws
+  /// Refusal about a file.
   ClosedLoop(const Robot& robot, const Scenario& scenario);
 
   /// Runs one control tick.

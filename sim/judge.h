@@ -12,8 +12,8 @@ namespace poise {
 /// The outcome of a run.
 struct Verdict {
   bool recovered = false;
-  /// Time at which the robot first broke a rule of Judge, s. Empty if no rule
-  /// was broken, also if only the final error of the CoM is too large.
+  /// Time at which the base or a foot first broke a rule of Judge, s. Empty if
+  /// neither did, also if the final error of the CoM is too large.
   std::optional<double> fell_at;
   const char* fell_by = "";  ///< Cause of the fall, in words.
   Eigen::Vector3d com_error_peak = Eigen::Vector3d::Zero();   ///< m.
@@ -26,13 +26,13 @@ struct Verdict {
 /// Judges by the plant's true state whether a robot recovered. It did if
 /// - its base was never below 60 % of its standing height, nor tilted by more
 ///   than 60 degrees;
-/// - no foot that is meant to be down tilted by more than 0.1 rad or slid by more
-///   than 30 mm; and
+/// - no foot that is meant to be down tilted by more than 0.1 rad or slid by
+///   more than 30 mm; and
 /// - the mean of com - com_ref over the last 0.5 s has a horizontal norm below
 ///   20 mm.
 class Judge {
  public:
-  static constexpr double kLowestBase = 0.6;  // Of the standing height.
+  static constexpr double kLowestBase = 0.6;  // Fraction of its height.
   static constexpr double kLargestTilt = 1.0471975511965976;  // 60 degrees.
   static constexpr double kLargestFootTilt = 0.1;
   static constexpr double kLargestSlide = 0.03;

@@ -30,7 +30,7 @@ Verdict Over(Spoil spoil) {
   return judge.Conclude();
 }
 
-// Returns the verdict over two seconds in which set() changes only the tick at 1 s.
+// Returns the verdict over two seconds. set() changes only the tick at 1 s.
 template <typename Set>
 Verdict Once(Set set) {
   return Over([&set](Observation* now) {

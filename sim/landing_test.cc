@@ -56,8 +56,9 @@ Landing Land(const Scenario& scenario) {
   return landing;
 }
 
-// A fall of 10 cm takes 143 ms. The soles detect the ground in the last 4 mm. In
-// flight the legs must keep their posture, so that they are not bent at landing.
+// A fall of 10 cm takes 143 ms. The soles detect the ground in the last 4 mm.
+// In flight the legs must keep their posture, so that they are not bent at
+// landing.
 TEST(Landing, KeepsThePostureInFlightAndStands) {
   Scenario scenario;
   scenario.duration = 4;
@@ -65,8 +66,8 @@ TEST(Landing, KeepsThePostureInFlightAndStands) {
   const Landing landing = Land(scenario);
   EXPECT_TRUE(landing.verdict.recovered);
   EXPECT_NEAR(landing.flying, 140, 3);
-  // Dry friction and damping of the joints are not in the controller's model. In
-  // free fall from rest, nothing but them could move the joints.
+  // Dry friction and damping of the joints are not in the controller's model.
+  // In free fall from rest, nothing but them could move the joints.
   EXPECT_LT(landing.bent, 1e-3);
   EXPECT_LT(landing.force, 1e-9);
   EXPECT_LT(landing.certificate, 1e-9);

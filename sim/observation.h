@@ -35,8 +35,8 @@ struct Observation {
   Eigen::Vector3d com_ref = Eigen::Vector3d::Zero();
   std::vector<FootObservation> feet;
   /// Center of pressure of all feet together, m, in the frame MidFeet() of the
-  /// feet that the ground presses on, as in the controller's task zmp. NaN if no
-  /// foot has load.
+  /// feet that the ground presses on, as in the controller's task zmp. NaN if
+  /// no foot has load.
   Eigen::Vector2d cop = Eigen::Vector2d::Zero();
 };
 
@@ -46,8 +46,8 @@ class Observer {
   Observer(const Robot& robot, const Ground& ground);
 
   /// Observes the state at the start of a tick. `down` marks the feet that are
-  /// meant to be in contact; empty means all. Tilt and slide of a foot count from
-  /// the tick in which it is put down.
+  /// meant to be in contact; empty means all. Tilt and slide of a foot count
+  /// from the tick in which it is put down.
   void ObserveState(const PlantState& state, const std::vector<bool>& down,
                     const Eigen::Vector3d& com_ref);
 
@@ -73,14 +73,14 @@ class Observer {
 };
 
 /// Returns the point of the base whose height shows whether the robot fell, in
-/// the base's axes, m. The point is the origin of the root link. If the root link
-/// has no shape, it is only a frame that may be anywhere, as `world` on the
-/// floor. Then the point is the origin of the first link with a shape that is
-/// fixed to the root link, or the base's origin if no such link exists.
+/// the base's axes, m. The point is the origin of the root link. If the root
+/// link has no shape, it is only a frame that may be anywhere, as `world` on
+/// the floor. Then the point is the origin of the first link with a shape that
+/// is fixed to the root link, or the base's origin if no such link exists.
 Eigen::Vector3d BasePoint(const RobotModel& model);
 
-/// Returns the height of BasePoint() above the ground in the nominal posture, in
-/// which the robot stands on the ground, m.
+/// Returns the height of BasePoint() above the ground in the nominal posture,
+/// in which the robot stands on the ground, m.
 double StandingHeight(const Robot& robot);
 
 }  // namespace poise

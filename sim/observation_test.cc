@@ -52,8 +52,8 @@ TEST(Observer, ReportsThePoseOfTheRobot) {
   EXPECT_TRUE(observer.R_WB(0).isApprox(Turn(0.3, kUp).toRotationMatrix()));
 }
 
-// A robot that stands upright on a slope has tilt 0. Its height is measured from
-// the plane.
+// A robot that stands upright on a slope has tilt 0. Its height is measured
+// from the plane.
 TEST(Observer, MeasuresTiltAndHeightFromTheGroundTheRobotStandsOn) {
   Ground slope;
   slope.pitch = 0.2;
@@ -115,15 +115,15 @@ TEST(Observer, CountsTiltAndSlideFromWhereAFootWasPutDown) {
   };
   see({0, 0, 0.05}, Turn(0, kUp), true);
   EXPECT_EQ(foot.slide, 0);
-  // The slide is the hypotenuse of 3 and 4 mm. A change of height does not count
-  // as a slide, and a rotation about z does not count as a tilt.
+  // The slide is the hypotenuse of 3 and 4 mm. A change of height does not
+  // count as a slide, and a rotation about z does not count as a tilt.
   see({0.003, 0.004, 0.06}, Turn(0.5, kUp), true);
   EXPECT_NEAR(foot.slide, 0.005, kRounding);
   EXPECT_NEAR(foot.tilt, 0, kRounding);
   see({0, 0, 0.05}, Turn(0.01, Vector3d::UnitX()), true);
   EXPECT_NEAR(foot.tilt, 0.01, kRounding);
-  // A foot in the air has neither tilt nor slide. When the foot is put down, here
-  // tilted and at another place, both start at 0.
+  // A foot in the air has neither tilt nor slide. When the foot is put down,
+  // here tilted and at another place, both start at 0.
   see({1, 1, 0.3}, Turn(0.2, Vector3d::UnitX()), false);
   EXPECT_FALSE(foot.down);
   EXPECT_EQ(foot.slide, 0);

@@ -10,9 +10,9 @@
 namespace poise {
 namespace {
 
-// Checks every tick of a scenario of the paper in which the robot does not fall:
-// the CoP is 5 mm inside each sole, friction is within 0.8 of the ground and 0.5
-// of the controller, the feet do not move, and no limit is violated.
+// Checks every tick of a scenario of the paper in which the robot does not
+// fall: the CoP is 5 mm inside each sole, friction is within 0.8 of the ground
+// and 0.5 of the controller, the feet do not move, and no limit is violated.
 void ExpectStaysOnItsFeet(const Story& story) {
   EXPECT_TRUE(story.verdict.recovered);
   EXPECT_EQ(story.failures, 0);
@@ -20,7 +20,7 @@ void ExpectStaysOnItsFeet(const Story& story) {
   EXPECT_LT(story.given_beyond,
             1e-4);  // Soles have spheres of 5 mm, which roll.
   EXPECT_LT(story.asked_friction, 0.5 + 1e-6);
-  EXPECT_LT(story.given_friction, 0.81);  // 50 solver sweeps exceed 0.8 by 1 %.
+  EXPECT_LT(story.given_friction, 0.81);  // 50 sweeps: 1 % over 0.8.
   EXPECT_LT(story.verdict.foot_tilt_peak, 0.02);
   EXPECT_LT(story.verdict.foot_slide_peak, 2e-3);
   EXPECT_LE(story.torque_violation, 1e-6);
@@ -79,8 +79,8 @@ TEST(Paper, CombinedBoxPinsTheCop) {
     if (std::abs(y - 0.1) < 0.5e-3) ++pinned;
     highest = std::max(highest, y);
   }
-  // The plant's contacts follow the command to 0.5 mm. The bound of 1 mm detects a
-  // collision: an arm that hits the trunk moves the CoP by 9 mm.
+  // The plant's contacts follow the command to 0.5 mm. The bound of 1 mm
+  // detects a collision: an arm that hits the trunk moves the CoP by 9 mm.
   EXPECT_GT(pinned, 150);
   EXPECT_LT(highest, 0.101);
 }
@@ -97,8 +97,8 @@ TEST(Paper, SinusoidLagsOnlyWithoutFeedforward) {
       loop.Tick();
       const Observation& now = loop.observation();
       if (now.time < 3) continue;
-      // The lag is K_d v / K_p with K_d = 10 and K_p = 30. The acceleration adds a
-      // tenth of the lag, which the tolerance allows.
+      // The lag is K_d v / K_p with K_d = 10 and K_p = 30. The acceleration
+      // adds a tenth of the lag, which the tolerance allows.
       const double lag =
           feedforward ? 0 : -0.08 * w * std::cos(w * now.time) / 3;
       worst = std::max(worst, std::abs(now.com.x() - now.com_ref.x() - lag));

@@ -12,8 +12,9 @@
 
 namespace poise {
 
-/// Time profile of a push of duration T and peak force F. The impulse is F T for
-/// kBox and 2/pi F T for kHalfSine. kImpulse applies all of F T within one step.
+/// Time profile of a push of duration T and peak force F. The impulse is F T
+/// for kBox and 2/pi F T for kHalfSine. kImpulse applies all of F T within one
+/// step.
 enum class PushProfile { kBox, kHalfSine, kImpulse };
 
 /// Returns the name of a profile in files: "box", "half_sine" or "impulse".
@@ -37,8 +38,9 @@ struct Push {
   double duration = 0.15;  ///< s.
 };
 
-/// Returns the mean of the push over [time, time + dt], divided by its peak. The
-/// mean is exact for any dt, so that the impulse does not depend on the step.
+/// Returns the mean of the push over [time, time + dt], divided by its peak.
+/// The mean is exact for any dt, so that the impulse does not depend on the
+/// step.
 double MeanOfProfile(const Push& push, double time, double dt);
 
 /// Returns the integral of a push's profile up to a time, s. The impulse up to
@@ -58,8 +60,8 @@ const Push* LargestPush(const std::vector<Push>& pushes, double until);
 /// A push on a robot, with its link resolved to a body.
 class PushOnRobot {
  public:
-  /// Throws std::invalid_argument if the robot has no such link, a number is not
-  /// finite, or the duration is negative.
+  /// Throws std::invalid_argument if the robot has no such link, a number is
+  /// not finite, or the duration is negative.
   PushOnRobot(const Robot& robot, const Push& push);
 
   /// Returns the mean of the push over [time, time + dt], for a body with the
@@ -71,8 +73,8 @@ class PushOnRobot {
   int body() const { return body_; }
   const Eigen::Vector3d& p_BoQ_B() const { return p_BoQ_B_; }
 
-  /// Returns the peak force, N. It is in world axes, or in the body's axes if the
-  /// push is given in the link's axes; then the force turns with the body.
+  /// Returns the peak force, N. It is in world axes, or in the body's axes if
+  /// the push is given in the link's axes; then the force turns with the body.
   Eigen::Vector3d force() const;
 
  private:

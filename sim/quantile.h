@@ -8,9 +8,10 @@
 
 namespace poise {
 
-/// Returns the smallest of the values such that a fraction of all values, 0 to 1,
-/// is at most as large. The result is one of the values, without interpolation.
-/// Reorders the values. pre: there is at least one value.
+/// Returns the smallest of the values such that at least a fraction, 0 to 1, of
+/// all values is less than or equal to it. The result is one of the values,
+/// without interpolation. Reorders the values. pre: there is at least one
+/// value.
 template <typename Number>
 Number Quantile(std::vector<Number>* values, double fraction) {
   const auto rank = static_cast<std::size_t>(

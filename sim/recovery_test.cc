@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests beyond the paper: a wrong model, standing on one leg, the largest pushes.
+// Tests beyond the paper: a wrong model, standing on one leg, the largest
+// pushes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -99,8 +100,8 @@ TEST(LargestPush, ReleasesAFootSidewaysAndBringsItBack) {
   ExpectAFootLeavesAndComesBack({0, 209, 0});
 }
 
-// After this push, to the left and backward, the robot is still falling when the
-// foot begins its return, from far in front of its place.
+// After this push, to the left and backward, the robot is still falling when
+// the foot begins its return, from far in front of its place.
 TEST(LargestPush, ReleasesAFootDiagonallyAndBringsItBack) {
   ExpectAFootLeavesAndComesBack({-177, 177, 0});
 }

@@ -32,7 +32,7 @@ double TorqueViolation(const RobotModel& model, double scale,
   return worst;
 }
 
-// Returns the text for RunResult::blew_up; empty without a joint that was flung off.
+// Returns RunResult::blew_up for a velocity; empty if all joints are slow.
 std::string FindBlowUp(const Tree& tree, const Eigen::VectorXd& v) {
   constexpr double kAbsurd = 1000;  // rad/s or m/s.
   for (int j = 0; j < tree.num_joints(); ++j) {
@@ -81,8 +81,8 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
   // In the nominal posture the robot stands on the ground.
   Judge judge(StandingHeight(robot));
   const long ticks = std::lround(scenario.duration / scenario.control.dt);
-  // Calls progress() at least 100 times per run and every 1000 plant steps, so that
-  // a run with many or slow ticks can be stopped quickly, too.
+  // Calls progress() at least 100 times per run, and at least every 1000 plant
+  // steps. So a run with many or slow ticks can be stopped quickly, too.
   const long steps = std::lround(scenario.control.dt / scenario.plant.dt);
   const long between = std::clamp(ticks / 100, 1L, std::max(1L, 1000 / steps));
   std::vector<float> us;

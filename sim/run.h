@@ -29,22 +29,23 @@ struct TickTimes {
 struct RunResult {
   Verdict verdict;
   /// Set if a joint was flung off before the robot fell: which joint, in words.
-  /// A body does not do so by itself, so the cause is the controller or the plant.
+  /// A body does not do so by itself, so the cause is the controller or the
+  /// plant.
   std::string blew_up;
   double duration = 0;  ///< Simulated time, s; shorter after a fall.
   bool interrupted = false;
   long ticks = 0;
   TickTimes tick_us;
   int iterations_max = 0;
-  double certificate_max = 0;  ///< Largest of all ticks, see hqp/certificate.h.
+  double certificate_max = 0;  ///< Largest of all ticks, hqp/certificate.h.
   int failures = 0;            ///< Ticks with an unsolved level.
   double joint_limit_violation_peak = 0;   ///< rad or m.
   double torque_limit_violation_peak = 0;  ///< N m or N.
   int self_contact_ticks = 0;
-  double impulse_Ns = 0;     ///< Of the largest push, up to the end of the run.
-  double push_duration = 0;  ///< Of the largest push, s.
-  /// Pendulum bound in the direction of the largest push, on the feet that are down when
-  /// the push begins. Empty if the push does not begin.
+  double impulse_Ns = 0;     ///< Largest push, part within the run.
+  double push_duration = 0;  ///< Largest push, s.
+  /// Pendulum bound in the direction of the largest push, on the feet that are
+  /// down when the push begins. Empty if the push does not begin.
   std::optional<Yardstick> yardstick;
   double wall_seconds = 0;
   std::string log_sha256;  ///< Empty if nothing was recorded.

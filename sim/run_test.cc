@@ -94,8 +94,9 @@ TEST(Run, RejectsUnknownTasks) {
   EXPECT_THROW(poise::Run(Humanoid(), scenario), std::invalid_argument);
 }
 
-// Nao's fingers have a mass of 2 mg and no limits. The controller must not balance
-// a push by accelerating them, at 1e8 rad/s2, if the feet can balance the push.
+// Nao's fingers have a mass of 2 mg and no limits. The controller must not
+// balance a push by accelerating them, at 1e8 rad/s2, if the feet can balance
+// the push.
 TEST(Run, NaoRecoversWithoutFlingingItsFingers) {
   const auto robots = SharedData("robots");
   if (!robots) GTEST_SKIP() << "the shared robot files are missing";
@@ -107,8 +108,9 @@ TEST(Run, NaoRecoversWithoutFlingingItsFingers) {
   EXPECT_EQ(result.failures, 0);
 }
 
-// With the CoM over the middle of a foot, Nao's hip would be at its limit and other
-// tasks would be violated. The CoM must stay on the inner side of the sole.
+// With the CoM over the middle of a foot, Nao's hip would be at its limit and
+// other tasks would be violated. The CoM must stay on the inner side of the
+// sole.
 TEST(Run, NaoStandsOnOneLeg) {
   const auto robots = SharedData("robots");
   if (!robots) GTEST_SKIP() << "the shared robot files are missing";
@@ -154,8 +156,8 @@ TEST(ClosedLoop, HasAFrameTaskForAnyLink) {
   }
 }
 
-// The gains are unstable at 100 Hz and the limits are off. So joints move faster
-// than in any fall.
+// The gains are unstable at 100 Hz and the limits are off. So joints move
+// faster than in any fall.
 TEST(Run, DistinguishesABlowUpFromAFall) {
   Scenario scenario = Ours("stand", 1);
   scenario.control.dt = 0.01;
@@ -177,8 +179,8 @@ TEST(Run, DistinguishesABlowUpFromAFall) {
   EXPECT_EQ(FellBy(RunResult()), "");
 }
 
-// With a delay of three ticks, the plant applies the torques that the controller
-// commanded three ticks before.
+// With a delay of three ticks, the plant applies the torques that the
+// controller commanded three ticks before.
 TEST(ClosedLoop, DelaysTorques) {
   Scenario scenario = Ours("strong_push", 1);
   scenario.control.delay = 3e-3;

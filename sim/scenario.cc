@@ -285,8 +285,8 @@ void CheckTimes(const Scenario& scenario) {
   }
 }
 
-// Checks a scenario's name, which is written into JSON and is the default name of
-// the output folder.
+// Checks a scenario's name, which is written into JSON and is the default name
+// of the output folder.
 bool IsPlainName(const std::string& name) {
   constexpr std::size_t kMostBytes = 100;
   return !name.empty() && name.size() <= kMostBytes && name != "." &&

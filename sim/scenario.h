@@ -12,7 +12,7 @@
 
 namespace poise {
 
-/// How far from equilibrium the robot starts.
+/// Offset of the start state from equilibrium.
 struct StartSettings {
   double joints = 0;   ///< Joints outside the legs, each drawn in +- this, rad.
   double drop = 0;     ///< Height of the soles above the ground, m.
@@ -20,7 +20,7 @@ struct StartSettings {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< Place of the feet, m.
 };
 
-/// How the desired center of mass moves about where it starts:
+/// Motion of the desired center of mass around its start:
 ///     sine sin(2 pi t / period) + cosine cos(2 pi t / period).
 struct ComMotion {
   Eigen::Vector3d sine = Eigen::Vector3d::Zero();    ///< m.
@@ -28,9 +28,9 @@ struct ComMotion {
   double period = 10;                                ///< s.
 };
 
-/// An event of the stance. A foot is lifted or put down; or the desired center of
-/// mass moves. It moves over a foot, a quarter of the sole's half width inside of
-/// the foot's center, or back between the feet.
+/// An event of the stance. A foot is lifted or put down; or the desired center
+/// of mass moves. It moves over a foot, a quarter of the sole's half width
+/// inside of the foot's center, or back between the feet.
 struct StanceEvent {
   enum class Kind { kLift, kPutDown, kShift };
 
@@ -41,7 +41,7 @@ struct StanceEvent {
   double over = 1.5;     ///< Duration of a shift, s.
 };
 
-/// Settings of the controller, besides its robot.
+/// Settings of the controller, in addition to its robot.
 struct ControlSettings {
   double dt = 1e-3;          ///< Control period, s.
   double delay = 0;          ///< From measurement to torque, s.
@@ -57,8 +57,8 @@ struct ControlSettings {
   std::vector<std::string> without;  ///< Tasks switched off in it.
 };
 
-/// One experiment, as data instead of code in main(). docs/scenarios.md describes
-/// its YAML file: every key and its default value.
+/// One experiment, as data instead of code in main(). docs/scenarios.md
+/// describes its YAML file: every key and its default value.
 struct Scenario {
   std::string name;
   double duration = 5;
@@ -74,8 +74,8 @@ struct Scenario {
 };
 
 /// Reads a scenario, without Validate(), so that options can change it first.
-/// Throws std::invalid_argument("FILE:LINE: ...") with the key, its value and the
-/// allowed values. Rejects unknown keys.
+/// Throws std::invalid_argument("FILE:LINE: ...") with the key, its value and
+/// the allowed values. Rejects unknown keys.
 Scenario ReadScenario(const std::filesystem::path& file);
 
 /// Reads a scenario as ReadScenario(), and throws also as Validate().

@@ -3,8 +3,8 @@
 
 namespace poise {
 
-/// Errors of the sensors; none by default. `noise`, `bias` and `resolution` scale
-/// the values below them; 0 switches them off.
+/// Errors of the sensors; none by default. `noise`, `bias` and `resolution`
+/// scale the values below them; 0 switches them off.
 struct SensorSettings {
   double noise = 0;       ///< Scale of the noise, drawn for each reading.
   double bias = 0;        ///< Scale of the biases, drawn once for each sensor.

@@ -36,8 +36,9 @@ double RandomStream::Uniform() {
   return static_cast<double>(Next() >> 11) * 0x1p-53;
 }
 
-// Returns the sum of twelve uniform numbers, minus 6. A logarithm or cosine would
-// depend on the math library in the last bit. The tails end at 6 deviations.
+// Returns the sum of twelve uniform numbers, minus 6. A logarithm or cosine
+// would depend on the math library in the last bit. The tails end at 6
+// deviations.
 double RandomStream::Gaussian() {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += Uniform();
@@ -126,8 +127,8 @@ Eigen::Vector3d Sensors::Read(const Eigen::Vector3d& truth,
   return read;
 }
 
-// Adds bias and noise as a rotation vector relative to the true orientation. Rounds
-// the rotation vector relative to the world.
+// Adds bias and noise as a rotation vector relative to the true orientation.
+// Rounds the rotation vector relative to the world.
 Eigen::Matrix3d Sensors::ReadOrientation(const Eigen::Matrix3d& R) {
   const double deviation = settings_.base_orientation;
   Eigen::Vector3d off = bias_.base_orientation;

@@ -103,8 +103,8 @@ TEST(Sensors, NoiseHasTheDeviationsOfTheSettings) {
     gyro.Add(m.w_WB_B[0] - 0.2);
     acc.Add(m.specific_force_Bo_B[1] + 1);
   }
-  // With 20000 draws the standard error of a deviation is 0.5 %, and that of a mean
-  // 0.7 % of the deviation. The tolerances are four times as large.
+  // With 20000 draws the standard error of a deviation is 0.5 %, and that of a
+  // mean 0.7 % of the deviation. The tolerances are four times as large.
   const auto expect = [](const Spread& spread, double deviation) {
     EXPECT_NEAR(spread.deviation(), deviation, 0.02 * deviation);
     EXPECT_NEAR(spread.mean(), 0, 0.03 * deviation);
@@ -199,8 +199,8 @@ TEST(Sensors, EachReadingHasItsOwnConstantBias) {
     ASSERT_EQ(Everything(sensors.Measure(MakeState()), R_WB) - truth, off);
     squares += off.cwiseAbs2();
   }
-  // With 2000 draws the standard error of a deviation is 1.6 %. The tolerance is four
-  // times as large.
+  // With 2000 draws the standard error of a deviation is 1.6 %. The tolerance
+  // is four times as large.
   const Eigen::VectorXd spread = (squares / kRobots).cwiseSqrt();
   for (int i = 0; i < 28; ++i) {
     EXPECT_NEAR(spread[i] / Deviations()[i], 3, 0.2) << i;
@@ -286,8 +286,9 @@ TEST(Sensors, SameSeedGivesTheSameErrors) {
   EXPECT_NE(a.Measure(MakeState()).q_joints, c.Measure(MakeState()).q_joints);
 }
 
-// First numbers of the stream for the seed 0, computed by hand with the recursion
-// of the reference implementation: 0xe220a8397b1dcdaf, 0x6e789e6aa1b965f4.
+// First numbers of the stream for the seed 0, computed by hand with the
+// recursion of the reference implementation: 0xe220a8397b1dcdaf,
+// 0x6e789e6aa1b965f4.
 TEST(RandomStream, IsSplitMix64) {
   RandomStream stream(0);
   EXPECT_EQ(stream.Uniform(),

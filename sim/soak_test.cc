@@ -27,8 +27,8 @@ long ResidentPages() {
   return resident;
 }
 
-// Returns random pushes, one every three seconds, each with at most a third of the
-// pendulum's impulse.
+// Returns random pushes, one every three seconds, each with at most a third of
+// the pendulum's impulse.
 std::vector<Push> MakePushes() {
   std::vector<Push> pushes;
   RandomStream random(1);
@@ -54,8 +54,8 @@ TEST(Soak, RobotRecoversFromTenMinutesOfRandomPushes) {
   scenario.pushes = MakePushes();
   ClosedLoop loop(robot, scenario);
   Judge judge(StandingHeight(robot));
-  // A second controller receives the true state in one of ten ticks. The test counts
-  // its allocations.
+  // A second controller receives the true state in one of ten ticks. The test
+  // counts its allocations.
   Controller beside(robot);
   beside.Start(MakeStartState(robot, {}, {}, scenario.seed));
   Command command;

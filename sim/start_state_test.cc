@@ -52,15 +52,15 @@ TEST(StartState, AppliesSlopeHeadingAndDropToTheSoles) {
     EXPECT_NEAR(normal.dot(X_WC.p), 0.03, kStanding);
     EXPECT_NEAR(normal.dot(X_WC.R.col(2)), 1, kStanding);
   }
-  // The middle of the feet stays above the origin. The line between the feet turns
-  // by the heading.
+  // The middle of the feet stays above the origin. The line between the feet
+  // turns by the heading.
   const Eigen::Vector3d middle = (soles[0].p + soles[1].p) / 2;
   EXPECT_TRUE((middle - 0.03 * normal).isZero(kStanding));
   const Eigen::Vector3d side = soles[0].p - soles[1].p;
   const Eigen::Vector3d flat_side = flat[0].p - flat[1].p;
   EXPECT_NEAR(side.norm(), flat_side.norm(), kStanding);
-  // The smallest rotation onto the slope has no component about the normal, so the
-  // heading remains when it is undone.
+  // The smallest rotation onto the slope has no component about the normal, so
+  // the heading remains when it is undone.
   const Eigen::AngleAxisd R_WS(
       std::acos(normal.z()),
       Eigen::Vector3d::UnitZ().cross(normal).normalized());

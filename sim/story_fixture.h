@@ -36,10 +36,10 @@ inline Scenario Ours(const std::string& name, double duration) {
 struct Story {
   Verdict verdict;
   int failures = 0;  // Ticks that were not solved to the last level.
-  // Extremes of the commanded wrenches: distance of a CoP beyond its sole, m, and
-  // the largest ratio of tangential to normal force.
+  // Extremes of the commanded wrenches: distance of a CoP beyond its sole, m,
+  // and the largest ratio of tangential to normal force.
   double asked_beyond = -1, asked_friction = 0;
-  // The same extremes of the wrenches that the ground applied.
+  // Extremes of the wrenches that the ground applied.
   double given_beyond = -1, given_friction = 0;
   double torque_violation = 0, joint_violation = 0;  // N m, rad.
   std::vector<double> com_error;  // In the plane, m, each tick.

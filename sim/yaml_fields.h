@@ -11,9 +11,9 @@
 
 namespace poise {
 
-/// Reads the fields of one YAML map by key. Every member rejects invalid values:
-/// it throws std::invalid_argument("FILE:LINE: ...") with the key, its value and
-/// the allowed values.
+/// Reads the fields of one YAML map by key. Every member rejects invalid
+/// values: it throws std::invalid_argument("FILE:LINE: ...") with the key, its
+/// value and the allowed values.
 class YamlFields {
  public:
   /// Throws if the node is not a map.
@@ -22,7 +22,8 @@ class YamlFields {
   /// Sets the fields that the map contains; the others keep their values.
   void Read(const std::vector<NumberField>& fields);
 
-  /// Returns the value of a key, or `otherwise` if the map does not have the key.
+  /// Returns the value of a key, or `otherwise` if the map does not have the
+  /// key.
   double Number(const std::string& key, double otherwise);
   bool Flag(const std::string& key, bool otherwise);
   std::string Text(const std::string& key, const std::string& otherwise);

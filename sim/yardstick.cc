@@ -24,7 +24,8 @@ double DistanceToEdge(const std::vector<Eigen::Vector2d>& polygon,
   double distance = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d edge = polygon[(i + 1) % polygon.size()] - polygon[i];
-    // The corners are counterclockwise, so the inside is to the left of each edge.
+    // The corners are counterclockwise, so the inside is to the left of each
+    // edge.
     const double inside = Cross(edge, p - polygon[i]);
     if (inside < 0) return 0;
     const double approach = -Cross(edge, u);

@@ -9,16 +9,16 @@
 namespace poise {
 
 /// Largest impulses from which a linear inverted pendulum on the same feet
-/// recovers. They are the yardstick for pushes that a robot recovers from without
-/// a step.
+/// recovers. They are the yardstick for pushes that a robot recovers from
+/// without a step.
 struct Yardstick {
   double lipm_Ns;         ///< Pushed at the center of mass.
   double lipm_height_Ns;  ///< Pushed at the push's height, without turning.
 };
 
 /// Computes the yardstick. With omega = sqrt(g / h), h the height of the center
-/// of mass above the soles, and rho the distance from the projection of the center
-/// of mass to the edge of the support polygon along the push u,
+/// of mass above the soles, and rho the distance from the projection of the
+/// center of mass to the edge of the support polygon along the push u,
 ///     lipm_Ns = m omega rho omega T / (1 - exp(-omega T)),
 ///     lipm_height_Ns = lipm_Ns h / z_p.
 ///
@@ -39,8 +39,8 @@ Yardstick ComputeYardstick(double mass, double gravity,
                            const Eigen::Vector2d& u, double duration,
                            double push_height);
 
-/// Returns the yardstick of a robot in the configuration q, pushed at the point Q
-/// of a body. Heights are above its lowest sole. `down` marks the feet on the
+/// Returns the yardstick of a robot in the configuration q, pushed at the point
+/// Q of a body. Heights are above its lowest sole. `down` marks the feet on the
 /// ground; empty means all.
 Yardstick ComputeYardstick(const Robot& robot, const Eigen::VectorXd& q,
                            const Eigen::Vector2d& u, double duration, int body,

@@ -14,9 +14,9 @@ const std::vector<Eigen::Vector2d> kSoles = {
     {0.1, 0.05}, {-0.1, 0.15}, {0.1, -0.15}, {-0.1, -0.15},
     {0.1, 0.15}, {0, 0},       {-0.1, 0.05}};
 
-// Returns whether the pendulum x'' = w^2 (x - p) + F / m returns after a force F
-// over a time T. Its CoP p is always at the edge. The result comes from numerical
-// integration, independently of the yardstick's formula.
+// Returns whether the pendulum x'' = w^2 (x - p) + F / m returns after a force
+// F over a time T. Its CoP p is always at the edge. The result comes from
+// numerical integration, independently of the yardstick's formula.
 bool Survives(double mass, double height, double edge, double force, double T) {
   const double w2 = 9.81 / height, dt = 1e-5;
   double x = 0, v = 0;

@@ -22,8 +22,8 @@ uint64_t LittleEndian(std::string_view bytes) {
   return value;
 }
 
-// Moves `count` bytes from the front of `from` to `taken`. Returns false if there
-// are fewer.
+// Moves `count` bytes from the front of `from` to `taken`. Returns false if
+// there are fewer.
 bool Take(std::size_t count, std::string_view* from, std::string_view* taken) {
   if (from->size() < count) return false;
   *taken = from->substr(0, count);

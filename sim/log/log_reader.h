@@ -8,8 +8,8 @@
 
 namespace poise {
 
-/// Reads the log of a run row by row, in constant memory, because the log of ten
-/// minutes is about a gigabyte. See docs/log.md for the formats.
+/// Reads the log of a run row by row, in constant memory, because the log of
+/// ten minutes is about a gigabyte. See docs/log.md for the formats.
 class LogReader {
  public:
   LogReader() = default;

@@ -42,7 +42,8 @@ class CsvRows final : public LogRows {
 
   void Text(std::string_view text) override {
     BeginCell();
-    // Names of joints may have commas or line ends, which would break the table.
+    // Names of joints may have commas or line ends, which would break the
+    // table.
     for (const char c : text) {
       row_ += c == ',' || c == '\n' || c == '\r' ? '_' : c;
     }
@@ -75,9 +76,9 @@ void Append(T value, int bytes, std::string* out) {
   }
 }
 
-// Writes each number as the exclusive or of its bits with those of the row before.
-// A slowly changing quantity keeps its sign, exponent and leading digits, so the
-// difference is short.
+// Writes each number as the exclusive or of its bits with those of the row
+// before. A slowly changing quantity keeps its sign, exponent and leading
+// digits, so the difference is short.
 class BinaryRows final : public LogRows {
  public:
   explicit BinaryRows(const std::vector<LogColumn>& columns)

@@ -8,8 +8,8 @@
 
 namespace poise {
 
-/// Format of a run's log. kCsv is text that every program reads. kBinary needs a
-/// quarter of the bytes, for runs of many minutes.
+/// Format of a run's log. kCsv is text that every program reads. kBinary needs
+/// a quarter of the bytes, for runs of many minutes.
 enum class LogFormat { kCsv, kBinary };
 
 /// Returns the name of the log in a run's folder: "log.csv" or "log.bin".

@@ -61,8 +61,9 @@ TEST(LogRows, AreDifferencesToTheLastRowInBinary) {
       "d\1\0t"
       "f\4\0x[m]"
       "t\6\0status"s;
-  // 1 is 0x3f800000 as a float, 0.25 is 0x3fd0000000000000 as a double. A row has
-  // its size, then the lengths of its cells (0 and 4 bytes, new text), then data.
+  // 1 is 0x3f800000 as a float, 0.25 is 0x3fd0000000000000 as a double. A row
+  // consists of its size, the lengths of its cells and the data. The lengths
+  // here are 0, 4 and 1 for new text.
   const std::string first =
       "\x0c\0\0\0"
       "\x40\1"
@@ -74,8 +75,8 @@ TEST(LogRows, AreDifferencesToTheLastRowInBinary) {
   };
   EXPECT_EQ(TwoRows(LogFormat::kBinary, 1),
             header + first + second("\x08\0"s, ""));
-  // -1 differs from 1 in the first bit: four bytes. 1 + 2^-23 differs in the last
-  // bit: one byte.
+  // -1 differs from 1 in the first bit: four bytes. 1 + 2^-23 differs in the
+  // last bit: one byte.
   EXPECT_EQ(TwoRows(LogFormat::kBinary, -1),
             header + first + second("\x48\0"s, "\0\0\0\x80"s));
   EXPECT_EQ(TwoRows(LogFormat::kBinary, 1 + std::ldexp(1, -23)),

@@ -12,8 +12,8 @@ namespace poise {
 /// exists, else log.csv.
 std::filesystem::path FindLog(const std::filesystem::path& run);
 
-/// Opens a log. Its first bytes tell the format. Throws std::invalid_argument with
-/// the file's name.
+/// Opens a log. Its first bytes tell the format. Throws std::invalid_argument
+/// with the file's name.
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& file);
 
 }  // namespace poise

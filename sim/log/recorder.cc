@@ -15,11 +15,11 @@ namespace poise {
 namespace {
 
 constexpr int kRowsAtOnce = 50;
-// Smallest slack of a row that counts as violated. Rows are scaled so that 1 is a
-// typical value.
+// Smallest slack of a row that counts as violated. Rows are scaled so that 1 is
+// a typical value.
 constexpr double kNoticeableSlack = 1e-6;
-// Shortest time between two searches for a conflict, s. A conflict lasts for many
-// ticks, and a search costs about ten solutions of the hierarchy.
+// Shortest time between two searches for a conflict, s. A conflict lasts for
+// many ticks, and a search costs about ten solutions of the hierarchy.
 constexpr double kBetweenConflicts = 0.05;
 
 std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {

@@ -60,13 +60,13 @@ class Recorder {
   Sha256 hash_;
 };
 
-/// "ok", "limit_relaxed", "truncated" or "fail_safe".
+/// Returns "ok", "limit_relaxed", "truncated" or "fail_safe".
 std::string_view StatusName(TickStatus status);
 
-/// "", "state", "clock" or "no_answer".
+/// Returns "", "state", "clock" or "no_answer".
 std::string_view ReasonName(FailSafeReason reason);
 
-/// "down", "unloading", "up", "landing", "loading", "lost", "free" or
+/// Returns "down", "unloading", "up", "landing", "loading", "lost", "free" or
 /// "returning".
 std::string_view PhaseName(ContactPhase phase);
 

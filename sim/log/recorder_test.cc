@@ -176,7 +176,8 @@ TEST(Recorder, WritesLimitsAndFailedLevels) {
   EXPECT_EQ(RowOf(csv, 2)["reason"], "rank_5");
 }
 
-// Names in a URDF may contain the separators of lists; the log must replace them.
+// Names in a URDF may contain the separators of lists; the log must replace
+// them.
 TEST(Recorder, KeepsSeparatorsOutOfNames) {
   std::string urdf = Contents("robot/models/humanoid.urdf");
   const auto rename = [&urdf](const std::string& from, const std::string& to) {
@@ -223,7 +224,8 @@ TEST(Recorder, RemovesALogOfTheOtherFormat) {
   EXPECT_TRUE(std::filesystem::exists(Folder("again") / "log.csv"));
 }
 
-// The recorder runs in a child process. SIGKILL leaves it no chance to write more.
+// The recorder runs in a child process. SIGKILL leaves it no chance to write
+// more.
 TEST(Recorder, LeavesAReadableLogWhenItIsKilled) {
   const pid_t child = fork();
   if (child == 0) {

@@ -11,12 +11,12 @@
 
 namespace poise {
 
-/// Whole columns of a run's log in memory, by the names that the caller chose from
-/// columns.h. kTimeColumn is always included.
+/// Whole columns of a run's log in memory, by the names that the caller chose
+/// from columns.h. kTimeColumn is always included.
 class RunColumns {
  public:
-  /// Reads columns. Throws std::invalid_argument with the file's name if a column
-  /// is missing, which it names, or if the log has no rows.
+  /// Reads columns. Throws std::invalid_argument with the file's name if a
+  /// column is missing, which it names, or if the log has no rows.
   RunColumns(const std::filesystem::path& file,
              const std::vector<std::string>& names);
 

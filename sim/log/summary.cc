@@ -37,8 +37,8 @@ std::string LinkName(const Robot& robot, const PushOnRobot& push) {
   return "";
 }
 
-// Returns the push that the keys of a single push describe: the largest push, or
-// the first push if all impulses are zero.
+// Returns the push that the keys of a single push describe: the largest push,
+// or the first push if all impulses are zero.
 const Push& MainPush(const Scenario& scenario) {
   const Push* largest = LargestPush(scenario.pushes, scenario.duration);
   return largest != nullptr ? *largest : scenario.pushes[0];
@@ -96,7 +96,8 @@ __attribute__((format(printf, 2, 3))) std::string Line(const char* label,
   return line;
 }
 
-// Returns one push as a line of the table. Several pushes need their start times.
+// Returns one push as a line of the table. Several pushes need their start
+// times.
 std::string PushLine(const Robot& robot, const Push& push, double until,
                      bool with_start) {
   constexpr double kDegree = M_PI / 180;

@@ -11,8 +11,8 @@
 namespace poise {
 
 /// Returns summary.json of a run: SI units, radians, null for a missing value.
-/// `pushes` describes each push. impulse_Ns, push_duration, push_link, push_body
-/// and push_point describe the push with the largest impulse.
+/// `pushes` describes each push. impulse_Ns, push_duration, push_link,
+/// push_body and push_point describe the push with the largest impulse.
 nlohmann::ordered_json ToJson(const Robot& robot, const Scenario& scenario,
                               const RunResult& result);
 

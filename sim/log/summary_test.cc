@@ -20,8 +20,9 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::ordered_json;
 
-// Returns a weak box push on the head, then a strong half sine on a hand. The push
-// on the waist would be the largest, but it starts after the end of the run.
+// Returns a weak box push on the head, then a strong half sine on a hand. The
+// push on the waist would be the largest, but it starts after the end of the
+// run.
 Scenario MakeThreePushes() {
   Scenario scenario;
   scenario.name = "three";

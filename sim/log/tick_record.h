@@ -12,8 +12,8 @@
 
 namespace poise {
 
-/// Everything that a recorder writes about one tick. Refers to data of the object
-/// that made the record, so it is valid only until the next tick.
+/// Everything that a recorder writes about one tick. Refers to data of the
+/// object that made the record, so it is valid only until the next tick.
 struct TickRecord {
   long tick;
   const Observation& observation;

@@ -62,8 +62,9 @@ TEST_P(GroundTest, BlockSlidesAtTheFrictionAngleWithinOnePercent) {
     const double angle = std::atan(friction);
     EXPECT_LT(Slide(friction, 0.99 * angle), 1e-4);
     EXPECT_LT(Slide(friction, -0.99 * angle), 1e-4);
-    // The way is s = g (sin - friction cos) t^2 / 2 with t = 1 s, a little less in
-    // Bullet, where the block starts late. The test solves it for the friction.
+    // The block slides by s = g (sin - friction cos) t^2 / 2 in t = 1 s, a
+    // little less in Bullet, where it starts late. The test solves this equation
+    // for the friction.
     const double way = Slide(friction, 1.01 * angle);
     EXPECT_NEAR(
         std::tan(1.01 * angle) - 2 * way / (kGravity * std::cos(1.01 * angle)),
@@ -171,8 +172,8 @@ TEST_P(GroundTest, BlockStandsOnTheTopOfABoard) {
   EXPECT_NEAR(plant->Sense().q.z(), 0.03 + 0.05, 1e-4);
 }
 
-// Returns two legs that slide out of a wall along x. Each has a box as a foot that
-// slides along y. The left foot is body 2, the right foot is body 4.
+// Returns two legs that slide out of a wall along x. Each has a box as a foot
+// that slides along y. The left foot is body 2, the right foot is body 4.
 Robot MakeTwoFeet() {
   Inertia M;
   M.mass = 1;
@@ -210,8 +211,8 @@ Robot MakeTwoFeet() {
   return robot;
 }
 
-// Presses the feet together for 1 s. Returns the way of a foot, m. The feet meet
-// when each has moved by 0.1 m.
+// Presses the feet together for 1 s. Returns the distance that a foot moves, m.
+// The feet meet when each has moved by 0.1 m.
 double PressFeetTogether(Plant* plant) {
   const Robot robot = MakeTwoFeet();
   Eigen::VectorXd tau = Eigen::VectorXd::Zero(4);
@@ -242,7 +243,8 @@ TEST_P(GroundTest, FeetThatMeetCollideAndAreReported) {
   EXPECT_NEAR(PressFeetTogether(Make(MakeTwoFeet(), ghosts).get()), 0.5, 1e-3);
 }
 
-// The foot's own shapes, which reach 10 mm deeper here, pass through the ground.
+// The foot's own shapes, which reach 10 mm deeper here, pass through the
+// ground.
 TEST_P(GroundTest, FootStandsOnItsSoleNotOnItsShapes) {
   Robot robot = MakeBlock({0.3, 0.2, 0.1}, 5);
   robot.model.collisions.push_back({0, {}, Box{{0.3, 0.2, 0.12}}});

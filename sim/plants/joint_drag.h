@@ -10,14 +10,14 @@
 
 namespace poise {
 
-/// Computes the damping d and dry friction f of a model's joints as torques, for a
-/// plant whose engine does not model them. The computation is implicit, so it is
-/// stable for any damping, also of a link with a small mass.
+/// Computes the damping d and dry friction f of a model's joints as torques,
+/// for a plant whose engine does not model them. The computation is implicit,
+/// so it is stable for any damping, also of a link with a small mass.
 ///
 /// With D = diag(d + f / max(|v|, v_0)), the acceleration in a step solves
 ///     (M + dt D) v̇ + N + D v = S' tau + J' F,
-/// and the drag is -D (v + dt v̇). The drag stops a joint but never reverses its
-/// motion. F are the contact wrenches on the feet in the last step.
+/// and the drag is -D (v + dt v̇). The drag stops a joint but never reverses
+/// its motion. F are the contact wrenches on the feet in the last step.
 class JointDrag {
  public:
   JointDrag(const Robot& robot, double dt);

@@ -38,8 +38,8 @@ TEST(JointDrag, ExistsIfTheModelHasDampingOrFriction) {
   EXPECT_TRUE(JointDrag(robot, kDt).exists());
 }
 
-// Checks the definition: with the drag as a force, the step ends with the velocity
-// v_end for which the drag is -D v_end.
+// Checks the definition: with the drag as a force, the step ends with the
+// velocity v_end for which the drag is -D v_end.
 TEST(JointDrag, IsProportionalToTheSpeedAtTheEndOfTheStep) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(seed);
@@ -77,7 +77,7 @@ TEST(JointDrag, IsProportionalToTheSpeedAtTheEndOfTheStep) {
   }
 }
 
-// A hinge on an inertia of 2, alone: dry friction of 3 N m.
+// A single hinge has an inertia of 2 kg m2 and a dry friction of 3 N m.
 TEST(JointDrag, HoldsByDryFrictionAndNeverReversesTheMotion) {
   Inertia M;
   M.mass = 1;
@@ -107,8 +107,8 @@ TEST(JointDrag, HoldsByDryFrictionAndNeverReversesTheMotion) {
   // At rest: the drag balances the torque, except for the creep.
   EXPECT_NEAR(drag(0, 1), -1, 0.07);
   EXPECT_NEAR(drag(0, -1), 1, 0.07);
-  // The drag does not reverse the motion: v + dt (tau + drag) / I keeps the sign
-  // of v.
+  // The drag does not reverse the motion: v + dt (tau + drag) / I keeps the
+  // sign of v.
   for (const double v : {1e-3, 1e-4, 1e-5}) {
     EXPECT_GT(v + kDt * drag(v, 0) / 2, 0) << v;
   }

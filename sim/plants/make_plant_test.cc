@@ -27,7 +27,7 @@ TEST(MakePlant, MakesADifferentPlantForEachName) {
 }
 
 // An unknown name must not silently give the default plant.
-TEST(MakePlant, RefusesAnUnknownNameAndListsTheKnownOnes) {
+TEST(MakePlant, RejectsAnUnknownNameAndListsTheKnownOnes) {
   for (const char* name : {"mars", "", "Bullet", "mujoco "}) {
     EXPECT_FALSE(IsPlant(name));
     try {

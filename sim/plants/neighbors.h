@@ -10,8 +10,8 @@ namespace poise {
 
 /// Returns the pairs of bodies, smaller index first, whose shapes overlap by
 /// construction and so must not collide:
-/// - bodies connected by one joint, or by several joints that are within 5 cm (so
-///   the thigh is a neighbor of the pelvis, with all hip bodies between them);
+/// - bodies connected by one joint, or by several joints within 5 cm (the thigh
+///   is a neighbor of the pelvis, although hip bodies are between them);
 /// - bodies with the same parent.
 std::vector<std::pair<int, int>> FindNeighbors(const Tree& tree);
 

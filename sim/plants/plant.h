@@ -15,16 +15,16 @@ struct AppliedForce {
   Eigen::Vector3d force_W;   ///< N.
 };
 
-/// Complete true state of the plant at one instant; sensors measure only a part.
-/// Forces and torques are means over the last step.
+/// Complete true state of the plant at one instant; sensors measure only a
+/// part. Forces and torques are means over the last step.
 struct PlantState {
   double time = 0;       ///< s.
   Eigen::VectorXd q;     ///< See dynamics/tree.h.
   Eigen::VectorXd v;     ///< See dynamics/tree.h.
   Eigen::VectorXd vdot;  ///< Change of v over the last step, divided by dt.
   Eigen::VectorXd tau;   ///< Torques after saturation, N m or N.
-  /// By foot: wrench of the ground on the foot, [torque; force], about the origin
-  /// and in the axes of the contact frame C, N m and N.
+  /// By foot: wrench of the ground on the foot, [torque; force], about the
+  /// origin and in the axes of the contact frame C, N m and N.
   std::vector<Eigen::Matrix<double, 6, 1>> F_Co_C;
   /// By foot: number of points of the sole that carry a load.
   std::vector<int> contact_points;
@@ -41,15 +41,15 @@ class Plant {
  public:
   virtual ~Plant() = default;
 
-  /// Puts the robot into the state (q, v) at time 0. Nothing from before Reset()
-  /// affects the following steps, so they repeat to the bit.
+  /// Puts the robot into the state (q, v) at time 0. Nothing from before
+  /// Reset() affects the following steps, so they repeat to the bit.
   virtual void Reset(const Eigen::VectorXd& q, const Eigen::VectorXd& v) = 0;
 
   /// Adds a force that acts during the next step only. Several forces add up.
   virtual void Apply(const AppliedForce& force) = 0;
 
-  /// Advances by dt() under the joint torques tau, N m or N, which are clamped to
-  /// the effort limits.
+  /// Advances by dt() under the joint torques tau, N m or N, which are clamped
+  /// to the effort limits.
   virtual void Step(const Eigen::VectorXd& tau) = 0;
 
   /// Returns the true state.

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kFar = 1e3;  // Largest coordinate and size of a board, m.
 constexpr std::size_t kMostBoards = 100;
-// Smallest torque_scale. It is positive because an effort limit of 0 means that a
-// joint has no limit.
+// Smallest torque_scale. It is positive because an effort limit of 0 means that
+// a joint has no limit.
 constexpr double kWeakest = 1e-6;
 
 }  // namespace
@@ -24,8 +24,8 @@ Eigen::Vector3d GroundNormal(const Ground& ground) {
           Eigen::Vector3d::UnitZ());
 }
 
-// The quaternion of the rotation from z to n is (1 + z.n, z x n), normalised. It is
-// not zero, because roll and pitch are at most 1.5 rad.
+// The quaternion of the rotation from z to n is (1 + z.n, z x n), normalised.
+// It is not zero, because roll and pitch are at most 1.5 rad.
 Eigen::Quaterniond GroundRotation(const Ground& ground) {
   const Eigen::Vector3d n = GroundNormal(ground);
   return Eigen::Quaterniond(1 + n.z(), -n.y(), n.x(), 0).normalized();

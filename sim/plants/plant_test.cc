@@ -42,12 +42,13 @@ TEST_P(PlantTest, ReturnsTheStateOfReset) {
   EXPECT_EQ(plant->Sense().time, 0);
 }
 
-// Checks M v̇ + N = S' tau + J' F, with v̇ from the plant and all other terms from
-// dynamics/.
+// Checks M v̇ + N = S' tau + J' F, with v̇ from the plant and all other terms
+// from dynamics/.
 TEST_P(PlantTest, AgreesWithDynamicsInFreeFlight) {
-  // Relative tolerance for two implementations that share no code: the rounding of
-  // a velocity of 1 / s that changes within 1 ms, times the condition of M. MuJoCo
-  // computes the principal axes of an inertia only to about seven digits.
+  // Relative tolerance for two implementations that share no code: the rounding
+  // of a velocity of 1 / s that changes within 1 ms, times the condition of M.
+  // MuJoCo computes the principal axes of an inertia only to about seven
+  // digits.
   const double agreement = GetParam() == "bullet" ? 1e-9 : 1e-6;
   for (unsigned seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
@@ -98,16 +99,16 @@ TEST_P(PlantTest, ClampsTorquesToTheEffortLimit) {
   const auto plant = Make(robot, settings);
   plant->Step(Eigen::VectorXd::Constant(1, 10));
   EXPECT_EQ(plant->Sense().tau[0], 1.5);
-  // I = 0.01 + 2 * 0.3^2. The pendulum hangs, so gravity has no moment. MuJoCo's
-  // inertias have seven correct digits.
+  // I = 0.01 + 2 * 0.3^2. The pendulum hangs, so gravity has no moment.
+  // MuJoCo's inertias have seven correct digits.
   EXPECT_NEAR(plant->Sense().vdot[0], 1.5 / 0.19, 1e-6 * 1.5 / 0.19);
   plant->Step(Eigen::VectorXd::Constant(1, -10));
   EXPECT_EQ(plant->Sense().tau[0], -1.5);
 }
 
 TEST_P(PlantTest, StopsJointsAtTheirLimits) {
-  // The impact has 4 rad/s. In Bullet the joint passes the limit by one step at this
-  // speed. MuJoCo's limits are soft with a time constant of 4 ms.
+  // The impact has 4 rad/s. In Bullet the joint passes the limit by one step at
+  // this speed. MuJoCo's limits are soft with a time constant of 4 ms.
   const double overrun = GetParam() == "bullet" ? 5e-3 : 1.6e-2;
   for (const double sign : {-1, 1}) {
     SCOPED_TRACE(sign);

@@ -20,13 +20,13 @@ btTransform ToBullet(const Pose& X);
 Eigen::Vector3d FromBullet(const btVector3& p);
 Eigen::Matrix3d FromBullet(const btQuaternion& q);
 
-/// A tree as a btMultiBody. SetState() and GetState() convert between the two
-/// conventions; no other code does.
+/// A tree as a btMultiBody. SetState() and GetState() convert states between
+/// the conventions of the tree and of Bullet.
 ///
 /// Bullet puts the frame L of each link at the link's center of mass, along the
 /// principal axes, so that the inertia is diagonal. Body i of the tree is link
-/// i - 1. Bullet's base velocity is the velocity of the base's center of mass, and
-/// its base quaternion represents R_LW.
+/// i - 1. Bullet's base velocity is the velocity of the base's center of mass,
+/// and its base quaternion represents R_LW.
 class BulletBody {
  public:
   /// Throws std::invalid_argument if a joint has armature, which Bullet's

@@ -16,8 +16,8 @@ namespace poise {
 /// A plant with Bullet's Featherstone multibody, built from the robot's model.
 ///
 /// The integrator is semi-implicit Euler: v' = v + dt a(q, v), contact impulses
-/// act on v', then q moves with v'. Under gravity the plant loses m g^2 dt / 2 of
-/// energy per second.
+/// act on v', then q moves with v'. Under gravity the plant loses m g^2 dt / 2
+/// of energy per second.
 ///
 /// A foot stands on small spheres at the corners of its sole polygon. All other
 /// links touch the ground with their collision shapes. Links also collide with

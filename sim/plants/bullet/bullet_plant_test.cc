@@ -16,9 +16,9 @@
 namespace poise {
 namespace {
 
-// Relative tolerance for two implementations of dynamics that share no code. It is
-// the rounding of a velocity of 1 / s that changes within 1 ms, times the condition
-// of M.
+// Relative tolerance for two implementations of dynamics that share no code. It
+// is the rounding of a velocity of 1 / s that changes within 1 ms, times the
+// condition of M.
 constexpr double kAgreement = 1e-9;
 
 TEST(BulletPlant, MomentumRateInFreeFlightIsGravity) {
@@ -53,8 +53,8 @@ TEST(BulletPlant, FallsAsSemiImplicitEulerDoes) {
   for (int k = 0; k < 1000; ++k) plant.Step(tau);
   ComputeTick(tree, plant.Sense().q, plant.Sense().v, &tick);
   const Eigen::Vector3d fallen = tree.gravity_W() * 1e-6 * 1000 * 1001 / 2;
-  // The tolerance is the rounding of 100 m in a thousand steps. The exact parabola
-  // differs by 4.9 mm.
+  // The tolerance is the rounding of 100 m in a thousand steps. The exact
+  // parabola differs by 4.9 mm.
   EXPECT_LE((tick.p_WG - start - fallen).norm(), 1e-11);
   EXPECT_DOUBLE_EQ(plant.Sense().time, 1.0);
 }
@@ -114,12 +114,12 @@ TEST(BulletPlant, RepeatsToTheBitAfterReset) {
   EXPECT_EQ(run(), once);
 }
 
-// A damped hinge obeys w' = -d w / I, with I = 0.19 kg m2. It starts at the rest
-// position, where gravity has no moment.
+// A damped hinge obeys w' = -d w / I, with I = 0.19 kg m2. It starts at the
+// rest position, where gravity has no moment.
 TEST(BulletPlant, DampsLightJointsStably) {
   Robot robot = MakePendulum();
-  // An explicit step of 1 ms would multiply the speed by 1 - 1000 * 1e-3 / 0.19,
-  // which is -4.
+  // An explicit step of 1 ms would multiply the speed by
+  // 1 - 1000 * 1e-3 / 0.19 = -4.
   robot.model.limits[0].damping = 1000;
   BulletPlant plant(robot);
   plant.Reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
@@ -156,7 +156,7 @@ TEST(BulletPlant, HoldsJointsByDryFrictionUpToItsForce) {
   EXPECT_GT(plant.Sense().q[0], 0.05);
 }
 
-TEST(BulletPlant, RefusesArmature) {
+TEST(BulletPlant, RejectsArmature) {
   JointSpec hinge;
   hinge.name = "hinge";
   hinge.type = JointType::kRevolute;

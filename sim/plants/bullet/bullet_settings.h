@@ -3,8 +3,8 @@
 
 namespace poise {
 
-/// Settings of Bullet. bullet_settings_test.cc measures the effect of each. These
-/// defaults give correct physics; most of Bullet's own defaults do not.
+/// Settings of Bullet. bullet_settings_test.cc measures the effect of each.
+/// These defaults give correct physics; most of Bullet's own defaults do not.
 struct BulletSettings {
   bool own_sweeps = true;               ///< Uses ContactSolver, not Bullet's.
   int solver_iterations = 50;           ///< With Bullet's 10 the feet creep.

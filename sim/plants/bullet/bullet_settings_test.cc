@@ -92,8 +92,8 @@ TEST(BulletSettings, VelocitiesAreClamped) {
   EXPECT_GT(Fly(bullet).acceleration_error, 0.1);
 }
 
-// Returns the speed of a block on a slope at 99 % of the friction angle, m/s. The
-// exact speed is 0.
+// Returns the speed of a block on a slope at 99 % of the friction angle, m/s.
+// The exact speed is 0.
 double Creep(const BulletSettings& bullet) {
   PlantSettings settings;
   settings.ground.pitch = 0.99 * std::atan(settings.friction);
@@ -124,8 +124,8 @@ TEST(BulletSettings, ResidualThresholdEndsBulletsSweepsEarly) {
   EXPECT_GT(Creep(early), 5 * Creep(exact));
 }
 
-// Returns the speed of a block that is pushed after it stood still for 3 s, m/s.
-// Bullet puts a body to sleep after 2 s.
+// Returns the speed of a block that is pushed after it stood still for 3 s,
+// m/s. Bullet puts a body to sleep after 2 s.
 double SpeedAfterRest(const BulletSettings& bullet) {
   BulletPlant plant(MakeBlock({0.3, 0.3, 0.02}, 5), {}, bullet);
   Eigen::VectorXd q = Eigen::VectorXd::Zero(7);
@@ -148,8 +148,8 @@ TEST(BulletSettings, SleepingBodyIgnoresForces) {
   EXPECT_EQ(SpeedAfterRest(sleepy), 0);
 }
 
-// Returns the height of the center of a sole, tilted by 0.5 rad, at which the sole
-// touches the ground, m.
+// Returns the height of the center of a sole, tilted by 0.5 rad, at which the
+// sole touches the ground, m.
 double TouchingHeight(double sole_radius) {
   BulletSettings bullet;
   bullet.sole_radius = sole_radius;
@@ -168,11 +168,11 @@ double TouchingHeight(double sole_radius) {
 }
 
 TEST(BulletSettings, SoleCornersAreSpheresOfTheSoleRadius) {
-  // The corner is 0.1 sin(0.5) below the center. A sphere of radius r, whose center
-  // is r above the corner, reaches r (1 - cos(0.5)) deeper.
+  // The corner is 0.1 sin(0.5) below the center. A sphere of radius r, whose
+  // center is r above the corner, reaches r (1 - cos(0.5)) deeper.
   const double corner = 0.1 * std::sin(0.5);
-  // Tolerance: the search step of 0.1 mm, and the fall within a step. Bullet stops
-  // bodies that would touch within a step.
+  // Tolerance: the search step of 0.1 mm, and the fall within a step. Bullet
+  // stops bodies that would touch within a step.
   constexpr double kStep = 2e-4;
   for (const double radius : {0.005, 0.05}) {
     EXPECT_NEAR(TouchingHeight(radius), corner + radius * (1 - std::cos(0.5)),
@@ -224,8 +224,8 @@ TEST(ContactSolver, AgreesWithBulletsSolver) {
   };
   const Eigen::VectorXd ours = land(true), bullets = land(false);
   EXPECT_GT(bullets.cwiseAbs().maxCoeff(), 49);  // The block has landed.
-  // ContactSolver stops when no impulse changes in 12 digits. Bullet stops after
-  // 50 sweeps.
+  // ContactSolver stops when no impulse changes in 12 digits. Bullet stops
+  // after 50 sweeps.
   EXPECT_LT((ours - bullets).norm(), 1e-7 * bullets.norm());
 }
 

@@ -14,8 +14,8 @@ namespace poise {
 
 namespace {
 
-// User index of collision objects of the ground. The user index of a link is the
-// index of its body.
+// User index of collision objects of the ground. The user index of a link is
+// the index of its body.
 constexpr int kGround = -1;
 
 // Collision group of shapes that collide with links, but not with the ground.
@@ -123,7 +123,7 @@ void BulletWorld::AddGround(const PlantSettings& settings) {
     auto object = std::make_unique<btCollisionObject>();
     object->setCollisionShape(shape.get());
     object->setWorldTransform(ToBullet(X_WS));
-    // Bullet multiplies the coefficients of the two objects, so the ground has 1.
+    // Bullet multiplies the coefficients of two objects, so the ground has 1.
     object->setFriction(1);
     object->setRestitution(1);
     object->setUserIndex(kGround);
@@ -151,10 +151,10 @@ void BulletWorld::AddCollider(const PlantSettings& settings, int body,
   collider->setCollisionShape(shape);
   collider->setFriction(settings.friction);
   collider->setRestitution(settings.restitution);
-  // By default Bullet stops a body just above the ground, if it would touch within
-  // a step, so that it cannot bounce. With restitution a body therefore penetrates
-  // first, by up to one step of motion. It is not pushed out (m_erp2 = 0), because
-  // that would add speed.
+  // By default Bullet stops a body just above the ground, if it would touch
+  // within a step, so that it cannot bounce. With restitution a body therefore
+  // penetrates first, by up to one step of motion. Bullet then must not push the
+  // body out, because that would add speed: m_erp2 is 0.
   if (settings.restitution > 0) collider->setContactProcessingThreshold(0);
   collider->setUserIndex(body);
   world_.addCollisionObject(collider.get(), group,
@@ -189,17 +189,18 @@ void BulletWorld::AddColliders(const Robot& robot,
   }
   for (const Shape& shape : robot.model.collisions) {
     const Frame& frame = tree.frames()[shape.frame];
-    // Bullet's contacts between two boxes are poor. So a foot touches the ground
-    // only with the spheres of its sole, and other links with its own shapes.
+    // Bullet's contacts between two boxes are poor. So a foot touches the
+    // ground only with the spheres of its sole. It touches other links with its
+    // shapes.
     if (auto made = MakeShape(shape.geometry)) {
       add(frame.body, frame.X_BF * shape.X_FS, std::move(made),
           is_foot[frame.body] ? &feet : &links);
     }
   }
 
-  // The filter must be complete before colliders are added. Bullet asks about a pair
-  // once, when its bounding boxes first overlap. Here all colliders are still at the
-  // origin and overlap.
+  // The filter must be complete before colliders are added. Bullet asks about a
+  // pair once, when its bounding boxes first overlap. Here all colliders are
+  // still at the origin and overlap.
   for (const auto& [a, b] : FindNeighbors(tree)) filter_.Exclude(a, b);
   for (int i = 0; i < tree.num_bodies(); ++i) filter_.Exclude(i, i);
 
@@ -313,7 +314,8 @@ void BulletWorld::FindSelfContacts(std::vector<std::pair<int, int>>* pairs) {
       break;
     }
   }
-  // A foot has two colliders, its sole and its shapes, so a pair can occur twice.
+  // A foot has two colliders, its sole and its shapes, so a pair can occur
+  // twice.
   std::sort(pairs->begin(), pairs->end());
   pairs->erase(std::unique(pairs->begin(), pairs->end()), pairs->end());
 }

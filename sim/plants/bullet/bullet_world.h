@@ -26,9 +26,9 @@ struct GroundContact {
   Eigen::Vector3d force_W;  ///< On the robot, N.
 };
 
-/// A Bullet world with a ground and one robot. It owns all Bullet objects, because
-/// Bullet leaves the ownership to its user. Every episode needs a new world: a used
-/// world does not repeat a run to the bit.
+/// A Bullet world with a ground and one robot. It owns all Bullet objects,
+/// because Bullet leaves the ownership to its user. Every episode needs a new
+/// world: a used world does not repeat a run to the bit.
 class BulletWorld {
  public:
   /// Throws std::invalid_argument, see BulletBody.
@@ -46,8 +46,8 @@ class BulletWorld {
     return {FromBullet(X.getRotation()), FromBullet(X.getOrigin())};
   }
 
-  /// Moves the colliders to the robot's state. All pairs of links that touch there
-  /// are excluded from collisions from then on.
+  /// Moves the colliders to the robot's state. All pairs of links that touch
+  /// there are excluded from collisions from then on.
   void Place();
 
   void Step(double dt) {
@@ -55,8 +55,8 @@ class BulletWorld {
     MoveFootColliders();
   }
 
-  /// Returns the points at which the ground pressed on the robot in the last step
-  /// of dt, s. Valid until the next call.
+  /// Returns the points at which the ground pressed on the robot in the last
+  /// step of dt, s. Valid until the next call.
   const std::vector<GroundContact>& FindGroundContacts(double dt);
 
   /// Finds the pairs of bodies that pressed on each other in the last step.
@@ -86,8 +86,8 @@ class BulletWorld {
                     double sole_radius);
   void AddLimits(const RobotModel& model);
 
-  // Bullet moves only one collider per link, so the second one of each foot must be
-  // moved explicitly.
+  // Bullet moves only one collider per link, so the second one of each foot
+  // must be moved explicitly.
   void MoveFootColliders();
 
   BulletBody body_;

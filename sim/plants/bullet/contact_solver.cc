@@ -10,8 +10,9 @@ namespace poise {
 
 namespace {
 
-// Sweeps end when the largest change of an impulse is below this fraction of the
-// sum of all impulses. The log has nine digits, so the error is not visible.
+// Sweeps end when the largest change of an impulse is below this fraction of
+// the sum of all impulses. The log has nine digits, so the error is not
+// visible.
 constexpr double kSettled = 1e-12;
 
 }  // namespace

@@ -10,13 +10,14 @@ namespace poise {
 
 /// Computes Bullet's sequential impulses in the space of the contact rows.
 ///
-/// Bullet updates the velocities of all n joints while it sweeps over its rows, at
-/// 4 n flops per row. ContactSolver computes the matrix of the influence of row j
-/// on row i once:
+/// Bullet updates the velocities of all n joints while it sweeps over its rows,
+/// at 4 n flops per row. ContactSolver computes the matrix of the influence of
+/// row j on row i once:
 ///     A_ij = J_i M^-1 J_j'.
-/// A sweep over m rows then costs 2 m^2 flops, a ninth of Bullet's for two feet.
-/// The sweeps, their order and their largest number are as in Bullet, so the
-/// impulses agree up to rounding. The sweeps end early when no impulse changes.
+/// A sweep over m rows then costs 2 m^2 flops, a ninth of Bullet's for two
+/// feet. The sweeps, their order and their largest number are as in Bullet, so
+/// the impulses agree up to rounding. The sweeps end early when no impulse
+/// changes.
 ///
 /// Valid only for worlds in which the only moving body is one multibody.
 class ContactSolver final : public btMultiBodyConstraintSolver {

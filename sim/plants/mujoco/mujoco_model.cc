@@ -17,13 +17,13 @@ namespace {
 // Radius of the spheres at the corners of a sole, as in Bullet, m.
 constexpr double kSoleRadius = 0.005;
 
-// Contacts and limits are as stiff as a step of 1 ms permits. MuJoCo needs a time
-// constant of at least two steps; the impedance is near 1.
+// Contacts and limits are as stiff as a step of 1 ms permits. MuJoCo needs a
+// time constant of at least two steps; the impedance is near 1.
 constexpr const char* kStiff = "solref=\"0.004 1\" solimp=\"0.95 0.99 0.001\"";
 
-// Two geoms collide if the contype of one shares a bit with the conaffinity of the
-// other. The first bit is for the ground, the second bit for self-collision. Arrays
-// have the entries without and with self-collision.
+// Two geoms collide if the contype of one shares a bit with the conaffinity of
+// the other. The first bit is for the ground, the second bit for
+// self-collision. Arrays have the entries without and with self-collision.
 constexpr const char* kGround = " contype=\"1\" conaffinity=\"1\"";
 constexpr const char* kLink[] = {" contype=\"1\" conaffinity=\"0\"",
                                  " contype=\"3\" conaffinity=\"2\""};
@@ -64,8 +64,8 @@ class Xml {
 
 void WriteGround(const PlantSettings& settings, Xml* xml) {
   const Eigen::Quaterniond R_WG = GroundRotation(settings.ground);
-  // MuJoCo uses the larger friction of two geoms. The ground has 0, so the friction
-  // of the robot's geoms counts.
+  // MuJoCo uses the larger friction of two geoms. The ground has 0, so the
+  // friction of the robot's geoms counts.
   *xml << "<geom type=\"plane\" size=\"0 0 1\" quat=\"" << R_WG
        << "\" friction=\"0 0 0\"" << kGround << "/>\n";
   for (const Board& board : settings.ground.boards) {

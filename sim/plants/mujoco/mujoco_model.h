@@ -10,10 +10,10 @@
 
 namespace poise {
 
-/// Returns a robot and its ground as MuJoCo's XML. Body i of the tree is MuJoCo's
-/// body i + 1, with the name "body<i>". Joint j of the tree is MuJoCo's joint j,
-/// counted after the free joint. A sole consists of small spheres at the corners of
-/// its polygon, as in Bullet.
+/// Returns a robot and its ground as MuJoCo's XML. Body i of the tree is
+/// MuJoCo's body i + 1, with the name "body<i>". Joint j of the tree is
+/// MuJoCo's joint j, counted after the free joint. A sole consists of small
+/// spheres at the corners of its polygon, as in Bullet.
 ///
 /// @param excluded  pairs of bodies that do not collide, in addition to
 ///                  FindNeighbors().

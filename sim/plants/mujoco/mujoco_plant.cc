@@ -25,13 +25,13 @@ constexpr int kWorld = 0;
 using ConstVector3 = Eigen::Map<const Eigen::Vector3d>;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-// Silences MuJoCo, which would warn of a diverging simulation on stderr and in a
-// file of the current folder. The judge of the run reports the divergence.
+// Silences MuJoCo, which would warn of a diverging simulation on stderr and in
+// a file of the current folder. The judge of the run reports the divergence.
 [[maybe_unused]] const bool kIsQuiet = (
     mju_user_warning = [](const char*) {}, true);
 
-// Loads a model through MuJoCo's virtual file system: MuJoCo has no function that
-// reads XML from a string.
+// Loads a model through MuJoCo's virtual file system: MuJoCo has no function
+// that reads XML from a string.
 mjModel* LoadXml(const std::string& xml, std::string* error) {
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
@@ -175,8 +175,9 @@ void MujocoPlant::ReadState() {
       (Eigen::Map<const Eigen::VectorXd>(qvel, model_->nv) - state_.vdot) /
       settings_.dt;
   if (robot_.model.tree.is_floating()) {
-    // MuJoCo integrates the angular velocity in the body's axes at the start of the
-    // step. The angular acceleration in world axes is R alpha_B, because w x w = 0.
+    // MuJoCo integrates the angular velocity in the body's axes at the start of
+    // the step. In world axes the angular acceleration is R alpha_B, because the
+    // cross product of w with itself is 0.
     const Eigen::Vector3d a_W = state_.vdot.head<3>();
     const Eigen::Vector3d alpha_B = state_.vdot.segment<3>(3);
     state_.vdot.head<3>() = X_WB(0).R * alpha_B;

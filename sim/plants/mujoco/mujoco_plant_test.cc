@@ -60,8 +60,8 @@ TEST(MujocoPlant, AppliesDampingAndDryFrictionOfTheModel) {
   MujocoPlant plant(robot);
   plant.Reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
   for (int k = 0; k < 1000; ++k) plant.Step(Eigen::VectorXd::Zero(1));
-  // Rotor and armature have I = 2 together. The relative error of implicit Euler is
-  // half of the rate times the step, per time constant.
+  // Rotor and armature have I = 2 together. The relative error of implicit
+  // Euler is half of the rate times the step, per time constant.
   EXPECT_NEAR(plant.Sense().v[0], std::exp(-2.0), 1e-3 * std::exp(-2.0) * 2.1);
 
   robot.model.limits[0].friction = 0.5;
