@@ -135,7 +135,7 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
   const State start = MakeStartState(robot, scenario.start,
                                      scenario.plant.ground, scenario.seed);
   plant_->Reset(start.q, start.v);
-  // The controller starts from the robot on the floor, without the drop.
+  // The controller receives the place of the floor, but not the drop.
   StartSettings on_ground = scenario.start;
   on_ground.drop = 0;
   controller_->Start(

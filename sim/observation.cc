@@ -13,8 +13,8 @@ namespace {
 // Below this normal force, in N, a CoP has no meaning.
 constexpr double kNoForce = 1;
 
-// Returns the angle between two unit vectors, rad. Near 0, acos() would lose all
-// digits.
+// Returns the angle between two unit vectors, rad. Near 0, acos() would lose
+// all digits.
 double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }

@@ -12,8 +12,8 @@ namespace poise {
 /// recovers. They are the yardstick for pushes that a robot recovers from
 /// without a step.
 struct Yardstick {
-  double lipm_Ns;         ///< Pushed at the center of mass.
-  double lipm_height_Ns;  ///< Pushed at the push's height, without turning.
+  double lipm_Ns;         ///< For a push at the center of mass.
+  double lipm_height_Ns;  ///< For a push at z_p that does not turn it.
 };
 
 /// Computes the yardstick. With omega = sqrt(g / h), h the height of the center

@@ -63,8 +63,8 @@ TEST_P(GroundTest, BlockSlidesAtTheFrictionAngleWithinOnePercent) {
     EXPECT_LT(Slide(friction, 0.99 * angle), 1e-4);
     EXPECT_LT(Slide(friction, -0.99 * angle), 1e-4);
     // The block slides by s = g (sin - friction cos) t^2 / 2 in t = 1 s, a
-    // little less in Bullet, where it starts late. The test solves this equation
-    // for the friction.
+    // little less in Bullet, where it starts late. The test solves this
+    // equation for the friction.
     const double way = Slide(friction, 1.01 * angle);
     EXPECT_NEAR(
         std::tan(1.01 * angle) - 2 * way / (kGravity * std::cos(1.01 * angle)),

@@ -153,8 +153,8 @@ void BulletWorld::AddCollider(const PlantSettings& settings, int body,
   collider->setRestitution(settings.restitution);
   // By default Bullet stops a body just above the ground, if it would touch
   // within a step, so that it cannot bounce. With restitution a body therefore
-  // penetrates first, by up to one step of motion. Bullet then must not push the
-  // body out, because that would add speed: m_erp2 is 0.
+  // penetrates first, by up to one step of motion. Bullet then must not push
+  // the body out, because that would add speed: m_erp2 is 0.
   if (settings.restitution > 0) collider->setContactProcessingThreshold(0);
   collider->setUserIndex(body);
   world_.addCollisionObject(collider.get(), group,

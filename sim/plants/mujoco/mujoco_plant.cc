@@ -176,8 +176,8 @@ void MujocoPlant::ReadState() {
       settings_.dt;
   if (robot_.model.tree.is_floating()) {
     // MuJoCo integrates the angular velocity in the body's axes at the start of
-    // the step. In world axes the angular acceleration is R alpha_B, because the
-    // cross product of w with itself is 0.
+    // the step. In world axes the angular acceleration is R alpha_B, because
+    // the cross product of w with itself is 0.
     const Eigen::Vector3d a_W = state_.vdot.head<3>();
     const Eigen::Vector3d alpha_B = state_.vdot.segment<3>(3);
     state_.vdot.head<3>() = X_WB(0).R * alpha_B;
