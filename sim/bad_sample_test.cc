@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests that the robot keeps standing with a sensor that is wrong for a tick, or noisy.
+// Tests that the robot stays standing when a sensor is wrong for a tick, or
+// noisy.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -20,13 +21,13 @@ namespace poise {
 namespace {
 
 struct Stand {
-  int failed = 0;    // Fail-safe ticks.
-  int in_air = 0;    // Ticks with a foot that does not count as in contact.
+  int failed = 0;    // Ticks that failed safe.
+  int in_air = 0;    // Ticks in which the controller had lost a contact.
   double moved = 0;  // Largest distance of the base from its start, m.
 };
 
-// Stands for some ticks of 1 ms. `spoil` changes the measurements. The base is true or
-// estimated.
+// Stands for a number of ticks of 1 ms. `spoil` changes each measurement. The
+// base is the measured one or, with `estimates`, the estimated one.
 Stand StandOn(const std::function<void(int, Measurement*)>& spoil, int ticks,
               bool estimates, const SensorSettings& settings = {}) {
   const Robot robot = LoadHumanoid();
@@ -65,8 +66,9 @@ Stand StandOn(const std::function<void(int, Measurement*)>& spoil, int ticks,
   return stand;
 }
 
-// A wrong estimate for a moment: no foot can rise by so much in one tick.
-TEST(BadSample, KeepsContactsIfTheHeightIsWrong) {
+// An estimator can be wrong by this much for a tick. No foot rises so fast, so
+// the controller must keep the contact.
+TEST(BadSample, KeepsContactAfterASpikeOfTheHeight) {
   for (const double spike : {0.03, 0.1, -0.03}) {
     const Stand stand = StandOn(
         [spike](int i, Measurement* measurement) {
@@ -79,9 +81,10 @@ TEST(BadSample, KeepsContactsIfTheHeightIsWrong) {
   }
 }
 
-// The height is now and then above the limit for a lost foot, but not for long.
-// Without debouncing, the robot would fall with this noise.
-TEST(BadSample, KeepsContactsIfTheHeightIsNoisy) {
+// The error of the height is sometimes above the threshold at which a foot is
+// lost, but never for the whole debounce time. All other noise is on too, also
+// that of the velocities.
+TEST(BadSample, KeepsContactWithNoiseOfTheHeight) {
   SensorSettings settings;
   settings.noise = 1;
   settings.base_position = 6e-3;

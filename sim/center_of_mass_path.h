@@ -8,19 +8,20 @@
 
 namespace poise {
 
-/// The path of the desired center of mass: smooth shifts between places, plus a
-/// sinusoid about the place.
+/// The path of the desired center of mass: a place, which ShiftTo() moves
+/// smoothly, plus the sinusoid of a ComMotion.
 class CenterOfMassPath {
  public:
   CenterOfMassPath() = default;
   CenterOfMassPath(const ComMotion& motion, const Eigen::Vector3d& start)
       : motion_(motion), from_(start), to_(start) {}
 
-  /// Shifts from the present target to a place, in `over` seconds from `time` on. The
-  /// path has minimum jerk and is at rest at both ends.
+  /// Moves the center of the sinusoid to a place, with minimum jerk, at rest at
+  /// both ends. The shift begins at `time` and takes `over` seconds. It starts
+  /// from the target of the last shift, even if that shift is not complete.
   void ShiftTo(const Eigen::Vector3d& place, double time, double over);
 
-  /// Writes p_WG, v_WG and a_WG.
+  /// Writes the desired p_WG, v_WG and a_WG at a time, s.
   void Write(double time, Reference* reference) const;
 
  private:

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests that a ramp does not weaken the reaction to a push.
+// Tests that changes of the stack that are ramped in do not weaken the reaction
+// to a push.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,8 +17,8 @@ namespace {
 
 constexpr int kPush = 1000;  // Tick in which the push begins.
 
-// Returns how far the center of mass moves after a push of 100 N for 0.15 s, m.
-// `change` changes the stack before each tick.
+// Returns the peak error of the center of mass, m, after a push of 100 N that
+// lasts 0.15 s. `change` may change the stack before each tick.
 double Push(double ramp, const std::function<void(int, Stack*)>& change) {
   const Robot robot = LoadHumanoid();
   Scenario scenario;
@@ -40,12 +41,12 @@ double Push(double ramp, const std::function<void(int, Stack*)>& change) {
   return verdict.com_error_peak.y();
 }
 
-// Compares with changes that take effect at once, 47 mm, to 1 %.
+// The peak error must be within 1 % of the error without a ramp, 47 mm.
 void ExpectToDoAsMuch(const std::function<void(int, Stack*)>& change) {
   EXPECT_NEAR(Push(0.2, change) / Push(0, change), 1, 0.01);
 }
 
-TEST(Changes, AreEasedInWithTheRampOfTheScenario) {
+TEST(Changes, UseTheRampOfTheScenario) {
   for (const double ramp : {0.0, 0.2}) {
     SCOPED_TRACE(ramp);
     Scenario scenario;
@@ -59,7 +60,7 @@ TEST(Changes, AreEasedInWithTheRampOfTheScenario) {
   }
 }
 
-TEST(Changes, OfAGainAsThePushBegins) {
+TEST(Changes, KeepTheRecoveryWhenAGainChangesAtThePush) {
   ExpectToDoAsMuch([](int i, Stack* stack) {
     if (i == kPush) {
       EXPECT_TRUE(stack->SetParameter("momentum", "kp", 31));
@@ -67,20 +68,20 @@ TEST(Changes, OfAGainAsThePushBegins) {
   });
 }
 
-TEST(Changes, OfAGainInEachTick) {
+TEST(Changes, KeepTheRecoveryWhenAGainChangesEachTick) {
   ExpectToDoAsMuch([](int i, Stack* stack) {
     EXPECT_TRUE(stack->SetParameter("momentum", "kp", 30 + i % 2));
   });
 }
 
-TEST(Changes, OfALimitInEachTick) {
+TEST(Changes, KeepTheRecoveryWhenALimitChangesEachTick) {
   ExpectToDoAsMuch([](int i, Stack* stack) {
     EXPECT_TRUE(stack->SetParameter("torque_limits", "scale",
                                     0.9 + 0.1 * std::sin(0.01 * i)));
   });
 }
 
-TEST(Changes, OfATaskThatGoesAsThePushBeginsAndComesBack) {
+TEST(Changes, KeepTheRecoveryWhenATaskIsOffDuringThePush) {
   ExpectToDoAsMuch([](int i, Stack* stack) {
     if (i == kPush) {
       EXPECT_TRUE(stack->Enable("posture", false));

@@ -16,10 +16,11 @@ namespace poise {
 
 namespace {
 
-// Fraction of the sole's half width.
+// Distance of a shifted CoM from the sole's center, as a fraction of the sole's
+// half width.
 constexpr double kInside = 0.25;
 
-// The sensors' noise has a stream of its own.
+// The noise of the sensors must not depend on the random start state.
 constexpr unsigned kSensorSeed = 0x5eed;
 
 // Returns the robot of the controller, with the wrong masses of the scenario.
@@ -33,14 +34,15 @@ Robot MakeBelievedRobot(const Robot& robot, const Scenario& scenario) {
   return believed;
 }
 
-// Calls `make`. An error without a field gets this field of the scenario, or "robot".
+// Calls make(). An error that does not name a field gets `field`: a field of
+// the scenario, or "robot".
 template <typename Make>
 auto MakeOf(const std::string& field, Make make) -> decltype(make()) {
   try {
     return make();
   } catch (const InputError&) {
     throw;
-  } catch (const Refusal&) {  // The message has the file already.
+  } catch (const Refusal&) {  // Already names its file.
     throw;
   } catch (const std::invalid_argument& error) {
     throw InputError(field, error.what());
@@ -133,7 +135,7 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
   const State start = MakeStartState(robot, scenario.start,
                                      scenario.plant.ground, scenario.seed);
   plant_->Reset(start.q, start.v);
-  // The controller knows the floor, but not the height of the drop.
+  // The controller receives the place of the floor, but not the drop.
   StartSettings on_ground = scenario.start;
   on_ground.drop = 0;
   controller_->Start(
@@ -168,7 +170,7 @@ void ClosedLoop::MoveFeet() {
   const std::vector<StanceEvent>& events = scenario_.stance;
   for (; next_event_ < events.size(); ++next_event_) {
     const StanceEvent& event = events[next_event_];
-    // Half a step early, so that rounding does not delay the event by a tick.
+    // With this tolerance, rounding cannot delay an event by a tick.
     if (event.at > time() + plant_->dt() / 2) break;
     switch (event.kind) {
       case StanceEvent::Kind::kLift:
@@ -184,8 +186,10 @@ void ClosedLoop::MoveFeet() {
   }
 }
 
-// Returns the target above one foot: as far ahead of the ankles as on both feet, and
-// on the inner side of the sole, where hips and ankles are farther from their limits.
+// Shifts the CoM by the vector from the middle of the feet to the foot, less
+// kInside. So the CoM stays as far in front of the ankles as on both feet. It
+// ends on the inner side of the sole, because hips and ankles come to their
+// limits during such a shift and have to move less then.
 Eigen::Vector3d ClosedLoop::ShiftPlace(const std::string& name) const {
   if (name.empty()) return com_start_;
   const int foot = FindFoot(name);
@@ -224,7 +228,7 @@ void ClosedLoop::Tick() {
 }
 
 void ClosedLoop::StepPlant() {
-  // There is no older command before the first one.
+  // The first command fills the delay, because there is no older command.
   while (static_cast<int>(torques_.size()) < delay_steps_ + steps_per_tick_) {
     torques_.push_back(command_.tau);
   }

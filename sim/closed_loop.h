@@ -22,17 +22,18 @@
 
 namespace poise {
 
-/// Runs a robot, its plant and its controller tick by tick:
+/// Simulates a robot, its plant and its controller, tick by tick:
 ///
 ///     plant -> sensors -> controller -> (delay) -> plant, with pushes.
 ///
-/// Two loops of the same robot and scenario give the same bits. All random numbers
-/// come from the scenario's seed.
+/// Two loops of the same robot and scenario agree to the bit, even if other
+/// loops run in parallel: all random numbers come from the scenario's seed.
 class ClosedLoop {
  public:
-  /// Throws InputError as Validate(), and if the robot lacks a task or a link that
-  /// the scenario names. The field is "robot" if the plant or the controller cannot
-  /// use the robot. Throws Refusal about a file.
+  /// Throws InputError as Validate(), and if the scenario names something that
+  /// the robot does not have, such as a task or a link. The error's field is
+  /// "robot" if the plant or the controller cannot use the robot. Throws
+  /// Refusal about a file.
   ClosedLoop(const Robot& robot, const Scenario& scenario);
 
   /// Runs one control tick.
@@ -60,21 +61,21 @@ class ClosedLoop {
   std::unique_ptr<Plant> plant_;
   std::unique_ptr<Controller> controller_;
   Sensors sensors_;
-  std::unique_ptr<Estimator> estimator_;  // If the scenario enables it.
+  std::unique_ptr<Estimator> estimator_;  // Null without control.estimator.
   Observer observer_;
   std::vector<PushOnRobot> pushes_;
-  std::vector<bool> down_;  // By foot: planned to be down.
+  std::vector<bool> down_;  // By foot: planned to be in contact.
   int steps_per_tick_;
   int delay_steps_;
 
   State state_;                          // State that the controller receives.
   PlantState start_;                     // State at the start of the tick.
   Command command_;                      // Newest command.
-  std::deque<Eigen::VectorXd> torques_;  // Future steps of the plant.
+  std::deque<Eigen::VectorXd> torques_;  // Delayed torques, one per plant step.
   Eigen::Vector3d com_start_;
   CenterOfMassPath com_path_;
   size_t next_event_ = 0;  // Index in the scenario's stance.
-  PlantState during_;      // At the end of the tick; forces are means.
+  PlantState during_;      // State at the end of the tick; mean forces over it.
   Eigen::Vector3d push_force_W_ = Eigen::Vector3d::Zero();
   long ticks_ = 0;
   double microseconds_ = 0;

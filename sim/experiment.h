@@ -17,8 +17,8 @@ struct Experiment {
   Scenario scenario;
 };
 
-/// Sets the task set of a scenario to the profile's own tasks, if the profile has
-/// tasks and the scenario asks for the default ones.
+/// Sets the task set of a scenario to the profile's own tasks, if the profile
+/// has tasks and the scenario has the default task set.
 void UseTasksOf(const Profile& profile, Scenario* scenario);
 
 /// Loads a robot that stands, for a scenario. The tasks are those of

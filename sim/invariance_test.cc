@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kEnd = 1.2;          // s; the push begins at 0.2 s.
 constexpr double kSameWithin = 1e-3;  // m; measured: 4e-6.
-constexpr double kFarthest = 0.035;   // m; the push moves the robot farther.
+constexpr double kFarthest = 0.035;   // m; the push moves the CoM farther.
 
 Scenario Pushed(const Eigen::Vector3d& force) {
   Scenario scenario = LoadScenario("sim/scenarios/strong_push.yaml");
@@ -23,7 +23,7 @@ Scenario Pushed(const Eigen::Vector3d& force) {
   return scenario;
 }
 
-// Returns the path of the center of mass from its start.
+// Returns the path of the center of mass, relative to its start.
 std::vector<Eigen::Vector3d> Path(const Scenario& scenario) {
   static const Robot robot = LoadHumanoid();
   ClosedLoop loop(robot, scenario);
@@ -37,13 +37,13 @@ std::vector<Eigen::Vector3d> Path(const Scenario& scenario) {
   return path;
 }
 
-// The reference: the path after a push to the left.
+// Returns the reference path: pushed to the left, at the origin, heading 0.
 const std::vector<Eigen::Vector3d>& Plain() {
   static const auto path = Path(Pushed({20, 100, 0}));
   return path;
 }
 
-// Compares another path after mapping it back.
+// Expects that a path, transformed by `back`, is the reference path.
 void ExpectSame(const std::vector<Eigen::Vector3d>& path,
                 const Eigen::Matrix3d& back) {
   ASSERT_EQ(path.size(), Plain().size());
@@ -57,12 +57,12 @@ void ExpectSame(const std::vector<Eigen::Vector3d>& path,
   testing::Test::RecordProperty("worst_um", std::to_string(1e6 * worst));
 }
 
-TEST(Invariance, MirroredRobotGoesTheMirroredWay) {
+TEST(Invariance, MirroredPushGivesTheMirroredPath) {
   ExpectSame(Path(Pushed({20, -100, 0})),
              Eigen::Vector3d(1, -1, 1).asDiagonal());
 }
 
-TEST(Invariance, HeadingDoesNotMatter) {
+TEST(Invariance, PathDoesNotDependOnTheHeading) {
   for (const double heading : {M_PI / 6, M_PI / 2}) {
     SCOPED_TRACE(heading);
     const Eigen::Matrix3d R =
@@ -73,7 +73,7 @@ TEST(Invariance, HeadingDoesNotMatter) {
   }
 }
 
-TEST(Invariance, AKilometerAwayNothingChanges) {
+TEST(Invariance, PathDoesNotChangeAKilometerAway) {
   Scenario away = Pushed({20, 100, 0});
   away.start.place = {800, -600};
   ExpectSame(Path(away), Eigen::Matrix3d::Identity());

@@ -12,7 +12,8 @@ namespace poise {
 /// The outcome of a run.
 struct Verdict {
   bool recovered = false;
-  /// Time of the first failure, s; empty if the failure is at the end only.
+  /// Time at which the base or a foot first broke a rule of Judge, s. Empty if
+  /// neither did, also if the final error of the CoM is too large.
   std::optional<double> fell_at;
   const char* fell_by = "";  ///< Cause of the fall, in words.
   Eigen::Vector3d com_error_peak = Eigen::Vector3d::Zero();   ///< m.
@@ -22,14 +23,16 @@ struct Verdict {
   double foot_slide_peak = 0;                                 ///< m.
 };
 
-/// Decides from the plant's true state whether a robot recovered. The base was
-/// always above 60 % of its standing height and tilted by less than 60 degrees. No
-/// foot that is planned to be down tilted by more than 0.1 rad or slid by more than
-/// 30 mm. The mean of com - com_ref over the last half second is less than 20 mm in
-/// the plane.
+/// Judges by the plant's true state whether a robot recovered. It did if
+/// - its base was never below 60 % of its standing height, nor tilted by more
+///   than 60 degrees;
+/// - no foot that is meant to be down tilted by more than 0.1 rad or slid by
+///   more than 30 mm; and
+/// - the mean of com - com_ref over the last 0.5 s has a horizontal norm below
+///   20 mm.
 class Judge {
  public:
-  static constexpr double kLowestBase = 0.6;
+  static constexpr double kLowestBase = 0.6;  // Fraction of its height.
   static constexpr double kLargestTilt = 1.0471975511965976;  // 60 degrees.
   static constexpr double kLargestFootTilt = 0.1;
   static constexpr double kLargestSlide = 0.03;
@@ -41,10 +44,10 @@ class Judge {
 
   void Look(const Observation& now);
 
-  /// Returns whether the robot lies or is about to, so that the run can end.
+  /// Returns whether the base is too low or too tilted. The run can stop then.
   bool is_down() const { return down_; }
 
-  /// Returns whether Verdict::fell_at has a value.
+  /// Returns whether Verdict::fell_at is set.
   bool has_fallen() const { return verdict_.fell_at.has_value(); }
 
   Verdict Conclude() const;

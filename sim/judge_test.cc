@@ -9,7 +9,7 @@
 namespace poise {
 namespace {
 
-// Returns the observation of a standing robot.
+// Returns the observation of a robot that stands still, at a time in s.
 Observation Standing(double time) {
   Observation now;
   now.time = time;
@@ -18,7 +18,7 @@ Observation Standing(double time) {
   return now;
 }
 
-// Returns the verdict on two seconds; `spoil` changes observations.
+// Returns the verdict over two seconds. `spoil` may change each observation.
 template <typename Spoil>
 Verdict Over(Spoil spoil) {
   Judge judge(1);
@@ -30,7 +30,7 @@ Verdict Over(Spoil spoil) {
   return judge.Conclude();
 }
 
-// Changes one field for one tick, after one second.
+// Returns the verdict over two seconds. set() changes only the tick at 1 s.
 template <typename Set>
 Verdict Once(Set set) {
   return Over([&set](Observation* now) {
@@ -44,7 +44,7 @@ TEST(Judge, StandingStillIsRecovered) {
   EXPECT_FALSE(verdict.fell_at);
 }
 
-TEST(Judge, NothingSeenIsNotRecovered) {
+TEST(Judge, IsNotRecoveredWithoutObservations) {
   EXPECT_FALSE(Judge(1).Conclude().recovered);
 }
 
@@ -67,7 +67,7 @@ TEST(Judge, CountsNaNAsAFall) {
                }).recovered);
 }
 
-TEST(Judge, RolledOrSlidFootIsAFallThatIsNotTheEnd) {
+TEST(Judge, TiltedOrSlidingFootIsAFallButTheRunGoesOn) {
   EXPECT_TRUE(Once([](auto* now) { now->feet[1].tilt = 0.099; }).recovered);
   EXPECT_TRUE(Once([](auto* now) { now->feet[1].slide = 0.0299; }).recovered);
   const Verdict tilted = Once([](auto* now) { now->feet[1].tilt = 0.101; });
@@ -89,9 +89,9 @@ TEST(Judge, RolledOrSlidFootIsAFallThatIsNotTheEnd) {
 }
 
 TEST(Judge, OnlyTheMeanErrorAtTheEndCounts) {
-  // A transient does not count, however large.
+  // A transient does not count, whatever its size.
   EXPECT_TRUE(Once([](auto* now) { now->com.x() = 0.3; }).recovered);
-  // The mean of 25 mm to and fro is zero; that of 25 mm to one side is not.
+  // An oscillation of 25 mm has a mean of zero; a constant error does not.
   EXPECT_TRUE(Over([](auto* now) {
                 now->com.x() = static_cast<int>(now->time * 1000 + 0.5) % 2
                                    ? 0.025
@@ -101,9 +101,9 @@ TEST(Judge, OnlyTheMeanErrorAtTheEndCounts) {
   EXPECT_FALSE(away.recovered);
   EXPECT_FALSE(away.fell_at);
   EXPECT_NEAR(away.com_error_final.y(), -0.0201,
-              1e-12);  // A mean of 500 values.
+              1e-12);  // Rounding of 500 terms.
   EXPECT_EQ(away.com_error_peak.y(), 0.0201);
-  // The error is that in the plane, without z.
+  // The error counts in the plane: the norm of x and y, without z.
   EXPECT_FALSE(
       Over([](auto* now) { now->com.x() = now->com.y() = 0.0142; }).recovered);
   EXPECT_TRUE(Over([](auto* now) {
@@ -112,7 +112,7 @@ TEST(Judge, OnlyTheMeanErrorAtTheEndCounts) {
               }).recovered);
 }
 
-TEST(Judge, OnlyTheLastHalfSecondIsTheEnd) {
+TEST(Judge, FinalErrorIsTheMeanOverTheLastHalfSecond) {
   const auto until = [](double time) {
     return Over([time](auto* now) {
       if (now->time < time) now->com.x() = 1;

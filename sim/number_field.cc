@@ -10,7 +10,7 @@ namespace poise {
 
 namespace {
 
-// Margin for rounding: 1 / (1 / x) may differ from x.
+// Relative tolerance of the bounds: 1 / (1 / x) can differ from x by rounding.
 constexpr double kRounding = 1e-12;
 
 }  // namespace

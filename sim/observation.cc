@@ -13,7 +13,8 @@ namespace {
 // Below this normal force, in N, a CoP has no meaning.
 constexpr double kNoForce = 1;
 
-// Returns the angle of two unit vectors. acos() would lose all digits near 0.
+// Returns the angle between two unit vectors, rad. Near 0, acos() would lose
+// all digits.
 double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
@@ -94,7 +95,7 @@ void Observer::ObserveForces(
     contacts_[i].in_contact = now.feet[i].in_contact;
   }
   const Pose X_WM = MidFeet(contacts_);
-  // Total wrench about the origin of M, in the axes of M.
+  // The total wrench about the origin of M, in the axes of M.
   Eigen::Vector3d moment_M = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_M = Eigen::Vector3d::Zero();
   for (size_t i = 0; i < now.feet.size(); ++i) {

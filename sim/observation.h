@@ -16,12 +16,12 @@ namespace poise {
 struct FootObservation {
   Pose X_WC;         ///< Contact frame.
   bool down = true;  ///< Planned to be in contact.
-  /// Measured: the ground exerts a force on the sole in the following tick.
+  /// The ground presses on the sole during the tick that begins here.
   bool in_contact = true;
   double tilt = 0;   ///< Tilt of the sole since it was put down, rad.
-  double slide = 0;  ///< Along the ground since it was put down, m.
+  double slide = 0;  ///< Slide along the ground since it was put down, m.
   Eigen::Matrix<double, 6, 1> F_Co_C =
-      Eigen::Matrix<double, 6, 1>::Zero();  ///< Over the tick that follows.
+      Eigen::Matrix<double, 6, 1>::Zero();  ///< Mean over the tick.
 };
 
 /// True state of the robot at the start of a tick, and mean forces during the
@@ -34,8 +34,9 @@ struct Observation {
   Eigen::Vector3d com = Eigen::Vector3d::Zero();
   Eigen::Vector3d com_ref = Eigen::Vector3d::Zero();
   std::vector<FootObservation> feet;
-  /// Combined center of pressure of all feet, in MidFeet() of the loaded feet, as in
-  /// the controller's task zmp. NaN without contact force.
+  /// Center of pressure of all feet together, m, in the frame MidFeet() of the
+  /// feet that the ground presses on, as in the controller's task zmp. NaN if
+  /// no foot has load.
   Eigen::Vector2d cop = Eigen::Vector2d::Zero();
 };
 
@@ -44,12 +45,13 @@ class Observer {
  public:
   Observer(const Robot& robot, const Ground& ground);
 
-  /// Observes the start of a tick. `down` marks the feet that are planned to be in
-  /// contact; empty means all. Tilt and slide of a foot start where it is put down.
+  /// Observes the state at the start of a tick. `down` marks the feet that are
+  /// meant to be in contact; empty means all. Tilt and slide of a foot count
+  /// from the tick in which it is put down.
   void ObserveState(const PlantState& state, const std::vector<bool>& down,
                     const Eigen::Vector3d& com_ref);
 
-  /// Observes the forces during the tick.
+  /// Observes the mean contact wrenches during the tick, by foot.
   void ObserveForces(const std::vector<Eigen::Matrix<double, 6, 1>>& F_Co_C);
 
   const Observation& observation() const { return observation_; }
@@ -63,19 +65,22 @@ class Observer {
   Eigen::Vector3d normal_W_;
   Tick tick_;
   Observation observation_;
-  std::vector<ContactTick> contacts_;  // Pose and measured contact only.
+  std::vector<ContactTick> contacts_;  // Only pose and measured contact.
   std::vector<Pose> put_down_;         // Each foot's pose when it was put down.
   std::vector<bool> was_down_;
   Eigen::Vector3d standing_z_B_ = Eigen::Vector3d::UnitZ();
   bool first_ = true;
 };
 
-/// Returns the point of the base, in its axes, whose height tells whether the robot
-/// lies. It is the origin of the root link. If the root link has no shape, as a frame
-/// `world` on the floor, it is that of the first link with a shape fixed to the root.
+/// Returns the point of the base whose height shows whether the robot fell, in
+/// the base's axes, m. The point is the origin of the root link. If the root
+/// link has no shape, it is only a frame that may be anywhere, as `world` on
+/// the floor. Then the point is the origin of the first link with a shape that
+/// is fixed to the root link, or the base's origin if no such link exists.
 Eigen::Vector3d BasePoint(const RobotModel& model);
 
-/// Returns the height of BasePoint() in the nominal posture on the ground.
+/// Returns the height of BasePoint() above the ground in the nominal posture,
+/// in which the robot stands on the ground, m.
 double StandingHeight(const Robot& robot);
 
 }  // namespace poise

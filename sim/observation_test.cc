@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 // comes from a difference, the tolerance is its square root.
 constexpr double kRounding = 1e-14;
 
-// Returns the state of a block whose lower face is its sole.
+// Returns the state at rest of a block whose underside is its sole.
 PlantState StateAt(const Vector3d& p_WB, const Quaterniond& R_WB,
                    double time = 0) {
   PlantState state;
@@ -38,7 +38,7 @@ Quaterniond Turn(double angle, const Vector3d& axis) {
   return Quaterniond(AngleAxisd(angle, axis));
 }
 
-TEST(Observer, SeesWhereTheRobotIs) {
+TEST(Observer, ReportsThePoseOfTheRobot) {
   Observer observer(MakeBlock({0.2, 0.2, 0.1}, 5), {});
   observer.ObserveState(StateAt({0.1, 0.2, 0.05}, Turn(0.3, kUp), 1.5), {},
                         {0.1, 0.2, 0.04});
@@ -52,7 +52,8 @@ TEST(Observer, SeesWhereTheRobotIs) {
   EXPECT_TRUE(observer.R_WB(0).isApprox(Turn(0.3, kUp).toRotationMatrix()));
 }
 
-// On a slope, tilt is relative to the normal and height is above the plane.
+// A robot that stands upright on a slope has tilt 0. Its height is measured
+// from the plane.
 TEST(Observer, MeasuresTiltAndHeightFromTheGroundTheRobotStandsOn) {
   Ground slope;
   slope.pitch = 0.2;
@@ -69,7 +70,7 @@ TEST(Observer, MeasuresTiltAndHeightFromTheGroundTheRobotStandsOn) {
   EXPECT_NEAR(observer.observation().base_tilt, 0.1, kRounding);
 }
 
-// A robot with a tilted base frame stands upright at the start.
+// The base frame of a robot may be tilted when the robot stands upright.
 TEST(Observer, MeasuresTiltFromTheStart) {
   Observer observer(MakeBlock({0.2, 0.2, 0.1}, 5), {});
   const Quaterniond askew = Turn(1.2, Vector3d::UnitX());
@@ -81,7 +82,7 @@ TEST(Observer, MeasuresTiltFromTheStart) {
   EXPECT_NEAR(observer.observation().base_tilt, 0.4, kRounding);
 }
 
-// A root frame on the floor must not count as a robot that lies.
+// A root frame on the floor below the robot must not count as a fallen robot.
 TEST(Observer, TakesTheHeightOfABaseThatHasAShape) {
   Robot robot{
       ParseUrdf(
@@ -101,7 +102,7 @@ TEST(Observer, TakesTheHeightOfABaseThatHasAShape) {
       StateAt(Vector3d::Zero(), Turn(M_PI / 3, Vector3d::UnitY())), {},
       Vector3d::Zero());
   EXPECT_NEAR(observer.observation().base_height, 0.45, kRounding);
-  // Without such a link, it is the origin of the root.
+  // Without any shape, the point is the origin of the root link.
   EXPECT_TRUE(BasePoint(MakeBlock({0.2, 0.2, 0.1}, 5).model).isZero());
 }
 
@@ -114,13 +115,15 @@ TEST(Observer, CountsTiltAndSlideFromWhereAFootWasPutDown) {
   };
   see({0, 0, 0.05}, Turn(0, kUp), true);
   EXPECT_EQ(foot.slide, 0);
-  // A 3-4-5 triangle. A change of height is no slide, a rotation about z no tilt.
+  // The slide is the hypotenuse of 3 and 4 mm. A change of height does not
+  // count as a slide, and a rotation about z does not count as a tilt.
   see({0.003, 0.004, 0.06}, Turn(0.5, kUp), true);
   EXPECT_NEAR(foot.slide, 0.005, kRounding);
   EXPECT_NEAR(foot.tilt, 0, kRounding);
   see({0, 0, 0.05}, Turn(0.01, Vector3d::UnitX()), true);
   EXPECT_NEAR(foot.tilt, 0.01, kRounding);
-  // Neither counts in the air. Both start again when the foot is put down.
+  // A foot in the air has neither tilt nor slide. When the foot is put down,
+  // here tilted and at another place, both start at 0.
   see({1, 1, 0.3}, Turn(0.2, Vector3d::UnitX()), false);
   EXPECT_FALSE(foot.down);
   EXPECT_EQ(foot.slide, 0);
@@ -130,11 +133,12 @@ TEST(Observer, CountsTiltAndSlideFromWhereAFootWasPutDown) {
   EXPECT_EQ(foot.slide, 0);
   EXPECT_NEAR(foot.tilt, 0, kRounding);
   see({2.01, 1, 0.05}, Turn(0.23, Vector3d::UnitX()), true);
-  EXPECT_NEAR(foot.slide, 0.01, 1e-3);  // The center of the sole rotates too.
+  EXPECT_NEAR(foot.slide, 0.01,
+              1e-3);  // The tilt moves the sole's center, too.
   EXPECT_NEAR(foot.tilt, 0.03, kRounding);
 }
 
-// Two soles of one block, side by side, rotated outwards by the same angle.
+// Returns a block with two soles side by side, both turned outwards by 0.2 rad.
 Robot MakeTwoSoles() {
   Robot robot = MakeBlock({0.2, 0.4, 0.1}, 5);
   robot.feet.push_back(robot.feet[0]);
@@ -158,7 +162,7 @@ TEST(Observer, FindsTheCenterOfPressureBetweenTheFeet) {
   weight[5] = 30;
   EXPECT_TRUE(cop(weight, weight).isMuchSmallerThan(1, kRounding));
   EXPECT_TRUE(cop(weight, 3 * weight).isApprox(Eigen::Vector2d(0, -0.05)));
-  // 30 N at (0.02, -0.01) of the left sole, which is rotated by 0.2 rad.
+  // 30 N act at (0.02, -0.01) m in the left sole, which is turned by 0.2 rad.
   Vector6d off = weight;
   off.head<3>() = Vector3d(0.02, -0.01, 0).cross(off.tail<3>());
   const Eigen::Vector2d at(0.02 * std::cos(0.2) + 0.01 * std::sin(0.2),
@@ -166,10 +170,10 @@ TEST(Observer, FindsTheCenterOfPressureBetweenTheFeet) {
   EXPECT_TRUE(cop(off, weight).isApprox((at + Eigen::Vector2d(0, -0.1)) / 2));
   EXPECT_EQ(observer.observation().feet[0].F_Co_C, off);
   EXPECT_EQ(observer.observation().feet[1].F_Co_C, weight);
-  // Horizontal forces at the height of the soles do not change the CoP.
+  // Horizontal forces at the height of the soles do not move the CoP.
   weight[3] = 10;
   EXPECT_TRUE(cop(weight, 3 * weight).isApprox(Eigen::Vector2d(0, -0.05)));
-  // Below 1 N a foot is unloaded.
+  // A load below 1 N gives no CoP.
   weight[5] = 0.99;
   EXPECT_TRUE(cop(weight, none).array().isNaN().all());
 }

@@ -7,8 +7,8 @@
 
 namespace poise {
 
-/// Returns "recovers", "falls at 1.06 s", or "does not come back" for a robot that
-/// stands in another place.
+/// Returns "recovers", "falls at 1.06 s", or "does not come back" for a robot
+/// that stays up but ends too far from the desired place.
 std::string Outcome(const Verdict& verdict);
 
 }  // namespace poise

@@ -6,7 +6,7 @@
 namespace poise {
 namespace {
 
-TEST(Outcome, TellsAFallFromStayingUpElsewhere) {
+TEST(Outcome, DistinguishesAFallFromAFinalError) {
   Verdict verdict;
   EXPECT_EQ(Outcome(verdict), "does not come back");
   verdict.fell_at = 1.056;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests the physics of the scenarios of the paper and of a standing robot.
+// Tests the physics of the paper's scenarios and of a standing robot.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,18 +10,17 @@
 namespace poise {
 namespace {
 
-// Checks every tick of a scenario of the paper in which the robot does not fall:
-// the CoP is 5 mm inside each sole, friction is within 0.8 of the ground and 0.5
-// of the controller, the feet do not move, and no limit is violated.
+// Checks every tick of a scenario of the paper in which the robot does not
+// fall: the CoP is 5 mm inside each sole, friction is within 0.8 of the ground
+// and 0.5 of the controller, the feet do not move, and no limit is violated.
 void ExpectStaysOnItsFeet(const Story& story) {
   EXPECT_TRUE(story.verdict.recovered);
   EXPECT_EQ(story.failures, 0);
   EXPECT_LT(story.asked_beyond, -0.005 + 1e-6);
   EXPECT_LT(story.given_beyond,
-            1e-4);  // A sole of spheres of 5 mm rolls a little.
+            1e-4);  // Soles have spheres of 5 mm, which roll.
   EXPECT_LT(story.asked_friction, 0.5 + 1e-6);
-  EXPECT_LT(story.given_friction,
-            0.81);  // The plant has 0.8; 50 sweeps leave an error.
+  EXPECT_LT(story.given_friction, 0.81);  // 50 sweeps: 1 % over 0.8.
   EXPECT_LT(story.verdict.foot_tilt_peak, 0.02);
   EXPECT_LT(story.verdict.foot_slide_peak, 2e-3);
   EXPECT_LE(story.torque_violation, 1e-6);
@@ -40,7 +39,7 @@ TEST(Paper, StandsWhenStartedOffEquilibrium) {
 TEST(Paper, RecoversFromTheWeakPush) {
   const Story story = Tell(Ours("weak_push", 4));
   ExpectStaysOnItsFeet(story);
-  // A seventh of the peak.
+  // 2 mm: a seventh of the peak error.
   EXPECT_LT(story.verdict.com_error_final.norm(), 2e-3);
   // A large error at the push, then a transient that converges to zero.
   EXPECT_GT(story.ErrorIn(1, 1.5), 0.01);
@@ -53,7 +52,7 @@ TEST(Paper, FallsFromTheStrongPushWithoutCop) {
   EXPECT_FALSE(story.verdict.recovered);
   ASSERT_TRUE(story.verdict.fell_at);
   EXPECT_GT(*story.verdict.fell_at, 1);
-  EXPECT_LT(story.com_error.size(), 4000u);  // The run ends early.
+  EXPECT_LT(story.com_error.size(), 4000u);  // The run stopped at the fall.
   // The commanded CoP is outside the sole, and the error diverges.
   EXPECT_GT(story.asked_beyond, 0.05);
   EXPECT_GT(story.com_error.back(), 0.1);
@@ -62,7 +61,7 @@ TEST(Paper, FallsFromTheStrongPushWithoutCop) {
 TEST(Paper, RecoversFromTheStrongPush) {
   const Story story = Tell(Ours("strong_push", 4));
   ExpectStaysOnItsFeet(story);
-  // A larger transient than that of the weak push, which converges.
+  // The transient is larger than that of the weak push, but it converges.
   EXPECT_GT(story.ErrorIn(1, 1.5), 0.03);
   EXPECT_LT(story.ErrorIn(2.5, 3), 2e-3);
   EXPECT_LT(story.ErrorIn(3.5, 4), 5e-4);
@@ -81,12 +80,13 @@ TEST(Paper, CombinedBoxPinsTheCop) {
     if (std::abs(y - 0.1) < 0.5e-3) ++pinned;
     highest = std::max(highest, y);
   }
-  // The plant's contacts cause 0.5 mm; an arm that hits the trunk would cause 9 mm.
+  // The plant's contacts follow the command to 0.5 mm. The bound of 1 mm
+  // detects a collision: an arm that hits the trunk moves the CoP by 9 mm.
   EXPECT_GT(pinned, 150);
   EXPECT_LT(highest, 0.101);
 }
 
-TEST(Paper, SinusoidLagsByTheGainsOrNotAtAll) {
+TEST(Paper, SinusoidLagsOnlyWithoutFeedforward) {
   Scenario scenario = Ours("com_sinusoid", 4);
   const double w = 2 * M_PI / 10;
   for (const bool feedforward : {false, true}) {
@@ -98,7 +98,8 @@ TEST(Paper, SinusoidLagsByTheGainsOrNotAtAll) {
       loop.Tick();
       const Observation& now = loop.observation();
       if (now.time < 3) continue;
-      // The lag is K_d v / K_p with 10 / 30; acceleration adds a tenth.
+      // The lag is K_d v / K_p with K_d = 10 and K_p = 30. The acceleration
+      // adds a tenth of the lag, which the tolerance allows.
       const double lag =
           feedforward ? 0 : -0.08 * w * std::cos(w * now.time) / 3;
       worst = std::max(worst, std::abs(now.com.x() - now.com_ref.x() - lag));
@@ -107,7 +108,7 @@ TEST(Paper, SinusoidLagsByTheGainsOrNotAtAll) {
   }
 }
 
-TEST(Paper, ArmsDriftWithoutPostureAndComeBackWithIt) {
+TEST(Paper, ArmsDriftOnlyWithoutThePostureTask) {
   const auto drift = [](bool posture) {
     Scenario scenario = Ours("posture_off", 4);
     if (posture) scenario.control.without.clear();
@@ -134,7 +135,7 @@ TEST(Standing, MeasuredWrenchIsTheCommandedOne) {
   for (int i = 0; i < 2; ++i) {
     const auto measured = loop.observation().feet[i].F_Co_C;
     const auto commanded = record.report.foot_wrench(nv, i);
-    // N; a foot carries 190 N.
+    // 0.05 N, of the load of 190 N per foot.
     EXPECT_LT((measured - commanded).tail<3>().norm(), 0.05);
     EXPECT_NEAR(measured[1] / measured[5], commanded[1] / commanded[5], 1e-3);
     EXPECT_NEAR(measured[0] / measured[5], commanded[0] / commanded[5], 1e-3);
@@ -143,7 +144,8 @@ TEST(Standing, MeasuredWrenchIsTheCommandedOne) {
   EXPECT_NEAR(sum, Humanoid().model.tree.total_mass() * 9.81, 1e-3);
 }
 
-// The weight moves over the left foot, to the margin that the controller keeps.
+// The CoM moves over the left foot until the CoP reaches the edge that the
+// controller allows.
 TEST(Standing, MeasuredCopIsTheCommandedOneUntilItSaturates) {
   Scenario scenario = Ours("stand", 1.2);
   scenario.start = {};
@@ -157,7 +159,8 @@ TEST(Standing, MeasuredCopIsTheCommandedOneUntilItSaturates) {
     for (int i = 0; i < 2; ++i) {
       const auto measured = loop.observation().feet[i].F_Co_C;
       const auto commanded = record.report.foot_wrench(nv, i);
-      if (commanded[5] < 20) continue;  // An unloaded foot.
+      if (commanded[5] < 20)
+        continue;  // The CoP of a small load is inaccurate.
       const Eigen::Vector2d cop(-commanded[1] / commanded[5],
                                 commanded[0] / commanded[5]);
       worst = std::max({worst, std::abs(-measured[1] / measured[5] - cop.x()),

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Returns the integral of the profile from its start to the fraction x of its
-// duration, divided by the duration.
+// Returns the integral of a profile up to a fraction x of its duration, divided
+// by the duration.
 double IntegralTo(PushProfile profile, double x) {
   x = std::clamp(x, 0.0, 1.0);
   return profile == PushProfile::kHalfSine ? (1 - std::cos(kPi * x)) / kPi : x;
@@ -71,8 +71,8 @@ const Push* LargestPush(const std::vector<Push>& pushes, double until) {
 
 double MeanOfProfile(const Push& push, double time, double dt) {
   if (push.profile == PushProfile::kImpulse) {
-    // The impulse acts in the step that contains its start. Rounding at the end of a step
-    // must not lose it.
+    // The impulse acts in the step whose start is nearest to the push's start.
+    // So rounding at the border between two steps cannot lose the impulse.
     const double begin = time - dt / 2, end = time + dt / 2;
     return begin <= push.start && push.start < end ? push.duration / dt : 0;
   }

@@ -12,8 +12,9 @@
 
 namespace poise {
 
-/// Shape of a push over its duration T. With the peak force F, the impulse is F T for
-/// kBox and 2/pi F T for kHalfSine. kImpulse applies F T within one step.
+/// Time profile of a push of duration T and peak force F. The impulse is F T
+/// for kBox and 2/pi F T for kHalfSine. kImpulse applies all of F T within one
+/// step.
 enum class PushProfile { kBox, kHalfSine, kImpulse };
 
 /// Returns the name of a profile in files: "box", "half_sine" or "impulse".
@@ -22,11 +23,12 @@ const char* NameOf(PushProfile profile);
 /// The axes in which a push's force and moment are given.
 enum class PushFrame { kWorld, kLink };
 
-/// A force and a moment on a link, unknown to the controller.
+/// A force and a moment on a link. The controller receives no information about
+/// a push.
 struct Push {
   std::string link;  ///< Empty: the torso, see FindTorso().
-  /// Point of application in the link's frame, m. Without a value, the center of mass
-  /// of the link's body.
+  /// Point where the force acts, in the link's frame, m. Empty: the center of
+  /// mass of the body that the link belongs to.
   std::optional<Eigen::Vector3d> point;
   PushFrame frame = PushFrame::kWorld;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< Peak, N.
@@ -36,33 +38,34 @@ struct Push {
   double duration = 0.15;  ///< s.
 };
 
-/// Returns the mean of the push over [time, time + dt], divided by its peak. The
-/// mean is exact for any dt, so that the impulse does not depend on the step.
+/// Returns the mean of the push over [time, time + dt], divided by its peak.
+/// The mean is exact for any dt, so that the impulse does not depend on the
+/// step.
 double MeanOfProfile(const Push& push, double time, double dt);
 
-/// Returns the integral of a push's profile up to a time, s. The impulse up to then is
-/// the integral times the peak force.
+/// Returns the integral of a push's profile up to a time, s. The impulse up to
+/// that time is the integral times the peak force.
 double ProfileIntegral(const Push& push,
                        double until = std::numeric_limits<double>::infinity());
 
-/// Returns the impulse of a push up to a time, N s: ProfileIntegral() times the norm of
-/// its peak force.
+/// Returns the impulse of a push up to a time, N s: ProfileIntegral() times the
+/// norm of the peak force.
 double ImpulseOf(const Push& push,
                  double until = std::numeric_limits<double>::infinity());
 
-/// Returns the push with the largest impulse up to a time, the first of equal ones;
-/// null if all are zero.
+/// Returns the push with the largest impulse up to a time, the first of equals.
+/// Null if no push has an impulse by then.
 const Push* LargestPush(const std::vector<Push>& pushes, double until);
 
-/// A push on the link of a robot.
+/// A push on a robot, with its link resolved to a body.
 class PushOnRobot {
  public:
-  /// Throws std::invalid_argument if the robot has no such link, or a number is
-  /// not finite, or the duration negative.
+  /// Throws std::invalid_argument if the robot has no such link, a number is
+  /// not finite, or the duration is negative.
   PushOnRobot(const Robot& robot, const Push& push);
 
-  /// Returns the mean force over [time, time + dt] for the orientation R_WB of the body;
-  /// empty if the push does not act.
+  /// Returns the mean of the push over [time, time + dt], for a body with the
+  /// orientation R_WB. Empty if the push is not active in this interval.
   std::optional<AppliedForce> At(double time, double dt,
                                  const Eigen::Matrix3d& R_WB) const;
 
@@ -70,8 +73,8 @@ class PushOnRobot {
   int body() const { return body_; }
   const Eigen::Vector3d& p_BoQ_B() const { return p_BoQ_B_; }
 
-  /// Returns the peak force in world axes, or in body axes if the push is given in link
-  /// axes and rotates with the body.
+  /// Returns the peak force, N. It is in world axes, or in the body's axes if
+  /// the push is given in the link's axes; then the force turns with the body.
   Eigen::Vector3d force() const;
 
  private:
@@ -81,8 +84,8 @@ class PushOnRobot {
   Eigen::Matrix3d R_BF_;
 };
 
-/// Returns the heaviest body that is not part of a leg. A leg is the chain between
-/// base and foot without the base.
+/// Returns the heaviest body that is not part of a leg. A leg is the chain from
+/// the base, without the base, to a foot.
 int FindTorso(const Robot& robot);
 
 }  // namespace poise

@@ -14,7 +14,7 @@
 namespace poise {
 namespace {
 
-// Returns the impulse of a push in steps of dt over ten seconds.
+// Returns the impulse of a push of 1 N, in steps of dt over ten seconds, N s.
 double Impulse(const Push& push, double dt) {
   double impulse = 0;
   const int steps = static_cast<int>(std::lround(10 / dt));
@@ -24,7 +24,7 @@ double Impulse(const Push& push, double dt) {
   return impulse;
 }
 
-TEST(Push, ImpulseIsTheProfilesIntegralWhateverTheStep) {
+TEST(Push, ImpulseDoesNotDependOnTheStep) {
   for (const PushProfile profile :
        {PushProfile::kBox, PushProfile::kHalfSine, PushProfile::kImpulse}) {
     Push push;
@@ -38,7 +38,7 @@ TEST(Push, ImpulseIsTheProfilesIntegralWhateverTheStep) {
   }
 }
 
-TEST(Push, IntegralsAreThoseOfTheProfiles) {
+TEST(Push, IntegratesEachProfile) {
   Push push;
   push.duration = 0.2;
   EXPECT_DOUBLE_EQ(ProfileIntegral(push), 0.2);
@@ -46,7 +46,7 @@ TEST(Push, IntegralsAreThoseOfTheProfiles) {
   EXPECT_DOUBLE_EQ(ProfileIntegral(push), 0.2);
   push.profile = PushProfile::kHalfSine;
   EXPECT_DOUBLE_EQ(ProfileIntegral(push), 0.4 / M_PI);
-  // The integral is half in the middle and zero before the start.
+  // Half of the integral is reached in the middle, and 0 at the start.
   EXPECT_NEAR(ProfileIntegral(push, push.start + 0.5 * push.duration),
               0.2 / M_PI, Rounding(push.start, 2));
   EXPECT_EQ(ProfileIntegral(push, push.start), 0);
@@ -66,7 +66,7 @@ TEST(Push, HalfSinePeaksInTheMiddle) {
   EXPECT_EQ(MeanOfProfile(push, 1.25, 0.05), 0);
 }
 
-TEST(Push, ImpulseFallsIntoOneStep) {
+TEST(Push, ImpulseActsInOneStep) {
   Push push;
   push.profile = PushProfile::kImpulse;
   push.start = 0.3;  // 300 * 1e-3 differs from 0.3 in binary.
@@ -96,7 +96,7 @@ TEST(Push, ActsAtTheCenterOfMassInTheWorldsAxes) {
   EXPECT_FALSE(aimed.At(1, 1e-3, R_WB));
 }
 
-TEST(Push, TurnsWithItsLinkIfTold) {
+TEST(Push, TurnsWithItsLinkInTheLinkFrame) {
   Robot robot = MakeBlock({0.1, 0.2, 0.3}, 5);
   Push push;
   push.link = "block";
@@ -123,7 +123,7 @@ std::string MessageFor(const Push& push) {
   return "";
 }
 
-TEST(Push, RefusesWhatItCannotDo) {
+TEST(Push, RejectsInvalidPushes) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(MessageFor({}), "");

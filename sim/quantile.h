@@ -8,8 +8,10 @@
 
 namespace poise {
 
-/// Returns the smallest of the values such that a fraction of all, 0 to 1, is not
-/// larger. Does not interpolate. Reorders the values. pre: there is a value.
+/// Returns the smallest of the values such that at least a fraction, 0 to 1, of
+/// all values is less than or equal to it. The result is one of the values,
+/// without interpolation. Reorders the values. pre: there is at least one
+/// value.
 template <typename Number>
 Number Quantile(std::vector<Number>* values, double fraction) {
   const auto rank = static_cast<std::size_t>(

@@ -8,7 +8,7 @@
 namespace poise {
 namespace {
 
-TEST(Quantile, IsTheSmallestThatAFractionDoesNotExceed) {
+TEST(Quantile, IsTheSmallestValueThatCoversTheFraction) {
   std::vector<double> values = {5, 1, 4, 2, 3};
   EXPECT_EQ(Quantile(&values, 0), 1);
   EXPECT_EQ(Quantile(&values, 0.2), 1);

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests recovery beyond the paper: wrong models, one leg, the largest pushes.
+// Tests beyond the paper: a wrong model, standing on one leg, the largest
+// pushes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,9 +12,10 @@
 namespace poise {
 namespace {
 
-// The error of each axis is within half of the 3 mm of //tools:robustness. Without
-// correction a model that is too light leaves 4 mm in x and 17 mm in z.
-TEST(WrongModel, LeavesNoSteadyError) {
+// The bound for each axis is half of the 3 mm that //tools:robustness allows.
+// Without the integral correction, a model whose masses are too small leaves an
+// error of 4 mm in x and 17 mm in z.
+TEST(WrongModel, HasNoFinalError) {
   Scenario scenario = Ours("stand", 4);
   scenario.control.mass_error = -0.1;
   const Verdict verdict = poise::Run(Humanoid(), scenario).verdict;
@@ -21,8 +23,8 @@ TEST(WrongModel, LeavesNoSteadyError) {
   EXPECT_LT(verdict.com_error_final.cwiseAbs().maxCoeff(), 1.5e-3);
 }
 
-// 17.8 mm without correction.
-TEST(WrongModel, LeavesNoErrorWithTheComTask) {
+// Without the integral correction the error is 17.8 mm.
+TEST(WrongModel, HasNoFinalErrorWithTheComTask) {
   Scenario scenario = Ours("stand", 4);
   scenario.control.mass_error = 0.1;
   scenario.control.without = {"momentum"};
@@ -36,7 +38,7 @@ RunResult RunOurs(const std::string& name, double duration) {
   return poise::Run(Humanoid(), Ours(name, duration));
 }
 
-TEST(OneLeg, StandsOnOneFootIsPushedThereAndPutsTheOtherDown) {
+TEST(OneLeg, RecoversFromAPushAndPutsTheOtherFootDown) {
   double in_the_air = 0, pushed_there = 0;  // s, N s.
   FootObservation right;
   const Story story = Tell(Ours("one_leg", 14), [&](const ClosedLoop& loop) {
@@ -56,16 +58,16 @@ TEST(OneLeg, StandsOnOneFootIsPushedThereAndPutsTheOtherDown) {
 }
 
 // The yardstick uses the one foot on the ground when the push begins.
-TEST(OneLeg, IsMeasuredAgainstAPendulumOnOneFoot) {
+TEST(OneLeg, UsesThePendulumBoundOfOneFoot) {
   const RunResult result = RunOurs("one_leg", 6.2);
   ASSERT_TRUE(result.yardstick.has_value());
-  const double omega = std::sqrt(9.81 / 0.79);  // Height of the CoM, to 2 cm.
+  const double omega = std::sqrt(9.81 / 0.79);  // CoM height within 2 cm.
   const double stretch = omega * 0.15 / -std::expm1(-omega * 0.15);
   const double reach = result.yardstick->lipm_Ns /
                        (Humanoid().model.tree.total_mass() * omega * stretch);
-  // Half the width of a sole, plus the quarter of it by which the CoM is inside.
+  // Half the width of a sole, plus a quarter of it: the CoM is that far inside.
   EXPECT_NEAR(reach, 1.25 * 0.065, 0.005);
-  // A push after the end of the run has no yardstick.
+  // A push that never begins has no yardstick.
   EXPECT_FALSE(RunOurs("one_leg", 0.1).yardstick.has_value());
 }
 
@@ -98,8 +100,9 @@ TEST(LargestPush, ReleasesAFootSidewaysAndBringsItBack) {
   ExpectAFootLeavesAndComesBack({0, 209, 0});
 }
 
-// The foot is still falling, and far in front, when it is called back.
-TEST(LargestPush, DiagonallyBringsTheFootBackToItsPlace) {
+// After this push, to the left and backward, the robot is still falling when
+// the foot begins its return, from far in front of its place.
+TEST(LargestPush, ReleasesAFootDiagonallyAndBringsItBack) {
   ExpectAFootLeavesAndComesBack({-177, 177, 0});
 }
 

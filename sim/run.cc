@@ -32,15 +32,15 @@ double TorqueViolation(const RobotModel& model, double scale,
   return worst;
 }
 
-// See RunResult::blew_up.
+// Returns RunResult::blew_up for a velocity; empty if all joints are slow.
 std::string FindBlowUp(const Tree& tree, const Eigen::VectorXd& v) {
   constexpr double kAbsurd = 1000;  // rad/s or m/s.
   for (int j = 0; j < tree.num_joints(); ++j) {
     const double speed = v[tree.v_start() + j];
-    if (std::abs(speed) <= kAbsurd) continue;  // NaN does not pass.
+    if (std::abs(speed) <= kAbsurd) continue;  // A NaN counts as absurd.
     const bool slides = tree.joints()[j].type == JointType::kPrismatic;
     return "the controller blew up: joint " + Quoted(tree.joints()[j].name) +
-           " went at " + PrintNumber(speed) + (slides ? " m/s" : " rad/s");
+           " moved at " + PrintNumber(speed) + (slides ? " m/s" : " rad/s");
   }
   return "";
 }
@@ -78,10 +78,11 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
     recorder = std::make_unique<Recorder>(folder, robot,
                                           loop->controller().stack(), format);
   }
-  // The nominal posture is that of a standing robot.
+  // In the nominal posture the robot stands on the ground.
   Judge judge(StandingHeight(robot));
   const long ticks = std::lround(scenario.duration / scenario.control.dt);
-  // Frequent calls let the caller stop a long run at once.
+  // Calls progress() at least 100 times per run, and at least every 1000 plant
+  // steps. So a run with many or slow ticks can be stopped quickly, too.
   const long steps = std::lround(scenario.control.dt / scenario.plant.dt);
   const long between = std::clamp(ticks / 100, 1L, std::max(1L, 1000 / steps));
   std::vector<float> us;

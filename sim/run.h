@@ -28,10 +28,11 @@ struct TickTimes {
 /// Outcome and cost of a run.
 struct RunResult {
   Verdict verdict;
-  /// The joint, in words, that moved impossibly fast before the robot fell; empty if
-  /// none did. The cause is then the controller or the plant.
+  /// Set if a joint was flung off before the robot fell: which joint, in words.
+  /// A body does not do so by itself, so the cause is the controller or the
+  /// plant.
   std::string blew_up;
-  double duration = 0;  ///< Simulated, s; less than asked for after a fall.
+  double duration = 0;  ///< Simulated time, s; shorter after a fall.
   bool interrupted = false;
   long ticks = 0;
   TickTimes tick_us;
@@ -43,31 +44,32 @@ struct RunResult {
   int self_contact_ticks = 0;
   double impulse_Ns = 0;     ///< Largest push, part within the run.
   double push_duration = 0;  ///< Largest push, s.
-  /// Bound in the direction of the largest push, on the feet that are down when
-  /// the push begins. Empty if the push does not begin.
+  /// Pendulum bound in the direction of the largest push, on the feet that are
+  /// down when the push begins. Empty if the push does not begin.
   std::optional<Yardstick> yardstick;
   double wall_seconds = 0;
   std::string log_sha256;  ///< Empty if nothing was recorded.
-  /// Rows that the log names; empty without a recorder.
+  /// Rows of the stack that the log names; empty if nothing was recorded.
   std::vector<StackRow> rows;
 };
 
 /// Returns the cause of the fall in words; empty without a fall.
 std::string FellBy(const RunResult& result);
 
-/// Runs a new loop to the end of its scenario or until the robot lies.
+/// Runs a new loop to the end of its scenario, or until Judge::is_down().
 ///
-/// @param folder    folder of a Recorder; empty: no files.
+/// @param folder    folder in which a Recorder writes; empty: nothing is
+///                  written.
 /// @param format    of the log, see Recorder.
 /// @param progress  called a hundred times or more with the fraction done;
 ///                  stops the run by returning false. May be empty.
 ///
-/// Throws std::invalid_argument, see Recorder.
+/// Throws std::invalid_argument as Recorder does.
 RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder = {},
               const std::function<bool(double)>& progress = {},
               LogFormat format = LogFormat::kCsv);
 
-/// Runs a loop of a robot and a scenario. Throws also as ClosedLoop.
+/// Runs a new loop of a robot and a scenario. Throws also as ClosedLoop does.
 RunResult Run(const Robot& robot, const Scenario& scenario,
               const std::filesystem::path& folder = {},
               const std::function<bool(double)>& progress = {},

@@ -51,7 +51,7 @@ TEST(Run, SameSeedGivesTheSameBytesInAnyOrderAndInParallel) {
   EXPECT_NE(poise::Run(Humanoid(), scenario, Folder("other")).log_sha256, once);
 }
 
-TEST(Run, WritesARowATickAndStopsWhenTold) {
+TEST(Run, WritesOneRowPerTickAndStopsOnRequest) {
   Scenario scenario = Ours("weak_push", 2);
   const RunResult result = poise::Run(Humanoid(), scenario, Folder("stopped"),
                                       [](double done) { return done < 0.105; });
@@ -73,7 +73,7 @@ TEST(Run, WritesARowATickAndStopsWhenTold) {
 }
 
 // A robot that stands may fall later; a fall is final.
-TEST(Run, DoesNotJudgeARobotThatWasUpWhenItWasInterrupted) {
+TEST(Run, DoesNotJudgeAnInterruptedRunWithoutAFall) {
   const Scenario scenario = Ours("weak_push", 2);
   RunResult result;
   result.interrupted = true;
@@ -88,17 +88,18 @@ TEST(Run, DoesNotJudgeARobotThatWasUpWhenItWasInterrupted) {
             0u);
 }
 
-TEST(Run, RefusesTasksThatAreNotThere) {
+TEST(Run, RejectsUnknownTasks) {
   Scenario scenario = Ours("stand", 1);
   scenario.control.with = {"levitate"};
   EXPECT_THROW(poise::Run(Humanoid(), scenario), std::invalid_argument);
 }
 
-// Fingers of 2 mg without limits must not be accelerated by 1e8 rad/s2 to supply
-// momentum during a push.
-TEST(Run, NaoKeepsItsFingers) {
+// Nao's fingers have a mass of 2 mg and no limits. The controller must not
+// balance a push by accelerating them, at 1e8 rad/s2, if the feet can balance
+// the push.
+TEST(Run, NaoRecoversWithoutFlingingItsFingers) {
   const auto robots = SharedData("robots");
-  if (!robots) GTEST_SKIP() << "the shared robots are not there";
+  if (!robots) GTEST_SKIP() << "the shared robot files are missing";
   const Robot nao = LoadStandingRobot(*robots / "nao_v50.urdf");
   Scenario scenario = Ours("strong_push", 3);
   scenario.pushes[0].force *= 0.15;
@@ -107,13 +108,14 @@ TEST(Run, NaoKeepsItsFingers) {
   EXPECT_EQ(result.failures, 0);
 }
 
-// With the CoM over the middle of a foot, the hip would be at its limit. The CoM must
-// stay on the inner side.
+// With the CoM over the middle of a foot, Nao's hip would be at its limit and
+// other tasks would be violated. The CoM must stay on the inner side of the
+// sole.
 TEST(Run, NaoStandsOnOneLeg) {
   const auto robots = SharedData("robots");
-  if (!robots) GTEST_SKIP() << "the shared robots are not there";
+  if (!robots) GTEST_SKIP() << "the shared robot files are missing";
   Scenario scenario = Ours("one_leg", 9);
-  scenario.pushes.clear();  // A push for our robot is too large for Nao.
+  scenario.pushes.clear();  // The push is too strong for Nao.
   const RunResult result =
       poise::Run(LoadStandingRobot(*robots / "nao_v50.urdf"), scenario);
   EXPECT_TRUE(result.verdict.recovered) << result.verdict.fell_by;
@@ -138,7 +140,7 @@ TEST(ClosedLoop, ShiftsOverTheInnerSideOfAFoot) {
   }
 }
 
-// Not only feet have frame tasks.
+// Frame tasks exist for every link, not only for the feet.
 TEST(ClosedLoop, HasAFrameTaskForAnyLink) {
   Scenario scenario = Ours("stand", 1);
   scenario.control.tasks =
@@ -154,8 +156,9 @@ TEST(ClosedLoop, HasAFrameTaskForAnyLink) {
   }
 }
 
-// Gains that are unstable at 100 Hz, without limits, cause an impossible motion.
-TEST(Run, TellsABlowUpFromAFall) {
+// The gains are unstable at 100 Hz and the limits are off. So joints move
+// faster than in any fall.
+TEST(Run, DistinguishesABlowUpFromAFall) {
   Scenario scenario = Ours("stand", 1);
   scenario.control.dt = 0.01;
   scenario.control.tasks =
@@ -167,7 +170,7 @@ TEST(Run, TellsABlowUpFromAFall) {
   EXPECT_EQ(FellBy(wild).find("the controller blew up: joint '"), 0u)
       << FellBy(wild);
   EXPECT_EQ(ToJson(Humanoid(), scenario, wild)["fell_by"], FellBy(wild));
-  // A push that is too large for any controller causes a fall.
+  // A push that no controller could balance gives an ordinary fall.
   Scenario hard = Ours("strong_push", 3);
   hard.pushes[0].force *= 3;
   const RunResult fallen = poise::Run(Humanoid(), hard);
@@ -176,7 +179,8 @@ TEST(Run, TellsABlowUpFromAFall) {
   EXPECT_EQ(FellBy(RunResult()), "");
 }
 
-// With a delay of three ticks, the plant receives the torques of three ticks ago.
+// With a delay of three ticks, the plant applies the torques that the
+// controller commanded three ticks before.
 TEST(ClosedLoop, DelaysTorques) {
   Scenario scenario = Ours("strong_push", 1);
   scenario.control.delay = 3e-3;
@@ -191,7 +195,7 @@ TEST(ClosedLoop, DelaysTorques) {
   }
 }
 
-TEST(ClosedLoop, ControlsSlowerThanThePlantSteps) {
+TEST(ClosedLoop, ControlsAtALowerRateThanThePlant) {
   Scenario scenario = Ours("strong_push", 1);
   scenario.control.dt = 5e-3;
   ClosedLoop loop(Humanoid(), scenario);

@@ -18,7 +18,7 @@ namespace poise {
 
 namespace {
 
-constexpr double kLongest = 86400;  // s.
+constexpr double kLongest = 86400;  // Largest time and duration, s.
 constexpr double kMostTicks = 1e8;
 constexpr double kMostStepsInATick = 1000;
 constexpr std::size_t kMostEntries = 1000;  // Largest list.
@@ -138,8 +138,8 @@ StanceEvent ReadStanceEvent(YamlFields fields) {
        {std::pair("lift", "put_down"), std::pair("lift", "shift"),
         std::pair("put_down", "shift")}) {
     if (!fields.Has(key) || !fields.Has(other)) continue;
-    fields.Refuse(key, "must not go with " + std::string(other) +
-                           ": one of them an entry");
+    fields.Refuse(key, "must not be in one entry with " + std::string(other) +
+                           ": write two entries");
   }
   if (!lift.empty()) {
     event.kind = StanceEvent::Kind::kLift;
@@ -150,7 +150,7 @@ StanceEvent ReadStanceEvent(YamlFields fields) {
   } else if (!shift.empty()) {
     event.foot = shift == "middle" ? "" : shift;
   } else {
-    fields.Refuse("at", "must go with lift, put_down or shift");
+    fields.Refuse("at", "must come with lift, put_down or shift");
   }
   return event;
 }
@@ -207,7 +207,7 @@ std::vector<Push> ReadPushes(YamlFields* fields) {
   return pushes;
 }
 
-// Returns "pushes[2]".
+// Returns the name of a list entry: "pushes[2]".
 std::string Entry(const char* list, std::size_t i) {
   return std::string(list) + "[" + std::to_string(i) + "]";
 }
@@ -235,8 +235,8 @@ void CheckOrder(const std::vector<StanceEvent>& stance) {
       throw InputError::OfValue(
           which + "at", " is " + PrintNumber(event.at) + ", must be at least " +
                             PrintNumber(before) +
-                            ", as the entry before: they stand in the order "
-                            "of time");
+                            ", the time of the entry before: entries must be "
+                            "in order of time");
     }
     before = event.at;
     if (event.kind == StanceEvent::Kind::kLift) {
@@ -258,19 +258,19 @@ void CheckOrder(const std::vector<StanceEvent>& stance) {
   }
 }
 
-// Checks that control ticks, plant steps, delay and duration are compatible.
+// Checks that control period, plant step, delay and duration are compatible.
 void CheckTimes(const Scenario& scenario) {
   const double step = scenario.plant.dt, tick = scenario.control.dt;
-  const std::string rate = " is " + PrintNumber(1 / tick) + ", must be ";
+  const std::string rate = " is " + PrintNumber(1 / tick) + ", must ";
   const std::string plant_rate = ", which is " + PrintNumber(1 / step);
   if (!(tick > step / 2 && IsMultiple(tick, step))) {
-    throw InputError::OfValue("control.rate", rate + "a whole part of ",
+    throw InputError::OfValue("control.rate", rate + "evenly divide ",
                               "plant.rate", plant_rate);
   }
   if (!(tick < (kMostStepsInATick + 0.5) * step)) {
     throw InputError::OfValue("control.rate",
-                              rate + "at least a thousandth of ", "plant.rate",
-                              plant_rate);
+                              rate + "be at least a thousandth of ",
+                              "plant.rate", plant_rate);
   }
   const double delay = scenario.control.delay;
   if (!IsMultiple(delay, step)) {
@@ -285,7 +285,8 @@ void CheckTimes(const Scenario& scenario) {
   }
 }
 
-// The name is used in JSON and, by default, for a folder.
+// Checks a scenario's name, which is written into JSON and is the default name
+// of the output folder.
 bool IsPlainName(const std::string& name) {
   constexpr std::size_t kMostBytes = 100;
   return !name.empty() && name.size() <= kMostBytes && name != "." &&

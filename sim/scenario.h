@@ -12,7 +12,7 @@
 
 namespace poise {
 
-/// Deviation of the start state from equilibrium.
+/// Offset of the start state from equilibrium.
 struct StartSettings {
   double joints = 0;   ///< Joints outside the legs, each drawn in +- this, rad.
   double drop = 0;     ///< Height of the soles above the ground, m.
@@ -20,7 +20,7 @@ struct StartSettings {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< Place of the feet, m.
 };
 
-/// Motion of the desired center of mass about its start:
+/// Motion of the desired center of mass around its start:
 ///     sine sin(2 pi t / period) + cosine cos(2 pi t / period).
 struct ComMotion {
   Eigen::Vector3d sine = Eigen::Vector3d::Zero();    ///< m.
@@ -28,37 +28,37 @@ struct ComMotion {
   double period = 10;                                ///< s.
 };
 
-/// An event of the stance. A foot is lifted or put down; or the desired center of
-/// mass moves over a foot, a quarter of its half width inside, or back between the
-/// feet.
+/// An event of the stance. A foot is lifted or put down; or the desired center
+/// of mass moves. It moves over a foot, a quarter of the sole's half width
+/// inside of the foot's center, or back between the feet.
 struct StanceEvent {
   enum class Kind { kLift, kPutDown, kShift };
 
   Kind kind = Kind::kShift;
-  double at = 0;         ///< s.
-  std::string foot;      ///< By name; empty: between the feet, as it began.
-  double height = 0.05;  ///< To lift a foot by, m.
-  double over = 1.5;     ///< How long a shift takes, s.
+  double at = 0;         ///< Time of the event, s.
+  std::string foot;      ///< Name; empty: back to where the CoM started.
+  double height = 0.05;  ///< Height that a foot is lifted by, m.
+  double over = 1.5;     ///< Duration of a shift, s.
 };
 
-/// Settings of the controller, besides its robot.
+/// Settings of the controller, in addition to its robot.
 struct ControlSettings {
-  double dt = 1e-3;          ///< s.
+  double dt = 1e-3;          ///< Control period, s.
   double delay = 0;          ///< From measurement to torque, s.
-  double friction = 0.5;     ///< Its mu.
+  double friction = 0.5;     ///< Coefficient mu that the controller assumes.
   double mass_error = 0;     ///< Relative error of all masses of its model.
   double ramp = 0;           ///< Changes of tasks take effect in this time, s.
-  bool inscribed = false;    ///< Its friction pyramid.
-  bool feedforward = false;  ///< Uses the reference's motion.
-  bool weighted = false;     ///< One weighted QP.
-  bool estimator = false;    ///< The base from sensors, not from the truth.
+  bool inscribed = false;    ///< The friction pyramid is inside the cone.
+  bool feedforward = false;  ///< Feeds forward v_WG, a_WG of the reference.
+  bool weighted = false;     ///< One weighted QP instead of the hierarchy.
+  bool estimator = false;    ///< Estimates the base instead of using the truth.
   std::string tasks = "default";     ///< A task set, by name or file.
   std::vector<std::string> with;     ///< Tasks switched on in it.
   std::vector<std::string> without;  ///< Tasks switched off in it.
 };
 
-/// One experiment as data. docs/scenarios.md has the YAML with every key and its
-/// default.
+/// One experiment, as data instead of code in main(). docs/scenarios.md
+/// describes its YAML file: every key and its default value.
 struct Scenario {
   std::string name;
   double duration = 5;
@@ -74,8 +74,8 @@ struct Scenario {
 };
 
 /// Reads a scenario, without Validate(), so that options can change it first.
-/// Throws std::invalid_argument("FILE:LINE: ...") with the key, its value and the
-/// valid range. An unknown key is refused.
+/// Throws std::invalid_argument("FILE:LINE: ...") with the key, its value and
+/// the allowed values. Rejects unknown keys.
 Scenario ReadScenario(const std::filesystem::path& file);
 
 /// Reads a scenario as ReadScenario(), and throws also as Validate().
@@ -84,8 +84,8 @@ Scenario LoadScenario(const std::filesystem::path& file);
 /// Reads a list of pushes from a file whose one key is `pushes`.
 std::vector<Push> LoadPushes(const std::filesystem::path& file);
 
-/// Throws InputError about the first field that is out of range or contradicts another
-/// field. The path is that in the file: "control.rate".
+/// Throws InputError about the first field that is out of range or contradicts
+/// another field. The error has the field's path in the file: "control.rate".
 void Validate(const Scenario& scenario);
 
 }  // namespace poise

@@ -34,7 +34,7 @@ std::string Complaint(const std::string& text) {
   return "none";
 }
 
-TEST(Scenario, OursAreReadByName) {
+TEST(Scenario, ReadsEveryScenarioOfTheRepository) {
   for (const char* name : {"stand", "posture_off", "com_sinusoid", "weak_push",
                            "strong_push_without_zmp", "strong_push", "one_leg",
                            "slope", "board"}) {
@@ -44,7 +44,7 @@ TEST(Scenario, OursAreReadByName) {
   }
 }
 
-// Every key, each with a value that is not its default.
+// A scenario with every key. Each value differs from the default.
 constexpr char kEveryKey[] = R"(
 name: all
 duration: 7
@@ -181,7 +181,7 @@ TEST(Scenario, ReadsEachKeyOfSensors) {
   EXPECT_EQ(n.foot_delay, 0.3);
 }
 
-// Returns the YAML of docs/scenarios.md.
+// Returns the YAML in docs/scenarios.md.
 std::string Documented() {
   std::ifstream stream("docs/scenarios.md");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
@@ -190,7 +190,7 @@ std::string Documented() {
   return text.substr(start, text.find("```", start) - start);
 }
 
-TEST(Scenario, DocumentHasEveryKeyWithItsDefault) {
+TEST(Scenario, DocsListEveryKeyWithItsDefault) {
   const Scenario documented = Read(Documented()), fresh;
   EXPECT_EQ(documented.duration, fresh.duration);
   EXPECT_EQ(documented.seed, fresh.seed);
@@ -237,7 +237,7 @@ TEST(Scenario, DocumentHasEveryKeyWithItsDefault) {
   }
 }
 
-TEST(Scenario, BadKeyIsRefusedWithItsLine) {
+TEST(Scenario, RejectsAnUnknownKeyWithItsLine) {
   EXPECT_EQ(Complaint("duration: 5\nstart:\n  joint: 0.1\n"),
             "trial.yaml:3: key 'joint' is unknown, must be one of joints, "
             "drop, heading, place");
@@ -246,7 +246,7 @@ TEST(Scenario, BadKeyIsRefusedWithItsLine) {
             "frame, profile, force, moment, at, duration");
 }
 
-TEST(Scenario, BadValueIsRefusedWithItsLine) {
+TEST(Scenario, RejectsAnInvalidValueWithItsLine) {
   EXPECT_EQ(Complaint("\nduration: long\n"),
             "trial.yaml:2: 'duration' is 'long', must be a number");
   EXPECT_EQ(Complaint("duration: .inf\n"),
@@ -271,36 +271,38 @@ TEST(Scenario, BadValueIsRefusedWithItsLine) {
   EXPECT_EQ(Complaint("seed: 4294967295\n"), "none");
 }
 
-TEST(Scenario, RefusalIsOneLineWhateverTheFileHolds) {
+TEST(Scenario, ReportsAnErrorOnOneLine) {
   EXPECT_EQ(Complaint("seed: \"1\\n2\"\n"),
             "trial.yaml:1: 'seed' is '1 2', must be a number");
 }
 
-TEST(Scenario, StanceEventMustSayWhatHappens) {
-  EXPECT_EQ(Complaint("stance:\n  - {at: 3}\n"),
-            "trial.yaml:2: 'at' is '3', must go with lift, put_down or shift");
+TEST(Scenario, RejectsAStanceEventWithoutAnAction) {
+  EXPECT_EQ(
+      Complaint("stance:\n  - {at: 3}\n"),
+      "trial.yaml:2: 'at' is '3', must come with lift, put_down or shift");
   EXPECT_EQ(Complaint("stance: [{height: 0.3}]\n"),
-            "trial.yaml:1: 'at' is missing, must go with lift, put_down or "
+            "trial.yaml:1: 'at' is missing, must come with lift, put_down or "
             "shift");
   EXPECT_NE(Complaint("stance: [{at: 3, shift: middle, over: 0}]\n"), "none");
   EXPECT_NE(Complaint("stance: [{at: 3, lift: a, height: -1}]\n"), "none");
 }
 
-TEST(Scenario, StanceEntriesThatMakeNoSenseAreRefused) {
+TEST(Scenario, RejectsContradictoryStanceEntries) {
   EXPECT_EQ(Complaint("stance:\n"
                       "- {at: 1, lift: right_foot}\n"
                       "- {at: 0.5, put_down: right_foot}\n"),
-            "trial.yaml: stance[1].at is 0.5, must be at least 1, as the entry "
-            "before: they stand in the order of time");
-  EXPECT_EQ(Complaint("stance:\n- {at: 1, shift: middle, lift: left_foot}\n"),
-            "trial.yaml:2: 'lift' is 'left_foot', must not go with shift: one "
-            "of them an entry");
+            "trial.yaml: stance[1].at is 0.5, must be at least 1, the time of "
+            "the entry before: entries must be in order of time");
+  EXPECT_EQ(
+      Complaint("stance:\n- {at: 1, shift: middle, lift: left_foot}\n"),
+      "trial.yaml:2: 'lift' is 'left_foot', must not be in one entry with "
+      "shift: write two entries");
   EXPECT_EQ(Complaint("stance:\n- {at: 1, shift: middle, put_down: a}\n"),
-            "trial.yaml:2: 'put_down' is 'a', must not go with shift: one of "
-            "them an entry");
+            "trial.yaml:2: 'put_down' is 'a', must not be in one entry with "
+            "shift: write two entries");
   EXPECT_EQ(Complaint("stance: [{lift: a, put_down: b}]\n"),
-            "trial.yaml:1: 'lift' is 'a', must not go with put_down: one of "
-            "them an entry");
+            "trial.yaml:1: 'lift' is 'a', must not be in one entry with "
+            "put_down: write two entries");
   EXPECT_EQ(Complaint("stance:\n- {at: 1, lift: a}\n- {at: 2, lift: b}\n"),
             "trial.yaml: stance[1].lift is 'b', must come after 'a' is put "
             "down: one foot is lifted at a time");
@@ -313,8 +315,8 @@ TEST(Scenario, StanceEntriesThatMakeNoSenseAreRefused) {
             "none");
 }
 
-// The name becomes a folder and a JSON string.
-TEST(Scenario, NameMustBeThatOfAFile) {
+// The name becomes the name of a folder and a string in JSON.
+TEST(Scenario, RejectsNamesThatAreNotFileNames) {
   const std::string wanted =
       "', must be the name of a file, in UTF-8, of at most 100 bytes";
   for (const char* name : {".", "..", "../a", "/tmp", "a\\b"}) {
@@ -332,8 +334,8 @@ TEST(Scenario, NameMustBeThatOfAFile) {
   EXPECT_LT(Complaint(std::string(300'000, 'a') + ": 1\n").size(), 300u);
 }
 
-// One number of each kind that would overflow, hang or exhaust the memory.
-TEST(Scenario, AbsurdNumbersAreRefusedWithTheirLine) {
+// Each text has a number that would overflow, hang or use up the memory.
+TEST(Scenario, RejectsNumbersOutOfRangeWithTheirLine) {
   EXPECT_EQ(Complaint("\nduration: -1\n"),
             "trial.yaml:2: 'duration' is '-1', must be 0.001 to 86400 s");
   EXPECT_EQ(Complaint("plant: {rate: 1e9}\n"),
@@ -408,10 +410,10 @@ TEST(Scenario, AbsurdNumbersAreRefusedWithTheirLine) {
   }
 }
 
-TEST(Scenario, NumbersThatCannotBeHadTogetherAreRefused) {
+TEST(Scenario, RejectsIncompatibleNumbers) {
   const auto whole_part = [](const std::string& rate) {
     return "trial.yaml: control.rate is " + rate +
-           ", must be a whole part of plant.rate, which is 1000";
+           ", must evenly divide plant.rate, which is 1000";
   };
   EXPECT_EQ(Complaint("control: {rate: 300}\n"), whole_part("300"));
   EXPECT_EQ(Complaint("control: {rate: 2000}\n"), whole_part("2000"));
@@ -430,7 +432,7 @@ TEST(Scenario, NumbersThatCannotBeHadTogetherAreRefused) {
             "ticks");
 }
 
-TEST(Scenario, WhatOptionsChangeIsCheckedToo) {
+TEST(Scenario, ValidatesChangedSettings) {
   const auto complaint = [](auto change) -> std::string {
     Scenario scenario;
     scenario.pushes.resize(1);
@@ -471,12 +473,12 @@ TEST(Scenario, WhatOptionsChangeIsCheckedToo) {
             "plant.boards has 101 entries, must have at most 100");
 }
 
-TEST(Scenario, WhatIsNoYamlIsRefusedWithItsLine) {
+TEST(Scenario, RejectsInvalidYamlWithItsLine) {
   EXPECT_EQ(Complaint("a: 1\nb: [1,\n").substr(0, 11), "trial.yaml:");
   EXPECT_THROW(LoadScenario("nowhere.yaml"), std::invalid_argument);
 }
 
-TEST(Scenario, PushesComeFromAFileOfTheirOwn) {
+TEST(Scenario, LoadsPushesFromASeparateFile) {
   const auto pushes =
       LoadPushes(Write("pushes: [{force: [1, 0, 0]}, {force: [0, 2, 0]}]\n"));
   ASSERT_EQ(pushes.size(), 2u);

@@ -11,10 +11,10 @@ namespace poise {
 
 namespace {
 
-// A delay is shortened by half a microsecond, so that rounding does not add a tick.
+// Tolerance of times, s. Rounding must not make a reading one tick older.
 constexpr double kEarly = 5e-7;
 
-// Rounds x to the nearest multiple of a step; a step of 0 does not change x.
+// Rounds x to the nearest multiple of a step. A step of 0 does not change x.
 double Quantise(double x, double step) {
   return step > 0 ? step * std::round(x / step) : x;
 }
@@ -32,12 +32,13 @@ std::uint64_t RandomStream::Next() {
 }
 
 double RandomStream::Uniform() {
-  // 53 bits, as many as a double holds.
+  // A double has 53 significant bits.
   return static_cast<double>(Next() >> 11) * 0x1p-53;
 }
 
-// Returns the sum of twelve uniform numbers. Logarithm and cosine are avoided, because
-// their last bit depends on the library. The tails end at 6 deviations.
+// Returns the sum of twelve uniform numbers, minus 6. A logarithm or cosine
+// would depend on the math library in the last bit. The tails end at 6
+// deviations.
 double RandomStream::Gaussian() {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += Uniform();
@@ -100,7 +101,7 @@ void Sensors::Remember(const PlantState& state) {
   while (past_.size() > 1 && past_[1].time <= oldest) past_.pop_front();
 }
 
-// Returns the newest state that is older than the delay, or the first one.
+// Returns the newest state that is old enough, or the oldest state if none is.
 const PlantState& Sensors::Before(double delay) const {
   const double latest = past_.back().time - delay + kEarly;
   size_t i = past_.size() - 1;
@@ -126,7 +127,8 @@ Eigen::Vector3d Sensors::Read(const Eigen::Vector3d& truth,
   return read;
 }
 
-// Adds the errors to R as a rotation vector in world axes.
+// Adds bias and noise as a rotation vector relative to the true orientation.
+// Rounds the rotation vector relative to the world.
 Eigen::Matrix3d Sensors::ReadOrientation(const Eigen::Matrix3d& R) {
   const double deviation = settings_.base_orientation;
   Eigen::Vector3d off = bias_.base_orientation;

@@ -26,8 +26,8 @@ class RandomStream {
   std::uint64_t state_;
 };
 
-/// The robot's sensors with the errors of their settings. Each instance draws its
-/// errors from its seed; the same calls give the same errors.
+/// The robot's sensors, with the errors of their settings. Each instance draws
+/// its errors from its own seed, so that equal calls give equal measurements.
 class Sensors {
  public:
   Sensors(const Robot& robot, const SensorSettings& settings, unsigned seed);
@@ -58,7 +58,7 @@ class Sensors {
   RandomStream random_;
   Bias bias_;
   std::deque<PlantState>
-      past_;  // Up to the longest delay; the last is the newest.
+      past_;  // As far back as the longest delay; newest last.
   Measurement measurement_;
   bool first_ = true;
 };

@@ -38,7 +38,7 @@ PlantState MakeState() {
   return state;
 }
 
-TEST(Sensors, TellTheTruthIfNothingIsWrongWithThem) {
+TEST(Sensors, ReturnTheTruthWithoutErrors) {
   const Robot robot = MakeArmOnABlock();
   Sensors sensors(robot, {}, 1);
   const Measurement& m = sensors.Measure(MakeState());
@@ -49,14 +49,14 @@ TEST(Sensors, TellTheTruthIfNothingIsWrongWithThem) {
   EXPECT_TRUE(m.X_WB.R.isApprox(ExpSo3({0, 0, M_PI / 2})));
   EXPECT_TRUE(m.R_WB_imu.isApprox(m.X_WB.R));
   EXPECT_TRUE(m.V_WB_W.isApprox(MakeState().v.head<6>()));
-  // Rotated back by 90 degrees: x becomes y, y becomes -x.
+  // The base is turned by 90 degrees: x_B is y_W, and y_B is -x_W.
   EXPECT_TRUE(m.w_WB_B.isApprox(Eigen::Vector3d(0.2, -0.1, 0.3)));
   EXPECT_TRUE(m.specific_force_Bo_B.isApprox(Eigen::Vector3d(2, -1, 3 + 9.81)));
   EXPECT_EQ(m.feet[0].F_Co_C, MakeState().F_Co_C[0]);
   EXPECT_TRUE(m.feet[0].in_contact);
 }
 
-TEST(Sensors, SayWhetherAFootBears) {
+TEST(Sensors, ReportContactAboveTheThreshold) {
   const Robot robot = MakeArmOnABlock();
   Sensors sensors(robot, {}, 1);
   PlantState state = MakeState();
@@ -66,7 +66,7 @@ TEST(Sensors, SayWhetherAFootBears) {
   EXPECT_TRUE(sensors.Measure(state).feet[0].in_contact);
 }
 
-// Standard deviation of n numbers with mean 0.
+// Mean and standard deviation of numbers whose expected value is 0.
 struct Spread {
   double sum = 0, squares = 0;
   int n = 0;
@@ -79,7 +79,7 @@ struct Spread {
   double deviation() const { return std::sqrt(squares / n); }
 };
 
-TEST(Sensors, NoiseHasTheDeviationsItShould) {
+TEST(Sensors, NoiseHasTheDeviationsOfTheSettings) {
   const Robot robot = MakeArmOnABlock();
   SensorSettings settings;
   settings.noise = 2;
@@ -103,8 +103,8 @@ TEST(Sensors, NoiseHasTheDeviationsItShould) {
     gyro.Add(m.w_WB_B[0] - 0.2);
     acc.Add(m.specific_force_Bo_B[1] + 1);
   }
-  // With 20000 draws the deviation is known to 0.5 %, a mean to 0.7 % of it. The
-  // tolerance is four times that.
+  // With 20000 draws the standard error of a deviation is 0.5 %, and that of a
+  // mean 0.7 % of the deviation. The tolerances are four times as large.
   const auto expect = [](const Spread& spread, double deviation) {
     EXPECT_NEAR(spread.deviation(), deviation, 0.02 * deviation);
     EXPECT_NEAR(spread.mean(), 0, 0.03 * deviation);
@@ -121,7 +121,7 @@ TEST(Sensors, NoiseHasTheDeviationsItShould) {
   expect(acc, 0.1);
 }
 
-TEST(Sensors, BiasStaysAndIsInItsBounds) {
+TEST(Sensors, BiasIsConstantAndWithinItsBounds) {
   const Robot robot = MakeArmOnABlock();
   SensorSettings settings;
   settings.joint_bias = 0.01;
@@ -156,8 +156,8 @@ TEST(Sensors, QuantiseToTheNearestStep) {
   EXPECT_DOUBLE_EQ(m.feet[0].F_Co_C[5], 63);
 }
 
-// Returns the whole input of a controller as one vector, with the orientation as a
-// rotation from R.
+// Returns all that a controller receives, as one vector. The orientation is a
+// rotation vector relative to R.
 Eigen::VectorXd Everything(
     const Measurement& m,
     const Eigen::Matrix3d& R = Eigen::Matrix3d::Identity()) {
@@ -167,7 +167,7 @@ Eigen::VectorXd Everything(
   return all;
 }
 
-// Deviations of the entries, as set below.
+// Returns the standard deviation of each entry of Everything() in WithABase().
 Eigen::VectorXd Deviations() {
   const Eigen::Vector3d one = Eigen::Vector3d::Ones();
   Eigen::VectorXd all(28);
@@ -183,7 +183,7 @@ SensorSettings WithABase() {
   return settings;
 }
 
-TEST(Sensors, EachHasABiasOfItsOwnThatStays) {
+TEST(Sensors, EachReadingHasItsOwnConstantBias) {
   const Robot robot = MakeArmOnABlock();
   const Eigen::Matrix3d R_WB = ExpSo3({0, 0, M_PI / 2});
   const Eigen::VectorXd truth =
@@ -199,14 +199,15 @@ TEST(Sensors, EachHasABiasOfItsOwnThatStays) {
     ASSERT_EQ(Everything(sensors.Measure(MakeState()), R_WB) - truth, off);
     squares += off.cwiseAbs2();
   }
-  // With 2000 draws a deviation is known to 1.6 %. The tolerance is four times that.
+  // With 2000 draws the standard error of a deviation is 1.6 %. The tolerance
+  // is four times as large.
   const Eigen::VectorXd spread = (squares / kRobots).cwiseSqrt();
   for (int i = 0; i < 28; ++i) {
     EXPECT_NEAR(spread[i] / Deviations()[i], 3, 0.2) << i;
   }
 }
 
-TEST(Sensors, EachIsRoundedToItsResolution) {
+TEST(Sensors, EachReadingIsRoundedToItsResolution) {
   const Robot robot = MakeArmOnABlock();
   const Eigen::VectorXd truth =
       Everything(Sensors(robot, {}, 1).Measure(MakeState()));
@@ -223,7 +224,7 @@ TEST(Sensors, EachIsRoundedToItsResolution) {
   EXPECT_NE(read, truth);
 }
 
-TEST(Sensors, EachIsAsLateAsItIsSaidToBe) {
+TEST(Sensors, EachReadingHasItsDelay) {
   const Robot robot = MakeArmOnABlock();
   SensorSettings settings;
   settings.joint_delay = 0.002;
@@ -248,7 +249,7 @@ TEST(Sensors, EachIsAsLateAsItIsSaidToBe) {
   }
 }
 
-TEST(Sensors, DropOutsRepeatTheLastWord) {
+TEST(Sensors, DropoutsRepeatTheLastMeasurement) {
   const Robot robot = MakeArmOnABlock();
   SensorSettings settings;
   settings.dropout = 0.25;
@@ -262,7 +263,7 @@ TEST(Sensors, DropOutsRepeatTheLastWord) {
   EXPECT_NEAR(lost, 1000, 110);  // Four deviations of the binomial.
 }
 
-TEST(Sensors, FrozenOnesRepeatTheirLastWordForSoLong) {
+TEST(Sensors, RepeatTheLastMeasurementWhileFrozen) {
   const Robot robot = MakeArmOnABlock();
   SensorSettings settings;
   settings.freeze_at = 0.005;
@@ -276,7 +277,7 @@ TEST(Sensors, FrozenOnesRepeatTheirLastWordForSoLong) {
   }
 }
 
-TEST(Sensors, SameSeedSameErrors) {
+TEST(Sensors, SameSeedGivesTheSameErrors) {
   const Robot robot = MakeArmOnABlock();
   SensorSettings settings;
   settings.noise = 1;
@@ -285,8 +286,9 @@ TEST(Sensors, SameSeedSameErrors) {
   EXPECT_NE(a.Measure(MakeState()).q_joints, c.Measure(MakeState()).q_joints);
 }
 
-// First numbers of the stream for the seed 0, computed by hand with the recursion of
-// the reference implementation: 0xe220a8397b1dcdaf, 0x6e789e6aa1b965f4.
+// First numbers of the stream for the seed 0, computed by hand with the
+// recursion of the reference implementation: 0xe220a8397b1dcdaf,
+// 0x6e789e6aa1b965f4.
 TEST(RandomStream, IsSplitMix64) {
   RandomStream stream(0);
   EXPECT_EQ(stream.Uniform(),

@@ -20,14 +20,15 @@ namespace {
 constexpr double kMinutes = 10;
 constexpr double kBetweenPushes = 3;  // s.
 
-// Returns the resident pages of this process.
+// Returns the number of resident memory pages of this process.
 long ResidentPages() {
   long total = 0, resident = 0;
   std::ifstream("/proc/self/statm") >> total >> resident;
   return resident;
 }
 
-// Random pushes every three seconds, up to a third of the impulse of the pendulum.
+// Returns random pushes, one every three seconds, each with at most a third of
+// the pendulum's impulse.
 std::vector<Push> MakePushes() {
   std::vector<Push> pushes;
   RandomStream random(1);
@@ -46,14 +47,15 @@ std::vector<Push> MakePushes() {
   return pushes;
 }
 
-TEST(Soak, TenMinutesOfRandomPushesLeaveTheRobotAsItWas) {
+TEST(Soak, RobotRecoversFromTenMinutesOfRandomPushes) {
   const Robot robot = LoadHumanoid();
   Scenario scenario = LoadScenario("sim/scenarios/stand.yaml");
   scenario.duration = 60 * kMinutes;
   scenario.pushes = MakePushes();
   ClosedLoop loop(robot, scenario);
   Judge judge(StandingHeight(robot));
-  // Receives the states of the loop, one tick in ten, and counts its allocations.
+  // A second controller receives the true state in one of ten ticks. The test
+  // counts its allocations.
   Controller beside(robot);
   beside.Start(MakeStartState(robot, {}, {}, scenario.seed));
   Command command;
@@ -75,15 +77,17 @@ TEST(Soak, TenMinutesOfRandomPushesLeaveTheRobotAsItWas) {
       beside.Update(state, &command);
       allocations += count.allocations();
     }
-    // By then all buffers have their final size.
+    // After one minute all buffers have their final size.
     if (pages == 0 && loop.time() > 60) pages = ResidentPages();
   }
   const Verdict verdict = judge.Conclude();
-  EXPECT_TRUE(verdict.recovered) << "at " << verdict.fell_at.value_or(-1);
+  EXPECT_TRUE(verdict.recovered)
+      << "fell at, s: " << verdict.fell_at.value_or(-1);
   EXPECT_LT(verdict.com_error_final.norm(), 1e-3);
   EXPECT_EQ(allocations, 0);
   EXPECT_TRUE(not_solved.empty())
-      << not_solved.size() << " ticks, the first at " << not_solved[0] << " s";
+      << not_solved.size() << " ticks were not solved, the first at "
+      << not_solved[0] << " s";
   EXPECT_LT(ResidentPages() - pages, 256);  // 1 MiB.
   EXPECT_LT((loop.plant().Sense().q - robot.q_nominal)
                 .tail(robot.model.tree.num_joints())

@@ -22,7 +22,8 @@ State MakeStartState(const Robot& robot, const StartSettings& start,
   }
   RandomStream random(seed);
   for (int j = 0; j < tree.num_joints(); ++j) {
-    // Numbers are drawn for legs too, so that other joints do not depend on the legs.
+    // A joint of a leg draws a number, too. So the offsets of the other joints
+    // do not depend on which links are legs.
     const double offset = start.joints * (2 * random.Uniform() - 1);
     if (is_leg[j + 1]) continue;
     double& q = state.q[tree.q_start() + j];

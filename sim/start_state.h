@@ -8,9 +8,10 @@
 
 namespace poise {
 
-/// Returns the start state, at rest. The nominal posture is rotated by the ground's
-/// slope and the heading, moved to the place, and lifted by the drop. Joints outside
-/// the legs get random offsets from the seed, inside their limits.
+/// Returns the start state of a robot, at rest. The robot is in its nominal
+/// posture with both soles parallel to the ground's slope. It is turned by the
+/// heading, lifted by the drop, and its feet are around the place. Joints
+/// outside the legs are offset at random, from the seed, inside their limits.
 State MakeStartState(const Robot& robot, const StartSettings& start,
                      const Ground& ground, unsigned seed);
 

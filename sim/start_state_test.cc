@@ -31,14 +31,14 @@ std::vector<Pose> Soles(const State& state) {
   return X_WC;
 }
 
-TEST(StartState, IsTheNominalPostureAtRestWhereNothingElseIsAsked) {
+TEST(StartState, IsTheNominalPostureAtRestByDefault) {
   const State state = MakeStartState(Humanoid(), {}, {}, 1);
   EXPECT_TRUE(state.q.isApprox(Humanoid().q_nominal, kStanding));
   EXPECT_TRUE(state.v.isZero(0));
   EXPECT_EQ(state.time, 0);
 }
 
-TEST(StartState, LaysTheSolesOnASlopeTurnedAndLifted) {
+TEST(StartState, AppliesSlopeHeadingAndDropToTheSoles) {
   StartSettings start;
   start.heading = 0.7;
   start.drop = 0.03;
@@ -52,13 +52,15 @@ TEST(StartState, LaysTheSolesOnASlopeTurnedAndLifted) {
     EXPECT_NEAR(normal.dot(X_WC.p), 0.03, kStanding);
     EXPECT_NEAR(normal.dot(X_WC.R.col(2)), 1, kStanding);
   }
-  // The middle of the feet stays at the origin; the line between them is rotated.
+  // The middle of the feet stays above the origin. The line between the feet
+  // turns by the heading.
   const Eigen::Vector3d middle = (soles[0].p + soles[1].p) / 2;
   EXPECT_TRUE((middle - 0.03 * normal).isZero(kStanding));
   const Eigen::Vector3d side = soles[0].p - soles[1].p;
   const Eigen::Vector3d flat_side = flat[0].p - flat[1].p;
   EXPECT_NEAR(side.norm(), flat_side.norm(), kStanding);
-  // The smallest rotation onto the slope has no part about its normal.
+  // The smallest rotation onto the slope has no component about the normal, so
+  // the heading remains when it is undone.
   const Eigen::AngleAxisd R_WS(
       std::acos(normal.z()),
       Eigen::Vector3d::UnitZ().cross(normal).normalized());
@@ -86,7 +88,7 @@ TEST(StartState, DrawsJointsOutsideTheLegsWithinTheirLimits) {
     (moved[j] == 0 ? still : awry) += 1;
     far += std::abs(moved[j]) > 0.25;
   }
-  // Twelve joints are in the legs; others may start at a limit.
+  // Twelve joints are in the legs. Some other joints may start at a limit.
   EXPECT_GE(still, 12);
   EXPECT_GE(awry, 30);
   EXPECT_GE(far, 8);

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Runs of our scenarios, observed tick by tick.
+// Runs the repository's scenarios and collects extreme values over their ticks.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ inline const Robot& Humanoid() {
   return robot;
 }
 
-// Returns one of our scenarios with a shorter duration.
+// Returns a scenario of sim/scenarios with another duration, s.
 inline Scenario Ours(const std::string& name, double duration) {
   Scenario scenario = LoadScenario("sim/scenarios/" + name + ".yaml");
   scenario.duration = duration;
@@ -35,16 +35,16 @@ inline Scenario Ours(const std::string& name, double duration) {
 // Extreme values over the ticks of a run, and its verdict.
 struct Story {
   Verdict verdict;
-  int failures = 0;  // Ticks with an unsolved level.
-  // Extremes of the commanded wrenches: distance of a CoP beyond its sole, m, and
-  // the largest ratio of tangential to normal force.
+  int failures = 0;  // Ticks that were not solved to the last level.
+  // Extremes of the commanded wrenches: distance of a CoP beyond its sole, m,
+  // and the largest ratio of tangential to normal force.
   double asked_beyond = -1, asked_friction = 0;
-  // Extremes of the measured wrenches.
+  // Extremes of the wrenches that the ground applied.
   double given_beyond = -1, given_friction = 0;
   double torque_violation = 0, joint_violation = 0;  // N m, rad.
   std::vector<double> com_error;                     // Horizontal, m, by tick.
 
-  // Returns the largest error between two times, s.
+  // Returns the largest error in [from, to), times in s.
   double ErrorIn(double from, double to) const {
     double largest = -1;
     for (size_t k = 0; k < com_error.size(); ++k) {
@@ -58,7 +58,7 @@ struct Story {
 
 inline void LookAtWrench(const Foot& foot, const Eigen::Matrix<double, 6, 1>& F,
                          double* beyond, double* friction) {
-  if (F[5] < 5) return;  // N: the foot is unloaded.
+  if (F[5] < 5) return;  // N; a foot with less load has no useful CoP.
   const Eigen::Vector2d cop(-F[1] / F[5], F[0] / F[5]);
   *beyond = std::max(*beyond, (cop.cwiseAbs() - foot.half_size).maxCoeff());
   *friction =

@@ -11,34 +11,35 @@
 
 namespace poise {
 
-/// Reads the fields of one YAML map by key. All members throw
-/// std::invalid_argument("FILE:LINE: ...") about an invalid value, with the key, the
-/// value and the valid range.
+/// Reads the fields of one YAML map by key. Every member rejects invalid
+/// values: it throws std::invalid_argument("FILE:LINE: ...") with the key, its
+/// value and the allowed values.
 class YamlFields {
  public:
   /// Throws if the node is not a map.
   YamlFields(const YAML::Node& node, std::string file);
 
-  /// Sets the fields that exist.
+  /// Sets the fields that the map contains; the others keep their values.
   void Read(const std::vector<NumberField>& fields);
 
-  /// Returns the value of a key, or `otherwise` if the key does not exist.
+  /// Returns the value of a key, or `otherwise` if the map does not have the
+  /// key.
   double Number(const std::string& key, double otherwise);
   bool Flag(const std::string& key, bool otherwise);
   std::string Text(const std::string& key, const std::string& otherwise);
   std::vector<std::string> Words(const std::string& key);
   std::vector<double> Numbers(const std::string& key);
 
-  /// Return the map, or the list of maps, of a key.
+  /// Returns the map, or the list of maps, that is the value of a key.
   std::optional<YamlFields> Map(const std::string& key);
   std::vector<YamlFields> Maps(const std::string& key);
 
   bool Has(const std::string& key);
 
-  /// Throws if the map has a key that no call has read.
+  /// Throws if the map has a key that no other member has looked up.
   void Finish() const;
 
-  /// Throws about a key.
+  /// Throws an error about a key.
   [[noreturn]] void Refuse(const std::string& key,
                            const std::string& why) const;
 
@@ -50,8 +51,8 @@ class YamlFields {
   std::vector<std::string> known_;
 };
 
-/// Reads a file. Throws std::invalid_argument with the file's name, and with the line of
-/// a syntax error.
+/// Reads a file. Throws std::invalid_argument with the file's name and, if the
+/// text is not valid YAML, the line.
 YamlFields ReadYaml(const std::string& file);
 
 }  // namespace poise

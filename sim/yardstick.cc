@@ -16,15 +16,16 @@ double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// Returns the distance from p along the unit vector u to the edge of a convex polygon;
-// 0 if p is outside or the polygon is empty.
+// Returns the distance from p along the unit vector u to the edge of a convex
+// polygon, m. Returns 0 if p is outside or the polygon has no area.
 double DistanceToEdge(const std::vector<Eigen::Vector2d>& polygon,
                       const Eigen::Vector2d& p, const Eigen::Vector2d& u) {
   if (polygon.size() < 3) return 0;
   double distance = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d edge = polygon[(i + 1) % polygon.size()] - polygon[i];
-    // Counterclockwise: inside is to the left of each edge.
+    // The corners are counterclockwise, so the inside is to the left of each
+    // edge.
     const double inside = Cross(edge, p - polygon[i]);
     if (inside < 0) return 0;
     const double approach = -Cross(edge, u);

@@ -8,16 +8,17 @@
 
 namespace poise {
 
-/// Bounds by a linear inverted pendulum on the same feet: the yardstick for pushes
-/// that a robot recovers from without a step.
+/// Largest impulses from which a linear inverted pendulum on the same feet
+/// recovers. They are the yardstick for pushes that a robot recovers from
+/// without a step.
 struct Yardstick {
-  double lipm_Ns;         ///< Pushed at the center of mass.
-  double lipm_height_Ns;  ///< Pushed at its height, without turning.
+  double lipm_Ns;         ///< For a push at the center of mass.
+  double lipm_height_Ns;  ///< For a push at z_p that does not turn it.
 };
 
-/// Computes the bounds. With omega = sqrt(g / h), h the height of the center of mass above the
-/// soles, and rho the distance from its projection to the edge of the support
-/// polygon along the push u,
+/// Computes the yardstick. With omega = sqrt(g / h), h the height of the center
+/// of mass above the soles, and rho the distance from the projection of the
+/// center of mass to the edge of the support polygon along the push u,
 ///     lipm_Ns = m omega rho omega T / (1 - exp(-omega T)),
 ///     lipm_height_Ns = lipm_Ns h / z_p.
 ///
@@ -29,17 +30,17 @@ struct Yardstick {
 /// @param duration  T of a constant force, s; 0 for an impulse.
 /// @param push_height  z_p, height of the force above the soles, m.
 ///
-/// Both are 0 if the center of mass is outside the hull of the soles.
+/// Both are 0 if the center of mass lies outside the convex hull of the soles.
 /// Source: Koolen et al., "Capturability-based analysis ...", IJRR 31(9), 2012,
-/// with the force of a push in the pendulum's own equation.
+/// with the push's force added to the pendulum's equation of motion.
 Yardstick ComputeYardstick(double mass, double gravity,
                            const Eigen::Vector3d& com,
                            const std::vector<Eigen::Vector2d>& soles,
                            const Eigen::Vector2d& u, double duration,
                            double push_height);
 
-/// Returns the yardstick of a robot in the configuration q, pushed at the point Q
-/// of a body. Heights are above its lowest sole. `down` marks the feet on the
+/// Returns the yardstick of a robot in the configuration q, pushed at the point
+/// Q of a body. Heights are above its lowest sole. `down` marks the feet on the
 /// ground; empty means all.
 Yardstick ComputeYardstick(const Robot& robot, const Eigen::VectorXd& q,
                            const Eigen::Vector2d& u, double duration, int body,

@@ -14,9 +14,9 @@ const std::vector<Eigen::Vector2d> kSoles = {
     {0.1, 0.05}, {-0.1, 0.15}, {0.1, -0.15}, {-0.1, -0.15},
     {0.1, 0.15}, {0, 0},       {-0.1, 0.05}};
 
-// Returns whether the pendulum x'' = w^2 (x - p) + F / m recovers from a force over T,
-// with the CoP p always at the edge. Uses integration and not the formula of the
-// yardstick.
+// Returns whether the pendulum x'' = w^2 (x - p) + F / m returns after a force
+// F over a time T. Its CoP p is always at the edge. The result comes from
+// numerical integration, independently of the yardstick's formula.
 bool Survives(double mass, double height, double edge, double force, double T) {
   const double w2 = 9.81 / height, dt = 1e-5;
   double x = 0, v = 0;
@@ -29,7 +29,7 @@ bool Survives(double mass, double height, double edge, double force, double T) {
   return false;
 }
 
-TEST(Yardstick, IsWhereAnIntegratedPendulumTurnsOver) {
+TEST(Yardstick, AgreesWithAnIntegratedPendulum) {
   for (const double T : {0.1, 0.3}) {
     SCOPED_TRACE(T);
     const Yardstick yardstick =
@@ -41,7 +41,7 @@ TEST(Yardstick, IsWhereAnIntegratedPendulumTurnsOver) {
   }
 }
 
-TEST(Yardstick, OfAnImpulseIsTheLimitOfShortPushes) {
+TEST(Yardstick, GivesTheLimitOfShortPushesForAnImpulse) {
   const auto lipm = [](double T) {
     return ComputeYardstick(40, 9.81, {0, 0, 0.8}, kSoles, {0, -1}, T, 1)
         .lipm_Ns;
@@ -50,7 +50,7 @@ TEST(Yardstick, OfAnImpulseIsTheLimitOfShortPushes) {
   EXPECT_DOUBLE_EQ(lipm(0), 40 * std::sqrt(9.81 / 0.8) * 0.15);
 }
 
-TEST(Yardstick, GoesAlongThePush) {
+TEST(Yardstick, MeasuresAlongThePush) {
   const auto rho = [](const Eigen::Vector3d& com, const Eigen::Vector2d& u) {
     return ComputeYardstick(40, 9.81, com, kSoles, u, 0, 1).lipm_Ns /
            (40 * std::sqrt(9.81 / com.z()));
@@ -62,7 +62,7 @@ TEST(Yardstick, GoesAlongThePush) {
   EXPECT_EQ(rho({0.2, 0, 0.8}, {-1, 0}), 0);
 }
 
-TEST(Yardstick, OfARobotTakesItsSolesWhereTheyAre) {
+TEST(Yardstick, UsesTheSolesOfARobotInItsConfiguration) {
   const Robot robot = MakeBlock({0.2, 0.3, 1}, 10);
   Eigen::VectorXd q(7);
   q << 3, 4, 5, 0, 0, 0, 1;
@@ -72,7 +72,7 @@ TEST(Yardstick, OfARobotTakesItsSolesWhereTheyAre) {
   EXPECT_NEAR(yardstick.lipm_height_Ns, yardstick.lipm_Ns * 0.5 / 0.75, 1e-12);
 }
 
-TEST(Yardstick, OfARobotTakesTheSolesThatAreDown) {
+TEST(Yardstick, UsesOnlyTheFeetThatAreDown) {
   Robot robot = MakeBlock({0.2, 0.4, 1}, 10);
   robot.feet.push_back(robot.feet[0]);
   for (Foot& foot : robot.feet) {

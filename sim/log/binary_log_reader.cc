@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kMagic = "POISELOG";
 constexpr uint64_t kVersion = 1;
-// Larger than any log; a larger number means a damaged file.
+// No log has more columns. A larger number means that the file is damaged.
 constexpr uint64_t kMostColumns = 1 << 20;
 
 uint64_t LittleEndian(std::string_view bytes) {
@@ -22,7 +22,8 @@ uint64_t LittleEndian(std::string_view bytes) {
   return value;
 }
 
-// Removes bytes from the front. Returns false if there are too few.
+// Moves `count` bytes from the front of `from` to `taken`. Returns false if
+// there are fewer.
 bool Take(std::size_t count, std::string_view* from, std::string_view* taken) {
   if (from->size() < count) return false;
   *taken = from->substr(0, count);
@@ -87,19 +88,21 @@ bool BinaryLogReader::ReadHeader() {
   uint64_t version, columns;
   if (!Read(kMagic.size(), &stream_, &magic)) return false;
   if (magic != kMagic) {
-    throw std::invalid_argument(file_.string() + ": is no binary log");
+    throw std::invalid_argument(file_.string() +
+                                ": is not a binary log of Poise");
   }
   if (!ReadNumber(4, &stream_, &version)) return false;
   if (version != kVersion) {
-    throw std::invalid_argument(file_.string() + ": is a log of version " +
+    throw std::invalid_argument(file_.string() + ": has log format version " +
                                 std::to_string(version) + ", must be " +
                                 std::to_string(kVersion));
   }
   if (!ReadNumber(4, &stream_, &columns)) return false;
   if (columns > kMostColumns) {
-    throw std::invalid_argument(file_.string() + ": has " +
-                                std::to_string(columns) + " columns, must be " +
-                                std::to_string(kMostColumns) + " at most");
+    throw std::invalid_argument(
+        file_.string() + ": has " + std::to_string(columns) +
+        " columns, must have at most " + std::to_string(kMostColumns) +
+        "; the file is damaged");
   }
   for (uint64_t i = 0; i < columns; ++i) {
     std::string kind, name;
@@ -110,8 +113,8 @@ bool BinaryLogReader::ReadHeader() {
     }
     if (kind != "d" && kind != "f" && kind != "t") {
       throw std::invalid_argument(file_.string() + ": column '" + name +
-                                  "' is of kind '" + kind +
-                                  "', must be d, f or t");
+                                  "' has kind '" + kind +
+                                  "', must be d, f or t; the file is damaged");
     }
     kinds_ += kind;
     columns_.push_back(name);

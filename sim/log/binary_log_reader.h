@@ -12,15 +12,15 @@
 
 namespace poise {
 
-/// Reads log.bin, the format LogFormat::kBinary of LogRows.
+/// Reads log.bin, which LogRows writes as LogFormat::kBinary.
 class BinaryLogReader final : public LogReader {
  public:
-  /// Returns whether a file begins like such a log.
+  /// Returns whether a file begins with the magic bytes of a binary log.
   static bool IsOne(const std::filesystem::path& file);
 
-  /// Reads the header; an incomplete header counts as a log that is cut short. Throws
-  /// std::invalid_argument with the file's name if the file cannot be opened or has
-  /// another format.
+  /// Reads the header. An incomplete header counts as a log that was cut short.
+  /// Throws std::invalid_argument with the file's name if the file cannot be
+  /// opened or is not a binary log.
   explicit BinaryLogReader(const std::filesystem::path& file);
 
   bool Next() override;

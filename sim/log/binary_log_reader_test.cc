@@ -72,7 +72,7 @@ TEST(OpenLog, GivesTheSameRowsFromBothFormats) {
     for (int i = 0; i < kRows; ++i) {
       SCOPED_TRACE(i);
       ASSERT_TRUE(log->Next());
-      // Text has nine digits, binary all.
+      // CSV has nine digits; the binary log has the exact time.
       EXPECT_NEAR(log->Number(0), TimeOf(i), 1e-12);
       if (format == LogFormat::kBinary) {
         EXPECT_EQ(log->Number(0), TimeOf(i));
@@ -93,8 +93,9 @@ TEST(OpenLog, GivesTheSameRowsFromBothFormats) {
   }
 }
 
-// A run can be killed at every byte. Complete rows are read, others are not.
-TEST(BinaryLogReader, ReadsALogThatWasCutAnywhereAsFarAsItGoes) {
+// A killed run can cut the log at any byte. The reader must read exactly the
+// complete rows.
+TEST(BinaryLogReader, ReadsAllCompleteRowsOfALogThatIsCutAnywhere) {
   const std::string whole = Log(LogFormat::kBinary);
   const std::size_t header =
       MakeLogRows(LogFormat::kBinary, kColumns)->Header().size();
@@ -136,14 +137,16 @@ std::string MessageOf(const std::string& bytes) {
   return "";
 }
 
-TEST(BinaryLogReader, RefusesWhatItCannotRead) {
+TEST(BinaryLogReader, RejectsInvalidLogs) {
   using namespace std::string_literals;
-  EXPECT_EQ(MessageOf("POISELAG"), "is no binary log");
-  EXPECT_EQ(MessageOf("POISELOG\2\0\0\0"s), "is a log of version 2, must be 1");
+  EXPECT_EQ(MessageOf("POISELAG"), "is not a binary log of Poise");
+  EXPECT_EQ(MessageOf("POISELOG\2\0\0\0"s),
+            "has log format version 2, must be 1");
   EXPECT_EQ(MessageOf("POISELOG\1\0\0\0\1\0\0\0x\1\0a"s),
-            "column 'a' is of kind 'x', must be d, f or t");
-  EXPECT_EQ(MessageOf("POISELOG\1\0\0\0\0\0\0\1"s),
-            "has 16777216 columns, must be 1048576 at most");
+            "column 'a' has kind 'x', must be d, f or t; the file is damaged");
+  EXPECT_EQ(
+      MessageOf("POISELOG\1\0\0\0\0\0\0\1"s),
+      "has 16777216 columns, must have at most 1048576; the file is damaged");
   EXPECT_THROW(BinaryLogReader("no/such/log.bin"), std::invalid_argument);
   BinaryLogReader cut(Written("POISELOG\1\0\0"s));
   EXPECT_TRUE(cut.cut_short());
@@ -152,7 +155,7 @@ TEST(BinaryLogReader, RefusesWhatItCannotRead) {
   EXPECT_EQ(cut.CountRows(), 0);
 }
 
-TEST(FindLog, TakesTheBinaryOneOnlyWhereThereIsNoOther) {
+TEST(FindLog, FindsTheBinaryLogOnlyWithoutACsvLog) {
   const auto run = std::filesystem::path(testing::TempDir()) / "run";
   std::filesystem::create_directories(run);
   EXPECT_EQ(FindLog(run).filename(), "log.csv");

@@ -31,7 +31,7 @@ std::string Position(const char* prefix, char axis) {
   return std::string(prefix) + axis + "[m]";
 }
 
-// Returns the column of a wrench component; the prefix ends with a dot.
+// Returns the column of a component of a moment; the prefix ends with a dot.
 std::string Moment(const std::string& prefix, char axis) {
   return prefix + 'm' + axis + "[Nm]";
 }
@@ -49,7 +49,7 @@ bool EndsWith(std::string_view text, std::string_view end) {
          text.substr(text.size() - end.size()) == end;
 }
 
-// Returns whether a column is part of a wrench; "FOOT.fx" has the part 'f'.
+// Returns whether a name ends as a wrench column: "FOOT.fx" has the part 'f'.
 bool IsPartOfWrench(std::string_view name, char part) {
   for (const char axis : kAxes) {
     if (EndsWith(name, std::string{'.', part, axis})) return true;

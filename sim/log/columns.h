@@ -9,9 +9,8 @@
 
 namespace poise {
 
-// The columns of a run's log: names with units, as docs/log.md lists them. The
-// recorder and all readers take the names from here. An axis is 'x', 'y' or
-// 'z'.
+// Names of the columns of a run's log, with units. docs/log.md lists them. The
+// recorder and all readers use these names. An axis is 'x', 'y' or 'z'.
 
 inline constexpr char kTimeColumn[] = "time[s]";
 inline constexpr char kBaseTiltColumn[] = "base.tilt[rad]";
@@ -39,7 +38,7 @@ std::string PhaseColumn(const std::string& foot);    ///< "FOOT.phase".
 std::string MomentColumn(const std::string& foot,
                          char axis);                          ///< "FOOT.mx[Nm]"
 std::string ForceColumn(const std::string& foot, char axis);  ///< "FOOT.fx[N]"
-/// Returns the column of the commanded wrench of a foot: "lambda.FOOT.mx[Nm]".
+/// Commanded wrench of a foot: "lambda.FOOT.mx[Nm]".
 std::string CommandedMomentColumn(const std::string& foot, char axis);
 std::string CommandedForceColumn(const std::string& foot, char axis);
 
@@ -65,17 +64,17 @@ enum class ColumnGroup {
   kSelfContacts,
   kContact,          ///< Foot is in contact.
   kTiltOrSlide,      ///< Motion of a foot.
-  kMoment,           ///< Ground on a foot.
-  kForce,            ///< Ground on a foot.
-  kCommandedWrench,  ///< Wrench of a foot.
+  kMoment,           ///< Moment of the ground on a foot.
+  kForce,            ///< Force of the ground on a foot.
+  kCommandedWrench,  ///< Commanded wrench of a foot.
   kTorque,           ///< Joint torque.
   kPosition,         ///< Joint position.
   kResidual,         ///< Residual of a task.
   kText,
-  kUnknown,  ///< No column of a log.
+  kUnknown,  ///< The name is not a column of a log.
 };
 
-/// Returns the group of a column, given its name with or without unit.
+/// Returns the group of a column by its name, with or without the unit.
 ColumnGroup GroupOf(std::string_view column);
 
 }  // namespace poise

@@ -11,8 +11,8 @@ namespace {
 
 using Kind = LogColumn::Kind;
 
-// Scripts of users depend on these names, see docs/log.md.
-TEST(Columns, AreThoseOfTheDocumentedLog) {
+// Users' scripts read these names: docs/log.md.
+TEST(Columns, AreTheDocumentedColumns) {
   std::string header;
   for (const LogColumn& column :
        LogColumns({"left_foot", "paw"}, {"hip", "knee"}, {"com", "posture"})) {

@@ -59,7 +59,7 @@ bool CsvReader::Next() {
     throw std::invalid_argument(
         place() + ": has " + std::to_string(cells_.size()) +
         " cells, must have " + std::to_string(columns_.size()) +
-        ", as the header has");
+        " as in the header");
   }
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (has_words_[i] || ParseNumber(cells_[i], &numbers_[i])) continue;

@@ -56,18 +56,17 @@ TEST(CsvReader, StopsWhereTheLogWasCutShort) {
   }
 }
 
-// The row has a line end, so it was not cut short; but its length is wrong.
-TEST(CsvReader, RefusesARowOfAnotherLength) {
+// The short row has a line end, so it is an error and not a log cut short.
+TEST(CsvReader, RejectsARowWithAnotherNumberOfCells) {
   const auto file = Written("a,b\n0,1\n2\n4,5\n");
   CsvReader csv(file);
   EXPECT_TRUE(csv.Next());
   try {
     csv.Next();
-    ADD_FAILURE() << "a row of one cell is read";
+    ADD_FAILURE() << "a row with too few cells was accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(
-        error.what(),
-        file.string() + ":3: has 1 cells, must have 2, as the header has");
+    EXPECT_EQ(error.what(),
+              file.string() + ":3: has 1 cells, must have 2 as in the header");
   }
 }
 
@@ -77,7 +76,7 @@ TEST(CsvReader, ReadsAnEmptyCellAsNaN) {
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(std::isnan(csv.Number(i))) << i;
 }
 
-TEST(CsvReader, RefusesWordsAmongNumbers) {
+TEST(CsvReader, RejectsTextInANumberColumn) {
   const auto refusal = [](const std::string& row) -> std::string {
     const auto file = Written("time[s],base.qx,lost\n0,-inf,ok\n" + row + "\n");
     CsvReader csv(file);
@@ -95,20 +94,20 @@ TEST(CsvReader, RefusesWordsAmongNumbers) {
   EXPECT_EQ(refusal("1 ,2,"), ":3: column 'time[s]' is '1 ', must be a number");
 }
 
-TEST(CsvReader, ReadsLinesThatEndAsOnWindows) {
+TEST(CsvReader, ReadsWindowsLineEnds) {
   CsvReader csv(Written("a,b\r\n1,2\r\n"));
   ASSERT_TRUE(csv.Next());
   EXPECT_EQ(csv.Find("b"), 1);
   EXPECT_EQ(csv.Number(1), 2);
 }
 
-TEST(CsvReader, OfAnEmptyFileHasNothing) {
+TEST(CsvReader, ReadsAnEmptyFileAsNoColumnsAndNoRows) {
   CsvReader csv(Written(""));
   EXPECT_TRUE(csv.columns().empty());
   EXPECT_FALSE(csv.Next());
 }
 
-TEST(CsvReader, NamesTheFileThatIsNotThere) {
+TEST(CsvReader, NamesAMissingFile) {
   try {
     CsvReader csv("no/such/log.csv");
     FAIL() << "opened a file that does not exist";

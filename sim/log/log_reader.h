@@ -8,8 +8,8 @@
 
 namespace poise {
 
-/// Reads the log of a run row by row, in constant memory. The log of ten minutes has
-/// a gigabyte. docs/log.md describes the formats.
+/// Reads the log of a run row by row, in constant memory, because the log of
+/// ten minutes is about a gigabyte. See docs/log.md for the formats.
 class LogReader {
  public:
   LogReader() = default;
@@ -21,26 +21,28 @@ class LogReader {
   /// neither columns nor rows.
   const std::vector<std::string>& columns() const { return columns_; }
 
-  /// Returns the column of this name, with or without unit.
+  /// Returns the index of a column by its name, with or without the unit. Empty
+  /// if the log has no such column.
   std::optional<int> Find(std::string_view name) const;
 
-  /// Reads the next complete row. Returns false at the end or if the log was cut
-  /// short. Throws std::invalid_argument about an invalid row.
+  /// Reads the next complete row. Returns false at the end of the log, or where
+  /// the log was cut short. Throws std::invalid_argument about an invalid row.
   virtual bool Next() = 0;
 
-  /// Returns a text cell of this row, valid until the next row.
+  /// Returns a text cell of the current row. Valid until the next Next().
   virtual std::string_view cell(int column) const = 0;
 
-  /// Returns a cell as a number; NaN for a text.
+  /// Returns a cell of the current row as a number; NaN for a text column.
   virtual double Number(int column) const = 0;
 
-  /// Returns the file and the line that was read last: "FILE:LINE".
+  /// Returns the file and the place of the current row in it, for messages:
+  /// "FILE:LINE".
   virtual std::string place() const = 0;
 
-  /// Returns about the number of rows of the file, by a quick pass.
+  /// Returns about how many rows the whole file has, without parsing the cells.
   virtual long CountRows() const = 0;
 
-  /// Returns whether Next() found an incomplete row.
+  /// Returns whether Next() has reached an incomplete row.
   bool cut_short() const { return cut_short_; }
 
  protected:
@@ -48,10 +50,10 @@ class LogReader {
   bool cut_short_ = false;
 };
 
-/// Returns "com.x" for "com.x[m]".
+/// Returns the name of a column without the unit: "com.x" for "com.x[m]".
 std::string_view WithoutUnit(std::string_view column);
 
-/// Returns "m" for "com.x[m]"; empty without a unit.
+/// Returns the unit of a column: "m" for "com.x[m]", empty without a unit.
 std::string_view UnitOf(std::string_view column);
 
 }  // namespace poise

@@ -29,12 +29,11 @@ class CsvRows final : public LogRows {
 
   void Number(double value) override {
     BeginCell();
-    if (std::isnan(value)) {  // NaN of either sign.
+    if (std::isnan(value)) {  // Also a negative NaN.
       row_ += "nan";
       return;
     }
-    // Nine digits resolve a nanometer in a meter, and a millionth of a newton in the
-    // weight.
+    // Nine digits resolve 1 nm at 1 m, and about 1 uN at the robot's weight.
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof(digits), value,
                                    std::chars_format::general, 9);
@@ -43,7 +42,8 @@ class CsvRows final : public LogRows {
 
   void Text(std::string_view text) override {
     BeginCell();
-    // Names of joints may contain separators, which would break the table.
+    // Names of joints may have commas or line ends, which would break the
+    // table.
     for (const char c : text) {
       row_ += c == ',' || c == '\n' || c == '\r' ? '_' : c;
     }
@@ -67,7 +67,7 @@ class CsvRows final : public LogRows {
   size_t cells_ = 0;
 };
 
-// Appends a number in little-endian order on any machine.
+// Appends bytes in little-endian order on any machine.
 template <typename T>
 void Append(T value, int bytes, std::string* out) {
   for (int i = 0; i < bytes; ++i) {
@@ -76,8 +76,9 @@ void Append(T value, int bytes, std::string* out) {
   }
 }
 
-// Writes the changed bits of each cell since the last row. Sign, exponent and leading
-// digits of a slowly changing quantity are the same.
+// Writes each number as the exclusive or of its bits with those of the row
+// before. A slowly changing quantity keeps its sign, exponent and leading
+// digits, so the difference is short.
 class BinaryRows final : public LogRows {
  public:
   explicit BinaryRows(const std::vector<LogColumn>& columns)

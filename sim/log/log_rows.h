@@ -8,8 +8,8 @@
 
 namespace poise {
 
-/// Format of a log. CSV is text that every program reads. Binary takes a quarter of
-/// the bytes, for runs of many minutes.
+/// Format of a run's log. kCsv is text that every program reads. kBinary needs
+/// a quarter of the bytes, for runs of many minutes.
 enum class LogFormat { kCsv, kBinary };
 
 /// Returns the name of the log in a run's folder: "log.csv" or "log.bin".
@@ -17,8 +17,8 @@ std::string_view LogFileName(LogFormat format);
 
 struct LogColumn {
   enum class Kind {
-    kTime,    ///< A number that keeps all its digits.
-    kNumber,  ///< Kept to 9 digits as text, to 7 in binary.
+    kTime,    ///< A number; the binary log keeps all digits.
+    kNumber,  ///< 9 digits as text, 7 digits in binary.
     kText,
   };
 
@@ -26,8 +26,8 @@ struct LogColumn {
   Kind kind = Kind::kNumber;
 };
 
-/// Converts the rows of a log to the bytes of its file; docs/log.md has both formats.
-/// The bytes are the same on any machine and in any locale.
+/// Converts the rows of a log into the bytes of its file. docs/log.md has both
+/// formats. The same rows give the same bytes on any machine, in any locale.
 class LogRows {
  public:
   virtual ~LogRows() = default;
@@ -35,12 +35,13 @@ class LogRows {
   /// Returns the beginning of the file.
   virtual std::string Header() = 0;
 
-  /// Adds the next cell of the present row; the type must be that of its column.
+  /// Appends the next cell to the current row. The column's kind determines
+  /// which of the two functions must be called.
   virtual void Number(double value) = 0;
   virtual void Text(std::string_view text) = 0;
 
-  /// Appends the row to `bytes` and begins the next one. pre: the row has a cell for
-  /// each column.
+  /// Appends the complete row to `bytes` and begins the next row. pre: every
+  /// column has a cell.
   virtual void EndRow(std::string* bytes) = 0;
 };
 

@@ -32,7 +32,7 @@ std::string TwoRows(LogFormat format, double second_x) {
   return bytes;
 }
 
-// The format of docs/log.md.
+// docs/log.md specifies this format.
 TEST(LogRows, AreLinesOfCommaSeparatedValues) {
   EXPECT_EQ(LogFileName(LogFormat::kCsv), "log.csv");
   EXPECT_EQ(TwoRows(LogFormat::kCsv, 0.123456789123),
@@ -45,7 +45,7 @@ TEST(LogRows, AreLinesOfCommaSeparatedValues) {
   }
 }
 
-TEST(LogRows, StayOneTableWhateverThingsAreCalled) {
+TEST(LogRows, ReplaceCommasAndLineEndsInNames) {
   const auto rows = MakeLogRows(LogFormat::kCsv, {{"a,b\n", Kind::kText}});
   std::string bytes = rows->Header();
   rows->Text("1,2\r\n");
@@ -53,16 +53,17 @@ TEST(LogRows, StayOneTableWhateverThingsAreCalled) {
   EXPECT_EQ(bytes, "a_b_\n1_2__\n");
 }
 
-// The binary format of docs/log.md, byte by byte.
-TEST(LogRows, AreTheChangedBytesInBinary) {
+// docs/log.md specifies this format, byte by byte.
+TEST(LogRows, AreDifferencesToTheLastRowInBinary) {
   EXPECT_EQ(LogFileName(LogFormat::kBinary), "log.bin");
   const std::string header =
       "POISELOG\1\0\0\0\3\0\0\0"
       "d\1\0t"
       "f\4\0x[m]"
       "t\6\0status"s;
-  // 1 as a float is 0x3f800000; 0.25 as a double 0x3fd0000000000000. Lengths
-  // first: 0 and 4 bytes, a new text, and the text.
+  // 1 is 0x3f800000 as a float, 0.25 is 0x3fd0000000000000 as a double. A row
+  // consists of its size, the lengths of its cells and the data. The lengths
+  // here are 0, 4 and 1 for new text.
   const std::string first =
       "\x0c\0\0\0"
       "\x40\1"
@@ -74,7 +75,7 @@ TEST(LogRows, AreTheChangedBytesInBinary) {
   };
   EXPECT_EQ(TwoRows(LogFormat::kBinary, 1),
             header + first + second("\x08\0"s, ""));
-  // -1 differs in the first bit, so four bytes are written. 1 + 2^-23 differs in the
+  // -1 differs from 1 in the first bit: four bytes. 1 + 2^-23 differs in the
   // last bit: one byte.
   EXPECT_EQ(TwoRows(LogFormat::kBinary, -1),
             header + first + second("\x48\0"s, "\0\0\0\x80"s));

@@ -8,10 +8,11 @@
 
 namespace poise {
 
-/// Returns the log in a run's folder: log.csv, or log.bin if only that exists.
+/// Returns the path of the log in a run's folder: log.bin if only that file
+/// exists, else log.csv.
 std::filesystem::path FindLog(const std::filesystem::path& run);
 
-/// Opens a log; its first bytes determine the format. Throws std::invalid_argument
+/// Opens a log. Its first bytes tell the format. Throws std::invalid_argument
 /// with the file's name.
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& file);
 

@@ -15,10 +15,12 @@ namespace poise {
 namespace {
 
 constexpr int kRowsAtOnce = 50;
-// Smallest slack that is recorded, in the scale of a row (typical value 1).
+// Smallest slack of a row that counts as violated. Rows are scaled so that 1 is
+// a typical value.
 constexpr double kNoticeableSlack = 1e-6;
-// Period of the search for conflicts, which takes about ten solves.
-constexpr double kBetweenConflicts = 0.05;  // s.
+// Shortest time between two searches for a conflict, s. A conflict lasts for
+// many ticks, and a search costs about ten solutions of the hierarchy.
+constexpr double kBetweenConflicts = 0.05;
 
 std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
   std::vector<std::string> feet, joints, tasks;
@@ -32,7 +34,7 @@ std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
   return LogColumns(feet, joints, tasks);
 }
 
-// Returns the reason why a tick is not ok.
+// Returns the cell that says why a tick is not ok; empty if it is.
 std::string Reason(const TickRecord& record) {
   const TickReport& report = record.report;
   if (report.status == TickStatus::kTruncated) {
@@ -42,7 +44,7 @@ std::string Reason(const TickRecord& record) {
   return std::string(ReasonName(report.fail_safe_reason));
 }
 
-// Returns a name for a list cell, with separators replaced.
+// Replaces the separators of lists in a name, so that lists can be parsed.
 std::string WithoutSeparators(std::string name) {
   for (char& c : name) {
     if (c == ';' || c == '=' || c == '|') c = '_';
@@ -50,7 +52,7 @@ std::string WithoutSeparators(std::string name) {
   return name;
 }
 
-// Returns the first level with a violated row; -1 if all rows are met.
+// Returns the highest level with a row that is not met; -1 if all rows are met.
 int LevelNotMet(const TickRecord& record) {
   int not_met = Stack::kMaxLevel + 1;
   for (const LostRow& lost : record.report.lost) {
@@ -66,7 +68,7 @@ int LevelNotMet(const TickRecord& record) {
   return -1;
 }
 
-// Returns the name of each body: its first link.
+// Names each body after the first link that is fixed to it.
 std::vector<std::string> BodyNames(const Tree& tree) {
   std::vector<std::string> names(tree.num_bodies());
   for (const Frame& frame : tree.frames()) {
@@ -144,9 +146,9 @@ Recorder::Recorder(const std::filesystem::path& folder, const Robot& robot,
   std::filesystem::create_directories(folder, error);
   if (error) {
     throw std::invalid_argument(folder.string() +
-                                ": cannot be made: " + error.message());
+                                ": cannot be created: " + error.message());
   }
-  // Readers would take a log that another run left for the log of this run.
+  // Readers would mistake the log of an earlier run for the log of this run.
   for (const LogFormat other : {LogFormat::kCsv, LogFormat::kBinary}) {
     std::filesystem::remove(folder / LogFileName(other), error);
   }

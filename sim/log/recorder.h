@@ -17,17 +17,17 @@ namespace poise {
 
 /// Writes a run into a folder:
 ///
-///     log.csv     a row a tick: the plant's true state, then the controller's
-///                 output. The same run gives the same bytes in any locale. The
-///                 alternative is log.bin, see LogRows.
-///     timing.csv  tick, us, iterations: these differ from run to run.
+///     log.csv     one row per tick: the plant's true state, then the output of
+///                 the controller. Equal runs give equal bytes, in any locale.
+///                 With LogFormat::kBinary the file is log.bin, see LogRows.
+///     timing.csv  tick, us, iterations. Times differ from run to run.
 ///
-/// The files get complete rows only, every 50 ticks, so that they can be read after
-/// a crash or a kill.
+/// Only complete rows are written, every 50 ticks. So a run that crashes or is
+/// killed leaves files that can be read.
 class Recorder {
  public:
-  /// Makes the folder and overwrites files of an earlier run. Throws
-  /// std::invalid_argument if that fails.
+  /// Creates the folder and overwrites an older log in it. Throws
+  /// std::invalid_argument if the folder or a file cannot be written.
   Recorder(const std::filesystem::path& folder, const Robot& robot,
            const Stack& stack, LogFormat format = LogFormat::kCsv);
   ~Recorder() { Flush(); }
@@ -36,10 +36,10 @@ class Recorder {
 
   void Record(const TickRecord& record);
 
-  /// Writes all rows to the files.
+  /// Writes all waiting rows to the files.
   void Flush();
 
-  /// Returns the SHA-256 of the log so far.
+  /// Returns the SHA-256 of the log up to now.
   std::string log_sha256() const { return hash_.Digest(); }
 
  private:
@@ -52,11 +52,11 @@ class Recorder {
   std::ofstream log_;
   std::ofstream timing_;
   std::unique_ptr<LogRows> rows_;
-  std::string entries_;   // Cell of a list while it grows: "a=1;b=2".
+  std::string entries_;   // List in the current cell: "a=1;b=2".
   std::string log_rows_;  // Rows that are not yet in the file.
   std::string timing_rows_;
   int rows_waiting_ = 0;
-  double next_conflict_ = 0;  // Earliest time of the next conflict, s.
+  double next_conflict_ = 0;  // Earliest time of the next search, s.
   Sha256 hash_;
 };
 

@@ -25,7 +25,7 @@ const Robot& Humanoid() {
   return robot;
 }
 
-// A scenario with a push in the first ticks.
+// Returns a scenario with a push in its first ticks.
 Scenario Pushed() {
   Scenario scenario = LoadScenario("sim/scenarios/strong_push.yaml");
   scenario.pushes[0].start = 0;
@@ -51,7 +51,7 @@ std::vector<std::string> Split(const std::string& text, char separator) {
   return parts;
 }
 
-// Returns row `row` of a log.csv by column name.
+// Returns a row of a log.csv by the names of its columns.
 std::map<std::string, std::string> RowOf(const std::string& csv, int row) {
   const std::vector<std::string> lines = Split(csv, '\n');
   const auto names = Split(lines[0], ','), cells = Split(lines[row + 1], ',');
@@ -61,7 +61,7 @@ std::map<std::string, std::string> RowOf(const std::string& csv, int row) {
   return by_name;
 }
 
-TEST(Recorder, WritesWhatWasAndWhatTheControllerSaid) {
+TEST(Recorder, WritesTheTrueStateAndTheControllerOutput) {
   ClosedLoop loop(Humanoid(), Pushed());
   Recorder recorder(Folder("recorded"), Humanoid(), loop.controller().stack());
   for (int k = 0; k < 3; ++k) {
@@ -78,7 +78,7 @@ TEST(Recorder, WritesWhatWasAndWhatTheControllerSaid) {
   };
   const TickRecord record = loop.record();
   const Observation& now = record.observation;
-  // Rounding to nine digits, for numbers up to a kilonewton.
+  // The log has nine digits; numbers are up to 1 kN.
   constexpr double kDigits = 1e-6;
   EXPECT_EQ(row["time[s]"], "0.002");
   EXPECT_NEAR(number("base.z[m]"), record.start.q[2], kDigits);
@@ -112,15 +112,15 @@ TEST(Recorder, WritesWhatWasAndWhatTheControllerSaid) {
     EXPECT_NE(row["active"].find(record.stack.RowName(active) + "="),
               std::string::npos);
   }
-  // The other file has a row a tick too.
+  // timing.csv has one row per tick.
   const auto timing = Split(Contents(Folder("recorded") / "timing.csv"), '\n');
   EXPECT_EQ(timing[0], "tick,us,iterations");
   EXPECT_EQ(timing[3].substr(0, 2), "2,");
-  EXPECT_EQ(timing.size(), 5u);  // The last is empty, after the last line.
+  EXPECT_EQ(timing.size(), 5u);  // An empty part follows the last line.
 }
 
 // These columns explain why the range of the CoP changes or torques jump.
-TEST(Recorder, WritesContactsAndFailSafeReasons) {
+TEST(Recorder, WritesContactPhasesAndFailSafeReasons) {
   Scenario scenario = Pushed();
   scenario.stance = {{StanceEvent::Kind::kLift, 0, "right_foot"}};
   scenario.sensors.freeze_at = 0.005;
@@ -176,7 +176,8 @@ TEST(Recorder, WritesLimitsAndFailedLevels) {
   EXPECT_EQ(RowOf(csv, 2)["reason"], "rank_5");
 }
 
-// Names of a robot may contain separators; the log replaces them.
+// Names in a URDF may contain the separators of lists; the log must replace
+// them.
 TEST(Recorder, KeepsSeparatorsOutOfNames) {
   std::string urdf = Contents("robot/models/humanoid.urdf");
   const auto rename = [&urdf](const std::string& from, const std::string& to) {
@@ -213,7 +214,7 @@ TEST(Recorder, KeepsSeparatorsOutOfNames) {
   EXPECT_EQ(row["touching"], "tor_so_|pelvis");
 }
 
-TEST(Recorder, LeavesNoOtherLogInItsFolder) {
+TEST(Recorder, RemovesALogOfTheOtherFormat) {
   ClosedLoop loop(Humanoid(), Pushed());
   const Stack& stack = loop.controller().stack();
   { Recorder(Folder("again"), Humanoid(), stack, LogFormat::kBinary); }
@@ -223,7 +224,8 @@ TEST(Recorder, LeavesNoOtherLogInItsFolder) {
   EXPECT_TRUE(std::filesystem::exists(Folder("again") / "log.csv"));
 }
 
-// Records in a child process that is killed without a chance to write.
+// The recorder runs in a child process. SIGKILL leaves it no chance to write
+// more.
 TEST(Recorder, LeavesAReadableLogWhenItIsKilled) {
   const pid_t child = fork();
   if (child == 0) {
@@ -239,13 +241,13 @@ TEST(Recorder, LeavesAReadableLogWhenItIsKilled) {
   ASSERT_EQ(waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFSIGNALED(status));
   const std::string csv = Contents(Folder("killed") / "log.csv");
-  // Up to 50 ticks may be missing: complete lines, a header and a hundred rows.
+  // At most 49 rows are missing: of 120 rows the log has 100, and the header.
   EXPECT_EQ(csv.back(), '\n');
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 101);
   EXPECT_EQ(RowOf(csv, 99)["time[s]"], "0.099");
 }
 
-TEST(Recorder, SaysWhatItCannotWrite) {
+TEST(Recorder, ThrowsIfItCannotWrite) {
   const ClosedLoop loop(Humanoid(), Pushed());
   std::ofstream(Folder("file")) << "not a folder";
   EXPECT_THROW(Recorder(Folder("file"), Humanoid(), loop.controller().stack()),

@@ -42,7 +42,7 @@ RunColumns::RunColumns(const std::filesystem::path& file,
 
 int RunColumns::RowAt(double time) const {
   const std::vector<double>& times = columns_.at(kTimeColumn);
-  // Times of a log are sums of ticks and have rounding errors.
+  // The times of a log are rounded, so the comparison needs a tolerance.
   const auto row = std::lower_bound(times.begin(), times.end(), time - 1e-9);
   return static_cast<int>(
       std::min<std::ptrdiff_t>(row - times.begin(), times.size() - 1));

@@ -30,7 +30,7 @@ TEST(RunColumns, ReadsTheColumnsAskedFor) {
   EXPECT_EQ(columns.RowAt(7), 2);
 }
 
-TEST(RunColumns, NamesWhatIsMissing) {
+TEST(RunColumns, RejectsAMissingColumnAndAnEmptyLog) {
   EXPECT_THROW(RunColumns(Written("time[s],a\n0,1\n"), {"b"}),
                std::invalid_argument);
   EXPECT_THROW(RunColumns(Written("a\n0\n"), {"a"}), std::invalid_argument);

@@ -26,7 +26,7 @@ std::string HashOf(const std::filesystem::path& file) {
 
 RunSummary ReadRunSummary(const std::filesystem::path& run) {
   std::ifstream stream(run / "summary.json");
-  if (!stream) return {nullptr, "summary.json is not there."};
+  if (!stream) return {nullptr, "summary.json does not exist."};
   nlohmann::json values = nlohmann::json::parse(stream, nullptr,
                                                 /*allow_exceptions=*/false);
   if (!values.is_object()) {
@@ -36,9 +36,9 @@ RunSummary ReadRunSummary(const std::filesystem::path& run) {
   const auto hash = values.find("log_sha256");
   if (hash != values.end() && *hash != HashOf(log)) {
     return {nullptr,
-            "summary.json is not of this " + log.filename().string() +
-                ", by its log_sha256: that is of another run, or was cut or "
-                "changed.",
+            "summary.json does not belong to this " + log.filename().string() +
+                ": its log_sha256 differs. The log is of another run, or was "
+                "cut short or changed.",
             true};
   }
   return {std::move(values), ""};

@@ -7,17 +7,17 @@
 
 namespace poise {
 
-/// The end of a run, as its folder has it.
+/// Summary of a run, read from its folder.
 struct RunSummary {
-  /// summary.json; null if it does not exist, cannot be read, or belongs to another
-  /// log according to its log_sha256.
+  /// Contents of summary.json. Null if the file is missing or cannot be read,
+  /// or if its log_sha256 is not the hash of the log in the same folder.
   nlohmann::json values;
-  std::string note;  ///< A sentence: why it is null. Else empty.
+  std::string note;  ///< Why `values` is null, in a sentence; else empty.
   bool is_of_other_log = false;
 };
 
-/// Reads summary.json, and the whole log once. A summary without log_sha256 counts
-/// as that of the log.
+/// Reads summary.json, and the whole log once. A summary without log_sha256 is
+/// accepted.
 RunSummary ReadRunSummary(const std::filesystem::path& run);
 
 }  // namespace poise

@@ -27,7 +27,7 @@ class RunSummaryTest : public testing::Test {
   const fs::path run_ = fs::path(testing::TempDir()) / "run";
 };
 
-TEST_F(RunSummaryTest, IsThatOfTheLog) {
+TEST_F(RunSummaryTest, ReadsTheSummaryThatBelongsToTheLog) {
   for (const char* log : {"log.bin", "log.csv"}) {
     Write(log, "abc");
     Write(
@@ -42,7 +42,7 @@ TEST_F(RunSummaryTest, IsThatOfTheLog) {
   EXPECT_EQ(ReadRunSummary(run_).values["recovered"], true);
 }
 
-TEST_F(RunSummaryTest, IsNotThatOfALogThatWasCut) {
+TEST_F(RunSummaryTest, RejectsTheSummaryOfALogThatWasCutOrChanged) {
   Write("summary.json",
         std::string(R"({"recovered": true, "log_sha256": ")") + kHash + "\"}");
   for (const char* log : {"ab", "abd", ""}) {
@@ -51,8 +51,9 @@ TEST_F(RunSummaryTest, IsNotThatOfALogThatWasCut) {
     EXPECT_TRUE(summary.values.is_null());
     EXPECT_TRUE(summary.is_of_other_log);
     EXPECT_EQ(summary.note,
-              "summary.json is not of this log.csv, by its log_sha256: that is "
-              "of another run, or was cut or changed.");
+              "summary.json does not belong to this log.csv: its log_sha256 "
+              "differs. The log is of another run, or was cut short or "
+              "changed.");
   }
 }
 
@@ -61,7 +62,7 @@ TEST_F(RunSummaryTest, ReportsAMissingSummary) {
   RunSummary summary = ReadRunSummary(run_);
   EXPECT_TRUE(summary.values.is_null());
   EXPECT_FALSE(summary.is_of_other_log);
-  EXPECT_EQ(summary.note, "summary.json is not there.");
+  EXPECT_EQ(summary.note, "summary.json does not exist.");
   Write("summary.json", "[1]");
   summary = ReadRunSummary(run_);
   EXPECT_TRUE(summary.values.is_null());

@@ -28,7 +28,7 @@ void Sha256::Update(std::string_view bytes) {
 }
 
 std::string Sha256::Digest() const {
-  // EVP_DigestFinal_ex() ends a stream, so it is called on a copy.
+  // EVP_DigestFinal_ex() ends its stream, so it gets a copy.
   const Context copy(EVP_MD_CTX_new());
   Check(copy != nullptr, "EVP_MD_CTX_new");
   Check(EVP_MD_CTX_copy_ex(copy.get(), context_.get()), "EVP_MD_CTX_copy_ex");

@@ -18,8 +18,8 @@ class Sha256 {
 
   void Update(std::string_view bytes);
 
-  /// Returns the digest of all bytes so far, as 64 hexadecimal digits. More bytes may
-  /// follow.
+  /// Returns the digest of all bytes so far, as 64 hexadecimal digits. Update()
+  /// may be called again afterwards.
   std::string Digest() const;
 
  private:

@@ -34,7 +34,7 @@ TEST(Sha256, ContinuesAfterADigest) {
   EXPECT_EQ(hash.Digest(), DigestOf("abc"));
 }
 
-TEST(Sha256, DoesNotCareHowTheBytesCome) {
+TEST(Sha256, DigestDoesNotDependOnThePieces) {
   Sha256 hash;
   std::string text;
   for (int i = 0; i < 200; ++i) {

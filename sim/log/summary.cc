@@ -28,7 +28,7 @@ Json Numbers(const Vector& values) {
   return list;
 }
 
-// Returns the link of a push, or the default link.
+// Returns the link of a push, also if the push does not name one.
 std::string LinkName(const Robot& robot, const PushOnRobot& push) {
   if (!push.push().link.empty()) return push.push().link;
   for (const Frame& frame : robot.model.tree.frames()) {
@@ -37,8 +37,8 @@ std::string LinkName(const Robot& robot, const PushOnRobot& push) {
   return "";
 }
 
-// Returns the push for the keys of a single push: the largest one, or the first one
-// if all impulses are zero.
+// Returns the push that the keys of a single push describe: the largest push,
+// or the first push if all impulses are zero.
 const Push& MainPush(const Scenario& scenario) {
   const Push* largest = LargestPush(scenario.pushes, scenario.duration);
   return largest != nullptr ? *largest : scenario.pushes[0];
@@ -63,7 +63,7 @@ Json PushesToJson(const Robot& robot, const Scenario& scenario) {
   return list;
 }
 
-// Returns the key of a row: its name in log.csv.
+// Returns the key of a row: its name as in log.csv, without separators.
 std::string LogName(std::string name) {
   for (char& c : name) {
     const bool separates = c == ',' || c == ';' || c == '=' || c == '|';
@@ -83,7 +83,7 @@ Json Rows(const std::vector<StackRow>& rows) {
   return object;
 }
 
-// Returns a line of the table: a label and a text formatted by printf().
+// Returns a line of the table: a label, then the text that printf() formats.
 __attribute__((format(printf, 2, 3))) std::string Line(const char* label,
                                                        const char* format,
                                                        ...) {
@@ -96,13 +96,14 @@ __attribute__((format(printf, 2, 3))) std::string Line(const char* label,
   return line;
 }
 
-// Returns one push as a line of the table, with its start if there are several.
+// Returns one push as a line of the table. Several pushes need their start
+// times.
 std::string PushLine(const Robot& robot, const Push& push, double until,
                      bool with_start) {
   constexpr double kDegree = M_PI / 180;
   const char* shape = "";
   if (push.profile == PushProfile::kHalfSine) shape = "half sine, peak ";
-  if (push.profile == PushProfile::kImpulse) shape = "all in one step, as ";
+  if (push.profile == PushProfile::kImpulse) shape = "in one step, as much as ";
   const std::string start =
       with_start ? ", from " + PrintNumber(push.start) + " s" : "";
   return Line("push", "%.2f N s over %.3f s: %s%.0f N at %.0f deg%s on %s%s",
@@ -222,8 +223,9 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
            scenario.plant_kind.c_str(), 1 / scenario.control.dt);
   table += PushLines(robot, scenario);
   if (result.yardstick) {
-    table += Line("a pendulum takes", "%.2f N s at its CoM, %.2f N s so high",
-                  result.yardstick->lipm_Ns, result.yardstick->lipm_height_Ns);
+    table +=
+        Line("pendulum bound", "%.2f N s at its CoM, %.2f N s at push height",
+             result.yardstick->lipm_Ns, result.yardstick->lipm_height_Ns);
   }
   table += Line("CoM error, peak", "%6.1f %6.1f %6.1f mm", peak.x(), peak.y(),
                 peak.z());
@@ -233,17 +235,18 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
                 1e3 * verdict.cop_peak.x(), 1e3 * verdict.cop_peak.y());
   table += Line("feet, peak", "tilt %.4f rad, slide %.2f mm",
                 verdict.foot_tilt_peak, 1e3 * verdict.foot_slide_peak);
-  table += Line("past their limits", "joints %.2g rad, torques %.2g N m",
+  table += Line("beyond limits, peak", "joints %.2g rad, torques %.2g N m",
                 result.joint_limit_violation_peak,
                 result.torque_limit_violation_peak);
   if (result.self_contact_ticks > 0) {
-    table += Line("links touched", "in %d ticks", result.self_contact_ticks);
+    table += Line("self-contact", "in %d ticks", result.self_contact_ticks);
   }
-  table += Line("ticks", "%ld, of which %d not solved to the last level",
+  table += Line("ticks", "%ld; %d of them not solved to the last level",
                 result.ticks, result.failures);
-  table += Line("a tick took", "%.0f us (99 %%: %.0f, 99.9 %%: %.0f, max %.0f)",
-                result.tick_us.median, result.tick_us.p99, result.tick_us.p999,
-                result.tick_us.max);
+  table +=
+      Line("time per tick", "%.0f us (99 %%: %.0f, 99.9 %%: %.0f, max %.0f)",
+           result.tick_us.median, result.tick_us.p99, result.tick_us.p999,
+           result.tick_us.max);
   table +=
       Line("speed", "%.1f x real time", result.duration / result.wall_seconds);
   return table;

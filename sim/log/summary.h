@@ -10,9 +10,9 @@
 
 namespace poise {
 
-/// Returns a run as summary.json: SI units, radians, null without a value. `pushes`
-/// describes each push; impulse_Ns, push_duration, push_link, push_body and
-/// push_point describe the one with the largest impulse.
+/// Returns summary.json of a run: SI units, radians, null for a missing value.
+/// `pushes` describes each push. impulse_Ns, push_duration, push_link,
+/// push_body and push_point describe the push with the largest impulse.
 nlohmann::ordered_json ToJson(const Robot& robot, const Scenario& scenario,
                               const RunResult& result);
 

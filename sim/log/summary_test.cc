@@ -20,8 +20,9 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::ordered_json;
 
-// A small box push on the head, then a large half-sine push on a hand. A push on the
-// waist would be larger, but begins after the run.
+// Returns a weak box push on the head, then a strong half sine on a hand. The
+// push on the waist would be the largest, but it starts after the end of the
+// run.
 Scenario MakeThreePushes() {
   Scenario scenario;
   scenario.name = "three";
@@ -46,7 +47,7 @@ Scenario MakeThreePushes() {
   return scenario;
 }
 
-TEST(Summary, DescribesEachPushByItself) {
+TEST(Summary, DescribesEachPush) {
   const Robot robot = LoadHumanoid();
   const Scenario scenario = MakeThreePushes();
   const RunResult result = poise::Run(robot, scenario);
@@ -96,13 +97,13 @@ TEST(Summary, PrintsALineForEachPushWithItsOwnForce) {
       has("1.91 N s over 0.030 s: half sine, peak 100 N at 90 deg on "
           "l_hand, from 0.03 s"));
   EXPECT_EQ(table().find("waist"), std::string::npos);
-  // A single push needs no start.
+  // The line of a single push has no start time.
   scenario.pushes.erase(scenario.pushes.begin());
   EXPECT_TRUE(
       has("1.91 N s over 0.030 s: half sine, peak 100 N at 90 deg on l_hand"));
   scenario.pushes.erase(scenario.pushes.begin());
   EXPECT_TRUE(has("none before the end of the run"));
-  // A long list is shortened.
+  // The table shows at most five pushes.
   scenario.pushes = std::vector<Push>(8, MakeThreePushes().pushes[0]);
   EXPECT_TRUE(has("and 3 more"));
 }

@@ -12,21 +12,21 @@
 
 namespace poise {
 
-/// All data of one tick for the recorder. The references are valid during the call
-/// only.
+/// Everything that a recorder writes about one tick. Refers to data of the
+/// object that made the record, so it is valid only until the next tick.
 struct TickRecord {
   long tick;
   const Observation& observation;
-  const PlantState& start;       ///< When the tick began.
-  const PlantState& end;         ///< When it ended, with what acted during it.
-  const Eigen::VectorXd& tau;    ///< Torques of the controller.
+  const PlantState& start;     ///< State when the tick began.
+  const PlantState& end;       ///< State when it ended; mean forces during it.
+  const Eigen::VectorXd& tau;  ///< Torques of the controller.
   Eigen::Vector3d push_force_W;  ///< Mean over the tick, N.
   const Stack& stack;
   const Hierarchy& hierarchy;  ///< Problem of this tick.
   const TickReport& report;
-  const Stance& stance;  ///< Contacts, as the controller's stance has them.
+  const Stance& stance;  ///< Phases of the contacts in the controller.
   int nv;
-  double microseconds;  ///< That the controller took.
+  double microseconds;  ///< Computing time of the controller.
 };
 
 }  // namespace poise

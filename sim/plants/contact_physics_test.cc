@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-// Places a body with its center `height` above the ground.
+// Places a body with its center `height` above the ground, m.
 void PutDown(const Ground& ground, double height, Plant* plant) {
   Eigen::VectorXd q(7);
   q << height * GroundNormal(ground), GroundRotation(ground).coeffs();
@@ -44,7 +44,7 @@ class GroundTest : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(, GroundTest, testing::ValuesIn(PlantNames()),
                          [](const auto& plant) { return plant.param; });
 
-// Returns the slide of a block on a slope of a given pitch in a second.
+// Returns how far a block slides down a slope of a given pitch in 1 s, m.
 double GroundTest::Slide(double friction, double pitch) const {
   PlantSettings settings;
   settings.friction = friction;
@@ -62,7 +62,9 @@ TEST_P(GroundTest, BlockSlidesAtTheFrictionAngleWithinOnePercent) {
     const double angle = std::atan(friction);
     EXPECT_LT(Slide(friction, 0.99 * angle), 1e-4);
     EXPECT_LT(Slide(friction, -0.99 * angle), 1e-4);
-    // s = g (sin - friction cos) t^2 / 2, solved for the friction.
+    // The block slides by s = g (sin - friction cos) t^2 / 2 in t = 1 s, a
+    // little less in Bullet, where it starts late. The test solves this
+    // equation for the friction.
     const double way = Slide(friction, 1.01 * angle);
     EXPECT_NEAR(
         std::tan(1.01 * angle) - 2 * way / (kGravity * std::cos(1.01 * angle)),
@@ -71,7 +73,7 @@ TEST_P(GroundTest, BlockSlidesAtTheFrictionAngleWithinOnePercent) {
   }
 }
 
-// Returns the tilt of a tall block on a rough slope after a second.
+// Returns the angle by which a tall block tips on a rough slope in 3 s, rad.
 double GroundTest::Tip(double roll) const {
   PlantSettings settings;
   settings.friction = 2;
@@ -91,7 +93,7 @@ TEST_P(GroundTest, TallBlockTipsAtItsGeometricLimitWithinOnePercent) {
   EXPECT_GT(Tip(-1.01 * limit), 0.1);
 }
 
-// Returns the rebound height of a ball that falls by 0.5 m.
+// Returns the height to which a ball rebounds after a fall of 0.5 m, m.
 double GroundTest::Rebound(double restitution) const {
   PlantSettings settings;
   settings.restitution = restitution;
@@ -111,7 +113,7 @@ TEST_P(GroundTest, BallBouncesToTheSquareOfItsRestitution) {
     EXPECT_THROW(Rebound(0.5), std::invalid_argument);
     return;
   }
-  // The impact is detected up to a step early, at 3 m/s and 1 ms.
+  // The plant detects the impact up to a step of 1 ms too early, at 3 m/s.
   constexpr double kStep = 6e-3;
   EXPECT_NEAR(Rebound(0.8), 0.5 * 0.64, kStep);
   EXPECT_NEAR(Rebound(0.5), 0.5 * 0.25, kStep);
@@ -128,12 +130,12 @@ TEST_P(GroundTest, BallRollsDownASlopeAtFiveSevenths) {
   const double way = (plant->Sense().q.head<3>() - start).norm();
   const double free = 5.0 / 7 * kGravity * std::sin(0.2) / 2;
   EXPECT_NEAR(way, free, 0.01 * free);
-  // The ball rolls without slip.
+  // The ball rolls without slipping.
   EXPECT_NEAR(plant->Sense().v.head<3>().norm() * 0.1,
               plant->Sense().v.tail<3>().norm(), 1e-3);
 }
 
-TEST_P(GroundTest, BlockAtRestPressesWithItsWeightAtItsCenter) {
+TEST_P(GroundTest, BlockAtRestPressesWithItsWeightAtTheCenterOfPressure) {
   Robot robot = MakeBlock({0.3, 0.2, 0.1}, 5);
   const auto plant = Make(robot);
   PutDown({}, 0.05, plant.get());
@@ -161,7 +163,7 @@ TEST_P(GroundTest, BallWithoutAFootPressesOnTheGroundToo) {
   EXPECT_NEAR(plant->Sense().other_force_W.z(), 2 * kGravity, 1e-6);
 }
 
-TEST_P(GroundTest, BoardCarriesAtItsHeight) {
+TEST_P(GroundTest, BlockStandsOnTheTopOfABoard) {
   PlantSettings settings;
   settings.ground.boards.push_back({{0, 0, 0.01}, {1, 1, 0.04}, 0.3});
   const auto plant = Make(MakeBlock({0.3, 0.2, 0.1}, 5), settings);
@@ -170,8 +172,8 @@ TEST_P(GroundTest, BoardCarriesAtItsHeight) {
   EXPECT_NEAR(plant->Sense().q.z(), 0.03 + 0.05, 1e-4);
 }
 
-// Two legs that slide out of a wall along x. Each has a box as foot that slides along
-// y. The left foot is body 2, the right foot body 4.
+// Returns two legs that slide out of a wall along x. Each has a box as a foot
+// that slides along y. The left foot is body 2, the right foot is body 4.
 Robot MakeTwoFeet() {
   Inertia M;
   M.mass = 1;
@@ -209,7 +211,8 @@ Robot MakeTwoFeet() {
   return robot;
 }
 
-// Presses the feet together for a second. They meet after 0.1 m each.
+// Presses the feet together for 1 s. Returns the distance that a foot moves, m.
+// The feet meet when each has moved by 0.1 m.
 double PressFeetTogether(Plant* plant) {
   const Robot robot = MakeTwoFeet();
   Eigen::VectorXd tau = Eigen::VectorXd::Zero(4);
@@ -224,7 +227,7 @@ double PressFeetTogether(Plant* plant) {
   return (plant->Sense().q[r] - plant->Sense().q[l]) / 2;
 }
 
-TEST_P(GroundTest, FeetThatMeetAreHeldApartAndNamed) {
+TEST_P(GroundTest, FeetThatMeetCollideAndAreReported) {
   const auto plant = Make(MakeTwoFeet());
   EXPECT_NEAR(PressFeetTogether(plant.get()), 0.1, 1e-3);
   ASSERT_EQ(plant->Sense().self_contacts.size(), 1u);
@@ -236,12 +239,12 @@ TEST_P(GroundTest, FeetThatMeetAreHeldApartAndNamed) {
 
   PlantSettings ghosts;
   ghosts.self_collision = false;
-  // a t^2 / 2 with 1 m/s2.
+  // Without collisions each foot moves by a t^2 / 2 with a = 1 m/s2.
   EXPECT_NEAR(PressFeetTogether(Make(MakeTwoFeet(), ghosts).get()), 0.5, 1e-3);
 }
 
-// Only the sole carries load. The other shapes of the foot reach 10 mm deeper here
-// and do not collide with the ground.
+// The foot's own shapes, which reach 10 mm deeper here, pass through the
+// ground.
 TEST_P(GroundTest, FootStandsOnItsSoleNotOnItsShapes) {
   Robot robot = MakeBlock({0.3, 0.2, 0.1}, 5);
   robot.model.collisions.push_back({0, {}, Box{{0.3, 0.2, 0.12}}});

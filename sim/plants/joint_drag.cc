@@ -10,8 +10,8 @@ namespace poise {
 
 namespace {
 
-// Dry friction holds a joint below this speed, rad/s or m/s. A loaded joint creeps at
-// a fraction of this speed.
+// Dry friction holds a joint below this speed, rad/s or m/s. A held joint
+// creeps at this speed times load / dry friction.
 constexpr double kSlow = 1e-4;
 
 std::vector<int> FootFrames(const Robot& robot) {

@@ -10,22 +10,23 @@
 
 namespace poise {
 
-/// Computes damping d and dry friction f of joints as torques, for a plant without
-/// them. The torques are implicit, so that any damping is stable for a light link.
+/// Computes the damping d and dry friction f of a model's joints as torques,
+/// for a plant whose engine does not model them. The computation is implicit,
+/// so it is stable for any damping, also of a link with a small mass.
 ///
-/// With D = diag(d + f / max(|v|, v_0)), the end of a step has the velocity of
+/// With D = diag(d + f / max(|v|, v_0)), the acceleration in a step solves
 ///     (M + dt D) v̇ + N + D v = S' tau + J' F,
-/// and the drag is -D (v + dt v̇). The drag brings a joint to rest and never reverses
-/// it. F has the contact wrenches of the last step.
+/// and the drag is -D (v + dt v̇). The drag stops a joint but never reverses
+/// its motion. F are the contact wrenches on the feet in the last step.
 class JointDrag {
  public:
   JointDrag(const Robot& robot, double dt);
 
-  /// Returns whether the model has damping or friction.
+  /// Returns whether a joint of the model has damping or dry friction.
   bool exists() const { return exists_; }
 
-  /// Returns the drag of the step that begins in a state, with torques tau. Costs a
-  /// ComputeTick() and a Cholesky decomposition.
+  /// Returns the drag during the step that begins in a state, under the torques
+  /// tau, N m or N. Costs a ComputeTick() and a Cholesky decomposition.
   const Eigen::VectorXd& Compute(const PlantState& state,
                                  const Eigen::VectorXd& tau);
 

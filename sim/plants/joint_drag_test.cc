@@ -15,7 +15,7 @@ namespace poise {
 namespace {
 
 constexpr double kDt = 1e-3;
-// Tolerance for two solutions of a system with condition 1e4.
+// Tolerance for two solutions of a linear system with a condition of about 1e4.
 constexpr double kAgreement = 1e-10;
 
 PlantState StateOf(const Robot& robot, std::mt19937* draw) {
@@ -27,7 +27,7 @@ PlantState StateOf(const Robot& robot, std::mt19937* draw) {
   return state;
 }
 
-TEST(JointDrag, ExistsWhereAModelHasAny) {
+TEST(JointDrag, ExistsIfTheModelHasDampingOrFriction) {
   std::mt19937 draw(1);
   Robot robot = MakeRobot(MakeRandomTree(4, &draw));
   EXPECT_FALSE(JointDrag(robot, kDt).exists());
@@ -38,9 +38,9 @@ TEST(JointDrag, ExistsWhereAModelHasAny) {
   EXPECT_TRUE(JointDrag(robot, kDt).exists());
 }
 
-// With the drag as a force, the step ends at the speed for which the drag was
-// computed.
-TEST(JointDrag, IsTheForceOfTheSpeedThatItLeaves) {
+// Checks the definition: with the drag as a force, the step ends with the
+// velocity v_end for which the drag is -D v_end.
+TEST(JointDrag, IsProportionalToTheSpeedAtTheEndOfTheStep) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 draw(seed);
@@ -77,8 +77,8 @@ TEST(JointDrag, IsTheForceOfTheSpeedThatItLeaves) {
   }
 }
 
-// A hinge with inertia 2 kg m2 and dry friction of 3 N m.
-TEST(JointDrag, HoldsByDryFrictionAndNeverTurnsRound) {
+// A single hinge has an inertia of 2 kg m2 and a dry friction of 3 N m.
+TEST(JointDrag, HoldsByDryFrictionAndNeverReversesTheMotion) {
   Inertia M;
   M.mass = 1;
   M.I_G_B = 2 * Eigen::Matrix3d::Identity();
@@ -101,13 +101,13 @@ TEST(JointDrag, HoldsByDryFrictionAndNeverTurnsRound) {
     state.v = Eigen::VectorXd::Constant(1, v);
     return joint_drag.Compute(state, Eigen::VectorXd::Constant(1, tau))[0];
   };
-  // Fast motion: full friction against the motion for any torque.
+  // At high speed: the full dry friction, against the motion, for any torque.
   EXPECT_NEAR(drag(10, 0), -3, 1e-3);
   EXPECT_NEAR(drag(-10, 5), 3, 2e-3);
-  // At rest: friction balances the torque, up to creep.
+  // At rest: the drag balances the torque, except for the creep.
   EXPECT_NEAR(drag(0, 1), -1, 0.07);
   EXPECT_NEAR(drag(0, -1), 1, 0.07);
-  // The step that stops the hinge does not reverse it: v + dt (tau + drag) / I has the
+  // The drag does not reverse the motion: v + dt (tau + drag) / I keeps the
   // sign of v.
   for (const double v : {1e-3, 1e-4, 1e-5}) {
     EXPECT_GT(v + kDt * drag(v, 0) / 2, 0) << v;

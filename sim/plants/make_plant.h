@@ -11,17 +11,18 @@
 
 namespace poise {
 
-/// Returns the names of all plants, the default first. make_plant.cc has the only
-/// table of names and factories; docs/plants.md says how to add a plant.
+/// Returns the names of all plants, the default plant first. make_plant.cc has
+/// the table of names and factories; docs/plants.md explains how to add a
+/// plant.
 std::vector<std::string> PlantNames();
 
 bool IsPlant(const std::string& name);
 
-/// Returns "bullet or mujoco", for messages.
+/// Returns the names of all plants for messages: "bullet or mujoco".
 std::string PlantNamesInWords();
 
-/// Makes the plant of a name. Throws std::invalid_argument with all names if there is
-/// no such plant, or if the plant cannot represent the robot.
+/// Makes the plant of a name. Throws std::invalid_argument if the name is
+/// unknown, with the known names, or if the plant cannot represent the robot.
 std::unique_ptr<Plant> MakePlant(const Robot& robot, const std::string& name,
                                  const PlantSettings& settings);
 

@@ -26,8 +26,8 @@ TEST(MakePlant, MakesADifferentPlantForEachName) {
   }
 }
 
-// An unknown name must not select Bullet.
-TEST(MakePlant, RefusesAnUnknownNameAndListsTheKnownOnes) {
+// An unknown name must not silently give the default plant.
+TEST(MakePlant, RejectsAnUnknownNameAndListsTheKnownOnes) {
   for (const char* name : {"mars", "", "Bullet", "mujoco "}) {
     EXPECT_FALSE(IsPlant(name));
     try {

@@ -7,7 +7,7 @@ namespace poise {
 
 namespace {
 
-// Joints within this distance count as one, m.
+// Consecutive joints within this distance count as one joint, m.
 constexpr double kOneJoint = 0.05;
 
 }  // namespace

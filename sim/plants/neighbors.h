@@ -8,10 +8,11 @@
 
 namespace poise {
 
-/// Returns the pairs of bodies (smaller index first) whose shapes overlap by
-/// construction, so that they must not collide. These are bodies connected by a joint
-/// or by several joints that are close together, as pelvis and thigh by a hip, and
-/// bodies with the same parent.
+/// Returns the pairs of bodies, smaller index first, whose shapes overlap by
+/// construction and so must not collide:
+/// - bodies connected by one joint, or by several joints within 5 cm (the thigh
+///   is a neighbor of the pelvis, although hip bodies are between them);
+/// - bodies with the same parent.
 std::vector<std::pair<int, int>> FindNeighbors(const Tree& tree);
 
 }  // namespace poise

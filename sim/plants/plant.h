@@ -15,39 +15,41 @@ struct AppliedForce {
   Eigen::Vector3d force_W;   ///< N.
 };
 
-/// The complete true state of the plant at one instant; no robot could measure it.
-/// Forces are means over the last step.
+/// Complete true state of the plant at one instant; sensors measure only a
+/// part. Forces and torques are means over the last step.
 struct PlantState {
   double time = 0;       ///< s.
   Eigen::VectorXd q;     ///< See dynamics/tree.h.
   Eigen::VectorXd v;     ///< See dynamics/tree.h.
-  Eigen::VectorXd vdot;  ///< Change of v over the last step, a second.
+  Eigen::VectorXd vdot;  ///< Change of v over the last step, divided by dt.
   Eigen::VectorXd tau;   ///< Torques after saturation, N m or N.
-  /// By foot: wrench of the ground on the foot, about and in the axes of its contact
-  /// frame C, [torque; force].
+  /// By foot: wrench of the ground on the foot, [torque; force], about the
+  /// origin and in the axes of the contact frame C, N m and N.
   std::vector<Eigen::Matrix<double, 6, 1>> F_Co_C;
-  /// By foot: number of loaded points of the sole.
+  /// By foot: number of points of the sole that carry a load.
   std::vector<int> contact_points;
   /// Force of the ground on all bodies except the feet, N.
   Eigen::Vector3d other_force_W = Eigen::Vector3d::Zero();
-  /// Pairs of bodies in contact with each other, smaller index first.
+  /// Pairs of bodies that press on each other, the smaller index first.
   std::vector<std::pair<int, int>> self_contacts;
 };
 
-/// A simulated world with one robot, in place of the machine. A plant does not depend
-/// on a controller or a scenario. It may allocate. Only its constructor throws.
+/// A simulated world with one robot, in place of a real robot. A plant does not
+/// depend on a controller or a scenario. Its members may allocate. Only the
+/// constructor throws.
 class Plant {
  public:
   virtual ~Plant() = default;
 
-  /// Sets the state (q, v) at time 0 and discards all other state, so that a run repeats
-  /// bit for bit.
+  /// Puts the robot into the state (q, v) at time 0. Nothing from before
+  /// Reset() affects the following steps, so they repeat to the bit.
   virtual void Reset(const Eigen::VectorXd& q, const Eigen::VectorXd& v) = 0;
 
-  /// Applies a force during the next step; several forces add up.
+  /// Adds a force that acts during the next step only. Several forces add up.
   virtual void Apply(const AppliedForce& force) = 0;
 
-  /// Advances by dt() with the joint torques tau, clamped to the effort limits.
+  /// Advances by dt() under the joint torques tau, N m or N, which are clamped
+  /// to the effort limits.
   virtual void Step(const Eigen::VectorXd& tau) = 0;
 
   /// Returns the true state.

@@ -10,9 +10,10 @@ namespace poise {
 
 namespace {
 
-constexpr double kFar = 1e3;  // m.
+constexpr double kFar = 1e3;  // Largest coordinate and size of a board, m.
 constexpr std::size_t kMostBoards = 100;
-// Smallest torque scale; an effort limit of 0 would mean no motor.
+// Smallest torque_scale. It is positive because an effort limit of 0 means that
+// a joint has no limit.
 constexpr double kWeakest = 1e-6;
 
 }  // namespace
@@ -23,8 +24,8 @@ Eigen::Vector3d GroundNormal(const Ground& ground) {
           Eigen::Vector3d::UnitZ());
 }
 
-// The rotation axis follows from the bisector of both axes. Limits of roll and pitch
-// keep the bisector from zero.
+// The quaternion of the rotation from z to n is (1 + z.n, z x n), normalised.
+// It is not zero, because roll and pitch are at most 1.5 rad.
 Eigen::Quaterniond GroundRotation(const Ground& ground) {
   const Eigen::Vector3d n = GroundNormal(ground);
   return Eigen::Quaterniond(1 + n.z(), -n.y(), n.x(), 0).normalized();

@@ -12,7 +12,7 @@ namespace poise {
 struct Board {
   Eigen::Vector3d center_W;  ///< m.
   Eigen::Vector3d size;      ///< Full edge lengths, m.
-  double yaw = 0;            ///< About z, rad.
+  double yaw = 0;            ///< Rotation about z, rad.
 };
 
 /// The ground: a plane through the world's origin, and boards.
@@ -25,25 +25,26 @@ struct Ground {
 /// Settings that every plant has.
 struct PlantSettings {
   double dt = 1e-3;         ///< s.
-  double friction = 0.8;    ///< Robot on ground.
-  double restitution = 0;   ///< Robot on ground; 1: no loss.
+  double friction = 0.8;    ///< Coefficient of robot on ground.
+  double restitution = 0;   ///< Coefficient of robot on ground; 1: no loss.
   double torque_scale = 1;  ///< Factor on the effort limits.
   bool joint_limits = true;
   bool joint_damping = true;   ///< The model's damping and friction.
-  bool self_collision = true;  ///< Links that touch push each other away.
+  bool self_collision = true;  ///< Links collide with each other.
   Ground ground;
 };
 
-/// Returns the plane's normal, out of the ground.
+/// Returns the plane's normal, which points out of the ground.
 Eigen::Vector3d GroundNormal(const Ground& ground);
 /// Returns R_WG, the smallest rotation from the world's z axis to the normal.
 Eigen::Quaterniond GroundRotation(const Ground& ground);
 
-/// Returns the numbers of the settings, to read or check them.
+/// Return the numeric fields of settings, to read or check them.
 std::vector<NumberField> Fields(PlantSettings* settings);
 std::vector<NumberField> Fields(Board* board);
 
-/// Throws std::invalid_argument with the setting, its value and the valid range.
+/// Throws std::invalid_argument about the first invalid setting, with its name,
+/// its value and the allowed values.
 void Validate(const PlantSettings& settings);
 
 }  // namespace poise

@@ -30,7 +30,7 @@ class PlantTest : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(, PlantTest, testing::ValuesIn(PlantNames()),
                          [](const auto& plant) { return plant.param; });
 
-TEST_P(PlantTest, ReturnsTheStateItWasGiven) {
+TEST_P(PlantTest, ReturnsTheStateOfReset) {
   std::mt19937 draw(1);
   const Tree tree = MakeRandomTree(12, &draw);
   const auto plant = Make(MakeRobot(tree));
@@ -42,11 +42,13 @@ TEST_P(PlantTest, ReturnsTheStateItWasGiven) {
   EXPECT_EQ(plant->Sense().time, 0);
 }
 
-// M v̇ + N = S' tau + J' F, with v̇ from the plant and all else from dynamics.
+// Checks M v̇ + N = S' tau + J' F, with v̇ from the plant and all other terms
+// from dynamics/.
 TEST_P(PlantTest, AgreesWithDynamicsInFreeFlight) {
-  // Tolerance for two independent dynamics: rounding of a velocity of 1 / s that
-  // changes within 1 ms, amplified by the condition of M. MuJoCo computes principal
-  // axes of an inertia to about seven digits.
+  // Relative tolerance for two implementations that share no code: the rounding
+  // of a velocity of 1 / s that changes within 1 ms, times the condition of M.
+  // MuJoCo computes the principal axes of an inertia only to about seven
+  // digits.
   const double agreement = GetParam() == "bullet" ? 1e-9 : 1e-6;
   for (unsigned seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
@@ -54,7 +56,7 @@ TEST_P(PlantTest, AgreesWithDynamicsInFreeFlight) {
     const Tree tree = MakeRandomTree(50, &draw);
     const auto plant = Make(MakeRobot(tree));
     Eigen::VectorXd q = MakeRandomConfiguration(tree, &draw);
-    q.z() += 100;  // Far from the ground.
+    q.z() += 100;  // High above the ground.
     const Eigen::VectorXd v = MakeRandomVector(tree.nv(), &draw);
     const Eigen::VectorXd tau = 10 * MakeRandomVector(50, &draw);
     const int frame = *tree.FindFrame("link30");
@@ -89,7 +91,7 @@ TEST_P(PlantTest, AgreesWithDynamicsInFreeFlight) {
   }
 }
 
-TEST_P(PlantTest, CutsTorquesOffAtTheEffortLimit) {
+TEST_P(PlantTest, ClampsTorquesToTheEffortLimit) {
   Robot robot = MakePendulum();
   robot.model.limits[0].effort = 3;
   PlantSettings settings;
@@ -97,16 +99,16 @@ TEST_P(PlantTest, CutsTorquesOffAtTheEffortLimit) {
   const auto plant = Make(robot, settings);
   plant->Step(Eigen::VectorXd::Constant(1, 10));
   EXPECT_EQ(plant->Sense().tau[0], 1.5);
-  // I = 0.01 + 2 * 0.3^2. The rod hangs, so gravity has no moment. MuJoCo's inertias
-  // have seven digits.
+  // I = 0.01 + 2 * 0.3^2. The pendulum hangs, so gravity has no moment.
+  // MuJoCo's inertias have seven correct digits.
   EXPECT_NEAR(plant->Sense().vdot[0], 1.5 / 0.19, 1e-6 * 1.5 / 0.19);
   plant->Step(Eigen::VectorXd::Constant(1, -10));
   EXPECT_EQ(plant->Sense().tau[0], -1.5);
 }
 
 TEST_P(PlantTest, StopsJointsAtTheirLimits) {
-  // Bullet's limit is exceeded by one step at the impact speed, 4 rad/s. MuJoCo's is
-  // soft for 4 ms.
+  // The impact has 4 rad/s. In Bullet the joint passes the limit by one step at
+  // this speed. MuJoCo's limits are soft with a time constant of 4 ms.
   const double overrun = GetParam() == "bullet" ? 5e-3 : 1.6e-2;
   for (const double sign : {-1, 1}) {
     SCOPED_TRACE(sign);
@@ -124,7 +126,7 @@ TEST_P(PlantTest, StopsJointsAtTheirLimits) {
   }
 }
 
-TEST_P(PlantTest, LetsJointsPassTheirLimitsIfTold) {
+TEST_P(PlantTest, LetsJointsPassTheirLimitsIfSwitchedOff) {
   Robot robot = MakePendulum();
   robot.model.limits[0].upper = 0.5;
   PlantSettings settings;
@@ -135,14 +137,14 @@ TEST_P(PlantTest, LetsJointsPassTheirLimitsIfTold) {
 }
 
 // A force acts in one step only.
-TEST_P(PlantTest, ForgetsAForceAfterAStep) {
+TEST_P(PlantTest, AppliesAForceForOneStep) {
   const auto plant = Make(MakePendulum());
   // 2 N at 0.3 m below the hinge have a moment of 0.6 N m.
   plant->Apply({1, {0, 0, -0.3}, {0, 0, 0}, {-2, 0, 0}});
   plant->Step(Eigen::VectorXd::Zero(1));
   EXPECT_NEAR(plant->Sense().vdot[0], 0.6 / 0.19, 1e-6 * 0.6 / 0.19);
   plant->Step(Eigen::VectorXd::Zero(1));
-  // The rod has moved by 3 urad; gravity pulls back with 6 N m / rad.
+  // The rod has moved by 3 urad, and gravity pulls it back with 6 N m / rad.
   EXPECT_NEAR(plant->Sense().vdot[0], 0, 1e-3);
 }
 

@@ -19,7 +19,8 @@ btQuaternion ToQuaternion(const Eigen::Matrix3d& R) {
   return {q.x(), q.y(), q.z(), q.w()};
 }
 
-// Returns the frame L at the center of mass of a body B, along its principal axes.
+// Returns the frame L at the center of mass of a body B, along B's principal
+// axes.
 Pose PrincipalFrame(const Inertia& M_B) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(M_B.I_G_B);
   Eigen::Matrix3d R_BL = axes.eigenvectors();

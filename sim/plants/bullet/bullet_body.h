@@ -12,31 +12,31 @@
 
 namespace poise {
 
-/// Converts vectors, rotations and poses to Bullet's types.
+/// Convert vectors and poses from Eigen to Bullet.
 btVector3 ToBullet(const Eigen::Vector3d& p);
 btTransform ToBullet(const Pose& X);
 
-/// Converts Bullet's types back.
+/// Convert vectors and rotations from Bullet to Eigen.
 Eigen::Vector3d FromBullet(const btVector3& p);
 Eigen::Matrix3d FromBullet(const btQuaternion& q);
 
-/// A tree as a btMultiBody. One function in each direction converts between the two
-/// conventions.
+/// A tree as a btMultiBody. SetState() and GetState() convert states between
+/// the conventions of the tree and of Bullet.
 ///
-/// Bullet puts the frame L of each link at its center of mass, along its
-/// principal axes, so that its inertia is diagonal; body i of the tree is link
-/// i - 1. Its base velocity is that of the base's center of mass, its base
-/// quaternion that of R_LW.
+/// Bullet puts the frame L of each link at the link's center of mass, along the
+/// principal axes, so that the inertia is diagonal. Body i of the tree is link
+/// i - 1. Bullet's base velocity is the velocity of the base's center of mass,
+/// and its base quaternion represents R_LW.
 class BulletBody {
  public:
   /// Throws std::invalid_argument if a joint has armature, which Bullet's
-  /// multibody cannot represent, or a body no mass.
+  /// multibody cannot represent, or if a body has no mass.
   explicit BulletBody(const Tree& tree);
 
   btMultiBody& body() { return *body_; }
   const btMultiBody& body() const { return *body_; }
 
-  /// Returns Bullet's link frame in the tree's body.
+  /// Returns the pose of Bullet's link frame L in the tree's body frame B.
   const Pose& X_BL(int body) const { return X_BL_[body]; }
 
   void SetState(const Eigen::VectorXd& q, const Eigen::VectorXd& v);

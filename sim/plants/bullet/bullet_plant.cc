@@ -8,9 +8,9 @@ namespace poise {
 
 namespace {
 
-// Returns the mean acceleration over a step of a base whose origin is at r_W from its
-// center of mass L. Bullet integrates the velocity of L, and its acceleration is that
-// at the start of the step.
+// Returns the mean acceleration of the base over a step. The base's origin is
+// at r_W from its center of mass L. Bullet integrates the velocity of L, and
+// uses the acceleration at the start of the step.
 Eigen::Matrix<double, 6, 1> BaseAcceleration(const Eigen::Vector3d& w_W,
                                              const Eigen::Vector3d& dw_W,
                                              const Eigen::Vector3d& dv_L_W,

@@ -13,13 +13,16 @@
 
 namespace poise {
 
-/// Bullet's Featherstone multibody, built from our own model, as a plant.
+/// A plant with Bullet's Featherstone multibody, built from the robot's model.
 ///
-/// Integration is semi-implicit Euler: v' = v + dt a(q, v), contact impulses change
-/// v', then q moves with v'. A free fall loses m g^2 dt / 2 of energy a second. A foot
-/// stands on small spheres at the corners of its sole polygon. The collision shapes
-/// of all other links collide with the ground too. Links collide with each other,
-/// except links that overlap at Reset() and the pairs of FindNeighbors().
+/// The integrator is semi-implicit Euler: v' = v + dt a(q, v), contact impulses
+/// act on v', then q moves with v'. Under gravity the plant loses m g^2 dt / 2
+/// of energy per second.
+///
+/// A foot stands on small spheres at the corners of its sole polygon. All other
+/// links touch the ground with their collision shapes. Links also collide with
+/// each other; feet do so with all their shapes. Exceptions are neighbors, see
+/// FindNeighbors(), and links that already touch when Reset() places the robot.
 class BulletPlant final : public Plant {
  public:
   /// Throws std::invalid_argument if Bullet cannot represent the model, see

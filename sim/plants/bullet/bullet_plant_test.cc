@@ -16,8 +16,9 @@
 namespace poise {
 namespace {
 
-// Tolerance for two independent dynamics: rounding of a velocity of 1 / s that changes
-// within 1 ms, amplified by the condition of M.
+// Relative tolerance for two implementations of dynamics that share no code. It
+// is the rounding of a velocity of 1 / s that changes within 1 ms, times the
+// condition of M.
 constexpr double kAgreement = 1e-9;
 
 TEST(BulletPlant, MomentumRateInFreeFlightIsGravity) {
@@ -38,7 +39,7 @@ TEST(BulletPlant, MomentumRateInFreeFlightIsGravity) {
 }
 
 // Semi-implicit Euler falls as z_k = z_0 - g dt^2 k (k + 1) / 2.
-TEST(BulletPlant, FallsByItsIntegratorsOwnRecursion) {
+TEST(BulletPlant, FallsAsSemiImplicitEulerDoes) {
   std::mt19937 draw(3);
   const Tree tree = MakeRandomTree(20, &draw);
   BulletPlant plant(MakeRobot(tree));
@@ -52,7 +53,8 @@ TEST(BulletPlant, FallsByItsIntegratorsOwnRecursion) {
   for (int k = 0; k < 1000; ++k) plant.Step(tau);
   ComputeTick(tree, plant.Sense().q, plant.Sense().v, &tick);
   const Eigen::Vector3d fallen = tree.gravity_W() * 1e-6 * 1000 * 1001 / 2;
-  // Rounding of 100 m a thousand times; the parabola differs by 4.9 mm.
+  // The tolerance is the rounding of 100 m in a thousand steps. The exact
+  // parabola differs by 4.9 mm.
   EXPECT_LE((tick.p_WG - start - fallen).norm(), 1e-11);
   EXPECT_DOUBLE_EQ(plant.Sense().time, 1.0);
 }
@@ -85,11 +87,11 @@ Drift MeasureDrift(double dt) {
           std::abs(energy_after / energy_before - 1)};
 }
 
-TEST(BulletPlant, DriftsLittleInFreeFlightAndHalfAsMuchInHalfTheStep) {
+TEST(BulletPlant, DriftInFreeFlightIsSmallAndProportionalToTheStep) {
   const Drift coarse = MeasureDrift(1e-3), fine = MeasureDrift(0.5e-3);
   EXPECT_LT(coarse.momentum, 2e-4);  // Measured: 7e-5.
   EXPECT_LT(coarse.energy, 2e-4);    // Measured: 8e-5.
-  // Errors are of first order; the second order adds a tenth.
+  // The drift is of first order; the second order is below a tenth.
   EXPECT_NEAR(coarse.momentum / fine.momentum, 2, 0.2);
   EXPECT_NEAR(coarse.energy / fine.energy, 2, 0.2);
 }
@@ -112,17 +114,19 @@ TEST(BulletPlant, RepeatsToTheBitAfterReset) {
   EXPECT_EQ(run(), once);
 }
 
-// w' = -d w / I on a hinge with I = 0.19; gravity has no moment at rest.
-TEST(BulletPlant, DampsJointsHoweverLight) {
+// A damped hinge obeys w' = -d w / I, with I = 0.19 kg m2. It starts at the
+// rest position, where gravity has no moment.
+TEST(BulletPlant, DampsLightJointsStably) {
   Robot robot = MakePendulum();
-  // Explicit damping would multiply the speed by 1 - 1000 * 1e-3 / 0.19 = -4 a step.
+  // An explicit step of 1 ms would multiply the speed by
+  // 1 - 1000 * 1e-3 / 0.19 = -4.
   robot.model.limits[0].damping = 1000;
   BulletPlant plant(robot);
   plant.Reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
   double last = 1;
   for (int k = 0; k < 5; ++k) {
     plant.Step(Eigen::VectorXd::Zero(1));
-    // Implicit Euler multiplies by 1 / (1 + d dt / I) a step.
+    // Implicit Euler multiplies the speed by 1 / (1 + d dt / I) per step.
     EXPECT_NEAR(plant.Sense().v[0], last / (1 + 1 / 0.19), 1e-4);
     last = plant.Sense().v[0];
   }
@@ -130,7 +134,8 @@ TEST(BulletPlant, DampsJointsHoweverLight) {
   BulletPlant slow(robot);
   slow.Reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
   for (int k = 0; k < 100; ++k) slow.Step(Eigen::VectorXd::Zero(1));
-  // exp(-d t / I) times the effect of gravity, w0^2 q / 2 with w0^2 = 31 / s^2.
+  // Damping gives exp(-d t / I). Gravity pulls back with w0^2 = 31 / s^2, which
+  // gives the cosine.
   EXPECT_NEAR(slow.Sense().v[0], std::exp(-0.1) * std::cos(0.557), 2e-2);
   PlantSettings undamped;
   undamped.joint_damping = false;
@@ -146,12 +151,12 @@ TEST(BulletPlant, HoldsJointsByDryFrictionUpToItsForce) {
   BulletPlant plant(robot);
   plant.Reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1));
   for (int k = 0; k < 1000; ++k) plant.Step(Eigen::VectorXd::Constant(1, 0.9));
-  EXPECT_LT(plant.Sense().q[0], 2e-4);  // It creeps at 0.9e-4 rad/s.
+  EXPECT_LT(plant.Sense().q[0], 2e-4);  // The joint creeps at 0.9e-4 rad/s.
   for (int k = 0; k < 1000; ++k) plant.Step(Eigen::VectorXd::Constant(1, 1.5));
   EXPECT_GT(plant.Sense().q[0], 0.05);
 }
 
-TEST(BulletPlant, RefusesArmature) {
+TEST(BulletPlant, RejectsArmature) {
   JointSpec hinge;
   hinge.name = "hinge";
   hinge.type = JointType::kRevolute;
@@ -165,7 +170,7 @@ TEST(BulletPlant, RefusesArmature) {
       TreeBuilder().AddLink("a", M).AddLink("b", M).AddJoint(hinge).Build();
   try {
     BulletPlant plant(MakeRobot(tree));
-    FAIL() << "not refused";
+    FAIL() << "a joint with armature was accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
                  "joint 'hinge': armature is 0.25, must be 0 in a Bullet "

@@ -16,7 +16,7 @@
 namespace poise {
 namespace {
 
-// A free flight without gravity; each setting changes one of its errors.
+// Errors of a free flight without gravity. Each wrong setting increases one.
 struct Flight {
   double acceleration_error;  // First step against dynamics, relative.
   double momentum_drift;      // Over 1 s, relative.
@@ -49,14 +49,14 @@ Flight Fly(const BulletSettings& bullet) {
   return flight;
 }
 
-TEST(BulletSettings, OursFlyTrue) {
+TEST(BulletSettings, DefaultsKeepMomentumAndEnergy) {
   const Flight flight = Fly({});
   EXPECT_LT(flight.acceleration_error, 1e-9);
   EXPECT_LT(flight.momentum_drift, 3e-3);
   EXPECT_LT(std::abs(flight.energy_drift), 3e-3);
 }
 
-TEST(BulletSettings, DampingEatsEnergy) {
+TEST(BulletSettings, DampingLosesEnergy) {
   BulletSettings linear, angular;
   linear.linear_damping = 0.04;
   angular.angular_damping = 0.04;
@@ -74,7 +74,7 @@ TEST(BulletSettings, WithoutGyroscopicTermMomentumDrifts) {
   EXPECT_GT(flight.momentum_drift, 3 * Fly({}).momentum_drift);
 }
 
-TEST(BulletSettings, Rk4StepsOtherwise) {
+TEST(BulletSettings, Rk4GivesAnotherAcceleration) {
   BulletSettings bullet;
   bullet.rk4 = true;
   EXPECT_GT(Fly(bullet).acceleration_error, 1e-5);
@@ -92,7 +92,8 @@ TEST(BulletSettings, VelocitiesAreClamped) {
   EXPECT_GT(Fly(bullet).acceleration_error, 0.1);
 }
 
-// Returns the creep of a block on a slope at 99 % of the friction angle, m/s.
+// Returns the speed of a block on a slope at 99 % of the friction angle, m/s.
+// The exact speed is 0.
 double Creep(const BulletSettings& bullet) {
   PlantSettings settings;
   settings.ground.pitch = 0.99 * std::atan(settings.friction);
@@ -114,7 +115,7 @@ TEST(BulletSettings, FewIterationsCreep) {
   EXPECT_GT(Creep(few), 5 * Creep({}));
 }
 
-// Bullet's own sweeps end early and leave the same error.
+// If Bullet's own sweeps end as soon as little changes, the block creeps too.
 TEST(BulletSettings, ResidualThresholdEndsBulletsSweepsEarly) {
   BulletSettings exact, early;
   exact.own_sweeps = early.own_sweeps = false;
@@ -123,8 +124,8 @@ TEST(BulletSettings, ResidualThresholdEndsBulletsSweepsEarly) {
   EXPECT_GT(Creep(early), 5 * Creep(exact));
 }
 
-// Returns the speed of a block that is pushed after 3 s at rest; Bullet lets bodies
-// sleep after 2 s.
+// Returns the speed of a block that is pushed after it stood still for 3 s,
+// m/s. Bullet puts a body to sleep after 2 s.
 double SpeedAfterRest(const BulletSettings& bullet) {
   BulletPlant plant(MakeBlock({0.3, 0.3, 0.02}, 5), {}, bullet);
   Eigen::VectorXd q = Eigen::VectorXd::Zero(7);
@@ -139,15 +140,16 @@ double SpeedAfterRest(const BulletSettings& bullet) {
   return plant.Sense().v[3];
 }
 
-TEST(BulletSettings, WhatSleepsIgnoresForces) {
+TEST(BulletSettings, SleepingBodyIgnoresForces) {
   BulletSettings sleepy;
   sleepy.can_sleep = true;
-  // (45 N - 0.8 m g) / m for 0.1 s.
+  // The acceleration is (45 N - 0.8 m g) / m, for 0.1 s.
   EXPECT_NEAR(SpeedAfterRest({}), (45.0 / 5 - 0.8 * 9.81) * 0.1, 1e-3);
   EXPECT_EQ(SpeedAfterRest(sleepy), 0);
 }
 
-// Returns the height of the center of a sole, tilted by 0.5 rad, at first contact.
+// Returns the height of the center of a sole, tilted by 0.5 rad, at which the
+// sole touches the ground, m.
 double TouchingHeight(double sole_radius) {
   BulletSettings bullet;
   bullet.sole_radius = sole_radius;
@@ -165,12 +167,12 @@ double TouchingHeight(double sole_radius) {
   return 0;
 }
 
-TEST(BulletSettings, SolesEndInSpheresOfTheirRadius) {
-  // The corner is at 0.1 sin. A sphere of radius r there, with its center r above the
-  // sole, reaches deeper by r (1 - cos).
+TEST(BulletSettings, SoleCornersAreSpheresOfTheSoleRadius) {
+  // The corner is 0.1 sin(0.5) below the center. A sphere of radius r, whose
+  // center is r above the corner, reaches r (1 - cos(0.5)) deeper.
   const double corner = 0.1 * std::sin(0.5);
-  // Bullet stops bodies that would touch within a step: 0.1 mm plus the fall of a
-  // step.
+  // Tolerance: the search step of 0.1 mm, and the fall within a step. Bullet
+  // stops bodies that would touch within a step.
   constexpr double kStep = 2e-4;
   for (const double radius : {0.005, 0.05}) {
     EXPECT_NEAR(TouchingHeight(radius), corner + radius * (1 - std::cos(0.5)),
@@ -178,7 +180,7 @@ TEST(BulletSettings, SolesEndInSpheresOfTheirRadius) {
   }
 }
 
-// Returns the sideways slide of a rotated block on a steep slope, m.
+// Returns the sideways slide of a turned block on a steep slope, m.
 double Sideways(const BulletSettings& bullet) {
   PlantSettings settings;
   settings.friction = 0.2;
@@ -203,8 +205,8 @@ TEST(BulletSettings, OneFrictionDirectionLetsABlockDriftSideways) {
   EXPECT_GT(Sideways(one), 1e-2);
 }
 
-// A tumbling block lands, with our sweeps and with Bullet's own.
-TEST(ContactSolver, GivesBulletsImpulses) {
+// A tumbling block lands, with ContactSolver and with Bullet's own solver.
+TEST(ContactSolver, AgreesWithBulletsSolver) {
   const auto land = [](bool own) {
     BulletSettings bullet;
     bullet.own_sweeps = own;
@@ -221,8 +223,9 @@ TEST(ContactSolver, GivesBulletsImpulses) {
     return forces;
   };
   const Eigen::VectorXd ours = land(true), bullets = land(false);
-  EXPECT_GT(bullets.cwiseAbs().maxCoeff(), 49);  // The block is loaded.
-  // Ours end if 12 digits are constant, Bullet's after 50 sweeps.
+  EXPECT_GT(bullets.cwiseAbs().maxCoeff(), 49);  // The block has landed.
+  // ContactSolver stops when no impulse changes in 12 digits. Bullet stops
+  // after 50 sweeps.
   EXPECT_LT((ours - bullets).norm(), 1e-7 * bullets.norm());
 }
 

@@ -14,10 +14,11 @@ namespace poise {
 
 namespace {
 
-// User index of ground objects; that of a link is its body.
+// User index of collision objects of the ground. The user index of a link is
+// the index of its body.
 constexpr int kGround = -1;
 
-// Collision group that collides with links but not with the ground.
+// Collision group of shapes that collide with links, but not with the ground.
 constexpr int kAboveGround = btBroadphaseProxy::CharacterFilter;
 
 std::unique_ptr<btCollisionShape> MakeShape(const Geometry& geometry) {
@@ -31,14 +32,14 @@ std::unique_ptr<btCollisionShape> MakeShape(const Geometry& geometry) {
     return std::make_unique<btCylinderShapeZ>(
         btVector3(cylinder->radius, cylinder->radius, cylinder->length / 2));
   }
-  return nullptr;  // A mesh is drawn and does not collide.
+  return nullptr;  // A mesh is only drawn; it does not collide.
 }
 
 bool IsGround(const btCollisionObject* object) {
   return object->getUserIndex() == kGround;
 }
 
-// Returns the mean force of a manifold point on its object A over a step.
+// Returns the mean force over a step of a manifold point on its object A, N.
 btVector3 ForceOnA(const btManifoldPoint& point, double dt) {
   return (point.m_appliedImpulse * point.m_normalWorldOnB +
           point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
@@ -122,7 +123,7 @@ void BulletWorld::AddGround(const PlantSettings& settings) {
     auto object = std::make_unique<btCollisionObject>();
     object->setCollisionShape(shape.get());
     object->setWorldTransform(ToBullet(X_WS));
-    // Bullet multiplies friction and restitution of both objects.
+    // Bullet multiplies the coefficients of two objects, so the ground has 1.
     object->setFriction(1);
     object->setRestitution(1);
     object->setUserIndex(kGround);
@@ -150,9 +151,10 @@ void BulletWorld::AddCollider(const PlantSettings& settings, int body,
   collider->setCollisionShape(shape);
   collider->setFriction(settings.friction);
   collider->setRestitution(settings.restitution);
-  // Bullet stops a body that will touch within a step above the ground, so that it
-  // does not bounce. With restitution, a body may therefore sink in by up to the way
-  // of a step. It is not pushed out, which would add to its speed.
+  // By default Bullet stops a body just above the ground, if it would touch
+  // within a step, so that it cannot bounce. With restitution a body therefore
+  // penetrates first, by up to one step of motion. Bullet then must not push
+  // the body out, because that would add speed: m_erp2 is 0.
   if (settings.restitution > 0) collider->setContactProcessingThreshold(0);
   collider->setUserIndex(body);
   world_.addCollisionObject(collider.get(), group,
@@ -187,16 +189,18 @@ void BulletWorld::AddColliders(const Robot& robot,
   }
   for (const Shape& shape : robot.model.collisions) {
     const Frame& frame = tree.frames()[shape.frame];
-    // Bullet's box-box contacts are inaccurate. So a foot collides with the ground by its
-    // sole only, and with other links by its shapes.
+    // Bullet's contacts between two boxes are poor. So a foot touches the
+    // ground only with the spheres of its sole. It touches other links with its
+    // shapes.
     if (auto made = MakeShape(shape.geometry)) {
       add(frame.body, frame.X_BF * shape.X_FS, std::move(made),
           is_foot[frame.body] ? &feet : &links);
     }
   }
 
-  // The pairs are set before the colliders exist: Bullet asks about a pair only once,
-  // when its boxes first overlap, and at first all boxes are at the origin.
+  // The filter must be complete before colliders are added. Bullet asks about a
+  // pair once, when its bounding boxes first overlap. Here all colliders are
+  // still at the origin and overlap.
   for (const auto& [a, b] : FindNeighbors(tree)) filter_.Exclude(a, b);
   for (int i = 0; i < tree.num_bodies(); ++i) filter_.Exclude(i, i);
 
@@ -264,7 +268,7 @@ void BulletWorld::Place() {
     filter_.Exclude(pair->getBody0()->getUserIndex(),
                     pair->getBody1()->getUserIndex());
   }
-  // Removes excluded pairs that Bullet has already accepted.
+  // Removes the pairs that are now excluded from Bullet's cache.
   btBroadphasePairArray pairs =
       world_.getPairCache()->getOverlappingPairArray();
   for (int i = 0; i < pairs.size(); ++i) {
@@ -310,7 +314,8 @@ void BulletWorld::FindSelfContacts(std::vector<std::pair<int, int>>* pairs) {
       break;
     }
   }
-  // A foot has two colliders: the sole and its other shapes.
+  // A foot has two colliders, its sole and its shapes, so a pair can occur
+  // twice.
   std::sort(pairs->begin(), pairs->end());
   pairs->erase(std::unique(pairs->begin(), pairs->end()), pairs->end());
 }

@@ -26,8 +26,9 @@ struct GroundContact {
   Eigen::Vector3d force_W;  ///< On the robot, N.
 };
 
-/// A Bullet world with a ground and one robot. It owns all of Bullet's objects. Make a
-/// new one for each episode, because a used world does not repeat bit for bit.
+/// A Bullet world with a ground and one robot. It owns all Bullet objects,
+/// because Bullet leaves the ownership to its user. Every episode needs a new
+/// world: a used world does not repeat a run to the bit.
 class BulletWorld {
  public:
   /// Throws std::invalid_argument, see BulletBody.
@@ -45,8 +46,8 @@ class BulletWorld {
     return {FromBullet(X.getRotation()), FromBullet(X.getOrigin())};
   }
 
-  /// Moves the colliders to the robot's pose. Pairs of links that overlap there do not
-  /// collide from now on.
+  /// Moves the colliders to the robot's state. All pairs of links that touch
+  /// there are excluded from collisions from then on.
   void Place();
 
   void Step(double dt) {
@@ -54,15 +55,15 @@ class BulletWorld {
     MoveFootColliders();
   }
 
-  /// Returns the contact points of the ground in the last step. Valid until the next
-  /// call.
+  /// Returns the points at which the ground pressed on the robot in the last
+  /// step of dt, s. Valid until the next call.
   const std::vector<GroundContact>& FindGroundContacts(double dt);
 
-  /// Finds the pairs of bodies that collided in the last step.
+  /// Finds the pairs of bodies that pressed on each other in the last step.
   void FindSelfContacts(std::vector<std::pair<int, int>>* pairs);
 
  private:
-  // Restricts collision tests to the pairs of links that can collide.
+  // Restricts Bullet's collision detection to pairs that may collide.
   class PairFilter : public btOverlapFilterCallback {
    public:
     explicit PairFilter(int num_bodies)
@@ -85,7 +86,8 @@ class BulletWorld {
                     double sole_radius);
   void AddLimits(const RobotModel& model);
 
-  // Bullet moves only one collider of a link; this moves the others.
+  // Bullet moves only one collider per link, so the second one of each foot
+  // must be moved explicitly.
   void MoveFootColliders();
 
   BulletBody body_;
@@ -97,7 +99,7 @@ class BulletWorld {
   btMultiBodyDynamicsWorld world_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btCollisionObject>> ground_;
-  Colliders colliders_;       // By body; feet with their soles.
+  Colliders colliders_;       // By body; for feet the soles.
   Colliders foot_colliders_;  // Shapes of the feet except the soles.
   std::vector<std::unique_ptr<btMultiBodyConstraint>> limits_;
   std::vector<GroundContact> contacts_;

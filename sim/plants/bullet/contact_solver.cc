@@ -10,8 +10,9 @@ namespace poise {
 
 namespace {
 
-// Sweeps end when the largest change of an impulse is this fraction of the largest
-// impulse, which is below the digits of a logged force.
+// Sweeps end when the largest change of an impulse is below this fraction of
+// the sum of all impulses. The log has nine digits, so the error is not
+// visible.
 constexpr double kSettled = 1e-12;
 
 }  // namespace
@@ -27,7 +28,7 @@ btScalar ContactSolver::solveSingleIteration(
     if (change <= kSettled * impulses_.cwiseAbs().sum()) break;
   }
   Apply();
-  return 0;  // With residual 0, Bullet stops.
+  return 0;  // Bullet stops at a residual of 0.
 }
 
 void ContactSolver::Gather() {
@@ -52,7 +53,7 @@ void ContactSolver::Gather() {
   J_.setZero(m, n);
   W_.setZero(m, n);
   for (int i = 0; i < m; ++i) {
-    // If two links of the body touch, it is on both sides of the contact.
+    // If two links of the robot touch, both sides are the same multibody.
     const auto take = [this, i, n](int index) {
       J_.row(i) +=
           Eigen::Map<const Eigen::RowVectorXd>(&m_data.m_jacobians[index], n);
@@ -107,7 +108,7 @@ double ContactSolver::Sweep(bool forward) {
       ++row;
       continue;
     }
-    // Projects into the cone's circle along its radius.
+    // Projects the pair radially onto the circle of the friction cone.
     const double first = Candidate(row), second = Candidate(row + 1);
     const double size = std::hypot(first, second);
     const double scale = size > limit ? limit / size : 1;

@@ -8,16 +8,18 @@
 
 namespace poise {
 
-/// Bullet's sequential impulses, computed in contact space.
+/// Computes Bullet's sequential impulses in the space of the contact rows.
 ///
-/// Bullet keeps the velocity of all n joints while it sweeps over its rows, at
-/// 4 n flops a row. The rows interact by the matrix
-///     A_ij = J_i M^-1 J_j',
-/// which is computed once. A sweep over m rows then costs 2 m^2 flops, for two feet a
-/// ninth. The sweeps, their order and their number are Bullet's, so the
-/// impulses agree up to rounding. The sweeps end early if the impulses are constant.
+/// Bullet updates the velocities of all n joints while it sweeps over its rows,
+/// at 4 n flops per row. ContactSolver computes the matrix of the influence of
+/// row j on row i once:
+///     A_ij = J_i M^-1 J_j'.
+/// A sweep over m rows then costs 2 m^2 flops, a ninth of Bullet's for two
+/// feet. The sweeps, their order and their largest number are as in Bullet, so
+/// the impulses agree up to rounding. The sweeps end early when no impulse
+/// changes.
 ///
-/// For worlds whose only moving body is one multibody.
+/// Valid only for worlds in which the only moving body is one multibody.
 class ContactSolver final : public btMultiBodyConstraintSolver {
  protected:
   btScalar solveSingleIteration(
@@ -34,8 +36,9 @@ class ContactSolver final : public btMultiBodyConstraintSolver {
   void Apply();
 
   std::vector<btMultiBodySolverConstraint*> rows_;
-  int num_limits_ = 0;   // Rows of joint limits come first,
-  int num_normals_ = 0;  // then the normals, then friction in pairs.
+  // Order of the rows: joint limits, then normals, then friction in pairs.
+  int num_limits_ = 0;
+  int num_normals_ = 0;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J_;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> W_;
   Eigen::MatrixXd A_;

@@ -17,13 +17,13 @@ namespace {
 // Radius of the spheres at the corners of a sole, as in Bullet, m.
 constexpr double kSoleRadius = 0.005;
 
-// Contacts and limits are as stiff as a step of 1 ms allows: a time constant of two
-// steps or more and an impedance near 1.
+// Contacts and limits are as stiff as a step of 1 ms permits. MuJoCo needs a
+// time constant of at least two steps; the impedance is near 1.
 constexpr const char* kStiff = "solref=\"0.004 1\" solimp=\"0.95 0.99 0.001\"";
 
-// Geoms collide if one's contype shares a bit with the other's conaffinity. The
-// first bit is for the ground, the second for links among themselves. Without
-// and with self-collision:
+// Two geoms collide if the contype of one shares a bit with the conaffinity of
+// the other. The first bit is for the ground, the second bit for
+// self-collision. Arrays have the entries without and with self-collision.
 constexpr const char* kGround = " contype=\"1\" conaffinity=\"1\"";
 constexpr const char* kLink[] = {" contype=\"1\" conaffinity=\"0\"",
                                  " contype=\"3\" conaffinity=\"2\""};
@@ -45,7 +45,7 @@ class Xml {
   Xml& operator<<(const Eigen::Vector3d& v) {
     return *this << v.x() << ' ' << v.y() << ' ' << v.z();
   }
-  // MuJoCo's quaternions are w, x, y, z.
+  // MuJoCo orders a quaternion as w, x, y, z.
   Xml& operator<<(const Eigen::Quaterniond& q) {
     const Eigen::Vector4d wxyz = WxyzFromQuaternion(q);
     return *this << wxyz[0] << ' ' << Eigen::Vector3d(wxyz.tail<3>());
@@ -64,7 +64,8 @@ class Xml {
 
 void WriteGround(const PlantSettings& settings, Xml* xml) {
   const Eigen::Quaterniond R_WG = GroundRotation(settings.ground);
-  // MuJoCo uses the larger friction of two geoms; the robot has it.
+  // MuJoCo uses the larger friction of two geoms. The ground has 0, so the
+  // friction of the robot's geoms counts.
   *xml << "<geom type=\"plane\" size=\"0 0 1\" quat=\"" << R_WG
        << "\" friction=\"0 0 0\"" << kGround << "/>\n";
   for (const Board& board : settings.ground.boards) {
@@ -76,7 +77,8 @@ void WriteGround(const PlantSettings& settings, Xml* xml) {
   }
 }
 
-// Writes type and size of a shape. Returns false for a shape without collision.
+// Writes the type and size of a shape. Returns false for a mesh, which does not
+// collide.
 bool WriteGeometry(const Geometry& geometry, Xml* xml) {
   if (const auto* sphere = std::get_if<Sphere>(&geometry)) {
     *xml << "<geom type=\"sphere\" size=\"" << sphere->radius << "\" ";
@@ -110,7 +112,7 @@ void WriteShapes(const Robot& robot, int body, bool collides, Xml* xml) {
     const Frame& frame = robot.model.tree.frames()[shape.frame];
     if (frame.body != body || !WriteGeometry(shape.geometry, xml)) continue;
     *xml << frame.X_BF * shape.X_FS;
-    // A foot collides with the ground by its sole only.
+    // A foot touches the ground only with its sole.
     if (is_foot) *xml << kAboveGround[collides];
     *xml << "/>\n";
   }

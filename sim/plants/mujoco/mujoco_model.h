@@ -10,11 +10,13 @@
 
 namespace poise {
 
-/// Returns a robot and its ground as MuJoCo's XML. Body i of the tree is MuJoCo's body
-/// i + 1, called "body<i>"; joint j its joint of the same number after the
-/// free joint. A sole consists of small spheres at its polygon's corners, as in Bullet.
+/// Returns a robot and its ground as MuJoCo's XML. Body i of the tree is
+/// MuJoCo's body i + 1, with the name "body<i>". Joint j of the tree is
+/// MuJoCo's joint j, counted after the free joint. A sole consists of small
+/// spheres at the corners of its polygon, as in Bullet.
 ///
-/// @param excluded  pairs of bodies that do not collide, besides neighbors.
+/// @param excluded  pairs of bodies that do not collide, in addition to
+///                  FindNeighbors().
 std::string MakeMujocoXml(const Robot& robot, const PlantSettings& settings,
                           const std::vector<std::pair<int, int>>& excluded);
 

@@ -19,18 +19,19 @@ static_assert(sizeof(mjtNum) == sizeof(double), "link a double MuJoCo");
 
 namespace {
 
-// Body i of the tree is MuJoCo's i + 1; its 0 is the world.
+// Body i of the tree is MuJoCo's body i + 1. MuJoCo's body 0 is the world.
 constexpr int kWorld = 0;
 
 using ConstVector3 = Eigen::Map<const Eigen::Vector3d>;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-// Silences MuJoCo, which would warn of a diverging simulation on stderr and in a
-// file of the current folder. The judge of the run reports the divergence.
+// Silences MuJoCo, which would warn of a diverging simulation on stderr and in
+// a file of the current folder. The judge of the run reports the divergence.
 [[maybe_unused]] const bool kIsQuiet = (
     mju_user_warning = [](const char*) {}, true);
 
-// MuJoCo reads XML from a file, or from a file system of its own in memory.
+// Loads a model through MuJoCo's virtual file system: MuJoCo has no function
+// that reads XML from a string.
 mjModel* LoadXml(const std::string& xml, std::string* error) {
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
@@ -73,7 +74,7 @@ void MujocoPlant::Load(const std::vector<std::pair<int, int>>& excluded) {
   if (model_ == nullptr) {
     const std::string line = error.substr(0, error.find('\n'));
     throw std::invalid_argument("robot " + Quoted(robot_.model.name) +
-                                ": MuJoCo says: " + OneLine(line));
+                                ": MuJoCo rejects the model: " + OneLine(line));
   }
   data_.reset(mj_makeData(model_.get()));
 }
@@ -160,7 +161,7 @@ void MujocoPlant::Step(const Eigen::VectorXd& tau) {
   state_.time = ++steps_ * settings_.dt;
   ReadContacts();
   ReadState();
-  // Updates the poses for the next forces.
+  // Updates the poses to the new state, because Apply() and X_WB() use them.
   mj_kinematics(model_.get(), data_.get());
   mj_comPos(model_.get(), data_.get());
 }
@@ -174,8 +175,9 @@ void MujocoPlant::ReadState() {
       (Eigen::Map<const Eigen::VectorXd>(qvel, model_->nv) - state_.vdot) /
       settings_.dt;
   if (robot_.model.tree.is_floating()) {
-    // MuJoCo integrates the angular velocity in the body's axes, those of the
-    // step's start; x' = R x'_B because w x w = 0.
+    // MuJoCo integrates the angular velocity in the body's axes at the start of
+    // the step. In world axes the angular acceleration is R alpha_B, because
+    // the cross product of w with itself is 0.
     const Eigen::Vector3d a_W = state_.vdot.head<3>();
     const Eigen::Vector3d alpha_B = state_.vdot.segment<3>(3);
     state_.vdot.head<3>() = X_WB(0).R * alpha_B;
@@ -209,8 +211,8 @@ void MujocoPlant::ReadContacts() {
       self_contacts.emplace(std::min(a, b) - 1, std::max(a, b) - 1);
       continue;
     }
-    // The rows of the contact's frame are its axes; its force is that on the
-    // second geom.
+    // The rows of contact.frame are the axes of the contact frame. The contact
+    // force acts on the second geom.
     const Eigen::Vector3d on_second_W =
         Eigen::Map<const RowMajor3>(contact.frame).transpose() *
         ConstVector3(F_contact);

@@ -14,16 +14,17 @@
 
 namespace poise {
 
-/// MuJoCo as a plant. Its dynamics and its contact model are independent of Bullet's,
-/// so a result on both plants is a result of the robot.
+/// MuJoCo as a plant. Its dynamics and contact model are independent of
+/// Bullet's, so a result in both plants is a property of the robot and not of
+/// Bullet.
 ///
-/// Contacts are soft (at least 2 steps) and solved as a convex problem; Bullet's are
-/// hard and sequential. Joints have armature, implicit damping and dry friction.
-/// There is no restitution.
+/// MuJoCo's contacts are soft (a time constant of 4 ms) and a convex problem.
+/// Bullet's are hard and solved sequentially. MuJoCo's joints have armature,
+/// implicit damping and dry friction. This plant has no restitution.
 class MujocoPlant final : public Plant {
  public:
-  /// Throws std::invalid_argument if MuJoCo refuses the model, a setting is out of
-  /// range, or restitution is not zero.
+  /// Throws std::invalid_argument if MuJoCo rejects the model, a setting is out
+  /// of range, or restitution is not 0.
   MujocoPlant(const Robot& robot, const PlantSettings& settings = {});
 
   void Reset(const Eigen::VectorXd& q, const Eigen::VectorXd& v) override;

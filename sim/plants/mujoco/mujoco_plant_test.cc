@@ -26,7 +26,7 @@ TEST(MujocoPlant, RepeatsToTheBitAfterReset) {
   EXPECT_EQ(run(), once);
 }
 
-TEST(MujocoPlant, LeavesNoFileWhereARobotIsFlungApart) {
+TEST(MujocoPlant, WritesNoWarningFileWhenTheSimulationDiverges) {
   MujocoPlant plant(MakeBlock({0.2, 0.1, 0.3}, 5));
   Eigen::VectorXd q(7);
   q << 0, 0, 0.2, 0, 0, 0, 1;
@@ -39,9 +39,8 @@ TEST(MujocoPlant, LeavesNoFileWhereARobotIsFlungApart) {
   EXPECT_FALSE(std::ifstream("MUJOCO_LOG.TXT").is_open());
 }
 
-// A hinge with damping d on an inertia I slows down as
-// w' = -d w / I, whatever the step.
-TEST(MujocoPlant, DampsAndHoldsJointsAsTheModelSays) {
+// A hinge with damping d on an inertia I obeys w' = -d w / I.
+TEST(MujocoPlant, AppliesDampingAndDryFrictionOfTheModel) {
   Inertia base, rotor;
   base.mass = rotor.mass = 1;
   base.I_G_B = rotor.I_G_B = Eigen::Matrix3d::Identity();
@@ -61,7 +60,8 @@ TEST(MujocoPlant, DampsAndHoldsJointsAsTheModelSays) {
   MujocoPlant plant(robot);
   plant.Reset(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
   for (int k = 0; k < 1000; ++k) plant.Step(Eigen::VectorXd::Zero(1));
-  // Rotor and armature give I = 2. The error of implicit Euler is half a step.
+  // Rotor and armature have I = 2 together. The relative error of implicit
+  // Euler is half of the rate times the step, per time constant.
   EXPECT_NEAR(plant.Sense().v[0], std::exp(-2.0), 1e-3 * std::exp(-2.0) * 2.1);
 
   robot.model.limits[0].friction = 0.5;

@@ -184,8 +184,9 @@ TEST(Explanation, IgnoresSummaryOfAnotherLog) {
   EXPECT_EQ(said["sentences"][count - 3],
             "log.csv was cut short: its last row is incomplete.");
   EXPECT_EQ(said["sentences"][count - 2],
-            "summary.json is not of this log.csv, by its log_sha256: that is "
-            "of another run, or was cut or changed.");
+            "summary.json does not belong to this log.csv: its log_sha256 "
+            "differs. The log is of another run, or was cut short or "
+            "changed.");
   EXPECT_EQ(said["sentences"][count - 1],
             "The end of the run is not recorded.");
   EXPECT_EQ(said["notes"].size(), 2u);
@@ -557,7 +558,7 @@ TEST(Explanation, RejectsInvalidUtf8) {
   EXPECT_EQ(refusal("no_text", "0,ok,\n0.1,ok,torque.l_\xffpaule.max=1\n"),
             ":3: active is 'torque.l_?paule.max=1', is not UTF-8");
   EXPECT_EQ(refusal("no_row", "0,ok\n"),
-            ":2: has 2 cells, must have 3, as the header has");
+            ":2: has 2 cells, must have 3 as in the header");
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ std::string Refusal(const std::vector<std::string>& words) {
 TEST(PushOptions, NamesTheOptionOfAnInvalidValue) {
   EXPECT_EQ(Refusal({"--ramp", "-1"}), "--ramp is -1, must be 0 to 100 s");
   EXPECT_EQ(Refusal({"--plant-rate", "300"}),
-            "control.rate is 1000, must be a whole part of --plant-rate, which "
+            "control.rate is 1000, must evenly divide --plant-rate, which "
             "is 300");
   EXPECT_EQ(Refusal({"--link", "nose"}),
             "link 'nose' is unknown, must be a link of robot 'humanoid'");
@@ -54,7 +54,7 @@ TEST(PushOptions, NamesTheFileOfAnInvalidValue) {
       TestFile("rates.yaml", "control: {rate: 300}\n").string();
   EXPECT_EQ(Refusal({"--scenario", scenario}),
             scenario +
-                ": control.rate is 300, must be a whole part of plant.rate, "
+                ": control.rate is 300, must evenly divide plant.rate, "
                 "which is 1000");
 }
 

@@ -105,9 +105,9 @@ refuse "the solve at 0.200000 s is outside the scenario, which ends at $(
   --out "$TEST_TMPDIR/late"
 
 # A message about the value of an option names the option, not a key of a file.
-refuse "--control-rate is 333, must be a whole part of plant.rate, which is 1000" \
+refuse "--control-rate is 333, must evenly divide plant.rate, which is 1000" \
   --control-rate 333
-refuse "control.rate is 1000, must be a whole part of --plant-rate, which is 1500" \
+refuse "control.rate is 1000, must evenly divide --plant-rate, which is 1500" \
   --plant-rate 1500
 refuse "--time is 0, must be 0.001 to 86400 s" --time 0
 refuse "--duration is -1, must be 0 to 86400 s" --duration=-1
@@ -132,7 +132,7 @@ refuse "scenario '$gone' is unknown, must be a file or one of $scenarios" \
 refuse_file --scenario ":2: key 'lenght' is unknown, must be one of $(
   )name, duration, seed, start, pushes, stance, com, tasks, control, plant, $(
   )sensors" scenario.yaml 'duration: 3' 'lenght: 4'
-refuse_file --scenario ": control.rate is 1000, must be a whole part of $(
+refuse_file --scenario ": control.rate is 1000, must evenly divide $(
   )plant.rate, which is 300" rate.yaml 'plant: {rate: 300}'
 
 refuse "$gone: cannot be read" --robot "$gone"

@@ -97,8 +97,9 @@ TEST(ReportPage, IgnoresSummaryOfAnotherLog) {
   const json shown = ReadRun(run);
   EXPECT_TRUE(shown["summary"].is_null());
   EXPECT_EQ(shown["notes"][0],
-            "summary.json is not of this log.csv, by its log_sha256: that is "
-            "of another run, or was cut or changed.");
+            "summary.json does not belong to this log.csv: its log_sha256 "
+            "differs. The log is of another run, or was cut short or "
+            "changed.");
 }
 
 TEST(ReportPage, ShowsTwoRuns) {
