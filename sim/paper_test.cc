@@ -31,9 +31,8 @@ TEST(Paper, StandsWhenStartedOffEquilibrium) {
   const Story story = Tell(Ours("stand", 3));
   ExpectStaysOnItsFeet(story);
   const Verdict& verdict = story.verdict;
-  EXPECT_LT(verdict.com_error_final.norm(), 1e-4);  // 0.1 mm.
-  EXPECT_GT(verdict.com_error_peak.norm(),
-            1e-3);  // The start is off equilibrium.
+  EXPECT_LT(verdict.com_error_final.norm(), 1e-4);  // A tenth of a millimeter.
+  EXPECT_GT(verdict.com_error_peak.norm(), 1e-3);   // It was off equilibrium.
 }
 
 TEST(Paper, RecoversFromTheWeakPush) {
@@ -169,7 +168,7 @@ TEST(Standing, MeasuredCopIsTheCommandedOneUntilItSaturates) {
       most = std::max(most, cop.y());
     }
   }
-  EXPECT_LT(worst, 1e-3);  // A fifth of the controller's margin.
+  EXPECT_LT(worst, 1e-3);  // A fifth of the controller's margin to the edge.
   EXPECT_GT(most, 0.059);  // The sole ends at 0.065 m.
   EXPECT_LT(least, 0.01);
 }

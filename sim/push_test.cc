@@ -69,7 +69,7 @@ TEST(Push, HalfSinePeaksInTheMiddle) {
 TEST(Push, ImpulseActsInOneStep) {
   Push push;
   push.profile = PushProfile::kImpulse;
-  push.start = 0.3;  // 300 * 1e-3 differs from 0.3 in binary.
+  push.start = 0.3;  // 300 * 1e-3 is not 0.3 in binary.
   push.duration = 0.1;
   int steps = 0;
   for (int k = 0; k < 1000; ++k) {

@@ -127,7 +127,7 @@ TEST(ClosedLoop, ShiftsOverTheInnerSideOfAFoot) {
   StanceEvent shift;
   shift.foot = "left_foot";
   shift.over = 0.01;
-  for (const double at : {0.0, 0.001}) {  // Before the first tick and later.
+  for (const double at : {0.0, 0.001}) {  // Before the first tick, and later.
     shift.at = at;
     scenario.stance = {shift};
     ClosedLoop loop(Humanoid(), scenario);

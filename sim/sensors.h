@@ -13,7 +13,7 @@
 
 namespace poise {
 
-/// A stream of random numbers; the same on every machine.
+/// A stream of random numbers that is the same on every machine.
 class RandomStream {
  public:
   explicit RandomStream(std::uint64_t seed) : state_(seed) {}

@@ -42,7 +42,7 @@ struct Story {
   // Extremes of the wrenches that the ground applied.
   double given_beyond = -1, given_friction = 0;
   double torque_violation = 0, joint_violation = 0;  // N m, rad.
-  std::vector<double> com_error;                     // Horizontal, m, by tick.
+  std::vector<double> com_error;  // In the plane, m, each tick.
 
   // Returns the largest error in [from, to), times in s.
   double ErrorIn(double from, double to) const {

@@ -44,7 +44,7 @@ class CsvReader final : public LogReader {
   long line_number_ = 1;
   std::vector<std::string_view> cells_;
   std::vector<bool> has_words_;  // By column.
-  std::vector<double> numbers_;  // NaN in text columns.
+  std::vector<double> numbers_;  // NaN in columns of words.
 };
 
 }  // namespace poise

@@ -17,8 +17,8 @@ class LogReader {
   LogReader& operator=(const LogReader&) = delete;
   virtual ~LogReader() = default;
 
-  /// Returns the names of the columns with units: "com.x[m]". An empty file has
-  /// neither columns nor rows.
+  /// The names of the columns, units included: "com.x[m]". An empty file has no
+  /// columns and no rows.
   const std::vector<std::string>& columns() const { return columns_; }
 
   /// Returns the index of a column by its name, with or without the unit. Empty

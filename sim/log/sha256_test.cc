@@ -13,7 +13,7 @@ std::string DigestOf(std::string_view text) {
 }
 
 // The examples of FIPS 180-4.
-TEST(Sha256, GivesTheExamplesOfTheStandard) {
+TEST(Sha256, AgreesWithItsStandard) {
   EXPECT_EQ(DigestOf("abc"),
             "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(

@@ -108,7 +108,7 @@ TEST(Summary, PrintsALineForEachPushWithItsOwnForce) {
   EXPECT_TRUE(has("and 3 more"));
 }
 
-// A force in link axes is reported in the axes of the link's body.
+// A force that turns with its link is given in the axes of the link's body.
 TEST(Summary, NamesTheAxesOfAForce) {
   const Robot robot = LoadHumanoid();
   Scenario scenario = MakeThreePushes();

@@ -99,7 +99,7 @@ double GroundTest::Rebound(double restitution) const {
   settings.restitution = restitution;
   const auto plant = Make(MakeBall(0.1, 2), settings);
   PutDown({}, 0.6, plant.get());
-  Simulate(0.35, plant.get());  // The ball lands after 0.319 s.
+  Simulate(0.35, plant.get());  // It lands after 0.319 s.
   double top = 0;
   for (int k = 0; k < 500; ++k) {
     Simulate(1e-3, plant.get());

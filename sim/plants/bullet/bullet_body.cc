@@ -96,7 +96,7 @@ BulletBody::BulletBody(const Tree& tree)
     }
   }
   body_->finalizeMultiDof();
-  // SetState() places a floating base.
+  // A floating base is put in its place by SetState().
   body_->setBaseWorldTransform(ToBullet(X_BL_[0]));
 }
 

@@ -63,7 +63,7 @@ void BulletPlant::Reset(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
 void BulletPlant::Apply(const AppliedForce& force) {
   btMultiBody& body = world_->body().body();
   const Pose& X_BL = world_->body().X_BL(force.body);
-  // Bullet applies a force at the link's center of mass.
+  // Bullet takes a force at the link's center of mass.
   const Eigen::Vector3d p_LQ_W =
       world_->X_WL(force.body).R * (X_BL.Inverse() * force.p_BoQ_B);
   const btVector3 force_W = ToBullet(force.force_W);

@@ -19,7 +19,7 @@
 
 namespace poise {
 
-/// A contact point of the robot with the ground.
+/// A point where the ground presses on the robot.
 struct GroundContact {
   int body;
   Eigen::Vector3d p_WQ;     ///< m.
