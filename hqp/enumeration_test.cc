@@ -1,6 +1,6 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Both solvers against what needs no search. Equalities only: the closed form,
-// level by level through pseudo-inverses. Inequalities: all active sets tried.
+// Compares both solvers with methods that need no active-set search. With
+// equalities only, this is the closed form, level by level through
+// pseudo-inverses. With inequalities, all active sets are tried.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,16 +16,16 @@
 namespace poise {
 namespace {
 
-// Two costs are the same: far above rounding, far below what two different
-// active sets of numbers in hundredths give.
+// Costs that differ by less are equal. This is far above rounding, and far
+// below the difference between two active sets of rows in hundredths.
 constexpr double kSameCost = 1e-9;
 
 struct InequalityRow {
   int level, index;
 };
 
-// The hierarchy with equalities only, where each inequality row is absent or
-// one more equality of its own level, at the lower or the upper bound.
+// Returns the hierarchy with equalities only. Each inequality row is left out,
+// or is an equality of its own level at the lower or the upper bound.
 std::vector<LeastSquares> EqualitiesOnly(const Hierarchy& hierarchy,
                                          const std::vector<InequalityRow>& rows,
                                          const std::vector<Side>& sides) {
@@ -56,12 +56,14 @@ std::vector<LeastSquares> EqualitiesOnly(const Hierarchy& hierarchy,
 
 struct Candidate {
   Eigen::VectorXd y;
-  Eigen::VectorXd cost;  // By level: the hierarchy's own at y.
+  Eigen::VectorXd cost;  // Cost of each level of the hierarchy at y.
   double condition;
 };
 
-// The optimum is that of the equalities that are violated or tight at it, and
-// no y is better: so the lexicographically least of all active sets' answers.
+// Returns the optimum, by enumeration of all active sets. The optimum is also
+// that of an equality problem: of the rows that are violated or tight there. No
+// y has a lexicographically lower cost. So it is the candidate of lowest cost,
+// and among equal ones that of minimum norm.
 Candidate FindByEnumeration(const HierarchyCase& drawn) {
   const Hierarchy& hierarchy = drawn.hierarchy;
   const int n = hierarchy.num_variables(), num_levels = hierarchy.num_levels();
@@ -112,8 +114,9 @@ Candidate FindByEnumeration(const HierarchyCase& drawn) {
                            });
 }
 
-// An answer's rounding: of y by the square of the condition of a level, of the
-// costs by what they are added up from.
+// Compares an answer with the enumerated one. Both tolerances grow with the
+// square of the condition of the levels. The tolerance of a cost is relative to
+// the magnitudes of its terms.
 void Compare(const Candidate& expected, const HierarchyCase& drawn,
              const Solution& solution) {
   const Hierarchy& hierarchy = drawn.hierarchy;
@@ -124,7 +127,7 @@ void Compare(const Candidate& expected, const HierarchyCase& drawn,
     size += hierarchy.b(k).norm();
   }
   EXPECT_LE((solution.y - expected.y).norm(), Rounding(size, n, condition))
-      << "of y = " << expected.y.transpose();
+      << "expected y = " << expected.y.transpose();
   for (int k = 0; k < hierarchy.num_levels(); ++k) {
     EXPECT_NEAR(solution.levels[k].cost, expected.cost[k],
                 Rounding(1 + CostSize(hierarchy, k, solution), n, condition))

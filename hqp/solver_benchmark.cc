@@ -1,17 +1,15 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// How long a solve takes, beside the literal cascade in the same run.
+// Measures the time of a solve, and of the literal cascade in the same run.
 //   bazel run //hqp:solver_benchmark
-// Each solve is of a hierarchy that has changed since the one before: what is
-// asked for and the bounds move by up to a hundredth, as from tick to tick,
-// which is not timed. To solve the same one again would be the best case of a
-// solver that starts from what was active. Time is the mean; median_us, p999_us
-// and max_us are of single solves.
+// Each solve has other targets and bounds than the one before: they change by
+// up to 0.01, as from tick to tick. This change is not timed. To solve the same
+// hierarchy again would be the best case of a warm start. The time is the mean;
+// median_us, p999_us and max_us are quantiles of single solves.
 //
-// The dense cases have rows as no robot has: 20, 40 or 60 inequalities of
-// normal numbers on each of 5 levels of 68 variables. With 20 about half as
-// many are active as there are variables. With more most levels cannot be met,
-// and each step factors such a level anew: from nothing the fast solver is
-// slower there than our own cascade by COD.
+// The dense cases have rows that no robot has: 20, 40 or 60 inequalities with
+// normally distributed entries on each of 5 levels of 68 variables. With 20,
+// about half as many rows are active as there are variables. With more, most
+// levels cannot be met, and each step factors such a level again. In cold
+// solves of these cases, the fast solver is slower than the cascade by COD.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -25,14 +23,15 @@
 namespace poise {
 namespace {
 
-// Numbers in [-1, 1], the same each time.
+// Pseudorandom numbers in [-1, 1], the same in each run.
 class Numbers {
  public:
   double Uniform() {
     state_ = state_ * 1664525u + 1013904223u;
     return state_ / 2147483648.0 - 1;
   }
-  // Of unit variance: the sum of as many as that takes.
+  // Returns an almost normally distributed number of unit variance, the sum of
+  // 12 uniform numbers of variance 1/12.
   double Normal() {
     double sum = 0;
     for (int i = 0; i < 12; ++i) sum += Uniform() / 2;
@@ -48,11 +47,11 @@ struct Problem {
   Hierarchy hierarchy;
 };
 
-// A hierarchy of the paper's shape: of n variables the last 12 are forces. 6
-// equalities; `limits` two-sided rows; 12 equalities and 16 inequalities; 6
-// equalities, and again 6 in each level more than 5; posture and forces. In
-// fewer than 5 levels, the first ones share one. The tighter the limits, the
-// more rows are active.
+// Returns the numbers of rows of a hierarchy of the paper's shape. The last 12
+// of n variables are forces. Five levels have: 6 equalities; `limits` two-sided
+// rows; 12 equalities and 16 inequalities; 6 equalities; posture and forces.
+// Each further level has 6 equalities. With fewer levels, the first ones are
+// merged. The tighter the limits, the more rows are active.
 std::vector<LevelCapacity> PaperCapacity(int n, int levels, int limits) {
   std::vector<LevelCapacity> rows = {{6, 0}, {0, limits}, {12, 16}};
   while (static_cast<int>(rows.size()) < std::max(levels - 1, 4)) {
@@ -96,8 +95,8 @@ Problem MakePaper(int n, int levels, int limits, double limit) {
   return problem;
 }
 
-// Levels of 6 equalities and as many inequalities as told, all of normal
-// numbers.
+// Returns levels of 6 equalities and `rows` inequalities each, with normally
+// distributed entries.
 Problem MakeDense(int n, int levels, int rows) {
   const std::vector<LevelCapacity> capacity(levels, {6, rows});
   Problem problem{capacity, Hierarchy(n, capacity)};
@@ -118,8 +117,8 @@ Problem MakeDense(int n, int levels, int rows) {
   return problem;
 }
 
-// What comes a tick later: targets and bounds are not those of `problem`, but
-// off by up to a hundredth.
+// Fills the hierarchy of another tick: the targets and bounds of `problem`,
+// each changed by up to 0.01.
 void Change(const Problem& problem, Numbers* numbers, Hierarchy* hierarchy) {
   constexpr double kChange = 0.01;
   const Hierarchy& from = problem.hierarchy;
@@ -136,7 +135,7 @@ void Change(const Problem& problem, Numbers* numbers, Hierarchy* hierarchy) {
         hierarchy->AddInequalities(level, from.num_inequalities(level));
     inequalities.C = from.C(level);
     for (int i = 0; i < inequalities.upper.size(); ++i) {
-      // Of both sides the same: they do not cross.
+      // Both bounds move by the same amount, so that they do not cross.
       const double by = kChange * numbers->Uniform();
       inequalities.lower[i] = from.lower(level)[i] + by;
       inequalities.upper[i] = from.upper(level)[i] + by;
@@ -152,7 +151,8 @@ int NumActive(const Solution& solution) {
   return active;
 }
 
-// Solves what the problem changes to, each time anew. `prepare` is not timed.
+// Measures solves of `problem`, each with other targets and bounds. `prepare`
+// is not timed.
 template <typename Prepare, typename Solve>
 void Run(const Problem& problem, Prepare&& prepare, Solve&& solve,
          benchmark::State* state) {
@@ -197,10 +197,9 @@ void Run(const Problem& problem, Prepare&& prepare, Solve&& solve,
 void RunFast(const Problem& problem, bool is_warm, benchmark::State* state) {
   const int n = problem.hierarchy.num_variables();
   Solver solver(n, problem.capacity);
-  // The dense cases have no tick to be in time for; others need no more than
-  // 500.
+  // The dense cases have no deadline. The other cases need at most 500.
   solver.max_iterations = 10000;
-  // Also the first one that is timed has one before.
+  // The first timed solve is warm, too.
   Solution first(n, problem.capacity);
   benchmark::DoNotOptimize(solver.Solve(problem.hierarchy, &first));
   Run(
@@ -225,7 +224,7 @@ void RunCascade(const Problem& problem, RowSpaceMethod method,
       state);
 }
 
-// By limit in tenths: 100 leaves nothing active.
+// The argument is the limit in tenths. With 100 no row is active.
 Problem Limited(const benchmark::State& state) {
   return MakePaper(68, 5, 50, static_cast<double>(state.range(0)) / 10);
 }
@@ -238,7 +237,7 @@ void Reference(benchmark::State& state, RowSpaceMethod method) {
   RunCascade(Limited(state), method, &state);
 }
 
-// By inequalities of a level.
+// The argument is the number of inequalities of a level.
 Problem Dense(const benchmark::State& state) {
   return MakeDense(68, 5, static_cast<int>(state.range(0)));
 }
@@ -251,7 +250,7 @@ void DenseReference(benchmark::State& state, RowSpaceMethod method) {
   RunCascade(Dense(state), method, &state);
 }
 
-// By variables and by levels.
+// The arguments are the numbers of variables and of levels.
 Problem Grown(const benchmark::State& state) {
   return MakePaper(static_cast<int>(state.range(0)),
                    static_cast<int>(state.range(1)), 50, 10);
