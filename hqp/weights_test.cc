@@ -31,8 +31,8 @@ void ExpectSameOptimum(int seed, const RandomHierarchyOptions& options) {
 }
 
 // The first seeds of `hqp_night --scaled 0 --weighted 100`, and regression
-// seeds. With some seeds of the list for 4 decades, a wrong answer was
-// certified. With those for 6 and 8, no optimum was found.
+// seeds. With some seeds of the first list, a certified answer was wrong. With
+// the other regression seeds, no optimum was found.
 class WeightsTest : public testing::TestWithParam<int> {
  protected:
   std::vector<int> Seeds() const {
