@@ -56,7 +56,7 @@ class CertifierByHandTest : public testing::Test {
 
 TEST_F(CertifierByHandTest, AcceptsTheOptimum) {
   EXPECT_EQ(Certify().worst(), 0);  // At the upper bound.
-  Bound(0, 1, -2);  // At the lower bound.
+  Bound(0, 1, -2);                  // At the lower bound.
   EXPECT_EQ(Certify().worst(), 0);
   Bound(0, 1, 0.5);  // Inside both bounds.
   EXPECT_EQ(Certify().worst(), 0);

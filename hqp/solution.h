@@ -13,9 +13,9 @@ enum class Status {
   kOptimal,
   /// No certified optimum: the levels above failed_level are optimal.
   kIterationLimit,
-  kNotFinite,       ///< NaN or infinity in the rows; y is zero.
-  kBadInput,  ///< lower > upper, a negative weight, or too many rows; y is
-              ///< zero.
+  kNotFinite,  ///< NaN or infinity in the rows; y is zero.
+  kBadInput,   ///< lower > upper, a negative weight, or too many rows; y is
+               ///< zero.
 };
 
 /// The active bound of a row lower <= C y <= upper at y.
@@ -63,7 +63,7 @@ struct Certificate {
 
   /// Error of the reported cost: |cost_k - c_k| / (c_k + 1e-9 s_k). Here cost_k
   /// is the reported cost, and the cost at y is
-  ///     c_k = (w_k' W_k w_k + |v_k|^2) / 2
+  ///     c_k = (w_k' W_k w_k + |v_k|^2) / 2.
   /// s_k is c_k with |B_i| |y| + |b_i| in place of each entry of w, and |C_i|
   /// |y| + |bound| in place of each entry of v.
   double priority = 0;

@@ -13,7 +13,7 @@ namespace poise {
 namespace {
 
 constexpr double kTolerance = 1e-13;  // A few operations on numbers up to 4.
-constexpr double kExact = 1e-15;  // One or two operations on 0 and 1.
+constexpr double kExact = 1e-15;      // One or two operations on 0 and 1.
 
 // A leg with two joints. The row of level 1 keeps the trunk upright, and a row
 // of level 2 lifts the trunk. In the nullspace of level 1, the norm of the

@@ -114,7 +114,7 @@ class DiagonalLevels {
   double largest_target_ = 0;
   std::vector<int> order_;     ///< Variable by position.
   int usual_begin_ = 0;        ///< Level 0: first position of the usual weight.
-  int usual_row_end_ = 0;  ///< Earlier rows have only these variables.
+  int usual_row_end_ = 0;      ///< Earlier rows have only these variables.
   std::vector<Block> blocks_;  ///< By level.
   std::vector<double> t_;      ///< U' Q, by position, n x stride.
   std::vector<double> reflection_;                    ///< n x stride.

@@ -10,7 +10,7 @@ namespace poise {
 namespace {
 
 constexpr double kLarge = 4;       // The largest entry of y.
-constexpr double kSmall = 1e-15;  // Within the rounding of kLarge.
+constexpr double kSmall = 1e-15;   // Within the rounding of kLarge.
 constexpr double kTarget = 3e-15;  // Target of the last level for y3.
 
 using Vector = std::vector<double>;
