@@ -9,15 +9,15 @@
 
 namespace poise {
 
-/// Computes the certificate of an answer from (levels, y, multipliers) alone:
-/// it shares nothing with the solvers.
+/// Computes the certificate of an answer from (levels, y, multipliers) alone.
+/// It shares no code with the solvers.
 class Certifier {
  public:
   Certifier(int num_variables, const std::vector<LevelCapacity>& capacity);
 
   /// Certifies all levels, or those above solution.failed_level if there is
-  /// one. Does not read solution.certificate. Costs about 4 n flops a row and 4
-  /// n a nonzero multiplier. Does not allocate.
+  /// one. Does not read solution.certificate. Cost: about 4 n flops per row,
+  /// and 4 n per nonzero multiplier. Does not allocate.
   Certificate Certify(const Hierarchy& hierarchy,
                       const Solution& solution) noexcept;
 
@@ -25,13 +25,13 @@ class Certifier {
   static constexpr double kCertified = 1e-9;
 
   /// Certifies the answer and stores solution->certificate. While its worst()
-  /// exceeds kCertified, failed_level goes up by one level, and the status is
-  /// kIterationLimit.
+  /// exceeds kCertified, sets the status to kIterationLimit and moves
+  /// failed_level one level up, towards level 0.
   void Truncate(const Hierarchy& hierarchy, Solution* solution) noexcept;
 
  private:
   struct LevelRows {
-    Eigen::VectorXd violation;  ///< At the nearer bound; negative: a gap.
+    Eigen::VectorXd violation;  ///< Of the nearer bound; negative if met.
     Eigen::VectorXd size;       ///< |C_i| |y| + |bound|.
     std::vector<Side> side;     ///< The nearer bound.
   };

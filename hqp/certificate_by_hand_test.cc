@@ -13,11 +13,12 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// Scale of the gradient: the terms of the residual of y_0 are |3| and |-3|.
+// Scale of the gradient: the residual of y_0 is the sum of the terms 3 and -3.
 constexpr double kSize = 6;
 
-// Level 0 bounds y_1, level 1 has the target y = (3, target). The optimum and its
-// multiplier were computed by hand. Each test changes one of their numbers.
+// Level 0 bounds y_1; level 1 has the target y = (3, target). The optimum and
+// its multiplier are known in closed form. Each test changes one number of that
+// answer.
 class CertifierByHandTest : public testing::Test {
  protected:
   CertifierByHandTest() { Bound(0, 1, 2); }
@@ -35,7 +36,8 @@ class CertifierByHandTest : public testing::Test {
     Answer(y, y - target, target - y);
   }
 
-  // Sets the answer: y_1, its residual and a multiplier.
+  // Sets the answer y = (3, y), with this residual of y_1 and this multiplier
+  // of the bound.
   void Answer(double y, double residual, double multiplier) {
     solution_.Reset();
     solution_.y << 3, y;
@@ -54,11 +56,11 @@ class CertifierByHandTest : public testing::Test {
 
 TEST_F(CertifierByHandTest, AcceptsTheOptimum) {
   EXPECT_EQ(Certify().worst(), 0);  // At the upper bound.
-  Bound(0, 1, -2);                  // At the lower one.
+  Bound(0, 1, -2);                  // At the lower bound.
   EXPECT_EQ(Certify().worst(), 0);
-  Bound(0, 1, 0.5);  // At neither bound.
+  Bound(0, 1, 0.5);  // Inside both bounds.
   EXPECT_EQ(Certify().worst(), 0);
-  Bound(1, 1, -2);  // At both: the multiplier may have either sign.
+  Bound(1, 1, -2);  // At both bounds: the multiplier may have either sign.
   EXPECT_EQ(Certify().worst(), 0);
   Bound(1, 1, 5);
   EXPECT_EQ(Certify().worst(), 0);
@@ -108,7 +110,7 @@ TEST_F(CertifierByHandTest, CertifiesTheLevelsAboveTheFailedOne) {
   EXPECT_EQ(Certify().worst(), 0);
 }
 
-TEST_F(CertifierByHandTest, IsInfiniteForAnyNaN) {
+TEST_F(CertifierByHandTest, IsInfiniteIfAnyNumberIsNan) {
   solution_.levels[1].multipliers[0].inequality << kNan;
   EXPECT_EQ(Certify().worst(), kInfinity);
   Bound(0, 1, 2);
@@ -116,7 +118,7 @@ TEST_F(CertifierByHandTest, IsInfiniteForAnyNaN) {
   EXPECT_EQ(Certify().worst(), kInfinity);
 }
 
-// Truncate() keeps the levels above the first wrong one.
+// Truncate() moves failed_level to the first level that is not certified.
 TEST_F(CertifierByHandTest, TruncatesToTheCertifiedLevels) {
   const auto truncated = [&](int failed_level, bool spoils_0, bool spoils_1) {
     Bound(0, 1, 2);
@@ -138,8 +140,8 @@ TEST_F(CertifierByHandTest, TruncatesToTheCertifiedLevels) {
   EXPECT_EQ(truncated(0, true, true), 0);
 }
 
-// A multiplier with an error far below kCertified is accepted, with an error far
-// above it is not.
+// Truncate() accepts a multiplier with an error far below kCertified, and
+// rejects one with an error far above kCertified.
 TEST_F(CertifierByHandTest, TruncatesAnswersThatAreNotCertified) {
   for (const double error : {0., 1e-15, 1e-11, 1e-7, 1e-3, 1.}) {
     Bound(0, 1, 2);

@@ -1,6 +1,6 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Compares the certificate with its definition in matrices: optimal answers to
-// random hierarchies, with one number or all replaced, and rows near a bound.
+// Compares the certificate with its definition in matrix form. The answers are
+// optimal answers to random hierarchies, the same answers with one or all
+// numbers replaced, and answers with rows close to a bound.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,19 +19,19 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Both are terms of the definition.
+// Both constants are part of the definition.
 using tolerances::kAtBound;
 using tolerances::kZeroCost;
 
-// Quotients of small whole numbers.
+// Tolerance for quotients of small whole numbers.
 constexpr double kRounding = 1e-15;
 
-// The rows with a bound, as A y + a <= 0. If a row has two bounds, the one with the
-// smaller distance counts.
+// The bounded rows in the form A y + a <= 0. Of two bounds, a row has the one
+// with the larger violation.
 struct OneSided {
   MatrixXd A;
   VectorXd a, mu, slack;
-  std::vector<bool> is_tight;  // The row has another bound.
+  std::vector<bool> is_tight;  // The bounds are equal within the margin.
 
   VectorXd Violation(const VectorXd& y) const { return A * y + a; }
   VectorXd Size(const VectorXd& y) const {
@@ -143,8 +143,8 @@ Certificate CertifyByDefinition(const Hierarchy& hierarchy,
   return result;
 }
 
-// Rounding is 1e-16 of the sum of the terms. A changed number has a far larger
-// effect.
+// Rounding is 1e-16 of the magnitudes of the terms. The changes made by the
+// tests are far larger.
 void ExpectSame(double actual, double expected) {
   if (std::isinf(expected)) {
     EXPECT_EQ(actual, expected);
@@ -167,7 +167,7 @@ void ExpectAsDefined(const HierarchyCase& drawn, const Solution& solution) {
                       actual.complementarity, actual.priority}));
 }
 
-// Returns every number of an answer that a certificate reads.
+// Returns pointers to all numbers of an answer that the certificate reads.
 std::vector<double*> Numbers(const Hierarchy& hierarchy, Solution* solution) {
   std::vector<double*> numbers;
   const auto add = [&](VectorXd* from, int count) {
@@ -217,12 +217,13 @@ TEST(CertificateOracle, AgreesWithTheDefinitionOnWrongAnswers) {
   }
 }
 
-// 5 y1 <= 5 at about y = (10, 1), above y = 0. The margin of the row is
-// relative to 5 |y| + 5 = 55, not to 5 1 + 5.
+// Level 0 is 5 y1 <= 5, where the bound is moved by some margins; level 1 is y
+// = 0. The answer is y = (10, 1). The margin of the row is relative to |C| |y|
+// + |bound| = 5 |y| + 5 = 55, not to 5 |y1| + 5 = 10.
 class MarginTest : public testing::Test {
  protected:
-  // Returns the complementarity of a multiplier on this row, which is violated
-  // by `violation` margins.
+  // Returns the complementarity error of a multiplier on the row. The row is
+  // violated by `violation` margins, and its bounds are `width` margins apart.
   double Wrong(double violation, double multiplier, double width = INFINITY) {
     Solution solution(2, capacity_);
     solution.y << 10, 1;
@@ -255,7 +256,7 @@ TEST_F(MarginTest, AllowsAnyMultiplierOnAViolatedRow) {
   }
 }
 
-TEST_F(MarginTest, AllowsNoMultiplierInsideABound) {
+TEST_F(MarginTest, RejectsAMultiplierFarInsideABound) {
   for (const double gap : {1e-3, 0.5}) {
     EXPECT_EQ(Wrong(-gap, 2), 0);
     EXPECT_EQ(Wrong(-gap, -2), kWrong);
@@ -285,18 +286,18 @@ TEST(CertificateOracle, IgnoresARowWithoutBounds) {
   Solution solution(1, capacity);
   Certifier certifier(1, capacity);
   EXPECT_EQ(certifier.Certify(hierarchy, solution).worst(), 0);
-  // Twice kZeroCost 1^2 / 2, of the bounded row alone.
+  // The cost is relative to kZeroCost 1^2 / 2, from the bounded row alone.
   solution.levels[0].cost = kZeroCost;
   EXPECT_NEAR(certifier.Certify(hierarchy, solution).priority, 2, kRounding);
   solution.levels[0].cost = 0;
-  solution.levels[0].slack[1] = 1;  // No row violates it.
+  solution.levels[0].slack[1] = 1;  // A row without bounds has size 0.
   EXPECT_EQ(certifier.Certify(hierarchy, solution).feasibility, INFINITY);
   solution.levels[0].slack[1] = 0;
   solution.levels[1].multipliers[0].inequality[1] = 3;
   EXPECT_EQ(certifier.Certify(hierarchy, solution).complementarity, 1);
 }
 
-// At y = 0 a row with bound 0 has the margin 0, and is at its bound.
+// At y = 0 a row with bound 0 has a margin of 0, and is at its bound.
 TEST(CertificateOracle, TreatsARowOfSizeZeroAsAtItsBound) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {2, 0}};
   Hierarchy hierarchy(2, capacity);
@@ -316,7 +317,8 @@ TEST(CertificateOracle, TreatsARowOfSizeZeroAsAtItsBound) {
   EXPECT_EQ(wrong(-2), 0);
 }
 
-// The upper one of two equally distant bounds counts: 1e-9 (1 + 3)^2 / 2.
+// If both bounds are equally distant, the certificate uses the upper one. The
+// cost is then relative to 1e-9 (1 + 3)^2 / 2.
 TEST(CertificateOracle, UsesTheUpperOfTwoEquallyDistantBounds) {
   const std::vector<LevelCapacity> capacity{{0, 1}};
   Hierarchy hierarchy(1, capacity);
@@ -341,7 +343,7 @@ TEST(CertificateOracle, CertifiesRowsWithoutVariables) {
       0);
 }
 
-TEST(CertificateOracle, IsInfiniteForAnyNaN) {
+TEST(CertificateOracle, IsInfiniteIfAnyNumberIsNan) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}};
   Hierarchy hierarchy(2, capacity);
   hierarchy.AddEqualities(0, 1).B << 0, 1;

@@ -1,4 +1,3 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // Tests that the certificate detects errors: each test changes one number of an
 // optimal answer.
 #include "poise/hqp/certificate.h"
@@ -10,11 +9,11 @@
 namespace poise {
 namespace {
 
-constexpr double kRounding = 1e-15;  // Small whole numbers: almost exact.
+constexpr double kRounding = 1e-15;  // For sums of small whole numbers.
 
-// y0 <= 1, y1 <= 8 and y0 + y1 <= 2 in conflict with 3 <= y1, above y = (5, 0)
-// with weights 2 and 1. Level 0: y1 = 3 - s, y0 + y1 = 2 + t; both can be met
-// with y0 <= -1, so that nothing is violated: the optimum below is y = (-1, 3).
+// Level 0: y0 <= 1, 3 <= y1 <= 8 and y0 + y1 <= 2. Level 1: y = (5, 0) with
+// weights 2 and 1. All rows of level 0 are met where y1 >= 3 and y0 <= 2 - y1.
+// The optimum of level 1 among these y is (-1, 3).
 class CertificateTest : public testing::Test {
  protected:
   CertificateTest() {
@@ -49,8 +48,8 @@ TEST_F(CertificateTest, AcceptsTheOptimum) {
 
 TEST_F(CertificateTest, FindsAWrongMultiplier) {
   solution_.levels[1].multipliers[0].inequality[2] += 1e-6;
-  // |B|'W(|B||y| + |b|) + |C|'|mu| of y0 is 12 + 12, of y1 3 + 15 + 12; the scale
-  // includes the error itself.
+  // The gradient is relative to |B|' W (|B| |y| + |b|) + |C|' |mu|. For y0 this
+  // is 12 + 12, for y1 it is 3 + 15 + 12 plus the error of the multiplier.
   EXPECT_NEAR(Certify().stationarity, 1e-6 / (30 + 1e-6), kRounding);
   EXPECT_LE(Certify().feasibility, kRounding);
   EXPECT_LE(Certify().complementarity, kRounding);
@@ -59,7 +58,8 @@ TEST_F(CertificateTest, FindsAWrongMultiplier) {
 TEST_F(CertificateTest, FindsAMultiplierOfTheWrongSign) {
   hierarchy_.Clear(2);
   InequalityBlock rows = hierarchy_.AddInequalities(0, 3);
-  rows.C << 1, 0, 0, 1, -1, -1;  // Reverses the last row, not its multiplier.
+  // The last row is negated, but its multiplier is not.
+  rows.C << 1, 0, 0, 1, -1, -1;
   rows.upper << 1, 3, 8;
   rows.lower[2] = -8;
   EqualityBlock target = hierarchy_.AddEqualities(1, 2);
@@ -77,24 +77,27 @@ TEST_F(CertificateTest, FindsAMultiplierOnARowWithAGap) {
 
 TEST_F(CertificateTest, FindsAWrongResidual) {
   solution_.levels[1].equality_residual[0] += 6e-3;
-  EXPECT_NEAR(Certify().feasibility, 1e-3,
-              kRounding);  // Scale |y0| + |b0| = 6.
+  // Relative to |y0| + |b0| = 6.
+  EXPECT_NEAR(Certify().feasibility, 1e-3, kRounding);
 }
 
 TEST_F(CertificateTest, FindsAWrongSlack) {
   solution_.levels[0].slack[2] += 6e-3;
-  EXPECT_NEAR(Certify().feasibility, 1e-3, kRounding);  // Scale 1 + 3 + 2.
+  // Relative to |y0| + |y1| + |upper| = 1 + 3 + 2.
+  EXPECT_NEAR(Certify().feasibility, 1e-3, kRounding);
 }
 
 TEST_F(CertificateTest, FindsAWrongCost) {
   solution_.levels[1].cost -= 1e-3;
-  // The scale is (2 (1 + 5)^2 + 3^2) / 2 = 40.5, plus 1e-9 of its terms.
+  // Relative to c = (2 (1 + 5)^2 + 3^2) / 2 = 40.5, plus 1e-9 of the cost of
+  // the magnitudes of the terms, which is also 40.5.
   EXPECT_NEAR(Certify().priority, 1e-3 / (40.5 * (1 + 1e-9)), kRounding);
 }
 
 TEST_F(CertificateTest, FindsACostOfALevelThatIsMet) {
   solution_.levels[0].cost = 1e-9;
-  // The scale is 1e-9 of ((1 + 1)^2 + (3 + 3)^2 + (1 + 3 + 2)^2) / 2 = 38.
+  // The cost at y is zero. So the error is relative to 1e-9 of the cost of the
+  // magnitudes, ((1 + 1)^2 + (3 + 3)^2 + (1 + 3 + 2)^2) / 2 = 38.
   EXPECT_NEAR(Certify().priority, 1. / 38, kRounding);
 }
 
@@ -108,7 +111,9 @@ TEST_F(CertificateTest, FindsAWrongY) {
   for (int level = 0; level < 2; ++level) {
     EvaluateLevel(hierarchy_, level, &solution_);
   }
-  EXPECT_GE(Certify().worst(), 1e-3 / 38);  // Scale at most 38, see above.
+  // The gradient is relative to about 30, see FindsAWrongMultiplier; 38 leaves
+  // a margin.
+  EXPECT_GE(Certify().worst(), 1e-3 / 38);
 }
 
 TEST_F(CertificateTest, CertifiesSolvedLevelsOnly) {
@@ -118,7 +123,8 @@ TEST_F(CertificateTest, CertifiesSolvedLevelsOnly) {
 }
 
 TEST(Certificate, AllowsAnyMultiplierOnAViolatedRow) {
-  // y <= -1 and y >= 1: at y = 0 both are violated by 1. The level below has y = 2.
+  // y <= -1 and y >= 1 are both violated by 1 at y = 0. The gradient of the
+  // target y = 2 on level 1 is cancelled by any two multipliers of sum 2.
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
   InequalityBlock rows = hierarchy.AddInequalities(0, 2);

@@ -1,6 +1,5 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests hierarchies whose bounds are all zero, as at the vertex of friction cones,
-// with y = 0. Unattainable targets add their rounding to y.
+// Degenerate vertices: all bounds are zero, as at the vertex of friction cones,
+// and the optimum is y = 0. Targets that cannot be met leave rounding in y.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +22,7 @@ struct Row {
   double lower, upper;
 };
 
-// Three rows of two variables above a target for each variable.
+// Level 0: three rows of two variables. Level 1: a target for each variable.
 class DegenerateVertexTest : public testing::Test {
  protected:
   void Expect(const std::vector<Row>& rows, const Eigen::Vector2d& factors,
@@ -61,7 +60,7 @@ TEST_F(DegenerateVertexTest, IsZeroBetweenThreeRows) {
          {1, 1}, {0, -1}, {2.14, 1});
 }
 
-// Targets may have any size.
+// The optimum does not depend on the size of the targets.
 TEST_F(DegenerateVertexTest, IsZeroInAnyUnit) {
   for (const double unit : {1e-12, 1e12}) {
     Expect({{{1, -1}, 0, INFINITY}, {{0, -1}, -INFINITY, 0}, {{1, 0}, 0, 0}},
@@ -69,9 +68,10 @@ TEST_F(DegenerateVertexTest, IsZeroInAnyUnit) {
   }
 }
 
-// The rounding of y must be judged by the targets and not by |y| alone, and
-// dependent rows must lose their rounding. Otherwise some seeds fail. (With -O1 or
-// -O3 the solver reports failure for seed 1466; with -O2 all seeds are solved.)
+// Needs two rules: rounding of y is relative to Size(), not to |y|, and rows
+// that depend on other rows depend exactly. (Of the first 20 000 seeds one,
+// seed 1466, is not solved at -O1 or -O3, and the solver reports this. At -O2
+// all are solved.)
 TEST(DegenerateVertex, IsSolvedForAnyTarget) {
   RandomHierarchyOptions options;
   options.scaled = 0;
@@ -90,10 +90,11 @@ TEST(DegenerateVertex, IsSolvedForAnyTarget) {
   }
 }
 
-// The first row and others fix y2 at 0, so y2 is rounding. The solver sets it to
-// zero, although the residuals of the other rows then change in their last digit.
-// (Without this step 18 of these cases fail with -O3, none with -O1.)
-TEST(DegenerateVertex, KeepsAZeroBesideARoundedTarget) {
+// The first row and other rows fix y2 at 0, so a nonzero y2 is rounding. The
+// solver sets y2 to zero, although the residuals of the other rows then change
+// in their last digit. (Without this rule, 18 of these are not solved at -O3;
+// at -O1 all are.)
+TEST(DegenerateVertex, KeepsAnExactZeroBesideARoundedTarget) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 2}};
   std::mt19937 random(1);
   const auto draw = [&random] {
@@ -117,8 +118,9 @@ TEST(DegenerateVertex, KeepsAZeroBesideARoundedTarget) {
   }
 }
 
-// y0 + y1 = 0, in conflict with 2 (y0 + y1) = 6, above a target for y1: of 5,
-// the largest of all targets, or of 1, where 6 / |(2, 2)| is the largest.
+// Level 0: y0 + y1 = 0 and 2 (y0 + y1) = 6, which conflict. Level 1: a target
+// for y1. A target of 5 is the largest of all. With a target of 1, the largest
+// is 6 / |(2, 2)|.
 TEST(DegenerateVertex, MeasuresRoundingRelativeToTheTargets) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {1, 0}};
   for (const bool is_in_diagonal : {false, true}) {
@@ -139,8 +141,8 @@ TEST(DegenerateVertex, MeasuresRoundingRelativeToTheTargets) {
     const double size = is_in_diagonal ? 5 : 6 / std::sqrt(8);
     EXPECT_NEAR(problem.Size(), size, Rounding(size, 2));
     EXPECT_EQ(problem.y()[1], -1e-3);
-    // The residual (0, -6) of that y has the component (2.4, -1.2) orthogonal
-    // to (1, 2), here divided by the second row's norm.
+    // The residual (0, -6) of this y has the component (2.4, -1.2) orthogonal
+    // to (1, 2), here divided by the norm of the second row.
     EXPECT_NEAR(problem.leading().residual(1), -1.2 / std::sqrt(8),
                 Rounding(6, 2));
     problem.SetSolution(hierarchy, {0, -1e9});

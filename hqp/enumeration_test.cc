@@ -1,6 +1,6 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Compares both solvers with methods that need no search. Equalities only: the
-// closed form by pseudo-inverses, level by level. Inequalities: all active sets.
+// Compares both solvers with methods that need no active-set search. With
+// equalities only, this is the closed form, level by level through
+// pseudo-inverses. With inequalities, all active sets are tried.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,16 +16,16 @@
 namespace poise {
 namespace {
 
-// Tolerance for equal costs. It is far above rounding, and far below the
-// difference of two active sets whose entries are hundredths.
+// Costs that differ by less are equal. This is far above rounding, and far
+// below the difference between two active sets of rows in hundredths.
 constexpr double kSameCost = 1e-9;
 
 struct InequalityRow {
   int level, index;
 };
 
-// Returns the hierarchy with equalities only. Each inequality row is left out or
-// is an equality of its own level, at the lower or the upper bound.
+// Returns the hierarchy with equalities only. Each inequality row is left out,
+// or is an equality of its own level at the lower or the upper bound.
 std::vector<LeastSquares> EqualitiesOnly(const Hierarchy& hierarchy,
                                          const std::vector<InequalityRow>& rows,
                                          const std::vector<Side>& sides) {
@@ -56,12 +56,14 @@ std::vector<LeastSquares> EqualitiesOnly(const Hierarchy& hierarchy,
 
 struct Candidate {
   Eigen::VectorXd y;
-  Eigen::VectorXd cost;  // By level, of the given hierarchy at y.
+  Eigen::VectorXd cost;  // Cost of each level of the hierarchy at y.
   double condition;
 };
 
-// The optimum solves the equalities that are violated or active at it, and no y is
-// better. So it is the lexicographic minimum over all active sets.
+// Returns the optimum, by enumeration of all active sets. The optimum is also
+// that of an equality problem: of the rows that are violated or tight there. No
+// y has a lexicographically lower cost. So it is the candidate of lowest cost,
+// and among equal ones that of minimum norm.
 Candidate FindByEnumeration(const HierarchyCase& drawn) {
   const Hierarchy& hierarchy = drawn.hierarchy;
   const int n = hierarchy.num_variables(), num_levels = hierarchy.num_levels();
@@ -112,8 +114,9 @@ Candidate FindByEnumeration(const HierarchyCase& drawn) {
                            });
 }
 
-// The rounding of y grows with the square of the condition of a level; that of a
-// cost is relative to the sum of its terms.
+// Compares an answer with the enumerated one. Both tolerances grow with the
+// square of the condition of the levels. The tolerance of a cost is relative to
+// the magnitudes of its terms.
 void Compare(const Candidate& expected, const HierarchyCase& drawn,
              const Solution& solution) {
   const Hierarchy& hierarchy = drawn.hierarchy;
@@ -124,7 +127,7 @@ void Compare(const Candidate& expected, const HierarchyCase& drawn,
     size += hierarchy.b(k).norm();
   }
   EXPECT_LE((solution.y - expected.y).norm(), Rounding(size, n, condition))
-      << "of y = " << expected.y.transpose();
+      << "expected y = " << expected.y.transpose();
   for (int k = 0; k < hierarchy.num_levels(); ++k) {
     EXPECT_NEAR(solution.levels[k].cost, expected.cost[k],
                 Rounding(1 + CostSize(hierarchy, k, solution), n, condition))

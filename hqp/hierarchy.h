@@ -18,8 +18,8 @@ struct LevelCapacity {
 /// Returns the largest number of rows of all levels together.
 int NumRows(const std::vector<LevelCapacity>& capacity);
 
-/// A block of rows B y + b = 0, in the least-squares sense with a weight a row:
-/// the cost of the level has the term 1/2 sum_i weight_i (B_i y + b_i)^2.
+/// A block of rows B y + b = 0, in the least-squares sense, with one weight per
+/// row. The cost of the level has the term 1/2 sum_i weight_i (B_i y + b_i)^2.
 struct EqualityBlock {
   Eigen::Map<RowMajorMatrix> B;
   Eigen::Map<Eigen::VectorXd> b;
@@ -27,9 +27,9 @@ struct EqualityBlock {
 };
 
 /// A block of rows lower <= C y <= upper; an infinite side is absent. A y + a
-/// <= 0 is C = A, lower = -inf, upper = -a. The violation of a row, max(lower -
-/// C y, C y - upper, 0), is its slack. The cost of the level has half its
-/// square.
+/// <= 0 is C = A, lower = -inf, upper = -a. The slack of a row is its
+/// violation, max(lower - C y, C y - upper, 0). The cost of the level has half
+/// the squared slack.
 struct InequalityBlock {
   Eigen::Map<RowMajorMatrix> C;
   Eigen::Map<Eigen::VectorXd> lower;
@@ -37,8 +37,8 @@ struct InequalityBlock {
 };
 
 /// A stack of levels of rows, highest priority first: the problem of the paper,
-/// (1)-(6). The constructor allocates all memory. Each tick clears the
-/// hierarchy and adds its blocks again.
+/// (1)-(6). The constructor allocates all memory. At each tick the caller
+/// clears the hierarchy and adds the blocks again.
 class Hierarchy {
  public:
   Hierarchy(int num_variables, const std::vector<LevelCapacity>& capacity);

@@ -1,6 +1,5 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests levels whose rows have residuals of very different size: the small
-// residuals are not rounding. The answers were computed by hand.
+// Rows of one level whose residuals have very different sizes. Small residuals
+// are not rounding. The expected answers were derived by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,8 +14,8 @@
 namespace poise {
 namespace {
 
-// Expects the certified solution from a solver that has solved `before`, and from a
-// new one.
+// Expects the certified answer y from a solver that has solved `before`, and
+// from the same solver after Forget().
 void ExpectSolution(const HierarchyByHand& before,
                     const HierarchyByHand& problem,
                     const std::vector<double>& y) {
@@ -33,14 +32,15 @@ void ExpectSolution(const HierarchyByHand& before,
   Solution solution(n, capacity);
   ASSERT_EQ(solver.Solve(before.hierarchy, &solution), Status::kOptimal);
   for (const bool is_new : {false, true}) {
-    SCOPED_TRACE(is_new ? "from nothing" : "after another");
+    SCOPED_TRACE(is_new ? "cold" : "after another hierarchy");
     if (is_new) solver.Forget();
     ASSERT_EQ(solver.Solve(problem.hierarchy, &solution), Status::kOptimal);
     EXPECT_LE(
         Certifier(n, capacity).Certify(problem.hierarchy, solution).worst(),
         Certifier::kCertified);
     for (int j = 0; j < n; ++j) {
-      // Each entry takes a few operations; terms that cancel have size 1.
+      // Each entry is the result of a few operations. Where terms cancel, they
+      // are near 1.
       const double size = y[j] != 0 ? std::abs(y[j]) : 1;
       EXPECT_NEAR(solution.y[j], y[j], Rounding(size, 4)) << j;
     }
@@ -52,11 +52,13 @@ void ExpectSolution(const HierarchyByHand& problem,
   ExpectSolution(problem, problem, y);
 }
 
-// A foot without load: the gradient of momentum along its row is tiny, but not
-// zero, and that of posture is opposite.
+// An unloaded foot: the gradient of the momentum level along the row of the
+// foot is tiny, but not zero. The gradient of the posture level has the
+// opposite sign.
 TEST(RowScaling, KeepsARowWithASmallMultiplier) {
   constexpr double kHardly = 3e-11;
-  // The gradient of the third is 5e-12 of the residual of the last two.
+  // The gradient of the third row is 5e-12 of the residual of the two rows of
+  // y2.
   const HierarchyByHand problem(3, {{0, {0, 1, 0}, -INFINITY, 0},
                                     {1, {1, 0, 0}, 0, 0},
                                     {1, {1, kHardly, 0}, 1, 1},
@@ -66,7 +68,7 @@ TEST(RowScaling, KeepsARowWithASmallMultiplier) {
   ExpectSolution(problem, {0.5, 0, 3});
 }
 
-// The gradient of the small rows is 1e-12 of that of the large ones.
+// The gradient of the small-norm rows is 1e-12 of that of the large-norm rows.
 TEST(RowScaling, MeetsASmallRowBesideALargeConflict) {
   ExpectSolution(HierarchyByHand(2, {{0, {-1, 1}, -INFINITY, -1},
                                      {1, {0, 1}, -INFINITY, -1},
@@ -80,7 +82,7 @@ TEST(RowScaling, MeetsASmallRowBesideALargeConflict) {
                  {0, -3});
 }
 
-// The first row is added and removed again. The rotations of the removal leave
+// The first row is added and removed again. The rotations of this removal leave
 // rounding of the large target in the other row.
 TEST(RowScaling, IgnoresRoundingOfALargeRow) {
   for (int k = 1; k <= 20; ++k) {
@@ -93,8 +95,8 @@ TEST(RowScaling, IgnoresRoundingOfALargeRow) {
   }
 }
 
-// The last level moves y1 to 0, with a gradient of 1e-12 of that of y0. In the
-// solve before, the first row was active.
+// The last level moves y1 to 0. The gradient of y1 is 1e-12 of that of y0. The
+// first row was active in the previous solve.
 TEST(RowScaling, RemovesARowThatWasActiveBefore) {
   ExpectSolution(HierarchyByHand(2, {{0, {1, 1}, -INFINITY, -1},
                                      {1, {1, 0}, -INFINITY, 0}}),
@@ -106,8 +108,9 @@ TEST(RowScaling, RemovesARowThatWasActiveBefore) {
                  {-1, 0});
 }
 
-// Two targets of one variable, 0 and 1: with the weight 1e-12 of the latter, y
-// is 1e-12 / (1 + 1e-12), in either order.
+// Two rows of one variable: 1000 y = 0 and 0.001 y = -1. The second row has
+// 1e-12 of the weight of the first, and still counts: y is -1e-9 / (1 + 1e-12),
+// in either order.
 TEST(RowScaling, CountsASmallWeightInAMean) {
   const RowByHand light{0, {0.001}, -1, -1}, heavy{0, {1000}, 0, 0};
   const double mean = -0.001 / (1e6 + 1e-6);
@@ -115,8 +118,8 @@ TEST(RowScaling, CountsASmallWeightInAMean) {
   ExpectSolution(HierarchyByHand(1, {heavy, light}), {mean});
 }
 
-// The second level, (1000 y0)^2 + (0.01 y1)^2 where y0 + y1 = -2, moves y0 by
-// 1e-10 of y1.
+// The second level minimises (1000 y0)^2 + (0.01 y1)^2 where y0 + y1 = -2, so
+// y0 is 1e-10 y1.
 TEST(RowScaling, FindsASmallResidualToAllDigits) {
   const double y1 = -2 / (1 + 1e-10);
   ExpectSolution(HierarchyByHand(2, {{0, {1, 1}, -INFINITY, -2},
@@ -126,9 +129,9 @@ TEST(RowScaling, FindsASmallResidualToAllDigits) {
                  {1e-10 * y1, y1});
 }
 
-// Bounds of 1e30 mean none in other solvers. At such a y the other rows would
-// lose all digits. In the solve before, a row in the place of the first was
-// active.
+// Other solvers use bounds of 1e30 for infinity. At such a y the other rows
+// would lose all digits. In the previous solve, the row with the index of the
+// first row of 1e30 was active.
 TEST(RowScaling, TreatsABoundOf1e30AsInfinite) {
   constexpr double kNone = 1e30;
   ExpectSolution(HierarchyByHand(3, {{0, {0, 0, -2}, -INFINITY, 0},

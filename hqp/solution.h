@@ -11,10 +11,11 @@ namespace poise {
 /// How a solve ended.
 enum class Status {
   kOptimal,
-  kIterationLimit,  ///< Budget spent: y is optimal above failed_level.
-  kNotFinite,       ///< NaN or infinity in the rows; y is zero.
-  kBadInput,  ///< lower > upper, a negative weight, or too many rows; y is
-              ///< zero.
+  /// No certified optimum: the levels above failed_level are optimal.
+  kIterationLimit,
+  kNotFinite,  ///< NaN or infinity in the rows; y is zero.
+  kBadInput,   ///< lower > upper, a negative weight, or too many rows; y is
+               ///< zero.
 };
 
 /// The active bound of a row lower <= C y <= upper at y.
@@ -33,18 +34,22 @@ struct LevelSolution {
   Eigen::VectorXd equality_residual;  ///< B y + b.
   Eigen::VectorXd slack;              ///< max(lower - C y, C y - upper, 0).
   std::vector<Side> active;           ///< By inequality row.
-  int nullity;  ///< Variables less the rank of all equality rows so far.
+  /// Number of variables minus the rank of the equalities and violated rows of
+  /// this level and the levels above.
+  int nullity;
   std::vector<LevelMultipliers> multipliers;  ///< By level above this one.
 };
 
-/// How far an answer is from optimal: the worst residual of each kind over all
-/// levels. Each residual is relative to the magnitudes that it is a sum of, so
-/// that rounding gives about 1e-15 whatever the units. NaN counts as infinity.
+/// The optimality error of an answer: the worst residual of each kind over all
+/// levels. Each residual is relative to the magnitudes of its terms, so
+/// rounding gives about 1e-15 in any units. NaN counts as infinity.
 ///
 /// With w_k = B_k y + b_k, v_k the violations of level k, W_k the weights, and
 /// lambda_kj, mu_kj the multipliers that level k puts on the rows of j < k:
 struct Certificate {
-  /// g_k = B_k' W_k w_k + C_k' v_k + sum_{j<k} (B_j' lambda_kj + C_j' mu_kj),
+  /// Largest entry of the gradient of level k's Lagrangian,
+  ///     g_k = B_k' W_k w_k + C_k' v_k
+  ///           + sum_{j<k} (B_j' lambda_kj + C_j' mu_kj),
   /// relative to the same sum of absolute values.
   double stationarity = 0;
 
@@ -56,10 +61,11 @@ struct Certificate {
   /// and its multiplier is free.
   double complementarity = 0;
 
-  /// |cost_k - c_k| / (c_k + 1e-9 s_k), where cost_k is the one reported, and
-  ///     c_k = (w_k' W_k w_k + |v_k|^2) / 2
-  /// that of y. s_k is c_k with |B_i| |y| + |b_i| for each w, and
-  /// |C_i| |y| + |bound| for each v.
+  /// Error of the reported cost: |cost_k - c_k| / (c_k + 1e-9 s_k). Here cost_k
+  /// is the reported cost, and the cost at y is
+  ///     c_k = (w_k' W_k w_k + |v_k|^2) / 2.
+  /// s_k is c_k with |B_i| |y| + |b_i| in place of each entry of w, and |C_i|
+  /// |y| + |bound| in place of each entry of v.
   double priority = 0;
 
   /// The largest of the four.
@@ -91,10 +97,10 @@ struct Solution {
 void EvaluateLevel(const Hierarchy& hierarchy, int level,
                    Solution* solution) noexcept;
 
-/// Returns kNotFinite if a number is NaN, or infinite and no bound; a lower
-/// bound may be -inf only, an upper one +inf only. Returns kBadInput if lower >
-/// upper or a weight is negative, else kOptimal. Sets *failed_level to the
-/// first level with an error, or to -1.
+/// Checks the numbers of the hierarchy. Returns kNotFinite if a number is NaN
+/// or infinite; but a lower bound may be -inf, and an upper bound +inf. Returns
+/// kBadInput if lower > upper or a weight is negative, else kOptimal. Sets
+/// *failed_level to the first level with an error, or to -1.
 Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept;
 
 }  // namespace poise

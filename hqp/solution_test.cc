@@ -61,7 +61,7 @@ TEST(Solution, ResetRestoresTheInitialState) {
   ExpectAsConstructed(solution, 3);
 }
 
-TEST(Solution, IsIndependentOfItsMemory) {
+TEST(Solution, InitialisesAllMembers) {
   alignas(Solution) unsigned char memory[sizeof(Solution)];
   std::memset(memory, 7, sizeof(memory));
   Solution* solution = new (memory) Solution(2, {{0, 0}, {0, 0}});
@@ -82,7 +82,7 @@ TEST(EvaluateLevel, AgreesWithNumbersByHand) {
   Solution solution(2, {{2, 3}});
   solution.y << 1, 2;
   const LevelSolution& level = solution.levels[0];
-  solution.levels[0].cost = 7;  // An old value.
+  solution.levels[0].cost = 7;  // Must be overwritten.
   EvaluateLevel(hierarchy, 0, &solution);
   EXPECT_EQ(level.equality_residual, Eigen::Vector2d(1, 12));
   EXPECT_EQ(level.slack, Eigen::Vector3d(2, 0.5, 0));
@@ -98,7 +98,8 @@ class CheckInputTest : public testing::Test {
     inequalities_.upper << 1;
   }
 
-  // Returns the status with one number replaced; restores the number afterwards.
+  // Returns the status of the input with `number` set to `value`, and restores
+  // the number.
   Status With(double* number, double value) {
     const double good = *number;
     *number = value;
@@ -137,7 +138,7 @@ TEST_F(CheckInputTest, ReportsTheFirstLevelWithAnError) {
   EXPECT_EQ(failed_level_, 0);
 }
 
-// Sums of finite numbers may overflow.
+// Sums of finite numbers may overflow. That does not make the numbers invalid.
 TEST(CheckInput, AcceptsTheLargestNumbers) {
   Hierarchy hierarchy(2, {{1, 0}});
   hierarchy.AddEqualities(0, 1).B.setConstant(

@@ -89,8 +89,8 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, Budget* budget,
   return solution->status;
 }
 
-// Removes rows from the working set whose bound became infinite. Rows with
-// equal bounds are always in it.
+// Removes rows from the working set whose bound became infinite. Adds rows with
+// equal bounds, which are always in the working set.
 void Solver::Impl::Prepare(const Hierarchy& hierarchy) {
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
@@ -123,8 +123,8 @@ bool Solver::Impl::SearchAtOnce(const Hierarchy& hierarchy, int limit,
   return true;
 }
 
-// Searches level by level from an empty working set, so that a spent budget
-// costs the lowest levels only.
+// Searches level by level from an empty working set. If the budget is spent,
+// only the lowest levels are not solved.
 void Solver::Impl::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
                                  Solution* solution) {
   const int levels = hierarchy.num_levels();

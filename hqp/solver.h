@@ -21,8 +21,8 @@ class Solver {
   Solver& operator=(Solver&& other) noexcept;
   ~Solver();
 
-  /// Does not allocate or throw. The time is that of one factorisation, and of
-  /// about one more for each change of the working set.
+  /// Solves the hierarchy. Does not allocate or throw. The time is that of one
+  /// factorisation, and of about one more for each change of the working set.
   ///
   /// kOptimal: solution->certificate is at most 1e-9. Else the status is
   /// kIterationLimit, and failed_level the first level that is not certified.
@@ -38,8 +38,8 @@ class Solver {
   /// above failed_level are optimal, and y is the best found for failed_level.
   int max_iterations = 500;
 
-  /// Time limit in seconds by now(), if now is given; 0: none. Unlike
-  /// iterations, time makes a replay inexact.
+  /// Time limit [s], measured by now(). 0, or no now(): no limit. A time limit
+  /// makes a replay inexact; a limit of iterations does not.
   double max_seconds = 0;
   std::function<double()> now;
 

@@ -1,16 +1,15 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Measures the time of a solve, and that of the cascade in the same run.
+// Measures the time of a solve, and of the literal cascade in the same run.
 //   bazel run //hqp:solver_benchmark
-// Before each solve, targets and bounds move by up to a hundredth, as from tick to
-// tick; this change is not timed. Solving the same hierarchy again would be the
-// best case of a warm start. Time is the mean; median_us, p999_us and max_us are of
-// single solves.
+// Each solve has other targets and bounds than the one before: they change by
+// up to 0.01, as from tick to tick. This change is not timed. To solve the same
+// hierarchy again would be the best case of a warm start. The time is the mean;
+// median_us, p999_us and max_us are quantiles of single solves.
 //
-// The dense cases are unlike a robot: 20, 40 or 60 inequalities of normal numbers
-// on each of 5 levels of 68 variables. With 20, the number of active rows is about
-// half the number of variables. With more, most levels cannot be met, and each
-// iteration factors such a level again. From a cold start the fast solver is then
-// slower than the cascade by COD.
+// The dense cases have rows that no robot has: 20, 40 or 60 inequalities with
+// normally distributed entries on each of 5 levels of 68 variables. With 20,
+// about half as many rows are active as there are variables. With more, most
+// levels cannot be met, and each step factors such a level again. In cold
+// solves of these cases, the fast solver is slower than the cascade by COD.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -24,14 +23,15 @@
 namespace poise {
 namespace {
 
-// Pseudo-random numbers in [-1, 1] with a fixed seed.
+// Pseudorandom numbers in [-1, 1], the same in each run.
 class Numbers {
  public:
   double Uniform() {
     state_ = state_ * 1664525u + 1013904223u;
     return state_ / 2147483648.0 - 1;
   }
-  // Returns a number of unit variance, as a sum of twelve uniform ones.
+  // Returns an almost normally distributed number of unit variance, the sum of
+  // 12 uniform numbers of variance 1/12.
   double Normal() {
     double sum = 0;
     for (int i = 0; i < 12; ++i) sum += Uniform() / 2;
@@ -47,11 +47,11 @@ struct Problem {
   Hierarchy hierarchy;
 };
 
-// Returns the shape of the paper's hierarchy. The last 12 of n variables are
-// forces. The levels: 6 equalities; `limits` two-sided rows; 12 equalities and 16
-// inequalities; 6 equalities, repeated for each level above 5; posture and forces.
-// With fewer than 5 levels the first ones share a level. Tighter limits make more
-// rows active.
+// Returns the numbers of rows of a hierarchy of the paper's shape. The last 12
+// of n variables are forces. Five levels have: 6 equalities; `limits` two-sided
+// rows; 12 equalities and 16 inequalities; 6 equalities; posture and forces.
+// Each further level has 6 equalities. With fewer levels, the first ones are
+// merged. The tighter the limits, the more rows are active.
 std::vector<LevelCapacity> PaperCapacity(int n, int levels, int limits) {
   std::vector<LevelCapacity> rows = {{6, 0}, {0, limits}, {12, 16}};
   while (static_cast<int>(rows.size()) < std::max(levels - 1, 4)) {
@@ -95,7 +95,8 @@ Problem MakePaper(int n, int levels, int limits, double limit) {
   return problem;
 }
 
-// Makes levels of 6 equalities and `rows` inequalities, all of normal numbers.
+// Returns levels of 6 equalities and `rows` inequalities each, with normally
+// distributed entries.
 Problem MakeDense(int n, int levels, int rows) {
   const std::vector<LevelCapacity> capacity(levels, {6, rows});
   Problem problem{capacity, Hierarchy(n, capacity)};
@@ -116,8 +117,8 @@ Problem MakeDense(int n, int levels, int rows) {
   return problem;
 }
 
-// Writes the next tick: targets and bounds differ from those of `problem` by up
-// to a hundredth.
+// Fills the hierarchy of another tick: the targets and bounds of `problem`,
+// each changed by up to 0.01.
 void Change(const Problem& problem, Numbers* numbers, Hierarchy* hierarchy) {
   constexpr double kChange = 0.01;
   const Hierarchy& from = problem.hierarchy;
@@ -150,7 +151,8 @@ int NumActive(const Solution& solution) {
   return active;
 }
 
-// Changes the problem and solves it, repeatedly. `prepare` is not timed.
+// Measures solves of `problem`, each with other targets and bounds. `prepare`
+// is not timed.
 template <typename Prepare, typename Solve>
 void Run(const Problem& problem, Prepare&& prepare, Solve&& solve,
          benchmark::State* state) {
@@ -195,10 +197,9 @@ void Run(const Problem& problem, Prepare&& prepare, Solve&& solve,
 void RunFast(const Problem& problem, bool is_warm, benchmark::State* state) {
   const int n = problem.hierarchy.num_variables();
   Solver solver(n, problem.capacity);
-  // The dense cases need more iterations than a control tick allows; the others need
-  // at most 500.
+  // The dense cases have no deadline. The other cases need at most 500.
   solver.max_iterations = 10000;
-  // The first timed solve needs a solve before it, too.
+  // The first timed solve is warm, too.
   Solution first(n, problem.capacity);
   benchmark::DoNotOptimize(solver.Solve(problem.hierarchy, &first));
   Run(
@@ -223,7 +224,7 @@ void RunCascade(const Problem& problem, RowSpaceMethod method,
       state);
 }
 
-// The argument is the limit in tenths; with 100 no row is active.
+// The argument is the limit in tenths. With 100 no row is active.
 Problem Limited(const benchmark::State& state) {
   return MakePaper(68, 5, 50, static_cast<double>(state.range(0)) / 10);
 }

@@ -52,12 +52,13 @@ TEST(Solver, AgreesWithTheCascade) {
     EXPECT_EQ(count.allocations(), 0);
     EXPECT_LE(solution.iterations, 2);
   }
-  // Later iterations correct a wrong step, so it shows in their number only: 1216
-  // when this was written. Rounding changes it by a few.
+  // Later steps correct a wrong step, which shows only in the number of steps.
+  // This number is 1216; rounding may change it by a few.
   EXPECT_LE(iterations, 1220);
 }
 
-// y1 <= 1 and y2 >= 2 above y1 + y2 = 4 above y = (5, 0): y = (1, 3).
+// Level 0: y0 <= 1 and y1 >= 2. Level 1: y0 + y1 = 4. Level 2: y = (5, 0). The
+// optimum is y = (1, 3).
 class SolverTest : public testing::Test {
  protected:
   SolverTest() {
@@ -175,8 +176,9 @@ TEST_F(SolverTest, RejectsAHierarchyBeyondItsCapacity) {
   }
 }
 
-// A spent budget leaves the last levels unsolved; the levels above hold.
-TEST_F(SolverTest, RespectsTheHierarchyWithinItsBudget) {
+// Only the last levels remain unsolved if the budget is spent. The levels above
+// them are certified.
+TEST_F(SolverTest, CertifiesLevelsSolvedWithinTheBudget) {
   Certifier certifier(2, capacity_);
   int truncated = 0;
   for (int budget = 1; budget < 12; ++budget) {
@@ -206,7 +208,8 @@ TEST_F(SolverTest, StopsAtItsTimeLimit) {
   EXPECT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
 }
 
-// max_iterations bounds the work. Most random hierarchies need a few iterations.
+// The number of iterations is bounded by max_iterations, also when the budget
+// is too small for the answer.
 TEST(Solver, TakesNoMoreIterationsThanItsLimit) {
   for (int seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
@@ -221,15 +224,16 @@ TEST(Solver, TakesNoMoreIterationsThanItsLimit) {
       const Status status = solver.Solve(drawn.hierarchy, &solution);
       EXPECT_LE(solution.iterations, budget);
       EXPECT_EQ(status == Status::kOptimal, solution.failed_level < 0);
-      // The levels that are solved are certified.
+      // The levels above failed_level are certified.
       EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(),
                 kCertified);
     }
   }
 }
 
-// Two parallel large-norm rows conflict. A small-norm row orthogonal to them is met
-// to rounding of its own terms.
+// Two parallel large-norm rows conflict. A small-norm row of another direction
+// on the same level is met to rounding of its own terms, not of those of the
+// large-norm rows.
 TEST(Solver, MeetsASmallRowBesideAConflict) {
   const std::vector<LevelCapacity> capacity{{3, 0}};
   for (int place = 0; place < 3; ++place) {
@@ -252,8 +256,8 @@ TEST(Solver, MeetsASmallRowBesideAConflict) {
   }
 }
 
-// The certificate detects errors that a difference of scales hides from the
-// search.
+// Rows of very different norms may hide an error from the search, but not from
+// the certificate.
 TEST(Solver, ReportsOnlyCertifiedAnswersAsOptimal) {
   RandomHierarchyOptions options;
   options.scaled = 100;
@@ -268,7 +272,7 @@ TEST(Solver, ReportsOnlyCertifiedAnswersAsOptimal) {
                Status::kOptimal;
     EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(), kCertified);
   }
-  EXPECT_GE(optimal, 290);  // 292 when written; rounding changes it.
+  EXPECT_GE(optimal, 290);  // The number is 292.
 }
 
 // A lower level never changes an upper one's optimum.
@@ -371,9 +375,9 @@ TEST(Solver, SpendsHalfOfItsBudgetLevelByLevel) {
   EXPECT_GT(truncated, 0);
 }
 
-// 2 y0 <= 2, beside y1 = 1e8, whose rounding hides violations below 1e-3 from
-// the search. Refinement finds them and adds the row, down to rounding of 2
-// |y0| + 2.
+// The row is 2 y0 <= 2, and y1 is 1e8. The rounding of y1 hides violations
+// below 1e-3 from the search. Refinement finds such a violation and adds the
+// row, unless the violation is rounding of 2 |y0| + 2.
 TEST(Solver, AddsRowsThatOnlyRefinementFindsViolated) {
   const std::vector<LevelCapacity> capacity{{0, 3}, {0, 3}, {2, 0}};
   const double rounding = 100 * std::numeric_limits<double>::epsilon() * 4;
@@ -417,8 +421,8 @@ TEST(Solver, AddsRowsThatOnlyRefinementFindsViolated) {
   }
 }
 
-// y0 + y1 >= 0 above y0 = target: y has minimum norm, even if the row was active in
-// the last solve.
+// Level 0: y0 + y1 >= 0. Level 1: y0 = desired. y has minimum norm, also if the
+// row was active in the previous solve.
 TEST(Solver, RemovesARowForTheNormAlone) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {1, 0}};
   Solver solver(2, capacity);
@@ -458,7 +462,8 @@ TEST(Solver, FillsTheCertificateOfItsAnswer) {
   }
 }
 
-// The levels above the invalid one are valid, and y = 0 does not solve them.
+// The level above the invalid one has valid numbers, and y = 0 is not its
+// optimum.
 TEST(Solver, CertifiesNoAnswerToBadInput) {
   Hierarchy hierarchy(1, {{1, 0}, {1, 0}});
   EqualityBlock first = hierarchy.AddEqualities(0, 1);
@@ -474,7 +479,8 @@ TEST(Solver, CertifiesNoAnswerToBadInput) {
   EXPECT_GT(solution.certificate.worst(), 0.1);
 }
 
-// A replay gives the same bits for any initial content of the memory.
+// The content of newly allocated memory has no effect, so that a replay gives
+// the same bits.
 TEST(Solver, DoesNotReadUninitialisedMemory) {
   RandomHierarchyOptions options;
   options.planted = 100;

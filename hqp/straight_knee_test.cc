@@ -12,14 +12,16 @@
 namespace poise {
 namespace {
 
-constexpr double kTolerance = 1e-13;  // Some operations on numbers up to 4.
-constexpr double kExact = 1e-15;      // One or two of them on ones and zeros.
+constexpr double kTolerance = 1e-13;  // A few operations on numbers up to 4.
+constexpr double kExact = 1e-15;      // One or two operations on 0 and 1.
 
-// A leg of two joints: a row above keeps the trunk upright, and a row below
-// lifts it. In the nullspace of the first, the norm of the second is sin(knee).
+// A leg with two joints. The row of level 1 keeps the trunk upright, and a row
+// of level 2 lifts the trunk. In the nullspace of level 1, the norm of the
+// lifting row is proportional to sin(knee).
 class StraightKneeTest : public testing::Test {
  protected:
-  // The level of the lifting row also has a damping row for each joint.
+  // Solves the hierarchy. Level 2 has the lifting row and one damping row per
+  // joint.
   Solution Solve(double knee, double damping, double limit) {
     const std::vector<LevelCapacity> capacity{{0, 2}, {1, 0}, {3, 0}};
     Hierarchy hierarchy(2, capacity);
@@ -38,14 +40,16 @@ class StraightKneeTest : public testing::Test {
               Status::kOptimal);
     EXPECT_EQ(Cascade(2, capacity).Solve(hierarchy, &reference),
               Status::kOptimal);
-    // Both divide by sin(knee), so the error grows as knee goes to zero.
+    // Both solvers divide by sin(knee), which loses digits to rounding as the
+    // knee straightens.
     EXPECT_LE((solution.y - reference.y).norm(),
               1e-14 * (1 + solution.y.norm()) * (1 + solution.y.norm()));
     EXPECT_EQ(solution.levels[2].nullity, reference.levels[2].nullity);
     return solution;
   }
 
-  // Returns the largest |y(knee + h) - y(knee)| between two knee angles.
+  // Returns the largest |y(knee + h) - y(knee)| between two knee angles, in
+  // steps of h.
   double LargestStep(double from, double to, int steps, double damping,
                      double limit) {
     double largest = 0;
@@ -62,8 +66,8 @@ class StraightKneeTest : public testing::Test {
   static constexpr double kUnlimited = 1e12;
 };
 
-// y = (1, -1) / sin(knee), clamped to the limit of 4 where sin(knee) < 1/4: a
-// slope of at most sqrt(2) cos(knee) / sin^2(knee) < 16 sqrt(2).
+// y = (1, -1) / sin(knee), clamped at the limit of 4 where sin(knee) < 1/4. So
+// the slope is at most sqrt(2) cos(knee) / sin^2(knee) < 16 sqrt(2).
 TEST_F(StraightKneeTest, IsContinuousWhereNoRankChanges) {
   for (const int steps : {100, 200, 400}) {
     EXPECT_LE(LargestStep(1, 0.01, steps, 0, 4),
@@ -73,15 +77,16 @@ TEST_F(StraightKneeTest, IsContinuousWhereNoRankChanges) {
   EXPECT_NEAR(Solve(0.01, 0, 4).y[0], 4, kTolerance);
 }
 
-// y is unbounded as the knee becomes straight. At the straight knee the row is
-// zero, and y is the minimum-norm solution.
+// As the knee straightens, y grows without bound. At knee = 0 the lifting row
+// has no component in the nullspace of level 1, and y has minimum norm.
 TEST_F(StraightKneeTest, JumpsWhereItsRankChanges) {
   for (const double knee : {1e-2, 1e-4, 1e-6, 1e-8, -1e-8}) {
     const Solution near = Solve(knee, 0, kUnlimited);
     EXPECT_EQ(near.levels[2].nullity, 0);
     // The row is met to eps |y|, and |y| is 1.5e8 at most.
     EXPECT_NEAR(near.levels[2].cost, 0, std::pow(1e-15 * near.y.norm(), 2));
-    // 1 - sin(knee) is known to eps / 2: knee to that, relative.
+    // 1 - sin(knee) is rounded by eps / 2, which limits the relative accuracy
+    // of the knee angle.
     EXPECT_NEAR(near.y[0] * knee, 1, 1e-15 / std::abs(knee) + knee * knee);
   }
   const Solution straight = Solve(0, 0, kUnlimited);
@@ -90,15 +95,15 @@ TEST_F(StraightKneeTest, JumpsWhereItsRankChanges) {
   EXPECT_NEAR(straight.y.norm(), 0, kExact);
 }
 
-// Limits on a higher level bound the jump to twice the limit.
-TEST_F(StraightKneeTest, JumpsNoFurtherThanItsLimits) {
+// Limits on a level above bound the jump: it is at most twice the limit.
+TEST_F(StraightKneeTest, JumpsAtMostBetweenTheLimits) {
   EXPECT_NEAR(Solve(1e-6, 0, 4).y[0], 4, kTolerance);
   EXPECT_NEAR(Solve(0, 0, 4).y[0], 0, kTolerance);
   EXPECT_NEAR(Solve(-1e-6, 0, 4).y[0], -4, kTolerance);
 }
 
-// Damping rows of the same level, of weight d, keep its rank: y1 = s / (s^2 +
-// 2 d), whose slope is at most 1 / (2 d).
+// Damping rows of weight d on the same level keep its rank. With s = sin(knee),
+// y0 is s / (s^2 + 2 d), with a slope of at most 1 / (2 d).
 TEST_F(StraightKneeTest, DoesNotJumpWithDampingOnItsLevel) {
   constexpr double kDamping = 0.01;
   for (const int steps : {100, 200, 400}) {

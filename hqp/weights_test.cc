@@ -1,5 +1,4 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests weights of very different size in one level.
+// Very different weights on one level.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -31,8 +30,9 @@ void ExpectSameOptimum(int seed, const RandomHierarchyOptions& options) {
   }
 }
 
-// The first draws of `hqp_night --scaled 0 --weighted 100`, and draws on which an
-// earlier solver failed: it certified a wrong answer or found none.
+// The first seeds of `hqp_night --scaled 0 --weighted 100`, and regression
+// seeds. With some seeds of the first list, a certified answer was wrong. With
+// the other regression seeds, no optimum was found.
 class WeightsTest : public testing::TestWithParam<int> {
  protected:
   std::vector<int> Seeds() const {
@@ -45,7 +45,7 @@ class WeightsTest : public testing::TestWithParam<int> {
     if (GetParam() == 8) {
       seeds = {138, 280, 303, 358, 624, 768, 863, 1266, 1378, 1792, 1899, 1931};
     }
-    // At seed 94, weights of 16 decades make the solvers differ.
+    // At seed 94, with weights over 16 decades, the solvers disagree.
     for (int seed = 1; seed < 94; ++seed) seeds.push_back(seed);
     return seeds;
   }
@@ -61,8 +61,7 @@ TEST_P(WeightsTest, GiveBothSolversTheSameOptimum) {
   for (const int seed : Seeds()) ExpectSameOptimum(seed, options);
 }
 
-// Three rows on the upper level fix both variables, whatever their weights on the
-// level below.
+// Three rows of level 0 fix both variables, whatever the weights on level 1.
 TEST(Weights, DoNotChangeLevelsAbove) {
   const std::vector<LevelCapacity> capacity{{3, 0}, {2, 0}};
   Eigen::Matrix<double, 3, 2> A;
@@ -140,10 +139,10 @@ TEST(Weights, MeetRowsWithVariablesOfUnlikeUnits) {
   EXPECT_NEAR(solution.levels[1].cost, 0, 1e-20);
 }
 
-// Hierarchies with variables in units from 1e-3 to 1e6, found by
-// `hqp_night --scaled 0 --columns 100`. In the first, rounding of large-norm rows
-// must not count as a multiplier. In the others, a multiplier that is much larger
-// than its target must not count as rounding.
+// Regression seeds of `hqp_night --scaled 0 --columns 100`: variables have
+// units from 1e-3 to 1e6. With the first seed, rounding of large-norm rows must
+// not count as a multiplier. With the others, a multiplier much larger than its
+// target must not count as rounding.
 TEST(Weights, GiveBothSolversTheSameOptimumInAnyUnits) {
   RandomHierarchyOptions options;
   options.scaled = 0;
@@ -153,8 +152,9 @@ TEST(Weights, GiveBothSolversTheSameOptimumInAnyUnits) {
   }
 }
 
-// (0, -6/0.017): with y0 fixed, only y1 can meet the row. The row's entry of y1
-// is small, and the target of y1 is 0, so the multiplier is large beside it.
+// The optimum is (0, -6/0.017). Level 1 fixes y0, so only y1 can meet the row.
+// The coefficient of y1 in the row is small and the target of y1 is 0, so the
+// multiplier is much larger than the target.
 TEST(Weights, AllowAMultiplierLargerThanTheTarget) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {1, 0}, {1, 0}};
   Hierarchy hierarchy(2, capacity);

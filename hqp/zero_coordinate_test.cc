@@ -1,6 +1,5 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests rows that meet at a point with zero coordinates. Rounding of a zero
-// coordinate would violate a row y_j >= 0 by 100 % of its terms.
+// Rows meet at a point with zero coordinates. Rounding of such a coordinate
+// would violate a row y_j >= 0 by 100 % of its terms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +27,7 @@ Solution Solve(const HierarchyByHand& problem) {
   return solution;
 }
 
-// y0 = -6e-17 in place of 0 would violate the row of the second level.
+// y0 = -6e-17 instead of 0 would violate the row of the second level.
 TEST(ZeroCoordinate, IsZeroWhereTwoRowsMeet) {
   const HierarchyByHand problem(2, {{0, {4, 5}, -INFINITY, -5},
                                     {0, {-2, 5}, -INFINITY, -5},
@@ -38,7 +37,7 @@ TEST(ZeroCoordinate, IsZeroWhereTwoRowsMeet) {
   EXPECT_NEAR(solution.y[1], -1, 1e-15);  // Five roundings of 1.
 }
 
-// (0, 3) meets all rows; rounding would violate the row y0 = 0 only.
+// y = (0, 3) meets all rows. Rounding would violate only the rows of y0 alone.
 TEST(ZeroCoordinate, IsZeroWhereFiveRowsMeet) {
   const HierarchyByHand problem(2, {{0, {1, 2}, -INFINITY, 6},
                                     {0, {-1, 0}, 0, INFINITY},
@@ -51,7 +50,7 @@ TEST(ZeroCoordinate, IsZeroWhereFiveRowsMeet) {
   EXPECT_NEAR(solution.y[1], 3, 3e-15);
 }
 
-// (0, -2, 0, 0) has three zeros, which other rows relate to each other.
+// y = (0, -2, 0, 0) has three zero coordinates, and rows couple them.
 TEST(ZeroCoordinate, IsZeroInRowsThatShareVariables) {
   const HierarchyByHand problem(4, {{0, {0, -4, -1, 0}, 8, 8},
                                     {0, {-3, 1, 0, 0}, -2, -2},
@@ -63,8 +62,9 @@ TEST(ZeroCoordinate, IsZeroInRowsThatShareVariables) {
   EXPECT_NEAR(solution.y[1], -2, 2e-15);
 }
 
-// After refinement, three rows meet the target of the last level.
-TEST(ZeroCoordinate, GivesNoMultiplierToALevelThatRefinementMeets) {
+// The rows of level 0 fix y. After refinement, y also meets the target of level
+// 1 exactly.
+TEST(ZeroCoordinate, HasZeroMultipliersIfRefinementMeetsTheLevel) {
   const HierarchyByHand problem(2, {{0, {2, 0}, 2, 2},
                                     {0, {0, -3}, 0, 0},
                                     {0, {-4, 5}, -4, -4},
@@ -75,8 +75,8 @@ TEST(ZeroCoordinate, GivesNoMultiplierToALevelThatRefinementMeets) {
   EXPECT_TRUE(solution.levels[1].multipliers[0].equality.isZero(0));
 }
 
-// Random rows of small integers pass through a point of small integers, with the
-// bound on either side. The point satisfies all rows.
+// Random rows of small integers through a point of small integers. Each row has
+// a bound at the point, on either side, so the point meets all rows.
 TEST(ZeroCoordinate, IsFoundInRandomHierarchies) {
   for (int seed = 1; seed <= 2000; ++seed) {
     SCOPED_TRACE(seed);
@@ -103,7 +103,8 @@ TEST(ZeroCoordinate, IsFoundInRandomHierarchies) {
     const HierarchyByHand problem(n, rows);
     const Solution solution = Solve(problem);
     for (int level = 0; level < levels; ++level) {
-      // 8 rows of 6 terms of at most 5 * 3, each met to 1e-13 of its terms.
+      // At most 8 rows. Each has 6 terms of at most 5 * 3, and is met to 1e-13
+      // of their sum.
       EXPECT_LE(solution.levels[level].cost, 8 * std::pow(90e-13, 2));
     }
   }

@@ -93,8 +93,8 @@ int ActiveSetSearch::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
   return levels + 1;
 }
 
-// Restores the working set of the last solved level, without the rows removed
-// since: no multiplier holds them.
+// Restores the working set of the last solved level. Rows removed since then
+// stay removed, because no multiplier keeps them at their bound.
 void ActiveSetSearch::RestoreWorkingSet(
     std::vector<std::vector<Side>>* side) const {
   for (size_t level = 0; level < completed_.size(); ++level) {
@@ -259,8 +259,8 @@ bool ActiveSetSearch::StepToBlockingConstraint(
 // Removes constraints with a negative multiplier from the working set: all that
 // are strictly inside their bound, or else the one with the most negative
 // multiplier. Once in a search, all whose multiplier comes from a diagonal
-// level are removed together, as a step there is expensive. Returns whether any
-// is.
+// level are removed together, because a step there is expensive. Returns
+// whether a constraint was removed.
 bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
                                         std::vector<std::vector<Side>>* side) {
   int removed = kNone;
@@ -299,8 +299,8 @@ bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
   return true;
 }
 
-// Makes equalities of the rows that their own level leaves violated. The number
-// of removals left of all other rows is reset.
+// Turns the rows that are violated at the optimum of their own level into
+// equalities. Resets the number of removals left of all other rows.
 void ActiveSetSearch::FreezeViolated(
     int level, const WorkingSetProblem& problem,
     const std::vector<std::vector<Side>>& side) {

@@ -77,8 +77,9 @@ class ActiveSetSearch {
   std::vector<double> y_, step_, value_, slope_;
   std::vector<std::vector<int>> removals_left_;  ///< Removals allowed per row.
   bool remove_together_ = false;                 ///< See RemoveConstraints().
-  RowIndex last_removed_ = {-1, -1};             ///< If alone.
-  std::vector<std::vector<Side>> violated_;      ///< kNone: not violated.
+  /// The row removed last, if it was removed alone.
+  RowIndex last_removed_ = {-1, -1};
+  std::vector<std::vector<Side>> violated_;  ///< kNone: not violated.
   std::vector<std::vector<Side>>
       completed_;  ///< Working set of the last solved level.
 };

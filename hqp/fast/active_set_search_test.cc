@@ -19,14 +19,13 @@
 namespace poise {
 namespace {
 
-constexpr double kCertified = Certifier::kCertified;  // Costs too.
+constexpr double kCertified = Certifier::kCertified;  // Also for costs.
 
-// Rows have entries in hundredths, so a violated row is violated by much more
-// than this, and this is far above rounding.
+// Least violation of a row with entries in hundredths, unless it is rounding.
 constexpr double kViolated = 1e-6;
 
-// Relative error of y: rounding times the square of the worst condition of such
-// rows, about 1e4.
+// Relative tolerance of y. Rounding is multiplied by the square of the
+// condition of such rows, which is up to about 1e4.
 constexpr double kSameY = 1e-6;
 
 std::vector<std::vector<Side>> NoSides(
@@ -64,8 +63,8 @@ class ActiveSetSearchTest : public testing::TestWithParam<int> {
     }
     return levels;
   }
-  // Violated rows of the first `levels` levels are in the working set; no row
-  // of another level is.
+  // Expects that the violated rows of the first `levels` levels are in the
+  // working set, and that no row of the other levels is.
   void ExpectHeldBack(int levels) const;
   double Tolerance(int level) const {
     return kCertified * CostSize(hierarchy_, level, reference_);
@@ -105,12 +104,12 @@ TEST_P(ActiveSetSearchTest, AgreesWithTheCascade) {
                 Tolerance(level))
         << level;
   }
-  // The smallest of all optima, which is one point.
+  // The optimum of minimum norm is unique.
   EXPECT_LE((found_.y - reference_.y).norm(),
             kSameY * (1 + reference_.y.norm()));
 }
 
-// A spent budget costs the lowest levels; the levels above are optimal.
+// If the budget is spent, only the lowest levels are not optimal.
 TEST_P(ActiveSetSearchTest, KeepsSolvedLevelsWhenTheBudgetEnds) {
   ASSERT_EQ(Search(10000), num_levels_ + 1);
   const int needed = iterations_;
@@ -128,7 +127,7 @@ TEST_P(ActiveSetSearchTest, KeepsSolvedLevelsWhenTheBudgetEnds) {
   }
 }
 
-// From any working set and any y.
+// Starts from different working sets, and from the y of the last search.
 TEST_P(ActiveSetSearchTest, AgreesWithTheCascadeAllAtOnce) {
   for (int start = 0; start < 4; ++start) {
     SCOPED_TRACE(start);
@@ -165,8 +164,9 @@ TEST_P(ActiveSetSearchTest, AgreesWithTheCascadeAllAtOnce) {
   }
 }
 
-// Later steps correct a wrong one, so that only their number shows it.
-TEST(ActiveSetSearch, NeedsNoMoreIterationsThanBefore) {
+// Later steps correct a wrong step, which shows only in the number of
+// iterations.
+TEST(ActiveSetSearch, NeedsAtMostTheRecordedNumberOfIterations) {
   RandomHierarchyOptions options;
   options.scaled = 0;
   const std::function<double()> no_clock;
@@ -181,7 +181,7 @@ TEST(ActiveSetSearch, NeedsNoMoreIterationsThanBefore) {
     ActiveSetSearch search(n, drawn.capacity);
     ASSERT_EQ(search.LevelByLevel(drawn.hierarchy, &by_level, &problem, &side),
               drawn.hierarchy.num_levels() + 1);
-    // From that y, with fixed rows only in the working set.
+    // Starts from that y. The working set has only the rows with equal bounds.
     side = NoSides(drawn.capacity);
     for (int level = 0; level < drawn.hierarchy.num_levels(); ++level) {
       for (int i = 0; i < drawn.hierarchy.num_inequalities(level); ++i) {
@@ -194,13 +194,13 @@ TEST(ActiveSetSearch, NeedsNoMoreIterationsThanBefore) {
     ASSERT_TRUE(
         search.AllAtOnce(drawn.hierarchy, 100000, &at_once, &problem, &side));
   }
-  // A few more or less by rounding.
+  // Rounding may change these numbers by a few.
   EXPECT_LE(by_level.iterations(), 1680);
   EXPECT_LE(at_once.iterations(), 979);
 }
 
-// y <= 1 and y >= -1 by one row, active at its upper bound, with a target of
-// -3: the lower bound blocks the step and replaces the upper one.
+// The row -1 <= y <= 1 is active at its upper bound, and the target is -3. The
+// lower bound blocks the step and replaces the upper bound.
 TEST(ActiveSetSearch, ChangesTheSideOfARow) {
   const std::vector<LevelCapacity> capacity = {{0, 1}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
@@ -221,7 +221,8 @@ TEST(ActiveSetSearch, ChangesTheSideOfARow) {
   ASSERT_TRUE(search.AllAtOnce(hierarchy, 100, &budget, &problem, &side));
   EXPECT_EQ(side[0][0], Side::kLower);
   EXPECT_EQ(search.y()[0], -1);
-  // Solved at 1, removed; blocked on the way to -3; solved at -1.
+  // The iterations: solved at 1, where the row is removed; blocked on the way
+  // to -3; solved at -1.
   EXPECT_EQ(budget.iterations(), 3);
   for (int too_few = 0; too_few < 3; ++too_few) {
     Budget short_of_it(too_few, 0, &no_clock);
@@ -254,7 +255,8 @@ class ActiveSetSearchByHandTest : public testing::Test {
     block.B(0, variable) = 1;
     block.b[0] = -target;
   }
-  // Three rows hold y at (1, 1, 1), where a level has the target (2, 3, 4).
+  // Adds the rows y_j >= 1, which start active, and the target (2, 3, 4) on
+  // `level`.
   void HoldAtOne(int level) {
     for (int j = 0; j < 3; ++j) {
       std::vector<double> row(3);
@@ -264,7 +266,7 @@ class ActiveSetSearchByHandTest : public testing::Test {
     }
     begin_ = Side::kLower;
   }
-  // Returns the levels that are done.
+  // Returns the number of solved levels.
   int ByLevel(int max_iterations = 100) {
     return Search(max_iterations, [&](ActiveSetSearch* search, Budget* budget,
                                       WorkingSetProblem* problem) {
@@ -281,7 +283,7 @@ class ActiveSetSearchByHandTest : public testing::Test {
 
   const std::vector<LevelCapacity> capacity_{{3, 50}, {3, 3}, {3, 0}};
   Hierarchy hierarchy_;
-  Side begin_ = Side::kNone;  // Where the rows of level 0 are to begin with.
+  Side begin_ = Side::kNone;  // Initial side of the rows of level 0.
   int iterations_;
   Eigen::VectorXd y_;
 
@@ -317,7 +319,8 @@ TEST_F(ActiveSetSearchByHandTest, StopsAtABlockingConstraint) {
   AddRow(0, {4, 0, 0}, -INFINITY, 4);
   AddTarget(1, 0, 2);
   AddTarget(1, 1, 5);
-  // No level; level 0, without a step; the blocked step; the optimum; the norm.
+  // Five iterations: level 0, without a step; level 1, up to the blocking
+  // constraint; the optimum of level 1; level 2, which is empty; the norm of y.
   EXPECT_EQ(ByLevel(0), 0);
   EXPECT_EQ(y_, Eigen::Vector3d(0, 0, 0));
   EXPECT_EQ(ByLevel(2), 1);
@@ -338,8 +341,8 @@ TEST_F(ActiveSetSearchByHandTest, RestoresTheWorkingSetOfTheLastSolvedLevel) {
   EXPECT_EQ(side(0, 0), Side::kLower);
 }
 
-// Two rows block at the same point. With the steeper one added, the other does
-// not block any more.
+// Two rows block at the same point. Once the steeper one is added, the other
+// one no longer blocks.
 TEST_F(ActiveSetSearchByHandTest, AddsTheSteepestOfTwoBlockingConstraints) {
   for (const bool first : {false, true}) {
     for (const double scale : {0.1, 1.0, 10.0}) {
@@ -357,7 +360,7 @@ TEST_F(ActiveSetSearchByHandTest, AddsTheSteepestOfTwoBlockingConstraints) {
 }
 
 // A bound that y touches at the start or at the end does not block.
-TEST_F(ActiveSetSearchByHandTest, DoesNotAddRowsThatItOnlyTouches) {
+TEST_F(ActiveSetSearchByHandTest, DoesNotAddRowsThatTheStepOnlyTouches) {
   for (const double sign : {-1.0, 1.0}) {
     hierarchy_.Clear(3);
     AddRow(0, {sign, 0, 0}, -INFINITY, 0);  // At the start,
@@ -373,9 +376,10 @@ TEST_F(ActiveSetSearchByHandTest, DoesNotAddRowsThatItOnlyTouches) {
   }
 }
 
-// 2 y0 <= 2 with y1 = 10, and a target beyond the bound, in any unit: y keeps
-// the row as the certificate asks. Rounding of a hundred terms costs no step.
-TEST_F(ActiveSetSearchByHandTest, KeepsARowForAnyInitialViolation) {
+// 2 y0 <= 2 with y1 = 10, and a target beyond the bound, in any unit. y meets
+// the row to the tolerance of the certificate. If the violation is rounding of
+// a hundred terms, one iteration suffices.
+TEST_F(ActiveSetSearchByHandTest, MeetsARowForAnyInitialViolation) {
   const double size = 2 * 10 + 2;
   const double rounding = 100 * std::numeric_limits<double>::epsilon() * size;
   for (const double unit : {1.0, 0x1p-40}) {
@@ -396,9 +400,10 @@ TEST_F(ActiveSetSearchByHandTest, KeepsARowForAnyInitialViolation) {
   }
 }
 
-// y0 + y2 <= 1 where y0 = 1 is fixed, y2 has a positive target, and y1 is 1e8,
-// from before or in the same step. The row is kept to the rank tolerance of
-// 1e8; a step of rounding of 1e8 does not add it to the working set.
+// y0 + y2 <= 1, where y0 = 1 is fixed and y2 has a positive target. y1 is 1e8,
+// either before the step of y2 or after the same step. The row is met to
+// kRankTolerance of 1e8. A step that is rounding of 1e8 does not add the row to
+// the working set.
 TEST_F(ActiveSetSearchByHandTest, IgnoresRoundingAsABlockingConstraint) {
   constexpr double kLarge = 1e8;
   const double rounding = 100 * std::numeric_limits<double>::epsilon() * kLarge;
@@ -419,8 +424,8 @@ TEST_F(ActiveSetSearchByHandTest, IgnoresRoundingAsABlockingConstraint) {
   }
 }
 
-// y0 >= 1, and in the last level y1 = 5, which violates y1 <= 2: y1 moves only
-// once the leading levels are optimal.
+// y0 >= 1, and on the last level y1 = 5, which violates y1 <= 2. y1 moves only
+// after the leading levels are optimal.
 TEST_F(ActiveSetSearchByHandTest, SolvesDiagonalLevelsAfterTheLeadingOnes) {
   AddRow(0, {1, 0, 0}, 1, INFINITY);
   AddRow(0, {0, 1, 0}, -INFINITY, 2);
@@ -436,7 +441,7 @@ TEST_F(ActiveSetSearchByHandTest, RemovesRowsTogetherForADiagonalLevel) {
   HoldAtOne(2);
   ASSERT_TRUE(AtOnce());
   EXPECT_EQ(y_, Eigen::Vector3d(2, 3, 4));
-  // Once with the rows, and once without.
+  // One iteration with the rows, and one without.
   EXPECT_EQ(iterations_, 2);
 }
 
@@ -451,7 +456,7 @@ TEST_F(ActiveSetSearchByHandTest, RemovesRowsOneByOneForALeadingLevel) {
   EXPECT_EQ(iterations_, 4);
 }
 
-// As many rows as the capacity allows.
+// Level 0 has as many rows as the capacity allows.
 TEST_F(ActiveSetSearchByHandTest, HasRoomForManyRows) {
   for (int i = 0; i < 50; ++i) {
     AddRow(0, {1, 0, 0}, i == 30 ? 2 : -INFINITY, i == 49 ? 3 : 4 + i);

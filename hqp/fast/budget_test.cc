@@ -29,7 +29,8 @@ TEST(Budget, StopsAtALimit) {
   EXPECT_EQ(budget.iterations(), 3);
 }
 
-// The clock starts when the budget does, and counts only if asked to.
+// The time is measured from the construction of the budget, and only if
+// max_seconds is positive.
 TEST(Budget, StopsAtItsTimeLimit) {
   double time = 100;
   const std::function<double()> now = [&] { return time; };

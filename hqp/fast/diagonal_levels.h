@@ -12,14 +12,15 @@ namespace poise {
 /// 1/2 sum_j d_j^2 (y_j - t_j)^2 over its variables, subject to the leading
 /// levels, Q y = z, and to the optimum of the diagonal levels before c.
 ///
-/// A variable is fixed by the first level that has it, so instead of projecting
-/// each level, the rows of Q are combined by reflections, eliminating the
+/// The first level that has a variable fixes it. So levels are not projected
+/// one by one. Instead, reflections combine the rows of Q, and eliminate the
 /// variables of the last level first:
 ///     U' Q = [T_tt ... T_t1 T_t0]      (variables of level t, ..., 1, 0)
 ///            [         T_11 T_10]
 ///            [              T_00]
-/// From the bottom up each level is then a weighted minimum-norm problem in as
-/// many rows as T_cc has: few, however many variables it has.
+/// From the bottom up, each level is then a weighted minimum-norm problem with
+/// as many rows as T_cc. These rows are few, however many variables the level
+/// has.
 class DiagonalLevels {
  public:
   DiagonalLevels(int num_variables, int max_levels);
@@ -113,7 +114,7 @@ class DiagonalLevels {
   double largest_target_ = 0;
   std::vector<int> order_;     ///< Variable by position.
   int usual_begin_ = 0;        ///< Level 0: first position of the usual weight.
-  int usual_row_end_ = 0;      ///< Rows before have no other variables.
+  int usual_row_end_ = 0;      ///< Earlier rows have only these variables.
   std::vector<Block> blocks_;  ///< By level.
   std::vector<double> t_;      ///< U' Q, by position, n x stride.
   std::vector<double> reflection_;                    ///< n x stride.

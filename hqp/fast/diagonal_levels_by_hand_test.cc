@@ -12,8 +12,8 @@
 namespace poise {
 namespace {
 
-// y1 + y2 = sqrt(2) above y1 = 3, of weight 1, and y2 = 5, of weight 3; y3
-// free.
+// Leading level: y0 + y1 = sqrt(2). Diagonal level: y0 = 3 with weight 1, and
+// y1 = 5 with weight 3. y2 has no target.
 class DiagonalLevelsTest : public testing::Test {
  protected:
   DiagonalLevelsTest() {
@@ -35,13 +35,15 @@ class DiagonalLevelsTest : public testing::Test {
 
 TEST_F(DiagonalLevelsTest, SolvesByHand) {
   diagonal_.Solve(leading_, y_);
-  // The weights share the residual of the sum: 8 - sqrt(2).
+  // The residual of the sum, 8 - sqrt(2), is divided in inverse proportion to
+  // the weights.
   const double residual = 8 - std::sqrt(2);
   EXPECT_NEAR(y_[0], 3 - 0.75 * residual, Rounding(10, 3));
   EXPECT_NEAR(y_[1], 5 - 0.25 * residual, Rounding(10, 3));
   EXPECT_EQ(y_[2], 0);
   double on_leading[1], left[3];
-  // The norm of |start| + |target|, over a squared entry of L of 1/2 + 1/6.
+  // The norm of |start| + |target|, divided by the squared entry of L, 1/2 +
+  // 1/6.
   const double size = std::hypot(std::sqrt(0.5) + 3, std::sqrt(0.5) + 5);
   EXPECT_NEAR(diagonal_.Dual(0, on_leading, left), 1.5 * size,
               Rounding(size, 3));
@@ -52,7 +54,8 @@ TEST_F(DiagonalLevelsTest, SolvesByHand) {
   EXPECT_EQ(diagonal_.Nullity(1), 0);
 }
 
-// Rounding of a large-weight variable does not count beside a small-weight one.
+// Only the smallest weight of a row counts: the rounding of its large-weight
+// variables does not affect the multiplier.
 TEST_F(DiagonalLevelsTest, ScalesAMultiplierByTheSmallestWeightOfItsRow) {
   diagonal_.Clear();
   diagonal_.AddLevel();
@@ -63,11 +66,11 @@ TEST_F(DiagonalLevelsTest, ScalesAMultiplierByTheSmallestWeightOfItsRow) {
   double on_leading[1], left[3];
   const double size = std::hypot(std::sqrt(0.5) + 3, std::sqrt(0.5) + 5);
   EXPECT_NEAR(diagonal_.Dual(0, on_leading, left), 2 * size,
-              1e-10);  // By 1e-12.
+              1e-10);  // The large weight adds 1e-12.
 }
 
-// An entry of the gradient changes by rounding of weight (|y| + |target|) at
-// most; a few eps of that become zero.
+// An entry of the gradient is rounded relative to weight (|y| + |target|). An
+// entry of a few eps of that magnitude becomes zero.
 TEST_F(DiagonalLevelsTest, ZeroesRoundingOfAGradient) {
   const double y[3] = {-1, 2, 0}, size[2] = {4, 21};
   for (const double part : {1e-20, 1e-15, 1e-11, 1e-6, 1.}) {
@@ -79,12 +82,12 @@ TEST_F(DiagonalLevelsTest, ZeroesRoundingOfAGradient) {
         const double tolerance = part <= 1e-15 ? 0 : 1e-12 * size[j];
         EXPECT_NEAR(sum[j], part <= 1e-15 ? 0 : given[j], tolerance) << j;
       }
-      EXPECT_EQ(sum[2], 1e-30);  // This variable is of another level.
+      EXPECT_EQ(sum[2], 1e-30);  // A variable of another level.
     }
   }
 }
 
-// All variables of the level count, and no others.
+// IsMet() compares all variables of the level, and no others.
 TEST_F(DiagonalLevelsTest, IsMetWhereEachVariableIsAtItsTarget) {
   const double met[3] = {3, 5, -1}, first[3] = {3, 4, 0},
                second[3] = {-3, 5, 0};
@@ -104,7 +107,7 @@ TEST_F(DiagonalLevelsTest, AveragesTwoTargetsOfALevel) {
   diagonal_.Add(2, 3, 8);
   diagonal_.Add(2, 0, 100);  // Weight zero: no effect.
   diagonal_.AddLevel();
-  diagonal_.Add(2, 5, 100);  // The level before fixes the variable.
+  diagonal_.Add(2, 5, 100);  // Fixed by the first level: no effect.
   diagonal_.Finish(nullptr);
   diagonal_.Solve(leading_, y_);
   EXPECT_NEAR(y_[2], 7, Rounding(8, 3));
@@ -122,9 +125,9 @@ TEST_F(DiagonalLevelsTest, UsesTargetsForTheLastLevel) {
   EXPECT_NEAR(y_[2], 9, Rounding(9, 3));
 }
 
-// y = 1 + off above y = 1: the multiplier is -weight off, to rounding of weight
-// (|y| + 1), at the solution or after a correction from another y. Rounding
-// gives no multiplier at all.
+// Leading level: y = 1 + off. Diagonal level: y = 1. The multiplier is -weight
+// off, to rounding of weight (|y| + 1), after Solve() or after Correct() from
+// another y. If `off` is rounding, the level has no multiplier.
 TEST_F(DiagonalLevelsTest, FindsAMultiplierToRoundingOfItsTerms) {
   for (const double weight : {0.01, 4.0}) {
     for (const double part : {0., 1e-15, 1e-11, 1e-6, 1e-2}) {
@@ -158,9 +161,9 @@ TEST_F(DiagonalLevelsTest, FindsAMultiplierToRoundingOfItsTerms) {
   }
 }
 
-// y0 + y1 and y0 + y1 + y2 are given, which fixes y2 and one of y0 and y1. The
+// The given sums y0 + y1 and y0 + y1 + y2 fix y2 and one of y0 and y1. The
 // levels are y2, y1, y0.
-TEST_F(DiagonalLevelsTest, CountsOnlyRowsThatLaterLevelsLeave) {
+TEST_F(DiagonalLevelsTest, SubtractsTheRowsOfLaterLevelsFromTheNullity) {
   diagonal_.Clear();
   for (const int variable : {2, 1}) {
     diagonal_.AddLevel();
@@ -173,7 +176,7 @@ TEST_F(DiagonalLevelsTest, CountsOnlyRowsThatLaterLevelsLeave) {
   EXPECT_EQ(diagonal_.Nullity(1), 0);
 }
 
-// Divided by such weights, rows are nearly parallel.
+// Divided by the roots of such weights, the rows are nearly parallel.
 TEST_F(DiagonalLevelsTest, MeetsTheLeadingLevelsWhereOneWeightIsSmall) {
   Eigen::Matrix<double, 3, 4> A;
   A << 1, 2, 3, -1, 2, 1, -1, 1, 1, -1, 1, 3;

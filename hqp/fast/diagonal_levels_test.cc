@@ -14,7 +14,7 @@ namespace poise {
 namespace {
 
 constexpr int kSeeds = 300;
-constexpr int kMaxRows = 24, kMaxLeadingLevels = 4;  // In MakeRandomLevels().
+constexpr int kMaxRows = 24, kMaxLeadingLevels = 4;  // As MakeRandomLevels().
 constexpr int kMaxDiagonalLevels = 3;
 
 // One row of a diagonal level.
@@ -23,7 +23,7 @@ struct Selection {
   double weight, target;
 };
 
-// Returns a diagonal level as a level of dense rows.
+// Returns the level as rows of a least-squares problem.
 LeastSquares Rows(const std::vector<Selection>& level, int n) {
   const auto count = static_cast<int>(level.size());
   LeastSquares rows;
@@ -38,7 +38,8 @@ LeastSquares Rows(const std::vector<Selection>& level, int n) {
   return rows;
 }
 
-// Levels that select: a variable may come twice, in a level or in two.
+// Returns random diagonal levels. A variable may occur twice, on one level or
+// on two.
 std::vector<std::vector<Selection>> MakeSelections(int seed, int n) {
   std::mt19937 random(seed);
   const auto below = [&](int bound) {
@@ -47,7 +48,7 @@ std::vector<std::vector<Selection>> MakeSelections(int seed, int n) {
   std::vector<std::vector<Selection>> levels(1 + below(kMaxDiagonalLevels));
   for (std::vector<Selection>& level : levels) {
     level.resize(1 + below(n));
-    // Half of the levels have mostly equal weights.
+    // On half of the levels, most weights are equal.
     const bool has_usual = below(2) == 0;
     for (Selection& row : level) {
       row = {below(n), 1 + below(100) / 10.0, below(21) - 10.0};
@@ -183,14 +184,14 @@ TEST_P(RandomDiagonalLevelsTest, CorrectsAnyStartToTheSameOptimum) {
   Eigen::VectorXd nearest = y;
   diagonal_.Correct(leading_, change.data(), true, y.data());
   EXPECT_LE((y - y_).norm(), 10 * Tolerance());
-  // Without a step to the minimum, the leading levels are met all the same.
+  // Without a step to the minimum, the leading levels are still met.
   diagonal_.Correct(leading_, change.data(), false, nearest.data());
   EXPECT_LE((Q * (nearest - y_)).norm(), 10 * Tolerance());
 }
 
 TEST_P(RandomDiagonalLevelsTest, CorrectsByTheMinimumNorm) {
-  // The step depends on weights and levels, not on targets: so with other
-  // targets, at its own optimum for targets 0, the step is the optimum.
+  // The step depends on weights and levels, but not on targets. So the step is
+  // the optimum of the levels with all targets zero.
   const Eigen::MatrixXd Q = Basis();
   const Eigen::VectorXd change =
       Eigen::VectorXd::LinSpaced(leading_.rank(), 1, 2);
@@ -206,7 +207,7 @@ TEST_P(RandomDiagonalLevelsTest, CorrectsByTheMinimumNorm) {
             10 * Tolerance());
 }
 
-TEST_P(RandomDiagonalLevelsTest, TieFindsTheNullitiesAlone) {
+TEST_P(RandomDiagonalLevelsTest, TieSufficesForTheNullities) {
   DiagonalLevels diagonal(n_, kMaxDiagonalLevels);
   for (size_t l = 0; l + 1 < selections_.size(); ++l) {
     diagonal.AddLevel();
@@ -220,14 +221,14 @@ TEST_P(RandomDiagonalLevelsTest, TieFindsTheNullitiesAlone) {
   }
 }
 
-// Rows that span the same, neither orthogonal nor of unit length.
+// The rows span the same space, but are neither orthogonal nor of unit length.
 TEST_P(RandomDiagonalLevelsTest, TieRowsFindsTheSameNullities) {
   const int rank = leading_.rank();
   Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(rank, rank);
   for (int i = 0; i < rank; ++i) {
     for (int k = 0; k < i; ++k) mix(i, k) = 0.1 * ((i + 2 * k) % 5 - 2);
   }
-  // Stored by rows, three numbers between one and the next.
+  // Stored by rows, with three other numbers between two rows.
   const int stride = n_ + 3;
   Eigen::MatrixXd rows = Eigen::MatrixXd::Constant(stride, rank, 100);
   rows.topRows(n_) = (mix * Basis()).transpose();

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-// One binary, both instruction sets: the loader picks. A sanitizer is not ready
-// yet when it does.
+// The binary has one version with fused multiply-add and one without, and the
+// loader selects one. Not with sanitizers, which are not yet initialised at
+// that time.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__FMA__)
@@ -17,7 +18,7 @@
 namespace poise::kernels {
 namespace {
 
-// Four doubles, anywhere in memory.
+// Four doubles, aligned as single doubles.
 typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 
 #define POISE_LOAD(pointer) (*reinterpret_cast<const Four*>(pointer))

@@ -1,8 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-/// The inner loops of the fast solver, on rows that lie `stride` apart. Four
-/// rows at a time, in vectors of four; chosen at load time for the processor.
+/// The inner loops of the fast solver, on rows that lie `stride` apart. Most
+/// loops process four rows at a time, in vectors of four. The loader selects
+/// the version for the processor.
 namespace poise::kernels {
 
 /// out_i = row_i . x, for i < count.
@@ -34,7 +35,7 @@ void Rotate(double c, double s, int n, double* x, double* y);
 /// sum_i |x_i|: NaN or infinite if an entry is.
 double AbsoluteSum(const double* x, int n);
 
-/// max_i |x_i|; 0 if n is.
+/// max_i |x_i|, or 0 if n = 0.
 double Largest(const double* x, int n);
 
 }  // namespace poise::kernels

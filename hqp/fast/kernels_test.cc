@@ -11,7 +11,8 @@
 namespace poise {
 namespace {
 
-// Eighths of few digits: every sum is exact, in any order.
+// Returns multiples of 1/8 with few digits, so that every sum is exact in any
+// order.
 std::vector<double> Eighths(int count, int seed) {
   std::vector<double> numbers(count);
   for (int i = 0; i < count; ++i) {
@@ -20,8 +21,8 @@ std::vector<double> Eighths(int count, int seed) {
   return numbers;
 }
 
-// Tests all sizes at which the kernels change between blocks of eight, blocks of
-// four and single entries.
+// Tests all sizes up to kMaxRows and kMaxSize, with every remainder after
+// blocks of four and eight.
 class KernelsTest : public testing::Test {
  protected:
   static constexpr int kMaxRows = 9, kMaxSize = 19, kStride = 21;
@@ -57,7 +58,7 @@ TEST_F(KernelsTest, DotsAreTheSumsOfProducts) {
 }
 
 TEST_F(KernelsTest, SquaredNormIsTheSumOfOddNumbers) {
-  // For whole numbers k^2 = 1 + 3 + ... + (2k - 1), for either sign.
+  // For whole numbers, k^2 = 1 + 3 + ... + (2k - 1), whatever the sign.
   for (int n = 0; n <= kMaxSize; ++n) {
     std::vector<double> x(kMaxSize + 1, kUntouched);
     double sum = 0;

@@ -12,12 +12,12 @@ namespace poise {
 /// among the optima of the levels before it.
 ///
 /// Gram-Schmidt orthogonalises the rows, R = L Q with Q orthonormal, and
-/// repeats a projection where needed. Within a level it takes the largest
-/// weighted remainder first. A row with a remainder below kRankTolerance
+/// repeats a projection where needed. Within a level, the row with the largest
+/// weighted remainder is first. A row with a remainder below kRankTolerance
 /// depends on the rows before it. Independent rows are met whatever their
-/// metric. In a deficient level, one with dependent rows, reflections among its
-/// rows leave as many "effective" rows as its rank. So L, of all effective
-/// rows, is lower triangular, and y = Q' z.
+/// metric. A level with dependent rows is deficient: reflections among its rows
+/// leave as many "effective" rows as its rank. So L, of all effective rows, is
+/// lower triangular, and y = Q' z.
 ///
 /// Levels can be removed from the end and added again. Levels before the first
 /// deficient one are all met, so their order does not matter: they can be
@@ -64,7 +64,7 @@ class LexicographicFactorization {
   int end_row(int level) const { return levels_[level].end_row; }
 
   /// Returns whether a row of the level depends on others, or on levels above.
-  /// Only then the level can have a residual.
+  /// Only such a level can have a residual.
   bool is_deficient(int level) const;
 
   /// Returns whether the part of each row that is independent of the rows

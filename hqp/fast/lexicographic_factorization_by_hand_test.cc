@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
-// y1 = 1 twice and y1 = 3 once, in one level; then y1 = 5, y2 = 7.
+// Level 0: y0 = 1 with weight 1, and y0 = 3 with weight 3. Level 1: y0 = 5 with
+// weight 2, and y1 = 7 with weight 4.
 class LexicographicFactorizationTest : public testing::Test {
  protected:
   LexicographicFactorizationTest() {
@@ -59,8 +60,9 @@ TEST_F(LexicographicFactorizationTest, MeetsIndependentRowsOfAnyMetric) {
   EXPECT_LE((level.A * Optimum(stack, 2) - level.b).norm(), Rounding(2, 2, 4));
 }
 
-// Two rows at an angle `rest`, in one level or in two, with targets 1 and 2. An
-// angle of rounding does not become y2 = 1 / rest; at any other both are met.
+// Two rows at an angle `rest`, on one level or on two, with targets 1 and 2. If
+// the angle is rounding, the rows are dependent, and y2 does not become 1 /
+// rest. At any larger angle both rows are met.
 TEST_F(LexicographicFactorizationTest, TreatsRoundingRemainderOfARowAsZero) {
   for (const int num_levels : {1, 2}) {
     const auto solve = [&](double rest) {
@@ -88,7 +90,8 @@ TEST_F(LexicographicFactorizationTest, TreatsRoundingRemainderOfARowAsZero) {
   }
 }
 
-// The remainder of such rows after one projection is far from orthogonal.
+// After one projection, the remainders of nearly parallel rows are far from
+// orthogonal.
 TEST_F(LexicographicFactorizationTest, OrthogonalisesNearlyParallelRows) {
   constexpr int kSize = 6;
   for (const double angle : {0.5, 1e-2, 1e-5, 1e-8}) {
@@ -112,10 +115,11 @@ TEST_F(LexicographicFactorizationTest, OrthogonalisesNearlyParallelRows) {
   }
 }
 
-// An appended row is met like a factored one. A row that nearly depends on
-// others, or has no room, is refused, so that no update loses its digits, and
-// the factorisation is as before.
-TEST_F(LexicographicFactorizationTest, RefusesToAppendANearlyDependentRow) {
+// An appended row is met like a factored one. AppendRow() rejects a row that
+// nearly depends on others, or for which no dimension is left, so that no
+// update loses digits. The factorisation is then unchanged.
+TEST_F(LexicographicFactorizationTest,
+       RejectsAnAppendedRowThatIsNearlyDependent) {
   for (const double rest : {0., 1e-12, 1e-9, 1e-6, 3e-6, 1e-2, 0.1, 1.}) {
     SCOPED_TRACE(rest);
     LexicographicFactorization stack(2, 3, 1);
@@ -142,8 +146,9 @@ TEST_F(LexicographicFactorizationTest, RefusesToAppendANearlyDependentRow) {
 }
 
 // In a well-conditioned factorisation each row counts for one in the nullity.
-// The last row is alone in its level or with the one that it depends on.
-TEST_F(LexicographicFactorizationTest, ReportsNearlyDependentRows) {
+// The last row is alone on its level, or on the same level as the row that it
+// depends on.
+TEST_F(LexicographicFactorizationTest, DetectsNearlyDependentRows) {
   EXPECT_FALSE(stack_.is_well_conditioned());  // Two rows are the same.
   for (const int num_levels : {1, 2}) {
     for (const double rest : {1e-9, 3e-6, 1e-2, 1.}) {
@@ -160,9 +165,9 @@ TEST_F(LexicographicFactorizationTest, ReportsNearlyDependentRows) {
   }
 }
 
-// y0 = 1 below y0 = 1 + off: the residual is off, to rounding of |y| +
-// |target|, which is 2; or 11, where another entry is large. Rounding becomes
-// zero.
+// Level 0: y0 = 1 and y1 = `other`. Level 1: y0 = 1 + off. The residual is
+// -off, to rounding of |y| + |target|, which is 2, or about 10 if `other` is 9.
+// A residual that is rounding becomes zero.
 TEST_F(LexicographicFactorizationTest, TreatsRoundingResidualAsZero) {
   for (const double other : {0.0, 9.0}) {
     const double size = std::hypot(1, other) + 1;
@@ -182,7 +187,8 @@ TEST_F(LexicographicFactorizationTest, TreatsRoundingResidualAsZero) {
   }
 }
 
-// Each appended row depends on those before but for some thousandths.
+// Only some thousandths of each appended row are independent of the rows before
+// it.
 TEST_F(LexicographicFactorizationTest, OrthogonalisesAppendedRows) {
   constexpr int kSize = 6;
   const Eigen::VectorXd mean = Eigen::VectorXd::LinSpaced(kSize, 1, 2.7);
@@ -233,7 +239,7 @@ TEST_F(LexicographicFactorizationTest, MergesLevelsIntoTheLast) {
   EXPECT_EQ(stack.rank(), 0);
 }
 
-// Many more variables than rows, and as many.
+// One row of 40 variables, and 40 rows of 40 variables.
 TEST_F(LexicographicFactorizationTest, HasRoomForManyVariables) {
   constexpr int kSize = 40;
   for (const int rows : {1, kSize}) {
@@ -261,8 +267,8 @@ TEST_F(LexicographicFactorizationTest, HasRoomForManyRows) {
   EXPECT_NEAR(Optimum(stack, 1)[0], kRows / 2, Rounding(kRows, kRows));
 }
 
-// Two terms of 4 that cancel but for 4 part, relative to the larger one.
-// Rounding gives no gradient.
+// Two terms of the gradient are 4 and -4 (1 + part). The gradient is relative
+// to the larger one. A gradient that is rounding becomes zero.
 TEST_F(LexicographicFactorizationTest, TreatsRoundingGradientAsZero) {
   for (const double part : {0., kEps, 100 * kEps, 1e-10, 1e-6, 1e-2}) {
     SCOPED_TRACE(part);
@@ -293,15 +299,15 @@ TEST_F(LexicographicFactorizationTest, ComputesTheGradientFromGivenResiduals) {
   const double residual[2] = {10, 7};
   stack_.SetResiduals(1, residual, 1);
   EXPECT_NEAR(stack_.residual(2), 10, Rounding(10, 1));
-  EXPECT_EQ(stack_.residual(3), 0);  // A row that is met.
+  EXPECT_EQ(stack_.residual(3), 0);  // This row is met.
   double gradient[1];
   EXPECT_NEAR(stack_.Gradient(1, gradient), 20, Rounding(20, 2));
   EXPECT_NEAR(gradient[0] * stack_.basis()[0], 20, Rounding(20, 2));
 }
 
-// y = 0 and, with 1e-12 of the weight, y = 1: at the optimum the residual of
-// the first row is 1e-12 of the second's, to the last digit, though y has
-// fewer.
+// The rows y = 0, and y = 1 with 1e-12 of the weight. At the optimum the
+// residual of the first row is 1e-12 of that of the second row. It is exact to
+// the last digit, even if y is not.
 TEST_F(LexicographicFactorizationTest,
        FindsTheResidualOfALargeWeightRowToAllDigits) {
   LexicographicFactorization stack(1, 2, 1);
@@ -319,9 +325,9 @@ TEST_F(LexicographicFactorizationTest,
   }
 }
 
-// Two rows of y0 = 0 and two of y1 = 0. A residual of y0's rows that no y
-// removes is kept; rounding of its own terms, here 5, or beside the residual of
-// y1's, is set to zero.
+// Two rows y0 = 0 and two rows y1 = 0. A residual of the rows of y0 that no y
+// can remove is kept. It becomes zero if it is rounding of its own terms, here
+// 5, or of the residual of the rows of y1.
 TEST_F(LexicographicFactorizationTest, KeepsUnattainableResiduals) {
   for (const double part : {0., kEps, 100 * kEps, 1e-10, 1e-6, 1e-2}) {
     SCOPED_TRACE(part);
@@ -347,8 +353,8 @@ TEST_F(LexicographicFactorizationTest, KeepsUnattainableResiduals) {
   }
 }
 
-// Small numbers, after a level of large ones was removed.
-TEST_F(LexicographicFactorizationTest, JudgesAResidualByItsOwnLevel) {
+// A level of small numbers, after a level of large numbers was removed.
+TEST_F(LexicographicFactorizationTest, ComparesAResidualWithItsOwnLevelOnly) {
   LexicographicFactorization stack(1, 3, 1);
   for (const double scale : {1.0, 1e-15}) {
     stack.Truncate(0);
@@ -361,10 +367,10 @@ TEST_F(LexicographicFactorizationTest, JudgesAResidualByItsOwnLevel) {
   }
 }
 
-// Rows of a y that a level above has fixed, of weights 1 and 1e12. A residual
-// of the small-weight row is rounding beside a gradient of 1e12 of the other's,
-// and the large-weight row's is rounding of the reflections beside a residual
-// of 1.
+// Two rows with weights 1 and 1e12, of a y that the level above has fixed. If
+// the large-weight row has a gradient of 1e12, a small residual of the other
+// row is rounding. If the small-weight row has a residual of 1, a tiny residual
+// of the other row is rounding of the reflections.
 TEST_F(LexicographicFactorizationTest, TreatsRoundingOfALargeWeightRowAsZero) {
   for (const int large : {0, 1}) {
     LexicographicFactorization stack(1, 3, 2);
@@ -381,7 +387,8 @@ TEST_F(LexicographicFactorizationTest, TreatsRoundingOfALargeWeightRowAsZero) {
       stack.SetResiduals(1, residual, 0);
       EXPECT_EQ(stack.residual(1 + large), 1);
       EXPECT_EQ(stack.residual(2 - large), small <= 1e-2 ? 0 : small);
-      // By length, metric times residual, eps is 2e-16 of the other's 1.
+      // Metric times residual of the large-weight row is now small * 1e-14, and
+      // that of the other row is 1. Below eps = 2e-16, this is rounding.
       residual[large] = small * 1e-20;
       residual[1 - large] = 1;
       stack.SetResiduals(1, residual, 0);

@@ -14,7 +14,7 @@ namespace poise {
 namespace {
 
 constexpr int kSeeds = 300;
-constexpr int kMaxRows = 24, kMaxLevels = 4;  // In MakeRandomLevels().
+constexpr int kMaxRows = 24, kMaxLevels = 4;  // As MakeRandomLevels().
 
 class RandomLexicographicFactorizationTest
     : public testing::TestWithParam<int> {
@@ -22,7 +22,8 @@ class RandomLexicographicFactorizationTest
   void SetUp() override {
     for (const LeastSquares& level : levels_) AddLevel(level, &stack_);
   }
-  // Rounding of numbers up to 10 times the condition of a level, twice.
+  // Rounding of numbers up to 10, multiplied by the squared condition of a
+  // level.
   double Tolerance() const {
     return Rounding(10, kMaxRows, optimum_.condition * optimum_.condition);
   }
@@ -140,7 +141,7 @@ TEST_P(RandomLexicographicFactorizationTest, RestoresLevelsAfterTruncation) {
     ASSERT_EQ(stack_.num_levels(), from);
     EXPECT_EQ(stack_.rank(), from == 0 ? 0 : optimum_.rank[from - 1]);
     EXPECT_EQ(stack_.num_rows(), from == 0 ? 0 : stack_.end_row(from - 1));
-    stack_.Truncate(from + 1);  // Drops nothing.
+    stack_.Truncate(from + 1);  // Removes no level.
     ASSERT_EQ(stack_.num_levels(), from);
     for (int l = from; l < num_levels_; ++l) AddLevel(levels_[l], &stack_);
     EXPECT_EQ(Optimum(stack_, n_), y) << from;
@@ -196,12 +197,14 @@ class UpdatedLexicographicFactorizationTest
     merged.A.row(end) = row;
     merged.b[end] = target;
   }
-  // Adds the other levels, compares the optimum with that of singular values,
-  // and removes these levels again.
+  // Adds the other levels, compares the optimum with the one by singular
+  // values, and removes these levels again.
   void Check();
-  // The multipliers of the merged level reproduce a force on its rows.
+  // Expects that the multipliers of the merged level reproduce a force on its
+  // rows.
   void CheckDual(const Eigen::MatrixXd& Q, double tolerance);
-  // A correction changes each row by the residual with the row's number.
+  // Expects that a correction changes each row by the residual with the number
+  // of the row.
   void CheckCorrection(const Eigen::MatrixXd& Q, double tolerance);
 
   int met_ = 0;  // Levels before the first deficient one.

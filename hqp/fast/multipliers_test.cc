@@ -1,5 +1,5 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// What the fast solver says of its answer, by hand and against the cascade.
+// Tests the multipliers, active sides and nullities of the fast solver, by hand
+// and against the cascade.
 #include "poise/hqp/fast/multipliers.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 namespace poise {
 namespace {
 
-constexpr double kTolerance = 1e-13;  // Some operations on numbers near 10.
-constexpr double kCertified = 1e-10;  // A tenth of what the solver promises.
+constexpr double kTolerance = 1e-13;  // A few operations on numbers near 10.
+constexpr double kCertified = 1e-10;  // A tenth of the solver's limit.
 
 Solution Solve(const Hierarchy& hierarchy,
                const std::vector<LevelCapacity>& capacity) {
@@ -27,7 +27,7 @@ Solution Solve(const Hierarchy& hierarchy,
   return solution;
 }
 
-// Returns the drawn case in a hierarchy with a larger capacity.
+// Returns the same hierarchy with a larger capacity.
 HierarchyCase WithRoom(const HierarchyCase& drawn) {
   const Hierarchy& from = drawn.hierarchy;
   std::vector<LevelCapacity> capacity = drawn.capacity;
@@ -51,9 +51,10 @@ HierarchyCase WithRoom(const HierarchyCase& drawn) {
   return result;
 }
 
-// With levels that only select variables, and without; so many that multipliers
-// of the wrong sign, which there are of few, are made right a hundred times.
-TEST(MultiplierWriter, IsCertifiedWithTheCascadesNullity) {
+// Hierarchies with and without diagonal levels. Few of them have multipliers of
+// the wrong sign, so many hierarchies are needed to correct about a hundred of
+// these.
+TEST(MultiplierWriter, IsCertifiedAndHasTheNullityOfTheCascade) {
   for (int seed = 0; seed < 1200; ++seed) {
     SCOPED_TRACE(seed);
     RandomHierarchyOptions options;
@@ -102,9 +103,9 @@ TEST(MultiplierWriter, AllowsARowOfSizeZero) {
   EXPECT_EQ(solution.levels[0].nullity, 2);
 }
 
-// However short a row is, it counts for one: y0 = 1 and y1 <= 1, above y1 = 3,
-// above y0 = 2 and y2 = 4.
-TEST(MultiplierWriter, CountsSmallRowsLikeLargeOnes) {
+// A row counts in the nullity, whatever its norm. Level 0: y0 = 1 and y1 <= 1.
+// Level 1: y1 = 3. Level 2: y0 = 2 and y2 = 4.
+TEST(MultiplierWriter, CountsSmallNormRowsInTheNullity) {
   const double length = std::ldexp(1, -43);  // 1e-13.
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}, {2, 0}};
   Hierarchy hierarchy(3, capacity);
@@ -131,8 +132,9 @@ TEST(MultiplierWriter, CountsSmallRowsLikeLargeOnes) {
               kTolerance);
 }
 
-// y = 0 above y = -1, of levels that only select: what is left is 1, exactly;
-// on the row that fixes y, not on one without weight.
+// Diagonal levels: y = 0 on level 0, and 2 y = -0.5 on level 1. The gradient of
+// level 1 is exactly 1. The multiplier of the row that fixes y cancels this
+// gradient. Rows of weight zero have no multiplier.
 TEST(MultiplierWriter, CancelsTheGradientOfADiagonalLevel) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {2, 0}, {2, 0}};
   Hierarchy hierarchy(1, capacity);
@@ -150,9 +152,10 @@ TEST(MultiplierWriter, CancelsTheGradientOfADiagonalLevel) {
   }
 }
 
-// y = 1 and y = 3 as rows of one bound twice: y = 2 is above one, below the
-// other. What is met counts as at the upper one.
-TEST(MultiplierWriter, FindsTheViolatedOneOfTwoEqualBounds) {
+// Two rows with lower = upper, y = 1 and y = 3. The optimum y = 2 is above the
+// first bound and below the second. A row that is met is active at its upper
+// bound.
+TEST(MultiplierWriter, FindsTheViolatedSideOfEqualBounds) {
   const std::vector<LevelCapacity> capacity{{0, 2}};
   Hierarchy hierarchy(1, capacity);
   InequalityBlock rows = hierarchy.AddInequalities(0, 2);
@@ -170,8 +173,9 @@ TEST(MultiplierWriter, FindsTheViolatedOneOfTwoEqualBounds) {
   EXPECT_EQ(met.levels[0].active[1], Side::kUpper);
 }
 
-// 3 y0 + 4 y1 <= 50 and >= 50 + conflict: y = (10, 5), between the two. A
-// violated row counts in the nullity, a row within rounding does not.
+// The rows 3 y0 + 4 y1 <= 50 and >= 50 + conflict. The optimum is near y = (10,
+// 5), between the two bounds. A violated row counts in the nullity. A row that
+// is violated by rounding only does not.
 TEST(MultiplierWriter, CountsViolatedRowsInTheNullity) {
   for (const double conflict : {1e-15, 1e-12, 1e-9, 1e-5, 1e-2, 1.}) {
     SCOPED_TRACE(conflict);
@@ -192,9 +196,10 @@ TEST(MultiplierWriter, CountsViolatedRowsInTheNullity) {
   }
 }
 
-// y0 = 1, y0 <= 1 - 2e-9 and y1 = 0, above y0 + y1 = 0. The bound is at its
-// bound within kAtBound, where its multiplier must not be negative. So the
-// equalities of its level take the whole multiplier, in any unit.
+// Level 0: y0 = 1, y0 <= 1 - 2e-9 and y1 = 0. Level 1: y0 + y1 = 0. The
+// inequality is at its bound within kAtBound, so its multiplier must not be
+// negative. So the equalities of level 0 have the whole multiplier, in any
+// unit.
 TEST(MultiplierWriter, MovesTheMultiplierOffARowAtItsBound) {
   for (const double unit : {1., 1e-3}) {
     SCOPED_TRACE(unit);
@@ -220,8 +225,9 @@ TEST(MultiplierWriter, MovesTheMultiplierOffARowAtItsBound) {
   }
 }
 
-// y = 1 and y <= -1 have their optimum at y = 0. Both are equalities there, and
-// share the multiplier of y = -5 below, of either sign.
+// Level 0: y = 1 and y <= -1, with the optimum y = 0. Level 1: y = -5. Both
+// rows of level 0 are equalities for level 1, and share its multiplier, which
+// may have either sign.
 TEST(MultiplierWriter, KeepsTheMultiplierOfAViolatedRow) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
@@ -240,8 +246,8 @@ TEST(MultiplierWriter, KeepsTheMultiplierOfAViolatedRow) {
   EXPECT_NEAR(multipliers.inequality[0], -2.5, kTolerance);
 }
 
-// y0 + y1 = 0 above y_i = 1, y_j = 5 and an empty level. The gradient that the
-// third level has on the other variable is zero again for the fourth.
+// Level 0: y0 + y1 = 0. Level 1: y_j = 1. Level 2: y_(1-j) = 5. Level 3 is
+// empty. The gradient of level 2 must not remain for level 3.
 TEST(MultiplierWriter, ClearsTheGradientOfDiagonalLevels) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}, {1, 0}, {1, 0}};
   Solver solver(2, capacity);
@@ -266,10 +272,10 @@ TEST(MultiplierWriter, ClearsTheGradientOfDiagonalLevels) {
   }
 }
 
-// y0 is between rows of 8e6 that contradict each other and almost depend on
-// each other, so that what some rows weigh is rounding. A multiple of an
-// equation that is divided by that, of 1e31, would make any y pass for an
-// optimum.
+// y0 is in rows with coefficients of up to 8e6 that conflict and nearly depend
+// on each other. So the coefficients of some rows in a stationarity equation
+// are rounding. Division by such a coefficient would add 1e31 times the
+// equation, and any y would be certified.
 TEST(MultiplierWriter, DoesNotDivideByRounding) {
   const std::vector<LevelCapacity> capacity{{2, 2}, {0, 1}, {1, 0}};
   Hierarchy hierarchy(4, capacity);
@@ -294,8 +300,8 @@ TEST(MultiplierWriter, DoesNotDivideByRounding) {
   }
 }
 
-// y0 + y1 = 4 and 2 (y1 + y2) <= 6, above 2 y0 = -2 and, of weight 3, 4 y2 = 8,
-// above 5 y1 = 10.
+// Level 0: y0 + y1 = 4 and 2 (y1 + y2) <= 6. Level 1: 2 y0 = -2, and 4 y2 = 8
+// with weight 3. Level 2: 5 y1 = 10.
 class MultiplierWriterByHandTest : public testing::Test {
  protected:
   MultiplierWriterByHandTest() {
@@ -318,8 +324,8 @@ class MultiplierWriterByHandTest : public testing::Test {
   Hierarchy hierarchy_{3, capacity_};
 };
 
-// At its bound y = (t, 4 - t, t - 1): (2 t + 2)^2 + 3 (4 t - 12)^2 is least at
-// t = 35 / 13.
+// With the bound active, y = (t, 4 - t, t - 1). (2 t + 2)^2 + 3 (4 t - 12)^2 is
+// least at t = 35 / 13.
 TEST_F(MultiplierWriterByHandTest, GivesTheMultipliersOfEachLevel) {
   const Solution solution = Solve(hierarchy_, capacity_);
   EXPECT_LE((solution.y - Eigen::Vector3d(35, 17, 22) / 13).norm(), kTolerance);

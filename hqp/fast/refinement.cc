@@ -12,7 +12,8 @@
 namespace poise {
 namespace {
 
-// Each pass recovers about 15 digits. So numbers of 1e-6 are exact beside 1e90.
+// Each pass recovers about 15 digits. So entries of y of 1e-6 are exact even if
+// other entries are 1e90.
 constexpr int kMaxPasses = 8;
 
 }  // namespace
@@ -44,15 +45,17 @@ double WorkingSetProblem::ComputeRowResiduals(const Hierarchy& hierarchy) {
   return worst;
 }
 
-// Returns this ratio for one row, from the residuals computed last.
+// Returns the ratio for one row, from the last ComputeRowResiduals(). The ratio
+// is zero for rows that need not be met.
 double WorkingSetProblem::RelativeResidual(int a) const {
   return leading_.residual(a) == 0 && size_[a] > 0
              ? std::abs(row_residual_[a]) / size_[a]
              : 0;
 }
 
-// Returns the largest ratio by level. The weights of the rows in the gradient
-// of the level multiply the residuals and the magnitudes of their terms.
+// Returns the largest ratio of the levels. For each level, the residuals and
+// the magnitudes of their terms are multiplied by the weights of the rows in
+// the gradient.
 double WorkingSetProblem::WorstRelativeLevelResidual() const {
   double worst = 0;
   for (int level = 0; level < num_leading_; ++level) {
@@ -110,9 +113,9 @@ void WorkingSetProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   }
   largest = std::max(largest, Size());
   if (ComputeRowResiduals(hierarchy) > tolerances::kRefined) {
-    // Rows that are still not met have rounding where y should be zero. An
-    // entry is kept if a diagonal level has it as target. All are kept if
-    // setting them to zero doubles the residual of a level.
+    // Rows that are still not met have rounding where y should be zero. Such
+    // entries are set to zero, except those at the target of a diagonal level.
+    // All are restored if this more than doubles the residual of a level.
     const double missed = WorstRelativeLevelResidual();
     change_ = y_;
     for (int j = 0; j < n_; ++j) {

@@ -3,13 +3,14 @@
 
 #include "poise/math/rank.h"
 
-/// Every threshold of the fast solver. All but the weights are relative to the
-/// magnitudes that a number is a sum of, so that units do not matter. With
-/// eps = 2e-16, a sum of a hundred terms is rounded by up to 2e-14.
+/// Every threshold of the fast solver. All but those for weights are relative
+/// to the magnitudes of the terms of a number, so that units do not matter.
+/// With eps = 2e-16, a sum of a hundred terms is rounded by up to 2e-14.
 ///
-/// With each value ten times larger and ten times smaller, the failures of
-/// //tests:hqp_night were counted. Hierarchies without weights or units have no
-/// failure with any of these values. The counts below are of other hierarchies.
+/// Each value was tested ten times larger and ten times smaller, by the number
+/// of failures of //tests:hqp_night. Hierarchies without weights or units have
+/// no failure with any of these values. The counts below are of other
+/// hierarchies.
 namespace poise::tolerances {
 
 /// Search: a slope or a violation below this is zero. It equals kRankTolerance,
@@ -35,8 +36,8 @@ constexpr double kZeroMultiplier = 1e-13;
 /// factors.
 constexpr double kZeroRow = 1e-300;
 
-/// Input: a bound beyond this is infinite. At a larger y the other rows, of
-/// terms near 1, would lose all 15 digits to rounding. Ten times larger or
+/// Input: a bound beyond this is infinite. At such a large y, the other rows,
+/// with terms near 1, would lose all 15 digits to rounding. Ten times larger or
 /// smaller, no count changes.
 constexpr double kInfiniteBound = 1e15;
 
@@ -67,9 +68,10 @@ constexpr double kZeroResidual = 1e-12;
 /// times larger or smaller, no count changes.
 constexpr double kReflectionRounding = 1e-14;
 
-/// Diagonal levels: an entry of a row of unit length below this is rounding: a
-/// few eps, as the reflections of these rows have few terms. Ten times smaller,
-/// 8 instead of 3 of 5000 hierarchies with weights from 1e-6 to 1e6 fail.
+/// Diagonal levels: an entry of a row of unit length below this is rounding.
+/// The value is a few eps, because the reflections of these rows have few
+/// terms. Ten times smaller, 8 instead of 3 of 5000 hierarchies with weights
+/// from 1e-6 to 1e6 fail.
 constexpr double kZeroEntry = 1e-15;
 
 /// Diagonal levels: a gradient below this is zero. Five times the rounding of a
@@ -97,9 +99,9 @@ constexpr double kUnevenWeights = 1e6;
 /// or smaller, no count changes.
 constexpr double kNegligibleEntry = 1e-18;
 
-/// Refinement: the same limit for the entries of one row that y violates. Fifty
-/// eps, as setting them to zero is tried row by row and undone if a residual
-/// grows. Ten times larger or smaller, no count changes.
+/// Refinement: the same limit for the entries of one row that y violates. The
+/// value is fifty eps: entries are set to zero row by row, and restored if a
+/// residual grows. Ten times larger or smaller, no count changes.
 constexpr double kNegligibleEntryOfRow = 1e-14;
 
 }  // namespace poise::tolerances

@@ -10,10 +10,10 @@
 
 namespace poise {
 
-/// A hierarchy whose working set is taken as equalities of their own levels.
-/// The leading levels are solved by one LexicographicFactorization, the last
-/// levels whose rows have one variable by DiagonalLevels. The norm of y is one
-/// more level below the last.
+/// Solves a hierarchy whose working set is taken as equalities of their own
+/// levels. The leading levels are solved by one LexicographicFactorization, the
+/// last levels whose rows have one variable by DiagonalLevels. The norm of y is
+/// one more level below the last.
 class WorkingSetProblem {
  public:
   WorkingSetProblem(int num_variables,

@@ -16,8 +16,8 @@ namespace {
 // Refinement of a row ends at this part of its terms.
 using tolerances::kRefined;
 
-// Two levels, each of 2 y0 - y1 = 3 and y1 = 4, weight 0, above 1 <= 5 y0 + 7
-// y1 and y0 - 3 y1 <= 2.
+// Two equal levels. Each has the rows 2 y0 - y1 = 3, y1 = 4 with weight 0, 1 <=
+// 5 y0 + 7 y1, and y0 - 3 y1 <= 2.
 class WorkingSetProblemReadTest : public testing::Test {
  protected:
   WorkingSetProblemReadTest() {
@@ -88,9 +88,9 @@ TEST_F(WorkingSetProblemReadTest, FindsTheFirstLevelWithABadNumber) {
   ExpectStatus(b_[1] + 1, 0, Status::kBadInput, 0);
 }
 
-// y0 + y1 = 2 as an equality or as an active row. If its squared norm, times
-// the weight, would underflow, it is a row of zeros, and y is as without it.
-// Any longer row is met, however short.
+// The row y0 + y1 = 2, as an equality or as an active row. If its squared norm
+// times the weight nearly underflows, it counts as a row of zeros, and y is as
+// without it. Any longer row is met.
 TEST_F(WorkingSetProblemReadTest, IgnoresRowsWhoseSquareUnderflows) {
   int failed_level;
   const auto solve = [&](double length, double root, bool is_equality) {
@@ -139,8 +139,9 @@ TEST(WorkingSetProblem, FindsDiagonalLevelsOfAnyWeight) {
   }
 }
 
-// y0 <= 1 and y1 >= 2, y2 between 3 and 3, above y0 + y1 = 8, and 3 y2 = 6 and
-// y1 = 0: at (1, 2, 3).
+// Level 0: y0 <= 1, 2 y1 >= 4 and 3 <= y2 <= 3. Level 1: y0 + y1 = 8. Level 2:
+// 3 y2 = 6, and y1 = 0 with weight 5. With all rows of level 0 in the working
+// set, y = (1, 2, 3).
 class WorkingSetProblemTest : public testing::Test {
  protected:
   WorkingSetProblemTest() {
@@ -178,8 +179,8 @@ TEST_F(WorkingSetProblemTest, FindsTheMultipliersOfEachRow) {
       (Eigen::Vector3d::Map(problem_.y().data()) - Eigen::Vector3d(1, 2, 3))
           .norm(),
       rounding);
-  // The gradient of the sum is -5 on y0 and on y1. An upper bound holds y back;
-  // a lower bound does not, and its multiplier is negative.
+  // The gradient of the sum is -5 on y0 and on y1. The upper bound of y0 is
+  // binding. The lower bound of y1 is not, and its multiplier is negative.
   EXPECT_NEAR(problem_.Multiplier(0, 1, Side::kUpper, 0), 5, rounding);
   EXPECT_NEAR(problem_.Multiplier(1, 1, Side::kLower, 0), -5, rounding);
   EXPECT_EQ(problem_.Multiplier(2, 1, Side::kUpper, 1e-12), 0);
@@ -187,7 +188,7 @@ TEST_F(WorkingSetProblemTest, FindsTheMultipliersOfEachRow) {
   EXPECT_EQ(problem_.Multiplier(0, 2, Side::kUpper, 1e-12), 0);
   EXPECT_NEAR(problem_.Multiplier(1, 2, Side::kLower, 0), 10, 5 * rounding);
   EXPECT_NEAR(problem_.Multiplier(2, 2, Side::kUpper, 0), -9, 5 * rounding);
-  // Its own level is met.
+  // Level 0, the level of these rows, is met.
   for (int a = 0; a < 3; ++a) {
     EXPECT_EQ(problem_.Multiplier(a, 0, Side::kUpper, 0), 0);
   }
@@ -199,9 +200,10 @@ TEST_F(WorkingSetProblemTest, FindsTheMultipliersOfEachRow) {
   EXPECT_NEAR(problem_.Multiplier(0, 1, Side::kUpper, share / 2), 5, rounding);
 }
 
-// y = 1/16 and, with four times the weight, y = 1/16 + gap. At the optimum the
-// residuals are 4/5 and -1/5 of the gap, also where y is off by as much.
-// Rounding of the terms, 1/16 + 1/16, becomes zero.
+// The rows y = 1/16, and y = 1/16 + gap with four times the weight. At the
+// optimum the residuals are 4/5 and -1/5 of the gap. They are the same if y is
+// off by as much as the gap. A residual that is rounding of the terms, 1/16 +
+// 1/16, becomes zero.
 TEST(WorkingSetProblem, TreatsRoundingResidualAsZero) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {0, 1}};
   constexpr double kEps = std::numeric_limits<double>::epsilon();
@@ -214,7 +216,7 @@ TEST(WorkingSetProblem, TreatsRoundingResidualAsZero) {
       twice.B << 1, 1;
       twice.b << -1. / 16, -(1. / 16 + gap);
       twice.weight << 1, 4;
-      // Rows of the next level do not count, whatever their norm.
+      // Rows of the next level have no effect, whatever their norm.
       InequalityBlock next = hierarchy.AddInequalities(1, 1);
       next.C << 100;
       next.upper << 50;
@@ -238,9 +240,9 @@ TEST(WorkingSetProblem, TreatsRoundingResidualAsZero) {
   }
 }
 
-// y1 + y2 = 5 below y1 + y2 = 0: the multiplier is the residual 5, times the
-// weight 3 and the squared norm. At a y with the residual 4, refinement
-// subtracts 1 of 5.
+// Level 0: y0 + y1 = 0. Level 1: y0 + y1 = 5 with weight 3. The multiplier is
+// the residual, 5, times the weight and the squared norm. At a y with a
+// residual of 4, refinement replaces the 5 by 4.
 TEST(WorkingSetProblem, RefinesMultipliersByTheRemainingGradient) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
   Hierarchy hierarchy(2, capacity);
@@ -274,8 +276,8 @@ TEST(WorkingSetProblem, HasNoDiagonalLevelWithoutVariables) {
   EXPECT_EQ(problem.num_leading(), 1);
 }
 
-// Rows of two or more variables, which are met, and a last level with targets
-// for some variables.
+// Hierarchies of rows with two or more variables, which can be met, and a last
+// level with targets for some variables.
 class RefinementTest : public testing::Test {
  protected:
   struct Met {
@@ -301,14 +303,14 @@ class RefinementTest : public testing::Test {
         << met.row;
   }
 
-  std::vector<double> residual_;  // By row, as it is in the hierarchy.
+  std::vector<double> residual_;  // By row, not scaled to unit length.
 };
 
 Eigen::VectorXd RefinementTest::Refine(const std::vector<Met>& rows,
                                        const std::vector<Target>& targets,
                                        const std::vector<double>* other) {
   const auto n = static_cast<int>(rows[0].row.size());
-  // With room for more than there is.
+  // The capacity is larger than needed.
   const std::vector<LevelCapacity> capacity{{8, 0}, {8, 0}, {8, 0}, {8, 0}};
   Hierarchy hierarchy(n, capacity);
   for (const Met& met : rows) {
@@ -339,14 +341,15 @@ Eigen::VectorXd RefinementTest::Refine(const std::vector<Met>& rows,
   return Eigen::VectorXd::Map(problem.y().data(), n);
 }
 
-// y0 + y1 = L, and two rows of y1 and y2, which are small. At first, rounding
-// of L is larger than both; each pass recovers 15 digits. Small targets stay.
-TEST_F(RefinementTest, RecoversSmallNumbersBesideLargeOnes) {
+// y0 + y1 = L, and two rows of y1 and y2 with small targets. Before refinement,
+// rounding of L is larger than y1 and y2. Each pass recovers 15 digits. The
+// small target of y3 is kept.
+TEST_F(RefinementTest, RecoversSmallEntriesBesideLargeOnes) {
   for (const double large : {1e10, 1e20, 1e36, 1e90}) {
     std::vector<Met> rows{{Row({1, 1, 0, 0, 0, 0}), large},
                           {Row({0, 1, 1, 0, 0, 0}), 3e-6},
                           {Row({0, 1, -1, 0, 0, 0}), 1e-6}};
-    // Two rows conflict; their residual is not refined away.
+    // Two rows conflict. Refinement keeps their residual.
     const Met torn[] = {{Row({0, 1, 0, 0, 1, 1}), 1, 1},
                         {Row({0, 1, 0, 0, 1, 1}), 3, 1}};
     std::vector<int> order{0, 1, 2};
@@ -363,7 +366,8 @@ TEST_F(RefinementTest, RecoversSmallNumbersBesideLargeOnes) {
   }
 }
 
-// The residual of a row that conflicts with these has six digits at first.
+// The row of level 1 conflicts with level 0. Its residual has only six digits
+// before refinement.
 TEST_F(RefinementTest, RecoversTheResidualOfALevel) {
   Refine({{Row({1, 1, 0}), 1e10},
           {Row({0, 1, 1}), 3e-6},
@@ -373,9 +377,10 @@ TEST_F(RefinementTest, RecoversTheResidualOfALevel) {
   EXPECT_NEAR(residual_[3], 3e-6 - 1, Rounding(1, 3));
 }
 
-// Two rows of y1 and y2 with target zero cannot be met relative to their own
-// terms. The remainders are rounding, and so is every entry far below 1e-18 of
-// the largest one, before or after refinement, unless it is at its target.
+// Two rows of y1 and y2 have the target zero, so all their terms are rounding.
+// Such rows cannot be met relative to their own terms. Entries of y that are
+// rounding are then set to zero: those far below 1e-18 of the largest entry,
+// before or after refinement, unless they are at their target.
 TEST_F(RefinementTest, SetsRoundingEntriesToZero) {
   const auto refine = [this](double large, double desired,
                              const std::vector<double>& other) {
@@ -394,7 +399,7 @@ TEST_F(RefinementTest, SetsRoundingEntriesToZero) {
       for (const double part : {1e-30, 1e-6, 1e-3}) {
         const double nothing = sign * part * unit;
         EXPECT_EQ(refine(1, 0, {large, 0, 0, nothing})[3], 0);
-        // As the first variable.
+        // The same with the first variable.
         const std::vector<double> turned{nothing, 0, 0, large};
         EXPECT_EQ(Refine({{Row({0, 0, 1, 1}), 1},
                           {Row({0, 2, 1, 0}), 0},
@@ -402,7 +407,8 @@ TEST_F(RefinementTest, SetsRoundingEntriesToZero) {
                          {{0, 0}}, &turned)[0],
                   0);
         EXPECT_EQ(refine(large, 0, {1, 0, 0, nothing})[3], 0);
-        // The target is a thousand times as large: the entry is not at it.
+        // The target is a thousand times larger, so the entry is not at its
+        // target.
         EXPECT_EQ(refine(large, 1e3 * nothing, {1, 0, 0, nothing})[3], 0);
       }
       for (const double part : {1e2, 1e6, 1e12}) {
@@ -414,8 +420,8 @@ TEST_F(RefinementTest, SetsRoundingEntriesToZero) {
   }
 }
 
-// Three rows meet at y0 = 0. Rounding of y0 would be all terms of the row y0 =
-// 0, in any order of the rows.
+// Three rows meet at y0 = 0, in any order. Rounding of y0 would violate the row
+// y0 = 0 by 100 % of its terms.
 TEST_F(RefinementTest, SetsRoundingToZeroWhereThreeRowsMeet) {
   std::vector<Met> rows{
       {Row({1, 0}), 0}, {Row({4, 5}), -5}, {Row({-2, 5}), -5}};
@@ -427,7 +433,7 @@ TEST_F(RefinementTest, SetsRoundingToZeroWhereThreeRowsMeet) {
   }
 }
 
-// Conflicting rows have a residual that is right: small entries stay.
+// The residual of conflicting rows is not rounding, so small entries are kept.
 TEST_F(RefinementTest, KeepsSmallEntriesBesideConflictingRows) {
   const std::vector<double> other{1e18, 1e18, 0.7};
   const Eigen::VectorXd y = Refine(
@@ -436,7 +442,8 @@ TEST_F(RefinementTest, KeepsSmallEntriesBesideConflictingRows) {
   EXPECT_EQ(y[2], 0.7);
 }
 
-// Rounding becomes zero, beside a level that needs small numbers.
+// Entries that are rounding become zero. Small entries that another level needs
+// are kept.
 TEST_F(RefinementTest, KeepsSmallEntriesThatALevelNeeds) {
   for (const int needs : {0, 1}) {
     for (const bool first : {false, true}) {
@@ -456,9 +463,10 @@ TEST_F(RefinementTest, KeepsSmallEntriesThatALevelNeeds) {
   }
 }
 
-// The residual of such a level may grow below that of the rows of rounding,
-// relative to its terms. Where all rows are met, small entries stay.
-TEST_F(RefinementTest, JudgesTheResidualOfALevelByItsTerms) {
+// y4 = 0.5 is set to zero: relative to its terms, the residual of level 2
+// remains smaller than that of the rows of rounding. If all rows are met, small
+// entries are kept.
+TEST_F(RefinementTest, ComparesTheResidualOfALevelWithItsTerms) {
   const Met large{Row({1, 1, 0, 0, 0, 0}), 1e18};
   const Eigen::VectorXd y = Refine({large,
                                     {Row({0, 1, 2, 0, 0, 0}), 0, 1},
@@ -468,7 +476,7 @@ TEST_F(RefinementTest, JudgesTheResidualOfALevelByItsTerms) {
                                     {Row({0, 0, 0, 1, 0, -1}), 0, 2}},
                                    {});
   EXPECT_NEAR(y[3], 5, kRefined * 10);
-  EXPECT_EQ(y[4], 0);  // And not 0.5.
+  EXPECT_EQ(y[4], 0);  // Instead of 0.5.
   EXPECT_NEAR(y[5], 5, kRefined * 10);
   const Eigen::VectorXd met = Refine({large,
                                       {Row({1, -1, 0, 0, 0, 0}), 1e17, 1},

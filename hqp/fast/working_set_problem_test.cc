@@ -16,8 +16,8 @@ namespace poise {
 namespace {
 
 constexpr int kSeeds = 150;
-constexpr int kMaxRows = 4 * 8 + 8;  // In Draw(), plus the norm of y.
-constexpr double kLargest = 30;      // Bounds its numbers, and y of such rows.
+constexpr int kMaxRows = 4 * 8 + 8;  // Rows of Draw() and of the norm of y.
+constexpr double kLargest = 30;      // Largest number of Draw(), and of y.
 
 using Sides = std::vector<std::vector<Side>>;
 
@@ -39,7 +39,7 @@ class RandomWorkingSetProblemTest : public testing::TestWithParam<int> {
     ASSERT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
     EXPECT_EQ(failed_level, -1);
   }
-  // Any, as long as it is there; others by another salt.
+  // Returns a working set of finite bounds, another one for each salt.
   Sides MakeSides(int salt) const {
     Sides sides;
     for (int k = 0; k < num_levels_; ++k) {
@@ -59,8 +59,8 @@ class RandomWorkingSetProblemTest : public testing::TestWithParam<int> {
     return side == Side::kUpper ? hierarchy_.upper(k)[i]
                                 : hierarchy_.lower(k)[i];
   }
-  // The first levels with the rows in the working set, and a last level with
-  // the target `center`.
+  // Returns the first levels with the rows in the working set, and a last level
+  // with the target `center`.
   std::vector<LeastSquares> Levels(const Sides& sides, int num_levels,
                                    const Eigen::VectorXd& center) const;
   Eigen::VectorXd Original(const WorkingSetProblem::Row& row) const {
@@ -70,7 +70,8 @@ class RandomWorkingSetProblemTest : public testing::TestWithParam<int> {
   Eigen::VectorXd y() const {
     return Eigen::VectorXd::Map(problem_.y().data(), n_);
   }
-  // From how many levels on each row has one variable at most.
+  // Returns the number of leading levels. In all levels after them, each row
+  // has at most one variable.
   int NumLeading(int num_levels) const {
     int leading = num_levels;
     while (leading > 0 && hierarchy_.num_inequalities(leading - 1) == 0) {
@@ -87,12 +88,14 @@ class RandomWorkingSetProblemTest : public testing::TestWithParam<int> {
   // Compares y and the rows with those of the optimum. The tolerance is
   // rounding times the squared condition of the levels.
   void Check(const Sides& sides, int num_levels, const Eigen::VectorXd& center);
-  // The rows of the leading levels are those of the hierarchy, each one once.
+  // Expects that the rows of the leading levels are those of the hierarchy,
+  // each one once.
   void CheckRows(const Sides& sides, const Eigen::VectorXd& optimum);
-  // The multipliers of each level cancel its gradient. With `own`, they include
-  // those on the rows of the level itself.
+  // Expects that the multipliers of each level cancel its gradient. With `own`,
+  // they include those on the rows of the level itself.
   void CheckMultipliers(bool own);
-  // The size of multipliers is the largest of the gradient's terms and of them.
+  // Expects that the size of the multipliers is the largest of the gradient's
+  // terms and of the multipliers.
   void CheckSize(int level);
 
   const HierarchyCase drawn_ = Draw(GetParam());
@@ -169,7 +172,7 @@ void RandomWorkingSetProblemTest::CheckRows(const Sides& sides,
     EXPECT_NEAR(problem_.leading().residual(a),
                 (original.dot(optimum) - row.bound) / row.norm, tolerance_)
         << row.level << ", " << row.index;
-    for (int b = 0; b < a; ++b) {  // Each is there once.
+    for (int b = 0; b < a; ++b) {  // Each row occurs once.
       const WorkingSetProblem::Row& other = problem_.row(b);
       EXPECT_FALSE(other.level == row.level && other.index == row.index &&
                    other.is_inequality == row.is_inequality);
@@ -278,8 +281,8 @@ TEST_P(RandomWorkingSetProblemTest, StaysCloseToACenter) {
   }
 }
 
-// From a y that is off in every direction, refinement makes the smallest step
-// that meets the rows.
+// From a y that differs from the optimum in every direction, refinement makes
+// the smallest step that meets the rows.
 TEST_P(RandomWorkingSetProblemTest, RefinesAnotherYToMeetTheRows) {
   const Sides sides = MakeSides(2);
   const int num_leading = NumLeading(num_levels_);

@@ -10,12 +10,13 @@ namespace poise {
 namespace {
 
 constexpr double kLarge = 4;       // The largest entry of y.
-constexpr double kSmall = 1e-15;   // Far below that.
+constexpr double kSmall = 1e-15;   // Within the rounding of kLarge.
 constexpr double kTarget = 3e-15;  // Target of the last level for y3.
 
 using Vector = std::vector<double>;
 
-// A row of y1 and y2 with a target, above y0 + y4 = 4, above the target for y3.
+// Level 0: a row of y1 and y2 with a target. Level 1: y0 + y4 = 4. Level 2: a
+// target for y3.
 class ZeroRoundingTest : public testing::Test {
  protected:
   // Returns y after rounding entries of `row` were set to zero.
@@ -46,8 +47,8 @@ class ZeroRoundingTest : public testing::Test {
   bool any_ = false;
 };
 
-// An entry of rounding of the largest one becomes zero if it is in the row. An
-// entry of 1e-11 of it stays.
+// An entry that is rounding of the largest entry becomes zero if the row
+// contains it. An entry of 1e-12 of the largest entry, or more, stays.
 TEST_F(ZeroRoundingTest, ZeroesRoundingOfTheLargestEntry) {
   for (const double sign : {1., -1.}) {
     for (const double part : {1e-30, 1e-20, 1e-16, 1e-15}) {
@@ -95,7 +96,7 @@ TEST_F(ZeroRoundingTest, UsesTheResidualsOfTheCurrentY) {
   problem.Plan(hierarchy, 2);
   problem.Solve(hierarchy, {{}, {}});
   const Vector y = problem.y();
-  problem.SetSolution(hierarchy, {kLarge, 1, 1});  // Meets nothing.
+  problem.SetSolution(hierarchy, {kLarge, 1, 1});  // Meets no row.
   problem.Solve(hierarchy, {{}, {}});
   const Vector row{0, 1, 0};
   EXPECT_FALSE(problem.ZeroRoundingEntries(hierarchy, row.data()));

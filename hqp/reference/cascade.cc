@@ -12,7 +12,7 @@
 namespace poise {
 namespace {
 
-// Largest number of passes. Two were enough for the rows of a robot.
+// Largest number of passes. Two are enough for the rows of a robot.
 constexpr int kPasses = 3;
 
 // Returns the magnitude that rounding of row i of C y is relative to.
@@ -48,8 +48,8 @@ bool IsInside(const Hierarchy& hierarchy, int level, int i, Side side,
 }
 
 // Adds the step to y. Entries of y within rounding of the largest entry of the
-// step become zero. Otherwise rounding would be all terms of a row with such
-// entries only.
+// step become zero. Otherwise all terms of a row with only such entries would
+// be rounding.
 void AddStep(const Eigen::VectorXd& step, Eigen::VectorXd* y) {
   *y += step;
   const double rounding = static_cast<double>(y->size()) *
@@ -151,7 +151,7 @@ void Cascade::SolveFromY(const Hierarchy& hierarchy, Solution* solution) {
     if (solution->failed_level < 0 || level < solution->failed_level) {
       solution->levels[level].cost = solved_to;
     }
-    // Active are the rows of a working set that are still at their bound.
+    // A row of the working set is active if it is still at its bound.
     std::vector<Side>& active = solution->levels[level].active;
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       if (IsInside(hierarchy, level, i, active[i], solution->y)) {

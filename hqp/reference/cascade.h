@@ -66,7 +66,7 @@ class Cascade {
   Eigen::MatrixXd
       Z_;  ///< Orthonormal basis of the nullspace of the levels so far.
   std::vector<std::vector<Side>>
-      violated_;                  ///< At the optimum of the row's level.
+      violated_;  ///< Side violated at the optimum of the row's level.
   std::vector<RowIndex> active_;  ///< Working set of the last QP.
 };
 

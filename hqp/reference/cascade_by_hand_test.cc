@@ -1,5 +1,5 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// The reference at degenerate points, and with numbers within rounding of zero.
+// Tests the reference at degenerate points, and with numbers that are zero to
+// rounding.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -26,10 +26,11 @@ double WorstOf(const HierarchyCase& drawn, const Solution& solution) {
       .worst();
 }
 
-// 3 y0 + 4 y1 <= 50 and >= 50 + conflict, at y = (10, 5), above a target that
-// pulls away: y stays between the two bounds. A violated row is an equality for
-// the levels below, and counts in the nullity; a row within rounding does not.
-TEST_P(CascadeByHandTest, KeepsTheLevelsBelowFromViolatedRows) {
+// Level 0: 3 y0 + 4 y1 <= 50 and >= 50 + conflict, with the optimum near y =
+// (10, 5). Level 1: the target y = 0. y stays between the two bounds. A
+// violated row is an equality for the levels below, and counts in the nullity.
+// A row that is violated by rounding only does not.
+TEST_P(CascadeByHandTest, TreatsViolatedRowsAsEqualitiesOfLowerLevels) {
   for (const double conflict : {1e-15, 1e-12, 1e-9, 1e-7, 1e-5, 1e-2, 1.}) {
     SCOPED_TRACE(conflict);
     const std::vector<LevelCapacity> capacity{{1, 2}, {2, 0}};
@@ -56,9 +57,9 @@ TEST_P(CascadeByHandTest, KeepsTheLevelsBelowFromViolatedRows) {
   }
 }
 
-// y = (1, 2) above 3 y0 = 3 with weight 2, which misses `residual`, and above
-// y0 + 2 y1 within 5, violated by `slack`. The gradient is relative to (36 + 5,
-// 10); each multiplier is right to kNegligible of that.
+// Level 0 fixes y = (1, 2). Level 1: 3 y0 = 3 with weight 2, missed by
+// `residual`, and a bound on y0 + 2 y1, violated by `slack`. The gradient is
+// relative to (36 + 5, 10). Each multiplier is exact to kNegligible of that.
 TEST_P(CascadeByHandTest, FindsTheMultipliersOfSmallResiduals) {
   for (const double part : {1e-16, 1e-14, 1e-10, 1e-6, 1e-2}) {
     for (const Side side : {Side::kLower, Side::kUpper}) {
@@ -75,7 +76,7 @@ TEST_P(CascadeByHandTest, FindsTheMultipliersOfSmallResiduals) {
       missed.B << 3, 0;
       missed.b << -3 + residual;
       missed.weight << 2;
-      // A row that is not violated has no part in the gradient.
+      // A row that is not violated is not in the gradient.
       met.hierarchy.AddInequalities(1, 1).C << 100, 100;
       InequalityBlock row = met.hierarchy.AddInequalities(1, 1);
       row.C << 1, 2;
@@ -93,7 +94,8 @@ TEST_P(CascadeByHandTest, FindsTheMultipliersOfSmallResiduals) {
   }
 }
 
-// y = 1 + off above y <= 0 and y >= 2, which balance at 1.
+// Level 0: y = 1 + off. Level 1: y <= 0 and y >= 2, whose violations are equal
+// at y = 1.
 TEST_P(CascadeByHandTest, FindsTheMultiplierOfOpposedRows) {
   for (const double off : {0., 1e-16, 1e-14, 1e-10, 1e-6, 1e-2}) {
     const std::vector<LevelCapacity> capacity{{1, 0}, {0, 2}};
@@ -106,7 +108,8 @@ TEST_P(CascadeByHandTest, FindsTheMultiplierOfOpposedRows) {
     rows.upper[0] = 0;
     rows.lower[1] = 2;
     const Solution solution = SolveCascade(opposed, GetParam());
-    // To kNegligible of 1 + 1 from each row; rounding of these gives none.
+    // To kNegligible of 1 + 1 from each row. If `off` is rounding of these, the
+    // multiplier is zero.
     EXPECT_NEAR(solution.levels[1].multipliers[0].equality[0],
                 off <= 1e-14 ? 0 : -2 * off, off <= 1e-14 ? 0 : 8e-12)
         << off;
@@ -114,7 +117,8 @@ TEST_P(CascadeByHandTest, FindsTheMultiplierOfOpposedRows) {
   }
 }
 
-// y >= 1 and y <= -1, then <= 5: the second solve violates no row.
+// y >= 1 and y <= -1 in the first solve, y >= 1 and y <= 5 in the second. The
+// second solve violates no row.
 TEST_P(CascadeByHandTest, ForgetsWhichRowsWereViolated) {
   const std::vector<LevelCapacity> capacity{{0, 2}};
   Hierarchy hierarchy(1, capacity);
@@ -130,7 +134,8 @@ TEST_P(CascadeByHandTest, ForgetsWhichRowsWereViolated) {
   }
 }
 
-// y0 = -8 leaves rounding in y1, which the next level must not see.
+// The step to y0 = -8 leaves rounding in y1. It must not be left to the next
+// level, y1 = 0.
 TEST_P(CascadeByHandTest, SetsARoundingEntryToZero) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
   HierarchyCase two{capacity, Hierarchy(2, capacity)};
@@ -145,8 +150,8 @@ TEST_P(CascadeByHandTest, SetsARoundingEntryToZero) {
   EXPECT_LE(WorstOf(two, solution), kTolerance);
 }
 
-// An entry of y that a row determines is exact, however small beside another;
-// only rounding of the largest step is set to zero.
+// An entry of y that a row determines is exact, even if another entry is much
+// larger. Only rounding of the largest entry of the step is set to zero.
 TEST_P(CascadeByHandTest, KeepsASmallEntry) {
   for (const double small : {1e-13, 1e-9, 1e-6, 1e-3, 1.}) {
     HierarchyCase two{{{2, 0}}, Hierarchy(2, {{2, 0}})};
@@ -157,9 +162,10 @@ TEST_P(CascadeByHandTest, KeepsASmallEntry) {
   }
 }
 
-// y0 = -1 below 3 y0 + 2 y1 <= 0 and 2 y0 + y1 >= 0, which leave only zero: (1,
-// 0) + (3, 2) - 2 (2, 1) = 0. The row y1 = 0 has weight 0 and no part in that.
-TEST_P(CascadeByHandTest, GivesARowWithoutWeightNoMultiplier) {
+// Level 0: 3 y0 + 2 y1 <= 0, 2 y0 + y1 >= 0, and y1 = 0 with weight 0. Level 1:
+// y0 = -1. The optimum is y = 0, where the gradients cancel: (1, 0) + (3, 2) -
+// 2 (2, 1) = 0. The row of weight 0 has no multiplier.
+TEST_P(CascadeByHandTest, GivesARowOfWeightZeroNoMultiplier) {
   const std::vector<LevelCapacity> capacity{{1, 2}, {1, 0}};
   HierarchyCase corner{capacity, Hierarchy(2, capacity)};
   EqualityBlock nothing = corner.hierarchy.AddEqualities(0, 1);
@@ -181,8 +187,8 @@ TEST_P(CascadeByHandTest, GivesARowWithoutWeightNoMultiplier) {
   EXPECT_NEAR(multipliers.inequality[1], 2, kTolerance);
 }
 
-// A row with two equal bounds is crossed while it is active. When it is
-// removed, other rows block at once. The second sign is the same with the row
+// y crosses both equal bounds of a row while the row is active. When the row is
+// removed, other rows block at the same y. With the second sign, the row is
 // negated.
 TEST_P(CascadeByHandTest, KeepsARowViolatedAcrossBothBounds) {
   for (const double sign : {1., -1.}) {
@@ -240,8 +246,9 @@ TEST_P(CascadeByHandTest, EndsWhereALevelIsMet) {
   EXPECT_LE(WorstOf(met, solution), kTolerance);
 }
 
-// y0 = 1 above y0 <= -1, y0 >= 3 and y1 >= 2. The first two rows depend on y0 =
-// 1 and are in no QP, but they are violated. The last is met.
+// Level 0: y0 = 1. Level 1: y0 <= -1, y0 >= 3 and y1 >= 2. The first two rows
+// of level 1 depend on level 0 and are in no QP, but they are violated. The
+// last row is met.
 TEST_P(CascadeByHandTest, ReportsTheViolatedSideOfAFixedRow) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {0, 3}, {2, 0}};
   HierarchyCase fixed{capacity, Hierarchy(2, capacity)};
@@ -262,9 +269,9 @@ TEST_P(CascadeByHandTest, ReportsTheViolatedSideOfAFixedRow) {
   EXPECT_EQ(solution.levels[1].active[2], Side::kNone);
 }
 
-// y0 = 0 above 4 y0 + 4 rest y1 <= -4: rounding of the row's projection does
-// not become y1 = -1 / rest, and the row is violated. Every larger rest is
-// used.
+// Level 0: y0 = 0. Level 1: 4 y0 + 4 rest y1 <= -4. If `rest` is rounding, y1
+// does not become -1 / rest, and the row is violated. With any larger `rest`
+// the row is met.
 TEST_P(CascadeByHandTest, TreatsRoundingRemainderOfARowAsZero) {
   const auto solve = [](double rest) {
     const std::vector<LevelCapacity> capacity{{1, 0}, {0, 1}};
@@ -288,8 +295,9 @@ TEST_P(CascadeByHandTest, TreatsRoundingRemainderOfARowAsZero) {
   }
 }
 
-// A row of norm 1e-13 counts as one of norm 4 does; a row of zeros is ignored.
-TEST_P(CascadeByHandTest, TreatsSmallRowsLikeLargeOnes) {
+// A row of norm 1e-13 has the same effect as one of norm 4. A row of zeros is
+// ignored.
+TEST_P(CascadeByHandTest, TreatsSmallNormRowsLikeLargeNormRows) {
   const double length = std::ldexp(1, -43);  // 1e-13.
   const std::vector<LevelCapacity> capacity{{3, 1}, {3, 0}};
   HierarchyCase drawn{capacity, Hierarchy(3, capacity)};
@@ -345,7 +353,8 @@ TEST_P(CascadeByHandTest, SharesAMultiplierBetweenEqualRows) {
   EXPECT_NEAR(multipliers.equality[1], 1, 1e-10);
 }
 
-// The answer is the optimum of minimum norm, without and with an active bound.
+// The cascade returns the optimum of minimum norm, without and with an active
+// bound.
 TEST_P(CascadeByHandTest, ReturnsTheMinimumNormSolution) {
   HierarchyCase free{{{1, 1}}, Hierarchy(3, {{1, 1}})};
   EqualityBlock sum = free.hierarchy.AddEqualities(0, 1);
@@ -363,8 +372,8 @@ TEST_P(CascadeByHandTest, ReturnsTheMinimumNormSolution) {
       kTolerance);
 }
 
-// y0 + y1 + y2 = 500 above y1 and y2 of 1e-6: the first pass leaves rounding of
-// 500 in y1 and y2, the second corrects it.
+// Level 0: y0 + y1 + y2 = 500. Levels 1 and 2: y1 = 1e-6 and y2 = 2e-6. The
+// first pass leaves rounding of 500 in y1 and y2. The second pass corrects it.
 TEST_P(CascadeByHandTest, SolvesSmallTargetsBesideLargeOnes) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}, {1, 0}};
   HierarchyCase small{capacity, Hierarchy(3, capacity)};
@@ -385,8 +394,8 @@ TEST_P(CascadeByHandTest, SolvesSmallTargetsBesideLargeOnes) {
   EXPECT_EQ(solution.iterations, 8);  // Three levels and the norm, twice.
 }
 
-// Two large parallel rows conflict. A small row across them is met to rounding
-// of its own terms.
+// Two parallel large-norm rows conflict. A small-norm row of another direction
+// is met to rounding of its own terms.
 TEST_P(CascadeByHandTest, MeetsASmallRowBesideAConflict) {
   for (int place = 0; place < 3; ++place) {
     for (const double factor : {1.0, -2.0}) {
@@ -406,9 +415,10 @@ TEST_P(CascadeByHandTest, MeetsASmallRowBesideAConflict) {
   }
 }
 
-// All rows are met at integers, most of them at their bound. At the optimum the
-// residuals are rounding, for which rows could be removed and added for ever:
-// by SVD in the first example, by COD in the second.
+// All rows are met at a point of integers, most of them at their bound. At the
+// optimum the residuals are rounding. Without a limit, this rounding makes the
+// search remove and add rows for ever: by SVD in the first example, by COD in
+// the second.
 TEST_P(CascadeByHandTest, EndsWhereMultipliersAreRounding) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 5}};
   HierarchyCase five{capacity, Hierarchy(5, capacity)};

@@ -16,9 +16,9 @@ namespace poise {
 namespace {
 
 constexpr double kTolerance = 1e-14;  // A few operations on numbers near 1.
-constexpr double kCertified = 1e-10;  // Rows of scales to 1e6 give 1e-11.
+constexpr double kCertified = 1e-10;  // Row norms of up to 1e6 give 1e-11.
 
-// y1 <= 1 and y2 >= 2 above y1 + y2 = 4 above y = (5, 0).
+// Level 0: y0 <= 1 and y1 >= 2. Level 1: y0 + y1 = 4. Level 2: y = (5, 0).
 class CascadeTest : public testing::Test {
  protected:
   CascadeTest() {
@@ -69,7 +69,7 @@ TEST_F(CascadeTest, ReportsNumbersThatAreNotFinite) {
   EXPECT_EQ(solution_.y, Eigen::Vector2d(0, 0));
 }
 
-// Few variables and rows, of all kinds.
+// Returns a random hierarchy with few variables, and with rows of all kinds.
 HierarchyCase Draw(int seed) {
   RandomHierarchyOptions options;
   options.max_variables = 4;
@@ -79,7 +79,8 @@ HierarchyCase Draw(int seed) {
   return MakeRandomHierarchy(seed, options);
 }
 
-// The first levels of a hierarchy, with targets and bounds in another unit.
+// Returns the first levels of a hierarchy, with targets and bounds in another
+// unit.
 HierarchyCase Part(const HierarchyCase& drawn, int levels, double unit = 1) {
   const Hierarchy& from = drawn.hierarchy;
   HierarchyCase part{drawn.capacity,
@@ -113,8 +114,8 @@ TEST_P(EitherCascadeTest, IsCertified) {
   }
 }
 
-// The nullity is the number of variables less the rank of all equalities so
-// far. Each violated row is active at the violated side.
+// The nullity is the number of variables minus the rank of all equalities and
+// violated rows so far. Each violated row is active at the violated side.
 TEST_P(EitherCascadeTest, CountsEqualitiesAndViolatedRows) {
   for (int seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
@@ -137,7 +138,8 @@ TEST_P(EitherCascadeTest, CountsEqualitiesAndViolatedRows) {
         const double value = row.dot(solution.y);
         const double above = value - hierarchy.upper(k)[i];
         const double below = hierarchy.lower(k)[i] - value;
-        // Far above rounding; of numbers in hundredths, no less is violated.
+        // Far above rounding, and below any real violation of rows with entries
+        // in hundredths.
         const double zero = 1e-7 * (1 + row.norm());
         const Side side = above > zero   ? Side::kUpper
                           : below > zero ? Side::kLower
@@ -163,8 +165,8 @@ TEST_P(EitherCascadeTest, CountsEqualitiesAndViolatedRows) {
   }
 }
 
-// To the bit: what a level was solved to does not know of levels below, and no
-// threshold is absolute.
+// Costs are equal to the bit: the cost of a level does not depend on the levels
+// below, and no threshold is absolute.
 TEST_P(EitherCascadeTest, KeepsCostsInAnyUnit) {
   for (int seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
@@ -188,8 +190,8 @@ TEST_P(EitherCascadeTest, KeepsCostsInAnyUnit) {
   }
 }
 
-// The last levels are unsolved, and their costs are those of the returned y.
-TEST_P(EitherCascadeTest, KeepsToItsBudget) {
+// Only the last levels remain unsolved. They are evaluated at the returned y.
+TEST_P(EitherCascadeTest, DoesNotExceedItsBudget) {
   for (int seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const HierarchyCase drawn = Draw(seed);
@@ -224,12 +226,13 @@ TEST_P(EitherCascadeTest, KeepsToItsBudget) {
         EXPECT_EQ(solution.levels[k].slack, evaluated.levels[k].slack);
       }
     }
-    EXPECT_EQ(failed_before, hierarchy.num_levels());  // Only y's norm is left.
+    // Only the norm of y is not minimised.
+    EXPECT_EQ(failed_before, hierarchy.num_levels());
   }
 }
 
-// The certificate detects errors that a difference of scales hides from the
-// cascade.
+// Rows of very different norms may hide an error from the cascade, but not from
+// the certificate.
 TEST_P(EitherCascadeTest, ReportsOnlyCertifiedAnswersAsOptimal) {
   RandomHierarchyOptions options;
   options.scaled = 100;
@@ -248,7 +251,7 @@ TEST_P(EitherCascadeTest, ReportsOnlyCertifiedAnswersAsOptimal) {
         Certifier::kCertified);
     optimal += status == Status::kOptimal;
   }
-  EXPECT_GE(optimal, 290) << "of 300";
+  EXPECT_GE(optimal, 290) << "optimal answers of 300";
 }
 
 INSTANTIATE_TEST_SUITE_P(BothWays, EitherCascadeTest,

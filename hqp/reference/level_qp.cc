@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
-// Iterations a row, after which Bland's rule selects the row to remove. The
+// Iterations per row, after which Bland's rule selects the row to remove. The
 // rule is slow, but cannot cycle in exact arithmetic.
 constexpr int kIterationsBeforeBland = 10;
 
@@ -23,8 +23,8 @@ constexpr int kIterationsBeforeBland = 10;
 // for ever.
 constexpr int kMaxRemovals = 10;
 
-// The least-squares problem L x + l = 0. `norms` are the norms of the rows
-// before any projection. A row below kRankTolerance of its norm is zero.
+// Solves the least-squares problem L x + l = 0. `norms` are the norms of the
+// rows before any projection. A row below kRankTolerance of its norm is zero.
 class LeastSquares {
  public:
   LeastSquares() = default;
@@ -73,10 +73,10 @@ class LeastSquares {
     return range_ * x;
   }
 
-  // Returns the part of a residual that no x reduces. At the solution, the rest
-  // is rounding. So the small residuals of large-norm rows have as many digits
-  // as those of small-norm rows. `size` is the magnitude of the terms of each
-  // residual.
+  // Returns the part of a residual that no x reduces. The other part is
+  // rounding at the solution, and is left out. So the small residuals of
+  // large-norm rows have as many digits as those of small-norm rows. `size` is
+  // the magnitude of the terms of each residual.
   Eigen::VectorXd Unreachable(const Eigen::VectorXd& residual,
                               const Eigen::VectorXd& size) const {
     Eigen::VectorXd left = InOrder(residual);
@@ -94,8 +94,8 @@ class LeastSquares {
     return unreachable;
   }
 
-  // Returns these numbers for rows that depend on rows before, and 0 for
-  // others.
+  // Returns the entries of `of` for rows that depend on earlier rows, and 0 for
+  // other rows.
   Eigen::VectorXd Dependent(const Eigen::VectorXd& of) const {
     Eigen::VectorXd dependent = of;
     for (int place = 0; place < rank_; ++place) dependent[order_[place]] = 0;
@@ -248,7 +248,8 @@ class ActiveSet {
     }
     if (!hard_.empty()) {
       const Eigen::VectorXd gradient = L_.transpose() * residual;
-      // The terms are the residuals, and the rounding of their own terms.
+      // The terms of the gradient are the residuals, and the rounding of the
+      // terms of the residuals.
       const double size =
           force.sum() +
           kEps / kNegligible * norms_.dot(least_squares_.Dependent(sizes));

@@ -39,14 +39,14 @@ struct LevelQp {
   Eigen::VectorXd z;
 };
 
-/// Solves the QP by a primal active-set method. After 10 iterations a row,
+/// Solves the QP by a primal active-set method. After 10 iterations per row,
 /// Bland's rule selects the row to remove; it cannot cycle in exact arithmetic.
-/// Rounding could still cycle, so Bland's rule removes a row at most 10 times.
-/// The search thus ends within 31 iterations a row plus one; a row kept by this
-/// limit can make z suboptimal, which the certificate shows.
+/// Rounding could still cause a cycle, so Bland's rule removes a row at most 10
+/// times. The search thus ends within 31 iterations per row, plus one. A row
+/// kept by this limit can make z suboptimal, which the certificate shows.
 ///
-/// Returns the number of iterations, or -1 if max_iterations did not suffice: z
-/// is then feasible, not optimal.
+/// Returns the number of iterations, or -1 if max_iterations did not suffice; z
+/// is then feasible, but not optimal.
 int SolveLevelQp(RowSpaceMethod method, int max_iterations, LevelQp* qp);
 
 }  // namespace poise

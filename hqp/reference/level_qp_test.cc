@@ -1,6 +1,5 @@
-// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// One level's QP against the best of all active sets, tried one by one, and at
-// the edges of what counts as nothing.
+// Compares the QP of one level with the best of all active sets, tried one by
+// one. Also tests numbers near the thresholds below which they are zero.
 #include "poise/hqp/reference/level_qp.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +20,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Far above rounding, far below what other active sets of such numbers give.
+// Far above rounding, and far below the difference between two active sets of
+// such numbers.
 constexpr double kSame = 1e-9;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
@@ -33,8 +33,8 @@ class LevelQpTest : public testing::TestWithParam<RowSpaceMethod> {
   }
 };
 
-// min 1/2 |M z + m|^2 from z = 0, with as many rows P z + value as are given,
-// none of them with a bound yet.
+// Returns the QP min 1/2 |M z + m|^2, with the start z = 0 and the rows P z +
+// value, without bounds.
 LevelQp MakeQp(const MatrixXd& M, const VectorXd& m, const MatrixXd& P,
                bool soft) {
   LevelQp qp;
@@ -80,8 +80,9 @@ bool KeepsHardRows(const LevelQp& qp, const VectorXd& z) {
   return true;
 }
 
-// Each row absent, at its lower or at its upper bound: the hard ones first,
-// then all that costs.
+// Returns the least cost of all active sets that meet the hard rows. Each row
+// is absent, or at its lower or upper bound. Hard rows are solved first, then
+// all rows with a cost.
 double LeastCost(const LevelQp& qp) {
   const int n = static_cast<int>(qp.M.cols());
   const int rows = static_cast<int>(qp.P.rows());
@@ -109,9 +110,10 @@ double LeastCost(const LevelQp& qp) {
   return least;
 }
 
-// Few variables and rows, some repeated; z somewhere, and hard rows that it
-// keeps, or is just at the bound of; of soft rows that are not violated, any
-// guess.
+// Returns a random QP with few variables and rows, some of them repeated. The
+// start z meets the hard rows, some of them exactly at the bound. Violated soft
+// rows are in the working set. Other soft rows are in the working set at
+// random.
 LevelQp DrawQp(int seed) {
   std::mt19937 random(seed);
   const auto below = [&](int bound) {
@@ -168,8 +170,8 @@ TEST_P(LevelQpTest, FindsTheBestOfAllActiveSets) {
     ASSERT_GT(iterations, 0);
     EXPECT_TRUE(KeepsHardRows(qp, qp.z));
     EXPECT_NEAR(Cost(qp, qp.z), LeastCost(qp), kSame * (1 + Cost(qp, qp.z)));
-    // An active row is at its bound or, if soft, violated. Every violated row is
-    // active.
+    // Each active row is at its bound or, if soft, violated. Each violated row
+    // is active.
     const VectorXd at = qp.P * qp.z + qp.value;
     for (int i = 0; i < at.size(); ++i) {
       SCOPED_TRACE(i);
@@ -183,7 +185,8 @@ TEST_P(LevelQpTest, FindsTheBestOfAllActiveSets) {
         EXPECT_LE(std::max(above, below), zero);
       }
     }
-    // That many are enough; one less is not, and leaves hard rows kept.
+    // This number of iterations suffices. With one less, the hard rows are
+    // still met.
     LevelQp again = drawn;
     EXPECT_EQ(Solve(&again, iterations), iterations);
     EXPECT_EQ(again.z, qp.z);
@@ -209,8 +212,9 @@ TEST_P(LevelQpTest, IgnoresARowOfZeros) {
   EXPECT_LE((qp.z - Eigen::Vector2d(2, 0)).norm(), Rounding(2, 2));
 }
 
-// A projection leaves 4 rest of a row of length 4. Rounding of a sum of a
-// hundred terms is not to become a step of 1 / rest; every larger row is met.
+// A projection leaves 4 rest of a row of norm 4. If this is rounding of a sum
+// of a hundred terms, it does not give a step of 1 / rest. Any larger row is
+// met.
 TEST_P(LevelQpTest, TreatsRoundingRemainderOfARowAsZero) {
   const auto solve = [](double rest) {
     LevelQp qp = MakeQp(Number(4 * rest), Numbers(-4), MatrixXd(0, 1), false);
@@ -238,9 +242,9 @@ TEST_P(LevelQpTest, MeetsIndependentRowsOfAnyNorm) {
   }
 }
 
-// A large row after small ones in conflict: the point of its line that is next
-// to (1, 0).
-TEST_P(LevelQpTest, KeepsSmallRowsAccurateBesideALargeOne) {
+// A large-norm row conflicts with two small-norm rows. The optimum is the point
+// of its line that is closest to (1, 0).
+TEST_P(LevelQpTest, KeepsSmallNormRowsAccurateBesideALargeNormRow) {
   const double large = 1e12;
   MatrixXd M(3, 2);
   M << 1, 0, 0, 1, 0.6 * large, 0.8 * large;
@@ -250,9 +254,10 @@ TEST_P(LevelQpTest, KeepsSmallRowsAccurateBesideALargeOne) {
   EXPECT_LE((qp.z - Eigen::Vector2d(0.82, -0.24)).norm(), Rounding(1, 3));
 }
 
-// 4 (slope z0 + z1) = 0 at z0 = 8: z1 follows to the last digit that a rank
-// decision leaves. Rounding of a sum of a hundred terms blocks no step.
-TEST_P(LevelQpTest, KeepsAHardRowForAnySlopeAlongTheStep) {
+// The hard row 4 (slope z0 + z1) = 0, with the target z0 = 8. z1 is exact to
+// kRankTolerance. A slope that is rounding of a sum of a hundred terms blocks
+// no step.
+TEST_P(LevelQpTest, MeetsAHardRowOfAnySlopeAlongTheStep) {
   for (const double size :
        {0., 1e-20, 100 * kEps, 1e-12, 1e-9, 1e-6, 1e-3, 1.}) {
     for (const double slope : {-size, size}) {
@@ -270,8 +275,10 @@ TEST_P(LevelQpTest, KeepsAHardRowForAnySlopeAlongTheStep) {
   }
 }
 
-// A soft row, guessed to be violated, would hold z at half of -sign 6 gap. It
-// is removed, whatever the gap is; below rounding of its size 3, z is the same.
+// A soft row starts in the working set. The optimum is then z = -sign 3 gap,
+// which does not violate the row. So the row is removed, whatever the gap, and
+// z becomes -sign 6 gap. If the gap is below rounding of the size of the row,
+// 3, both z are the same.
 TEST_P(LevelQpTest, RemovesASoftRowThatIsNotViolated) {
   for (const double gap : {1e-20, kEps, 1e-14, 1e-13, 1e-9, 1e-3, 1e3}) {
     for (const Side side : {Side::kLower, Side::kUpper}) {
@@ -287,11 +294,11 @@ TEST_P(LevelQpTest, RemovesASoftRowThatIsNotViolated) {
   }
 }
 
-// z >= 3 and, 1e7 times as long, z >= 2, both in the working set. The optimum
-// of the two is inside the long row's bound by 1e-14 of it, less than rounding
-// of many terms. The row is removed all the same, because the short one misses
-// 1.
-TEST_P(LevelQpTest, RemovesALargeRowForTheResidualOfASmallOne) {
+// The rows z >= 3, and z >= 2 with 1e7 times the norm, are both in the working
+// set. Their optimum is inside the bound of the large-norm row by 1e-14 of the
+// bound, less than rounding of many terms. The large-norm row is removed
+// nevertheless, because the small-norm row has a residual of 1.
+TEST_P(LevelQpTest, RemovesALargeNormRowForTheResidualOfASmallNormRow) {
   LevelQp qp =
       MakeQp(MatrixXd(0, 1), VectorXd(0), Eigen::Vector2d(1e7, 1), true);
   qp.lower << 2e7, 3;
@@ -302,9 +309,10 @@ TEST_P(LevelQpTest, RemovesALargeRowForTheResidualOfASmallOne) {
   EXPECT_NEAR(qp.z[0], 3, Rounding(3, 2));
 }
 
-// A hard row at its bound, with a multiplier that is a difference: `rest` of 2
-// |1| + 1 |2 - rest|. The optimum is -rest / 5, or the bound if that is nearer;
-// a multiplier below kNegligible of its four terms moves z by no more.
+// A hard row at its bound, whose multiplier `rest` is a difference of 2 |1| and
+// 1 |2 - rest|. The optimum is -rest / 5, or the bound if that is nearer. If
+// the multiplier is below kNegligible of its terms, whose sum is 4, the row may
+// stay: z then changes by at most 4e-12 / 5.
 TEST_P(LevelQpTest, RemovesAHardRowWithANegativeMultiplier) {
   for (const double size : {0., 1e-20, 1e-15, 1e-10, 1e-6, 1e-3, 1.}) {
     for (const double rest : {-size, size}) {
@@ -329,7 +337,8 @@ TEST_P(LevelQpTest, RemovesTheRowWithTheMostNegativeMultiplierFirst) {
   for (int most = 0; most < 2; ++most) {
     LevelQp qp = MakeQp(MatrixXd::Identity(2, 2), Eigen::Vector2d(-1, -1),
                         -MatrixXd::Identity(2, 2), false);
-    // Towards z = (1, 1) either way; with both held, the larger pull is first.
+    // Without the rows the optimum is z = (1, 1). With both active, the row
+    // with the larger multiplier is removed first.
     qp.M(most, most) = 3;
     qp.m[most] = -3;
     qp.M_norm[most] = 3;
@@ -348,8 +357,8 @@ TEST_P(LevelQpTest, RemovesTheRowWithTheMostNegativeMultiplierFirst) {
   EXPECT_EQ(even.side[1], Side::kLower);
 }
 
-// A row of size zero, at its bound where z starts, is not violated at the
-// optimum: by least squares, z = (-3, 83) / 17.
+// A row whose terms are zero at the start is at its bound there, but is not
+// violated at the optimum. By least squares, z = (-3, 83) / 17.
 TEST_P(LevelQpTest, RemovesARowThatIsZeroAtTheStart) {
   MatrixXd P(2, 2);
   P << 1, 0, 10, 1;
@@ -379,13 +388,14 @@ TEST_P(LevelQpTest, EndsOnBealesCyclingExample) {
   qp.P_norm.setOnes();
   qp.upper << 0, 0, 1, 0, 0, 0, 0;
   for (int i = 3; i < 7; ++i) qp.side[i] = Side::kUpper;
-  // Ten iterations a row cycle; Bland's rule ends after 15 more.
+  // The first ten iterations per row cycle. Bland's rule ends after 15 more.
   EXPECT_EQ(Solve(&qp), 85);
   EXPECT_LE((qp.z - Eigen::Vector4d(1, 0, 1, 0)).norm(), Rounding(20, 4, 20));
 }
 
-// The row is violated above 2. A target of -10 is beyond its other bound, 1:
-// the row is added there. At a target of 1.5 the row is inactive.
+// The row 1 <= z <= 2 is violated at z = 5. A target of -10 is beyond its other
+// bound, 1, so the row is added at that bound. At a target of 1.5 the row is
+// inactive.
 TEST_P(LevelQpTest, MovesASoftRowFromOneBoundToTheOther) {
   for (const double sign : {1., -1.}) {
     for (const double desired : {-10., 1.5}) {
@@ -410,8 +420,8 @@ TEST_P(LevelQpTest, MovesASoftRowFromOneBoundToTheOther) {
 }
 
 // z <= start is in the working set, and the optimum is start - off. The
-// residual is a difference of ones and has rounding of eps: only for less may
-// the row stay.
+// residual is a difference of numbers near 1, with a rounding of eps. Only if
+// `off` is below that may the row stay.
 TEST_P(LevelQpTest, RemovesARowForAResidualAboveRounding) {
   for (const double start : {0., 1.}) {
     for (const double off : {1e-20, 1e-16, 1e-14, 1e-13, 1e-6, 1.}) {

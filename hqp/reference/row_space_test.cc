@@ -19,7 +19,7 @@ class RowSpaceTest : public testing::TestWithParam<RowSpaceMethod> {
   }
 };
 
-TEST_P(RowSpaceTest, IsAllOrNothingWithoutRowsOrVariables) {
+TEST_P(RowSpaceTest, HasRankZeroWithoutRowsOrVariables) {
   const RowSpace no_rows = Make(Eigen::MatrixXd(0, 3));
   EXPECT_EQ(no_rows.rank, 0);
   EXPECT_EQ(no_rows.V, Eigen::MatrixXd::Identity(3, 3));
@@ -28,8 +28,9 @@ TEST_P(RowSpaceTest, IsAllOrNothingWithoutRowsOrVariables) {
   EXPECT_EQ(no_variables.V.size(), 0);
 }
 
-// A unit row that a projection has shortened: rounding of a sum of a hundred
-// terms does not count, 1e-9 does. The threshold itself does not count.
+// A unit row after a projection. Its remaining length is zero if it is rounding
+// of a sum of a hundred terms, or equal to the threshold. A length of 1e-9 is
+// not zero.
 TEST_P(RowSpaceTest, IgnoresRoundingOfADependentRow) {
   const auto rank = [](double entry) {
     return Make(Eigen::MatrixXd::Constant(1, 1, entry)).rank;
@@ -44,8 +45,8 @@ TEST_P(RowSpaceTest, IgnoresRoundingOfADependentRow) {
   }
 }
 
-// Rows of unit length, some of them combinations of others: those of V beyond
-// the rank are orthogonal to every row, and V to itself.
+// Rows of unit length, some of them combinations of others. The columns of V
+// beyond the rank are orthogonal to every row, and V is an orthogonal matrix.
 TEST_P(RowSpaceTest, SplitsSpaceIntoRowsAndNullspace) {
   for (int seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);
