@@ -31,7 +31,7 @@ class Certifier {
 
  private:
   struct LevelRows {
-    Eigen::VectorXd violation;  ///< Of the nearer bound; negative if met.
+    Eigen::VectorXd violation;  ///< At the nearer bound; negative if met.
     Eigen::VectorXd size;       ///< |C_i| |y| + |bound|.
     std::vector<Side> side;     ///< The nearer bound.
   };

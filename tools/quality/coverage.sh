@@ -1,10 +1,10 @@
 #!/bin/bash
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 # Usage: tools/quality/coverage.sh [TARGET...]
-# Lines and branches of math, dynamics, hqp and robot that the tests (all, or
-# TARGET...) run, by GCC's --coverage; the lines that none runs are listed. Exit
+# Measures the lines and branches of math, dynamics, hqp and robot that the tests
+# (all, or TARGET...) run, with GCC's --coverage, and lists uncovered lines. Exit
 # code 1 if a layer has less than 97 % of its lines, or a test fails. Builds in
-# an output base of its own, ~/.cache/poise/coverage.
+# a separate output base, ~/.cache/poise/coverage.
 set -uo pipefail
 cd "${BUILD_WORKSPACE_DIRECTORY:-$(dirname "$0")/../..}"
 case ${1:-} in
@@ -14,7 +14,7 @@ case ${1:-} in
     ;;
 esac
 targets=("$@")
-# Not //...: that would follow the bazel-* links of another output base.
+# //... would follow the bazel-* links of another output base.
 [ ${#targets[@]} -gt 0 ] ||
   targets=(//math/... //dynamics/... //hqp/... //robot/... //sim/... //tests/... //tools/...)
 

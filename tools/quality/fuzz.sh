@@ -1,8 +1,8 @@
 #!/bin/bash
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 # Usage: tools/quality/fuzz.sh SECONDS [TARGET...]
-# Runs the fuzzers of tests/fuzz (all, or urdf, profile, ...) for so long each.
-# What they learn is kept in ~/.cache/poise/fuzz, where a run goes on from. An
+# Runs each fuzzer of tests/fuzz (all, or urdf, profile, ...) for SECONDS.
+# Their corpus is in ~/.cache/poise/fuzz, and the next run continues with it. An
 # input that crashes, hangs for 30 s or takes 1 GiB is kept as
 # ~/.cache/poise/fuzz/TARGET/crashes/*; replay it by giving the file to the
 # fuzzer that the summary names. Exit code 1 if there was one, 2 for bad usage.
@@ -31,7 +31,7 @@ done
 home=${POISE_FUZZ:-$HOME/.cache/poise/fuzz}
 mkdir -p "$home"
 bazel=(bazel "--output_base=$home/output")
-# Links to this output base would be followed by //... of the user's.
+# The user's //... would follow links to this output base.
 "${bazel[@]}" build --config=fuzz --noshow_progress \
   --experimental_convenience_symlinks=ignore "${labels[@]}" || exit 1
 bin=$("${bazel[@]}" info --config=fuzz bazel-bin 2> /dev/null)/tests/fuzz
@@ -45,7 +45,7 @@ for target in "${targets[@]}"; do
   arguments=(-max_total_time="$seconds" -timeout=30 -rss_limit_mb=2048
     -malloc_limit_mb=1024 -print_final_stats=1
     -artifact_prefix="$folder/crashes/")
-  # In CI a verdict is about the change, not about luck.
+  # In CI the seed is fixed, so that the result depends on the change only.
   [ -n "${CI:-}" ] && arguments+=(-seed=1)
   dictionary=tests/fuzz/dictionaries/$target.txt
   [ -f "$dictionary" ] && arguments+=(-dict="$dictionary")

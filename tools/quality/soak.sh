@@ -1,11 +1,10 @@
 #!/bin/bash
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 # Usage: tools/quality/soak.sh HOURS [TARGET...]
-# Runs the property tests (all that use RapidCheck, or TARGET...) again and
-# again, with new seeds and ten times as many cases as the default run. Of each
-# failure it keeps a file in ~/.cache/poise/soak, which holds the command that
-# replays it and what the test printed. Exit code 1 if there was one; Bazel's,
-# at once, if something does not build.
+# Runs the property tests (all that use RapidCheck, or TARGET...) repeatedly, with
+# new seeds and ten times as many cases as the default run. Each failure is kept as a
+# file in ~/.cache/poise/soak with the replay command and the output of the test. Exit
+# code 1 after a failure; Bazel's exit code, at once, if the build fails.
 set -uo pipefail
 cd "${BUILD_WORKSPACE_DIRECTORY:-$(dirname "$0")/../..}"
 if ! [[ ${1:-} =~ ^[0-9]*\.?[0-9]+$ ]]; then

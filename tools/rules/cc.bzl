@@ -8,10 +8,10 @@ _COPTS = [
     "-Wno-sign-conversion",
     "-Wnon-virtual-dtor",
     "-Woverloaded-virtual",
-    # GCC raises this one wrongly inside Eigen; clang does not know it.
+    # A false warning of GCC inside Eigen; clang does not have this warning.
     "-Wno-unknown-warning-option",
     "-Wno-maybe-uninitialized",
-    # Clang does not know GCC's --param of .bazelrc.
+    # Clang does not have GCC's --param of .bazelrc.
     "-Wno-unused-command-line-argument",
     "-Werror",
 ]
@@ -22,7 +22,7 @@ def _precompiled(name):
         copts = _if_precompiled([
             "-include",
             "tools/rules/precompiled/{}.h".format(name),
-            # Say so if it cannot be used.
+            # Warns if the precompiled header cannot be used.
             "-Winvalid-pch",
             # A change of a header in it rebuilds its users.
             "-fpch-deps",

@@ -2,7 +2,7 @@
 
 load("//tools/rules:cc.bzl", "poise_cc_library")
 
-# Every task includes these, or a header that does.
+# Every task includes these headers, directly or indirectly.
 _DEPS = [
     "//dynamics:tree",
     "//robot:robot",

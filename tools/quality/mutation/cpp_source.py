@@ -230,7 +230,7 @@ class Source:
                 name, j = f"{tokens[j - 2].text}::{name}", j - 2
             else:
                 break
-        # A variable, `Vector3d v(1, 2, 3);`, is none; nor a macro's call.
+        # Neither a variable, `Vector3d v(1, 2, 3);`, nor a macro call is a function.
         if j == first and not scope and tokens[body].text == ";":
             return
         if tokens[body].text == ";":

@@ -29,7 +29,7 @@ _WORDS = {
 }
 _ACCESSORS = {"x", "y", "z", "w", "lower", "upper"}  # Mutated as calls only.
 _SYMMETRIC = {"min", "max", "swap", "hypot", "Max", "Min"}
-# The calls whose arguments are checks and messages, not results.
+# Calls whose arguments are checks and messages, not results.
 _CHECKS = {"assert", "static_assert", "throw"}
 _ENDS_A_TERM = {
     "+", "-", ";", ",", ")", "]", "}", "?", ":", "<<", "<", ">", "<=", ">=", "==",
@@ -40,7 +40,7 @@ _NO_STATEMENT = {
     "using", "break", "continue", "const", "auto", "static", "constexpr", "{",
     "}", ";", "delete", "goto", "try", "catch",
 } | _CHECKS
-# So that a slip that leaves something unused still compiles.  On the licence's
+# Lets a mutant compile that leaves a variable unused. The pragma is on the licence's
 # line, so that no other line moves.
 _QUIET = " ".join(
     f'_Pragma("GCC diagnostic ignored \\"-W{warning}\\"")'
@@ -136,8 +136,8 @@ class _Maker:
             before = text[head:tail].strip()
             changed = text[head:start] + new + text[end : max(tail, end)]
             after = changed.split("\n")[0].strip()
-            # Told apart by place in the function: counted in tokens' order, so
-            # that a comment or a new line does not matter.
+            # Equal mutants are numbered in the order of tokens, so that a comment
+            # or a new line does not matter.
             key = (before, after, new)
             seen[key] = seen.get(key, 0) + 1
             parts = (self.path, function, digest, before, after, new, str(seen[key]))
@@ -295,7 +295,7 @@ class _Maker:
                 j = self.source.partner.get(j, last)
             j += 1
         if j > i + 1:
-            # From the operator on: "a +b" would not read as before.
+            # Starts at the operator, because "a +b" would be read differently.
             self._add(i, j - 1, "", "term")
 
     def _remove_statement(self, i, last):

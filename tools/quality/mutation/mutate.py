@@ -1,20 +1,20 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-"""Mutation testing: would the tests notice a wrong sign?
+"""Mutation testing: do the tests fail if the code has an error?
 
-Makes small slips in math, dynamics and hqp, one at a time: a flipped sign, an
-operator, an index, a comparison, a constant, a missing term.  Each is built
-and tested in a copy of the tree, on the file's own tests first, then on its
-layer's, then on all that depend on it.  A slip that no test notices survived,
-and shows where a test is missing.  A mutant that does not compile, or compiles
-to the same object code, counts neither way.  Figures say how many mutants were
+Makes mutants of math, dynamics and hqp, one at a time: a flipped sign, another
+operator, index, comparison or constant, a missing term.  Each mutant is built
+and tested in a copy of the tree: first with the file's own tests, then with
+those of its layer, then with all that depend on it.  A mutant survives if no
+test fails, which shows that a test is missing.  A mutant that does not compile,
+or compiles to the same object code, does not count.  Figures say how many mutants were
 killed of those tried of those possible.
 
-The ledger, tools/quality/mutation/ledger.tsv, knows each mutant by its function
-and a digest of its expression.  It keeps the survivors with the reasons, and
-those that no test can notice, which are never tried.
+The ledger, tools/quality/mutation/ledger.tsv, names each mutant by its function
+and a digest of its expression.  It lists survivors with reasons, and equivalent
+mutants, which are never tried.
 
-Interrupted, the same command goes on where it was.  Exit code: 0 if the share
+After an interruption the same command continues.  Exit code: 0 if the share
 of killed among tried mutants reaches --threshold, 1 if not, 2 for bad input.
 """
 
@@ -39,7 +39,7 @@ from workshop import INVALID, KILLED, SAME, SURVIVED
 
 _GLOBS = ["math/*", "dynamics/*", "hqp/*"]
 _LEDGER = "tools/quality/mutation/ledger.tsv"
-_MOST_STALE = 2  # Percent of the ledger's entries.
+_MOST_STALE = 2  # Percentage of the ledger's entries.
 
 
 def parse_arguments():

@@ -9,7 +9,7 @@ from cpp_source import Source
 
 LAYERS = ("math", "dynamics", "hqp")
 KINDS = ("oracle", "property", "Ceres", "closed form")
-# A number worked out by hand stands in the table, but is no proof alone.
+# A closed form is listed in the table, but alone it is not a proof.
 PROOFS = KINDS[:3]
 
 # Words that mark an independent second derivation: another library, another
@@ -23,13 +23,13 @@ _ORACLE_NAME = re.compile(
     r"(Is|Are)The(Sums?Of(Mag|Odd|Prod|Scal)|Dot|Largest|Outer|Base|Rows)|"
     r"SumsOver|ThePoints|AsTheLevels|Differen|Reproduce|Ulp"
 )
-# Numbers worked out by hand, whatever else they are compared with.
+# Names of tests that compare with numbers computed by hand.
 _BY_HAND_NAME = re.compile(r"ByHand|OnPaper|IsFinite|Constructed")
-# Where the certificate is what is tested, it vouches for nothing.
+# A certificate is not evidence where the certificate itself is tested.
 _CERTIFICATE_TEST = re.compile(r"^hqp/certificate\w*_test\.cc$")
 # Names of round trips and of invariants.
 _PROPERTY_NAME = re.compile(r"ComeBack|KeepEach")
-# That it does not allocate or takes no nonsense says nothing of its numbers.
+# Tests of allocation or of invalid input say nothing about the numbers.
 _ASIDE_NAME = re.compile(r"Alloc|Throw|Refuse|NotFinite")
 _TEST_MACROS = {
     "TEST", "TEST_F", "TEST_P", "TYPED_TEST", "RC_GTEST_PROP",
@@ -88,7 +88,7 @@ class Helpers:
             self._words[function.name.split("::")[-1]] |= words
             scope = function.scope or "::".join(function.name.split("::")[:-1])
             if scope:
-                # To make or to use a class is to call any of it.
+                # A test that makes or uses a class counts for all of its members.
                 self._words[scope.split("::")[-1]] |= words
 
     def reach(self, words):
@@ -206,7 +206,7 @@ class Workspace:
             for path in sorted((self.root / folder).rglob("*_test.cc")):
                 path = str(path.relative_to(self.root))
                 source, headers = self.source(path), self.headers(path)
-                # The helper's source calls what its header need not name.
+                # The helper's source may call functions that its header does not name.
                 for header in list(headers):
                     helper = header.rsplit(".", 1)[0] + ".cc"
                     if helper in util:

@@ -7,7 +7,7 @@ visibility cannot see: the transitive closure, and #includes of system headers,
 which compile without any dependency.
 """
 
-# Layer: the layers below that it may use.
+# For each layer, the lower layers that it may use.
 LAYERS = {
     "math": [],
     "dynamics": ["math"],
@@ -17,7 +17,7 @@ LAYERS = {
     "sim": ["dynamics", "hqp", "math", "robot", "robot/control"],
 }
 
-# Layer: the external repositories that its own libraries may use.
+# For each layer, the external repositories that its libraries may use.
 _EXTERNALS = {
     "math": ["eigen"],
     "dynamics": ["eigen"],
@@ -27,7 +27,7 @@ _EXTERNALS = {
     "sim": ["bullet", "eigen", "mujoco", "nlohmann_json", "openssl", "yaml_cpp"],
 }
 
-# External repository: its headers, as the start of a <path>.
+# For each external repository, the beginnings of the <paths> of its headers.
 _HEADERS = {
     "bullet": ["Bullet", "LinearMath/", "btBullet"],
     "ceres": ["ceres/", "glog/"],
@@ -60,8 +60,8 @@ def layer_package_groups():
         native.package_group(
             name = layer.replace("/", "_") + "_users",
             packages = ["//tests/...", "//tools/..."] + [
-                # robot/control is below robot as a folder, not as a layer;
-                # visibility lets it through and layer_test() does not.
+                # The folder robot/control is inside robot, but its layer is above;
+                # visibility allows that dependency, layer_test() refuses it.
                 "//{}/...".format(user)
                 for user, below in LAYERS.items()
                 if user == layer or layer in below
@@ -93,8 +93,8 @@ def layer_test():
         scope = labels,
     )
 
-    # A package of a layer below, but not one of a layer inside it (robot, but
-    # not robot/control), nor its face for other workspaces (//math:math).
+    # A package of a lower layer, but neither a package of a layer inside it
+    # (robot/control in robot) nor its library for other workspaces (//math:math).
     inner = [
         candidate
         for candidate in LAYERS
@@ -104,7 +104,7 @@ def layer_test():
     faces = [
         "//{}:{}".format(each, each)
         for each in layers
-        # //robot:robot is robot.h, not a face.
+        # //robot:robot is robot.h, not a library for other workspaces.
         if each not in (package, "robot") and "/" not in each
     ]
     native.sh_test(

@@ -16,8 +16,8 @@ def _impl(ctx):
         cc_infos = [dep[CcInfo] for dep in ctx.attr.deps],
     ).compilation_context
 
-    # The headers of `deps`, but not where to look for them: who includes them
-    # depends on them.
+    # The headers of `deps` without their search paths; users depend on `deps`
+    # themselves.
     return [CcInfo(compilation_context = cc_common.create_compilation_context(
         headers = depset(
             [header, _precompile(ctx, context, header)],
@@ -82,7 +82,7 @@ def _precompile(ctx, context, header):
 precompiled_header = rule(
     implementation = _impl,
     attrs = {
-        # As in #include <...>.
+        # Path as in #include <...>.
         "includes": attr.string_list(mandatory = True),
         # The per_file_copt flags of .bazelrc, which rules cannot read.
         "copts": attr.string_list(),

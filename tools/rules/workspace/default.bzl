@@ -61,7 +61,7 @@ def add_default_repositories():
         debian_package = "libbullet-dev",
     )
     system_repository(
-        # Headers and library, but no .pc.
+        # The package has no .pc file.
         name = "mujoco",
         linkopts = ["-lmujoco"],
         header = "mujoco/mujoco.h",
@@ -99,7 +99,7 @@ def add_default_repositories():
         deps = ["@eigen"],
     )
     system_repository(
-        # Nor a rapidcheck.pc; it goes with GoogleTest.
+        # There is no rapidcheck.pc either; RapidCheck is used with GoogleTest.
         name = "rapidcheck",
         pkg_config = "gtest",
         linkopts = ["-lrapidcheck"],
@@ -122,8 +122,8 @@ def add_default_repositories():
         deps = ["@eigen"],
     )
     system_repository(
-        # An oracle and a baseline where it is installed, which setup.sh does if
-        # asked to. Debian has no headers: //tests/util:bullet_tree declares it.
+        # An oracle and a baseline, if installed by setup.sh --baselines. Debian has
+        # no headers; //tests/util:bullet_tree declares the functions.
         name = "bullet_inverse_dynamics",
         pkg_config = "bullet-float64",
         linkopts = ["-lBulletInverseDynamics-float64"],

@@ -65,8 +65,8 @@ def _impl(ctx):
         if flag.startswith("-D"):
             defines.append(flag[2:])
         elif flag.startswith("-I"):
-            # A -I path is absolute and Bazel wants it relative to the package;
-            # /usr/include the compiler searches by itself.
+            # A -I path is absolute, but Bazel needs a path relative to the package. The
+            # compiler searches /usr/include itself.
             path = str(ctx.path(flag[2:]).realpath)
             if path != "/usr/include":
                 link = "include/" + path[1:].replace("/", "_")
@@ -93,17 +93,17 @@ system_repository = repository_rule(
     local = True,
     configure = True,
     attrs = {
-        # The module that pkg-config knows it by; empty if it has no .pc.
+        # Name of the pkg-config module; empty without a .pc file.
         "pkg_config": attr.string(),
         "atleast_version": attr.string(),
-        # A header under /usr/include that must be there.
+        # A header under /usr/include that must exist.
         "header": attr.string(),
         "debian_package": attr.string(mandatory = True),
         "linkopts": attr.string_list(),
         "deps": attr.string_list(),
         "for_tests_only": attr.bool(),
-        # A file in a folder of /usr/lib: without it the repository is empty,
-        # and has no `defines`.
+        # A file in a folder of /usr/lib. Without it the repository is empty and has no
+        # `defines`.
         "optional_library": attr.string(),
         "defines": attr.string_list(),
     },
