@@ -20,7 +20,7 @@ loader.exec_module(migrate_includes)
 
 class MigrateIncludesTest(unittest.TestCase):
     def migrate(self, name, text, *options):
-        """Returns what a file of this text becomes, and what is printed."""
+        """Returns the migrated text of a file, and the printed output."""
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, name)
             path.write_text(text)

@@ -61,7 +61,7 @@ class Function(NamedTuple):
 
 
 def tokenize(text):
-    """The tokens of `text`: no comment, no directive, no space."""
+    """Returns the tokens of `text` without comments, directives and spaces."""
     raw = []
     depth = 0  # Of template brackets.
     for match in _TOKEN.finditer(text):
@@ -101,7 +101,7 @@ class Source:
         self._lines = [m.end() for m in re.finditer("\n", text)]
 
     def scope_of(self, i):
-        """The innermost class around token i; "" if there is none."""
+        """Returns the innermost class around token i, or ""."""
         around = [c for c in self._classes if c[0] < i < c[1]]
         return max(around)[2] if around else ""
 
@@ -118,12 +118,12 @@ class Source:
         ]
 
     def digest(self, function):
-        """Tells one version of a function from another, whatever its layout."""
+        """Returns a digest of a function that does not depend on its layout."""
         words = [t.text for t in self.tokens[function.first : function.last]]
         return hashlib.sha256(" ".join(words).encode()).hexdigest()[:12]
 
     def words(self, function):
-        """The identifiers of a function's body and initialisers."""
+        """Returns the identifiers of a function's body and initialisers."""
         return {
             t.text
             for t in self.tokens[function.first : function.last]

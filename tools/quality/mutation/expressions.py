@@ -26,7 +26,7 @@ _LABELS = {"public", "private", "protected", "default"}
 
 
 class Locals:
-    """The local names of one function, each use resolved to its declaration."""
+    """Local names of one function, resolved to their declarations."""
 
     def __init__(self, source, function):
         self._tokens = source.tokens
@@ -36,7 +36,7 @@ class Locals:
         self._find_declarations(first, function.last)
 
     def resolve(self, name, i):
-        """The token that declares `name`, as seen from token i; None if not local."""
+        """Returns the token that declares `name` for token i; None if not local."""
         if self._tokens[i].text == name and i > 0 and (
             self._tokens[i - 1].text in (".", "->", "::")
         ):
@@ -67,14 +67,14 @@ class Locals:
             bisect.insort(places, i)
 
     def _follows_auto(self, i):
-        """Whether a structured binding begins here: `auto& [a, b]`."""
+        """Returns whether a structured binding begins here: `auto& [a, b]`."""
         before = self._tokens[i - 1].text
         return before == "auto" or before in ("&", "&&") and (
             self._tokens[i - 2].text == "auto"
         )
 
     def _is_declared(self, i):
-        """Whether a type stands right before the name at token i."""
+        """Returns whether a type precedes the name at token i."""
         token, before = self._tokens[i], self._tokens[i - 1]
         if token.kind != "word" or token.text in _NO_NAME or (
             self._tokens[i + 1].text not in _AFTER_NAME
@@ -92,7 +92,7 @@ class Locals:
         return before.text == ">" and before.in_template and before.after
 
     def _declare_others(self, i, last):
-        """In `int a = 0, b = 1;`, declares b as well."""
+        """Declares b of `int a = 0, b = 1;`."""
         if not self._is_in_statement(i):
             return
         j = i + 1
@@ -108,7 +108,7 @@ class Locals:
             j += 1
 
     def _is_in_statement(self, i):
-        """Whether token i stands in a block or in the head of a loop."""
+        """Returns whether token i is in a block or in the head of a loop."""
         j = i - 1
         while j >= 0 and self._tokens[j].text not in (";", "{", "}"):
             if self._tokens[j].text == "(":
@@ -120,7 +120,7 @@ class Locals:
 
 
 class Digester:
-    """Digests of the expressions of one function, or of those outside of any."""
+    """Digests of the expressions inside or outside of functions."""
 
     def __init__(self, source, function=None):
         self._source = source
@@ -129,7 +129,7 @@ class Digester:
         self._end = function.last if function else len(source.tokens)
 
     def is_local(self, i):
-        """Whether token i is a local name, which might as well be another one."""
+        """Returns whether token i is a local name."""
         return isinstance(self._resolve(self._source.tokens[i].text, i), int)
 
     def of_mutant(self, first, last, new):
@@ -174,7 +174,7 @@ class Digester:
 
     @staticmethod
     def _number(words):
-        """Local names become numbers, in the order of their declarations."""
+        """Replaces local names by numbers in the order of declaration."""
         declared = sorted({place for place, _ in words if isinstance(place, int)})
         numbers = {place: f"${n}" for n, place in enumerate(declared)}
         return [numbers.get(place, text) for place, text in words]

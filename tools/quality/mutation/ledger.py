@@ -1,5 +1,5 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-"""The ledger: what is known of mutants, whichever file they are in.
+"""The ledger: known results of mutants, independent of their file.
 
 A line of ledger.tsv has four columns, with tabs between them:
 
@@ -49,7 +49,7 @@ def add_up(counts):
 
 
 def group(mutants):
-    """{(layer, function): its mutants}"""
+    """Returns {(layer, function): its mutants}."""
     groups = collections.defaultdict(list)
     for mutant in mutants:
         groups[mutant.layer, mutant.place].append(mutant)
@@ -119,7 +119,7 @@ class Ledger:
         return entry is not None and entry.verdict == EQUIVALENT
 
     def stale(self, pool):
-        """What the ledger has of code that is gone, as lines to print."""
+        """Returns the stale entries as lines to print."""
         keys = {mutant.key for mutant in pool}
         functions = set(group(pool))
         return [
@@ -136,7 +136,7 @@ class Ledger:
         return len(self.entries) + len(self.counts)
 
     def tally(self, pool):
-        """{(layer, function): (Counts, whether it was changed since)} of the tree."""
+        """Returns {(layer, function): (Counts, whether it changed)} of the tree."""
         found = {}
         for key, mutants in group(pool).items():
             possible = sum(1 for m in mutants if not self.is_equivalent(m))
@@ -183,7 +183,7 @@ class Ledger:
 
 
 def _correct(counts, caught, fresh):
-    """Counts after known survivors were caught, and fresh ones were found.
+    """Returns the counts after known survivors were killed and new ones found.
 
     Nobody knows which mutants the counts include.  A fresh survivor is taken for
     one that had not been tried, as long as there are any, then for one that had

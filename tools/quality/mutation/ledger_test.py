@@ -22,7 +22,7 @@ def _pool(text=_CODE, path="math/a.cc"):
 
 
 def _ledger(pool):
-    """One mutant of Add survived, one of Double is equivalent."""
+    """Makes a ledger: one mutant of Add survived, one of Double is equivalent."""
     ledger = Ledger()
     add = [m for m in pool if m.place == "Add"]
     double = [m for m in pool if m.place == "Double"]

@@ -1,5 +1,5 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-"""Makes the mutants of a C++ file: the small slips that tests should notice."""
+"""Makes the mutants of a C++ file: small errors that a test should detect."""
 
 import collections
 import hashlib
@@ -71,7 +71,7 @@ class Mutant(NamedTuple):
 
     @property
     def key(self):
-        """Names the mutant in the ledger, in whichever file it is."""
+        """Returns the name of the mutant in the ledger, independent of its file."""
         return self.place, self.digest
 
     @property
@@ -84,7 +84,7 @@ class Mutant(NamedTuple):
 
 
 def apply(mutant, text):
-    """The file with the slip in it; every line keeps its number."""
+    """Returns the file with the mutation; every line keeps its number."""
     changed = text[: mutant.start] + mutant.new + text[mutant.end :]
     gone = text[mutant.start : mutant.end].count("\n") - mutant.new.count("\n")
     if gone:
@@ -95,7 +95,7 @@ def apply(mutant, text):
 
 
 def make_mutants(path, text):
-    """Every mutant of a file, in the order of its text."""
+    """Returns every mutant of a file in the order of its text."""
     return _Maker(path, Source(text)).make()
 
 
@@ -150,7 +150,7 @@ class _Maker:
             )
 
     def _digest(self, place, first, last, new):
-        """The same expressions of one function are told apart: "...", "....2"."""
+        """Returns a digest; equal expressions of a function get "...", "....2"."""
         words = [t.text for t in tokenize(new)]
         digest = self.digester.of_mutant(first, last, words)
         self.ordinals[place, digest] += 1
@@ -158,7 +158,7 @@ class _Maker:
         return digest if ordinal == 1 else f"{digest}.{ordinal}"
 
     def _add(self, first, last, new, kind):
-        """Tokens [first, last] become `new`."""
+        """Adds the mutant in which tokens [first, last] become `new`."""
         start, end = self.tokens[first].start, self.tokens[last].end
         if self.source.text[start:end] != new:
             self.found.append((first, last, new, kind))
@@ -268,7 +268,7 @@ class _Maker:
         self._add(one[0], two[1], f"{b}, {a}", "arguments")
 
     def _is_simple(self, first, last):
-        """Whether these tokens are one value: a name, a member, a number."""
+        """Returns whether the tokens are one value: a name, a member, a number."""
         if last - first > 4 or last < first:
             return False
         words = self.tokens[first : last + 1]
@@ -285,7 +285,7 @@ class _Maker:
         return self.source.text[self.tokens[first].start : self.tokens[last].end]
 
     def _remove_term(self, i, last):
-        """a + b c - d: takes out b c."""
+        """Removes a term: b c of a + b c - d."""
         j = i + 1
         while j < last and not (
             self.tokens[j].text in _ENDS_A_TERM
@@ -299,7 +299,7 @@ class _Maker:
             self._add(i, j - 1, "", "term")
 
     def _remove_statement(self, i, last):
-        """Takes out the statement after token i, if it is no declaration."""
+        """Removes the statement after token i, unless it is a declaration."""
         first = i + 1
         if first >= last or self.tokens[first].text in _NO_STATEMENT:
             return
@@ -361,7 +361,7 @@ class _Maker:
             self._add(i + 1, end - 1, f"-({self._text(i + 1, end - 1)})", "sign")
 
     def _mutate_constants_outside(self, inside):
-        """Constants and default values, which belong to no function's body."""
+        """Mutates constants and default values outside of functions."""
         after_equals = False
         for i, token in enumerate(self.tokens):
             if i in inside:
@@ -382,7 +382,7 @@ class _Maker:
 
 
 def _other_numbers(text):
-    """What a number could have been by mistake."""
+    """Returns plausible wrong values of a number."""
     if text.lower().startswith("0x") or not text[-1].isdigit() and text[-1] != ".":
         return []
     if text.isdigit():

@@ -166,13 +166,13 @@ struct Range {
 
 
 class DigestTest(unittest.TestCase):
-    """The digest by which the ledger knows a mutant."""
+    """The digest that names a mutant in the ledger."""
 
     def keys(self, text, path="a.cc"):
         return [m.key for m in mutants.make_mutants(path, text)]
 
     def changed(self, old, new, text=_SEARCH):
-        """The mutants of `text` whose key is gone when `old` becomes `new`."""
+        """Returns the mutants of `text` that lose their key if `old` becomes `new`."""
         self.assertIn(old, text)
         keys = self.keys(text.replace(old, new))
         return [m for m in mutants.make_mutants("a.cc", text) if m.key not in keys]

@@ -122,7 +122,7 @@ def find_sources(workspace, globs):
 
 
 def choose(pool, sample, per_function, seed):
-    """A sample that stays the same where the expressions do."""
+    """Returns a sample that is constant for constant expressions."""
     def rank(mutant):
         name = f"{seed} {mutant.place} {mutant.digest}"
         return hashlib.sha256(name.encode()).digest()
@@ -142,7 +142,7 @@ def choose(pool, sample, per_function, seed):
 
 
 def tests_digest(workspace, tests):
-    """Changes when the tests of a file may have: then survivors get another go."""
+    """Returns a digest of the tests of a file; if it changes, survivors are retried."""
     digest = hashlib.sha256()
     for package in sorted({t.split(":")[0][2:] for t in tests} | {"tests/util"}):
         for path in sorted((workspace / package).glob("*")):
@@ -153,7 +153,7 @@ def tests_digest(workspace, tests):
 
 
 class State:
-    """What is known of each mutant, by its id, in a file that grows."""
+    """Results by mutant id, in a file that only grows."""
 
     def __init__(self, path):
         self._path = path
@@ -199,7 +199,7 @@ class Progress:
 
 
 def try_all(chosen, shop, state, reach, quiet):
-    """Tries what is not known; the results by mutant."""
+    """Tries mutants without a result; returns the results by mutant."""
     results, counts = {}, collections.Counter()
     progress = Progress(len(chosen))
     limits, broken = {}, set()
@@ -245,7 +245,7 @@ def try_all(chosen, shop, state, reach, quiet):
 
 
 def read_pool(workspace, globs):
-    """Every mutant of the sources; a program is not what tests call."""
+    """Returns every mutant of the sources, except of programs."""
     pool = []
     for path in find_sources(workspace, globs):
         text = (workspace / path).read_text()
@@ -255,7 +255,7 @@ def read_pool(workspace, globs):
 
 
 def check_ledger(ledger, pool):
-    """Prints stale entries; the exit code says whether these are too many."""
+    """Prints stale entries; returns exit code 1 if there are too many."""
     lines = ledger.stale(pool)
     for line in lines:
         print("stale: " + line)
@@ -268,7 +268,7 @@ def check_ledger(ledger, pool):
 
 
 def open_folder(arguments):
-    """The folder with copy, build and state, locked by this run."""
+    """Opens the folder with copy, build and state, and locks it."""
     folder = pathlib.Path(
         arguments.work or pathlib.Path.home() / ".cache/poise/mutate"
     )
@@ -286,7 +286,7 @@ def open_folder(arguments):
 
 
 def try_chosen(arguments, workspace, chosen):
-    """(results by mutant, state, files left out), or None if interrupted."""
+    """Returns (results by mutant, state, omitted files), or None if interrupted."""
     folder, lock = open_folder(arguments)
     with lock:
         signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -309,7 +309,7 @@ def try_chosen(arguments, workspace, chosen):
 
 
 def keep(arguments, workspace, pool, ledger, state):
-    """Writes what --out and --record ask for."""
+    """Writes the files of --out and --record."""
     def verdict_of(mutant):
         entry = state.known.get(mutant.id)
         return entry and entry["verdict"]
@@ -326,7 +326,7 @@ def keep(arguments, workspace, pool, ledger, state):
 
 
 def conclude(arguments, selected, ledger, results, broken):
-    """Prints the figures; the exit code."""
+    """Prints the figures; returns the exit code."""
     counts = collections.Counter(e["verdict"] for e in results.values())
     possible = sum(1 for m in selected if not ledger.is_equivalent(m)) - (
         counts[INVALID] + counts[SAME]

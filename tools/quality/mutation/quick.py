@@ -19,7 +19,7 @@ _MEMORY = 8 << 30  # A mutant may allocate for ever.
 
 
 def parse_commands(aquery):
-    """{source: (object, compiler's arguments)} from aquery's text."""
+    """Returns {source: (object, compiler's arguments)} from aquery's text."""
     commands = {}
     for action in aquery.split("\naction "):
         match = re.search(r"Command Line: \(exec (.*?)\)\n", action + "\n", re.S)
@@ -36,7 +36,7 @@ def parse_commands(aquery):
 
 
 class _Unit:
-    """A source, which Bazel's command compiles again on precompiled headers."""
+    """A source, compiled with Bazel's command on precompiled headers."""
 
     def __init__(self, root, folder, source, command, headers):
         self.object, arguments = command
@@ -52,7 +52,7 @@ class _Unit:
         ])
 
     def compile(self, path=None, flags=()):
-        """Of the source, or what stands for it: the code, or None."""
+        """Compiles the source or its replacement; returns the code, or None."""
         self.code = self._folder / f"{self._name}.o"
         done = _run(self._root, [self._flags[0], *flags] + self._flags[1:] + (
             self._prefix + ["-c", str(path or self.source), "-o", str(self.code)]
@@ -60,7 +60,7 @@ class _Unit:
         return self.code.read_bytes() if done else None
 
     def link_library(self):
-        """Its shared library, under the name that tests look for."""
+        """Links the shared library under the name that tests load."""
         folder = pathlib.Path(self.object).parent  # .../hqp/_objs/cascade
         built = self._root / folder.parent.parent / f"lib{folder.name}.so"
         name = built.name
@@ -78,7 +78,7 @@ class _Unit:
 
 
 class _Build:
-    """A folder with what a slip changes, in front of what Bazel has built."""
+    """A folder with the outputs of a mutant, searched before Bazel's."""
 
     def __init__(self, root, an_object, environment):
         self._root = pathlib.Path(root).resolve()  # Bazel's execution root.
@@ -90,7 +90,7 @@ class _Build:
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def passes(self, label, seconds):
-        """Whether a test passes with the libraries of the last build()."""
+        """Returns whether a test passes with the libraries of the last build()."""
         package, name = label[2:].split(":")
         built = self._bin / package / name
         own = self._folder / name
@@ -114,7 +114,7 @@ class _Build:
 
 
 class SourceBuild(_Build):
-    """One source, ready to be compiled and tested with slips in it."""
+    """One source, prepared to compile and test its mutants."""
 
     def __init__(self, root, source, command, text, environment):
         super().__init__(root, command[0], environment)
@@ -124,7 +124,7 @@ class SourceBuild(_Build):
         self.works = self._original is not None and self._unit.link_library()
 
     def build(self, text):
-        """Whether it compiles, and to other code: True, False, or None."""
+        """Returns True for different code, False for equal code, None for an error."""
         code = self._compile(text)
         if code is None:
             return None
@@ -170,7 +170,7 @@ class HeaderBuild(_Build):
         self.works = None not in self._originals and self._link()
 
     def build(self, text):
-        """Whether all compiles, and to other code: True, False, or None."""
+        """Returns True for different code, False for equal code, None for an error."""
         place = self._folder / self._header
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_text(text)

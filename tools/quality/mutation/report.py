@@ -7,7 +7,7 @@ from ledger import SURVIVED, add_up
 
 
 def show_results(selected, results, ledger):
-    """What a run tried, by file and function, of what it could have tried."""
+    """Prints what a run tried, of all possible mutants, by file and function."""
     table = collections.defaultdict(collections.Counter)
     for mutant in selected:
         if ledger.is_equivalent(mutant):
@@ -25,7 +25,7 @@ def show_results(selected, results, ledger):
 
 
 def show_ledger(selected, ledger):
-    """What the ledger says of functions, of layers and of single mutants."""
+    """Prints the ledger by function, by layer and by mutant."""
     for mutant in selected:
         entry = ledger.entries.get(mutant.key)
         if entry:
@@ -53,7 +53,7 @@ def show_ledger(selected, ledger):
 
 
 def summarize(pool, verdict_of, ledger):
-    """All that is known of the sources as they are, by file and function."""
+    """Returns the known results for the present sources, by file and function."""
     files = {}
     for mutant in pool:
         row = files.setdefault(mutant.path, {}).setdefault(

@@ -19,7 +19,7 @@ class BazelError(Exception):
 
 
 class Workshop:
-    """The copy, an output base of its own, and what tests which file.
+    """The copy, its output base, and the tests of each file.
 
     The first build may take what it can from the disk cache that the user's
     bazelrc names; no mutant's output ever goes there.
@@ -37,7 +37,7 @@ class Workshop:
         self.folder.mkdir(parents=True, exist_ok=True)
 
     def copy(self):
-        """Makes the copy what the user's tree is now, uncommitted files too."""
+        """Updates the copy from the user's tree, with uncommitted files."""
         listed = subprocess.run(
             ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
             cwd=self.workspace, check=True, stdout=subprocess.PIPE,
@@ -61,7 +61,7 @@ class Workshop:
             copy.chmod(original.stat().st_mode)
 
     def stages(self, path, reach):
-        """The tests that depend on a file: its own, its layer's, the rest."""
+        """Returns the tests that depend on a file: its own, those of its layer, the rest."""
         if path not in self._stages:
             package, name = os.path.split(path)
             stem = name.rsplit(".", 1)[0]
@@ -82,7 +82,7 @@ class Workshop:
         return [sorted(stage) for stage in self._stages[path][:wanted] if stage]
 
     def baseline(self, path, reach):
-        """Builds and tests the file as it is; how long its slowest test took."""
+        """Builds and tests the unchanged file; returns the time of its slowest test."""
         slowest = 0.0
         for tests in self.stages(path, reach):
             code, output = self._bazel("test", *tests, cached=True)
@@ -95,7 +95,7 @@ class Workshop:
         return slowest
 
     def attempt(self, path, text, reach, limit):
-        """Tests the tree with the file replaced: (verdict, by whom, seconds)."""
+        """Tests the tree with the file replaced; returns (verdict, test, seconds)."""
         start = time.monotonic()
         stages = self.stages(path, reach)
         build = self._quick_build(path, stages, limit)
@@ -151,7 +151,7 @@ class Workshop:
         )
 
     def _test_environment(self):
-        """What .bazelrc and the flags set, but failures need not shrink."""
+        """Returns the test environment of .bazelrc and flags, without shrinking."""
         words = (self.tree / ".bazelrc").read_text().split() + self._flags
         found = {}
         for word in words:

@@ -1,5 +1,5 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-"""What the sources say: the public functions, the tests, who names whom."""
+"""Reads the sources: public functions, tests, and which test names which."""
 
 import collections
 import functools
@@ -59,7 +59,7 @@ class Test:
             self.kind = "closed form"
 
     def names(self, path, function, classes):
-        """Whether it calls a function of a header, as far as words can tell.
+        """Returns whether a test calls a function of a header, judged by words.
 
         An operator is called without a word: so the test must name its class,
         or a free one's header must have a class that the test names.
@@ -73,7 +73,7 @@ class Test:
 
 
 class Helpers:
-    """What functions of a file, and of tests/util, name when they are called."""
+    """Names that functions of a file and of tests/util use when called."""
 
     def __init__(self, sources):
         self._words = collections.defaultdict(set)
@@ -118,7 +118,7 @@ class Workspace:
 
     @functools.lru_cache(None)
     def headers(self, path):
-        """The headers of the workspace that a file includes, by others too."""
+        """Returns the headers of the workspace that a file includes, also indirectly."""
         found, new = set(), {path}
         while new:
             included = set()
@@ -131,7 +131,7 @@ class Workspace:
 
     @functools.lru_cache(None)
     def classes(self, path):
-        """What a header declares that an operator can work on."""
+        """Returns the classes of a header, on which operators work."""
         return set(re.findall(
             r"^(?:struct|class|using) (\w+)", self.source(path).text, re.M
         ))
@@ -147,7 +147,7 @@ class Workspace:
 
     @functools.lru_cache(None)
     def test_headers(self, package):
-        """The headers of a package that only tests may use."""
+        """Returns the headers of a package that only tests may use."""
         rules = (self.root / package / "BUILD").read_text().split("\n)\n")
         return {
             f"{package}/{header}"
@@ -156,7 +156,7 @@ class Workspace:
         }
 
     def public_functions(self):
-        """(header, qualified name), once for all overloads of a header."""
+        """Yields (header, qualified name), once for all overloads of a header."""
         found = {}
         for layer in LAYERS:
             for path in self.library_files(layer):
@@ -171,7 +171,7 @@ class Workspace:
         return list(found)
 
     def defining_files(self, path, name):
-        """Where a header's function has its body, or bodies."""
+        """Returns the files with the bodies of a header's function."""
         layer, stem = path.split("/")[0], path.rsplit(".", 1)[0]
 
         def defines(file):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-"""Prints which tests reach which public function, and what its mutants did.
+"""Prints which tests reach which public function, and the results of its mutants.
 
 The table has every public function of math, dynamics and hqp, one test of each
 kind that reaches it, and its mutants: killed of tried of possible, as the ledger
@@ -31,7 +31,7 @@ from table import make_rows, tree_tally  # noqa: E402
 
 
 def table(head, rows):
-    """A table whose columns stand under each other."""
+    """Returns a table with aligned columns."""
     rows = [head, ["-"] * len(head)] + rows
     widths = [max(len(row[i]) for row in rows) for i in range(len(head))]
     return [
@@ -44,7 +44,7 @@ def table(head, rows):
 
 
 def sums(rows, tally):
-    """By layer, how many functions have what, and what their mutants did."""
+    """Returns the number of functions with each kind of test, and mutants, by layer."""
     lines = []
     for layer in LAYERS:
         group = [row for row in rows if row.layer == layer]

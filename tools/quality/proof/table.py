@@ -73,7 +73,7 @@ class Row:
 
 
 def tree_tally(workspace, ledger):
-    """What the ledger knows of each function of the tree."""
+    """Returns the results of the ledger for each function of the tree."""
     pool = []
     for layer in LAYERS:
         for path in workspace.library_files(layer):
@@ -101,7 +101,7 @@ def make_rows(workspace, tally):
 
 
 def _find_ways_through(workspace, rows):
-    """For what has no proof of its own: the nearest proved function that leads to it."""
+    """Finds the nearest tested caller of each function without a test of its own."""
     bodies = collections.defaultdict(list)  # (layer, name): [(headers, words)]
     for layer in LAYERS:
         for path in workspace.library_files(layer):
@@ -143,7 +143,7 @@ def _find_ways_through(workspace, rows):
 
 
 def _count_mutants(workspace, rows, tally):
-    """Sums over a function's own mutants and those of what it alone can call."""
+    """Sums the mutants of a function and of the helpers that only it calls."""
     public = {row.name for row in rows}
     for row in rows:
         counted = {row.name}
