@@ -399,7 +399,7 @@ TEST_F(RefinementTest, SetsRoundingEntriesToZero) {
       for (const double part : {1e-30, 1e-6, 1e-3}) {
         const double nothing = sign * part * unit;
         EXPECT_EQ(refine(1, 0, {large, 0, 0, nothing})[3], 0);
-        // The same with the first variable.
+        // Repeats this with the first variable.
         const std::vector<double> turned{nothing, 0, 0, large};
         EXPECT_EQ(Refine({{Row({0, 0, 1, 1}), 1},
                           {Row({0, 2, 1, 0}), 0},

@@ -332,7 +332,7 @@ TEST_P(LevelQpTest, RemovesAHardRowWithANegativeMultiplier) {
   }
 }
 
-// Of two rows with the same multiplier, the first is removed.
+// If two rows have the same multiplier, the first one is removed.
 TEST_P(LevelQpTest, RemovesTheRowWithTheMostNegativeMultiplierFirst) {
   for (int most = 0; most < 2; ++most) {
     LevelQp qp = MakeQp(MatrixXd::Identity(2, 2), Eigen::Vector2d(-1, -1),
