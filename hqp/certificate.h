@@ -31,9 +31,10 @@ class Certifier {
 
  private:
   struct LevelRows {
-    Eigen::VectorXd violation;  ///< At the nearer bound; negative if met.
-    Eigen::VectorXd size;       ///< |C_i| |y| + |bound|.
-    std::vector<Side> side;     ///< The nearer bound.
+    /// Violation of the nearer bound; negative if met.
+    Eigen::VectorXd violation;
+    Eigen::VectorXd size;    ///< |C_i| |y| + |bound|.
+    std::vector<Side> side;  ///< The nearer bound.
   };
   void JudgeRows(const Hierarchy& hierarchy, int level,
                  const Solution& solution, Certificate* certificate);

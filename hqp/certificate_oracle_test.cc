@@ -217,9 +217,9 @@ TEST(CertificateOracle, AgreesWithTheDefinitionOnWrongAnswers) {
   }
 }
 
-// Level 0 is 5 y1 <= 5, where the bound is moved by some margins; level 1 is y
-// = 0. The answer is y = (10, 1). The margin of the row is relative to |C| |y|
-// + |bound| = 5 |y| + 5 = 55, not to 5 |y1| + 5 = 10.
+// Level 0: 5 y1 <= 5, with the bound moved by some margins. Level 1: y = 0. The
+// answer is y = (10, 1). The margin of the row is relative to |C| |y| + |bound|
+// = 5 |y| + 5 = 55, not to 5 |y1| + 5 = 10.
 class MarginTest : public testing::Test {
  protected:
   // Returns the complementarity error of a multiplier on the row. The row is

@@ -60,10 +60,10 @@ struct Candidate {
   double condition;
 };
 
-// Returns the optimum, by enumeration of all active sets. The optimum is also
-// that of an equality problem: of the rows that are violated or tight there. No
-// y has a lexicographically lower cost. So it is the candidate of lowest cost,
-// and among equal ones that of minimum norm.
+// Returns the optimum, by enumeration of all active sets. The optimum also
+// solves an equality problem, that of the rows that are violated or tight at
+// the optimum. No y has a lexicographically lower cost. So the optimum is the
+// candidate of lowest cost, and among equal ones that of minimum norm.
 Candidate FindByEnumeration(const HierarchyCase& drawn) {
   const Hierarchy& hierarchy = drawn.hierarchy;
   const int n = hierarchy.num_variables(), num_levels = hierarchy.num_levels();

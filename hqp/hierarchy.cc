@@ -21,14 +21,15 @@ Hierarchy::Hierarchy(int num_variables,
     : num_variables_(num_variables),
       used_levels_(static_cast<int>(capacity.size())) {
   if (num_variables < 0) {
-    throw std::invalid_argument("hierarchy: " + std::to_string(num_variables) +
-                                " variables, must not be negative");
+    throw std::invalid_argument("hierarchy: the number of variables is " +
+                                std::to_string(num_variables) +
+                                ", must not be negative");
   }
   for (const LevelCapacity& rows : capacity) {
     if (rows.equalities < 0 || rows.inequalities < 0) {
-      throw std::invalid_argument("hierarchy: level " +
-                                  std::to_string(levels_.size()) +
-                                  " has a negative capacity");
+      throw std::invalid_argument(
+          "hierarchy: level " + std::to_string(levels_.size()) +
+          " has a negative number of rows, must be 0 or more");
     }
     Level level;
     level.B.setZero(rows.equalities, num_variables);

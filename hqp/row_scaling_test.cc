@@ -130,8 +130,8 @@ TEST(RowScaling, FindsASmallResidualToAllDigits) {
 }
 
 // Other solvers use bounds of 1e30 for infinity. At such a y the other rows
-// would lose all digits. In the previous solve, the row with the index of the
-// first row of 1e30 was active.
+// would lose all digits. In the previous solve, row 1 of level 0 was active.
+// Here this row has bounds of 1e30.
 TEST(RowScaling, TreatsABoundOf1e30AsInfinite) {
   constexpr double kNone = 1e30;
   ExpectSolution(HierarchyByHand(3, {{0, {0, 0, -2}, -INFINITY, 0},

@@ -24,18 +24,22 @@ class Solver {
   /// Solves the hierarchy. Does not allocate or throw. The time is that of one
   /// factorisation, and of about one more for each change of the working set.
   ///
-  /// kOptimal: solution->certificate is at most 1e-9. Else the status is
-  /// kIterationLimit, and failed_level the first level that is not certified.
+  /// Returns kOptimal if solution->certificate is at most 1e-9. Returns
+  /// kNotFinite or kBadInput if the hierarchy is invalid or exceeds the
+  /// capacity. Else returns kIterationLimit, and failed_level is the first
+  /// level that is not certified.
   [[nodiscard]] Status Solve(const Hierarchy& hierarchy,
                              Solution* solution) noexcept;
 
-  /// Forgets the last solve: the next one is cold.
+  /// Forgets the last solve. The next solve is cold: it starts from an empty
+  /// working set and y = 0.
   void Forget() noexcept;
 
   /// Largest number of factorisations, or updates of one, in the search of one
-  /// solve. Solution::iterations is the number used. One more may follow, to
-  /// write the answer of a search that did not finish. In that case the levels
-  /// above failed_level are optimal, and y is the best found for failed_level.
+  /// solve. Solution::iterations is the number used. One more factorisation may
+  /// follow, to write the answer of a search that did not finish. In that case
+  /// the levels above failed_level are optimal, and y is the best found for
+  /// failed_level.
   int max_iterations = 500;
 
   /// Time limit [s], measured by now(). 0, or no now(): no limit. A time limit

@@ -7,9 +7,9 @@
 //
 // The dense cases have rows that no robot has: 20, 40 or 60 inequalities with
 // normally distributed entries on each of 5 levels of 68 variables. With 20,
-// about half as many rows are active as there are variables. With more, most
-// levels cannot be met, and each step factors such a level again. In cold
-// solves of these cases, the fast solver is slower than the cascade by COD.
+// about half as many rows are active as there are variables. With 40 or 60,
+// most levels cannot be met, and each step factors such a level again. In cold
+// solves of these, the fast solver is slower than the cascade by COD.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

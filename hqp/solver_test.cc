@@ -52,8 +52,8 @@ TEST(Solver, AgreesWithTheCascade) {
     EXPECT_EQ(count.allocations(), 0);
     EXPECT_LE(solution.iterations, 2);
   }
-  // Later steps correct a wrong step, which shows only in the number of steps.
-  // This number is 1216; rounding may change it by a few.
+  // Later steps correct a wrong step, so a wrong step shows only in the number
+  // of steps. This number is 1216; rounding may change it by a few.
   EXPECT_LE(iterations, 1220);
 }
 
@@ -272,7 +272,7 @@ TEST(Solver, ReportsOnlyCertifiedAnswersAsOptimal) {
                Status::kOptimal;
     EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(), kCertified);
   }
-  EXPECT_GE(optimal, 290);  // The number is 292.
+  EXPECT_GE(optimal, 290);  // 292 are optimal.
 }
 
 // A lower level never changes an upper one's optimum.

@@ -164,7 +164,7 @@ TEST_P(ActiveSetSearchTest, AgreesWithTheCascadeAllAtOnce) {
   }
 }
 
-// Later steps correct a wrong step, which shows only in the number of
+// Later steps correct a wrong step, so a wrong step shows only in the number of
 // iterations.
 TEST(ActiveSetSearch, NeedsAtMostTheRecordedNumberOfIterations) {
   RandomHierarchyOptions options;
@@ -400,8 +400,8 @@ TEST_F(ActiveSetSearchByHandTest, MeetsARowForAnyInitialViolation) {
   }
 }
 
-// y0 + y2 <= 1, where y0 = 1 is fixed and y2 has a positive target. y1 is 1e8,
-// either before the step of y2 or after the same step. The row is met to
+// y0 + y2 <= 1, where y0 = 1 is fixed and y2 has a positive target. y1 becomes
+// 1e8 before the step of y2 or in the same step. The row is met to
 // kRankTolerance of 1e8. A step that is rounding of 1e8 does not add the row to
 // the working set.
 TEST_F(ActiveSetSearchByHandTest, IgnoresRoundingAsABlockingConstraint) {

@@ -54,8 +54,8 @@ TEST_F(DiagonalLevelsTest, SolvesByHand) {
   EXPECT_EQ(diagonal_.Nullity(1), 0);
 }
 
-// Only the smallest weight of a row counts: the rounding of its large-weight
-// variables does not affect the multiplier.
+// The size of a multiplier depends on the smallest weight of its row. Rounding
+// of the large-weight variables does not count.
 TEST_F(DiagonalLevelsTest, ScalesAMultiplierByTheSmallestWeightOfItsRow) {
   diagonal_.Clear();
   diagonal_.AddLevel();

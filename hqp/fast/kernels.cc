@@ -5,8 +5,8 @@
 #include <cmath>
 
 // The binary has one version with fused multiply-add and one without, and the
-// loader selects one. Not with sanitizers, which are not yet initialised at
-// that time.
+// loader selects one. A sanitizer is not yet initialised at that time, so a
+// build with a sanitizer has one version only.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__FMA__)

@@ -48,8 +48,8 @@ class WorkingSetProblem {
   void Plan(const Hierarchy& hierarchy, int num_levels,
             const double* center = nullptr);
 
-  /// Solves for the working set `side`, by level. After the first time, the
-  /// last factorisation is updated as far as that is safe. Its rows are then
+  /// Solves for the working set `side`, by level. After the first time, updates
+  /// the last factorisation where that is accurate. The factored rows are then
   /// not in the order of their levels.
   void Solve(const Hierarchy& hierarchy,
              const std::vector<std::vector<Side>>& side) {

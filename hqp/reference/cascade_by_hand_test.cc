@@ -119,7 +119,7 @@ TEST_P(CascadeByHandTest, FindsTheMultiplierOfOpposedRows) {
 
 // y >= 1 and y <= -1 in the first solve, y >= 1 and y <= 5 in the second. The
 // second solve violates no row.
-TEST_P(CascadeByHandTest, ForgetsWhichRowsWereViolated) {
+TEST_P(CascadeByHandTest, DoesNotKeepViolatedRowsOfTheLastSolve) {
   const std::vector<LevelCapacity> capacity{{0, 2}};
   Hierarchy hierarchy(1, capacity);
   InequalityBlock rows = hierarchy.AddInequalities(0, 2);
@@ -134,8 +134,8 @@ TEST_P(CascadeByHandTest, ForgetsWhichRowsWereViolated) {
   }
 }
 
-// The step to y0 = -8 leaves rounding in y1. It must not be left to the next
-// level, y1 = 0.
+// The step to y0 = -8 leaves rounding in y1. This rounding must become zero
+// before the next level, y1 = 0, is solved.
 TEST_P(CascadeByHandTest, SetsARoundingEntryToZero) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
   HierarchyCase two{capacity, Hierarchy(2, capacity)};

@@ -243,7 +243,7 @@ TEST_P(LevelQpTest, MeetsIndependentRowsOfAnyNorm) {
 }
 
 // A large-norm row conflicts with two small-norm rows. The optimum is the point
-// of its line that is closest to (1, 0).
+// on the line of the large-norm row that is closest to (1, 0).
 TEST_P(LevelQpTest, KeepsSmallNormRowsAccurateBesideALargeNormRow) {
   const double large = 1e12;
   MatrixXd M(3, 2);
@@ -332,7 +332,7 @@ TEST_P(LevelQpTest, RemovesAHardRowWithANegativeMultiplier) {
   }
 }
 
-// If two rows have the same multiplier, the first is removed.
+// If two rows have the same multiplier, the first one is removed.
 TEST_P(LevelQpTest, RemovesTheRowWithTheMostNegativeMultiplierFirst) {
   for (int most = 0; most < 2; ++most) {
     LevelQp qp = MakeQp(MatrixXd::Identity(2, 2), Eigen::Vector2d(-1, -1),
@@ -420,8 +420,8 @@ TEST_P(LevelQpTest, MovesASoftRowFromOneBoundToTheOther) {
 }
 
 // z <= start is in the working set, and the optimum is start - off. The
-// residual is a difference of numbers near 1, with a rounding of eps. Only if
-// `off` is below that may the row stay.
+// residual is a difference of numbers near 1, with a rounding of eps. The row
+// may stay only if `off` is below that.
 TEST_P(LevelQpTest, RemovesARowForAResidualAboveRounding) {
   for (const double start : {0., 1.}) {
     for (const double off : {1e-20, 1e-16, 1e-14, 1e-13, 1e-6, 1.}) {
