@@ -80,9 +80,9 @@ void AddShifted(const Body& B, const Vec3& d, Body* P) {
   P->bias = P->bias + Shift(d, B.bias);
 }
 
-// Solves [J H; H' M] A = F for the acceleration A of a floating base. The matrix
-// is scaled to unit diagonal by the locked robot's inertia, so that kg m2 and kg
-// are comparable. Returns false if the matrix is singular.
+// Solves [J H; H' M] A = F for the acceleration A of a floating base. The
+// matrix is scaled to unit diagonal by the locked robot's inertia, so that kg
+// m2 and kg are comparable. Returns false if the matrix is singular.
 bool SolveBase(const Body& base, const MassMoments& M_locked,
                const Force3& push, Vector6d* A) {
   const Body locked = MakeBody(M_locked, base.bias);
@@ -123,10 +123,12 @@ inline Motion3 BiasAcceleration(const Recursion& r, double v_j, int b) {
           Cross(w_WP, Cross(w_WP, p_PB_W) + 2 * v_j * r.slide_W[b])};
 }
 
-// Step 1 computes the inertia I_b and the bias force p_b of each body alone. p_b
-// is the force that the body needs to turn with w, less the external force F_b:
+// Step 1 computes the inertia I_b and the bias force p_b of each body alone.
+// p_b is the force that the body needs to turn with w, less the external force
+// F_b:
 //     p_b = [ sum of x x (w x (w x x)) dm; sum of w x (w x x) dm ] - F_b.
-// r.M_W becomes the mass moments of the locked subtrees, for the test in step 2.
+// r.M_W becomes the mass moments of the locked subtrees, for the test in step
+// 2.
 void MakeBodies(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& v,
                 const std::vector<SpatialForce>& F_Bo_W, AbaScratch* scratch) {
   Recursion& r = scratch->recursion;
@@ -141,13 +143,14 @@ void MakeBodies(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& v,
   SumInertias(tree, &r);
 }
 
-// Step 2 eliminates the joints from the leaves to the base. With I_b and p_b the
-// articulated inertia and bias force of the subtree of body b, its joints free,
+// Step 2 eliminates the joints from the leaves to the base. With I_b and p_b
+// the articulated inertia and bias force of the subtree of body b, its joints
+// free,
 //     U = I_b S,   D = S' U + armature,   u = tau_j - S' p_b,
 //     I_b - U U' / D                      and
 //     p_b + (I_b - U U' / D) c + U u / D
-// are added to I and p of the parent, about its origin. Returns false if a joint
-// has no inertia: D is rounding beside the D of the locked subtree.
+// are added to I and p of the parent, about its origin. Returns false if a
+// joint has no inertia: D is rounding beside the D of the locked subtree.
 bool EliminateJoints(const Tree& tree,
                      const Eigen::Ref<const Eigen::VectorXd>& v,
                      const Eigen::Ref<const Eigen::VectorXd>& tau,

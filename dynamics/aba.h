@@ -13,12 +13,12 @@ namespace poise {
 /// AbaStatus is the result of ComputeAba().
 enum class AbaStatus {
   kOk,
-  /// M is singular or not positive definite: a motion has no inertia, for example
-  /// of a joint with a massless body. vdot is NaN. Give the body a mass or the
-  /// joint an armature, or lock the joint.
+  /// M is singular or not positive definite: a motion has no inertia, for
+  /// example of a joint with a massless body. vdot is NaN. Give the body a mass
+  /// or the joint an armature, or lock the joint.
   kSingular,
-  /// An input is not finite, the base's quaternion is 0, or the result overflows.
-  /// vdot is NaN.
+  /// An input is not finite, the base's quaternion is 0, or the result
+  /// overflows. vdot is NaN.
   kNotFinite,
 };
 
@@ -26,8 +26,9 @@ enum class AbaStatus {
 struct AbaScratch {
   explicit AbaScratch(const Tree& tree);
 
-  /// Body is the articulated-body inertia [J H; H' M] and bias force of a subtree
-  /// with free joints: the force on the body that accelerates it by [alpha; a] is
+  /// Body is the articulated-body inertia [J H; H' M] and bias force of a
+  /// subtree with free joints: the force on the body that accelerates it by
+  /// [alpha; a] is
   ///     [n; f] = [J H; H' M] [alpha; a] + bias,
   /// about the origin of the body, in world axes.
   struct Body {
@@ -53,11 +54,11 @@ struct AbaScratch {
 /// @param F_Bo_W   external forces on the bodies, as in ComputeRnea().
 /// @param scratch  made for this tree.
 /// @param vdot     nv, the derivative of v, rad/s2 and m/s2.
-/// A joint has no inertia if its D, with the joints beyond it free, is below 1e-13
-/// times its D with these joints locked: the remainder is rounding.
+/// A joint has no inertia if its D, with the joints beyond it free, is below
+/// 1e-13 times its D with these joints locked: the remainder is rounding.
 /// Costs O(n): 8 us for 50 joints. Does not allocate, does not throw.
-/// Source: Featherstone, "Rigid body dynamics algorithms", 2008, table 7.1, with
-/// classical accelerations and all vectors in world axes.
+/// Source: Featherstone, "Rigid body dynamics algorithms", 2008, table 7.1,
+/// with classical accelerations and all vectors in world axes.
 [[nodiscard]] AbaStatus ComputeAba(const Tree& tree,
                                    const Eigen::Ref<const Eigen::VectorXd>& q,
                                    const Eigen::Ref<const Eigen::VectorXd>& v,

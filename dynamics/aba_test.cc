@@ -76,8 +76,8 @@ TEST(Aba, UndoesRnea) {
     if (forward.status != AbaStatus::kOk) return Residual{1, 0};
     if (m.tree.nv() == 0) return Residual{0, 0};
     const VectorXd eigenvalues = Eigenvalues(M);
-    // The residual force is rounding, relative to the largest force. The smallest
-    // eigenvalue of M bounds the resulting error of v̇.
+    // The residual force is rounding, relative to the largest force. The
+    // smallest eigenvalue of M bounds the resulting error of v̇.
     const double scale = tau.norm() + M.norm() * m.vdot.norm() + 100;
     return Compare(forward.vdot, m.vdot,
                    Rounding(scale, m.tree.nv() + 10) / eigenvalues[0]);
@@ -113,8 +113,8 @@ TEST(Aba, AcceptsAMasslessLeafWithAnArmature) {
 }
 
 TEST(Aba, SolvesAMasslessLinkBetweenParallelAxes) {
-  // Joint 1 has inertia if joint 2 is locked, and none if joint 2 is free. After the
-  // subtraction only rounding remains.
+  // Joint 1 has inertia if joint 2 is locked, and none if joint 2 is free.
+  // After the subtraction only rounding remains.
   const Tree tree = MakeArm({}, kLink);
   Tree collinear = tree;
   TreeBuilder builder;
@@ -133,8 +133,9 @@ TEST(Aba, SolvesAMasslessLinkBetweenParallelAxes) {
 }
 
 TEST(Aba, TellsInertiaFromRounding) {
-  // Wheels on one axis, each mounted on the one before. The last but one has x + 1 kg
-  // m2 with the last one locked, and x with the joint of the last one free.
+  // Wheels on one axis, each mounted on the one before. The last but one has x
+  // + 1 kg m2 with the last one locked, and x with the joint of the last one
+  // free.
   const auto wheel = [](double inertia) {
     return Inertia{1, {0, 0, 0}, Vector3d(1, 1, inertia).asDiagonal()};
   };
@@ -209,8 +210,9 @@ TEST(Aba, SolvesAFingerOfFourGrams) {
               Rounding(1, 7, 200));
 }
 
-// Compares residual forces, relative to the sum of their terms. M grows with the cube
-// of the length, so v̇ itself has an error proportional to the condition.
+// Compares residual forces, relative to the sum of their terms. M grows with
+// the cube of the length, so v̇ itself has an error proportional to the
+// condition.
 TEST(Aba, SolvesLongChains) {
   for (const TreeShape shape :
        {TreeShape::kChain, TreeShape::kStar, TreeShape::kAny}) {

@@ -11,8 +11,8 @@
 
 namespace poise {
 
-/// CentroidalMomentum holds the matrix H_G and the bias of a robot's momentum L_G
-/// about its center of mass G, in world axes, angular part first:
+/// CentroidalMomentum holds the matrix H_G and the bias of a robot's momentum
+/// L_G about its center of mass G, in world axes, angular part first:
 ///     L_G = H_G v,     d/dt L_G = H_G v̇ + bias.
 struct CentroidalMomentum {
   explicit CentroidalMomentum(const Tree& tree)
@@ -23,9 +23,10 @@ struct CentroidalMomentum {
 };
 
 /// Computes the centroidal momentum matrix and its bias from the first six rows
-/// of the joint-space dynamics. The floating base's equation of motion is shifted
-/// to the center of mass, which saves a second recursion over the bodies. The
-/// base's rates in v are V_WB_W, so Phi of (16) is the identity. With p = p_BoG_W
+/// of the joint-space dynamics. The floating base's equation of motion is
+/// shifted to the center of mass, which saves a second recursion over the
+/// bodies. The base's rates in v are V_WB_W, so Phi of (16) is the identity.
+/// With p = p_BoG_W
 ///     H_G = X M_l,   bias = X c_l,   X = [ 1  -[p]x ]   (6 x 6).
 ///                                        [ 0    1   ]
 /// The lower three rows of H_G are the mass times the Jacobian of G.
@@ -41,18 +42,18 @@ struct CentroidalMomentum {
 /// p_BoG_W to its q.
 /// Costs 12 (nv + 1) flops. Does not allocate, does not throw.
 ///
-/// The controller runs ComputeTick()'s step 3, ComputeCentroidalDynamics, instead;
-/// the test Tick.HasTheCentroidalMomentum holds the two equal.
+/// The controller runs ComputeTick()'s step 3, ComputeCentroidalDynamics,
+/// instead; the test Tick.HasTheCentroidalMomentum holds the two equal.
 ///
-/// Source: the paper, eqs. (15)-(19); Wensing and Orin, "Improved computation of
-/// the humanoid centroidal dynamics ...", IJHR 13(1), 2016.
+/// Source: the paper, eqs. (15)-(19); Wensing and Orin, "Improved computation
+/// of the humanoid centroidal dynamics ...", IJHR 13(1), 2016.
 void ComputeCentroidalMomentum(const Eigen::Ref<const Eigen::MatrixXd>& M,
                                const Eigen::Ref<const Eigen::VectorXd>& c,
                                const Eigen::Vector3d& p_BoG_W,
                                CentroidalMomentum* out) noexcept;
 
-/// Computes the inertia of the whole robot with its joints locked, about its center
-/// of mass and in world axes: mass, p_WoG_W and I_G_W.
+/// Computes the inertia of the whole robot with its joints locked, about its
+/// center of mass and in world axes: mass, p_WoG_W and I_G_W.
 /// @param X_WB  by body, from ComputePoses() or a Tick.
 /// Costs O(n). Does not allocate, does not throw.
 Inertia CompositeInertia(const Tree& tree,

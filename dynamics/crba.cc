@@ -14,8 +14,8 @@ void FillMassMatrix(const Tree& tree, const Recursion& r,
   const int num_bodies = tree.num_bodies();
   const int v0 = tree.v_start();
 
-  // Rows and columns 0-5 are the momentum [n; f] about the base's origin O at unit
-  // rate. With m, h and Sigma of the whole robot,
+  // Rows and columns 0-5 are the momentum [n; f] about the base's origin O at
+  // unit rate. With m, h and Sigma of the whole robot,
   //     M_ll = [ trace(Sigma) 1 - Sigma   [h]x ],   column j: H_j about O.
   //            [         -[h]x            m 1  ]
   if (tree.is_floating()) {
@@ -47,8 +47,9 @@ void FillMassMatrix(const Tree& tree, const Recursion& r,
         M.bottomLeftCorner(num_bodies - 1, 6).transpose();
   }
 
-  // M_jk = [turn_k; v]' H_j for each body j in the subtree of k, where v = slide_k
-  // + turn_k x p_kj is the velocity of j's origin at unit rate of joint k.
+  // M_jk = [turn_k; v]' H_j for each body j in the subtree of k, where v =
+  // slide_k + turn_k x p_kj is the velocity of j's origin at unit rate of joint
+  // k.
   for (int k = 1; k < num_bodies; ++k) {
     const Vec3 turn_W = r.turn_W[k], slide_W = r.slide_W[k];
     const Vec3 p_OK_W = r.p_OB_W[k];

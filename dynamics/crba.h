@@ -9,11 +9,11 @@
 namespace poise {
 
 /// Computes the joint-space inertia M of M v̇ + N = S' tau + J' lambda, (7) of
-/// the paper, by the composite-rigid-body algorithm. For joint k in the subtree of
-/// joint j,
+/// the paper, by the composite-rigid-body algorithm. For joint k in the subtree
+/// of joint j,
 ///     M_jk = S_j' I_k S_k,
-/// where S_j is the velocity at unit rate of joint j, and I_k S_k the momentum of
-/// the subtree of joint k at its unit rate.
+/// where S_j is the velocity at unit rate of joint j, and I_k S_k the momentum
+/// of the subtree of joint k at its unit rate.
 ///
 /// @param q        nq, see Tree.
 /// @param scratch  made for this tree.
@@ -25,7 +25,8 @@ void ComputeCrba(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
                  Recursion* scratch, Eigen::Ref<Eigen::MatrixXd> M) noexcept;
 
 /// Fills the entries of M that can differ from zero, from the momenta that
-/// SweepMomenta() computed. Algorithms that share a Recursion call this function.
+/// SweepMomenta() computed. Algorithms that share a Recursion call this
+/// function.
 void FillMassMatrix(const Tree& tree, const Recursion& recursion,
                     Eigen::Ref<Eigen::MatrixXd> M) noexcept;
 

@@ -12,13 +12,15 @@ namespace {
 
 using Moments = RneaDerivatives::Moments;
 
-// Returns the rate of a motion y that is fixed in a body with velocity V: V x y.
+// Returns the rate of a motion y that is fixed in a body with velocity V: V x
+// y.
 Motion3 Cross(const Motion3& V, const Motion3& y) {
   return {Cross(V.angular, y.angular),
           Cross(V.angular, y.linear) + Cross(V.linear, y.angular)};
 }
 
-// Returns the rate of a force y that is fixed in a body with velocity V: V x* y.
+// Returns the rate of a force y that is fixed in a body with velocity V: V x*
+// y.
 Force3 Cross(const Motion3& V, const Force3& y) {
   return {Cross(V.angular, y.angular) + Cross(V.linear, y.linear),
           Cross(V.angular, y.linear)};
@@ -38,24 +40,24 @@ Moments operator+(const Moments& M, const Moments& N) {
   return {M.n + N.n, M.f + N.f, M.fp + N.fp};
 }
 
-// Returns the change of the total force when each force turns by x about its own
-// point:
+// Returns the change of the total force when each force turns by x about its
+// own point:
 //     [sum of x x n + p x (x x f); sum of x x f].
 Force3 Turn(const Moments& M, const Vec3& x) {
   return {Cross(x, M.n) + Trace(M.fp) * x - M.fp * x, Cross(x, M.f)};
 }
 
-// Returns y, where y'x is the power of Turn(M, x) along a motion S about the same
-// point.
+// Returns y, where y'x is the power of Turn(M, x) along a motion S about the
+// same point.
 Vec3 PowerOfTurn(const Moments& M, const Motion3& S) {
   const Vec3& t = S.angular;
   return Cross(M.n, t) + Trace(M.fp) * t - RowTimes(t, M.fp) +
          Cross(M.f, S.linear);
 }
 
-// Computes S, V, A and each body's own part of `coriolis`. An element dm at x from
-// the body's origin has the momentum u dm, u = v_B + w x x. If the body turns by r
-// faster, the Coriolis force on the element is 2 r x u dm.
+// Computes S, V, A and each body's own part of `coriolis`. An element dm at x
+// from the body's origin has the momentum u dm, u = v_B + w x x. If the body
+// turns by r faster, the Coriolis force on the element is 2 r x u dm.
 void SweepMotions(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& v,
                   RneaDerivatives* out) {
   const JointMaps& joints = tree.joint_maps();
@@ -70,8 +72,8 @@ void SweepMotions(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& v,
                  v[tree.v_start() + b - 1] * out->S[b].linear;
     }
     out->V[b] = V;
-    // The spatial acceleration at O is the classical one of the body's point at O,
-    // less w x v.
+    // The spatial acceleration at O is the classical one of the body's point at
+    // O, less w x v.
     out->A[b] = {alpha, r.a_WB[b] - AccelerationGradient(alpha, w) * p_OB -
                             Cross(w, V.linear)};
     const MassMoments M = r.M_W[b];
@@ -93,8 +95,8 @@ void SumMoments(const Tree& tree, const Recursion& r,
   }
 }
 
-// Step 1 runs RNEA and sums, for the subtree of each body, M_W, F_W, H_W and the
-// moments `coriolis` and `outside`:
+// Step 1 runs RNEA and sums, for the subtree of each body, M_W, F_W, H_W and
+// the moments `coriolis` and `outside`:
 //     F_b = sum of (I A - F from outside),   H_b = I_b S_b about O,
 //     S_coriolis_b' x = S_b' Turn(coriolis_b, x),   S_outside likewise.
 void SumSubtrees(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
@@ -130,9 +132,9 @@ void SumSubtrees(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
   }
 }
 
-// Variation describes how one entry of q or v varies the motion of a subtree. The
-// velocity changes by `rate` and the acceleration by `rate_2`. A variation of q
-// also carries the subtree along S.
+// Variation describes how one entry of q or v varies the motion of a subtree.
+// The velocity changes by `rate` and the acceleration by `rate_2`. A variation
+// of q also carries the subtree along S.
 struct Variation {
   const Motion3& S;
   const Motion3& rate;
@@ -140,8 +142,8 @@ struct Variation {
   bool is_carried;
 };
 
-// Step 2 fills column k of a derivative. A variation of the motion of `body` and
-// its subtree changes the force on the subtree of a body b by
+// Step 2 fills column k of a derivative. A variation of the motion of `body`
+// and its subtree changes the force on the subtree of a body b by
 //     dF_b = S x* F_b + I_b rate_2 + Turn(coriolis_b, angular part of rate)
 //            + Turn(outside_b, angular part of S).
 // The last term is there because forces from outside keep their directions: the
@@ -150,7 +152,8 @@ struct Variation {
 //     dtau_b = S_b' dF_body    for b = body and the joints between it and the base,
 //     dtau_b = rate_2' H_b + (angular part of rate)' S_coriolis_b
 //              + (angular part of S)' S_outside_b    for b in the subtree of body.
-// A joint in the subtree is carried along S too, so that S x* F_b has no effect.
+// A joint in the subtree is carried along S too, so that S x* F_b has no
+// effect.
 void FillColumn(const Tree& tree, const RneaDerivatives& out, bool has_outside,
                 int k, int body, const Variation& variation,
                 Eigen::MatrixXd* matrix) {

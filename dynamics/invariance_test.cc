@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests that results do not depend on the description of a robot, and conservation
-// laws.
+// Tests that results do not depend on the description of a robot, and
+// conservation laws.
 
 #include <gtest/gtest.h>
 
@@ -26,9 +26,9 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// A robot with body `root` as its base. A joint between the old and the new base
-// is reversed: its child becomes the parent, its axis points the other way, and the
-// origin of the body that was the parent moves to it.
+// A robot with body `root` as its base. A joint between the old and the new
+// base is reversed: its child becomes the parent, its axis points the other
+// way, and the origin of the body that was the parent moves to it.
 struct Rerooted {
   Rerooted(const Tree& from, int root)
       : X_NB(from.num_bodies()), tree(Build(from, root)) {
@@ -258,7 +258,8 @@ TEST(Dynamics, RotatesWithTheWorld) {
     MatrixXd T = MatrixXd::Identity(nv, nv);
     T.block<3, 3>(0, 0) = T.block<3, 3>(3, 3) = R;
     const Eigen::MatrixXd T_6 = T.topLeftCorner<6, 6>();
-    // All numbers that must be equal; those of the rotated robot are rotated back.
+    // All numbers that must be equal; those of the rotated robot are rotated
+    // back.
     const auto numbers_of = [last, nv](const TreeMotion& motion,
                                        const MatrixXd& T_v,
                                        const MatrixXd& T_x) {
@@ -290,8 +291,8 @@ TEST(Dynamics, RotatesWithTheWorld) {
   }));
 }
 
-// Returns the invariants of free fall: [angular part of L_G; p_WG and v_WG minus
-// the fall; energy].
+// Returns the invariants of free fall: [angular part of L_G; p_WG and v_WG
+// minus the fall; energy].
 VectorXd KeptOf(const TreeMotion& m, double time) {
   std::vector<Pose> X_WB(m.tree.num_bodies());
   ComputePoses(m.tree, m.q, &X_WB);
@@ -304,8 +305,8 @@ VectorXd KeptOf(const TreeMotion& m, double time) {
   return kept;
 }
 
-// Returns the largest change of the invariants over half a second, integrated by the
-// midpoint rule.
+// Returns the largest change of the invariants over half a second, integrated
+// by the midpoint rule.
 double DriftOf(TreeMotion m, int steps) {
   const double dt = 0.5 / steps;
   const VectorXd zero = VectorXd::Zero(m.tree.nv());
@@ -331,9 +332,9 @@ TEST(Dynamics, ConservesMomentumInFreeFall) {
     const TreeMotion m =
         MakeTreeMotion({TreeShape::kAny, BaseType::kFloating, 6, seed});
     ASSERT_GT(TickOf(m).L_G.head<3>().norm(), 0.1);
-    // The rule has second order. With rates up to 10/s, a step dt of 2.5e-4 s gives a
-    // drift of at most 100 dt^2, and half the step a quarter of that, up to a relative
-    // error of 10 dt from the third order.
+    // The rule has second order. With rates up to 10/s, a step dt of 2.5e-4 s
+    // gives a drift of at most 100 dt^2, and half the step a quarter of that,
+    // up to a relative error of 10 dt from the third order.
     const double coarse = DriftOf(m, 1000), fine = DriftOf(m, 2000);
     EXPECT_LT(fine, 1e-5);
     EXPECT_NEAR(coarse / fine, 4, 0.01);

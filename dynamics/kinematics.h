@@ -30,9 +30,9 @@ void ComputeVelocities(const Tree& tree, const std::vector<Pose>& X_WB,
                        const Eigen::Ref<const Eigen::VectorXd>& v,
                        std::vector<SpatialMotion>* V_WB_W) noexcept;
 
-/// Computes the classical acceleration of every body, at its origin and in world
-/// axes: the rate of V_WB_W, without gravity. At v̇ = 0 it is the bias J̇v of the
-/// body.
+/// Computes the classical acceleration of every body, at its origin and in
+/// world axes: the rate of V_WB_W, without gravity. At v̇ = 0 it is the bias
+/// J̇v of the body.
 ///     A_WB = Shift(A_WP) + [a v̇_j + w_WP x a v_j; 0], or for a prismatic joint
 ///            Shift(A_WP) + [0; a v̇_j + 2 w_WP x a v_j].
 /// @param X_WB    from ComputePoses().
@@ -47,8 +47,8 @@ void ComputeAccelerations(const Tree& tree, const std::vector<Pose>& X_WB,
                           std::vector<SpatialAcceleration>* A_WB_W) noexcept;
 
 /// Computes the pose X_WB X_BF of a frame, an index into Tree::frames(). This
-/// function costs one product of poses, the next two one shift each. None of them
-/// allocates or throws.
+/// function costs one product of poses, the next two one shift each. None of
+/// them allocates or throws.
 Pose FramePose(const Tree& tree, const std::vector<Pose>& X_WB,
                int frame) noexcept;
 

@@ -50,8 +50,8 @@ std::vector<SpatialAcceleration> AccelerationsOf(const TreeMotion& m) {
   return A_WB_W;
 }
 
-// An arm of two links of 1 m and 2 m in the plane z = 0, with a prismatic joint at
-// its end along the second link.
+// An arm of two links of 1 m and 2 m in the plane z = 0, with a prismatic joint
+// at its end along the second link.
 Tree MakeArm() {
   TreeBuilder builder;
   for (const char* name : {"base", "upper", "lower", "slide"}) {

@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kPerBody = 10;
 
-// Returns the matrix of I w as a linear function of [Ixx; Iyy; Izz; Ixy; Ixz; Iyz].
+// Returns the matrix of I w as a linear function of [Ixx; Iyy; Izz; Ixy; Ixz;
+// Iyz].
 Eigen::Matrix<double, 3, 6> InertiaTimes(const Vector3d& w) {
   Eigen::Matrix<double, 3, 6> result;
   result << w.x(), 0, 0, w.y(), w.z(), 0,  //

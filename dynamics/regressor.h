@@ -16,8 +16,9 @@ namespace poise {
 /// and then the armature of each joint. The mass of a fixed link belongs to the
 /// body that carries the link. The force on a body is linear in its parameters,
 ///     n = h x a + I alpha + w x I w,   f = m a + [alpha]x h + [w]x [w]x h,
-/// with h = m p_BoG and a the acceleration less gravity. The rows of the joint that moves the
-/// body, and of all joints between it and the base, are S_j' [n; f].
+/// with h = m p_BoG and a the acceleration less gravity. The rows of the joint
+/// that moves the body, and of all joints between it and the base, are S_j' [n;
+/// f].
 ///
 /// @param q, v, vdot  see Tree.
 /// @param scratch     made for this tree.
@@ -33,8 +34,8 @@ void ComputeRegressor(const Tree& tree,
                       Recursion* scratch,
                       Eigen::Ref<Eigen::MatrixXd> Y) noexcept;
 
-/// Returns the inertial parameters pi of a tree, in kg, kg m and kg m2. They are
-/// the initial values of an identification. Allocates.
+/// Returns the inertial parameters pi of a tree, in kg, kg m and kg m2. They
+/// are the initial values of an identification. Allocates.
 Eigen::VectorXd MakeInertialParameters(const Tree& tree);
 
 }  // namespace poise

@@ -12,10 +12,10 @@ namespace poise {
 
 /// Computes the generalized forces of a motion, the inverse dynamics
 ///     tau = M v̇ + N - sum of J_b' F_b,
-/// by the recursive Newton-Euler algorithm. The result is [torque about the base's
-/// origin; force; joint forces] in N m and N, with gravity and armatures. With the
-/// contact forces as F_b, entries 0-5 are the residual of (9) of the paper and the
-/// other entries the torques of (10).
+/// by the recursive Newton-Euler algorithm. The result is [torque about the
+/// base's origin; force; joint forces] in N m and N, with gravity and
+/// armatures. With the contact forces as F_b, entries 0-5 are the residual of
+/// (9) of the paper and the other entries the torques of (10).
 ///
 /// @param q, v, vdot  see Tree; vdot is the derivative of v.
 /// @param F_Bo_W      external forces on the bodies, about their origins and in
@@ -40,8 +40,8 @@ void ComputeBias(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
                  Eigen::Ref<Eigen::VectorXd> N) noexcept;
 
 /// Computes the bias forces c(q, v) of the paper's (17), without gravity:
-/// Coriolis and centrifugal. They are tau of RNEA at v̇ = 0 and g = 0, at the same
-/// cost.
+/// Coriolis and centrifugal. They are tau of RNEA at v̇ = 0 and g = 0, at the
+/// same cost.
 /// @param c  nv, as tau. Does not allocate, does not throw.
 void ComputeCoriolis(const Tree& tree,
                      const Eigen::Ref<const Eigen::VectorXd>& q,

@@ -43,8 +43,8 @@ VectorXd CoriolisOf(const TreeMotion& m) {
 }
 
 TEST(Rnea, IsNewtonAndEulerForEachBody) {
-  // Second derivation: Newton-Euler equations of each body about its center of mass,
-  // and the principle of virtual power with the bodies' Jacobians.
+  // Second derivation: Newton-Euler equations of each body about its center of
+  // mass, and the principle of virtual power with the bodies' Jacobians.
   EXPECT_TRUE(HoldsForTrees("tau = sum J'F", [](const TreeMotion& m) {
     const Tree& tree = m.tree;
     std::vector<Pose> X_WB(tree.num_bodies());

@@ -79,9 +79,9 @@ void StoreBodyPoses(const Tree& tree,
   }
 }
 
-// Step 3 computes the centroidal momentum by (16)-(19), from the base's origin O
-// to the center of mass G. The base's rates in v are V_WB_W, so Phi of (16) is
-// the identity, and X of (18) shifts a force or momentum from O to G:
+// Step 3 computes the centroidal momentum by (16)-(19), from the base's origin
+// O to the center of mass G. The base's rates in v are V_WB_W, so Phi of (16)
+// is the identity, and X of (18) shifts a force or momentum from O to G:
 //     p_OG = h / m,   X = [ 1  [p_GO]x ],   H_G = X M_l,   bias = X c_l.
 //                         [ 0     1    ]
 // Column j of H_G is that of (19), computed from the subtree of joint j:

@@ -12,7 +12,8 @@
 namespace poise {
 
 /// FrameTick holds what a control tick needs of one frame F. The constructor of
-/// Tick sets `frame`, an index into Tree::frames(); ComputeTick() fills the rest.
+/// Tick sets `frame`, an index into Tree::frames(); ComputeTick() fills the
+/// rest.
 ///
 /// | member | shape | meaning | axes, point |
 /// | X_WF | pose | pose of the frame | world |
@@ -27,9 +28,9 @@ struct FrameTick {
   Vector6d Jdot_v;
 };
 
-/// Tick holds all dynamics of one control tick. Only ComputeTick() writes it. SI
-/// units; angular before linear. The paper defines M, N and J in (7), J and Jdot_v
-/// in (11), c in (17), and H_G and H_G_bias in (19).
+/// Tick holds all dynamics of one control tick. Only ComputeTick() writes it.
+/// SI units; angular before linear. The paper defines M, N and J in (7), J and
+/// Jdot_v in (11), c in (17), and H_G and H_G_bias in (19).
 ///
 /// | member | shape | meaning | axes, point | computed from |
 /// | M | nv x nv | joint-space inertia, symmetric to the bit | as v | q |
@@ -43,11 +44,12 @@ struct FrameTick {
 /// | L_G | 6 | centroidal momentum, H_G v | world, G | q, v |
 /// | frames | one per frame index | see FrameTick | | q, v |
 ///
-/// Spatial vectors are plain vectors of six here, because a controller uses them
-/// in equations such as J v̇ + Jdot_v. SpatialMotion(V_WF_W) and
+/// Spatial vectors are plain vectors of six here, because a controller uses
+/// them in equations such as J v̇ + Jdot_v. SpatialMotion(V_WF_W) and
 /// SpatialMomentum(L_G) convert them.
 struct Tick {
-  /// Makes a tick with the frames of these indices, and allocates all its memory.
+  /// Makes a tick with the frames of these indices, and allocates all its
+  /// memory.
   Tick(const Tree& tree, const std::vector<int>& frames);
 
   Eigen::MatrixXd M;
@@ -71,9 +73,10 @@ struct Tick {
 };
 
 /// Fills tick for the state (q, v), see Tree, in four steps: the equation of
-/// motion, the poses of the bodies, the centroidal dynamics and the frames. Each
-/// step has its equations above it in tick.cc. Costs O(n depth): 3.6 us for 50 joints
-/// and two feet, two times RNEA alone. Does not allocate, does not throw.
+/// motion, the poses of the bodies, the centroidal dynamics and the frames.
+/// Each step has its equations above it in tick.cc. Costs O(n depth): 3.6 us
+/// for 50 joints and two feet, two times RNEA alone. Does not allocate, does
+/// not throw.
 void ComputeTick(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
                  const Eigen::Ref<const Eigen::VectorXd>& v,
                  Tick* tick) noexcept;

@@ -279,8 +279,8 @@ TEST(Tick, OfATreeWithoutMassHasNoCenterOfMass) {
 }
 
 TEST(Tick, KeepsItsDigitsOverAThousandLinks) {
-  // A straight chain of 1000 rods of 0.3 m that rotates as one body: the base's block
-  // of M is that of one rod of 300 m.
+  // A straight chain of 1000 rods of 0.3 m that rotates as one body: the base's
+  // block of M is that of one rod of 300 m.
   TreeBuilder builder;
   const double m = 0.5, l = 0.3;
   const Inertia rod{m,

@@ -14,15 +14,17 @@
 
 namespace poise {
 
-/// JointType is the motion that a joint allows. A continuous joint is a revolute
-/// joint without limits; the dynamics treat both alike.
+/// JointType is the motion that a joint allows. A continuous joint is a
+/// revolute joint without limits; the dynamics treat both alike.
 enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic };
 
-/// BaseType says whether the root link is fixed at the world's origin or floats.
+/// BaseType says whether the root link is fixed at the world's origin or
+/// floats.
 enum class BaseType { kFixed, kFloating };
 
-/// JointSpec describes a joint to the builder. The child's frame is the parent's
-/// frame, moved by the constant X_PF and then by the joint about or along axis_F.
+/// JointSpec describes a joint to the builder. The child's frame is the
+/// parent's frame, moved by the constant X_PF and then by the joint about or
+/// along axis_F.
 struct JointSpec {
   std::string name;
   JointType type = JointType::kFixed;
@@ -34,7 +36,8 @@ struct JointSpec {
       0;  ///< Rotor inertia times gear ratio squared, kg m2 (or kg).
 };
 
-/// Joint is a moving joint of a Tree. Joint j moves body j + 1; body 0 is the base.
+/// Joint is a moving joint of a Tree. Joint j moves body j + 1; body 0 is the
+/// base.
 struct Joint {
   std::string name;
   JointType type;
@@ -44,17 +47,19 @@ struct Joint {
   double armature;         ///< On M's diagonal, kg m2 (or kg).
 };
 
-/// Frame is a named frame fixed in a body. Every link of the builder has a frame.
+/// Frame is a named frame fixed in a body. Every link of the builder has a
+/// frame.
 struct Frame {
   std::string name;
   int body;
   Pose X_BF;
 };
 
-/// Tree is the immutable model of a kinematic tree: bodies, connected by revolute
-/// and prismatic joints, on a floating or a fixed base. Links behind a fixed or
-/// locked joint are merged into one body; their frames remain. Bodies are in
-/// depth-first order: a parent has a smaller index, and a subtree is contiguous.
+/// Tree is the immutable model of a kinematic tree: bodies, connected by
+/// revolute and prismatic joints, on a floating or a fixed base. Links behind a
+/// fixed or locked joint are merged into one body; their frames remain. Bodies
+/// are in depth-first order: a parent has a smaller index, and a subtree is
+/// contiguous.
 ///
 /// The state with a floating base is as follows; a fixed base has joints only.
 ///
@@ -101,9 +106,9 @@ class Tree {
   /// Returns the q with all joints at zero and the base at the world's origin.
   Eigen::VectorXd MakeNeutral() const;
 
-  /// Returns this tree with all masses, moments of inertia and armatures multiplied
-  /// by a factor, to test an error in the masses. Throws std::invalid_argument if
-  /// the factor is not positive and finite.
+  /// Returns this tree with all masses, moments of inertia and armatures
+  /// multiplied by a factor, to test an error in the masses. Throws
+  /// std::invalid_argument if the factor is not positive and finite.
   Tree WithScaledInertias(double factor) const;
 
  private:
@@ -123,12 +128,12 @@ class Tree {
 /// TreeBuilder builds a Tree from links and joints, added in any order.
 class TreeBuilder {
  public:
-  /// Adds a link. The builder takes the symmetric part of the inertia. The inertia
-  /// may violate the triangle inequality, as the rounded moments of a thin plate
-  /// do: see FindDefect().
+  /// Adds a link. The builder takes the symmetric part of the inertia. The
+  /// inertia may violate the triangle inequality, as the rounded moments of a
+  /// thin plate do: see FindDefect().
   TreeBuilder& AddLink(std::string name, const Inertia& M_L = {});
-  /// Accepts negative principal moments, and moments without mass, of links added
-  /// later. No body has such an inertia, but files of real robots do.
+  /// Accepts negative principal moments, and moments without mass, of links
+  /// added later. No body has such an inertia, but files of real robots do.
   TreeBuilder& AcceptUnphysicalInertias();
   /// Adds a joint, before or after its links.
   TreeBuilder& AddJoint(JointSpec joint);
@@ -137,15 +142,16 @@ class TreeBuilder {
   /// Sets the acceleration of free fall, m/s2; (0, 0, -9.81) by default.
   TreeBuilder& SetGravity(const Eigen::Vector3d& gravity_W);
 
-  /// Builds the tree. Build() and the functions above throw std::invalid_argument,
-  /// which names the link or joint, its value and the valid range, if
+  /// Builds the tree. Build() and the functions above throw
+  /// std::invalid_argument, which names the link or joint, its value and the
+  /// valid range, if
   /// - there is no root, or there are several; a cycle; a link with two parents,
   /// - a name is unknown or repeated,
   /// - an axis is zero, or a matrix deviates from a rotation by more than 1e-5,
   /// - an inertia is unphysical, or a number is not finite.
   /// An axis may have any length. The nearest rotation replaces each rotation.
-  /// Joints are in depth-first order in q and v, not in the order of AddJoint():
-  /// use FindJoint().
+  /// Joints are in depth-first order in q and v, not in the order of
+  /// AddJoint(): use FindJoint().
   Tree Build(BaseType base = BaseType::kFloating) const;
 
  private:

@@ -13,9 +13,10 @@
 namespace poise {
 namespace {
 
-// kRotationTolerance bounds the deviation of a joint's rotation from orthonormal. A
-// matrix with six digits passes, a matrix that scales or mirrors does not. The
-// nearest rotation replaces a matrix that deviates by more than kRotationRounding.
+// kRotationTolerance bounds the deviation of a joint's rotation from
+// orthonormal. A matrix with six digits passes, a matrix that scales or mirrors
+// does not. The nearest rotation replaces a matrix that deviates by more than
+// kRotationRounding.
 constexpr double kRotationTolerance = 1e-5;
 constexpr double kRotationRounding = 1e-14;
 
@@ -163,8 +164,8 @@ void LockJoint(const std::string& name, double value, const Index& joint_index,
   joint.type = JointType::kFixed;
 }
 
-// Graph stores the tree by indices of links and joints in the order of AddLink()
-// and AddJoint().
+// Graph stores the tree by indices of links and joints in the order of
+// AddLink() and AddJoint().
 struct Graph {
   std::vector<std::vector<int>> joints_of;  // By link: joints to its children.
   std::vector<int> joint_above;  // By link: joint to its parent, or -1.
@@ -216,8 +217,9 @@ int FindRoot(const Graph& graph, const std::vector<Link>& links) {
   return root;
 }
 
-// Returns the links in depth-first order from the root: parents before children,
-// and subtrees contiguous. The explicit stack allows trees of any depth.
+// Returns the links in depth-first order from the root: parents before
+// children, and subtrees contiguous. The explicit stack allows trees of any
+// depth.
 std::vector<int> DepthFirst(const Graph& graph, int root) {
   std::vector<int> order;
   std::vector<int> stack{root};
@@ -277,7 +279,8 @@ Tree TreeBuilder::Build(BaseType base) const {
   const int root = FindRoot(graph, links_);
 
   // Step 4 makes bodies and frames. A moving joint starts a body; a fixed one
-  // adds its link L to the parent's body B:  X_BL = X_BP X_PF,  M_B += X_BL M_L.
+  // adds its link L to the parent's body B:  X_BL = X_BP X_PF,  M_B += X_BL
+  // M_L.
   Tree tree;
   tree.base_ = base;
   tree.gravity_W_ = gravity_W_;

@@ -154,7 +154,8 @@ TEST(TreeBuilder, ProjectsARotationOfSixDigits) {
   const Matrix3d nearest = rotation_of();
   EXPECT_NEAR((nearest.transpose() * nearest - Matrix3d::Identity()).norm(), 0,
               Rounding(1, 9));
-  // The error is half of the change, because its antisymmetric part is a rotation.
+  // The error is half of the change, because its antisymmetric part is a
+  // rotation.
   EXPECT_NEAR((nearest - R).norm(), 0, 3e-6);
   joint.X_PF.R = R;
   joint.X_PF.R.col(0) *= 1 + 1e-13;
@@ -256,7 +257,8 @@ TEST(TreeBuilder, OrdersBodiesDepthFirstAndBranchesAsGiven) {
 }
 
 TEST(TreeBuilder, WeldsFixedLinksAndKeepsTheirFrames) {
-  // Two points of 1 kg and 3 kg; the second is 0.4 m along y of the rotated frame.
+  // Two points of 1 kg and 3 kg; the second is 0.4 m along y of the rotated
+  // frame.
   JointSpec joint = MakeJoint("1", "a", "b", JointType::kFixed);
   joint.X_PF.p = Vector3d(1, 0, 0);
   joint.X_PF.R =

@@ -6,7 +6,8 @@
 
 namespace poise {
 
-/// TwoDoubles is the number near + rest, where near is the double closest to it.
+/// TwoDoubles is the number near + rest, where near is the double closest to
+/// it.
 struct TwoDoubles {
   double near, rest;
 };

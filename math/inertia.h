@@ -9,9 +9,10 @@
 
 namespace poise {
 
-/// Inertia is the inertia M_BBo_B of a rigid body, in the axes of a frame B fixed
-/// in the body. It stores the center of mass G and the inertia about G, not about
-/// Bo: so a Shift() of B leaves I_G exact and costs three subtractions.
+/// Inertia is the inertia M_BBo_B of a rigid body, in the axes of a frame B
+/// fixed in the body. It stores the center of mass G and the inertia about G,
+/// not about Bo: so a Shift() of B leaves I_G exact and costs three
+/// subtractions.
 ///
 /// All functions allocate nothing and throw nothing; NaN and infinity
 /// propagate.
@@ -48,8 +49,8 @@ Inertia operator+(const Inertia& M_1, const Inertia& M_2) noexcept;
 SpatialMomentum operator*(const Inertia& M_B,
                           const SpatialMotion& V_B) noexcept;
 
-/// Returns the force about Bo that accelerates a body at rest by A_B. For a body
-/// that turns with w, Newton and Euler's equations are
+/// Returns the force about Bo that accelerates a body at rest by A_B. For a
+/// body that turns with w, Newton and Euler's equations are
 ///     F_B = M A + Cross(W, M W),   W = [w; 0].
 /// The linear velocity of Bo has no effect on F_B.
 SpatialForce operator*(const Inertia& M_B,
@@ -76,8 +77,8 @@ enum class InertiaDefect {
 
 /// Checks that some distribution of positive mass has this inertia: mass > 0,
 /// and I_G symmetric with principal moments 0 <= I_1, I_2, I_3 <= the sum of
-/// the other two. A point and a thin rod pass. The tolerance for rounding errors of
-/// a rotation is 16 eps times the largest entry of I_G.
+/// the other two. A point and a thin rod pass. The tolerance for rounding
+/// errors of a rotation is 16 eps times the largest entry of I_G.
 ///
 /// Returns the first defect in the order of the enumeration.
 [[nodiscard]] InertiaDefect FindDefect(const Inertia& M_B) noexcept;

@@ -104,7 +104,8 @@ RC_GTEST_PROP(Inertia, HasTheMomentumOfItsParticles, ()) {
   RC_ASSERT(std::abs(KineticEnergy(M, V) - energy) <= 20 * tolerance);
 }
 
-// By Newton and Euler, the force on a body is the sum of the forces on its particles.
+// By Newton and Euler, the force on a body is the sum of the forces on its
+// particles.
 RC_GTEST_PROP(Inertia, TakesTheForceOfItsParticles, ()) {
   const std::vector<Particle> particles = *Particles();
   const SpatialMotion V = *Motions();

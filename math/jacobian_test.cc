@@ -77,8 +77,8 @@ class Claim final : public ceres::SizedCostFunction<m, n> {
   std::function<Jacobian(const Argument&)> jacobian_;
 };
 
-// d -> log(exp(w + d) exp(w)^-1) has the derivative J_l(w) at d = 0. With the inverse
-// on the left, the derivative is J_r(w).
+// d -> log(exp(w + d) exp(w)^-1) has the derivative J_l(w) at d = 0. With the
+// inverse on the left, the derivative is J_r(w).
 Claim<3, 3> LeftSo3(const Vector3d& w, const Matrix3d& J) {
   return {[w](const Vector3d& d) -> Vector3d {
             return LogSo3(ExpSo3(w + d) * ExpSo3(-w));
@@ -134,14 +134,15 @@ TEST(So3Jacobians, CheckerFindsAWrongJacobian) {
   EXPECT_FALSE(LeftSo3(w, J).Holds(zero));
 }
 
-// On the manifold of unit quaternions, f(q) = log(q) has the derivative 2 J_l^-1 or 2
-// J_r^-1 in Ceres' coordinates d of q exp(d/2).
+// On the manifold of unit quaternions, f(q) = log(q) has the derivative 2
+// J_l^-1 or 2 J_r^-1 in Ceres' coordinates d of q exp(d/2).
 TEST(So3Jacobians, AreDerivativesOnCeresManifold) {
   const ceres::EigenQuaternionManifold manifold;
   for (const Vector3d& w : {Vector3d(0.3, -0.5, 0.2), Vector3d(-1, 1.2, 0.5)}) {
     SCOPED_TRACE(w.transpose());
     const Eigen::Quaterniond q = ExpQuaternion(w);
-    // Ceres moves by q <- [sin|d| d/|d|, cos|d|] q, a rotation by 2 d on the left.
+    // Ceres moves by q <- [sin|d| d/|d|, cos|d|] q, a rotation by 2 d on the
+    // left.
     const Eigen::Matrix<double, 3, 3> J = 2 * InverseLeftJacobianSo3(w);
     Eigen::Matrix<double, 4, 3, Eigen::RowMajor> plus;
     manifold.PlusJacobian(q.coeffs().data(), plus.data());
@@ -253,7 +254,8 @@ RC_GTEST_PROP(So3Jacobians, IntegrateToTheExponential, ()) {
 
 RC_GTEST_PROP(Se3Jacobians, InvertEachOther, ()) {
   const Vector6d x = *Twists(6);
-  // The condition of SO(3), squared because of the derivative; velocities up to 17.
+  // The condition of SO(3), squared because of the derivative; velocities up to
+  // 17.
   const double tolerance = Rounding(17, 18, 25 * 25);
   RC_ASSERT(
       (LeftJacobianSe3(x) * InverseLeftJacobianSe3(x) - Matrix6d::Identity())
@@ -273,8 +275,8 @@ RC_GTEST_PROP(Se3Jacobians, DifferByTheAdjoint, ()) {
 // Compares with Barfoot's (7.86), Q by products of matrices.
 RC_GTEST_PROP(Se3Jacobians, QIsBarfootsQ, ()) {
   const Vector3d w = *RotationVectors(6), v = *Vectors();
-  // For small angles Barfoot's coefficients lose digits like the fifth power of the
-  // angle.
+  // For small angles Barfoot's coefficients lose digits like the fifth power of
+  // the angle.
   RC_PRE(w.norm() > 1);
   const double a = w.norm(), c = std::cos(a), s = std::sin(a);
   const Matrix3d W = Hat(w), V = Hat(v);

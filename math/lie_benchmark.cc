@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Benchmarks the maps of SO(3) and SE(3) against Eigen's AngleAxis and Quaternion.
-// Angles are from 0.01 to 3.1 rad, on both sides of Stumpff's switch.
+// Benchmarks the maps of SO(3) and SE(3) against Eigen's AngleAxis and
+// Quaternion. Angles are from 0.01 to 3.1 rad, on both sides of Stumpff's
+// switch.
 //
 //     bazel run --config=native //math:lie_benchmark
 //

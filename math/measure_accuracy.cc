@@ -218,7 +218,8 @@ std::vector<Accuracy> MeasureAccuracy(int samples) {
       MeasureSe3(x, &errors);
       for (const auto& [map, error] : errors) {
         Accuracy& a = worst[map];
-        // The condition is not (error > a.error), because a NaN must be reported.
+        // The condition is not (error > a.error), because a NaN must be
+        // reported.
         if (i == 0 || !(error <= a.error)) {
           const bool is_jacobian = map.find("Jacobian") != std::string::npos;
           a = {map,  range.from, range.to, error, is_jacobian ? 8.0 : 4.0,

@@ -21,14 +21,15 @@ struct Accuracy {
 /// se3_jacobian.h against power series in 400 bits:
 ///     exp(A) = sum A^n / n!,   J(A) = sum A^n / (n + 1)!,   A = ad(x),
 /// and the inverse maps against the maps that they invert. Random angles are
-/// logarithmic below 1 rad and uniform above, with more samples near the switch of
-/// math/stumpff.h, π and 2 π. Random directions are uniform; a third have a small
-/// or zero component. Linear velocities have norms from 1e-6 to 1e6; a quarter are
-/// nearly normal and a quarter nearly parallel to the axis.
+/// logarithmic below 1 rad and uniform above, with more samples near the switch
+/// of math/stumpff.h, π and 2 π. Random directions are uniform; a third have a
+/// small or zero component. Linear velocities have norms from 1e-6 to 1e6; a
+/// quarter are nearly normal and a quarter nearly parallel to the axis.
 ///
-/// The error is |computed - exact| / |exact| in the Frobenius norm, divided by the
-/// condition: the angle above π for exp, max(1, θ/|2 π - θ|) for inverse
-/// Jacobians, else 1. "antisymmetric part" is (R - R')/2, relative to the angle.
+/// The error is |computed - exact| / |exact| in the Frobenius norm, divided by
+/// the condition: the angle above π for exp, max(1, θ/|2 π - θ|) for inverse
+/// Jacobians, else 1. "antisymmetric part" is (R - R')/2, relative to the
+/// angle.
 ///
 /// @param samples  number of samples for each range and map.
 std::vector<Accuracy> MeasureAccuracy(int samples);

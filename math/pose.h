@@ -19,8 +19,8 @@ struct Pose {
 };
 
 /// Returns X_AC = [R_AB R_BC, R_AB p_BC_B + p_AB_A]. Each column is a linear
-/// combination of the columns of R_AB. A vector register holds one column and the
-/// first entry of the next column, which is discarded at the end.
+/// combination of the columns of R_AB. A vector register holds one column and
+/// the first entry of the next column, which is discarded at the end.
 inline Pose operator*(const Pose& X_AB, const Pose& X_BC) noexcept {
   using Four = double __attribute__((vector_size(4 * sizeof(double))));
   const double* R_AB = X_AB.R.data();

@@ -8,7 +8,8 @@
 
 namespace poise {
 
-/// Returns the unit quaternion of R_AB, with w >= 0. Stored (x, y, z, w), as in q.
+/// Returns the unit quaternion of R_AB, with w >= 0. Stored (x, y, z, w), as in
+/// q.
 ///
 /// pre: R is a rotation. An error e of R gives an error O(e) of the quaternion.
 /// The error is at most 4 eps for all angles, because each divisor is at least
@@ -25,16 +26,16 @@ inline bool IsSafeSquare(double square) noexcept {
 /// NaN in all components.
 Eigen::Quaterniond Rescale(const Eigen::Quaterniond& q) noexcept;
 
-/// Returns the unit quaternion in the direction of q, for any norm of q but 0. Zero,
-/// a NaN or an infinity gives NaN in all components.
+/// Returns the unit quaternion in the direction of q, for any norm of q but 0.
+/// Zero, a NaN or an infinity gives NaN in all components.
 inline Eigen::Quaterniond Normalize(const Eigen::Quaterniond& q) noexcept {
   const double square = q.squaredNorm();
   if (!IsSafeSquare(square)) return Rescale(q).normalized();
   return Eigen::Quaterniond(q.coeffs() / std::sqrt(square));
 }
 
-/// Returns the rotation matrix of a unit quaternion: 1 - 2 (y² + z²), ... It is the
-/// inverse of QuaternionFromMatrix(). q and -q give the same matrix.
+/// Returns the rotation matrix of a unit quaternion: 1 - 2 (y² + z²), ... It is
+/// the inverse of QuaternionFromMatrix(). q and -q give the same matrix.
 inline Eigen::Matrix3d MatrixFromQuaternion(
     const Eigen::Quaterniond& q) noexcept {
   return q.toRotationMatrix();
@@ -42,8 +43,8 @@ inline Eigen::Matrix3d MatrixFromQuaternion(
 
 /// Returns the unit quaternion of the rotation by |w| about w, for any |w|:
 ///     [sin(|w|/2) w/|w|; cos(|w|/2)].
-/// The error is that of ExpSo3(). A NaN, an infinity or |w| > 1e154 gives NaN in
-/// all components.
+/// The error is that of ExpSo3(). A NaN, an infinity or |w| > 1e154 gives NaN
+/// in all components.
 inline Eigen::Quaterniond ExpQuaternion(const Eigen::Vector3d& w) noexcept {
   const Eigen::Vector3d half = 0.5 * w;
   const Stumpff c = ComputeStumpff(half);
@@ -66,15 +67,16 @@ inline Eigen::Vector3d LogQuaternion(const Eigen::Quaterniond& q) noexcept {
     v = rescaled.vec();
     square = v.squaredNorm();
   }
-  // An underflow may round the square of a tiny sine, but atan2(x, y) / x hardly
-  // depends on x there. Only a sine of zero needs a limit instead of the quotient.
+  // An underflow may round the square of a tiny sine, but atan2(x, y) / x
+  // hardly depends on x there. Only a sine of zero needs a limit instead of the
+  // quotient.
   const double sine = std::sqrt(square);
   if (sine == 0) return 2 / w * v;
   return std::copysign(2 / sine, w) * std::atan2(sine, std::abs(w)) * v;
 }
 
-/// Returns (w, x, y, z), the order of URDF tools, MuJoCo and most books. Use it at
-/// the borders of the program.
+/// Returns (w, x, y, z), the order of URDF tools, MuJoCo and most books. Use it
+/// at the borders of the program.
 inline Eigen::Vector4d WxyzFromQuaternion(
     const Eigen::Quaterniond& q) noexcept {
   return {q.w(), q.x(), q.y(), q.z()};
@@ -86,8 +88,8 @@ inline Eigen::Quaterniond QuaternionFromWxyz(
   return {wxyz[0], wxyz[1], wxyz[2], wxyz[3]};
 }
 
-/// Returns a uniformly distributed rotation, from three numbers that are uniformly
-/// distributed in [0, 1).
+/// Returns a uniformly distributed rotation, from three numbers that are
+/// uniformly distributed in [0, 1).
 ///
 /// Source: Shoemake, "Uniform random rotations", Graphics Gems III, 1992.
 Eigen::Quaterniond UniformQuaternion(const Eigen::Vector3d& u) noexcept;

@@ -7,24 +7,25 @@
 namespace poise {
 
 /// kRankTolerance is the only rank threshold of this project, and relative. A
-/// singular value counts as zero if it is at most kRankTolerance times the largest
-/// one. A row of unit length counts as dependent if a projection leaves a
-/// remainder of at most this length. Rounding of a dependent row leaves eps times the number of its
-/// entries, 2e-14 for a hundred, which is far below the threshold. Rows of a robot
-/// that is not at a singularity are far above it.
+/// singular value counts as zero if it is at most kRankTolerance times the
+/// largest one. A row of unit length counts as dependent if a projection leaves
+/// a remainder of at most this length. Rounding of a dependent row leaves eps
+/// times the number of its entries, 2e-14 for a hundred, which is far below the
+/// threshold. Rows of a robot that is not at a singularity are far above it.
 constexpr double kRankTolerance = 1e-11;
 
-/// RankRevealing computes the singular value decomposition A = U S V', and from it
-/// the rank, orthonormal bases of the row space and the nullspace, the condition,
-/// and the least-squares solution of A x = b of least norm.
+/// RankRevealing computes the singular value decomposition A = U S V', and from
+/// it the rank, orthonormal bases of the row space and the nullspace, the
+/// condition, and the least-squares solution of A x = b of least norm.
 ///
 /// The algorithm is Householder QR of A' with column pivoting, then one-sided
-/// Jacobi rotations of the triangle. If A is a well-conditioned matrix with scaled
-/// rows, each singular value has a relative error of a few eps; otherwise the
-/// error is relative to the largest one. The QR costs about 6 n m min(n, m) flops,
-/// and each of 3 to 8 sweeps 6 m min(n, m)² flops.
+/// Jacobi rotations of the triangle. If A is a well-conditioned matrix with
+/// scaled rows, each singular value has a relative error of a few eps;
+/// otherwise the error is relative to the largest one. The QR costs about 6 n m
+/// min(n, m) flops, and each of 3 to 8 sweeps 6 m min(n, m)² flops.
 ///
-/// The constructor allocates all workspaces; nothing else allocates, nothing throws.
+/// The constructor allocates all workspaces; nothing else allocates, nothing
+/// throws.
 ///
 /// Source: Drmač and Veselić, "New fast and accurate Jacobi SVD algorithm I",
 /// SIMAX 29(4), 2008, without its second QR.
@@ -32,8 +33,8 @@ class RankRevealing {
  public:
   RankRevealing(int max_rows, int max_cols);
 
-  /// Decomposes A, which has at most the constructor's size (asserted). A may have
-  /// no rows or no columns.
+  /// Decomposes A, which has at most the constructor's size (asserted). A may
+  /// have no rows or no columns.
   ///
   /// @param scale  norm of the matrix that A was computed from, if A is a remainder
   ///               after a projection. The threshold is then relative to scale if
@@ -53,8 +54,8 @@ class RankRevealing {
     return sigma_.head(size_);
   }
 
-  /// Returns an orthonormal basis of the row space, cols x rank: the first right
-  /// singular vectors.
+  /// Returns an orthonormal basis of the row space, cols x rank: the first
+  /// right singular vectors.
   Eigen::Ref<const Eigen::MatrixXd> row_space() const noexcept {
     return V_.block(0, 0, cols_, rank_);
   }
@@ -63,9 +64,9 @@ class RankRevealing {
     return V_.block(0, rank_, cols_, cols_ - rank_);
   }
 
-  /// Returns sigma_max divided by the smallest singular value above the threshold.
-  /// Solve() can enlarge a relative error of b by this factor. The condition is 1
-  /// if the rank is 0, and NaN if an entry of A is not finite.
+  /// Returns sigma_max divided by the smallest singular value above the
+  /// threshold. Solve() can enlarge a relative error of b by this factor. The
+  /// condition is 1 if the rank is 0, and NaN if an entry of A is not finite.
   double condition() const noexcept;
 
   /// Computes the x of least norm that minimises |A x - b|: V S^+ U' b.

@@ -154,8 +154,8 @@ TEST(RankRevealing, ComparesARemainderWithItsOriginal) {
 }
 
 TEST(RankRevealing, FindsSmallSingularValuesOfScaledRows) {
-  // Orthogonal rows of norm 1 to 1e-12. Each singular value is the norm of a row, to a
-  // few digits.
+  // Orthogonal rows of norm 1 to 1e-12. Each singular value is the norm of a
+  // row, to a few digits.
   const int n = 5;
   const MatrixXd Q = Orthogonal(n, 3);
   const VectorXd scales =

@@ -11,8 +11,8 @@
 namespace poise {
 namespace {
 
-// TranslationBeyondHalfATurn() computes J_l(w) v for |w|² > 10, about half a turn
-// and more. With k = w'v it splits v into parts parallel and normal to w:
+// TranslationBeyondHalfATurn() computes J_l(w) v for |w|² > 10, about half a
+// turn and more. With k = w'v it splits v into parts parallel and normal to w:
 //     p = k / θ² w + sin θ / θ (v - k / θ² w) + (1 - cos θ) / θ² w x v.
 // Each term is accurate to its own last digit. The last two terms vanish near a
 // full turn.

@@ -95,7 +95,8 @@ TEST(ExpSe3, OfARotationAboutADistantAxis) {
 }
 
 TEST(ExpSe3, OfNearlyAFullTurnIsExactAcrossTheAxis) {
-  // The double below 2 π has an error of 2.4e-16, and so has the chord of the circle.
+  // The double below 2 π has an error of 2.4e-16, and so has the chord of the
+  // circle.
   const double angle = 2 * M_PI;
   const Pose X = ExpSe3((Vector6d() << 0, 0, angle, 3, 0, 0).finished());
   const double off = std::sin(angle);  // -2.4e-16.
@@ -104,7 +105,8 @@ TEST(ExpSe3, OfNearlyAFullTurnIsExactAcrossTheAxis) {
   EXPECT_EQ(X.p.z(), 0);
 }
 
-// Compares with repeated squaring of (I + A/2^n + ...), an independent algorithm.
+// Compares with repeated squaring of (I + A/2^n + ...), an independent
+// algorithm.
 RC_GTEST_PROP(ExpSe3, IsTheMatrixExponential, ()) {
   const Vector6d x = *Twists(4 * M_PI);
   const Eigen::Matrix4d A = HatSe3(x) / 64;

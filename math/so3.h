@@ -18,7 +18,8 @@ inline Eigen::Matrix3d Hat(const Eigen::Vector3d& w) noexcept {
   return W;
 }
 
-/// Returns the vector of the antisymmetric part (W - W')/2, the inverse of Hat().
+/// Returns the vector of the antisymmetric part (W - W')/2, the inverse of
+/// Hat().
 inline Eigen::Vector3d Vee(const Eigen::Matrix3d& W) noexcept {
   return 0.5 * Eigen::Vector3d(W(2, 1) - W(1, 2), W(0, 2) - W(2, 0),
                                W(1, 0) - W(0, 1));
@@ -27,10 +28,10 @@ inline Eigen::Vector3d Vee(const Eigen::Matrix3d& W) noexcept {
 /// Returns the rotation by |w| about w, for any |w|:
 ///     exp(Hat(w)) = I + sin θ / θ Hat(w) + (1 - cos θ) / θ² Hat(w)²,   θ = |w|.
 ///
-/// The error is at most 4 eps max(1, |w|) in the norm of the result. The error of
-/// the antisymmetric part has this bound relative to |w| too, down to |w| = 1e-300.
-/// See docs/generated/accuracy.md. A NaN, an infinity or |w| > 1e154 gives NaN in
-/// all entries.
+/// The error is at most 4 eps max(1, |w|) in the norm of the result. The error
+/// of the antisymmetric part has this bound relative to |w| too, down to |w| =
+/// 1e-300. See docs/generated/accuracy.md. A NaN, an infinity or |w| > 1e154
+/// gives NaN in all entries.
 inline Eigen::Matrix3d ExpSo3(const Eigen::Vector3d& w) noexcept {
   const Stumpff c = ComputeStumpff(w);
   const double x = w.x(), y = w.y(), z = w.z();
@@ -42,28 +43,30 @@ inline Eigen::Matrix3d ExpSo3(const Eigen::Vector3d& w) noexcept {
   return R;
 }
 
-/// Returns the rotation vector of R, of norm at most π, the inverse of ExpSo3(). A
-/// rotation by π has two rotation vectors; the function returns one of them.
+/// Returns the rotation vector of R, of norm at most π, the inverse of
+/// ExpSo3(). A rotation by π has two rotation vectors; the function returns one
+/// of them.
 ///
 /// pre: R is a rotation. An error e of R gives an error O(e) of the vector.
-/// The error is at most 4 eps |w|, for |w| from 1e-300 to π. A NaN or an infinity
-/// gives NaN in all entries.
+/// The error is at most 4 eps |w|, for |w| from 1e-300 to π. A NaN or an
+/// infinity gives NaN in all entries.
 inline Eigen::Vector3d LogSo3(const Eigen::Matrix3d& R) noexcept {
   return LogQuaternion(Eigen::Quaterniond(R));
 }
 
-/// Returns the rotation at fraction t of the shorter arc from R_0 (t = 0) to R_1
-/// (t = 1), at a constant angular velocity:
+/// Returns the rotation at fraction t of the shorter arc from R_0 (t = 0) to
+/// R_1 (t = 1), at a constant angular velocity:
 ///     R_0 exp(t log(R_0' R_1)).
 Eigen::Matrix3d InterpolateSo3(const Eigen::Matrix3d& R_0,
                                const Eigen::Matrix3d& R_1, double t) noexcept;
 
-/// Returns the rotation nearest to A in the Frobenius norm. With A = U S V' it is
-/// U diag(1, 1, det(U V')) V'.
+/// Returns the rotation nearest to A in the Frobenius norm. With A = U S V' it
+/// is U diag(1, 1, det(U V')) V'.
 ///
-/// pre: A is nearly a rotation. (The result is unique if A is not singular and, for
-/// det A < 0, its two smallest singular values differ.) A NaN or an infinity gives
-/// NaN in all entries. The iterative SVD takes about 2 us: not for each tick.
+/// pre: A is nearly a rotation. (The result is unique if A is not singular and,
+/// for det A < 0, its two smallest singular values differ.) A NaN or an
+/// infinity gives NaN in all entries. The iterative SVD takes about 2 us: not
+/// for each tick.
 ///
 /// Source: Kabsch, Acta Cryst. A34, 1978.
 Eigen::Matrix3d ProjectToSo3(const Eigen::Matrix3d& A) noexcept;

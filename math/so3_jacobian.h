@@ -6,15 +6,17 @@
 namespace poise {
 
 // The Jacobians of SO(3) are the derivatives of ExpSo3(). With R = R_AB =
-// exp(Hat(w)), the left Jacobian gives the angular velocity in A's axes, and the
-// right Jacobian in B's axes:
+// exp(Hat(w)), the left Jacobian gives the angular velocity in A's axes, and
+// the right Jacobian in B's axes:
 //     Ṙ = Hat(J_l(w) ẇ) R = R Hat(J_r(w) ẇ),
 //     exp(Hat(w + d)) = exp(Hat(J_l(w) d)) R + O(|d|²).
 //
-// The error of all four functions is at most 8 eps in the norm of the result, for
+// The error of all four functions is at most 8 eps in the norm of the result,
+// for
 // |w| from 1e-300 to 4 π. The error of the inverses, which exist for |w| < 2 π, is
-// larger by the factor max(1, |w| / |2 π - |w||). See docs/generated/accuracy.md.
-// A NaN, an infinity or |w| > 1e154 gives NaN. About 60 flops; no allocation.
+// larger by the factor max(1, |w| / |2 π - |w||). See
+// docs/generated/accuracy.md. A NaN, an infinity or |w| > 1e154 gives NaN.
+// About 60 flops; no allocation.
 
 /// Returns the left Jacobian, the sum of Hat(w)^n / (n + 1)! for n = 0, 1, ...:
 ///     J_l = c1 I + c2 Hat(w) + c3 w w',   with Stumpff's c1, c2, c3.

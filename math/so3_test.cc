@@ -182,8 +182,8 @@ RC_GTEST_PROP(ProjectToSo3, LeavesRotationsAlone, ()) {
   RC_ASSERT((ProjectToSo3(R) - R).norm() <= 4 * kRotationTolerance);
 }
 
-// R is the rotation nearest to A if R'A is symmetric and each two of its eigenvalues
-// have a positive sum.
+// R is the rotation nearest to A if R'A is symmetric and each two of its
+// eigenvalues have a positive sum.
 RC_GTEST_PROP(ProjectToSo3, IsTheNearestRotation, ()) {
   const Matrix3d R = *Rotations();
   const Vector3d a = *Vectors(), b = *Vectors(), c = *Vectors();

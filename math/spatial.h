@@ -14,9 +14,9 @@ namespace poise {
 enum class SpatialKind { kMotion, kAcceleration, kForce, kMomentum };
 
 /// SpatialVector is a spatial vector at a point and in the axes of a frame. The
-/// name of a variable says both: V_WB_E is the motion of B in W, at B's origin, in
-/// E's axes. The compiler adds only vectors of the same kind; the caller must add
-/// only vectors at the same point and in the same axes.
+/// name of a variable says both: V_WB_E is the motion of B in W, at B's origin,
+/// in E's axes. The compiler adds only vectors of the same kind; the caller
+/// must add only vectors at the same point and in the same axes.
 ///
 /// | kind | angular | linear | name |
 /// | motion | velocity w, rad/s | velocity of the point, m/s | V_WB_E |
@@ -25,9 +25,10 @@ enum class SpatialKind { kMotion, kAcceleration, kForce, kMomentum };
 /// | momentum | about the point, kg m2/s | kg m/s | L_G_E |
 ///
 /// Accelerations are classical: the linear part is the rate of the point's
-/// velocity. A shift to another point depends on the angular velocity. (The spatial
-/// acceleration of Featherstone is the classical one less [0; w x v].) All functions
-/// are inline, allocate nothing and throw nothing; NaN and infinity propagate.
+/// velocity. A shift to another point depends on the angular velocity. (The
+/// spatial acceleration of Featherstone is the classical one less [0; w x v].)
+/// All functions are inline, allocate nothing and throw nothing; NaN and
+/// infinity propagate.
 template <SpatialKind kind>
 struct SpatialVector {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
@@ -118,20 +119,22 @@ SpatialVector<kind> operator*(const Pose& X_AB,
   return Shift(X_AB.R * x_Bo_B, -X_AB.p);
 }
 
-/// Returns the power in W of a force along a motion at the same point and in the
-/// same axes.
+/// Returns the power in W of a force along a motion at the same point and in
+/// the same axes.
 inline double Dot(const SpatialMotion& V_B, const SpatialForce& F_B) noexcept {
   return V_B.angular.dot(F_B.angular) + V_B.linear.dot(F_B.linear);
 }
 
-/// Returns V'L in J, with both at the same point and in the same axes. If L is the
-/// momentum of a rigid body that moves with V, it is twice the kinetic energy.
+/// Returns V'L in J, with both at the same point and in the same axes. If L is
+/// the momentum of a rigid body that moves with V, it is twice the kinetic
+/// energy.
 inline double Dot(const SpatialMotion& V_B,
                   const SpatialMomentum& L_B) noexcept {
   return V_B.angular.dot(L_B.angular) + V_B.linear.dot(L_B.linear);
 }
 
-/// Returns the rate ad(V) y of a motion y that is fixed in a body with velocity V:
+/// Returns the rate ad(V) y of a motion y that is fixed in a body with velocity
+/// V:
 ///     [w x y.angular; w x y.linear + v x y.angular].
 inline SpatialMotion Cross(const SpatialMotion& V,
                            const SpatialMotion& y) noexcept {
@@ -139,7 +142,8 @@ inline SpatialMotion Cross(const SpatialMotion& V,
           V.angular.cross(y.linear) + V.linear.cross(y.angular)};
 }
 
-/// Returns the rate -ad(V)' y of a force y that is fixed in a body with velocity V:
+/// Returns the rate -ad(V)' y of a force y that is fixed in a body with
+/// velocity V:
 ///     [w x y.angular + v x y.linear; w x y.linear].
 inline SpatialForce Cross(const SpatialMotion& V,
                           const SpatialForce& y) noexcept {
@@ -147,8 +151,8 @@ inline SpatialForce Cross(const SpatialMotion& V,
           V.angular.cross(y.linear)};
 }
 
-/// Returns the rate of a momentum y that is fixed in a body with velocity V. The
-/// rate is a force, and has the same formula as the rate of a force.
+/// Returns the rate of a momentum y that is fixed in a body with velocity V.
+/// The rate is a force, and has the same formula as the rate of a force.
 inline SpatialForce Cross(const SpatialMotion& V,
                           const SpatialMomentum& y) noexcept {
   return Cross(V, SpatialForce(y.angular, y.linear));

@@ -112,8 +112,8 @@ TEST(Shift, OfAForceIsTheMomentAboutAnotherPoint) {
 }
 
 TEST(Shift, OfAnAccelerationIsThatOfAnotherPoint) {
-  // A table rotates about z at 2 rad/s and accelerates by 3 rad/s2. The point at x = 3
-  // has 9 m/s2 along y and 4 * 3 m/s2 towards the axis.
+  // A table rotates about z at 2 rad/s and accelerates by 3 rad/s2. The point
+  // at x = 3 has 9 m/s2 along y and 4 * 3 m/s2 towards the axis.
   const SpatialMotion V({0, 0, 2}, {7, 8, 9});
   const SpatialAcceleration A_Q =
       Shift(SpatialAcceleration({0, 0, 3}, {1, 0, 0}), V, {3, 0, 0});

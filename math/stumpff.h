@@ -22,13 +22,15 @@ struct Stumpff {
 /// forms; θ = 1.58 rad.
 ///
 /// Both must be accurate at the switch. Above, c3 is (1 - c1) / s and dc3 is
-/// (c2 - 3 c3) / s: an error e of c1 becomes e/s and 3 e/s², so s must be at least
+/// (c2 - 3 c3) / s: an error e of c1 becomes e/s and 3 e/s², so s must be at
+/// least
 /// 1. Below, c1 is 1 - s c3, which loses no digits for s c3 < 1/2, that is s < 3.4.
-/// The quaternion of a rotation by at most π needs s up to (π/2)² = 2.47. With the
-/// switch above this value it needs no sine.
+/// The quaternion of a rotation by at most π needs s up to (π/2)² = 2.47. With
+/// the switch above this value it needs no sine.
 constexpr double kStumpffSwitch = 2.5;
 
-/// StumpffSeries computes c1 to c6 by their series, for 0 <= s < kStumpffSwitch.
+/// StumpffSeries computes c1 to c6 by their series, for 0 <= s <
+/// kStumpffSwitch.
 ///
 /// The series of c5 and c6 are summed; the others follow from
 ///     cm = 1/m! - s c(m+2).
@@ -40,11 +42,11 @@ struct StumpffSeries {
 
 /// Computes the Stumpff functions of s = |w|².
 ///
-/// Below the switch the series are used, and dcm = m c(m+2) - c(m+1). Above, sine
-/// and cosine are used, and dcm = (c(m-1) - m cm) / s.
+/// Below the switch the series are used, and dcm = m c(m+2) - c(m+1). Above,
+/// sine and cosine are used, and dcm = (c(m-1) - m cm) / s.
 ///
-/// A NaN, an infinity or |w| > 1e154 gives NaN in all members. 40 flops below the
-/// switch. The function is inline, so that unused members cost nothing.
+/// A NaN, an infinity or |w| > 1e154 gives NaN in all members. 40 flops below
+/// the switch. The function is inline, so that unused members cost nothing.
 ///
 /// Source: Stumpff, Himmelsmechanik I, 1959, ch. V.
 inline Stumpff ComputeStumpff(const Eigen::Vector3d& w) noexcept {
@@ -71,9 +73,10 @@ struct InverseStumpff {
   double e, d, de, dd;
 };
 
-/// AccurateAngle computes the norm of w as near + rest, with an error of 2^-100, and
-/// its square. The accuracy is needed because the sine near π and 2 π, and the
-/// cotangent, enlarge a relative error of the angle. |w| > 1e154 gives NaN.
+/// AccurateAngle computes the norm of w as near + rest, with an error of
+/// 2^-100, and its square. The accuracy is needed because the sine near π and 2
+/// π, and the cotangent, enlarge a relative error of the angle. |w| > 1e154
+/// gives NaN.
 struct AccurateAngle {
   explicit AccurateAngle(const Eigen::Vector3d& w) noexcept {
     const TwoDoubles s = ExactDot(w, w);
@@ -88,8 +91,8 @@ struct AccurateAngle {
 ///
 /// Below the switch Stumpff's functions are used. With ' for 2 d/ds,
 ///     e = c1 / (2 c2),   d = -c2' / (2 c2).
-/// Above, 1 - e is not small, and sine and cosine of θ/2 are used. The result is
-/// singular if θ is a multiple of 2 π other than 0. A NaN, an infinity or
+/// Above, 1 - e is not small, and sine and cosine of θ/2 are used. The result
+/// is singular if θ is a multiple of 2 π other than 0. A NaN, an infinity or
 /// |w| > 1e154 gives NaN in all members.
 inline InverseStumpff ComputeInverseStumpff(const Eigen::Vector3d& w) noexcept {
   InverseStumpff inverse;

@@ -66,8 +66,9 @@ TEST_F(StumpffTest, ClosedFormIsRightToTheLastDigits) {
     const Stumpff c = ComputeStumpff(w);
     const double values[] = {c.c1, c.c2, c.c3, c.dc1, c.dc2, c.dc3};
     for (int m = 1; m <= 3; ++m) {
-      // Errors of sin θ / θ and (1 - cos θ) / θ²: the last digits of sine, cosine and θ.
-      // c3, a quotient by s, has no larger error. A derivative has m times this error.
+      // Errors of sin θ / θ and (1 - cos θ) / θ²: the last digits of sine,
+      // cosine and θ. c3, a quotient by s, has no larger error. A derivative
+      // has m times this error.
       const double error = (2 + angle) * kEps;
       const double divisor = m == 1 ? angle : angle * angle;
       EXPECT_LE(abs(values[m - 1] - Series(m, s)) * divisor, error) << m;
@@ -118,8 +119,8 @@ TEST_F(StumpffTest, InverseIsRightToTheLastDigitsBelowTheSwitch) {
     const InverseStumpff actual = ComputeInverseStumpff({0, 0, angle});
     const Reference r = MakeReference(mpreal(angle) * angle);
     EXPECT_LE(abs(actual.e / r.e - 1), 2 * kEps);
-    // dc2 is half of the terms of its difference. The terms of dd are five times dd and
-    // have three roundings plus twice those of dc2.
+    // dc2 is half of the terms of its difference. The terms of dd are five
+    // times dd and have three roundings plus twice those of dc2.
     EXPECT_LE(abs(actual.d / r.d - 1), 4 * kEps);
     EXPECT_LE(abs(actual.de / r.de - 1), 4 * kEps);
     EXPECT_LE(abs(actual.dd / r.dd - 1), 32 * kEps);

@@ -7,16 +7,16 @@
 
 namespace poise {
 
-/// JointMaps stores the constants of all joints as the recursions read them. Entry
-/// B belongs to the joint that moves body B; entry 0, the base, has no motion.
-/// The pose of body B in its parent P is
+/// JointMaps stores the constants of all joints as the recursions read them.
+/// Entry B belongs to the joint that moves body B; entry 0, the base, has no
+/// motion. The pose of body B in its parent P is
 ///     R_PB(q) = R_constant + R_sine sin q + R_cosine cos q,
 ///     p_PB(q) = p_PF + slide_P q,
 /// and the joint adds the velocity
 ///     [turn_P; slide_P] q̇
-/// to the velocity of P. A revolute joint has slide_P = 0. A prismatic joint has
-/// turn_P = 0 and R_sine = R_cosine = 0. The formula has no branch on the joint's
-/// type, axis or frame, so that loops over joints can use lanes.
+/// to the velocity of P. A revolute joint has slide_P = 0. A prismatic joint
+/// has turn_P = 0 and R_sine = R_cosine = 0. The formula has no branch on the
+/// joint's type, axis or frame, so that loops over joints can use lanes.
 struct JointMaps {
   explicit JointMaps(int num_bodies = 0)
       : parent(num_bodies),

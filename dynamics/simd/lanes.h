@@ -8,9 +8,10 @@
 
 /// POISE_LANES tells the compiler that the iterations of the next loop are
 /// independent: no iteration reads what another one writes. The compiler then
-/// computes one iteration in each lane of a vector register. A lane is the place
-/// of one double; SSE2 has two lanes, AVX four, AVX-512 eight. Lanes do not change
-/// a result: each iteration computes the same sums in the same order.
+/// computes one iteration in each lane of a vector register. A lane is the
+/// place of one double; SSE2 has two lanes, AVX four, AVX-512 eight. Lanes do
+/// not change a result: each iteration computes the same sums in the same
+/// order.
 ///
 /// The lanes are worth the following factors, the time of a call with scalar
 /// loops divided by its time with lanes:
@@ -26,7 +27,8 @@
 /// | 100 joints | ComputeRnea | 1.57 | 2.16 |
 /// | 1000 joints | ComputeRnea | 1.62 | 2.09 |
 ///
-/// Measured on one core of an AMD EPYC with AVX-512, by GCC 12.2: the fastest of
+/// Measured on one core of an AMD EPYC with AVX-512, by GCC 12.2: the fastest
+/// of
 /// 36 repetitions, in four runs. 50 joints are the humanoid of robot/models; the
 /// other trees are random. Scalar loops are those of
 ///     bazel run --config=opt
@@ -150,9 +152,9 @@ inline Mat3 ToMat3(const Eigen::Matrix3d& A) {
   return {ToVec3(A.row(0)), ToVec3(A.row(1)), ToVec3(A.row(2))};
 }
 
-/// Vec3Array stores one Vec3 for each body as a structure of arrays: all x, then
-/// all y, then all z. One load then fills the lanes with the same component of
-/// consecutive bodies.
+/// Vec3Array stores one Vec3 for each body as a structure of arrays: all x,
+/// then all y, then all z. One load then fills the lanes with the same
+/// component of consecutive bodies.
 class Vec3Array {
  public:
   explicit Vec3Array(int size = 0) : x_(size), y_(size), z_(size) {}

@@ -8,8 +8,8 @@
 
 namespace poise {
 
-/// MassMoments are the moments of order 0, 1 and 2 of a body's mass about a point
-/// O, with x the position of an element dm from O:
+/// MassMoments are the moments of order 0, 1 and 2 of a body's mass about a
+/// point O, with x the position of an element dm from O:
 ///     m = sum of dm,   h = sum of x dm,   Sigma = sum of x x' dm.
 /// Moments about the same point and in the same axes add up. The moment of
 /// inertia is I = trace(Sigma) 1 - Sigma.
@@ -91,7 +91,8 @@ inline Force3 Momentum(const MassMoments& M, const Vec3& w,
   return {trace * w - M.Sigma * w + Cross(M.h, v), M.mass * v - Cross(M.h, w)};
 }
 
-/// MassMomentsArray stores the MassMoments of each body as a structure of arrays.
+/// MassMomentsArray stores the MassMoments of each body as a structure of
+/// arrays.
 class MassMomentsArray {
  public:
   explicit MassMomentsArray(int size = 0)

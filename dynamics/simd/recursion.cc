@@ -172,7 +172,8 @@ void SweepInertias(const Tree& tree, Recursion* recursion) noexcept {
 void SweepForces(const Tree& tree, Recursion* recursion) noexcept {
   const int num_bodies = tree.num_bodies();
   Recursion& r = *recursion;
-  // F = [h x a + vee(A Sigma - Sigma A'); m a + A h],   A = [alpha]x + [w]x [w]x.
+  // F = [h x a + vee(A Sigma - Sigma A'); m a + A h],   A = [alpha]x + [w]x
+  // [w]x.
   POISE_LANES
   for (int b = 0; b < num_bodies; ++b) {
     r.F_W.Set(

@@ -14,11 +14,11 @@ namespace poise {
 /// algorithms. A call reads only what the same call has written.
 ///
 /// All vectors have world axes, and spatial vectors of a body are about its own
-/// origin. From body to body vectors are shifted and never rotated. The position
-/// of the world's origin is not used, so that long chains lose no digits.
-/// Each array has one entry for each body, as a structure of arrays. The sums
-/// from parent to child are sequential loops of few additions; everything else is
-/// a loop with lanes, see README.md.
+/// origin. From body to body vectors are shifted and never rotated. The
+/// position of the world's origin is not used, so that long chains lose no
+/// digits. Each array has one entry for each body, as a structure of arrays.
+/// The sums from parent to child are sequential loops of few additions;
+/// everything else is a loop with lanes, see README.md.
 ///
 /// | member | size per body | meaning | point | filled by |
 /// | sine, cosine | 1 | sine and cosine of the joint's angle | | SweepPoses |

@@ -26,7 +26,8 @@ constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
 void SinCos(const double* x, int n, double* sine, double* cosine) noexcept {
   POISE_LANES
   for (int i = 0; i < n; ++i) {
-    // x = quarter pi/2 + y + z, |y| <= pi/4, where z is the rounding error of y.
+    // x = quarter pi/2 + y + z, |y| <= pi/4, where z is the rounding error of
+    // y.
     const double quarter = (x[i] * kTwoOverPi + kRound) - kRound;
     const double a = x[i] - quarter * kHalfPi1;
     const double b = quarter * kHalfPi2;
@@ -53,8 +54,8 @@ void SinCos(const double* x, int n, double* sine, double* cosine) noexcept {
     even = even * yy - 1 / 720.;
     even = even * yy + 1 / 24.;
 
-    // To first order in z, sin(y + z) = sin y + z cos y and cos(y + z) = cos y -
-    // z sin y. Small terms are added first.
+    // To first order in z, sin(y + z) = sin y + z cos y and cos(y + z) = cos y
+    // - z sin y. Small terms are added first.
     const double half = 0.5 * yy;
     const double one = 1 - half;
     const double sine_y = y + (one * z + y * yy * odd);

@@ -49,8 +49,8 @@ TEST(SinCos, KeepsSmallAngles) {
 }
 
 TEST(SinCos, KeepsDigitsNearMultiplesOfARightAngle) {
-  // The double nearest to k pi/2 differs from it by a tiny number, which is the sine or
-  // cosine.
+  // The double nearest to k pi/2 differs from it by a tiny number, which is the
+  // sine or cosine.
   std::vector<double> x;
   for (int k = -6000; k <= 6000; ++k) x.push_back(k * (M_PI / 2));
   EXPECT_LT(LargestUlps(x), 0.85);  // Measured: 0.81.

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// A double pendulum and a chain that floats: what the dynamics do by themselves.
+// A double pendulum and a chain that floats: what the dynamics do by
+// themselves.
 #include <cstdio>
 #include <cstdlib>
 #include <string>

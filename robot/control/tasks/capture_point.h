@@ -9,14 +9,14 @@
 
 namespace poise {
 
-/// Keeps the capture point above the feet. The capture point is the place where the
-/// robot would have to step to come to rest. With w = sqrt(g / height of G above the soles), in the
-/// mid-feet frame,
+/// Keeps the capture point above the feet. The capture point is the place where
+/// the robot would have to step to come to rest. With w = sqrt(g / height of G
+/// above the soles), in the mid-feet frame,
 ///     xi = p_G + v_G / w,      d/dt xi = v_G + a_G / w,
 ///     xi + T d/dt xi <= d      in +x, -x, +y, -y,
-/// as rows in the acceleration a_G of the center of mass. xi then approaches the
-/// bound d no faster than exp(-t / T). d is the box around the soles in contact
-/// minus the margin.
+/// as rows in the acceleration a_G of the center of mass. xi then approaches
+/// the bound d no faster than exp(-t / T). d is the box around the soles in
+/// contact minus the margin.
 class CapturePointTask final : public Task {
  public:
   /// Parameters: horizon (0.1 s), T; margin (0.02 m).

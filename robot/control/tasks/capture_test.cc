@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests the tasks during pushes that move the capture point to the edge of the soles.
+// Tests the tasks during pushes that move the capture point to the edge of the
+// soles.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -86,8 +87,8 @@ TEST_F(TaskTest, UsesTheCopMarginAndTheArmsInLargePushes) {
   }
 }
 
-// Reads the capture blend, 0 to 1, of the momentum task after a velocity change of
-// the center of mass along u, m/s, and checks it against the gains.
+// Reads the capture blend, 0 to 1, of the momentum task after a velocity change
+// of the center of mass along u, m/s, and checks it against the gains.
 class CaptureTest : public TaskTest {
  protected:
   CaptureTest() { state_.v.setZero(); }
@@ -165,8 +166,8 @@ TEST_F(CaptureTest, BlendsFromShortOfTheEdgeToTheEdge) {
 }
 
 TEST_F(CaptureTest, IncludesAngularMomentumInTheCapturePoint) {
-  // Bending forward at this rate: stopping it moves the capture point so far. Bending
-  // to the left is about -x.
+  // Bending forward at this rate: stopping it moves the capture point so far.
+  // Bending to the left is about -x.
   Vector6d forward = Vector6d::Zero(), left = Vector6d::Zero();
   forward[1] = 0.825 * front_ * w_ * height_;
   left[0] = -1.031 * edge_ * w_ * height_;
@@ -176,8 +177,8 @@ TEST_F(CaptureTest, IncludesAngularMomentumInTheCapturePoint) {
   EXPECT_EQ(Share(Fast(0, 0.825 * front_) - forward), 0);
 }
 
-// The target is the middle half of the sole in contact, or the reference if it is
-// inside.
+// The target is the middle half of the sole in contact, or the reference if it
+// is inside.
 TEST_F(CaptureTest, MovesTheTargetOverTheRemainingFoot) {
   std::vector<ContactTick> contacts = controller_.contacts();
   Reference reference = controller_.reference();
@@ -237,8 +238,8 @@ TEST_F(CaptureTest, HandlesAReferenceNearTheEdge) {
 
 TEST_F(TaskTest, CapturePointStopsShortOfTheEdge) {
   const CapturePointTask task(tree_, robot_.feet);
-  // With the largest acceleration that the row of the left side allows, the capture
-  // point approaches the bound with the time constant of the horizon.
+  // With the largest acceleration that the row of the left side allows, the
+  // capture point approaches the bound with the time constant of the horizon.
   const Eigen::Vector3d p = controller_.tick().p_WG;
   const Eigen::Vector3d v = controller_.tick().v_WG;
   const double w = std::sqrt(9.81 / p.z());

@@ -10,8 +10,8 @@ namespace poise {
 
 /// Keeps each foot in contact at rest, (11):
 ///     J_C v̇ + J̇_C v = -Kd V_WC_C + Kp e,
-/// with position feedback e on tilt and height only, in C's axes: the rotation that
-/// makes C's z axis upright, and the distance to the ground.
+/// with position feedback e on tilt and height only, in C's axes: the rotation
+/// that makes C's z axis upright, and the distance to the ground.
 class ContactTask final : public Task {
  public:
   /// Parameters: kp (100 1/s2), kd (30 1/s).

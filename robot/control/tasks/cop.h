@@ -12,8 +12,8 @@ namespace poise {
 /// 3 of the paper). With λ = [m; f] about the sole's center,
 ///     CoP = (-m_y, m_x) / f_z,
 ///     |CoP_x| <= X - margin,   |CoP_y| <= Y - margin.
-/// The rows are multiplied by f_z and divided by a quarter of the robot's weight.
-/// The margin shrinks with TaskInput::capture, from capture 0.5 on.
+/// The rows are multiplied by f_z and divided by a quarter of the robot's
+/// weight. The margin shrinks with TaskInput::capture, from capture 0.5 on.
 class CopTask final : public Task {
  public:
   /// Parameters: margin (0.005 m), capture_margin (0.001 m).

@@ -99,8 +99,9 @@ TEST_F(FootWrenchTest, FrictionPyramidsTouchTheConeOutsideAndInside) {
   }
 }
 
-// A rectangular sole can transmit four corner forces inside their pyramids. Their
-// wrench satisfies all rows of the cone, and extreme cases satisfy one with equality.
+// A rectangular sole can transmit four corner forces inside their pyramids.
+// Their wrench satisfies all rows of the cone, and extreme cases satisfy one
+// with equality.
 TEST_F(FootWrenchTest, YawConeAcceptsCornerForces) {
   const YawTask yaw(tree_, robot_.feet);
   const double mu = 0.5;

@@ -8,8 +8,8 @@
 
 namespace poise {
 
-/// Keeps the contact forces small (section 3.7 of the paper): lambda = 0, over a
-/// quarter of the robot's weight. Determines the internal forces.
+/// Keeps the contact forces small (section 3.7 of the paper): lambda = 0, over
+/// a quarter of the robot's weight. Determines the internal forces.
 class ForceRegularizerTask final : public Task {
  public:
   ForceRegularizerTask(const Tree& tree, const std::vector<Foot>& feet);

@@ -12,8 +12,8 @@ namespace poise {
 ///                       + kp [ log(R_ref R_WF') ; p_ref - p_WF ].
 class FrameTask final : public Task {
  public:
-  /// Makes the task "frame." + name for the link of Tick::frames[tick_frame] and the
-  /// reference Reference::frames[index].
+  /// Makes the task "frame." + name for the link of Tick::frames[tick_frame]
+  /// and the reference Reference::frames[index].
   /// Parameters: kp (100 1/s2), kd (20 1/s); orientation, position (1): 0
   /// switches these rows off.
   FrameTask(const std::string& name, int tick_frame, int index);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Compares the rows on a sole or a link, on the ground and in the air, with its motion
-// a moment later.
+// Compares the rows on a sole or a link, on the ground and in the air, with its
+// motion a moment later.
 #include "poise/robot/control/tasks/frame.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,8 @@
 namespace poise {
 namespace {
 
-// The sole's frame, anywhere on the foot's link, moves as its Jacobian predicts.
+// The sole's frame, anywhere on the foot's link, moves as its Jacobian
+// predicts.
 TEST_F(TaskTest, AContactMovesAsItsLinkDoes) {
   const Pose X_FC{ExpSo3({0.3, -0.2, 0.5}), Eigen::Vector3d(0.05, -0.03, -0.4)};
   const auto at = [&](const Tick& tick) {

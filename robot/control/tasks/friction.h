@@ -8,8 +8,9 @@
 
 namespace poise {
 
-/// Keeps each foot from sliding, (13) and (14). A square approximates the friction
-/// circle of radius mu f_z: circumscribed as in the paper (√2 mu on the diagonal),
+/// Keeps each foot from sliding, (13) and (14). A square approximates the
+/// friction circle of radius mu f_z: circumscribed as in the paper (√2 mu on
+/// the diagonal),
 ///     |f_x| <= mu f_z,  |f_y| <= mu f_z,
 /// or inscribed, with mu / √2; over a quarter of the robot's weight.
 class FrictionTask final : public Task {

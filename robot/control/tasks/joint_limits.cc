@@ -46,8 +46,8 @@ void JointLimitsTask::Write(const TaskInput& input, EqualityBlock*,
     if (lower > upper) lower = upper = (lower + upper) / 2;
     const double unmodelled_vdot = input.unmodelled_vdot[v_start_ + j];
     inequalities->C(j, v_start_ + j) = scale;
-    // Clamping, instead of max and min, lets the position limit win on either side
-    // if position and velocity limits contradict each other.
+    // Clamping, instead of max and min, lets the position limit win on either
+    // side if position and velocity limits contradict each other.
     inequalities->lower[j] =
         scale *
         (std::clamp(w * (-velocity_[j] - v), lower, upper) - unmodelled_vdot);

@@ -69,8 +69,8 @@ TEST_F(TaskTest, JointLimitsHoldTheSpeed) {
   EXPECT_LT(Write(task).lower(0)[j], 0);
 }
 
-// Left and right are the same, also beyond the limits, where position and speed limits
-// contradict each other.
+// Left and right are the same, also beyond the limits, where position and speed
+// limits contradict each other.
 TEST_F(TaskTest, JointLimitsAreTheSameForAMirroredState) {
   const int j = *tree_.FindJoint("l_elbow");
   constexpr double kSpeed = 8;
@@ -96,8 +96,8 @@ TEST_F(TaskTest, JointLimitsAreTheSameForAMirroredState) {
   }
 }
 
-// At rest beyond a limit, a joint returns as its position limit demands, whatever its
-// speed limit.
+// At rest beyond a limit, a joint returns as its position limit demands,
+// whatever its speed limit.
 TEST_F(TaskTest, JointLimitsBringAJointBackFromBeyond) {
   const int j = *tree_.FindJoint("l_elbow");
   robot_.model.limits[j] = {-1, 1, 8, 10};
@@ -111,8 +111,8 @@ TEST_F(TaskTest, JointLimitsBringAJointBackFromBeyond) {
   }
 }
 
-// Without a bound, a finger of 2 mg without <limit> would supply the momentum of a
-// push.
+// Without a bound, a finger of 2 mg without <limit> would supply the momentum
+// of a push.
 TEST_F(TaskTest, JointLimitsBoundAJointWithoutLimits) {
   const int j = *tree_.FindJoint("l_elbow");
   constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -148,8 +148,8 @@ TEST_F(TaskTest, TorqueRowsAreThoseOfTheSolution) {
   }
 }
 
-// A passive joint has torque 0 for any scale of the other joints, and no joint-limit
-// row.
+// A passive joint has torque 0 for any scale of the other joints, and no
+// joint-limit row.
 TEST_F(TaskTest, RowsRespectAJointWithoutMotor) {
   const int j = *tree_.FindJoint("l_elbow");
   robot_.model.limits[j].effort = 0;

@@ -8,8 +8,8 @@
 
 namespace poise {
 
-/// Keeps coupled joints at their sources, for robots whose profile enables the task.
-/// With e = multiplier q_source + offset - q,
+/// Keeps coupled joints at their sources, for robots whose profile enables the
+/// task. With e = multiplier q_source + offset - q,
 ///     q̈ - multiplier q̈_source = kp e + kd ė.
 class MimicTask final : public Task {
  public:

@@ -19,9 +19,9 @@ namespace poise {
 /// orientation back to its reference: without it the pelvis drifts,
 /// because angular momentum is not the derivative of an orientation.
 ///
-/// With TaskInput::capture, the capture blend of BalanceMonitor, the gains of the
-/// horizontal position rise and the weights of angular momentum and height fall. The
-/// robot then rotates its trunk and arms to stop a fall.
+/// With TaskInput::capture, the capture blend of BalanceMonitor, the gains of
+/// the horizontal position rise and the weights of angular momentum and height
+/// fall. The robot then rotates its trunk and arms to stop a fall.
 ///
 /// p_ref is the target of FindComTarget(): over the feet in contact.
 class MomentumTask final : public Task {
@@ -29,10 +29,10 @@ class MomentumTask final : public Task {
   /// Parameters: kp (30 1/s2), kd (10 1/s), kd_angular (10 1/s), k_orientation
   /// (200 N m/rad); ki and ki_height (15 and 60 1/s3), see Disturbance;
   /// angular_weight (1), of the angular rows against the linear ones;
-  /// feedforward (0; with 1, v_ref and a_ref are used). CaptureSettings: capture
-  /// (1), capture_from (0.65), capture_full (1), capture_sideways (1.25). Gains
-  /// and weights at capture 1: capture_kp (60 1/s2), capture_kd (30 1/s),
-  /// capture_angular_weight (0.3), capture_height_weight (0.3).
+  /// feedforward (0; with 1, v_ref and a_ref are used). CaptureSettings:
+  /// capture (1), capture_from (0.65), capture_full (1), capture_sideways
+  /// (1.25). Gains and weights at capture 1: capture_kp (60 1/s2), capture_kd
+  /// (30 1/s), capture_angular_weight (0.3), capture_height_weight (0.3).
   MomentumTask(const Tree& tree, const std::vector<Foot>& feet);
 
   const ComGains& gains() const { return gains_; }

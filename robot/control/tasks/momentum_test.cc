@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Compares the rows on momentum and center of mass with the motion of the robot a
-// moment later.
+// Compares the rows on momentum and center of mass with the motion of the robot
+// a moment later.
 #include "poise/robot/control/tasks/momentum.h"
 
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ TEST_F(TaskTest, NewtonEulerHasTheBaseRowsOfTheDynamics) {
   EXPECT_LT((residual * weight / 4 - wanted.head<6>()).norm(), 1e-9);
 }
 
-// Along v̇, momentum, center of mass and feet change as the rows predict; compares with
-// differences of states.
+// Along v̇, momentum, center of mass and feet change as the rows predict;
+// compares with differences of states.
 TEST_F(TaskTest, RatesOfMomentumAndFeetAreThoseOfTheMotion) {
   const double h = 1e-6;
   const Eigen::VectorXd y = RandomY();
@@ -68,8 +68,9 @@ TEST_F(TaskTest, RatesOfMomentumAndFeetAreThoseOfTheMotion) {
       1e-12);
 }
 
-// The residual of a momentum row in the report is in N or N m, whatever the scale of
-// the row. The reference moves, with feed-forward, and the base is rotated.
+// The residual of a momentum row in the report is in N or N m, whatever the
+// scale of the row. The reference moves, with feed-forward, and the base is
+// rotated.
 TEST_F(TaskTest, MomentumResidualsAreForces) {
   const Eigen::VectorXd y = RandomY();
   const auto loss = [&](const Task& task, const Eigen::VectorXd& at) {

@@ -8,9 +8,9 @@
 
 namespace poise {
 
-/// Sets the wrench of a foot in the air to zero: lambda = 0, divided by a quarter of
-/// the robot's weight. A foot in contact has no rows. The task belongs on the level
-/// of NewtonEulerTask; both together can always be met.
+/// Sets the wrench of a foot in the air to zero: lambda = 0, divided by a
+/// quarter of the robot's weight. A foot in contact has no rows. The task
+/// belongs on the level of NewtonEulerTask; both together can always be met.
 class NoContactTask final : public Task {
  public:
   NoContactTask(const Tree& tree, const std::vector<Foot>& feet);

@@ -10,8 +10,8 @@
 namespace poise {
 namespace {
 
-// Smallest inertia of a weight. Fingers have grams; a larger range of weights would
-// lose digits.
+// Smallest inertia of a weight. Fingers have grams; a larger range of weights
+// would lose digits.
 constexpr double kLeast = 0.01;  // kg m2, or kg.
 constexpr double kMost = 10;
 

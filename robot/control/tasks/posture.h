@@ -8,9 +8,9 @@ namespace poise {
 
 /// Brings each joint to the reference posture, (21):
 ///     q̈ = kp (q_ref - q) - kd q̇.
-/// The row of joint j has the weight M_jj^e, with M_jj the inertia that the joint
-/// moves. If the rows conflict, arms yield before the trunk. The exponent e grows
-/// with TaskInput::capture.
+/// The row of joint j has the weight M_jj^e, with M_jj the inertia that the
+/// joint moves. If the rows conflict, arms yield before the trunk. The exponent
+/// e grows with TaskInput::capture.
 class PostureTask final : public Task {
  public:
   /// Parameters: kp (60 1/s2), kd (15 1/s), inertia (0.5) and

@@ -13,15 +13,16 @@
 
 namespace poise {
 
-/// Pattern of a row: the end of its name, its unit, and its phrase, in which `%` is
-/// replaced by the foot or joint in words.
+/// Pattern of a row: the end of its name, its unit, and its phrase, in which
+/// `%` is replaced by the foot or joint in words.
 struct RowPattern {
   std::string_view end;
   std::string_view unit;
   std::string_view phrase;
 };
 
-/// Returns a phrase with the words of a name in place of `%`: "left_foot" is "left foot".
+/// Returns a phrase with the words of a name in place of `%`: "left_foot" is
+/// "left foot".
 inline std::string FillPhrase(std::string_view phrase, std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   std::string filled(phrase);
@@ -50,8 +51,8 @@ inline std::vector<RowDescription> FootRows(
   return rows;
 }
 
-/// Returns a row "torque.l_knee", for a revolute or a prismatic joint. The end of
-/// the pattern's name is not used.
+/// Returns a row "torque.l_knee", for a revolute or a prismatic joint. The end
+/// of the pattern's name is not used.
 inline RowDescription JointRow(const Joint& joint, std::string_view what,
                                RowKind kind, const RowPattern& turns,
                                const RowPattern& slides) {

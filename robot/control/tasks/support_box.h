@@ -9,11 +9,12 @@
 
 namespace poise {
 
-/// Sides of the box around the soles in contact, in the axes of the mid-feet frame.
+/// Sides of the box around the soles in contact, in the axes of the mid-feet
+/// frame.
 enum SupportSide { kFront, kBack, kLeft, kRight };
 
-/// Returns the distance from the frame's origin to one side of the box, m; negative
-/// if no foot is in contact. Does not allocate.
+/// Returns the distance from the frame's origin to one side of the box, m;
+/// negative if no foot is in contact. Does not allocate.
 double SupportReach(const std::vector<Foot>& feet,
                     const std::vector<ContactTick>& contacts,
                     const Pose& X_MidW, SupportSide side) noexcept;

@@ -14,8 +14,8 @@
 
 namespace poise {
 
-/// Evaluates tasks in one tick of the humanoid. It is in its nominal posture, and
-/// base and all joints move.
+/// Evaluates tasks in one tick of the humanoid. It is in its nominal posture,
+/// and base and all joints move.
 class TaskTest : public testing::Test {
  protected:
   TaskTest() {

@@ -8,8 +8,9 @@
 
 namespace poise {
 
-/// Keeps the normal force of the ground from pulling: 0 <= f_z <= ContactTick::max_normal_force
-/// for each foot, over a quarter of the robot's weight.
+/// Keeps the normal force of the ground from pulling: 0 <= f_z <=
+/// ContactTick::max_normal_force for each foot, over a quarter of the robot's
+/// weight.
 class UnilateralTask final : public Task {
  public:
   UnilateralTask(const Tree& tree, const std::vector<Foot>& feet);

@@ -9,8 +9,8 @@
 namespace poise {
 
 /// Bounds the yaw moment of each foot by its load, |m_z| <= r f_z, over a
-/// quarter of the robot's weight. Simpler than YawTask, but wrong near an edge of
-/// the sole, where the robot can pivot.
+/// quarter of the robot's weight. Simpler than YawTask, but wrong near an edge
+/// of the sole, where the robot can pivot.
 class YawConstantTask final : public Task {
  public:
   /// Parameter: radius (0.05 m), r.

@@ -9,9 +9,9 @@
 
 namespace poise {
 
-/// Keeps the combined center of pressure of all feet inside a box in the mid-feet
-/// frame, (12). With [m; f] the sum of the foot wrenches about the origin of that
-/// frame,
+/// Keeps the combined center of pressure of all feet inside a box in the
+/// mid-feet frame, (12). With [m; f] the sum of the foot wrenches about the
+/// origin of that frame,
 ///     CoP = (-m_y, m_x) / f_z,   |CoP_x| <= dx,  |CoP_y| <= dy,
 /// multiplied by f_z and divided by a quarter of the robot's weight.
 class ZmpTask final : public Task {

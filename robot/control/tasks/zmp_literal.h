@@ -11,8 +11,8 @@ namespace poise {
 /// The ZMP rows as the paper has them, (12) read literally: the force-weighted
 /// mean of the feet's own CoPs, each in its own contact frame, within dx, dy:
 ///     |sum_i m_y,i| <= dx sum_i f_z,i,   |sum_i m_x,i| <= dy sum_i f_z,i.
-/// These rows do not protect a foot, because +x under one foot cancels -x under the
-/// other. They are for comparison; use CopTask.
+/// These rows do not protect a foot, because +x under one foot cancels -x under
+/// the other. They are for comparison; use CopTask.
 class ZmpLiteralTask final : public Task {
  public:
   /// Parameters: dx, dy (half sides of the sole, m).
