@@ -130,8 +130,8 @@ void BalanceMonitor::JudgeFeet(const Tick& tick,
     const double towards = is_left ? balance_.left : balance_.right;
     Balance::FootVerdict& verdict = balance_.feet[foot];
     verdict.comes_back = is_over || towards > 0;
-    verdict.is_released =
-        away > kReleasing && stands && normal_force[foot] < kUnloaded * weight_;
+    verdict.is_released = reference.may_release && away > kReleasing &&
+                          stands && normal_force[foot] < kUnloaded * weight_;
   }
 }
 

@@ -21,6 +21,8 @@ struct ContactTick {
   /// For a foot in the air. True: the foot follows Reference::feet. False: the
   /// foot moves with the body.
   bool is_guided = true;
+  /// For a foot in the air: it makes a step, see Stance::Step().
+  bool is_stepping = false;
   /// Upper bound of the normal force, N. Finite only while the contact force
   /// fades in or out.
   double max_normal_force = std::numeric_limits<double>::infinity();

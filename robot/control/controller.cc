@@ -140,6 +140,8 @@ void Controller::Start(const State& state) noexcept {
   reference_.p_WG = X_WMid * p_MidG_;
   reference_.v_WG.setZero();
   reference_.a_WG.setZero();
+  reference_.pendulum = {};
+  reference_.may_release = true;
   reference_.R_WB = X_WMid.R * X_MidB_.R;
   reference_.posture = robot_.q_nominal.tail(robot_.model.tree.num_joints());
   reference_.ground_z = X_WMid.p.z();
@@ -187,7 +189,9 @@ void Controller::UpdateStance(const State& state) noexcept {
 // The balance monitor decides which feet stance releases and brings back.
 void Controller::JudgeBalance() noexcept {
   CaptureSettings settings = momentum_task_.capture_settings();
-  if (!stack_.settings(momentum_).enabled) settings.capture = 0;
+  if (!stack_.settings(momentum_).enabled || reference_.pendulum.is_on) {
+    settings.capture = 0;
+  }
   monitor_.Update(tick_, contacts_, reference_, settings, normal_force_);
   const Balance& balance = monitor_.balance();
   for (int foot = 0; foot < static_cast<int>(contacts_.size()); ++foot) {
@@ -202,7 +206,8 @@ void Controller::JudgeBalance() noexcept {
 
 void Controller::WriteTasks(const State& state) noexcept {
   stack_.Write({state, tick_, contacts_, reference_, unmodelled_.vdot(),
-                disturbance_.correction_W(), monitor_.balance().capture},
+                disturbance_.correction_W(),
+                reference_.pendulum.is_on ? 1.0 : monitor_.balance().capture},
                &hierarchy_);
 }
 
@@ -251,6 +256,7 @@ void Controller::Remember(const State& state) noexcept {
 void Controller::EstimateDisturbance() noexcept {
   const bool by_momentum = stack_.settings(momentum_).enabled;
   const int task = by_momentum ? momentum_ : com_;
+  if (reference_.pendulum.is_on) return;
   if (!stack_.settings(task).enabled) {
     disturbance_.Forget();
     return;

@@ -98,6 +98,8 @@ class Controller {
   const TickReport& report() const { return report_; }
   const Tick& tick() const { return tick_; }
   const std::vector<ContactTick>& contacts() const { return contacts_; }
+  /// Measured minus predicted v̇, see UnmodelledAcceleration.
+  const Eigen::VectorXd& unmodelled_vdot() const { return unmodelled_.vdot(); }
   /// The problem of the last tick, for FindConflict().
   const Hierarchy& hierarchy() const { return hierarchy_; }
   const Robot& robot() const { return robot_; }

@@ -45,6 +45,22 @@ constexpr double kRounding = 1e-9;
 // Speed at which a foot moves down after it has lost the ground.
 constexpr double kSearchSpeed = 0.2;  // m/s.
 
+// A step has left the ground with its lowest corner above kStepRisen. It lands
+// with its middle below kStepFlat, if its lowest corner is below the ground
+// within kStepSoon: between kStepLow and kStepTouch above it. A slow foot that
+// counted as landed too early would pull the body down to it.
+constexpr double kStepRisen = 0.006;  // m.
+constexpr double kStepFlat = 0.005;   // m.
+constexpr double kStepSoon = 0.005;   // s.
+constexpr double kStepLow = 0.0001;   // m.
+constexpr double kStepTouch = 0.001;  // m.
+
+// A step has also landed if its path sinks faster than kStepSinking, and the
+// sole has been stopped for kStepStopped, below kStepNear.
+constexpr double kStepSinking = 0.1;    // m/s.
+constexpr double kStepStopped = 0.008;  // s.
+constexpr double kStepNear = 0.03;      // m.
+
 // While a foot is loading, the bound on its normal force rises to this many
 // times the weight of the robot.
 constexpr double kFullLoad = 1.5;
@@ -166,6 +182,7 @@ void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {
   foot->since = 0;
   foot->left_for = 0;
   foot->has_flown = false;
+  foot->has_risen = false;
 }
 
 // Ends the release of a foot. A foot that was released after the last Update()
@@ -208,6 +225,8 @@ void Stance::Swing(FootState* of, double height) noexcept {
     }
   }
 }
+
+void Stance::Step(int i) noexcept { Enter(&feet_[i], ContactPhase::kStepping); }
 
 void Stance::LetGo(int i) noexcept { Enter(&feet_[i], ContactPhase::kFree); }
 
@@ -278,7 +297,8 @@ void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
                     Reference* reference) noexcept {
   const int count = static_cast<int>(feet_.size());
   for (int i = 0; i < count; ++i) {
-    ChangePhase(dt, (*contacts)[i], *reference, &feet_[i]);
+    ChangePhase(dt, (*contacts)[i], *reference, reference->feet[i].V_WF_W[5],
+                &feet_[i]);
   }
   const bool in_flight = flies();
   for (int i = 0; i < count; ++i) {
@@ -287,13 +307,36 @@ void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
     foot.has_flown |= in_flight;
     contact.is_guided = foot.phase != ContactPhase::kFree && !in_flight;
     contact.in_contact = Bears(foot.phase);
+    contact.is_stepping = foot.phase == ContactPhase::kStepping;
     contact.max_normal_force = MaxNormalForce(normal_force[i], &foot);
     if (!contact.in_contact) Guide(foot, &reference->feet[i]);
   }
 }
 
+// Whether a foot that makes a step has landed: its sole lies on the ground, or
+// has been stopped although its path sinks, as on ground that is higher than
+// its estimate.
+bool Stance::HasSteppedDown(double dt, const ContactTick& contact,
+                            double ground_z, double reference_speed,
+                            FootState* foot) noexcept {
+  const Clearance lowest = LowestCorner(*foot, contact, ground_z);
+  const Clearance middle = Middle(contact, ground_z);
+  if (lowest.height > kStepRisen) foot->has_risen = true;
+  if (!foot->has_risen) return false;
+  const double near =
+      std::clamp(-kStepSoon * lowest.rising, kStepLow, kStepTouch);
+  const bool touches = lowest.height < near && middle.height < kStepFlat &&
+                       middle.rising < kSeparating;
+  const bool is_stopped = reference_speed < -kStepSinking &&
+                          middle.rising > kStopped * reference_speed &&
+                          middle.height < kStepNear;
+  foot->left_for = is_stopped ? foot->left_for + dt : 0;
+  return touches || foot->left_for > kStepStopped;
+}
+
 void Stance::ChangePhase(double dt, const ContactTick& contact,
-                         const Reference& reference, FootState* of) noexcept {
+                         const Reference& reference, double reference_speed,
+                         FootState* of) noexcept {
   FootState& foot = *of;
   // Records the state at the start of a phase.
   if (foot.phase == ContactPhase::kFree && foot.since == 0) {
@@ -350,6 +393,12 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
         Enter(&foot, ContactPhase::kUp);
       }
       return;
+    case ContactPhase::kStepping:
+      if (HasSteppedDown(dt, contact, reference.ground_z, reference_speed,
+                         &foot)) {
+        Enter(&foot, ContactPhase::kDown);
+      }
+      return;
     case ContactPhase::kUp:
     case ContactPhase::kFree:
       return;
@@ -374,6 +423,7 @@ double Stance::MaxNormalForce(double normal_force,
 void Stance::Guide(const FootState& foot,
                    FrameReference* target) const noexcept {
   if (foot.phase == ContactPhase::kFree) return;
+  if (foot.phase == ContactPhase::kStepping) return;
   if (foot.phase == ContactPhase::kReturning) {
     Return(foot, target);
     return;

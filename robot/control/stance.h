@@ -20,6 +20,7 @@ enum class ContactPhase {
   kLost,       ///< Commanded to be in contact, but not on the ground.
   kFree,       ///< Released: in the air, without a reference.
   kReturning,  ///< In the air, moving back to or above its take-off place.
+  kStepping,   ///< In the air, on a path that the caller writes.
 };
 
 /// Times and heights of a Stance. A time of 0 means: within one tick.
@@ -80,6 +81,11 @@ class Stance {
   /// with the body until PutDown() or Lift() brings it back.
   void LetGo(int foot) noexcept;
 
+  /// Lifts a foot at once. The caller writes Reference::feet in each tick; the
+  /// foot is in contact again, with full force, when its sole lies on the
+  /// ground.
+  void Step(int foot) noexcept;
+
   ContactPhase phase(int foot) const { return feet_[foot].phase; }
   /// Whether the foot is commanded to be in contact (kDown, kLost, kLoading).
   bool is_meant_down(int foot) const;
@@ -102,6 +108,7 @@ class Stance {
     Pose X_WC_away;           // Pose at the start of kReturning.
     Vector6d V_WC_away;       // Twist at the start of kReturning, world axes.
     double from = 0, to = 0;  // Start and end height of the swing, m.
+    bool has_risen = false;   // Off the ground once in kStepping.
     bool has_flown = false;   // No foot was in contact at a time in this phase.
     std::vector<Eigen::Vector2d> polygon_C;
   };
@@ -129,8 +136,12 @@ class Stance {
   static bool Lands(const FootState& foot) noexcept;
   void CallBack(FootState* foot) noexcept;
   void Swing(FootState* foot, double height) noexcept;
+  static bool HasSteppedDown(double dt, const ContactTick& contact,
+                             double ground_z, double reference_speed,
+                             FootState* foot) noexcept;
   void ChangePhase(double dt, const ContactTick& contact,
-                   const Reference& reference, FootState* foot) noexcept;
+                   const Reference& reference, double reference_speed,
+                   FootState* foot) noexcept;
   double MaxNormalForce(double normal_force, FootState* foot) const noexcept;
   VerticalMotion VerticalMotionOf(const FootState& foot) const noexcept;
   void Guide(const FootState& foot, FrameReference* target) const noexcept;

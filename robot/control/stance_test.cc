@@ -684,5 +684,53 @@ TEST(MidFeet, IsLevelAtMeanOfFeetInContact) {
   EXPECT_TRUE(MidFeet(contacts).R.isIdentity(0));
 }
 
+// A step leaves the ground at once, without a fading force, and follows the
+// path that the caller writes.
+TEST_F(StanceTest, StepLeavesAtOnceAndKeepsThePathOfTheCaller) {
+  Update();
+  stance_.Step(0);
+  reference_.feet[0].X_WF.p = Vector3d(0.3, 0.2, 0.05);
+  Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kStepping);
+  EXPECT_FALSE(contacts_[0].in_contact);
+  EXPECT_TRUE(contacts_[0].is_stepping);
+  EXPECT_TRUE(contacts_[0].is_guided);
+  EXPECT_FALSE(stance_.is_meant_down(0));
+  EXPECT_EQ(reference_.feet[0].X_WF.p, Vector3d(0.3, 0.2, 0.05));
+  EXPECT_TRUE(contacts_[1].in_contact);
+}
+
+// A step lands with full force when the sole lies on the ground, but not before
+// it has risen, and not while it rises.
+TEST_F(StanceTest, StepLandsWithItsSoleOnTheGround) {
+  stance_.Step(0);
+  for (int i = 0; i < 20; ++i) Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kStepping);
+  contacts_[0].X_WC.p.z() = 0.02;
+  Update();
+  contacts_[0].X_WC.p.z() = 0.0005;
+  contacts_[0].V_WC_C[5] = 0.3;
+  Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kStepping);
+  contacts_[0].V_WC_C[5] = -0.3;
+  Update();
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);
+  EXPECT_TRUE(contacts_[0].in_contact);
+  EXPECT_FALSE(contacts_[0].is_stepping);
+  EXPECT_TRUE(std::isinf(contacts_[0].max_normal_force));
+}
+
+// The ground is 1 cm higher than believed: the sole stops while its path sinks.
+TEST_F(StanceTest, StepLandsOnGroundThatIsHigherThanBelieved) {
+  stance_.Step(0);
+  contacts_[0].X_WC.p.z() = 0.04;
+  Update();
+  contacts_[0].X_WC.p.z() = 0.01;
+  for (const double sinking : {0.0, 0.3}) {
+    reference_.feet[0].V_WF_W[5] = -sinking;
+    for (int i = 0; i < 10; ++i) Update();
+    EXPECT_EQ(stance_.phase(0) == ContactPhase::kDown, sinking > 0);
+  }
+}
 }  // namespace
 }  // namespace poise

@@ -209,5 +209,20 @@ TEST_F(FootWrenchTest, ForceRegularizerIsTheForceItself) {
   EXPECT_NEAR(task.equality_scale(0), scale, 1e-12 * scale);
 }
 
+// During a step, friction and yaw moment keep a reserve.
+TEST_F(FootWrenchTest, FrictionAndYawKeepAReserveDuringAStep) {
+  const FrictionTask friction(tree_, robot_.feet);
+  const YawTask yaw(tree_, robot_.feet);
+  const double mu = 0.5, fz = 200;
+  const auto pulled = Loaded({0, 0}, Eigen::Vector3d(0.9 * mu * fz, 0, fz));
+  const double moment = 0.8 * mu * (half_.x() + half_.y()) * fz;
+  Eigen::VectorXd turned = Loaded({0, 0}, Eigen::Vector3d(0, 0, fz));
+  turned[nv_ + 2] = moment;
+  EXPECT_LE(Violation(friction, pulled), 0);
+  EXPECT_LE(Violation(yaw, turned), 0);
+  controller_.reference().pendulum.is_on = true;
+  EXPECT_GT(Violation(friction, pulled), 0);
+  EXPECT_GT(Violation(yaw, turned), 0);
+}
 }  // namespace
 }  // namespace poise

@@ -165,5 +165,29 @@ TEST_F(TaskTest, FrameOmitsDisabledRows) {
   }
 }
 
+// A step has its own gains and weights.
+TEST_F(TaskTest, AStepFollowsItsReferenceWithItsOwnGains) {
+  controller_.stance().Step(0);
+  Command command;
+  command.tau.setZero(n_);
+  state_.time += 1e-3;
+  controller_.Update(state_, &command);
+  ASSERT_TRUE(controller_.contacts()[0].is_stepping);
+  const SwingTask swing(robot_.feet[0], 0);
+  const Eigen::VectorXd y = RandomY();
+  const Eigen::VectorXd before = Residual(swing, y);
+  EXPECT_EQ(hierarchy_.weight(0)[0], 0.41);
+  EXPECT_EQ(hierarchy_.weight(0)[3], 0.2);
+  EXPECT_EQ(hierarchy_.weight(0)[5], 3.6);
+  const Eigen::Vector3d p(0.01, -0.02, 0.03), v(0.1, 0.2, -0.3);
+  FrameReference& foot = controller_.reference().feet[0];
+  foot.X_WF.p += p;
+  foot.V_WF_W.tail<3>() += v;
+  const Eigen::Matrix3d R_CW = controller_.contacts()[0].X_WC.R.transpose();
+  EXPECT_LT((before.tail<3>() - Residual(swing, y).tail<3>() -
+             R_CW * (720 * p + 53.7 * v))
+                .norm(),
+            1e-9);
+}
 }  // namespace
 }  // namespace poise

@@ -19,12 +19,15 @@ FrictionTask::FrictionTask(const Tree& tree, const std::vector<Foot>& feet)
       inverse_force_scale_(1 / ForceScale(tree)) {
   AddParameter("mu", &mu_, 0, 10);
   AddParameter("inscribed", &inscribed_, 0, 1);
+  AddParameter("step_share", &step_share_, 0, 1);
 }
 
 void FrictionTask::Write(const TaskInput& input, EqualityBlock*,
                          InequalityBlock* inequalities) const noexcept {
-  const double mu =
-      inverse_force_scale_ * (inscribed_ > 0.5 ? mu_ * std::sqrt(0.5) : mu_);
+  // A step lands with an impact, which the contact model does not contain.
+  const double share = input.reference.pendulum.is_on ? step_share_ : 1;
+  const double mu = inverse_force_scale_ * share *
+                    (inscribed_ > 0.5 ? mu_ * std::sqrt(0.5) : mu_);
   for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
     if (!input.contacts[i].in_contact) continue;
     auto C = inequalities->C.block<4, 3>(4 * i, nv_ + 6 * i + 3);

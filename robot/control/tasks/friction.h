@@ -15,7 +15,9 @@ namespace poise {
 /// or inscribed, with mu / √2; over a quarter of the robot's weight.
 class FrictionTask final : public Task {
  public:
-  /// Parameters: mu (0.5); inscribed (0), 1 for the inscribed square.
+  /// Parameters: mu (0.5); inscribed (0), 1 for the inscribed square;
+  /// step_share (0.85) of mu while Reference::pendulum is on, because a step
+  /// lands with an impact that the dynamics do not contain.
   FrictionTask(const Tree& tree, const std::vector<Foot>& feet);
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
@@ -25,6 +27,7 @@ class FrictionTask final : public Task {
   double inverse_force_scale_;
   double mu_ = 0.5;
   double inscribed_ = 0;
+  double step_share_ = 0.85;
 };
 
 }  // namespace poise

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/robot/control/tasks/momentum.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "poise/math/so3.h"
@@ -60,6 +61,20 @@ void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
       (kp * (p_ref_WG - tick.p_WG).array() + kd * (ahead - tick.v_WG.array()))
               .matrix() +
           input.correction_W + feedforward_ * reference.a_WG;
+  const PendulumReference& pendulum = reference.pendulum;
+  if (pendulum.is_on) {
+    wanted.segment<2>(3) =
+        pendulum.omega * pendulum.omega * (tick.p_WG.head<2>() - pendulum.p_WZ);
+    wanted[5] = gains_.kp * (reference.p_WG.z() - tick.p_WG.z()) +
+                gains_.kd * (reference.v_WG.z() - tick.v_WG.z()) +
+                reference.a_WG.z() + input.correction_W.z();
+    wanted[5] = std::min(wanted[5], pendulum.max_rise);
+    equalities->B.leftCols(tick.H_G.cols()) = tick.H_G / mass_;
+    equalities->weight.head<3>().setConstant(pendulum.angular_weight);
+    equalities->weight[5] = pendulum.height_weight;
+    equalities->b = tick.H_G_bias / mass_ - wanted;
+    return;
+  }
   equalities->B.leftCols(tick.H_G.cols()) = tick.H_G / mass_;
   equalities->weight.head<3>().setConstant(
       angular_weight_ *

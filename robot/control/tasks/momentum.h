@@ -23,7 +23,10 @@ namespace poise {
 /// the horizontal position rise and the weights of angular momentum and height
 /// fall. The robot then rotates its trunk and arms to stop a fall.
 ///
-/// p_ref is the target of FindComTarget(): over the feet in contact.
+/// p_ref is the target of FindComTarget(): over the feet in contact. While
+/// Reference::pendulum is on, the rows of the plane are instead those of a
+/// linear inverted pendulum with the CoP p_Z, Khadiv et al. 2016:
+///     [l̇_x; l̇_y] / m = omega^2 (p_G - p_Z).
 class MomentumTask final : public Task {
  public:
   /// Parameters: kp (30 1/s2), kd (10 1/s), kd_angular (10 1/s), k_orientation

@@ -159,5 +159,36 @@ TEST_F(TaskTest, MomentumIsStifferInLargePushesExceptInHeight) {
       1e-12);
 }
 
+// With a pendulum, the plane has the acceleration of a pendulum with this CoP,
+// and the height follows its reference up to max_rise.
+TEST_F(TaskTest, MomentumFollowsAPendulum) {
+  const MomentumTask momentum(tree_, robot_.feet);
+  Reference& reference = controller_.reference();
+  const Eigen::Vector3d p_WG = controller_.tick().p_WG;
+  reference.pendulum.is_on = true;
+  reference.pendulum.omega = 3;
+  reference.pendulum.p_WZ = p_WG.head<2>() - Eigen::Vector2d(0.1, -0.2);
+  reference.pendulum.angular_weight = 7;
+  reference.pendulum.height_weight = 5;
+  const Eigen::VectorXd y = RandomY();
+  const Eigen::VectorXd with = Residual(momentum, y);
+  EXPECT_EQ(hierarchy_.weight(0)[0], 7);
+  EXPECT_EQ(hierarchy_.weight(0)[5], 5);
+  // The rate of the linear momentum, from finite differences of its motion.
+  const double t = 1e-6;
+  const Eigen::Vector3d a =
+      (After(t, y).L_G.tail<3>() - After(-t, y).L_G.tail<3>()) /
+      (2 * t * tree_.total_mass());
+  // Central differences lose half of the digits: 1e-10 / 1e-6 times a speed of
+  // 1 m/s.
+  EXPECT_NEAR(with[3], a.x() - 9 * 0.1, 1e-3);
+  EXPECT_NEAR(with[4], a.y() + 9 * 0.2, 1e-3);
+  reference.p_WG.z() = p_WG.z() + 1;  // Asks for 30 m/s2.
+  const double free = Residual(momentum, y)[5];
+  reference.pendulum.max_rise = 2;
+  const double bounded = Residual(momentum, y)[5];
+  EXPECT_NEAR(bounded, a.z() - 2, 1e-3);
+  EXPECT_GT(bounded - free, 20);
+}
 }  // namespace
 }  // namespace poise

@@ -22,10 +22,12 @@ YawTask::YawTask(const Tree& tree, const std::vector<Foot>& feet)
       inverse_force_scale_(1 / ForceScale(tree)),
       feet_(feet) {
   AddParameter("mu", &mu_, 0, 10);
+  AddParameter("step_share", &step_share_, 0, 1);
 }
 
 void YawTask::Write(const TaskInput& input, EqualityBlock*,
                     InequalityBlock* inequalities) const noexcept {
+  const double mu = input.reference.pendulum.is_on ? step_share_ * mu_ : mu_;
   for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
     if (!input.contacts[i].in_contact) continue;
     const double X = feet_[i].half_size.x();
@@ -37,8 +39,7 @@ void YawTask::Write(const TaskInput& input, EqualityBlock*,
           // side m_z + s (Y f_x + side mu m_x) + t (X f_y + side mu m_y)
           //     - mu (X + Y) f_z <= 0.
           Eigen::Matrix<double, 1, 6> c;
-          c << s * side * mu_, t * side * mu_, side, s * Y, t * X,
-              -mu_ * (X + Y);
+          c << s * side * mu, t * side * mu, side, s * Y, t * X, -mu * (X + Y);
           inequalities->C.block<1, 6>(row, nv_ + 6 * i) =
               inverse_force_scale_ * c;
           inequalities->upper[row] = 0;

@@ -18,7 +18,8 @@ namespace poise {
 /// support areas", ICRA 2015.
 class YawTask final : public Task {
  public:
-  /// Parameter: mu (0.5).
+  /// Parameters: mu (0.5); step_share (0.68) of mu while Reference::pendulum is
+  /// on, as in FrictionTask.
   YawTask(const Tree& tree, const std::vector<Foot>& feet);
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
@@ -28,6 +29,7 @@ class YawTask final : public Task {
   double inverse_force_scale_;
   std::vector<Foot> feet_;
   double mu_ = 0.5;
+  double step_share_ = 0.68;
 };
 
 }  // namespace poise

@@ -14,7 +14,8 @@ LAYERS = {
     "hqp": ["math"],
     "robot": ["dynamics", "math"],
     "robot/control": ["dynamics", "hqp", "math", "robot"],
-    "sim": ["dynamics", "hqp", "math", "robot", "robot/control"],
+    "robot/gait": ["dynamics", "hqp", "math", "robot", "robot/control"],
+    "sim": ["dynamics", "hqp", "math", "robot", "robot/control", "robot/gait"],
 }
 
 # For each layer, the external repositories that its libraries may use.
@@ -24,6 +25,7 @@ _EXTERNALS = {
     "hqp": ["eigen"],
     "robot": ["eigen", "tinyxml2", "urdfdom", "yaml_cpp"],
     "robot/control": ["eigen", "yaml_cpp"],
+    "robot/gait": ["eigen"],
     "sim": ["bullet", "eigen", "mujoco", "nlohmann_json", "openssl", "yaml_cpp"],
 }
 

@@ -1,0 +1,173 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "poise/robot/control/controller.h"
+#include "poise/robot/gait/push_estimate.h"
+#include "poise/robot/gait/quintic.h"
+#include "poise/robot/gait/step_answer.h"
+#include "poise/robot/gait/step_plan.h"
+#include "poise/robot/gait/step_region.h"
+#include "poise/robot/gait/step_trigger.h"
+#include "poise/robot/gait/swing_path.h"
+
+namespace poise {
+
+/// Phase of a Gait.
+enum class GaitPhase {
+  kStand,  ///< On both feet. The controller balances in place.
+  kShift,  ///< On both feet. The CoM moves over the stance foot of a StepTo().
+  kSwing,  ///< One foot is in the air.
+};
+
+/// Settings of a Gait. Lengths of steps and regions come from the model.
+struct GaitSettings {
+  double dt = 1e-3;  ///< Control period, s.
+  /// Share of the angular momentum in the DCM, 0 to 1: see Dcm.
+  double share_of_k = 0.985;
+  StepTrigger trigger;
+  PushEstimate::Settings push;
+  StepRegion::Settings region;
+  SwingPath::Settings path;
+  int max_steps = 12;  ///< Steps in a row; then the robot stays where it is.
+
+  // Steps that catch the robot.
+  double time_min = 0.193;       ///< Shortest time of a step, s.
+  double time_max = 0.244;       ///< Longest time of a step, s.
+  double swing_speed = 4.4;      ///< Bound of the mean speed of a step, m/s.
+  double freeze = 0.025;         ///< The plan is kept for this last time, s.
+  double sole_fraction = 0.907;  ///< Part of the sole that plans use.
+  double sole_gap = 0.02;        ///< Between two soles side by side, m.
+  /// Preferred way of xi beyond the sole's center at the landing, as a part of
+  /// the nominal width, away from the stance foot.
+  double xi_beyond = 0.09;
+  double place_weight = 0.047;  ///< See StepPlan.
+  double time_weight = 0.01;
+  double sink_at = 0.75;   ///< The CoM has sunk at this share of the step.
+  double min_sink = 0.04;  ///< Sink of each step, m.
+  double square = 0.05;    ///< Feet are square within this distance, m.
+
+  // Weights and bounds of MomentumTask during these steps.
+  double angular_weight = 15;
+  double height_weight = 1.2;
+  double first_rise = 1.6;  ///< PendulumReference::max_rise in the first step.
+  double later_rise = 7;    ///< PendulumReference::max_rise in later steps.
+
+  // Steps on command.
+  /// The foot is over its place early, and touches the ground at rest.
+  SwingPath::Settings command_path{0.05, 0.7, 0.35, 0.55, 0.11};
+  double shift_time = 1.0;    ///< CoM from the middle over a foot, s.
+  double command_time = 0.8;  ///< Time of the step, s.
+  double rest_time = 0.5;     ///< CoM back to the nominal height, s.
+};
+
+/// Takes steps. Decides when the feet alone cannot catch the robot, and where
+/// and when a foot lands; then steps until the feet are side by side. Takes
+/// single steps on command. Between two ticks of the controller, a Gait reads
+/// the controller's last tick and writes its reference and its Stance:
+///
+///     Gait gait(robot, settings);
+///     gait.Start(controller);
+///     for (;;) {
+///       gait.Update(&controller);
+///       controller.Update(state, &command);
+///     }
+///
+/// Until the first step, a Gait does not write the reference of the center of
+/// mass, so that others can. After Start() nothing allocates, throws or waits.
+class Gait {
+ public:
+  /// Throws std::invalid_argument if the robot has not two feet.
+  Gait(const Robot& robot, const GaitSettings& settings);
+
+  /// Ends all steps and forgets the last push.
+  void Start() noexcept;
+
+  /// Plans and writes the next tick. The cost is that of one StepPlan in the
+  /// air, and nearly nothing on both feet.
+  void Update(Controller* controller) noexcept;
+
+  /// Steps with a foot to a place of the sole's center on the ground, m, with
+  /// the heading of the other foot. Does nothing, and says why, unless the
+  /// robot stands still on both feet and the leg reaches the place.
+  [[nodiscard]] StepAnswer StepTo(int foot, const Eigen::Vector2d& p_WC,
+                                  const Controller& controller) noexcept;
+
+  /// Takes no further steps until Start(). A foot in the air still lands. A
+  /// commanded step whose foot is still on the ground is given up.
+  void Stop() noexcept;
+
+  GaitPhase phase() const { return phase_; }
+  int swing_foot() const { return swing_; }  ///< Meaningful in kSwing.
+  const PlannedStep& plan() const { return plan_; }
+  const Eigen::Vector2d& xi_W() const { return xi_W_; }      ///< DCM, m.
+  const Eigen::Vector2d& goal_W() const { return goal_W_; }  ///< Landing, m.
+  /// Time until the planned landing, s. Meaningful in kSwing.
+  double remaining() const { return duration_ - over_; }
+  /// How far the predicted capture point was beyond the edge of the support
+  /// when the gait decided to step, m; 0 for a step that follows another step
+  /// or a command.
+  double beyond_edge() const { return beyond_edge_; }
+  /// Whether the present step was commanded by StepTo().
+  bool is_commanded() const { return is_commanded_; }
+  /// Number of steps since the robot last stood at rest.
+  int steps() const { return steps_; }
+  /// Whether the gait writes the reference of the center of mass.
+  bool owns_com() const { return owns_com_; }
+
+ private:
+  void Measure(const Controller& controller) noexcept;
+  bool MayStep() const noexcept {
+    return !is_stopped_ && steps_ < settings_.max_steps;
+  }
+  bool MustStep(const Controller& controller) noexcept;
+  int ChooseFoot(const Controller& controller) noexcept;
+  StepProblem MakeProblem(const Controller& controller, int swing,
+                          double remaining) const noexcept;
+  void Begin(int swing, double duration, Controller* controller) noexcept;
+  void Stand(Controller* controller) noexcept;
+  void Shift(Controller* controller) noexcept;
+  void Catch(Controller* controller) noexcept;
+  void Follow(Controller* controller) noexcept;
+  void Land(Controller* controller) noexcept;
+  void Rest(Controller* controller) noexcept;
+  bool AreFeetSquare(const Controller& controller) const noexcept;
+  void GlideTo(const Eigen::Vector2d& p_WG, double height, double time,
+               Controller* controller) noexcept;
+  void TakeCom(const Controller& controller) noexcept;
+  Pose StanceFrame(const Controller& controller, int foot) const noexcept;
+
+  Robot robot_;
+  GaitSettings settings_;
+  std::vector<StepRegion> regions_;
+  double mass_, gravity_;
+  double nominal_height_;   // Height of G above the soles, m.
+  double nominal_width_;    // Between the soles' centers, m.
+  Eigen::Vector2d p_MidG_;  // Nominal, m.
+  StepPlan planner_;
+  PushEstimate push_;
+  SwingPath path_;
+
+  GaitPhase phase_ = GaitPhase::kStand;
+  bool is_commanded_ = false;
+  bool owns_com_ = false;
+  int swing_ = 0;
+  int steps_ = 0;
+  bool is_stopped_ = false;
+  double over_ = 0;         // Time in this phase, s.
+  double duration_ = 0;     // Planned time of this phase, s.
+  double beyond_edge_ = 0;  // m.
+  Eigen::Vector2d lift_off_W_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d goal_W_ = Eigen::Vector2d::Zero();
+  PlannedStep plan_;
+  double omega_ = 0;
+  Eigen::Vector2d xi_W_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d xi_without_k_W_ = Eigen::Vector2d::Zero();
+  EdgeFractions fractions_;
+  std::array<Quintic, 3> com_;  // Reference of G; z above the ground.
+};
+
+}  // namespace poise
