@@ -146,6 +146,13 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
     estimator_->Start(sensors_.Measure(plant_->Sense()));
     state_ = ToState(sensors_.measurement());
   }
+  if (scenario.steps) {
+    GaitSettings settings;
+    settings.dt = scenario.control.dt;
+    gait_ = MakeOf("robot", [&] {
+      return std::make_unique<Gait>(controller_->robot(), settings);
+    });
+  }
   com_start_ = controller_->reference().p_WG;
   com_path_ = {scenario.com, com_start_};
   for (std::size_t i = 0; i < scenario.stance.size(); ++i) {
@@ -169,20 +176,33 @@ int ClosedLoop::FindFoot(const std::string& name) const {
 void ClosedLoop::MoveFeet() {
   const std::vector<StanceEvent>& events = scenario_.stance;
   for (; next_event_ < events.size(); ++next_event_) {
-    const StanceEvent& event = events[next_event_];
     // With this tolerance, rounding cannot delay an event by a tick.
-    if (event.at > time() + plant_->dt() / 2) break;
-    switch (event.kind) {
-      case StanceEvent::Kind::kLift:
-        (void)controller_->stance().Lift(FindFoot(event.foot), event.height);
-        break;
-      case StanceEvent::Kind::kPutDown:
-        controller_->stance().PutDown(FindFoot(event.foot));
-        break;
-      case StanceEvent::Kind::kShift:
-        com_path_.ShiftTo(ShiftPlace(event.foot), event.at, event.over);
-        break;
-    }
+    if (events[next_event_].at > time() + plant_->dt() / 2) break;
+    MoveFoot(events[next_event_]);
+  }
+}
+
+void ClosedLoop::MoveFoot(const StanceEvent& event) {
+  if (event.kind == StanceEvent::Kind::kStep) {
+    const int foot = FindFoot(event.foot);
+    commanded_.push_back(
+        {time(), foot, event.to, gait_->StepTo(foot, event.to, *controller_)});
+    return;
+  }
+  // After the first step, the gait alone moves the feet and the CoM.
+  if (gait_ != nullptr && gait_->owns_com()) return;
+  switch (event.kind) {
+    case StanceEvent::Kind::kLift:
+      (void)controller_->stance().Lift(FindFoot(event.foot), event.height);
+      break;
+    case StanceEvent::Kind::kPutDown:
+      controller_->stance().PutDown(FindFoot(event.foot));
+      break;
+    case StanceEvent::Kind::kShift:
+      com_path_.ShiftTo(ShiftPlace(event.foot), event.at, event.over);
+      break;
+    case StanceEvent::Kind::kStep:
+      break;
   }
 }
 
@@ -210,11 +230,14 @@ void ClosedLoop::Tick() {
   using Clock = std::chrono::steady_clock;
   start_ = plant_->Sense();
   MoveFeet();
-  com_path_.Write(time(), &controller_->reference());
+  if (gait_ == nullptr || !gait_->owns_com()) {
+    com_path_.Write(time(), &controller_->reference());
+  }
   const Measurement& measurement = sensors_.Measure(start_);
   if (estimator_ == nullptr) state_ = ToState(measurement);
   const auto before = Clock::now();
   if (estimator_ != nullptr) estimator_->Update(measurement, &state_);
+  if (gait_ != nullptr) gait_->Update(controller_.get());
   controller_->Update(state_, &command_);
   microseconds_ =
       std::chrono::duration<double, std::micro>(Clock::now() - before).count();
@@ -222,6 +245,9 @@ void ClosedLoop::Tick() {
     down_[i] = controller_->stance().is_meant_down(static_cast<int>(i));
   }
   observer_.ObserveState(start_, down_, controller_->reference().p_WG);
+  if (gait_ != nullptr && gait_->owns_com()) {
+    observer_.MoveComReference(controller_->contacts());
+  }
   StepPlant();
   observer_.ObserveForces(during_.F_Co_C);
   ++ticks_;
@@ -266,6 +292,7 @@ TickRecord ClosedLoop::record() const {
           controller_->hierarchy(),
           controller_->report(),
           controller_->stance(),
+          gait_.get(),
           robot_.model.tree.nv(),
           microseconds_};
 }

@@ -11,6 +11,7 @@
 #include "poise/robot/control/controller.h"
 #include "poise/robot/control/estimator.h"
 #include "poise/robot/control/measurement.h"
+#include "poise/robot/gait/gait.h"
 #include "poise/robot/robot.h"
 #include "poise/sim/center_of_mass_path.h"
 #include "poise/sim/log/tick_record.h"
@@ -21,6 +22,14 @@
 #include "poise/sim/sensors.h"
 
 namespace poise {
+
+/// A step that a scenario commands.
+struct CommandedStep {
+  double at;           ///< Time of the command, s.
+  int foot;            ///< Index of the foot.
+  Eigen::Vector2d to;  ///< Place of the sole's center, m.
+  StepAnswer answer;   ///< Answer of the gait.
+};
 
 /// Simulates a robot, its plant and its controller, tick by tick:
 ///
@@ -48,12 +57,17 @@ class ClosedLoop {
   const Observation& observation() const { return observer_.observation(); }
   Controller& controller() { return *controller_; }
   const Controller& controller() const { return *controller_; }
+  /// Null without Scenario::steps.
+  const Gait* gait() const { return gait_.get(); }
+  /// The steps that the scenario has commanded up to now.
+  const std::vector<CommandedStep>& commanded() const { return commanded_; }
   const Plant& plant() const { return *plant_; }
 
  private:
   int FindFoot(const std::string& name) const;
   Eigen::Vector3d ShiftPlace(const std::string& name) const;
   void MoveFeet();
+  void MoveFoot(const StanceEvent& event);
   void StepPlant();
 
   Robot robot_;
@@ -62,6 +76,7 @@ class ClosedLoop {
   std::unique_ptr<Controller> controller_;
   Sensors sensors_;
   std::unique_ptr<Estimator> estimator_;  // Null without control.estimator.
+  std::unique_ptr<Gait> gait_;            // Null without steps.
   Observer observer_;
   std::vector<PushOnRobot> pushes_;
   std::vector<bool> down_;  // By foot: planned to be in contact.
@@ -75,7 +90,8 @@ class ClosedLoop {
   Eigen::Vector3d com_start_;
   CenterOfMassPath com_path_;
   size_t next_event_ = 0;  // Index in the scenario's stance.
-  PlantState during_;      // State at the end of the tick; mean forces over it.
+  std::vector<CommandedStep> commanded_;
+  PlantState during_;  // State at the end of the tick; mean forces over it.
   Eigen::Vector3d push_force_W_ = Eigen::Vector3d::Zero();
   long ticks_ = 0;
   double microseconds_ = 0;

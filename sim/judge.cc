@@ -30,8 +30,12 @@ void Judge::Look(const Observation& now) {
     if (std::isnan(now.cop[i])) continue;
     verdict_.cop_peak[i] = std::max(verdict_.cop_peak[i], std::abs(now.cop[i]));
   }
-  last_errors_.push_back({now.time, error});
-  while (last_errors_.front().time < now.time - kEnd) last_errors_.pop_front();
+  const bool all_down =
+      std::all_of(now.feet.begin(), now.feet.end(),
+                  [](const FootObservation& foot) { return foot.down; });
+  last_ticks_.push_back(
+      {now.time, error, all_down && now.com_velocity.norm() < kAtRest});
+  while (last_ticks_.front().time < now.time - kEnd) last_ticks_.pop_front();
 }
 
 void Judge::Fall(double time, const char* how) {
@@ -42,13 +46,17 @@ void Judge::Fall(double time, const char* how) {
 
 Verdict Judge::Conclude() const {
   Verdict verdict = verdict_;
-  for (const ComError& each : last_errors_) {
+  for (const LastTick& each : last_ticks_) {
     verdict.com_error_final +=
-        each.error / static_cast<double>(last_errors_.size());
+        each.error / static_cast<double>(last_ticks_.size());
   }
+  const bool at_rest =
+      std::all_of(last_ticks_.begin(), last_ticks_.end(),
+                  [](const LastTick& tick) { return tick.at_rest; });
   verdict.recovered =
-      !verdict.fell_at && !last_errors_.empty() &&
-      verdict.com_error_final.head<2>().norm() < kLargestComError;
+      !verdict.fell_at && !last_ticks_.empty() &&
+      verdict.com_error_final.head<2>().norm() < kLargestComError &&
+      (at_rest || !steps_);
   return verdict;
 }
 

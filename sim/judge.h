@@ -30,6 +30,9 @@ struct Verdict {
 ///   more than 30 mm; and
 /// - the mean of com - com_ref over the last 0.5 s has a horizontal norm below
 ///   20 mm.
+///
+/// A robot that may take steps must also be at rest: in the last 0.5 s, all
+/// feet are meant to be down, and its center of mass is slower than 0.02 m/s.
 class Judge {
  public:
   static constexpr double kLowestBase = 0.6;  // Fraction of its height.
@@ -38,9 +41,12 @@ class Judge {
   static constexpr double kLargestSlide = 0.03;
   static constexpr double kLargestComError = 0.02;
   static constexpr double kEnd = 0.5;
+  static constexpr double kAtRest = 0.02;  // m/s.
 
   /// @param standing_height  height of the base above the ground, m.
-  explicit Judge(double standing_height) : standing_height_(standing_height) {}
+  /// @param steps            whether the robot may take steps.
+  explicit Judge(double standing_height, bool steps = false)
+      : standing_height_(standing_height), steps_(steps) {}
 
   void Look(const Observation& now);
 
@@ -55,15 +61,18 @@ class Judge {
  private:
   void Fall(double time, const char* how);
 
-  struct ComError {
+  // One of the last ticks.
+  struct LastTick {
     double time;
-    Eigen::Vector3d error;
+    Eigen::Vector3d error;  // com - com_ref, m.
+    bool at_rest;
   };
 
   double standing_height_;
+  bool steps_;
   bool down_ = false;
   Verdict verdict_;
-  std::deque<ComError> last_errors_;
+  std::deque<LastTick> last_ticks_;
 };
 
 }  // namespace poise

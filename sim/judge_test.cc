@@ -132,5 +132,22 @@ TEST(Judge, KeepsThePeaks) {
   EXPECT_EQ(verdict.com_error_peak, Eigen::Vector3d(0.1, 0.2, 0.3));
 }
 
+// A robot that may step must end at rest on both feet.
+TEST(Judge, RobotThatStepsMustEndAtRestOnItsFeet) {
+  const auto recovers = [](bool steps, double speed, bool is_down) {
+    Judge judge(1, steps);
+    for (int k = 0; k < 2000; ++k) {
+      Observation now = Standing(k * 1e-3);
+      if (k == 1900) now.com_velocity.x() = speed;
+      if (k == 1900) now.feet[1].down = is_down;
+      judge.Look(now);
+    }
+    return judge.Conclude().recovered;
+  };
+  EXPECT_TRUE(recovers(true, 0.019, true));
+  EXPECT_FALSE(recovers(true, 0.021, true));
+  EXPECT_FALSE(recovers(true, 0, false));
+  EXPECT_TRUE(recovers(false, 0.021, false));
+}
 }  // namespace
 }  // namespace poise

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "poise/robot/control/balance_monitor.h"
+#include "poise/robot/gait/dcm.h"
+
 namespace poise {
 
 namespace {
@@ -50,6 +53,8 @@ Observer::Observer(const Robot& robot, const Ground& ground)
     : robot_(robot),
       base_point_B_(BasePoint(robot.model)),
       normal_W_(GroundNormal(ground)),
+      mass_(robot.model.tree.total_mass()),
+      gravity_(robot.model.tree.gravity_W().norm()),
       tick_(robot.model.tree, FootFrames(robot)),
       contacts_(robot.feet.size()),
       put_down_(robot.feet.size()),
@@ -69,7 +74,11 @@ void Observer::ObserveState(const PlantState& state,
   now.base_height = normal_W_.dot(now.X_WB * base_point_B_);
   now.base_tilt = AngleBetween(now.X_WB.R * standing_z_B_, normal_W_);
   now.com = tick_.p_WG;
+  now.com_velocity = tick_.v_WG;
   now.com_ref = com_ref;
+  const double height = normal_W_.dot(tick_.p_WG);
+  now.xi =
+      ComputeDcm(tick_, mass_, height, PendulumFrequency(gravity_, height), 1);
   for (size_t i = 0; i < robot_.feet.size(); ++i) {
     FootObservation& foot = now.feet[i];
     foot.X_WC = tick_.X_WB[robot_.feet[i].body] * robot_.feet[i].X_BC;
@@ -82,6 +91,15 @@ void Observer::ObserveState(const PlantState& state,
     const Eigen::Vector3d way = foot.X_WC.p - put_down_[i].p;
     foot.tilt = AngleBetween(foot.X_WC.R.col(2), put_down_[i].R.col(2));
     foot.slide = (way - normal_W_.dot(way) * normal_W_).norm();
+  }
+}
+
+void Observer::MoveComReference(const std::vector<ContactTick>& believed) {
+  Observation& now = observation_;
+  for (size_t i = 0; i < now.feet.size(); ++i) {
+    now.com_ref.head<2>() +=
+        (now.feet[i].X_WC.p - believed[i].X_WC.p).head<2>() /
+        static_cast<double>(now.feet.size());
   }
 }
 

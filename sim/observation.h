@@ -32,7 +32,10 @@ struct Observation {
   double base_height = 0;  ///< Height of BasePoint() above the ground, m.
   double base_tilt = 0;    ///< Angle of the base's z from the start, rad.
   Eigen::Vector3d com = Eigen::Vector3d::Zero();
+  Eigen::Vector3d com_velocity = Eigen::Vector3d::Zero();  ///< m/s.
   Eigen::Vector3d com_ref = Eigen::Vector3d::Zero();
+  /// DCM with the angular momentum given back, see ComputeDcm(), m.
+  Eigen::Vector2d xi = Eigen::Vector2d::Zero();
   std::vector<FootObservation> feet;
   /// Center of pressure of all feet together, m, in the frame MidFeet() of the
   /// feet that the ground presses on, as in the controller's task zmp. NaN if
@@ -51,6 +54,12 @@ class Observer {
   void ObserveState(const PlantState& state, const std::vector<bool>& down,
                     const Eigen::Vector3d& com_ref);
 
+  /// Moves com_ref in the plane, so that it has the same place amid the true
+  /// feet as it has amid the feet where the controller believes them. An
+  /// estimate of the base drifts when feet slip, and a robot that stands amid
+  /// its feet has no error by that.
+  void MoveComReference(const std::vector<ContactTick>& believed);
+
   /// Observes the mean contact wrenches during the tick, by foot.
   void ObserveForces(const std::vector<Eigen::Matrix<double, 6, 1>>& F_Co_C);
 
@@ -63,6 +72,7 @@ class Observer {
   Robot robot_;
   Eigen::Vector3d base_point_B_;
   Eigen::Vector3d normal_W_;
+  double mass_, gravity_;
   Tick tick_;
   Observation observation_;
   std::vector<ContactTick> contacts_;  // Only pose and measured contact.

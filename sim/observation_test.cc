@@ -216,5 +216,32 @@ TEST(Observer, TakesTheCenterOfPressureInALevelFrame) {
   EXPECT_NEAR(now.cop.y(), -0.05 * std::cos(0.2), kRounding);
 }
 
+// xi = c + v / omega for a body that does not turn; a turn about y moves it
+// forward.
+TEST(Observer, ReportsTheCapturePoint) {
+  Observer observer(MakeBlock({0.2, 0.2, 0.1}, 5), {});
+  PlantState state = StateAt({0.1, 0.2, 0.9}, Turn(0, kUp));
+  state.v[3] = 0.3;
+  observer.ObserveState(state, {}, {0, 0, 0});
+  const double omega = std::sqrt(9.81 / 0.9);
+  EXPECT_NEAR(observer.observation().xi.x(), 0.1 + 0.3 / omega, 1e-12);
+  EXPECT_NEAR(observer.observation().xi.y(), 0.2, 1e-12);
+  EXPECT_NEAR(observer.observation().com_velocity.x(), 0.3, 1e-12);
+  state.v[1] = 2;
+  observer.ObserveState(state, {}, {0, 0, 0});
+  EXPECT_GT(observer.observation().xi.x(), 0.1 + 0.3 / omega + 1e-4);
+}
+
+// The reference keeps its place amid the feet.
+TEST(Observer, MovesTheComReferenceWithTheFeet) {
+  Observer observer(MakeBlock({0.2, 0.2, 0.1}, 5), {});
+  observer.ObserveState(StateAt({0.1, 0.2, 0.05}, Turn(0, kUp)), {},
+                        {0.5, 0.6, 0.04});
+  std::vector<ContactTick> believed(1);
+  believed[0].X_WC.p = Vector3d(0.07, 0.25, 0.3);
+  observer.MoveComReference(believed);
+  EXPECT_TRUE(observer.observation().com_ref.isApprox(
+      Vector3d(0.53, 0.55, 0.04), kRounding));
+}
 }  // namespace
 }  // namespace poise

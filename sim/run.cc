@@ -61,6 +61,24 @@ std::optional<Yardstick> Measure(const Robot& robot, const Push& push,
                           push.duration, aimed.body(), aimed.p_BoQ_B(), down);
 }
 
+// Returns RunResult::commanded_done.
+std::optional<bool> AreDone(const std::vector<CommandedStep>& commanded,
+                            const std::vector<TakenStep>& steps) {
+  constexpr double kNear = 0.01;  // m.
+  if (commanded.empty()) return std::nullopt;
+  return std::all_of(
+      commanded.begin(), commanded.end(), [&](const CommandedStep& command) {
+        return command.answer == StepAnswer::kAccepted &&
+               std::any_of(steps.begin(), steps.end(),
+                           [&](const TakenStep& step) {
+                             return step.is_commanded && step.has_landed &&
+                                    step.foot == command.foot &&
+                                    step.at >= command.at &&
+                                    (step.landed - command.to).norm() < kNear;
+                           });
+      });
+}
+
 }  // namespace
 
 std::string FellBy(const RunResult& result) {
@@ -79,7 +97,7 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
                                           loop->controller().stack(), format);
   }
   // In the nominal posture the robot stands on the ground.
-  Judge judge(StandingHeight(robot));
+  Judge judge(StandingHeight(robot), scenario.steps);
   const long ticks = std::lround(scenario.duration / scenario.control.dt);
   // Calls progress() at least 100 times per run, and at least every 1000 plant
   // steps. So a run with many or slow ticks can be stopped quickly, too.
@@ -87,6 +105,7 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
   const long between = std::clamp(ticks / 100, 1L, std::max(1L, 1000 / steps));
   std::vector<float> us;
   us.reserve(ticks);
+  StepWatch step_watch;
   RunResult result;
   const Push* push = LargestPush(scenario.pushes, scenario.duration);
   if (push != nullptr) {
@@ -107,6 +126,7 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
       result.blew_up = FindBlowUp(robot.model.tree, record.start.v);
     }
     judge.Look(record.observation);
+    if (record.gait != nullptr) step_watch.Look(record);
     if (recorder != nullptr) recorder->Record(record);
     us.push_back(static_cast<float>(record.microseconds));
     result.iterations_max =
@@ -133,6 +153,9 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
       std::chrono::duration<double>(Clock::now() - before).count();
   result.duration = static_cast<double>(result.ticks) * scenario.control.dt;
   result.verdict = judge.Conclude();
+  result.steps = step_watch.steps();
+  result.commanded = loop->commanded();
+  result.commanded_done = AreDone(result.commanded, result.steps);
   result.tick_us = Summarize(std::move(us));
   if (recorder != nullptr) {
     recorder->Flush();

@@ -13,6 +13,7 @@
 #include "poise/sim/log/log_rows.h"
 #include "poise/sim/log/recorder.h"
 #include "poise/sim/scenario.h"
+#include "poise/sim/step_watch.h"
 #include "poise/sim/yardstick.h"
 
 namespace poise {
@@ -47,6 +48,11 @@ struct RunResult {
   /// Pendulum bound in the direction of the largest push, on the feet that are
   /// down when the push begins. Empty if the push does not begin.
   std::optional<Yardstick> yardstick;
+  std::vector<TakenStep> steps;  ///< In order of their lift-offs.
+  std::vector<CommandedStep> commanded;
+  /// Whether each commanded step was accepted and has landed within 10 mm of
+  /// its place. Empty without a command.
+  std::optional<bool> commanded_done;
   double wall_seconds = 0;
   std::string log_sha256;  ///< Empty if nothing was recorded.
   /// Rows of the stack that the log names; empty if nothing was recorded.

@@ -127,16 +127,33 @@ Push ReadPush(YamlFields fields) {
   return push;
 }
 
+// Returns the place of a step.
+Eigen::Vector2d ReadPlace(YamlFields* fields) {
+  constexpr double kFarthest = 1e3;  // m.
+  const std::vector<double> place = fields->Numbers("to");
+  const bool is_place = place.size() == 2 &&
+                        std::all_of(place.begin(), place.end(), [](double x) {
+                          return std::abs(x) <= kFarthest;
+                        });
+  if (!is_place) {
+    fields->Refuse("to", "must be two numbers [x, y] from -1000 to 1000 m");
+  }
+  return {place[0], place[1]};
+}
+
 StanceEvent ReadStanceEvent(YamlFields fields) {
   StanceEvent event;
   const std::string lift = fields.Text("lift", "");
   const std::string put_down = fields.Text("put_down", "");
   const std::string shift = fields.Text("shift", "");
+  const std::string step = fields.Text("step", "");
+  if (!step.empty()) event.to = ReadPlace(&fields);
   fields.Read(Fields(&event));
   fields.Finish();
   for (const auto& [key, other] :
        {std::pair("lift", "put_down"), std::pair("lift", "shift"),
-        std::pair("put_down", "shift")}) {
+        std::pair("put_down", "shift"), std::pair("step", "lift"),
+        std::pair("step", "put_down"), std::pair("step", "shift")}) {
     if (!fields.Has(key) || !fields.Has(other)) continue;
     fields.Refuse(key, "must not be in one entry with " + std::string(other) +
                            ": write two entries");
@@ -149,8 +166,11 @@ StanceEvent ReadStanceEvent(YamlFields fields) {
     event.foot = put_down;
   } else if (!shift.empty()) {
     event.foot = shift == "middle" ? "" : shift;
+  } else if (!step.empty()) {
+    event.kind = StanceEvent::Kind::kStep;
+    event.foot = step;
   } else {
-    fields.Refuse("at", "must come with lift, put_down or shift");
+    fields.Refuse("at", "must come with lift, put_down, shift or step");
   }
   return event;
 }
@@ -307,6 +327,7 @@ Scenario ReadScenario(const std::filesystem::path& file) {
   fields.Read(Fields(&scenario));
   scenario.seed = ReadSeed(&fields, scenario.seed);
   if (auto start = fields.Map("start")) ReadNumbers(*start, &scenario.start);
+  scenario.steps = fields.Flag("steps", scenario.steps);
   scenario.pushes = ReadPushes(&fields);
   for (const YamlFields& event : fields.Maps("stance")) {
     scenario.stance.push_back(ReadStanceEvent(event));
@@ -358,6 +379,13 @@ void Validate(const Scenario& scenario) {
     Check(Entry("stance", i), Fields(&copy.stance[i]));
   }
   CheckOrder(copy.stance);
+  for (std::size_t i = 0; i < copy.stance.size(); ++i) {
+    const bool is_step = copy.stance[i].kind == StanceEvent::Kind::kStep;
+    if (!is_step || copy.steps) continue;
+    throw InputError::OfValue(
+        Entry("stance", i) + ".step",
+        " is " + Quoted(copy.stance[i].foot) + ", must come with steps: on");
+  }
   CheckTimes(copy);
 }
 

@@ -32,13 +32,15 @@ struct ComMotion {
 /// of mass moves. It moves over a foot, a quarter of the sole's half width
 /// inside of the foot's center, or back between the feet.
 struct StanceEvent {
-  enum class Kind { kLift, kPutDown, kShift };
+  enum class Kind { kLift, kPutDown, kShift, kStep };
 
   Kind kind = Kind::kShift;
   double at = 0;         ///< Time of the event, s.
   std::string foot;      ///< Name; empty: back to where the CoM started.
   double height = 0.05;  ///< Height that a foot is lifted by, m.
   double over = 1.5;     ///< Duration of a shift, s.
+  /// Place of the sole's center after a step, in the world, m.
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();
 };
 
 /// Settings of the controller, in addition to its robot.
@@ -63,6 +65,7 @@ struct Scenario {
   std::string name;
   double duration = 5;
   unsigned seed = 1;
+  bool steps = false;  ///< The robot takes steps if it has to, see Gait.
   StartSettings start;
   std::vector<Push> pushes;
   std::vector<StanceEvent> stance;

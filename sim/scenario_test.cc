@@ -277,12 +277,12 @@ TEST(Scenario, ReportsAnErrorOnOneLine) {
 }
 
 TEST(Scenario, RejectsAStanceEventWithoutAnAction) {
-  EXPECT_EQ(
-      Complaint("stance:\n  - {at: 3}\n"),
-      "trial.yaml:2: 'at' is '3', must come with lift, put_down or shift");
+  EXPECT_EQ(Complaint("stance:\n  - {at: 3}\n"),
+            "trial.yaml:2: 'at' is '3', must come with lift, put_down, shift "
+            "or step");
   EXPECT_EQ(Complaint("stance: [{height: 0.3}]\n"),
-            "trial.yaml:1: 'at' is missing, must come with lift, put_down or "
-            "shift");
+            "trial.yaml:1: 'at' is missing, must come with lift, put_down, "
+            "shift or step");
   EXPECT_NE(Complaint("stance: [{at: 3, shift: middle, over: 0}]\n"), "none");
   EXPECT_NE(Complaint("stance: [{at: 3, lift: a, height: -1}]\n"), "none");
 }

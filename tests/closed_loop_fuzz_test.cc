@@ -73,7 +73,7 @@ std::vector<std::string> Cells(const std::string& line) {
 // Describes the first fault of a log file, or returns "". The log must have one
 // row per tick. Each cell must be a finite number, except in the columns of
 // words. The center of pressure may be NaN: it is undefined while the feet
-// carry no load.
+// carry no load. So may the planned step while the robot does not step.
 std::string WrongWithLog(const std::filesystem::path& file, long ticks) {
   std::ifstream stream(file);
   std::string line;
@@ -94,7 +94,9 @@ std::string WrongWithLog(const std::filesystem::path& file, long ticks) {
       char* end;
       const double number = std::strtod(cells[i].c_str(), &end);
       const bool is_number = !cells[i].empty() && *end == 0;
-      if (std::isnan(number) && names[i].rfind("cop.", 0) == 0) continue;
+      const bool may_be_nan =
+          names[i].rfind("cop.", 0) == 0 || names[i].rfind("plan.", 0) == 0;
+      if (std::isnan(number) && may_be_nan) continue;
       if (!is_number || !std::isfinite(number)) {
         return row + "'" + cells[i] + "' in " + names[i];
       }

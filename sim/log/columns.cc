@@ -17,6 +17,9 @@ constexpr char kTau[] = "tau.";
 constexpr char kQ[] = "q.";
 constexpr char kLambda[] = "lambda.";
 constexpr char kResidual[] = "residual.";
+constexpr char kComVelocity[] = "com_vel.";
+constexpr char kXi[] = "xi.";
+constexpr char kPlan[] = "plan.";
 
 constexpr char kContact[] = ".contact";
 constexpr char kTilt[] = ".tilt";
@@ -70,6 +73,11 @@ ColumnGroup GroupOfFoot(std::string_view name) {
     return ColumnGroup::kTiltOrSlide;
   }
   if (EndsWith(name, kPhase)) return ColumnGroup::kText;
+  for (const char axis : kAxes) {
+    if (EndsWith(name, std::string{'.', axis})) {
+      return ColumnGroup::kFootPosition;
+    }
+  }
   if (IsPartOfWrench(name, 'm')) return ColumnGroup::kMoment;
   if (IsPartOfWrench(name, 'f')) return ColumnGroup::kForce;
   return ColumnGroup::kUnknown;
@@ -89,6 +97,14 @@ std::string ComReferenceColumn(char axis) {
   return Position(kComReference, axis);
 }
 
+std::string ComVelocityColumn(char axis) {
+  return std::string(kComVelocity) + axis + "[m/s]";
+}
+
+std::string XiColumn(char axis) { return Position(kXi, axis); }
+
+std::string PlanColumn(char axis) { return Position(kPlan, axis); }
+
 std::string CopColumn(char axis) { return Position(kCop, axis); }
 
 std::string PushColumn(char axis) { return Force(kPush, axis); }
@@ -106,6 +122,10 @@ std::string SlideColumn(const std::string& foot) {
 }
 
 std::string PhaseColumn(const std::string& foot) { return foot + kPhase; }
+
+std::string FootPositionColumn(const std::string& foot, char axis) {
+  return Position((foot + '.').c_str(), axis);
+}
 
 std::string MomentColumn(const std::string& foot, char axis) {
   return Moment(foot + '.', axis);
@@ -169,6 +189,14 @@ std::vector<LogColumn> LogColumns(const std::vector<std::string>& feet,
     for (const char axis : kAxes) number(CommandedForceColumn(foot, axis));
   }
   for (const std::string& task : tasks) number(ResidualColumn(task));
+  for (const char axis : kAxes) number(ComVelocityColumn(axis));
+  for (const char axis : {'x', 'y'}) number(XiColumn(axis));
+  for (const std::string& foot : feet) {
+    for (const char axis : kAxes) number(FootPositionColumn(foot, axis));
+  }
+  for (const char axis : {'x', 'y'}) number(PlanColumn(axis));
+  number(kPlanTimeColumn);
+  number(kPlanBeyondColumn);
   for (const char* name : kTexts) text(name);
   for (const std::string& foot : feet) text(PhaseColumn(foot));
   text(kReasonColumn);
@@ -187,6 +215,9 @@ ColumnGroup GroupOf(std::string_view column) {
   } kGroups[] = {{kBase, ColumnGroup::kBasePose},
                  {kCom, ColumnGroup::kCom},
                  {kComReference, ColumnGroup::kComReference},
+                 {kComVelocity, ColumnGroup::kComVelocity},
+                 {kXi, ColumnGroup::kXi},
+                 {kPlan, ColumnGroup::kPlan},
                  {kCop, ColumnGroup::kCop},
                  {kPush, ColumnGroup::kPush},
                  {kOther, ColumnGroup::kOtherForce},

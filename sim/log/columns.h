@@ -21,19 +21,27 @@ inline constexpr char kActiveColumn[] = "active";
 inline constexpr char kLostColumn[] = "lost";
 inline constexpr char kConflictColumn[] = "conflict";
 inline constexpr char kReasonColumn[] = "reason";
+inline constexpr char kPlanTimeColumn[] = "plan.time[s]";
+inline constexpr char kPlanBeyondColumn[] = "plan.beyond[m]";
 
 std::string BasePositionColumn(char axis);    ///< "base.x[m]".
 std::string BaseQuaternionColumn(char part);  ///< "base.qw".
 std::string ComColumn(char axis);             ///< "com.x[m]".
 std::string ComReferenceColumn(char axis);    ///< "com_ref.x[m]".
-std::string CopColumn(char axis);             ///< "cop.x[m]".
-std::string PushColumn(char axis);            ///< "push.fx[N]".
-std::string OtherForceColumn(char axis);      ///< "other.fx[N]".
+std::string ComVelocityColumn(char axis);     ///< "com_vel.x[m/s]".
+std::string XiColumn(char axis);              ///< "xi.x[m]".
+/// Planned place of the foot in the air: "plan.x[m]".
+std::string PlanColumn(char axis);
+std::string CopColumn(char axis);         ///< "cop.x[m]".
+std::string PushColumn(char axis);        ///< "push.fx[N]".
+std::string OtherForceColumn(char axis);  ///< "other.fx[N]".
 
 std::string ContactColumn(const std::string& foot);  ///< "FOOT.contact".
 std::string TiltColumn(const std::string& foot);     ///< "FOOT.tilt[rad]".
 std::string SlideColumn(const std::string& foot);    ///< "FOOT.slide[m]".
 std::string PhaseColumn(const std::string& foot);    ///< "FOOT.phase".
+/// Center of the sole: "FOOT.x[m]".
+std::string FootPositionColumn(const std::string& foot, char axis);
 
 std::string MomentColumn(const std::string& foot,
                          char axis);                          ///< "FOOT.mx[Nm]"
@@ -62,8 +70,12 @@ enum class ColumnGroup {
   kPush,
   kOtherForce,
   kSelfContacts,
-  kContact,          ///< Foot is in contact.
-  kTiltOrSlide,      ///< Motion of a foot.
+  kContact,      ///< Foot is in contact.
+  kTiltOrSlide,  ///< Motion of a foot.
+  kComVelocity,
+  kXi,               ///< DCM.
+  kPlan,             ///< Planned step.
+  kFootPosition,     ///< Center of a sole.
   kMoment,           ///< Moment of the ground on a foot.
   kForce,            ///< Force of the ground on a foot.
   kCommandedWrench,  ///< Commanded wrench of a foot.

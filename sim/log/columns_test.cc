@@ -34,7 +34,11 @@ TEST(Columns, AreTheDocumentedColumns) {
             "lambda.left_foot.fx[N]\nlambda.left_foot.fy[N]\n"
             "lambda.left_foot.fz[N]\nlambda.paw.mx[Nm]\nlambda.paw.my[Nm]\n"
             "lambda.paw.mz[Nm]\nlambda.paw.fx[N]\nlambda.paw.fy[N]\n"
-            "lambda.paw.fz[N]\nresidual.com\nresidual.posture\ntouching\n"
+            "lambda.paw.fz[N]\nresidual.com\nresidual.posture\n"
+            "com_vel.x[m/s]\ncom_vel.y[m/s]\ncom_vel.z[m/s]\nxi.x[m]\n"
+            "xi.y[m]\nleft_foot.x[m]\nleft_foot.y[m]\nleft_foot.z[m]\n"
+            "paw.x[m]\npaw.y[m]\npaw.z[m]\nplan.x[m]\nplan.y[m]\n"
+            "plan.time[s]\nplan.beyond[m]\ntouching\n"
             "status\nactive\nlost\nconflict\nleft_foot.phase\npaw.phase\n"
             "reason\n");
 }
@@ -60,6 +64,10 @@ TEST(Columns, HaveAKnownGroupThatAgreesWithTheirKind) {
   EXPECT_EQ(count[ColumnGroup::kTorque], 2);
   EXPECT_EQ(count[ColumnGroup::kPosition], 2);
   EXPECT_EQ(count[ColumnGroup::kResidual], 2);
+  EXPECT_EQ(count[ColumnGroup::kComVelocity], 3);
+  EXPECT_EQ(count[ColumnGroup::kXi], 2);
+  EXPECT_EQ(count[ColumnGroup::kFootPosition], 6);
+  EXPECT_EQ(count[ColumnGroup::kPlan], 4);
   EXPECT_EQ(count[ColumnGroup::kText], 8);
 }
 

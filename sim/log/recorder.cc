@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
@@ -132,6 +133,8 @@ std::string_view PhaseName(ContactPhase phase) {
       return "lost";
     case ContactPhase::kFree:
       return "free";
+    case ContactPhase::kStepping:
+      return "stepping";
     case ContactPhase::kReturning:
       return "returning";
   }
@@ -211,6 +214,17 @@ void Recorder::TextCells(const TickRecord& record) {
   rows_->Text(Reason(record));
 }
 
+void Recorder::PlanCells(const TickRecord& record) {
+  const Gait* gait = record.gait;
+  const bool swings = gait != nullptr && gait->phase() == GaitPhase::kSwing;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 2; ++i) {
+    rows_->Number(swings ? gait->goal_W()[i] : kNone);
+  }
+  rows_->Number(swings ? gait->remaining() : kNone);
+  rows_->Number(swings ? gait->beyond_edge() : kNone);
+}
+
 void Recorder::Record(const TickRecord& record) {
   const Observation& now = record.observation;
   const auto vector = [this](const auto& v) {
@@ -239,6 +253,10 @@ void Recorder::Record(const TickRecord& record) {
   for (const TaskReport& task : record.report.tasks) {
     rows_->Number(task.residual);
   }
+  vector(now.com_velocity);
+  vector(now.xi);
+  for (const FootObservation& foot : now.feet) vector(foot.X_WC.p);
+  PlanCells(record);
   TextCells(record);
   const size_t before = log_rows_.size();
   rows_->EndRow(&log_rows_);

@@ -46,6 +46,7 @@ class Recorder {
   void Entry(std::string_view name, double value);
   void EndEntries();
   void ConflictCell(const TickRecord& record);
+  void PlanCells(const TickRecord& record);
   void TextCells(const TickRecord& record);
 
   std::vector<std::string> body_names_;

@@ -153,7 +153,8 @@ TEST(Recorder, WritesLimitsAndFailedLevels) {
   const auto record = [&] {
     recorder.Record({last.tick, last.observation, last.start, last.end,
                      last.tau, last.push_force_W, last.stack, last.hierarchy,
-                     report, last.stance, last.nv, last.microseconds});
+                     report, last.stance, last.gait, last.nv,
+                     last.microseconds});
     recorder.Flush();
   };
   report.status = TickStatus::kLimitRelaxed;
@@ -206,7 +207,7 @@ TEST(Recorder, KeepsSeparatorsOutOfNames) {
   const TickRecord last = loop.record();
   recorder.Record({last.tick, last.observation, last.start, touching, last.tau,
                    last.push_force_W, last.stack, last.hierarchy, last.report,
-                   last.stance, last.nv, last.microseconds});
+                   last.stance, last.gait, last.nv, last.microseconds});
   recorder.Flush();
   auto row = RowOf(Contents(Folder("renamed") / "log.csv"), 0);
   EXPECT_NE(row["active"].find("torque.l_kn_ee."), std::string::npos)

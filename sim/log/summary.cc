@@ -63,6 +63,26 @@ Json PushesToJson(const Robot& robot, const Scenario& scenario) {
   return list;
 }
 
+Json StepsToJson(const Robot& robot, const RunResult& result) {
+  Json list = Json::array();
+  for (const TakenStep& step : result.steps) {
+    Json entry;
+    entry["foot"] = robot.feet[step.foot].name;
+    entry["at"] = step.at;
+    entry["commanded"] = step.is_commanded;
+    entry["planned"] = Numbers(step.planned);
+    const bool landed = step.has_landed;
+    entry["landed"] = landed ? Numbers(step.landed) : Json(nullptr);
+    entry["swing_s"] = landed ? Json(step.swing_time) : Json(nullptr);
+    entry["touchdown_mps"] =
+        landed ? Json(step.touchdown_speed) : Json(nullptr);
+    entry["impact_Ns"] = landed ? Json(step.impact_Ns) : Json(nullptr);
+    entry["slide_m"] = landed ? Json(step.slide) : Json(nullptr);
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 // Returns the key of a row: its name as in log.csv, without separators.
 std::string LogName(std::string name) {
   for (char& c : name) {
@@ -134,10 +154,43 @@ std::string PushLines(const Robot& robot, const Scenario& scenario) {
   return lines;
 }
 
+// Returns the steps, and what became of the commanded ones, as lines of the
+// table.
+std::string StepLines(const Robot& robot, const RunResult& result) {
+  constexpr int kMostLines = 6;
+  std::string lines;
+  const int count = static_cast<int>(result.steps.size());
+  for (int i = 0; i < std::min(count, kMostLines); ++i) {
+    const TakenStep& step = result.steps[i];
+    const std::string foot = OneLine(robot.feet[step.foot].name);
+    if (!step.has_landed) {
+      lines += Line("step", "%s at %.3f s, not landed", foot.c_str(), step.at);
+      continue;
+    }
+    lines +=
+        Line("step", "%s at %.3f s to (%.2f, %.2f) m in %.2f s", foot.c_str(),
+             step.at, step.landed.x(), step.landed.y(), step.swing_time);
+  }
+  if (count > kMostLines)
+    lines += Line("step", "and %d more", count - kMostLines);
+  for (const CommandedStep& command : result.commanded) {
+    if (command.answer == StepAnswer::kAccepted) continue;
+    lines += Line("step refused", "%s to (%.2f, %.2f) m at %.3f s: %s",
+                  OneLine(robot.feet[command.foot].name).c_str(),
+                  command.to.x(), command.to.y(), command.at,
+                  std::string(Describe(command.answer)).c_str());
+  }
+  if (result.commanded_done) {
+    lines += Line("commanded steps", "%s",
+                  *result.commanded_done ? "done" : "not all done");
+  }
+  return lines;
+}
+
 }  // namespace
 
 Json ToJson(const Robot& robot, const Scenario& scenario,
-            const RunResult& result) {
+            const RunResult& result, std::optional<double> step_Ns) {
   const Verdict& verdict = result.verdict;
   const double simulated = result.duration;
   Json json;
@@ -182,6 +235,10 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
   json["lipm_height_Ns"] = result.yardstick
                                ? Number(result.yardstick->lipm_height_Ns)
                                : Json(nullptr);
+  json["step_Ns"] = step_Ns ? Number(*step_Ns) : Json(nullptr);
+  json["steps"] = StepsToJson(robot, result);
+  json["commanded_done"] =
+      result.commanded_done ? Json(*result.commanded_done) : Json(nullptr);
   json["ticks"] = result.ticks;
   json["tick_us"] = {{"median", result.tick_us.median},
                      {"p99", result.tick_us.p99},
@@ -197,7 +254,7 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
 }
 
 std::string ToTable(const Robot& robot, const Scenario& scenario,
-                    const RunResult& result) {
+                    const RunResult& result, std::optional<double> step_Ns) {
   const Verdict& verdict = result.verdict;
   const Eigen::Vector3d peak = 1e3 * verdict.com_error_peak;
   const Eigen::Vector3d last = 1e3 * verdict.com_error_final;
@@ -227,6 +284,10 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
         Line("pendulum bound", "%.2f N s at its CoM, %.2f N s at push height",
              result.yardstick->lipm_Ns, result.yardstick->lipm_height_Ns);
   }
+  if (step_Ns) {
+    table += Line("with one step", "%.2f N s at its CoM", *step_Ns);
+  }
+  table += StepLines(robot, result);
   table += Line("CoM error, peak", "%6.1f %6.1f %6.1f mm", peak.x(), peak.y(),
                 peak.z());
   table += Line("CoM error, at the end", "%6.2f %6.2f %6.2f mm", last.x(),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "poise/robot/robot.h"
@@ -10,14 +11,17 @@
 
 namespace poise {
 
-/// Returns summary.json of a run: SI units, radians, null for a missing value.
+/// Returns summary.json of a run, with the pendulum's bound for one step if it
+/// is given, N s: SI units, radians, null for a missing value.
 /// `pushes` describes each push. impulse_Ns, push_duration, push_link,
 /// push_body and push_point describe the push with the largest impulse.
 nlohmann::ordered_json ToJson(const Robot& robot, const Scenario& scenario,
-                              const RunResult& result);
+                              const RunResult& result,
+                              std::optional<double> step_Ns = {});
 
 /// Returns the summary as a table of some twenty lines for the terminal.
 std::string ToTable(const Robot& robot, const Scenario& scenario,
-                    const RunResult& result);
+                    const RunResult& result,
+                    std::optional<double> step_Ns = {});
 
 }  // namespace poise

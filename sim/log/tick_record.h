@@ -7,6 +7,7 @@
 #include "poise/robot/control/stack.h"
 #include "poise/robot/control/stance.h"
 #include "poise/robot/control/tick_report.h"
+#include "poise/robot/gait/gait.h"
 #include "poise/sim/observation.h"
 #include "poise/sim/plants/plant.h"
 
@@ -25,6 +26,7 @@ struct TickRecord {
   const Hierarchy& hierarchy;  ///< Problem of this tick.
   const TickReport& report;
   const Stance& stance;  ///< Phases of the contacts in the controller.
+  const Gait* gait;      ///< Null without steps.
   int nv;
   double microseconds;  ///< Computing time of the controller.
 };

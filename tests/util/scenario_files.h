@@ -10,7 +10,7 @@ namespace poise {
 
 /// Number of files in //sim:scenarios. A test that goes through ScenarioFiles()
 /// asserts that it has seen this number.
-constexpr int kNumScenarios = 9;
+constexpr int kNumScenarios = 10;
 
 /// Returns the paths of //sim:scenarios, sorted. The scenarios must be in the
 /// test's data.
