@@ -17,6 +17,7 @@
 #include "poise/tools/commands/push/record_run.h"
 #include "poise/tools/commands/user_path.h"
 #include "poise/tools/studies/figures_draw.h"
+#include "poise/tools/studies/step_pictures.h"
 
 namespace poise {
 namespace {
@@ -52,7 +53,10 @@ fs::path DocsFolder() {
 }
 
 int Main(int argc, char** argv) {
-  CLI::App app("Draws figures 3 to 12 of the paper from new runs.", "figures");
+  CLI::App app(
+      "Draws figures 3 to 12 of the paper, and a shove with "
+      "steps, from new runs.",
+      "figures");
   std::string out;
   bool keep_runs = false;
   app.add_option("--out", out,
@@ -65,6 +69,7 @@ int Main(int argc, char** argv) {
                                 LoadProfile("robot/profiles/humanoid.yaml"));
   const fs::path runs = folder / "figure-runs";
   RecordAll(MakeFigureRuns(robot, "sim/scenarios"), runs);
+  DrawShove(robot, runs, folder / "figures");
   WriteResults(DrawFigures(robot, runs, folder / "figures"),
                folder / "results.md", "figures");
   if (!keep_runs) fs::remove_all(runs);

@@ -40,18 +40,20 @@ int Push(const poise::PushOptions& options) {
         poise::DumpSolve({robot, scenario}, *options.dump_solve, options.out)
             .string();
   }
-  const auto [result, files] = poise::RecordRun(options.loop.get(), options.out,
-                                                ShowProgress, options.log);
+  const auto [result, step_Ns, files] = poise::RecordRun(
+      options.loop.get(), options.out, ShowProgress, options.log);
   if (options.report) {
     poise::WriteRunReport(files, options.out / "report.html");
   }
   if (options.json) {
-    std::cout << poise::ToJson(robot, scenario, result).dump(2) << '\n';
+    std::cout << poise::ToJson(robot, scenario, result, step_Ns).dump(2)
+              << '\n';
   } else {
-    std::cout << poise::ToTable(robot, scenario, result) << "\nWritten to "
-              << options.out.string() << dumped << '\n';
+    std::cout << poise::ToTable(robot, scenario, result, step_Ns)
+              << "\nWritten to " << options.out.string() << dumped << '\n';
   }
-  return result.verdict.recovered && !result.interrupted ? 0 : 1;
+  const bool is_done = result.commanded_done.value_or(true);
+  return result.verdict.recovered && is_done && !result.interrupted ? 0 : 1;
 }
 
 }  // namespace

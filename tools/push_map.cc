@@ -32,19 +32,30 @@ bool ShowProgress(const poise::PushMapProgress& progress) {
 
 void PrintTable(const poise::PushMapPlan& plan,
                 const poise::PushMapFiles& files) {
-  std::printf("%10s %9s %12s %12s %6s  %s\n", "direction", "duration",
-              "recovered", "pendulum", "eta", "tasks");
+  std::printf("%10s %9s %12s %12s %6s", "direction", "duration", "recovered",
+              "pendulum", "eta");
+  if (plan.scan) {
+    std::printf(" %12s %6s %12s %6s", "one step", "eta", "steps from", "holes");
+  }
+  std::printf("  tasks\n");
   for (const auto& [point, value] : files.found()) {
-    std::printf("%8.1f deg %7.3f s %9.2f Ns %9.2f Ns %6.2f  %s\n",
+    std::printf("%8.1f deg %7.3f s %9.2f Ns %9.2f Ns %6.2f",
                 point.direction_deg, point.duration, value.impulse, value.lipm,
-                value.impulse / value.lipm, point.tasks.c_str());
+                value.impulse / value.lipm);
+    if (value.steps) {
+      std::printf(" %9.2f Ns %6.2f %9.2f Ns %6zu", value.steps->step_Ns,
+                  value.impulse / value.steps->step_Ns, value.steps->first,
+                  value.steps->holes.size());
+    }
+    std::printf("  %s\n", point.tasks.c_str());
   }
   std::printf("\n%s\n", (plan.folder / "map.html").c_str());
 }
 
 int Map(const poise::PushMapOptions& options) {
   const poise::PushMapPlan& plan = options.plan;
-  poise::PushMapFiles files(plan.folder, options.settings, options.header);
+  poise::PushMapFiles files(plan.folder, options.settings, options.header,
+                            plan.scan);
   const bool all = poise::RunPushMap(plan, &files, ShowProgress);
   poise::WriteMapPage(plan, files);
   if (!all) {

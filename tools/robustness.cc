@@ -17,12 +17,17 @@
 namespace poise {
 namespace {
 
+// Part of the trials with steps that may fail. Such a run has up to a dozen
+// impacts and is chaotic: rounding decides one push in a hundred.
+constexpr double kMissedSteps = 0.02;
+
 // Runs all trials, one per core at a time, and prints their rows in order.
-// Returns true if each trial had the outcome that it must have.
-bool RunAll(const std::vector<Trial>& trials) {
+// Returns the number of trials that did not have the outcome that they must
+// have.
+int RunAll(const std::vector<Trial>& trials) {
   const size_t cores = std::max(1u, std::thread::hardware_concurrency());
   std::deque<std::future<TrialResult>> running;
-  bool all_hold = true;
+  int missed = 0;
   for (size_t i = 0, started = 0; i < trials.size(); ++i) {
     for (; started < std::min(i + cores, trials.size()); ++started) {
       running.push_back(
@@ -31,19 +36,20 @@ bool RunAll(const std::vector<Trial>& trials) {
     const TrialResult result = running.front().get();
     running.pop_front();
     std::cout << ToRow(trials[i], result) << std::endl;
-    all_hold = all_hold && result.holds;
+    if (!result.holds) ++missed;
   }
-  return all_hold;
+  return missed;
 }
 
 // Returns the trials that the options select. Throws std::invalid_argument if
 // there are none, because an empty table must not count as success.
 std::vector<Trial> MakeTrials(const std::string& robots,
-                              const std::string& only) {
+                              const std::string& only, bool steps) {
   std::vector<std::string> skipped;
   std::vector<Trial> trials =
-      robots.empty() ? RobustnessTrials()
-                     : RobotTrials(UserPath(robots), only, &skipped);
+      !robots.empty() ? RobotTrials(UserPath(robots), only, &skipped)
+      : steps         ? StepTrials()
+                      : RobustnessTrials();
   for (const std::string& line : skipped) {
     std::cerr << "robustness: " << line << std::endl;
   }
@@ -69,21 +75,31 @@ int Main(int argc, char** argv) {
       "row is not as required.",
       "robustness");
   std::string robots, only;
+  bool steps = false;
   app.add_option(
       "--robots", robots,
       "push the robots of this folder of URDF files instead. A robot "
       "uses the profile NAME.yaml beside it, or a profile of Poise, or "
       "the feet and posture that Poise finds");
+  app.add_flag("--steps", steps,
+               "push a robot that may take steps: 16 directions with each of "
+               "12 errors");
   app.add_option("--only", only,
                  "run only the rows whose name contains this text");
   ParseCommandLine(argc, argv, &app);
-  const std::vector<Trial> trials = MakeTrials(robots, only);
+  const std::vector<Trial> trials = MakeTrials(robots, only, steps);
   std::cout
       << "| what | `push` | it | CoM error, peak x, y, z [mm] | at the "
          "end [mm] | foot tilt [rad] | lean, peak and late [rad] | past "
          "joint limits [rad] | ticks with self-contact | as it must |\n"
          "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
-  return RunAll(trials) ? 0 : 1;
+  const int missed = RunAll(trials);
+  std::cout << '\n'
+            << trials.size() - missed << " of " << trials.size()
+            << " rows as they must be\n";
+  const double most =
+      steps ? kMissedSteps * static_cast<double>(trials.size()) : 0;
+  return missed <= most ? 0 : 1;
 }
 
 }  // namespace

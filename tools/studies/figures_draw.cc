@@ -271,7 +271,7 @@ std::vector<FigureRun> MakeFigureRuns(const Robot& robot,
                                       const fs::path& scenarios) {
   std::vector<FigureRun> runs;
   for (const char* name : {"posture_off", "com_sinusoid", "weak_push",
-                           "strong_push_without_zmp", "strong_push"}) {
+                           "strong_push_without_zmp", "strong_push", "shove"}) {
     runs.push_back(
         {name,
          {robot, LoadScenario(scenarios / (std::string(name) + ".yaml"))}});

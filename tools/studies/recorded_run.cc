@@ -20,6 +20,7 @@ std::vector<std::string> ColumnNames(const RobotModel& robot) {
     names.push_back(ComReferenceColumn(axis));
     names.push_back(PushColumn(axis));
   }
+  for (const char axis : {'x', 'y'}) names.push_back(XiColumn(axis));
   names.push_back(CopColumn('x'));
   names.push_back(CopColumn('y'));
   names.push_back(kBaseTiltColumn);

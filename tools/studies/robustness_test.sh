@@ -47,7 +47,8 @@ grep -q '^| mine stands |.* --profile mine.yaml` | recovers |.*| yes |$' \
   <<< "$out" || fail "mine does not stand: $out"
 grep -q '^| mine, pushed |.*| recovers |.*| yes |$' <<< "$out" ||
   fail "mine is not pushed: $out"
-[ "$(wc -l <<< "$out")" = 4 ] || fail "the table must have two rows: $out"
+[ "$(wc -l <<< "$out")" = 6 ] || fail "the table must have two rows: $out"
+grep -q "^2 of 2 rows as they must be$" <<< "$out" || fail "no count: $out"
 grep -q '^robustness: box.urdf is skipped: ' <<< "$err" ||
   fail "no message says that box.urdf is skipped: $err"
 [ "$(wc -l <<< "$err")" = 1 ] || fail "stderr must have one line: $err"

@@ -160,6 +160,29 @@ void AddRate(const Robot& robot, double rate, std::vector<Trial>* trials) {
                          {With("zmp"), PushDuration(0.12), ControlRate(rate)}));
 }
 
+Change BaseEstimated() {
+  return {"--estimator",
+          [](Scenario* scenario) { scenario->control.estimator = true; }};
+}
+
+Change MuJoCo() {
+  return {"--plant mujoco",
+          [](Scenario* scenario) { scenario->plant_kind = "mujoco"; }};
+}
+
+Change Gains(const std::string& file) {
+  const std::string path = "tools/studies/" + file;
+  return {"--tasks " + path,
+          [=](Scenario* scenario) { scenario->control.tasks = path; }};
+}
+
+// Largest impulse that a direction aims at, N s: see docs/steps.md. The
+// directions are 22.5 degrees apart, from 0 to 180; the other side is the same.
+double AimedImpulse(int direction) {
+  constexpr double kAims[] = {50, 50, 45, 37.5, 37.5, 37.5, 45, 50, 50};
+  return kAims[direction <= 8 ? direction : 16 - direction];
+}
+
 // Returns the URDF files of a folder in alphabetical order.
 std::vector<std::filesystem::path> UrdfFiles(
     const std::filesystem::path& folder) {
@@ -343,6 +366,39 @@ std::vector<Trial> RobustnessTrials() {
   return trials;
 }
 
+std::vector<Trial> StepTrials() {
+  constexpr double kShare = 0.8;
+  const Robot robot = LoadStandingRobot(
+      kHumanoid, LoadProfile(FindProfile("humanoid", kHumanoid)));
+  const std::vector<std::pair<std::string, std::vector<Change>>> errors = {
+      {"nothing wrong", {}},
+      {"model 10 % too heavy", {MassError(0.1)}},
+      {"model 10 % too light", {MassError(-0.1)}},
+      {"delay of 2 ms", {Delay(0.002)}},
+      {"delay of 5 ms", {Delay(0.005)}},
+      {"noise, base estimated", {Noise(), BaseEstimated()}},
+      {"friction 0.5 in the plant", {GroundFriction(0.5)}},
+      {"500 Hz", {ControlRate(500)}},
+      {"200 Hz", {ControlRate(200)}},
+      {"MuJoCo", {MuJoCo()}},
+      {"gains 20 % higher", {Gains("gains_high.yaml")}},
+      {"gains 20 % lower", {Gains("gains_low.yaml")}}};
+  std::vector<Trial> trials;
+  for (const auto& [what, wrong] : errors) {
+    for (int k = 0; k < kDirections; ++k) {
+      const double degrees = 360. * k / kDirections;
+      std::vector<Change> changes = {
+          Force(kShare * AimedImpulse(k) / kPushTime), PushDuration(kPushTime),
+          Direction(degrees)};
+      changes.insert(changes.end(), wrong.begin(), wrong.end());
+      trials.push_back(
+          Make("step, " + PrintNumber(degrees) + " degrees: " + what, robot,
+               "shove", changes));
+    }
+  }
+  return trials;
+}
+
 std::vector<Trial> RobotTrials(const std::filesystem::path& robots,
                                const std::string& only,
                                std::vector<std::string>* skipped) {
@@ -367,7 +423,7 @@ std::vector<Trial> RobotTrials(const std::filesystem::path& robots,
 TrialResult Try(const Trial& trial) {
   const auto& [robot, scenario] = trial.experiment;
   ClosedLoop loop(robot, scenario);
-  Judge judge(StandingHeight(robot));
+  Judge judge(StandingHeight(robot), scenario.steps);
   TrialResult result;
   const long ticks = std::lround(scenario.duration / scenario.control.dt);
   for (long k = 0; k < ticks && !judge.is_down(); ++k) {

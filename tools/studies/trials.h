@@ -46,6 +46,12 @@ struct TrialResult {
 /// docs/notebook.
 std::vector<Trial> RobustnessTrials();
 
+/// Returns trials of a robot that may step: pushes from 16 directions with 80 %
+/// of the impulse that docs/steps.md aims at, and with each of these errors: a
+/// mass 10 % wrong, delays, noise with an estimated base, slippery ground, low
+/// rates, MuJoCo, gains 20 % wrong.
+std::vector<Trial> StepTrials();
+
 /// Returns trials of robots that others have built. Each robot stands after a
 /// start off its equilibrium, and is pushed sideways with 40 % of the force
 /// that a pendulum on its feet can take. A robot has the profile of

@@ -56,6 +56,20 @@ TEST(RobustnessTrials, MatchTheExperimentsOfTheirOptions) {
   }
 }
 
+// Every 13th trial has another error and another direction than the one before.
+TEST(StepTrials, MatchTheExperimentsOfTheirOptions) {
+  const std::vector<Trial> trials = StepTrials();
+  EXPECT_EQ(trials.size(), 192u);
+  for (std::size_t i = 0; i < trials.size(); i += 13) {
+    SCOPED_TRACE(trials[i].what + ": " + trials[i].options);
+    const PushOptions read = ReadOptions(trials[i].options);
+    ExpectSame(trials[i].experiment.scenario, read.loop->scenario());
+    EXPECT_TRUE(read.loop->scenario().steps);
+    EXPECT_EQ(trials[i].experiment.scenario.plant_kind,
+              read.loop->scenario().plant_kind);
+  }
+}
+
 TEST(ToRow, DescribesARobotThatStaysUpButDoesNotReturn) {
   const Trial trial{"far off", {LoadHumanoid(), {}}, "--scenario stand"};
   EXPECT_EQ(

@@ -179,6 +179,9 @@ json ExplainStance(const RunStory& story, Sentences* sentences) {
     for (const auto& sentence : foot.Sentences()) {
       sentences->push_back(sentence);
     }
+    for (const FootStory::Step& step : foot.steps()) {
+      sentences->emplace_back(step.at, SayStep(foot.foot(), step));
+    }
   }
   return out;
 }

@@ -20,6 +20,14 @@ class FootStory {
     double from, to;   ///< Times of its first and its last row, s.
   };
 
+  /// A step. Values that the log does not have are NaN.
+  struct Step {
+    double at, landing;  ///< Times of the lift-off and of the landing, s.
+    double x, y;         ///< Planned place, m.
+    double beyond;       ///< See Gait::beyond_edge(), m.
+    bool has_landed;     ///< Before the end of the log.
+  };
+
   FootStory(const std::string& foot, const LogReader& log);
 
   /// Adds the current row of the log.
@@ -27,21 +35,31 @@ class FootStory {
 
   const std::string& foot() const { return foot_; }
   const std::vector<Phase>& phases() const { return phases_; }
+  const std::vector<Step>& steps() const { return steps_; }
 
   /// The times at which the foot first rolled over an edge, or slid, while it
   /// should have been in contact, s.
   std::optional<double> rolls() const { return rolls_; }
   std::optional<double> slides() const { return slides_; }
 
-  /// Returns sentences about the phases, rolls() and slides(). Each has its
-  /// time, s. The sentences are not sorted.
+  /// Returns sentences about the phases, but not the steps, and about rolls()
+  /// and slides(). Each has its time, s. The sentences are not sorted.
   std::vector<std::pair<double, std::string>> Sentences() const;
 
  private:
+  void LookAtStep(double time, const LogReader& log);
+
   std::string foot_;
   std::optional<int> contact_, tilt_, slide_, phase_;
   std::optional<double> rolls_, slides_;  // See rolls(), s.
   std::vector<Phase> phases_;
+  std::optional<int> plan_x_, plan_y_, beyond_;
+  std::vector<Step> steps_;
 };
+
+/// Returns a sentence about a step: "1.022 s: the robot steps with the left
+/// foot to (0.17, 0.45) m in 0.17 s, as the capture point is 4 cm beyond the
+/// edge."
+std::string SayStep(const std::string& foot, const FootStory::Step& step);
 
 }  // namespace poise

@@ -122,6 +122,33 @@ std::string Rows(const MomentumCause& cause) {
              : text + " and " + std::to_string(count - said) + " more";
 }
 
+// Returns at most two sentences about the steps of the robot.
+std::vector<std::string> SaySteps(const RunStory& story) {
+  std::vector<std::pair<FootStory::Step, std::string>> steps;
+  for (const FootStory& foot : story.feet) {
+    for (const FootStory::Step& step : foot.steps()) {
+      steps.emplace_back(step, foot.foot());
+    }
+  }
+  std::sort(steps.begin(), steps.end(), [](const auto& a, const auto& b) {
+    return a.first.at < b.first.at;
+  });
+  std::vector<std::string> sentences;
+  if (steps.empty()) return sentences;
+  sentences.push_back(SayStep(steps[0].second, steps[0].first));
+  if (steps.size() == 2) {
+    sentences.push_back(SayStep(steps[1].second, steps[1].first));
+  } else if (steps.size() > 2) {
+    const FootStory::Step& last = steps.back().first;
+    sentences.push_back(
+        Format("%.3f s: ", steps[1].first.at) + "the robot takes " +
+        std::to_string(steps.size() - 1) + " more steps; " +
+        (last.has_landed ? Format("the last one lands at %.3f s.", last.landing)
+                         : "the last one does not land."));
+  }
+  return sentences;
+}
+
 std::string SayFirstCause(const MomentumCause& cause, const RunStory& story,
                           const std::optional<double>& fell_at) {
   double from = cause.from, end = cause.from;
@@ -217,6 +244,7 @@ std::vector<std::string> TellShortStory(const RunStory& story,
 
   std::vector<std::string> before, after;
   if (push != nullptr) before.push_back(SayPush(*push, story, summary));
+  for (std::string& step : SaySteps(story)) before.push_back(std::move(step));
   if (fell_at && slip) {
     before.push_back(Format("%.3f s: ", slip->at) + slip->foot +
                      " slips on the ground: it has slid by more than 5 mm.");

@@ -113,6 +113,9 @@ void AddOptions(CLI::App* app, Overrides* o) {
                   "shape of the controller's friction pyramid (circumscribed); "
                   "inscribed divides its mu by sqrt(2)")
       ->check(CLI::IsMember({"circumscribed", "inscribed"}));
+  app->add_option("--steps", o->steps,
+                  "whether the robot takes steps if it has to (off)")
+      ->check(CLI::IsMember({"on", "off"}));
   app->add_flag("--feedforward", o->feedforward,
                 "use velocity and acceleration of the reference");
   app->add_option("--control-rate", o->control_rate,
@@ -173,6 +176,7 @@ void Apply(const Overrides& o, Scenario* scenario) {
   control.weighted |= o.weighted;
   control.feedforward |= o.feedforward;
   control.estimator |= o.estimator;
+  if (o.steps) scenario->steps = *o.steps == "on";
   if (o.friction) control.inscribed = *o.friction == "inscribed";
   TakeRate(o.control_rate, &control.dt);
   TakeRate(o.plant_rate, &plant.dt);

@@ -15,7 +15,7 @@ namespace poise {
 struct Overrides {
   std::optional<double> force, direction, duration, at, time, control_rate,
       plant_rate, mu_plant, mass_error, torque_scale, noise, delay, ramp;
-  std::optional<std::string> link, tasks, friction, plant, pushes;
+  std::optional<std::string> link, tasks, friction, plant, pushes, steps;
   std::vector<double> point, freeze;
   std::vector<std::string> with, without;
   bool weighted = false, feedforward = false, estimator = false;

@@ -122,16 +122,20 @@ grep -q "^$weak: joint 'l_knee': needs .* (limit 2.5 N m) to stand, the motor is
   fail "there is no warning about weak knees: $(cat "$TEST_TMPDIR/error")"
 [ "$(wc -l < "$TEST_TMPDIR/error")" = 1 ] || fail "the warning about weak knees has several lines"
 
-scenarios='board, com_sinusoid, one_leg, posture_off, slope, stand,'
+scenarios='board, com_sinusoid, one_leg, posture_off, shove, slope, stand,'
 scenarios+=' strong_push, strong_push_without_zmp, weak_push'
 gone=$TEST_TMPDIR/gone.yaml
-refuse "scenario 'shove' is unknown, must be a file or one of $scenarios" \
-  --scenario shove
+refuse "scenario 'sneeze' is unknown, must be a file or one of $scenarios" \
+  --scenario sneeze
 refuse "scenario '$gone' is unknown, must be a file or one of $scenarios" \
   --scenario "$gone"
 refuse_file --scenario ":2: key 'lenght' is unknown, must be one of $(
-  )name, duration, seed, start, pushes, stance, com, tasks, control, plant, $(
+  )name, duration, seed, start, steps, pushes, stance, com, tasks, control, plant, $(
   )sensors" scenario.yaml 'duration: 3' 'lenght: 4'
+refuse_file --scenario ":1: 'to' is a list, must be two numbers [x, y] from -1000 to $(
+  )1000 m" to.yaml 'stance: [{at: 1, step: left_foot, to: [1]}]'
+refuse_file --scenario ": stance[0].step is 'left_foot', must come with steps: on" \
+  step.yaml 'stance: [{at: 1, step: left_foot, to: [0, 0.1]}]'
 refuse_file --scenario ": control.rate is 1000, must evenly divide $(
   )plant.rate, which is 300" rate.yaml 'plant: {rate: 300}'
 

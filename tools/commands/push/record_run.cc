@@ -7,6 +7,8 @@
 #include <system_error>
 
 #include "poise/sim/log/summary.h"
+#include "poise/sim/push.h"
+#include "poise/sim/step_yardstick.h"
 #include "poise/tools/commands/report/robot_json.h"
 
 namespace poise {
@@ -20,6 +22,18 @@ void RemoveOld(const std::filesystem::path& folder) {
     std::error_code ignored;
     std::filesystem::remove(folder / name, ignored);
   }
+}
+
+// Returns the pendulum's bound for one step and the largest push; nothing for a
+// push without a direction in the world.
+std::optional<double> StepYardstick(const Robot& robot,
+                                    const Scenario& scenario) {
+  const Push* push = LargestPush(scenario.pushes, scenario.duration);
+  const bool has_direction = push != nullptr &&
+                             push->frame == PushFrame::kWorld &&
+                             !push->force.head<2>().isZero();
+  if (!has_direction) return std::nullopt;
+  return ComputeStepYardstick(robot, push->force.head<2>(), push->duration);
 }
 
 void Write(const std::string& text, const std::filesystem::path& file) {
@@ -43,9 +57,11 @@ RunRecord RecordRun(ClosedLoop* loop, const std::filesystem::path& folder,
     has_begun = true;
     return !progress || progress(fraction);
   };
-  RunRecord record{Run(loop, folder, watch, format), {}};
+  RunRecord record{Run(loop, folder, watch, format), {}, {}};
+  record.step_Ns = StepYardstick(loop->robot(), loop->scenario());
   RemoveOld(folder);
-  const auto summary = ToJson(loop->robot(), loop->scenario(), record.result);
+  const auto summary =
+      ToJson(loop->robot(), loop->scenario(), record.result, record.step_Ns);
   record.files = {folder, summary, MakeRobotJson(loop->robot()),
                   record.result.ticks};
   Write(summary.dump(2), folder / "summary.json");

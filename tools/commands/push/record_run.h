@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/experiment.h"
@@ -15,6 +16,7 @@ namespace poise {
 /// A run that has just been recorded.
 struct RunRecord {
   RunResult result;
+  std::optional<double> step_Ns;  ///< See ComputeStepYardstick(), N s.
   /// Input of WriteRunReport(), so that no file is read again.
   RunFiles files;
 };

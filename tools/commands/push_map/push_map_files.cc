@@ -12,9 +12,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kMapHeader[] =
-    "direction_deg,duration_s,tasks,impulse_Ns,lipm_Ns,lipm_height_Ns,eta\n";
+    "direction_deg,duration_s,tasks,impulse_Ns,lipm_Ns,lipm_height_Ns,eta";
+constexpr char kStepsHeader[] = ",steps,step_Ns,eta_step,holes,first_step_Ns";
 constexpr char kTrialsHeader[] =
-    "direction_deg,duration_s,tasks,impulse_Ns,recovered\n";
+    "direction_deg,duration_s,tasks,impulse_Ns,recovered,steps\n";
 
 // Returns the shortest text that reads back as the same number.
 std::string Text(double value) {
@@ -45,6 +46,26 @@ void Replace(const fs::path& file, const std::string& text) {
   }
   stream.close();
   fs::rename(draft, file);
+}
+
+std::string Text(const PushMapTrial& trial) {
+  return (trial.recovered ? ",1," : ",0,") + std::to_string(trial.steps) + '\n';
+}
+
+std::string MapHeader(bool with_steps) {
+  return std::string(kMapHeader) + (with_steps ? kStepsHeader : "") + '\n';
+}
+
+// Returns the cells of a point in a map with steps. Semicolons separate holes.
+std::string StepCells(const PushMapValue& value) {
+  const PushMapValue::Steps& steps = *value.steps;
+  std::string text = ',' + std::to_string(steps.count) + ',' +
+                     Text(steps.step_Ns) + ',' +
+                     Text(value.impulse / steps.step_Ns) + ',';
+  for (std::size_t i = 0; i < steps.holes.size(); ++i) {
+    text += (i > 0 ? ";" : "") + Text(steps.holes[i]);
+  }
+  return text + ',' + Text(steps.first);
 }
 
 // Returns the rows as lists of cells, without header lines. Joined maps may
@@ -87,11 +108,24 @@ PushMapPoint PointOf(const std::vector<std::string>& cells, size_t wanted,
   return {Number(cells[0], file), Number(cells[1], file), cells[2]};
 }
 
+PushMapValue::Steps StepsOf(const std::vector<std::string>& cells,
+                            const fs::path& file) {
+  PushMapValue::Steps steps;
+  steps.count = static_cast<int>(Number(cells[7], file));
+  steps.step_Ns = Number(cells[8], file);
+  std::istringstream holes(cells[10]);
+  for (std::string hole; std::getline(holes, hole, ';');) {
+    steps.holes.push_back(Number(hole, file));
+  }
+  steps.first = Number(cells[11], file);
+  return steps;
+}
+
 }  // namespace
 
 PushMapFiles::PushMapFiles(const fs::path& folder, const std::string& settings,
-                           bool header)
-    : folder_(folder), header_(header) {
+                           bool header, bool with_steps)
+    : folder_(folder), header_(header), with_steps_(with_steps) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
@@ -107,15 +141,17 @@ PushMapFiles::PushMapFiles(const fs::path& folder, const std::string& settings,
   }
   Replace(settings_file, text);
   const fs::path map = folder / "map.csv", trials = folder / "trials.csv";
-  for (const auto& cells : Rows(map, kMapHeader)) {
+  for (const auto& cells : Rows(map, MapHeader(with_steps))) {
     // PointOf() checks the number of cells.
-    const PushMapPoint point = PointOf(cells, 7, map);
+    const PushMapPoint point = PointOf(cells, with_steps ? 12 : 7, map);
     found_[point] = {Number(cells[3], map), Number(cells[4], map),
                      Number(cells[5], map)};
+    if (with_steps) found_[point].steps = StepsOf(cells, map);
   }
   for (const auto& cells : Rows(trials, kTrialsHeader)) {
-    const PushMapPoint point = PointOf(cells, 5, trials);
-    tried_[point][Number(cells[3], trials)] = cells[4] == "1";
+    const PushMapPoint point = PointOf(cells, 6, trials);
+    tried_[point][Number(cells[3], trials)] = {
+        cells[4] == "1", static_cast<int>(Number(cells[5], trials))};
   }
   WriteMap();
   WriteTrials();
@@ -129,8 +165,8 @@ std::optional<PushMapValue> PushMapFiles::Found(
   return found->second;
 }
 
-std::optional<bool> PushMapFiles::Tried(const PushMapPoint& point,
-                                        double impulse) const {
+std::optional<PushMapTrial> PushMapFiles::Tried(const PushMapPoint& point,
+                                                double impulse) const {
   const std::lock_guard lock(mutex_);
   const auto tried = tried_.find(point);
   if (tried == tried_.end()) return std::nullopt;
@@ -147,11 +183,11 @@ void PushMapFiles::AddFound(const PushMapPoint& point,
 }
 
 void PushMapFiles::AddTried(const PushMapPoint& point, double impulse,
-                            bool recovered) {
+                            const PushMapTrial& trial) {
   const std::lock_guard lock(mutex_);
-  tried_[point][impulse] = recovered;
+  tried_[point][impulse] = trial;
   std::ofstream(folder_ / "trials.csv", std::ios::app)
-      << Text(point) + Text(impulse) + (recovered ? ",1\n" : ",0\n");
+      << Text(point) + Text(impulse) + Text(trial);
 }
 
 std::map<PushMapPoint, PushMapValue> PushMapFiles::found() const {
@@ -162,11 +198,11 @@ std::map<PushMapPoint, PushMapValue> PushMapFiles::found() const {
 // Writes the whole map again, in order of its points. It has a few dozen lines,
 // and results come in any order.
 void PushMapFiles::WriteMap() const {
-  std::string text = header_ ? kMapHeader : "";
+  std::string text = header_ ? MapHeader(with_steps_) : "";
   for (const auto& [point, value] : found_) {
     text += Text(point) + Text(value.impulse) + ',' + Text(value.lipm) + ',' +
             Text(value.lipm_height) + ',' + Text(value.impulse / value.lipm) +
-            '\n';
+            (with_steps_ ? StepCells(value) : "") + '\n';
   }
   Replace(folder_ / "map.csv", text);
 }
@@ -174,8 +210,8 @@ void PushMapFiles::WriteMap() const {
 void PushMapFiles::WriteTrials() const {
   std::string text = kTrialsHeader;
   for (const auto& [point, trials] : tried_) {
-    for (const auto& [impulse, recovered] : trials) {
-      text += Text(point) + Text(impulse) + (recovered ? ",1\n" : ",0\n");
+    for (const auto& [impulse, trial] : trials) {
+      text += Text(point) + Text(impulse) + Text(trial);
     }
   }
   Replace(folder_ / "trials.csv", text);

@@ -28,6 +28,20 @@ struct PushMapValue {
   double impulse;      ///< Largest impulse that the robot recovers from.
   double lipm;         ///< See Yardstick::lipm_Ns.
   double lipm_height;  ///< See Yardstick::lipm_height_Ns.
+  /// Only in a map with steps.
+  struct Steps {
+    int count = 0;              ///< Steps taken after the largest impulse.
+    double step_Ns = 0;         ///< See ComputeStepYardstick().
+    std::vector<double> holes;  ///< See ImpulseScan.
+    double first = 0;  ///< Smallest impulse with a step; 0 if none had one.
+  };
+  std::optional<Steps> steps = {};
+};
+
+/// A simulated push.
+struct PushMapTrial {
+  bool recovered = false;
+  int steps = 0;  ///< Number of steps that the robot took.
 };
 
 /// The files of a push map in a folder: map.csv has the results, trials.csv has
@@ -38,16 +52,19 @@ class PushMapFiles {
  public:
   /// @param settings  all settings that results depend on, except the point.
   /// @param header    if true, map.csv begins with the names of its columns.
+  /// @param with_steps  map.csv has the columns of a map with steps.
   /// Throws std::invalid_argument if the folder cannot be used, or if it has a
   /// map with other settings.
   PushMapFiles(const std::filesystem::path& folder, const std::string& settings,
-               bool header);
+               bool header, bool with_steps = false);
 
   std::optional<PushMapValue> Found(const PushMapPoint& point) const;
-  std::optional<bool> Tried(const PushMapPoint& point, double impulse) const;
+  std::optional<PushMapTrial> Tried(const PushMapPoint& point,
+                                    double impulse) const;
 
   void AddFound(const PushMapPoint& point, const PushMapValue& value);
-  void AddTried(const PushMapPoint& point, double impulse, bool recovered);
+  void AddTried(const PushMapPoint& point, double impulse,
+                const PushMapTrial& trial);
 
   std::map<PushMapPoint, PushMapValue> found() const;
 
@@ -56,10 +73,10 @@ class PushMapFiles {
   void WriteTrials() const;
 
   std::filesystem::path folder_;
-  bool header_;
+  bool header_, with_steps_;
   mutable std::mutex mutex_;
   std::map<PushMapPoint, PushMapValue> found_;
-  std::map<PushMapPoint, std::map<double, bool>> tried_;
+  std::map<PushMapPoint, std::map<double, PushMapTrial>> tried_;
 };
 
 /// Returns the name of a task set: "default", or its changes, such as

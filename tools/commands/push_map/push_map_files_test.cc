@@ -43,22 +43,47 @@ TEST(PushMapFiles, ContinueAnInterruptedMap) {
   const PushMapPoint point{90, 0.1, "-cop-yaw+yaw_constant"};
   {
     PushMapFiles files(folder, "seed 1", true);
-    files.AddTried(point, 12.25, true);
-    files.AddTried(point, 12.5, false);
+    files.AddTried(point, 12.25, {true, 2});
+    files.AddTried(point, 12.5, {false, 0});
     files.AddFound({0, 0.1, "default"}, {16, 20, 12.5});
   }
   // The map was interrupted in the middle of a line.
   std::ofstream(folder / "trials.csv", std::ios::app) << "90,0.1,-cop-yaw+ya";
   const PushMapFiles files(folder, "seed 1", true);
-  EXPECT_EQ(files.Tried(point, 12.25), true);
-  EXPECT_EQ(files.Tried(point, 12.5), false);
-  EXPECT_EQ(files.Tried(point, 12.75), std::nullopt);
-  EXPECT_EQ(files.Tried({90, 0.2, point.tasks}, 12.5), std::nullopt);
+  EXPECT_TRUE(files.Tried(point, 12.25)->recovered);
+  EXPECT_EQ(files.Tried(point, 12.25)->steps, 2);
+  EXPECT_FALSE(files.Tried(point, 12.5)->recovered);
+  EXPECT_FALSE(files.Tried(point, 12.75));
+  EXPECT_FALSE(files.Tried({90, 0.2, point.tasks}, 12.5));
   EXPECT_EQ(files.Found({0, 0.1, "default"})->impulse, 16);
   EXPECT_EQ(files.Found({0, 0.1, "default"})->lipm, 20);
   EXPECT_EQ(files.Found({0, 0.1, "default"})->lipm_height, 12.5);
   EXPECT_FALSE(files.Found(point));
   EXPECT_EQ(Read(folder / "trials.csv").find("+ya\n"), std::string::npos);
+}
+
+TEST(PushMapFiles, KeepTheColumnsOfAMapWithSteps) {
+  const fs::path folder = NewFolder("map_steps");
+  const PushMapPoint point{90, 0.1, "default"};
+  {
+    PushMapFiles files(folder, "seed 1", true, true);
+    PushMapValue value{30, 25, 16, {}};
+    value.steps = PushMapValue::Steps{2, 40, {31.5, 33}, 22.5};
+    files.AddFound(point, value);
+    value.steps = PushMapValue::Steps{0, 50, {}, 0};
+    files.AddFound({0, 0.1, "default"}, value);
+  }
+  std::string header = kHeader;
+  header.pop_back();
+  const std::string text =
+      header + ",steps,step_Ns,eta_step,holes,first_step_Ns\n" +
+      "0,0.1,default,30,25,16,1.2,0,50,0.6,,0\n" +
+      "90,0.1,default,30,25,16,1.2,2,40,0.75,31.5;33,22.5\n";
+  EXPECT_EQ(Read(folder / "map.csv"), text);
+  const PushMapFiles again(folder, "seed 1", true, true);
+  EXPECT_EQ(Read(folder / "map.csv"), text);
+  EXPECT_EQ(again.Found(point)->steps->holes, (std::vector<double>{31.5, 33}));
+  EXPECT_EQ(again.Found(point)->steps->count, 2);
 }
 
 TEST(PushMapFiles, OfShardsMergeByConcatenation) {

@@ -108,6 +108,7 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
   int threads = static_cast<int>(std::thread::hardware_concurrency());
   bool no_replays = false;
   double step = 0.25;
+  bool steps = false;
   bool json = false;
   CLI::App app(
       "Finds the largest impulse that the robot recovers from, in each "
@@ -126,9 +127,13 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
       ->check(Between(1e-3, 10, "s"));
   app.add_option("--with", with, "tasks to switch on")->delimiter(',');
   app.add_option("--without", without, "tasks to switch off")->delimiter(',');
-  app.add_option("--step", step, "difference between successive impulses, N s")
-      ->capture_default_str()
-      ->check(Between(0.01, 100, "N s"));
+  CLI::Option* step_option = app.add_option(
+      "--step", step,
+      "difference between successive impulses, N s (0.25; 0.5 with --steps)");
+  step_option->check(Between(0.01, 100, "N s"));
+  app.add_flag("--steps", steps,
+               "let the robot take steps, and try every impulse from 2 N s to "
+               "20 % beyond the first one without recovery");
   app.add_option("--shard", shard_text,
                  "I/N: compute every N-th point, from the I-th on");
   app.add_option("--jobs", threads,
@@ -142,10 +147,12 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
   ParseCommandLine(argc, argv, &app);
 
   const Shard shard = ParseShard(shard_text);
+  if (steps && step_option->count() == 0) step = 0.5;
   const std::vector<std::string> rest = app.remaining();
   const PushOptions push = ReadRest(rest);
   Experiment experiment{push.loop->robot(), push.loop->scenario()};
   PrintWarnings(push.robot_file.string(), experiment.robot, push.findings);
+  if (steps) experiment.scenario.steps = true;
   ControlSettings& control = experiment.scenario.control;
   control.with.insert(control.with.end(), with.begin(), with.end());
   control.without.insert(control.without.end(), without.begin(), without.end());
@@ -158,8 +165,9 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
   }
   return {{std::move(experiment),
            Points(directions, durations, TaskSetName(with, without), shard),
-           UserPath(out), std::max(1, threads), step, !no_replays},
-          "step " + std::to_string(step) + '\n' + Joined(rest),
+           UserPath(out), std::max(1, threads), step, steps, !no_replays},
+          "step " + std::to_string(step) + (steps ? " with steps\n" : "\n") +
+              Joined(rest),
           shard.index == 1,
           json};
 }

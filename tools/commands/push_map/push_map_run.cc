@@ -12,6 +12,7 @@
 
 #include "poise/sim/push.h"
 #include "poise/sim/run.h"
+#include "poise/sim/step_yardstick.h"
 #include "poise/sim/yardstick.h"
 #include "poise/tools/commands/push/record_run.h"
 #include "poise/tools/commands/push_map/push_search.h"
@@ -29,6 +30,9 @@ constexpr double kPi = 3.14159265358979323846;
 // The search stops at this multiple of the yardstick. A robot that recovers
 // from such an impulse does not fall at all.
 constexpr double kMostOfYardstick = 4;
+
+// A scan begins at this impulse.
+constexpr double kScanFrom = 2;  // N s.
 
 Eigen::Vector2d DirectionOf(const PushMapPoint& point) {
   const double angle = point.direction_deg * kPi / 180;
@@ -59,6 +63,10 @@ class Workers {
   bool Find(const PushMapPoint& point);
 
   std::optional<bool> Try(const PushMapPoint& point, double impulse);
+
+  // Fills the columns of a map with steps.
+  PushMapValue::Steps StepsAt(const PushMapPoint& point,
+                              const ImpulseScan& scan) const;
 
   // Writes a page with the largest push that the robot recovers from and the
   // next one, from which it does not. Returns false if the map was stopped.
@@ -121,24 +129,54 @@ void Workers::TakePoints() {
 
 bool Workers::Find(const PushMapPoint& point) {
   const Yardstick yardstick = YardstickOf(plan_, point);
-  const auto found =
-      FindLargestImpulse([&](double impulse) { return Try(point, impulse); },
-                         yardstick.lipm_height_Ns, plan_.step,
-                         kMostOfYardstick * yardstick.lipm_Ns);
-  if (!found) return false;
-  if (plan_.replays && !Replay(point, *found)) return false;
-  files_.AddFound(
-      point, {found->recovered, yardstick.lipm_Ns, yardstick.lipm_height_Ns});
+  const double most = kMostOfYardstick * yardstick.lipm_Ns;
+  const auto recovers = [&](double impulse) { return Try(point, impulse); };
+  PushMapValue value{0, yardstick.lipm_Ns, yardstick.lipm_height_Ns, {}};
+  ImpulseBracket found{};
+  if (plan_.scan) {
+    const auto scan = ScanImpulses(recovers, kScanFrom, plan_.step, most);
+    if (!scan) return false;
+    found = {scan->recovered, scan->failed};
+    value.steps = StepsAt(point, *scan);
+  } else {
+    const auto bracket = FindLargestImpulse(recovers, yardstick.lipm_height_Ns,
+                                            plan_.step, most);
+    if (!bracket) return false;
+    found = *bracket;
+  }
+  value.impulse = found.recovered;
+  if (plan_.replays && !Replay(point, found)) return false;
+  files_.AddFound(point, value);
   return true;
 }
 
+PushMapValue::Steps Workers::StepsAt(const PushMapPoint& point,
+                                     const ImpulseScan& scan) const {
+  PushMapValue::Steps steps;
+  steps.holes = scan.holes;
+  const auto bound = ComputeStepYardstick(plan_.experiment.robot,
+                                          DirectionOf(point), point.duration);
+  steps.step_Ns = bound.value_or(0);
+  for (long i = 1;; ++i) {
+    const double impulse = static_cast<double>(i) * plan_.step;
+    if (impulse > scan.failed || impulse > scan.recovered + plan_.step) break;
+    const auto trial = files_.Tried(point, impulse);
+    if (!trial) continue;
+    if (trial->steps > 0 && steps.first == 0) steps.first = impulse;
+    if (impulse == scan.recovered) steps.count = trial->steps;
+  }
+  return steps;
+}
+
 std::optional<bool> Workers::Try(const PushMapPoint& point, double impulse) {
-  if (const auto tried = files_.Tried(point, impulse)) return tried;
+  if (const auto tried = files_.Tried(point, impulse)) return tried->recovered;
   const Experiment experiment = PushExperiment(plan_, point, impulse);
   const RunResult result = Run(experiment.robot, experiment.scenario, {},
                                [this](double) { return !stopped_; });
   if (result.interrupted) return std::nullopt;
-  files_.AddTried(point, impulse, result.verdict.recovered);
+  files_.AddTried(
+      point, impulse,
+      {result.verdict.recovered, static_cast<int>(result.steps.size())});
   Report(1);
   return result.verdict.recovered;
 }
@@ -151,10 +189,10 @@ bool Workers::Replay(const PushMapPoint& point, const ImpulseBracket& found) {
     char name[40];
     std::snprintf(name, sizeof name, "%.2f Ns", impulse);
     const fs::path folder = fs::path(page).replace_extension() / name;
-    const auto [result, files] =
+    const RunRecord record =
         RecordRun(PushExperiment(plan_, point, impulse), folder,
                   [this](double) { return !stopped_; });
-    if (result.interrupted) return false;
+    if (record.result.interrupted) return false;
     runs.push_back(folder);
   }
   // `runs` is not empty: a search finds at least one of the two impulses.
@@ -210,6 +248,13 @@ nlohmann::json MapToJson(const PushMapPlan& plan, const PushMapFiles& files) {
                           {"lipm_Ns", value.lipm},
                           {"lipm_height_Ns", value.lipm_height},
                           {"eta", value.impulse / value.lipm}};
+    if (value.steps) {
+      row["steps"] = value.steps->count;
+      row["step_Ns"] = value.steps->step_Ns;
+      row["eta_step"] = value.impulse / value.steps->step_Ns;
+      row["holes"] = value.steps->holes;
+      row["first_step_Ns"] = value.steps->first;
+    }
     const fs::path replay = ReplayFile(point);
     if (fs::exists(plan.folder / replay)) row["replay"] = replay.string();
     rows.push_back(std::move(row));

@@ -19,6 +19,7 @@ struct PushMapPlan {
   std::filesystem::path folder;
   int threads = 1;
   double step = 0.25;   ///< Between successive impulses, N s.
+  bool scan = false;    ///< Try every impulse, see ScanImpulses().
   bool replays = true;  ///< Write a page for each point, in replays/.
 };
 
@@ -38,7 +39,9 @@ Experiment PushExperiment(const PushMapPlan& plan, const PushMapPoint& point,
 /// Returns the path of a point's replay, relative to the plan's folder.
 std::filesystem::path ReplayFile(const PushMapPoint& point);
 
-/// Finds the largest impulse of each point that the robot recovers from, with
+/// Finds the largest impulse of each point that the robot recovers from, by
+/// bisection or, if plan.scan, the largest of all successive ones from 2 N s on.
+/// Works with
 /// plan.threads threads. Results that the files already have are not computed
 /// again.
 ///
@@ -52,7 +55,8 @@ bool RunPushMap(const PushMapPlan& plan, PushMapFiles* files,
 
 /// Returns the map as JSON: {format, robot, scenario, step, rows:
 /// [{direction_deg, duration_s, tasks, impulse_Ns, lipm_Ns, lipm_height_Ns,
-/// eta, replay}]}. replay is the path of a page in the folder; it is absent if
+/// eta, replay}]}, in a map with steps also steps, step_Ns, eta_step, holes,
+/// first_step_Ns. replay is the path of a page in the folder; it is absent if
 /// there is no page.
 nlohmann::json MapToJson(const PushMapPlan& plan, const PushMapFiles& files);
 

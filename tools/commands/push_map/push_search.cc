@@ -39,4 +39,33 @@ std::optional<ImpulseBracket> FindLargestImpulse(
                             : static_cast<double>(bad) * step};
 }
 
+std::optional<ImpulseScan> ScanImpulses(
+    const std::function<std::optional<bool>(double)>& recovers, double from,
+    double step, double most) {
+  constexpr double kBeyond = 1.2;
+  constexpr double kRounding = 1e-9;
+  ImpulseScan scan;
+  scan.failed = std::numeric_limits<double>::infinity();
+  double end = most;
+  std::vector<double> failures;
+  for (long i = std::max(1l, std::lround(from / step));; ++i) {
+    const double impulse = static_cast<double>(i) * step;
+    if (impulse > end * (1 + kRounding)) break;
+    const auto recovered = recovers(impulse);
+    if (!recovered) return std::nullopt;
+    if (!*recovered) {
+      if (failures.empty()) {
+        scan.failed = impulse;
+        end = std::min(most, kBeyond * impulse);
+      }
+      failures.push_back(impulse);
+    } else if (failures.empty()) {
+      scan.recovered = impulse;
+    } else {
+      scan.holes = failures;
+    }
+  }
+  return scan;
+}
+
 }  // namespace poise

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace poise {
 
@@ -28,6 +29,25 @@ struct ImpulseBracket {
 /// the same results of `recovers`, another call tries the same impulses.
 std::optional<ImpulseBracket> FindLargestImpulse(
     const std::function<std::optional<bool>(double)>& recovers, double guess,
+    double step, double most);
+
+/// The result of a scan over impulses, N s.
+struct ImpulseScan {
+  double recovered = 0;  ///< Largest impulse below the first without recovery.
+  double failed = 0;     ///< First impulse without recovery; may be infinite.
+  std::vector<double> holes;  ///< Without recovery, below one with recovery.
+};
+
+/// Tries each multiple of `step` from `from` to the first impulse without
+/// recovery, and 20 % farther. Near the limit, recovery from an impulse does
+/// not imply recovery from all smaller ones; a bisection would not see that.
+///
+/// @param recovers  as for FindLargestImpulse().
+/// @param most      largest impulse to try, N s.
+///
+/// Returns nothing if a trial aborts the scan.
+std::optional<ImpulseScan> ScanImpulses(
+    const std::function<std::optional<bool>(double)>& recovers, double from,
     double step, double most);
 
 }  // namespace poise

@@ -32,6 +32,37 @@ TEST(PushSearch, FindsTheLargestImpulseFromAnyGuess) {
   }
 }
 
+TEST(PushSearch, ScanFindsTheFirstFailureAndTheHolesAboveIt) {
+  // Fails at 30, 31 and from 34 on; the scan ends at 36 = 1.2 x 30.
+  std::set<double> tried;
+  const auto scan = ScanImpulses(
+      [&](double impulse) -> std::optional<bool> {
+        EXPECT_TRUE(tried.insert(impulse).second);
+        return impulse < 29.9 || (impulse > 31.1 && impulse < 33.9);
+      },
+      2, 0.5, 80);
+  ASSERT_TRUE(scan);
+  EXPECT_EQ(scan->recovered, 29.5);
+  EXPECT_EQ(scan->failed, 30);
+  EXPECT_EQ(scan->holes, (std::vector<double>{30, 30.5, 31}));
+  EXPECT_EQ(*tried.begin(), 2);
+  EXPECT_EQ(*tried.rbegin(), 36);
+}
+
+TEST(PushSearch, ScanReportsNoFailureNoRecoveryAndAnAbort) {
+  const auto all =
+      ScanImpulses([](double) { return std::optional(true); }, 2, 1, 20);
+  EXPECT_EQ(all->recovered, 20);
+  EXPECT_EQ(all->failed, kInf);
+  const auto none =
+      ScanImpulses([](double) { return std::optional(false); }, 2, 1, 20);
+  EXPECT_EQ(none->recovered, 0);
+  EXPECT_EQ(none->failed, 2);
+  EXPECT_TRUE(none->holes.empty());
+  EXPECT_FALSE(
+      ScanImpulses([](double) { return std::optional<bool>(); }, 2, 1, 20));
+}
+
 TEST(PushSearch, NeedsFewTrialsFromAGoodGuess) {
   int trials = 0;
   FindLargestImpulse(

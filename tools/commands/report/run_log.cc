@@ -42,6 +42,8 @@ bool BelongsTo(Table table, ColumnGroup group) {
     case Group::kBasePose:
     case Group::kMoment:
     case Group::kPosition:
+    case Group::kFootPosition:
+    case Group::kPlan:
       return table == Table::kMotion;
     case Group::kBaseTilt:
     case Group::kCom:
@@ -53,6 +55,7 @@ bool BelongsTo(Table table, ColumnGroup group) {
     case Group::kPush:
     case Group::kTiltOrSlide:
     case Group::kResidual:
+    case Group::kXi:
       return table == Table::kSignals;
     case Group::kTorque:
       return table == Table::kTorques;

@@ -29,7 +29,7 @@ std::string Contents(const std::filesystem::path& file) {
 // that, as '.contact', end like one.
 std::set<std::string> NamesInScripts() {
   const std::regex name(
-      "['`]((?:base|com|com_ref|cop|push|other|tau|q|lambda|residual)"
+      "['`]((?:base|com|com_ref|cop|plan|push|other|tau|q|lambda|residual|xi)"
       "\\.[^'`]*|\\.(?:contact|tilt|slide|phase|[fm][xyz])|"
       "\\$\\{foot\\w*\\}\\.[^'`]*)['`]");
   const std::regex expression("\\$\\{[^}]*\\}");

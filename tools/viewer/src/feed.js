@@ -149,6 +149,32 @@ export class Run {
     return pushes;
   }
 
+  /** The steps that the robot took and that have landed, in order of time. */
+  get steps() {
+    return (this.summary.steps ?? []).filter((step) => step.landed);
+  }
+
+  /** Returns the foot in the air and its planned place: {foot, place}, or null. */
+  plan(time) {
+    const row = this.motion.row(time);
+    const place = ['x', 'y'].map(
+        (axis) => this.motion.values(`plan.${axis}`)?.[row] ?? NaN);
+    const step = (this.summary.steps ?? []).findLast(({at}) => at <= time);
+    return step && place.every(Number.isFinite) ? {foot: step.foot, place} :
+        null;
+  }
+
+  /** Returns the path of a foot's sole over a step: [[x, y, z], ...]. */
+  swingPath({foot, at, swing_s: swing}) {
+    const points = [];
+    for (let t = at; t < at + swing + 0.005; t += 0.01) {
+      const time = Math.min(t, at + swing);
+      points.push(['x', 'y', 'z'].map(
+          (axis) => this.motion.at(`${foot}.${axis}`, time)));
+    }
+    return points.every((point) => point.every(Number.isFinite)) ? points : [];
+  }
+
   /** Returns the channels PREFIXx, PREFIXy, PREFIXz at a time as a vector. */
   vector(prefix, time) {
     return ['x', 'y', 'z'].map(

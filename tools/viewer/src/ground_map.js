@@ -1,4 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+import {outlineAt} from './footprints.js';
 
 const TRAIL = 0.5;  // Shown past of CoM and capture point, s.
 
@@ -18,7 +19,9 @@ function boundsOf(feet) {
 
 /**
  * A map of the ground, with forward up. It shows the soles, the support polygon,
- * CoM, CoP and capture point on a small canvas over a stage.
+ * CoM, CoP and capture point on a small canvas over a stage. For a robot that
+ * steps it also shows the footprints and the planned place of the foot in the
+ * air.
  */
 export class GroundMap {
   constructor(canvas, stage, palette) {
@@ -37,6 +40,13 @@ export class GroundMap {
   #fit(contacts) {
     const bounds = boundsOf(contacts.feet);
     if (!bounds) return;
+    const prints = this.stage.footprints.map(({outline}) => ({sole: outline}));
+    if (prints.length) {
+      const all = boundsOf(prints);
+      this.center ??= all.middle;
+      this.span ??= 1.25 * all.size;
+      return;
+    }
     this.span ??= 1.5 * Math.max(bounds.size, 0.05);
     this.center ??= bounds.middle;
     const free = FREE * this.span;
@@ -68,6 +78,23 @@ export class GroundMap {
         i ? context.lineTo(x, y) : context.moveTo(x, y));
       if (close) context.closePath();
     };
+    context.strokeStyle = palette.ink;
+    context.lineWidth = 1;
+    context.globalAlpha = 0.3;
+    for (const {outline, from} of stage.footprints) {
+      if (from > time) continue;
+      path(outline, true);
+      context.stroke();
+    }
+    const plan = stage.run.plan(time);
+    if (plan) {
+      path(outlineAt(stage.soles.get(plan.foot) ?? [], plan.place), true);
+      context.setLineDash([4, 3]);
+      context.globalAlpha = 1;
+      context.strokeStyle = palette.capture;
+      context.stroke();
+      context.setLineDash([]);
+    }
     for (const foot of contacts.feet) {
       path(foot.sole, true);
       context.fillStyle = palette.ink;

@@ -32,6 +32,17 @@ function soleEdges(run) {
   return {x: marks('x'), y: [...marks('y'), ...box]};
 }
 
+/** Returns the plots of the capture point, for a run with steps. */
+function captureSpecs() {
+  return ['y', 'x'].map((axis) => ({
+    title: `Capture point in ${axis}`, unit: 'm', least: 0.02,
+    hint: 'Divergent component of motion ξ of the center of mass, with the ' +
+        'angular momentum given back.',
+    lines: [{name: 'ξ', channel: `xi.${axis}`, color: 'c4'},
+            {name: 'CoM', channel: `com.${axis}`, color: 'c2'}],
+  }));
+}
+
 /** Returns the plots of a run, the most important ones first. */
 export function plotsOf(run) {
   const edges = soleEdges(run);
@@ -65,6 +76,7 @@ export function plotsOf(run) {
        {name: 'CoM', channel: 'com.x', color: 'c1'},
        {name: 'reference', channel: 'com_ref.x', color: 'faint', dash: [5, 4]},
      ]},
+    ...(run.steps.length ? captureSpecs() : []),
     {title: 'Foot tilt', unit: 'mrad', scale: 1e3, floor: 0, least: 2,
      hint: 'Above 100 mrad the robot has not recovered.',
      marks: [{value: 100, name: 'limit'}],

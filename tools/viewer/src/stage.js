@@ -2,6 +2,7 @@
 import * as THREE from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 import {contactsAt} from './contacts.js';
+import {footprintsOf, outlineAt} from './footprints.js';
 import {mostAtOnce} from './pushes.js';
 import {RobotView} from './robot_view.js';
 
@@ -130,6 +131,9 @@ export class Stage {
     this.#addLight();
     this.#addGround();
     this.#addMarks();
+    this.footprints = [];
+    this.update(run.start);
+    this.#addSteps();
     this.setPalette(palette);
     this.update(run.start);
     this.#frameRobot();
@@ -212,6 +216,48 @@ export class Stage {
     }
   }
 
+  // Adds the footprints, the paths of the feet between them, and the planned
+  // place of the foot in the air. The robot is in its pose of the start.
+  #addSteps() {
+    this.soles = new Map((this.contacts?.feet ?? []).map(
+        (foot) => [foot.name, foot.sole]));
+    this.footprints = footprintsOf(this.run, this.soles);
+    const line = (type, points, opacity) => {
+      const shape = new type(
+          pointsGeometry(Math.max(2, points.length)),
+          new THREE.LineBasicMaterial({transparent: true, opacity}));
+      shape.geometry.setDrawRange(0, setPoints(shape, points));
+      shape.frustumCulled = false;
+      this.scene.add(shape);
+      return shape;
+    };
+    const onGround = (outline) => outline.map(([x, y]) => [x, y, 0.0015]);
+    this.prints = this.footprints.map(({outline, from}) => (
+      {from, shape: line(THREE.LineLoop, onGround(outline), 0.45)}));
+    this.swings = this.run.steps.map((step) => (
+      {from: step.at, swing: step.swing_s,
+       shape: line(THREE.Line, this.run.swingPath(step), 0.8)}));
+    this.planned = line(THREE.LineLoop,
+                        Array.from({length: MOST_CORNERS}, () => [0, 0, 0]), 1);
+  }
+
+  #drawSteps(time) {
+    if (!this.planned) return;
+    for (const {from, shape} of this.prints) shape.visible = from <= time;
+    for (const {from, swing, shape} of this.swings) {
+      shape.visible = from <= time;
+      const {count} = shape.geometry.attributes.position;
+      const share = Math.min(1, (time - from) / swing);
+      shape.geometry.setDrawRange(0, Math.max(2, Math.ceil(share * count)));
+    }
+    const plan = this.run.plan(time);
+    this.planned.visible = plan !== null;
+    if (!plan) return;
+    const outline = outlineAt(this.soles.get(plan.foot) ?? [], plan.place);
+    this.planned.geometry.setDrawRange(
+        0, setPoints(this.planned, outline.map(([x, y]) => [x, y, 0.002])));
+  }
+
   setPalette(palette) {
     const color = (name) => new THREE.Color(palette[name]);
     this.grid.material.uniforms.line.value = color('ink');
@@ -224,6 +270,9 @@ export class Stage {
     this.plumb.material.color = color('com');
     this.copDot.material.color = color('cop');
     this.captureMark.material.color = color('capture');
+    this.planned.material.color = color('capture');
+    for (const {shape} of this.prints) shape.material.color = color('ink');
+    for (const {shape} of this.swings) shape.material.color = color('com');
     for (const arrow of this.footArrows) {
       arrow.material.color = arrow.material.emissive = color('force');
     }
@@ -301,6 +350,7 @@ export class Stage {
     const capture = run.capturePoint(time);
     this.contacts = {...contacts, com, capture};
     this.#drawSupport(contacts.support);
+    this.#drawSteps(time);
     this.comRing.position.set(com[0], com[1], 0.002);
     this.comBall.position.set(...com);
     setPoints(this.plumb, [com, [com[0], com[1], 0]]);

@@ -5,6 +5,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import {Clock} from '../src/clock.js';
 import {decodeChannel, decodeFloats, Run, Table} from '../src/feed.js';
+import {footprintsOf} from '../src/footprints.js';
 import {formatNumber, titleOf} from '../src/format.js';
 import {convexHull, copOf} from '../src/geometry.js';
 import {mostAtOnce, pushesText} from '../src/pushes.js';
@@ -167,4 +168,32 @@ test('numbers are short, and NaN is shown as a dash', () => {
           .map(formatNumber),
       ['0', '12.3', '−0.46', '123', '1.2e6', '3.0e−11', '–', '–', '∞']);
   assert.equal(titleOf('strong_push_without_zmp'), 'Strong push without zmp');
+});
+
+test('footprints are the soles at the start and at each landing', () => {
+  const motion = table([0, 1, 2],
+      channel('plan.x', 0, 1, [65535, 65534, 65535]),
+      channel('plan.y', 0, 1, [65535, 0, 65535]),
+      channel('left.x', 0, 1, [0, 65534, 65534]),
+      channel('left.y', 0, 1, [0, 0, 0]), channel('left.z', 0, 1, [0, 0, 0]));
+  const steps = [
+    {foot: 'left', at: 0.5, swing_s: 0.75, landed: [1, 0.5]},
+    {foot: 'right', at: 1.5, landed: null},
+  ];
+  const run = new Run({name: 'run', log: {rows: 3, motion}, summary: {steps}},
+                      'A');
+  const sole = [[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]];
+  const prints = footprintsOf(run, new Map([['left', sole]]));
+  assert.deepEqual(prints.map(({from}) => from), [-Infinity, 1.25]);
+  assert.deepEqual(prints[0].outline, sole);
+  assert.ok(Math.abs(prints[1].outline[0][0] - 0.9) < 1e-9);
+  assert.ok(Math.abs(prints[1].outline[2][1] - 0.55) < 1e-9);
+  assert.deepEqual(run.plan(1), {foot: 'left', place: [1, 0]});
+  assert.equal(run.plan(0), null);
+  assert.equal(run.plan(2), null);
+  const path = run.swingPath(steps[0]);
+  assert.ok(path.length > 70);
+  assert.ok(Math.abs(path[0][0] - 0.5) < 1e-3);
+  const none = new Run({name: 'run', log: {rows: 3, motion}}, 'A');
+  assert.deepEqual(footprintsOf(none, new Map([['left', sole]])), []);
 });
