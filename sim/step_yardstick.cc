@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "poise/dynamics/tick.h"
+#include "poise/robot/gait/gait_settings.h"
 #include "poise/robot/gait/step_region.h"
 #include "poise/sim/yardstick.h"
 
@@ -79,7 +80,10 @@ double ComputeStepYardstick(double mass, double gravity,
 }
 
 std::vector<Eigen::Vector2d> StepReach(const Robot& robot, int foot) {
-  const StepRegion swing(robot, foot, {}), stance(robot, 1 - foot, {});
+  const GaitSettings settings =
+      Scaled(GaitSettings{}, NominalTick(robot).p_WG.z());
+  const StepRegion swing(robot, foot, settings.region);
+  const StepRegion stance(robot, 1 - foot, settings.region);
   const double side = foot == 0 ? 1 : -1;
   const double width =
       robot.feet[foot].half_size.y() + robot.feet[1 - foot].half_size.y();

@@ -57,16 +57,17 @@ Gait::Gait(const Robot& robot, const GaitSettings& settings)
   Tick tick(tree, {});
   ComputeTick(tree, robot_.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
   nominal_height_ = tick.p_WG.z();
+  settings_ = Scaled(settings, nominal_height_);
   p_MidG_ = tick.p_WG.head<2>();
   const auto center = [&](const Foot& foot) {
     return (tick.X_WB[foot.body] * foot.X_BC).p;
   };
   nominal_width_ = (center(robot_.feet[0]) - center(robot_.feet[1])).norm();
   for (int foot = 0; foot < 2; ++foot) {
-    regions_.emplace_back(robot_, foot, settings.region);
+    regions_.emplace_back(robot_, foot, settings_.region);
   }
-  planner_.place_weight = settings.place_weight;
-  planner_.time_weight = settings.time_weight;
+  planner_.place_weight = settings_.place_weight;
+  planner_.time_weight = settings_.time_weight;
   Start();
 }
 
@@ -278,8 +279,10 @@ void Gait::Catch(Controller* controller) noexcept {
   // To brake the fall before the landing would push xi away.
   pendulum.max_rise = steps_ < 2 ? settings_.first_rise : settings_.later_rise;
 
-  const double sink = std::max(settings_.min_sink,
-                               regions_[swing_].SinkFor(u_S - problem.base_S));
+  const StepRegion& region = regions_[swing_];
+  const double sink = std::min(
+      region.max_sink(),
+      std::max(settings_.min_sink, region.SinkFor(u_S - problem.base_S)));
   Glide(settings_.dt, nominal_height_ - sink,
         remaining - (1 - settings_.sink_at) * duration_, &com_[2]);
   reference.p_WG.z() = reference.ground_z + com_[2].p;

@@ -52,6 +52,7 @@ class Leg {
   }
 
   const Eigen::Vector3d& p_nominal_WC() const { return p_nominal_WC_; }
+  double base_height() const { return nominal_[2]; }
 
   // Returns to the nominal posture, with the base lower by `sink`.
   void Restart(double sink) {
@@ -109,6 +110,38 @@ class Leg {
   Eigen::Vector3d p_nominal_WC_;
 };
 
+using Places = std::array<Eigen::Vector2d, StepRegion::kSides>;
+
+// Returns the farthest places that a leg reaches on rays from its nominal
+// place, shortened by `reach`.
+Places SearchPlaces(double sink, double reach, Leg* leg) {
+  const Eigen::Vector2d start = leg->p_nominal_WC().head<2>();
+  const double far = 2 * leg->base_height();
+  Places places;
+  for (int ray = 0; ray < StepRegion::kSides; ++ray) {
+    leg->Restart(sink);
+    Eigen::Vector2d reached = start;
+    for (double d = 0; d < far; d += kStep) {
+      const Eigen::Vector2d place = start + d * StepRegion::normal(ray);
+      if (!leg->MoveTo(place)) break;
+      reached = place;
+    }
+    places[ray] = start + reach * (reached - start);
+  }
+  return places;
+}
+
+// Returns the area of a polygon whose corners go around it.
+double Area(const Places& corners) {
+  double twice = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d& a = corners[i];
+    const Eigen::Vector2d& b = corners[(i + 1) % corners.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return twice / 2;
+}
+
 }  // namespace
 
 Eigen::Vector2d StepRegion::normal(int side) noexcept {
@@ -117,32 +150,32 @@ Eigen::Vector2d StepRegion::normal(int side) noexcept {
 }
 
 StepRegion::StepRegion(const Robot& robot, int foot, const Settings& settings)
-    : max_sink_(settings.max_sink) {
+    : max_sink_(0) {
   Leg leg(robot, foot, settings.limit_margin);
   const Eigen::Vector2d base = robot.q_nominal.head<2>();
-  const Eigen::Vector2d start = leg.p_nominal_WC().head<2>();
-  const double far = 2 * robot.q_nominal[2];
+  double largest = 0;
+  for (int k = 1; k < kSinks; ++k) {
+    const double sink = settings.max_sink * k / (kSinks - 1);
+    const double area = Area(SearchPlaces(sink, settings.reach, &leg));
+    if (area <= largest) continue;
+    largest = area;
+    max_sink_ = sink;
+  }
   for (int k = 0; k < kSinks; ++k) {
     const double sink = max_sink_ * k / (kSinks - 1);
     support_[k].fill(-std::numeric_limits<double>::infinity());
-    for (int ray = 0; ray < kSides; ++ray) {
-      leg.Restart(sink);
-      Eigen::Vector2d reached = start;
-      for (double d = 0; d < far; d += kStep) {
-        const Eigen::Vector2d place = start + d * normal(ray);
-        if (!leg.MoveTo(place)) break;
-        reached = place;
-      }
-      reached = start + settings.reach * (reached - start);
+    for (const Eigen::Vector2d& place :
+         SearchPlaces(sink, settings.reach, &leg)) {
       for (int side = 0; side < kSides; ++side) {
         support_[k][side] =
-            std::max(support_[k][side], normal(side).dot(reached - base));
+            std::max(support_[k][side], normal(side).dot(place - base));
       }
     }
   }
 }
 
 double StepRegion::support(int side, double sink) const noexcept {
+  if (max_sink_ == 0) return support_[0][side];
   const double x = std::clamp(sink / max_sink_, 0.0, 1.0) * (kSinks - 1);
   const int k = std::min(static_cast<int>(x), kSinks - 2);
   return support_[k][side] +

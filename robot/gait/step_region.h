@@ -14,21 +14,22 @@ namespace poise {
 ///
 /// Frame N: the base's heading, z up, origin on the ground below the base. The
 /// region is the polygon normal(i)' u_N <= support(i, sink), for i below kSides.
-/// It grows with `sink`, the height by which the base is below its nominal
-/// height, as the leg then bends at nearer places.
+/// `sink` is the height by which the base is below its nominal height. With a
+/// lower base the leg reaches farther, until a joint of the bent leg is at its
+/// limit: max_sink() is where the region is largest.
 class StepRegion {
  public:
   static constexpr int kSides = 12;
   static constexpr int kSinks = 6;
 
   struct Settings {
-    double max_sink = 0.1;      ///< Largest sink, m.
+    double max_sink = 0.1;      ///< Bound of max_sink(), m.
     double limit_margin = 0.1;  ///< Distance to the joint limits, rad.
     double reach = 0.97;        ///< Fraction of the leg's largest length.
   };
 
   /// Searches the region by inverse kinematics, outward from the nominal place.
-  /// Costs about 50 ms; everything else is a table.
+  /// Costs about 0.1 s; everything else is a table.
   StepRegion(const Robot& robot, int foot, const Settings& settings);
 
   static Eigen::Vector2d normal(int side) noexcept;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "poise/dynamics/tick.h"
@@ -27,10 +28,11 @@ const Robot& Humanoid() {
 // smallest distance, m or rad.
 class SoleDistance {
  public:
-  SoleDistance(int foot, double sink, const Eigen::Vector2d& u_N)
-      : foot_(Humanoid().feet[foot]), q_(Humanoid().q_nominal), u_N_(u_N) {
+  SoleDistance(int foot, double sink, const Eigen::Vector2d& u_N,
+               const Robot& robot = Humanoid())
+      : robot_(robot), foot_(robot.feet[foot]), q_(robot.q_nominal), u_N_(u_N) {
     q_[2] -= sink;
-    const Tree& tree = Humanoid().model.tree;
+    const Tree& tree = robot_.model.tree;
     for (int body = foot_.body; body != 0;
          body = tree.joints()[body - 1].parent) {
       joints_.push_back(body - 1);
@@ -39,7 +41,7 @@ class SoleDistance {
 
   // The residual of the pose, for Ceres.
   bool operator()(double const* const* x, double* residual) const {
-    const Tree& tree = Humanoid().model.tree;
+    const Tree& tree = robot_.model.tree;
     Eigen::VectorXd q = q_;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       q[tree.q_start() + joints_[j]] = x[0][j];
@@ -66,11 +68,11 @@ class SoleDistance {
 
  private:
   double MinimizeFrom(double bend) const {
-    const Tree& tree = Humanoid().model.tree;
+    const Tree& tree = robot_.model.tree;
     std::vector<double> x(joints_.size());
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const double nominal = q_[tree.q_start() + joints_[j]];
-      const JointLimits& limits = Humanoid().model.limits[joints_[j]];
+      const JointLimits& limits = robot_.model.limits[joints_[j]];
       x[j] = std::clamp(nominal * bend / 0.6, limits.lower, limits.upper);
     }
     ceres::Problem problem;
@@ -81,7 +83,7 @@ class SoleDistance {
     cost->SetNumResiduals(6);
     problem.AddResidualBlock(cost, nullptr, x.data());
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      const JointLimits& limits = Humanoid().model.limits[joints_[j]];
+      const JointLimits& limits = robot_.model.limits[joints_[j]];
       const int i = static_cast<int>(j);
       problem.SetParameterLowerBound(x.data(), i, limits.lower);
       problem.SetParameterUpperBound(x.data(), i, limits.upper);
@@ -95,6 +97,7 @@ class SoleDistance {
     return std::sqrt(2 * summary.final_cost);
   }
 
+  const Robot& robot_;
   const Foot& foot_;
   Eigen::VectorXd q_;
   Eigen::Vector2d u_N_;
@@ -172,6 +175,51 @@ TEST(StepRegionTest, SinkForIsTheSmallestSink) {
     }
   }
   EXPECT_EQ(region.SinkFor({0, 0.08}), 0);  // The nominal place.
+}
+
+// Returns the humanoid with ankles that hardly flex.
+Robot WithStiffAnkles() {
+  Robot robot = LoadHumanoid();
+  const Tree& tree = robot.model.tree;
+  for (std::size_t joint = 0; joint < tree.joints().size(); ++joint) {
+    const std::string& name = tree.joints()[joint].name;
+    if (name.find("ankle_pitch") == std::string::npos) continue;
+    const double q =
+        robot.q_nominal[tree.q_start() + static_cast<Eigen::Index>(joint)];
+    // Below 0.1 rad, the margin to the limits would leave no motion.
+    robot.model.limits[joint].lower = q - 0.2;
+    robot.model.limits[joint].upper = q + 0.2;
+  }
+  return robot;
+}
+
+// The legs of this robot cannot bend until the base is lower by the bound of
+// the settings. The region is then the one of a smaller sink.
+TEST(StepRegionTest, TheBaseSinksOnlyAsFarAsTheAnklesAllow) {
+  const Robot robot = WithStiffAnkles();
+  const StepRegion::Settings settings;
+  const Eigen::Vector2d nominal(0, 0.08);
+  ASSERT_GT(SoleDistance(0, settings.max_sink, nominal, robot).Minimize(),
+            1e-3);
+  const StepRegion region(robot, 0, settings);
+  EXPECT_GT(region.max_sink(), 0);
+  EXPECT_LT(region.max_sink(), settings.max_sink);
+  EXPECT_TRUE(Contains(region, nominal, region.max_sink(), 0));
+  EXPECT_EQ(region.SinkFor(nominal), 0);
+  EXPECT_LT(SoleDistance(0, region.max_sink(), nominal, robot).Minimize(),
+            1e-4);
+}
+
+// A leg that cannot bend at all has the region of the nominal height.
+TEST(StepRegionTest, WithoutSinkTheRegionIsFinite) {
+  StepRegion::Settings settings;
+  settings.max_sink = 0;
+  const StepRegion region(Humanoid(), 0, settings);
+  const StepRegion usual(Humanoid(), 0, {});
+  for (int side = 0; side < StepRegion::kSides; ++side) {
+    EXPECT_EQ(region.support(side, 0), usual.support(side, 0)) << side;
+  }
+  EXPECT_EQ(region.SinkFor({0, 0.08}), 0);
 }
 
 }  // namespace
