@@ -15,6 +15,7 @@
 #include "poise/robot/feet/knee.h"
 #include "poise/robot/feet/legs.h"
 #include "poise/robot/feet/sole.h"
+#include "poise/robot/feet/sole_source.h"
 #include "poise/robot/limits.h"
 
 namespace poise {

@@ -113,8 +113,8 @@ void WarnOfDoubt(const Evidence& evidence, int sign, const Vector3d& forward_B,
   const std::string other = NameOfAxis(-forward_B);
   std::string why = evidence.names != 0   ? "by the names of the legs"
                     : evidence.toes != 0  ? "because the toes point there"
-                    : evidence.knees != 0 ? "because the knees point there"
                     : evidence.prior != 0 ? "by REP 103"
+                    : evidence.knees != 0 ? "because the knees point there"
                                           : "by chance, nothing decides";
   std::string against;
   const auto add = [&](const std::string& text) {
@@ -122,6 +122,10 @@ void WarnOfDoubt(const Evidence& evidence, int sign, const Vector3d& forward_B,
   };
   if (evidence.names_contradict) add("the names of left and right are mixed");
   if (evidence.toes == -sign) add("the toes point to " + other);
+  // Knees of many robots with names point backward, as a bird's ankles do.
+  if (evidence.names == 0 && evidence.toes == 0 && evidence.knees == -sign) {
+    add("the knees point to " + other);
+  }
   if (evidence.prior != sign) add("REP 103 says +x");
   if (against.empty()) return;
   findings->push_back(
@@ -197,7 +201,7 @@ Facing FindFacing(const RobotModel& model, const Legs& legs,
   evidence.prior = Sign(ahead_B.x(), 0.5);
   int sign = 1;
   for (const int decision :
-       {evidence.prior, evidence.knees, evidence.toes, evidence.names}) {
+       {evidence.knees, evidence.prior, evidence.toes, evidence.names}) {
     if (decision != 0) sign = decision;
   }
   if (findings != nullptr) {

@@ -42,13 +42,13 @@ struct Facing {
 ///  2. the names of the links and joints of both legs, see CompareSides(),
 ///  3. the soles, if they reach further from the ankles on one side, by 5 % of
 ///     their length,
-///  4. the knees, if their range and their bend at rest have one direction, by
-///     0.2 rad,
-///  5. REP 103: the root link's x axis points forward.
+///  4. REP 103: the root link's x axis points forward, if it is across,
+///  5. the knees, if their range and their bend at rest have one direction, by
+///     0.2 rad. Some robots have the knees of a bird, so REP 103 comes first.
 ///
 /// @param soles     by foot; a sole without points does not decide.
 /// @param X_WB      the poses of the bodies, with the legs along the world's z.
-/// @param findings  if not null, receives a warning if the names, the soles or
+/// @param findings  if not null, receives a warning if names, soles, knees or
 ///                  REP 103 contradict the result, or if nothing decides.
 Facing FindFacing(const RobotModel& model, const Legs& legs,
                   const std::array<Sole, 2>& soles,

@@ -78,8 +78,9 @@ LegEnd FindLegEnd(const RobotModel& model, const std::vector<Pose>& X_BB,
   std::vector<bool> is_end(end - hip, true);
   double lowest = low[hip];
   for (int b = hip + 1; b < end; ++b) {
+    if (!has_content[b]) continue;
     lowest = std::min(lowest, low[b]);
-    if (has_content[b]) is_end[parent(b) - hip] = false;
+    is_end[parent(b) - hip] = false;
   }
   int foot = -1;
   double heaviest = -1;
