@@ -271,8 +271,8 @@ TEST(FindFeet, IgnoresLinksWithoutShapes) {
 
 TEST(FindFeet, ReportsWhyNoFeetAreFound) {
   EXPECT_EQ(Refusal(kOneLink),
-            "robot 'r' has no two legs (no chain of joints reaches away from "
-            "its trunk), must have two feet: give the feet in a profile");
+            "robot 'r' has no two legs (no limb has two joints or more), must "
+            "have two feet: give the feet in a profile");
   EXPECT_EQ(
       Refusal(
           Biped(Collision("box size='0.2 0.0008 0.02'", "0 0 -0.04"), "0 0 0")),

@@ -16,14 +16,16 @@ std::string Lowered(std::string text) {
   return text;
 }
 
-// Replaces each `from` by `to`.
-std::string Replaced(std::string text, const std::string& from,
-                     const std::string& to) {
-  for (size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
+// Replaces each `left` by `right`.
+std::string Mirrored(const std::string& text) {
+  const std::string left = "left";
+  std::string mirrored;
+  for (size_t i = 0; i < text.size();) {
+    const bool is_left = text.compare(i, left.size(), left) == 0;
+    mirrored += is_left ? "right" : text.substr(i, 1);
+    i += is_left ? left.size() : 1;
   }
-  return text;
+  return mirrored;
 }
 
 // Returns whether two names differ in at least one place, and everywhere by an
@@ -56,7 +58,7 @@ int SideByWords(const std::string& name) {
 
 bool IsLeftOf(const std::string& a, const std::string& b) {
   if (a == b) return false;
-  return DifferByLetter(a, b) || Replaced(a, "left", "right") == b;
+  return DifferByLetter(a, b) || Mirrored(a) == b;
 }
 
 }  // namespace

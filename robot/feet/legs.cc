@@ -279,7 +279,7 @@ std::string LegFinder::WhyNoLegs() const {
     text += (i > 0 ? "; " : "") + Quoted(LinkOf(model_, limb.root)) + " " +
             (limb.reason.empty() ? "has no mirror image" : limb.reason);
   }
-  if (limbs_.empty()) text = "no chain of joints reaches away from its trunk";
+  if (limbs_.empty()) text = "no limb has two joints or more";
   if (limbs_.size() > kMost) {
     text += "; and " + std::to_string(limbs_.size() - kMost) + " more";
   }

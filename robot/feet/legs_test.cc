@@ -120,9 +120,8 @@ TEST(FindLegs, CountsTheLegsOfAQuadruped) {
 
 TEST(FindLegs, RejectsRobotsWithoutLegs) {
   EXPECT_EQ(Refusal(UrdfOf({})),
-            "robot 'generated' has no two legs (no chain of joints reaches "
-            "away from its trunk), must have two feet: give the feet in a "
-            "profile");
+            "robot 'generated' has no two legs (no limb has two joints or "
+            "more), must have two feet: give the feet in a profile");
   const std::string one = Refusal(UrdfOf(MakeLeg({"p_", {0, 0, 0}})));
   EXPECT_NE(one.find("'p_a' has no mirror image"), std::string::npos) << one;
   auto uneven = Joined(
