@@ -25,7 +25,11 @@ constexpr double kExcess = 0.03;
 
 // The shapes of a body have a capsule each if these have less than this fraction
 // of the volume of one capsule around all of them.
-constexpr double kTogether = 0.6;
+constexpr double kTogether = 0.75;
+
+// A link of a compound joint is shorter than this fraction of the reach, from
+// its joint to those of its children.
+constexpr double kShort = 0.05;
 
 // A body without shapes is this thick, relative to its length.
 constexpr double kSlim = 0.1;
@@ -76,6 +80,22 @@ std::vector<int> FindCarriers(const Tree& tree) {
     carrier[b] = is_light ? carrier[tree.joints()[b - 1].parent] : b;
   }
   return carrier;
+}
+
+// Returns by body the distance from its joint to the farthest joint of a child;
+// 0 without children.
+std::vector<double> BoneLengths(const Tree& tree) {
+  std::vector<double> length(tree.num_bodies());
+  for (const Joint& joint : tree.joints()) {
+    length[joint.parent] = std::max(length[joint.parent], joint.X_PF.p.norm());
+  }
+  return length;
+}
+
+std::vector<bool> HaveChildren(const Tree& tree) {
+  std::vector<bool> have(tree.num_bodies());
+  for (const Joint& joint : tree.joints()) have[joint.parent] = true;
+  return have;
 }
 
 // Returns the capsules around the parts: one, or one for each part.
@@ -141,14 +161,20 @@ double Reach(const Tree& tree) {
 std::vector<std::vector<Capsule>> FitBodyCapsules(const RobotModel& model,
                                                   const SurfacePoints& points) {
   const Tree& tree = model.tree;
-  const double excess = kExcess * Reach(tree);
+  const double reach = Reach(tree);
+  const double excess = kExcess * reach;
   std::vector<Parts> parts = PartsOf(model, model.collisions, excess);
   std::vector<Parts> visuals = PartsOf(model, model.visuals, excess);
+  const std::vector<bool> has_children = HaveChildren(tree);
+  const std::vector<double> bone = BoneLengths(tree);
   for (int b = 0; b < tree.num_bodies(); ++b) {
     if (!points.empty() && !points[b].empty()) {
       auto& part = parts[b].emplace_back();
       for (const Vector3d& p : points[b]) part.push_back({p, 0});
     }
+    const bool is_inside_joint =
+        b > 0 && has_children[b] && bone[b] < kShort * reach;
+    if (parts[b].empty() && is_inside_joint) continue;
     if (parts[b].empty()) parts[b] = std::move(visuals[b]);
     if (parts[b].empty()) parts[b] = Bones(tree, b);
   }

@@ -21,6 +21,10 @@ using SurfacePoints = std::vector<std::vector<Eigen::Vector3d>>;
 /// without any shape, the segments from its joint to its children's joints, with
 /// a radius of a tenth of the length. A mesh counts only by its points.
 ///
+/// A link inside a compound joint, such as a hip of three joints, has no
+/// capsules: a body without collision shapes whose children's joints are within
+/// 5 % of the reach. Its neighbors cover it.
+///
 /// A body has one capsule, or one for each shape if these are much smaller
 /// together. A thick box has up to four. Fingers and the like, whose subtree has
 /// less than 0.5 % of the mass, have no capsules: their shapes at q = 0 belong to

@@ -14,7 +14,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Random postures that select the pairs.
-constexpr int kPostures = 400;
+constexpr int kPostures = 200;
 
 // A pair that touches in more than this fraction of the postures touches by
 // construction.
@@ -83,6 +83,52 @@ Capsule InWorld(const Pose& X_WB, const Capsule& capsule) noexcept {
   return {X_WB * capsule.start, X_WB * capsule.end, capsule.radius};
 }
 
+// A ball around all capsules of a body, in the frame of the body.
+struct Bound {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double radius = 0;
+};
+
+Bound FindBound(const std::vector<Capsule>& capsules) {
+  Bound bound;
+  const double n = static_cast<double>(capsules.size());
+  for (const Capsule& c : capsules) bound.center += (c.start + c.end) / 2 / n;
+  for (const Capsule& c : capsules) {
+    for (const Eigen::Vector3d& p : {c.start, c.end}) {
+      bound.radius =
+          std::max(bound.radius, (p - bound.center).norm() + c.radius);
+    }
+  }
+  return bound;
+}
+
+// Counts in how many random postures a pair touches, and finds its smallest
+// distance, as far as that is below `near`.
+void TryPostures(const RobotModel& model, const CollisionModel& collision,
+                 double near, std::vector<Candidate>* candidates) {
+  const Tree& tree = model.tree;
+  std::vector<Bound> bounds;
+  for (const auto& each : collision.capsules) bounds.push_back(FindBound(each));
+  std::mt19937 random(1);
+  Eigen::VectorXd q = tree.MakeNeutral();
+  std::vector<Pose> X_WB(tree.num_bodies());
+  for (int i = 0; i < kPostures; ++i) {
+    DrawPosture(model, collision.reach, &random, &q);
+    ComputePoses(tree, q, &X_WB);
+    for (Candidate& each : *candidates) {
+      const Bound& a = bounds[each.pair.a];
+      const Bound& b = bounds[each.pair.b];
+      const double apart =
+          (X_WB[each.pair.a] * a.center - X_WB[each.pair.b] * b.center).norm();
+      if (apart - a.radius - b.radius > near) continue;
+      const double distance =
+          ComputePairDistance(collision, each.pair, X_WB, 0).distance;
+      each.touches += distance < 0;
+      each.nearest = std::min(each.nearest, distance);
+    }
+  }
+}
+
 }  // namespace
 
 ClosestPoints ComputePairDistance(const CollisionModel& model,
@@ -114,22 +160,10 @@ CollisionModel MakeCollisionModel(const RobotModel& model,
     collision.names[frame->body] = frame->name;  // The first one remains.
   }
   std::vector<Candidate> candidates = MakeCandidates(tree, collision.capsules);
-  std::mt19937 random(1);
-  Eigen::VectorXd q = tree.MakeNeutral();
-  std::vector<Pose> X_WB(tree.num_bodies());
-  for (int i = 0; i < kPostures; ++i) {
-    DrawPosture(model, collision.reach, &random, &q);
-    ComputePoses(tree, q, &X_WB);
-    for (Candidate& each : candidates) {
-      const double distance =
-          ComputePairDistance(collision, each.pair, X_WB, 0).distance;
-      each.touches += distance < 0;
-      each.nearest = std::min(each.nearest, distance);
-    }
-  }
+  const double near = kNear * collision.reach;
+  TryPostures(model, collision, near, &candidates);
   const auto is_left_out = [&](const Candidate& each) {
-    return each.touches > kMostlyTouching * kPostures ||
-           each.nearest > kNear * collision.reach;
+    return each.touches > kMostlyTouching * kPostures || each.nearest > near;
   };
   candidates.erase(
       std::remove_if(candidates.begin(), candidates.end(), is_left_out),

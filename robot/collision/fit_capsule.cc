@@ -17,15 +17,15 @@ using Eigen::Vector3d;
 
 // Points of a ring around a cylinder. They lie outside of it, so that their
 // polygon contains its circle.
-constexpr int kRing = 16;
+constexpr int kRing = 12;
 
 // Larger radii to try. A thicker capsule may be shorter, because its caps reach
 // over the corners of a box.
 constexpr double kRadii[] = {1, 1.03, 1.08, 1.15, 1.25, 1.4};
 
-// Steps towards the smallest circle. Its radius is then within about 1 % of the
+// Steps towards the smallest circle. Its radius is then within a few percent of the
 // smallest one, and the circle contains all circles after any number of steps.
-constexpr int kCircleSteps = 300;
+constexpr int kCircleSteps = 64;
 
 struct Circle {
   Vector2d center;
