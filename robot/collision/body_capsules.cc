@@ -23,9 +23,9 @@ constexpr double kLight = 0.005;
 // by more than this fraction of the reach, or until there are four bars.
 constexpr double kExcess = 0.03;
 
-// The shapes of a body have a capsule each if these have less than this fraction
-// of the volume of one capsule around all of them.
-constexpr double kTogether = 0.75;
+// The shapes of a body have a capsule each if these stand out by less than this
+// fraction of what one capsule around all of them stands out.
+constexpr double kTogether = 0.7;
 
 // A link of a compound joint is shorter than this fraction of the reach, from
 // its joint to those of its children.
@@ -98,22 +98,45 @@ std::vector<bool> HaveChildren(const Tree& tree) {
   return have;
 }
 
+// Returns by how much capsules stand out of balls, m: the mean over directions
+// of space.
+double MeanExcess(const std::vector<Capsule>& capsules,
+                  const std::vector<Ball>& balls) {
+  double sum = 0;
+  int directions = 0;
+  for (int i = 0; i < 27; ++i) {
+    const Vector3d corner(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    if (corner.isZero()) continue;
+    const Vector3d n = corner.normalized();
+    double outer = -INFINITY, inner = -INFINITY;
+    for (const Capsule& c : capsules) {
+      outer =
+          std::max(outer, std::max(n.dot(c.start), n.dot(c.end)) + c.radius);
+    }
+    for (const Ball& ball : balls) {
+      inner = std::max(inner, n.dot(ball.center) + ball.radius);
+    }
+    sum += outer - inner;
+    ++directions;
+  }
+  return sum / directions;
+}
+
 // Returns the capsules around the parts: one, or one for each part.
 std::vector<Capsule> Surround(const Parts& parts) {
   std::vector<Ball> all;
   std::vector<Capsule> each;
-  double volume = 0;
   for (const std::vector<Ball>& part : parts) {
     if (part.empty()) continue;
     all.insert(all.end(), part.begin(), part.end());
     each.push_back(FitCapsule(part));
-    volume += Volume(each.back());
   }
   if (all.empty()) return {};
-  const Capsule one = FitCapsule(all);
-  const bool is_split = static_cast<int>(each.size()) <= kMostCapsules &&
-                        volume < kTogether * Volume(one);
-  return is_split ? each : std::vector<Capsule>{one};
+  const std::vector<Capsule> one{FitCapsule(all)};
+  const bool is_split =
+      each.size() <= kMostCapsules &&
+      MeanExcess(each, all) < kTogether * MeanExcess(one, all);
+  return is_split ? each : one;
 }
 
 // Adds the shapes of one kind by body, each body's in its frame.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "poise/robot/collision/capsule.h"
@@ -10,7 +11,7 @@
 namespace poise {
 
 /// Largest number of capsules of a body.
-constexpr int kMostCapsules = 4;
+constexpr size_t kMostCapsules = 4;
 
 /// Points on the surface of each body, by body of the tree and in its frame: the
 /// vertices of its meshes, m. An empty list means that no body has any.
@@ -25,8 +26,7 @@ using SurfacePoints = std::vector<std::vector<Eigen::Vector3d>>;
 /// capsules: a body without collision shapes whose children's joints are within
 /// 5 % of the reach. Its neighbors cover it.
 ///
-/// A body has one capsule, or one for each shape if these are much smaller
-/// together. A thick box has up to four. Fingers and the like, whose subtree has
+/// A body has one capsule, or one for each shape if these stand out much less. A thick box has up to four. Fingers and the like, whose subtree has
 /// less than 0.5 % of the mass, have no capsules: their shapes at q = 0 belong to
 /// the body that carries them, if it has shapes at all.
 ///
