@@ -24,6 +24,10 @@ constexpr double kMostlyTouching = 0.8;
 // postures, is left out. Extreme postures are rare among the random ones.
 constexpr double kNear = 0.08;
 
+// The postures cover the motion of so many joints densely: a pair that touches in
+// none of them cannot touch.
+constexpr int kFewJoints = 2;
+
 constexpr int kMostPairs = 200;
 
 struct Candidate {
@@ -83,14 +87,8 @@ Capsule InWorld(const Pose& X_WB, const Capsule& capsule) noexcept {
   return {X_WB * capsule.start, X_WB * capsule.end, capsule.radius};
 }
 
-// A ball around all capsules of a body, in the frame of the body.
-struct Bound {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  double radius = 0;
-};
-
-Bound FindBound(const std::vector<Capsule>& capsules) {
-  Bound bound;
+CollisionBound FindBound(const std::vector<Capsule>& capsules) {
+  CollisionBound bound;
   const double n = static_cast<double>(capsules.size());
   for (const Capsule& c : capsules) bound.center += (c.start + c.end) / 2 / n;
   for (const Capsule& c : capsules) {
@@ -107,8 +105,6 @@ Bound FindBound(const std::vector<Capsule>& capsules) {
 void TryPostures(const RobotModel& model, const CollisionModel& collision,
                  double near, std::vector<Candidate>* candidates) {
   const Tree& tree = model.tree;
-  std::vector<Bound> bounds;
-  for (const auto& each : collision.capsules) bounds.push_back(FindBound(each));
   std::mt19937 random(1);
   Eigen::VectorXd q = tree.MakeNeutral();
   std::vector<Pose> X_WB(tree.num_bodies());
@@ -116,11 +112,7 @@ void TryPostures(const RobotModel& model, const CollisionModel& collision,
     DrawPosture(model, collision.reach, &random, &q);
     ComputePoses(tree, q, &X_WB);
     for (Candidate& each : *candidates) {
-      const Bound& a = bounds[each.pair.a];
-      const Bound& b = bounds[each.pair.b];
-      const double apart =
-          (X_WB[each.pair.a] * a.center - X_WB[each.pair.b] * b.center).norm();
-      if (apart - a.radius - b.radius > near) continue;
+      if (BoundPairDistance(collision, each.pair, X_WB) > near) continue;
       const double distance =
           ComputePairDistance(collision, each.pair, X_WB, 0).distance;
       each.touches += distance < 0;
@@ -129,7 +121,24 @@ void TryPostures(const RobotModel& model, const CollisionModel& collision,
   }
 }
 
+// Number of joints between two bodies.
+int JointsBetween(const Tree& tree, const CollisionPair& pair) {
+  int joints = 0;
+  for (int body : {pair.a, pair.b}) {
+    for (; body != pair.ancestor; body = ParentOf(tree, body)) ++joints;
+  }
+  return joints;
+}
+
 }  // namespace
+
+double BoundPairDistance(const CollisionModel& model, const CollisionPair& pair,
+                         const std::vector<Pose>& X_WB) noexcept {
+  const CollisionBound& a = model.bounds[pair.a];
+  const CollisionBound& b = model.bounds[pair.b];
+  return (X_WB[pair.a] * a.center - X_WB[pair.b] * b.center).norm() - a.radius -
+         b.radius;
+}
 
 ClosestPoints ComputePairDistance(const CollisionModel& model,
                                   const CollisionPair& pair,
@@ -159,11 +168,16 @@ CollisionModel MakeCollisionModel(const RobotModel& model,
        ++frame) {
     collision.names[frame->body] = frame->name;  // The first one remains.
   }
+  for (const auto& each : collision.capsules) {
+    collision.bounds.push_back(FindBound(each));
+  }
   std::vector<Candidate> candidates = MakeCandidates(tree, collision.capsules);
   const double near = kNear * collision.reach;
   TryPostures(model, collision, near, &candidates);
   const auto is_left_out = [&](const Candidate& each) {
-    return each.touches > kMostlyTouching * kPostures || each.nearest > near;
+    if (each.touches > kMostlyTouching * kPostures) return true;
+    const bool is_covered = JointsBetween(tree, each.pair) <= kFewJoints;
+    return each.nearest > (is_covered ? 0 : near);
   };
   candidates.erase(
       std::remove_if(candidates.begin(), candidates.end(), is_left_out),
