@@ -108,13 +108,6 @@ SelfCollisionTask::SelfCollisionTask(const Robot& robot, CollisionModel model)
   AddParameter("omega", &omega_, 1, 1000);
 }
 
-bool SelfCollisionTask::HasRows(const TaskInput& input) const noexcept {
-  for (int i = 0; i < static_cast<int>(model_.pairs.size()); ++i) {
-    if (FindBound(input, i).is_near) return true;
-  }
-  return false;
-}
-
 void SelfCollisionTask::Write(const TaskInput& input, EqualityBlock*,
                               InequalityBlock* inequalities) const noexcept {
   const double scale = 4 / (omega_ * omega_ * model_.reach);
@@ -172,7 +165,8 @@ SelfCollisionTask::Bound SelfCollisionTask::FindBound(const TaskInput& input,
                                  bound.closest.p_A, gradient, &unmodelled);
   const PointMotion B = Relative(input, pair.b, pair.ancestor,
                                  bound.closest.p_B, -gradient, &unmodelled);
-  const double d_min = std::min(d_min_, nominal_[i] - d_min_ / 2);
+  const double d_min =
+      std::min({d_min_, nominal_[i] / 2, nominal_[i] - d_min_ / 2});
   const double u = 2 * omega_ * gradient.dot(A.v - B.v) +
                    omega_ * omega_ * (bound.closest.distance - d_min);
   if (!(u < loosest_) || gradient.isZero()) return bound;

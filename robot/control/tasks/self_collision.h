@@ -25,8 +25,9 @@ namespace poise {
 /// u_max 10 times gravity. Near the bound (u -> 0) nothing is loosened, so that
 /// d keeps d_min.
 ///
-/// Bodies that stand closer together than d_min + d_min / 2 in the nominal
-/// posture keep this distance less d_min / 2. A pair that overlaps there by more
+/// Bodies that stand close together in the nominal posture, at d_0, keep
+/// min(d_min, d_0 / 2, d_0 - d_min / 2) instead of d_min, so that the posture is
+/// well inside the bound. A pair that overlaps there by more
 /// than half of its smaller radius has no row: its capsules do not describe the
 /// bodies well enough. Rows are divided by w² and a quarter of the reach.
 class SelfCollisionTask final : public Task {
@@ -34,7 +35,6 @@ class SelfCollisionTask final : public Task {
   /// Parameters: d_min (1 % of the reach, 12 mm for the humanoid); omega
   /// (13.8 sqrt(g / reach), 40 1/s).
   explicit SelfCollisionTask(const Robot& robot);
-  bool HasRows(const TaskInput& input) const noexcept override;
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 
