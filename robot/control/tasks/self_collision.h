@@ -58,7 +58,9 @@ class SelfCollisionTask final : public Task {
                        const Eigen::Vector3d& p_WQ,
                        const Eigen::Vector3d& gradient,
                        double* unmodelled) const noexcept;
-  Bound FindBound(const TaskInput& input, int pair) const noexcept;
+  double MaxSpeed(const TaskInput& input) const noexcept;
+  Bound FindBound(const TaskInput& input, int pair,
+                  double max_speed) const noexcept;
   void WriteChain(const Tick& tick, int body, int ancestor,
                   const Eigen::Vector3d& p_WQ, const Eigen::Vector3d& gradient,
                   Eigen::Ref<Eigen::RowVectorXd> row) const noexcept;
@@ -66,6 +68,9 @@ class SelfCollisionTask final : public Task {
   CollisionModel model_;
   std::vector<Joint> joints_;
   int v_start_;
+  // By joint: largest distance from its axis to a capsule that it moves, m; 1 for
+  // a prismatic joint.
+  std::vector<double> lever_;
   // By pair: the distance in the nominal posture, m.
   std::vector<double> nominal_;
   double loosest_;  // u_max, m/s2.
