@@ -25,8 +25,8 @@ constexpr double kSoftness = 0.01;
 constexpr double kMinDistance = 0.01;
 constexpr double kOmega = 13.8;
 
-// A row may be loosened to this acceleration, relative to gravity.
-constexpr double kLoosest = 10;
+// A row is loosened to infinity at this acceleration, relative to gravity.
+constexpr double kLoosest = 1;
 
 // A pair whose bounding balls are farther apart than this fraction of the reach
 // is not near.
@@ -131,6 +131,14 @@ SelfCollisionTask::SelfCollisionTask(const Robot& robot, CollisionModel model)
       omega_(kOmega * std::sqrt(GravityOf(robot.model.tree) / model_.reach)) {
   AddParameter("d_min", &d_min_, 0, 1);
   AddParameter("omega", &omega_, 1, 1000);
+}
+
+bool SelfCollisionTask::HasRows(const TaskInput& input) const noexcept {
+  const double max_speed = MaxSpeed(input);
+  for (int i = 0; i < static_cast<int>(model_.pairs.size()); ++i) {
+    if (FindBound(input, i, max_speed).is_near) return true;
+  }
+  return false;
 }
 
 void SelfCollisionTask::Write(const TaskInput& input, EqualityBlock*,

@@ -22,7 +22,7 @@ namespace poise {
 /// their nearest capsules, with softness 0.01, so that c is continuous. A row
 /// that is far from binding is loosened to -infinity: with u = -l > 0,
 ///     l' = -u / (1 - u / u_max) for u < u_max, no row for u >= u_max,
-/// u_max 10 times gravity. Near the bound (u -> 0) nothing is loosened, so that
+/// u_max the acceleration of gravity. Near the bound (u -> 0) nothing is loosened, so that
 /// d keeps d_min.
 ///
 /// Bodies that stand close together in the nominal posture, at d_0, keep
@@ -35,6 +35,7 @@ class SelfCollisionTask final : public Task {
   /// Parameters: d_min (1 % of the reach, 12 mm for the humanoid); omega
   /// (13.8 sqrt(g / reach), 40 1/s).
   explicit SelfCollisionTask(const Robot& robot);
+  bool HasRows(const TaskInput& input) const noexcept override;
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 
