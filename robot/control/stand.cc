@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "poise/robot/control/posture/arms.h"
 #include "poise/robot/control/posture/find_posture.h"
 #include "poise/robot/finding.h"
 
@@ -18,33 +19,9 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kKneeBend = 0.6;  // rad.
-// A joint that moves less than this fraction of the mass, and no foot, belongs
-// to an arm or a head.
-constexpr double kArmMass = 0.15;
 // Random starts of each search, and their largest change of a joint, rad or m.
-constexpr int kRandomStarts = 8;
+constexpr int kRandomStarts = 4;
 constexpr double kFarthestStart = 1;
-
-// Returns which joints belong to neither legs nor trunk. A joint of a mimic
-// coupling is not among them, because its partner may move.
-std::vector<bool> Arms(const Robot& robot) {
-  const Tree& tree = robot.model.tree;
-  const int n = tree.num_joints();
-  VectorXd mass(n + 1);
-  for (int b = 0; b <= n; ++b) mass[b] = tree.inertias()[b].mass;
-  for (int b = n; b > 0; --b) mass[tree.joints()[b - 1].parent] += mass[b];
-  std::vector<bool> arms(n);
-  for (int j = 0; j < n; ++j) arms[j] = mass[j + 1] < kArmMass * mass[0];
-  for (const Foot& foot : robot.feet) {
-    for (int b = foot.body; b > 0; b = tree.joints()[b - 1].parent) {
-      arms[b - 1] = false;
-    }
-  }
-  for (const MimicCoupling& mimic : robot.model.mimics) {
-    arms[mimic.joint] = arms[mimic.source] = false;
-  }
-  return arms;
-}
 
 // Searches a posture from several starts, and keeps the best one.
 class Starts {
@@ -122,27 +99,48 @@ std::string Starts::Reason() const {
   return text + "; " + std::to_string(tried_) + " starts were tried";
 }
 
+// Moves arms out of other bodies, and balances the robot with its new arms.
+void MoveArmsAway(const std::vector<bool>& arms, const Profile& profile,
+                  Robot* robot) {
+  const Tree& tree = robot->model.tree;
+  std::vector<bool> fixed(tree.num_joints());
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    fixed[j] = !arms[j] || profile.joints.count(tree.joints()[j].name) != 0;
+  }
+  Robot spread = *robot;
+  if (!SpreadArms(arms, fixed, &spread)) return;
+  PostureGoal goal;
+  goal.fixed = arms;
+  for (const bool are_soles_parallel : {true, false}) {
+    goal.are_soles_parallel = are_soles_parallel;
+    const Posture posture = FindPosture(spread, goal);
+    if (!posture.lack.empty()) continue;
+    robot->q_nominal = posture.q;
+    return;
+  }
+}
+
 }  // namespace
 
-void StandUp(Robot* robot) {
+void StandUp(Robot* robot, const Profile& profile) {
   if (robot->feet.size() != 2 || !(robot->model.tree.total_mass() > 0)) {
     throw std::invalid_argument("robot " + Quoted(robot->model.name) +
                                 " cannot stand: it must have two feet and "
                                 "a mass");
   }
+  const std::vector<bool> arms = FindArms(*robot);
   Starts starts(*robot);
   const auto stands = [&] {
     PostureGoal goal;
     if (starts.TryBends(goal)) return true;
     // The search with arms at rest is smaller. It converges where arms would
     // lead it away.
-    goal.fixed = Arms(*robot);
+    goal.fixed = arms;
     for (const bool are_soles_parallel : {true, false}) {
       goal.are_soles_parallel = are_soles_parallel;
-      for (const bool is_base_upright : {false, true}) {
-        goal.is_base_upright = is_base_upright;
-        if (starts.TryBends(goal)) return true;
-      }
+      goal.is_base_upright = false;
+      if (starts.TryBends(goal)) return true;
+      goal.is_base_upright = true;
       if (starts.TryRandom(goal)) return true;
     }
     return false;
@@ -154,13 +152,14 @@ void StandUp(Robot* robot) {
   }
   robot->q_nominal = starts.best().q;
   robot->can_stand = true;
+  MoveArmsAway(arms, profile, robot);
 }
 
 Robot MakeStandingRobot(const UrdfDocument& urdf, const Profile& profile,
                         std::vector<Finding>* findings) {
   try {
     Robot robot = MakeRobot(urdf, profile, findings);
-    if (!robot.can_stand) StandUp(&robot);
+    if (!robot.can_stand) StandUp(&robot, profile);
     return robot;
   } catch (const Refusal&) {  // Its message already names the file.
     throw;

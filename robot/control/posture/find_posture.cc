@@ -223,7 +223,7 @@ Posture Search::Solve() {
   const int nv = tree_.nv();
   const std::vector<LevelCapacity> capacity = {
       {static_cast<int>(robot_.model.mimics.size()) + n, nv},
-      {11, 0},
+      {11, 1},
       {2, 0},
       {8, 0},
       {n, 0}};
@@ -368,6 +368,11 @@ void Search::AddMeanOfFeet(Hierarchy* hierarchy) const {
   mean.B = feet_[0].J_WC_W.middleRows<3>(2) + feet_[1].J_WC_W.middleRows<3>(2);
   mean.b << turn[0].z() + turn[1].z(),
       (feet_[0].X_WC.p + feet_[1].X_WC.p).head<2>();
+  // The legs do not cross.
+  InequalityBlock width = hierarchy->AddInequalities(1, 1);
+  width.C.row(0) = feet_[0].J_WC_W.row(4) - feet_[1].J_WC_W.row(4);
+  width.lower[0] = robot_.feet[0].half_size.y() + robot_.feet[1].half_size.y() -
+                   (feet_[0].X_WC.p - feet_[1].X_WC.p).y();
   EqualityBlock apart = hierarchy->AddEqualities(3, 2);
   apart.B = feet_[0].J_WC_W.middleRows<2>(2) - feet_[1].J_WC_W.middleRows<2>(2);
   apart.b << turn[0].z() - turn[1].z(), (feet_[0].X_WC.p - feet_[1].X_WC.p).x();
@@ -456,6 +461,14 @@ Posture Search::Result() const {
     const auto [error, lack] = ErrorOfSole(i);
     posture.error += error;
     if (!lack.empty()) posture.lack = lack;
+  }
+  const double apart = (feet_[0].X_WC.p - feet_[1].X_WC.p).y();
+  const double width =
+      robot_.feet[0].half_size.y() + robot_.feet[1].half_size.y();
+  if (posture.lack.empty() && !goal_.support && !(apart >= width)) {
+    posture.lack = "the soles overlap: the middle of left_foot is " +
+                   PrintNumber(apart) + " m to the left of right_foot's";
+    posture.error += 1;  // Any other result tells more.
   }
   if (posture.lack.empty() && !IsBalanced()) {
     posture.lack = "the center of mass remains " +

@@ -173,7 +173,7 @@ void Doctor::CheckStanding() {
            2 * foot.half_size.x(), 2 * foot.half_size.y()});
     }
     if (smallest_eigenvalue_) {
-      if (!robot.can_stand) StandUp(&robot);
+      if (!robot.can_stand) StandUp(&robot, profile_);
       for (const Finding& finding : FindWeakness(robot)) {
         diagnosis_.findings.push_back(finding);
       }
