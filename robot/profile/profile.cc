@@ -2,6 +2,7 @@
 #include "poise/robot/profile/profile.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -9,6 +10,7 @@
 #include "poise/robot/feet/feet.h"
 #include "poise/robot/feet/forward.h"
 #include "poise/robot/limits.h"
+#include "poise/robot/profile/massless.h"
 #include "poise/robot/profile/sides.h"
 #include "poise/robot/profile/yaml_file.h"
 #include "poise/robot/standing.h"
@@ -284,6 +286,89 @@ void Couple(const std::map<std::string, JointValue>& given, Robot* robot) {
   }
 }
 
+// Returns the joints to lock, as LockedJoints() describes, if `moved` says which
+// joints move no mass.
+std::map<std::string, JointValue> Lock(const RobotModel& model,
+                                       const Profile& profile,
+                                       const MovedMass& moved) {
+  // A joint that moves less than this fraction of the robot's mass is no joint
+  // of a leg: a foot weighs more. It may be locked with its source.
+  constexpr double kFinger = 0.01;
+  const Tree& tree = model.tree;
+  const auto refuse = [&](const JointValue& joint, const std::string& what) {
+    throw Refusal(profile.file.string(), joint.line, "locked: " + what);
+  };
+  std::vector<const MimicCoupling*> mimic_of(tree.num_joints());
+  for (const MimicCoupling& mimic : model.mimics) {
+    mimic_of[mimic.joint] = &mimic;
+  }
+  std::map<std::string, JointValue> locked;
+  for (const auto& [name, joint] : profile.locked) {
+    const std::optional<int> j = tree.FindJoint(name);
+    if (!j) refuse(joint, "the robot has no moving joint " + Quoted(name));
+    // The limits of a mimic joint are not checked, because its source
+    // determines its value.
+    if (!mimic_of[*j] && !IsWithin(model.limits[*j], joint.value)) {
+      refuse(joint, SayOutside(name, model.limits[*j], joint.value));
+    }
+    locked[name] = joint;
+  }
+  const Eigen::VectorXd q_rest = RestConfiguration(model);
+  // The joints that are locked because of their mass.
+  std::set<std::string> unasked;
+  // The value of a joint that is locked but not in `locked`.
+  const auto wanted = [&](int j) {
+    const auto given = profile.joints.find(tree.joints()[j].name);
+    return given != profile.joints.end()
+               ? given->second
+               : JointValue{q_rest[tree.q_start() + j], 0};
+  };
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    if (!moved.none[j] || mimic_of[j]) continue;
+    locked.emplace(tree.joints()[j].name, wanted(j));
+    unasked.insert(tree.joints()[j].name);
+  }
+  for (const MimicCoupling& mimic : model.mimics) {
+    const std::string& name = tree.joints()[mimic.joint].name;
+    // The chain of sources ends at a joint that is locked or is not a mimic
+    // joint. The URDF loader rejects cycles.
+    std::vector<const MimicCoupling*> chain;
+    int joint = mimic.joint;
+    while (mimic_of[joint] != nullptr &&
+           locked.count(tree.joints()[joint].name) == 0) {
+      chain.push_back(mimic_of[joint]);
+      joint = mimic_of[joint]->source;
+    }
+    if (chain.empty()) {
+      if (profile.mimic != MimicPolicy::kCoupled) continue;
+      const auto given = profile.locked.find(name);
+      const std::string& source = tree.joints()[mimic.source].name;
+      if (given == profile.locked.end() || locked.count(source) != 0) continue;
+      refuse(given->second, Quoted(name) + " is coupled to " + Quoted(source) +
+                                ": lock the source joint instead");
+    }
+    const std::string& source = tree.joints()[joint].name;
+    const auto fixed = locked.find(source);
+    // Joints of a leg do not follow a source that is locked for its mass.
+    const bool is_fixed = fixed != locked.end();
+    const bool by_mass = is_fixed && unasked.count(source) != 0;
+    const bool is_light = moved.none[mimic.joint] ||
+                          (by_mass && moved.fraction[mimic.joint] < kFinger);
+    const bool follows =
+        profile.mimic == MimicPolicy::kLocked ||
+        (profile.mimic == MimicPolicy::kCoupled && is_fixed && !by_mass);
+    if (!is_light && !follows) continue;
+    if (!follows) unasked.insert(name);
+    JointValue q = is_fixed ? fixed->second : wanted(joint);
+    while (!chain.empty()) {
+      q.value = chain.back()->multiplier * q.value + chain.back()->offset;
+      chain.pop_back();
+    }
+    locked[name] = q;
+  }
+  return locked;
+}
+
 }  // namespace
 
 Profile LoadProfile(const Path& file) {
@@ -314,64 +399,21 @@ Profile LoadProfile(const Path& file) {
 
 std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
                                                const Profile& profile) {
-  const Tree& tree = model.tree;
-  const auto refuse = [&](const JointValue& joint, const std::string& what) {
-    throw Refusal(profile.file.string(), joint.line, "locked: " + what);
-  };
-  std::vector<const MimicCoupling*> mimic_of(tree.num_joints());
-  for (const MimicCoupling& mimic : model.mimics) {
-    mimic_of[mimic.joint] = &mimic;
-  }
-  std::map<std::string, JointValue> locked;
-  for (const auto& [name, joint] : profile.locked) {
-    const std::optional<int> j = tree.FindJoint(name);
-    if (!j) refuse(joint, "the robot has no moving joint " + Quoted(name));
-    // The limits of a mimic joint are not checked, because its source
-    // determines its value.
-    if (!mimic_of[*j] && !IsWithin(model.limits[*j], joint.value)) {
-      refuse(joint, SayOutside(name, model.limits[*j], joint.value));
-    }
-    locked[name] = joint;
-  }
-  if (profile.mimic == MimicPolicy::kFree) return locked;
+  return Lock(model, profile, FindMovedMass(model));
+}
 
-  const Eigen::VectorXd q_rest = RestConfiguration(model);
-  for (const MimicCoupling& mimic : model.mimics) {
-    const std::string& name = tree.joints()[mimic.joint].name;
-    // The chain of sources ends at a joint that is locked or is not a mimic
-    // joint. The URDF loader rejects cycles.
-    std::vector<const MimicCoupling*> chain;
-    int joint = mimic.joint;
-    while (mimic_of[joint] != nullptr &&
-           locked.count(tree.joints()[joint].name) == 0) {
-      chain.push_back(mimic_of[joint]);
-      joint = mimic_of[joint]->source;
-    }
-    if (chain.empty()) {
-      if (profile.mimic == MimicPolicy::kLocked) continue;
-      const auto given = profile.locked.find(name);
-      const std::string& source = tree.joints()[mimic.source].name;
-      if (given == profile.locked.end() || locked.count(source) != 0) continue;
-      refuse(given->second, Quoted(name) + " is coupled to " + Quoted(source) +
-                                ": lock the source joint instead");
-    }
-    const std::string& source = tree.joints()[joint].name;
-    const auto fixed = locked.find(source);
-    if (profile.mimic == MimicPolicy::kCoupled && fixed == locked.end()) {
-      continue;
-    }
-    const auto given = profile.joints.find(source);
-    JointValue q = fixed != locked.end() ? fixed->second
-                   : given != profile.joints.end()
-                       ? given->second
-                       : JointValue{q_rest[tree.q_start() + joint], 0};
-    while (!chain.empty()) {
-      q.value = chain.back()->multiplier * q.value + chain.back()->offset;
-      locked[tree.joints()[chain.back()->joint].name] = q;
-      chain.pop_back();
-    }
+std::vector<std::string> JointsWithoutMass(const RobotModel& model,
+                                           const Profile& profile) {
+  MovedMass moved = FindMovedMass(model);
+  const auto with = Lock(model, profile, moved);
+  moved.none.assign(moved.none.size(), false);
+  const auto without = Lock(model, profile, moved);
+  std::vector<std::string> names;
+  for (const Joint& joint : model.tree.joints()) {  // In the tree's order.
+    if (with.count(joint.name) == without.count(joint.name)) continue;
+    names.push_back(joint.name);
   }
-  return locked;
+  return names;
 }
 
 RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile) {
@@ -381,6 +423,8 @@ RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile) {
     locked[name] = joint.value;
   }
   if (!locked.empty()) model = urdf.MakeModel(locked);
+  const std::map<std::string, Inertia> small = MakeSmallInertias(model);
+  if (!small.empty()) model = urdf.MakeModel(locked, small);
   if (profile.mimic != MimicPolicy::kCoupled) model.mimics.clear();
   return model;
 }
@@ -388,6 +432,11 @@ RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile) {
 Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
                 std::vector<Finding>* findings) {
   Robot robot{MakeModel(urdf, profile), {}, {}, false};
+  const std::vector<std::string> massless =
+      JointsWithoutMass(urdf.MakeModel(), profile);
+  if (findings != nullptr) {
+    if (auto warning = WarnOfMassless(massless)) findings->push_back(*warning);
+  }
   const Tree& tree = robot.model.tree;
   robot.q_nominal = RestConfiguration(robot.model);
   for (const auto& [name, joint] : profile.joints) {
@@ -395,6 +444,10 @@ Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
       throw Refusal(profile.file.string(), line, "posture.joints: " + what);
     };
     const std::optional<int> j = tree.FindJoint(name);
+    // The value was used to lock the joint.
+    if (std::find(massless.begin(), massless.end(), name) != massless.end()) {
+      continue;
+    }
     if (!j && LockedJoints(urdf.MakeModel(), profile).count(name) != 0) {
       refuse(Quoted(name) + " is locked, must not be in the posture");
     }

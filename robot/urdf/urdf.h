@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "poise/math/inertia.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/robot.h"
 
@@ -49,7 +50,9 @@ class UrdfDocument {
   /// @param locked  the joints to fix, with their values in rad or m. These
   ///                joints are not in the tree; the links below them remain as
   ///                frames.
-  RobotModel MakeModel(const std::map<std::string, double>& locked = {}) const;
+  /// @param added   inertias to add to links, by the name of the link.
+  RobotModel MakeModel(const std::map<std::string, double>& locked = {},
+                       const std::map<std::string, Inertia>& added = {}) const;
 
  private:
   struct Content;

@@ -13,6 +13,7 @@
 #include "poise/robot/control/stack.h"
 #include "poise/robot/control/stand.h"
 #include "poise/robot/control/task_set.h"
+#include "poise/robot/profile/massless.h"
 #include "poise/robot/urdf/urdf.h"
 #include "poise/tools/commands/doctor/check_inertia.h"
 #include "poise/tools/commands/doctor/parity.h"
@@ -139,12 +140,21 @@ void Doctor::Describe(const RobotModel& model) {
 }
 
 RobotModel Doctor::LockJoints(const RobotModel& whole) {
+  const std::vector<std::string> massless = JointsWithoutMass(whole, profile_);
+  // For other robots, MakeRobot() adds the warning.
+  if (IsLarge(whole)) {
+    if (auto warning = WarnOfMassless(massless)) {
+      diagnosis_.findings.push_back(*warning);
+    }
+  }
   const size_t locked = LockedJoints(whole, profile_).size();
-  if (locked == 0) return whole;
-  Add(Severity::kNote, "robot",
-      "has " + std::to_string(locked) + " joints locked by the profile",
-      "M, standing and parity are computed with the " +
-          std::to_string(whole.tree.num_joints() - locked) + " other joints");
+  if (locked > massless.size()) {
+    Add(Severity::kNote, "robot",
+        "has " + std::to_string(locked - massless.size()) +
+            " joints locked by the profile",
+        "M, standing and parity are computed with the " +
+            std::to_string(whole.tree.num_joints() - locked) + " other joints");
+  }
   return MakeModel(*document_, profile_);
 }
 
@@ -163,7 +173,7 @@ void Doctor::CheckStanding() {
            2 * foot.half_size.x(), 2 * foot.half_size.y()});
     }
     if (smallest_eigenvalue_) {
-      if (!robot.can_stand) StandUp(&robot);
+      if (!robot.can_stand) StandUp(&robot, profile_);
       for (const Finding& finding : FindWeakness(robot)) {
         diagnosis_.findings.push_back(finding);
       }
