@@ -122,7 +122,7 @@ Vector3d AnkleOf(const RobotModel& model, int foot,
 }
 
 // Estimates the sole of a foot that has only meshes, as FindFeet() describes.
-Sole SoleWithoutShape(const RobotModel& model, int body,
+Sole SoleWithoutShape(const RobotModel& model, int body, const Outline& outline,
                       const std::vector<Pose>& X_WB, const Vector3d& forward,
                       std::vector<Finding>* findings) {
   const std::string link = LinkOf(model, body);
@@ -142,11 +142,10 @@ Sole SoleWithoutShape(const RobotModel& model, int body,
   if (findings != nullptr) {
     findings->push_back({Severity::kWarn, "sole of link " + Quoted(link),
                          "is estimated as " + PrintNumber(0.22 * leg) + " x " +
-                             PrintNumber(0.12 * leg) + " m, " +
+                             PrintNumber(0.085 * leg) + " m, " +
                              PrintNumber(-up_B.dot(sole.points_B[0])) +
                              " m below the ankle",
-                         "because the foot has only meshes: give the sole in a "
-                         "profile"});
+                         WhyEstimated(outline)});
   }
   return sole;
 }
@@ -224,10 +223,10 @@ std::vector<Foot> FindFeet(const RobotModel& model,
   const bool first_is_left = across.dot(Vector3d::UnitZ().cross(forward)) < 0;
   for (const bool left : {true, false}) {
     const int body = bodies[left == first_is_left ? 0 : 1];
-    const Sole sole =
-        soles[body].points_B.empty()
-            ? SoleWithoutShape(model, body, X_WB, forward, findings)
-            : soles[body];
+    const Sole sole = soles[body].points_B.empty()
+                          ? SoleWithoutShape(model, body, outlines[body], X_WB,
+                                             forward, findings)
+                          : soles[body];
     const Pose X_BS =
         MakeSoleAxes(sole, outlines[body], X_WB[body].R.transpose() * forward);
     std::vector<Vector2d> points;
