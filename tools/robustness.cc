@@ -11,6 +11,7 @@
 
 #include "poise/robot/finding.h"
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/package_path.h"
 #include "poise/tools/commands/user_path.h"
 #include "poise/tools/studies/trials.h"
 
@@ -44,10 +45,12 @@ int RunAll(const std::vector<Trial>& trials) {
 // Returns the trials that the options select. Throws std::invalid_argument if
 // there are none, because an empty table must not count as success.
 std::vector<Trial> MakeTrials(const std::string& robots,
+                              const std::vector<std::string>& packages,
                               const std::string& only, bool steps) {
   std::vector<std::string> skipped;
   std::vector<Trial> trials =
-      !robots.empty() ? RobotTrials(UserPath(robots), only, &skipped)
+      !robots.empty() ? RobotTrials(UserPath(robots), only, &skipped,
+                                    PackageFolders(packages))
       : steps         ? StepTrials()
                       : RobustnessTrials();
   for (const std::string& line : skipped) {
@@ -75,19 +78,21 @@ int Main(int argc, char** argv) {
       "row is not as required.",
       "robustness");
   std::string robots, only;
+  std::vector<std::string> packages;
   bool steps = false;
   app.add_option(
       "--robots", robots,
       "push the robots of this folder of URDF files instead. A robot "
       "uses the profile NAME.yaml beside it, or a profile of Poise, or "
       "the feet and posture that Poise finds");
+  AddPackagePath(&app, &packages);
   app.add_flag("--steps", steps,
                "push a robot that may take steps: 16 directions with each of "
                "12 errors");
   app.add_option("--only", only,
                  "run only the rows whose name contains this text");
   ParseCommandLine(argc, argv, &app);
-  const std::vector<Trial> trials = MakeTrials(robots, only, steps);
+  const std::vector<Trial> trials = MakeTrials(robots, packages, only, steps);
   std::cout
       << "| what | `push` | it | CoM error, peak x, y, z [mm] | at the "
          "end [mm] | foot tilt [rad] | lean, peak and late [rad] | past "

@@ -250,9 +250,10 @@ bool Contains(const std::string& text, const std::string& part) {
 class Candidate {
  public:
   // Throws if the file does not describe a robot.
-  explicit Candidate(const std::filesystem::path& urdf)
+  Candidate(const std::filesystem::path& urdf,
+            const std::vector<std::filesystem::path>& packages)
       : urdf_(urdf),
-        document_(urdf, &findings_),
+        document_(urdf, &findings_, packages),
         profile_(FindProfile(document_.MakeModel().name, urdf)) {
     const bool is_beside = profile_.parent_path() == urdf.parent_path();
     name_ = (profile_.empty() || is_beside ? urdf : profile_).stem().string();
@@ -399,14 +400,15 @@ std::vector<Trial> StepTrials() {
   return trials;
 }
 
-std::vector<Trial> RobotTrials(const std::filesystem::path& robots,
-                               const std::string& only,
-                               std::vector<std::string>* skipped) {
+std::vector<Trial> RobotTrials(
+    const std::filesystem::path& robots, const std::string& only,
+    std::vector<std::string>* skipped,
+    const std::vector<std::filesystem::path>& packages) {
   std::vector<Trial> trials;
   for (const std::filesystem::path& file : UrdfFiles(robots)) {
     std::string name = file.stem().string();
     try {
-      Candidate candidate(file);
+      Candidate candidate(file, packages);
       name = candidate.name();
       candidate.AddTrials(only, &trials);
     } catch (const std::invalid_argument& error) {

@@ -62,10 +62,12 @@ std::vector<Trial> StepTrials();
 /// @param only    text that the names of the returned rows contain.
 /// @param skipped  receives "FILE is skipped: why" for each robot that cannot
 /// be simulated or has no feet.
+/// @param packages  folders of packages with meshes, see FindMesh().
 /// Throws std::invalid_argument if the folder has no URDF files.
-std::vector<Trial> RobotTrials(const std::filesystem::path& robots,
-                               const std::string& only,
-                               std::vector<std::string>* skipped);
+std::vector<Trial> RobotTrials(
+    const std::filesystem::path& robots, const std::string& only,
+    std::vector<std::string>* skipped,
+    const std::vector<std::filesystem::path>& packages = {});
 
 /// Runs a trial. Throws as ClosedLoop does.
 TrialResult Try(const Trial& trial);
