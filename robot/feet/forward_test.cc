@@ -165,6 +165,23 @@ TEST(FindFacing, FollowsKneesOnlyIfRep103DoesNotApply) {
   }
 }
 
+// The legs are apart along x, and the knees turn about x in a symmetric range.
+// At rest they are bent by 0.49 rad.
+TEST(FindFacing, FollowsKneesThatAreBentAtRest) {
+  for (const double side : {-1, 1}) {
+    auto parts = Joined({MakeLeg({"p_", {0.1, 0, 0}, 0.8}),
+                         MakeLeg({"q_", {-0.1, 0, 0}, 0.8})});
+    for (Part& part : parts) {
+      if (part.link.back() == 'd') {
+        part.axis = Vector3d::UnitX();
+        part.xyz.y() = 0.1 * side;
+      }
+      if (part.link.back() == 'e') part.xyz.y() = -0.1 * side;
+    }
+    EXPECT_EQ(AnswerOf(UrdfOf(parts)).forward, side > 0 ? "+y" : "-y");
+  }
+}
+
 TEST(FindFacing, FollowsNamesOfLegsThatAreApartAlongX) {
   const Answer answer = AnswerOf(Case{"l_", "r_", {0.1, 0, 0}});
   EXPECT_EQ(answer.forward, "-y");  // The cross product of left (x) and up.
