@@ -26,7 +26,7 @@ struct Case {
 };
 
 struct Answer {
-  std::string forward;  // Of ForwardAxis().
+  std::string forward;  // The result of ForwardAxis().
   std::string left;     // Link of the left foot.
   std::string warning;  // About the forward direction.
 };
@@ -243,6 +243,7 @@ TEST(FindFacing, FollowsHints) {
 TEST(NameOfAxis, NamesAxesNearAVector) {
   EXPECT_EQ(NameOfAxis({2, 0.1, -0.1}), "+x");
   EXPECT_EQ(NameOfAxis({0, -1, 0}), "-y");
+  EXPECT_EQ(NameOfAxis({1, -0.6, 0.3}), "+x");  // 0.59 rad off.
   EXPECT_EQ(NameOfAxis({1, 1, 0}), "");
   EXPECT_EQ(NameOfAxis({0, 0, 0}), "");
   for (const char* name : {"+x", "-x", "+y", "-y", "+z", "-z"}) {
