@@ -4,10 +4,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "poise/dynamics/kinematics.h"
 #include "poise/robot/feet/feet.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "poise/dynamics/tree.h"
 #include "poise/robot/feet/knee.h"
 #include "poise/robot/feet/leg_names.h"
 

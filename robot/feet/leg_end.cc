@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "poise/dynamics/tree.h"
+
 namespace poise {
 namespace {
 

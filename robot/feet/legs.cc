@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "poise/dynamics/kinematics.h"
+#include "poise/dynamics/tree.h"
 #include "poise/robot/feet/leg_end.h"
 #include "poise/robot/feet/leg_names.h"
 #include "poise/robot/limits.h"
@@ -186,7 +187,7 @@ Vector3d LegFinder::TrunkCenter() const {
     double mass = 0;
     for (int b = 0; b < tree_.num_bodies(); ++b) {
       if (in_limb[b] && !all) continue;
-      const Inertia& M = tree_.inertias()[b];
+      const auto& M = tree_.inertias()[b];
       sum += M.mass * (X_BB_[b] * M.p_BoG_B);
       mass += M.mass;
     }
