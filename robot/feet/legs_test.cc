@@ -180,6 +180,26 @@ TEST(FindLegs, SkipsRodsAndEmptyLinks) {
   EXPECT_EQ(FeetOf(UrdfOf(parts)), kFeet);
 }
 
+// Two long rods on each shank drive the ankle. Each rod ends in a link of its
+// own, where the loop was cut. So the shank branches as a trunk does.
+TEST(FindLegs, FindsLegsThatBranch) {
+  for (const bool words : {false, true}) {
+    std::vector<Part> parts;
+    for (const Part& part : MakeLegs(kSole, words)) {
+      parts.push_back(part);
+      const std::string side = part.link.substr(0, 2);
+      if (part.link != side + (words ? "shank" : "d")) continue;
+      for (const double y : {-0.03, 0.03}) {
+        const std::string rod = side + (y > 0 ? "a_" : "b_") + "rod";
+        parts.push_back({rod, part.link, {-0.04, y, -0.05}, {0, 1, 0}, 0.05});
+        parts.push_back({rod + "_end", rod, {0, 0, -0.34}, {0, 1, 0}, 0.05});
+      }
+    }
+    EXPECT_EQ(FeetOf(UrdfOf(Joined({parts, MakeArms(0.4, 0.6, words)}))),
+              words ? Names({"p_foot", "q_foot"}) : kFeet);
+  }
+}
+
 // The root link is turned in all 24 ways. The legs keep their place in the
 // trunk, so the vertical in the root link turns along.
 TEST(FindLegs, FindsTheVerticalOfATurnedRootLink) {
