@@ -4,10 +4,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "poise/dynamics/kinematics.h"
 #include "poise/robot/feet/feet.h"
@@ -126,10 +125,11 @@ std::vector<Foot> FindFeet(const RobotModel& model,
   const Legs legs = hints.feet ? FindLegsOf(model, *hints.feet)
                                : FindLegs(model, outlines, findings);
   if (legs.up_B != Vector3d::UnitZ()) {
-    Warn(findings, "root link " + Quoted(model.tree.frames()[0].name),
-         "has its z axis off the vertical: the legs hang down from " +
-             NameOfAxis(legs.up_B),
-         "so " + NameOfAxis(legs.up_B) + " is taken as up; REP 103 wants +z");
+    Warn(findings,
+         "root link " + Quoted(model.tree.frames()[model.root_frame].name),
+         "points up with its " + NameOfAxis(legs.up_B) +
+             " axis, because the legs hang down along this axis",
+         "REP 103 wants +z up: check the robot's pose in the report");
   }
   const std::vector<Pose> X_WB = PosesAtRest(model, Upright(legs.up_B));
   std::array<Sole, 2> soles;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "poise/dynamics/tree.h"
 #include "poise/robot/feet/knee.h"
 #include "poise/robot/feet/leg_names.h"
 
@@ -18,7 +19,9 @@ using Eigen::Vector3d;
 constexpr double kToes = 0.05;
 // A knee tells forward from backward by this angle, rad.
 constexpr double kKnees = 0.2;
-constexpr double kNearAxis = 0.35;  // rad.
+// An axis is nearer than the others by far. Soles may be tilted and turned by
+// up to 0.6 rad at rest.
+constexpr double kNearAxis = 0.7;  // rad.
 
 int Sign(double value, double least) {
   return std::abs(value) > least ? (value > 0 ? 1 : -1) : 0;

@@ -16,7 +16,7 @@
 
 namespace poise {
 
-/// Returns "+x", "-x", "+y", "-y", "+z" or "-z" if a vector is within 0.35 rad
+/// Returns "+x", "-x", "+y", "-y", "+z" or "-z" if a vector is within 0.7 rad
 /// of this axis, else "".
 std::string NameOfAxis(const Eigen::Vector3d& v);
 

@@ -26,7 +26,7 @@ struct Case {
 };
 
 struct Answer {
-  std::string forward;  // Of ForwardAxis().
+  std::string forward;  // The result of ForwardAxis().
   std::string left;     // Link of the left foot.
   std::string warning;  // About the forward direction.
 };
@@ -165,6 +165,23 @@ TEST(FindFacing, FollowsKneesOnlyIfRep103DoesNotApply) {
   }
 }
 
+// The legs are apart along x, and the knees turn about x in a symmetric range.
+// At rest they are bent by 0.49 rad.
+TEST(FindFacing, FollowsKneesThatAreBentAtRest) {
+  for (const double side : {-1, 1}) {
+    auto parts = Joined({MakeLeg({"p_", {0.1, 0, 0}, 0.8}),
+                         MakeLeg({"q_", {-0.1, 0, 0}, 0.8})});
+    for (Part& part : parts) {
+      if (part.link.back() == 'd') {
+        part.axis = Vector3d::UnitX();
+        part.xyz.y() = 0.1 * side;
+      }
+      if (part.link.back() == 'e') part.xyz.y() = -0.1 * side;
+    }
+    EXPECT_EQ(AnswerOf(UrdfOf(parts)).forward, side > 0 ? "+y" : "-y");
+  }
+}
+
 TEST(FindFacing, FollowsNamesOfLegsThatAreApartAlongX) {
   const Answer answer = AnswerOf(Case{"l_", "r_", {0.1, 0, 0}});
   EXPECT_EQ(answer.forward, "-y");  // The cross product of left (x) and up.
@@ -226,6 +243,7 @@ TEST(FindFacing, FollowsHints) {
 TEST(NameOfAxis, NamesAxesNearAVector) {
   EXPECT_EQ(NameOfAxis({2, 0.1, -0.1}), "+x");
   EXPECT_EQ(NameOfAxis({0, -1, 0}), "-y");
+  EXPECT_EQ(NameOfAxis({1, -0.6, 0.3}), "+x");  // 0.59 rad off.
   EXPECT_EQ(NameOfAxis({1, 1, 0}), "");
   EXPECT_EQ(NameOfAxis({0, 0, 0}), "");
   for (const char* name : {"+x", "-x", "+y", "-y", "+z", "-z"}) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "poise/dynamics/tree.h"
+
 namespace poise {
 namespace {
 
@@ -20,9 +22,8 @@ constexpr double kLevel = 0.05;
 constexpr double kToeHeight = 0.15;
 constexpr double kAnkleHeight = 0.3;
 constexpr double kToeAhead = 0.05;
-// Least cosine of two parallel axes, and largest one of two perpendicular axes.
+// Least cosine of two parallel axes.
 constexpr double kParallel = 0.8;
-constexpr double kAcross = 0.5;
 
 // Returns for each body whether the body, or one that it carries, has a mass or
 // a shape.
@@ -108,8 +109,7 @@ LegEnd FindLegEnd(const RobotModel& model, const std::vector<Pose>& X_BB,
       const Vector3d p_AT = X_BB[toe].p - X_BB[b].p;
       const double down = std::abs(p_AT.dot(up_B));
       const Vector3d ahead = p_AT - p_AT.dot(up_B) * up_B;
-      return ahead.norm() > std::max(down, kToeAhead * length) &&
-             std::abs(axis(toe).dot(ahead)) < kAcross * ahead.norm();
+      return ahead.norm() > std::max(down, kToeAhead * length);
     }
     return false;
   };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "poise/dynamics/kinematics.h"
+#include "poise/dynamics/tree.h"
 #include "poise/robot/feet/leg_end.h"
 #include "poise/robot/feet/leg_names.h"
 #include "poise/robot/limits.h"
@@ -77,7 +78,7 @@ class LegFinder {
  private:
   void MeasureChains();
   void FindLimbs();
-  Vector3d TrunkCenter() const;
+  Vector3d TrunkCenter(const Limb& a, const Limb& b, const Vector3d& up) const;
   std::optional<Pair> MakePair(Limb* a, Limb* b) const;
   bool MirrorEachOther(const Limb& a, const Limb& b, const Vector3d& up,
                        double length) const;
@@ -90,6 +91,11 @@ class LegFinder {
         {Severity::kWarn, std::move(where), std::move(what), std::move(why)});
   }
 
+  // Returns whether a limb is the other limb, a part of it, or contains it.
+  bool Overlap(const Limb& a, const Limb& b) const {
+    return a.root < end_[b.root] && b.root < end_[a.root];
+  }
+
   int Parent(int body) const { return tree_.joints()[body - 1].parent; }
 
   const RobotModel& model_;
@@ -100,7 +106,6 @@ class LegFinder {
   std::vector<int> end_;       // The body after each subtree.
   std::vector<double> reach_;  // The longest path in each subtree, m.
   std::vector<int> tip_;       // Its last body.
-  std::vector<bool> is_trunk_;
   std::vector<Limb> limbs_;
 };
 
@@ -142,28 +147,10 @@ void LegFinder::FindLimbs() {
   for (int b = 1; b < n; ++b) {
     branches[Parent(b)] += reach_[b] > 0 && reach_[b] >= kLimb * longest;
   }
-  is_trunk_.assign(n, false);
-  is_trunk_[0] = true;
-  for (int b = n - 1; b > 0; --b) {
-    if (branches[b] >= 2) is_trunk_[b] = true;
-    if (is_trunk_[b]) is_trunk_[Parent(b)] = true;
-  }
-  std::vector<std::vector<int>> frames(n);
-  for (size_t i = 0; i < tree_.frames().size(); ++i) {
-    frames[tree_.frames()[i].body].push_back(static_cast<int>(i));
-  }
   for (int b = 1; b < n; ++b) {
-    if (is_trunk_[b] || !is_trunk_[Parent(b)]) continue;
+    if (branches[Parent(b)] < 2 && Parent(b) > 0) continue;
     if (!(reach_[b] > 0 && reach_[b] >= kLimb * longest)) continue;
-    int words = 0;
-    for (int i = tip_[b]; i >= b; i = Parent(i)) {
-      words += LegOrArm(tree_.joints()[i - 1].name);
-      for (const int frame : frames[i]) {
-        words += LegOrArm(tree_.frames()[frame].name);
-      }
-    }
-    limbs_.push_back(
-        {b, tip_[b], reach_[b], words > 0 ? 1 : (words < 0 ? -1 : 0), ""});
+    limbs_.push_back({b, tip_[b], reach_[b], 0, ""});
   }
   if (limbs_.size() > kMostLimbs) {
     std::stable_sort(
@@ -171,23 +158,41 @@ void LegFinder::FindLimbs() {
         [](const Limb& a, const Limb& b) { return a.length > b.length; });
     limbs_.resize(kMostLimbs);
   }
+  std::vector<std::vector<int>> frames(n);
+  for (size_t i = 0; i < tree_.frames().size(); ++i) {
+    frames[tree_.frames()[i].body].push_back(static_cast<int>(i));
+  }
+  for (Limb& limb : limbs_) {
+    int words = 0;
+    for (int b = limb.tip; b >= limb.root; b = Parent(b)) {
+      words += LegOrArm(tree_.joints()[b - 1].name);
+      for (const int frame : frames[b]) {
+        words += LegOrArm(tree_.frames()[frame].name);
+      }
+    }
+    limb.word = words > 0 ? 1 : (words < 0 ? -1 : 0);
+  }
 }
 
-// Returns the center of mass of the bodies that belong to no limb, or of all
-// bodies if the others have no mass.
-Vector3d LegFinder::TrunkCenter() const {
-  std::vector<bool> in_limb(tree_.num_bodies(), false);
+// Returns the center of mass of the bodies that belong to neither of two limbs,
+// nor to a limb beside them that also hangs down.
+Vector3d LegFinder::TrunkCenter(const Limb& a, const Limb& b,
+                                const Vector3d& up) const {
+  std::vector<bool> in_leg(tree_.num_bodies(), false);
   for (const Limb& limb : limbs_) {
-    std::fill(in_limb.begin() + limb.root, in_limb.begin() + end_[limb.root],
+    const double rise = up.dot(X_BB_[limb.tip].p - X_BB_[limb.root].p);
+    const bool hangs = rise < 0 && Parent(limb.root) == Parent(a.root);
+    if (!hangs && &limb != &a && &limb != &b) continue;
+    std::fill(in_leg.begin() + limb.root, in_leg.begin() + end_[limb.root],
               true);
   }
   for (const bool all : {false, true}) {
     Vector3d sum = Vector3d::Zero();
     double mass = 0;
-    for (int b = 0; b < tree_.num_bodies(); ++b) {
-      if (in_limb[b] && !all) continue;
-      const Inertia& M = tree_.inertias()[b];
-      sum += M.mass * (X_BB_[b] * M.p_BoG_B);
+    for (int i = 0; i < tree_.num_bodies(); ++i) {
+      if (in_leg[i] && !all) continue;
+      const auto& M = tree_.inertias()[i];
+      sum += M.mass * (X_BB_[i] * M.p_BoG_B);
       mass += M.mass;
     }
     if (mass > 0.01 * tree_.total_mass()) return sum / mass;
@@ -236,7 +241,7 @@ std::optional<Pair> LegFinder::MakePair(Limb* a, Limb* b) const {
   const bool named = a->word > 0 && b->word > 0;
   const bool upright = up == Vector3d::UnitZ();
   if (!named) {
-    const double above = (TrunkCenter() - hips).dot(up);
+    const double above = (TrunkCenter(*a, *b, up) - hips).dot(up);
     // A tilted root link is rare, so the trunk must be clearly above the legs.
     if (above < (upright ? kTrunkAbove : -kTrunkAbove) * length) {
       return reject("begins above the trunk's center of mass, as an arm does");
@@ -245,7 +250,7 @@ std::optional<Pair> LegFinder::MakePair(Limb* a, Limb* b) const {
       return reject("has no mirror image");
     }
   }
-  return Pair{{a, b}, up, length, {named, upright, -hips.dot(up) / length}};
+  return Pair{{a, b}, up, length, {named, upright, -hips.dot(up)}};
 }
 
 // Returns the number of limbs, besides arms, that end as low as the pair.
@@ -264,7 +269,7 @@ int LegFinder::CountOnGround(const Pair& pair,
   const double hips = 0.5 * (height(a) + height(b));
   int count = 2;
   for (const Limb& limb : limbs_) {
-    if (&limb == &a || &limb == &b || limb.word < 0) continue;
+    if (limb.word < 0 || Overlap(limb, a) || Overlap(limb, b)) continue;
     count += std::abs(height(limb) - hips) <= kSameHips * pair.length &&
              lowest(limb) <= ground + kSameGround * pair.length;
   }
@@ -288,12 +293,26 @@ std::string LegFinder::WhyNoLegs() const {
 
 Legs LegFinder::Find() {
   const std::string robot = "robot " + Quoted(model_.name);
-  std::optional<Pair> best;
+  std::vector<Pair> pairs;
   for (size_t i = 0; i < limbs_.size(); ++i) {
     for (size_t j = i + 1; j < limbs_.size(); ++j) {
       const auto pair = MakePair(&limbs_[i], &limbs_[j]);
-      if (pair && (!best || pair->rank > best->rank)) best = pair;
+      if (pair) pairs.push_back(*pair);
     }
+  }
+  // Rods and other branches within the legs of another pair are no legs.
+  const auto is_within = [&](const Pair& inner, const Pair& outer) {
+    const int root = inner.limbs[0]->root;
+    return std::any_of(outer.limbs, outer.limbs + 2, [&](const Limb* limb) {
+      return root > limb->root && root < end_[limb->root];
+    });
+  };
+  std::optional<Pair> best;
+  for (const Pair& pair : pairs) {
+    const bool is_part =
+        std::any_of(pairs.begin(), pairs.end(),
+                    [&](const Pair& outer) { return is_within(pair, outer); });
+    if (!is_part && (!best || pair.rank > best->rank)) best = pair;
   }
   if (!best) {
     throw std::invalid_argument(robot + " has no two legs (" + WhyNoLegs() +

@@ -26,10 +26,11 @@ std::vector<Pose> RestPoses(const RobotModel& model);
 
 /// Finds the two legs of a biped from the configuration at rest.
 ///
-/// A limb is a chain of joints that begins where the trunk branches, and is
-/// longer than a quarter of the longest chain. The legs are two limbs that
-/// begin on the same body, have similar lengths and hang down along an axis of
-/// the root link. They are not arms:
+/// A limb is a chain of joints that begins where a body carries several long
+/// chains: longer than a quarter of the longest one. The legs are two limbs
+/// that begin on the same body, have similar lengths and hang down along an
+/// axis of the root link. They are not within the limbs of another such pair,
+/// as two rods of an ankle drive are. They are not arms:
 /// - most of the names of their links and joints name parts of a leg, or
 /// - their names do not decide, they mirror each other, and the center of mass
 ///   of the trunk is not below their hips by more than 0.15 of their length.

@@ -77,6 +77,14 @@ TEST(FindLegs, RejectsATorsoWithArms) {
   }
 }
 
+// The arms hang down from the middle of the trunk, as legs do.
+TEST(FindLegs, BelievesTheNamesOfArms) {
+  EXPECT_EQ(Refusal(UrdfOf(MakeArms(0, 0.7, false))), "found");
+  EXPECT_NE(Refusal(UrdfOf(MakeArms(0, 0.7, true)))
+                .find("'s_shoulder' is an arm by its names"),
+            std::string::npos);
+}
+
 // A cylinder along the shank ends 30 mm below the foot's origin. The foot has
 // a mesh, so its own depth is unknown.
 TEST(FindLegs, DoesNotTakeAKneeForAFoot) {
@@ -147,8 +155,8 @@ TEST(FindLegs, LeavesOutToes) {
   EXPECT_EQ(findings[0].where, "joint 'p_g_joint'");
   EXPECT_EQ(findings[0].what, "moves toes in front of foot 'p_f'");
   // A roll joint in front of the ankle moves the foot, not toes.
-  parts.clear();
-  for (Part& part : parts = MakeLegs(kSole)) {
+  parts = MakeLegs(kSole);
+  for (Part& part : parts) {
     if (part.link.back() == 'f') part.xyz.x() = 0.1;
   }
   EXPECT_EQ(FeetOf(UrdfOf(parts)), kFeet);
@@ -157,13 +165,39 @@ TEST(FindLegs, LeavesOutToes) {
 // A light rod of the ankle's drive ends lower than the foot's origin. A link
 // without mass and shape follows the foot.
 TEST(FindLegs, SkipsRodsAndEmptyLinks) {
-  auto parts = MakeLegs(kMesh);
-  for (const std::string side : {"p_", "q_"}) {
-    parts.push_back(
-        {side + "rod", side + "d", {-0.05, 0, -0.42}, {0, 1, 0}, 0.05});
-    parts.push_back({side + "g", side + "f", {0, 0, -0.05}, {0, 1, 0}, 0});
+  std::vector<Part> parts;
+  for (const Part& part : MakeLegs(kMesh)) {
+    const std::string side = part.link.substr(0, 2);
+    if (part.link.back() == 'e') {  // The rod precedes the ankle.
+      parts.push_back(
+          {side + "rod", side + "d", {-0.05, 0, -0.42}, {0, 1, 0}, 0.05});
+    }
+    parts.push_back(part);
+    if (part.link.back() == 'f') {
+      parts.push_back({side + "g", side + "f", {0, 0, -0.05}, {0, 1, 0}, 0});
+    }
   }
   EXPECT_EQ(FeetOf(UrdfOf(parts)), kFeet);
+}
+
+// Two long rods on each shank drive the ankle. Each rod ends in a link of its
+// own, where the loop was cut. So the shank branches as a trunk does.
+TEST(FindLegs, FindsLegsThatBranch) {
+  for (const bool words : {false, true}) {
+    std::vector<Part> parts;
+    for (const Part& part : MakeLegs(kSole, words)) {
+      parts.push_back(part);
+      const std::string side = part.link.substr(0, 2);
+      if (part.link != side + (words ? "shank" : "d")) continue;
+      for (const double y : {-0.03, 0.03}) {
+        const std::string rod = side + (y > 0 ? "a_" : "b_") + "rod";
+        parts.push_back({rod, part.link, {-0.04, y, -0.05}, {0, 1, 0}, 0.05});
+        parts.push_back({rod + "_end", rod, {0, 0, -0.34}, {0, 1, 0}, 0.05});
+      }
+    }
+    EXPECT_EQ(FeetOf(UrdfOf(Joined({parts, MakeArms(0.4, 0.6, words)}))),
+              words ? Names({"p_foot", "q_foot"}) : kFeet);
+  }
 }
 
 // The root link is turned in all 24 ways. The legs keep their place in the

@@ -15,7 +15,7 @@ struct Part {
   std::string link;
   std::string parent;
   Eigen::Vector3d xyz;      ///< Joint on the parent, m.
-  Eigen::Vector3d axis;     ///< Of the joint.
+  Eigen::Vector3d axis;     ///< Axis of the joint.
   double mass = 1;          ///< kg.
   std::string shapes = "";  ///< URDF elements.
   double effort = 9;        ///< N m.
