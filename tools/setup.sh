@@ -15,8 +15,8 @@ packages=(
   libbullet-dev libcairo2-dev libcli11-dev libeigen3-dev libmujoco-dev
   libssl-dev libtinyxml2-dev liburdfdom-dev libyaml-cpp-dev nlohmann-json3-dev
   # Packages that only tests use.
-  libbenchmark-dev libceres-dev libgmock-dev libgtest-dev libmpfrc++-dev
-  liborocos-kdl-dev librapidcheck-dev
+  libbenchmark-dev libceres-dev libfcl-dev libgmock-dev libgtest-dev
+  libmpfrc++-dev liborocos-kdl-dev librapidcheck-dev
 )
 
 fail() {

@@ -57,7 +57,7 @@ struct ControllerOptions {
 ///
 ///     level  tasks
 ///     1      newton_euler, no_contact
-///     2      torque_limits, joint_limits
+///     2      torque_limits, joint_limits, self_collision
 ///     3      mimic, light_joints, contact, cop, friction, unilateral, yaw,
 ///            (yaw_constant, zmp, zmp_literal, capture_point)
 ///     4      momentum, frame.FOOT,
