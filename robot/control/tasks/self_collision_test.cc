@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "poise/dynamics/integrate.h"
@@ -13,6 +14,7 @@
 #include "poise/hqp/solver.h"
 #include "poise/robot/control/tasks/task_fixture.h"
 #include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/simple_robots.h"
 
 namespace poise {
 namespace {
@@ -166,6 +168,94 @@ TEST_F(SelfCollisionTest, DoesNotAllocate) {
   EXPECT_TRUE(task_.HasRows(InputHere()));
   task_.Write(InputHere(), &none, &block);
   EXPECT_EQ(count.allocations(), 0);
+}
+
+// Two balls: one on the trunk, and one on an arm of a turning and a sliding or
+// turning joint. The closest points are their centers, so that d̈ is the
+// acceleration along the line plus |v|^2 / D of the velocity v across the line.
+TEST(SelfCollision, BoundHasTheAccelerationOfTheClosestPoints) {
+  for (const JointType type : {JointType::kRevolute, JointType::kPrismatic}) {
+    Inertia M;
+    M.mass = 1;
+    M.I_G_B = 0.01 * Eigen::Matrix3d::Identity();
+    const auto joint = [](std::string parent, std::string child,
+                          JointType moves, Eigen::Vector3d p_PF,
+                          Eigen::Vector3d axis_F) {
+      JointSpec spec;
+      spec.name = child + "_joint";
+      spec.type = moves;
+      spec.parent = std::move(parent);
+      spec.child = std::move(child);
+      spec.X_PF.p = p_PF;
+      spec.axis_F = axis_F;
+      return spec;
+    };
+    Robot robot = MakeRobot(
+        TreeBuilder()
+            .AddLink("trunk", M)
+            .AddLink("upper", M)
+            .AddLink("lower", M)
+            .AddJoint(joint("trunk", "upper", JointType::kRevolute,
+                            {0, 0.3, 0.4}, {1, 0, 0.2}))
+            .AddJoint(joint("upper", "lower", type, {0, -0.1, -0.3}, {0, 1, 0}))
+            .Build());
+    const Tree& tree = robot.model.tree;
+    Pose X;
+    X.p = {0, 0.1, -0.02};
+    robot.model.collisions.push_back(
+        {*tree.FindFrame("lower"), X, Sphere{0.06}});
+    robot.model.collisions.push_back(
+        {*tree.FindFrame("trunk"), {}, Sphere{0.2}});
+    const SelfCollisionTask task(robot);
+    ASSERT_EQ(task.model().pairs.size(), 1u);
+
+    State state{0, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv())};
+    state.q.tail(2) << -0.5, type == JointType::kRevolute ? 0.4 : -0.1;
+    state.v.tail(2) << -0.8, 0.7;
+    Tick tick(tree, {});
+    const auto closest_at = [&](double time) {
+      Eigen::VectorXd q(tree.nq());
+      Integrate(tree, state.q, state.v, time, q);
+      ComputeTick(tree, q, state.v, &tick);
+      return ComputePairDistance(task.model(), task.model().pairs[0], tick.X_WB,
+                                 0);
+    };
+    constexpr double kStep = 1e-4;
+    const ClosestPoints before = closest_at(-kStep), after = closest_at(kStep);
+    const ClosestPoints now = closest_at(0);
+    const double rate = (after.distance - before.distance) / (2 * kStep);
+    const double numeric =
+        (after.distance - 2 * now.distance + before.distance) / kStep / kStep;
+    const Eigen::Vector3d v =
+        (after.p_A - after.p_B - before.p_A + before.p_B) / (2 * kStep);
+    const Eigen::Vector3d across = v - now.gradient.dot(v) * now.gradient;
+    const double expected =
+        numeric - across.squaredNorm() / (now.p_A - now.p_B).norm();
+
+    Hierarchy hierarchy(tree.nv(), {{0, 1}});
+    hierarchy.Clear(1);
+    EqualityBlock none = hierarchy.AddEqualities(0, 0);
+    InequalityBlock block = hierarchy.AddInequalities(0, 1);
+    const Reference reference;
+    Eigen::VectorXd unmodelled = Eigen::VectorXd::Zero(tree.nv());
+    const std::vector<ContactTick> contacts;
+    task.Write({state, tick, contacts, reference, unmodelled}, &none, &block);
+    ASSERT_TRUE(std::isfinite(block.lower[0]));
+    const double d_min = *task.parameters()[0].value;
+    const double w = *task.parameters()[1].value;
+    const double scale = 4 / (w * w * task.model().reach);
+    const double u = 2 * w * rate + w * w * (now.distance - d_min);
+    ASSERT_LT(u, 0);
+    // Second differences have an error of 1e-16 / step^2.
+    EXPECT_NEAR(block.lower[0] / scale, -u - expected, 1e-6 * std::abs(u));
+
+    // Unmodelled accelerations act like accelerations of the solution.
+    const double bound = block.lower[0];
+    const Eigen::RowVectorXd c = block.C.row(0);
+    unmodelled.tail(2) << 3, -5;
+    task.Write({state, tick, contacts, reference, unmodelled}, &none, &block);
+    EXPECT_NEAR(block.lower[0], bound - c.dot(unmodelled), 1e-12);
+  }
 }
 
 // Moves the humanoid by the accelerations of its controller, without a
