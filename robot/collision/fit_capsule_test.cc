@@ -79,7 +79,7 @@ TEST(BallsOfShape, SurroundACylinder) {
   }
 }
 
-TEST(BallsOfShape, AreNoneForAMesh) {
+TEST(BallsOfShape, ReturnsNoBallsForAMesh) {
   EXPECT_TRUE(BallsOfShape(Mesh{"foot.stl", {1, 1, 1}}, {}).empty());
 }
 

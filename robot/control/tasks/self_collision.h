@@ -42,7 +42,7 @@ class SelfCollisionTask final : public Task {
   const CollisionModel& model() const { return model_; }
 
  private:
-  // What the joints between a body and an ancestor do to a point of the body.
+  // Velocity and acceleration of a point of a body relative to an ancestor.
   struct PointMotion {
     Eigen::Vector3d v = Eigen::Vector3d::Zero();
     Eigen::Vector3d a = Eigen::Vector3d::Zero();
@@ -50,7 +50,7 @@ class SelfCollisionTask final : public Task {
   // The bound of a pair in a tick.
   struct Bound {
     bool is_near = false;
-    double lower = 0;  // Of c v̇.
+    double lower = 0;  // Bound of c v̇, m/s2.
     ClosestPoints closest;
   };
 
