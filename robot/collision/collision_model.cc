@@ -22,7 +22,7 @@ constexpr double kMostlyTouching = 0.8;
 
 // A pair that stays farther apart than this fraction of the reach, in all
 // postures, is left out. Extreme postures are rare among the random ones.
-constexpr double kNear = 0.08;
+constexpr double kNear = 0.25;
 
 // The postures cover the motion of so many joints densely: a pair that touches in
 // none of them cannot touch.

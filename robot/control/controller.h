@@ -60,7 +60,7 @@ struct ControllerOptions {
 ///     1      newton_euler, no_contact
 ///     2      torque_limits, joint_limits
 ///     3      mimic, light_joints, contact, cop, friction, unilateral, yaw,
-///            (yaw_constant, zmp, zmp_literal, capture_point)
+///            (yaw_constant, zmp, zmp_literal, capture_point), self_collision
 ///     4      momentum, frame.FOOT,
 ///            (com, linear_momentum, angular_momentum, frame.LINK)
 ///     5      posture, force_regularizer, (torque_minimization)

@@ -53,7 +53,6 @@ Stack MakeDefaultStack(const Robot& robot,
 
   stack.Add(std::make_unique<TorqueLimitsTask>(model), {kOn, 2, 1});
   stack.Add(std::make_unique<JointLimitsTask>(model), {kOn, 2, 1});
-  stack.Add(std::make_unique<SelfCollisionTask>(robot), {kOn, 2, 1});
 
   if (!model.mimics.empty()) {
     stack.Add(std::make_unique<MimicTask>(model), {kOn, 3, 1});
@@ -71,6 +70,9 @@ Stack MakeDefaultStack(const Robot& robot,
   stack.Add(std::make_unique<ZmpLiteralTask>(tree, feet), {kOff, 3, 1});
 
   stack.Add(std::make_unique<CapturePointTask>(tree, feet), {kOff, 3, 1});
+  // The last task of its level: its rows come and go, and the solver starts from
+  // the working set of the last tick by index.
+  stack.Add(std::make_unique<SelfCollisionTask>(robot), {kOn, 3, 1});
 
   stack.Add(std::make_unique<MomentumTask>(tree, feet), {kOn, 4, 1});
   stack.Add(std::make_unique<ComTask>(tree), {kOff, 4, 1});

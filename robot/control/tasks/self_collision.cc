@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 // Softness of the distance, see ComputeClosestPoints(). The distance of parallel
 // segments of 0.3 m at 0.1 m is then 2 mm too small, and the closest points move
-// from end to end within 0.03 rad.
+// from end to end within about 0.1 rad.
 constexpr double kSoftness = 0.01;
 
 // Defaults of the parameters, relative to the reach and to the frequency of a

@@ -22,14 +22,14 @@ namespace poise {
 /// their nearest capsules, with softness 0.01, so that c is continuous. A row
 /// that is far from binding is loosened to -infinity: with u = -l > 0,
 ///     l' = -u / (1 - u / u_max) for u < u_max, no row for u >= u_max,
-/// u_max the acceleration of gravity. Near the bound (u -> 0) nothing is loosened, so that
-/// d keeps d_min.
+/// u_max the acceleration of gravity. Near the bound (u -> 0) nothing is
+/// loosened, so that d keeps d_min.
 ///
 /// Bodies that stand close together in the nominal posture, at d_0, keep
 /// min(d_min, d_0 / 2, d_0 - d_min / 2) instead of d_min, so that the posture is
-/// well inside the bound. A pair that overlaps there by more
-/// than half of its smaller radius has no row: its capsules do not describe the
-/// bodies well enough. Rows are divided by w² and a quarter of the reach.
+/// well inside the bound. A pair that overlaps there by more than half of its
+/// smaller radius has no row: its capsules do not describe the bodies well
+/// enough. Rows are divided by w² and a quarter of the reach.
 class SelfCollisionTask final : public Task {
  public:
   /// Parameters: d_min (1 % of the reach, 12 mm for the humanoid); omega
@@ -42,7 +42,7 @@ class SelfCollisionTask final : public Task {
   const CollisionModel& model() const { return model_; }
 
  private:
-  // What the joints between a body and an ancestor do to a point of the body.
+  // Velocity and acceleration of a point of a body relative to an ancestor.
   struct PointMotion {
     Eigen::Vector3d v = Eigen::Vector3d::Zero();
     Eigen::Vector3d a = Eigen::Vector3d::Zero();
@@ -50,7 +50,7 @@ class SelfCollisionTask final : public Task {
   // The bound of a pair in a tick.
   struct Bound {
     bool is_near = false;
-    double lower = 0;  // Of c v̇.
+    double lower = 0;  // Bound of c v̇, m/s2.
     ClosestPoints closest;
   };
 

@@ -35,6 +35,7 @@ _HEADERS = {
     "ceres": ["ceres/", "glog/"],
     "cli11": ["CLI/"],
     "eigen": ["Eigen/", "unsupported/"],
+    "fcl": ["fcl/"],
     "gtest": ["gtest/", "gmock/"],
     "kdl": ["kdl"],
     "mpreal": ["mpreal", "mpfr"],

@@ -122,6 +122,15 @@ def add_default_repositories():
         deps = ["@eigen"],
     )
     system_repository(
+        # fcl.pc asks for C++11.
+        name = "fcl",
+        linkopts = ["-lfcl", "-lccd"],
+        header = "fcl/fcl.h",
+        debian_package = "libfcl-dev",
+        for_tests_only = True,
+        deps = ["@eigen"],
+    )
+    system_repository(
         # An oracle and a baseline, if installed by setup.sh --baselines. Debian has
         # no headers; //tests/util:bullet_tree declares the functions.
         name = "bullet_inverse_dynamics",
