@@ -3,12 +3,14 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "poise/dynamics/tree.h"
 #include "poise/math/pose.h"
+#include "poise/robot/feet/sole_source.h"
 
 namespace poise {
 
@@ -76,6 +78,8 @@ struct Foot {
   Pose X_BC;                  ///< Contact frame in the body.
   Eigen::Vector2d half_size;  ///< Half of the rectangle's sides, x and y, m.
   std::vector<Eigen::Vector2d> polygon_C;  ///< Convex, counterclockwise, m.
+  /// The origin of the sole. It is absent if a profile gives the sole.
+  std::optional<SoleSource> source = std::nullopt;
 };
 
 /// A robot for control and simulation. It combines the contents of the URDF

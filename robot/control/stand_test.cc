@@ -238,9 +238,8 @@ TEST(StandUp, StandsRealRobotsUp) {
         profile.empty() ? Profile{}
                         : LoadProfile("robot/profiles/" + profile + ".yaml")));
   }
-  for (const char* urdf : {"cassie.urdf", "solo12.urdf"}) {
-    EXPECT_THROW(LoadStandingRobot(*folder / urdf), std::invalid_argument);
-  }
+  EXPECT_THROW(LoadStandingRobot(*folder / "solo12.urdf"),
+               std::invalid_argument);
 }
 
 }  // namespace

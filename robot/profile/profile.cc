@@ -8,9 +8,10 @@
 
 #include "poise/math/rpy.h"
 #include "poise/robot/feet/feet.h"
-#include "poise/robot/feet/find_feet.h"
+#include "poise/robot/feet/forward.h"
 #include "poise/robot/limits.h"
 #include "poise/robot/profile/massless.h"
+#include "poise/robot/profile/sides.h"
 #include "poise/robot/profile/yaml_file.h"
 #include "poise/robot/standing.h"
 #include "poise/robot/urdf/urdf.h"
@@ -221,6 +222,30 @@ MimicPolicy ReadMimic(const Reader& reader, const YAML::Node& node) {
   reader.Refuse(node, "mimic", "free, coupled or locked");
 }
 
+// Reads the keys `forward`, `left` and `right`.
+void ReadSides(const Reader& reader, const YAML::Node& root, Sides* sides) {
+  const auto read = [&](const char* name, TextValue* value) {
+    const YAML::Node node = root[name];
+    if (!node) return;
+    *value = {reader.Text(node, name), node.Mark().line + 1};
+  };
+  read("left", &sides->left);
+  read("right", &sides->right);
+  if (const YAML::Node node = root["forward"]) {
+    if (!node.IsScalar() || !AxisOfName(node.Scalar())) {
+      reader.Refuse(node, "forward", "one of +x -x +y -y +z -z");
+    }
+    read("forward", &sides->forward);
+  }
+  for (const auto& [name, other] :
+       {std::make_pair("left", "right"), std::make_pair("right", "left")}) {
+    if (root[name] && !root[other]) {
+      reader.Refuse(root[name], std::string(name) + ": there is no " + other +
+                                    ", must be given together");
+    }
+  }
+}
+
 // Makes the feet that a profile describes.
 std::vector<Foot> MakeFeet(const RobotModel& model, const Profile& profile) {
   std::vector<Foot> feet;
@@ -352,7 +377,8 @@ Profile LoadProfile(const Path& file) {
   profile.file = file;
   const YAML::Node root = LoadYaml(file);
   reader.ExpectMap(root, "a profile",
-                   {"feet", "locked", "mimic", "posture", "tasks"});
+                   {"feet", "forward", "left", "locked", "mimic", "posture",
+                    "right", "tasks"});
   if (const YAML::Node feet = root["feet"]) {
     reader.ExpectMap(feet, "feet", {"left_foot", "right_foot"});
     for (const char* name : {"left_foot", "right_foot"}) {
@@ -360,6 +386,7 @@ Profile LoadProfile(const Path& file) {
       profile.feet.push_back(reader.Sole(name, feet[name]));
     }
   }
+  ReadSides(reader, root, &profile.sides);
   if (root["locked"]) profile.locked = reader.Joints(root["locked"], "locked");
   if (root["mimic"]) profile.mimic = ReadMimic(reader, root["mimic"]);
   if (root["posture"]) ReadPosture(reader, root["posture"], &profile);
@@ -432,15 +459,17 @@ Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
     robot.q_nominal[tree.q_start() + *j] = joint.value;
   }
   Couple(profile.joints, &robot);
-  robot.feet = profile.feet.empty() ? FindFeet(robot.model, findings)
-                                    : MakeFeet(robot.model, profile);
+  const std::string file = profile.file.string();
+  robot.feet = profile.feet.empty()
+                   ? FindFeetOf(robot.model, profile.sides, file, findings)
+                   : MakeFeet(robot.model, profile);
   if (!profile.feet.empty()) {
     const std::string reason = WhyNoPairOfFeet(robot);
     if (!reason.empty()) {
-      throw Refusal(profile.file.string(), profile.feet[0].line,
-                    "feet: " + reason);
+      throw Refusal(file, profile.feet[0].line, "feet: " + reason);
     }
   }
+  CheckSides(robot, profile.sides, file, !profile.feet.empty());
   if (!profile.base_xyz) return robot;
 
   robot.can_stand = true;

@@ -12,6 +12,7 @@
 
 #include "poise/math/pose.h"
 #include "poise/robot/finding.h"
+#include "poise/robot/profile/sides.h"
 #include "poise/robot/robot.h"
 #include "poise/robot/urdf/urdf.h"
 
@@ -54,6 +55,10 @@ struct JointValue {
 ///                                # sole's x is then near the link's x.
 ///         size: [0.23, 0.13]     # m. Or polygon: [[x, y], ...], m.
 ///       right_foot: ...
+///     forward: +x                # Axis of the root link that points forward.
+///     left: l_foot               # Links of the left and of the right foot.
+///     right: r_foot              # These three are optional too: see
+///                                # FindFeet().
 ///     posture:                   # The nominal posture.
 ///       found: text              # How it was found.
 ///       base: {xyz: [0, 0, 0.75], rpy: [0, 0, 0]}
@@ -66,6 +71,7 @@ struct JointValue {
 struct Profile {
   std::filesystem::path file;
   std::vector<SoleProfile> feet;
+  Sides sides;  ///< `forward`, `left` and `right`.
   /// Position of the base in the nominal posture, m. If it is absent, the
   /// profile gives no posture in which the robot can stand.
   std::optional<Eigen::Vector3d> base_xyz;
@@ -114,8 +120,8 @@ RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile);
 ///                  WarnOfMassless().
 ///
 /// Throws Refusal if the profile does not match the robot: a name is unknown, a
-/// joint is outside its limits, or the posture has a base but the robot cannot
-/// stand in the posture. Throws another std::invalid_argument as FindFeet().
+/// joint is outside its limits, `forward`, `left` and `right` contradict the
+/// feet, or the posture has a base but the robot cannot stand in the posture. Throws another std::invalid_argument as FindFeet().
 Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
                 std::vector<Finding>* findings = nullptr);
 
