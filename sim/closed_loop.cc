@@ -9,7 +9,9 @@
 #include "poise/robot/control/task_set.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/input_error.h"
+#include "poise/sim/command/fit_to_robot.h"
 #include "poise/sim/plants/make_plant.h"
+#include "poise/sim/command/push_bound.h"
 #include "poise/sim/start_state.h"
 
 namespace poise {
@@ -30,6 +32,9 @@ Robot MakeBelievedRobot(const Robot& robot, const Scenario& scenario) {
       robot.model.tree.WithScaledInertias(1 + scenario.control.mass_error);
   for (JointLimits& limits : believed.model.limits) {
     limits.effort *= scenario.plant.torque_scale;
+    if (scenario.plant.joint_damping) continue;
+    limits.damping = 0;  // The plant's joints have none.
+    limits.friction = 0;
   }
   return believed;
 }
@@ -107,56 +112,62 @@ std::vector<PushOnRobot> Aim(const std::vector<Push>& pushes,
   return aimed;
 }
 
-const Scenario& Valid(const Scenario& scenario) {
+// Returns the scenario for this robot. A push that is a fraction of a bound has
+// the force for the nominal posture until it begins.
+Scenario Fitted(const Robot& robot, const Scenario& scenario) {
   Validate(scenario);
-  return scenario;
+  Scenario fitted = FitToRobot(robot, scenario);
+  for (Push& push : fitted.pushes) {
+    ApplyFraction(robot, robot.q_nominal, {}, &push);
+  }
+  return fitted;
 }
 
 }  // namespace
 
 ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
     : robot_(robot),
-      scenario_(Valid(scenario)),
+      scenario_(Fitted(robot, scenario)),
       plant_(MakeOf("robot",
                     [&] {
-                      return MakePlant(robot, scenario.plant_kind,
-                                       scenario.plant);
+                      return MakePlant(robot, scenario_.plant_kind,
+                                       scenario_.plant);
                     })),
-      controller_(
-          MakeController(MakeBelievedRobot(robot, scenario), scenario.control)),
-      sensors_(robot, scenario.sensors, scenario.seed ^ kSensorSeed),
-      observer_(robot, scenario.plant.ground),
-      pushes_(Aim(scenario.pushes, robot)),
+      controller_(MakeController(MakeBelievedRobot(robot, scenario_),
+                                 scenario_.control)),
+      sensors_(robot, scenario_.sensors, scenario_.seed ^ kSensorSeed),
+      observer_(robot, scenario_.plant.ground),
+      pushes_(Aim(scenario_.pushes, robot)),
       down_(robot.feet.size(), true),
       steps_per_tick_(static_cast<int>(
-          std::lround(scenario.control.dt / scenario.plant.dt))),
+          std::lround(scenario_.control.dt / scenario_.plant.dt))),
       delay_steps_(static_cast<int>(
-          std::lround(scenario.control.delay / scenario.plant.dt))) {
-  const State start = MakeStartState(robot, scenario.start,
-                                     scenario.plant.ground, scenario.seed);
+          std::lround(scenario_.control.delay / scenario_.plant.dt))) {
+  const State start = MakeStartState(robot, scenario_.start,
+                                     scenario_.plant.ground, scenario_.seed);
   plant_->Reset(start.q, start.v);
   // The controller receives the place of the floor, but not the drop.
-  StartSettings on_ground = scenario.start;
+  StartSettings on_ground = scenario_.start;
   on_ground.drop = 0;
   controller_->Start(
-      MakeStartState(robot, on_ground, scenario.plant.ground, scenario.seed));
-  if (scenario.control.estimator) {
+      MakeStartState(robot, on_ground, scenario_.plant.ground, scenario_.seed));
+  if (scenario_.control.estimator) {
     estimator_ =
         MakeOf("robot", [&] { return std::make_unique<Estimator>(robot); });
     estimator_->Start(sensors_.Measure(plant_->Sense()));
     state_ = ToState(sensors_.measurement());
   }
-  if (scenario.steps) {
+  if (scenario_.steps) {
     GaitSettings settings;
-    settings.dt = scenario.control.dt;
+    settings.dt = scenario_.control.dt;
     gait_ = MakeOf("robot", [&] {
       return std::make_unique<Gait>(controller_->robot(), settings);
     });
   }
   com_start_ = controller_->reference().p_WG;
-  com_path_ = {scenario.com, com_start_};
-  for (std::size_t i = 0; i < scenario.stance.size(); ++i) {
-    const std::string& foot = scenario.stance[i].foot;
+  com_path_ = {scenario_.com, com_start_};
+  for (std::size_t i = 0; i < scenario_.stance.size(); ++i) {
+    const std::string& foot = scenario_.stance[i].foot;
     if (!foot.empty()) MakeOf(Entry("stance", i), [&] { FindFoot(foot); });
   }
   command_.tau.setZero(robot.model.tree.num_joints());
@@ -248,9 +259,23 @@ void ClosedLoop::Tick() {
   if (gait_ != nullptr && gait_->owns_com()) {
     observer_.MoveComReference(controller_->contacts());
   }
+  SizePushes();
   StepPlant();
   observer_.ObserveForces(during_.F_Co_C);
   ++ticks_;
+}
+
+// Sets the force of each push that begins in this tick and is a fraction of a
+// bound. The bound is that of the present state on the feet meant to be down.
+void ClosedLoop::SizePushes() {
+  for (std::size_t i = 0; i < pushes_.size(); ++i) {
+    Push& push = scenario_.pushes[i];
+    const bool begins = push.start < start_.time + scenario_.control.dt / 2 &&
+                        push.start >= start_.time - scenario_.control.dt / 2;
+    if (!begins || !push.impulse_fraction) continue;
+    ApplyFraction(robot_, start_.q, down_, &push);
+    pushes_[i] = PushOnRobot(robot_, push);
+  }
 }
 
 void ClosedLoop::StepPlant() {

@@ -50,6 +50,7 @@ class ClosedLoop {
 
   double time() const { return plant_->Sense().time; }
   const Robot& robot() const { return robot_; }
+  /// Returns the scenario, fitted to the robot, see FitToRobot().
   const Scenario& scenario() const { return scenario_; }
 
   /// Returns the record of the last tick. Valid until the next one.
@@ -68,6 +69,7 @@ class ClosedLoop {
   Eigen::Vector3d ShiftPlace(const std::string& name) const;
   void MoveFeet();
   void MoveFoot(const StanceEvent& event);
+  void SizePushes();
   void StepPlant();
 
   Robot robot_;

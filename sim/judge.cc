@@ -8,10 +8,10 @@ namespace poise {
 
 void Judge::Look(const Observation& now) {
   // The comparison is negated so that a NaN counts as a fall.
-  const bool is_low = !(now.base_height >= kLowestBase * standing_height_);
+  const bool is_low = !(now.com_height >= kLowestCom * standing_height_);
   const bool is_tilted = !(now.base_tilt <= kLargestTilt);
   down_ = down_ || is_low || is_tilted;
-  if (is_low) Fall(now.time, "the base sank below 60 % of its height");
+  if (is_low) Fall(now.time, "the CoM sank below 60 % of its height");
   if (is_tilted) Fall(now.time, "the base tilted over 60 degrees");
   for (const FootObservation& foot : now.feet) {
     verdict_.foot_tilt_peak = std::max(verdict_.foot_tilt_peak, foot.tilt);

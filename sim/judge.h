@@ -24,8 +24,8 @@ struct Verdict {
 };
 
 /// Judges by the plant's true state whether a robot recovered. It did if
-/// - its base was never below 60 % of its standing height, nor tilted by more
-///   than 60 degrees;
+/// - its center of mass was never below 60 % of its standing height, and its
+///   base never tilted by more than 60 degrees;
 /// - no foot that is meant to be down tilted by more than 0.1 rad or slid by
 ///   more than 30 mm; and
 /// - the mean of com - com_ref over the last 0.5 s has a horizontal norm below
@@ -35,7 +35,7 @@ struct Verdict {
 /// feet are meant to be down, and its center of mass is slower than 0.02 m/s.
 class Judge {
  public:
-  static constexpr double kLowestBase = 0.6;  // Fraction of its height.
+  static constexpr double kLowestCom = 0.6;  // Fraction of its height.
   static constexpr double kLargestTilt = 1.0471975511965976;  // 60 degrees.
   static constexpr double kLargestFootTilt = 0.1;
   static constexpr double kLargestSlide = 0.03;
@@ -43,14 +43,14 @@ class Judge {
   static constexpr double kEnd = 0.5;
   static constexpr double kAtRest = 0.02;  // m/s.
 
-  /// @param standing_height  height of the base above the ground, m.
+  /// @param standing_height  see StandingHeight(), m.
   /// @param steps            whether the robot may take steps.
   explicit Judge(double standing_height, bool steps = false)
       : standing_height_(standing_height), steps_(steps) {}
 
   void Look(const Observation& now);
 
-  /// Returns whether the base is too low or too tilted. The run can stop then.
+  /// Returns whether the CoM is too low or the base too tilted. The run can stop then.
   bool is_down() const { return down_; }
 
   /// Returns whether Verdict::fell_at is set.

@@ -13,7 +13,7 @@ namespace {
 Observation Standing(double time) {
   Observation now;
   now.time = time;
-  now.base_height = 1;
+  now.com_height = 1;
   now.feet.resize(2);
   return now;
 }
@@ -48,12 +48,12 @@ TEST(Judge, IsNotRecoveredWithoutObservations) {
   EXPECT_FALSE(Judge(1).Conclude().recovered);
 }
 
-TEST(Judge, LowBaseIsAFall) {
-  EXPECT_TRUE(Once([](auto* now) { now->base_height = 0.601; }).recovered);
-  const Verdict verdict = Once([](auto* now) { now->base_height = 0.599; });
+TEST(Judge, LowCenterOfMassIsAFall) {
+  EXPECT_TRUE(Once([](auto* now) { now->com_height = 0.601; }).recovered);
+  const Verdict verdict = Once([](auto* now) { now->com_height = 0.599; });
   EXPECT_FALSE(verdict.recovered);
   EXPECT_EQ(*verdict.fell_at, 1);
-  EXPECT_STREQ(verdict.fell_by, "the base sank below 60 % of its height");
+  EXPECT_STREQ(verdict.fell_by, "the CoM sank below 60 % of its height");
 }
 
 TEST(Judge, TiltedBaseIsAFall) {
@@ -63,7 +63,7 @@ TEST(Judge, TiltedBaseIsAFall) {
 
 TEST(Judge, CountsNaNAsAFall) {
   EXPECT_FALSE(Once([](auto* now) {
-                 now->base_height = std::numeric_limits<double>::quiet_NaN();
+                 now->com_height = std::numeric_limits<double>::quiet_NaN();
                }).recovered);
 }
 
@@ -83,7 +83,7 @@ TEST(Judge, TiltedOrSlidingFootIsAFallButTheRunGoesOn) {
   now.feet[0].slide = 1;
   judge.Look(now);
   EXPECT_FALSE(judge.is_down());
-  now.base_height = 0.1;
+  now.com_height = 0.1;
   judge.Look(now);
   EXPECT_TRUE(judge.is_down());
 }

@@ -30,28 +30,19 @@ std::vector<int> FootFrames(const Robot& robot) {
 
 }  // namespace
 
-Eigen::Vector3d BasePoint(const RobotModel& model) {
-  const std::vector<Frame>& frames = model.tree.frames();
-  int first = static_cast<int>(frames.size());
-  for (const std::vector<Shape>* shapes : {&model.visuals, &model.collisions}) {
-    for (const Shape& shape : *shapes) {
-      if (frames[shape.frame].body != 0) continue;
-      if (shape.frame == model.root_frame) return frames[shape.frame].X_BF.p;
-      first = std::min(first, shape.frame);
-    }
-  }
-  return first < static_cast<int>(frames.size()) ? frames[first].X_BF.p
-                                                 : Eigen::Vector3d::Zero();
-}
-
 double StandingHeight(const Robot& robot) {
-  const Eigen::Quaterniond R_WB(robot.q_nominal.segment<4>(3));
-  return robot.q_nominal.z() + (R_WB * BasePoint(robot.model)).z();
+  const Tree& tree = robot.model.tree;
+  Tick tick(tree, {});
+  ComputeTick(tree, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
+  double ground = std::numeric_limits<double>::infinity();
+  for (const Foot& foot : robot.feet) {
+    ground = std::min(ground, (tick.X_WB[foot.body] * foot.X_BC).p.z());
+  }
+  return tick.p_WG.z() - (robot.feet.empty() ? 0 : ground);
 }
 
 Observer::Observer(const Robot& robot, const Ground& ground)
     : robot_(robot),
-      base_point_B_(BasePoint(robot.model)),
       normal_W_(GroundNormal(ground)),
       mass_(robot.model.tree.total_mass()),
       gravity_(robot.model.tree.gravity_W().norm()),
@@ -71,14 +62,13 @@ void Observer::ObserveState(const PlantState& state,
   now.X_WB = tick_.X_WB[0];
   if (first_) standing_z_B_ = now.X_WB.R.transpose() * normal_W_;
   first_ = false;
-  now.base_height = normal_W_.dot(now.X_WB * base_point_B_);
   now.base_tilt = AngleBetween(now.X_WB.R * standing_z_B_, normal_W_);
   now.com = tick_.p_WG;
   now.com_velocity = tick_.v_WG;
   now.com_ref = com_ref;
-  const double height = normal_W_.dot(tick_.p_WG);
-  now.xi =
-      ComputeDcm(tick_, mass_, height, PendulumFrequency(gravity_, height), 1);
+  now.com_height = normal_W_.dot(tick_.p_WG);
+  now.xi = ComputeDcm(tick_, mass_, now.com_height,
+                      PendulumFrequency(gravity_, now.com_height), 1);
   for (size_t i = 0; i < robot_.feet.size(); ++i) {
     FootObservation& foot = now.feet[i];
     foot.X_WC = tick_.X_WB[robot_.feet[i].body] * robot_.feet[i].X_BC;

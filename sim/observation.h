@@ -29,8 +29,8 @@ struct FootObservation {
 struct Observation {
   double time = 0;
   Pose X_WB;
-  double base_height = 0;  ///< Height of BasePoint() above the ground, m.
-  double base_tilt = 0;    ///< Angle of the base's z from the start, rad.
+  double com_height = 0;  ///< Height of the CoM above the ground's plane, m.
+  double base_tilt = 0;   ///< Angle of the base's z from the start, rad.
   Eigen::Vector3d com = Eigen::Vector3d::Zero();
   Eigen::Vector3d com_velocity = Eigen::Vector3d::Zero();  ///< m/s.
   Eigen::Vector3d com_ref = Eigen::Vector3d::Zero();
@@ -70,7 +70,6 @@ class Observer {
 
  private:
   Robot robot_;
-  Eigen::Vector3d base_point_B_;
   Eigen::Vector3d normal_W_;
   double mass_, gravity_;
   Tick tick_;
@@ -82,15 +81,9 @@ class Observer {
   bool first_ = true;
 };
 
-/// Returns the point of the base whose height shows whether the robot fell, in
-/// the base's axes, m. The point is the origin of the root link. If the root
-/// link has no shape, it is only a frame that may be anywhere, as `world` on
-/// the floor. Then the point is the origin of the first link with a shape that
-/// is fixed to the root link, or the base's origin if no such link exists.
-Eigen::Vector3d BasePoint(const RobotModel& model);
-
-/// Returns the height of BasePoint() above the ground in the nominal posture,
-/// in which the robot stands on the ground, m.
+/// Returns the height of the center of mass above the lowest sole in the nominal
+/// posture, m. The origin of the root link is no measure of a robot's height:
+/// in some files it lies on the ground.
 double StandingHeight(const Robot& robot);
 
 }  // namespace poise

@@ -46,7 +46,7 @@ TEST(Observer, ReportsThePoseOfTheRobot) {
   EXPECT_EQ(now.time, 1.5);
   EXPECT_TRUE(now.com.isApprox(Vector3d(0.1, 0.2, 0.05)));
   EXPECT_TRUE(now.com_ref.isApprox(Vector3d(0.1, 0.2, 0.04)));
-  EXPECT_NEAR(now.base_height, 0.05, kRounding);
+  EXPECT_NEAR(now.com_height, 0.05, kRounding);
   EXPECT_NEAR(now.base_tilt, 0, kRounding);
   EXPECT_TRUE(now.feet[0].X_WC.p.isApprox(Vector3d(0.1, 0.2, 0)));
   EXPECT_TRUE(observer.R_WB(0).isApprox(Turn(0.3, kUp).toRotationMatrix()));
@@ -61,12 +61,12 @@ TEST(Observer, MeasuresTiltAndHeightFromTheGroundTheRobotStandsOn) {
   Observer observer(MakeBlock({0.2, 0.2, 0.1}, 5), slope);
   observer.ObserveState(StateAt(R_WG * Vector3d(1, 0, 0.05), R_WG), {},
                         Vector3d::Zero());
-  EXPECT_NEAR(observer.observation().base_height, 0.05, kRounding);
+  EXPECT_NEAR(observer.observation().com_height, 0.05, kRounding);
   EXPECT_NEAR(observer.observation().base_tilt, 0, kRounding);
   observer.ObserveState(
       StateAt(R_WG * Vector3d(1, 0, 0.07), R_WG * Turn(0.1, Vector3d::UnitX())),
       {}, Vector3d::Zero());
-  EXPECT_NEAR(observer.observation().base_height, 0.07, kRounding);
+  EXPECT_NEAR(observer.observation().com_height, 0.07, kRounding);
   EXPECT_NEAR(observer.observation().base_tilt, 0.1, kRounding);
 }
 
@@ -83,13 +83,12 @@ TEST(Observer, MeasuresTiltFromTheStart) {
 }
 
 // A root frame on the floor below the robot must not count as a fallen robot.
-TEST(Observer, TakesTheHeightOfABaseThatHasAShape) {
+TEST(Observer, MeasuresHeightByTheCenterOfMass) {
   Robot robot{
       ParseUrdf(
           "<robot name='r'><link name='world'/><link name='pelvis'>"
           "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
-          "iyz='0' izz='1'/></inertial>"
-          "<visual><geometry><sphere radius='0.1'/></geometry></visual></link>"
+          "iyz='0' izz='1'/></inertial></link>"
           "<joint name='j' type='fixed'><parent link='world'/>"
           "<child link='pelvis'/><origin xyz='0 0 0.9'/></joint></robot>",
           "robot"),
@@ -101,9 +100,13 @@ TEST(Observer, TakesTheHeightOfABaseThatHasAShape) {
   observer.ObserveState(
       StateAt(Vector3d::Zero(), Turn(M_PI / 3, Vector3d::UnitY())), {},
       Vector3d::Zero());
-  EXPECT_NEAR(observer.observation().base_height, 0.45, kRounding);
-  // Without any shape, the point is the origin of the root link.
-  EXPECT_TRUE(BasePoint(MakeBlock({0.2, 0.2, 0.1}, 5).model).isZero());
+  EXPECT_NEAR(observer.observation().com_height, 0.45, kRounding);
+}
+
+TEST(StandingHeight, CountsFromTheSole) {
+  Robot block = MakeBlock({0.2, 0.2, 0.1}, 5);
+  block.q_nominal.z() += 2;
+  EXPECT_NEAR(StandingHeight(block), 0.05, kRounding);
 }
 
 TEST(Observer, CountsTiltAndSlideFromWhereAFootWasPutDown) {

@@ -44,6 +44,12 @@ const char* NameOf(PushProfile profile) {
   return "";
 }
 
+void SetForce(const Eigen::Vector3d& force, Push* push) {
+  push->force = force;
+  push->impulse_fraction.reset();
+  push->elsewhere.reset();
+}
+
 double ProfileIntegral(const Push& push, double until) {
   const double time = until - push.start;
   if (!(time > 0)) return 0;

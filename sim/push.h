@@ -36,7 +36,15 @@ struct Push {
   PushProfile profile = PushProfile::kBox;
   double start = 1;        ///< s.
   double duration = 0.15;  ///< s.
+  /// Impulse as a fraction of Yardstick::lipm_height_Ns at the start of the
+  /// push. If it is given, `force` only has the direction.
+  std::optional<double> impulse_fraction;
+  /// Replaces impulse_fraction on any robot but Scenario::chosen_for.
+  std::optional<double> elsewhere;
 };
+
+/// Gives a push this peak force instead of a fraction of a bound.
+void SetForce(const Eigen::Vector3d& force, Push* push);
 
 /// Returns the mean of the push over [time, time + dt], divided by its peak.
 /// The mean is exact for any dt, so that the impulse does not depend on the

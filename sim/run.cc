@@ -10,7 +10,9 @@
 
 #include "poise/robot/finding.h"
 #include "poise/robot/limits.h"
+#include "poise/sim/command/command_watch.h"
 #include "poise/sim/observation.h"
+#include "poise/sim/command/push_bound.h"
 #include "poise/sim/quantile.h"
 
 namespace poise {
@@ -49,16 +51,11 @@ std::string FindBlowUp(const Tree& tree, const Eigen::VectorXd& v) {
 // the feet that are planned to be down when the push begins.
 std::optional<Yardstick> Measure(const Robot& robot, const Push& push,
                                  const TickRecord& begin) {
-  if (push.frame != PushFrame::kWorld || push.force.head<2>().isZero()) {
-    return std::nullopt;
-  }
   std::vector<bool> down;
   for (const FootObservation& foot : begin.observation.feet) {
     down.push_back(foot.down);
   }
-  const PushOnRobot aimed(robot, push);
-  return ComputeYardstick(robot, begin.start.q, push.force.head<2>(),
-                          push.duration, aimed.body(), aimed.p_BoQ_B(), down);
+  return BoundOfPush(robot, begin.start.q, push, down);
 }
 
 // Returns RunResult::commanded_done.
@@ -106,6 +103,7 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
   std::vector<float> us;
   us.reserve(ticks);
   StepWatch step_watch;
+  CommandWatch command_watch(robot, scenario);
   RunResult result;
   const Push* push = LargestPush(scenario.pushes, scenario.duration);
   if (push != nullptr) {
@@ -119,6 +117,7 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
     if (push != nullptr &&
         push->start < record.observation.time + scenario.control.dt / 2) {
       result.yardstick = Measure(robot, *push, record);
+      result.impulse_Ns = ImpulseOf(*push, scenario.duration);
       push = nullptr;
     }
     ++result.ticks;
@@ -126,6 +125,7 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
       result.blew_up = FindBlowUp(robot.model.tree, record.start.v);
     }
     judge.Look(record.observation);
+    command_watch.Look(record);
     if (record.gait != nullptr) step_watch.Look(record);
     if (recorder != nullptr) recorder->Record(record);
     us.push_back(static_cast<float>(record.microseconds));
@@ -156,6 +156,13 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
   result.steps = step_watch.steps();
   result.commanded = loop->commanded();
   result.commanded_done = AreDone(result.commanded, result.steps);
+  // A robot that fell early has missed the commands that followed.
+  const double end = result.interrupted ? result.duration : scenario.duration;
+  if (command_watch.has_command(end)) {
+    result.not_done = command_watch.Missed(end);
+    result.commanded_done =
+        result.commanded_done.value_or(true) && result.not_done.empty();
+  }
   result.tick_us = Summarize(std::move(us));
   if (recorder != nullptr) {
     recorder->Flush();

@@ -50,9 +50,11 @@ struct RunResult {
   std::optional<Yardstick> yardstick;
   std::vector<TakenStep> steps;  ///< In order of their lift-offs.
   std::vector<CommandedStep> commanded;
-  /// Whether each commanded step was accepted and has landed within 10 mm of
-  /// its place. Empty without a command.
+  /// Whether each commanded motion happened: see CommandWatch, and each step
+  /// was accepted and has landed within 10 mm of its place. Empty without a
+  /// command.
   std::optional<bool> commanded_done;
+  std::vector<std::string> not_done;  ///< See CommandWatch::Missed().
   double wall_seconds = 0;
   std::string log_sha256;  ///< Empty if nothing was recorded.
   /// Rows of the stack that the log names; empty if nothing was recorded.

@@ -7,93 +7,20 @@
 #include <utility>
 #include <vector>
 
-#include "poise/robot/control/stance.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/input_error.h"
 #include "poise/sim/number_field.h"
 #include "poise/sim/plants/make_plant.h"
+#include "poise/sim/scenario_fields.h"
 #include "poise/sim/yaml_fields.h"
 
 namespace poise {
 
 namespace {
 
-constexpr double kLongest = 86400;  // Largest time and duration, s.
 constexpr double kMostTicks = 1e8;
 constexpr double kMostStepsInATick = 1000;
 constexpr std::size_t kMostEntries = 1000;  // Largest list.
-
-std::vector<NumberField> Fields(StartSettings* start) {
-  return {{"joints", &start->joints, 0, 3.2, "rad"},
-          {"drop", &start->drop, 0, 10, "m"},
-          {"heading", &start->heading, -10, 10, "rad"},
-          {"place", start->place.data(), -1e5, 1e5, "m", 2}};
-}
-
-std::vector<NumberField> Fields(Push* push) {
-  std::vector<NumberField> fields = {
-      {"force", push->force.data(), -1e6, 1e6, "N", 3},
-      {"moment", push->moment.data(), -1e6, 1e6, "N m", 3},
-      {"at", &push->start, 0, kLongest, "s"},
-      {"duration", &push->duration, 0, kLongest, "s"}};
-  if (push->point) {
-    fields.push_back({"point", push->point->data(), -100, 100, "m", 3});
-  }
-  return fields;
-}
-
-std::vector<NumberField> Fields(ComMotion* com) {
-  return {{"sine", com->sine.data(), -10, 10, "m", 3},
-          {"cosine", com->cosine.data(), -10, 10, "m", 3},
-          {"period", &com->period, 0.01, kLongest, "s"}};
-}
-
-std::vector<NumberField> Fields(StanceEvent* event) {
-  return {{"at", &event->at, 0, kLongest, "s"},
-          {"height", &event->height, Stance::kLeastHeight, Stance::kMostHeight,
-           "m"},
-          {"over", &event->over, 0.01, kLongest, "s"}};
-}
-
-std::vector<NumberField> Fields(ControlSettings* control) {
-  return {{"rate", &control->dt, 10, 1e5, "Hz", 1, true},
-          {"delay", &control->delay, 0, 1, "s"},
-          {"friction", &control->friction, 0, 10},
-          {"mass_error", &control->mass_error, -0.99, 10},
-          {"ramp", &control->ramp, 0, 100, "s"}};
-}
-
-std::vector<NumberField> Fields(SensorSettings* s) {
-  return {{"noise", &s->noise, 0, 1000},
-          {"bias", &s->bias, 0, 1000},
-          {"resolution", &s->resolution, 0, 1000},
-          {"joint_position", &s->joint_position, 0, 10, "rad"},
-          {"joint_velocity", &s->joint_velocity, 0, 1000, "rad/s"},
-          {"base_position", &s->base_position, 0, 10, "m"},
-          {"base_orientation", &s->base_orientation, 0, 10, "rad"},
-          {"base_rate", &s->base_rate, 0, 1000, "rad/s"},
-          {"base_velocity", &s->base_velocity, 0, 1000, "m/s"},
-          {"foot_force", &s->foot_force, 0, 1e6, "N"},
-          {"foot_moment", &s->foot_moment, 0, 1e6, "N m"},
-          {"accelerometer", &s->accelerometer, 0, 1e6, "m/s2"},
-          {"gyroscope", &s->gyroscope, 0, 1000, "rad/s"},
-          {"joint_bias", &s->joint_bias, 0, 10, "rad"},
-          {"gyroscope_bias", &s->gyroscope_bias, 0, 1000, "rad/s"},
-          {"force_bias", &s->force_bias, 0, 1e6, "N"},
-          {"joint_resolution", &s->joint_resolution, 0, 10, "rad"},
-          {"force_resolution", &s->force_resolution, 0, 1e6, "N"},
-          {"joint_delay", &s->joint_delay, 0, 1, "s"},
-          {"base_delay", &s->base_delay, 0, 1, "s"},
-          {"foot_delay", &s->foot_delay, 0, 1, "s"},
-          {"dropout", &s->dropout, 0, 1},
-          {"freeze_at", &s->freeze_at, 0, kLongest, "s"},
-          {"freeze_for", &s->freeze_for, 0, kLongest, "s"},
-          {"contact_threshold", &s->contact_threshold, 0, 1e6, "N"}};
-}
-
-std::vector<NumberField> Fields(Scenario* scenario) {
-  return {{"duration", &scenario->duration, 1e-3, kLongest, "s"}};
-}
 
 template <typename Settings>
 void ReadNumbers(YamlFields fields, Settings* settings) {
@@ -105,6 +32,8 @@ Push ReadPush(YamlFields fields) {
   Push push;
   push.link = fields.Text("link", push.link);
   if (fields.Has("point")) push.point.emplace();
+  if (fields.Has("impulse_fraction")) push.impulse_fraction.emplace();
+  if (fields.Has("elsewhere")) push.elsewhere.emplace();
   const std::string frame = fields.Text("frame", "world");
   if (frame == "link") {
     push.frame = PushFrame::kLink;
@@ -125,6 +54,19 @@ Push ReadPush(YamlFields fields) {
   fields.Read(Fields(&push));
   fields.Finish();
   return push;
+}
+
+// A fraction of a bound needs a horizontal direction in the world.
+void CheckFraction(const std::string& push, const Push& of) {
+  if (!of.impulse_fraction && !of.elsewhere) return;
+  const bool has_direction = of.frame == PushFrame::kWorld &&
+                             of.moment.isZero() && of.force.z() == 0 &&
+                             !of.force.isZero();
+  if (has_direction) return;
+  throw InputError(
+      push + (of.impulse_fraction ? ".impulse_fraction" : ".elsewhere"),
+      "a fraction of the bound must come with a horizontal force, "
+      "without moment, in the frame world");
 }
 
 // Returns the place of a step.
@@ -326,6 +268,9 @@ Scenario ReadScenario(const std::filesystem::path& file) {
   }
   fields.Read(Fields(&scenario));
   scenario.seed = ReadSeed(&fields, scenario.seed);
+  if (auto robot = fields.Map("chosen_for")) {
+    ReadNumbers(*robot, &scenario.chosen_for.emplace());
+  }
   if (auto start = fields.Map("start")) ReadNumbers(*start, &scenario.start);
   scenario.steps = fields.Flag("steps", scenario.steps);
   scenario.pushes = ReadPushes(&fields);
@@ -366,6 +311,7 @@ void Validate(const Scenario& scenario) {
   Validate(scenario.plant);
   Scenario copy = scenario;
   Check("", Fields(&copy));
+  if (copy.chosen_for) Check("chosen_for", Fields(&*copy.chosen_for));
   Check("start", Fields(&copy.start));
   Check("com", Fields(&copy.com));
   Check("control", Fields(&copy.control));
@@ -374,6 +320,7 @@ void Validate(const Scenario& scenario) {
   RequireFew("stance", copy.stance.size());
   for (std::size_t i = 0; i < copy.pushes.size(); ++i) {
     Check(Entry("pushes", i), Fields(&copy.pushes[i]));
+    CheckFraction(Entry("pushes", i), copy.pushes[i]);
   }
   for (std::size_t i = 0; i < copy.stance.size(); ++i) {
     Check(Entry("stance", i), Fields(&copy.stance[i]));

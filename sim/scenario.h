@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,13 @@ struct StartSettings {
   double drop = 0;     ///< Height of the soles above the ground, m.
   double heading = 0;  ///< Heading of the robot in the world, rad.
   Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< Place of the feet, m.
+};
+
+/// The robot that the newtons and meters of a scenario are chosen for, see
+/// FitToRobot().
+struct ChosenFor {
+  double mass = 40;         ///< kg.
+  double com_height = 0.8;  ///< Of the CoM above the soles when it stands, m.
 };
 
 /// Motion of the desired center of mass around its start:
@@ -66,6 +74,7 @@ struct Scenario {
   double duration = 5;
   unsigned seed = 1;
   bool steps = false;  ///< The robot takes steps if it has to, see Gait.
+  std::optional<ChosenFor> chosen_for;
   StartSettings start;
   std::vector<Push> pushes;
   std::vector<StanceEvent> stance;

@@ -11,7 +11,10 @@
 
 #include "poise/robot/finding.h"
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/package_path.h"
 #include "poise/tools/commands/user_path.h"
+#include "poise/tools/studies/robot_trials.h"
+#include "poise/tools/studies/robots_page.h"
 #include "poise/tools/studies/trials.h"
 
 namespace poise {
@@ -43,51 +46,20 @@ int RunAll(const std::vector<Trial>& trials) {
 
 // Returns the trials that the options select. Throws std::invalid_argument if
 // there are none, because an empty table must not count as success.
-std::vector<Trial> MakeTrials(const std::string& robots,
-                              const std::string& only, bool steps) {
-  std::vector<std::string> skipped;
-  std::vector<Trial> trials =
-      !robots.empty() ? RobotTrials(UserPath(robots), only, &skipped)
-      : steps         ? StepTrials()
-                      : RobustnessTrials();
-  for (const std::string& line : skipped) {
-    std::cerr << "robustness: " << line << std::endl;
-  }
+std::vector<Trial> MakeTrials(const std::string& only, bool steps) {
+  std::vector<Trial> trials = steps ? StepTrials() : RobustnessTrials();
   const auto is_left_out = [&only](const Trial& trial) {
     return trial.what.find(only) == std::string::npos;
   };
   trials.erase(std::remove_if(trials.begin(), trials.end(), is_left_out),
                trials.end());
   if (!trials.empty()) return trials;
-  if (!skipped.empty()) {
-    throw std::invalid_argument(UserPath(robots).string() +
-                                ": has no robot with feet");
-  }
   throw std::invalid_argument("--only is " + Quoted(only) +
                               ", must be part of the name of a row");
 }
 
-int Main(int argc, char** argv) {
-  CLI::App app(
-      "Pushes the humanoid in all directions, and with wrong masses, delays, "
-      "noise, slippery ground, weak motors and low control rates. With "
-      "--robots, runs every URDF of a folder. Prints a table. Exit code 1 if a "
-      "row is not as required.",
-      "robustness");
-  std::string robots, only;
-  bool steps = false;
-  app.add_option(
-      "--robots", robots,
-      "push the robots of this folder of URDF files instead. A robot "
-      "uses the profile NAME.yaml beside it, or a profile of Poise, or "
-      "the feet and posture that Poise finds");
-  app.add_flag("--steps", steps,
-               "push a robot that may take steps: 16 directions with each of "
-               "12 errors");
-  app.add_option("--only", only,
-                 "run only the rows whose name contains this text");
-  ParseCommandLine(argc, argv, &app);
-  const std::vector<Trial> trials = MakeTrials(robots, only, steps);
+int TryHumanoid(const std::string& only, bool steps) {
+  const std::vector<Trial> trials = MakeTrials(only, steps);
   std::cout
       << "| what | `push` | it | CoM error, peak x, y, z [mm] | at the "
          "end [mm] | foot tilt [rad] | lean, peak and late [rad] | past "
@@ -100,6 +72,68 @@ int Main(int argc, char** argv) {
   const double most =
       steps ? kMissedSteps * static_cast<double>(trials.size()) : 0;
   return missed <= most ? 0 : 1;
+}
+
+// The options for the robots of a folder.
+struct RobotOptions {
+  std::string folder, out;
+  std::vector<std::string> packages;
+  bool json = false;
+};
+
+int TryRobots(const RobotOptions& options, const std::string& only) {
+  const RobotFolder robots{UserPath(options.folder),
+                           PackageFolders(options.packages), only};
+  if (!options.json) std::cout << RobotsHead(false) << std::endl;
+  const std::vector<RobotTrial> trials =
+      RunRobots(robots, [&](const RobotTrial& trial) {
+        if (!options.json) std::cout << RobotRow(trial, false) << std::endl;
+      });
+  if (!options.out.empty()) WriteRobotsPage(trials, UserPath(options.out));
+  const std::ptrdiff_t kept = std::count_if(
+      trials.begin(), trials.end(),
+      [](const RobotTrial& trial) { return trial.faults.empty(); });
+  if (options.json) {
+    std::cout << RobotsToJson(trials).dump(2) << '\n';
+  } else {
+    std::cout << '\n'
+              << kept << " of " << trials.size() << " robots as expected\n";
+  }
+  return kept == static_cast<std::ptrdiff_t>(trials.size()) ? 0 : 1;
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app(
+      "Pushes the humanoid in all directions, and with wrong masses, delays, "
+      "noise, slippery ground, weak motors and low control rates. With "
+      "--robots, runs every URDF of a folder. Prints a table. Exit code 1 if a "
+      "row is not as required.",
+      "robustness");
+  RobotOptions robots;
+  std::string only;
+  bool steps = false;
+  CLI::Option* folder = app.add_option(
+      "--robots", robots.folder,
+      "run the robots of this folder of URDF files instead: each stands, is "
+      "pushed to four sides, and stands on one leg. A robot uses the profile "
+      "NAME.yaml beside it, or a profile of Poise, or the feet and posture "
+      "that Poise finds. EXPECTED.json in the folder says what each must do");
+  AddPackagePath(&app, &robots.packages);
+  app.add_option("--out", robots.out,
+                 "with --robots: write robots.md and pictures to this folder")
+      ->needs(folder);
+  app.add_flag("--json", robots.json,
+               "with --robots: print one JSON document instead of the table")
+      ->needs(folder);
+  app.add_flag("--steps", steps,
+               "push a robot that may take steps: 16 directions with each of "
+               "12 errors")
+      ->excludes(folder);
+  app.add_option("--only", only,
+                 "run only the rows whose name contains this text");
+  ParseCommandLine(argc, argv, &app);
+  return robots.folder.empty() ? TryHumanoid(only, steps)
+                               : TryRobots(robots, only);
 }
 
 }  // namespace

@@ -28,6 +28,9 @@ constexpr double kNear = 0.08;
 // none of them cannot touch.
 constexpr int kFewJoints = 2;
 
+// Joints within this fraction of the reach count as one joint.
+constexpr double kClose = 0.05;
+
 constexpr int kMostPairs = 200;
 
 struct Candidate {
@@ -52,14 +55,27 @@ int CommonAncestor(const Tree& tree, int a, int b) {
   return a;
 }
 
+// Returns whether one joint, or several close to each other, connects a body
+// with one of its ancestors: a thigh with the pelvis, by a hip of three joints.
+bool AreNeighbors(const Tree& tree, double close, const CollisionPair& pair) {
+  if (pair.ancestor != pair.a) return false;
+  double way = 0;
+  for (int body = pair.b; ParentOf(tree, body) != pair.a;
+       body = ParentOf(tree, body)) {
+    way += tree.joints()[body - 1].X_PF.p.norm();
+  }
+  return way <= close;
+}
+
 std::vector<Candidate> MakeCandidates(
     const Tree& tree, const std::vector<std::vector<Capsule>>& capsules) {
+  const double close = kClose * Reach(tree);
   std::vector<Candidate> candidates;
   for (int b = 1; b < tree.num_bodies(); ++b) {
     for (int a = 0; a < b; ++a) {
       if (capsules[a].empty() || capsules[b].empty()) continue;
-      if (ParentOf(tree, b) == a) continue;
-      candidates.push_back({{a, b, CommonAncestor(tree, a, b)}});
+      const CollisionPair pair{a, b, CommonAncestor(tree, a, b)};
+      if (!AreNeighbors(tree, close, pair)) candidates.push_back({pair});
     }
   }
   return candidates;

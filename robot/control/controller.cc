@@ -81,6 +81,7 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
       guard_(robot_.model.tree),
       stance_(robot_.feet, weight_),
       monitor_(robot_.model.tree, robot_.feet),
+      drag_(robot_),
       tick_(robot_.model.tree, TickFrames(robot_, options.frames)),
       contacts_(robot_.feet.size()),
       hierarchy_(NumVariables(robot_), stack_.capacity()),
@@ -231,6 +232,10 @@ bool Controller::Solve() noexcept {
 void Controller::ComputeCommand(const State& state, Command* command) noexcept {
   Remember(state);
   ComputeTorque(tick_, contacts_, solution_.y, &command->tau);
+  const int nv = robot_.model.tree.nv();
+  const int n = robot_.model.tree.num_joints();
+  drag_.AddTo(TorqueScale(), state.v.tail(n), solution_.y.segment(nv - n, n),
+              &command->tau);
   LimitTorque(command);
   command->status = report_.status;
 }
@@ -283,9 +288,13 @@ void Controller::FailSafe(FailSafeReason reason, const State& state,
   command->status = report_.status;
 }
 
+// Returns the factor on the motors' limits.
+double Controller::TorqueScale() const noexcept {
+  return stack_.GetParameter("torque_limits", "scale").value_or(1);
+}
+
 void Controller::LimitTorque(Command* command) noexcept {
-  const double scale =
-      stack_.GetParameter("torque_limits", "scale").value_or(1);
+  const double scale = TorqueScale();
   for (Eigen::Index j = 0; j < command->tau.size(); ++j) {
     const double limit = scale * robot_.model.limits[j].effort;
     double& tau = command->tau[j];

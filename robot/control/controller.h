@@ -22,6 +22,7 @@
 #include "poise/robot/control/tasks/com.h"
 #include "poise/robot/control/tasks/momentum.h"
 #include "poise/robot/control/tick_report.h"
+#include "poise/robot/control/torque.h"
 #include "poise/robot/control/unmodelled_acceleration.h"
 #include "poise/robot/robot.h"
 
@@ -117,6 +118,7 @@ class Controller {
   void Remember(const State& state) noexcept;
   void FailSafe(FailSafeReason reason, const State& state,
                 Command* command) noexcept;
+  double TorqueScale() const noexcept;
   void LimitTorque(Command* command) noexcept;
   void Relax(const ActiveRow& row) noexcept;
   void EstimateDisturbance() noexcept;
@@ -135,6 +137,7 @@ class Controller {
   StateGuard guard_;
   Stance stance_;
   BalanceMonitor monitor_;
+  DragCompensation drag_;
   Tick tick_;
   std::vector<ContactTick> contacts_;
   Hierarchy hierarchy_;

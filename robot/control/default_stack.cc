@@ -61,7 +61,7 @@ Stack MakeDefaultStack(const Robot& robot,
   if (!FindLightJoints(model).empty()) {
     stack.Add(std::make_unique<LightJointsTask>(model), {kOn, 3, 1});
   }
-  stack.Add(std::make_unique<ContactTask>(feet), {kOn, 3, 1});
+  stack.Add(std::make_unique<ContactTask>(model, feet), {kOn, 3, 1});
   stack.Add(std::make_unique<CopTask>(tree, feet), {kOn, 3, 1});
   stack.Add(std::make_unique<FrictionTask>(tree, feet), {kOn, 3, 1});
   stack.Add(std::make_unique<UnilateralTask>(tree, feet), {kOn, 3, 1});

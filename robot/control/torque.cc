@@ -5,6 +5,28 @@
 #include <cmath>
 
 namespace poise {
+namespace {
+
+// A joint counts as still below these numbers, which are multiplied by powers
+// of PendulumRate(). They are above the noise of a standing robot.
+constexpr double kStillSpeed = 0.01;
+constexpr double kStillAcceleration = 0.02;
+
+// Returns sqrt(g / h) of the robot's pendulum, 1/s.
+double PendulumRate(const Robot& robot) {
+  const Tree& tree = robot.model.tree;
+  Tick tick(tree, {});
+  ComputeTick(tree, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
+  double height = 0;
+  for (const Foot& foot : robot.feet) {
+    const Eigen::Vector3d p_WC = tick.X_WB[foot.body] * foot.X_BC.p;
+    height = std::max(height, tick.p_WG.z() - p_WC.z());
+  }
+  // Without a height, in the bolted-down robots of tests, a meter is assumed.
+  return std::sqrt(tree.gravity_W().norm() / (height > 0 ? height : 1));
+}
+
+}  // namespace
 
 void ComputeTorque(const Tick& tick, const std::vector<ContactTick>& contacts,
                    const Eigen::VectorXd& y, Eigen::VectorXd* tau) noexcept {
@@ -16,6 +38,35 @@ void ComputeTorque(const Tick& tick, const std::vector<ContactTick>& contacts,
     if (!contacts[i].in_contact) continue;
     tau->noalias() -=
         contacts[i].J_WC_C.rightCols(n).transpose() * y.segment<6>(nv + 6 * i);
+  }
+}
+
+DragCompensation::DragCompensation(const Robot& robot) {
+  for (int j = 0; j < robot.model.tree.num_joints(); ++j) {
+    const JointLimits& limits = robot.model.limits[j];
+    if (!(limits.damping > 0 || limits.friction > 0)) continue;
+    drags_.push_back({j, limits.damping, limits.friction, limits.effort});
+  }
+  const double rate = PendulumRate(robot);
+  velocity_ = kStillSpeed * rate;
+  acceleration_ = kStillAcceleration * rate * rate;
+}
+
+void DragCompensation::AddTo(double scale,
+                             const Eigen::Ref<const Eigen::VectorXd>& v,
+                             const Eigen::Ref<const Eigen::VectorXd>& vdot,
+                             Eigen::VectorXd* tau) const noexcept {
+  for (const Drag& drag : drags_) {
+    const double moves = std::tanh(v[drag.joint] / velocity_);
+    const double starts = std::tanh(vdot[drag.joint] / acceleration_);
+    const double added =
+        drag.damping * v[drag.joint] +
+        drag.friction * (moves + (1 - std::abs(moves)) * starts);
+    double& torque = (*tau)[drag.joint];
+    // The motor's limit cuts the added torque, never the torque of (10).
+    const double least = std::min(torque, -scale * drag.effort);
+    const double most = std::max(torque, scale * drag.effort);
+    torque = std::clamp(torque + added, least, most);
   }
 }
 

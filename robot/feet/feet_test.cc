@@ -230,8 +230,8 @@ TEST(FindFeet, EstimatesTheSoleOfAMesh) {
   ASSERT_EQ(findings.size(), 2u);
   EXPECT_EQ(findings[0].severity, Severity::kWarn);
   EXPECT_EQ(findings[0].what,
-            "is estimated as 0.22 x 0.12 m, 0.1 m below the ankle");
-  EXPECT_LT((feet[0].half_size - Vector2d(0.11, 0.06)).norm(), kPromised);
+            "is estimated as 0.22 x 0.085 m, 0.1 m below the ankle");
+  EXPECT_LT((feet[0].half_size - Vector2d(0.11, 0.0425)).norm(), kPromised);
   EXPECT_LT((feet[0].X_BC.p - Eigen::Vector3d(0.04, 0, -0.1)).norm(),
             kPromised);
 }

@@ -84,7 +84,7 @@ void CheckMotors(const RobotModel& model, int hip, int foot,
 }
 
 // Estimates the sole of a foot that has only meshes, as FindFeet() describes.
-Sole SoleWithoutShape(const RobotModel& model, int body,
+Sole SoleWithoutShape(const RobotModel& model, int body, const Outline& outline,
                       const std::vector<Pose>& X_WB, const Vector3d& forward,
                       double leg, std::vector<Finding>* findings) {
   const Vector3d left = Vector3d::UnitZ().cross(forward);
@@ -99,7 +99,7 @@ Sole SoleWithoutShape(const RobotModel& model, int body,
            " x " + PrintNumber(std::abs(diagonal.dot(up_B.cross(forward_B)))) +
            " m, " + PrintNumber(-up_B.dot(sole.points_B[0])) +
            " m below the ankle",
-       "because the foot has only meshes: give the sole in a profile");
+       WhyEstimated(outline));
   return sole;
 }
 
@@ -146,9 +146,9 @@ std::vector<Foot> FindFeet(const RobotModel& model,
     const int body = legs.feet[i];
     const double leg = X_WB[legs.hips[i]].p.z() - X_WB[body].p.z();
     const bool is_guess = soles[i].points_B.empty();
-    const Sole sole =
-        is_guess ? SoleWithoutShape(model, body, X_WB, forward, leg, findings)
-                 : soles[i];
+    const Sole sole = is_guess ? SoleWithoutShape(model, body, outlines[body],
+                                                  X_WB, forward, leg, findings)
+                               : soles[i];
     const Pose X_BS =
         MakeSoleAxes(sole, outlines[body], X_WB[body].R.transpose() * forward);
     std::vector<Vector2d> points;
@@ -165,7 +165,7 @@ std::vector<Foot> FindFeet(const RobotModel& model,
                                   "the sole in a profile: link " +
                                   Quoted(LinkOf(model, body)));
     }
-    foot->source = is_guess ? SoleSource::kGuess : SoleSource::kBox;
+    foot->source = sole.source;
     CheckLength(model, *foot, leg, findings);
     feet.push_back(*std::move(foot));
   }

@@ -17,20 +17,18 @@ namespace poise {
 /// and gets a warning if it has fewer than five. FindFacing() describes how
 /// forward is told from backward, and left from right.
 ///
-/// A sole is the flat underside of the body's collision boxes, cylinders and
-/// spheres. If the body has no such collision shapes, its visual shapes are
-/// used. Candidate planes are normal to an axis of the shapes, to an axis of
-/// the body, or to the vertical. They are at most 35 degrees from horizontal.
-/// The plane with the largest area is chosen. A sole shorter than a tenth of
-/// the leg gets a warning.
+/// A sole is the flat underside of the body's collision shapes. If they give no
+/// point, its visual shapes are used. Meshes are opened, see MakeOutlines().
+/// FindSole() describes how the plane of the sole is chosen. A sole shorter than
+/// a tenth of the leg gets a warning.
 ///
-/// Meshes are not opened. If a foot has only meshes, the sole is estimated from
+/// If a foot has only meshes that cannot be read, the sole is estimated from
 /// the height L of the hip above the foot's origin:
 ///  - height: that of a link named `sole`, else of the foot's lowest link,
 ///    else 0.1 L below the ankle;
 ///  - length: from 0.07 L behind the ankle to 0.15 L in front of the ankle;
-///  - width: 0.12 L, centered below the foot's center of mass.
-/// Most real feet are larger than this estimate, so a profile should give the
+///  - width: 0.085 L, centered below the foot's center of mass.
+/// All known feet are wider than this estimate, so a profile should give the
 /// sole.
 ///
 /// @param findings  if not null, receives the warnings.

@@ -210,8 +210,11 @@ struct UrdfDocument::Content {
 };
 
 UrdfDocument::UrdfDocument(const std::filesystem::path& file,
-                           std::vector<Finding>* findings)
-    : UrdfDocument(ReadTextFile(file, kMostMib), file.string(), findings) {}
+                           std::vector<Finding>* findings,
+                           std::vector<std::filesystem::path> packages)
+    : UrdfDocument(ReadTextFile(file, kMostMib), file.string(), findings) {
+  mesh_places_ = {file, std::move(packages)};
+}
 
 UrdfDocument::UrdfDocument(std::string_view text, std::string source,
                            std::vector<Finding>* findings)
@@ -233,7 +236,8 @@ RobotModel UrdfDocument::MakeModel(
   const UrdfFacts& facts = content_->facts;
   const urdf::ModelInterface& urdf = *content_->urdfdom.get();
   RobotModel model{
-      urdf.getName(), MakeTree(urdf, facts, locked, added), {}, {}, {}, {}, 0};
+      urdf.getName(), MakeTree(urdf, facts, locked, added), {}, {}, {}, {}, 0,
+      mesh_places_};
   for (const Joint& joint : model.tree.joints()) {
     model.limits.push_back(facts.limits.at(joint.name));
   }

@@ -58,6 +58,9 @@ Json PushesToJson(const Robot& robot, const Scenario& scenario) {
     entry["duration"] = push.duration;
     entry["shape"] = NameOf(push.profile);
     entry["impulse_Ns"] = ImpulseOf(push, scenario.duration);
+    // The fraction of the bound that the force was computed from.
+    entry["impulse_fraction"] =
+        push.impulse_fraction ? Json(*push.impulse_fraction) : Json(nullptr);
     list.push_back(std::move(entry));
   }
   return list;
@@ -124,8 +127,11 @@ std::string PushLine(const Robot& robot, const Push& push, double until,
   const char* shape = "";
   if (push.profile == PushProfile::kHalfSine) shape = "half sine, peak ";
   if (push.profile == PushProfile::kImpulse) shape = "in one step, as much as ";
-  const std::string start =
+  std::string start =
       with_start ? ", from " + PrintNumber(push.start) + " s" : "";
+  if (push.impulse_fraction) {
+    start += ", " + PrintNumber(*push.impulse_fraction) + " of the bound";
+  }
   return Line("push", "%.2f N s over %.3f s: %s%.0f N at %.0f deg%s on %s%s",
               ImpulseOf(push, until), push.duration, shape, push.force.norm(),
               std::atan2(push.force.y(), push.force.x()) / kDegree,
@@ -181,8 +187,11 @@ std::string StepLines(const Robot& robot, const RunResult& result) {
                   std::string(Describe(command.answer)).c_str());
   }
   if (result.commanded_done) {
-    lines += Line("commanded steps", "%s",
+    lines += Line("commanded motion", "%s",
                   *result.commanded_done ? "done" : "not all done");
+  }
+  for (const std::string& missed : result.not_done) {
+    lines += Line("not done", "%s", missed.c_str());
   }
   return lines;
 }
@@ -239,6 +248,7 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
   json["steps"] = StepsToJson(robot, result);
   json["commanded_done"] =
       result.commanded_done ? Json(*result.commanded_done) : Json(nullptr);
+  json["not_done"] = result.not_done;
   json["ticks"] = result.ticks;
   json["tick_us"] = {{"median", result.tick_us.median},
                      {"p99", result.tick_us.p99},
@@ -263,7 +273,9 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
   if (result.interrupted && !verdict.fell_at) {
     table += "interrupted";
   } else if (verdict.recovered) {
-    table += "recovered";
+    table += result.commanded_done.value_or(true)
+                 ? "recovered"
+                 : "recovered, but the commanded motion did not happen";
   } else if (verdict.fell_at) {
     std::snprintf(text, sizeof(text), "fell at %.3f s: ", *verdict.fell_at);
     table += text + FellBy(result);

@@ -37,21 +37,52 @@ mkdir "$robots"
 refuse "$robots: must be a folder of URDF files" --robots "$robots"
 
 # An unknown robot with a profile next to its URDF, and a robot without feet.
+# Without EXPECTED.json, a robot that is refused is no fault.
 cp robot/models/humanoid.urdf "$robots/mine.urdf"
 cp robot/profiles/humanoid.yaml "$robots/mine.yaml"
 echo '<robot name="box"><link name="b"/></robot>' > "$robots/box.urdf"
-refuse "--only is 'nosuch', must be part of the name of a row" \
+refuse "--only is 'nosuch', must be part of the name of a robot" \
   --robots "$robots" --only nosuch
-run 0 --robots "$robots"
-grep -q '^| mine stands |.* --profile mine.yaml` | recovers |.*| yes |$' \
-  <<< "$out" || fail "mine does not stand: $out"
-grep -q '^| mine, pushed |.*| recovers |.*| yes |$' <<< "$out" ||
-  fail "mine is not pushed: $out"
-[ "$(wc -l <<< "$out")" = 6 ] || fail "the table must have two rows: $out"
-grep -q "^2 of 2 rows as they must be$" <<< "$out" || fail "no count: $out"
-grep -q '^robustness: box.urdf is skipped: ' <<< "$err" ||
-  fail "no message says that box.urdf is skipped: $err"
-[ "$(wc -l <<< "$err")" = 1 ] || fail "stderr must have one line: $err"
+run 0 --robots "$robots" --out "$TEST_TMPDIR/page"
+row='^| mine | profile | [0-9]* mm | [0-9]* mm, [0-9]* mm, [0-9]* mm, [0-9]* mm '
+row+='| [0-9]* mm | yes |$'
+grep -q "$row" <<< "$out" || fail "mine does not stand or is not pushed: $out"
+grep -q '^| box | refused: .* | yes |$' <<< "$out" || fail "box is not refused: $out"
+grep -q "^2 of 2 robots as expected$" <<< "$out" || fail "no count: $out"
+[ -z "$err" ] || fail "there is a warning: $err"
+grep -q '^| !\[mine\](figures/robots/mine.png) | mine |' \
+  "$TEST_TMPDIR/page/robots.md" || fail "the page has no picture of mine"
+[ -s "$TEST_TMPDIR/page/figures/robots/mine.png" ] || fail "there is no picture"
+
+# EXPECTED.json says what a robot must do.
+cat > "$robots/EXPECTED.json" << 'END'
+{"mine": {"stands": true, "left_foot_link": "r_foot", "forward": "-x"},
+ "box": {"stands": true}}
+END
+run 1 --robots "$robots" --json
+python3 - "$TEST_TMPDIR/out" << 'END' || fail "the document is: $out"
+import json
+import sys
+
+document = json.load(open(sys.argv[1]))
+box, mine = document['robots']
+assert document['as_expected'] == 0 and document['of'] == 2
+assert box['faults'] == ['is refused'] and not box['stands'], box
+assert len(mine['faults']) == 2, mine['faults']
+assert mine['faults'][0].startswith('left foot is '), mine['faults']
+assert mine['faults'][1] == 'forward is +x, must be -x', mine['faults']
+assert [p['direction_deg'] for p in mine['pushes']] == [0, 90, 180, 270]
+for push in mine['pushes']:
+    fraction = push['impulse_Ns'] / push['lipm_height_Ns']
+    assert push['recovered'] and abs(fraction - 0.4) < 1e-9, push
+assert mine['one_leg']['commanded_done']
+END
+echo '{"box": {"stands": false}}' > "$robots/EXPECTED.json"
+run 0 --robots "$robots" --only box
+echo '{"box": 3}' > "$robots/EXPECTED.json"
+refuse "$robots/EXPECTED.json: robot 'box': must have stands: true or false" \
+  --robots "$robots"
+rm "$robots/EXPECTED.json"
 
 # Without a profile the feet and the posture are found, as by push. Knees this
 # weak cannot hold the robot.
@@ -59,12 +90,8 @@ rm "$robots/mine.urdf" "$robots/mine.yaml"
 sed -e '/<joint name="._knee"/,/<\/joint>/s/effort="[^"]*"/effort="2.5"/' \
   -e 's/<robot name="humanoid"/<robot name="weak"/' \
   robot/models/humanoid.urdf > "$robots/weak.urdf"
-run 1 --robots "$robots" --only 'weak stands'
-grep -q '^| weak stands |.* weak.urdf` | falls at .*| \*\*no\*\* |$' <<< "$out" ||
+run 1 --robots "$robots" --only weak
+grep -q '^| weak | .* | \*\*falls at .*\*\* | .*\*\*no\*\*: does not stand' <<< "$out" ||
   fail "the robot with weak knees stands: $out"
-
-# A robot that cannot be simulated is not tried: this folder has nothing to try.
-rm "$robots/weak.urdf"
-run 2 --robots "$robots"
-[ "$(tail -n 1 <<< "$err")" = "robustness: $robots: has no robot with feet" ] ||
-  fail "a folder without robots prints: $err"
+echo '{"weak": {"stands": false}}' > "$robots/EXPECTED.json"
+run 0 --robots "$robots" --only weak

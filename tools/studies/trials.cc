@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include "poise/robot/control/stand.h"
@@ -14,13 +12,11 @@
 #include "poise/robot/limits.h"
 #include "poise/robot/profile/find_profile.h"
 #include "poise/robot/profile/profile.h"
-#include "poise/robot/urdf/urdf.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/observation.h"
 #include "poise/sim/outcome.h"
 #include "poise/sim/push.h"
 #include "poise/sim/yardstick.h"
-#include "poise/tools/commands/push/warnings.h"
 
 namespace poise {
 namespace {
@@ -34,9 +30,8 @@ constexpr double kUprightLean = 0.02;  // rad.
 // Largest growth of the tilt from the second quarter to the last one.
 constexpr double kNoGrowth = 1e-3;  // rad.
 
-// Fractions of the force that a pendulum on the robot's feet can take for
-// kPushTime: sideways for any robot, in every direction for our humanoid.
-constexpr double kRobotsPush = 0.4;
+// Fraction of the force that a pendulum on the robot's feet can take for
+// kPushTime, in every direction.
 constexpr double kOurPush = 0.9;
 constexpr double kPushTime = 0.1;  // s.
 constexpr int kDirections = 16;
@@ -112,8 +107,8 @@ Change With(const std::string& task) {
 // Changes of the first push.
 Change Force(double newton) {
   return Number("--force", newton, [](double x, Scenario* to) {
-    Eigen::Vector3d& force = to->pushes.at(0).force;
-    force = x * force.normalized();
+    Push& push = to->pushes.at(0);
+    SetForce(x * push.force.normalized(), &push);
   });
 }
 
@@ -183,24 +178,6 @@ double AimedImpulse(int direction) {
   return kAims[direction <= 8 ? direction : 16 - direction];
 }
 
-// Returns the URDF files of a folder in alphabetical order.
-std::vector<std::filesystem::path> UrdfFiles(
-    const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
-    if (entry.path().extension() == ".urdf") {
-      files.push_back(std::filesystem::absolute(entry.path()));
-    }
-  }
-  if (files.empty()) {
-    throw std::invalid_argument(folder.string() +
-                                ": must be a folder of URDF files");
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 // Returns the force that a pendulum on the robot's feet can take in the
 // direction of the first push, N.
 double PendulumForce(const Experiment& experiment) {
@@ -237,74 +214,6 @@ void AddDirections(const Robot& robot, std::vector<Trial>* trials) {
         {PushDuration(kPushTime), Time(5), Direction(degrees)}));
   }
 }
-
-// The names of the two trials of a robot.
-std::string Stands(const std::string& robot) { return robot + " stands"; }
-std::string Pushed(const std::string& robot) { return robot + ", pushed"; }
-
-bool Contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-// A robot that others have built.
-class Candidate {
- public:
-  // Throws if the file does not describe a robot.
-  explicit Candidate(const std::filesystem::path& urdf)
-      : urdf_(urdf),
-        document_(urdf, &findings_),
-        profile_(FindProfile(document_.MakeModel().name, urdf)) {
-    const bool is_beside = profile_.parent_path() == urdf.parent_path();
-    name_ = (profile_.empty() || is_beside ? urdf : profile_).stem().string();
-  }
-
-  const std::string& name() const { return name_; }
-
-  // Appends the robot's trials whose name contains `only`. Throws if the robot
-  // cannot be simulated.
-  void AddTrials(const std::string& only, std::vector<Trial>* trials) {
-    const bool has_stands = Contains(Stands(name_), only);
-    const bool has_pushed = Contains(Pushed(name_), only);
-    if (!has_stands && !has_pushed) return;
-    const Profile profile =
-        profile_.empty() ? Profile() : LoadProfile(profile_);
-    const Robot robot = MakeStandingRobot(document_, profile, &findings_);
-    std::vector<Trial> both;
-    if (has_stands) both.push_back(Make(Stands(name_), robot, "stand", {}));
-    if (has_pushed) {
-      both.push_back(MakePush(Pushed(name_), robot, kRobotsPush,
-                              {PushDuration(kPushTime)}));
-    }
-    for (Trial& trial : both) {
-      UseTasksOf(profile, &trial.experiment.scenario);
-      trial.options += " --robot " + urdf_.filename().string();
-      if (!profile_.empty()) {
-        trial.options += " --profile " + profile_.filename().string();
-      }
-    }
-    CheckLoop(both.back().experiment);
-    PrintWarnings(urdf_.string(), robot, findings_);
-    trials->insert(trials->end(), both.begin(), both.end());
-  }
-
- private:
-  // Throws if the plant or the controller rejects the robot.
-  void CheckLoop(const Experiment& experiment) const {
-    try {
-      ClosedLoop(experiment.robot, experiment.scenario);
-    } catch (const Refusal&) {  // Its message names the file.
-      throw;
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(urdf_.string() + ": " + error.what());
-    }
-  }
-
-  std::filesystem::path urdf_;
-  std::vector<Finding> findings_;
-  UrdfDocument document_;
-  std::filesystem::path profile_;
-  std::string name_;
-};
 
 bool Holds(Bar bar, const TrialResult& result) {
   const Verdict& verdict = result.verdict;
@@ -394,27 +303,6 @@ std::vector<Trial> StepTrials() {
       trials.push_back(
           Make("step, " + PrintNumber(degrees) + " degrees: " + what, robot,
                "shove", changes));
-    }
-  }
-  return trials;
-}
-
-std::vector<Trial> RobotTrials(const std::filesystem::path& robots,
-                               const std::string& only,
-                               std::vector<std::string>* skipped) {
-  std::vector<Trial> trials;
-  for (const std::filesystem::path& file : UrdfFiles(robots)) {
-    std::string name = file.stem().string();
-    try {
-      Candidate candidate(file);
-      name = candidate.name();
-      candidate.AddTrials(only, &trials);
-    } catch (const std::invalid_argument& error) {
-      if (!Contains(Stands(name), only) && !Contains(Pushed(name), only)) {
-        continue;
-      }
-      skipped->push_back(file.filename().string() +
-                         " is skipped: " + OneLine(error.what()));
     }
   }
   return trials;

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -51,21 +50,6 @@ std::vector<Trial> RobustnessTrials();
 /// mass 10 % wrong, delays, noise with an estimated base, slippery ground, low
 /// rates, MuJoCo, gains 20 % wrong.
 std::vector<Trial> StepTrials();
-
-/// Returns trials of robots that others have built. Each robot stands after a
-/// start off its equilibrium, and is pushed sideways with 40 % of the force
-/// that a pendulum on its feet can take. A robot has the profile of
-/// FindProfile(); without one, its feet and posture are found. Warnings about
-/// each robot are printed on stderr.
-///
-/// @param robots  folder of the URDF files.
-/// @param only    text that the names of the returned rows contain.
-/// @param skipped  receives "FILE is skipped: why" for each robot that cannot
-/// be simulated or has no feet.
-/// Throws std::invalid_argument if the folder has no URDF files.
-std::vector<Trial> RobotTrials(const std::filesystem::path& robots,
-                               const std::string& only,
-                               std::vector<std::string>* skipped);
 
 /// Runs a trial. Throws as ClosedLoop does.
 TrialResult Try(const Trial& trial);

@@ -25,8 +25,8 @@ constexpr double kSoftness = 0.01;
 constexpr double kMinDistance = 0.01;
 constexpr double kOmega = 13.8;
 
-// A row may be loosened to this acceleration, relative to gravity.
-constexpr double kLoosest = 10;
+// A row is loosened to infinity at this acceleration, relative to gravity.
+constexpr double kLoosest = 1;
 
 // A pair whose bounding balls are farther apart than this fraction of the reach
 // is not near.
@@ -72,6 +72,30 @@ CollisionModel WithoutOverlaps(const Robot& robot, CollisionModel model) {
   return model;
 }
 
+// Returns the factors of the joint rates in an upper bound of the speed of any
+// point of a capsule relative to another.
+std::vector<double> Levers(const Tree& tree, const CollisionModel& model) {
+  std::vector<double> reach(tree.num_bodies(), 0);
+  for (int b = tree.num_bodies() - 1; b > 0; --b) {
+    if (!model.capsules[b].empty()) {
+      const CollisionBound& bound = model.bounds[b];
+      reach[b] = std::max(reach[b], bound.center.norm() + bound.radius);
+    }
+    const Joint& joint = tree.joints()[b - 1];
+    if (reach[b] > 0) {
+      reach[joint.parent] =
+          std::max(reach[joint.parent], reach[b] + joint.X_PF.p.norm());
+    }
+  }
+  std::vector<double> levers;
+  for (const Joint& joint : tree.joints()) {
+    const double lever = reach[levers.size() + 1];
+    const bool is_slider = joint.type == JointType::kPrismatic;
+    levers.push_back(is_slider && lever > 0 ? 1 : lever);
+  }
+  return levers;
+}
+
 std::string Words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
@@ -100,6 +124,7 @@ SelfCollisionTask::SelfCollisionTask(const Robot& robot, CollisionModel model)
       model_(std::move(model)),
       joints_(robot.model.tree.joints()),
       v_start_(robot.model.tree.v_start()),
+      lever_(Levers(robot.model.tree, model_)),
       nominal_(NominalDistances(robot, model_)),
       loosest_(kLoosest * GravityOf(robot.model.tree)),
       d_min_(kMinDistance * model_.reach),
@@ -109,17 +134,19 @@ SelfCollisionTask::SelfCollisionTask(const Robot& robot, CollisionModel model)
 }
 
 bool SelfCollisionTask::HasRows(const TaskInput& input) const noexcept {
+  const double max_speed = MaxSpeed(input);
   for (int i = 0; i < static_cast<int>(model_.pairs.size()); ++i) {
-    if (FindBound(input, i).is_near) return true;
+    if (FindBound(input, i, max_speed).is_near) return true;
   }
   return false;
 }
 
 void SelfCollisionTask::Write(const TaskInput& input, EqualityBlock*,
                               InequalityBlock* inequalities) const noexcept {
+  const double max_speed = MaxSpeed(input);
   const double scale = 4 / (omega_ * omega_ * model_.reach);
   for (int i = 0; i < static_cast<int>(model_.pairs.size()); ++i) {
-    const Bound bound = FindBound(input, i);
+    const Bound bound = FindBound(input, i, max_speed);
     if (!bound.is_near) continue;
     const CollisionPair& pair = model_.pairs[i];
     const ClosestPoints& closest = bound.closest;
@@ -159,12 +186,29 @@ SelfCollisionTask::PointMotion SelfCollisionTask::Relative(
   return motion;
 }
 
-SelfCollisionTask::Bound SelfCollisionTask::FindBound(const TaskInput& input,
-                                                      int i) const noexcept {
+// Returns an upper bound of |ḋ| of all pairs, m/s.
+double SelfCollisionTask::MaxSpeed(const TaskInput& input) const noexcept {
+  double speed = 0;
+  for (size_t j = 0; j < lever_.size(); ++j) {
+    speed += lever_[j] * std::abs(input.state.v[v_start_ + j]);
+  }
+  return speed;
+}
+
+SelfCollisionTask::Bound SelfCollisionTask::FindBound(
+    const TaskInput& input, int i, double max_speed) const noexcept {
   Bound bound;
   const CollisionPair& pair = model_.pairs[i];
   const std::vector<Pose>& X_WB = input.tick.X_WB;
-  if (BoundPairDistance(model_, pair, X_WB) > kFar * model_.reach) return bound;
+  const double d_min =
+      std::min({d_min_, nominal_[i] / 2, nominal_[i] - d_min_ / 2});
+  // Most pairs are so far apart that u cannot be below u_max at any direction of
+  // the motion: their chains are not computed.
+  const double least = BoundPairDistance(model_, pair, X_WB);
+  if (least > kFar * model_.reach ||
+      omega_ * omega_ * (least - d_min) - 2 * omega_ * max_speed >= loosest_) {
+    return bound;
+  }
   bound.closest = ComputePairDistance(model_, pair, X_WB, kSoftness);
   const Vector3d& gradient = bound.closest.gradient;
   double unmodelled = 0;
@@ -172,7 +216,6 @@ SelfCollisionTask::Bound SelfCollisionTask::FindBound(const TaskInput& input,
                                  bound.closest.p_A, gradient, &unmodelled);
   const PointMotion B = Relative(input, pair.b, pair.ancestor,
                                  bound.closest.p_B, -gradient, &unmodelled);
-  const double d_min = std::min(d_min_, nominal_[i] - d_min_ / 2);
   const double u = 2 * omega_ * gradient.dot(A.v - B.v) +
                    omega_ * omega_ * (bound.closest.distance - d_min);
   if (!(u < loosest_) || gradient.isZero()) return bound;

@@ -22,11 +22,12 @@ namespace poise {
 /// their nearest capsules, with softness 0.01, so that c is continuous. A row
 /// that is far from binding is loosened to -infinity: with u = -l > 0,
 ///     l' = -u / (1 - u / u_max) for u < u_max, no row for u >= u_max,
-/// u_max 10 times gravity. Near the bound (u -> 0) nothing is loosened, so that
+/// u_max the acceleration of gravity. Near the bound (u -> 0) nothing is loosened, so that
 /// d keeps d_min.
 ///
-/// Bodies that stand closer together than d_min + d_min / 2 in the nominal
-/// posture keep this distance less d_min / 2. A pair that overlaps there by more
+/// Bodies that stand close together in the nominal posture, at d_0, keep
+/// min(d_min, d_0 / 2, d_0 - d_min / 2) instead of d_min, so that the posture is
+/// well inside the bound. A pair that overlaps there by more
 /// than half of its smaller radius has no row: its capsules do not describe the
 /// bodies well enough. Rows are divided by w² and a quarter of the reach.
 class SelfCollisionTask final : public Task {
@@ -58,7 +59,9 @@ class SelfCollisionTask final : public Task {
                        const Eigen::Vector3d& p_WQ,
                        const Eigen::Vector3d& gradient,
                        double* unmodelled) const noexcept;
-  Bound FindBound(const TaskInput& input, int pair) const noexcept;
+  double MaxSpeed(const TaskInput& input) const noexcept;
+  Bound FindBound(const TaskInput& input, int pair,
+                  double max_speed) const noexcept;
   void WriteChain(const Tick& tick, int body, int ancestor,
                   const Eigen::Vector3d& p_WQ, const Eigen::Vector3d& gradient,
                   Eigen::Ref<Eigen::RowVectorXd> row) const noexcept;
@@ -66,6 +69,9 @@ class SelfCollisionTask final : public Task {
   CollisionModel model_;
   std::vector<Joint> joints_;
   int v_start_;
+  // By joint: largest distance from its axis to a capsule that it moves, m; 1 for
+  // a prismatic joint.
+  std::vector<double> lever_;
   // By pair: the distance in the nominal posture, m.
   std::vector<double> nominal_;
   double loosest_;  // u_max, m/s2.

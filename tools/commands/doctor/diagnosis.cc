@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/commands/doctor/diagnosis.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -48,8 +48,9 @@ double HeightOfMass(const Robot& robot) {
 
 class Doctor {
  public:
-  Doctor(const std::filesystem::path& urdf, const Profile& profile)
-      : urdf_(urdf), profile_(profile) {}
+  Doctor(const std::filesystem::path& urdf, const Profile& profile,
+         const std::vector<std::filesystem::path>& packages)
+      : urdf_(urdf), profile_(profile), packages_(packages) {}
 
   Diagnosis Examine();
 
@@ -75,6 +76,7 @@ class Doctor {
 
   const std::filesystem::path urdf_;
   const Profile profile_;
+  const std::vector<std::filesystem::path> packages_;
   std::optional<UrdfDocument> document_;  // Set by Load().
   Diagnosis diagnosis_;
   std::optional<double> smallest_eigenvalue_;  // See CheckInertia().
@@ -109,7 +111,7 @@ void Doctor::Add(Severity severity, std::string where, std::string what,
 
 std::optional<RobotModel> Doctor::Load() {
   try {
-    document_.emplace(urdf_, &diagnosis_.findings);
+    document_.emplace(urdf_, &diagnosis_.findings, packages_);
     return document_->MakeModel();
   } catch (const Refusal& refusal) {
     // UrdfDocument may have added the reason already.
@@ -168,9 +170,11 @@ void Doctor::CheckStanding() {
       ApplyTasks(profile_.tasks, profile_.file.string(), &stack);
     }
     for (const Foot& foot : robot.feet) {
+      Eigen::AlignedBox2d sole;
+      for (const Eigen::Vector2d& corner : foot.polygon_C) sole.extend(corner);
       diagnosis_.soles.push_back(
           {foot.name, robot.model.tree.frames()[foot.frame].name,
-           2 * foot.half_size.x(), 2 * foot.half_size.y()});
+           sole.sizes().x(), sole.sizes().y()});
     }
     if (smallest_eigenvalue_) {
       if (!robot.can_stand) StandUp(&robot, profile_);
@@ -217,8 +221,9 @@ Severity Diagnosis::worst() const {
   return worst;
 }
 
-Diagnosis Diagnose(const std::filesystem::path& urdf, const Profile& profile) {
-  return Doctor(urdf, profile).Examine();
+Diagnosis Diagnose(const std::filesystem::path& urdf, const Profile& profile,
+                   const std::vector<std::filesystem::path>& packages) {
+  return Doctor(urdf, profile, packages).Examine();
 }
 
 }  // namespace poise

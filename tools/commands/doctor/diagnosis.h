@@ -26,7 +26,7 @@ struct Diagnosis {
   std::vector<Mass> bodies;  ///< Links with all links fixed to them.
   struct Sole {
     std::string name, link;
-    double length, width;
+    double length, width;  ///< Of the sole polygon, m.
   };
   std::vector<Sole> soles;
   std::optional<double> com_height;  ///< In the standing posture, if any.
@@ -42,7 +42,10 @@ struct Diagnosis {
 /// Takes less than 10 s and 1 GiB. To limit the time, M is not computed for
 /// more than 500 joints. Standing and parity are not examined for more than 100
 /// joints, 1000 links or 10000 shapes.
+///
+/// @param packages  folders of packages with meshes, see FindMesh().
 Diagnosis Diagnose(const std::filesystem::path& urdf,
-                   const Profile& profile = {});
+                   const Profile& profile = {},
+                   const std::vector<std::filesystem::path>& packages = {});
 
 }  // namespace poise

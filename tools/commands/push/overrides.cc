@@ -48,7 +48,7 @@ void TakeRate(const std::optional<double>& rate, double* dt) {
 // a new push.
 void TakePush(const Overrides& o, Scenario* scenario) {
   if (o.pushes) scenario->pushes = LoadPushes(UserPath(*o.pushes));
-  if (!o.force && !o.direction && !o.duration && !o.at && !o.link &&
+  if (!o.force && !o.impulse_fraction && !o.direction && !o.duration && !o.at && !o.link &&
       o.point.empty()) {
     return;
   }
@@ -57,6 +57,7 @@ void TakePush(const Overrides& o, Scenario* scenario) {
     scenario->pushes[0].force = {0, 50, 0};
   }
   Push& push = scenario->pushes[0];
+  if (o.force) SetForce(push.force, &push);
   const double force = o.force.value_or(push.force.norm());
   if (o.direction) {
     double degrees = *o.direction;
@@ -66,6 +67,10 @@ void TakePush(const Overrides& o, Scenario* scenario) {
   } else if (o.force) {
     push.force = push.force.isZero() ? Eigen::Vector3d(0, force, 0)
                                      : force * push.force.normalized();
+  }
+  if (o.impulse_fraction) {
+    push.impulse_fraction = o.impulse_fraction;
+    push.elsewhere.reset();
   }
   Take(o.duration, &push.duration);
   Take(o.at, &push.start);
@@ -82,6 +87,11 @@ void AddOptions(CLI::App* app, Overrides* o) {
   app->add_option("--force", o->force,
                   "force of the push, N (from the scenario)")
       ->check(finite);
+  app->add_option("--impulse-fraction", o->impulse_fraction,
+                  "impulse of the push, as a fraction of lipm_height_Ns in "
+                  "summary.json; in place of --force")
+      ->check(finite)
+      ->excludes("--force");
   app->add_option(
          "--direction", o->direction,
          "direction of the push, deg: 0 is +x, forward; 90 is +y, left "

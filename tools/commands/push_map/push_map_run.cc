@@ -222,7 +222,8 @@ Experiment PushExperiment(const PushMapPlan& plan, const PushMapPoint& point,
   Push& push = experiment.scenario.pushes.at(0);
   push.duration = point.duration;
   const double force = impulse / ProfileIntegral(push);
-  push.force << force * DirectionOf(point), 0;
+  SetForce((Eigen::Vector3d() << force * DirectionOf(point), 0).finished(),
+           &push);
   return experiment;
 }
 

@@ -1,0 +1,90 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/sim/command/command_watch.h"
+
+#include <gtest/gtest.h>
+
+#include "poise/sim/run.h"
+#include "poise/tests/util/load_humanoid.h"
+
+namespace poise {
+namespace {
+
+// The CoM moves over the left foot, the right foot is lifted and put down.
+Scenario OneLeg() {
+  Scenario scenario;
+  scenario.name = "one_leg";
+  scenario.duration = 4.6;
+  StanceEvent shift;
+  shift.at = 0.1;
+  shift.foot = "left_foot";
+  shift.over = 1;
+  StanceEvent lift = shift, put_down = shift;
+  lift.kind = StanceEvent::Kind::kLift;
+  lift.foot = put_down.foot = "right_foot";
+  lift.at = 1.4;
+  put_down.kind = StanceEvent::Kind::kPutDown;
+  put_down.at = 2.8;
+  scenario.stance = {shift, lift, put_down};
+  return scenario;
+}
+
+// Returns the humanoid with this dry friction in each joint, N m.
+Robot WithFriction(double friction) {
+  Robot robot = LoadHumanoid();
+  for (JointLimits& limits : robot.model.limits) limits.friction = friction;
+  return robot;
+}
+
+TEST(CommandWatch, SeesThatTheMotionHappens) {
+  const RunResult result = Run(LoadHumanoid(), OneLeg());
+  EXPECT_TRUE(result.verdict.recovered);
+  EXPECT_EQ(result.commanded_done, true);
+  EXPECT_TRUE(result.not_done.empty());
+}
+
+// The friction is larger than the torque of any motor.
+TEST(CommandWatch, SeesThatFrictionHoldsTheRobot) {
+  Scenario scenario = OneLeg();
+  scenario.stance.resize(1);
+  scenario.duration = 2;
+  const RunResult result = Run(WithFriction(2000), scenario);
+  EXPECT_FALSE(result.verdict.fell_at);
+  EXPECT_EQ(result.commanded_done, false);
+  ASSERT_EQ(result.not_done.size(), 1u);
+  EXPECT_EQ(result.not_done[0].rfind("shift to left_foot at 0.1 s: the CoM", 0),
+            0u)
+      << result.not_done[0];
+}
+
+// The compensation of the friction moves the robot.
+TEST(CommandWatch, SeesThatCompensatedFrictionDoesNotHoldTheRobot) {
+  Scenario scenario = OneLeg();
+  scenario.stance.resize(1);
+  scenario.duration = 2;
+  const RunResult result = Run(WithFriction(3), scenario);
+  EXPECT_TRUE(result.verdict.recovered);
+  EXPECT_EQ(result.commanded_done, true);
+}
+
+TEST(CommandWatch, SeesThatTheCenterOfMassDoesNotFollow) {
+  Scenario scenario;
+  scenario.name = "sinusoid";
+  scenario.duration = 2;
+  scenario.com.sine = {0.05, 0, 0};
+  scenario.com.period = 2;
+  EXPECT_EQ(Run(LoadHumanoid(), scenario).commanded_done, true);
+  const RunResult held = Run(WithFriction(2000), scenario);
+  EXPECT_EQ(held.commanded_done, false);
+  EXPECT_EQ(held.not_done.size(), 1u);
+}
+
+TEST(CommandWatch, DoesNotJudgeACommandThatTheRunCutsShort) {
+  Scenario scenario = OneLeg();
+  scenario.duration = 1;  // The shift ends at 1.1 s.
+  EXPECT_EQ(Run(LoadHumanoid(), scenario).commanded_done, std::nullopt);
+  EXPECT_EQ(Run(LoadHumanoid(), Scenario{"stand", 0.1}).commanded_done,
+            std::nullopt);
+}
+
+}  // namespace
+}  // namespace poise

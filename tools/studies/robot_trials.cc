@@ -1,0 +1,282 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/tools/studies/robot_trials.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <future>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "poise/robot/control/stand.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/profile/find_profile.h"
+#include "poise/robot/profile/profile.h"
+#include "poise/robot/text_file.h"
+#include "poise/robot/urdf/urdf.h"
+#include "poise/sim/experiment.h"
+#include "poise/sim/outcome.h"
+#include "poise/sim/push.h"
+#include "poise/sim/scenario.h"
+#include "poise/tools/commands/parse_json.h"
+#include "poise/tools/commands/push/warnings.h"
+
+namespace poise {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kPushTime = 0.1;  // s.
+constexpr double kPushRun = 4;     // Duration of a run with a push, s.
+
+// Returns the URDF files of a folder in alphabetical order.
+std::vector<fs::path> UrdfFiles(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    if (entry.path().extension() == ".urdf") {
+      files.push_back(fs::absolute(entry.path()));
+    }
+  }
+  if (files.empty()) {
+    throw std::invalid_argument(folder.string() +
+                                ": must be a folder of URDF files");
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Returns the axis of the root link that is nearest to forward, "+x" to "-z".
+std::string ForwardAxis(const Robot& robot) {
+  const Tree& tree = robot.model.tree;
+  const Eigen::Quaterniond R_WB(robot.q_nominal.segment<4>(3));
+  const Eigen::Matrix3d R_WF =
+      R_WB.toRotationMatrix() * tree.frames()[robot.model.root_frame].X_BF.R;
+  const Eigen::Vector3d forward_F = R_WF.transpose().col(0);
+  int axis = 0;
+  forward_F.cwiseAbs().maxCoeff(&axis);
+  return std::string(forward_F[axis] < 0 ? "-" : "+") + "xyz"[axis];
+}
+
+// Returns where the soles come from: the profile, the shapes of the feet, or an
+// estimate.
+std::string SolesFrom(const Profile& profile,
+                      const std::vector<Finding>& findings) {
+  if (!profile.feet.empty()) return "profile";
+  const bool is_guess =
+      std::any_of(findings.begin(), findings.end(), [](const Finding& each) {
+        return each.what.rfind("is estimated as ", 0) == 0;
+      });
+  return is_guess ? "guess" : "box";
+}
+
+bool IsBody(const Robot& robot, const Foot& foot, const std::string& link) {
+  const auto frame = robot.model.tree.FindFrame(link);
+  return frame && robot.model.tree.frames()[*frame].body == foot.body;
+}
+
+// Adds a fault for each foot or axis that is not the expected one.
+void CompareFeet(const ExpectedRobot& expected, RobotTrial* trial) {
+  const Robot& robot = *trial->robot;
+  const std::pair<const char*, const std::string*> sides[] = {
+      {"left", &expected.left_foot_link}, {"right", &expected.right_foot_link}};
+  for (std::size_t i = 0; i < 2 && i < robot.feet.size(); ++i) {
+    const auto& [side, link] = sides[i];
+    if (link->empty() || IsBody(robot, robot.feet[i], *link)) continue;
+    const int frame = robot.feet[i].frame;
+    trial->faults.push_back(std::string(side) + " foot is " +
+                            Quoted(robot.model.tree.frames()[frame].name) +
+                            ", must be " + Quoted(*link));
+  }
+  if (!expected.forward.empty() && expected.forward != trial->forward) {
+    trial->faults.push_back("forward is " + trial->forward + ", must be " +
+                            expected.forward);
+  }
+}
+
+// The runs of one robot.
+class Candidate {
+ public:
+  Candidate(const fs::path& urdf, const std::vector<fs::path>& packages)
+      : urdf_(urdf), packages_(packages) {
+    trial_.name = urdf.stem().string();
+  }
+
+  // Runs the robot. `expected` is null if EXPECTED.json does not name it.
+  RobotTrial Run(const ExpectedRobot* expected) {
+    trial_.is_expected = expected != nullptr;
+    const ExpectedRobot wanted = expected ? *expected : ExpectedRobot();
+    try {
+      Load();
+      RunAll();
+    } catch (const std::invalid_argument& error) {
+      trial_.refused = OneLine(error.what());
+      trial_.robot.reset();
+    }
+    FindFaults(wanted);
+    return std::move(trial_);
+  }
+
+  // Prints the warnings about the robot, after Run().
+  void Warn(const RobotTrial& trial) const {
+    if (trial.robot) PrintWarnings(urdf_.string(), *trial.robot, findings_);
+  }
+
+ private:
+  // The one place where a robot of the folder is read. `packages_` are the
+  // folders for its meshes.
+  void Load() {
+    const UrdfDocument document(urdf_, &findings_, packages_);
+    const fs::path file = FindProfile(document.MakeModel().name, urdf_);
+    if (!file.empty()) profile_ = LoadProfile(file);
+    trial_.profile = file.filename().string();
+    trial_.robot = MakeStandingRobot(document, profile_, &findings_);
+    trial_.soles = SolesFrom(profile_, findings_);
+    trial_.forward = ForwardAxis(*trial_.robot);
+  }
+
+  RunResult RunScenario(const std::string& name,
+                        const std::function<void(Scenario*)>& change) const {
+    Scenario scenario = LoadScenario("sim/scenarios/" + name + ".yaml");
+    UseTasksOf(profile_, &scenario);
+    if (change) change(&scenario);
+    return poise::Run(*trial_.robot, scenario);
+  }
+
+  RunResult RunPush(int degrees) const {
+    return RunScenario("strong_push", [&](Scenario* scenario) {
+      scenario->duration = kPushRun;
+      Push& push = scenario->pushes.at(0);
+      const double angle = degrees * kPi / 180;
+      SetForce({std::cos(angle), std::sin(angle), 0}, &push);
+      push.duration = kPushTime;
+      push.impulse_fraction = kRobotsPush;
+    });
+  }
+
+  void RunAll() {
+    trial_.stand = RunScenario("stand", {});
+    if (!trial_.stands()) return;
+    for (const int degrees : RobotTrial::kDirections) {
+      trial_.pushes.push_back(RunPush(degrees));
+    }
+    trial_.one_leg = RunScenario("one_leg", {});
+  }
+
+  void FindFaults(const ExpectedRobot& wanted) {
+    std::vector<std::string>& faults = trial_.faults;
+    if (trial_.robot) CompareFeet(wanted, &trial_);
+    if (!wanted.stands) {
+      if (trial_.stands()) faults.push_back("stands, must not");
+      return;
+    }
+    if (!trial_.refused.empty()) {
+      if (trial_.is_expected) faults.push_back("is refused");
+      return;
+    }
+    if (!trial_.stands()) {
+      faults.push_back("does not stand: " + Outcome(trial_.stand->verdict));
+      return;
+    }
+    for (std::size_t i = 0; i < trial_.pushes.size(); ++i) {
+      const Verdict& verdict = trial_.pushes[i].verdict;
+      if (verdict.recovered) continue;
+      faults.push_back("pushed to " +
+                       std::to_string(RobotTrial::kDirections[i]) +
+                       " deg: " + Outcome(verdict));
+    }
+    const RunResult& one_leg = *trial_.one_leg;
+    const bool is_done =
+        one_leg.verdict.recovered && one_leg.commanded_done.value_or(true);
+    if (!is_done && trial_.one_leg_obstacle.empty()) {
+      faults.push_back("one_leg: " + (one_leg.verdict.recovered
+                                          ? "the motion did not happen"
+                                          : Outcome(one_leg.verdict)));
+    }
+  }
+
+  fs::path urdf_;
+  std::vector<fs::path> packages_;
+  std::vector<Finding> findings_;
+  Profile profile_;
+  RobotTrial trial_;
+};
+
+std::string TextOrEmpty(const nlohmann::json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>()
+                                                     : "";
+}
+
+}  // namespace
+
+std::map<std::string, ExpectedRobot> ReadExpected(const fs::path& folder) {
+  constexpr std::size_t kMostMiB = 16;
+  const fs::path file = folder / "EXPECTED.json";
+  std::error_code none;
+  if (!fs::exists(file, none)) return {};
+  std::map<std::string, ExpectedRobot> robots;
+  try {
+    const nlohmann::json json = ParseJson(ReadTextFile(file, kMostMiB));
+    if (!json.is_object()) {
+      throw std::invalid_argument(
+          "must be an object with a key for each robot");
+    }
+    for (const auto& [name, entry] : json.items()) {
+      const auto stands = entry.find("stands");
+      if (!entry.is_object() || stands == entry.end() ||
+          !stands->is_boolean()) {
+        throw std::invalid_argument("robot " + Quoted(name) +
+                                    ": must have stands: true or false");
+      }
+      robots[name] = {stands->get<bool>(), TextOrEmpty(entry, "left_foot_link"),
+                      TextOrEmpty(entry, "right_foot_link"),
+                      TextOrEmpty(entry, "forward")};
+    }
+  } catch (const Refusal&) {  // Already names the file.
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(file.string() + ": " + error.what());
+  }
+  return robots;
+}
+
+std::vector<RobotTrial> RunRobots(
+    const RobotFolder& robots,
+    const std::function<void(const RobotTrial&)>& show) {
+  const auto expected = ReadExpected(robots.folder);
+  std::deque<Candidate> candidates;
+  std::vector<const ExpectedRobot*> wanted;
+  for (const fs::path& file : UrdfFiles(robots.folder)) {
+    const std::string name = file.stem().string();
+    if (name.find(robots.only) == std::string::npos) continue;
+    candidates.emplace_back(file, robots.packages);
+    const auto found = expected.find(name);
+    wanted.push_back(found == expected.end() ? nullptr : &found->second);
+  }
+  if (candidates.empty()) {
+    throw std::invalid_argument("--only is " + Quoted(robots.only) +
+                                ", must be part of the name of a robot");
+  }
+  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+  std::deque<std::future<RobotTrial>> running;
+  std::vector<RobotTrial> trials;
+  for (std::size_t i = 0, started = 0; i < candidates.size(); ++i) {
+    for (; started < std::min(i + cores, candidates.size()); ++started) {
+      running.push_back(std::async(std::launch::async, &Candidate::Run,
+                                   &candidates[started], wanted[started]));
+    }
+    trials.push_back(running.front().get());
+    running.pop_front();
+    candidates[i].Warn(trials.back());
+    show(trials.back());
+  }
+  return trials;
+}
+
+}  // namespace poise
