@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 
 constexpr double kKneeBend = 0.6;  // rad.
 // Random starts of each search, and their largest change of a joint, rad or m.
-constexpr int kRandomStarts = 4;
+constexpr int kRandomStarts = 8;
 constexpr double kFarthestStart = 1;
 
 // Searches a posture from several starts, and keeps the best one.
@@ -39,19 +39,24 @@ class Starts {
 
   const Posture& best() const { return best_; }
 
+  // Returns whether the center of mass was the only error of a search.
+  bool are_soles_flat() const { return are_soles_flat_; }
+
   // Returns the reason why no start led to a posture.
   std::string Reason() const;
 
  private:
   const Robot& robot_;
   int tried_ = 0;
-  Posture best_{{}, "", std::numeric_limits<double>::infinity(), {}};
+  bool are_soles_flat_ = false;
+  Posture best_{{}, "", std::numeric_limits<double>::infinity(), false, {}};
 };
 
 bool Starts::Try(const PostureGoal& goal) {
   ++tried_;
   Posture posture = FindPosture(robot_, goal);
   const bool stands = posture.lack.empty();
+  are_soles_flat_ |= posture.are_soles_flat;
   if (stands || best_.q.size() == 0 || posture.error < best_.error) {
     best_ = std::move(posture);
   }
@@ -132,9 +137,10 @@ void StandUp(Robot* robot, const Profile& profile) {
   Starts starts(*robot);
   const auto stands = [&] {
     PostureGoal goal;
-    if (starts.TryBends(goal)) return true;
-    // The search with arms at rest is smaller. It converges where arms would
-    // lead it away.
+    goal.knee_bend = kKneeBend;
+    if (starts.Try(goal)) return true;
+    // With the arms at rest the search is smaller. It also converges where arms
+    // would lead it away.
     goal.fixed = arms;
     for (const bool are_soles_parallel : {true, false}) {
       goal.are_soles_parallel = are_soles_parallel;
@@ -143,7 +149,9 @@ void StandUp(Robot* robot, const Profile& profile) {
       goal.is_base_upright = true;
       if (starts.TryRandom(goal)) return true;
     }
-    return false;
+    // Arms may balance a robot that cannot stand with its arms at rest.
+    goal = PostureGoal{};
+    return starts.are_soles_flat() && starts.TryBends(goal);
   };
   if (!stands()) {
     throw std::invalid_argument(

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/robot/profile/massless.h"
 
-#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -16,9 +16,12 @@ using Eigen::VectorXd;
 
 // Above this number of joints, M is not evaluated.
 constexpr int kMostJoints = 500;
-// Fraction of the robot's mass or inertia that counts as zero. It is above the
-// rounding errors of M.
-constexpr double kZero = 1e-12;
+// Fraction of the robot's mass or inertia that counts as zero, a rounding error
+// of M.
+constexpr double kZero = 1e-15;
+// Smallest eigenvalue per degree of freedom of a regular M, scaled to a unit
+// diagonal.
+constexpr double kSingular = 1e-13;
 // Fraction of the robot's mass that a body without mass receives.
 constexpr double kSmallMass = 1e-6;
 // Its radius of gyration, as a fraction of the robot's extent.
@@ -51,6 +54,19 @@ VectorXd LargerDiagonal(const Tree& tree, const VectorXd& q) {
   const VectorXd diagonal = tick.M.diagonal().cwiseAbs();
   ComputeTick(tree, Moved(tree, q), zero, &tick);
   return diagonal.cwiseMax(tick.M.diagonal().cwiseAbs());
+}
+
+// Returns whether M can be inverted at rest.
+bool IsRegular(const RobotModel& model) {
+  const Tree& tree = model.tree;
+  Tick tick(tree, {});
+  ComputeTick(tree, RestConfiguration(model), VectorXd::Zero(tree.nv()), &tick);
+  const VectorXd diagonal = tick.M.diagonal();
+  if (!tick.M.allFinite() || !(diagonal.minCoeff() > 0)) return false;
+  const VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      scale.asDiagonal() * tick.M * scale.asDiagonal(), Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()[0] > kSingular * tree.nv();
 }
 
 }  // namespace
@@ -109,6 +125,9 @@ std::map<std::string, Inertia> MakeSmallInertias(const RobotModel& model) {
         mass, Eigen::Vector3d::Zero(),
         mass * radius * radius * Eigen::Matrix3d::Identity()};
   }
+  // A singular M shall remain visible.
+  if (inertias.empty() || tree.num_joints() > kMostJoints) return {};
+  if (!IsRegular(model)) return {};
   return inertias;
 }
 

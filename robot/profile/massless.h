@@ -16,7 +16,7 @@ namespace poise {
 struct MovedMass {
   /// For each joint, whether M is singular because the joint moves no mass. The
   /// diagonal of M is then zero at the joint, or all bodies on the base's side
-  /// of the joint are without mass. Zero means below 1e-12 of the inertia of
+  /// of the joint are without mass. Zero means below 1e-15 of the inertia of
   /// the whole robot.
   std::vector<bool> none;
   /// For each joint, the mass of the bodies beyond the joint relative to the
@@ -33,7 +33,7 @@ MovedMass FindMovedMass(const RobotModel& model);
 
 /// Returns an inertia for one link of each body without mass, if joints beyond
 /// the body move mass. M is regular without this inertia, but a simulator needs
-/// it. The mass is 1e-6 of the robot's mass, the radius of gyration 1 % of the
+/// it. If M is singular, returns nothing. The mass is 1e-6 of the robot's mass, the radius of gyration 1 % of the
 /// distance of the robot's farthest joint from the base.
 std::map<std::string, Inertia> MakeSmallInertias(const RobotModel& model);
 

@@ -139,6 +139,17 @@ TEST(MakeModel, GivesMassToLinksBetweenJoints) {
   EXPECT_EQ(tree.inertias()[2].mass, 1);
 }
 
+TEST(MakeSmallInertias, LeavesSingularMassMatrix) {
+  // Both joints turn about the same axis.
+  EXPECT_TRUE(
+      MakeSmallInertias(ParseUrdf("<robot name='r'>" + Link("base", 9) +
+                                      Link("cross", 0) + Link("a", 1) +
+                                      Joint("base", "cross", "0 0 1") +
+                                      Joint("cross", "a", "0 0 1") + "</robot>",
+                                  "r.urdf"))
+          .empty());
+}
+
 TEST(WarnOfMassless, CountsJointsAndNamesThree) {
   EXPECT_FALSE(WarnOfMassless({}).has_value());
   EXPECT_EQ(WarnOfMassless({"a"})->what, "has 1 joint that moves no mass: 'a'");

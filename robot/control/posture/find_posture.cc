@@ -13,6 +13,7 @@
 #include "poise/hqp/solution.h"
 #include "poise/hqp/solver.h"
 #include "poise/math/so3.h"
+#include "poise/robot/control/posture/sole_rows.h"
 #include "poise/robot/feet/knee.h"
 #include "poise/robot/finding.h"
 
@@ -59,24 +60,8 @@ constexpr double kFlat = 1e-6;
 // the edge of the soles is accepted.
 constexpr double kNearTarget = 0.5;
 
-// Pose of a foot in the world, and its Jacobian.
-struct FootState {
-  Pose X_WC;
-  MatrixXd J_WC_W;  // 6 x nv.
-};
-
 std::vector<int> FeetFrames(const Robot& robot) {
   return {robot.feet[0].frame, robot.feet[1].frame};
-}
-
-FootState StateOf(const Robot& robot, const Tick& tick, int i) {
-  const FrameTick& F = tick.frames[i];
-  const Foot& foot = robot.feet[i];
-  const Pose X_WC = tick.X_WB[foot.body] * foot.X_BC;
-  FootState state{X_WC, F.J_WF_W};
-  state.J_WC_W.bottomRows<3>() -=
-      Hat(X_WC.p - F.X_WF.p) * F.J_WF_W.topRows<3>();
-  return state;
 }
 
 // Returns the coordinate axis that is nearest to v, or the direction of v if no
@@ -116,22 +101,7 @@ class Search {
   // Bends the knee of the leg with the foot `body`, if the knee is straight.
   void BendKnee(int body);
 
-  bool IsFixed(int joint) const {
-    return !goal_.fixed.empty() && goal_.fixed[joint];
-  }
-
   void AddLimits(double longest, Hierarchy* hierarchy) const;
-
-  // Adds the rows that put the soles flat on the ground, facing +x, side by
-  // side, with their middle at the origin.
-  void AddFeet(Hierarchy* hierarchy) const;
-
-  // Adds the same rows for the means of both feet, and less important rows for
-  // the differences.
-  void AddMeanOfFeet(Hierarchy* hierarchy) const;
-
-  // Adds the rows of a robot on one foot.
-  void AddSupport(Hierarchy* hierarchy) const;
 
   // Horizontal error of the center of mass, m.
   Vector2d OffBalance() const { return tick_.p_WG.head<2>() - target_; }
@@ -156,9 +126,12 @@ class Search {
   VectorXd q_, q_wanted_;
   VectorXd lower_, upper_;
   VectorXd posture_weight_;  // By joint.
-  FootState feet_[2];
+  SoleState feet_[2];
   Pose X_WC_wanted_[2];  // Only on one foot.
   Matrix3d R_WB_;
+  std::vector<int> columns_;            // Indices in v of the variables.
+  std::vector<int> column_of_;          // By joint; -1 if the joint is fixed.
+  double least_apart_;                  // Smallest distance of the feet, m.
   double distance_ = 0;                 // Of the feet, m.
   Vector2d target_ = Vector2d::Zero();  // Of the center of mass, m.
 };
@@ -170,7 +143,15 @@ Search::Search(const Robot& robot, const PostureGoal& goal)
       tick_(tree_, FeetFrames(robot)),
       zero_(VectorXd::Zero(tree_.nv())),
       q_(robot.q_nominal),
-      posture_weight_(VectorXd::Ones(tree_.num_joints())) {
+      posture_weight_(VectorXd::Ones(tree_.num_joints())),
+      column_of_(tree_.num_joints(), -1),
+      least_apart_(robot.feet[0].half_size.y() + robot.feet[1].half_size.y()) {
+  for (int i = 0; i < tree_.v_start(); ++i) columns_.push_back(i);
+  for (int j = 0; j < tree_.num_joints(); ++j) {
+    if (!goal.fixed.empty() && goal.fixed[j]) continue;
+    column_of_[j] = static_cast<int>(columns_.size());
+    columns_.push_back(tree_.v_start() + j);
+  }
   if (goal.joints.size() > 0) q_.tail(tree_.num_joints()) = goal.joints;
   SetLimits();
   if (goal.support) {
@@ -204,9 +185,8 @@ void Search::Place() {
   Evaluate();
   const double gap =
       std::min(kFootGap, kFootGapOfLeg * std::min(LegLength(0), LegLength(1)));
-  distance_ = std::max(
-      (feet_[0].X_WC.p - feet_[1].X_WC.p).y(),
-      robot_.feet[0].half_size.y() + robot_.feet[1].half_size.y() + gap);
+  distance_ =
+      std::max((feet_[0].X_WC.p - feet_[1].X_WC.p).y(), least_apart_ + gap);
   for (const int i : {0, 1}) target_.x() += 0.5 * Forward(i);
   q_wanted_ = q_;
   for (const Foot& foot : robot_.feet) BendKnee(foot.body);
@@ -220,7 +200,8 @@ void Search::Place() {
 
 Posture Search::Solve() {
   const int n = tree_.num_joints();
-  const int nv = tree_.nv();
+  const int nv = static_cast<int>(columns_.size());
+  VectorXd step = zero_;
   const std::vector<LevelCapacity> capacity = {
       {static_cast<int>(robot_.model.mimics.size()) + n, nv},
       {11, 1},
@@ -237,11 +218,11 @@ Posture Search::Solve() {
     hierarchy.Clear(static_cast<int>(capacity.size()));
     AddLimits(longest, &hierarchy);
     if (goal_.support) {
-      AddSupport(&hierarchy);
+      AddSupportRows(feet_, X_WC_wanted_, goal_.support->foot, &hierarchy);
     } else if (goal_.are_soles_parallel) {
-      AddFeet(&hierarchy);
+      AddSoleRows(feet_, &hierarchy);
     } else {
-      AddMeanOfFeet(&hierarchy);
+      AddMeanSoleRows(feet_, least_apart_, &hierarchy);
     }
     AddBalance(&hierarchy);
     AddPosture(&hierarchy);
@@ -250,9 +231,11 @@ Posture Search::Solve() {
       return {q_,
               "the solver failed in a step of the inverse kinematics",
               std::numeric_limits<double>::infinity(),
+              false,
               {}};
     }
-    Integrate(tree_, q_, solution.y, 1, q_);
+    for (int k = 0; k < nv; ++k) step[columns_[k]] = solution.y[k];
+    Integrate(tree_, q_, step, 1, q_);
     Evaluate();
     if (solution.y.lpNorm<Eigen::Infinity>() < kConverged) break;
   }
@@ -261,7 +244,10 @@ Posture Search::Solve() {
 
 void Search::Evaluate() {
   ComputeTick(tree_, q_, zero_, &tick_);
-  for (const int i : {0, 1}) feet_[i] = StateOf(robot_, tick_, i);
+  for (const int i : {0, 1}) {
+    const Foot& foot = robot_.feet[i];
+    feet_[i] = StateOf(foot, tick_, i, columns_);
+  }
 }
 
 double Search::Forward(int i) const {
@@ -311,20 +297,15 @@ void Search::BendKnee(int body) {
 }
 
 void Search::AddLimits(double longest, Hierarchy* hierarchy) const {
-  const int nv = tree_.nv();
+  const int nv = static_cast<int>(columns_.size());
   InequalityBlock steps = hierarchy->AddInequalities(0, nv);
   steps.C.setIdentity();
   steps.lower.setConstant(-longest);
   steps.upper.setConstant(longest);
   for (int j = 0; j < tree_.num_joints(); ++j) {
     const double q = q_[tree_.q_start() + j];
-    const int row = tree_.v_start() + j;
-    if (IsFixed(j)) {
-      steps.lower[row] = -std::numeric_limits<double>::infinity();
-      steps.upper[row] = std::numeric_limits<double>::infinity();
-      hierarchy->AddEqualities(0, 1).B(0, row) = 1;
-      continue;
-    }
+    const int row = column_of_[j];
+    if (row < 0) continue;
     steps.lower[row] = std::max(-longest, std::min(0., lower_[j] - q));
     steps.upper[row] = std::min(longest, std::max(0., upper_[j] - q));
     if (lower_[j] < upper_[j]) continue;
@@ -332,69 +313,20 @@ void Search::AddLimits(double longest, Hierarchy* hierarchy) const {
   }
   for (const MimicCoupling& mimic : robot_.model.mimics) {
     const auto q = [&](int j) { return q_[tree_.q_start() + j]; };
+    const int column = column_of_[mimic.joint];
+    const int source = column_of_[mimic.source];
+    if (column < 0 || source < 0) continue;
     EqualityBlock coupling = hierarchy->AddEqualities(0, 1);
-    coupling.B(0, tree_.v_start() + mimic.joint) = 1;
-    coupling.B(0, tree_.v_start() + mimic.source) = -mimic.multiplier;
+    coupling.B(0, column) = 1;
+    coupling.B(0, source) = -mimic.multiplier;
     coupling.b[0] =
         q(mimic.joint) - mimic.multiplier * q(mimic.source) - mimic.offset;
   }
 }
 
-void Search::AddFeet(Hierarchy* hierarchy) const {
-  for (const FootState& foot : feet_) {
-    EqualityBlock rows = hierarchy->AddEqualities(1, 5);
-    rows.B.topRows<3>() = foot.J_WC_W.topRows<3>();
-    rows.b.head<3>() = LogSo3(foot.X_WC.R);
-    rows.B.row(3) = foot.J_WC_W.row(3);
-    rows.b[3] = foot.X_WC.p.x();
-    rows.B.row(4) = foot.J_WC_W.row(5);
-    rows.b[4] = foot.X_WC.p.z();
-  }
-  EqualityBlock middle = hierarchy->AddEqualities(1, 1);
-  middle.B.row(0) = feet_[0].J_WC_W.row(4) + feet_[1].J_WC_W.row(4);
-  middle.b[0] = feet_[0].X_WC.p.y() + feet_[1].X_WC.p.y();
-}
-
-void Search::AddMeanOfFeet(Hierarchy* hierarchy) const {
-  const Vector3d turn[2] = {LogSo3(feet_[0].X_WC.R), LogSo3(feet_[1].X_WC.R)};
-  for (const int i : {0, 1}) {
-    EqualityBlock rows = hierarchy->AddEqualities(1, 3);
-    rows.B.topRows<2>() = feet_[i].J_WC_W.topRows<2>();
-    rows.b.head<2>() = turn[i].head<2>();
-    rows.B.row(2) = feet_[i].J_WC_W.row(5);
-    rows.b[2] = feet_[i].X_WC.p.z();
-  }
-  EqualityBlock mean = hierarchy->AddEqualities(1, 3);
-  mean.B = feet_[0].J_WC_W.middleRows<3>(2) + feet_[1].J_WC_W.middleRows<3>(2);
-  mean.b << turn[0].z() + turn[1].z(),
-      (feet_[0].X_WC.p + feet_[1].X_WC.p).head<2>();
-  // The legs do not cross.
-  InequalityBlock width = hierarchy->AddInequalities(1, 1);
-  width.C.row(0) = feet_[0].J_WC_W.row(4) - feet_[1].J_WC_W.row(4);
-  width.lower[0] = robot_.feet[0].half_size.y() + robot_.feet[1].half_size.y() -
-                   (feet_[0].X_WC.p - feet_[1].X_WC.p).y();
-  EqualityBlock apart = hierarchy->AddEqualities(3, 2);
-  apart.B = feet_[0].J_WC_W.middleRows<2>(2) - feet_[1].J_WC_W.middleRows<2>(2);
-  apart.b << turn[0].z() - turn[1].z(), (feet_[0].X_WC.p - feet_[1].X_WC.p).x();
-}
-
-void Search::AddSupport(Hierarchy* hierarchy) const {
-  const int stance = goal_.support->foot;
-  for (const int i : {stance, 1 - stance}) {
-    const FootState& foot = feet_[i];
-    EqualityBlock height = hierarchy->AddEqualities(1, 1);
-    height.B.row(0) = foot.J_WC_W.row(5);
-    height.b[0] = foot.X_WC.p.z() - X_WC_wanted_[i].p.z();
-    EqualityBlock rows = hierarchy->AddEqualities(i == stance ? 1 : 3, 5);
-    rows.B = foot.J_WC_W.topRows<5>();
-    rows.b << LogSo3(foot.X_WC.R * X_WC_wanted_[i].R.transpose()),
-        (foot.X_WC.p - X_WC_wanted_[i].p).head<2>();
-  }
-}
-
 void Search::AddBalance(Hierarchy* hierarchy) const {
   EqualityBlock com = hierarchy->AddEqualities(2, 2);
-  com.B = tick_.H_G.middleRows<2>(3) / tree_.total_mass();
+  com.B = tick_.H_G.middleRows<2>(3)(Eigen::all, columns_) / tree_.total_mass();
   com.b = OffBalance();
   EqualityBlock lean = hierarchy->AddEqualities(3, 3);
   lean.B.leftCols<3>().setIdentity();
@@ -406,11 +338,16 @@ void Search::AddBalance(Hierarchy* hierarchy) const {
 }
 
 void Search::AddPosture(Hierarchy* hierarchy) const {
-  const int n = tree_.num_joints();
+  const int base = tree_.v_start();
+  const int n = static_cast<int>(columns_.size()) - base;
   EqualityBlock posture = hierarchy->AddEqualities(4, n);
   posture.B.rightCols(n).setIdentity();
-  posture.b = q_.tail(n) - q_wanted_.tail(n);
-  posture.weight = posture_weight_;
+  for (int k = 0; k < n; ++k) {
+    const int j = columns_[base + k] - base;
+    const int i = tree_.q_start() + j;
+    posture.b[k] = q_[i] - q_wanted_[i];
+    posture.weight[k] = posture_weight_[j];
+  }
 }
 
 std::pair<double, std::string> Search::ErrorOfSole(int i) const {
@@ -456,20 +393,20 @@ bool Search::IsBalanced() const {
 }
 
 Posture Search::Result() const {
-  Posture posture{q_, "", OffBalance().norm(), {}};
+  Posture posture{q_, "", OffBalance().norm(), false, {}};
   for (const int i : {1, 0}) {
     const auto [error, lack] = ErrorOfSole(i);
     posture.error += error;
     if (!lack.empty()) posture.lack = lack;
   }
   const double apart = (feet_[0].X_WC.p - feet_[1].X_WC.p).y();
-  const double width =
-      robot_.feet[0].half_size.y() + robot_.feet[1].half_size.y();
-  if (posture.lack.empty() && !goal_.support && !(apart >= width)) {
+  if (posture.lack.empty() && !goal_.support &&
+      !(apart >= least_apart_ - kFlat)) {
     posture.lack = "the soles overlap: the middle of left_foot is " +
                    PrintNumber(apart) + " m to the left of right_foot's";
     posture.error += 1;  // Any other result tells more.
   }
+  posture.are_soles_flat = posture.lack.empty();
   if (posture.lack.empty() && !IsBalanced()) {
     posture.lack = "the center of mass remains " +
                    PrintNumber(OffBalance().norm()) +
@@ -479,7 +416,7 @@ Posture Search::Result() const {
   constexpr double kAtLimit = 1e-6;  // rad or m.
   for (int j = 0; j < tree_.num_joints(); ++j) {
     const double q = q_[tree_.q_start() + j];
-    if (IsFixed(j)) continue;
+    if (column_of_[j] < 0) continue;
     if (q > lower_[j] + kAtLimit && q < upper_[j] - kAtLimit) continue;
     posture.at_limit.push_back(j);
   }

@@ -44,6 +44,7 @@ struct Posture {
   Eigen::VectorXd q;
   std::string lack;  ///< The largest error in words; empty if there is none.
   double error = 0;  ///< Sum of the errors of soles and center of mass, m, rad.
+  bool are_soles_flat = false;  ///< At most the center of mass has an error.
   /// Joints at a limit, if there is an error.
   std::vector<int> at_limit;
 };
