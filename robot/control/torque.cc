@@ -11,8 +11,8 @@ namespace {
 // acceleration is filtered with this time. Both are multiplied by powers of
 // PendulumRate(). Their product is a velocity that a standing robot does not
 // have, so that the torque does not chatter.
-constexpr double kSmallAcceleration = 0.01;
-constexpr double kFilterTime = 1;
+constexpr double kSmallAcceleration = 0.02;
+constexpr double kFilterTime = 2;
 
 // Returns sqrt(g / h) of the robot's pendulum, 1/s.
 double PendulumRate(const Robot& robot) {
