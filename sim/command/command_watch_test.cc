@@ -69,9 +69,9 @@ TEST(CommandWatch, SeesThatCompensatedFrictionDoesNotHoldTheRobot) {
 TEST(CommandWatch, SeesThatTheCenterOfMassDoesNotFollow) {
   Scenario scenario;
   scenario.name = "sinusoid";
-  scenario.duration = 2;
+  scenario.duration = 1.5;
   scenario.com.sine = {0.05, 0, 0};
-  scenario.com.period = 2;
+  scenario.com.period = 3;
   EXPECT_EQ(poise::Run(LoadHumanoid(), scenario).commanded_done, true);
   const RunResult held = poise::Run(WithFriction(2000), scenario);
   EXPECT_EQ(held.commanded_done, false);
