@@ -54,7 +54,7 @@ class DragCompensation {
     double damping, friction, effort;
     double acceleration = 0;  // Filtered, rad/s2 or m/s2.
   };
-  std::vector<Drag> drags_;  // Of the joints that have damping or friction.
+  std::vector<Drag> drags_;  // One for each joint with damping or friction.
   double small_;             // a_0.
   double filter_time_;       // s.
 };

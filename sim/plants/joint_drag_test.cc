@@ -107,7 +107,7 @@ TEST(JointDrag, HoldsByDryFrictionAndNeverReversesTheMotion) {
   // At rest: the drag balances the torque, except for the creep.
   EXPECT_NEAR(drag(0, 1), -1, 0.07);
   EXPECT_NEAR(drag(0, -1), 1, 0.07);
-  // It gives way to a larger torque. The inertia is far below dt f / v_0.
+  // A larger torque makes it slip. The inertia is far below dt f / v_0.
   EXPECT_NEAR(drag(0, 10), -3, 1e-9);
   EXPECT_NEAR(drag(0, -3.5), 3, 1e-9);
   // The drag does not reverse the motion: v + dt (tau + drag) / I keeps the
