@@ -3,12 +3,15 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "poise/dynamics/tree.h"
 #include "poise/math/pose.h"
+#include "poise/robot/feet/sole_source.h"
 
 namespace poise {
 
@@ -42,7 +45,8 @@ struct Cylinder {
   double length;  ///< Along z, centered.
 };
 struct Mesh {
-  std::string file;
+  std::string
+      file;  ///< As in the URDF: "package://NAME/foot.stl". See FindMesh.
   Eigen::Vector3d scale;
 };
 using Geometry = std::variant<Sphere, Box, Cylinder, Mesh>;
@@ -55,6 +59,13 @@ struct Shape {
   Eigen::Vector4d rgba{0.7, 0.7, 0.7, 1};
 };
 
+/// The places where the mesh files of a robot are searched, see FindMesh().
+struct MeshPlaces {
+  /// The URDF file. If it is empty, no mesh is searched.
+  std::filesystem::path urdf;
+  std::vector<std::filesystem::path> packages;  ///< The folders of packages.
+};
+
 /// The contents of a URDF: the tree, and the data for control and drawing.
 struct RobotModel {
   std::string name;
@@ -64,6 +75,7 @@ struct RobotModel {
   std::vector<Shape> visuals;
   std::vector<Shape> collisions;
   int root_frame;  ///< The link that carries the base.
+  MeshPlaces mesh_places = {};
 };
 
 /// A flat sole. The contact frame C lies at the center of the largest rectangle
@@ -76,6 +88,8 @@ struct Foot {
   Pose X_BC;                  ///< Contact frame in the body.
   Eigen::Vector2d half_size;  ///< Half of the rectangle's sides, x and y, m.
   std::vector<Eigen::Vector2d> polygon_C;  ///< Convex, counterclockwise, m.
+  /// The origin of the sole. It is absent if a profile gives the sole.
+  std::optional<SoleSource> source = std::nullopt;
 };
 
 /// A robot for control and simulation. It combines the contents of the URDF

@@ -11,6 +11,7 @@
 
 #include "poise/robot/finding.h"
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/package_path.h"
 #include "poise/tools/commands/user_path.h"
 #include "poise/tools/studies/robot_trials.h"
 #include "poise/tools/studies/robots_page.h"
@@ -81,10 +82,8 @@ struct RobotOptions {
 };
 
 int TryRobots(const RobotOptions& options, const std::string& only) {
-  RobotFolder robots{UserPath(options.folder), {}, only};
-  for (const std::string& path : options.packages) {
-    robots.packages.push_back(UserPath(path));
-  }
+  const RobotFolder robots{UserPath(options.folder),
+                           PackageFolders(options.packages), only};
   if (!options.json) std::cout << RobotsHead(false) << std::endl;
   const std::vector<RobotTrial> trials =
       RunRobots(robots, [&](const RobotTrial& trial) {
@@ -119,9 +118,7 @@ int Main(int argc, char** argv) {
       "pushed to four sides, and stands on one leg. A robot uses the profile "
       "NAME.yaml beside it, or a profile of Poise, or the feet and posture "
       "that Poise finds. EXPECTED.json in the folder says what each must do");
-  app.add_option("--package-path", robots.packages,
-                 "folder with the packages of meshes; may be repeated")
-      ->needs(folder);
+  AddPackagePath(&app, &robots.packages);
   app.add_option("--out", robots.out,
                  "with --robots: write robots.md and pictures to this folder")
       ->needs(folder);

@@ -14,6 +14,8 @@ packages=(
   # The libraries: linear algebra, robot files, plants, formats, digests.
   libbullet-dev libcairo2-dev libcli11-dev libeigen3-dev libmujoco-dev
   libssl-dev libtinyxml2-dev liburdfdom-dev libyaml-cpp-dev nlohmann-json3-dev
+  # The command that converts meshes of other formats than STL and OBJ.
+  assimp-utils
   # Packages that only tests use.
   libbenchmark-dev libceres-dev libgmock-dev libgtest-dev libmpfrc++-dev
   liborocos-kdl-dev librapidcheck-dev

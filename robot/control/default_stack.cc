@@ -19,6 +19,7 @@
 #include "poise/robot/control/tasks/newton_euler.h"
 #include "poise/robot/control/tasks/no_contact.h"
 #include "poise/robot/control/tasks/posture.h"
+#include "poise/robot/control/tasks/self_collision.h"
 #include "poise/robot/control/tasks/swing.h"
 #include "poise/robot/control/tasks/torque_limits.h"
 #include "poise/robot/control/tasks/torque_minimization.h"
@@ -52,6 +53,7 @@ Stack MakeDefaultStack(const Robot& robot,
 
   stack.Add(std::make_unique<TorqueLimitsTask>(model), {kOn, 2, 1});
   stack.Add(std::make_unique<JointLimitsTask>(model), {kOn, 2, 1});
+  stack.Add(std::make_unique<SelfCollisionTask>(robot), {kOn, 2, 1});
 
   if (!model.mimics.empty()) {
     stack.Add(std::make_unique<MimicTask>(model), {kOn, 3, 1});
@@ -59,7 +61,7 @@ Stack MakeDefaultStack(const Robot& robot,
   if (!FindLightJoints(model).empty()) {
     stack.Add(std::make_unique<LightJointsTask>(model), {kOn, 3, 1});
   }
-  stack.Add(std::make_unique<ContactTask>(feet), {kOn, 3, 1});
+  stack.Add(std::make_unique<ContactTask>(model, feet), {kOn, 3, 1});
   stack.Add(std::make_unique<CopTask>(tree, feet), {kOn, 3, 1});
   stack.Add(std::make_unique<FrictionTask>(tree, feet), {kOn, 3, 1});
   stack.Add(std::make_unique<UnilateralTask>(tree, feet), {kOn, 3, 1});

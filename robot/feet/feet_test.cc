@@ -8,6 +8,7 @@
 #include <string>
 
 #include "poise/robot/feet/find_feet.h"
+#include "poise/robot/feet/sole_source.h"
 #include "poise/robot/urdf/urdf.h"
 
 namespace poise {
@@ -203,55 +204,22 @@ TEST(FindFeet, PointsTheContactFrameOutOfTheGround) {
   EXPECT_NEAR(feet[0].X_BC.p.z(), 0.05, kPromised);
 }
 
-TEST(FindFeet, TakesTheToesAsForward) {
-  const auto feet = Find(
-      Biped(Collision("box size='0.2 0.1 0.02'", "0.03 0 -0.04"), "0 0 0"));
-  EXPECT_NEAR(feet[0].X_BC.R(0, 0), 1, kPromised);
-  // If the toes are behind the ankle, forward is reversed: left becomes right.
-  const RobotModel model = ParseUrdf(
-      Biped(Collision("box size='0.2 0.1 0.02'", "-0.03 0 -0.04"), "0 0 0"),
-      "biped");
-  const auto turned = FindFeet(model);
-  EXPECT_NEAR(turned[0].X_BC.R(0, 0), -1, kPromised);
-  EXPECT_EQ(model.tree.frames()[turned[0].frame].name, "r6");
-}
-
 // A roll joint moves this foot, so the foot's origin may lie anywhere along the
 // roll axis. Seen from this origin, the heel reaches further than the toes.
+// Seen from the ankle it does not, so the toes do not contradict the names.
 TEST(FindFeet, MeasuresTheToesFromTheAnkle) {
   std::string biped =
       Biped(Collision("box size='0.2 0.1 0.02'", "-0.02 0 -0.04"), "0 0 0");
+  std::vector<Finding> findings;
+  EXPECT_GT(Find(biped, &findings)[0].X_BC.R(0, 0), 0);
+  EXPECT_EQ(findings.size(), 1u);
   for (const std::string side : {"l", "r"}) {
     const size_t at = biped.find("<joint name='j" + side + "6'");
     biped.replace(biped.find("'0 0 0'", at), 7, "'0.05 0 0'");
   }
-  EXPECT_GT(Find(biped)[0].X_BC.R(0, 0), 0);
-}
-
-TEST(FindFeet, UsesTheKneeRangeIfSolesAreSymmetric) {
-  const std::string box = Collision("box size='0.2 0.1 0.02'", "0 0 -0.04");
-  EXPECT_NEAR(Find(Biped(box, "0 0 0"))[0].X_BC.R(0, 0), 1, kPromised);
-  const auto turned =
-      FindFeet(ParseUrdf(Biped(box, "0 0 0", "lower='-2' upper='0'"), "biped"));
-  EXPECT_NEAR(turned[0].X_BC.R(0, 0), -1, kPromised);
-}
-
-// At zero this knee is bent to the middle of its range. So the range gives no
-// direction, but the bend does.
-TEST(FindFeet, UsesTheKneeBendAtRest) {
-  std::string biped = Biped(Collision("box size='0.2 0.1 0.02'", "0 0 -0.04"),
-                            "0 -0.6 0", "lower='-1.1' upper='1'");
-  for (const std::string side : {"l", "r"}) {
-    const auto turn = [&](const std::string& link, double pitch) {
-      const size_t at = biped.find("<joint name='j" + side + link + "'");
-      const std::string straight = "rpy='0 0 0'";
-      biped.replace(biped.find(straight, at), straight.size(),
-                    "rpy='0 " + std::to_string(pitch) + " 0'");
-    };
-    turn("3", -0.6);
-    turn("4", 1.2);
-  }
-  EXPECT_GT(Find(biped)[0].X_BC.R(0, 0), 0);
+  findings.clear();
+  EXPECT_GT(Find(biped, &findings)[0].X_BC.R(0, 0), 0);
+  EXPECT_TRUE(findings.empty());
 }
 
 TEST(FindFeet, EstimatesTheSoleOfAMesh) {
@@ -262,8 +230,8 @@ TEST(FindFeet, EstimatesTheSoleOfAMesh) {
   ASSERT_EQ(findings.size(), 2u);
   EXPECT_EQ(findings[0].severity, Severity::kWarn);
   EXPECT_EQ(findings[0].what,
-            "is estimated as 0.22 x 0.12 m, 0.1 m below the ankle");
-  EXPECT_LT((feet[0].half_size - Vector2d(0.11, 0.06)).norm(), kPromised);
+            "is estimated as 0.22 x 0.085 m, 0.1 m below the ankle");
+  EXPECT_LT((feet[0].half_size - Vector2d(0.11, 0.0425)).norm(), kPromised);
   EXPECT_LT((feet[0].X_BC.p - Eigen::Vector3d(0.04, 0, -0.1)).norm(),
             kPromised);
 }
@@ -302,18 +270,54 @@ TEST(FindFeet, IgnoresLinksWithoutShapes) {
 }
 
 TEST(FindFeet, ReportsWhyNoFeetAreFound) {
-  EXPECT_EQ(Refusal(Biped("", "0 0 0", "lower='0' upper='2'", 5)),
-            "robot 'biped' has no flat sole on link 'l6', and its leg has 5 "
-            "motors, must have 6 to lay a sole flat: give the feet in a "
-            "profile");
   EXPECT_EQ(Refusal(kOneLink),
-            "robot 'r' reaches the ground with 1 body, must be two feet: give "
-            "the feet in a profile");
+            "robot 'r' has no two legs (no limb has two joints or more), must "
+            "have two feet: give the feet in a profile");
   EXPECT_EQ(
       Refusal(
           Biped(Collision("box size='0.2 0.0008 0.02'", "0 0 -0.04"), "0 0 0")),
       "robot 'biped' has a sole under 1 mm wide or long, give the sole in "
       "a profile: link 'l6'");
+}
+
+TEST(FindFeet, NeedsFourMotorsAndWarnsBelowFive) {
+  const std::string box = Collision("box size='0.2 0.1 0.02'", "0.03 0 -0.04");
+  const std::string range = "lower='0' upper='2'";
+  std::vector<Finding> findings;
+  Find(Biped(box, "0 0 0", range, 5), &findings);
+  EXPECT_TRUE(findings.empty());
+  Find(Biped(box, "0 0 0", range, 4), &findings);
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[0].severity, Severity::kWarn);
+  EXPECT_EQ(findings[0].where.substr(0, 12), "leg of link ");
+  EXPECT_EQ(findings[0].what, "has 4 motors");
+  EXPECT_EQ(Refusal(Biped(box, "0 0 0", range, 3)),
+            "robot 'biped': leg of link 'r6' has 3 motors (joints with an "
+            "effort above 0), must have at least 5, or 4 with a warning, to "
+            "lay a sole flat: give the feet in a profile");
+}
+
+// The leg is 1 m long.
+TEST(FindFeet, WarnsOfASoleThatIsShortForTheLeg) {
+  for (const char* length : {"0.099", "0.101"}) {
+    std::vector<Finding> findings;
+    Find(Biped(Collision("box size='" + std::string(length) + " 0.05 0.02'",
+                         "0.01 0 -0.04"),
+               "0 0 0"),
+         &findings);
+    EXPECT_EQ(findings.size(), length == std::string("0.099") ? 2u : 0u);
+    if (findings.empty()) continue;
+    EXPECT_EQ(findings[0].what,
+              "is 0.099 m long, less than a tenth of the leg (1 m)");
+  }
+}
+
+TEST(FindFeet, SaysWhereTheSoleComesFrom) {
+  EXPECT_EQ(
+      Find(Biped(Collision("box size='0.2 0.1 0.02'", "0 0 -0.04"), "0 0 0"))[0]
+          .source,
+      SoleSource::kBox);
+  EXPECT_EQ(Find(Biped("", "0 0 0"))[0].source, SoleSource::kGuess);
 }
 
 TEST(MakeFoot, RejectsASoleUnderOneMillimeter) {

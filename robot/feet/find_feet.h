@@ -3,39 +3,40 @@
 
 #include <vector>
 
+#include "poise/robot/feet/feet_hints.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/robot.h"
 
 namespace poise {
 
-/// Finds the two feet of a biped, the left one first.
+/// Finds the two feet of a biped, the left one first, in the configuration at
+/// rest: joints are at zero or at their nearest limit.
 ///
-/// The feet are the two bodies that reach lowest in the configuration at rest,
-/// with the base's z axis up. At rest, joints are at zero or at their nearest
-/// limit. A sole is the flat underside of the body's collision boxes, cylinders
-/// and spheres. If the body has no such collision shapes, its visual shapes are
-/// used. Candidate planes are normal to an axis of the shapes, to an axis of
-/// the body, or to the vertical. They are at most 35 degrees from horizontal.
-/// The plane with the largest area is chosen.
+/// A foot is the last moved body of a leg. FindLegs() describes how legs are
+/// told from arms, and how the vertical is found. A leg must have four motors,
+/// and gets a warning if it has fewer than five. FindFacing() describes how
+/// forward is told from backward, and left from right.
 ///
-/// The forward direction is along the base's x axis, or along its y axis if the
-/// feet are apart in x. Its sign is the side on which the soles reach further
-/// from their ankles. If the soles are symmetric about the ankles, the knees
-/// decide: by the direction of their range, and by their bend at rest.
+/// A sole is the flat underside of the body's collision shapes. If they give no
+/// point, its visual shapes are used. Meshes are opened, see MakeOutlines().
+/// FindSole() describes how the plane of the sole is chosen. A sole shorter than
+/// a tenth of the leg gets a warning.
 ///
-/// Meshes are not opened. If a foot has only meshes, and the leg of length L
-/// has at least six motors, the sole is estimated:
+/// If a foot has only meshes that cannot be read, the sole is estimated from
+/// the height L of the hip above the foot's origin:
 ///  - height: that of a link named `sole`, else of the foot's lowest link,
 ///    else 0.1 L below the ankle;
 ///  - length: from 0.07 L behind the ankle to 0.15 L in front of the ankle;
-///  - width: 0.12 L, centered below the foot's center of mass.
-/// Most real feet are larger than this estimate, so a profile should give the
+///  - width: 0.085 L, centered below the foot's center of mass.
+/// All known feet are wider than this estimate, so a profile should give the
 /// sole.
 ///
-/// @param findings  if not null, receives a warning for each estimate.
+/// @param findings  if not null, receives the warnings.
+/// @param hints     facts that a profile gives.
 ///
 /// Throws std::invalid_argument with the reason if two feet are not found.
 std::vector<Foot> FindFeet(const RobotModel& model,
-                           std::vector<Finding>* findings = nullptr);
+                           std::vector<Finding>* findings = nullptr,
+                           const FeetHints& hints = {});
 
 }  // namespace poise

@@ -52,4 +52,11 @@ std::optional<int> FindAnkle(const Tree& tree, int foot,
   return std::nullopt;
 }
 
+Eigen::Vector3d AnklePosition(const Tree& tree, int foot,
+                              const std::vector<Pose>& X_WB,
+                              const Eigen::Vector3d& left) {
+  const auto ankle = FindAnkle(tree, foot, X_WB, left);
+  return X_WB[ankle ? *ankle + 1 : foot].p;
+}
+
 }  // namespace poise

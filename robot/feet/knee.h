@@ -39,4 +39,10 @@ std::optional<int> FindAnkle(const Tree& tree, int foot,
                              const std::vector<Pose>& X_WB,
                              const Eigen::Vector3d& left);
 
+/// Returns the position of the ankle of FindAnkle() in the world, m. If there
+/// is no ankle, returns the position of the foot's origin.
+Eigen::Vector3d AnklePosition(const Tree& tree, int foot,
+                              const std::vector<Pose>& X_WB,
+                              const Eigen::Vector3d& left);
+
 }  // namespace poise

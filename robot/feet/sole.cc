@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "poise/robot/feet/feet.h"
+#include "poise/robot/feet/resting_normal.h"
 
 namespace poise {
 namespace {
@@ -19,46 +20,14 @@ using Eigen::Vector3d;
 // A corner at most this far from a plane belongs to the plane, m. Drawings are
 // often rounded to 1 mm.
 constexpr double kFlat = 2e-3;
+// A vertex of a mesh at most this far above the sole belongs to it, m.
+constexpr double kMeshBand = 6e-3;
 // Bounds for a sole in the configuration at rest, rad. kSteepest: angle between
 // the normal and the vertical. kMostTurned: angle between the x axis and the
 // forward direction.
 constexpr double kSteepest = 0.6;
 constexpr double kMostTurned = 0.3;
 constexpr double kSameAxis = 1e-6;
-// At most about this many axes of a body are used, so that a body with very
-// many shapes does not take long.
-constexpr size_t kMostAxes = 64;
-
-// Adds the corners and axes of a shape. A curved rim becomes 16 points.
-void AddShape(const Shape& shape, const Pose& X_BF, Outline* outline) {
-  const Pose X_BS = X_BF * shape.X_FS;
-  const auto add = [&](const Vector3d& p_S, double radius) {
-    outline->corners.push_back({shape.frame, X_BS * p_S, radius});
-  };
-  if (const auto* box = std::get_if<Box>(&shape.geometry)) {
-    for (int i = 0; i < 8; ++i) {
-      const Vector3d sign(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-      add(0.5 * box->size.cwiseProduct(sign), 0);
-    }
-  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) {
-    constexpr int kPoints = 16;
-    for (int i = 0; i < kPoints; ++i) {
-      const double angle = 2 * M_PI * i / kPoints;
-      for (const double end : {-0.5, 0.5}) {
-        add({cylinder->radius * std::cos(angle),
-             cylinder->radius * std::sin(angle), end * cylinder->length},
-            0);
-      }
-    }
-  } else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
-    add(Vector3d::Zero(), sphere->radius);
-    return;  // The axes of a sphere have no meaning.
-  } else {
-    return;  // Meshes are not opened.
-  }
-  if (outline->axes_B.size() >= kMostAxes) return;
-  for (int i = 0; i < 3; ++i) outline->axes_B.push_back(X_BS.R.col(i));
-}
 
 double Area(const Sole& sole) {
   const Vector3d x = sole.normal_B.unitOrthogonal();
@@ -74,6 +43,28 @@ double Area(const Sole& sole) {
     area += 0.5 * (a.x() * b.y() - a.y() * b.x());
   }
   return area;
+}
+
+// Returns the sole in the lowest plane with this normal.
+//
+// @param mesh_band  largest height of a mesh's vertex above the plane, m.
+Sole SoleAlong(const Outline& outline, const Vector3d& normal,
+               double mesh_band) {
+  double height = std::numeric_limits<double>::infinity();
+  for (const Outline::Corner& corner : outline.corners) {
+    height = std::min(height, normal.dot(corner.p_B) - corner.radius);
+  }
+  Sole sole;
+  sole.normal_B = normal;
+  for (const Outline::Corner& corner : outline.corners) {
+    const double above = normal.dot(corner.p_B) - height;
+    if (above - corner.radius > (corner.is_mesh ? mesh_band : kFlat)) continue;
+    if (corner.is_mesh) sole.source = SoleSource::kMesh;
+    sole.frame = corner.frame;
+    sole.points_B.push_back(corner.p_B - above * normal);
+  }
+  sole.area = Area(sole);
+  return sole;
 }
 
 // Estimates the depth of the sole below the body's origin, along up_B, and the
@@ -100,27 +91,6 @@ double EstimateDepth(const RobotModel& model, int body, const Vector3d& up_B,
 
 }  // namespace
 
-std::vector<Outline> MakeOutlines(const RobotModel& model) {
-  const std::vector<Frame>& frames = model.tree.frames();
-  std::vector<Outline> outlines(model.tree.num_bodies());
-  for (Outline& outline : outlines) {
-    for (int i = 0; i < 3; ++i) outline.axes_B.push_back(Vector3d::Unit(i));
-  }
-  for (const std::vector<Shape>* shapes : {&model.collisions, &model.visuals}) {
-    std::vector<bool> done;
-    for (const Outline& outline : outlines) {
-      done.push_back(!outline.corners.empty());
-    }
-    for (const Shape& shape : *shapes) {
-      const Frame& frame = frames[shape.frame];
-      if (!done[frame.body]) {
-        AddShape(shape, frame.X_BF, &outlines[frame.body]);
-      }
-    }
-  }
-  return outlines;
-}
-
 Sole FindSole(const Outline& outline, const Vector3d& up_B) {
   std::vector<Vector3d> normals;
   const auto add = [&](const Vector3d& axis) {
@@ -133,26 +103,18 @@ Sole FindSole(const Outline& outline, const Vector3d& up_B) {
   };
   for (const Vector3d& axis : outline.axes_B) add(axis);
   add(up_B);
+  if (const auto resting = RestingNormal(outline, up_B)) add(*resting);
   Sole best;
   for (const Vector3d& normal : normals) {
-    double height = std::numeric_limits<double>::infinity();
-    for (const Outline::Corner& corner : outline.corners) {
-      height = std::min(height, normal.dot(corner.p_B) - corner.radius);
-    }
-    Sole sole;
-    sole.normal_B = normal;
-    for (const Outline::Corner& corner : outline.corners) {
-      const double above = normal.dot(corner.p_B) - height;
-      if (above - corner.radius > kFlat) continue;
-      sole.frame = corner.frame;
-      sole.points_B.push_back(corner.p_B - above * normal);
-    }
-    sole.area = Area(sole);
+    Sole sole = SoleAlong(outline, normal, kFlat);
     // The factor 1.01 prefers the first plane if areas are equal up to
     // rounding.
     if (sole.area > 1.01 * best.area) best = std::move(sole);
   }
-  return best.area > kFlat * kFlat ? best : Sole{};
+  if (best.area <= kFlat * kFlat) return {};
+  return best.source == SoleSource::kMesh
+             ? SoleAlong(outline, best.normal_B, kMeshBand)
+             : best;
 }
 
 Sole EstimateSole(const RobotModel& model, int body, const Vector3d& up_B,
@@ -162,19 +124,29 @@ Sole EstimateSole(const RobotModel& model, int body, const Vector3d& up_B,
   sole.frame = -1;
   const double depth = EstimateDepth(model, body, up_B, leg, &sole.frame);
   sole.normal_B = up_B;
+  sole.source = SoleSource::kGuess;
   const Vector3d side_B = up_B.cross(forward_B);
   // The foot's origin may lie anywhere along the axis of its joint. So the sole
   // is placed relative to the ankle (forward) and the center of mass
   // (sideways).
   const double ankle = forward_B.dot(p_BA_B);
   const double middle = side_B.dot(model.tree.inertias()[body].p_BoG_B);
+  // The width is below that of any known robot's foot: a sole that is wider
+  // than the foot would let the robot tip over its edge.
   for (const double x : {-0.07, 0.15}) {
-    for (const double y : {-0.06, 0.06}) {
+    for (const double y : {-0.0425, 0.0425}) {
       sole.points_B.push_back((ankle + x * leg) * forward_B +
                               (middle + y * leg) * side_B - depth * up_B);
     }
   }
   return sole;
+}
+
+std::string WhyEstimated(const Outline& outline) {
+  return outline.mesh_refusal.empty()
+             ? "because the foot has no shape: give the sole in a profile"
+             : "because " + outline.mesh_refusal +
+                   ": give --package-path DIR, or the sole in a profile";
 }
 
 Pose MakeSoleAxes(const Sole& sole, const Outline& outline,

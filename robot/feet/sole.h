@@ -2,30 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "poise/math/pose.h"
+#include "poise/robot/feet/outline.h"
+#include "poise/robot/feet/sole_source.h"
 #include "poise/robot/robot.h"
 
 namespace poise {
-
-/// The points of a body that may touch the ground. The points come from its
-/// collision shapes, or from its visual shapes if the collision shapes give no
-/// point. Meshes are not opened.
-struct Outline {
-  /// A point of the body, or a sphere around the point.
-  struct Corner {
-    int frame;  ///< The link, an index into Tree::frames().
-    Eigen::Vector3d p_B;
-    double radius;  ///< m.
-  };
-  std::vector<Corner> corners;
-  /// The coordinate axes of the body and of its shapes, unit vectors.
-  std::vector<Eigen::Vector3d> axes_B;
-};
-
-/// Returns the outline of each body of a robot.
-std::vector<Outline> MakeOutlines(const RobotModel& model);
 
 /// A flat underside of a body. B is the body's frame.
 struct Sole {
@@ -33,20 +18,32 @@ struct Sole {
   Eigen::Vector3d normal_B = Eigen::Vector3d::Zero();  ///< Out of the ground.
   std::vector<Eigen::Vector3d> points_B;               ///< All in one plane.
   double area = 0;                                     ///< m².
+  SoleSource source = SoleSource::kBox;
 };
 
 /// Finds the largest flat underside of a body. The candidate planes are normal
-/// to one of the outline's axes or to `up_B`, and at most 35 degrees from
-/// horizontal. The result has no points if no such plane has an area.
+/// to one of the outline's axes or to `up_B`, or are the plane on which the
+/// meshes of the body rest. They are at most 35 degrees from horizontal. The
+/// plane that has the largest area within 2 mm above it is chosen. The result
+/// has no points if no such plane has an area.
+///
+/// The points of the result are projections onto the plane: of corners at most
+/// 2 mm above it, and of vertices of meshes at most 6 mm above it. Soles have
+/// rounded edges and profiles, and rubber gives way.
 Sole FindSole(const Outline& outline, const Eigen::Vector3d& up_B);
 
-/// Estimates the sole of a foot that has only meshes, as FindFeet() describes.
+/// Estimates the sole of a foot whose meshes cannot be read, as FindFeet()
+/// describes.
 ///
 /// @param p_BA_B  the position of the ankle in the body, m.
 /// @param leg     the length of the leg, m.
 Sole EstimateSole(const RobotModel& model, int body,
                   const Eigen::Vector3d& up_B, const Eigen::Vector3d& forward_B,
                   const Eigen::Vector3d& p_BA_B, double leg);
+
+/// Returns the reason for an estimate, as part of a warning: "the mesh of the
+/// foot 'a.stl' is missing, ...".
+std::string WhyEstimated(const Outline& outline);
 
 /// Returns the pose of the sole frame S in the body. Its origin is the
 /// projection of the body's origin onto the plane of the sole. Its z axis is

@@ -2,13 +2,16 @@
 #include "poise/robot/profile/profile.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "poise/math/rpy.h"
 #include "poise/robot/feet/feet.h"
-#include "poise/robot/feet/find_feet.h"
+#include "poise/robot/feet/forward.h"
 #include "poise/robot/limits.h"
+#include "poise/robot/profile/massless.h"
+#include "poise/robot/profile/sides.h"
 #include "poise/robot/profile/yaml_file.h"
 #include "poise/robot/standing.h"
 #include "poise/robot/urdf/urdf.h"
@@ -219,6 +222,30 @@ MimicPolicy ReadMimic(const Reader& reader, const YAML::Node& node) {
   reader.Refuse(node, "mimic", "free, coupled or locked");
 }
 
+// Reads the keys `forward`, `left` and `right`.
+void ReadSides(const Reader& reader, const YAML::Node& root, Sides* sides) {
+  const auto read = [&](const char* name, TextValue* value) {
+    const YAML::Node node = root[name];
+    if (!node) return;
+    *value = {reader.Text(node, name), node.Mark().line + 1};
+  };
+  read("left", &sides->left);
+  read("right", &sides->right);
+  if (const YAML::Node node = root["forward"]) {
+    if (!node.IsScalar() || !AxisOfName(node.Scalar())) {
+      reader.Refuse(node, "forward", "one of +x -x +y -y +z -z");
+    }
+    read("forward", &sides->forward);
+  }
+  for (const auto& [name, other] :
+       {std::make_pair("left", "right"), std::make_pair("right", "left")}) {
+    if (root[name] && !root[other]) {
+      reader.Refuse(root[name], std::string(name) + ": there is no " + other +
+                                    ", must be given together");
+    }
+  }
+}
+
 // Makes the feet that a profile describes.
 std::vector<Foot> MakeFeet(const RobotModel& model, const Profile& profile) {
   std::vector<Foot> feet;
@@ -259,34 +286,14 @@ void Couple(const std::map<std::string, JointValue>& given, Robot* robot) {
   }
 }
 
-}  // namespace
-
-Profile LoadProfile(const Path& file) {
-  const Reader reader{file.string()};
-  Profile profile;
-  profile.file = file;
-  const YAML::Node root = LoadYaml(file);
-  reader.ExpectMap(root, "a profile",
-                   {"feet", "locked", "mimic", "posture", "tasks"});
-  if (const YAML::Node feet = root["feet"]) {
-    reader.ExpectMap(feet, "feet", {"left_foot", "right_foot"});
-    for (const char* name : {"left_foot", "right_foot"}) {
-      if (!feet[name]) reader.Refuse(feet, std::string("feet: has no ") + name);
-      profile.feet.push_back(reader.Sole(name, feet[name]));
-    }
-  }
-  if (root["locked"]) profile.locked = reader.Joints(root["locked"], "locked");
-  if (root["mimic"]) profile.mimic = ReadMimic(reader, root["mimic"]);
-  if (root["posture"]) ReadPosture(reader, root["posture"], &profile);
-  if (const YAML::Node tasks = root["tasks"]) {
-    reader.ExpectMap(tasks, "tasks", {});
-    profile.tasks = tasks;
-  }
-  return profile;
-}
-
-std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
-                                               const Profile& profile) {
+// Returns the joints to lock, as LockedJoints() describes, if `moved` says which
+// joints move no mass.
+std::map<std::string, JointValue> Lock(const RobotModel& model,
+                                       const Profile& profile,
+                                       const MovedMass& moved) {
+  // A joint that moves less than this fraction of the robot's mass is no joint
+  // of a leg: a foot weighs more. It may be locked with its source.
+  constexpr double kFinger = 0.01;
   const Tree& tree = model.tree;
   const auto refuse = [&](const JointValue& joint, const std::string& what) {
     throw Refusal(profile.file.string(), joint.line, "locked: " + what);
@@ -306,9 +313,21 @@ std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
     }
     locked[name] = joint;
   }
-  if (profile.mimic == MimicPolicy::kFree) return locked;
-
   const Eigen::VectorXd q_rest = RestConfiguration(model);
+  // The joints that are locked because of their mass.
+  std::set<std::string> unasked;
+  // The value of a joint that is locked but not in `locked`.
+  const auto wanted = [&](int j) {
+    const auto given = profile.joints.find(tree.joints()[j].name);
+    return given != profile.joints.end()
+               ? given->second
+               : JointValue{q_rest[tree.q_start() + j], 0};
+  };
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    if (!moved.none[j] || mimic_of[j]) continue;
+    locked.emplace(tree.joints()[j].name, wanted(j));
+    unasked.insert(tree.joints()[j].name);
+  }
   for (const MimicCoupling& mimic : model.mimics) {
     const std::string& name = tree.joints()[mimic.joint].name;
     // The chain of sources ends at a joint that is locked or is not a mimic
@@ -321,7 +340,7 @@ std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
       joint = mimic_of[joint]->source;
     }
     if (chain.empty()) {
-      if (profile.mimic == MimicPolicy::kLocked) continue;
+      if (profile.mimic != MimicPolicy::kCoupled) continue;
       const auto given = profile.locked.find(name);
       const std::string& source = tree.joints()[mimic.source].name;
       if (given == profile.locked.end() || locked.count(source) != 0) continue;
@@ -330,21 +349,71 @@ std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
     }
     const std::string& source = tree.joints()[joint].name;
     const auto fixed = locked.find(source);
-    if (profile.mimic == MimicPolicy::kCoupled && fixed == locked.end()) {
-      continue;
-    }
-    const auto given = profile.joints.find(source);
-    JointValue q = fixed != locked.end() ? fixed->second
-                   : given != profile.joints.end()
-                       ? given->second
-                       : JointValue{q_rest[tree.q_start() + joint], 0};
+    // Joints of a leg do not follow a source that is locked for its mass.
+    const bool is_fixed = fixed != locked.end();
+    const bool by_mass = is_fixed && unasked.count(source) != 0;
+    const bool is_light = moved.none[mimic.joint] ||
+                          (by_mass && moved.fraction[mimic.joint] < kFinger);
+    const bool follows =
+        profile.mimic == MimicPolicy::kLocked ||
+        (profile.mimic == MimicPolicy::kCoupled && is_fixed && !by_mass);
+    if (!is_light && !follows) continue;
+    if (!follows) unasked.insert(name);
+    JointValue q = is_fixed ? fixed->second : wanted(joint);
     while (!chain.empty()) {
       q.value = chain.back()->multiplier * q.value + chain.back()->offset;
-      locked[tree.joints()[chain.back()->joint].name] = q;
       chain.pop_back();
     }
+    locked[name] = q;
   }
   return locked;
+}
+
+}  // namespace
+
+Profile LoadProfile(const Path& file) {
+  const Reader reader{file.string()};
+  Profile profile;
+  profile.file = file;
+  const YAML::Node root = LoadYaml(file);
+  reader.ExpectMap(root, "a profile",
+                   {"feet", "forward", "left", "locked", "mimic", "posture",
+                    "right", "tasks"});
+  if (const YAML::Node feet = root["feet"]) {
+    reader.ExpectMap(feet, "feet", {"left_foot", "right_foot"});
+    for (const char* name : {"left_foot", "right_foot"}) {
+      if (!feet[name]) reader.Refuse(feet, std::string("feet: has no ") + name);
+      profile.feet.push_back(reader.Sole(name, feet[name]));
+    }
+  }
+  ReadSides(reader, root, &profile.sides);
+  if (root["locked"]) profile.locked = reader.Joints(root["locked"], "locked");
+  if (root["mimic"]) profile.mimic = ReadMimic(reader, root["mimic"]);
+  if (root["posture"]) ReadPosture(reader, root["posture"], &profile);
+  if (const YAML::Node tasks = root["tasks"]) {
+    reader.ExpectMap(tasks, "tasks", {});
+    profile.tasks = tasks;
+  }
+  return profile;
+}
+
+std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
+                                               const Profile& profile) {
+  return Lock(model, profile, FindMovedMass(model));
+}
+
+std::vector<std::string> JointsWithoutMass(const RobotModel& model,
+                                           const Profile& profile) {
+  MovedMass moved = FindMovedMass(model);
+  const auto with = Lock(model, profile, moved);
+  moved.none.assign(moved.none.size(), false);
+  const auto without = Lock(model, profile, moved);
+  std::vector<std::string> names;
+  for (const Joint& joint : model.tree.joints()) {  // In the tree's order.
+    if (with.count(joint.name) == without.count(joint.name)) continue;
+    names.push_back(joint.name);
+  }
+  return names;
 }
 
 RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile) {
@@ -354,6 +423,8 @@ RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile) {
     locked[name] = joint.value;
   }
   if (!locked.empty()) model = urdf.MakeModel(locked);
+  const std::map<std::string, Inertia> small = MakeSmallInertias(model);
+  if (!small.empty()) model = urdf.MakeModel(locked, small);
   if (profile.mimic != MimicPolicy::kCoupled) model.mimics.clear();
   return model;
 }
@@ -361,6 +432,11 @@ RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile) {
 Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
                 std::vector<Finding>* findings) {
   Robot robot{MakeModel(urdf, profile), {}, {}, false};
+  const std::vector<std::string> massless =
+      JointsWithoutMass(urdf.MakeModel(), profile);
+  if (findings != nullptr) {
+    if (auto warning = WarnOfMassless(massless)) findings->push_back(*warning);
+  }
   const Tree& tree = robot.model.tree;
   robot.q_nominal = RestConfiguration(robot.model);
   for (const auto& [name, joint] : profile.joints) {
@@ -368,6 +444,10 @@ Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
       throw Refusal(profile.file.string(), line, "posture.joints: " + what);
     };
     const std::optional<int> j = tree.FindJoint(name);
+    // The value was used to lock the joint.
+    if (std::find(massless.begin(), massless.end(), name) != massless.end()) {
+      continue;
+    }
     if (!j && LockedJoints(urdf.MakeModel(), profile).count(name) != 0) {
       refuse(Quoted(name) + " is locked, must not be in the posture");
     }
@@ -379,15 +459,17 @@ Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
     robot.q_nominal[tree.q_start() + *j] = joint.value;
   }
   Couple(profile.joints, &robot);
-  robot.feet = profile.feet.empty() ? FindFeet(robot.model, findings)
-                                    : MakeFeet(robot.model, profile);
+  const std::string file = profile.file.string();
+  robot.feet = profile.feet.empty()
+                   ? FindFeetOf(robot.model, profile.sides, file, findings)
+                   : MakeFeet(robot.model, profile);
   if (!profile.feet.empty()) {
     const std::string reason = WhyNoPairOfFeet(robot);
     if (!reason.empty()) {
-      throw Refusal(profile.file.string(), profile.feet[0].line,
-                    "feet: " + reason);
+      throw Refusal(file, profile.feet[0].line, "feet: " + reason);
     }
   }
+  CheckSides(robot, profile.sides, file, !profile.feet.empty());
   if (!profile.base_xyz) return robot;
 
   robot.can_stand = true;

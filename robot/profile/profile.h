@@ -12,6 +12,7 @@
 
 #include "poise/math/pose.h"
 #include "poise/robot/finding.h"
+#include "poise/robot/profile/sides.h"
 #include "poise/robot/robot.h"
 #include "poise/robot/urdf/urdf.h"
 
@@ -54,6 +55,10 @@ struct JointValue {
 ///                                # sole's x is then near the link's x.
 ///         size: [0.23, 0.13]     # m. Or polygon: [[x, y], ...], m.
 ///       right_foot: ...
+///     forward: +x                # Axis of the root link that points forward.
+///     left: l_foot               # Links of the left and of the right foot.
+///     right: r_foot              # These three are optional too: see
+///                                # FindFeet().
 ///     posture:                   # The nominal posture.
 ///       found: text              # How it was found.
 ///       base: {xyz: [0, 0, 0.75], rpy: [0, 0, 0]}
@@ -66,6 +71,7 @@ struct JointValue {
 struct Profile {
   std::filesystem::path file;
   std::vector<SoleProfile> feet;
+  Sides sides;  ///< `forward`, `left` and `right`.
   /// Position of the base in the nominal posture, m. If it is absent, the
   /// profile gives no posture in which the robot can stand.
   std::optional<Eigen::Vector3d> base_xyz;
@@ -85,27 +91,37 @@ struct Profile {
 /// and the valid ones.
 Profile LoadProfile(const std::filesystem::path& file);
 
-/// Returns the joints that a profile locks. They are the joints in `locked`,
-/// the mimic joints of locked sources (unless `mimic` is free), and all mimic
-/// joints if `mimic` is locked. The result can replace `locked` without
-/// changing the robot. Throws Refusal if the robot has no such joint, or if
+/// Returns the joints that are locked. They are the joints in the profile's
+/// `locked`, the mimic joints of locked sources (unless `mimic` is free), and
+/// all mimic joints if `mimic` is locked. Further, they are the joints that move
+/// no mass (see FindMovedMass()), at their value in `joints` or at rest, and the
+/// mimic joints of these that move less than 1 % of the mass. The result can
+/// replace `locked` without changing the robot. Throws Refusal if the robot has no such joint, or if
 /// a value is outside the joint's limits. Also throws if a coupled joint is in
 /// `locked` but its source is not.
 std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
                                                const Profile& profile);
 
-/// Makes a model without the joints that the profile locks. RobotModel::mimics
-/// is empty unless the profile's `mimic` is coupled. Throws as LockedJoints().
+/// Returns the names of the joints of LockedJoints() that are locked only
+/// because they, or their sources, move no mass. Throws as LockedJoints().
+std::vector<std::string> JointsWithoutMass(const RobotModel& model,
+                                           const Profile& profile);
+
+/// Makes a model without the joints that LockedJoints() returns. A body without
+/// mass between moving joints has the inertia of MakeSmallInertias().
+/// RobotModel::mimics is empty unless the profile's `mimic` is coupled. Throws
+/// as LockedJoints().
 RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile);
 
 /// Makes a robot from its URDF and a profile. An empty Profile is enough for a
 /// biped whose feet FindFeet() can find.
 ///
-/// @param findings  if not null, receives the warnings of FindFeet().
+/// @param findings  if not null, receives the warnings of FindFeet() and of
+///                  WarnOfMassless().
 ///
 /// Throws Refusal if the profile does not match the robot: a name is unknown, a
-/// joint is outside its limits, or the posture has a base but the robot cannot
-/// stand in the posture. Throws another std::invalid_argument as FindFeet().
+/// joint is outside its limits, `forward`, `left` and `right` contradict the
+/// feet, or the posture has a base but the robot cannot stand in the posture. Throws another std::invalid_argument as FindFeet().
 Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
                 std::vector<Finding>* findings = nullptr);
 

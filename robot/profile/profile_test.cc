@@ -45,6 +45,9 @@ posture:
   found: somehow
   base: {xyz: [0, 0, 0.7], rpy: [0, 0.1, 0]}
   joints: {l_knee: 0.5}
+forward: -y
+left: l_foot
+right: r_foot
 locked: {neck_yaw: 0.25}
 mimic: coupled
 tasks:
@@ -64,10 +67,14 @@ tasks:
   EXPECT_EQ(profile.base_rpy, Eigen::Vector3d(0, 0.1, 0));
   EXPECT_EQ(profile.posture_found, "somehow");
   EXPECT_EQ(profile.joints.at("l_knee").value, 0.5);
+  EXPECT_EQ(profile.sides.forward.text, "-y");
+  EXPECT_EQ(profile.sides.forward.line, 9);
+  EXPECT_EQ(profile.sides.left.text, "l_foot");
+  EXPECT_EQ(profile.sides.right.line, 11);
   EXPECT_EQ(profile.locked.at("neck_yaw").value, 0.25);
   EXPECT_EQ(profile.mimic, MimicPolicy::kCoupled);
   EXPECT_EQ(profile.tasks["com"]["rank"].as<int>(), 4);
-  EXPECT_EQ(profile.tasks["com"].Mark().line + 1, 12);
+  EXPECT_EQ(profile.tasks["com"].Mark().line + 1, 15);
 }
 
 // Two soles for the humanoid.
@@ -84,8 +91,8 @@ std::string LeftFoot(const std::string& foot) {
 
 TEST(LoadProfile, NamesTheLineOfAnError) {
   EXPECT_EQ(Refusal("\nfeets: {}"),
-            "2: a profile: unknown key 'feets', must be one of feet locked "
-            "mimic posture tasks");
+            "2: a profile: unknown key 'feets', must be one of feet forward "
+            "left locked mimic posture right tasks");
   EXPECT_EQ(Refusal("a"), "1: a profile is 'a', must be a map");
   EXPECT_EQ(Refusal(""), " is empty, must be a map");
   EXPECT_EQ(Refusal("feet:\n  left_foot: {frame: l_sole, size: [1, 1]}"),
@@ -163,6 +170,50 @@ TEST(LoadProfile, NamesAnUnknownOrInvalidFoot) {
   EXPECT_EQ(Refusal(LeftFoot("frame: l_sole, size: [1, 1], "
                              "normal: [0, 0, 0]")),
             "2: feet.left_foot.normal is zero, must be a direction");
+}
+
+TEST(LoadProfile, NamesAnInvalidSide) {
+  EXPECT_EQ(Refusal("mimic: free\nforward: front"),
+            "2: forward is 'front', must be one of +x -x +y -y +z -z");
+  EXPECT_EQ(Refusal("forward: [1, 0]"),
+            "1: forward is a list, must be one of +x -x +y -y +z -z");
+  EXPECT_EQ(Refusal("forward: +y"),
+            "1: forward is '+y', must be +x or -x, across the line between "
+            "the feet");
+  EXPECT_EQ(Refusal("left: l_foot"),
+            "1: left: there is no right, must be given together");
+  EXPECT_EQ(Refusal("left: l_foot\nright: nothing"),
+            "2: right: the robot has no link 'nothing'");
+  EXPECT_EQ(Refusal("left: pelvis\nright: r_foot"),
+            "1: left: 'pelvis' is fixed to the root link, must be the last "
+            "link of a leg");
+  EXPECT_EQ(Refusal("left: l_foot\nright: l_sole"),
+            "2: right: 'l_sole' is on the same body as left, must be on "
+            "another");
+  EXPECT_EQ(Refusal("left: l_foot\nright: l_shank"),
+            "1: left and right: link 'l_shank' carries the other foot, must "
+            "be at the end of another leg");
+  EXPECT_EQ(Refusal("left: l_foot\nright: r_foot\nforward: -x"),
+            "3: forward is '-x', must be +x to agree with left and right");
+  EXPECT_EQ(Refusal(kFeet + "forward: -x"),
+            "4: forward is '-x', must be +x to agree with feet");
+  EXPECT_EQ(Refusal(kFeet + "left: r_foot\nright: l_foot"),
+            "4: left: 'r_foot' is not on the body of left_foot, must agree "
+            "with feet");
+}
+
+TEST(LoadRobot, FollowsTheSidesOfTheProfile) {
+  const auto left_foot = [](const std::string& text) {
+    const Robot robot = LoadRobot(kUrdf, Parse(text));
+    return robot.model.tree.frames()[robot.feet[0].frame].name;
+  };
+  EXPECT_EQ(left_foot("mimic: free"), "l_foot");
+  EXPECT_EQ(left_foot("forward: +x"), "l_foot");
+  EXPECT_EQ(left_foot("forward: -x"), "r_foot");
+  EXPECT_EQ(left_foot("left: r_sole\nright: l_sole"), "r_foot");
+  EXPECT_EQ(left_foot("left: l_foot\nright: r_foot\nforward: +x"), "l_foot");
+  EXPECT_EQ(left_foot(kFeet + "forward: +x\nleft: l_sole\nright: r_foot"),
+            "l_sole");
 }
 
 TEST(LoadProfile, AlignsTheZAxisOfTheSoleWithTheNormal) {

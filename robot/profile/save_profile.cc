@@ -11,8 +11,10 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "poise/math/rpy.h"
+#include "poise/robot/profile/sides.h"
 
 namespace poise {
 namespace {
@@ -72,6 +74,19 @@ void WriteFeet(const Robot& robot, std::ostream* stream) {
   }
 }
 
+// Writes the keys `forward`, `left` and `right` that the profile gave.
+void WriteSides(const Sides& sides, std::ostream* stream) {
+  if (sides.forward.text.empty() && sides.left.text.empty()) return;
+  *stream << "\n# The root link's axis that points forward, links of the feet."
+             "\n";
+  for (const auto& [key, value] : {std::make_pair("forward", &sides.forward),
+                                   std::make_pair("left", &sides.left),
+                                   std::make_pair("right", &sides.right)}) {
+    if (value->text.empty()) continue;
+    *stream << key << ": " << Name(value->text) << "\n";
+  }
+}
+
 void WritePosture(const Robot& robot, const Profile& profile,
                   std::ostream* stream) {
   const Tree& tree = robot.model.tree;
@@ -98,6 +113,7 @@ void WriteProfile(const Robot& robot, const Profile& profile,
                   std::ostream* stream) {
   *stream << "# A profile of the robot " << Name(robot.model.name) << ".\n\n";
   WriteFeet(robot, stream);
+  WriteSides(profile.sides, stream);
   if (robot.can_stand) WritePosture(robot, profile, stream);
   if (!profile.locked.empty()) {
     *stream << "\n# Joints that are fixed, rad or m.\nlocked:\n";

@@ -12,8 +12,9 @@ namespace poise {
 /// Writes a profile with comments. LoadRobot() makes the same robot from this
 /// profile, with numbers rounded to nine digits.
 ///
-/// @param profile  the profile that the robot was loaded with. Its locked
-///                 joints, mimics and tasks are written as well.
+/// @param profile  the profile that the robot was loaded with. Its `forward`,
+///                 `left` and `right`, locked joints, mimics and tasks are
+///                 written as well.
 void WriteProfile(const Robot& robot, const Profile& profile,
                   std::ostream* stream);
 

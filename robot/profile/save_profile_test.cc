@@ -98,6 +98,19 @@ TEST(SaveProfile, KeepsLockedJointsMimicPolicyAndTasks) {
   EXPECT_EQ(again.tasks["com"]["rank"].as<int>(), 4);
 }
 
+TEST(SaveProfile, KeepsTheSides) {
+  const Profile profile = LoadProfile(
+      TestFile("sides.yaml", "forward: -x\nleft: r_foot\nright: l_foot\n"));
+  const auto file = TestFile("saved.yaml", "");
+  const Robot robot = LoadRobot(kUrdf, profile);
+  SaveProfile(robot, profile, file);
+  const Profile again = LoadProfile(file);
+  EXPECT_EQ(again.sides.forward.text, "-x");
+  EXPECT_EQ(again.sides.left.text, "r_foot");
+  EXPECT_EQ(again.sides.right.text, "l_foot");
+  EXPECT_EQ(LoadRobot(kUrdf, again).feet[0].body, robot.feet[0].body);
+}
+
 // In YAML, a key on one line has at most 1024 characters.
 TEST(SaveProfile, KeepsNamesOfAnyLength) {
   const std::string name(1100, 'n');

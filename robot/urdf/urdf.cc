@@ -152,13 +152,17 @@ std::string XmlForUrdfdom(tinyxml2::XMLDocument* document) {
 }
 
 Tree MakeTree(const urdf::ModelInterface& urdf, const UrdfFacts& facts,
-              const std::map<std::string, double>& locked) {
+              const std::map<std::string, double>& locked,
+              const std::map<std::string, Inertia>& added) {
   TreeBuilder builder;
   builder.AcceptUnphysicalInertias();  // CheckInertial() warns.
   for (const std::string& name : facts.tree.links) {
     const auto& inertial = urdf.links_.at(name)->inertial;
-    builder.AddLink(name,
-                    inertial != nullptr ? FromUrdf(*inertial) : Inertia{});
+    Inertia M = inertial != nullptr ? FromUrdf(*inertial) : Inertia{};
+    if (const auto more = added.find(name); more != added.end()) {
+      M = M + more->second;
+    }
+    builder.AddLink(name, M);
   }
   for (const std::string& name : facts.tree.joints) {
     const urdf::Joint& joint = *urdf.joints_.at(name);
@@ -206,8 +210,11 @@ struct UrdfDocument::Content {
 };
 
 UrdfDocument::UrdfDocument(const std::filesystem::path& file,
-                           std::vector<Finding>* findings)
-    : UrdfDocument(ReadTextFile(file, kMostMib), file.string(), findings) {}
+                           std::vector<Finding>* findings,
+                           std::vector<std::filesystem::path> packages)
+    : UrdfDocument(ReadTextFile(file, kMostMib), file.string(), findings) {
+  mesh_places_ = {file, std::move(packages)};
+}
 
 UrdfDocument::UrdfDocument(std::string_view text, std::string source,
                            std::vector<Finding>* findings)
@@ -224,11 +231,13 @@ UrdfDocument::UrdfDocument(std::string_view text, std::string source,
 }
 
 RobotModel UrdfDocument::MakeModel(
-    const std::map<std::string, double>& locked) const {
+    const std::map<std::string, double>& locked,
+    const std::map<std::string, Inertia>& added) const {
   const UrdfFacts& facts = content_->facts;
   const urdf::ModelInterface& urdf = *content_->urdfdom.get();
   RobotModel model{
-      urdf.getName(), MakeTree(urdf, facts, locked), {}, {}, {}, {}, 0};
+      urdf.getName(), MakeTree(urdf, facts, locked, added), {}, {}, {}, {}, 0,
+      mesh_places_};
   for (const Joint& joint : model.tree.joints()) {
     model.limits.push_back(facts.limits.at(joint.name));
   }

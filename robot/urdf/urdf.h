@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "poise/math/inertia.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/robot.h"
 
@@ -20,7 +21,7 @@ namespace poise {
 /// `floating` represent the world, and are left out. A mimic joint is an
 /// ordinary joint of the tree; RobotModel::mimics gives its source. A link
 /// without `<inertial>` has mass 0, and at least one link must have a positive
-/// mass. Mesh files are not opened. The result does not depend on the locale.
+/// mass. Mesh files are not opened; their places are in RobotModel. The result does not depend on the locale.
 class UrdfDocument {
  public:
   /// Reads a file. The cost is O(n log n) in the length of the file, and less
@@ -29,13 +30,15 @@ class UrdfDocument {
   /// @param findings  if not null, receives each note and warning about the
   ///                  file. Also receives each reason to reject the file,
   ///                  before Refusal is thrown.
+  /// @param packages  folders of packages, see FindMesh().
   ///
   /// Throws Refusal with one line that gives the file, the element, its value
   /// and the valid values.
   explicit UrdfDocument(const std::filesystem::path& file,
-                        std::vector<Finding>* findings = nullptr);
+                        std::vector<Finding>* findings = nullptr,
+                        std::vector<std::filesystem::path> packages = {});
 
-  /// Reads the text of a URDF.
+  /// Reads the text of a URDF. Meshes of its models are not searched.
   ///
   /// @param source  the name of the text in messages.
   UrdfDocument(std::string_view text, std::string source,
@@ -49,13 +52,16 @@ class UrdfDocument {
   /// @param locked  the joints to fix, with their values in rad or m. These
   ///                joints are not in the tree; the links below them remain as
   ///                frames.
-  RobotModel MakeModel(const std::map<std::string, double>& locked = {}) const;
+  /// @param added   inertias to add to links, by the name of the link.
+  RobotModel MakeModel(const std::map<std::string, double>& locked = {},
+                       const std::map<std::string, Inertia>& added = {}) const;
 
  private:
   struct Content;
 
   std::string source_;
   std::shared_ptr<const Content> content_;
+  MeshPlaces mesh_places_;
 };
 
 /// Reads a robot from a URDF file. Returns

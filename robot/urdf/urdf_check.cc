@@ -114,8 +114,10 @@ UrdfFacts CheckUrdf(tinyxml2::XMLDocument* document,
   const std::string_view name = robot->Name();
   if (name != "robot") {
     reject("is a <" + std::string(name.substr(0, 40)) + ">",
-           name == "sdf"      ? "which is SDF, must be URDF: <robot>"
-           : name == "mujoco" ? "which is MJCF, must be URDF: <robot>"
+           name == "sdf"      ? "which is SDF, must be URDF: <robot>; "
+                                "export the robot as URDF"
+           : name == "mujoco" ? "which is MJCF, must be URDF: <robot>; "
+                                "export the robot as URDF"
                               : "must be a <robot>",
            robot->GetLineNum());
     return {};

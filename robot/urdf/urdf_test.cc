@@ -453,9 +453,11 @@ TEST(LoadUrdf, RejectsOtherFormats) {
   EXPECT_EQ(Rejection(std::string("<robot\0/>", 9)),
             "test.urdf: is binary, must be UTF-8 text");
   EXPECT_EQ(Rejection("<sdf/>"),
-            "test.urdf:1: is a <sdf>, which is SDF, must be URDF: <robot>");
+            "test.urdf:1: is a <sdf>, which is SDF, must be URDF: <robot>; "
+            "export the robot as URDF");
   EXPECT_EQ(Rejection("<mujoco/>"),
-            "test.urdf:1: is a <mujoco>, which is MJCF, must be URDF: <robot>");
+            "test.urdf:1: is a <mujoco>, which is MJCF, must be URDF: <robot>; "
+            "export the robot as URDF");
   EXPECT_EQ(Rejection("<a/>"), "test.urdf:1: is a <a>, must be a <robot>");
   EXPECT_EQ(Rejection("<!-- -->"),
             "test.urdf: has no element, must have a <robot>");

@@ -131,7 +131,7 @@ class Candidate {
   // The one place where a robot of the folder is read. `packages_` are the
   // folders for its meshes.
   void Load() {
-    const UrdfDocument document(urdf_, &findings_);
+    const UrdfDocument document(urdf_, &findings_, packages_);
     const fs::path file = FindProfile(document.MakeModel().name, urdf_);
     if (!file.empty()) profile_ = LoadProfile(file);
     trial_.profile = file.filename().string();

@@ -2,12 +2,39 @@
 #include "poise/robot/control/tasks/contact.h"
 
 #include <Eigen/Geometry>
+#include <string_view>
 
 #include "poise/robot/control/tasks/row_names.h"
 
 namespace poise {
 
-ContactTask::ContactTask(const std::vector<Foot>& feet)
+namespace {
+
+// Bound on the acceleration of a motion with the share 1/2, as a fraction of
+// gravity.
+constexpr double kHalfLocked = 0.1;
+
+// Returns six rows "right_foot.loop.1", ... for each foot but the first.
+std::vector<RowDescription> LoopRows(const std::vector<Foot>& feet) {
+  constexpr std::string_view kPhrase =
+      "a motion of the % against the other foot";
+  std::vector<RowDescription> rows;
+  for (size_t i = 1; i < feet.size(); ++i) {
+    AddFootRows(feet[i], "loop", RowKind::kLimit,
+                {{"1", "m/s2", kPhrase},
+                 {"2", "m/s2", kPhrase},
+                 {"3", "m/s2", kPhrase},
+                 {"4", "m/s2", kPhrase},
+                 {"5", "m/s2", kPhrase},
+                 {"6", "m/s2", kPhrase}},
+                &rows);
+  }
+  return rows;
+}
+
+}  // namespace
+
+ContactTask::ContactTask(const RobotModel& model, const std::vector<Foot>& feet)
     : Task("contact",
            FootRows(
                feet, "contact", RowKind::kTarget,
@@ -17,13 +44,17 @@ ContactTask::ContactTask(const std::vector<Foot>& feet)
                 {"vx", "m/s2", "the motion of the % on the ground along x"},
                 {"vy", "m/s2", "the motion of the % on the ground along y"},
                 {"vz", "m/s2", "the motion of the % on the ground along z"}}),
-           {}) {
+           LoopRows(feet)),
+      gravity_(model.tree.gravity_W().norm()) {
+  for (size_t i = 1; i < feet.size(); ++i) {
+    loops_.emplace_back(model, feet.front().body, feet[i].body);
+  }
   AddParameter("kp", &kp_, 0, 1e4);
   AddParameter("kd", &kd_, 0, 1e3);
 }
 
 void ContactTask::Write(const TaskInput& input, EqualityBlock* equalities,
-                        InequalityBlock*) const noexcept {
+                        InequalityBlock* inequalities) const noexcept {
   for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
     const ContactTick& contact = input.contacts[i];
     if (!contact.in_contact) continue;
@@ -38,6 +69,44 @@ void ContactTask::Write(const TaskInput& input, EqualityBlock* equalities,
     equalities->B.block(6 * i, 0, 6, nv) = contact.J_WC_C;
     equalities->b.segment<6>(6 * i) =
         contact.Jdot_v_C + kd_ * contact.V_WC_C - kp_ * e_C;
+    if (i == 0 || !input.contacts[0].in_contact) continue;
+    LockedMotions locked;
+    loops_[i - 1].FindLocked(input.contacts[0], contact, &locked);
+    LeaveOutLocked(locked, i, equalities, inequalities);
+  }
+}
+
+// Projects the rows of the first foot A and of foot B to those without n,
+//     B <- B - metric n (n' B),
+// and writes the rows of n as bounded ones.
+void ContactTask::LeaveOutLocked(const LockedMotions& locked, int foot,
+                                 EqualityBlock* equalities,
+                                 InequalityBlock* inequalities) const noexcept {
+  auto B_A = equalities->B.topRows<6>();
+  auto B_B = equalities->B.middleRows<6>(6 * foot);
+  auto b_A = equalities->b.head<6>();
+  auto b_B = equalities->b.segment<6>(6 * foot);
+  for (int k = 0; k < locked.count; ++k) {
+    const int row = 6 * (foot - 1) + k;
+    const auto n_A = locked.n.col(k).head<6>(), n_B = locked.n.col(k).tail<6>();
+    auto c = inequalities->C.row(row);
+    c.noalias() = n_A.transpose() * B_A;
+    c.noalias() += n_B.transpose() * B_B;
+    const double d = n_A.dot(b_A) + n_B.dot(b_B);
+    const Vector6d m_A = locked.metric.head<6>().cwiseProduct(n_A);
+    const Vector6d m_B = locked.metric.tail<6>().cwiseProduct(n_B);
+    B_A.noalias() -= m_A * c;
+    B_B.noalias() -= m_B * c;
+    b_A -= m_A * d;
+    b_B -= m_B * d;
+    const double share = locked.share[k];
+    if (share == 1) {
+      c.setZero();
+      continue;
+    }
+    const double bound = kHalfLocked * gravity_ * share / (1 - share);
+    inequalities->lower[row] = -bound - d;
+    inequalities->upper[row] = bound - d;
   }
 }
 

@@ -88,7 +88,7 @@ TEST_F(TaskTest, ASwingFootFollowsItsReference) {
 }
 
 TEST_F(TaskTest, ContactMovesASoleUprightAndToTheGround) {
-  const ContactTask task(robot_.feet);
+  const ContactTask task(robot_.model, robot_.feet);
   const ContactTick& contact = controller_.contacts()[0];
   const Eigen::VectorXd y = RandomY();
   const Eigen::VectorXd at_ground = Residual(task, y);

@@ -1,20 +1,31 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/commands/doctor/diagnosis.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
+#include <utility>
 
+#include "poise/dynamics/kinematics.h"
 #include "poise/dynamics/tick.h"
+#include "poise/math/rpy.h"
 #include "poise/robot/control/default_stack.h"
 #include "poise/robot/control/stack.h"
 #include "poise/robot/control/stand.h"
 #include "poise/robot/control/task_set.h"
+#include "poise/robot/feet/forward.h"
+#include "poise/robot/limits.h"
+#include "poise/robot/profile/massless.h"
+#include "poise/robot/profile/save_profile.h"
+#include "poise/robot/text_file.h"
 #include "poise/robot/urdf/urdf.h"
+#include "poise/tools/commands/doctor/check_bodies.h"
 #include "poise/tools/commands/doctor/check_inertia.h"
+#include "poise/tools/commands/doctor/one_leg.h"
 #include "poise/tools/commands/doctor/parity.h"
 #include "poise/tools/commands/doctor/strength.h"
 
@@ -23,7 +34,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int kMostJointsToStand = 100;
+constexpr int kMostJointsToStand = 200;
+// A biped has two legs with at least four joints.
+constexpr int kFewestJointsToStand = 8;
 constexpr size_t kMostLinksToStand = 1000;
 constexpr size_t kMostShapesToStand = 10'000;
 // Largest relative difference between the dynamics of Poise and of Bullet.
@@ -37,6 +50,19 @@ bool IsLarge(const RobotModel& model) {
          model.visuals.size() + model.collisions.size() > kMostShapesToStand;
 }
 
+// Returns the word of JSON for the origin of a sole.
+const char* NameOf(const std::optional<SoleSource>& source) {
+  if (!source) return "profile";
+  switch (*source) {
+    case SoleSource::kBox:
+      return "box";
+    case SoleSource::kMesh:
+      return "mesh";
+    default:
+      return "guess";
+  }
+}
+
 // Returns the height of the center of mass in the standing posture, m.
 double HeightOfMass(const Robot& robot) {
   const Tree& tree = robot.model.tree;
@@ -47,8 +73,9 @@ double HeightOfMass(const Robot& robot) {
 
 class Doctor {
  public:
-  Doctor(const std::filesystem::path& urdf, const Profile& profile)
-      : urdf_(urdf), profile_(profile) {}
+  Doctor(const std::filesystem::path& urdf, const Profile& profile,
+         const std::vector<std::filesystem::path>& packages)
+      : urdf_(urdf), profile_(profile), packages_(packages) {}
 
   Diagnosis Examine();
 
@@ -66,6 +93,22 @@ class Doctor {
   // parity use this robot.
   RobotModel LockJoints(const RobotModel& whole);
 
+  void Append(const std::vector<Finding>& findings) {
+    diagnosis_.findings.insert(diagnosis_.findings.end(), findings.begin(),
+                               findings.end());
+  }
+
+  // Sets soles and forward, and compares the legs.
+  void DescribeFeet(const Robot& robot);
+
+  void WriteFoundProfile(const Robot& robot);
+
+  // Sets guessed_feet.
+  void GuessFeet(const RobotModel& model);
+
+  // Returns whether the file needs xacro. If it does, adds a finding.
+  bool CheckXacro();
+
   // Throws Refusal if the profile does not match the robot: this is an error of
   // the caller, not a finding about the robot.
   void CheckStanding();
@@ -74,6 +117,7 @@ class Doctor {
 
   const std::filesystem::path urdf_;
   const Profile profile_;
+  const std::vector<std::filesystem::path> packages_;
   std::optional<UrdfDocument> document_;  // Set by Load().
   Diagnosis diagnosis_;
   std::optional<double> smallest_eigenvalue_;  // See CheckInertia().
@@ -87,15 +131,23 @@ Diagnosis Doctor::Examine() {
     if (IsLarge(model)) {
       Add(Severity::kNote, "robot",
           "was not tested for standing or compared with Bullet",
-          "because it has more than 100 joints, 1000 links or 10000 shapes");
+          "because it has more than 200 joints, 1000 links or 10000 shapes");
     } else {
       CheckStanding();
+      if (diagnosis_.soles.empty()) GuessFeet(model);
+      Append(FindWideInertias(model));
       if (smallest_eigenvalue_) CheckParity({model, {}, {}});
     }
   }
   std::stable_sort(diagnosis_.findings.begin(), diagnosis_.findings.end(),
                    [](const Finding& a, const Finding& b) {
-                     return a.severity > b.severity;
+                     if (a.severity != b.severity) {
+                       return a.severity > b.severity;
+                     }
+                     // A warning about the robot matters more than one about
+                     // an element of the file.
+                     return a.severity == Severity::kWarn && a.line == 0 &&
+                            b.line > 0;
                    });
   return std::move(diagnosis_);
 }
@@ -106,14 +158,34 @@ void Doctor::Add(Severity severity, std::string where, std::string what,
       {severity, std::move(where), std::move(what), std::move(why), 0});
 }
 
+bool Doctor::CheckXacro() {
+  if (urdf_.extension() != ".xacro") return false;
+  constexpr size_t kMostMib = 112;  // As UrdfDocument.
+  const std::string text = ReadTextFile(urdf_, kMostMib);
+  for (const char* sign : {"xacro:", "${", "$("}) {
+    if (text.find(sign) == std::string::npos) continue;
+    diagnosis_.is_xacro = true;
+    Add(Severity::kReject, "", "is xacro, must be URDF",
+        "expand it first: xacro FILE > FILE.urdf");
+    return true;
+  }
+  return false;
+}
+
 std::optional<RobotModel> Doctor::Load() {
   try {
-    document_.emplace(urdf_, &diagnosis_.findings);
+    if (CheckXacro()) return std::nullopt;
+    document_.emplace(urdf_, &diagnosis_.findings, packages_);
     return document_->MakeModel();
   } catch (const Refusal& refusal) {
     // UrdfDocument may have added the reason already.
     if (diagnosis_.worst() != Severity::kReject) {
       diagnosis_.findings.push_back(refusal.finding());
+    }
+    for (const Finding& finding : diagnosis_.findings) {
+      if (finding.severity != Severity::kReject) continue;
+      diagnosis_.is_xacro |= finding.what.find("xacro") != std::string::npos ||
+                             finding.why.find("xacro") != std::string::npos;
     }
   } catch (const std::invalid_argument& error) {
     Add(Severity::kReject, "", error.what(), "");
@@ -139,17 +211,26 @@ void Doctor::Describe(const RobotModel& model) {
 }
 
 RobotModel Doctor::LockJoints(const RobotModel& whole) {
+  const std::vector<std::string> massless = JointsWithoutMass(whole, profile_);
+  // For other robots, MakeRobot() adds the warning.
+  if (IsLarge(whole)) {
+    if (auto warning = WarnOfMassless(massless)) {
+      diagnosis_.findings.push_back(*warning);
+    }
+  }
   const size_t locked = LockedJoints(whole, profile_).size();
-  if (locked == 0) return whole;
-  Add(Severity::kNote, "robot",
-      "has " + std::to_string(locked) + " joints locked by the profile",
-      "M, standing and parity are computed with the " +
-          std::to_string(whole.tree.num_joints() - locked) + " other joints");
+  if (locked > massless.size()) {
+    Add(Severity::kNote, "robot",
+        "has " + std::to_string(locked - massless.size()) +
+            " joints locked by the profile",
+        "M, standing and parity are computed with the " +
+            std::to_string(whole.tree.num_joints() - locked) + " other joints");
+  }
   return MakeModel(*document_, profile_);
 }
 
 void Doctor::CheckStanding() {
-  std::string reason = "because M is singular";
+  std::string reason = "M is singular";
   try {
     Robot robot = MakeRobot(*document_, profile_, &diagnosis_.findings);
     if (profile_.tasks.IsDefined()) {
@@ -157,17 +238,20 @@ void Doctor::CheckStanding() {
           MakeDefaultStack(robot, FindTaskLinks(profile_.tasks, robot));
       ApplyTasks(profile_.tasks, profile_.file.string(), &stack);
     }
-    for (const Foot& foot : robot.feet) {
-      diagnosis_.soles.push_back(
-          {foot.name, robot.model.tree.frames()[foot.frame].name,
-           2 * foot.half_size.x(), 2 * foot.half_size.y()});
-    }
+    DescribeFeet(robot);
+    WriteFoundProfile(robot);
     if (smallest_eigenvalue_) {
-      if (!robot.can_stand) StandUp(&robot);
-      for (const Finding& finding : FindWeakness(robot)) {
-        diagnosis_.findings.push_back(finding);
-      }
+      if (!robot.can_stand) StandUp(&robot, profile_);
+      WriteFoundProfile(robot);
       diagnosis_.com_height = HeightOfMass(robot);
+      const std::vector<Finding> weakness = FindWeakness(robot);
+      if (weakness.empty()) {
+        diagnosis_.stands = true;
+        Append(FindOneLegDefects(robot));
+        return;
+      }
+      Append(weakness);
+      diagnosis_.reason = weakness[0].where + " " + weakness[0].what;
       return;
     }
   } catch (const Refusal&) {
@@ -175,7 +259,71 @@ void Doctor::CheckStanding() {
   } catch (const std::invalid_argument& error) {
     reason = OneLine(error.what());
   }
-  Add(Severity::kNote, "robot", "does not stand", reason);
+  diagnosis_.reason = reason;
+  // Files with few joints are parts of robots.
+  const bool is_small =
+      document_->MakeModel().tree.num_joints() < kFewestJointsToStand;
+  Add(is_small ? Severity::kNote : Severity::kWarn, "robot", "does not stand",
+      reason);
+}
+
+void Doctor::DescribeFeet(const Robot& robot) {
+  for (const Foot& foot : robot.feet) {
+    Eigen::AlignedBox2d sole;
+    for (const Eigen::Vector2d& corner : foot.polygon_C) sole.extend(corner);
+    const Frame& link = robot.model.tree.frames()[foot.frame];
+    const Pose X_CM{Eigen::Matrix3d::Identity(),
+                    {sole.center().x(), sole.center().y(), 0}};
+    const Pose X_FM = link.X_BF.Inverse() * foot.X_BC * X_CM;
+    diagnosis_.soles.push_back({foot.name, link.name, sole.sizes().x(),
+                                sole.sizes().y(), X_FM.p, RpyFromMatrix(X_FM.R),
+                                NameOf(foot.source),
+                                foot.X_BC.Inverse().p.z()});
+  }
+  diagnosis_.forward = ForwardAxis(robot);
+  Append(CompareLegs(robot));
+}
+
+void Doctor::WriteFoundProfile(const Robot& robot) {
+  Profile profile = profile_;
+  profile.locked = LockedJoints(document_->MakeModel(), profile_);
+  std::ostringstream stream;
+  WriteProfile(robot, profile, &stream);
+  diagnosis_.profile = stream.str();
+}
+
+void Doctor::GuessFeet(const RobotModel& model) {
+  const Tree& tree = model.tree;
+  std::vector<Pose> X_WB(tree.num_bodies());
+  ComputePoses(tree, RestConfiguration(model), &X_WB);
+  std::vector<bool> has_child(tree.num_bodies());
+  for (const Joint& joint : tree.joints()) has_child[joint.parent] = true;
+  std::vector<int> ends;
+  for (int b = 1; b < tree.num_bodies(); ++b) {
+    if (!has_child[b]) ends.push_back(b);
+  }
+  if (ends.size() < 2) return;
+  std::stable_sort(ends.begin(), ends.end(),
+                   [&](int a, int b) { return X_WB[a].p.z() < X_WB[b].p.z(); });
+  // REP 103: y points to the left.
+  if (X_WB[ends[0]].p.y() < X_WB[ends[1]].p.y()) std::swap(ends[0], ends[1]);
+  for (const int i : {0, 1}) {
+    const auto link =
+        std::find_if(tree.frames().begin(), tree.frames().end(),
+                     [&](const Frame& frame) { return frame.body == ends[i]; });
+    const double leg = -X_WB[ends[i]].p.z();
+    // As FindFeet() estimates a sole.
+    diagnosis_.guessed_feet.push_back({i == 0 ? "left_foot" : "right_foot",
+                                       link->name,
+                                       0.22 * leg,
+                                       0.085 * leg,
+                                       {0.04 * leg, 0, -0.1 * leg},
+                                       {0, 0, 0},
+                                       "guess",
+                                       0.1 * leg});
+    if (!(leg > 0)) diagnosis_.guessed_feet.clear();
+    if (!(leg > 0)) return;
+  }
 }
 
 void Doctor::CheckParity(const Robot& robot) {
@@ -207,8 +355,9 @@ Severity Diagnosis::worst() const {
   return worst;
 }
 
-Diagnosis Diagnose(const std::filesystem::path& urdf, const Profile& profile) {
-  return Doctor(urdf, profile).Examine();
+Diagnosis Diagnose(const std::filesystem::path& urdf, const Profile& profile,
+                   const std::vector<std::filesystem::path>& packages) {
+  return Doctor(urdf, profile, packages).Examine();
 }
 
 }  // namespace poise

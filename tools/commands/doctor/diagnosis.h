@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -26,9 +27,24 @@ struct Diagnosis {
   std::vector<Mass> bodies;  ///< Links with all links fixed to them.
   struct Sole {
     std::string name, link;
-    double length, width;
+    double length, width;  ///< Of the sole polygon, m.
+    /// Pose of the sole's middle in the link: m, and roll, pitch and yaw in rad.
+    Eigen::Vector3d xyz = Eigen::Vector3d::Zero();
+    Eigen::Vector3d rpy = Eigen::Vector3d::Zero();
+    /// "box", "mesh" or "guess", or "profile" if the profile gives the sole.
+    std::string from = "profile";
+    double depth = 0;  ///< Height of the foot's origin above the sole, m.
   };
-  std::vector<Sole> soles;
+  std::vector<Sole> soles;  ///< The left one first.
+  /// A guess of the feet, if none were found: the two lowest links.
+  std::vector<Sole> guessed_feet;
+  /// Whether the robot can stand, with motors strong enough.
+  bool stands = false;
+  std::string reason;     ///< Why it does not stand.
+  std::string forward;    ///< Axis of the root link: "+x", ..., or "".
+  std::string profile;    ///< The profile that was found, as YAML.
+  std::string next_step;  ///< See NextStep(). The caller writes it.
+  bool is_xacro = false;  ///< The file must be expanded with xacro.
   std::optional<double> com_height;  ///< In the standing posture, if any.
   std::optional<double> parity;      ///< See Parity::worst().
   std::vector<Finding> findings;     ///< The most severe first.
@@ -40,9 +56,12 @@ struct Diagnosis {
 /// Refusal if the profile does not match the robot.
 ///
 /// Takes less than 10 s and 1 GiB. To limit the time, M is not computed for
-/// more than 500 joints. Standing and parity are not examined for more than 100
+/// more than 500 joints. Standing and parity are not examined for more than 200
 /// joints, 1000 links or 10000 shapes.
+///
+/// @param packages  folders of packages with meshes, see FindMesh().
 Diagnosis Diagnose(const std::filesystem::path& urdf,
-                   const Profile& profile = {});
+                   const Profile& profile = {},
+                   const std::vector<std::filesystem::path>& packages = {});
 
 }  // namespace poise

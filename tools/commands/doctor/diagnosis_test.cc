@@ -13,6 +13,7 @@
 
 #include "poise/tests/util/shared_data.h"
 #include "poise/tests/util/test_file.h"
+#include "poise/tools/commands/doctor/next_step.h"
 #include "poise/tools/commands/doctor/write_diagnosis.h"
 
 namespace poise {
@@ -96,20 +97,25 @@ TEST(Diagnose, NamesMotorsTooWeakToStand) {
 }
 
 TEST(Diagnose, ExaminesTheRobotWithoutItsLockedJoints) {
-  // The joints of a massless head make M singular, unless they are locked.
+  // A massless head would make M singular if its joints were not locked.
   std::string text = HumanoidText();
   for (const char* link : {"<link name=\"neck\"", "<link name=\"head\""}) {
     const size_t start = text.find("<inertial>", text.find(link));
     text.erase(start, text.find("</inertial>", start) + 11 - start);
   }
   const Diagnosis whole = Examine(text);
-  EXPECT_NE(Findings(whole).find("moves no mass"), std::string::npos);
-  EXPECT_FALSE(whole.parity.has_value());
+  EXPECT_NE(
+      Findings(whole).find(
+          "has 2 joints that move no mass: 'neck_yaw', 'neck_pitch', locked"),
+      std::string::npos)
+      << Findings(whole);
+  EXPECT_LT(whole.parity.value(), 1e-9);
+  EXPECT_TRUE(whole.stands);
   const Diagnosis reduced =
       Diagnose(TestFile("robot.urdf", text),
                LoadProfile(TestFile(
                    "locked.yaml", "locked: {neck_yaw: 0.1, neck_pitch: 0}\n")));
-  EXPECT_EQ(Findings(reduced).find("moves no mass"), std::string::npos);
+  EXPECT_EQ(Findings(reduced).find("no mass"), std::string::npos);
   EXPECT_NE(Findings(reduced).find("has 2 joints locked by the profile, M, "
                                    "standing and parity are computed with the "
                                    "48 other joints"),
@@ -122,7 +128,8 @@ TEST(Diagnose, WarnsOfSingularMassMatrix) {
   const Diagnosis leaf =
       Examine(Chain({kInertial, kInertial, ""}, {"0 0 1", "0 1 0"}));
   EXPECT_EQ(VerdictWord(leaf), "warn");
-  EXPECT_NE(Findings(leaf).find("joint 'j2': moves no mass"), std::string::npos)
+  EXPECT_NE(Findings(leaf).find("has 1 joint that moves no mass: 'j2'"),
+            std::string::npos)
       << Findings(leaf);
   const Diagnosis collinear =
       Examine(Chain({kInertial, "", kInertial}, {"0 0 1", "0 0 1"}));
@@ -239,9 +246,10 @@ TEST(WriteTable, ShowsRobotFindingsAndVerdict) {
   EXPECT_NE(table.find("robot    'chain', root '0', 2 links, 1 moving joints"),
             std::string::npos)
       << table;
-  EXPECT_NE(table.find("warn     joint 'j1': moves no mass"),
-            std::string::npos);
-  EXPECT_NE(table.find("verdict  warn"), std::string::npos);
+  EXPECT_NE(table.find("warn     robot: has 1 joint that moves no mass: 'j1'"),
+            std::string::npos)
+      << table;
+  EXPECT_EQ(table.find("verdict  warn\nstands   no: "), 0u) << table;
 }
 
 // Each case changes one part of a good robot file.
@@ -291,11 +299,108 @@ TEST(Diagnose, GivesTheVerdictOfTheWorstFault) {
   }
 }
 
+TEST(WriteTable, NamesThreeFindingsOfAKind) {
+  Diagnosis diagnosis;
+  for (int i = 0; i < 114; ++i) {
+    diagnosis.findings.push_back({Severity::kWarn, "link " + std::to_string(i),
+                                  "has odd moments", "none may be larger", 0});
+  }
+  EXPECT_NE(WriteTable(diagnosis).find(
+                "warn     link 0: has odd moments, none may be larger; also "
+                "link 1, link 2, link 3 and 110 more\n"),
+            std::string::npos)
+      << WriteTable(diagnosis);
+}
+
+TEST(WriteTable, AnswersInItsFirstTenLines) {
+  Diagnosis diagnosis = Diagnose("robot/models/humanoid.urdf");
+  diagnosis.next_step = NextStep(diagnosis, {"my robot.urdf", "", {"a"}});
+  std::istringstream table(WriteTable(diagnosis));
+  const char* starts[] = {"verdict  ok",
+                          "stands   yes",
+                          "sole     left_foot: ",
+                          "sole     right_foot: ",
+                          "forward  +x of ",
+                          "warnings 0",
+                          "next     bazel run //tools:push -- --scenario stand "
+                          "--robot 'my robot.urdf' --package-path a"};
+  std::string line;
+  for (const char* start : starts) {
+    std::getline(table, line);
+    EXPECT_EQ(line.find(start), 0u) << line << "\n" << start;
+  }
+}
+
+// Both feet of this robot have no shapes.
+TEST(WriteTable, ShowsTheGuessThatTheUserMustCorrect) {
+  std::string text = HumanoidText();
+  for (const char* name : {"<collision", "<visual"}) {
+    for (size_t at = text.find(name); at != std::string::npos;
+         at = text.find(name, at)) {
+      const std::string end = "</" + std::string(name + 1) + ">";
+      text.erase(at, text.find(end, at) + end.size() - at);
+    }
+  }
+  Diagnosis diagnosis = Examine(text);
+  EXPECT_EQ(diagnosis.soles.at(0).from, "guess");
+  diagnosis.next_step = NextStep(diagnosis, {"robot.urdf", "", {}});
+  EXPECT_NE(diagnosis.next_step.find("--save-profile robot.yaml"),
+            std::string::npos)
+      << diagnosis.next_step;
+  std::istringstream table(WriteTable(diagnosis));
+  std::string line, stub;
+  for (int i = 0; i < 10 && std::getline(table, line); ++i) {
+    if (line.find("profile  ") == 0) stub += line.substr(9) + "\n";
+  }
+  // The stub is a profile, and it describes the same soles.
+  const Diagnosis again = Diagnose(TestFile("robot.urdf", text),
+                                   LoadProfile(TestFile("stub.yaml", stub)));
+  ASSERT_EQ(again.soles.size(), 2u) << stub;
+  for (const int i : {0, 1}) {
+    EXPECT_EQ(again.soles[i].from, "profile");
+    EXPECT_LT((again.soles[i].xyz - diagnosis.soles[i].xyz).norm(), 1e-5);
+    // The stub has six digits.
+    EXPECT_NEAR(again.soles[i].length, diagnosis.soles[i].length, 1e-5);
+  }
+  EXPECT_NO_THROW(LoadProfile(TestFile("found.yaml", diagnosis.profile)));
+}
+
+TEST(NextStep, SaysHowToExpandXacro) {
+  for (const char* name : {"robot.xacro", "robot.urdf.xacro"}) {
+    const Diagnosis diagnosis = Diagnose(
+        TestFile(name, "<robot name='r'><xacro:leg side='l'/></robot>"));
+    EXPECT_EQ(VerdictWord(diagnosis), "reject");
+    EXPECT_EQ(NextStep(diagnosis, {name, "", {}}),
+              std::string("xacro ") + name +
+                  " > robot.urdf && bazel run //tools:doctor -- robot.urdf");
+  }
+}
+
+TEST(Diagnose, WarnsIfARobotWithLegsDoesNotStand) {
+  const std::string text = HumanoidText();
+  std::string rigid = text;
+  // A knee that is always bent makes one leg shorter than the other can be.
+  const size_t at =
+      rigid.find("lower=\"", rigid.find("<joint name=\"l_knee\""));
+  rigid.replace(at, rigid.find(' ', rigid.find("upper=", at)) - at,
+                "lower=\"2.2\" upper=\"2.2\"");
+  const size_t other =
+      rigid.find("lower=\"", rigid.find("<joint name=\"r_knee\""));
+  rigid.replace(other, rigid.find(' ', rigid.find("upper=", other)) - other,
+                "lower=\"0\" upper=\"0\"");
+  const Diagnosis diagnosis = Examine(rigid);
+  EXPECT_FALSE(diagnosis.stands);
+  EXPECT_EQ(VerdictWord(diagnosis), "warn");
+  EXPECT_EQ(diagnosis.findings[0].what, "does not stand")
+      << Findings(diagnosis);
+}
+
 TEST(WriteTable, SaysHowManyLinesItOmits) {
   Diagnosis diagnosis;
   diagnosis.links.resize(1003, {"l", 1});
   diagnosis.findings.resize(1002, {Severity::kNote, "", "odd", "", 0});
-  const std::string table = WriteTable(diagnosis);
+  EXPECT_EQ(WriteTable(diagnosis).find("... and 3 more\n"), std::string::npos);
+  const std::string table = WriteTable(diagnosis, /*masses=*/true);
   EXPECT_NE(table.find("... and 3 more\n"), std::string::npos);
   EXPECT_NE(table.find("... and 2 more\n"), std::string::npos);
   const auto json = nlohmann::json::parse(WriteJson(diagnosis));
@@ -317,7 +422,7 @@ TEST(Diagnose, AgreesWithBulletOnRealRobots) {
   const auto reason = [&](const char* name) {
     return Findings(Diagnose(*folder / name));
   };
-  EXPECT_NE(reason("cassie.urdf").find("has no flat sole"), std::string::npos)
+  EXPECT_NE(reason("cassie.urdf").find("LeftTarsusPitch"), std::string::npos)
       << reason("cassie.urdf");
   EXPECT_NE(reason("solo12.urdf").find("reaches the ground with 4 bodies"),
             std::string::npos)

@@ -22,6 +22,7 @@
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/experiment.h"
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/package_path.h"
 #include "poise/tools/commands/push/overrides.h"
 #include "poise/tools/commands/user_path.h"
 
@@ -37,6 +38,7 @@ constexpr const char* kScenarios = "sim/scenarios";
 struct Files {
   std::string scenario = "strong_push", robot, profile, save_profile, out,
               log = "csv";
+  std::vector<std::string> packages;
   std::optional<double> dump_solve;
   bool no_report = false, json = false;
 };
@@ -160,6 +162,7 @@ Files ParseOptions(int argc, char** argv, Overrides* overrides) {
                  "URDF file of the robot (Poise's humanoid)");
   app.add_option("--profile", files.profile,
                  "YAML file with feet, posture and tasks of the robot");
+  AddPackagePath(&app, &files.packages);
   app.add_option("--save-profile", files.save_profile,
                  "write the profile in use to this file, with the feet and "
                  "posture that Poise found");
@@ -230,7 +233,8 @@ PushOptions ReadPushOptions(int argc, char** argv) {
     // `--tasks default` selects the default tasks even if the profile has
     // tasks.
     if (!overrides.tasks) UseTasksOf(profile, &scenario);
-    const UrdfDocument urdf(robot_file, &findings);
+    const UrdfDocument urdf(robot_file, &findings,
+                            PackageFolders(files.packages));
     const Robot robot = MakeStandingRobot(urdf, profile, &findings);
     loop = std::make_unique<ClosedLoop>(robot, scenario);
     if (!files.save_profile.empty()) {

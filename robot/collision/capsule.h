@@ -1,0 +1,17 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace poise {
+
+/// A capsule: all points within `radius` of a segment. A sphere is a capsule
+/// whose ends coincide. The frame of the points is said where a capsule is
+/// stored; CollisionBody has the frame of the body.
+struct Capsule {
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< m.
+  Eigen::Vector3d end = Eigen::Vector3d::Zero();    ///< m.
+  double radius = 0;                                ///< m.
+};
+
+}  // namespace poise

@@ -1,0 +1,245 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/robot/control/tasks/self_collision.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "poise/dynamics/kinematics.h"
+#include "poise/robot/control/tasks/row_names.h"
+
+namespace poise {
+namespace {
+
+using Eigen::Vector3d;
+
+// Softness of the distance, see ComputeClosestPoints(). The distance of parallel
+// segments of 0.3 m at 0.1 m is then 2 mm too small, and the closest points move
+// from end to end within 0.03 rad.
+constexpr double kSoftness = 0.01;
+
+// Defaults of the parameters, relative to the reach and to the frequency of a
+// pendulum of this length.
+constexpr double kMinDistance = 0.01;
+constexpr double kOmega = 13.8;
+
+// A row is loosened to infinity at this acceleration, relative to gravity.
+constexpr double kLoosest = 1;
+
+// A pair whose bounding balls are farther apart than this fraction of the reach
+// is not near.
+constexpr double kFar = 0.2;
+
+double GravityOf(const Tree& tree) {
+  const double gravity = tree.gravity_W().norm();
+  return gravity > 0 ? gravity : 9.81;
+}
+
+std::vector<double> NominalDistances(const Robot& robot,
+                                     const CollisionModel& model) {
+  const Tree& tree = robot.model.tree;
+  const bool has_posture = robot.q_nominal.size() == tree.nq();
+  std::vector<Pose> X_WB(tree.num_bodies());
+  ComputePoses(tree, has_posture ? robot.q_nominal : tree.MakeNeutral(), &X_WB);
+  std::vector<double> distances;
+  for (const CollisionPair& pair : model.pairs) {
+    distances.push_back(
+        ComputePairDistance(model, pair, X_WB, kSoftness).distance);
+  }
+  return distances;
+}
+
+// Returns the model without the pairs that overlap too deeply in the nominal
+// posture.
+CollisionModel WithoutOverlaps(const Robot& robot, CollisionModel model) {
+  const std::vector<double> nominal = NominalDistances(robot, model);
+  std::vector<CollisionPair> pairs;
+  for (size_t i = 0; i < nominal.size(); ++i) {
+    const auto radius = [&](int body) {
+      double least = INFINITY;
+      for (const Capsule& c : model.capsules[body]) {
+        least = std::min(least, c.radius);
+      }
+      return least;
+    };
+    const CollisionPair& pair = model.pairs[i];
+    const double smaller = std::min(radius(pair.a), radius(pair.b));
+    if (nominal[i] > -smaller / 2) pairs.push_back(pair);
+  }
+  model.pairs = std::move(pairs);
+  return model;
+}
+
+// Returns the factors of the joint rates in an upper bound of the speed of any
+// point of a capsule relative to another.
+std::vector<double> Levers(const Tree& tree, const CollisionModel& model) {
+  std::vector<double> reach(tree.num_bodies(), 0);
+  for (int b = tree.num_bodies() - 1; b > 0; --b) {
+    if (!model.capsules[b].empty()) {
+      const CollisionBound& bound = model.bounds[b];
+      reach[b] = std::max(reach[b], bound.center.norm() + bound.radius);
+    }
+    const Joint& joint = tree.joints()[b - 1];
+    if (reach[b] > 0) {
+      reach[joint.parent] =
+          std::max(reach[joint.parent], reach[b] + joint.X_PF.p.norm());
+    }
+  }
+  std::vector<double> levers;
+  for (const Joint& joint : tree.joints()) {
+    const double lever = reach[levers.size() + 1];
+    const bool is_slider = joint.type == JointType::kPrismatic;
+    levers.push_back(is_slider && lever > 0 ? 1 : lever);
+  }
+  return levers;
+}
+
+std::string Words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::vector<RowDescription> PairRows(const CollisionModel& model) {
+  std::vector<RowDescription> rows;
+  for (const CollisionPair& pair : model.pairs) {
+    const std::string& a = model.names[pair.a];
+    const std::string& b = model.names[pair.b];
+    rows.push_back({"self_collision." + a + "." + b, "m",
+                    "the distance between " + Words(a) + " and " + Words(b),
+                    RowKind::kLimit});
+  }
+  return rows;
+}
+
+}  // namespace
+
+SelfCollisionTask::SelfCollisionTask(const Robot& robot)
+    : SelfCollisionTask(
+          robot, WithoutOverlaps(robot, MakeCollisionModel(robot.model))) {}
+
+SelfCollisionTask::SelfCollisionTask(const Robot& robot, CollisionModel model)
+    : Task("self_collision", {}, PairRows(model)),
+      model_(std::move(model)),
+      joints_(robot.model.tree.joints()),
+      v_start_(robot.model.tree.v_start()),
+      lever_(Levers(robot.model.tree, model_)),
+      nominal_(NominalDistances(robot, model_)),
+      loosest_(kLoosest * GravityOf(robot.model.tree)),
+      d_min_(kMinDistance * model_.reach),
+      omega_(kOmega * std::sqrt(GravityOf(robot.model.tree) / model_.reach)) {
+  AddParameter("d_min", &d_min_, 0, 1);
+  AddParameter("omega", &omega_, 1, 1000);
+}
+
+bool SelfCollisionTask::HasRows(const TaskInput& input) const noexcept {
+  const double max_speed = MaxSpeed(input);
+  for (int i = 0; i < static_cast<int>(model_.pairs.size()); ++i) {
+    if (FindBound(input, i, max_speed).is_near) return true;
+  }
+  return false;
+}
+
+void SelfCollisionTask::Write(const TaskInput& input, EqualityBlock*,
+                              InequalityBlock* inequalities) const noexcept {
+  const double max_speed = MaxSpeed(input);
+  const double scale = 4 / (omega_ * omega_ * model_.reach);
+  for (int i = 0; i < static_cast<int>(model_.pairs.size()); ++i) {
+    const Bound bound = FindBound(input, i, max_speed);
+    if (!bound.is_near) continue;
+    const CollisionPair& pair = model_.pairs[i];
+    const ClosestPoints& closest = bound.closest;
+    const Vector3d gradient = scale * closest.gradient;
+    auto row = inequalities->C.row(i);
+    WriteChain(input.tick, pair.a, pair.ancestor, closest.p_A, gradient, row);
+    WriteChain(input.tick, pair.b, pair.ancestor, closest.p_B, -gradient, row);
+    inequalities->lower[i] = scale * bound.lower;
+  }
+}
+
+// Computes the motion of the point Q of a body relative to an ancestor, at
+// v̇ = 0. Seen from the parent of a body that turns with w at r from Q,
+//     v' = v + w x r,   a' = a + 2 w x v + w x (w x r).
+// Adds the acceleration of Q along the gradient at the unmodelled v̇.
+SelfCollisionTask::PointMotion SelfCollisionTask::Relative(
+    const TaskInput& input, int body, int ancestor, const Vector3d& p_WQ,
+    const Vector3d& gradient, double* unmodelled) const noexcept {
+  PointMotion motion;
+  for (; body != ancestor; body = joints_[body - 1].parent) {
+    const Joint& joint = joints_[body - 1];
+    const int k = v_start_ + body - 1;
+    const double rate = input.state.v[k];
+    const Pose& X_WB = input.tick.X_WB[body];
+    const Vector3d axis = X_WB.R * joint.axis_F;
+    if (joint.type == JointType::kPrismatic) {
+      motion.v += rate * axis;
+      *unmodelled += gradient.dot(axis) * input.unmodelled_vdot[k];
+      continue;
+    }
+    const Vector3d w = rate * axis;
+    const Vector3d r = p_WQ - X_WB.p;
+    motion.a += 2 * w.cross(motion.v) + w.cross(w.cross(r));
+    motion.v += w.cross(r);
+    *unmodelled += gradient.dot(axis.cross(r)) * input.unmodelled_vdot[k];
+  }
+  return motion;
+}
+
+// Returns an upper bound of |ḋ| of all pairs, m/s.
+double SelfCollisionTask::MaxSpeed(const TaskInput& input) const noexcept {
+  double speed = 0;
+  for (size_t j = 0; j < lever_.size(); ++j) {
+    speed += lever_[j] * std::abs(input.state.v[v_start_ + j]);
+  }
+  return speed;
+}
+
+SelfCollisionTask::Bound SelfCollisionTask::FindBound(
+    const TaskInput& input, int i, double max_speed) const noexcept {
+  Bound bound;
+  const CollisionPair& pair = model_.pairs[i];
+  const std::vector<Pose>& X_WB = input.tick.X_WB;
+  const double d_min =
+      std::min({d_min_, nominal_[i] / 2, nominal_[i] - d_min_ / 2});
+  // Most pairs are so far apart that u cannot be below u_max at any direction of
+  // the motion: their chains are not computed.
+  const double least = BoundPairDistance(model_, pair, X_WB);
+  if (least > kFar * model_.reach ||
+      omega_ * omega_ * (least - d_min) - 2 * omega_ * max_speed >= loosest_) {
+    return bound;
+  }
+  bound.closest = ComputePairDistance(model_, pair, X_WB, kSoftness);
+  const Vector3d& gradient = bound.closest.gradient;
+  double unmodelled = 0;
+  const PointMotion A = Relative(input, pair.a, pair.ancestor,
+                                 bound.closest.p_A, gradient, &unmodelled);
+  const PointMotion B = Relative(input, pair.b, pair.ancestor,
+                                 bound.closest.p_B, -gradient, &unmodelled);
+  const double u = 2 * omega_ * gradient.dot(A.v - B.v) +
+                   omega_ * omega_ * (bound.closest.distance - d_min);
+  if (!(u < loosest_) || gradient.isZero()) return bound;
+  bound.is_near = true;
+  bound.lower = (u > 0 ? -u / (1 - u / loosest_) : -u) -
+                gradient.dot(A.a - B.a) - unmodelled;
+  return bound;
+}
+
+// Adds the derivative of gradient · p_WQ by the joints between a body and an
+// ancestor.
+void SelfCollisionTask::WriteChain(
+    const Tick& tick, int body, int ancestor, const Vector3d& p_WQ,
+    const Vector3d& gradient,
+    Eigen::Ref<Eigen::RowVectorXd> row) const noexcept {
+  for (; body != ancestor; body = joints_[body - 1].parent) {
+    const Joint& joint = joints_[body - 1];
+    const Pose& X_WB = tick.X_WB[body];
+    const Vector3d axis = X_WB.R * joint.axis_F;
+    const bool is_slider = joint.type == JointType::kPrismatic;
+    row[v_start_ + body - 1] += is_slider
+                                    ? gradient.dot(axis)
+                                    : gradient.dot(axis.cross(p_WQ - X_WB.p));
+  }
+}
+
+}  // namespace poise

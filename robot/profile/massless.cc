@@ -1,0 +1,152 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/robot/profile/massless.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "poise/dynamics/kinematics.h"
+#include "poise/dynamics/tick.h"
+#include "poise/robot/limits.h"
+
+namespace poise {
+namespace {
+
+using Eigen::VectorXd;
+
+// Above this number of joints, M is not evaluated.
+constexpr int kMostJoints = 500;
+// Fraction of the robot's mass or inertia that counts as zero, a rounding error
+// of M.
+constexpr double kZero = 1e-15;
+// Smallest eigenvalue per degree of freedom of a regular M, scaled to a unit
+// diagonal.
+constexpr double kSingular = 1e-13;
+// Fraction of the robot's mass that a body without mass receives.
+constexpr double kSmallMass = 1e-6;
+// Its radius of gyration, as a fraction of the robot's extent.
+constexpr double kSmallRadius = 0.01;
+
+// Returns the distance of the farthest joint from the base with all joints at
+// zero, m. It is at least 1 mm, for a robot that has all joints at one point.
+double Extent(const Tree& tree) {
+  constexpr double kLeast = 1e-3;
+  std::vector<Pose> X_WB(tree.num_bodies());
+  ComputePoses(tree, tree.MakeNeutral(), &X_WB);
+  double extent = kLeast;
+  for (const Pose& X : X_WB) extent = std::max(extent, X.p.norm());
+  return extent;
+}
+
+// Returns q with each joint moved, each by another angle.
+VectorXd Moved(const Tree& tree, VectorXd q) {
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    q[tree.q_start() + j] += std::sin(1 + 2.3 * j);
+  }
+  return q;
+}
+
+// Returns the larger diagonal of M at rest and in another configuration.
+VectorXd LargerDiagonal(const Tree& tree, const VectorXd& q) {
+  const VectorXd zero = VectorXd::Zero(tree.nv());
+  Tick tick(tree, {});
+  ComputeTick(tree, q, zero, &tick);
+  const VectorXd diagonal = tick.M.diagonal().cwiseAbs();
+  ComputeTick(tree, Moved(tree, q), zero, &tick);
+  return diagonal.cwiseMax(tick.M.diagonal().cwiseAbs());
+}
+
+// Returns whether M can be inverted at rest.
+bool IsRegular(const RobotModel& model) {
+  const Tree& tree = model.tree;
+  Tick tick(tree, {});
+  ComputeTick(tree, RestConfiguration(model), VectorXd::Zero(tree.nv()), &tick);
+  const VectorXd diagonal = tick.M.diagonal();
+  if (!tick.M.allFinite() || !(diagonal.minCoeff() > 0)) return false;
+  const VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      scale.asDiagonal() * tick.M * scale.asDiagonal(), Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()[0] > kSingular * tree.nv();
+}
+
+}  // namespace
+
+MovedMass FindMovedMass(const RobotModel& model) {
+  const Tree& tree = model.tree;
+  const int n = tree.num_joints();
+  // Mass of each body and all bodies beyond, and the size of their inertia.
+  VectorXd mass(n + 1), inertia(n + 1);
+  for (int b = n; b >= 0; --b) {
+    mass[b] = tree.inertias()[b].mass;
+    inertia[b] = tree.inertias()[b].I_G_B.cwiseAbs().maxCoeff();
+  }
+  for (int b = n; b > 0; --b) {
+    const int parent = tree.joints()[b - 1].parent;
+    mass[parent] += mass[b];
+    inertia[parent] += inertia[b];
+  }
+  const double extent = Extent(tree);
+  const double small = kZero * mass[0] * extent * extent;
+  VectorXd diagonal = VectorXd::Constant(n, small);
+  if (n <= kMostJoints) {
+    diagonal = LargerDiagonal(tree, RestConfiguration(model)).tail(n);
+  }
+
+  MovedMass moved{std::vector<bool>(n), std::vector<double>(n)};
+  for (int j = 0; j < n; ++j) {
+    const int b = j + 1;
+    moved.fraction[j] = mass[b] / mass[0];
+    const bool nothing_beyond = mass[b] == 0 && inertia[b] == 0;
+    // With its mass on one side only, a robot has the base's six coordinates
+    // and the joint's for one body.
+    const bool nothing_before = mass[0] - mass[b] <= kZero * mass[0] &&
+                                inertia[0] - inertia[b] <= kZero * inertia[0];
+    moved.none[j] = nothing_beyond || nothing_before || diagonal[j] < small;
+  }
+  return moved;
+}
+
+std::map<std::string, Inertia> MakeSmallInertias(const RobotModel& model) {
+  const Tree& tree = model.tree;
+  const double mass = kSmallMass * tree.total_mass();
+  const double radius = kSmallRadius * Extent(tree);
+  std::vector<bool> carries(tree.num_bodies());
+  for (int b = tree.num_joints(); b > 0; --b) {
+    if (tree.inertias()[b].mass > 0) carries[b] = true;
+    if (carries[b]) carries[tree.joints()[b - 1].parent] = true;
+  }
+  std::map<std::string, Inertia> inertias;
+  for (int b = 0; b < tree.num_bodies(); ++b) {
+    if (!carries[b] || tree.inertias()[b].mass > 0) continue;
+    const auto link =
+        std::find_if(tree.frames().begin(), tree.frames().end(),
+                     [b](const Frame& frame) { return frame.body == b; });
+    inertias[link->name] = {
+        mass, Eigen::Vector3d::Zero(),
+        mass * radius * radius * Eigen::Matrix3d::Identity()};
+  }
+  // A singular M shall remain visible.
+  if (inertias.empty() || tree.num_joints() > kMostJoints) return {};
+  if (!IsRegular(model)) return {};
+  return inertias;
+}
+
+std::optional<Finding> WarnOfMassless(const std::vector<std::string>& joints) {
+  constexpr size_t kNamed = 3;
+  if (joints.empty()) return std::nullopt;
+  std::string names;
+  for (size_t i = 0; i < std::min(kNamed, joints.size()); ++i) {
+    names += (i > 0 ? ", " : "") + Quoted(joints[i]);
+  }
+  if (joints.size() > kNamed) names += ", ...";
+  return Finding{
+      Severity::kWarn, "robot",
+      "has " + std::to_string(joints.size()) +
+          (joints.size() == 1 ? " joint that moves" : " joints that move") +
+          " no mass: " + names,
+      "locked, because no acceleration can be computed: give the "
+      "links beyond a mass",
+      0};
+}
+
+}  // namespace poise

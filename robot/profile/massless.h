@@ -1,0 +1,44 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "poise/math/inertia.h"
+#include "poise/robot/finding.h"
+#include "poise/robot/robot.h"
+
+namespace poise {
+
+/// Joints that move no mass, and the mass that joints move.
+struct MovedMass {
+  /// For each joint, whether M is singular because the joint moves no mass. The
+  /// diagonal of M is then zero at the joint, or all bodies on the base's side
+  /// of the joint are without mass. Zero means below 1e-15 of the inertia of
+  /// the whole robot.
+  std::vector<bool> none;
+  /// For each joint, the mass of the bodies beyond the joint relative to the
+  /// mass of the robot.
+  std::vector<double> fraction;
+};
+
+/// Finds the joints that move no mass. Evaluates the diagonal of M at rest and
+/// with all joints moved by up to 1 rad or m, because the mass beyond a joint
+/// may lie on the joint's axis in one configuration only. M is not evaluated
+/// above 500 joints: a joint then moves no mass if the bodies beyond it have
+/// neither mass nor inertia.
+MovedMass FindMovedMass(const RobotModel& model);
+
+/// Returns an inertia for one link of each body without mass, if joints beyond
+/// the body move mass. M is regular without this inertia, but a simulator needs
+/// it. If M is singular, returns nothing. The mass is 1e-6 of the robot's mass, the radius of gyration 1 % of the
+/// distance of the robot's farthest joint from the base.
+std::map<std::string, Inertia> MakeSmallInertias(const RobotModel& model);
+
+/// Returns the warning about joints that are locked because they move no mass:
+/// it counts them and names the first three. Returns nothing if there are none.
+std::optional<Finding> WarnOfMassless(const std::vector<std::string>& joints);
+
+}  // namespace poise

@@ -1,0 +1,142 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/tools/commands/doctor/check_bodies.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <variant>
+
+#include "poise/dynamics/kinematics.h"
+#include "poise/robot/feet/outline.h"
+#include "poise/robot/limits.h"
+
+namespace poise {
+namespace {
+
+using Eigen::Vector3d;
+
+// What is compared of a leg.
+struct Leg {
+  int joints = 0;
+  double length = 0;  // Sum of the distances between its joints, m.
+  double mass = 0;    // kg.
+};
+
+Leg Measure(const Tree& tree, int foot) {
+  Leg leg;
+  for (int b = foot; b > 0; b = tree.joints()[b - 1].parent) {
+    ++leg.joints;
+    if (tree.joints()[b - 1].parent > 0) {
+      leg.length += tree.joints()[b - 1].X_PF.p.norm();
+    }
+    leg.mass += tree.inertias()[b].mass;
+  }
+  return leg;
+}
+
+bool Differ(double a, double b, double fraction) {
+  return std::abs(a - b) > fraction * std::max(std::abs(a), std::abs(b));
+}
+
+// Returns the name of the first link of a body.
+std::string LinkOf(const Tree& tree, int body) {
+  for (const Frame& frame : tree.frames()) {
+    if (frame.body == body) return frame.name;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<Finding> CompareLegs(const Robot& robot) {
+  const Tree& tree = robot.model.tree;
+  const Foot& left = robot.feet[0];
+  const Foot& right = robot.feet[1];
+  const Leg a = Measure(tree, left.body);
+  const Leg b = Measure(tree, right.body);
+  std::vector<Finding> findings;
+  const auto add = [&](const std::string& what, const std::string& values) {
+    findings.push_back({Severity::kWarn, "legs",
+                        "left and right differ in " + what + ": " + values,
+                        "control assumes what the file says", 0});
+  };
+  const auto compare = [&](const std::string& what, double x, double y,
+                           const std::string& unit) {
+    add(what, PrintNumber(x) + unit + " and " + PrintNumber(y) + unit);
+  };
+  if (a.joints != b.joints) {
+    add("the number of joints", std::to_string(a.joints) + " to " +
+                                    Quoted(tree.frames()[left.frame].name) +
+                                    " and " + std::to_string(b.joints) +
+                                    " to " +
+                                    Quoted(tree.frames()[right.frame].name));
+  }
+  if (Differ(a.length, b.length, 0.01)) {
+    compare("length", a.length, b.length, " m");
+  }
+  if (Differ(a.mass, b.mass, 0.02)) compare("mass", a.mass, b.mass, " kg");
+  for (const int i : {0, 1}) {
+    if (!Differ(left.half_size[i], right.half_size[i], 0.05)) continue;
+    compare(i == 0 ? "the sole's length" : "the sole's width",
+            2 * left.half_size[i], 2 * right.half_size[i], " m");
+  }
+  const double from_left = left.X_BC.p.norm();
+  const double from_right = right.X_BC.p.norm();
+  if (std::abs(from_left - from_right) > 0.02 * std::max(a.length, b.length)) {
+    compare("the sole's distance from the foot's origin", from_left, from_right,
+            " m");
+  }
+  return findings;
+}
+
+std::vector<Finding> FindWideInertias(const RobotModel& model) {
+  constexpr double kTolerance = 1.5;
+  constexpr int kNamed = 3;
+  const Tree& tree = model.tree;
+  const std::vector<Outline> outlines = MakeOutlines(model);
+  std::vector<Pose> X_WB(tree.num_bodies());
+  ComputePoses(tree, RestConfiguration(model), &X_WB);
+  Vector3d low = Vector3d::Zero(), high = low;
+  for (const Pose& X : X_WB) {
+    low = low.cwiseMin(X.p);
+    high = high.cwiseMax(X.p);
+  }
+  const double extent = (high - low).norm();
+  // A mesh that was not opened may reach further than the other shapes.
+  std::vector<bool> has_mesh(tree.num_bodies());
+  for (const std::vector<Shape>* shapes : {&model.visuals, &model.collisions}) {
+    for (const Shape& shape : *shapes) {
+      if (!std::holds_alternative<Mesh>(shape.geometry)) continue;
+      has_mesh[tree.frames()[shape.frame].body] = true;
+    }
+  }
+  int count = 0;
+  std::string names;
+  for (int b = 0; b < tree.num_bodies(); ++b) {
+    const Inertia& M = tree.inertias()[b];
+    if (!(M.mass > 0) || !M.I_G_B.allFinite()) continue;
+    double reach = outlines[b].corners.empty() || has_mesh[b] ? extent : 0;
+    for (const Outline::Corner& corner : outlines[b].corners) {
+      reach = std::max(reach, (corner.p_B - M.p_BoG_B).norm() + corner.radius);
+    }
+    const double largest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
+                               M.I_G_B, Eigen::EigenvaluesOnly)
+                               .eigenvalues()[2];
+    const double radius = std::sqrt(std::max(0., largest) / M.mass);
+    if (!(reach > 0) || radius <= kTolerance * reach) continue;
+    if (++count > kNamed) continue;
+    names += (count > 1 ? ", " : "") + Quoted(LinkOf(tree, b)) + " (" +
+             PrintNumber(radius) + " m, its shapes reach " +
+             PrintNumber(reach) + " m)";
+  }
+  if (count == 0) return {};
+  if (count > kNamed) names += ", ...";
+  return {{Severity::kWarn, "robot",
+           "has " + std::to_string(count) + (count == 1 ? " body" : " bodies") +
+               " with a radius of gyration beyond its shapes: " + names,
+           "the inertia is too large for the mass: is it in another unit?", 0}};
+}
+
+}  // namespace poise

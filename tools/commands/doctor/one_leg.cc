@@ -1,0 +1,112 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/tools/commands/doctor/one_leg.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <string>
+
+#include "poise/dynamics/tick.h"
+#include "poise/robot/control/posture/find_posture.h"
+#include "poise/robot/control/posture/sole_rows.h"
+
+namespace poise {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+// Smallest width of a sole to balance on, as a fraction of the height of the
+// center of mass. The pendulum then has 0.2 m/s² to each side.
+constexpr double kNarrow = 0.04;
+constexpr double kLift = 0.03;  // Of the height of the center of mass.
+// The center of mass stays within this fraction of the sole's half sides.
+constexpr double kInsideSole = 0.6;
+
+// Returns the torques at rest of a robot that stands on one foot:
+//     tau = N_j - J_j' lambda,   J_b' lambda = N_b,
+// with the rows b of the base and j of the joints.
+VectorXd TorquesOnOneFoot(const Robot& robot, int foot, const VectorXd& q) {
+  const Tree& tree = robot.model.tree;
+  Tick tick(tree, {robot.feet[foot].frame});
+  ComputeTick(tree, q, VectorXd::Zero(tree.nv()), &tick);
+  std::vector<int> all(tree.nv());
+  std::iota(all.begin(), all.end(), 0);
+  const Eigen::MatrixXd J = StateOf(robot.feet[foot], tick, 0, all).J_WC_W;
+  const int n = tree.num_joints();
+  const VectorXd lambda =
+      J.leftCols<6>().transpose().partialPivLu().solve(tick.N.head<6>());
+  return tick.N.tail(n) - J.rightCols(n).transpose() * lambda;
+}
+
+// Returns the reason why a motor is too weak, or "".
+std::string WeakMotor(const Robot& robot, const VectorXd& tau) {
+  std::string reason;
+  double worst = 1;
+  for (int j = 0; j < robot.model.tree.num_joints(); ++j) {
+    const double effort = robot.model.limits[j].effort;
+    const double holds = effort + robot.model.limits[j].friction;
+    if (!(std::abs(tau[j]) > worst * holds)) continue;
+    worst = std::abs(tau[j]) / std::max(holds, 1e-9);
+    const Joint& joint = robot.model.tree.joints()[j];
+    const char* unit = joint.type == JointType::kPrismatic ? " N" : " N m";
+    reason = "joint " + Quoted(joint.name) + " needs " +
+             PrintNumber(std::abs(tau[j])) + unit + " (limit " +
+             PrintNumber(effort) + unit + ")";
+  }
+  return reason;
+}
+
+// Returns the reason why the robot cannot stand on a foot, or "".
+std::string Reason(const Robot& robot, int foot, double height) {
+  const Foot& sole = robot.feet[foot];
+  const double width = 2 * sole.half_size.y();
+  if (width < kNarrow * height) {
+    return "its sole is " + PrintNumber(width) + " m wide, must be " +
+           PrintNumber(kNarrow * height) + " m for a center of mass at " +
+           PrintNumber(height) + " m";
+  }
+  // The foot's origin is at or near the ankle.
+  const Vector2d ankle = sole.X_BC.Inverse().p.head<2>();
+  const Vector2d inside = kInsideSole * sole.half_size;
+  std::string reason;
+  for (const Vector2d& G :
+       {Vector2d(0, 0), Vector2d(ankle.cwiseMax(-inside).cwiseMin(inside))}) {
+    PostureGoal goal;
+    goal.support = SingleSupport{foot, kLift * height, G};
+    const Posture posture = FindPosture(robot, goal);
+    std::string lack = posture.lack;
+    if (!lack.empty() && !posture.at_limit.empty()) {
+      const int j = posture.at_limit[0];
+      lack += ", with joint " + Quoted(robot.model.tree.joints()[j].name) +
+              " at its limit";
+    }
+    if (lack.empty()) {
+      lack = WeakMotor(robot, TorquesOnOneFoot(robot, foot, posture.q));
+    }
+    if (lack.empty()) return "";
+    if (reason.empty()) reason = lack;
+  }
+  return reason;
+}
+
+}  // namespace
+
+std::vector<Finding> FindOneLegDefects(const Robot& robot) {
+  const Tree& tree = robot.model.tree;
+  Tick tick(tree, {});
+  ComputeTick(tree, robot.q_nominal, VectorXd::Zero(tree.nv()), &tick);
+  std::vector<Finding> findings;
+  for (const int foot : {0, 1}) {
+    const std::string reason = Reason(robot, foot, tick.p_WG.z());
+    if (reason.empty()) continue;
+    findings.push_back({Severity::kWarn, robot.feet[foot].name,
+                        "cannot stand on one leg: " + reason,
+                        "the scenario one_leg and steps will fail", 0});
+  }
+  return findings;
+}
+
+}  // namespace poise

@@ -1,0 +1,72 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/tools/commands/doctor/one_leg.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "poise/robot/control/stand.h"
+
+namespace poise {
+namespace {
+
+Robot Humanoid() {
+  return LoadStandingRobot("robot/models/humanoid.urdf",
+                           LoadProfile("robot/profiles/humanoid.yaml"));
+}
+
+std::string Findings(const Robot& robot) {
+  std::string text;
+  for (const Finding& finding : FindOneLegDefects(robot)) {
+    EXPECT_EQ(finding.severity, Severity::kWarn);
+    text += finding.where + " " + finding.what + "\n";
+  }
+  return text;
+}
+
+TEST(FindOneLegDefects, AcceptsTheHumanoid) {
+  EXPECT_EQ(Findings(Humanoid()), "");
+}
+
+TEST(FindOneLegDefects, NamesNarrowSole) {
+  Robot robot = Humanoid();
+  robot.feet[1].half_size.y() = 0.01;
+  const std::string found = Findings(robot);
+  EXPECT_EQ(found.find("right_foot cannot stand on one leg: its sole is 0.02 m "
+                       "wide, must be 0.03"),
+            0u)
+      << found;
+}
+
+// The left hip can only tilt the pelvis to one side.
+TEST(FindOneLegDefects, NamesJointRange) {
+  Robot robot = Humanoid();
+  for (const char* joint : {"l_hip_roll", "l_ankle_roll"}) {
+    const int j = robot.model.tree.FindJoint(joint).value();
+    const double q = robot.q_nominal[7 + j];
+    robot.model.limits[j].lower = q - 0.01;
+    robot.model.limits[j].upper = q + 0.01;
+  }
+  const std::string found = Findings(robot);
+  EXPECT_NE(found.find("left_foot cannot stand on one leg: the center of mass "
+                       "remains 0."),
+            std::string::npos)
+      << found;
+}
+
+// On one foot, the hip carries the weight of the body at the lever arm of half
+// the hip's width: about 60 kg x 9.81 m/s2 x 0.1 m. On two feet it does not.
+TEST(FindOneLegDefects, NamesWeakMotor) {
+  Robot robot = Humanoid();
+  robot.model.limits[robot.model.tree.FindJoint("r_hip_roll").value()].effort =
+      10;
+  const std::string found = Findings(robot);
+  EXPECT_EQ(found.find("right_foot cannot stand on one leg: joint 'r_hip_roll' "
+                       "needs "),
+            0u)
+      << found;
+  EXPECT_NE(found.find("(limit 10 N m)"), std::string::npos) << found;
+}
+
+}  // namespace
+}  // namespace poise
