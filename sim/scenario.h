@@ -25,7 +25,7 @@ struct StartSettings {
 /// FitToRobot().
 struct ChosenFor {
   double mass = 40;         ///< kg.
-  double com_height = 0.8;  ///< Of the CoM above the soles when it stands, m.
+  double com_height = 0.8;  ///< Height of the standing CoM above the soles, m.
 };
 
 /// Motion of the desired center of mass around its start:

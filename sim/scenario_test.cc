@@ -49,11 +49,13 @@ constexpr char kEveryKey[] = R"(
 name: all
 duration: 7
 seed: 3
+chosen_for: {mass: 31, com_height: 0.7}
 start: {joints: 0.1, drop: 0.01, heading: 0.5, place: [1, -2]}
 pushes:
   - {link: torso, point: [1, 2, 3], frame: link, force: [4, 5, 6],
      moment: [7, 8, 9], profile: half_sine, at: 2, duration: 0.3}
   - {profile: impulse}
+  - {force: [1, 2, 0], impulse_fraction: 0.4, elsewhere: 0.5}
 stance:
   - {at: 1, shift: left_foot, over: 2}
   - {at: 3, lift: right_foot, height: 0.1}
@@ -82,6 +84,9 @@ TEST(Scenario, ReadsNameDurationSeedAndStart) {
   EXPECT_EQ(s.name, "all");
   EXPECT_EQ(s.duration, 7);
   EXPECT_EQ(s.seed, 3u);
+  ASSERT_TRUE(s.chosen_for);
+  EXPECT_EQ(s.chosen_for->mass, 31);
+  EXPECT_EQ(s.chosen_for->com_height, 0.7);
   EXPECT_EQ(s.start.joints, 0.1);
   EXPECT_EQ(s.start.drop, 0.01);
   EXPECT_EQ(s.start.heading, 0.5);
@@ -90,7 +95,7 @@ TEST(Scenario, ReadsNameDurationSeedAndStart) {
 
 TEST(Scenario, ReadsEachKeyOfPushes) {
   const Scenario s = Read(kEveryKey);
-  ASSERT_EQ(s.pushes.size(), 2u);
+  ASSERT_EQ(s.pushes.size(), 3u);
   EXPECT_EQ(s.pushes[0].link, "torso");
   EXPECT_EQ(*s.pushes[0].point, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(s.pushes[0].frame, PushFrame::kLink);
@@ -101,6 +106,22 @@ TEST(Scenario, ReadsEachKeyOfPushes) {
   EXPECT_EQ(s.pushes[0].duration, 0.3);
   EXPECT_EQ(s.pushes[1].profile, PushProfile::kImpulse);
   EXPECT_FALSE(s.pushes[1].point);
+  EXPECT_FALSE(s.pushes[1].impulse_fraction);
+  EXPECT_EQ(s.pushes[2].impulse_fraction, 0.4);
+  EXPECT_EQ(s.pushes[2].elsewhere, 0.5);
+}
+
+// A fraction of a bound needs a direction on the ground.
+TEST(Scenario, RefusesAFractionWithoutAHorizontalForce) {
+  for (const char* push :
+       {"impulse_fraction: 0.4", "force: [0, 1, 2], elsewhere: 0.4",
+        "force: [1, 0, 0], frame: link, impulse_fraction: 0.4",
+        "force: [1, 0, 0], moment: [0, 0, 1], impulse_fraction: 0.4"}) {
+    EXPECT_EQ(Complaint("pushes: [{" + std::string(push) + "}]"),
+              "trial.yaml: a fraction of the bound must come with a horizontal "
+              "force, without moment, in the frame world")
+        << push;
+  }
 }
 
 TEST(Scenario, ReadsEachKeyOfStanceAndCom) {
@@ -243,7 +264,8 @@ TEST(Scenario, RejectsAnUnknownKeyWithItsLine) {
             "drop, heading, place");
   EXPECT_EQ(Complaint("pushes:\n- {link: torso}\n- {forse: [0, 1, 0]}\n"),
             "trial.yaml:3: key 'forse' is unknown, must be one of link, point, "
-            "frame, profile, force, moment, at, duration");
+            "impulse_fraction, elsewhere, frame, profile, force, moment, at, "
+            "duration");
 }
 
 TEST(Scenario, RejectsAnInvalidValueWithItsLine) {

@@ -154,6 +154,7 @@ void Controller::Start(const State& state) noexcept {
   stack_.EndRamp();
   disturbance_.Forget();
   unmodelled_.Reset();
+  drag_.Reset();
   guard_.Reset();
   solver_.Forget();
 }
@@ -234,8 +235,8 @@ void Controller::ComputeCommand(const State& state, Command* command) noexcept {
   ComputeTorque(tick_, contacts_, solution_.y, &command->tau);
   const int nv = robot_.model.tree.nv();
   const int n = robot_.model.tree.num_joints();
-  drag_.AddTo(TorqueScale(), state.v.tail(n), solution_.y.segment(nv - n, n),
-              &command->tau);
+  drag_.AddTo(options_.dt, TorqueScale(), state.v.tail(n),
+              solution_.y.segment(nv - n, n), &command->tau);
   LimitTorque(command);
   command->status = report_.status;
 }

@@ -7,10 +7,12 @@
 namespace poise {
 namespace {
 
-// A joint counts as still below these numbers, which are multiplied by powers
-// of PendulumRate(). They are above the noise of a standing robot.
-constexpr double kStillSpeed = 0.01;
-constexpr double kStillAcceleration = 0.02;
+// The friction is fully compensated well above this acceleration, and the
+// acceleration is filtered with this time. Both are multiplied by powers of
+// PendulumRate(). Their product is a velocity that a standing robot does not
+// have, so that the torque does not chatter.
+constexpr double kSmallAcceleration = 0.02;
+constexpr double kFilterTime = 2;
 
 // Returns sqrt(g / h) of the robot's pendulum, 1/s.
 double PendulumRate(const Robot& robot) {
@@ -48,20 +50,23 @@ DragCompensation::DragCompensation(const Robot& robot) {
     drags_.push_back({j, limits.damping, limits.friction, limits.effort});
   }
   const double rate = PendulumRate(robot);
-  velocity_ = kStillSpeed * rate;
-  acceleration_ = kStillAcceleration * rate * rate;
+  small_ = kSmallAcceleration * rate * rate;
+  filter_time_ = kFilterTime / rate;
 }
 
-void DragCompensation::AddTo(double scale,
+void DragCompensation::Reset() noexcept {
+  for (Drag& drag : drags_) drag.acceleration = 0;
+}
+
+void DragCompensation::AddTo(double dt, double scale,
                              const Eigen::Ref<const Eigen::VectorXd>& v,
                              const Eigen::Ref<const Eigen::VectorXd>& vdot,
-                             Eigen::VectorXd* tau) const noexcept {
-  for (const Drag& drag : drags_) {
-    const double moves = std::tanh(v[drag.joint] / velocity_);
-    const double starts = std::tanh(vdot[drag.joint] / acceleration_);
-    const double added =
-        drag.damping * v[drag.joint] +
-        drag.friction * (moves + (1 - std::abs(moves)) * starts);
+                             Eigen::VectorXd* tau) noexcept {
+  const double share = dt / (filter_time_ + dt);
+  for (Drag& drag : drags_) {
+    drag.acceleration += share * (vdot[drag.joint] - drag.acceleration);
+    const double added = drag.damping * v[drag.joint] +
+                         drag.friction * std::tanh(drag.acceleration / small_);
     double& torque = (*tau)[drag.joint];
     // The motor's limit cuts the added torque, never the torque of (10).
     const double least = std::min(torque, -scale * drag.effort);

@@ -20,35 +20,43 @@ void ComputeTorque(const Tick& tick, const std::vector<ContactTick>& contacts,
                    const Eigen::VectorXd& y, Eigen::VectorXd* tau) noexcept;
 
 /// Computes the torques that overcome the damping d and the dry friction f of
-/// the joints, (10) does not contain them:
-///     d v + f h,  h = g + (1 - |g|) tanh(v̇ / a_0),  g = tanh(v / v_0),
-/// with the measured velocity v and the acceleration v̇ of the solution. A joint
-/// at rest gets the torque against the friction that its motion will meet.
-/// |h| < 1, so with a correct f the torque never exceeds the friction and moves
-/// no joint by itself. v_0 and a_0 scale with the time constant of the robot's
-/// pendulum.
+/// the joints, which (10) does not contain:
+///     d v + f tanh(a / a_0),
+/// with the measured velocity v, and a the acceleration v̇ of the solution after
+/// a low-pass filter. A joint that the friction holds gets the torque against
+/// the friction, and a moving joint that lags behind gets more. The sign of the
+/// measured velocity is not used: where the real friction is smaller than f,
+/// such a torque would drive the joint. a_0 and the time of the filter scale
+/// with the robot's pendulum.
 class DragCompensation {
  public:
   explicit DragCompensation(const Robot& robot);
 
+  /// Forgets the filtered accelerations.
+  void Reset() noexcept;
+
   /// Adds the torques to tau, as far as they do not exceed the limits of the
   /// motors. Leaves tau as it is where a joint has neither damping nor friction.
   ///
+  /// @param dt     control period, s.
   /// @param scale  factor on the limits.
-  /// @param v     velocity of the joints, rad/s or m/s.
-  /// @param vdot  acceleration of the joints, rad/s2 or m/s2.
+  /// @param v      velocity of the joints, rad/s or m/s.
+  /// @param vdot   acceleration of the joints, rad/s2 or m/s2.
   /// Does not allocate.
-  void AddTo(double scale, const Eigen::Ref<const Eigen::VectorXd>& v,
+  void AddTo(double dt, double scale,
+             const Eigen::Ref<const Eigen::VectorXd>& v,
              const Eigen::Ref<const Eigen::VectorXd>& vdot,
-             Eigen::VectorXd* tau) const noexcept;
+             Eigen::VectorXd* tau) noexcept;
 
  private:
   struct Drag {
     int joint;
     double damping, friction, effort;
+    double acceleration = 0;  // Filtered, rad/s2 or m/s2.
   };
-  std::vector<Drag> drags_;  // Of the joints that have damping or friction.
-  double velocity_, acceleration_;  // v_0 and a_0.
+  std::vector<Drag> drags_;  // One for each joint with damping or friction.
+  double small_;             // a_0.
+  double filter_time_;       // s.
 };
 
 /// Returns the relative residual of a solution in the six unactuated rows of

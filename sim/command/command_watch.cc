@@ -65,8 +65,8 @@ void CommandWatch::Look(const TickRecord& record) {
   const Observation& now = record.observation;
   if (!has_begun_) com_start_ = now.com;
   has_begun_ = true;
-  moved2_ += (now.com_ref - com_start_).squaredNorm();
-  error2_ += (now.com - now.com_ref).squaredNorm();
+  commanded2_ += (now.com_ref - com_start_).squaredNorm();
+  moved2_ += (now.com - com_start_).squaredNorm();
   for (Command& command : commands_) {
     const bool is_on = command.event.at < now.time + dt_ / 2 &&
                        now.time < command.until - dt_ / 2;
@@ -140,11 +140,11 @@ std::vector<std::string> CommandWatch::Missed(double end) const {
                        "the ground never pressed on the sole");
     }
   }
-  if (IsMotionJudged(end) && error2_ > kMotionShare * kMotionShare * moved2_) {
-    missed.push_back(
-        "motion of the CoM: its RMS error is " +
-        PrintNumber(std::round(100 * std::sqrt(error2_ / moved2_))) +
-        " % of the motion");
+  const double least = kMotionShare * kMotionShare * commanded2_;
+  if (IsMotionJudged(end) && moved2_ < least) {
+    const double percent = std::round(100 * std::sqrt(moved2_ / commanded2_));
+    missed.push_back("motion of the CoM: " + PrintNumber(percent) +
+                     " % of what is commanded");
   }
   return missed;
 }

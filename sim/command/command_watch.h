@@ -20,8 +20,8 @@ namespace poise {
 /// - A lift happened if the sole rose by half of the height, before the foot is
 ///   put down.
 /// - A foot was put down if the ground pressed on it while it was meant down.
-/// - The motion of the CoM happened if the RMS error is below half of the RMS
-///   motion.
+/// - The motion of the CoM happened if the CoM moved, as an RMS, by half of the
+///   commanded motion. It may lag behind.
 ///
 /// A command whose time ends before its motion can be complete is not judged.
 class CommandWatch {
@@ -63,7 +63,7 @@ class CommandWatch {
   ComMotion com_;
   std::vector<Command> commands_;
   Eigen::Vector3d com_start_ = Eigen::Vector3d::Zero();
-  double moved2_ = 0, error2_ = 0;  // Sums of squares, m2.
+  double commanded2_ = 0, moved2_ = 0;  // Sums of squares, m2.
   bool has_begun_ = false;
 };
 

@@ -36,7 +36,7 @@ Robot WithFriction(double friction) {
 }
 
 TEST(CommandWatch, SeesThatTheMotionHappens) {
-  const RunResult result = Run(LoadHumanoid(), OneLeg());
+  const RunResult result = poise::Run(LoadHumanoid(), OneLeg());
   EXPECT_TRUE(result.verdict.recovered);
   EXPECT_EQ(result.commanded_done, true);
   EXPECT_TRUE(result.not_done.empty());
@@ -47,7 +47,7 @@ TEST(CommandWatch, SeesThatFrictionHoldsTheRobot) {
   Scenario scenario = OneLeg();
   scenario.stance.resize(1);
   scenario.duration = 2;
-  const RunResult result = Run(WithFriction(2000), scenario);
+  const RunResult result = poise::Run(WithFriction(2000), scenario);
   EXPECT_FALSE(result.verdict.fell_at);
   EXPECT_EQ(result.commanded_done, false);
   ASSERT_EQ(result.not_done.size(), 1u);
@@ -61,7 +61,7 @@ TEST(CommandWatch, SeesThatCompensatedFrictionDoesNotHoldTheRobot) {
   Scenario scenario = OneLeg();
   scenario.stance.resize(1);
   scenario.duration = 2;
-  const RunResult result = Run(WithFriction(3), scenario);
+  const RunResult result = poise::Run(WithFriction(3), scenario);
   EXPECT_TRUE(result.verdict.recovered);
   EXPECT_EQ(result.commanded_done, true);
 }
@@ -69,11 +69,11 @@ TEST(CommandWatch, SeesThatCompensatedFrictionDoesNotHoldTheRobot) {
 TEST(CommandWatch, SeesThatTheCenterOfMassDoesNotFollow) {
   Scenario scenario;
   scenario.name = "sinusoid";
-  scenario.duration = 2;
+  scenario.duration = 1.5;
   scenario.com.sine = {0.05, 0, 0};
-  scenario.com.period = 2;
-  EXPECT_EQ(Run(LoadHumanoid(), scenario).commanded_done, true);
-  const RunResult held = Run(WithFriction(2000), scenario);
+  scenario.com.period = 3;
+  EXPECT_EQ(poise::Run(LoadHumanoid(), scenario).commanded_done, true);
+  const RunResult held = poise::Run(WithFriction(2000), scenario);
   EXPECT_EQ(held.commanded_done, false);
   EXPECT_EQ(held.not_done.size(), 1u);
 }
@@ -81,9 +81,9 @@ TEST(CommandWatch, SeesThatTheCenterOfMassDoesNotFollow) {
 TEST(CommandWatch, DoesNotJudgeACommandThatTheRunCutsShort) {
   Scenario scenario = OneLeg();
   scenario.duration = 1;  // The shift ends at 1.1 s.
-  EXPECT_EQ(Run(LoadHumanoid(), scenario).commanded_done, std::nullopt);
-  EXPECT_EQ(Run(LoadHumanoid(), Scenario{"stand", 0.1}).commanded_done,
-            std::nullopt);
+  EXPECT_EQ(poise::Run(LoadHumanoid(), scenario).commanded_done, std::nullopt);
+  scenario.stance.clear();
+  EXPECT_EQ(poise::Run(LoadHumanoid(), scenario).commanded_done, std::nullopt);
 }
 
 }  // namespace

@@ -24,9 +24,9 @@ Robot Heavier(double factor) {
 
 TEST(FitToRobot, KeepsNewtonsAndLengthsOnTheChosenRobot) {
   const Robot robot = LoadHumanoid();
-  for (const char* name : {"posture_off", "weak_push", "strong_push",
-                           "strong_push_without_zmp", "one_leg", "slope",
-                           "board", "shove", "stand", "com_sinusoid"}) {
+  for (const char* name :
+       {"posture_off", "weak_push", "strong_push", "strong_push_without_zmp",
+        "one_leg", "slope", "board", "shove", "stand", "com_sinusoid"}) {
     SCOPED_TRACE(name);
     const Scenario written = Load(name);
     ASSERT_TRUE(written.chosen_for);

@@ -14,6 +14,9 @@ namespace {
 // creeps at this speed times load / dry friction.
 constexpr double kSlow = 1e-4;
 
+// Most passes over the joints that slip.
+constexpr int kPasses = 10;
+
 std::vector<int> FootFrames(const Robot& robot) {
   std::vector<int> frames;
   for (const Foot& foot : robot.feet) frames.push_back(foot.frame);
@@ -35,7 +38,7 @@ JointDrag::JointDrag(const Robot& robot, double dt)
 const Eigen::VectorXd& JointDrag::Compute(const PlantState& state,
                                           const Eigen::VectorXd& tau) {
   const Tree& tree = robot_.model.tree;
-  const int n = tree.num_joints(), start = tree.v_start();
+  const int n = tree.num_joints();
   ComputeTick(tree, state.q, state.v, &tick_);
   Eigen::VectorXd force = -tick_.N;
   force.tail(n) += tau;
@@ -49,18 +52,39 @@ const Eigen::VectorXd& JointDrag::Compute(const PlantState& state,
         force_W;
     force += frame.J_WF_W.transpose() * F_Fo_W;
   }
-  Eigen::MatrixXd M = tick_.M;
-  Eigen::VectorXd D(n);
+  const Eigen::VectorXd v = state.v.tail(n);
+  Eigen::VectorXd D(n), slip = Eigen::VectorXd::Zero(n);
+  std::vector<bool> may_slip(n, true);
   for (int j = 0; j < n; ++j) {
     const JointLimits& limits = robot_.model.limits[j];
-    const double speed = std::abs(state.v[start + j]);
-    D[j] = limits.damping + limits.friction / std::max(speed, kSlow);
-    M(start + j, start + j) += dt_ * D[j];
+    D[j] = limits.damping + limits.friction / std::max(std::abs(v[j]), kSlow);
   }
-  const Eigen::VectorXd v = state.v.tail(n);
-  force.tail(n) -= D.cwiseProduct(v);
-  const Eigen::VectorXd vdot = M.llt().solve(force);
-  drag_ = -D.cwiseProduct(v + dt_ * vdot.tail(n));
+  for (int pass = 0; pass < kPasses; ++pass) {
+    Eigen::MatrixXd M = tick_.M;
+    M.diagonal().tail(n) += dt_ * D;
+    Eigen::VectorXd load = force;
+    load.tail(n) += slip - D.cwiseProduct(v);
+    const Eigen::VectorXd next = v + dt_ * M.llt().solve(load).tail(n);
+    drag_ = slip - D.cwiseProduct(next);
+    // Decides again which joints slip. Without this, a joint of small inertia
+    // between a motor and the ground would be held against any torque.
+    bool changes = false;
+    for (int j = 0; j < n; ++j) {
+      const JointLimits& limits = robot_.model.limits[j];
+      const double dry = (D[j] - limits.damping) * std::abs(next[j]);
+      if (slip[j] == 0 && may_slip[j] && dry > limits.friction) {
+        slip[j] = std::copysign(limits.friction, -next[j]);
+        D[j] = limits.damping;
+        changes = true;
+      } else if (slip[j] * next[j] > 0) {  // The friction would reverse it.
+        slip[j] = 0;
+        D[j] = limits.damping + limits.friction / kSlow;
+        may_slip[j] = false;
+        changes = true;
+      }
+    }
+    if (!changes) break;
+  }
   return drag_;
 }
 

@@ -107,6 +107,9 @@ TEST(JointDrag, HoldsByDryFrictionAndNeverReversesTheMotion) {
   // At rest: the drag balances the torque, except for the creep.
   EXPECT_NEAR(drag(0, 1), -1, 0.07);
   EXPECT_NEAR(drag(0, -1), 1, 0.07);
+  // A larger torque makes it slip. The inertia is far below dt f / v_0.
+  EXPECT_NEAR(drag(0, 10), -3, 1e-9);
+  EXPECT_NEAR(drag(0, -3.5), 3, 1e-9);
   // The drag does not reverse the motion: v + dt (tau + drag) / I keeps the
   // sign of v.
   for (const double v : {1e-3, 1e-4, 1e-5}) {

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "poise/robot/control/stand.h"
+#include "poise/robot/feet/sole_source.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/profile/find_profile.h"
 #include "poise/robot/profile/profile.h"
@@ -22,6 +23,7 @@
 #include "poise/sim/outcome.h"
 #include "poise/sim/push.h"
 #include "poise/sim/scenario.h"
+#include "poise/tools/commands/doctor/one_leg.h"
 #include "poise/tools/commands/parse_json.h"
 #include "poise/tools/commands/push/warnings.h"
 
@@ -63,16 +65,15 @@ std::string ForwardAxis(const Robot& robot) {
   return std::string(forward_F[axis] < 0 ? "-" : "+") + "xyz"[axis];
 }
 
-// Returns where the soles come from: the profile, the shapes of the feet, or an
-// estimate.
-std::string SolesFrom(const Profile& profile,
-                      const std::vector<Finding>& findings) {
-  if (!profile.feet.empty()) return "profile";
-  const bool is_guess =
-      std::any_of(findings.begin(), findings.end(), [](const Finding& each) {
-        return each.what.rfind("is estimated as ", 0) == 0;
-      });
-  return is_guess ? "guess" : "box";
+// Returns where the soles come from. The worse of two origins counts.
+std::string SolesFrom(const Robot& robot) {
+  std::string from = "profile";
+  for (const Foot& foot : robot.feet) {
+    if (!foot.source) continue;
+    if (*foot.source == SoleSource::kGuess) return "guess";
+    from = *foot.source == SoleSource::kMesh ? "mesh" : "box";
+  }
+  return from;
 }
 
 bool IsBody(const Robot& robot, const Foot& foot, const std::string& link) {
@@ -136,7 +137,7 @@ class Candidate {
     if (!file.empty()) profile_ = LoadProfile(file);
     trial_.profile = file.filename().string();
     trial_.robot = MakeStandingRobot(document, profile_, &findings_);
-    trial_.soles = SolesFrom(profile_, findings_);
+    trial_.soles = SolesFrom(*trial_.robot);
     trial_.forward = ForwardAxis(*trial_.robot);
   }
 
@@ -164,6 +165,10 @@ class Candidate {
     if (!trial_.stands()) return;
     for (const int degrees : RobotTrial::kDirections) {
       trial_.pushes.push_back(RunPush(degrees));
+    }
+    for (const Finding& each : FindOneLegDefects(*trial_.robot)) {
+      trial_.one_leg_obstacle += (trial_.one_leg_obstacle.empty() ? "" : "; ") +
+                                 OneLine(each.where) + " " + OneLine(each.what);
     }
     trial_.one_leg = RunScenario("one_leg", {});
   }

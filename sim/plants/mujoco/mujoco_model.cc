@@ -129,6 +129,8 @@ void WriteJoint(const RobotModel& model, int j, const PlantSettings& settings,
   if (settings.joint_damping) {
     *xml << " damping=\"" << limits.damping << "\" frictionloss=\""
          << limits.friction << '"';
+    // MuJoCo's default time constant of 20 ms makes dry friction viscous.
+    if (limits.friction > 0) *xml << " solreffriction=\"0.004 1\"";
   }
   const bool limited = settings.joint_limits && std::isfinite(limits.lower) &&
                        std::isfinite(limits.upper);

@@ -130,7 +130,7 @@ refuse "scenario 'sneeze' is unknown, must be a file or one of $scenarios" \
 refuse "scenario '$gone' is unknown, must be a file or one of $scenarios" \
   --scenario "$gone"
 refuse_file --scenario ":2: key 'lenght' is unknown, must be one of $(
-  )name, duration, seed, start, steps, pushes, stance, com, tasks, control, plant, $(
+  )name, duration, seed, chosen_for, start, steps, pushes, stance, com, tasks, control, plant, $(
   )sensors" scenario.yaml 'duration: 3' 'lenght: 4'
 refuse_file --scenario ":1: 'to' is a list, must be two numbers [x, y] from -1000 to $(
   )1000 m" to.yaml 'stance: [{at: 1, step: left_foot, to: [1]}]'
@@ -152,7 +152,7 @@ refuse "$gone: cannot be read" --profile "$gone"
 
 refuse "$gone: cannot be read" --pushes "$gone"
 refuse_file --pushes ":3: key 'forse' is unknown, must be one of link, $(
-  )point, frame, profile, force, moment, at, duration" \
+  )point, impulse_fraction, elsewhere, frame, profile, force, moment, at, duration" \
   pushes.yaml 'pushes:' '  - force: [0, 50, 0]' '    forse: [0, 50, 0]'
 refuse_file --pushes ":2: 'force' is a list, must be a list of numbers" \
   pushes.yaml 'pushes:' '  - force: [0, fifty, 0]'
