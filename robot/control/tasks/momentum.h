@@ -19,6 +19,10 @@ namespace poise {
 /// orientation back to its reference: without it the pelvis drifts,
 /// because angular momentum is not the derivative of an orientation.
 ///
+/// K e is clamped to the moment that the weight has about the middle of the
+/// feet in contact with the CoP at the edge of their soles: a larger moment
+/// would have a CoP that is not there.
+///
 /// With TaskInput::capture, the capture blend of BalanceMonitor, the gains of
 /// the horizontal position rise and the weights of angular momentum and height
 /// fall. The robot then rotates its trunk and arms to stop a fall.
@@ -30,7 +34,7 @@ namespace poise {
 class MomentumTask final : public Task {
  public:
   /// Parameters: kp (30 1/s2), kd (10 1/s), kd_angular (10 1/s), k_orientation
-  /// (200 N m/rad); ki and ki_height (15 and 60 1/s3), see Disturbance;
+  /// (200 N m/rad; MakeDefaultStack() scales it to the robot); ki and ki_height (15 and 60 1/s3), see Disturbance;
   /// angular_weight (1), of the angular rows against the linear ones;
   /// feedforward (0; with 1, v_ref and a_ref are used). CaptureSettings:
   /// capture (1), capture_from (0.65), capture_full (1), capture_sideways
@@ -46,6 +50,8 @@ class MomentumTask final : public Task {
              InequalityBlock* inequalities) const noexcept override;
 
  private:
+  Eigen::Vector3d UprightMoment(const TaskInput& input) const noexcept;
+
   // Gains of the horizontal position and weights of rows at capture 1.
   struct CapturedGains {
     double kp = 60;
@@ -55,6 +61,7 @@ class MomentumTask final : public Task {
   };
 
   double mass_;
+  double weight_;  // N.
   std::vector<Foot> feet_;
   ComGains gains_;
   double kd_angular_ = 10;
