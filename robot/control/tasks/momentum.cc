@@ -6,7 +6,6 @@
 
 #include "poise/math/so3.h"
 #include "poise/robot/control/tasks/row_names.h"
-#include "poise/robot/control/tasks/support_box.h"
 
 namespace poise {
 
@@ -21,7 +20,6 @@ MomentumTask::MomentumTask(const Tree& tree, const std::vector<Foot>& feet)
                      {"lz", "N", "the linear momentum along z"}}),
            {}),
       mass_(tree.total_mass() > 0 ? tree.total_mass() : 1),
-      weight_(tree.total_mass() * tree.gravity_W().norm()),
       feet_(feet) {
   AddParameter("kp", &gains_.kp, 0, 1e4);
   AddParameter("kd", &gains_.kd, 0, 1e3);
@@ -41,31 +39,12 @@ MomentumTask::MomentumTask(const Tree& tree, const std::vector<Foot>& feet)
   AddParameter("capture_height_weight", &captured_.height_weight, 1e-6, 1e6);
 }
 
-// Returns K e, clamped. A moment about x needs a CoP to the left, a moment
-// about y a CoP to the rear.
-Eigen::Vector3d MomentumTask::UprightMoment(
-    const TaskInput& input) const noexcept {
-  const Eigen::Matrix3d& R_WB = input.tick.X_WB[0].R;
-  const Eigen::Vector3d moment_W =
-      k_orientation_ * LogSo3(input.reference.R_WB * R_WB.transpose());
-  const Pose X_WMid = MidFeet(input.contacts);
-  const Pose X_MidW = X_WMid.Inverse();
-  const auto most = [&](SupportSide side) {
-    return weight_ * SupportReach(feet_, input.contacts, X_MidW, side);
-  };
-  if (!(most(kFront) > 0)) return moment_W;  // No foot is in contact.
-  const Eigen::Vector3d moment = X_MidW.R * moment_W;
-  Eigen::Vector3d clamped = moment;
-  clamped.x() = std::clamp(moment.x(), -most(kRight), most(kLeft));
-  clamped.y() = std::clamp(moment.y(), -most(kFront), most(kBack));
-  // Without a clamp, the moment is not rotated back: rounding would alter it.
-  return clamped == moment ? moment_W : X_WMid.R * clamped;
-}
-
 void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
                          InequalityBlock*) const noexcept {
   const Tick& tick = input.tick;
   const Reference& reference = input.reference;
+  const Eigen::Matrix3d& R_WB = tick.X_WB[0].R;
+  const Eigen::Vector3d e_W = LogSo3(reference.R_WB * R_WB.transpose());
 
   // The height keeps its normal gains, because it is not unstable.
   const double share = input.capture;
@@ -78,7 +57,7 @@ void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
   const Eigen::Vector3d p_ref_WG =
       FindComTarget(feet_, input.contacts, reference);
   Vector6d wanted;
-  wanted << (UprightMoment(input) - kd_angular_ * tick.L_G.head<3>()) / mass_,
+  wanted << (k_orientation_ * e_W - kd_angular_ * tick.L_G.head<3>()) / mass_,
       (kp * (p_ref_WG - tick.p_WG).array() + kd * (ahead - tick.v_WG.array()))
               .matrix() +
           input.correction_W + feedforward_ * reference.a_WG;

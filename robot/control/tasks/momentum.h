@@ -19,10 +19,6 @@ namespace poise {
 /// orientation back to its reference: without it the pelvis drifts,
 /// because angular momentum is not the derivative of an orientation.
 ///
-/// K e is clamped to the moment that the weight has about the middle of the
-/// feet in contact with the CoP at the edge of their soles: a larger moment
-/// would have a CoP that is not there.
-///
 /// With TaskInput::capture, the capture blend of BalanceMonitor, the gains of
 /// the horizontal position rise and the weights of angular momentum and height
 /// fall. The robot then rotates its trunk and arms to stop a fall.
@@ -50,8 +46,6 @@ class MomentumTask final : public Task {
              InequalityBlock* inequalities) const noexcept override;
 
  private:
-  Eigen::Vector3d UprightMoment(const TaskInput& input) const noexcept;
-
   // Gains of the horizontal position and weights of rows at capture 1.
   struct CapturedGains {
     double kp = 60;
@@ -61,7 +55,6 @@ class MomentumTask final : public Task {
   };
 
   double mass_;
-  double weight_;  // N.
   std::vector<Foot> feet_;
   ComGains gains_;
   double kd_angular_ = 10;
