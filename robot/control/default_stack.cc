@@ -1,8 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/robot/control/default_stack.h"
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 
+#include "poise/dynamics/tick.h"
+#include "poise/dynamics/tree.h"
 #include "poise/robot/control/tasks/angular_momentum.h"
 #include "poise/robot/control/tasks/capture_point.h"
 #include "poise/robot/control/tasks/com.h"
@@ -38,6 +44,35 @@ constexpr bool kOff = false;
 // Momentum and posture do not determine the internal forces: the regularizer
 // does. The small weight keeps it from competing with the posture on its level.
 constexpr double kRegularizerWeight = 1e-2;
+
+// Gain that keeps the base upright, over weight * Y^2 / h, with Y half the width
+// of a sole and h the height of the center of mass above the soles. On one foot
+// the CoP moves by at most Y, and the lean that it can correct is Y / h. The
+// value gives 200 N m/rad for robot/models/humanoid.urdf.
+constexpr double kOrientation = 98.8;
+
+// Returns k_orientation, N m/rad, with three significant digits.
+double OrientationGain(const Robot& robot, double otherwise) {
+  const Tree& tree = robot.model.tree;
+  const double weight = tree.total_mass() * tree.gravity_W().norm();
+  if (robot.feet.empty() || robot.q_nominal.size() != tree.nq()) {
+    return otherwise;
+  }
+  Tick tick(tree, {});
+  ComputeTick(tree, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
+  double Y = std::numeric_limits<double>::infinity(), ground = 0;
+  for (const Foot& foot : robot.feet) {
+    Y = std::min(Y, foot.half_size.y());
+    ground += (tick.X_WB[foot.body] * foot.X_BC).p.z();
+  }
+  ground /= static_cast<double>(robot.feet.size());
+  const double h = tick.p_WG.z() - ground;
+  // A posture that does not stand may have its center of mass below the soles.
+  const double k = kOrientation * weight * Y * Y / h;
+  if (!(h > Y && k > 0)) return otherwise;
+  const double digits = std::pow(10, 2 - std::floor(std::log10(k)));
+  return std::round(k * digits) / digits;
+}
 
 }  // namespace
 
@@ -91,6 +126,10 @@ Stack MakeDefaultStack(const Robot& robot,
   stack.Add(std::make_unique<ForceRegularizerTask>(tree, feet),
             {kOn, 5, kRegularizerWeight});
   stack.Add(std::make_unique<TorqueMinimizationTask>(model), {kOff, 5, 1});
+  const double standard =
+      stack.GetParameter("momentum", "k_orientation").value_or(0);
+  (void)stack.SetParameter("momentum", "k_orientation",
+                           OrientationGain(robot, standard));
   return stack;
 }
 

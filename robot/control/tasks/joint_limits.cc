@@ -8,6 +8,14 @@
 #include "poise/robot/limits.h"
 
 namespace poise {
+namespace {
+
+// Bound on the braking of a joint that is faster than its limit, over omega
+// times the limit. An impact leaves a leg far above the limits of 0.5 rad/s that
+// some files have. The braking of all joints at once would throw the robot.
+constexpr double kBrake = 0.25;
+
+}  // namespace
 
 JointLimitsTask::JointLimitsTask(const RobotModel& model)
     : Task("joint_limits", {},
@@ -48,12 +56,15 @@ void JointLimitsTask::Write(const TaskInput& input, EqualityBlock*,
     inequalities->C(j, v_start_ + j) = scale;
     // Clamping, instead of max and min, lets the position limit win on either
     // side if position and velocity limits contradict each other.
+    const double brake = kBrake * w * velocity_[j];
     inequalities->lower[j] =
         scale *
-        (std::clamp(w * (-velocity_[j] - v), lower, upper) - unmodelled_vdot);
+        (std::clamp(std::min(w * (-velocity_[j] - v), brake), lower, upper) -
+         unmodelled_vdot);
     inequalities->upper[j] =
         scale *
-        (std::clamp(w * (velocity_[j] - v), lower, upper) - unmodelled_vdot);
+        (std::clamp(std::max(w * (velocity_[j] - v), -brake), lower, upper) -
+         unmodelled_vdot);
   }
 }
 

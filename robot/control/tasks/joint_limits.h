@@ -14,6 +14,8 @@ namespace poise {
 /// On the bound the joint comes to rest at the limit, critically damped. The
 /// joint approaches its velocity limits as exp(-w t):
 ///     w (-q̇_max - q̇) <= q̈ <= w (q̇_max - q̇).
+/// A joint above its velocity limit, as after an impact, brakes by at most
+/// w q̇_max / 4.
 /// If the two contradict each other, far beyond a position limit or fast
 /// towards it, the position limit wins. A range narrower than its margins
 /// shrinks to its middle. A joint without velocity limit, such as a finger that

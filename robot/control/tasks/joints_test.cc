@@ -54,6 +54,30 @@ TEST_F(TaskTest, JointLimitsBringAJointToRestAtItsStop) {
   }
 }
 
+TEST_F(TaskTest, JointLimitsBrakeAFastJointGently) {
+  const JointLimitsTask task(robot_.model);
+  const int j = *tree_.FindJoint("l_elbow");
+  const double fastest = robot_.model.limits[j].velocity;
+  constexpr double kOmega = 40;  // 1/s.
+  const JointLimits& limits = robot_.model.limits[j];
+  for (const double side : {1., -1.}) {
+    // Without a position limit in the way.
+    state_.q[7 + j] = side > 0 ? limits.lower + 0.1 : limits.upper - 0.1;
+    for (const double times : {1.1, 1.25, 2., 5.}) {
+      state_.v[6 + j] = side * times * fastest;
+      const Hierarchy& rows = Write(task);
+      const double bound = side *
+                           (side > 0 ? rows.upper(0)[j] : rows.lower(0)[j]) /
+                           rows.C(0)(j, 6 + j);
+      const double stop =
+          kOmega * kOmega * (limits.upper - limits.lower - 0.108) -
+          2 * kOmega * times * fastest;
+      const double brake = kOmega * fastest * std::min(times - 1, 0.25);
+      EXPECT_NEAR(bound, std::min(-brake, stop), 1e-9) << times;
+    }
+  }
+}
+
 TEST_F(TaskTest, JointLimitsHoldTheSpeed) {
   const JointLimitsTask task(robot_.model);
   const int j = *tree_.FindJoint("l_elbow");
