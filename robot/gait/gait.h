@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "poise/robot/control/controller.h"
+#include "poise/robot/gait/force_priority.h"
 #include "poise/robot/gait/gait_settings.h"
 #include "poise/robot/gait/push_estimate.h"
 #include "poise/robot/gait/quintic.h"
@@ -84,6 +85,7 @@ class Gait {
     return !is_stopped_ && steps_ < settings_.max_steps;
   }
   bool MustStep(const Controller& controller) noexcept;
+  int FindTippingFoot(const Controller& controller) const noexcept;
   int ChooseFoot(const Controller& controller) noexcept;
   StepProblem MakeProblem(const Controller& controller, int swing,
                           double remaining) const noexcept;
@@ -110,6 +112,7 @@ class Gait {
   StepPlan planner_;
   PushEstimate push_;
   SwingPath path_;
+  ForcePriority priority_;
 
   GaitPhase phase_ = GaitPhase::kStand;
   bool is_commanded_ = false;
@@ -127,6 +130,7 @@ class Gait {
   Eigen::Vector2d xi_W_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d xi_without_k_W_ = Eigen::Vector2d::Zero();
   EdgeFractions fractions_;
+  int tipping_ = -1;  // Foot that tips on both feet; -1: none.
   std::array<Quintic, 3> com_;  // Reference of G; z above the ground.
 };
 
