@@ -158,29 +158,11 @@ bool Gait::MustStep(const Controller& controller) noexcept {
   const Eigen::Vector2d a_Mid = X_MidW.R.topLeftCorner<2, 2>() * push_.a_WG();
   fractions_ = PredictEdgeFractions(InFrame(X_MidW, xi_without_k_W_), a_Mid,
                                     omega_, push_.remaining(), box);
-  tipping_ = FindTippingFoot(controller);
-  return tipping_ >= 0 || settings_.trigger.IsNeeded(fractions_);
-}
-
-// Returns a foot that tips although it should stand, while the other foot is
-// flat; -1 if there is none. A step puts such a foot down again.
-int Gait::FindTippingFoot(const Controller& controller) const noexcept {
-  const auto is_tilted = [&](int foot, double angle) {
-    return controller.contacts()[foot].X_WC.R(2, 2) < std::cos(angle);
-  };
-  for (int foot = 0; foot < 2; ++foot) {
-    if (controller.stance().phase(foot) == ContactPhase::kDown &&
-        is_tilted(foot, settings_.tipping) &&
-        !is_tilted(1 - foot, settings_.tipping / 2)) {
-      return foot;
-    }
-  }
-  return -1;
+  return settings_.trigger.IsNeeded(fractions_);
 }
 
 // Returns the foot whose step leaves xi nearer to the new support.
 int Gait::ChooseFoot(const Controller& controller) noexcept {
-  if (tipping_ >= 0) return tipping_;
   constexpr double kEqual = 1e-3;  // Excesses that differ less are equal, m.
   PlannedStep best;
   int choice = -1;

@@ -85,7 +85,6 @@ class Gait {
     return !is_stopped_ && steps_ < settings_.max_steps;
   }
   bool MustStep(const Controller& controller) noexcept;
-  int FindTippingFoot(const Controller& controller) const noexcept;
   int ChooseFoot(const Controller& controller) noexcept;
   StepProblem MakeProblem(const Controller& controller, int swing,
                           double remaining) const noexcept;
@@ -130,7 +129,6 @@ class Gait {
   Eigen::Vector2d xi_W_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d xi_without_k_W_ = Eigen::Vector2d::Zero();
   EdgeFractions fractions_;
-  int tipping_ = -1;  // Foot that tips on both feet; -1: none.
   std::array<Quintic, 3> com_;  // Reference of G; z above the ground.
 };
 

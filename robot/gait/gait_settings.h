@@ -22,8 +22,6 @@ struct GaitSettings {
   PushEstimate::Settings push;
   StepRegion::Settings region;
   SwingPath::Settings path;
-  /// A foot on the ground that tilts by more than this steps, rad.
-  double tipping = 0.05;
   int max_steps = 12;  ///< Steps in a row; then the robot stays where it is.
 
   // Steps that catch the robot.
