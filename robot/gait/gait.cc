@@ -107,6 +107,7 @@ void Gait::Measure(const Controller& controller) noexcept {
 
 void Gait::Update(Controller* controller) noexcept {
   Measure(*controller);
+  priority_.Set(steps_ > 0, &controller->stack());
   switch (phase_) {
     case GaitPhase::kStand:
     case GaitPhase::kShift:

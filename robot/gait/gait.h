@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "poise/robot/control/controller.h"
+#include "poise/robot/gait/force_priority.h"
 #include "poise/robot/gait/gait_settings.h"
 #include "poise/robot/gait/push_estimate.h"
 #include "poise/robot/gait/quintic.h"
@@ -110,6 +111,7 @@ class Gait {
   StepPlan planner_;
   PushEstimate push_;
   SwingPath path_;
+  ForcePriority priority_;
 
   GaitPhase phase_ = GaitPhase::kStand;
   bool is_commanded_ = false;
