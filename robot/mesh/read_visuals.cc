@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "poise/robot/finding.h"
+#include "poise/robot/mesh/find_mesh.h"
 #include "poise/robot/mesh/mesh_reader.h"
 #include "poise/robot/mesh/simplify_mesh.h"
 
@@ -21,7 +22,13 @@ int ReadVisuals(RobotModel* model) {
 
 int ReadSurfaces(const MeshPlaces& places, const std::vector<Mesh*>& meshes) {
   constexpr size_t kMostTriangles = 24'000;
-  constexpr size_t kFewest = 60;  // Of a mesh. Fewer show no shape.
+  constexpr size_t kFewest = 60;  // Per mesh. Fewer show no shape.
+  const auto exists = [&](const Mesh* mesh) {
+    return !FindMesh(places, mesh->file).path.empty();
+  };
+  const auto found =
+      static_cast<size_t>(std::count_if(meshes.begin(), meshes.end(), exists));
+  const size_t share = kMostTriangles / std::max<size_t>(1, found);
   MeshReader reader(places);
   size_t triangles = 0;
   int missing = 0;
@@ -29,8 +36,7 @@ int ReadSurfaces(const MeshPlaces& places, const std::vector<Mesh*>& meshes) {
     try {
       if (triangles > kMostTriangles) throw Refusal(mesh->file, 0, "");
       auto surface = std::make_shared<TriangleMesh>(
-          SimplifyMesh(reader.Read(*mesh),
-                       std::max(kFewest, kMostTriangles / meshes.size())));
+          SimplifyMesh(reader.Read(*mesh), std::max(kFewest, share)));
       triangles += surface->triangles.size();
       if (!surface->triangles.empty()) mesh->surface = std::move(surface);
     } catch (const Refusal&) {

@@ -17,7 +17,7 @@ namespace {
 constexpr double kFinest = 1e-6;
 
 // Joins the vertices in each cell of a grid, and removes the triangles that
-// then have no area or occur twice.
+// then have no area. A closed surface remains closed.
 TriangleMesh Join(const TriangleMesh& mesh, const Eigen::Vector3f& low,
                   double cell) {
   std::vector<std::pair<std::uint64_t, int>> order;
@@ -46,14 +46,8 @@ TriangleMesh Join(const TriangleMesh& mesh, const Eigen::Vector3f& low,
   for (std::array<int, 3> t : mesh.triangles) {
     for (int& corner : t) corner = new_index[corner];
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    // The smallest corner becomes the first; the sense of rotation remains.
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     joined.triangles.push_back(t);
   }
-  std::sort(joined.triangles.begin(), joined.triangles.end());
-  joined.triangles.erase(
-      std::unique(joined.triangles.begin(), joined.triangles.end()),
-      joined.triangles.end());
   return joined;
 }
 

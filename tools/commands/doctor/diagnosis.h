@@ -26,7 +26,7 @@ struct Diagnosis {
   std::vector<Mass> bodies;  ///< Links with all links fixed to them.
   struct Sole {
     std::string name, link;
-    double length, width;  ///< Of the sole polygon, m.
+    double length, width;  ///< The sole polygon's, m.
   };
   std::vector<Sole> soles;
   std::optional<double> com_height;  ///< In the standing posture, if any.

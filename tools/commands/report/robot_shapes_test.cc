@@ -112,7 +112,7 @@ TEST(RobotShapes, PrefersVisualsToCollisionsAndPlacesThemInTheBody) {
 }
 
 TEST(RobotShapes, UsesCollisionsIfVisualsAreMeshes) {
-  RobotModel robot = Arm(EllipsoidInertia(3, {0.1, 0.1, 0.1}), {0, 0.3, 0});
+  RobotModel robot = Arm(EllipsoidInertia(3, {0.1, 0.1, 0.1}), {0, 0.1, 0});
   robot.visuals.push_back({0, {}, Mesh{"a.stl", {1, 1, 1}}});
   robot.collisions.push_back({0, {}, Cylinder{0.1, 0.4}});
   robot.collisions.push_back({0, {}, Sphere{0.15}});
