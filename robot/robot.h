@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -44,10 +45,12 @@ struct Cylinder {
   double radius;
   double length;  ///< Along z, centered.
 };
+struct TriangleMesh;  // In robot/mesh/triangle_mesh.h.
 struct Mesh {
-  std::string
-      file;  ///< As in the URDF: "package://NAME/foot.stl". See FindMesh.
+  std::string file;  ///< As in the URDF: "package://NAME/foot.stl".
   Eigen::Vector3d scale;
+  /// The surface in m, scaled, for drawing. Null unless ReadVisuals() found it.
+  std::shared_ptr<const TriangleMesh> surface = nullptr;
 };
 using Geometry = std::variant<Sphere, Box, Cylinder, Mesh>;
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/package_path.h"
 #include "poise/tools/commands/report/report_page.h"
 #include "poise/tools/commands/user_path.h"
 
@@ -19,6 +20,7 @@ int Main(int argc, char** argv) {
       "report");
   std::vector<std::string> runs;
   std::string out;
+  std::vector<std::string> packages;
   app.add_option("RUN_DIR", runs,
                  "The folder of a run, or two folders to compare")
       ->required()
@@ -27,6 +29,7 @@ int Main(int argc, char** argv) {
       "--out", out,
       "The page to write [RUN_DIR/report.html, or ./compare.html for "
       "two runs]");
+  AddPackagePath(&app, &packages);
   ParseCommandLine(argc, argv, &app);
   std::vector<std::filesystem::path> folders;
   for (const std::string& run : runs) {
@@ -35,7 +38,7 @@ int Main(int argc, char** argv) {
   std::filesystem::path html = UserPath("compare.html");
   if (folders.size() == 1) html = folders.front() / "report.html";
   if (!out.empty()) html = UserPath(out);
-  WriteReport(folders, html);
+  WriteReport(folders, html, PackageFolders(packages));
   std::cout << html.string() << '\n';
   return 0;
 }

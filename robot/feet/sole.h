@@ -29,7 +29,7 @@ struct Sole {
 ///
 /// The points of the result are projections onto the plane: of corners at most
 /// 2 mm above it, and of vertices of meshes at most 6 mm above it. Soles have
-/// rounded edges and profiles, and rubber gives way.
+/// rounded edges and profiles, and rubber is soft.
 Sole FindSole(const Outline& outline, const Eigen::Vector3d& up_B);
 
 /// Estimates the sole of a foot whose meshes cannot be read, as FindFeet()

@@ -12,7 +12,7 @@ namespace poise {
 namespace {
 
 constexpr size_t kHeader = 80;
-constexpr size_t kStart = 84;     // Of the first triangle, after the count.
+constexpr size_t kStart = 84;     // The first triangle is after the count.
 constexpr size_t kTriangle = 50;  // Normal, 3 vertices, 2 bytes of attributes.
 constexpr size_t kNormal = 12;
 
@@ -74,7 +74,7 @@ TriangleMesh ReadBinary(std::string_view bytes, const std::string& source) {
 TriangleMesh ReadText(std::string_view text, const std::string& source) {
   TriangleMesh mesh;
   MeshWords words(text, source);
-  size_t corners = 0;  // Of the current facet.
+  size_t corners = 0;  // Corners of the current facet.
   while (const auto word = words.Next()) {
     if (*word == "vertex") {
       const float x = words.NextNumber(), y = words.NextNumber();

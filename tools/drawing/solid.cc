@@ -84,6 +84,19 @@ std::vector<Facet> MakeBox(const Eigen::Vector3d& size) {
   return facets;
 }
 
+std::vector<Facet> MakeMesh(const TriangleMesh& mesh) {
+  std::vector<Facet> facets;
+  for (const auto& triangle : mesh.triangles) {
+    Ring corners;
+    for (const int corner : triangle) {
+      corners.push_back(mesh.vertices[corner].cast<double>());
+    }
+    Add(corners, &facets);
+    Add(Ring(corners.rbegin(), corners.rend()), &facets);
+  }
+  return facets;
+}
+
 }  // namespace
 
 std::vector<Facet> MakeFacets(const BodyShape& shape) {
@@ -96,6 +109,8 @@ std::vector<Facet> MakeFacets(const BodyShape& shape) {
                       MakeRing(size.x(), size.y() / 2)});
     case BodyShapeKind::kCapsule:
       return MakeCapsule(size.x(), size.y());
+    case BodyShapeKind::kMesh:
+      return MakeMesh(*shape.mesh);
     case BodyShapeKind::kEllipsoid:
       break;
   }

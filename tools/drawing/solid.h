@@ -16,7 +16,9 @@ struct Facet {
 };
 
 /// Returns the surface of a shape, in the axes of the shape. The facets form a
-/// closed convex polyhedron whose corners lie on the exact surface.
+/// closed convex polyhedron whose corners lie on the exact surface. Exception:
+/// each triangle of a mesh gives two facets, one for each side, because meshes
+/// have holes and triangles in the wrong order.
 std::vector<Facet> MakeFacets(const BodyShape& shape);
 
 }  // namespace poise

@@ -5,7 +5,9 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <memory>
 
+#include "poise/tests/util/mesh_writer.h"
 #include "poise/tests/util/tolerance.h"
 
 namespace poise {
@@ -79,6 +81,20 @@ TEST(Solid, EllipsoidIsClosedAndHasTheRightVolume) {
       Measure(Shape(BodyShapeKind::kEllipsoid, {0.1, 0.2, 0.3}));
   ExpectNearBelow(ellipsoid.volume, 4.0 / 3 * kPi * 0.006);
   EXPECT_LE(ellipsoid.closure.norm(), Rounding(ellipsoid.area, 3000));
+}
+
+// Each triangle of a mesh is drawn from both sides.
+TEST(Solid, MeshHasBothSidesOfEachTriangle) {
+  BodyShape shape = Shape(BodyShapeKind::kMesh, Eigen::Vector3d::Zero());
+  shape.mesh = std::make_shared<TriangleMesh>(
+      BoxMesh({-0.1f, -0.1f, -0.1f}, {0.1f, 0.1f, 0.1f}));
+  const auto facets = MakeFacets(shape);
+  ASSERT_EQ(facets.size(), 24u);
+  for (std::size_t i = 0; i < facets.size(); i += 2) {
+    EXPECT_EQ(facets[i].normal, -facets[i + 1].normal);
+    // The first side is the outer side, as in the mesh.
+    EXPECT_GT(facets[i].normal.dot(facets[i].corners[0]), 0);
+  }
 }
 
 }  // namespace

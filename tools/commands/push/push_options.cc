@@ -16,6 +16,7 @@
 #include "poise/robot/control/task_set.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/input_error.h"
+#include "poise/robot/mesh/read_visuals.h"
 #include "poise/robot/profile/profile.h"
 #include "poise/robot/profile/save_profile.h"
 #include "poise/robot/urdf/urdf.h"
@@ -235,7 +236,8 @@ PushOptions ReadPushOptions(int argc, char** argv) {
     if (!overrides.tasks) UseTasksOf(profile, &scenario);
     const UrdfDocument urdf(robot_file, &findings,
                             PackageFolders(files.packages));
-    const Robot robot = MakeStandingRobot(urdf, profile, &findings);
+    Robot robot = MakeStandingRobot(urdf, profile, &findings);
+    if (!files.no_report) ReadVisuals(&robot.model);
     loop = std::make_unique<ClosedLoop>(robot, scenario);
     if (!files.save_profile.empty()) {
       SaveFullProfile(robot, urdf, profile, files.save_profile);

@@ -7,6 +7,7 @@
 
 #include "poise/sim/log/open_log.h"
 #include "poise/sim/log/run_summary.h"
+#include "poise/tools/commands/report/add_meshes.h"
 #include "poise/tools/commands/report/run_log.h"
 #include "poise/tools/viewer/pages.h"
 
@@ -130,13 +131,17 @@ std::string FillPage(std::string_view page, const json& document) {
   return filled;
 }
 
-void WriteReport(const std::vector<path>& run_dirs, const path& html) {
+void WriteReport(const std::vector<path>& run_dirs, const path& html,
+                 const std::vector<path>& packages) {
   if (run_dirs.empty() || run_dirs.size() > 2) {
     throw std::invalid_argument("a report must show one run or two, not " +
                                 std::to_string(run_dirs.size()));
   }
   json runs = json::array();
-  for (const path& run_dir : run_dirs) runs.push_back(ReadRun(run_dir));
+  for (const path& run_dir : run_dirs) {
+    runs.push_back(ReadRun(run_dir));
+    if (!packages.empty()) AddMeshes(packages, &runs.back()["robot"]);
+  }
   WritePage(std::move(runs), html);
 }
 

@@ -40,8 +40,12 @@ std::string FillPage(std::string_view page, const nlohmann::json& document);
 /// Writes a self-contained page that shows one run, or compares two runs at the
 /// same time. Throws std::invalid_argument if the number of runs is not one or
 /// two, if a run cannot be read, or if the page cannot be written.
+///
+/// @param packages  if not empty, meshes that a run did not find are searched
+///                  again, see AddMeshes().
 void WriteReport(const std::vector<std::filesystem::path>& run_dirs,
-                 const std::filesystem::path& html);
+                 const std::filesystem::path& html,
+                 const std::vector<std::filesystem::path>& packages = {});
 
 /// Writes the same page for one run that this process has recorded.
 void WriteRunReport(const RunFiles& run, const std::filesystem::path& html);

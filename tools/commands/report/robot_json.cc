@@ -5,7 +5,10 @@
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
+#include <string>
+#include <variant>
 
+#include "poise/tools/commands/report/mesh_json.h"
 #include "poise/tools/commands/report/robot_shapes.h"
 
 namespace poise {
@@ -54,6 +57,8 @@ const char* Name(BodyShapeKind kind) {
       return "cylinder";
     case BodyShapeKind::kCapsule:
       return "capsule";
+    case BodyShapeKind::kMesh:
+      return "mesh";
   }
   return "";
 }
@@ -103,9 +108,28 @@ json ShapesToJson(const RobotModel& robot) {
                    {"size", ToJson(shape.size)},
                    {"rgba", ToJson(shape.rgba)}};
     SetPose(shape.X_BS, &object);
+    if (shape.mesh != nullptr) SetMesh(*shape.mesh, &object);
+    if (shape.is_stand_in) object["stand_in"] = true;
     shapes.push_back(std::move(object));
   }
   return shapes;
+}
+
+// Returns the meshes of the visuals that have not been read.
+json UnreadMeshesToJson(const RobotModel& robot) {
+  json unread = json::array();
+  for (const Shape& shape : robot.visuals) {
+    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+    if (mesh == nullptr || mesh->surface != nullptr) continue;
+    const Frame& link = robot.tree.frames()[shape.frame];
+    json object = {{"body", link.body},
+                   {"file", mesh->file},
+                   {"scale", ToJson(mesh->scale)},
+                   {"rgba", ToJson(shape.rgba)}};
+    SetPose(link.X_BF * shape.X_FS, &object);
+    unread.push_back(std::move(object));
+  }
+  return unread;
 }
 
 json FeetToJson(const std::vector<Foot>& feet) {
@@ -142,10 +166,17 @@ json LimitsToJson(const RobotModel& robot) {
 
 json MakeRobotJson(const Robot& robot) {
   const RobotModel& model = robot.model;
-  return {{"format", "poise-robot-1"},        {"name", model.name},
-          {"mass", model.tree.total_mass()},  {"bodies", BodiesToJson(model)},
-          {"links", LinksToJson(model.tree)}, {"shapes", ShapesToJson(model)},
-          {"feet", FeetToJson(robot.feet)},   {"limits", LimitsToJson(model)}};
+  json object = {
+      {"format", "poise-robot-1"},        {"name", model.name},
+      {"mass", model.tree.total_mass()},  {"bodies", BodiesToJson(model)},
+      {"links", LinksToJson(model.tree)}, {"shapes", ShapesToJson(model)},
+      {"feet", FeetToJson(robot.feet)},   {"limits", LimitsToJson(model)}};
+  json unread = UnreadMeshesToJson(model);
+  if (!unread.empty()) {
+    object["urdf"] = std::filesystem::absolute(model.mesh_places.urdf).string();
+    object["unread_meshes"] = std::move(unread);
+  }
+  return object;
 }
 
 }  // namespace poise

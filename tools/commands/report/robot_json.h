@@ -19,9 +19,14 @@ namespace poise {
 ///     links   [{name, body, p, quat}]: every link of the URDF; p and quat are
 ///             X_BF.
 ///     shapes  [{body, kind, size, p, quat, rgba}], see BodyShape;
-///             kind is "box", "ellipsoid", "cylinder" or "capsule".
+///             kind is "box", "ellipsoid", "cylinder", "capsule" or "mesh".
+///             A mesh also has the data of SetMesh(). `stand_in` is true if
+///             the shape is not one of the visuals.
 ///     feet    [{name, body, p, quat, half_size, polygon}], see Foot.
 ///     limits  {JOINT: {lower, upper, velocity, effort}}; null if infinite.
+///     unread_meshes  [{body, file, scale, p, quat, rgba}]: meshes of the
+///             visuals without Mesh::surface. Left out, with `urdf`, the path
+///             of the URDF, if there are none.
 ///
 /// Quaternions are in the order (x, y, z, w). Units are SI.
 nlohmann::json MakeRobotJson(const Robot& robot);

@@ -6,7 +6,10 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <stdexcept>
+
+#include "poise/robot/mesh/triangle_mesh.h"
 
 namespace poise {
 namespace {
@@ -98,6 +101,19 @@ TEST(RobotJson, ContainsFeetShapesAndLimits) {
   EXPECT_EQ(robot["shapes"][0]["kind"], "ellipsoid");
   EXPECT_EQ(robot["shapes"][1]["kind"], "capsule");
   EXPECT_EQ(robot["shapes"][0]["rgba"].size(), 4u);
+}
+
+TEST(RobotJson, WritesMeshesInTenthsOfAMillimeter) {
+  Robot leg = Leg();
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0.1f, -0.0201f}, {1, 0, 0.00004f}, {0, 0, 2}};
+  mesh.triangles = {{0, 1, 2}, {2, 1, 0}};
+  leg.model.visuals.push_back(
+      {0, {}, Mesh{"a.stl", {1, 1, 1}, std::make_shared<TriangleMesh>(mesh)}});
+  const json shape = MakeRobotJson(leg)["shapes"][0];
+  EXPECT_EQ(shape["kind"], "mesh");
+  EXPECT_EQ(shape["vertices"], "0 1000 -201 10000 0 0 0 0 20000");
+  EXPECT_EQ(shape["triangles"], "0 1 2 2 1 0");
 }
 
 }  // namespace

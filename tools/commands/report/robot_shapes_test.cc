@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <memory>
 
+#include "poise/robot/mesh/triangle_mesh.h"
+#include "poise/tests/util/mesh_writer.h"
 #include "poise/tests/util/tolerance.h"
 
 namespace poise {
@@ -109,7 +112,7 @@ TEST(RobotShapes, PrefersVisualsToCollisionsAndPlacesThemInTheBody) {
 }
 
 TEST(RobotShapes, UsesCollisionsIfVisualsAreMeshes) {
-  RobotModel robot = Arm(EllipsoidInertia(3, {0.1, 0.1, 0.1}), {0, 0.3, 0});
+  RobotModel robot = Arm(EllipsoidInertia(3, {0.1, 0.1, 0.1}), {0, 0.1, 0});
   robot.visuals.push_back({0, {}, Mesh{"a.stl", {1, 1, 1}}});
   robot.collisions.push_back({0, {}, Cylinder{0.1, 0.4}});
   robot.collisions.push_back({0, {}, Sphere{0.15}});
@@ -147,6 +150,44 @@ TEST(RobotShapes, LimitsTheSizeOfEllipsoids) {
   const auto shapes = MakeBodyShapes(Arm(needle, {0, 0.3, 0}));
   EXPECT_GE(shapes[0].size.minCoeff(), 0.004);
   EXPECT_LE(shapes[0].size.maxCoeff(), 0.4);
+}
+
+// The inertia of this body is that of a sphere of 0.38 m, but its joint is 5 cm
+// from its center of mass, and the robot is small.
+TEST(RobotShapes, ClampsEllipsoidsThatAreLargerThanTheRobot) {
+  const auto shapes = MakeBodyShapes(
+      Arm(EllipsoidInertia(1, {0.38, 0.38, 0.38}), {0, 0.05, 0}));
+  EXPECT_LE(shapes[0].size.maxCoeff(), 0.05);
+}
+
+TEST(RobotShapes, DrawsMeshesThatHaveBeenRead) {
+  RobotModel robot = Arm(EllipsoidInertia(3, {0.1, 0.1, 0.1}), {0, 0.3, 0});
+  const auto surface = std::make_shared<TriangleMesh>(
+      BoxMesh({-0.1f, -0.1f, -0.1f}, {0.1f, 0.1f, 0.1f}));
+  robot.visuals.push_back({0, {}, Mesh{"a.stl", {1, 1, 1}, surface}});
+  robot.visuals.back().X_FS.p = {0.1, 0, 0};
+  robot.collisions.push_back({0, {}, Cylinder{0.1, 0.4}});
+  const auto shapes = MakeBodyShapes(robot);
+  ASSERT_EQ(shapes.size(), 2u);
+  EXPECT_EQ(shapes[0].kind, BodyShapeKind::kMesh);
+  EXPECT_EQ(shapes[0].mesh, surface);
+  EXPECT_EQ(shapes[0].X_BS.p, Eigen::Vector3d(0.1, 0, 0));
+}
+
+// A shin of 0.3 m whose visual is a mesh that is missing. Its collision shape
+// ends in its middle.
+TEST(RobotShapes, FillsTheGapsThatMissingMeshesLeave) {
+  RobotModel robot = Arm(EllipsoidInertia(3, {0.05, 0.1, 0.05}), {0, 0.3, 0});
+  robot.collisions.push_back({0, {}, Box{{0.1, 0.16, 0.1}}});
+  robot.collisions.back().X_FS.p = {0, 0.08, 0};
+  EXPECT_EQ(MakeBodyShapes(robot).size(), 2u);  // There is no mesh.
+  robot.visuals.push_back({0, {}, Mesh{"a.stl", {1, 1, 1}}});
+  const auto shapes = MakeBodyShapes(robot);
+  ASSERT_EQ(shapes.size(), 3u);
+  EXPECT_EQ(shapes[1].kind, BodyShapeKind::kCapsule);
+  EXPECT_DOUBLE_EQ(shapes[1].size.y(), 0.3);
+  robot.collisions.back().geometry = Box{{0.1, 0.6, 0.1}};
+  EXPECT_EQ(MakeBodyShapes(robot).size(), 2u);  // There is no gap.
 }
 
 }  // namespace

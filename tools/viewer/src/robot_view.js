@@ -5,7 +5,23 @@ import * as THREE from 'three';
 const Y_TO_Z = new THREE.Quaternion().setFromAxisAngle(
     new THREE.Vector3(1, 0, 0), Math.PI / 2);
 
-function geometryOf({kind, size}) {
+const numbersIn = (text) => text === '' ? [] : text.split(' ').map(Number);
+
+// Vertices are in 0.1 mm. Each triangle has its own normal, because a mesh is
+// too coarse for smooth shading.
+function meshGeometry({vertices, triangles}) {
+  const shared = new THREE.BufferGeometry();
+  const meters = numbersIn(vertices).map((length) => 1e-4 * length);
+  shared.setAttribute('position', new THREE.Float32BufferAttribute(meters, 3));
+  shared.setIndex(numbersIn(triangles));
+  const geometry = shared.toNonIndexed();
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
+function geometryOf(shape) {
+  const {kind, size} = shape;
+  if (kind === 'mesh') return meshGeometry(shape);
   if (kind === 'box') return new THREE.BoxGeometry(...size);
   if (kind === 'ellipsoid') {
     return new THREE.SphereGeometry(1, 32, 20).scale(...size);
@@ -36,7 +52,7 @@ export class RobotView {
     this.bodies = [];
     for (const body of robot.bodies) this.#addBody(body);
     for (const shape of robot.shapes) {
-      const mesh = new THREE.Mesh(geometryOf(shape), this.#material(shape.rgba));
+      const mesh = new THREE.Mesh(geometryOf(shape), this.#material(shape));
       mesh.castShadow = true;
       mesh.receiveShadow = true;
       this.bodies[shape.body].add(place(mesh, shape));
@@ -68,8 +84,8 @@ export class RobotView {
     return frame;
   }
 
-  #material(rgba) {
-    const key = rgba.join();
+  #material({kind, rgba}) {
+    const key = `${kind === 'mesh'} ${rgba}`;
     if (!this.#materials.has(key)) {
       const [r, g, b, a] = rgba;
       this.#materials.set(key, new THREE.MeshStandardMaterial({
@@ -78,6 +94,8 @@ export class RobotView {
         metalness: 0.05,
         transparent: a < 1,
         opacity: a,
+        // Meshes have holes, and triangles in the wrong order.
+        side: kind === 'mesh' ? THREE.DoubleSide : THREE.FrontSide,
       }));
     }
     return this.#materials.get(key);
