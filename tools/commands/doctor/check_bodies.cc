@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// What is compared of a leg.
+// The measures of a leg.
 struct Leg {
   int joints = 0;
   double length = 0;  // Sum of the distances between its joints, m.
@@ -94,7 +94,7 @@ std::vector<Finding> CompareLegs(const Robot& robot) {
 std::vector<Finding> FindWideInertias(const RobotModel& model) {
   constexpr double kTolerance = 1.5;
   constexpr int kNamed = 3;
-  constexpr int kFewestJoints = 8;  // Of a biped.
+  constexpr int kFewestJoints = 8;  // A biped has as many.
   const Tree& tree = model.tree;
   const std::vector<Outline> outlines = MakeOutlines(model);
   std::vector<Pose> X_WB(tree.num_bodies());
