@@ -16,9 +16,8 @@ using Eigen::VectorXd;
 
 // Above this number of joints, M is not evaluated.
 constexpr int kMostJoints = 500;
-// Fraction of the robot's mass or inertia that counts as zero, a rounding error
-// of M.
-constexpr double kZero = 1e-15;
+// Fraction of a mass or an inertia that counts as zero: a rounding error of M.
+constexpr double kZero = 1e-14;
 // Smallest eigenvalue per degree of freedom of a regular M, scaled to a unit
 // diagonal.
 constexpr double kSingular = 1e-13;
@@ -86,8 +85,8 @@ MovedMass FindMovedMass(const RobotModel& model) {
     inertia[parent] += inertia[b];
   }
   const double extent = Extent(tree);
-  const double small = kZero * mass[0] * extent * extent;
-  VectorXd diagonal = VectorXd::Constant(n, small);
+  const VectorXd small = kZero * mass.tail(n) * extent * extent;
+  VectorXd diagonal = small;
   if (n <= kMostJoints) {
     diagonal = LargerDiagonal(tree, RestConfiguration(model)).tail(n);
   }
@@ -101,7 +100,7 @@ MovedMass FindMovedMass(const RobotModel& model) {
     // and the joint's for one body.
     const bool nothing_before = mass[0] - mass[b] <= kZero * mass[0] &&
                                 inertia[0] - inertia[b] <= kZero * inertia[0];
-    moved.none[j] = nothing_beyond || nothing_before || diagonal[j] < small;
+    moved.none[j] = nothing_beyond || nothing_before || diagonal[j] < small[j];
   }
   return moved;
 }

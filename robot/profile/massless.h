@@ -16,8 +16,8 @@ namespace poise {
 struct MovedMass {
   /// For each joint, whether M is singular because the joint moves no mass. The
   /// diagonal of M is then zero at the joint, or all bodies on the base's side
-  /// of the joint are without mass. Zero means below 1e-15 of the inertia of
-  /// the whole robot.
+  /// of the joint are without mass. Zero means below 1e-14 of the moved
+  /// mass times the squared distance of the robot's farthest joint.
   std::vector<bool> none;
   /// For each joint, the mass of the bodies beyond the joint relative to the
   /// mass of the robot.

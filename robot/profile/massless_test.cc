@@ -74,7 +74,7 @@ TEST(JointsWithoutMass, AreLockedWithTheirLightFollowers) {
   }
 }
 
-TEST(JointsWithoutMass, AreNoneIfTheProfileLocksThem) {
+TEST(JointsWithoutMass, LeaveOutJointsOfTheProfile) {
   const RobotModel whole = ParseUrdf(ArmText(), "arm.urdf");
   Profile profile;
   for (const char* name : {"f1.", "f2.", "thumb."}) {

@@ -10,7 +10,7 @@ namespace poise {
 /// arms of seven joints with fingers.
 struct ArmsCase {
   double shoulder = 0.25;  ///< Distance of a shoulder from the middle, m.
-  int fingers = 0;         ///< Of each hand.
+  int fingers = 0;         ///< Fingers of each hand.
   int phalanges = 0;       ///< Joints of each finger.
 };
 

@@ -132,8 +132,8 @@ class Search {
   std::vector<int> columns_;            // Indices in v of the variables.
   std::vector<int> column_of_;          // By joint; -1 if the joint is fixed.
   double least_apart_;                  // Smallest distance of the feet, m.
-  double distance_ = 0;                 // Of the feet, m.
-  Vector2d target_ = Vector2d::Zero();  // Of the center of mass, m.
+  double distance_ = 0;                 // Between the feet, m.
+  Vector2d target_ = Vector2d::Zero();  // For the center of mass, m.
 };
 
 Search::Search(const Robot& robot, const PostureGoal& goal)

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// What is compared of a leg.
+// The measures of a leg.
 struct Leg {
   int joints = 0;
   double length = 0;  // Sum of the distances between its joints, m.
@@ -94,6 +94,7 @@ std::vector<Finding> CompareLegs(const Robot& robot) {
 std::vector<Finding> FindWideInertias(const RobotModel& model) {
   constexpr double kTolerance = 1.5;
   constexpr int kNamed = 3;
+  constexpr int kFewestJoints = 8;  // A biped has as many.
   const Tree& tree = model.tree;
   const std::vector<Outline> outlines = MakeOutlines(model);
   std::vector<Pose> X_WB(tree.num_bodies());
@@ -117,7 +118,10 @@ std::vector<Finding> FindWideInertias(const RobotModel& model) {
   for (int b = 0; b < tree.num_bodies(); ++b) {
     const Inertia& M = tree.inertias()[b];
     if (!(M.mass > 0) || !M.I_G_B.allFinite()) continue;
-    double reach = outlines[b].corners.empty() || has_mesh[b] ? extent : 0;
+    // A part of a robot says nothing about the size of a body.
+    const bool is_known = !outlines[b].corners.empty() && !has_mesh[b];
+    if (!is_known && tree.num_joints() < kFewestJoints) continue;
+    double reach = is_known ? 0 : extent;
     for (const Outline::Corner& corner : outlines[b].corners) {
       reach = std::max(reach, (corner.p_B - M.p_BoG_B).norm() + corner.radius);
     }

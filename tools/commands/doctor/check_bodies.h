@@ -19,7 +19,7 @@ std::vector<Finding> CompareLegs(const Robot& robot);
 /// sqrt(I / m), with the largest principal moment I, is at most the distance of
 /// the farthest point from the center of mass. The warning counts the bodies and
 /// names the first three. Bodies without boxes, cylinders and spheres are
-/// compared with the whole robot. A tolerance of a factor 1.5 is for shapes that
+/// compared with the whole robot, if it has at least eight joints. A tolerance of a factor 1.5 is for shapes that
 /// are smaller than the body.
 std::vector<Finding> FindWideInertias(const RobotModel& model);
 

@@ -63,6 +63,14 @@ const char* NameOf(const std::optional<SoleSource>& source) {
   }
 }
 
+// Returns a larger number for a warning that the user should read first. One
+// about the robot matters more than one about an element of the file.
+int Urgency(const Finding& finding) {
+  if (finding.severity != Severity::kWarn) return 0;
+  if (finding.what == "does not stand") return 2;
+  return finding.line == 0 ? 1 : 0;
+}
+
 // Returns the height of the center of mass in the standing posture, m.
 double HeightOfMass(const Robot& robot) {
   const Tree& tree = robot.model.tree;
@@ -144,10 +152,7 @@ Diagnosis Doctor::Examine() {
                      if (a.severity != b.severity) {
                        return a.severity > b.severity;
                      }
-                     // A warning about the robot matters more than one about
-                     // an element of the file.
-                     return a.severity == Severity::kWarn && a.line == 0 &&
-                            b.line > 0;
+                     return Urgency(a) > Urgency(b);
                    });
   return std::move(diagnosis_);
 }

@@ -27,7 +27,7 @@ struct Diagnosis {
   std::vector<Mass> bodies;  ///< Links with all links fixed to them.
   struct Sole {
     std::string name, link;
-    double length, width;  ///< Of the sole polygon, m.
+    double length, width;  ///< Sides around the sole polygon, m.
     /// Pose of the sole's middle in the link: m, and roll, pitch and yaw in rad.
     Eigen::Vector3d xyz = Eigen::Vector3d::Zero();
     Eigen::Vector3d rpy = Eigen::Vector3d::Zero();

@@ -12,7 +12,7 @@ namespace poise {
 struct Arguments {
   std::string file;
   std::string profile;                ///< Empty: none.
-  std::vector<std::string> packages;  ///< Of --package-path.
+  std::vector<std::string> packages;  ///< Values of --package-path.
 };
 
 /// Returns what to do next, in one line that has the exact command.

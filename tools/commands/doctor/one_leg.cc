@@ -21,7 +21,8 @@ using Eigen::VectorXd;
 // Smallest width of a sole to balance on, as a fraction of the height of the
 // center of mass. The pendulum then has 0.2 m/s² to each side.
 constexpr double kNarrow = 0.04;
-constexpr double kLift = 0.03;  // Of the height of the center of mass.
+// Height of the other sole, relative to that of the center of mass.
+constexpr double kLift = 0.03;
 // The center of mass stays within this fraction of the sole's half sides.
 constexpr double kInsideSole = 0.6;
 
