@@ -162,9 +162,9 @@ void Doctor::CheckStanding() {
     for (const Foot& foot : robot.feet) {
       Eigen::AlignedBox2d sole;
       for (const Eigen::Vector2d& corner : foot.polygon_C) sole.extend(corner);
-      diagnosis_.soles.push_back(
-          {foot.name, robot.model.tree.frames()[foot.frame].name,
-           sole.sizes().x(), sole.sizes().y()});
+      diagnosis_.soles.push_back({foot.name,
+                                  robot.model.tree.frames()[foot.frame].name,
+                                  sole.sizes().x(), sole.sizes().y()});
     }
     if (smallest_eigenvalue_) {
       if (!robot.can_stand) StandUp(&robot);
