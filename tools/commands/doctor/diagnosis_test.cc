@@ -198,7 +198,7 @@ TEST(Diagnose, ExaminesFeetWithThousandsOfShapes) {
   const Diagnosis diagnosis = Examine(text + "</robot>");
   EXPECT_EQ(VerdictWord(diagnosis), "ok") << Findings(diagnosis);
   ASSERT_EQ(diagnosis.soles.size(), 2u);
-  // The sole is the square inside a circle with a radius of 0.1 m.
+  // The sole is a circle with a radius of 0.1 m.
   EXPECT_NEAR(diagnosis.soles[0].length, 0.2, 0.002);
 }
 
