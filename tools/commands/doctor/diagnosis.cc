@@ -14,6 +14,7 @@
 #include "poise/dynamics/tick.h"
 #include "poise/math/rpy.h"
 #include "poise/robot/control/default_stack.h"
+#include "poise/robot/control/judge_legs.h"
 #include "poise/robot/control/stack.h"
 #include "poise/robot/control/stand.h"
 #include "poise/robot/control/task_set.h"
@@ -244,6 +245,7 @@ void Doctor::CheckStanding() {
       ApplyTasks(profile_.tasks, profile_.file.string(), &stack);
     }
     DescribeFeet(robot);
+    Append(JudgeLegs(robot));
     WriteFoundProfile(robot);
     if (smallest_eigenvalue_) {
       if (!robot.can_stand) StandUp(&robot, profile_);

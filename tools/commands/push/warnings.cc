@@ -5,6 +5,7 @@
 #include <iostream>
 #include <utility>
 
+#include "poise/robot/control/judge_legs.h"
 #include "poise/tools/commands/doctor/strength.h"
 
 namespace poise {
@@ -51,8 +52,10 @@ std::vector<std::string> WarningLines(const std::string& file,
 
 void PrintWarnings(const std::string& file, const Robot& robot,
                    std::vector<Finding> findings) {
-  for (Finding& finding : FindWeakness(robot)) {
-    findings.push_back(std::move(finding));
+  for (auto* judge : {&JudgeLegs, &FindWeakness}) {
+    for (Finding& finding : judge(robot)) {
+      findings.push_back(std::move(finding));
+    }
   }
   for (const std::string& line : WarningLines(file, findings)) {
     std::cerr << line << "\n";

@@ -14,8 +14,9 @@ namespace poise {
 std::vector<std::string> WarningLines(const std::string& file,
                                       const std::vector<Finding>& findings);
 
-/// Prints these lines on stderr. Adds a warning about motors that are too weak
-/// for the standing posture. @pre robot.can_stand.
+/// Prints these lines on stderr. Adds the warnings of JudgeLegs() and those
+/// about motors that are too weak for the standing posture.
+/// @pre robot.can_stand.
 void PrintWarnings(const std::string& file, const Robot& robot,
                    std::vector<Finding> findings);
 
