@@ -11,16 +11,16 @@
 
 namespace poise {
 
-/// Finds a standing posture by inverse kinematics, see FindPosture(). Both soles
-/// lie flat on the ground (z = 0), side by side and facing +x, with their middle
-/// at the origin of the world. The center of mass is above the origin, or nearer
-/// to weak ankles. Straight knees are bent by 0.6 rad.
+/// Finds a standing posture by inverse kinematics, see FindPosture(). Both
+/// soles lie flat on the ground (z = 0), side by side and facing +x, with their
+/// middle at the origin of the world. The center of mass is above the origin,
+/// or nearer to weak ankles. Straight knees are bent by 0.6 rad.
 ///
 /// If the first search finds no posture, searches follow that start from other
 /// knees, with the arms fixed, and from random angles of legs and trunk. A
 /// fixed seed draws them. The last searches only require that the soles face +x
-/// on average, and that the center of mass is halfway between its target and the
-/// edge of the soles. Costs at most 2 s for 100 joints.
+/// on average, and that the center of mass is halfway between its target and
+/// the edge of the soles. Costs at most 2 s for 100 joints.
 ///
 /// Arms that touch a body, or come nearer than ArmClearance(), move away with
 /// SpreadArms(). Joints of profile.joints do not move then.

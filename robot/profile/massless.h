@@ -33,8 +33,9 @@ MovedMass FindMovedMass(const RobotModel& model);
 
 /// Returns an inertia for one link of each body without mass, if joints beyond
 /// the body move mass. M is regular without this inertia, but a simulator needs
-/// it. If M is singular, returns nothing. The mass is 1e-6 of the robot's mass, the radius of gyration 1 % of the
-/// distance of the robot's farthest joint from the base.
+/// it. If M is singular, returns nothing. The mass is 1e-6 of the robot's mass,
+/// the radius of gyration 1 % of the distance of the robot's farthest joint
+/// from the base.
 std::map<std::string, Inertia> MakeSmallInertias(const RobotModel& model);
 
 /// Returns the warning about joints that are locked because they move no mass:

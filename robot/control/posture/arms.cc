@@ -24,7 +24,7 @@ constexpr int kMostMoves = 3;          // Joints of an arm that move.
 constexpr double kStep = 0.05;         // rad.
 constexpr int kSteps = 24;             // Farthest move: 1.2 rad.
 constexpr double kAlongForward = 0.8;  // Cosine of an axis for abduction.
-// Smallest gain of a move that does not suffice, as a fraction of the clearance.
+// Smallest gain of a move that does not suffice, relative to the clearance.
 constexpr double kLeastGain = 0.05;
 
 // Bodies with at most so many joints between them are near by construction.

@@ -33,8 +33,8 @@ void AddSoleRows(const SoleState (&soles)[2], Hierarchy* hierarchy);
 
 /// Adds rows that put both soles flat on the ground. Heading and position are
 /// required of the mean only: 9 equalities of level 1. The differences of
-/// heading and x are 2 equalities of level 3. An inequality of level 1 keeps the
-/// left sole at least `apart` m to the left of the right one.
+/// heading and x are 2 equalities of level 3. An inequality of level 1 keeps
+/// the left sole at least `apart` m to the left of the right one.
 void AddMeanSoleRows(const SoleState (&soles)[2], double apart,
                      Hierarchy* hierarchy);
 

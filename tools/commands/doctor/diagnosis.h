@@ -28,7 +28,7 @@ struct Diagnosis {
   struct Sole {
     std::string name, link;
     double length, width;  ///< Sides around the sole polygon, m.
-    /// Pose of the sole's middle in the link: m, and roll, pitch and yaw in rad.
+    /// Pose of the sole's middle in the link: m, and roll, pitch, yaw, rad.
     Eigen::Vector3d xyz = Eigen::Vector3d::Zero();
     Eigen::Vector3d rpy = Eigen::Vector3d::Zero();
     /// "box", "mesh" or "guess", or "profile" if the profile gives the sole.
