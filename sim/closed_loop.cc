@@ -10,8 +10,8 @@
 #include "poise/robot/finding.h"
 #include "poise/robot/input_error.h"
 #include "poise/sim/command/fit_to_robot.h"
-#include "poise/sim/plants/make_plant.h"
 #include "poise/sim/command/push_bound.h"
+#include "poise/sim/plants/make_plant.h"
 #include "poise/sim/start_state.h"
 
 namespace poise {

@@ -11,8 +11,8 @@
 #include "poise/robot/finding.h"
 #include "poise/robot/limits.h"
 #include "poise/sim/command/command_watch.h"
-#include "poise/sim/observation.h"
 #include "poise/sim/command/push_bound.h"
+#include "poise/sim/observation.h"
 #include "poise/sim/quantile.h"
 
 namespace poise {

@@ -48,8 +48,8 @@ void TakeRate(const std::optional<double>& rate, double* dt) {
 // a new push.
 void TakePush(const Overrides& o, Scenario* scenario) {
   if (o.pushes) scenario->pushes = LoadPushes(UserPath(*o.pushes));
-  if (!o.force && !o.impulse_fraction && !o.direction && !o.duration && !o.at && !o.link &&
-      o.point.empty()) {
+  if (!o.force && !o.impulse_fraction && !o.direction && !o.duration && !o.at &&
+      !o.link && o.point.empty()) {
     return;
   }
   if (scenario->pushes.empty()) {

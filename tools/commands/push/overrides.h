@@ -13,8 +13,9 @@ namespace poise {
 /// The options of `push` that replace settings of a scenario. An option that is
 /// not given changes nothing.
 struct Overrides {
-  std::optional<double> force, impulse_fraction, direction, duration, at, time, control_rate,
-      plant_rate, mu_plant, mass_error, torque_scale, noise, delay, ramp;
+  std::optional<double> force, impulse_fraction, direction, duration, at, time,
+      control_rate, plant_rate, mu_plant, mass_error, torque_scale, noise,
+      delay, ramp;
   std::optional<std::string> link, tasks, friction, plant, pushes, steps;
   std::vector<double> point, freeze;
   std::vector<std::string> with, without;

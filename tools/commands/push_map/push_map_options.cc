@@ -73,8 +73,9 @@ std::vector<PushMapPoint> Points(int directions,
 
 // Reads the options of `push`, with `push_map` as the name of the program.
 PushOptions ReadRest(std::vector<std::string> arguments) {
-  for (const char* taken : {"--force", "--impulse-fraction", "--direction", "--duration", "--pushes",
-                            "--scenario", "--no-report"}) {
+  for (const char* taken :
+       {"--force", "--impulse-fraction", "--direction", "--duration",
+        "--pushes", "--scenario", "--no-report"}) {
     for (const std::string& argument : arguments) {
       if (argument.rfind(taken, 0) == 0 &&
           (argument.size() == std::string(taken).size() ||
