@@ -149,8 +149,10 @@ std::vector<Foot> FindFeet(const RobotModel& model,
     const Sole sole = is_guess ? SoleWithoutShape(model, body, outlines[body],
                                                   X_WB, forward, leg, findings)
                                : soles[i];
-    const Pose X_BS =
-        MakeSoleAxes(sole, outlines[body], X_WB[body].R.transpose() * forward);
+    // An estimated sole is a rectangle along the forward direction, so the
+    // axes of the foot's shapes do not turn it.
+    const Pose X_BS = MakeSoleAxes(sole, is_guess ? Outline{} : outlines[body],
+                                   X_WB[body].R.transpose() * forward);
     std::vector<Vector2d> points;
     for (const Vector3d& p : sole.points_B) {
       points.push_back((X_BS.Inverse() * p).head<2>());

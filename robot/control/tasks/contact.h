@@ -35,7 +35,7 @@ class ContactTask final : public Task {
                       EqualityBlock* equalities,
                       InequalityBlock* inequalities) const noexcept;
 
-  std::vector<LoopClosure> loops_;  // Of the first foot and each other one.
+  std::vector<LoopClosure> loops_;  // The first foot with each other one.
   double gravity_;                  // m/s2.
   double kp_ = 100;
   double kd_ = 30;

@@ -61,7 +61,7 @@ TEST_F(TaskTest, JointLimitsBrakeAFastJointGently) {
   constexpr double kOmega = 40;  // 1/s.
   const JointLimits& limits = robot_.model.limits[j];
   for (const double side : {1., -1.}) {
-    // Without a position limit in the way.
+    // No position limit is near.
     state_.q[7 + j] = side > 0 ? limits.lower + 0.1 : limits.upper - 0.1;
     for (const double times : {1.1, 1.25, 2., 5.}) {
       state_.v[6 + j] = side * times * fastest;
