@@ -84,11 +84,15 @@ struct RobotOptions {
 int TryRobots(const RobotOptions& options, const std::string& only) {
   const RobotFolder robots{UserPath(options.folder),
                            PackageFolders(options.packages), only};
-  if (!options.json) std::cout << RobotsHead(false) << std::endl;
-  const std::vector<RobotTrial> trials =
-      RunRobots(robots, [&](const RobotTrial& trial) {
-        if (!options.json) std::cout << RobotRow(trial, false) << std::endl;
-      });
+  // The head follows the first run, so that a refused folder prints nothing.
+  bool has_head = false;
+  const auto show = [&](const RobotTrial& trial) {
+    if (options.json) return;
+    if (!has_head) std::cout << RobotsHead(false) << '\n';
+    has_head = true;
+    std::cout << RobotRow(trial, false) << std::endl;
+  };
+  const std::vector<RobotTrial> trials = RunRobots(robots, show);
   if (!options.out.empty()) WriteRobotsPage(trials, UserPath(options.out));
   const std::ptrdiff_t kept = std::count_if(
       trials.begin(), trials.end(),

@@ -169,11 +169,6 @@ refuse_file --scenario ": stance: foot 'nope' is unknown, must be a foot of $(
 refuse_file --scenario ": plant: restitution is 0.500000, must be 0 in a MuJoCo $(
   )plant" \
   bounce.yaml 'plant: {kind: mujoco, restitution: 0.5}'
-leaf='<link name="leaf"/><joint name="je" type="continuous"><parent link="head"/>'
-leaf+='<child link="leaf"/></joint></robot>'
-refuse_file --robot ": body moved by 'je': mass is 0, must be positive in a $(
-  )Bullet plant" leaf.urdf \
-  "$(sed "s:</robot>:$leaf:" robot/models/humanoid.urdf)"
 refuse_file --scenario ": task set '$(printf 'a%.0s' {1..60})...': is neither $(
   )default, paper, nor a file" \
   long.yaml "tasks: {set: $(printf 'a%.0s' {1..300000})}"
