@@ -204,7 +204,7 @@ Posture Search::Solve() {
   VectorXd step = zero_;
   const std::vector<LevelCapacity> capacity = {
       {static_cast<int>(robot_.model.mimics.size()) + n, nv},
-      {11, 1},
+      {12, 1},
       {2, 0},
       {8, 0},
       {n, 0}};
@@ -218,7 +218,8 @@ Posture Search::Solve() {
     hierarchy.Clear(static_cast<int>(capacity.size()));
     AddLimits(longest, &hierarchy);
     if (goal_.support) {
-      AddSupportRows(feet_, X_WC_wanted_, goal_.support->foot, &hierarchy);
+      AddSupportRows(feet_, X_WC_wanted_, goal_.support->foot,
+                     goal_.support->keeps_other, &hierarchy);
     } else if (goal_.are_soles_parallel) {
       AddSoleRows(feet_, &hierarchy);
     } else {
@@ -356,10 +357,10 @@ std::pair<double, std::string> Search::ErrorOfSole(int i) const {
   double tilt = 0;
   double off = 0;
   if (goal_.support) {
-    const bool is_stance = i == goal_.support->foot;
+    const bool is_kept = i == goal_.support->foot || goal_.support->keeps_other;
     const Vector3d p = X_WC.p - X_WC_wanted_[i].p;
-    off = is_stance ? p.norm() : std::abs(p.z());
-    if (is_stance) tilt = LogSo3(X_WC.R * X_WC_wanted_[i].R.transpose()).norm();
+    off = is_kept ? p.norm() : std::abs(p.z());
+    if (is_kept) tilt = LogSo3(X_WC.R * X_WC_wanted_[i].R.transpose()).norm();
   } else if (goal_.are_soles_parallel) {
     tilt = LogSo3(X_WC.R).norm();
     off = std::hypot(X_WC.p.x(), X_WC.p.z());

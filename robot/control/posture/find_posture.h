@@ -15,6 +15,8 @@ struct SingleSupport {
   int foot;           ///< Index into Robot::feet.
   double lift;        ///< Height of the other sole above the ground, m.
   Eigen::Vector2d G;  ///< Target of the center of mass in the sole's frame, m.
+  /// If true, the other sole keeps its pose too, raised by lift.
+  bool keeps_other = false;
 };
 
 /// The goal of an inverse-kinematics search.

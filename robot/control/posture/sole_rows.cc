@@ -58,13 +58,14 @@ void AddMeanSoleRows(const SoleState (&soles)[2], double apart,
 }
 
 void AddSupportRows(const SoleState (&soles)[2], const Pose (&X_WC_wanted)[2],
-                    int stance, Hierarchy* hierarchy) {
+                    int stance, bool keeps_other, Hierarchy* hierarchy) {
   for (const int i : {stance, 1 - stance}) {
     const SoleState& foot = soles[i];
     EqualityBlock height = hierarchy->AddEqualities(1, 1);
     height.B.row(0) = foot.J_WC_W.row(5);
     height.b[0] = foot.X_WC.p.z() - X_WC_wanted[i].p.z();
-    EqualityBlock rows = hierarchy->AddEqualities(i == stance ? 1 : 3, 5);
+    EqualityBlock rows =
+        hierarchy->AddEqualities(i == stance || keeps_other ? 1 : 3, 5);
     rows.B = foot.J_WC_W.topRows<5>();
     rows.b << LogSo3(foot.X_WC.R * X_WC_wanted[i].R.transpose()),
         (foot.X_WC.p - X_WC_wanted[i].p).head<2>();

@@ -40,8 +40,8 @@ void AddMeanSoleRows(const SoleState (&soles)[2], double apart,
 
 /// Adds rows that keep the sole `stance` at its wanted pose, and the other one
 /// at its wanted height: 7 equalities of level 1. The rest of the other's pose
-/// is 5 equalities of level 3.
+/// is 5 equalities of level 3, or of level 1 if `keeps_other` is true.
 void AddSupportRows(const SoleState (&soles)[2], const Pose (&X_WC_wanted)[2],
-                    int stance, Hierarchy* hierarchy);
+                    int stance, bool keeps_other, Hierarchy* hierarchy);
 
 }  // namespace poise

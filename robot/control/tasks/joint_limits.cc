@@ -10,9 +10,14 @@
 namespace poise {
 namespace {
 
+// A joint that is slower than this, rad/s, may still accelerate and brake like
+// one of this speed. Some files have limits of 0.5 rad/s in the legs. Their soles
+// could not stay on the ground: w q̇_max would be 20 rad/s².
+constexpr double kFast = 5;
+
 // Bound on the braking of a joint that is faster than its limit, over omega
-// times the limit. An impact leaves a leg far above the limits of 0.5 rad/s that
-// some files have. The braking of all joints at once would throw the robot.
+// times the limit. An impact leaves a leg far above a small limit. The braking of
+// all joints at once would throw the robot.
 constexpr double kBrake = 0.25;
 
 }  // namespace
@@ -27,6 +32,7 @@ JointLimitsTask::JointLimitsTask(const RobotModel& model)
       lower_(model.tree.num_joints()),
       upper_(model.tree.num_joints()),
       velocity_(model.tree.num_joints()),
+      fast_(model.tree.num_joints()),
       is_passive_(model.tree.num_joints()) {
   for (int j = 0; j < model.tree.num_joints(); ++j) {
     const JointLimits& limits = model.limits[j];
@@ -34,6 +40,8 @@ JointLimitsTask::JointLimitsTask(const RobotModel& model)
     upper_[j] = limits.upper;
     const bool is_known = limits.velocity > 0 && std::isfinite(limits.velocity);
     velocity_[j] = is_known ? limits.velocity : kAssumedVelocity;
+    const bool is_slider = model.tree.joints()[j].type == JointType::kPrismatic;
+    fast_[j] = is_slider ? velocity_[j] : std::max(velocity_[j], kFast);
     is_passive_[j] = limits.effort == 0;
   }
   AddParameter("omega", &omega_, 1, 1000);
@@ -56,15 +64,16 @@ void JointLimitsTask::Write(const TaskInput& input, EqualityBlock*,
     inequalities->C(j, v_start_ + j) = scale;
     // Clamping, instead of max and min, lets the position limit win on either
     // side if position and velocity limits contradict each other.
-    const double brake = kBrake * w * velocity_[j];
+    const double most = velocity_[j];
+    const double fast = fast_[j];
+    const double rate = w * (fast / most);
+    const double brake = kBrake * w * fast;
     inequalities->lower[j] =
-        scale *
-        (std::clamp(std::min(w * (-velocity_[j] - v), brake), lower, upper) -
-         unmodelled_vdot);
+        scale * (std::clamp(std::min(rate * (-most - v), brake), lower, upper) -
+                 unmodelled_vdot);
     inequalities->upper[j] =
-        scale *
-        (std::clamp(std::max(w * (velocity_[j] - v), -brake), lower, upper) -
-         unmodelled_vdot);
+        scale * (std::clamp(std::max(rate * (most - v), -brake), lower, upper) -
+                 unmodelled_vdot);
   }
 }
 

@@ -15,7 +15,9 @@ namespace poise {
 /// joint approaches its velocity limits as exp(-w t):
 ///     w (-q̇_max - q̇) <= q̈ <= w (q̇_max - q̇).
 /// A joint above its velocity limit, as after an impact, brakes by at most
-/// w q̇_max / 4.
+/// w q̇_max / 4. A rotating joint with q̇_max below q̇_5 = 5 rad/s, often a
+/// placeholder, approaches its limit faster, as exp(-w q̇_5 / q̇_max t), and
+/// brakes by at most w q̇_5 / 4.
 /// If the two contradict each other, far beyond a position limit or fast
 /// towards it, the position limit wins. A range narrower than its margins
 /// shrinks to its middle. A joint without velocity limit, such as a finger that
@@ -39,6 +41,7 @@ class JointLimitsTask final : public Task {
   Eigen::VectorXd lower_;
   Eigen::VectorXd upper_;
   Eigen::VectorXd velocity_;
+  Eigen::VectorXd fast_;  // Speed that scales the bounds; see kFast.
   std::vector<bool> is_passive_;
   double omega_ = 40;
   double margin_ = 0.008;

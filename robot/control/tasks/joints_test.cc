@@ -78,6 +78,27 @@ TEST_F(TaskTest, JointLimitsBrakeAFastJointGently) {
   }
 }
 
+// A file may give 0.5 rad/s as a placeholder. A landing needs accelerations of
+// about 100 rad/s2 in the legs, so the rows must allow them.
+TEST_F(TaskTest, JointLimitsLetASlowJointFollowALanding) {
+  RobotModel model = robot_.model;
+  const int j = *tree_.FindJoint("l_elbow");
+  constexpr double kSlow = 0.5;  // rad/s.
+  model.limits[j].velocity = kSlow;
+  const JointLimitsTask task(model);
+  state_.q[7 + j] = robot_.q_nominal[7 + j];
+  state_.v[6 + j] = 0;
+  const Hierarchy* rows = &Write(task);
+  EXPECT_GT(rows->upper(0)[j] / rows->C(0)(j, 6 + j), 100);
+  EXPECT_LT(rows->lower(0)[j] / rows->C(0)(j, 6 + j), -100);
+  state_.v[6 + j] = kSlow;
+  rows = &Write(task);
+  // At the limit, the joint may not become faster. The bound is a difference
+  // of equal numbers of at most 200 rad/s2.
+  EXPECT_NEAR(rows->upper(0)[j] / rows->C(0)(j, 6 + j), 0, 1e-12);
+  EXPECT_LT(rows->lower(0)[j] / rows->C(0)(j, 6 + j), -100);
+}
+
 TEST_F(TaskTest, JointLimitsHoldTheSpeed) {
   const JointLimitsTask task(robot_.model);
   const int j = *tree_.FindJoint("l_elbow");

@@ -25,6 +25,9 @@ constexpr double kNarrow = 0.04;
 constexpr double kLift = 0.03;
 // The center of mass stays within this fraction of the sole's half sides.
 constexpr double kInsideSole = 0.6;
+// Before the other foot is lifted, the center of mass is over the sole, at this
+// fraction of its half width inside of the middle.
+constexpr double kShift = 0.25;
 
 // Returns the torques at rest of a robot that stands on one foot:
 //     tau = N_j - J_j' lambda,   J_b' lambda = N_b,
@@ -60,6 +63,21 @@ std::string WeakMotor(const Robot& robot, const VectorXd& tau) {
   return reason;
 }
 
+// Returns the reason why the center of mass cannot move over a foot while both
+// soles lie flat, or "". Legs without a roll joint at the ankle cannot do it.
+std::string WhyNoShift(const Robot& robot, int foot) {
+  const double inward = foot == 0 ? -1 : 1;
+  PostureGoal goal;
+  goal.support =
+      SingleSupport{foot,
+                    0,
+                    {0, kShift * inward * robot.feet[foot].half_size.y()},
+                    /*keeps_other=*/true};
+  const Posture posture = FindPosture(robot, goal);
+  if (posture.lack.empty()) return "";
+  return "with both soles flat, " + posture.lack;
+}
+
 // Returns the reason why the robot cannot stand on a foot, or "".
 std::string Reason(const Robot& robot, int foot, double height) {
   const Foot& sole = robot.feet[foot];
@@ -69,6 +87,8 @@ std::string Reason(const Robot& robot, int foot, double height) {
            PrintNumber(kNarrow * height) + " m for a center of mass at " +
            PrintNumber(height) + " m";
   }
+  const std::string shift = WhyNoShift(robot, foot);
+  if (!shift.empty()) return shift;
   // The foot's origin is at or near the ankle.
   const Vector2d ankle = sole.X_BC.Inverse().p.head<2>();
   const Vector2d inside = kInsideSole * sole.half_size;

@@ -14,10 +14,12 @@ namespace poise {
 /// the point of the sole that is nearest to the ankle.
 ///
 /// Returns a warning for each foot on which the robot cannot stand: the sole is
-/// narrower than 4 % of the height of the center of mass, the joints do not
-/// reach the posture, or a motor is too weak for it.
+/// narrower than 4 % of the height of the center of mass; the center of mass
+/// does not come over the sole while both soles lie flat, as before the other
+/// foot is lifted; the joints do not reach the posture; or a motor is too weak
+/// for it.
 ///
-/// Costs at most four searches of FindPosture().
+/// Costs at most six searches of FindPosture().
 /// @pre robot.can_stand.
 std::vector<Finding> FindOneLegDefects(const Robot& robot);
 
