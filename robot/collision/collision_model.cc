@@ -28,13 +28,10 @@ constexpr double kNear = 0.25;
 // none of them cannot touch.
 constexpr int kFewJoints = 2;
 
-// A body and one that it carries by this many joints, such as a pelvis and a
-// thigh, are kept apart by the limits of these joints. Their capsules overlap
-// where the bodies do not.
-constexpr int kCarryingJoints = 3;
-
-// Joints within this fraction of the reach count as one joint.
-constexpr double kClose = 0.05;
+// Joints within this fraction of the reach count as one joint: a hip with three
+// joints may be that large. The limits of its joints keep thigh and pelvis apart,
+// while their capsules overlap.
+constexpr double kClose = 0.25;
 
 constexpr int kMostPairs = 200;
 
@@ -197,10 +194,7 @@ CollisionModel MakeCollisionModel(const RobotModel& model,
   TryPostures(model, collision, near, &candidates);
   const auto is_left_out = [&](const Candidate& each) {
     if (each.touches > kMostlyTouching * kPostures) return true;
-    const int joints = JointsBetween(tree, each.pair);
-    const bool is_carried = each.pair.ancestor == each.pair.a;
-    if (is_carried && joints <= kCarryingJoints) return true;
-    const bool is_covered = joints <= kFewJoints;
+    const bool is_covered = JointsBetween(tree, each.pair) <= kFewJoints;
     return each.nearest > (is_covered ? 0 : near);
   };
   candidates.erase(

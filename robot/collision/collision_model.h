@@ -37,7 +37,8 @@ struct CollisionModel {
 };
 
 /// Fits the capsules, and selects the pairs of bodies. Left out are
-/// - bodies that one joint connects, or several within 5 % of the reach;
+/// - bodies that one joint connects, or several within a quarter of the reach, as
+///   a pelvis and a thigh: the limits of these joints keep them apart;
 /// - bodies that touch in nearly all of the random postures, as the two ends of
 ///   a hip with three joints do: they touch by construction;
 /// - bodies that come nowhere near each other in these postures, or that never

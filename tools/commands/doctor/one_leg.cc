@@ -63,6 +63,13 @@ std::string WeakMotor(const Robot& robot, const VectorXd& tau) {
   return reason;
 }
 
+// Returns the error of a posture and a joint at its limit in words, or "".
+std::string Lack(const Robot& robot, const Posture& posture) {
+  if (posture.lack.empty() || posture.at_limit.empty()) return posture.lack;
+  const Joint& joint = robot.model.tree.joints()[posture.at_limit[0]];
+  return posture.lack + ", with joint " + Quoted(joint.name) + " at its limit";
+}
+
 // Returns the reason why the center of mass cannot move over a foot while both
 // soles lie flat, or "". Legs without a roll joint at the ankle cannot do it.
 std::string WhyNoShift(const Robot& robot, int foot) {
@@ -73,9 +80,8 @@ std::string WhyNoShift(const Robot& robot, int foot) {
                     0,
                     {0, kShift * inward * robot.feet[foot].half_size.y()},
                     /*keeps_other=*/true};
-  const Posture posture = FindPosture(robot, goal);
-  if (posture.lack.empty()) return "";
-  return "with both soles flat, " + posture.lack;
+  const std::string lack = Lack(robot, FindPosture(robot, goal));
+  return lack.empty() ? "" : "with both soles flat, " + lack;
 }
 
 // Returns the reason why the robot cannot stand on a foot, or "".
@@ -98,12 +104,7 @@ std::string Reason(const Robot& robot, int foot, double height) {
     PostureGoal goal;
     goal.support = SingleSupport{foot, kLift * height, G};
     const Posture posture = FindPosture(robot, goal);
-    std::string lack = posture.lack;
-    if (!lack.empty() && !posture.at_limit.empty()) {
-      const int j = posture.at_limit[0];
-      lack += ", with joint " + Quoted(robot.model.tree.joints()[j].name) +
-              " at its limit";
-    }
+    std::string lack = Lack(robot, posture);
     if (lack.empty()) {
       lack = WeakMotor(robot, TorquesOnOneFoot(robot, foot, posture.q));
     }
