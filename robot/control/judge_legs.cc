@@ -65,8 +65,9 @@ std::vector<Finding> JudgeLegs(const Robot& robot) {
     if (slow.empty()) continue;
     findings.push_back({Severity::kWarn, LegOf(foot) + " <limit>",
                         "has the velocity limits " + slow,
-                        "may be placeholders: balance needs faster legs, give "
-                        "the motors' real limits"});
+                        "may be placeholders: balance needs faster legs, and "
+                        "control assumes at least 2 rad/s; give the motors' "
+                        "real limits"});
   }
   return findings;
 }

@@ -15,6 +15,10 @@ namespace {
 // could not stay on the ground: w q̇_max would be 20 rad/s².
 constexpr double kFast = 5;
 
+// Smaller velocity limits, rad/s, are placeholders: motors reach this speed, and
+// a robot that keeps a smaller one falls at the first impact.
+constexpr double kSlowest = 2;
+
 // Bound on the braking of a joint that is faster than its limit, over omega
 // times the limit. An impact leaves a leg far above a small limit. The braking of
 // all joints at once would throw the robot.
@@ -38,9 +42,10 @@ JointLimitsTask::JointLimitsTask(const RobotModel& model)
     const JointLimits& limits = model.limits[j];
     lower_[j] = limits.lower;
     upper_[j] = limits.upper;
+    const bool is_slider = model.tree.joints()[j].type == JointType::kPrismatic;
     const bool is_known = limits.velocity > 0 && std::isfinite(limits.velocity);
     velocity_[j] = is_known ? limits.velocity : kAssumedVelocity;
-    const bool is_slider = model.tree.joints()[j].type == JointType::kPrismatic;
+    if (!is_slider) velocity_[j] = std::max(velocity_[j], kSlowest);
     fast_[j] = is_slider ? velocity_[j] : std::max(velocity_[j], kFast);
     is_passive_[j] = limits.effort == 0;
   }

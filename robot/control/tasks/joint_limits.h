@@ -17,7 +17,7 @@ namespace poise {
 /// A joint above its velocity limit, as after an impact, brakes by at most
 /// w q̇_max / 4. A rotating joint with q̇_max below q̇_5 = 5 rad/s, often a
 /// placeholder, approaches its limit faster, as exp(-w q̇_5 / q̇_max t), and
-/// brakes by at most w q̇_5 / 4.
+/// brakes by at most w q̇_5 / 4. Limits below 2 rad/s count as 2 rad/s.
 /// If the two contradict each other, far beyond a position limit or fast
 /// towards it, the position limit wins. A range narrower than its margins
 /// shrinks to its middle. A joint without velocity limit, such as a finger that
