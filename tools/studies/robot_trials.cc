@@ -117,6 +117,11 @@ class Candidate {
       RunAll();
     } catch (const std::invalid_argument& error) {
       trial_.refused = OneLine(error.what());
+      // The table is the same wherever the folder is.
+      const std::string prefix = urdf_.string() + ": ";
+      if (trial_.refused.rfind(prefix, 0) == 0) {
+        trial_.refused.erase(0, prefix.size());
+      }
       trial_.robot.reset();
     }
     FindFaults(wanted);
