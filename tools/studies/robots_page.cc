@@ -161,7 +161,7 @@ void WriteRobotsPage(const std::vector<RobotTrial>& trials,
   std::ofstream page(file);
   page
       << "# Robots of others\n\nWritten by\n\n"
-         "    bazel run --config=opt //tools:robustness -- --robots DIR "
+         "    bazel run //tools:robustness -- --robots DIR "
          "--package-path DIR/packages --out docs/generated\n\n"
          "for a folder of URDF files. Each robot stands for 10 s, after a drop "
          "with disturbed arms and trunk. It is\nthen pushed at the torso to "
