@@ -50,7 +50,8 @@ class Judge {
 
   void Look(const Observation& now);
 
-  /// Returns whether the CoM is too low or the base too tilted. The run can stop then.
+  /// Returns whether the CoM is too low or the base too tilted. The run can
+  /// stop then.
   bool is_down() const { return down_; }
 
   /// Returns whether Verdict::fell_at is set.

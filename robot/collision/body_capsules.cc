@@ -19,8 +19,8 @@ using Eigen::Vector3d;
 // to its parent. A hand with all fingers is heavier, a finger is lighter.
 constexpr double kLight = 0.005;
 
-// A thick box is cut into bars until no capsule of a bar stands out of its faces
-// by more than this fraction of the reach, or until there are four bars.
+// A thick box is cut into bars until no capsule of a bar stands out of its
+// faces by more than this fraction of the reach, or until there are four bars.
 constexpr double kExcess = 0.03;
 
 // The shapes of a body have a capsule each if these stand out by less than this

@@ -56,9 +56,13 @@ ClosestPoints ComputeClosestPoints(const Capsule& A, const Capsule& B,
   const double bulge = softness * (a * s * (1 - s) + e * t * (1 - t));
   // The axes of deeply overlapping capsules may cross; D is then bounded from
   // below, so that the gradient stays below 2.
-  const double D = std::sqrt(std::max(squared - bulge, squared / 4));
+  const bool is_bounded = squared - bulge < squared / 4;
+  const double D = std::sqrt(is_bounded ? squared / 4 : squared - bulge);
   closest.distance = D - A.radius - B.radius;
-  closest.gradient = D > 0 ? Eigen::Vector3d(x / D) : Eigen::Vector3d::Zero();
+  // dD = x · dx / D; on the bound D = |x| / 2, so dD = x · dx / (4 D).
+  const double slope = is_bounded ? 0.25 : 1;
+  closest.gradient.setZero();
+  if (D > 0) closest.gradient = slope / D * x;
   return closest;
 }
 

@@ -21,8 +21,8 @@ using Eigen::Vector3d;
 
 constexpr double kSoftness = 0.01;
 
-// A capsule with ends in a box of 1 m. Some are points, and coordinates that are
-// multiples of 1/4 make parallel and touching segments frequent.
+// A capsule with ends in a box of 1 m. Some are points, and coordinates that
+// are multiples of 1/4 make parallel and touching segments frequent.
 Capsule AnyCapsule() {
   const auto end = [] {
     const double unit = *rc::gen::element(0.25, 0.001);

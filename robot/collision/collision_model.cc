@@ -24,13 +24,13 @@ constexpr double kMostlyTouching = 0.8;
 // postures, is left out. Extreme postures are rare among the random ones.
 constexpr double kNear = 0.25;
 
-// The postures cover the motion of so many joints densely: a pair that touches in
-// none of them cannot touch.
+// The postures cover the motion of so many joints densely: a pair that touches
+// in none of them cannot touch.
 constexpr int kFewJoints = 2;
 
 // Joints within this fraction of the reach count as one joint: a hip with three
-// joints may be that large. The limits of its joints keep thigh and pelvis apart,
-// while their capsules overlap.
+// joints may be that large. The limits of its joints keep thigh and pelvis
+// apart, while their capsules overlap.
 constexpr double kClose = 0.25;
 
 constexpr int kMostPairs = 200;

@@ -37,8 +37,8 @@ struct CollisionModel {
 };
 
 /// Fits the capsules, and selects the pairs of bodies. Left out are
-/// - bodies that one joint connects, or several within a quarter of the reach, as
-///   a pelvis and a thigh: the limits of these joints keep them apart;
+/// - bodies that one joint connects, or several within a quarter of the reach,
+///   as a pelvis and a thigh: the limits of these joints keep them apart;
 /// - bodies that touch in nearly all of the random postures, as the two ends of
 ///   a hip with three joints do: they touch by construction;
 /// - bodies that come nowhere near each other in these postures, or that never
@@ -52,8 +52,8 @@ struct CollisionModel {
 CollisionModel MakeCollisionModel(const RobotModel& model,
                                   const SurfacePoints& points = {});
 
-/// Returns a lower bound of the distance of a pair, m, from the balls around its
-/// bodies: a quick test. Does not allocate, does not throw.
+/// Returns a lower bound of the distance of a pair, m, from the balls around
+/// its bodies: a quick test. Does not allocate, does not throw.
 double BoundPairDistance(const CollisionModel& model, const CollisionPair& pair,
                          const std::vector<Pose>& X_WB) noexcept;
 
@@ -66,8 +66,8 @@ ClosestPoints ComputePairDistance(const CollisionModel& model,
                                   const std::vector<Pose>& X_WB,
                                   double softness) noexcept;
 
-/// The smallest distance of all pairs, and the index of that pair. Without pairs
-/// the distance is infinite and the index is -1.
+/// The smallest distance of all pairs, and the index of that pair. Without
+/// pairs the distance is infinite and the index is -1.
 struct Clearance {
   double distance;  ///< m; negative if the capsules overlap.
   int pair;

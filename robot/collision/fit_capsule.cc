@@ -23,8 +23,9 @@ constexpr int kRing = 12;
 // over the corners of a box.
 constexpr double kRadii[] = {1, 1.03, 1.08, 1.15, 1.25, 1.4};
 
-// Steps towards the smallest circle. Its radius is then within a few percent of the
-// smallest one, and the circle contains all circles after any number of steps.
+// Steps towards the smallest circle. Its radius is then within a few percent of
+// the smallest one, and the circle contains all circles after any number of
+// steps.
 constexpr int kCircleSteps = 64;
 
 struct Circle {

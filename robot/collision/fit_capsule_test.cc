@@ -49,7 +49,8 @@ TEST(FitCapsule, ReturnsTheCapsuleAroundTwoEqualBalls) {
   EXPECT_NEAR(capsule.radius, 0.1, 1e-12);
 }
 
-// The smallest capsule around a long cylinder is about as thick as the cylinder.
+// The smallest capsule around a long cylinder is about as thick as the
+// cylinder.
 RC_GTEST_PROP(FitCapsule, IsTightAroundALongCylinder, ()) {
   const Pose X = *Poses();
   const Capsule capsule = FitCapsule(BallsOfShape(Cylinder{0.05, 0.3}, X));

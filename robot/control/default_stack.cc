@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "poise/dynamics/tick.h"
 #include "poise/dynamics/tree.h"
@@ -17,6 +18,7 @@
 #include "poise/robot/control/tasks/force_regularizer.h"
 #include "poise/robot/control/tasks/frame.h"
 #include "poise/robot/control/tasks/friction.h"
+#include "poise/robot/control/tasks/froude.h"
 #include "poise/robot/control/tasks/joint_limits.h"
 #include "poise/robot/control/tasks/light_joints.h"
 #include "poise/robot/control/tasks/linear_momentum.h"
@@ -45,18 +47,24 @@ constexpr bool kOff = false;
 // does. The small weight keeps it from competing with the posture on its level.
 constexpr double kRegularizerWeight = 1e-2;
 
-// Gain that keeps the base upright, over weight * Y^2 / h, with Y half the width
-// of a sole and h the height of the center of mass above the soles. On one foot
-// the CoP moves by at most Y, and the lean that it can correct is Y / h. The
-// value gives 200 N m/rad for robot/models/humanoid.urdf.
+// Gain that keeps the base upright, over weight * Y^2 / h, with Y half the
+// width of a sole and h the height of the center of mass above the soles. On
+// one foot the CoP moves by at most Y, and the lean that it can correct is Y /
+// h. The value gives 200 N m/rad for robot/models/humanoid.urdf.
 constexpr double kOrientation = 98.8;
+constexpr double kMostOrientation = 1e4;  // The parameter's bound, N m/rad.
 
-// Returns k_orientation, N m/rad, with three significant digits.
-double OrientationGain(const Robot& robot, double otherwise) {
+// The size of a robot that stands on its soles, m.
+struct Size {
+  double com_height;  // Height of the center of mass above the soles.
+  double half_width;  // Half the width of the narrower sole.
+};
+
+// Returns nothing if the robot has no feet or no posture in which it stands.
+std::optional<Size> SizeOf(const Robot& robot) {
   const Tree& tree = robot.model.tree;
-  const double weight = tree.total_mass() * tree.gravity_W().norm();
   if (robot.feet.empty() || robot.q_nominal.size() != tree.nq()) {
-    return otherwise;
+    return std::nullopt;
   }
   Tick tick(tree, {});
   ComputeTick(tree, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
@@ -68,10 +76,32 @@ double OrientationGain(const Robot& robot, double otherwise) {
   ground /= static_cast<double>(robot.feet.size());
   const double h = tick.p_WG.z() - ground;
   // A posture that does not stand may have its center of mass below the soles.
-  const double k = kOrientation * weight * Y * Y / h;
-  if (!(h > Y && k > 0)) return otherwise;
+  if (!(h > Y)) return std::nullopt;
+  return Size{h, Y};
+}
+
+// Returns k_orientation, N m/rad, with three significant digits.
+double OrientationGain(const Tree& tree, const Size& size, double otherwise) {
+  const double weight = tree.total_mass() * tree.gravity_W().norm();
+  const double k =
+      std::min(kMostOrientation, kOrientation * weight * size.half_width *
+                                     size.half_width / size.com_height);
+  if (!(k > 0)) return otherwise;
   const double digits = std::pow(10, 2 - std::floor(std::log10(k)));
   return std::round(k * digits) / digits;
+}
+
+// Fits the defaults to the robot: they hold for one of kTunedComHeight.
+void FitToRobot(const Robot& robot, Stack* stack) {
+  const std::optional<Size> size = SizeOf(robot);
+  if (!size) return;
+  for (int i = 0; i < stack->num_tasks(); ++i) {
+    ScaleToHeight(size->com_height, stack->task(i));
+  }
+  const double standard =
+      stack->GetParameter("momentum", "k_orientation").value_or(0);
+  (void)stack->SetParameter("momentum", "k_orientation",
+                            OrientationGain(robot.model.tree, *size, standard));
 }
 
 }  // namespace
@@ -105,8 +135,8 @@ Stack MakeDefaultStack(const Robot& robot,
   stack.Add(std::make_unique<ZmpLiteralTask>(tree, feet), {kOff, 3, 1});
 
   stack.Add(std::make_unique<CapturePointTask>(tree, feet), {kOff, 3, 1});
-  // The last task of its level: its rows come and go, and the solver starts from
-  // the working set of the last tick by index.
+  // The last task of its level: its rows are added and removed, and the solver starts
+  // from the working set of the last tick by index.
   stack.Add(std::make_unique<SelfCollisionTask>(robot), {kOn, 3, 1});
 
   stack.Add(std::make_unique<MomentumTask>(tree, feet), {kOn, 4, 1});
@@ -126,10 +156,7 @@ Stack MakeDefaultStack(const Robot& robot,
   stack.Add(std::make_unique<ForceRegularizerTask>(tree, feet),
             {kOn, 5, kRegularizerWeight});
   stack.Add(std::make_unique<TorqueMinimizationTask>(model), {kOff, 5, 1});
-  const double standard =
-      stack.GetParameter("momentum", "k_orientation").value_or(0);
-  (void)stack.SetParameter("momentum", "k_orientation",
-                           OrientationGain(robot, standard));
+  FitToRobot(robot, &stack);
   return stack;
 }
 

@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "poise/dynamics/tree.h"
+#include "poise/robot/control/tasks/joint_limits.h"
 #include "poise/robot/control/tasks/loop_closure.h"
 
 namespace poise {
 namespace {
-
-constexpr double kSlow = 1;  // rad/s.
 
 // Returns "left leg" for "left_foot".
 std::string LegOf(const Foot& foot) {
@@ -58,7 +57,7 @@ std::vector<Finding> JudgeLegs(const Robot& robot) {
       const Joint& joint = robot.model.tree.joints()[j];
       const double limit = robot.model.limits[j].velocity;
       if (joint.type == JointType::kPrismatic) continue;
-      if (!(limit > 0 && limit <= kSlow)) continue;
+      if (!(limit > 0 && limit < kSlowestVelocity)) continue;
       slow += (slow.empty() ? "" : ", ") + Quoted(joint.name) + " " +
               PrintNumber(limit) + " rad/s";
     }

@@ -22,12 +22,12 @@ void ComputeTorque(const Tick& tick, const std::vector<ContactTick>& contacts,
 /// Computes the torques that overcome the damping d and the dry friction f of
 /// the joints, which (10) does not contain:
 ///     d v + f tanh(a / a_0),
-/// with the measured velocity v, and a the acceleration v̇ of the solution after
-/// a low-pass filter. A joint that the friction holds gets the torque against
-/// the friction, and a moving joint that lags behind gets more. The sign of the
-/// measured velocity is not used: where the real friction is smaller than f,
-/// such a torque would drive the joint. a_0 and the time of the filter scale
-/// with the robot's pendulum.
+/// with the measured velocity v, and a the acceleration v̇ of the solution
+/// after a low-pass filter. A joint that the friction holds gets the torque
+/// against the friction, and a moving joint that lags behind gets more. The
+/// sign of the measured velocity is not used: where the real friction is
+/// smaller than f, such a torque would drive the joint. a_0 and the time of the
+/// filter scale with the robot's pendulum.
 class DragCompensation {
  public:
   explicit DragCompensation(const Robot& robot);
@@ -36,7 +36,8 @@ class DragCompensation {
   void Reset() noexcept;
 
   /// Adds the torques to tau, as far as they do not exceed the limits of the
-  /// motors. Leaves tau as it is where a joint has neither damping nor friction.
+  /// motors. Leaves tau as it is where a joint has neither damping nor
+  /// friction.
   ///
   /// @param dt     control period, s.
   /// @param scale  factor on the limits.

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -26,6 +27,7 @@ void Limit(decltype(RLIMIT_AS) resource, rlim_t most) {
 // Replaces the child process by the command. Between fork() and exec(), only
 // functions that are safe in a signal handler are called.
 [[noreturn]] void Become(char* const* argv, const ChildLimits& limits) {
+  setpgid(0, 0);  // Its own group, so that its children end with it.
   const int null = open("/dev/null", O_RDWR);
   for (const int stream : {0, 1, 2}) dup2(null, stream);
   Limit(RLIMIT_AS, limits.memory);
@@ -58,6 +60,7 @@ ChildEnd RunChild(const std::vector<std::string>& command,
   const pid_t child = fork();
   if (child < 0) return {};
   if (child == 0) Become(argv.data(), limits);
+  setpgid(child, child);  // Whichever process is first.
   const auto deadline = Clock::now() + std::chrono::duration<double>(
                                            std::max(0.0, limits.seconds));
   int status = 0;
@@ -68,7 +71,7 @@ ChildEnd RunChild(const std::vector<std::string>& command,
     if (Clock::now() > deadline) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  kill(child, SIGKILL);
+  kill(-child, SIGKILL);
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   return {ChildEnd::Kind::kTooSlow, 0};

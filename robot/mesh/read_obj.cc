@@ -11,6 +11,9 @@
 namespace poise {
 namespace {
 
+// Keeps the memory of a mesh far below 1 GiB.
+constexpr std::size_t kMostTriangles = 8'000'000;
+
 // Returns the vertex of a corner such as "7", "7/1", "7//3" or "-1/2/3",
 // counted from 0.
 int VertexOf(std::string_view corner, size_t num_vertices,
@@ -44,6 +47,9 @@ void ReadFace(MeshWords* words, TriangleMesh* mesh) {
     if (corners >= 3) triangle[1] = triangle[2];
     triangle[corners < 2 ? corners : 2] = vertex;
     if (++corners >= 3) mesh->triangles.push_back(triangle);
+    if (mesh->triangles.size() > kMostTriangles) {
+      words->Refuse("the file has more than 8 million triangles");
+    }
   }
   if (corners < 3) words->Refuse("a face has fewer than 3 corners");
 }

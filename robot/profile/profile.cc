@@ -286,8 +286,8 @@ void Couple(const std::map<std::string, JointValue>& given, Robot* robot) {
   }
 }
 
-// Returns the joints to lock, as LockedJoints() describes, if `moved` says which
-// joints move no mass.
+// Returns the joints to lock, as LockedJoints() describes, if `moved` says
+// which joints move no mass.
 std::map<std::string, JointValue> Lock(const RobotModel& model,
                                        const Profile& profile,
                                        const MovedMass& moved) {

@@ -93,12 +93,12 @@ Profile LoadProfile(const std::filesystem::path& file);
 
 /// Returns the joints that are locked. They are the joints in the profile's
 /// `locked`, the mimic joints of locked sources (unless `mimic` is free), and
-/// all mimic joints if `mimic` is locked. Further, they are the joints that move
-/// no mass (see FindMovedMass()), at their value in `joints` or at rest, and the
-/// mimic joints of these that move less than 1 % of the mass. The result can
-/// replace `locked` without changing the robot. Throws Refusal if the robot has no such joint, or if
-/// a value is outside the joint's limits. Also throws if a coupled joint is in
-/// `locked` but its source is not.
+/// all mimic joints if `mimic` is locked. Further, they are the joints that
+/// move no mass (see FindMovedMass()), at their value in `joints` or at rest,
+/// and the mimic joints of these that move less than 1 % of the mass. The
+/// result can replace `locked` without changing the robot. Throws Refusal if
+/// the robot has no such joint, or if a value is outside the joint's limits.
+/// Also throws if a coupled joint is in `locked` but its source is not.
 std::map<std::string, JointValue> LockedJoints(const RobotModel& model,
                                                const Profile& profile);
 
@@ -121,7 +121,8 @@ RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile);
 ///
 /// Throws Refusal if the profile does not match the robot: a name is unknown, a
 /// joint is outside its limits, `forward`, `left` and `right` contradict the
-/// feet, or the posture has a base but the robot cannot stand in the posture. Throws another std::invalid_argument as FindFeet().
+/// feet, or the posture has a base but the robot cannot stand in the posture.
+/// Throws another std::invalid_argument as FindFeet().
 Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
                 std::vector<Finding>* findings = nullptr);
 

@@ -21,7 +21,8 @@ namespace poise {
 /// `floating` represent the world, and are left out. A mimic joint is an
 /// ordinary joint of the tree; RobotModel::mimics gives its source. A link
 /// without `<inertial>` has mass 0, and at least one link must have a positive
-/// mass. Mesh files are not opened; their places are in RobotModel. The result does not depend on the locale.
+/// mass. Mesh files are not opened; their places are in RobotModel. The result
+/// does not depend on the locale.
 class UrdfDocument {
  public:
   /// Reads a file. The cost is O(n log n) in the length of the file, and less

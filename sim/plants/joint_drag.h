@@ -18,7 +18,8 @@ namespace poise {
 ///     (M + dt D) v̇ + N + D v = S' tau + J' F,
 /// and the drag is -D (v + dt v̇). The dry part of the drag is at most f: a
 /// joint that needs more slips, with f against its motion. The drag stops a
-/// joint but never reverses its motion. F are the contact wrenches on the feet in the last step.
+/// joint but never reverses its motion. F are the contact wrenches on the feet
+/// in the last step.
 class JointDrag {
  public:
   JointDrag(const Robot& robot, double dt);

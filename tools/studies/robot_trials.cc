@@ -118,9 +118,9 @@ class Candidate {
     } catch (const std::invalid_argument& error) {
       trial_.refused = OneLine(error.what());
       // The table is the same wherever the folder is.
-      const std::string prefix = urdf_.string() + ": ";
-      if (trial_.refused.rfind(prefix, 0) == 0) {
-        trial_.refused.erase(0, prefix.size());
+      const std::string folder = urdf_.parent_path().string() + "/";
+      if (trial_.refused.rfind(folder, 0) == 0) {
+        trial_.refused.erase(0, folder.size());
       }
       trial_.robot.reset();
     }

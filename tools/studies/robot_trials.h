@@ -76,8 +76,8 @@ std::map<std::string, ExpectedRobot> ReadExpected(
 /// fault.
 ///
 /// @param show  is called with each robot, in alphabetical order.
-/// Throws std::invalid_argument if the folder has no URDF file, if EXPECTED.json
-/// is invalid, or if no name contains `only`.
+/// Throws std::invalid_argument if the folder has no URDF file, if
+/// EXPECTED.json is invalid, or if no name contains `only`.
 std::vector<RobotTrial> RunRobots(
     const RobotFolder& robots,
     const std::function<void(const RobotTrial&)>& show);

@@ -47,7 +47,7 @@ run 0 --robots "$robots" --out "$TEST_TMPDIR/page"
 row='^| mine | profile | [0-9]* mm | [0-9]* mm, [0-9]* mm, [0-9]* mm, [0-9]* mm '
 row+='| [0-9]* mm | yes |$'
 grep -q "$row" <<< "$out" || fail "mine does not stand or is not pushed: $out"
-grep -q '^| box | refused: .* | yes |$' <<< "$out" || fail "box is not refused: $out"
+grep -q '^| box | | refused: box.urdf:1: .* | yes |$' <<< "$out" || fail "box is not refused: $out"
 grep -q "^2 of 2 robots as expected$" <<< "$out" || fail "no count: $out"
 [ -z "$err" ] || fail "there is a warning: $err"
 grep -q '^| !\[mine\](figures/robots/mine.png) | mine |' \

@@ -11,17 +11,13 @@ namespace poise {
 namespace {
 
 // A joint that is slower than this, rad/s, may still accelerate and brake like
-// one of this speed. Some files have limits of 0.5 rad/s in the legs. Their soles
-// could not stay on the ground: w q̇_max would be 20 rad/s².
+// one of this speed. Some files have limits of 0.5 rad/s in the legs. Their
+// soles could not stay on the ground: w q̇_max would be 20 rad/s².
 constexpr double kFast = 5;
 
-// Smaller velocity limits, rad/s, are placeholders: motors reach this speed, and
-// a robot that keeps a smaller one falls at the first impact.
-constexpr double kSlowest = 2;
-
 // Bound on the braking of a joint that is faster than its limit, over omega
-// times the limit. An impact leaves a leg far above a small limit. The braking of
-// all joints at once would throw the robot.
+// times the limit. An impact leaves a leg far above a small limit. The braking
+// of all joints at once would make the robot fall.
 constexpr double kBrake = 0.25;
 
 }  // namespace
@@ -45,7 +41,7 @@ JointLimitsTask::JointLimitsTask(const RobotModel& model)
     const bool is_slider = model.tree.joints()[j].type == JointType::kPrismatic;
     const bool is_known = limits.velocity > 0 && std::isfinite(limits.velocity);
     velocity_[j] = is_known ? limits.velocity : kAssumedVelocity;
-    if (!is_slider) velocity_[j] = std::max(velocity_[j], kSlowest);
+    if (!is_slider) velocity_[j] = std::max(velocity_[j], kSlowestVelocity);
     fast_[j] = is_slider ? velocity_[j] : std::max(velocity_[j], kFast);
     is_passive_[j] = limits.effort == 0;
   }

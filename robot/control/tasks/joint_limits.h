@@ -9,6 +9,11 @@
 
 namespace poise {
 
+/// Smallest velocity limit that JointLimitsTask uses for a rotating joint,
+/// rad/s. Smaller limits are placeholders: motors reach this speed, and a robot
+/// that keeps a smaller one falls at the first impact.
+constexpr double kSlowestVelocity = 2;
+
 /// Keeps each joint inside its position limits, by bounds on its acceleration:
 ///     w² (lower - q) - 2 w q̇ <= q̈ <= w² (upper - q) - 2 w q̇,
 /// On the bound the joint comes to rest at the limit, critically damped. The
@@ -17,7 +22,7 @@ namespace poise {
 /// A joint above its velocity limit, as after an impact, brakes by at most
 /// w q̇_max / 4. A rotating joint with q̇_max below q̇_5 = 5 rad/s, often a
 /// placeholder, approaches its limit faster, as exp(-w q̇_5 / q̇_max t), and
-/// brakes by at most w q̇_5 / 4. Limits below 2 rad/s count as 2 rad/s.
+/// brakes by at most w q̇_5 / 4. Limits below kSlowestVelocity count as that.
 /// If the two contradict each other, far beyond a position limit or fast
 /// towards it, the position limit wins. A range narrower than its margins
 /// shrinks to its middle. A joint without velocity limit, such as a finger that

@@ -30,12 +30,13 @@ namespace poise {
 class MomentumTask final : public Task {
  public:
   /// Parameters: kp (30 1/s2), kd (10 1/s), kd_angular (10 1/s), k_orientation
-  /// (200 N m/rad; MakeDefaultStack() scales it to the robot); ki and ki_height (15 and 60 1/s3), see Disturbance;
-  /// angular_weight (1), of the angular rows against the linear ones;
-  /// feedforward (0; with 1, v_ref and a_ref are used). CaptureSettings:
-  /// capture (1), capture_from (0.65), capture_full (1), capture_sideways
-  /// (1.25). Gains and weights at capture 1: capture_kp (60 1/s2), capture_kd
-  /// (30 1/s), capture_angular_weight (0.3), capture_height_weight (0.3).
+  /// (200 N m/rad; MakeDefaultStack() scales it to the robot); ki and ki_height
+  /// (15 and 60 1/s3), see Disturbance; angular_weight (1), of the angular rows
+  /// against the linear ones; feedforward (0; with 1, v_ref and a_ref are
+  /// used). CaptureSettings: capture (1), capture_from (0.65), capture_full
+  /// (1), capture_sideways (1.25). Gains and weights at capture 1: capture_kp
+  /// (60 1/s2), capture_kd (30 1/s), capture_angular_weight (0.3),
+  /// capture_height_weight (0.3).
   MomentumTask(const Tree& tree, const std::vector<Foot>& feet);
 
   const ComGains& gains() const { return gains_; }

@@ -15,9 +15,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Softness of the distance, see ComputeClosestPoints(). The distance of parallel
-// segments of 0.3 m at 0.1 m is then 2 mm too small, and the closest points move
-// from end to end within about 0.1 rad.
+// Softness of the distance, see ComputeClosestPoints(). The distance of
+// parallel segments of 0.3 m at 0.1 m is then 2 mm too small, and the closest
+// points move from end to end within about 0.1 rad.
 constexpr double kSoftness = 0.01;
 
 // Defaults of the parameters, relative to the reach and to the frequency of a
@@ -202,8 +202,8 @@ SelfCollisionTask::Bound SelfCollisionTask::FindBound(
   const std::vector<Pose>& X_WB = input.tick.X_WB;
   const double d_min =
       std::min({d_min_, nominal_[i] / 2, nominal_[i] - d_min_ / 2});
-  // Most pairs are so far apart that u cannot be below u_max at any direction of
-  // the motion: their chains are not computed.
+  // Most pairs are so far apart that u cannot be below u_max at any direction
+  // of the motion: their chains are not computed.
   const double least = BoundPairDistance(model_, pair, X_WB);
   if (least > kFar * model_.reach ||
       omega_ * omega_ * (least - d_min) - 2 * omega_ * max_speed >= loosest_) {

@@ -14,9 +14,9 @@ namespace poise {
 /// the distance d between two bodies:
 ///     d̈ = c v̇ + b >= l = -2 w ḋ - w² (d - d_min),
 /// On the bound the distance comes to rest at d_min, critically damped, as a
-/// joint does at its limit, see JointLimitsTask. c is the derivative of d by the
-/// joints between the two bodies; b has the accelerations of the closest points
-/// at v̇ = 0, relative to the last common body, and the unmodelled v̇.
+/// joint does at its limit, see JointLimitsTask. c is the derivative of d by
+/// the joints between the two bodies; b has the accelerations of the closest
+/// points at v̇ = 0, relative to the last common body, and the unmodelled v̇.
 ///
 /// There is a row for each pair of CollisionModel; d is the distance between
 /// their nearest capsules, with softness 0.01, so that c is continuous. A row
@@ -26,9 +26,9 @@ namespace poise {
 /// loosened, so that d keeps d_min.
 ///
 /// Bodies that stand close together in the nominal posture, at d_0, keep
-/// min(d_min, d_0 / 2, d_0 - d_min / 2) instead of d_min, so that the posture is
-/// well inside the bound. A pair that overlaps there by more than half of its
-/// smaller radius has no row: its capsules do not describe the bodies well
+/// min(d_min, d_0 / 2, d_0 - d_min / 2) instead of d_min, so that the posture
+/// is well inside the bound. A pair that overlaps there by more than half of
+/// its smaller radius has no row: its capsules do not describe the bodies well
 /// enough. Rows are divided by w² and a quarter of the reach.
 class SelfCollisionTask final : public Task {
  public:
@@ -69,8 +69,8 @@ class SelfCollisionTask final : public Task {
   CollisionModel model_;
   std::vector<Joint> joints_;
   int v_start_;
-  // By joint: largest distance from its axis to a capsule that it moves, m; 1 for
-  // a prismatic joint.
+  // By joint: largest distance from its axis to a capsule that it moves, m; 1
+  // for a prismatic joint.
   std::vector<double> lever_;
   // By pair: the distance in the nominal posture, m.
   std::vector<double> nominal_;

@@ -172,7 +172,7 @@ json MakeRobotJson(const Robot& robot) {
       {"links", LinksToJson(model.tree)}, {"shapes", ShapesToJson(model)},
       {"feet", FeetToJson(robot.feet)},   {"limits", LimitsToJson(model)}};
   json unread = UnreadMeshesToJson(model);
-  if (!unread.empty()) {
+  if (!unread.empty() && !model.mesh_places.urdf.empty()) {
     object["urdf"] = std::filesystem::absolute(model.mesh_places.urdf).string();
     object["unread_meshes"] = std::move(unread);
   }
