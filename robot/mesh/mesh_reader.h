@@ -10,7 +10,7 @@
 namespace poise {
 
 /// Reads the mesh files of one robot. All files together may have 128 MiB and
-/// take 10 s. The memory is below 1 GiB.
+/// take 4 s. The memory is below 1 GiB.
 class MeshReader {
  public:
   /// @param places  where the files are searched. Must live as long as the

@@ -66,6 +66,12 @@ CollisionModel WithoutOverlaps(const Robot& robot, CollisionModel model) {
     };
     const CollisionPair& pair = model.pairs[i];
     const double smaller = std::min(radius(pair.a), radius(pair.b));
+    const auto is_foot = [&](int body) {
+      return std::any_of(robot.feet.begin(), robot.feet.end(),
+                         [&](const Foot& foot) { return foot.body == body; });
+    };
+    // A foot is flat, its capsule is not. Feet side by side would be too near.
+    if (is_foot(pair.a) && is_foot(pair.b)) continue;
     if (nominal[i] > -smaller / 2) pairs.push_back(pair);
   }
   model.pairs = std::move(pairs);

@@ -29,7 +29,9 @@ namespace poise {
 /// min(d_min, d_0 / 2, d_0 - d_min / 2) instead of d_min, so that the posture
 /// is well inside the bound. A pair that overlaps there by more than half of
 /// its smaller radius has no row: its capsules do not describe the bodies well
-/// enough. Rows are divided by w² and a quarter of the reach.
+/// enough. The two feet have no row either, because the capsule of a flat foot
+/// reaches beyond its sides; StepRegion keeps the soles apart. Rows are divided
+/// by w² and a quarter of the reach.
 class SelfCollisionTask final : public Task {
  public:
   /// Parameters: d_min (1 % of the reach, 12 mm for the humanoid); omega
