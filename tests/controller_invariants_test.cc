@@ -156,7 +156,10 @@ Eigen::VectorXd Balance::Torque() const {
 
 std::string Balance::BrokenByJoints(double allowed) const {
   const Tree& tree = robot.model.tree;
-  const double w = 40, margin = 0.008;
+  const double w =
+      controller.stack().GetParameter("joint_limits", "omega").value();
+  const double margin =
+      controller.stack().GetParameter("joint_limits", "margin").value();
   const Eigen::VectorXd tau = Torque();
   for (int j = 0; j < tree.num_joints(); ++j) {
     const JointLimits& limits = robot.model.limits[j];
