@@ -140,6 +140,9 @@ SelfCollisionTask::SelfCollisionTask(const Robot& robot, CollisionModel model)
 }
 
 bool SelfCollisionTask::HasRows(const TaskInput& input) const noexcept {
+  // A robot that catches itself by steps swings its arms past its thighs. There,
+  // the rows would cost more balance than a touch.
+  if (input.reference.pendulum.is_on) return false;
   const double max_speed = MaxSpeed(input);
   for (int i = 0; i < static_cast<int>(model_.pairs.size()); ++i) {
     if (FindBound(input, i, max_speed).is_near) return true;

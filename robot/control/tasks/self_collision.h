@@ -31,7 +31,8 @@ namespace poise {
 /// its smaller radius has no row: its capsules do not describe the bodies well
 /// enough. The two feet have no row either, because the capsule of a flat foot
 /// reaches beyond its sides; StepRegion keeps the soles apart. Rows are divided
-/// by w² and a quarter of the reach.
+/// by w² and a quarter of the reach. While Reference::pendulum is on, as in
+/// steps that catch the robot, there are no rows.
 class SelfCollisionTask final : public Task {
  public:
   /// Parameters: d_min (1 % of the reach, 12 mm for the humanoid); omega

@@ -151,6 +151,13 @@ TEST_F(SelfCollisionTest, HasNoRowsInTheStandingPosture) {
   EXPECT_FALSE(task_.HasRows(InputHere()));
 }
 
+TEST_F(SelfCollisionTest, HasNoRowsWhileTheRobotCatchesItselfBySteps) {
+  Rows();
+  ASSERT_TRUE(task_.HasRows(InputHere()));
+  controller_.reference().pendulum.is_on = true;
+  EXPECT_FALSE(task_.HasRows(InputHere()));
+}
+
 TEST_F(SelfCollisionTest, NamesBothBodies) {
   const auto& names = task_.inequality_names();
   EXPECT_NE(
