@@ -10,10 +10,11 @@ namespace poise {
 /// Gives the limits of the contact forces priority over the rows that keep the
 /// feet at rest. Both are on one level. They contradict each other if a foot
 /// touches the ground faster than the motors can stop it. With equal weights,
-/// the level then asks for forces that pull at the ground, as its residuals of
-/// the motion, in m/s2, are hundreds of times those of the forces, in parts of
-/// the robot's weight. With priority, the forces stay possible and the foot
-/// stops later. While the level is feasible, its solution does not change.
+/// the optimum of the level has forces that pull at the ground, as its
+/// residuals of the motion, in m/s2, are hundreds of times those of the forces,
+/// in parts of the robot's weight. With priority, the forces stay possible and
+/// the foot stops later. While the level is feasible, its solution does not
+/// change.
 class ForcePriority {
  public:
   /// Factor on the weights of the limits.
