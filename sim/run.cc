@@ -34,6 +34,25 @@ double TorqueViolation(const RobotModel& model, double scale,
   return worst;
 }
 
+// Adds a tick to the peaks and counts of the result.
+void Count(const TickRecord& record, const RobotModel& model,
+           double torque_scale, RunResult* result) {
+  result->iterations_max =
+      std::max(result->iterations_max, record.report.iterations);
+  result->certificate_max =
+      std::max(result->certificate_max, record.report.certificate.worst());
+  if (record.report.status == TickStatus::kTruncated ||
+      record.report.status == TickStatus::kFailSafe) {
+    ++result->failures;
+  }
+  result->joint_limit_violation_peak = std::max(
+      result->joint_limit_violation_peak, JointViolation(model, record.end.q));
+  result->torque_limit_violation_peak =
+      std::max(result->torque_limit_violation_peak,
+               TorqueViolation(model, torque_scale, record.tau));
+  if (!record.end.self_contacts.empty()) ++result->self_contact_ticks;
+}
+
 // Returns RunResult::blew_up for a velocity; empty if all joints are slow.
 std::string FindBlowUp(const Tree& tree, const Eigen::VectorXd& v) {
   constexpr double kAbsurd = 1000;  // rad/s or m/s.
@@ -129,21 +148,7 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
     if (record.gait != nullptr) step_watch.Look(record);
     if (recorder != nullptr) recorder->Record(record);
     us.push_back(static_cast<float>(record.microseconds));
-    result.iterations_max =
-        std::max(result.iterations_max, record.report.iterations);
-    result.certificate_max =
-        std::max(result.certificate_max, record.report.certificate.worst());
-    if (record.report.status == TickStatus::kTruncated ||
-        record.report.status == TickStatus::kFailSafe) {
-      ++result.failures;
-    }
-    result.joint_limit_violation_peak =
-        std::max(result.joint_limit_violation_peak,
-                 JointViolation(robot.model, record.end.q));
-    result.torque_limit_violation_peak = std::max(
-        result.torque_limit_violation_peak,
-        TorqueViolation(robot.model, scenario.plant.torque_scale, record.tau));
-    if (!record.end.self_contacts.empty()) ++result.self_contact_ticks;
+    Count(record, robot.model, scenario.plant.torque_scale, &result);
     if (progress && result.ticks % between == 0) {
       result.interrupted = !progress(static_cast<double>(result.ticks) /
                                      static_cast<double>(ticks));

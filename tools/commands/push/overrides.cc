@@ -80,9 +80,8 @@ void TakePush(const Overrides& o, Scenario* scenario) {
   }
 }
 
-}  // namespace
-
-void AddOptions(CLI::App* app, Overrides* o) {
+// Adds the options about the push.
+void AddPushOptions(CLI::App* app, Overrides* o) {
   const CLI::Validator finite(RefuseInfinite, "", "finite");
   app->add_option("--force", o->force,
                   "force of the push, N (from the scenario)")
@@ -112,6 +111,11 @@ void AddOptions(CLI::App* app, Overrides* o) {
       ->check(finite);
   app->add_option("--pushes", o->pushes,
                   "YAML file of pushes, which replace those of the scenario");
+}
+
+// Adds the options about the run, the tasks and the controller.
+void AddControlOptions(CLI::App* app, Overrides* o) {
+  const CLI::Validator finite(RefuseInfinite, "", "finite");
   app->add_option("--time", o->time, "time to simulate, s")->check(finite);
   app->add_option("--tasks", o->tasks, "task set: a name or a YAML file");
   app->add_option("--with", o->with, "tasks to switch on")->delimiter(',');
@@ -131,6 +135,11 @@ void AddOptions(CLI::App* app, Overrides* o) {
   app->add_option("--control-rate", o->control_rate,
                   "rate of the controller, Hz (1000)")
       ->check(finite);
+}
+
+// Adds the options about the simulator and the sensors.
+void AddPlantOptions(CLI::App* app, Overrides* o) {
+  const CLI::Validator finite(RefuseInfinite, "", "finite");
   app->add_option("--plant", o->plant, "simulator (" + PlantNames()[0] + ")")
       ->check(CLI::IsMember(PlantNames()));
   app->add_option("--plant-rate", o->plant_rate,
@@ -167,6 +176,15 @@ void AddOptions(CLI::App* app, Overrides* o) {
   app->add_option("--seed", o->seed,
                   "seed of all random numbers (from the scenario)")
       ->check(CLI::Validator(RefuseNoSeed, "", "seed"));
+}
+
+}  // namespace
+
+void AddOptions(CLI::App* app, Overrides* o) {
+  // This is the order of --help.
+  AddPushOptions(app, o);
+  AddControlOptions(app, o);
+  AddPlantOptions(app, o);
 }
 
 void Apply(const Overrides& o, Scenario* scenario) {
