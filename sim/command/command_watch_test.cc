@@ -42,18 +42,20 @@ TEST(CommandWatch, SeesThatTheMotionHappens) {
   EXPECT_TRUE(result.not_done.empty());
 }
 
-// The friction is larger than the torque of any motor.
+// The friction is larger than the torque of any motor. The sole of the foot that
+// is to be put down is on the ground all the time.
 TEST(CommandWatch, SeesThatFrictionHoldsTheRobot) {
-  Scenario scenario = OneLeg();
-  scenario.stance.resize(1);
-  scenario.duration = 2;
-  const RunResult result = poise::Run(WithFriction(2000), scenario);
+  const RunResult result = poise::Run(WithFriction(2000), OneLeg());
   EXPECT_FALSE(result.verdict.fell_at);
   EXPECT_EQ(result.commanded_done, false);
-  ASSERT_EQ(result.not_done.size(), 1u);
+  ASSERT_EQ(result.not_done.size(), 2u);
   EXPECT_EQ(result.not_done[0].rfind("shift to left_foot at 0.1 s: the CoM", 0),
             0u)
       << result.not_done[0];
+  EXPECT_EQ(
+      result.not_done[1].rfind("lift of right_foot at 1.4 s: the sole rose", 0),
+      0u)
+      << result.not_done[1];
 }
 
 // The compensation of the friction moves the robot.
