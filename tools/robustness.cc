@@ -1,12 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <deque>
-#include <future>
 #include <iostream>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "poise/robot/finding.h"
@@ -15,6 +12,7 @@
 #include "poise/tools/commands/user_path.h"
 #include "poise/tools/studies/robot_trials.h"
 #include "poise/tools/studies/robots_page.h"
+#include "poise/tools/studies/run_in_order.h"
 #include "poise/tools/studies/trials.h"
 
 namespace poise {
@@ -24,23 +22,16 @@ namespace {
 // impacts and is chaotic: rounding decides one push in a hundred.
 constexpr double kMissedSteps = 0.02;
 
-// Runs all trials, one per core at a time, and prints their rows in order.
-// Returns the number of trials that did not have the outcome that they must
-// have.
+// Runs all trials and prints their rows in order. Returns the number of trials
+// that did not have the outcome that they must have.
 int RunAll(const std::vector<Trial>& trials) {
-  const size_t cores = std::max(1u, std::thread::hardware_concurrency());
-  std::deque<std::future<TrialResult>> running;
   int missed = 0;
-  for (size_t i = 0, started = 0; i < trials.size(); ++i) {
-    for (; started < std::min(i + cores, trials.size()); ++started) {
-      running.push_back(
-          std::async(std::launch::async, Try, std::cref(trials[started])));
-    }
-    const TrialResult result = running.front().get();
-    running.pop_front();
-    std::cout << ToRow(trials[i], result) << std::endl;
-    if (!result.holds) ++missed;
-  }
+  RunInOrder(
+      trials.size(), [&](std::size_t i) { return Try(trials[i]); },
+      [&](std::size_t i, const TrialResult& result) {
+        std::cout << ToRow(trials[i], result) << std::endl;
+        if (!result.holds) ++missed;
+      });
   return missed;
 }
 

@@ -1,18 +1,16 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/studies/robot_trials.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <future>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include "poise/robot/control/stand.h"
+#include "poise/robot/feet/forward.h"
 #include "poise/robot/feet/sole_source.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/profile/find_profile.h"
@@ -26,6 +24,7 @@
 #include "poise/tools/commands/doctor/one_leg.h"
 #include "poise/tools/commands/parse_json.h"
 #include "poise/tools/commands/push/warnings.h"
+#include "poise/tools/studies/run_in_order.h"
 
 namespace poise {
 namespace {
@@ -51,18 +50,6 @@ std::vector<fs::path> UrdfFiles(const fs::path& folder) {
   }
   std::sort(files.begin(), files.end());
   return files;
-}
-
-// Returns the axis of the root link that is nearest to forward, "+x" to "-z".
-std::string ForwardAxis(const Robot& robot) {
-  const Tree& tree = robot.model.tree;
-  const Eigen::Quaterniond R_WB(robot.q_nominal.segment<4>(3));
-  const Eigen::Matrix3d R_WF =
-      R_WB.toRotationMatrix() * tree.frames()[robot.model.root_frame].X_BF.R;
-  const Eigen::Vector3d forward_F = R_WF.transpose().col(0);
-  int axis = 0;
-  forward_F.cwiseAbs().maxCoeff(&axis);
-  return std::string(forward_F[axis] < 0 ? "-" : "+") + "xyz"[axis];
 }
 
 // Returns where the soles come from. The worse of two origins counts.
@@ -273,19 +260,15 @@ std::vector<RobotTrial> RunRobots(
     throw std::invalid_argument("--only is " + Quoted(robots.only) +
                                 ", must be part of the name of a robot");
   }
-  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-  std::deque<std::future<RobotTrial>> running;
   std::vector<RobotTrial> trials;
-  for (std::size_t i = 0, started = 0; i < candidates.size(); ++i) {
-    for (; started < std::min(i + cores, candidates.size()); ++started) {
-      running.push_back(std::async(std::launch::async, &Candidate::Run,
-                                   &candidates[started], wanted[started]));
-    }
-    trials.push_back(running.front().get());
-    running.pop_front();
-    candidates[i].Warn(trials.back());
-    show(trials.back());
-  }
+  RunInOrder(
+      candidates.size(),
+      [&](std::size_t i) { return candidates[i].Run(wanted[i]); },
+      [&](std::size_t i, RobotTrial trial) {
+        trials.push_back(std::move(trial));
+        candidates[i].Warn(trials.back());
+        show(trials.back());
+      });
   return trials;
 }
 
