@@ -136,7 +136,8 @@ std::vector<Foot> FindFeet(const RobotModel& model,
   for (const int i : {0, 1}) {
     const int body = legs.feet[i];
     CheckMotors(model, legs.hips[i], body, findings);
-    soles[i] = FindSole(outlines[body], X_WB[body].R.row(2).transpose());
+    soles[i] =
+        FindSole(outlines[body], X_WB[body].R.row(2).transpose(), legs.length);
   }
   const Facing facing = FindFacing(model, legs, soles, X_WB, hints, findings);
   const Vector3d& forward = facing.forward_W;
