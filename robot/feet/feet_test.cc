@@ -312,6 +312,22 @@ TEST(FindFeet, WarnsOfASoleThatIsShortForTheLeg) {
   }
 }
 
+// The leg is 1 m long.
+TEST(FindFeet, WarnsOfASoleThatIsLargerThanTheLeg) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"0.99 0.1", ""},
+      {"1.01 0.1", "is 1.01 m long, longer than the leg (1 m)"},
+      {"0.2 1.01", "is 1.01 m wide, more than the length of the leg (1 m)"}};
+  for (const auto& [size, what] : cases) {
+    std::vector<Finding> findings;
+    Find(Biped(Collision("box size='" + size + " 0.02'", "0.01 0 -0.04"),
+               "0 0 0"),
+         &findings);
+    ASSERT_EQ(findings.size(), what.empty() ? 0u : 2u) << size;
+    for (const Finding& finding : findings) EXPECT_EQ(finding.what, what);
+  }
+}
+
 TEST(FindFeet, SaysWhereTheSoleComesFrom) {
   EXPECT_EQ(
       Find(Biped(Collision("box size='0.2 0.1 0.02'", "0 0 -0.04"), "0 0 0"))[0]

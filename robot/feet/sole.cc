@@ -100,6 +100,25 @@ double EstimateDepth(const RobotModel& model, int body, const Vector3d& up_B,
   return depth > 0 ? depth : 0.1 * leg;
 }
 
+// Returns the shapes of an outline as a text: "1 sphere, 3 mesh vertices".
+std::string ListOf(const Outline& outline) {
+  int spheres = 0, vertices = 0, points = 0;
+  for (const Outline::Corner& corner : outline.corners) {
+    ++(corner.is_mesh ? vertices : corner.radius > 0 ? spheres : points);
+  }
+  std::string list;
+  const auto add = [&](int count, const char* one, const char* many) {
+    if (count == 0) return;
+    list += (list.empty() ? "" : ", ") + std::to_string(count) +
+            (count == 1 ? one : many);
+  };
+  add(spheres, " sphere", " spheres");
+  add(vertices, " mesh vertex", " mesh vertices");
+  add(points, " corner of a box or cylinder",
+      " corners of boxes and cylinders");
+  return list;
+}
+
 }  // namespace
 
 Sole FindSole(const Outline& outline, const Vector3d& up_B, double leg) {
@@ -155,10 +174,18 @@ Sole EstimateSole(const RobotModel& model, int body, const Vector3d& up_B,
 }
 
 std::string WhyEstimated(const Outline& outline) {
-  return outline.mesh_refusal.empty()
-             ? "because the foot has no shape: give the sole in a profile"
-             : "because " + outline.mesh_refusal +
-                   ": give --package-path DIR, or the sole in a profile";
+  if (!outline.mesh_refusal.empty()) {
+    return "because " + outline.mesh_refusal +
+           (outline.mesh_is_missing
+                ? ": give --package-path DIR, or the sole in a profile"
+                : "; otherwise, give the sole in a profile");
+  }
+  const std::string remedy = ": give the sole in a profile";
+  if (outline.corners.empty()) {
+    return "because the foot has no shape" + remedy;
+  }
+  return "because the shapes of the foot have no flat underside (they are " +
+         ListOf(outline) + ")" + remedy;
 }
 
 Pose MakeSoleAxes(const Sole& sole, const Outline& outline,

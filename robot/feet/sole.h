@@ -45,8 +45,8 @@ Sole EstimateSole(const RobotModel& model, int body,
                   const Eigen::Vector3d& up_B, const Eigen::Vector3d& forward_B,
                   const Eigen::Vector3d& p_BA_B, double leg);
 
-/// Returns the reason for an estimate, as part of a warning: "the mesh of the
-/// foot 'a.stl' is missing, ...".
+/// Returns the reason for an estimate, as part of a warning: "because mesh
+/// a.stl: is missing, ...", or the shapes that have no flat underside.
 std::string WhyEstimated(const Outline& outline);
 
 /// Returns the pose of the sole frame S in the body. Its origin is the

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -223,6 +224,9 @@ TEST(FindSole, SaysThatASoleIsFromABox) {
 }
 
 TEST(MakeOutlines, SaysWhyAMeshGivesNoPoints) {
+  // These variables would add folders to the message.
+  unsetenv("ROS_PACKAGE_PATH");
+  unsetenv("AMENT_PREFIX_PATH");
   const Outline missing = OutlineOf(Leg(Collision("package://p/foot.stl")));
   EXPECT_TRUE(missing.corners.empty());
   const std::string folder =
@@ -236,10 +240,30 @@ TEST(MakeOutlines, SaysWhyAMeshGivesNoPoints) {
   TestFile("broken.stl", "solid\nnonsense");
   EXPECT_EQ(WhyEstimated(OutlineOf(Leg(Collision("broken.stl")))),
             "because mesh " + folder +
-                "/broken.stl:2: unknown word 'nonsense' in an STL file: give "
-                "--package-path DIR, or the sole in a profile");
+                "/broken.stl:2: unknown word 'nonsense' in an STL file; "
+                "otherwise, give the sole in a profile");
   EXPECT_EQ(WhyEstimated(OutlineOf(Leg(""))),
             "because the foot has no shape: give the sole in a profile");
+}
+
+TEST(WhyEstimated, NamesShapesWithoutAFlatUnderside) {
+  const auto reason = [](const std::string& shapes) {
+    const Outline outline = OutlineOf(Leg(shapes));
+    EXPECT_TRUE(FindSole(outline, Vector3d::UnitZ(), kLeg).points_B.empty());
+    return WhyEstimated(outline);
+  };
+  const std::string start =
+      "because the shapes of the foot have no flat underside (they are ";
+  const std::string end = "): give the sole in a profile";
+  const std::string sphere = ShapeAt("sphere radius='0.03'", {0, 0, 0});
+  EXPECT_EQ(reason(sphere), start + "1 sphere" + end);
+  // All vertices of this mesh are on one line.
+  TestFile("line.stl",
+           BinaryStl({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{{0, 1, 2}}}}));
+  EXPECT_EQ(reason(Collision("line.stl") + sphere + sphere),
+            start + "2 spheres, 3 mesh vertices" + end);
+  EXPECT_EQ(reason(ShapeAt("box size='0.2 0 0'", {0, 0, 0})),
+            start + "8 corners of boxes and cylinders" + end);
 }
 
 // The last body has too few joints above it, or too many bodies below it.

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "poise/robot/finding.h"
@@ -51,8 +53,20 @@ void Scale(const std::string& file, const Eigen::Vector3d& scale,
                     " m: correct the scale in the robot file");
 }
 
+// Throws if the file is what Git leaves in place of a large file.
+void CheckPointer(const std::filesystem::path& path) {
+  constexpr std::string_view kPointer = "version https://git-lfs.github.com/";
+  std::string start(kPointer.size(), '\0');
+  std::ifstream(path, std::ios::binary)
+      .read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start != kPointer) return;
+  throw Refusal(path.string(), 0,
+                "is a Git LFS pointer, fetch it with git lfs pull");
+}
+
 // Reads a file that exists, without its scale.
 TriangleMesh ReadFile(const std::filesystem::path& path, double seconds) {
+  CheckPointer(path);
   const std::string extension = Extension(path);
   if (extension == ".stl") {
     return ReadStl(ReadTextFile(path, kMostMib), path.string());
@@ -99,6 +113,10 @@ TriangleMesh MeshReader::Read(const Mesh& mesh) {
   TriangleMesh triangles = ReadFile(place.path, SecondsLeft());
   Scale(file, mesh.scale, &triangles);
   return triangles;
+}
+
+bool MeshReader::Finds(const Mesh& mesh) const {
+  return !FindMesh(places_, mesh.file).path.empty();
 }
 
 }  // namespace poise

@@ -25,6 +25,9 @@ class MeshReader {
   /// vertex is more than 10 m from the origin. The message is one line.
   TriangleMesh Read(const Mesh& mesh);
 
+  /// Returns whether a mesh's file exists, see FindMesh().
+  bool Finds(const Mesh& mesh) const;
+
  private:
   using Clock = std::chrono::steady_clock;
 
