@@ -149,8 +149,8 @@ TEST(RunChild, BoundsTheTimeOfEndlessOutputToTheStreams) {
 
 TEST(RunChild, GivesTheChildEmptyStreams) {
   EXPECT_EQ(RunShell("read line").code, 1);
-  RunShell("cd /proc/$$/fd; readlink 0 1 2 > " + Folder() + "/streams; exit 0");
-  std::ifstream streams(Folder() + "/streams; exit 0");
+  RunShell("cd /proc/$$/fd; readlink 0 1 2 | cat > " + Folder() + "/streams");
+  std::ifstream streams(Folder() + "/streams");
   for (int stream = 0; stream < 3; ++stream) {
     std::string target;
     streams >> target;

@@ -21,7 +21,8 @@ namespace {
 
 // A program may read the meshes twice, and the doctor takes less than 10 s.
 constexpr double kMostSeconds = 4;
-constexpr size_t kMostMib = 128;
+constexpr size_t kMostMib = 128;  // A file.
+constexpr size_t kMostMibInAll = 512;
 // Largest distance of a vertex from the origin, m. Links are smaller, but a
 // mesh in mm whose scale is missing is larger.
 constexpr double kFarthest = 10;
@@ -93,11 +94,16 @@ TriangleMesh MeshReader::Read(const Mesh& mesh) {
   const std::string file = place.path.string();
   std::error_code error;
   const auto size = std::filesystem::file_size(place.path, error);
-  if (!error) bytes_ += std::min<std::uintmax_t>(size, 2 * kMostMib << 20);
-  if (bytes_ > kMostMib << 20) {
+  if (!error && size > kMostMib << 20) {
+    throw Refusal(
+        file, 0,
+        "is not read: has more than " + std::to_string(kMostMib) + " MiB");
+  }
+  if (!error) bytes_ += size;
+  if (bytes_ > kMostMibInAll << 20) {
     throw Refusal(file, 0,
                   "is not read: the robot's meshes have more than " +
-                      std::to_string(kMostMib) + " MiB");
+                      std::to_string(kMostMibInAll) + " MiB");
   }
   if (SecondsLeft() <= 0) {
     throw Refusal(file, 0,

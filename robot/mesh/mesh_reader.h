@@ -9,8 +9,8 @@
 
 namespace poise {
 
-/// Reads the mesh files of one robot. All files together may have 128 MiB and
-/// take 4 s. The memory is below 1 GiB.
+/// Reads the mesh files of one robot. A file may have 128 MiB. All files
+/// together may have 512 MiB and take 4 s. The memory is below 1 GiB.
 class MeshReader {
  public:
   /// @param places  where the files are searched. Must live as long as the
