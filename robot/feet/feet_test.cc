@@ -291,10 +291,14 @@ TEST(FindFeet, NeedsFourMotorsAndWarnsBelowFive) {
   EXPECT_EQ(findings[0].severity, Severity::kWarn);
   EXPECT_EQ(findings[0].where.substr(0, 12), "leg of link ");
   EXPECT_EQ(findings[0].what, "has 4 motors");
-  EXPECT_EQ(Refusal(Biped(box, "0 0 0", range, 3)),
-            "robot 'biped': leg of link 'r6' has 3 motors (joints with an "
-            "effort above 0), must have at least 5, or 4 with a warning, to "
-            "lay a sole flat: give the feet in a profile");
+  // The same holds for feet without shapes, whose soles are estimated.
+  EXPECT_EQ(Refusal(Biped("", "0 0 0", range, 5)), "found");
+  for (const std::string& shapes : {box, std::string()}) {
+    EXPECT_EQ(Refusal(Biped(shapes, "0 0 0", range, 3)),
+              "robot 'biped': leg of link 'r6' has 3 motors (joints with an "
+              "effort above 0), must have at least 5, or 4 with a warning, to "
+              "lay a sole flat: give the feet in a profile");
+  }
 }
 
 // The leg is 1 m long.
