@@ -291,7 +291,7 @@ TEST(FindFeet, NeedsFourMotorsAndWarnsBelowFive) {
   EXPECT_EQ(findings[0].severity, Severity::kWarn);
   EXPECT_EQ(findings[0].where.substr(0, 12), "leg of link ");
   EXPECT_EQ(findings[0].what, "has 4 motors");
-  // The same holds for feet without shapes, whose soles are estimated.
+  // Feet without shapes have estimated soles, and need as many motors.
   EXPECT_EQ(Refusal(Biped("", "0 0 0", range, 5)), "found");
   for (const std::string& shapes : {box, std::string()}) {
     EXPECT_EQ(Refusal(Biped(shapes, "0 0 0", range, 3)),

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/studies/robot_trials.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "poise/robot/control/stand.h"
+#include "poise/robot/feet/forward.h"
 #include "poise/robot/feet/sole_source.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/profile/find_profile.h"
@@ -51,18 +51,6 @@ std::vector<fs::path> UrdfFiles(const fs::path& folder) {
   }
   std::sort(files.begin(), files.end());
   return files;
-}
-
-// Returns the axis of the root link that is nearest to forward, "+x" to "-z".
-std::string ForwardAxis(const Robot& robot) {
-  const Tree& tree = robot.model.tree;
-  const Eigen::Quaterniond R_WB(robot.q_nominal.segment<4>(3));
-  const Eigen::Matrix3d R_WF =
-      R_WB.toRotationMatrix() * tree.frames()[robot.model.root_frame].X_BF.R;
-  const Eigen::Vector3d forward_F = R_WF.transpose().col(0);
-  int axis = 0;
-  forward_F.cwiseAbs().maxCoeff(&axis);
-  return std::string(forward_F[axis] < 0 ? "-" : "+") + "xyz"[axis];
 }
 
 // Returns where the soles come from. The worse of two origins counts.
