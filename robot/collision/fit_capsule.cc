@@ -78,12 +78,14 @@ Capsule FitAlong(const Eigen::Matrix3d& R, const std::vector<Ball>& balls) {
       const double z = R.col(0).dot(balls[i].center);
       const double room = radius - balls[i].radius;
       const double off = (across[i] - circle.center).norm();
-      // A ball is inside if the segment has a point this near to its center.
+      // The ball is inside the capsule if and only if the segment has a point
+      // within `room` of its center. Along the segment, this is `reach`.
       const double reach = std::sqrt(std::max(room * room - off * off, 0.0));
       first = std::min(first, z + reach);
       last = std::max(last, z - reach);
     }
-    // Each point between `last` and `first` sees all balls: a sphere suffices.
+    // The segment may be a single point if each point from `last` to `first` is
+    // within reach of all balls.
     if (first > last) first = last = (first + last) / 2;
     const Vector3d base = R.rightCols<2>() * circle.center;
     const Capsule capsule{base + first * R.col(0), base + last * R.col(0),

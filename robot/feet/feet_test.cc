@@ -291,10 +291,14 @@ TEST(FindFeet, NeedsFourMotorsAndWarnsBelowFive) {
   EXPECT_EQ(findings[0].severity, Severity::kWarn);
   EXPECT_EQ(findings[0].where.substr(0, 12), "leg of link ");
   EXPECT_EQ(findings[0].what, "has 4 motors");
-  EXPECT_EQ(Refusal(Biped(box, "0 0 0", range, 3)),
-            "robot 'biped': leg of link 'r6' has 3 motors (joints with an "
-            "effort above 0), must have at least 5, or 4 with a warning, to "
-            "lay a sole flat: give the feet in a profile");
+  // Feet without shapes have estimated soles, and need as many motors.
+  EXPECT_EQ(Refusal(Biped("", "0 0 0", range, 5)), "found");
+  for (const std::string& shapes : {box, std::string()}) {
+    EXPECT_EQ(Refusal(Biped(shapes, "0 0 0", range, 3)),
+              "robot 'biped': leg of link 'r6' has 3 motors (joints with an "
+              "effort above 0), must have at least 5, or 4 with a warning, to "
+              "lay a sole flat: give the feet in a profile");
+  }
 }
 
 // The leg is 1 m long.
@@ -309,6 +313,22 @@ TEST(FindFeet, WarnsOfASoleThatIsShortForTheLeg) {
     if (findings.empty()) continue;
     EXPECT_EQ(findings[0].what,
               "is 0.099 m long, less than a tenth of the leg (1 m)");
+  }
+}
+
+// The leg is 1 m long.
+TEST(FindFeet, WarnsOfASoleThatIsLargerThanTheLeg) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"0.99 0.1", ""},
+      {"1.01 0.1", "is 1.01 m long, longer than the leg (1 m)"},
+      {"0.2 1.01", "is 1.01 m wide, more than the length of the leg (1 m)"}};
+  for (const auto& [size, what] : cases) {
+    std::vector<Finding> findings;
+    Find(Biped(Collision("box size='" + size + " 0.02'", "0.01 0 -0.04"),
+               "0 0 0"),
+         &findings);
+    ASSERT_EQ(findings.size(), what.empty() ? 0u : 2u) << size;
+    for (const Finding& finding : findings) EXPECT_EQ(finding.what, what);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "poise/robot/feet/legs.h"
 #include "poise/robot/feet/sole.h"
 #include "poise/robot/feet/sole_source.h"
+#include "poise/robot/feet/surrounding_rectangle.h"
 #include "poise/robot/limits.h"
 
 namespace poise {
@@ -28,7 +29,8 @@ using Eigen::Vector3d;
 // With four, the sole is flat only in some postures.
 constexpr int kEnoughMotors = 5;
 constexpr int kFewestMotors = 4;
-// A sole shorter than this part of the leg is suspect.
+// A sole shorter than this part of the leg is suspect, also one that is longer
+// than the leg.
 constexpr double kShortSole = 0.1;
 
 void Warn(std::vector<Finding>* findings, std::string where, std::string what,
@@ -102,18 +104,25 @@ Sole SoleWithoutShape(const RobotModel& model, int body, const Outline& outline,
   return sole;
 }
 
-// Warns if a sole is short, because the found part may be a heel or a bracket.
-void CheckLength(const RobotModel& model, const Foot& foot, double leg,
-                 std::vector<Finding>* findings) {
-  const auto [back, front] = std::minmax_element(
-      foot.polygon_C.begin(), foot.polygon_C.end(),
-      [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x(); });
-  const double length = front->x() - back->x();
-  if (length >= kShortSole * leg) return;
-  Warn(findings, "sole of link " + Quoted(LinkOf(model, foot.body)),
-       "is " + PrintNumber(length) + " m long, less than a tenth of the leg (" +
-           PrintNumber(leg) + " m)",
-       "the shapes may not be the sole: give the sole in a profile");
+// Warns if a sole is short, because the found part may be a heel or a bracket,
+// or if a sole is longer or wider than the leg is long.
+void CheckSize(const RobotModel& model, const Foot& foot, double leg,
+               std::vector<Finding>* findings) {
+  const TurnedRectangle sole = SurroundingRectangle(foot.polygon_C);
+  const auto warn = [&](const std::string& what) {
+    Warn(findings, "sole of link " + Quoted(LinkOf(model, foot.body)),
+         what + " the leg (" + PrintNumber(leg) + " m)",
+         "the shapes may not be the sole: give the sole in a profile");
+  };
+  const double length = 2 * sole.half_size.x();
+  const double width = 2 * sole.half_size.y();
+  if (length < kShortSole * leg) {
+    warn("is " + PrintNumber(length) + " m long, less than a tenth of");
+  }
+  if (length > leg) warn("is " + PrintNumber(length) + " m long, longer than");
+  if (width > leg) {
+    warn("is " + PrintNumber(width) + " m wide, more than the length of");
+  }
 }
 
 }  // namespace
@@ -136,7 +145,8 @@ std::vector<Foot> FindFeet(const RobotModel& model,
   for (const int i : {0, 1}) {
     const int body = legs.feet[i];
     CheckMotors(model, legs.hips[i], body, findings);
-    soles[i] = FindSole(outlines[body], X_WB[body].R.row(2).transpose());
+    soles[i] =
+        FindSole(outlines[body], X_WB[body].R.row(2).transpose(), legs.length);
   }
   const Facing facing = FindFacing(model, legs, soles, X_WB, hints, findings);
   const Vector3d& forward = facing.forward_W;
@@ -168,7 +178,7 @@ std::vector<Foot> FindFeet(const RobotModel& model,
                                   Quoted(LinkOf(model, body)));
     }
     foot->source = sole.source;
-    CheckLength(model, *foot, leg, findings);
+    CheckSize(model, *foot, leg, findings);
     feet.push_back(*std::move(foot));
   }
   return feet;

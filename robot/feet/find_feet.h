@@ -20,7 +20,7 @@ namespace poise {
 /// A sole is the flat underside of the body's collision shapes. If they give no
 /// point, its visual shapes are used. Meshes are opened, see MakeOutlines().
 /// FindSole() describes how the plane of the sole is chosen. A sole shorter
-/// than a tenth of the leg gets a warning.
+/// than a tenth of the leg, or longer than the leg, gets a warning.
 ///
 /// If a foot has only meshes that cannot be read, the sole is estimated from
 /// the height L of the hip above the foot's origin:

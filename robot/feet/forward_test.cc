@@ -29,7 +29,14 @@ struct Answer {
   std::string forward;  // The result of ForwardAxis().
   std::string left;     // Link of the left foot.
   std::string warning;  // About the forward direction.
+  Vector3d x_B;         // The x axis of the left contact frame, in the foot.
 };
+
+// Expects that the contact frames point along an axis, up to the precision of
+// the orientation at rest.
+void ExpectAlong(const Vector3d& axis, const Answer& answer) {
+  EXPECT_LT((answer.x_B - axis).norm(), 1e-7) << answer.x_B.transpose();
+}
 
 std::string TextOf(const Case& from) {
   const std::string sole =
@@ -49,7 +56,8 @@ Answer AnswerOf(const std::string& urdf, const FeetHints& hints = {}) {
   Robot robot{ParseUrdf(urdf, "test"), {}, {}, false};
   robot.feet = FindFeet(robot.model, &findings, hints);
   Answer answer{ForwardAxis(robot),
-                robot.model.tree.frames()[robot.feet[0].frame].name, ""};
+                robot.model.tree.frames()[robot.feet[0].frame].name, "",
+                robot.feet[0].X_BC.R.col(0)};
   for (const Finding& finding : findings) {
     if (finding.where != "forward direction") continue;
     answer.warning += finding.what + "; " + finding.why;
@@ -66,6 +74,7 @@ void ExpectIn(const std::string& text, const std::string& whole) {
 TEST(FindFacing, FollowsRep103IfNothingElseDecides) {
   const Answer answer = AnswerOf(Case{});
   EXPECT_EQ(answer.forward, "+x");
+  ExpectAlong(Vector3d::UnitX(), answer);
   EXPECT_EQ(answer.left, "p_f");
   EXPECT_EQ(answer.warning, "");
 }
@@ -117,11 +126,14 @@ TEST(FindFacing, FollowsToesOnlyIfTheyAreClear) {
   for (const double offset : {-0.0049, 0.0049, 0.0051, 0.03}) {
     const Answer answer = AnswerOf(Case{"p_", "q_", {0, 0.1, 0}, offset});
     EXPECT_EQ(answer.forward, "+x") << offset;
+    ExpectAlong(Vector3d::UnitX(), answer);
+    EXPECT_EQ(answer.left, "p_f");
     EXPECT_EQ(answer.warning, "") << offset;
   }
   const Answer turned = AnswerOf(Case{"p_", "q_", {0, 0.1, 0}, -0.0051});
   EXPECT_EQ(turned.forward, "-x");
   EXPECT_EQ(turned.left, "q_f");
+  ExpectAlong(-Vector3d::UnitX(), turned);
   ExpectIn("because the toes point there, but REP 103 says +x", turned.warning);
 }
 
@@ -161,6 +173,8 @@ TEST(FindFacing, FollowsKneesOnlyIfRep103DoesNotApply) {
     }
     const Answer answer = AnswerOf(turned);
     EXPECT_EQ(answer.forward, forward);
+    ExpectAlong(AxisOfName(forward).value(), answer);
+    EXPECT_EQ(answer.left, answer.forward == "+y" ? "q_f" : "p_f");
     ExpectIn("because the knees point there", answer.warning);
   }
 }
@@ -178,7 +192,10 @@ TEST(FindFacing, FollowsKneesThatAreBentAtRest) {
       }
       if (part.link.back() == 'e') part.xyz.y() = -0.1 * side;
     }
-    EXPECT_EQ(AnswerOf(UrdfOf(parts)).forward, side > 0 ? "+y" : "-y");
+    const Answer answer = AnswerOf(UrdfOf(parts));
+    EXPECT_EQ(answer.forward, side > 0 ? "+y" : "-y");
+    ExpectAlong(side * Vector3d::UnitY(), answer);
+    EXPECT_EQ(answer.left, side > 0 ? "q_f" : "p_f");
   }
 }
 

@@ -26,12 +26,14 @@ constexpr size_t kMostAxes = 64;
 // Adds the vertices of a mesh, each once.
 void AddMesh(const Shape& shape, const Pose& X_BS, MeshReader* reader,
              Outline* outline) {
+  const auto& file = std::get<Mesh>(shape.geometry);
   TriangleMesh mesh;
   try {
-    mesh = reader->Read(std::get<Mesh>(shape.geometry));
+    mesh = reader->Read(file);
   } catch (const Refusal& refusal) {
     if (outline->mesh_refusal.empty()) {
       outline->mesh_refusal = "mesh " + std::string(refusal.what());
+      outline->mesh_is_missing = !reader->Finds(file);
     }
     return;
   }

@@ -26,6 +26,7 @@ struct Outline {
   /// Why a mesh of the body gives no points: "mesh 'foot.stl' is missing, was
   /// searched in /robots". Empty if no mesh was refused.
   std::string mesh_refusal;
+  bool mesh_is_missing = false;  ///< The refused mesh was not found.
 };
 
 /// Returns the outline of each body of a robot. Only meshes of bodies that can

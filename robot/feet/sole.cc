@@ -17,11 +17,20 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A corner at most this far from a plane belongs to the plane, m. Drawings are
+// A height above a plane, m. A leg much shorter or longer than a human's bounds
+// the height, as fractions of the leg's length.
+struct Band {
+  double height, least, most;
+  double For(double leg) const {
+    return std::max(least * leg, std::min(height, most * leg));
+  }
+};
+
+// A corner at most this far above a plane belongs to the plane. Drawings are
 // often rounded to 1 mm.
-constexpr double kFlat = 2e-3;
-// A vertex of a mesh at most this far above the sole belongs to it, m.
-constexpr double kMeshBand = 6e-3;
+constexpr Band kFlat{2e-3, 0.002, 0.01};
+// A vertex of a mesh at most this far above the sole belongs to it.
+constexpr Band kMeshBand{6e-3, 0.006, 0.03};
 // Bounds for a sole in the configuration at rest, rad. kSteepest: angle between
 // the normal and the vertical. kMostTurned: angle between the x axis and the
 // forward direction.
@@ -47,8 +56,9 @@ double Area(const Sole& sole) {
 
 // Returns the sole in the lowest plane with this normal.
 //
+// @param flat       largest height of a corner above the plane, m.
 // @param mesh_band  largest height of a mesh's vertex above the plane, m.
-Sole SoleAlong(const Outline& outline, const Vector3d& normal,
+Sole SoleAlong(const Outline& outline, const Vector3d& normal, double flat,
                double mesh_band) {
   double height = std::numeric_limits<double>::infinity();
   for (const Outline::Corner& corner : outline.corners) {
@@ -58,7 +68,7 @@ Sole SoleAlong(const Outline& outline, const Vector3d& normal,
   sole.normal_B = normal;
   for (const Outline::Corner& corner : outline.corners) {
     const double above = normal.dot(corner.p_B) - height;
-    if (above - corner.radius > (corner.is_mesh ? mesh_band : kFlat)) continue;
+    if (above - corner.radius > (corner.is_mesh ? mesh_band : flat)) continue;
     if (corner.is_mesh) sole.source = SoleSource::kMesh;
     sole.frame = corner.frame;
     sole.points_B.push_back(corner.p_B - above * normal);
@@ -71,8 +81,9 @@ Sole SoleAlong(const Outline& outline, const Vector3d& normal,
 // link that carries the sole.
 double EstimateDepth(const RobotModel& model, int body, const Vector3d& up_B,
                      double leg, int* frame) {
-  // A link less than this below the body's origin is not at the sole, m.
-  constexpr double kNone = 0.01;
+  // A link less than this below the body's origin is not at the sole.
+  constexpr Band kNone{0.01, 0.01, 0.05};
+  const double none = kNone.For(leg);
   double depth = 0;
   for (int i = 0; i < static_cast<int>(model.tree.frames().size()); ++i) {
     const Frame& link = model.tree.frames()[i];
@@ -80,7 +91,7 @@ double EstimateDepth(const RobotModel& model, int body, const Vector3d& up_B,
     if (*frame < 0) *frame = i;
     const double below = -up_B.dot(link.X_BF.p);
     const bool is_sole = link.name.find("sole") != std::string::npos;
-    if (below > std::max(depth, kNone) || (is_sole && below > kNone)) {
+    if (below > std::max(depth, none) || (is_sole && below > none)) {
       depth = below;
       *frame = i;
       if (is_sole) return depth;
@@ -89,9 +100,29 @@ double EstimateDepth(const RobotModel& model, int body, const Vector3d& up_B,
   return depth > 0 ? depth : 0.1 * leg;
 }
 
+// Returns the shapes of an outline as a text: "1 sphere, 3 mesh vertices".
+std::string ListOf(const Outline& outline) {
+  int spheres = 0, vertices = 0, points = 0;
+  for (const Outline::Corner& corner : outline.corners) {
+    ++(corner.is_mesh ? vertices : corner.radius > 0 ? spheres : points);
+  }
+  std::string list;
+  const auto add = [&](int count, const char* one, const char* many) {
+    if (count == 0) return;
+    list += (list.empty() ? "" : ", ") + std::to_string(count) +
+            (count == 1 ? one : many);
+  };
+  add(spheres, " sphere", " spheres");
+  add(vertices, " mesh vertex", " mesh vertices");
+  add(points, " corner of a box or cylinder",
+      " corners of boxes and cylinders");
+  return list;
+}
+
 }  // namespace
 
-Sole FindSole(const Outline& outline, const Vector3d& up_B) {
+Sole FindSole(const Outline& outline, const Vector3d& up_B, double leg) {
+  const double flat = kFlat.For(leg);
   std::vector<Vector3d> normals;
   const auto add = [&](const Vector3d& axis) {
     const Vector3d normal = axis.dot(up_B) < 0 ? Vector3d(-axis) : axis;
@@ -106,14 +137,14 @@ Sole FindSole(const Outline& outline, const Vector3d& up_B) {
   if (const auto resting = RestingNormal(outline, up_B)) add(*resting);
   Sole best;
   for (const Vector3d& normal : normals) {
-    Sole sole = SoleAlong(outline, normal, kFlat);
+    Sole sole = SoleAlong(outline, normal, flat, flat);
     // The factor 1.01 prefers the first plane if areas are equal up to
     // rounding.
     if (sole.area > 1.01 * best.area) best = std::move(sole);
   }
-  if (best.area <= kFlat * kFlat) return {};
+  if (best.area <= flat * flat) return {};
   return best.source == SoleSource::kMesh
-             ? SoleAlong(outline, best.normal_B, kMeshBand)
+             ? SoleAlong(outline, best.normal_B, flat, kMeshBand.For(leg))
              : best;
 }
 
@@ -143,10 +174,18 @@ Sole EstimateSole(const RobotModel& model, int body, const Vector3d& up_B,
 }
 
 std::string WhyEstimated(const Outline& outline) {
-  return outline.mesh_refusal.empty()
-             ? "because the foot has no shape: give the sole in a profile"
-             : "because " + outline.mesh_refusal +
-                   ": give --package-path DIR, or the sole in a profile";
+  if (!outline.mesh_refusal.empty()) {
+    return "because " + outline.mesh_refusal +
+           (outline.mesh_is_missing
+                ? ": give --package-path DIR, or the sole in a profile"
+                : "; otherwise, give the sole in a profile");
+  }
+  const std::string remedy = ": give the sole in a profile";
+  if (outline.corners.empty()) {
+    return "because the foot has no shape" + remedy;
+  }
+  return "because the shapes of the foot have no flat underside (they are " +
+         ListOf(outline) + ")" + remedy;
 }
 
 Pose MakeSoleAxes(const Sole& sole, const Outline& outline,

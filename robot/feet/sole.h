@@ -29,8 +29,12 @@ struct Sole {
 ///
 /// The points of the result are projections onto the plane: of corners at most
 /// 2 mm above it, and of vertices of meshes at most 6 mm above it. Soles have
-/// rounded edges and profiles, and rubber is soft.
-Sole FindSole(const Outline& outline, const Eigen::Vector3d& up_B);
+/// rounded edges and profiles, and rubber is soft. With a leg below 0.2 m, the
+/// two bounds are 1 % and 3 % of the leg. With a leg above 1 m, they are 0.2 %
+/// and 0.6 % of the leg.
+///
+/// @param leg  the length of the leg, m.
+Sole FindSole(const Outline& outline, const Eigen::Vector3d& up_B, double leg);
 
 /// Estimates the sole of a foot whose meshes cannot be read, as FindFeet()
 /// describes.
@@ -41,8 +45,8 @@ Sole EstimateSole(const RobotModel& model, int body,
                   const Eigen::Vector3d& up_B, const Eigen::Vector3d& forward_B,
                   const Eigen::Vector3d& p_BA_B, double leg);
 
-/// Returns the reason for an estimate, as part of a warning: "the mesh of the
-/// foot 'a.stl' is missing, ...".
+/// Returns the reason for an estimate, as part of a warning: "because mesh
+/// a.stl: is missing, ...", or the shapes that have no flat underside.
 std::string WhyEstimated(const Outline& outline);
 
 /// Returns the pose of the sole frame S in the body. Its origin is the

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,9 @@
 
 #include "poise/dynamics/kinematics.h"
 #include "poise/math/rpy.h"
+#include "poise/robot/feet/find_feet.h"
+#include "poise/robot/feet/legs.h"
+#include "poise/robot/feet/parts_fixture.h"
 #include "poise/robot/feet/resting_normal.h"
 #include "poise/robot/limits.h"
 #include "poise/robot/urdf/urdf.h"
@@ -27,6 +31,8 @@ using Eigen::Vector3d;
 
 // Meshes have single precision, m.
 constexpr double kFloat = 1e-6;
+// The length of the leg of Leg(), m.
+constexpr double kLeg = 0.6;
 
 // Returns the URDF of one leg with three joints whose last link has the given
 // text, such as <collision>.
@@ -109,10 +115,57 @@ TEST(FindSole, TakesTheLowestSixMillimetersOfAMesh) {
   TestFile("foot.obj", Obj(MakeFootMesh()));
   for (const std::string file : {"foot.stl", "foot.obj"}) {
     for (const std::string& shape : {Collision(file), Visual(file)}) {
-      const Sole sole = FindSole(OutlineOf(Leg(shape)), Vector3d::UnitZ());
+      const Sole sole =
+          FindSole(OutlineOf(Leg(shape)), Vector3d::UnitZ(), kLeg);
       ExpectBounds(sole, {}, {-0.07, -0.05, -0.05}, {0.13, 0.05, -0.05},
                    kFloat);
       EXPECT_EQ(sole.source, SoleSource::kMesh);
+    }
+  }
+}
+
+// The pads are 1.5 mm below the rim, and the instep is 30 mm above the sole. So
+// at a tenth of its size, the instep is 3 mm above the sole.
+TEST(FindFeet, ScalesSolesWithTheRobot) {
+  const TriangleMesh foot =
+      Join({BoxMesh({-0.05f, -0.03f, -0.05f}, {0.11f, 0.03f, 0}),
+            BoxMesh({-0.07f, -0.05f, -0.0485f}, {0.13f, 0.05f, 0}),
+            BoxMesh({-0.12f, -0.1f, -0.02f}, {0.18f, 0.1f, 0.02f})});
+  TestFile("foot.stl", BinaryStl(foot));
+  for (const bool is_mesh : {true, false}) {
+    for (const double scale : {0.1, 0.3, 1., 3.}) {
+      SCOPED_TRACE(scale);
+      const std::string s = std::to_string(scale);
+      // The corners of a second box are also 1.5 mm above the sole.
+      const auto box = [&](double x, double y, double z) {
+        return "box size='" + Numbers(scale * Vector3d(x, y, z)) + "'";
+      };
+      const std::string shape =
+          is_mesh ? ShapeAt("mesh filename='foot.stl' scale='" + s + " " + s +
+                                " " + s + "'",
+                            {0, 0, 0})
+                  : ShapeAt(box(0.16, 0.06, 0.05),
+                            scale * Vector3d(0.03, 0, -0.025)) +
+                        ShapeAt(box(0.2, 0.1, 0.0485),
+                                scale * Vector3d(0.03, 0, -0.02425)) +
+                        ShapeAt(box(0.3, 0.2, 0.02),
+                                scale * Vector3d(0.03, 0, -0.01));
+      const auto parts =
+          Joined({MakeLeg({"p_", {0, 0.1 * scale, 0}, 0.8 * scale, shape}),
+                  MakeLeg({"q_", {0, -0.1 * scale, 0}, 0.8 * scale, shape})});
+      const auto feet =
+          FindFeet(LoadUrdf(TestFile("scaled.urdf", UrdfOf(parts))));
+      for (const Foot& f : feet) {
+        Eigen::AlignedBox3d sole;
+        for (const auto& p : f.polygon_C) {
+          sole.extend(f.X_BC * Vector3d(p.x(), p.y(), 0));
+        }
+        // Meshes have single precision.
+        EXPECT_LT((sole.min() / scale - Vector3d(-0.07, -0.05, -0.05)).norm(),
+                  kFloat);
+        EXPECT_LT((sole.max() / scale - Vector3d(0.13, 0.05, -0.05)).norm(),
+                  kFloat);
+      }
     }
   }
 }
@@ -127,7 +180,7 @@ TEST(FindSole, PlacesAMeshByItsOriginAndScale) {
       Geometry("<mesh filename='mm.stl' scale='0.001 0.001 0.001'/>",
                "xyz='0.01 0.02 0.03' rpy='0 0 1.5707963267948966'") +
       "</collision>";
-  ExpectBounds(FindSole(OutlineOf(Leg(shape)), Vector3d::UnitZ()), {},
+  ExpectBounds(FindSole(OutlineOf(Leg(shape)), Vector3d::UnitZ(), kLeg), {},
                {-0.04, -0.05, -0.02}, {0.06, 0.15, -0.02}, kFloat);
 }
 
@@ -140,8 +193,8 @@ TEST(FindSole, FindsTheSoleOfAMeshThatIsDrawnTilted) {
   TriangleMesh tilted = MakeFootMesh();
   for (Eigen::Vector3f& p : tilted.vertices) p = R.cast<float>() * p;
   TestFile("tilted.stl", BinaryStl(tilted));
-  const Sole sole =
-      FindSole(OutlineOf(Leg(Collision("tilted.stl"))), Vector3d::UnitZ());
+  const Sole sole = FindSole(OutlineOf(Leg(Collision("tilted.stl"))),
+                             Vector3d::UnitZ(), kLeg);
   EXPECT_LT((sole.normal_B - R.col(2)).norm(), 1e-4);  // 0.02 mm of 0.2 m.
   ExpectBounds(sole, {R, Vector3d::Zero()}, {-0.07, -0.05, -0.05},
                {0.13, 0.05, -0.05}, 1e-4);
@@ -153,11 +206,11 @@ TEST(FindSole, PrefersTheCollisionMeshAndFallsBackOnTheVisualMesh) {
   TestFile("broken.stl", "solid\nnonsense");
   ExpectBounds(
       FindSole(OutlineOf(Leg(Visual("foot.stl") + Collision("small.stl"))),
-               Vector3d::UnitZ()),
+               Vector3d::UnitZ(), kLeg),
       {}, {0, 0, -0.1}, {0.1, 0.05, -0.1}, kFloat);
   for (const std::string file : {"missing.stl", "broken.stl"}) {
     ExpectBounds(FindSole(OutlineOf(Leg(Visual("foot.stl") + Collision(file))),
-                          Vector3d::UnitZ()),
+                          Vector3d::UnitZ(), kLeg),
                  {}, {-0.07, -0.05, -0.05}, {0.13, 0.05, -0.05}, kFloat);
   }
 }
@@ -166,11 +219,14 @@ TEST(FindSole, SaysThatASoleIsFromABox) {
   const std::string box =
       "<collision>" + Geometry("<box size='0.2 0.1 0.02'/>", "xyz='0 0 0'") +
       "</collision>";
-  EXPECT_EQ(FindSole(OutlineOf(Leg(box)), Vector3d::UnitZ()).source,
+  EXPECT_EQ(FindSole(OutlineOf(Leg(box)), Vector3d::UnitZ(), kLeg).source,
             SoleSource::kBox);
 }
 
 TEST(MakeOutlines, SaysWhyAMeshGivesNoPoints) {
+  // These variables would add folders to the message.
+  unsetenv("ROS_PACKAGE_PATH");
+  unsetenv("AMENT_PREFIX_PATH");
   const Outline missing = OutlineOf(Leg(Collision("package://p/foot.stl")));
   EXPECT_TRUE(missing.corners.empty());
   const std::string folder =
@@ -184,10 +240,30 @@ TEST(MakeOutlines, SaysWhyAMeshGivesNoPoints) {
   TestFile("broken.stl", "solid\nnonsense");
   EXPECT_EQ(WhyEstimated(OutlineOf(Leg(Collision("broken.stl")))),
             "because mesh " + folder +
-                "/broken.stl:2: unknown word 'nonsense' in an STL file: give "
-                "--package-path DIR, or the sole in a profile");
+                "/broken.stl:2: unknown word 'nonsense' in an STL file; "
+                "otherwise, give the sole in a profile");
   EXPECT_EQ(WhyEstimated(OutlineOf(Leg(""))),
             "because the foot has no shape: give the sole in a profile");
+}
+
+TEST(WhyEstimated, NamesShapesWithoutAFlatUnderside) {
+  const auto reason = [](const std::string& shapes) {
+    const Outline outline = OutlineOf(Leg(shapes));
+    EXPECT_TRUE(FindSole(outline, Vector3d::UnitZ(), kLeg).points_B.empty());
+    return WhyEstimated(outline);
+  };
+  const std::string start =
+      "because the shapes of the foot have no flat underside (they are ";
+  const std::string end = "): give the sole in a profile";
+  const std::string sphere = ShapeAt("sphere radius='0.03'", {0, 0, 0});
+  EXPECT_EQ(reason(sphere), start + "1 sphere" + end);
+  // All vertices of this mesh are on one line.
+  TestFile("line.stl",
+           BinaryStl({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{{0, 1, 2}}}}));
+  EXPECT_EQ(reason(Collision("line.stl") + sphere + sphere),
+            start + "2 spheres, 3 mesh vertices" + end);
+  EXPECT_EQ(reason(ShapeAt("box size='0.2 0 0'", {0, 0, 0})),
+            start + "8 corners of boxes and cylinders" + end);
 }
 
 // The last body has too few joints above it, or too many bodies below it.
@@ -272,7 +348,8 @@ TEST(FindSole, AgreesWithMeasuredSoles) {
       const Vector3d half(0.5 * foot["size"][0].get<double>(),
                           0.5 * foot["size"][1].get<double>(), 0);
       const Sole sole =
-          FindSole(outlines[frame.body], X_WB[frame.body].R.row(2).transpose());
+          FindSole(outlines[frame.body], X_WB[frame.body].R.row(2).transpose(),
+                   FindLegs(model, outlines).length);
       ExpectBounds(sole, X_BS, -half, half, kMeasured);
       EXPECT_EQ(sole.source, SoleSource::kMesh);
       ++compared;

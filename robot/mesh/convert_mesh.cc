@@ -8,7 +8,11 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <csignal>
 #include <fstream>
+#include <string>
+#include <system_error>
 
 #include "poise/robot/finding.h"
 #include "poise/robot/mesh/child_process.h"
@@ -62,6 +66,36 @@ void UndoUpAxis(const std::filesystem::path& file, TriangleMesh* mesh) {
   }
 }
 
+// Returns how the child process failed, or "" if it did not.
+std::string DescribeFailure(const ChildEnd& end, double seconds) {
+  switch (end.kind) {
+    case ChildEnd::Kind::kNotStarted:
+      return end.code == ENOENT
+                 ? "needs the command assimp, which is not installed: install "
+                   "the package assimp-utils, or convert the mesh to STL"
+                 : "needs the command assimp, which cannot be started (" +
+                       std::generic_category().message(end.code) +
+                       "): convert the mesh to STL";
+    case ChildEnd::Kind::kTooSlow:
+      return "takes assimp more than " + PrintNumber(seconds) + " s";
+    case ChildEnd::Kind::kUnknown:
+      return "cannot be converted: the exit code of assimp is lost, because "
+             "this program ignores SIGCHLD";
+    case ChildEnd::Kind::kSignal:
+      if (end.code == SIGXFSZ) {
+        return "becomes more than " + std::to_string(kMostOutputMib) +
+               " MiB of triangles";
+      }
+      return "crashes assimp (signal " + std::to_string(end.code) +
+             "), or needs more than 1 GiB";
+    case ChildEnd::Kind::kExited:
+      break;
+  }
+  if (end.code == 0) return "";
+  return "cannot be read by assimp (exit code " + std::to_string(end.code) +
+         ")";
+}
+
 }  // namespace
 
 TriangleMesh ConvertMesh(const std::filesystem::path& file, double seconds) {
@@ -74,25 +108,9 @@ TriangleMesh ConvertMesh(const std::filesystem::path& file, double seconds) {
       RunChild({"assimp", "export", std::filesystem::absolute(file).string(),
                 out.path(), "-fstlb"},
                {seconds, kMostMib << 20, kMostOutputMib << 20});
-  switch (end.kind) {
-    case ChildEnd::Kind::kNotStarted:
-      refuse(
-          "needs the command assimp, which is not installed: install the "
-          "package assimp-utils, or convert the mesh to STL");
-      break;
-    case ChildEnd::Kind::kTooSlow:
-      refuse("takes assimp more than " + PrintNumber(seconds) + " s");
-      break;
-    case ChildEnd::Kind::kSignal:
-      refuse("crashes assimp (signal " + std::to_string(end.code) +
-             "), or needs more than 1 GiB");
-      break;
-    case ChildEnd::Kind::kExited:
-      if (end.code != 0) {
-        refuse("cannot be read by assimp (exit code " +
-               std::to_string(end.code) + ")");
-      }
-      break;
+  if (const std::string failure = DescribeFailure(end, seconds);
+      !failure.empty()) {
+    refuse(failure);
   }
   TriangleMesh mesh;
   try {

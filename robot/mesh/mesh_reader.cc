@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "poise/robot/finding.h"
@@ -19,7 +21,8 @@ namespace {
 
 // A program may read the meshes twice, and the doctor takes less than 10 s.
 constexpr double kMostSeconds = 4;
-constexpr size_t kMostMib = 128;
+constexpr size_t kMostMib = 128;  // A file.
+constexpr size_t kMostMibInAll = 512;
 // Largest distance of a vertex from the origin, m. Links are smaller, but a
 // mesh in mm whose scale is missing is larger.
 constexpr double kFarthest = 10;
@@ -51,8 +54,20 @@ void Scale(const std::string& file, const Eigen::Vector3d& scale,
                     " m: correct the scale in the robot file");
 }
 
+// Throws if the file is what Git leaves in place of a large file.
+void CheckPointer(const std::filesystem::path& path) {
+  constexpr std::string_view kPointer = "version https://git-lfs.github.com/";
+  std::string start(kPointer.size(), '\0');
+  std::ifstream(path, std::ios::binary)
+      .read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start != kPointer) return;
+  throw Refusal(path.string(), 0,
+                "is a Git LFS pointer, fetch it with git lfs pull");
+}
+
 // Reads a file that exists, without its scale.
 TriangleMesh ReadFile(const std::filesystem::path& path, double seconds) {
+  CheckPointer(path);
   const std::string extension = Extension(path);
   if (extension == ".stl") {
     return ReadStl(ReadTextFile(path, kMostMib), path.string());
@@ -79,11 +94,16 @@ TriangleMesh MeshReader::Read(const Mesh& mesh) {
   const std::string file = place.path.string();
   std::error_code error;
   const auto size = std::filesystem::file_size(place.path, error);
-  if (!error) bytes_ += std::min<std::uintmax_t>(size, 2 * kMostMib << 20);
-  if (bytes_ > kMostMib << 20) {
+  if (!error && size > kMostMib << 20) {
+    throw Refusal(
+        file, 0,
+        "is not read: has more than " + std::to_string(kMostMib) + " MiB");
+  }
+  if (!error) bytes_ += size;
+  if (bytes_ > kMostMibInAll << 20) {
     throw Refusal(file, 0,
                   "is not read: the robot's meshes have more than " +
-                      std::to_string(kMostMib) + " MiB");
+                      std::to_string(kMostMibInAll) + " MiB");
   }
   if (SecondsLeft() <= 0) {
     throw Refusal(file, 0,
@@ -99,6 +119,10 @@ TriangleMesh MeshReader::Read(const Mesh& mesh) {
   TriangleMesh triangles = ReadFile(place.path, SecondsLeft());
   Scale(file, mesh.scale, &triangles);
   return triangles;
+}
+
+bool MeshReader::Finds(const Mesh& mesh) const {
+  return !FindMesh(places_, mesh.file).path.empty();
 }
 
 }  // namespace poise

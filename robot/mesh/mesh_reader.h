@@ -9,8 +9,8 @@
 
 namespace poise {
 
-/// Reads the mesh files of one robot. All files together may have 128 MiB and
-/// take 4 s. The memory is below 1 GiB.
+/// Reads the mesh files of one robot. A file may have 128 MiB. All files
+/// together may have 512 MiB and take 4 s. The memory is below 1 GiB.
 class MeshReader {
  public:
   /// @param places  where the files are searched. Must live as long as the
@@ -24,6 +24,9 @@ class MeshReader {
   /// Throws Refusal if the file is missing, invalid or too large, or if a
   /// vertex is more than 10 m from the origin. The message is one line.
   TriangleMesh Read(const Mesh& mesh);
+
+  /// Returns whether a mesh's file exists, see FindMesh().
+  bool Finds(const Mesh& mesh) const;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -126,9 +126,6 @@ TEST(MeshReader, RefusesHostileFilesInOneLine) {
       {"far_index.obj", "v 1 2 3\nf 1 2 -9223372036854775808\n"},
       {"endless_line.obj", "v 1 2 " + std::string(1 << 20, '9')},
       {"html.stl", "<!DOCTYPE html><html>404: not found</html>"},
-      {"lfs.stl",
-       "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize "
-       "12345\n"},
       {"deep.dae", "<COLLADA>" +
                        [] {
                          std::string deep;
@@ -141,6 +138,15 @@ TEST(MeshReader, RefusesHostileFilesInOneLine) {
     EXPECT_EQ(message.find(name + ":"), 0u) << name << ": " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     EXPECT_LT(message.size(), 200u) << message;
+  }
+}
+
+TEST(MeshReader, NamesAGitLfsPointer) {
+  const std::string pointer =
+      "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12345\n";
+  for (const std::string name : {"a.stl", "a.obj", "a.dae", "a.glb"}) {
+    EXPECT_EQ(RefusalOf(name, pointer),
+              name + ": is a Git LFS pointer, fetch it with git lfs pull");
   }
 }
 
@@ -158,14 +164,16 @@ TEST(MeshReader, RefusesWhatIsNoFile) {
               0u)
         << message;
   }
-  // A regular file whose first byte cannot be read.
-  EXPECT_EQ(Refusal("/proc/self/mem"),
-            HasAssimp() ? "/proc/self/mem: cannot be read by assimp (exit "
-                          "code 10)"
-                        : Refusal("/proc/self/mem"));
+  // The first byte of this regular file cannot be read.
   std::filesystem::remove(folder / "memory.stl");
   std::filesystem::create_symlink("/proc/self/mem", folder / "memory.stl");
   EXPECT_EQ(Refusal("memory.stl"), "memory.stl: cannot be read");
+}
+
+TEST(MeshReader, SaysThatAssimpCannotReadAFile) {
+  if (!HasAssimp()) GTEST_SKIP() << "the command assimp is not installed";
+  EXPECT_EQ(Refusal("/proc/self/mem"),
+            "/proc/self/mem: cannot be read by assimp (exit code 10)");
 }
 
 TEST(MeshReader, RefusesAMeshThatIsTooLarge) {
@@ -185,21 +193,22 @@ TEST(MeshReader, BoundsTheSizeOfAFileAndOfAllFiles) {
   const std::filesystem::path file = TestFile("large.stl", "solid");
   std::filesystem::resize_file(file, size_t{200} << 20);
   EXPECT_EQ(Refusal("large.stl"),
-            "large.stl: is not read: the robot's meshes have more than 128 "
-            "MiB");
-  std::filesystem::resize_file(file, size_t{50} << 20);
+            "large.stl: is not read: has more than 128 MiB");
+  std::filesystem::resize_file(file, size_t{120} << 20);
   MeshReader reader(places);
   std::vector<std::string> messages;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 5; ++i) {
     try {
       reader.Read({"large.stl", kUnit});
     } catch (const std::invalid_argument& error) {
       messages.push_back(error.what());
     }
   }
-  ASSERT_EQ(messages.size(), 3u);
-  EXPECT_EQ(messages[1].find("is not read"), std::string::npos);
-  EXPECT_NE(messages[2].find("is not read"), std::string::npos);
+  ASSERT_EQ(messages.size(), 5u);
+  EXPECT_EQ(messages[3].find("is not read"), std::string::npos);
+  EXPECT_NE(messages[4].find("is not read: the robot's meshes have more than "
+                             "512 MiB"),
+            std::string::npos);
   std::filesystem::remove(file);
 }
 

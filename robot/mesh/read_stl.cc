@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/robot/mesh/read_stl.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -29,6 +30,15 @@ float FloatAt(const char* bytes) {
   float value = 0;
   std::memcpy(&value, &bits, sizeof value);
   return value;
+}
+
+// Returns whether a word is `lower`, in any case of its letters.
+bool Is(std::string_view word, std::string_view lower) {
+  const auto same = [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
+  };
+  return word.size() == lower.size() &&
+         std::equal(word.begin(), word.end(), lower.begin(), same);
 }
 
 // Adds the triangle of the last three vertices.
@@ -76,19 +86,20 @@ TriangleMesh ReadText(std::string_view text, const std::string& source) {
   MeshWords words(text, source);
   size_t corners = 0;  // Corners of the current facet.
   while (const auto word = words.Next()) {
-    if (*word == "vertex") {
+    if (Is(*word, "vertex")) {
       const float x = words.NextNumber(), y = words.NextNumber();
       mesh.vertices.emplace_back(x, y, words.NextNumber());
       if (++corners == 3) AddTriangle(&mesh);
       if (corners > 3) words.Refuse("a facet has more than 3 vertices");
-    } else if (*word == "facet") {
+    } else if (Is(*word, "facet")) {
       corners = 0;
       words.SkipLine();  // The normal.
-    } else if (*word == "endfacet") {
+    } else if (Is(*word, "endfacet")) {
       if (corners != 3) words.Refuse("a facet has fewer than 3 vertices");
-    } else if (*word == "solid" || *word == "endsolid") {
+    } else if (Is(*word, "solid") || Is(*word, "endsolid")) {
       words.SkipLine();  // A name, which may be any text.
-    } else if (*word != "outer" && *word != "loop" && *word != "endloop") {
+    } else if (!Is(*word, "outer") && !Is(*word, "loop") &&
+               !Is(*word, "endloop")) {
       words.Refuse("unknown word " + Quoted(*word) + " in an STL file");
     }
   }
@@ -106,11 +117,21 @@ TriangleMesh ReadStl(std::string_view bytes, const std::string& source) {
       bytes.size() >= kStart &&
       bytes.size() ==
           kStart + kTriangle * size_t{LittleEndian(bytes.data() + kHeader)};
-  const size_t start = bytes.find_first_not_of(" \t\r\n");
+  if (has_count) return ReadBinary(bytes, source);
+  for (const std::string_view mark : {"\xff\xfe", "\xfe\xff"}) {
+    if (bytes.substr(0, 2) != mark) continue;
+    throw Refusal(source, 0, "is a text in UTF-16, must be ASCII or UTF-8");
+  }
+  std::string_view text = bytes;
+  const std::string_view mark = "\xef\xbb\xbf";  // Byte order mark of UTF-8.
+  if (text.substr(0, mark.size()) == mark) text.remove_prefix(mark.size());
+  const size_t start = text.find_first_not_of(" \t\r\n");
   const bool says_solid =
-      start != std::string_view::npos && bytes.substr(start, 5) == "solid";
-  return has_count || !says_solid ? ReadBinary(bytes, source)
-                                  : ReadText(bytes, source);
+      start != std::string_view::npos && Is(text.substr(start, 5), "solid");
+  // A binary file has zeros in its header or its count.
+  const bool is_text =
+      says_solid && text.substr(0, kStart).find('\0') == std::string_view::npos;
+  return is_text ? ReadText(text, source) : ReadBinary(bytes, source);
 }
 
 }  // namespace poise

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <stdexcept>
 #include <string>
 
@@ -61,6 +62,22 @@ TEST(ReadStl, AcceptsAnyLineBreakAndAnyName) {
   }
   ExpectBox(ReadStl(text, "a.stl"));
   ExpectBox(ReadStl(other, "a.stl"));
+}
+
+TEST(ReadStl, AcceptsCapitalLettersAndAByteOrderMark) {
+  std::string text = TextStl(SomeBox());
+  ExpectBox(ReadStl("\xef\xbb\xbf" + text, "a.stl"));
+  for (char& c : text) c = static_cast<char>(std::toupper(c));
+  ExpectBox(ReadStl(text, "a.stl"));
+  ExpectBox(ReadStl("\xef\xbb\xbf" + text, "a.stl"));
+  EXPECT_EQ(Refusal(std::string("\xff\xfes\0o\0l\0i\0d\0", 12)),
+            "a.stl: is a text in UTF-16, must be ASCII or UTF-8");
+}
+
+TEST(ReadStl, ReadsABinaryFileThatBeginsWithSolidAndHasAnAppendix) {
+  for (const char* header : {"solid foot", "SOLID"}) {
+    ExpectBox(ReadStl(BinaryStl(SomeBox(), header) + "appendix", "a.stl"));
+  }
 }
 
 TEST(ReadStl, ReportsWhatIsWrong) {

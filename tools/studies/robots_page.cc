@@ -88,8 +88,8 @@ void DrawPicture(const Robot& robot, const std::filesystem::path& stem) {
 std::string RobotsHead(bool pictures) {
   const std::string first = pictures ? "| | robot |" : "| robot |";
   return first +
-         " soles from | stands | pushed to 0, 90, 180, 270 deg | one_leg | as "
-         "expected |\n" +
+         " soles from | stands | pushed forward, left, back, right | on "
+         "one leg | as expected |\n" +
          (pictures ? "| --- " : "") + "| --- | --- | --- | --- | --- | --- |";
 }
 
@@ -159,18 +159,26 @@ void WriteRobotsPage(const std::vector<RobotTrial>& trials,
   }
   const std::filesystem::path file = folder / "robots.md";
   std::ofstream page(file);
-  page
-      << "# Robots of others\n\nWritten by\n\n"
-         "    bazel run //tools:robustness -- --robots DIR "
-         "--package-path DIR/packages --out docs/generated\n\n"
-         "for a folder of URDF files. Each robot stands for 10 s, after a drop "
-         "with disturbed arms and trunk. It is\nthen pushed at the torso to "
-         "four sides for 0.1 s by 40 % of `lipm_height_Ns`, the impulse that a "
-         "pendulum on\nits feet recovers from. Last it does the scenario "
-         "`one_leg`. Lengths are the largest horizontal errors of the\ncenter "
-         "of mass. A robot uses the profile of its name beside the file, else "
-         "one of `robot/profiles`, else what\nPoise finds. `EXPECTED.json` in "
-         "the folder says what a robot must do.\n\n";
+  page << "# Robots of others\n\nWritten by\n\n"
+          "    bazel run //tools:robustness -- --robots DIR "
+          "--package-path DIR/packages --out docs/generated\n\n"
+          "for a folder of URDF files. The columns:\n\n"
+          "- *soles from*: a `profile` gives them, or Poise finds them in a "
+          "`box` or another simple shape, or in a `mesh`;\n  a `guess` is an "
+          "estimate, because the foot has no such shape. A robot uses the "
+          "profile of its name beside the\n  file, else one of "
+          "`robot/profiles`, else Poise finds the feet.\n"
+          "- *stands*: the robot stands for 10 s, after a drop with disturbed "
+          "arms and trunk.\n"
+          "- *pushed*: the torso is pushed for 0.1 s. The impulse is 40 % of "
+          "`lipm_height_Ns`, from which an inverted\n  pendulum with the same "
+          "mass, height and soles just recovers.\n"
+          "- *on one leg*: the scenario `one_leg`. If the robot cannot do it, "
+          "the reason is in brackets.\n"
+          "- *as expected*: `EXPECTED.json` in the folder says what the robot "
+          "must do. Some robots must fall or be refused.\n\n"
+          "A length is the largest horizontal error of the center of mass in "
+          "a run without a fall, rounded to 1 mm.\n\n";
   page << RobotsHead(true) << '\n';
   std::size_t kept = 0;
   for (const RobotTrial& trial : trials) {

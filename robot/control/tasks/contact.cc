@@ -45,9 +45,12 @@ ContactTask::ContactTask(const RobotModel& model, const std::vector<Foot>& feet)
                 {"vy", "m/s2", "the motion of the % on the ground along y"},
                 {"vz", "m/s2", "the motion of the % on the ground along z"}}),
            LoopRows(feet)),
+      num_feet_(static_cast<int>(feet.size())),
       gravity_(model.tree.gravity_W().norm()) {
-  for (size_t i = 1; i < feet.size(); ++i) {
-    loops_.emplace_back(model, feet.front().body, feet[i].body);
+  for (size_t i = 0; i < feet.size(); ++i) {
+    for (size_t k = i + 1; k < feet.size(); ++k) {
+      loops_.emplace_back(model, feet[i].body, feet[k].body);
+    }
   }
   AddParameter("kp", &kp_, 0, 1e4);
   AddParameter("kd", &kd_, 0, 1e3);
@@ -55,6 +58,7 @@ ContactTask::ContactTask(const RobotModel& model, const std::vector<Foot>& feet)
 
 void ContactTask::Write(const TaskInput& input, EqualityBlock* equalities,
                         InequalityBlock* inequalities) const noexcept {
+  int first = -1;  // The first foot in contact.
   for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
     const ContactTick& contact = input.contacts[i];
     if (!contact.in_contact) continue;
@@ -69,25 +73,33 @@ void ContactTask::Write(const TaskInput& input, EqualityBlock* equalities,
     equalities->B.block(6 * i, 0, 6, nv) = contact.J_WC_C;
     equalities->b.segment<6>(6 * i) =
         contact.Jdot_v_C + kd_ * contact.V_WC_C - kp_ * e_C;
-    if (i == 0 || !input.contacts[0].in_contact) continue;
+    if (first < 0) {
+      first = i;
+      continue;
+    }
     LockedMotions locked;
-    loops_[i - 1].FindLocked(input.contacts[0], contact, &locked);
-    LeaveOutLocked(locked, i, equalities, inequalities);
+    LoopOf(first, i).FindLocked(input.contacts[first], contact, &locked);
+    LeaveOutLocked(locked, first, i, equalities, inequalities);
   }
+}
+
+const LoopClosure& ContactTask::LoopOf(int first, int second) const noexcept {
+  const int before = first * (2 * num_feet_ - first - 1) / 2;
+  return loops_[before + second - first - 1];
 }
 
 // Projects the rows of the first foot A and of foot B to those without n,
 //     B <- B - metric n (n' B),
 // and writes the rows of n as bounded ones.
-void ContactTask::LeaveOutLocked(const LockedMotions& locked, int foot,
-                                 EqualityBlock* equalities,
+void ContactTask::LeaveOutLocked(const LockedMotions& locked, int first,
+                                 int second, EqualityBlock* equalities,
                                  InequalityBlock* inequalities) const noexcept {
-  auto B_A = equalities->B.topRows<6>();
-  auto B_B = equalities->B.middleRows<6>(6 * foot);
-  auto b_A = equalities->b.head<6>();
-  auto b_B = equalities->b.segment<6>(6 * foot);
+  auto B_A = equalities->B.middleRows<6>(6 * first);
+  auto B_B = equalities->B.middleRows<6>(6 * second);
+  auto b_A = equalities->b.segment<6>(6 * first);
+  auto b_B = equalities->b.segment<6>(6 * second);
   for (int k = 0; k < locked.count; ++k) {
-    const int row = 6 * (foot - 1) + k;
+    const int row = 6 * (second - 1) + k;
     const auto n_A = locked.n.col(k).head<6>(), n_B = locked.n.col(k).tail<6>();
     auto c = inequalities->C.row(row);
     c.noalias() = n_A.transpose() * B_A;

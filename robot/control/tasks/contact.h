@@ -21,7 +21,8 @@ namespace poise {
 /// motion that is locked in part has a two-sided row instead, which bounds its
 /// acceleration: by 0 where the motion begins to be locked, by infinity where
 /// it is locked altogether. The rows therefore depend continuously on the
-/// posture.
+/// posture. If a robot has more than two feet, the first foot in contact closes
+/// a loop with each other foot in contact.
 class ContactTask final : public Task {
  public:
   /// Parameters: kp (100 1/s2), kd (30 1/s).
@@ -31,12 +32,17 @@ class ContactTask final : public Task {
              InequalityBlock* inequalities) const noexcept override;
 
  private:
-  void LeaveOutLocked(const LockedMotions& locked, int foot,
+  // Returns the loop of two feet, first < second.
+  const LoopClosure& LoopOf(int first, int second) const noexcept;
+
+  void LeaveOutLocked(const LockedMotions& locked, int first, int second,
                       EqualityBlock* equalities,
                       InequalityBlock* inequalities) const noexcept;
 
-  std::vector<LoopClosure> loops_;  // The first foot with each other one.
-  double gravity_;                  // m/s2.
+  // By pair of feet: 0 and 1, 0 and 2, ..., 1 and 2, ...
+  std::vector<LoopClosure> loops_;
+  int num_feet_;
+  double gravity_;  // m/s2.
   double kp_ = 100;
   double kd_ = 30;
 };

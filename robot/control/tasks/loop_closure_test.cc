@@ -129,5 +129,32 @@ TEST_F(LoopClosureTest, ContactBoundsAMotionThatIsLockedInPart) {
   EXPECT_GT(last_bound, 0);
 }
 
+// A copy of the left foot that is in the air precedes the two feet. The rows of
+// the two feet are those without the copy, also where motions are locked.
+TEST_F(LoopClosureTest, ContactOfAThirdFootInTheAirChangesNoRow) {
+  const std::vector<ContactTick> two = Weakened("ankle_roll", 1e-5);
+  ASSERT_EQ(Locked(two).count, 1);
+  std::vector<ContactTick> three = {two[0], two[0], two[1]};
+  three[0].in_contact = false;
+  std::vector<Foot> feet = {robot_.feet[0], robot_.feet[0], robot_.feet[1]};
+  feet[0].name = "third_foot";
+  const auto rows_of = [&](const std::vector<Foot>& of,
+                           const std::vector<ContactTick>& contacts) {
+    const int rows = 6 * static_cast<int>(of.size());
+    const ContactTask task(robot_.model, of);
+    hierarchy_ = Hierarchy(nv_ + rows, {{rows, rows - 6}});
+    hierarchy_.Clear(1);
+    EqualityBlock equalities = hierarchy_.AddEqualities(0, rows);
+    InequalityBlock bounds = hierarchy_.AddInequalities(0, rows - 6);
+    task.Write({state_, controller_.tick(), contacts, controller_.reference(),
+                unmodelled_vdot_},
+               &equalities, &bounds);
+    Eigen::MatrixXd all(12, nv_ + 1);
+    all << equalities.B.bottomRows(12).leftCols(nv_), equalities.b.tail(12);
+    return all;
+  };
+  EXPECT_EQ(rows_of(feet, three), rows_of(robot_.feet, two));
+}
+
 }  // namespace
 }  // namespace poise

@@ -19,6 +19,7 @@
 #include "poise/robot/control/stand.h"
 #include "poise/robot/control/task_set.h"
 #include "poise/robot/feet/forward.h"
+#include "poise/robot/feet/surrounding_rectangle.h"
 #include "poise/robot/limits.h"
 #include "poise/robot/profile/massless.h"
 #include "poise/robot/profile/save_profile.h"
@@ -276,15 +277,15 @@ void Doctor::CheckStanding() {
 
 void Doctor::DescribeFeet(const Robot& robot) {
   for (const Foot& foot : robot.feet) {
-    Eigen::AlignedBox2d sole;
-    for (const Eigen::Vector2d& corner : foot.polygon_C) sole.extend(corner);
+    const TurnedRectangle sole = SurroundingRectangle(foot.polygon_C);
     const Frame& link = robot.model.tree.frames()[foot.frame];
-    const Pose X_CM{Eigen::Matrix3d::Identity(),
-                    {sole.center().x(), sole.center().y(), 0}};
+    const Eigen::AngleAxisd turn(sole.angle, Eigen::Vector3d::UnitZ());
+    const Pose X_CM{turn.toRotationMatrix(),
+                    {sole.center.x(), sole.center.y(), 0}};
     const Pose X_FM = link.X_BF.Inverse() * foot.X_BC * X_CM;
-    diagnosis_.soles.push_back({foot.name, link.name, sole.sizes().x(),
-                                sole.sizes().y(), X_FM.p, RpyFromMatrix(X_FM.R),
-                                NameOf(foot.source),
+    diagnosis_.soles.push_back({foot.name, link.name, 2 * sole.half_size.x(),
+                                2 * sole.half_size.y(), X_FM.p,
+                                RpyFromMatrix(X_FM.R), NameOf(foot.source),
                                 foot.X_BC.Inverse().p.z()});
   }
   diagnosis_.forward = ForwardAxis(robot);

@@ -3,12 +3,22 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "poise/robot/mesh/read_visuals.h"
+#include "poise/robot/mesh/triangle_mesh.h"
+#include "poise/robot/urdf/urdf.h"
+#include "poise/tests/util/mesh_writer.h"
+#include "poise/tests/util/test_file.h"
+#include "poise/tools/commands/report/robot_json.h"
 #include "poise/tools/viewer/pages.h"
 
 namespace poise {
@@ -74,6 +84,75 @@ TEST(ReportPage, ShowsOneRun) {
   EXPECT_EQ(shown["log"]["rows"], 2);
   EXPECT_EQ(shown["timing"]["rows"], 2);
   EXPECT_TRUE(shown["notes"].empty());
+}
+
+// Returns a ball with 100 352 triangles of three vertices each, as in an STL
+// file.
+std::string DetailedBall() {
+  constexpr int kRings = 224;
+  const auto point = [](int i, int j) {
+    const double polar = M_PI * i / kRings, around = 2 * M_PI * j / kRings;
+    return Eigen::Vector3f(
+        static_cast<float>(std::sin(polar) * std::cos(around)),
+        static_cast<float>(std::sin(polar) * std::sin(around)),
+        static_cast<float>(std::cos(polar)));
+  };
+  TriangleMesh mesh;
+  for (int i = 0; i < kRings; ++i) {
+    for (int j = 0; j < kRings; ++j) {
+      const int first = static_cast<int>(mesh.vertices.size());
+      for (const auto& [di, dj] : {std::pair(0, 0), std::pair(1, 0),
+                                   std::pair(1, 1), std::pair(0, 1)}) {
+        mesh.vertices.push_back(point(i + di, j + dj));
+      }
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first, first + 2, first + 3});
+    }
+  }
+  return BinaryStl(mesh);
+}
+
+// A robot has 40 links, each with a mesh of 100 000 triangles, and a run of
+// 4 s has 400 columns. On a slow computer, some meshes are not drawn.
+TEST(ReportPage, HasLessThanFiveMegabytesForDetailedMeshes) {
+  constexpr int kLinks = 40;
+  constexpr int kColumns = 400;
+  constexpr int kTicks = 4000;
+  TestFile("ball.stl", DetailedBall());
+  std::string urdf = "<robot name='r'>";
+  for (int i = 0; i < kLinks; ++i) {
+    const std::string link = "l" + std::to_string(i);
+    urdf += "<link name='" + link +
+            "'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' "
+            "iyy='1' iyz='0' izz='1'/></inertial><visual><geometry><mesh "
+            "filename='ball.stl' scale='0.1 0.1 0.2'/></geometry></visual>"
+            "</link>";
+    if (i == 0) continue;
+    urdf += "<joint name='j" + std::to_string(i) +
+            "' type='continuous'><parent link='l" + std::to_string(i - 1) +
+            "'/><child link='" + link + "'/></joint>";
+  }
+  RobotModel model = LoadUrdf(TestFile("robot.urdf", urdf + "</robot>"));
+  EXPECT_LT(ReadVisuals(&model), kLinks);
+  const json robot = MakeRobotJson({model, {}, {}});
+  EXPECT_GE(robot["shapes"].size(), size_t{kLinks});
+  const fs::path run = EmptyFolder("run_large");
+  Write(run / "robot.json", robot.dump());
+  std::string log = "time[s]";
+  for (int i = 1; i < kColumns; ++i) {
+    log += ",q.j" + std::to_string(i) + "[rad]";
+  }
+  std::vector<std::string> values;
+  for (int i = 0; i < 997; ++i) values.push_back(std::to_string(std::sin(i)));
+  for (int tick = 0; tick < kTicks; ++tick) {
+    log += "\n" + std::to_string(1e-3 * tick);
+    for (int i = 1; i < kColumns; ++i) {
+      log += "," + values[(7 * tick + i) % values.size()];
+    }
+  }
+  Write(run / "log.csv", log + "\n");
+  WriteReport({run}, run / "report.html");
+  EXPECT_LT(fs::file_size(run / "report.html"), 5'000'000u);
 }
 
 TEST(ReportPage, NotesMissingAndUnreadableFiles) {

@@ -209,6 +209,12 @@ std::vector<bool> LackMeshes(const RobotModel& robot) {
   return lack;
 }
 
+bool HasMesh(const std::vector<BodyShape>& shapes) {
+  return std::any_of(shapes.begin(), shapes.end(), [](const BodyShape& shape) {
+    return shape.kind == BodyShapeKind::kMesh;
+  });
+}
+
 }  // namespace
 
 std::vector<BodyShape> MakeBodyShapes(const RobotModel& robot) {
@@ -225,8 +231,11 @@ std::vector<BodyShape> MakeBodyShapes(const RobotModel& robot) {
     const double most = std::min(
         kLargestHalfAxis, std::max(kLargestPart * size, ReachOf(tree, body)));
     const auto ellipsoid = EllipsoidOf(tree.inertias()[body], body, most);
+    // A mesh is the picture that the robot's author made, however small.
+    const bool is_whole = !lack_meshes[body] && HasMesh(drawn);
     const bool is_part =
-        drawn.empty() || (ellipsoid && volume < kTooSmall * Volume(*ellipsoid));
+        drawn.empty() ||
+        (!is_whole && ellipsoid && volume < kTooSmall * Volume(*ellipsoid));
     if (is_part && ellipsoid) drawn.push_back(*ellipsoid);
     const std::vector<BodyShape> other = drawn;
     for (const Joint& joint : tree.joints()) {

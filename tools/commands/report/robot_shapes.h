@@ -36,7 +36,8 @@ struct BodyShape {
 ///  - the uniform ellipsoid with the body's inertia, and a capsule from the
 ///    body's origin to each joint on the body. They are also added if the
 ///    primitives are too small to be the whole body, such as a sensor on a
-///    torso that is a mesh.
+///    torso that is a mesh. They are not added if the body has meshes and all
+///    of them have been read.
 /// If a mesh of a body has not been read, a capsule to each joint fills the
 /// gaps that the other shapes leave. An ellipsoid is at most as large as the
 /// distance from its center to the body's joints, or 15 % of the robot, because

@@ -134,6 +134,25 @@ TEST(RobotShapes, AddsEllipsoidIfPrimitivesAreTooSmall) {
   EXPECT_EQ(MakeBodyShapes(robot).size(), 2u);
 }
 
+// The mesh is small for the inertia of its body. The second mesh of the same
+// size shows that the first one is not all of the body.
+TEST(RobotShapes, DrawsASmallMeshAlone) {
+  RobotModel robot = Arm(EllipsoidInertia(3, {0.1, 0.1, 0.1}), {0, 0.3, 0});
+  Mesh mesh{"a.stl", {1, 1, 1}};
+  mesh.surface =
+      std::make_shared<TriangleMesh>(BoxMesh({0, 0, 0}, {0.05f, 0.05f, 0.05f}));
+  robot.visuals.push_back({0, {}, mesh});
+  auto shapes = MakeBodyShapes(robot);
+  ASSERT_EQ(shapes.size(), 2u);
+  EXPECT_EQ(shapes[0].kind, BodyShapeKind::kMesh);
+  EXPECT_EQ(shapes[1].body, 1);
+  robot.visuals.push_back({0, {}, Mesh{"missing.stl", {1, 1, 1}}});
+  shapes = MakeBodyShapes(robot);
+  ASSERT_EQ(shapes.size(), 4u);
+  EXPECT_EQ(shapes[1].kind, BodyShapeKind::kEllipsoid);
+  EXPECT_EQ(shapes[2].kind, BodyShapeKind::kCapsule);
+}
+
 TEST(RobotShapes, IgnoresShapesOfSizeZero) {
   RobotModel robot = Arm({}, {0, 0.001, 0});
   robot.collisions.push_back({0, {}, Sphere{0}});

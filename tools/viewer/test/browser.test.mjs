@@ -14,7 +14,7 @@ import test, {after, before} from 'node:test';
 import {fileURLToPath} from 'node:url';
 import {chromium} from 'playwright-core';
 import {cutRun, emptyRun, hopperRun, interruptedRun, longRun, mapPage,
-  oneTickRun} from './runs.mjs';
+  meshRun, oneTickRun} from './runs.mjs';
 
 const {POISE_REPORT, POISE_STANDS, POISE_FALLS, POISE_OUT} = process.env;
 const dist = fileURLToPath(new URL('../dist/', import.meta.url));
@@ -42,6 +42,8 @@ before(async () => {
   report('one_tick', oneTickRun(POISE_STANDS, runs('one_tick')));
   report('hopper', hopperRun(runs('hopper')));
   report('hopper_and_humanoid', runs('hopper'), POISE_STANDS);
+  report('meshes', meshRun(runs('meshes')),
+      '--package-path', runs('meshes/packages'));
   report('long', await longRun(POISE_STANDS, runs('long')));
   rmSync(runs('long'), {recursive: true});
   pages.map = out('map.html');
@@ -344,6 +346,35 @@ test('another robot is shown', () => withPage('hopper', {}, async (page) => {
   await drawn(page);
   await page.screenshot({path: out('hopper.png')});
 }));
+
+test('the meshes of a robot are shown', () => withPage('meshes', {},
+  async (page) => {
+    // The corners of each shape in its own axes, m, and the color.
+    const shapes = await page.evaluate(() =>
+      window.poise.stages[0].stage.robot.bodies.map((body) =>
+        body.children.filter(({isMesh}) => isMesh)
+            .map(({geometry, material}) => {
+              geometry.computeBoundingBox();
+              const {min, max} = geometry.boundingBox;
+              return {corners: geometry.attributes.position.count,
+                size: max.toArray().map((top, i) => top - min.toArray()[i]),
+                color: material.color.getHexString()};
+            })));
+    const sizes = [[0.2, 0.2, 0.2], [0.05, 0.05, 0.3]];
+    for (const body of [0, 1]) {
+      assert.equal(shapes[body].length, 1);  // No stand-in remains.
+      assert.equal(shapes[body][0].corners, 4 * 3);
+      sizes[body].forEach((size, i) =>
+        assert.ok(Math.abs(shapes[body][0].size[i] - size) < 1e-6));
+    }
+    assert.notEqual(shapes[0][0].color, shapes[1][0].color);
+    assert.ok(await colorsOf(page) > 30);
+    const before = await whereRobots(page);
+    await seek(page, 2);
+    assert.notDeepEqual(await whereRobots(page), before);
+    await drawn(page);
+    await page.screenshot({path: out('meshes.png')});
+  }));
 
 test('two robots that differ are compared',
   () => withPage('hopper_and_humanoid', {}, async (page) => {

@@ -109,6 +109,39 @@ export function hopperRun(folder) {
   return folder;
 }
 
+/** An STL text of a tetrahedron with corners at 0 and on the axes. */
+const TETRAHEDRON = `SOLID tetrahedron
+${[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map((corners) =>
+    'facet normal 0 0 0\nouter loop\n' + corners.map((corner) =>
+      'vertex ' + [1, 2, 3].map((i) => Number(i === corner)).join(' ') + '\n')
+        .join('') + 'endloop\nendfacet').join('\n')}
+endsolid
+`;
+
+/**
+ * The hopper, whose trunk and thigh are meshes. The mesh of the trunk was read.
+ * That of the thigh is in the packages of the folder, and the report must find
+ * it: an ellipsoid and a capsule stand in for it.
+ */
+export function meshRun(folder) {
+  hopperRun(folder);
+  const file = path.join(folder, 'robot.json');
+  const robot = JSON.parse(readFileSync(file, 'utf8'));
+  Object.assign(robot.shapes[0], {kind: 'mesh', size: [0, 0, 0],
+    vertices: '0 0 0 2000 0 0 0 2000 0 0 0 2000',
+    triangles: '0 2 1 0 1 3 0 3 2 1 2 3', rgba: [0.9, 0.2, 0.1, 1]});
+  for (const shape of robot.shapes.slice(1, 3)) shape.stand_in = true;
+  const {body, p, quat, rgba} = robot.shapes[1];
+  robot.urdf = path.join(folder, 'robot.urdf');
+  robot.unread_meshes = [{body, p, quat, rgba,
+    file: 'package://legs/thigh.stl', scale: [0.05, 0.05, 0.3]}];
+  writeFileSync(file, JSON.stringify(robot));
+  const legs = path.join(folder, 'packages/legs');
+  mkdirSync(legs, {recursive: true});
+  writeFileSync(path.join(legs, 'thigh.stl'), TETRAHEDRON);
+  return folder;
+}
+
 /**
  * A push map with 16 directions and two rings. One point of each ring has a
  * replay. The points of one ring lie on a circle of the scale.
