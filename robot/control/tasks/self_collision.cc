@@ -23,7 +23,11 @@ constexpr double kSoftness = 0.01;
 // Defaults of the parameters, relative to the reach and to the frequency of a
 // pendulum of this length.
 constexpr double kMinDistance = 0.01;
-constexpr double kOmega = 13.8;
+constexpr double kOmega = 34.5;
+
+// Bodies that are too near are moved apart at this speed at most, relative to
+// the speed of a fall over half of the reach.
+constexpr double kApart = 0.03;
 
 // A row is loosened to infinity at this acceleration, relative to gravity.
 constexpr double kLoosest = 1;
@@ -78,8 +82,36 @@ CollisionModel WithoutOverlaps(const Robot& robot, CollisionModel model) {
   return model;
 }
 
-// Returns the factors of the joint rates in an upper bound of the speed of any
-// point of a capsule relative to another.
+// Returns by body the leg that it belongs to: the index of a foot at the end of
+// its chain, or -1. A body of several legs belongs to none.
+std::vector<int> FindLegs(const Robot& robot) {
+  const Tree& tree = robot.model.tree;
+  std::vector<int> leg(tree.num_bodies(), -1);
+  std::vector<bool> is_shared(tree.num_bodies());
+  for (int foot = 0; foot < static_cast<int>(robot.feet.size()); ++foot) {
+    for (int b = robot.feet[foot].body; b > 0;
+         b = tree.joints()[b - 1].parent) {
+      is_shared[b] = is_shared[b] || leg[b] >= 0;
+      leg[b] = is_shared[b] ? -1 : foot;
+    }
+  }
+  return leg;
+}
+
+// Returns how far the rows that keep arms off other bodies are loosened: 0 (as
+// they are) to 1 (no rows). Arms that swing for balance may need the space.
+double LoosenessOfArms(const TaskInput& input) noexcept {
+  const bool swings_a_leg =
+      std::any_of(input.contacts.begin(), input.contacts.end(),
+                  [](const ContactTick& contact) {
+                    return !contact.in_contact && !contact.is_guided;
+                  });
+  return swings_a_leg ? 1 : input.capture;
+}
+
+// Returns by joint the largest distance from its axis to a capsule that it
+// moves while all sliders are at 0, m. The sum of these times the joint rates is an
+// upper bound of the speed of a point of a capsule relative to another.
 std::vector<double> Levers(const Tree& tree, const CollisionModel& model) {
   std::vector<double> reach(tree.num_bodies(), 0);
   for (int b = tree.num_bodies() - 1; b > 0; --b) {
@@ -93,13 +125,7 @@ std::vector<double> Levers(const Tree& tree, const CollisionModel& model) {
           std::max(reach[joint.parent], reach[b] + joint.X_PF.p.norm());
     }
   }
-  std::vector<double> levers;
-  for (const Joint& joint : tree.joints()) {
-    const double lever = reach[levers.size() + 1];
-    const bool is_slider = joint.type == JointType::kPrismatic;
-    levers.push_back(is_slider && lever > 0 ? 1 : lever);
-  }
-  return levers;
+  return {reach.begin() + 1, reach.end()};
 }
 
 std::string Words(std::string name) {
@@ -129,12 +155,15 @@ SelfCollisionTask::SelfCollisionTask(const Robot& robot, CollisionModel model)
     : Task("self_collision", {}, PairRows(model)),
       model_(std::move(model)),
       joints_(robot.model.tree.joints()),
+      q_start_(robot.model.tree.q_start()),
       v_start_(robot.model.tree.v_start()),
       lever_(Levers(robot.model.tree, model_)),
+      leg_(FindLegs(robot)),
       nominal_(NominalDistances(robot, model_)),
       loosest_(kLoosest * GravityOf(robot.model.tree)),
       d_min_(kMinDistance * model_.reach),
-      omega_(kOmega * std::sqrt(GravityOf(robot.model.tree) / model_.reach)) {
+      omega_(kOmega * std::sqrt(GravityOf(robot.model.tree) / model_.reach)),
+      apart_(kApart * std::sqrt(GravityOf(robot.model.tree) * model_.reach)) {
   AddParameter("d_min", &d_min_, 0, 1);
   AddParameter("omega", &omega_, 1, 1000);
 }
@@ -143,19 +172,19 @@ bool SelfCollisionTask::HasRows(const TaskInput& input) const noexcept {
   // A robot that catches itself by steps swings its arms past its thighs. There,
   // the rows would cost more balance than a touch.
   if (input.reference.pendulum.is_on) return false;
-  const double max_speed = MaxSpeed(input);
+  const Common common = FindCommon(input);
   for (int i = 0; i < static_cast<int>(model_.pairs.size()); ++i) {
-    if (FindBound(input, i, max_speed).is_near) return true;
+    if (FindBound(input, i, common).is_near) return true;
   }
   return false;
 }
 
 void SelfCollisionTask::Write(const TaskInput& input, EqualityBlock*,
                               InequalityBlock* inequalities) const noexcept {
-  const double max_speed = MaxSpeed(input);
+  const Common common = FindCommon(input);
   const double scale = 4 / (omega_ * omega_ * model_.reach);
   for (int i = 0; i < static_cast<int>(model_.pairs.size()); ++i) {
-    const Bound bound = FindBound(input, i, max_speed);
+    const Bound bound = FindBound(input, i, common);
     if (!bound.is_near) continue;
     const CollisionPair& pair = model_.pairs[i];
     const ClosestPoints& closest = bound.closest;
@@ -195,19 +224,30 @@ SelfCollisionTask::PointMotion SelfCollisionTask::Relative(
   return motion;
 }
 
-// Returns an upper bound of |ḋ| of all pairs, m/s.
-double SelfCollisionTask::MaxSpeed(const TaskInput& input) const noexcept {
-  double speed = 0;
-  for (size_t j = 0; j < lever_.size(); ++j) {
-    speed += lever_[j] * std::abs(input.state.v[v_start_ + j]);
+SelfCollisionTask::Common SelfCollisionTask::FindCommon(
+    const TaskInput& input) const noexcept {
+  // Sliders lengthen the levers of other joints by their travel at most.
+  double travel = 0;
+  for (size_t j = 0; j < joints_.size(); ++j) {
+    if (joints_[j].type != JointType::kPrismatic) continue;
+    travel += std::abs(input.state.q[q_start_ + j]);
   }
-  return speed;
+  Common common{0, LoosenessOfArms(input)};
+  for (size_t j = 0; j < joints_.size(); ++j) {
+    const bool is_slider = joints_[j].type == JointType::kPrismatic;
+    const double lever = is_slider ? 1 : lever_[j] + travel;
+    common.max_speed += lever * std::abs(input.state.v[v_start_ + j]);
+  }
+  return common;
 }
 
 SelfCollisionTask::Bound SelfCollisionTask::FindBound(
-    const TaskInput& input, int i, double max_speed) const noexcept {
+    const TaskInput& input, int i, const Common& common) const noexcept {
   Bound bound;
   const CollisionPair& pair = model_.pairs[i];
+  const bool is_of_legs = leg_[pair.a] >= 0 && leg_[pair.b] >= 0;
+  const double looseness = is_of_legs ? 0 : common.looseness_of_arms;
+  if (looseness >= 1) return bound;
   const std::vector<Pose>& X_WB = input.tick.X_WB;
   const double d_min =
       std::min({d_min_, nominal_[i] / 2, nominal_[i] - d_min_ / 2});
@@ -215,7 +255,8 @@ SelfCollisionTask::Bound SelfCollisionTask::FindBound(
   // of the motion: their chains are not computed.
   const double least = BoundPairDistance(model_, pair, X_WB);
   if (least > kFar * model_.reach ||
-      omega_ * omega_ * (least - d_min) - 2 * omega_ * max_speed >= loosest_) {
+      omega_ * omega_ * (least - d_min) - 2 * omega_ * common.max_speed >=
+          loosest_) {
     return bound;
   }
   bound.closest = ComputePairDistance(model_, pair, X_WB, kSoftness);
@@ -225,8 +266,10 @@ SelfCollisionTask::Bound SelfCollisionTask::FindBound(
                                  bound.closest.p_A, gradient, &unmodelled);
   const PointMotion B = Relative(input, pair.b, pair.ancestor,
                                  bound.closest.p_B, -gradient, &unmodelled);
-  const double u = 2 * omega_ * gradient.dot(A.v - B.v) +
-                   omega_ * omega_ * (bound.closest.distance - d_min);
+  const double spring = std::max(
+      omega_ * omega_ * (bound.closest.distance - d_min), -2 * omega_ * apart_);
+  const double u = 2 * omega_ * gradient.dot(A.v - B.v) + spring +
+                   looseness / (1 - looseness) * loosest_;
   if (!(u < loosest_) || gradient.isZero()) return bound;
   bound.is_near = true;
   bound.lower = (u > 0 ? -u / (1 - u / loosest_) : -u) -

@@ -18,6 +18,9 @@ namespace poise {
 /// the joints between the two bodies; b has the accelerations of the closest
 /// points at v̇ = 0, relative to the last common body, and the unmodelled v̇.
 ///
+/// Bodies that are too near are moved apart at 3 % of sqrt(g reach) at most,
+/// instead of w (d_min - d) / 2.
+///
 /// There is a row for each pair of CollisionModel; d is the distance between
 /// their nearest capsules, with softness 0.01, so that c is continuous. A row
 /// that is far from binding is loosened to -infinity: with u = -l > 0,
@@ -31,12 +34,16 @@ namespace poise {
 /// its smaller radius has no row: its capsules do not describe the bodies well
 /// enough. The two feet have no row either, because the capsule of a flat foot
 /// reaches beyond its sides; StepRegion keeps the soles apart. Rows are divided
-/// by w² and a quarter of the reach. While Reference::pendulum is on, as in
-/// steps that catch the robot, there are no rows.
+/// by w² and a quarter of the reach.
+///
+/// Balance comes before a touch of an arm: rows of pairs other than leg and leg
+/// are loosened by the capture blend c, u by u_max c / (1 - c), and left out
+/// while a released foot swings for balance. While Reference::pendulum is on,
+/// as in steps that catch the robot, there are no rows.
 class SelfCollisionTask final : public Task {
  public:
   /// Parameters: d_min (1 % of the reach, 12 mm for the humanoid); omega
-  /// (13.8 sqrt(g / reach), 40 1/s).
+  /// (34.5 sqrt(g / reach), 100 1/s).
   explicit SelfCollisionTask(const Robot& robot);
   bool HasRows(const TaskInput& input) const noexcept override;
   void Write(const TaskInput& input, EqualityBlock* equalities,
@@ -50,6 +57,11 @@ class SelfCollisionTask final : public Task {
     Eigen::Vector3d v = Eigen::Vector3d::Zero();
     Eigen::Vector3d a = Eigen::Vector3d::Zero();
   };
+  // Numbers of a tick that hold for all pairs.
+  struct Common {
+    double max_speed;          // Upper bound of |ḋ|, m/s.
+    double looseness_of_arms;  // 0 (strict) to 1 (no rows).
+  };
   // The bound of a pair in a tick.
   struct Bound {
     bool is_near = false;
@@ -62,24 +74,27 @@ class SelfCollisionTask final : public Task {
                        const Eigen::Vector3d& p_WQ,
                        const Eigen::Vector3d& gradient,
                        double* unmodelled) const noexcept;
-  double MaxSpeed(const TaskInput& input) const noexcept;
+  Common FindCommon(const TaskInput& input) const noexcept;
   Bound FindBound(const TaskInput& input, int pair,
-                  double max_speed) const noexcept;
+                  const Common& common) const noexcept;
   void WriteChain(const Tick& tick, int body, int ancestor,
                   const Eigen::Vector3d& p_WQ, const Eigen::Vector3d& gradient,
                   Eigen::Ref<Eigen::RowVectorXd> row) const noexcept;
 
   CollisionModel model_;
   std::vector<Joint> joints_;
+  int q_start_;
   int v_start_;
-  // By joint: largest distance from its axis to a capsule that it moves, m; 1
-  // for a prismatic joint.
+  // By joint: largest distance from its axis to a capsule that it moves while
+  // all sliders are at 0, m.
   std::vector<double> lever_;
+  std::vector<int> leg_;  // By body: index of the foot, or -1.
   // By pair: the distance in the nominal posture, m.
   std::vector<double> nominal_;
   double loosest_;  // u_max, m/s2.
   double d_min_;
   double omega_;
+  double apart_;  // Largest desired speed of bodies that are too near, m/s.
 };
 
 }  // namespace poise

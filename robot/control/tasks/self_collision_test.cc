@@ -11,7 +11,6 @@
 
 #include "poise/dynamics/integrate.h"
 #include "poise/dynamics/kinematics.h"
-#include "poise/hqp/solver.h"
 #include "poise/robot/control/tasks/task_fixture.h"
 #include "poise/tests/util/count_malloc.h"
 #include "poise/tests/util/simple_robots.h"
@@ -50,8 +49,10 @@ class SelfCollisionTest : public TaskTest {
   }
 
   TaskInput InputHere() const {
-    return {tick_state_, tick_, controller_.contacts(), controller_.reference(),
-            unmodelled_vdot_};
+    TaskInput input{tick_state_, tick_, contacts_, controller_.reference(),
+                    unmodelled_vdot_};
+    input.capture = capture_;
+    return input;
   }
 
   const Hierarchy& Rows() {
@@ -70,11 +71,48 @@ class SelfCollisionTest : public TaskTest {
         .distance;
   }
 
+  // Parts of the bound of a pair at rest: u without looseness, m/s2.
+  double Spring(int pair) const {
+    std::vector<Pose> X_WB(tree_.num_bodies());
+    ComputePoses(tree_, robot_.q_nominal, &X_WB);
+    const CollisionModel& model = task_.model();
+    const double nominal =
+        ComputePairDistance(model, model.pairs[pair], X_WB, 0.01).distance;
+    const double d_min = 0.01 * model.reach;
+    const double least = std::min({d_min, nominal / 2, nominal - d_min / 2});
+    return std::max(omega_ * omega_ * (Distance(pair) - least),
+                    -2 * omega_ * 0.03 * std::sqrt(9.81 * model.reach));
+  }
+
+  // Sets a posture at rest in which the hands are at the hips, turned inwards.
+  void RestWithArmsTurned(double yaw) {
+    SetJoint("l_shoulder_yaw", -yaw, &tick_state_);
+    SetJoint("r_shoulder_yaw", yaw, &tick_state_);
+    tick_state_.v.setZero();
+    ComputeTick(tree_, tick_state_.q, tick_state_.v, &tick_);
+  }
+
+  // Sets a posture at rest in which the legs are near each other.
+  void RestWithLegsTogether() {
+    tick_state_ = {0, robot_.q_nominal, Eigen::VectorXd::Zero(nv_)};
+    SetJoint("l_hip_roll", -0.2, &tick_state_);
+    SetJoint("r_hip_roll", 0.2, &tick_state_);
+    ComputeTick(tree_, tick_state_.q, tick_state_.v, &tick_);
+  }
+
+  int NumRows() {
+    Rows();
+    const Eigen::VectorXd& lower = hierarchy_.lower(0);
+    return static_cast<int>((lower.array() > -INFINITY).count());
+  }
+
   bool IsNear(int row) const { return std::isfinite(hierarchy_.lower(0)[row]); }
 
   SelfCollisionTask task_{robot_};
   State tick_state_;
   Tick tick_{tree_, {}};
+  std::vector<ContactTick> contacts_ = controller_.contacts();
+  double capture_ = 0;
   const double omega_ =
       *std::find_if(task_.parameters().begin(), task_.parameters().end(),
                     [](const Parameter& p) { return p.name == "omega"; })
@@ -121,27 +159,51 @@ TEST_F(SelfCollisionTest, RowsDoNotDependOnTheMotionOfTheBase) {
   }
 }
 
-// A lower bound of d̈ at rest is -w² (d - d_min) with d_min positive, and less
-// where the row is loosened.
-TEST_F(SelfCollisionTest, BoundAtRestIsThatOfASpring) {
-  state_.v.setZero();
-  tick_state_ = state_;
-  ComputeTick(tree_, state_.q, state_.v, &tick_);
-  const Hierarchy& rows = Rows();
-  int inside = 0;
-  for (int i = 0; i < rows.lower(0).size(); ++i) {
-    if (!IsNear(i)) continue;
-    const double bound = rows.lower(0)[i] / scale_;
-    const double spring = -omega_ * omega_ * (Distance(i) - 0.0116);
-    if (spring > 0) {
-      // Bodies that stand closer together keep less than d_min.
-      EXPECT_LE(bound, spring + 0.1);
-      ++inside;
-    } else {
-      EXPECT_LE(bound, -0.0);
+// With hands from in front of the hips to inside of them, rows are loosened, as
+// they are, and clamped because a hand is too deep. The capture blend loosens
+// them more.
+TEST_F(SelfCollisionTest, BoundAtRestIsThatOfALoosenedSpring) {
+  constexpr double kGravity = 9.81;  // m/s2; largest u of a row.
+  for (const double capture : {0.0, 0.3}) {
+    capture_ = capture;
+    int loosened = 0, strict = 0;
+    for (double yaw = 0.3; yaw < 1.1; yaw += 1e-3) {
+      RestWithArmsTurned(yaw);
+      const Hierarchy& rows = Rows();
+      for (int i = 0; i < rows.lower(0).size(); ++i) {
+        const double u = Spring(i) + kGravity * capture / (1 - capture);
+        EXPECT_EQ(IsNear(i), u < kGravity) << task_.inequality_names()[i];
+        if (!IsNear(i)) continue;
+        const double bound = rows.lower(0)[i] / scale_;
+        EXPECT_NEAR(bound, u > 0 ? -u / (1 - u / kGravity) : -u,
+                    1e-9 * (1 + std::abs(bound)));
+        // A row never demands more than the spring.
+        EXPECT_LE(bound, -u + 1e-9);
+        EXPECT_GE(bound, u > 0 ? -INFINITY : 0);
+        ++(u > 0 ? loosened : strict);
+      }
     }
+    EXPECT_GE(loosened, 4);
+    EXPECT_GE(strict, 4);
   }
-  EXPECT_GE(inside, 2);  // Each hand with the pelvis or a thigh.
+}
+
+// Arms that swing for balance may touch. Legs may not cross.
+TEST_F(SelfCollisionTest, OnlyLegsHaveRowsWhileAReleasedFootSwings) {
+  ASSERT_GE(NumRows(), 2);
+  contacts_[0].in_contact = false;
+  EXPECT_GE(NumRows(), 2);  // A foot that follows its reference.
+  contacts_[0].is_guided = false;
+  EXPECT_EQ(NumRows(), 0);
+  RestWithLegsTogether();
+  EXPECT_GE(NumRows(), 1);
+}
+
+TEST_F(SelfCollisionTest, OnlyLegsHaveRowsAtTheEdgeOfSupport) {
+  capture_ = 1;
+  EXPECT_EQ(NumRows(), 0);
+  RestWithLegsTogether();
+  EXPECT_GE(NumRows(), 1);
 }
 
 TEST_F(SelfCollisionTest, HasNoRowsInTheStandingPosture) {
@@ -251,7 +313,10 @@ TEST(SelfCollision, BoundHasTheAccelerationOfTheClosestPoints) {
     const double d_min = *task.parameters()[0].value;
     const double w = *task.parameters()[1].value;
     const double scale = 4 / (w * w * task.model().reach);
-    const double u = 2 * w * rate + w * w * (now.distance - d_min);
+    // A pair that is too near moves apart at a limited speed.
+    const double apart = 0.03 * std::sqrt(9.81 * task.model().reach);
+    const double u =
+        2 * w * rate + std::max(w * w * (now.distance - d_min), -2 * w * apart);
     ASSERT_LT(u, 0);
     // Second differences have an error of 1e-16 / step^2.
     EXPECT_NEAR(block.lower[0] / scale, -u - expected, 1e-6 * std::abs(u));
@@ -265,47 +330,57 @@ TEST(SelfCollision, BoundHasTheAccelerationOfTheClosestPoints) {
   }
 }
 
-// Moves the humanoid by the accelerations of its controller, without a
-// simulator, to a posture in which a hand is inside a thigh. Returns the
-// smallest distance of this pair, m.
-double SmallestDistance(bool is_on) {
-  const Robot robot = LoadHumanoid();
+// A ball on a slider of a turning arm flies at a ball of the trunk. The slider
+// is far out, so that its travel makes most of the lever of 1 m.
+TEST(SelfCollision, SeesAFastBodyOnASliderThatIsFarOut) {
+  Inertia M;
+  M.mass = 1;
+  M.I_G_B = 0.01 * Eigen::Matrix3d::Identity();
+  JointSpec turn, slide;
+  turn.name = "turn";
+  turn.type = JointType::kRevolute;
+  turn.parent = "trunk";
+  turn.child = "arm";
+  turn.X_PF.p = {0, 0, 0.6};
+  turn.axis_F = {1, 0, 0};
+  slide.name = "slide";
+  slide.type = JointType::kPrismatic;
+  slide.parent = "arm";
+  slide.child = "hand";
+  slide.X_PF.p = {0, 0, 0.25};
+  slide.axis_F = {0, 0, 1};
+  Robot robot = MakeRobot(TreeBuilder()
+                              .AddLink("trunk", M)
+                              .AddLink("arm", M)
+                              .AddLink("hand", M)
+                              .AddJoint(turn)
+                              .AddJoint(slide)
+                              .Build());
   const Tree& tree = robot.model.tree;
-  Controller controller(robot);
-  EXPECT_TRUE(controller.stack().Enable("self_collision", is_on));
+  constexpr double kGap = 0.03;  // m.
+  Pose X;
+  X.p = {0, 0.25 + kGap, 1.6};
+  robot.model.collisions.push_back({*tree.FindFrame("hand"), {}, Sphere{0.05}});
+  robot.model.collisions.push_back({*tree.FindFrame("trunk"), X, Sphere{0.2}});
+  const SelfCollisionTask task(robot);
+  ASSERT_EQ(task.model().pairs.size(), 1u);
   State state{0, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv())};
-  controller.Start(state);
-  // The arm hangs, turned inwards: the hand is 50 mm inside the thigh.
-  const auto set = [&](const char* joint, double value) {
-    controller.reference().posture[*tree.FindJoint(joint)] = value;
+  state.q.tail(2) << 0, 0.75;
+  Tick tick(tree, {});
+  const Reference reference;
+  const Eigen::VectorXd unmodelled = Eigen::VectorXd::Zero(tree.nv());
+  const std::vector<ContactTick> contacts;
+  const auto has_rows = [&](double speed) {
+    state.v.tail(2) << -speed / 1.0, 0;
+    ComputeTick(tree, state.q, state.v, &tick);
+    return task.HasRows({state, tick, contacts, reference, unmodelled});
   };
-  set("l_shoulder_pitch", 0.2);
-  set("l_shoulder_roll", 0);
-  set("l_shoulder_yaw", -1.15);
-  set("l_elbow", -0.52);
-  const CollisionModel model = MakeCollisionModel(robot.model);
-  Command command;
-  command.tau.setZero(tree.num_joints());
-  std::vector<Pose> X_WB(tree.num_bodies());
-  double least = INFINITY;
-  constexpr double kDt = 1e-3;
-  for (int i = 0; i < 1500; ++i) {
-    state.time += kDt;
-    controller.Update(state, &command);
-    EXPECT_LE(controller.report().certificate.worst(), 1e-9);
-    const Eigen::VectorXd vdot = controller.report().y.head(tree.nv());
-    const Eigen::VectorXd q = state.q;
-    Integrate(tree, q, state.v + kDt / 2 * vdot, kDt, state.q);
-    state.v += kDt * vdot;
-    ComputePoses(tree, state.q, &X_WB);
-    least = std::min(least, ComputeClearance(model, X_WB).distance);
-  }
-  return least;
-}
-
-TEST(SelfCollision, KeepsAHandOutOfAThigh) {
-  EXPECT_LT(SmallestDistance(false), -0.03);
-  EXPECT_GT(SmallestDistance(true), 0.8 * 0.0116 / 2);
+  // On the bound, the distance shrinks at w / 2 (d - d_min).
+  const double w = *task.parameters()[1].value;
+  const double bound = w / 2 * (kGap - *task.parameters()[0].value);
+  EXPECT_TRUE(has_rows(1.1 * bound));
+  EXPECT_FALSE(has_rows(0.9 * bound));
+  EXPECT_FALSE(has_rows(-1.1 * bound));
 }
 
 }  // namespace
