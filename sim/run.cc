@@ -103,7 +103,8 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
   std::vector<float> us;
   us.reserve(ticks);
   StepWatch step_watch;
-  CommandWatch command_watch(robot, scenario);
+  CommandWatch command_watch(robot, scenario,
+                             loop->controller().stance().settings());
   RunResult result;
   const Push* push = LargestPush(scenario.pushes, scenario.duration);
   if (push != nullptr) {
