@@ -117,8 +117,17 @@ std::vector<PushOnRobot> Aim(const std::vector<Push>& pushes,
 Scenario Fitted(const Robot& robot, const Scenario& scenario) {
   Validate(scenario);
   Scenario fitted = FitToRobot(robot, scenario);
-  for (Push& push : fitted.pushes) {
-    ApplyFraction(robot, robot.q_nominal, {}, &push);
+  for (std::size_t i = 0; i < fitted.pushes.size(); ++i) {
+    Push& push = fitted.pushes[i];
+    if (push.impulse_fraction && !(push.duration > 0)) {
+      throw InputError::OfValue(
+          Entry("pushes", i) + ".duration",
+          " is " + PrintNumber(push.duration) +
+              " s, must be above 0 s, because the impulse of the push is a "
+              "fraction of the bound");
+    }
+    // Whether the push is possible is decided when it begins.
+    (void)ApplyFraction(robot, robot.q_nominal, {}, push.force, &push);
   }
   return fitted;
 }
@@ -138,6 +147,7 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
       sensors_(robot, scenario_.sensors, scenario_.seed ^ kSensorSeed),
       observer_(robot, scenario_.plant.ground),
       pushes_(Aim(scenario_.pushes, robot)),
+      is_sized_(scenario_.pushes.size(), false),
       down_(robot.feet.size(), true),
       steps_per_tick_(static_cast<int>(
           std::lround(scenario_.control.dt / scenario_.plant.dt))),
@@ -164,6 +174,7 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
       return std::make_unique<Gait>(controller_->robot(), settings);
     });
   }
+  for (const Push& push : scenario.pushes) directions_.push_back(push.force);
   com_start_ = controller_->reference().p_WG;
   com_path_ = {scenario_.com, com_start_};
   for (std::size_t i = 0; i < scenario_.stance.size(); ++i) {
@@ -270,10 +281,16 @@ void ClosedLoop::Tick() {
 void ClosedLoop::SizePushes() {
   for (std::size_t i = 0; i < pushes_.size(); ++i) {
     Push& push = scenario_.pushes[i];
-    const bool begins = push.start < start_.time + scenario_.control.dt / 2 &&
-                        push.start >= start_.time - scenario_.control.dt / 2;
+    const bool begins =
+        !is_sized_[i] && HasBegun(push, start_.time, scenario_.control.dt);
     if (!begins || !push.impulse_fraction) continue;
-    ApplyFraction(robot_, start_.q, down_, &push);
+    is_sized_[i] = true;
+    if (!ApplyFraction(robot_, start_.q, down_, directions_[i], &push)) {
+      impossible_.push_back(
+          "push at " + PrintNumber(push.start) +
+          " s: its force is 0 N, a fraction of a bound of 0 N s, because the "
+          "CoM is not above the soles on the ground; give the force in N");
+    }
     pushes_[i] = PushOnRobot(robot_, push);
   }
 }

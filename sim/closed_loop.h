@@ -62,6 +62,10 @@ class ClosedLoop {
   const Gait* gait() const { return gait_.get(); }
   /// The steps that the scenario has commanded up to now.
   const std::vector<CommandedStep>& commanded() const { return commanded_; }
+  /// The pushes up to now that are a fraction of a bound of 0, in words.
+  const std::vector<std::string>& impossible_pushes() const {
+    return impossible_;
+  }
   const Plant& plant() const { return *plant_; }
 
  private:
@@ -81,6 +85,9 @@ class ClosedLoop {
   std::unique_ptr<Gait> gait_;            // Null without steps.
   Observer observer_;
   std::vector<PushOnRobot> pushes_;
+  std::vector<Eigen::Vector3d> directions_;  // Forces before SizePushes().
+  std::vector<bool> is_sized_;               // By push.
+  std::vector<std::string> impossible_;
   std::vector<bool> down_;  // By foot: planned to be in contact.
   int steps_per_tick_;
   int delay_steps_;

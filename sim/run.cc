@@ -122,7 +122,8 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
   std::vector<float> us;
   us.reserve(ticks);
   StepWatch step_watch;
-  CommandWatch command_watch(robot, scenario);
+  CommandWatch command_watch(robot, scenario,
+                             loop->controller().stance().settings());
   RunResult result;
   const Push* push = LargestPush(scenario.pushes, scenario.duration);
   if (push != nullptr) {
@@ -134,7 +135,7 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
     loop->Tick();
     const TickRecord record = loop->record();
     if (push != nullptr &&
-        push->start < record.observation.time + scenario.control.dt / 2) {
+        HasBegun(*push, record.observation.time, scenario.control.dt)) {
       result.yardstick = Measure(robot, *push, record);
       result.impulse_Ns = ImpulseOf(*push, scenario.duration);
       push = nullptr;
@@ -167,6 +168,10 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
     result.not_done = command_watch.Missed(end);
     result.commanded_done =
         result.commanded_done.value_or(true) && result.not_done.empty();
+  }
+  for (const std::string& missed : loop->impossible_pushes()) {
+    result.not_done.push_back(missed);
+    result.commanded_done = false;
   }
   result.tick_us = Summarize(std::move(us));
   if (recorder != nullptr) {

@@ -51,10 +51,11 @@ struct RunResult {
   std::vector<TakenStep> steps;  ///< In order of their lift-offs.
   std::vector<CommandedStep> commanded;
   /// Whether each commanded motion happened: see CommandWatch, and each step
-  /// was accepted and has landed within 10 mm of its place. Empty without a
-  /// command.
+  /// was accepted and has landed within 10 mm of its place. False if a push is
+  /// a fraction of a bound of 0. Empty without a command and such a push.
   std::optional<bool> commanded_done;
-  std::vector<std::string> not_done;  ///< See CommandWatch::Missed().
+  /// See CommandWatch::Missed() and ClosedLoop::impossible_pushes().
+  std::vector<std::string> not_done;
   double wall_seconds = 0;
   std::string log_sha256;  ///< Empty if nothing was recorded.
   /// Rows of the stack that the log names; empty if nothing was recorded.

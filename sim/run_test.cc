@@ -181,6 +181,60 @@ TEST(Run, DistinguishesABlowUpFromAFall) {
 
 // With a delay of three ticks, the plant applies the torques that the
 // controller commanded three ticks before.
+// Right after the lift, only the left foot is meant to be down. The CoM is still
+// amid the feet, outside of the left sole.
+TEST(Run, SaysThatAFractionOfABoundOfZeroIsNoPush) {
+  Scenario scenario = Ours("stand", 0.3);
+  StanceEvent lift;
+  lift.kind = StanceEvent::Kind::kLift;
+  lift.foot = "right_foot";
+  lift.at = 0.1;
+  scenario.stance = {lift};
+  scenario.pushes.emplace_back();
+  scenario.pushes[0].force = {0, 20, 0};
+  scenario.pushes[0].impulse_fraction = 0.3;
+  scenario.pushes[0].start = 0.2;
+  const RunResult result = poise::Run(Humanoid(), scenario);
+  EXPECT_EQ(result.commanded_done, false);
+  ASSERT_EQ(result.not_done.size(), 1u);
+  EXPECT_EQ(result.not_done[0].rfind("push at 0.2 s: its force is 0 N", 0), 0u)
+      << result.not_done[0];
+}
+
+TEST(ClosedLoop, RejectsAFractionOfABoundInNoTime) {
+  Scenario scenario = Ours("stand", 0.3);
+  scenario.pushes.emplace_back();
+  scenario.pushes[0].force = {0, 20, 0};
+  scenario.pushes[0].duration = 0;
+  EXPECT_NO_THROW(ClosedLoop(Humanoid(), scenario));
+  scenario.pushes[0].impulse_fraction = 0.3;
+  EXPECT_THROW(ClosedLoop(Humanoid(), scenario), std::invalid_argument);
+}
+
+// The push begins in the second half of a tick, in which it already acts. The
+// CoM has moved to the left foot since the start, so that the bound is another.
+TEST(ClosedLoop, SizesAPushThatBeginsWithinATick) {
+  Scenario scenario = Ours("stand", 3);
+  StanceEvent shift;
+  shift.foot = "left_foot";
+  shift.at = 0.1;
+  shift.over = 0.5;
+  scenario.stance = {shift};
+  scenario.pushes.emplace_back();
+  scenario.pushes[0].force = {0, -20, 0};
+  scenario.pushes[0].impulse_fraction = 0.1;
+  scenario.pushes[0].start = 0.8007;
+  scenario.plant.dt = 1e-4;
+  ClosedLoop loop(Humanoid(), scenario);
+  const double nominal = loop.scenario().pushes[0].force.norm();
+  while (loop.time() < 0.8005) loop.Tick();
+  const double sized = loop.scenario().pushes[0].force.norm();
+  EXPECT_GT(sized, 1.2 * nominal);  // Its way to the right edge is longer.
+  // The push acts in three of the ten plant steps of its first tick. Rounding
+  // of sums of ten forces of some 10 N.
+  EXPECT_NEAR(loop.record().push_force_W.norm(), 0.3 * sized, 1e-9);
+}
+
 TEST(ClosedLoop, DelaysTorques) {
   Scenario scenario = Ours("strong_push", 1);
   scenario.control.delay = 3e-3;

@@ -15,7 +15,8 @@ namespace {
 // fallen, and the pendulum model is invalid.
 constexpr double kMinHeight = 0.05;  // m.
 
-// Lower bound on the way from the reference of xi to an edge.
+// Lower bound on the way from the reference of xi to an edge. It is scaled to
+// the robot, as kSlow is.
 constexpr double kLeastWay = 0.01;  // m.
 
 // Lower bound on the width of the blend, full - from, so that gains do not
@@ -64,10 +65,13 @@ Eigen::Vector3d FindComTarget(const std::vector<Foot>& feet,
   return X_WMid * p;
 }
 
-BalanceMonitor::BalanceMonitor(const Tree& tree, const std::vector<Foot>& feet)
+BalanceMonitor::BalanceMonitor(const Tree& tree, const std::vector<Foot>& feet,
+                               const FroudeScale& scale)
     : mass_(tree.total_mass() > 0 ? tree.total_mass() : 1),
       gravity_(tree.gravity_W().norm()),
       weight_(tree.total_mass() * tree.gravity_W().norm()),
+      least_way_(kLeastWay * scale.length),
+      slow_(kSlow * scale.speed()),
       feet_(feet) {
   balance_.feet.resize(feet.size());
 }
@@ -101,7 +105,7 @@ void BalanceMonitor::FindShares(const Tick& tick,
     const int axis = to == kFront || to == kBack ? 0 : 1;
     const int side = to == kFront || to == kLeft ? 1 : -1;
     const double reach = SupportReach(feet_, contacts, X_MidW_, to);
-    const double whole = std::max(kLeastWay, reach - side * xi_ref[axis]);
+    const double whole = std::max(least_way_, reach - side * xi_ref[axis]);
     const double way = side * (xi - xi_ref)[axis] / (farther * whole);
     return settings.capture *
            std::clamp((way - settings.from) /
@@ -122,7 +126,7 @@ void BalanceMonitor::JudgeFeet(const Tick& tick,
   const double turned =
       LogSo3(reference.R_WB * tick.X_WB[0].R.transpose()).norm();
   const bool is_over = balance_.capture == 0 && turned < kUprightBase &&
-                       tick.v_WG.norm() < kSlow;
+                       tick.v_WG.norm() < slow_;
   const bool stands = normal_force.maxCoeff() > kLoaded * weight_;
   for (int foot = 0; foot < static_cast<int>(contacts.size()); ++foot) {
     const bool is_left = (X_MidW_ * contacts[foot].X_WC.p).y() > 0;

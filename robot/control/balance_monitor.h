@@ -8,6 +8,7 @@
 #include "poise/dynamics/tree.h"
 #include "poise/robot/control/contacts.h"
 #include "poise/robot/control/reference.h"
+#include "poise/robot/control/tasks/froude.h"
 #include "poise/robot/robot.h"
 
 namespace poise {
@@ -55,7 +56,10 @@ struct Balance {
 /// once the robot is slow and upright, or falls to the side of the foot.
 class BalanceMonitor {
  public:
-  BalanceMonitor(const Tree& tree, const std::vector<Foot>& feet);
+  /// Thresholds hold for robot/models/humanoid.urdf; `scale` fits them to the
+  /// robot.
+  BalanceMonitor(const Tree& tree, const std::vector<Foot>& feet,
+                 const FroudeScale& scale = {});
 
   /// Updates balance() with the state of this tick.
   /// @param contacts      poses of this tick, in_contact of the last one.
@@ -75,9 +79,11 @@ class BalanceMonitor {
                  const Reference& reference,
                  const Eigen::VectorXd& normal_force) noexcept;
 
-  double mass_;     // kg.
-  double gravity_;  // m/s2.
-  double weight_;   // N.
+  double mass_;       // kg.
+  double gravity_;    // m/s2.
+  double weight_;     // N.
+  double least_way_;  // Lower bound on the way from xi_ref to an edge, m.
+  double slow_;       // m/s.
   std::vector<Foot> feet_;
   Pose X_MidW_;
   Balance balance_;

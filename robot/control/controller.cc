@@ -24,7 +24,7 @@ constexpr double kDynamicsMet = 1e-9;
 // The center of mass follows its task if the residual is below this, m/s2.
 constexpr double kFollowing = 0.05;
 
-// Joint damping of the fail-safe command.
+// Joint damping of the fail-safe command, for robot/models/humanoid.urdf.
 constexpr double kFailSafeDamping = 10;  // 1/s.
 
 const Robot& Checked(const Robot& robot) {
@@ -71,6 +71,7 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
       weight_(robot_.model.tree.total_mass() *
               robot_.model.tree.gravity_W().norm()),
       force_scale_(ForceScale(robot_.model.tree)),
+      scale_(MakeFroudeScale(robot_)),
       stack_(MakeDefaultStack(robot_, options.frames)),
       momentum_(*stack_.Find("momentum")),
       momentum_task_(static_cast<const MomentumTask&>(stack_.task(momentum_))),
@@ -79,15 +80,16 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
       com_(*stack_.Find("com")),
       com_task_(static_cast<const ComTask&>(stack_.task(com_))),
       guard_(robot_.model.tree),
-      stance_(robot_.feet, weight_),
-      monitor_(robot_.model.tree, robot_.feet),
+      stance_(robot_.feet, weight_, scale_),
+      monitor_(robot_.model.tree, robot_.feet, scale_),
       drag_(robot_),
       tick_(robot_.model.tree, TickFrames(robot_, options.frames)),
       contacts_(robot_.feet.size()),
       hierarchy_(NumVariables(robot_), stack_.capacity()),
       solver_(NumVariables(robot_), stack_.capacity()),
       solution_(NumVariables(robot_), stack_.capacity()),
-      unmodelled_(robot_.model.tree.nv()) {
+      disturbance_(scale_),
+      unmodelled_(robot_.model.tree.nv(), scale_) {
   if (!(options.dt > 0 && options.dt < 1)) {
     throw std::invalid_argument("control period is " +
                                 std::to_string(options.dt) +
@@ -283,8 +285,8 @@ void Controller::FailSafe(FailSafeReason reason, const State& state,
   report_.lost.clear();
   if (reason != FailSafeReason::kNoAnswer) report_.ClearAnswer();
   const int n = robot_.model.tree.num_joints();
-  ComputeFailSafeTorque(tick_, contacts_, state.v.tail(n), kFailSafeDamping,
-                        &command->tau);
+  ComputeFailSafeTorque(tick_, contacts_, state.v.tail(n),
+                        kFailSafeDamping / scale_.time(), &command->tau);
   LimitTorque(command);
   command->status = report_.status;
 }

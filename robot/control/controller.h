@@ -20,6 +20,7 @@
 #include "poise/robot/control/stance.h"
 #include "poise/robot/control/state_guard.h"
 #include "poise/robot/control/tasks/com.h"
+#include "poise/robot/control/tasks/froude.h"
 #include "poise/robot/control/tasks/momentum.h"
 #include "poise/robot/control/tick_report.h"
 #include "poise/robot/control/torque.h"
@@ -127,6 +128,7 @@ class Controller {
   ControllerOptions options_;
   double weight_;       ///< Weight of the robot, N.
   double force_scale_;  ///< Scale of rows in forces, N.
+  FroudeScale scale_;
   Reference reference_;
   Stack stack_;
   int momentum_;  ///< Index into the stack's tasks.

@@ -1,14 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/robot/control/default_stack.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
 
-#include "poise/dynamics/tick.h"
 #include "poise/dynamics/tree.h"
 #include "poise/robot/control/tasks/angular_momentum.h"
 #include "poise/robot/control/tasks/capture_point.h"
@@ -52,7 +50,7 @@ constexpr double kRegularizerWeight = 1e-2;
 // one foot the CoP moves by at most Y, and the lean that it can correct is Y /
 // h. The value gives 200 N m/rad for robot/models/humanoid.urdf.
 constexpr double kOrientation = 98.8;
-constexpr double kMostOrientation = 1e4;  // The parameter's bound, N m/rad.
+constexpr double kMostOrientation = 1e6;  // The parameter's bound, N m/rad.
 
 // The size of a robot that stands on its soles, m.
 struct Size {
@@ -62,22 +60,12 @@ struct Size {
 
 // Returns nothing if the robot has no feet or no posture in which it stands.
 std::optional<Size> SizeOf(const Robot& robot) {
-  const Tree& tree = robot.model.tree;
-  if (robot.feet.empty() || robot.q_nominal.size() != tree.nq()) {
-    return std::nullopt;
-  }
-  Tick tick(tree, {});
-  ComputeTick(tree, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
-  double Y = std::numeric_limits<double>::infinity(), ground = 0;
-  for (const Foot& foot : robot.feet) {
-    Y = std::min(Y, foot.half_size.y());
-    ground += (tick.X_WB[foot.body] * foot.X_BC).p.z();
-  }
-  ground /= static_cast<double>(robot.feet.size());
-  const double h = tick.p_WG.z() - ground;
+  const std::optional<double> h = NominalComHeight(robot);
+  double Y = std::numeric_limits<double>::infinity();
+  for (const Foot& foot : robot.feet) Y = std::min(Y, foot.half_size.y());
   // A posture that does not stand may have its center of mass below the soles.
-  if (!(h > Y)) return std::nullopt;
-  return Size{h, Y};
+  if (!h || !(*h > Y)) return std::nullopt;
+  return Size{*h, Y};
 }
 
 // Returns k_orientation, N m/rad, with three significant digits.
@@ -111,13 +99,14 @@ Stack MakeDefaultStack(const Robot& robot,
   const RobotModel& model = robot.model;
   const Tree& tree = model.tree;
   const std::vector<Foot>& feet = robot.feet;
+  const FroudeScale scale = MakeFroudeScale(robot);
   Stack stack(tree.nv() + 6 * static_cast<int>(feet.size()));
 
   stack.Add(std::make_unique<NewtonEulerTask>(tree), {kOn, 1, 1});
   stack.Add(std::make_unique<NoContactTask>(tree, feet), {kOn, 1, 1});
 
   stack.Add(std::make_unique<TorqueLimitsTask>(model), {kOn, 2, 1});
-  stack.Add(std::make_unique<JointLimitsTask>(model), {kOn, 2, 1});
+  stack.Add(std::make_unique<JointLimitsTask>(model, scale), {kOn, 2, 1});
 
   if (!model.mimics.empty()) {
     stack.Add(std::make_unique<MimicTask>(model), {kOn, 3, 1});
@@ -152,8 +141,8 @@ Stack MakeDefaultStack(const Robot& robot,
               {kOff, 4, 1});
   }
 
-  stack.Add(std::make_unique<PostureTask>(tree), {kOn, 5, 1});
-  stack.Add(std::make_unique<ForceRegularizerTask>(tree, feet),
+  stack.Add(std::make_unique<PostureTask>(tree, scale), {kOn, 5, 1});
+  stack.Add(std::make_unique<ForceRegularizerTask>(tree, feet, scale),
             {kOn, 5, kRegularizerWeight});
   stack.Add(std::make_unique<TorqueMinimizationTask>(model), {kOff, 5, 1});
   FitToRobot(robot, &stack);

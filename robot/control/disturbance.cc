@@ -9,15 +9,19 @@ namespace {
 constexpr double kLargestLift = 1.6;   // Clamp along z, m/s2.
 constexpr double kLargestShift = 0.5;  // Clamp in the plane, m/s2.
 
-// Below this speed of the center of mass, the robot counts as standing, m/s.
+// Below this speed of the center of mass, the robot counts as standing, m/s. It
+// holds for robot/models/humanoid.urdf.
 constexpr double kStanding = 0.02;
 
 }  // namespace
 
+Disturbance::Disturbance(const FroudeScale& scale)
+    : standing_(kStanding * scale.speed()) {}
+
 void Disturbance::Update(double dt, const ComGains& gains,
                          const Reference& reference,
                          const Tick& tick) noexcept {
-  const bool stands = reference.v_WG.isZero() && tick.v_WG.norm() < kStanding;
+  const bool stands = reference.v_WG.isZero() && tick.v_WG.norm() < standing_;
   const double decay = gains.kp > 0 ? gains.kd / gains.kp : 0;
   const Eigen::Vector3d e_W =
       reference.p_WG - tick.p_WG + decay * (reference.v_WG - tick.v_WG);

@@ -6,6 +6,7 @@
 #include "poise/dynamics/tick.h"
 #include "poise/robot/control/com_gains.h"
 #include "poise/robot/control/reference.h"
+#include "poise/robot/control/tasks/froude.h"
 
 namespace poise {
 
@@ -20,6 +21,9 @@ namespace poise {
 /// error of 4 cm) and to 1.6 m/s2 along z (a mass error of one sixth).
 class Disturbance {
  public:
+  /// `scale` fits the speed of a standing robot to its size.
+  explicit Disturbance(const FroudeScale& scale = {});
+
   /// Sets the correction to zero.
   void Forget() noexcept { c_W_.setZero(); }
 
@@ -32,6 +36,7 @@ class Disturbance {
   const Eigen::Vector3d& correction_W() const { return c_W_; }
 
  private:
+  double standing_;  // Speed of the center of mass, m/s.
   Eigen::Vector3d c_W_ = Eigen::Vector3d::Zero();
 };
 

@@ -17,6 +17,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// Lengths, times and speeds below hold for robot/models/humanoid.urdf; Stance
+// multiplies them by the ratios of the robot.
+
 // The reference of a landing foot ends kReach below the ground, so that the
 // foot reaches the ground. Below ground level, the reference sinks over
 // kSinkTime, so that the foot does not hit the ground hard.
@@ -42,8 +45,10 @@ constexpr double kInstant = 1e-9;  // s.
 // Rounding error of a sum of several control periods, s.
 constexpr double kRounding = 1e-9;
 
-// Speed at which a foot moves down after it has lost the ground.
+// Speed at which a foot moves down after it has lost the ground, and the
+// shortest time of this motion.
 constexpr double kSearchSpeed = 0.2;  // m/s.
+constexpr double kSearchTime = 0.05;  // s.
 
 // A step has left the ground with its lowest corner above kStepRisen. It lands
 // with its middle below kStepFlat, if its lowest corner is below the ground
@@ -65,12 +70,6 @@ constexpr double kStepNear = 0.03;      // m.
 // times the weight of the robot.
 constexpr double kFullLoad = 1.5;
 
-// Duration of the vertical motion of a foot in the air, s.
-double Duration(ContactPhase phase, double down, double swing_time) {
-  if (phase != ContactPhase::kLost) return std::max(kInstant, swing_time);
-  return std::max(0.05, down / kSearchSpeed);
-}
-
 bool Bears(ContactPhase phase) {
   return phase == ContactPhase::kDown || phase == ContactPhase::kUnloading ||
          phase == ContactPhase::kLoading;
@@ -88,8 +87,20 @@ Eigen::Matrix3d Upright(const Eigen::Matrix3d& R_WC) {
 
 }  // namespace
 
-Stance::Stance(const std::vector<Foot>& feet, double weight)
-    : weight_(weight), feet_(feet.size()) {
+Stance::Stance(const std::vector<Foot>& feet, double weight,
+               const FroudeScale& scale)
+    : weight_(weight),
+      length_(scale.length),
+      time_(scale.time()),
+      speed_(scale.speed()),
+      feet_(feet.size()) {
+  for (double* time : {&settings_.fade_time, &settings_.swing_time,
+                       &settings_.return_time, &settings_.lost_after}) {
+    *time = std::min(kMostTime, time_ * *time);
+  }
+  for (double* height : {&settings_.lost_above, &settings_.found_below}) {
+    *height = std::min(kMostThreshold, length_ * *height);
+  }
   for (size_t i = 0; i < feet.size(); ++i) {
     feet_[i].polygon_C = feet[i].polygon_C;
   }
@@ -148,11 +159,13 @@ Stance::Clearance Stance::Middle(const ContactTick& contact,
 
 bool Stance::HasLeft(const Clearance& lowest) const noexcept {
   return lowest.height > 2 * settings_.lost_above ||
-         (lowest.height > settings_.lost_above && lowest.rising > kSeparating);
+         (lowest.height > settings_.lost_above &&
+          lowest.rising > speed_ * kSeparating);
 }
 
 bool Stance::HasLanded(const Clearance& sole) const noexcept {
-  return sole.height < settings_.found_below && sole.rising < kSeparating;
+  return sole.height < settings_.found_below &&
+         sole.rising < speed_ * kSeparating;
 }
 
 // Whether the ground has stopped a descending sole. If contact were declared
@@ -164,8 +177,9 @@ bool Stance::IsStopped(const FootState& foot,
                        const Clearance& sole) const noexcept {
   if (foot.phase != ContactPhase::kLanding) return true;
   const VerticalMotion motion = VerticalMotionOf(foot);
-  return motion.speed < -kTelling ? sole.rising > kStopped * motion.speed
-                                  : motion.is_over;
+  return motion.speed < -speed_ * kTelling
+             ? sole.rising > kStopped * motion.speed
+             : motion.is_over;
 }
 
 // Whether no foot is in contact: the robot is in flight.
@@ -234,14 +248,14 @@ void Stance::PutDown(int i) noexcept {
   FootState& foot = feet_[i];
   if (foot.phase == ContactPhase::kFree) {
     CallBack(&foot);
-    foot.to = -kReach;
+    foot.to = -length_ * kReach;
   } else if (foot.phase == ContactPhase::kReturning) {
-    if (!Lands(foot)) Swing(&foot, -kReach);
+    if (!Lands(foot)) Swing(&foot, -length_ * kReach);
   } else if (foot.phase == ContactPhase::kUnloading) {
     Enter(&foot, ContactPhase::kLoading);
     foot.force = weight_;
   } else if (foot.phase == ContactPhase::kUp) {
-    Swing(&foot, -kReach);
+    Swing(&foot, -length_ * kReach);
     Enter(&foot, ContactPhase::kLanding);
   }
 }
@@ -269,7 +283,7 @@ void Stance::Return(const FootState& foot,
   Vector6d whole;
   whole << LogSo3(foot.X_WC.R * foot.X_WC_away.R.transpose()),
       foot.X_WC.p - foot.X_WC_away.p;
-  const double fall = foot.X_WC_away.p.z() - foot.X_WC.p.z() + kReach;
+  const double fall = foot.X_WC_away.p.z() - foot.X_WC.p.z() + length_ * kReach;
   whole[5] += foot.to;
   const double whole_time = std::max(kInstant, settings_.return_time);
   Vector6d moved;
@@ -318,20 +332,21 @@ void Stance::Update(double dt, const Eigen::VectorXd& normal_force,
 // its estimate.
 bool Stance::HasSteppedDown(double dt, const ContactTick& contact,
                             double ground_z, double reference_speed,
-                            FootState* foot) noexcept {
+                            FootState* foot) const noexcept {
   const Clearance lowest = LowestCorner(*foot, contact, ground_z);
   const Clearance middle = Middle(contact, ground_z);
-  if (lowest.height > kStepRisen) foot->has_risen = true;
+  if (lowest.height > length_ * kStepRisen) foot->has_risen = true;
   if (!foot->has_risen) return false;
-  const double near =
-      std::clamp(-kStepSoon * lowest.rising, kStepLow, kStepTouch);
-  const bool touches = lowest.height < near && middle.height < kStepFlat &&
-                       middle.rising < kSeparating;
-  const bool is_stopped = reference_speed < -kStepSinking &&
+  const double near = std::clamp(-time_ * kStepSoon * lowest.rising,
+                                 length_ * kStepLow, length_ * kStepTouch);
+  const bool touches = lowest.height < near &&
+                       middle.height < length_ * kStepFlat &&
+                       middle.rising < speed_ * kSeparating;
+  const bool is_stopped = reference_speed < -speed_ * kStepSinking &&
                           middle.rising > kStopped * reference_speed &&
-                          middle.height < kStepNear;
+                          middle.height < length_ * kStepNear;
   foot->left_for = is_stopped ? foot->left_for + dt : 0;
-  return touches || foot->left_for > kStepStopped;
+  return touches || foot->left_for > time_ * kStepStopped;
 }
 
 void Stance::ChangePhase(double dt, const ContactTick& contact,
@@ -361,7 +376,7 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
       if (foot.left_for > 0 &&
           foot.left_for > settings_.lost_after - kRounding) {
         TakeOff(&foot, contact, reference);
-        foot.to = -kReach;
+        foot.to = -length_ * kReach;
         Enter(&foot, ContactPhase::kLost);
       } else if (foot.phase == ContactPhase::kLoading &&
                  foot.since > settings_.fade_time) {
@@ -437,21 +452,30 @@ void Stance::Guide(const FootState& foot,
   target->A_WF_W[5] = motion.acceleration;
 }
 
+// Returns the duration of the vertical motion of a foot in the air, s.
+double Stance::Duration(const FootState& foot) const noexcept {
+  if (foot.phase != ContactPhase::kLost) {
+    return std::max(kInstant, settings_.swing_time);
+  }
+  return std::max(time_ * kSearchTime,
+                  (foot.from - foot.to) / (speed_ * kSearchSpeed));
+}
+
 // A landing foot first comes to rest on the ground; then its reference sinks
 // below the ground.
 Stance::VerticalMotion Stance::VerticalMotionOf(
     const FootState& foot) const noexcept {
-  const double down =
-      Duration(foot.phase, foot.from - foot.to, settings_.swing_time);
+  const double down = Duration(foot);
   const bool lands = foot.phase == ContactPhase::kLanding;
   const bool sinks = lands && foot.since > down;
   const double from = sinks ? 0 : foot.from;
   const double travel = (lands && !sinks ? 0 : foot.to) - from;
-  const double time = sinks ? kSinkTime : down;
+  const double sink_time = time_ * kSinkTime;
+  const double time = sinks ? sink_time : down;
   const MinimumJerk s(std::min(1.0, (foot.since - (sinks ? down : 0)) / time));
   return {from + travel * s.value, travel / time * s.rate,
           travel / (time * time) * s.acceleration,
-          foot.since > down + (lands ? kSinkTime : 0)};
+          foot.since > down + (lands ? sink_time : 0)};
 }
 
 }  // namespace poise

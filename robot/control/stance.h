@@ -6,6 +6,7 @@
 
 #include "poise/robot/control/contacts.h"
 #include "poise/robot/control/reference.h"
+#include "poise/robot/control/tasks/froude.h"
 #include "poise/robot/robot.h"
 
 namespace poise {
@@ -23,7 +24,9 @@ enum class ContactPhase {
   kStepping,   ///< In the air, on a path that the caller writes.
 };
 
-/// Times and heights of a Stance. A time of 0 means: within one tick.
+/// Times and heights of a Stance. A time of 0 means: within one tick. The
+/// defaults hold for robot/models/humanoid.urdf; the constructor of Stance
+/// scales them to the robot.
 struct StanceSettings {
   double fade_time = 0.3;    ///< Time for a force to fade in or out, s.
   double swing_time = 0.8;   ///< Time to lift a foot or to put it down, s.
@@ -56,8 +59,10 @@ class Stance {
   static constexpr double kMostTime = 60;        ///< Upper bound of times, s.
   static constexpr double kMostThreshold = 0.5;  ///< Upper bound of heights, m.
 
-  /// All feet start in contact. `weight` is the weight of the robot, N.
-  Stance(const std::vector<Foot>& feet, double weight);
+  /// All feet start in contact. `weight` is the weight of the robot, N; `scale`
+  /// fits the settings and all other lengths, times and speeds to its size.
+  Stance(const std::vector<Foot>& feet, double weight,
+         const FroudeScale& scale = {});
 
   /// Throws std::invalid_argument, and changes nothing, if a time is not 0 to
   /// kMostTime, or a height not 0 to kMostThreshold. Call only between ticks.
@@ -136,9 +141,8 @@ class Stance {
   static bool Lands(const FootState& foot) noexcept;
   void CallBack(FootState* foot) noexcept;
   void Swing(FootState* foot, double height) noexcept;
-  static bool HasSteppedDown(double dt, const ContactTick& contact,
-                             double ground_z, double reference_speed,
-                             FootState* foot) noexcept;
+  bool HasSteppedDown(double dt, const ContactTick& contact, double ground_z,
+                      double reference_speed, FootState* foot) const noexcept;
   void ChangePhase(double dt, const ContactTick& contact,
                    const Reference& reference, double reference_speed,
                    FootState* foot) noexcept;
@@ -150,7 +154,10 @@ class Stance {
   void TakeOff(FootState* foot, const ContactTick& contact,
                const Reference& reference) noexcept;
 
+  double Duration(const FootState& foot) const noexcept;
+
   double weight_;
+  double length_, time_, speed_;  // Ratios, see FroudeScale.
   StanceSettings settings_;
   std::vector<FootState> feet_;
 };

@@ -14,8 +14,10 @@ constexpr double kLargest = 100;  // Clamp, rad/s2 or m/s2.
 
 }  // namespace
 
-UnmodelledAcceleration::UnmodelledAcceleration(int nv)
-    : vdot_(Eigen::VectorXd::Zero(nv)),
+UnmodelledAcceleration::UnmodelledAcceleration(int nv, const FroudeScale& scale)
+    : memory_(kMemory * scale.time()),
+      largest_(kLargest / scale.length),
+      vdot_(Eigen::VectorXd::Zero(nv)),
       predicted_v_(Eigen::VectorXd::Zero(nv)) {}
 
 void UnmodelledAcceleration::Reset() noexcept {
@@ -26,9 +28,9 @@ void UnmodelledAcceleration::Reset() noexcept {
 void UnmodelledAcceleration::Update(double dt,
                                     const Eigen::VectorXd& v) noexcept {
   if (!predicts_) return;
-  const double share = -std::expm1(-dt / kMemory);
+  const double share = -std::expm1(-dt / memory_);
   vdot_ += share * ((v - predicted_v_) / dt - vdot_);
-  vdot_ = vdot_.cwiseMax(-kLargest).cwiseMin(kLargest);
+  vdot_ = vdot_.cwiseMax(-largest_).cwiseMin(largest_);
 }
 
 void UnmodelledAcceleration::Predict(

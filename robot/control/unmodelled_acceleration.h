@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "poise/robot/control/tasks/froude.h"
+
 namespace poise {
 
 /// Estimates the unmodelled acceleration: the part of v̇ that the last
@@ -10,11 +12,12 @@ namespace poise {
 /// v_predicted = v + dt v̇ of the last solution, the estimate is the
 /// first-order mean over 20 ms of
 ///     (v - v_predicted) / dt,
-/// clamped to 100 rad/s2 or m/s2: a larger value is not from a push.
+/// clamped to 100 rad/s2 or m/s2: a larger value is not from a push. Both
+/// numbers hold for robot/models/humanoid.urdf and are scaled to the robot.
 class UnmodelledAcceleration {
  public:
   /// `nv` is the number of velocities. The estimate starts at zero.
-  explicit UnmodelledAcceleration(int nv);
+  explicit UnmodelledAcceleration(int nv, const FroudeScale& scale = {});
 
   /// Sets the estimate to zero and forgets the prediction.
   void Reset() noexcept;
@@ -33,6 +36,8 @@ class UnmodelledAcceleration {
   const Eigen::VectorXd& vdot() const { return vdot_; }
 
  private:
+  double memory_;   // s.
+  double largest_;  // rad/s2 or m/s2.
   Eigen::VectorXd vdot_;
   Eigen::VectorXd predicted_v_;
   bool predicts_ = false;  // Whether predicted_v_ is from the last tick.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "poise/robot/control/stance.h"
 #include "poise/robot/finding.h"
 
 namespace poise {
@@ -28,8 +27,7 @@ int FindFoot(const Robot& robot, const std::string& name) {
 }
 
 // Returns the time that the motion of a command takes, s.
-double TimeOf(const StanceEvent& event) {
-  const StanceSettings stance;
+double TimeOf(const StanceEvent& event, const StanceSettings& stance) {
   return event.kind == Kind::kShift ? event.over
                                     : stance.fade_time + stance.swing_time;
 }
@@ -42,7 +40,8 @@ bool Ends(const StanceEvent& later, const StanceEvent& earlier) {
 
 }  // namespace
 
-CommandWatch::CommandWatch(const Robot& robot, const Scenario& scenario)
+CommandWatch::CommandWatch(const Robot& robot, const Scenario& scenario,
+                           const StanceSettings& stance)
     : dt_(scenario.control.dt), com_(scenario.com) {
   const std::vector<StanceEvent>& events = scenario.stance;
   for (std::size_t i = 0; i < events.size(); ++i) {
@@ -50,7 +49,7 @@ CommandWatch::CommandWatch(const Robot& robot, const Scenario& scenario)
     Command command;
     command.event = events[i];
     command.foot = FindFoot(robot, events[i].foot);
-    command.ready = events[i].at + TimeOf(events[i]);
+    command.ready = events[i].at + TimeOf(events[i], stance);
     command.until = std::numeric_limits<double>::infinity();
     for (std::size_t k = i + 1; k < events.size(); ++k) {
       if (!Ends(events[k], events[i])) continue;

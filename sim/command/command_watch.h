@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "poise/robot/control/stance.h"
 #include "poise/robot/robot.h"
 #include "poise/sim/log/tick_record.h"
 #include "poise/sim/scenario.h"
@@ -30,8 +31,10 @@ class CommandWatch {
   static constexpr double kLiftShare = 0.5;
   static constexpr double kMotionShare = 0.5;
 
+  /// `stance` has the times in which a foot is lifted or put down.
   /// @pre The scenario is valid.
-  CommandWatch(const Robot& robot, const Scenario& scenario);
+  CommandWatch(const Robot& robot, const Scenario& scenario,
+               const StanceSettings& stance);
 
   void Look(const TickRecord& record);
 

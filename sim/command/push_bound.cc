@@ -14,14 +14,22 @@ std::optional<Yardstick> BoundOfPush(const Robot& robot,
                           aimed.body(), aimed.p_BoQ_B(), down);
 }
 
-void ApplyFraction(const Robot& robot, const Eigen::VectorXd& q,
-                   const std::vector<bool>& down, Push* push) {
+bool ApplyFraction(const Robot& robot, const Eigen::VectorXd& q,
+                   const std::vector<bool>& down,
+                   const Eigen::Vector3d& direction, Push* push) {
+  if (!push->impulse_fraction) return true;
+  push->force = direction;
   const double time = ProfileIntegral(*push);
-  if (!push->impulse_fraction || !(time > 0)) return;
   const auto bound = BoundOfPush(robot, q, *push, down);
-  if (!bound) return;
+  if (!(time > 0) || !bound) return true;
   const double impulse = *push->impulse_fraction * bound->lipm_height_Ns;
   push->force *= impulse / time / push->force.norm();
+  return impulse > 0 || *push->impulse_fraction == 0;
+}
+
+bool HasBegun(const Push& push, double time, double dt) {
+  constexpr double kRounding = 1e-9;  // Of a sum of many control periods, s.
+  return push.start < time + dt - kRounding;
 }
 
 }  // namespace poise

@@ -18,10 +18,22 @@ std::optional<Yardstick> BoundOfPush(const Robot& robot,
                                      const Eigen::VectorXd& q, const Push& push,
                                      const std::vector<bool>& down = {});
 
-/// Sets the force of a push so that its impulse is Push::impulse_fraction of
-/// lipm_height_Ns, as BoundOfPush() returns it. Changes nothing if the push has
-/// no such fraction.
-void ApplyFraction(const Robot& robot, const Eigen::VectorXd& q,
-                   const std::vector<bool>& down, Push* push);
+/// Sets the force of a push along `direction` so that its impulse is
+/// Push::impulse_fraction of lipm_height_Ns, as BoundOfPush() returns it.
+/// Changes nothing if the push has no such fraction.
+///
+/// @param direction  force as the scenario gives it, in the world, of any
+///                   length but 0.
+/// @return false if the fraction is positive and the bound is 0, because the
+///         center of mass is not above the soles. The force is then 0.
+/// @pre The duration of a push with a fraction is positive.
+[[nodiscard]] bool ApplyFraction(const Robot& robot, const Eigen::VectorXd& q,
+                                 const std::vector<bool>& down,
+                                 const Eigen::Vector3d& direction, Push* push);
+
+/// Returns whether a push has begun before the end of the control tick [time,
+/// time + dt], s. A push that begins with the next tick, up to rounding, has
+/// not.
+bool HasBegun(const Push& push, double time, double dt);
 
 }  // namespace poise

@@ -21,7 +21,7 @@ TEST(ApplyFraction, GivesTheFractionOfTheBound) {
     Push push = PushTo(3, 4);
     push.profile = profile;
     push.impulse_fraction = 0.4;
-    ApplyFraction(robot, robot.q_nominal, {}, &push);
+    EXPECT_TRUE(ApplyFraction(robot, robot.q_nominal, {}, push.force, &push));
     const auto bound = BoundOfPush(robot, robot.q_nominal, push);
     ASSERT_TRUE(bound);
     // Rounding of numbers of some 10 N s.
@@ -34,18 +34,43 @@ TEST(ApplyFraction, UsesTheFeetThatAreDown) {
   const Robot robot = LoadHumanoid();
   Push both = PushTo(0, -1), left = both;
   both.impulse_fraction = left.impulse_fraction = 0.5;
-  ApplyFraction(robot, robot.q_nominal, {true, true}, &both);
-  ApplyFraction(robot, robot.q_nominal, {true, false}, &left);
+  const Eigen::Vector3d direction = both.force;
+  EXPECT_TRUE(
+      ApplyFraction(robot, robot.q_nominal, {true, true}, direction, &both));
   EXPECT_GT(both.force.norm(), 10);
   // The CoM amid the feet is outside of the left sole.
+  EXPECT_FALSE(
+      ApplyFraction(robot, robot.q_nominal, {true, false}, direction, &left));
   EXPECT_EQ(left.force.norm(), 0);
+  // A later bound above 0 gives the push its force.
+  EXPECT_TRUE(
+      ApplyFraction(robot, robot.q_nominal, {true, true}, direction, &left));
+  EXPECT_EQ(left.force, both.force);
+}
+
+TEST(ApplyFraction, AcceptsAFractionOfZero) {
+  const Robot robot = LoadHumanoid();
+  Push push = PushTo(0, 100);
+  push.impulse_fraction = 0;
+  EXPECT_TRUE(ApplyFraction(robot, robot.q_nominal, {}, push.force, &push));
+  EXPECT_EQ(push.force.norm(), 0);
 }
 
 TEST(ApplyFraction, LeavesAPushInNewtons) {
   const Robot robot = LoadHumanoid();
   Push push = PushTo(0, 100);
-  ApplyFraction(robot, robot.q_nominal, {}, &push);
+  EXPECT_TRUE(ApplyFraction(robot, robot.q_nominal, {}, {1, 0, 0}, &push));
   EXPECT_EQ(push.force, Eigen::Vector3d(0, 100, 0));
+}
+
+TEST(HasBegun, CountsAPushFromTheTickInWhichItActs) {
+  Push push;
+  push.start = 0.1;
+  EXPECT_FALSE(HasBegun(push, 0.098, 1e-3));
+  EXPECT_FALSE(HasBegun(push, 0.099, 1e-3));  // Begins with the next tick.
+  EXPECT_TRUE(HasBegun(push, 0.1, 1e-3));
+  push.start = 0.0996;
+  EXPECT_TRUE(HasBegun(push, 0.099, 1e-3));
 }
 
 TEST(BoundOfPush, NeedsAHorizontalDirectionInTheWorld) {

@@ -7,7 +7,8 @@
 namespace poise {
 
 ForceRegularizerTask::ForceRegularizerTask(const Tree& tree,
-                                           const std::vector<Foot>& feet)
+                                           const std::vector<Foot>& feet,
+                                           const FroudeScale& scale)
     : Task("force_regularizer",
            FootRows(feet, "force", RowKind::kTarget,
                     {{"mx", "N m", "the moment on the % about x"},
@@ -18,16 +19,17 @@ ForceRegularizerTask::ForceRegularizerTask(const Tree& tree,
                      {"fz", "N", "the force on the % along z"}}),
            {}),
       nv_(tree.nv()),
-      inverse_force_scale_(1 / ForceScale(tree)) {}
+      inverse_force_scale_(1 / ForceScale(tree)),
+      inverse_moment_scale_(inverse_force_scale_ / scale.length) {}
 
 void ForceRegularizerTask::Write(const TaskInput& input,
                                  EqualityBlock* equalities,
                                  InequalityBlock*) const noexcept {
   for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
     if (!input.contacts[i].in_contact) continue;
-    equalities->B.block<6, 6>(6 * i, nv_ + 6 * i)
-        .diagonal()
-        .setConstant(inverse_force_scale_);
+    auto diagonal = equalities->B.block<6, 6>(6 * i, nv_ + 6 * i).diagonal();
+    diagonal.head<3>().setConstant(inverse_moment_scale_);
+    diagonal.tail<3>().setConstant(inverse_force_scale_);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "poise/robot/control/task.h"
+#include "poise/robot/control/tasks/froude.h"
 #include "poise/robot/robot.h"
 
 namespace poise {
@@ -12,9 +13,11 @@ namespace poise {
 /// a quarter of the robot's weight. Determines the internal forces.
 class ForceRegularizerTask final : public Task {
  public:
-  ForceRegularizerTask(const Tree& tree, const std::vector<Foot>& feet);
-  double equality_scale(int) const noexcept override {
-    return 1 / inverse_force_scale_;
+  /// `scale` is that of the robot: moments are divided by its length.
+  ForceRegularizerTask(const Tree& tree, const std::vector<Foot>& feet,
+                       const FroudeScale& scale = {});
+  double equality_scale(int row) const noexcept override {
+    return 1 / (row % 6 < 3 ? inverse_moment_scale_ : inverse_force_scale_);
   }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
@@ -22,6 +25,7 @@ class ForceRegularizerTask final : public Task {
  private:
   int nv_;
   double inverse_force_scale_;
+  double inverse_moment_scale_;
 };
 
 }  // namespace poise

@@ -1,22 +1,29 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/robot/control/tasks/froude.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string_view>
 
+#include "poise/dynamics/tick.h"
+#include "poise/dynamics/tree.h"
+
 namespace poise {
 namespace {
 
-// Largest relative difference of the heights of one robot: rounding, and
-// postures that differ a little.
+// Largest relative difference of the heights or the masses of one robot:
+// rounding, and postures that differ a little.
 constexpr double kSameHeight = 1e-3;
 
 // Returns the power of L of a parameter, from its unit: 1 for m, 0.5 for s, -0.5
-// for 1/s, -1 for 1/s2, -1.5 for 1/s3, and 0 for numbers without a unit.
+// for 1/s, -1 for 1/s2, -1.5 for 1/s3, -2 for 1/m2, and 0 for numbers without a
+// unit.
 double PowerOf(std::string_view task, std::string_view parameter) {
   static const std::map<std::string_view, double> powers = {
+      {"angular_weight", -2},
+      {"capture_angular_weight", -2},
       {"capture_kd", -0.5},
       {"capture_kp", -1},
       {"capture_margin", 1},
@@ -40,6 +47,29 @@ double PowerOf(std::string_view task, std::string_view parameter) {
 }
 
 }  // namespace
+
+std::optional<double> NominalComHeight(const Robot& robot) {
+  const Tree& tree = robot.model.tree;
+  if (robot.feet.empty() || robot.q_nominal.size() != tree.nq()) {
+    return std::nullopt;
+  }
+  Tick tick(tree, {});
+  ComputeTick(tree, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
+  double ground = 0;
+  for (const Foot& foot : robot.feet) {
+    ground += (tick.X_WB[foot.body] * foot.X_BC).p.z();
+  }
+  return tick.p_WG.z() - ground / static_cast<double>(robot.feet.size());
+}
+
+FroudeScale MakeFroudeScale(const Robot& robot) {
+  const auto ratio = [](double value, double tuned) {
+    const double exact = value / tuned;
+    return exact > 0 && std::abs(exact - 1) >= kSameHeight ? exact : 1;
+  };
+  return {ratio(NominalComHeight(robot).value_or(0), kTunedComHeight),
+          ratio(robot.model.tree.total_mass(), kTunedMass)};
+}
 
 void ScaleToHeight(double com_height, const Task& task) {
   const double length = com_height / kTunedComHeight;

@@ -57,6 +57,36 @@ TEST_F(FroudeTest, ScalesRatesWithTheRootOfTheHeight) {
   EXPECT_NEAR(Get("joint_limits", "omega") / omega, 0.5, kRounding);
 }
 
+// The row of angular momentum is in m2/s2, that of the linear one in m/s2.
+TEST_F(FroudeTest, ScalesWeightsOfAngularMomentumWithTheSquare) {
+  const double weight = Get("momentum", "angular_weight");
+  const double captured = Get("momentum", "capture_angular_weight");
+  ScaleAll(2 * kTunedComHeight);
+  EXPECT_NEAR(Get("momentum", "angular_weight") / weight, 0.25, kRounding);
+  EXPECT_NEAR(Get("momentum", "capture_angular_weight") / captured, 0.25,
+              kRounding);
+}
+
+TEST(MakeFroudeScale, IsOneForTheTunedRobot) {
+  const FroudeScale scale = MakeFroudeScale(LoadHumanoid());
+  EXPECT_EQ(scale.length, 1);
+  EXPECT_EQ(scale.mass, 1);
+}
+
+TEST(MakeFroudeScale, IsTheRatioOfHeightsAndMasses) {
+  Robot robot = LoadHumanoid();
+  robot.model.tree = robot.model.tree.WithScaledInertias(2);
+  // The soles are lowered in the feet: the robot is higher by as much.
+  for (Foot& foot : robot.feet) foot.X_BC.p.z() -= 0.5 * kTunedComHeight;
+  const FroudeScale scale = MakeFroudeScale(robot);
+  EXPECT_NEAR(scale.mass, 2, kRounding);
+  // The ankles are level to 1e-7 rad in the profile's posture.
+  EXPECT_NEAR(scale.length, 1.5, 1e-6);
+  EXPECT_NEAR(scale.inertia(), 4.5, 1e-5);
+  robot.feet.clear();
+  EXPECT_EQ(MakeFroudeScale(robot).length, 1);
+}
+
 TEST_F(FroudeTest, KeepsDampingRatiosAnglesAndWeights) {
   const auto ratio = [&](const char* task) {
     return Get(task, "kd") / std::sqrt(Get(task, "kp"));
@@ -64,13 +94,13 @@ TEST_F(FroudeTest, KeepsDampingRatiosAnglesAndWeights) {
   const double contact = ratio("contact");
   const double posture = ratio("posture");
   const double margin = Get("joint_limits", "margin");
-  const double weight = Get("momentum", "angular_weight");
+  const double weight = Get("momentum", "capture_height_weight");
   const double d_min = Get("self_collision", "d_min");
   ScaleAll(0.3 * kTunedComHeight);
   EXPECT_NEAR(ratio("contact") / contact, 1, kRounding);
   EXPECT_NEAR(ratio("posture") / posture, 1, kRounding);
   EXPECT_EQ(Get("joint_limits", "margin"), margin);
-  EXPECT_EQ(Get("momentum", "angular_weight"), weight);
+  EXPECT_EQ(Get("momentum", "capture_height_weight"), weight);
   EXPECT_EQ(Get("self_collision", "d_min"), d_min);
 }
 

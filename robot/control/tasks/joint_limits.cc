@@ -12,7 +12,8 @@ namespace {
 
 // A joint that is slower than this, rad/s, may still accelerate and brake like
 // one of this speed. Some files have limits of 0.5 rad/s in the legs. Their
-// soles could not stay on the ground: w q̇_max would be 20 rad/s².
+// soles could not stay on the ground: w q̇_max would be 20 rad/s². This holds
+// for robot/models/humanoid.urdf and is scaled to other robots.
 constexpr double kFast = 5;
 
 // Bound on the braking of a joint that is faster than its limit, over omega
@@ -22,7 +23,8 @@ constexpr double kBrake = 0.25;
 
 }  // namespace
 
-JointLimitsTask::JointLimitsTask(const RobotModel& model)
+JointLimitsTask::JointLimitsTask(const RobotModel& model,
+                                 const FroudeScale& scale)
     : Task("joint_limits", {},
            JointRows(model.tree, "joint", RowKind::kJointLimit,
                      {"", "rad", "the angle of %"},
@@ -42,7 +44,8 @@ JointLimitsTask::JointLimitsTask(const RobotModel& model)
     const bool is_known = limits.velocity > 0 && std::isfinite(limits.velocity);
     velocity_[j] = is_known ? limits.velocity : kAssumedVelocity;
     if (!is_slider) velocity_[j] = std::max(velocity_[j], kSlowestVelocity);
-    fast_[j] = is_slider ? velocity_[j] : std::max(velocity_[j], kFast);
+    fast_[j] =
+        is_slider ? velocity_[j] : std::max(velocity_[j], kFast / scale.time());
     is_passive_[j] = limits.effort == 0;
   }
   AddParameter("omega", &omega_, 1, 1000);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "poise/robot/control/task.h"
+#include "poise/robot/control/tasks/froude.h"
 #include "poise/robot/robot.h"
 
 namespace poise {
@@ -35,7 +36,8 @@ constexpr double kSlowestVelocity = 2;
 class JointLimitsTask final : public Task {
  public:
   /// Parameters: omega (40 1/s); margin (0.008 rad), kept from each limit.
-  explicit JointLimitsTask(const RobotModel& model);
+  explicit JointLimitsTask(const RobotModel& model,
+                           const FroudeScale& scale = {});
   bool is_two_sided() const noexcept override { return true; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;

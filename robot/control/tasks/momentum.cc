@@ -24,7 +24,7 @@ MomentumTask::MomentumTask(const Tree& tree, const std::vector<Foot>& feet)
   AddParameter("kp", &gains_.kp, 0, 1e4);
   AddParameter("kd", &gains_.kd, 0, 1e3);
   AddParameter("kd_angular", &kd_angular_, 0, 1e3);
-  AddParameter("k_orientation", &k_orientation_, 0, 1e4);
+  AddParameter("k_orientation", &k_orientation_, 0, 1e6);
   AddParameter("ki", &gains_.ki, 0, 100);
   AddParameter("ki_height", &gains_.ki_height, 0, 100);
   AddParameter("angular_weight", &angular_weight_, 1e-6, 1e6);

@@ -10,21 +10,28 @@
 namespace poise {
 namespace {
 
-// Smallest inertia of a weight. Fingers have grams; a larger range of weights
-// would lose digits.
+// Smallest and largest inertia of a weight, for robot/models/humanoid.urdf.
+// Fingers have grams; a larger range of weights would lose digits.
 constexpr double kLeast = 0.01;  // kg m2, or kg.
 constexpr double kMost = 10;
 
 }  // namespace
 
-PostureTask::PostureTask(const Tree& tree)
+PostureTask::PostureTask(const Tree& tree, const FroudeScale& scale)
     : Task("posture",
            JointRows(tree, "posture", RowKind::kTarget,
                      {"", "rad/s2", "the posture of %"},
                      {"", "m/s2", "the posture of %"}),
            {}),
       q_start_(tree.q_start()),
-      v_start_(tree.v_start()) {
+      v_start_(tree.v_start()),
+      unit_(tree.num_joints()),
+      factor_(tree.num_joints()) {
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    const bool slides = tree.joints()[j].type == JointType::kPrismatic;
+    unit_[j] = slides ? scale.mass : scale.inertia();
+    factor_[j] = slides ? 1 : scale.length * scale.length;
+  }
   AddParameter("kp", &kp_, 0, 1e4);
   AddParameter("kd", &kd_, 0, 1e3);
   AddParameter("inertia", &inertia_, 0, 1);
@@ -39,10 +46,10 @@ void PostureTask::Write(const TaskInput& input, EqualityBlock* equalities,
   for (int j = 0; j < n; ++j) {
     const double q = input.state.q[q_start_ + j];
     const double v = input.state.v[v_start_ + j];
-    const double moved =
-        std::clamp(input.tick.M(v_start_ + j, v_start_ + j), kLeast, kMost);
+    const double moved = std::clamp(
+        input.tick.M(v_start_ + j, v_start_ + j) / unit_[j], kLeast, kMost);
     equalities->B(j, v_start_ + j) = 1;
-    equalities->weight[j] = std::pow(moved, inertia);
+    equalities->weight[j] = factor_[j] * std::pow(moved, inertia);
     equalities->b[j] = -kp_ * (input.reference.posture[j] - q) + kd_ * v;
   }
 }

@@ -1,8 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <vector>
+
 #include "poise/dynamics/tree.h"
 #include "poise/robot/control/task.h"
+#include "poise/robot/control/tasks/froude.h"
 
 namespace poise {
 
@@ -15,13 +18,17 @@ class PostureTask final : public Task {
  public:
   /// Parameters: kp (60 1/s2), kd (15 1/s), inertia (0.5) and
   /// capture_inertia (1), e.
-  explicit PostureTask(const Tree& tree);
+  /// Weights hold for robot/models/humanoid.urdf; `scale` fits them to the
+  /// robot, so that angular accelerations count times its length.
+  explicit PostureTask(const Tree& tree, const FroudeScale& scale = {});
   void Write(const TaskInput& input, EqualityBlock* equalities,
              InequalityBlock* inequalities) const noexcept override;
 
  private:
   int q_start_;
   int v_start_;
+  std::vector<double> unit_;    // Of inertia, by joint, kg m2 or kg over 1.
+  std::vector<double> factor_;  // On the weight, by joint.
   double kp_ = 60;
   double kd_ = 15;
   double inertia_ = 0.5;
