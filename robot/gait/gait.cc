@@ -11,6 +11,7 @@
 #include "poise/robot/control/tasks/support_box.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/gait/dcm.h"
+#include "poise/robot/gait/turn_strength.h"
 
 namespace poise {
 namespace {
@@ -58,6 +59,8 @@ Gait::Gait(const Robot& robot, const GaitSettings& settings)
   ComputeTick(tree, robot_.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
   nominal_height_ = tick.p_WG.z();
   settings_ = Scaled(settings, nominal_height_);
+  settings_.trigger = FitToStrength(settings.trigger, settings.weak_trigger,
+                                    ComputeTurnStrength(robot_));
   p_MidG_ = tick.p_WG.head<2>();
   const auto center = [&](const Foot& foot) {
     return (tick.X_WB[foot.body] * foot.X_BC).p;

@@ -11,6 +11,24 @@ namespace {
 // no zero.
 constexpr double kLeastEdge = 0.02;  // m.
 
+// Strengths, see TurnStrength, up to which a robot can hardly rely on turning
+// its trunk, and from which on it can.
+struct Range {
+  double weak, strong;
+};
+constexpr Range kSagittal{3.2, 3.7};
+constexpr Range kLateral{3, 7};
+
+double Share(const Range& range, double strength) {
+  return std::clamp((strength - range.weak) / (range.strong - range.weak), 0.0,
+                    1.0);
+}
+
+// Exactly `strong` for the share 1.
+double Between(double weak, double strong, double share) {
+  return strong - (1 - share) * (strong - weak);
+}
+
 struct Excursion {
   double fraction, beyond;  // beyond: m.
 };
@@ -40,6 +58,17 @@ EdgeFractions PredictEdgeFractions(const Eigen::Vector2d& xi_Mid,
   const Excursion y =
       Predict(xi_Mid.y(), a_Mid.y(), omega, T, box.left, box.right);
   return {x.fraction, y.fraction, std::max({0.0, x.beyond, y.beyond})};
+}
+
+StepTrigger FitToStrength(const StepTrigger& strong, const StepTrigger& weak,
+                          const TurnStrength& strength) noexcept {
+  const double sagittal = Share(kSagittal, strength.sagittal);
+  const double lateral = Share(kLateral, strength.lateral);
+  StepTrigger fit;
+  fit.sagittal = Between(weak.sagittal, strong.sagittal, sagittal);
+  fit.lateral = Between(weak.lateral, strong.lateral, lateral);
+  fit.sum = Between(weak.sum, strong.sum, std::min(sagittal, lateral));
+  return fit;
 }
 
 }  // namespace poise

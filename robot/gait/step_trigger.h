@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "poise/robot/gait/turn_strength.h"
+
 namespace poise {
 
 /// Box around the support of the feet, m, in the mid-feet frame.
@@ -43,5 +45,12 @@ struct StepTrigger {
            fractions.sagittal + fractions.lateral > sum;
   }
 };
+
+/// Returns the thresholds for a robot, between those for a strong and a weak
+/// one. A robot whose hips cannot turn its trunk falls in place although its
+/// capture point stays inside the soles. Such a robot has the thresholds of
+/// `weak`, and one like ours has exactly those of `strong`.
+StepTrigger FitToStrength(const StepTrigger& strong, const StepTrigger& weak,
+                          const TurnStrength& strength) noexcept;
 
 }  // namespace poise
