@@ -140,6 +140,23 @@ TEST(Diagnose, SaysThatARobotWithWeakArmsStands) {
   EXPECT_TRUE(hangs.stands) << hangs.reason;
 }
 
+// The cheek rests at the end of its range. The controller moves it away from
+// the stop by 8 rad/s² at first.
+TEST(Diagnose, IgnoresAccelerationsOfJointsThatDoNotMoveTheBase) {
+  std::string text = TextOf({});
+  const std::string cheek =
+      "<link name='cheek'><inertial><origin xyz='0.06 0 0.01'/><mass "
+      "value='0.37'/><inertia ixx='0.001' ixy='0' ixz='0' iyy='0.001' iyz='0' "
+      "izz='0.001'/></inertial></link><joint name='cheek' "
+      "type='revolute'><origin xyz='0 0 0.5'/><parent link='trunk'/><child "
+      "link='cheek'/><axis xyz='0 1 0'/><limit lower='-0.0576' upper='0' "
+      "effort='100' velocity='1.8'/></joint>";
+  text.insert(text.find("</robot>"), cheek);
+  const Diagnosis diagnosis = Examine(text);
+  EXPECT_TRUE(diagnosis.stands);
+  EXPECT_EQ(VerdictWord(diagnosis), "ok") << Findings(diagnosis);
+}
+
 TEST(NextStep, CorrectsEffortsOfZero) {
   for (const char* part : {"_hip_", "_"}) {
     Diagnosis diagnosis = Examine(WithEffort(HumanoidText(), part, "0"));

@@ -14,9 +14,8 @@
 namespace poise {
 namespace {
 
-// Largest acceleration of the base that counts as zero, relative to gravity.
-// A robot whose center of mass is outside its soles by 1 % of its height
-// accelerates more.
+// Largest rate of momentum that counts as zero, relative to the weight. A robot
+// whose center of mass is outside its soles by 1 % of its height has more.
 constexpr double kHeld = 0.01;
 // Excess of a torque outside the legs that is not reported, relative to weight
 // times height of the center of mass. A finger needs less.
@@ -40,9 +39,9 @@ std::vector<bool> FindLegJoints(const Robot& robot) {
 
 // Solves one tick at rest with the torque limits on a level below the posture.
 // The slack of a violated torque limit then shows how much torque the posture
-// needs. The base accelerates if the soles cannot give the contact forces. The
-// accelerations of other joints tell nothing: a light joint may accelerate
-// without moving the robot.
+// needs. The momentum changes if the soles cannot give the contact forces that
+// balance the robot. Accelerations of joints tell nothing: a joint at its stop
+// moves away from the stop, and other joints balance it.
 std::vector<Finding> FindWeakness(const Robot& robot) {
   const Tree& tree = robot.model.tree;
   Controller controller(robot);
@@ -78,10 +77,12 @@ std::vector<Finding> FindWeakness(const Robot& robot) {
                     : "the file gives the joint no motor: correct "
                       "<limit effort=\"0\">"});
   }
-  const Eigen::VectorXd& y = report.y;
-  const double moved = std::max(height * y.head<3>().lpNorm<Eigen::Infinity>(),
-                                y.segment<3>(3).lpNorm<Eigen::Infinity>());
-  if (!(moved <= kHeld * gravity)) {
+  // At rest the rate of momentum is H_G v̇.
+  const Eigen::Matrix<double, 6, 1> rate =
+      controller.tick().H_G * report.y.head(tree.nv());
+  const double lacking =
+      std::max(rate.head<3>().norm() / height, rate.tail<3>().norm());
+  if (!(lacking <= kHeld * tree.total_mass() * gravity)) {
     findings.push_back(
         {Severity::kWarn, "robot", "cannot hold its posture",
          "its soles cannot give the contact forces that balance it"});

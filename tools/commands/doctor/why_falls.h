@@ -9,11 +9,11 @@
 
 namespace poise {
 
-/// Simulates the scenario `stand` with the default task set, or with the tasks
-/// of a profile. Returns "" if the robot stays up, by the rules of Judge, or
-/// the reason why it falls, in words.
+/// Simulates the first 5 s of the scenario `stand` with the default task set, or
+/// with the tasks of a profile. Returns "" if the robot stays up, by the rules
+/// of Judge, or the reason why it falls, in words.
 ///
-/// The simulation ends after 4 s of processor time or 7 s of real time at the
+/// The simulation ends after 5 s of processor time or 8 s of real time at the
 /// latest. Returns nothing if the robot has not fallen until then.
 /// @pre robot.can_stand.
 std::optional<std::string> WhyFalls(const Robot& robot, const Profile& profile);
