@@ -19,6 +19,7 @@
 #include "poise/robot/control/task_set.h"
 #include "poise/robot/feet/forward.h"
 #include "poise/robot/feet/no_feet.h"
+#include "poise/robot/feet/sole_source.h"
 #include "poise/robot/limits.h"
 #include "poise/robot/profile/massless.h"
 #include "poise/robot/profile/save_profile.h"
@@ -51,19 +52,6 @@ bool IsLarge(const RobotModel& model) {
   return model.tree.num_joints() > kMostJointsToStand ||
          model.tree.frames().size() > kMostLinksToStand ||
          model.visuals.size() + model.collisions.size() > kMostShapesToStand;
-}
-
-// Returns the word of JSON for the origin of a sole.
-const char* NameOf(const std::optional<SoleSource>& source) {
-  if (!source) return "profile";
-  switch (*source) {
-    case SoleSource::kBox:
-      return "box";
-    case SoleSource::kMesh:
-      return "mesh";
-    default:
-      return "guess";
-  }
 }
 
 // Returns a larger number for a warning that the user should read first. One
@@ -311,7 +299,7 @@ void Doctor::DescribeFeet(const Robot& robot) {
     const Pose X_FM = link.X_BF.Inverse() * foot.X_BC * X_CM;
     diagnosis_.soles.push_back({foot.name, link.name, sole.sizes().x(),
                                 sole.sizes().y(), X_FM.p, RpyFromMatrix(X_FM.R),
-                                NameOf(foot.source),
+                                foot.source ? NameOf(*foot.source) : "profile",
                                 foot.X_BC.Inverse().p.z()});
   }
   diagnosis_.forward = ForwardAxis(robot);

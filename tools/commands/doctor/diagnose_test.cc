@@ -510,7 +510,18 @@ TEST(WriteTable, ShowsTheGuessThatTheUserMustCorrect) {
     // The stub has six digits.
     EXPECT_NEAR(again.soles[i].length, diagnosis.soles[i].length, 1e-5);
   }
-  EXPECT_NO_THROW(LoadProfile(TestFile("found.yaml", diagnosis.profile)));
+  // The saved profile keeps the origin of the soles, so the warning stays.
+  const std::filesystem::path found = TestFile("found.yaml", diagnosis.profile);
+  Diagnosis saved = Diagnose(TestFile("robot.urdf", text), LoadProfile(found));
+  EXPECT_EQ(saved.soles.at(0).from, "guess");
+  EXPECT_EQ(VerdictWord(saved), "warn");
+  EXPECT_NE(Findings(saved).find("is a guess, by line"), std::string::npos)
+      << Findings(saved);
+  saved.next_step = NextStep(saved, {"robot.urdf", "found.yaml", {}});
+  EXPECT_EQ(saved.next_step,
+            "measure the soles, correct them in found.yaml, remove `from: "
+            "guess`, then bazel run //tools:doctor -- robot.urdf --profile "
+            "found.yaml");
 }
 
 TEST(NextStep, SaysHowToExpandXacro) {

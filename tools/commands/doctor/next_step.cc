@@ -96,6 +96,10 @@ std::string NextStep(const Diagnosis& diagnosis, const Arguments& arguments) {
     return "write the feet into " + mine + ", then " + doctor + " --profile " +
            mine + rest;
   }
+  if (has_guess && !arguments.profile.empty()) {
+    return "measure the soles, correct them in " + Word(arguments.profile) +
+           ", remove `from: guess`, then " + doctor + profile + rest;
+  }
   if (has_guess) {
     return doctor + profile + rest + " --save-profile " + mine +
            ", measure the soles, correct them in " + mine + ", then " + doctor +
