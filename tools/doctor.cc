@@ -13,6 +13,7 @@
 
 #include "poise/robot/finding.h"
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/doctor/diagnose.h"
 #include "poise/tools/commands/doctor/diagnosis.h"
 #include "poise/tools/commands/doctor/next_step.h"
 #include "poise/tools/commands/doctor/write_diagnosis.h"

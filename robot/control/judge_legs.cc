@@ -48,9 +48,9 @@ std::vector<Finding> JudgeLegs(const Robot& robot) {
           {Severity::kWarn, LegOf(foot),
            "has " + std::to_string(joints.size()) + " joints",
            std::to_string(missing) +
-               (missing == 1 ? " direction" : " directions") +
-               " of its sole are not controlled: on one foot, balance is "
-               "limited"});
+               (missing == 1 ? " direction of its sole is"
+                             : " directions of its sole are") +
+               " not controlled: on one foot, balance is limited"});
     }
     std::string slow;
     for (const int j : joints) {

@@ -139,8 +139,8 @@ void StandUp(Robot* robot, const Profile& profile) {
     PostureGoal goal;
     goal.knee_bend = kKneeBend;
     if (starts.Try(goal)) return true;
-    // With the arms at rest the search is smaller. It also converges where arms
-    // would lead it away.
+    // With fixed arms the search has fewer variables. It converges for some
+    // robots whose arms would move far from rest.
     goal.fixed = arms;
     for (const bool are_soles_parallel : {true, false}) {
       goal.are_soles_parallel = are_soles_parallel;

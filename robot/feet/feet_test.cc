@@ -297,7 +297,8 @@ TEST(FindFeet, NeedsFourMotorsAndWarnsBelowFive) {
     EXPECT_EQ(Refusal(Biped(shapes, "0 0 0", range, 3)),
               "robot 'biped': leg of link 'r6' has 3 motors (joints with an "
               "effort above 0), must have at least 5, or 4 with a warning, to "
-              "lay a sole flat: give the feet in a profile");
+              "lay a sole flat: correct <limit effort=\"0\"> of joints 'jr6', "
+              "'jr5', 'jr4'");
   }
 }
 

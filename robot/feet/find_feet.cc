@@ -13,6 +13,7 @@
 #include "poise/robot/feet/forward.h"
 #include "poise/robot/feet/knee.h"
 #include "poise/robot/feet/legs.h"
+#include "poise/robot/feet/no_feet.h"
 #include "poise/robot/feet/sole.h"
 #include "poise/robot/feet/sole_source.h"
 #include "poise/robot/feet/surrounding_rectangle.h"
@@ -66,17 +67,31 @@ std::vector<Pose> PosesAtRest(const RobotModel& model, const Matrix3d& R_WB) {
 // effort has no motor.
 void CheckMotors(const RobotModel& model, int hip, int foot,
                  std::vector<Finding>* findings) {
+  constexpr int kNamed = 3;
   int motors = 0;
+  int idle = 0;
+  std::string names;
   for (int b = foot; b >= hip; b = model.tree.joints()[b - 1].parent) {
-    motors += model.limits[b - 1].effort > 0;
+    const bool is_motor = model.limits[b - 1].effort > 0;
+    motors += is_motor;
+    idle += !is_motor;
+    if (is_motor || idle > kNamed) continue;
+    names += (idle > 1 ? ", " : "") + Quoted(model.tree.joints()[b - 1].name);
   }
+  if (idle > kNamed) names += ", ...";
   const std::string leg = "leg of link " + Quoted(LinkOf(model, foot));
   const std::string has = "has " + std::to_string(motors) + " motors";
   if (motors < kFewestMotors) {
-    throw std::invalid_argument(
+    const std::string what =
         "robot " + Quoted(model.name) + ": " + leg + " " + has +
         " (joints with an effort above 0), must have at least 5, or 4 with a "
-        "warning, to lay a sole flat: give the feet in a profile");
+        "warning, to lay a sole flat: ";
+    if (motors + idle < kFewestMotors) {
+      throw std::invalid_argument(what + "give the feet in a profile");
+    }
+    throw NoFeet(FeetDefect::kNoEffort,
+                 what + "correct <limit effort=\"0\"> of " +
+                     (idle == 1 ? "joint " : "joints ") + names);
   }
   if (motors < kEnoughMotors) {
     Warn(findings, leg, has,

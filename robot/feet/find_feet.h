@@ -34,7 +34,8 @@ namespace poise {
 /// @param findings  if not null, receives the warnings.
 /// @param hints     facts that a profile gives.
 ///
-/// Throws std::invalid_argument with the reason if two feet are not found.
+/// Throws std::invalid_argument with the reason if two feet are not found, in
+/// some cases as NoFeet.
 std::vector<Foot> FindFeet(const RobotModel& model,
                            std::vector<Finding>* findings = nullptr,
                            const FeetHints& hints = {});

@@ -27,39 +27,6 @@ int Sign(double value, double least) {
   return std::abs(value) > least ? (value > 0 ? 1 : -1) : 0;
 }
 
-// Returns 1 if the names of the legs say that the first one is on the left, -1
-// if they say that the second one is. Returns 0 if they do not say it, or
-// contradict each other.
-int LeftByNames(const RobotModel& model, const Legs& legs, bool* contradict) {
-  const Tree& tree = model.tree;
-  std::array<std::vector<int>, 2> bodies;  // From the feet up.
-  for (const int i : {0, 1}) {
-    for (int b = legs.feet[i]; b >= legs.hips[i];
-         b = tree.joints()[b - 1].parent) {
-      bodies[i].push_back(b);
-    }
-  }
-  std::vector<std::string> link(tree.num_bodies());
-  for (const Frame& frame : tree.frames()) {
-    if (link[frame.body].empty()) link[frame.body] = frame.name;
-  }
-  int first = 0;
-  int second = 0;
-  const auto count = [&](const std::string& a, const std::string& b) {
-    const int side = CompareSides(a, b);
-    first += side > 0;
-    second += side < 0;
-  };
-  for (size_t k = 0; k < std::min(bodies[0].size(), bodies[1].size()); ++k) {
-    const int a = bodies[0][k];
-    const int b = bodies[1][k];
-    count(tree.joints()[a - 1].name, tree.joints()[b - 1].name);
-    count(link[a], link[b]);
-  }
-  *contradict = first > 0 && second > 0;
-  return *contradict ? 0 : Sign(first - second, 0);
-}
-
 // Returns the reach of the soles in front of the ankles minus their reach
 // behind them, as a part of the sum of both.
 double Toes(const RobotModel& model, const Legs& legs,
@@ -165,6 +132,36 @@ std::string ForwardAxis(const Robot& robot) {
     forward_B += X_BB[foot.body].R * foot.X_BC.R.col(0);
   }
   return NameOfAxis(forward_B);
+}
+
+int LeftByNames(const RobotModel& model, const Legs& legs, bool* contradict) {
+  const Tree& tree = model.tree;
+  std::array<std::vector<int>, 2> bodies;  // From the feet up.
+  for (const int i : {0, 1}) {
+    for (int b = legs.feet[i]; b >= legs.hips[i];
+         b = tree.joints()[b - 1].parent) {
+      bodies[i].push_back(b);
+    }
+  }
+  std::vector<std::string> link(tree.num_bodies());
+  for (const Frame& frame : tree.frames()) {
+    if (link[frame.body].empty()) link[frame.body] = frame.name;
+  }
+  int first = 0;
+  int second = 0;
+  const auto count = [&](const std::string& a, const std::string& b) {
+    const int side = CompareSides(a, b);
+    first += side > 0;
+    second += side < 0;
+  };
+  for (size_t k = 0; k < std::min(bodies[0].size(), bodies[1].size()); ++k) {
+    const int a = bodies[0][k];
+    const int b = bodies[1][k];
+    count(tree.joints()[a - 1].name, tree.joints()[b - 1].name);
+    count(link[a], link[b]);
+  }
+  *contradict = first > 0 && second > 0;
+  return *contradict ? 0 : Sign(first - second, 0);
 }
 
 Facing FindFacing(const RobotModel& model, const Legs& legs,

@@ -13,6 +13,7 @@
 #include "poise/dynamics/tree.h"
 #include "poise/robot/feet/leg_end.h"
 #include "poise/robot/feet/leg_names.h"
+#include "poise/robot/feet/no_feet.h"
 #include "poise/robot/limits.h"
 
 namespace poise {
@@ -323,9 +324,10 @@ Legs LegFinder::Find() {
   const auto low = LowestPoints(model_, outlines_, X_BB_, up);
   const int count = CountOnGround(*best, low);
   if (count != 2) {
-    throw std::invalid_argument(
-        robot + " reaches the ground with " + std::to_string(count) +
-        " bodies, must be two feet: give the feet in a profile");
+    throw NoFeet(FeetDefect::kManyLegs,
+                 robot + " reaches the ground with " + std::to_string(count) +
+                     " bodies, must be two feet: quadrupeds are not supported; "
+                     "if only two bodies are feet, give them in a profile");
   }
   Legs legs{{}, {}, up, best->length};
   for (const int i : {0, 1}) {

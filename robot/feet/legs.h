@@ -46,8 +46,9 @@ std::vector<Pose> RestPoses(const RobotModel& model);
 /// @param findings  if not null, receives a warning about toes and about a root
 ///                  link whose z axis does not point up.
 ///
-/// Throws std::invalid_argument with the reason if there are not two legs. The
-/// cost is linear in the number of bodies, corners and frames.
+/// Throws std::invalid_argument with the reason if there are not two legs, and
+/// NoFeet if more than two limbs reach the ground. The cost is linear in the
+/// number of bodies, corners and frames.
 Legs FindLegs(const RobotModel& model, const std::vector<Outline>& outlines,
               std::vector<Finding>* findings = nullptr);
 

@@ -123,7 +123,8 @@ TEST(FindLegs, CountsTheLegsOfAQuadruped) {
   }
   EXPECT_EQ(Refusal(UrdfOf(Joined(legs))),
             "robot 'generated' reaches the ground with 4 bodies, must be two "
-            "feet: give the feet in a profile");
+            "feet: quadrupeds are not supported; if only two bodies are feet, "
+            "give them in a profile");
 }
 
 TEST(FindLegs, RejectsRobotsWithoutLegs) {

@@ -7,4 +7,10 @@ namespace poise {
 /// a mesh of the foot. kGuess: an estimate from the size of the leg.
 enum class SoleSource { kBox, kMesh, kGuess };
 
+/// Returns "box", "mesh" or "guess".
+inline const char* NameOf(SoleSource source) {
+  constexpr const char* kNames[] = {"box", "mesh", "guess"};
+  return kNames[static_cast<int>(source)];
+}
+
 }  // namespace poise

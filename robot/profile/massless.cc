@@ -124,7 +124,7 @@ std::map<std::string, Inertia> MakeSmallInertias(const RobotModel& model) {
         mass, Eigen::Vector3d::Zero(),
         mass * radius * radius * Eigen::Matrix3d::Identity()};
   }
-  // A singular M shall remain visible.
+  // A small inertia must not hide that M is singular.
   if (inertias.empty() || tree.num_joints() > kMostJoints) return {};
   if (!IsRegular(model)) return {};
   return inertias;

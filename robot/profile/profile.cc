@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "poise/math/rpy.h"
 #include "poise/robot/feet/feet.h"
 #include "poise/robot/feet/forward.h"
 #include "poise/robot/limits.h"
 #include "poise/robot/profile/massless.h"
+#include "poise/robot/profile/profile_reader.h"
+#include "poise/robot/profile/side_defects.h"
 #include "poise/robot/profile/sides.h"
 #include "poise/robot/profile/yaml_file.h"
 #include "poise/robot/standing.h"
@@ -21,179 +24,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-// Reads values of a file. Throws Refusal with the line of an invalid value.
-struct Reader {
-  const std::string file;
-
-  [[noreturn]] void Refuse(const YAML::Node& at,
-                           const std::string& what) const {
-    poise::Refuse(file, at, what);
-  }
-
-  // Throws Refusal about a value, with the description of valid values.
-  [[noreturn]] void Refuse(const YAML::Node& value, const std::string& thing,
-                           const std::string& wanted) const {
-    Refuse(value, thing + " is " + Shown(value) + ", must be " + wanted);
-  }
-
-  double Number(const YAML::Node& node, const std::string& thing) const {
-    const auto value = ToNumber(node);
-    if (!value) Refuse(node, thing, "a finite number");
-    constexpr double kLargest = 1e6;  // m or rad.
-    if (std::abs(*value) > kLargest)
-      Refuse(node, thing, "between -1e6 and 1e6");
-    return *value;
-  }
-
-  std::string Text(const YAML::Node& node, const std::string& thing) const {
-    if (!node.IsScalar() || node.Scalar().empty()) {
-      Refuse(node, thing, "a name");
-    }
-    return node.Scalar();
-  }
-
-  template <int kSize>
-  Eigen::Matrix<double, kSize, 1> Numbers(const YAML::Node& node,
-                                          const std::string& thing) const {
-    if (!node.IsSequence() || node.size() != kSize) {
-      Refuse(node, thing, std::to_string(kSize) + " numbers");
-    }
-    Eigen::Matrix<double, kSize, 1> values;
-    for (int i = 0; i < kSize; ++i) values[i] = Number(node[i], thing);
-    return values;
-  }
-
-  void ExpectMap(const YAML::Node& node, const std::string& thing,
-                 const std::set<std::string>& keys) const;
-
-  // Reads roll, pitch and yaw, in rad.
-  Eigen::Vector3d Angles(const YAML::Node& node,
-                         const std::string& thing) const;
-
-  std::map<std::string, JointValue> Joints(const YAML::Node& node,
-                                           const std::string& thing) const;
-
-  // Refuses a point with a coordinate above 1 m, because no sole is as large.
-  // The file is then likely in another unit.
-  void ExpectSmall(const Eigen::Vector2d& point, const YAML::Node& at,
-                   const std::string& thing) const {
-    if (point.cwiseAbs().maxCoeff() <= 1) return;
-    Refuse(at,
-           thing + " reaches over 1 m from the center, must be at most 1 m");
-  }
-
-  // Returns the sole's axes in the link. The z axis is along the normal. The x
-  // axis is near the link's x axis. If the normal is within 26 degrees of the
-  // link's x axis, the x axis is near the link's z axis instead.
-  Eigen::Matrix3d FromNormal(const YAML::Node& node,
-                             const std::string& thing) const;
-
-  SoleProfile Sole(const std::string& name, const YAML::Node& node) const;
-};
-
-void Reader::ExpectMap(const YAML::Node& node, const std::string& thing,
-                       const std::set<std::string>& keys) const {
-  if (!node.IsMap()) Refuse(node, thing, "a map");
-  for (const auto& item : node) {
-    if (keys.empty() || keys.count(item.first.Scalar()) != 0) continue;
-    std::string known;
-    for (const std::string& key : keys) known += " " + key;
-    Refuse(item.first, thing + ": unknown key " + Shown(item.first) +
-                           ", must be one of" + known);
-  }
-}
-
-Eigen::Vector3d Reader::Angles(const YAML::Node& node,
-                               const std::string& thing) const {
-  const Eigen::Vector3d rpy = Numbers<3>(node, thing);
-  constexpr double kTurn = 6.3;
-  if (rpy.cwiseAbs().maxCoeff() > kTurn) {
-    Refuse(node, thing +
-                     " is more than one turn, must be in rad: is it in "
-                     "degrees?");
-  }
-  return rpy;
-}
-
-std::map<std::string, JointValue> Reader::Joints(
-    const YAML::Node& node, const std::string& thing) const {
-  ExpectMap(node, thing, {});
-  std::map<std::string, JointValue> values;
-  for (const auto& item : node) {
-    const std::string& name = item.first.Scalar();
-    values[name] = {Number(item.second, thing + ": " + Quoted(name)),
-                    item.first.Mark().line + 1};
-  }
-  return values;
-}
-
-Eigen::Matrix3d Reader::FromNormal(const YAML::Node& node,
-                                   const std::string& thing) const {
-  const Eigen::Vector3d normal = Numbers<3>(node, thing);
-  if (!(normal.norm() > 1e-6))
-    Refuse(node, thing + " is zero, must be a direction");
-  const Eigen::Vector3d z = normal.normalized();
-  constexpr double kAlong = 0.9;
-  const Eigen::Vector3d forward = std::abs(z.x()) < kAlong
-                                      ? Eigen::Vector3d::UnitX()
-                                      : Eigen::Vector3d::UnitZ();
-  Eigen::Matrix3d R;
-  R.col(2) = z;
-  R.col(1) = z.cross(forward).normalized();
-  R.col(0) = R.col(1).cross(z);
-  return R;
-}
-
-SoleProfile Reader::Sole(const std::string& name,
-                         const YAML::Node& node) const {
-  const std::string thing = "feet." + name;
-  ExpectMap(node, thing, {"frame", "normal", "polygon", "rpy", "size", "xyz"});
-  SoleProfile sole{name, "", {}, {}, node.Mark().line + 1};
-  if (!node["frame"])
-    Refuse(node, thing + ": has no frame, must have the name of a link");
-  sole.frame = Text(node["frame"], thing + ".frame");
-  if (node["xyz"]) sole.X_FS.p = Numbers<3>(node["xyz"], thing + ".xyz");
-  if (node["rpy"]) {
-    sole.X_FS.R = MatrixFromRpy(Angles(node["rpy"], thing + ".rpy"));
-  }
-  if (const YAML::Node normal = node["normal"]) {
-    if (node["rpy"])
-      Refuse(node, thing + ": has rpy and normal, must have one of them");
-    sole.X_FS.R = FromNormal(normal, thing + ".normal");
-  }
-  if (node["size"].IsDefined() == node["polygon"].IsDefined()) {
-    Refuse(node, thing + ": must have one of size and polygon");
-  }
-  if (const YAML::Node size = node["size"]) {
-    const Eigen::Vector2d half = 0.5 * Numbers<2>(size, thing + ".size");
-    ExpectSmall(half, size, thing + ".size");
-    if (!(half.minCoeff() > 0)) {
-      Refuse(size, thing + ".size is [" + PrintNumber(2 * half.x()) + ", " +
-                       PrintNumber(2 * half.y()) + "], must be positive");
-    }
-    for (const double x : {-1, 1}) {
-      for (const double y : {-1, 1}) {
-        sole.sole_S.emplace_back(x * half.x(), y * half.y());
-      }
-    }
-  } else {
-    if (!node["polygon"].IsSequence()) {
-      Refuse(node["polygon"], thing + ".polygon", "a list of corners");
-    }
-    for (const YAML::Node& corner : node["polygon"]) {
-      sole.sole_S.push_back(Numbers<2>(corner, thing + ".polygon"));
-      ExpectSmall(sole.sole_S.back(), corner, thing + ".polygon");
-    }
-    if (!IsConvex(sole.sole_S)) {
-      Refuse(node["polygon"], thing +
-                                  ".polygon is not convex, must be convex "
-                                  "with its corners in order");
-    }
-  }
-  return sole;
-}
-
-void ReadPosture(const Reader& reader, const YAML::Node& node,
+void ReadPosture(const ProfileReader& reader, const YAML::Node& node,
                  Profile* profile) {
   reader.ExpectMap(node, "posture", {"base", "found", "joints"});
   if (const YAML::Node base = node["base"]) {
@@ -214,7 +45,7 @@ void ReadPosture(const Reader& reader, const YAML::Node& node,
   }
 }
 
-MimicPolicy ReadMimic(const Reader& reader, const YAML::Node& node) {
+MimicPolicy ReadMimic(const ProfileReader& reader, const YAML::Node& node) {
   const std::string text = reader.Text(node, "mimic");
   if (text == "free") return MimicPolicy::kFree;
   if (text == "coupled") return MimicPolicy::kCoupled;
@@ -223,7 +54,8 @@ MimicPolicy ReadMimic(const Reader& reader, const YAML::Node& node) {
 }
 
 // Reads the keys `forward`, `left` and `right`.
-void ReadSides(const Reader& reader, const YAML::Node& root, Sides* sides) {
+void ReadSides(const ProfileReader& reader, const YAML::Node& root,
+               Sides* sides) {
   const auto read = [&](const char* name, TextValue* value) {
     const YAML::Node node = root[name];
     if (!node) return;
@@ -247,7 +79,8 @@ void ReadSides(const Reader& reader, const YAML::Node& root, Sides* sides) {
 }
 
 // Makes the feet that a profile describes.
-std::vector<Foot> MakeFeet(const RobotModel& model, const Profile& profile) {
+std::vector<Foot> MakeFeet(const RobotModel& model, const Profile& profile,
+                           std::vector<Finding>* findings) {
   std::vector<Foot> feet;
   for (const SoleProfile& sole : profile.feet) {
     const auto refuse = [&](const std::string& what) {
@@ -258,7 +91,15 @@ std::vector<Foot> MakeFeet(const RobotModel& model, const Profile& profile) {
     if (!frame) refuse(": the robot has no link " + Quoted(sole.frame));
     auto foot = MakeFoot(model, sole.name, *frame, sole.X_FS, sole.sole_S);
     if (!foot) refuse(": its sole is under 1 mm wide or long, must be larger");
+    foot->source = sole.source;
     feet.push_back(*std::move(foot));
+    if (findings != nullptr && sole.source == SoleSource::kGuess) {
+      findings->push_back(
+          {Severity::kWarn, "sole of link " + Quoted(sole.frame),
+           "is a guess, by line " + std::to_string(sole.line) +
+               " of the profile",
+           "measure the sole, correct it, and remove `from: guess`", 0});
+    }
     if (feet.front().body == feet.back().body && feet.size() > 1) {
       refuse(": is on the same body as left_foot, must be on another");
     }
@@ -372,7 +213,7 @@ std::map<std::string, JointValue> Lock(const RobotModel& model,
 }  // namespace
 
 Profile LoadProfile(const Path& file) {
-  const Reader reader{file.string()};
+  const ProfileReader reader{file.string()};
   Profile profile;
   profile.file = file;
   const YAML::Node root = LoadYaml(file);
@@ -383,7 +224,7 @@ Profile LoadProfile(const Path& file) {
     reader.ExpectMap(feet, "feet", {"left_foot", "right_foot"});
     for (const char* name : {"left_foot", "right_foot"}) {
       if (!feet[name]) reader.Refuse(feet, std::string("feet: has no ") + name);
-      profile.feet.push_back(reader.Sole(name, feet[name]));
+      profile.feet.push_back(ReadSole(reader, name, feet[name]));
     }
   }
   ReadSides(reader, root, &profile.sides);
@@ -462,7 +303,7 @@ Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
   const std::string file = profile.file.string();
   robot.feet = profile.feet.empty()
                    ? FindFeetOf(robot.model, profile.sides, file, findings)
-                   : MakeFeet(robot.model, profile);
+                   : MakeFeet(robot.model, profile, findings);
   if (!profile.feet.empty()) {
     const std::string reason = WhyNoPairOfFeet(robot);
     if (!reason.empty()) {
@@ -470,6 +311,12 @@ Robot MakeRobot(const UrdfDocument& urdf, const Profile& profile,
     }
   }
   CheckSides(robot, profile.sides, file, !profile.feet.empty());
+  if (findings != nullptr) {
+    for (Finding& finding :
+         FindSideDefects(robot, profile.sides, !profile.feet.empty())) {
+      findings->push_back(std::move(finding));
+    }
+  }
   if (!profile.base_xyz) return robot;
 
   robot.can_stand = true;

@@ -10,22 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "poise/math/pose.h"
 #include "poise/robot/finding.h"
+#include "poise/robot/profile/joint_value.h"
 #include "poise/robot/profile/sides.h"
+#include "poise/robot/profile/sole_profile.h"
 #include "poise/robot/robot.h"
 #include "poise/robot/urdf/urdf.h"
 
 namespace poise {
-
-/// The description of a sole in a profile.
-struct SoleProfile {
-  std::string name;                     ///< "left_foot", "right_foot".
-  std::string frame;                    ///< Name of the link F.
-  Pose X_FS;                            ///< Pose of the sole: z up, x forward.
-  std::vector<Eigen::Vector2d> sole_S;  ///< Corners, m.
-  int line;                             ///< Line in the file.
-};
 
 /// The treatment of mimic joints.
 /// - kFree: a mimic joint moves independently.
@@ -35,12 +27,6 @@ struct SoleProfile {
 ///   value of the source is from `locked`, else from `joints`, else the value
 ///   at rest.
 enum class MimicPolicy { kFree, kCoupled, kLocked };
-
-/// The value of a joint, rad or m, and its line in the file.
-struct JointValue {
-  double value;
-  int line;
-};
 
 /// The facts about a robot that its URDF does not contain, read from a YAML
 /// file:
@@ -54,6 +40,8 @@ struct JointValue {
 ///                                # sole's z axis in the link's axes. The
 ///                                # sole's x is then near the link's x.
 ///         size: [0.23, 0.13]     # m. Or polygon: [[x, y], ...], m.
+///         from: guess            # Optional: box, mesh or guess, if the sole
+///                                # was found by FindFeet(), not measured.
 ///       right_foot: ...
 ///     forward: +x                # Axis of the root link that points forward.
 ///     left: l_foot               # Links of the left and of the right foot.
@@ -116,8 +104,9 @@ RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile);
 /// Makes a robot from its URDF and a profile. An empty Profile is enough for a
 /// biped whose feet FindFeet() can find.
 ///
-/// @param findings  if not null, receives the warnings of FindFeet() and of
-///                  WarnOfMassless().
+/// @param findings  if not null, receives the warnings of FindFeet(), of
+///                  WarnOfMassless() and of FindSideDefects(), and a warning
+///                  about each sole of the profile that is a guess.
 ///
 /// Throws Refusal if the profile does not match the robot: a name is unknown, a
 /// joint is outside its limits, `forward`, `left` and `right` contradict the

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "poise/math/rpy.h"
+#include "poise/robot/feet/sole_source.h"
 #include "poise/robot/profile/sides.h"
 
 namespace poise {
@@ -60,6 +61,8 @@ void WriteFeet(const Robot& robot, std::ostream* stream) {
   *stream
       << "# The soles. xyz and rpy: the contact frame in a link, m and rad;\n"
          "# z out of the ground, x forward. polygon: the corners in it, m.\n"
+         "# from: where the sole was found; remove it if you measured the "
+         "sole.\n"
          "feet:\n";
   for (const Foot& foot : robot.feet) {
     const Frame& link = robot.model.tree.frames()[foot.frame];
@@ -67,6 +70,8 @@ void WriteFeet(const Robot& robot, std::ostream* stream) {
     *stream << "  " << foot.name << ":\n    frame: " << Name(link.name)
             << "\n    xyz: " << PrintAll(X_FC.p)
             << "\n    rpy: " << PrintAll(RpyFromMatrix(X_FC.R))
+            << (foot.source ? std::string("\n    from: ") + NameOf(*foot.source)
+                            : "")
             << "\n    polygon:\n";
     for (const Eigen::Vector2d& corner : foot.polygon_C) {
       *stream << "      - " << PrintAll(corner) << "\n";

@@ -84,7 +84,7 @@ class Search {
  private:
   void Evaluate();
 
-  // Sets the first posture of a robot that shall stand on both feet.
+  // Sets the first posture of the search for a robot on both feet.
   void Place();
 
   // Target of the center of mass: distance in front of the middle of sole i, m.
@@ -406,6 +406,11 @@ Posture Search::Result() const {
     posture.lack = "the soles overlap: the middle of left_foot is " +
                    PrintNumber(apart) + " m to the left of right_foot's";
     posture.error += 1;  // Any other result tells more.
+  }
+  if (posture.lack.empty() && !(tick_.p_WG.z() > 0)) {
+    posture.lack = "the center of mass remains " +
+                   PrintNumber(-tick_.p_WG.z()) + " m below the soles";
+    posture.error += 1;
   }
   posture.are_soles_flat = posture.lack.empty();
   if (posture.lack.empty() && !IsBalanced()) {

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "poise/dynamics/kinematics.h"
+#include "poise/robot/feet/legs.h"
 #include "poise/robot/feet/outline.h"
 #include "poise/robot/limits.h"
 
@@ -38,14 +39,6 @@ Leg Measure(const Tree& tree, int foot) {
 
 bool Differ(double a, double b, double fraction) {
   return std::abs(a - b) > fraction * std::max(std::abs(a), std::abs(b));
-}
-
-// Returns the name of the first link of a body.
-std::string LinkOf(const Tree& tree, int body) {
-  for (const Frame& frame : tree.frames()) {
-    if (frame.body == body) return frame.name;
-  }
-  return "";
 }
 
 }  // namespace
@@ -131,7 +124,7 @@ std::vector<Finding> FindWideInertias(const RobotModel& model) {
     const double radius = std::sqrt(std::max(0., largest) / M.mass);
     if (!(reach > 0) || radius <= kTolerance * reach) continue;
     if (++count > kNamed) continue;
-    names += (count > 1 ? ", " : "") + Quoted(LinkOf(tree, b)) + " (" +
+    names += (count > 1 ? ", " : "") + Quoted(LinkOf(model, b)) + " (" +
              PrintNumber(radius) + " m, its shapes reach " +
              PrintNumber(reach) + " m)";
   }

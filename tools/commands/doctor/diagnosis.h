@@ -2,13 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "poise/robot/finding.h"
-#include "poise/robot/profile/profile.h"
 
 namespace poise {
 
@@ -38,30 +36,24 @@ struct Diagnosis {
   std::vector<Sole> soles;  ///< The left one first.
   /// A guess of the feet, if none were found: the two lowest links.
   std::vector<Sole> guessed_feet;
-  /// Whether the robot can stand, with motors strong enough.
+  /// Whether it is known if the robot stands. False if the robot is too large,
+  /// if its simulation takes too long, or if the file is rejected.
+  bool was_tested = false;
+  /// Whether the robot stands: its motors hold a standing posture, or it stays
+  /// up in the scenario `stand`.
   bool stands = false;
-  std::string reason;     ///< Why it does not stand.
-  std::string forward;    ///< Axis of the root link: "+x", ..., or "".
-  std::string profile;    ///< The profile that was found, as YAML.
-  std::string next_step;  ///< See NextStep(). The caller writes it.
-  bool is_xacro = false;  ///< The file must be expanded with xacro.
+  std::string reason;          ///< Why it does not stand, or was not tested.
+  std::string remedy;          ///< What to correct so that it stands, or "".
+  bool has_many_legs = false;  ///< It has more legs than two.
+  std::string forward;         ///< Axis of the root link: "+x", ..., or "".
+  std::string profile;         ///< The profile that was found, as YAML.
+  std::string next_step;       ///< See NextStep(). The caller writes it.
+  bool is_xacro = false;       ///< The file must be expanded with xacro.
   std::optional<double> com_height;  ///< In the standing posture, if any.
   std::optional<double> parity;      ///< See Parity::worst().
   std::vector<Finding> findings;     ///< The most severe first.
 
   Severity worst() const;
 };
-
-/// Examines a robot file. Errors in the robot file become findings. Throws
-/// Refusal if the profile does not match the robot.
-///
-/// Takes less than 10 s and 1 GiB. To limit the time, M is not computed for
-/// more than 500 joints. Standing and parity are not examined for more than 200
-/// joints, 1000 links or 10000 shapes.
-///
-/// @param packages  folders of packages with meshes, see FindMesh().
-Diagnosis Diagnose(const std::filesystem::path& urdf,
-                   const Profile& profile = {},
-                   const std::vector<std::filesystem::path>& packages = {});
 
 }  // namespace poise

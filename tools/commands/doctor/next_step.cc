@@ -81,16 +81,31 @@ std::string NextStep(const Diagnosis& diagnosis, const Arguments& arguments) {
       Word(std::filesystem::path(arguments.file).stem().string() + ".yaml");
   const bool has_guess =
       std::any_of(diagnosis.soles.begin(), diagnosis.soles.end(), IsGuess);
+  if (diagnosis.has_many_legs) {
+    return "choose a robot with two legs, then bazel run //tools:doctor -- "
+           "ROBOT.urdf";
+  }
+  if (!diagnosis.was_tested && diagnosis.soles.empty()) {
+    return "lock joints in a profile (locked: {JOINT: 0}), then " + doctor +
+           " --profile " + mine + rest;
+  }
+  if (!diagnosis.stands && !diagnosis.remedy.empty()) {
+    return "correct " + diagnosis.remedy + ", then " + doctor + profile + rest;
+  }
   if (diagnosis.soles.empty()) {
     return "write the feet into " + mine + ", then " + doctor + " --profile " +
            mine + rest;
+  }
+  if (has_guess && !arguments.profile.empty()) {
+    return "measure the soles, correct them in " + Word(arguments.profile) +
+           ", remove `from: guess`, then " + doctor + profile + rest;
   }
   if (has_guess) {
     return doctor + profile + rest + " --save-profile " + mine +
            ", measure the soles, correct them in " + mine + ", then " + doctor +
            " --profile " + mine + rest;
   }
-  if (!diagnosis.stands) {
+  if (!diagnosis.stands && diagnosis.was_tested) {
     return "correct the file or its profile, then " + doctor + profile + rest;
   }
   return "bazel run //tools:push -- --scenario stand --robot " + file +
@@ -99,6 +114,7 @@ std::string NextStep(const Diagnosis& diagnosis, const Arguments& arguments) {
 
 std::vector<std::string> ProfileStub(const Diagnosis& diagnosis) {
   if (diagnosis.worst() == Severity::kReject) return {};
+  if (!diagnosis.remedy.empty() && diagnosis.soles.empty()) return {};
   std::vector<std::string> lines = {"feet:"};
   for (const Diagnosis::Sole& sole : diagnosis.soles) {
     if (IsGuess(sole)) lines.push_back(SoleLine(sole));

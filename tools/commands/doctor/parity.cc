@@ -28,6 +28,25 @@ VectorXd Accelerations(const VectorXd& q, const VectorXd& force,
   return plant->Sense().vdot;
 }
 
+// Returns the robot's largest radius of gyration about the base's origin, m.
+double RadiusOfGyration(const Tick& tick) {
+  return std::sqrt(tick.M.diagonal().head<3>().maxCoeff() / tick.M(3, 3));
+}
+
+// Returns the accelerations that have the magnitude of gravity at the robot's
+// radius of gyration, in m/s² or rad/s².
+VectorXd Magnitudes(const Tree& tree, const Tick& tick) {
+  const double gravity = tree.gravity_W().norm();
+  const double radius = RadiusOfGyration(tick);
+  VectorXd size = VectorXd::Constant(tree.nv(), gravity / radius);
+  size.segment<3>(3).setConstant(gravity);
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    if (tree.joints()[j].type != JointType::kPrismatic) continue;
+    size[tree.v_start() + j] = gravity;
+  }
+  return size;
+}
+
 // Returns the center of mass relative to the base's origin, in world axes, from
 // the off-diagonal entries of M.
 Vector3d CenterOfMass(const MatrixXd& M) {
@@ -64,8 +83,10 @@ Parity CompareWithBullet(const Robot& robot, const Robot& plant_of) {
   Tick tick(tree, {});
   ComputeTick(tree, q, VectorXd::Zero(nv), &tick);
   // Forces are proportional to the inertia that they move. So all accelerations
-  // have similar magnitudes and none is lost in rounding.
-  const VectorXd unit = tick.M.diagonal();
+  // have the magnitude of gravity, at robots of any size, and none is lost in
+  // rounding.
+  const VectorXd diagonal = tick.M.diagonal();
+  const VectorXd unit = diagonal.cwiseProduct(Magnitudes(tree, tick));
   for (int i = 0; i < nv; ++i) {
     answers.col(i) =
         Accelerations(q, unit[i] * VectorXd::Unit(nv, i), &plant) - fall;
@@ -78,8 +99,8 @@ Parity CompareWithBullet(const Robot& robot, const Robot& plant_of) {
   Parity parity{};
   parity.mass = std::abs(M(3, 3) - mass) / mass;
   parity.center_of_mass =
-      (CenterOfMass(M) - p_G).norm() / std::max(p_G.norm(), 1.0);
-  const VectorXd scale = unit.cwiseSqrt().cwiseInverse();
+      (CenterOfMass(M) - p_G).norm() / RadiusOfGyration(tick);
+  const VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
   parity.inertia = (scale.asDiagonal() * (M - tick.M) * scale.asDiagonal())
                        .cwiseAbs()
                        .maxCoeff<Eigen::PropagateNaN>();

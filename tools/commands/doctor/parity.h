@@ -9,8 +9,8 @@ namespace poise {
 /// relative to its own scale. M and g are ours, M' and g' those of Bullet.
 struct Parity {
   double mass;            ///< Relative to the total mass.
-  double center_of_mass;  ///< Relative to its distance from the base
-                          ///< origin or 1 m, whichever is larger.
+  double center_of_mass;  ///< Relative to the robot's largest radius of
+                          ///< gyration about the base's origin.
   double inertia;         ///< Largest |M - M'|_ij / sqrt(M_ii M_jj).
   double gravity;         ///< Largest |g - g'|_i / max_j |g_j|.
 

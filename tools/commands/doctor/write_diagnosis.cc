@@ -88,14 +88,13 @@ void WriteSummary(const Diagnosis& diagnosis, std::ostringstream* out) {
   *out << "stands   ";
   if (is_rejected) {
     *out << "unknown: the file cannot be used\n";
+  } else if (!diagnosis.was_tested) {
+    *out << "unknown: " << Shorten(diagnosis.reason) << "\n";
   } else if (diagnosis.stands) {
     *out << "yes, with its center of mass at a height of "
          << *diagnosis.com_height << " m\n";
   } else {
-    *out << "no: "
-         << Shorten(diagnosis.reason.empty() ? "was not examined"
-                                             : diagnosis.reason)
-         << "\n";
+    *out << "no: " << Shorten(diagnosis.reason) << "\n";
   }
   for (const Diagnosis::Sole& sole : diagnosis.soles) {
     *out << "sole     " << sole.name << ": " << sole.length << " x "
@@ -199,7 +198,11 @@ std::string WriteJson(const Diagnosis& diagnosis) {
   const auto text_or_null = [](const std::string& text) {
     return text.empty() ? nlohmann::json() : nlohmann::json(text);
   };
-  json["stands"] = diagnosis.stands;
+  // The answer is null if it is unknown.
+  const nlohmann::json stands = diagnosis.was_tested
+                                    ? nlohmann::json(diagnosis.stands)
+                                    : nlohmann::json();
+  json["stands"] = stands;
   json["soles"] = WriteSoles(diagnosis);
   json["forward"] = text_or_null(diagnosis.forward);
   json["left"] = text_or_null(has_feet ? diagnosis.soles[0].link : "");
@@ -232,7 +235,7 @@ std::string WriteJson(const Diagnosis& diagnosis) {
                               {"length", sole.length},
                               {"width", sole.width}});
   }
-  robot["stands"] = diagnosis.stands;
+  robot["stands"] = stands;
   if (diagnosis.com_height) robot["com_height"] = *diagnosis.com_height;
   if (diagnosis.parity) robot["bullet_parity"] = *diagnosis.parity;
   json["robot"] = robot;

@@ -21,8 +21,8 @@ std::string WriteTable(const Diagnosis& diagnosis, bool masses = false);
 
 /// Returns a JSON document for scripts, with at most 1000 findings: {"verdict",
 /// "stands", "soles", "forward", "left", "right", "next_step", "findings":
-/// [{"severity", "where", "what", "why", "line"}], "robot": {...}}. A direction
-/// or foot that is unknown is null.
+/// [{"severity", "where", "what", "why", "line"}], "robot": {...}}. An
+/// unknown value is null: `stands`, a direction or a foot.
 std::string WriteJson(const Diagnosis& diagnosis);
 
 }  // namespace poise

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "poise/tools/commands/doctor/diagnosis.h"
+#include "poise/tools/commands/doctor/diagnose.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 
 #include "poise/tests/util/shared_data.h"
 #include "poise/tests/util/test_file.h"
+#include "poise/tools/commands/doctor/biped_fixture.h"
 #include "poise/tools/commands/doctor/next_step.h"
 #include "poise/tools/commands/doctor/write_diagnosis.h"
 
@@ -94,6 +95,82 @@ TEST(Diagnose, NamesMotorsTooWeakToStand) {
   EXPECT_NE(Findings(diagnosis).find("joint 'l_knee': needs "),
             std::string::npos)
       << Findings(diagnosis);
+  EXPECT_FALSE(diagnosis.stands);
+  EXPECT_EQ(diagnosis.findings[0].what, "does not stand");
+  EXPECT_NE(diagnosis.reason.find("it falls after "), std::string::npos)
+      << diagnosis.reason;
+  EXPECT_EQ(NextStep(diagnosis, {"a.urdf", "", {}}),
+            "correct the effort of joint 'l_knee', then bazel run "
+            "//tools:doctor -- a.urdf");
+}
+
+// Sets the effort of all joints whose name contains `part`.
+std::string WithEffort(std::string text, const std::string& part,
+                       const std::string& effort) {
+  for (size_t at = 0;
+       (at = text.find("<joint name=\"", at)) != std::string::npos;) {
+    at += 13;
+    const std::string name = text.substr(at, text.find('"', at) - at);
+    if (name.find(part) == std::string::npos) continue;
+    const size_t value = text.find("effort=\"", at) + 8;
+    if (value > text.find("</joint>", at)) continue;
+    text.replace(value, text.find('"', value) - value, effort);
+  }
+  return text;
+}
+
+// The arms reach forward. They need 1.5 N m each.
+TEST(Diagnose, SaysThatARobotWithWeakArmsStands) {
+  SmallBiped biped;
+  biped.arm_tilt = 1.4;
+  EXPECT_EQ(VerdictWord(Examine(TextOf(biped))), "ok");
+  biped.arm_effort = 1;
+  const Diagnosis diagnosis = Examine(TextOf(biped));
+  EXPECT_NE(Findings(diagnosis).find("joint 'left_arm': needs 1.4"),
+            std::string::npos)
+      << Findings(diagnosis);
+  EXPECT_TRUE(diagnosis.stands) << diagnosis.reason;
+  EXPECT_TRUE(diagnosis.was_tested);
+  // The arms hang down, up to 0.5 mrad.
+  biped.arm_tilt = 5e-4;
+  biped.arm_effort = 0;
+  const Diagnosis hangs = Examine(TextOf(biped));
+  EXPECT_EQ(Findings(hangs).find("to stand"), std::string::npos)
+      << Findings(hangs);
+  EXPECT_TRUE(hangs.stands) << hangs.reason;
+}
+
+// The cheek rests at the end of its range. The controller moves it away from
+// the stop by 8 rad/s² at first.
+TEST(Diagnose, IgnoresAccelerationsOfJointsThatDoNotMoveTheBase) {
+  std::string text = TextOf({});
+  const std::string cheek =
+      "<link name='cheek'><inertial><origin xyz='0.06 0 0.01'/><mass "
+      "value='0.37'/><inertia ixx='0.001' ixy='0' ixz='0' iyy='0.001' iyz='0' "
+      "izz='0.001'/></inertial></link><joint name='cheek' "
+      "type='revolute'><origin xyz='0 0 0.5'/><parent link='trunk'/><child "
+      "link='cheek'/><axis xyz='0 1 0'/><limit lower='-0.0576' upper='0' "
+      "effort='100' velocity='1.8'/></joint>";
+  text.insert(text.find("</robot>"), cheek);
+  const Diagnosis diagnosis = Examine(text);
+  EXPECT_TRUE(diagnosis.stands);
+  EXPECT_EQ(VerdictWord(diagnosis), "ok") << Findings(diagnosis);
+}
+
+TEST(NextStep, CorrectsEffortsOfZero) {
+  for (const char* part : {"_hip_", "_"}) {
+    Diagnosis diagnosis = Examine(WithEffort(HumanoidText(), part, "0"));
+    EXPECT_TRUE(diagnosis.was_tested);
+    EXPECT_FALSE(diagnosis.stands);
+    EXPECT_NE(
+        diagnosis.reason.find("correct <limit effort=\"0\"> of joints 'l"),
+        std::string::npos)
+        << diagnosis.reason;
+    EXPECT_EQ(NextStep(diagnosis, {"a.urdf", "", {}}),
+              "correct the efforts of the legs, which are 0, in the file, then "
+              "bazel run //tools:doctor -- a.urdf");
+    EXPECT_TRUE(ProfileStub(diagnosis).empty());
+  }
 }
 
 TEST(Diagnose, ExaminesTheRobotWithoutItsLockedJoints) {
@@ -162,6 +239,69 @@ TEST(Diagnose, NamesTheLineOfInvalidXml) {
   EXPECT_EQ(diagnosis.findings[0].line, 2);
   EXPECT_EQ(diagnosis.findings[0].what,
             "has a document type or entity declaration, must have none");
+}
+
+TEST(Diagnose, DoesNotSayIfALargeRobotStands) {
+  Diagnosis diagnosis = Examine(Chain(std::vector<std::string>(300, kInertial),
+                                      std::vector<std::string>(299, "0 0 1")));
+  EXPECT_FALSE(diagnosis.was_tested);
+  diagnosis.next_step = NextStep(diagnosis, {"a.urdf", "", {}});
+  EXPECT_EQ(diagnosis.next_step,
+            "lock joints in a profile (locked: {JOINT: 0}), then bazel run "
+            "//tools:doctor -- a.urdf --profile a.yaml");
+  EXPECT_EQ(WriteTable(diagnosis).find(
+                "verdict  ok\nstands   unknown: the robot has more than 200 "
+                "joints"),
+            0u)
+      << WriteTable(diagnosis);
+  EXPECT_TRUE(nlohmann::json::parse(WriteJson(diagnosis))["stands"].is_null());
+}
+
+// A leg of `joints` joints in series, each 0.2 m below the other.
+std::string Leg(const std::string& name, const std::string& xyz, int joints) {
+  std::string text;
+  std::string parent = "trunk";
+  for (int i = 0; i < joints; ++i) {
+    const std::string link = name + std::to_string(i);
+    text += "<link name='" + link + "'>" + kInertial + "</link><joint name='" +
+            link + "' type='revolute'><origin xyz='" +
+            (i == 0 ? xyz : "0 0 -0.2") + "'/><parent link='" + parent +
+            "'/><child link='" + link +
+            "'/><axis xyz='0 1 0'/><limit lower='-1' upper='1' effort='9' "
+            "velocity='9'/></joint>";
+    parent = link;
+  }
+  return text;
+}
+
+std::string Trunk(const std::string& limbs) {
+  return std::string("<robot name='r'><link name='trunk'>") + kInertial +
+         "</link>" + limbs + "</robot>";
+}
+
+TEST(Diagnose, WarnsIfABipedWithFewJointsDoesNotStand) {
+  const Diagnosis biped =
+      Examine(Trunk(Leg("l", "0 0.1 0", 3) + Leg("r", "0 -0.1 0", 3)));
+  EXPECT_FALSE(biped.stands);
+  EXPECT_TRUE(biped.was_tested);
+  EXPECT_EQ(VerdictWord(biped), "warn") << Findings(biped);
+  EXPECT_EQ(biped.findings[0].what, "does not stand");
+}
+
+TEST(Diagnose, SaysThatQuadrupedsAreNotSupported) {
+  Diagnosis diagnosis =
+      Examine(Trunk(Leg("a", "0.3 0.1 0", 3) + Leg("b", "0.3 -0.1 0", 3) +
+                    Leg("c", "-0.3 0.1 0", 3) + Leg("d", "-0.3 -0.1 0", 3)));
+  EXPECT_EQ(VerdictWord(diagnosis), "warn");
+  EXPECT_NE(diagnosis.reason.find("reaches the ground with 4 bodies, must be "
+                                  "two feet: quadrupeds are not supported"),
+            std::string::npos)
+      << diagnosis.reason;
+  EXPECT_EQ(diagnosis.forward, "+x");
+  EXPECT_TRUE(ProfileStub(diagnosis).empty());
+  EXPECT_EQ(NextStep(diagnosis, {"a.urdf", "", {}}),
+            "choose a robot with two legs, then bazel run //tools:doctor -- "
+            "ROBOT.urdf");
 }
 
 TEST(Diagnose, SkipsMassMatrixAbove500Joints) {
@@ -370,7 +510,18 @@ TEST(WriteTable, ShowsTheGuessThatTheUserMustCorrect) {
     // The stub has six digits.
     EXPECT_NEAR(again.soles[i].length, diagnosis.soles[i].length, 1e-5);
   }
-  EXPECT_NO_THROW(LoadProfile(TestFile("found.yaml", diagnosis.profile)));
+  // The saved profile keeps the origin of the soles, so the warning stays.
+  const std::filesystem::path found = TestFile("found.yaml", diagnosis.profile);
+  Diagnosis saved = Diagnose(TestFile("robot.urdf", text), LoadProfile(found));
+  EXPECT_EQ(saved.soles.at(0).from, "guess");
+  EXPECT_EQ(VerdictWord(saved), "warn");
+  EXPECT_NE(Findings(saved).find("is a guess, by line"), std::string::npos)
+      << Findings(saved);
+  saved.next_step = NextStep(saved, {"robot.urdf", "found.yaml", {}});
+  EXPECT_EQ(saved.next_step,
+            "measure the soles, correct them in found.yaml, remove `from: "
+            "guess`, then bazel run //tools:doctor -- robot.urdf --profile "
+            "found.yaml");
 }
 
 TEST(NextStep, SaysHowToExpandXacro) {
