@@ -16,9 +16,8 @@
 namespace poise {
 namespace {
 
-// A plan needs this much time; a reference brakes within it.
+// A plan needs this much time.
 constexpr double kLeastTime = 0.02;  // s.
-constexpr double kBrakeTime = 0.01;  // s.
 
 // CopForDcm() with less time would ask for a CoP far outside of the sole, and
 // change it fast.
@@ -36,14 +35,6 @@ const Robot& Checked(const Robot& robot) {
 
 Eigen::Vector2d InFrame(const Pose& X, const Eigen::Vector2d& p) {
   return (X * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>();
-}
-
-void Glide(double dt, double goal, double time, Quintic* x) noexcept {
-  if (time > kLeastTime) {
-    x->Advance(dt, goal, time);
-  } else {
-    x->Brake(dt, kBrakeTime);
-  }
 }
 
 }  // namespace
@@ -247,9 +238,7 @@ void Gait::Begin(int swing, double duration, Controller* controller) noexcept {
 
 // Takes over the reference of the center of mass where it is.
 void Gait::TakeCom(const Controller& controller) noexcept {
-  const Reference& reference = controller.reference();
-  for (int i = 0; i < 2; ++i) com_[i] = {reference.p_WG[i], 0, 0};
-  com_[2] = {reference.p_WG.z() - reference.ground_z, 0, 0};
+  com_.StartAt(controller.reference());
   owns_com_ = true;
 }
 
@@ -287,11 +276,9 @@ void Gait::Catch(Controller* controller) noexcept {
   const double sink = std::min(
       region.max_sink(),
       std::max(settings_.min_sink, region.SinkFor(u_S - problem.base_S)));
-  Glide(settings_.dt, nominal_height_ - sink,
-        remaining - (1 - settings_.sink_at) * duration_, &com_[2]);
-  reference.p_WG.z() = reference.ground_z + com_[2].p;
-  reference.v_WG.z() = com_[2].v;
-  reference.a_WG.z() = com_[2].a;
+  com_.MoveHeightTo(settings_.dt, nominal_height_ - sink,
+                    remaining - (1 - settings_.sink_at) * duration_,
+                    &reference);
 
   path_.Advance(settings_.dt, goal_W_, over_, duration_);
   path_.Write(X_WS.R, reference.ground_z, &reference.feet[swing_]);
@@ -322,7 +309,7 @@ void Gait::Rest(Controller* controller) noexcept {
   Reference& reference = controller->reference();
   if (reference.pendulum.is_on) {
     const Tick& tick = controller->tick();
-    for (int i = 0; i < 2; ++i) com_[i] = {tick.p_WG[i], tick.v_WG[i], 0};
+    com_.RestartPlane(tick.p_WG.head<2>(), tick.v_WG.head<2>());
     reference.pendulum.is_on = false;
   }
   phase_ = GaitPhase::kStand;
@@ -331,21 +318,12 @@ void Gait::Rest(Controller* controller) noexcept {
   Stand(controller);
 }
 
-void Gait::GlideTo(const Eigen::Vector2d& p_WG, double height, double time,
-                   Controller* controller) noexcept {
-  for (int i = 0; i < 2; ++i) Glide(settings_.dt, p_WG[i], time, &com_[i]);
-  Glide(settings_.dt, height, time, &com_[2]);
-  Reference& reference = controller->reference();
-  reference.p_WG << com_[0].p, com_[1].p, reference.ground_z + com_[2].p;
-  reference.v_WG << com_[0].v, com_[1].v, com_[2].v;
-  reference.a_WG << com_[0].a, com_[1].a, com_[2].a;
-}
-
 // On both feet, after a step: the center of mass goes back above the middle.
 void Gait::Stand(Controller* controller) noexcept {
   if (!owns_com_) return;
-  GlideTo(InFrame(MidFeet(controller->contacts()), p_MidG_), nominal_height_,
-          settings_.rest_time - over_, controller);
+  com_.MoveTo(settings_.dt, InFrame(MidFeet(controller->contacts()), p_MidG_),
+              nominal_height_, settings_.rest_time - over_,
+              &controller->reference());
   over_ += settings_.dt;
   const bool is_still =
       over_ > settings_.rest_time && controller->tick().v_WG.norm() < kSlow;
@@ -385,8 +363,9 @@ StepAnswer Gait::StepTo(int foot, const Eigen::Vector2d& p_WC,
 void Gait::Shift(Controller* controller) noexcept {
   const Eigen::Vector2d sole =
       controller->contacts()[1 - swing_].X_WC.p.head<2>();
-  GlideTo(sole + p_MidG_, nominal_height_ - settings_.min_sink,
-          settings_.shift_time - over_, controller);
+  com_.MoveTo(settings_.dt, sole + p_MidG_,
+              nominal_height_ - settings_.min_sink,
+              settings_.shift_time - over_, &controller->reference());
   over_ += settings_.dt;
   if (over_ < 1.3 * settings_.shift_time) return;
   const Eigen::Vector2d goal_W = goal_W_;

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "poise/robot/control/controller.h"
+#include "poise/robot/gait/com_glide.h"
 #include "poise/robot/gait/force_priority.h"
 #include "poise/robot/gait/gait_settings.h"
 #include "poise/robot/gait/push_estimate.h"
-#include "poise/robot/gait/quintic.h"
 #include "poise/robot/gait/step_answer.h"
 #include "poise/robot/gait/step_plan.h"
 #include "poise/robot/gait/step_region.h"
@@ -96,8 +95,6 @@ class Gait {
   void Land(Controller* controller) noexcept;
   void Rest(Controller* controller) noexcept;
   bool AreFeetSquare(const Controller& controller) const noexcept;
-  void GlideTo(const Eigen::Vector2d& p_WG, double height, double time,
-               Controller* controller) noexcept;
   void TakeCom(const Controller& controller) noexcept;
   Pose StanceFrame(const Controller& controller, int foot) const noexcept;
 
@@ -129,7 +126,7 @@ class Gait {
   Eigen::Vector2d xi_W_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d xi_without_k_W_ = Eigen::Vector2d::Zero();
   EdgeFractions fractions_;
-  std::array<Quintic, 3> com_;  // Reference of G; z above the ground.
+  ComGlide com_;
 };
 
 }  // namespace poise

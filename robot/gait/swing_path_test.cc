@@ -50,6 +50,28 @@ TEST(SwingPath, RisesTravelsAndLandsAtRest) {
   EXPECT_NEAR(At(path).V_WF_W[5], 0, 1e-6);
 }
 
+// The path stands still over its place before the planned landing, if the
+// place does not change in the last 50 ms.
+RC_GTEST_PROP(SwingPath, HasNoSpeedAlongTheGroundAtThePlannedLanding, ()) {
+  const SwingPath::Settings settings;
+  SwingPath path;
+  path.Configure(settings);
+  path.Start(Eigen::Vector2d::Zero(), 0);
+  Eigen::Vector2d goal = 0.4 * (*VectorsXd(2, 1)).head<2>();
+  const double duration = 0.22 + *Numbers(0.02);
+  double over = 0;
+  for (; over < duration; over += kDt) {
+    if (duration - over > 0.05) goal += 1e-3 * (*VectorsXd(2, 1)).head<2>();
+    path.Advance(kDt, goal, over, duration);
+  }
+  // At the start of braking, 12 ms before the path is over its place at 190
+  // ms, the quintic of 0.6 m has 0.4 m/s. A further 23 ms of braking with a
+  // time constant of 5 ms leave 1 % of this; a goal that moves to the end of
+  // the 50 ms makes the quintic faster by a factor of 3.
+  RC_ASSERT(At(path).V_WF_W.segment<2>(3).norm() < 0.02);
+  RC_ASSERT((At(path).X_WF.p.head<2>() - goal).norm() < 5e-3);
+}
+
 // Velocities are the derivatives of the positions, and accelerations those of
 // the velocities, also if the goal and the duration change in each tick.
 RC_GTEST_PROP(SwingPath, IsConsistentWhenThePlanChanges, ()) {
