@@ -18,8 +18,8 @@ struct GaitSettings {
   double dt = 1e-3;  ///< Control period, s.
   /// Share of the angular momentum in the DCM, 0 to 1: see Dcm.
   double share_of_k = 0.985;
-  StepTrigger trigger;  ///< Of a robot that turns its trunk strongly.
-  /// Of a robot that cannot, see FitToStrength().
+  StepTrigger trigger;  ///< For a robot that turns its trunk strongly.
+  /// For a robot that cannot turn it, see FitToStrength().
   StepTrigger weak_trigger{0.75, 0.8, 1.05};
   PushEstimate::Settings push;
   StepRegion::Settings region;

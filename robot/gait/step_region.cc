@@ -51,6 +51,25 @@ class Leg {
     p_nominal_WC_ = X_WC_.p;
   }
 
+  // Returns the largest torque of the leg's joints, as a fraction of the effort
+  // limit, while the leg alone holds the robot's weight above its nominal place
+  // with the base lower by `sink`. Infinite if the leg does not reach the place.
+  double Load(double sink) {
+    Restart(sink);
+    if (!MoveTo(p_nominal_WC_.head<2>())) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const Tree& tree = robot_.model.tree;
+    const double weight = tree.total_mass() * tree.gravity_W().norm();
+    double most = 0;
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const double torque =
+          std::abs(J_(5, static_cast<Eigen::Index>(j))) * weight;
+      most = std::max(most, torque / robot_.model.limits[joints_[j]].effort);
+    }
+    return most;
+  }
+
   const Eigen::Vector3d& p_nominal_WC() const { return p_nominal_WC_; }
   double base_height() const { return nominal_[2]; }
 
@@ -156,6 +175,7 @@ StepRegion::StepRegion(const Robot& robot, int foot, const Settings& settings)
   double largest = 0;
   for (int k = 1; k < kSinks; ++k) {
     const double sink = settings.max_sink * k / (kSinks - 1);
+    if (leg.Load(sink) > settings.load) continue;
     const double area = Area(SearchPlaces(sink, settings.reach, &leg));
     if (area <= largest) continue;
     largest = area;

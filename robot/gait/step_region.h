@@ -16,7 +16,8 @@ namespace poise {
 /// region is the polygon normal(i)' u_N <= support(i, sink), for i below kSides.
 /// `sink` is the height by which the base is below its nominal height. With a
 /// lower base the leg reaches farther, until a joint of the bent leg is at its
-/// limit: max_sink() is where the region is largest.
+/// limit, or one leg alone cannot hold the weight with bent knees. Between these
+/// limits, max_sink() is where the region is largest.
 class StepRegion {
  public:
   static constexpr int kSides = 12;
@@ -26,6 +27,9 @@ class StepRegion {
     double max_sink = 0.1;      ///< Bound of max_sink(), m.
     double limit_margin = 0.1;  ///< Distance to the joint limits, rad.
     double reach = 0.97;        ///< Fraction of the leg's largest length.
+    /// Largest torque, as a fraction of the effort limit, with which one leg
+    /// holds the weight at max_sink().
+    double load = 0.7;
   };
 
   /// Searches the region by inverse kinematics, outward from the nominal place.

@@ -210,6 +210,42 @@ TEST(StepRegionTest, TheBaseSinksOnlyAsFarAsTheAnklesAllow) {
             1e-4);
 }
 
+// Second derivation: the torque of the knee is the weight times the horizontal
+// distance between the knee and the sole. It grows as the base sinks, up to the
+// length of the thigh.
+TEST(StepRegionTest, TheBaseSinksOnlyAsFarAsTheKneeBears) {
+  const Tree& tree = Humanoid().model.tree;
+  Tick tick(tree, {});
+  ComputeTick(tree, Humanoid().q_nominal, Eigen::VectorXd::Zero(tree.nv()),
+              &tick);
+  const Foot& foot = Humanoid().feet[0];
+  const int knee = *tree.FindJoint("l_knee");
+  const int hip = *tree.FindJoint("l_hip_pitch");
+  const Eigen::Vector3d p_WK = tick.X_WB[knee + 1].p;
+  const double lever =
+      ((tick.X_WB[foot.body] * foot.X_BC).p - p_WK).head<2>().norm();
+  const double thigh = (tick.X_WB[hip + 1].p - p_WK).norm();
+  const double weight = tree.total_mass() * tree.gravity_W().norm();
+  const StepRegion::Settings settings;
+  const auto sink = [&](double effort) {
+    Robot robot = Humanoid();
+    robot.model.limits[knee].effort = effort;
+    return StepRegion(robot, 0, settings).max_sink();
+  };
+  const double free = StepRegion(Humanoid(), 0, settings).max_sink();
+  EXPECT_EQ(sink(weight * thigh / settings.load), free);
+  EXPECT_EQ(sink(weight * lever / settings.load), 0);
+  double last = 0;
+  for (const double share : {0.2, 0.4, 0.6, 0.8, 1.0}) {
+    const double length = lever + share * (thigh - lever);
+    const double now = sink(weight * length / settings.load);
+    EXPECT_GE(now, last);
+    last = now;
+  }
+  EXPECT_LT(sink(weight * (lever + 0.2 * (thigh - lever)) / settings.load),
+            free);
+}
+
 // A leg that cannot bend at all has the region of the nominal height.
 TEST(StepRegionTest, WithoutSinkTheRegionIsFinite) {
   StepRegion::Settings settings;
