@@ -232,13 +232,28 @@ SelfCollisionTask::Common SelfCollisionTask::FindCommon(
     if (joints_[j].type != JointType::kPrismatic) continue;
     travel += std::abs(input.state.q[q_start_ + j]);
   }
-  Common common{0, LoosenessOfArms(input)};
+  Common common{0, LoosenessOfArms(input), 0};
   for (size_t j = 0; j < joints_.size(); ++j) {
     const bool is_slider = joints_[j].type == JointType::kPrismatic;
     const double lever = is_slider ? 1 : lever_[j] + travel;
     common.max_speed += lever * std::abs(input.state.v[v_start_ + j]);
   }
+  common.far = std::min(
+      kFar * model_.reach,
+      d_min_ + (loosest_ + 2 * omega_ * common.max_speed) / (omega_ * omega_));
   return common;
+}
+
+// Most pairs are so far apart that u cannot be below u_max at any direction of
+// the motion. Balls around the bodies show this without the capsules' poses.
+bool SelfCollisionTask::IsFar(const TaskInput& input, const CollisionPair& pair,
+                              const Common& common) const noexcept {
+  const CollisionBound& a = model_.bounds[pair.a];
+  const CollisionBound& b = model_.bounds[pair.b];
+  const double far = common.far + a.radius + b.radius;
+  const std::vector<Pose>& X_WB = input.tick.X_WB;
+  return (X_WB[pair.a] * a.center - X_WB[pair.b] * b.center).squaredNorm() >=
+         far * far;
 }
 
 SelfCollisionTask::Bound SelfCollisionTask::FindBound(
@@ -247,18 +262,10 @@ SelfCollisionTask::Bound SelfCollisionTask::FindBound(
   const CollisionPair& pair = model_.pairs[i];
   const bool is_of_legs = leg_[pair.a] >= 0 && leg_[pair.b] >= 0;
   const double looseness = is_of_legs ? 0 : common.looseness_of_arms;
-  if (looseness >= 1) return bound;
+  if (looseness >= 1 || IsFar(input, pair, common)) return bound;
   const std::vector<Pose>& X_WB = input.tick.X_WB;
   const double d_min =
       std::min({d_min_, nominal_[i] / 2, nominal_[i] - d_min_ / 2});
-  // Most pairs are so far apart that u cannot be below u_max at any direction
-  // of the motion: their chains are not computed.
-  const double least = BoundPairDistance(model_, pair, X_WB);
-  if (least > kFar * model_.reach ||
-      omega_ * omega_ * (least - d_min) - 2 * omega_ * common.max_speed >=
-          loosest_) {
-    return bound;
-  }
   bound.closest = ComputePairDistance(model_, pair, X_WB, kSoftness);
   const Vector3d& gradient = bound.closest.gradient;
   double unmodelled = 0;

@@ -57,10 +57,12 @@ class SelfCollisionTask final : public Task {
     Eigen::Vector3d v = Eigen::Vector3d::Zero();
     Eigen::Vector3d a = Eigen::Vector3d::Zero();
   };
-  // Numbers of a tick that hold for all pairs.
+  // Numbers of a tick that hold for all pairs. Pairs have no row if balls around
+  // them are farther apart than `far`, m.
   struct Common {
     double max_speed;          // Upper bound of |ḋ|, m/s.
     double looseness_of_arms;  // 0 (strict) to 1 (no rows).
+    double far;
   };
   // The bound of a pair in a tick.
   struct Bound {
@@ -75,6 +77,8 @@ class SelfCollisionTask final : public Task {
                        const Eigen::Vector3d& gradient,
                        double* unmodelled) const noexcept;
   Common FindCommon(const TaskInput& input) const noexcept;
+  bool IsFar(const TaskInput& input, const CollisionPair& pair,
+             const Common& common) const noexcept;
   Bound FindBound(const TaskInput& input, int pair,
                   const Common& common) const noexcept;
   void WriteChain(const Tick& tick, int body, int ancestor,
