@@ -28,7 +28,7 @@ bool ApplyFraction(const Robot& robot, const Eigen::VectorXd& q,
 }
 
 bool HasBegun(const Push& push, double time, double dt) {
-  constexpr double kRounding = 1e-9;  // Of a sum of many control periods, s.
+  constexpr double kRounding = 1e-9;  // A sum of many periods rounds, s.
   return push.start < time + dt - kRounding;
 }
 

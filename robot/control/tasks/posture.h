@@ -27,8 +27,8 @@ class PostureTask final : public Task {
  private:
   int q_start_;
   int v_start_;
-  std::vector<double> unit_;    // Of inertia, by joint, kg m2 or kg over 1.
-  std::vector<double> factor_;  // On the weight, by joint.
+  std::vector<double> unit_;    // Unit of inertia, by joint, kg m2 or kg.
+  std::vector<double> factor_;  // Factor on the weight, by joint.
   double kp_ = 60;
   double kd_ = 15;
   double inertia_ = 0.5;
