@@ -43,7 +43,7 @@ struct Diagnosis {
   /// up in the scenario `stand`.
   bool stands = false;
   std::string reason;          ///< Why it does not stand, or was not tested.
-  std::string remedy;          ///< What to correct so that it stands, or "".
+  std::string remedy;          ///< Correction with which it stands, or "".
   bool has_many_legs = false;  ///< It has more legs than two.
   std::string forward;         ///< Axis of the root link: "+x", ..., or "".
   std::string profile;         ///< The profile that was found, as YAML.
