@@ -9,6 +9,7 @@
 #include "poise/hqp/reference/cascade.h"
 #include "poise/hqp/solution.h"
 #include "poise/robot/control/controller.h"
+#include "poise/robot/control/tasks/froude.h"
 #include "poise/tests/util/arbitrary.h"
 #include "poise/tests/util/random_biped.h"
 #include "poise/tests/util/tolerance.h"
@@ -99,9 +100,13 @@ Balance::Balance(const BipedCase& from)
 void Balance::Update() {
   state.time += kDt;
   if (expected_v.size() > 0) {
-    const double share = 1 - std::exp(-kDt / 0.02);
+    // The times and accelerations of UnmodelledAcceleration scale with the
+    // robot, by Froude's rule.
+    const FroudeScale scale = MakeFroudeScale(robot);
+    const double share = 1 - std::exp(-kDt / (0.02 * scale.time()));
+    const double largest = 100 / scale.length;
     unexpected += share * ((state.v - expected_v) / kDt - unexpected);
-    unexpected = unexpected.cwiseMax(-100).cwiseMin(100);
+    unexpected = unexpected.cwiseMax(-largest).cwiseMin(largest);
   }
   controller.Update(state, &command);
   expected_v = state.v + kDt * y().head(state.v.size());
