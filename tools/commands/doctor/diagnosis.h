@@ -42,8 +42,8 @@ struct Diagnosis {
   /// Whether the robot stands: its motors hold a standing posture. If a motor is
   /// weak or missing, the robot must stay up in the scenario `stand` instead.
   bool stands = false;
-  std::string reason;          ///< Why it does not stand, or was not tested.
-  std::string remedy;          ///< What to correct so that it stands, or "".
+  std::string reason;  ///< Why it does not stand, or was not tested.
+  std::string remedy;  ///< The part to correct so that it stands, or "".
   bool has_many_legs = false;  ///< It has more legs than two.
   std::string forward;         ///< Axis of the root link: "+x", ..., or "".
   std::string profile;         ///< The profile that was found, as YAML.
