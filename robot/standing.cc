@@ -114,6 +114,10 @@ std::string WhyNotStanding(const Robot& robot) {
     return "the feet are turned by " + PrintNumber(heading) +
            " rad about z, must point along x";
   }
+  if (!(tick.p_WG.z() > 0)) {
+    return "the center of mass is " + PrintNumber(-tick.p_WG.z()) +
+           " m below the soles, must be above: turn `base` over";
+  }
   if (!IsInside(tick.p_WG.head<2>(), ConvexHull(std::move(support)))) {
     return "the center of mass is not over the soles: the robot would fall";
   }

@@ -20,7 +20,8 @@ std::string WhyNoPairOfFeet(const Robot& robot);
 ///   the left;
 /// - the midpoint of the soles is at the origin to 5 mm, and the soles point
 ///   along x to 0.02 rad;
-/// - the center of mass is above the convex hull of the soles.
+/// - the center of mass is above the ground and over the convex hull of the
+///   soles.
 ///
 /// @pre The robot has two feet, the left one first.
 std::string WhyNotStanding(const Robot& robot);

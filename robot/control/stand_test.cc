@@ -5,7 +5,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "poise/dynamics/kinematics.h"
@@ -173,6 +176,29 @@ TEST(StandUp, StandsOnSolesThatCannotBeParallel) {
   }
   StandUp(&robot);
   EXPECT_EQ(WhyNotStanding(robot), "");
+}
+
+// The soles are on the upper sides of the feet. With stiff legs, the robot can
+// only hang from the ground. Its soles are flat then, and its center of mass is
+// over them in plan view.
+TEST(StandUp, RejectsACenterOfMassBelowTheSoles) {
+  Robot robot = MakeRobot(UrdfDocument(BipedText({}), "biped.urdf"), {});
+  const Eigen::AngleAxisd over(M_PI, Eigen::Vector3d::UnitX());
+  for (Foot& foot : robot.feet) foot.X_BC.R *= over.toRotationMatrix();
+  std::swap(robot.feet[0], robot.feet[1]);  // Left of a robot upside down.
+  for (JointLimits& limits : robot.model.limits) {
+    limits.lower = std::max(limits.lower, -0.3);
+    limits.upper = std::min(limits.upper, 0.3);
+  }
+  try {
+    StandUp(&robot);
+    ADD_FAILURE() << "StandUp() did not throw";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("m below the soles"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_FALSE(robot.can_stand);
 }
 
 TEST(StandUp, ReportsWhyRobotCannotStand) {

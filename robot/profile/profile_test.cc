@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <stdexcept>
@@ -300,6 +302,21 @@ TEST(LoadRobot, RejectsSwappedFeetAndAFallingPosture) {
   robot.q_nominal[robot.model.tree.q_start()] = 9;
   EXPECT_NE(WhyNotStanding(robot).find("must be inside its limits"),
             std::string::npos);
+}
+
+// The soles are turned over, so that the robot hangs below the ground. All other
+// conditions hold.
+TEST(LoadRobot, RejectsAPostureBelowItsSoles) {
+  Robot robot = LoadRobot(kUrdf, LoadProfile("robot/profiles/humanoid.yaml"));
+  const Eigen::AngleAxisd over(M_PI, Eigen::Vector3d::UnitX());
+  for (Foot& foot : robot.feet) foot.X_BC.R *= over.toRotationMatrix();
+  const Eigen::Quaterniond base(robot.q_nominal.segment<4>(3).data());
+  robot.q_nominal.segment<4>(3) = Eigen::Quaterniond(over * base).coeffs();
+  robot.q_nominal.head<3>() = over * robot.q_nominal.head<3>();
+  std::swap(robot.feet[0], robot.feet[1]);
+  const std::string reason = WhyNotStanding(robot);
+  EXPECT_EQ(reason.find("the center of mass is 0.7"), 0u) << reason;
+  EXPECT_NE(reason.find("m below the soles"), std::string::npos) << reason;
 }
 
 TEST(LoadProfile, ThrowsIfTheFileIsMissing) {

@@ -13,6 +13,7 @@
 #include "poise/hqp/solution.h"
 #include "poise/hqp/solver.h"
 #include "poise/math/so3.h"
+#include "poise/robot/control/posture/joint_range.h"
 #include "poise/robot/control/posture/sole_rows.h"
 #include "poise/robot/feet/knee.h"
 #include "poise/robot/finding.h"
@@ -26,10 +27,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Margin to each joint limit: kMarginFraction of the range, but at most
-// kLargestMargin, rad or m.
-constexpr double kMarginFraction = 0.05;
-constexpr double kLargestMargin = 0.05;
 constexpr double kBent = 0.3;        // A knee beyond is bent already, rad.
 constexpr double kKneeWeight = 100;  // Large, so that hip and ankle adapt.
 // Smallest gap between the soles, m: kFootGap, but at most kFootGapOfLeg of the
@@ -95,13 +92,8 @@ class Search {
   // Returns the length of the leg that ends in foot i, m.
   double LegLength(int i) const;
 
-  // Sets the range of each joint. A joint outside moves to the nearest end.
-  void SetLimits();
-
   // Bends the knee of the leg with the foot `body`, if the knee is straight.
   void BendKnee(int body);
-
-  void AddLimits(double longest, Hierarchy* hierarchy) const;
 
   // Horizontal error of the center of mass, m.
   Vector2d OffBalance() const { return tick_.p_WG.head<2>() - target_; }
@@ -124,7 +116,7 @@ class Search {
   Tick tick_;
   const VectorXd zero_;
   VectorXd q_, q_wanted_;
-  VectorXd lower_, upper_;
+  const JointRange range_;
   VectorXd posture_weight_;  // By joint.
   SoleState feet_[2];
   Pose X_WC_wanted_[2];  // Only on one foot.
@@ -143,6 +135,7 @@ Search::Search(const Robot& robot, const PostureGoal& goal)
       tick_(tree_, FeetFrames(robot)),
       zero_(VectorXd::Zero(tree_.nv())),
       q_(robot.q_nominal),
+      range_(RangeInside(robot.model)),
       posture_weight_(VectorXd::Ones(tree_.num_joints())),
       column_of_(tree_.num_joints(), -1),
       least_apart_(robot.feet[0].half_size.y() + robot.feet[1].half_size.y()) {
@@ -153,7 +146,7 @@ Search::Search(const Robot& robot, const PostureGoal& goal)
     columns_.push_back(tree_.v_start() + j);
   }
   if (goal.joints.size() > 0) q_.tail(tree_.num_joints()) = goal.joints;
-  SetLimits();
+  q_ = Clamp(range_, robot_.model, q_);
   if (goal.support) {
     Evaluate();
     for (const int i : {0, 1}) X_WC_wanted_[i] = feet_[i].X_WC;
@@ -192,7 +185,7 @@ void Search::Place() {
   for (const Foot& foot : robot_.feet) BendKnee(foot.body);
   q_ = q_wanted_;
   if (goal_.start.size() > 0) q_.tail(tree_.num_joints()) = goal_.start;
-  SetLimits();
+  q_ = Clamp(range_, robot_.model, q_);
   Evaluate();
   q_.head<3>() -= 0.5 * (feet_[0].X_WC.p + feet_[1].X_WC.p);
   Evaluate();
@@ -216,7 +209,8 @@ Posture Search::Solve() {
   for (double longest = kLongestStep; longest > kConverged; ++i) {
     if (i >= kFullSteps) longest *= kShrink;
     hierarchy.Clear(static_cast<int>(capacity.size()));
-    AddLimits(longest, &hierarchy);
+    AddStepLimits(range_, robot_.model, q_, column_of_, nv, longest,
+                  &hierarchy);
     if (goal_.support) {
       AddSupportRows(feet_, X_WC_wanted_, goal_.support->foot,
                      goal_.support->keeps_other, &hierarchy);
@@ -272,57 +266,15 @@ double Search::LegLength(int i) const {
   return hip - feet_[i].X_WC.p.z();
 }
 
-void Search::SetLimits() {
-  const int n = tree_.num_joints();
-  lower_.resize(n);
-  upper_.resize(n);
-  for (int j = 0; j < n; ++j) {
-    const JointLimits& limits = robot_.model.limits[j];
-    const double margin = std::min(
-        kLargestMargin, kMarginFraction * (limits.upper - limits.lower));
-    lower_[j] = limits.lower + margin;
-    upper_[j] = limits.upper - margin;
-    double& q = q_[tree_.q_start() + j];
-    q = std::max(lower_[j], std::min(q, upper_[j]));
-  }
-}
-
 void Search::BendKnee(int body) {
   const auto knee = FindKnee(tree_, body, tick_.X_WB, Vector3d::UnitY());
   if (!knee) return;
   const int j = knee->joint;
   double& q = q_wanted_[tree_.q_start() + j];
   if (std::abs(q) > kBent) return;
-  q = std::max(lower_[j], std::min(knee->sign * goal_.knee_bend, upper_[j]));
+  q = std::max(range_.lower[j],
+               std::min(knee->sign * goal_.knee_bend, range_.upper[j]));
   posture_weight_[j] = kKneeWeight;
-}
-
-void Search::AddLimits(double longest, Hierarchy* hierarchy) const {
-  const int nv = static_cast<int>(columns_.size());
-  InequalityBlock steps = hierarchy->AddInequalities(0, nv);
-  steps.C.setIdentity();
-  steps.lower.setConstant(-longest);
-  steps.upper.setConstant(longest);
-  for (int j = 0; j < tree_.num_joints(); ++j) {
-    const double q = q_[tree_.q_start() + j];
-    const int row = column_of_[j];
-    if (row < 0) continue;
-    steps.lower[row] = std::max(-longest, std::min(0., lower_[j] - q));
-    steps.upper[row] = std::min(longest, std::max(0., upper_[j] - q));
-    if (lower_[j] < upper_[j]) continue;
-    hierarchy->AddEqualities(0, 1).B(0, row) = 1;  // No range: fixed joint.
-  }
-  for (const MimicCoupling& mimic : robot_.model.mimics) {
-    const auto q = [&](int j) { return q_[tree_.q_start() + j]; };
-    const int column = column_of_[mimic.joint];
-    const int source = column_of_[mimic.source];
-    if (column < 0 || source < 0) continue;
-    EqualityBlock coupling = hierarchy->AddEqualities(0, 1);
-    coupling.B(0, column) = 1;
-    coupling.B(0, source) = -mimic.multiplier;
-    coupling.b[0] =
-        q(mimic.joint) - mimic.multiplier * q(mimic.source) - mimic.offset;
-  }
 }
 
 void Search::AddBalance(Hierarchy* hierarchy) const {
@@ -418,13 +370,8 @@ Posture Search::Result() const {
                    PrintNumber(OffBalance().norm()) +
                    " m from its target above the soles";
   }
-  if (posture.lack.empty()) return posture;
-  constexpr double kAtLimit = 1e-6;  // rad or m.
-  for (int j = 0; j < tree_.num_joints(); ++j) {
-    const double q = q_[tree_.q_start() + j];
-    if (column_of_[j] < 0) continue;
-    if (q > lower_[j] + kAtLimit && q < upper_[j] - kAtLimit) continue;
-    posture.at_limit.push_back(j);
+  if (!posture.lack.empty()) {
+    posture.at_limit = JointsAtLimit(range_, robot_.model, q_, column_of_);
   }
   return posture;
 }

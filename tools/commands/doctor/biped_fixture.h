@@ -14,8 +14,8 @@ struct SmallBiped {
   double leg_effort = 100;     ///< N m.
   double arm_effort = 10;      ///< N m.
   double arm_tilt = 0;         ///< Angle of the arms in front of vertical, rad.
-  double scale = 1;            ///< Factor on lengths; masses scale by its cube.
-  double yaw = 0;              ///< Angle of the root link in the robot, rad.
+  double scale = 1;            ///< Scales lengths. Masses scale by its cube.
+  double yaw = 0;              ///< Turns the root link's axes, rad.
   std::string left = "left_";  ///< Prefix of names on the left.
   std::string right = "right_";  ///< Prefix of names on the right.
   bool has_shapes = true;        ///< Whether the feet have shapes.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -71,6 +72,14 @@ double HeightOfMass(const Robot& robot) {
   return tick.p_WG.z();
 }
 
+// Returns the first joint whose effort limit is 0.
+std::optional<int> FindPassiveJoint(const Robot& robot) {
+  for (int j = 0; j < robot.model.tree.num_joints(); ++j) {
+    if (robot.model.limits[j].effort == 0) return j;
+  }
+  return std::nullopt;
+}
+
 class Doctor {
  public:
   Doctor(const std::filesystem::path& urdf, const Profile& profile,
@@ -113,6 +122,10 @@ class Doctor {
   // Returns the reason why the robot does not stand, or "". Throws
   // std::invalid_argument with the reason if no feet or no posture are found.
   std::string WhyNotStanding();
+
+  // Adds a warning for each weak motor. If a motor is weak or missing, simulates
+  // the robot and returns the reason why it falls. Returns "" if it stays up.
+  std::string WhyTooWeak(const Robot& robot);
 
   void CheckParity(const Robot& robot);
 
@@ -270,24 +283,39 @@ std::string Doctor::WhyNotStanding() {
   if (!robot.can_stand) StandUp(&robot, profile_);
   WriteFoundProfile(robot);
   diagnosis_.com_height = HeightOfMass(robot);
-  const std::vector<Finding> weakness = FindWeakness(robot);
-  Append(weakness);
-  if (!weakness.empty()) {
-    // A robot may settle into a posture that its motors hold.
-    const std::optional<std::string> fall = WhyFalls(robot, profile_);
-    const std::string& where = weakness[0].where;
-    diagnosis_.was_tested = fall.has_value();
-    const std::string reason =
-        where + " " + weakness[0].what + ", and " +
-        fall.value_or("the simulation took too long to show a fall");
-    if (!fall) return reason;
-    if (!fall->empty()) {
-      if (where != "robot") diagnosis_.remedy = "the effort of " + where;
-      return reason;
-    }
-  }
+  const std::string fall = WhyTooWeak(robot);
+  if (!fall.empty()) return fall;
   Append(FindOneLegDefects(robot));
   return "";
+}
+
+std::string Doctor::WhyTooWeak(const Robot& robot) {
+  const std::vector<Finding> weakness = FindWeakness(robot);
+  Append(weakness);
+  std::string where, what;
+  if (!weakness.empty()) {
+    where = weakness[0].where;
+    what = weakness[0].what;
+  } else if (const auto joint = FindPassiveJoint(robot)) {
+    // A joint without motor may swing until the robot falls, although its
+    // torque at rest is negligible.
+    where = "joint " + Quoted(robot.model.tree.joints()[*joint].name);
+    what = "has no motor (limit 0)";
+  } else {
+    return "";
+  }
+  // A robot may settle into a posture that its motors hold.
+  const std::optional<std::string> fall = WhyFalls(robot, profile_);
+  if (fall && fall->empty()) return "";
+  if (!fall && weakness.empty()) {
+    Add(Severity::kNote, where, what,
+        "the simulation took too long to show if the robot falls");
+    return "";
+  }
+  diagnosis_.was_tested = fall.has_value();
+  if (fall && where != "robot") diagnosis_.remedy = "the effort of " + where;
+  return where + " " + what + ", and " +
+         fall.value_or("the simulation took too long to show a fall");
 }
 
 void Doctor::DescribeFeet(const Robot& robot) {

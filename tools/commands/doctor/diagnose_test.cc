@@ -11,10 +11,12 @@
 #include <sstream>
 #include <string>
 
+#include "poise/robot/control/stand.h"
 #include "poise/tests/util/shared_data.h"
 #include "poise/tests/util/test_file.h"
 #include "poise/tools/commands/doctor/biped_fixture.h"
 #include "poise/tools/commands/doctor/next_step.h"
+#include "poise/tools/commands/doctor/why_falls.h"
 #include "poise/tools/commands/doctor/write_diagnosis.h"
 
 namespace poise {
@@ -138,6 +140,19 @@ TEST(Diagnose, SaysThatARobotWithWeakArmsStands) {
   EXPECT_EQ(Findings(hangs).find("to stand"), std::string::npos)
       << Findings(hangs);
   EXPECT_TRUE(hangs.stands) << hangs.reason;
+}
+
+// The torques of the wrists at rest are too small to report. The simulation
+// decides if the humanoid stands without their motors.
+TEST(Diagnose, SimulatesARobotWithPassiveJoints) {
+  const auto file =
+      TestFile("robot.urdf", WithEffort(HumanoidText(), "wrist", "0"));
+  const Diagnosis diagnosis = Diagnose(file);
+  EXPECT_EQ(Findings(diagnosis).find("to stand, "), std::string::npos)
+      << Findings(diagnosis);
+  const auto fall = WhyFalls(LoadStandingRobot(file, {}), {});
+  ASSERT_TRUE(fall.has_value());
+  EXPECT_EQ(diagnosis.stands, fall->empty()) << *fall;
 }
 
 // The cheek rests at the end of its range. The controller moves it away from

@@ -39,11 +39,11 @@ struct Diagnosis {
   /// Whether it is known if the robot stands. False if the robot is too large,
   /// if its simulation takes too long, or if the file is rejected.
   bool was_tested = false;
-  /// Whether the robot stands: its motors hold a standing posture, or it stays
-  /// up in the scenario `stand`.
+  /// Whether the robot stands: its motors hold a standing posture. If a motor is
+  /// weak or missing, the robot must stay up in the scenario `stand` instead.
   bool stands = false;
-  std::string reason;          ///< Why it does not stand, or was not tested.
-  std::string remedy;          ///< Correction with which it stands, or "".
+  std::string reason;  ///< Why it does not stand, or was not tested.
+  std::string remedy;  ///< The part to correct so that it stands, or "".
   bool has_many_legs = false;  ///< It has more legs than two.
   std::string forward;         ///< Axis of the root link: "+x", ..., or "".
   std::string profile;         ///< The profile that was found, as YAML.

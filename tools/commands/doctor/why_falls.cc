@@ -19,8 +19,8 @@ constexpr double kLongestComputing = 5;  // Processor time, s.
 constexpr double kLongestWait = 8;       // Real time, s.
 constexpr double kShortest = 1;  // Simulated time that shows something, s.
 
-// Returns the scenario of sim/scenarios/stand.yaml, shorter. The doctor may run outside
-// of the folder of scenarios.
+// Returns the scenario of sim/scenarios/stand.yaml, shorter. The doctor may run
+// outside of the folder of scenarios.
 Scenario MakeStand() {
   Scenario scenario;
   scenario.name = "stand";
