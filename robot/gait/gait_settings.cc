@@ -31,6 +31,8 @@ GaitSettings Scaled(const GaitSettings& settings, double com_height) {
   scaled.square *= length;
   // It weighs a number against squares of lengths.
   scaled.time_weight *= length * length;
+  // It weighs squares of moments against squares of forces.
+  scaled.angular_weight /= length * length;
   scaled.command_path = Scaled(settings.command_path, length, time);
   scaled.shift_time *= time;
   scaled.command_time *= time;

@@ -43,7 +43,7 @@ struct GaitSettings {
   double square = 0.05;    ///< Feet are square within this distance, m.
 
   // Weights and bounds of MomentumTask during these steps.
-  double angular_weight = 15;
+  double angular_weight = 15;  ///< 1/m2.
   double height_weight = 1.2;
   double first_rise = 1.6;  ///< PendulumReference::max_rise in the first step.
   double later_rise = 7;    ///< PendulumReference::max_rise in later steps.
@@ -58,8 +58,9 @@ struct GaitSettings {
 
 /// Returns the settings for a robot whose center of mass is `com_height` above
 /// its soles, m, by Froude's rule: lengths scale with the height, times and
-/// speeds with its square root, and accelerations and angles not at all. The
-/// control period, and how long pushes last, do not depend on the robot.
+/// speeds with its square root, angular_weight with its square's inverse, and
+/// accelerations and angles not at all. The control period, and how long pushes
+/// last, do not depend on the robot.
 GaitSettings Scaled(const GaitSettings& settings, double com_height);
 
 }  // namespace poise

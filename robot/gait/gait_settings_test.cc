@@ -33,6 +33,7 @@ std::vector<double> Dimensionless(const GaitSettings& s, double height) {
           s.min_sink / height,
           s.square / height,
           s.time_weight / (height * height),
+          s.angular_weight * height * height,
           s.region.max_sink / height,
           s.path.clearance / height,
           s.path.search_depth / height,

@@ -10,6 +10,7 @@ namespace poise {
 /// arms of seven joints with fingers.
 struct ArmsCase {
   double shoulder = 0.25;  ///< Distance of a shoulder from the middle, m.
+  double hip = 0.1;        ///< Distance of a hip from the middle, m.
   int fingers = 0;         ///< Fingers of each hand.
   int phalanges = 0;       ///< Joints of each finger.
 };
@@ -19,7 +20,7 @@ class BipedWriter {
  public:
   explicit BipedWriter(const ArmsCase& from) {
     AddLink("pelvis", 10, Cylinder(0.06, 0.1, 0));
-    for (const int side : {1, -1}) AddLeg(side);
+    for (const int side : {1, -1}) AddLeg(side, from.hip);
     std::string parent = "pelvis";
     const char* axes[] = {"0 0 1", "1 0 0", "0 1 0"};
     for (int i = 0; i < 3; ++i) {
@@ -67,10 +68,10 @@ class BipedWriter {
              "' effort='200' velocity='10'/></joint>";
   }
 
-  void AddLeg(int side) {
+  void AddLeg(int side, double hip) {
     const std::string s = side > 0 ? "l_" : "r_";
     AddLink(s + "hip_yaw", 1, "");
-    AddJoint("pelvis", s + "hip_yaw", {0, side * 0.1, 0}, "0 0 1");
+    AddJoint("pelvis", s + "hip_yaw", {0, side * hip, 0}, "0 0 1");
     AddLink(s + "hip_roll", 1, "");
     AddJoint(s + "hip_yaw", s + "hip_roll", {0, 0, 0}, "1 0 0");
     AddLink(s + "hip_pitch", 5, Cylinder(0.05, 0.3, -0.2), -0.2);

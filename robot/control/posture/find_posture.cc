@@ -95,8 +95,9 @@ class Search {
   // Bends the knee of the leg with the foot `body`, if the knee is straight.
   void BendKnee(int body);
 
-  // Horizontal error of the center of mass, m.
-  Vector2d OffBalance() const { return tick_.p_WG.head<2>() - target_; }
+  // Error of the center of mass, m: horizontal, and vertical if it has a target
+  // there.
+  VectorXd OffBalance() const;
 
   void AddBalance(Hierarchy* hierarchy) const;
 
@@ -198,7 +199,7 @@ Posture Search::Solve() {
   const std::vector<LevelCapacity> capacity = {
       {static_cast<int>(robot_.model.mimics.size()) + n, nv},
       {12, 1},
-      {2, 0},
+      {3, 0},
       {8, 0},
       {n, 0}};
   Hierarchy hierarchy(nv, capacity);
@@ -277,10 +278,21 @@ void Search::BendKnee(int body) {
   posture_weight_[j] = kKneeWeight;
 }
 
+VectorXd Search::OffBalance() const {
+  const Vector2d off = tick_.p_WG.head<2>() - target_;
+  if (!goal_.support || !goal_.support->height) return off;
+  const double ground = X_WC_wanted_[goal_.support->foot].p.z();
+  return Vector3d(off.x(), off.y(),
+                  tick_.p_WG.z() - ground - *goal_.support->height);
+}
+
 void Search::AddBalance(Hierarchy* hierarchy) const {
-  EqualityBlock com = hierarchy->AddEqualities(2, 2);
-  com.B = tick_.H_G.middleRows<2>(3)(Eigen::all, columns_) / tree_.total_mass();
-  com.b = OffBalance();
+  const VectorXd off = OffBalance();
+  const int rows = static_cast<int>(off.size());
+  EqualityBlock com = hierarchy->AddEqualities(2, rows);
+  com.B =
+      tick_.H_G.middleRows(3, rows)(Eigen::all, columns_) / tree_.total_mass();
+  com.b = off;
   EqualityBlock lean = hierarchy->AddEqualities(3, 3);
   lean.B.leftCols<3>().setIdentity();
   lean.b = LogSo3(tick_.X_WB[0].R * R_WB_.transpose());
@@ -331,7 +343,7 @@ std::pair<double, std::string> Search::ErrorOfSole(int i) const {
 }
 
 bool Search::IsBalanced() const {
-  const Vector2d off = OffBalance();
+  const VectorXd off = OffBalance();
   const double half_width =
       std::min(robot_.feet[0].half_size.y(), robot_.feet[1].half_size.y());
   if (off.norm() <= std::min(kCentered, kCenteredOfSole * half_width)) {

@@ -17,6 +17,8 @@ struct SingleSupport {
   Eigen::Vector2d G;  ///< Target of the center of mass in the sole's frame, m.
   /// If true, the other sole keeps its pose too, raised by lift.
   bool keeps_other = false;
+  /// Target of the center of mass above the ground, m. Not set: any height.
+  std::optional<double> height = std::nullopt;
 };
 
 /// The goal of an inverse-kinematics search.
@@ -56,7 +58,8 @@ struct Posture {
 ///  1. joint limits, with a margin of 5 % of the range, at most 0.05 rad or m;
 ///     and couplings,
 ///  2. tilt, height, heading and position of the soles,
-///  3. horizontal distance of the center of mass from its target,
+///  3. horizontal distance of the center of mass from its target, and its
+///     distance from goal.support->height if that is set,
 ///  4. lean of the base, and deviation from the rest distance of the feet,
 ///  5. distance of the joints from goal.joints.
 ///

@@ -28,6 +28,9 @@ constexpr double kInsideSole = 0.6;
 // Before the other foot is lifted, the center of mass is over the sole, at this
 // fraction of its half width inside of the middle.
 constexpr double kShift = 0.25;
+// A joint without a motor holds this torque, as a fraction of the weight times
+// the height: smaller torques come from rounding and from the posture search.
+constexpr double kRounding = 1e-6;
 
 // Returns the torques at rest of a robot that stands on one foot:
 //     tau = N_j - J_j' lambda,   J_b' lambda = N_b,
@@ -45,17 +48,23 @@ VectorXd TorquesOnOneFoot(const Robot& robot, int foot, const VectorXd& q) {
   return tick.N.tail(n) - J.rightCols(n).transpose() * lambda;
 }
 
-// Returns the reason why a motor is too weak, or "".
-std::string WeakMotor(const Robot& robot, const VectorXd& tau) {
+// Returns the reason why a motor is too weak, or "": the joint with the largest
+// ratio of the torque to its limit.
+std::string WeakMotor(const Robot& robot, const VectorXd& tau, double height) {
+  const Tree& tree = robot.model.tree;
+  const double weight = tree.total_mass() * tree.gravity_W().norm();
   std::string reason;
   double worst = 1;
-  for (int j = 0; j < robot.model.tree.num_joints(); ++j) {
+  for (int j = 0; j < tree.num_joints(); ++j) {
     const double effort = robot.model.limits[j].effort;
     const double holds = effort + robot.model.limits[j].friction;
-    if (!(std::abs(tau[j]) > worst * holds)) continue;
-    worst = std::abs(tau[j]) / std::max(holds, 1e-9);
-    const Joint& joint = robot.model.tree.joints()[j];
-    const char* unit = joint.type == JointType::kPrismatic ? " N" : " N m";
+    const Joint& joint = tree.joints()[j];
+    const bool is_prismatic = joint.type == JointType::kPrismatic;
+    const double least = kRounding * weight * (is_prismatic ? 1 : height);
+    const double ratio = std::abs(tau[j]) / std::max(holds, least);
+    if (!(ratio > worst)) continue;  // Also without a limit.
+    worst = ratio;
+    const char* unit = is_prismatic ? " N" : " N m";
     reason = "joint " + Quoted(joint.name) + " needs " +
              PrintNumber(std::abs(tau[j])) + unit + " (limit " +
              PrintNumber(effort) + unit + ")";
@@ -106,7 +115,7 @@ std::string Reason(const Robot& robot, int foot, double height) {
     const Posture posture = FindPosture(robot, goal);
     std::string lack = Lack(robot, posture);
     if (lack.empty()) {
-      lack = WeakMotor(robot, TorquesOnOneFoot(robot, foot, posture.q));
+      lack = WeakMotor(robot, TorquesOnOneFoot(robot, foot, posture.q), height);
     }
     if (lack.empty()) return "";
     if (reason.empty()) reason = lack;

@@ -66,5 +66,26 @@ TEST(FindOneLegDefects, NamesWeakMotor) {
   EXPECT_NE(found.find("(limit 10 N m)"), std::string::npos) << found;
 }
 
+// Without any motor, the hip carries the largest torque: all of the body except
+// a leg is above it, at a lever arm of half the distance of the hips.
+TEST(FindOneLegDefects, NamesTheMostLoadedOfSeveralJointsWithoutMotors) {
+  Robot robot = Humanoid();
+  for (JointLimits& limits : robot.model.limits) limits.effort = 0;
+  const std::string found = Findings(robot);
+  for (const std::string side : {"l", "r"}) {
+    EXPECT_NE(found.find("joint '" + side + "_hip_roll' needs "),
+              std::string::npos)
+        << found;
+  }
+}
+
+// Rounding errors are the only torque about a vertical axis through the trunk's
+// center of mass.
+TEST(FindOneLegDefects, AcceptsAJointWithoutAMotorThatCarriesNothing) {
+  Robot robot = Humanoid();
+  robot.model.limits[robot.model.tree.FindJoint("neck_yaw").value()].effort = 0;
+  EXPECT_EQ(Findings(robot), "");
+}
+
 }  // namespace
 }  // namespace poise
