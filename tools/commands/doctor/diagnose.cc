@@ -83,8 +83,11 @@ std::optional<int> FindPassiveJoint(const Robot& robot) {
 class Doctor {
  public:
   Doctor(const std::filesystem::path& urdf, const Profile& profile,
-         const std::vector<std::filesystem::path>& packages)
-      : urdf_(urdf), profile_(profile), packages_(packages) {}
+         const std::vector<std::filesystem::path>& packages, double longest)
+      : urdf_(urdf),
+        profile_(profile),
+        packages_(packages),
+        longest_(longest) {}
 
   Diagnosis Examine();
 
@@ -132,6 +135,7 @@ class Doctor {
   const std::filesystem::path urdf_;
   const Profile profile_;
   const std::vector<std::filesystem::path> packages_;
+  const double longest_;
   std::optional<UrdfDocument> document_;  // Set by Load().
   Diagnosis diagnosis_;
   std::optional<double> smallest_eigenvalue_;  // See CheckInertia().
@@ -305,7 +309,7 @@ std::string Doctor::WhyTooWeak(const Robot& robot) {
     return "";
   }
   // A robot may settle into a posture that its motors hold.
-  const std::optional<std::string> fall = WhyFalls(robot, profile_);
+  const std::optional<std::string> fall = WhyFalls(robot, profile_, longest_);
   if (fall && fall->empty()) return "";
   if (!fall && weakness.empty()) {
     Add(Severity::kNote, where, what,
@@ -366,8 +370,9 @@ void Doctor::CheckParity(const Robot& robot) {
 }  // namespace
 
 Diagnosis Diagnose(const std::filesystem::path& urdf, const Profile& profile,
-                   const std::vector<std::filesystem::path>& packages) {
-  return Doctor(urdf, profile, packages).Examine();
+                   const std::vector<std::filesystem::path>& packages,
+                   double longest) {
+  return Doctor(urdf, profile, packages, longest).Examine();
 }
 
 }  // namespace poise

@@ -17,8 +17,10 @@ namespace poise {
 /// joints, 1000 links or 10000 shapes.
 ///
 /// @param packages  folders of packages with meshes, see FindMesh().
+/// @param longest  processor time of the simulation, s; see WhyFalls().
 Diagnosis Diagnose(const std::filesystem::path& urdf,
                    const Profile& profile = {},
-                   const std::vector<std::filesystem::path>& packages = {});
+                   const std::vector<std::filesystem::path>& packages = {},
+                   double longest = 5);
 
 }  // namespace poise

@@ -13,9 +13,11 @@ namespace poise {
 /// with the tasks of a profile. Returns "" if the robot stays up, by the rules
 /// of Judge, or the reason why it falls, in words.
 ///
-/// The simulation ends after 5 s of processor time or 8 s of real time at the
-/// latest. Returns nothing if the robot has not fallen until then.
+/// The simulation ends after `longest` s of processor time or 1.6 times as long
+/// in real time at the latest. Returns nothing if the robot has not fallen until
+/// then.
 /// @pre robot.can_stand.
-std::optional<std::string> WhyFalls(const Robot& robot, const Profile& profile);
+std::optional<std::string> WhyFalls(const Robot& robot, const Profile& profile,
+                                    double longest = 5);
 
 }  // namespace poise
