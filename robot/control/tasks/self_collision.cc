@@ -110,8 +110,8 @@ double LoosenessOfArms(const TaskInput& input) noexcept {
 }
 
 // Returns by joint the largest distance from its axis to a capsule that it
-// moves while all sliders are at 0, m. The sum of these times the joint rates is an
-// upper bound of the speed of a point of a capsule relative to another.
+// moves while all sliders are at 0, m. The sum of these times the joint rates
+// is an upper bound of the speed of a point of a capsule relative to another.
 std::vector<double> Levers(const Tree& tree, const CollisionModel& model) {
   std::vector<double> reach(tree.num_bodies(), 0);
   for (int b = tree.num_bodies() - 1; b > 0; --b) {
