@@ -46,6 +46,26 @@ TEST_F(UnmodelledAccelerationTest, IsClampedAtOneHundred) {
   EXPECT_EQ(estimate_.vdot()[1], -100);
 }
 
+// By Froude's rule, a robot four times as large moves half as fast in rad/s, and
+// its angular accelerations are a quarter. Its estimate is then a quarter, also
+// at the clamp.
+TEST_F(UnmodelledAccelerationTest, ScalesWithTheRobot) {
+  UnmodelledAcceleration large(2, {4, 64});
+  for (const double size : {10.0, 1000.0}) {
+    const Eigen::Vector2d unmodelled(size, -2 * size);
+    Eigen::VectorXd v = v_ / 2;
+    for (int i = 0; i < 20; ++i) {
+      large.Predict(2 * kDt, v, vdot_ / 4);
+      v += 2 * kDt * (vdot_ + unmodelled) / 4;
+      large.Update(2 * kDt, v);
+    }
+    Run(20, unmodelled);
+    // Differences of velocities of 1 rad/s over 1 ms lose three digits.
+    EXPECT_LT((large.vdot() - estimate_.vdot() / 4).norm(), 1e-9) << size;
+  }
+  EXPECT_EQ(large.vdot()[1], -25);
+}
+
 TEST_F(UnmodelledAccelerationTest, KeepsItsValueWithoutAPrediction) {
   Run(10, {10, 0});
   const Eigen::VectorXd before = estimate_.vdot();
