@@ -26,6 +26,10 @@ struct ContactTick {
   /// Upper bound of the normal force, N. Finite only while the contact force
   /// fades in or out.
   double max_normal_force = std::numeric_limits<double>::infinity();
+  /// The bounds on CoP, friction and yaw moment are those of a sole that is
+  /// this many times as long and wide, with this many times the friction. Below
+  /// 1 while the controller expects contact forces before the first touch.
+  double wrench_share = 1;
 };
 
 /// Transforms the motion of the foot's link, frame F, to the contact frame C:
@@ -33,7 +37,7 @@ struct ContactTick {
 ///              [ -R' [p]x  R' ]
 /// The Jacobian transforms in the same way; the classical acceleration is
 ///     a_C = a_F + alpha x p + w x (w x p).
-/// Does not change in_contact, is_guided and max_normal_force.
+/// Changes only X_WC, V_WC_C, J_WC_C and Jdot_v_C.
 /// pre: out->J_WC_C has the size of frame.J_WF_W.
 /// Does not allocate.
 void ComputeContact(const FrameTick& frame, const Pose& X_FC,

@@ -50,6 +50,10 @@ struct StanceSettings {
 /// its sole lies on the ground. While no foot is in contact, all feet move with
 /// the body without a reference. In this case, a foot is in contact as soon as
 /// an edge touches the ground, with its full normal force.
+///
+/// After Reset(), the feet count as in contact before one touches the ground, so
+/// that the legs reach for it. Until then, ContactTick::wrench_share is small: a
+/// moment on a foot in the air would turn the foot.
 class Stance {
  public:
   /// Range of the height argument of Lift(), m.
@@ -134,6 +138,9 @@ class Stance {
                                 const ContactTick& contact,
                                 double ground_z) noexcept;
   static Clearance Middle(const ContactTick& contact, double ground_z) noexcept;
+  bool HasTouched(const Clearance& lowest) const noexcept;
+  void FindFirstTouch(double dt, double ground_z,
+                      const std::vector<ContactTick>& contacts) noexcept;
   bool HasLeft(const Clearance& lowest) const noexcept;
   bool HasLanded(const Clearance& sole) const noexcept;
   bool IsStopped(const FootState& foot, const Clearance& sole) const noexcept;
@@ -160,6 +167,8 @@ class Stance {
   double length_, time_, speed_;  // Ratios, see FroudeScale.
   StanceSettings settings_;
   std::vector<FootState> feet_;
+  bool has_touched_ = false;  // A foot, since Reset().
+  double since_reset_ = 0;    // s.
 };
 
 }  // namespace poise

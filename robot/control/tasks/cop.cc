@@ -44,11 +44,11 @@ void CopTask::Write(const TaskInput& input, EqualityBlock*,
   const double share = std::max(0.0, 2 * input.capture - 1);
   const double margin = BlendByCapture(margin_, capture_margin_, share);
   for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
-    if (!input.contacts[i].in_contact) continue;
-    const double X =
-        inverse_force_scale_ * std::max(0.0, feet_[i].half_size.x() - margin);
-    const double Y =
-        inverse_force_scale_ * std::max(0.0, feet_[i].half_size.y() - margin);
+    const ContactTick& contact = input.contacts[i];
+    if (!contact.in_contact) continue;
+    const double scale = contact.wrench_share * inverse_force_scale_;
+    const double X = scale * std::max(0.0, feet_[i].half_size.x() - margin);
+    const double Y = scale * std::max(0.0, feet_[i].half_size.y() - margin);
     auto C = inequalities->C.block<4, 6>(4 * i, nv_ + 6 * i);
     // Columns: m_x, m_y, m_z, f_x, f_y, f_z.
     C << 0, -inverse_force_scale_, 0, 0, 0, -X,  //

@@ -35,6 +35,21 @@ class FootWrenchTest : public TaskTest {
                     (rows.lower(0) - value).maxCoeff());
   }
 
+  // Violation() if foot 0 may use only a share of its sole and friction.
+  double Violation(const Task& task, double share, const Eigen::VectorXd& y) {
+    std::vector<ContactTick> contacts = controller_.contacts();
+    contacts[0].wrench_share = share;
+    const int rows = static_cast<int>(task.inequality_names().size());
+    hierarchy_ = Hierarchy(nv_ + 12, {{0, rows}});
+    hierarchy_.Clear(1);
+    EqualityBlock none = hierarchy_.AddEqualities(0, 0);
+    InequalityBlock bounded = hierarchy_.AddInequalities(0, rows);
+    task.Write({state_, controller_.tick(), contacts, controller_.reference(),
+                unmodelled_vdot_},
+               &none, &bounded);
+    return (hierarchy_.C(0) * y - hierarchy_.upper(0)).maxCoeff();
+  }
+
   // Returns y with a force f at a point of the sole of foot 0, in C's axes.
   Eigen::VectorXd Loaded(const Eigen::Vector2d& at, const Eigen::Vector3d& f) {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(nv_ + 12);
@@ -207,6 +222,30 @@ TEST_F(FootWrenchTest, ForceRegularizerIsTheForceItself) {
   const Eigen::VectorXd residual = Residual(task, y);
   EXPECT_LT((residual - y.tail<12>() / scale).norm(), 1e-12);
   EXPECT_NEAR(task.equality_scale(0), scale, 1e-12 * scale);
+}
+
+// Half of the sole and half of the friction: a corner of this smaller sole
+// transmits a force on the edge of its friction, and no force beyond.
+TEST_F(FootWrenchTest, WrenchShareShrinksSoleAndFriction) {
+  const CopTask cop(tree_, robot_.feet);
+  const FrictionTask friction(tree_, robot_.feet);
+  const YawTask yaw(tree_, robot_.feet);
+  const double fz = 200, most = 0.5 * 0.5 * fz;
+  const Eigen::Vector2d corner = 0.5 * (half_.array() - 0.005).matrix();
+  for (const double beyond : {0.99, 1.01}) {
+    SCOPED_TRACE(beyond);
+    const bool is_beyond = beyond > 1;
+    EXPECT_EQ(
+        Violation(cop, 0.5, Loaded(beyond * corner, {0, 0, fz})) > 0,
+        is_beyond);
+    EXPECT_EQ(
+        Violation(friction, 0.5, Loaded({0, 0}, {beyond * most, 0, fz})) > 0,
+        is_beyond);
+    Eigen::VectorXd turned = Loaded({0, 0}, {0, 0, fz});
+    turned[nv_ + 2] = beyond * 0.5 * (half_.x() + half_.y()) * most;
+    EXPECT_EQ(Violation(yaw, 0.5, turned) > 0, is_beyond);
+    EXPECT_LE(Violation(yaw, 1, turned), 0);
+  }
 }
 
 // During a step, friction and yaw moment keep a reserve.

@@ -26,10 +26,12 @@ void FrictionTask::Write(const TaskInput& input, EqualityBlock*,
                          InequalityBlock* inequalities) const noexcept {
   // A step lands with an impact, which the contact model does not contain.
   const double share = input.reference.pendulum.is_on ? step_share_ : 1;
-  const double mu = inverse_force_scale_ * share *
-                    (inscribed_ > 0.5 ? mu_ * std::sqrt(0.5) : mu_);
+  const double whole_mu = inverse_force_scale_ * share *
+                          (inscribed_ > 0.5 ? mu_ * std::sqrt(0.5) : mu_);
   for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
-    if (!input.contacts[i].in_contact) continue;
+    const ContactTick& contact = input.contacts[i];
+    if (!contact.in_contact) continue;
+    const double mu = contact.wrench_share * whole_mu;
     auto C = inequalities->C.block<4, 3>(4 * i, nv_ + 6 * i + 3);
     // Columns: f_x, f_y, f_z.
     C << inverse_force_scale_, 0, -mu,  //

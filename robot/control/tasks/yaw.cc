@@ -27,11 +27,14 @@ YawTask::YawTask(const Tree& tree, const std::vector<Foot>& feet)
 
 void YawTask::Write(const TaskInput& input, EqualityBlock*,
                     InequalityBlock* inequalities) const noexcept {
-  const double mu = input.reference.pendulum.is_on ? step_share_ * mu_ : mu_;
+  const double whole_mu =
+      input.reference.pendulum.is_on ? step_share_ * mu_ : mu_;
   for (int i = 0; i < static_cast<int>(feet_.size()); ++i) {
-    if (!input.contacts[i].in_contact) continue;
-    const double X = feet_[i].half_size.x();
-    const double Y = feet_[i].half_size.y();
+    const ContactTick& contact = input.contacts[i];
+    if (!contact.in_contact) continue;
+    const double mu = contact.wrench_share * whole_mu;
+    const double X = contact.wrench_share * feet_[i].half_size.x();
+    const double Y = contact.wrench_share * feet_[i].half_size.y();
     int row = 8 * i;
     for (const double side : {1.0, -1.0}) {
       for (const double s : {1.0, -1.0}) {
