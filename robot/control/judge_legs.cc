@@ -65,8 +65,9 @@ std::vector<Finding> JudgeLegs(const Robot& robot) {
     findings.push_back({Severity::kWarn, LegOf(foot) + " <limit>",
                         "has the velocity limits " + slow,
                         "may be placeholders: balance needs faster legs, and "
-                        "control assumes at least 2 rad/s; give the motors' "
-                        "real limits"});
+                        "control assumes at least " +
+                            PrintNumber(kSlowestVelocity) +
+                            " rad/s; give the motors' real limits"});
   }
   return findings;
 }

@@ -13,7 +13,7 @@ namespace poise {
 /// Smallest velocity limit that JointLimitsTask uses for a rotating joint,
 /// rad/s. Smaller limits are placeholders: motors reach this speed, and a robot
 /// that keeps a smaller one falls at the first impact.
-constexpr double kSlowestVelocity = 2;
+constexpr double kSlowestVelocity = 3;
 
 /// Keeps each joint inside its position limits, by bounds on its acceleration:
 ///     w² (lower - q) - 2 w q̇ <= q̈ <= w² (upper - q) - 2 w q̇,
