@@ -223,6 +223,13 @@ JointLimits CheckLimits(const XMLElement& joint, const Critic& critic) {
   if (limits.effort == 0) {
     critic.Warn(*limit, "effort is 0", "the joint has no motor: it is passive");
   }
+  if (limits.effort > 0 && limits.friction >= limits.effort) {
+    critic.Warn(*joint.FirstChildElement("dynamics"),
+                "friction is " + PrintNumber(limits.friction),
+                "must be below the effort limit, " +
+                    PrintNumber(limits.effort) +
+                    ": the motor cannot move this joint");
+  }
   CheckRange(*limit, type, &limits, critic);
   return limits;
 }

@@ -581,6 +581,8 @@ const Case kWarnedOf[] = {
     {"velocity=\"5\"", "velocity=\"1e4\"", "placeholder"},
     {"damping=\"0.5\"", "damping=\"-0.5\"", "damping is -0.5, must be"},
     {"friction=\"0.25\"", "friction=\"-1\"", "friction is -1, must be"},
+    {"friction=\"0.25\"", "friction=\"10\"",
+     "friction is 10, must be below the effort limit, 10"},
     {"name=\"test\"",
      "name='test'><material name='red'><color rgba='1 1 1 "
      "1'/></material",

@@ -33,6 +33,7 @@ namespace fs = std::filesystem;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kPushTime = 0.1;  // s.
+constexpr double kStart = 1;       // Duration of a run with another seed, s.
 constexpr double kPushRun = 4;     // Duration of a run with a push, s.
 
 // Returns the URDF files of a folder in alphabetical order.
@@ -155,6 +156,13 @@ class Candidate {
   void RunAll() {
     trial_.stand = RunScenario("stand", {});
     if (!trial_.stands()) return;
+    for (unsigned seed = 2; seed <= RobotTrial::kSeeds; ++seed) {
+      const RunResult start = RunScenario("stand", [&](Scenario* scenario) {
+        scenario->duration = kStart;
+        scenario->seed = seed;
+      });
+      if (start.verdict.fell_at) trial_.fallen_seeds.push_back(seed);
+    }
     for (const int degrees : RobotTrial::kDirections) {
       trial_.pushes.push_back(RunPush(degrees));
     }
@@ -179,6 +187,9 @@ class Candidate {
     if (!trial_.stands()) {
       faults.push_back("does not stand: " + Outcome(trial_.stand->verdict));
       return;
+    }
+    for (const unsigned seed : trial_.fallen_seeds) {
+      faults.push_back("falls in stand with seed " + std::to_string(seed));
     }
     for (std::size_t i = 0; i < trial_.pushes.size(); ++i) {
       const Verdict& verdict = trial_.pushes[i].verdict;

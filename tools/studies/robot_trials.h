@@ -33,6 +33,8 @@ struct RobotFolder {
 /// The runs of one robot, and where it differs from what is expected.
 struct RobotTrial {
   static constexpr std::array<int, 4> kDirections = {0, 90, 180, 270};  // deg.
+  /// The first second of `stand` is run with each seed up to this one.
+  static constexpr unsigned kSeeds = 6;
 
   std::string name;     ///< The URDF's name, without folder and ending.
   std::string profile;  ///< Name of the profile's file; empty without one.
@@ -43,6 +45,8 @@ struct RobotTrial {
   std::string forward;         ///< Forward axis of the root link, "+x".
   /// Stands for 10 s, after a start off its equilibrium.
   std::optional<RunResult> stand;
+  /// Seeds above 1 with which it falls in the first second of `stand`.
+  std::vector<unsigned> fallen_seeds;
   /// Pushed in kDirections; empty if the robot does not stand.
   std::vector<RunResult> pushes;
   std::optional<RunResult> one_leg;  ///< Empty if the robot does not stand.
@@ -64,8 +68,9 @@ constexpr double kRobotsPush = 0.4;
 std::map<std::string, ExpectedRobot> ReadExpected(
     const std::filesystem::path& folder);
 
-/// Runs the robots of a folder, several at a time: the scenario `stand`; a push
-/// to each of four sides for 0.1 s; and the scenario `one_leg`. A robot that
+/// Runs the robots of a folder, several at a time: the scenario `stand`, and its
+/// first second with other seeds; a push to each of four sides for 0.1 s; and
+/// the scenario `one_leg`. A robot that
 /// does not stand is not pushed. A robot uses the profile of FindProfile();
 /// without one, its feet and posture are found. Warnings are printed on stderr.
 ///

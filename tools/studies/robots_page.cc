@@ -107,7 +107,13 @@ std::string RobotRow(const RobotTrial& trial, bool pictures) {
     return row + "| refused: " + Escaped(trial.refused) + " | | | " +
            Escaped(kept) + " |";
   }
-  row += trial.soles + " | " + Cell(*trial.stand) + " | ";
+  row += trial.soles + " | " + Cell(*trial.stand);
+  if (trial.stands()) {
+    row += ", " +
+           std::to_string(RobotTrial::kSeeds - trial.fallen_seeds.size()) +
+           " of " + std::to_string(RobotTrial::kSeeds) + " seeds";
+  }
+  row += " | ";
   for (std::size_t i = 0; i < trial.pushes.size(); ++i) {
     row += (i == 0 ? "" : ", ") + Cell(trial.pushes[i]);
   }
@@ -133,6 +139,7 @@ Json RobotsToJson(const std::vector<RobotTrial>& trials) {
     entry["forward"] = is_refused ? Json(nullptr) : Json(trial.forward);
     entry["stands"] = trial.stands();
     entry["stand"] = RunToJson(trial.stand);
+    entry["stand_fallen_seeds"] = trial.fallen_seeds;
     entry["pushes"] = Json::array();
     for (std::size_t i = 0; i < trial.pushes.size(); ++i) {
       Json push = RunToJson(trial.pushes[i]);
@@ -169,7 +176,8 @@ void WriteRobotsPage(const std::vector<RobotTrial>& trials,
           "profile of its name beside the\n  file, else one of "
           "`robot/profiles`, else Poise finds the feet.\n"
           "- *stands*: the robot stands for 10 s, after a drop with disturbed "
-          "arms and trunk.\n"
+          "arms and trunk; and for 1 s, with so\n  many of 6 seeds of the "
+          "disturbance.\n"
           "- *pushed*: the torso is pushed for 0.1 s. The impulse is 40 % of "
           "`lipm_height_Ns`, from which an inverted\n  pendulum with the same "
           "mass, height and soles just recovers.\n"

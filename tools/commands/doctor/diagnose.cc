@@ -45,6 +45,10 @@ constexpr int kMostJointsToStand = 200;
 constexpr int kFewestJointsToStand = 4;
 constexpr size_t kMostLinksToStand = 1000;
 constexpr size_t kMostShapesToStand = 10'000;
+// Time of the scenario `stand` that is simulated, s. A robot with weak motors
+// sinks slowly; others that fall do so within a few tenths of a second.
+constexpr double kSimulated = 1;
+constexpr double kSimulatedIfWeak = 5;
 // Largest relative difference between the dynamics of Poise and of Bullet.
 constexpr double kParity = 1e-9;
 
@@ -126,9 +130,9 @@ class Doctor {
   // std::invalid_argument with the reason if no feet or no posture are found.
   std::string WhyNotStanding();
 
-  // Adds a warning for each weak motor. If a motor is weak or missing, simulates
-  // the robot and returns the reason why it falls. Returns "" if it stays up.
-  std::string WhyTooWeak(const Robot& robot);
+  // Simulates the robot and returns the reason why it falls, or "" if it stays
+  // up. Adds a warning for each weak motor.
+  std::string WhyItFalls(const Robot& robot);
 
   void CheckParity(const Robot& robot);
 
@@ -287,13 +291,13 @@ std::string Doctor::WhyNotStanding() {
   if (!robot.can_stand) StandUp(&robot, profile_);
   WriteFoundProfile(robot);
   diagnosis_.com_height = HeightOfMass(robot);
-  const std::string fall = WhyTooWeak(robot);
+  const std::string fall = WhyItFalls(robot);
   if (!fall.empty()) return fall;
   Append(FindOneLegDefects(robot));
   return "";
 }
 
-std::string Doctor::WhyTooWeak(const Robot& robot) {
+std::string Doctor::WhyItFalls(const Robot& robot) {
   const std::vector<Finding> weakness = FindWeakness(robot);
   Append(weakness);
   std::string where, what;
@@ -305,14 +309,14 @@ std::string Doctor::WhyTooWeak(const Robot& robot) {
     // torque at rest is negligible.
     where = "joint " + Quoted(robot.model.tree.joints()[*joint].name);
     what = "has no motor (limit 0)";
-  } else {
-    return "";
   }
   // A robot may settle into a posture that its motors hold.
-  const std::optional<std::string> fall = WhyFalls(robot, profile_, longest_);
-  if (fall && fall->empty()) return "";
+  const std::optional<std::string> fall = WhyFalls(
+      robot, profile_, where.empty() ? kSimulated : kSimulatedIfWeak, longest_);
+  if (fall && (fall->empty() || where.empty())) return *fall;
   if (!fall && weakness.empty()) {
-    Add(Severity::kNote, where, what,
+    Add(Severity::kNote, where.empty() ? "robot" : where,
+        where.empty() ? "was not simulated to the end" : what,
         "the simulation took too long to show if the robot falls");
     return "";
   }

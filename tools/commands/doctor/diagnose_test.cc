@@ -154,7 +154,7 @@ TEST(Diagnose, SimulatesARobotWithPassiveJoints) {
   const Diagnosis diagnosis = Diagnose(file, {}, {}, kEnough);
   EXPECT_EQ(Findings(diagnosis).find("to stand, "), std::string::npos)
       << Findings(diagnosis);
-  const auto fall = WhyFalls(LoadStandingRobot(file, {}), {}, kEnough);
+  const auto fall = WhyFalls(LoadStandingRobot(file, {}), {}, 5, kEnough);
   ASSERT_TRUE(fall.has_value());
   EXPECT_EQ(diagnosis.stands, fall->empty()) << *fall;
 }

@@ -39,8 +39,9 @@ struct Diagnosis {
   /// Whether it is known if the robot stands. False if the robot is too large,
   /// if its simulation takes too long, or if the file is rejected.
   bool was_tested = false;
-  /// Whether the robot stands: its motors hold a standing posture. If a motor is
-  /// weak or missing, the robot must stay up in the scenario `stand` instead.
+  /// Whether the robot stands: it has a standing posture and stays up in the
+  /// scenario `stand`, simulated for 1 s, or for 5 s if a motor is weak or
+  /// missing.
   bool stands = false;
   std::string reason;  ///< Why it does not stand, or was not tested.
   std::string remedy;  ///< The part to correct so that it stands, or "".

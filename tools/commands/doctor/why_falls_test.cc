@@ -21,7 +21,7 @@ Robot Stand(const SmallBiped& biped) {
 }
 
 TEST(WhyFalls, SaysNothingAboutARobotThatStands) {
-  EXPECT_EQ(WhyFalls(Stand({}), {}, kEnough).value_or("no time"), "");
+  EXPECT_EQ(WhyFalls(Stand({}), {}, 5, kEnough).value_or("no time"), "");
 }
 
 // Without motors in its legs, the robot folds within a second or two.
@@ -29,7 +29,7 @@ TEST(WhyFalls, GivesTheTimeOfTheFall) {
   SmallBiped biped;
   biped.leg_effort = 0.1;
   const std::string reason =
-      WhyFalls(Stand(biped), {}, kEnough).value_or("no time");
+      WhyFalls(Stand(biped), {}, 5, kEnough).value_or("no time");
   const std::string start = "it falls after ";
   ASSERT_EQ(reason.find(start), 0u) << reason;
   const double time = std::stod(reason.substr(start.size()));
