@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <iterator>
+#include <string_view>
+#include <vector>
 
 namespace poise {
 namespace {
@@ -56,6 +60,69 @@ int SideByWords(const std::string& name) {
   return l == HasLoneLetter(name, 'r') ? 0 : (l ? 1 : -1);
 }
 
+constexpr std::string_view kLegs[] = {
+    "leg",   "hip",   "thigh",  "femur", "knee", "shank", "shin", "calf",
+    "calve", "tibia", "tarsus", "ankle", "foot", "feet",  "sole", "toe"};
+constexpr std::string_view kArms[] = {
+    "arm",  "clavicle", "shoulder", "bicep", "humerus", "elbow",   "wrist",
+    "hand", "palm",     "finger",   "thumb", "grip",    "gripper", "forearm"};
+// Parts of a word before and after the name of a part of a limb, as in
+// `lupperleg` and `kneepitch`. Any single letter may come before.
+constexpr std::string_view kBefore[] = {"",      "left",  "right", "up",
+                                        "upper", "lower", "fore"};
+constexpr std::string_view kAfter[] = {
+    "",     "s",     "l",    "r",   "left", "right", "pitch", "roll", "yaw",
+    "link", "joint", "base", "pad", "tip",  "end",   "plate", "motor"};
+
+// Splits a name at characters that are no letters, and before a capital that
+// follows or precedes a small letter: `LHipYaw` has the words l, hip and yaw.
+std::vector<std::string> Words(const std::string& name) {
+  const auto is_upper = [&](size_t i) {
+    return i < name.size() && name[i] >= 'A' && name[i] <= 'Z';
+  };
+  const auto is_lower = [&](size_t i) {
+    return i < name.size() && IsLetter(name[i]);
+  };
+  std::vector<std::string> words(1);
+  for (size_t i = 0; i < name.size(); ++i) {
+    if (!is_upper(i) && !is_lower(i)) {
+      words.emplace_back();
+      continue;
+    }
+    if (is_upper(i) && i > 0 && (is_lower(i - 1) || is_lower(i + 1))) {
+      words.emplace_back();
+    }
+    words.back() += name[i];
+  }
+  for (std::string& word : words) word = Lowered(word);
+  return words;
+}
+
+// Returns whether a word is the name of a part, perhaps with another part of a
+// word before and after it.
+template <std::size_t n>
+bool IsOneOf(std::string_view word, const std::string_view (&parts)[n]) {
+  const auto ends_well = [](std::string_view rest) {
+    return std::find(std::begin(kAfter), std::end(kAfter), rest) !=
+           std::end(kAfter);
+  };
+  for (const std::string_view before : kBefore) {
+    for (const std::size_t letter : {0, 1}) {
+      if (word.substr(std::min(letter, word.size()), before.size()) != before) {
+        continue;
+      }
+      const std::size_t at = letter + before.size();
+      for (const std::string_view part : parts) {
+        if (at < word.size() && word.substr(at, part.size()) == part &&
+            ends_well(word.substr(at + part.size()))) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
 bool IsLeftOf(const std::string& a, const std::string& b) {
   if (a == b) return false;
   return DifferByLetter(a, b) || Mirrored(a) == b;
@@ -73,21 +140,10 @@ int CompareSides(const std::string& a, const std::string& b) {
 }
 
 int LegOrArm(const std::string& name) {
-  const std::string text = Lowered(name);
-  const auto contains = [&](const char* word) {
-    return text.find(word) != std::string::npos;
-  };
-  bool leg = false;
-  for (const char* word :
-       {"leg", "hip", "thigh", "femur", "knee", "shank", "shin", "calf",
-        "calve", "tibia", "tarsus", "ankle", "foot", "feet", "sole", "toe"}) {
-    leg |= contains(word);
-  }
-  bool arm = false;
-  for (const char* word :
-       {"arm", "clavicle", "shoulder", "bicep", "humerus", "elbow", "wrist",
-        "hand", "palm", "finger", "thumb", "grip"}) {
-    arm |= contains(word);
+  bool leg = false, arm = false;
+  for (const std::string& word : Words(name)) {
+    leg |= IsOneOf(word, kLegs);
+    arm |= IsOneOf(word, kArms);
   }
   return (leg ? 1 : 0) - (arm ? 1 : 0);
 }

@@ -46,14 +46,17 @@ TEST(CompareSides, DoesNotGuess) {
 
 TEST(LegOrArm, KnowsThePartsOfLegsAndArms) {
   for (const char* leg :
-       {"l_foot", "LHipYaw", "leg_l6", "RKNEE", "left_sole"}) {
+       {"l_foot", "LHipYaw", "leg_l6", "RKNEE", "left_sole", "LLEG_JOINT0",
+        "lupperleg", "ankle1", "rkneepitch", "FootL", "toes"}) {
     EXPECT_EQ(LegOrArm(leg), 1) << leg;
   }
-  for (const char* arm :
-       {"zarm_l7", "LHand", "left_shoulder_pitch", "gripper"}) {
+  for (const char* arm : {"zarm_l7", "LHand", "left_shoulder_pitch", "gripper",
+                          "rforearm", "UpperArmL", "RARM_JOINT1", "larm"}) {
     EXPECT_EQ(LegOrArm(arm), -1) << arm;
   }
-  for (const char* other : {"part_3", "torso", "", "arm_or_leg"}) {
+  for (const char* other :
+       {"part_3", "torso", "", "arm_or_leg", "harmony_l1", "charm", "alarm_2",
+        "armor", "machine", "console", "handle_1"}) {
     EXPECT_EQ(LegOrArm(other), 0) << other;
   }
 }

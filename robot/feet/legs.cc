@@ -133,7 +133,9 @@ void LegFinder::MeasureChains() {
     if (b == 0) continue;
     const int parent = Parent(b);
     end_[parent] = std::max(end_[parent], end_[b]);
-    const double length = (X_BB_[b].p - X_BB_[parent].p).norm() + reach_[b];
+    // The origin of the base may be anywhere: it is no part of a limb.
+    const double link = parent == 0 ? 0 : (X_BB_[b].p - X_BB_[parent].p).norm();
+    const double length = link + reach_[b];
     if (length > reach_[parent]) {
       reach_[parent] = length;
       tip_[parent] = tip_[b];

@@ -235,9 +235,8 @@ TEST_F(FootWrenchTest, WrenchShareShrinksSoleAndFriction) {
   for (const double beyond : {0.99, 1.01}) {
     SCOPED_TRACE(beyond);
     const bool is_beyond = beyond > 1;
-    EXPECT_EQ(
-        Violation(cop, 0.5, Loaded(beyond * corner, {0, 0, fz})) > 0,
-        is_beyond);
+    EXPECT_EQ(Violation(cop, 0.5, Loaded(beyond * corner, {0, 0, fz})) > 0,
+              is_beyond);
     EXPECT_EQ(
         Violation(friction, 0.5, Loaded({0, 0}, {beyond * most, 0, fz})) > 0,
         is_beyond);

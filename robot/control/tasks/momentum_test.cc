@@ -140,8 +140,8 @@ TEST_F(TaskTest, MomentOfOrientationIsBoundedByTheSoles) {
   };
   // The soles' outer edges and fronts bound the CoP.
   const auto& contacts = controller_.contacts();
-  const double half_y = (contacts[0].X_WC.p - contacts[1].X_WC.p).y() / 2 +
-                        half_.y();
+  const double half_y =
+      (contacts[0].X_WC.p - contacts[1].X_WC.p).y() / 2 + half_.y();
   const double most[] = {1.5 * weight * half_y, 1.5 * weight * half_.x()};
   for (const double sign : {1.0, -1.0}) {
     for (int axis = 0; axis < 2; ++axis) {

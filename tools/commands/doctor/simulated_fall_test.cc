@@ -23,8 +23,7 @@ Diagnosis ExamineWithTail(const std::string& z) {
               "<link name='tail'><collision><geometry><sphere radius='0.03'/>"
               "</geometry></collision></link><joint name='tail' type='fixed'>"
               "<origin xyz='-0.3 0 " +
-                  z +
-                  "'/><parent link='trunk'/><child link='tail'/></joint>");
+                  z + "'/><parent link='trunk'/><child link='tail'/></joint>");
   return Diagnose(TestFile("robot.urdf", text), {}, {}, kEnough);
 }
 
