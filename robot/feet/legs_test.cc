@@ -107,6 +107,18 @@ TEST(FindLegs, IgnoresTheOriginOfTheRootLink) {
             kFeet);
 }
 
+// Exporters put the origin of the root link anywhere, for example on the ground
+// of another scene.
+TEST(FindLegs, DoesNotDependOnTheOriginOfTheRootLink) {
+  for (const double z : {-3.0, 0.0, 3.0}) {
+    EXPECT_EQ(FeetOf(UrdfOf(
+                  Joined({MakeLeg({"p_", {0, 0.1, z}, 0.8, kSole, true}),
+                          MakeLeg({"q_", {0, -0.1, z}, 0.8, kSole, true})}))),
+              Names({"p_foot", "q_foot"}))
+        << z;
+  }
+}
+
 // The legs are 3 m long, and one foot is 0.1 m lower.
 TEST(FindLegs, ComparesLevelsWithTheLengthOfTheLeg) {
   auto parts = MakeLegs(kSole, false, 3);
