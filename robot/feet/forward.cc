@@ -97,6 +97,11 @@ void WarnOfDoubt(const Evidence& evidence, int sign, const Vector3d& forward_B,
     add("the knees point to " + other);
   }
   if (evidence.prior != sign) add("REP 103 says +x");
+  // A root link that is turned by half a turn would look the same.
+  if (against.empty() && evidence.names == 0 && evidence.toes == 0 &&
+      evidence.knees == 0) {
+    against = " alone: names, toes and knees do not tell";
+  }
   if (against.empty()) return;
   findings->push_back(
       {Severity::kWarn, "forward direction",

@@ -55,7 +55,8 @@ struct Facing {
 /// @param soles     by foot; a sole without points does not decide.
 /// @param X_WB      the poses of the bodies, with the legs along the world's z.
 /// @param findings  if not null, receives a warning if names, soles, knees or
-///                  REP 103 contradict the result, or if nothing decides.
+///                  REP 103 contradict the result, or if only REP 103 or
+///                  nothing decides.
 Facing FindFacing(const RobotModel& model, const Legs& legs,
                   const std::array<Sole, 2>& soles,
                   const std::vector<Pose>& X_WB, const FeetHints& hints,
