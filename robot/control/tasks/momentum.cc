@@ -90,8 +90,11 @@ void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
   const Eigen::Array3d ahead = feedforward_ * reference.v_WG.array();
   const Eigen::Vector3d p_ref_WG =
       FindComTarget(feet_, input.contacts, reference);
-  const Eigen::Vector3d moment_W =
-      BoundBySoles(k_orientation_ * e_W, input.contacts);
+  // In a step, the pendulum places the CoP, and the angular rows weigh little.
+  Eigen::Vector3d moment_W = k_orientation_ * e_W;
+  if (!reference.pendulum.is_on) {
+    moment_W = BoundBySoles(moment_W, input.contacts);
+  }
   Vector6d wanted;
   wanted << (moment_W - kd_angular_ * tick.L_G.head<3>()) / mass_,
       (kp * (p_ref_WG - tick.p_WG).array() + kd * (ahead - tick.v_WG.array()))

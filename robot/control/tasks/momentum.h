@@ -19,7 +19,8 @@ namespace poise {
 /// orientation back to its reference: without it the pelvis drifts,
 /// because angular momentum is not the derivative of an orientation. K e is
 /// bounded to 1.5 times the moment of the weight about the edges of the soles in
-/// contact: the contact forces have no larger one.
+/// contact, except while Reference::pendulum is on: the contact forces have no
+/// larger moment.
 ///
 /// With TaskInput::capture, the capture blend of BalanceMonitor, the gains of
 /// the horizontal position rise and the weights of angular momentum and height
