@@ -207,8 +207,8 @@ std::optional<RobotModel> Doctor::Load() {
     if (diagnosis_.worst() != Severity::kReject) {
       diagnosis_.findings.push_back(refusal.finding());
     }
+    // An ignored element of xacro may be the cause of another error.
     for (const Finding& finding : diagnosis_.findings) {
-      if (finding.severity != Severity::kReject) continue;
       diagnosis_.is_xacro |= finding.what.find("xacro") != std::string::npos ||
                              finding.why.find("xacro") != std::string::npos;
     }

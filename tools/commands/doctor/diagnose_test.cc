@@ -477,6 +477,8 @@ TEST(WriteTable, NamesThreeFindingsOfAKind) {
                 "link 1, link 2, link 3 and 110 more\n"),
             std::string::npos)
       << WriteTable(diagnosis);
+  EXPECT_NE(WriteTable(diagnosis).find("warnings 114 in 1 line, first link 0"),
+            std::string::npos);
 }
 
 TEST(WriteTable, AnswersInItsFirstTenLines) {
@@ -552,6 +554,27 @@ TEST(NextStep, SaysHowToExpandXacro) {
               std::string("xacro ") + name +
                   " > robot.urdf && bazel run //tools:doctor -- robot.urdf");
   }
+}
+
+// The links of the legs would come from the ignored element.
+TEST(NextStep, SaysHowToExpandXacroInAFileWithAnotherError) {
+  const Diagnosis diagnosis = Examine(
+      "<robot name='r'><link name='base'/><xacro:leg side='l'/></robot>");
+  EXPECT_EQ(VerdictWord(diagnosis), "reject");
+  EXPECT_EQ(NextStep(diagnosis, {"robot.urdf", "", {}}),
+            "xacro robot.urdf > expanded.urdf && bazel run //tools:doctor -- "
+            "expanded.urdf");
+}
+
+TEST(NextStep, OffersTheDynamicsOfARobotWithoutLegs) {
+  const Diagnosis diagnosis =
+      Examine(std::string("<robot name='r'><link name='base'>") + kInertial +
+              "</link></robot>");
+  EXPECT_EQ(VerdictWord(diagnosis), "ok");
+  EXPECT_EQ(
+      NextStep(diagnosis, {"robot.urdf", "", {}}),
+      "choose a robot with two legs, or compute its dynamics alone: bazel "
+      "run //tools:dynamics -- --urdf robot.urdf --states STATES.json");
 }
 
 TEST(Diagnose, WarnsIfARobotWithLegsDoesNotStand) {

@@ -92,6 +92,11 @@ std::string NextStep(const Diagnosis& diagnosis, const Arguments& arguments) {
   if (!diagnosis.stands && !diagnosis.remedy.empty()) {
     return "correct " + diagnosis.remedy + ", then " + doctor + profile + rest;
   }
+  if (diagnosis.soles.empty() && diagnosis.guessed_feet.size() < 2) {
+    return "choose a robot with two legs, or compute its dynamics alone: bazel "
+           "run //tools:dynamics -- --urdf " +
+           file + " --states STATES.json";
+  }
   if (diagnosis.soles.empty()) {
     return "write the feet into " + mine + ", then " + doctor + " --profile " +
            mine + rest;

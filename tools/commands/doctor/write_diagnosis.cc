@@ -113,8 +113,17 @@ void WriteSummary(const Diagnosis& diagnosis, std::ostringstream* out) {
   const auto count = std::count_if(
       diagnosis.findings.begin(), diagnosis.findings.end(),
       [](const Finding& f) { return f.severity == Severity::kWarn; });
+  const auto lines = std::count_if(
+      kinds.begin(), kinds.end(),
+      [](const Kind& kind) { return kind[0]->severity == Severity::kWarn; });
   *out << (is_rejected ? "reason   " : "warnings ");
-  if (!is_rejected) *out << count << (count > 0 ? ", first " : "");
+  if (!is_rejected) {
+    *out << count;
+    if (lines < count) {
+      *out << " in " << lines << (lines == 1 ? " line" : " lines");
+    }
+    *out << (count > 0 ? ", first " : "");
+  }
   if (!kinds.empty() && (is_rejected || count > 0)) {
     *out << Shorten(Line(kinds[0]));
   }
