@@ -7,6 +7,7 @@
 
 #include "poise/dynamics/kinematics.h"
 #include "poise/dynamics/tick.h"
+#include "poise/robot/feet/legs.h"
 #include "poise/robot/limits.h"
 
 namespace poise {
@@ -18,12 +19,21 @@ using Eigen::VectorXd;
 constexpr int kMostJoints = 500;
 // Fraction of a mass or an inertia that counts as zero: a rounding error of M.
 constexpr double kZero = 1e-14;
+// Fraction of the robot's mass below which a body counts as without mass. The
+// cable and finger links of real robots weigh more. Bullet divides by the moment
+// of inertia about a joint, and treats less than 2e-16 kg m2 as zero, which is a
+// body of 1e-10 of 60 kg within 0.2 mm of the axis.
+constexpr double kNoMass = 1e-10;
+// Fraction of the robot's extent below which a radius of gyration is zero. Its
+// square is kZero.
+constexpr double kPoint = 1e-7;
 // Smallest eigenvalue per degree of freedom of a regular M, scaled to a unit
 // diagonal.
 constexpr double kSingular = 1e-13;
 // Fraction of the robot's mass that a body without mass receives.
 constexpr double kSmallMass = 1e-6;
-// Its radius of gyration, as a fraction of the robot's extent.
+// Radius of gyration that such a body and a point mass receive, as a fraction of
+// the robot's extent.
 constexpr double kSmallRadius = 0.01;
 
 // Returns the distance of the farthest joint from the base with all joints at
@@ -68,22 +78,21 @@ bool IsRegular(const RobotModel& model) {
   return eigen.eigenvalues()[0] > kSingular * tree.nv();
 }
 
+// Returns an inertia of a mass and a radius of gyration about the origin of the
+// link's frame.
+Inertia Ball(double mass, double gyrating_mass, double radius) {
+  return {mass, Eigen::Vector3d::Zero(),
+          gyrating_mass * radius * radius * Eigen::Matrix3d::Identity()};
+}
+
 }  // namespace
 
 MovedMass FindMovedMass(const RobotModel& model) {
   const Tree& tree = model.tree;
   const int n = tree.num_joints();
-  // Mass of each body and all bodies beyond, and the size of their inertia.
-  VectorXd mass(n + 1), inertia(n + 1);
-  for (int b = n; b >= 0; --b) {
-    mass[b] = tree.inertias()[b].mass;
-    inertia[b] = tree.inertias()[b].I_G_B.cwiseAbs().maxCoeff();
-  }
-  for (int b = n; b > 0; --b) {
-    const int parent = tree.joints()[b - 1].parent;
-    mass[parent] += mass[b];
-    inertia[parent] += inertia[b];
-  }
+  VectorXd mass(n + 1);  // Mass of each body and all bodies beyond.
+  for (int b = n; b >= 0; --b) mass[b] = tree.inertias()[b].mass;
+  for (int b = n; b > 0; --b) mass[tree.joints()[b - 1].parent] += mass[b];
   const double extent = Extent(tree);
   const VectorXd small = kZero * mass.tail(n) * extent * extent;
   VectorXd diagonal = small;
@@ -95,34 +104,47 @@ MovedMass FindMovedMass(const RobotModel& model) {
   for (int j = 0; j < n; ++j) {
     const int b = j + 1;
     moved.fraction[j] = mass[b] / mass[0];
-    const bool nothing_beyond = mass[b] == 0 && inertia[b] == 0;
+    const double nothing = kNoMass * mass[0];
+    const bool nothing_beyond = mass[b] <= nothing;
     // With its mass on one side only, a robot has the base's six coordinates
     // and the joint's for one body.
-    const bool nothing_before = mass[0] - mass[b] <= kZero * mass[0] &&
-                                inertia[0] - inertia[b] <= kZero * inertia[0];
+    const bool nothing_before = mass[0] - mass[b] <= nothing;
     moved.none[j] = nothing_beyond || nothing_before || diagonal[j] < small[j];
   }
   return moved;
+}
+
+std::map<std::string, Inertia> MakePointInertias(const RobotModel& model) {
+  const Tree& tree = model.tree;
+  if (tree.num_joints() > kMostJoints || IsRegular(model)) return {};
+  const double extent = Extent(tree);
+  std::map<std::string, Inertia> inertias;
+  for (int b = 0; b < tree.num_bodies(); ++b) {
+    const Inertia& M = tree.inertias()[b];
+    const double point = M.mass * kPoint * kPoint * extent * extent;
+    if (M.mass <= kNoMass * tree.total_mass()) continue;
+    if (M.I_G_B.cwiseAbs().maxCoeff() > point) continue;
+    inertias[LinkOf(model, b)] = Ball(0, M.mass, kSmallRadius * extent);
+  }
+  return inertias;
 }
 
 std::map<std::string, Inertia> MakeSmallInertias(const RobotModel& model) {
   const Tree& tree = model.tree;
   const double mass = kSmallMass * tree.total_mass();
   const double radius = kSmallRadius * Extent(tree);
+  const auto has_mass = [&](int b) {
+    return tree.inertias()[b].mass > kNoMass * tree.total_mass();
+  };
   std::vector<bool> carries(tree.num_bodies());
   for (int b = tree.num_joints(); b > 0; --b) {
-    if (tree.inertias()[b].mass > 0) carries[b] = true;
+    if (has_mass(b)) carries[b] = true;
     if (carries[b]) carries[tree.joints()[b - 1].parent] = true;
   }
   std::map<std::string, Inertia> inertias;
   for (int b = 0; b < tree.num_bodies(); ++b) {
-    if (!carries[b] || tree.inertias()[b].mass > 0) continue;
-    const auto link =
-        std::find_if(tree.frames().begin(), tree.frames().end(),
-                     [b](const Frame& frame) { return frame.body == b; });
-    inertias[link->name] = {
-        mass, Eigen::Vector3d::Zero(),
-        mass * radius * radius * Eigen::Matrix3d::Identity()};
+    if (!carries[b] || has_mass(b)) continue;
+    inertias[LinkOf(model, b)] = Ball(mass, mass, radius);
   }
   // A small inertia must not hide that M is singular.
   if (inertias.empty() || tree.num_joints() > kMostJoints) return {};

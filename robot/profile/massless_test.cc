@@ -22,6 +22,14 @@ std::string Link(const std::string& name, double mass, double radius = 0.1,
          "'/></inertial></link>";
 }
 
+// Returns a link without mass, or with less than any part has, but with inertia.
+std::string Dummy(const std::string& name, const std::string& mass,
+                  const std::string& I) {
+  return "<link name='" + name + "'><inertial><mass value='" + mass +
+         "'/><inertia ixx='" + I + "' ixy='0' ixz='0' iyy='" + I +
+         "' iyz='0' izz='" + I + "'/></inertial></link>";
+}
+
 // Returns a joint with the name of its child link and a '.'.
 std::string Joint(const std::string& parent, const std::string& child,
                   const std::string& axis, const std::string& mimic = "") {
@@ -112,6 +120,39 @@ TEST(FindMovedMass, FindsBaseWithoutMass) {
       Names{});
 }
 
+// The robot weighs 5 kg. A link of 1e-12 kg is lighter than 1e-10 of it; a link
+// of 1e-8 kg is not.
+TEST(FindMovedMass, CountsInertiaWithoutMassAsNothing) {
+  const std::string base = Link("base", 5);
+  const std::string joint = Joint("base", "a", "0 1 0");
+  std::string slide = joint;
+  slide.replace(slide.find("revolute"), 8, "prismatic");
+  for (const char* mass : {"0", "1e-12", "1e-300"}) {
+    for (const char* inertia : {"0.01", "1e-16", "0"}) {
+      SCOPED_TRACE(std::string(mass) + " kg, " + inertia + " kg m2");
+      const std::string dummy = Dummy("a", mass, inertia);
+      EXPECT_EQ(MasslessOf(base + dummy + joint), Names{"a."});
+      EXPECT_EQ(MasslessOf(base + dummy + slide), Names{"a."});
+      EXPECT_EQ(MasslessOf(base + dummy + Dummy("b", "0", "1") + joint +
+                           Joint("a", "b", "1 0 0")),
+                (Names{"a.", "b."}));
+    }
+  }
+  EXPECT_EQ(MasslessOf(base + Dummy("a", "1e-8", "1e-12") + joint), Names{});
+}
+
+TEST(MakeModel, AddsInertiaWithoutMassToTheParent) {
+  const UrdfDocument urdf("<robot name='r'>" + Link("base", 5) +
+                              Dummy("a", "0", "0.25") +
+                              Joint("base", "a", "0 1 0") + "</robot>",
+                          "r.urdf");
+  const Tree tree = MakeModel(urdf, {}).tree;
+  ASSERT_EQ(tree.num_joints(), 0);
+  EXPECT_EQ(tree.total_mass(), 5);
+  // The base has 5 kg with a radius of gyration of 0.1 m.
+  EXPECT_DOUBLE_EQ(tree.inertias()[0].I_G_B(1, 1), 0.05 + 0.25);
+}
+
 TEST(FindMovedMass, WorksAbove500Joints) {
   std::string text = Link("0", 1);
   for (int i = 1; i <= 501; ++i) {
@@ -137,6 +178,43 @@ TEST(MakeModel, GivesMassToLinksBetweenJoints) {
   EXPECT_EQ(tree.num_joints(), 2);
   EXPECT_EQ(tree.inertias()[1].mass, 1e-6 * 10);
   EXPECT_EQ(tree.inertias()[2].mass, 1);
+}
+
+// Returns a robot that turns a mass about z and then about an axis through the
+// same point. At rest, the mass is on the z axis, 0.2 m away.
+std::string PanTilt(double radius) {
+  return "<robot name='r'>" + Link("base", 9) + Link("pan", 0) +
+         Link("tilt", 0) + Link("camera", 1, radius) +
+         Joint("base", "pan", "0 0 1") + Joint("pan", "tilt", "0 1 0") +
+         "<joint name='rod' type='fixed'><origin xyz='0 0 0.2'/>"
+         "<parent link='tilt'/><child link='camera'/></joint></robot>";
+}
+
+TEST(MakeModel, GivesInertiaToPointMassThatMakesMSingular) {
+  const UrdfDocument urdf(PanTilt(0), "r.urdf");
+  const RobotModel whole = urdf.MakeModel();
+  EXPECT_EQ(JointsWithoutMass(whole, {}), Names{});
+  // The farthest joint is 0.4 m above the base.
+  const auto point = MakePointInertias(whole);
+  ASSERT_EQ(point.size(), 1u);
+  EXPECT_EQ(point.at("tilt").mass, 0);
+  EXPECT_DOUBLE_EQ(point.at("tilt").I_G_B(2, 2), 4e-3 * 4e-3);
+  const Tree tree = MakeModel(urdf, {}).tree;
+  ASSERT_EQ(tree.num_joints(), 2);
+  EXPECT_EQ(tree.inertias()[1].mass, 1e-6 * 10);
+  EXPECT_EQ(tree.inertias()[2].mass, 1);
+  EXPECT_NEAR(tree.inertias()[2].I_G_B(2, 2), 4e-3 * 4e-3, 1e-18);
+}
+
+TEST(MakePointInertias, LeavesRegularMassMatrix) {
+  EXPECT_TRUE(MakePointInertias(ParseUrdf(PanTilt(0.1), "r.urdf")).empty());
+  // A pendulum with its mass in one point has a regular M.
+  EXPECT_TRUE(MakePointInertias(ParseUrdf("<robot name='r'>" + Link("base", 9) +
+                                              Link("bob", 1, 0, "0 0 -0.2") +
+                                              Joint("base", "bob", "0 1 0") +
+                                              "</robot>",
+                                          "r.urdf"))
+                  .empty());
 }
 
 TEST(MakeSmallInertias, LeavesSingularMassMatrix) {

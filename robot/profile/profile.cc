@@ -264,8 +264,11 @@ RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile) {
     locked[name] = joint.value;
   }
   if (!locked.empty()) model = urdf.MakeModel(locked);
+  std::map<std::string, Inertia> added = MakePointInertias(model);
+  if (!added.empty()) model = urdf.MakeModel(locked, added);
   const std::map<std::string, Inertia> small = MakeSmallInertias(model);
-  if (!small.empty()) model = urdf.MakeModel(locked, small);
+  added.insert(small.begin(), small.end());
+  if (!small.empty()) model = urdf.MakeModel(locked, added);
   if (profile.mimic != MimicPolicy::kCoupled) model.mimics.clear();
   return model;
 }

@@ -96,7 +96,8 @@ std::vector<std::string> JointsWithoutMass(const RobotModel& model,
                                            const Profile& profile);
 
 /// Makes a model without the joints that LockedJoints() returns. A body without
-/// mass between moving joints has the inertia of MakeSmallInertias().
+/// mass between moving joints has the inertia of MakeSmallInertias(), and a
+/// point mass that makes M singular has that of MakePointInertias().
 /// RobotModel::mimics is empty unless the profile's `mimic` is coupled. Throws
 /// as LockedJoints().
 RobotModel MakeModel(const UrdfDocument& urdf, const Profile& profile);

@@ -130,9 +130,15 @@ void CheckInertial(const XMLElement& link, const Critic& critic) {
   }
   CheckOrigin(*inertial, critic);
   const double scale = I.cwiseAbs().maxCoeff();
-  if (scale == 0) return;
+  if (scale == 0) {
+    if (mass == 0) return;
+    critic.Note(inertia, "is 0 for a mass of " + PrintNumber(mass) + " kg",
+                "the mass is treated as a point: give its inertia");
+    return;
+  }
   if (mass == 0) {
-    critic.Warn(inertia, "has inertia but mass 0", "one of the two is wrong");
+    critic.Warn(inertia, "has inertia but mass 0",
+                "no body is like that: give the link its mass");
   } else if (scale > mass * kLongest * kLongest) {
     critic.Warn(inertia,
                 PrintNumber(scale) + " kg m2 for " + PrintNumber(mass) + " kg",

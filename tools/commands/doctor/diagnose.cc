@@ -163,7 +163,8 @@ Diagnosis Doctor::Examine() {
       if (diagnosis_.soles.empty() && !diagnosis_.has_many_legs) {
         diagnosis_.guessed_feet = GuessFeet(model);
       }
-      Append(FindWideInertias(model));
+      // MakeModel() gives some bodies a small mass that the file does not have.
+      Append(FindWideInertias(*whole));
       if (smallest_eigenvalue_) CheckParity({model, {}, {}});
     }
   }
