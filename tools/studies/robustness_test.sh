@@ -44,7 +44,7 @@ echo '<robot name="box"><link name="b"/></robot>' > "$robots/box.urdf"
 refuse "--only is 'nosuch', must be part of the name of a robot" \
   --robots "$robots" --only nosuch
 run 0 --robots "$robots" --out "$TEST_TMPDIR/page"
-row='^| mine | profile | [0-9]* mm | [0-9]* mm, [0-9]* mm, [0-9]* mm, [0-9]* mm '
+row='^| mine | profile | [0-9]* mm, 6 of 6 seeds | [0-9]* mm, [0-9]* mm, [0-9]* mm, [0-9]* mm '
 row+='| [0-9]* mm | yes |$'
 grep -q "$row" <<< "$out" || fail "mine does not stand or is not pushed: $out"
 grep -q '^| box | | refused: box.urdf:1: .* | yes |$' <<< "$out" || fail "box is not refused: $out"

@@ -6,41 +6,8 @@
 
 #include "poise/math/so3.h"
 #include "poise/robot/control/tasks/row_names.h"
-#include "poise/robot/control/tasks/support_box.h"
 
 namespace poise {
-namespace {
-
-// The largest moment that may turn the base back, over the moment of the weight
-// about the edge of the soles. At exactly 1, the CoP peak of a strong push is
-// 3 % higher.
-constexpr double kBeyondEdge = 1.5;
-
-}  // namespace
-
-// Bounds the horizontal components of a moment, in the axes of the mid-feet
-// frame, by the moment that the weight can have about the edges of the soles in
-// contact. Without contact there is no bound.
-Eigen::Vector3d MomentumTask::BoundBySoles(
-    const Eigen::Vector3d& moment_W,
-    const std::vector<ContactTick>& contacts) const noexcept {
-  const Pose X_MidW = MidFeet(contacts).Inverse();
-  const auto half_extent = [&](SupportSide one, SupportSide other) {
-    return (SupportReach(feet_, contacts, X_MidW, one) +
-            SupportReach(feet_, contacts, X_MidW, other)) /
-           2;
-  };
-  const double most_x = kBeyondEdge * weight_ * half_extent(kLeft, kRight);
-  const double most_y = kBeyondEdge * weight_ * half_extent(kFront, kBack);
-  if (!(most_x > 0 && most_y > 0)) return moment_W;
-  Eigen::Vector3d moment = X_MidW.R * moment_W;
-  if (std::abs(moment.x()) <= most_x && std::abs(moment.y()) <= most_y) {
-    return moment_W;
-  }
-  moment.x() = std::clamp(moment.x(), -most_x, most_x);
-  moment.y() = std::clamp(moment.y(), -most_y, most_y);
-  return X_MidW.R.transpose() * moment;
-}
 
 MomentumTask::MomentumTask(const Tree& tree, const std::vector<Foot>& feet)
     : Task("momentum",
@@ -53,7 +20,6 @@ MomentumTask::MomentumTask(const Tree& tree, const std::vector<Foot>& feet)
                      {"lz", "N", "the linear momentum along z"}}),
            {}),
       mass_(tree.total_mass() > 0 ? tree.total_mass() : 1),
-      weight_(mass_ * tree.gravity_W().norm()),
       feet_(feet) {
   AddParameter("kp", &gains_.kp, 0, 1e4);
   AddParameter("kd", &gains_.kd, 0, 1e3);
@@ -90,13 +56,8 @@ void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
   const Eigen::Array3d ahead = feedforward_ * reference.v_WG.array();
   const Eigen::Vector3d p_ref_WG =
       FindComTarget(feet_, input.contacts, reference);
-  // In a step, the pendulum places the CoP, and the angular rows weigh little.
-  Eigen::Vector3d moment_W = k_orientation_ * e_W;
-  if (!reference.pendulum.is_on) {
-    moment_W = BoundBySoles(moment_W, input.contacts);
-  }
   Vector6d wanted;
-  wanted << (moment_W - kd_angular_ * tick.L_G.head<3>()) / mass_,
+  wanted << (k_orientation_ * e_W - kd_angular_ * tick.L_G.head<3>()) / mass_,
       (kp * (p_ref_WG - tick.p_WG).array() + kd * (ahead - tick.v_WG.array()))
               .matrix() +
           input.correction_W + feedforward_ * reference.a_WG;

@@ -17,10 +17,7 @@ namespace poise {
 ///                            kp (p_ref - p_G) + kd (v_ref - v_G) + a_ref ],
 /// where k is the angular momentum, and e the rotation from the base's
 /// orientation back to its reference: without it the pelvis drifts,
-/// because angular momentum is not the derivative of an orientation. K e is
-/// bounded to 1.5 times the moment of the weight about the edges of the soles in
-/// contact, except while Reference::pendulum is on: the contact forces have no
-/// larger moment.
+/// because angular momentum is not the derivative of an orientation.
 ///
 /// With TaskInput::capture, the capture blend of BalanceMonitor, the gains of
 /// the horizontal position rise and the weights of angular momentum and height
@@ -58,12 +55,7 @@ class MomentumTask final : public Task {
     double height_weight = 0.3;
   };
 
-  Eigen::Vector3d BoundBySoles(
-      const Eigen::Vector3d& moment_W,
-      const std::vector<ContactTick>& contacts) const noexcept;
-
   double mass_;
-  double weight_;  // N.
   std::vector<Foot> feet_;
   ComGains gains_;
   double kd_angular_ = 10;

@@ -124,39 +124,6 @@ TEST_F(TaskTest, MomentumFollowsItsReference) {
 }
 
 // The height keeps its own gains, because it is not unstable.
-// The base is turned away from its reference. Up to a bound, the moment that
-// turns it back is proportional to the angle.
-TEST_F(TaskTest, MomentOfOrientationIsBoundedByTheSoles) {
-  const MomentumTask task(tree_, robot_.feet);
-  const Eigen::VectorXd y = RandomY();
-  const double mass = tree_.total_mass(), weight = 9.81 * mass;
-  Reference& reference = controller_.reference();
-  const Eigen::Matrix3d R_WB = controller_.tick().X_WB[0].R;
-  const auto moment = [&](const Eigen::Vector3d& angle_W) -> Eigen::Vector3d {
-    reference.R_WB = R_WB;
-    const Eigen::VectorXd at_rest = Residual(task, y);
-    reference.R_WB = ExpSo3(angle_W) * R_WB;
-    return mass * (at_rest - Residual(task, y)).head<3>();
-  };
-  // The soles' outer edges and fronts bound the CoP.
-  const auto& contacts = controller_.contacts();
-  const double half_y =
-      (contacts[0].X_WC.p - contacts[1].X_WC.p).y() / 2 + half_.y();
-  const double most[] = {1.5 * weight * half_y, 1.5 * weight * half_.x()};
-  for (const double sign : {1.0, -1.0}) {
-    for (int axis = 0; axis < 2; ++axis) {
-      const Eigen::Vector3d about = sign * Eigen::Vector3d::Unit(axis);
-      EXPECT_NEAR(about.dot(moment(0.1 * about)), 200 * 0.1, 1e-9);
-      // The angle is below pi, and the gain 200 N m/rad.
-      const double large = std::min(3.0, 2 * most[axis] / 200);
-      EXPECT_LT(about.dot(moment(large * about)), 200 * large);
-      EXPECT_NEAR(about.dot(moment(large * about)), most[axis],
-                  1e-3 * most[axis]);
-    }
-    EXPECT_NEAR(moment(sign * Eigen::Vector3d(0, 0, 2)).z(), sign * 400, 1e-9);
-  }
-}
-
 TEST_F(TaskTest, MomentumIsStifferInLargePushesExceptInHeight) {
   MomentumTask momentum(tree_, robot_.feet);
   for (const Parameter& each : momentum.parameters()) {
