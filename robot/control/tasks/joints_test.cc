@@ -83,7 +83,7 @@ TEST_F(TaskTest, JointLimitsBrakeAFastJointGently) {
 TEST_F(TaskTest, JointLimitsLetASlowJointFollowALanding) {
   RobotModel model = robot_.model;
   const int j = *tree_.FindJoint("l_elbow");
-  constexpr double kSlow = 2;  // rad/s; smaller limits count as this one.
+  constexpr double kSlow = 3;  // rad/s; smaller limits count as this one.
   model.limits[j].velocity = 0.5;
   const JointLimitsTask task(model);
   state_.q[7 + j] = robot_.q_nominal[7 + j];
