@@ -77,7 +77,9 @@ TEST_F(FirstTouchTest, FindsGroundThatIsHigherThanItsEstimate) {
 }
 
 // To stop a fall, the CoP would be at the edges of the soles, with friction and
-// a yaw moment. In the air, this wrench would turn the feet.
+// a yaw moment. In the air, this wrench would turn the feet. The moment of the
+// vertical force about the foot's center of mass remains, so the feet turn more
+// slowly by 3 times, not by 10.
 TEST_F(FirstTouchTest, HardlyTurnsFeetInTheAir) {
   state_.v.segment<6>(0) << 0.5, 0.5, 1, 0.3, 0.2, 0;
   StartAbove(0);

@@ -138,9 +138,8 @@ class Stance {
                                 const ContactTick& contact,
                                 double ground_z) noexcept;
   static Clearance Middle(const ContactTick& contact, double ground_z) noexcept;
-  bool HasTouched(const Clearance& lowest) const noexcept;
-  void FindFirstTouch(double dt, double ground_z,
-                      const std::vector<ContactTick>& contacts) noexcept;
+  bool HasTouched(const FootState& foot, const ContactTick& contact,
+                  double ground_z) const noexcept;
   bool HasLeft(const Clearance& lowest) const noexcept;
   bool HasLanded(const Clearance& sole) const noexcept;
   bool IsStopped(const FootState& foot, const Clearance& sole) const noexcept;
@@ -167,8 +166,7 @@ class Stance {
   double length_, time_, speed_;  // Ratios, see FroudeScale.
   StanceSettings settings_;
   std::vector<FootState> feet_;
-  bool has_touched_ = false;  // A foot, since Reset().
-  double since_reset_ = 0;    // s.
+  bool has_touched_ = false;  // A foot touched the ground since Reset().
 };
 
 }  // namespace poise

@@ -64,8 +64,8 @@ constexpr std::string_view kLegs[] = {
     "leg",   "hip",   "thigh",  "femur", "knee", "shank", "shin", "calf",
     "calve", "tibia", "tarsus", "ankle", "foot", "feet",  "sole", "toe"};
 constexpr std::string_view kArms[] = {
-    "arm",  "clavicle", "shoulder", "bicep", "humerus", "elbow",   "wrist",
-    "hand", "palm",     "finger",   "thumb", "grip",    "gripper", "forearm"};
+    "arm",  "clavicle", "shoulder", "bicep", "humerus", "elbow",  "wrist",
+    "hand", "palm",     "finger",   "thumb", "grip",    "gripper"};
 // Parts of a word before and after the name of a part of a limb, as in
 // `lupperleg` and `kneepitch`. Any single letter may come before.
 constexpr std::string_view kBefore[] = {"",      "left",  "right", "up",

@@ -41,7 +41,7 @@ struct Diagnosis {
   bool was_tested = false;
   /// Whether the robot stands: it has a standing posture and stays up in the
   /// scenario `stand`, simulated for 1 s, or for 5 s if a motor is weak or
-  /// missing.
+  /// missing. If the simulation takes too long, a note says so.
   bool stands = false;
   std::string reason;  ///< Why it does not stand, or was not tested.
   std::string remedy;  ///< The part to correct so that it stands, or "".
