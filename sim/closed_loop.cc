@@ -6,12 +6,14 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "poise/robot/control/posture/one_foot.h"
 #include "poise/robot/control/task_set.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/input_error.h"
 #include "poise/sim/command/fit_to_robot.h"
 #include "poise/sim/command/push_bound.h"
 #include "poise/sim/command/shift_height.h"
+#include "poise/sim/observation.h"
 #include "poise/sim/plants/make_plant.h"
 #include "poise/sim/start_state.h"
 
@@ -19,9 +21,11 @@ namespace poise {
 
 namespace {
 
-// Distance of a shifted CoM from the sole's center, as a fraction of the sole's
-// half width.
-constexpr double kInside = 0.25;
+// Height of the other sole for which a shift chooses its lean, relative to the
+// height of the center of mass.
+constexpr double kLift = 0.03;
+// A smaller lean is left out, rad.
+constexpr double kLeast = 0.01;
 
 // The noise of the sensors must not depend on the random start state.
 constexpr unsigned kSensorSeed = 0x5eed;
@@ -178,6 +182,7 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
   for (const Push& push : scenario.pushes) directions_.push_back(push.force);
   com_start_ = controller_->reference().p_WG;
   com_path_ = {scenario_.com, com_start_};
+  lean_path_ = LeanPath(controller_->reference().R_WB);
   for (std::size_t i = 0; i < scenario_.stance.size(); ++i) {
     const std::string& foot = scenario_.stance[i].foot;
     if (!foot.empty()) MakeOf(Entry("stance", i), [&] { FindFoot(foot); });
@@ -222,36 +227,35 @@ void ClosedLoop::MoveFoot(const StanceEvent& event) {
       controller_->stance().PutDown(FindFoot(event.foot));
       break;
     case StanceEvent::Kind::kShift:
-      com_path_.ShiftTo(ShiftPlace(event.foot), event.at, event.over);
+      Shift(event);
       break;
     case StanceEvent::Kind::kStep:
       break;
   }
 }
 
-// Shifts the CoM by the vector from the middle of the feet to the foot, less
-// kInside. So the CoM stays as far in front of the ankles as on both feet. It
-// ends on the inner side of the sole, because hips and ankles come to their
-// limits during such a shift and have to move less then. The CoM sinks if the
-// other leg is too short for its height.
-Eigen::Vector3d ClosedLoop::ShiftPlace(const std::string& name) const {
-  if (name.empty()) return com_start_;
-  const int foot = FindFoot(name);
-  const std::vector<ContactTick>& feet = controller_->contacts();
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const ContactTick& each : feet) {
-    middle += each.X_WC.p.head<2>() / static_cast<double>(feet.size());
+// Shifts the CoM over a foot, or back to its start. The base leans if the hips
+// are weak, and the CoM sinks if the other leg is too short for its height.
+void ClosedLoop::Shift(const StanceEvent& event) {
+  Eigen::Vector3d place = com_start_, lean_W = Eigen::Vector3d::Zero();
+  if (!event.foot.empty()) {
+    const int foot = FindFoot(event.foot);
+    std::vector<Pose> X_WC;
+    for (const ContactTick& each : controller_->contacts()) {
+      X_WC.push_back(each.X_WC);
+    }
+    place = ShiftedCenterOfMass(robot_, foot, X_WC, com_start_);
+    if (X_WC.size() == 2) {
+      const Eigen::Vector2d G = (X_WC[foot].Inverse() * place).head<2>();
+      const double lift = kLift * StandingHeight(robot_);
+      const OneFootPosture posture = FindOneFootPosture(robot_, foot, lift, G);
+      // Rounding leans the base, too.
+      if (posture.lean_W.norm() > kLeast) lean_W = posture.lean_W;
+      place.z() -= SinkOfShift(robot_, foot, G, posture.lean);
+    }
   }
-  Eigen::Vector2d way = feet[foot].X_WC.p.head<2>() - middle;
-  const double inside = kInside * robot_.feet[foot].half_size.y();
-  if (way.norm() > inside) way -= inside * way.normalized();
-  Eigen::Vector3d place = com_start_;
-  place.head<2>() += way;
-  if (feet.size() == 2) {
-    const Eigen::Vector3d G = feet[foot].X_WC.Inverse() * place;
-    place.z() -= SinkOfShift(robot_, foot, G.head<2>());
-  }
-  return place;
+  com_path_.ShiftTo(place, event.at, event.over);
+  lean_path_.LeanTo(lean_W, event.at, event.over);
 }
 
 void ClosedLoop::Tick() {
@@ -260,6 +264,7 @@ void ClosedLoop::Tick() {
   MoveFeet();
   if (gait_ == nullptr || !gait_->owns_com()) {
     com_path_.Write(time(), &controller_->reference());
+    lean_path_.Write(time(), &controller_->reference());
   }
   const Measurement& measurement = sensors_.Measure(start_);
   if (estimator_ == nullptr) state_ = ToState(measurement);

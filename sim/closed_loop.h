@@ -13,7 +13,8 @@
 #include "poise/robot/control/measurement.h"
 #include "poise/robot/gait/gait.h"
 #include "poise/robot/robot.h"
-#include "poise/sim/center_of_mass_path.h"
+#include "poise/sim/command/center_of_mass_path.h"
+#include "poise/sim/command/lean_path.h"
 #include "poise/sim/log/tick_record.h"
 #include "poise/sim/observation.h"
 #include "poise/sim/plants/plant.h"
@@ -70,7 +71,7 @@ class ClosedLoop {
 
  private:
   int FindFoot(const std::string& name) const;
-  Eigen::Vector3d ShiftPlace(const std::string& name) const;
+  void Shift(const StanceEvent& event);
   void MoveFeet();
   void MoveFoot(const StanceEvent& event);
   void SizePushes();
@@ -98,6 +99,7 @@ class ClosedLoop {
   std::deque<Eigen::VectorXd> torques_;  // Delayed torques, one per plant step.
   Eigen::Vector3d com_start_;
   CenterOfMassPath com_path_;
+  LeanPath lean_path_;
   size_t next_event_ = 0;  // Index in the scenario's stance.
   std::vector<CommandedStep> commanded_;
   PlantState during_;  // State at the end of the tick; mean forces over it.

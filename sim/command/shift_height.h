@@ -14,8 +14,10 @@ namespace poise {
 /// nearly straight, the other leg is too short for the nominal height.
 /// @param foot  index into robot.feet.
 /// @param G     target of the center of mass in the sole's frame, m.
+/// @param lean  of the base to the left, rad, see SingleSupport.
 /// @pre The robot has two feet.
 /// Costs one or two searches of a posture, see FindPosture().
-double SinkOfShift(const Robot& robot, int foot, const Eigen::Vector2d& G);
+double SinkOfShift(const Robot& robot, int foot, const Eigen::Vector2d& G,
+                   double lean = 0);
 
 }  // namespace poise

@@ -127,9 +127,20 @@ class Candidate {
   void Load() {
     const UrdfDocument document(urdf_, &findings_, packages_);
     const fs::path file = FindProfile(document.MakeModel().name, urdf_);
-    if (!file.empty()) profile_ = LoadProfile(file);
-    trial_.profile = file.filename().string();
-    trial_.robot = MakeStandingRobot(document, profile_, &findings_);
+    const std::vector<Finding> findings = findings_;
+    try {
+      if (!file.empty()) profile_ = LoadProfile(file);
+      trial_.profile = file.filename().string();
+      trial_.robot = MakeStandingRobot(document, profile_, &findings_);
+    } catch (const std::invalid_argument&) {
+      // A profile of robot/profiles may be of another version of the robot.
+      const bool is_ours = file.parent_path() != urdf_.parent_path();
+      if (file.empty() || !is_ours) throw;
+      profile_ = Profile();
+      trial_.profile.clear();
+      findings_ = findings;
+      trial_.robot = MakeStandingRobot(document, profile_, &findings_);
+    }
     trial_.soles = SolesFrom(*trial_.robot);
     trial_.forward = ForwardAxis(*trial_.robot);
   }

@@ -155,7 +155,8 @@ Search::Search(const Robot& robot, const PostureGoal& goal)
     X_WC_wanted_[1 - i].p.z() += goal.support->lift;
     const Vector2d G = goal.support->G;
     target_ = (X_WC_wanted_[i] * Vector3d(G.x(), G.y(), 0)).head<2>();
-    R_WB_ = tick_.X_WB[0].R;
+    R_WB_ = ExpSo3(-goal.support->lean * X_WC_wanted_[i].R.col(0)) *
+            tick_.X_WB[0].R;
     q_wanted_ = q_;
   } else {
     Place();

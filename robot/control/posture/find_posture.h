@@ -19,6 +19,9 @@ struct SingleSupport {
   bool keeps_other = false;
   /// Target of the center of mass above the ground, m. Not set: any height.
   std::optional<double> height = std::nullopt;
+  /// Wanted lean of the base to the left, away from its orientation in
+  /// robot.q_nominal: an angle about the -x axis of the foot's sole, rad.
+  double lean = 0;
 };
 
 /// The goal of an inverse-kinematics search.

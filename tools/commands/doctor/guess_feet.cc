@@ -2,13 +2,34 @@
 #include "poise/tools/commands/doctor/guess_feet.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "poise/dynamics/tree.h"
 #include "poise/math/pose.h"
+#include "poise/robot/feet/leg_names.h"
 #include "poise/robot/feet/legs.h"
 
 namespace poise {
+
+namespace {
+
+// Returns whether a link or joint from the root to a body has the name of a part
+// of an arm, and none has the name of a part of a leg.
+bool IsArm(const RobotModel& model, int body) {
+  bool is_arm = false;
+  for (int b = body; b > 0; b = model.tree.joints()[b - 1].parent) {
+    for (const std::string& name :
+         {LinkOf(model, b), model.tree.joints()[b - 1].name}) {
+      const int part = LegOrArm(name);
+      if (part > 0) return false;
+      if (part < 0) is_arm = true;
+    }
+  }
+  return is_arm;
+}
+
+}  // namespace
 
 std::vector<Diagnosis::Sole> GuessFeet(const RobotModel& model) {
   const Tree& tree = model.tree;
@@ -17,7 +38,7 @@ std::vector<Diagnosis::Sole> GuessFeet(const RobotModel& model) {
   for (const Joint& joint : tree.joints()) has_child[joint.parent] = true;
   std::vector<int> ends;
   for (int b = 1; b < tree.num_bodies(); ++b) {
-    if (!has_child[b]) ends.push_back(b);
+    if (!has_child[b] && !IsArm(model, b)) ends.push_back(b);
   }
   if (ends.size() < 2) return {};
   std::stable_sort(ends.begin(), ends.end(),

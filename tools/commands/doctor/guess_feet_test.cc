@@ -78,6 +78,9 @@ TEST(GuessFeet, NeedsTwoEndsBelowTheRoot) {
       "<robot name='r'><link name='root'>" + inertial + "</link>";
   EXPECT_EQ(Guess(root + limb("a", "-1") + limb("b", "-1") + "</robot>").size(),
             2u);
+  EXPECT_TRUE(
+      Guess(root + limb("left_hand", "-1") + limb("b", "-1") + "</robot>")
+          .empty());
   EXPECT_TRUE(Guess(root + limb("a", "-1") + "</robot>").empty());
   EXPECT_TRUE(
       Guess(root + limb("a", "-1") + limb("b", "1") + "</robot>").empty());

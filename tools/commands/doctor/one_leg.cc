@@ -1,16 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/commands/doctor/one_leg.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "poise/dynamics/tick.h"
 #include "poise/robot/control/posture/find_posture.h"
-#include "poise/robot/control/posture/sole_rows.h"
+#include "poise/robot/control/posture/one_foot.h"
 
 namespace poise {
 namespace {
@@ -23,30 +21,11 @@ using Eigen::VectorXd;
 constexpr double kNarrow = 0.04;
 // Height of the other sole, relative to that of the center of mass.
 constexpr double kLift = 0.03;
-// The center of mass stays within this fraction of the sole's half sides.
-constexpr double kInsideSole = 0.6;
-// Before the other foot is lifted, the center of mass is over the sole, at this
-// fraction of its half width inside of the middle.
-constexpr double kShift = 0.25;
-// A joint without a motor holds this torque, as a fraction of the weight times
-// the height: smaller torques come from rounding and from the posture search.
-constexpr double kRounding = 1e-6;
-
-// Returns the torques at rest of a robot that stands on one foot:
-//     tau = N_j - J_j' lambda,   J_b' lambda = N_b,
-// with the rows b of the base and j of the joints.
-VectorXd TorquesOnOneFoot(const Robot& robot, int foot, const VectorXd& q) {
-  const Tree& tree = robot.model.tree;
-  Tick tick(tree, {robot.feet[foot].frame});
-  ComputeTick(tree, q, VectorXd::Zero(tree.nv()), &tick);
-  std::vector<int> all(tree.nv());
-  std::iota(all.begin(), all.end(), 0);
-  const Eigen::MatrixXd J = StateOf(robot.feet[foot], tick, 0, all).J_WC_W;
-  const int n = tree.num_joints();
-  const VectorXd lambda =
-      J.leftCols<6>().transpose().partialPivLu().solve(tick.N.head<6>());
-  return tick.N.tail(n) - J.rightCols(n).transpose() * lambda;
-}
+// Largest load of a motor at rest: the rest has to balance the robot.
+constexpr double kMostLoad = 0.93;
+// A joint without a motor needs to hold no torque below this fraction of the
+// weight times the height: a finger sags, and the robot stands.
+constexpr double kSmall = 1e-3;
 
 // Returns the reason why a motor is too weak, or "": the joint with the largest
 // ratio of the torque to its limit.
@@ -54,13 +33,13 @@ std::string WeakMotor(const Robot& robot, const VectorXd& tau, double height) {
   const Tree& tree = robot.model.tree;
   const double weight = tree.total_mass() * tree.gravity_W().norm();
   std::string reason;
-  double worst = 1;
+  double worst = kMostLoad;
   for (int j = 0; j < tree.num_joints(); ++j) {
     const double effort = robot.model.limits[j].effort;
     const double holds = effort + robot.model.limits[j].friction;
     const Joint& joint = tree.joints()[j];
     const bool is_prismatic = joint.type == JointType::kPrismatic;
-    const double least = kRounding * weight * (is_prismatic ? 1 : height);
+    const double least = kSmall * weight * (is_prismatic ? 1 : height);
     const double ratio = std::abs(tau[j]) / std::max(holds, least);
     if (!(ratio > worst)) continue;  // Also without a limit.
     worst = ratio;
@@ -79,48 +58,43 @@ std::string Lack(const Robot& robot, const Posture& posture) {
   return posture.lack + ", with joint " + Quoted(joint.name) + " at its limit";
 }
 
+// Returns the target of the center of mass in the frame of a foot's sole, m.
+Vector2d Target(const Robot& robot, int foot, const Tick& tick) {
+  std::vector<Pose> X_WC;
+  for (const Foot& each : robot.feet) {
+    X_WC.push_back(tick.X_WB[each.body] * each.X_BC);
+  }
+  const Eigen::Vector3d p_WG =
+      ShiftedCenterOfMass(robot, foot, X_WC, tick.p_WG);
+  return (X_WC[foot].Inverse() * p_WG).head<2>();
+}
+
 // Returns the reason why the center of mass cannot move over a foot while both
 // soles lie flat, or "". Legs without a roll joint at the ankle cannot do it.
-std::string WhyNoShift(const Robot& robot, int foot) {
-  const double inward = foot == 0 ? -1 : 1;
+std::string WhyNoShift(const Robot& robot, int foot, const Vector2d& G) {
   PostureGoal goal;
-  goal.support =
-      SingleSupport{foot,
-                    0,
-                    {0, kShift * inward * robot.feet[foot].half_size.y()},
-                    /*keeps_other=*/true};
+  goal.support = SingleSupport{foot, 0, G, /*keeps_other=*/true};
   const std::string lack = Lack(robot, FindPosture(robot, goal));
   return lack.empty() ? "" : "with both soles flat, " + lack;
 }
 
 // Returns the reason why the robot cannot stand on a foot, or "".
-std::string Reason(const Robot& robot, int foot, double height) {
-  const Foot& sole = robot.feet[foot];
-  const double width = 2 * sole.half_size.y();
+std::string Reason(const Robot& robot, int foot, const Tick& tick) {
+  const double height = tick.p_WG.z();
+  const double width = 2 * robot.feet[foot].half_size.y();
   if (width < kNarrow * height) {
     return "its sole is " + PrintNumber(width) + " m wide, must be " +
            PrintNumber(kNarrow * height) + " m for a center of mass at " +
            PrintNumber(height) + " m";
   }
-  const std::string shift = WhyNoShift(robot, foot);
+  const Vector2d G = Target(robot, foot, tick);
+  const std::string shift = WhyNoShift(robot, foot, G);
   if (!shift.empty()) return shift;
-  // The foot's origin is at or near the ankle.
-  const Vector2d ankle = sole.X_BC.Inverse().p.head<2>();
-  const Vector2d inside = kInsideSole * sole.half_size;
-  std::string reason;
-  for (const Vector2d& G :
-       {Vector2d(0, 0), Vector2d(ankle.cwiseMax(-inside).cwiseMin(inside))}) {
-    PostureGoal goal;
-    goal.support = SingleSupport{foot, kLift * height, G};
-    const Posture posture = FindPosture(robot, goal);
-    std::string lack = Lack(robot, posture);
-    if (lack.empty()) {
-      lack = WeakMotor(robot, TorquesOnOneFoot(robot, foot, posture.q), height);
-    }
-    if (lack.empty()) return "";
-    if (reason.empty()) reason = lack;
-  }
-  return reason;
+  const Posture posture =
+      FindOneFootPosture(robot, foot, kLift * height, G).posture;
+  const std::string lack = Lack(robot, posture);
+  if (!lack.empty()) return lack;
+  return WeakMotor(robot, TorquesOnOneFoot(robot, foot, posture.q), height);
 }
 
 }  // namespace
@@ -131,7 +105,7 @@ std::vector<Finding> FindOneLegDefects(const Robot& robot) {
   ComputeTick(tree, robot.q_nominal, VectorXd::Zero(tree.nv()), &tick);
   std::vector<Finding> findings;
   for (const int foot : {0, 1}) {
-    const std::string reason = Reason(robot, foot, tick.p_WG.z());
+    const std::string reason = Reason(robot, foot, tick);
     if (reason.empty()) continue;
     findings.push_back({Severity::kWarn, robot.feet[foot].name,
                         "cannot stand on one leg: " + reason,

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "poise/sim/center_of_mass_path.h"
+#include "poise/sim/command/center_of_mass_path.h"
 
 #include <algorithm>
 #include <cmath>
