@@ -186,6 +186,25 @@ TEST(FindFeet, FindsTheLowestPointsOfSpheres) {
   EXPECT_NEAR(feet[0].half_size.y(), 0.02, kPromised);
 }
 
+// One sphere for collisions has no flat underside.
+TEST(FindFeet, TakesTheVisualShapesIfTheCollisionShapesHaveNoSole) {
+  const std::string sphere = Collision("sphere radius='0.02'", "0 0 -0.03");
+  const auto visual = [](const std::string& size) {
+    return "<visual><origin xyz='0.03 0 -0.04'/><geometry><box size='" + size +
+           "'/></geometry></visual>";
+  };
+  std::vector<Finding> findings;
+  const auto feet =
+      Find(Biped(sphere + visual("0.2 0.1 0.02"), "0 0 0"), &findings);
+  EXPECT_LT((feet[0].half_size - Vector2d(0.1, 0.05)).norm(), kPromised);
+  EXPECT_NEAR(feet[0].X_BC.p.z(), -0.05, kPromised);
+  EXPECT_TRUE(findings.empty());
+  // A stub is no sole: the estimate stays, with its warning.
+  Find(Biped(sphere + visual("0.03 0.03 0.02"), "0 0 0"), &findings);
+  ASSERT_FALSE(findings.empty());
+  EXPECT_NE(findings[0].what.find("is estimated"), std::string::npos);
+}
+
 TEST(FindFeet, FindsTheEndOfACylinder) {
   const auto feet = Find(Biped(
       Collision("cylinder radius='0.1' length='0.04'", "0 0 -0.02"), "0 0 0"));

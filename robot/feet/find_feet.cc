@@ -140,12 +140,32 @@ void CheckSize(const RobotModel& model, const Foot& foot, double leg,
   }
 }
 
+// Returns the sole of a foot. If the collision shapes have none, uses the visual
+// shapes: a foot may have one sphere for collisions. A short underside of the
+// visual shapes is no sole, but the end of a leg with a point foot.
+Sole FindSoleOf(const RobotModel& model, int body, const Vector3d& up_B,
+                double leg, Outline* outline) {
+  const Sole sole = FindSole(*outline, up_B, leg);
+  if (!sole.points_B.empty() || outline->corners.empty()) return sole;
+  const Outline visual = MakeVisualOutline(model, body);
+  const Sole seen = FindSole(visual, up_B, leg);
+  double length = 0;
+  for (const Vector3d& a : seen.points_B) {
+    for (const Vector3d& b : seen.points_B) {
+      length = std::max(length, (a - b).norm());
+    }
+  }
+  if (length < kShortSole * leg) return sole;
+  *outline = visual;
+  return seen;
+}
+
 }  // namespace
 
 std::vector<Foot> FindFeet(const RobotModel& model,
                            std::vector<Finding>* findings,
                            const FeetHints& hints) {
-  const std::vector<Outline> outlines = MakeOutlines(model);
+  std::vector<Outline> outlines = MakeOutlines(model);
   const Legs legs = hints.feet ? FindLegsOf(model, *hints.feet)
                                : FindLegs(model, outlines, findings);
   if (legs.up_B != Vector3d::UnitZ()) {
@@ -160,8 +180,8 @@ std::vector<Foot> FindFeet(const RobotModel& model,
   for (const int i : {0, 1}) {
     const int body = legs.feet[i];
     CheckMotors(model, legs.hips[i], body, findings);
-    soles[i] =
-        FindSole(outlines[body], X_WB[body].R.row(2).transpose(), legs.length);
+    soles[i] = FindSoleOf(model, body, X_WB[body].R.row(2).transpose(),
+                          legs.length, &outlines[body]);
   }
   const Facing facing = FindFacing(model, legs, soles, X_WB, hints, findings);
   const Vector3d& forward = facing.forward_W;

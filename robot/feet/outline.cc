@@ -129,19 +129,32 @@ void AddShapes(const RobotModel& model, const std::vector<Shape>& shapes,
   for (int body = 0; body < model.tree.num_bodies(); ++body) add(body, nullptr);
 }
 
+Outline EmptyOutline() {
+  Outline outline;
+  for (int i = 0; i < 3; ++i) outline.axes_B.push_back(Vector3d::Unit(i));
+  return outline;
+}
+
 }  // namespace
 
 std::vector<Outline> MakeOutlines(const RobotModel& model) {
-  std::vector<Outline> outlines(model.tree.num_bodies());
-  for (Outline& outline : outlines) {
-    for (int i = 0; i < 3; ++i) outline.axes_B.push_back(Vector3d::Unit(i));
-  }
+  std::vector<Outline> outlines(model.tree.num_bodies(), EmptyOutline());
   const std::vector<int> feet = CandidateFeet(model);
   MeshReader reader(model.mesh_places);
   for (const std::vector<Shape>* shapes : {&model.collisions, &model.visuals}) {
     AddShapes(model, *shapes, feet, &reader, &outlines);
   }
   return outlines;
+}
+
+Outline MakeVisualOutline(const RobotModel& model, int body) {
+  Outline outline = EmptyOutline();
+  MeshReader reader(model.mesh_places);
+  for (const Shape& shape : model.visuals) {
+    const Frame& frame = model.tree.frames()[shape.frame];
+    if (frame.body == body) AddShape(shape, frame.X_BF, &reader, &outline);
+  }
+  return outline;
 }
 
 }  // namespace poise

@@ -35,4 +35,9 @@ struct Outline {
 /// error; see Outline::mesh_refusal.
 std::vector<Outline> MakeOutlines(const RobotModel& model);
 
+/// Returns the outline of the visual shapes of a body that can be a foot, for a
+/// foot whose collision shapes have no flat underside. The meshes are opened
+/// with a MeshReader.
+Outline MakeVisualOutline(const RobotModel& model, int body);
+
 }  // namespace poise

@@ -22,7 +22,7 @@ constexpr double kNarrow = 0.04;
 // Height of the other sole, relative to that of the center of mass.
 constexpr double kLift = 0.03;
 // Largest load of a motor at rest: the rest has to balance the robot.
-constexpr double kMostLoad = 0.93;
+constexpr double kMostLoad = 0.91;
 // A joint without a motor needs to hold no torque below this fraction of the
 // weight times the height: a finger sags, and the robot stands.
 constexpr double kSmall = 1e-3;
@@ -47,6 +47,7 @@ std::string WeakMotor(const Robot& robot, const VectorXd& tau, double height) {
     reason = "joint " + Quoted(joint.name) + " needs " +
              PrintNumber(std::abs(tau[j])) + unit + " (limit " +
              PrintNumber(effort) + unit + ")";
+    if (ratio < 1) reason += ", too little is left to balance with";
   }
   return reason;
 }

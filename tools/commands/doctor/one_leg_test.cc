@@ -3,12 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <cmath>
 #include <string>
 
+#include "poise/robot/control/posture/one_foot.h"
 #include "poise/robot/control/stand.h"
 
 namespace poise {
 namespace {
+
+using Eigen::VectorXd;
 
 Robot Humanoid() {
   return LoadStandingRobot("robot/models/humanoid.urdf",
@@ -64,6 +69,22 @@ TEST(FindOneLegDefects, NamesWeakMotor) {
             0u)
       << found;
   EXPECT_NE(found.find("(limit 10 N m)"), std::string::npos) << found;
+}
+
+// A lean of the base hardly changes the torque of the knee.
+TEST(FindOneLegDefects, NamesAMotorThatIsNearlyFullyLoaded) {
+  Robot robot = Humanoid();
+  const int knee = robot.model.tree.FindJoint("l_knee").value();
+  const VectorXd q = FindOneFootPosture(robot, 0, 0.02, {0, 0}).posture.q;
+  robot.model.limits[knee].effort =
+      std::abs(TorquesOnOneFoot(robot, 0, q)[knee]) / 0.96;
+  const std::string found = Findings(robot);
+  EXPECT_EQ(found.find("left_foot cannot stand on one leg: joint 'l_knee' "
+                       "needs "),
+            0u)
+      << found;
+  EXPECT_NE(found.find("too little is left to balance with"), std::string::npos)
+      << found;
 }
 
 // Without any motor, the hip carries the largest torque: all of the body except
