@@ -79,6 +79,7 @@ std::unique_ptr<Controller> MakeController(const Robot& robot,
   options.inscribed = settings.inscribed;
   options.feedforward = settings.feedforward;
   options.weighted = settings.weighted;
+  options.drag_compensation = settings.drag_compensation;
   std::vector<std::string> switched = settings.with;
   switched.insert(switched.end(), settings.without.begin(),
                   settings.without.end());

@@ -145,7 +145,7 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
       result.blew_up = FindBlowUp(robot.model.tree, record.start.v);
     }
     judge.Look(record.observation);
-    command_watch.Look(record);
+    command_watch.Look(record.observation);
     if (record.gait != nullptr) step_watch.Look(record);
     if (recorder != nullptr) recorder->Record(record);
     us.push_back(static_cast<float>(record.microseconds));

@@ -237,8 +237,10 @@ void Controller::ComputeCommand(const State& state, Command* command) noexcept {
   ComputeTorque(tick_, contacts_, solution_.y, &command->tau);
   const int nv = robot_.model.tree.nv();
   const int n = robot_.model.tree.num_joints();
-  drag_.AddTo(options_.dt, TorqueScale(), state.v.tail(n),
-              solution_.y.segment(nv - n, n), &command->tau);
+  if (options_.drag_compensation) {
+    drag_.AddTo(options_.dt, TorqueScale(), state.v.tail(n),
+                solution_.y.segment(nv - n, n), &command->tau);
+  }
   LimitTorque(command);
   command->status = report_.status;
 }

@@ -36,6 +36,7 @@ struct ControllerOptions {
   bool inscribed = false;    ///< Friction pyramid inside the friction cone.
   bool feedforward = false;  ///< Uses v_WG and a_WG of the reference.
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
+  bool drag_compensation = true;  ///< Adds the torques of DragCompensation.
   int max_iterations = 500;  ///< Solver iterations per tick; then truncated.
   /// Time budget of the solver in a tick, s, measured by now(); used only if
   /// now() is given. The result depends on the machine: no replay is exact.

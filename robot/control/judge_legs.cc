@@ -52,22 +52,28 @@ std::vector<Finding> JudgeLegs(const Robot& robot) {
                              : " directions of its sole are") +
                " not controlled: on one foot, balance is limited"});
     }
-    std::string slow;
+    std::vector<int> slow;
     for (const int j : joints) {
-      const Joint& joint = robot.model.tree.joints()[j];
+      if (robot.model.tree.joints()[j].type == JointType::kPrismatic) continue;
       const double limit = robot.model.limits[j].velocity;
-      if (joint.type == JointType::kPrismatic) continue;
-      if (!(limit > 0 && limit < kSlowestVelocity)) continue;
-      slow += (slow.empty() ? "" : ", ") + Quoted(joint.name) + " " +
-              PrintNumber(limit) + " rad/s";
+      if (limit > 0 && limit < kSlowestVelocity) slow.push_back(j);
     }
     if (slow.empty()) continue;
-    findings.push_back({Severity::kWarn, LegOf(foot) + " <limit>",
-                        "has the velocity limits " + slow,
-                        "may be placeholders: balance needs faster legs, and "
-                        "control assumes at least " +
-                            PrintNumber(kSlowestVelocity) +
-                            " rad/s; give the motors' real limits"});
+    const auto limit_of = [&](int j) { return robot.model.limits[j].velocity; };
+    const int slowest = *std::min_element(
+        slow.begin(), slow.end(),
+        [&](int i, int j) { return limit_of(i) < limit_of(j); });
+    const std::string least = PrintNumber(kSlowestVelocity) + " rad/s";
+    findings.push_back(
+        {Severity::kWarn, LegOf(foot) + " <limit>",
+         "has " + std::to_string(slow.size()) +
+             (slow.size() == 1 ? " velocity limit" : " velocity limits") +
+             " below " + least + ", the lowest " +
+             PrintNumber(limit_of(slowest)) + " rad/s at joint " +
+             Quoted(robot.model.tree.joints()[slowest].name),
+         "may be placeholders: balance needs faster legs, and control assumes "
+         "at least " +
+             least + "; give the motors' real limits"});
   }
   return findings;
 }

@@ -24,7 +24,9 @@ TEST(JudgeLegs, FindsPlaceholdersOfTheVelocity) {
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].severity, Severity::kWarn);
   EXPECT_NE(findings[0].where.find("left leg"), std::string::npos);
-  EXPECT_EQ(findings[0].what, "has the velocity limits 'l_knee' 0.5 rad/s");
+  EXPECT_EQ(findings[0].what,
+            "has 1 velocity limit below 3 rad/s, the lowest 0.5 rad/s at joint "
+            "'l_knee'");
 }
 
 // The shin counts as the sole here: a leg of four joints.

@@ -12,6 +12,8 @@ namespace {
 
 using Kind = StanceEvent::Kind;
 
+constexpr double kPi = 3.14159265358979323846;
+
 // Part of its period after which the motion of the CoM is judged.
 constexpr double kLeastPeriod = 0.5;
 
@@ -60,21 +62,24 @@ CommandWatch::CommandWatch(const Robot& robot, const Scenario& scenario,
   }
 }
 
-void CommandWatch::Look(const TickRecord& record) {
-  const Observation& now = record.observation;
+void CommandWatch::Look(const Observation& now) {
   if (!has_begun_) com_start_ = now.com;
   has_begun_ = true;
-  commanded2_ += (now.com_ref - com_start_).squaredNorm();
-  moved2_ += (now.com - com_start_).squaredNorm();
+  const double phase = 2 * kPi * now.time / com_.period;
+  const auto add = [&](const Eigen::Vector3d& p, Component* component) {
+    component->cosine += std::cos(phase) * (p - com_start_);
+    component->sine += std::sin(phase) * (p - com_start_);
+  };
+  add(now.com_ref, &commanded_);
+  add(now.com, &moved_);
   for (Command& command : commands_) {
     const bool is_on = command.event.at < now.time + dt_ / 2 &&
                        now.time < command.until - dt_ / 2;
-    if (is_on) LookAt(record, &command);
+    if (is_on) LookAt(now, &command);
   }
 }
 
-void CommandWatch::LookAt(const TickRecord& record, Command* command) const {
-  const Observation& now = record.observation;
+void CommandWatch::LookAt(const Observation& now, Command* command) const {
   const bool is_first = !command->has_begun;
   command->has_begun = true;
   if (command->event.kind == Kind::kShift) {
@@ -108,6 +113,17 @@ bool CommandWatch::IsMotionJudged(double end) const {
   return moves && end >= kLeastPeriod * com_.period;
 }
 
+// Projects the motion onto the command, both as complex amplitudes. The phase
+// of the product is the lag.
+double CommandWatch::MotionShare() const {
+  const Component& c = commanded_;
+  const Component& m = moved_;
+  const double along = c.cosine.dot(m.cosine) + c.sine.dot(m.sine);
+  const double across = c.cosine.dot(m.sine) - c.sine.dot(m.cosine);
+  const double whole = c.cosine.squaredNorm() + c.sine.squaredNorm();
+  return along > 0 && whole > 0 ? std::hypot(along, across) / whole : 0;
+}
+
 bool CommandWatch::has_command(double end) const {
   return IsMotionJudged(end) ||
          std::any_of(commands_.begin(), commands_.end(),
@@ -139,11 +155,10 @@ std::vector<std::string> CommandWatch::Missed(double end) const {
                        "the ground never pressed on the sole");
     }
   }
-  const double least = kMotionShare * kMotionShare * commanded2_;
-  if (IsMotionJudged(end) && moved2_ < least) {
-    const double percent = std::round(100 * std::sqrt(moved2_ / commanded2_));
-    missed.push_back("motion of the CoM: " + PrintNumber(percent) +
-                     " % of what is commanded");
+  if (IsMotionJudged(end) && MotionShare() < kMotionShare) {
+    missed.push_back(
+        "motion of the CoM: " + PrintNumber(std::round(100 * MotionShare())) +
+        " % of what is commanded");
   }
   return missed;
 }

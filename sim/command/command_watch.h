@@ -7,7 +7,7 @@
 
 #include "poise/robot/control/stance.h"
 #include "poise/robot/robot.h"
-#include "poise/sim/log/tick_record.h"
+#include "poise/sim/observation.h"
 #include "poise/sim/scenario.h"
 
 namespace poise {
@@ -21,8 +21,9 @@ namespace poise {
 /// - A lift happened if the sole rose by half of the height, before the foot is
 ///   put down.
 /// - A foot was put down if the ground pressed on it while it was meant down.
-/// - The motion of the CoM happened if the CoM moved, as an RMS, by half of the
-///   commanded motion. It may lag behind.
+/// - The motion of the CoM happened if its component of the commanded frequency,
+///   along the commanded directions, has half of the commanded amplitude. It may
+///   lag behind by less than a quarter of the period.
 ///
 /// A command whose time ends before its motion can be complete is not judged.
 class CommandWatch {
@@ -36,7 +37,7 @@ class CommandWatch {
   CommandWatch(const Robot& robot, const Scenario& scenario,
                const StanceSettings& stance);
 
-  void Look(const TickRecord& record);
+  void Look(const Observation& now);
 
   /// Returns whether a command is judged in a run that ends at `end`, s.
   bool has_command(double end) const;
@@ -45,6 +46,12 @@ class CommandWatch {
   std::vector<std::string> Missed(double end) const;
 
  private:
+  // Sums of a motion times the cosine and the sine of the commanded frequency.
+  struct Component {
+    Eigen::Vector3d cosine = Eigen::Vector3d::Zero();
+    Eigen::Vector3d sine = Eigen::Vector3d::Zero();
+  };
+
   struct Command {
     StanceEvent event;
     int foot;      // Index, or -1.
@@ -58,7 +65,8 @@ class CommandWatch {
     bool is_done = false;
   };
 
-  void LookAt(const TickRecord& record, Command* command) const;
+  void LookAt(const Observation& now, Command* command) const;
+  double MotionShare() const;
   static bool IsJudged(const Command& command, double end);
   bool IsMotionJudged(double end) const;
 
@@ -66,7 +74,7 @@ class CommandWatch {
   ComMotion com_;
   std::vector<Command> commands_;
   Eigen::Vector3d com_start_ = Eigen::Vector3d::Zero();
-  double commanded2_ = 0, moved2_ = 0;  // Sums of squares, m2.
+  Component commanded_, moved_;
   bool has_begun_ = false;
 };
 

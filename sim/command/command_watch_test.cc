@@ -3,7 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <cmath>
+#include <functional>
+
+#include "poise/robot/control/stance.h"
+#include "poise/sim/observation.h"
 #include "poise/sim/run.h"
+#include "poise/sim/scenario.h"
 #include "poise/tests/util/load_humanoid.h"
 
 namespace poise {
@@ -66,6 +73,46 @@ TEST(CommandWatch, SeesThatCompensatedFrictionDoesNotHoldTheRobot) {
   const RunResult result = poise::Run(WithFriction(3), scenario);
   EXPECT_TRUE(result.verdict.recovered);
   EXPECT_EQ(result.commanded_done, true);
+  scenario.control.drag_compensation = false;
+  EXPECT_EQ(poise::Run(WithFriction(20), scenario).commanded_done, false);
+}
+
+// Returns whether a watch accepts a motion of the CoM as a command along x of
+// 0.05 m sin(2 pi t / 3 s).
+bool Accepts(const std::function<Eigen::Vector3d(double phase)>& motion) {
+  Scenario scenario;
+  scenario.com.sine = {0.05, 0, 0};
+  scenario.com.period = 3;
+  CommandWatch watch(LoadHumanoid(), scenario, StanceSettings());
+  const double end = 6;
+  for (double time = 0; time < end; time += 1e-3) {
+    const double phase = 2 * M_PI * time / scenario.com.period;
+    Observation now;
+    now.time = time;
+    now.com_ref = {0.05 * std::sin(phase), 0, 0};
+    now.com = motion(phase);
+    watch.Look(now);
+  }
+  EXPECT_TRUE(watch.has_command(end));
+  return watch.Missed(end).empty();
+}
+
+TEST(CommandWatch, ComparesTheDirectionAndTheFrequencyOfTheMotion) {
+  const auto along = [](double size, double lag, double rate) {
+    return Accepts([=](double phase) {
+      return Eigen::Vector3d(
+          size * (std::sin(rate * phase - lag) + std::sin(lag)), 0, 0);
+    });
+  };
+  EXPECT_TRUE(along(0.05, 0, 1));
+  EXPECT_TRUE(along(0.03, 0, 1));
+  EXPECT_FALSE(along(0.02, 0, 1));
+  EXPECT_TRUE(along(0.05, 1, 1));          // Lags behind.
+  EXPECT_FALSE(along(0.05, M_PI, 1));      // Moves the other way.
+  EXPECT_FALSE(along(0.05, 0, 3));         // Shakes.
+  EXPECT_FALSE(Accepts([](double phase) {  // Moves to the side.
+    return Eigen::Vector3d(0, 0.05 * std::sin(phase), 0);
+  }));
 }
 
 TEST(CommandWatch, SeesThatTheCenterOfMassDoesNotFollow) {

@@ -297,7 +297,9 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
              result.yardstick->lipm_Ns, result.yardstick->lipm_height_Ns);
   }
   if (step_Ns) {
-    table += Line("with one step", "%.2f N s at its CoM", *step_Ns);
+    table += *step_Ns > 0
+                 ? Line("with one step", "%.2f N s at its CoM", *step_Ns)
+                 : Line("with one step", "none: the legs reach no place");
   }
   table += StepLines(robot, result);
   table += Line("CoM error, peak", "%6.1f %6.1f %6.1f mm", peak.x(), peak.y(),
