@@ -62,7 +62,7 @@ struct ControlSettings {
   bool feedforward = false;  ///< Feeds forward v_WG, a_WG of the reference.
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
   bool estimator = false;    ///< Estimates the base instead of using the truth.
-  bool drag_compensation = true;     ///< Of damping and friction of the joints.
+  bool drag_compensation = true;     ///< Torques against joint friction.
   std::string tasks = "default";     ///< A task set, by name or file.
   std::vector<std::string> with;     ///< Tasks switched on in it.
   std::vector<std::string> without;  ///< Tasks switched off in it.
