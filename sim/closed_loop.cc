@@ -21,11 +21,9 @@ namespace poise {
 
 namespace {
 
-// Height of the other sole for which a shift chooses its lean, relative to the
-// height of the center of mass.
-constexpr double kLift = 0.03;
-// A smaller lean is left out, rad.
-constexpr double kLeast = 0.01;
+// A smaller lean is left out, rad: unless its joints force a robot to lean, it
+// stays upright exactly.
+constexpr double kLeastLean = 0.01;
 
 // The noise of the sensors must not depend on the random start state.
 constexpr unsigned kSensorSeed = 0x5eed;
@@ -248,10 +246,8 @@ void ClosedLoop::Shift(const StanceEvent& event) {
     place = ShiftedCenterOfMass(robot_, foot, X_WC, com_start_);
     if (X_WC.size() == 2) {
       const Eigen::Vector2d G = (X_WC[foot].Inverse() * place).head<2>();
-      const double lift = kLift * StandingHeight(robot_);
-      const OneFootPosture posture = FindOneFootPosture(robot_, foot, lift, G);
-      // Rounding leans the base, too.
-      if (posture.lean_W.norm() > kLeast) lean_W = posture.lean_W;
+      const OneFootPosture posture = FindOneFootPosture(robot_, foot, G);
+      if (posture.lean_W.norm() > kLeastLean) lean_W = posture.lean_W;
       place.z() -= SinkOfShift(robot_, foot, G, posture.lean);
     }
   }

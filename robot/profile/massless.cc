@@ -20,9 +20,9 @@ constexpr int kMostJoints = 500;
 // Fraction of a mass or an inertia that counts as zero: a rounding error of M.
 constexpr double kZero = 1e-14;
 // Fraction of the robot's mass below which a body counts as without mass. The
-// cable and finger links of real robots weigh more. Bullet divides by the moment
-// of inertia about a joint, and treats less than 2e-16 kg m2 as zero, which is a
-// body of 1e-10 of 60 kg within 0.2 mm of the axis.
+// cable and finger links of real robots weigh more. Bullet divides by the
+// moment of inertia about a joint, and treats less than 2e-16 kg m2 as zero,
+// which is a body of 1e-10 of 60 kg within 0.2 mm of the axis.
 constexpr double kNoMass = 1e-10;
 // Fraction of the robot's extent below which a radius of gyration is zero. Its
 // square is kZero.
@@ -32,8 +32,8 @@ constexpr double kPoint = 1e-7;
 constexpr double kSingular = 1e-13;
 // Fraction of the robot's mass that a body without mass receives.
 constexpr double kSmallMass = 1e-6;
-// Radius of gyration that such a body and a point mass receive, as a fraction of
-// the robot's extent.
+// Radius of gyration that such a body and a point mass receive, as a fraction
+// of the robot's extent.
 constexpr double kSmallRadius = 0.01;
 
 // Returns the distance of the farthest joint from the base with all joints at
@@ -65,17 +65,30 @@ VectorXd LargerDiagonal(const Tree& tree, const VectorXd& q) {
   return diagonal.cwiseMax(tick.M.diagonal().cwiseAbs());
 }
 
-// Returns whether M can be inverted at rest.
-bool IsRegular(const RobotModel& model) {
+// Returns M at rest.
+Eigen::MatrixXd MassMatrix(const RobotModel& model) {
   const Tree& tree = model.tree;
   Tick tick(tree, {});
   ComputeTick(tree, RestConfiguration(model), VectorXd::Zero(tree.nv()), &tick);
-  const VectorXd diagonal = tick.M.diagonal();
-  if (!tick.M.allFinite() || !(diagonal.minCoeff() > 0)) return false;
+  return tick.M;
+}
+
+// Returns whether M can be inverted at rest.
+bool IsRegular(const RobotModel& model) {
+  const Tree& tree = model.tree;
+  const Eigen::MatrixXd M = MassMatrix(model);
+  const VectorXd diagonal = M.diagonal();
+  if (!M.allFinite() || !(diagonal.minCoeff() > 0)) return false;
   const VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      scale.asDiagonal() * tick.M * scale.asDiagonal(), Eigen::EigenvaluesOnly);
+      scale.asDiagonal() * M * scale.asDiagonal(), Eigen::EigenvaluesOnly);
   return eigen.eigenvalues()[0] > kSingular * tree.nv();
+}
+
+// Returns whether a body of a robot of some extent, m, is a point mass.
+bool IsPoint(const Inertia& M, double extent) {
+  return M.I_G_B.cwiseAbs().maxCoeff() <=
+         M.mass * kPoint * kPoint * extent * extent;
 }
 
 // Returns an inertia of a mass and a radius of gyration about the origin of the
@@ -83,6 +96,29 @@ bool IsRegular(const RobotModel& model) {
 Inertia Ball(double mass, double gyrating_mass, double radius) {
   return {mass, Eigen::Vector3d::Zero(),
           gyrating_mass * radius * radius * Eigen::Matrix3d::Identity()};
+}
+
+// Returns, by joint, whether the joints before it in the tree can undo every
+// motion of the masses that it causes at rest: the Schur complement of M is
+// then 0 there. Joints in `none` do not count.
+std::vector<bool> FindDependent(const RobotModel& model,
+                                const std::vector<bool>& none) {
+  const Tree& tree = model.tree;
+  Eigen::MatrixXd S = MassMatrix(model);
+  const VectorXd diagonal = S.diagonal();
+  std::vector<bool> dependent(tree.num_joints());
+  for (int i = 0; i < tree.nv(); ++i) {
+    const int j = i - tree.v_start();
+    if (j >= 0 && none[j]) continue;
+    if (!(S(i, i) > kSingular * tree.nv() * diagonal[i])) {
+      if (j >= 0) dependent[j] = true;
+      continue;
+    }
+    const int rest = tree.nv() - i - 1;
+    const VectorXd column = S.col(i).tail(rest);
+    S.bottomRightCorner(rest, rest) -= column * column.transpose() / S(i, i);
+  }
+  return dependent;
 }
 
 }  // namespace
@@ -111,6 +147,17 @@ MovedMass FindMovedMass(const RobotModel& model) {
     const bool nothing_before = mass[0] - mass[b] <= nothing;
     moved.none[j] = nothing_beyond || nothing_before || diagonal[j] < small[j];
   }
+  if (n > kMostJoints) return moved;
+  const std::vector<bool> dependent = FindDependent(model, moved.none);
+  for (int j = 0; j < n; ++j) {
+    const int parent = tree.joints()[j].parent;
+    const bool carried_by_nothing =
+        parent > 0 && tree.inertias()[parent].mass <= kNoMass * mass[0];
+    // MakePointInertias() is for the point masses.
+    if (carried_by_nothing && !IsPoint(tree.inertias()[j + 1], extent)) {
+      moved.none[j] = moved.none[j] || dependent[j];
+    }
+  }
   return moved;
 }
 
@@ -121,9 +168,7 @@ std::map<std::string, Inertia> MakePointInertias(const RobotModel& model) {
   std::map<std::string, Inertia> inertias;
   for (int b = 0; b < tree.num_bodies(); ++b) {
     const Inertia& M = tree.inertias()[b];
-    const double point = M.mass * kPoint * kPoint * extent * extent;
-    if (M.mass <= kNoMass * tree.total_mass()) continue;
-    if (M.I_G_B.cwiseAbs().maxCoeff() > point) continue;
+    if (M.mass <= kNoMass * tree.total_mass() || !IsPoint(M, extent)) continue;
     inertias[LinkOf(model, b)] = Ball(0, M.mass, kSmallRadius * extent);
   }
   return inertias;
@@ -164,9 +209,10 @@ std::optional<Finding> WarnOfMassless(const std::vector<std::string>& joints) {
       Severity::kWarn, "robot",
       "has " + std::to_string(joints.size()) +
           (joints.size() == 1 ? " joint that moves" : " joints that move") +
-          " no mass: " + names,
-      "locked, because no acceleration can be computed: give the "
-      "links beyond a mass",
+          " no mass of " + (joints.size() == 1 ? "its" : "their") +
+          " own: " + names,
+      "locked, because no acceleration can be computed: give each link "
+      "that a joint moves a mass",
       0};
 }
 

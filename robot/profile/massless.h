@@ -14,11 +14,13 @@ namespace poise {
 
 /// Joints that move no mass, and the mass that joints move.
 struct MovedMass {
-  /// For each joint, whether the joint moves no mass. The bodies on one side of
-  /// the joint are then without mass, or the diagonal of M is zero at the joint.
-  /// A mass is zero below 1e-10 of the robot's mass: 6 ug of a robot of 60 kg.
-  /// The diagonal is zero below 1e-14 of the moved mass times the squared
-  /// distance of the robot's farthest joint.
+  /// For each joint, whether the joint moves no mass of its own. The bodies on
+  /// one side of the joint are then without mass, or the diagonal of M is zero
+  /// at the joint; or the body that carries the joint is without mass, and the
+  /// joints before it can undo every motion that it causes at rest. A mass is
+  /// zero below 1e-10 of the robot's mass: 6 ug of a robot of 60 kg. The
+  /// diagonal is zero below 1e-14 of the moved mass times the squared distance
+  /// of the robot's farthest joint.
   std::vector<bool> none;
   /// For each joint, the mass of the bodies beyond the joint relative to the
   /// mass of the robot.

@@ -120,6 +120,32 @@ TEST(FindMovedMass, FindsBaseWithoutMass) {
       Names{});
 }
 
+// A camera turns about x, z and x again, and the links between have no mass. At
+// rest, the first and the last joint are the same motion, so M is singular.
+TEST(FindMovedMass, FindsAJointWhoseMotionOthersMake) {
+  const auto spindle = [](double m1, double m2, const std::string& last) {
+    std::string text = Link("base", 5) + Link("a", m1) + Link("b", m2) +
+                       Link("camera", 0.1, 0.1, "0.01 0.02 0.03") +
+                       Joint("base", "a", "1 0 0") + Joint("a", "b", "0 0 1") +
+                       Joint("b", "camera", last);
+    // All three axes meet at one point.
+    for (const char* place :
+         {"0 0 0.2'/><parent link='a'", "0 0 0.2'/><parent link='b'"}) {
+      text.replace(text.find(place), 7, "0 0 0.0");
+    }
+    return text;
+  };
+  EXPECT_EQ(MasslessOf(spindle(0, 0, "1 0 0")), Names{"camera."});
+  EXPECT_EQ(MasslessOf(spindle(0, 0, "0 1 0")), Names{});
+  EXPECT_EQ(MasslessOf(spindle(0.1, 0, "1 0 0")), Names{});
+  EXPECT_EQ(MasslessOf(spindle(0, 0.1, "1 0 0")), Names{});
+  // A base without mass may be a pelvis, and these joints its hips.
+  EXPECT_EQ(
+      MasslessOf(Link("base", 0) + Link("a", 1) + Link("b", 1) +
+                 Joint("base", "a", "1 0 0") + Joint("base", "b", "1 0 0")),
+      Names{});
+}
+
 // The robot weighs 5 kg. A link of 1e-12 kg is lighter than 1e-10 of it; a link
 // of 1e-8 kg is not.
 TEST(FindMovedMass, CountsInertiaWithoutMassAsNothing) {
@@ -230,9 +256,10 @@ TEST(MakeSmallInertias, LeavesSingularMassMatrix) {
 
 TEST(WarnOfMassless, CountsJointsAndNamesThree) {
   EXPECT_FALSE(WarnOfMassless({}).has_value());
-  EXPECT_EQ(WarnOfMassless({"a"})->what, "has 1 joint that moves no mass: 'a'");
+  EXPECT_EQ(WarnOfMassless({"a"})->what,
+            "has 1 joint that moves no mass of its own: 'a'");
   EXPECT_EQ(WarnOfMassless({"a", "b", "c", "d"})->what,
-            "has 4 joints that move no mass: 'a', 'b', 'c', ...");
+            "has 4 joints that move no mass of their own: 'a', 'b', 'c', ...");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "poise/robot/control/reference.h"
+#include "poise/sim/command/eased_vector.h"
 #include "poise/sim/scenario.h"
 
 namespace poise {
@@ -14,22 +15,19 @@ class CenterOfMassPath {
  public:
   CenterOfMassPath() = default;
   CenterOfMassPath(const ComMotion& motion, const Eigen::Vector3d& start)
-      : motion_(motion), from_(start), to_(start) {}
+      : motion_(motion), center_(start) {}
 
-  /// Moves the center of the sinusoid to a place, with minimum jerk, at rest at
-  /// both ends. The shift begins at `time` and takes `over` seconds. It starts
-  /// from the target of the last shift, even if that shift is not complete.
-  void ShiftTo(const Eigen::Vector3d& place, double time, double over);
+  /// Moves the center of the sinusoid to a place, see EasedVector::GoTo().
+  void ShiftTo(const Eigen::Vector3d& place, double time, double over) {
+    center_.GoTo(place, time, over);
+  }
 
   /// Writes the desired p_WG, v_WG and a_WG at a time, s.
   void Write(double time, Reference* reference) const;
 
  private:
   ComMotion motion_;
-  Eigen::Vector3d from_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d to_ = Eigen::Vector3d::Zero();
-  double start_ = 0;
-  double over_ = 1;
+  EasedVector center_;
 };
 
 }  // namespace poise

@@ -49,8 +49,8 @@ TEST(CommandWatch, SeesThatTheMotionHappens) {
   EXPECT_TRUE(result.not_done.empty());
 }
 
-// The friction is larger than the torque of any motor. The sole of the foot that
-// is to be put down is on the ground all the time.
+// The friction is larger than the torque of any motor. The sole of the foot
+// that is to be put down is on the ground all the time.
 TEST(CommandWatch, SeesThatFrictionHoldsTheRobot) {
   const RunResult result = poise::Run(WithFriction(2000), OneLeg());
   EXPECT_FALSE(result.verdict.fell_at);
@@ -70,11 +70,14 @@ TEST(CommandWatch, SeesThatCompensatedFrictionDoesNotHoldTheRobot) {
   Scenario scenario = OneLeg();
   scenario.stance.resize(1);
   scenario.duration = 2;
-  const RunResult result = poise::Run(WithFriction(3), scenario);
+  constexpr double kFriction = 10;  // N m.
+  const RunResult result = poise::Run(WithFriction(kFriction), scenario);
   EXPECT_TRUE(result.verdict.recovered);
   EXPECT_EQ(result.commanded_done, true);
+  // Without compensation, this friction holds the robot.
   scenario.control.drag_compensation = false;
-  EXPECT_EQ(poise::Run(WithFriction(20), scenario).commanded_done, false);
+  EXPECT_EQ(poise::Run(WithFriction(kFriction), scenario).commanded_done,
+            false);
 }
 
 // Returns whether a watch accepts a motion of the CoM as a command along x of

@@ -56,8 +56,7 @@ TEST(LeanPath, LetsARobotWithWeakHipsStandOnOneLeg) {
   for (const int foot : {0, 1}) {
     const std::string name = foot == 0 ? "l_hip_roll" : "r_hip_roll";
     const int hip = robot.model.tree.FindJoint(name).value();
-    const OneFootPosture upright =
-        FindOneFootPosture(robot, foot, 0.03, {0, 0});
+    const OneFootPosture upright = FindOneFootPosture(robot, foot, {0, 0});
     robot.model.limits[hip].effort =
         0.95 * std::abs(TorquesOnOneFoot(robot, foot, upright.posture.q)[hip]);
   }

@@ -68,11 +68,12 @@ constexpr double kRobotsPush = 0.4;
 std::map<std::string, ExpectedRobot> ReadExpected(
     const std::filesystem::path& folder);
 
-/// Runs the robots of a folder, several at a time: the scenario `stand`, and its
-/// first second with other seeds; a push to each of four sides for 0.1 s; and
-/// the scenario `one_leg`. A robot that
-/// does not stand is not pushed. A robot uses the profile of FindProfile();
-/// without one, its feet and posture are found. Warnings are printed on stderr.
+/// Runs the robots of a folder, several at a time: the scenario `stand`, and
+/// its first second with other seeds; a push to each of four sides for 0.1 s;
+/// and the scenario `one_leg`. A robot that does not stand is not pushed. A
+/// robot uses the profile of FindProfile(). Without one, or if one of
+/// robot/profiles does not fit, its feet and posture are found. Warnings are
+/// printed on stderr.
 ///
 /// A robot has no faults if it stands, takes the pushes and stands on one leg,
 /// except for an obstacle that is known beforehand; and if its feet and its

@@ -174,7 +174,7 @@ void WriteRobotsPage(const std::vector<RobotTrial>& trials,
           "`box` or another simple shape, or in a `mesh`;\n  a `guess` is an "
           "estimate, because the foot has no such shape. A robot uses the "
           "profile of its name beside the\n  file, else one of "
-          "`robot/profiles`, else Poise finds the feet.\n"
+          "`robot/profiles` that fits, else Poise finds the feet.\n"
           "- *stands*: the robot stands for 10 s, after a drop with disturbed "
           "arms and trunk; and for 1 s, with so\n  many of 6 seeds of the "
           "disturbance.\n"

@@ -13,6 +13,7 @@
 #include "poise/hqp/solution.h"
 #include "poise/hqp/solver.h"
 #include "poise/math/so3.h"
+#include "poise/robot/control/posture/ankle_reach.h"
 #include "poise/robot/control/posture/joint_range.h"
 #include "poise/robot/control/posture/sole_rows.h"
 #include "poise/robot/feet/knee.h"
@@ -42,9 +43,6 @@ constexpr double kShrink = 0.6;
 // but the search cannot converge if most bounds remain unvisited.
 constexpr int kSolverIterations = 60;
 constexpr int kIterationsPerVariable = 4;
-// Fraction of the ankle torque that may hold the robot on one foot. The rest is
-// kept for motion.
-constexpr double kAnkleShare = 0.5;
 // The search ends once a step is shorter than this, rad or m.
 constexpr double kConverged = 1e-9;
 // Tolerances of the result: distance of the center of mass from its target, at
@@ -252,10 +250,7 @@ double Search::Forward(int i) const {
   const auto ankle =
       FindAnkle(tree_, robot_.feet[i].body, tick_.X_WB, X_WC.R.col(1));
   if (!ankle) return 0;
-  const double effort = robot_.model.limits[*ankle].effort;
-  if (!(effort >= 0)) return 0;  // The robot file gives no effort limit.
-  const double weight = tree_.total_mass() * tree_.gravity_W().norm();
-  const double reach = kAnkleShare * effort / weight;
+  const double reach = AnkleReach(robot_, *ankle);
   const double x = (X_WC.Inverse() * tick_.X_WB[*ankle + 1].p).x();
   return std::clamp(0., x - reach, x + reach);
 }

@@ -10,6 +10,7 @@
 
 #include "poise/dynamics/tick.h"
 #include "poise/math/so3.h"
+#include "poise/robot/control/posture/ankle_reach.h"
 #include "poise/robot/control/posture/sole_rows.h"
 #include "poise/robot/feet/knee.h"
 
@@ -20,15 +21,16 @@ using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Largest load of a motor at rest, so that 0.2 of its torque can move the robot.
+// Largest load of a motor at rest, so that 0.2 of its torque can move the
+// robot.
 constexpr double kFullLoad = 0.8;
 // With a larger load of an upright trunk, robots fell although a posture was
 // found: the motors could not move the trunk.
 constexpr double kMostLoad = 1.5;
-// Fraction of the sole's half width by which a shift ends inside of its middle,
-// and the fraction of the ankle's torque that this may need.
+// Fraction of the sole's half width by which a shift ends inside of its middle.
 constexpr double kInside = 0.25;
-constexpr double kAnkleShare = 0.5;
+// Height of the other sole, relative to that of the center of mass.
+constexpr double kLift = 0.03;
 // Largest lean, and the steps of the search, rad.
 constexpr double kMostLean = 0.45;
 constexpr double kLeanStep = 0.05;
@@ -49,10 +51,9 @@ Eigen::Matrix3d Orientation(const VectorXd& q) {
   return Eigen::Quaterniond(q.segment<4>(3)).toRotationMatrix();
 }
 
-// Returns the largest distance of the center of mass to the inner side of the
-// sole's middle at which a share of the ankle's torque holds the robot on one
-// foot, m. In a leg without a roll joint at the ankle, the joint is that of the
-// hip, which reaches far.
+// Returns how far to the inner side of the sole's middle AnkleReach() allows
+// the center of mass, m. In a leg without a roll joint at the ankle, the joint
+// is that of the hip, which reaches far.
 double ReachInside(const Robot& robot, int foot) {
   const Tree& tree = robot.model.tree;
   Tick tick(tree, {});
@@ -61,15 +62,12 @@ double ReachInside(const Robot& robot, int foot) {
   const Pose X_WC = tick.X_WB[sole.body] * sole.X_BC;
   const auto ankle = FindAnkle(tree, sole.body, tick.X_WB, X_WC.R.col(0));
   if (!ankle) return kInfinity;
-  const double effort = robot.model.limits[*ankle].effort;
-  if (!(effort >= 0)) return kInfinity;  // The robot file gives no limit.
-  const double weight = tree.total_mass() * tree.gravity_W().norm();
   const double y = (X_WC.Inverse() * tick.X_WB[*ankle + 1].p).y();
   const double inward = foot == 0 ? -1 : 1;
-  return std::max(0., inward * y + kAnkleShare * effort / weight);
+  return std::max(0., inward * y + AnkleReach(robot, *ankle));
 }
 
-OneFootPosture Lean(const Robot& robot, SingleSupport support) {
+OneFootPosture Lean(const Robot& robot, const SingleSupport& support) {
   PostureGoal goal;
   goal.fixed = IsInNoLeg(robot);
   goal.support = support;
@@ -82,11 +80,6 @@ OneFootPosture Lean(const Robot& robot, SingleSupport support) {
                          Orientation(robot.q_nominal).transpose());
   result.lean_W.z() = 0;
   result.load = Load(robot, support.foot, result.posture.q);
-  if (support.lean == 0) return result;
-  // Both soles lie flat while the robot shifts to the foot.
-  goal.support->lift = 0;
-  goal.support->keeps_other = true;
-  if (!FindPosture(robot, goal).lack.empty()) result.load = kInfinity;
   return result;
 }
 
@@ -132,9 +125,14 @@ Eigen::Vector3d ShiftedCenterOfMass(const Robot& robot, int foot,
   return place;
 }
 
-OneFootPosture FindOneFootPosture(const Robot& robot, int foot, double lift,
+OneFootPosture FindOneFootPosture(const Robot& robot, int foot,
                                   const Eigen::Vector2d& G) {
-  SingleSupport support{foot, lift, G};
+  const Tree& tree = robot.model.tree;
+  Tick tick(tree, {});
+  ComputeTick(tree, robot.q_nominal, VectorXd::Zero(tree.nv()), &tick);
+  const Foot& sole = robot.feet[foot];
+  const double ground = (tick.X_WB[sole.body] * sole.X_BC.p).z();
+  SingleSupport support{foot, kLift * (tick.p_WG.z() - ground), G};
   OneFootPosture best = Lean(robot, support);
   if (best.load > kMostLoad && best.posture.lack.empty()) return best;
   const double side = foot == 0 ? 1 : -1;

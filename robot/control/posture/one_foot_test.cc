@@ -18,7 +18,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kLift = 0.03;  // m.
+// Tolerance of a lean, rad: the search of the posture lets the base lean less
+// than this to center the mass.
+constexpr double kLean = 1e-3;
 
 int HipRoll(const Robot& robot, int foot) {
   return robot.model.tree.FindJoint(foot == 0 ? "l_hip_roll" : "r_hip_roll")
@@ -37,13 +39,13 @@ double PotentialEnergy(const Robot& robot, int foot, const VectorXd& q,
   return -tree.total_mass() * tree.gravity_W().dot(p_WG);
 }
 
-// Principle of virtual work: at rest on a foot that does not move, the torque of
-// a joint is the derivative of the potential energy.
+// Principle of virtual work: at rest on a foot that does not move, the torque
+// of a joint is the derivative of the potential energy.
 TEST(TorquesOnOneFoot, AreTheDerivativeOfThePotentialEnergy) {
   const Robot robot = LoadHumanoid();
   const Tree& tree = robot.model.tree;
   for (const int foot : {0, 1}) {
-    const VectorXd q = FindOneFootPosture(robot, foot, kLift, {0, 0}).posture.q;
+    const VectorXd q = FindOneFootPosture(robot, foot, {0, 0}).posture.q;
     const VectorXd tau = TorquesOnOneFoot(robot, foot, q);
     for (int j = 0; j < tree.num_joints(); ++j) {
       constexpr double kStep = 1e-5;  // rad.
@@ -61,13 +63,31 @@ TEST(TorquesOnOneFoot, AreTheDerivativeOfThePotentialEnergy) {
   }
 }
 
+TEST(FindOneFootPosture, LiftsTheOtherSole) {
+  const Robot robot = LoadHumanoid();
+  const Tree& tree = robot.model.tree;
+  Tick tick(tree, {});
+  const auto height = [&](int foot) {
+    const Foot& sole = robot.feet[foot];
+    return (tick.X_WB[sole.body] * sole.X_BC.p).z();
+  };
+  for (const int foot : {0, 1}) {
+    ComputeTick(tree, robot.q_nominal, VectorXd::Zero(tree.nv()), &tick);
+    const double com = tick.p_WG.z() - height(foot);
+    const VectorXd q = FindOneFootPosture(robot, foot, {0, 0}).posture.q;
+    ComputeTick(tree, q, VectorXd::Zero(tree.nv()), &tick);
+    // The error of the soles is at most 1e-6 m.
+    EXPECT_NEAR(height(1 - foot) - height(foot), 0.03 * com, 1e-6);
+  }
+}
+
 TEST(FindOneFootPosture, DoesNotLeanARobotWithStrongHips) {
   const Robot robot = LoadHumanoid();
   for (const int foot : {0, 1}) {
-    const OneFootPosture found = FindOneFootPosture(robot, foot, kLift, {0, 0});
+    const OneFootPosture found = FindOneFootPosture(robot, foot, {0, 0});
     EXPECT_EQ(found.posture.lack, "");
     EXPECT_EQ(found.lean, 0);
-    EXPECT_LT(found.lean_W.norm(), 1e-3);
+    EXPECT_LT(found.lean_W.norm(), kLean);
     EXPECT_LT(found.load, 0.8);
   }
 }
@@ -77,16 +97,15 @@ TEST(FindOneFootPosture, LeansARobotWithWeakHips) {
   Robot robot = LoadHumanoid();
   for (const int foot : {0, 1}) {
     const int hip = HipRoll(robot, foot);
-    const VectorXd upright =
-        FindOneFootPosture(robot, foot, kLift, {0, 0}).posture.q;
+    const VectorXd upright = FindOneFootPosture(robot, foot, {0, 0}).posture.q;
     const double needed = std::abs(TorquesOnOneFoot(robot, foot, upright)[hip]);
     robot.model.limits[hip].effort = needed / 0.95;
-    const OneFootPosture found = FindOneFootPosture(robot, foot, kLift, {0, 0});
+    const OneFootPosture found = FindOneFootPosture(robot, foot, {0, 0});
     EXPECT_EQ(found.posture.lack, "");
     const double side = foot == 0 ? 1 : -1;
     EXPECT_GT(side * found.lean, 0);
     // To the left is a rotation about -x.
-    EXPECT_NEAR(found.lean_W.x(), -found.lean, 1e-3);
+    EXPECT_NEAR(found.lean_W.x(), -found.lean, kLean);
     EXPECT_LE(found.load, 0.8);
     const double torque =
         std::abs(TorquesOnOneFoot(robot, foot, found.posture.q)[hip]);
@@ -98,7 +117,7 @@ TEST(FindOneFootPosture, LeansARobotWithWeakHips) {
 TEST(FindOneFootPosture, DoesNotLeanARobotWhoseHipsAreFarTooWeak) {
   Robot robot = LoadHumanoid();
   robot.model.limits[HipRoll(robot, 0)].effort = 10;
-  const OneFootPosture found = FindOneFootPosture(robot, 0, kLift, {0, 0});
+  const OneFootPosture found = FindOneFootPosture(robot, 0, {0, 0});
   EXPECT_EQ(found.lean, 0);
   EXPECT_GT(found.load, 1.5);
 }
@@ -113,7 +132,7 @@ TEST(FindOneFootPosture, LeansARobotWhoseHipsTurnTooLittle) {
     hip.upper = 0.06;
   }
   for (const int foot : {0, 1}) {
-    const OneFootPosture found = FindOneFootPosture(robot, foot, kLift, {0, 0});
+    const OneFootPosture found = FindOneFootPosture(robot, foot, {0, 0});
     EXPECT_EQ(found.posture.lack, "");
     const double side = foot == 0 ? 1 : -1;
     EXPECT_LT(side * found.lean_W.x(), -0.01);
@@ -138,7 +157,8 @@ TEST(ShiftedCenterOfMass, EndsInsideOfTheSolesMiddle) {
   const int ankle = tree.FindJoint("l_ankle_roll").value();
   robot.model.limits[ankle].effort = 2 * reach * weight;
   const Vector3d place = ShiftedCenterOfMass(robot, 0, X_WC, p_WG);
-  // The ankle is 1 cm inside of the sole's middle.
+  // The ankle is 1 cm inside of the sole's middle, to the 6 digits of the robot
+  // file and its nominal posture.
   EXPECT_TRUE(place.isApprox(p_WG + Vector3d(0, 0.19 - reach, 0), 1e-6))
       << place.transpose();
 }

@@ -2,7 +2,6 @@
 #include "poise/tools/commands/doctor/guess_feet.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 #include "poise/dynamics/tree.h"
@@ -11,22 +10,17 @@
 #include "poise/robot/feet/legs.h"
 
 namespace poise {
-
 namespace {
 
-// Returns whether a link or joint from the root to a body has the name of a part
-// of an arm, and none has the name of a part of a leg.
+// Returns whether the links and joints from the root to a body have more names
+// of parts of an arm than of a leg.
 bool IsArm(const RobotModel& model, int body) {
-  bool is_arm = false;
+  int words = 0;
   for (int b = body; b > 0; b = model.tree.joints()[b - 1].parent) {
-    for (const std::string& name :
-         {LinkOf(model, b), model.tree.joints()[b - 1].name}) {
-      const int part = LegOrArm(name);
-      if (part > 0) return false;
-      if (part < 0) is_arm = true;
-    }
+    words += LegOrArm(LinkOf(model, b));
+    words += LegOrArm(model.tree.joints()[b - 1].name);
   }
-  return is_arm;
+  return words < 0;
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST(FindOneLegDefects, NamesWeakMotor) {
 TEST(FindOneLegDefects, NamesAMotorThatIsNearlyFullyLoaded) {
   Robot robot = Humanoid();
   const int knee = robot.model.tree.FindJoint("l_knee").value();
-  const VectorXd q = FindOneFootPosture(robot, 0, 0.02, {0, 0}).posture.q;
+  const VectorXd q = FindOneFootPosture(robot, 0, {0, 0}).posture.q;
   robot.model.limits[knee].effort =
       std::abs(TorquesOnOneFoot(robot, 0, q)[knee]) / 0.96;
   const std::string found = Findings(robot);

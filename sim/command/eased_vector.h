@@ -1,0 +1,34 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace poise {
+
+/// A vector that goes from one target to the next with minimum jerk, at rest at
+/// both ends.
+class EasedVector {
+ public:
+  /// The vector at a time, and its derivatives by time.
+  struct Motion {
+    Eigen::Vector3d value, rate, acceleration;
+  };
+
+  EasedVector() = default;
+  explicit EasedVector(const Eigen::Vector3d& start)
+      : from_(start), to_(start) {}
+
+  /// Goes to a target. The change begins at `time` and takes `over`, both in s.
+  /// It starts from the last target, even if that one is not reached.
+  void GoTo(const Eigen::Vector3d& target, double time, double over);
+
+  Motion At(double time) const;
+
+ private:
+  Eigen::Vector3d from_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d to_ = Eigen::Vector3d::Zero();
+  double start_ = 0;
+  double over_ = 1;
+};
+
+}  // namespace poise
