@@ -89,7 +89,7 @@ std::optional<Vector3d> NormalBelow(const std::vector<Vector3d>& points,
 }  // namespace
 
 std::optional<Vector3d> RestingNormal(const Outline& outline,
-                                      const Vector3d& up_B) {
+                                      const Vector3d& up_B, bool only_meshes) {
   Eigen::Matrix3d R_UB;  // U has z up.
   R_UB.row(0) = up_B.unitOrthogonal();
   R_UB.row(1) = up_B.cross(R_UB.row(0).transpose());
@@ -97,8 +97,8 @@ std::optional<Vector3d> RestingNormal(const Outline& outline,
   std::vector<Vector3d> points;
   Eigen::AlignedBox3d box;
   for (const Outline::Corner& corner : outline.corners) {
-    if (!corner.is_mesh) continue;
-    points.push_back(R_UB * corner.p_B);
+    if (only_meshes && !corner.is_mesh) continue;
+    points.push_back(R_UB * (corner.p_B - corner.radius * up_B));
     box.extend(points.back());
   }
   if (points.empty()) return std::nullopt;

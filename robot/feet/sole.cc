@@ -37,6 +37,8 @@ constexpr Band kMeshBand{6e-3, 0.006, 0.03};
 constexpr double kSteepest = 0.6;
 constexpr double kMostTurned = 0.3;
 constexpr double kSameAxis = 1e-6;
+// A square of this side, as a fraction of the leg, is too small for a sole.
+constexpr double kSmall = 0.05;
 
 double Area(const Sole& sole) {
   const Vector3d x = sole.normal_B.unitOrthogonal();
@@ -134,13 +136,25 @@ Sole FindSole(const Outline& outline, const Vector3d& up_B, double leg) {
   };
   for (const Vector3d& axis : outline.axes_B) add(axis);
   add(up_B);
-  if (const auto resting = RestingNormal(outline, up_B)) add(*resting);
+  const auto add_resting = [&](bool only_meshes) {
+    const auto normal = RestingNormal(outline, up_B, only_meshes);
+    if (normal) add(*normal);
+  };
+  add_resting(/*only_meshes=*/true);
   Sole best;
-  for (const Vector3d& normal : normals) {
-    Sole sole = SoleAlong(outline, normal, flat, flat);
-    // The factor 1.01 prefers the first plane if areas are equal up to
-    // rounding.
-    if (sole.area > 1.01 * best.area) best = std::move(sole);
+  const auto find_largest = [&] {
+    for (const Vector3d& normal : normals) {
+      Sole sole = SoleAlong(outline, normal, flat, flat);
+      // The factor 1.01 prefers the first plane if areas are equal up to
+      // rounding.
+      if (sole.area > 1.01 * best.area) best = std::move(sole);
+    }
+  };
+  find_largest();
+  if (best.area < kSmall * kSmall * leg * leg) {
+    // Points of contact may lie on a plane that is tilted to the shapes.
+    add_resting(/*only_meshes=*/false);
+    find_largest();
   }
   if (best.area <= flat * flat) return {};
   return best.source == SoleSource::kMesh

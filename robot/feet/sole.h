@@ -23,9 +23,11 @@ struct Sole {
 
 /// Finds the largest flat underside of a body. The candidate planes are normal
 /// to one of the outline's axes or to `up_B`, or are the plane on which the
-/// meshes of the body rest. They are at most 35 degrees from horizontal. The
-/// plane that has the largest area within 2 mm above it is chosen. The result
-/// has no points if no such plane has an area.
+/// meshes of the body rest. If their areas are below that of a square of a side
+/// of 0.05 of the leg, the plane on which all shapes rest is one, too. They are
+/// at most 35 degrees from horizontal. The plane that has the largest area
+/// within 2 mm above it is chosen. The result has no points if no such plane
+/// has an area.
 ///
 /// The points of the result are projections onto the plane: of corners at most
 /// 2 mm above it, and of vertices of meshes at most 6 mm above it. Soles have

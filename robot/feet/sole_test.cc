@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -282,9 +283,40 @@ TEST(MakeOutlines, OpensOnlyMeshesOfBodiesThatCanBeFeet) {
   }
 }
 
+// At rest, the foot points down by 0.12 rad, and so does its sole of two small
+// spheres at the heel and two larger ones at the toes. Its box points down by
+// 0.2 rad and is higher. No axis is normal to the sole.
+TEST(FindSole, FindsSpheresOnAPlaneThatNoAxisIsNormalTo) {
+  const double tilt = 0.12;
+  const Vector3d normal(std::sin(tilt), 0, std::cos(tilt));
+  std::string shapes =
+      "<collision>" +
+      Geometry("<box size='0.2 0.1 0.02'/>", "xyz='0.05 0 0' rpy='0 0.2 0'") +
+      "</collision>";
+  const auto add = [&](double x, double y, double radius) {
+    const Vector3d p =
+        Vector3d(std::cos(tilt) * x, y, -std::sin(tilt) * x - 0.05) +
+        radius * normal;
+    std::ostringstream geometry, origin;
+    geometry << "<sphere radius='" << radius << "'/>";
+    origin << "xyz='" << p.transpose() << "'";
+    shapes +=
+        "<collision>" + Geometry(geometry.str(), origin.str()) + "</collision>";
+  };
+  for (const double y : {-0.04, 0.04}) {
+    add(-0.06, y, 0.005);
+    add(0.14, y, 0.015);
+  }
+  const Sole sole = FindSole(OutlineOf(Leg(shapes)), Vector3d::UnitZ(), kLeg);
+  // The lowest points of the spheres are taken along the vertical. That turns
+  // the plane by 0.01 (1 - cos 0.12) / 0.2 = 4e-4 rad.
+  EXPECT_LT((sole.normal_B - normal).norm(), 5e-4);
+  EXPECT_NEAR(sole.area, 0.2 * 0.08, 1e-4);
+}
+
 TEST(RestingNormal, IsAFacetBelowAllVertices) {
   Outline outline;
-  EXPECT_FALSE(RestingNormal(outline, Vector3d::UnitZ()));
+  EXPECT_FALSE(RestingNormal(outline, Vector3d::UnitZ(), true));
   std::srand(1);
   for (int run = 0; run < 100; ++run) {
     outline.corners.clear();
@@ -292,7 +324,7 @@ TEST(RestingNormal, IsAFacetBelowAllVertices) {
       outline.corners.push_back({0, Vector3d::Random(), 0, /*is_mesh=*/true});
     }
     const Vector3d up = Vector3d::Random().normalized();
-    const auto normal = RestingNormal(outline, up);
+    const auto normal = RestingNormal(outline, up, true);
     ASSERT_TRUE(normal);
     EXPECT_NEAR(normal->norm(), 1, 1e-12);
     EXPECT_GT(normal->dot(up), 0);
@@ -313,7 +345,7 @@ TEST(RestingNormal, RejectsVerticesInAVerticalPlane) {
       outline.corners.push_back({0, {x, 0, z}, 0, /*is_mesh=*/true});
     }
   }
-  const auto normal = RestingNormal(outline, Vector3d::UnitZ());
+  const auto normal = RestingNormal(outline, Vector3d::UnitZ(), true);
   EXPECT_TRUE(!normal || normal->z() > 0);
 }
 
