@@ -3,23 +3,29 @@
 
 #include <algorithm>
 
+#include "poise/robot/collision/body_capsules.h"
+
 namespace poise {
 
 namespace {
 
-// Consecutive joints within this distance count as one joint, m.
-constexpr double kOneJoint = 0.05;
+// Consecutive joints within this distance count as one joint, as a fraction of
+// the robot's reach, and at least in m: motors of small robots are relatively
+// large.
+constexpr double kOneJoint = 0.055;
+constexpr double kMotors = 0.05;
 
 }  // namespace
 
 std::vector<std::pair<int, int>> FindNeighbors(const Tree& tree) {
+  const double close = std::max(kMotors, kOneJoint * Reach(tree));
   std::vector<std::pair<int, int>> pairs;
   const auto joint_of = [&tree](int body) -> const Joint& {
     return tree.joints()[body - 1];
   };
   for (int i = 1; i < tree.num_bodies(); ++i) {
     double way = 0;
-    for (int k = i; k != 0 && way <= kOneJoint; k = joint_of(k).parent) {
+    for (int k = i; k != 0 && way <= close; k = joint_of(k).parent) {
       pairs.emplace_back(joint_of(k).parent, i);
       way += joint_of(k).X_PF.p.norm();
     }
