@@ -141,7 +141,7 @@ Stack MakeDefaultStack(const Robot& robot,
               {kOff, 4, 1});
   }
 
-  stack.Add(std::make_unique<PostureTask>(tree, scale), {kOn, 5, 1});
+  stack.Add(std::make_unique<PostureTask>(model, scale), {kOn, 5, 1});
   stack.Add(std::make_unique<ForceRegularizerTask>(tree, feet, scale),
             {kOn, 5, kRegularizerWeight});
   stack.Add(std::make_unique<TorqueMinimizationTask>(model), {kOff, 5, 1});

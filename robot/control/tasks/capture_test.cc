@@ -69,7 +69,7 @@ TEST_F(TaskTest, UsesTheCopMarginAndTheArmsInLargePushes) {
     task.Write(now, &equal, &unequal);
   };
   const CopTask cop(tree_, robot_.feet);
-  const PostureTask posture(tree_);
+  const PostureTask posture(robot_.model);
   const int chest = *tree_.FindJoint("chest_pitch");
   const double M =
       controller_.tick().M(tree_.v_start() + chest, tree_.v_start() + chest);

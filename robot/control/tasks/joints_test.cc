@@ -14,6 +14,7 @@
 
 #include "poise/hqp/hierarchy.h"
 #include "poise/robot/control/task.h"
+#include "poise/robot/control/tasks/hanging_joints.h"
 #include "poise/robot/control/tasks/joint_limits.h"
 #include "poise/robot/control/tasks/light_joints.h"
 #include "poise/robot/control/tasks/mimic.h"
@@ -293,15 +294,35 @@ TEST_F(TaskTest, MimicIsASpringOnTheCouplingError) {
 TEST_F(TaskTest, PostureIsAPdOnEachJoint) {
   const Eigen::VectorXd y = RandomY();
   controller_.reference().posture[3] += 0.1;
-  const Eigen::VectorXd residual = Residual(PostureTask(tree_), y);
+  const Eigen::VectorXd residual = Residual(PostureTask(robot_.model), y);
   for (int j = 0; j < n_; ++j) {
     const double e = j == 3 ? 0.1 : 0;
     EXPECT_NEAR(residual[j], y[6 + j] - 60 * e + 15 * state_.v[6 + j], 1e-12);
   }
 }
 
+// The finger l_index has no motor. The elbow has none, but the wrist beyond it
+// has.
+TEST_F(TaskTest, PostureLeavesOutHangingJoints) {
+  const int elbow = *tree_.FindJoint("l_elbow");
+  const int proximal = *tree_.FindJoint("l_index_1");
+  const int distal = *tree_.FindJoint("l_index_2");
+  for (const int j : {elbow, proximal, distal}) {
+    robot_.model.limits[j].effort = 0;
+  }
+  const std::vector<bool> hangs = FindHangingJoints(robot_.model);
+  for (int j = 0; j < n_; ++j) {
+    EXPECT_EQ(hangs[j], j == proximal || j == distal) << tree_.joints()[j].name;
+  }
+  const Eigen::VectorXd y = RandomY();
+  const Eigen::VectorXd residual = Residual(PostureTask(robot_.model), y);
+  EXPECT_EQ(residual[proximal], 0);
+  EXPECT_EQ(residual[distal], 0);
+  EXPECT_NE(residual[elbow], 0);
+}
+
 TEST_F(TaskTest, PostureWeightsAJointByItsInertia) {
-  const Eigen::VectorXd weight = Write(PostureTask(tree_)).weight(0);
+  const Eigen::VectorXd weight = Write(PostureTask(robot_.model)).weight(0);
   for (int j = 0; j < n_; ++j) {
     const double moved = controller_.tick().M(6 + j, 6 + j);
     EXPECT_NEAR(std::pow(weight[j], 2), std::clamp(moved, 0.01, 10.0), 1e-12);
@@ -327,7 +348,7 @@ TEST(JointTasks, DescribeAPrismaticJointInItsUnits) {
   EXPECT_EQ(torque.unit, "N");
   EXPECT_EQ(torque.phrase, "the force of mast lift");
   EXPECT_EQ(JointLimitsTask(model).inequalities()[0].unit, "m");
-  EXPECT_EQ(PostureTask(model.tree).equalities()[0].unit, "m/s2");
+  EXPECT_EQ(PostureTask(model).equalities()[0].unit, "m/s2");
   EXPECT_EQ(TorqueMinimizationTask(model).equalities()[0].unit, "N");
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "poise/robot/control/tasks/hanging_joints.h"
 #include "poise/robot/control/tasks/row_names.h"
 
 namespace poise {
@@ -31,12 +32,13 @@ std::vector<int> FindLightJoints(const RobotModel& model) {
   for (int j = tree.num_joints() - 1; j >= 0; --j) {
     mass[tree.joints()[j].parent] += mass[j + 1];
   }
+  const std::vector<bool> hangs = FindHangingJoints(model);
   std::vector<int> light;
   for (int j = 0; j < tree.num_joints(); ++j) {
     const bool is_coupled =
         std::any_of(model.mimics.begin(), model.mimics.end(),
                     [j](const MimicCoupling& c) { return c.joint == j; });
-    if (!is_coupled && mass[j + 1] < kLight * tree.total_mass()) {
+    if (!hangs[j] && !is_coupled && mass[j + 1] < kLight * tree.total_mass()) {
       light.push_back(j);
     }
   }

@@ -9,7 +9,8 @@
 namespace poise {
 
 /// Returns the joints that move less than 1e-5 of the robot's mass and have no
-/// mimic coupling, such as fingers of 2 mg.
+/// mimic coupling, such as fingers of 2 mg. Hanging joints are left out, see
+/// FindHangingJoints().
 std::vector<int> FindLightJoints(const RobotModel& model);
 
 /// Keeps light joints at the reference posture, on a level above momentum:

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "poise/robot/control/balance_monitor.h"
+#include "poise/robot/control/tasks/hanging_joints.h"
 #include "poise/robot/control/tasks/row_names.h"
 
 namespace poise {
@@ -17,16 +18,18 @@ constexpr double kMost = 10;
 
 }  // namespace
 
-PostureTask::PostureTask(const Tree& tree, const FroudeScale& scale)
+PostureTask::PostureTask(const RobotModel& model, const FroudeScale& scale)
     : Task("posture",
-           JointRows(tree, "posture", RowKind::kTarget,
+           JointRows(model.tree, "posture", RowKind::kTarget,
                      {"", "rad/s2", "the posture of %"},
                      {"", "m/s2", "the posture of %"}),
            {}),
-      q_start_(tree.q_start()),
-      v_start_(tree.v_start()),
-      unit_(tree.num_joints()),
-      factor_(tree.num_joints()) {
+      q_start_(model.tree.q_start()),
+      v_start_(model.tree.v_start()),
+      hangs_(FindHangingJoints(model)),
+      unit_(model.tree.num_joints()),
+      factor_(model.tree.num_joints()) {
+  const Tree& tree = model.tree;
   for (int j = 0; j < tree.num_joints(); ++j) {
     const bool slides = tree.joints()[j].type == JointType::kPrismatic;
     unit_[j] = slides ? scale.mass : scale.inertia();
@@ -44,6 +47,7 @@ void PostureTask::Write(const TaskInput& input, EqualityBlock* equalities,
   const double inertia =
       BlendByCapture(inertia_, capture_inertia_, input.capture);
   for (int j = 0; j < n; ++j) {
+    if (hangs_[j]) continue;
     const double q = input.state.q[q_start_ + j];
     const double v = input.state.v[v_start_ + j];
     const double moved = std::clamp(
