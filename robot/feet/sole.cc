@@ -192,7 +192,7 @@ std::string WhyEstimated(const Outline& outline) {
     return "because " + outline.mesh_refusal +
            (outline.mesh_is_missing
                 ? ": give --package-path DIR, or the sole in a profile"
-                : "; otherwise, give the sole in a profile");
+                : "; correct the mesh, or give the sole in a profile");
   }
   const std::string remedy = ": give the sole in a profile";
   if (outline.corners.empty()) {

@@ -242,7 +242,7 @@ TEST(MakeOutlines, SaysWhyAMeshGivesNoPoints) {
   EXPECT_EQ(WhyEstimated(OutlineOf(Leg(Collision("broken.stl")))),
             "because mesh " + folder +
                 "/broken.stl:2: unknown word 'nonsense' in an STL file; "
-                "otherwise, give the sole in a profile");
+                "correct the mesh, or give the sole in a profile");
   EXPECT_EQ(WhyEstimated(OutlineOf(Leg(""))),
             "because the foot has no shape: give the sole in a profile");
 }

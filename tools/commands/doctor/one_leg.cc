@@ -51,6 +51,19 @@ std::string WeakMotor(const Robot& robot, const VectorXd& tau, double height) {
   return reason;
 }
 
+// Returns that a joint between a foot and the base has no motor, or "". At rest,
+// such a joint may need no torque; but nothing balances the robot about it.
+std::string MissingMotor(const Robot& robot, int foot) {
+  const Tree& tree = robot.model.tree;
+  for (int b = robot.feet[foot].body; b > 0; b = tree.joints()[b - 1].parent) {
+    const JointLimits& limits = robot.model.limits[b - 1];
+    if (limits.effort != 0 || limits.friction > 0) continue;
+    return "joint " + Quoted(tree.joints()[b - 1].name) +
+           " has no motor (effort 0) to balance with";
+  }
+  return "";
+}
+
 // Returns the error of a posture and a joint at its limit in words, or "".
 std::string Lack(const Robot& robot, const Posture& posture) {
   if (posture.lack.empty() || posture.at_limit.empty()) return posture.lack;
@@ -93,7 +106,9 @@ std::string Reason(const Robot& robot, int foot, const Tick& tick) {
   const Posture posture = FindOneFootPosture(robot, foot, G).posture;
   const std::string lack = Lack(robot, posture);
   if (!lack.empty()) return lack;
-  return WeakMotor(robot, TorquesOnOneFoot(robot, foot, posture.q), height);
+  const std::string weak =
+      WeakMotor(robot, TorquesOnOneFoot(robot, foot, posture.q), height);
+  return weak.empty() ? MissingMotor(robot, foot) : weak;
 }
 
 }  // namespace
@@ -108,7 +123,7 @@ std::vector<Finding> FindOneLegDefects(const Robot& robot) {
     if (reason.empty()) continue;
     findings.push_back({Severity::kWarn, robot.feet[foot].name,
                         "cannot stand on one leg: " + reason,
-                        "the scenario one_leg and steps will fail", 0});
+                        "expect the scenario one_leg and steps to fail", 0});
   }
   return findings;
 }

@@ -71,6 +71,19 @@ TEST(FindOneLegDefects, NamesWeakMotor) {
   EXPECT_NE(found.find("(limit 10 N m)"), std::string::npos) << found;
 }
 
+// The shift puts the center of mass over the ankle, so the joint needs no torque.
+TEST(FindOneLegDefects, NamesAnAnkleWithoutMotor) {
+  Robot robot = Humanoid();
+  robot.model.limits[robot.model.tree.FindJoint("l_ankle_roll").value()]
+      .effort = 0;
+  const std::string found = Findings(robot);
+  EXPECT_EQ(found.find("left_foot cannot stand on one leg: joint "
+                       "'l_ankle_roll' has no motor"),
+            0u)
+      << found;
+  EXPECT_EQ(found.find("right_foot"), std::string::npos) << found;
+}
+
 // A lean of the base hardly changes the torque of the knee.
 TEST(FindOneLegDefects, NamesAMotorThatIsNearlyFullyLoaded) {
   Robot robot = Humanoid();
