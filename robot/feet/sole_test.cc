@@ -311,7 +311,9 @@ TEST(FindSole, FindsSpheresOnAPlaneThatNoAxisIsNormalTo) {
   // The lowest points of the spheres are taken along the vertical. That turns
   // the plane by 0.01 (1 - cos 0.12) / 0.2 = 4e-4 rad.
   EXPECT_LT((sole.normal_B - normal).norm(), 5e-4);
-  EXPECT_NEAR(sole.area, 0.2 * 0.08, 1e-4);
+  // The file has six digits, and the plane is turned: 2e-6 * 0.3 m, and 0.02 m2
+  // * 4e-4.
+  EXPECT_NEAR(sole.area, 0.2 * 0.08, 1e-5);
 }
 
 TEST(RestingNormal, IsAFacetBelowAllVertices) {
