@@ -106,7 +106,7 @@ Stack MakeDefaultStack(const Robot& robot,
   stack.Add(std::make_unique<NoContactTask>(tree, feet), {kOn, 1, 1});
 
   stack.Add(std::make_unique<TorqueLimitsTask>(model), {kOn, 2, 1});
-  stack.Add(std::make_unique<JointLimitsTask>(model, scale), {kOn, 2, 1});
+  stack.Add(std::make_unique<JointLimitsTask>(model, feet, scale), {kOn, 2, 1});
 
   if (!model.mimics.empty()) {
     stack.Add(std::make_unique<MimicTask>(model), {kOn, 3, 1});

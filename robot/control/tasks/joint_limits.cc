@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "poise/robot/control/tasks/loop_closure.h"
 #include "poise/robot/control/tasks/row_names.h"
 #include "poise/robot/limits.h"
 
@@ -21,9 +22,27 @@ constexpr double kFast = 5;
 // of all joints at once would make the robot fall.
 constexpr double kBrake = 0.25;
 
+// An impact tilts a sole about as many joints of its leg, those next to it.
+constexpr size_t kAnkleJoints = 2;
+
+// Returns the largest acceleration towards a limit that is critically damped. d
+// is the distance from the limit, and v the velocity towards it.
+double Damped(double w, double d, double v) { return w * w * d - 2 * w * v; }
+
+// Returns the largest acceleration towards a limit that stops at the limit. A
+// joint that would brake more by Damped() brakes at a constant rate. The two
+// are equal at v = (2 - sqrt(2)) w d. `most` bounds the brake of a joint that is
+// almost at its limit.
+double Stopping(double w, double d, double v) {
+  if (v <= 0 || v <= (2 - M_SQRT2) * w * d) return Damped(w, d, v);
+  const double most = 4 * w * v - w * w * d;
+  return v * v < 2 * d * most ? -v * v / (2 * d) : -most;
+}
+
 }  // namespace
 
 JointLimitsTask::JointLimitsTask(const RobotModel& model,
+                                 const std::vector<Foot>& feet,
                                  const FroudeScale& scale)
     : Task("joint_limits", {},
            JointRows(model.tree, "joint", RowKind::kJointLimit,
@@ -35,7 +54,14 @@ JointLimitsTask::JointLimitsTask(const RobotModel& model,
       upper_(model.tree.num_joints()),
       velocity_(model.tree.num_joints()),
       fast_(model.tree.num_joints()),
-      is_passive_(model.tree.num_joints()) {
+      is_passive_(model.tree.num_joints()),
+      foot_(model.tree.num_joints(), -1) {
+  for (size_t i = 0; i < feet.size(); ++i) {
+    const std::vector<int> joints = JointsTo(model.tree, feet[i].body);
+    for (size_t k = 0; k < std::min(kAnkleJoints, joints.size()); ++k) {
+      foot_[joints[k]] = static_cast<int>(i);
+    }
+  }
   for (int j = 0; j < model.tree.num_joints(); ++j) {
     const JointLimits& limits = model.limits[j];
     lower_[j] = limits.lower;
@@ -60,8 +86,10 @@ void JointLimitsTask::Write(const TaskInput& input, EqualityBlock*,
     if (is_passive_[j]) continue;
     const double q = input.state.q[q_start_ + j];
     const double v = input.state.v[v_start_ + j];
-    double lower = w * w * (lower_[j] + margin_ - q) - 2 * w * v;
-    double upper = w * w * (upper_[j] - margin_ - q) - 2 * w * v;
+    const bool stands = foot_[j] >= 0 && input.contacts[foot_[j]].in_contact;
+    const auto bound = stands ? Stopping : Damped;
+    double lower = -bound(w, -(lower_[j] + margin_ - q), -v);
+    double upper = bound(w, upper_[j] - margin_ - q, v);
     // A range that is narrower than its margins shrinks to its middle.
     if (lower > upper) lower = upper = (lower + upper) / 2;
     const double unmodelled_vdot = input.unmodelled_vdot[v_start_ + j];

@@ -17,8 +17,14 @@ constexpr double kSlowestVelocity = 3;
 
 /// Keeps each joint inside its position limits, by bounds on its acceleration:
 ///     w² (lower - q) - 2 w q̇ <= q̈ <= w² (upper - q) - 2 w q̇,
-/// On the bound the joint comes to rest at the limit, critically damped. The
-/// joint approaches its velocity limits as exp(-w t):
+/// On the bound the joint comes to rest at the limit, critically damped. The two
+/// joints next to a foot in contact may brake less: at the distance d from the
+/// limit and with a speed v > (2 - sqrt(2)) w d towards it by v² / (2 d), at
+/// most 4 w v - w² d. This also stops them at the limit. An impact tilts a sole
+/// at 10 rad/s; its rotation is a task of a lower level, and a brake that is up
+/// to twice as hard as necessary would throw the robot.
+///
+/// A joint approaches its velocity limits as exp(-w t):
 ///     w (-q̇_max - q̇) <= q̈ <= w (q̇_max - q̇).
 /// A joint above its velocity limit, as after an impact, brakes by at most
 /// w q̇_max / 4. A rotating joint with q̇_max below q̇_5 = 5 rad/s, often a
@@ -37,6 +43,7 @@ class JointLimitsTask final : public Task {
  public:
   /// Parameters: omega (40 1/s); margin (0.008 rad), kept from each limit.
   explicit JointLimitsTask(const RobotModel& model,
+                           const std::vector<Foot>& feet = {},
                            const FroudeScale& scale = {});
   bool is_two_sided() const noexcept override { return true; }
   void Write(const TaskInput& input, EqualityBlock* equalities,
@@ -50,6 +57,7 @@ class JointLimitsTask final : public Task {
   Eigen::VectorXd velocity_;
   Eigen::VectorXd fast_;  // Speed that scales the bounds; see kFast.
   std::vector<bool> is_passive_;
+  std::vector<int> foot_;  // By joint: the foot next to it, or -1.
   double omega_ = 40;
   double margin_ = 0.008;
 };

@@ -55,6 +55,87 @@ TEST_F(TaskTest, JointLimitsBringAJointToRestAtItsStop) {
   }
 }
 
+// An ankle of a foot in contact comes to rest at its stop as well, and brakes by
+// at most what stops it at a constant rate.
+TEST_F(TaskTest, JointLimitsBrakeAnAnkleOnTheGroundByWhatIsNecessary) {
+  RobotModel model = robot_.model;
+  const int j = *tree_.FindJoint("l_ankle_roll");
+  constexpr double kMargin = 0.008;  // rad.
+  constexpr double kOmega = 40;      // 1/s.
+  constexpr double kDistance = 0.1;  // rad.
+  const JointLimits limits = model.limits[j];
+  model.limits[j].velocity = 100;  // So that its bound is not active.
+  const JointLimitsTask task(model, robot_.feet);
+  const JointLimitsTask without_feet(model);
+  for (const double side : {1., -1.}) {
+    const double stop =
+        side > 0 ? limits.upper - kMargin : limits.lower + kMargin;
+    const auto bound = [&](const JointLimitsTask& of) {
+      const Hierarchy& rows = Write(of);
+      return side * (side > 0 ? rows.upper(0)[j] : rows.lower(0)[j]) /
+             rows.C(0)(j, 6 + j);
+    };
+    const auto start = [&](double speed) {
+      state_.q[7 + j] = stop - side * kDistance;
+      state_.v[6 + j] = side * speed;
+    };
+    // Moves the joint on its bound, and returns its least distance to the stop.
+    double hardest = 0;  // Brake, rad/s2.
+    const auto nearest = [&](const JointLimitsTask& of, double speed) {
+      start(speed);
+      hardest = 0;
+      double least = kDistance;
+      for (int i = 0; i < 5000; ++i) {
+        const double vdot = bound(of);
+        hardest = std::max(hardest, -vdot);
+        state_.v[6 + j] += 1e-4 * side * vdot;
+        state_.q[7 + j] += 1e-4 * state_.v[6 + j];
+        least = std::min(least, side * (stop - state_.q[7 + j]));
+      }
+      EXPECT_LT(std::abs(side * (stop - state_.q[7 + j])), 1e-3) << speed;
+      return least;
+    };
+    for (const double share : {0.3, 0.6, 0.8, 1., 2., 4., 10.}) {
+      const double speed = share * kOmega * kDistance;
+      const double constant = speed * speed / (2 * kDistance);
+      start(speed);
+      const double law = bound(without_feet);
+      const double rounding = 1e-12 * kOmega * speed;
+      EXPECT_GE(bound(task), std::min(law, -constant) - rounding) << share;
+      EXPECT_LE(bound(task), std::max(law, -constant) + rounding) << share;
+      // The joint may use a quarter of its margin of 8 mrad.
+      const double before = nearest(without_feet, speed);
+      EXPECT_GE(nearest(task, speed), std::min(before, -kMargin / 4)) << share;
+      if (share < 0.6 || share > 3) continue;
+      EXPECT_LT(hardest, 1.2 * constant) << share;
+    }
+  }
+  // The other foot's ankle has the same law, and a knee the other one.
+  for (const auto& [name, is_ankle] :
+       {std::pair("r_ankle_pitch", true), std::pair("l_knee", false)}) {
+    const int k = *tree_.FindJoint(name);
+    state_.q[7 + k] = robot_.model.limits[k].upper - kMargin - 0.1;
+    state_.v[6 + k] = kOmega * 0.1;
+    model.limits[k].velocity = 100;
+    const double with_feet =
+        Write(JointLimitsTask(model, robot_.feet)).upper(0)[k];
+    const double without = Write(JointLimitsTask(model)).upper(0)[k];
+    EXPECT_EQ(with_feet > without, is_ankle) << name;
+  }
+  // In the air, all joints have the other one.
+  std::vector<ContactTick> contacts = controller_.contacts();
+  for (ContactTick& contact : contacts) contact.in_contact = false;
+  const JointLimitsTask of_ankles(model, robot_.feet);
+  const Eigen::VectorXd damped = Write(JointLimitsTask(model)).upper(0);
+  hierarchy_.Clear(1);
+  EqualityBlock none = hierarchy_.AddEqualities(0, 0);
+  InequalityBlock rows = hierarchy_.AddInequalities(0, n_);
+  of_ankles.Write({state_, controller_.tick(), contacts,
+                   controller_.reference(), unmodelled_vdot_},
+                  &none, &rows);
+  EXPECT_EQ(hierarchy_.upper(0), damped);
+}
+
 TEST_F(TaskTest, JointLimitsBrakeAFastJointGently) {
   const JointLimitsTask task(robot_.model);
   const int j = *tree_.FindJoint("l_elbow");

@@ -20,7 +20,9 @@ MomentumTask::MomentumTask(const Tree& tree, const std::vector<Foot>& feet)
                      {"lz", "N", "the linear momentum along z"}}),
            {}),
       mass_(tree.total_mass() > 0 ? tree.total_mass() : 1),
-      feet_(feet) {
+      feet_(feet),
+      trunk_(FindTrunk(tree, feet)),
+      trunk_reference_(tree, trunk_) {
   AddParameter("kp", &gains_.kp, 0, 1e4);
   AddParameter("kd", &gains_.kd, 0, 1e3);
   AddParameter("kd_angular", &kd_angular_, 0, 1e3);
@@ -43,8 +45,9 @@ void MomentumTask::Write(const TaskInput& input, EqualityBlock* equalities,
                          InequalityBlock*) const noexcept {
   const Tick& tick = input.tick;
   const Reference& reference = input.reference;
-  const Eigen::Matrix3d& R_WB = tick.X_WB[0].R;
-  const Eigen::Vector3d e_W = LogSo3(reference.R_WB * R_WB.transpose());
+  const Eigen::Matrix3d& R_WT = tick.X_WB[trunk_].R;
+  const Eigen::Vector3d e_W =
+      LogSo3(trunk_reference_.Orientation(reference) * R_WT.transpose());
 
   // The height keeps its normal gains, because it is not unstable.
   const double share = input.capture;

@@ -7,6 +7,7 @@
 #include "poise/robot/control/balance_monitor.h"
 #include "poise/robot/control/com_gains.h"
 #include "poise/robot/control/task.h"
+#include "poise/robot/control/tasks/trunk.h"
 #include "poise/robot/robot.h"
 
 namespace poise {
@@ -15,9 +16,9 @@ namespace poise {
 /// feed-forward, over the mass m:
 ///     (H_G v̇ + bias) / m = [ (-kd_angular k + K e) / m ;
 ///                            kp (p_ref - p_G) + kd (v_ref - v_G) + a_ref ],
-/// where k is the angular momentum, and e the rotation from the base's
-/// orientation back to its reference: without it the pelvis drifts,
-/// because angular momentum is not the derivative of an orientation.
+/// where k is the angular momentum, and e the rotation from the orientation of
+/// the trunk T, see FindTrunk(), back to its reference: without it the trunk
+/// drifts, because angular momentum is not the derivative of an orientation.
 ///
 /// With TaskInput::capture, the capture blend of BalanceMonitor, the gains of
 /// the horizontal position rise and the weights of angular momentum and height
@@ -57,6 +58,8 @@ class MomentumTask final : public Task {
 
   double mass_;
   std::vector<Foot> feet_;
+  int trunk_;  // A body.
+  TrunkReference trunk_reference_;
   ComGains gains_;
   double kd_angular_ = 10;
   double k_orientation_ = 200;

@@ -7,6 +7,9 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "poise/dynamics/tick.h"
 #include "poise/hqp/hierarchy.h"
@@ -18,6 +21,7 @@
 #include "poise/robot/control/tasks/linear_momentum.h"
 #include "poise/robot/control/tasks/newton_euler.h"
 #include "poise/robot/control/tasks/task_fixture.h"
+#include "poise/robot/urdf/urdf.h"
 
 namespace poise {
 namespace {
@@ -121,6 +125,34 @@ TEST_F(TaskTest, MomentumFollowsItsReference) {
   }
   asked = before - Residual(momentum, y);
   EXPECT_LT((asked.tail<3>() - (30 * p + 10 * v + a)).norm(), 1e-9);
+}
+
+// With a tenth of the pelvis's moments of inertia, the trunk is the torso. Where
+// the reference turns the chest, it turns the torso.
+TEST_F(TaskTest, MomentumKeepsTheTrunkUprightOnALightPelvis) {
+  std::ifstream file("robot/models/humanoid.urdf");
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  const auto divide = [&](const std::string& moment) {
+    const size_t at = text.find(moment, text.find("<link name=\"pelvis\""));
+    text.replace(at + 5, 4, "0.00");  // ixx="0.01... becomes ixx="0.001...
+  };
+  for (const char* moment : {"ixx=\"0.0", "iyy=\"0.0", "izz=\"0.0"}) {
+    divide(moment);
+  }
+  const RobotModel model = ParseUrdf(text, "humanoid");
+  const MomentumTask momentum(model.tree, robot_.feet);
+  const MomentumTask of_base(tree_, robot_.feet);
+  const Eigen::VectorXd y = RandomY();
+  const Eigen::VectorXd before = Residual(momentum, y);
+  const Eigen::VectorXd base_before = Residual(of_base, y);
+  const double turn = 0.03;  // rad.
+  controller_.reference().posture[*tree_.FindJoint("chest_yaw")] += turn;
+  const Eigen::Vector3d wanted = (before - Residual(momentum, y)).head<3>();
+  // The torso is upright in the nominal posture: the axis is z, and the pitch
+  // of the pelvis is 0.
+  const Eigen::Vector3d axis = controller_.tick().X_WB[0].R.col(2);
+  EXPECT_LT((wanted - 200 / tree_.total_mass() * turn * axis).norm(), 1e-9);
+  EXPECT_EQ(Residual(of_base, y), base_before);
 }
 
 // The height keeps its own gains, because it is not unstable.
