@@ -35,6 +35,17 @@ std::vector<int> JointsOfLeg(const Robot& robot, const Foot& leg) {
   return joints;
 }
 
+// Returns the number of joints in the longest chain that a body carries.
+int JointsBeyond(const Tree& tree, int body) {
+  std::vector<int> depth(tree.num_bodies(), -1);
+  depth[body] = 0;
+  for (int b = body + 1; b < tree.num_bodies(); ++b) {
+    const int parent = depth[tree.joints()[b - 1].parent];
+    if (parent >= 0) depth[b] = parent + 1;
+  }
+  return *std::max_element(depth.begin(), depth.end());
+}
+
 }  // namespace
 
 std::vector<Finding> JudgeLegs(const Robot& robot) {
@@ -51,6 +62,14 @@ std::vector<Finding> JudgeLegs(const Robot& robot) {
                (missing == 1 ? " direction of its sole is"
                              : " directions of its sole are") +
                " not controlled: on one foot, balance is limited"});
+    }
+    const int beyond = JointsBeyond(robot.model.tree, foot.body);
+    if (beyond > 1) {
+      findings.push_back(
+          {Severity::kWarn, foot.name,
+           "carries a chain of " + std::to_string(beyond) + " joints",
+           "a foot is the last link of a leg, or has toes of one joint: name "
+           "the last link in the profile"});
     }
     std::vector<int> slow;
     for (const int j : joints) {

@@ -36,10 +36,13 @@ TEST(JudgeLegs, CountsTheDirectionsThatALegDoesNotControl) {
   const Tree& tree = robot.model.tree;
   foot.body = tree.joints()[tree.joints()[foot.body - 1].parent - 1].parent;
   const std::vector<Finding> findings = JudgeLegs(robot);
-  ASSERT_EQ(findings.size(), 1u);
+  ASSERT_EQ(findings.size(), 2u);
   EXPECT_EQ(findings[0].where, "right leg");
   EXPECT_EQ(findings[0].what, "has 4 joints");
   EXPECT_EQ(findings[0].why.substr(0, 12), "2 directions");
+  // It is no foot: the ankle follows.
+  EXPECT_EQ(findings[1].where, "right_foot");
+  EXPECT_EQ(findings[1].what, "carries a chain of 2 joints");
 }
 
 }  // namespace

@@ -37,6 +37,21 @@ Leg Measure(const Tree& tree, int foot) {
   return leg;
 }
 
+// A biped has at least as many joints.
+constexpr int kFewestJoints = 8;
+
+// Returns the diagonal of the box around the origins of all bodies at rest, m.
+double ExtentAtRest(const RobotModel& model) {
+  std::vector<Pose> X_WB(model.tree.num_bodies());
+  ComputePoses(model.tree, RestConfiguration(model), &X_WB);
+  Vector3d low = Vector3d::Zero(), high = low;
+  for (const Pose& X : X_WB) {
+    low = low.cwiseMin(X.p);
+    high = high.cwiseMax(X.p);
+  }
+  return (high - low).norm();
+}
+
 bool Differ(double a, double b, double fraction) {
   return std::abs(a - b) > fraction * std::max(std::abs(a), std::abs(b));
 }
@@ -87,17 +102,9 @@ std::vector<Finding> CompareLegs(const Robot& robot) {
 std::vector<Finding> FindWideInertias(const RobotModel& model) {
   constexpr double kTolerance = 1.5;
   constexpr int kNamed = 3;
-  constexpr int kFewestJoints = 8;  // A biped has as many.
   const Tree& tree = model.tree;
   const std::vector<Outline> outlines = MakeOutlines(model);
-  std::vector<Pose> X_WB(tree.num_bodies());
-  ComputePoses(tree, RestConfiguration(model), &X_WB);
-  Vector3d low = Vector3d::Zero(), high = low;
-  for (const Pose& X : X_WB) {
-    low = low.cwiseMin(X.p);
-    high = high.cwiseMax(X.p);
-  }
-  const double extent = (high - low).norm();
+  const double extent = ExtentAtRest(model);
   // A mesh that was not opened may reach further than the other shapes.
   std::vector<bool> has_mesh(tree.num_bodies());
   for (const std::vector<Shape>* shapes : {&model.visuals, &model.collisions}) {
@@ -134,6 +141,38 @@ std::vector<Finding> FindWideInertias(const RobotModel& model) {
            "has " + std::to_string(count) + (count == 1 ? " body" : " bodies") +
                " with a radius of gyration beyond its shapes: " + names,
            "the inertia is too large for the mass: is it in another unit?", 0}};
+}
+
+std::optional<Finding> FindWrongUnits(const RobotModel& model) {
+  constexpr double kThinnest = 0.3, kDensest = 3000;  // kg/m3.
+  if (model.tree.num_joints() < kFewestJoints) return std::nullopt;
+  const double mass = model.tree.total_mass();
+  const double extent = ExtentAtRest(model);
+  const double volume = extent * extent * extent;
+  if (mass >= kThinnest * volume && mass <= kDensest * volume) {
+    return std::nullopt;
+  }
+  return Finding{Severity::kWarn, "robot",
+                 "has a mass of " + PrintNumber(mass) +
+                     " kg, and its joints span " + PrintNumber(extent) + " m",
+                 "is the file in grams or millimeters? URDF has kg and m", 0};
+}
+
+std::vector<Finding> FindFarSoles(const Robot& robot) {
+  constexpr double kFar = 0.5;
+  std::vector<Finding> findings;
+  for (const Foot& foot : robot.feet) {
+    const double leg = Measure(robot.model.tree, foot.body).length;
+    const double distance = foot.X_BC.p.norm();
+    // A foot that is the base has no leg.
+    if (leg == 0 || distance <= kFar * leg) continue;
+    findings.push_back(
+        {Severity::kWarn, foot.name,
+         "has its sole " + PrintNumber(distance) +
+             " m from the last joint of a leg of " + PrintNumber(leg) + " m",
+         "is the sole in another unit, or its frame another link?", 0});
+  }
+  return findings;
 }
 
 }  // namespace poise

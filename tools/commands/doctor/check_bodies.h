@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "poise/robot/finding.h"
@@ -22,5 +23,15 @@ std::vector<Finding> CompareLegs(const Robot& robot);
 /// spheres are compared with the whole robot, if it has at least eight joints.
 /// A tolerance of a factor 1.5 is for shapes that are smaller than the body.
 std::vector<Finding> FindWideInertias(const RobotModel& model);
+
+/// Returns a warning if mass and size do not fit, as in a file in grams or
+/// millimeters: mass over the cube of the diagonal that the joints span at rest
+/// is 5 to 130 kg/m3 for public humanoids, and suspect below 0.3 or above 3000.
+/// A robot with fewer than eight joints is not judged.
+std::optional<Finding> FindWrongUnits(const RobotModel& model);
+
+/// Returns a warning for each sole whose center is farther from the origin of
+/// the foot's body than half the leg's chain of joints.
+std::vector<Finding> FindFarSoles(const Robot& robot);
 
 }  // namespace poise

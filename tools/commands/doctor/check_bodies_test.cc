@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <string>
 
+#include "poise/dynamics/tree.h"
+#include "poise/math/inertia.h"
+#include "poise/math/pose.h"
 #include "poise/robot/profile/profile.h"
 #include "poise/robot/urdf/urdf.h"
 
@@ -59,6 +63,45 @@ TEST(FindWideInertias, ComparesRadiusOfGyrationWithShapes) {
                        "shapes: 'rod' (0.779"),
             0u)
       << found;
+}
+
+// The humanoid with masses in grams, and with lengths in millimeters.
+TEST(FindWrongUnits, ComparesMassAndSize) {
+  const RobotModel model = LoadRobot("robot/models/humanoid.urdf").model;
+  EXPECT_FALSE(FindWrongUnits(model));
+  const auto scaled = [&](double length, double mass) {
+    TreeBuilder builder;
+    const Tree& tree = model.tree;
+    const auto name = [](int body) { return "body" + std::to_string(body); };
+    for (int b = 0; b < tree.num_bodies(); ++b) {
+      Inertia M = tree.inertias()[b];
+      M.mass *= mass;
+      builder.AddLink(name(b), M);
+    }
+    for (int j = 0; j < tree.num_joints(); ++j) {
+      const Joint& joint = tree.joints()[j];
+      Pose X_PF = joint.X_PF;
+      X_PF.p *= length;
+      builder.AddJoint({joint.name, joint.type, name(joint.parent), name(j + 1),
+                        X_PF, joint.axis_F, 0});
+    }
+    RobotModel other = model;
+    other.tree = builder.Build();
+    return FindWrongUnits(other);
+  };
+  EXPECT_FALSE(scaled(0.3, 0.027));
+  EXPECT_FALSE(scaled(3, 27));
+  ASSERT_TRUE(scaled(1, 1000));
+  EXPECT_EQ(scaled(1, 1000)->what.find("has a mass of 38660 kg"), 0u);
+  EXPECT_TRUE(scaled(1000, 1));
+}
+
+TEST(FindFarSoles, ComparesWithTheLeg) {
+  Robot robot = LoadRobot("robot/models/humanoid.urdf");
+  EXPECT_EQ(Text(FindFarSoles(robot)), "");
+  robot.feet[1].X_BC.p.x() = 3;
+  const std::string found = Text(FindFarSoles(robot));
+  EXPECT_EQ(found.find("has its sole 3.00"), 0u) << found;
 }
 
 }  // namespace

@@ -64,6 +64,7 @@ bool IsLarge(const RobotModel& model) {
 // about the robot matters more than one about an element of the file.
 int Urgency(const Finding& finding) {
   if (finding.severity != Severity::kWarn) return 0;
+  if (finding.what.rfind("has a mass of", 0) == 0) return 3;  // A wrong unit.
   if (finding.what == "does not stand") return 2;
   return finding.line == 0 ? 1 : 0;
 }
@@ -272,6 +273,10 @@ void Doctor::CheckStanding() {
     diagnosis_.reason = OneLine(error.what());
   }
   diagnosis_.stands = diagnosis_.reason.empty();
+  if (const auto units = FindWrongUnits(document_->MakeModel())) {
+    diagnosis_.findings.push_back(*units);
+    diagnosis_.remedy = "the units of the file";
+  }
   if (diagnosis_.stands || !diagnosis_.was_tested) return;
   const bool is_part =
       document_->MakeModel().tree.num_joints() < kFewestJointsToStand;
@@ -343,6 +348,7 @@ void Doctor::DescribeFeet(const Robot& robot) {
   }
   diagnosis_.forward = ForwardAxis(robot);
   Append(CompareLegs(robot));
+  Append(FindFarSoles(robot));
 }
 
 void Doctor::WriteFoundProfile(const Robot& robot) {

@@ -105,9 +105,27 @@ TEST(Diagnose, NamesMotorsTooWeakToStand) {
   EXPECT_EQ(diagnosis.findings[0].what, "does not stand");
   EXPECT_NE(diagnosis.reason.find("it falls after "), std::string::npos)
       << diagnosis.reason;
+  EXPECT_EQ(
+      NextStep(diagnosis, {"a.urdf", "", {}}),
+      "bazel run //tools:doctor -- a.urdf  # after you have corrected the "
+      "effort of joint 'l_knee'");
+}
+
+// A wrong unit is the cause, and a weak motor what follows from it.
+TEST(Diagnose, NamesWrongUnitsFirst) {
+  std::string text = HumanoidText();
+  const std::string mass = "<mass value=\"";
+  for (size_t at = text.find(mass); at != std::string::npos;
+       at = text.find(mass, at + 1)) {
+    const size_t start = at + mass.size(), end = text.find('"', start);
+    text.insert(end, "e3");
+  }
+  const Diagnosis diagnosis = Examine(text);
+  EXPECT_FALSE(diagnosis.stands);
+  EXPECT_EQ(diagnosis.findings[0].what.find("has a mass of 38660 kg"), 0u);
   EXPECT_EQ(NextStep(diagnosis, {"a.urdf", "", {}}),
-            "correct the effort of joint 'l_knee', then bazel run "
-            "//tools:doctor -- a.urdf");
+            "bazel run //tools:doctor -- a.urdf  # after you have corrected "
+            "the units of the file");
 }
 
 // Sets the effort of all joints whose name contains `part`.
@@ -186,8 +204,8 @@ TEST(NextStep, CorrectsEffortsOfZero) {
         std::string::npos)
         << diagnosis.reason;
     EXPECT_EQ(NextStep(diagnosis, {"a.urdf", "", {}}),
-              "correct the efforts of the legs, which are 0, in the file, then "
-              "bazel run //tools:doctor -- a.urdf");
+              "bazel run //tools:doctor -- a.urdf  # after you have corrected "
+              "the efforts of the legs, which are 0, in the file");
     EXPECT_TRUE(ProfileStub(diagnosis).empty());
   }
 }
@@ -264,8 +282,8 @@ TEST(Diagnose, DoesNotSayIfALargeRobotStands) {
   EXPECT_FALSE(diagnosis.was_tested);
   diagnosis.next_step = NextStep(diagnosis, {"a.urdf", "", {}});
   EXPECT_EQ(diagnosis.next_step,
-            "lock joints in a profile (locked: {JOINT: 0}), then bazel run "
-            "//tools:doctor -- a.urdf --profile a.yaml");
+            "bazel run //tools:doctor -- a.urdf --profile a.yaml  # after you "
+            "have locked joints in a.yaml (locked: {JOINT: 0})");
   EXPECT_EQ(WriteTable(diagnosis).find(
                 "verdict  ok\nstands   unknown: the robot has more than 200 "
                 "joints"),
@@ -317,8 +335,8 @@ TEST(Diagnose, SaysThatQuadrupedsAreNotSupported) {
   EXPECT_EQ(diagnosis.forward, "+x");
   EXPECT_TRUE(ProfileStub(diagnosis).empty());
   EXPECT_EQ(NextStep(diagnosis, {"a.urdf", "", {}}),
-            "choose a robot with two legs, then bazel run //tools:doctor -- "
-            "ROBOT.urdf");
+            "bazel run //tools:doctor -- ROBOT.urdf  # with a robot that has "
+            "two legs");
 }
 
 TEST(Diagnose, SkipsMassMatrixAbove500Joints) {
@@ -519,8 +537,9 @@ TEST(WriteTable, ShowsTheGuessThatTheUserMustCorrect) {
   std::istringstream table(WriteTable(diagnosis));
   std::string line, stub;
   for (int i = 0; i < 10 && std::getline(table, line); ++i) {
-    if (line.find("profile  ") == 0) stub += line.substr(9) + "\n";
+    if (line.find("feet:") == 0 || line.find("  ") == 0) stub += line + "\n";
   }
+  EXPECT_EQ(stub.find("e-"), std::string::npos) << "rounding errors: " << stub;
   // The stub is a profile, and it describes the same soles.
   const Diagnosis again = Diagnose(TestFile("robot.urdf", text),
                                    LoadProfile(TestFile("stub.yaml", stub)));
@@ -540,9 +559,9 @@ TEST(WriteTable, ShowsTheGuessThatTheUserMustCorrect) {
       << Findings(saved);
   saved.next_step = NextStep(saved, {"robot.urdf", "found.yaml", {}});
   EXPECT_EQ(saved.next_step,
-            "measure the soles, correct them in found.yaml, remove `from: "
-            "guess`, then bazel run //tools:doctor -- robot.urdf --profile "
-            "found.yaml");
+            "bazel run //tools:doctor -- robot.urdf --profile found.yaml  # "
+            "after you have measured the soles, corrected them in found.yaml, "
+            "and removed `from: guess`");
 }
 
 TEST(NextStep, SaysHowToExpandXacro) {
@@ -573,8 +592,8 @@ TEST(NextStep, OffersTheDynamicsOfARobotWithoutLegs) {
   EXPECT_EQ(VerdictWord(diagnosis), "ok");
   EXPECT_EQ(
       NextStep(diagnosis, {"robot.urdf", "", {}}),
-      "choose a robot with two legs, or compute its dynamics alone: bazel "
-      "run //tools:dynamics -- --urdf robot.urdf --states STATES.json");
+      "bazel run //tools:dynamics -- --urdf robot.urdf --states STATES.json  # "
+      "the dynamics alone: balance needs two legs");
 }
 
 TEST(Diagnose, WarnsIfARobotWithLegsDoesNotStand) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 
 #include "poise/robot/finding.h"
@@ -34,9 +35,23 @@ std::string Packages(const Arguments& arguments) {
 
 bool IsGuess(const Diagnosis::Sole& sole) { return sole.from == "guess"; }
 
+// Returns a command with a comment of the shell, so that the line can be pasted.
+std::string WithComment(const std::string& command,
+                        const std::string& comment) {
+  return command + "  # " + comment;
+}
+
+// Returns lengths or angles without the digits below a micrometer, which are
+// rounding errors.
 std::string List(const Eigen::Vector3d& p) {
-  return "[" + PrintNumber(p.x()) + ", " + PrintNumber(p.y()) + ", " +
-         PrintNumber(p.z()) + "]";
+  constexpr double kDigits = 1e6;
+  std::string list;
+  for (const double each : p) {
+    // The sum with 0 makes a positive zero of a negative one.
+    list += (list.empty() ? "[" : ", ") +
+            PrintNumber(std::round(each * kDigits) / kDigits + 0.0);
+  }
+  return list + "]";
 }
 
 std::string SoleLine(const Diagnosis::Sole& sole) {
@@ -66,52 +81,57 @@ std::string NextStep(const Diagnosis& diagnosis, const Arguments& arguments) {
       return reason.find(text) != std::string::npos;
     };
     if (has("must be URDF")) {
-      return "export the robot as URDF, then bazel run //tools:doctor -- "
-             "ROBOT.urdf";
+      return WithComment("bazel run //tools:doctor -- ROBOT.urdf",
+                         "after you have exported the robot as URDF");
     }
     if (has("loop")) {
-      return "remove one joint of the loop, or give it <mimic>, then " + doctor;
+      return WithComment(doctor,
+                         "after you have removed one joint of the loop, or "
+                         "given it <mimic>");
     }
-    return "correct the reason above, then " + doctor;
+    return WithComment(doctor, "after you have corrected the reason above");
   }
   const std::string rest = Packages(arguments);
   const std::string profile =
       arguments.profile.empty() ? "" : " --profile " + Word(arguments.profile);
   const std::string mine =
       Word(std::filesystem::path(arguments.file).stem().string() + ".yaml");
+  const std::string with_mine = doctor + " --profile " + mine + rest;
+  const std::string again = doctor + profile + rest;
   const bool has_guess =
       std::any_of(diagnosis.soles.begin(), diagnosis.soles.end(), IsGuess);
   if (diagnosis.has_many_legs) {
-    return "choose a robot with two legs, then bazel run //tools:doctor -- "
-           "ROBOT.urdf";
+    return WithComment("bazel run //tools:doctor -- ROBOT.urdf",
+                       "with a robot that has two legs");
   }
   if (!diagnosis.was_tested && diagnosis.soles.empty()) {
-    return "lock joints in a profile (locked: {JOINT: 0}), then " + doctor +
-           " --profile " + mine + rest;
+    return WithComment(with_mine, "after you have locked joints in " + mine +
+                                      " (locked: {JOINT: 0})");
   }
   if (!diagnosis.stands && !diagnosis.remedy.empty()) {
-    return "correct " + diagnosis.remedy + ", then " + doctor + profile + rest;
+    return WithComment(again, "after you have corrected " + diagnosis.remedy);
   }
   if (diagnosis.soles.empty() && diagnosis.guessed_feet.size() < 2) {
-    return "choose a robot with two legs, or compute its dynamics alone: bazel "
-           "run //tools:dynamics -- --urdf " +
-           file + " --states STATES.json";
+    return WithComment("bazel run //tools:dynamics -- --urdf " + file +
+                           " --states STATES.json",
+                       "the dynamics alone: balance needs two legs");
   }
   if (diagnosis.soles.empty()) {
-    return "write the feet into " + mine + ", then " + doctor + " --profile " +
-           mine + rest;
+    return WithComment(with_mine,
+                       "after you have written the feet into " + mine);
   }
   if (has_guess && !arguments.profile.empty()) {
-    return "measure the soles, correct them in " + Word(arguments.profile) +
-           ", remove `from: guess`, then " + doctor + profile + rest;
+    return WithComment(
+        again, "after you have measured the soles, corrected them in " +
+                   Word(arguments.profile) + ", and removed `from: guess`");
   }
   if (has_guess) {
-    return doctor + profile + rest + " --save-profile " + mine +
-           ", measure the soles, correct them in " + mine + ", then " + doctor +
-           " --profile " + mine + rest;
+    return WithComment(again + " --save-profile " + mine,
+                       "then measure the soles and correct them in " + mine);
   }
   if (!diagnosis.stands && diagnosis.was_tested) {
-    return "correct the file or its profile, then " + doctor + profile + rest;
+    return WithComment(again,
+                       "after you have corrected the file or its profile");
   }
   return "bazel run //tools:push -- --scenario stand --robot " + file +
          profile + rest;
@@ -120,7 +140,7 @@ std::string NextStep(const Diagnosis& diagnosis, const Arguments& arguments) {
 std::vector<std::string> ProfileStub(const Diagnosis& diagnosis) {
   if (diagnosis.worst() == Severity::kReject) return {};
   if (!diagnosis.remedy.empty() && diagnosis.soles.empty()) return {};
-  std::vector<std::string> lines = {"feet:"};
+  std::vector<std::string> lines = {"feet:  # for a profile"};
   for (const Diagnosis::Sole& sole : diagnosis.soles) {
     if (IsGuess(sole)) lines.push_back(SoleLine(sole));
   }

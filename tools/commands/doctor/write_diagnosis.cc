@@ -132,7 +132,7 @@ void WriteSummary(const Diagnosis& diagnosis, std::ostringstream* out) {
     *out << "next     " << diagnosis.next_step << "\n";
   }
   for (const std::string& line : ProfileStub(diagnosis)) {
-    *out << "profile  " << line << "\n";
+    *out << line << "\n";
   }
 }
 
