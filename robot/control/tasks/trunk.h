@@ -15,8 +15,9 @@ namespace poise {
 /// inertia is here the trace of I_G_B.
 ///
 /// MomentumTask keeps T upright by angular momentum. Most of the angular
-/// momentum belongs to the heaviest body: a light pelvis below a heavy trunk
-/// could turn while the trunk moves the other way, and the robot would swing.
+/// momentum belongs to the body with the largest moment of inertia: a light
+/// pelvis below a heavy torso could turn while the torso moves the other way,
+/// and the robot would swing.
 int FindTrunk(const Tree& tree, const std::vector<Foot>& feet);
 
 /// The orientation of a body T that the base and the posture of a reference

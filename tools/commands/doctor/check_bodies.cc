@@ -152,10 +152,13 @@ std::optional<Finding> FindWrongUnits(const RobotModel& model) {
   if (mass >= kThinnest * volume && mass <= kDensest * volume) {
     return std::nullopt;
   }
-  return Finding{Severity::kWarn, "robot",
-                 "has a mass of " + PrintNumber(mass) +
-                     " kg, and its joints span " + PrintNumber(extent) + " m",
-                 "is the file in grams or millimeters? URDF has kg and m", 0};
+  return Finding{
+      Severity::kWarn, "robot",
+      "has a mass of " + PrintNumber(mass) + " kg, and its joints span " +
+          PrintNumber(extent) + " m",
+      "is the file in other units, such as grams or millimeters? URDF has kg "
+      "and m",
+      0};
 }
 
 std::vector<Finding> FindFarSoles(const Robot& robot) {

@@ -2,6 +2,7 @@
 #include "poise/tools/commands/doctor/diagnose.h"
 
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cctype>
@@ -544,7 +545,7 @@ TEST(WriteTable, ShowsTheGuessThatTheUserMustCorrect) {
                                    LoadProfile(TestFile("stub.yaml", stub)));
   ASSERT_EQ(again.soles.size(), 2u) << stub;
   for (const int i : {0, 1}) {
-    EXPECT_EQ(again.soles[i].from, "profile");
+    EXPECT_EQ(again.soles[i].from, "guess");  // Until the user measures it.
     EXPECT_LT((again.soles[i].xyz - diagnosis.soles[i].xyz).norm(), 1e-5);
     // The stub has six digits.
     EXPECT_NEAR(again.soles[i].length, diagnosis.soles[i].length, 1e-5);
@@ -573,11 +574,14 @@ TEST(ProfileStub, HasNoRoundingErrors) {
                              {2.4e-16, -3e-17, 1.5},
                              "guess",
                              0.04});
+  diagnosis.soles[1].link = "a # {b}, c";
   const std::vector<std::string> stub = ProfileStub(diagnosis);
   ASSERT_EQ(stub.size(), 3u);
   EXPECT_EQ(stub[1],
             "  foot: {frame: ankle, xyz: [0.05, 0, -0.04], rpy: [0, 0, 1.5], "
-            "size: [0.2, 0.1]}");
+            "size: [0.2, 0.1], from: guess}");
+  const YAML::Node feet = YAML::Load(stub[0] + "\n" + stub[2])["feet"];
+  EXPECT_EQ(feet["foot"]["frame"].as<std::string>(), "a # {b}, c");
 }
 
 TEST(NextStep, SaysHowToExpandXacro) {

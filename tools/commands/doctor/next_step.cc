@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/commands/doctor/next_step.h"
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -54,10 +56,19 @@ std::string List(const Eigen::Vector3d& p) {
   return list + "]";
 }
 
+// Returns a text as a scalar inside a flow of YAML, in quotes if it needs them.
+std::string Scalar(const std::string& text) {
+  YAML::Emitter emitter;
+  emitter << YAML::Flow << YAML::BeginSeq << OneLine(text) << YAML::EndSeq;
+  const std::string list = emitter.c_str();
+  return list.substr(1, list.size() - 2);
+}
+
 std::string SoleLine(const Diagnosis::Sole& sole) {
-  return "  " + sole.name + ": {frame: " + OneLine(sole.link) +
+  return "  " + sole.name + ": {frame: " + Scalar(sole.link) +
          ", xyz: " + List(sole.xyz) + ", rpy: " + List(sole.rpy) + ", size: [" +
-         PrintNumber(sole.length) + ", " + PrintNumber(sole.width) + "]}";
+         PrintNumber(sole.length) + ", " + PrintNumber(sole.width) + "]" +
+         (IsGuess(sole) ? ", from: guess}" : "}");
 }
 
 }  // namespace
@@ -65,6 +76,10 @@ std::string SoleLine(const Diagnosis::Sole& sole) {
 std::string NextStep(const Diagnosis& diagnosis, const Arguments& arguments) {
   const std::string file = Word(arguments.file);
   const std::string doctor = "bazel run //tools:doctor -- " + file;
+  const std::string rest = Packages(arguments);
+  const std::string profile =
+      arguments.profile.empty() ? "" : " --profile " + Word(arguments.profile);
+  const std::string again = doctor + profile + rest;
   if (diagnosis.worst() == Severity::kReject) {
     if (diagnosis.is_xacro) {
       std::filesystem::path urdf = arguments.file;
@@ -85,19 +100,15 @@ std::string NextStep(const Diagnosis& diagnosis, const Arguments& arguments) {
                          "after you have exported the robot as URDF");
     }
     if (has("loop")) {
-      return WithComment(doctor,
+      return WithComment(again,
                          "after you have removed one joint of the loop, or "
                          "given it <mimic>");
     }
-    return WithComment(doctor, "after you have corrected the reason above");
+    return WithComment(again, "after you have corrected the reason above");
   }
-  const std::string rest = Packages(arguments);
-  const std::string profile =
-      arguments.profile.empty() ? "" : " --profile " + Word(arguments.profile);
   const std::string mine =
       Word(std::filesystem::path(arguments.file).stem().string() + ".yaml");
   const std::string with_mine = doctor + " --profile " + mine + rest;
-  const std::string again = doctor + profile + rest;
   const bool has_guess =
       std::any_of(diagnosis.soles.begin(), diagnosis.soles.end(), IsGuess);
   if (diagnosis.has_many_legs) {
