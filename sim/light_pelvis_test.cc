@@ -2,11 +2,12 @@
 // Tests a robot whose pelvis is light, below a waist of three joints.
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <string>
 
+#include "poise/robot/control/stand.h"
 #include "poise/robot/profile/profile.h"
 #include "poise/robot/robot.h"
 #include "poise/sim/closed_loop.h"

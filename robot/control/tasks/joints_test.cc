@@ -92,7 +92,8 @@ TEST_F(TaskTest, JointLimitsBrakeAnAnkleOnTheGroundByWhatIsNecessary) {
         state_.q[7 + j] += 1e-4 * state_.v[6 + j];
         least = std::min(least, side * (stop - state_.q[7 + j]));
       }
-      EXPECT_LT(std::abs(side * (stop - state_.q[7 + j])), 1e-3) << speed;
+      // 0.5 s are 20 time constants, and 0.3 rad * 21 * exp(-20) is 1.3e-8 rad.
+      EXPECT_LT(std::abs(side * (stop - state_.q[7 + j])), 1e-6) << speed;
       return least;
     };
     for (const double share : {0.3, 0.6, 0.8, 1., 2., 4., 10.}) {

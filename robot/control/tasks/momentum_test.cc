@@ -127,14 +127,14 @@ TEST_F(TaskTest, MomentumFollowsItsReference) {
   EXPECT_LT((asked.tail<3>() - (30 * p + 10 * v + a)).norm(), 1e-9);
 }
 
-// With a tenth of the pelvis's moments of inertia, the trunk is the torso. Where
+// With a quarter of the pelvis's moments of inertia, the trunk is the torso. Where
 // the reference turns the chest, it turns the torso.
 TEST_F(TaskTest, MomentumKeepsTheTrunkUprightOnALightPelvis) {
   std::ifstream file("robot/models/humanoid.urdf");
   std::string text(std::istreambuf_iterator<char>(file), {});
   const auto divide = [&](const std::string& moment) {
     const size_t at = text.find(moment, text.find("<link name=\"pelvis\""));
-    text.replace(at + 5, 4, "0.00");  // ixx="0.01... becomes ixx="0.001...
+    text.replace(at + 5, 4, "0.00");  // 0.0165799 becomes 0.0065799.
   };
   for (const char* moment : {"ixx=\"0.0", "iyy=\"0.0", "izz=\"0.0"}) {
     divide(moment);

@@ -10,13 +10,16 @@ namespace {
 // The ratio of 60 public robots is below 0.14 or above 0.17.
 constexpr double kLightBase = 1.0 / 6;
 
-// Returns, by body, whether the body is part of a leg or hangs on one.
+// Returns, by body, whether the body is part of a leg or hangs on one. A body
+// that carries both feet, as the torso of a robot whose base is a hand, is none.
 std::vector<bool> FindLegBodies(const Tree& tree,
                                 const std::vector<Foot>& feet) {
-  std::vector<bool> is_leg(tree.num_bodies(), false);
+  std::vector<int> carried(tree.num_bodies(), 0);  // Feet that a body carries.
   for (const Foot& foot : feet) {
-    for (const int j : JointsTo(tree, foot.body)) is_leg[j + 1] = true;
+    for (const int j : JointsTo(tree, foot.body)) ++carried[j + 1];
   }
+  std::vector<bool> is_leg(tree.num_bodies(), false);
+  for (int b = 0; b < tree.num_bodies(); ++b) is_leg[b] = carried[b] == 1;
   for (int j = 0; j < tree.num_joints(); ++j) {
     if (is_leg[tree.joints()[j].parent]) is_leg[j + 1] = true;
   }

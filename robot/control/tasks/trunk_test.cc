@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <limits>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "poise/dynamics/kinematics.h"
 #include "poise/math/pose.h"
@@ -20,8 +20,9 @@ namespace {
 using Eigen::VectorXd;
 
 // A pelvis and a torso with these moments of inertia about each axis, and two
-// legs with a thigh of 100 kg m2 and a foot with a toe of the same.
-RobotModel WithMoments(double pelvis, double torso) {
+// legs with a thigh of 100 kg m2 and a foot with a toe of the same. The base is
+// the pelvis, or a hand on the torso.
+RobotModel WithMoments(double pelvis, double torso, bool from_hand = false) {
   std::string text = "<robot name='r'>";
   const auto link = [&](const std::string& name, double moment) {
     const std::string I = std::to_string(moment);
@@ -35,7 +36,13 @@ RobotModel WithMoments(double pelvis, double torso) {
   };
   link("pelvis", pelvis);
   link("torso", torso);
-  joint("torso", "pelvis");
+  if (from_hand) {
+    link("hand", 0.1);
+    joint("torso", "hand");
+    joint("pelvis", "torso");
+  } else {
+    joint("torso", "pelvis");
+  }
   for (const std::string side : {"l_", "r_"}) {
     link(side + "thigh", 100);
     joint(side + "thigh", "pelvis");
@@ -67,6 +74,7 @@ TEST(Trunk, IsTheBaseOrABodyOfSixTimesItsMoment) {
   EXPECT_EQ(TrunkOf(WithMoments(1, 0.5)), "pelvis");
   EXPECT_EQ(TrunkOf(WithMoments(1, 5.9)), "pelvis");
   EXPECT_EQ(TrunkOf(WithMoments(1, 6.1)), "torso");
+  EXPECT_EQ(TrunkOf(WithMoments(1, 5.9, true)), "torso");
 }
 
 // Its reference orientation is the one that the forward kinematics give with
