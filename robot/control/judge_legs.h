@@ -13,6 +13,7 @@ namespace poise {
 ///    sole that it does not control,
 ///  - leg joints with a velocity limit below kSlowestVelocity. Such limits are often
 ///    placeholders: balance needs faster legs.
+///  - a foot that carries a chain of two joints or more: it is not the last link.
 /// A joint between the base and a foot belongs to the leg unless it moves
 /// another foot as well. A joint that is coupled to another counts.
 std::vector<Finding> JudgeLegs(const Robot& robot);

@@ -7,7 +7,8 @@
 namespace poise {
 namespace {
 
-// The ratio of 60 public robots is below 0.14 or above 0.17.
+// The ratio is below 0.14 or above 0.17 in each of 138 URDF files that were
+// tried.
 constexpr double kLightBase = 1.0 / 6;
 
 // Returns, by body, whether the body is part of a leg or hangs on one. A body

@@ -124,6 +124,10 @@ TEST(Diagnose, NamesWrongUnitsFirst) {
   const Diagnosis diagnosis = Examine(text);
   EXPECT_FALSE(diagnosis.stands);
   EXPECT_EQ(diagnosis.findings[0].what.find("has a mass of 38660 kg"), 0u);
+  Diagnosis standing = diagnosis;
+  standing.stands = true;  // As with efforts in the same wrong unit.
+  EXPECT_EQ(NextStep(standing, {"a.urdf", "", {}}),
+            NextStep(diagnosis, {"a.urdf", "", {}}));
   EXPECT_EQ(NextStep(diagnosis, {"a.urdf", "", {}}),
             "bazel run //tools:doctor -- a.urdf  # after you have corrected "
             "the units of the file");

@@ -119,7 +119,7 @@ std::string NextStep(const Diagnosis& diagnosis, const Arguments& arguments) {
     return WithComment(with_mine, "after you have locked joints in " + mine +
                                       " (locked: {JOINT: 0})");
   }
-  if (!diagnosis.stands && !diagnosis.remedy.empty()) {
+  if (!diagnosis.remedy.empty()) {
     return WithComment(again, "after you have corrected " + diagnosis.remedy);
   }
   if (diagnosis.soles.empty() && diagnosis.guessed_feet.size() < 2) {
