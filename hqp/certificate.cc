@@ -21,13 +21,39 @@ double Worse(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? kInfinity : std::max(a, b);
 }
 
+// Sums over the entries of a row and y.
+struct RowSums {
+  double product;           // row . y.
+  double product_size;      // sum_j |row_j y_j|.
+  double squared_row_norm;  // |row|^2.
+};
+
+RowSums Sum(const double* row, const Eigen::VectorXd& y) {
+  using Four = Eigen::Array4d;
+  Four product = Four::Zero(), size = Four::Zero(), squares = Four::Zero();
+  const int n = static_cast<int>(y.size());
+  int j = 0;
+  for (; j + 4 <= n; j += 4) {
+    const Four r = Four::Map(row + j);
+    const Four term = r * Four::Map(y.data() + j);
+    product += term;
+    size += term.abs();
+    squares += r * r;
+  }
+  for (; j < n; ++j) {
+    const double term = row[j] * y[j];
+    product[0] += term;
+    size[0] += std::abs(term);
+    squares[0] += row[j] * row[j];
+  }
+  return {product.sum(), size.sum(), squares.sum()};
+}
+
 }  // namespace
 
 Certifier::Certifier(int num_variables,
                      const std::vector<LevelCapacity>& capacity)
-    : abs_y_(num_variables),
-      gradient_(num_variables),
-      gradient_size_(num_variables) {
+    : gradient_(num_variables), gradient_size_(num_variables) {
   for (const LevelCapacity& level : capacity) {
     LevelRows rows;
     rows.violation.resize(level.inequalities);
@@ -40,7 +66,6 @@ Certifier::Certifier(int num_variables,
 Certificate Certifier::Certify(const Hierarchy& hierarchy,
                                const Solution& solution) noexcept {
   Certificate certificate;
-  abs_y_ = solution.y.cwiseAbs();
   const int levels = solution.failed_level < 0 ? hierarchy.num_levels()
                                                : solution.failed_level;
   for (int level = 0; level < levels; ++level) {
@@ -74,8 +99,9 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
   gradient_size_.setZero();
   double cost = 0, cost_size = 0, feasibility = certificate->feasibility;
   for (int i = 0; i < B.rows(); ++i) {
-    const double residual = B.row(i).dot(solution.y) + b[i];
-    const double size = B.row(i).cwiseAbs().dot(abs_y_) + std::abs(b[i]);
+    const RowSums sums = Sum(B.row(i).data(), solution.y);
+    const double residual = sums.product + b[i];
+    const double size = sums.product_size + std::abs(b[i]);
     feasibility =
         Worse(feasibility, Ratio(residual - answer.equality_residual[i], size));
     cost += weight[i] * residual * residual / 2;
@@ -84,17 +110,19 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     gradient_size_ += weight[i] * size * B.row(i).cwiseAbs().transpose();
   }
   for (int i = 0; i < C.rows(); ++i) {
-    const double value = C.row(i).dot(solution.y);
+    const RowSums sums = Sum(C.row(i).data(), solution.y);
+    const double value = sums.product;
     const bool at_upper = value - upper[i] >= lower[i] - value;
     const double bound = at_upper ? upper[i] : lower[i];
     const double violation = at_upper ? value - bound : bound - value;
-    const double size = std::isinf(bound)
-                            ? 0
-                            : C.row(i).cwiseAbs().dot(abs_y_) + std::abs(bound);
+    const double size =
+        std::isinf(bound) ? 0 : sums.product_size + std::abs(bound);
     rows.side[i] = at_upper ? Side::kUpper : Side::kLower;
     rows.violation[i] = violation;
     rows.size[i] =
-        std::isinf(bound) ? 0 : C.row(i).norm() * norm_y + std::abs(bound);
+        std::isinf(bound)
+            ? 0
+            : std::sqrt(sums.squared_row_norm) * norm_y + std::abs(bound);
     const double slack = std::max(violation, 0.0);
     feasibility = Worse(feasibility, Ratio(slack - answer.slack[i], size));
     cost += slack * slack / 2;

@@ -42,7 +42,7 @@ class Certifier {
                         const Solution& solution, Certificate* certificate);
 
   std::vector<LevelRows> rows_;
-  Eigen::VectorXd abs_y_, gradient_, gradient_size_;
+  Eigen::VectorXd gradient_, gradient_size_;
 };
 
 }  // namespace poise

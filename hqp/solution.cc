@@ -53,24 +53,42 @@ void Solution::Reset() noexcept {
   }
 }
 
+void Solution::Reset(const Hierarchy& hierarchy) noexcept {
+  status = Status::kOptimal;
+  failed_level = -1;
+  iterations = 0;
+  y.setZero();
+  certificate = {};
+  for (int k = 0; k < hierarchy.num_levels(); ++k) {
+    const int equalities = hierarchy.num_equalities(k);
+    const int inequalities = hierarchy.num_inequalities(k);
+    LevelSolution& level = levels[k];
+    level.cost = 0;
+    level.equality_residual.head(equalities).setZero();
+    level.slack.head(inequalities).setZero();
+    std::fill_n(level.active.begin(), inequalities, Side::kNone);
+    level.nullity = static_cast<int>(y.size());
+    for (int below = k + 1; below < hierarchy.num_levels(); ++below) {
+      LevelMultipliers& multipliers = levels[below].multipliers[k];
+      multipliers.equality.head(equalities).setZero();
+      multipliers.inequality.head(inequalities).setZero();
+    }
+  }
+}
+
 void EvaluateLevel(const Hierarchy& hierarchy, int level,
                    Solution* solution) noexcept {
-  const int equalities = hierarchy.num_equalities(level);
-  const int inequalities = hierarchy.num_inequalities(level);
+  const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
   LevelSolution& out = solution->levels[level];
-  out.cost = 0;
-  for (int i = 0; i < equalities; ++i) {
-    const double residual =
-        hierarchy.B(level).row(i).dot(solution->y) + hierarchy.b(level)[i];
-    out.equality_residual[i] = residual;
-    out.cost += hierarchy.weight(level)[i] * residual * residual / 2;
-  }
-  for (int i = 0; i < inequalities; ++i) {
-    const double value = hierarchy.C(level).row(i).dot(solution->y);
-    out.slack[i] = std::max({hierarchy.lower(level)[i] - value,
-                             value - hierarchy.upper(level)[i], 0.0});
-    out.cost += out.slack[i] * out.slack[i] / 2;
-  }
+  auto residual = out.equality_residual.head(hierarchy.num_equalities(level));
+  auto slack = out.slack.head(hierarchy.num_inequalities(level));
+  residual = hierarchy.b(level);
+  residual.noalias() += hierarchy.B(level) * solution->y;
+  slack.noalias() = hierarchy.C(level) * solution->y;
+  slack = (lower - slack).cwiseMax(slack - upper).cwiseMax(0);
+  out.cost = (residual.cwiseAbs2().dot(hierarchy.weight(level)) +
+              slack.squaredNorm()) /
+             2;
 }
 
 Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept {

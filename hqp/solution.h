@@ -82,6 +82,11 @@ struct Solution {
   /// Restores the initial state: y, multipliers and certificate are zero.
   void Reset() noexcept;
 
+  /// Restores the initial state of this hierarchy's rows and levels only. That
+  /// takes less time.
+  /// pre: the hierarchy is within the capacity.
+  void Reset(const Hierarchy& hierarchy) noexcept;
+
   Status status;
   int failed_level;  ///< First level without an optimum; -1 if optimal.
   int iterations;

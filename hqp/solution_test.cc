@@ -32,21 +32,13 @@ void ExpectAsConstructed(const Solution& solution, int num_variables) {
   }
 }
 
-TEST(Solution, ResetRestoresTheInitialState) {
-  Solution solution(3, {{1, 2}, {3, 4}});
-  ExpectAsConstructed(solution, 3);
-  ASSERT_EQ(solution.levels[1].multipliers.size(), 1u);
-  EXPECT_EQ(solution.levels[1].multipliers[0].equality.size(), 1);
-  EXPECT_EQ(solution.levels[1].multipliers[0].inequality.size(), 2);
-  EXPECT_EQ(solution.levels[1].equality_residual.size(), 3);
-  EXPECT_EQ(solution.levels[1].slack.size(), 4);
-  EXPECT_EQ(solution.levels[1].active.size(), 4u);
-
-  solution.status = Status::kBadInput;
-  solution.failed_level = 1;
-  solution.iterations = 9;
-  solution.y.setConstant(7);
-  for (LevelSolution& level : solution.levels) {
+void FillWithSevens(Solution* solution) {
+  solution->status = Status::kBadInput;
+  solution->failed_level = 1;
+  solution->iterations = 9;
+  solution->y.setConstant(7);
+  solution->certificate.priority = 7;
+  for (LevelSolution& level : solution->levels) {
     level.cost = 7;
     level.equality_residual.setConstant(7);
     level.slack.setConstant(7);
@@ -57,8 +49,47 @@ TEST(Solution, ResetRestoresTheInitialState) {
       multipliers.inequality.setConstant(7);
     }
   }
+}
+
+TEST(Solution, ResetRestoresTheInitialState) {
+  Solution solution(3, {{1, 2}, {3, 4}});
+  ExpectAsConstructed(solution, 3);
+  ASSERT_EQ(solution.levels[1].multipliers.size(), 1u);
+  EXPECT_EQ(solution.levels[1].multipliers[0].equality.size(), 1);
+  EXPECT_EQ(solution.levels[1].multipliers[0].inequality.size(), 2);
+  EXPECT_EQ(solution.levels[1].equality_residual.size(), 3);
+  EXPECT_EQ(solution.levels[1].slack.size(), 4);
+  EXPECT_EQ(solution.levels[1].active.size(), 4u);
+
+  FillWithSevens(&solution);
   solution.Reset();
   ExpectAsConstructed(solution, 3);
+}
+
+TEST(Solution, ResetForAHierarchyRestoresWhatItUses) {
+  const std::vector<LevelCapacity> capacity = {{1, 2}, {3, 4}};
+  Solution solution(3, capacity);
+  Hierarchy hierarchy(3, capacity);
+  const auto use = [&](int first, int second) {
+    hierarchy.Clear(2);
+    (void)hierarchy.AddEqualities(0, first);
+    (void)hierarchy.AddInequalities(0, 2 * first);
+    (void)hierarchy.AddEqualities(1, second);
+    (void)hierarchy.AddInequalities(1, second + 1);
+  };
+  use(1, 3);
+  FillWithSevens(&solution);
+  solution.Reset(hierarchy);
+  ExpectAsConstructed(solution, 3);
+
+  use(0, 2);
+  FillWithSevens(&solution);
+  solution.Reset(hierarchy);
+  EXPECT_EQ(solution.levels[1].slack, Eigen::Vector4d(0, 0, 0, 7));
+  EXPECT_EQ(solution.levels[1].equality_residual, Eigen::Vector3d(0, 0, 7));
+  EXPECT_EQ(solution.levels[1].active[2], Side::kNone);
+  EXPECT_EQ(solution.levels[1].active[3], Side::kUpper);
+  EXPECT_TRUE(solution.levels[1].multipliers[0].equality.isConstant(7));
 }
 
 TEST(Solution, InitialisesAllMembers) {

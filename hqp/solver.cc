@@ -70,16 +70,20 @@ void Solver::Impl::Forget() {
 
 Status Solver::Impl::Solve(const Hierarchy& hierarchy, Budget* budget,
                            Solution* solution) {
-  solution->Reset();
-  solution->status = problem_.Read(hierarchy, &solution->failed_level);
-  if (solution->status != Status::kOptimal) {
+  int failed_level;
+  const Status status = problem_.Read(hierarchy, &failed_level);
+  if (status != Status::kOptimal) {
+    solution->Reset();
+    solution->status = status;
+    solution->failed_level = failed_level;
     solution->certificate = certifier_.Certify(hierarchy, *solution);
     return solution->status;
   }
+  solution->Reset(hierarchy);
   Prepare(hierarchy);
   if (!SearchAtOnce(hierarchy, budget->max_iterations() / 2, budget) ||
       !WriteSolution(hierarchy, solution)) {
-    solution->Reset();
+    solution->Reset(hierarchy);
     SearchByLevel(hierarchy, budget, solution);
     if (!WriteSolution(hierarchy, solution)) {
       certifier_.Truncate(hierarchy, solution);

@@ -166,16 +166,14 @@ void DotWithSize(const double* row, const double* x, int n, double* dot,
 POISE_CLONES
 double AbsoluteSum(const double* x, int n) {
   const int whole = n & ~3;
-  double even = 0, odd = 0, third = 0, fourth = 0;
+  Four sum = {};
   int j = 0;
   for (; j < whole; j += 4) {
-    even += std::abs(x[j]);
-    odd += std::abs(x[j + 1]);
-    third += std::abs(x[j + 2]);
-    fourth += std::abs(x[j + 3]);
+    const Four xj = POISE_LOAD(x + j);
+    sum += xj < 0 ? -xj : xj;
   }
-  for (; j < n; ++j) even += std::abs(x[j]);
-  return (even + third) + (odd + fourth);
+  for (; j < n; ++j) sum[0] += std::abs(x[j]);
+  return POISE_SUM(sum);
 }
 
 double Largest(const double* x, int n) {
