@@ -26,6 +26,17 @@ constexpr double kLeastCopTime = 0.05;  // s.
 // StepTo() needs a robot slower than this.
 constexpr double kSlow = 0.05;  // m/s.
 
+// An impact lasts at most this long.
+constexpr double kImpactTime = 0.05;  // s.
+
+// The foot of a StepTo() rises after this multiple of the shift time, or later
+// if a push has moved the robot. After the last multiple it is given up.
+constexpr double kShiftTimes = 1.3;
+constexpr double kMostShiftTimes = 4;
+
+// The foot rises if xi is inside this part of the other foot's sole.
+constexpr double kCentered = 0.6;
+
 const Robot& Checked(const Robot& robot) {
   if (robot.feet.size() == 2) return robot;
   throw std::invalid_argument("robot " + Quoted(robot.model.name) + ": has " +
@@ -70,6 +81,7 @@ void Gait::Start() noexcept {
   is_commanded_ = owns_com_ = false;
   is_stopped_ = false;
   steps_ = 0;
+  found_ground_for_ = kImpactTime;
   push_.Reset();
 }
 
@@ -90,17 +102,31 @@ Pose Gait::StanceFrame(const Controller& controller, int foot) const noexcept {
   return X_WS;
 }
 
-void Gait::Measure(const Controller& controller) noexcept {
+void Gait::MeasureDcm(const Controller& controller) noexcept {
   const Tick& tick = controller.tick();
   const double height = tick.p_WG.z() - controller.reference().ground_z;
   omega_ = PendulumFrequency(gravity_, height);
   xi_without_k_W_ = ComputeDcm(tick, mass_, height, omega_, 0);
   xi_W_ = ComputeDcm(tick, mass_, height, omega_, settings_.share_of_k);
-  push_.Update(settings_.dt, tick, controller.unmodelled_vdot());
+}
+
+// The impact of a foot that has found the ground again is no push.
+void Gait::LookForPush(const Controller& controller) noexcept {
+  for (int foot = 0; foot < 2; ++foot) {
+    if (controller.stance().phase(foot) != ContactPhase::kLost) continue;
+    found_ground_for_ = 0;
+  }
+  found_ground_for_ += settings_.dt;
+  if (found_ground_for_ < kImpactTime) {
+    push_.Reset();
+  } else {
+    push_.Update(settings_.dt, controller.tick(), controller.unmodelled_vdot());
+  }
 }
 
 void Gait::Update(Controller* controller) noexcept {
-  Measure(*controller);
+  MeasureDcm(*controller);
+  LookForPush(*controller);
   priority_.Set(steps_ > 0, &controller->stack());
   switch (phase_) {
     case GaitPhase::kStand:
@@ -124,10 +150,12 @@ void Gait::Update(Controller* controller) noexcept {
       } else if (controller->stance().phase(swing_) !=
                  ContactPhase::kStepping) {
         Rest(controller);  // The foot was taken over by somebody else.
-      } else if (is_commanded_) {
-        Follow(controller);
-      } else {
+      } else if (!is_commanded_) {
         Catch(controller);
+      } else if (LeavesSole(*controller) && MayStep()) {
+        Turn(controller);
+      } else {
+        Follow(controller);
       }
       return;
   }
@@ -152,6 +180,16 @@ bool Gait::MustStep(const Controller& controller) noexcept {
   const Eigen::Vector2d a_Mid = X_MidW.R.topLeftCorner<2, 2>() * push_.a_WG();
   fractions_ = PredictEdgeFractions(InFrame(X_MidW, xi_without_k_W_), a_Mid,
                                     omega_, push_.remaining(), box);
+  return settings_.trigger.IsNeeded(fractions_);
+}
+
+// Returns whether xi has left the sole of the only foot on the ground.
+bool Gait::LeavesSole(const Controller& controller) noexcept {
+  const Pose X_CW = StanceFrame(controller, 1 - swing_).Inverse();
+  const Eigen::Vector2d half = robot_.feet[1 - swing_].half_size;
+  fractions_ = PredictEdgeFractions(InFrame(X_CW, xi_without_k_W_),
+                                    Eigen::Vector2d::Zero(), omega_, 0,
+                                    {half.x(), half.x(), half.y(), half.y()});
   return settings_.trigger.IsNeeded(fractions_);
 }
 
@@ -332,6 +370,7 @@ void Gait::Stand(Controller* controller) noexcept {
 
 StepAnswer Gait::StepTo(int foot, const Eigen::Vector2d& p_WC,
                         const Controller& controller) noexcept {
+  MeasureDcm(controller);
   if (foot != 0 && foot != 1) return StepAnswer::kUnknownFoot;
   if (!p_WC.allFinite()) return StepAnswer::kNotANumber;
   if (is_stopped_) return StepAnswer::kStopped;
@@ -367,12 +406,31 @@ void Gait::Shift(Controller* controller) noexcept {
               nominal_height_ - settings_.min_sink,
               settings_.shift_time - over_, &controller->reference());
   over_ += settings_.dt;
-  if (over_ < 1.3 * settings_.shift_time) return;
+  if (over_ < kShiftTimes * settings_.shift_time) return;
+  const Eigen::Vector2d half = robot_.feet[1 - swing_].half_size;
+  const Pose X_CW = StanceFrame(*controller, 1 - swing_).Inverse();
+  const Eigen::Array2d xi_C = InFrame(X_CW, xi_W_);
+  if (push_.acts() || (xi_C.abs() > kCentered * half.array()).any()) {
+    if (over_ > kMostShiftTimes * settings_.shift_time) Rest(controller);
+    return;
+  }
   const Eigen::Vector2d goal_W = goal_W_;
   is_commanded_ = true;
   Begin(swing_, settings_.command_time, controller);
   goal_W_ = goal_W;
   Follow(controller);
+}
+
+// Makes a step on command a step that catches the robot, from where the foot
+// is.
+void Gait::Turn(Controller* controller) noexcept {
+  is_commanded_ = false;
+  over_ = 0;
+  duration_ = settings_.time_min;
+  beyond_edge_ = fractions_.beyond;
+  lift_off_W_ = controller->contacts()[swing_].X_WC.p.head<2>();
+  path_.Configure(settings_.path);
+  Catch(controller);
 }
 
 // One tick of a step on command, with the center of mass at rest.

@@ -52,7 +52,10 @@ class Gait {
 
   /// Steps with a foot to a place of the sole's center on the ground, m, with
   /// the heading of the other foot. Does nothing, and says why, unless the
-  /// robot stands still on both feet and the leg reaches the place.
+  /// robot stands still on both feet and the leg reaches the place. First the
+  /// center of mass moves over the other foot. If a push has moved the robot,
+  /// the foot waits, or is given up. A push in the air makes the step one that
+  /// catches the robot, at another place.
   [[nodiscard]] StepAnswer StepTo(int foot, const Eigen::Vector2d& p_WC,
                                   const Controller& controller) noexcept;
 
@@ -79,11 +82,13 @@ class Gait {
   bool owns_com() const { return owns_com_; }
 
  private:
-  void Measure(const Controller& controller) noexcept;
+  void MeasureDcm(const Controller& controller) noexcept;
   bool MayStep() const noexcept {
     return !is_stopped_ && steps_ < settings_.max_steps;
   }
+  void LookForPush(const Controller& controller) noexcept;
   bool MustStep(const Controller& controller) noexcept;
+  bool LeavesSole(const Controller& controller) noexcept;
   int ChooseFoot(const Controller& controller) noexcept;
   StepProblem MakeProblem(const Controller& controller, int swing,
                           double remaining) const noexcept;
@@ -91,6 +96,7 @@ class Gait {
   void Stand(Controller* controller) noexcept;
   void Shift(Controller* controller) noexcept;
   void Catch(Controller* controller) noexcept;
+  void Turn(Controller* controller) noexcept;
   void Follow(Controller* controller) noexcept;
   void Land(Controller* controller) noexcept;
   void Rest(Controller* controller) noexcept;
@@ -116,9 +122,10 @@ class Gait {
   int swing_ = 0;
   int steps_ = 0;
   bool is_stopped_ = false;
-  double over_ = 0;         // Time in this phase, s.
-  double duration_ = 0;     // Planned time of this phase, s.
-  double beyond_edge_ = 0;  // m.
+  double found_ground_for_ = 0;  // Time since a foot was last in the air, s.
+  double over_ = 0;              // Time in this phase, s.
+  double duration_ = 0;          // Planned time of this phase, s.
+  double beyond_edge_ = 0;       // m.
   Eigen::Vector2d lift_off_W_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d goal_W_ = Eigen::Vector2d::Zero();
   PlannedStep plan_;

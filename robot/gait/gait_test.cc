@@ -115,6 +115,80 @@ TEST(Gait, StepsOnCommandAndEndsAtRest) {
   EXPECT_LT((rig.controller().tick().p_WG.head<2>() - middle).norm(), 0.05);
 }
 
+TEST(Gait, StepsOnCommandBeforeItsFirstTick) {
+  Rig rig;
+  EXPECT_EQ(rig.gait().StepTo(0, {0.1, 0.1}, rig.controller()),
+            StepAnswer::kAccepted);
+}
+
+// The foot does not rise while the capture point is beside the other sole. A
+// push by 0.2 m/s moves it by 6 cm, more than half of the sole's width.
+TEST(Gait, KeepsTheFootDownUntilTheRobotIsOverTheOther) {
+  Rig rig;
+  rig.Run(0.1);
+  const Eigen::Vector2d goal(0.1, rig.FootPlace(0).y());
+  ASSERT_EQ(rig.gait().StepTo(0, goal, rig.controller()),
+            StepAnswer::kAccepted);
+  rig.Run(1.26);
+  for (int i = 0; i < 20; ++i) {
+    rig.Kick({0, 0.01});
+    rig.Tick();
+  }
+  double time = 1.3;
+  while (rig.gait().phase() == GaitPhase::kShift && time < 5) {
+    rig.Tick();
+    time += kDt;
+  }
+  ASSERT_EQ(rig.gait().phase(), GaitPhase::kSwing);
+  EXPECT_TRUE(rig.gait().is_commanded());
+  EXPECT_GT(time, 1.32);  // Without the push: 1.3 times 1.0 s.
+  const Eigen::Vector2d half = Humanoid().feet[1].half_size;
+  const Eigen::Vector2d beside = rig.gait().xi_W() - rig.FootPlace(1);
+  EXPECT_TRUE((beside.cwiseAbs().array() < half.array()).all());
+  rig.Run(4);
+  EXPECT_LT((rig.FootPlace(0) - goal).norm(), 1e-3);
+}
+
+// Without the task momentum, the center of mass stays amid the feet.
+TEST(Gait, GivesUpAStepIfTheRobotDoesNotComeOverTheOtherFoot) {
+  Rig rig;
+  rig.Run(0.1);
+  const Eigen::Vector2d place = rig.FootPlace(0);
+  ASSERT_TRUE(rig.controller().stack().Enable("momentum", false));
+  ASSERT_EQ(rig.gait().StepTo(0, {0.1, place.y()}, rig.controller()),
+            StepAnswer::kAccepted);
+  rig.Run(3.9);
+  EXPECT_EQ(rig.gait().phase(), GaitPhase::kShift);
+  rig.Run(0.2);
+  EXPECT_EQ(rig.gait().phase(), GaitPhase::kStand);
+  EXPECT_EQ(rig.gait().steps(), 0);
+  EXPECT_LT((rig.FootPlace(0) - place).norm(), 1e-3);
+}
+
+// A kick takes the capture point 17 cm forward or 11 cm aside, beyond the sole
+// of the only foot on the ground. The robot steps elsewhere than commanded, and
+// ends at rest on both feet.
+TEST(Gait, CatchesAKickDuringACommandedStep) {
+  for (int i = 0; i < 8; ++i) {
+    SCOPED_TRACE(45 * i);
+    Rig rig;
+    rig.Run(0.1);
+    ASSERT_EQ(rig.gait().StepTo(0, {0.1, 0.1}, rig.controller()),
+              StepAnswer::kAccepted);
+    rig.Run(1.6);
+    ASSERT_EQ(rig.gait().phase(), GaitPhase::kSwing);
+    ASSERT_TRUE(rig.gait().is_commanded());
+    const double a = i * M_PI / 4;
+    rig.Kick({0.6 * std::cos(a), 0.4 * std::sin(a)});
+    rig.Run(0.1);
+    EXPECT_FALSE(rig.gait().is_commanded());
+    rig.Run(5);
+    EXPECT_EQ(rig.gait().phase(), GaitPhase::kStand);
+    EXPECT_LT(rig.controller().tick().v_WG.norm(), 0.01);
+    EXPECT_GT(rig.FootPlace(0).y() - rig.FootPlace(1).y(), 0.1);
+  }
+}
+
 // A velocity that takes the capture point 10 cm beyond the feet needs steps;
 // they end with the feet side by side.
 TEST(Gait, CatchesAKickFromEachSide) {
