@@ -57,6 +57,9 @@ auto MakeOf(const std::string& field, Make make) -> decltype(make()) {
   }
 }
 
+constexpr char kGaitMovesCom[] =
+    " s: from the first step on, the gait alone moves the CoM";
+
 std::string Entry(const char* list, std::size_t i) {
   return std::string(list) + "[" + std::to_string(i) + "]";
 }
@@ -195,9 +198,13 @@ int ClosedLoop::FindFoot(const std::string& name) const {
   for (size_t i = 0; i < robot_.feet.size(); ++i) {
     if (robot_.feet[i].name == name) return static_cast<int>(i);
   }
+  std::string feet;
+  for (const Foot& foot : robot_.feet) {
+    feet += (feet.empty() ? "" : ", ") + foot.name;
+  }
   throw std::invalid_argument("stance: foot " + Quoted(name) +
                               " is unknown, must be a foot of robot " +
-                              Quoted(robot_.model.name));
+                              Quoted(robot_.model.name) + ": " + feet);
 }
 
 void ClosedLoop::MoveFeet() {
@@ -217,7 +224,13 @@ void ClosedLoop::MoveFoot(const StanceEvent& event) {
     return;
   }
   // After the first step, the gait alone moves the feet and the CoM.
-  if (gait_ != nullptr && gait_->owns_com()) return;
+  if (gait_ != nullptr && gait_->owns_com()) {
+    if (event.kind == StanceEvent::Kind::kShift) {
+      impossible_.push_back("shift at " + PrintNumber(event.at) +
+                            kGaitMovesCom);
+    }
+    return;
+  }
   switch (event.kind) {
     case StanceEvent::Kind::kLift:
       (void)controller_->stance().Lift(FindFoot(event.foot), event.height);
@@ -258,6 +271,7 @@ void ClosedLoop::Shift(const StanceEvent& event) {
 void ClosedLoop::Tick() {
   using Clock = std::chrono::steady_clock;
   start_ = plant_->Sense();
+  const bool owned_com = gait_ != nullptr && gait_->owns_com();
   MoveFeet();
   if (gait_ == nullptr || !gait_->owns_com()) {
     com_path_.Write(time(), &controller_->reference());
@@ -277,6 +291,12 @@ void ClosedLoop::Tick() {
   observer_.ObserveState(start_, down_, controller_->reference().p_WG);
   if (gait_ != nullptr && gait_->owns_com()) {
     observer_.MoveComReference(controller_->contacts());
+  }
+  const bool moves_com =
+      !scenario_.com.sine.isZero() || !scenario_.com.cosine.isZero();
+  if (!owned_com && gait_ != nullptr && gait_->owns_com() && moves_com) {
+    impossible_.push_back("motion of the CoM after " +
+                          PrintNumber(start_.time) + kGaitMovesCom);
   }
   SizePushes();
   StepPlant();

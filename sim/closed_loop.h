@@ -63,10 +63,9 @@ class ClosedLoop {
   const Gait* gait() const { return gait_.get(); }
   /// The steps that the scenario has commanded up to now.
   const std::vector<CommandedStep>& commanded() const { return commanded_; }
-  /// The pushes up to now that are a fraction of a bound of 0, in words.
-  const std::vector<std::string>& impossible_pushes() const {
-    return impossible_;
-  }
+  /// In words: the pushes up to now that are a fraction of a bound of 0, and
+  /// motions of the center of mass that the gait has ended.
+  const std::vector<std::string>& impossible() const { return impossible_; }
   const Plant& plant() const { return *plant_; }
 
  private:

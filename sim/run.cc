@@ -77,22 +77,44 @@ std::optional<Yardstick> Measure(const Robot& robot, const Push& push,
   return BoundOfPush(robot, begin.start.q, push, down);
 }
 
-// Returns RunResult::commanded_done.
-std::optional<bool> AreDone(const std::vector<CommandedStep>& commanded,
-                            const std::vector<TakenStep>& steps) {
+bool HasHappened(const CommandedStep& command,
+                 const std::vector<TakenStep>& steps) {
   constexpr double kNear = 0.01;  // m.
-  if (commanded.empty()) return std::nullopt;
-  return std::all_of(
-      commanded.begin(), commanded.end(), [&](const CommandedStep& command) {
-        return command.answer == StepAnswer::kAccepted &&
-               std::any_of(steps.begin(), steps.end(),
-                           [&](const TakenStep& step) {
-                             return step.is_commanded && step.has_landed &&
-                                    step.foot == command.foot &&
-                                    step.at >= command.at &&
-                                    (step.landed - command.to).norm() < kNear;
-                           });
-      });
+  return std::any_of(steps.begin(), steps.end(), [&](const TakenStep& step) {
+    return step.is_commanded && step.has_landed && step.foot == command.foot &&
+           step.at >= command.at && (step.landed - command.to).norm() < kNear;
+  });
+}
+
+// Returns the commanded steps that did not happen, in words. The loop gives the
+// commands one after the other, in the order of the scenario.
+std::vector<std::string> MissedSteps(const Scenario& scenario,
+                                     const RunResult& result) {
+  std::vector<std::string> missed;
+  std::size_t given = 0;
+  for (const StanceEvent& event : scenario.stance) {
+    if (event.kind != StanceEvent::Kind::kStep) continue;
+    const std::string which = "step of " + OneLine(event.foot) + " to (" +
+                              PrintNumber(event.to.x()) + ", " +
+                              PrintNumber(event.to.y()) + ") m at " +
+                              PrintNumber(event.at) + " s: ";
+    if (given == result.commanded.size()) {
+      if (result.interrupted) break;
+      missed.push_back(which + (result.verdict.fell_at
+                                    ? "the robot fell before"
+                                    : "the run ended before"));
+      continue;
+    }
+    const CommandedStep& command = result.commanded[given++];
+    if (command.answer != StepAnswer::kAccepted) {
+      missed.push_back(which + "refused, because " +
+                       std::string(Describe(command.answer)));
+    } else if (!HasHappened(command, result.steps)) {
+      missed.push_back(which +
+                       "the foot did not land within 10 mm of its place");
+    }
+  }
+  return missed;
 }
 
 }  // namespace
@@ -161,15 +183,22 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
   result.verdict = judge.Conclude();
   result.steps = step_watch.steps();
   result.commanded = loop->commanded();
-  result.commanded_done = AreDone(result.commanded, result.steps);
+  const auto is_step = [](const StanceEvent& event) {
+    return event.kind == StanceEvent::Kind::kStep;
+  };
+  if (std::any_of(scenario.stance.begin(), scenario.stance.end(), is_step)) {
+    result.not_done = MissedSteps(scenario, result);
+    result.commanded_done = result.not_done.empty();
+  }
   // A robot that fell early has missed the commands that followed.
   const double end = result.interrupted ? result.duration : scenario.duration;
   if (command_watch.has_command(end)) {
-    result.not_done = command_watch.Missed(end);
-    result.commanded_done =
-        result.commanded_done.value_or(true) && result.not_done.empty();
+    for (const std::string& missed : command_watch.Missed(end)) {
+      result.not_done.push_back(missed);
+    }
+    result.commanded_done = result.not_done.empty();
   }
-  for (const std::string& missed : loop->impossible_pushes()) {
+  for (const std::string& missed : loop->impossible()) {
     result.not_done.push_back(missed);
     result.commanded_done = false;
   }

@@ -54,7 +54,8 @@ struct RunResult {
   /// was accepted and has landed within 10 mm of its place. False if a push is
   /// a fraction of a bound of 0. Empty without a command and such a push.
   std::optional<bool> commanded_done;
-  /// See CommandWatch::Missed() and ClosedLoop::impossible_pushes().
+  /// The commanded steps that did not happen, CommandWatch::Missed() and
+  /// ClosedLoop::impossible(), in words.
   std::vector<std::string> not_done;
   double wall_seconds = 0;
   std::string log_sha256;  ///< Empty if nothing was recorded.

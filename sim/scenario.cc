@@ -100,6 +100,13 @@ StanceEvent ReadStanceEvent(YamlFields fields) {
     fields.Refuse(key, "must not be in one entry with " + std::string(other) +
                            ": write two entries");
   }
+  for (const auto& [key, action] :
+       {std::pair("over", "shift"), std::pair("height", "lift")}) {
+    const bool has_action = fields.Has("lift") || fields.Has("put_down") ||
+                            fields.Has("shift") || fields.Has("step");
+    if (!has_action || !fields.Has(key) || fields.Has(action)) continue;
+    fields.Refuse(key, "must come with " + std::string(action) + " only");
+  }
   if (!lift.empty()) {
     event.kind = StanceEvent::Kind::kLift;
     event.foot = lift;

@@ -40,17 +40,20 @@ TEST(Scenario, RejectsAnInvalidValueWithItsLine) {
   EXPECT_EQ(Complaint("duration: .inf\n"),
             "trial.yaml:1: 'duration' is '.inf', must be a number");
   EXPECT_EQ(Complaint("pushes:\n - force: [1, 2]\n"),
-            "trial.yaml:2: 'force' is a list, must be a list of 3 numbers");
+            "trial.yaml:2: 'force' is the list '[1, 2]', must be a list of 3 "
+            "numbers");
   EXPECT_EQ(Complaint("pushes:\n - profile: bang\n"),
             "trial.yaml:2: 'profile' is 'bang', must be box, half_sine or "
             "impulse");
   EXPECT_EQ(Complaint("plant: {kind: mars}\n"),
             "trial.yaml:1: 'kind' is 'mars', must be bullet or mujoco");
   EXPECT_EQ(Complaint("control: {inscribed: 3}\n"),
-            "trial.yaml:1: 'inscribed' is '3', must be true or false");
+            "trial.yaml:1: 'inscribed' is '3', must be true or false, or "
+            "on or off");
   EXPECT_EQ(Complaint("start: 3\n"),
             "trial.yaml:1: 'start' is '3', must be a map");
-  EXPECT_EQ(Complaint("- 3\n"), "trial.yaml:1: is a list, must be a map");
+  EXPECT_EQ(Complaint("- 3\n"),
+            "trial.yaml:1: is the list '[3]', must be a map");
   for (const char* seed : {"-1", "0.5", "4294967296"}) {
     EXPECT_EQ(Complaint(std::string("seed: ") + seed + "\n"),
               std::string("trial.yaml:1: 'seed' is '") + seed +
@@ -73,6 +76,21 @@ TEST(Scenario, RejectsAStanceEventWithoutAnAction) {
             "shift or step");
   EXPECT_NE(Complaint("stance: [{at: 3, shift: middle, over: 0}]\n"), "none");
   EXPECT_NE(Complaint("stance: [{at: 3, lift: a, height: -1}]\n"), "none");
+}
+
+// A key that the action does not use would be ignored in silence.
+TEST(Scenario, RejectsAKeyOfAnotherStanceAction) {
+  EXPECT_EQ(Complaint("stance:\n- {at: 1, lift: a, over: 2}\n"),
+            "trial.yaml:2: 'over' is '2', must come with shift only");
+  EXPECT_EQ(Complaint("stance:\n- {at: 1, shift: a, height: 0.1}\n"),
+            "trial.yaml:2: 'height' is '0.1', must come with lift only");
+  for (const char* key : {"over: 2", "height: 0.1"}) {
+    EXPECT_NE(Complaint(std::string("steps: on\nstance: [{at: 1, step: a, "
+                                    "to: [0, 0], ") +
+                        key + "}]\n"),
+              "none")
+        << key;
+  }
 }
 
 TEST(Scenario, RejectsContradictoryStanceEntries) {
@@ -129,7 +147,8 @@ TEST(Scenario, RejectsNumbersOutOfRangeWithTheirLine) {
   EXPECT_EQ(Complaint("plant: {rate: 1e9}\n"),
             "trial.yaml:1: 'rate' is '1e9', must be 10 to 100000 Hz");
   EXPECT_EQ(Complaint("pushes:\n- force: [0, 1e300, 0]\n"),
-            "trial.yaml:2: 'force' is a list, must be -1e+06 to 1e+06 N");
+            "trial.yaml:2: 'force' is the list '[0, 1e300, 0]', must be -1e+06 "
+            "to 1e+06 N");
   for (const char* text :
        {"duration: 1e6",
         "start: {joints: -1}",

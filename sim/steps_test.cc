@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/run.h"
@@ -114,6 +115,80 @@ TEST(Steps, FollowTheCommandsOfAScenario) {
   EXPECT_EQ(refused.commanded_done, false);
   EXPECT_EQ(refused.commanded[0].answer, StepAnswer::kOutOfReach);
   EXPECT_TRUE(refused.steps.empty());
+}
+
+TEST(Steps, SayWhichCommandsDidNotHappen) {
+  Scenario scenario = LoadScenario("sim/scenarios/stand.yaml");
+  scenario.steps = true;
+  scenario.duration = 1;
+  StanceEvent step;
+  step.kind = StanceEvent::Kind::kStep;
+  step.at = 0.2;
+  step.foot = Humanoid().feet[0].name;
+  step.to = {0.1, 0.1};
+  StanceEvent shift;
+  shift.kind = StanceEvent::Kind::kShift;
+  shift.at = 0.5;
+  StanceEvent far = step, late = step;
+  far.at = 0.6;
+  late.at = 9;
+  scenario.stance = {step, shift, far, late};
+  const RunResult result = poise::Run(Humanoid(), scenario);
+  EXPECT_EQ(result.commanded_done, false);
+  const std::string place = "step of left_foot to (0.1, 0.1) m at ";
+  EXPECT_EQ(
+      result.not_done,
+      (std::vector<std::string>{
+          place + "0.2 s: the foot did not land within 10 mm of its place",
+          place + "0.6 s: refused, because the robot makes another step",
+          place + "9 s: the run ended before",
+          "shift at 0.5 s: from the first step on, the gait alone moves the "
+          "CoM"}));
+}
+
+TEST(Steps, EndAMotionOfTheCenterOfMassAndSaySo) {
+  Scenario scenario = LoadScenario("sim/scenarios/com_sinusoid.yaml");
+  scenario.steps = true;
+  scenario.duration = 0.5;
+  StanceEvent step;
+  step.kind = StanceEvent::Kind::kStep;
+  step.at = 0;
+  step.foot = Humanoid().feet[0].name;
+  step.to = {0, 0.1};
+  scenario.stance = {step};
+  const RunResult result = poise::Run(Humanoid(), scenario);
+  EXPECT_EQ(result.commanded_done, false);
+  EXPECT_EQ(result.not_done.back().rfind("motion of the CoM after 0 s", 0), 0u);
+}
+
+// The impact of a robot that lands is no push.
+TEST(Steps, AreNotTakenAfterADrop) {
+  Scenario scenario = LoadScenario("sim/scenarios/stand.yaml");
+  scenario.steps = true;
+  scenario.duration = 3;
+  scenario.start.drop = 0.05;
+  const RunResult result = poise::Run(Humanoid(), scenario);
+  EXPECT_TRUE(result.verdict.recovered);
+  EXPECT_TRUE(result.steps.empty());
+}
+
+// A push while one foot is in the air for a commanded step.
+TEST(Steps, CatchAPushDuringACommandedStep) {
+  for (const double impulse : {10, 15, 20}) {
+    SCOPED_TRACE(impulse);
+    Scenario scenario = Shove(impulse, 90);
+    scenario.pushes[0].start = 1.8;
+    scenario.duration = 6;
+    StanceEvent step;
+    step.kind = StanceEvent::Kind::kStep;
+    step.at = 0.2;
+    step.foot = Humanoid().feet[0].name;
+    step.to = {0.1, 0.1};
+    scenario.stance = {step};
+    const RunResult result = poise::Run(Humanoid(), scenario);
+    EXPECT_TRUE(result.verdict.recovered);
+    EXPECT_EQ(result.commanded_done, false);
+  }
 }
 
 // After the first step the feet belong to the gait: what the scenario wants of

@@ -72,7 +72,7 @@ bool YamlFields::Flag(const std::string& key, bool otherwise) {
   if (!value) return otherwise;
   bool flag;
   if (!value.IsScalar() || !YAML::convert<bool>::decode(value, flag)) {
-    Refuse(key, "must be true or false");
+    Refuse(key, "must be true or false, or on or off");
   }
   return flag;
 }
@@ -101,10 +101,10 @@ std::vector<double> YamlFields::Numbers(const std::string& key) {
   const YAML::Node value = Find(key);
   std::vector<double> numbers;
   if (!value) return numbers;
-  if (!value.IsSequence()) Refuse(key, "must be a list of numbers");
+  if (!value.IsSequence()) Refuse(key, "must be a list of finite numbers");
   for (const YAML::Node& item : value) {
     const auto number = ToNumber(item);
-    if (!number) Refuse(key, "must be a list of numbers");
+    if (!number) Refuse(key, "must be a list of finite numbers");
     numbers.push_back(*number);
   }
   return numbers;

@@ -48,14 +48,14 @@ TEST(ProfileReader, ReadsEachFiniteNumberUpToItsBound) {
               "f:2: a is '" + bad + "', must be a finite number");
   }
   EXPECT_EQ(RefusalOfNumber("[1]"),
-            "f:2: a is a list, must be a finite number");
+            "f:2: a is the list '[1]', must be a finite number");
 }
 
 TEST(ProfileReader, ReadsVectorsInTheirOrder) {
   const YAML::Node three = ParseYaml("a: [1, -2, 3]", "f")["a"];
   EXPECT_EQ(kReader.Numbers<3>(three, "a"), Eigen::Vector3d(1, -2, 3));
   EXPECT_EQ(Refusal([&] { kReader.Numbers<2>(three, "a"); }),
-            "f:1: a is a list, must be 2 numbers");
+            "f:1: a is the list '[1, -2, 3]', must be 2 numbers");
 }
 
 TEST(ProfileReader, ReadsAnglesOfAtMostOneTurn) {
@@ -74,7 +74,7 @@ TEST(ProfileReader, ReadsNamesOnly) {
   const YAML::Node root = ParseYaml("a: [1]\nb: ''\nc: foot\n", "f");
   EXPECT_EQ(kReader.Text(root["c"], "c"), "foot");
   EXPECT_EQ(Refusal([&] { kReader.Text(root["a"], "a"); }),
-            "f:1: a is a list, must be a name");
+            "f:1: a is the list '[1]', must be a name");
   EXPECT_NE(Refusal([&] { kReader.Text(root["b"], "b"); }), "accepted");
 }
 

@@ -126,7 +126,7 @@ TEST(LoadProfile, NamesTheLineOfAnError) {
   EXPECT_EQ(Refusal(kFeet + "posture:\n  base: {rpy: [0, 0, 0]}"),
             "5: posture.base: has no xyz, must have xyz");
   EXPECT_EQ(Refusal(kFeet + "posture:\n  base: {xyz: [0, 0]}"),
-            "5: posture.base.xyz is a list, must be 3 numbers");
+            "5: posture.base.xyz is the list '[0, 0]', must be 3 numbers");
 }
 
 TEST(LoadProfile, NamesAnUnknownOrInvalidFoot) {
@@ -178,7 +178,7 @@ TEST(LoadProfile, NamesAnInvalidSide) {
   EXPECT_EQ(Refusal("mimic: free\nforward: front"),
             "2: forward is 'front', must be one of +x -x +y -y +z -z");
   EXPECT_EQ(Refusal("forward: [1, 0]"),
-            "1: forward is a list, must be one of +x -x +y -y +z -z");
+            "1: forward is the list '[1, 0]', must be one of +x -x +y -y +z -z");
   EXPECT_EQ(Refusal("forward: +y"),
             "1: forward is '+y', must be +x or -x, across the line between "
             "the feet");

@@ -161,8 +161,16 @@ std::optional<double> ToNumber(const YAML::Node& node) {
 }
 
 std::string Shown(const YAML::Node& node) {
+  constexpr std::size_t kShort = 6;
   if (node.IsScalar()) return Quoted(node.Scalar());
-  if (node.IsSequence()) return "a list";
+  if (node.IsSequence()) {
+    std::string items;
+    for (const YAML::Node& item : node) {
+      if (node.size() > kShort || !item.IsScalar()) return "a list";
+      items += (items.empty() ? "" : ", ") + item.Scalar();
+    }
+    return "the list " + Quoted("[" + items + "]");
+  }
   return node.IsMap() ? "a map" : "empty";
 }
 

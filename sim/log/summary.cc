@@ -179,13 +179,6 @@ std::string StepLines(const Robot& robot, const RunResult& result) {
   }
   if (count > kMostLines)
     lines += Line("step", "and %d more", count - kMostLines);
-  for (const CommandedStep& command : result.commanded) {
-    if (command.answer == StepAnswer::kAccepted) continue;
-    lines += Line("step refused", "%s to (%.2f, %.2f) m at %.3f s: %s",
-                  OneLine(robot.feet[command.foot].name).c_str(),
-                  command.to.x(), command.to.y(), command.at,
-                  std::string(Describe(command.answer)).c_str());
-  }
   if (result.commanded_done) {
     lines += Line("commanded motion", "%s",
                   *result.commanded_done ? "done" : "not all done");

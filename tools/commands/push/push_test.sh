@@ -132,7 +132,7 @@ refuse "scenario '$gone' is unknown, must be a file or one of $scenarios" \
 refuse_file --scenario ":2: key 'lenght' is unknown, must be one of $(
   )name, duration, seed, chosen_for, start, steps, pushes, stance, com, tasks, control, plant, $(
   )sensors" scenario.yaml 'duration: 3' 'lenght: 4'
-refuse_file --scenario ":1: 'to' is a list, must be two numbers [x, y] from -1000 to $(
+refuse_file --scenario ":1: 'to' is the list '[1]', must be two numbers [x, y] from -1000 to $(
   )1000 m" to.yaml 'stance: [{at: 1, step: left_foot, to: [1]}]'
 refuse_file --scenario ": stance[0].step is 'left_foot', must come with steps: on" \
   step.yaml 'stance: [{at: 1, step: left_foot, to: [0, 0.1]}]'
@@ -154,7 +154,7 @@ refuse "$gone: cannot be read" --pushes "$gone"
 refuse_file --pushes ":3: key 'forse' is unknown, must be one of link, $(
   )point, impulse_fraction, elsewhere, frame, profile, force, moment, at, duration" \
   pushes.yaml 'pushes:' '  - force: [0, 50, 0]' '    forse: [0, 50, 0]'
-refuse_file --pushes ":2: 'force' is a list, must be a list of numbers" \
+refuse_file --pushes ":2: 'force' is the list '[0, fifty, 0]', must be a list of finite numbers" \
   pushes.yaml 'pushes:' '  - force: [0, fifty, 0]'
 nose="link 'nose' is unknown, must be a link of robot 'humanoid'"
 refuse_file --pushes ": $nose" pushes.yaml 'pushes: [{link: nose}]'
@@ -165,7 +165,7 @@ refuse_file --scenario ": $nose" link.yaml 'pushes: [{link: nose}]'
 refuse_file --scenario ": task set 'nope': is neither default, paper, nor a file" \
   tasks.yaml 'tasks: {set: nope}'
 refuse_file --scenario ": stance: foot 'nope' is unknown, must be a foot of $(
-  )robot 'humanoid'" stance.yaml 'stance: [{at: 1, lift: nope}]'
+  )robot 'humanoid': left_foot, right_foot" stance.yaml 'stance: [{at: 1, lift: nope}]'
 refuse_file --scenario ": plant: restitution is 0.500000, must be 0 in a MuJoCo $(
   )plant" \
   bounce.yaml 'plant: {kind: mujoco, restitution: 0.5}'
