@@ -153,7 +153,7 @@ void Gait::Update(Controller* controller) noexcept {
       } else if (!is_commanded_) {
         Catch(controller);
       } else if (LeavesSole(*controller) && MayStep()) {
-        Turn(controller);
+        CatchFromAir(controller);
       } else {
         Follow(controller);
       }
@@ -423,7 +423,7 @@ void Gait::Shift(Controller* controller) noexcept {
 
 // Makes a step on command a step that catches the robot, from where the foot
 // is.
-void Gait::Turn(Controller* controller) noexcept {
+void Gait::CatchFromAir(Controller* controller) noexcept {
   is_commanded_ = false;
   over_ = 0;
   duration_ = settings_.time_min;

@@ -96,7 +96,7 @@ class Gait {
   void Stand(Controller* controller) noexcept;
   void Shift(Controller* controller) noexcept;
   void Catch(Controller* controller) noexcept;
-  void Turn(Controller* controller) noexcept;
+  void CatchFromAir(Controller* controller) noexcept;
   void Follow(Controller* controller) noexcept;
   void Land(Controller* controller) noexcept;
   void Rest(Controller* controller) noexcept;
