@@ -64,7 +64,7 @@ TEST(DescribeTasks, RestoresAllSettingsInAnotherStack) {
 }
 
 TEST(ApplyTasks, ErrorIsOneLineWithTheValue) {
-  EXPECT_EQ(Refusal("[a]"), "f:1: tasks is a list, must be a map");
+  EXPECT_EQ(Refusal("[a]"), "f:1: tasks is the list '[a]', must be a map");
   EXPECT_EQ(Refusal("\"a\\nb\": on").find("f:1: task 'a b' is unknown"), 0u);
   EXPECT_EQ(Refusal("yaw: on\nposture: maybe"),
             "f:2: task 'posture' is 'maybe', must be on, off, or a map");

@@ -177,8 +177,9 @@ TEST(LoadProfile, NamesAnUnknownOrInvalidFoot) {
 TEST(LoadProfile, NamesAnInvalidSide) {
   EXPECT_EQ(Refusal("mimic: free\nforward: front"),
             "2: forward is 'front', must be one of +x -x +y -y +z -z");
-  EXPECT_EQ(Refusal("forward: [1, 0]"),
-            "1: forward is the list '[1, 0]', must be one of +x -x +y -y +z -z");
+  EXPECT_EQ(
+      Refusal("forward: [1, 0]"),
+      "1: forward is the list '[1, 0]', must be one of +x -x +y -y +z -z");
   EXPECT_EQ(Refusal("forward: +y"),
             "1: forward is '+y', must be +x or -x, across the line between "
             "the feet");

@@ -125,7 +125,9 @@ TEST(LoadYaml, RejectsMissingSpecialAndLargeFiles) {
 TEST(Shown, DescribesEveryTypeOfValue) {
   const YAML::Node root = ParseYaml("a: {b: 1}\nc: [1]\nd: [~]\ne: x\n", "f");
   EXPECT_EQ(Shown(root["a"]), "a map");
-  EXPECT_EQ(Shown(root["c"]), "a list");
+  EXPECT_EQ(Shown(root["c"]), "the list '[1]'");
+  EXPECT_EQ(Shown(root["d"]), "a list");
+  EXPECT_EQ(Shown(ParseYaml("[1, 2, 3, 4, 5, 6, 7]", "f")), "a list");
   EXPECT_EQ(Shown(root["d"][0]), "empty");
   EXPECT_EQ(Shown(root["e"]), "'x'");
 }
