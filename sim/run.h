@@ -51,8 +51,8 @@ struct RunResult {
   std::vector<TakenStep> steps;  ///< In order of their lift-offs.
   std::vector<CommandedStep> commanded;
   /// Whether each commanded motion happened: see CommandWatch, and each step
-  /// was accepted and has landed within 10 mm of its place. False if a push is
-  /// a fraction of a bound of 0. Empty without a command and such a push.
+  /// was accepted and has landed within 10 mm of its place. False if there is
+  /// anything in ClosedLoop::impossible(). Empty without a command and that.
   std::optional<bool> commanded_done;
   /// The commanded steps that did not happen, CommandWatch::Missed() and
   /// ClosedLoop::impossible(), in words.
