@@ -19,12 +19,16 @@ using kernels::SquaredNorm;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+constexpr int kNoKey = -1;
+
 }  // namespace
 
 LexicographicFactorization::LexicographicFactorization(int num_variables,
                                                        int max_rows,
                                                        int max_levels)
-    : n_(num_variables), stride_((num_variables + 7) / 4 * 4) {
+    : n_(num_variables),
+      stride_((num_variables + 7) / 4 * 4),
+      kept_(num_variables, max_rows) {
   const auto rows = [&](int count) {
     return static_cast<size_t>(count) * stride_;
   };
@@ -48,18 +52,29 @@ LexicographicFactorization::LexicographicFactorization(int num_variables,
   cosine_.resize(n_);
   sine_.resize(n_);
   chosen_.resize(max_rows);
+  key_.resize(max_rows);
+  is_recalled_.resize(max_rows);
 }
 
 void LexicographicFactorization::Truncate(int level) {
   levels_.resize(std::min<size_t>(levels_.size(), level));
   num_rows_ = levels_.empty() ? 0 : levels_.back().end_row;
   rank_ = levels_.empty() ? 0 : levels_.back().rank_end;
+  if (rank_ < kept_.rank()) kept_.Clear(rank_);
 }
 
 int LexicographicFactorization::AddRow(double target, double metric) {
   target_[num_rows_] = target;
   metric_[num_rows_] = metric;
+  key_[num_rows_] = kNoKey;
   return num_rows_++;
+}
+
+bool LexicographicFactorization::Recall(int a, int key) {
+  key_[a] = key;
+  is_recalled_[a] =
+      kept_.Use(key, &l_[static_cast<size_t>(a) * stride_], row(a));
+  return is_recalled_[a];
 }
 
 bool LexicographicFactorization::is_deficient(int level) const {
@@ -102,8 +117,17 @@ void LexicographicFactorization::FactorLevel() {
 
 void LexicographicFactorization::Merge(int level) {
   Truncate(level);
-  for (int l = 0; l + 1 < level; ++l) levels_[l] = {0, 0, 0, 0, false};
-  if (level > 0) levels_[level - 1] = {0, num_rows_, 0, rank_, false};
+  Renumber(level);
+  if (kept_.size() == 0) kept_.Clear(rank_);
+  for (int e = kept_.rank(); e < rank_; ++e) {
+    kept_.Extend(&q_[static_cast<size_t>(e) * stride_]);
+  }
+}
+
+// Gives all rows to the level before `level`.
+void LexicographicFactorization::Renumber(int level) {
+  levels_.assign(level, {0, 0, 0, 0, false});
+  if (level > 0) levels_.back() = {0, num_rows_, 0, rank_, false};
 }
 
 void LexicographicFactorization::RemoveRow(int a) {
@@ -130,10 +154,11 @@ void LexicographicFactorization::RemoveRow(int a) {
     sine_[e] = row[e + 1] / length;
     row[e] = length;
     kernels::Rotate(cosine_[e], sine_[e], n_, q(e), q(e + 1));
+    kept_.Rotate(e, cosine_[e], sine_[e]);
     carrier_[e] = carrier_[e + 1];
     effective_target_[e] = effective_target_[e + 1];
   }
-  --rank_;
+  kept_.RemoveLast(q(--rank_));
   for (int e = 0; e < rank_; ++e) {
     if (carrier_[e] == last) carrier_[e] = a;
   }
@@ -147,7 +172,7 @@ bool LexicographicFactorization::AppendRow() {
   const int a = num_rows_ - 1;
   Project(a);
   if (rest_[a] < tolerances::kReorthogonalize * tolerances::kReorthogonalize) {
-    TakeOut(rank_, row(a), &l_[static_cast<size_t>(a) * stride_]);
+    TakeOut(0, rank_, row(a), &l_[static_cast<size_t>(a) * stride_]);
   }
   const double norm = std::sqrt(rest_[a]);
   if (rank_ == n_ || norm < tolerances::kIndependentPart) {
@@ -159,6 +184,7 @@ bool LexicographicFactorization::AppendRow() {
   l[rank_] = norm;
   double* q = &q_[static_cast<size_t>(rank_) * stride_];
   for (int j = 0; j < n_; ++j) q[j] = row(a)[j] / norm;
+  kept_.Extend(q);
   carrier_[rank_] = a;
   effective_target_[rank_] = target_[a];
   levels_.back().end_row = num_rows_;
@@ -169,20 +195,39 @@ bool LexicographicFactorization::AppendRow() {
 // Projects row a once onto the complement of the levels before.
 void LexicographicFactorization::Project(int a) {
   double* l = &l_[static_cast<size_t>(a) * stride_];
-  std::fill_n(l, rank_, 0);
-  TakeOut(rank_, row(a), l);
+  int begin = 0;
+  if (key_[a] != kNoKey) {
+    begin = kept_.rank();
+    if (!is_recalled_[a]) ProjectKept(a);
+  }
+  std::fill(l + begin, l + rank_, 0);
+  TakeOut(begin, rank_, row(a), l);
   rest_[a] = SquaredNorm(row(a), n_);
 }
 
-// Subtracts the projection on the first rows of Q from x, and adds its
-// coefficients to l.
-void LexicographicFactorization::TakeOut(int rank, double* x, double* l) {
-  Dots(q_.data(), stride_, rank, x, n_, scratch_.data());
-  for (int e = 0; e < rank; ++e) {
-    l[e] += scratch_[e];
-    scratch_[e] = -scratch_[e];
+// Projects row a onto the complement of the merged levels, and keeps that.
+void LexicographicFactorization::ProjectKept(int a) {
+  double* l = &l_[static_cast<size_t>(a) * stride_];
+  std::fill_n(l, kept_.rank(), 0);
+  TakeOut(0, kept_.rank(), row(a), l);
+  if (SquaredNorm(row(a), n_) <
+      tolerances::kReorthogonalize * tolerances::kReorthogonalize) {
+    TakeOut(0, kept_.rank(), row(a), l);
   }
-  AddRows(q_.data(), stride_, rank, scratch_.data(), n_, x);
+  kept_.Add(key_[a], l, row(a));
+}
+
+// Subtracts the projection on the rows of Q from `begin` to `end` from x, and
+// adds its coefficients to l.
+void LexicographicFactorization::TakeOut(int begin, int end, double* x,
+                                         double* l) {
+  const double* q = &q_[static_cast<size_t>(begin) * stride_];
+  Dots(q, stride_, end - begin, x, n_, scratch_.data());
+  for (int e = begin; e < end; ++e) {
+    l[e] += scratch_[e - begin];
+    scratch_[e - begin] = -scratch_[e - begin];
+  }
+  AddRows(q, stride_, end - begin, scratch_.data(), n_, x);
 }
 
 // Orthogonalises the remainders of the level's rows, the largest weighted one
@@ -212,8 +257,14 @@ void LexicographicFactorization::PivotRows(Level* level) {
     double* l = &l_[static_cast<size_t>(pivot) * stride_];
     std::copy_n(row(pivot), n_, q);
     if (rest_[pivot] <
-        tolerances::kReorthogonalize * tolerances::kReorthogonalize)
-      TakeOut(e, q, l);
+        tolerances::kReorthogonalize * tolerances::kReorthogonalize) {
+      // A kept remainder is orthogonal to the merged levels already, but its
+      // rounding grows as the remainder gets smaller.
+      const bool is_clean = key_[pivot] != kNoKey &&
+                            rest_[pivot] >= tolerances::kCleanRemainder *
+                                                tolerances::kCleanRemainder;
+      TakeOut(is_clean ? kept_.rank() : 0, e, q, l);
+    }
     const double norm = std::sqrt(SquaredNorm(q, n_));
     chosen_[pivot] = true;
     l[e] = 0;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "poise/hqp/fast/projected_rows.h"
+
 namespace poise {
 
 /// Solves a lexicographic least-squares problem. With rows r_a of unit length,
@@ -35,6 +37,15 @@ class LexicographicFactorization {
   int AddRow(double target, double metric);
   double* row(int a) { return &work_[static_cast<std::size_t>(a) * stride_]; }
 
+  /// Gives the row a that was added last a key. The row's projection on the
+  /// merged levels is then kept under this key, and follows RemoveRow(),
+  /// AppendRow() and Merge(). Returns true if it is known, so that the caller
+  /// need not fill row(a).
+  [[nodiscard]] bool Recall(int a, int key);
+
+  /// Forgets the projections of keys without Recall() since the last call.
+  void ForgetUnused() { kept_.KeepUsed(); }
+
   /// Factors the rows added since the last level; row(a) is overwritten.
   void FactorLevel();
 
@@ -42,6 +53,10 @@ class LexicographicFactorization {
   /// merged level has the number of the last of them, and the others are empty.
   /// Removes `level` and all later levels.
   void Merge(int level);
+
+  /// Gives the merged level the number `level` - 1, after the rows of `level`
+  /// and of later levels have been removed from it.
+  void Unmerge(int level) { Renumber(level); }
 
   /// Removes row a from the last level, which must not be deficient. The last
   /// row gets the number a. If row a was the e-th, this takes rank() - e
@@ -106,8 +121,10 @@ class LexicographicFactorization {
     int first_row, end_row, rank_begin, rank_end;
     bool deficient;  ///< rank_end - rank_begin < end_row - first_row.
   };
+  void Renumber(int level);
   void Project(int a);
-  void TakeOut(int rank, double* x, double* l);
+  void ProjectKept(int a);
+  void TakeOut(int begin, int end, double* x, double* l);
   void PivotRows(Level* level);
   void Reduce(Level* level);
   void SolveLevel(const Level& level);
@@ -127,6 +144,9 @@ class LexicographicFactorization {
   std::vector<double> reflection_;  ///< n x max_rows.
   std::vector<double> factor_, scratch_, cosine_, sine_;
   std::vector<bool> chosen_;
+  ProjectedRows kept_;             ///< Rows with a key, on the merged levels.
+  std::vector<int> key_;           ///< By row; -1: none.
+  std::vector<bool> is_recalled_;  ///< By row.
 };
 
 }  // namespace poise

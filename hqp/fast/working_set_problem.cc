@@ -11,6 +11,8 @@
 namespace poise {
 namespace {
 
+constexpr int kNoKey = -1;
+
 double Norm(const double* row, int n) {
   return std::sqrt(kernels::SquaredNorm(row, n));
 }
@@ -130,47 +132,67 @@ void WorkingSetProblem::Plan(const Hierarchy& hierarchy, int num_levels,
   diagonal_.Finish(center);
 }
 
+// Adds a row to the level that is factored next. A row with a key, 0 or more,
+// is not copied if its projection is known.
 void WorkingSetProblem::AddRow(const Row& row, const double* from,
-                               double metric) {
+                               double metric, int key) {
   const int a = leading_.AddRow(row.bound / row.norm, metric * row.norm);
   rows_[a] = row;
+  if (key != kNoKey && leading_.Recall(a, key)) return;
   double* to = leading_.row(a);
   for (int j = 0; j < n_; ++j) to[j] = from[j] / row.norm;
 }
 
 void WorkingSetProblem::AddInequality(const Hierarchy& hierarchy, int level,
-                                      int i, Side side) {
+                                      int i, Side side, int key) {
   const double* row = hierarchy.C(level).data() + i * n_;
   const double bound = side == Side::kUpper ? hierarchy.upper(level)[i]
                                             : hierarchy.lower(level)[i];
-  AddRow({level, i, true, Norm(row, n_), bound}, row, 1);
+  AddRow({level, i, true, Norm(row, n_), bound}, row, 1, key);
 }
 
+// Factors the levels from `from_level` on. After the first level, the rows'
+// projections on the levels before are kept for the next time.
 void WorkingSetProblem::FactorFrom(const Hierarchy& hierarchy,
                                    const std::vector<std::vector<Side>>& side,
                                    int from_level) {
   leading_.Truncate(from_level);
-  for (int level = from_level; level < num_leading_; ++level) {
-    for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
-      const double weight = hierarchy.weight(level)[i];
-      if (weight == 0 || B_norm_[level][i] == 0) continue;
-      const double* row = hierarchy.B(level).data() + i * n_;
-      AddRow({level, i, false, Norm(row, n_), -hierarchy.b(level)[i]}, row,
-             std::sqrt(weight));
+  int key = 0;  // Of the level's first row: rows of all levels are counted.
+  for (int level = 0; level < num_leading_; ++level) {
+    if (level >= from_level) {
+      FactorLevel(hierarchy, side[level], level, from_level > 0 ? key : kNoKey);
     }
-    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-      if (side[level][i] == Side::kNone || norm_[level][i] == 0) continue;
-      AddInequality(hierarchy, level, i, side[level][i]);
-    }
-    leading_.FactorLevel();
-    factored_[level] = side[level];
+    key += hierarchy.num_equalities(level) + hierarchy.num_inequalities(level);
   }
+  leading_.ForgetUnused();
+}
+
+void WorkingSetProblem::FactorLevel(const Hierarchy& hierarchy,
+                                    const std::vector<Side>& side, int level,
+                                    int first_key) {
+  const auto key = [&](int i) {
+    return first_key == kNoKey ? kNoKey : first_key + i;
+  };
+  const int equalities = hierarchy.num_equalities(level);
+  for (int i = 0; i < equalities; ++i) {
+    const double weight = hierarchy.weight(level)[i];
+    if (weight == 0 || B_norm_[level][i] == 0) continue;
+    const double* row = hierarchy.B(level).data() + i * n_;
+    AddRow({level, i, false, Norm(row, n_), -hierarchy.b(level)[i]}, row,
+           std::sqrt(weight), key(i));
+  }
+  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    if (side[i] == Side::kNone || norm_[level][i] == 0) continue;
+    AddInequality(hierarchy, level, i, side[i], key(equalities + i));
+  }
+  leading_.FactorLevel();
+  factored_[level] = side;
 }
 
 // Updates the factorisation of the levels before the first deficient one, by
 // removing and appending single rows. All of these rows are met, so their order
-// does not matter. The other levels are factored again. Returns false if a new
-// row nearly depends on others.
+// does not matter. The other levels are factored again. Returns false if the
+// first level must be factored again.
 bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
                                const std::vector<std::vector<Side>>& side) {
   int met = 0;
@@ -184,22 +206,54 @@ bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
       continue;
     }
     factored_[row.level][row.index] = Side::kNone;
-    leading_.RemoveRow(a);
-    rows_[a] = rows_[leading_.num_rows()];
+    RemoveRow(a);
   }
   for (int level = 0; level < met; ++level) {
-    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-      if (side[level][i] == factored_[level][i] || norm_[level][i] == 0) {
-        continue;
-      }
-      AddInequality(hierarchy, level, i, side[level][i]);
-      if (!leading_.AppendRow()) return false;
-      factored_[level][i] = side[level][i];
-    }
+    if (!AppendRows(hierarchy, side, level, &met)) met = level;
   }
+  if (met == 0) return false;
   leading_.SolveLast();
   FactorFrom(hierarchy, side, met);
   return true;
+}
+
+// Appends the new rows of a level to the first `met` levels, which are merged.
+// If a row depends on others, removes the later levels, and sets `met`. Returns
+// false if it depends on this level and those above. This level is then removed
+// as well.
+bool WorkingSetProblem::AppendRows(const Hierarchy& hierarchy,
+                                   const std::vector<std::vector<Side>>& side,
+                                   int level, int* met) {
+  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    if (side[level][i] == factored_[level][i] || norm_[level][i] == 0) {
+      continue;
+    }
+    AddInequality(hierarchy, level, i, side[level][i], kNoKey);
+    if (!leading_.AppendRow()) {
+      RemoveLevels(level + 1);
+      *met = level + 1;
+      AddInequality(hierarchy, level, i, side[level][i], kNoKey);
+      if (!leading_.AppendRow()) {
+        RemoveLevels(level);
+        return false;
+      }
+    }
+    factored_[level][i] = side[level][i];
+  }
+  return true;
+}
+
+// Removes the rows of `level` and of later levels from the merged levels.
+void WorkingSetProblem::RemoveLevels(int level) {
+  for (int a = leading_.num_rows() - 1; a >= 0; --a) {
+    if (rows_[a].level >= level) RemoveRow(a);
+  }
+  leading_.Unmerge(level);
+}
+
+void WorkingSetProblem::RemoveRow(int a) {
+  leading_.RemoveRow(a);
+  rows_[a] = rows_[leading_.num_rows()];
 }
 
 void WorkingSetProblem::SolveLeading(

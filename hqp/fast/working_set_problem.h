@@ -120,12 +120,20 @@ class WorkingSetProblem {
   int selected(int level, int i) const { return selected_[level][i]; }
 
  private:
-  void AddRow(const Row& row, const double* from, double metric);
-  void AddInequality(const Hierarchy& hierarchy, int level, int i, Side side);
+  void AddRow(const Row& row, const double* from, double metric, int key);
+  void AddInequality(const Hierarchy& hierarchy, int level, int i, Side side,
+                     int key);
   void FactorFrom(const Hierarchy& hierarchy,
-                  const std::vector<std::vector<Side>>& side, int level);
+                  const std::vector<std::vector<Side>>& side, int from_level);
+  void FactorLevel(const Hierarchy& hierarchy, const std::vector<Side>& side,
+                   int level, int first_key);
   bool Update(const Hierarchy& hierarchy,
               const std::vector<std::vector<Side>>& side);
+  bool AppendRows(const Hierarchy& hierarchy,
+                  const std::vector<std::vector<Side>>& side, int level,
+                  int* met);
+  void RemoveLevels(int level);
+  void RemoveRow(int a);
   void AddToSum(const Hierarchy& hierarchy, int a, double factor,
                 double* sum) const;
   const double* Original(const Hierarchy& hierarchy, int a) const;

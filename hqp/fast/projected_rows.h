@@ -1,0 +1,61 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <vector>
+
+namespace poise {
+
+/// Rows of unit length, each split by an orthonormal basis Q into coefficients
+/// l and a remainder: r = l Q + remainder, with Q remainder = 0. The split
+/// follows each change of the basis, which costs less than another projection.
+/// Nothing allocates after construction.
+///
+/// Rows are named by keys, 0 to num_keys - 1. `rank` is the number of rows of
+/// Q, at most num_variables.
+class ProjectedRows {
+ public:
+  ProjectedRows(int num_variables, int num_keys);
+
+  /// Removes all rows, and sets the rank.
+  void Clear(int rank);
+
+  /// Adds a row that is not there yet, by its split.
+  void Add(int key, const double* coefficients, const double* remainder);
+
+  /// Copies the split of a row, and marks it as used. Returns false if the row
+  /// is not there.
+  [[nodiscard]] bool Use(int key, double* coefficients, double* remainder);
+
+  /// Removes all rows that are not marked as used, and all marks. Added rows
+  /// are marked.
+  void KeepUsed();
+
+  /// Q gets a last row q.
+  void Extend(const double* q);
+
+  /// The rotation of kernels::Rotate() is applied to rows e and e + 1 of Q.
+  void Rotate(int e, double c, double s);
+
+  /// The last row q of Q is removed.
+  void RemoveLast(const double* q);
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+
+ private:
+  double* remainder(int slot) { return &remainder_[Index(slot, stride_)]; }
+  double* coefficients(int e) { return &l_[Index(e, max_rows_)]; }
+  static std::size_t Index(int i, int stride) {
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(stride);
+  }
+
+  int n_, stride_, max_rows_, rank_ = 0, size_ = 0;
+  std::vector<int> slot_;          ///< By key; -1: not there.
+  std::vector<int> key_;           ///< By slot.
+  std::vector<bool> is_used_;      ///< By slot.
+  std::vector<double> remainder_;  ///< num_keys x stride, by slot.
+  std::vector<double> l_;          ///< n x num_keys: columns are slots.
+  std::vector<double> factor_;     ///< By slot.
+};
+
+}  // namespace poise
