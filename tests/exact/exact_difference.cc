@@ -1,0 +1,106 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/tests/exact/exact_difference.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solver.h"
+#include "poise/math/rank.h"
+#include "poise/tests/exact/lexicographic_qp.h"
+#include "poise/tests/util/tolerance.h"
+
+namespace poise {
+namespace {
+
+Eigen::VectorXd Rounded(const RationalVector& exact) {
+  Eigen::VectorXd rounded(exact.size());
+  for (size_t j = 0; j < exact.size(); ++j) rounded[j] = exact[j].get_d();
+  return rounded;
+}
+
+// The rows that determine an optimum, each scaled to unit length.
+struct ActiveRows {
+  Eigen::MatrixXd rows;
+  double largest_distance;  // Of their hyperplanes from y = 0.
+};
+
+ActiveRows FindActiveRows(const Hierarchy& hierarchy,
+                          const Solution& solution) {
+  ActiveRows active{Eigen::MatrixXd(0, hierarchy.num_variables()), 0};
+  const auto add = [&active](const Eigen::RowVectorXd& row, double target) {
+    const double norm = row.norm();
+    if (norm == 0) return;
+    active.rows.conservativeResize(active.rows.rows() + 1, Eigen::NoChange);
+    active.rows.bottomRows(1) = row / norm;
+    active.largest_distance =
+        std::max(active.largest_distance, std::abs(target) / norm);
+  };
+  for (int k = 0; k < hierarchy.num_levels(); ++k) {
+    for (int i = 0; i < hierarchy.num_equalities(k); ++i) {
+      if (hierarchy.weight(k)[i] == 0) continue;
+      add(hierarchy.B(k).row(i), hierarchy.b(k)[i]);
+    }
+    for (int i = 0; i < hierarchy.num_inequalities(k); ++i) {
+      const Side side = solution.levels[k].active[i];
+      if (side == Side::kNone) continue;
+      add(hierarchy.C(k).row(i),
+          side == Side::kUpper ? hierarchy.upper(k)[i] : hierarchy.lower(k)[i]);
+    }
+  }
+  return active;
+}
+
+void Compare(const std::string& name, const Hierarchy& hierarchy,
+             const ExactOptimum& exact, Status status, const Solution& solution,
+             std::ostream* text) {
+  if (status != Status::kOptimal) {
+    *text << name << " finds no optimum; ";
+    return;
+  }
+  const ActiveRows active = FindActiveRows(hierarchy, solution);
+  const int rows = static_cast<int>(active.rows.rows());
+  const int n = hierarchy.num_variables();
+  RankRevealing svd(rows, n);
+  svd.Compute(active.rows);
+  const double condition = rows == 0 ? 1 : svd.condition();
+  const double relative = Rounding(1, n + rows, condition * condition);
+  for (int k = 0; k < hierarchy.num_levels(); ++k) {
+    const LevelSolution& level = solution.levels[k];
+    const double cost = exact.levels[k].cost.get_d();
+    if (!(std::abs(level.cost - cost) <=
+          relative * CostSize(hierarchy, k, solution))) {
+      *text << name << "'s cost of level " << k << " is " << level.cost
+            << ", not " << cost << "; ";
+    }
+    if (level.nullity != exact.levels[k].nullity) {
+      *text << name << "'s nullity of level " << k << " is " << level.nullity
+            << ", not " << exact.levels[k].nullity << "; ";
+    }
+  }
+  const Eigen::VectorXd y = Rounded(exact.y);
+  if (!((solution.y - y).norm() <=
+        relative * (y.norm() + active.largest_distance))) {
+    *text << name << "'s y is [" << solution.y.transpose() << "], not ["
+          << y.transpose() << "]; ";
+  }
+}
+
+}  // namespace
+
+std::string DifferenceFromExact(const HierarchyCase& drawn) {
+  const Hierarchy& hierarchy = drawn.hierarchy;
+  const int n = hierarchy.num_variables();
+  const ExactOptimum exact = SolveExactly(hierarchy);
+  std::ostringstream text;
+  Solution solution(n, drawn.capacity);
+  Status status = Solver(n, drawn.capacity).Solve(hierarchy, &solution);
+  Compare("Solver", hierarchy, exact, status, solution, &text);
+  status = Cascade(n, drawn.capacity).Solve(hierarchy, &solution);
+  Compare("Cascade", hierarchy, exact, status, solution, &text);
+  return text.str();
+}
+
+}  // namespace poise
