@@ -65,7 +65,7 @@ TEST(CertificateLimits, SeesASmallRowBesideOneOf2e4) {
 }
 
 // A joint of small mass: 20 of the body beside 1e-7 of the finger. The answer
-// leaves the finger's row unmet, to please the next level by all of its cost.
+// violates the finger's row, so that the next level has no cost at all.
 TEST(CertificateLimits, MissesAJointOfSmallMass) {
   const double small = std::ldexp(1, -23);  // 1.2e-7.
   const HierarchyByHand problem(

@@ -21,36 +21,60 @@ Eigen::VectorXd Rounded(const RationalVector& exact) {
   return rounded;
 }
 
-// The rows that determine an optimum, each scaled to unit length.
+// The rows that determine an optimum, times the root of their weight.
 struct ActiveRows {
   Eigen::MatrixXd rows;
-  double largest_distance;  // Of their hyperplanes from y = 0.
+  // Largest distance of one of their hyperplanes from y = 0.
+  double largest_distance;
 };
 
 ActiveRows FindActiveRows(const Hierarchy& hierarchy,
                           const Solution& solution) {
   ActiveRows active{Eigen::MatrixXd(0, hierarchy.num_variables()), 0};
-  const auto add = [&active](const Eigen::RowVectorXd& row, double target) {
+  const auto add = [&active](const Eigen::RowVectorXd& row, double target,
+                             double weight) {
     const double norm = row.norm();
     if (norm == 0) return;
     active.rows.conservativeResize(active.rows.rows() + 1, Eigen::NoChange);
-    active.rows.bottomRows(1) = row / norm;
+    active.rows.bottomRows(1) = std::sqrt(weight) * row;
     active.largest_distance =
         std::max(active.largest_distance, std::abs(target) / norm);
   };
   for (int k = 0; k < hierarchy.num_levels(); ++k) {
     for (int i = 0; i < hierarchy.num_equalities(k); ++i) {
-      if (hierarchy.weight(k)[i] == 0) continue;
-      add(hierarchy.B(k).row(i), hierarchy.b(k)[i]);
+      const double weight = hierarchy.weight(k)[i];
+      if (weight == 0) continue;
+      add(hierarchy.B(k).row(i), hierarchy.b(k)[i], weight);
     }
     for (int i = 0; i < hierarchy.num_inequalities(k); ++i) {
       const Side side = solution.levels[k].active[i];
       if (side == Side::kNone) continue;
       add(hierarchy.C(k).row(i),
-          side == Side::kUpper ? hierarchy.upper(k)[i] : hierarchy.lower(k)[i]);
+          side == Side::kUpper ? hierarchy.upper(k)[i] : hierarchy.lower(k)[i],
+          1);
     }
   }
   return active;
+}
+
+// Returns the size of the terms that add up to the cost of a level, where y has
+// rounding errors relative to this size.
+double CostSize(const Hierarchy& hierarchy, int level, double size_of_y) {
+  double size = 0;
+  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+    const double term = hierarchy.B(level).row(i).norm() * size_of_y +
+                        std::abs(hierarchy.b(level)[i]);
+    size += hierarchy.weight(level)[i] * term * term;
+  }
+  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    double term = hierarchy.C(level).row(i).norm() * size_of_y;
+    for (const double bound :
+         {hierarchy.lower(level)[i], hierarchy.upper(level)[i]}) {
+      if (std::isfinite(bound)) term += std::abs(bound);
+    }
+    size += term * term;
+  }
+  return size;
 }
 
 void Compare(const std::string& name, const Hierarchy& hierarchy,
@@ -67,11 +91,13 @@ void Compare(const std::string& name, const Hierarchy& hierarchy,
   svd.Compute(active.rows);
   const double condition = rows == 0 ? 1 : svd.condition();
   const double relative = Rounding(1, n + rows, condition * condition);
+  const Eigen::VectorXd y = Rounded(exact.y);
+  const double size = y.norm() + active.largest_distance;
   for (int k = 0; k < hierarchy.num_levels(); ++k) {
     const LevelSolution& level = solution.levels[k];
     const double cost = exact.levels[k].cost.get_d();
     if (!(std::abs(level.cost - cost) <=
-          relative * CostSize(hierarchy, k, solution))) {
+          relative * CostSize(hierarchy, k, size))) {
       *text << name << "'s cost of level " << k << " is " << level.cost
             << ", not " << cost << "; ";
     }
@@ -80,9 +106,7 @@ void Compare(const std::string& name, const Hierarchy& hierarchy,
             << ", not " << exact.levels[k].nullity << "; ";
     }
   }
-  const Eigen::VectorXd y = Rounded(exact.y);
-  if (!((solution.y - y).norm() <=
-        relative * (y.norm() + active.largest_distance))) {
+  if (!((solution.y - y).norm() <= relative * size)) {
     *text << name << "'s y is [" << solution.y.transpose() << "], not ["
           << y.transpose() << "]; ";
   }

@@ -12,9 +12,10 @@ namespace poise {
 /// the cost of each level are within the rounding of a backward stable method.
 /// That is
 ///     t = 8 (n + rows) eps condition^2,
-/// relative to |y| plus the largest |b| / |row| or |bound| / |row|, and to
-/// CostSize(). The condition is that of the active rows, each of unit length;
-/// it enters squared, because rows that contradict each other have residuals.
+/// relative to s = |y| plus the largest |b| / |row| or |bound| / |row|, and for
+/// costs relative to sum weight (|row| s + |b or bounds|)^2. The condition is
+/// that of the active rows, times the roots of their weights. It enters squared,
+/// because rows that contradict each other have residuals.
 ///
 /// Source: Higham, "Accuracy and stability of numerical algorithms", 2nd ed.,
 /// theorem 20.1.

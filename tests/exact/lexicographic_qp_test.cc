@@ -103,12 +103,12 @@ TEST(LexicographicQp, SolvesDegenerateVertices) {
       {0, {-1, 3, 0}, -INFINITY, 0}, {0, {-1, -3, 0}, -INFINITY, 0},
       {0, {-1, 0, 3}, -INFINITY, 0}, {0, {-1, 0, -3}, -INFINITY, 0},
       {0, {-2, 6, 0}, -INFINITY, 0}, {0, {2, 6, 0}, 0, INFINITY}};
-  Rows apex = cone, edge = cone;
-  apex.insert(
-      apex.end(),
+  Rows corner = cone, edge = cone;
+  corner.insert(
+      corner.end(),
       {{1, {1, 0, 0}, -9, -9}, {1, {0, 1, 0}, 1, 1}, {1, {0, 0, 1}, -2, -2}});
-  ExpectOptimum(3, apex, {0, 0, 0}, {0, 43});
-  // From the apex along the edge y0 = 3 y1 = -3 y2: minimise
+  ExpectOptimum(3, corner, {0, 0, 0}, {0, 43});
+  // From the vertex along the edge y0 = 3 y1 = -3 y2: minimise
   // (3 t - 1)^2 + (t - 8)^2 + (t - 8)^2, so t = 19 / 11.
   edge.insert(
       edge.end(),
