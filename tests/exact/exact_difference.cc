@@ -26,11 +26,14 @@ struct ActiveRows {
   Eigen::MatrixXd rows;
   // Largest distance of one of their hyperplanes from y = 0.
   double largest_distance;
+  // Largest condition number of the rows up to any level. Further rows may
+  // reduce the condition, but cannot move y any more.
+  double worst_condition;
 };
 
 ActiveRows FindActiveRows(const Hierarchy& hierarchy,
                           const Solution& solution) {
-  ActiveRows active{Eigen::MatrixXd(0, hierarchy.num_variables()), 0};
+  ActiveRows active{Eigen::MatrixXd(0, hierarchy.num_variables()), 0, 1};
   const auto add = [&active](const Eigen::RowVectorXd& row, double target,
                              double weight) {
     const double norm = row.norm();
@@ -53,6 +56,11 @@ ActiveRows FindActiveRows(const Hierarchy& hierarchy,
           side == Side::kUpper ? hierarchy.upper(k)[i] : hierarchy.lower(k)[i],
           1);
     }
+    if (active.rows.rows() == 0) continue;
+    RankRevealing svd(static_cast<int>(active.rows.rows()),
+                      hierarchy.num_variables());
+    svd.Compute(active.rows);
+    active.worst_condition = std::max(active.worst_condition, svd.condition());
   }
   return active;
 }
@@ -87,9 +95,7 @@ void Compare(const std::string& name, const Hierarchy& hierarchy,
   const ActiveRows active = FindActiveRows(hierarchy, solution);
   const int rows = static_cast<int>(active.rows.rows());
   const int n = hierarchy.num_variables();
-  RankRevealing svd(rows, n);
-  svd.Compute(active.rows);
-  const double condition = rows == 0 ? 1 : svd.condition();
+  const double condition = active.worst_condition;
   const double relative = Rounding(1, n + rows, condition * condition);
   const Eigen::VectorXd y = Rounded(exact.y);
   const double size = y.norm() + active.largest_distance;

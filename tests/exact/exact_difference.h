@@ -14,8 +14,8 @@ namespace poise {
 ///     t = 8 (n + rows) eps condition^2,
 /// relative to s = |y| plus the largest |b| / |row| or |bound| / |row|, and for
 /// costs relative to sum weight (|row| s + |b or bounds|)^2. The condition is
-/// that of the active rows, times the roots of their weights. It enters squared,
-/// because rows that contradict each other have residuals.
+/// the largest of the active rows up to any level, times the roots of weights.
+/// It enters squared, because rows that contradict each other have residuals.
 ///
 /// Source: Higham, "Accuracy and stability of numerical algorithms", 2nd ed.,
 /// theorem 20.1.
