@@ -148,11 +148,16 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
         solution.levels[level].multipliers[above];
     const LevelRows& rows = rows_[above];
     const auto B = hierarchy.B(above), C = hierarchy.C(above);
+    const auto weight = hierarchy.weight(above);
     for (int i = 0; i < B.rows(); ++i) {
       const double lambda = multipliers.equality[i];
       if (lambda == 0) continue;
       gradient_ += lambda * B.row(i).transpose();
       gradient_size_ += std::abs(lambda) * B.row(i).cwiseAbs().transpose();
+      if (weight[i] == 0) {  // The row does not bind the levels below.
+        worst =
+            Worse(worst, std::abs(lambda) * B.row(i).lpNorm<Eigen::Infinity>());
+      }
     }
     for (int i = 0; i < C.rows(); ++i) {
       const double mu = multipliers.inequality[i];

@@ -88,6 +88,31 @@ TEST_F(CertifierByHandTest, FindsAMultiplierAcrossAGap) {
   EXPECT_EQ(certificate.complementarity, 1.5 / kSize);
 }
 
+// An equality of weight 0 has no effect on its level, so it must not hold back a
+// level below: y = 1 is optimal, not 0.
+TEST(CertifierWeightTest, FindsAMultiplierOnAnEqualityOfWeightZero) {
+  const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
+  Hierarchy hierarchy(1, capacity);
+  hierarchy.Clear(2);
+  EqualityBlock ignored = hierarchy.AddEqualities(0, 1);
+  ignored.B << 1;
+  ignored.weight << 0;
+  EqualityBlock desired = hierarchy.AddEqualities(1, 1);
+  desired.B << 1;
+  desired.b << -1;
+  Solution solution(1, capacity);
+  solution.Reset();
+  EvaluateLevel(hierarchy, 0, &solution);
+  EvaluateLevel(hierarchy, 1, &solution);
+  solution.levels[1].multipliers[0].equality << 1;
+  const Certificate certificate =
+      Certifier(1, capacity).Certify(hierarchy, solution);
+  EXPECT_EQ(certificate.stationarity, 0);
+  EXPECT_EQ(certificate.complementarity, 0.5);  // 1 of a gradient 1 + 1.
+  ignored.weight << 1;                          // The equality holds y back.
+  EXPECT_EQ(Certifier(1, capacity).Certify(hierarchy, solution).worst(), 0);
+}
+
 TEST_F(CertifierByHandTest, FindsAWrongResidualCostOrSlack) {
   solution_.levels[1].equality_residual[1] = -0.5;
   EXPECT_GT(Certify().feasibility, 0.01);

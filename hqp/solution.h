@@ -56,9 +56,9 @@ struct Certificate {
   /// Difference of the reported residuals and slacks from those of y.
   double feasibility = 0;
 
-  /// Multipliers of the wrong sign at a bound, or on an inactive row. A row is
-  /// at its bound within 1e-9 (|C_i| |y| + |bound|). Beyond that it is violated
-  /// and its multiplier is free.
+  /// Multipliers of the wrong sign at a bound, on an inactive row, or on an
+  /// equality of weight 0. A row is at its bound within 1e-9 (|C_i| |y| +
+  /// |bound|). Beyond that it is violated and its multiplier is free.
   double complementarity = 0;
 
   /// Error of the reported cost: |cost_k - c_k| / (c_k + 1e-9 s_k). Here cost_k

@@ -17,7 +17,7 @@ packages=(
   # The command that converts meshes of other formats than STL and OBJ.
   assimp-utils
   # Packages that only tests use.
-  libbenchmark-dev libceres-dev libfcl-dev libgmock-dev libgtest-dev
+  libbenchmark-dev libceres-dev libfcl-dev libgmock-dev libgmp-dev libgtest-dev
   libmpfrc++-dev liborocos-kdl-dev librapidcheck-dev
 )
 

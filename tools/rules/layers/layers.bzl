@@ -36,6 +36,7 @@ _HEADERS = {
     "cli11": ["CLI/"],
     "eigen": ["Eigen/", "unsupported/"],
     "fcl": ["fcl/"],
+    "gmp": ["gmp"],
     "gtest": ["gtest/", "gmock/"],
     "kdl": ["kdl"],
     "mpreal": ["mpreal", "mpfr"],

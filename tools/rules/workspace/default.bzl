@@ -115,6 +115,14 @@ def add_default_repositories():
         for_tests_only = True,
     )
     system_repository(
+        # gmpxx.pc is the C++ interface; <gmpxx.h> needs no folder.
+        name = "gmp",
+        pkg_config = "gmpxx",
+        header = "gmpxx.h",
+        debian_package = "libgmp-dev",
+        for_tests_only = True,
+    )
+    system_repository(
         name = "kdl",
         pkg_config = "orocos-kdl",
         debian_package = "liborocos-kdl-dev",
