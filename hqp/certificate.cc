@@ -53,11 +53,17 @@ RowSums Sum(const double* row, const Eigen::VectorXd& y) {
 
 Certifier::Certifier(int num_variables,
                      const std::vector<LevelCapacity>& capacity)
-    : gradient_(num_variables), gradient_size_(num_variables) {
+    : cost_(capacity.size()),
+      cost_scale_(capacity.size()),
+      gap_(capacity.size()),
+      gradient_(num_variables),
+      gradient_size_(num_variables) {
   for (const LevelCapacity& level : capacity) {
     LevelRows rows;
     rows.violation.resize(level.inequalities);
     rows.size.resize(level.inequalities);
+    rows.value.resize(level.inequalities);
+    rows.norm.resize(level.inequalities);
     rows.side.resize(level.inequalities);
     rows_.push_back(std::move(rows));
   }
@@ -65,26 +71,42 @@ Certifier::Certifier(int num_variables,
 
 Certificate Certifier::Certify(const Hierarchy& hierarchy,
                                const Solution& solution) noexcept {
+  std::fill(gap_.begin(), gap_.end(), kInfinity);
   Certificate certificate;
   const int levels = solution.failed_level < 0 ? hierarchy.num_levels()
                                                : solution.failed_level;
   for (int level = 0; level < levels; ++level) {
-    JudgeRows(hierarchy, level, solution, &certificate);
-    JudgeMultipliers(hierarchy, level, solution, &certificate);
+    JudgeLevel(hierarchy, level, solution, &certificate);
   }
   return certificate;
 }
 
 void Certifier::Truncate(const Hierarchy& hierarchy,
                          Solution* solution) noexcept {
-  for (;;) {
-    solution->certificate = Certify(hierarchy, *solution);
-    if (!(solution->certificate.worst() > kCertified)) return;
-    solution->status = Status::kIterationLimit;
-    int& failed_level = solution->failed_level;
-    failed_level =
-        (failed_level < 0 ? hierarchy.num_levels() : failed_level) - 1;
+  std::fill(gap_.begin(), gap_.end(), kInfinity);
+  solution->certificate = {};
+  const int levels = solution->failed_level < 0 ? hierarchy.num_levels()
+                                                : solution->failed_level + 1;
+  for (int level = 0; level < levels; ++level) {
+    Certificate certificate = solution->certificate;
+    JudgeLevel(hierarchy, level, *solution, &certificate);
+    if (level == solution->failed_level) return;
+    if (!(certificate.worst() <= kCertified)) {
+      solution->status = Status::kIterationLimit;
+      solution->failed_level = level;
+      return;
+    }
+    solution->certificate = certificate;
   }
+}
+
+void Certifier::JudgeLevel(const Hierarchy& hierarchy, int level,
+                           const Solution& solution, Certificate* certificate) {
+  JudgeRows(hierarchy, level, solution, certificate);
+  JudgeMultipliers(hierarchy, level, solution, certificate);
+  gap_[level] = Gap(hierarchy, level, solution);
+  certificate->gap =
+      Worse(certificate->gap, Ratio(gap_[level], cost_scale_[level]));
 }
 
 void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
@@ -117,12 +139,12 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     const double violation = at_upper ? value - bound : bound - value;
     const double size =
         std::isinf(bound) ? 0 : sums.product_size + std::abs(bound);
+    rows.value[i] = value;
+    rows.norm[i] = std::sqrt(sums.squared_row_norm);
     rows.side[i] = at_upper ? Side::kUpper : Side::kLower;
     rows.violation[i] = violation;
     rows.size[i] =
-        std::isinf(bound)
-            ? 0
-            : std::sqrt(sums.squared_row_norm) * norm_y + std::abs(bound);
+        std::isinf(bound) ? 0 : rows.norm[i] * norm_y + std::abs(bound);
     const double slack = std::max(violation, 0.0);
     feasibility = Worse(feasibility, Ratio(slack - answer.slack[i], size));
     cost += slack * slack / 2;
@@ -133,10 +155,12 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
       gradient_size_ += size * C.row(i).cwiseAbs().transpose();
     }
   }
+  cost_[level] = cost;
+  cost_scale_[level] = cost + tolerances::kZeroCost * cost_size;
   certificate->feasibility = feasibility;
   certificate->priority = Worse(
       certificate->priority,
-      Ratio(cost - answer.cost, cost + tolerances::kZeroCost * cost_size));
+      Ratio(cost - answer.cost, cost_scale_[level]));
 }
 
 void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
@@ -189,6 +213,42 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
       Worse(certificate->stationarity, Ratio(gradient, size));
   certificate->complementarity =
       Worse(certificate->complementarity, Ratio(worst, size));
+}
+
+// Largest mu C_i d of row i of a level above, but for the change of its slack.
+double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int i,
+                             double mu, double radius) const {
+  const LevelRows& rows = rows_[level];
+  if (rows.violation[i] > 0) return 0;  // Its slack decides.
+  const double distance = mu > 0 ? hierarchy.upper(level)[i] - rows.value[i]
+                                 : rows.value[i] - hierarchy.lower(level)[i];
+  return std::abs(mu) * std::min(distance, rows.norm[i] * radius);
+}
+
+// See gap(). gradient_ is that of the level.
+double Certifier::Gap(const Hierarchy& hierarchy, int level,
+                      const Solution& solution) const {
+  const double radius = 2 * solution.y.norm();
+  const double rounding = std::numeric_limits<double>::epsilon() *
+                          static_cast<double>(gradient_.size());
+  double gap = (gradient_.norm() + rounding * gradient_size_.norm()) * radius;
+  for (int above = 0; above < level; ++above) {
+    const LevelMultipliers& multipliers =
+        solution.levels[level].multipliers[above];
+    double squares = 0;
+    for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
+      const double lambda = multipliers.equality[i];
+      if (lambda != 0) squares += lambda * lambda / hierarchy.weight(above)[i];
+    }
+    for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
+      const double mu = multipliers.inequality[i];
+      if (mu == 0) continue;
+      squares += mu * mu;
+      gap += FreeChange(hierarchy, above, i, mu, radius);
+    }
+    if (squares > 0) gap += 2 * std::sqrt(gap_[above] * squares);
+  }
+  return std::isnan(gap) ? cost_[level] : std::min(gap, cost_[level]);
 }
 
 }  // namespace poise

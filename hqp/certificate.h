@@ -21,6 +21,19 @@ class Certifier {
   Certificate Certify(const Hierarchy& hierarchy,
                       const Solution& solution) noexcept;
 
+  /// After Certify() or Truncate(): how far the cost of a level may be above its
+  /// optimum, given the levels above. Known for the certified levels and for
+  /// the first one that is not; else infinite.
+  ///
+  /// With d = y' - y for any y' that is optimal on the levels above and no
+  /// farther from y than R = 2 |y|, convexity gives
+  ///     cost_k(y) - cost_k(y') <= |g_k| R + sum_{j<k} (lambda_kj' B_j d
+  ///                                                    + mu_kj' C_j d).
+  /// An inactive bound allows C_i d up to its distance. A row with a residual or
+  /// a slack changes by 2 sqrt(gap_j) at most, because cost_j is quadratic in
+  /// it. |g_k| contains its rounding. The gap never exceeds the cost.
+  double gap(int level) const { return gap_[level]; }
+
   /// Upper limit of Certificate::worst() for an answer with status kOptimal.
   static constexpr double kCertified = 1e-9;
 
@@ -34,14 +47,23 @@ class Certifier {
     /// Violation of the nearer bound; negative if met.
     Eigen::VectorXd violation;
     Eigen::VectorXd size;    ///< |C_i| |y| + |bound|.
+    Eigen::VectorXd value;   ///< C_i y.
+    Eigen::VectorXd norm;    ///< |C_i|.
     std::vector<Side> side;  ///< The nearer bound.
   };
   void JudgeRows(const Hierarchy& hierarchy, int level,
                  const Solution& solution, Certificate* certificate);
   void JudgeMultipliers(const Hierarchy& hierarchy, int level,
                         const Solution& solution, Certificate* certificate);
+  void JudgeLevel(const Hierarchy& hierarchy, int level,
+                  const Solution& solution, Certificate* certificate);
+  double FreeChange(const Hierarchy& hierarchy, int level, int i, double mu,
+                    double radius) const;
+  double Gap(const Hierarchy& hierarchy, int level,
+             const Solution& solution) const;
 
   std::vector<LevelRows> rows_;
+  std::vector<double> cost_, cost_scale_, gap_;  ///< By level.
   Eigen::VectorXd gradient_, gradient_size_;
 };
 

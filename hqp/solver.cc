@@ -19,6 +19,10 @@ namespace {
 // to the working set at most this often.
 constexpr int kMaxRefinementPasses = 5;
 
+// A search on all levels at once that takes longer is likely to cycle by
+// rounding. The longest one of the recorded runs took TODO iterations.
+constexpr int kMaxIterationsAtOnce = 250;
+
 }  // namespace
 
 class Solver::Impl {
@@ -32,6 +36,7 @@ class Solver::Impl {
   bool SearchAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget);
   void SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
                      Solution* solution);
+  void KeepSearch(const Hierarchy& hierarchy, Solution* solution);
   void FindMultipliers(const Hierarchy& hierarchy);
   bool AddViolated(const Hierarchy& hierarchy, bool adds);
   bool WriteSolution(const Hierarchy& hierarchy, Solution* solution);
@@ -81,8 +86,11 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, Budget* budget,
   }
   solution->Reset(hierarchy);
   Prepare(hierarchy);
-  if (!SearchAtOnce(hierarchy, budget->max_iterations() / 2, budget) ||
-      !WriteSolution(hierarchy, solution)) {
+  const bool is_complete =
+      SearchAtOnce(hierarchy, kMaxIterationsAtOnce, budget);
+  if (budget->is_spent()) {
+    KeepSearch(hierarchy, solution);
+  } else if (!is_complete || !WriteSolution(hierarchy, solution)) {
     solution->Reset(hierarchy);
     SearchByLevel(hierarchy, budget, solution);
     if (!WriteSolution(hierarchy, solution)) {
@@ -159,6 +167,19 @@ void Solver::Impl::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
   FindMultipliers(hierarchy);
 }
 
+// Writes the y at which the budget of the search on all levels was spent. Rows
+// outside the working set are met there. The next solve starts from this y and
+// this working set.
+void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
+  search_.RemoveRowsInside(hierarchy, &side_);
+  problem_.Solve(hierarchy, side_);
+  problem_.SetSolution(hierarchy, search_.y());
+  FindMultipliers(hierarchy);
+  if (!WriteSolution(hierarchy, solution)) {
+    certifier_.Truncate(hierarchy, solution);
+  }
+}
+
 void Solver::Impl::FindMultipliers(const Hierarchy& hierarchy) {
   problem_.FindMultipliers(problem_.num_levels() + 1);
   problem_.RefineMultipliers(hierarchy);
@@ -217,7 +238,7 @@ Solver::~Solver() = default;
 void Solver::Forget() noexcept { impl_->Forget(); }
 
 Status Solver::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
-  Budget budget(max_iterations, max_seconds, &now);
+  Budget budget({max_iterations, max_modelled_seconds, max_seconds}, &now);
   return impl_->Solve(hierarchy, &budget, solution);
 }
 

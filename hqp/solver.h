@@ -42,6 +42,11 @@ class Solver {
   /// failed_level.
   int max_iterations = 500;
 
+  /// Limit of the modelled time of the search [s]; 0: no limit. Each iteration
+  /// has the time that was measured for it on the reference machine, so that a
+  /// replay is exact (hqp/fast/budget.h).
+  double max_modelled_seconds = 0;
+
   /// Time limit [s], measured by now(). 0, or no now(): no limit. A time limit
   /// makes a replay inexact; a limit of iterations does not.
   double max_seconds = 0;

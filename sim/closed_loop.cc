@@ -81,6 +81,15 @@ std::unique_ptr<Controller> MakeController(const Robot& robot,
   options.feedforward = settings.feedforward;
   options.weighted = settings.weighted;
   options.drag_compensation = settings.drag_compensation;
+  if (settings.budget_clock) {
+    options.max_seconds = 1e-6 * settings.budget_us;
+    options.now = [] {
+      const auto now = std::chrono::steady_clock::now().time_since_epoch();
+      return std::chrono::duration<double>(now).count();
+    };
+  } else {
+    options.max_modelled_seconds = 1e-6 * settings.budget_us;
+  }
   std::vector<std::string> switched = settings.with;
   switched.insert(switched.end(), settings.without.begin(),
                   settings.without.end());

@@ -146,6 +146,7 @@ void ReadControl(YamlFields fields, ControlSettings* control) {
   control->feedforward = fields.Flag("feedforward", control->feedforward);
   control->weighted = fields.Flag("weighted", control->weighted);
   control->estimator = fields.Flag("estimator", control->estimator);
+  control->budget_clock = fields.Flag("budget_clock", control->budget_clock);
   control->drag_compensation =
       fields.Flag("drag_compensation", control->drag_compensation);
   fields.Finish();

@@ -58,6 +58,8 @@ struct ControlSettings {
   double friction = 0.5;     ///< Coefficient mu that the controller assumes.
   double mass_error = 0;     ///< Relative error of all masses of its model.
   double ramp = 0;           ///< Changes of tasks take effect in this time, s.
+  double budget_us = 0;      ///< Time for the solver in a tick; 0: no limit.
+  bool budget_clock = false; ///< By the clock: no replay is exact.
   bool inscribed = false;    ///< The friction pyramid is inside the cone.
   bool feedforward = false;  ///< Feeds forward v_WG, a_WG of the reference.
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.

@@ -58,7 +58,8 @@ std::vector<NumberField> Fields(ControlSettings* control) {
           {"delay", &control->delay, 0, 1, "s"},
           {"friction", &control->friction, 0, 10},
           {"mass_error", &control->mass_error, -0.99, 10},
-          {"ramp", &control->ramp, 0, 100, "s"}};
+          {"ramp", &control->ramp, 0, 100, "s"},
+          {"budget_us", &control->budget_us, 0, 1e6, "us"}};
 }
 
 std::vector<NumberField> Fields(SensorSettings* s) {

@@ -46,7 +46,7 @@ stance:
 com: {sine: [1, 2, 3], cosine: [4, 5, 6], period: 4}
 tasks: {set: paper, with: [zmp], without: [cop, yaw]}
 control: {rate: 500, delay: 0.002, friction: 0.4, mass_error: -0.1,
-          ramp: 0.3, inscribed: true, feedforward: true, weighted: true, estimator: true}
+          ramp: 0.3, budget_us: 250, budget_clock: true, inscribed: true, feedforward: true, weighted: true, estimator: true}
 plant: {kind: mujoco, rate: 2000, friction: 0.7, torque_scale: 0.5, roll: 0.1,
         pitch: 0.2, boards: [{center: [1, 2, 3], size: [4, 5, 6], yaw: 1}],
         joint_limits: false, joint_damping: false, self_collision: false,
@@ -121,6 +121,8 @@ TEST(Scenario, ReadsEachKeyOfTasksAndControl) {
   EXPECT_EQ(s.control.friction, 0.4);
   EXPECT_EQ(s.control.mass_error, -0.1);
   EXPECT_EQ(s.control.ramp, 0.3);
+  EXPECT_EQ(s.control.budget_us, 250);
+  EXPECT_TRUE(s.control.budget_clock);
   EXPECT_TRUE(s.control.inscribed && s.control.feedforward &&
               s.control.weighted && s.control.estimator);
 }

@@ -44,20 +44,20 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
                                 Budget* budget, WorkingSetProblem* problem,
                                 std::vector<std::vector<Side>>* side) {
   const int levels = hierarchy.num_levels();
-  if (!budget->Take(limit)) return false;
+  if (!budget->Take(limit, problem->multiply_adds())) return false;
   remove_together_ = true;
   problem->Plan(hierarchy, levels);
   problem->Solve(hierarchy, *side);
   if (!InitializeAllLevels(hierarchy, problem, side)) return true;
   // The leading levels come first, because their steps are cheaper.
   do {
-    if (!budget->Take(limit)) return false;
+    if (!budget->Take(limit, problem->multiply_adds())) return false;
     problem->SolveLeading(hierarchy, *side);
     problem->Approach(y_);
   } while (Iterate(hierarchy, problem->num_leading() - 1, problem, side));
   problem->SolveDiagonal();
   while (Iterate(hierarchy, levels, problem, side)) {
-    if (!budget->Take(limit)) return false;
+    if (!budget->Take(limit, problem->multiply_adds())) return false;
     problem->Solve(hierarchy, *side);
   }
   return true;
@@ -80,7 +80,7 @@ int ActiveSetSearch::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
     if (level < levels) InitializeWorkingSet(hierarchy, level, side);
     bool has_changed = true;
     while (has_changed) {
-      if (!budget->Take()) {
+      if (!budget->Take(problem->multiply_adds())) {
         RestoreWorkingSet(side);
         return level;
       }
@@ -117,6 +117,7 @@ bool ActiveSetSearch::InitializeAllLevels(
           IsFixed(hierarchy, level, i) ? kFrozen : kMaxRemovals;
     }
   }
+  problem->MoveToFirstLevels(hierarchy, &y_);
   const int violated_at_optimum =
       FindViolated(hierarchy, *problem, problem->y(), *side);
   if (violated_at_optimum == 0) {
@@ -170,6 +171,28 @@ int ActiveSetSearch::FindViolated(const Hierarchy& hierarchy,
     }
   }
   return count;
+}
+
+void ActiveSetSearch::RemoveRowsInside(const Hierarchy& hierarchy,
+                                       std::vector<std::vector<Side>>* side) {
+  const double largest = kernels::Largest(y_.data(), n_);
+  for (int level = 0; level < hierarchy.num_levels(); ++level) {
+    const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
+    const int rows = hierarchy.num_inequalities(level);
+    kernels::Dots(hierarchy.C(level).data(), n_, rows, y_.data(), n_,
+                  value_.data());
+    for (int i = 0; i < rows; ++i) {
+      Side& at = (*side)[level][i];
+      if (at == Side::kNone) continue;
+      const double bound = at == Side::kUpper ? upper[i] : lower[i];
+      const double inside =
+          at == Side::kUpper ? bound - value_[i] : value_[i] - bound;
+      const double norm =
+          kernels::AbsoluteSum(hierarchy.C(level).data() + i * n_, n_);
+      if (inside > tolerances::kZeroSlope * (norm * largest + std::abs(bound)))
+        at = Side::kNone;
+    }
+  }
 }
 
 // Initializes the working set of a level with the rows that y violates.

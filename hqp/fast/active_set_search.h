@@ -45,6 +45,10 @@ class ActiveSetSearch {
                    WorkingSetProblem* problem,
                    std::vector<std::vector<Side>>* side);
 
+  /// Removes the rows from the working set that y() meets strictly.
+  void RemoveRowsInside(const Hierarchy& hierarchy,
+                        std::vector<std::vector<Side>>* side);
+
   const std::vector<double>& y() const { return y_; }
   void Forget() { std::fill(y_.begin(), y_.end(), 0); }
 

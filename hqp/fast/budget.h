@@ -1,39 +1,63 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 namespace poise {
 
-/// The budget of one solve: a number of factorisations, and seconds by a clock
-/// if there is one.
+/// Limits of one solve.
+struct BudgetLimits {
+  int iterations;               ///< Number of factorisations and updates.
+  double modelled_seconds = 0;  ///< By ModelledSeconds(); 0: no limit.
+  double seconds = 0;           ///< By now(); 0: no limit.
+};
+
+/// Modelled time [s] of a solve. It depends on the problem alone, so that a
+/// replay with such a limit is exact. The three times are a fit to 1200 solves
+/// of up to 3 ms, on the quiet reference machine: 98 % of them are between 0.79
+/// and 1.17 of the model. The time of a solve covers the check of the input,
+/// refinement, multipliers and the certificate.
+inline double ModelledSeconds(std::int64_t multiply_adds, int iterations) {
+  constexpr double kPerMultiplyAdd = 0.165e-9;
+  constexpr double kPerIteration = 4e-6, kPerSolve = 36e-6;
+  return kPerSolve + kPerIteration * iterations +
+         kPerMultiplyAdd * static_cast<double>(multiply_adds);
+}
+
+/// The budget of one solve.
 class Budget {
  public:
-  Budget(int max_iterations, double max_seconds,
-         const std::function<double()>* now)
-      : max_iterations_(max_iterations),
-        max_seconds_(max_seconds),
-        now_(max_seconds > 0 && *now ? now : nullptr),
+  Budget(const BudgetLimits& limits, const std::function<double()>* now)
+      : limits_(limits),
+        now_(limits.seconds > 0 && *now ? now : nullptr),
         start_(now_ != nullptr ? (*now_)() : 0) {}
 
-  /// Uses one factorisation. Returns false if the budget is spent, or if
-  /// `limit` factorisations have been used.
-  bool Take(int limit) {
-    if (iterations_ >= max_iterations_ || iterations_ >= limit ||
-        (now_ != nullptr && (*now_)() - start_ > max_seconds_)) {
-      return false;
-    }
+  /// Uses one factorisation, after `multiply_adds` in this solve. Returns false
+  /// if the budget is spent, or if `limit` factorisations have been used.
+  bool Take(int limit, std::int64_t multiply_adds) {
+    if (iterations_ >= limit) return false;
+    is_spent_ = is_spent_ || iterations_ >= limits_.iterations ||
+                (limits_.modelled_seconds > 0 &&
+                 ModelledSeconds(multiply_adds, iterations_) >
+                     limits_.modelled_seconds) ||
+                (now_ != nullptr && (*now_)() - start_ > limits_.seconds);
+    if (is_spent_) return false;
     ++iterations_;
     return true;
   }
-  bool Take() { return Take(max_iterations_); }
+  bool Take(std::int64_t multiply_adds) {
+    return Take(limits_.iterations + 1, multiply_adds);
+  }
 
+  /// Returns whether Take() has failed for another reason than `limit`.
+  bool is_spent() const { return is_spent_; }
   int iterations() const { return iterations_; }
-  int max_iterations() const { return max_iterations_; }
 
  private:
-  int max_iterations_, iterations_ = 0;
-  double max_seconds_;
+  BudgetLimits limits_;
+  int iterations_ = 0;
+  bool is_spent_ = false;
   const std::function<double()>* now_;
   double start_;
 };

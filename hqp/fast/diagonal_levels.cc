@@ -232,6 +232,7 @@ int DiagonalLevels::LargestColumn(int row_begin, int row_end, int begin,
     const double* t = &t_[static_cast<size_t>(i) * stride_];
     for (int p = begin; p < end; ++p) squares[p] += t[p] * t[p];
   }
+  Count(row_end - row_begin, end - begin);
   const double* largest = std::max_element(squares + begin, squares + end);
   *squared = *largest;
   return static_cast<int>(largest - squares);
@@ -263,6 +264,12 @@ void DiagonalLevels::Reflect(int row_begin, int row_end, int target, int pivot,
   AddToRows(first + begin, stride_, rows, factor_.data() + row_begin,
             scratch_.data(), columns);
   ++num_reflections_;
+  Count(2 * rows, columns);
+}
+
+// Counts multiply-adds: one for each entry of `rows` rows.
+void DiagonalLevels::Count(int rows, int columns) {
+  multiply_adds_ += static_cast<std::int64_t>(rows) * columns;
 }
 
 // Factors T/d = L Q by Gram-Schmidt. A dependent row, which only rounding can
@@ -301,6 +308,7 @@ void DiagonalLevels::FactorLevel(int level) {
       }
       AddRows(first, stride_, above, scratch_.data(), columns, q);
       after = SquaredNorm(q, columns);
+      Count(2 * above + 1, columns);
       if (after > before / 4) break;
     }
     if (after <= kRankTolerance * kRankTolerance * before) {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "poise/hqp/fast/lexicographic_factorization.h"
@@ -87,6 +88,9 @@ class DiagonalLevels {
   /// `level`.
   int Nullity(int level) const;
 
+  /// Multiply-adds of Tie() and Solve() since construction.
+  std::int64_t multiply_adds() const { return multiply_adds_; }
+
  private:
   struct Block {
     int begin, end;          ///< Positions of its variables.
@@ -100,6 +104,7 @@ class DiagonalLevels {
                     double* squared);
   void Reflect(int row_begin, int row_end, int target, int pivot, int begin,
                int end);
+  void Count(int rows, int columns);
   void Gather(const double* rows, int stride, int count);
   void EliminateAll(int end);
   void Start(const LexicographicFactorization& leading, const double* z);
@@ -123,6 +128,7 @@ class DiagonalLevels {
   std::vector<double> z_, nu_;                        ///< By row of U' Q.
   std::vector<double> q_, l_;  ///< T_cc/d = L Q, by level.
   std::vector<double> scratch_, factor_;
+  std::int64_t multiply_adds_ = 0;
 };
 
 }  // namespace poise

@@ -155,10 +155,12 @@ void LexicographicFactorization::RemoveRow(int a) {
     row[e] = length;
     kernels::Rotate(cosine_[e], sine_[e], n_, q(e), q(e + 1));
     kept_.Rotate(e, cosine_[e], sine_[e]);
+    Count(4, n_ + kept_.size());
     carrier_[e] = carrier_[e + 1];
     effective_target_[e] = effective_target_[e + 1];
   }
   kept_.RemoveLast(q(--rank_));
+  Count(kept_.size(), n_);
   for (int e = 0; e < rank_; ++e) {
     if (carrier_[e] == last) carrier_[e] = a;
   }
@@ -185,6 +187,7 @@ bool LexicographicFactorization::AppendRow() {
   double* q = &q_[static_cast<size_t>(rank_) * stride_];
   for (int j = 0; j < n_; ++j) q[j] = row(a)[j] / norm;
   kept_.Extend(q);
+  Count(2 * kept_.size(), n_);
   carrier_[rank_] = a;
   effective_target_[rank_] = target_[a];
   levels_.back().end_row = num_rows_;
@@ -228,6 +231,12 @@ void LexicographicFactorization::TakeOut(int begin, int end, double* x,
     scratch_[e - begin] = -scratch_[e - begin];
   }
   AddRows(q, stride_, end - begin, scratch_.data(), n_, x);
+  Count(2 * (end - begin), n_);
+}
+
+// Counts multiply-adds: one for each entry of `rows` rows.
+void LexicographicFactorization::Count(int rows, int columns) {
+  multiply_adds_ += static_cast<std::int64_t>(rows) * columns;
 }
 
 // Orthogonalises the remainders of the level's rows, the largest weighted one
@@ -291,6 +300,7 @@ void LexicographicFactorization::PivotRows(Level* level) {
       factor_[i] = -factor_[i];
     }
     AddToRows(row(first), stride_, rows, factor_.data(), q, n_);
+    Count(2 * rows + 1, n_);
     for (int a = first; a < level->end_row; ++a) {
       // The difference of squares has lost its digits: compute the norm again.
       if (!chosen_[a] && rest_[a] < tolerances::kDowndate * fresh_[a]) {
@@ -345,6 +355,7 @@ void LexicographicFactorization::Reduce(Level* level) {
       for (int i = 0; i < rows; ++i) factor_[i] = -v[i];
       AddToRows(reduced_.data(), stride_, rows, factor_.data(), scratch_.data(),
                 end + 1);
+      Count(2 * rows, end + 1);
     }
     chosen_[first + pivot] = true;
     carrier_[e] = first + pivot;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "poise/hqp/fast/projected_rows.h"
@@ -116,6 +117,9 @@ class LexicographicFactorization {
 
   double norm_z() const;
 
+  /// Multiply-adds of all factorisations and updates since construction.
+  std::int64_t multiply_adds() const { return multiply_adds_; }
+
  private:
   struct Level {
     int first_row, end_row, rank_begin, rank_end;
@@ -124,6 +128,7 @@ class LexicographicFactorization {
   void Renumber(int level);
   void Project(int a);
   void ProjectKept(int a);
+  void Count(int rows, int columns);
   void TakeOut(int begin, int end, double* x, double* l);
   void PivotRows(Level* level);
   void Reduce(Level* level);
@@ -144,6 +149,7 @@ class LexicographicFactorization {
   std::vector<double> reflection_;  ///< n x max_rows.
   std::vector<double> factor_, scratch_, cosine_, sine_;
   std::vector<bool> chosen_;
+  std::int64_t multiply_adds_ = 0;
   ProjectedRows kept_;             ///< Rows with a key, on the merged levels.
   std::vector<int> key_;           ///< By row; -1: none.
   std::vector<bool> is_recalled_;  ///< By row.

@@ -57,6 +57,7 @@ bool WorkingSetProblem::Fits(const Hierarchy& hierarchy, int level) const {
 Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   *failed_level = 0;
+  before_ = leading_.multiply_adds() + diagonal_.multiply_adds();
   if (hierarchy.num_variables() != n_) return Status::kBadInput;
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     *failed_level = level;
@@ -264,15 +265,27 @@ void WorkingSetProblem::SolveLeading(
   is_factored_ = true;
 }
 
-// Computes y + Q' (z - Q y).
 void WorkingSetProblem::Approach(const std::vector<double>& y) {
   y_ = y;
-  const int rank = leading_.rank();
-  kernels::Dots(leading_.basis(), leading_.stride(), rank, y_.data(), n_,
+  MoveTo(leading_.rank(), &y_);
+}
+
+void WorkingSetProblem::MoveToFirstLevels(const Hierarchy& hierarchy,
+                                          std::vector<double>* y) {
+  int levels = 0;
+  while (levels < num_leading_ && hierarchy.num_inequalities(levels) == 0) {
+    ++levels;
+  }
+  if (levels > 0) MoveTo(leading_.rank(levels - 1), y);
+}
+
+// Adds Q' (z - Q y) to y, with the first `rank` rows of Q.
+void WorkingSetProblem::MoveTo(int rank, std::vector<double>* y) {
+  kernels::Dots(leading_.basis(), leading_.stride(), rank, y->data(), n_,
                 change_.data());
   for (int e = 0; e < rank; ++e) change_[e] = leading_.z()[e] - change_[e];
   kernels::AddRows(leading_.basis(), leading_.stride(), rank, change_.data(),
-                   n_, y_.data());
+                   n_, y->data());
 }
 
 void WorkingSetProblem::FindMultipliers(int end) {

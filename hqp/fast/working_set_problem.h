@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "poise/hqp/fast/diagonal_levels.h"
@@ -66,6 +67,11 @@ class WorkingSetProblem {
   /// to y, and ignores the diagonal levels.
   void Approach(const std::vector<double>& y);
 
+  /// Moves y to the closest optimum of the first levels, as far as they have no
+  /// inequalities. No search can change these levels.
+  /// pre: Solve() has factored the levels in their order, without an update.
+  void MoveToFirstLevels(const Hierarchy& hierarchy, std::vector<double>* y);
+
   /// Iterative refinement: reduces the residuals of the rows as given, until
   /// each is zero to rounding of its own terms. Orthogonalisation alone leaves
   /// rounding of the largest entries of y, which a level need not contain.
@@ -97,6 +103,12 @@ class WorkingSetProblem {
   /// Positive: binding. Negative: removing the row lowers the cost. Zero if
   /// below tolerance, relative. On the row's own level it is the violation.
   double Multiplier(int row, int level, Side side, double tolerance) const;
+
+  /// Multiply-adds of the factorisations since Read(). Those of products with
+  /// all rows are not counted: they are the same in each iteration.
+  std::int64_t multiply_adds() const {
+    return leading_.multiply_adds() + diagonal_.multiply_adds() - before_;
+  }
 
   int num_levels() const { return num_levels_; }
   int num_leading() const { return num_leading_; }  ///< Leading levels.
@@ -133,6 +145,7 @@ class WorkingSetProblem {
                   const std::vector<std::vector<Side>>& side, int level,
                   int* met);
   void RemoveLevels(int level);
+  void MoveTo(int rank, std::vector<double>* y);
   void RemoveRow(int a);
   void AddToSum(const Hierarchy& hierarchy, int a, double factor,
                 double* sum) const;
@@ -149,6 +162,7 @@ class WorkingSetProblem {
   int n_;
   int num_levels_ = 0, num_leading_ = 0;
   bool is_factored_ = false;
+  std::int64_t before_ = 0;                  ///< Multiply-adds before Read().
   std::vector<std::vector<Side>> factored_;  ///< Factored working set.
   LexicographicFactorization leading_;
   DiagonalLevels diagonal_;

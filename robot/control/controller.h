@@ -38,6 +38,8 @@ struct ControllerOptions {
   bool weighted = false;     ///< One weighted QP instead of the hierarchy.
   bool drag_compensation = true;  ///< Adds the torques of DragCompensation.
   int max_iterations = 500;  ///< Solver iterations per tick; then truncated.
+  /// Solver::max_modelled_seconds, s; 0: no limit. A replay is exact.
+  double max_modelled_seconds = 0;
   /// Time budget of the solver in a tick, s, measured by now(); used only if
   /// now() is given. The result depends on the machine: no replay is exact.
   double max_seconds = 0;

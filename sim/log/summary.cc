@@ -250,6 +250,7 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
   json["hqp"] = {{"iterations_max", result.iterations_max},
                  {"failures", result.failures},
                  {"certificate_max", Number(result.certificate_max)}};
+  json["gap_max"] = Number(result.gap_max);
   json["real_time_factor"] = Number(simulated / result.wall_seconds);
   json["log_sha256"] = result.log_sha256;
   json["rows"] = Rows(result.rows);

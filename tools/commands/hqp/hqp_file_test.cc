@@ -88,6 +88,10 @@ TEST(WriteHqpSolution, HasAllKeysOfTheFormat) {
   EXPECT_NEAR(out["y"][0], 1, 1e-14);  // Rounding of a few operations.
   EXPECT_NEAR(out["y"][1], 3, 1e-14);
   EXPECT_NEAR(out["levels"][2]["cost"], 12.5, 1e-13);
+  // Level 2 is [1, 3] - [2, 8] with multipliers up to 7; an error of y of 1e-14
+  // changes its cost by far less than 1e-10.
+  EXPECT_GE(out["levels"][2]["gap"], 0);
+  EXPECT_LE(out["levels"][2]["gap"], 1e-10);
   EXPECT_EQ(out["levels"][2]["equality_residual"].size(), 2);
   EXPECT_EQ(out["levels"][0]["slack"].size(), 3);
   EXPECT_EQ(out["levels"][0]["active"], json({1, 0, 0}));
@@ -136,9 +140,9 @@ TEST_F(UnfinishedTest, SaysWhichLevelsAreCertified) {
   EXPECT_NE(said.find("certificate 1e-14 of the first 2 of 3 levels\n"),
             std::string::npos)
       << said;
-  EXPECT_NE(said.find("level 1: cost 0, nullity 2\n"), std::string::npos)
+  EXPECT_NE(said.find("level 1: cost 0, gap 0, nullity 2\n"), std::string::npos)
       << said;
-  EXPECT_NE(said.find("level 2: cost 0, nullity 2, NOT certified\n"),
+  EXPECT_NE(said.find("level 2: cost 0, gap 0, nullity 2, NOT certified\n"),
             std::string::npos)
       << said;
 }

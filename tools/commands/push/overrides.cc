@@ -135,6 +135,12 @@ void AddControlOptions(CLI::App* app, Overrides* o) {
   app->add_option("--control-rate", o->control_rate,
                   "rate of the controller, Hz (1000)")
       ->check(finite);
+  app->add_option("--budget-us", o->budget_us,
+                  "time for the solver in a tick, us, by the measured cost of "
+                  "its steps (0: no limit)")
+      ->check(finite);
+  app->add_flag("--budget-clock", o->budget_clock,
+                "measure the budget by the clock: no replay is exact");
 }
 
 // Adds the options about the simulator and the sensors.
@@ -204,6 +210,8 @@ void Apply(const Overrides& o, Scenario* scenario) {
   control.weighted |= o.weighted;
   control.feedforward |= o.feedforward;
   control.estimator |= o.estimator;
+  Take(o.budget_us, &control.budget_us);
+  control.budget_clock |= o.budget_clock;
   if (o.steps) scenario->steps = *o.steps == "on";
   if (o.friction) control.inscribed = *o.friction == "inscribed";
   TakeRate(o.control_rate, &control.dt);

@@ -15,11 +15,12 @@ namespace poise {
 struct Overrides {
   std::optional<double> force, impulse_fraction, direction, duration, at, time,
       control_rate, plant_rate, mu_plant, mass_error, torque_scale, noise,
-      delay, ramp;
+      delay, ramp, budget_us;
   std::optional<std::string> link, tasks, friction, plant, pushes, steps;
   std::vector<double> point, freeze;
   std::vector<std::string> with, without;
-  bool weighted = false, feedforward = false, estimator = false;
+  bool weighted = false, feedforward = false, estimator = false,
+       budget_clock = false;
   std::optional<unsigned> seed;
 };
 
