@@ -23,7 +23,8 @@ constexpr int kMaxRefinementPasses = 5;
 
 class Solver::Impl {
  public:
-  Impl(int num_variables, const std::vector<LevelCapacity>& capacity);
+  Impl(int num_variables, const std::vector<LevelCapacity>& capacity,
+       const LevelCapacity& total);
   Status Solve(const Hierarchy& hierarchy, Budget* budget, Solution* solution);
   void Forget();
 
@@ -46,11 +47,12 @@ class Solver::Impl {
 };
 
 Solver::Impl::Impl(int num_variables,
-                   const std::vector<LevelCapacity>& capacity)
+                   const std::vector<LevelCapacity>& capacity,
+                   const LevelCapacity& total)
     : n_(num_variables),
-      problem_(num_variables, capacity),
+      problem_(num_variables, capacity, total),
       search_(num_variables, capacity),
-      writer_(num_variables, capacity),
+      writer_(num_variables),
       certifier_(num_variables, capacity) {
   int most = 0;
   for (const LevelCapacity& level : capacity) {
@@ -209,7 +211,10 @@ bool Solver::Impl::WriteSolution(const Hierarchy& hierarchy,
 }
 
 Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity)
-    : impl_(std::make_unique<Impl>(num_variables, capacity)) {}
+    : Solver(num_variables, capacity, Sum(capacity)) {}
+Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity,
+               const LevelCapacity& total)
+    : impl_(std::make_unique<Impl>(num_variables, capacity, total)) {}
 Solver::Solver(Solver&& other) noexcept = default;
 Solver& Solver::operator=(Solver&& other) noexcept = default;
 Solver::~Solver() = default;

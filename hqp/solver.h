@@ -17,6 +17,11 @@ namespace poise {
 class Solver {
  public:
   Solver(int num_variables, const std::vector<LevelCapacity>& capacity);
+
+  /// All levels together have at most `total` rows. This number determines the
+  /// memory, about 8 bytes (3 n + 200) a row; see Hierarchy.
+  Solver(int num_variables, const std::vector<LevelCapacity>& capacity,
+         const LevelCapacity& total);
   Solver(Solver&& other) noexcept;
   Solver& operator=(Solver&& other) noexcept;
   ~Solver();

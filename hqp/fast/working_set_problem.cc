@@ -18,12 +18,14 @@ double Norm(const double* row, int n) {
 }  // namespace
 
 WorkingSetProblem::WorkingSetProblem(int num_variables,
-                                     const std::vector<LevelCapacity>& capacity)
+                                     const std::vector<LevelCapacity>& capacity,
+                                     const LevelCapacity& total)
     : n_(num_variables),
-      leading_(num_variables, NumRows(capacity),
+      total_(total),
+      leading_(num_variables, total.equalities + total.inequalities,
                static_cast<int>(capacity.size())),
       diagonal_(num_variables, static_cast<int>(capacity.size())),
-      rows_(NumRows(capacity)),
+      rows_(total.equalities + total.inequalities),
       multipliers_(capacity.size() + 1),
       y_(num_variables),
       gradient_(num_variables),
@@ -43,9 +45,17 @@ WorkingSetProblem::WorkingSetProblem(int num_variables,
   }
 }
 
-// Returns whether the level fits into the capacity.
+// Returns whether the level, and all levels up to it together, fit into the
+// capacity.
 bool WorkingSetProblem::Fits(const Hierarchy& hierarchy, int level) const {
+  LevelCapacity sum;
+  for (int k = 0; k <= level; ++k) {
+    sum.equalities += hierarchy.num_equalities(k);
+    sum.inequalities += hierarchy.num_inequalities(k);
+  }
   return level < static_cast<int>(norm_.size()) &&
+         sum.equalities <= total_.equalities &&
+         sum.inequalities <= total_.inequalities &&
          hierarchy.num_equalities(level) <=
              static_cast<int>(B_norm_[level].size()) &&
          hierarchy.num_inequalities(level) <=

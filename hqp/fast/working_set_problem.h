@@ -17,7 +17,14 @@ namespace poise {
 class WorkingSetProblem {
  public:
   WorkingSetProblem(int num_variables,
-                    const std::vector<LevelCapacity>& capacity);
+                    const std::vector<LevelCapacity>& capacity)
+      : WorkingSetProblem(num_variables, capacity, Sum(capacity)) {}
+
+  /// All levels together have at most `total` rows. This number determines the
+  /// memory, and the capacity of the levels may be larger.
+  WorkingSetProblem(int num_variables,
+                    const std::vector<LevelCapacity>& capacity,
+                    const LevelCapacity& total);
 
   /// A row of the leading levels, as given in the hierarchy.
   struct Row {
@@ -101,6 +108,12 @@ class WorkingSetProblem {
   int num_levels() const { return num_levels_; }
   int num_leading() const { return num_leading_; }  ///< Leading levels.
   const LexicographicFactorization& leading() const { return leading_; }
+  /// Releases the memory of leading() for another factorisation. Call Plan()
+  /// and Solve() before leading() is used again.
+  LexicographicFactorization& ReleaseLeading() {
+    is_factored_ = false;
+    return leading_;
+  }
   DiagonalLevels& diagonal() { return diagonal_; }
   const DiagonalLevels& diagonal() const { return diagonal_; }
   const Row& row(int a) const { return rows_[a]; }
@@ -139,6 +152,7 @@ class WorkingSetProblem {
   void UpdateDeficientResiduals(const Hierarchy& hierarchy);
 
   int n_;
+  LevelCapacity total_;
   int num_levels_ = 0, num_leading_ = 0;
   bool is_factored_ = false;
   std::vector<std::vector<Side>> factored_;  ///< Factored working set.

@@ -15,6 +15,12 @@ bool IsValidWeight(double weight) {
   return weight >= Stack::kLeastWeight && weight <= Stack::kMostWeight;
 }
 
+// Adds the numbers of rows of a task to a sum.
+void AddRows(const Task& task, LevelCapacity* sum) {
+  sum->equalities += static_cast<int>(task.equality_names().size());
+  sum->inequalities += static_cast<int>(task.inequality_names().size());
+}
+
 }  // namespace
 
 Stack::Stack(int num_variables)
@@ -146,16 +152,17 @@ void Stack::Loosen(int level) noexcept {
 }
 
 std::vector<LevelCapacity> Stack::capacity() const {
-  LevelCapacity all;
-  for (const Entry& entry : entries_) {
-    all.equalities += static_cast<int>(entry.task->equality_names().size());
-    all.inequalities += static_cast<int>(entry.task->inequality_names().size());
-  }
+  LevelCapacity all = total_capacity();
+  all.equalities -= num_variables_;
   std::vector<LevelCapacity> levels(kMaxLevel, all);
-  LevelCapacity held;
-  held.equalities = num_variables_;
-  levels.push_back(held);
+  levels.push_back({num_variables_, 0});
   return levels;
+}
+
+LevelCapacity Stack::total_capacity() const {
+  LevelCapacity total{num_variables_, 0};  // Easing::Hold().
+  for (const Entry& entry : entries_) AddRows(*entry.task, &total);
+  return total;
 }
 
 double Stack::RowWeight(const Entry& entry) const noexcept {
@@ -191,7 +198,7 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
 
   const bool eases = easing_.IsPossible();
   if (eases && loose_from_ < kTight) easing_.KeepFree();
-  hierarchy->Clear(num_levels_ + (easing_.holds() ? 1 : 0));
+  ReserveRows(hierarchy);
   for (Entry& entry : entries_) {
     if (!entry.takes_part) continue;
     const Task& task = *entry.task;
@@ -228,6 +235,16 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
   for (Entry& entry : entries_) {
     entry.was_switched_on = entry.was_moved = entry.was_tuned = false;
   }
+}
+
+// Clears the hierarchy, with room for the rows that Write() adds.
+void Stack::ReserveRows(Hierarchy* hierarchy) const noexcept {
+  LevelCapacity rows[kMaxLevel + 1];
+  for (const Entry& entry : entries_) {
+    if (entry.takes_part) AddRows(*entry.task, &rows[entry.hierarchy_level]);
+  }
+  if (easing_.holds()) rows[num_levels_].equalities = num_variables_;
+  hierarchy->Clear(num_levels_ + (easing_.holds() ? 1 : 0), rows);
 }
 
 void Stack::BeginEasing(const TaskInput& input, const EqualityBlock& equalities,

@@ -85,8 +85,13 @@ class Stack {
   bool is_eased() const { return easing_.is_on(); }
 
   /// Returns the capacity that a Hierarchy and its solver need, whatever the
-  /// settings of the tasks are. The last level is for Easing::Hold().
+  /// settings of the tasks are: each level may have all rows. The last level is
+  /// for Easing::Hold().
   std::vector<LevelCapacity> capacity() const;
+
+  /// Returns the largest numbers of rows of all levels together: each task is
+  /// on one level.
+  LevelCapacity total_capacity() const;
 
   /// Clears the hierarchy and writes the rows of all enabled tasks.
   void Write(const TaskInput& input, Hierarchy* hierarchy) noexcept;
@@ -139,6 +144,7 @@ class Stack {
     int inequality_start = 0;
   };
 
+  void ReserveRows(Hierarchy* hierarchy) const noexcept;
   void Tune(Entry* entry) noexcept;
   void Loosen(int level) noexcept;
   void BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
