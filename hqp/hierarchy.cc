@@ -8,6 +8,7 @@
 #include <string>
 
 namespace poise {
+namespace {
 
 LevelCapacity Sum(const std::vector<LevelCapacity>& capacity) {
   LevelCapacity sum;
@@ -16,6 +17,13 @@ LevelCapacity Sum(const std::vector<LevelCapacity>& capacity) {
     sum.inequalities += level.inequalities;
   }
   return sum;
+}
+
+}  // namespace
+
+int NumRows(const std::vector<LevelCapacity>& capacity) {
+  const LevelCapacity sum = Sum(capacity);
+  return sum.equalities + sum.inequalities;
 }
 
 Hierarchy::Hierarchy(int num_variables,

@@ -15,9 +15,8 @@ struct LevelCapacity {
   int inequalities = 0;
 };
 
-/// Returns the largest numbers of rows of all levels together, if each level
-/// may be full.
-LevelCapacity Sum(const std::vector<LevelCapacity>& capacity);
+/// Returns the largest number of rows of all levels together.
+int NumRows(const std::vector<LevelCapacity>& capacity);
 
 /// A block of rows B y + b = 0, in the least-squares sense, with one weight per
 /// row. The cost of the level has the term 1/2 sum_i weight_i (B_i y + b_i)^2.

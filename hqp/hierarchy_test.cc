@@ -69,24 +69,19 @@ TEST(Hierarchy, KeepsBlocksInOrderAndLevelsApart) {
   EXPECT_EQ(hierarchy.num_inequalities(1), 0);
 }
 
-TEST(Sum, SumsTheCapacitiesOfLevels) {
+TEST(NumRows, SumsTheCapacitiesOfLevels) {
   const std::vector<LevelCapacity> capacity = {{2, 3}, {0, 0}, {0, 4}, {5, 0}};
   Hierarchy hierarchy(1, capacity);
   hierarchy.Clear(hierarchy.num_levels());
-  Eigen::Index equalities = 0, inequalities = 0;
+  Eigen::Index rows = 0;
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
-    equalities +=
-        hierarchy.AddEqualities(level, capacity[level].equalities).b.size();
-    inequalities +=
-        hierarchy.AddInequalities(level, capacity[level].inequalities)
-            .upper.size();
+    rows += hierarchy.AddEqualities(level, capacity[level].equalities).b.size();
+    rows += hierarchy.AddInequalities(level, capacity[level].inequalities)
+                .upper.size();
   }
-  EXPECT_EQ(Sum(capacity).equalities, equalities);
-  EXPECT_EQ(Sum(capacity).inequalities, inequalities);
-  EXPECT_EQ(Sum(capacity).equalities, 7);
-  EXPECT_EQ(Sum(capacity).inequalities, 7);
-  EXPECT_EQ(Sum({}).equalities, 0);
-  EXPECT_EQ(Sum({}).inequalities, 0);
+  EXPECT_EQ(NumRows(capacity), rows);
+  EXPECT_EQ(NumRows(capacity), 14);
+  EXPECT_EQ(NumRows({}), 0);
 }
 
 TEST(Hierarchy, RejectsNegativeSizes) {

@@ -24,7 +24,7 @@ constexpr int kMaxRefinementPasses = 5;
 class Solver::Impl {
  public:
   Impl(int num_variables, const std::vector<LevelCapacity>& capacity,
-       const LevelCapacity& total);
+       int max_leading_rows);
   Status Solve(const Hierarchy& hierarchy, Budget* budget, Solution* solution);
   void Forget();
 
@@ -48,9 +48,9 @@ class Solver::Impl {
 
 Solver::Impl::Impl(int num_variables,
                    const std::vector<LevelCapacity>& capacity,
-                   const LevelCapacity& total)
+                   int max_leading_rows)
     : n_(num_variables),
-      problem_(num_variables, capacity, total),
+      problem_(num_variables, capacity, max_leading_rows),
       search_(num_variables, capacity),
       writer_(num_variables),
       certifier_(num_variables, capacity) {
@@ -211,10 +211,11 @@ bool Solver::Impl::WriteSolution(const Hierarchy& hierarchy,
 }
 
 Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity)
-    : Solver(num_variables, capacity, Sum(capacity)) {}
+    : Solver(num_variables, capacity, NumRows(capacity)) {}
 Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity,
-               const LevelCapacity& total)
-    : impl_(std::make_unique<Impl>(num_variables, capacity, total)) {}
+               int max_leading_rows)
+    : impl_(std::make_unique<Impl>(num_variables, capacity, max_leading_rows)) {
+}
 Solver::Solver(Solver&& other) noexcept = default;
 Solver& Solver::operator=(Solver&& other) noexcept = default;
 Solver::~Solver() = default;

@@ -18,10 +18,12 @@ class Solver {
  public:
   Solver(int num_variables, const std::vector<LevelCapacity>& capacity);
 
-  /// All levels together have at most `total` rows. This number determines the
-  /// memory, about 8 bytes (3 n + 200) a row; see Hierarchy.
+  /// @param max_leading_rows  largest number of rows of all levels together,
+  ///     without the last levels whose rows have one variable each. This number
+  ///     determines the memory, about 24 n bytes a row. The capacity of each
+  ///     level costs little.
   Solver(int num_variables, const std::vector<LevelCapacity>& capacity,
-         const LevelCapacity& total);
+         int max_leading_rows);
   Solver(Solver&& other) noexcept;
   Solver& operator=(Solver&& other) noexcept;
   ~Solver();

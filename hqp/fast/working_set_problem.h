@@ -18,13 +18,13 @@ class WorkingSetProblem {
  public:
   WorkingSetProblem(int num_variables,
                     const std::vector<LevelCapacity>& capacity)
-      : WorkingSetProblem(num_variables, capacity, Sum(capacity)) {}
+      : WorkingSetProblem(num_variables, capacity, NumRows(capacity)) {}
 
-  /// All levels together have at most `total` rows. This number determines the
-  /// memory, and the capacity of the levels may be larger.
+  /// @param max_leading_rows  largest number of rows of all leading levels
+  ///                          together; it determines the memory.
   WorkingSetProblem(int num_variables,
                     const std::vector<LevelCapacity>& capacity,
-                    const LevelCapacity& total);
+                    int max_leading_rows);
 
   /// A row of the leading levels, as given in the hierarchy.
   struct Row {
@@ -144,6 +144,8 @@ class WorkingSetProblem {
   const double* Original(const Hierarchy& hierarchy, int a) const;
   double ComputeRowResiduals(const Hierarchy& hierarchy);
   bool Fits(const Hierarchy& hierarchy, int level) const;
+  bool LeadingLevelsFit(const Hierarchy& hierarchy);
+  bool IsDiagonal(const Hierarchy& hierarchy, int level);
   bool IsAtTarget(int j) const;
   double RelativeResidual(int a) const;
   double WorstRelativeLevelResidual() const;
@@ -152,7 +154,6 @@ class WorkingSetProblem {
   void UpdateDeficientResiduals(const Hierarchy& hierarchy);
 
   int n_;
-  LevelCapacity total_;
   int num_levels_ = 0, num_leading_ = 0;
   bool is_factored_ = false;
   std::vector<std::vector<Side>> factored_;  ///< Factored working set.

@@ -87,7 +87,8 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
       contacts_(robot_.feet.size()),
       hierarchy_(NumVariables(robot_), stack_.capacity(),
                  stack_.total_capacity()),
-      solver_(NumVariables(robot_), stack_.capacity(), stack_.total_capacity()),
+      solver_(NumVariables(robot_), stack_.capacity(),
+              stack_.max_leading_rows()),
       solution_(NumVariables(robot_), stack_.capacity()),
       disturbance_(scale_),
       unmodelled_(robot_.model.tree.nv(), scale_) {

@@ -51,9 +51,11 @@ void Stack::Add(std::unique_ptr<Task> task, const TaskSettings& settings) {
   const int inequalities =
       static_cast<int>(entry.task->inequality_names().size());
   entry.eased_rows = easing_.AddTask(equalities, inequalities);
-  most_rows_.equalities = std::max(most_rows_.equalities, equalities);
-  most_rows_.inequalities = std::max(most_rows_.inequalities, inequalities);
-  before_ = Hierarchy(num_variables_, {most_rows_});
+  if (equalities > 0) {
+    most_rows_.equalities = std::max(most_rows_.equalities, equalities);
+    most_rows_.inequalities = std::max(most_rows_.inequalities, inequalities);
+    before_ = Hierarchy(num_variables_, {most_rows_});
+  }
   entries_.push_back(std::move(entry));
 }
 
@@ -165,6 +167,11 @@ LevelCapacity Stack::total_capacity() const {
   return total;
 }
 
+int Stack::max_leading_rows() const {
+  const LevelCapacity total = total_capacity();
+  return total.equalities - num_variables_ + total.inequalities;
+}
+
 double Stack::RowWeight(const Entry& entry) const noexcept {
   if (!weighted_ || entry.settings.level == 1) return entry.settings.weight;
   int below = 0;
@@ -258,7 +265,7 @@ void Stack::BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
     }
     if (entry->was_switched_on) {
       easing_.BeginAtLast(rows, equalities);
-    } else if (entry->was_tuned) {
+    } else if (entry->was_tuned && num_equalities > 0) {
       easing_.BeginAsBefore(rows, equalities, RowsBefore(input, entry),
                             entry->weight_before / entry->settings.weight);
     }
@@ -269,6 +276,7 @@ void Stack::BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
 }
 
 // Returns the rows that the task would write now if it had not been tuned.
+// pre: the task has equalities.
 EqualityBlock Stack::RowsBefore(const TaskInput& input, Entry* entry) noexcept {
   const Task& task = *entry->task;
   const auto exchange = [&] {
