@@ -58,7 +58,7 @@ class Hierarchy {
   /// of these rows (asserted).
   void Clear(int num_levels) noexcept;
 
-  /// The same, but level k may get at most rows[k].
+  /// Removes all rows as well, and level k may get at most rows[k].
   void Clear(int num_levels, const LevelCapacity* rows) noexcept;
 
   /// Returns the next rows of a level: B and C zero, weights 1, bounds
