@@ -1,83 +1,117 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/hqp/hierarchy.h"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
 namespace poise {
+namespace {
+
+LevelCapacity Sum(const std::vector<LevelCapacity>& capacity) {
+  LevelCapacity sum;
+  for (const LevelCapacity& level : capacity) {
+    sum.equalities += level.equalities;
+    sum.inequalities += level.inequalities;
+  }
+  return sum;
+}
+
+}  // namespace
 
 int NumRows(const std::vector<LevelCapacity>& capacity) {
-  int rows = 0;
-  for (const LevelCapacity& level : capacity) {
-    rows += level.equalities + level.inequalities;
-  }
-  return rows;
+  const LevelCapacity sum = Sum(capacity);
+  return sum.equalities + sum.inequalities;
 }
 
 Hierarchy::Hierarchy(int num_variables,
                      const std::vector<LevelCapacity>& capacity)
+    : Hierarchy(num_variables, capacity, Sum(capacity)) {}
+
+Hierarchy::Hierarchy(int num_variables,
+                     const std::vector<LevelCapacity>& capacity,
+                     const LevelCapacity& total)
     : num_variables_(num_variables),
-      used_levels_(static_cast<int>(capacity.size())) {
+      capacity_(capacity),
+      levels_(capacity.size()) {
   if (num_variables < 0) {
     throw std::invalid_argument("hierarchy: the number of variables is " +
                                 std::to_string(num_variables) +
                                 ", must not be negative");
   }
-  for (const LevelCapacity& rows : capacity) {
-    if (rows.equalities < 0 || rows.inequalities < 0) {
+  for (size_t level = 0; level < capacity.size(); ++level) {
+    if (capacity[level].equalities < 0 || capacity[level].inequalities < 0) {
       throw std::invalid_argument(
-          "hierarchy: level " + std::to_string(levels_.size()) +
+          "hierarchy: level " + std::to_string(level) +
           " has a negative number of rows, must be 0 or more");
     }
-    Level level;
-    level.B.setZero(rows.equalities, num_variables);
-    level.b.setZero(rows.equalities);
-    level.weight.setOnes(rows.equalities);
-    level.C.setZero(rows.inequalities, num_variables);
-    level.lower.setZero(rows.inequalities);
-    level.upper.setZero(rows.inequalities);
-    levels_.push_back(std::move(level));
   }
+  if (total.equalities < 0 || total.inequalities < 0) {
+    throw std::invalid_argument(
+        "hierarchy: the total number of rows is negative, must be 0 or more");
+  }
+  B_.setZero(total.equalities, num_variables);
+  b_.setZero(total.equalities);
+  weight_.setOnes(total.equalities);
+  C_.setZero(total.inequalities, num_variables);
+  lower_.setZero(total.inequalities);
+  upper_.setZero(total.inequalities);
+  const LevelCapacity sum = Sum(capacity);
+  const bool all_fit = sum.equalities <= total.equalities &&
+                       sum.inequalities <= total.inequalities;
+  const std::vector<LevelCapacity> none(capacity.size());
+  Clear(static_cast<int>(capacity.size()),
+        all_fit ? capacity.data() : none.data());
 }
 
 void Hierarchy::Clear(int num_levels) noexcept {
+  Clear(num_levels, capacity_.data());
+}
+
+void Hierarchy::Clear(int num_levels, const LevelCapacity* rows) noexcept {
   assert(num_levels >= 0 && num_levels <= static_cast<int>(levels_.size()));
   used_levels_ = num_levels;
-  for (Level& level : levels_) {
-    level.equalities = 0;
-    level.inequalities = 0;
+  std::fill(levels_.begin(), levels_.end(), Level{});
+  LevelCapacity sum;
+  for (int level = 0; level < num_levels; ++level) {
+    levels_[level].first_equality = sum.equalities;
+    levels_[level].first_inequality = sum.inequalities;
+    levels_[level].most = rows[level];
+    sum.equalities += rows[level].equalities;
+    sum.inequalities += rows[level].inequalities;
   }
+  assert(sum.equalities <= b_.size() && sum.inequalities <= lower_.size());
 }
 
 EqualityBlock Hierarchy::AddEqualities(int level, int rows) noexcept {
   assert(level >= 0 && level < used_levels_ && rows >= 0);
   Level& to = levels_[level];
-  assert(to.equalities + rows <= to.b.size());
-  const int first = to.equalities;
+  assert(to.equalities + rows <= to.most.equalities);
+  const Eigen::Index first = to.first_equality + to.equalities;
   to.equalities += rows;
-  to.B.middleRows(first, rows).setZero();
-  to.b.segment(first, rows).setZero();
-  to.weight.segment(first, rows).setOnes();
-  return {{to.B.data() + first * to.B.cols(), rows, to.B.cols()},
-          {to.b.data() + first, rows},
-          {to.weight.data() + first, rows}};
+  B_.middleRows(first, rows).setZero();
+  b_.segment(first, rows).setZero();
+  weight_.segment(first, rows).setOnes();
+  return {{B_.data() + first * B_.cols(), rows, B_.cols()},
+          {b_.data() + first, rows},
+          {weight_.data() + first, rows}};
 }
 
 InequalityBlock Hierarchy::AddInequalities(int level, int rows) noexcept {
   assert(level >= 0 && level < used_levels_ && rows >= 0);
   Level& to = levels_[level];
-  assert(to.inequalities + rows <= to.lower.size());
-  const int first = to.inequalities;
+  assert(to.inequalities + rows <= to.most.inequalities);
+  const Eigen::Index first = to.first_inequality + to.inequalities;
   to.inequalities += rows;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  to.C.middleRows(first, rows).setZero();
-  to.lower.segment(first, rows).setConstant(-kInfinity);
-  to.upper.segment(first, rows).setConstant(kInfinity);
-  return {{to.C.data() + first * to.C.cols(), rows, to.C.cols()},
-          {to.lower.data() + first, rows},
-          {to.upper.data() + first, rows}};
+  C_.middleRows(first, rows).setZero();
+  lower_.segment(first, rows).setConstant(-kInfinity);
+  upper_.segment(first, rows).setConstant(kInfinity);
+  return {{C_.data() + first * C_.cols(), rows, C_.cols()},
+          {lower_.data() + first, rows},
+          {upper_.data() + first, rows}};
 }
 
 int Hierarchy::num_equalities(int level) const {
@@ -89,29 +123,34 @@ int Hierarchy::num_inequalities(int level) const {
 }
 
 Eigen::Map<const RowMajorMatrix> Hierarchy::B(int level) const {
-  const Level& from = levels_[level];
-  return {from.B.data(), from.equalities, num_variables_};
+  const Level& of = levels_[level];
+  return {B_.data() + of.first_equality * B_.cols(), of.equalities, B_.cols()};
 }
 
 Eigen::Map<const Eigen::VectorXd> Hierarchy::b(int level) const {
-  return {levels_[level].b.data(), levels_[level].equalities};
+  const Level& of = levels_[level];
+  return {b_.data() + of.first_equality, of.equalities};
 }
 
 Eigen::Map<const Eigen::VectorXd> Hierarchy::weight(int level) const {
-  return {levels_[level].weight.data(), levels_[level].equalities};
+  const Level& of = levels_[level];
+  return {weight_.data() + of.first_equality, of.equalities};
 }
 
 Eigen::Map<const RowMajorMatrix> Hierarchy::C(int level) const {
-  const Level& from = levels_[level];
-  return {from.C.data(), from.inequalities, num_variables_};
+  const Level& of = levels_[level];
+  return {C_.data() + of.first_inequality * C_.cols(), of.inequalities,
+          C_.cols()};
 }
 
 Eigen::Map<const Eigen::VectorXd> Hierarchy::lower(int level) const {
-  return {levels_[level].lower.data(), levels_[level].inequalities};
+  const Level& of = levels_[level];
+  return {lower_.data() + of.first_inequality, of.inequalities};
 }
 
 Eigen::Map<const Eigen::VectorXd> Hierarchy::upper(int level) const {
-  return {levels_[level].upper.data(), levels_[level].inequalities};
+  const Level& of = levels_[level];
+  return {upper_.data() + of.first_inequality, of.inequalities};
 }
 
 }  // namespace poise

@@ -41,17 +41,29 @@ struct InequalityBlock {
 /// clears the hierarchy and adds the blocks again.
 class Hierarchy {
  public:
+  /// Allocates memory for all levels at their capacity.
   Hierarchy(int num_variables, const std::vector<LevelCapacity>& capacity);
+
+  /// Allocates memory for `total` rows, which the levels share. If that is less
+  /// than all levels at their capacity, no level has rows before
+  /// Clear(num_levels, rows).
+  Hierarchy(int num_variables, const std::vector<LevelCapacity>& capacity,
+            const LevelCapacity& total);
 
   int num_variables() const { return num_variables_; }
   int num_levels() const { return used_levels_; }
 
   /// Removes all rows, and sets the number of levels, at most the capacity's.
+  /// Each level may get rows up to its capacity. pre: there is memory for all
+  /// of these rows (asserted).
   void Clear(int num_levels) noexcept;
 
+  /// Removes all rows as well, and level k may get at most rows[k].
+  void Clear(int num_levels, const LevelCapacity* rows) noexcept;
+
   /// Returns the next rows of a level: B and C zero, weights 1, bounds
-  /// infinite. Valid until Clear(). pre: the level's capacity is not exceeded
-  /// (asserted).
+  /// infinite. Valid until Clear(). pre: the level gets at most the rows that
+  /// Clear() allows (asserted).
   EqualityBlock AddEqualities(int level, int rows) noexcept;
   InequalityBlock AddInequalities(int level, int rows) noexcept;
 
@@ -67,15 +79,18 @@ class Hierarchy {
   Eigen::Map<const Eigen::VectorXd> upper(int level) const;
 
  private:
-  int num_variables_;
   struct Level {
-    int equalities = 0;
-    int inequalities = 0;
-    RowMajorMatrix B, C;
-    Eigen::VectorXd b, weight, lower, upper;
+    int first_equality = 0, first_inequality = 0;
+    int equalities = 0, inequalities = 0;
+    LevelCapacity most;  ///< See Clear().
   };
+  int num_variables_;
+  std::vector<LevelCapacity> capacity_;
+  int used_levels_ = 0;
   std::vector<Level> levels_;
-  int used_levels_;
+  /// The rows of all levels, one level after the other.
+  RowMajorMatrix B_, C_;
+  Eigen::VectorXd b_, weight_, lower_, upper_;
 };
 
 }  // namespace poise

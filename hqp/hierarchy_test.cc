@@ -84,7 +84,31 @@ TEST(NumRows, SumsTheCapacitiesOfLevels) {
   EXPECT_EQ(NumRows({}), 0);
 }
 
+// Three levels of up to two rows of each kind share the memory of three rows,
+// and may be filled in any order.
+TEST(Hierarchy, LevelsShareMemory) {
+  Hierarchy hierarchy(2, {{2, 2}, {2, 2}, {2, 2}}, {3, 3});
+  const LevelCapacity rows[][3] = {{{1, 2}, {2, 1}}, {{0, 1}, {1, 0}, {2, 2}}};
+  for (const auto& most : rows) {
+    hierarchy.Clear(3, most);
+    for (int level = 2; level >= 0; --level) {
+      hierarchy.AddEqualities(level, most[level].equalities)
+          .B.setConstant(level + 1);
+      hierarchy.AddInequalities(level, most[level].inequalities)
+          .C.setConstant(-level - 1);
+    }
+    for (int level = 0; level < 3; ++level) {
+      EXPECT_EQ(hierarchy.B(level),
+                RowMajorMatrix::Constant(most[level].equalities, 2, level + 1));
+      EXPECT_EQ(
+          hierarchy.C(level),
+          RowMajorMatrix::Constant(most[level].inequalities, 2, -level - 1));
+    }
+  }
+}
+
 TEST(Hierarchy, RejectsNegativeSizes) {
+  EXPECT_THROW(Hierarchy(1, {{1, 1}}, {-1, 0}), std::invalid_argument);
   EXPECT_THROW(Hierarchy(-1, {}), std::invalid_argument);
   EXPECT_THROW(Hierarchy(1, {{-1, 0}}), std::invalid_argument);
   EXPECT_THROW(Hierarchy(1, {{0, -1}}), std::invalid_argument);

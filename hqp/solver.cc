@@ -27,7 +27,8 @@ constexpr int kMaxIterationsAtOnce = 250;
 
 class Solver::Impl {
  public:
-  Impl(int num_variables, const std::vector<LevelCapacity>& capacity);
+  Impl(int num_variables, const std::vector<LevelCapacity>& capacity,
+       int max_leading_rows);
   Status Solve(const Hierarchy& hierarchy, Budget* budget, Solution* solution);
   void Forget();
 
@@ -51,11 +52,12 @@ class Solver::Impl {
 };
 
 Solver::Impl::Impl(int num_variables,
-                   const std::vector<LevelCapacity>& capacity)
+                   const std::vector<LevelCapacity>& capacity,
+                   int max_leading_rows)
     : n_(num_variables),
-      problem_(num_variables, capacity),
+      problem_(num_variables, capacity, max_leading_rows),
       search_(num_variables, capacity),
-      writer_(num_variables, capacity),
+      writer_(num_variables),
       certifier_(num_variables, capacity) {
   int most = 0;
   for (const LevelCapacity& level : capacity) {
@@ -230,7 +232,11 @@ bool Solver::Impl::WriteSolution(const Hierarchy& hierarchy,
 }
 
 Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity)
-    : impl_(std::make_unique<Impl>(num_variables, capacity)) {}
+    : Solver(num_variables, capacity, NumRows(capacity)) {}
+Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity,
+               int max_leading_rows)
+    : impl_(std::make_unique<Impl>(num_variables, capacity, max_leading_rows)) {
+}
 Solver::Solver(Solver&& other) noexcept = default;
 Solver& Solver::operator=(Solver&& other) noexcept = default;
 Solver::~Solver() = default;

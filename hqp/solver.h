@@ -17,6 +17,13 @@ namespace poise {
 class Solver {
  public:
   Solver(int num_variables, const std::vector<LevelCapacity>& capacity);
+
+  /// @param max_leading_rows  largest number of rows of all levels together,
+  ///     without the last levels whose rows have one variable each. This number
+  ///     determines the memory, about 24 n bytes a row. The capacity of each
+  ///     level costs little.
+  Solver(int num_variables, const std::vector<LevelCapacity>& capacity,
+         int max_leading_rows);
   Solver(Solver&& other) noexcept;
   Solver& operator=(Solver&& other) noexcept;
   ~Solver();

@@ -46,7 +46,8 @@ stance:
 com: {sine: [1, 2, 3], cosine: [4, 5, 6], period: 4}
 tasks: {set: paper, with: [zmp], without: [cop, yaw]}
 control: {rate: 500, delay: 0.002, friction: 0.4, mass_error: -0.1,
-          ramp: 0.3, budget_us: 250, budget_clock: true, inscribed: true, feedforward: true, weighted: true, estimator: true}
+          ramp: 0.3, budget_us: 250, budget_clock: true, inscribed: true,
+          feedforward: true, weighted: true, estimator: true}
 plant: {kind: mujoco, rate: 2000, friction: 0.7, torque_scale: 0.5, roll: 0.1,
         pitch: 0.2, boards: [{center: [1, 2, 3], size: [4, 5, 6], yaw: 1}],
         joint_limits: false, joint_damping: false, self_collision: false,

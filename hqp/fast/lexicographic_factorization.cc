@@ -35,7 +35,6 @@ LexicographicFactorization::LexicographicFactorization(int num_variables,
   levels_.reserve(max_levels);
   work_.resize(rows(max_rows));
   l_.resize(rows(max_rows));
-  reduced_.resize(rows(max_rows));
   q_.resize(rows(n_));
   effective_.resize(rows(n_));
   effective_target_.resize(n_);
@@ -314,12 +313,13 @@ void LexicographicFactorization::PivotRows(Level* level) {
 // Reduces the rows d_a l_a, d_a t_a of a deficient level by reflections H, from
 // the last column to the first. The result is lower triangular:
 //     H [D L, D t] = [effective rows; zeros, residual].
+// These rows replace the remainders, which are not needed any more.
 void LexicographicFactorization::Reduce(Level* level) {
   const int first = level->first_row, rows = level->end_row - first;
   const int begin = level->rank_begin, end = level->rank_end;
   for (int i = 0; i < rows; ++i) {
     const int a = first + i;
-    double* to = &reduced_[static_cast<size_t>(i) * stride_];
+    double* to = row(a);
     for (int e = 0; e < end; ++e) {
       to[e] = metric_[a] * l_[static_cast<size_t>(a) * stride_ + e];
     }
@@ -334,9 +334,7 @@ void LexicographicFactorization::Reduce(Level* level) {
     int pivot = -1;
     double squares = 0;
     for (int i = 0; i < rows; ++i) {
-      v[i] = chosen_[first + i]
-                 ? 0
-                 : reduced_[static_cast<size_t>(i) * stride_ + e];
+      v[i] = chosen_[first + i] ? 0 : row(first + i)[e];
       squares += v[i] * v[i];
       if (!chosen_[first + i] &&
           (pivot < 0 || std::abs(v[i]) > std::abs(v[pivot]))) {
@@ -351,15 +349,15 @@ void LexicographicFactorization::Reduce(Level* level) {
       const double root = std::sqrt(length);  // So that H = I - v v'.
       for (int i = 0; i < rows; ++i) v[i] /= root;
       std::fill_n(scratch_.data(), end + 1, 0);
-      AddRows(reduced_.data(), stride_, rows, v, end + 1, scratch_.data());
+      AddRows(row(first), stride_, rows, v, end + 1, scratch_.data());
       for (int i = 0; i < rows; ++i) factor_[i] = -v[i];
-      AddToRows(reduced_.data(), stride_, rows, factor_.data(), scratch_.data(),
+      AddToRows(row(first), stride_, rows, factor_.data(), scratch_.data(),
                 end + 1);
       Count(2 * rows, end + 1);
     }
     chosen_[first + pivot] = true;
     carrier_[e] = first + pivot;
-    const double* from = &reduced_[static_cast<size_t>(pivot) * stride_];
+    const double* from = row(first + pivot);
     std::copy_n(from, e + 1, &effective_[static_cast<size_t>(e) * stride_]);
     effective_target_[e] = from[end];
   }

@@ -138,10 +138,10 @@ class LexicographicFactorization {
 
   int n_, stride_, num_rows_ = 0, rank_ = 0;
   std::vector<Level> levels_;
-  std::vector<double> work_;     ///< max_rows x stride: rows, then remainders.
-  std::vector<double> l_;        ///< max_rows x stride: rows of L.
-  std::vector<double> reduced_;  ///< max_rows x stride: a level, reduced.
-  std::vector<double> q_;        ///< n x stride.
+  /// max_rows x stride: rows, then remainders, then the rows of Reduce().
+  std::vector<double> work_;
+  std::vector<double> l_;          ///< max_rows x stride: rows of L.
+  std::vector<double> q_;          ///< n x stride.
   std::vector<double> effective_;  ///< n x stride: effective rows of L.
   std::vector<double> effective_target_, z_;
   std::vector<double> target_, metric_, residual_, rest_, fresh_;

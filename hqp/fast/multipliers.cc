@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "poise/hqp/fast/lexicographic_factorization.h"
 #include "poise/hqp/tolerances.h"
 
 namespace poise {
@@ -13,12 +14,8 @@ double Sign(Side side) { return static_cast<double>(side); }
 
 }  // namespace
 
-MultiplierWriter::MultiplierWriter(int num_variables,
-                                   const std::vector<LevelCapacity>& capacity)
-    : n_(num_variables),
-      equalities_(num_variables, NumRows(capacity),
-                  static_cast<int>(capacity.size())),
-      remainder_(num_variables) {}
+MultiplierWriter::MultiplierWriter(int num_variables)
+    : n_(num_variables), remainder_(num_variables) {}
 
 void MultiplierWriter::Write(const Hierarchy& hierarchy,
                              const std::vector<std::vector<Side>>& side,
@@ -248,18 +245,19 @@ void MultiplierWriter::AddOwnMultipliers(const Hierarchy& hierarchy, int level,
 }
 
 // Counts equalities and violated rows only. Active rows at their bounds are
-// left out, so the remaining rows must be factored again. If the rows are well
-// conditioned, each counts for one, and only the diagonal levels need a
-// factorisation.
+// left out, so the remaining rows must be factored again, in the memory of the
+// factorisation of the working set. If the rows are well conditioned, each
+// counts for one, and only the diagonal levels need a factorisation.
 void MultiplierWriter::WriteNullity(const Hierarchy& hierarchy,
                                     WorkingSetProblem* problem,
                                     Solution* solution) {
-  const LexicographicFactorization& leading = problem->leading();
-  const bool is_quick = leading.is_well_conditioned();
+  LexicographicFactorization& equalities = problem->ReleaseLeading();
+  const bool is_quick = equalities.is_well_conditioned();
+  const int num_rows = equalities.num_rows();
   bool all_count = true;
-  equalities_.Truncate(0);
+  equalities.Truncate(0);
   for (int level = 0; level < problem->num_leading(); ++level) {
-    for (int a = 0; a < leading.num_rows(); ++a) {
+    for (int a = 0; a < num_rows; ++a) {
       const WorkingSetProblem::Row& row = problem->row(a);
       if (row.level != level) continue;
       if (row.is_inequality && !IsViolated(row, *solution)) {
@@ -269,21 +267,21 @@ void MultiplierWriter::WriteNullity(const Hierarchy& hierarchy,
       const double* from = row.is_inequality
                                ? hierarchy.C(level).row(row.index).data()
                                : hierarchy.B(level).row(row.index).data();
-      double* to = equalities_.row(equalities_.AddRow(0, 1));
+      double* to = equalities.row(equalities.AddRow(0, 1));
       for (int j = 0; j < n_; ++j) to[j] = from[j] / row.norm;
     }
-    if (!is_quick) equalities_.FactorLevel();
+    if (!is_quick) equalities.FactorLevel();
     solution->levels[level].nullity =
-        n_ - (is_quick ? equalities_.num_rows() : equalities_.rank());
+        n_ - (is_quick ? equalities.num_rows() : equalities.rank());
   }
   DiagonalLevels& diagonal = problem->diagonal();
   if (all_count) {
     // The diagonal levels are tied to the same rows already.
   } else if (is_quick) {
-    diagonal.TieRows(equalities_.row(0), equalities_.stride(),
-                     equalities_.num_rows());
+    diagonal.TieRows(equalities.row(0), equalities.stride(),
+                     equalities.num_rows());
   } else {
-    diagonal.Tie(equalities_);
+    diagonal.Tie(equalities);
   }
   for (int level = problem->num_leading(); level < problem->num_levels();
        ++level) {

@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "poise/hqp/fast/lexicographic_factorization.h"
 #include "poise/hqp/fast/working_set_problem.h"
 #include "poise/hqp/hierarchy.h"
 #include "poise/hqp/solution.h"
@@ -16,11 +15,11 @@ namespace poise {
 /// nonnegative where the certificate requires that.
 class MultiplierWriter {
  public:
-  MultiplierWriter(int num_variables,
-                   const std::vector<LevelCapacity>& capacity);
+  explicit MultiplierWriter(int num_variables);
 
   /// @param tolerance  relative threshold below which a multiplier is zero.
-  /// @param problem    the solved problem; its diagonal levels are overwritten.
+  /// @param problem    the solved problem; its factorisation and its diagonal
+  ///                   levels are overwritten.
   void Write(const Hierarchy& hierarchy,
              const std::vector<std::vector<Side>>& side, double tolerance,
              WorkingSetProblem* problem, Solution* solution);
@@ -51,7 +50,6 @@ class MultiplierWriter {
                   const Solution& solution) const;
 
   int n_;
-  LexicographicFactorization equalities_;
   std::vector<double> remainder_;
   double norm_y_ = 0;
 };

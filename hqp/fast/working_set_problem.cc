@@ -20,12 +20,13 @@ double Norm(const double* row, int n) {
 }  // namespace
 
 WorkingSetProblem::WorkingSetProblem(int num_variables,
-                                     const std::vector<LevelCapacity>& capacity)
+                                     const std::vector<LevelCapacity>& capacity,
+                                     int max_leading_rows)
     : n_(num_variables),
-      leading_(num_variables, NumRows(capacity),
+      leading_(num_variables, max_leading_rows,
                static_cast<int>(capacity.size())),
       diagonal_(num_variables, static_cast<int>(capacity.size())),
-      rows_(NumRows(capacity)),
+      rows_(max_leading_rows),
       multipliers_(capacity.size() + 1),
       y_(num_variables),
       gradient_(num_variables),
@@ -45,13 +46,47 @@ WorkingSetProblem::WorkingSetProblem(int num_variables,
   }
 }
 
-// Returns whether the level fits into the capacity.
+// Returns whether the level fits into its capacity.
 bool WorkingSetProblem::Fits(const Hierarchy& hierarchy, int level) const {
   return level < static_cast<int>(norm_.size()) &&
          hierarchy.num_equalities(level) <=
              static_cast<int>(B_norm_[level].size()) &&
          hierarchy.num_inequalities(level) <=
              static_cast<int>(norm_[level].size());
+}
+
+// Returns whether the leading levels together fit into the factorisation.
+bool WorkingSetProblem::LeadingLevelsFit(const Hierarchy& hierarchy) {
+  const int most = static_cast<int>(rows_.size());
+  int level = hierarchy.num_levels(), rows = 0;
+  for (int k = 0; k < level; ++k) {
+    rows += hierarchy.num_equalities(k) + hierarchy.num_inequalities(k);
+  }
+  while (rows > most && --level >= 0 && IsDiagonal(hierarchy, level)) {
+    rows -= hierarchy.num_equalities(level);
+  }
+  return rows <= most;
+}
+
+// Returns whether a level has no inequalities, and each row has one variable.
+// Finds these variables.
+bool WorkingSetProblem::IsDiagonal(const Hierarchy& hierarchy, int level) {
+  if (hierarchy.num_inequalities(level) > 0 || n_ == 0) return false;
+  const auto B = hierarchy.B(level);
+  for (int i = 0; i < B.rows(); ++i) {
+    // The variable is usually the same as in the last tick.
+    const double* row = B.data() + i * n_;
+    int& variable = selected_[level][i];
+    if (std::abs(row[variable]) == B_norm_[level][i]) continue;
+    variable =
+        static_cast<int>(std::max_element(row, row + n_,
+                                          [](double x, double y) {
+                                            return std::abs(x) < std::abs(y);
+                                          }) -
+                         row);
+    if (std::abs(row[variable]) != B_norm_[level][i]) return false;
+  }
+  return true;
 }
 
 Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
@@ -88,6 +123,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     if (zero != 0) return Status::kNotFinite;
     if (!in_order) return Status::kBadInput;
   }
+  if (!LeadingLevelsFit(hierarchy)) return Status::kBadInput;
   *failed_level = -1;
   return Status::kOptimal;
 }
@@ -100,25 +136,8 @@ void WorkingSetProblem::Plan(const Hierarchy& hierarchy, int num_levels,
   diagonal_.Clear();
   // Diagonal levels are the last levels without inequalities whose rows have
   // one variable each.
-  for (int level = num_levels - 1; level >= 0; --level) {
-    if (hierarchy.num_inequalities(level) > 0) break;
-    const auto B = hierarchy.B(level);
-    bool selects = n_ > 0;
-    for (int i = 0; i < B.rows() && selects; ++i) {
-      // The variable is usually the same as in the last tick.
-      const double* row = B.data() + i * n_;
-      int& variable = selected_[level][i];
-      if (std::abs(row[variable]) == B_norm_[level][i]) continue;
-      variable =
-          static_cast<int>(std::max_element(row, row + n_,
-                                            [](double x, double y) {
-                                              return std::abs(x) < std::abs(y);
-                                            }) -
-                           row);
-      selects = std::abs(row[variable]) == B_norm_[level][i];
-    }
-    if (!selects) break;
-    num_leading_ = level;
+  while (num_leading_ > 0 && IsDiagonal(hierarchy, num_leading_ - 1)) {
+    --num_leading_;
   }
   for (int level = num_leading_; level < num_levels; ++level) {
     diagonal_.AddLevel();

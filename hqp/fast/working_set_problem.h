@@ -18,7 +18,14 @@ namespace poise {
 class WorkingSetProblem {
  public:
   WorkingSetProblem(int num_variables,
-                    const std::vector<LevelCapacity>& capacity);
+                    const std::vector<LevelCapacity>& capacity)
+      : WorkingSetProblem(num_variables, capacity, NumRows(capacity)) {}
+
+  /// @param max_leading_rows  largest number of rows of all leading levels
+  ///                          together; it determines the memory.
+  WorkingSetProblem(int num_variables,
+                    const std::vector<LevelCapacity>& capacity,
+                    int max_leading_rows);
 
   /// A row of the leading levels, as given in the hierarchy.
   struct Row {
@@ -113,6 +120,12 @@ class WorkingSetProblem {
   int num_levels() const { return num_levels_; }
   int num_leading() const { return num_leading_; }  ///< Leading levels.
   const LexicographicFactorization& leading() const { return leading_; }
+  /// Releases the memory of leading() for another factorisation. Call Plan()
+  /// and Solve() before leading() is used again.
+  LexicographicFactorization& ReleaseLeading() {
+    is_factored_ = false;
+    return leading_;
+  }
   DiagonalLevels& diagonal() { return diagonal_; }
   const DiagonalLevels& diagonal() const { return diagonal_; }
   const Row& row(int a) const { return rows_[a]; }
@@ -152,6 +165,8 @@ class WorkingSetProblem {
   const double* Original(const Hierarchy& hierarchy, int a) const;
   double ComputeRowResiduals(const Hierarchy& hierarchy);
   bool Fits(const Hierarchy& hierarchy, int level) const;
+  bool LeadingLevelsFit(const Hierarchy& hierarchy);
+  bool IsDiagonal(const Hierarchy& hierarchy, int level);
   bool IsAtTarget(int j) const;
   double RelativeResidual(int a) const;
   double WorstRelativeLevelResidual() const;

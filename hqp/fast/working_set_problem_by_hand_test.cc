@@ -485,5 +485,23 @@ TEST_F(RefinementTest, ComparesTheResidualOfALevelWithItsTerms) {
   EXPECT_EQ(met[3], 0.7);
 }
 
+// The last level has one variable per row: only the row above it needs memory
+// in the factorisation.
+TEST(WorkingSetProblem, LimitsTheLeadingRows) {
+  const std::vector<LevelCapacity> capacity{{1, 1}, {2, 0}};
+  Hierarchy hierarchy(2, capacity);
+  hierarchy.Clear(2);
+  hierarchy.AddEqualities(0, 1).B << 1, 1;
+  hierarchy.AddEqualities(1, 2).B.setIdentity();
+  int failed_level;
+  EXPECT_EQ(WorkingSetProblem(2, capacity, 1).Read(hierarchy, &failed_level),
+            Status::kOptimal);
+  hierarchy.AddInequalities(0, 1).C << 1, 0;
+  EXPECT_EQ(WorkingSetProblem(2, capacity, 1).Read(hierarchy, &failed_level),
+            Status::kBadInput);
+  EXPECT_EQ(WorkingSetProblem(2, capacity, 2).Read(hierarchy, &failed_level),
+            Status::kOptimal);
+}
+
 }  // namespace
 }  // namespace poise

@@ -85,8 +85,10 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
       drag_(robot_),
       tick_(robot_.model.tree, TickFrames(robot_, options.frames)),
       contacts_(robot_.feet.size()),
-      hierarchy_(NumVariables(robot_), stack_.capacity()),
-      solver_(NumVariables(robot_), stack_.capacity()),
+      hierarchy_(NumVariables(robot_), stack_.capacity(),
+                 stack_.total_capacity()),
+      solver_(NumVariables(robot_), stack_.capacity(),
+              stack_.max_leading_rows()),
       solution_(NumVariables(robot_), stack_.capacity()),
       disturbance_(scale_),
       unmodelled_(robot_.model.tree.nv(), scale_) {

@@ -60,6 +60,16 @@ TEST_F(ControllerTest, ComesToRestAfterAPush) {
             2e-3);
 }
 
+// Most of the memory is four matrices of all rows of the tasks by all
+// variables, 506 by 68 for 50 joints: 1.1 MB. The bound is a requirement.
+TEST_F(ControllerTest, NeedsLessThanTwoMegabytes) {
+  if (!CountMalloc::IsSupported()) GTEST_SKIP() << "not under a sanitizer";
+  ASSERT_EQ(tree().num_joints(), 50);
+  CountMalloc count;
+  const Controller controller(robot_);
+  EXPECT_LE(count.bytes(), 2 * 1024 * 1024);
+}
+
 TEST_F(ControllerTest, DoesNotAllocate) {
   if (!CountMalloc::IsSupported()) GTEST_SKIP() << "not under a sanitizer";
   Update();

@@ -15,6 +15,12 @@ bool IsValidWeight(double weight) {
   return weight >= Stack::kLeastWeight && weight <= Stack::kMostWeight;
 }
 
+// Adds the numbers of rows of a task to a sum.
+void AddRows(const Task& task, LevelCapacity* sum) {
+  sum->equalities += static_cast<int>(task.equality_names().size());
+  sum->inequalities += static_cast<int>(task.inequality_names().size());
+}
+
 }  // namespace
 
 Stack::Stack(int num_variables)
@@ -45,9 +51,11 @@ void Stack::Add(std::unique_ptr<Task> task, const TaskSettings& settings) {
   const int inequalities =
       static_cast<int>(entry.task->inequality_names().size());
   entry.eased_rows = easing_.AddTask(equalities, inequalities);
-  most_rows_.equalities = std::max(most_rows_.equalities, equalities);
-  most_rows_.inequalities = std::max(most_rows_.inequalities, inequalities);
-  before_ = Hierarchy(num_variables_, {most_rows_});
+  if (equalities > 0) {
+    most_rows_.equalities = std::max(most_rows_.equalities, equalities);
+    most_rows_.inequalities = std::max(most_rows_.inequalities, inequalities);
+    before_ = Hierarchy(num_variables_, {most_rows_});
+  }
   entries_.push_back(std::move(entry));
 }
 
@@ -146,16 +154,22 @@ void Stack::Loosen(int level) noexcept {
 }
 
 std::vector<LevelCapacity> Stack::capacity() const {
-  LevelCapacity all;
-  for (const Entry& entry : entries_) {
-    all.equalities += static_cast<int>(entry.task->equality_names().size());
-    all.inequalities += static_cast<int>(entry.task->inequality_names().size());
-  }
+  LevelCapacity all = total_capacity();
+  all.equalities -= num_variables_;
   std::vector<LevelCapacity> levels(kMaxLevel, all);
-  LevelCapacity held;
-  held.equalities = num_variables_;
-  levels.push_back(held);
+  levels.push_back({num_variables_, 0});
   return levels;
+}
+
+LevelCapacity Stack::total_capacity() const {
+  LevelCapacity total{num_variables_, 0};  // Easing::Hold().
+  for (const Entry& entry : entries_) AddRows(*entry.task, &total);
+  return total;
+}
+
+int Stack::max_leading_rows() const {
+  const LevelCapacity total = total_capacity();
+  return total.equalities - num_variables_ + total.inequalities;
 }
 
 double Stack::RowWeight(const Entry& entry) const noexcept {
@@ -191,7 +205,7 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
 
   const bool eases = easing_.IsPossible();
   if (eases && loose_from_ < kTight) easing_.KeepFree();
-  hierarchy->Clear(num_levels_ + (easing_.holds() ? 1 : 0));
+  ReserveRows(hierarchy);
   for (Entry& entry : entries_) {
     if (!entry.takes_part) continue;
     const Task& task = *entry.task;
@@ -230,6 +244,16 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
   }
 }
 
+// Clears the hierarchy, with room for the rows that Write() adds.
+void Stack::ReserveRows(Hierarchy* hierarchy) const noexcept {
+  LevelCapacity rows[kMaxLevel + 1];
+  for (const Entry& entry : entries_) {
+    if (entry.takes_part) AddRows(*entry.task, &rows[entry.hierarchy_level]);
+  }
+  if (easing_.holds()) rows[num_levels_].equalities = num_variables_;
+  hierarchy->Clear(num_levels_ + (easing_.holds() ? 1 : 0), rows);
+}
+
 void Stack::BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
                         const InequalityBlock& inequalities,
                         Entry* entry) noexcept {
@@ -241,7 +265,7 @@ void Stack::BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
     }
     if (entry->was_switched_on) {
       easing_.BeginAtLast(rows, equalities);
-    } else if (entry->was_tuned) {
+    } else if (entry->was_tuned && num_equalities > 0) {
       easing_.BeginAsBefore(rows, equalities, RowsBefore(input, entry),
                             entry->weight_before / entry->settings.weight);
     }
@@ -252,6 +276,7 @@ void Stack::BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
 }
 
 // Returns the rows that the task would write now if it had not been tuned.
+// pre: the task has equalities.
 EqualityBlock Stack::RowsBefore(const TaskInput& input, Entry* entry) noexcept {
   const Task& task = *entry->task;
   const auto exchange = [&] {

@@ -85,8 +85,16 @@ class Stack {
   bool is_eased() const { return easing_.is_on(); }
 
   /// Returns the capacity that a Hierarchy and its solver need, whatever the
-  /// settings of the tasks are. The last level is for Easing::Hold().
+  /// settings of the tasks are: each level may have all rows. The last level is
+  /// for Easing::Hold().
   std::vector<LevelCapacity> capacity() const;
+
+  /// Returns the largest numbers of rows of all levels together, as each task
+  /// is on one level only.
+  LevelCapacity total_capacity() const;
+  /// Returns the sum of both without the rows of Easing::Hold(): the argument
+  /// max_leading_rows of Solver.
+  int max_leading_rows() const;
 
   /// Clears the hierarchy and writes the rows of all enabled tasks.
   void Write(const TaskInput& input, Hierarchy* hierarchy) noexcept;
@@ -139,6 +147,7 @@ class Stack {
     int inequality_start = 0;
   };
 
+  void ReserveRows(Hierarchy* hierarchy) const noexcept;
   void Tune(Entry* entry) noexcept;
   void Loosen(int level) noexcept;
   void BeginEasing(const TaskInput& input, const EqualityBlock& equalities,
@@ -156,8 +165,9 @@ class Stack {
   int num_variables_;
   Easing easing_;
   int loose_from_ = kTight;
-  LevelCapacity most_rows_;  // Largest numbers of rows of a task.
-  Hierarchy before_;         // Rows of one task before it was tuned.
+  // Largest numbers of rows of a task with equalities.
+  LevelCapacity most_rows_;
+  Hierarchy before_;  // Rows of one task before it was tuned.
   bool weighted_ = false;
   double level_ratio_ = 100;
   std::vector<Entry> entries_;

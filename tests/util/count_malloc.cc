@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tests/util/count_malloc.h"
 
+#include <malloc.h>
+
 #include <cerrno>
 #include <cstddef>
 
@@ -17,11 +19,13 @@ namespace {
 
 thread_local bool g_counting = false;
 thread_local int g_allocations = 0;
+thread_local long g_bytes = 0;
 
 }  // namespace
 
 CountMalloc::CountMalloc() {
   g_allocations = 0;
+  g_bytes = 0;
   g_counting = true;
 }
 
@@ -29,14 +33,30 @@ CountMalloc::~CountMalloc() { g_counting = false; }
 
 int CountMalloc::allocations() const { return g_allocations; }
 
+long CountMalloc::bytes() const { return g_bytes; }
+
 #ifndef POISE_SANITIZED
 
 bool CountMalloc::IsSupported() { return true; }
 
 namespace {
-void Count() {
-  if (g_counting) ++g_allocations;
+
+long Size(void* block) { return static_cast<long>(malloc_usable_size(block)); }
+
+// Counts a new block, and returns it.
+void* Count(void* block) {
+  if (g_counting) {
+    ++g_allocations;
+    g_bytes += Size(block);
+  }
+  return block;
 }
+
+// Counts a block that is about to be freed.
+void CountFreed(void* block) {
+  if (g_counting) g_bytes -= Size(block);
+}
+
 }  // namespace
 }  // namespace poise
 
@@ -47,31 +67,31 @@ void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* pointer, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
+void __libc_free(void* pointer);
 
-void* malloc(std::size_t size) {
-  poise::Count();
-  return __libc_malloc(size);
-}
+void* malloc(std::size_t size) { return poise::Count(__libc_malloc(size)); }
 
 void* calloc(std::size_t count, std::size_t size) {
-  poise::Count();
-  return __libc_calloc(count, size);
+  return poise::Count(__libc_calloc(count, size));
 }
 
 void* realloc(void* pointer, std::size_t size) {
-  poise::Count();
-  return __libc_realloc(pointer, size);
+  poise::CountFreed(pointer);
+  return poise::Count(__libc_realloc(pointer, size));
 }
 
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  poise::Count();
-  return __libc_memalign(alignment, size);
+  return poise::Count(__libc_memalign(alignment, size));
 }
 
 int posix_memalign(void** pointer, std::size_t alignment, std::size_t size) {
-  poise::Count();
-  *pointer = __libc_memalign(alignment, size);
+  *pointer = poise::Count(__libc_memalign(alignment, size));
   return *pointer == nullptr ? ENOMEM : 0;
+}
+
+void free(void* pointer) {
+  poise::CountFreed(pointer);
+  __libc_free(pointer);
 }
 }
 

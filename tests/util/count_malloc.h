@@ -3,7 +3,8 @@
 
 namespace poise {
 
-/// Counts the heap allocations of this thread during the object's lifetime.
+/// Counts the heap allocations of this thread during the object's lifetime, and
+/// the bytes that remain allocated.
 ///
 ///     CountMalloc count;
 ///     Control(...);  // No allocation allowed from here ...
@@ -18,6 +19,9 @@ class CountMalloc {
   CountMalloc& operator=(const CountMalloc&) = delete;
 
   int allocations() const;
+
+  /// Bytes allocated minus bytes freed, with the rounding of the allocator.
+  long bytes() const;
 
   /// Returns whether this build can count allocations.
   static bool IsSupported();
