@@ -13,10 +13,11 @@ import subprocess
 FLAGS = ("-std=c++17", "-O3", "-march=native", "-DNDEBUG", "-w")
 
 # Parts of this workspace that each program is linked with.
-OUR_FOLDERS = ("hqp", "hqp/fast", "math")
-OUR_SOURCES = ("bounded_rows.cc", "measure.cc", "tick_file.cc")
-NOT_LINKED = ("_test.cc", "_benchmark.cc", "/accuracy.cc",
-              "/measure_accuracy.cc")
+OUR_FOLDERS = ("hqp", "hqp/fast")
+OUR_SOURCES = ("math/rank.cc", "tests/peers/bounded_rows.cc",
+               "tests/peers/measure.cc", "tests/peers/tick_file.cc")
+OUR_HEADERS = (*OUR_FOLDERS, "math", "tests/peers", "tests/util")
+NOT_LINKED = ("_test.cc", "_benchmark.cc")
 
 
 class BuildError(Exception):
@@ -42,7 +43,7 @@ def our_sources(root):
     sources = [path for folder in OUR_FOLDERS
                for path in sorted((root / folder).glob("*.cc"))
                if not str(path).endswith(NOT_LINKED)]
-    return sources + [root / "tests/peers" / name for name in OUR_SOURCES]
+    return sources + [root / name for name in OUR_SOURCES]
 
 
 class Builder:
@@ -56,8 +57,8 @@ class Builder:
         self.compiler = run(["g++", "--version"])
         self.our_include = self.link_includes("ours", {"poise": root})
         self.our_headers = self.digest_of(
-            [path for folder in (*OUR_FOLDERS, "tests/peers", "tests/util")
-             for path in sorted((root / folder).glob("*.h"))])
+            path for folder in OUR_HEADERS
+            for path in sorted((root / folder).glob("*.h")))
 
     def link_includes(self, name, links):
         """Returns a folder in which the links have their names."""
