@@ -61,6 +61,8 @@ def parse_arguments(arguments):
                         default=pathlib.Path("peers-out"),
                         help="programs, ticks and table (default: peers-out)")
     options = parser.parse_args(arguments)
+    if os.environ.get("POISE_PARSE_ONLY"):
+        sys.exit(0)
     here = pathlib.Path(os.environ.get("BUILD_WORKING_DIRECTORY") or ".")
     options.peers = (here / options.peers).absolute()
     options.out = (here / options.out).absolute()
