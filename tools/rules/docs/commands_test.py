@@ -20,8 +20,8 @@ PROGRAMS = {
     label: pathlib.Path(label[2:].replace(":", "/"))
     for label in (
         "//tests:hqp_night", "//tests/peers:compare", "//tools:doctor",
-        "//tools:dynamics", "//tools:explain", "//tools:figures", "//tools:hqp", "//tools:mutate",
-        "//tools:push", "//tools:push_map", "//tools:report",
+        "//tools:dynamics", "//tools:explain", "//tools:figures", "//tools:hqp",
+        "//tools:mutate", "//tools:push", "//tools:push_map", "//tools:report",
         "//tools:robustness", "//tools:sim_to_sim", "//tools:strictness")
 }
 
