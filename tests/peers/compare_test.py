@@ -73,8 +73,8 @@ class MessagesTest(unittest.TestCase):
     def test_measure_names_a_file_of_another_format(self):
         path = self.folder / "ticks"
         path.write_text("text")
-        result = subprocess.run([MEASURE, str(path), "1"],
-                                capture_output=True, text=True, check=False)
+        result = subprocess.run([MEASURE, str(path)], capture_output=True,
+                                text=True, check=False)
         self.assertEqual(result.returncode, 2)
         self.assertEqual(
             result.stderr, f"measure: {path}: not a file of recorded ticks, "
@@ -97,6 +97,12 @@ class FiguresTest(unittest.TestCase):
         self.assertEqual(
             figures.read_ticks("2.500 1 3 1e-6 4 2e-6\n1 0 nan 1\n")[0],
             figures.Tick(2.5, True, [3, 4], [1e-6, 2e-6]))
+
+    def test_each_tick_counts_with_its_fastest_pass(self):
+        passes = [[tick(1, time=4), tick(2, time=5)],
+                  [tick(1, time=6), tick(2, time=3)]]
+        self.assertEqual(figures.fastest(passes),
+                         [tick(1, time=4), tick(2, time=3)])
 
     def test_first_level_that_differs_decides(self):
         floors = [1e-6] * 3

@@ -1,17 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // Solves recorded ticks with the solver that this program is built with:
-//   measure FILE REPEATS
-// Prints a line a tick: the CPU time of the fastest warm solve [us], 1 if the
-// solver reports a solution or 0, then the cost and the floor of each level.
+//   measure FILE
+// Prints a line a tick: the CPU time of the warm solve [us], 1 if the solver
+// reports a solution or 0, then the cost and the floor of each level.
 #include <time.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <iostream>
-#include <limits>
-#include <string>
 #include <vector>
 
 #include "poise/tests/peers/peer.h"
@@ -23,12 +20,6 @@ namespace {
 struct LevelResult {
   double cost;
   double floor;  // Costs below it count as this cost.
-};
-
-struct TickResult {
-  double time = std::numeric_limits<double>::infinity();  // us.
-  bool is_solved = false;
-  std::vector<LevelResult> levels;
 };
 
 double ThreadTime() {
@@ -66,47 +57,33 @@ LevelResult Evaluate(const Hierarchy& hierarchy, int k,
   return {cost / 2, 1e-6 * (1 + size / 2)};
 }
 
-std::vector<TickResult> Measure(const RecordedTicks& recorded, int repeats) {
+void Measure(const RecordedTicks& recorded) {
   const int n = recorded.ticks.front().num_variables();
-  std::vector<TickResult> results(recorded.ticks.size());
-  for (int repeat = 0; repeat < repeats; ++repeat) {
-    const std::unique_ptr<Peer> peer = MakePeer(n, recorded.capacity);
-    for (size_t i = 0; i < results.size(); ++i) {
-      const Hierarchy& hierarchy = recorded.ticks[i];
-      peer->Load(hierarchy);
-      const double start = ThreadTime();
-      const bool is_solved = peer->Solve();
-      const double time = ThreadTime() - start;
-      results[i].time = std::min(results[i].time, time);
-      if (repeat > 0) continue;
-      results[i].is_solved = is_solved;
-      for (int k = 0; k < hierarchy.num_levels(); ++k) {
-        results[i].levels.push_back(Evaluate(hierarchy, k, peer->y()));
-      }
+  const std::unique_ptr<Peer> peer = MakePeer(n, recorded.capacity);
+  for (const Hierarchy& hierarchy : recorded.ticks) {
+    peer->Load(hierarchy);
+    const double start = ThreadTime();
+    const bool is_solved = peer->Solve();
+    const double time = ThreadTime() - start;
+    std::printf("%.3f %d", time, is_solved);
+    for (int k = 0; k < hierarchy.num_levels(); ++k) {
+      const LevelResult level = Evaluate(hierarchy, k, peer->y());
+      std::printf(" %.17g %.17g", level.cost, level.floor);
     }
+    std::printf("\n");
   }
-  return results;
 }
 
 }  // namespace
 }  // namespace poise
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::cerr << "measure: " << argc - 1
-              << " arguments, want 2: FILE REPEATS\n";
+  if (argc != 2) {
+    std::cerr << "measure: " << argc - 1 << " arguments, want 1: FILE\n";
     return 2;
   }
   try {
-    const poise::RecordedTicks recorded = poise::ReadTicks(argv[1]);
-    for (const poise::TickResult& tick :
-         poise::Measure(recorded, std::stoi(argv[2]))) {
-      std::printf("%.3f %d", tick.time, tick.is_solved);
-      for (const poise::LevelResult& level : tick.levels) {
-        std::printf(" %.17g %.17g", level.cost, level.floor);
-      }
-      std::printf("\n");
-    }
+    poise::Measure(poise::ReadTicks(argv[1]));
   } catch (const std::exception& error) {
     std::cerr << "measure: " << error.what() << "\n";
     return 2;
