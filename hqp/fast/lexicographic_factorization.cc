@@ -28,7 +28,7 @@ LexicographicFactorization::LexicographicFactorization(int num_variables,
                                                        int max_levels)
     : n_(num_variables),
       stride_((num_variables + 7) / 4 * 4),
-      kept_(num_variables, max_rows) {
+      kept_(num_variables, max_rows, num_variables) {
   const auto rows = [&](int count) {
     return static_cast<size_t>(count) * stride_;
   };
@@ -197,11 +197,8 @@ bool LexicographicFactorization::AppendRow() {
 // Projects row a once onto the complement of the levels before.
 void LexicographicFactorization::Project(int a) {
   double* l = &l_[static_cast<size_t>(a) * stride_];
-  int begin = 0;
-  if (key_[a] != kNoKey) {
-    begin = kept_.rank();
-    if (!is_recalled_[a]) ProjectKept(a);
-  }
+  if (key_[a] != kNoKey && !is_recalled_[a]) ProjectKept(a);
+  const int begin = key_[a] == kNoKey ? 0 : kept_.rank();
   std::fill(l + begin, l + rank_, 0);
   TakeOut(begin, rank_, row(a), l);
   rest_[a] = SquaredNorm(row(a), n_);
@@ -216,7 +213,7 @@ void LexicographicFactorization::ProjectKept(int a) {
       tolerances::kReorthogonalize * tolerances::kReorthogonalize) {
     TakeOut(0, kept_.rank(), row(a), l);
   }
-  kept_.Add(key_[a], l, row(a));
+  (void)kept_.Add(key_[a], l, row(a));
 }
 
 // Subtracts the projection on the rows of Q from `begin` to `end` from x, and

@@ -151,7 +151,8 @@ class LexicographicFactorization {
   std::vector<bool> chosen_;
   std::int64_t multiply_adds_ = 0;
   ProjectedRows kept_;             ///< Rows with a key, on the merged levels.
-  std::vector<int> key_;           ///< By row; -1: none.
+  /// By row: key of its projection in kept_; -1: none.
+  std::vector<int> key_;
   std::vector<bool> is_recalled_;  ///< By row.
 };
 

@@ -7,16 +7,16 @@
 
 namespace poise {
 
-ProjectedRows::ProjectedRows(int num_variables, int num_keys)
+ProjectedRows::ProjectedRows(int num_variables, int num_keys, int max_rows)
     : n_(num_variables),
       stride_((num_variables + 3) / 4 * 4),
-      max_rows_(num_keys),
+      max_rows_(max_rows),
       slot_(num_keys, -1),
-      key_(num_keys),
-      is_used_(num_keys),
-      remainder_(Index(num_keys, stride_)),
-      l_(Index(num_variables, num_keys)),
-      factor_(num_keys) {}
+      key_(max_rows),
+      is_used_(max_rows),
+      remainder_(Index(max_rows, stride_)),
+      l_(Index(num_variables, max_rows)),
+      factor_(max_rows) {}
 
 void ProjectedRows::Clear(int rank) {
   for (int slot = 0; slot < size_; ++slot) slot_[key_[slot]] = -1;
@@ -24,14 +24,16 @@ void ProjectedRows::Clear(int rank) {
   rank_ = rank;
 }
 
-void ProjectedRows::Add(int key, const double* coefficients,
+bool ProjectedRows::Add(int key, const double* coefficients,
                         const double* remainder) {
+  if (size_ == max_rows_) return false;
   const int slot = size_++;
   slot_[key] = slot;
   key_[slot] = key;
   is_used_[slot] = true;
   std::copy_n(remainder, n_, this->remainder(slot));
   for (int e = 0; e < rank_; ++e) this->coefficients(e)[slot] = coefficients[e];
+  return true;
 }
 
 bool ProjectedRows::Use(int key, double* coefficients, double* remainder) {

@@ -10,17 +10,18 @@ namespace poise {
 /// follows each change of the basis, which costs less than another projection.
 /// Nothing allocates after construction.
 ///
-/// Rows are named by keys, 0 to num_keys - 1. `rank` is the number of rows of
-/// Q, at most num_variables.
+/// Rows are named by keys, 0 to num_keys - 1. There is room for max_rows of
+/// them. `rank` is the number of rows of Q, at most num_variables.
 class ProjectedRows {
  public:
-  ProjectedRows(int num_variables, int num_keys);
+  ProjectedRows(int num_variables, int num_keys, int max_rows);
 
   /// Removes all rows, and sets the rank.
   void Clear(int rank);
 
-  /// Adds a row that is not there yet, by its split.
-  void Add(int key, const double* coefficients, const double* remainder);
+  /// Adds a row that is not there yet, by its split. Returns false if there is
+  /// no room.
+  bool Add(int key, const double* coefficients, const double* remainder);
 
   /// Copies the split of a row, and marks it as used. Returns false if the row
   /// is not there.
@@ -53,8 +54,8 @@ class ProjectedRows {
   std::vector<int> slot_;          ///< By key; -1: not there.
   std::vector<int> key_;           ///< By slot.
   std::vector<bool> is_used_;      ///< By slot.
-  std::vector<double> remainder_;  ///< num_keys x stride, by slot.
-  std::vector<double> l_;          ///< n x num_keys: columns are slots.
+  std::vector<double> remainder_;  ///< max_rows x stride, by slot.
+  std::vector<double> l_;          ///< n x max_rows: columns are slots.
   std::vector<double> factor_;     ///< By slot.
 };
 

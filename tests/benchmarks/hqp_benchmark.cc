@@ -28,58 +28,29 @@
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/reference/cascade.h"
 #include "poise/hqp/solver.h"
-#include "poise/sim/closed_loop.h"
 #include "poise/sim/quantile.h"
-#include "poise/tests/util/load_humanoid.h"
+#include "poise/tests/util/recorded_ticks.h"
 
 namespace poise {
 namespace {
-
-// Start of the push, and recorded time before it, s.
-constexpr double kStart = 0.1, kLead = 0.05;
 
 // Reduced by main() if --benchmark_min_time=0 only checks that all run.
 int repeats = 5;
 double end = 0.45;  // s.
 
-struct Sequence {
-  std::vector<LevelCapacity> capacity;
-  std::vector<Hierarchy> ticks;
-};
-
-Sequence Record(int force, bool has_limits, int percent) {
-  const Robot robot = LoadHumanoid();
-  Scenario scenario;
-  scenario.duration = end;
-  Push push;
-  push.force = {0, static_cast<double>(force), 0};
-  push.start = kStart;
-  push.duration = 0.15;
-  scenario.pushes = {push};
-  if (!has_limits) scenario.control.without = {"torque_limits", "joint_limits"};
-  ClosedLoop loop(robot, scenario);
-  Sequence sequence{loop.controller().stack().capacity(), {}};
-  while (loop.time() < end) {
-    if (has_limits && loop.time() >= kStart) {
-      (void)loop.controller().stack().SetParameter("torque_limits", "scale",
-                                                   percent / 100.);
-    }
-    loop.Tick();
-    if (loop.time() > kStart - kLead) {
-      sequence.ticks.push_back(loop.controller().hierarchy());
-    }
-  }
-  return sequence;
-}
-
-const Sequence& Recorded(const benchmark::State& state) {
-  static std::map<std::tuple<int, int, int>, Sequence> sequences;
+const RecordedTicks& Recorded(const benchmark::State& state) {
+  static std::map<std::tuple<int, int, int>, RecordedTicks> sequences;
   const std::tuple<int, int, int> key(state.range(0), state.range(1),
                                       state.range(2));
   auto found = sequences.find(key);
   if (found == sequences.end()) {
     const auto [force, limits, percent] = key;
-    found = sequences.emplace(key, Record(force, limits != 0, percent)).first;
+    RecordingConditions conditions;
+    conditions.push_force = force;
+    conditions.has_limits = limits != 0;
+    conditions.torque_scale = percent / 100.;
+    conditions.end = end;
+    found = sequences.emplace(key, RecordTicks(conditions)).first;
   }
   return found->second;
 }
@@ -87,7 +58,7 @@ const Sequence& Recorded(const benchmark::State& state) {
 using Solve = std::function<Status(const Hierarchy&, Solution*)>;
 
 // Solves a sequence `repeats` times, each time with a new solver.
-void Measure(const Sequence& sequence, int every,
+void Measure(const RecordedTicks& sequence, int every,
              const std::function<Solve()>& make, benchmark::State* state) {
   using Clock = std::chrono::steady_clock;
   const int n = sequence.ticks.front().num_variables();
@@ -141,7 +112,7 @@ void Measure(const Sequence& sequence, int every,
 }
 
 void Fast(benchmark::State& state, bool is_warm) {
-  const Sequence& sequence = Recorded(state);
+  const RecordedTicks& sequence = Recorded(state);
   const auto make = [&]() -> Solve {
     auto solver = std::make_shared<Solver>(
         sequence.ticks.front().num_variables(), sequence.capacity);
@@ -154,7 +125,7 @@ void Fast(benchmark::State& state, bool is_warm) {
 }
 
 void Literal(benchmark::State& state, RowSpaceMethod method) {
-  const Sequence& sequence = Recorded(state);
+  const RecordedTicks& sequence = Recorded(state);
   const auto make = [&]() -> Solve {
     auto cascade = std::make_shared<Cascade>(
         sequence.ticks.front().num_variables(), sequence.capacity, method);

@@ -19,10 +19,10 @@ ROOT = pages.tree()
 PROGRAMS = {
     label: pathlib.Path(label[2:].replace(":", "/"))
     for label in (
-        "//tests/exact:judge", "//tests:hqp_night", "//tools:doctor",
-        "//tools:dynamics",
-        "//tools:explain", "//tools:figures", "//tools:hqp", "//tools:mutate",
-        "//tools:push", "//tools:push_map", "//tools:report",
+        "//tests/exact:judge", "//tests:hqp_night", "//tests/peers:compare",
+        "//tools:doctor", "//tools:dynamics", "//tools:explain",
+        "//tools:figures", "//tools:hqp", "//tools:mutate", "//tools:push",
+        "//tools:push_map", "//tools:report",
         "//tools:robustness", "//tools:sim_to_sim", "//tools:strictness")
 }
 

@@ -1,0 +1,123 @@
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+"""Compiles a program for each solver, all with the same flags.
+
+An object file is named by a digest of all that it depends on, so that it is
+compiled once.
+"""
+
+import concurrent.futures
+import hashlib
+import os
+import subprocess
+
+FLAGS = ("-std=c++17", "-O3", "-march=native", "-DNDEBUG", "-w")
+
+# Parts of this workspace that each program is linked with.
+OUR_FOLDERS = ("hqp", "hqp/fast")
+OUR_SOURCES = ("math/rank.cc", "tests/peers/bounded_rows.cc",
+               "tests/peers/measure.cc", "tests/peers/tick_file.cc")
+OUR_HEADERS = (*OUR_FOLDERS, "math", "tests/peers", "tests/util")
+NOT_LINKED = ("_test.cc", "_benchmark.cc")
+
+
+class BuildError(Exception):
+    """A source that does not compile, as one line."""
+
+
+def run(command, text=None):
+    try:
+        result = subprocess.run(command, input=text, capture_output=True,
+                                text=True, check=False)
+    except FileNotFoundError as error:
+        raise BuildError(f"{command[0]} is not installed; "
+                         "tools/setup.sh installs it") from error
+    if result.returncode != 0:
+        lines = result.stderr.splitlines() or ["no message"]
+        first = next((line for line in lines if "error" in line), lines[-1])
+        raise BuildError(first)
+    return result.stdout
+
+
+def our_sources(root):
+    """Returns the sources of Poise that a program is linked with."""
+    sources = [path for folder in OUR_FOLDERS
+               for path in sorted((root / folder).glob("*.cc"))
+               if not str(path).endswith(NOT_LINKED)]
+    return sources + [root / name for name in OUR_SOURCES]
+
+
+class Builder:
+    """Compiles in a folder; `root` is Poise's workspace."""
+
+    def __init__(self, root, out):
+        self.root = root
+        self.out = out
+        (out / "objects").mkdir(parents=True, exist_ok=True)
+        self.eigen = run(["pkg-config", "--cflags", "eigen3"]).split()
+        self.compiler = run(["g++", "--version"])
+        self.our_include = self.link_includes("ours", {"poise": root})
+        self.our_headers = self.digest_of(
+            path for folder in OUR_HEADERS
+            for path in sorted((root / folder).glob("*.h")))
+
+    def link_includes(self, name, links):
+        """Returns a folder in which the links have their names."""
+        folder = self.out / "include" / name
+        folder.mkdir(parents=True, exist_ok=True)
+        for link, target in links.items():
+            path = folder / link
+            if path.is_symlink():
+                path.unlink()
+            path.symlink_to(target)
+        return folder
+
+    @staticmethod
+    def digest_of(paths):
+        digest = hashlib.sha256()
+        for path in paths:
+            digest.update(f"{path}\n".encode())
+            digest.update(path.read_bytes())
+        return digest.hexdigest()
+
+    def compile(self, text, includes, headers):
+        """Returns the object of a source, compiled unless it exists."""
+        command = ["g++", *FLAGS, *self.eigen,
+                   *(f"-I{folder}" for folder in includes)]
+        key = "\n".join([self.compiler, *command, headers, text])
+        name = hashlib.sha256(key.encode()).hexdigest()[:20]
+        path = self.out / "objects" / f"{name}.o"
+        if not path.exists():
+            part = path.with_suffix(".part")
+            run([*command, "-x", "c++", "-c", "-", "-o", str(part)], text)
+            part.rename(path)
+        return path
+
+    def program(self, name, adapter, peer=None, checkout=None, boost=None):
+        """Returns the program `name` of an adapter in tests/peers."""
+        adapter = self.root / "tests/peers" / adapter
+        ours = (self.our_include,)
+        jobs = [(path.read_text(), ours, self.our_headers)
+                for path in our_sources(self.root)]
+        if peer is None:
+            jobs.append((adapter.read_text(), ours, self.our_headers))
+        else:
+            theirs = [self.link_includes(name, {
+                link: checkout / target
+                for link, target in peer.links.items()})]
+            theirs += [boost] if boost else []
+            headers = self.digest_of(
+                path for target in peer.links.values()
+                for path in sorted((checkout / target).glob("*.h*")))
+            jobs.append((adapter.read_text(), (*ours, *theirs),
+                         self.our_headers + headers))
+            for source in peer.sources:
+                path = checkout / source
+                if not path.is_file():
+                    raise BuildError(f"{path} does not exist, want {peer.url} "
+                                     f"at {peer.commit}")
+                jobs.append((peer.text(path), (*theirs, path.parent), headers))
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            objects = list(pool.map(lambda job: self.compile(*job), jobs))
+        program = self.out / name
+        run(["g++", *map(str, objects), "-o", str(program)])
+        return program

@@ -1,0 +1,38 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// The adapter of Poise's own solver.
+#include "poise/hqp/solver.h"
+#include "poise/tests/peers/peer.h"
+
+namespace poise {
+namespace {
+
+class PoisePeer final : public Peer {
+ public:
+  PoisePeer(int num_variables, const std::vector<LevelCapacity>& capacity)
+      : hierarchy_(num_variables, capacity),
+        solver_(num_variables, capacity),
+        solution_(num_variables, capacity) {}
+
+  // The copy is in the cache, as are the copies that the peers make.
+  void Load(const Hierarchy& hierarchy) override { hierarchy_ = hierarchy; }
+
+  bool Solve() override {
+    return solver_.Solve(hierarchy_, &solution_) == Status::kOptimal;
+  }
+
+  const Eigen::VectorXd& y() const override { return solution_.y; }
+
+ private:
+  Hierarchy hierarchy_;
+  Solver solver_;
+  Solution solution_;
+};
+
+}  // namespace
+
+std::unique_ptr<Peer> MakePeer(int num_variables,
+                               const std::vector<LevelCapacity>& capacity) {
+  return std::make_unique<PoisePeer>(num_variables, capacity);
+}
+
+}  // namespace poise
