@@ -54,7 +54,7 @@ RowSums Sum(const double* row, const Eigen::VectorXd& y) {
 Certifier::Certifier(int num_variables,
                      const std::vector<LevelCapacity>& capacity)
     : cost_(capacity.size()),
-      cost_scale_(capacity.size()),
+      cost_size_(capacity.size()),
       gap_(capacity.size()),
       gradient_(num_variables),
       gradient_size_(num_variables) {
@@ -106,7 +106,9 @@ void Certifier::JudgeLevel(const Hierarchy& hierarchy, int level,
   JudgeMultipliers(hierarchy, level, solution, certificate);
   gap_[level] = Gap(hierarchy, level, solution);
   certificate->gap =
-      Worse(certificate->gap, Ratio(gap_[level], cost_scale_[level]));
+      Worse(certificate->gap,
+            Ratio(gap_[level],
+                  cost_[level] + tolerances::kZeroCost * cost_size_[level]));
 }
 
 void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
@@ -156,11 +158,11 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     }
   }
   cost_[level] = cost;
-  cost_scale_[level] = cost + tolerances::kZeroCost * cost_size;
+  cost_size_[level] = cost_size;
   certificate->feasibility = feasibility;
   certificate->priority = Worse(
       certificate->priority,
-      Ratio(cost - answer.cost, cost_scale_[level]));
+      Ratio(cost - answer.cost, cost + tolerances::kZeroCost * cost_size));
 }
 
 void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
@@ -248,7 +250,10 @@ double Certifier::Gap(const Hierarchy& hierarchy, int level,
     }
     if (squares > 0) gap += 2 * std::sqrt(gap_[above] * squares);
   }
-  return std::isnan(gap) ? cost_[level] : std::min(gap, cost_[level]);
+  const double cost = cost_[level], size = cost_size_[level];
+  const double cost_rounding =
+      rounding * (2 * std::sqrt(cost * size) + rounding * size);
+  return (std::isnan(gap) ? cost : std::min(gap, cost)) + cost_rounding;
 }
 
 }  // namespace poise

@@ -31,7 +31,9 @@ class Certifier {
   ///                                                    + mu_kj' C_j d).
   /// An inactive bound allows C_i d up to its distance. A row with a residual or
   /// a slack changes by 2 sqrt(gap_j) at most, because cost_j is quadratic in
-  /// it. |g_k| contains its rounding. The gap never exceeds the cost.
+  /// it. The gap contains the rounding of g_k and of the cost, n eps times the
+  /// magnitudes of their terms. But for this rounding, it never exceeds the
+  /// cost.
   double gap(int level) const { return gap_[level]; }
 
   /// Upper limit of Certificate::worst() for an answer with status kOptimal.
@@ -63,7 +65,7 @@ class Certifier {
              const Solution& solution) const;
 
   std::vector<LevelRows> rows_;
-  std::vector<double> cost_, cost_scale_, gap_;  ///< By level.
+  std::vector<double> cost_, cost_size_, gap_;  ///< By level.
   Eigen::VectorXd gradient_, gradient_size_;
 };
 

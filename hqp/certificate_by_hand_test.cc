@@ -54,6 +54,37 @@ class CertifierByHandTest : public testing::Test {
   Certifier certifier_{2, capacity_};
 };
 
+// y_1 = 1 + excess has the cost (1 - excess)^2 / 2 with the target 2. The bound
+// 1 permits (1 - 0)^2 / 2, and the target alone 0.
+TEST_F(CertifierByHandTest, BoundsWhatTheCostLacks) {
+  for (const double below : {1e-3, 1e-6, 1e-9}) {
+    SCOPED_TRACE(below);
+    // Inside the bound, with the multiplier that makes the sum zero.
+    Answer(1 - below, -1 - below, 1 + below);
+    (void)Certify();
+    const double lacks = below + below * below / 2;
+    // The bound is first-order: twice the second-order term, and the rounding
+    // of the gradient, 2 eps |y| of its terms.
+    EXPECT_GE(certifier_.gap(1), lacks);
+    EXPECT_LE(certifier_.gap(1), lacks + below * below + 1e-13);
+    // Without a multiplier the gradient is 1, and y may move by 2 |y|.
+    Answer(1 - below, -1 - below, 0);
+    (void)Certify();
+    EXPECT_GE(certifier_.gap(1), lacks);
+    EXPECT_LE(certifier_.gap(1), solution_.levels[1].cost * (1 + 1e-13));
+  }
+}
+
+TEST_F(CertifierByHandTest, HasNoGapForLevelsThatItDoesNotJudge) {
+  Answer(1 - 1e-3, -1 - 1e-3, 0);
+  certifier_.Truncate(hierarchy_, &solution_);
+  EXPECT_EQ(solution_.failed_level, 1);
+  EXPECT_LT(certifier_.gap(0), 1e-29);  // Rounding of the cost 0.
+  EXPECT_GT(certifier_.gap(1), 1e-3);   // The failed level is judged.
+  (void)Certify();
+  EXPECT_EQ(certifier_.gap(1), kInfinity);
+}
+
 TEST_F(CertifierByHandTest, AcceptsTheOptimum) {
   EXPECT_EQ(Certify().worst(), 0);  // At the upper bound.
   Bound(0, 1, -2);                  // At the lower bound.

@@ -91,6 +91,9 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, Budget* budget,
   const bool is_complete =
       SearchAtOnce(hierarchy, kMaxIterationsAtOnce, budget);
   if (budget->is_spent()) {
+    if (budget->iterations() == 0) {
+      problem_.Plan(hierarchy, hierarchy.num_levels());
+    }
     KeepSearch(hierarchy, solution);
   } else if (!is_complete || !WriteSolution(hierarchy, solution)) {
     solution->Reset(hierarchy);

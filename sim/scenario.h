@@ -53,17 +53,17 @@ struct StanceEvent {
 
 /// Settings of the controller, in addition to its robot.
 struct ControlSettings {
-  double dt = 1e-3;          ///< Control period, s.
-  double delay = 0;          ///< From measurement to torque, s.
-  double friction = 0.5;     ///< Coefficient mu that the controller assumes.
-  double mass_error = 0;     ///< Relative error of all masses of its model.
-  double ramp = 0;           ///< Changes of tasks take effect in this time, s.
-  double budget_us = 0;      ///< Time for the solver in a tick; 0: no limit.
-  bool budget_clock = false; ///< By the clock: no replay is exact.
-  bool inscribed = false;    ///< The friction pyramid is inside the cone.
-  bool feedforward = false;  ///< Feeds forward v_WG, a_WG of the reference.
-  bool weighted = false;     ///< One weighted QP instead of the hierarchy.
-  bool estimator = false;    ///< Estimates the base instead of using the truth.
+  double dt = 1e-3;           ///< Control period, s.
+  double delay = 0;           ///< From measurement to torque, s.
+  double friction = 0.5;      ///< Coefficient mu that the controller assumes.
+  double mass_error = 0;      ///< Relative error of all masses of its model.
+  double ramp = 0;            ///< Changes of tasks take effect in this time, s.
+  double budget_us = 0;       ///< Time for the solver in a tick; 0: no limit.
+  bool budget_clock = false;  ///< By the clock: no replay is exact.
+  bool inscribed = false;     ///< The friction pyramid is inside the cone.
+  bool feedforward = false;   ///< Feeds forward v_WG, a_WG of the reference.
+  bool weighted = false;      ///< One weighted QP instead of the hierarchy.
+  bool estimator = false;  ///< Estimates the base instead of using the truth.
   bool drag_compensation = true;     ///< Torques against joint friction.
   std::string tasks = "default";     ///< A task set, by name or file.
   std::vector<std::string> with;     ///< Tasks switched on in it.

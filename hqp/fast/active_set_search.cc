@@ -34,7 +34,7 @@ ActiveSetSearch::ActiveSetSearch(int num_variables,
     removals_left_.emplace_back(level.inequalities, kMaxRemovals);
     violated_.emplace_back(level.inequalities, Side::kNone);
     completed_.emplace_back(level.inequalities, Side::kNone);
-    most = std::max(most, level.inequalities);
+    most = std::max({most, level.equalities, level.inequalities});
   }
   value_.resize(most);
   slope_.resize(most);
@@ -118,16 +118,12 @@ bool ActiveSetSearch::InitializeAllLevels(
     }
   }
   problem->MoveToFirstLevels(hierarchy, &y_);
-  const int violated_at_optimum =
-      FindViolated(hierarchy, *problem, problem->y(), *side);
-  if (violated_at_optimum == 0) {
+  if (FindViolated(hierarchy, *problem, problem->y(), *side) == 0) {
     y_ = problem->y();
     return RemoveConstraints(levels, problem, side);
   }
-  if (violated_at_optimum <= FindViolated(hierarchy, *problem, y_, *side)) {
-    y_ = problem->y();
-    FindViolated(hierarchy, *problem, y_, *side);
-  }
+  if (IsBetter(hierarchy, problem->y(), y_)) y_ = problem->y();
+  FindViolated(hierarchy, *problem, y_, *side);
   for (int level = 0; level < levels; ++level) {
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       if (violated_[level][i] == Side::kNone) continue;
@@ -135,6 +131,48 @@ bool ActiveSetSearch::InitializeAllLevels(
     }
   }
   return true;
+}
+
+// Returns whether y is lexicographically better than another one: its cost is
+// lower on the first level on which the costs differ.
+bool ActiveSetSearch::IsBetter(const Hierarchy& hierarchy,
+                               const std::vector<double>& y,
+                               const std::vector<double>& other) {
+  for (int level = 0; level < hierarchy.num_levels(); ++level) {
+    const Cost cost = FindCost(hierarchy, level, y);
+    const Cost than = FindCost(hierarchy, level, other);
+    const double rounding =
+        tolerances::kZeroSlope * std::max(cost.size, than.size);
+    if (std::abs(cost.cost - than.cost) > rounding)
+      return cost.cost < than.cost;
+  }
+  return false;
+}
+
+ActiveSetSearch::Cost ActiveSetSearch::FindCost(const Hierarchy& hierarchy,
+                                                int level,
+                                                const std::vector<double>& y) {
+  Cost sum = {0, 0};
+  const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
+  const int equalities = hierarchy.num_equalities(level);
+  kernels::Dots(hierarchy.B(level).data(), n_, equalities, y.data(), n_,
+                value_.data());
+  for (int i = 0; i < equalities; ++i) {
+    const double residual = value_[i] + b[i];
+    sum.cost += weight[i] * residual * residual;
+    sum.size += weight[i] * (value_[i] * value_[i] + b[i] * b[i]);
+  }
+  const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
+  const int rows = hierarchy.num_inequalities(level);
+  kernels::Dots(hierarchy.C(level).data(), n_, rows, y.data(), n_,
+                value_.data());
+  for (int i = 0; i < rows; ++i) {
+    const double slack =
+        std::max({value_[i] - upper[i], lower[i] - value_[i], 0.0});
+    sum.cost += slack * slack;
+    if (slack > 0) sum.size += value_[i] * value_[i];
+  }
+  return sum;
 }
 
 // Finds the bounds outside the working set that y violates. Returns their

@@ -56,11 +56,18 @@ class ActiveSetSearch {
   struct RowIndex {
     int level, row;
   };
+  struct Cost {
+    double cost, size;  ///< Twice the cost of a level; squares of its terms.
+  };
 
   void RestoreWorkingSet(std::vector<std::vector<Side>>* side) const;
   bool InitializeAllLevels(const Hierarchy& hierarchy,
                            WorkingSetProblem* problem,
                            std::vector<std::vector<Side>>* side);
+  bool IsBetter(const Hierarchy& hierarchy, const std::vector<double>& y,
+                const std::vector<double>& other);
+  Cost FindCost(const Hierarchy& hierarchy, int level,
+                const std::vector<double>& y);
   int FindViolated(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
                    const std::vector<double>& y,
                    const std::vector<std::vector<Side>>& side);

@@ -53,7 +53,7 @@ class ActiveSetSearchTest : public testing::TestWithParam<int> {
     WorkingSetProblem problem(n_, drawn_.capacity);
     EXPECT_EQ(problem.Read(hierarchy_, &found_.failed_level), Status::kOptimal);
     side_ = NoSides(drawn_.capacity);
-    Budget budget(max_iterations, 0, &no_clock_);
+    Budget budget({max_iterations}, &no_clock_);
     const int levels =
         search_.LevelByLevel(hierarchy_, &budget, &problem, &side_);
     iterations_ = budget.iterations();
@@ -146,7 +146,7 @@ TEST_P(ActiveSetSearchTest, AgreesWithTheCascadeAllAtOnce) {
         if (start == 0 && lower != upper) side[level][i] = Side::kNone;
       }
     }
-    Budget budget(10000, 0, &no_clock_);
+    Budget budget({10000}, &no_clock_);
     ASSERT_TRUE(search_.AllAtOnce(hierarchy_, 10000, &budget, &problem, &side));
     found_.y = Eigen::VectorXd::Map(search_.y().data(), n_);
     for (int level = 0; level < num_levels_; ++level) {
@@ -170,7 +170,7 @@ TEST(ActiveSetSearch, NeedsAtMostTheRecordedNumberOfIterations) {
   RandomHierarchyOptions options;
   options.scaled = 0;
   const std::function<double()> no_clock;
-  Budget at_once(100000, 0, &no_clock), by_level(100000, 0, &no_clock);
+  Budget at_once({100000}, &no_clock), by_level({100000}, &no_clock);
   for (int seed = 0; seed < 300; ++seed) {
     const HierarchyCase drawn = MakeRandomHierarchy(seed, options);
     const int n = drawn.hierarchy.num_variables();
@@ -216,7 +216,7 @@ TEST(ActiveSetSearch, ChangesTheSideOfARow) {
   ASSERT_EQ(problem.Read(hierarchy, &failed), Status::kOptimal);
   std::vector<std::vector<Side>> side = {{Side::kUpper}, {}};
   const std::function<double()> no_clock;
-  Budget budget(100, 0, &no_clock);
+  Budget budget({100}, &no_clock);
   ActiveSetSearch search(1, capacity);
   ASSERT_TRUE(search.AllAtOnce(hierarchy, 100, &budget, &problem, &side));
   EXPECT_EQ(side[0][0], Side::kLower);
@@ -225,11 +225,11 @@ TEST(ActiveSetSearch, ChangesTheSideOfARow) {
   // to -3; solved at -1.
   EXPECT_EQ(budget.iterations(), 3);
   for (int too_few = 0; too_few < 3; ++too_few) {
-    Budget short_of_it(too_few, 0, &no_clock);
+    Budget short_of_it({too_few}, &no_clock);
     side = {{Side::kUpper}, {}};
     EXPECT_FALSE(ActiveSetSearch(1, capacity)
                      .AllAtOnce(hierarchy, 100, &short_of_it, &problem, &side));
-    Budget ample(100, 0, &no_clock);
+    Budget ample({100}, &no_clock);
     side = {{Side::kUpper}, {}};
     EXPECT_FALSE(ActiveSetSearch(1, capacity)
                      .AllAtOnce(hierarchy, too_few, &ample, &problem, &side));
@@ -302,7 +302,7 @@ int ActiveSetSearchByHandTest::Search(int max_iterations,
   int failed_level;
   EXPECT_EQ(problem.Read(hierarchy_, &failed_level), Status::kOptimal);
   const std::function<double()> no_clock;
-  Budget budget(max_iterations, 0, &no_clock);
+  Budget budget({max_iterations}, &no_clock);
   ActiveSetSearch search(n, capacity_);
   side_ = NoSides(capacity_);
   for (int i = 0; i < hierarchy_.num_inequalities(0); ++i) {

@@ -34,14 +34,12 @@ class Budget {
         start_(now_ != nullptr ? (*now_)() : 0) {}
 
   /// Uses one factorisation, after `multiply_adds` in this solve. Returns false
-  /// if the budget is spent, or if `limit` factorisations have been used.
+  /// if the budget is spent, or if `limit` factorisations have been used. Limits
+  /// of time allow one factorisation, because there is no answer without.
   bool Take(int limit, std::int64_t multiply_adds) {
     if (iterations_ >= limit) return false;
     is_spent_ = is_spent_ || iterations_ >= limits_.iterations ||
-                (limits_.modelled_seconds > 0 &&
-                 ModelledSeconds(multiply_adds, iterations_) >
-                     limits_.modelled_seconds) ||
-                (now_ != nullptr && (*now_)() - start_ > limits_.seconds);
+                (iterations_ > 0 && IsLate(multiply_adds));
     if (is_spent_) return false;
     ++iterations_;
     return true;
@@ -55,6 +53,13 @@ class Budget {
   int iterations() const { return iterations_; }
 
  private:
+  bool IsLate(std::int64_t multiply_adds) const {
+    return (limits_.modelled_seconds > 0 &&
+            ModelledSeconds(multiply_adds, iterations_) >
+                limits_.modelled_seconds) ||
+           (now_ != nullptr && (*now_)() - start_ > limits_.seconds);
+  }
+
   BudgetLimits limits_;
   int iterations_ = 0;
   bool is_spent_ = false;

@@ -6,43 +6,67 @@
 namespace poise {
 namespace {
 
+const std::function<double()> no_clock;
+
 TEST(Budget, EndsAfterItsIterations) {
-  const std::function<double()> no_clock;
-  Budget budget(3, 1, &no_clock);
-  EXPECT_EQ(budget.max_iterations(), 3);
+  Budget budget({3, 0, 1}, &no_clock);
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(budget.iterations(), i);
-    EXPECT_TRUE(budget.Take());
+    EXPECT_TRUE(budget.Take(0));
+    EXPECT_FALSE(budget.is_spent());
   }
-  EXPECT_FALSE(budget.Take());
+  EXPECT_FALSE(budget.Take(0));
+  EXPECT_TRUE(budget.is_spent());
   EXPECT_EQ(budget.iterations(), 3);
 }
 
+// A limit ends one search; the rest of the budget remains.
 TEST(Budget, StopsAtALimit) {
-  const std::function<double()> no_clock;
-  Budget budget(3, 0, &no_clock);
-  EXPECT_TRUE(budget.Take(1));
-  EXPECT_FALSE(budget.Take(1));
-  EXPECT_TRUE(budget.Take(4));
-  EXPECT_TRUE(budget.Take(4));
-  EXPECT_FALSE(budget.Take(4));
+  Budget budget({3}, &no_clock);
+  EXPECT_TRUE(budget.Take(1, 0));
+  EXPECT_FALSE(budget.Take(1, 0));
+  EXPECT_FALSE(budget.is_spent());
+  EXPECT_TRUE(budget.Take(4, 0));
+  EXPECT_TRUE(budget.Take(4, 0));
+  EXPECT_FALSE(budget.Take(4, 0));
+  EXPECT_TRUE(budget.is_spent());
   EXPECT_EQ(budget.iterations(), 3);
 }
 
 // The time is measured from the construction of the budget, and only if
-// max_seconds is positive.
+// seconds is positive.
 TEST(Budget, StopsAtItsTimeLimit) {
   double time = 100;
   const std::function<double()> now = [&] { return time; };
-  Budget budget(9, 2, &now), endless(9, 0, &now);
+  Budget budget({9, 0, 2}, &now), endless({9}, &now);
   time = 102;
-  EXPECT_TRUE(budget.Take());
+  EXPECT_TRUE(budget.Take(0));
   time = 102.5;
-  EXPECT_FALSE(budget.Take());
-  EXPECT_TRUE(endless.Take());
-  Budget short_one(9, 0.5, &now);
+  EXPECT_FALSE(budget.Take(0));
+  EXPECT_TRUE(budget.is_spent());
+  EXPECT_TRUE(endless.Take(0));
+  Budget short_one({9, 0, 0.5}, &now);
   time = 103.25;
-  EXPECT_FALSE(short_one.Take());
+  EXPECT_TRUE(short_one.Take(0));  // The first one is free.
+  EXPECT_FALSE(short_one.Take(0));
+}
+
+// A budget is spent as soon as the model says so, whatever the clock says.
+TEST(Budget, StopsAtItsModelledTime) {
+  constexpr std::int64_t kWork = 1000000;
+  Budget budget({9, ModelledSeconds(kWork, 1)}, &no_clock),
+      endless({9}, &no_clock);
+  EXPECT_TRUE(budget.Take(kWork));
+  EXPECT_TRUE(budget.Take(kWork));  // Exactly the limit.
+  EXPECT_FALSE(budget.Take(kWork + 1));
+  EXPECT_TRUE(budget.is_spent());
+  EXPECT_TRUE(endless.Take(1000 * kWork));
+}
+
+TEST(ModelledSeconds, GrowsWithTheWork) {
+  EXPECT_GT(ModelledSeconds(0, 0), 0);
+  EXPECT_GT(ModelledSeconds(0, 1), ModelledSeconds(0, 0));
+  EXPECT_GT(ModelledSeconds(1, 0), ModelledSeconds(0, 0));
 }
 
 }  // namespace

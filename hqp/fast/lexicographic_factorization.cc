@@ -28,7 +28,7 @@ LexicographicFactorization::LexicographicFactorization(int num_variables,
                                                        int max_levels)
     : n_(num_variables),
       stride_((num_variables + 7) / 4 * 4),
-      kept_(num_variables, max_rows, num_variables) {
+      kept_(num_variables, max_rows, (num_variables + 1) / 2) {
   const auto rows = [&](int count) {
     return static_cast<size_t>(count) * stride_;
   };

@@ -150,7 +150,7 @@ class LexicographicFactorization {
   std::vector<double> factor_, scratch_, cosine_, sine_;
   std::vector<bool> chosen_;
   std::int64_t multiply_adds_ = 0;
-  ProjectedRows kept_;             ///< Rows with a key, on the merged levels.
+  ProjectedRows kept_;  ///< Rows with a key, on the merged levels.
   /// By row: key of its projection in kept_; -1: none.
   std::vector<int> key_;
   std::vector<bool> is_recalled_;  ///< By row.

@@ -292,8 +292,8 @@ std::vector<double> FindGaps(const Hierarchy& hierarchy,
   }
   std::vector<LevelCapacity> capacity;
   for (int level = 0; level < levels; ++level) {
-    capacity.push_back({hierarchy.num_equalities(level),
-                        hierarchy.num_inequalities(level)});
+    capacity.push_back(
+        {hierarchy.num_equalities(level), hierarchy.num_inequalities(level)});
   }
   Certifier certifier(hierarchy.num_variables(), capacity);
   Solution copy = solution;
@@ -325,8 +325,8 @@ std::string DescribeHqpSolution(const Hierarchy& hierarchy,
   const std::vector<double> gaps = FindGaps(hierarchy, solution);
   for (int level = 0; level < levels; ++level) {
     text << "  level " << level << ": cost " << solution.levels[level].cost
-         << ", gap " << gaps[level]
-         << ", nullity " << solution.levels[level].nullity
+         << ", gap " << gaps[level] << ", nullity "
+         << solution.levels[level].nullity
          << (level < certified ? "" : ", NOT certified") << "\n";
   }
   return text.str();
