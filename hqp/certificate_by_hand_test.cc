@@ -56,7 +56,7 @@ class CertifierByHandTest : public testing::Test {
 
 // y_1 = 1 + excess has the cost (1 - excess)^2 / 2 with the target 2. The bound
 // 1 permits (1 - 0)^2 / 2, and the target alone 0.
-TEST_F(CertifierByHandTest, BoundsWhatTheCostLacks) {
+TEST_F(CertifierByHandTest, BoundsTheMissingCost) {
   for (const double below : {1e-3, 1e-6, 1e-9}) {
     SCOPED_TRACE(below);
     // Inside the bound, with the multiplier that makes the sum zero.

@@ -177,7 +177,7 @@ void WorkingSetProblem::FactorFrom(const Hierarchy& hierarchy,
                                    const std::vector<std::vector<Side>>& side,
                                    int from_level) {
   leading_.Truncate(from_level);
-  int key = 0;  // Of the level's first row: rows of all levels are counted.
+  int key = 0;  // The key of the level's first row counts all rows before.
   for (int level = 0; level < num_leading_; ++level) {
     if (level >= from_level) {
       FactorLevel(hierarchy, side[level], level, from_level > 0 ? key : kNoKey);
