@@ -85,8 +85,10 @@ void Certifier::Truncate(const Hierarchy& hierarchy,
                          Solution* solution) noexcept {
   std::fill(gap_.begin(), gap_.end(), kInfinity);
   solution->certificate = {};
-  const int levels = solution->failed_level < 0 ? hierarchy.num_levels()
-                                                : solution->failed_level + 1;
+  int levels = hierarchy.num_levels();
+  if (solution->failed_level >= 0) {
+    levels = std::min(levels, solution->failed_level + 1);
+  }
   for (int level = 0; level < levels; ++level) {
     Certificate certificate = solution->certificate;
     JudgeLevel(hierarchy, level, *solution, &certificate);

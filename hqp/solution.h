@@ -35,7 +35,7 @@ struct LevelSolution {
   Eigen::VectorXd slack;              ///< max(lower - C y, C y - upper, 0).
   std::vector<Side> active;           ///< By inequality row.
   /// Number of variables minus the rank of the equalities and violated rows of
-  /// this level and the levels above.
+  /// this level and the levels above; -1 if the solver did not look for it.
   int nullity;
   std::vector<LevelMultipliers> multipliers;  ///< By level above this one.
 };

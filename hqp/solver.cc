@@ -29,7 +29,8 @@ class Solver::Impl {
  public:
   Impl(int num_variables, const std::vector<LevelCapacity>& capacity,
        int max_leading_rows);
-  Status Solve(const Hierarchy& hierarchy, Budget* budget, Solution* solution);
+  Status Solve(const Hierarchy& hierarchy, bool finds_nullity, Budget* budget,
+               Solution* solution);
   void Forget();
 
  private:
@@ -75,8 +76,9 @@ void Solver::Impl::Forget() {
   search_.Forget();
 }
 
-Status Solver::Impl::Solve(const Hierarchy& hierarchy, Budget* budget,
-                           Solution* solution) {
+Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
+                           Budget* budget, Solution* solution) {
+  writer_.finds_nullity = finds_nullity;
   int failed_level;
   const Status status = problem_.Read(hierarchy, &failed_level);
   if (status != Status::kOptimal) {
@@ -93,6 +95,7 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, Budget* budget,
   if (budget->is_spent()) {
     if (budget->iterations() == 0) {
       problem_.Plan(hierarchy, hierarchy.num_levels());
+      problem_.SolveLeading(hierarchy, side_);
     }
     KeepSearch(hierarchy, solution);
   } else if (!is_complete || !WriteSolution(hierarchy, solution)) {
@@ -176,13 +179,13 @@ void Solver::Impl::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
 // outside the working set are met there. The next solve starts from this y and
 // this working set.
 void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
-  search_.RemoveRowsInside(hierarchy, &side_);
-  problem_.Solve(hierarchy, side_);
+  problem_.SolveDiagonal();
   problem_.SetSolution(hierarchy, search_.y());
   FindMultipliers(hierarchy);
-  if (!WriteSolution(hierarchy, solution)) {
-    certifier_.Truncate(hierarchy, solution);
-  }
+  writer_.Write(hierarchy, side_, tolerances::kZeroMultiplier, &problem_,
+                solution);
+  certifier_.Truncate(hierarchy, solution);
+  search_.RemoveRowsInside(hierarchy, &side_);
 }
 
 void Solver::Impl::FindMultipliers(const Hierarchy& hierarchy) {
@@ -248,7 +251,7 @@ void Solver::Forget() noexcept { impl_->Forget(); }
 
 Status Solver::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
   Budget budget({max_iterations, max_modelled_seconds, max_seconds}, &now);
-  return impl_->Solve(hierarchy, &budget, solution);
+  return impl_->Solve(hierarchy, finds_nullity, &budget, solution);
 }
 
 }  // namespace poise

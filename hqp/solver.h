@@ -49,6 +49,10 @@ class Solver {
   /// failed_level.
   int max_iterations = 500;
 
+  /// Whether to find LevelSolution::nullity, which takes another factorisation
+  /// if an inequality is at its bound. Else it is -1.
+  bool finds_nullity = true;
+
   /// Limit of the modelled time of the search [s]; 0: no limit. Each iteration
   /// has the time that was measured for it on the reference machine, so that a
   /// replay is exact (hqp/fast/budget.h).

@@ -43,7 +43,11 @@ void MultiplierWriter::Write(const Hierarchy& hierarchy,
     WriteDiagonalMultipliers(hierarchy, level, *problem, solution);
   }
   MakeNonnegative(hierarchy, tolerance, *problem, solution);
-  WriteNullity(hierarchy, problem, solution);
+  if (finds_nullity) {
+    WriteNullity(hierarchy, problem, solution);
+  } else {
+    for (LevelSolution& level : solution->levels) level.nullity = -1;
+  }
 }
 
 bool MultiplierWriter::IsViolated(const WorkingSetProblem::Row& row,

@@ -19,10 +19,12 @@ class MultiplierWriter {
 
   /// @param tolerance  relative threshold below which a multiplier is zero.
   /// @param problem    the solved problem; its factorisation and its diagonal
-  ///                   levels are overwritten.
+  ///                   levels may be overwritten.
   void Write(const Hierarchy& hierarchy,
              const std::vector<std::vector<Side>>& side, double tolerance,
              WorkingSetProblem* problem, Solution* solution);
+
+  bool finds_nullity = true;  ///< Solver::finds_nullity.
 
  private:
   void WriteMultipliers(const WorkingSetProblem& problem, Solution* solution);

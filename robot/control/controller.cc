@@ -112,6 +112,7 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
                                 ", must be positive");
   }
   solver_.max_iterations = options.max_iterations;
+  solver_.finds_nullity = false;
   solver_.max_modelled_seconds = options.max_modelled_seconds;
   solver_.max_seconds = options.max_seconds;
   solver_.now = options.now;
