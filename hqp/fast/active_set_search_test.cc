@@ -471,5 +471,37 @@ TEST_F(ActiveSetSearchByHandTest, HasRoomForManyRows) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, ActiveSetSearchTest, testing::Range(0, 200));
 
+// Level 0 wants y0 <= 1 and y0 >= 3, which contradict each other, y1 >= 2 and
+// y1 <= 5. Level 1 wants y = (2, 0). So y0 = 2 violates both of its rows, and
+// y1 = 2 is at its lower bound.
+TEST(ActiveSetSearch, RemovesOnlyRowsInsideTheirBound) {
+  const std::vector<LevelCapacity> capacity{{0, 4}, {2, 0}};
+  Hierarchy hierarchy(2, capacity);
+  hierarchy.Clear(2);
+  InequalityBlock rows = hierarchy.AddInequalities(0, 4);
+  rows.C << 1, 0, 1, 0, 0, 1, 0, 1;
+  rows.upper[0] = 1;
+  rows.lower[1] = 3;
+  rows.lower[2] = 2;
+  rows.upper[3] = 5;
+  EqualityBlock target = hierarchy.AddEqualities(1, 2);
+  target.B.setIdentity();
+  target.b << -2, 0;
+  WorkingSetProblem problem(2, capacity);
+  int failed_level;
+  ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+  ActiveSetSearch search(2, capacity);
+  std::vector<std::vector<Side>> side = NoSides(capacity);
+  const std::function<double()> no_clock;
+  Budget budget({100}, &no_clock);
+  ASSERT_TRUE(search.AllAtOnce(hierarchy, 100, &budget, &problem, &side));
+  const std::vector<Side> needed = {Side::kUpper, Side::kLower, Side::kLower,
+                                    Side::kNone};
+  EXPECT_EQ(side[0], needed);
+  side[0][3] = Side::kUpper;
+  search.RemoveRowsInside(hierarchy, &side);
+  EXPECT_EQ(side[0], needed);
+}
+
 }  // namespace
 }  // namespace poise
