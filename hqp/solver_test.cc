@@ -361,6 +361,39 @@ TEST(Solver, GoesOnFromWhereItWasStopped) {
   EXPECT_GT(stopped, 200);
 }
 
+// The first level has no active row, and the second contradicts itself. The row
+// y0 <= 4 becomes active, so that the factorisation is updated. Nothing of the
+// last solve may be left in it.
+TEST(Solver, ForgetsTheRowsOfTheLastSolve) {
+  const std::vector<LevelCapacity> capacity{{0, 1}, {2, 2}, {2, 0}};
+  Hierarchy hierarchy(2, capacity);
+  Solver solver(2, capacity);
+  Solution solution(2, capacity);
+  for (int solve = 0; solve < 4; ++solve) {
+    SCOPED_TRACE(solve);
+    // By turns, the direction of the contradiction is y0 and y1.
+    const int j = solve % 2;
+    hierarchy.Clear(3);
+    InequalityBlock wide = hierarchy.AddInequalities(0, 1);
+    wide.C << 1, 1;
+    wide.upper << 100;
+    EqualityBlock both = hierarchy.AddEqualities(1, 2);
+    both.B.col(j).setOnes();
+    both.b << -2, -8;
+    InequalityBlock least = hierarchy.AddInequalities(1, 2);
+    least.C.setIdentity();
+    least.upper[j] = 4;
+    least.upper[1 - j] = solve < 2 ? 4 : 100;
+    EqualityBlock target = hierarchy.AddEqualities(2, 2);
+    target.B.setIdentity();
+    target.b << -9, -9;
+    ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+    // Level 1 minimises (x - 2)^2 + (x - 8)^2 + max(0, x - 4)^2: x = 14 / 3.
+    EXPECT_NEAR(solution.y[j], 14. / 3, kTolerance);
+    EXPECT_NEAR(solution.y[1 - j], solve < 2 ? 4 : 9, kTolerance);
+  }
+}
+
 // The modelled time of a solve is part of its result: a replay is exact.
 TEST(Solver, StopsAtItsModelledTime) {
   int stopped = 0;

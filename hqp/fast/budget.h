@@ -51,6 +51,7 @@ class Budget {
   /// Returns whether Take() has failed for another reason than `limit`.
   bool is_spent() const { return is_spent_; }
   int iterations() const { return iterations_; }
+  int max_iterations() const { return limits_.iterations; }
 
  private:
   bool IsLate(std::int64_t multiply_adds) const {

@@ -112,8 +112,9 @@ TEST(ShrinkTicks, KeepsTheTickThatTheFailureNeeds) {
     EXPECT_TRUE(fails(shrunk));
     ASSERT_EQ(shrunk.size(), 2u);
     for (const HierarchyCase& tick : shrunk) {
-      EXPECT_EQ(tick.hierarchy.num_variables(), 1);
-      EXPECT_LE(NumRows(tick.hierarchy), 2);
+      // A bound and two targets, for one or two variables, are enough.
+      EXPECT_LE(tick.hierarchy.num_variables(), 2);
+      EXPECT_LE(NumRows(tick.hierarchy), 3);
     }
   }
   EXPECT_GT(failures, 5);
@@ -204,6 +205,9 @@ TEST(Disagreement, ComparesAWarmSolverAsWell) {
   HierarchyCase drawn = WithRoomToChange(MakeRandomHierarchy(7));
   Solver living(drawn.hierarchy.num_variables(), drawn.capacity);
   EXPECT_EQ(Disagreement(drawn, 1e-9, &living), "");
+  // Without an iteration it can only answer with its last y, which is no
+  // optimum of another hierarchy.
+  ChangeHierarchy(1, &drawn);
   living.max_iterations = 0;
   EXPECT_NE(Disagreement(drawn, 1e-9, &living).find("the warm solver found no"),
             std::string::npos);
