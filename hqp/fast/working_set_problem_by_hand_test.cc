@@ -503,5 +503,33 @@ TEST(WorkingSetProblem, LimitsTheLeadingRows) {
             Status::kOptimal);
 }
 
+// Level 1 is x = 2, x = 8 and x <= 4, with x = y0, and then x = y1. Kept
+// projections of the first problem must not enter the second one.
+TEST(WorkingSetProblem, ForgetsTheRowsOfAnotherProblem) {
+  const std::vector<LevelCapacity> capacity{{0, 1}, {2, 1}};
+  WorkingSetProblem problem(2, capacity, 4);
+  for (int j = 0; j < 2; ++j) {
+    Hierarchy hierarchy(2, capacity);
+    hierarchy.AddInequalities(0, 1).C << 1, 1;
+    EqualityBlock both = hierarchy.AddEqualities(1, 2);
+    both.B.col(j).setOnes();
+    both.b << -2, -8;
+    InequalityBlock most = hierarchy.AddInequalities(1, 1);
+    most.C(0, j) = 1;
+    most.upper << 4;
+    int failed_level;
+    ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+    problem.Plan(hierarchy, 2);
+    std::vector<std::vector<Side>> side = {{Side::kNone}, {Side::kNone}};
+    for (const Side at : {Side::kNone, Side::kUpper, Side::kNone}) {
+      side[1][0] = at;
+      problem.Solve(hierarchy, side);
+      const double x = at == Side::kNone ? 5 : 14. / 3;
+      EXPECT_NEAR(problem.y()[j], x, Rounding(10, 3));
+      EXPECT_NEAR(problem.y()[1 - j], 0, Rounding(10, 3));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace poise
