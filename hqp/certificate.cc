@@ -72,6 +72,7 @@ Certifier::Certifier(int num_variables,
 Certificate Certifier::Certify(const Hierarchy& hierarchy,
                                const Solution& solution) noexcept {
   std::fill(gap_.begin(), gap_.end(), kInfinity);
+  farthest_ = 0;
   Certificate certificate;
   const int levels = solution.failed_level < 0 ? hierarchy.num_levels()
                                                : solution.failed_level;
@@ -84,6 +85,7 @@ Certificate Certifier::Certify(const Hierarchy& hierarchy,
 void Certifier::Truncate(const Hierarchy& hierarchy,
                          Solution* solution) noexcept {
   std::fill(gap_.begin(), gap_.end(), kInfinity);
+  farthest_ = 0;
   solution->certificate = {};
   int levels = hierarchy.num_levels();
   if (solution->failed_level >= 0) {
@@ -92,14 +94,24 @@ void Certifier::Truncate(const Hierarchy& hierarchy,
   for (int level = 0; level < levels; ++level) {
     Certificate certificate = solution->certificate;
     JudgeLevel(hierarchy, level, *solution, &certificate);
-    if (level == solution->failed_level) return;
-    if (!(certificate.worst() <= kCertified)) {
-      solution->status = Status::kIterationLimit;
-      solution->failed_level = level;
-      return;
+    const bool is_certified = certificate.worst() <= kCertified;
+    if (level != solution->failed_level && is_certified) {
+      solution->certificate = certificate;
+      continue;
     }
-    solution->certificate = certificate;
+    // Multipliers that are not certified bound nothing.
+    gap_[level] = cost_[level] + CostRounding(level);
+    solution->certificate.relative_gap =
+        Worse(certificate.relative_gap, RelativeGap(level));
+    solution->status = Status::kIterationLimit;
+    solution->failed_level = level;
+    return;
   }
+}
+
+double Certifier::RelativeGap(int level) const {
+  return Ratio(gap_[level],
+               cost_[level] + tolerances::kZeroCost * cost_size_[level]);
 }
 
 void Certifier::JudgeLevel(const Hierarchy& hierarchy, int level,
@@ -107,10 +119,8 @@ void Certifier::JudgeLevel(const Hierarchy& hierarchy, int level,
   JudgeRows(hierarchy, level, solution, certificate);
   JudgeMultipliers(hierarchy, level, solution, certificate);
   gap_[level] = Gap(hierarchy, level, solution);
-  certificate->gap =
-      Worse(certificate->gap,
-            Ratio(gap_[level],
-                  cost_[level] + tolerances::kZeroCost * cost_size_[level]));
+  certificate->relative_gap =
+      Worse(certificate->relative_gap, RelativeGap(level));
 }
 
 void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
@@ -128,6 +138,10 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     const RowSums sums = Sum(B.row(i).data(), solution.y);
     const double residual = sums.product + b[i];
     const double size = sums.product_size + std::abs(b[i]);
+    if (weight[i] > 0 && sums.squared_row_norm > 0) {
+      farthest_ = std::max(farthest_,
+                           std::abs(b[i]) / std::sqrt(sums.squared_row_norm));
+    }
     feasibility =
         Worse(feasibility, Ratio(residual - answer.equality_residual[i], size));
     cost += weight[i] * residual * residual / 2;
@@ -154,6 +168,9 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     cost += slack * slack / 2;
     cost_size += size * size / 2;
     if (violation > 0) {
+      if (rows.norm[i] > 0) {
+        farthest_ = std::max(farthest_, std::abs(bound) / rows.norm[i]);
+      }
       const double sign = at_upper ? 1 : -1;
       gradient_ += sign * violation * C.row(i).transpose();
       gradient_size_ += size * C.row(i).cwiseAbs().transpose();
@@ -223,16 +240,28 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
 double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int i,
                              double mu, double radius) const {
   const LevelRows& rows = rows_[level];
-  if (rows.violation[i] > 0) return 0;  // Its slack decides.
+  // A row with a slack at the optimum as well changes with this slack only.
+  if (rows.violation[i] >
+      tolerances::kAtBound * rows.size[i] + 2 * std::sqrt(gap_[level])) {
+    return 0;
+  }
   const double distance = mu > 0 ? hierarchy.upper(level)[i] - rows.value[i]
                                  : rows.value[i] - hierarchy.lower(level)[i];
-  return std::abs(mu) * std::min(distance, rows.norm[i] * radius);
+  return std::abs(mu) *
+         std::min(std::max(distance, 0.0), rows.norm[i] * radius);
+}
+
+double Certifier::CostRounding(int level) const {
+  const double rounding = std::numeric_limits<double>::epsilon() *
+                          static_cast<double>(gradient_.size());
+  return rounding * (2 * std::sqrt(cost_[level] * cost_size_[level]) +
+                     rounding * cost_size_[level]);
 }
 
 // See gap(). gradient_ is that of the level.
 double Certifier::Gap(const Hierarchy& hierarchy, int level,
                       const Solution& solution) const {
-  const double radius = 2 * solution.y.norm();
+  const double radius = 2 * (solution.y.norm() + farthest_);
   const double rounding = std::numeric_limits<double>::epsilon() *
                           static_cast<double>(gradient_.size());
   double gap = (gradient_.norm() + rounding * gradient_size_.norm()) * radius;
@@ -252,10 +281,8 @@ double Certifier::Gap(const Hierarchy& hierarchy, int level,
     }
     if (squares > 0) gap += 2 * std::sqrt(gap_[above] * squares);
   }
-  const double cost = cost_[level], size = cost_size_[level];
-  const double cost_rounding =
-      rounding * (2 * std::sqrt(cost * size) + rounding * size);
-  return (std::isnan(gap) ? cost : std::min(gap, cost)) + cost_rounding;
+  const double cost = cost_[level];
+  return (std::isnan(gap) ? cost : std::min(gap, cost)) + CostRounding(level);
 }
 
 }  // namespace poise

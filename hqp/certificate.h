@@ -22,11 +22,12 @@ class Certifier {
                       const Solution& solution) noexcept;
 
   /// After Certify() or Truncate(): how far the cost of a level may be above its
-  /// optimum, given the levels above. Known for the certified levels and for
-  /// the first one that is not; else infinite.
+  /// optimum, given the levels above. This is the whole cost for the first level
+  /// that is not certified, and infinite below it.
   ///
   /// With d = y' - y for any y' that is optimal on the levels above and no
-  /// farther from y than R = 2 |y|, convexity gives
+  /// farther from y than R = 2 (|y| + largest distance of a row from y = 0),
+  /// convexity gives
   ///     cost_k(y) - cost_k(y') <= |g_k| R + sum_{j<k} (lambda_kj' B_j d
   ///                                                    + mu_kj' C_j d).
   /// An inactive bound allows C_i d up to its distance. A row with a residual or
@@ -63,9 +64,12 @@ class Certifier {
                     double radius) const;
   double Gap(const Hierarchy& hierarchy, int level,
              const Solution& solution) const;
+  double CostRounding(int level) const;
+  double RelativeGap(int level) const;
 
   std::vector<LevelRows> rows_;
   std::vector<double> cost_, cost_size_, gap_;  ///< By level.
+  double farthest_ = 0;  ///< Largest distance of a row of any level from y = 0.
   Eigen::VectorXd gradient_, gradient_size_;
 };
 

@@ -68,10 +68,9 @@ struct Certificate {
   /// |y| + |bound| in place of each entry of v.
   double priority = 0;
 
-  /// Largest Certifier::gap() relative to its level's c_k + 1e-9 s_k. It bounds
-  /// the cost, where multipliers are too large for the others to do so. It is a
-  /// bound, not an error, and has no limit.
-  double gap = 0;
+  /// Largest Certifier::gap() of the judged levels, relative to c_k + 1e-9 s_k.
+  /// It is a bound, not an error, and is not part of worst().
+  double relative_gap = 0;
 
   /// The largest of the first four.
   double worst() const noexcept;

@@ -50,8 +50,8 @@ class Solver::Impl {
   ActiveSetSearch search_;
   MultiplierWriter writer_;
   Certifier certifier_;
-  std::vector<std::vector<Side>> side_, best_side_;
-  std::vector<double> value_;
+  std::vector<std::vector<Side>> side_, best_side_, solved_side_;
+  std::vector<double> value_, best_y_;
 };
 
 Solver::Impl::Impl(int num_variables,
@@ -67,8 +67,9 @@ Solver::Impl::Impl(int num_variables,
     side_.emplace_back(level.inequalities, Side::kNone);
     most = std::max(most, level.inequalities);
   }
-  best_side_ = side_;
+  best_side_ = solved_side_ = side_;
   value_.resize(most);
+  best_y_.resize(n_);
 }
 
 void Solver::Impl::Forget() {
@@ -102,9 +103,19 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
     }
     KeepSearch(hierarchy, solution);
   } else if (!is_complete || !WriteSolution(hierarchy, solution)) {
+    best_side_ = side_;
+    best_y_ = search_.y();
     solution->Reset(hierarchy);
     SearchByLevel(hierarchy, budget, solution);
-    if (!WriteSolution(hierarchy, solution)) {
+    if (budget->is_spent() &&
+        search_.IsBetter(hierarchy, best_y_, search_.y())) {
+      side_ = best_side_;
+      search_.set_y(best_y_);
+      solution->Reset(hierarchy);
+      problem_.Plan(hierarchy, hierarchy.num_levels());
+      problem_.SolveLeading(hierarchy, side_);
+      KeepSearch(hierarchy, solution);
+    } else if (!WriteSolution(hierarchy, solution)) {
       certifier_.Truncate(hierarchy, solution);
     }
   }
@@ -155,12 +166,12 @@ void Solver::Impl::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
   Prepare(hierarchy);
   const int solved = search_.LevelByLevel(hierarchy, budget, &problem_, &side_);
   if (solved > levels) {
-    best_side_ = side_;
+    solved_side_ = side_;
     if (SearchAtOnce(hierarchy, budget->iterations() + kMaxRefinementPasses,
                      budget)) {
       return;
     }
-    side_ = best_side_;
+    side_ = solved_side_;
     problem_.Plan(hierarchy, levels);
     problem_.Solve(hierarchy, side_);
     problem_.Refine(hierarchy);
@@ -178,9 +189,10 @@ void Solver::Impl::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
   FindMultipliers(hierarchy);
 }
 
-// Writes the y at which the budget of the search on all levels was spent. Rows
-// outside the working set are met there. The next solve starts from this y and
-// this working set.
+// Writes the y at which the budget of the search on all levels was spent. The
+// multipliers are those of the rows that were factored last, which may differ
+// from the working set by one change. The next solve starts from this y and from
+// the rows of the working set that y does not meet strictly.
 void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
   problem_.SolveDiagonal();
   problem_.SetSolution(hierarchy, search_.y());
@@ -188,6 +200,12 @@ void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
   writer_.Write(hierarchy, side_, tolerances::kZeroMultiplier, &problem_,
                 solution);
   certifier_.Truncate(hierarchy, solution);
+  if (solution->status == Status::kOptimal) {
+    // No search has shown that y is the shortest one.
+    solution->status = Status::kIterationLimit;
+    solution->failed_level = std::max(hierarchy.num_levels() - 1, 0);
+    solution->certificate = certifier_.Certify(hierarchy, *solution);
+  }
   search_.RemoveRowsInside(hierarchy, &side_);
 }
 

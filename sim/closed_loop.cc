@@ -81,6 +81,11 @@ std::unique_ptr<Controller> MakeController(const Robot& robot,
   options.feedforward = settings.feedforward;
   options.weighted = settings.weighted;
   options.drag_compensation = settings.drag_compensation;
+  if (settings.budget_clock && settings.budget_us == 0) {
+    throw InputError::OfValue(
+        "control.budget_clock",
+        " is true without a budget_us, set budget_us as well");
+  }
   if (settings.budget_clock) {
     options.max_seconds = 1e-6 * settings.budget_us;
     options.now = [] {

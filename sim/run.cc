@@ -41,7 +41,8 @@ void Count(const TickRecord& record, const RobotModel& model,
       std::max(result->iterations_max, record.report.iterations);
   result->certificate_max =
       std::max(result->certificate_max, record.report.certificate.worst());
-  result->gap_max = std::max(result->gap_max, record.report.certificate.gap);
+  result->gap_max =
+      std::max(result->gap_max, record.report.certificate.relative_gap);
   if (record.report.status == TickStatus::kTruncated ||
       record.report.status == TickStatus::kFailSafe) {
     ++result->failures;

@@ -39,8 +39,8 @@ struct RunResult {
   TickTimes tick_us;
   int iterations_max = 0;
   double certificate_max = 0;  ///< Largest of all ticks, hqp/certificate.h.
-  double gap_max = 0;          ///< Largest Certificate::gap of all ticks.
-  int failures = 0;            ///< Ticks with an unsolved level.
+  double gap_max = 0;  ///< Largest Certificate::relative_gap of all ticks.
+  int failures = 0;    ///< Ticks with an unsolved level.
   double joint_limit_violation_peak = 0;   ///< rad or m.
   double torque_limit_violation_peak = 0;  ///< N m or N.
   int self_contact_ticks = 0;

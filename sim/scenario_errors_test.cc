@@ -176,6 +176,8 @@ TEST(Scenario, RejectsNumbersOutOfRangeWithTheirLine) {
         "control: {mass_error: 11}",
         "control: {ramp: -0.1}",
         "control: {ramp: 101}",
+        "control: {budget_us: -1}",
+        "control: {budget_us: 1e7}",
         "plant: {rate: 1}",
         "plant: {friction: -1}",
         "plant: {friction: 1e9}",

@@ -133,8 +133,6 @@ bool ActiveSetSearch::InitializeAllLevels(
   return true;
 }
 
-// Returns whether y is lexicographically better than another one: its cost is
-// lower on the first level on which the costs differ.
 bool ActiveSetSearch::IsBetter(const Hierarchy& hierarchy,
                                const std::vector<double>& y,
                                const std::vector<double>& other) {

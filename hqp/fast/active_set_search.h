@@ -49,7 +49,13 @@ class ActiveSetSearch {
   void RemoveRowsInside(const Hierarchy& hierarchy,
                         std::vector<std::vector<Side>>* side);
 
+  /// Returns whether y is lexicographically better than another one: its cost
+  /// is lower on the first level on which the costs differ.
+  bool IsBetter(const Hierarchy& hierarchy, const std::vector<double>& y,
+                const std::vector<double>& other);
+
   const std::vector<double>& y() const { return y_; }
+  void set_y(const std::vector<double>& y) { y_ = y; }
   void Forget() { std::fill(y_.begin(), y_.end(), 0); }
 
  private:
@@ -64,8 +70,6 @@ class ActiveSetSearch {
   bool InitializeAllLevels(const Hierarchy& hierarchy,
                            WorkingSetProblem* problem,
                            std::vector<std::vector<Side>>* side);
-  bool IsBetter(const Hierarchy& hierarchy, const std::vector<double>& y,
-                const std::vector<double>& other);
   Cost FindCost(const Hierarchy& hierarchy, int level,
                 const std::vector<double>& y);
   int FindViolated(const Hierarchy& hierarchy, const WorkingSetProblem& problem,

@@ -35,11 +35,12 @@ class Budget {
 
   /// Uses one factorisation, after `multiply_adds` in this solve. Returns false
   /// if the budget is spent, or if `limit` factorisations have been used. Limits
-  /// of time allow one factorisation, because there is no answer without.
+  /// of time allow two factorisations: the first finds the start, and the second
+  /// the direction of a step.
   bool Take(int limit, std::int64_t multiply_adds) {
     if (iterations_ >= limit) return false;
     is_spent_ = is_spent_ || iterations_ >= limits_.iterations ||
-                (iterations_ > 0 && IsLate(multiply_adds));
+                (iterations_ > 1 && IsLate(multiply_adds));
     if (is_spent_) return false;
     ++iterations_;
     return true;

@@ -118,6 +118,7 @@ void LexicographicFactorization::Merge(int level) {
   Truncate(level);
   Renumber(level);
   if (kept_.size() == 0) kept_.Clear(rank_);
+  Count(2 * kept_.size() * (rank_ - kept_.rank()), n_);
   for (int e = kept_.rank(); e < rank_; ++e) {
     kept_.Extend(&q_[static_cast<size_t>(e) * stride_]);
   }

@@ -249,7 +249,9 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
                      {"max", result.tick_us.max}};
   json["hqp"] = {{"iterations_max", result.iterations_max},
                  {"failures", result.failures},
-                 {"certificate_max", Number(result.certificate_max)}};
+                 {"certificate_max", Number(result.certificate_max)},
+                 {"budget_us", Number(scenario.control.budget_us)},
+                 {"budget_clock", scenario.control.budget_clock}};
   json["gap_max"] = Number(result.gap_max);
   json["real_time_factor"] = Number(simulated / result.wall_seconds);
   json["log_sha256"] = result.log_sha256;
