@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "poise/hqp/fast/kernels.h"
 #include "poise/hqp/fast/tolerances.h"
@@ -118,11 +119,20 @@ bool ActiveSetSearch::InitializeAllLevels(
     }
   }
   problem->MoveToFirstLevels(hierarchy, &y_);
-  if (FindViolated(hierarchy, *problem, problem->y(), *side) == 0) {
+  const bool goes_on = std::exchange(goes_on_, false);
+  const int violated_at_optimum =
+      FindViolated(hierarchy, *problem, problem->y(), *side);
+  if (violated_at_optimum == 0) {
     y_ = problem->y();
     return RemoveConstraints(levels, problem, side);
   }
-  if (IsBetter(hierarchy, problem->y(), y_)) y_ = problem->y();
+  // Fewer violated rows need fewer iterations. But what a search has reached
+  // before it was stopped must not be lost.
+  if (goes_on ? IsBetter(hierarchy, problem->y(), y_)
+              : violated_at_optimum <=
+                    FindViolated(hierarchy, *problem, y_, *side)) {
+    y_ = problem->y();
+  }
   FindViolated(hierarchy, *problem, y_, *side);
   for (int level = 0; level < levels; ++level) {
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
@@ -209,8 +219,9 @@ int ActiveSetSearch::FindViolated(const Hierarchy& hierarchy,
   return count;
 }
 
-void ActiveSetSearch::RemoveRowsInside(const Hierarchy& hierarchy,
-                                       std::vector<std::vector<Side>>* side) {
+void ActiveSetSearch::Stop(const Hierarchy& hierarchy,
+                           std::vector<std::vector<Side>>* side) {
+  goes_on_ = true;
   const double largest = kernels::Largest(y_.data(), n_);
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);

@@ -45,9 +45,10 @@ class ActiveSetSearch {
                    WorkingSetProblem* problem,
                    std::vector<std::vector<Side>>* side);
 
-  /// Removes the rows from the working set that y() meets strictly.
-  void RemoveRowsInside(const Hierarchy& hierarchy,
-                        std::vector<std::vector<Side>>* side);
+  /// Ends a search that is not complete: removes the rows from the working set
+  /// that y() meets strictly. The next AllAtOnce() starts from y(), if y() is
+  /// not worse than the optimum of its working set.
+  void Stop(const Hierarchy& hierarchy, std::vector<std::vector<Side>>* side);
 
   /// Returns whether y is lexicographically better than another one: its cost
   /// is lower on the first level on which the costs differ.
@@ -56,7 +57,10 @@ class ActiveSetSearch {
 
   const std::vector<double>& y() const { return y_; }
   void set_y(const std::vector<double>& y) { y_ = y; }
-  void Forget() { std::fill(y_.begin(), y_.end(), 0); }
+  void Forget() {
+    std::fill(y_.begin(), y_.end(), 0);
+    goes_on_ = false;
+  }
 
  private:
   struct RowIndex {
@@ -91,6 +95,7 @@ class ActiveSetSearch {
   int n_;
   std::vector<double> y_, step_, value_, slope_;
   std::vector<std::vector<int>> removals_left_;  ///< Removals allowed per row.
+  bool goes_on_ = false;                         ///< See Stop().
   bool remove_together_ = false;                 ///< See RemoveConstraints().
   /// The row removed last, if it was removed alone.
   RowIndex last_removed_ = {-1, -1};

@@ -474,7 +474,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, ActiveSetSearchTest, testing::Range(0, 200));
 // Level 0 wants y0 <= 1 and y0 >= 3, which contradict each other, y1 >= 2 and
 // y1 <= 5. Level 1 wants y = (2, 0). So y0 = 2 violates both of its rows, and
 // y1 = 2 is at its lower bound.
-TEST(ActiveSetSearch, RemovesOnlyRowsInsideTheirBound) {
+TEST(ActiveSetSearch, StopRemovesOnlyRowsInsideTheirBound) {
   const std::vector<LevelCapacity> capacity{{0, 4}, {2, 0}};
   Hierarchy hierarchy(2, capacity);
   hierarchy.Clear(2);
@@ -499,7 +499,7 @@ TEST(ActiveSetSearch, RemovesOnlyRowsInsideTheirBound) {
                                     Side::kNone};
   EXPECT_EQ(side[0], needed);
   side[0][3] = Side::kUpper;
-  search.RemoveRowsInside(hierarchy, &side);
+  search.Stop(hierarchy, &side);
   EXPECT_EQ(side[0], needed);
 }
 
