@@ -251,9 +251,14 @@ double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int i,
          std::min(std::max(distance, 0.0), rows.norm[i] * radius);
 }
 
+// Rounding of a sum over the variables, relative to its terms.
+double Certifier::SumRounding() const {
+  return std::numeric_limits<double>::epsilon() *
+         static_cast<double>(gradient_.size());
+}
+
 double Certifier::CostRounding(int level) const {
-  const double rounding = std::numeric_limits<double>::epsilon() *
-                          static_cast<double>(gradient_.size());
+  const double rounding = SumRounding();
   return rounding * (2 * std::sqrt(cost_[level] * cost_size_[level]) +
                      rounding * cost_size_[level]);
 }
@@ -262,9 +267,8 @@ double Certifier::CostRounding(int level) const {
 double Certifier::Gap(const Hierarchy& hierarchy, int level,
                       const Solution& solution) const {
   const double radius = 2 * (solution.y.norm() + farthest_);
-  const double rounding = std::numeric_limits<double>::epsilon() *
-                          static_cast<double>(gradient_.size());
-  double gap = (gradient_.norm() + rounding * gradient_size_.norm()) * radius;
+  double gap =
+      (gradient_.norm() + SumRounding() * gradient_size_.norm()) * radius;
   for (int above = 0; above < level; ++above) {
     const LevelMultipliers& multipliers =
         solution.levels[level].multipliers[above];

@@ -64,6 +64,7 @@ class Certifier {
                     double radius) const;
   double Gap(const Hierarchy& hierarchy, int level,
              const Solution& solution) const;
+  double SumRounding() const;
   double CostRounding(int level) const;
   double RelativeGap(int level) const;
 

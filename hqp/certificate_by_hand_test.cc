@@ -71,6 +71,7 @@ TEST_F(CertifierByHandTest, BoundsTheMissingCost) {
     Answer(1 - below, -1 - below, 0);
     (void)Certify();
     EXPECT_GE(certifier_.gap(1), lacks);
+    // The whole cost, with its rounding of a few eps.
     EXPECT_LE(certifier_.gap(1), solution_.levels[1].cost * (1 + 1e-13));
   }
 }

@@ -206,7 +206,7 @@ void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
     solution->failed_level = std::max(hierarchy.num_levels() - 1, 0);
     solution->certificate = certifier_.Certify(hierarchy, *solution);
   }
-  search_.Stop(hierarchy, &side_);
+  search_.Stop(hierarchy, problem_, &side_);
 }
 
 void Solver::Impl::FindMultipliers(const Hierarchy& hierarchy) {

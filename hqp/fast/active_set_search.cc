@@ -220,6 +220,7 @@ int ActiveSetSearch::FindViolated(const Hierarchy& hierarchy,
 }
 
 void ActiveSetSearch::Stop(const Hierarchy& hierarchy,
+                           const WorkingSetProblem& problem,
                            std::vector<std::vector<Side>>* side) {
   goes_on_ = true;
   const double largest = kernels::Largest(y_.data(), n_);
@@ -234,10 +235,8 @@ void ActiveSetSearch::Stop(const Hierarchy& hierarchy,
       const double bound = at == Side::kUpper ? upper[i] : lower[i];
       const double inside =
           at == Side::kUpper ? bound - value_[i] : value_[i] - bound;
-      const double norm =
-          kernels::AbsoluteSum(hierarchy.C(level).data() + i * n_, n_);
-      if (inside > tolerances::kZeroSlope * (norm * largest + std::abs(bound)))
-        at = Side::kNone;
+      const double size = problem.norm(level, i) * largest + std::abs(bound);
+      if (inside > tolerances::kZeroSlope * size) at = Side::kNone;
     }
   }
 }

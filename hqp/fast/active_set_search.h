@@ -48,7 +48,8 @@ class ActiveSetSearch {
   /// Ends a search that is not complete: removes the rows from the working set
   /// that y() meets strictly. The next AllAtOnce() starts from y(), if y() is
   /// not worse than the optimum of its working set.
-  void Stop(const Hierarchy& hierarchy, std::vector<std::vector<Side>>* side);
+  void Stop(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+            std::vector<std::vector<Side>>* side);
 
   /// Returns whether y is lexicographically better than another one: its cost
   /// is lower on the first level on which the costs differ.

@@ -499,7 +499,7 @@ TEST(ActiveSetSearch, StopRemovesOnlyRowsInsideTheirBound) {
                                     Side::kNone};
   EXPECT_EQ(side[0], needed);
   side[0][3] = Side::kUpper;
-  search.Stop(hierarchy, &side);
+  search.Stop(hierarchy, problem, &side);
   EXPECT_EQ(side[0], needed);
 }
 

@@ -19,8 +19,6 @@ using kernels::SquaredNorm;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-constexpr int kNoKey = -1;
-
 }  // namespace
 
 LexicographicFactorization::LexicographicFactorization(int num_variables,

@@ -30,6 +30,9 @@ class LexicographicFactorization {
  public:
   LexicographicFactorization(int num_variables, int max_rows, int max_levels);
 
+  /// The key of a row whose projection is not kept, see Recall().
+  static constexpr int kNoKey = -1;
+
   /// Removes `level` and all later levels.
   void Truncate(int level);
 
@@ -151,7 +154,7 @@ class LexicographicFactorization {
   std::vector<bool> chosen_;
   std::int64_t multiply_adds_ = 0;
   ProjectedRows kept_;  ///< Rows with a key, on the merged levels.
-  /// By row: key of its projection in kept_; -1: none.
+  /// By row: key of its projection in kept_, or kNoKey.
   std::vector<int> key_;
   std::vector<bool> is_recalled_;  ///< By row.
 };

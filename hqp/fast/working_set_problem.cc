@@ -11,7 +11,7 @@
 namespace poise {
 namespace {
 
-constexpr int kNoKey = -1;
+constexpr int kNoKey = LexicographicFactorization::kNoKey;
 
 double Norm(const double* row, int n) {
   return std::sqrt(kernels::SquaredNorm(row, n));
