@@ -15,9 +15,10 @@ struct BudgetLimits {
 
 /// Modelled time [s] of a solve. It depends on the problem alone, so that a
 /// replay with such a limit is exact. The three times are a fit to 1200 solves
-/// of up to 3 ms, on the quiet reference machine: 98 % of them are between 0.79
-/// and 1.17 of the model. The time of a solve covers the check of the input,
-/// refinement, multipliers and the certificate.
+/// on a machine that other jobs slowed down: 98 % of the predictions were
+/// between 0.79 and 1.17 of the measured time. All three are then multiplied by
+/// 0.62, the speed of a quiet machine. The time of a solve covers the check of
+/// the input, refinement, multipliers and the certificate.
 inline double ModelledSeconds(std::int64_t multiply_adds, int iterations) {
   constexpr double kPerMultiplyAdd = 0.165e-9;
   constexpr double kPerIteration = 4e-6, kPerSolve = 36e-6;
