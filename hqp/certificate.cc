@@ -21,21 +21,20 @@ double Worse(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? kInfinity : std::max(a, b);
 }
 
-// Sums over the entries of a row and y.
+// Sums over the entries of a row and y, of the columns of the row's span.
 struct RowSums {
   double product;           // row . y.
   double product_size;      // sum_j |row_j y_j|.
   double squared_row_norm;  // |row|^2.
 };
 
-RowSums Sum(const double* row, const Eigen::VectorXd& y) {
+RowSums Sum(const double* row, const double* y, int n) {
   using Four = Eigen::Array4d;
   Four product = Four::Zero(), size = Four::Zero(), squares = Four::Zero();
-  const int n = static_cast<int>(y.size());
   int j = 0;
   for (; j + 4 <= n; j += 4) {
     const Four r = Four::Map(row + j);
-    const Four term = r * Four::Map(y.data() + j);
+    const Four term = r * Four::Map(y + j);
     product += term;
     size += term.abs();
     squares += r * r;
@@ -47,6 +46,11 @@ RowSums Sum(const double* row, const Eigen::VectorXd& y) {
     squares[0] += row[j] * row[j];
   }
   return {product.sum(), size.sum(), squares.sum()};
+}
+
+// Returns the largest absolute entry of a row.
+double Largest(const double* row, int n) {
+  return n == 0 ? 0 : Eigen::VectorXd::Map(row, n).lpNorm<Eigen::Infinity>();
 }
 
 }  // namespace
@@ -123,6 +127,18 @@ void Certifier::JudgeLevel(const Hierarchy& hierarchy, int level,
       Worse(certificate->relative_gap, RelativeGap(level));
 }
 
+// Adds factor times a row to the gradient, and size times its absolute entries
+// to the magnitude of the gradient's terms.
+void Certifier::AddToGradient(const double* row, Span span, double factor,
+                              double size) {
+  double* gradient = gradient_.data() + span.first;
+  double* gradient_size = gradient_size_.data() + span.first;
+  for (int j = 0; j < span.size; ++j) {
+    gradient[j] += factor * row[j];
+    gradient_size[j] += size * std::abs(row[j]);
+  }
+}
+
 void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
                           const Solution& solution, Certificate* certificate) {
   const auto B = hierarchy.B(level), C = hierarchy.C(level);
@@ -135,7 +151,9 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
   gradient_size_.setZero();
   double cost = 0, cost_size = 0, feasibility = certificate->feasibility;
   for (int i = 0; i < B.rows(); ++i) {
-    const RowSums sums = Sum(B.row(i).data(), solution.y);
+    const Span span = hierarchy.B_span(level)[i];
+    const double* row = B.row(i).data() + span.first;
+    const RowSums sums = Sum(row, solution.y.data() + span.first, span.size);
     const double residual = sums.product + b[i];
     const double size = sums.product_size + std::abs(b[i]);
     if (weight[i] > 0 && sums.squared_row_norm > 0) {
@@ -146,11 +164,12 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
         Worse(feasibility, Ratio(residual - answer.equality_residual[i], size));
     cost += weight[i] * residual * residual / 2;
     cost_size += weight[i] * size * size / 2;
-    gradient_ += weight[i] * residual * B.row(i).transpose();
-    gradient_size_ += weight[i] * size * B.row(i).cwiseAbs().transpose();
+    AddToGradient(row, span, weight[i] * residual, weight[i] * size);
   }
   for (int i = 0; i < C.rows(); ++i) {
-    const RowSums sums = Sum(C.row(i).data(), solution.y);
+    const Span span = hierarchy.C_span(level)[i];
+    const double* row = C.row(i).data() + span.first;
+    const RowSums sums = Sum(row, solution.y.data() + span.first, span.size);
     const double value = sums.product;
     const bool at_upper = value - upper[i] >= lower[i] - value;
     const double bound = at_upper ? upper[i] : lower[i];
@@ -171,9 +190,7 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
       if (rows.norm[i] > 0) {
         farthest_ = std::max(farthest_, std::abs(bound) / rows.norm[i]);
       }
-      const double sign = at_upper ? 1 : -1;
-      gradient_ += sign * violation * C.row(i).transpose();
-      gradient_size_ += size * C.row(i).cwiseAbs().transpose();
+      AddToGradient(row, span, at_upper ? violation : -violation, size);
     }
   }
   cost_[level] = cost;
@@ -197,18 +214,19 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
     for (int i = 0; i < B.rows(); ++i) {
       const double lambda = multipliers.equality[i];
       if (lambda == 0) continue;
-      gradient_ += lambda * B.row(i).transpose();
-      gradient_size_ += std::abs(lambda) * B.row(i).cwiseAbs().transpose();
+      const Span span = hierarchy.B_span(above)[i];
+      const double* row = B.row(i).data() + span.first;
+      AddToGradient(row, span, lambda, std::abs(lambda));
       if (weight[i] == 0) {  // The row does not bind the levels below.
-        worst =
-            Worse(worst, std::abs(lambda) * B.row(i).lpNorm<Eigen::Infinity>());
+        worst = Worse(worst, std::abs(lambda) * Largest(row, span.size));
       }
     }
     for (int i = 0; i < C.rows(); ++i) {
       const double mu = multipliers.inequality[i];
       if (mu == 0) continue;
-      gradient_ += mu * C.row(i).transpose();
-      gradient_size_ += std::abs(mu) * C.row(i).cwiseAbs().transpose();
+      const Span span = hierarchy.C_span(above)[i];
+      const double* row = C.row(i).data() + span.first;
+      AddToGradient(row, span, mu, std::abs(mu));
       const double margin = tolerances::kAtBound * rows.size[i];
       double wrong;
       if (rows.violation[i] > margin) {
@@ -221,8 +239,7 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
       } else {
         wrong = rows.side[i] == Side::kUpper ? -mu : mu;
       }
-      worst = Worse(worst,
-                    std::max(wrong, 0.0) * C.row(i).lpNorm<Eigen::Infinity>());
+      worst = Worse(worst, std::max(wrong, 0.0) * Largest(row, span.size));
     }
   }
   const double size = gradient_size_.lpNorm<Eigen::Infinity>();

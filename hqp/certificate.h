@@ -54,6 +54,7 @@ class Certifier {
     Eigen::VectorXd norm;    ///< |C_i|.
     std::vector<Side> side;  ///< The nearer bound.
   };
+  void AddToGradient(const double* row, Span span, double factor, double size);
   void JudgeRows(const Hierarchy& hierarchy, int level,
                  const Solution& solution, Certificate* certificate);
   void JudgeMultipliers(const Hierarchy& hierarchy, int level,

@@ -19,6 +19,30 @@ LevelCapacity Sum(const std::vector<LevelCapacity>& capacity) {
   return sum;
 }
 
+// Shortens a span of all n columns to the nonzero entries of a row. NaN counts
+// as nonzero.
+void FindSpan(const double* row, int n, Span* span) {
+  if (span->size < n) {
+    assert(std::all_of(row, row + span->first,
+                       [](double entry) { return entry == 0; }));
+    assert(std::all_of(row + span->first + span->size, row + n,
+                       [](double entry) { return entry == 0; }));
+    return;
+  }
+  int first = 0, end = n;
+  while (first + 4 <= n && row[first] == 0 && row[first + 1] == 0 &&
+         row[first + 2] == 0 && row[first + 3] == 0) {
+    first += 4;
+  }
+  while (first < n && row[first] == 0) ++first;
+  while (end - 4 >= first && row[end - 1] == 0 && row[end - 2] == 0 &&
+         row[end - 3] == 0 && row[end - 4] == 0) {
+    end -= 4;
+  }
+  while (end > first && row[end - 1] == 0) --end;
+  *span = {first, end - first};
+}
+
 }  // namespace
 
 int NumRows(const std::vector<LevelCapacity>& capacity) {
@@ -58,6 +82,8 @@ Hierarchy::Hierarchy(int num_variables,
   C_.setZero(total.inequalities, num_variables);
   lower_.setZero(total.inequalities);
   upper_.setZero(total.inequalities);
+  B_span_.resize(total.equalities);
+  C_span_.resize(total.inequalities);
   const LevelCapacity sum = Sum(capacity);
   const bool all_fit = sum.equalities <= total.equalities &&
                        sum.inequalities <= total.inequalities;
@@ -94,9 +120,11 @@ EqualityBlock Hierarchy::AddEqualities(int level, int rows) noexcept {
   B_.middleRows(first, rows).setZero();
   b_.segment(first, rows).setZero();
   weight_.segment(first, rows).setOnes();
+  std::fill_n(B_span_.begin() + first, rows, Span{0, num_variables_});
   return {{B_.data() + first * B_.cols(), rows, B_.cols()},
           {b_.data() + first, rows},
-          {weight_.data() + first, rows}};
+          {weight_.data() + first, rows},
+          B_span_.data() + first};
 }
 
 InequalityBlock Hierarchy::AddInequalities(int level, int rows) noexcept {
@@ -109,9 +137,25 @@ InequalityBlock Hierarchy::AddInequalities(int level, int rows) noexcept {
   C_.middleRows(first, rows).setZero();
   lower_.segment(first, rows).setConstant(-kInfinity);
   upper_.segment(first, rows).setConstant(kInfinity);
+  std::fill_n(C_span_.begin() + first, rows, Span{0, num_variables_});
   return {{C_.data() + first * C_.cols(), rows, C_.cols()},
           {lower_.data() + first, rows},
-          {upper_.data() + first, rows}};
+          {upper_.data() + first, rows},
+          C_span_.data() + first};
+}
+
+void Hierarchy::FindSpans() noexcept {
+  for (int k = 0; k < used_levels_; ++k) {
+    const Level& level = levels_[k];
+    for (int i = 0; i < level.equalities; ++i) {
+      const int row = level.first_equality + i;
+      FindSpan(B_.row(row).data(), num_variables_, &B_span_[row]);
+    }
+    for (int i = 0; i < level.inequalities; ++i) {
+      const int row = level.first_inequality + i;
+      FindSpan(C_.row(row).data(), num_variables_, &C_span_[row]);
+    }
+  }
 }
 
 int Hierarchy::num_equalities(int level) const {
@@ -151,6 +195,14 @@ Eigen::Map<const Eigen::VectorXd> Hierarchy::lower(int level) const {
 Eigen::Map<const Eigen::VectorXd> Hierarchy::upper(int level) const {
   const Level& of = levels_[level];
   return {upper_.data() + of.first_inequality, of.inequalities};
+}
+
+const Span* Hierarchy::B_span(int level) const {
+  return B_span_.data() + levels_[level].first_equality;
+}
+
+const Span* Hierarchy::C_span(int level) const {
+  return C_span_.data() + levels_[level].first_inequality;
 }
 
 }  // namespace poise

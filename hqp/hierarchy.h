@@ -18,12 +18,24 @@ struct LevelCapacity {
 /// Returns the largest number of rows of all levels together.
 int NumRows(const std::vector<LevelCapacity>& capacity);
 
+/// The columns first <= j < first + size of a row. All others are zero.
+struct Span {
+  int first = 0, size = 0;
+};
+
 /// A block of rows B y + b = 0, in the least-squares sense, with one weight per
 /// row. The cost of the level has the term 1/2 sum_i weight_i (B_i y + b_i)^2.
 struct EqualityBlock {
   Eigen::Map<RowMajorMatrix> B;
   Eigen::Map<Eigen::VectorXd> b;
   Eigen::Map<Eigen::VectorXd> weight;
+  Span* span;  ///< By row; see Hierarchy::FindSpans().
+
+  /// Writes a row of B with one entry. Its other entries must still be zero.
+  void SetSingle(int row, int column, double value) noexcept {
+    B(row, column) = value;
+    span[row] = {column, 1};
+  }
 };
 
 /// A block of rows lower <= C y <= upper; an infinite side is absent. A y + a
@@ -34,6 +46,13 @@ struct InequalityBlock {
   Eigen::Map<RowMajorMatrix> C;
   Eigen::Map<Eigen::VectorXd> lower;
   Eigen::Map<Eigen::VectorXd> upper;
+  Span* span;  ///< By row; see Hierarchy::FindSpans().
+
+  /// Writes a row of C with one entry. Its other entries must still be zero.
+  void SetSingle(int row, int column, double value) noexcept {
+    C(row, column) = value;
+    span[row] = {column, 1};
+  }
 };
 
 /// A stack of levels of rows, highest priority first: the problem of the paper,
@@ -67,6 +86,13 @@ class Hierarchy {
   EqualityBlock AddEqualities(int level, int rows) noexcept;
   InequalityBlock AddInequalities(int level, int rows) noexcept;
 
+  /// Finds the first and the last nonzero column of each row whose span is all
+  /// columns, so that the solver and the certificate skip the zeros before and
+  /// after. Without this call, only rows written by SetSingle() have a shorter
+  /// span. Write no row after the call, until Clear().
+  /// pre: a row with a shorter span is zero outside it (asserted).
+  void FindSpans() noexcept;
+
   int num_equalities(int level) const;
   int num_inequalities(int level) const;
 
@@ -77,6 +103,9 @@ class Hierarchy {
   Eigen::Map<const RowMajorMatrix> C(int level) const;
   Eigen::Map<const Eigen::VectorXd> lower(int level) const;
   Eigen::Map<const Eigen::VectorXd> upper(int level) const;
+  /// Returns the spans of the rows of B and C: an array by row of the level.
+  const Span* B_span(int level) const;
+  const Span* C_span(int level) const;
 
  private:
   struct Level {
@@ -91,6 +120,7 @@ class Hierarchy {
   /// The rows of all levels, one level after the other.
   RowMajorMatrix B_, C_;
   Eigen::VectorXd b_, weight_, lower_, upper_;
+  std::vector<Span> B_span_, C_span_;
 };
 
 }  // namespace poise

@@ -107,6 +107,52 @@ TEST(Hierarchy, LevelsShareMemory) {
   }
 }
 
+// Rows of 9 columns are nonzero in columns i to i + size - 1; entries amid them
+// may be zero.
+TEST(Hierarchy, FindsTheSpansOfRows) {
+  constexpr int kColumns = 9;
+  Hierarchy hierarchy(kColumns, {{kColumns, kColumns}});
+  for (int size = 1; size <= kColumns; ++size) {
+    SCOPED_TRACE(size);
+    hierarchy.Clear(1);
+    const int rows = kColumns - size + 1;
+    EqualityBlock equalities = hierarchy.AddEqualities(0, rows);
+    InequalityBlock inequalities = hierarchy.AddInequalities(0, rows);
+    for (int i = 0; i < rows; ++i) {
+      EXPECT_EQ(equalities.span[i].first, 0);
+      EXPECT_EQ(equalities.span[i].size, kColumns);
+      EXPECT_EQ(inequalities.span[i].first, 0);
+      EXPECT_EQ(inequalities.span[i].size, kColumns);
+      equalities.B(i, i) = -1e-300;
+      equalities.B(i, i + size - 1) = NAN;
+      inequalities.C(i, i) = kInfinity;
+      inequalities.C(i, i + size - 1) = 2;
+    }
+    hierarchy.FindSpans();
+    for (int i = 0; i < rows; ++i) {
+      for (const Span span : {hierarchy.B_span(0)[i], hierarchy.C_span(0)[i]}) {
+        EXPECT_EQ(span.first, i);
+        EXPECT_EQ(span.size, size);
+      }
+    }
+  }
+}
+
+TEST(Hierarchy, SetsRowsOfOneEntry) {
+  Hierarchy hierarchy(3, {{1, 2}});
+  hierarchy.AddEqualities(0, 1).SetSingle(0, 2, 5);
+  hierarchy.AddInequalities(0, 2).SetSingle(1, 1, -4);
+  hierarchy.FindSpans();
+  EXPECT_EQ(hierarchy.B(0), (RowMajorMatrix(1, 3) << 0, 0, 5).finished());
+  EXPECT_EQ(hierarchy.C(0),
+            (RowMajorMatrix(2, 3) << 0, 0, 0, 0, -4, 0).finished());
+  EXPECT_EQ(hierarchy.B_span(0)[0].first, 2);
+  EXPECT_EQ(hierarchy.B_span(0)[0].size, 1);
+  EXPECT_EQ(hierarchy.C_span(0)[0].size, 0);
+  EXPECT_EQ(hierarchy.C_span(0)[1].first, 1);
+  EXPECT_EQ(hierarchy.C_span(0)[1].size, 1);
+}
+
 TEST(Hierarchy, RejectsNegativeSizes) {
   EXPECT_THROW(Hierarchy(1, {{1, 1}}, {-1, 0}), std::invalid_argument);
   EXPECT_THROW(Hierarchy(-1, {}), std::invalid_argument);

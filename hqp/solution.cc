@@ -82,9 +82,20 @@ void EvaluateLevel(const Hierarchy& hierarchy, int level,
   LevelSolution& out = solution->levels[level];
   auto residual = out.equality_residual.head(hierarchy.num_equalities(level));
   auto slack = out.slack.head(hierarchy.num_inequalities(level));
+  const auto value = [&](const auto& rows, const Span* spans, int i) {
+    const auto [first, size] = spans[i];
+    return rows.row(i)
+        .segment(first, size)
+        .dot(solution->y.segment(first, size));
+  };
+  const auto B = hierarchy.B(level), C = hierarchy.C(level);
   residual = hierarchy.b(level);
-  residual.noalias() += hierarchy.B(level) * solution->y;
-  slack.noalias() = hierarchy.C(level) * solution->y;
+  for (int i = 0; i < B.rows(); ++i) {
+    residual[i] += value(B, hierarchy.B_span(level), i);
+  }
+  for (int i = 0; i < C.rows(); ++i) {
+    slack[i] = value(C, hierarchy.C_span(level), i);
+  }
   slack = (lower - slack).cwiseMax(slack - upper).cwiseMax(0);
   out.cost = (residual.cwiseAbs2().dot(hierarchy.weight(level)) +
               slack.squaredNorm()) /

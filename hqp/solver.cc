@@ -222,8 +222,8 @@ bool Solver::Impl::AddViolated(const Hierarchy& hierarchy, bool adds) {
   for (int level = 0; level < problem_.num_levels(); ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
     const int rows = hierarchy.num_inequalities(level);
-    kernels::Dots(hierarchy.C(level).data(), n_, rows, y.data(), n_,
-                  value_.data());
+    kernels::SpanDots(hierarchy.C(level).data(), n_, hierarchy.C_span(level),
+                      rows, y.data(), value_.data());
     for (int i = 0; i < rows; ++i) {
       const double above = value_[i] - upper[i];
       const double below = lower[i] - value_[i];

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <random>
 #include <vector>
 
 #include "poise/hqp/certificate.h"
@@ -53,6 +54,68 @@ TEST(Solver, AgreesWithTheCascade) {
   // Later steps correct a wrong step, so a wrong step shows only in the number
   // of steps. This number is 1216; rounding may change it by a few.
   EXPECT_LE(iterations, 1220);
+}
+
+// Returns the hierarchy with zeros before and after a random part of each row.
+HierarchyCase WithShortRows(const HierarchyCase& drawn, std::uint64_t seed) {
+  const Hierarchy& from = drawn.hierarchy;
+  const int n = from.num_variables();
+  HierarchyCase result{drawn.capacity, Hierarchy(n, drawn.capacity)};
+  result.hierarchy.Clear(from.num_levels());
+  std::mt19937_64 numbers(seed);
+  const auto shorten = [&](auto rows) {
+    for (int i = 0; i < rows.rows(); ++i) {
+      const auto first = static_cast<Eigen::Index>(numbers() % n);
+      rows.row(i).head(first).setZero();
+      rows.row(i)
+          .tail((n - first) / (1 + static_cast<int>(numbers() % 2)) / 2)
+          .setZero();
+    }
+  };
+  for (int k = 0; k < from.num_levels(); ++k) {
+    EqualityBlock equalities =
+        result.hierarchy.AddEqualities(k, from.num_equalities(k));
+    equalities.B = from.B(k);
+    equalities.b = from.b(k);
+    equalities.weight = from.weight(k);
+    shorten(equalities.B);
+    InequalityBlock inequalities =
+        result.hierarchy.AddInequalities(k, from.num_inequalities(k));
+    inequalities.C = from.C(k);
+    inequalities.lower = from.lower(k);
+    inequalities.upper = from.upper(k);
+    shorten(inequalities.C);
+  }
+  return result;
+}
+
+// Spans tell which entries are zero, and so must not change an answer.
+TEST(Solver, SkipsZerosOutsideTheSpansOfRows) {
+  int short_rows = 0;
+  for (int seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    HierarchyCase drawn =
+        WithShortRows(MakeRandomHierarchy(seed, {.scaled = 0}), seed);
+    const Hierarchy without = drawn.hierarchy;
+    const Hierarchy& hierarchy = drawn.hierarchy;
+    drawn.hierarchy.FindSpans();
+    const int n = hierarchy.num_variables();
+    Solver solver(n, drawn.capacity), other(n, drawn.capacity);
+    Certifier certifier(n, drawn.capacity);
+    Solution solution(n, drawn.capacity), expected(n, drawn.capacity);
+    ASSERT_EQ(other.Solve(without, &expected), Status::kOptimal);
+    ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+    EXPECT_LE(certifier.Certify(without, solution).worst(), kCertified);
+    EXPECT_LE(certifier.Certify(hierarchy, expected).worst(), kCertified);
+    for (int level = 0; level < hierarchy.num_levels(); ++level) {
+      EXPECT_NEAR(solution.levels[level].cost, expected.levels[level].cost,
+                  kCertified * CostSize(without, level, expected));
+      for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+        short_rows += hierarchy.B_span(level)[i].size < n;
+      }
+    }
+  }
+  EXPECT_GT(short_rows, 200);
 }
 
 // Level 0: y0 <= 1 and y1 >= 2. Level 1: y0 + y1 = 4. Level 2: y = (5, 0). The

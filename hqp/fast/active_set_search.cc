@@ -163,8 +163,8 @@ ActiveSetSearch::Cost ActiveSetSearch::FindCost(const Hierarchy& hierarchy,
   Cost sum = {0, 0};
   const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
   const int equalities = hierarchy.num_equalities(level);
-  kernels::Dots(hierarchy.B(level).data(), n_, equalities, y.data(), n_,
-                value_.data());
+  kernels::SpanDots(hierarchy.B(level).data(), n_, hierarchy.B_span(level),
+                    equalities, y.data(), value_.data());
   for (int i = 0; i < equalities; ++i) {
     const double residual = value_[i] + b[i];
     sum.cost += weight[i] * residual * residual;
@@ -172,8 +172,8 @@ ActiveSetSearch::Cost ActiveSetSearch::FindCost(const Hierarchy& hierarchy,
   }
   const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
   const int rows = hierarchy.num_inequalities(level);
-  kernels::Dots(hierarchy.C(level).data(), n_, rows, y.data(), n_,
-                value_.data());
+  kernels::SpanDots(hierarchy.C(level).data(), n_, hierarchy.C_span(level),
+                    rows, y.data(), value_.data());
   for (int i = 0; i < rows; ++i) {
     const double slack =
         std::max({value_[i] - upper[i], lower[i] - value_[i], 0.0});
@@ -195,8 +195,8 @@ int ActiveSetSearch::FindViolated(const Hierarchy& hierarchy,
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
     const int rows = hierarchy.num_inequalities(level);
-    kernels::Dots(hierarchy.C(level).data(), n_, rows, y.data(), n_,
-                  value_.data());
+    kernels::SpanDots(hierarchy.C(level).data(), n_, hierarchy.C_span(level),
+                      rows, y.data(), value_.data());
     for (int i = 0; i < rows; ++i) {
       violated_[level][i] = Side::kNone;
       const double above = value_[i] - upper[i], below = lower[i] - value_[i];
@@ -227,8 +227,8 @@ void ActiveSetSearch::Stop(const Hierarchy& hierarchy,
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
     const int rows = hierarchy.num_inequalities(level);
-    kernels::Dots(hierarchy.C(level).data(), n_, rows, y_.data(), n_,
-                  value_.data());
+    kernels::SpanDots(hierarchy.C(level).data(), n_, hierarchy.C_span(level),
+                      rows, y_.data(), value_.data());
     for (int i = 0; i < rows; ++i) {
       Side& at = (*side)[level][i];
       if (at == Side::kNone) continue;
@@ -247,8 +247,8 @@ void ActiveSetSearch::InitializeWorkingSet(
     std::vector<std::vector<Side>>* side) {
   const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
   const int rows = hierarchy.num_inequalities(level);
-  kernels::Dots(hierarchy.C(level).data(), n_, rows, y_.data(), n_,
-                value_.data());
+  kernels::SpanDots(hierarchy.C(level).data(), n_, hierarchy.C_span(level),
+                    rows, y_.data(), value_.data());
   for (int i = 0; i < rows; ++i) {
     removals_left_[level][i] =
         IsFixed(hierarchy, level, i) ? kFrozen : kMaxRemovals;
@@ -287,8 +287,9 @@ bool ActiveSetSearch::StepToBlockingConstraint(
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
     const int rows = hierarchy.num_inequalities(level);
     const double* C = hierarchy.C(level).data();
-    kernels::Dots(C, n_, rows, step_.data(), n_, slope_.data());
-    kernels::Dots(C, n_, rows, y_.data(), n_, value_.data());
+    const Span* spans = hierarchy.C_span(level);
+    kernels::SpanDots(C, n_, spans, rows, step_.data(), slope_.data());
+    kernels::SpanDots(C, n_, spans, rows, y_.data(), value_.data());
     for (int i = 0; i < rows; ++i) {
       const double slope = slope_[i], norm = problem.norm(level, i);
       const Side towards = slope > 0 ? Side::kUpper : Side::kLower;

@@ -72,6 +72,23 @@ void Dots(const double* rows, int stride, int count, const double* x, int n,
 }
 
 POISE_CLONES
+void SpanDots(const double* rows, int stride, const Span* spans, int count,
+              const double* x, double* out) {
+  for (int i = 0; i < count; ++i) {
+    const auto [first, size] = spans[i];
+    const double* row = rows + static_cast<long>(i) * stride + first;
+    const double* at = x + first;
+    const int whole = size & ~3;
+    Four sum = {};
+    int j = 0;
+    for (; j < whole; j += 4) sum += POISE_LOAD(row + j) * POISE_LOAD(at + j);
+    double dot = POISE_SUM(sum);
+    for (; j < size; ++j) dot += row[j] * at[j];
+    out[i] = dot;
+  }
+}
+
+POISE_CLONES
 void AddRows(const double* rows, int stride, int count, const double* factor,
              int n, double* x) {
   const int fours = count & ~3, whole = n & ~3;

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include "poise/hqp/hierarchy.h"
+
 /// The inner loops of the fast solver, on rows that lie `stride` apart. Most
 /// loops process four rows at a time, in vectors of four. The loader selects
 /// the version for the processor.
@@ -9,6 +11,10 @@ namespace poise::kernels {
 /// out_i = row_i . x, for i < count.
 void Dots(const double* rows, int stride, int count, const double* x, int n,
           double* out);
+
+/// out_i = row_i . x, for i < count, where row_i is zero outside its span.
+void SpanDots(const double* rows, int stride, const Span* spans, int count,
+              const double* x, double* out);
 
 /// |x|_2^2.
 inline double SquaredNorm(const double* x, int n) {

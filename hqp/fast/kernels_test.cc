@@ -57,6 +57,27 @@ TEST_F(KernelsTest, DotsAreTheSumsOfProducts) {
   });
 }
 
+// Entries outside a row's span do not count, whatever they are.
+TEST_F(KernelsTest, SpanDotsSumTheProductsOfTheSpan) {
+  ForAllSizes([&](int rows, int n) {
+    std::vector<Span> spans;
+    std::vector<double> only_spans = rows_;
+    for (int i = 0; i < rows; ++i) {
+      const int first = i % (n + 1);
+      const int size = (n - first) / (1 + i % 3);
+      spans.push_back({first, size});
+      for (int j = 0; j < n; ++j) {
+        if (j < first || j >= first + size) only_spans[i * kStride + j] = 0;
+      }
+    }
+    std::vector<double> out(kMaxRows + 1, kUntouched), dots = out;
+    kernels::SpanDots(rows_.data(), kStride, spans.data(), rows, x_.data(),
+                      out.data());
+    kernels::Dots(only_spans.data(), kStride, rows, x_.data(), n, dots.data());
+    EXPECT_EQ(out, dots);
+  });
+}
+
 TEST_F(KernelsTest, SquaredNormIsTheSumOfOddNumbers) {
   // For whole numbers, k^2 = 1 + 3 + ... + (2k - 1), whatever the sign.
   for (int n = 0; n <= kMaxSize; ++n) {

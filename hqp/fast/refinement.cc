@@ -35,8 +35,9 @@ double WorkingSetProblem::ComputeRowResiduals(const Hierarchy& hierarchy) {
     for (int a = leading_.first_row(level); a < leading_.end_row(level); ++a) {
       const Row& row = rows_[a];
       double value, size;
-      kernels::DotWithSize(Original(hierarchy, a), y_.data(), n_, &value,
-                           &size);
+      const int first = row.span.first;
+      kernels::DotWithSize(Original(hierarchy, a) + first, y_.data() + first,
+                           row.span.size, &value, &size);
       row_residual_[a] = (row.bound - value) / row.norm;
       size_[a] = (std::abs(row.bound) + size) / row.norm;
       worst = std::max(worst, RelativeResidual(a));

@@ -13,8 +13,12 @@ namespace {
 
 constexpr int kNoKey = LexicographicFactorization::kNoKey;
 
-double Norm(const double* row, int n) {
-  return std::sqrt(kernels::SquaredNorm(row, n));
+double Norm(const double* row, Span span) {
+  return std::sqrt(kernels::SquaredNorm(row + span.first, span.size));
+}
+
+double AbsoluteSum(const double* row, Span span) {
+  return kernels::AbsoluteSum(row + span.first, span.size);
 }
 
 }  // namespace
@@ -104,7 +108,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     bool in_order = true;
     for (int i = 0; i < B.rows(); ++i) {
       double& norm = B_norm_[level][i];
-      norm = kernels::AbsoluteSum(B.data() + i * n_, n_);
+      norm = AbsoluteSum(B.data() + i * n_, hierarchy.B_span(level)[i]);
       zero += (norm + b[i] + weight[i]) * 0;
       in_order &= !(weight[i] < 0);
       if (weight[i] > 0 && norm * norm * weight[i] < tolerances::kZeroRow)
@@ -112,7 +116,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     }
     for (int i = 0; i < C.rows(); ++i) {
       double& norm = norm_[level][i];
-      norm = kernels::AbsoluteSum(C.data() + i * n_, n_);
+      norm = AbsoluteSum(C.data() + i * n_, hierarchy.C_span(level)[i]);
       zero += norm * 0;
       if (norm * norm < tolerances::kZeroRow) norm = 0;
       if (!(lower[i] < kInfinity && upper[i] > -kInfinity)) {
@@ -160,7 +164,9 @@ void WorkingSetProblem::AddRow(const Row& row, const double* from,
   rows_[a] = row;
   if (key != kNoKey && leading_.Recall(a, key)) return;
   double* to = leading_.row(a);
-  for (int j = 0; j < n_; ++j) to[j] = from[j] / row.norm;
+  std::fill_n(to, n_, 0);
+  const int end = row.span.first + row.span.size;
+  for (int j = row.span.first; j < end; ++j) to[j] = from[j] / row.norm;
 }
 
 void WorkingSetProblem::AddInequality(const Hierarchy& hierarchy, int level,
@@ -168,7 +174,8 @@ void WorkingSetProblem::AddInequality(const Hierarchy& hierarchy, int level,
   const double* row = hierarchy.C(level).data() + i * n_;
   const double bound = side == Side::kUpper ? hierarchy.upper(level)[i]
                                             : hierarchy.lower(level)[i];
-  AddRow({level, i, true, Norm(row, n_), bound}, row, 1, key);
+  const Span span = hierarchy.C_span(level)[i];
+  AddRow({level, i, true, span, Norm(row, span), bound}, row, 1, key);
 }
 
 // Factors the levels from `from_level` on. After the first level, the rows'
@@ -198,7 +205,9 @@ void WorkingSetProblem::FactorLevel(const Hierarchy& hierarchy,
     const double weight = hierarchy.weight(level)[i];
     if (weight == 0 || B_norm_[level][i] == 0) continue;
     const double* row = hierarchy.B(level).data() + i * n_;
-    AddRow({level, i, false, Norm(row, n_), -hierarchy.b(level)[i]}, row,
+    const Span span = hierarchy.B_span(level)[i];
+    const double target = -hierarchy.b(level)[i];
+    AddRow({level, i, false, span, Norm(row, span), target}, row,
            std::sqrt(weight), key(i));
   }
   for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
@@ -378,7 +387,9 @@ void WorkingSetProblem::AddToSum(const Hierarchy& hierarchy, int a,
                                  double factor, double* sum) const {
   if (factor == 0) return;
   factor /= rows_[a].norm;
-  kernels::AddRows(Original(hierarchy, a), 0, 1, &factor, n_, sum);
+  const Span span = rows_[a].span;
+  kernels::AddRows(Original(hierarchy, a) + span.first, 0, 1, &factor,
+                   span.size, sum + span.first);
 }
 
 const double* WorkingSetProblem::Original(const Hierarchy& hierarchy,

@@ -31,6 +31,7 @@ class WorkingSetProblem {
   struct Row {
     int level, index;
     bool is_inequality;
+    Span span;
     double norm;   ///< |row|_2.
     double bound;  ///< -b, or the active bound.
   };

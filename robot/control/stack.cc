@@ -238,6 +238,7 @@ void Stack::Write(const TaskInput& input, Hierarchy* hierarchy) noexcept {
     EqualityBlock held = hierarchy->AddEqualities(num_levels_, num_variables_);
     easing_.Hold(&held);
   }
+  hierarchy->FindSpans();
   loose_from_ = kTight;
   for (Entry& entry : entries_) {
     entry.was_switched_on = entry.was_moved = entry.was_tuned = false;

@@ -128,7 +128,9 @@ void Easing::Ease(int rows, int equalities,
 }
 
 void Easing::Hold(EqualityBlock* equalities) const noexcept {
-  equalities->B.setIdentity();
+  for (int j = 0; j < static_cast<int>(equalities->b.size()); ++j) {
+    equalities->SetSingle(j, j, 1);
+  }
   for (int i = 0; i < static_cast<int>(y_last_.size()); ++i) {
     equalities->b[i] = -ramp_[i];
   }

@@ -27,9 +27,11 @@ void ForceRegularizerTask::Write(const TaskInput& input,
                                  InequalityBlock*) const noexcept {
   for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
     if (!input.contacts[i].in_contact) continue;
-    auto diagonal = equalities->B.block<6, 6>(6 * i, nv_ + 6 * i).diagonal();
-    diagonal.head<3>().setConstant(inverse_moment_scale_);
-    diagonal.tail<3>().setConstant(inverse_force_scale_);
+    for (int j = 6 * i; j < 6 * i + 6; ++j) {
+      equalities->SetSingle(
+          j, nv_ + j,
+          j < 6 * i + 3 ? inverse_moment_scale_ : inverse_force_scale_);
+    }
   }
 }
 

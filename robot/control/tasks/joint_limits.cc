@@ -93,7 +93,7 @@ void JointLimitsTask::Write(const TaskInput& input, EqualityBlock*,
     // A range that is narrower than its margins shrinks to its middle.
     if (lower > upper) lower = upper = (lower + upper) / 2;
     const double unmodelled_vdot = input.unmodelled_vdot[v_start_ + j];
-    inequalities->C(j, v_start_ + j) = scale;
+    inequalities->SetSingle(j, v_start_ + j, scale);
     // Clamping, instead of max and min, lets the position limit win on either
     // side if position and velocity limits contradict each other.
     const double most = velocity_[j];

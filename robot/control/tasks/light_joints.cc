@@ -60,7 +60,7 @@ void LightJointsTask::Write(const TaskInput& input, EqualityBlock* equalities,
     const int j = joints_[i];
     const double e = input.reference.posture[j] - input.state.q[q_start_ + j];
     const double v = input.state.v[v_start_ + j];
-    equalities->B(i, v_start_ + j) = 1;
+    equalities->SetSingle(i, v_start_ + j, 1);
     equalities->b[i] = -kp_ * e + kd_ * v;
   }
 }

@@ -52,7 +52,7 @@ void PostureTask::Write(const TaskInput& input, EqualityBlock* equalities,
     const double v = input.state.v[v_start_ + j];
     const double moved = std::clamp(
         input.tick.M(v_start_ + j, v_start_ + j) / unit_[j], kLeast, kMost);
-    equalities->B(j, v_start_ + j) = 1;
+    equalities->SetSingle(j, v_start_ + j, 1);
     equalities->weight[j] = factor_[j] * std::pow(moved, inertia);
     equalities->b[j] = -kp_ * (input.reference.posture[j] - q) + kd_ * v;
   }

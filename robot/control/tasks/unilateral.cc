@@ -17,7 +17,7 @@ void UnilateralTask::Write(const TaskInput& input, EqualityBlock*,
                            InequalityBlock* inequalities) const noexcept {
   for (int i = 0; i < static_cast<int>(input.contacts.size()); ++i) {
     if (!input.contacts[i].in_contact) continue;
-    inequalities->C(i, nv_ + 6 * i + 5) = inverse_force_scale_;
+    inequalities->SetSingle(i, nv_ + 6 * i + 5, inverse_force_scale_);
     inequalities->lower[i] = 0;
     inequalities->upper[i] =
         inverse_force_scale_ * input.contacts[i].max_normal_force;
