@@ -36,7 +36,8 @@ struct CentroidalMomentum {
 /// @param scratch  made for this tree.
 /// @param H_G      6 x nv, world axes, about G, angular part first; SI units.
 ///                 All of it is written.
-/// Costs O(n): 1.5 us for 50 joints. Does not allocate, does not throw.
+/// Costs O(n): 0.6 times ComputeCrba() for 50 joints. Does not allocate, does not
+/// throw.
 /// Source: the paper, eq. (19), with each column in closed form.
 void ComputeCentroidalMomentumMatrix(const Tree& tree,
                                      const Eigen::Ref<const Eigen::VectorXd>& q,
