@@ -6,6 +6,73 @@
 #include "poise/math/so3.h"
 
 namespace poise {
+namespace {
+
+// Returns p_GO; a tree without mass has its center of mass at O.
+Vec3 BaseFromCenterOfMass(const Tree& tree, const Recursion& r) {
+  const double mass = tree.total_mass();
+  return (mass > 0 ? -1 / mass : 0) * r.M_W[0].h;
+}
+
+// Fills H_G from the composite inertia and the momenta of the subtrees.
+void FillMomentumMatrix(const Tree& tree, const Recursion& r, const Vec3& p_GO,
+                        Matrix6Xd* H_G) {
+  assert(H_G->cols() == tree.nv());
+  const int num_bodies = tree.num_bodies();
+  if (tree.is_floating()) {
+    const MassMoments M_O = r.M_W[0];
+    const Eigen::Matrix3d Sigma_G = ToEigen(Shift(p_GO, M_O).Sigma);
+    H_G->topLeftCorner<3, 3>() =
+        Sigma_G.trace() * Eigen::Matrix3d::Identity() - Sigma_G;
+    H_G->block<3, 3>(0, 3).setZero();
+    H_G->block<3, 3>(3, 0) = -Hat(ToEigen(M_O.h));
+    H_G->block<3, 3>(3, 3) = M_O.mass * Eigen::Matrix3d::Identity();
+  }
+  double* column = H_G->data() + 6 * (tree.v_start() - 1);
+  POISE_LANES
+  for (int b = 1; b < num_bodies; ++b) {
+    const Force3 H_j = Shift(p_GO + r.p_OB_W[b], r.H_W[b]);
+    column[6 * b] = H_j.angular.x;
+    column[6 * b + 1] = H_j.angular.y;
+    column[6 * b + 2] = H_j.angular.z;
+    column[6 * b + 3] = H_j.linear.x;
+    column[6 * b + 4] = H_j.linear.y;
+    column[6 * b + 5] = H_j.linear.z;
+  }
+}
+
+}  // namespace
+
+void ComputeCentroidalMomentumMatrix(const Tree& tree,
+                                     const Eigen::Ref<const Eigen::VectorXd>& q,
+                                     Recursion* scratch,
+                                     Matrix6Xd* H_G) noexcept {
+  Recursion& r = *scratch;
+  SweepPoses(tree, q, &r);
+  SweepInertias(tree, &r);
+  SumInertias(tree, &r);
+  SweepMomenta(tree, &r);
+  FillMomentumMatrix(tree, r, BaseFromCenterOfMass(tree, r), H_G);
+}
+
+void ComputeCentroidalMomentum(const Tree& tree,
+                               const Eigen::Ref<const Eigen::VectorXd>& q,
+                               const Eigen::Ref<const Eigen::VectorXd>& v,
+                               Recursion* scratch,
+                               CentroidalMomentum* out) noexcept {
+  Recursion& r = *scratch;
+  SweepPoses(tree, q, &r);
+  SweepAccelerations(tree, v, r.zero, Eigen::Vector3d::Zero(), &r);
+  SweepInertias(tree, &r);
+  SweepForces(tree, &r);
+  SumInertias(tree, &r);
+  SumForces(tree, &r);
+  SweepMomenta(tree, &r);
+  const Vec3 p_GO = BaseFromCenterOfMass(tree, r);
+  FillMomentumMatrix(tree, r, p_GO, &out->H_G);
+  const Force3 F_G = Shift(p_GO, r.F_W[0]);
+  out->bias << ToEigen(F_G.angular), ToEigen(F_G.linear);
+}
 
 void ComputeCentroidalMomentum(const Eigen::Ref<const Eigen::MatrixXd>& M,
                                const Eigen::Ref<const Eigen::VectorXd>& c,

@@ -26,14 +26,9 @@ using Eigen::VectorXd;
 CentroidalMomentum CentroidalMomentumAt(const Tree& tree, const VectorXd& q,
                                         const VectorXd& v) {
   Recursion scratch(tree);
-  MatrixXd M(tree.nv(), tree.nv());
-  VectorXd c(tree.nv());
-  CenterOfMass G(tree);
-  ComputeCrba(tree, q, &scratch, M);
-  ComputeCoriolis(tree, q, v, &scratch, c);
-  ComputeCenterOfMass(tree, q, v, &scratch, &G);
   CentroidalMomentum out(tree);
-  ComputeCentroidalMomentum(M, c, G.p_WG - q.head<3>(), &out);
+  out.H_G.setConstant(7);  // The function must overwrite old values.
+  ComputeCentroidalMomentum(tree, q, v, &scratch, &out);
   return out;
 }
 
@@ -68,7 +63,7 @@ bool HoldsForFloatingTrees(
 }
 
 TEST(CentroidalMomentum, IsTheSumOfTheBodiesMomenta) {
-  EXPECT_TRUE(HoldsForFloatingTrees("H_G", [](const TreeMotion& m) {
+  EXPECT_TRUE(HoldsForTrees("H_G", [](const TreeMotion& m) {
     const Matrix6Xd H_G = CentroidalMomentumAt(m.tree, m.q, m.v).H_G;
     Matrix6Xd sums(6, m.tree.nv());
     for (int j = 0; j < m.tree.nv(); ++j) {
@@ -78,8 +73,46 @@ TEST(CentroidalMomentum, IsTheSumOfTheBodiesMomenta) {
   }));
 }
 
+// Another derivation: the base's rows of M and c, shifted to G, (19).
+TEST(CentroidalMomentum, AgreesWithTheRowsOfTheMassMatrix) {
+  EXPECT_TRUE(HoldsForFloatingTrees("X M_l, X c_l", [](const TreeMotion& m) {
+    const int nv = m.tree.nv();
+    Recursion scratch(m.tree);
+    MatrixXd M(nv, nv);
+    VectorXd c(nv);
+    CenterOfMass G(m.tree);
+    ComputeCrba(m.tree, m.q, &scratch, M);
+    ComputeCoriolis(m.tree, m.q, m.v, &scratch, c);
+    ComputeCenterOfMass(m.tree, m.q, m.v, &scratch, &G);
+    CentroidalMomentum rows(m.tree);
+    ComputeCentroidalMomentum(M, c, G.p_WG - m.q.head<3>(), &rows);
+    const CentroidalMomentum H = CentroidalMomentumAt(m.tree, m.q, m.v);
+    Matrix6Xd ours(6, nv + 1), expected(6, nv + 1);
+    ours << H.H_G, H.bias;
+    expected << rows.H_G, rows.bias;
+    return Compare(ours, expected, Rounding(10 + 5 * ours.norm(), nv + 10));
+  }));
+}
+
+TEST(CentroidalMomentum, MatrixAloneIsTheSameToTheBit) {
+  EXPECT_TRUE(HoldsForTrees("H_G alone", [](const TreeMotion& m) {
+    Recursion scratch(m.tree);
+    Matrix6Xd H_G = Matrix6Xd::Constant(6, m.tree.nv(), 7);
+    ComputeCentroidalMomentumMatrix(m.tree, m.q, &scratch, &H_G);
+    return Compare(H_G, CentroidalMomentumAt(m.tree, m.q, m.v).H_G, 0);
+  }));
+}
+
+TEST(CentroidalMomentum, OfATreeWithoutMassIsZero) {
+  const Tree tree = TreeBuilder().AddLink("nothing").Build();
+  const CentroidalMomentum H =
+      CentroidalMomentumAt(tree, tree.MakeNeutral(), VectorXd::Ones(6));
+  EXPECT_TRUE(H.H_G.isZero(0));
+  EXPECT_TRUE(H.bias.isZero(0));
+}
+
 TEST(CentroidalMomentum, BiasIsTheRateOfMomentumAtConstantV) {
-  EXPECT_TRUE(HoldsForFloatingTrees("bias", [](const TreeMotion& m) {
+  EXPECT_TRUE(HoldsForTrees("bias", [](const TreeMotion& m) {
     const Vector6d bias = CentroidalMomentumAt(m.tree, m.q, m.v).bias;
     const VectorXd rate = RiddersRate([&](double t) {
       VectorXd q(m.tree.nq());
@@ -91,7 +124,7 @@ TEST(CentroidalMomentum, BiasIsTheRateOfMomentumAtConstantV) {
 }
 
 TEST(CentroidalMomentum, RatesAddUp) {
-  EXPECT_TRUE(HoldsForFloatingTrees("H v̇ + bias", [](const TreeMotion& m) {
+  EXPECT_TRUE(HoldsForTrees("H v̇ + bias", [](const TreeMotion& m) {
     const CentroidalMomentum H = CentroidalMomentumAt(m.tree, m.q, m.v);
     const Vector6d expected = H.H_G * m.vdot + H.bias;
     const VectorXd rate = RiddersRate([&](double t) {
@@ -138,7 +171,10 @@ TEST(CentroidalMomentum, DoesNotAllocate) {
   const MatrixXd M = MatrixXd::Identity(m.tree.nv(), m.tree.nv());
   CentroidalMomentum out(m.tree);
   const Vector3d p(1, 2, 3);
+  Recursion scratch(m.tree);
   CountMalloc count;
+  ComputeCentroidalMomentumMatrix(m.tree, m.q, &scratch, &out.H_G);
+  ComputeCentroidalMomentum(m.tree, m.q, m.v, &scratch, &out);
   ComputeCentroidalMomentum(M, m.v, p, &out);
   EXPECT_EQ(count.allocations(), 0);
 }

@@ -110,9 +110,26 @@ void BM_Crba(benchmark::State& state) {
 }
 BENCHMARK(BM_Crba);
 
-// The centroidal momentum matrix alone: M and the shift of its first six rows.
+// Returns the humanoid for 50 joints, and else a random tree.
+Tree TreeOf(int num_joints) {
+  std::mt19937 draw(1);
+  return num_joints == 50 ? Humanoid() : MakeRandomTree(num_joints, &draw);
+}
+
+// The centroidal momentum matrix alone, from the recursion.
 void BM_Cmm(benchmark::State& state) {
-  const Tree& tree = Humanoid();
+  const Tree tree = TreeOf(static_cast<int>(state.range(0)));
+  Recursion scratch(tree);
+  Matrix6Xd H_G(6, tree.nv());
+  Run(state, tree, [&](const VectorXd& q, const VectorXd&) {
+    ComputeCentroidalMomentumMatrix(tree, q, &scratch, &H_G);
+  });
+}
+BENCHMARK(BM_Cmm)->Arg(50)->Arg(120);
+
+// Same as BM_Cmm, but M is computed and its first six rows are shifted.
+void BM_CmmFromM(benchmark::State& state) {
+  const Tree tree = TreeOf(static_cast<int>(state.range(0)));
   Recursion scratch(tree);
   MatrixXd M(tree.nv(), tree.nv());
   const Vector6d c = Vector6d::Zero();  // Zero: without the bias.
@@ -124,7 +141,7 @@ void BM_Cmm(benchmark::State& state) {
     ComputeCentroidalMomentum(M, c, p_BoG_W, &out);
   });
 }
-BENCHMARK(BM_Cmm);
+BENCHMARK(BM_CmmFromM)->Arg(50)->Arg(120);
 
 // Same as BM_Tick, but without feet: M, N, the momentum matrix and its bias.
 void BM_TickWithoutFeet(benchmark::State& state) {
@@ -336,6 +353,8 @@ int main(int argc, char** argv) {
                               {"BM_Rnea", "BM_BulletRnea"},
                               {"BM_Crba", "BM_BulletMassMatrix"},
                               {"BM_Aba", "BM_BulletAba"},
+                              {"BM_Cmm/50", "BM_CmmFromM/50"},
+                              {"BM_Cmm/120", "BM_CmmFromM/120"},
                               {"BM_RneaOfBodies/100", "BM_RneaOfBodies/10"},
                               {"BM_RneaOfBodies/1000", "BM_RneaOfBodies/10"}});
 }
