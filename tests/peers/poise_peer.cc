@@ -6,6 +6,9 @@
 namespace poise {
 namespace {
 
+// As in //tools:hqp. A controller allows 500.
+constexpr int kMostIterations = 10000;
+
 class PoisePeer final : public Peer {
  public:
   PoisePeer(int num_variables, const std::vector<LevelCapacity>& capacity)
@@ -18,6 +21,12 @@ class PoisePeer final : public Peer {
 
   bool Solve() override {
     return solver_.Solve(hierarchy_, &solution_) == Status::kOptimal;
+  }
+
+  void Forget() override { solver_.Forget(); }
+
+  void AllowMoreIterations() override {
+    solver_.max_iterations = kMostIterations;
   }
 
   const Eigen::VectorXd& y() const override { return solution_.y; }
