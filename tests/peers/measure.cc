@@ -84,7 +84,8 @@ std::vector<TickResult> SolveTicks(const RecordedTicks& recorded, Peer* peer) {
   return results;
 }
 
-// Returns the results of the first pass, with the time of the fastest pass.
+// Returns the results of the first pass, with the time of the fastest pass. A
+// tick is solved if all passes solve it.
 std::vector<TickResult> SolveInPasses(const RecordedTicks& recorded,
                                       double seconds, Peer* peer) {
   constexpr int kFewestPasses = 3, kMostPasses = 50;
@@ -97,6 +98,7 @@ std::vector<TickResult> SolveInPasses(const RecordedTicks& recorded,
     const std::vector<TickResult> again = SolveTicks(recorded, peer);
     for (size_t i = 0; i < again.size(); ++i) {
       results[i].time = std::min(results[i].time, again[i].time);
+      results[i].is_solved = results[i].is_solved && again[i].is_solved;
     }
   }
   return results;

@@ -14,7 +14,10 @@ class PoisePeer final : public Peer {
   PoisePeer(int num_variables, const std::vector<LevelCapacity>& capacity)
       : hierarchy_(num_variables, capacity),
         solver_(num_variables, capacity),
-        solution_(num_variables, capacity) {}
+        solution_(num_variables, capacity) {
+    // As in a controller. No peer finds the nullity of each level.
+    solver_.finds_nullity = false;
+  }
 
   // The copy is in the cache, as are the copies that the peers make.
   void Load(const Hierarchy& hierarchy) override { hierarchy_ = hierarchy; }
