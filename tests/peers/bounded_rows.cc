@@ -63,6 +63,12 @@ ActiveSides NoActiveSides(const std::vector<LevelCapacity>& capacity) {
   return sides;
 }
 
+void Deactivate(ActiveSides* sides) {
+  for (std::vector<Side>& level : *sides) {
+    std::fill(level.begin(), level.end(), Side::kNone);
+  }
+}
+
 bool HaveSameSizes(const std::vector<BoundedRows>& a,
                    const std::vector<BoundedRows>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),

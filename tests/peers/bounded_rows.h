@@ -31,6 +31,9 @@ std::vector<BoundedRows> ToBoundedRows(const Hierarchy& hierarchy,
 /// Returns no active bound for each row of the capacity.
 ActiveSides NoActiveSides(const std::vector<LevelCapacity>& capacity);
 
+/// Makes all bounds inactive.
+void Deactivate(ActiveSides* sides);
+
 /// Returns whether two problems have levels with the same numbers of rows.
 bool HaveSameSizes(const std::vector<BoundedRows>& a,
                    const std::vector<BoundedRows>& b);

@@ -1,22 +1,31 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-"""Tests compare without any peer: messages, exit codes and figures."""
+"""Tests compare without any peer: messages, figures and problems."""
 
+import json
 import math
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 HERE = pathlib.Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
 import compare  # noqa: E402
+import families  # noqa: E402
 import figures  # noqa: E402
+import histograms  # noqa: E402
+import problems  # noqa: E402
 from peers import PEERS  # noqa: E402
 
 MEASURE = sys.argv.pop(1)
+HQP_TICKS = sys.argv.pop(1)
+
+TOY = {"format": "hqp-1", "variables": 1, "levels": [
+    {"B": [[1]], "b": [-2]}, {"A": [[1]], "a": [-1]}]}
 
 
 def run(*arguments):
@@ -80,6 +89,13 @@ class MessagesTest(unittest.TestCase):
             result.stderr, f"measure: {path}: not a file of recorded ticks, "
             "want poise-ticks-1; record it again\n")
 
+    def test_missing_problem_is_an_error(self):
+        missing = str(self.folder / "none.json")
+        code, _, error = run("--peers", str(self.folder), "--hqp", missing)
+        self.assertEqual(code, 2)
+        self.assertEqual(error, f"compare: --hqp: {missing} does not exist, "
+                         "want files of the format hqp-1 or folders of them\n")
+
     def test_missing_recorder_is_an_error(self):
         with self.assertRaisesRegex(compare.InputError, "bazel run"):
             compare.record(compare.SEQUENCES[0], self.folder)
@@ -127,17 +143,128 @@ class FiguresTest(unittest.TestCase):
         theirs = [tick(1, time=1), tick(2, time=3), tick(0.5, time=2),
                   tick(9, time=8, is_solved=False)]
         self.assertEqual(figures.summarize(theirs, ours),
-                         figures.Figures(2, 8, 8, 25, 25, 25))
+                         figures.Figures(2, 8, 8, 8, 25, 25, 25))
 
     def test_row_has_the_ratios_of_poise_to_the_peer(self):
-        ours = figures.Figures(10, 20, 30, 0, 0, 0)
-        theirs = figures.Figures(40, 50, 120, 1, 2, 3)
+        ours = figures.Figures(10, 20, 30, 25, 0, 0, 0)
+        theirs = figures.Figures(40, 50, 120, 80, 1, 2, 3)
         self.assertEqual(
             figures.row("a", "b", theirs, ours),
-            "| a | b | 40.0 | 50.0 | 120.0 | 3.0 | 1.0 | 2.0 | 3.0 "
+            "| a | b | 40.0 | 50.0 | 120.0 | 2.0 | 3.0 | 1.0 | 2.0 | 3.0 "
             "| 0.25 | 0.40 | 0.25 |")
         columns = {line.count("|") for line in figures.head()}
         self.assertEqual(columns, {figures.row("a", "b", ours).count("|")})
+
+
+def solved(*ticks):
+    """Returns the ticks of one file from pairs (time, cost)."""
+    return [tick(cost, time=time) for time, cost in ticks]
+
+
+class ProblemsTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def solve(self, problem, passes=()):
+        """Returns the ticks of Poise for a problem and two changed copies."""
+        path, ticks = self.folder / "problem.json", self.folder / "ticks"
+        path.write_text(json.dumps(problem))
+        compare.output_of([HQP_TICKS, path, 2, 1, ticks])
+        return figures.read_ticks(compare.output_of([MEASURE, ticks, *passes]))
+
+    def test_solves_a_problem_and_its_changed_copies(self):
+        ticks = self.solve(TOY, [0])
+        self.assertEqual(len(ticks), 3)
+        self.assertTrue(all(tick.is_solved for tick in ticks))
+        self.assertAlmostEqual(ticks[0].costs[0], 0)
+        self.assertAlmostEqual(ticks[0].costs[1], 0.5)
+        self.assertNotEqual(ticks[0].costs[1], ticks[1].costs[1])
+
+    def test_passes_give_the_answers_of_a_single_pass(self):
+        for once, often in zip(self.solve(TOY), self.solve(TOY, [0])):
+            self.assertEqual(once.costs, often.costs)
+
+    def test_rejects_a_file_of_another_format(self):
+        with self.assertRaisesRegex(compare.InputError, "hqp-1"):
+            self.solve({"format": "other"})
+
+    def test_finds_files_in_folders(self):
+        for name in ("b.json", "a.json", "c.txt"):
+            (self.folder / name).write_text("")
+        other = self.folder / "c.txt"
+        self.assertEqual(
+            [path.name for path in problems.find([self.folder, other])],
+            ["a.json", "b.json", "c.txt"])
+
+    def test_first_tick_of_each_file_is_cold(self):
+        ours = [solved((9, 1), (1, 1), (2, 1)), solved((7, 1), (3, 1), (4, 1))]
+        cold, warm = problems.judge(ours, ours)
+        self.assertEqual(cold, problems.Result(7, True, False))
+        self.assertEqual(warm, problems.Result(2, True, False))
+
+    def test_one_wrong_tick_makes_a_result_wrong(self):
+        ours = [solved((1, 1), (1, 1), (1, 1))]
+        cold, warm = problems.judge([solved((1, 1), (1, 2), (1, 0.5))], ours)
+        self.assertEqual(cold, problems.Result(1, True, False))
+        self.assertEqual(warm, problems.Result(1, False, True))
+
+    def test_goal_compares_with_the_fastest_peer_that_is_right(self):
+        def result(time, is_right=True):
+            return problems.Result(time, is_right, False)
+
+        right, wrong = result(100), result(10, False)
+        for ours, peers, variables, expected in (
+            (result(105), [right, wrong], 3, "yes"),
+            (result(106), [right, wrong], 3, "no"),
+            (result(106), [right, wrong], 2, "yes"),
+            (result(106), [right, result(200)], 3, "no"),
+            (result(106), [wrong], 3, "yes"),
+            (result(5, False), [right], 3, "no"),
+        ):
+            self.assertEqual(problems.goal(ours, peers, variables), expected)
+
+    def test_row_leaves_out_the_ratio_to_a_wrong_answer(self):
+        ours = [problems.Result(10, True, False), problems.Result(6, True, 0)]
+        peer = [problems.Result(20, False, False), problems.Result(4, True, 1)]
+        row = problems.row("a", ours, [peer], 3)
+        self.assertEqual(row,
+                         "| a | 10.0, 6.0 | -, 1.50 lower | yes, no |")
+        self.assertEqual({line.count("|") for line in problems.head(["b"])},
+                         {row.count("|")})
+
+    def test_poise_certifies_one_problem_of_each_family(self):
+        for family in families.FAMILIES[-2:]:
+            path = self.folder / "family.json"
+            families.write(family, 1, path)
+            problem = json.loads(path.read_text())
+            del problem["levels"][2:]
+            for solved_tick in self.solve(problem):
+                self.assertTrue(solved_tick.is_solved, family.name)
+
+    def test_same_seed_gives_the_same_problem(self):
+        paths = [self.folder / name for name in ("1", "2", "3")]
+        for seed, path in zip((1, 1, 2), paths):
+            families.write(families.FAMILIES[-1], seed, path)
+        texts = [path.read_text() for path in paths]
+        self.assertEqual(texts[0], texts[1])
+        self.assertNotEqual(texts[0], texts[2])
+
+
+class HistogramsTest(unittest.TestCase):
+    def test_counts_on_a_logarithmic_axis(self):
+        bins = histograms.count([10, 10.1, 100, 0.1, 1e9])
+        self.assertEqual(bins[0], 3)
+        self.assertEqual(bins[histograms.BINS_PER_DECADE], 1)
+        self.assertEqual(bins[-1], 1)
+
+    def test_image_is_well_formed_and_names_all_solvers(self):
+        image = histograms.draw({"a & b": {"Poise": [20, 30], "x": [99]}})
+        texts = [element.text for element in ElementTree.fromstring(
+            image).iter("{http://www.w3.org/2000/svg}text")]
+        for words in ("a & b", "Poise", "x", "10 µs", "1 s"):
+            self.assertIn(words, texts)
 
 
 if __name__ == "__main__":

@@ -10,10 +10,10 @@ TOLERANCE = 1e-3
 Tick = collections.namedtuple("Tick", "time is_solved costs floors")
 
 Figures = collections.namedtuple(
-    "Figures", "median p99 worst unsolved wrong lower")
+    "Figures", "median p99 worst p999 unsolved wrong lower")
 
 HEAD = ("sequence", "solver", "median [us]", "p99 [us]", "worst [us]",
-        "worst / median", "not solved [%]", "wrong [%]", "lower [%]",
+        "p99.9 / median", "worst / median", "not solved [%]", "wrong [%]", "lower [%]",
         "Poise / peer: median", "p99", "worst")
 
 
@@ -67,7 +67,7 @@ def summarize(ticks, reference):
     percent = 100 / len(ticks)
     return Figures(
         quantile(times, 0.5), quantile(times, 0.99), max(times),
-        percent * sum(not tick.is_solved for tick in ticks),
+        quantile(times, 0.999), percent * sum(not tick.is_solved for tick in ticks),
         percent * signs.count(1), percent * signs.count(-1))
 
 
@@ -75,8 +75,9 @@ def row(sequence, solver, figures, ours=None):
     """Returns a row of the table; `ours` are Poise's figures for a peer."""
     cells = [sequence, solver]
     cells += [f"{time:.1f}" for time in figures[:3]]
+    cells.append(f"{figures.p999 / figures.median:.1f}")
     cells.append(f"{figures.worst / figures.median:.1f}")
-    cells += [f"{percent:.1f}" for percent in figures[3:]]
+    cells += [f"{percent:.1f}" for percent in figures[4:]]
     cells += ["", "", ""] if ours is None else [
         f"{a / b:.2f}" for a, b in zip(ours[:3], figures[:3])]
     return "| " + " | ".join(cells) + " |"

@@ -2,8 +2,6 @@
 // The adapter of LexLSI, the lexicographic least-squares solver of LexLS.
 #include <lexls/lexlsi.h>
 
-#include <algorithm>
-
 #include "poise/tests/peers/bounded_rows.h"
 #include "poise/tests/peers/peer.h"
 
@@ -45,6 +43,8 @@ class LexlsPeer final : public Peer {
     return is_solved;
   }
 
+  void Forget() override { Deactivate(&sides_); }
+
   const Eigen::VectorXd& y() const override { return y_; }
 
  private:
@@ -76,9 +76,7 @@ class LexlsPeer final : public Peer {
 
   // After a solve that failed, the next one starts without active rows.
   void ReadActive(bool is_solved) {
-    for (std::vector<Side>& level : sides_) {
-      std::fill(level.begin(), level.end(), Side::kNone);
-    }
+    Deactivate(&sides_);
     active_.clear();
     if (is_solved) solver_->getActiveCtr_order(active_);
     for (const LexLS::ConstraintIdentifier& row : active_) {

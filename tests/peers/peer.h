@@ -23,6 +23,13 @@ class Peer {
   /// Returns whether the solver reports a solution.
   virtual bool Solve() = 0;
 
+  /// Forgets all earlier solves. The next solve is cold: it starts without
+  /// active rows.
+  virtual void Forget() = 0;
+
+  /// Allows as many iterations as a problem outside a control loop may take.
+  virtual void AllowMoreIterations() {}
+
   /// Returns the last answer, or the last iterate of a solve that failed.
   virtual const Eigen::VectorXd& y() const = 0;
 };

@@ -6,18 +6,30 @@
 namespace poise {
 namespace {
 
+// As in //tools:hqp. A controller allows 500.
+constexpr int kMostIterations = 10000;
+
 class PoisePeer final : public Peer {
  public:
   PoisePeer(int num_variables, const std::vector<LevelCapacity>& capacity)
       : hierarchy_(num_variables, capacity),
         solver_(num_variables, capacity),
-        solution_(num_variables, capacity) {}
+        solution_(num_variables, capacity) {
+    // As in a controller. No peer finds the nullity of each level.
+    solver_.finds_nullity = false;
+  }
 
   // The copy is in the cache, as are the copies that the peers make.
   void Load(const Hierarchy& hierarchy) override { hierarchy_ = hierarchy; }
 
   bool Solve() override {
     return solver_.Solve(hierarchy_, &solution_) == Status::kOptimal;
+  }
+
+  void Forget() override { solver_.Forget(); }
+
+  void AllowMoreIterations() override {
+    solver_.max_iterations = kMostIterations;
   }
 
   const Eigen::VectorXd& y() const override { return solution_.y; }

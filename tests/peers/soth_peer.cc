@@ -1,6 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // The adapter of SOTH, the hierarchical solver of Escande, Mansard and Wieber.
-#include <algorithm>
 #include <cmath>
 #include <soth/HCOD.hpp>
 
@@ -63,6 +62,8 @@ class SothPeer final : public Peer {
     return solver_ != nullptr;
   }
 
+  void Forget() override { Deactivate(&sides_); }
+
   const Eigen::VectorXd& y() const override { return y_; }
 
  private:
@@ -83,9 +84,7 @@ class SothPeer final : public Peer {
 
   // After a solve that failed, the next one starts without active rows.
   void ReadActive() {
-    for (std::vector<Side>& level : sides_) {
-      std::fill(level.begin(), level.end(), Side::kNone);
-    }
+    Deactivate(&sides_);
     if (!solver_) return;
     for (size_t k = 0; k < problem_.size(); ++k) {
       for (const soth::ConstraintRef& row : solver_->getOptimalActiveSet(k)) {
