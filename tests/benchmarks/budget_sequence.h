@@ -21,8 +21,8 @@ struct BudgetOptions {
   int repeats = 3;         ///< The time of a tick is the fastest of so many.
 };
 
-/// What a sequence showed. Index 0 of times is without the budget, index 1 with
-/// it. Times are in us, of each tick.
+/// The results of a sequence. Times are in us, one of each tick. Index 0 is
+/// without the budget, index 1 with the budget.
 struct BudgetResult {
   static constexpr int kLevels = 5;
 
@@ -39,8 +39,8 @@ struct BudgetResult {
   /// By priority level, of each tick that is cut off: the excess of the cost
   /// over that without a budget, relative to max(cost, CostFloor()).
   std::array<std::vector<double>, kLevels> excess;
-  /// Of each tick, without a budget: Certificate::relative_gap, and the largest
-  /// gap relative to max(cost, CostFloor()).
+  /// Gaps of each tick without a budget: Certificate::relative_gap, and the
+  /// largest gap relative to max(cost, CostFloor()).
   std::vector<double> gap, gap_above_floor;
 };
 

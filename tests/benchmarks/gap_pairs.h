@@ -22,8 +22,10 @@ double CostFloor(const Hierarchy& hierarchy, int level);
 
 /// Compares pairs of answers to random small hierarchies: the fast solver warm
 /// and cold, and the fast solver and the cascade. Prints each pair whose true
-/// difference of costs exceeds the sum of both gaps, and the first such
-/// hierarchy shrunk. Returns the number of these pairs.
+/// difference of costs exceeds the sum of both gaps. A gap holds for optima
+/// within a radius, see Certifier::gap(). Pairs beyond the radius count apart.
+/// Also prints the first hierarchy of each kind shrunk. Returns the number of
+/// pairs within the radius.
 int CompareRandomPairs(std::uint64_t first_seed, int hierarchies);
 
 /// Prints the levels of recorded ticks for which a warm and a cold solve are
