@@ -61,14 +61,21 @@ class Comparison {
     capacity_ = controller.stack().capacity();
     for (const int limited : {0, 1}) {
       for (int repeat = 0; repeat < options_.repeats; ++repeat) {
-        solvers_[limited].push_back(std::make_unique<Solver>(
-            controller.hierarchy().num_variables(), capacity_,
-            controller.stack().max_leading_rows()));
-        Solver& solver = *solvers_[limited].back();
-        solver.finds_nullity = false;
-        solver.max_modelled_seconds = limited * 1e-6 * options_.budget_us;
+        solvers_[limited].push_back(
+            MakeSolver(controller, limited * options_.budget_us));
       }
     }
+    cold_ = MakeSolver(controller, options_.budget_us);
+  }
+
+  std::unique_ptr<Solver> MakeSolver(const Controller& controller,
+                                     double budget_us) const {
+    auto solver = std::make_unique<Solver>(
+        controller.hierarchy().num_variables(), capacity_,
+        controller.stack().max_leading_rows());
+    solver->finds_nullity = false;
+    solver->max_modelled_seconds = 1e-6 * budget_us;
+    return solver;
   }
 
   void Solve() {
@@ -110,6 +117,7 @@ class Comparison {
       return;
     }
     ++result_.cut;
+    result_.cut_only_warm += IsSolvedCold(tick);
     result_.longest_cut = std::max(result_.longest_cut, ++run_);
     const int lost =
         tick.priority.empty() ? 0 : tick.priority[limited.failed_level];
@@ -124,6 +132,12 @@ class Comparison {
       result_.excess[tick.priority[k] - 1].push_back(
           static_cast<double>(excess / Size(tick, level, cost)));
     }
+  }
+
+  bool IsSolvedCold(const Tick& tick) {
+    Solution solution(tick.hierarchy.num_variables(), capacity_);
+    cold_->Forget();
+    return cold_->Solve(tick.hierarchy, &solution) == Status::kOptimal;
   }
 
   void CountGap(const Tick& tick, const Solution& full) {
@@ -146,6 +160,7 @@ class Comparison {
   BudgetResult result_;
   std::vector<LevelCapacity> capacity_;
   std::array<std::vector<std::unique_ptr<Solver>>, 2> solvers_;
+  std::unique_ptr<Solver> cold_;  // With the budget.
   std::vector<Tick> ticks_;
   int run_ = 0;  // Ticks in a row that were cut off.
 };
@@ -163,13 +178,14 @@ void PrintQuantiles(const char* format, std::vector<double>* values,
 
 void PrintCounts(const std::vector<BudgetResult>& results) {
   std::printf(
-      "| sequence | ticks; not optimal without a budget | cut off | longest "
-      "run | levels 1 to 3 lost | momentum lost |\n"
+      "| sequence | ticks; not optimal without a budget | cut off; of "
+      "them solved cold | longest run | levels 1 to 3 lost | momentum lost |\n"
       "| --- | --- | --- | --- | --- | --- |\n");
   for (const BudgetResult& result : results) {
-    std::printf("| %s | %d; %d | %d | %d | %d | %d |\n", result.name.c_str(),
-                result.ticks, result.unsolved, result.cut, result.longest_cut,
-                result.lost_leading, result.lost_momentum);
+    std::printf("| %s | %d; %d | %d; %d | %d | %d | %d |\n",
+                result.name.c_str(), result.ticks, result.unsolved, result.cut,
+                result.cut_only_warm, result.longest_cut, result.lost_leading,
+                result.lost_momentum);
   }
 }
 

@@ -28,9 +28,10 @@ struct BudgetResult {
 
   std::string name;
   int ticks = 0;
-  int unsolved = 0;     ///< Ticks that are not optimal without a budget.
-  int cut = 0;          ///< Ticks that are not optimal with the budget.
-  int longest_cut = 0;  ///< Longest run of them.
+  int unsolved = 0;       ///< Ticks that are not optimal without a budget.
+  int cut = 0;            ///< Ticks that are not optimal with the budget.
+  int longest_cut = 0;    ///< Longest run of them.
+  int cut_only_warm = 0;  ///< Ticks of them that a cold solve finishes.
   /// Ticks but the first that lose priority level 1, 2 or 3.
   int lost_leading = 0;
   /// Ticks but the first that lose momentum's level, 4, or one above.

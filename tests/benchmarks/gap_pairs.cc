@@ -69,12 +69,23 @@ Answers SolveAll(const HierarchyCase& drawn, std::uint64_t seed) {
   return {cold, warm, judge()};
 }
 
+// The reason why the gap of an answer does not cover another one.
+enum class Reason {
+  kNone,   ///< The gap is wrong.
+  kAbove,  ///< The other one costs more on a level above than the gap there.
+  kFar,    ///< The other one is beyond the radius of the gap.
+  kNotFinite,  ///< An answer is not finite.
+};
+constexpr int kReasons = 4;
+constexpr const char* kReasonNames[] = {"gap too small", "worse above",
+                                        "beyond the radius", "not finite"};
+
 // The first level of a pair whose costs differ by more than the gaps allow.
 struct Excess {
   int level;
   long double first, second;  // Costs.
-  double allowed;             // Sum of the gaps.
-  bool is_far;  // The cheaper answer is beyond the radius of the other's gap.
+  double allowed;             // Gap of the costlier answer.
+  Reason reason;
 };
 
 // The radius of Certifier::gap(): optima of a level are no farther from y.
@@ -98,18 +109,35 @@ double Radius(const Hierarchy& hierarchy, int level, const Eigen::VectorXd& y) {
   return 2 * (y.norm() + farthest);
 }
 
+// Why the gap of `a` on a level need not cover `b`.
+Reason FindReason(const Hierarchy& hierarchy, int level, const Answer& a,
+                  const Answer& b) {
+  const Eigen::VectorXd &y = a.solution.y, &other = b.solution.y;
+  for (int k = 0; k < level; ++k) {
+    if (TrueCost(hierarchy, k, other) - TrueCost(hierarchy, k, y) > a.gap[k]) {
+      return Reason::kAbove;
+    }
+  }
+  return (other - y).norm() > Radius(hierarchy, level, y) ? Reason::kFar
+                                                          : Reason::kNone;
+}
+
 std::optional<Excess> FindExcess(const Hierarchy& hierarchy, const Answer& a,
                                  const Answer& b) {
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     const long double first = TrueCost(hierarchy, level, a.solution.y);
     const long double second = TrueCost(hierarchy, level, b.solution.y);
-    const double allowed = a.gap[level] + b.gap[level];
-    // A comparison with NaN is false, and counts as an excess.
-    if (!(std::abs(first - second) <= allowed)) {
-      const Eigen::VectorXd& costly = (first > second ? a : b).solution.y;
-      const double distance = (a.solution.y - b.solution.y).norm();
-      return Excess{level, first, second, allowed,
-                    distance > Radius(hierarchy, level, costly)};
+    if (!std::isfinite(static_cast<double>(first - second))) {
+      return Excess{level, first, second, a.gap[level], Reason::kNotFinite};
+    }
+    const bool is_first_costly = first > second;
+    const Answer& costly = is_first_costly ? a : b;
+    const Answer& cheap = is_first_costly ? b : a;
+    const long double difference = std::abs(first - second);
+    if (difference <= costly.gap[level]) continue;
+    const Reason reason = FindReason(hierarchy, level, costly, cheap);
+    if (reason == Reason::kNone || difference > a.gap[level] + b.gap[level]) {
+      return Excess{level, first, second, costly.gap[level], reason};
     }
   }
   return std::nullopt;
@@ -127,21 +155,21 @@ void Print(const HierarchyCase& drawn, std::uint64_t seed, int pair,
   const Solution& other = (pair == 0 ? answers.warm : answers.cascade).solution;
   std::printf(
       "seed %llu, %s and cold (%s, %s), %d variables, %d levels, level %d: "
-      "costs %.17Lg and %.17Lg, difference %.3Lg, gaps %.3g%s\n",
+      "costs %.17Lg and %.17Lg, difference %.3Lg, gap %.3g: %s\n",
       static_cast<unsigned long long>(seed), pair == 0 ? "warm" : "cascade",
       Name(other.status).c_str(), Name(answers.cold.solution.status).c_str(),
       drawn.hierarchy.num_variables(), drawn.hierarchy.num_levels(),
       excess.level, excess.first, excess.second, excess.first - excess.second,
-      excess.allowed, excess.is_far ? ", beyond the radius" : "");
+      excess.allowed, kReasonNames[static_cast<int>(excess.reason)]);
 }
 
 void PrintShrunk(const HierarchyCase& drawn, std::uint64_t seed, int pair,
-                 bool is_far) {
+                 Reason reason) {
   const HierarchyCase shrunk =
       ShrinkHierarchy(drawn, [&](const HierarchyCase& each) {
         const HierarchyCase roomy = WithRoomToChange(each);
         const auto excess = FindExcess(roomy, SolveAll(roomy, seed), pair);
-        return excess && excess->is_far == is_far;
+        return excess && excess->reason == reason;
       });
   const HierarchyCase roomy = WithRoomToChange(shrunk);
   const Answers answers = SolveAll(roomy, seed);
@@ -192,7 +220,7 @@ double CostFloor(const Hierarchy& hierarchy, int level) {
 
 int CompareRandomPairs(std::uint64_t first_seed, int hierarchies) {
   const RandomHierarchyOptions options = MixedScales();
-  int exceeding[2][2] = {}, optimal[2] = {};  // By pair and Excess::is_far.
+  int exceeding[2][kReasons] = {}, optimal[2] = {};  // By pair.
   for (int i = 0; i < hierarchies; ++i) {
     const std::uint64_t seed = first_seed + i;
     const HierarchyCase drawn =
@@ -205,19 +233,20 @@ int CompareRandomPairs(std::uint64_t first_seed, int hierarchies) {
       const auto excess = FindExcess(drawn, answers, pair);
       if (!excess) continue;
       Print(drawn, seed, pair, *excess, answers);
-      const bool is_far = excess->is_far;
-      if (exceeding[0][is_far] + exceeding[1][is_far] == 0) {
-        PrintShrunk(drawn, seed, pair, is_far);
+      const int reason = static_cast<int>(excess->reason);
+      if (exceeding[0][reason] + exceeding[1][reason] == 0) {
+        PrintShrunk(drawn, seed, pair, excess->reason);
       }
-      ++exceeding[pair][is_far];
+      ++exceeding[pair][reason];
     }
   }
   for (const int pair : {0, 1}) {
-    std::printf(
-        "%s and cold: %d pairs, %d of them both optimal; %d differ by more "
-        "than their gaps within the radius, %d beyond it\n",
-        pair == 0 ? "warm" : "cascade", hierarchies, optimal[pair],
-        exceeding[pair][0], exceeding[pair][1]);
+    std::printf("%s and cold: %d pairs, %d of them both optimal. Exceeding:",
+                pair == 0 ? "warm" : "cascade", hierarchies, optimal[pair]);
+    for (int reason = 0; reason < kReasons; ++reason) {
+      std::printf(" %d %s%s", exceeding[pair][reason], kReasonNames[reason],
+                  reason + 1 < kReasons ? "," : "\n");
+    }
   }
   return exceeding[0][0] + exceeding[1][0];
 }

@@ -21,11 +21,12 @@ long double TrueCost(const Hierarchy& hierarchy, int level,
 double CostFloor(const Hierarchy& hierarchy, int level);
 
 /// Compares pairs of answers to random small hierarchies: the fast solver warm
-/// and cold, and the fast solver and the cascade. Prints each pair whose true
-/// difference of costs exceeds the sum of both gaps. A gap holds for optima
-/// within a radius, see Certifier::gap(). Pairs beyond the radius count apart.
-/// Also prints the first hierarchy of each kind shrunk. Returns the number of
-/// pairs within the radius.
+/// and cold, and the cascade and the fast solver. Prints each pair whose true
+/// difference of costs on a level exceeds the sum of both gaps. The gap is
+/// wrong, and one gap suffices, if Certifier::gap() covers the cheaper answer:
+/// this answer is within the radius, and on each level above it costs at most
+/// the gap more. Other pairs are counted by the reason. Prints the first
+/// hierarchy of each reason shrunk. Returns the number of wrong gaps.
 int CompareRandomPairs(std::uint64_t first_seed, int hierarchies);
 
 /// Prints the levels of recorded ticks for which a warm and a cold solve are
