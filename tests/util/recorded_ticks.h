@@ -41,7 +41,7 @@ struct RecordingConditions {
 void VisitTicks(const RecordingConditions& conditions,
                 const std::function<void(const Controller&)>& visit);
 
-/// Runs the robot as VisitTicks() and returns the hierarchies of its controller.
+/// Runs the robot as VisitTicks() and returns the controller's hierarchies.
 RecordedTicks RecordTicks(const RecordingConditions& conditions);
 
 }  // namespace poise
