@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/fast/active_set_search.h"
@@ -34,6 +35,8 @@ class Solver::Impl {
   Status Solve(const Hierarchy& hierarchy, bool finds_nullity, Budget* budget,
                Solution* solution);
   void Forget();
+  /// Work of the last solve.
+  std::int64_t multiply_adds() const { return problem_.multiply_adds(); }
 
  private:
   void Prepare(const Hierarchy& hierarchy);
@@ -272,7 +275,11 @@ void Solver::Forget() noexcept { impl_->Forget(); }
 
 Status Solver::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
   Budget budget({max_iterations, max_modelled_seconds, max_seconds}, &now);
-  return impl_->Solve(hierarchy, finds_nullity, &budget, solution);
+  const Status status =
+      impl_->Solve(hierarchy, finds_nullity, &budget, solution);
+  modelled_seconds_ =
+      ModelledSeconds(impl_->multiply_adds(), budget.iterations());
+  return status;
 }
 
 }  // namespace poise

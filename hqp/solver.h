@@ -42,6 +42,10 @@ class Solver {
   /// working set and y = 0.
   void Forget() noexcept;
 
+  /// Modelled time of the last solve [s], whether or not it was limited. It
+  /// covers the answer as well, so that it can exceed max_modelled_seconds.
+  double modelled_seconds() const noexcept { return modelled_seconds_; }
+
   /// Largest number of factorisations, or updates of one, in the search of one
   /// solve. Solution::iterations is the number used. One more factorisation may
   /// follow, to write the answer of a search that did not finish. In that case
@@ -66,6 +70,7 @@ class Solver {
  private:
   class Impl;  ///< Hides hqp/fast.
   std::unique_ptr<Impl> impl_;
+  double modelled_seconds_ = 0;
 };
 
 }  // namespace poise

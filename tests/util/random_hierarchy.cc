@@ -100,6 +100,9 @@ HierarchyCase Drawing::Draw() {
   if (options_.columns > 0 && source_.Chance(options_.columns)) {
     for (double& unit : columns_) unit = PowerOfTen(-3, 6);
   }
+  if (options_.small_columns > 0 && source_.Chance(options_.small_columns)) {
+    for (double& unit : columns_) unit *= source_.Chance(50) ? 1e-3 : 1;
+  }
   for (int level = 0; level < levels; ++level) {
     EqualityBlock equalities =
         drawn.hierarchy.AddEqualities(level, capacity[level].equalities);

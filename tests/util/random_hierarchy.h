@@ -50,6 +50,10 @@ struct RandomHierarchyOptions {
   /// Chance that each variable has its own unit: columns are scaled by powers
   /// of ten from 1e-3 to 1e6.
   int columns = 0;
+
+  /// Chance that about half of the columns are scaled by 1e-3, as those of
+  /// joints of small mass are.
+  int small_columns = 0;
 };
 
 /// A hierarchy and the capacity of the solver that solves it.
@@ -60,8 +64,9 @@ struct HierarchyCase {
 
 /// Draws a hierarchy. The same seed gives the same hierarchy on every platform.
 /// Numbers are multiples of 0.01, so that files are short. The options
-/// `weighted`, `degenerate_vertex`, `integer` and `columns` consume no random
-/// number if they are 0: hierarchies of known seeds do not change.
+/// `weighted`, `degenerate_vertex`, `integer`, `columns` and `small_columns`
+/// consume no random number if they are 0: hierarchies of known seeds do not
+/// change.
 HierarchyCase MakeRandomHierarchy(std::uint64_t seed,
                                   const RandomHierarchyOptions& options = {});
 

@@ -7,13 +7,10 @@
 namespace poise {
 namespace {
 
-// Start of the push, and recorded time before it, s.
-constexpr double kStart = 0.1, kLead = 0.05;
+// Start of the push and of the reduced torque, s.
+constexpr double kStart = 0.1;
 
-}  // namespace
-
-RecordedTicks RecordTicks(const RecordingConditions& conditions) {
-  const Robot robot = LoadHumanoid();
+Scenario MakePush(const RecordingConditions& conditions) {
   Scenario scenario;
   scenario.duration = conditions.end;
   Push push;
@@ -24,18 +21,34 @@ RecordedTicks RecordTicks(const RecordingConditions& conditions) {
   if (!conditions.has_limits) {
     scenario.control.without = {"torque_limits", "joint_limits"};
   }
-  ClosedLoop loop(robot, scenario);
-  RecordedTicks recorded{loop.controller().stack().capacity(), {}};
+  return scenario;
+}
+
+}  // namespace
+
+void VisitTicks(const RecordingConditions& conditions,
+                const std::function<void(const Controller&)>& visit) {
+  const bool is_push = !conditions.scenario;
+  ClosedLoop loop(conditions.robot ? *conditions.robot : LoadHumanoid(),
+                  is_push ? MakePush(conditions) : *conditions.scenario);
   while (loop.time() < conditions.end) {
-    if (conditions.has_limits && loop.time() >= kStart) {
+    if (is_push && conditions.has_limits && loop.time() >= kStart) {
       (void)loop.controller().stack().SetParameter("torque_limits", "scale",
                                                    conditions.torque_scale);
     }
     loop.Tick();
-    if (loop.time() > kStart - kLead) {
-      recorded.ticks.push_back(loop.controller().hierarchy());
-    }
+    if (loop.time() > conditions.begin) visit(loop.controller());
   }
+}
+
+RecordedTicks RecordTicks(const RecordingConditions& conditions) {
+  RecordedTicks recorded;
+  VisitTicks(conditions, [&](const Controller& controller) {
+    if (recorded.ticks.empty()) {
+      recorded.capacity = controller.stack().capacity();
+    }
+    recorded.ticks.push_back(controller.hierarchy());
+  });
   return recorded;
 }
 

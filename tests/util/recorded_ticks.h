@@ -1,9 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "poise/hqp/hierarchy.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/robot.h"
+#include "poise/sim/scenario.h"
 
 namespace poise {
 
@@ -21,12 +26,22 @@ struct RecordingConditions {
   bool has_limits = false;
   /// Available share of the torque limits from 0.1 s on, 0 to 1.
   double torque_scale = 1;
-  /// End of the recording [s]. It begins at 0.05 s.
+  /// End of the recording [s].
   double end = 0.45;
+  /// Start of the recording [s].
+  double begin = 0.05;
+  /// The robot. Absent: Poise's humanoid.
+  std::optional<Robot> robot = std::nullopt;
+  /// Replaces the push, the limits and the torque scale.
+  std::optional<Scenario> scenario = std::nullopt;
 };
 
-/// Runs the humanoid in closed loop at 1 kHz and returns the hierarchies of its
-/// controller.
+/// Runs the robot in closed loop at 1 kHz and calls `visit` after each tick of
+/// the recording. The controller has no budget unless the scenario has one.
+void VisitTicks(const RecordingConditions& conditions,
+                const std::function<void(const Controller&)>& visit);
+
+/// Runs the robot as VisitTicks() and returns the controller's hierarchies.
 RecordedTicks RecordTicks(const RecordingConditions& conditions);
 
 }  // namespace poise
