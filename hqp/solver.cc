@@ -26,12 +26,17 @@ constexpr int kMaxRefinementPasses = 5;
 // ticks, six take more, all with 5 % of the torque.
 constexpr int kMinIterationsAtOnce = 250;
 
+// After so many searches in a row that were cut off, the next one starts from an
+// empty working set, as the last y may be far from an optimum that is easy to
+// find. The better of the two is kept.
+constexpr int kMaxCutOff = 8;
+
 }  // namespace
 
 class Solver::Impl {
  public:
   Impl(int num_variables, const std::vector<LevelCapacity>& capacity,
-       int max_leading_rows);
+       int max_leading_rows, int max_kept_rows);
   Status Solve(const Hierarchy& hierarchy, bool finds_nullity, Budget* budget,
                Solution* solution);
   void Forget();
@@ -39,6 +44,8 @@ class Solver::Impl {
   std::int64_t multiply_adds() const { return problem_.multiply_adds(); }
 
  private:
+  void RememberSearch();
+  void RecallSearch();
   void Prepare(const Hierarchy& hierarchy);
   bool SearchAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget);
   void SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
@@ -49,6 +56,7 @@ class Solver::Impl {
   bool WriteSolution(const Hierarchy& hierarchy, Solution* solution);
 
   int n_;
+  int num_cut_off_ = 0;  ///< Searches in a row, without a start over.
   WorkingSetProblem problem_;
   ActiveSetSearch search_;
   MultiplierWriter writer_;
@@ -59,9 +67,9 @@ class Solver::Impl {
 
 Solver::Impl::Impl(int num_variables,
                    const std::vector<LevelCapacity>& capacity,
-                   int max_leading_rows)
+                   int max_leading_rows, int max_kept_rows)
     : n_(num_variables),
-      problem_(num_variables, capacity, max_leading_rows),
+      problem_(num_variables, capacity, max_leading_rows, max_kept_rows),
       search_(num_variables, capacity),
       writer_(num_variables),
       certifier_(num_variables, capacity) {
@@ -80,6 +88,7 @@ void Solver::Impl::Forget() {
     std::fill(side.begin(), side.end(), Side::kNone);
   }
   search_.Forget();
+  num_cut_off_ = 0;
 }
 
 Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
@@ -98,22 +107,30 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
   Prepare(hierarchy);
   const int at_once =
       std::max(kMinIterationsAtOnce, budget->max_iterations() / 2);
+  const bool starts_over = num_cut_off_ == kMaxCutOff;
+  if (starts_over) {
+    RememberSearch();
+    Forget();
+    Prepare(hierarchy);
+  }
   const bool is_complete = SearchAtOnce(hierarchy, at_once, budget);
+  num_cut_off_ = budget->is_spent() && !starts_over ? num_cut_off_ + 1 : 0;
   if (budget->is_spent()) {
-    if (budget->iterations() == 0) {
+    const bool goes_back =
+        starts_over && search_.IsBetter(hierarchy, best_y_, search_.y());
+    if (goes_back || budget->iterations() == 0) {
+      if (goes_back) RecallSearch();
       problem_.Plan(hierarchy, hierarchy.num_levels());
       problem_.SolveLeading(hierarchy, side_);
     }
     KeepSearch(hierarchy, solution);
   } else if (!is_complete || !WriteSolution(hierarchy, solution)) {
-    best_side_ = side_;
-    best_y_ = search_.y();
+    RememberSearch();
     solution->Reset(hierarchy);
     SearchByLevel(hierarchy, budget, solution);
     if (budget->is_spent() &&
         search_.IsBetter(hierarchy, best_y_, search_.y())) {
-      side_ = best_side_;
-      search_.set_y(best_y_);
+      RecallSearch();
       solution->Reset(hierarchy);
       problem_.Plan(hierarchy, hierarchy.num_levels());
       problem_.SolveLeading(hierarchy, side_);
@@ -124,6 +141,16 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
   }
   solution->iterations = budget->iterations();
   return solution->status;
+}
+
+void Solver::Impl::RememberSearch() {
+  best_side_ = side_;
+  best_y_ = search_.y();
+}
+
+void Solver::Impl::RecallSearch() {
+  side_ = best_side_;
+  search_.set_y(best_y_);
 }
 
 // Removes rows from the working set whose bound became infinite. Adds rows with
@@ -262,11 +289,12 @@ bool Solver::Impl::WriteSolution(const Hierarchy& hierarchy,
 }
 
 Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity)
-    : Solver(num_variables, capacity, NumRows(capacity)) {}
+    : impl_(std::make_unique<Impl>(num_variables, capacity, NumRows(capacity),
+                                   2 * num_variables)) {}
 Solver::Solver(int num_variables, const std::vector<LevelCapacity>& capacity,
                int max_leading_rows)
-    : impl_(std::make_unique<Impl>(num_variables, capacity, max_leading_rows)) {
-}
+    : impl_(std::make_unique<Impl>(num_variables, capacity, max_leading_rows,
+                                   (num_variables + 1) / 2)) {}
 Solver::Solver(Solver&& other) noexcept = default;
 Solver& Solver::operator=(Solver&& other) noexcept = default;
 Solver::~Solver() = default;

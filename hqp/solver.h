@@ -16,8 +16,11 @@ namespace poise {
 /// docs/hqp.md and hqp/fast/README.md.
 class Solver {
  public:
+  /// Allocates memory for all levels at their capacity, and for speed in
+  /// problems of many dense inequalities.
   Solver(int num_variables, const std::vector<LevelCapacity>& capacity);
 
+  /// Allocates less memory.
   /// @param max_leading_rows  largest number of rows of all levels together,
   ///     without the last levels whose rows have one variable each. This number
   ///     determines the memory, about 24 n bytes a row. The capacity of each

@@ -424,6 +424,36 @@ TEST(Solver, GoesOnFromWhereItWasStopped) {
   EXPECT_GT(stopped, 200);
 }
 
+// Level 0 has the bounds -1 <= y_j <= 1, and the targets of level 1 leave them and
+// come back to 0. A search from the last answer removes the bounds one by one, a
+// search from the start needs one iteration.
+TEST(Solver, StartsOverIfItIsStoppedAgainAndAgain) {
+  constexpr int kVariables = 40;
+  const std::vector<LevelCapacity> capacity{{0, kVariables}, {kVariables, 0}};
+  Hierarchy hierarchy(kVariables, capacity);
+  InequalityBlock bounds = hierarchy.AddInequalities(0, kVariables);
+  bounds.C.setIdentity();
+  bounds.lower.setConstant(-1);
+  bounds.upper.setConstant(1);
+  EqualityBlock target = hierarchy.AddEqualities(1, kVariables);
+  target.B.setIdentity();
+  target.B.diagonal(1).setConstant(0.1);
+  target.b.setConstant(-5);
+  Solver solver(kVariables, capacity), cold(kVariables, capacity);
+  Solution solution(kVariables, capacity);
+  ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+
+  target.b.setZero();
+  cold.max_iterations = solver.max_iterations = 2;
+  ASSERT_EQ(cold.Solve(hierarchy, &solution), Status::kOptimal);
+  int solves = 1;
+  while (solver.Solve(hierarchy, &solution) != Status::kOptimal) {
+    ASSERT_LE(++solves, 10);
+  }
+  EXPECT_GT(solves, 2);
+  EXPECT_TRUE(solution.y.isZero(kTolerance));
+}
+
 // The first level has no active row, and the second contradicts itself. The row
 // y0 <= 4 becomes active, so that the factorisation is updated. Nothing of the
 // last solve may be left in it.

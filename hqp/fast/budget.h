@@ -14,14 +14,14 @@ struct BudgetLimits {
 };
 
 /// Modelled time [s] of a solve. It depends on the problem alone, so that a
-/// replay with such a limit is exact. The three times are a fit to 1200 solves
-/// on a machine that other jobs slowed down: 98 % of the predictions were
-/// between 0.79 and 1.17 of the measured time. All three are then multiplied by
-/// 0.62, the speed of a quiet machine. The time of a solve covers the check of
-/// the input, refinement, multipliers and the certificate.
+/// replay with such a limit is exact. The three times are a fit to 1193 solves
+/// on a slow machine: 98 % of the predictions were between 0.78 and 1.12 of the
+/// measured time. All three are then multiplied by 0.73, the speed of a quiet
+/// machine. The time of a solve covers the check of the input, refinement,
+/// multipliers and the certificate.
 inline double ModelledSeconds(std::int64_t multiply_adds, int iterations) {
   constexpr double kPerMultiplyAdd = 0.165e-9;
-  constexpr double kPerIteration = 4e-6, kPerSolve = 36e-6;
+  constexpr double kPerIteration = 4.6e-6, kPerSolve = 25e-6;
   return kPerSolve + kPerIteration * iterations +
          kPerMultiplyAdd * static_cast<double>(multiply_adds);
 }

@@ -23,10 +23,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 LexicographicFactorization::LexicographicFactorization(int num_variables,
                                                        int max_rows,
-                                                       int max_levels)
+                                                       int max_levels,
+                                                       int max_kept_rows)
     : n_(num_variables),
       stride_((num_variables + 7) / 4 * 4),
-      kept_(num_variables, max_rows, (num_variables + 1) / 2) {
+      kept_(num_variables, max_rows, max_kept_rows) {
   const auto rows = [&](int count) {
     return static_cast<size_t>(count) * stride_;
   };
@@ -57,7 +58,7 @@ void LexicographicFactorization::Truncate(int level) {
   levels_.resize(std::min<size_t>(levels_.size(), level));
   num_rows_ = levels_.empty() ? 0 : levels_.back().end_row;
   rank_ = levels_.empty() ? 0 : levels_.back().rank_end;
-  if (rank_ < kept_.rank()) kept_.Clear(rank_);
+  if (level == 0 || rank_ < kept_.rank()) kept_.Clear(rank_);
 }
 
 int LexicographicFactorization::AddRow(double target, double metric) {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -28,7 +29,12 @@ namespace poise {
 /// allocates after construction.
 class LexicographicFactorization {
  public:
-  LexicographicFactorization(int num_variables, int max_rows, int max_levels);
+  /// @param max_kept_rows  room for projections, see Recall().
+  LexicographicFactorization(int num_variables, int max_rows, int max_levels,
+                             int max_kept_rows);
+  LexicographicFactorization(int num_variables, int max_rows, int max_levels)
+      : LexicographicFactorization(num_variables, max_rows, max_levels,
+                                   std::min(max_rows, 2 * num_variables)) {}
 
   /// The key of a row whose projection is not kept, see Recall().
   static constexpr int kNoKey = -1;

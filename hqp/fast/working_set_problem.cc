@@ -25,10 +25,10 @@ double AbsoluteSum(const double* row, Span span) {
 
 WorkingSetProblem::WorkingSetProblem(int num_variables,
                                      const std::vector<LevelCapacity>& capacity,
-                                     int max_leading_rows)
+                                     int max_leading_rows, int max_kept_rows)
     : n_(num_variables),
       leading_(num_variables, max_leading_rows,
-               static_cast<int>(capacity.size())),
+               static_cast<int>(capacity.size()), max_kept_rows),
       diagonal_(num_variables, static_cast<int>(capacity.size())),
       rows_(max_leading_rows),
       multipliers_(capacity.size() + 1),
@@ -178,20 +178,19 @@ void WorkingSetProblem::AddInequality(const Hierarchy& hierarchy, int level,
   AddRow({level, i, true, span, Norm(row, span), bound}, row, 1, key);
 }
 
-// Factors the levels from `from_level` on. After the first level, the rows'
-// projections on the levels before are kept for the next time.
+// Factors the levels from `from_level` on. If `keeps`, the rows' projections on
+// the merged levels are kept for the next time.
 void WorkingSetProblem::FactorFrom(const Hierarchy& hierarchy,
                                    const std::vector<std::vector<Side>>& side,
-                                   int from_level) {
+                                   int from_level, bool keeps) {
   leading_.Truncate(from_level);
   int key = 0;  // The key of the level's first row counts all rows before.
   for (int level = 0; level < num_leading_; ++level) {
     if (level >= from_level) {
-      FactorLevel(hierarchy, side[level], level, from_level > 0 ? key : kNoKey);
+      FactorLevel(hierarchy, side[level], level, keeps ? key : kNoKey);
     }
     key += hierarchy.num_equalities(level) + hierarchy.num_inequalities(level);
   }
-  leading_.ForgetUnused();
 }
 
 void WorkingSetProblem::FactorLevel(const Hierarchy& hierarchy,
@@ -218,14 +217,19 @@ void WorkingSetProblem::FactorLevel(const Hierarchy& hierarchy,
   factored_[level] = side;
 }
 
-// Updates the factorisation of the levels before the first deficient one, by
-// removing and appending single rows. All of these rows are met, so their order
-// does not matter. The other levels are factored again. Returns false if the
-// first level must be factored again.
+// Factors the levels from the first one that has changed. If this is before the
+// first deficient one, single rows are removed and appended instead: all rows
+// before the first deficient level are met, so their order does not matter.
+// Returns false if the first level must be factored again.
 bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
                                const std::vector<std::vector<Side>>& side) {
-  int met = 0;
+  int met = 0, same = 0;
   while (met < num_leading_ && !leading_.is_deficient(met)) ++met;
+  while (same < num_leading_ && side[same] == factored_[same]) ++same;
+  if (same > met) {
+    if (same < num_leading_) FactorFrom(hierarchy, side, same, met > 0);
+    return true;
+  }
   if (met == 0) return false;
   leading_.Merge(met);
   for (int a = leading_.num_rows() - 1; a >= 0; --a) {
@@ -242,7 +246,8 @@ bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
   }
   if (met == 0) return false;
   leading_.SolveLast();
-  FactorFrom(hierarchy, side, met);
+  FactorFrom(hierarchy, side, met, true);
+  leading_.ForgetUnused();
   return true;
 }
 
@@ -288,7 +293,7 @@ void WorkingSetProblem::RemoveRow(int a) {
 void WorkingSetProblem::SolveLeading(
     const Hierarchy& hierarchy, const std::vector<std::vector<Side>>& side) {
   if (!is_factored_ || !Update(hierarchy, side)) {
-    FactorFrom(hierarchy, side, 0);
+    FactorFrom(hierarchy, side, 0, false);
   }
   is_factored_ = true;
 }

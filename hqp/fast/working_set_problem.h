@@ -19,13 +19,16 @@ class WorkingSetProblem {
  public:
   WorkingSetProblem(int num_variables,
                     const std::vector<LevelCapacity>& capacity)
-      : WorkingSetProblem(num_variables, capacity, NumRows(capacity)) {}
+      : WorkingSetProblem(num_variables, capacity, NumRows(capacity),
+                          2 * num_variables) {}
 
   /// @param max_leading_rows  largest number of rows of all leading levels
   ///                          together; it determines the memory.
+  /// @param max_kept_rows  rows of deficient levels whose projection is kept
+  ///                       between two updates. All others are projected anew.
   WorkingSetProblem(int num_variables,
                     const std::vector<LevelCapacity>& capacity,
-                    int max_leading_rows);
+                    int max_leading_rows, int max_kept_rows);
 
   /// A row of the leading levels, as given in the hierarchy.
   struct Row {
@@ -150,7 +153,8 @@ class WorkingSetProblem {
   void AddInequality(const Hierarchy& hierarchy, int level, int i, Side side,
                      int key);
   void FactorFrom(const Hierarchy& hierarchy,
-                  const std::vector<std::vector<Side>>& side, int from_level);
+                  const std::vector<std::vector<Side>>& side, int from_level,
+                  bool keeps);
   void FactorLevel(const Hierarchy& hierarchy, const std::vector<Side>& side,
                    int level, int first_key);
   bool Update(const Hierarchy& hierarchy,

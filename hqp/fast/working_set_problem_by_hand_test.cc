@@ -494,12 +494,12 @@ TEST(WorkingSetProblem, LimitsTheLeadingRows) {
   hierarchy.AddEqualities(0, 1).B << 1, 1;
   hierarchy.AddEqualities(1, 2).B.setIdentity();
   int failed_level;
-  EXPECT_EQ(WorkingSetProblem(2, capacity, 1).Read(hierarchy, &failed_level),
+  EXPECT_EQ(WorkingSetProblem(2, capacity, 1, 1).Read(hierarchy, &failed_level),
             Status::kOptimal);
   hierarchy.AddInequalities(0, 1).C << 1, 0;
-  EXPECT_EQ(WorkingSetProblem(2, capacity, 1).Read(hierarchy, &failed_level),
+  EXPECT_EQ(WorkingSetProblem(2, capacity, 1, 1).Read(hierarchy, &failed_level),
             Status::kBadInput);
-  EXPECT_EQ(WorkingSetProblem(2, capacity, 2).Read(hierarchy, &failed_level),
+  EXPECT_EQ(WorkingSetProblem(2, capacity, 2, 2).Read(hierarchy, &failed_level),
             Status::kOptimal);
 }
 
@@ -507,7 +507,7 @@ TEST(WorkingSetProblem, LimitsTheLeadingRows) {
 // projections of the first problem must not enter the second one.
 TEST(WorkingSetProblem, ForgetsTheRowsOfAnotherProblem) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {2, 1}};
-  WorkingSetProblem problem(2, capacity, 4);
+  WorkingSetProblem problem(2, capacity, 4, 4);
   for (int j = 0; j < 2; ++j) {
     Hierarchy hierarchy(2, capacity);
     hierarchy.AddInequalities(0, 1).C << 1, 1;
