@@ -467,6 +467,29 @@ TEST_P(CascadeByHandTest, EndsWhereMultipliersAreRounding) {
       Rounding(4, 4));
 }
 
+// In the nullspace of level 0, both rows of level 1 are within rounding of zero,
+// each by itself, but not together. The level then has no step.
+TEST_P(CascadeByHandTest, TakesNoStepAlongRowsThatAreRounding) {
+  const std::vector<LevelCapacity> capacity{{1, 1}, {1, 1}};
+  HierarchyCase drawn{capacity, Hierarchy(3, capacity)};
+  EqualityBlock plane = drawn.hierarchy.AddEqualities(0, 1);
+  plane.B << 1520, -9e-7, 55000;
+  InequalityBlock above = drawn.hierarchy.AddInequalities(0, 1);
+  above.C << 1410, -1.88e-6, -65000;
+  above.lower << 0;
+  EqualityBlock target = drawn.hierarchy.AddEqualities(1, 1);
+  target.B << 1040, -9.4e-7, -84000;
+  target.b << 5;
+  InequalityBlock opposed = drawn.hierarchy.AddInequalities(1, 1);
+  opposed.C << 0, 0, -176000;
+  opposed.lower << 2;
+  const Solution solution = SolveCascade(drawn, GetParam());
+  EXPECT_LE(WorstOf(drawn, solution), Certifier::kCertified);
+  // y is 0 to rounding, so level 1 misses 5 and 2.
+  EXPECT_NEAR(solution.levels[1].cost, (25 + 4) / 2.,
+              Certifier::kCertified * 29 / 2);
+}
+
 INSTANTIATE_TEST_SUITE_P(BothWays, CascadeByHandTest,
                          testing::Values(RowSpaceMethod::kSvd,
                                          RowSpaceMethod::kCod));

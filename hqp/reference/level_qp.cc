@@ -61,6 +61,11 @@ class LeastSquares {
         parts_(place, e) = factor_[i] * part[e];
       }
     }
+    // Each row may be rounding, although together they have a rank.
+    if (parts_.isZero(0)) {
+      rank_ = 0;
+      return;
+    }
     qr_.compute(parts_);
   }
 
