@@ -20,7 +20,11 @@ class PoisePeer final : public Peer {
   }
 
   // The copy is in the cache, as are the copies that the peers make.
-  void Load(const Hierarchy& hierarchy) override { hierarchy_ = hierarchy; }
+  // In a controller, Stack finds the spans as it writes the rows.
+  void Load(const Hierarchy& hierarchy) override {
+    hierarchy_ = hierarchy;
+    hierarchy_.FindSpans();
+  }
 
   bool Solve() override {
     return solver_.Solve(hierarchy_, &solution_) == Status::kOptimal;

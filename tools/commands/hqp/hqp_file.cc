@@ -233,6 +233,7 @@ HqpProblem ReadHqp(const std::string& text) {
     ReadInequalities(levels[level], index, where, &problem.hierarchy);
   }
   if (has_bounds) ReadBounds(file, bounds_level, &problem.hierarchy);
+  problem.hierarchy.FindSpans();
   return problem;
 }
 
