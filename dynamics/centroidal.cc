@@ -28,16 +28,18 @@ void FillMomentumMatrix(const Tree& tree, const Recursion& r, const Vec3& p_GO,
     H_G->block<3, 3>(3, 0) = -Hat(ToEigen(M_O.h));
     H_G->block<3, 3>(3, 3) = M_O.mass * Eigen::Matrix3d::Identity();
   }
-  double* column = H_G->data() + 6 * (tree.v_start() - 1);
+  const int before = tree.v_start() - 1;
+  double* entries = H_G->data();
   POISE_LANES
   for (int b = 1; b < num_bodies; ++b) {
     const Force3 H_j = Shift(p_GO + r.p_OB_W[b], r.H_W[b]);
-    column[6 * b] = H_j.angular.x;
-    column[6 * b + 1] = H_j.angular.y;
-    column[6 * b + 2] = H_j.angular.z;
-    column[6 * b + 3] = H_j.linear.x;
-    column[6 * b + 4] = H_j.linear.y;
-    column[6 * b + 5] = H_j.linear.z;
+    const int column = 6 * (before + b);
+    entries[column] = H_j.angular.x;
+    entries[column + 1] = H_j.angular.y;
+    entries[column + 2] = H_j.angular.z;
+    entries[column + 3] = H_j.linear.x;
+    entries[column + 4] = H_j.linear.y;
+    entries[column + 5] = H_j.linear.z;
   }
 }
 

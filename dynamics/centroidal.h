@@ -35,9 +35,8 @@ struct CentroidalMomentum {
 /// @param q        nq, see Tree.
 /// @param scratch  made for this tree.
 /// @param H_G      6 x nv, world axes, about G, angular part first; SI units.
-///                 All of it is written.
-/// Costs O(n): 0.6 times ComputeCrba() for 50 joints. Does not allocate, does not
-/// throw.
+///                 Every entry is written. pre: it has nv columns (asserted).
+/// Costs O(n), less than ComputeCrba(). Does not allocate, does not throw.
 /// Source: the paper, eq. (19), with each column in closed form.
 void ComputeCentroidalMomentumMatrix(const Tree& tree,
                                      const Eigen::Ref<const Eigen::VectorXd>& q,
@@ -46,7 +45,13 @@ void ComputeCentroidalMomentumMatrix(const Tree& tree,
 
 /// Computes H_G as ComputeCentroidalMomentumMatrix() does, and its bias from
 /// the force [n; f] on all bodies at v̇ = 0 and g = 0, about O:
-///     bias = [n + p_GO x f; f].
+///     bias = [n - p_OG x f; f].
+///
+/// @param q        nq, see Tree.
+/// @param v        nv, see Tree.
+/// @param scratch  made for this tree.
+/// @param out      sized for nv by its constructor. H_G as above; bias in N m
+///                 and N, world axes, about G.
 /// Costs O(n). Does not allocate, does not throw.
 void ComputeCentroidalMomentum(const Tree& tree,
                                const Eigen::Ref<const Eigen::VectorXd>& q,

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "poise/hqp/tolerances.h"
@@ -46,6 +48,22 @@ RowSums Sum(const double* row, const double* y, int n) {
     squares[0] += row[j] * row[j];
   }
   return {product.sum(), size.sum(), squares.sum()};
+}
+
+// Returns whether all entries are zero, of either sign.
+bool IsZero(const double* x, int n) {
+  std::uint64_t bits = 0;
+  for (int j = 0; j < n; ++j) {
+    std::uint64_t entry;
+    std::memcpy(&entry, x + j, sizeof entry);
+    bits |= entry << 1;
+  }
+  return bits == 0;
+}
+
+bool IsZeroOutside(const double* row, int n, Span span) {
+  const int end = span.first + span.size;
+  return IsZero(row, span.first) && IsZero(row + end, n - end);
 }
 
 // Returns the largest absolute entry of a row.
@@ -150,8 +168,11 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
   gradient_.setZero();
   gradient_size_.setZero();
   double cost = 0, cost_size = 0, feasibility = certificate->feasibility;
+  const int n = hierarchy.num_variables();
+  bool has_right_spans = true;
   for (int i = 0; i < B.rows(); ++i) {
     const Span span = hierarchy.B_span(level)[i];
+    has_right_spans &= IsZeroOutside(B.row(i).data(), n, span);
     const double* row = B.row(i).data() + span.first;
     const RowSums sums = Sum(row, solution.y.data() + span.first, span.size);
     const double residual = sums.product + b[i];
@@ -168,6 +189,7 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
   }
   for (int i = 0; i < C.rows(); ++i) {
     const Span span = hierarchy.C_span(level)[i];
+    has_right_spans &= IsZeroOutside(C.row(i).data(), n, span);
     const double* row = C.row(i).data() + span.first;
     const RowSums sums = Sum(row, solution.y.data() + span.first, span.size);
     const double value = sums.product;
@@ -195,7 +217,7 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
   }
   cost_[level] = cost;
   cost_size_[level] = cost_size;
-  certificate->feasibility = feasibility;
+  certificate->feasibility = has_right_spans ? feasibility : kInfinity;
   certificate->priority = Worse(
       certificate->priority,
       Ratio(cost - answer.cost, cost + tolerances::kZeroCost * cost_size));

@@ -166,5 +166,31 @@ TEST(Certificate, AllowsAnyMultiplierBetweenEqualBounds) {
   }
 }
 
+// y = (1, 2) meets y0 <= 1, as the span says, and violates y0 + y1 <= 1.
+TEST(Certifier, RejectsARowThatIsNotZeroOutsideItsSpan) {
+  for (const double outside : {0., 1., std::nan(""), 1e-300}) {
+    SCOPED_TRACE(outside);
+    const std::vector<LevelCapacity> capacity{{1, 1}};
+    Hierarchy hierarchy(2, capacity);
+    InequalityBlock limit = hierarchy.AddInequalities(0, 1);
+    limit.SetSingle(0, 0, 1);
+    limit.C(0, 1) = outside;
+    limit.upper << 1;
+    EqualityBlock target = hierarchy.AddEqualities(0, 1);
+    target.SetSingle(0, 1, 1);
+    target.B(0, 0) = outside;
+    target.b << -2;
+    Solution solution(2, capacity);
+    solution.y << 1, 2;
+    const double worst =
+        Certifier(2, capacity).Certify(hierarchy, solution).worst();
+    if (outside == 0) {
+      EXPECT_EQ(worst, 0);
+    } else {
+      EXPECT_GT(worst, Certifier::kCertified);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace poise

@@ -90,7 +90,8 @@ class Hierarchy {
   /// columns, so that the solver and the certificate skip the zeros before and
   /// after. Without this call, only rows written by SetSingle() have a shorter
   /// span. Write no row after the call, until Clear().
-  /// pre: a row with a shorter span is zero outside it (asserted).
+  /// pre: a row with a shorter span is zero outside it (asserted). If it is not,
+  /// no answer is certified.
   void FindSpans() noexcept;
 
   int num_equalities(int level) const;

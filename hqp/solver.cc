@@ -26,9 +26,10 @@ constexpr int kMaxRefinementPasses = 5;
 // ticks, six take more, all with 5 % of the torque.
 constexpr int kMinIterationsAtOnce = 250;
 
-// After so many searches in a row that were cut off, the next one starts from an
-// empty working set, as the last y may be far from an optimum that is easy to
-// find. The better of the two is kept.
+// After this number of solves in a row that the budget ended, a search starts from
+// an empty working set: the optimum may be easy to find from there, but far from
+// the last y. With 4, such starts interrupt searches that are about to end
+// (docs/notebook/2026-11-26-budget.md).
 constexpr int kMaxCutOff = 8;
 
 }  // namespace
@@ -44,6 +45,7 @@ class Solver::Impl {
   std::int64_t multiply_adds() const { return problem_.multiply_adds(); }
 
  private:
+  void StartOver(const Hierarchy& hierarchy, Budget* budget);
   void RememberSearch();
   void RecallSearch();
   void Prepare(const Hierarchy& hierarchy);
@@ -56,7 +58,8 @@ class Solver::Impl {
   bool WriteSolution(const Hierarchy& hierarchy, Solution* solution);
 
   int n_;
-  int num_cut_off_ = 0;  ///< Searches in a row, without a start over.
+  /// Solves in a row that the budget ended, since the last start over.
+  int num_cut_off_ = 0;
   WorkingSetProblem problem_;
   ActiveSetSearch search_;
   MultiplierWriter writer_;
@@ -101,20 +104,17 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
     solution->status = status;
     solution->failed_level = failed_level;
     solution->certificate = certifier_.Certify(hierarchy, *solution);
+    num_cut_off_ = 0;
     return solution->status;
   }
   solution->Reset(hierarchy);
   Prepare(hierarchy);
   const int at_once =
       std::max(kMinIterationsAtOnce, budget->max_iterations() / 2);
-  const bool starts_over = num_cut_off_ == kMaxCutOff;
-  if (starts_over) {
-    RememberSearch();
-    Forget();
-    Prepare(hierarchy);
-  }
+  const int num_cut_off = num_cut_off_;
+  const bool starts_over = num_cut_off == kMaxCutOff;
+  if (starts_over) StartOver(hierarchy, budget);
   const bool is_complete = SearchAtOnce(hierarchy, at_once, budget);
-  num_cut_off_ = budget->is_spent() && !starts_over ? num_cut_off_ + 1 : 0;
   if (budget->is_spent()) {
     const bool goes_back =
         starts_over && search_.IsBetter(hierarchy, best_y_, search_.y());
@@ -140,7 +140,20 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
     }
   }
   solution->iterations = budget->iterations();
+  num_cut_off_ = budget->is_spent() && !starts_over ? num_cut_off + 1 : 0;
   return solution->status;
+}
+
+// Remembers the last search and forgets it. The rows have changed since, so that
+// its y is first moved to the levels that every search meets.
+void Solver::Impl::StartOver(const Hierarchy& hierarchy, Budget* budget) {
+  RememberSearch();
+  (void)budget->Take(problem_.multiply_adds());
+  problem_.Plan(hierarchy, hierarchy.num_levels());
+  problem_.SolveLeading(hierarchy, side_);
+  problem_.MoveToFirstLevels(hierarchy, &best_y_);
+  Forget();
+  Prepare(hierarchy);
 }
 
 void Solver::Impl::RememberSearch() {

@@ -454,6 +454,52 @@ TEST(Solver, StartsOverIfItIsStoppedAgainAndAgain) {
   EXPECT_TRUE(solution.y.isZero(kTolerance));
 }
 
+// The rows of all levels drift, so that the last y misses the equalities of level
+// 0 a little. A search that starts over and is cut off as well must not give up
+// the limits of level 1, which the last y nearly met.
+TEST(Solver, KeepsTheLimitsIfItStartsOverInVain) {
+  constexpr int kVariables = 40;
+  const std::vector<LevelCapacity> capacity{
+      {12, 0}, {0, 80}, {12, 0}, {kVariables, 0}};
+  std::mt19937 numbers(1);
+  std::normal_distribution<double> normal;
+  const auto draw = [&](int rows, int columns) {
+    return RowMajorMatrix::NullaryExpr(rows, columns,
+                                       [&] { return normal(numbers); })
+        .eval();
+  };
+  const RowMajorMatrix B = draw(12, kVariables), B_rate = draw(12, kVariables);
+  const RowMajorMatrix T = draw(12, kVariables), C = draw(80, kVariables);
+  const Eigen::VectorXd b = draw(12, 1), target = 6 * draw(12, 1);
+  Solver solver(kVariables, capacity);
+  Solution solution(kVariables, capacity);
+  double largest = 0;
+  int cut_off = 0;
+  for (int tick = 0; tick < 25; ++tick) {
+    Hierarchy hierarchy(kVariables, capacity);
+    EqualityBlock first = hierarchy.AddEqualities(0, 12);
+    first.B = B + 1e-3 * tick * B_rate;
+    first.b = b;
+    InequalityBlock limits = hierarchy.AddInequalities(1, 80);
+    limits.C = C;
+    limits.lower.setConstant(-1);
+    limits.upper.setConstant(1);
+    EqualityBlock last = hierarchy.AddEqualities(2, 12);
+    last.B = T;
+    if (tick > 0) last.b = target;
+    hierarchy.AddEqualities(3, kVariables).B.setIdentity();
+    solver.max_iterations = tick == 0 ? 500 : 4;
+    cut_off += solver.Solve(hierarchy, &solution) != Status::kOptimal;
+    // The limits can be met; a tick of drift costs about 1e-5.
+    const double cost = solution.levels[1].cost;
+    if (tick > 8) {
+      EXPECT_LE(cost, 100 * largest) << tick;
+    }
+    largest = std::max(largest, cost);
+  }
+  EXPECT_GT(cut_off, 20);
+}
+
 // The first level has no active row, and the second contradicts itself. The row
 // y0 <= 4 becomes active, so that the factorisation is updated. Nothing of the
 // last solve may be left in it.
