@@ -56,6 +56,11 @@ class DocsTest(unittest.TestCase):
             if path.name != "index.md":
                 self.assertIn(str(path.relative_to(ROOT / "docs")), targets)
 
+    def test_the_changelog_begins_with_the_present_version(self):
+        versions = re.findall(r"^## \[(.*)\]", (ROOT / "CHANGELOG.md").read_text(),
+                              re.M)
+        self.assertEqual(versions[0], (ROOT / "VERSION").read_text().strip())
+
     def test_generated_pages_name_their_command(self):
         for path in (ROOT / "docs/generated").glob("*.md"):
             first_lines = "\n".join(path.read_text().split("\n")[:12])
