@@ -51,9 +51,6 @@ def needed(root, public):
 
 
 def read_list(text):
-    """Returns (public, private) of the text of public_headers.txt."""
-    lines = [line for line in text.split("\n")
-             if line and not line.startswith("#")]
-    return ([line for line in lines if " " not in line],
-            [line.split(" ", 1)[1] for line in lines
-             if line.startswith("private ")])
+    """Returns (public, private) of the text of public_headers.bzl."""
+    return tuple(re.findall(r'^    "(.*)",$', block, re.M) for block in
+                 re.findall(r"^\w+ = \[\n([^\]]*)\]", text, re.M))
