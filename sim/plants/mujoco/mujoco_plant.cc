@@ -8,14 +8,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "poise/math/quaternion.h"
+#include "poise/dynamics/conventions.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/input_error.h"
+#include "poise/sim/plants/mujoco/load_mujoco.h"
 #include "poise/sim/plants/mujoco/mujoco_model.h"
 
 namespace poise {
-
-static_assert(sizeof(mjtNum) == sizeof(double), "link a double MuJoCo");
 
 namespace {
 
@@ -24,27 +23,6 @@ constexpr int kWorld = 0;
 
 using ConstVector3 = Eigen::Map<const Eigen::Vector3d>;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-
-// Silences MuJoCo, which would warn of a diverging simulation on stderr and in
-// a file of the current folder. The judge of the run reports the divergence.
-[[maybe_unused]] const bool kIsQuiet = (
-    mju_user_warning = [](const char*) {}, true);
-
-// Loads a model through MuJoCo's virtual file system: MuJoCo has no function
-// that reads XML from a string.
-mjModel* LoadXml(const std::string& xml, std::string* error) {
-  const auto files = std::make_unique<mjVFS>();
-  mj_defaultVFS(files.get());
-  constexpr const char* kName = "robot.xml";
-  mj_makeEmptyFileVFS(files.get(), kName, static_cast<int>(xml.size()));
-  const int index = mj_findFileVFS(files.get(), kName);
-  std::copy(xml.begin(), xml.end(), static_cast<char*>(files->filedata[index]));
-  char message[500] = "";
-  mjModel* model = mj_loadXML(kName, files.get(), message, sizeof(message));
-  *error = message;
-  mj_deleteVFS(files.get());
-  return model;
-}
 
 }  // namespace
 
@@ -70,7 +48,7 @@ MujocoPlant::MujocoPlant(const Robot& robot, const PlantSettings& settings)
 
 void MujocoPlant::Load(const std::vector<std::pair<int, int>>& excluded) {
   std::string error;
-  model_.reset(LoadXml(MakeMujocoXml(robot_, settings_, excluded), &error));
+  model_ = LoadMujoco(MakeMujocoXml(robot_, settings_, excluded), &error);
   if (model_ == nullptr) {
     const std::string line = error.substr(0, error.find('\n'));
     throw std::invalid_argument("robot " + Quoted(robot_.model.name) +
@@ -86,21 +64,11 @@ Pose MujocoPlant::X_WB(int body) const {
 
 void MujocoPlant::Place(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   mj_resetData(model_.get(), data_.get());
-  const int n = robot_.model.tree.num_joints();
-  double *qpos = data_->qpos, *qvel = data_->qvel;
-  if (robot_.model.tree.is_floating()) {
-    const Eigen::Quaterniond R_WB =
-        Eigen::Quaterniond(q.segment<4>(3)).normalized();
-    const Eigen::Vector3d w_WB_B = R_WB.inverse() * v.head<3>();
-    const Eigen::Vector4d wxyz = WxyzFromQuaternion(R_WB);
-    const double twist[] = {v[3],       v[4],       v[5],
-                            w_WB_B.x(), w_WB_B.y(), w_WB_B.z()};
-    qpos = std::copy(q.data(), q.data() + 3, qpos);
-    qpos = std::copy(wxyz.data(), wxyz.data() + 4, qpos);
-    qvel = std::copy(std::begin(twist), std::end(twist), qvel);
-  }
-  std::copy(q.data() + q.size() - n, q.data() + q.size(), qpos);
-  std::copy(v.data() + v.size() - n, v.data() + v.size(), qvel);
+  const Tree& tree = robot_.model.tree;
+  ExportConfiguration(Library::kMujoco, tree, q,
+                      Eigen::Map<Eigen::VectorXd>(data_->qpos, model_->nq));
+  ExportVelocity(Library::kMujoco, tree, q, v,
+                 Eigen::Map<Eigen::VectorXd>(data_->qvel, model_->nv));
   mj_forward(model_.get(), data_.get());
 }
 
@@ -167,32 +135,16 @@ void MujocoPlant::Step(const Eigen::VectorXd& tau) {
 }
 
 void MujocoPlant::ReadState() {
-  const int n = robot_.model.tree.num_joints();
-  const double *qpos = data_->qpos, *qvel = data_->qvel;
-  Eigen::VectorXd& q = state_.q;
-  Eigen::VectorXd& v = state_.v;
-  state_.vdot =
-      (Eigen::Map<const Eigen::VectorXd>(qvel, model_->nv) - state_.vdot) /
-      settings_.dt;
-  if (robot_.model.tree.is_floating()) {
-    // MuJoCo integrates the angular velocity in the body's axes at the start of
-    // the step. In world axes the angular acceleration is R alpha_B, because
-    // the cross product of w with itself is 0.
-    const Eigen::Vector3d a_W = state_.vdot.head<3>();
-    const Eigen::Vector3d alpha_B = state_.vdot.segment<3>(3);
-    state_.vdot.head<3>() = X_WB(0).R * alpha_B;
-    state_.vdot.segment<3>(3) = a_W;
-    q.head<3>() = ConstVector3(qpos);
-    const Eigen::Quaterniond R_WB =
-        QuaternionFromWxyz(Eigen::Vector4d(qpos + 3));
-    q.segment<4>(3) = R_WB.coeffs();
-    v.head<3>() = R_WB * ConstVector3(qvel + 3);
-    v.segment<3>(3) = ConstVector3(qvel);
-    qpos += 7;
-    qvel += 6;
-  }
-  std::copy(qpos, qpos + n, q.data() + q.size() - n);
-  std::copy(qvel, qvel + n, v.data() + v.size() - n);
+  const Tree& tree = robot_.model.tree;
+  const Eigen::Map<const Eigen::VectorXd> qpos(data_->qpos, model_->nq);
+  const Eigen::Map<const Eigen::VectorXd> qvel(data_->qvel, model_->nv);
+  // MuJoCo integrates the angular velocity in the axes of the base at the start
+  // of the step, which state_.q still has.
+  const Eigen::VectorXd vdot_theirs = (qvel - state_.vdot) / settings_.dt;
+  ImportAcceleration(Library::kMujoco, tree, state_.q, state_.v, vdot_theirs,
+                     state_.vdot);
+  ImportConfiguration(Library::kMujoco, tree, qpos, state_.q);
+  ImportVelocity(Library::kMujoco, tree, state_.q, qvel, state_.v);
 }
 
 void MujocoPlant::ReadContacts() {

@@ -1,14 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include <mujoco/mujoco.h>
-
 #include <Eigen/Core>
-#include <memory>
 #include <utility>
 #include <vector>
 
 #include "poise/robot/robot.h"
+#include "poise/sim/plants/mujoco/load_mujoco.h"
 #include "poise/sim/plants/plant.h"
 #include "poise/sim/plants/plant_settings.h"
 
@@ -34,11 +32,6 @@ class MujocoPlant final : public Plant {
   double dt() const override { return settings_.dt; }
 
  private:
-  struct Delete {
-    void operator()(mjModel* model) const { mj_deleteModel(model); }
-    void operator()(mjData* data) const { mj_deleteData(data); }
-  };
-
   void Load(const std::vector<std::pair<int, int>>& excluded);
   void Place(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
   std::vector<std::pair<int, int>> FindTouching() const;
@@ -49,8 +42,8 @@ class MujocoPlant final : public Plant {
   Robot robot_;
   PlantSettings settings_;
   PlantState state_;
-  std::unique_ptr<mjModel, Delete> model_;
-  std::unique_ptr<mjData, Delete> data_;
+  MujocoModel model_;
+  MujocoData data_;
   Eigen::VectorXd pushes_;  // Generalized forces for the next step.
   int steps_ = 0;
 };

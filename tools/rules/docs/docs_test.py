@@ -56,10 +56,45 @@ class DocsTest(unittest.TestCase):
             if path.name != "index.md":
                 self.assertIn(str(path.relative_to(ROOT / "docs")), targets)
 
+    def test_the_changelog_begins_with_the_present_version(self):
+        versions = re.findall(r"^## \[(.*)\]", (ROOT / "CHANGELOG.md").read_text(),
+                              re.M)
+        self.assertEqual(versions[0], (ROOT / "VERSION").read_text().strip())
+
     def test_generated_pages_name_their_command(self):
         for path in (ROOT / "docs/generated").glob("*.md"):
             first_lines = "\n".join(path.read_text().split("\n")[:12])
             self.assertIn("bazel run //", first_lines, path)
+
+
+class CodeTest(unittest.TestCase):
+    """Readers can copy C++ from the pages: each block is part of a built file."""
+
+    # Programs and examples that tests build.
+    BUILT = ("docs/examples/*/main.cc", "tests/embedding/*.cc",
+             "tests/examples/*.cc", "tests/examples/*.h")
+
+    def setUp(self):
+        text = "".join(path.read_text() for pattern in self.BUILT
+                       for path in sorted(ROOT.glob(pattern)))
+        # tasks.md tells readers to put their task beside those of Poise.
+        self.built = pages.unindented(
+            text.replace("tests/examples/", "robot/control/tasks/"))
+
+    def unknown(self, text):
+        return [number for number, block in pages.blocks(text, "cpp")
+                if pages.unindented(block) not in self.built]
+
+    def test_each_block_of_cpp_is_part_of_a_built_file(self):
+        paths = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *HANDBOOK]
+        self.assertEqual([f"{path}:{number}" for path in paths
+                          for number in self.unknown(path.read_text())], [])
+        self.assertGreater(
+            sum(len(list(pages.blocks(path.read_text(), "cpp")))
+                for path in paths), 5)
+
+    def test_notices_a_block_that_is_not_built(self):
+        self.assertEqual(self.unknown("a\n```cpp\nint none();\n```\n"), [2])
 
 
 class EquationsTest(unittest.TestCase):

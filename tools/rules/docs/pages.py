@@ -29,6 +29,25 @@ def lines_outside_code(text):
             yield number, line
 
 
+def blocks(text, language):
+    """Yields (number, text) of the fenced blocks of a language."""
+    start, lines = None, []
+    for number, line in enumerate(text.split("\n"), 1):
+        if start is None:
+            if line.strip() == "```" + language:
+                start, lines = number, []
+        elif line.strip() == "```":
+            yield start, "\n".join(lines) + "\n"
+            start = None
+        else:
+            lines.append(line)
+
+
+def unindented(text):
+    """Returns the text without the spaces at the beginning of each line."""
+    return re.sub(r"^ +", "", text, flags=re.M)
+
+
 def anchors(text):
     """Returns the anchors of a page's headings, as GitHub makes them."""
     found = set()

@@ -63,7 +63,7 @@ def layer_package_groups():
     for layer in LAYERS:
         native.package_group(
             name = layer.replace("/", "_") + "_users",
-            packages = ["//tests/...", "//tools/..."] + [
+            packages = ["//docs", "//tests/...", "//tools/..."] + [
                 # The folder robot/control is inside robot, but its layer is above;
                 # visibility allows that dependency, layer_test() refuses it.
                 "//{}/...".format(user)
