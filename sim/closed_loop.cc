@@ -208,6 +208,16 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
   during_ = start_;
 }
 
+void ClosedLoop::AddPush(const Push& push) {
+  Scenario one = scenario_;
+  one.pushes = {push};
+  const Push fitted = Fitted(robot_, one).pushes.front();
+  pushes_.push_back(Aim({fitted}, robot_).front());
+  scenario_.pushes.push_back(fitted);
+  directions_.push_back(push.force);
+  is_sized_.push_back(false);
+}
+
 int ClosedLoop::FindFoot(const std::string& name) const {
   for (size_t i = 0; i < robot_.feet.size(); ++i) {
     if (robot_.feet[i].name == name) return static_cast<int>(i);

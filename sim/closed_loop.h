@@ -49,6 +49,10 @@ class ClosedLoop {
   /// Runs one control tick.
   void Tick();
 
+  /// Adds a push, before the first tick or between two ticks. The part of the
+  /// push before time() does not act. Throws InputError as the constructor.
+  void AddPush(const Push& push);
+
   double time() const { return plant_->Sense().time; }
   const Robot& robot() const { return robot_; }
   /// Returns the scenario, fitted to the robot, see FitToRobot().
