@@ -17,6 +17,7 @@ void BindRobot(pybind11::module_* module);
 void BindHierarchy(pybind11::module_* module);
 void BindSolution(pybind11::module_* module);
 void BindSolver(pybind11::module_* module);
+void BindTask(pybind11::module_* module);
 void BindController(pybind11::module_* module);
 void BindScenario(pybind11::module_* module);
 void BindSimulation(pybind11::module_* module);

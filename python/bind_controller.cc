@@ -10,6 +10,7 @@
 #include "poise/python/arrays.h"
 #include "poise/python/bind.h"
 #include "poise/python/python_controller.h"
+#include "poise/python/python_task.h"
 #include "poise/robot/control/controller.h"
 #include "poise/robot/control/task_set.h"
 
@@ -17,12 +18,11 @@ namespace poise {
 namespace {
 
 // Makes a controller with the tasks of the robot's profile.
-std::shared_ptr<PythonController> MakeController(const PythonRobot& robot,
-                                                 py::handle dt,
-                                                 py::handle friction,
-                                                 py::handle max_iterations,
-                                                 py::handle frames) {
+std::shared_ptr<PythonController> MakeController(
+    const PythonRobot& robot, py::handle dt, py::handle friction,
+    py::handle max_iterations, py::handle frames, py::handle own_tasks) {
   ControllerOptions options;
+  options.add_tasks = TasksToAdd(own_tasks);
   options.dt = AsNumber(dt, "dt");
   options.friction = AsNumber(friction, "friction");
   options.max_iterations = AsInteger(max_iterations, "max_iterations", 1,
@@ -133,10 +133,10 @@ void BindController(py::module_* module) {
   controller.def(
       py::init(&MakeController), py::arg("robot"), py::arg("dt") = 1e-3,
       py::arg("friction") = 0.5, py::arg("max_iterations") = 500,
-      py::arg("frames") = py::tuple(),
+      py::arg("frames") = py::tuple(), py::arg("tasks") = py::tuple(),
       "Makes a controller with the tasks of the robot's profile. dt: s. "
       "friction: the coefficient that the controller assumes. frames: links "
-      "with a task 'frame.NAME'.");
+      "with a task 'frame.NAME'. tasks: Tasks of your own.");
   controller.def(
       "start",
       [](const PythonController& self, const State& state) {

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <pybind11/stl.h>
 
+#include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
 
 #include "poise/python/arguments.h"
 #include "poise/python/arrays.h"
@@ -12,6 +12,7 @@
 #include "poise/python/make_push.h"
 #include "poise/python/python_controller.h"
 #include "poise/python/python_robot.h"
+#include "poise/python/python_task.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/experiment.h"
 #include "poise/sim/judge.h"
@@ -22,8 +23,10 @@ namespace {
 
 // A closed loop and its judge.
 struct PythonSimulation {
-  PythonSimulation(const Robot& robot, const Scenario& scenario)
-      : loop(robot, scenario), judge(StandingHeight(robot), scenario.steps) {}
+  PythonSimulation(const Robot& robot, const Scenario& scenario,
+                   const std::function<void(Stack*)>& add_tasks)
+      : loop(robot, scenario, add_tasks),
+        judge(StandingHeight(robot), scenario.steps) {}
 
   ClosedLoop loop;
   Judge judge;
@@ -39,11 +42,14 @@ struct PythonSimulation {
 using Owner = std::shared_ptr<PythonSimulation>;
 using SimulationClass = py::class_<PythonSimulation, Owner>;
 
-Owner MakeSimulation(const PythonRobot& robot, const Scenario& scenario) {
+Owner MakeSimulation(const PythonRobot& robot, const Scenario& scenario,
+                     py::handle tasks) {
+  const auto add_tasks = TasksToAdd(tasks);
   Scenario with_tasks = scenario;
   UseTasksOf(robot.profile, &with_tasks);
   const py::gil_scoped_release release;
-  return std::make_shared<PythonSimulation>(*robot.robot, with_tasks);
+  return std::make_shared<PythonSimulation>(*robot.robot, with_tasks,
+                                            add_tasks);
 }
 
 // Ticks n times. Looks for Ctrl-C every few ticks.
@@ -67,7 +73,8 @@ void Step(PythonSimulation* self, py::handle n) {
 void PushNow(PythonSimulation* self, py::handle force, py::handle duration,
              py::handle at, py::handle link, py::handle point,
              py::handle moment, py::handle profile) {
-  const double start = at.is_none() ? self->get().time() : AsNumber(at, "at");
+  const double now = self->get().time();
+  const double start = at.is_none() ? now : AsNumber(at, "at");
   self->loop.AddPush(
       MakePush(force, start, duration, link, point, moment, profile));
 }
@@ -130,9 +137,9 @@ void BindSimulation(py::module_* module) {
       "A robot, its plant and its controller, tick by tick. Two simulations of "
       "one robot and scenario agree to the bit.");
   simulation.def(py::init(&MakeSimulation), py::arg("robot"),
-                 py::arg("scenario"),
+                 py::arg("scenario"), py::arg("tasks") = py::tuple(),
                  "Makes a simulation at time 0. The scenario is copied and "
-                 "fitted to the robot.");
+                 "fitted to the robot. tasks: Tasks of your own.");
   simulation.def("step", Step, py::arg("n") = 1,
                  "Runs n control ticks, also beyond the scenario's duration. "
                  "Other threads run meanwhile, but must not use this "

@@ -40,6 +40,7 @@ PYBIND11_MODULE(_poise, module) {
   poise::BindHierarchy(&module);
   poise::BindSolution(&module);
   poise::BindSolver(&module);
+  poise::BindTask(&module);
   poise::BindController(&module);
   poise::BindScenario(&module);
   poise::BindSimulation(&module);

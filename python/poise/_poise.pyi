@@ -415,6 +415,37 @@ class TickReport:
     @property
     def residuals(self) -> dict[str, float]: ...
 
+class TaskInput:
+    @property
+    def q(self) -> _Array: ...
+    @property
+    def v(self) -> _Array: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def tick(self) -> Tick: ...
+    @property
+    def in_contact(self) -> list[bool]: ...
+    @property
+    def com_reference(self) -> _Array: ...
+
+class Task:
+    def __init__(
+        self,
+        name: str,
+        equalities: Sequence[str] = ...,
+        inequalities: Sequence[str] = ...,
+        level: int = 4,
+        weight: float = 1.0,
+    ) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def error(self) -> str: ...
+    def rows(
+        self, input: TaskInput
+    ) -> tuple[ArrayLike, ArrayLike] | dict[str, ArrayLike]: ...
+
 class Controller:
     def __init__(
         self,
@@ -423,6 +454,7 @@ class Controller:
         friction: float = 0.5,
         max_iterations: int = 500,
         frames: Sequence[str] = ...,
+        tasks: Sequence[Task] = ...,
     ) -> None: ...
     def start(self, state: State) -> None: ...
     def update(self, state: State) -> Command: ...
@@ -478,7 +510,12 @@ class Scenario:
     def clear_pushes(self) -> None: ...
 
 class Simulation:
-    def __init__(self, robot: Robot, scenario: Scenario) -> None: ...
+    def __init__(
+        self,
+        robot: Robot,
+        scenario: Scenario,
+        tasks: Sequence[Task] = ...,
+    ) -> None: ...
     def step(self, n: int = 1) -> None: ...
     def push(
         self,

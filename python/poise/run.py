@@ -12,16 +12,16 @@ import tempfile
 import weakref
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from poise import _poise
 
+# NumPy is loaded with the first array: `import poise` alone is quick.
 if TYPE_CHECKING:
     import matplotlib.figure  # type: ignore[import]
+    import numpy as np
     import pandas  # type: ignore[import]
+    from numpy.typing import NDArray
 
-Column = NDArray[np.float64] | list[str]
+    Column = NDArray[np.float64] | list[str]
 
 
 def run(scenario: _poise.Scenario | str,
