@@ -8,6 +8,7 @@
 
 #include "poise/python/arguments.h"
 #include "poise/python/arrays.h"
+#include "poise/python/as_object.h"
 #include "poise/python/bind.h"
 #include "poise/python/python_controller.h"
 #include "poise/python/python_task.h"
@@ -19,8 +20,9 @@ namespace {
 
 // Makes a controller with the tasks of the robot's profile.
 std::shared_ptr<PythonController> MakeController(
-    const PythonRobot& robot, py::handle dt, py::handle friction,
+    py::handle robot_argument, py::handle dt, py::handle friction,
     py::handle max_iterations, py::handle frames, py::handle own_tasks) {
+  const auto& robot = AsObject<PythonRobot>(robot_argument, "robot");
   ControllerOptions options;
   options.add_tasks = TasksToAdd(own_tasks);
   options.dt = AsNumber(dt, "dt");
@@ -62,7 +64,8 @@ void CheckState(const Controller& controller, const State& state) {
 }
 
 std::unique_ptr<Command> Update(const PythonController& self,
-                                const State& state) {
+                                py::handle argument) {
+  const State& state = AsObject<State>(argument, "state");
   Controller& controller = self.get();
   CheckState(controller, state);
   auto command = std::make_unique<Command>();
@@ -139,7 +142,8 @@ void BindController(py::module_* module) {
       "with a task 'frame.NAME'. tasks: Tasks of your own.");
   controller.def(
       "start",
-      [](const PythonController& self, const State& state) {
+      [](const PythonController& self, py::handle argument) {
+        const State& state = AsObject<State>(argument, "state");
         CheckState(self.get(), state);
         self.get().Start(state);
       },

@@ -47,7 +47,11 @@ std::filesystem::path FindScenario(const std::string& name) {
 
 // Reads a scenario from a dict with the keys of its YAML file. JSON is valid
 // YAML, so that the reader of files is the only one.
-Scenario FromDict(const py::dict& values, py::handle name) {
+Scenario FromDict(py::handle values, py::handle name) {
+  if (!py::isinstance<py::dict>(values)) {
+    throw std::invalid_argument("values is of type " + TypeName(values) +
+                                ", must be a dict");
+  }
   std::string text;
   try {
     const py::object as_list = py::cpp_function(

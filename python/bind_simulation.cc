@@ -7,6 +7,7 @@
 
 #include "poise/python/arguments.h"
 #include "poise/python/arrays.h"
+#include "poise/python/as_object.h"
 #include "poise/python/bind.h"
 #include "poise/python/exclusive.h"
 #include "poise/python/make_push.h"
@@ -42,10 +43,11 @@ struct PythonSimulation {
 using Owner = std::shared_ptr<PythonSimulation>;
 using SimulationClass = py::class_<PythonSimulation, Owner>;
 
-Owner MakeSimulation(const PythonRobot& robot, const Scenario& scenario,
+Owner MakeSimulation(py::handle robot_argument, py::handle scenario,
                      py::handle tasks) {
+  const auto& robot = AsObject<PythonRobot>(robot_argument, "robot");
   const auto add_tasks = TasksToAdd(tasks);
-  Scenario with_tasks = scenario;
+  Scenario with_tasks = AsObject<Scenario>(scenario, "scenario");
   UseTasksOf(robot.profile, &with_tasks);
   const py::gil_scoped_release release;
   return std::make_shared<PythonSimulation>(*robot.robot, with_tasks,

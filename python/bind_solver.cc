@@ -12,6 +12,7 @@
 
 #include "poise/hqp/solver.h"
 #include "poise/python/arguments.h"
+#include "poise/python/as_object.h"
 #include "poise/python/bind.h"
 #include "poise/python/exclusive.h"
 #include "poise/python/python_solution.h"
@@ -107,8 +108,8 @@ void BindSolver(py::module_* module) {
       "The largest number of factorisations of a solve.");
   solver.def(
       "solve",
-      [](PythonSolver& self, const PythonHierarchy& hierarchy) {
-        return self.Solve(hierarchy);
+      [](PythonSolver& self, py::handle hierarchy) {
+        return self.Solve(AsObject<PythonHierarchy>(hierarchy, "hierarchy"));
       },
       py::arg("hierarchy"),
       "Solves a Hierarchy and returns its Solution. Copies the rows. Other "

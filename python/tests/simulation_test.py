@@ -92,6 +92,24 @@ class SimulationTest(unittest.TestCase):
         with self.assertRaisesRegex(poise.InputError, "nose"):
             simulation.push([1, 0, 0], link="nose")
 
+    def test_rejects_wrong_types(self):
+        for call, message in (
+                (lambda: poise.Simulation(3, short()),
+                 "robot is of type int, must be a Robot"),
+                (lambda: poise.Simulation(ROBOT, "stand"),
+                 "scenario is of type str, must be a Scenario"),
+                (lambda: poise.Controller("robot"), "robot is of type str"),
+                (lambda: poise.Controller(ROBOT).update(ROBOT.posture),
+                 "state is of type ndarray, must be a State"),
+                (lambda: poise.Controller(ROBOT).start(None),
+                 "state is of type NoneType"),
+                (lambda: poise.Solver(2).solve([]),
+                 "hierarchy is of type list, must be a Hierarchy"),
+                (lambda: poise.Scenario.from_dict([]),
+                 "values is of type list, must be a dict")):
+            with self.assertRaisesRegex(poise.InputError, message):
+                call()
+
     def test_sees_a_fall(self):
         simulation = poise.Simulation(ROBOT, short())
         simulation.push([0, 2000, 0], duration=0.3)
