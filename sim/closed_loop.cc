@@ -72,9 +72,11 @@ void Switch(const std::vector<std::string>& tasks, bool on, Stack* stack) {
   }
 }
 
-std::unique_ptr<Controller> MakeController(const Robot& robot,
-                                           const ControlSettings& settings) {
+std::unique_ptr<Controller> MakeController(
+    const Robot& robot, const ControlSettings& settings,
+    const std::function<void(Stack*)>& add_tasks) {
   ControllerOptions options;
+  options.add_tasks = add_tasks;
   options.dt = settings.dt;
   options.friction = settings.friction;
   options.inscribed = settings.inscribed;
@@ -155,7 +157,8 @@ Scenario Fitted(const Robot& robot, const Scenario& scenario) {
 
 }  // namespace
 
-ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
+ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario,
+                       const std::function<void(Stack*)>& add_tasks)
     : robot_(robot),
       scenario_(Fitted(robot, scenario)),
       plant_(MakeOf("robot",
@@ -164,7 +167,7 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
                                        scenario_.plant);
                     })),
       controller_(MakeController(MakeBelievedRobot(robot, scenario_),
-                                 scenario_.control)),
+                                 scenario_.control, add_tasks)),
       sensors_(robot, scenario_.sensors, scenario_.seed ^ kSensorSeed),
       observer_(robot, scenario_.plant.ground),
       pushes_(Aim(scenario_.pushes, robot)),
@@ -206,6 +209,16 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario)
   command_.tau.setZero(robot.model.tree.num_joints());
   start_ = plant_->Sense();
   during_ = start_;
+}
+
+void ClosedLoop::AddPush(const Push& push) {
+  Scenario one = scenario_;
+  one.pushes = {push};
+  const Push fitted = Fitted(robot_, one).pushes.front();
+  pushes_.push_back(Aim({fitted}, robot_).front());
+  scenario_.pushes.push_back(fitted);
+  directions_.push_back(push.force);
+  is_sized_.push_back(false);
 }
 
 int ClosedLoop::FindFoot(const std::string& name) const {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "poise/robot/control/controller.h"
 #include "poise/robot/control/estimator.h"
 #include "poise/robot/control/measurement.h"
+#include "poise/robot/control/stack.h"
 #include "poise/robot/gait/gait.h"
 #include "poise/robot/robot.h"
 #include "poise/sim/command/center_of_mass_path.h"
@@ -44,10 +46,16 @@ class ClosedLoop {
   /// the robot does not have, such as a task or a link. The error's field is
   /// "robot" if the plant or the controller cannot use the robot. Throws
   /// Refusal about a file.
-  ClosedLoop(const Robot& robot, const Scenario& scenario);
+  /// @param add_tasks  see ControllerOptions::add_tasks.
+  ClosedLoop(const Robot& robot, const Scenario& scenario,
+             const std::function<void(Stack*)>& add_tasks = {});
 
   /// Runs one control tick.
   void Tick();
+
+  /// Adds a push, before the first tick or between two ticks. The part of the
+  /// push before time() does not act. Throws InputError as the constructor.
+  void AddPush(const Push& push);
 
   double time() const { return plant_->Sense().time; }
   const Robot& robot() const { return robot_; }

@@ -9,6 +9,7 @@
 
 #include "poise/robot/finding.h"
 #include "poise/robot/input_error.h"
+#include "poise/robot/profile/yaml_file.h"
 #include "poise/sim/number_field.h"
 #include "poise/sim/plants/make_plant.h"
 #include "poise/sim/scenario_fields.h"
@@ -266,12 +267,9 @@ bool IsPlainName(const std::string& name) {
          OneLine(name) == name;
 }
 
-}  // namespace
-
-Scenario ReadScenario(const std::filesystem::path& file) {
-  YamlFields fields = ReadYaml(file.string());
+Scenario ReadScenario(YamlFields fields, const std::string& name) {
   Scenario scenario;
-  scenario.name = fields.Text("name", file.stem().string());
+  scenario.name = fields.Text("name", name);
   if (!IsPlainName(scenario.name)) {
     fields.Refuse("name",
                   "must be the name of a file, in UTF-8, of at most 100 bytes");
@@ -298,6 +296,17 @@ Scenario ReadScenario(const std::filesystem::path& file) {
   }
   fields.Finish();
   return scenario;
+}
+
+}  // namespace
+
+Scenario ReadScenario(const std::filesystem::path& file) {
+  return ReadScenario(ReadYaml(file.string()), file.stem().string());
+}
+
+Scenario ParseScenario(const std::string& text, const std::string& source,
+                       const std::string& name) {
+  return ReadScenario(YamlFields(ParseYaml(text, source), source), name);
 }
 
 Scenario LoadScenario(const std::filesystem::path& file) {

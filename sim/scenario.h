@@ -93,6 +93,13 @@ struct Scenario {
 /// the allowed values. Rejects unknown keys.
 Scenario ReadScenario(const std::filesystem::path& file);
 
+/// Reads a scenario from the text of a file, as ReadScenario() does from a file.
+///
+/// @param source  the name of the text in messages.
+/// @param name    the scenario's name if the text has none.
+Scenario ParseScenario(const std::string& text, const std::string& source,
+                       const std::string& name);
+
 /// Reads a scenario as ReadScenario(), and throws also as Validate().
 Scenario LoadScenario(const std::filesystem::path& file);
 

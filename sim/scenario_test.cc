@@ -76,6 +76,19 @@ TEST(Scenario, ReadsNameDurationSeedAndStart) {
   EXPECT_EQ(s.start.place, Eigen::Vector2d(1, -2));
 }
 
+TEST(Scenario, ParsesTextLikeAFile) {
+  // JSON is valid YAML.
+  const Scenario s = ParseScenario(
+      R"({"duration": 2.5, "steps": true, "pushes": [{"force": [0, 60, 0]}]})",
+      "text", "mine");
+  EXPECT_EQ(s.name, "mine");
+  EXPECT_EQ(s.duration, 2.5);
+  EXPECT_TRUE(s.steps);
+  ASSERT_EQ(s.pushes.size(), 1u);
+  EXPECT_EQ(s.pushes[0].force, Eigen::Vector3d(0, 60, 0));
+  EXPECT_EQ(ParseScenario("name: given", "text", "mine").name, "given");
+}
+
 TEST(Scenario, ReadsEachKeyOfPushes) {
   const Scenario s = Read(kEveryKey);
   ASSERT_EQ(s.pushes.size(), 3u);

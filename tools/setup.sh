@@ -15,11 +15,14 @@ packages=(
   # The libraries: linear algebra, robot files, plants, formats, digests.
   libbullet-dev libcairo2-dev libcli11-dev libeigen3-dev libmujoco-dev
   libssl-dev libtinyxml2-dev liburdfdom-dev libyaml-cpp-dev nlohmann-json3-dev
+  # The Python package: its binding, and NumPy.
+  pybind11-dev python3-dev python3-numpy
   # The command that converts meshes of other formats than STL and OBJ.
   assimp-utils
   # Packages that only tests use.
   libbenchmark-dev libceres-dev libfcl-dev libgmock-dev libgmp-dev libgtest-dev
-  libmpfrc++-dev liborocos-kdl-dev librapidcheck-dev
+  libmpfrc++-dev liborocos-kdl-dev librapidcheck-dev mypy python3-matplotlib
+  python3-pandas python3-venv
 )
 
 fail() {

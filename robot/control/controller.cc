@@ -59,6 +59,12 @@ std::vector<int> TickFrames(const Robot& robot,
   return frames;
 }
 
+Stack MakeStack(const Robot& robot, const ControllerOptions& options) {
+  Stack stack = MakeDefaultStack(robot, options.frames);
+  if (options.add_tasks) options.add_tasks(&stack);
+  return stack;
+}
+
 int NumVariables(const Robot& robot) {
   return robot.model.tree.nv() + 6 * static_cast<int>(robot.feet.size());
 }
@@ -72,7 +78,7 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
               robot_.model.tree.gravity_W().norm()),
       force_scale_(ForceScale(robot_.model.tree)),
       scale_(MakeFroudeScale(robot_)),
-      stack_(MakeDefaultStack(robot_, options.frames)),
+      stack_(MakeStack(robot_, options)),
       momentum_(*stack_.Find("momentum")),
       momentum_task_(static_cast<const MomentumTask&>(stack_.task(momentum_))),
       torque_limits_(*stack_.Find("torque_limits")),

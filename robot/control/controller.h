@@ -45,6 +45,9 @@ struct ControllerOptions {
   double max_seconds = 0;
   std::function<double()> now;
   std::vector<std::string> frames;  ///< Links with a task frame.NAME.
+  /// Adds tasks of the caller's own to the default stack; may be empty. Called
+  /// once, in the constructor.
+  std::function<void(Stack*)> add_tasks;
 };
 
 /// Computes the joint torques from the state of a robot, by momentum control

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -34,6 +35,45 @@ TEST_F(ControllerTest, TorquesRealiseTheSolution) {
   }
   // N; the weight of the robot is 380 N.
   EXPECT_LT(residual.norm(), 1e-9);
+}
+
+// Accelerates the base about z by a constant, rad/s2.
+class TurnTask final : public Task {
+ public:
+  explicit TurnTask(double desired)
+      : Task("turn", {{"turn.z", "rad/s2", "the rotation of the base"}}, {}),
+        desired_(desired) {}
+  void Write(const TaskInput&, EqualityBlock* equalities,
+             InequalityBlock*) const noexcept override {
+    equalities->SetSingle(0, 2, 1);
+    equalities->b[0] = -desired_;
+  }
+
+ private:
+  double desired_;
+};
+
+TEST_F(ControllerTest, AddsTasksOfTheCaller) {
+  ControllerOptions options;
+  double desired = 0.3;
+  options.add_tasks = [&desired](Stack* stack) {
+    // Level 3 is above the momentum, which would resist.
+    stack->Add(std::make_unique<TurnTask>(desired), {true, 3, 1});
+  };
+  Controller turning(controller_.robot(), options);
+  turning.Start(state_);
+  turning.Update(state_, &command_);
+  EXPECT_EQ(command_.status, TickStatus::kOk);
+  EXPECT_NEAR(turning.report().y[2], desired, 1e-9);
+
+  // A row that is not finite ends the tick in the fail-safe command.
+  desired = std::numeric_limits<double>::quiet_NaN();
+  Controller failing(controller_.robot(), options);
+  failing.Start(state_);
+  failing.Update(state_, &command_);
+  EXPECT_EQ(command_.status, TickStatus::kFailSafe);
+  EXPECT_EQ(failing.report().fail_safe_reason, FailSafeReason::kNoAnswer);
+  EXPECT_TRUE(command_.tau.allFinite());
 }
 
 TEST_F(ControllerTest, ComesToRestAfterAPush) {

@@ -123,3 +123,42 @@ def poise_cc_benchmark(name, srcs = None, copts = [], deps = [], **kwargs):
         deps = deps,
         **kwargs
     )
+
+# The symbols of pybind11 are hidden, so those that contain them must be too.
+_PYTHON_COPTS = ["-fvisibility=hidden"]
+
+def poise_cc_python_library(name, copts = [], **kwargs):
+    """A part of a Python module, by pybind11. Without precompiled headers."""
+    if kwargs.get("hdrs"):
+        kwargs["include_prefix"] = "poise"
+        kwargs["strip_include_prefix"] = "/"
+    native.cc_library(
+        name = name,
+        copts = _COPTS + _PYTHON_COPTS + copts,
+        **kwargs
+    )
+
+def poise_cc_python_module(name, symbols, copts = [], linkopts = [], **kwargs):
+    """A Python module as a shared library that exports its entry point alone.
+
+    Poise's own layers are linked statically, Debian's libraries dynamically.
+
+    Args:
+      name: The name with its folder and suffix: "poise/_poise.so".
+      symbols: A version script of the linker.
+      copts: Flags of the compiler.
+      linkopts: Flags of the linker.
+      **kwargs: Arguments of cc_binary.
+    """
+    native.cc_binary(
+        name = name,
+        copts = _COPTS + _PYTHON_COPTS + copts,
+        linkopts = linkopts + [
+            "-Wl,--version-script=$(location {})".format(symbols),
+            "-Wl,--gc-sections",
+        ],
+        linkshared = True,
+        linkstatic = True,
+        deps = kwargs.pop("deps", []) + [symbols],
+        **kwargs
+    )

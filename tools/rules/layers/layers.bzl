@@ -16,6 +16,12 @@ LAYERS = {
     "robot/control": ["dynamics", "hqp", "math", "robot"],
     "robot/gait": ["dynamics", "hqp", "math", "robot", "robot/control"],
     "sim": ["dynamics", "hqp", "math", "robot", "robot/control", "robot/gait"],
+    "python": ["dynamics", "hqp", "math", "robot", "robot/control", "robot/gait", "sim"],
+}
+
+# For each layer, folders outside the layers that it may use as well.
+_FOLDERS = {
+    "python": ["tools/commands", "tools/viewer"],
 }
 
 # For each layer, the external repositories that its libraries may use.
@@ -27,6 +33,7 @@ _EXTERNALS = {
     "robot/control": ["eigen", "yaml_cpp"],
     "robot/gait": ["eigen"],
     "sim": ["bullet", "eigen", "mujoco", "nlohmann_json", "openssl", "yaml_cpp"],
+    "python": ["cli11", "eigen", "nlohmann_json", "pybind11", "yaml_cpp"],
 }
 
 # For each external repository, the beginnings of the <paths> of its headers.
@@ -43,6 +50,7 @@ _HEADERS = {
     "mujoco": ["mujoco/"],
     "nlohmann_json": ["nlohmann/"],
     "openssl": ["openssl/"],
+    "pybind11": ["pybind11/", "Python.h", "numpy/"],
     "rapidcheck": ["rapidcheck"],
     "tinyxml2": ["tinyxml"],
     "urdfdom": ["urdf"],
@@ -89,6 +97,7 @@ def layer_test():
         sources += list(rule.get("srcs") or []) + list(rule.get("hdrs") or [])
     sources = [source for source in sources if "." in source]
     layers = [layer] + LAYERS[layer]
+    folders = layers + _FOLDERS.get(layer, [])
     externals = {name: True for each in layers for name in _EXTERNALS[each]}
     native.genquery(
         name = "layer_closure",
@@ -118,7 +127,7 @@ def layer_test():
         args = [
             "$(rootpath :layer_closure)",
             "'^(//({})(/[^:]*)?:|@({})//)'".format(
-                "|".join(layers),
+                "|".join(folders),
                 "|".join(externals.keys()),
             ),
             "'^({})$$'".format("|".join(

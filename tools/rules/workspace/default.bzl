@@ -68,6 +68,15 @@ def add_default_repositories():
         debian_package = "libmujoco-dev",
     )
 
+    system_repository(
+        # The headers of Python itself; a module is not linked with libpython.
+        # NumPy's headers are not needed, because pybind11 has its own.
+        name = "pybind11",
+        pkg_config = "python3",
+        header = "pybind11/pybind11.h",
+        debian_package = "pybind11-dev and python3-dev",
+    )
+
     # Tests only.
     system_repository(
         name = "gtest",

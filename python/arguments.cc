@@ -1,0 +1,68 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/python/arguments.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace poise {
+
+namespace py = pybind11;
+
+namespace {
+
+// Returns a value for a message: at most 60 characters of its repr().
+std::string Shown(py::handle value) {
+  constexpr size_t kMost = 60;
+  const std::string text = py::cast<std::string>(py::repr(value));
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+}
+
+}  // namespace
+
+std::string TypeName(py::handle value) {
+  return py::cast<std::string>(py::type::handle_of(value).attr("__name__"));
+}
+
+double AsNumber(py::handle value, const char* name) {
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (number == -1 && PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
+                                " of type " + TypeName(value) +
+                                ", must be a real number");
+  }
+  return number;
+}
+
+int AsInteger(py::handle value, const char* name, int lower, int upper) {
+  const double number = AsNumber(value, name);
+  if (!(number >= lower && number <= upper && number == std::floor(number))) {
+    throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
+                                ", must be a whole number from " +
+                                std::to_string(lower) + " to " +
+                                std::to_string(upper));
+  }
+  return static_cast<int>(number);
+}
+
+std::string AsText(py::handle value, const char* name) {
+  if (!py::isinstance<py::str>(value) && !py::hasattr(value, "__fspath__")) {
+    throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
+                                " of type " + TypeName(value) +
+                                ", must be a str");
+  }
+  return py::cast<std::string>(py::str(value));
+}
+
+std::vector<std::string> AsTexts(py::handle value, const char* name) {
+  if (!py::isinstance<py::list>(value) && !py::isinstance<py::tuple>(value)) {
+    throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
+                                " of type " + TypeName(value) +
+                                ", must be a list of str");
+  }
+  std::vector<std::string> texts;
+  for (const py::handle text : value) texts.push_back(AsText(text, name));
+  return texts;
+}
+
+}  // namespace poise

@@ -1,0 +1,30 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <vector>
+
+namespace poise {
+
+/// Returns an argument that is one real number; a bool counts as one. Throws
+/// std::invalid_argument, which Python sees as poise.InputError.
+double AsNumber(pybind11::handle value, const char* name);
+
+/// Returns an argument that is a whole number from lower to upper. Throws as
+/// AsNumber().
+int AsInteger(pybind11::handle value, const char* name, int lower, int upper);
+
+/// Returns an argument that is a text, or a path of a file (os.PathLike).
+/// Throws as AsNumber().
+std::string AsText(pybind11::handle value, const char* name);
+
+/// Returns an argument that is a list or a tuple of texts. Throws as
+/// AsNumber().
+std::vector<std::string> AsTexts(pybind11::handle value, const char* name);
+
+/// Returns the name of the type of an object, for messages.
+std::string TypeName(pybind11::handle value);
+
+}  // namespace poise

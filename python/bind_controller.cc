@@ -1,0 +1,169 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <pybind11/stl.h>
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "poise/python/arguments.h"
+#include "poise/python/arrays.h"
+#include "poise/python/as_object.h"
+#include "poise/python/bind.h"
+#include "poise/python/python_controller.h"
+#include "poise/python/python_task.h"
+#include "poise/robot/control/controller.h"
+#include "poise/robot/control/task_set.h"
+
+namespace poise {
+namespace {
+
+// Makes a controller with the tasks of the robot's profile.
+std::shared_ptr<PythonController> MakeController(
+    py::handle robot_argument, py::handle dt, py::handle friction,
+    py::handle max_iterations, py::handle frames, py::handle own_tasks) {
+  const auto& robot = AsObject<PythonRobot>(robot_argument, "robot");
+  ControllerOptions options;
+  options.add_tasks = TasksToAdd(own_tasks);
+  options.dt = AsNumber(dt, "dt");
+  options.friction = AsNumber(friction, "friction");
+  options.max_iterations = AsInteger(max_iterations, "max_iterations", 1,
+                                     std::numeric_limits<int>::max());
+  options.frames = AsTexts(frames, "frames");
+  const YAML::Node tasks = robot.profile.tasks;
+  if (tasks.IsDefined()) {
+    for (const std::string& link : FindTaskLinks(tasks, *robot.robot)) {
+      options.frames.push_back(link);
+    }
+  }
+  auto controller = std::make_shared<Controller>(*robot.robot, options);
+  if (tasks.IsDefined()) {
+    ApplyTasks(tasks, robot.profile_file, &controller->stack());
+  }
+  return std::make_shared<PythonController>(std::move(controller),
+                                            std::make_shared<InUse>());
+}
+
+std::unique_ptr<State> MakeState(py::handle q, py::handle v, py::handle time) {
+  return std::make_unique<State>(State{AsNumber(time, "time"),
+                                       VectorOf(AsArray(q, "q", {kAny})),
+                                       VectorOf(AsArray(v, "v", {kAny}))});
+}
+
+// Throws if the sizes of a state are not those of the robot.
+void CheckState(const Controller& controller, const State& state) {
+  const Tree& tree = controller.robot().model.tree;
+  const std::pair<const char*, std::pair<py::ssize_t, int>> sizes[] = {
+      {"q", {state.q.size(), tree.nq()}}, {"v", {state.v.size(), tree.nv()}}};
+  for (const auto& [name, size] : sizes) {
+    if (size.first == size.second) continue;
+    throw std::invalid_argument("state." + std::string(name) + " has shape " +
+                                ShapeText({size.first}) + ", must have shape " +
+                                ShapeText({size.second}));
+  }
+}
+
+std::unique_ptr<Command> Update(const PythonController& self,
+                                py::handle argument) {
+  const State& state = AsObject<State>(argument, "state");
+  Controller& controller = self.get();
+  CheckState(controller, state);
+  auto command = std::make_unique<Command>();
+  command->tau.setZero(controller.robot().model.tree.num_joints());
+  const State copy = state;  // Another thread may change the state.
+  const Exclusive exclusive(self.in_use(), "this Controller");
+  const py::gil_scoped_release release;
+  controller.Update(copy, command.get());
+  return command;
+}
+
+void BindStateAndCommand(py::module_* module) {
+  py::class_<State> state(*module, "State", "The state of a robot.");
+  state.def(py::init(&MakeState), py::arg("q"), py::arg("v"),
+            py::arg("time") = 0.0,
+            "Copies q (nq,) and v (nv,), see Tree; time in s.");
+  state.def_readwrite("time", &State::time, "s.");
+  state.def_property(
+      "q", [](const State& self) { return ToArray(self.q); },
+      [](State& self, py::handle q) {
+        self.q = VectorOf(AsVector(q, "q", self.q.size()));
+      },
+      "(nq,) A copy.");
+  state.def_property(
+      "v", [](const State& self) { return ToArray(self.v); },
+      [](State& self, py::handle v) {
+        self.v = VectorOf(AsVector(v, "v", self.v.size()));
+      },
+      "(nv,) A copy.");
+
+  py::class_<Command> command(*module, "Command",
+                              "The output of Controller.update().");
+  command.def_property_readonly(
+      "tau",
+      [](py::object self) { return View(self.cast<Command&>().tau, self); },
+      "(joints,) Torques within the effort limits, N m or N. Read-only.");
+  command.def_property_readonly(
+      "status", [](const Command& self) { return NameOf(self.status); },
+      "'ok', 'limit_relaxed', 'truncated' or 'fail_safe'.");
+}
+
+// Adds a vector of the reference.
+template <typename Member>
+void AddReference(const char* name, Member Reference::*member, const char* doc,
+                  ControllerClass* controller) {
+  controller->def_property(
+      name,
+      [member](const PythonController& self) {
+        return ToArray(self.get().reference().*member);
+      },
+      [member, name](const PythonController& self, py::handle value) {
+        auto& to = self.get().reference().*member;
+        to = VectorOf(AsVector(value, name, to.size()));
+      },
+      doc);
+}
+
+}  // namespace
+
+void BindController(py::module_* module) {
+  BindStateAndCommand(module);
+  BindStack(module);
+  BindTickReport(module);
+  ControllerClass controller(
+      *module, "Controller",
+      "Computes joint torques from the state of a robot, by momentum control "
+      "with hierarchical inverse dynamics. Call update() once each dt.");
+  controller.def(
+      py::init(&MakeController), py::arg("robot"), py::arg("dt") = 1e-3,
+      py::arg("friction") = 0.5, py::arg("max_iterations") = 500,
+      py::arg("frames") = py::tuple(), py::arg("tasks") = py::tuple(),
+      "Makes a controller with the tasks of the robot's profile. dt: s. "
+      "friction: the coefficient that the controller assumes. frames: links "
+      "with a task 'frame.NAME'. tasks: Tasks of your own.");
+  controller.def(
+      "start",
+      [](const PythonController& self, py::handle argument) {
+        const State& state = AsObject<State>(argument, "state");
+        CheckState(self.get(), state);
+        self.get().Start(state);
+      },
+      py::arg("state"),
+      "Sets the reference to standing still with the feet where they are.");
+  controller.def(
+      "update", Update, py::arg("state"),
+      "Computes the Command of one tick. For any state, also with NaN, the "
+      "torques are finite and within the limits. Copies the state. Other "
+      "threads run meanwhile, but must not use this controller.");
+  AddReference("com_reference", &Reference::p_WG,
+               "(3,) The desired center of mass, world, m.", &controller);
+  AddReference("com_velocity_reference", &Reference::v_WG,
+               "(3,) Its desired velocity, m/s.", &controller);
+  AddReference("com_acceleration_reference", &Reference::a_WG,
+               "(3,) Its desired acceleration, m/s2.", &controller);
+  AddReference("posture_reference", &Reference::posture,
+               "(joints,) The desired joints, rad or m.", &controller);
+  AddStack(&controller);
+  AddReport(&controller);
+}
+
+}  // namespace poise

@@ -1,0 +1,130 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "poise/python/arrays.h"
+#include "poise/python/python_controller.h"
+#include "poise/robot/control/tick_report.h"
+#include "poise/sim/log/recorder.h"
+#include "poise/tools/commands/hqp/hqp_file.h"
+
+namespace poise {
+namespace {
+
+// A row of the stack in a report.
+struct PythonRow {
+  std::string name;
+  int level;      // Priority level of the highest level with a multiplier.
+  double amount;  // Multiplier, or residual.
+  double slack;
+};
+
+// A copy of a report, with the names of its rows.
+struct PythonReport {
+  TickReport report;
+  std::vector<PythonRow> active, lost;
+  std::vector<std::string> tasks;
+};
+
+PythonReport MakeReport(const PythonController& self) {
+  const Controller& controller = self.get();
+  const Stack& stack = controller.stack();
+  PythonReport made{controller.report(), {}, {}, {}};
+  for (const ActiveRow& row : made.report.active) {
+    made.active.push_back(
+        {stack.RowName(row), row.pressing_level, row.multiplier, row.slack});
+  }
+  for (const LostRow& row : made.report.lost) {
+    made.lost.push_back({stack.task(row.task).equality_names()[row.row],
+                         stack.settings(row.task).level, row.amount, 0});
+  }
+  for (int i = 0; i < stack.num_tasks(); ++i) {
+    made.tasks.push_back(stack.task(i).name());
+  }
+  return made;
+}
+
+py::dict Residuals(const PythonReport& self) {
+  py::dict residuals;
+  for (size_t i = 0; i < self.tasks.size(); ++i) {
+    const TaskReport& task = self.report.tasks[i];
+    if (task.enabled) residuals[py::str(self.tasks[i])] = task.residual;
+  }
+  return residuals;
+}
+
+void BindRow(py::module_* module) {
+  py::class_<PythonRow> row(*module, "ReportRow", "A row of a TickReport.");
+  row.def_readonly("name", &PythonRow::name,
+                   "Its name as in the log: 'left_foot.cop.x_max'.");
+  row.def_readonly("level", &PythonRow::level,
+                   "Active: the highest priority level with a multiplier on "
+                   "the row. Lost: the level of its task.");
+  row.def_readonly("amount", &PythonRow::amount,
+                   "Active: the absolute multiplier. Lost: the residual in the "
+                   "unit of the row.");
+  row.def_readonly("slack", &PythonRow::slack,
+                   "The violation, in the scale of the row.");
+  row.def("__repr__", [](const PythonRow& self) {
+    return "<" + self.name + ": " + std::to_string(self.amount) + ">";
+  });
+}
+
+}  // namespace
+
+std::string NameOf(TickStatus status) {
+  return std::string(StatusName(status));
+}
+
+void BindTickReport(py::module_* module) {
+  BindRow(module);
+  py::class_<PythonReport> report(*module, "TickReport",
+                                  "The report on the last tick, a copy.");
+  report.def_property_readonly(
+      "status",
+      [](const PythonReport& self) { return NameOf(self.report.status); },
+      "'ok', 'limit_relaxed', 'truncated' or 'fail_safe'.");
+  report.def_property_readonly(
+      "fail_safe_reason",
+      [](const PythonReport& self) {
+        return std::string(ReasonName(self.report.fail_safe_reason));
+      },
+      "'' or 'state', 'clock', 'no_answer'.");
+  report.def_property_readonly(
+      "solver_status",
+      [](const PythonReport& self) { return Name(self.report.solver_status); },
+      "As Solution.status.");
+  report.def_property_readonly(
+      "iterations",
+      [](const PythonReport& self) { return self.report.iterations; },
+      "The solver's iterations.");
+  report.def_property_readonly(
+      "certificate",
+      [](const PythonReport& self) { return self.report.certificate; },
+      "The Certificate of the solution.");
+  report.def_property_readonly(
+      "y",
+      [](py::object self) {
+        return View(self.cast<PythonReport&>().report.y, self);
+      },
+      "(nv + 12,) [vdot; wrench [moment; force] of each foot, about and in the "
+      "axes of its contact frame]. Read-only.");
+  report.def_readonly("active", &PythonReport::active,
+                      "The active inequalities, ReportRows.");
+  report.def_readonly("lost", &PythonReport::lost,
+                      "The violated equalities, ReportRows.");
+  report.def_property_readonly(
+      "residuals", Residuals,
+      "The norm of the residuals of each task that is on.");
+}
+
+void AddReport(ControllerClass* controller) {
+  controller->def_property_readonly(
+      "report", MakeReport, "The TickReport on the last update, a copy.");
+}
+
+}  // namespace poise

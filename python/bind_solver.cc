@@ -1,0 +1,121 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "poise/hqp/solver.h"
+#include "poise/python/arguments.h"
+#include "poise/python/as_object.h"
+#include "poise/python/bind.h"
+#include "poise/python/exclusive.h"
+#include "poise/python/python_solution.h"
+#include "poise/tools/commands/hqp/hqp_file.h"
+
+namespace poise {
+
+namespace py = pybind11;
+
+namespace {
+
+// A solver that allocates memory for larger hierarchies when it gets them.
+class PythonSolver {
+ public:
+  explicit PythonSolver(int n) : n_(n) {}
+
+  std::shared_ptr<PythonSolution> Solve(const PythonHierarchy& hierarchy) {
+    if (hierarchy.num_variables != n_) {
+      throw std::invalid_argument(
+          "hierarchy has " + std::to_string(hierarchy.num_variables) +
+          " variables, must have " + std::to_string(n_));
+    }
+    const Exclusive exclusive(&in_use_, "this Solver");
+    const std::vector<LevelCapacity> sizes = SizesOf(hierarchy);
+    auto solved = std::make_shared<PythonSolution>(PythonSolution{
+        hierarchy, MakeHierarchy(hierarchy), Solution(n_, sizes), {}, 0});
+    const py::gil_scoped_release release;
+    Reserve(sizes);
+    solver_->max_iterations = max_iterations;
+    const auto start = std::chrono::steady_clock::now();
+    (void)solver_->Solve(solved->hierarchy, &solved->solution);
+    solved->microseconds = std::chrono::duration<double, std::micro>(
+                               std::chrono::steady_clock::now() - start)
+                               .count();
+    solved->gaps = FindGaps(solved->hierarchy, solved->solution);
+    return solved;
+  }
+
+  void Forget() {
+    const Exclusive exclusive(&in_use_, "this Solver");
+    if (solver_) solver_->Forget();
+  }
+
+  int n() const { return n_; }
+
+  int max_iterations = 10000;
+
+ private:
+  // Makes a new solver, which starts cold, if a level is larger than before.
+  void Reserve(const std::vector<LevelCapacity>& sizes) {
+    bool fits = solver_.has_value() && sizes.size() <= capacity_.size();
+    capacity_.resize(std::max(capacity_.size(), sizes.size()));
+    for (size_t level = 0; level < sizes.size(); ++level) {
+      LevelCapacity& most = capacity_[level];
+      fits = fits && sizes[level].equalities <= most.equalities &&
+             sizes[level].inequalities <= most.inequalities;
+      most.equalities = std::max(most.equalities, sizes[level].equalities);
+      most.inequalities =
+          std::max(most.inequalities, sizes[level].inequalities);
+    }
+    if (!fits) solver_.emplace(n_, capacity_);
+  }
+
+  int n_;
+  std::vector<LevelCapacity> capacity_;
+  std::optional<Solver> solver_;
+  InUse in_use_;
+};
+
+}  // namespace
+
+void BindSolver(py::module_* module) {
+  py::class_<PythonSolver> solver(
+      *module, "Solver",
+      "The hierarchical active-set solver. Each solve starts from the working "
+      "set and y of the last one. A hierarchy with more levels or rows than "
+      "any before starts cold.");
+  solver.def(
+      py::init([](py::handle n) {
+        constexpr int kMost = 100000;
+        return std::make_unique<PythonSolver>(AsInteger(n, "n", 0, kMost));
+      }),
+      py::arg("n"), "Makes a solver for hierarchies in n variables.");
+  solver.def_property_readonly("n", &PythonSolver::n,
+                               "The number of variables.");
+  solver.def_property(
+      "max_iterations",
+      [](const PythonSolver& self) { return self.max_iterations; },
+      [](PythonSolver& self, py::handle value) {
+        self.max_iterations = AsInteger(value, "max_iterations", 1,
+                                        std::numeric_limits<int>::max());
+      },
+      "The largest number of factorisations of a solve.");
+  solver.def(
+      "solve",
+      [](PythonSolver& self, py::handle hierarchy) {
+        return self.Solve(AsObject<PythonHierarchy>(hierarchy, "hierarchy"));
+      },
+      py::arg("hierarchy"),
+      "Solves a Hierarchy and returns its Solution. Copies the rows. Other "
+      "threads run meanwhile, but must not use this solver.");
+  solver.def("forget", &PythonSolver::Forget,
+             "Forgets the last solve: the next one starts cold.");
+}
+
+}  // namespace poise

@@ -1,0 +1,192 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <pybind11/stl.h>
+
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "poise/python/arguments.h"
+#include "poise/python/python_controller.h"
+#include "poise/robot/control/stack.h"
+#include "poise/robot/control/task_set.h"
+
+namespace poise {
+
+namespace py = pybind11;
+
+namespace {
+
+using Owner = std::shared_ptr<PythonController>;
+
+struct PythonStack {
+  Owner owner;
+  Stack& get() const { return owner->get().stack(); }
+};
+
+// A task of a stack, by its index.
+struct PythonTask {
+  Owner owner;
+  int index;
+  Stack& stack() const { return owner->get().stack(); }
+  const Task& task() const { return stack().task(index); }
+  const TaskSettings& settings() const { return stack().settings(index); }
+};
+
+// The parameters of a task, as a mapping.
+struct PythonParameters {
+  PythonTask of;
+};
+
+[[noreturn]] void RefuseParameter(const Task& task, const std::string& name) {
+  std::string names;
+  for (const Parameter& parameter : task.parameters()) {
+    names += (names.empty() ? "" : ", ") + parameter.name;
+  }
+  throw std::invalid_argument(
+      "task '" + task.name() + "' has no parameter '" + name + "', " +
+      (names.empty() ? "and none at all" : "must be one of " + names));
+}
+
+void SetParameterOf(const PythonParameters& self, py::handle key,
+                    py::handle value) {
+  const Task& task = self.of.task();
+  const std::string name = AsText(key, "parameter");
+  const double number = AsNumber(value, name.c_str());
+  if (self.of.stack().SetParameter(task.name(), name, number)) return;
+  for (const Parameter& parameter : task.parameters()) {
+    if (parameter.name != name) continue;
+    throw std::invalid_argument(task.name() + "." + name + " is " +
+                                std::to_string(number) + ", must be from " +
+                                std::to_string(parameter.lower) + " to " +
+                                std::to_string(parameter.upper));
+  }
+  RefuseParameter(task, name);
+}
+
+double GetParameterOf(const PythonParameters& self, py::handle key) {
+  const Task& task = self.of.task();
+  const std::string name = AsText(key, "parameter");
+  const auto value = self.of.stack().GetParameter(task.name(), name);
+  if (!value) RefuseParameter(task, name);
+  return *value;
+}
+
+std::map<std::string, double> AllParameters(const PythonParameters& self) {
+  std::map<std::string, double> values;
+  for (const Parameter& parameter : self.of.task().parameters()) {
+    values[parameter.name] = *parameter.value;
+  }
+  return values;
+}
+
+std::vector<std::string> TaskNames(const PythonStack& self) {
+  std::vector<std::string> names;
+  for (int i = 0; i < self.get().num_tasks(); ++i) {
+    names.push_back(self.get().task(i).name());
+  }
+  return names;
+}
+
+PythonTask FindTask(const PythonStack& self, py::handle key) {
+  const std::string name = AsText(key, "task");
+  const auto index = self.get().Find(name);
+  if (!index) throw std::invalid_argument(UnknownTask(name, self.get()));
+  return {self.owner, *index};
+}
+
+void SetLevelOf(const PythonTask& self, py::handle value) {
+  const int level = AsInteger(value, "level", 1, Stack::kMaxLevel);
+  if (self.stack().SetLevel(self.task().name(), level)) return;
+  throw std::invalid_argument("level is " + std::to_string(level) +
+                              ", must be from 1 to " +
+                              std::to_string(Stack::kMaxLevel));
+}
+
+void SetWeightOf(const PythonTask& self, py::handle value) {
+  const double weight = AsNumber(value, "weight");
+  if (self.stack().SetWeight(self.task().name(), weight)) return;
+  throw std::invalid_argument("weight is " + std::to_string(weight) +
+                              ", must be from 1e-6 to 1e6");
+}
+
+void BindTask(py::module_* module) {
+  py::class_<PythonParameters> parameters(
+      *module, "Parameters",
+      "The gains, margins and coefficients of a task, by name.");
+  parameters.def("__getitem__", GetParameterOf, py::arg("name"));
+  parameters.def("__setitem__", SetParameterOf, py::arg("name"),
+                 py::arg("value"));
+  parameters.def("as_dict", AllParameters, "Returns all values, a copy.");
+  parameters.def("__repr__", [](const PythonParameters& self) {
+    return py::str(py::cast(AllParameters(self)));
+  });
+
+  py::class_<PythonTask> task(
+      *module, "StackTask",
+      "A task of a Stack. A change takes effect at the next tick.");
+  task.def_property_readonly(
+      "name", [](const PythonTask& self) { return self.task().name(); },
+      "Its name.");
+  task.def_property(
+      "enabled", [](const PythonTask& self) { return self.settings().enabled; },
+      [](const PythonTask& self, bool value) {
+        (void)self.stack().Enable(self.task().name(), value);
+      },
+      "Whether the task has rows in the hierarchy.");
+  task.def_property(
+      "level", [](const PythonTask& self) { return self.settings().level; },
+      SetLevelOf, "The priority level, 1 is the highest, 8 the lowest.");
+  task.def_property(
+      "weight", [](const PythonTask& self) { return self.settings().weight; },
+      SetWeightOf, "The weight within the level, 1e-6 to 1e6.");
+  task.def_property_readonly(
+      "parameters",
+      [](const PythonTask& self) { return PythonParameters{self}; },
+      "The Parameters of the task.");
+}
+
+}  // namespace
+
+void BindStack(py::module_* module) {
+  BindTask(module);
+  py::class_<PythonStack> stack(
+      *module, "Stack",
+      "The tasks of a controller with their levels: stack['momentum'].level.");
+  stack.def_property_readonly("names", TaskNames, "The names of the tasks.");
+  stack.def("__getitem__", FindTask, py::arg("name"),
+            "Returns a StackTask by its name.");
+  stack.def("__len__",
+            [](const PythonStack& self) { return self.get().num_tasks(); });
+  stack.def(
+      "__contains__",
+      [](const PythonStack& self, py::handle name) {
+        return self.get().Find(AsText(name, "task")).has_value();
+      },
+      py::arg("name"));
+  stack.def(
+      "__iter__",
+      [](const PythonStack& self) {
+        return py::iter(py::cast(TaskNames(self)));
+      },
+      "Iterates over the names.");
+  stack.def(
+      "set_ramp",
+      [](const PythonStack& self, py::handle seconds) {
+        const double time = AsNumber(seconds, "seconds");
+        if (self.get().set_ramp(time)) return;
+        throw std::invalid_argument("seconds is " + std::to_string(time) +
+                                    ", must be finite and not negative");
+      },
+      py::arg("seconds"),
+      "Later changes of tasks take effect gradually in this time, s.");
+}
+
+void AddStack(ControllerClass* controller) {
+  controller->def_property_readonly(
+      "stack", [](const Owner& self) { return PythonStack{self}; },
+      "The Stack of the tasks.");
+}
+
+}  // namespace poise

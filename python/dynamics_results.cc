@@ -1,0 +1,56 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/dynamics/center_of_mass.h"
+#include "poise/dynamics/centroidal.h"
+#include "poise/dynamics/derivatives.h"
+#include "poise/python/arrays.h"
+#include "poise/python/bind_dynamics.h"
+
+namespace poise {
+namespace {
+
+// Adds a property that shows a member without a copy.
+template <typename Class, typename Member>
+void AddView(const char* name, Member Class::*member, const char* doc,
+             py::class_<Class>* to) {
+  to->def_property_readonly(
+      name,
+      [member](py::object self) {
+        return View(self.cast<Class&>().*member, self);
+      },
+      doc);
+}
+
+}  // namespace
+
+void BindDynamicsResults(py::module_* module) {
+  py::class_<CenterOfMass> com(
+      *module, "CenterOfMass",
+      "The motion of the center of mass G in world axes. Arrays are read-only, "
+      "without a copy.");
+  AddView("p", &CenterOfMass::p_WG, "(3,) Position, m.", &com);
+  AddView("v", &CenterOfMass::v_WG, "(3,) Velocity J v, m/s.", &com);
+  AddView("J", &CenterOfMass::J_WG, "(3, nv) Jacobian.", &com);
+  AddView("bias", &CenterOfMass::bias,
+          "(3,) The acceleration is J vdot + bias, m/s2.", &com);
+
+  py::class_<CentroidalMomentum> momentum(
+      *module, "CentroidalMomentum",
+      "The momentum L_G = H v about the center of mass G, world axes, angular "
+      "part first. Arrays are read-only, without a copy.");
+  AddView("H", &CentroidalMomentum::H_G,
+          "(6, nv) The centroidal momentum matrix.", &momentum);
+  AddView("bias", &CentroidalMomentum::bias,
+          "(6,) The rate of L_G is H vdot + bias.", &momentum);
+
+  py::class_<RneaDerivatives> derivatives(
+      *module, "Derivatives",
+      "The derivatives of rnea(). Arrays are read-only, without a copy.");
+  AddView("dq", &RneaDerivatives::dtau_dq,
+          "(nv, nv) By a variation of q along v: integrate(q, d, 1).",
+          &derivatives);
+  AddView("dv", &RneaDerivatives::dtau_dv, "(nv, nv) By v.", &derivatives);
+  AddView("dvdot", &RneaDerivatives::dtau_dvdot, "(nv, nv) By vdot: M.",
+          &derivatives);
+}
+
+}  // namespace poise

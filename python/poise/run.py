@@ -1,0 +1,197 @@
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+"""Recorded runs: their columns, plots, explanation and report."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+import pathlib
+import shutil
+import tempfile
+import weakref
+from typing import TYPE_CHECKING, Any
+
+from poise import _poise
+
+# NumPy is loaded with the first array: `import poise` alone is quick.
+if TYPE_CHECKING:
+    import matplotlib.figure  # type: ignore[import]
+    import numpy as np
+    import pandas  # type: ignore[import]
+    from numpy.typing import NDArray
+
+    Column = NDArray[np.float64] | list[str]
+
+
+def run(scenario: _poise.Scenario | str,
+        robot: _poise.Robot | None = None,
+        out: str | os.PathLike[str] | None = None,
+        *, binary: bool = False, meshes: bool = True) -> Run:
+    """Runs a scenario to its end, or until the robot is down.
+
+    The run equals the one of `bazel run //tools:push` to the bit. Other threads
+    run meanwhile; Ctrl-C stops the run.
+
+    Args:
+        scenario: A Scenario, or what Scenario.load() accepts.
+        robot: Poise's humanoid by default.
+        out: The folder of the run's files. By default they are in a temporary
+            folder, which is removed with the Run.
+        binary: Whether to write log.bin in place of log.csv, a quarter of the
+            bytes; its numbers have 7 digits.
+        meshes: Whether to read the robot's meshes, for the report.
+    """
+    if isinstance(scenario, (str, os.PathLike)):
+        scenario = _poise.Scenario.load(scenario)
+    if not isinstance(scenario, _poise.Scenario):
+        raise _poise.InputError(
+            f"scenario is of type {type(scenario).__name__}, must be a "
+            "Scenario or its name")
+    if robot is None:
+        robot = _poise.Robot.load()
+    if not isinstance(robot, _poise.Robot):
+        raise _poise.InputError(
+            f"robot is of type {type(robot).__name__}, must be a Robot")
+    parent = tempfile.mkdtemp(prefix="poise-") if out is None else None
+    folder = pathlib.Path(parent or "", out or scenario.name)
+    try:
+        table = _poise._record(robot, scenario, str(folder), binary, meshes)
+        result = Run(folder, table)
+    except BaseException:
+        if parent:
+            shutil.rmtree(parent, ignore_errors=True)
+        raise
+    if parent:
+        weakref.finalize(result, shutil.rmtree, parent, ignore_errors=True)
+    return result
+
+
+class Run:
+    """A recorded run. A notebook shows its report.
+
+    The constructor also opens a folder that `//tools:push` wrote.
+    """
+
+    def __init__(self, folder: str | os.PathLike[str],
+                 table: str = "") -> None:
+        """Opens the folder of a run.
+
+        Args:
+            folder: The folder.
+            table: The text that str() returns.
+        """
+        self.folder = pathlib.Path(folder)
+        self._table = table
+        self._columns: dict[str, Column] | None = None
+        self._summary: dict[str, Any] | None = None
+
+    @property
+    def columns(self) -> dict[str, Column]:
+        """The columns of the log by name, read once: docs/log.md lists them.
+
+        A column of numbers is an array (ticks,), a column of texts a list.
+        """
+        if self._columns is None:
+            self._columns = _poise._read_log(str(self.folder))
+        return self._columns
+
+    def __getitem__(self, name: str) -> Column:
+        """Returns a column by its name, with or without the unit: 'com.x'."""
+        if name in self.columns:
+            return self.columns[name]
+        for full, column in self.columns.items():
+            if full.split("[")[0] == name:
+                return column
+        raise _poise.InputError(
+            f"column {name!r} is unknown, must be one of Run.columns, such as "
+            "'time' or 'com.x'")
+
+    def __contains__(self, name: object) -> bool:
+        return any(name in (full, full.split("[")[0]) for full in self.columns)
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """The contents of summary.json: outcome, peaks and times."""
+        if self._summary is None:
+            text = (self.folder / "summary.json").read_text(encoding="utf-8")
+            self._summary = json.loads(text)
+        return self._summary
+
+    @property
+    def recovered(self) -> bool:
+        """Whether the robot recovered."""
+        return bool(self.summary["recovered"])
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Returns the columns as a DataFrame. Needs pandas."""
+        try:
+            import pandas
+        except ImportError as error:
+            raise ImportError(
+                "Run.to_pandas() needs pandas: install python3-pandas"
+            ) from error
+        return pandas.DataFrame(self.columns)
+
+    def plot(self, *names: str) -> matplotlib.figure.Figure:
+        """Plots columns over time, one below the other. Needs matplotlib.
+
+        Args:
+            names: Columns; the center of mass, the push and the normal forces
+                of the feet by default.
+        """
+        try:
+            import matplotlib.pyplot as plt  # type: ignore[import]
+        except ImportError as error:
+            raise ImportError(
+                "Run.plot() needs matplotlib: install python3-matplotlib"
+            ) from error
+        shown: list[tuple[str, tuple[str, ...]]] = [
+            (name, (name,)) for name in names] or [
+            ("center of mass [m]", ("com.x", "com.y")),
+            ("push [N]", ("push.fx", "push.fy")),
+            ("normal force [N]", ("left_foot.fz", "right_foot.fz"))]
+        figure, axes = plt.subplots(
+            len(shown), 1, sharex=True, squeeze=False,
+            figsize=(7, 1 + 1.8 * len(shown)))
+        for axis, (title, columns) in zip(axes[:, 0], shown):
+            for column in columns:
+                axis.plot(self["time"], self[column], label=column)
+            axis.set_ylabel(title)
+            axis.legend(loc="upper right")
+        axes[-1, 0].set_xlabel("time [s]")
+        figure.tight_layout()
+        plt.close(figure)  # A notebook shows the returned figure once.
+        return figure
+
+    def report(self, file: str | os.PathLike[str] | None = None
+               ) -> pathlib.Path:
+        """Writes the page with the 3D replay and returns its path.
+
+        Args:
+            file: The page to write; report.html in the folder by default.
+        """
+        page = self.folder / "report.html" if file is None else (
+            pathlib.Path(file))
+        _poise._write_report([str(self.folder)], str(page), [])
+        return page
+
+    def explain(self, *, all: bool = False) -> str:
+        """Returns in words what happened and why, at most six sentences.
+
+        Args:
+            all: Whether to return all sentences, in order of time.
+        """
+        told = json.loads(_poise._explain(str(self.folder)))
+        return "\n".join(told["sentences" if all else "story"])
+
+    def __str__(self) -> str:
+        return self._table or self.explain()
+
+    def __repr__(self) -> str:
+        return f"<poise.Run {self.folder.name!r}, recovered: {self.recovered}>"
+
+    def _repr_html_(self) -> str:
+        page = self.report().read_text(encoding="utf-8")
+        return (f'<iframe srcdoc="{html.escape(page)}" width="100%" '
+                'height="720" style="border: 0"></iframe>')

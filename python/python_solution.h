@@ -1,0 +1,31 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/solution.h"
+#include "poise/python/python_hierarchy.h"
+
+namespace poise {
+
+/// A solution with the problem that it belongs to.
+struct PythonSolution {
+  PythonHierarchy source;  ///< Has the names.
+  Hierarchy hierarchy;
+  Solution solution;
+  std::vector<double> gaps;  ///< See FindGaps().
+  double microseconds = 0;
+};
+
+/// Returns a row for people: "level 0 'limits', row 2 'x'". C rows are the
+/// inequalities.
+std::string NameRow(const PythonHierarchy& source, int level, int row,
+                    bool is_equality);
+
+/// Returns a text that says, level by level, which rows are violated and which
+/// active rows of the levels above keep the cost up, with their multipliers.
+std::string ExplainSolution(const PythonSolution& solved);
+
+}  // namespace poise

@@ -1,0 +1,152 @@
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+"""Tests poise.Hierarchy and poise.Solver by problems with known answers."""
+
+import threading
+import unittest
+
+import numpy as np
+
+import poise
+
+
+def corner():
+    """Returns a hierarchy with the answer y = (1, 3).
+
+    Level 0 bounds y[0] <= 1; level 1 wants y[0] = 3; level 2 wants
+    y[0] + y[1] = 4.
+    """
+    hierarchy = poise.Hierarchy(2)
+    hierarchy.add_level(C=[[1, 0]], upper=[1], name="limits",
+                        inequality_names=["x"])
+    hierarchy.add_level(B=[[1, 0]], b=[-3], name="target",
+                        equality_names=["go right"])
+    hierarchy.add_level(B=[[1, 1]], b=[-4])
+    return hierarchy
+
+
+class SolverTest(unittest.TestCase):
+    def test_solves_a_corner(self):
+        solution = poise.Solver(2).solve(corner())
+        self.assertEqual(solution.status, "optimal")
+        np.testing.assert_allclose(solution.y, [1, 3], atol=1e-12)
+        self.assertLess(solution.certificate.worst, 1e-12)
+        self.assertEqual(solution.active, [(0, 0, "upper")])
+        levels = solution.levels
+        np.testing.assert_allclose(
+            [level.cost for level in levels], [0, 2, 0], atol=1e-12)
+        np.testing.assert_allclose(levels[1].residual, [-2], atol=1e-12)
+        # Stationarity of level 1: B' (B y + b) + C' mu = -2 + mu = 0.
+        equalities, inequalities = solution.multipliers[1][0]
+        self.assertEqual(equalities.shape, (0,))
+        np.testing.assert_allclose(inequalities, [2], atol=1e-12)
+        self.assertEqual(len(solution.gap), 3)
+
+    def test_explains_which_row_holds_a_level(self):
+        text = poise.Solver(2).solve(corner()).explain()
+        self.assertIn("row 0 of B 'go right' has the residual -2", text)
+        self.assertIn("held by level 0 'limits', row 0 of C 'x', at its upper "
+                      "bound 1: multiplier 2", text)
+
+    def test_finds_the_conflict(self):
+        solution = poise.Solver(2).solve(corner())
+        self.assertEqual(solution.conflict(1),
+                         ["level 0 'limits', row 0 of C 'x'",
+                          "level 1 'target', row 0 of B 'go right'"])
+        self.assertEqual(solution.conflict(0), [])
+
+    def test_least_squares_agree_with_numpy(self):
+        random = np.random.default_rng(1)
+        B, b, weight = random.normal(size=(9, 4)), random.normal(size=9), (
+            random.uniform(0.5, 2, size=9))
+        hierarchy = poise.Hierarchy(4)
+        hierarchy.add_level(B=B, b=b, weight=weight)
+        root = np.sqrt(weight)
+        y = np.linalg.lstsq(root[:, None] * B, -root * b, rcond=None)[0]
+        np.testing.assert_allclose(
+            poise.Solver(4).solve(hierarchy).y, y, atol=1e-12)
+
+    def test_starts_from_the_last_answer(self):
+        random = np.random.default_rng(2)
+        hierarchy = poise.Hierarchy(20)
+        hierarchy.add_level(C=random.normal(size=(60, 20)),
+                            upper=np.full(60, 0.1))
+        hierarchy.add_level(B=np.eye(20), b=random.normal(size=20))
+        solver = poise.Solver(20)
+        cold = solver.solve(hierarchy)
+        warm = solver.solve(hierarchy)
+        self.assertLess(warm.iterations, cold.iterations)
+        np.testing.assert_allclose(warm.y, cold.y, atol=1e-9)
+        solver.forget()
+        self.assertEqual(solver.solve(hierarchy).iterations, cold.iterations)
+
+    def test_accepts_larger_problems_later(self):
+        solver = poise.Solver(2)
+        small = poise.Hierarchy(2)
+        small.add_level(B=[[1, 0]], b=[-1])
+        solver.solve(small)
+        np.testing.assert_allclose(solver.solve(corner()).y, [1, 3],
+                                   atol=1e-12)
+        empty = solver.solve(poise.Hierarchy(2))
+        self.assertEqual(empty.status, "optimal")
+        self.assertEqual(empty.levels, [])
+
+    def test_reports_invalid_numbers(self):
+        for arguments, status in (
+                ({"B": [[np.nan, 0]]}, "not_finite"),
+                ({"C": [[1, 0]], "lower": [1], "upper": [0]}, "bad_input"),
+                ({"B": [[1, 0]], "weight": [-1]}, "bad_input")):
+            hierarchy = poise.Hierarchy(2)
+            hierarchy.add_level(**arguments)
+            solution = poise.Solver(2).solve(hierarchy)
+            self.assertEqual(solution.status, status)
+            np.testing.assert_array_equal(solution.y, [0, 0])
+            self.assertEqual(solution.conflict(0), [])
+            solution.explain()
+
+    def test_threads_solve_at_the_same_time(self):
+        answers = []
+
+        def solve():
+            solver = poise.Solver(2)
+            answers.extend(solver.solve(corner()).y[1] for _ in range(50))
+
+        threads = [threading.Thread(target=solve) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        np.testing.assert_allclose(answers, 3, atol=1e-12)
+
+
+class ArgumentsTest(unittest.TestCase):
+    def test_wrong_shapes_are_named(self):
+        hierarchy = poise.Hierarchy(2)
+        for arguments, message in (
+                ({"B": [[1, 0, 0]]},
+                 r"B has shape \(1, 3\), must have shape \(any, 2\)"),
+                ({"B": [[1, 0]], "b": [1, 2]},
+                 r"b has shape \(2,\), must have shape \(1,\)"),
+                ({"b": [1]}, r"b has shape \(1,\), must have shape \(0,\)"),
+                ({"C": [1, 0]}, r"C has shape \(2,\)"),
+                ({"C": [[1, 0]], "upper": "x"}, "upper is"),
+                ({"B": [[1, 0]], "equality_names": ["a", "b"]},
+                 "equality_names has 2 names, must have 1"),
+                ({"B": [[1, 0]], "equality_names": "a"},
+                 "equality_names is 'a'")):
+            with self.assertRaisesRegex(poise.InputError, message):
+                hierarchy.add_level(**arguments)
+        self.assertEqual(hierarchy.levels, [])
+        with self.assertRaisesRegex(
+                poise.InputError, "hierarchy has 2 variables, must have 3"):
+            poise.Solver(3).solve(hierarchy)
+        for n in (-1, 0.5, "2", None, 10**9):
+            with self.assertRaises(poise.InputError):
+                poise.Hierarchy(n)
+        solution = poise.Solver(2).solve(corner())
+        for level in (-1, 3, "a"):
+            with self.assertRaises(poise.InputError):
+                solution.conflict(level)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,89 @@
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+"""Installs the wheel into an environment, away from the build, and uses it.
+
+Usage: wheel_test.py WHEEL
+"""
+
+import base64
+import csv
+import hashlib
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import zipfile
+
+WHEEL = pathlib.Path(sys.argv.pop(1)).resolve()
+
+USE = """
+import sys, time
+begin = time.perf_counter()
+import numpy
+numpy_time = time.perf_counter() - begin
+import poise
+seconds = time.perf_counter() - begin
+assert not {"matplotlib", "pandas", "scipy"} & set(sys.modules)
+assert "poise-env" in poise.__file__, poise.__file__
+robot = poise.Robot.load()
+assert poise.run(poise.Scenario.from_dict({"duration": 0.05}), robot).recovered
+print(f"import poise: {seconds:.3f} s, of which NumPy {numpy_time:.3f} s")
+"""
+
+
+class WheelTest(unittest.TestCase):
+    def test_record_has_each_file_and_its_hash(self):
+        with zipfile.ZipFile(WHEEL) as wheel:
+            (record,) = [name for name in wheel.namelist()
+                         if name.endswith(".dist-info/RECORD")]
+            rows = list(csv.reader(wheel.read(record).decode().splitlines()))
+            self.assertEqual([row[0] for row in rows], wheel.namelist())
+            for name, said, size in rows[:-1]:
+                content = wheel.read(name)
+                value = base64.urlsafe_b64encode(
+                    hashlib.sha256(content).digest()).decode().rstrip("=")
+                self.assertEqual((said, int(size)),
+                                 (f"sha256={value}", len(content)), name)
+
+    def test_installs_and_runs_away_from_the_build(self):
+        with tempfile.TemporaryDirectory(
+                dir=os.environ.get("TEST_TMPDIR")) as folder:
+            place = pathlib.Path(folder) / "poise-env"
+            subprocess.run([sys.executable, "-m", "venv",
+                            "--system-site-packages", place], check=True)
+            environment = {key: value for key, value in os.environ.items()
+                           if key != "PYTHONPATH"}
+            subprocess.run([place / "bin/pip", "install", "--quiet",
+                            "--no-index", "--no-deps", WHEEL],
+                           env=environment, check=True)
+            (module,) = place.rglob("_poise.so")
+            used = subprocess.run(
+                [place / "bin/python", "-c", USE], cwd=folder,
+                env=environment, check=True, capture_output=True, text=True)
+            print(used.stdout, end="")
+            self.check_libraries(module)
+
+    def check_libraries(self, module):
+        """Checks that the module loads Debian's libraries alone."""
+        dynamic = subprocess.run(["readelf", "--dynamic", module], check=True,
+                                 capture_output=True, text=True).stdout
+        self.assertNotIn("RPATH", dynamic)
+        self.assertNotIn("RUNPATH", dynamic)
+        libraries = subprocess.run(["ldd", module], check=True,
+                                   capture_output=True, text=True).stdout
+        self.assertNotIn("not found", libraries)
+        for line in libraries.splitlines():
+            if "=>" in line:
+                self.assertRegex(line, "=> /(usr/)?lib")
+        symbols = subprocess.run(
+            ["nm", "--dynamic", "--defined-only", module], check=True,
+            capture_output=True, text=True).stdout.split()
+        self.assertIn("PyInit__poise", symbols)
+        self.assertEqual(
+            [symbol for symbol in symbols if "poise" in symbol.lower()],
+            ["PyInit__poise"])
+
+
+if __name__ == "__main__":
+    unittest.main()
