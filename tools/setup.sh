@@ -1,8 +1,9 @@
 #!/bin/bash
-# Usage: tools/setup.sh [--baselines] [--browser]
+# Usage: tools/setup.sh [--baselines] [--browser] [--package]
 # Installs the packages that Poise needs on Debian 12, if they are missing.
 #   --baselines  also packages that some tests and benchmarks compare with
 #   --browser  also packages to rebuild the viewer and to run its browser test
+#   --package  also packages to use Poise from CMake and to test that
 # Runs as root, or as a user with sudo. If an installation fails, prints one line
 # that names the missing packages, and exits with code 1.
 set -euo pipefail
@@ -38,12 +39,15 @@ for argument in "$@"; do
       command -v node > /dev/null || packages+=(nodejs)
       command -v npm > /dev/null || packages+=(npm)
       ;;
+    --package)
+      packages+=(binutils cmake make)
+      ;;
     -h | --help)
-      sed -n '2,7s/^# \?//p' "$0"
+      sed -n '2,8s/^# \?//p' "$0"
       exit 0
       ;;
     *)
-      echo "tools/setup.sh: unknown option '$argument', must be --baselines or --browser" >&2
+      echo "tools/setup.sh: unknown option '$argument', must be --baselines, --browser or --package" >&2
       exit 2
       ;;
   esac

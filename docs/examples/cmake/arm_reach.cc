@@ -18,9 +18,9 @@ int main() {
     error = target;
     for (int link = 0; link < 3; ++link) {
       const double angle = q.head(link + 1).sum();
-      const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
-      error -= kLink * along;
-      J.leftCols(link + 1).colwise() += kLink * along.unitOrthogonal();
+      const double x = kLink * std::cos(angle), y = kLink * std::sin(angle);
+      error -= Eigen::Vector2d(x, y);
+      J.leftCols(link + 1).colwise() += Eigen::Vector2d(-y, x);
     }
     hierarchy.Clear(3);
     poise::InequalityBlock rates = hierarchy.AddInequalities(0, 3);

@@ -43,6 +43,8 @@ def build(workspace, names, program):
     targets = [f"//tools/rules/install:{name}" for name in names]
     with tempfile.TemporaryDirectory() as folder:
         events = pathlib.Path(folder, "events.json")
+        # Without --config=opt: the layers are optimised anyway, and the output folder
+        # of Bazel depends on the configuration around them.
         command = [*_bazel_command(program), "build", "--show_result=0",
                    f"--build_event_json_file={events}", *targets]
         result = subprocess.run(command, cwd=workspace, check=False)

@@ -64,7 +64,8 @@ def _optimised_impl(settings, attr):
         _OPTION + "strip": "never",
     }
 
-# The same code whatever the command line says, in an output folder of its own.
+# Makes the code independent of the command line; its outputs have their own
+# folder.
 _optimised = transition(
     implementation = _optimised_impl,
     inputs = [],
@@ -88,6 +89,7 @@ def _installed_layer_impl(ctx):
     public = [o for part in parts for o in part.objects if not part.is_private]
     private = [o for part in parts for o in part.objects if part.is_private]
     below = [layer[_InstalledLayer] for layer in ctx.attr.below]
+    headers = {_include_of(h): h for part in parts for h in part.headers}
     link_flags = []
     for part in parts:
         link_flags += [f for f in part.link_flags if f not in link_flags]
@@ -107,13 +109,15 @@ def _installed_layer_impl(ctx):
     arguments.add("--static", static)
     arguments.add_all(public, before_each = "--public")
     arguments.add_all(private, before_each = "--private")
+    arguments.add_all(headers.values(), before_each = "--header")
     arguments.add_all([each.shared for each in below], before_each = "--below")
     arguments.add_all(link_flags, format_each = "--link-flag=%s")
     ctx.actions.run(
         executable = ctx.file._link,
         arguments = [arguments],
         inputs = depset(
-            public + private + [ctx.file._version] + [each.shared for each in below],
+            public + private + headers.values() + [ctx.file._version] +
+            [each.shared for each in below],
             transitive = [toolchain.all_files],
         ),
         outputs = [shared, static],
@@ -122,7 +126,6 @@ def _installed_layer_impl(ctx):
         use_default_shell_env = True,
     )
 
-    headers = {_include_of(h): h for part in parts for h in part.headers}
     description = ctx.actions.declare_file("{}.layer.json".format(name))
     ctx.actions.write(description, json.encode({
         "name": name,
