@@ -4,7 +4,8 @@
 # Installs Poise into a temporary folder and checks the installation: symbols,
 # headers, programs built by CMake and pkg-config, Poise as a folder of another
 # CMake project, rollback, uninstallation.
-#   --quick  compiles the headers with one compiler only
+#   --quick  compiles each header alone with g++ in C++17, and all headers together
+#            with clang and in C++20
 #   NAME     runs the checks of this name only, as SymbolsTest
 # Needs the packages of tools/setup.sh --package. Exit code: 0 if all is well, 1 if
 # a check failed, 2 for bad input.
@@ -15,7 +16,7 @@ names=()
 for argument in "$@"; do
   case $argument in
     -h | --help)
-      sed -n '3,11s/^# \?//p' "$0"
+      sed -n '3,12s/^# \?//p' "$0"
       exit 0
       ;;
     --quick) export POISE_QUICK=1 ;;

@@ -67,10 +67,12 @@ endif()
 """
     if not external.module:
         variable = f"POISE_{name.upper()}_LIBRARY"
-        return f"${{{variable}}}", f"""find_library({variable} {external.library})
+        return f"${{{variable}}}", f"""\
+find_library({variable} {external.library})
 if(NOT {variable})
   set(poise_FOUND FALSE)
-  set(poise_NOT_FOUND_MESSAGE "poise needs lib{external.library}, which is not there")
+  set(poise_NOT_FOUND_MESSAGE
+    "poise needs lib{external.library}, which is not there")
   return()
 endif()
 """
@@ -83,7 +85,8 @@ endif()
     if external.in_headers:
         lines += f"""if(NOT TARGET PkgConfig::{target})
   set(poise_FOUND FALSE)
-  set(poise_NOT_FOUND_MESSAGE "poise needs {external.module}, which is not there")
+  set(poise_NOT_FOUND_MESSAGE
+    "poise needs {external.module}, which is not there")
   return()
 endif()
 """
@@ -98,7 +101,8 @@ def cmake_targets(layer, major):
              "include(CMakeFindDependencyMacro)\n",
              *(f'include("${{CMAKE_CURRENT_LIST_DIR}}/poise_{need}.cmake")\n'
                for need in layer["needs"]),
-             "if(DEFINED poise_FOUND AND NOT poise_FOUND)\n  return()\nendif()\n"]
+             "if(DEFINED poise_FOUND AND NOT poise_FOUND)\n",
+             "  return()\nendif()\n"]
     public, private = [], []
     for each in layer["externals"]:
         target, found_by = _find(each)
@@ -110,7 +114,8 @@ def cmake_targets(layer, major):
                       [f"$<LINK_ONLY:{target}>" for target in private])
     defines = ";".join(f"{k}={v}" for k, v in layer["defines"].items())
     lines.append(f"""
-get_filename_component(_poise_prefix "${{CMAKE_CURRENT_LIST_DIR}}/../../.." ABSOLUTE)
+get_filename_component(_poise_prefix
+  "${{CMAKE_CURRENT_LIST_DIR}}/../../.." ABSOLUTE)
 add_library(poise::{name} SHARED IMPORTED GLOBAL)
 set_target_properties(poise::{name} PROPERTIES
   IMPORTED_LOCATION "${{_poise_prefix}}/lib/libpoise_{name}.so.{major}"
@@ -135,8 +140,9 @@ set_target_properties(poise::{name}_static PROPERTIES
 
 def cmake_config(names):
     """Returns poiseConfig.cmake, for all layers that a prefix may have."""
-    return f"""# find_package(poise REQUIRED COMPONENTS dynamics) defines poise::dynamics and the
-# targets that it needs. Without COMPONENTS, all installed layers are defined.
+    return f"""# find_package(poise REQUIRED COMPONENTS dynamics) defines
+# poise::dynamics and the targets that it needs. Without COMPONENTS, all
+# installed layers are defined.
 set(poise_FOUND TRUE)
 set(_poise_components ${{poise_FIND_COMPONENTS}})
 if(NOT _poise_components)
@@ -162,7 +168,7 @@ endforeach()
 
 
 def cmake_version(version):
-    """Returns poiseConfigVersion.cmake: the same major version is compatible."""
+    """Returns poiseConfigVersion.cmake: equal major versions are compatible."""
     return f"""set(PACKAGE_VERSION "{version}")
 if(PACKAGE_FIND_VERSION VERSION_GREATER PACKAGE_VERSION OR
    NOT PACKAGE_FIND_VERSION_MAJOR EQUAL {version.split(".", maxsplit=1)[0]})

@@ -3,8 +3,8 @@
 """Installs Poise for programs that are built without Bazel.
 
 Headers go to PREFIX/include/poise, one shared and one static library of each
-layer to PREFIX/lib, and the files of CMake and pkg-config below. A CMake project
-then uses
+layer to PREFIX/lib, and the files of CMake and pkg-config below. A CMake
+project then uses
 
     find_package(poise REQUIRED COMPONENTS dynamics)
     target_link_libraries(my_program poise::dynamics)
@@ -51,7 +51,8 @@ def parse_arguments(arguments):
                         "/usr/local; made if it does not exist")
     parser.add_argument("--layers", metavar="NAME,...", type=_layer_names,
                         default=list(layers.NAMES),
-                        help=f"layers to install (default: {','.join(layers.NAMES)})")
+                        help="layers to install (default: "
+                        f"{','.join(layers.NAMES)})")
     parser.add_argument("--uninstall", action="store_true",
                         help="remove all that is installed in the prefix")
     options = parser.parse_args(arguments)
@@ -96,8 +97,8 @@ def run(options):
     entries = layers.entries(built, version)
     with _interruptible():
         prefixes.install(options.prefix, entries, version)
-    print(f"installed Poise {version} ({', '.join(built)}; {len(entries)} files) "
-          f"in {options.prefix}")
+    print(f"installed Poise {version} ({', '.join(built)}; {len(entries)} "
+          f"files) in {options.prefix}")
 
 
 def main(arguments):
@@ -118,8 +119,8 @@ def main(arguments):
               file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print(f"install: interrupted; nothing was installed in {options.prefix}",
-              file=sys.stderr)
+        print("install: interrupted; nothing was installed in "
+              f"{options.prefix}", file=sys.stderr)
         return 130
     return 0
 

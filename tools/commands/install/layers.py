@@ -39,12 +39,12 @@ def _bazel_command(program):
 
 
 def build(workspace, names, program):
-    """Builds layers; returns the descriptions of them and of those they need."""
+    """Builds layers; returns their descriptions, and of those they need."""
     targets = [f"//tools/rules/install:{name}" for name in names]
     with tempfile.TemporaryDirectory() as folder:
         events = pathlib.Path(folder, "events.json")
-        # Without --config=opt: the layers are optimised anyway, and the output folder
-        # of Bazel depends on the configuration around them.
+        # Without --config=opt: the layers are optimised anyway, and the output
+        # folder of Bazel depends on the configuration around them.
         command = [*_bazel_command(program), "build", "--show_result=0",
                    f"--build_event_json_file={events}", *targets]
         result = subprocess.run(command, cwd=workspace, check=False)
@@ -59,7 +59,8 @@ def _descriptions(events):
     """Returns {layer: description} from Bazel's list of what it built."""
     found = {}
     for line in events.splitlines():
-        for file in json.loads(line).get("namedSetOfFiles", {}).get("files", []):
+        files = json.loads(line).get("namedSetOfFiles", {}).get("files", [])
+        for file in files:
             path = urllib.parse.unquote(file.get("uri", "")[len("file://"):])
             if path.endswith(".layer.json"):
                 layer = json.loads(pathlib.Path(path).read_text())
@@ -77,7 +78,8 @@ def entries(layers, version):
         for include, path in layer["headers"].items():
             result[f"include/{include}"] = Entry(copy=str(root / path))
         library = f"lib/libpoise_{name}"
-        result[f"{library}.so.{major}"] = Entry(copy=str(root / layer["shared"]))
+        result[f"{library}.so.{major}"] = Entry(
+            copy=str(root / layer["shared"]))
         result[f"{library}.so"] = Entry(link=f"libpoise_{name}.so.{major}")
         result[f"{library}.a"] = Entry(copy=str(root / layer["static"]))
         result[f"lib/pkgconfig/poise_{name}.pc"] = Entry(

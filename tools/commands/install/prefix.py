@@ -93,12 +93,13 @@ def _check_free(prefix, entries, installed):
     for relative in [*entries, MANIFEST]:
         path = prefix / relative
         if path.is_dir() and not path.is_symlink():
-            raise PrefixError(f"{path} is a folder, must be a file; remove it or "
-                              "choose another --prefix")
+            raise PrefixError(f"{path} is a folder, must be a file; remove it "
+                              "or choose another --prefix")
         if os.path.lexists(path) and relative not in installed and (
                 relative != MANIFEST):
-            raise PrefixError(f"{path} exists and is not in {prefix / MANIFEST}; "
-                              "remove it or choose another --prefix")
+            raise PrefixError(f"{path} exists and is not in "
+                              f"{prefix / MANIFEST}; remove it or choose "
+                              "another --prefix")
 
 
 def _manifest(version, files, folders):
@@ -149,7 +150,8 @@ def _install(prefix, entries, version, spare, old):
         journal.make_folder(pathlib.PurePath(MANIFEST).parent)
         folders |= {str(folder) for folder in journal.folders}
         manifest = spare / "manifest"
-        manifest.write_text(_manifest(version, files, folders), encoding="utf-8")
+        manifest.write_text(_manifest(version, files, folders),
+                            encoding="utf-8")
         journal.move(manifest, pathlib.PurePath(MANIFEST))
     except BaseException:
         journal.undo()
@@ -160,8 +162,8 @@ def uninstall(prefix):
     """Removes all installed files, and folders made for them if empty."""
     version, paths = read_manifest(prefix)
     if version is None:
-        raise PrefixError(f"{prefix / MANIFEST} does not exist, so Poise is not "
-                          "installed there; choose the --prefix of the "
+        raise PrefixError(f"{prefix / MANIFEST} does not exist, so Poise is "
+                          "not installed there; choose the --prefix of the "
                           "installation")
     # The manifest goes last: after an interruption, the same command goes on.
     files = [path for path in paths if not path.endswith("/")]

@@ -3,10 +3,10 @@
 """Links the objects of a layer into a shared library and a static one.
 
 The shared library exports the functions and objects that a header of a public
-package declares and its sources define. It exports neither private packages, nor
-classes that a header only announces, nor inline functions and templates, which
-each program has of its own. So each symbol is exported by one library only. The
-library finds the other libraries beside itself, by $ORIGIN.
+package declares and its sources define. It exports neither private packages,
+nor classes that a header only announces, nor inline functions and templates,
+which each program has of its own. So each symbol is exported by one library
+only. The library finds the other libraries beside itself, by $ORIGIN.
 """
 
 import argparse
@@ -34,7 +34,8 @@ def parse_arguments(arguments):
 def _strong_symbols(nm, objects, *options):
     """Returns the symbols that these objects define and no other may define."""
     printed = subprocess.run(
-        [nm, "--defined-only", "--extern-only", "--no-sort", *options, *objects],
+        [nm, "--defined-only", "--extern-only", "--no-sort", *options,
+         *objects],
         stdout=subprocess.PIPE, check=True, text=True).stdout
     found = []
     for line in printed.splitlines():
@@ -54,7 +55,9 @@ def is_declared(name, text):
     qualified = re.sub(r"^.* for ", "", name.split("(")[0]).split()[-1]
     for word in re.sub(r"<.*>", "", qualified).split("::"):
         word = word.lstrip("~")
-        if not word.startswith("operator") and not re.search(rf"\b{word}\b", text):
+        if word.startswith("operator"):
+            continue
+        if not re.search(rf"\b{word}\b", text):
             return False
         if re.search(rf"\b(?:class|struct) {word};", text) and not re.search(
                 rf"\b(?:class|struct) {word}\b[^;(){{]*{{", text):
@@ -70,7 +73,8 @@ def exported_symbols(nm, objects, headers):
     text = re.sub(r"//.*", "", text)
     symbols = zip(_strong_symbols(nm, objects),
                   _strong_symbols(nm, objects, "--demangle"))
-    return sorted({symbol for symbol, name in symbols if is_declared(name, text)})
+    return sorted({symbol for symbol, name in symbols
+                   if is_declared(name, text)})
 
 
 def version_script(symbols):
@@ -108,7 +112,8 @@ def main(arguments):
     try:
         link(parse_arguments(arguments))
     except subprocess.CalledProcessError as error:
-        return f"link_layer: {error.cmd[0]} failed, exit code {error.returncode}"
+        return (f"link_layer: {error.cmd[0]} failed with exit code "
+                f"{error.returncode}")
     return 0
 
 
