@@ -179,7 +179,7 @@ class ConsumerTest(Checks):
             self.run_examples(build)
 
     def test_another_alignment_is_a_compile_time_error_with_a_sentence(self):
-        for flag in ("-DEIGEN_MAX_ALIGN_BYTES=16", "-DEIGEN_DONT_ALIGN",
+        for flag in ("-DEIGEN_MAX_ALIGN_BYTES=16", "-DEIGEN_MAX_ALIGN_BYTES=32",
                      "-DEIGEN_MAX_STATIC_ALIGN_BYTES=32",
                      "-DEIGEN_MALLOC_ALREADY_ALIGNED=1"):
             build = WORK / f"undone{flag}"
