@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "poise/dynamics/simd/sweeps.h"
+
 namespace poise {
 namespace {
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/dynamics/center_of_mass.h"
 
+#include "poise/dynamics/simd/sweeps.h"
 #include "poise/math/so3.h"
 
 namespace poise {

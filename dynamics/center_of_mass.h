@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "poise/dynamics/simd/recursion.h"
+#include "poise/dynamics/recursion.h"
 #include "poise/dynamics/tree.h"
 
 namespace poise {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "poise/dynamics/simd/recursion.h"
+#include "poise/dynamics/recursion.h"
 #include "poise/dynamics/tree.h"
 #include "poise/math/inertia.h"
 #include "poise/math/pose.h"

@@ -3,6 +3,7 @@
 
 #include <cassert>
 
+#include "poise/dynamics/simd/sweeps.h"
 #include "poise/math/so3.h"
 
 namespace poise {

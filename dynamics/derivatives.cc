@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "poise/dynamics/crba.h"
+#include "poise/dynamics/simd/sweeps.h"
 
 namespace poise {
 

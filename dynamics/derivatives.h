@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "poise/dynamics/simd/lanes.h"
-#include "poise/dynamics/simd/recursion.h"
+#include "poise/dynamics/body_arrays.h"
+#include "poise/dynamics/recursion.h"
 #include "poise/dynamics/tree.h"
 #include "poise/math/spatial.h"
 

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cassert>
 
+#include "poise/dynamics/simd/sweeps.h"
 #include "poise/math/so3.h"
 #include "poise/math/vector6.h"
 

@@ -3,6 +3,8 @@
 
 #include <cassert>
 
+#include "poise/dynamics/simd/sweeps.h"
+
 namespace poise {
 namespace {
 

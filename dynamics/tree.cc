@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "poise/dynamics/simd/mass_moments.h"
+
 namespace poise {
 namespace {
 

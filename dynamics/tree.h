@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "poise/dynamics/simd/joint_maps.h"
-#include "poise/dynamics/simd/mass_moments.h"
+#include "poise/dynamics/body_arrays.h"
+#include "poise/dynamics/joint_maps.h"
 #include "poise/math/inertia.h"
 #include "poise/math/pose.h"
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "poise/dynamics/simd/mass_moments.h"
 #include "poise/dynamics/tree.h"
 #include "poise/math/so3.h"
 

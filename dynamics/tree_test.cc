@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "poise/dynamics/simd/lanes.h"
 #include "poise/tests/util/tolerance.h"
 
 namespace poise {

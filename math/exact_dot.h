@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 /// TwoDoubles is the number near + rest, where near is the double closest to

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <cstring>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 /// Pose is the pose X_AB of a frame B in a frame A, an element of SE(3):

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 /// kRankTolerance is the only rank threshold of this project, and relative. A

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 // Roll, pitch and yaw have the meaning of URDF: rotations about the fixed axes

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 // The Jacobians of SO(3) are the derivatives of ExpSo3(). With R = R_AB =

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 /// Vector6d holds two vectors of three entries, the angular one first. Matrix6d

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "poise/dynamics/aba.h"
-#include "poise/dynamics/simd/recursion.h"
+#include "poise/dynamics/recursion.h"
 #include "poise/dynamics/tree.h"
 #include "poise/math/pose.h"
 #include "poise/math/spatial.h"

@@ -1,9 +1,10 @@
 #!/bin/bash
-# Usage: tools/setup.sh [--baselines] [--browser] [--docs]
+# Usage: tools/setup.sh [--baselines] [--browser] [--docs] [--package]
 # Installs the packages that Poise needs on Debian 12, if they are missing.
 #   --baselines  also packages that some tests and benchmarks compare with
 #   --browser  also packages to rebuild the viewer and to run its browser test
 #   --docs  also Doxygen, for bazel build //docs:api
+#   --package  also packages to use Poise from CMake and to test that
 # Runs as root, or as a user with sudo. If an installation fails, prints one line
 # that names the missing packages, and exits with code 1.
 set -euo pipefail
@@ -45,12 +46,15 @@ for argument in "$@"; do
     --docs)
       packages+=(doxygen)
       ;;
+    --package)
+      packages+=(binutils cmake make)
+      ;;
     -h | --help)
-      sed -n '2,8s/^# \?//p' "$0"
+      sed -n '2,9s/^# \?//p' "$0"
       exit 0
       ;;
     *)
-      echo "tools/setup.sh: unknown option '$argument', must be --baselines, --browser or --docs" >&2
+      echo "tools/setup.sh: unknown option '$argument', must be --baselines, --browser, --docs or --package" >&2
       exit 2
       ;;
   esac

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
+#include "poise/dynamics/body_arrays.h"
 #include "poise/math/spatial.h"
 
 /// POISE_LANES tells the compiler that the iterations of the next loop are
@@ -42,13 +42,6 @@
 
 namespace poise {
 
-/// Vec3 is a vector of three doubles for loops with lanes. Eigen's Vector3d
-/// vectorizes inside one vector, which keeps the compiler from giving each body
-/// a lane.
-struct Vec3 {
-  double x, y, z;
-};
-
 inline Vec3 operator+(const Vec3& a, const Vec3& b) noexcept {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
@@ -64,16 +57,6 @@ inline double Dot(const Vec3& a, const Vec3& b) noexcept {
 inline Vec3 Cross(const Vec3& a, const Vec3& b) noexcept {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-
-/// Motion3 is a spatial motion or acceleration, and Force3 a spatial force or
-/// momentum, both about a named point. They are SpatialMotion and SpatialForce
-/// of math/spatial.h, made of Vec3.
-struct Motion3 {
-  Vec3 angular, linear;
-};
-struct Force3 {
-  Vec3 angular, linear;
-};
 
 inline Motion3 operator+(const Motion3& V, const Motion3& W) noexcept {
   return {V.angular + W.angular, V.linear + W.linear};
@@ -93,11 +76,6 @@ inline Force3 Shift(const Vec3& p_PB, const Force3& F) noexcept {
   return {F.angular + Cross(p_PB, F.linear), F.linear};
 }
 
-/// Mat3 is a 3 x 3 matrix, stored as three rows.
-struct Mat3 {
-  Vec3 x, y, z;
-};
-
 inline Vec3 operator*(const Mat3& A, const Vec3& v) noexcept {
   return {Dot(A.x, v), Dot(A.y, v), Dot(A.z, v)};
 }
@@ -114,11 +92,6 @@ inline Mat3 operator+(const Mat3& A, const Mat3& B) noexcept {
 inline Mat3 operator*(double s, const Mat3& A) noexcept {
   return {s * A.x, s * A.y, s * A.z};
 }
-
-/// Sym3 is a symmetric 3 x 3 matrix, stored as six entries.
-struct Sym3 {
-  double xx, yy, zz, xy, xz, yz;
-};
 
 inline Mat3 Full(const Sym3& S) noexcept {
   return {{S.xx, S.xy, S.xz}, {S.xy, S.yy, S.yz}, {S.xz, S.yz, S.zz}};
@@ -151,68 +124,5 @@ inline Force3 ToForce3(const SpatialForce& F) {
 inline Mat3 ToMat3(const Eigen::Matrix3d& A) {
   return {ToVec3(A.row(0)), ToVec3(A.row(1)), ToVec3(A.row(2))};
 }
-
-/// Vec3Array stores one Vec3 for each body as a structure of arrays: all x,
-/// then all y, then all z. One load then fills the lanes with the same
-/// component of consecutive bodies.
-class Vec3Array {
- public:
-  explicit Vec3Array(int size = 0) : x_(size), y_(size), z_(size) {}
-  Vec3 operator[](int i) const noexcept { return {x_[i], y_[i], z_[i]}; }
-  void Set(int i, const Vec3& v) noexcept {
-    x_[i] = v.x;
-    y_[i] = v.y;
-    z_[i] = v.z;
-  }
-
- private:
-  std::vector<double> x_, y_, z_;
-};
-
-/// Force3Array stores one Force3 for each body as a structure of arrays.
-class Force3Array {
- public:
-  explicit Force3Array(int size = 0) : angular_(size), linear_(size) {}
-  Force3 operator[](int i) const noexcept { return {angular_[i], linear_[i]}; }
-  void Set(int i, const Force3& F) noexcept {
-    angular_.Set(i, F.angular);
-    linear_.Set(i, F.linear);
-  }
-
- private:
-  Vec3Array angular_, linear_;
-};
-
-/// Mat3Array stores one Mat3 for each body as a structure of arrays.
-class Mat3Array {
- public:
-  explicit Mat3Array(int size = 0) : x_(size), y_(size), z_(size) {}
-  Mat3 operator[](int i) const noexcept { return {x_[i], y_[i], z_[i]}; }
-  void Set(int i, const Mat3& A) noexcept {
-    x_.Set(i, A.x);
-    y_.Set(i, A.y);
-    z_.Set(i, A.z);
-  }
-
- private:
-  Vec3Array x_, y_, z_;
-};
-
-/// Sym3Array stores one Sym3 for each body as a structure of arrays.
-class Sym3Array {
- public:
-  explicit Sym3Array(int size = 0) : diagonal_(size), rest_(size) {}
-  Sym3 operator[](int i) const noexcept {
-    const Vec3 d = diagonal_[i], r = rest_[i];
-    return {d.x, d.y, d.z, r.x, r.y, r.z};
-  }
-  void Set(int i, const Sym3& S) noexcept {
-    diagonal_.Set(i, {S.xx, S.yy, S.zz});
-    rest_.Set(i, {S.xy, S.xz, S.yz});
-  }
-
- private:
-  Vec3Array diagonal_, rest_;
-};
 
 }  // namespace poise

@@ -1,28 +1,11 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include <vector>
-
+#include "poise/dynamics/body_arrays.h"
 #include "poise/dynamics/simd/lanes.h"
 #include "poise/math/inertia.h"
 
 namespace poise {
-
-/// MassMoments are the moments of order 0, 1 and 2 of a body's mass about a
-/// point O, with x the position of an element dm from O:
-///     m = sum of dm,   h = sum of x dm,   Sigma = sum of x x' dm.
-/// Moments about the same point and in the same axes add up. The moment of
-/// inertia is I = trace(Sigma) 1 - Sigma.
-///
-/// Sigma is stored instead of I because accelerations are a linear field,
-///     a + A x,   A = [alpha]x + [w]x [w]x,
-/// whose force is A Sigma without a gyroscopic term. The shift of Sigma also
-/// costs fewer operations than the shift of I.
-struct MassMoments {
-  double mass;  ///< m, kg.
-  Vec3 h;       ///< m p_OG, kg m.
-  Sym3 Sigma;   ///< Second moments, kg m2.
-};
 
 /// MakeMassMoments() returns the moments about the body's origin, in its axes:
 ///     h = m p,   Sigma = trace(I_G) / 2 1 - I_G + m p p',   p = p_BoG_B.
@@ -90,26 +73,5 @@ inline Force3 Momentum(const MassMoments& M, const Vec3& w,
   const double trace = M.Sigma.xx + M.Sigma.yy + M.Sigma.zz;
   return {trace * w - M.Sigma * w + Cross(M.h, v), M.mass * v - Cross(M.h, w)};
 }
-
-/// MassMomentsArray stores the MassMoments of each body as a structure of
-/// arrays.
-class MassMomentsArray {
- public:
-  explicit MassMomentsArray(int size = 0)
-      : mass_(size), h_(size), Sigma_(size) {}
-  MassMoments operator[](int i) const noexcept {
-    return {mass_[i], h_[i], Sigma_[i]};
-  }
-  void Set(int i, const MassMoments& M) noexcept {
-    mass_[i] = M.mass;
-    h_.Set(i, M.h);
-    Sigma_.Set(i, M.Sigma);
-  }
-
- private:
-  std::vector<double> mass_;
-  Vec3Array h_;
-  Sym3Array Sigma_;
-};
 
 }  // namespace poise

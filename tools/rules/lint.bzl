@@ -1,11 +1,36 @@
 """lint_test(): the last line of every BUILD file that has C++."""
 
-load("//tools/rules/layers:layers.bzl", "layer_of", "layer_test")
+load("//tools/rules/install:install.bzl", "installed_part")
+load(
+    "//tools/rules/layers:layers.bzl",
+    "PACKAGES",
+    "PRIVATE_PACKAGES",
+    "layer_of",
+    "layer_test",
+)
+
+def _declare_installed_part():
+    """Declares the headers and objects of this package for an installation."""
+    package = native.package_name()
+    if package not in PACKAGES[layer_of(package)]:
+        fail("//{} is not in PACKAGES of tools/rules/layers/layers.bzl".format(package))
+    installed_part(
+        name = "installed_part",
+        libraries = [
+            ":" + rule["name"]
+            for rule in native.existing_rules().values()
+            if rule["kind"] == "cc_library" and not rule.get("testonly", False)
+        ],
+        private = package in PRIVATE_PACKAGES,
+        tags = ["manual"],
+        visibility = ["//tools/rules/install:__pkg__"],
+    )
 
 def lint_test():
     """Tests the format and, in a layer, the dependencies of the rules above."""
     if layer_of(native.package_name()):
         layer_test()
+        _declare_installed_part()
     sources = {}
     for rule in native.existing_rules().values():
         for attr in ("srcs", "hdrs"):

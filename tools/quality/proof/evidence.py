@@ -131,10 +131,18 @@ class Workspace:
 
     @functools.lru_cache(None)
     def classes(self, path):
-        """Returns the classes of a header, on which operators work."""
-        return set(re.findall(
-            r"^(?:struct|class|using) (\w+)", self.source(path).text, re.M
-        ))
+        """Returns the classes on which the operators of a header work.
+
+        A header without classes has the operators of a header that it includes.
+        """
+        text = self.source(path).text
+        layer = path.split("/")[0]
+        included = re.findall(rf'^#include "poise/({layer}/[^"]+)"', text, re.M)
+        for each in [text, *(self.source(name).text for name in included)]:
+            found = re.findall(r"^(?:struct|class|using) (\w+)", each, re.M)
+            if found:
+                return set(found)
+        return set()
 
     @functools.lru_cache(None)
     def library_files(self, layer):

@@ -21,9 +21,9 @@ PROGRAMS = {
     for label in (
         "//tests/exact:judge", "//tests:hqp_night", "//tests/peers:compare",
         "//tools:doctor", "//tools:dynamics", "//tools:explain",
-        "//tools:figures", "//tools:hqp", "//tools:mutate", "//tools:push",
-        "//tools:push_map", "//tools:report",
-        "//tools:robustness", "//tools:sim_to_sim", "//tools:strictness")
+        "//tools:figures", "//tools:hqp", "//tools:install",
+        "//tools:mutate", "//tools:push", "//tools:push_map",
+        "//tools:report", "//tools:robustness", "//tools:sim_to_sim", "//tools:strictness")
 }
 
 

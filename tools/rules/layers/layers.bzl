@@ -24,8 +24,41 @@ _FOLDERS = {
     "python": ["tools/commands", "tools/viewer"],
 }
 
+# For each layer, its packages; //tools/rules/install links them.
+PACKAGES = {
+    "math": ["math"],
+    "dynamics": ["dynamics", "dynamics/simd"],
+    "hqp": ["hqp", "hqp/fast", "hqp/reference"],
+    "robot": [
+        "robot",
+        "robot/collision",
+        "robot/feet",
+        "robot/mesh",
+        "robot/profile",
+        "robot/urdf",
+    ],
+    "robot/control": [
+        "robot/control",
+        "robot/control/easing",
+        "robot/control/posture",
+        "robot/control/tasks",
+    ],
+    "robot/gait": ["robot/gait"],
+    "sim": [
+        "sim",
+        "sim/command",
+        "sim/log",
+        "sim/plants",
+        "sim/plants/bullet",
+        "sim/plants/mujoco",
+    ],
+}
+
+# Packages that only their own layer and tests see.
+PRIVATE_PACKAGES = ["dynamics/simd", "hqp/fast"]
+
 # For each layer, the external repositories that its libraries may use.
-_EXTERNALS = {
+EXTERNALS = {
     "math": ["eigen"],
     "dynamics": ["eigen"],
     "hqp": ["eigen"],
@@ -98,7 +131,7 @@ def layer_test():
     sources = [source for source in sources if "." in source]
     layers = [layer] + LAYERS[layer]
     folders = layers + _FOLDERS.get(layer, [])
-    externals = {name: True for each in layers for name in _EXTERNALS[each]}
+    externals = {name: True for each in layers for name in EXTERNALS[each]}
     native.genquery(
         name = "layer_closure",
         expression = "kind(cc_library, deps({}))".format(" + ".join(labels)),
@@ -137,7 +170,7 @@ def layer_test():
             "'<({})'".format("|".join([
                 prefix
                 for name, prefixes in _HEADERS.items()
-                if name not in _EXTERNALS[layer]
+                if name not in EXTERNALS[layer]
                 for prefix in prefixes
             ])),
         ] + ["$(rootpath {})".format(source) for source in sources],

@@ -5,6 +5,7 @@ public_headers_test compares these lists with the tree.
 
 PUBLIC_HEADERS = [
     "dynamics/aba.h",
+    "dynamics/body_arrays.h",
     "dynamics/center_of_mass.h",
     "dynamics/centroidal.h",
     "dynamics/conventions.h",
@@ -13,7 +14,9 @@ PUBLIC_HEADERS = [
     "dynamics/energy.h",
     "dynamics/integrate.h",
     "dynamics/jacobian.h",
+    "dynamics/joint_maps.h",
     "dynamics/kinematics.h",
+    "dynamics/recursion.h",
     "dynamics/regressor.h",
     "dynamics/rnea.h",
     "dynamics/tick.h",
@@ -26,6 +29,7 @@ PUBLIC_HEADERS = [
     "hqp/solution.h",
     "hqp/solver.h",
     "hqp/tolerances.h",
+    "math/eigen_alignment.h",
     "math/exact_dot.h",
     "math/inertia.h",
     "math/pose.h",
@@ -221,15 +225,6 @@ PUBLIC_HEADERS = [
     "sim/step_yardstick.h",
     "sim/yaml_fields.h",
     "sim/yardstick.h",
-]
-
-# Public headers include these, so they are installed too. Callers must not include
-# them or use their names: they change without notice.
-INCLUDED_PRIVATE_HEADERS = [
-    "dynamics/simd/joint_maps.h",
-    "dynamics/simd/lanes.h",
-    "dynamics/simd/mass_moments.h",
-    "dynamics/simd/recursion.h",
 ]
 
 def header_labels(paths):

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "poise/dynamics/simd/lanes.h"
+#include "poise/dynamics/body_arrays.h"
 
 namespace poise {
 

@@ -1,0 +1,285 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+"""Checks an installation; run by tools/quality/install_test.sh.
+
+POISE_WORK is a temporary folder, in which prefix/ is the installation.
+"""
+
+import collections
+import concurrent.futures
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+WORK = pathlib.Path(os.environ["POISE_WORK"])
+PREFIX = WORK / "prefix"
+EXAMPLE = ROOT / "docs/examples/cmake"
+LIBRARIES = sorted(PREFIX.glob("lib/libpoise_*.so.0"))
+# Libraries that any C++ program has.
+RUNTIME = {"libstdc++.so.6", "libm.so.6", "libgcc_s.so.1", "libc.so.6",
+           "ld-linux-x86-64.so.2"}
+SENTENCE = "This file aligns Eigen's memory differently"
+
+
+def run(*command, **options):
+    """Returns the finished command, with its text output."""
+    return subprocess.run(
+        [str(word) for word in command], text=True, check=False,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
+
+
+def needed(library):
+    return set(re.findall(r"\(NEEDED\).*\[(.+)\]",
+                          run("readelf", "-d", library).stdout))
+
+
+class Checks(unittest.TestCase):
+    def succeed(self, *command, **options):
+        result = run(*command, **options)
+        self.assertEqual(result.returncode, 0, f"{command}\n{result.stdout}")
+        return result.stdout
+
+    def cmake(self, source, name, *options):
+        """Configures and builds; returns the build folder."""
+        build = WORK / name
+        self.succeed("cmake", "-S", source, "-B", build,
+                     "-DCMAKE_BUILD_TYPE=Release", *options)
+        self.succeed("cmake", "--build", build)
+        return build
+
+
+class SymbolsTest(Checks):
+    def test_each_symbol_is_exported_by_one_library(self):
+        self.assertGreater(len(LIBRARIES), 6)
+        owners = collections.defaultdict(list)
+        for library in LIBRARIES:
+            printed = self.succeed("nm", "-D", "--defined-only", library)
+            symbols = [line.split()[-1] for line in printed.splitlines()]
+            self.assertTrue(symbols, library)
+            for symbol in symbols:
+                owners[symbol].append(library.name)
+        self.assertEqual(
+            {s: where for s, where in owners.items() if len(where) > 1}, {})
+        self.assertEqual([s for s in owners if "5poise" not in s], [])
+
+    def test_private_functions_are_hidden(self):
+        printed = "".join(self.succeed("nm", "-DC", "--defined-only", library)
+                          for library in LIBRARIES)
+        for name in ("ComputeRnea(", "Solver::Solve("):
+            self.assertIn(name, printed)
+        for header in [*ROOT.glob("dynamics/simd/*.h"),
+                       *ROOT.glob("hqp/fast/*.h")]:
+            for name in re.findall(r"^(?:void|bool|int|double) (\w+)\(",
+                                   header.read_text(), re.M):
+                self.assertNotIn(f"poise::{name}(", printed)
+
+    def test_libraries_know_no_path_of_the_build(self):
+        for library in LIBRARIES:
+            printed = self.succeed("readelf", "-d", library)
+            self.assertEqual(re.findall(
+                r"\((?:RUNPATH|RPATH)\).*\[(.*)\]", printed), ["$ORIGIN"])
+            self.assertIn(f"[{library.name}]", printed)
+            content = library.read_bytes()
+            for path in (b"/root", b"bazel-out", bytes(ROOT)):
+                self.assertNotIn(path, content)
+
+    def test_each_library_needs_its_own_dependencies_only(self):
+        needs = {re.sub(r"libpoise_|\.so.*", "", library.name):
+                 needed(library) - RUNTIME for library in LIBRARIES}
+        self.assertEqual(needs["math"], set())
+        self.assertEqual(needs["dynamics"], {"libpoise_math.so.0"})
+        self.assertEqual(needs["hqp"], {"libpoise_math.so.0"})
+        robot = {name for name in needs["robot"] if "poise" not in name}
+        self.assertEqual({name for name in robot if not re.match(
+            r"lib(urdfdom|tinyxml2|yaml-cpp)", name)}, set())
+        self.assertTrue(any("Bullet" in name for name in needs["sim"]))
+
+
+class HeadersTest(Checks):
+    def test_private_headers_are_not_installed(self):
+        self.assertFalse((PREFIX / "include/poise/dynamics/simd").exists())
+        self.assertFalse((PREFIX / "include/poise/hqp/fast").exists())
+
+    def test_every_public_header_is_installed(self):
+        layers = ("math", "dynamics", "hqp", "robot", "sim")
+        tree = {f"{path.relative_to(ROOT)}" for layer in layers
+                for path in (ROOT / layer).rglob("*.h")
+                if not re.search(r"/simd/|/fast/|_fixture\.h$", str(path))}
+        installed = {str(path.relative_to(PREFIX / "include/poise"))
+                     for path in PREFIX.glob("include/poise/**/*.h")}
+        # A library for tests, and a header that the installation writes.
+        self.assertEqual(tree - installed, {"math/measure_accuracy.h"})
+        self.assertEqual(installed - tree, {"math/installed_alignment.h"})
+
+    def test_each_header_compiles_alone(self):
+        headers = [path.relative_to(PREFIX / "include")
+                   for path in sorted(PREFIX.glob("include/poise/**/*.h"))]
+        flags = [f"-I{PREFIX}/include"]
+        for word in run("pkg-config", "--cflags", "poise_sim",
+                        env=ENVIRONMENT).stdout.split():
+            if word.startswith("-D"):
+                flags.append(word)
+            elif not word.startswith(f"-I{PREFIX}"):
+                flags.append("-isystem" + word[2:])
+
+        def compile_alone(job):
+            mode, names = job
+            result = run(*mode, "-fsyntax-only", "-Wall", "-Wextra",
+                         "-Wconversion", "-pedantic", "-Werror", *flags,
+                         "-x", "c++", "-",
+                         input="".join(f'#include "{n}"\n' for n in names))
+            return None if result.returncode == 0 else (
+                f"{mode} {names[0]}: {result.stdout[:400]}")
+
+        modes = [(compiler, f"-std={standard}")
+                 for compiler in ("g++", "clang++")
+                 for standard in ("c++17", "c++20")]
+        jobs = [(mode, [header]) for mode in modes for header in headers]
+        if os.environ.get("POISE_QUICK"):
+            jobs = [(modes[0], [header]) for header in headers] + [
+                (mode, headers) for mode in modes[1:]]
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            failed = [f for f in pool.map(compile_alone, jobs) if f]
+        self.assertEqual(failed, [], f"{len(failed)} of {len(jobs)}")
+
+
+ENVIRONMENT = {
+    **os.environ, "PKG_CONFIG_PATH": str(PREFIX / "lib/pkgconfig"),
+    "LD_LIBRARY_PATH": str(PREFIX / "lib")}
+FIND = f"-DCMAKE_PREFIX_PATH={PREFIX}"
+
+
+class ConsumerTest(Checks):
+    def run_examples(self, build):
+        self.assertIn("shoulder", self.succeed(
+            build / "arm_torques", EXAMPLE / "arm.urdf"))
+        self.assertIn("error", self.succeed(build / "arm_reach"))
+
+    def test_programs_without_march_native(self):
+        self.run_examples(self.cmake(EXAMPLE, "generic", FIND))
+
+    def test_programs_with_march_native(self):
+        self.run_examples(self.cmake(
+            EXAMPLE, "native", FIND, "-DCMAKE_CXX_FLAGS=-march=native"))
+
+    def test_static_libraries_with_and_without_march_native(self):
+        source = WORK / "static_example"
+        shutil.copytree(EXAMPLE, source)
+        lists = source / "CMakeLists.txt"
+        lists.write_text(re.sub(r"poise::(\w+)\)", r"poise::\1_static)",
+                                lists.read_text()))
+        for name, flag in (("static", ""), ("static_native", "-march=native")):
+            build = self.cmake(source, name, FIND, f"-DCMAKE_CXX_FLAGS={flag}")
+            self.assertFalse([lib for lib in needed(build / "arm_torques")
+                              if "poise" in lib])
+            self.run_examples(build)
+
+    def test_another_alignment_is_a_compile_time_error_with_a_sentence(self):
+        for flag in ("-DEIGEN_MAX_ALIGN_BYTES=16", "-DEIGEN_MAX_ALIGN_BYTES=32",
+                     "-DEIGEN_MAX_STATIC_ALIGN_BYTES=32",
+                     "-DEIGEN_MALLOC_ALREADY_ALIGNED=1"):
+            build = WORK / f"undone{flag}"
+            self.succeed("cmake", "-S", EXAMPLE, "-B", build, FIND,
+                         f"-DCMAKE_CXX_FLAGS={flag}")
+            result = run("cmake", "--build", build)
+            self.assertNotEqual(result.returncode, 0, flag)
+            self.assertIn(SENTENCE, result.stdout)
+
+    def test_missing_definitions_are_a_compile_time_error(self):
+        result = run("g++", "-std=c++17", "-fsyntax-only", "-isystem",
+                     "/usr/include/eigen3", f"-I{PREFIX}/include",
+                     EXAMPLE / "arm_reach.cc")
+        self.assertIn(SENTENCE, result.stdout)
+
+    def test_pkg_config(self):
+        flags = self.succeed("pkg-config", "--cflags", "--libs", "poise_hqp",
+                             env=ENVIRONMENT).split()
+        program = WORK / "by_pkg_config"
+        self.succeed("g++", "-std=c++17", EXAMPLE / "arm_reach.cc", *flags,
+                     "-o", program)
+        self.succeed(program, env=ENVIRONMENT)
+
+    def test_all_layers_are_found_and_an_unknown_one_is_not(self):
+        source = WORK / "find"
+        source.mkdir()
+        lists = source / "CMakeLists.txt"
+        start = "cmake_minimum_required(VERSION 3.22)\nproject(x CXX)\n"
+        lists.write_text(start + "find_package(poise 0.9 REQUIRED)\n"
+                         "file(WRITE main.cc \"int main() {}\")\n"
+                         "add_executable(x main.cc)\n"
+                         "target_link_libraries(x poise::sim poise::gait)\n")
+        self.cmake(source, "find_all", FIND)
+        for wanted in ("REQUIRED COMPONENTS wings", "1.0 REQUIRED"):
+            lists.write_text(f"{start}find_package(poise {wanted})\n")
+            self.assertNotEqual(run("cmake", "-S", source, "-B",
+                                    WORK / "find_none", FIND).returncode, 0)
+
+
+class FolderTest(Checks):
+    """Poise as a folder of another CMake project."""
+
+    def build_with(self, lines, name):
+        source = WORK / f"{name}_source"
+        source.mkdir()
+        shutil.copy(EXAMPLE / "arm_reach.cc", source)
+        (source / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES CXX)\n"
+            f"set(POISE_LAYERS hqp)\n{lines}\n"
+            "add_executable(reach arm_reach.cc)\n"
+            "target_link_libraries(reach poise::hqp)\n")
+        build = self.cmake(source, name)
+        self.succeed(build / "reach")
+        return build
+
+    def test_add_subdirectory_and_install(self):
+        build = self.build_with(f"add_subdirectory({ROOT} poise)", "folder")
+        self.succeed("cmake", "--install", build, "--prefix", WORK / "copied")
+        self.cmake_from(WORK / "copied")
+
+    def cmake_from(self, prefix):
+        source = WORK / "copied_source"
+        shutil.copytree(EXAMPLE, source)
+        lists = source / "CMakeLists.txt"
+        lists.write_text(re.sub(r"add_executable\(arm_torques.*\n.*\n", "",
+                                lists.read_text()).replace(
+                                    " dynamics hqp robot", " hqp"))
+        self.cmake(source, "copied_build", f"-DCMAKE_PREFIX_PATH={prefix}")
+
+    def test_fetch_content(self):
+        self.build_with("include(FetchContent)\n"
+                        f"FetchContent_Declare(poise SOURCE_DIR {ROOT})\n"
+                        "FetchContent_MakeAvailable(poise)", "fetched")
+
+
+class CommandTest(Checks):
+    def install(self, *arguments):
+        return run("bazel", "run", "//tools:install", "--", *arguments,
+                   cwd=ROOT)
+
+    def test_failure_half_way_undoes_all(self):
+        prefix = WORK / "blocked"
+        (prefix / "lib").mkdir(parents=True)
+        (prefix / "lib/pkgconfig").write_text("in the way")
+        result = self.install("--prefix", prefix, "--layers", "math")
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertIn("nothing was installed", result.stdout)
+        self.assertEqual([str(path.relative_to(prefix)) for path in
+                          sorted(prefix.rglob("*"))], ["lib", "lib/pkgconfig"])
+
+    def test_uninstall_leaves_an_empty_folder(self):
+        prefix = WORK / "removed"
+        result = self.install("--prefix", prefix, "--layers", "dynamics")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertTrue((prefix / "lib/libpoise_math.so.0").exists())
+        self.assertFalse((prefix / "lib/libpoise_hqp.so.0").exists())
+        result = self.install("--prefix", prefix, "--uninstall")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertEqual(list(prefix.iterdir()), [])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,190 @@
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+"""Writes the files by which CMake and pkg-config find an installed Poise.
+
+All paths in these files are relative to the files, so that a prefix can be
+moved or copied.
+"""
+
+import dataclasses
+
+
+@dataclasses.dataclass(frozen=True)
+class External:
+    """A library of the system."""
+
+    module: str = ""  # Name of its pkg-config module, if there is one.
+    library: str = ""  # Name for -l, if there is no module.
+    # Whether public headers of Poise include its headers. Otherwise only the
+    # static library needs it.
+    in_headers: bool = True
+
+
+# By the names of the repositories in tools/rules/workspace/default.bzl.
+EXTERNALS = {
+    "bullet": External("bullet-float64"),
+    "eigen": External("eigen3"),
+    "mujoco": External(library="mujoco"),
+    "nlohmann_json": External("nlohmann_json"),
+    "openssl": External("libcrypto"),
+    "tinyxml2": External("tinyxml2"),
+    "urdfdom": External("urdfdom", in_headers=False),
+    "yaml_cpp": External("yaml-cpp"),
+}
+
+
+def pkg_config(layer, version):
+    """Returns the .pc file of a layer."""
+    externals = [EXTERNALS[name] for name in layer["externals"]]
+    public = [e.module for e in externals if e.module and e.in_headers]
+    private = [e.module for e in externals if e.module and not e.in_headers]
+    needs = [f"poise_{name}" for name in layer["needs"]]
+    defines = [f"-D{name}={value}" for name, value in layer["defines"].items()]
+    libraries = [f"-l{e.library}" for e in externals if e.library]
+    return f"""prefix=${{pcfiledir}}/../..
+includedir=${{prefix}}/include
+libdir=${{prefix}}/lib
+
+Name: poise_{layer["name"]}
+Description: The layer {layer["name"]} of Poise
+Version: {version}
+Requires: {", ".join(needs + public)}
+Requires.private: {", ".join(private)}
+Cflags: -I${{includedir}} {" ".join(defines)}
+Libs: -L${{libdir}} -lpoise_{layer["name"]}
+Libs.private: {" ".join(libraries + ["-lstdc++", "-lm"])}
+"""
+
+
+def _find(name):
+    """Returns (CMake target, lines that define it) of a library."""
+    external = EXTERNALS[name]
+    if name == "eigen":
+        return "Eigen3::Eigen", """if(NOT TARGET Eigen3::Eigen)
+  find_dependency(Eigen3 3.4 NO_MODULE)
+  # Poise's own targets may be global, and then they need this one everywhere.
+  set_target_properties(Eigen3::Eigen PROPERTIES IMPORTED_GLOBAL TRUE)
+endif()
+"""
+    if not external.module:
+        variable = f"POISE_{name.upper()}_LIBRARY"
+        return f"${{{variable}}}", f"""\
+find_library({variable} {external.library})
+if(NOT {variable})
+  set(poise_FOUND FALSE)
+  set(poise_NOT_FOUND_MESSAGE
+    "poise needs lib{external.library}, which is not there")
+  return()
+endif()
+"""
+    target = f"POISE_{name.upper()}"
+    lines = f"""find_dependency(PkgConfig)
+if(NOT TARGET PkgConfig::{target})
+  pkg_check_modules({target} QUIET IMPORTED_TARGET GLOBAL {external.module})
+endif()
+"""
+    if external.in_headers:
+        lines += f"""if(NOT TARGET PkgConfig::{target})
+  set(poise_FOUND FALSE)
+  set(poise_NOT_FOUND_MESSAGE
+    "poise needs {external.module}, which is not there")
+  return()
+endif()
+"""
+    return f"PkgConfig::{target}", lines
+
+
+def cmake_targets(layer, major):
+    """Returns the CMake file that defines the two targets of a layer."""
+    name = layer["name"]
+    lines = [f"# The targets poise::{name} and poise::{name}_static.\n",
+             f"if(TARGET poise::{name})\n  return()\nendif()\n",
+             "include(CMakeFindDependencyMacro)\n",
+             *(f'include("${{CMAKE_CURRENT_LIST_DIR}}/poise_{need}.cmake")\n'
+               for need in layer["needs"]),
+             "if(DEFINED poise_FOUND AND NOT poise_FOUND)\n",
+             "  return()\nendif()\n"]
+    public, private = [], []
+    for each in layer["externals"]:
+        target, found_by = _find(each)
+        lines.append(found_by)
+        (public if EXTERNALS[each].in_headers else private).append(target)
+    needs = layer["needs"]
+    shared = ";".join([f"poise::{need}" for need in needs] + public)
+    static = ";".join([f"poise::{need}_static" for need in needs] + public +
+                      [f"$<LINK_ONLY:{target}>" for target in private])
+    defines = ";".join(f"{k}={v}" for k, v in layer["defines"].items())
+    lines.append(f"""
+get_filename_component(_poise_prefix
+  "${{CMAKE_CURRENT_LIST_DIR}}/../../.." ABSOLUTE)
+add_library(poise::{name} SHARED IMPORTED GLOBAL)
+set_target_properties(poise::{name} PROPERTIES
+  IMPORTED_LOCATION "${{_poise_prefix}}/lib/libpoise_{name}.so.{major}"
+  IMPORTED_SONAME "libpoise_{name}.so.{major}"
+  INTERFACE_COMPILE_DEFINITIONS "{defines}"
+  INTERFACE_COMPILE_FEATURES cxx_std_17
+  INTERFACE_INCLUDE_DIRECTORIES "${{_poise_prefix}}/include"
+  INTERFACE_LINK_LIBRARIES "{shared}")
+""")
+    definition = f"""add_library(poise::{name}_static STATIC IMPORTED GLOBAL)
+set_target_properties(poise::{name}_static PROPERTIES
+  IMPORTED_LOCATION "${{_poise_prefix}}/lib/libpoise_{name}.a"
+  INTERFACE_COMPILE_DEFINITIONS "{defines}"
+  INTERFACE_COMPILE_FEATURES cxx_std_17
+  INTERFACE_INCLUDE_DIRECTORIES "${{_poise_prefix}}/include"
+  INTERFACE_LINK_LIBRARIES "{static}")
+"""
+    there = " AND ".join(f"TARGET {target}" for target in private)
+    lines.append(f"if({there})\n{definition}endif()\n" if there else definition)
+    return "".join(lines)
+
+
+def cmake_config(names):
+    """Returns poiseConfig.cmake, for all layers that a prefix may have."""
+    return f"""# find_package(poise REQUIRED COMPONENTS dynamics) defines
+# poise::dynamics and the targets that it needs. Without COMPONENTS, all
+# installed layers are defined.
+set(poise_FOUND TRUE)
+set(_poise_components ${{poise_FIND_COMPONENTS}})
+if(NOT _poise_components)
+  foreach(_poise_name {" ".join(names)})
+    if(EXISTS "${{CMAKE_CURRENT_LIST_DIR}}/poise_${{_poise_name}}.cmake")
+      list(APPEND _poise_components ${{_poise_name}})
+    endif()
+  endforeach()
+endif()
+foreach(_poise_name ${{_poise_components}})
+  if(EXISTS "${{CMAKE_CURRENT_LIST_DIR}}/poise_${{_poise_name}}.cmake")
+    include("${{CMAKE_CURRENT_LIST_DIR}}/poise_${{_poise_name}}.cmake")
+  endif()
+  if(TARGET poise::${{_poise_name}})
+    set(poise_${{_poise_name}}_FOUND TRUE)
+  elseif(poise_FIND_REQUIRED_${{_poise_name}} AND poise_FOUND)
+    set(poise_FOUND FALSE)
+    set(poise_NOT_FOUND_MESSAGE
+      "poise has no component ${{_poise_name}} in ${{CMAKE_CURRENT_LIST_DIR}}")
+  endif()
+endforeach()
+"""
+
+
+def cmake_version(version):
+    """Returns poiseConfigVersion.cmake: equal major versions are compatible."""
+    return f"""set(PACKAGE_VERSION "{version}")
+if(PACKAGE_FIND_VERSION VERSION_GREATER PACKAGE_VERSION OR
+   NOT PACKAGE_FIND_VERSION_MAJOR EQUAL {version.split(".", maxsplit=1)[0]})
+  set(PACKAGE_VERSION_COMPATIBLE FALSE)
+else()
+  set(PACKAGE_VERSION_COMPATIBLE TRUE)
+  if(PACKAGE_FIND_VERSION VERSION_EQUAL PACKAGE_VERSION)
+    set(PACKAGE_VERSION_EXACT TRUE)
+  endif()
+endif()
+"""
+
+
+def alignment_header(defines):
+    """Returns the header that tells math/eigen_alignment.h the alignment."""
+    lines = [f"#define POISE_{name} {value}" for name, value in defines.items()]
+    return "\n".join([
+        "// The alignment of Eigen's memory in the installed libraries.",
+        "#pragma once", "", *lines, ""])

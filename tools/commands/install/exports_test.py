@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+"""Tests what CMake and pkg-config are told about a layer."""
+
+import pathlib
+import re
+import unittest
+
+import exports
+
+DYNAMICS = {"name": "dynamics", "needs": ["math"], "externals": ["eigen"],
+            "defines": {"EIGEN_MAX_ALIGN_BYTES": "64"}}
+ROBOT = {"name": "robot", "needs": ["math"], "defines": {"A": "1"},
+         "externals": ["eigen", "urdfdom", "yaml_cpp"]}
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+
+
+class ExportsTest(unittest.TestCase):
+    def test_dynamics_needs_eigen_and_math_alone(self):
+        text = exports.pkg_config(DYNAMICS, "0.9.0")
+        self.assertIn("\nRequires: poise_math, eigen3\n", text)
+        self.assertIn("\nVersion: 0.9.0\n", text)
+        self.assertIn('"poise::math;Eigen3::Eigen"',
+                      exports.cmake_targets(DYNAMICS, "0"))
+
+    def test_targets_define_the_alignment(self):
+        self.assertIn("-DEIGEN_MAX_ALIGN_BYTES=64",
+                      exports.pkg_config(DYNAMICS, "0.9.0"))
+        self.assertEqual(
+            exports.cmake_targets(DYNAMICS, "0").count(
+                '"EIGEN_MAX_ALIGN_BYTES=64"'), 2)
+        self.assertIn("#define POISE_EIGEN_MAX_ALIGN_BYTES 64\n",
+                      exports.alignment_header(DYNAMICS["defines"]))
+
+    def test_private_library_is_linked_by_the_static_target_only(self):
+        text = exports.cmake_targets(ROBOT, "0")
+        self.assertEqual(text.count("PkgConfig::POISE_YAML_CPP;")
+                         + text.count('PkgConfig::POISE_YAML_CPP"'), 2)
+        self.assertEqual(text.count("$<LINK_ONLY:PkgConfig::POISE_URDFDOM>"), 1)
+
+    def test_no_path_is_absolute(self):
+        for text in (exports.cmake_targets(ROBOT, "0"),
+                     exports.pkg_config(ROBOT, "0.9.0"),
+                     exports.cmake_config(["math"])):
+            self.assertEqual(re.findall(r'(?<![\w}.>/$])/[a-z]\w*', text), [])
+
+    def test_every_external_library_of_a_layer_is_known(self):
+        text = (ROOT / "tools/rules/layers/layers.bzl").read_text()
+        block = re.search(r"^EXTERNALS = \{.*?^\}", text, re.M | re.S)[0]
+        values = re.findall(r'"(\w+)"', re.sub(r'"[^"]+":', "", block))
+        self.assertGreater(len(values), 7)
+        self.assertEqual(set(values) - set(exports.EXTERNALS), set())
+
+
+if __name__ == "__main__":
+    unittest.main()

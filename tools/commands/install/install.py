@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+"""Installs Poise for programs that are built without Bazel.
+
+Headers go to PREFIX/include/poise, one shared and one static library of each
+layer to PREFIX/lib, and the files of CMake and pkg-config below. A CMake
+project then uses
+
+    find_package(poise REQUIRED COMPONENTS dynamics)
+    target_link_libraries(my_program poise::dynamics)
+
+Layers that a chosen layer needs are installed with it. Either everything is
+installed or nothing. Exit code: 0 if done, 1 if the build or the installation
+failed, 2 for bad input.
+"""
+
+import argparse
+import contextlib
+import os
+import pathlib
+import signal
+import sys
+
+import layers
+import prefix as prefixes
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message):
+        self.exit(2, f"install: {message}; --help lists the options\n")
+
+
+def _layer_names(text):
+    names = [name for name in text.split(",") if name]
+    for name in names:
+        if name not in layers.NAMES:
+            raise argparse.ArgumentTypeError(
+                f"'{name}' is not a layer, must be of {','.join(layers.NAMES)}")
+    if not names:
+        raise argparse.ArgumentTypeError(
+            f"no layer, must be one or more of {','.join(layers.NAMES)}")
+    return names
+
+
+def parse_arguments(arguments):
+    parser = _Parser(
+        prog="install", description=__doc__, allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--prefix", metavar="DIR", required=True,
+                        help="the folder to install into, such as "
+                        "/usr/local; made if it does not exist")
+    parser.add_argument("--layers", metavar="NAME,...", type=_layer_names,
+                        default=list(layers.NAMES),
+                        help="layers to install (default: "
+                        f"{','.join(layers.NAMES)})")
+    parser.add_argument("--uninstall", action="store_true",
+                        help="remove all that is installed in the prefix")
+    options = parser.parse_args(arguments)
+    if not options.prefix:
+        parser.error("--prefix is empty, must be a folder")
+    # Bazel changes the working directory.
+    options.prefix = pathlib.Path(os.path.abspath(os.path.join(
+        os.environ.get("BUILD_WORKING_DIRECTORY", "."),
+        os.path.expanduser(options.prefix))))
+    if options.prefix.exists() and not options.prefix.is_dir():
+        parser.error(f"--prefix {options.prefix} is a file, must be a folder")
+    return options
+
+
+def _workspace():
+    """Returns the root of the checkout."""
+    default = pathlib.Path(__file__).resolve().parents[3]
+    return pathlib.Path(os.environ.get("BUILD_WORKSPACE_DIRECTORY", default))
+
+
+@contextlib.contextmanager
+def _interruptible():
+    """Turns SIGTERM and SIGHUP into an exception, as Python does for SIGINT."""
+    def stop(number, frame):
+        # A second signal must not stop the way back.
+        for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(each, signal.SIG_IGN)
+        raise KeyboardInterrupt
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, stop)
+    yield
+
+
+def run(options):
+    if options.uninstall:
+        count = prefixes.uninstall(options.prefix)
+        print(f"removed {count} files of Poise from {options.prefix}")
+        return
+    workspace = _workspace()
+    version = (workspace / "VERSION").read_text(encoding="utf-8").strip()
+    built = layers.build(workspace, options.layers, sys.argv[0])
+    entries = layers.entries(built, version)
+    with _interruptible():
+        prefixes.install(options.prefix, entries, version)
+    print(f"installed Poise {version} ({', '.join(built)}; {len(entries)} "
+          f"files) in {options.prefix}")
+
+
+def main(arguments):
+    options = parse_arguments(arguments)
+    if os.environ.get("POISE_PARSE_ONLY"):
+        return 0
+    try:
+        run(options)
+    except prefixes.PrefixError as error:
+        print(f"install: {error}", file=sys.stderr)
+        return 2
+    except layers.BuildError as error:
+        print(f"install: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"install: {error.filename2 or error.filename}: "
+              f"{error.strerror}; nothing was installed in {options.prefix}",
+              file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("install: interrupted; nothing was installed in "
+              f"{options.prefix}", file=sys.stderr)
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,178 @@
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+"""Puts files into a prefix, all or none, and removes them again.
+
+The files are first written into a folder inside the prefix, and then moved,
+which cannot fail for lack of space. If a move fails or a signal arrives, each
+move is undone, last first. A manifest lists the files and the folders made.
+"""
+
+import os
+import pathlib
+import shutil
+import tempfile
+
+MANIFEST = "share/poise/install_manifest.txt"
+_HEADER = "# Files of Poise "
+
+
+class PrefixError(Exception):
+    """A prefix that cannot be used, as one line."""
+
+
+def read_manifest(prefix):
+    """Returns (version, paths) of what is installed, or (None, [])."""
+    path = prefix / MANIFEST
+    if not path.is_file():
+        return None, []
+    lines = path.read_text(encoding="utf-8").splitlines()
+    if not lines or not lines[0].startswith(_HEADER):
+        raise PrefixError(f"{path} is not a manifest of Poise: its first line "
+                          f"must begin with '{_HEADER}'; remove the file")
+    paths = [line for line in lines[1:] if line]
+    for line in paths:
+        if line.startswith("/") or ".." in line.split("/"):
+            raise PrefixError(f"{path} lists '{line}', which is not inside the "
+                              "prefix; remove the line")
+    return lines[0][len(_HEADER):], paths
+
+
+class _Journal:
+    """Changes of a prefix that can be undone."""
+
+    def __init__(self, prefix, spare):
+        self.prefix = prefix
+        self.spare = spare  # Folder for files that are replaced.
+        self.folders = []  # Made, relative to the prefix.
+        self._undo = []
+
+    def make_folder(self, relative):
+        """Makes a folder and those above."""
+        path = self.prefix / relative
+        if path.is_dir():
+            return
+        if relative.parent != relative:
+            self.make_folder(relative.parent)
+        path.mkdir()
+        self.folders.append(relative)
+        self._undo.append(path.rmdir)
+
+    def remove(self, relative):
+        path = self.prefix / relative
+        if not os.path.lexists(path):
+            return
+        kept = self.spare / str(len(self._undo))
+        self._undo.append(lambda: os.path.lexists(kept) and kept.replace(path))
+        path.replace(kept)
+
+    def move(self, source, relative):
+        path = self.prefix / relative
+        self.make_folder(relative.parent)
+        self.remove(relative)
+        self._undo.append(lambda: os.path.lexists(source) or path.unlink())
+        source.replace(path)
+
+    def undo(self):
+        while self._undo:
+            self._undo.pop()()
+
+
+def _write(path, entry):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if entry.link:
+        path.symlink_to(entry.link)
+        return
+    if entry.copy:
+        shutil.copyfile(entry.copy, path)
+    else:
+        path.write_text(entry.text, encoding="utf-8")
+    path.chmod(0o644)
+
+
+def _check_free(prefix, entries, installed):
+    """Refuses to replace a file that is not Poise's."""
+    for relative in [*entries, MANIFEST]:
+        path = prefix / relative
+        if path.is_dir() and not path.is_symlink():
+            raise PrefixError(f"{path} is a folder, must be a file; remove it "
+                              "or choose another --prefix")
+        if os.path.lexists(path) and relative not in installed and (
+                relative != MANIFEST):
+            raise PrefixError(f"{path} exists and is not in "
+                              f"{prefix / MANIFEST}; remove it or choose "
+                              "another --prefix")
+
+
+def _manifest(version, files, folders):
+    lines = sorted(files) + sorted((f"{f}/" for f in folders), reverse=True)
+    return "\n".join([_HEADER + version, *lines, ""])
+
+
+def install(prefix, entries, version):
+    """Installs entries, {path: layers.Entry}, beside layers of this version."""
+    old_version, installed = read_manifest(prefix)
+    _check_free(prefix, entries, installed)
+    made = []
+    for folder in [prefix, *prefix.parents]:
+        if folder.exists():
+            break
+        made.append(folder)
+    prefix.mkdir(parents=True, exist_ok=True)
+    spare = None
+    try:
+        spare = pathlib.Path(tempfile.mkdtemp(prefix=".poise-", dir=prefix))
+        _install(prefix, entries, version, spare,
+                 (old_version, installed))
+    except BaseException:
+        if spare is not None:
+            shutil.rmtree(spare, ignore_errors=True)
+        for folder in made:
+            folder.rmdir()
+        raise
+    shutil.rmtree(spare)
+
+
+def _install(prefix, entries, version, spare, old):
+    old_version, installed = old
+    old_files = {path for path in installed if not path.endswith("/")}
+    folders = {path.rstrip("/") for path in installed if path.endswith("/")}
+    stale = old_files - set(entries) if old_version != version else set()
+    files = (old_files - stale) | set(entries) | {MANIFEST}
+    staged = spare / "new"
+    (spare / "old").mkdir()
+    for relative, entry in entries.items():
+        _write(staged / relative, entry)
+    journal = _Journal(prefix, spare / "old")
+    try:
+        for relative in sorted(stale - {MANIFEST}):
+            journal.remove(pathlib.PurePath(relative))
+        for relative in entries:
+            journal.move(staged / relative, pathlib.PurePath(relative))
+        journal.make_folder(pathlib.PurePath(MANIFEST).parent)
+        folders |= {str(folder) for folder in journal.folders}
+        manifest = spare / "manifest"
+        manifest.write_text(_manifest(version, files, folders),
+                            encoding="utf-8")
+        journal.move(manifest, pathlib.PurePath(MANIFEST))
+    except BaseException:
+        journal.undo()
+        raise
+
+
+def uninstall(prefix):
+    """Removes all installed files, and folders made for them if empty."""
+    version, paths = read_manifest(prefix)
+    if version is None:
+        raise PrefixError(f"{prefix / MANIFEST} does not exist, so Poise is "
+                          "not installed there; choose the --prefix of the "
+                          "installation")
+    # The manifest goes last: after an interruption, the same command goes on.
+    files = [path for path in paths if not path.endswith("/")]
+    for relative in sorted(files, key=lambda path: path == MANIFEST):
+        if os.path.lexists(prefix / relative):
+            (prefix / relative).unlink()
+    folders = {path.rstrip("/") for path in paths if path.endswith("/")}
+    for relative in sorted(folders, key=len, reverse=True):
+        folder = prefix / relative
+        if folder.is_dir() and not any(folder.iterdir()):
+            folder.rmdir()
+    return len(files)

@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+"""Tests that a prefix gets all files or none, with a few small files."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from unittest import mock
+
+import install
+import prefix as prefixes
+from layers import Entry
+
+ENTRIES = {
+    "include/poise/math/so3.h": Entry(text="// so3\n"),
+    "lib/libpoise_math.so.0": Entry(text="shared"),
+    "lib/libpoise_math.so": Entry(link="libpoise_math.so.0"),
+}
+MORE = {"lib/libpoise_hqp.so.0": Entry(text="hqp")}
+
+
+def tree(folder):
+    """Returns {path: content} of all files and empty folders."""
+    found = {}
+    for path in sorted(folder.rglob("*")):
+        if path.is_file():
+            found[str(path.relative_to(folder))] = path.read_text()
+        elif not any(path.iterdir()):
+            found[str(path.relative_to(folder))] = None
+    return found
+
+
+class PrefixTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        self.prefix = self.root / "new" / "prefix"
+
+    def test_installs_and_uninstalls(self):
+        prefixes.install(self.prefix, ENTRIES, "0.9.0")
+        self.assertEqual(tree(self.prefix)["lib/libpoise_math.so"], "shared")
+        self.assertEqual(prefixes.uninstall(self.prefix), 4)
+        self.assertEqual(tree(self.prefix), {})
+
+    def test_uninstall_keeps_files_and_folders_of_others(self):
+        (self.prefix / "lib").mkdir(parents=True)
+        (self.prefix / "share").mkdir()
+        (self.prefix / "share/notes").write_text("mine")
+        before = tree(self.prefix)
+        prefixes.install(self.prefix, ENTRIES, "0.9.0")
+        prefixes.uninstall(self.prefix)
+        self.assertEqual(tree(self.prefix), before)
+
+    def test_adds_layers_of_the_same_version(self):
+        prefixes.install(self.prefix, ENTRIES, "0.9.0")
+        prefixes.install(self.prefix, MORE, "0.9.0")
+        self.assertIn("lib/libpoise_math.so.0", tree(self.prefix))
+        prefixes.uninstall(self.prefix)
+        self.assertEqual(tree(self.prefix), {})
+
+    def test_removes_files_of_another_version(self):
+        prefixes.install(self.prefix, ENTRIES, "0.9.0")
+        prefixes.install(self.prefix, MORE, "0.9.1")
+        self.assertEqual(sorted(tree(self.prefix)),
+                         ["include/poise/math", "lib/libpoise_hqp.so.0",
+                          prefixes.MANIFEST])
+        prefixes.uninstall(self.prefix)
+        self.assertEqual(tree(self.prefix), {})
+
+    def test_installs_again_over_itself(self):
+        prefixes.install(self.prefix, ENTRIES, "0.9.0")
+        before = tree(self.prefix)
+        prefixes.install(self.prefix, ENTRIES, "0.9.0")
+        self.assertEqual(tree(self.prefix), before)
+
+    def test_refuses_to_replace_a_file_of_another(self):
+        (self.prefix / "lib").mkdir(parents=True)
+        (self.prefix / "lib/libpoise_math.so").write_text("mine")
+        with self.assertRaisesRegex(prefixes.PrefixError, "is not in"):
+            prefixes.install(self.prefix, ENTRIES, "0.9.0")
+        self.assertEqual(tree(self.prefix), {"lib/libpoise_math.so": "mine"})
+
+    def test_refuses_a_folder_where_a_file_must_go(self):
+        (self.prefix / "lib/libpoise_math.so").mkdir(parents=True)
+        with self.assertRaisesRegex(prefixes.PrefixError, "is a folder"):
+            prefixes.install(self.prefix, ENTRIES, "0.9.0")
+
+    def test_refuses_a_manifest_with_a_path_outside(self):
+        for path in ("/etc/passwd", "../passwd"):
+            manifest = self.prefix / prefixes.MANIFEST
+            manifest.parent.mkdir(parents=True, exist_ok=True)
+            manifest.write_text(f"# Files of Poise 0.9.0\n{path}\n")
+            with self.assertRaisesRegex(prefixes.PrefixError, path):
+                prefixes.uninstall(self.prefix)
+
+    def test_failure_leaves_no_new_folder(self):
+        entries = {**ENTRIES, "lib/x": Entry(copy=str(self.root / "none"))}
+        with self.assertRaises(FileNotFoundError):
+            prefixes.install(self.prefix, entries, "0.9.0")
+        self.assertEqual(list(self.root.iterdir()), [])
+
+    def test_file_where_a_folder_must_go_undoes_all(self):
+        self.prefix.mkdir(parents=True)
+        (self.prefix / "lib").write_text("mine")
+        with self.assertRaises(OSError):
+            prefixes.install(self.prefix, ENTRIES, "0.9.0")
+        self.assertEqual(tree(self.prefix), {"lib": "mine"})
+
+    def test_failure_at_any_move_restores_the_earlier_installation(self):
+        prefixes.install(self.prefix, {**ENTRIES, **MORE}, "0.9.0")
+        before = tree(self.prefix)
+        newer = {path: Entry(text="new") for path in ENTRIES}
+        newer["opt/deep/file"] = Entry(text="new")
+        move = pathlib.Path.replace
+        for allowed in range(20):
+            calls = []
+
+            def limited(source, target, calls=calls, allowed=allowed):
+                calls.append(target)
+                if len(calls) == allowed + 1:
+                    raise KeyboardInterrupt
+                return move(source, target)
+
+            with mock.patch.object(pathlib.Path, "replace", limited):
+                try:
+                    prefixes.install(self.prefix, newer, "0.9.1")
+                    break
+                except KeyboardInterrupt:
+                    self.assertEqual(tree(self.prefix), before)
+        self.assertGreater(allowed, 5)
+        self.assertEqual(tree(self.prefix)["opt/deep/file"], "new")
+
+
+class CommandTest(unittest.TestCase):
+    def test_signal_undoes_all(self):
+        with tempfile.TemporaryDirectory() as folder:
+            code = (
+                "import pathlib, time, install, prefix, layers\n"
+                "move = pathlib.Path.replace\n"
+                "def slow(source, target):\n"
+                "    move(source, target)\n"
+                "    print(flush=True)\n"
+                "    time.sleep(0.05)\n"
+                "pathlib.Path.replace = slow\n"
+                "x = layers.Entry(text='x')\n"
+                "files = {f'lib/{i}': x for i in range(99)}\n"
+                "with install._interruptible():\n"
+                f"    path = pathlib.Path({folder!r})\n"
+                "    prefix.install(path, files, '0.9.0')\n")
+            for number in (signal.SIGINT, signal.SIGTERM):
+                with subprocess.Popen(
+                        [sys.executable, "-c", code], stdout=subprocess.PIPE,
+                        stderr=subprocess.DEVNULL,
+                        cwd=pathlib.Path(__file__).resolve().parent) as child:
+                    child.stdout.readline()
+                    time.sleep(0.1)
+                    child.send_signal(number)
+                    child.wait(timeout=60)
+                self.assertNotEqual(child.returncode, 0)
+                self.assertEqual(os.listdir(folder), [])
+
+    def test_bad_input_is_one_line_and_exit_code_2(self):
+        program = pathlib.Path(install.__file__).resolve()
+        for arguments, word in (
+                ([], "--prefix"), (["--prefix", "/etc/passwd"], "is a file"),
+                (["--prefix", "x", "--layers", "wings"], "'wings'"),
+                (["--prefix", "x", "--layers", ""], "no layer"),
+                (["--prefix", "/nowhere", "--uninstall"], "does not exist")):
+            result = subprocess.run(
+                [sys.executable, program, *arguments], text=True, check=False,
+                capture_output=True)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+            self.assertIn(word, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
