@@ -56,12 +56,17 @@ struct MassMoments {
 /// component of consecutive bodies.
 class Vec3Array {
  public:
-  explicit Vec3Array(int size = 0) : x_(size), y_(size), z_(size) {}
-  Vec3 operator[](int i) const noexcept { return {x_[i], y_[i], z_[i]}; }
+  explicit Vec3Array(int size = 0)
+      : x_(static_cast<size_t>(size)), y_(x_.size()), z_(x_.size()) {}
+  Vec3 operator[](int i) const noexcept {
+    const auto k = static_cast<size_t>(i);
+    return {x_[k], y_[k], z_[k]};
+  }
   void Set(int i, const Vec3& v) noexcept {
-    x_[i] = v.x;
-    y_[i] = v.y;
-    z_[i] = v.z;
+    const auto k = static_cast<size_t>(i);
+    x_[k] = v.x;
+    y_[k] = v.y;
+    z_[k] = v.z;
   }
 
  private:
@@ -119,12 +124,12 @@ class Sym3Array {
 class MassMomentsArray {
  public:
   explicit MassMomentsArray(int size = 0)
-      : mass_(size), h_(size), Sigma_(size) {}
+      : mass_(static_cast<size_t>(size)), h_(size), Sigma_(size) {}
   MassMoments operator[](int i) const noexcept {
-    return {mass_[i], h_[i], Sigma_[i]};
+    return {mass_[static_cast<size_t>(i)], h_[i], Sigma_[i]};
   }
   void Set(int i, const MassMoments& M) noexcept {
-    mass_[i] = M.mass;
+    mass_[static_cast<size_t>(i)] = M.mass;
     h_.Set(i, M.h);
     Sigma_.Set(i, M.Sigma);
   }

@@ -19,15 +19,15 @@ namespace poise {
 /// joint's type, axis or frame, so that loops over joints can use lanes.
 struct JointMaps {
   explicit JointMaps(int num_bodies = 0)
-      : parent(num_bodies),
-        end(num_bodies),
+      : parent(static_cast<size_t>(num_bodies)),
+        end(parent.size()),
         R_constant(num_bodies),
         R_sine(num_bodies),
         R_cosine(num_bodies),
         p_PF(num_bodies),
         turn_P(num_bodies),
         slide_P(num_bodies),
-        armature(num_bodies) {}
+        armature(parent.size()) {}
 
   std::vector<int> parent;  ///< Index of body P.
   std::vector<int> end;     ///< The subtree of B is bodies B ... end - 1.

@@ -35,7 +35,7 @@ class Certifier {
   /// it. The gap contains the rounding of g_k and of the cost, n eps times the
   /// magnitudes of their terms. But for this rounding, it never exceeds the
   /// cost.
-  double gap(int level) const { return gap_[level]; }
+  double gap(int level) const { return gap_[static_cast<size_t>(level)]; }
 
   /// Upper limit of Certificate::worst() for an answer with status kOptimal.
   static constexpr double kCertified = 1e-9;

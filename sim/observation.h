@@ -66,7 +66,9 @@ class Observer {
   const Observation& observation() const { return observation_; }
 
   /// Returns the orientation of a body at the start of the tick.
-  const Eigen::Matrix3d& R_WB(int body) const { return tick_.X_WB[body].R; }
+  const Eigen::Matrix3d& R_WB(int body) const {
+    return tick_.X_WB[static_cast<size_t>(body)].R;
+  }
 
  private:
   Robot robot_;

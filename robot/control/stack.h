@@ -49,8 +49,12 @@ class Stack {
   void Add(std::unique_ptr<Task> task, const TaskSettings& settings);
 
   int num_tasks() const { return static_cast<int>(entries_.size()); }
-  const Task& task(int i) const { return *entries_[i].task; }
-  const TaskSettings& settings(int i) const { return entries_[i].settings; }
+  const Task& task(int i) const {
+    return *entries_[static_cast<size_t>(i)].task;
+  }
+  const TaskSettings& settings(int i) const {
+    return entries_[static_cast<size_t>(i)].settings;
+  }
   /// Returns the index of a task, or nullopt if no task has this name.
   std::optional<int> Find(std::string_view name) const noexcept;
 

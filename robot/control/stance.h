@@ -95,7 +95,9 @@ class Stance {
   /// ground.
   void Step(int foot) noexcept;
 
-  ContactPhase phase(int foot) const { return feet_[foot].phase; }
+  ContactPhase phase(int foot) const {
+    return feet_[static_cast<size_t>(foot)].phase;
+  }
   /// Whether the foot is commanded to be in contact (kDown, kLost, kLoading).
   bool is_meant_down(int foot) const;
 

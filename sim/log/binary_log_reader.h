@@ -24,8 +24,12 @@ class BinaryLogReader final : public LogReader {
   explicit BinaryLogReader(const std::filesystem::path& file);
 
   bool Next() override;
-  std::string_view cell(int column) const override { return texts_[column]; }
-  double Number(int column) const override { return numbers_[column]; }
+  std::string_view cell(int column) const override {
+    return texts_[static_cast<size_t>(column)];
+  }
+  double Number(int column) const override {
+    return numbers_[static_cast<size_t>(column)];
+  }
   std::string place() const override;
   long CountRows() const override;
 

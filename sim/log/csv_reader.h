@@ -32,8 +32,12 @@ class CsvReader final : public LogReader {
   /// a complete row differs from the header. Throws it also, with column and
   /// cell, if a cell in a column of numbers is not a number.
   bool Next() override;
-  std::string_view cell(int column) const override { return cells_[column]; }
-  double Number(int column) const override { return numbers_[column]; }
+  std::string_view cell(int column) const override {
+    return cells_[static_cast<size_t>(column)];
+  }
+  double Number(int column) const override {
+    return numbers_[static_cast<size_t>(column)];
+  }
   std::string place() const override;
   long CountRows() const override;
 

@@ -95,7 +95,8 @@ class SymbolsTest(Checks):
         self.assertEqual(needs["hqp"], {"libpoise_math.so.0"})
         robot = {name for name in needs["robot"] if "poise" not in name}
         self.assertEqual({name for name in robot if not re.match(
-            r"lib(urdfdom|tinyxml2|yaml-cpp)", name)}, set())
+            r"lib(urdfdom|console_bridge|tinyxml2|yaml-cpp)",
+            name)}, set())
         self.assertTrue(any("Bullet" in name for name in needs["sim"]))
 
 

@@ -30,6 +30,7 @@ def lint_test():
     """Tests the format and, in a layer, the dependencies of the rules above."""
     if layer_of(native.package_name()):
         layer_test()
+    if layer_of(native.package_name()) in PACKAGES:
         _declare_installed_part()
     sources = {}
     for rule in native.existing_rules().values():

@@ -37,7 +37,7 @@ class BulletBody {
   const btMultiBody& body() const { return *body_; }
 
   /// Returns the pose of Bullet's link frame L in the tree's body frame B.
-  const Pose& X_BL(int body) const { return X_BL_[body]; }
+  const Pose& X_BL(int body) const { return X_BL_[static_cast<size_t>(body)]; }
 
   void SetState(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 

@@ -42,7 +42,8 @@ class BulletWorld {
 
   /// Returns the pose of Bullet's link frame of a body, see BulletBody.
   Pose X_WL(int body) const {
-    const btTransform& X = colliders_[body]->getWorldTransform();
+    const btTransform& X =
+        colliders_[static_cast<size_t>(body)]->getWorldTransform();
     return {FromBullet(X.getRotation()), FromBullet(X.getOrigin())};
   }
 
@@ -67,7 +68,8 @@ class BulletWorld {
   class PairFilter : public btOverlapFilterCallback {
    public:
     explicit PairFilter(int num_bodies)
-        : num_bodies_(num_bodies), excluded_(num_bodies * num_bodies, false) {}
+        : num_bodies_(num_bodies),
+          excluded_(static_cast<size_t>(num_bodies * num_bodies), false) {}
     void Exclude(int body_a, int body_b);
     bool needBroadphaseCollision(btBroadphaseProxy* a,
                                  btBroadphaseProxy* b) const override;
