@@ -71,8 +71,8 @@ class CodeTest(unittest.TestCase):
     """Readers can copy C++ from the pages: each block is part of a built file."""
 
     # Programs and examples that tests build.
-    BUILT = ("docs/examples/*/main.cc", "tests/embedding/*.cc",
-             "tests/examples/*.cc", "tests/examples/*.h")
+    BUILT = ("docs/examples/*/main.cc", "docs/examples/cmake/*.cc",
+             "tests/embedding/*.cc", "tests/examples/*.cc", "tests/examples/*.h")
 
     def setUp(self):
         text = "".join(path.read_text() for pattern in self.BUILT
