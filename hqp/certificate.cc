@@ -61,6 +61,8 @@ bool IsZero(const double* x, int n) {
   return bits == 0;
 }
 
+// A wrong span would hide entries from the solver as well, so the certificate
+// does not trust spans.
 bool IsZeroOutside(const double* row, int n, Span span) {
   const int end = span.first + span.size;
   return IsZero(row, span.first) && IsZero(row + end, n - end);
