@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <random>
 #include <vector>
 
@@ -269,29 +268,6 @@ TEST_F(SolverTest, StopsAtItsTimeLimit) {
   EXPECT_EQ(solver_.Solve(hierarchy_, &solution_), Status::kOptimal);
 }
 
-// The number of iterations is bounded by max_iterations, also when the budget
-// is too small for the answer.
-TEST(Solver, TakesNoMoreIterationsThanItsLimit) {
-  for (int seed = 0; seed < 100; ++seed) {
-    SCOPED_TRACE(seed);
-    const HierarchyCase drawn = MakeRandomHierarchy(seed);
-    const int n = drawn.hierarchy.num_variables();
-    Solver solver(n, drawn.capacity);
-    Certifier certifier(n, drawn.capacity);
-    Solution solution(n, drawn.capacity);
-    for (const int budget : {0, 1, 2, 3, 5, 8, 500}) {
-      solver.Forget();
-      solver.max_iterations = budget;
-      const Status status = solver.Solve(drawn.hierarchy, &solution);
-      EXPECT_LE(solution.iterations, budget);
-      EXPECT_EQ(status == Status::kOptimal, solution.failed_level < 0);
-      // The levels above failed_level are certified.
-      EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(),
-                kCertified);
-    }
-  }
-}
-
 // Two parallel large-norm rows conflict. A small-norm row of another direction
 // on the same level is met to rounding of its own terms, not of those of the
 // large-norm rows.
@@ -372,134 +348,6 @@ TEST(Solver, KeepsTheOptimumOfUpperLevels) {
   }
 }
 
-// Returns whether the costs of an answer are, level by level, not above those
-// of another one; a lower cost permits higher ones below.
-bool IsNoWorse(const Hierarchy& hierarchy, const Solution& solution,
-               const Solution& than) {
-  for (int level = 0; level < hierarchy.num_levels(); ++level) {
-    const double change = solution.levels[level].cost - than.levels[level].cost;
-    // Both answers are right to 1e-9 of their terms, as certificates are.
-    const double rounding = kCertified * (CostSize(hierarchy, level, solution) +
-                                          CostSize(hierarchy, level, than));
-    if (std::abs(change) > rounding) return change < 0;
-  }
-  return true;
-}
-
-// A solver that is stopped too early in each solve goes on from where it was:
-// its answers never get worse, and it arrives at the optimum.
-TEST(Solver, GoesOnFromWhereItWasStopped) {
-  RandomHierarchyOptions options;
-  options.scaled = 0;
-  int stopped = 0;
-  for (int seed = 0; seed < 200; ++seed) {
-    SCOPED_TRACE(seed);
-    const HierarchyCase drawn = MakeRandomHierarchy(seed, options);
-    const Hierarchy& hierarchy = drawn.hierarchy;
-    const int n = hierarchy.num_variables();
-    Solver solver(n, drawn.capacity);
-    Solution optimum(n, drawn.capacity), now(n, drawn.capacity);
-    ASSERT_EQ(solver.Solve(hierarchy, &optimum), Status::kOptimal);
-    // Each solve needs one factorisation to know its start.
-    const int needed = optimum.iterations;
-    for (const int limit : {2, 3, 5, 8}) {
-      solver.Forget();
-      solver.max_iterations = limit;
-      Status status = Status::kIterationLimit;
-      std::optional<Solution> before;
-      for (int solve = 0; solve <= 2 * needed; ++solve) {
-        const CountMalloc count;
-        status = solver.Solve(hierarchy, &now);
-        EXPECT_EQ(count.allocations(), 0);
-        EXPECT_LE(now.iterations, limit);
-        EXPECT_TRUE(!before || IsNoWorse(hierarchy, now, *before)) << solve;
-        before = now;
-        if (status == Status::kOptimal) break;
-        ++stopped;
-      }
-      EXPECT_EQ(status, Status::kOptimal);
-      EXPECT_TRUE(IsNoWorse(hierarchy, now, optimum));
-    }
-  }
-  EXPECT_GT(stopped, 200);
-}
-
-// Level 0 has the bounds -1 <= y_j <= 1, and the targets of level 1 leave them and
-// come back to 0. A search from the last answer removes the bounds one by one, a
-// search from the start needs one iteration.
-TEST(Solver, StartsOverIfItIsStoppedAgainAndAgain) {
-  constexpr int kVariables = 40;
-  const std::vector<LevelCapacity> capacity{{0, kVariables}, {kVariables, 0}};
-  Hierarchy hierarchy(kVariables, capacity);
-  InequalityBlock bounds = hierarchy.AddInequalities(0, kVariables);
-  bounds.C.setIdentity();
-  bounds.lower.setConstant(-1);
-  bounds.upper.setConstant(1);
-  EqualityBlock target = hierarchy.AddEqualities(1, kVariables);
-  target.B.setIdentity();
-  target.B.diagonal(1).setConstant(0.1);
-  target.b.setConstant(-5);
-  Solver solver(kVariables, capacity), cold(kVariables, capacity);
-  Solution solution(kVariables, capacity);
-  ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
-
-  target.b.setZero();
-  cold.max_iterations = solver.max_iterations = 2;
-  ASSERT_EQ(cold.Solve(hierarchy, &solution), Status::kOptimal);
-  int solves = 1;
-  while (solver.Solve(hierarchy, &solution) != Status::kOptimal) {
-    ASSERT_LE(++solves, 10);
-  }
-  EXPECT_GT(solves, 2);
-  EXPECT_TRUE(solution.y.isZero(kTolerance));
-}
-
-// The rows of all levels drift, so that the last y misses the equalities of level
-// 0 a little. A search that starts over and is cut off as well must not give up
-// the limits of level 1, which the last y nearly met.
-TEST(Solver, KeepsTheLimitsIfItStartsOverInVain) {
-  constexpr int kVariables = 40;
-  const std::vector<LevelCapacity> capacity{
-      {12, 0}, {0, 80}, {12, 0}, {kVariables, 0}};
-  std::mt19937 numbers(1);
-  std::normal_distribution<double> normal;
-  const auto draw = [&](int rows, int columns) {
-    return RowMajorMatrix::NullaryExpr(rows, columns,
-                                       [&] { return normal(numbers); })
-        .eval();
-  };
-  const RowMajorMatrix B = draw(12, kVariables), B_rate = draw(12, kVariables);
-  const RowMajorMatrix T = draw(12, kVariables), C = draw(80, kVariables);
-  const Eigen::VectorXd b = draw(12, 1), target = 6 * draw(12, 1);
-  Solver solver(kVariables, capacity);
-  Solution solution(kVariables, capacity);
-  double largest = 0;
-  int cut_off = 0;
-  for (int tick = 0; tick < 25; ++tick) {
-    Hierarchy hierarchy(kVariables, capacity);
-    EqualityBlock first = hierarchy.AddEqualities(0, 12);
-    first.B = B + 1e-3 * tick * B_rate;
-    first.b = b;
-    InequalityBlock limits = hierarchy.AddInequalities(1, 80);
-    limits.C = C;
-    limits.lower.setConstant(-1);
-    limits.upper.setConstant(1);
-    EqualityBlock last = hierarchy.AddEqualities(2, 12);
-    last.B = T;
-    if (tick > 0) last.b = target;
-    hierarchy.AddEqualities(3, kVariables).B.setIdentity();
-    solver.max_iterations = tick == 0 ? 500 : 4;
-    cut_off += solver.Solve(hierarchy, &solution) != Status::kOptimal;
-    // The limits can be met; a tick of drift costs about 1e-5.
-    const double cost = solution.levels[1].cost;
-    if (tick > 8) {
-      EXPECT_LE(cost, 100 * largest) << tick;
-    }
-    largest = std::max(largest, cost);
-  }
-  EXPECT_GT(cut_off, 20);
-}
-
 // The first level has no active row, and the second contradicts itself. The row
 // y0 <= 4 becomes active, so that the factorisation is updated. Nothing of the
 // last solve may be left in it.
@@ -531,31 +379,6 @@ TEST(Solver, ForgetsTheRowsOfTheLastSolve) {
     EXPECT_NEAR(solution.y[j], 14. / 3, kTolerance);
     EXPECT_NEAR(solution.y[1 - j], solve < 2 ? 4 : 9, kTolerance);
   }
-}
-
-// The modelled time of a solve is part of its result: a replay is exact.
-TEST(Solver, StopsAtItsModelledTime) {
-  int stopped = 0;
-  for (int seed = 0; seed < 50; ++seed) {
-    SCOPED_TRACE(seed);
-    const HierarchyCase drawn = MakeRandomHierarchy(seed);
-    const int n = drawn.hierarchy.num_variables();
-    Solver solver(n, drawn.capacity), again(n, drawn.capacity);
-    Solution solution(n, drawn.capacity), replay(n, drawn.capacity);
-    int before = 0;
-    for (const double seconds : {1e-9, 50e-6, 100e-6, 1.0, 0.0}) {
-      solver.Forget();
-      solver.max_modelled_seconds = again.max_modelled_seconds = seconds;
-      const Status status = solver.Solve(drawn.hierarchy, &solution);
-      EXPECT_GE(solution.iterations, std::max(before, 1));
-      before = solution.iterations;
-      stopped += status == Status::kIterationLimit;
-      again.Forget();
-      EXPECT_EQ(again.Solve(drawn.hierarchy, &replay), status);
-      EXPECT_EQ(replay.y, solution.y);
-    }
-  }
-  EXPECT_GT(stopped, 50);
 }
 
 // The row is 2 y0 <= 2, and y1 is 1e8. The rounding of y1 hides violations

@@ -5,7 +5,6 @@
 //   bazel run --config=opt //tests/benchmarks:budget_report
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <sstream>
 #include <string>
@@ -17,6 +16,7 @@
 #include "poise/sim/scenario.h"
 #include "poise/tests/benchmarks/budget_sequence.h"
 #include "poise/tests/benchmarks/gap_pairs.h"
+#include "poise/tests/util/added_fingers.h"
 #include "poise/tests/util/load_humanoid.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/package_path.h"
@@ -25,7 +25,6 @@
 namespace poise {
 namespace {
 
-constexpr const char* kUrdf = "robot/models/humanoid.urdf";
 constexpr const char* kProfile = "robot/profiles/humanoid.yaml";
 constexpr double kForces[] = {0, 120, 300};  // Pushes of our humanoid, N.
 
@@ -107,38 +106,6 @@ void AddScenario(const std::string& name,
   sequences->push_back({name, conditions});
 }
 
-// Returns our humanoid with seven more fingers of five joints on each hand.
-// They have the masses and limits of its own fingers.
-Robot AddFingers() {
-  std::stringstream urdf;
-  urdf << std::ifstream(kUrdf).rdbuf();
-  std::string text = urdf.str();
-  std::ostringstream added;
-  for (const char* side : {"l", "r"}) {
-    for (int finger = 0; finger < 7; ++finger) {
-      std::string parent = std::string(side) + "_hand";
-      for (int joint = 0; joint < 5; ++joint) {
-        std::ostringstream name;
-        name << side << "_added_" << finger << "_" << joint;
-        added << "<joint name='" << name.str() << "' type='revolute'>"
-              << "<parent link='" << parent << "'/><child link='" << name.str()
-              << "'/><origin xyz='" << (joint == 0 ? 0.01 * (finger - 3) : 0)
-              << " 0 -0.028'/>"
-              << "<axis xyz='1 0 0'/><limit lower='-1.5' upper='1.5' "
-              << "effort='0.6' velocity='10'/></joint><link name='"
-              << name.str() << "'><inertial><origin xyz='0 0 -0.014'/>"
-              << "<mass value='0.004'/><inertia ixx='3.5625e-07' ixy='0' "
-              << "ixz='0' iyy='3.5625e-07' iyz='0' izz='1.125e-07'/>"
-              << "</inertial></link>";
-        parent = name.str();
-      }
-    }
-  }
-  text.insert(text.rfind("</robot>"), added.str());
-  return MakeStandingRobot(UrdfDocument(text, "humanoid with more fingers"),
-                           LoadProfile(kProfile));
-}
-
 // Loads a robot with the profile beside its file, if there is one.
 Robot Load(const std::filesystem::path& file, const Settings& settings) {
   std::filesystem::path profile = file;
@@ -163,7 +130,9 @@ std::vector<BudgetSequence> MakeSequences(const Settings& settings) {
   sequences.push_back({"5 % torque", LittleTorque()});
   AddScenario("one_leg", &sequences);
   AddScenario("shove", &sequences);
-  AddPushes("70 more fingers", AddFingers(), &sequences);
+  AddPushes("70 more fingers",
+            MakeStandingRobot(AddFingers(7), LoadProfile(kProfile)),
+            &sequences);
   for (const std::string& robot : settings.robots) {
     const std::filesystem::path file = UserPath(robot);
     AddPushes(file.stem().string(), Load(file, settings), &sequences);

@@ -5,19 +5,29 @@ An object file is named by a digest of all that it depends on, so that it is
 compiled once.
 """
 
+import collections
 import concurrent.futures
 import hashlib
 import os
 import subprocess
 
-FLAGS = ("-std=c++17", "-O3", "-march=native", "-DNDEBUG", "-w")
+FLAGS = ("-std=c++17", "-O3", "-DNDEBUG", "-w")
 
-# Parts of this workspace that each program is linked with.
-OUR_FOLDERS = ("hqp", "hqp/fast")
-OUR_SOURCES = ("math/rank.cc", "tests/peers/bounded_rows.cc",
-               "tests/peers/measure.cc", "tests/peers/tick_file.cc")
-OUR_HEADERS = (*OUR_FOLDERS, "math", "tests/peers", "tests/util")
+# Parts of this workspace that a program is linked with: all sources of folders,
+# and single sources.
+Parts = collections.namedtuple("Parts", "folders sources")
+SOLVER = Parts(("hqp", "hqp/fast"), (
+    "math/rank.cc", "tests/peers/bounded_rows.cc", "tests/peers/measure.cc",
+    "tests/peers/tick_file.cc"))
+DYNAMICS = Parts(("dynamics", "dynamics/simd"), (
+    "math/inertia.cc", "math/quaternion.cc", "math/se3.cc",
+    "math/se3_jacobian.cc", "math/so3.cc", "math/so3_jacobian.cc",
+    "tests/peers/tree_file.cc", "tests/util/random_tree.cc"))
 NOT_LINKED = ("_test.cc", "_benchmark.cc")
+
+# Folders of the headers that these sources include.
+OUR_HEADERS = (*SOLVER.folders, *DYNAMICS.folders, "math", "tests/peers",
+               "tests/util")
 
 
 class BuildError(Exception):
@@ -38,20 +48,22 @@ def run(command, text=None):
     return result.stdout
 
 
-def our_sources(root):
+def our_sources(root, parts):
     """Returns the sources of Poise that a program is linked with."""
-    sources = [path for folder in OUR_FOLDERS
+    sources = [path for folder in parts.folders
                for path in sorted((root / folder).glob("*.cc"))
                if not str(path).endswith(NOT_LINKED)]
-    return sources + [root / name for name in OUR_SOURCES]
+    return sources + [root / name for name in parts.sources]
 
 
 class Builder:
     """Compiles in a folder; `root` is Poise's workspace."""
 
-    def __init__(self, root, out):
+    def __init__(self, root, out, parts, flags):
         self.root = root
         self.out = out
+        self.parts = parts
+        self.flags = (*FLAGS, *flags)
         (out / "objects").mkdir(parents=True, exist_ok=True)
         self.eigen = run(["pkg-config", "--cflags", "eigen3"]).split()
         self.compiler = run(["g++", "--version"])
@@ -71,6 +83,14 @@ class Builder:
             path.symlink_to(target)
         return folder
 
+    def generate(self, name, headers):
+        """Returns a folder with the headers of a peer's own build."""
+        folder = self.out / "include" / f"{name}-generated"
+        for path, text in headers:
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            (folder / path).write_text(text)
+        return folder
+
     @staticmethod
     def digest_of(paths):
         digest = hashlib.sha256()
@@ -81,7 +101,7 @@ class Builder:
 
     def compile(self, text, includes, headers):
         """Returns the object of a source, compiled unless it exists."""
-        command = ["g++", *FLAGS, *self.eigen,
+        command = ["g++", *self.flags, *self.eigen,
                    *(f"-I{folder}" for folder in includes)]
         key = "\n".join([self.compiler, *command, headers, text])
         name = hashlib.sha256(key.encode()).hexdigest()[:20]
@@ -97,17 +117,18 @@ class Builder:
         adapter = self.root / "tests/peers" / adapter
         ours = (self.our_include,)
         jobs = [(path.read_text(), ours, self.our_headers)
-                for path in our_sources(self.root)]
+                for path in our_sources(self.root, self.parts)]
         if peer is None:
             jobs.append((adapter.read_text(), ours, self.our_headers))
         else:
             theirs = [self.link_includes(name, {
                 link: checkout / target
                 for link, target in peer.links.items()})]
+            theirs += [self.generate(name, peer.generated)]
             theirs += [boost] if boost else []
             headers = self.digest_of(
                 path for target in peer.links.values()
-                for path in sorted((checkout / target).glob("*.h*")))
+                for path in sorted((checkout / target).rglob("*.h*")))
             jobs.append((adapter.read_text(), (*ours, *theirs),
                          self.our_headers + headers))
             for source in peer.sources:

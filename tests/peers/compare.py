@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-"""Compares the solver with those of others on the same problems.
+"""Compares the solver and the dynamics with those of others.
 
 Compiles an adapter for each peer with the peer's sources and Poise's, with
 g++ -O3 -march=native -DNDEBUG, records seven sequences of the closed loop and
@@ -12,12 +12,18 @@ With --hqp, compares the solvers on files of the format hqp-1 and on families of
 random problems instead, cold and warm. The table is also written to
 problems.md. --hqp without files compares the families only.
 
-DIR holds the checkouts of the peers, as DIR/lexls and DIR/soth. A missing one
-is skipped. --out keeps programs and ticks (300 MB); a second run reuses them.
+With --dynamics, compares the dynamics with Pinocchio's instead, for our
+humanoid with 50, 80 and 120 joints or for robots of URDF files, built with and
+without -march=native. The table is also written to dynamics.md.
+
+DIR holds the checkouts of the peers, as DIR/lexls, DIR/soth and DIR/pinocchio.
+A missing one is skipped. --out keeps programs and ticks (300 MB); a second run
+reuses them.
 Exit code: 0 if at least one peer was compared, 2 for bad input.
 
   bazel run //tests/peers:compare -- --peers DIR
   bazel run //tests/peers:compare -- --peers DIR --hqp FILES
+  bazel run //tests/peers:compare -- --peers DIR --dynamics [URDF]
 """
 
 import argparse
@@ -31,11 +37,12 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
+import dynamics  # noqa: E402
 import figures  # noqa: E402
 import histograms  # noqa: E402
 import problems  # noqa: E402
-from build import BuildError, Builder  # noqa: E402
-from peers import PEERS, boost_folder  # noqa: E402
+from build import DYNAMICS, SOLVER, BuildError, Builder  # noqa: E402
+from peers import DYNAMICS_PEERS, PEERS, boost_folder  # noqa: E402
 
 Sequence = collections.namedtuple("Sequence", "name force limits torque")
 
@@ -56,10 +63,22 @@ PASSES = 5
 # Where Bazel puts these programs, in the working directory of `bazel run`.
 RECORDER = pathlib.Path("tests/peers/record_ticks")
 HQP_TICKS = pathlib.Path("tests/peers/hqp_ticks")
+TREE_RECORDER = pathlib.Path("tests/peers/record_tree")
 
 
 class InputError(Exception):
     """An error of the user, as one line."""
+
+
+def find_files(option, paths, here, wanted):
+    """Returns absolute paths, all of which exist; or None, without paths."""
+    if paths is None:
+        return None
+    paths = [(here / path).absolute() for path in paths]
+    for path in paths:
+        if not path.exists():
+            raise InputError(f"{option}: {path} does not exist, want {wanted}")
+    return paths
 
 
 def parse_arguments(arguments):
@@ -74,6 +93,9 @@ def parse_arguments(arguments):
     parser.add_argument("--hqp", metavar="FILE_OR_FOLDER", type=pathlib.Path,
                         nargs="*", help="compare problems of the format hqp-1 "
                         "and random families, not the recorded ticks")
+    parser.add_argument("--dynamics", metavar="URDF", type=pathlib.Path,
+                        nargs="*", help="compare the dynamics of these robots, "
+                        "or of our humanoid")
     options = parser.parse_args(arguments)
     if os.environ.get("POISE_PARSE_ONLY"):
         sys.exit(0)
@@ -83,21 +105,21 @@ def parse_arguments(arguments):
     if not options.peers.is_dir():
         raise InputError(
             f"--peers: {options.peers} is not a folder, want one with the "
-            "checkouts " + ", ".join(peer.name for peer in PEERS))
+            "checkouts " + ", ".join(
+                peer.name for peer in (*PEERS, *DYNAMICS_PEERS)))
+    options.hqp = find_files("--hqp", options.hqp, here,
+                             "files of the format hqp-1 or folders of them")
     if options.hqp is not None:
-        options.hqp = problems.find([(here / path).absolute()
-                                     for path in options.hqp])
-        for path in options.hqp:
-            if not path.is_file():
-                raise InputError(f"--hqp: {path} does not exist, want files "
-                                 "of the format hqp-1 or folders of them")
+        options.hqp = problems.find(options.hqp)
+    options.dynamics = find_files("--dynamics", options.dynamics, here,
+                                  "URDF files")
     return options
 
 
-def choose_peers(folder, say):
+def choose_peers(peers, folder, say):
     """Returns the peers that can be compared, and says which cannot."""
     chosen = []
-    for peer in PEERS:
+    for peer in peers:
         if not peer.is_in(folder):
             say(peer.missing(folder))
         elif peer.needs_boost and boost_folder(folder) is None:
@@ -111,16 +133,26 @@ def choose_peers(folder, say):
     return chosen
 
 
-def build_programs(peers, options):
+def workspace():
+    return pathlib.Path(
+        os.environ.get("BUILD_WORKSPACE_DIRECTORY") or ".").absolute()
+
+
+def build_programs(builder, peers, folder):
+    """Returns {name: program} of the peers whose checkouts are in a folder."""
+    return {
+        peer.name: builder.program(
+            peer.name, peer.adapter, peer, folder / peer.name,
+            boost_folder(folder) if peer.needs_boost else None)
+        for peer in peers}
+
+
+def build_solvers(options):
     """Returns {name: program}, Poise first."""
-    root = pathlib.Path(os.environ.get("BUILD_WORKSPACE_DIRECTORY") or ".")
-    builder = Builder(root.absolute(), options.out)
-    programs = {"Poise": builder.program("poise", "poise_peer.cc")}
-    for peer in peers:
-        boost = boost_folder(options.peers) if peer.needs_boost else None
-        programs[peer.name] = builder.program(
-            peer.name, peer.adapter, peer, options.peers / peer.name, boost)
-    return programs
+    peers = choose_peers(PEERS, options.peers, print)
+    builder = Builder(workspace(), options.out, SOLVER, ["-march=native"])
+    return {"Poise": builder.program("poise", "poise_peer.cc"),
+            **build_programs(builder, peers, options.peers)}
 
 
 def output_of(command):
@@ -132,7 +164,7 @@ def output_of(command):
     return result.stdout
 
 
-def make_ticks(program, arguments, out, name):
+def make_file(program, arguments, out, name):
     """Returns the file that a program writes, made unless it exists."""
     if not program.is_file():
         raise InputError(f"{program.absolute()} does not exist; start this "
@@ -149,7 +181,7 @@ def make_ticks(program, arguments, out, name):
 
 def record(sequence, out):
     """Returns the file with the ticks of a sequence."""
-    return make_ticks(RECORDER, sequence[1:], out, f"{sequence.force}-"
+    return make_file(RECORDER, sequence[1:], out, f"{sequence.force}-"
                       f"{sequence.limits}-{sequence.torque}")
 
 
@@ -157,7 +189,7 @@ def change(path, changes_bounds, out):
     """Returns the file with a problem and its changed copies."""
     arguments = [path, problems.NUM_CHANGED, changes_bounds]
     text = f"{arguments[1:]}\n{path.read_text()}"
-    return make_ticks(HQP_TICKS, arguments, out,
+    return make_file(HQP_TICKS, arguments, out,
                       hashlib.sha256(text.encode()).hexdigest()[:20])
 
 
@@ -205,6 +237,26 @@ def compare_problems(programs, files, out, say):
         say(problems.row(problem.name, results[0], results[1:], variables))
 
 
+def compare_dynamics(options, say):
+    """Says the rows of the table, one robot after the other."""
+    peers = choose_peers(DYNAMICS_PEERS, options.peers, print)
+    programs = {}
+    for name, flags in dynamics.BUILDS:
+        out = options.out / ("dynamics" + "".join(flags))
+        builder = Builder(workspace(), out, DYNAMICS, flags)
+        programs[name] = build_programs(builder, peers, options.peers)
+    for line in dynamics.head():
+        say(line)
+    for robot, source in dynamics.robots(options.dynamics):
+        path = pathlib.Path(source)
+        text = path.read_text() if options.dynamics else source
+        tree = make_file(TREE_RECORDER, [source], options.out,
+                          hashlib.sha256(text.encode()).hexdigest()[:20])
+        for build, program in programs.items():
+            results = dynamics.read(output_of([program["pinocchio"], tree]))
+            say(dynamics.row(robot, build, results))
+
+
 def main(arguments):
     options = parse_arguments(arguments)
     lines = []
@@ -214,16 +266,18 @@ def main(arguments):
         print(line, flush=True)
 
     try:
-        peers = choose_peers(options.peers, lambda line: print(line))
-        programs = build_programs(peers, options)
+        if options.dynamics is not None:
+            compare_dynamics(options, say)
+            name = "dynamics.md"
+        elif options.hqp is not None:
+            compare_problems(build_solvers(options), options.hqp, options.out,
+                             say)
+            name = "problems.md"
+        else:
+            compare_sequences(build_solvers(options), options.out, say)
+            name = "table.md"
     except BuildError as error:
         raise InputError(f"compiling: {error}") from error
-    if options.hqp is None:
-        compare_sequences(programs, options.out, say)
-        name = "table.md"
-    else:
-        compare_problems(programs, options.hqp, options.out, say)
-        name = "problems.md"
     (options.out / name).write_text("\n".join(lines) + "\n")
     return 0
 

@@ -15,6 +15,7 @@ HERE = pathlib.Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
 import compare  # noqa: E402
+import dynamics  # noqa: E402
 import families  # noqa: E402
 import figures  # noqa: E402
 import histograms  # noqa: E402
@@ -50,7 +51,8 @@ class MessagesTest(unittest.TestCase):
         code, _, error = run("--peers", str(self.folder / "none"))
         self.assertEqual(code, 2)
         self.assertRegex(error, r"^compare: --peers: .*/none is not a folder, "
-                                r"want one with the checkouts lexls, soth\n$")
+                                r"want one with the checkouts lexls, soth, "
+                                r"pinocchio\n$")
 
     def test_folder_is_required(self):
         code, _, error = run()
@@ -74,7 +76,7 @@ class MessagesTest(unittest.TestCase):
         proof.parent.mkdir(parents=True)
         proof.write_text("")
         said = []
-        chosen = compare.choose_peers(self.folder, said.append)
+        chosen = compare.choose_peers(PEERS, self.folder, said.append)
         self.assertEqual([peer.name for peer in chosen], ["lexls"])
         self.assertEqual(len(said), 1)
         self.assertIn("soth", said[0])
@@ -95,6 +97,20 @@ class MessagesTest(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertEqual(error, f"compare: --hqp: {missing} does not exist, "
                          "want files of the format hqp-1 or folders of them\n")
+
+    def test_missing_robot_is_an_error(self):
+        missing = str(self.folder / "none.urdf")
+        code, _, error = run("--peers", str(self.folder), "--dynamics", missing)
+        self.assertEqual(code, 2)
+        self.assertEqual(error, f"compare: --dynamics: {missing} does not "
+                         "exist, want URDF files\n")
+
+    def test_dynamics_need_a_peer(self):
+        code, output, error = run("--peers", str(self.folder), "--dynamics")
+        self.assertEqual(code, 2)
+        self.assertIn("check out https://github.com/stack-of-tasks/pinocchio",
+                      output)
+        self.assertIn("has no peer to compare with", error)
 
     def test_missing_recorder_is_an_error(self):
         with self.assertRaisesRegex(compare.InputError, "bazel run"):
@@ -250,6 +266,24 @@ class ProblemsTest(unittest.TestCase):
         texts = [path.read_text() for path in paths]
         self.assertEqual(texts[0], texts[1])
         self.assertNotEqual(texts[0], texts[2])
+
+
+class DynamicsTest(unittest.TestCase):
+    def test_row_has_the_ratio_and_the_largest_difference(self):
+        results = dynamics.read("".join(
+            f"{name} 1.5 {2 + number} {number}e-16\n"
+            for number, name in enumerate(dynamics.FUNCTIONS)))
+        row = dynamics.row("a", "b", results)
+        self.assertTrue(row.startswith(
+            "| a | b | 1.50 / 2.00 = 0.75 | 1.50 / 3.00 = 0.50 | "), row)
+        self.assertTrue(row.endswith(" | 6e-16 |"), row)
+        self.assertEqual({line.count("|") for line in dynamics.head()},
+                         {row.count("|")})
+
+    def test_robots_are_those_of_the_files(self):
+        self.assertEqual(dynamics.robots([pathlib.Path("x/a.urdf")]),
+                         [("a", "x/a.urdf")])
+        self.assertEqual(len(dynamics.robots([])), len(dynamics.OUR_ROBOTS))
 
 
 class HistogramsTest(unittest.TestCase):

@@ -12,7 +12,8 @@ class Peer:
 
     `proof` is a file of each checkout. `links` maps the name that the
     sources include to a folder of the checkout. `sources` are compiled
-    without the lines that match `dropped`.
+    without the lines that match `dropped`. `generated` are headers that the
+    peer's own build would write, as pairs of a path and a text.
     """
 
     name: str
@@ -24,6 +25,7 @@ class Peer:
     sources: tuple = ()
     dropped: str = ""
     needs_boost: bool = False
+    generated: tuple = ()
 
     def is_in(self, folder):
         return (folder / self.name / self.proof).is_file()
@@ -65,6 +67,26 @@ PEERS = (
         # With this macro, SOTH formats all its matrices in each step.
         dropped=r"^#define SOTH_DEBUG.*$",
         needs_boost=True,
+    ),
+)
+
+_MACROS = "#pragma once\n" + "".join(
+    f"#define PINOCCHIO_{name}\n" for name in (
+        "DLLAPI", "DEPRECATED", "DEPRECATED_HEADER(message)",
+        "DEPRECATED_MESSAGE(message)"))
+
+DYNAMICS_PEERS = (
+    Peer(
+        name="pinocchio",
+        url="https://github.com/stack-of-tasks/pinocchio",
+        commit="v3.7.0",
+        adapter="pinocchio_peer.cc",
+        proof="include/pinocchio/multibody/model.hpp",
+        links={"pinocchio": "include/pinocchio"},
+        needs_boost=True,
+        generated=(("pinocchio/config.hpp", _MACROS),
+                   ("pinocchio/deprecated.hpp", _MACROS),
+                   ("pinocchio/warning.hpp", "#pragma once\n")),
     ),
 )
 
