@@ -291,6 +291,8 @@ Function MomentumMatrix(const Tree& tree, const pin::Model& model,
             pin::computeCentroidalMap(model, w->data, s.q);
           }},
           [&tree, w](const State& s) {
+            // The center of mass of Pinocchio is that of the moving bodies.
+            if (!tree.is_floating()) return 0.0;
             ExportJacobian(kTheirs, tree, s.q, w->H_G, w->exported_H_G);
             return RelativeDifference(w->exported_H_G, w->data.Ag);
           }};
