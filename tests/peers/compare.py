@@ -19,7 +19,8 @@ without -march=native. The table is also written to dynamics.md.
 DIR holds the checkouts of the peers, as DIR/lexls, DIR/soth and DIR/pinocchio.
 A missing one is skipped. --out keeps programs and ticks (300 MB); a second run
 reuses them.
-Exit code: 0 if at least one peer was compared, 2 for bad input.
+Exit code: 0 if at least one peer was compared, 1 if dynamics differ, 2 for bad
+input.
 
   bazel run //tests/peers:compare -- --peers DIR
   bazel run //tests/peers:compare -- --peers DIR --hqp FILES
@@ -238,7 +239,10 @@ def compare_problems(programs, files, out, say):
 
 
 def compare_dynamics(options, say):
-    """Says the rows of the table, one robot after the other."""
+    """Says the rows of the table, one robot after the other.
+
+    Returns 0, or 1 if a result differs from the peer's.
+    """
     peers = choose_peers(DYNAMICS_PEERS, options.peers, print)
     programs = {}
     for name, flags in dynamics.BUILDS:
@@ -247,6 +251,7 @@ def compare_dynamics(options, say):
         programs[name] = build_programs(builder, peers, options.peers)
     for line in dynamics.head():
         say(line)
+    agrees = True
     for robot, source in dynamics.robots(options.dynamics):
         path = pathlib.Path(source)
         text = path.read_text() if options.dynamics else source
@@ -255,11 +260,17 @@ def compare_dynamics(options, say):
         for build, program in programs.items():
             results = dynamics.read(output_of([program["pinocchio"], tree]))
             say(dynamics.row(robot, build, results))
+            difference = dynamics.largest_difference(results)
+            agrees &= difference <= dynamics.MOST_DIFFERENCE
+    if not agrees:
+        say(f"A result differs by more than {dynamics.MOST_DIFFERENCE}.")
+    return 0 if agrees else 1
 
 
 def main(arguments):
     options = parse_arguments(arguments)
     lines = []
+    code = 0
 
     def say(line):
         lines.append(line)
@@ -267,7 +278,7 @@ def main(arguments):
 
     try:
         if options.dynamics is not None:
-            compare_dynamics(options, say)
+            code = compare_dynamics(options, say)
             name = "dynamics.md"
         elif options.hqp is not None:
             compare_problems(build_solvers(options), options.hqp, options.out,
@@ -279,7 +290,7 @@ def main(arguments):
     except BuildError as error:
         raise InputError(f"compiling: {error}") from error
     (options.out / name).write_text("\n".join(lines) + "\n")
-    return 0
+    return code
 
 
 if __name__ == "__main__":

@@ -280,6 +280,14 @@ class DynamicsTest(unittest.TestCase):
         self.assertEqual({line.count("|") for line in dynamics.head()},
                          {row.count("|")})
 
+    def test_the_largest_difference_is_nan_if_one_is(self):
+        def largest(*differences):
+            return dynamics.largest_difference({
+                i: dynamics.Result(1, 1, each)
+                for i, each in enumerate(differences)})
+        self.assertEqual(largest(1e-15, -1, 2e-15), 2e-15)
+        self.assertTrue(math.isnan(largest(1e-15, math.nan, 2e-15)))
+
     def test_robots_are_those_of_the_files(self):
         self.assertEqual(dynamics.robots([pathlib.Path("x/a.urdf")]),
                          [("a", "x/a.urdf")])

@@ -3,8 +3,8 @@
 //   pinocchio FILE
 // FILE has a tree, see tree_file.h. Prints a line a function: its name, the CPU
 // time of Poise and of Pinocchio [us], and the largest relative difference of
-// the results, or -1 where they are not compared. Results are compared in
-// Pinocchio's conventions, see dynamics/conventions.h.
+// the results (nan if one is NaN), or -1 where they are not compared. Results
+// are compared in Pinocchio's conventions, see dynamics/conventions.h.
 #include <time.h>
 
 #include <algorithm>
@@ -182,12 +182,14 @@ void Measure(const Function& function, const std::vector<State>& ours,
       their_time = std::min(their_time, TimeOfCall(call, theirs));
     }
   }
-  double difference = function.difference ? 0 : -1;
+  double difference = -1;
   for (int i = 0; function.difference && i < kStates; ++i) {
     function.ours(ours[i]);
     for (const Call& call : function.theirs) {
       call(theirs[i]);
-      difference = std::max(difference, function.difference(ours[i]));
+      const double now = function.difference(ours[i]);
+      // std::max would hide NaN.
+      if (!(now <= difference)) difference = now;
     }
   }
   std::printf("%s %.4f %.4f %.3g\n", function.name, our_time, their_time,
@@ -292,7 +294,7 @@ Function MomentumMatrix(const Tree& tree, const pin::Model& model,
           }},
           [&tree, w](const State& s) {
             // The center of mass of Pinocchio is that of the moving bodies.
-            if (!tree.is_floating()) return 0.0;
+            if (!tree.is_floating()) return -1.0;
             ExportJacobian(kTheirs, tree, s.q, w->H_G, w->exported_H_G);
             return RelativeDifference(w->exported_H_G, w->data.Ag);
           }};
@@ -329,10 +331,22 @@ Function WholeTick(const Tree& tree, const pin::Model& model, Workspace* w) {
                                     pin::LOCAL_WORLD_ALIGNED, w->J[k]);
             }
           }},
-          [&tree, w](const State& s) {
+          [&tree, &model, w](const State& s) {
             ExportJacobian(kTheirs, tree, s.q, w->tick.frames.back().J_WF_W,
                            w->exported_H_G);
-            return RelativeDifference(w->exported_H_G, w->J.back());
+            const double in_world =
+                RelativeDifference(w->exported_H_G, w->J.back());
+            // The axes of the frame: a rotation of the same rows.
+            const FrameTick& foot = w->tick.frames.back();
+            w->H_G.topRows<3>() =
+                foot.X_WF.R.transpose() * foot.J_WF_W.topRows<3>();
+            w->H_G.bottomRows<3>() =
+                foot.X_WF.R.transpose() * foot.J_WF_W.bottomRows<3>();
+            ExportJacobian(kTheirs, tree, s.q, w->H_G, w->exported_H_G);
+            pin::getFrameJacobian(model, w->data, model.frames.size() - 1,
+                                  pin::LOCAL, w->J.back());
+            return std::max(in_world,
+                            RelativeDifference(w->exported_H_G, w->J.back()));
           }};
 }
 

@@ -59,6 +59,10 @@ void ReadJoints(std::istream* in, int count, TreeBuilder* builder) {
     JointSpec joint;
     int type = 0, parent = 0;
     *in >> type >> parent >> joint.armature;
+    if (type < 0 || type > static_cast<int>(JointType::kPrismatic)) {
+      in->setstate(std::ios::failbit);
+      return;
+    }
     joint.type = static_cast<JointType>(type);
     joint.parent = BodyName(parent);
     joint.child = BodyName(j + 1);
@@ -132,7 +136,8 @@ Tree ReadTree(const std::string& path) {
   ReadFrames(&in, frames, &builder);
   if (!in) {
     throw std::invalid_argument(path +
-                                ": ends too early; record the tree again");
+                                ": ends too early, or has a joint of "
+                                "unknown type; record the tree again");
   }
   return builder.Build(is_floating ? BaseType::kFloating : BaseType::kFixed);
 }
