@@ -4,7 +4,8 @@
 #   --baselines  also packages that some tests and benchmarks compare with
 #   --browser  also packages to rebuild the viewer and to run its browser test
 #   --docs  also Doxygen, for bazel build //docs:api
-#   --package  also packages to use Poise from CMake and to test that
+#   --package  also packages to use Poise from CMake, to make Debian packages, to
+#     compare binary interfaces, and to test these
 # Runs as root, or as a user with sudo. If an installation fails, prints one line
 # that names the missing packages, and exits with code 1.
 set -euo pipefail
@@ -47,10 +48,11 @@ for argument in "$@"; do
       packages+=(doxygen)
       ;;
     --package)
-      packages+=(binutils cmake make)
+      packages+=(abigail-tools binutils chrpath cmake dpkg-dev lintian make)
+      packages+=(mmdebstrap)
       ;;
     -h | --help)
-      sed -n '2,9s/^# \?//p' "$0"
+      sed -n '2,10s/^# \?//p' "$0"
       exit 0
       ;;
     *)

@@ -155,6 +155,8 @@ def poise_cc_python_module(name, symbols, copts = [], linkopts = [], **kwargs):
         copts = _COPTS + _PYTHON_COPTS + copts,
         linkopts = linkopts + [
             "-Wl,--version-script=$(location {})".format(symbols),
+            # Without a name, the linker records the path of its output.
+            "-Wl,-soname," + name.split("/")[-1],
             "-Wl,--gc-sections",
         ],
         linkshared = True,

@@ -2,7 +2,8 @@
 """Writes the files by which CMake and pkg-config find an installed Poise.
 
 All paths in these files are relative to the files, so that a prefix can be
-moved or copied.
+moved or copied. The folder of the libraries is "lib", or as Debian has it,
+"lib/x86_64-linux-gnu".
 """
 
 import dataclasses
@@ -32,17 +33,23 @@ EXTERNALS = {
 }
 
 
-def pkg_config(layer, version):
-    """Returns the .pc file of a layer."""
+def _upwards(libraries):
+    """Returns the way from the folder of the libraries to the prefix."""
+    return "/".join(".." for _ in libraries.split("/"))
+
+
+def pkg_config(layer, version, libraries="lib", prefix=None):
+    """Returns the .pc file of a layer; a prefix, if given, is fixed."""
+    prefix = prefix or f"${{pcfiledir}}/../{_upwards(libraries)}"
     externals = [EXTERNALS[name] for name in layer["externals"]]
     public = [e.module for e in externals if e.module and e.in_headers]
     private = [e.module for e in externals if e.module and not e.in_headers]
     needs = [f"poise_{name}" for name in layer["needs"]]
     defines = [f"-D{name}={value}" for name, value in layer["defines"].items()]
-    libraries = [f"-l{e.library}" for e in externals if e.library]
-    return f"""prefix=${{pcfiledir}}/../..
+    flags = [f"-l{e.library}" for e in externals if e.library]
+    return f"""prefix={prefix}
 includedir=${{prefix}}/include
-libdir=${{prefix}}/lib
+libdir=${{prefix}}/{libraries}
 
 Name: poise_{layer["name"]}
 Description: The layer {layer["name"]} of Poise
@@ -51,7 +58,7 @@ Requires: {", ".join(needs + public)}
 Requires.private: {", ".join(private)}
 Cflags: -I${{includedir}} {" ".join(defines)}
 Libs: -L${{libdir}} -lpoise_{layer["name"]}
-Libs.private: {" ".join(libraries + ["-lstdc++", "-lm"])}
+Libs.private: {" ".join(flags + ["-lstdc++", "-lm"])}
 """
 
 
@@ -93,7 +100,7 @@ endif()
     return f"PkgConfig::{target}", lines
 
 
-def cmake_targets(layer, major):
+def cmake_targets(layer, major, libraries="lib"):
     """Returns the CMake file that defines the two targets of a layer."""
     name = layer["name"]
     lines = [f"# The targets poise::{name} and poise::{name}_static.\n",
@@ -113,12 +120,13 @@ def cmake_targets(layer, major):
     static = ";".join([f"poise::{need}_static" for need in needs] + public +
                       [f"$<LINK_ONLY:{target}>" for target in private])
     defines = ";".join(f"{k}={v}" for k, v in layer["defines"].items())
+    # Not ABSOLUTE: if /lib is a link to /usr/lib, CMake may find the file there.
     lines.append(f"""
 get_filename_component(_poise_prefix
-  "${{CMAKE_CURRENT_LIST_DIR}}/../../.." ABSOLUTE)
+  "${{CMAKE_CURRENT_LIST_DIR}}/../../{_upwards(libraries)}" REALPATH)
 add_library(poise::{name} SHARED IMPORTED GLOBAL)
 set_target_properties(poise::{name} PROPERTIES
-  IMPORTED_LOCATION "${{_poise_prefix}}/lib/libpoise_{name}.so.{major}"
+  IMPORTED_LOCATION "${{_poise_prefix}}/{libraries}/libpoise_{name}.so.{major}"
   IMPORTED_SONAME "libpoise_{name}.so.{major}"
   INTERFACE_COMPILE_DEFINITIONS "{defines}"
   INTERFACE_COMPILE_FEATURES cxx_std_17
@@ -127,7 +135,7 @@ set_target_properties(poise::{name} PROPERTIES
 """)
     definition = f"""add_library(poise::{name}_static STATIC IMPORTED GLOBAL)
 set_target_properties(poise::{name}_static PROPERTIES
-  IMPORTED_LOCATION "${{_poise_prefix}}/lib/libpoise_{name}.a"
+  IMPORTED_LOCATION "${{_poise_prefix}}/{libraries}/libpoise_{name}.a"
   INTERFACE_COMPILE_DEFINITIONS "{defines}"
   INTERFACE_COMPILE_FEATURES cxx_std_17
   INTERFACE_INCLUDE_DIRECTORIES "${{_poise_prefix}}/include"

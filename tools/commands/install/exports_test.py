@@ -38,16 +38,32 @@ class ExportsTest(unittest.TestCase):
                          + text.count('PkgConfig::POISE_YAML_CPP"'), 2)
         self.assertEqual(text.count("$<LINK_ONLY:PkgConfig::POISE_URDFDOM>"), 1)
 
+    def test_a_deeper_folder_of_libraries_leads_to_the_same_prefix(self):
+        folder = "lib/x86_64-linux-gnu"
+        text = exports.cmake_targets(DYNAMICS, "0", folder)
+        self.assertIn('LIST_DIR}/../../../.." REALPATH', text)
+        self.assertIn("}/lib/x86_64-linux-gnu/libpoise_dynamics.so.0", text)
+        self.assertIn("}/lib/x86_64-linux-gnu/libpoise_dynamics.a", text)
+        text = exports.pkg_config(DYNAMICS, "0.9.0", folder)
+        self.assertIn("prefix=${pcfiledir}/../../..\n", text)
+        self.assertIn("libdir=${prefix}/lib/x86_64-linux-gnu\n", text)
+        self.assertIn("prefix=/usr\n", exports.pkg_config(
+            DYNAMICS, "0.9.0", folder, "/usr"))
+
     def test_no_path_is_absolute(self):
         for text in (exports.cmake_targets(ROBOT, "0"),
                      exports.pkg_config(ROBOT, "0.9.0"),
                      exports.cmake_config(["math"])):
             self.assertEqual(re.findall(r'(?<![\w}.>/$])/[a-z]\w*', text), [])
 
-    def test_every_external_library_of_a_layer_is_known(self):
+    def test_every_external_library_of_an_installed_layer_is_known(self):
         text = (ROOT / "tools/rules/layers/layers.bzl").read_text()
+        packages = re.search(r"^PACKAGES = \{.*?^\}", text, re.M | re.S)[0]
+        layers = re.findall(r'^    "([^"]+)":', packages, re.M)
         block = re.search(r"^EXTERNALS = \{.*?^\}", text, re.M | re.S)[0]
-        values = re.findall(r'"(\w+)"', re.sub(r'"[^"]+":', "", block))
+        values = [value for layer, found in re.findall(
+            r'^    "([^"]+)": \[([^\]]*)\]', block, re.M)
+            if layer in layers for value in re.findall(r'"(\w+)"', found)]
         self.assertGreater(len(values), 7)
         self.assertEqual(set(values) - set(exports.EXTERNALS), set())
 

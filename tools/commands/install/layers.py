@@ -69,28 +69,28 @@ def _descriptions(events):
     return {name: found[name] for name in NAMES if name in found}
 
 
-def entries(layers, version):
-    """Returns {path in the prefix: Entry}."""
+def entries(layers, version, libraries="lib", prefix=None):
+    """Returns {path in the prefix: Entry}; exports.py explains the arguments."""
     major = version.split(".", maxsplit=1)[0]
     result = {}
     for name, layer in layers.items():
         root = pathlib.Path(layer["root"])
         for include, path in layer["headers"].items():
             result[f"include/{include}"] = Entry(copy=str(root / path))
-        library = f"lib/libpoise_{name}"
+        library = f"{libraries}/libpoise_{name}"
         result[f"{library}.so.{major}"] = Entry(
             copy=str(root / layer["shared"]))
         result[f"{library}.so"] = Entry(link=f"libpoise_{name}.so.{major}")
         result[f"{library}.a"] = Entry(copy=str(root / layer["static"]))
-        result[f"lib/pkgconfig/poise_{name}.pc"] = Entry(
-            text=exports.pkg_config(layer, version))
-        result[f"lib/cmake/poise/poise_{name}.cmake"] = Entry(
-            text=exports.cmake_targets(layer, major))
+        result[f"{libraries}/pkgconfig/poise_{name}.pc"] = Entry(
+            text=exports.pkg_config(layer, version, libraries, prefix))
+        result[f"{libraries}/cmake/poise/poise_{name}.cmake"] = Entry(
+            text=exports.cmake_targets(layer, major, libraries))
         defines = layer["defines"]
     result["include/poise/math/installed_alignment.h"] = Entry(
         text=exports.alignment_header(defines))
-    result["lib/cmake/poise/poiseConfig.cmake"] = Entry(
+    result[f"{libraries}/cmake/poise/poiseConfig.cmake"] = Entry(
         text=exports.cmake_config(NAMES))
-    result["lib/cmake/poise/poiseConfigVersion.cmake"] = Entry(
+    result[f"{libraries}/cmake/poise/poiseConfigVersion.cmake"] = Entry(
         text=exports.cmake_version(version))
     return result
