@@ -77,7 +77,8 @@ void ImportAcceleration(Library library, const Tree& tree,
                         const Eigen::Ref<const Eigen::VectorXd>& vdot_theirs,
                         Eigen::Ref<Eigen::VectorXd> vdot) noexcept;
 
-/// Converts generalized forces, tau_theirs = X tau: the power tau' v stays.
+/// Converts generalized forces, tau_theirs = X tau: the power tau' v does not
+/// change.
 void ExportForces(Library library, const Tree& tree,
                   const Eigen::Ref<const Eigen::VectorXd>& q,
                   const Eigen::Ref<const Eigen::VectorXd>& tau,
@@ -90,7 +91,7 @@ void ImportForces(Library library, const Tree& tree,
                   Eigen::Ref<Eigen::VectorXd> tau) noexcept;
 
 /// Converts the joint-space inertia, M_theirs = X M X': the kinetic energy
-/// v' M v / 2 stays. All entries are written, also those below the diagonal
+/// v' M v / 2 does not change. All entries are written, also those below the diagonal
 /// that Pinocchio's crba() may leave out.
 void ExportMassMatrix(Library library, const Tree& tree,
                       const Eigen::Ref<const Eigen::VectorXd>& q,
@@ -104,8 +105,8 @@ void ImportMassMatrix(Library library, const Tree& tree,
                       const Eigen::Ref<const Eigen::MatrixXd>& M_theirs,
                       Eigen::Ref<Eigen::MatrixXd> M) noexcept;
 
-/// Converts the bias forces N of M v̇ + N = tau. The derivative of v is zero in
-/// N, and the derivative of v_theirs in N_theirs, so
+/// Converts the bias forces N of M v̇ + N = tau. N is the force at v̇ = 0, and
+/// N_theirs is the force where the derivative of v_theirs is zero, so
 ///     N_theirs = X N - M_theirs Ẋ v.
 /// N_theirs is nle of Pinocchio, qfrc_bias of MuJoCo, and CalcBiasTerm() minus
 /// CalcGravityGeneralizedForces() of Drake. The formula is the same without

@@ -73,9 +73,13 @@ class SymbolsTest(Checks):
             self.assertIn(name, printed)
         for header in [*ROOT.glob("dynamics/simd/*.h"),
                        *ROOT.glob("hqp/fast/*.h")]:
-            for name in re.findall(r"^(?:void|bool|int|double) (\w+)\(",
-                                   header.read_text(), re.M):
+            text = header.read_text()
+            for name in re.findall(r"^(?:void|bool|int|double) (\w+)\(", text,
+                                   re.M):
                 self.assertNotIn(f"poise::{name}(", printed)
+            for name in re.findall(r"^(?:class|struct) (\w+) (?:final )?[:{]",
+                                   text, re.M):
+                self.assertNotIn(f"poise::{name}::", printed)
 
     def test_libraries_know_no_path_of_the_build(self):
         for library in LIBRARIES:
@@ -163,6 +167,20 @@ class ConsumerTest(Checks):
     def test_programs_without_march_native(self):
         self.run_examples(self.cmake(EXAMPLE, "generic", FIND))
 
+    def test_the_project_of_the_quickstart_page(self):
+        page = (ROOT / "docs/quickstart/cmake.md").read_text()
+        source = WORK / "page"
+        source.mkdir()
+        (source / "CMakeLists.txt").write_text(
+            re.search(r"```cmake\n(.*?)```", page, re.S)[1])
+        shutil.copy(ROOT / "docs/examples/dynamics/main.cc", source)
+        self.assertIn("floating", self.succeed(
+            self.cmake(source, "page_build", FIND) / "my_robot"))
+
+    def test_quadruped(self):
+        build = self.cmake(ROOT / "docs/examples/quadruped", "quadruped", FIND)
+        self.assertIn("weight 147.150 N", self.succeed(build / "quadruped"))
+
     def test_programs_with_march_native(self):
         self.run_examples(self.cmake(
             EXAMPLE, "native", FIND, "-DCMAKE_CXX_FLAGS=-march=native"))
@@ -214,10 +232,15 @@ class ConsumerTest(Checks):
                          "add_executable(x main.cc)\n"
                          "target_link_libraries(x poise::sim poise::gait)\n")
         self.cmake(source, "find_all", FIND)
-        for wanted in ("REQUIRED COMPONENTS wings", "1.0 REQUIRED"):
+        for wanted, message in (
+                ("REQUIRED COMPONENTS wings", "no component wings"),
+                ("1.0 REQUIRED", r'version "1.0"'),
+                ("0.8 REQUIRED", r'version "0.8"'),
+                ("0.10 REQUIRED", r'version "0.10"')):
             lists.write_text(f"{start}find_package(poise {wanted})\n")
-            self.assertNotEqual(run("cmake", "-S", source, "-B",
-                                    WORK / "find_none", FIND).returncode, 0)
+            result = run("cmake", "-S", source, "-B", WORK / "find_none", FIND)
+            self.assertNotEqual(result.returncode, 0, wanted)
+            self.assertIn(message, re.sub(r"\s+", " ", result.stdout))
 
 
 class FolderTest(Checks):
@@ -250,6 +273,7 @@ class FolderTest(Checks):
                                     " dynamics hqp robot", " hqp"))
         self.cmake(source, "copied_build", f"-DCMAKE_PREFIX_PATH={prefix}")
 
+    # tools/quality/package_test.sh fetches it by Git, in a bare Debian.
     def test_fetch_content(self):
         self.build_with("include(FetchContent)\n"
                         f"FetchContent_Declare(poise SOURCE_DIR {ROOT})\n"

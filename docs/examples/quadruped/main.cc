@@ -1,8 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // A quadruped of 15 kg: standing torques, and its momentum in motion.
 #include <cstdio>
+#include <string>
 
 #include "poise/dynamics/tick.h"
+#include "poise/dynamics/tree.h"
 
 int main() {
   Eigen::Vector3d trunk(0.1, 0.3, 0.3), rod(2e-3, 2e-3, 1e-4);  // kg m2.

@@ -176,10 +176,18 @@ endforeach()
 
 
 def cmake_version(version):
-    """Returns poiseConfigVersion.cmake: equal major versions are compatible."""
+    """Returns poiseConfigVersion.cmake.
+
+    A program for an earlier version works if the major version is the same,
+    and before 1.0 also the minor one.
+    """
+    major, minor, *_ = version.split(".")
+    other = f"NOT PACKAGE_FIND_VERSION_MAJOR EQUAL {major}"
+    if major == "0":
+        other += f" OR\n   NOT PACKAGE_FIND_VERSION_MINOR EQUAL {minor}"
     return f"""set(PACKAGE_VERSION "{version}")
 if(PACKAGE_FIND_VERSION VERSION_GREATER PACKAGE_VERSION OR
-   NOT PACKAGE_FIND_VERSION_MAJOR EQUAL {version.split(".", maxsplit=1)[0]})
+   {other})
   set(PACKAGE_VERSION_COMPATIBLE FALSE)
 else()
   set(PACKAGE_VERSION_COMPATIBLE TRUE)

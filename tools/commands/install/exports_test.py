@@ -50,6 +50,17 @@ class ExportsTest(unittest.TestCase):
         self.assertIn("prefix=/usr\n", exports.pkg_config(
             DYNAMICS, "0.9.0", folder, "/usr"))
 
+    def test_another_minor_version_is_compatible_from_1_on(self):
+        early, late = (exports.cmake_version(v) for v in ("0.9.0", "1.9.0"))
+        self.assertIn("MAJOR EQUAL 0 OR\n   NOT PACKAGE_FIND_VERSION_MINOR "
+                      "EQUAL 9)", early)
+        self.assertIn("MAJOR EQUAL 1)", late)
+
+    def test_colcon_sees_the_same_version(self):
+        version = (ROOT / "VERSION").read_text().strip()
+        self.assertIn(f"<version>{version}</version>",
+                      (ROOT / "package.xml").read_text())
+
     def test_no_path_is_absolute(self):
         for text in (exports.cmake_targets(ROBOT, "0"),
                      exports.pkg_config(ROBOT, "0.9.0"),

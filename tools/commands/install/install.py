@@ -9,8 +9,9 @@ project then uses
     find_package(poise REQUIRED COMPONENTS dynamics)
     target_link_libraries(my_program poise::dynamics)
 
-Layers that a chosen layer needs are installed with it. Either everything is
-installed or nothing. Exit code: 0 if done, 1 if the build or the installation
+Layers that a chosen layer needs are installed with it, and layers that the
+prefix has already are installed anew, so that all are of one state of Poise.
+Either everything is installed or nothing. Exit code: 0 if done, 1 if the build or the installation
 failed, 2 for bad input.
 """
 
@@ -88,17 +89,29 @@ def _interruptible():
 
 def run(options):
     if options.uninstall:
-        count = prefixes.uninstall(options.prefix)
-        print(f"removed {count} files of Poise from {options.prefix}")
+        removed, missing = prefixes.uninstall(options.prefix)
+        note = f"; {missing} were not there" if missing else ""
+        print(f"removed {removed} files of Poise from {options.prefix}{note}")
         return
     workspace = _workspace()
     version = (workspace / "VERSION").read_text(encoding="utf-8").strip()
-    built = layers.build(workspace, options.layers, sys.argv[0])
+    names = {*options.layers, *prefixes.installed_layers(options.prefix)}
+    built = layers.build(
+        workspace, [name for name in layers.NAMES if name in names],
+        sys.argv[0])
     entries = layers.entries(built, version)
     with _interruptible():
         prefixes.install(options.prefix, entries, version)
     print(f"installed Poise {version} ({', '.join(built)}; {len(entries)} "
           f"files) in {options.prefix}")
+
+
+def _outcome(options):
+    """Returns what a failure leaves behind."""
+    if options.uninstall:
+        return (f"part of Poise may still be in {options.prefix}; run the "
+                "command again")
+    return f"nothing was installed in {options.prefix}"
 
 
 def main(arguments):
@@ -114,13 +127,13 @@ def main(arguments):
         print(f"install: {error}", file=sys.stderr)
         return 1
     except OSError as error:
+        cure = ("; choose a --prefix that you may write to, or use sudo"
+                if isinstance(error, PermissionError) else "")
         print(f"install: {error.filename2 or error.filename}: "
-              f"{error.strerror}; nothing was installed in {options.prefix}",
-              file=sys.stderr)
+              f"{error.strerror}; {_outcome(options)}{cure}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("install: interrupted; nothing was installed in "
-              f"{options.prefix}", file=sys.stderr)
+        print(f"install: interrupted; {_outcome(options)}", file=sys.stderr)
         return 130
     return 0
 

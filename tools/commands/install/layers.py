@@ -21,7 +21,7 @@ class BuildError(Exception):
 
 @dataclasses.dataclass(frozen=True)
 class Entry:
-    """What a file of the prefix holds: exactly one of the members is set."""
+    """Content of one file in the prefix: exactly one of the members is set."""
 
     copy: str = ""  # A file's path.
     text: str = ""
@@ -29,8 +29,12 @@ class Entry:
 
 
 def _bazel_command(program):
-    """Returns the Bazel that runs this program, as the start of a command."""
-    bazel = next(filter(None, map(shutil.which, ("bazel", "bazelisk"))), None)
+    """Returns the Bazel that runs this program, as the start of a command.
+
+    POISE_BAZEL names a Bazel that is not on PATH.
+    """
+    names = [os.environ.get("POISE_BAZEL", ""), "bazel", "bazelisk"]
+    bazel = next(filter(None, map(shutil.which, filter(None, names))), None)
     if bazel is None:
         raise BuildError("there is no bazel on PATH; run tools/setup.sh")
     # Another output base would compile everything a second time.
@@ -52,7 +56,13 @@ def build(workspace, names, program):
             raise BuildError(
                 f"bazel build {' '.join(targets)} failed with exit code "
                 f"{result.returncode}, must be 0; its messages are above")
-        return _descriptions(events.read_text())
+        found = _descriptions(events.read_text())
+    missing = [name for name in names if name not in found]
+    if missing:
+        raise BuildError(
+            f"bazel build made no description of {','.join(missing)}; "
+            "run bazel clean and this command again")
+    return found
 
 
 def _descriptions(events):

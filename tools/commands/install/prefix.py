@@ -8,6 +8,7 @@ move is undone, last first. A manifest lists the files and the folders made.
 
 import os
 import pathlib
+import re
 import shutil
 import tempfile
 
@@ -24,7 +25,7 @@ def read_manifest(prefix):
     path = prefix / MANIFEST
     if not path.is_file():
         return None, []
-    lines = path.read_text(encoding="utf-8").splitlines()
+    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
     if not lines or not lines[0].startswith(_HEADER):
         raise PrefixError(f"{path} is not a manifest of Poise: its first line "
                           f"must begin with '{_HEADER}'; remove the file")
@@ -34,6 +35,13 @@ def read_manifest(prefix):
             raise PrefixError(f"{path} lists '{line}', which is not inside the "
                               "prefix; remove the line")
     return lines[0][len(_HEADER):], paths
+
+
+def installed_layers(prefix):
+    """Returns the names of the layers that a prefix has."""
+    _, paths = read_manifest(prefix)
+    return [name for path in paths for name in re.findall(
+        r"^lib/cmake/poise/poise_(\w+)\.cmake$", path)]
 
 
 class _Journal:
@@ -108,8 +116,8 @@ def _manifest(version, files, folders):
 
 
 def install(prefix, entries, version):
-    """Installs entries, {path: layers.Entry}, beside layers of this version."""
-    old_version, installed = read_manifest(prefix)
+    """Installs entries, {path: layers.Entry}, and removes all older files."""
+    _, installed = read_manifest(prefix)
     _check_free(prefix, entries, installed)
     made = []
     for folder in [prefix, *prefix.parents]:
@@ -120,8 +128,7 @@ def install(prefix, entries, version):
     spare = None
     try:
         spare = pathlib.Path(tempfile.mkdtemp(prefix=".poise-", dir=prefix))
-        _install(prefix, entries, version, spare,
-                 (old_version, installed))
+        _install(prefix, entries, version, spare, installed)
     except BaseException:
         if spare is not None:
             shutil.rmtree(spare, ignore_errors=True)
@@ -131,12 +138,11 @@ def install(prefix, entries, version):
     shutil.rmtree(spare)
 
 
-def _install(prefix, entries, version, spare, old):
-    old_version, installed = old
+def _install(prefix, entries, version, spare, installed):
     old_files = {path for path in installed if not path.endswith("/")}
     folders = {path.rstrip("/") for path in installed if path.endswith("/")}
-    stale = old_files - set(entries) if old_version != version else set()
-    files = (old_files - stale) | set(entries) | {MANIFEST}
+    stale = old_files - set(entries)
+    files = set(entries) | {MANIFEST}
     staged = spare / "new"
     (spare / "old").mkdir()
     for relative, entry in entries.items():
@@ -159,7 +165,10 @@ def _install(prefix, entries, version, spare, old):
 
 
 def uninstall(prefix):
-    """Removes all installed files, and folders made for them if empty."""
+    """Removes all installed files, and folders made for them if empty.
+
+    Returns the numbers of files removed, and of files that were not there.
+    """
     version, paths = read_manifest(prefix)
     if version is None:
         raise PrefixError(f"{prefix / MANIFEST} does not exist, so Poise is "
@@ -167,12 +176,14 @@ def uninstall(prefix):
                           "installation")
     # The manifest goes last: after an interruption, the same command goes on.
     files = [path for path in paths if not path.endswith("/")]
+    removed = 0
     for relative in sorted(files, key=lambda path: path == MANIFEST):
         if os.path.lexists(prefix / relative):
             (prefix / relative).unlink()
+            removed += 1
     folders = {path.rstrip("/") for path in paths if path.endswith("/")}
     for relative in sorted(folders, key=len, reverse=True):
         folder = prefix / relative
         if folder.is_dir() and not any(folder.iterdir()):
             folder.rmdir()
-    return len(files)
+    return removed, len(files) - removed

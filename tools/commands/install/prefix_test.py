@@ -45,7 +45,8 @@ class PrefixTest(unittest.TestCase):
     def test_installs_and_uninstalls(self):
         prefixes.install(self.prefix, ENTRIES, "0.9.0")
         self.assertEqual(tree(self.prefix)["lib/libpoise_math.so"], "shared")
-        self.assertEqual(prefixes.uninstall(self.prefix), 4)
+        (self.prefix / "lib/libpoise_math.so").unlink()
+        self.assertEqual(prefixes.uninstall(self.prefix), (3, 1))
         self.assertEqual(tree(self.prefix), {})
 
     def test_uninstall_keeps_files_and_folders_of_others(self):
@@ -57,21 +58,21 @@ class PrefixTest(unittest.TestCase):
         prefixes.uninstall(self.prefix)
         self.assertEqual(tree(self.prefix), before)
 
-    def test_adds_layers_of_the_same_version(self):
+    def test_removes_files_that_are_not_made_any_more(self):
         prefixes.install(self.prefix, ENTRIES, "0.9.0")
         prefixes.install(self.prefix, MORE, "0.9.0")
-        self.assertIn("lib/libpoise_math.so.0", tree(self.prefix))
-        prefixes.uninstall(self.prefix)
-        self.assertEqual(tree(self.prefix), {})
-
-    def test_removes_files_of_another_version(self):
-        prefixes.install(self.prefix, ENTRIES, "0.9.0")
-        prefixes.install(self.prefix, MORE, "0.9.1")
         self.assertEqual(sorted(tree(self.prefix)),
                          ["include/poise/math", "lib/libpoise_hqp.so.0",
                           prefixes.MANIFEST])
         prefixes.uninstall(self.prefix)
         self.assertEqual(tree(self.prefix), {})
+
+    def test_knows_which_layers_are_installed(self):
+        self.assertEqual(prefixes.installed_layers(self.prefix), [])
+        prefixes.install(self.prefix, {
+            **ENTRIES, "lib/cmake/poise/poise_math.cmake": Entry(text="x"),
+            "lib/cmake/poise/poiseConfig.cmake": Entry(text="x")}, "0.9.0")
+        self.assertEqual(prefixes.installed_layers(self.prefix), ["math"])
 
     def test_installs_again_over_itself(self):
         prefixes.install(self.prefix, ENTRIES, "0.9.0")
@@ -98,6 +99,13 @@ class PrefixTest(unittest.TestCase):
             manifest.write_text(f"# Files of Poise 0.9.0\n{path}\n")
             with self.assertRaisesRegex(prefixes.PrefixError, path):
                 prefixes.uninstall(self.prefix)
+
+    def test_refuses_a_manifest_that_is_not_text(self):
+        manifest = self.prefix / prefixes.MANIFEST
+        manifest.parent.mkdir(parents=True)
+        manifest.write_bytes(b"\xff\xfe\x00")
+        with self.assertRaisesRegex(prefixes.PrefixError, "not a manifest"):
+            prefixes.uninstall(self.prefix)
 
     def test_failure_leaves_no_new_folder(self):
         entries = {**ENTRIES, "lib/x": Entry(copy=str(self.root / "none"))}

@@ -9,7 +9,8 @@ import unittest
 import pages
 
 ROOT = pages.tree()
-HANDBOOK = sorted((ROOT / "docs").glob("*.md"))
+HANDBOOK = sorted([*(ROOT / "docs").glob("*.md"),
+                   *(ROOT / "docs/quickstart").glob("*.md")])
 
 
 class DocsTest(unittest.TestCase):
@@ -92,6 +93,19 @@ class CodeTest(unittest.TestCase):
         self.assertGreater(
             sum(len(list(pages.blocks(path.read_text(), "cpp")))
                 for path in paths), 5)
+
+    def test_the_quickstart_of_bazel_is_the_example_that_a_test_builds(self):
+        page = (ROOT / "docs/quickstart/bazel.md").read_text()
+        example = ROOT / "docs/examples/dynamics"
+        blocks = [block for _, block in pages.blocks(page, "python")]
+        for block, file, name in zip(blocks, ("WORKSPACE", "BUILD"), (
+                "poise_dynamics_example", "simulate")):
+            text = re.sub(r"^#.*\n", "", (example / file).read_text(),
+                          flags=re.M)
+            self.assertEqual(
+                pages.unindented(block.replace("my_robot", name).replace(
+                    '"../poise"', '"../../.."')), pages.unindented(text))
+        self.assertEqual(len(blocks), 2)
 
     def test_notices_a_block_that_is_not_built(self):
         self.assertEqual(self.unknown("a\n```cpp\nint none();\n```\n"), [2])

@@ -1,8 +1,9 @@
 """Libraries of a layer for an installation: one shared, one static.
 
 installed_part() collects the headers and objects of one package; lint_test()
-declares one in each BUILD file of a layer.  installed_layer() links the parts of
-a layer and describes the result in NAME.json, which //tools:install reads.
+declares one in each BUILD file of a layer. installed_layers() links the parts of
+each layer and describes the result in NAME.layer.json, which //tools:install
+reads.
 """
 
 # Both sides of an installed header must agree on how Eigen aligns its memory.
