@@ -222,6 +222,27 @@ TEST(Dynamics, DoesNotDependOnTheOrderOfJoints) {
   }));
 }
 
+// A base that floats, but rests at the world's origin, leaves the joints with
+// the dynamics on a fixed base.
+TEST(Dynamics, FixedBaseIsAFloatingOneAtRest) {
+  EXPECT_TRUE(HoldsForTrees("M, N", [](const TreeMotion& m) {
+    const int n = m.tree.num_joints();
+    const VectorXd q = m.q.tail(n), v = m.v.tail(n);
+    TreeMotion floating{m.tree.WithBase(BaseType::kFloating), {}, {}, {}, {}};
+    floating.q = floating.tree.MakeNeutral();
+    floating.v = VectorXd::Zero(floating.tree.nv());
+    floating.q.tail(n) = q;
+    floating.v.tail(n) = v;
+    const Tick on_floating = TickOf(floating);
+    const Tick on_fixed =
+        TickOf({m.tree.WithBase(BaseType::kFixed), q, v, {}, {}});
+    MatrixXd ours(n, n + 1), expected = ours;
+    ours << on_fixed.M, on_fixed.N;
+    expected << on_floating.M.bottomRightCorner(n, n), on_floating.N.tail(n);
+    return Compare(ours, expected, Rounding(100 + ours.norm(), n + 10));
+  }));
+}
+
 // Returns the robot in a world that is rotated by R, with its gravity. Frame b
 // is that of body b.
 TreeMotion Turn(const TreeMotion& m, const Matrix3d& R) {

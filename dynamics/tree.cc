@@ -49,6 +49,12 @@ Tree Tree::WithScaledInertias(double factor) const {
   return scaled;
 }
 
+Tree Tree::WithBase(BaseType base) const {
+  Tree other = *this;
+  other.base_ = base;
+  return other;
+}
+
 Eigen::VectorXd Tree::MakeNeutral() const {
   Eigen::VectorXd q = Eigen::VectorXd::Zero(nq());
   if (is_floating()) q[6] = 1;

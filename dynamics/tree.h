@@ -111,6 +111,10 @@ class Tree {
   /// std::invalid_argument if the factor is not positive and finite.
   Tree WithScaledInertias(double factor) const;
 
+  /// Returns this tree on another base. A fixed base is the root link at the
+  /// world's origin, as of an arm on a table: q and v have the joints only.
+  Tree WithBase(BaseType base) const;
+
  private:
   friend class TreeBuilder;
   Tree() = default;

@@ -1,6 +1,7 @@
 """The public headers of Poise: include them as "poise/<path>".
 
-public_headers_test compares these lists with the tree.
+public_headers_test compares the list with the tree. Public headers include no
+others of Poise.
 """
 
 PUBLIC_HEADERS = [
@@ -228,5 +229,5 @@ PUBLIC_HEADERS = [
 ]
 
 def header_labels(paths):
-    """Returns the labels of headers, which the lists name by their paths."""
+    """Returns the labels of headers, which are named by their paths."""
     return ["//{0}:{2}".format(*path.rpartition("/")) for path in paths]

@@ -39,8 +39,8 @@ def includes(text):
 
 
 def needed(root, public):
-    """Returns the sorted private headers that public headers include, also
-    through each other."""
+    """Returns the sorted headers that are not public, but that public headers
+    include, also through each other."""
     found, left = set(), list(public)
     while left:
         for name in includes((root / left.pop()).read_text()):
@@ -51,6 +51,6 @@ def needed(root, public):
 
 
 def read_list(text):
-    """Returns (public, private) of the text of public_headers.bzl."""
-    return tuple(re.findall(r'^    "(.*)",$', block, re.M) for block in
-                 re.findall(r"^\w+ = \[\n([^\]]*)\]", text, re.M))
+    """Returns the headers that public_headers.bzl lists."""
+    block = re.search(r"^PUBLIC_HEADERS = \[\n([^\]]*)\]", text, re.M)[1]
+    return re.findall(r'^    "(.*)",$', block, re.M)
