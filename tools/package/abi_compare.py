@@ -21,11 +21,21 @@ def _compare_functions(library, old, new):
 
 def _compare_class(name, old, new):
     """Yields what broke in the layout of a class."""
+    moved = []
     for what, was in old.items():
         if what not in new:
             yield f"{name}: {what} is gone; it was {was}."
         elif new[what] != was:
-            yield f"{name}: {what} is {new[what]}; before, it was {was}."
+            kind, _, place = was.partition(" at byte ")
+            if place and new[what].partition(" at byte ")[0] == kind:
+                moved.append((what, was))
+            else:
+                yield f"{name}: {what} is {new[what]}; before, it was {was}."
+    # One sentence: a new member, or one that has grown, moves all after it.
+    if moved:
+        what, was = moved[0]
+        more = f", and {len(moved) - 1} more moved" if moved[1:] else ""
+        yield f"{name}: {what} is {new[what]}; before, it was {was}{more}."
     for what in new:
         # Classes of users that override functions lack the new one.
         if what not in old and what.startswith("virtual"):

@@ -105,6 +105,14 @@ class CompareTest(unittest.TestCase):
                  "poise::Box is gone, or no public class uses it."),
                 (lambda f, c: c[box].update({"size": "40 bytes"}),
                  "poise::Box: size is 40 bytes; before, it was 32 bytes."),
+                (lambda f, c: c[box].update({
+                    "member size": "double[3] at byte 16"}),
+                 "poise::Box: member size is double[3] at byte 16; before, it "
+                 "was double[3] at byte 8."),
+                (lambda f, c: c[box].update({
+                    "member size": "float[3] at byte 8"}),
+                 "poise::Box: member size is float[3] at byte 8; before, it "
+                 "was double[3] at byte 8."),
                 (lambda f, c: c[box].pop("member size"),
                  "poise::Box: member size is gone; it was double[3] at byte "
                  "8."),
@@ -113,6 +121,16 @@ class CompareTest(unittest.TestCase):
                 (lambda f, c: c["poise::Side"].update({"value kLeft": "1"}),
                  "poise::Side: value kLeft is 1; before, it was 0.")):
             self.assertEqual(self.broken(change), [sentence])
+
+
+    def test_members_that_moved_together_are_one_sentence(self):
+        old = {"functions": {}, "classes": {"A": {
+            f"member {n}": f"int at byte {4 * n}" for n in range(3)}}}
+        new = {"functions": {}, "classes": {"A": {
+            f"member {n}": f"int at byte {4 * n + 8}" for n in range(3)}}}
+        self.assertEqual(abi_compare.broken(old, new), [
+            "A: member 0 is int at byte 8; before, it was int at byte 0, and 2 "
+            "more moved."])
 
 
 class CommandTest(unittest.TestCase):
