@@ -23,7 +23,8 @@ PROGRAMS = {
         "//tools:doctor", "//tools:dynamics", "//tools:explain",
         "//tools:figures", "//tools:hqp", "//tools:install",
         "//tools:mutate", "//tools:push", "//tools:push_map",
-        "//tools:report", "//tools:robustness", "//tools:sim_to_sim", "//tools:strictness")
+        "//tools:report", "//tools:robustness", "//tools:sim_to_sim",
+        "//tools:strictness", "//tools/package:abi")
 }
 
 
