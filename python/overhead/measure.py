@@ -89,33 +89,42 @@ def statements():
     return made
 
 
-def shortest_time(statement, variables, rounds):
-    """Returns the time of a statement, us: the shortest of the rounds."""
+def make_timer(statement, variables):
+    """Returns a function that returns the time of a statement, us."""
     timer = timeit.Timer(statement, globals=variables)
     count = 1
     while timer.timeit(count) < ROUND and count < 1_000_000:
         count *= 2
-    return min(timer.repeat(rounds, count)) / count * 1e6
+    return lambda: timer.timeit(count) / count * 1e6
 
 
 def print_overheads(time_cpp, rounds):
-    """Prints a table with a row for each function."""
-    printed = subprocess.run(
-        [time_cpp, ROBOT.urdf, PROFILE, str(rounds)], check=True, text=True,
-        stdout=subprocess.PIPE).stdout
-    cpp = {name: float(us) for name, us in map(str.split, printed.splitlines())}
-    python = statements()
-    if set(cpp) != set(python):
-        sys.exit(f"measure.py: only one language has {set(cpp) ^ set(python)}, "
-                 "add them to measure.py and *_cases.cc")
-    variables = arguments()
-    print(f"\n{TREE.num_joints} joints; times in us\n")
-    print("| function | Python | C++ | difference |")
-    print("| --- | ---: | ---: | ---: |")
-    for name, statement in python.items():
-        us = shortest_time(statement, variables, rounds)
-        print(f"| `{name}` | {us:.2f} | {cpp[name]:.2f} | "
-              f"{us - cpp[name]:.2f} |", flush=True)
+    """Prints a table with a row for each function.
+
+    Rounds of Python and C++ alternate, and the shortest of each counts: other
+    programs make a round longer, never shorter.
+    """
+    with subprocess.Popen([time_cpp, ROBOT.urdf, PROFILE], text=True,
+                          bufsize=1, stdin=subprocess.PIPE,
+                          stdout=subprocess.PIPE) as process:
+        cpp, python = set(process.stdout.readline().split()), statements()
+        if cpp != set(python):
+            sys.exit(f"measure.py: only one language has {cpp ^ set(python)}, "
+                     "add them to measure.py and *_cases.cc")
+        variables = arguments()
+        print(f"\n{TREE.num_joints} joints; times in us\n")
+        print("| function | Python | C++ | difference |")
+        print("| --- | ---: | ---: | ---: |")
+        for name, statement in python.items():
+            timer, pairs = make_timer(statement, variables), []
+            for _ in range(rounds):
+                process.stdin.write(name + "\n")
+                cpp_us = float(process.stdout.readline())
+                pairs.append((timer(), cpp_us))
+            us, cpp_us = map(min, zip(*pairs))
+            print(f"| `{name}` | {us:.2f} | {cpp_us:.2f} | "
+                  f"{us - cpp_us:.2f} |", flush=True)
+        process.stdin.close()
 
 
 def update(controller, ticks):
@@ -170,7 +179,7 @@ def main():
     if len(sys.argv) < 2 or (sys.argv[2:] and not quick):
         print("usage: measure.py TIME_CPP [--quick]", file=sys.stderr)
         sys.exit(2)
-    print_overheads(sys.argv[1], 1 if quick else 15)
+    print_overheads(sys.argv[1], 1 if quick else 30)
     print_threads(20 if quick else 2000, 1 if quick else 5)
     print_import(1 if quick else 9)
 

@@ -1,12 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Prints the time of each function of the package poise when C++ calls it, one
-// line each: "Tree.rnea 2.31", in us.
+// Times the functions of the package poise when C++ calls them. Prints their
+// names in one line, and then answers each name on the standard input with the
+// time of a call, us.
 //
-// Usage: time_cpp URDF PROFILE ROUNDS
+// Usage: time_cpp URDF PROFILE
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
-#include <limits>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "poise/python/overhead/cases.h"
 #include "poise/robot/control/stand.h"
@@ -24,27 +26,21 @@ double Time(const poise::TimedCase& timed, long repetitions) {
       .count();
 }
 
-// Returns the time of one call, us: the shortest of several rounds, because
-// other programs make a round longer, never shorter. measure.py does the same.
-double ShortestTime(const poise::TimedCase& timed, int rounds) {
+// Returns how many calls take 5 ms.
+long CountRepetitions(const poise::TimedCase& timed) {
   constexpr double kRound = 5000;  // us.
   long repetitions = 1;
   while (Time(timed, repetitions) < kRound && repetitions < 1000000) {
     repetitions *= 2;
   }
-  double shortest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < rounds; ++i) {
-    const double time = Time(timed, repetitions) / double(repetitions);
-    if (time < shortest) shortest = time;
-  }
-  return shortest;
+  return repetitions;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::cerr << "usage: time_cpp URDF PROFILE ROUNDS\n";
+  if (argc != 3) {
+    std::cerr << "usage: time_cpp URDF PROFILE\n";
     return 2;
   }
   const poise::Profile profile = poise::LoadProfile(argv[2]);
@@ -53,9 +49,18 @@ int main(int argc, char** argv) {
   poise::AddLieCases(&cases);
   poise::AddDynamicsCases(robot, &cases);
   poise::AddControlCases(robot, profile, &cases);
+  std::map<std::string, const poise::TimedCase*> by_name;
   for (const poise::TimedCase& timed : cases) {
-    std::cout << timed.name << " " << ShortestTime(timed, std::atoi(argv[3]))
-              << std::endl;
+    by_name[timed.name] = &timed;
+    std::cout << timed.name << " ";
+  }
+  std::cout << std::endl;
+  std::map<std::string, long> repetitions;
+  for (std::string name; std::cin >> name;) {
+    const poise::TimedCase& timed = *by_name.at(name);
+    long& count = repetitions[name];
+    if (count == 0) count = CountRepetitions(timed);
+    std::cout << Time(timed, count) / double(count) << std::endl;
   }
   return 0;
 }
