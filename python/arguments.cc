@@ -45,13 +45,31 @@ int AsInteger(py::handle value, const char* name, int lower, int upper) {
   return static_cast<int>(number);
 }
 
+bool AsFlag(py::handle value, const char* name) {
+  // The type of NumPy is compared by its name, so that NumPy is not loaded.
+  const std::string type = TypeName(value);
+  if (!py::isinstance<py::bool_>(value) && type != "bool_") {
+    throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
+                                " of type " + type + ", must be True or False");
+  }
+  return PyObject_IsTrue(value.ptr()) == 1;
+}
+
 std::string AsText(py::handle value, const char* name) {
   if (!py::isinstance<py::str>(value) && !py::hasattr(value, "__fspath__")) {
     throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
                                 " of type " + TypeName(value) +
                                 ", must be a str");
   }
-  return py::cast<std::string>(py::str(value));
+  const py::str text(value);
+  Py_ssize_t size = 0;
+  const char* utf8 = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
+  if (utf8 == nullptr) {  // Half of a surrogate pair.
+    PyErr_Clear();
+    throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
+                                ", must be valid Unicode");
+  }
+  return std::string(utf8, size);
 }
 
 std::vector<std::string> AsTexts(py::handle value, const char* name) {

@@ -16,6 +16,10 @@ double AsNumber(pybind11::handle value, const char* name);
 /// AsNumber().
 int AsInteger(pybind11::handle value, const char* name, int lower, int upper);
 
+/// Returns an argument that is True or False, of Python or NumPy. Throws as
+/// AsNumber().
+bool AsFlag(pybind11::handle value, const char* name);
+
 /// Returns an argument that is a text, or a path of a file (os.PathLike).
 /// Throws as AsNumber().
 std::string AsText(pybind11::handle value, const char* name);

@@ -82,7 +82,10 @@ void BindStateAndCommand(py::module_* module) {
   state.def(py::init(&MakeState), py::arg("q"), py::arg("v"),
             py::arg("time") = 0.0,
             "Copies q (nq,) and v (nv,), see Tree; time in s.");
-  state.def_readwrite("time", &State::time, "s.");
+  state.def_property(
+      "time", [](const State& self) { return self.time; },
+      [](State& self, py::handle time) { self.time = AsNumber(time, "time"); },
+      "s.");
   state.def_property(
       "q", [](const State& self) { return ToArray(self.q); },
       [](State& self, py::handle q) {
@@ -132,7 +135,16 @@ void BindController(py::module_* module) {
   ControllerClass controller(
       *module, "Controller",
       "Computes joint torques from the state of a robot, by momentum control "
-      "with hierarchical inverse dynamics. Call update() once each dt.");
+      "with hierarchical inverse dynamics. Call update() once each dt."
+      "\n\n"
+      ">>> robot = poise.Robot.load()\n"
+      ">>> state = poise.State(robot.posture, np.zeros(robot.tree.nv))\n"
+      ">>> controller = poise.Controller(robot)\n"
+      ">>> controller.start(state)\n"
+      ">>> state.time = 1e-3\n"
+      ">>> command = controller.update(state)\n"
+      ">>> command.status, command.tau.shape\n"
+      "('ok', (50,))\n");
   controller.def(
       py::init(&MakeController), py::arg("robot"), py::arg("dt") = 1e-3,
       py::arg("friction") = 0.5, py::arg("max_iterations") = 500,

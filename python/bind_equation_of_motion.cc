@@ -4,6 +4,7 @@
 #include "poise/dynamics/aba.h"
 #include "poise/dynamics/crba.h"
 #include "poise/dynamics/rnea.h"
+#include "poise/python/arguments.h"
 #include "poise/python/arrays.h"
 #include "poise/python/bind_dynamics.h"
 
@@ -23,12 +24,14 @@ py::array Rnea(PythonTree* self, py::handle q, py::handle v, py::handle vdot,
   return std::move(tau);
 }
 
-py::array Bias(PythonTree* self, py::handle q, py::handle v, bool gravity) {
+py::array Bias(PythonTree* self, py::handle q, py::handle v,
+               py::handle gravity) {
   const Tree& tree = self->tree();
   const DoubleArray a = AsVector(q, "q", tree.nq());
   const DoubleArray b = AsVector(v, "v", tree.nv());
   py::array_t<double> N = NewVector(tree.nv());
-  const auto compute = gravity ? ComputeBias : ComputeCoriolis;
+  const auto compute =
+      AsFlag(gravity, "gravity") ? ComputeBias : ComputeCoriolis;
   compute(tree, VectorOf(a), VectorOf(b), &self->recursion, Writable(&N));
   return std::move(N);
 }

@@ -97,7 +97,13 @@ void BindHierarchy(py::module_* module) {
       "A hierarchical quadratic program in y (n,), the highest level first. A "
       "level minimises (sum of weight (B y + b)^2 + |slack|^2) / 2 of its rows "
       "B y + b = 0 and lower <= C y <= upper, and no level changes the cost of "
-      "a level above.");
+      "a level above."
+      "\n\n"
+      ">>> hierarchy = poise.Hierarchy(2)\n"
+      ">>> hierarchy.add_level(C=[[1, 0]], upper=[1])  # y[0] <= 1\n"
+      ">>> hierarchy.add_level(B=np.eye(2), b=[-3, -2])  # y = (3, 2)\n"
+      ">>> poise.Solver(2).solve(hierarchy).y\n"
+      "array([1., 2.])\n");
   hierarchy.def(py::init([](py::handle n) {
                   constexpr int kMost = 100000;
                   auto made = std::make_shared<PythonHierarchy>();

@@ -52,12 +52,27 @@ std::shared_ptr<PythonRobot> LoadPythonRobot(py::handle urdf,
   return robot;
 }
 
-std::shared_ptr<PythonTree> LoadTree(py::handle urdf, const py::dict& locked) {
-  const std::string file = AsText(urdf, "urdf");
-  std::map<std::string, double> values;
-  for (const auto& [name, value] : locked) {
-    values[AsText(name, "locked")] = AsNumber(value, "locked");
+// Reads the argument locked: a dict, or another mapping, from names of joints
+// to numbers.
+std::map<std::string, double> ReadLocked(py::handle value) {
+  if (!py::hasattr(value, "keys") || !py::hasattr(value, "__getitem__")) {
+    throw std::invalid_argument("locked is of type " + TypeName(value) +
+                                ", must be a dict from names of joints to "
+                                "their values, such as {'neck_yaw': 0.1}");
   }
+  std::map<std::string, double> values;
+  for (const auto& [joint, number] :
+       py::dict(py::reinterpret_borrow<py::object>(value))) {
+    const std::string joint_name = AsText(joint, "a joint of locked");
+    values[joint_name] =
+        AsNumber(number, ("locked['" + joint_name + "']").c_str());
+  }
+  return values;
+}
+
+std::shared_ptr<PythonTree> LoadTree(py::handle urdf, py::handle locked) {
+  const std::string file = AsText(urdf, "urdf");
+  const std::map<std::string, double> values = ReadLocked(locked);
   const py::gil_scoped_release release;
   return std::make_shared<PythonTree>(
       std::make_shared<const Tree>(LoadUrdf(file, values).tree));
@@ -160,7 +175,11 @@ void BindRobot(py::module_* module) {
   });
   BindFoot(module);
   RobotClass robot(*module, "Robot",
-                   "A biped that stands, made from its URDF and its profile.");
+                   "A biped that stands, made from its URDF and its profile."
+                   "\n\n"
+                   ">>> robot = poise.Robot.load()\n"
+                   ">>> robot.name, robot.tree.num_joints, len(robot.feet)\n"
+                   "('humanoid', 50, 2)\n");
   robot.def_static(
       "load", LoadPythonRobot, py::arg("urdf") = py::none(),
       py::arg("profile") = py::none(), py::arg("packages") = py::tuple(),

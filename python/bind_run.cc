@@ -28,8 +28,11 @@ namespace {
 // Runs a scenario as //tools:push does. Returns the table that push prints.
 // Ctrl-C stops the run and raises KeyboardInterrupt.
 std::string Record(const PythonRobot& robot, const Scenario& scenario,
-                   py::handle folder, bool binary, bool meshes) {
+                   py::handle folder, py::handle binary, py::handle meshes) {
   const std::filesystem::path out = AsText(folder, "out");
+  const LogFormat format =
+      AsFlag(binary, "binary") ? LogFormat::kBinary : LogFormat::kCsv;
+  const bool reads_meshes = AsFlag(meshes, "meshes");
   Scenario with_tasks = scenario;
   UseTasksOf(robot.profile, &with_tasks);
   bool interrupted = false;
@@ -37,15 +40,14 @@ std::string Record(const PythonRobot& robot, const Scenario& scenario,
   {
     const py::gil_scoped_release release;
     Robot drawn = *robot.robot;
-    if (meshes) ReadVisuals(&drawn.model);
+    if (reads_meshes) ReadVisuals(&drawn.model);
     ClosedLoop loop(drawn, with_tasks);
     const auto goes_on = [&interrupted](double) {
       const py::gil_scoped_acquire acquire;
       interrupted = PyErr_CheckSignals() != 0;
       return !interrupted;
     };
-    const RunRecord record = RecordRun(
-        &loop, out, goes_on, binary ? LogFormat::kBinary : LogFormat::kCsv);
+    const RunRecord record = RecordRun(&loop, out, goes_on, format);
     table =
         ToTable(loop.robot(), loop.scenario(), record.result, record.step_Ns);
   }

@@ -56,8 +56,10 @@ Scenario FromDict(py::handle values, py::handle name) {
   try {
     const py::object as_list = py::cpp_function(
         [](py::handle value) { return value.attr("tolist")(); });
-    text = py::cast<std::string>(py::module_::import("json").attr("dumps")(
-        values, py::arg("default") = as_list, py::arg("ensure_ascii") = false));
+    text = AsText(py::module_::import("json").attr("dumps")(
+                      values, py::arg("default") = as_list,
+                      py::arg("ensure_ascii") = false),
+                  "values");
   } catch (py::error_already_set& error) {
     throw std::invalid_argument(
         "the scenario must be made of dict, list, str, numbers and bool: " +
@@ -97,7 +99,9 @@ void AddFields(ScenarioClass* scenario) {
       "The seed of all random numbers, 0 to 2^31 - 1.");
   scenario->def_property(
       "steps", [](const Scenario& self) { return self.steps; },
-      [](Scenario& self, bool value) { self.steps = value; },
+      [](Scenario& self, py::handle value) {
+        self.steps = AsFlag(value, "steps");
+      },
       "Whether the robot may take steps.");
   scenario->def_property_readonly(
       "control_dt", [](const Scenario& self) { return self.control.dt; },
@@ -110,7 +114,14 @@ void BindScenario(py::module_* module) {
   ScenarioClass scenario(
       *module, "Scenario",
       "One experiment: pushes, plant, sensors and settings of the controller. "
-      "docs/scenarios.md lists the keys.");
+      "docs/scenarios.md lists the keys."
+      "\n\n"
+      ">>> scenario = poise.Scenario.from_dict(\n"
+      "...     {'duration': 3, 'pushes': [{'force': [0, 60, 0]}]})\n"
+      ">>> scenario.steps = True\n"
+      ">>> scenario.add_push(force=[40, 0, 0], at=2.0, duration=0.1)\n"
+      ">>> scenario.duration, scenario.num_pushes\n"
+      "(3.0, 2)\n");
   scenario.def_static(
       "load",
       [](py::handle name) {

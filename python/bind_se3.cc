@@ -90,7 +90,11 @@ void BindSe3(py::module_* module) {
       "SE(3), the group of poses X_AB as homogeneous matrices [R p; 0 0 0 1]. "
       "A tangent vector is x = [w; v], angular part first, in rad and m. "
       "Arrays are copied: they have at most 36 entries. NaN in an input gives "
-      "NaN.");
+      "NaN."
+      "\n\n"
+      ">>> X = poise.se3.exp([0, 0, np.pi / 2, 1, 0, 0])\n"
+      ">>> bool(np.allclose(poise.se3.inverse(X) @ X, np.eye(4)))\n"
+      "True\n");
   AddGroup(&se3);
   AddMatrices(&se3);
 }

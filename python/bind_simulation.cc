@@ -137,7 +137,14 @@ void BindSimulation(py::module_* module) {
   SimulationClass simulation(
       *module, "Simulation",
       "A robot, its plant and its controller, tick by tick. Two simulations of "
-      "one robot and scenario agree to the bit.");
+      "one robot and scenario agree to the bit."
+      "\n\n"
+      ">>> simulation = poise.Simulation(\n"
+      "...     poise.Robot.load(), poise.Scenario.load('stand'))\n"
+      ">>> simulation.push(force=[0, 60, 0], duration=0.1)\n"
+      ">>> simulation.step(10)\n"
+      ">>> simulation.status, simulation.ticks, simulation.has_fallen\n"
+      "('ok', 10, False)\n");
   simulation.def(py::init(&MakeSimulation), py::arg("robot"),
                  py::arg("scenario"), py::arg("tasks") = py::tuple(),
                  "Makes a simulation at time 0. The scenario is copied and "

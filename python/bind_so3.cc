@@ -115,7 +115,11 @@ void BindSo3(py::module_* module) {
       "so3",
       "SO(3), the group of rotations R_AB with v_A = R_AB v_B. Angles are in "
       "rad. Arrays are copied: they have at most nine entries. NaN in an input "
-      "gives NaN.");
+      "gives NaN."
+      "\n\n"
+      ">>> w = np.array([0.1, -0.2, 0.3])\n"
+      ">>> bool(np.allclose(poise.so3.log(poise.so3.exp(w)), w))\n"
+      "True\n");
   AddGroup(&so3);
   AddJacobians(&so3);
   AddCharts(&so3);

@@ -89,7 +89,17 @@ void BindSolver(py::module_* module) {
       *module, "Solver",
       "The hierarchical active-set solver. Each solve starts from the working "
       "set and y of the last one. A hierarchy with more levels or rows than "
-      "any before starts cold.");
+      "any before starts cold."
+      "\n\n"
+      ">>> hierarchy = poise.Hierarchy(1)\n"
+      ">>> hierarchy.add_level(name='limit', C=[[1]], upper=[1])\n"
+      ">>> hierarchy.add_level(name='target', B=[[1]], b=[-3])\n"
+      ">>> solution = poise.Solver(1).solve(hierarchy)\n"
+      ">>> solution.status, solution.active, solution.certificate.worst < "
+      "1e-9\n"
+      "('optimal', [(0, 0, 'upper')], True)\n"
+      ">>> solution.conflict(1)\n"
+      "[\"level 0 'limit', row 0 of C\", \"level 1 'target', row 0 of B\"]\n");
   solver.def(
       py::init([](py::handle n) {
         constexpr int kMost = 100000;

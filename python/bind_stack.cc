@@ -131,8 +131,9 @@ void BindTask(py::module_* module) {
       "Its name.");
   task.def_property(
       "enabled", [](const PythonTask& self) { return self.settings().enabled; },
-      [](const PythonTask& self, bool value) {
-        (void)self.stack().Enable(self.task().name(), value);
+      [](const PythonTask& self, py::handle value) {
+        const bool enabled = AsFlag(value, "enabled");
+        (void)self.stack().Enable(self.task().name(), enabled);
       },
       "Whether the task has rows in the hierarchy.");
   task.def_property(
@@ -153,7 +154,13 @@ void BindStack(py::module_* module) {
   BindTask(module);
   py::class_<PythonStack> stack(
       *module, "Stack",
-      "The tasks of a controller with their levels: stack['momentum'].level.");
+      "The tasks of a controller by name, each with its level."
+      "\n\n"
+      ">>> stack = poise.Controller(poise.Robot.load()).stack\n"
+      ">>> stack['posture'].enabled = False\n"
+      ">>> stack['momentum'].parameters['kp'] = 40.0\n"
+      ">>> stack['momentum'].level, stack['momentum'].weight\n"
+      "(4, 1.0)\n");
   stack.def_property_readonly("names", TaskNames, "The names of the tasks.");
   stack.def("__getitem__", FindTask, py::arg("name"),
             "Returns a StackTask by its name.");

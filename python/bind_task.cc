@@ -184,7 +184,16 @@ void BindTask(py::module_* module) {
   py::class_<PythonTaskBase> task(
       *module, "Task",
       "A task written in Python: derive a class with a method rows(input). "
-      "Slow: rows() runs in each tick, with copies of its input.");
+      "Slow: rows() runs in each tick, with copies of its input."
+      "\n\n"
+      ">>> class BaseStill(poise.Task):\n"
+      "...     def rows(self, input):\n"
+      "...         B = np.eye(3, len(input.v) + 12)  # v begins with w_WB.\n"
+      "...         return B, 10 * input.v[:3]\n"
+      ">>> task = BaseStill('base_still', ['x', 'y', 'z'], level=5)\n"
+      ">>> controller = poise.Controller(poise.Robot.load(), tasks=[task])\n"
+      ">>> controller.stack['base_still'].level\n"
+      "5\n");
   task.def(py::init(&MakeTask), py::arg("name"),
            py::arg("equalities") = py::tuple(),
            py::arg("inequalities") = py::tuple(), py::arg("level") = 4,

@@ -17,7 +17,7 @@ namespace poise {
 int PythonTree::FindFrame(py::handle frame) const {
   const int size = static_cast<int>(tree_->frames().size());
   if (py::isinstance<py::str>(frame)) {
-    const std::string name = py::cast<std::string>(frame);
+    const std::string name = AsText(frame, "frame");
     if (const auto index = tree_->FindFrame(name)) return *index;
     throw std::invalid_argument("frame '" + name +
                                 "' is unknown, must be one of frame_names");
@@ -102,7 +102,13 @@ void BindTree(py::module_* module) {
       "v = [w_WB; v_WB; joint rates], shape (nv,), is not the rate of q: see "
       "integrate().\n"
       "Arrays of float64 in C order are not copied; other arguments are. A "
-      "wrong shape or type raises poise.InputError. NaN gives NaN.");
+      "wrong shape or type raises poise.InputError. NaN gives NaN."
+      "\n\n"
+      ">>> tree = poise.Robot.load().tree\n"
+      ">>> q, v = tree.neutral(), np.zeros(tree.nv)\n"
+      ">>> M, N = tree.crba(q), tree.bias(q, v)\n"
+      ">>> bool(np.allclose(tree.rnea(q, v, v + 1), M @ (v + 1) + N))\n"
+      "True\n");
   AddSizes(&tree);
   AddFacts(&tree);
   AddEquationOfMotion(&tree);

@@ -1,6 +1,6 @@
 """poise_py_test(): a test in Python that imports poise."""
 
-def poise_py_test(name, src = None, data = [], size = "small", args = [], tags = []):
+def poise_py_test(name, src = None, data = [], size = "small", args = [], slow = False):
     """Runs a script with `import poise`. Debian's Bazel cannot run a py_test.
 
     A sanitizer's runtime would have to be loaded before Python, so sanitized
@@ -12,7 +12,8 @@ def poise_py_test(name, src = None, data = [], size = "small", args = [], tags =
       data: Files that the script needs, besides the package.
       size: As of any test.
       args: More arguments of the script.
-      tags: More tags.
+      slow: Whether the default run leaves the test out. .ci/run then runs it
+        as part of //python:slow_tests, which must list it.
     """
     src = src or name + ".py"
     native.sh_test(
@@ -24,8 +25,8 @@ def poise_py_test(name, src = None, data = [], size = "small", args = [], tags =
             src,
             "//python:poise",
         ],
-        tags = tags + [
+        tags = [
             "no-sanitizers",
             "python",
-        ],
+        ] + (["manual"] if slow else []),
     )

@@ -23,8 +23,9 @@ packages=(
   assimp-utils
   # Packages that only tests use.
   libbenchmark-dev libceres-dev libfcl-dev libgmock-dev libgmp-dev libgtest-dev
-  libmpfrc++-dev liborocos-kdl-dev librapidcheck-dev mypy python3-matplotlib
-  python3-pandas python3-venv
+  libmpfrc++-dev liborocos-kdl-dev librapidcheck-dev mypy python3-ipykernel
+  python3-matplotlib python3-nbclient python3-nbformat python3-pandas
+  python3-scipy python3-venv
 )
 
 fail() {

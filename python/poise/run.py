@@ -17,11 +17,10 @@ from poise import _poise
 # NumPy is loaded with the first array: `import poise` alone is quick.
 if TYPE_CHECKING:
     import matplotlib.figure  # type: ignore[import]
-    import numpy as np
     import pandas  # type: ignore[import]
     from numpy.typing import NDArray
 
-    Column = NDArray[np.float64] | list[str]
+    Column = NDArray[Any]  # float64, or object for texts.
 
 
 def run(scenario: _poise.Scenario | str,
@@ -41,6 +40,11 @@ def run(scenario: _poise.Scenario | str,
         binary: Whether to write log.bin in place of log.csv, a quarter of the
             bytes; its numbers have 7 digits.
         meshes: Whether to read the robot's meshes, for the report.
+
+    >>> scenario = poise.Scenario.from_dict({"duration": 0.02})
+    >>> run = poise.run(scenario)
+    >>> run.recovered, run["com.z"].shape
+    (True, (20,))
     """
     if isinstance(scenario, (str, os.PathLike)):
         scenario = _poise.Scenario.load(scenario)
@@ -90,14 +94,21 @@ class Run:
     def columns(self) -> dict[str, Column]:
         """The columns of the log by name, read once: docs/log.md lists them.
 
-        A column of numbers is an array (ticks,), a column of texts a list.
+        Each is an array (ticks,): float64, or object for a column of texts.
         """
         if self._columns is None:
-            self._columns = _poise._read_log(str(self.folder))
+            import numpy as np
+            self._columns = {
+                name: np.array(column, dtype=object)
+                if isinstance(column, list) else column
+                for name, column in _poise._read_log(str(self.folder)).items()}
         return self._columns
 
     def __getitem__(self, name: str) -> Column:
         """Returns a column by its name, with or without the unit: 'com.x'."""
+        if not isinstance(name, str):
+            raise _poise.InputError(
+                f"column is of type {type(name).__name__}, must be a str")
         if name in self.columns:
             return self.columns[name]
         for full, column in self.columns.items():
@@ -108,7 +119,8 @@ class Run:
             "'time' or 'com.x'")
 
     def __contains__(self, name: object) -> bool:
-        return any(name in (full, full.split("[")[0]) for full in self.columns)
+        return isinstance(name, str) and any(
+            name in (full, full.split("[")[0]) for full in self.columns)
 
     @property
     def summary(self) -> dict[str, Any]:
@@ -136,9 +148,11 @@ class Run:
     def plot(self, *names: str) -> matplotlib.figure.Figure:
         """Plots columns over time, one below the other. Needs matplotlib.
 
+        A grey band marks each push.
+
         Args:
-            names: Columns; the center of mass, the push and the normal forces
-                of the feet by default.
+            names: Columns of numbers; the center of mass, the push and the
+                normal forces of the feet by default.
         """
         try:
             import matplotlib.pyplot as plt  # type: ignore[import]
@@ -146,21 +160,8 @@ class Run:
             raise ImportError(
                 "Run.plot() needs matplotlib: install python3-matplotlib"
             ) from error
-        shown: list[tuple[str, tuple[str, ...]]] = [
-            (name, (name,)) for name in names] or [
-            ("center of mass [m]", ("com.x", "com.y")),
-            ("push [N]", ("push.fx", "push.fy")),
-            ("normal force [N]", ("left_foot.fz", "right_foot.fz"))]
-        figure, axes = plt.subplots(
-            len(shown), 1, sharex=True, squeeze=False,
-            figsize=(7, 1 + 1.8 * len(shown)))
-        for axis, (title, columns) in zip(axes[:, 0], shown):
-            for column in columns:
-                axis.plot(self["time"], self[column], label=column)
-            axis.set_ylabel(title)
-            axis.legend(loc="upper right")
-        axes[-1, 0].set_xlabel("time [s]")
-        figure.tight_layout()
+        from poise._plot import plot_run
+        figure = plot_run(self, names)
         plt.close(figure)  # A notebook shows the returned figure once.
         return figure
 
@@ -182,6 +183,9 @@ class Run:
         Args:
             all: Whether to return all sentences, in order of time.
         """
+        if not isinstance(all, bool):
+            raise _poise.InputError(
+                f"all is of type {type(all).__name__}, must be True or False")
         told = json.loads(_poise._explain(str(self.folder)))
         return "\n".join(told["sentences" if all else "story"])
 

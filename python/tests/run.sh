@@ -1,6 +1,7 @@
 #!/bin/bash
-# Usage: run.sh TEST.py
+# Usage: run.sh TEST.py [ARGUMENT...]
 # Runs a test of the package poise with the Python that Poise is built for.
 set -eu
-export PYTHONPATH=python MPLBACKEND=agg MPLCONFIGDIR=${TEST_TMPDIR:-/tmp}
-exec python3 "$@"
+export PYTHONPATH=$PWD/python MPLBACKEND=${MPLBACKEND-agg}
+export MPLCONFIGDIR=${TEST_TMPDIR:-/tmp}
+exec /usr/bin/python3 "$@"

@@ -112,9 +112,9 @@ class SimulationTest(unittest.TestCase):
 
     def test_sees_a_fall(self):
         simulation = poise.Simulation(ROBOT, short())
-        simulation.push([0, 2000, 0], duration=0.3)
+        simulation.push([0, 4000, 0], duration=0.3)
         self.assertFalse(simulation.has_fallen)
-        simulation.step(600)
+        simulation.step(300)
         self.assertTrue(simulation.has_fallen)
 
     def test_its_controller_is_the_one_in_the_loop(self):
@@ -145,7 +145,7 @@ class SimulationTest(unittest.TestCase):
 
     def test_a_second_thread_gets_an_error(self):
         simulation = poise.Simulation(ROBOT, short())
-        thread = threading.Thread(target=simulation.step, args=(300,))
+        thread = threading.Thread(target=simulation.step, args=(100,))
         errors = []
         thread.start()
         while thread.is_alive():
@@ -157,18 +157,24 @@ class SimulationTest(unittest.TestCase):
         self.assertIn("in use by another thread", errors[0])
 
 
+def nudge():
+    """Returns a scenario of 0.1 s with a push."""
+    scenario = short(name="nudge", duration=0.1)
+    scenario.add_push([0, 50, 0], at=0.04, duration=0.04)
+    return scenario
+
+
 class RunTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        scenario = short(name="nudge")
-        scenario.add_push([0, 50, 0], at=0.05, duration=0.1)
-        cls.run_ = poise.run(scenario, ROBOT)
+        cls.run_ = poise.run(nudge(), ROBOT)
 
     def test_has_the_columns_of_the_log(self):
         run = self.run_
-        self.assertEqual(len(run["time"]), 200)
+        self.assertEqual(len(run["time"]), 100)
         np.testing.assert_array_equal(run["com.x"], run["com.x[m]"])
         self.assertEqual(run["com.x"].dtype, np.float64)
+        self.assertEqual(run["status"].shape, (100,))
         self.assertEqual(set(run["status"]), {"ok"})
         self.assertAlmostEqual(run["push.fy"].max(), 50)
         self.assertNotIn("com.w", run)
@@ -181,26 +187,45 @@ class RunTest(unittest.TestCase):
                          self.run_.summary["log_sha256"])
 
     def test_repeats_to_the_bit(self):
-        scenario = short(name="nudge")
-        scenario.add_push([0, 50, 0], at=0.05, duration=0.1)
+        first = poise.run(short(duration=0.05), ROBOT)
         with folder() as out:
-            again = poise.run(scenario, ROBOT, out)
+            again = poise.run(short(duration=0.05), ROBOT, out)
             self.assertEqual(again.summary["log_sha256"],
-                             self.run_.summary["log_sha256"])
+                             first.summary["log_sha256"])
             self.assertEqual(str(again.folder), out)
             opened = poise.Run(out)
             np.testing.assert_array_equal(opened["com.y"], again["com.y"])
 
     def test_explains_and_reports(self):
-        self.assertIn("N", self.run_.explain())
-        self.assertGreaterEqual(len(self.run_.explain(all=True)),
-                                len(self.run_.explain()))
+        self.assertIn("to the left with 50 N", self.run_.explain())
+        self.assertIn("pushed with 50 N", self.run_.explain(all=True))
         self.assertIn("recovered", repr(self.run_))
         self.assertIn("nudge", str(self.run_))
         with folder() as out:
             page = self.run_.report(pathlib.Path(out) / "page.html")
             self.assertIn("<html", page.read_text(encoding="utf-8"))
         self.assertTrue(self.run_._repr_html_().startswith("<iframe srcdoc="))
+
+    def test_plots_the_default_columns_and_any_others(self):
+        panels = self.run_.plot().axes
+        self.assertEqual(len(panels), 3)
+        line = panels[0].get_lines()[2]  # com.x, com_ref.x, com.y.
+        np.testing.assert_array_equal(line.get_ydata(), self.run_["com.y"])
+        # Each panel marks the push as a grey band from 40 to 80 ms.
+        band = panels[2].patches[0].get_extents().transformed(
+            panels[2].transData.inverted())
+        np.testing.assert_allclose([band.x0, band.x1], [0.04, 0.08], atol=2e-3)
+        (panel,) = self.run_.plot("com.z").axes
+        self.assertIn("com.z", panel.get_ylabel())
+        with self.assertRaisesRegex(poise.InputError, "'status' has texts"):
+            self.run_.plot("status")
+        with self.assertRaisesRegex(poise.InputError, "'com.w' is unknown"):
+            self.run_.plot("com.w")
+
+    def test_makes_a_table_of_pandas(self):
+        table = self.run_.to_pandas()
+        self.assertEqual(len(table), 100)
+        np.testing.assert_array_equal(table["com.y[m]"], self.run_["com.y"])
 
     def test_needs_pandas_and_matplotlib_only_when_used(self):
         for module, call in (("pandas", self.run_.to_pandas),

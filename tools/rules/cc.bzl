@@ -42,7 +42,7 @@ def _precompiled_eigen(deps):
     if not deps:  # No Eigen either; some of it defines what libc declares.
         return struct(copts = [], deps = [])
     package = native.package_name()
-    quick = package.split("/")[0] in ("tests", "tools") or package in (
+    quick = package.split("/")[0] in ("python", "tests", "tools") or package in (
         "robot",
         "robot/feet",
         "robot/profile",

@@ -5,7 +5,9 @@ docs/tasks.md has the same task in C++. A task in Python is slow: it is for a
 trial, not for a robot.
 """
 
+# %%
 import numpy as np
+from numpy.typing import NDArray
 
 import poise
 
@@ -15,17 +17,19 @@ class BaseStill(poise.Task):
 
     kd = 10.0  # 1/s.
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__("base_still", level=5, weight=10,
                          equalities=[f"base_still.{axis}" for axis in "xyz"])
 
-    def rows(self, input):
+    def rows(self, input: poise.TaskInput
+             ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         # y = [vdot; wrenches of the feet], and v begins with w_WB.
         B = np.zeros((3, len(input.v) + 12))
         B[:, :3] = np.eye(3)
         return B, self.kd * input.v[:3]
 
 
+# %%
 robot = poise.Robot.load()
 task = BaseStill()
 simulation = poise.Simulation(robot, poise.Scenario.load("stand"), [task])
@@ -34,8 +38,11 @@ simulation.step(100)
 print("angular velocity of the base, rad/s:", simulation.v[:3])
 print("residual:", simulation.controller.report.residuals["base_still"])
 
-# An exception ends the tick in the fail-safe command.
-task.kd = None
+# %% [markdown]
+# An exception in rows() ends the tick in the fail-safe command.
+
+# %%
+task.kd = "fast"  # type: ignore[assignment]
 simulation.step()
 report = simulation.controller.report
 print(report.status, report.fail_safe_reason, "-", task.error)

@@ -1,0 +1,188 @@
+# Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+"""Prints how much slower Python calls Poise than C++ does.
+
+Usage: measure.py TIME_CPP [--quick]
+
+Three measurements: the time of each function from Python and from C++; the
+CPU time of two threads with two controllers; and the time of `import poise`.
+The times are the shortest of several rounds.
+"""
+
+import subprocess
+import sys
+import threading
+import time
+import timeit
+
+import numpy as np
+
+import poise
+
+ROBOT = poise.Robot.load()
+TREE = ROBOT.tree
+PROFILE = ROBOT.urdf.replace("models/humanoid.urdf", "profiles/humanoid.yaml")
+ROUND = 5e-3  # s.
+
+
+def arguments():
+    """Returns the variables of the statements below; as in *_cases.cc."""
+    v = np.linspace(-1, 1, TREE.nv)
+    q = TREE.integrate(ROBOT.posture, v, 0.3)
+    w, x = np.array([0.3, -0.5, 0.8]), np.array([0.3, -0.5, 0.8, 1, 2, -0.4])
+    R, X = poise.so3.exp(w), poise.se3.exp(x)
+    hierarchy = poise.Hierarchy(20)
+    hierarchy.add_level(C=np.eye(20), upper=np.full(20, 0.1))
+    hierarchy.add_level(B=np.eye(20), b=np.linspace(-1, 1, 20))
+    state = poise.State(ROBOT.posture, np.zeros(TREE.nv))
+    controller = poise.Controller(ROBOT)
+    controller.start(state)
+    feet = [foot.frame for foot in ROBOT.feet]
+    return {
+        "tree": TREE, "q": q, "v": v, "vdot": -v, "frame": feet[0],
+        "out": TREE.tick(q, v, feet), "w": w, "x": x, "R": R, "X": X,
+        "X_inverse": poise.se3.inverse(X), "R_inverse": poise.so3.exp(-w),
+        "W": poise.se3.hat(x), "quaternion": poise.so3.quaternion(R),
+        "so3": poise.so3, "se3": poise.se3, "solver": poise.Solver(20),
+        "hierarchy": hierarchy, "controller": controller, "state": state,
+        "simulation": poise.Simulation(ROBOT, poise.Scenario.from_dict({})),
+    }
+
+
+# The arguments of each function that has others than (w), (R), (x) or (X).
+SO3 = {"matrix": "quaternion", "from_rpy": "w",
+       "interpolate": "R, R_inverse, 0.5"}
+SE3 = {"vee": "W", "interpolate": "X, X_inverse, 0.5"}
+OF_MATRIX = ("vee", "log", "project", "quaternion", "rpy", "inverse", "adjoint",
+             "dual_adjoint")
+TREE_ARGUMENTS = {
+    "rnea": "q, v, vdot", "bias": "q, v", "crba": "q", "aba": "q, v, vdot",
+    "pose": "q, frame", "jacobian": "q, frame", "jacobian_bias": "q, v, frame",
+    "integrate": "q, v, 0.1", "difference": "q, q", "com": "q, v",
+    "centroidal": "q, v", "kinetic_energy": "q, v", "potential_energy": "q",
+    "derivatives": "q, v, vdot", "regressor": "q, v, vdot",
+    "inertial_parameters": "", "neutral": "", "tick": "q, v, out=out",
+}
+
+
+def statements():
+    """Returns the statement of each function: {"Tree.rnea": "tree.rnea(q)"}.
+
+    A new function of so3, se3 or Tree without arguments above is an error.
+    """
+    made = {}
+    for name in vars(poise.so3):
+        if callable(getattr(poise.so3, name)):
+            given = SO3.get(name, "R" if name in OF_MATRIX else "w")
+            made[f"so3.{name}"] = f"so3.{name}({given})"
+    for name in vars(poise.se3):
+        if callable(getattr(poise.se3, name)):
+            given = SE3.get(name, "X" if name in OF_MATRIX else "x")
+            made[f"se3.{name}"] = f"se3.{name}({given})"
+    for name, member in vars(poise.Tree).items():
+        if not name.startswith("_") and callable(member) and (
+                not isinstance(member, staticmethod)):
+            made[f"Tree.{name}"] = f"tree.{name}({TREE_ARGUMENTS[name]})"
+    made["Solver.solve"] = "solver.solve(hierarchy)"
+    made["Controller.update"] = (
+        "state.time += 1e-3; controller.update(state)")
+    made["Simulation.step"] = "simulation.step()"
+    return made
+
+
+def make_timer(statement, variables):
+    """Returns a function that returns the time of a statement, us."""
+    timer = timeit.Timer(statement, globals=variables)
+    count = 1
+    while timer.timeit(count) < ROUND and count < 1_000_000:
+        count *= 2
+    return lambda: timer.timeit(count) / count * 1e6
+
+
+def print_overheads(time_cpp, rounds):
+    """Prints a table with a row for each function.
+
+    Rounds of Python and C++ alternate, and the shortest of each counts: other
+    programs make a round longer, never shorter.
+    """
+    with subprocess.Popen([time_cpp, ROBOT.urdf, PROFILE], text=True,
+                          bufsize=1, stdin=subprocess.PIPE,
+                          stdout=subprocess.PIPE) as process:
+        cpp, python = set(process.stdout.readline().split()), statements()
+        if cpp != set(python):
+            sys.exit(f"measure.py: only one language has {cpp ^ set(python)}, "
+                     "add them to measure.py and *_cases.cc")
+        variables = arguments()
+        print(f"\n{TREE.num_joints} joints; times in us\n")
+        print("| function | Python | C++ | difference |")
+        print("| --- | ---: | ---: | ---: |")
+        for name, statement in python.items():
+            timer, pairs = make_timer(statement, variables), []
+            for _ in range(rounds):
+                process.stdin.write(name + "\n")
+                cpp_us = float(process.stdout.readline())
+                pairs.append((timer(), cpp_us))
+            us, cpp_us = map(min, zip(*pairs))
+            print(f"| `{name}` | {us:.2f} | {cpp_us:.2f} | "
+                  f"{us - cpp_us:.2f} |", flush=True)
+        process.stdin.close()
+
+
+def update(controller, ticks):
+    """Runs ticks of a robot that stands still."""
+    state = poise.State(ROBOT.posture, np.zeros(TREE.nv))
+    controller.start(state)
+    for tick in range(ticks):
+        state.time = 1e-3 * tick
+        controller.update(state)
+
+
+def print_threads(ticks, rounds):
+    """Prints the CPU time of two controllers, in turn and in threads."""
+    controllers = [poise.Controller(ROBOT) for _ in range(2)]
+    in_turn, in_threads, wall = [], [], []
+    for _ in range(rounds):
+        begin = time.process_time()
+        for controller in controllers:
+            update(controller, ticks)
+        in_turn.append(time.process_time() - begin)
+        threads = [threading.Thread(target=update, args=(controller, ticks))
+                   for controller in controllers]
+        begin, wall_begin = time.process_time(), time.perf_counter()
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        in_threads.append(time.process_time() - begin)
+        wall.append(time.perf_counter() - wall_begin)
+    print(f"\ntwo controllers, {ticks} ticks each: {min(in_turn):.3f} s of CPU "
+          f"time in turn, {min(in_threads):.3f} s in two threads "
+          f"({min(in_threads) / min(in_turn):.2f} times), in {min(wall):.3f} s "
+          "of wall time")
+
+
+def print_import(rounds):
+    """Prints the time of `import poise` in a new Python."""
+    code = ("import time; begin = time.perf_counter(); import poise; {} "
+            "print(time.perf_counter() - begin)")
+    for title, use in (("import poise", ""),
+                       ("with NumPy, by its first array",
+                        "poise.so3.exp([0, 0, 1]);")):
+        times = sorted(
+            float(subprocess.run([sys.executable, "-c", code.format(use)],
+                                 check=True, stdout=subprocess.PIPE).stdout)
+            for _ in range(rounds))
+        print(f"{title}: {times[0]:.3f} s, median {times[rounds // 2]:.3f} s")
+
+
+def main():
+    quick = sys.argv[2:] == ["--quick"]
+    if len(sys.argv) < 2 or (sys.argv[2:] and not quick):
+        print("usage: measure.py TIME_CPP [--quick]", file=sys.stderr)
+        sys.exit(2)
+    print_overheads(sys.argv[1], 1 if quick else 30)
+    print_threads(20 if quick else 2000, 1 if quick else 5)
+    print_import(1 if quick else 9)
+
+
+if __name__ == "__main__":
+    main()
