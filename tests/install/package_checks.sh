@@ -185,7 +185,8 @@ EOT
 
 step_colcon() {
   clone || return 1
-  timed "installed colcon" apt_install colcon || return 1
+  timed "installed colcon" apt_install colcon \
+    python3-colcon-cmake python3-colcon-recursive-crawl || return 1
   mkdir -p "$root/trial/workspace/src"
   mv "$root/trial/poise" "$root/trial/workspace/src"
   local package=$root/trial/workspace/src/chain
