@@ -4,7 +4,6 @@
 #include <string>
 
 #include "poise/dynamics/tick.h"
-#include "poise/dynamics/tree.h"
 
 int main() {
   Eigen::Vector3d trunk(0.1, 0.3, 0.3), rod(2e-3, 2e-3, 1e-4);  // kg m2.
@@ -28,15 +27,14 @@ int main() {
   const poise::Tree tree = builder.Build();
   Eigen::VectorXd q = tree.MakeNeutral(), v = Eigen::VectorXd::Zero(tree.nv());
   q.tail(12) << 0, .7, -1.4, 0, .7, -1.4, 0, -.7, 1.4, 0, -.7, 1.4;  // rad.
-  v.head<6>() << 0, 0, 1, 0.5, 0, 0;  // Turns left and moves forward.
+  v[2] = 1, v[3] = 0.5;  // Turns left, rad/s, and moves forward, m/s.
   const auto at = [&tree](const char* name) { return *tree.FindFrame(name); };
   poise::Tick tick(tree, {at("lf"), at("rf"), at("lh"), at("rh")});
   poise::ComputeTick(tree, q, v, &tick);
-  const Eigen::VectorXd weight = tick.N - tick.c, L_G = tick.L_G;
+  const Eigen::VectorXd weight = tick.N - tick.c, V = tick.frames[0].V_WF_W;
   Eigen::VectorXd tau = weight;  // A foot carries a quarter: tau = g - J'f.
   for (auto& f : tick.frames) tau -= f.J_WF_W.row(5) * weight[5] / 4;
   std::printf("weight %.3f N, base %.3f N, ", weight[5], tau.head(6).norm());
-  std::printf("knee %.4f N m, foot %.3f %.3f m/s, ", tau[8],
-              tick.frames[0].V_WF_W[3], tick.frames[0].V_WF_W[4]);
-  std::printf("L %.4f %.3f, M %.4f kg m2\n", L_G[2], L_G[3], tick.M(2, 2));
+  std::printf("knee %.4f N m, foot %.3f %.3f m/s, L %.4f %.3f, M %.4f kg m2\n",
+              tau[8], V[3], V[4], tick.L_G[2], tick.L_G[3], tick.M(2, 2));
 }
