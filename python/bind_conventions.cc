@@ -88,6 +88,29 @@ void AddOfAcceleration(const char* name, Convert convert, const char* doc,
       py::arg("library"), py::arg("q"), py::arg("v"), py::arg("vdot"), doc);
 }
 
+// Adds a conversion of bias forces, which needs v and the inertia as well.
+template <typename Convert>
+void AddOfBias(const char* name, Convert convert, const char* doc,
+               TreeClass* tree) {
+  tree->def(
+      name,
+      [convert](const PythonTree& self, py::handle library, py::handle q,
+                py::handle v, py::handle M, py::handle N) {
+        const Tree& of = self.tree();
+        const DoubleArray a = AsVector(q, "q", of.nq());
+        const DoubleArray b = AsVector(v, "v", of.nv());
+        const Eigen::MatrixXd inertia =
+            MatrixOf(AsArray(M, "M", {of.nv(), of.nv()}));
+        const DoubleArray c = AsVector(N, "N", of.nv());
+        py::array_t<double> out = NewVector(of.nv());
+        convert(ToLibrary(library), of, VectorOf(a), VectorOf(b), inertia,
+                VectorOf(c), Writable(&out));
+        return out;
+      },
+      py::arg("library"), py::arg("q"), py::arg("v"), py::arg("M"),
+      py::arg("N"), doc);
+}
+
 // Adds a conversion of a matrix with nv columns.
 // @param rows  6, or kAny for nv rows.
 template <typename Matrix, typename Convert>
@@ -135,6 +158,14 @@ void AddConventions(TreeClass* tree) {
               "Returns Poise's generalized forces tau (nv,), the inverse of "
               "export_forces(). q is Poise's.",
               tree);
+  AddOfBias("export_bias", ExportBias,
+            "Returns the bias forces N (nv,) as another library has them. q, v "
+            "and M = crba(q) are Poise's.",
+            tree);
+  AddOfBias("import_bias", ImportBias,
+            "Returns Poise's bias forces N (nv,), the inverse of "
+            "export_bias(). q, v and M = crba(q) are Poise's.",
+            tree);
   AddOfMatrix<Eigen::MatrixXd>(
       "export_mass_matrix", "M", kAny, ExportMassMatrix,
       "Returns the joint-space inertia M (nv, nv) as another library has it. q "

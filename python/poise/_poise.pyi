@@ -190,6 +190,22 @@ class Tree:
     def import_forces(
         self, library: _Library, q: ArrayLike, tau: ArrayLike
     ) -> _Array: ...
+    def export_bias(
+        self,
+        library: _Library,
+        q: ArrayLike,
+        v: ArrayLike,
+        M: ArrayLike,
+        N: ArrayLike,
+    ) -> _Array: ...
+    def import_bias(
+        self,
+        library: _Library,
+        q: ArrayLike,
+        v: ArrayLike,
+        M: ArrayLike,
+        N: ArrayLike,
+    ) -> _Array: ...
     def export_mass_matrix(
         self, library: _Library, q: ArrayLike, M: ArrayLike
     ) -> _Array: ...

@@ -216,6 +216,7 @@ class ConventionsTest(unittest.TestCase):
             for name, arguments in {
                     "velocity": (q, v), "acceleration": (q, v, vdot),
                     "forces": (q, vdot), "mass_matrix": (q, M),
+                    "bias": (q, v, M, vdot),
                     "jacobian": (q, J), "configuration": (q,)}.items():
                 theirs = getattr(TREE, "export_" + name)(library, *arguments)
                 ours = getattr(TREE, "import_" + name)(
@@ -230,6 +231,16 @@ class ConventionsTest(unittest.TestCase):
         M = TREE.export_mass_matrix("pinocchio", q, TREE.crba(q))
         self.assertAlmostEqual(theirs @ M @ theirs / 2,
                                TREE.kinetic_energy(q, v), places=9)
+
+    def test_the_equation_of_motion_holds_in_each_library(self):
+        q, v, vdot = state()
+        M, N, tau = TREE.crba(q), TREE.bias(q, v), TREE.rnea(q, v, vdot)
+        for library in ("pinocchio", "drake", "mujoco"):
+            np.testing.assert_allclose(
+                TREE.export_mass_matrix(library, q, M)
+                @ TREE.export_acceleration(library, q, v, vdot)
+                + TREE.export_bias(library, q, v, M, N),
+                TREE.export_forces(library, q, tau), atol=1e-9)
 
 
 class ArgumentsTest(unittest.TestCase):
