@@ -200,7 +200,7 @@ class InterruptTest(unittest.TestCase):
 
         def is_in_use():
             try:
-                return simulation.ticks < 0
+                return simulation.time < 0
             except RuntimeError:
                 return True
 
