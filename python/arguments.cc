@@ -8,16 +8,16 @@ namespace poise {
 
 namespace py = pybind11;
 
-namespace {
-
-// Returns a value for a message: at most 60 characters of its repr().
 std::string Shown(py::handle value) {
-  constexpr size_t kMost = 60;
-  const std::string text = py::cast<std::string>(py::repr(value));
-  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+  constexpr Py_ssize_t kMost = 60;
+  const py::str text = py::repr(value);
+  if (PyUnicode_GetLength(text.ptr()) <= kMost)
+    return py::cast<std::string>(text);
+  // By characters: a cut inside one would not be valid UTF-8.
+  const auto start =
+      py::reinterpret_steal<py::str>(PyUnicode_Substring(text.ptr(), 0, kMost));
+  return py::cast<std::string>(start) + "...";
 }
-
-}  // namespace
 
 std::string TypeName(py::handle value) {
   return py::cast<std::string>(py::type::handle_of(value).attr("__name__"));
@@ -61,7 +61,13 @@ std::string AsText(py::handle value, const char* name) {
                                 " of type " + TypeName(value) +
                                 ", must be a str");
   }
-  const py::str text(value);
+  const auto text = py::reinterpret_steal<py::object>(PyOS_FSPath(value.ptr()));
+  if (!text || !py::isinstance<py::str>(text)) {  // For example, bytes.
+    PyErr_Clear();
+    throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
+                                " of type " + TypeName(value) +
+                                ", must be a str or a path that is one");
+  }
   Py_ssize_t size = 0;
   const char* utf8 = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
   if (utf8 == nullptr) {  // Half of a surrogate pair.

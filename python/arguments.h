@@ -28,6 +28,9 @@ std::string AsText(pybind11::handle value, const char* name);
 /// AsNumber().
 std::vector<std::string> AsTexts(pybind11::handle value, const char* name);
 
+/// Returns a value for a message: at most 60 characters of its repr().
+std::string Shown(pybind11::handle value);
+
 /// Returns the name of the type of an object, for messages.
 std::string TypeName(pybind11::handle value);
 

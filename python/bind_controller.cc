@@ -10,6 +10,7 @@
 #include "poise/python/arrays.h"
 #include "poise/python/as_object.h"
 #include "poise/python/bind.h"
+#include "poise/python/interrupt.h"
 #include "poise/python/python_controller.h"
 #include "poise/python/python_task.h"
 #include "poise/robot/control/controller.h"
@@ -36,10 +37,14 @@ std::shared_ptr<PythonController> MakeController(
       options.frames.push_back(link);
     }
   }
-  auto controller = std::make_shared<Controller>(*robot.robot, options);
-  if (tasks.IsDefined()) {
-    ApplyTasks(tasks, robot.profile_file, &controller->stack());
+  const std::shared_ptr<const Robot> of = robot.robot;
+  const std::string profile = robot.profile_file;
+  std::shared_ptr<Controller> controller;
+  {
+    const py::gil_scoped_release release;
+    controller = std::make_shared<Controller>(*of, options);
   }
+  if (tasks.IsDefined()) ApplyTasks(tasks, profile, &controller->stack());
   return std::make_shared<PythonController>(std::move(controller),
                                             std::make_shared<InUse>());
 }
@@ -71,10 +76,23 @@ std::unique_ptr<Command> Update(const PythonController& self,
   auto command = std::make_unique<Command>();
   command->tau.setZero(controller.robot().model.tree.num_joints());
   const State copy = state;  // Another thread may change the state.
+  {
+    const Exclusive exclusive(self.in_use(), "this Controller");
+    const py::gil_scoped_release release;
+    controller.Update(copy, command.get());
+  }
+  RaiseInterrupt();
+  return command;
+}
+
+void Start(const PythonController& self, py::handle argument) {
+  const State& state = AsObject<State>(argument, "state");
+  Controller& controller = self.get();
+  CheckState(controller, state);
+  const State copy = state;  // Another thread may change the state.
   const Exclusive exclusive(self.in_use(), "this Controller");
   const py::gil_scoped_release release;
-  controller.Update(copy, command.get());
-  return command;
+  controller.Start(copy);
 }
 
 void BindStateAndCommand(py::module_* module) {
@@ -153,13 +171,7 @@ void BindController(py::module_* module) {
       "friction: the coefficient that the controller assumes. frames: links "
       "with a task 'frame.NAME'. tasks: Tasks of your own.");
   controller.def(
-      "start",
-      [](const PythonController& self, py::handle argument) {
-        const State& state = AsObject<State>(argument, "state");
-        CheckState(self.get(), state);
-        self.get().Start(state);
-      },
-      py::arg("state"),
+      "start", Start, py::arg("state"),
       "Sets the reference to standing still with the feet where they are.");
   controller.def(
       "update", Update, py::arg("state"),

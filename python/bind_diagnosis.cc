@@ -109,10 +109,13 @@ void BindDiagnosis(py::module_* module) {
       "stands", Stands, "Whether the robot stands; None if it is not known.");
   diagnosis.def_readonly("reason", &Diagnosis::reason,
                          "Why the robot does not stand, or was not tested.");
-  diagnosis.def_readonly("findings", &Diagnosis::findings,
-                         "The Findings, the most severe first.");
-  diagnosis.def_readonly("soles", &Diagnosis::soles,
-                         "The Soles, the left one first.");
+  // Copies: a reference into a vector would not outlive a change of it.
+  diagnosis.def_property_readonly(
+      "findings", [](const Diagnosis& self) { return self.findings; },
+      "The Findings, the most severe first.");
+  diagnosis.def_property_readonly(
+      "soles", [](const Diagnosis& self) { return self.soles; },
+      "The Soles, the left one first.");
   diagnosis.def_readonly("forward", &Diagnosis::forward,
                          "The axis of the root link that points forward: "
                          "'+x', '-x', '+y', '-y' or ''.");

@@ -20,5 +20,6 @@ void AddKinematics(TreeClass* tree);        ///< jacobian, pose, integrate.
 void AddMomentum(TreeClass* tree);          ///< com, centroidal, energies.
 void AddDerivatives(TreeClass* tree);       ///< derivatives, regressor.
 void AddTick(TreeClass* tree);              ///< tick.
+void AddConventions(TreeClass* tree);       ///< export_..., import_....
 
 }  // namespace poise

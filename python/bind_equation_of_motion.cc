@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <stdexcept>
+#include <string>
 
 #include "poise/dynamics/aba.h"
 #include "poise/dynamics/crba.h"
@@ -11,6 +12,32 @@
 namespace poise {
 namespace {
 
+// Names the joints without inertia: M has a zero on their diagonal.
+[[noreturn]] void RefuseSingular(const Tree& tree,
+                                 const Eigen::Ref<const Eigen::VectorXd>& q) {
+  Recursion scratch(tree);
+  Eigen::MatrixXd M(tree.nv(), tree.nv());
+  ComputeCrba(tree, q, &scratch, M);
+  const double none = 1e-13 * M.diagonal().maxCoeff();
+  std::string joints, locked;
+  for (int j = 0; j < tree.num_joints(); ++j) {
+    const int i = tree.v_start() + j;
+    if (M(i, i) > none) continue;
+    const std::string name = "'" + tree.joints()[j].name + "'";
+    joints += (joints.empty() ? "" : ", ") + name;
+    locked += (locked.empty() ? "" : ", ") + name + ": 0";
+  }
+  throw std::invalid_argument(
+      joints.empty()
+          ? "aba: the joint-space inertia is singular at this q: give the "
+            "light bodies more mass"
+          : "aba: the joint-space inertia is singular, because no mass moves "
+            "with joint " +
+                joints +
+                ": give the body a mass, or load the tree with locked={" +
+                locked + "}");
+}
+
 py::array Rnea(PythonTree* self, py::handle q, py::handle v, py::handle vdot,
                py::handle forces) {
   const Tree& tree = self->tree();
@@ -18,9 +45,12 @@ py::array Rnea(PythonTree* self, py::handle q, py::handle v, py::handle vdot,
   const DoubleArray b = AsVector(v, "v", tree.nv());
   const DoubleArray c = AsVector(vdot, "vdot", tree.nv());
   const auto F_Bo_W = AsForces(forces, tree.num_bodies());
+  const auto q_map = VectorOf(a), v_map = VectorOf(b), vdot_map = VectorOf(c);
   py::array_t<double> tau = NewVector(tree.nv());
-  ComputeRnea(tree, VectorOf(a), VectorOf(b), VectorOf(c), F_Bo_W,
-              &self->recursion, Writable(&tau));
+  auto to = Writable(&tau);
+  self->Run(&PythonTree::recursion, [&](Recursion* scratch) {
+    ComputeRnea(tree, q_map, v_map, vdot_map, F_Bo_W, scratch, to);
+  });
   return std::move(tau);
 }
 
@@ -29,18 +59,25 @@ py::array Bias(PythonTree* self, py::handle q, py::handle v,
   const Tree& tree = self->tree();
   const DoubleArray a = AsVector(q, "q", tree.nq());
   const DoubleArray b = AsVector(v, "v", tree.nv());
+  const auto q_map = VectorOf(a), v_map = VectorOf(b);
   py::array_t<double> N = NewVector(tree.nv());
+  auto to = Writable(&N);
   const auto compute =
       AsFlag(gravity, "gravity") ? ComputeBias : ComputeCoriolis;
-  compute(tree, VectorOf(a), VectorOf(b), &self->recursion, Writable(&N));
+  self->Run(&PythonTree::recursion, [&](Recursion* scratch) {
+    compute(tree, q_map, v_map, scratch, to);
+  });
   return std::move(N);
 }
 
 py::array Crba(PythonTree* self, py::handle q) {
   const Tree& tree = self->tree();
   const DoubleArray a = AsVector(q, "q", tree.nq());
+  const auto q_map = VectorOf(a);
   FortranArray M = NewMatrix(tree.nv(), tree.nv());
-  ComputeCrba(tree, VectorOf(a), &self->recursion, Writable(&M));
+  auto to = Writable(&M);
+  self->Run(&PythonTree::recursion,
+            [&](Recursion* scratch) { ComputeCrba(tree, q_map, scratch, to); });
   return std::move(M);
 }
 
@@ -51,15 +88,14 @@ py::array Aba(PythonTree* self, py::handle q, py::handle v, py::handle tau,
   const DoubleArray b = AsVector(v, "v", tree.nv());
   const DoubleArray c = AsVector(tau, "tau", tree.nv());
   const auto F_Bo_W = AsForces(forces, tree.num_bodies());
+  const auto q_map = VectorOf(a), v_map = VectorOf(b), tau_map = VectorOf(c);
   py::array_t<double> vdot = NewVector(tree.nv());
+  auto to = Writable(&vdot);
   const AbaStatus status =
-      ComputeAba(tree, VectorOf(a), VectorOf(b), VectorOf(c), F_Bo_W,
-                 &self->aba, Writable(&vdot));
-  if (status == AbaStatus::kSingular) {
-    throw std::invalid_argument(
-        "aba: the joint-space inertia is singular, because a joint moves no "
-        "mass: give the body a mass, or lock the joint in the profile");
-  }
+      self->Run(&PythonTree::aba, [&](AbaScratch* scratch) {
+        return ComputeAba(tree, q_map, v_map, tau_map, F_Bo_W, scratch, to);
+      });
+  if (status == AbaStatus::kSingular) RefuseSingular(tree, q_map);
   return std::move(vdot);
 }
 

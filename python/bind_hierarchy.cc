@@ -46,34 +46,37 @@ void AddLevel(PythonHierarchy* self, py::handle B, py::handle b, py::handle C,
               py::handle name, py::handle equality_names,
               py::handle inequality_names) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  PythonLevel level;
-  level.B = Rows(B, "B", self->num_variables);
-  level.b = Numbers(b, "b", level.B.rows(), 0);
-  level.weight = Numbers(weight, "weight", level.B.rows(), 1);
-  level.C = Rows(C, "C", self->num_variables);
-  level.lower = Numbers(lower, "lower", level.C.rows(), -kInfinity);
-  level.upper = Numbers(upper, "upper", level.C.rows(), kInfinity);
-  if (!name.is_none()) level.name = AsText(name, "name");
-  level.equality_names =
-      Names(equality_names, "equality_names", level.B.rows());
-  level.inequality_names =
-      Names(inequality_names, "inequality_names", level.C.rows());
+  auto level = std::make_shared<PythonLevel>();
+  level->B = Rows(B, "B", self->num_variables);
+  level->b = Numbers(b, "b", level->B.rows(), 0);
+  level->weight = Numbers(weight, "weight", level->B.rows(), 1);
+  level->C = Rows(C, "C", self->num_variables);
+  level->lower = Numbers(lower, "lower", level->C.rows(), -kInfinity);
+  level->upper = Numbers(upper, "upper", level->C.rows(), kInfinity);
+  if (!name.is_none()) level->name = AsText(name, "name");
+  level->equality_names =
+      Names(equality_names, "equality_names", level->B.rows());
+  level->inequality_names =
+      Names(inequality_names, "inequality_names", level->C.rows());
   self->levels.push_back(std::move(level));
 }
+
+using LevelClass = py::class_<PythonLevel, std::shared_ptr<PythonLevel>>;
 
 // Adds a property that copies a member.
 template <typename Member>
 void AddMember(const char* name, Member PythonLevel::*member, const char* doc,
-               py::class_<PythonLevel>* level) {
+               LevelClass* level) {
   level->def_property_readonly(
       name, [member](const PythonLevel& self) { return ToArray(self.*member); },
       doc);
 }
 
 void BindLevel(py::module_* module) {
-  py::class_<PythonLevel> level(
+  LevelClass level(
       *module, "Level",
-      "The rows of one level of a Hierarchy. Arrays are copies.");
+      "The rows of one level of a Hierarchy, which never change. Arrays are "
+      "copies.");
   AddMember("B", &PythonLevel::B, "(m, n) Rows B y + b = 0.", &level);
   AddMember("b", &PythonLevel::b, "(m,)", &level);
   AddMember("weight", &PythonLevel::weight, "(m,) The weight of each row of B.",
@@ -114,8 +117,9 @@ void BindHierarchy(py::module_* module) {
                 "Makes a hierarchy without levels in n variables.");
   hierarchy.def_readonly("n", &PythonHierarchy::num_variables,
                          "The number of variables.");
-  hierarchy.def_readonly("levels", &PythonHierarchy::levels,
-                         "The levels, highest first.");
+  hierarchy.def_property_readonly(
+      "levels", [](const PythonHierarchy& self) { return self.levels; },
+      "The levels, highest first. The list is a copy.");
   hierarchy.def(
       "add_level", AddLevel, py::kw_only(), py::arg("B") = py::none(),
       py::arg("b") = py::none(), py::arg("C") = py::none(),

@@ -20,26 +20,31 @@ Axes ToAxes(py::handle axes) {
                               "', must be 'world' or 'frame'");
 }
 
-// Computes the poses of the bodies into the scratch memory.
-void UpdatePoses(py::handle q, PythonTree* self) {
-  const DoubleArray a = AsVector(q, "q", self->tree().nq());
-  ComputePoses(self->tree(), VectorOf(a), &self->X_WB);
-}
-
 py::array FramePoseOf(PythonTree* self, py::handle q, py::handle frame) {
+  const Tree& tree = self->tree();
   const int index = self->FindFrame(frame);
-  UpdatePoses(q, self);
-  return ToArray(FramePose(self->tree(), self->X_WB, index));
+  const DoubleArray a = AsVector(q, "q", tree.nq());
+  const auto q_map = VectorOf(a);
+  return ToArray(
+      self->Run(&PythonTree::kinematics, [&](KinematicsScratch* scratch) {
+        ComputePoses(tree, q_map, &scratch->X_WB);
+        return FramePose(tree, scratch->X_WB, index);
+      }));
 }
 
 py::array Jacobian(PythonTree* self, py::handle q, py::handle frame,
                    py::handle axes) {
   const int index = self->FindFrame(frame);
   const Axes which = ToAxes(axes);
-  UpdatePoses(q, self);
-  FortranArray J = NewMatrix(6, self->tree().nv());
-  Eigen::Map<Matrix6Xd> to(J.mutable_data(), 6, self->tree().nv());
-  ComputeFrameJacobian(self->tree(), self->X_WB, index, which, to);
+  const Tree& tree = self->tree();
+  const DoubleArray a = AsVector(q, "q", tree.nq());
+  const auto q_map = VectorOf(a);
+  FortranArray J = NewMatrix(6, tree.nv());
+  Eigen::Map<Matrix6Xd> to(J.mutable_data(), 6, tree.nv());
+  self->Run(&PythonTree::kinematics, [&](KinematicsScratch* scratch) {
+    ComputePoses(tree, q_map, &scratch->X_WB);
+    ComputeFrameJacobian(tree, scratch->X_WB, index, which, to);
+  });
   return std::move(J);
 }
 
@@ -48,15 +53,22 @@ py::array JacobianBias(PythonTree* self, py::handle q, py::handle v,
   const Tree& tree = self->tree();
   const int index = self->FindFrame(frame);
   const Axes which = ToAxes(axes);
+  const DoubleArray a = AsVector(q, "q", tree.nq());
   const DoubleArray b = AsVector(v, "v", tree.nv());
-  UpdatePoses(q, self);
-  ComputeVelocities(tree, self->X_WB, VectorOf(b), &self->V_WB_W);
-  ComputeAccelerations(tree, self->X_WB, self->V_WB_W, VectorOf(b),
-                       Eigen::VectorXd::Zero(tree.nv()), &self->A_WB_W);
-  return ToArray(FrameBias(
-      FrameAcceleration(tree, self->X_WB, self->V_WB_W, self->A_WB_W, index),
-      FrameVelocity(tree, self->X_WB, self->V_WB_W, index),
-      FramePose(tree, self->X_WB, index).R, which));
+  const auto q_map = VectorOf(a), v_map = VectorOf(b);
+  const Vector6d bias =
+      self->Run(&PythonTree::kinematics, [&](KinematicsScratch* scratch) {
+        auto& [X_WB, V_WB_W, A_WB_W] = *scratch;
+        ComputePoses(tree, q_map, &X_WB);
+        ComputeVelocities(tree, X_WB, v_map, &V_WB_W);
+        ComputeAccelerations(tree, X_WB, V_WB_W, v_map,
+                             Eigen::VectorXd::Zero(tree.nv()), &A_WB_W);
+        return Vector6d(
+            FrameBias(FrameAcceleration(tree, X_WB, V_WB_W, A_WB_W, index),
+                      FrameVelocity(tree, X_WB, V_WB_W, index),
+                      FramePose(tree, X_WB, index).R, which));
+      });
+  return ToArray(bias);
 }
 
 py::array IntegrateOf(PythonTree* self, py::handle q, py::handle v,

@@ -12,14 +12,13 @@ namespace {
 CenterOfMass Com(PythonTree* self, py::handle q, py::handle v) {
   const Tree& tree = self->tree();
   const DoubleArray a = AsVector(q, "q", tree.nq());
+  Eigen::VectorXd velocity = Eigen::VectorXd::Zero(tree.nv());
+  if (!v.is_none()) velocity = VectorOf(AsVector(v, "v", tree.nv()));
+  const auto q_map = VectorOf(a);
   CenterOfMass out(tree);
-  if (v.is_none()) {
-    ComputeCenterOfMass(tree, VectorOf(a), Eigen::VectorXd::Zero(tree.nv()),
-                        &self->recursion, &out);
-  } else {
-    const DoubleArray b = AsVector(v, "v", tree.nv());
-    ComputeCenterOfMass(tree, VectorOf(a), VectorOf(b), &self->recursion, &out);
-  }
+  self->Run(&PythonTree::recursion, [&](Recursion* scratch) {
+    ComputeCenterOfMass(tree, q_map, velocity, scratch, &out);
+  });
   return out;
 }
 
@@ -27,9 +26,11 @@ CentroidalMomentum Centroidal(PythonTree* self, py::handle q, py::handle v) {
   const Tree& tree = self->tree();
   const DoubleArray a = AsVector(q, "q", tree.nq());
   const DoubleArray b = AsVector(v, "v", tree.nv());
+  const auto q_map = VectorOf(a), v_map = VectorOf(b);
   CentroidalMomentum out(tree);
-  ComputeCentroidalMomentum(tree, VectorOf(a), VectorOf(b), &self->recursion,
-                            &out);
+  self->Run(&PythonTree::recursion, [&](Recursion* scratch) {
+    ComputeCentroidalMomentum(tree, q_map, v_map, scratch, &out);
+  });
   return out;
 }
 
@@ -37,15 +38,22 @@ double Kinetic(PythonTree* self, py::handle q, py::handle v) {
   const Tree& tree = self->tree();
   const DoubleArray a = AsVector(q, "q", tree.nq());
   const DoubleArray b = AsVector(v, "v", tree.nv());
-  ComputePoses(tree, VectorOf(a), &self->X_WB);
-  ComputeVelocities(tree, self->X_WB, VectorOf(b), &self->V_WB_W);
-  return KineticEnergy(tree, self->X_WB, self->V_WB_W, VectorOf(b));
+  const auto q_map = VectorOf(a), v_map = VectorOf(b);
+  return self->Run(&PythonTree::kinematics, [&](KinematicsScratch* scratch) {
+    ComputePoses(tree, q_map, &scratch->X_WB);
+    ComputeVelocities(tree, scratch->X_WB, v_map, &scratch->V_WB_W);
+    return KineticEnergy(tree, scratch->X_WB, scratch->V_WB_W, v_map);
+  });
 }
 
 double Potential(PythonTree* self, py::handle q) {
-  const DoubleArray a = AsVector(q, "q", self->tree().nq());
-  ComputePoses(self->tree(), VectorOf(a), &self->X_WB);
-  return PotentialEnergy(self->tree(), self->X_WB);
+  const Tree& tree = self->tree();
+  const DoubleArray a = AsVector(q, "q", tree.nq());
+  const auto q_map = VectorOf(a);
+  return self->Run(&PythonTree::kinematics, [&](KinematicsScratch* scratch) {
+    ComputePoses(tree, q_map, &scratch->X_WB);
+    return PotentialEnergy(tree, scratch->X_WB);
+  });
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <pybind11/stl.h>
 
-#include <memory>
+#include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "poise/python/arrays.h"
@@ -30,10 +29,19 @@ struct PythonReport {
   std::vector<std::string> tasks;
 };
 
+// Returns whether there has been an update: one that ends 'ok' takes at least
+// one iteration of the solver.
+bool IsFilled(const TickReport& report) {
+  return report.status != TickStatus::kOk || report.iterations > 0;
+}
+
 PythonReport MakeReport(const PythonController& self) {
   const Controller& controller = self.get();
   const Stack& stack = controller.stack();
   PythonReport made{controller.report(), {}, {}, {}};
+  if (!IsFilled(made.report)) {
+    made.report.y.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
   for (const ActiveRow& row : made.report.active) {
     made.active.push_back(
         {stack.RowName(row), row.pressing_level, row.multiplier, row.slack});
@@ -80,14 +88,18 @@ std::string NameOf(TickStatus status) {
   return std::string(StatusName(status));
 }
 
+std::string StatusOf(const TickReport& report) {
+  return IsFilled(report) ? NameOf(report.status) : "";
+}
+
 void BindTickReport(py::module_* module) {
   BindRow(module);
   py::class_<PythonReport> report(*module, "TickReport",
                                   "The report on the last tick, a copy.");
   report.def_property_readonly(
-      "status",
-      [](const PythonReport& self) { return NameOf(self.report.status); },
-      "'ok', 'limit_relaxed', 'truncated' or 'fail_safe'.");
+      "status", [](const PythonReport& self) { return StatusOf(self.report); },
+      "'ok', 'limit_relaxed', 'truncated' or 'fail_safe'; '' before the first "
+      "update.");
   report.def_property_readonly(
       "fail_safe_reason",
       [](const PythonReport& self) {
@@ -112,11 +124,13 @@ void BindTickReport(py::module_* module) {
         return View(self.cast<PythonReport&>().report.y, self);
       },
       "(nv + 12,) [vdot; wrench [moment; force] of each foot, about and in the "
-      "axes of its contact frame]. Read-only.");
-  report.def_readonly("active", &PythonReport::active,
-                      "The active inequalities, ReportRows.");
-  report.def_readonly("lost", &PythonReport::lost,
-                      "The violated equalities, ReportRows.");
+      "axes of its contact frame]; NaN before the first update. Read-only.");
+  report.def_property_readonly(
+      "active", [](const PythonReport& self) { return self.active; },
+      "The active inequalities, ReportRows.");
+  report.def_property_readonly(
+      "lost", [](const PythonReport& self) { return self.lost; },
+      "The violated equalities, ReportRows.");
   report.def_property_readonly(
       "residuals", Residuals,
       "The norm of the residuals of each task that is on.");

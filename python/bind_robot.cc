@@ -74,8 +74,19 @@ std::shared_ptr<PythonTree> LoadTree(py::handle urdf, py::handle locked) {
   const std::string file = AsText(urdf, "urdf");
   const std::map<std::string, double> values = ReadLocked(locked);
   const py::gil_scoped_release release;
+  const UrdfDocument document(file);
+  const Tree tree = document.MakeModel().tree;
+  for (const auto& [joint, value] : values) {
+    if (tree.FindJoint(joint)) continue;
+    throw std::invalid_argument("locked has '" + joint +
+                                "', must have names of the moving joints of " +
+                                file);
+  }
+  if (values.empty()) {
+    return std::make_shared<PythonTree>(std::make_shared<const Tree>(tree));
+  }
   return std::make_shared<PythonTree>(
-      std::make_shared<const Tree>(LoadUrdf(file, values).tree));
+      std::make_shared<const Tree>(document.MakeModel(values).tree));
 }
 
 void BindFoot(py::module_* module) {
@@ -193,6 +204,10 @@ void BindRobot(py::module_* module) {
   AddLimits(&robot);
   AddDoctor(&robot);
   TreeClass tree = module->attr("Tree");
+  robot.def("__repr__", [](const PythonRobot& self) {
+    return "<poise.Robot '" + self.robot->model.name + "', " +
+           std::to_string(self.robot->model.tree.num_joints()) + " joints>";
+  });
   tree.def_static("load", LoadTree, py::arg("urdf"),
                   py::arg("locked") = py::dict(),
                   "Reads a tree with a floating base from any URDF file, with "

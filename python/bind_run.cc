@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <pybind11/stl.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,7 +11,9 @@
 #include "poise/python/arguments.h"
 #include "poise/python/arrays.h"
 #include "poise/python/bind.h"
+#include "poise/python/interrupt.h"
 #include "poise/python/python_robot.h"
+#include "poise/python/python_task.h"
 #include "poise/robot/mesh/read_visuals.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/experiment.h"
@@ -28,30 +31,31 @@ namespace {
 // Runs a scenario as //tools:push does. Returns the table that push prints.
 // Ctrl-C stops the run and raises KeyboardInterrupt.
 std::string Record(const PythonRobot& robot, const Scenario& scenario,
-                   py::handle folder, py::handle binary, py::handle meshes) {
+                   py::handle folder, py::handle binary, py::handle meshes,
+                   py::handle tasks) {
   const std::filesystem::path out = AsText(folder, "out");
   const LogFormat format =
       AsFlag(binary, "binary") ? LogFormat::kBinary : LogFormat::kCsv;
   const bool reads_meshes = AsFlag(meshes, "meshes");
   Scenario with_tasks = scenario;
   UseTasksOf(robot.profile, &with_tasks);
-  bool interrupted = false;
+  const auto add_tasks = TasksToAdd(tasks);
   std::string table;
   {
     const py::gil_scoped_release release;
     Robot drawn = *robot.robot;
     if (reads_meshes) ReadVisuals(&drawn.model);
-    ClosedLoop loop(drawn, with_tasks);
-    const auto goes_on = [&interrupted](double) {
-      const py::gil_scoped_acquire acquire;
-      interrupted = PyErr_CheckSignals() != 0;
-      return !interrupted;
+    ClosedLoop loop(drawn, with_tasks, add_tasks);
+    InterruptCheck check;
+    const double ticks = with_tasks.duration / with_tasks.control.dt;
+    const auto goes_on = [&check, ticks](double fraction) {
+      return !check.Look(std::lround(fraction * ticks));
     };
     const RunRecord record = RecordRun(&loop, out, goes_on, format);
     table =
         ToTable(loop.robot(), loop.scenario(), record.result, record.step_Ns);
   }
-  if (interrupted) throw py::error_already_set();
+  RaiseInterrupt();
   return table;
 }
 
@@ -127,7 +131,8 @@ void WriteRunPage(py::handle folders, py::handle file, py::handle packages) {
 
 void BindRun(py::module_* module) {
   module->def("_record", Record, py::arg("robot"), py::arg("scenario"),
-              py::arg("folder"), py::arg("binary"), py::arg("meshes"));
+              py::arg("folder"), py::arg("binary"), py::arg("meshes"),
+              py::arg("tasks"));
   module->def("_read_log", ReadLog, py::arg("folder"));
   module->def("_explain", ExplainRun, py::arg("folder"));
   module->def("_write_report", WriteRunPage, py::arg("folders"),

@@ -10,6 +10,7 @@
 #include "poise/python/bind.h"
 #include "poise/python/make_push.h"
 #include "poise/python/python_robot.h"
+#include "poise/robot/finding.h"
 #include "poise/sim/scenario.h"
 
 namespace poise {
@@ -65,7 +66,9 @@ Scenario FromDict(py::handle values, py::handle name) {
         "the scenario must be made of dict, list, str, numbers and bool: " +
         py::cast<std::string>(py::str(error.value())));
   }
-  Scenario scenario = ParseScenario(text, "scenario", AsText(name, "name"));
+  const std::string scenario_name = AsText(name, "name");
+  const py::gil_scoped_release release;
+  Scenario scenario = ParseScenario(text, "scenario", scenario_name);
   Validate(scenario);
   return scenario;
 }
@@ -124,8 +127,10 @@ void BindScenario(py::module_* module) {
       "(3.0, 2)\n");
   scenario.def_static(
       "load",
-      [](py::handle name) {
-        return LoadScenario(FindScenario(AsText(name, "name")));
+      [](py::handle name_or_file) {
+        const std::string name = AsText(name_or_file, "name");
+        const py::gil_scoped_release release;
+        return LoadScenario(FindScenario(name));
       },
       py::arg("name"),
       "Reads a scenario of Poise by its name ('strong_push'), or a YAML file.");
@@ -142,10 +147,14 @@ void BindScenario(py::module_* module) {
       [](Scenario& self, py::handle force, py::handle at, py::handle duration,
          py::handle link, py::handle point, py::handle moment,
          py::handle profile) {
+        const Push push = MakePush(force, AsNumber(at, "at"), duration, link,
+                                   point, moment, profile);
         Scenario changed = self;
-        changed.pushes.push_back(MakePush(force, AsNumber(at, "at"), duration,
-                                          link, point, moment, profile));
-        Validate(changed);
+        changed.pushes.push_back(push);
+        {
+          const py::gil_scoped_release release;
+          Validate(changed);
+        }
         self = changed;
       },
       py::arg("force"), py::arg("at") = 1.0, py::arg("duration") = 0.15,
@@ -159,6 +168,12 @@ void BindScenario(py::module_* module) {
   scenario.def(
       "clear_pushes", [](Scenario& self) { self.pushes.clear(); },
       "Removes all pushes.");
+  scenario.def("__repr__", [](const Scenario& self) {
+    return "<poise.Scenario '" + self.name + "', " +
+           PrintNumber(self.duration) + " s, " +
+           std::to_string(self.pushes.size()) +
+           (self.pushes.size() == 1 ? " push>" : " pushes>");
+  });
   scenario.def_property_readonly(
       "num_pushes", [](const Scenario& self) { return self.pushes.size(); },
       "The number of pushes.");

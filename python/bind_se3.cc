@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/math/se3.h"
 #include "poise/math/se3_jacobian.h"
+#include "poise/python/add_function.h"
 #include "poise/python/arguments.h"
 #include "poise/python/arrays.h"
 #include "poise/python/bind.h"
@@ -12,20 +13,14 @@ namespace {
 template <typename Function>
 void AddOfVector(const char* name, Function function, const char* doc,
                  py::module_* se3) {
-  se3->def(
-      name,
-      [function](py::handle x) { return ToArray(function(AsVector6(x, "x"))); },
-      py::arg("x"), doc);
+  AddFunction<AsVector6>(name, "x", function, doc, se3);
 }
 
 // Adds a function of a pose of shape (4, 4).
 template <typename Function>
 void AddOfPose(const char* name, Function function, const char* doc,
                py::module_* se3) {
-  se3->def(
-      name,
-      [function](py::handle X) { return ToArray(function(AsPose(X, "X"))); },
-      py::arg("X"), doc);
+  AddFunction<AsPose>(name, "X", function, doc, se3);
 }
 
 void AddGroup(py::module_* se3) {

@@ -5,11 +5,14 @@
 #include <limits>
 #include <memory>
 
+#include "poise/dynamics/center_of_mass.h"
+#include "poise/dynamics/recursion.h"
 #include "poise/python/arguments.h"
 #include "poise/python/arrays.h"
 #include "poise/python/as_object.h"
 #include "poise/python/bind.h"
 #include "poise/python/exclusive.h"
+#include "poise/python/interrupt.h"
 #include "poise/python/make_push.h"
 #include "poise/python/python_controller.h"
 #include "poise/python/python_robot.h"
@@ -54,22 +57,21 @@ Owner MakeSimulation(py::handle robot_argument, py::handle scenario,
                                             add_tasks);
 }
 
-// Ticks n times. Looks for Ctrl-C every few ticks.
+// Ticks n times, or until Ctrl-C.
 void Step(PythonSimulation* self, py::handle n) {
-  constexpr long kBetween = 50;
-  const long ticks = AsInteger(n, "n", 0, std::numeric_limits<int>::max());
+  const int ticks = AsInteger(n, "n", 0, std::numeric_limits<int>::max());
   const Exclusive exclusive(self->in_use.get(), "this Simulation");
-  for (long done = 0; done < ticks;) {
-    {
-      const py::gil_scoped_release release;
-      for (long i = 0; i < kBetween && done < ticks; ++i, ++done) {
-        self->loop.Tick();
-        self->judge.Look(self->loop.observation());
-        ++self->ticks;
-      }
+  {
+    const py::gil_scoped_release release;
+    InterruptCheck check;
+    for (int i = 0; i < ticks; ++i) {
+      self->loop.Tick();
+      self->judge.Look(self->loop.observation());
+      ++self->ticks;
+      if (check.Look(i + 1)) break;
     }
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
+  RaiseInterrupt();
 }
 
 void PushNow(PythonSimulation* self, py::handle force, py::handle duration,
@@ -77,8 +79,11 @@ void PushNow(PythonSimulation* self, py::handle force, py::handle duration,
              py::handle moment, py::handle profile) {
   const double now = self->get().time();
   const double start = at.is_none() ? now : AsNumber(at, "at");
-  self->loop.AddPush(
-      MakePush(force, start, duration, link, point, moment, profile));
+  const Push push =
+      MakePush(force, start, duration, link, point, moment, profile);
+  const Exclusive exclusive(self->in_use.get(), "this Simulation");
+  const py::gil_scoped_release release;
+  self->loop.AddPush(push);
 }
 
 // Adds a property of the plant's true state.
@@ -88,6 +93,34 @@ void Add(const char* name, Get get, const char* doc,
   simulation->def_property_readonly(
       name, [get](const PythonSimulation& self) { return get(self.get()); },
       doc);
+}
+
+// Adds an array of the last tick, or of NaN before the first one.
+template <typename Get>
+void AddOfTick(const char* name, Get get, const char* doc,
+               SimulationClass* simulation) {
+  simulation->def_property_readonly(
+      name,
+      [get](const PythonSimulation& self) {
+        auto values = get(self.get()).eval();
+        if (self.ticks == 0) {
+          values.setConstant(std::numeric_limits<double>::quiet_NaN());
+        }
+        return ToArray(values);
+      },
+      doc);
+}
+
+// Returns the true center of mass at the start of the last tick.
+Eigen::Vector3d CenterOfMassOf(const PythonSimulation& self) {
+  const ClosedLoop& loop = self.get();
+  if (self.ticks > 0) return loop.observation().com;
+  const Tree& tree = loop.robot().model.tree;
+  Recursion scratch(tree);
+  CenterOfMass com(tree);
+  ComputeCenterOfMass(tree, loop.plant().Sense().q,
+                      Eigen::VectorXd::Zero(tree.nv()), &scratch, &com);
+  return com.p_WG;
 }
 
 void AddState(SimulationClass* simulation) {
@@ -102,33 +135,37 @@ void AddState(SimulationClass* simulation) {
       "v",
       [](const ClosedLoop& loop) { return ToArray(loop.plant().Sense().v); },
       "(nv,) The true velocity. A copy.", simulation);
-  Add(
-      "tau", [](const ClosedLoop& loop) { return ToArray(loop.record().tau); },
-      "(joints,) The torques of the last command, N m or N. A copy.",
+  AddOfTick(
+      "tau", [](const ClosedLoop& loop) { return loop.record().tau; },
+      "(joints,) The torques of the last command, N m or N; NaN before the "
+      "first tick. A copy.",
       simulation);
-  Add(
+  simulation->def_property_readonly(
       "com",
-      [](const ClosedLoop& loop) { return ToArray(loop.observation().com); },
-      "(3,) The true center of mass at the start of the last tick, m.",
-      simulation);
-  Add(
-      "com_reference",
-      [](const ClosedLoop& loop) {
-        return ToArray(loop.observation().com_ref);
+      [](const PythonSimulation& self) {
+        return ToArray(CenterOfMassOf(self));
       },
-      "(3,) The desired center of mass in the last tick, m.", simulation);
-  Add(
-      "cop",
-      [](const ClosedLoop& loop) { return ToArray(loop.observation().cop); },
+      "(3,) The true center of mass at the start of the last tick, or now "
+      "before the first tick, m.");
+  AddOfTick(
+      "com_reference",
+      [](const ClosedLoop& loop) { return loop.observation().com_ref; },
+      "(3,) The desired center of mass in the last tick, m; NaN before the "
+      "first tick.",
+      simulation);
+  AddOfTick(
+      "cop", [](const ClosedLoop& loop) { return loop.observation().cop; },
       "(2,) The center of pressure in the last tick, in the mid-feet frame, "
-      "m; NaN without a load.",
+      "m; NaN without a load, and before the first tick.",
       simulation);
   Add(
       "status",
       [](const ClosedLoop& loop) {
-        return NameOf(loop.controller().report().status);
+        return StatusOf(loop.controller().report());
       },
-      "The status of the last tick, see Command.status.", simulation);
+      "The status of the last tick, see Command.status; '' before the first "
+      "tick.",
+      simulation);
 }
 
 }  // namespace
@@ -162,7 +199,11 @@ void BindSimulation(py::module_* module) {
       "those of Scenario.add_push().");
   AddState(&simulation);
   simulation.def_property_readonly(
-      "ticks", [](const PythonSimulation& self) { return self.ticks; },
+      "ticks",
+      [](const PythonSimulation& self) {
+        (void)self.get();
+        return self.ticks;
+      },
       "The number of ticks.");
   simulation.def_property_readonly(
       "has_fallen",

@@ -3,6 +3,7 @@
 #include "poise/math/rpy.h"
 #include "poise/math/so3.h"
 #include "poise/math/so3_jacobian.h"
+#include "poise/python/add_function.h"
 #include "poise/python/arguments.h"
 #include "poise/python/arrays.h"
 #include "poise/python/bind.h"
@@ -14,20 +15,14 @@ namespace {
 template <typename Function>
 void AddOfVector(const char* name, Function function, const char* doc,
                  py::module_* so3) {
-  so3->def(
-      name,
-      [function](py::handle w) { return ToArray(function(AsVector3(w, "w"))); },
-      py::arg("w"), doc);
+  AddFunction<AsVector3>(name, "w", function, doc, so3);
 }
 
 // Adds a function of a matrix of shape (3, 3).
 template <typename Function>
 void AddOfMatrix(const char* name, Function function, const char* doc,
                  py::module_* so3) {
-  so3->def(
-      name,
-      [function](py::handle R) { return ToArray(function(AsMatrix3(R, "R"))); },
-      py::arg("R"), doc);
+  AddFunction<AsMatrix3>(name, "R", function, doc, so3);
 }
 
 void AddGroup(py::module_* so3) {
@@ -94,14 +89,11 @@ void AddCharts(py::module_* so3) {
       py::arg("quaternion"),
       "Returns the rotation (3, 3) of a quaternion (4,) in the order x, y, z, "
       "w, of any norm but 0. Zero gives NaN.");
-  so3->def(
-      "from_rpy",
-      [](py::handle rpy) {
-        return ToArray(MatrixFromRpy(AsVector3(rpy, "rpy")));
-      },
-      py::arg("rpy"),
+  AddFunction<AsVector3>(
+      "from_rpy", "rpy", MatrixFromRpy,
       "Returns the rotation (3, 3) of roll, pitch and yaw (3,), rad, as in a "
-      "URDF: Rz(yaw) Ry(pitch) Rx(roll).");
+      "URDF: Rz(yaw) Ry(pitch) Rx(roll).",
+      so3);
   AddOfMatrix("rpy", RpyFromMatrix,
               "Returns roll, pitch and yaw (3,), rad, the inverse of "
               "from_rpy().",

@@ -24,10 +24,8 @@ struct PythonLevelSolution {
   int level;
 
   const LevelSolution& answer() const { return solved->solution.levels[level]; }
-  int equalities(int of) const { return solved->hierarchy.num_equalities(of); }
-  int inequalities(int of) const {
-    return solved->hierarchy.num_inequalities(of);
-  }
+  int equalities(int of) const { return solved->num_equalities(of); }
+  int inequalities(int of) const { return solved->num_inequalities(of); }
 };
 
 const char* SideName(Side side) {
@@ -49,8 +47,8 @@ py::list Multipliers(const PythonLevelSolution& self) {
 
 py::list ActiveRows(const PythonSolution& self) {
   py::list rows;
-  for (int level = 0; level < self.hierarchy.num_levels(); ++level) {
-    for (int i = 0; i < self.hierarchy.num_inequalities(level); ++i) {
+  for (int level = 0; level < self.num_levels(); ++level) {
+    for (int i = 0; i < self.num_inequalities(level); ++i) {
       const Side side = self.solution.levels[level].active[i];
       if (side == Side::kNone) continue;
       rows.append(py::make_tuple(level, i, SideName(side)));
@@ -60,17 +58,25 @@ py::list ActiveRows(const PythonSolution& self) {
 }
 
 py::list Conflict(const PythonSolution& self, py::handle level) {
-  const int last = self.hierarchy.num_levels() - 1;
+  const int last = self.num_levels() - 1;
   const int index = AsInteger(level, "level", 0, std::max(last, 0));
   std::vector<std::string> rows;
   if (last >= 0 && self.solution.status != Status::kNotFinite &&
       self.solution.status != Status::kBadInput) {
     const py::gil_scoped_release release;
-    for (const HierarchyRow& row : FindConflict(self.hierarchy, index)) {
+    for (const HierarchyRow& row :
+         FindConflict(MakeHierarchy(self.source), index)) {
       rows.push_back(NameRow(self.source, row.level, row.row, row.equality));
     }
   }
   return py::cast(rows);
+}
+
+// Returns Certifier::gap() of each level. Few callers read the gaps, and the
+// certifier takes as long as a small solve, so they are computed here.
+std::vector<double> Gaps(const PythonSolution& self) {
+  const py::gil_scoped_release release;
+  return FindGaps(MakeHierarchy(self.source), self.solution);
 }
 
 void BindCertificate(py::module_* module) {
@@ -101,9 +107,10 @@ void BindLevelSolution(py::module_* module) {
   level.def_property_readonly(
       "gap",
       [](const PythonLevelSolution& self) {
-        return self.solved->gaps[self.level];
+        return Gaps(*self.solved)[self.level];
       },
-      "How far the cost may be above its optimum, given the levels above.");
+      "How far the cost may be above its optimum, given the levels above. "
+      "Computed by each read, as Solution.gap.");
   level.def_property_readonly(
       "residual",
       [](const PythonLevelSolution& self) {
@@ -172,13 +179,14 @@ void BindSolution(py::module_* module) {
       [](const PythonSolution& self) { return self.solution.certificate; },
       "The Certificate of the levels above failed_level, or of all.");
   solution.def_property_readonly(
-      "gap", [](const PythonSolution& self) { return self.gaps; },
-      "For each level, how far its cost may be above its optimum.");
+      "gap", Gaps,
+      "For each level, how far its cost may be above its optimum. Computed by "
+      "each read, in about the time of a solve.");
   solution.def_property_readonly(
       "levels",
       [](const std::shared_ptr<PythonSolution>& self) {
         std::vector<PythonLevelSolution> levels;
-        for (int i = 0; i < self->hierarchy.num_levels(); ++i) {
+        for (int i = 0; i < self->num_levels(); ++i) {
           levels.push_back({self, i});
         }
         return levels;
@@ -188,20 +196,25 @@ void BindSolution(py::module_* module) {
       "multipliers",
       [](const std::shared_ptr<PythonSolution>& self) {
         py::list multipliers;
-        for (int i = 0; i < self->hierarchy.num_levels(); ++i) {
+        for (int i = 0; i < self->num_levels(); ++i) {
           multipliers.append(Multipliers({self, i}));
         }
         return multipliers;
       },
-      "multipliers[k][j]: those that level k puts on the rows of level j < k; "
-      "see LevelSolution.multipliers.");
+      "multipliers[k][j]: multipliers of the rows of level j < k in the "
+      "optimality condition of level k; see LevelSolution.multipliers.");
   solution.def_property_readonly(
       "active", ActiveRows,
       "The active inequalities: (level, row, 'lower' or 'upper').");
+  solution.def("__repr__", [](const PythonSolution& self) {
+    return "<poise.Solution, " + Name(self.solution.status) + ", " +
+           std::to_string(self.num_levels()) + " levels>";
+  });
   solution.def("explain", ExplainSolution,
+               py::call_guard<py::gil_scoped_release>(),
                "Returns a text: the levels with their costs, the rows that are "
-               "violated, and the active rows that hold each level, with their "
-               "multipliers.");
+               "violated, and for each level the binding rows of the levels "
+               "above, with their multipliers.");
   solution.def("conflict", Conflict, py::arg("level"),
                "Returns the names of a minimal set of rows, of this level and "
                "the levels above, that contradict each other; empty if the "

@@ -16,7 +16,6 @@
 #include "poise/python/bind.h"
 #include "poise/python/exclusive.h"
 #include "poise/python/python_solution.h"
-#include "poise/tools/commands/hqp/hqp_file.h"
 
 namespace poise {
 
@@ -36,18 +35,19 @@ class PythonSolver {
           " variables, must have " + std::to_string(n_));
     }
     const Exclusive exclusive(&in_use_, "this Solver");
-    const std::vector<LevelCapacity> sizes = SizesOf(hierarchy);
-    auto solved = std::make_shared<PythonSolution>(PythonSolution{
-        hierarchy, MakeHierarchy(hierarchy), Solution(n_, sizes), {}, 0});
+    // Another thread may change these two once the lock is released.
+    PythonHierarchy problem = hierarchy;
+    const int most = max_iterations;
     const py::gil_scoped_release release;
-    Reserve(sizes);
-    solver_->max_iterations = max_iterations;
+    Reserve(SizesOf(problem));
+    CopyRows(problem, &*rows_);
+    auto solved = std::make_shared<PythonSolution>(std::move(problem));
+    solver_->max_iterations = most;
     const auto start = std::chrono::steady_clock::now();
-    (void)solver_->Solve(solved->hierarchy, &solved->solution);
+    (void)solver_->Solve(*rows_, &solved->solution);
     solved->microseconds = std::chrono::duration<double, std::micro>(
                                std::chrono::steady_clock::now() - start)
                                .count();
-    solved->gaps = FindGaps(solved->hierarchy, solved->solution);
     return solved;
   }
 
@@ -73,12 +73,15 @@ class PythonSolver {
       most.inequalities =
           std::max(most.inequalities, sizes[level].inequalities);
     }
-    if (!fits) solver_.emplace(n_, capacity_);
+    if (fits) return;
+    solver_.emplace(n_, capacity_);
+    rows_.emplace(n_, capacity_);
   }
 
   int n_;
   std::vector<LevelCapacity> capacity_;
   std::optional<Solver> solver_;
+  std::optional<Hierarchy> rows_;  // The rows of the last solve.
   InUse in_use_;
 };
 

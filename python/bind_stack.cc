@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <pybind11/stl.h>
 
-#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -11,6 +10,7 @@
 #include "poise/python/python_controller.h"
 #include "poise/robot/control/stack.h"
 #include "poise/robot/control/task_set.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 
@@ -53,14 +53,14 @@ void SetParameterOf(const PythonParameters& self, py::handle key,
                     py::handle value) {
   const Task& task = self.of.task();
   const std::string name = AsText(key, "parameter");
-  const double number = AsNumber(value, name.c_str());
+  const double number = AsNumber(value, (task.name() + "." + name).c_str());
   if (self.of.stack().SetParameter(task.name(), name, number)) return;
   for (const Parameter& parameter : task.parameters()) {
     if (parameter.name != name) continue;
     throw std::invalid_argument(task.name() + "." + name + " is " +
-                                std::to_string(number) + ", must be from " +
-                                std::to_string(parameter.lower) + " to " +
-                                std::to_string(parameter.upper));
+                                PrintNumber(number) + ", must be from " +
+                                PrintNumber(parameter.lower) + " to " +
+                                PrintNumber(parameter.upper));
   }
   RefuseParameter(task, name);
 }
@@ -73,10 +73,10 @@ double GetParameterOf(const PythonParameters& self, py::handle key) {
   return *value;
 }
 
-std::map<std::string, double> AllParameters(const PythonParameters& self) {
-  std::map<std::string, double> values;
+py::dict AllParameters(const PythonParameters& self) {
+  py::dict values;
   for (const Parameter& parameter : self.of.task().parameters()) {
-    values[parameter.name] = *parameter.value;
+    values[py::str(parameter.name)] = *parameter.value;
   }
   return values;
 }
@@ -97,30 +97,65 @@ PythonTask FindTask(const PythonStack& self, py::handle key) {
 }
 
 void SetLevelOf(const PythonTask& self, py::handle value) {
-  const int level = AsInteger(value, "level", 1, Stack::kMaxLevel);
+  const std::string name = self.task().name() + ".level";
+  const int level = AsInteger(value, name.c_str(), 1, Stack::kMaxLevel);
   if (self.stack().SetLevel(self.task().name(), level)) return;
-  throw std::invalid_argument("level is " + std::to_string(level) +
+  throw std::invalid_argument(name + " is " + std::to_string(level) +
                               ", must be from 1 to " +
                               std::to_string(Stack::kMaxLevel));
 }
 
 void SetWeightOf(const PythonTask& self, py::handle value) {
-  const double weight = AsNumber(value, "weight");
+  const std::string name = self.task().name() + ".weight";
+  const double weight = AsNumber(value, name.c_str());
   if (self.stack().SetWeight(self.task().name(), weight)) return;
-  throw std::invalid_argument("weight is " + std::to_string(weight) +
+  throw std::invalid_argument(name + " is " + PrintNumber(weight) +
                               ", must be from 1e-6 to 1e6");
+}
+
+void AddMapping(py::class_<PythonParameters>* parameters) {
+  parameters->def("__len__", [](const PythonParameters& self) {
+    return self.of.task().parameters().size();
+  });
+  parameters->def(
+      "__contains__",
+      [](const PythonParameters& self, py::handle name) {
+        return AllParameters(self).contains(name);
+      },
+      py::arg("name"));
+  parameters->def(
+      "__iter__",
+      [](const PythonParameters& self) {
+        return py::iter(AllParameters(self));
+      },
+      "Iterates over the names.");
+  for (const char* name : {"keys", "values", "items"}) {
+    parameters->def(
+        name,
+        [name](const PythonParameters& self) {
+          return py::object(AllParameters(self).attr(name)());
+        },
+        "As of a dict; a copy.");
+  }
 }
 
 void BindTask(py::module_* module) {
   py::class_<PythonParameters> parameters(
       *module, "Parameters",
-      "The gains, margins and coefficients of a task, by name.");
+      "The gains, margins and coefficients of a task: a mapping from names to "
+      "numbers."
+      "\n\n"
+      ">>> stack = poise.Controller(poise.Robot.load()).stack\n"
+      ">>> parameters = stack['momentum'].parameters\n"
+      ">>> 'kp' in parameters, len(parameters) == len(list(parameters))\n"
+      "(True, True)\n");
   parameters.def("__getitem__", GetParameterOf, py::arg("name"));
   parameters.def("__setitem__", SetParameterOf, py::arg("name"),
                  py::arg("value"));
+  AddMapping(&parameters);
   parameters.def("as_dict", AllParameters, "Returns all values, a copy.");
   parameters.def("__repr__", [](const PythonParameters& self) {
-    return py::str(py::cast(AllParameters(self)));
+    return py::str(AllParameters(self));
   });
 
   py::class_<PythonTask> task(
@@ -132,7 +167,8 @@ void BindTask(py::module_* module) {
   task.def_property(
       "enabled", [](const PythonTask& self) { return self.settings().enabled; },
       [](const PythonTask& self, py::handle value) {
-        const bool enabled = AsFlag(value, "enabled");
+        const std::string name = self.task().name() + ".enabled";
+        const bool enabled = AsFlag(value, name.c_str());
         (void)self.stack().Enable(self.task().name(), enabled);
       },
       "Whether the task has rows in the hierarchy.");
@@ -183,7 +219,7 @@ void BindStack(py::module_* module) {
       [](const PythonStack& self, py::handle seconds) {
         const double time = AsNumber(seconds, "seconds");
         if (self.get().set_ramp(time)) return;
-        throw std::invalid_argument("seconds is " + std::to_string(time) +
+        throw std::invalid_argument("seconds is " + PrintNumber(time) +
                                     ", must be finite and not negative");
       },
       py::arg("seconds"),

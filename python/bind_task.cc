@@ -11,6 +11,7 @@
 #include "poise/python/arguments.h"
 #include "poise/python/arrays.h"
 #include "poise/python/bind.h"
+#include "poise/python/interrupt.h"
 #include "poise/python/python_task.h"
 #include "poise/robot/control/task.h"
 
@@ -58,6 +59,8 @@ class TaskOfPython final : public Task {
       return;
     } catch (py::error_already_set& error) {
       base_->error = error.what();
+      // Ctrl-C and sys.exit() must end the program, not this tick alone.
+      if (!error.matches(PyExc_Exception)) RememberInterrupt(error);
     } catch (const std::exception& error) {
       base_->error = error.what();
     }
@@ -77,9 +80,28 @@ class TaskOfPython final : public Task {
     return copy;
   }
 
+  // Throws if declared rows are not given: zeros would be rows that ask for
+  // nothing.
+  void CheckKeys(const py::dict& given) const {
+    const auto check = [&](const char* key, bool is_given,
+                           const std::vector<std::string>& names) {
+      if (names.empty() || is_given) return;
+      throw std::invalid_argument(
+          "task '" + base_->name + "': rows() lacks " + key +
+          ", must have the " + std::to_string(names.size()) +
+          (names.size() == 1 ? " row " : " rows ") +
+          py::cast<std::string>(py::str(py::cast(names))));
+    };
+    check("'B'", given.contains("B"), base_->equalities);
+    check("'C'", given.contains("C"), base_->inequalities);
+    check("'lower' and 'upper', one of them",
+          given.contains("lower") || given.contains("upper"),
+          base_->inequalities);
+  }
+
   // Reads (B, b), or a dict with the keys B, b, C, lower and upper.
-  static void Read(const py::object& rows, EqualityBlock* equalities,
-                   InequalityBlock* inequalities) {
+  void Read(const py::object& rows, EqualityBlock* equalities,
+            InequalityBlock* inequalities) const {
     py::dict given;
     if (py::isinstance<py::dict>(rows)) {
       given = rows;
@@ -90,6 +112,7 @@ class TaskOfPython final : public Task {
       throw std::invalid_argument("rows() returned " + TypeName(rows) +
                                   ", must be (B, b) or a dict");
     }
+    CheckKeys(given);
     for (const auto& [key, value] : given) {
       const std::string name = AsText(key, "a key of rows()");
       const auto matrix = [&value = value, &name](auto* to) {
@@ -128,6 +151,11 @@ std::unique_ptr<PythonTaskBase> MakeTask(py::handle name, py::handle equalities,
   task.inequalities = AsTexts(inequalities, "inequalities");
   task.settings.level = AsInteger(level, "level", 1, Stack::kMaxLevel);
   task.settings.weight = AsNumber(weight, "weight");
+  if (task.equalities.empty() && task.inequalities.empty()) {
+    throw std::invalid_argument(
+        "task '" + task.name +
+        "' has no rows: equalities or inequalities must name them");
+  }
   return std::make_unique<PythonTaskBase>(std::move(task));
 }
 
@@ -144,8 +172,9 @@ void BindTaskInput(py::module_* module) {
       "time", [](const PythonTaskInput& self) { return self.state.time; },
       "The time stamp of the state, s.");
   input.def_readonly("tick", &PythonTaskInput::tick,
-                     "The Tick; its frames are the feet, then `frames` of the "
-                     "Controller.");
+                     "The Tick. frames[i] is the frame of Robot.feet[i]: the "
+                     "left foot, then the right one; `frames` of the "
+                     "Controller follow.");
   input.def_readonly("in_contact", &PythonTaskInput::in_contact,
                      "Whether each foot is in contact.");
   input.def_property_readonly(
@@ -198,8 +227,8 @@ void BindTask(py::module_* module) {
            py::arg("equalities") = py::tuple(),
            py::arg("inequalities") = py::tuple(), py::arg("level") = 4,
            py::arg("weight") = 1.0,
-           "equalities, inequalities: the names of the rows, which never "
-           "change. level: 1 is the highest.");
+           "equalities, inequalities: the names of the rows, at least one "
+           "in all, which never change. level: 1 is the highest.");
   task.def(
       "rows",
       [](const PythonTaskBase& self, py::handle) -> py::object {
@@ -209,8 +238,12 @@ void BindTask(py::module_* module) {
       py::arg("input"),
       "Returns the rows of a tick in y = [vdot (nv); wrench (6) of each foot]: "
       "(B, b) for B y + b = 0, or a dict with B, b, C, lower, upper for lower "
-      "<= C y <= upper too. If rows() raises, the tick ends in the fail-safe "
-      "command with the reason 'no_answer', and `error` has the message.");
+      "<= C y <= upper too. B, and C with lower or upper, must be given if the "
+      "task has such rows; b is 0 by default. input.tick.frames[i] is the "
+      "frame of Robot.feet[i].\n\n"
+      "If rows() raises, the tick ends in the fail-safe command with the "
+      "reason 'no_answer', and `error` has the message. KeyboardInterrupt and "
+      "SystemExit end update(), step() or run() as well.");
   task.def_readonly("name", &PythonTaskBase::name, "Its name in the stack.");
   task.def_readonly("error", &PythonTaskBase::error,
                     "The exception of the last rows(), or ''.");

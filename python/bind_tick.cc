@@ -1,27 +1,18 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "poise/dynamics/tick.h"
+#include "poise/python/add_view.h"
+#include "poise/python/arguments.h"
 #include "poise/python/arrays.h"
 #include "poise/python/bind.h"
 #include "poise/python/bind_dynamics.h"
 
 namespace poise {
 namespace {
-
-// Adds a property that shows a member without a copy.
-template <typename Class, typename Member>
-void AddView(const char* name, Member Class::*member, const char* doc,
-             py::class_<Class, std::shared_ptr<Class>>* to) {
-  to->def_property_readonly(
-      name,
-      [member](py::object self) {
-        return View(self.cast<Class&>().*member, self);
-      },
-      doc);
-}
 
 void BindFrameTick(py::module_* module) {
   py::class_<FrameTick> frame(
@@ -31,30 +22,16 @@ void BindFrameTick(py::module_* module) {
   frame.def_property_readonly(
       "X", [](const FrameTick& self) { return ToArray(self.X_WF); },
       "(4, 4) The pose X_WF in the world. A copy.");
-  frame.def_property_readonly(
-      "V",
-      [](py::object self) {
-        return View(self.cast<FrameTick&>().V_WF_W, self);
-      },
-      "(6,) The velocity [w; v] of the frame's origin in world axes, rad/s and "
-      "m/s: J v.");
-  frame.def_property_readonly(
-      "J",
-      [](py::object self) {
-        return View(self.cast<FrameTick&>().J_WF_W, self);
-      },
-      "(6, nv) The Jacobian in world axes at the frame's origin.");
-  frame.def_property_readonly(
-      "Jdot_v",
-      [](py::object self) {
-        return View(self.cast<FrameTick&>().Jdot_v, self);
-      },
-      "(6,) The classical acceleration at vdot = 0, rad/s2 and m/s2.");
+  AddView("V", &FrameTick::V_WF_W,
+          "(6,) The velocity [w; v] of the frame's origin in world axes, rad/s "
+          "and m/s: J v.",
+          &frame);
+  AddView("J", &FrameTick::J_WF_W,
+          "(6, nv) The Jacobian in world axes at the frame's origin.", &frame);
+  AddView("Jdot_v", &FrameTick::Jdot_v,
+          "(6,) The classical acceleration at vdot = 0, rad/s2 and m/s2.",
+          &frame);
 }
-
-// Above this size a tick takes more than 10 us. Below, releasing Python's lock
-// would cost more than other threads gain.
-constexpr int kLargeTree = 100;
 
 // Makes a tick for the frames, or checks that `out` was made for this tree.
 std::shared_ptr<Tick> PrepareTick(const PythonTree& self, py::handle frames,
@@ -64,7 +41,8 @@ std::shared_ptr<Tick> PrepareTick(const PythonTree& self, py::handle frames,
     std::vector<int> indices;
     if (!py::isinstance<py::sequence>(frames) ||
         py::isinstance<py::str>(frames)) {
-      throw std::invalid_argument("frames must be a list of names or indices");
+      throw std::invalid_argument("frames is " + Shown(frames) +
+                                  ", must be a list of names or indices");
     }
     for (const py::handle frame : frames) {
       indices.push_back(self.FindFrame(frame));
@@ -72,7 +50,8 @@ std::shared_ptr<Tick> PrepareTick(const PythonTree& self, py::handle frames,
     return std::make_shared<Tick>(tree, indices);
   }
   if (!py::isinstance<Tick>(out)) {
-    throw std::invalid_argument("out must be a Tick that tick() returned");
+    throw std::invalid_argument("out is " + Shown(out) +
+                                ", must be a Tick that tick() returned");
   }
   if (py::len(frames) > 0) {
     throw std::invalid_argument(
@@ -101,12 +80,9 @@ std::shared_ptr<Tick> ComputeTickOf(PythonTree* self, py::handle q,
   const DoubleArray b = AsVector(v, "v", tree.nv());
   const auto q_map = VectorOf(a), v_map = VectorOf(b);
   std::shared_ptr<Tick> tick = PrepareTick(*self, frames, out);
-  if (tree.num_bodies() > kLargeTree) {
-    const py::gil_scoped_release release;
-    ComputeTick(tree, q_map, v_map, tick.get());
-  } else {
-    ComputeTick(tree, q_map, v_map, tick.get());
-  }
+  std::optional<py::gil_scoped_release> release;
+  if (self->is_large()) release.emplace();
+  ComputeTick(tree, q_map, v_map, tick.get());
   return tick;
 }
 

@@ -11,6 +11,7 @@
 #include "poise/python/bind.h"
 #include "poise/python/bind_dynamics.h"
 #include "poise/python/python_tree.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 
@@ -19,8 +20,12 @@ int PythonTree::FindFrame(py::handle frame) const {
   if (py::isinstance<py::str>(frame)) {
     const std::string name = AsText(frame, "frame");
     if (const auto index = tree_->FindFrame(name)) return *index;
+    std::string names;
+    for (const Frame& each : tree_->frames()) {
+      names += (names.empty() ? "" : ", ") + each.name;
+    }
     throw std::invalid_argument("frame '" + name +
-                                "' is unknown, must be one of frame_names");
+                                "' is unknown, must be one of " + names);
   }
   const double index = AsNumber(frame, "frame");
   if (!(index >= 0 && index < size && index == static_cast<int>(index))) {
@@ -88,6 +93,28 @@ void AddFacts(TreeClass* tree) {
       [](const PythonTree& self) { return ToArray(self.tree().MakeNeutral()); },
       "Returns q (nq,) with all joints at zero and the base at the world's "
       "origin.");
+  tree->def(
+      "with_base",
+      [](const PythonTree& self, py::handle base) {
+        const std::string name = AsText(base, "base");
+        if (name != "fixed" && name != "floating") {
+          throw std::invalid_argument("base is '" + name +
+                                      "', must be 'fixed' or 'floating'");
+        }
+        return std::make_shared<PythonTree>(
+            std::make_shared<const Tree>(self.tree().WithBase(
+                name == "fixed" ? BaseType::kFixed : BaseType::kFloating)));
+      },
+      py::arg("base"),
+      "Returns this tree on a base that is 'fixed' at the world's origin, as "
+      "an arm on a table, so that q and v have the joints only; or on a "
+      "'floating' base.");
+  tree->def("__repr__", [](const PythonTree& self) {
+    const Tree& of = self.tree();
+    return "<poise.Tree, " + std::to_string(of.num_joints()) +
+           " joints, base " + (of.is_floating() ? "floating" : "fixed") + ", " +
+           PrintNumber(of.total_mass()) + " kg>";
+  });
 }
 
 }  // namespace
@@ -116,6 +143,7 @@ void BindTree(py::module_* module) {
   AddMomentum(&tree);
   AddDerivatives(&tree);
   AddTick(&tree);
+  AddConventions(&tree);
 }
 
 }  // namespace poise

@@ -2,25 +2,10 @@
 #include "poise/dynamics/center_of_mass.h"
 #include "poise/dynamics/centroidal.h"
 #include "poise/dynamics/derivatives.h"
-#include "poise/python/arrays.h"
+#include "poise/python/add_view.h"
 #include "poise/python/bind_dynamics.h"
 
 namespace poise {
-namespace {
-
-// Adds a property that shows a member without a copy.
-template <typename Class, typename Member>
-void AddView(const char* name, Member Class::*member, const char* doc,
-             py::class_<Class>* to) {
-  to->def_property_readonly(
-      name,
-      [member](py::object self) {
-        return View(self.cast<Class&>().*member, self);
-      },
-      doc);
-}
-
-}  // namespace
 
 void BindDynamicsResults(py::module_* module) {
   py::class_<CenterOfMass> com(

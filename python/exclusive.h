@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace poise {
 
@@ -11,18 +12,22 @@ namespace poise {
 /// thread that uses the object meanwhile gets an error instead of torn data.
 class InUse {
  public:
-  /// Throws std::runtime_error, a RuntimeError in Python, if another thread
-  /// uses the object.
+  /// Throws std::runtime_error, a RuntimeError in Python, if the object is in
+  /// use: by another thread, or by this thread, whose tick calls a task that is
+  /// written in Python.
   void Check(const char* what) const {
     if (!is_set_) return;
-    throw std::runtime_error(std::string(what) +
-                             " is in use by another thread: give each thread "
-                             "its own");
+    throw std::runtime_error(
+        std::string(what) +
+        (user_ == std::this_thread::get_id()
+             ? " is in a tick: rows() must use its input"
+             : " is in use by another thread: give each thread its own"));
   }
 
  private:
   friend class Exclusive;
   bool is_set_ = false;
+  std::thread::id user_;
 };
 
 /// Sets the mark of an object during its life. Make it before the lock is
@@ -32,6 +37,7 @@ class Exclusive {
   Exclusive(InUse* mark, const char* what) : mark_(mark) {
     mark_->Check(what);
     mark_->is_set_ = true;
+    mark_->user_ = std::this_thread::get_id();
   }
   ~Exclusive() { mark_->is_set_ = false; }
   Exclusive(const Exclusive&) = delete;

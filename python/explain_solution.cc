@@ -13,7 +13,7 @@ namespace {
 constexpr double kNegligible = 1e-9;
 
 std::string LevelName(const PythonHierarchy& source, int level) {
-  const std::string& name = source.levels[level].name;
+  const std::string& name = source.levels[level]->name;
   return "level " + std::to_string(level) +
          (name.empty() ? "" : " '" + name + "'");
 }
@@ -35,8 +35,8 @@ std::string BoundText(const PythonLevel& level, int row, Side side) {
 void WriteViolated(const PythonSolution& solved, int level,
                    std::ostringstream* text) {
   const LevelSolution& found = solved.solution.levels[level];
-  const int equalities = solved.hierarchy.num_equalities(level);
-  const int inequalities = solved.hierarchy.num_inequalities(level);
+  const int equalities = solved.num_equalities(level);
+  const int inequalities = solved.num_inequalities(level);
   const double size = 1 + solved.solution.y.lpNorm<Eigen::Infinity>();
   for (int i = 0; i < equalities; ++i) {
     const double residual = found.equality_residual[i];
@@ -57,28 +57,28 @@ void WriteBinding(const PythonSolution& solved, int level,
   const auto& multipliers = solved.solution.levels[level].multipliers;
   double largest = 0;
   for (int j = 0; j < level; ++j) {
-    for (int i = 0; i < solved.hierarchy.num_equalities(j); ++i) {
+    for (int i = 0; i < solved.num_equalities(j); ++i) {
       largest = std::max(largest, std::abs(multipliers[j].equality[i]));
     }
-    for (int i = 0; i < solved.hierarchy.num_inequalities(j); ++i) {
+    for (int i = 0; i < solved.num_inequalities(j); ++i) {
       largest = std::max(largest, std::abs(multipliers[j].inequality[i]));
     }
   }
   const auto write = [&](int j, int i, bool is_equality, double multiplier) {
     if (!(std::abs(multiplier) > kNegligible * largest)) return;
-    *text << "  held by " << NameRow(solved.source, j, i, is_equality);
+    *text << "  binding: " << NameRow(solved.source, j, i, is_equality);
     if (!is_equality) {
       *text << ", "
-            << BoundText(solved.source.levels[j], i,
+            << BoundText(*solved.source.levels[j], i,
                          solved.solution.levels[j].active[i]);
     }
     *text << ": multiplier " << multiplier << "\n";
   };
   for (int j = 0; j < level; ++j) {
-    for (int i = 0; i < solved.hierarchy.num_equalities(j); ++i) {
+    for (int i = 0; i < solved.num_equalities(j); ++i) {
       write(j, i, true, multipliers[j].equality[i]);
     }
-    for (int i = 0; i < solved.hierarchy.num_inequalities(j); ++i) {
+    for (int i = 0; i < solved.num_inequalities(j); ++i) {
       write(j, i, false, multipliers[j].inequality[i]);
     }
   }
@@ -88,7 +88,7 @@ void WriteBinding(const PythonSolution& solved, int level,
 
 std::string NameRow(const PythonHierarchy& source, int level, int row,
                     bool is_equality) {
-  const PythonLevel& of = source.levels[level];
+  const PythonLevel& of = *source.levels[level];
   const std::string& name =
       is_equality ? of.equality_names[row] : of.inequality_names[row];
   return LevelName(source, level) + ", row " + std::to_string(row) +
@@ -98,15 +98,16 @@ std::string NameRow(const PythonHierarchy& source, int level, int row,
 
 std::string ExplainSolution(const PythonSolution& solved) {
   std::ostringstream text;
-  text << DescribeHqpSolution(solved.hierarchy, solved.solution,
+  const Hierarchy hierarchy = MakeHierarchy(solved.source);
+  text << DescribeHqpSolution(hierarchy, solved.solution,
                               solved.solution.certificate, solved.microseconds);
-  const int certified = CertifiedLevels(solved.hierarchy, solved.solution);
+  const int certified = CertifiedLevels(hierarchy, solved.solution);
   for (int level = 0; level < certified; ++level) {
     std::ostringstream rows;
     WriteViolated(solved, level, &rows);
     WriteBinding(solved, level, &rows);
     text << LevelName(solved.source, level)
-         << (rows.str().empty() ? ": all rows are met, no row above holds it\n"
+         << (rows.str().empty() ? ": all rows are met, no binding row above\n"
                                 : ":\n")
          << rows.str();
   }

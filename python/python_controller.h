@@ -10,6 +10,7 @@
 #include "poise/python/python_robot.h"
 #include "poise/robot/control/command.h"
 #include "poise/robot/control/controller.h"
+#include "poise/robot/control/tick_report.h"
 
 namespace poise {
 
@@ -50,5 +51,8 @@ void AddReport(ControllerClass* controller);
 
 /// Returns "ok", "limit_relaxed", "truncated" or "fail_safe".
 std::string NameOf(TickStatus status);
+
+/// Returns the name of the status of a report, or "" before the first update.
+std::string StatusOf(const TickReport& report);
 
 }  // namespace poise

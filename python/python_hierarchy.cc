@@ -5,29 +5,35 @@ namespace poise {
 
 std::vector<LevelCapacity> SizesOf(const PythonHierarchy& hierarchy) {
   std::vector<LevelCapacity> sizes;
-  for (const PythonLevel& level : hierarchy.levels) {
+  for (const auto& level : hierarchy.levels) {
     sizes.push_back(
-        {static_cast<int>(level.B.rows()), static_cast<int>(level.C.rows())});
+        {static_cast<int>(level->B.rows()), static_cast<int>(level->C.rows())});
   }
   return sizes;
 }
 
-Hierarchy MakeHierarchy(const PythonHierarchy& hierarchy) {
-  Hierarchy made(hierarchy.num_variables, SizesOf(hierarchy));
-  for (int i = 0; i < static_cast<int>(hierarchy.levels.size()); ++i) {
-    const PythonLevel& level = hierarchy.levels[i];
+void CopyRows(const PythonHierarchy& hierarchy, Hierarchy* to) {
+  const int num_levels = static_cast<int>(hierarchy.levels.size());
+  to->Clear(num_levels);
+  for (int i = 0; i < num_levels; ++i) {
+    const PythonLevel& level = *hierarchy.levels[i];
     EqualityBlock equalities =
-        made.AddEqualities(i, static_cast<int>(level.B.rows()));
+        to->AddEqualities(i, static_cast<int>(level.B.rows()));
     equalities.B = level.B;
     equalities.b = level.b;
     equalities.weight = level.weight;
     InequalityBlock inequalities =
-        made.AddInequalities(i, static_cast<int>(level.C.rows()));
+        to->AddInequalities(i, static_cast<int>(level.C.rows()));
     inequalities.C = level.C;
     inequalities.lower = level.lower;
     inequalities.upper = level.upper;
   }
-  made.FindSpans();
+  to->FindSpans();
+}
+
+Hierarchy MakeHierarchy(const PythonHierarchy& hierarchy) {
+  Hierarchy made(hierarchy.num_variables, SizesOf(hierarchy));
+  CopyRows(hierarchy, &made);
   return made;
 }
 

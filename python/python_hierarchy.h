@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,13 +22,18 @@ struct PythonLevel {
 /// levels before it allocates, so the rows are kept here until then.
 struct PythonHierarchy {
   int num_variables = 0;
-  std::vector<PythonLevel> levels;
+  /// A level never changes, so that Python objects and solutions share it.
+  std::vector<std::shared_ptr<PythonLevel>> levels;
 };
 
 /// Returns the rows of each level.
 std::vector<LevelCapacity> SizesOf(const PythonHierarchy& hierarchy);
 
-/// Returns the hierarchy for the solver. Copies the rows.
+/// Copies the rows into a hierarchy for the solver, in place of its rows.
+/// pre: its capacity has room for them.
+void CopyRows(const PythonHierarchy& hierarchy, Hierarchy* to);
+
+/// Returns a new hierarchy for the solver. Copies the rows.
 Hierarchy MakeHierarchy(const PythonHierarchy& hierarchy);
 
 }  // namespace poise

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
+#include <utility>
 
-#include "poise/hqp/hierarchy.h"
 #include "poise/hqp/solution.h"
 #include "poise/python/python_hierarchy.h"
 
@@ -12,10 +11,21 @@ namespace poise {
 
 /// A solution with the problem that it belongs to.
 struct PythonSolution {
-  PythonHierarchy source;  ///< Has the names.
-  Hierarchy hierarchy;
+  /// @param problem  its levels are shared, not copied.
+  explicit PythonSolution(PythonHierarchy problem)
+      : source(std::move(problem)),
+        solution(source.num_variables, SizesOf(source)) {}
+
+  int num_levels() const { return static_cast<int>(source.levels.size()); }
+  int num_equalities(int level) const {
+    return static_cast<int>(source.levels[level]->B.rows());
+  }
+  int num_inequalities(int level) const {
+    return static_cast<int>(source.levels[level]->C.rows());
+  }
+
+  PythonHierarchy source;
   Solution solution;
-  std::vector<double> gaps;  ///< See FindGaps().
   double microseconds = 0;
 };
 

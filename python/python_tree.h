@@ -14,6 +14,18 @@
 
 namespace poise {
 
+/// The scratch memory of the kinematics.
+struct KinematicsScratch {
+  explicit KinematicsScratch(const Tree& tree)
+      : X_WB(tree.num_bodies()),
+        V_WB_W(tree.num_bodies()),
+        A_WB_W(tree.num_bodies()) {}
+
+  std::vector<Pose> X_WB;
+  std::vector<SpatialMotion> V_WB_W;
+  std::vector<SpatialAcceleration> A_WB_W;
+};
+
 /// A tree with the scratch memory of the algorithms. Python holds its global
 /// lock (GIL) while an algorithm uses this memory. An algorithm that releases
 /// the lock has memory of its own.
@@ -24,9 +36,7 @@ class PythonTree {
       : tree_(std::move(tree)),
         recursion(*tree_),
         aba(*tree_),
-        X_WB(tree_->num_bodies()),
-        V_WB_W(tree_->num_bodies()),
-        A_WB_W(tree_->num_bodies()) {}
+        kinematics(*tree_) {}
 
   const Tree& tree() const { return *tree_; }
 
@@ -34,15 +44,32 @@ class PythonTree {
   /// std::invalid_argument if there is no such frame.
   int FindFrame(pybind11::handle frame) const;
 
+  /// Returns whether an algorithm of this tree may take more than 10 us, so
+  /// that it should release the lock. ABA, the slowest, takes 8 us for 50
+  /// joints.
+  bool is_large() const {
+    constexpr int kLarge = 60;
+    return tree_->num_bodies() > kLarge;
+  }
+
+  /// Calls compute(scratch memory). For a large tree, releases the lock
+  /// meanwhile: compute() must not use Python.
+  /// @param scratch  a member of this class.
+  template <typename Scratch, typename Compute>
+  auto Run(Scratch PythonTree::*scratch, const Compute& compute) {
+    if (!is_large()) return compute(&(this->*scratch));
+    const pybind11::gil_scoped_release release;
+    Scratch own(*tree_);
+    return compute(&own);
+  }
+
  private:
   std::shared_ptr<const Tree> tree_;
 
  public:
   Recursion recursion;
   AbaScratch aba;
-  std::vector<Pose> X_WB;
-  std::vector<SpatialMotion> V_WB_W;
-  std::vector<SpatialAcceleration> A_WB_W;
+  KinematicsScratch kinematics;
 };
 
 }  // namespace poise

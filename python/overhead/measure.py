@@ -79,8 +79,10 @@ def statements():
             given = SE3.get(name, "X" if name in OF_MATRIX else "x")
             made[f"se3.{name}"] = f"se3.{name}({given})"
     for name, member in vars(poise.Tree).items():
-        if not name.startswith("_") and callable(member) and (
-                not isinstance(member, staticmethod)):
+        # with_base and the conversions are not for each tick.
+        if name.startswith(("_", "export_", "import_", "with_")):
+            continue
+        if callable(member) and not isinstance(member, staticmethod):
             made[f"Tree.{name}"] = f"tree.{name}({TREE_ARGUMENTS[name]})"
     made["Solver.solve"] = "solver.solve(hierarchy)"
     made["Controller.update"] = (

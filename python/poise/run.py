@@ -10,6 +10,7 @@ import pathlib
 import shutil
 import tempfile
 import weakref
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from poise import _poise
@@ -23,10 +24,11 @@ if TYPE_CHECKING:
     Column = NDArray[Any]  # float64, or object for texts.
 
 
-def run(scenario: _poise.Scenario | str,
+def run(scenario: _poise.Scenario | str | os.PathLike[str],
         robot: _poise.Robot | None = None,
         out: str | os.PathLike[str] | None = None,
-        *, binary: bool = False, meshes: bool = True) -> Run:
+        *, binary: bool = False, meshes: bool = True,
+        tasks: Sequence[_poise.Task] = ()) -> Run:
     """Runs a scenario to its end, or until the robot is down.
 
     The run equals the one of `bazel run //tools:push` to the bit. Other threads
@@ -40,6 +42,7 @@ def run(scenario: _poise.Scenario | str,
         binary: Whether to write log.bin in place of log.csv, a quarter of the
             bytes; its numbers have 7 digits.
         meshes: Whether to read the robot's meshes, for the report.
+        tasks: Tasks of your own.
 
     >>> scenario = poise.Scenario.from_dict({"duration": 0.02})
     >>> run = poise.run(scenario)
@@ -57,11 +60,16 @@ def run(scenario: _poise.Scenario | str,
     if not isinstance(robot, _poise.Robot):
         raise _poise.InputError(
             f"robot is of type {type(robot).__name__}, must be a Robot")
+    if not isinstance(out, (str, os.PathLike, type(None))):
+        raise _poise.InputError(
+            f"out is {out!r} of type {type(out).__name__}, must be a folder")
     parent = tempfile.mkdtemp(prefix="poise-") if out is None else None
     folder = pathlib.Path(parent or "", out or scenario.name)
     try:
-        table = _poise._record(robot, scenario, str(folder), binary, meshes)
+        table = _poise._record(robot, scenario, str(folder), binary, meshes,
+                               tasks)
         result = Run(folder, table)
+        result._is_temporary = parent is not None
     except BaseException:
         if parent:
             shutil.rmtree(parent, ignore_errors=True)
@@ -87,6 +95,7 @@ class Run:
         """
         self.folder = pathlib.Path(folder)
         self._table = table
+        self._is_temporary = False
         self._columns: dict[str, Column] | None = None
         self._summary: dict[str, Any] | None = None
 
@@ -170,8 +179,14 @@ class Run:
         """Writes the page with the 3D replay and returns its path.
 
         Args:
-            file: The page to write; report.html in the folder by default.
+            file: The page to write; report.html in the folder by default. A
+                run in a temporary folder has no default: the page would be
+                removed with the Run.
         """
+        if file is None and self._is_temporary:
+            raise _poise.InputError(
+                "file is None, must be a file: the folder of this run is "
+                "temporary; call report('report.html'), or run with out=FOLDER")
         page = self.folder / "report.html" if file is None else (
             pathlib.Path(file))
         _poise._write_report([str(self.folder)], str(page), [])
@@ -196,6 +211,9 @@ class Run:
         return f"<poise.Run {self.folder.name!r}, recovered: {self.recovered}>"
 
     def _repr_html_(self) -> str:
-        page = self.report().read_text(encoding="utf-8")
+        # A notebook must not overwrite report.html in a folder of the user.
+        with tempfile.TemporaryDirectory(prefix="poise-") as place:
+            page = self.report(pathlib.Path(place, "report.html")).read_text(
+                encoding="utf-8")
         return (f'<iframe srcdoc="{html.escape(page)}" width="100%" '
                 'height="720" style="border: 0"></iframe>')

@@ -73,7 +73,8 @@ def random_object(random):
             1e308, 10**400, "text", "", "world", "posture", "\ud800", "a\0b",
             b"bytes", object(), [], (), {}, {"a": 1}, {1: "a"}, [[1], [2, 3]],
             ["text"], [None], [[]], [1, 2], (1.0, 2.0, 3.0), np.float32(3), 1j,
-            range(3), ROBOT, TREE, ROBOT.feet[0], hierarchy(), poise.Task("t"),
+            range(3), ROBOT, TREE, ROBOT.feet[0], hierarchy(),
+            poise.Task("t", ["a"]),
             poise.State(ROBOT.posture, np.zeros(TREE.nv)), int, len]
     return pool[random.integers(len(pool))]
 
@@ -94,6 +95,8 @@ VALID = {
     "robot": ROBOT, "n": 2, "friction": 0.5, "max_iterations": 9, "tasks": [],
     "state": poise.State(ROBOT.posture, np.zeros(TREE.nv)), "time": 0.1,
     "equalities": ["a"], "inequalities": ("b",), "locked": {}, "values": {},
+    "library": "drake", "M": np.eye(TREE.nv), "J": np.zeros((6, TREE.nv)),
+    "base": "fixed",
 }
 
 
@@ -127,7 +130,7 @@ def instances():
     return [ROBOT, TREE, hierarchy(), poise.Solver(2),
             poise.Solver(2).solve(hierarchy()), state, controller, stack,
             stack["posture"], stack["posture"].parameters, scenario,
-            simulation, poise.Task("t"), poise.run(scenario, ROBOT)]
+            simulation, poise.Task("t", ["a"]), poise.run(scenario, ROBOT)]
 
 
 def functions():

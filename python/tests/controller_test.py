@@ -82,10 +82,25 @@ class StackTest(unittest.TestCase):
         momentum = stack["momentum"]
         momentum.level, momentum.weight, momentum.enabled = 3, 2.5, False
         name = next(iter(momentum.parameters.as_dict()))
-        momentum.parameters[name] = momentum.parameters[name]
+        value = momentum.parameters[name] + 1
+        momentum.parameters[name] = value
+        self.assertEqual(stack["momentum"].parameters[name], value)
         again = stack["momentum"]
         self.assertEqual((again.level, again.weight, again.enabled),
                          (3, 2.5, False))
+
+    def test_parameters_are_a_mapping(self):
+        parameters = started().stack["momentum"].parameters
+        names = list(parameters)
+        self.assertIn("kp", names)
+        self.assertIn("kp", parameters)
+        self.assertNotIn("x", parameters)
+        self.assertEqual(len(parameters), len(names))
+        self.assertEqual(list(parameters.keys()), names)
+        self.assertEqual(dict(parameters), dict(parameters.items()))
+        self.assertEqual(dict(parameters)["kp"], parameters["kp"])
+        self.assertEqual(list(parameters.values()),
+                         [parameters[name] for name in names])
 
     def test_a_task_that_is_off_has_no_residual(self):
         controller = started()
@@ -102,8 +117,12 @@ class StackTest(unittest.TestCase):
         task = stack["momentum"]
         with self.assertRaisesRegex(poise.InputError, "level is 9"):
             task.level = 9
-        with self.assertRaisesRegex(poise.InputError, "weight is -1"):
-            task.weight = -1
+        for weight in (-1, 1e-7):
+            with self.assertRaisesRegex(
+                    poise.InputError, f"momentum.weight is {weight}, must"):
+                task.weight = weight
+        with self.assertRaisesRegex(poise.InputError, "momentum.kp is 'x'"):
+            task.parameters["kp"] = "x"
         with self.assertRaisesRegex(poise.InputError, "has no parameter 'x'"):
             task.parameters["x"] = 1
         name = next(iter(task.parameters.as_dict()))

@@ -41,11 +41,23 @@ class SolverTest(unittest.TestCase):
         np.testing.assert_allclose(inequalities, [2], atol=1e-12)
         self.assertEqual(len(solution.gap), 3)
 
-    def test_explains_which_row_holds_a_level(self):
+    def test_explains_which_row_is_binding(self):
         text = poise.Solver(2).solve(corner()).explain()
         self.assertIn("row 0 of B 'go right' has the residual -2", text)
-        self.assertIn("held by level 0 'limits', row 0 of C 'x', at its upper "
-                      "bound 1: multiplier 2", text)
+        self.assertIn("binding: level 0 'limits', row 0 of C 'x', at its "
+                      "upper bound 1: multiplier 2", text)
+        self.assertIn("level 2: all rows are met, no binding row above", text)
+
+    def test_a_solution_keeps_its_problem(self):
+        solver = poise.Solver(2)
+        solution = solver.solve(corner())
+        text, gap = solution.explain(), solution.gap
+        other = poise.Hierarchy(2)
+        other.add_level(B=[[5, 7]], b=[1])
+        solver.solve(other)
+        self.assertEqual(solution.explain(), text)
+        self.assertEqual([level.gap for level in solution.levels], gap)
+        self.assertEqual(repr(solution), "<poise.Solution, optimal, 3 levels>")
 
     def test_finds_the_conflict(self):
         solution = poise.Solver(2).solve(corner())
@@ -101,21 +113,36 @@ class SolverTest(unittest.TestCase):
             self.assertEqual(solution.status, status)
             np.testing.assert_array_equal(solution.y, [0, 0])
             self.assertEqual(solution.conflict(0), [])
-            solution.explain()
+            self.assertIn(status, solution.explain())
 
-    def test_threads_solve_at_the_same_time(self):
-        answers = []
+    def test_two_threads_get_the_answers_of_their_own_problems(self):
+        answers = {}
 
-        def solve():
-            solver = poise.Solver(2)
-            answers.extend(solver.solve(corner()).y[1] for _ in range(50))
+        def solve(wanted):
+            solver, hierarchy = poise.Solver(1), poise.Hierarchy(1)
+            hierarchy.add_level(B=[[1]], b=[-wanted])
+            answers[wanted] = [solver.solve(hierarchy).y[0] for _ in range(50)]
 
-        threads = [threading.Thread(target=solve) for _ in range(2)]
+        threads = [threading.Thread(target=solve, args=(wanted,))
+                   for wanted in (1, 2)]
         for thread in threads:
             thread.start()
         for thread in threads:
             thread.join()
-        np.testing.assert_allclose(answers, 3, atol=1e-12)
+        for wanted in (1, 2):
+            np.testing.assert_allclose(answers[wanted], wanted, atol=1e-12)
+
+
+class HierarchyTest(unittest.TestCase):
+    def test_a_level_outlives_later_levels(self):
+        hierarchy = corner()
+        level = hierarchy.levels[0]
+        for _ in range(20):
+            hierarchy.add_level(B=np.eye(2))
+        self.assertEqual(level.name, "limits")
+        self.assertEqual(level.inequality_names, ["x"])
+        del hierarchy
+        np.testing.assert_array_equal(level.C, [[1, 0]])
 
 
 class ArgumentsTest(unittest.TestCase):
@@ -139,7 +166,7 @@ class ArgumentsTest(unittest.TestCase):
         with self.assertRaisesRegex(
                 poise.InputError, "hierarchy has 2 variables, must have 3"):
             poise.Solver(3).solve(hierarchy)
-        for n in (-1, 0.5, "2", None, 10**9):
+        for n in (-1, 0.5, "2", None, 10**9, 60 * "\u00e9"):
             with self.assertRaises(poise.InputError):
                 poise.Hierarchy(n)
         solution = poise.Solver(2).solve(corner())

@@ -17,6 +17,7 @@ EXAMPLES = [str(pathlib.Path(name).resolve()) for name in sys.argv[1:]]
 FOLDER = pathlib.Path(poise.__file__).parent
 
 USER = """
+import pathlib
 import numpy as np
 import poise
 
@@ -24,6 +25,8 @@ robot = poise.Robot.load()
 M: np.ndarray[tuple[int, int], np.dtype[np.float64]]
 nv: int = robot.tree.nv
 run: poise.Run = poise.run("stand", robot)
+run = poise.run(pathlib.Path("stand.yaml"))
+J = robot.tree.jacobian(robot.posture, 0, axes="frame")
 R = poise.so3.exp([0, 0, 1]) @ np.eye(3)
 """
 
@@ -50,9 +53,11 @@ class MypyTest(unittest.TestCase):
         result = mypy([*map(str, FOLDER.glob("*.py")), *EXAMPLES, str(user)],
                       self.out)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        user.write_text(USER.replace("nv: int", "nv: str"))
-        result = mypy([str(user)], self.out)
-        self.assertIn("user.py:7", result.stdout)
+        for right, wrong, line in (("nv: int", "nv: str", 8),
+                                   ('"frame"', '"base"', 11)):
+            user.write_text(USER.replace(right, wrong))
+            result = mypy([str(user)], self.out)
+            self.assertIn(f"user.py:{line}", result.stdout)
 
 
 if __name__ == "__main__":

@@ -33,6 +33,9 @@ class RobotTest(unittest.TestCase):
         tree = poise.Robot.load().tree
         self.assertEqual(tree.crba(tree.neutral()).shape, (tree.nv, tree.nv))
 
+    def test_shows_itself(self):
+        self.assertEqual(repr(ROBOT), "<poise.Robot 'humanoid', 50 joints>")
+
     def test_tree_needs_no_feet(self):
         tree = poise.Tree.load(ROBOT.urdf)
         self.assertAlmostEqual(tree.total_mass, ROBOT.tree.total_mass)

@@ -4,8 +4,10 @@
 import hashlib
 import os
 import pathlib
+import signal
 import tempfile
 import threading
+import time
 import unittest
 from unittest import mock
 
@@ -41,6 +43,20 @@ class ScenarioTest(unittest.TestCase):
         self.assertEqual((scenario.name, scenario.duration, scenario.seed,
                           scenario.steps, scenario.num_pushes),
                          ("mine", 2.5, 7, True, 1))
+
+    def test_reads_a_path_and_shows_itself(self):
+        file = pathlib.Path(ROBOT.urdf).parents[2] / "sim/scenarios/stand.yaml"
+
+        class Path(os.PathLike):
+            def __fspath__(self):
+                return str(file)
+
+        for path in (file, Path()):
+            self.assertEqual(poise.Scenario.load(path).name, "stand")
+        with self.assertRaisesRegex(poise.InputError, "name is b'stand'"):
+            poise.Scenario.load(b"stand")
+        self.assertEqual(repr(short()), "<poise.Scenario 'scenario', 0.2 s, "
+                         "0 pushes>")
 
     def test_names_the_invalid_key(self):
         for values, message in (
@@ -143,18 +159,60 @@ class SimulationTest(unittest.TestCase):
         np.testing.assert_array_equal(results[1], results[0])
         np.testing.assert_array_equal(results[2], results[0])
 
-    def test_a_second_thread_gets_an_error(self):
+    def test_has_no_values_of_a_tick_before_the_first_one(self):
         simulation = poise.Simulation(ROBOT, short())
-        thread = threading.Thread(target=simulation.step, args=(100,))
-        errors = []
-        thread.start()
-        while thread.is_alive():
-            try:
-                simulation.controller.report
-            except RuntimeError as error:
-                errors.append(str(error))
+        np.testing.assert_allclose(
+            simulation.com, ROBOT.tree.com(simulation.q).p, atol=1e-12)
+        for values in (simulation.cop, simulation.tau,
+                       simulation.com_reference,
+                       simulation.controller.report.y):
+            self.assertGreater(len(values), 1)
+            self.assertTrue(np.isnan(values).all())
+        self.assertEqual(
+            (simulation.status, simulation.controller.report.status), ("", ""))
+        simulation.step()
+        self.assertTrue(np.isfinite(simulation.cop).all())
+        self.assertTrue(np.isfinite(simulation.controller.report.y).all())
+        self.assertEqual(simulation.status, "ok")
+
+
+class InterruptTest(unittest.TestCase):
+    def setUp(self):
+        # A shell may start tests with the signal ignored.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+
+    def interrupt(self, call, has_begun):
+        """Presses Ctrl-C in a call that would take hours."""
+        def press():
+            while not has_begun():
+                time.sleep(1e-3)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        thread = threading.Thread(target=press)
+        with self.assertRaises(KeyboardInterrupt):
+            thread.start()
+            call()
         thread.join()
-        self.assertIn("in use by another thread", errors[0])
+
+    def test_ctrl_c_ends_a_step(self):
+        simulation = poise.Simulation(ROBOT, short())
+
+        def is_in_use():
+            try:
+                return simulation.time < 0
+            except RuntimeError:
+                return True
+
+        self.interrupt(lambda: simulation.step(10**9), is_in_use)
+        self.assertGreater(simulation.ticks, 0)
+
+    def test_ctrl_c_ends_a_run(self):
+        with folder() as out:
+            log = pathlib.Path(out, "log.csv")
+            self.interrupt(
+                lambda: poise.run(short(duration=3600), ROBOT, out),
+                log.exists)
 
 
 def nudge():
@@ -206,6 +264,32 @@ class RunTest(unittest.TestCase):
             self.assertIn("<html", page.read_text(encoding="utf-8"))
         self.assertTrue(self.run_._repr_html_().startswith("<iframe srcdoc="))
 
+    def test_a_notebook_keeps_the_report_in_the_folder(self):
+        with folder() as out:
+            run = poise.run(short(duration=0.01), ROBOT, out)
+            page = run.report()
+            self.assertEqual(page, pathlib.Path(out, "report.html"))
+            page.write_text("mine", encoding="utf-8")
+            self.assertIn("srcdoc", run._repr_html_())
+            self.assertEqual(page.read_text(encoding="utf-8"), "mine")
+
+    def test_the_report_of_a_temporary_run_needs_a_file(self):
+        with self.assertRaisesRegex(
+                poise.InputError, "file is None, must be a file"):
+            poise.run(short(duration=0.01), ROBOT).report()
+
+    def test_runs_tasks_in_python(self):
+        class Still(poise.Task):
+            ticks = 0
+
+            def rows(self, input):
+                self.ticks += 1
+                return np.zeros((1, len(input.v) + 12)), [0]
+
+        task = Still("still", ["still.x"])
+        run = poise.run(short(duration=0.02), ROBOT, tasks=[task])
+        self.assertEqual((task.ticks, len(run["time"])), (20, 20))
+
     def test_plots_the_default_columns_and_any_others(self):
         panels = self.run_.plot().axes
         self.assertEqual(len(panels), 3)
@@ -246,6 +330,8 @@ class RunTest(unittest.TestCase):
             poise.run(3)
         with self.assertRaisesRegex(poise.InputError, "robot is of type int"):
             poise.run(short(), 3)
+        with self.assertRaisesRegex(poise.InputError, "out is 3 of type int"):
+            poise.run(short(), ROBOT, out=3)
 
 
 if __name__ == "__main__":

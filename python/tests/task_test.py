@@ -2,6 +2,10 @@
 """Tests poise.Task: tasks that are written in Python."""
 
 import gc
+import os
+import signal
+import sys
+import threading
 import unittest
 import weakref
 
@@ -79,6 +83,10 @@ class TaskTest(unittest.TestCase):
         self.assertEqual(given.in_contact, [True, True])
         self.assertEqual(given.time, 1e-3)
         self.assertEqual(len(given.tick.frames), 2)
+        for foot, frame in zip(ROBOT.feet, given.tick.frames):
+            np.testing.assert_allclose(
+                frame.X, ROBOT.tree.pose(ROBOT.posture, foot.frame),
+                atol=1e-12)
 
     def test_is_in_the_stack(self):
         controller = update(Turn(level=5, weight=2))
@@ -94,7 +102,11 @@ class TaskTest(unittest.TestCase):
                 (lambda: 3, r"rows\(\) returned int, must be"),
                 (lambda: (np.eye(3), np.zeros(3)),
                  rf"B has shape \(3, 3\), must have shape \(3, {NV + 12}\)"),
-                (lambda: {"D": 1}, "key 'D', must be B, b, C")):
+                (lambda: {"B": np.zeros((3, NV + 12)), "D": 1},
+                 "key 'D', must be B, b, C"),
+                (lambda: {},
+                 r"task 'turn': rows\(\) lacks 'B', must have the 3 rows "
+                 r"\['turn.x', 'turn.y', 'turn.z'\]")):
             task = Turn()
             task.answer = answer
             controller = update(task)
@@ -107,6 +119,44 @@ class TaskTest(unittest.TestCase):
             state = poise.State(ROBOT.posture, np.zeros(NV), 2e-3)
             command = controller.update(state)
             self.assertEqual((command.status, task.error), ("ok", ""))
+
+    def test_missing_inequalities_end_in_the_fail_safe_command(self):
+        C = np.zeros((1, NV + 12))
+        for answer, lacks in (({"upper": [0]}, "lacks 'C'"),
+                              ({"C": C}, "lacks 'lower' and 'upper'")):
+            task = Bound()
+            task.rows = lambda input, answer=answer: answer
+            self.assertEqual(update(task).report.status, "fail_safe")
+            self.assertIn(lacks, task.error)
+
+    def test_rows_may_not_use_the_controller_of_their_tick(self):
+        task, errors = Turn(), []
+        simulation = poise.Simulation(
+            ROBOT, poise.Scenario.from_dict({}), [task])
+
+        def read():
+            for what in (lambda: simulation.ticks, lambda: simulation.q,
+                         lambda: simulation.controller.report):
+                try:
+                    what()
+                except RuntimeError as error:
+                    errors.append(str(error))
+
+        def answer():
+            read()
+            thread = threading.Thread(target=read)
+            thread.start()
+            thread.join()
+            return np.zeros((3, NV + 12)), np.zeros(3)
+
+        task.answer = answer
+        simulation.step()
+        self.assertEqual(task.error, "")
+        self.assertEqual(len(errors), 6)
+        for text in errors[:3]:
+            self.assertIn("in a tick: rows() must use its input", text)
+        for text in errors[3:]:
+            self.assertIn("in use by another thread", text)
 
     def test_without_rows_fails_safe(self):
         task = poise.Task("nothing", ["a"])
@@ -130,10 +180,53 @@ class TaskTest(unittest.TestCase):
                 (lambda: poise.Controller(ROBOT, tasks=3), "tasks is of type"),
                 (lambda: poise.Task("a", "abc"), "equalities is 'abc'"),
                 (lambda: poise.Task("a", level=9), "level is 9"),
-                (lambda: update(poise.Task("a", weight=-1)), "a"),
-                (lambda: update(poise.Task("momentum")), "momentum")):
+                (lambda: poise.Task("a"), "task 'a' has no rows"),
+                (lambda: update(poise.Task("a", ["r"], weight=-1)),
+                 "weight.*-1"),
+                (lambda: update(poise.Task("momentum", ["r"])),
+                 "momentum.*exists already")):
             with self.assertRaisesRegex(poise.InputError, message):
                 call()
+
+
+class InterruptTest(unittest.TestCase):
+    """Exceptions in rows() that must end the program, not one tick."""
+
+    def setUp(self):
+        # A shell may start tests with the signal ignored.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+
+    def task(self, end):
+        """Returns a task whose rows() calls end()."""
+        task = Turn()
+        task.answer = end
+        return task
+
+    def press_ctrl_c(self):
+        """Presses Ctrl-C."""
+        os.kill(os.getpid(), signal.SIGINT)
+        return np.zeros((3, NV + 12)), np.zeros(3)
+
+    def test_ctrl_c_ends_an_update(self):
+        with self.assertRaises(KeyboardInterrupt):
+            update(self.task(self.press_ctrl_c))
+
+    def test_ctrl_c_ends_steps_at_once(self):
+        task = self.task(self.press_ctrl_c)
+        simulation = poise.Simulation(
+            ROBOT, poise.Scenario.from_dict({}), [task])
+        with self.assertRaises(KeyboardInterrupt):
+            simulation.step(100)
+        self.assertEqual(simulation.ticks, 1)
+        self.assertEqual(simulation.status, "fail_safe")
+        task.answer = None
+        simulation.step()  # Nothing is left of it.
+
+    def test_exit_ends_a_run(self):
+        with self.assertRaisesRegex(SystemExit, "3"):
+            poise.run(poise.Scenario.from_dict({"duration": 0.1}), ROBOT,
+                      tasks=[self.task(lambda: sys.exit(3))])
 
 
 if __name__ == "__main__":

@@ -1,6 +1,9 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 """Tests poise.Tree: its algorithms agree with each other and with NumPy."""
 
+import os
+import pathlib
+import tempfile
 import unittest
 
 import numpy as np
@@ -9,6 +12,11 @@ import poise
 
 ROBOT = poise.Robot.load()
 TREE = ROBOT.tree
+
+LIGHT = """<robot name="light"><link name="a"><inertial><mass value="1"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="b"/><joint name="j" type="continuous"><parent link="a"/>
+<child link="b"/><axis xyz="0 0 1"/></joint></robot>"""
 
 
 def state(seed=0):
@@ -172,6 +180,69 @@ class TickTest(unittest.TestCase):
         np.testing.assert_array_equal(M, TREE.tick(other, w).M)
 
 
+class BaseTest(unittest.TestCase):
+    def test_a_fixed_base_has_the_joints_only(self):
+        q, v, vdot = state()
+        q[:7] = TREE.neutral()[:7]
+        v[:6] = vdot[:6] = 0
+        arm = TREE.with_base("fixed")
+        self.assertEqual((arm.nq, arm.nv, arm.is_floating),
+                         (TREE.num_joints, TREE.num_joints, False))
+        np.testing.assert_allclose(arm.rnea(q[7:], v[6:], vdot[6:]),
+                                   TREE.rnea(q, v, vdot)[6:], atol=1e-9)
+        self.assertEqual(arm.with_base("floating").nq, TREE.nq)
+        self.assertRegex(repr(arm), "^<poise.Tree, 50 joints, base fixed, ")
+        with self.assertRaisesRegex(poise.InputError, "base is 'table'"):
+            TREE.with_base("table")
+
+
+class ConventionsTest(unittest.TestCase):
+    def test_orders_are_those_of_the_libraries(self):
+        q, v, _ = state()
+        p, xyz, w = q[:3], q[3:6], q[6:7]
+        for library, base in (("pinocchio", (p, xyz, w)),
+                              ("drake", (w, xyz, p)),
+                              ("mujoco", (p, w, xyz))):
+            np.testing.assert_allclose(
+                TREE.export_configuration(library, q)[:7],
+                np.concatenate(base), atol=1e-12)
+        np.testing.assert_allclose(
+            TREE.export_velocity("mujoco", q, v)[:3], v[3:6], atol=1e-12)
+
+    def test_import_inverts_export(self):
+        q, v, vdot = state()
+        M, J = TREE.crba(q), TREE.jacobian(q, 1)
+        for library in ("pinocchio", "drake", "mujoco"):
+            for name, arguments in {
+                    "velocity": (q, v), "acceleration": (q, v, vdot),
+                    "forces": (q, vdot), "mass_matrix": (q, M),
+                    "bias": (q, v, M, vdot),
+                    "jacobian": (q, J), "configuration": (q,)}.items():
+                theirs = getattr(TREE, "export_" + name)(library, *arguments)
+                ours = getattr(TREE, "import_" + name)(
+                    library, *arguments[:-1], theirs)
+                np.testing.assert_allclose(ours, arguments[-1], atol=1e-9)
+        with self.assertRaisesRegex(poise.InputError, "library is 'tsid'"):
+            TREE.export_configuration("tsid", q)
+
+    def test_energy_is_the_same_in_each_library(self):
+        q, v, _ = state()
+        theirs = TREE.export_velocity("pinocchio", q, v)
+        M = TREE.export_mass_matrix("pinocchio", q, TREE.crba(q))
+        self.assertAlmostEqual(theirs @ M @ theirs / 2,
+                               TREE.kinetic_energy(q, v), places=9)
+
+    def test_the_equation_of_motion_holds_in_each_library(self):
+        q, v, vdot = state()
+        M, N, tau = TREE.crba(q), TREE.bias(q, v), TREE.rnea(q, v, vdot)
+        for library in ("pinocchio", "drake", "mujoco"):
+            np.testing.assert_allclose(
+                TREE.export_mass_matrix(library, q, M)
+                @ TREE.export_acceleration(library, q, v, vdot)
+                + TREE.export_bias(library, q, v, M, N),
+                TREE.export_forces(library, q, tau), atol=1e-9)
+
+
 class ArgumentsTest(unittest.TestCase):
     def test_wrong_shapes_are_named(self):
         q, v, vdot = state()
@@ -185,14 +256,16 @@ class ArgumentsTest(unittest.TestCase):
                  rf"forces has shape \(3, 6\), must have shape "
                  rf"\({TREE.num_bodies}, 6\)"),
                 (lambda: TREE.crba(q[None]), rf"q has shape \(1, {nq}\)"),
-                (lambda: TREE.jacobian(q, "nose"), "frame 'nose' is unknown"),
+                (lambda: TREE.jacobian(q, "nose"),
+                 "frame 'nose' is unknown, must be one of .*head"),
                 (lambda: TREE.jacobian(q, -1), "frame is -1"),
                 (lambda: TREE.jacobian(q, 10**6), "frame is 1000000"),
                 (lambda: TREE.jacobian(q, 0.5), "frame is 0.5"),
                 (lambda: TREE.jacobian(q, 0, "base"), "axes is 'base'"),
                 (lambda: TREE.integrate(q, v, None), "dt is None"),
-                (lambda: TREE.tick(q, v, "nose"), "frames must be a list"),
-                (lambda: TREE.tick(q, v, out=3), "out must be a Tick"),
+                (lambda: TREE.tick(q, v, "nose"),
+                 "frames is 'nose', must be a list"),
+                (lambda: TREE.tick(q, v, out=3), "out is 3, must be a Tick"),
                 (lambda: TREE.aba(q, v, "tau"), r"tau is .* must be real")):
             with self.assertRaisesRegex(poise.InputError, message):
                 call()
@@ -202,12 +275,30 @@ class ArgumentsTest(unittest.TestCase):
         nan = np.full(TREE.nq, np.nan)
         self.assertTrue(np.isnan(TREE.rnea(nan, v, vdot)).any())
         self.assertTrue(np.isnan(TREE.aba(nan, v, vdot)).all())
-        for call in (lambda: TREE.crba(nan), lambda: TREE.tick(nan, v),
-                     lambda: TREE.derivatives(nan, v, vdot),
-                     lambda: TREE.regressor(nan, v, vdot),
-                     lambda: TREE.integrate(nan, v, 1),
-                     lambda: TREE.jacobian(np.zeros(TREE.nq), 0)):
-            call()
+        tick = TREE.tick(nan, v)
+        for name, values in {
+                "crba": TREE.crba(nan), "M": tick.M, "N": tick.N,
+                "dq": TREE.derivatives(nan, v, vdot).dq,
+                "regressor": TREE.regressor(nan, v, vdot),
+                "integrate": TREE.integrate(nan, v, 1),
+                "pose": TREE.pose(nan, 0)}.items():
+            self.assertTrue(np.isnan(values).any(), name)
+
+    def test_a_joint_without_mass_is_named(self):
+        with tempfile.TemporaryDirectory(
+                dir=os.environ.get("TEST_TMPDIR")) as folder:
+            file = pathlib.Path(folder, "light.urdf")
+            file.write_text(LIGHT)
+            tree = poise.Tree.load(file)
+            q, v = tree.neutral(), np.zeros(tree.nv)
+            with self.assertRaisesRegex(
+                    poise.InputError, "joint 'j': .*locked={'j': 0}"):
+                tree.aba(q, v, v)
+            tree = poise.Tree.load(file, locked={"j": 0})
+            self.assertTrue(np.isfinite(tree.aba(q[:-1], v[:-1], v[:-1])).all())
+            with self.assertRaisesRegex(
+                    poise.InputError, "locked has 'nose', .*light.urdf"):
+                poise.Tree.load(file, locked={"nose": 0})
 
 
 if __name__ == "__main__":

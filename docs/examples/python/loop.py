@@ -1,5 +1,5 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-"""A control loop of one's own: look and intervene tick by tick."""
+"""Steps a simulation tick by tick and changes the stack between ticks."""
 
 # %%
 import poise

@@ -1,5 +1,5 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-"""The same shove twice: on two feet only, and with steps."""
+"""Simulates one shove twice: standing on both feet, then with steps."""
 
 # %%
 import matplotlib.pyplot as plt
