@@ -78,6 +78,7 @@ std::unique_ptr<Command> Update(const PythonController& self,
   const State copy = state;  // Another thread may change the state.
   {
     const Exclusive exclusive(self.in_use(), "this Controller");
+    ForgetInterrupt();
     const py::gil_scoped_release release;
     controller.Update(copy, command.get());
   }

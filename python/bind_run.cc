@@ -41,6 +41,7 @@ std::string Record(const PythonRobot& robot, const Scenario& scenario,
   UseTasksOf(robot.profile, &with_tasks);
   const auto add_tasks = TasksToAdd(tasks);
   std::string table;
+  ForgetInterrupt();
   {
     const py::gil_scoped_release release;
     Robot drawn = *robot.robot;

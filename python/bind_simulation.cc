@@ -61,6 +61,7 @@ Owner MakeSimulation(py::handle robot_argument, py::handle scenario,
 void Step(PythonSimulation* self, py::handle n) {
   const int ticks = AsInteger(n, "n", 0, std::numeric_limits<int>::max());
   const Exclusive exclusive(self->in_use.get(), "this Simulation");
+  ForgetInterrupt();
   {
     const py::gil_scoped_release release;
     InterruptCheck check;

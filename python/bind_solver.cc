@@ -63,7 +63,8 @@ class PythonSolver {
  private:
   // Makes a new solver, which starts cold, if a level is larger than before.
   void Reserve(const std::vector<LevelCapacity>& sizes) {
-    bool fits = solver_.has_value() && sizes.size() <= capacity_.size();
+    bool fits = solver_.has_value() && rows_.has_value() &&
+                sizes.size() <= capacity_.size();
     capacity_.resize(std::max(capacity_.size(), sizes.size()));
     for (size_t level = 0; level < sizes.size(); ++level) {
       LevelCapacity& most = capacity_[level];

@@ -53,7 +53,7 @@ std::shared_ptr<Tick> PrepareTick(const PythonTree& self, py::handle frames,
     throw std::invalid_argument("out is " + Shown(out) +
                                 ", must be a Tick that tick() returned");
   }
-  if (py::len(frames) > 0) {
+  if (!py::isinstance<py::sequence>(frames) || py::len(frames) > 0) {
     throw std::invalid_argument(
         "frames must be empty if out is given: out has its frames");
   }
@@ -94,7 +94,7 @@ void AddTick(TreeClass* tree) {
             "Returns all dynamics of a control tick at (q, v) as a Tick, with "
             "a FrameTick for each of the frames, given by name or index.\n\n"
             "out: a Tick of an earlier call, which is overwritten and "
-            "returned; nothing is then allocated. Above 100 bodies, other "
+            "returned; nothing is then allocated. Above 60 bodies, other "
             "threads run meanwhile, and must not use the same out.");
 }
 

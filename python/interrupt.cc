@@ -9,10 +9,12 @@ namespace py = pybind11;
 
 namespace {
 
-// Empty between two calls of Python, so that no thread ends with an exception.
+// Empty between two calls of Python, unless the first one failed.
 thread_local std::unique_ptr<py::error_already_set> remembered;
 
 }  // namespace
+
+void ForgetInterrupt() { remembered.reset(); }
 
 void RememberInterrupt(const py::error_already_set& error) {
   remembered = std::make_unique<py::error_already_set>(error);

@@ -5,6 +5,10 @@
 
 namespace poise {
 
+/// Forgets what an earlier call of this thread has left that failed before
+/// RaiseInterrupt(). Call with Python's lock, before the ticks.
+void ForgetInterrupt();
+
 /// Remembers an exception that must end the whole call of this thread, such as
 /// KeyboardInterrupt in the rows() of a task: a tick cannot throw. Call with
 /// Python's lock.
@@ -15,7 +19,7 @@ void RememberInterrupt(const pybind11::error_already_set& error);
 void RaiseInterrupt();
 
 /// Looks for Ctrl-C in a loop of ticks that runs without Python's lock. The
-/// lock is taken once in 50 ticks or more, because each time costs up to 5 ms
+/// lock is taken at most once in 50 ticks, because each time costs up to 5 ms
 /// beside a busy thread: Python's switch interval.
 class InterruptCheck {
  public:

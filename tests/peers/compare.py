@@ -3,7 +3,7 @@
 """Compares the solver and the dynamics with those of others.
 
 Compiles an adapter for each peer with the peer's sources and Poise's, with
-g++ -O3 -march=native -DNDEBUG, records seven sequences of the closed loop and
+g++ -O3 -march=native -DNDEBUG (for dynamics also without -march), records seven sequences of the closed loop and
 lets all solvers solve them in turn, each tick warm from the last one. Prints
 one table, which is also written to table.md, and writes histograms of the times
 of all ticks to histograms.svg. tests/peers/README.md explains the columns.
@@ -17,7 +17,7 @@ humanoid with 50, 80 and 120 joints or for robots of URDF files, built with and
 without -march=native. The table is also written to dynamics.md.
 
 DIR holds the checkouts of the peers, as DIR/lexls, DIR/soth and DIR/pinocchio.
-A missing one is skipped. --out keeps programs and ticks (300 MB); a second run
+A missing one is skipped. --out keeps programs and ticks (500 MB); a second run
 reuses them.
 Exit code: 0 if at least one peer was compared, 1 if dynamics differ, 2 for bad
 input.

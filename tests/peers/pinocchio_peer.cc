@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -167,6 +168,9 @@ double TimeOfCall(const Call& call, const std::vector<State>& states) {
   return (ThreadTime() - start) / kStates;
 }
 
+// Returns the larger number, or NaN if one is NaN, which std::max would hide.
+double Larger(double x, double y) { return std::isnan(x) || x > y ? x : y; }
+
 double RelativeDifference(const MatrixXd& x, const MatrixXd& y) {
   return (x - y).norm() / y.norm();
 }
@@ -188,8 +192,7 @@ void Measure(const Function& function, const std::vector<State>& ours,
     for (const Call& call : function.theirs) {
       call(theirs[i]);
       const double now = function.difference(ours[i]);
-      // std::max would hide NaN.
-      if (!(now <= difference)) difference = now;
+      difference = Larger(difference, now);
     }
   }
   std::printf("%s %.4f %.4f %.3g\n", function.name, our_time, their_time,
@@ -345,8 +348,8 @@ Function WholeTick(const Tree& tree, const pin::Model& model, Workspace* w) {
             ExportJacobian(kTheirs, tree, s.q, w->H_G, w->exported_H_G);
             pin::getFrameJacobian(model, w->data, model.frames.size() - 1,
                                   pin::LOCAL, w->J.back());
-            return std::max(in_world,
-                            RelativeDifference(w->exported_H_G, w->J.back()));
+            return Larger(in_world,
+                          RelativeDifference(w->exported_H_G, w->J.back()));
           }};
 }
 

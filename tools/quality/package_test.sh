@@ -12,7 +12,8 @@
 #     wheel          the wheel, and the same push, without compilers
 #     fetch_content  FetchContent of a clone, which calls Bazel
 #     colcon         colcon build of a clone and of a package that needs it
-# The first two must also leave nothing behind when the packages are removed.
+# deb_cmake and deb_python must also leave nothing behind when the packages are
+# removed.
 # Needs root, and the packages of tools/setup.sh --package. Exit code: 0 if all
 # is well, 1 if a step failed, 2 for bad input.
 set -euo pipefail
@@ -29,7 +30,7 @@ steps=()
 while [ $# -gt 0 ]; do
   case $1 in
     -h | --help)
-      sed -n '3,18s/^# \?//p' "$0"
+      sed -n '3,19s/^# \?//p' "$0"
       exit 0
       ;;
     --cache)
