@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "poise/dynamics/body_arrays.h"
