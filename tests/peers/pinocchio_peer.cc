@@ -321,7 +321,7 @@ Function Aba(const Tree& tree, const pin::Model& model, Workspace* w) {
           }};
 }
 
-// Pinocchio's tick lacks J̇v and the bias of the momentum.
+// The tick of Pinocchio has neither J̇v nor the bias of the momentum.
 Function WholeTick(const Tree& tree, const pin::Model& model, Workspace* w) {
   return {"whole tick",
           [&tree, w](const State& s) { ComputeTick(tree, s.q, s.v, &w->tick); },
