@@ -45,8 +45,8 @@ class PythonTree {
   int FindFrame(pybind11::handle frame) const;
 
   /// Returns whether an algorithm of this tree may take more than 10 us, so
-  /// that it should release the lock. ABA, the slowest, takes 8 us for 50
-  /// joints.
+  /// that it should release the lock. ABA, the slowest, takes 7 us for 50
+  /// joints on a quiet machine, and 12 us on a busy one.
   bool is_large() const {
     constexpr int kLarge = 60;
     return tree_->num_bodies() > kLarge;
