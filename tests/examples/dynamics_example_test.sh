@@ -4,28 +4,36 @@
 # momentum change, or if the example loads a library above the dynamics. The
 # program that runs is built in this workspace, because the example's workspace
 # would compile all of the dynamics again. POISE_WHOLE_EXAMPLE=1, which .ci/run
-# sets, builds it there.
+# sets, builds it there, and the quadruped in its own workspace.
 set -euo pipefail
 
 simulate=$PWD/tests/examples/simulate
-example=$(dirname "$(readlink -f WORKSPACE)")/docs/examples/dynamics
-copy=$TEST_TMPDIR/dynamics
-cp -r "$example" "$copy"
-sed -i "s|path = \"../../..\"|path = \"${example%/docs/examples/dynamics}\"|" \
-  "$copy/WORKSPACE"
-cd "$copy"
+tree=$(dirname "$(readlink -f WORKSPACE)")
+for example in dynamics quadruped; do
+  cp -r "$tree/docs/examples/$example" "$TEST_TMPDIR"
+  sed -i "s|path = \"../../..\"|path = \"$tree\"|" \
+    "$TEST_TMPDIR/$example/WORKSPACE"
+done
+cd "$TEST_TMPDIR/dynamics"
 run_bazel() {
   bazel --output_user_root="$TEST_TMPDIR/bazel" --max_idle_secs=60 "$@"
 }
 trap 'run_bazel shutdown > /dev/null 2>&1' EXIT
 
-# Compiles as quickly as the workspace around it, see its .bazelrc.
+# Compiles as quickly as the workspace around it, see its .bazelrc. The two
+# workspaces share what they compile.
 quick=(--copt=-Og --copt=--param=ggc-min-heapsize=524288
-  --strategy=CppCompile=local)
+  --strategy=CppCompile=local "--disk_cache=$TEST_TMPDIR/built")
 build() {
   run_bazel build "${quick[@]}" "$@" > log 2>&1 || { tail -n 30 log; exit 1; }
 }
 if [ -n "${POISE_WHOLE_EXAMPLE:-}" ]; then
+  cd "$TEST_TMPDIR/quadruped"
+  build //:quadruped
+  bazel-bin/quadruped | tee output
+  grep -q "weight 147.150 N" output
+  run_bazel shutdown
+  cd "$TEST_TMPDIR/dynamics"
   build //:simulate
   simulate=bazel-bin/simulate
 else

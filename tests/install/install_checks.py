@@ -22,6 +22,8 @@ LIBRARIES = sorted(PREFIX.glob("lib/libpoise_*.so.0"))
 # Libraries that any C++ program has.
 RUNTIME = {"libstdc++.so.6", "libm.so.6", "libgcc_s.so.1", "libc.so.6",
            "ld-linux-x86-64.so.2"}
+# As an -isystem folder, it would hide the C library's headers from those of C++.
+SYSTEM_INCLUDES = pathlib.Path("/usr/include")
 SENTENCE = "This file aligns Eigen's memory differently"
 
 
@@ -128,7 +130,8 @@ class HeadersTest(Checks):
                         env=ENVIRONMENT).stdout.split():
             if word.startswith("-D"):
                 flags.append(word)
-            elif not word.startswith(f"-I{PREFIX}"):
+            elif (not word.startswith(f"-I{PREFIX}") and
+                  pathlib.Path(word[2:]).resolve() != SYSTEM_INCLUDES):
                 flags.append("-isystem" + word[2:])
 
         def compile_alone(job):
@@ -241,6 +244,34 @@ class ConsumerTest(Checks):
             result = run("cmake", "-S", source, "-B", WORK / "find_none", FIND)
             self.assertNotEqual(result.returncode, 0, wanted)
             self.assertIn(message, re.sub(r"\s+", " ", result.stdout))
+
+    def test_a_layer_without_its_libraries_is_left_out_unless_required(self):
+        source = WORK / "without_libraries"
+        source.mkdir()
+        lists = source / "CMakeLists.txt"
+        start = "cmake_minimum_required(VERSION 3.22)\nproject(x CXX)\n"
+        without = {**os.environ, "PKG_CONFIG_LIBDIR": str(source)}
+        for components in ("", " REQUIRED COMPONENTS dynamics "
+                           "OPTIONAL_COMPONENTS robot"):
+            lists.write_text(
+                f"{start}find_package(poise {components})\n"
+                "message(STATUS ${poise_FOUND}${poise_dynamics_FOUND})\n"
+                "foreach(name dynamics hqp robot sim)\n"
+                "  if(TARGET poise::${name})\n"
+                "    message(STATUS \"there is ${name}\")\n"
+                "  endif()\nendforeach()\n")
+            printed = self.succeed("cmake", "-S", source, "-B",
+                                   source / "build", FIND, env=without)
+            self.assertIn("TRUETRUE", printed)
+            self.assertIn("No target poise::robot: poise needs ", printed)
+            self.assertIn("there is dynamics", printed)
+            self.assertNotIn("there is robot", printed)
+        lists.write_text(
+            f"{start}find_package(poise REQUIRED COMPONENTS robot)\n")
+        result = run("cmake", "-S", source, "-B", source / "build", FIND,
+                     env=without)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("poise needs ", result.stdout)
 
 
 class FolderTest(Checks):

@@ -150,7 +150,7 @@ def cmake_config(names):
     """Returns poiseConfig.cmake, for all layers that a prefix may have."""
     return f"""# find_package(poise REQUIRED COMPONENTS dynamics) defines
 # poise::dynamics and the targets that it needs. Without COMPONENTS, all
-# installed layers are defined.
+# installed layers are defined whose libraries are there.
 set(poise_FOUND TRUE)
 set(_poise_components ${{poise_FIND_COMPONENTS}})
 if(NOT _poise_components)
@@ -163,13 +163,20 @@ endif()
 foreach(_poise_name ${{_poise_components}})
   if(EXISTS "${{CMAKE_CURRENT_LIST_DIR}}/poise_${{_poise_name}}.cmake")
     include("${{CMAKE_CURRENT_LIST_DIR}}/poise_${{_poise_name}}.cmake")
-  endif()
-  if(TARGET poise::${{_poise_name}})
-    set(poise_${{_poise_name}}_FOUND TRUE)
-  elseif(poise_FIND_REQUIRED_${{_poise_name}} AND poise_FOUND)
+  else()
     set(poise_FOUND FALSE)
     set(poise_NOT_FOUND_MESSAGE
       "poise has no component ${{_poise_name}} in ${{CMAKE_CURRENT_LIST_DIR}}")
+  endif()
+  if(poise_FOUND)
+    set(poise_${{_poise_name}}_FOUND TRUE)
+  elseif(poise_FIND_REQUIRED_${{_poise_name}})
+    return()
+  else()
+    message(STATUS
+      "No target poise::${{_poise_name}}: ${{poise_NOT_FOUND_MESSAGE}}")
+    set(poise_FOUND TRUE)
+    unset(poise_NOT_FOUND_MESSAGE)
   endif()
 endforeach()
 """

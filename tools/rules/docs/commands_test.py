@@ -29,21 +29,16 @@ PROGRAMS = {
 
 
 def commands(text):
-    """Yields (number, command) of fenced, indented and quoted command lines."""
-    start = r"(?:[A-Z_]+=\S+ )*(?:bazel |tools/|\.ci/)"
-    fenced = False
-    for number, line in enumerate(text.split("\n"), 1):
-        if line.lstrip().startswith("```"):
-            fenced = not fenced
-        elif (fenced or line.startswith("    ")) and re.match(
-                r"\s*" + start, line):
-            yield number, re.sub(r"\s+#.*", "", line.strip())
-        else:
-            for code in re.findall(r"`([^`]+)`", line):
-                # A path alone names a file; it is no command line.
-                if re.match(start, code) and (
-                        code.startswith("bazel ") or " " in code):
-                    yield number, code
+    """Yields (number, command) of command lines in blocks and in quotes."""
+    for number, command in pages.block_commands(text):
+        if re.match(pages.COMMAND, command):
+            yield number, command
+    for number, line in pages.lines_outside_code(text):
+        for code in re.findall(r"`([^`]+)`", line):
+            # A path alone names a file; it is no command line.
+            if re.match(pages.COMMAND, code) and (
+                    code.startswith("bazel ") or " " in code):
+                yield number, code
 
 
 def label_exists(label):

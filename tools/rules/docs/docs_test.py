@@ -7,6 +7,7 @@ import re
 import unittest
 
 import pages
+import run_pages
 
 ROOT = pages.tree()
 HANDBOOK = sorted([*(ROOT / "docs").glob("*.md"),
@@ -106,6 +107,13 @@ class CodeTest(unittest.TestCase):
                 pages.unindented(block.replace("my_robot", name).replace(
                     '"../poise"', '"../../.."')), pages.unindented(text))
         self.assertEqual(len(blocks), 2)
+
+    def test_each_command_that_does_not_run_is_on_a_page(self):
+        commands = [command for _, _, command in run_pages.page_commands([])]
+        self.assertGreater(len(commands), 30)
+        for start in [*run_pages.NOT_RUN, *run_pages.EXIT_CODES]:
+            self.assertTrue(
+                any(command.startswith(start) for command in commands), start)
 
     def test_notices_a_block_that_is_not_built(self):
         self.assertEqual(self.unknown("a\n```cpp\nint none();\n```\n"), [2])

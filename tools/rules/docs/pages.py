@@ -43,6 +43,25 @@ def blocks(text, language):
             lines.append(line)
 
 
+# A line that calls Bazel or a script of the tree, perhaps with variables before it.
+COMMAND = r"(?:[A-Z_]+=\S+ )*(?:bazel |tools/|\.ci/)"
+
+
+def block_commands(text):
+    """Yields (number, command) of the code blocks of shell commands.
+
+    These are fenced blocks of the language bash, and blocks that are indented by
+    four spaces and call Bazel or a script of the tree."""
+    language = None
+    for number, line in enumerate(text.split("\n"), 1):
+        if line.lstrip().startswith("```"):
+            language = line.strip()[3:] if language is None else None
+        elif line.strip() and (
+                language == "bash" if language is not None
+                else re.match(r"    " + COMMAND, line)):
+            yield number, re.sub(r"\s+#.*", "", line.strip())
+
+
 def unindented(text):
     """Returns the text without the spaces at the beginning of each line."""
     return re.sub(r"^ +", "", text, flags=re.M)
