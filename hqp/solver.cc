@@ -150,6 +150,7 @@ void Solver::Impl::StartOver(const Hierarchy& hierarchy, Budget* budget) {
   RememberSearch();
   (void)budget->Take(problem_.multiply_adds());
   problem_.Plan(hierarchy, hierarchy.num_levels());
+  problem_.UseLeading(problem_.NumFirstLevels(hierarchy));
   problem_.SolveLeading(hierarchy, side_);
   problem_.MoveToFirstLevels(hierarchy, &best_y_);
   Forget();
@@ -237,7 +238,7 @@ void Solver::Impl::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
 // from the working set by one change. The next solve starts from this y and from
 // the rows of the working set that y does not meet strictly.
 void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
-  problem_.SolveDiagonal();
+  problem_.LeaveOutUnsolved();
   problem_.SetSolution(hierarchy, search_.y());
   FindMultipliers(hierarchy);
   writer_.Write(hierarchy, side_, tolerances::kZeroMultiplier, &problem_,
@@ -253,7 +254,7 @@ void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
 }
 
 void Solver::Impl::FindMultipliers(const Hierarchy& hierarchy) {
-  problem_.FindMultipliers(problem_.num_levels() + 1);
+  problem_.FindAllMultipliers();
   problem_.RefineMultipliers(hierarchy);
 }
 

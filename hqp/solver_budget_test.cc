@@ -72,16 +72,19 @@ TEST(SolverBudget, GoesOnFromWhereItWasStopped) {
     ASSERT_EQ(solver.Solve(hierarchy, &optimum), Status::kOptimal);
     // Each solve needs one factorisation to know its start.
     const int needed = optimum.iterations;
-    for (const int limit : {2, 3, 5, 8}) {
+    // Limits of time take the leading levels but the last first.
+    for (const double limit : {2.0, 3.0, 5.0, 8.0, 36e-6, 50e-6}) {
       solver.Forget();
-      solver.max_iterations = limit;
+      const bool is_time = limit < 1;
+      solver.max_iterations = is_time ? 500 : static_cast<int>(limit);
+      solver.max_modelled_seconds = is_time ? limit : 0;
       Status status = Status::kIterationLimit;
       std::optional<Solution> before;
       for (int solve = 0; solve <= 2 * needed; ++solve) {
         const CountMalloc count;
         status = solver.Solve(hierarchy, &now);
         EXPECT_EQ(count.allocations(), 0);
-        EXPECT_LE(now.iterations, limit);
+        EXPECT_LE(now.iterations, solver.max_iterations);
         EXPECT_TRUE(!before || IsNoWorse(hierarchy, now, *before)) << solve;
         before = now;
         if (status == Status::kOptimal) break;
@@ -170,6 +173,62 @@ TEST(SolverBudget, KeepsTheLimitsIfItStartsOverInVain) {
   EXPECT_GT(cut_off, 20);
 }
 
+// Level 0 must be met, level 1 are limits, level 2 is a task, whose target jumps in
+// each tick, and level 3 chooses among the optima. Returns the number of ticks in
+// which a solver with this limit loses level 0 or 1, and its time.
+struct LostLimits {
+  int ticks = 0;
+  double modelled_seconds = 0;
+};
+LostLimits CountLostLimits(int max_iterations, double max_modelled_seconds) {
+  constexpr int kVariables = 40, kLimits = 80, kTask = 12;
+  const std::vector<LevelCapacity> capacity{
+      {12, 0}, {0, kLimits}, {kTask, 0}, {kVariables, 0}};
+  std::mt19937 numbers(2);
+  std::normal_distribution<double> normal;
+  const auto draw = [&](int rows, int columns) {
+    return RowMajorMatrix::NullaryExpr(rows, columns,
+                                       [&] { return normal(numbers); })
+        .eval();
+  };
+  const RowMajorMatrix B = draw(12, kVariables), T = draw(kTask, kVariables);
+  const RowMajorMatrix C = draw(kLimits, kVariables);
+  Solver solver(kVariables, capacity);
+  Solution solution(kVariables, capacity);
+  LostLimits lost;
+  for (int tick = 0; tick < 200; ++tick) {
+    Hierarchy hierarchy(kVariables, capacity);
+    EqualityBlock first = hierarchy.AddEqualities(0, 12);
+    first.B = B;
+    first.b = draw(12, 1);
+    InequalityBlock limits = hierarchy.AddInequalities(1, kLimits);
+    limits.C = C;
+    limits.lower.setConstant(-3);
+    limits.upper.setConstant(3);
+    EqualityBlock task = hierarchy.AddEqualities(2, kTask);
+    task.B = T;
+    task.b = 10 * draw(kTask, 1);
+    hierarchy.AddEqualities(3, kVariables).B.setIdentity();
+    if (tick > 0) {
+      solver.max_iterations = max_iterations;
+      solver.max_modelled_seconds = max_modelled_seconds;
+    }
+    const Status status = solver.Solve(hierarchy, &solution);
+    lost.ticks += status != Status::kOptimal && solution.failed_level < 2;
+    lost.modelled_seconds += solver.modelled_seconds();
+  }
+  return lost;
+}
+
+// With a limit of time, limits come before the task. So fewer ticks lose them, in
+// less time, than if all levels had been searched at once.
+TEST(SolverBudget, LosesTheLastLeadingLevelFirst) {
+  const LostLimits limited = CountLostLimits(500, 200e-6);
+  const LostLimits at_once = CountLostLimits(15, 0);
+  EXPECT_LT(limited.modelled_seconds, at_once.modelled_seconds);
+  EXPECT_LT(2 * limited.ticks, at_once.ticks);
+}
+
 // The modelled time of a solve is part of its result: a replay is exact.
 TEST(SolverBudget, StopsAtItsModelledTime) {
   int stopped = 0;
@@ -180,7 +239,7 @@ TEST(SolverBudget, StopsAtItsModelledTime) {
     Solver solver(n, drawn.capacity), again(n, drawn.capacity);
     Solution solution(n, drawn.capacity), replay(n, drawn.capacity);
     int before = 0;
-    for (const double seconds : {1e-9, 50e-6, 100e-6, 1.0, 0.0}) {
+    for (const double seconds : {1e-9, 50e-6, 100e-6, 1.0}) {
       solver.Forget();
       solver.max_modelled_seconds = again.max_modelled_seconds = seconds;
       const Status status = solver.Solve(drawn.hierarchy, &solution);

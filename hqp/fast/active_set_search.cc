@@ -50,12 +50,18 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
   problem->Plan(hierarchy, levels);
   problem->Solve(hierarchy, *side);
   if (!InitializeAllLevels(hierarchy, problem, side)) return true;
-  // The leading levels come first, because their steps are cheaper.
-  do {
-    if (!budget->Take(limit, problem->multiply_adds())) return false;
-    problem->SolveLeading(hierarchy, *side);
-    problem->Approach(y_);
-  } while (Iterate(hierarchy, problem->num_leading() - 1, problem, side));
+  // The leading levels come first, because their steps are cheaper. If time is
+  // short, all of them but the last come before: they must not wait for it.
+  const int leading = problem->num_leading();
+  int used = budget->has_time_limit() ? std::max(leading - 1, 1) : leading;
+  for (; used <= leading; ++used) {
+    problem->UseLeading(used);
+    do {
+      if (!budget->Take(limit, problem->multiply_adds())) return false;
+      problem->SolveLeading(hierarchy, *side);
+      problem->Approach(y_);
+    } while (Iterate(hierarchy, used - 1, problem, side));
+  }
   problem->SolveDiagonal();
   while (Iterate(hierarchy, levels, problem, side)) {
     if (!budget->Take(limit, problem->multiply_adds())) return false;

@@ -52,6 +52,10 @@ class Budget {
 
   /// Returns whether Take() has failed for another reason than `limit`.
   bool is_spent() const { return is_spent_; }
+  /// Returns whether the time is limited, modelled or measured.
+  bool has_time_limit() const {
+    return limits_.modelled_seconds > 0 || now_ != nullptr;
+  }
   int iterations() const { return iterations_; }
   int max_iterations() const { return limits_.iterations; }
 

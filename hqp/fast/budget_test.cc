@@ -72,6 +72,15 @@ TEST(Budget, StopsAtItsModelledTime) {
   EXPECT_TRUE(endless.Take(1000 * kWork));
 }
 
+// A limit of iterations is none of time, nor is one in seconds without a clock.
+TEST(Budget, KnowsWhetherItsTimeIsLimited) {
+  const std::function<double()> now = [] { return 1.0; };
+  EXPECT_FALSE(Budget({9}, &now).has_time_limit());
+  EXPECT_FALSE(Budget({9, 0, 1}, &no_clock).has_time_limit());
+  EXPECT_TRUE(Budget({9, 0, 1}, &now).has_time_limit());
+  EXPECT_TRUE(Budget({9, 1}, &no_clock).has_time_limit());
+}
+
 TEST(ModelledSeconds, GrowsWithTheWork) {
   EXPECT_GT(ModelledSeconds(0, 0), 0);
   EXPECT_GT(ModelledSeconds(0, 1), ModelledSeconds(0, 0));

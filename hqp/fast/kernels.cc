@@ -15,6 +15,9 @@
 #define POISE_CLONES
 #endif
 
+// Inlined, so that it is compiled for the processor of its caller.
+#define POISE_INLINE inline __attribute__((always_inline))
+
 namespace poise::kernels {
 namespace {
 
@@ -25,16 +28,32 @@ typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 #define POISE_STORE(pointer) (*reinterpret_cast<Four*>(pointer))
 #define POISE_SUM(four) (((four)[0] + (four)[2]) + ((four)[1] + (four)[3]))
 
-}  // namespace
+// Rows `stride` apart.
+template <class Number>
+struct Apart {
+  Number* rows;
+  int stride;
+  POISE_INLINE Number* operator()(int i) const {
+    return rows + static_cast<long>(i) * stride;
+  }
+};
 
-POISE_CLONES
-void Dots(const double* rows, int stride, int count, const double* x, int n,
-          double* out) {
+// Some of them, by their indices.
+template <class Number>
+struct Chosen {
+  Apart<Number> rows;
+  const int* index;
+  POISE_INLINE Number* operator()(int i) const { return rows(index[i]); }
+};
+
+template <class Row>
+POISE_INLINE void DotsOf(Row row, int count, const double* x, int n,
+                         double* out) {
   const int fours = count & ~3, whole = n & ~3, eights = n & ~7;
   int i = 0;
   for (; i < fours; i += 4) {
-    const double* r0 = rows + static_cast<long>(i) * stride;
-    const double *r1 = r0 + stride, *r2 = r1 + stride, *r3 = r2 + stride;
+    const double *r0 = row(i), *r1 = row(i + 1);
+    const double *r2 = row(i + 2), *r3 = row(i + 3);
     Four s0 = {}, s1 = {}, s2 = {}, s3 = {};
     for (int j = 0; j < whole; j += 4) {
       const Four xj = POISE_LOAD(x + j);
@@ -57,18 +76,89 @@ void Dots(const double* rows, int stride, int count, const double* x, int n,
     out[i + 3] = d3;
   }
   for (; i < count; ++i) {
-    const double* row = rows + static_cast<long>(i) * stride;
+    const double* r = row(i);
     Four s0 = {}, s1 = {};
     int j = 0;
     for (; j < eights; j += 8) {
-      s0 += POISE_LOAD(row + j) * POISE_LOAD(x + j);
-      s1 += POISE_LOAD(row + j + 4) * POISE_LOAD(x + j + 4);
+      s0 += POISE_LOAD(r + j) * POISE_LOAD(x + j);
+      s1 += POISE_LOAD(r + j + 4) * POISE_LOAD(x + j + 4);
     }
     s0 += s1;
     double d = POISE_SUM(s0);
-    for (; j < n; ++j) d += row[j] * x[j];
+    for (; j < n; ++j) d += r[j] * x[j];
     out[i] = d;
   }
+}
+
+template <class Row>
+POISE_INLINE void AddRowsOf(Row row, int count, const double* factor, int n,
+                            double* x) {
+  const int fours = count & ~3, whole = n & ~3;
+  int i = 0;
+  for (; i < fours; i += 4) {
+    const double *r0 = row(i), *r1 = row(i + 1);
+    const double *r2 = row(i + 2), *r3 = row(i + 3);
+    const double f0 = factor[i], f1 = factor[i + 1];
+    const double f2 = factor[i + 2], f3 = factor[i + 3];
+    for (int j = 0; j < whole; j += 4) {
+      const Four low = POISE_LOAD(r0 + j) * f0 + POISE_LOAD(r1 + j) * f1;
+      const Four high = POISE_LOAD(r2 + j) * f2 + POISE_LOAD(r3 + j) * f3;
+      POISE_STORE(x + j) += low + high;
+    }
+    for (int j = whole; j < n; ++j) {
+      x[j] += (r0[j] * f0 + r1[j] * f1) + (r2[j] * f2 + r3[j] * f3);
+    }
+  }
+  for (; i < count; ++i) {
+    const double* r = row(i);
+    const double f = factor[i];
+    for (int j = 0; j < whole; j += 4) {
+      POISE_STORE(x + j) += POISE_LOAD(r + j) * f;
+    }
+    for (int j = whole; j < n; ++j) x[j] += r[j] * f;
+  }
+}
+
+template <class Row>
+POISE_INLINE void AddToRowsOf(Row row, int count, const double* factor,
+                              const double* x, int n) {
+  const int pairs = count & ~1, whole = n & ~3;
+  int i = 0;
+  for (; i < pairs; i += 2) {
+    double *r0 = row(i), *r1 = row(i + 1);
+    const double f0 = factor[i], f1 = factor[i + 1];
+    for (int j = 0; j < whole; j += 4) {
+      const Four xj = POISE_LOAD(x + j);
+      POISE_STORE(r0 + j) += xj * f0;
+      POISE_STORE(r1 + j) += xj * f1;
+    }
+    for (int j = whole; j < n; ++j) {
+      r0[j] += x[j] * f0;
+      r1[j] += x[j] * f1;
+    }
+  }
+  for (; i < count; ++i) {
+    double* r = row(i);
+    const double f = factor[i];
+    for (int j = 0; j < whole; j += 4) {
+      POISE_STORE(r + j) += POISE_LOAD(x + j) * f;
+    }
+    for (int j = whole; j < n; ++j) r[j] += x[j] * f;
+  }
+}
+
+}  // namespace
+
+POISE_CLONES
+void Dots(const double* rows, int stride, int count, const double* x, int n,
+          double* out) {
+  DotsOf(Apart<const double>{rows, stride}, count, x, n, out);
+}
+
+POISE_CLONES
+void Dots(const double* rows, int stride, const int* index, int count,
+          const double* x, int n, double* out) {
+  DotsOf(Chosen<const double>{{rows, stride}, index}, count, x, n, out);
 }
 
 POISE_CLONES
@@ -91,59 +181,25 @@ void SpanDots(const double* rows, int stride, const Span* spans, int count,
 POISE_CLONES
 void AddRows(const double* rows, int stride, int count, const double* factor,
              int n, double* x) {
-  const int fours = count & ~3, whole = n & ~3;
-  int i = 0;
-  for (; i < fours; i += 4) {
-    const double* r0 = rows + static_cast<long>(i) * stride;
-    const double *r1 = r0 + stride, *r2 = r1 + stride, *r3 = r2 + stride;
-    const double f0 = factor[i], f1 = factor[i + 1];
-    const double f2 = factor[i + 2], f3 = factor[i + 3];
-    for (int j = 0; j < whole; j += 4) {
-      const Four low = POISE_LOAD(r0 + j) * f0 + POISE_LOAD(r1 + j) * f1;
-      const Four high = POISE_LOAD(r2 + j) * f2 + POISE_LOAD(r3 + j) * f3;
-      POISE_STORE(x + j) += low + high;
-    }
-    for (int j = whole; j < n; ++j) {
-      x[j] += (r0[j] * f0 + r1[j] * f1) + (r2[j] * f2 + r3[j] * f3);
-    }
-  }
-  for (; i < count; ++i) {
-    const double* row = rows + static_cast<long>(i) * stride;
-    const double f = factor[i];
-    for (int j = 0; j < whole; j += 4) {
-      POISE_STORE(x + j) += POISE_LOAD(row + j) * f;
-    }
-    for (int j = whole; j < n; ++j) x[j] += row[j] * f;
-  }
+  AddRowsOf(Apart<const double>{rows, stride}, count, factor, n, x);
+}
+
+POISE_CLONES
+void AddRows(const double* rows, int stride, const int* index, int count,
+             const double* factor, int n, double* x) {
+  AddRowsOf(Chosen<const double>{{rows, stride}, index}, count, factor, n, x);
 }
 
 POISE_CLONES
 void AddToRows(double* rows, int stride, int count, const double* factor,
                const double* x, int n) {
-  const int pairs = count & ~1, whole = n & ~3;
-  int i = 0;
-  for (; i < pairs; i += 2) {
-    double* r0 = rows + static_cast<long>(i) * stride;
-    double* r1 = r0 + stride;
-    const double f0 = factor[i], f1 = factor[i + 1];
-    for (int j = 0; j < whole; j += 4) {
-      const Four xj = POISE_LOAD(x + j);
-      POISE_STORE(r0 + j) += xj * f0;
-      POISE_STORE(r1 + j) += xj * f1;
-    }
-    for (int j = whole; j < n; ++j) {
-      r0[j] += x[j] * f0;
-      r1[j] += x[j] * f1;
-    }
-  }
-  for (; i < count; ++i) {
-    double* row = rows + static_cast<long>(i) * stride;
-    const double f = factor[i];
-    for (int j = 0; j < whole; j += 4) {
-      POISE_STORE(row + j) += POISE_LOAD(x + j) * f;
-    }
-    for (int j = whole; j < n; ++j) row[j] += x[j] * f;
-  }
+  AddToRowsOf(Apart<double>{rows, stride}, count, factor, x, n);
+}
+
+POISE_CLONES
+void AddToRows(double* rows, int stride, const int* index, int count,
+               const double* factor, const double* x, int n) {
+  AddToRowsOf(Chosen<double>{{rows, stride}, index}, count, factor, x, n);
 }
 
 POISE_CLONES

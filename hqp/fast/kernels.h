@@ -3,14 +3,18 @@
 
 #include "poise/hqp/hierarchy.h"
 
-/// The inner loops of the fast solver, on rows that lie `stride` apart. Most
-/// loops process four rows at a time, in vectors of four. The loader selects
+/// The inner loops of the fast solver, on rows that lie `stride` apart: on the
+/// first `count` of them, or on those with `count` given indices. Most loops process four rows at a time, in vectors of four. The loader selects
 /// the version for the processor.
 namespace poise::kernels {
 
 /// out_i = row_i . x, for i < count.
 void Dots(const double* rows, int stride, int count, const double* x, int n,
           double* out);
+
+/// out_i = row_index(i) . x, for i < count.
+void Dots(const double* rows, int stride, const int* index, int count,
+          const double* x, int n, double* out);
 
 /// out_i = row_i . x, for i < count, where row_i is zero outside its span.
 void SpanDots(const double* rows, int stride, const Span* spans, int count,
@@ -31,9 +35,17 @@ void DotWithSize(const double* row, const double* x, int n, double* dot,
 void AddRows(const double* rows, int stride, int count, const double* factor,
              int n, double* x);
 
+/// x += sum_i factor_i row_index(i).
+void AddRows(const double* rows, int stride, const int* index, int count,
+             const double* factor, int n, double* x);
+
 /// row_i += factor_i x.
 void AddToRows(double* rows, int stride, int count, const double* factor,
                const double* x, int n);
+
+/// row_index(i) += factor_i x. No index occurs twice.
+void AddToRows(double* rows, int stride, const int* index, int count,
+               const double* factor, const double* x, int n);
 
 /// (x, y) = (c x + s y, c y - s x).
 void Rotate(double c, double s, int n, double* x, double* y);

@@ -57,6 +57,44 @@ TEST_F(KernelsTest, DotsAreTheSumsOfProducts) {
   });
 }
 
+// With indices, a kernel does the same as without on copies of these rows, and
+// changes no other row. Every second row is left out, and the order is reversed.
+TEST_F(KernelsTest, IndicesChooseRows) {
+  ForAllSizes([&](int rows, int n) {
+    std::vector<int> index;
+    std::vector<double> copies;
+    for (int i = rows - 1; i >= 0; i -= 2) {
+      index.push_back(i);
+      copies.insert(copies.end(), &rows_[i * kStride],
+                    &rows_[(i + 1) * kStride]);
+    }
+    const int count = static_cast<int>(index.size());
+    std::vector<double> out(kMaxRows + 1, kUntouched), wanted = out;
+    kernels::Dots(rows_.data(), kStride, index.data(), count, x_.data(), n,
+                  out.data());
+    kernels::Dots(copies.data(), kStride, count, x_.data(), n, wanted.data());
+    EXPECT_EQ(out, wanted);
+
+    std::vector<double> sum = x_, wanted_sum = x_;
+    kernels::AddRows(rows_.data(), kStride, index.data(), count, factor_.data(),
+                     n, sum.data());
+    kernels::AddRows(copies.data(), kStride, count, factor_.data(), n,
+                     wanted_sum.data());
+    EXPECT_EQ(sum, wanted_sum);
+
+    std::vector<double> changed = rows_, wanted_changed = rows_;
+    kernels::AddToRows(changed.data(), kStride, index.data(), count,
+                       factor_.data(), x_.data(), n);
+    kernels::AddToRows(copies.data(), kStride, count, factor_.data(), x_.data(),
+                       n);
+    for (int i = 0; i < count; ++i) {
+      std::copy_n(&copies[i * kStride], kStride,
+                  &wanted_changed[index[i] * kStride]);
+    }
+    EXPECT_EQ(changed, wanted_changed);
+  });
+}
+
 // Entries outside a row's span do not count, whatever they are.
 TEST_F(KernelsTest, SpanDotsSumTheProductsOfTheSpan) {
   ForAllSizes([&](int rows, int n) {

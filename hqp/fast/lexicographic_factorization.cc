@@ -50,6 +50,8 @@ LexicographicFactorization::LexicographicFactorization(int num_variables,
   cosine_.resize(n_);
   sine_.resize(n_);
   chosen_.resize(max_rows);
+  open_.resize(max_rows);
+  reduced_target_.resize(max_rows);
   key_.resize(max_rows);
   is_recalled_.resize(max_rows);
 }
@@ -240,22 +242,13 @@ void LexicographicFactorization::Count(int rows, int columns) {
 // depends on them exactly. Otherwise the rounding of its remainder, times an
 // unattainable residual, could outweigh a small-weight row.
 void LexicographicFactorization::PivotRows(Level* level) {
-  const int first = level->first_row, rows = level->end_row - first;
-  for (int a = first; a < level->end_row; ++a) {
-    chosen_[a] = false;
+  int open = 0;  // Rows that are neither orthogonalised nor zero.
+  for (int a = level->first_row; a < level->end_row; ++a) {
+    open_[open++] = a;
     fresh_[a] = rest_[a];  // As last computed, not downdated.
   }
   while (level->rank_end < n_) {
-    int pivot = -1;
-    for (int a = first; a < level->end_row; ++a) {
-      if (chosen_[a]) continue;
-      if (rest_[a] <= kRankTolerance * kRankTolerance) {
-        chosen_[a] = true;
-      } else if (pivot < 0 ||
-                 weight(a) * rest_[a] > weight(pivot) * rest_[pivot]) {
-        pivot = a;
-      }
-    }
+    const int pivot = TakePivot(&open);
     if (pivot < 0) break;
     const int e = level->rank_end;
     double* q = &q_[static_cast<size_t>(e) * stride_];
@@ -271,7 +264,6 @@ void LexicographicFactorization::PivotRows(Level* level) {
       TakeOut(is_clean ? kept_.rank() : 0, e, q, l);
     }
     const double norm = std::sqrt(SquaredNorm(q, n_));
-    chosen_[pivot] = true;
     l[e] = 0;
     if (norm <= kRankTolerance) {
       // The remainder was rounding of other rows. The row is dependent.
@@ -283,28 +275,44 @@ void LexicographicFactorization::PivotRows(Level* level) {
     carrier_[e] = pivot;
     ++level->rank_end;
     // Update the other rows: coefficient, remainder, and squared norm.
-    Dots(row(first), stride_, rows, q, n_, factor_.data());
-    for (int i = 0; i < rows; ++i) {
-      const int a = first + i;
-      if (chosen_[a]) {
-        factor_[i] = 0;
-        if (a != pivot) l_[static_cast<size_t>(a) * stride_ + e] = 0;
-        continue;
-      }
+    for (int a = level->first_row; a < level->end_row; ++a) {
+      if (a != pivot) l_[static_cast<size_t>(a) * stride_ + e] = 0;
+    }
+    Dots(row(0), stride_, open_.data(), open, q, n_, factor_.data());
+    for (int i = 0; i < open; ++i) {
+      const int a = open_[i];
       l_[static_cast<size_t>(a) * stride_ + e] = factor_[i];
       rest_[a] -= factor_[i] * factor_[i];
       factor_[i] = -factor_[i];
     }
-    AddToRows(row(first), stride_, rows, factor_.data(), q, n_);
-    Count(2 * rows + 1, n_);
-    for (int a = first; a < level->end_row; ++a) {
+    AddToRows(row(0), stride_, open_.data(), open, factor_.data(), q, n_);
+    Count(2 * open + 1, n_);
+    for (int i = 0; i < open; ++i) {
+      const int a = open_[i];
       // The difference of squares has lost its digits: compute the norm again.
-      if (!chosen_[a] && rest_[a] < tolerances::kDowndate * fresh_[a]) {
+      if (rest_[a] < tolerances::kDowndate * fresh_[a]) {
         rest_[a] = SquaredNorm(row(a), n_);
         fresh_[a] = rest_[a];
       }
     }
   }
+}
+
+// Removes the row with the largest weighted remainder, and rows whose remainder
+// is zero, from the first `open` of open_. Returns this row, or -1 if all are zero.
+int LexicographicFactorization::TakePivot(int* open) {
+  int pivot = -1, left = 0;
+  for (int i = 0; i < *open; ++i) {
+    const int a = open_[i];
+    if (rest_[a] <= kRankTolerance * kRankTolerance) continue;
+    open_[left++] = a;
+    if (pivot < 0 || weight(a) * rest_[a] > weight(pivot) * rest_[pivot]) {
+      pivot = a;
+    }
+  }
+  *open = static_cast<int>(
+      std::remove(open_.begin(), open_.begin() + left, pivot) - open_.begin());
+  return pivot;
 }
 
 // Reduces the rows d_a l_a, d_a t_a of a deficient level by reflections H, from
@@ -320,23 +328,24 @@ void LexicographicFactorization::Reduce(Level* level) {
     for (int e = 0; e < end; ++e) {
       to[e] = metric_[a] * l_[static_cast<size_t>(a) * stride_ + e];
     }
-    to[end] = metric_[a] * target_[a];
+    reduced_target_[i] = metric_[a] * target_[a];
     chosen_[a] = false;
   }
   for (int e = end - 1; e >= begin; --e) {
     // The reflection moves column e of the rows not yet chosen into the row
-    // where its entry is largest.
+    // where its entry is largest. Most entries are zero: those of all rows that
+    // were orthogonalised before row e. Later columns are zero in these rows.
     double* v =
         &reflection_[static_cast<size_t>(e) * (reflection_.size() / n_)];
-    int pivot = -1;
+    int pivot = -1, count = 0;
     double squares = 0;
     for (int i = 0; i < rows; ++i) {
-      v[i] = chosen_[first + i] ? 0 : row(first + i)[e];
+      v[i] = 0;
+      if (chosen_[first + i]) continue;
+      v[i] = row(first + i)[e];
       squares += v[i] * v[i];
-      if (!chosen_[first + i] &&
-          (pivot < 0 || std::abs(v[i]) > std::abs(v[pivot]))) {
-        pivot = i;
-      }
+      if (v[i] != 0) open_[count++] = i;
+      if (pivot < 0 || std::abs(v[i]) > std::abs(v[pivot])) pivot = i;
     }
     const double alpha =
         v[pivot] > 0 ? -std::sqrt(squares) : std::sqrt(squares);
@@ -344,19 +353,29 @@ void LexicographicFactorization::Reduce(Level* level) {
     v[pivot] -= alpha;
     if (length > 0) {
       const double root = std::sqrt(length);  // So that H = I - v v'.
-      for (int i = 0; i < rows; ++i) v[i] /= root;
-      std::fill_n(scratch_.data(), end + 1, 0);
-      AddRows(row(first), stride_, rows, v, end + 1, scratch_.data());
-      for (int i = 0; i < rows; ++i) factor_[i] = -v[i];
-      AddToRows(row(first), stride_, rows, factor_.data(), scratch_.data(),
-                end + 1);
-      Count(2 * rows, end + 1);
+      double target = 0;
+      for (int k = 0; k < count; ++k) {
+        const int i = open_[k];
+        v[i] /= root;
+        factor_[k] = v[i];
+        target += v[i] * reduced_target_[i];
+      }
+      std::fill_n(scratch_.data(), e + 1, 0);
+      AddRows(row(first), stride_, open_.data(), count, factor_.data(), e + 1,
+              scratch_.data());
+      for (int k = 0; k < count; ++k) {
+        factor_[k] = -factor_[k];
+        reduced_target_[open_[k]] += factor_[k] * target;
+      }
+      AddToRows(row(first), stride_, open_.data(), count, factor_.data(),
+                scratch_.data(), e + 1);
+      Count(2 * count, e + 1);
     }
     chosen_[first + pivot] = true;
     carrier_[e] = first + pivot;
     const double* from = row(first + pivot);
     std::copy_n(from, e + 1, &effective_[static_cast<size_t>(e) * stride_]);
-    effective_target_[e] = from[end];
+    effective_target_[e] = reduced_target_[pivot];
   }
 }
 

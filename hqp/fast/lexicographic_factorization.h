@@ -140,6 +140,7 @@ class LexicographicFactorization {
   void Count(int rows, int columns);
   void TakeOut(int begin, int end, double* x, double* l);
   void PivotRows(Level* level);
+  int TakePivot(int* open);
   void Reduce(Level* level);
   void SolveLevel(const Level& level);
   void KeepUnattainableResiduals(double size, const Level& level);
@@ -154,10 +155,12 @@ class LexicographicFactorization {
   std::vector<double> effective_;  ///< n x stride: effective rows of L.
   std::vector<double> effective_target_, z_;
   std::vector<double> target_, metric_, residual_, rest_, fresh_;
-  std::vector<int> carrier_;        ///< Row that an effective row replaces.
-  std::vector<double> reflection_;  ///< n x max_rows.
+  std::vector<double> reduced_target_;  ///< By row of the level.
+  std::vector<int> carrier_;            ///< Row that an effective row replaces.
+  std::vector<double> reflection_;      ///< n x max_rows.
   std::vector<double> factor_, scratch_, cosine_, sine_;
   std::vector<bool> chosen_;
+  std::vector<int> open_;  ///< Indices of the rows that a loop is about.
   std::int64_t multiply_adds_ = 0;
   ProjectedRows kept_;  ///< Rows with a key, on the merged levels.
   /// By row: key of its projection in kept_, or kNoKey.

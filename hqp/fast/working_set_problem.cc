@@ -156,6 +156,19 @@ void WorkingSetProblem::Plan(const Hierarchy& hierarchy, int num_levels,
   diagonal_.Finish(center);
 }
 
+void WorkingSetProblem::UseLeading(int num_leading) {
+  num_leading_ = num_leading;
+  if (leading_.num_levels() <= num_leading) return;
+  leading_.Truncate(num_leading);
+  // Merged levels are gone together.
+  is_factored_ = is_factored_ && leading_.num_rows() > 0;
+}
+
+void WorkingSetProblem::LeaveOutUnsolved() {
+  if (has_diagonal_) return;
+  num_leading_ = num_levels_ = leading_.num_levels();
+}
+
 // Adds a row to the level that is factored next. A row with a key, 0 or more,
 // is not copied if its projection is known.
 void WorkingSetProblem::AddRow(const Row& row, const double* from,
@@ -223,9 +236,10 @@ void WorkingSetProblem::FactorLevel(const Hierarchy& hierarchy,
 // Returns false if the first level must be factored again.
 bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
                                const std::vector<std::vector<Side>>& side) {
+  const int factored = leading_.num_levels();
   int met = 0, same = 0;
-  while (met < num_leading_ && !leading_.is_deficient(met)) ++met;
-  while (same < num_leading_ && side[same] == factored_[same]) ++same;
+  while (met < factored && !leading_.is_deficient(met)) ++met;
+  while (same < factored && side[same] == factored_[same]) ++same;
   if (same > met) {
     if (same < num_leading_) FactorFrom(hierarchy, side, same, met > 0);
     return true;
@@ -296,6 +310,7 @@ void WorkingSetProblem::SolveLeading(
     FactorFrom(hierarchy, side, 0, false);
   }
   is_factored_ = true;
+  has_diagonal_ = false;
 }
 
 void WorkingSetProblem::Approach(const std::vector<double>& y) {
@@ -303,12 +318,17 @@ void WorkingSetProblem::Approach(const std::vector<double>& y) {
   MoveTo(leading_.rank(), &y_);
 }
 
-void WorkingSetProblem::MoveToFirstLevels(const Hierarchy& hierarchy,
-                                          std::vector<double>* y) {
+int WorkingSetProblem::NumFirstLevels(const Hierarchy& hierarchy) const {
   int levels = 0;
   while (levels < num_leading_ && hierarchy.num_inequalities(levels) == 0) {
     ++levels;
   }
+  return levels;
+}
+
+void WorkingSetProblem::MoveToFirstLevels(const Hierarchy& hierarchy,
+                                          std::vector<double>* y) {
+  const int levels = NumFirstLevels(hierarchy);
   if (levels > 0) MoveTo(leading_.rank(levels - 1), y);
 }
 

@@ -60,6 +60,15 @@ class WorkingSetProblem {
   void Plan(const Hierarchy& hierarchy, int num_levels,
             const double* center = nullptr);
 
+  /// Uses the first num_leading leading levels only, until it is called again
+  /// or the next Plan(). What is factored of them stays. Approach() then finds
+  /// y, because the diagonal levels follow all leading ones.
+  void UseLeading(int num_leading);
+
+  /// Leaves out the levels that the last SolveLeading() has not solved, until the
+  /// next Plan().
+  void LeaveOutUnsolved();
+
   /// Solves for the working set `side`, by level. After the first time, updates
   /// the last factorisation where that is accurate. The factored rows are then
   /// not in the order of their levels.
@@ -72,14 +81,20 @@ class WorkingSetProblem {
   /// Solve() in two steps: the factorisation of the leading levels, and then y.
   void SolveLeading(const Hierarchy& hierarchy,
                     const std::vector<std::vector<Side>>& side);
-  void SolveDiagonal() { diagonal_.Solve(leading_, y_.data()); }
+  void SolveDiagonal() {
+    diagonal_.Solve(leading_, y_.data());
+    has_diagonal_ = true;
+  }
 
   /// Replaces SolveDiagonal(): takes the optimum of the leading levels closest
   /// to y, and ignores the diagonal levels.
   void Approach(const std::vector<double>& y);
 
-  /// Moves y to the closest optimum of the first levels, as far as they have no
-  /// inequalities. No search can change these levels.
+  /// Returns the number of first levels, all leading, without inequalities. No
+  /// search can change these levels.
+  int NumFirstLevels(const Hierarchy& hierarchy) const;
+
+  /// Moves y to the closest optimum of these first levels.
   /// pre: Solve() has factored the levels in their order, without an update.
   void MoveToFirstLevels(const Hierarchy& hierarchy, std::vector<double>* y);
 
@@ -104,6 +119,12 @@ class WorkingSetProblem {
   /// Computes the multipliers of the levels before `end` at the last solve. The
   /// norm of y is level num_levels().
   void FindMultipliers(int end);
+
+  /// Computes the multipliers of all levels, and of the norm of y. If levels are
+  /// left out, those of the others.
+  void FindAllMultipliers() {
+    FindMultipliers(has_diagonal_ ? num_levels_ + 1 : num_levels_);
+  }
 
   /// Refines the multipliers by the residual of stationarity, from the rows as
   /// given. Those of a leading level are followed by the weighted residuals of
@@ -182,7 +203,8 @@ class WorkingSetProblem {
   int n_;
   int num_levels_ = 0, num_leading_ = 0;
   bool is_factored_ = false;
-  std::int64_t before_ = 0;                  ///< Multiply-adds before Read().
+  bool has_diagonal_ = false;  ///< Whether the diagonal levels are solved.
+  std::int64_t before_ = 0;    ///< Multiply-adds before Read().
   std::vector<std::vector<Side>> factored_;  ///< Factored working set.
   LexicographicFactorization leading_;
   DiagonalLevels diagonal_;

@@ -342,6 +342,72 @@ TEST_P(RandomWorkingSetProblemTest, ApproachesTheOptimumOfTheLeadingLevels) {
   EXPECT_LE((step - Q.transpose() * (Q * step)).norm(), tolerance);
 }
 
+// More and then fewer of the leading levels are used, while the working set
+// changes. A new problem has only these levels.
+TEST_P(RandomWorkingSetProblemTest, UsesTheFirstLeadingLevelsOnly) {
+  problem_.Plan(hierarchy_, num_levels_);
+  problem_.Solve(hierarchy_, MakeSides(0));
+  const int num_leading = problem_.num_leading();
+  const std::vector<double> from(n_, 1);
+  for (int turn = 0; turn <= 2 * num_leading; ++turn) {
+    const int used = std::min(turn, 2 * num_leading - turn);
+    problem_.UseLeading(used);
+    WorkingSetProblem alone(n_, drawn_.capacity);
+    int failed_level;
+    ASSERT_EQ(alone.Read(hierarchy_, &failed_level), Status::kOptimal);
+    for (const int salt : {used, used + 1}) {
+      SCOPED_TRACE(testing::Message() << used << " levels, sides " << salt);
+      problem_.SolveLeading(hierarchy_, MakeSides(salt));
+      problem_.Approach(from);
+      alone.Plan(hierarchy_, used);
+      alone.UseLeading(used);  // Also if the last of them are diagonal.
+      alone.SolveLeading(hierarchy_, MakeSides(salt));
+      alone.Approach(from);
+      const Eigen::VectorXd wanted = Eigen::VectorXd::Map(alone.y().data(), n_);
+      const LexicographicOptimum optimum =
+          SolveLexicographically(n_, Levels(MakeSides(salt), used, zero_));
+      EXPECT_LE(
+          (y() - wanted).norm(),
+          Rounding(kLargest, kMaxRows, optimum.condition * optimum.condition));
+    }
+  }
+}
+
+// Without the levels that are left out, the problem is one that never had them.
+// If all are solved, none is left out.
+TEST_P(RandomWorkingSetProblemTest, LeavesOutWhatIsNotSolved) {
+  const Sides sides = MakeSides(2);
+  problem_.Plan(hierarchy_, num_levels_);
+  problem_.Solve(hierarchy_, sides);
+  problem_.LeaveOutUnsolved();
+  ASSERT_EQ(problem_.num_levels(), num_levels_);
+  const int used = problem_.num_leading() / 2;
+  problem_.UseLeading(used);
+  problem_.SolveLeading(hierarchy_, sides);
+  problem_.LeaveOutUnsolved();
+  EXPECT_EQ(problem_.num_levels(), used);
+  EXPECT_EQ(problem_.num_leading(), used);
+  problem_.FindAllMultipliers();
+
+  WorkingSetProblem alone(n_, drawn_.capacity);
+  int failed_level;
+  ASSERT_EQ(alone.Read(hierarchy_, &failed_level), Status::kOptimal);
+  alone.Plan(hierarchy_, used);
+  alone.UseLeading(used);
+  alone.SolveLeading(hierarchy_, sides);
+  alone.FindMultipliers(used);
+  const int rows = problem_.leading().num_rows();
+  ASSERT_EQ(rows, alone.leading().num_rows());
+  for (int a = 0; a < rows; ++a) EXPECT_LT(problem_.row(a).level, used);
+  for (int k = 0; k < used; ++k) {
+    EXPECT_EQ(problem_.multipliers(k).any, alone.multipliers(k).any);
+    if (!alone.multipliers(k).any) continue;
+    for (int a = 0; a < problem_.leading().first_row(k); ++a) {
+      EXPECT_EQ(problem_.multipliers(k).nu[a], alone.multipliers(k).nu[a]);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomWorkingSetProblemTest,
                          testing::Range(0, kSeeds));
 
