@@ -25,7 +25,7 @@ packages=(
   libbenchmark-dev libceres-dev libfcl-dev libgmock-dev libgmp-dev libgtest-dev
   libmpfrc++-dev liborocos-kdl-dev librapidcheck-dev mypy python3-ipykernel
   python3-matplotlib python3-nbclient python3-nbformat python3-pandas
-  python3-scipy python3-venv
+  python3-pytest python3-scipy python3-venv
 )
 
 fail() {

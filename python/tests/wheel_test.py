@@ -1,7 +1,8 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 """Installs the wheel into an environment, away from the build, and uses it.
 
-Usage: wheel_test.py WHEEL
+Usage: wheel_test.py WHEEL FILE...
+The files are those of this folder that pytest runs with the installed package.
 """
 
 import base64
@@ -9,13 +10,15 @@ import csv
 import hashlib
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 import zipfile
 
-WHEEL = pathlib.Path(sys.argv.pop(1)).resolve()
+WHEEL, *TESTS = (pathlib.Path(path).resolve() for path in sys.argv[1:])
+del sys.argv[1:]
 
 USE = """
 import sys, time
@@ -63,6 +66,16 @@ class WheelTest(unittest.TestCase):
                 env=environment, check=True, capture_output=True, text=True)
             print(used.stdout, end="")
             self.check_libraries(module)
+            tests = pathlib.Path(folder) / "tests"
+            tests.mkdir()
+            for test in TESTS:
+                shutil.copy(test, tests)
+            tested = subprocess.run(
+                [place / "bin/python", "-m", "pytest", "--quiet", tests],
+                cwd=folder, env=environment, check=False, text=True,
+                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            self.assertEqual(tested.returncode, 0, tested.stdout)
+            self.assertIn(" passed", tested.stdout)
 
     def check_libraries(self, module):
         """Checks that the module loads Debian's libraries alone."""
