@@ -11,8 +11,8 @@ project then uses
 
 Layers that a chosen layer needs are installed with it, and layers that the
 prefix has already are installed anew, so that all are of one state of Poise.
-Either everything is installed or nothing. Exit code: 0 if done, 1 if the build or the installation
-failed, 2 for bad input.
+Either everything is installed or nothing. Exit code: 0 if done, 1 if the build or
+the installation failed, 2 for bad input, 130 if interrupted.
 """
 
 import argparse

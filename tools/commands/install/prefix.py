@@ -135,7 +135,7 @@ def install(prefix, entries, version):
         for folder in made:
             folder.rmdir()
         raise
-    shutil.rmtree(spare)
+    shutil.rmtree(spare, ignore_errors=True)
 
 
 def _install(prefix, entries, version, spare, installed):
