@@ -45,7 +45,7 @@ class Solver::Impl {
   std::int64_t multiply_adds() const { return problem_.multiply_adds(); }
 
  private:
-  void StartOver(const Hierarchy& hierarchy, Budget* budget);
+  void StartOver(const Hierarchy& hierarchy);
   void RememberSearch();
   void RecallSearch();
   void Prepare(const Hierarchy& hierarchy);
@@ -113,7 +113,7 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
       std::max(kMinIterationsAtOnce, budget->max_iterations() / 2);
   const int num_cut_off = num_cut_off_;
   const bool starts_over = num_cut_off == kMaxCutOff;
-  if (starts_over) StartOver(hierarchy, budget);
+  if (starts_over) StartOver(hierarchy);
   const bool is_complete = SearchAtOnce(hierarchy, at_once, budget);
   if (budget->is_spent()) {
     const bool goes_back =
@@ -146,9 +146,8 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
 
 // Remembers the last search and forgets it. The rows have changed since, so that
 // its y is first moved to the levels that every search meets.
-void Solver::Impl::StartOver(const Hierarchy& hierarchy, Budget* budget) {
+void Solver::Impl::StartOver(const Hierarchy& hierarchy) {
   RememberSearch();
-  (void)budget->Take(problem_.multiply_adds());
   problem_.Plan(hierarchy, hierarchy.num_levels());
   problem_.UseLeading(problem_.NumFirstLevels(hierarchy));
   problem_.SolveLeading(hierarchy, side_);
@@ -235,8 +234,9 @@ void Solver::Impl::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
 
 // Writes the y at which the budget of the search on all levels was spent. The
 // multipliers are those of the rows that were factored last, which may differ
-// from the working set by one change. The next solve starts from this y and from
-// the rows of the working set that y does not meet strictly.
+// from the working set by one change; levels that were not solved have none. The
+// next solve starts from this y and from the rows of the working set that y does
+// not meet strictly.
 void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
   problem_.LeaveOutUnsolved();
   problem_.SetSolution(hierarchy, search_.y());

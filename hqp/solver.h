@@ -62,11 +62,13 @@ class Solver {
 
   /// Limit of the modelled time of the search [s]; 0: no limit. Each iteration
   /// has the time that was measured for it on the reference machine, so that a
-  /// replay is exact (hqp/fast/budget.h).
+  /// replay is exact (hqp/fast/budget.h). A limit of time, even a large one,
+  /// changes the order of the search: lower levels are lost first.
   double max_modelled_seconds = 0;
 
   /// Time limit [s], measured by now(). 0, or no now(): no limit. A time limit
-  /// makes a replay inexact; a limit of iterations does not.
+  /// makes a replay inexact; a limit of iterations does not. It changes the order
+  /// of the search as well.
   double max_seconds = 0;
   std::function<double()> now;
 

@@ -233,6 +233,56 @@ TEST(SolverBudget, LosesTheLastLeadingLevelFirst) {
       << limited.modelled_seconds << " s and " << at_once.modelled_seconds;
 }
 
+// A time that is too short for a step of all levels in one solve must not end the
+// search: the last leading level gets a step sooner or later.
+TEST(SolverBudget, ReachesTheOptimumWithAnyTime) {
+  RandomHierarchyOptions options;
+  options.scaled = 0;
+  options.max_variables = 20;
+  options.max_levels = 6;
+  options.max_inequalities = 20;
+  int cut_off = 0;
+  for (int seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const HierarchyCase drawn = MakeRandomHierarchy(seed, options);
+    const int n = drawn.hierarchy.num_variables();
+    Solver solver(n, drawn.capacity);
+    Solution solution(n, drawn.capacity);
+    solver.max_modelled_seconds = 30e-6;
+    int solves = 1;
+    while (solver.Solve(drawn.hierarchy, &solution) != Status::kOptimal) {
+      ASSERT_LE(++solves, 200);
+    }
+    cut_off += solves > 1;
+  }
+  EXPECT_GT(cut_off, 100);
+}
+
+// If the iterations end before the search has begun, a limit of time that is not
+// reached changes nothing, neither the levels that are certified nor multipliers.
+TEST(SolverBudget, IsTheSameAtTheStartWithALimitOfTime) {
+  for (int seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    const HierarchyCase drawn = MakeRandomHierarchy(seed);
+    const int n = drawn.hierarchy.num_variables();
+    Solver solver(n, drawn.capacity), timed(n, drawn.capacity);
+    Solution solution(n, drawn.capacity), other(n, drawn.capacity);
+    solver.max_iterations = timed.max_iterations = 1;
+    timed.max_modelled_seconds = 1;
+    EXPECT_EQ(timed.Solve(drawn.hierarchy, &other),
+              solver.Solve(drawn.hierarchy, &solution));
+    EXPECT_EQ(other.y, solution.y);
+    EXPECT_EQ(other.failed_level, solution.failed_level);
+    for (int k = 0; k < drawn.hierarchy.num_levels(); ++k) {
+      EXPECT_EQ(other.levels[k].nullity, solution.levels[k].nullity);
+      for (int above = 0; above < k; ++above) {
+        EXPECT_EQ(other.levels[k].multipliers[above].inequality,
+                  solution.levels[k].multipliers[above].inequality);
+      }
+    }
+  }
+}
+
 // The modelled time of a solve is part of its result: a replay is exact.
 TEST(SolverBudget, StopsAtItsModelledTime) {
   int stopped = 0;

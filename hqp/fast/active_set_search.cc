@@ -50,17 +50,24 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
   problem->Plan(hierarchy, levels);
   problem->Solve(hierarchy, *side);
   if (!InitializeAllLevels(hierarchy, problem, side)) return true;
-  // The leading levels come first, because their steps are cheaper. If time is
-  // short, all of them but the last come before: they must not wait for it.
+  // The leading levels come first, because their steps are cheaper. With a limit
+  // of time, all of them but the last are searched alone before. If these need no
+  // step, the last one gets theirs: else a small budget would never reach it.
   const int leading = problem->num_leading();
   int used = budget->has_time_limit() ? std::max(leading - 1, 1) : leading;
-  for (; used <= leading; ++used) {
-    problem->UseLeading(used);
+  for (bool is_free = false; used <= leading; ++used) {
+    int iterations = 0;
     do {
-      if (!budget->Take(limit, problem->multiply_adds())) return false;
+      if (!is_free && !budget->Take(limit, problem->multiply_adds())) {
+        return false;
+      }
+      is_free = false;
+      ++iterations;
+      problem->UseLeading(used);
       problem->SolveLeading(hierarchy, *side);
       problem->Approach(y_);
     } while (Iterate(hierarchy, used - 1, problem, side));
+    is_free = iterations == 1;
   }
   problem->SolveDiagonal();
   while (Iterate(hierarchy, levels, problem, side)) {

@@ -17,9 +17,10 @@ struct BudgetLimits {
 /// replay with such a limit is exact. The three times are a fit to 1193 solves
 /// on a slow machine: 98 % of the predictions were between 0.78 and 1.12 of the
 /// measured time. All three are then multiplied by 0.73, the speed of a quiet
-/// machine. Since the fit, a multiply-add takes 1.08 times as long, because fewer
-/// are needed (docs/notebook/2026-11-27-limits-first.md). The time of a solve
-/// covers the check of the input, refinement, multipliers and the certificate.
+/// machine. Since the fit, products with zeros are skipped, and a multiply-add that
+/// remains takes 1.08 times as long (docs/notebook/2026-11-27-limits-first.md). The
+/// time of a solve covers the check of the input, refinement, multipliers and the
+/// certificate.
 inline double ModelledSeconds(std::int64_t multiply_adds, int iterations) {
   constexpr double kPerMultiplyAdd = 0.178e-9;
   constexpr double kPerIteration = 4.6e-6, kPerSolve = 25e-6;

@@ -4,8 +4,9 @@
 #include "poise/hqp/hierarchy.h"
 
 /// The inner loops of the fast solver, on rows that lie `stride` apart: on the
-/// first `count` of them, or on those with `count` given indices. Most loops process four rows at a time, in vectors of four. The loader selects
-/// the version for the processor.
+/// first `count` of them, or on those with `count` given indices. Most loops
+/// process four rows at a time, in vectors of four. The loader selects the version
+/// for the processor.
 namespace poise::kernels {
 
 /// out_i = row_i . x, for i < count.

@@ -51,6 +51,7 @@ LexicographicFactorization::LexicographicFactorization(int num_variables,
   sine_.resize(n_);
   chosen_.resize(max_rows);
   open_.resize(max_rows);
+  nonzero_.resize(max_rows);
   reduced_target_.resize(max_rows);
   key_.resize(max_rows);
   is_recalled_.resize(max_rows);
@@ -344,7 +345,7 @@ void LexicographicFactorization::Reduce(Level* level) {
       if (chosen_[first + i]) continue;
       v[i] = row(first + i)[e];
       squares += v[i] * v[i];
-      if (v[i] != 0) open_[count++] = i;
+      if (v[i] != 0) nonzero_[count++] = i;
       if (pivot < 0 || std::abs(v[i]) > std::abs(v[pivot])) pivot = i;
     }
     const double alpha =
@@ -355,19 +356,19 @@ void LexicographicFactorization::Reduce(Level* level) {
       const double root = std::sqrt(length);  // So that H = I - v v'.
       double target = 0;
       for (int k = 0; k < count; ++k) {
-        const int i = open_[k];
+        const int i = nonzero_[k];
         v[i] /= root;
         factor_[k] = v[i];
         target += v[i] * reduced_target_[i];
       }
       std::fill_n(scratch_.data(), e + 1, 0);
-      AddRows(row(first), stride_, open_.data(), count, factor_.data(), e + 1,
-              scratch_.data());
+      AddRows(row(first), stride_, nonzero_.data(), count, factor_.data(),
+              e + 1, scratch_.data());
       for (int k = 0; k < count; ++k) {
         factor_[k] = -factor_[k];
-        reduced_target_[open_[k]] += factor_[k] * target;
+        reduced_target_[nonzero_[k]] += factor_[k] * target;
       }
-      AddToRows(row(first), stride_, open_.data(), count, factor_.data(),
+      AddToRows(row(first), stride_, nonzero_.data(), count, factor_.data(),
                 scratch_.data(), e + 1);
       Count(2 * count, e + 1);
     }

@@ -160,7 +160,8 @@ class LexicographicFactorization {
   std::vector<double> reflection_;      ///< n x max_rows.
   std::vector<double> factor_, scratch_, cosine_, sine_;
   std::vector<bool> chosen_;
-  std::vector<int> open_;  ///< Indices of the rows that a loop is about.
+  std::vector<int> open_;     ///< Rows that PivotRows() has not finished.
+  std::vector<int> nonzero_;  ///< Rows of the level that Reduce() reflects.
   std::int64_t multiply_adds_ = 0;
   ProjectedRows kept_;  ///< Rows with a key, on the merged levels.
   /// By row: key of its projection in kept_, or kNoKey.

@@ -278,6 +278,11 @@ void MultiplierWriter::WriteNullity(const Hierarchy& hierarchy,
     solution->levels[level].nullity =
         n_ - (is_quick ? equalities.num_rows() : equalities.rank());
   }
+  const int num_levels = problem->num_levels();
+  for (int level = num_levels; level < hierarchy.num_levels(); ++level) {
+    solution->levels[level].nullity = -1;  // Not solved.
+  }
+  if (problem->num_leading() == num_levels) return;
   DiagonalLevels& diagonal = problem->diagonal();
   if (all_count) {
     // The diagonal levels are tied to the same rows already.
@@ -287,8 +292,7 @@ void MultiplierWriter::WriteNullity(const Hierarchy& hierarchy,
   } else {
     diagonal.Tie(equalities);
   }
-  for (int level = problem->num_leading(); level < problem->num_levels();
-       ++level) {
+  for (int level = problem->num_leading(); level < num_levels; ++level) {
     solution->levels[level].nullity =
         diagonal.Nullity(level - problem->num_leading());
   }

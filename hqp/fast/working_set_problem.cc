@@ -158,6 +158,7 @@ void WorkingSetProblem::Plan(const Hierarchy& hierarchy, int num_levels,
 
 void WorkingSetProblem::UseLeading(int num_leading) {
   num_leading_ = num_leading;
+  is_diagonal_solved_ = false;
   if (leading_.num_levels() <= num_leading) return;
   leading_.Truncate(num_leading);
   // Merged levels are gone together.
@@ -165,7 +166,7 @@ void WorkingSetProblem::UseLeading(int num_leading) {
 }
 
 void WorkingSetProblem::LeaveOutUnsolved() {
-  if (has_diagonal_) return;
+  if (is_diagonal_solved_) return;
   num_leading_ = num_levels_ = leading_.num_levels();
 }
 
@@ -310,7 +311,7 @@ void WorkingSetProblem::SolveLeading(
     FactorFrom(hierarchy, side, 0, false);
   }
   is_factored_ = true;
-  has_diagonal_ = false;
+  is_diagonal_solved_ = false;
 }
 
 void WorkingSetProblem::Approach(const std::vector<double>& y) {

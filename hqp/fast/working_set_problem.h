@@ -60,9 +60,9 @@ class WorkingSetProblem {
   void Plan(const Hierarchy& hierarchy, int num_levels,
             const double* center = nullptr);
 
-  /// Uses the first num_leading leading levels only, until it is called again
-  /// or the next Plan(). What is factored of them stays. Approach() then finds
-  /// y, because the diagonal levels follow all leading ones.
+  /// Uses the first num_leading levels only, as leading levels, until it is
+  /// called again or the next Plan(). What is factored of them stays. Call
+  /// SolveLeading() and Approach() next: SolveDiagonal() needs all leading levels.
   void UseLeading(int num_leading);
 
   /// Leaves out the levels that the last SolveLeading() has not solved, until the
@@ -83,7 +83,7 @@ class WorkingSetProblem {
                     const std::vector<std::vector<Side>>& side);
   void SolveDiagonal() {
     diagonal_.Solve(leading_, y_.data());
-    has_diagonal_ = true;
+    is_diagonal_solved_ = true;
   }
 
   /// Replaces SolveDiagonal(): takes the optimum of the leading levels closest
@@ -123,7 +123,7 @@ class WorkingSetProblem {
   /// Computes the multipliers of all levels, and of the norm of y. If levels are
   /// left out, those of the others.
   void FindAllMultipliers() {
-    FindMultipliers(has_diagonal_ ? num_levels_ + 1 : num_levels_);
+    FindMultipliers(is_diagonal_solved_ ? num_levels_ + 1 : num_levels_);
   }
 
   /// Refines the multipliers by the residual of stationarity, from the rows as
@@ -203,8 +203,8 @@ class WorkingSetProblem {
   int n_;
   int num_levels_ = 0, num_leading_ = 0;
   bool is_factored_ = false;
-  bool has_diagonal_ = false;  ///< Whether the diagonal levels are solved.
-  std::int64_t before_ = 0;    ///< Multiply-adds before Read().
+  bool is_diagonal_solved_ = false;          ///< Since the last SolveLeading().
+  std::int64_t before_ = 0;                  ///< Multiply-adds before Read().
   std::vector<std::vector<Side>> factored_;  ///< Factored working set.
   LexicographicFactorization leading_;
   DiagonalLevels diagonal_;

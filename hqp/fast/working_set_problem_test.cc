@@ -383,7 +383,7 @@ TEST_P(RandomWorkingSetProblemTest, LeavesOutWhatIsNotSolved) {
   ASSERT_EQ(problem_.num_levels(), num_levels_);
   const int used = problem_.num_leading() / 2;
   problem_.UseLeading(used);
-  problem_.SolveLeading(hierarchy_, sides);
+  if (GetParam() % 2 == 0) problem_.SolveLeading(hierarchy_, sides);
   problem_.LeaveOutUnsolved();
   EXPECT_EQ(problem_.num_levels(), used);
   EXPECT_EQ(problem_.num_leading(), used);
