@@ -72,7 +72,8 @@ TEST(SolverBudget, GoesOnFromWhereItWasStopped) {
     ASSERT_EQ(solver.Solve(hierarchy, &optimum), Status::kOptimal);
     // Each solve needs one factorisation to know its start.
     const int needed = optimum.iterations;
-    // Limits of time take the leading levels but the last first.
+    // Numbers of iterations, and times. The times allow 2 and 5 iterations beside
+    // the modelled time of a solve.
     for (const double limit : {2.0, 3.0, 5.0, 8.0, 36e-6, 50e-6}) {
       solver.Forget();
       const bool is_time = limit < 1;
@@ -127,6 +128,20 @@ TEST(SolverBudget, StartsOverIfItIsStoppedAgainAndAgain) {
   EXPECT_TRUE(solution.y.isZero(kTolerance));
 }
 
+// Draws matrices of normally distributed numbers.
+class DrawMatrix {
+ public:
+  explicit DrawMatrix(int seed) : numbers_(seed) {}
+  RowMajorMatrix operator()(int rows, int columns) {
+    return RowMajorMatrix::NullaryExpr(rows, columns,
+                                       [&] { return normal_(numbers_); });
+  }
+
+ private:
+  std::mt19937 numbers_;
+  std::normal_distribution<double> normal_;
+};
+
 // The rows of all levels drift, so that the last y misses the equalities of level
 // 0 a little. A search that starts over and is cut off as well must not give up
 // the limits of level 1, which the last y nearly met.
@@ -134,13 +149,7 @@ TEST(SolverBudget, KeepsTheLimitsIfItStartsOverInVain) {
   constexpr int kVariables = 40;
   const std::vector<LevelCapacity> capacity{
       {12, 0}, {0, 80}, {12, 0}, {kVariables, 0}};
-  std::mt19937 numbers(1);
-  std::normal_distribution<double> normal;
-  const auto draw = [&](int rows, int columns) {
-    return RowMajorMatrix::NullaryExpr(rows, columns,
-                                       [&] { return normal(numbers); })
-        .eval();
-  };
+  DrawMatrix draw(1);
   const RowMajorMatrix B = draw(12, kVariables), B_rate = draw(12, kVariables);
   const RowMajorMatrix T = draw(12, kVariables), C = draw(80, kVariables);
   const Eigen::VectorXd b = draw(12, 1), target = 6 * draw(12, 1);
@@ -173,24 +182,19 @@ TEST(SolverBudget, KeepsTheLimitsIfItStartsOverInVain) {
   EXPECT_GT(cut_off, 20);
 }
 
-// Level 0 must be met, level 1 are limits, level 2 is a task, whose target jumps in
-// each tick, and level 3 chooses among the optima. Returns the number of ticks in
-// which a solver with this limit loses level 0 or 1, and its time.
+// Ticks that lose level 0 or 1, and the time of all ticks.
 struct LostLimits {
   int ticks = 0;
   double modelled_seconds = 0;
 };
+
+// Solves 200 ticks. Level 0 must be met, level 1 has limits, level 2 has a task,
+// whose target jumps in each tick, and level 3 chooses among the optima.
 LostLimits CountLostLimits(int max_iterations, double max_modelled_seconds) {
   constexpr int kVariables = 40, kLimits = 80, kTask = 12;
   const std::vector<LevelCapacity> capacity{
       {12, 0}, {0, kLimits}, {kTask, 0}, {kVariables, 0}};
-  std::mt19937 numbers(2);
-  std::normal_distribution<double> normal;
-  const auto draw = [&](int rows, int columns) {
-    return RowMajorMatrix::NullaryExpr(rows, columns,
-                                       [&] { return normal(numbers); })
-        .eval();
-  };
+  DrawMatrix draw(2);
   const RowMajorMatrix B = draw(12, kVariables), T = draw(kTask, kVariables);
   const RowMajorMatrix C = draw(kLimits, kVariables);
   Solver solver(kVariables, capacity);
@@ -223,10 +227,12 @@ LostLimits CountLostLimits(int max_iterations, double max_modelled_seconds) {
 // With a limit of time, limits come before the task. So fewer ticks lose them than
 // if all levels are searched at once, for as long or longer.
 TEST(SolverBudget, LosesTheLastLeadingLevelFirst) {
+  // Enough for the limits in most ticks, but not for the task.
   const LostLimits limited = CountLostLimits(500, 300e-6);
   LostLimits at_once;
   for (int iterations = 5; at_once.modelled_seconds < limited.modelled_seconds;
        ++iterations) {
+    ASSERT_LE(iterations, 500);
     at_once = CountLostLimits(iterations, 0);
   }
   EXPECT_LT(2 * limited.ticks, at_once.ticks)
@@ -248,7 +254,7 @@ TEST(SolverBudget, ReachesTheOptimumWithAnyTime) {
     const int n = drawn.hierarchy.num_variables();
     Solver solver(n, drawn.capacity);
     Solution solution(n, drawn.capacity);
-    solver.max_modelled_seconds = 30e-6;
+    solver.max_modelled_seconds = 30e-6;  // Two iterations take longer.
     int solves = 1;
     while (solver.Solve(drawn.hierarchy, &solution) != Status::kOptimal) {
       ASSERT_LE(++solves, 200);
@@ -280,6 +286,45 @@ TEST(SolverBudget, IsTheSameAtTheStartWithALimitOfTime) {
                   solution.levels[k].multipliers[above].inequality);
       }
     }
+  }
+}
+
+// Level 1 contradicts the equalities of level 0, and level 2 is diagonal, with
+// targets outside the bounds. A search that is cut off on level 2 keeps the
+// multipliers that certify level 1.
+TEST(SolverBudget, CertifiesTheLeadingLevelsIfADiagonalOneIsCutOff) {
+  constexpr int kVariables = 20;
+  const std::vector<LevelCapacity> capacity{
+      {5, kVariables}, {3, 0}, {kVariables, 0}};
+  DrawMatrix draw(3);
+  Hierarchy hierarchy(kVariables, capacity);
+  const RowMajorMatrix B = draw(5, kVariables);
+  hierarchy.AddEqualities(0, 5).B = B;
+  InequalityBlock bounds = hierarchy.AddInequalities(0, kVariables);
+  bounds.C.setIdentity();
+  bounds.lower.setConstant(-1);
+  bounds.upper.setConstant(1);
+  EqualityBlock task = hierarchy.AddEqualities(1, 3);
+  task.B = B.topRows(3);
+  task.b.setConstant(1);
+  EqualityBlock posture = hierarchy.AddEqualities(2, kVariables);
+  posture.B.setIdentity();
+  posture.b.setConstant(-5);
+  for (const double seconds : {0.0, 1.0}) {
+    SCOPED_TRACE(seconds);
+    Solver solver(kVariables, capacity);
+    Solution solution(kVariables, capacity);
+    solver.max_modelled_seconds = seconds;
+    int cut_on_level_2 = 0;
+    for (int limit = 1; limit < 100; ++limit) {
+      solver.Forget();
+      solver.max_iterations = limit;
+      if (solver.Solve(hierarchy, &solution) == Status::kOptimal) break;
+      cut_on_level_2 += solution.failed_level == 2;
+    }
+    EXPECT_EQ(solution.status, Status::kOptimal);
+    EXPECT_GT(solution.levels[1].cost, 0);
+    EXPECT_GT(cut_on_level_2, 0);
   }
 }
 

@@ -72,7 +72,8 @@ TEST(Budget, StopsAtItsModelledTime) {
   EXPECT_TRUE(endless.Take(1000 * kWork));
 }
 
-// A limit of iterations does not limit the time. Neither do seconds without a clock.
+// A limit of iterations does not limit the time. Neither do seconds without a
+// clock.
 TEST(Budget, KnowsWhetherItsTimeIsLimited) {
   const std::function<double()> now = [] { return 1.0; };
   EXPECT_FALSE(Budget({9}, &now).has_time_limit());

@@ -62,7 +62,8 @@ class WorkingSetProblem {
 
   /// Uses the first num_leading levels only, as leading levels, until it is
   /// called again or the next Plan(). What is factored of them stays. Call
-  /// SolveLeading() and Approach() next: SolveDiagonal() needs all leading levels.
+  /// SolveLeading() and Approach() next: SolveDiagonal() needs all leading
+  /// levels.
   void UseLeading(int num_leading);
 
   /// Leaves out the levels that the last SolveLeading() has not solved, until the

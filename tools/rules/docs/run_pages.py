@@ -2,7 +2,7 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 """Runs the shell commands of README, CONTRIBUTING and docs in a clean clone.
 
-Usage: tools/rules/docs/run_pages.py [--list] [--optimised] [--disk-cache DIR] [PAGE...]
+Usage: run_pages.py [--list] [--optimised] [--disk-cache DIR] [PAGE...]
 Takes the code blocks of the pages in their order, clones the present commit into
 a temporary folder, and runs each command there once, with a home folder of its
 own. That folder gets your .bazelrc. NOT_RUN below names the commands that are
