@@ -342,6 +342,27 @@ TEST_P(RandomWorkingSetProblemTest, ApproachesTheOptimumOfTheLeadingLevels) {
   EXPECT_LE((step - Q.transpose() * (Q * step)).norm(), tolerance);
 }
 
+// The levels before the first inequality are met by the smallest step.
+TEST_P(RandomWorkingSetProblemTest, MovesToTheLevelsBeforeTheFirstInequality) {
+  const Sides sides = MakeSides(1);
+  problem_.Plan(hierarchy_, num_levels_);
+  problem_.Solve(hierarchy_, sides);
+  int first = 0;
+  while (first < NumLeading(num_levels_) &&
+         hierarchy_.num_inequalities(first) == 0) {
+    ++first;
+  }
+  EXPECT_EQ(problem_.NumFirstLevels(hierarchy_), first);
+  const Eigen::VectorXd from = Eigen::VectorXd::LinSpaced(n_, 1, 3);
+  std::vector<double> moved(from.data(), from.data() + n_);
+  problem_.MoveToFirstLevels(hierarchy_, &moved);
+  const LexicographicOptimum nearest =
+      SolveLexicographically(n_, Levels(sides, first, from));
+  EXPECT_LE(
+      (Eigen::VectorXd::Map(moved.data(), n_) - nearest.y).norm(),
+      Rounding(kLargest, kMaxRows, nearest.condition * nearest.condition));
+}
+
 // More and then fewer of the leading levels are used, while the working set
 // changes. A new problem has only these levels.
 TEST_P(RandomWorkingSetProblemTest, UsesTheFirstLeadingLevelsOnly) {

@@ -168,6 +168,8 @@ class Ledger:
             ]
             for mutant in caught:
                 del self.entries[mutant.key]
+            tried = [m for m in tried if not self.is_equivalent(m)]
+            survivors = [m for m in survivors if not self.is_equivalent(m)]
             for mutant in fresh:
                 self.entries[mutant.key] = Entry(SURVIVED, UNEXPLAINED)
             old = self.counts.get(key)

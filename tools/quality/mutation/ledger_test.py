@@ -102,6 +102,14 @@ class LedgerTest(unittest.TestCase):
         )
         self.assertEqual(len(self.ledger.counts), 1)  # Nobody tried Double.
 
+    def test_leaves_out_what_was_tried_before_it_was_called_equivalent(self):
+        double = [m for m in self.pool if m.place == "Double"]
+        verdicts = {m: "killed" for m in double}
+        verdicts[double[0]] = SURVIVED
+        self.ledger.record(self.pool, verdicts.get)
+        n = len(double) - 1
+        self.assertEqual(str(self.ledger.counts["math", "Double"]), f"{n} of {n} of {n}")
+
     def test_keeps_larger_counts_and_notes_a_survivor_that_died(self):
         add = [m for m in self.pool if m.place == "Add"]
         self.ledger.record(self.pool, {add[0]: "killed"}.get)
