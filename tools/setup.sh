@@ -1,6 +1,9 @@
 #!/bin/bash
-# Usage: tools/setup.sh [--baselines] [--browser] [--docs] [--package]
+# Usage: tools/setup.sh [--layers LAYERS] [--baselines] [--browser] [--docs] [--package]
 # Installs the packages that Poise needs on Debian 12, if they are missing.
+#   --layers LAYERS  of the default packages, only those to install these layers for
+#     CMake projects: of math, dynamics, hqp, robot, control, gait, sim, separated by
+#     commas, as for bazel run //tools:install; and CMake
 #   --baselines  also packages that some tests and benchmarks compare with
 #   --browser  also packages to rebuild the viewer and to run its browser test
 #   --docs  also Doxygen, for bazel build //docs:api
@@ -10,13 +13,19 @@
 # that names the missing packages, and exits with code 1.
 set -euo pipefail
 
-packages=(
-  # The build.
-  bazel-bootstrap bazel-rules-java bazel-rules-proto
-  clang clang-format g++ git libclang-rt-14-dev pkg-config python3
-  # The libraries: linear algebra, robot files, plants, formats, digests.
-  libbullet-dev libcairo2-dev libcli11-dev libeigen3-dev libmujoco-dev
-  libssl-dev libtinyxml2-dev liburdfdom-dev libyaml-cpp-dev nlohmann-json3-dev
+# To build layers.
+build=(
+  bazel-bootstrap bazel-rules-java bazel-rules-proto g++ git pkg-config python3
+)
+kernels=(libeigen3-dev)
+robot=(libtinyxml2-dev liburdfdom-dev libyaml-cpp-dev)
+sim=(libbullet-dev libmujoco-dev libssl-dev nlohmann-json3-dev)
+# Everything else by default.
+others=(
+  # Sanitizers, fuzzers and the format of the sources.
+  clang clang-format libclang-rt-14-dev
+  # Command lines and pictures.
+  libcairo2-dev libcli11-dev
   # The Python package: its binding, and NumPy.
   pybind11-dev python3-dev python3-numpy
   # The command that converts meshes of other formats than STL and OBJ.
@@ -27,41 +36,67 @@ packages=(
   python3-matplotlib python3-nbclient python3-nbformat python3-pandas
   python3-pytest python3-scipy python3-venv
 )
+packages=("${build[@]}" "${kernels[@]}" "${robot[@]}" "${sim[@]}" "${others[@]}")
+additional=()
 
 fail() {
   echo "tools/setup.sh: $*" >&2
   exit 1
 }
 
-for argument in "$@"; do
-  case $argument in
+# Usage: choose_layers LAYERS: replaces the packages by those of the layers.
+choose_layers() {
+  local layers layer
+  packages=("${build[@]}" "${kernels[@]}" cmake make)
+  IFS=, read -ra layers <<< "${1:-,}"
+  for layer in "${layers[@]}"; do
+    case $layer in
+      math | dynamics | hqp) ;;
+      robot | control | gait) packages+=("${robot[@]}") ;;
+      sim) packages+=("${robot[@]}" "${sim[@]}") ;;
+      *)
+        echo "tools/setup.sh: --layers has '$layer', must be of math, dynamics, hqp, robot, control, gait, sim, separated by commas" >&2
+        exit 2
+        ;;
+    esac
+  done
+}
+
+while [ $# -gt 0 ]; do
+  case $1 in
+    --layers)
+      choose_layers "${2:-}"
+      [ $# -lt 2 ] || shift
+      ;;
     --baselines)
-      packages+=(libbullet-extras-dev)
+      additional+=(libbullet-extras-dev)
       ;;
     --browser)
-      packages+=(chromium)
+      additional+=(chromium)
       # Debian's npm conflicts with a Node.js from elsewhere, so keep such a one
       # if it is installed.
-      command -v node > /dev/null || packages+=(nodejs)
-      command -v npm > /dev/null || packages+=(npm)
+      command -v node > /dev/null || additional+=(nodejs)
+      command -v npm > /dev/null || additional+=(npm)
       ;;
     --docs)
-      packages+=(doxygen)
+      additional+=(doxygen)
       ;;
     --package)
-      packages+=(abigail-tools binutils chrpath cmake dpkg-dev lintian make)
-      packages+=(mmdebstrap)
+      additional+=(abigail-tools binutils chrpath cmake dpkg-dev lintian make)
+      additional+=(mmdebstrap)
       ;;
     -h | --help)
-      sed -n '2,10s/^# \?//p' "$0"
+      sed -n '2,13s/^# \?//p' "$0"
       exit 0
       ;;
     *)
-      echo "tools/setup.sh: unknown option '$argument', must be --baselines, --browser, --docs or --package" >&2
+      echo "tools/setup.sh: unknown option '$1', must be --layers, --baselines, --browser, --docs or --package" >&2
       exit 2
       ;;
   esac
+  shift
 done
+mapfile -t packages < <(printf '%s\n' "${packages[@]}" "${additional[@]}" | awk '!seen[$0]++')
 
 is_installed() {
   [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2> /dev/null)" = installed ]

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 /// A capsule: all points within `radius` of a segment. A sphere is a capsule

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 /// How a tick ended.

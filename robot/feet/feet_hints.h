@@ -5,6 +5,8 @@
 #include <array>
 #include <optional>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 /// Facts about the feet that a profile gives. They replace a search.

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 /// A rectangle that is turned in the plane.

@@ -5,6 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 /// A surface of triangles, in the axes and the unit of its file. All

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "poise/math/eigen_alignment.h"
 #include "poise/robot/profile/joint_value.h"
 #include "poise/robot/profile/yaml_file.h"
 

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "poise/math/eigen_alignment.h"
 #include "poise/robot/finding.h"
 
 namespace poise {

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 /// A vector that goes from one target to the next with minimum jerk, at rest at

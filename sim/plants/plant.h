@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 /// A torque and a force on the point Q of a body, in world axes.

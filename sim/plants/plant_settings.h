@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "poise/math/eigen_alignment.h"
 #include "poise/sim/number_field.h"
 
 namespace poise {

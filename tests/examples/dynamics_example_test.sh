@@ -4,12 +4,13 @@
 # momentum change, or if the example loads a library above the dynamics. The
 # program that runs is built in this workspace, because the example's workspace
 # would compile all of the dynamics again. POISE_WHOLE_EXAMPLE=1, which .ci/run
-# sets, builds it there, and the quadruped in its own workspace.
+# sets, builds it there, and the other two examples
+# in their own workspaces.
 set -euo pipefail
 
 simulate=$PWD/tests/examples/simulate
 tree=$(dirname "$(readlink -f WORKSPACE)")
-for example in dynamics quadruped; do
+for example in arm_reach dynamics quadruped; do
   cp -r "$tree/docs/examples/$example" "$TEST_TMPDIR"
   sed -i "s|path = \"../../..\"|path = \"$tree\"|" \
     "$TEST_TMPDIR/$example/WORKSPACE"
@@ -28,11 +29,16 @@ build() {
   run_bazel build "${quick[@]}" "$@" > log 2>&1 || { tail -n 30 log; exit 1; }
 }
 if [ -n "${POISE_WHOLE_EXAMPLE:-}" ]; then
-  cd "$TEST_TMPDIR/quadruped"
-  build //:quadruped
-  bazel-bin/quadruped | tee output
-  grep -q "weight 147.150 N" output
-  run_bazel shutdown
+  # Usage: runs EXAMPLE TEXT: builds the example; it prints the text.
+  runs() {
+    cd "$TEST_TMPDIR/$1"
+    build "//:$1"
+    "bazel-bin/$1" | tee output
+    grep -q "$2" output
+    run_bazel shutdown
+  }
+  runs quadruped "weight 147.150 N"
+  runs arm_reach "error .* m"
   cd "$TEST_TMPDIR/dynamics"
   build //:simulate
   simulate=bazel-bin/simulate

@@ -18,6 +18,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = pathlib.Path(os.environ["POISE_WORK"])
 PREFIX = WORK / "prefix"
 EXAMPLE = ROOT / "docs/examples/cmake"
+REACH = ROOT / "docs/examples/arm_reach"
 LIBRARIES = sorted(PREFIX.glob("lib/libpoise_*.so.0"))
 # Libraries that any C++ program has.
 RUNTIME = {"libstdc++.so.6", "libm.so.6", "libgcc_s.so.1", "libc.so.6",
@@ -37,6 +38,12 @@ def run(*command, **options):
 def needed(library):
     return set(re.findall(r"\(NEEDED\).*\[(.+)\]",
                           run("readelf", "-d", library).stdout))
+
+
+def page_blocks(language):
+    """Returns the code blocks of the page for CMake in this language."""
+    page = (ROOT / "docs/quickstart/cmake.md").read_text()
+    return re.findall(rf"```{language}\n(.*?)```", page, re.S)
 
 
 class Checks(unittest.TestCase):
@@ -154,6 +161,26 @@ class HeadersTest(Checks):
             failed = [f for f in pool.map(compile_alone, jobs) if f]
         self.assertEqual(failed, [], f"{len(failed)} of {len(jobs)}")
 
+    def test_each_header_with_eigen_notices_another_alignment(self):
+        headers = [path.relative_to(PREFIX / "include")
+                   for path in sorted(PREFIX.glob("include/poise/**/*.h"))]
+        flags = [f for f in run("pkg-config", "--cflags", "poise_sim",
+                                env=ENVIRONMENT).stdout.split()
+                 if not f.startswith("-D")]
+
+        def compile_without_definitions(header):
+            return run("g++", "-std=c++17", "-fsyntax-only", *flags, "-x", "c++",
+                       "-", input=f'#include "{header}"\n#ifdef EIGEN_CORE_H\n'
+                       "#error Eigen is included\n#endif\n").stdout
+
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            printed = dict(zip(headers, pool.map(compile_without_definitions,
+                                                 headers)))
+        with_eigen = {h for h in headers if "Eigen is included" in printed[h]}
+        noticed = {h for h in headers if SENTENCE in printed[h]}
+        self.assertGreater(len(with_eigen), len(headers) / 2)
+        self.assertEqual(with_eigen - noticed, set())
+
 
 ENVIRONMENT = {
     **os.environ, "PKG_CONFIG_PATH": str(PREFIX / "lib/pkgconfig"),
@@ -162,20 +189,21 @@ FIND = f"-DCMAKE_PREFIX_PATH={PREFIX}"
 
 
 class ConsumerTest(Checks):
-    def run_examples(self, build):
+    def run_examples(self, name, *options):
+        """Builds and runs a program of the dynamics and one of the solver."""
+        build = self.cmake(EXAMPLE, name, FIND, *options)
         self.assertIn("shoulder", self.succeed(
             build / "arm_torques", EXAMPLE / "arm.urdf"))
+        build = self.cmake(REACH, f"{name}_reach", FIND, *options)
         self.assertIn("error", self.succeed(build / "arm_reach"))
 
     def test_programs_without_march_native(self):
-        self.run_examples(self.cmake(EXAMPLE, "generic", FIND))
+        self.run_examples("generic")
 
     def test_the_project_of_the_quickstart_page(self):
-        page = (ROOT / "docs/quickstart/cmake.md").read_text()
         source = WORK / "page"
         source.mkdir()
-        (source / "CMakeLists.txt").write_text(
-            re.search(r"```cmake\n(.*?)```", page, re.S)[1])
+        (source / "CMakeLists.txt").write_text(page_blocks("cmake")[0])
         shutil.copy(ROOT / "docs/examples/dynamics/main.cc", source)
         self.assertIn("floating", self.succeed(
             self.cmake(source, "page_build", FIND) / "my_robot"))
@@ -185,20 +213,21 @@ class ConsumerTest(Checks):
         self.assertIn("weight 147.150 N", self.succeed(build / "quadruped"))
 
     def test_programs_with_march_native(self):
-        self.run_examples(self.cmake(
-            EXAMPLE, "native", FIND, "-DCMAKE_CXX_FLAGS=-march=native"))
+        self.run_examples("native", "-DCMAKE_CXX_FLAGS=-march=native")
 
     def test_static_libraries_with_and_without_march_native(self):
-        source = WORK / "static_example"
-        shutil.copytree(EXAMPLE, source)
-        lists = source / "CMakeLists.txt"
-        lists.write_text(re.sub(r"poise::(\w+)\)", r"poise::\1_static)",
-                                lists.read_text()))
-        for name, flag in (("static", ""), ("static_native", "-march=native")):
-            build = self.cmake(source, name, FIND, f"-DCMAKE_CXX_FLAGS={flag}")
-            self.assertFalse([lib for lib in needed(build / "arm_torques")
-                              if "poise" in lib])
-            self.run_examples(build)
+        for example, program in ((EXAMPLE, "arm_torques"), (REACH, "arm_reach")):
+            source = WORK / f"static_{program}"
+            shutil.copytree(example, source)
+            lists = source / "CMakeLists.txt"
+            lists.write_text(re.sub(r"poise::(\w+)\)", r"poise::\1_static)",
+                                    lists.read_text()))
+            for name, flag in (("generic", ""), ("native", "-march=native")):
+                build = self.cmake(source, f"static_{program}_{name}", FIND,
+                                   f"-DCMAKE_CXX_FLAGS={flag}")
+                self.assertFalse([lib for lib in needed(build / program)
+                                  if "poise" in lib])
+                self.succeed(build / program, *source.glob("arm.urdf"))
 
     def test_another_alignment_is_a_compile_time_error_with_a_sentence(self):
         for flag in ("-DEIGEN_MAX_ALIGN_BYTES=16", "-DEIGEN_MAX_ALIGN_BYTES=32",
@@ -214,14 +243,14 @@ class ConsumerTest(Checks):
     def test_missing_definitions_are_a_compile_time_error(self):
         result = run("g++", "-std=c++17", "-fsyntax-only", "-isystem",
                      "/usr/include/eigen3", f"-I{PREFIX}/include",
-                     EXAMPLE / "arm_reach.cc")
+                     REACH / "main.cc")
         self.assertIn(SENTENCE, result.stdout)
 
     def test_pkg_config(self):
         flags = self.succeed("pkg-config", "--cflags", "--libs", "poise_hqp",
                              env=ENVIRONMENT).split()
         program = WORK / "by_pkg_config"
-        self.succeed("g++", "-std=c++17", EXAMPLE / "arm_reach.cc", *flags,
+        self.succeed("g++", "-std=c++17", REACH / "main.cc", *flags,
                      "-o", program)
         self.succeed(program, env=ENVIRONMENT)
 
@@ -278,38 +307,30 @@ class ConsumerTest(Checks):
 class FolderTest(Checks):
     """Poise as a folder of another CMake project."""
 
-    def build_with(self, lines, name):
-        source = WORK / f"{name}_source"
-        source.mkdir()
-        shutil.copy(EXAMPLE / "arm_reach.cc", source)
-        (source / "CMakeLists.txt").write_text(
-            "cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES CXX)\n"
-            f"set(POISE_LAYERS hqp)\n{lines}\n"
-            "add_executable(reach arm_reach.cc)\n"
-            "target_link_libraries(reach poise::hqp)\n")
-        build = self.cmake(source, name)
-        self.succeed(build / "reach")
-        return build
-
     def test_add_subdirectory_and_install(self):
-        build = self.build_with(f"add_subdirectory({ROOT} poise)", "folder")
-        self.succeed("cmake", "--install", build, "--prefix", WORK / "copied")
-        self.cmake_from(WORK / "copied")
-
-    def cmake_from(self, prefix):
-        source = WORK / "copied_source"
-        shutil.copytree(EXAMPLE, source)
+        source = WORK / "folder_source"
+        shutil.copytree(REACH, source)
         lists = source / "CMakeLists.txt"
-        lists.write_text(re.sub(r"add_executable\(arm_torques.*\n.*\n", "",
-                                lists.read_text()).replace(
-                                    " dynamics hqp robot", " hqp"))
-        self.cmake(source, "copied_build", f"-DCMAKE_PREFIX_PATH={prefix}")
+        lists.write_text(re.sub(
+            r"find_package.*", f"set(POISE_LAYERS hqp)\nadd_subdirectory({ROOT} poise)",
+            lists.read_text()))
+        build = self.cmake(source, "folder")
+        self.succeed(build / "arm_reach")
+        self.succeed("cmake", "--install", build, "--prefix", WORK / "copied")
+        self.cmake(REACH, "copied_build", f"-DCMAKE_PREFIX_PATH={WORK / 'copied'}")
 
     # tools/quality/package_test.sh fetches it by Git, in a bare Debian.
-    def test_fetch_content(self):
-        self.build_with("include(FetchContent)\n"
-                        f"FetchContent_Declare(poise SOURCE_DIR {ROOT})\n"
-                        "FetchContent_MakeAvailable(poise)", "fetched")
+    def test_fetch_content_of_the_quickstart_page(self):
+        source = WORK / "fetched_source"
+        source.mkdir()
+        (source / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES CXX)\n"
+            "add_executable(my_robot main.cc)\n" + page_blocks("cmake")[1])
+        shutil.copy(ROOT / "docs/examples/dynamics/main.cc", source)
+        build = self.cmake(source, "fetched", "-DURL_OF_POISE=unused",
+                           "-DCOMMIT_OF_POISE=unused",
+                           f"-DFETCHCONTENT_SOURCE_DIR_POISE={ROOT}")
+        self.assertIn("floating", self.succeed(build / "my_robot"))
 
 
 class CommandTest(Checks):

@@ -157,8 +157,8 @@ step_wheel() {
 clone() {
   git clone --quiet --bare "$source_tree" "$root/poise.git" &&
     git clone --quiet "$root/poise.git" "$root/trial/poise" &&
-    timed "tools/setup.sh --package" inside \
-      /trial/poise/tools/setup.sh --package
+    timed "tools/setup.sh --layers dynamics" inside \
+      /trial/poise/tools/setup.sh --layers dynamics
 }
 
 step_fetch_content() {
@@ -166,21 +166,20 @@ step_fetch_content() {
   mkdir "$root/trial/chain"
   cp "$root/trial/poise/docs/examples/dynamics/main.cc" "$root/trial/chain"
   rm -r "$root/trial/poise"
-  cat > "$root/trial/chain/CMakeLists.txt" << EOT
-cmake_minimum_required(VERSION 3.22)
-project(chain LANGUAGES CXX)
-include(FetchContent)
-set(POISE_LAYERS dynamics)
-FetchContent_Declare(poise GIT_REPOSITORY file:///poise.git
-  GIT_TAG $(git -C "$root/poise.git" rev-parse HEAD))
-FetchContent_MakeAvailable(poise)
-add_executable(chain main.cc)
-target_link_libraries(chain poise::dynamics)
-EOT
+  {
+    echo "cmake_minimum_required(VERSION 3.22)"
+    echo "project(my_robot LANGUAGES CXX)"
+    echo "add_executable(my_robot main.cc)"
+    # The code block of the page that fetches Poise.
+    sed -n '/^include(FetchContent)$/,/^```$/p' \
+      "$source_tree/docs/quickstart/cmake.md" | grep -v '```'
+  } > "$root/trial/chain/CMakeLists.txt"
   timed "fetched, built Poise's dynamics and configured" inside \
-    cmake -S /trial/chain -B /trial/build -DCMAKE_BUILD_TYPE=Release || return 1
+    cmake -S /trial/chain -B /trial/build -DCMAKE_BUILD_TYPE=Release \
+    -DURL_OF_POISE=file:///poise.git \
+    -DCOMMIT_OF_POISE="$(git -C "$root/poise.git" rev-parse HEAD)" || return 1
   timed "built the program" inside cmake --build /trial/build || return 1
-  timed "ran" inside /trial/build/chain
+  timed "ran" inside /trial/build/my_robot
 }
 
 step_colcon() {

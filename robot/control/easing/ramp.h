@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 /// Brings a set of numbers to zero at the same time, even if a number is

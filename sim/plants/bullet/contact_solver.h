@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "poise/math/eigen_alignment.h"
+
 namespace poise {
 
 /// Computes Bullet's sequential impulses in the space of the contact rows.

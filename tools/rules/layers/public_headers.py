@@ -50,6 +50,19 @@ def needed(root, public):
     return sorted(found)
 
 
+def unaligned(root, public):
+    """Returns the sorted public headers that include Eigen, but neither they nor
+    the headers that they include check its alignment (math/eigen_alignment.h)."""
+    found = []
+    for name in public:
+        reached = [name, *needed(root, [name])]
+        has_eigen = any(re.search(r"^#include <Eigen/", (root / path).read_text(),
+                                  re.M) for path in reached)
+        if has_eigen and "math/eigen_alignment.h" not in reached:
+            found.append(name)
+    return sorted(found)
+
+
 def read_list(text):
     """Returns the headers that public_headers.bzl lists."""
     block = re.search(r"^PUBLIC_HEADERS = \[\n([^\]]*)\]", text, re.M)[1]

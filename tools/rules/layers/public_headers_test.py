@@ -5,7 +5,9 @@
 A header that appears in the list or vanishes from it is a change for users:
 CHANGELOG.md names it."""
 
+import os
 import pathlib
+import tempfile
 import unittest
 
 import public_headers
@@ -26,6 +28,9 @@ class PublicHeadersTest(unittest.TestCase):
     def test_public_headers_include_public_ones_only(self):
         self.assertEqual(public_headers.needed(ROOT, self.public), [])
 
+    def test_public_headers_with_eigen_check_its_alignment(self):
+        self.assertEqual(public_headers.unaligned(ROOT, self.public), [])
+
 
 class RulesTest(unittest.TestCase):
     """The checks above notice what they are for."""
@@ -41,6 +46,21 @@ class RulesTest(unittest.TestCase):
             public_headers.read_list(
                 'PUBLIC_HEADERS = [\n    "math/a.h",\n]\n'
                 'B = [\n    "b.h",\n]\n'), ["math/a.h"])
+
+    def test_finds_headers_that_do_not_check_the_alignment(self):
+        with tempfile.TemporaryDirectory(dir=os.environ.get("TEST_TMPDIR")) as folder:
+            root = pathlib.Path(folder)
+            for name, text in (
+                    ("a.h", "#include <Eigen/Core>\n"),
+                    ("b.h", '#include "poise/a.h"\n'),
+                    ("c.h", '#include "poise/a.h"\n'
+                            '#include "poise/math/eigen_alignment.h"\n'),
+                    ("d.h", "#include <vector>\n"),
+                    ("math/eigen_alignment.h", "#include <Eigen/Core>\n")):
+                (root / name).parent.mkdir(exist_ok=True)
+                (root / name).write_text(text)
+            self.assertEqual(public_headers.unaligned(
+                root, ["d.h", "c.h", "b.h", "a.h"]), ["a.h", "b.h"])
 
     def test_follows_includes_through_private_headers(self):
         found = public_headers.needed(ROOT, ["hqp/fast/active_set_search.h"])

@@ -1,13 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // The solver alone: a planar arm reaches a point under limits of its rates.
-#include <cmath>
+#include <Eigen/Geometry>
 #include <iostream>
+#include <vector>
 
 #include "poise/hqp/solver.h"
 
 int main() {
-  constexpr double kLink = 0.4, kDt = 0.01, kMaxRate = 0.8;  // m, s, rad/s.
-  Eigen::Vector2d target(0.3, 0.7), error = target;
+  constexpr double kDt = 0.01, kMaxRate = 0.8;            // s, rad/s.
+  Eigen::Vector2d link(0.4, 0), target(0.3, 0.7), error;  // m.
   Eigen::Vector3d q(0.1, 0.2, 0.3);
   const std::vector<poise::LevelCapacity> levels = {{0, 3}, {2, 0}, {3, 0}};
   poise::Hierarchy hierarchy(3, levels);
@@ -16,11 +17,10 @@ int main() {
   for (int tick = 0; tick < 400; ++tick) {  // 4 s: 20 time constants.
     Eigen::Matrix<double, 2, 3> J = J.Zero();
     error = target;
-    for (int link = 0; link < 3; ++link) {
-      const double angle = q.head(link + 1).sum();
-      const double x = kLink * std::cos(angle), y = kLink * std::sin(angle);
-      error -= Eigen::Vector2d(x, y);
-      J.leftCols(link + 1).colwise() += Eigen::Vector2d(-y, x);
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector2d r = Eigen::Rotation2Dd(q.head(i + 1).sum()) * link;
+      error -= r;
+      J.leftCols(i + 1).colwise() += Eigen::Vector2d(-r.y(), r.x());
     }
     hierarchy.Clear(3);
     poise::InequalityBlock rates = hierarchy.AddInequalities(0, 3);
