@@ -81,7 +81,7 @@ std::shared_ptr<Tick> ComputeTickOf(PythonTree* self, py::handle q,
   const auto q_map = VectorOf(a), v_map = VectorOf(b);
   std::shared_ptr<Tick> tick = PrepareTick(*self, frames, out);
   std::optional<py::gil_scoped_release> release;
-  if (self->is_large()) release.emplace();
+  if (self->IsLong<Recursion>()) release.emplace();
   ComputeTick(tree, q_map, v_map, tick.get());
   return tick;
 }

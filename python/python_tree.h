@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "poise/dynamics/aba.h"
@@ -44,20 +45,22 @@ class PythonTree {
   /// std::invalid_argument if there is no such frame.
   int FindFrame(pybind11::handle frame) const;
 
-  /// Returns whether an algorithm of this tree may take more than 10 us, so
-  /// that it should release the lock. ABA, the slowest, takes 7 us for 50
-  /// joints on a quiet machine, and 12 us on a busy one.
-  bool is_large() const {
-    constexpr int kLarge = 60;
-    return tree_->num_bodies() > kLarge;
+  /// Returns whether an algorithm may take more than 10 us with this tree, so
+  /// that it should release the lock. For 50 joints, ABA takes 7 us on a quiet
+  /// machine and 12 us on a busy one, the others at most 6 us.
+  /// @tparam Scratch  the memory of the algorithm.
+  template <typename Scratch>
+  bool IsLong() const {
+    constexpr int kMostBodies = std::is_same_v<Scratch, AbaScratch> ? 30 : 60;
+    return tree_->num_bodies() > kMostBodies;
   }
 
-  /// Calls compute(scratch memory). For a large tree, releases the lock
-  /// meanwhile: compute() must not use Python.
+  /// Calls compute(scratch memory). If that may take more than 10 us, releases
+  /// the lock meanwhile: compute() must not use Python.
   /// @param scratch  a member of this class.
   template <typename Scratch, typename Compute>
   auto Run(Scratch PythonTree::*scratch, const Compute& compute) {
-    if (!is_large()) return compute(&(this->*scratch));
+    if (!IsLong<Scratch>()) return compute(&(this->*scratch));
     const pybind11::gil_scoped_release release;
     Scratch own(*tree_);
     return compute(&own);

@@ -99,6 +99,10 @@ class ComingFrom : public testing::Test {
     std::vector<Pose> X_WB(tree_.num_bodies());
     ComputePoses(tree_, q_, &X_WB);
     ComputeFrameJacobian(tree_, X_WB, 0, Axes::kWorld, J_);
+    J_frame_.resize(6, 7);
+    ComputeFrameJacobian(tree_, X_WB, 0, Axes::kFrame, J_frame_);
+    // The velocity of the point of the base that is at the world's origin.
+    J_origin_ = Adjoint({Eigen::Matrix3d::Identity(), X_WB[0].p}) * J_;
   }
 
   void Expect(const std::string& library, const std::string& quantity,
@@ -117,7 +121,7 @@ class ComingFrom : public testing::Test {
   Recursion scratch_;
   VectorXd q_, v_, vdot_, N_;
   MatrixXd M_;
-  Matrix6Xd J_;
+  Matrix6Xd J_, J_frame_, J_origin_;
   size_t checked_ = 0;
 };
 
@@ -128,6 +132,7 @@ TEST_F(ComingFrom, EachNumberOfThePageIsThatOfTheConversions) {
   Expect("poise", "M", M_.row(0));
   Expect("poise", "N", N_);
   Expect("poise", "J", J_.row(3));
+  Expect("poise", "J_frame", J_frame_.row(3));
   for (const auto& [name, library] : kLibraries) {
     VectorXd q(ConfigurationSize(library, tree_)), v(7), vdot(7), N(7);
     MatrixXd M(7, 7);
@@ -144,7 +149,13 @@ TEST_F(ComingFrom, EachNumberOfThePageIsThatOfTheConversions) {
     Expect(name, "M", M.row(0));
     Expect(name, "N", N);
     Expect(name, "J", J.row(3));
+    if (library == Library::kMujoco) continue;  // It has no axes of a frame.
+    ExportJacobian(library, tree_, q_, J_frame_, J);
+    Expect(name, "J_frame", J.row(3));
   }
+  Matrix6Xd J_origin(6, 7);
+  ExportJacobian(Library::kPinocchio, tree_, q_, J_origin_, J_origin);
+  Expect("pinocchio", "J_origin", J_origin.row(0));
   CentroidalMomentum momentum(tree_);
   ComputeCentroidalMomentum(tree_, q_, v_, &scratch_, &momentum);
   Expect("poise", "L", momentum.H_G * v_);

@@ -6,6 +6,10 @@ Usage: measure.py TIME_CPP [--quick]
 Three measurements: the time of each function from Python and from C++; the
 CPU time of two threads with two controllers; and the time of `import poise`.
 The times are the shortest of several rounds.
+
+Exit code: 1 if a bound is exceeded: Tree.tick at most 3 us above C++, two
+threads at most 1.2 times the CPU time, import below 0.3 s. With --quick, the
+rounds are too few for that, and the code is 0.
 """
 
 import subprocess
@@ -22,6 +26,8 @@ ROBOT = poise.Robot.load()
 TREE = ROBOT.tree
 PROFILE = ROBOT.urdf.replace("models/humanoid.urdf", "profiles/humanoid.yaml")
 ROUND = 5e-3  # s.
+# The bounds; CONTRIBUTING.md forbids to assert a time in a test.
+MOST_TICK_US, MOST_THREADS, MOST_IMPORT = 3, 1.2, 0.3
 
 
 def arguments():
@@ -101,7 +107,7 @@ def make_timer(statement, variables):
 
 
 def print_overheads(time_cpp, rounds):
-    """Prints a table with a row for each function.
+    """Prints a table with a row for each function. Returns the differences, us.
 
     Rounds of Python and C++ alternate, and the shortest of each counts: other
     programs make a round longer, never shorter.
@@ -117,6 +123,7 @@ def print_overheads(time_cpp, rounds):
         print(f"\n{TREE.num_joints} joints; times in us\n")
         print("| function | Python | C++ | difference |")
         print("| --- | ---: | ---: | ---: |")
+        differences = {}
         for name, statement in python.items():
             timer, pairs = make_timer(statement, variables), []
             for _ in range(rounds):
@@ -124,9 +131,11 @@ def print_overheads(time_cpp, rounds):
                 cpp_us = float(process.stdout.readline())
                 pairs.append((timer(), cpp_us))
             us, cpp_us = map(min, zip(*pairs))
+            differences[name] = us - cpp_us
             print(f"| `{name}` | {us:.2f} | {cpp_us:.2f} | "
                   f"{us - cpp_us:.2f} |", flush=True)
         process.stdin.close()
+    return differences
 
 
 def update(controller, ticks):
@@ -139,7 +148,8 @@ def update(controller, ticks):
 
 
 def print_threads(ticks, rounds):
-    """Prints the CPU time of two controllers, in turn and in threads."""
+    """Prints the CPU time of two controllers, in turn and in threads. Returns
+    the ratio of the second to the first."""
     controllers = [poise.Controller(ROBOT) for _ in range(2)]
     in_turn, in_threads, wall = [], [], []
     for _ in range(rounds):
@@ -156,16 +166,19 @@ def print_threads(ticks, rounds):
             thread.join()
         in_threads.append(time.process_time() - begin)
         wall.append(time.perf_counter() - wall_begin)
+    ratio = min(in_threads) / min(in_turn)
     print(f"\ntwo controllers, {ticks} ticks each: {min(in_turn):.3f} s of CPU "
           f"time in turn, {min(in_threads):.3f} s in two threads "
-          f"({min(in_threads) / min(in_turn):.2f} times), in {min(wall):.3f} s "
+          f"({ratio:.2f} times), in {min(wall):.3f} s "
           "of wall time")
+    return ratio
 
 
 def print_import(rounds):
-    """Prints the time of `import poise` in a new Python."""
+    """Prints the time of `import poise` in a new Python. Returns the median."""
     code = ("import time; begin = time.perf_counter(); import poise; {} "
             "print(time.perf_counter() - begin)")
+    medians = []
     for title, use in (("import poise", ""),
                        ("with NumPy, by its first array",
                         "poise.so3.exp([0, 0, 1]);")):
@@ -173,7 +186,9 @@ def print_import(rounds):
             float(subprocess.run([sys.executable, "-c", code.format(use)],
                                  check=True, stdout=subprocess.PIPE).stdout)
             for _ in range(rounds))
-        print(f"{title}: {times[0]:.3f} s, median {times[rounds // 2]:.3f} s")
+        medians.append(times[rounds // 2])
+        print(f"{title}: {times[0]:.3f} s, median {medians[-1]:.3f} s")
+    return max(medians)
 
 
 def main():
@@ -181,9 +196,19 @@ def main():
     if len(sys.argv) < 2 or (sys.argv[2:] and not quick):
         print("usage: measure.py TIME_CPP [--quick]", file=sys.stderr)
         sys.exit(2)
-    print_overheads(sys.argv[1], 1 if quick else 30)
-    print_threads(20 if quick else 2000, 1 if quick else 5)
-    print_import(1 if quick else 9)
+    differences = print_overheads(sys.argv[1], 1 if quick else 30)
+    ratio = print_threads(20 if quick else 2000, 1 if quick else 5)
+    seconds = print_import(1 if quick else 9)
+    exceeded = [
+        f"{what} is {value:.2f}, must be at most {most}"
+        for what, value, most in (
+            ("Tree.tick: the difference in us", differences["Tree.tick"],
+             MOST_TICK_US),
+            ("the CPU time of two threads as a ratio", ratio, MOST_THREADS),
+            ("the time of import poise in s", seconds, MOST_IMPORT))
+        if value > most]
+    if exceeded and not quick:
+        sys.exit("measure.py: " + "; ".join(exceeded))
 
 
 if __name__ == "__main__":

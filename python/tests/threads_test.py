@@ -87,6 +87,7 @@ def long_calls():
     yield "add_push", lambda: (
         scenario.add_push(force), scenario.clear_pushes())
     yield "push", lambda: simulation.push(force, at=1e3)
+    yield "aba", lambda: TREE.aba(Q, V, V)
     yield "derivatives", lambda: TREE.derivatives(Q, V, V)
     yield "regressor", lambda: TREE.regressor(Q, V, V)
     yield "solve", lambda: solver.solve(hierarchy)

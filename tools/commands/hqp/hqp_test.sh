@@ -1,9 +1,9 @@
 #!/bin/bash
-# Usage: hqp_test.sh HQP DYNAMICS URDF
+# Usage: hqp_test.sh HQP DYNAMICS URDF PAGE
 # Checks what scripts rely on: exit codes, and one line on stderr that names the
 # file.
 set -euo pipefail
-hqp=$PWD/$1 dynamics=$PWD/$2 urdf=$PWD/$3
+hqp=$PWD/$1 dynamics=$PWD/$2 urdf=$PWD/$3 page=$PWD/$4
 cd "$TEST_TMPDIR"
 
 fail() {
@@ -27,6 +27,15 @@ echo '{"format": "hqp-1", "variables": 1, "levels": [{"B": [[2]], "b": [-4]}]}' 
 "$hqp" --json good.json > said 2> error || fail "exit code $? for good.json"
 grep -q '"status":"optimal","y":\[2.0\]' said || fail "good.json prints: $(cat said)"
 [ ! -s error ] || fail "a good file prints on stderr: $(cat error)"
+
+# The file of the page, and the answer that the page gives.
+sed -n '/^```json$/,/^```$/p' "$page" | grep -v '```' > page.json
+"$hqp" --json page.json > said || fail "exit code $? for the file of $page"
+answer=$(sed -n 's/.*The answer is `y = \[\([0-9]*\), \([0-9]*\)\]`.*/\1 \2/p' "$page")
+[ -n "$answer" ] || fail "$page gives no answer"
+sed -n 's/.*"y":\[\([^]]*\)\].*/\1/p' said | awk -F, -v wanted="$answer" '
+  { split(wanted, y, " "); for (i in y) if (($i - y[i])^2 > 1e-24) exit 1 }
+  END { if (NR != 1) exit 1 }' || fail "the file of $page prints: $(cat said)"
 
 # y >= 3 above y = 0 takes two iterations: the first finds the violated bound, the
 # second has the bound in the working set.
