@@ -16,7 +16,6 @@ the installation failed, 2 for bad input, 130 if interrupted.
 """
 
 import argparse
-import contextlib
 import os
 import pathlib
 import signal
@@ -74,17 +73,21 @@ def _workspace():
     return pathlib.Path(os.environ.get("BUILD_WORKSPACE_DIRECTORY", default))
 
 
-@contextlib.contextmanager
-def _interruptible():
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+def _ignore_signals():
+    for number in _SIGNALS:
+        signal.signal(number, signal.SIG_IGN)
+
+
+def _make_interruptible():
     """Turns SIGTERM and SIGHUP into an exception, as Python does for SIGINT."""
     def stop(number, frame):
-        # A second signal must not stop the way back.
-        for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            signal.signal(each, signal.SIG_IGN)
+        _ignore_signals()  # A second signal must not stop the way back.
         raise KeyboardInterrupt
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    for number in _SIGNALS:
         signal.signal(number, stop)
-    yield
 
 
 def run(options):
@@ -100,8 +103,10 @@ def run(options):
         workspace, [name for name in layers.NAMES if name in names],
         sys.argv[0])
     entries = layers.entries(built, version)
-    with _interruptible():
-        prefixes.install(options.prefix, entries, version)
+    entries["share/doc/poise/LICENSE"] = layers.Entry(
+        copy=str(workspace / "LICENSE"))
+    _make_interruptible()
+    prefixes.install(options.prefix, entries, version, _ignore_signals)
     print(f"installed Poise {version} ({', '.join(built)}; {len(entries)} "
           f"files) in {options.prefix}")
 
@@ -123,7 +128,7 @@ def main(arguments):
     except prefixes.PrefixError as error:
         print(f"install: {error}", file=sys.stderr)
         return 2
-    except layers.BuildError as error:
+    except (layers.BuildError, prefixes.UndoError) as error:
         print(f"install: {error}", file=sys.stderr)
         return 1
     except OSError as error:

@@ -3,7 +3,8 @@
 
 The files are first written into a folder inside the prefix, and then moved,
 which cannot fail for lack of space. If a move fails or a signal arrives, each
-move is undone, last first. A manifest lists the files and the folders made.
+move is undone, last first. If that fails too, the replaced files stay in the
+folder, and the error names it. A manifest lists the files and the folders made.
 """
 
 import os
@@ -44,6 +45,10 @@ def installed_layers(prefix):
         r"^lib/cmake/poise/poise_(\w+)\.cmake$", path)]
 
 
+class UndoError(Exception):
+    """An installation that was stopped and could not be undone, as one line."""
+
+
 class _Journal:
     """Changes of a prefix that can be undone."""
 
@@ -80,8 +85,18 @@ class _Journal:
         source.replace(path)
 
     def undo(self):
+        """Undoes what it can. Raises an UndoError if something is left."""
+        failed = []
         while self._undo:
-            self._undo.pop()()
+            try:
+                self._undo.pop()()
+            except OSError as error:
+                failed.append(f"{error.filename}: {error.strerror}")
+        if failed:
+            raise UndoError(
+                f"{'; '.join(failed)}; so {self.prefix} has a part of the new "
+                f"files, and the replaced ones are in {self.spare}; mend the "
+                "cause and run the command again")
 
 
 def _write(path, entry):
@@ -115,8 +130,11 @@ def _manifest(version, files, folders):
     return "\n".join([_HEADER + version, *lines, ""])
 
 
-def install(prefix, entries, version):
-    """Installs entries, {path: layers.Entry}, and removes all older files."""
+def install(prefix, entries, version, when_done=lambda: None):
+    """Installs entries, {path: layers.Entry}, and removes all older files.
+
+    Calls when_done() as the last step that can be undone.
+    """
     _, installed = read_manifest(prefix)
     _check_free(prefix, entries, installed)
     made = []
@@ -128,7 +146,9 @@ def install(prefix, entries, version):
     spare = None
     try:
         spare = pathlib.Path(tempfile.mkdtemp(prefix=".poise-", dir=prefix))
-        _install(prefix, entries, version, spare, installed)
+        _install(prefix, entries, version, spare, installed, when_done)
+    except UndoError:
+        raise
     except BaseException:
         if spare is not None:
             shutil.rmtree(spare, ignore_errors=True)
@@ -138,7 +158,7 @@ def install(prefix, entries, version):
     shutil.rmtree(spare, ignore_errors=True)
 
 
-def _install(prefix, entries, version, spare, installed):
+def _install(prefix, entries, version, spare, installed, when_done):
     old_files = {path for path in installed if not path.endswith("/")}
     folders = {path.rstrip("/") for path in installed if path.endswith("/")}
     stale = old_files - set(entries)
@@ -159,6 +179,7 @@ def _install(prefix, entries, version, spare, installed):
         manifest.write_text(_manifest(version, files, folders),
                             encoding="utf-8")
         journal.move(manifest, pathlib.PurePath(MANIFEST))
+        when_done()
     except BaseException:
         journal.undo()
         raise

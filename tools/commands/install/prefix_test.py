@@ -2,13 +2,13 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 """Tests that a prefix gets all files or none, with a few small files."""
 
+import errno
 import os
 import pathlib
 import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 from unittest import mock
 
@@ -144,34 +144,86 @@ class PrefixTest(unittest.TestCase):
         self.assertGreater(allowed, 5)
         self.assertEqual(tree(self.prefix)["opt/deep/file"], "new")
 
+    def test_a_failed_undo_keeps_the_replaced_files_and_names_them(self):
+        prefixes.install(self.prefix, ENTRIES, "0.9.0")
+        newer = {path: Entry(text="new") for path in ENTRIES}
+        move, calls = pathlib.Path.replace, []
+
+        def blocked(source, target):
+            # The disk gives up after the first file was replaced.
+            calls.append(target)
+            if len(calls) > 2:
+                raise OSError(errno.EIO, "Input/output error", str(source))
+            return move(source, target)
+
+        with mock.patch.object(pathlib.Path, "replace", blocked):
+            with self.assertRaises(prefixes.UndoError) as caught:
+                prefixes.install(self.prefix, newer, "0.9.1")
+        (kept,) = self.prefix.glob(".poise-*/old/*")
+        self.assertEqual(kept.read_text(), "// so3\n")
+        self.assertIn(str(kept.parent), str(caught.exception))
+
+    def test_an_interrupt_in_the_last_step_undoes_all(self):
+        def last():
+            done.append(sorted(tree(self.prefix)))
+            raise KeyboardInterrupt
+
+        done = []
+        with self.assertRaises(KeyboardInterrupt):
+            prefixes.install(self.prefix, ENTRIES, "0.9.0", last)
+        self.assertIn(prefixes.MANIFEST, done[0])
+        self.assertEqual(list(self.root.iterdir()), [])
+
 
 class CommandTest(unittest.TestCase):
+    def install_with_signal(self, folder, number, word):
+        """Installs 99 files slowly, in another process. Sends it a signal when
+        it prints the word: "moved" after each move, "tidies" after the last
+        one. Returns its exit code."""
+        code = (
+            "import pathlib, shutil, sys, time, install, prefix, layers\n"
+            "move = pathlib.Path.replace\n"
+            "remove = shutil.rmtree\n"
+            "def slow_move(source, target):\n"
+            "    move(source, target)\n"
+            "    print('moved', flush=True)\n"
+            "    time.sleep(0.01)\n"
+            "def slow_remove(*arguments, **options):\n"
+            "    print('tidies', flush=True)\n"
+            "    time.sleep(0.2)\n"
+            "    remove(*arguments, **options)\n"
+            "pathlib.Path.replace = slow_move\n"
+            "shutil.rmtree = slow_remove\n"
+            "x = layers.Entry(text='x')\n"
+            "files = {f'lib/{i}': x for i in range(99)}\n"
+            "install._make_interruptible()\n"
+            "try:\n"
+            f"    prefix.install(pathlib.Path({folder!r}), files, '0.9.0',\n"
+            "                   install._ignore_signals)\n"
+            "except KeyboardInterrupt:\n"
+            "    sys.exit(130)\n")
+        with subprocess.Popen(
+                [sys.executable, "-c", code], stdout=subprocess.PIPE, text=True,
+                cwd=pathlib.Path(__file__).resolve().parent) as child:
+            while child.stdout.readline().strip() != word:
+                self.assertIsNone(child.poll())
+            child.send_signal(number)
+            child.stdout.read()
+            return child.wait(timeout=60)
+
     def test_signal_undoes_all(self):
-        with tempfile.TemporaryDirectory() as folder:
-            code = (
-                "import pathlib, time, install, prefix, layers\n"
-                "move = pathlib.Path.replace\n"
-                "def slow(source, target):\n"
-                "    move(source, target)\n"
-                "    print(flush=True)\n"
-                "    time.sleep(0.05)\n"
-                "pathlib.Path.replace = slow\n"
-                "x = layers.Entry(text='x')\n"
-                "files = {f'lib/{i}': x for i in range(99)}\n"
-                "with install._interruptible():\n"
-                f"    path = pathlib.Path({folder!r})\n"
-                "    prefix.install(path, files, '0.9.0')\n")
-            for number in (signal.SIGINT, signal.SIGTERM):
-                with subprocess.Popen(
-                        [sys.executable, "-c", code], stdout=subprocess.PIPE,
-                        stderr=subprocess.DEVNULL,
-                        cwd=pathlib.Path(__file__).resolve().parent) as child:
-                    child.stdout.readline()
-                    time.sleep(0.1)
-                    child.send_signal(number)
-                    child.wait(timeout=60)
-                self.assertNotEqual(child.returncode, 0)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with tempfile.TemporaryDirectory() as folder:
+                self.assertEqual(
+                    self.install_with_signal(folder, number, "moved"), 130)
                 self.assertEqual(os.listdir(folder), [])
+
+    def test_signal_after_the_last_move_changes_nothing(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with tempfile.TemporaryDirectory() as folder:
+                self.assertEqual(
+                    self.install_with_signal(folder, number, "tidies"), 0)
+                self.assertEqual(len(tree(pathlib.Path(folder))), 100)
 
     def test_bad_input_is_one_line_and_exit_code_2(self):
         program = pathlib.Path(install.__file__).resolve()

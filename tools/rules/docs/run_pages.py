@@ -8,7 +8,8 @@ a temporary folder, and runs each command there once, with a home folder of its
 own. That folder gets your .bazelrc. NOT_RUN below names the commands that are
 left out, with reasons.
   --list            prints the commands, and which of them do not run
-  --optimised       runs also commands that build with --config=opt
+  --optimised       runs only the commands that build with --config=opt, which
+                    are left out otherwise
   --disk-cache DIR  Bazel's cache of built files; without it, all is built anew
   PAGE              runs the commands of these pages only, as docs/hqp.md
 Exit code: 0 if each command ended as it must, 1 if one did not, 2 for bad input.
@@ -79,8 +80,8 @@ def prepare_page(name, clone):
 
 def reason_not_to_run(command, optimised):
     """Returns why a command does not run, or None."""
-    if not optimised and re.search(OPTIMISED, command):
-        return "builds with --config=opt"
+    if bool(re.search(OPTIMISED, command)) != optimised:
+        return f"runs {'without' if optimised else 'with'} --optimised"
     return next((reason for start, reason in NOT_RUN.items()
                  if command.startswith(start)), None)
 
