@@ -120,7 +120,7 @@ void AddMapping(py::class_<PythonParameters>* parameters) {
   parameters->def(
       "__contains__",
       [](const PythonParameters& self, py::handle name) {
-        return AllParameters(self).contains(name);
+        return AllParameters(self).contains(AsText(name, "parameter"));
       },
       py::arg("name"));
   parameters->def(

@@ -80,8 +80,8 @@ class TaskOfPython final : public Task {
     return copy;
   }
 
-  // Throws if declared rows are not given: zeros would be rows that ask for
-  // nothing.
+  // Throws if declared rows are not given: the task would be off, without a
+  // message.
   void CheckKeys(const py::dict& given) const {
     const auto check = [&](const char* key, bool is_given,
                            const std::vector<std::string>& names) {

@@ -2,9 +2,10 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 """Packs the package poise as a wheel.
 
-Usage: wheel.py WHEEL VERSION_FILE LICENSE FILE...
+Usage: wheel.py WHEEL VERSION_FILE LICENSE COPYRIGHT FILE...
 
-WHEEL is NAME-VERSION-TAG.whl. Each FILE has a path that contains "/poise/";
+WHEEL is NAME-VERSION-TAG.whl. COPYRIGHT has the licenses of parts that others
+wrote. Each FILE has a path that contains "/poise/";
 its place in the wheel begins there. Equal inputs give equal bytes.
 """
 
@@ -59,7 +60,7 @@ def check_version(version, files):
                  "VERSION")
 
 
-def contents(wheel, version, license_file, files):
+def contents(wheel, version, licenses, files):
     """Returns the files of the wheel: {path: bytes}, RECORD last."""
     name, in_name, tag = wheel.name[:-len(".whl")].split("-", 2)
     if in_name != version:
@@ -70,7 +71,8 @@ def contents(wheel, version, license_file, files):
                  f"{sys.version.split()[0]}")
     info = f"{name}-{version}.dist-info/"
     packed = {place(file): file.read_bytes() for file in sorted(files)}
-    packed[info + "LICENSE"] = license_file.read_bytes()
+    for file in licenses:
+        packed[info + file.name] = file.read_bytes()
     packed[info + "METADATA"] = METADATA.format(version=version).encode()
     packed[info + "WHEEL"] = WHEEL.format(tag=tag).encode()
     record = "".join(f"{path},{digest(content)},{len(content)}\n"
@@ -80,11 +82,11 @@ def contents(wheel, version, license_file, files):
 
 
 def main():
-    wheel, version_file, license_file, *files = map(
+    wheel, version_file, license_file, copyright_file, *files = map(
         pathlib.Path, sys.argv[1:])
     version = version_file.read_text().strip()
     check_version(version, files)
-    packed = contents(wheel, version, license_file, files)
+    packed = contents(wheel, version, (license_file, copyright_file), files)
     with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED) as archive:
         for path, content in packed.items():
             entry = zipfile.ZipInfo(path)  # Its time is 1980, always.

@@ -183,6 +183,9 @@ class Run:
                 run in a temporary folder has no default: the page would be
                 removed with the Run.
         """
+        if not isinstance(file, (str, os.PathLike, type(None))):
+            raise _poise.InputError(
+                f"file is {file!r} of type {type(file).__name__}, must be a file")
         if file is None and self._is_temporary:
             raise _poise.InputError(
                 "file is None, must be a file: the folder of this run is "

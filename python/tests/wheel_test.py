@@ -49,6 +49,17 @@ class WheelTest(unittest.TestCase):
                 self.assertEqual((said, int(size)),
                                  (f"sha256={value}", len(content)), name)
 
+    def test_has_the_licenses_of_all_parts(self):
+        with zipfile.ZipFile(WHEEL) as wheel:
+            (own,) = [n for n in wheel.namelist()
+                      if n.endswith(".dist-info/LICENSE")]
+            (others,) = [n for n in wheel.namelist()
+                         if n.endswith(".dist-info/copyright")]
+            self.assertIn(b"Redistribution and use", wheel.read(own))
+            for name in (b"Three.js Authors", b"Leon Sorokin",
+                         b"Permission is hereby granted"):
+                self.assertIn(name, wheel.read(others))
+
     def test_installs_and_runs_away_from_the_build(self):
         with tempfile.TemporaryDirectory(
                 dir=os.environ.get("TEST_TMPDIR")) as folder:

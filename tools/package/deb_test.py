@@ -8,11 +8,13 @@ import gzip
 import hashlib
 import os
 import pathlib
+import re
 import tempfile
 import unittest
 import zipfile
 
 import deb
+import exports
 import stage
 
 DEBIAN = pathlib.Path(deb.__file__).resolve().parent / "debian"
@@ -107,6 +109,15 @@ class DebTest(unittest.TestCase):
         deb.check_version(DEBIAN, VERSION)
         with self.assertRaisesRegex(deb.PackageError, f"{VERSION}, must be 9"):
             deb.check_version(DEBIAN, "9")
+
+    def test_the_headers_package_needs_each_library_of_the_headers(self):
+        control = (DEBIAN / "control").read_text()
+        (needs,) = re.findall(
+            r"^Package: libpoise-dev$.*?^Depends: (.*?)^\S", control,
+            re.M | re.S)
+        names = {name.split()[0] for name in needs.split(",")}
+        self.assertLessEqual(
+            {external.debian for external in exports.EXTERNALS.values()}, names)
 
     def test_a_failed_command_is_one_line(self):
         with self.assertRaisesRegex(deb.PackageError,

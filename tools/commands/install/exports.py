@@ -13,6 +13,7 @@ import dataclasses
 class External:
     """A library of the system."""
 
+    debian: str  # Debian package with its headers.
     module: str = ""  # Name of its pkg-config module, if there is one.
     library: str = ""  # Name for -l, if there is no module.
     # Whether public headers of Poise include its headers. Otherwise only the
@@ -22,14 +23,14 @@ class External:
 
 # By the names of the repositories in tools/rules/workspace/default.bzl.
 EXTERNALS = {
-    "bullet": External("bullet-float64"),
-    "eigen": External("eigen3"),
-    "mujoco": External(library="mujoco"),
-    "nlohmann_json": External("nlohmann_json"),
-    "openssl": External("libcrypto"),
-    "tinyxml2": External("tinyxml2"),
-    "urdfdom": External("urdfdom", in_headers=False),
-    "yaml_cpp": External("yaml-cpp"),
+    "bullet": External("libbullet-dev", "bullet-float64"),
+    "eigen": External("libeigen3-dev", "eigen3"),
+    "mujoco": External("libmujoco-dev", library="mujoco"),
+    "nlohmann_json": External("nlohmann-json3-dev", "nlohmann_json"),
+    "openssl": External("libssl-dev", "libcrypto"),
+    "tinyxml2": External("libtinyxml2-dev", "tinyxml2"),
+    "urdfdom": External("liburdfdom-dev", "urdfdom", in_headers=False),
+    "yaml_cpp": External("libyaml-cpp-dev", "yaml-cpp"),
 }
 
 
@@ -62,8 +63,17 @@ Libs.private: {" ".join(flags + ["-lstdc++", "-lm"])}
 """
 
 
-def _find(name):
-    """Returns (CMake target, lines that define it) of a library."""
+def _not_found(layer, external):
+    """Returns the lines that end find_package() for want of a library."""
+    return f"""  set(poise_FOUND FALSE)
+  set(poise_NOT_FOUND_MESSAGE
+    "poise::{layer} needs {external.module or external.library}, which was not found; install it, on Debian {external.debian}, or leave out the component {layer}")
+  return()
+"""
+
+
+def _find(name, layer):
+    """Returns (CMake target, lines that define it) of a library for a layer."""
     external = EXTERNALS[name]
     if name == "eigen":
         return "Eigen3::Eigen", """if(NOT TARGET Eigen3::Eigen)
@@ -77,11 +87,7 @@ endif()
         return f"${{{variable}}}", f"""\
 find_library({variable} {external.library})
 if(NOT {variable})
-  set(poise_FOUND FALSE)
-  set(poise_NOT_FOUND_MESSAGE
-    "poise needs lib{external.library}, which is not there")
-  return()
-endif()
+{_not_found(layer, external)}endif()
 """
     target = f"POISE_{name.upper()}"
     lines = f"""find_dependency(PkgConfig)
@@ -91,11 +97,7 @@ endif()
 """
     if external.in_headers:
         lines += f"""if(NOT TARGET PkgConfig::{target})
-  set(poise_FOUND FALSE)
-  set(poise_NOT_FOUND_MESSAGE
-    "poise needs {external.module}, which is not there")
-  return()
-endif()
+{_not_found(layer, external)}endif()
 """
     return f"PkgConfig::{target}", lines
 
@@ -112,7 +114,7 @@ def cmake_targets(layer, major, libraries="lib"):
              "  return()\nendif()\n"]
     public, private = [], []
     for each in layer["externals"]:
-        target, found_by = _find(each)
+        target, found_by = _find(each, name)
         lines.append(found_by)
         (public if EXTERNALS[each].in_headers else private).append(target)
     needs = layer["needs"]

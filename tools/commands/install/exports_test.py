@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-"""Tests what CMake and pkg-config are told about a layer."""
+"""Tests the files by which CMake and pkg-config find a layer."""
 
 import pathlib
 import re

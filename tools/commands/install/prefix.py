@@ -5,6 +5,8 @@ The files are first written into a folder inside the prefix, and then moved,
 which cannot fail for lack of space. If a move fails or a signal arrives, each
 move is undone, last first. If that fails too, the replaced files stay in the
 folder, and the error names it. A manifest lists the files and the folders made.
+The first move puts a manifest of all old and new files there, so that after a
+crash the same command installs, and --uninstall removes, what is there.
 """
 
 import os
@@ -15,6 +17,7 @@ import tempfile
 
 MANIFEST = "share/poise/install_manifest.txt"
 _HEADER = "# Files of Poise "
+_SPARE = ".poise-"  # Start of the name of the folder inside the prefix.
 
 
 class PrefixError(Exception):
@@ -84,6 +87,19 @@ class _Journal:
         self._undo.append(lambda: os.path.lexists(source) or path.unlink())
         source.replace(path)
 
+    def replace(self, source, relative):
+        """Moves a small file; at no moment there is neither the old nor the new
+        one."""
+        path = self.prefix / relative
+        self.make_folder(relative.parent)
+        kept = self.spare / str(len(self._undo))
+        if path.exists():
+            shutil.copyfile(path, kept)
+            self._undo.append(lambda: kept.replace(path))
+        else:
+            self._undo.append(lambda: path.unlink(missing_ok=True))
+        source.replace(path)
+
     def undo(self):
         """Undoes what it can. Raises an UndoError if something is left."""
         failed = []
@@ -95,8 +111,8 @@ class _Journal:
         if failed:
             raise UndoError(
                 f"{'; '.join(failed)}; so {self.prefix} has a part of the new "
-                f"files, and the replaced ones are in {self.spare}; mend the "
-                "cause and run the command again")
+                f"files, and the replaced ones are in {self.spare}; correct "
+                "the cause and run the command again")
 
 
 def _write(path, entry):
@@ -130,6 +146,13 @@ def _manifest(version, files, folders):
     return "\n".join([_HEADER + version, *lines, ""])
 
 
+def _remove_left(prefix):
+    """Removes this run's folder of replaced files, and those of runs that were
+    killed."""
+    for folder in prefix.glob(f"{_SPARE}*"):
+        shutil.rmtree(folder, ignore_errors=True)
+
+
 def install(prefix, entries, version, when_done=lambda: None):
     """Installs entries, {path: layers.Entry}, and removes all older files.
 
@@ -145,7 +168,7 @@ def install(prefix, entries, version, when_done=lambda: None):
     prefix.mkdir(parents=True, exist_ok=True)
     spare = None
     try:
-        spare = pathlib.Path(tempfile.mkdtemp(prefix=".poise-", dir=prefix))
+        spare = pathlib.Path(tempfile.mkdtemp(prefix=_SPARE, dir=prefix))
         _install(prefix, entries, version, spare, installed, when_done)
     except UndoError:
         raise
@@ -155,7 +178,7 @@ def install(prefix, entries, version, when_done=lambda: None):
         for folder in made:
             folder.rmdir()
         raise
-    shutil.rmtree(spare, ignore_errors=True)
+    _remove_left(prefix)
 
 
 def _install(prefix, entries, version, spare, installed, when_done):
@@ -163,22 +186,27 @@ def _install(prefix, entries, version, spare, installed, when_done):
     folders = {path.rstrip("/") for path in installed if path.endswith("/")}
     stale = old_files - set(entries)
     files = set(entries) | {MANIFEST}
+    missing = {str(folder) for path in files
+               for folder in pathlib.PurePath(path).parents
+               if not (prefix / folder).is_dir()}
     staged = spare / "new"
     (spare / "old").mkdir()
     for relative, entry in entries.items():
         _write(staged / relative, entry)
     journal = _Journal(prefix, spare / "old")
+
+    def write_manifest(files, folders):
+        new = spare / "manifest"
+        new.write_text(_manifest(version, files, folders), encoding="utf-8")
+        journal.replace(new, pathlib.PurePath(MANIFEST))
+
     try:
+        write_manifest(files | old_files, folders | missing)
         for relative in sorted(stale - {MANIFEST}):
             journal.remove(pathlib.PurePath(relative))
         for relative in entries:
             journal.move(staged / relative, pathlib.PurePath(relative))
-        journal.make_folder(pathlib.PurePath(MANIFEST).parent)
-        folders |= {str(folder) for folder in journal.folders}
-        manifest = spare / "manifest"
-        manifest.write_text(_manifest(version, files, folders),
-                            encoding="utf-8")
-        journal.move(manifest, pathlib.PurePath(MANIFEST))
+        write_manifest(files, folders | set(map(str, journal.folders)))
         when_done()
     except BaseException:
         journal.undo()
@@ -195,6 +223,7 @@ def uninstall(prefix):
         raise PrefixError(f"{prefix / MANIFEST} does not exist, so Poise is "
                           "not installed there; choose the --prefix of the "
                           "installation")
+    _remove_left(prefix)
     # The manifest goes last: after an interruption, the same command goes on.
     files = [path for path in paths if not path.endswith("/")]
     removed = 0

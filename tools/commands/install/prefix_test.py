@@ -159,9 +159,14 @@ class PrefixTest(unittest.TestCase):
         with mock.patch.object(pathlib.Path, "replace", blocked):
             with self.assertRaises(prefixes.UndoError) as caught:
                 prefixes.install(self.prefix, newer, "0.9.1")
-        (kept,) = self.prefix.glob(".poise-*/old/*")
-        self.assertEqual(kept.read_text(), "// so3\n")
-        self.assertIn(str(kept.parent), str(caught.exception))
+        (spare,) = self.prefix.glob(".poise-*/old")
+        self.assertIn("// so3\n", [f.read_text() for f in spare.iterdir()])
+        self.assertIn(str(spare), str(caught.exception))
+        prefixes.install(self.prefix, newer, "0.9.1")  # As the message says.
+        self.assertEqual(
+            {path: "new" for path in ENTRIES},
+            {path: text for path, text in tree(self.prefix).items()
+             if path != prefixes.MANIFEST})
 
     def test_an_interrupt_in_the_last_step_undoes_all(self):
         def last():
@@ -216,6 +221,18 @@ class CommandTest(unittest.TestCase):
             with tempfile.TemporaryDirectory() as folder:
                 self.assertEqual(
                     self.install_with_signal(folder, number, "moved"), 130)
+                self.assertEqual(os.listdir(folder), [])
+
+    def test_kill_leaves_what_can_be_installed_again_and_uninstalled(self):
+        for again in (True, False):
+            with tempfile.TemporaryDirectory() as folder:
+                self.install_with_signal(folder, signal.SIGKILL, "moved")
+                prefix = pathlib.Path(folder)
+                if again:
+                    prefixes.install(prefix, ENTRIES, "0.9.0")
+                    self.assertEqual(
+                        set(tree(prefix)), {*ENTRIES, prefixes.MANIFEST})
+                prefixes.uninstall(prefix)
                 self.assertEqual(os.listdir(folder), [])
 
     def test_signal_after_the_last_move_changes_nothing(self):
