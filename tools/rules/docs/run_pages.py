@@ -41,6 +41,8 @@ NOT_RUN = {
     "sudo apt install": "changes the system; package_test.sh does it in a root",
     "tools/quality/migrate_includes": "needs a project of the reader; has a test",
     "bazel run //tests:hqp_night": "takes hours",
+    "bazel run --config=opt //tests/benchmarks:hqp_benchmark":
+        "measures for minutes",
     "bazel run //tests/exact:judge": "takes an hour",
     "bazel run //tests/peers:compare": "needs checkouts of other libraries",
     "bazel run //tools:mutate -- --ledger": ".ci/run reads the ledger",
