@@ -80,8 +80,8 @@ class TaskOfPython final : public Task {
     return copy;
   }
 
-  // Throws if declared rows are not given: the task would be off, without a
-  // message.
+  // Throws if declared rows are not given: zeros in their place would constrain
+  // nothing, and no message would say so.
   void CheckKeys(const py::dict& given) const {
     const auto check = [&](const char* key, bool is_given,
                            const std::vector<std::string>& names) {
