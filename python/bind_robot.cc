@@ -13,6 +13,7 @@
 #include "poise/python/bind_dynamics.h"
 #include "poise/python/python_robot.h"
 #include "poise/robot/control/stand.h"
+#include "poise/robot/finding.h"
 #include "poise/robot/urdf/urdf.h"
 
 namespace poise {
@@ -115,6 +116,11 @@ void BindFoot(py::module_* module) {
         return ToArray(points);
       },
       "(n, 2) The corners of the sole in C, counterclockwise, m.");
+  foot.def("__repr__", [](const Foot& self) {
+    return "<poise.Foot '" + self.name + "', " +
+           PrintNumber(2 * self.half_size.x()) + " m long, " +
+           PrintNumber(2 * self.half_size.y()) + " m wide>";
+  });
 }
 
 // Returns one limit of each joint.
@@ -181,9 +187,10 @@ void SetDataFolder(const std::filesystem::path& folder) {
 const std::filesystem::path& DataFolder() { return DataFolderStorage(); }
 
 void BindRobot(py::module_* module) {
-  module->def("_set_data_folder", [](py::handle folder) {
-    SetDataFolder(AsText(folder, "folder"));
-  });
+  module->def(
+      "_set_data_folder",
+      [](py::handle folder) { SetDataFolder(AsText(folder, "folder")); },
+      py::arg("folder"));
   BindFoot(module);
   RobotClass robot(*module, "Robot",
                    "A biped that stands, made from its URDF and its profile."

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "poise/python/bind.h"
+#include "poise/python/text_signatures.h"
 
 namespace {
 
@@ -45,4 +46,5 @@ PYBIND11_MODULE(_poise, module) {
   poise::BindScenario(&module);
   poise::BindSimulation(&module);
   poise::BindRun(&module);
+  poise::AddTextSignatures(module);
 }

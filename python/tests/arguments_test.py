@@ -8,7 +8,6 @@ POISE_SEED=N in the environment draws other arguments.
 import faulthandler
 import inspect
 import os
-import re
 import tempfile
 import unittest
 
@@ -109,13 +108,9 @@ def random_argument(name, random):
 
 def parameters(function):
     """Returns the names of the parameters, without self."""
-    if hasattr(function, "__code__"):  # A function in Python.
-        return [name for name, parameter in
-                inspect.signature(function).parameters.items()
-                if parameter.kind != parameter.VAR_POSITIONAL]
-    signature = function.__doc__.split("\n")[0]
-    names = re.findall(r"[(,] ?(\w+): ", signature)
-    return [name for name in names if name != "self"]
+    return [name for name, parameter in
+            inspect.signature(function).parameters.items()
+            if name != "self" and parameter.kind != parameter.VAR_POSITIONAL]
 
 
 def instances():

@@ -3,7 +3,9 @@
 
 import ast
 import importlib
+import inspect
 import pathlib
+import pydoc
 import unittest
 
 import poise
@@ -28,8 +30,64 @@ def public(names):
         "__getitem__", "__setitem__", "__len__", "__contains__", "__iter__")}
 
 
+def parameters_of_stub(function):
+    """Returns the name of each parameter, with its default or "...": the names
+    that must be given by keyword come last."""
+    given = function.args
+    names = [each.arg for each in given.args]
+    defaults = [None] * (len(names) - len(given.defaults)) + given.defaults
+    names += [each.arg for each in given.kwonlyargs]
+    return [name if default is None else f"{name}={ast.unparse(default)}"
+            for name, default in zip(names, defaults + given.kw_defaults)]
+
+
+def parameters_of_function(function, stub):
+    """The same of a function of the module. A default is "..." if the stub
+    leaves it open."""
+    made = []
+    for name, each in inspect.signature(function).parameters.items():
+        if each.default is inspect.Parameter.empty:
+            made.append(name)
+        else:
+            is_open = f"{name}=..." in stub
+            made.append(f"{name}=" + ("..." if is_open else repr(each.default)))
+    return made
+
+
+def functions_of_stub():
+    """Yields (module or class, definition) of each function and method."""
+    for item in ast.parse((FOLDER / "_poise.pyi").read_text()).body:
+        if isinstance(item, ast.FunctionDef):
+            yield _poise, item
+        elif isinstance(item, ast.ClassDef):
+            for member in item.body:
+                if isinstance(member, ast.FunctionDef) and not any(
+                        ast.unparse(each).endswith(("property", ".setter"))
+                        for each in member.decorator_list):
+                    yield getattr(_poise, item.name), member
+
+
 class StubsTest(unittest.TestCase):
     maxDiff = None
+
+    def test_stubs_have_the_parameters_of_the_functions(self):
+        functions = 0
+        for owner, stub in functions_of_stub():
+            with self.subTest(name=f"{owner.__name__}.{stub.name}"):
+                wanted = parameters_of_stub(stub)
+                functions += 1
+                self.assertEqual(
+                    parameters_of_function(getattr(owner, stub.name), wanted),
+                    wanted)
+        self.assertGreater(functions, 50)
+
+    def test_help_shows_no_type_of_cpp(self):
+        self.assertEqual(str(inspect.signature(poise.Tree.rnea)),
+                         "(self, q, v, vdot, forces=None)")
+        text = pydoc.render_doc(_poise, renderer=pydoc.plaintext)
+        self.assertIn(" rnea(self, q, v, vdot, forces=None)", text)
+        for word in ("handle", "std::", "poise::", "arg0"):
+            self.assertNotIn(word, text)
 
     def test_stubs_name_what_the_module_has(self):
         stub = ast.parse((FOLDER / "_poise.pyi").read_text())
