@@ -15,6 +15,7 @@
 #include "poise/python/python_task.h"
 #include "poise/robot/control/controller.h"
 #include "poise/robot/control/task_set.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 namespace {
@@ -117,6 +118,11 @@ void BindStateAndCommand(py::module_* module) {
         self.v = VectorOf(AsVector(v, "v", self.v.size()));
       },
       "(nv,) A copy.");
+  state.def("__repr__", [](const State& self) {
+    return "<poise.State, " + std::to_string(self.q.size()) + " q, " +
+           std::to_string(self.v.size()) + " v, time " +
+           PrintNumber(self.time) + " s>";
+  });
 
   py::class_<Command> command(*module, "Command",
                               "The output of Controller.update().");
@@ -127,6 +133,10 @@ void BindStateAndCommand(py::module_* module) {
   command.def_property_readonly(
       "status", [](const Command& self) { return NameOf(self.status); },
       "'ok', 'limit_relaxed', 'truncated' or 'fail_safe'.");
+  command.def("__repr__", [](const Command& self) {
+    return "<poise.Command, " + NameOf(self.status) + ", " +
+           std::to_string(self.tau.size()) + " torques>";
+  });
 }
 
 // Adds a vector of the reference.
@@ -187,6 +197,11 @@ void BindController(py::module_* module) {
                "(3,) Its desired acceleration, m/s2.", &controller);
   AddReference("posture_reference", &Reference::posture,
                "(joints,) The desired joints, rad or m.", &controller);
+  controller.def("__repr__", [](const PythonController& self) {
+    const Controller& of = self.get();
+    return "<poise.Controller of '" + of.robot().model.name + "', " +
+           std::to_string(of.stack().num_tasks()) + " tasks>";
+  });
   AddStack(&controller);
   AddReport(&controller);
 }

@@ -78,6 +78,11 @@ void BindSole(py::module_* module) {
   sole.def_property_readonly(
       "rpy", [](const Sole& self) { return ToArray(self.rpy); },
       "(3,) Its roll, pitch and yaw in the link, rad.");
+  sole.def("__repr__", [](const Sole& self) {
+    return "<poise.Sole '" + self.name + "', " + PrintNumber(self.length) +
+           " m long, " + PrintNumber(self.width) + " m wide, from " +
+           self.from + ">";
+  });
 }
 
 std::optional<bool> Stands(const Diagnosis& self) {
@@ -124,6 +129,10 @@ void BindDiagnosis(py::module_* module) {
   diagnosis.def_readonly("profile", &Diagnosis::profile,
                          "The profile that was found, as YAML.");
   diagnosis.def_readonly("mass", &Diagnosis::mass, "kg.");
+  diagnosis.def("__repr__", [](const Diagnosis& self) {
+    return "<poise.Diagnosis, " + std::string(VerdictWord(self)) + ", " +
+           std::to_string(self.findings.size()) + " findings>";
+  });
   diagnosis.def("__str__",
                 [](const Diagnosis& self) { return WriteTable(self); });
   module->def("doctor", Doctor, py::arg("urdf"),

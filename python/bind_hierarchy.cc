@@ -89,6 +89,11 @@ void BindLevel(py::module_* module) {
                      "The names of the rows of B.");
   level.def_readonly("inequality_names", &PythonLevel::inequality_names,
                      "The names of the rows of C.");
+  level.def("__repr__", [](const PythonLevel& self) {
+    return "<poise.Level '" + self.name + "', " +
+           std::to_string(self.B.rows()) + " equalities, " +
+           std::to_string(self.C.rows()) + " inequalities>";
+  });
 }
 
 }  // namespace
@@ -120,6 +125,10 @@ void BindHierarchy(py::module_* module) {
   hierarchy.def_property_readonly(
       "levels", [](const PythonHierarchy& self) { return self.levels; },
       "The levels, highest first. The list is a copy.");
+  hierarchy.def("__repr__", [](const PythonHierarchy& self) {
+    return "<poise.Hierarchy, " + std::to_string(self.num_variables) +
+           " variables, " + std::to_string(self.levels.size()) + " levels>";
+  });
   hierarchy.def(
       "add_level", AddLevel, py::kw_only(), py::arg("B") = py::none(),
       py::arg("b") = py::none(), py::arg("C") = py::none(),

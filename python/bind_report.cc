@@ -100,6 +100,10 @@ void BindTickReport(py::module_* module) {
       "status", [](const PythonReport& self) { return StatusOf(self.report); },
       "'ok', 'limit_relaxed', 'truncated' or 'fail_safe'; '' before the first "
       "update.");
+  report.def("__repr__", [](const PythonReport& self) {
+    return "<poise.TickReport, status '" + StatusOf(self.report) + "', " +
+           std::to_string(self.active.size()) + " active rows>";
+  });
   report.def_property_readonly(
       "fail_safe_reason",
       [](const PythonReport& self) {

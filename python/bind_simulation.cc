@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <string>
 
 #include "poise/dynamics/center_of_mass.h"
 #include "poise/dynamics/recursion.h"
@@ -17,6 +18,7 @@
 #include "poise/python/python_controller.h"
 #include "poise/python/python_robot.h"
 #include "poise/python/python_task.h"
+#include "poise/robot/finding.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/experiment.h"
 #include "poise/sim/judge.h"
@@ -198,6 +200,10 @@ void BindSimulation(py::module_* module) {
       py::arg("profile") = "box",
       "Adds a push from now on, or at a time in s. The other arguments are "
       "those of Scenario.add_push().");
+  simulation.def("__repr__", [](const PythonSimulation& self) {
+    return "<poise.Simulation of '" + self.get().robot().model.name +
+           "', time " + PrintNumber(self.get().time()) + " s>";
+  });
   AddState(&simulation);
   simulation.def_property_readonly(
       "ticks",

@@ -13,6 +13,7 @@
 #include "poise/python/bind.h"
 #include "poise/python/python_solution.h"
 #include "poise/robot/control/conflict.h"
+#include "poise/robot/finding.h"
 #include "poise/tools/commands/hqp/hqp_file.h"
 
 namespace poise {
@@ -95,6 +96,9 @@ void BindCertificate(py::module_* module) {
   certificate.def_property_readonly(
       "worst", [](const Certificate& self) { return self.worst(); },
       "The largest of the four; at most 1e-9 if the status is 'optimal'.");
+  certificate.def("__repr__", [](const Certificate& self) {
+    return "<poise.Certificate, worst " + PrintNumber(self.worst()) + ">";
+  });
 }
 
 void BindLevelSolution(py::module_* module) {
@@ -143,6 +147,10 @@ void BindLevelSolution(py::module_* module) {
       "multipliers", Multipliers,
       "For each level above: a pair of the multipliers (m,) on its equalities "
       "and (k,) on its inequalities, positive at upper. Copies.");
+  level.def("__repr__", [](const PythonLevelSolution& self) {
+    return "<poise.LevelSolution " + std::to_string(self.level) + ", cost " +
+           PrintNumber(self.answer().cost) + ">";
+  });
 }
 
 }  // namespace

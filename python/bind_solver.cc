@@ -112,6 +112,9 @@ void BindSolver(py::module_* module) {
       py::arg("n"), "Makes a solver for hierarchies in n variables.");
   solver.def_property_readonly("n", &PythonSolver::n,
                                "The number of variables.");
+  solver.def("__repr__", [](const PythonSolver& self) {
+    return "<poise.Solver, " + std::to_string(self.n()) + " variables>";
+  });
   solver.def_property(
       "max_iterations",
       [](const PythonSolver& self) { return self.max_iterations; },

@@ -182,6 +182,12 @@ void BindTask(py::module_* module) {
       "parameters",
       [](const PythonTask& self) { return PythonParameters{self}; },
       "The Parameters of the task.");
+  task.def("__repr__", [](const PythonTask& self) {
+    return "<poise.StackTask '" + self.task().name() + "', " +
+           (self.settings().enabled ? "on" : "off") + ", level " +
+           std::to_string(self.settings().level) + ", weight " +
+           PrintNumber(self.settings().weight) + ">";
+  });
 }
 
 }  // namespace
@@ -200,6 +206,10 @@ void BindStack(py::module_* module) {
   stack.def_property_readonly("names", TaskNames, "The names of the tasks.");
   stack.def("__getitem__", FindTask, py::arg("name"),
             "Returns a StackTask by its name.");
+  stack.def("__repr__", [](const PythonStack& self) {
+    return "<poise.Stack, " + std::to_string(self.get().num_tasks()) +
+           " tasks>";
+  });
   stack.def("__len__",
             [](const PythonStack& self) { return self.get().num_tasks(); });
   stack.def(

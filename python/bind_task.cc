@@ -14,6 +14,7 @@
 #include "poise/python/interrupt.h"
 #include "poise/python/python_task.h"
 #include "poise/robot/control/task.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 namespace {
@@ -181,6 +182,9 @@ void BindTaskInput(py::module_* module) {
       "com_reference",
       [](const PythonTaskInput& self) { return ToArray(self.com_reference); },
       "(3,) The desired center of mass, m.");
+  input.def("__repr__", [](const PythonTaskInput& self) {
+    return "<poise.TaskInput, time " + PrintNumber(self.state.time) + " s>";
+  });
 }
 
 }  // namespace
@@ -247,6 +251,9 @@ void BindTask(py::module_* module) {
   task.def_readonly("name", &PythonTaskBase::name, "Its name in the stack.");
   task.def_readonly("error", &PythonTaskBase::error,
                     "The exception of the last rows(), or ''.");
+  task.def("__repr__", [](const PythonTaskBase& self) {
+    return "<poise.Task '" + self.name + "'>";
+  });
 }
 
 }  // namespace poise

@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "poise/dynamics/tick.h"
@@ -31,6 +32,9 @@ void BindFrameTick(py::module_* module) {
   AddView("Jdot_v", &FrameTick::Jdot_v,
           "(6,) The classical acceleration at vdot = 0, rad/s2 and m/s2.",
           &frame);
+  frame.def("__repr__", [](const FrameTick& self) {
+    return "<poise.FrameTick of frame " + std::to_string(self.frame) + ">";
+  });
 }
 
 // Makes a tick for the frames, or checks that `out` was made for this tree.
@@ -136,6 +140,10 @@ void BindTick(py::module_* module) {
         return frames;
       },
       "A FrameTick for each frame that Tree.tick() was asked for.");
+  tick.def("__repr__", [](const Tick& self) {
+    return "<poise.Tick, nv = " + std::to_string(self.N.size()) + ", " +
+           std::to_string(self.frames.size()) + " frames>";
+  });
 }
 
 }  // namespace poise

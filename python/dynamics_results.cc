@@ -1,9 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <string>
+
 #include "poise/dynamics/center_of_mass.h"
 #include "poise/dynamics/centroidal.h"
 #include "poise/dynamics/derivatives.h"
 #include "poise/python/add_view.h"
 #include "poise/python/bind_dynamics.h"
+#include "poise/robot/finding.h"
 
 namespace poise {
 
@@ -17,6 +20,11 @@ void BindDynamicsResults(py::module_* module) {
   AddView("J", &CenterOfMass::J_WG, "(3, nv) Jacobian.", &com);
   AddView("bias", &CenterOfMass::bias,
           "(3,) The acceleration is J vdot + bias, m/s2.", &com);
+  com.def("__repr__", [](const CenterOfMass& self) {
+    return "<poise.CenterOfMass at (" + PrintNumber(self.p_WG.x()) + ", " +
+           PrintNumber(self.p_WG.y()) + ", " + PrintNumber(self.p_WG.z()) +
+           ") m>";
+  });
 
   py::class_<CentroidalMomentum> momentum(
       *module, "CentroidalMomentum",
@@ -26,6 +34,10 @@ void BindDynamicsResults(py::module_* module) {
           "(6, nv) The centroidal momentum matrix.", &momentum);
   AddView("bias", &CentroidalMomentum::bias,
           "(6,) The rate of L_G is H vdot + bias.", &momentum);
+  momentum.def("__repr__", [](const CentroidalMomentum& self) {
+    return "<poise.CentroidalMomentum, H of shape (6, " +
+           std::to_string(self.H_G.cols()) + ")>";
+  });
 
   py::class_<RneaDerivatives> derivatives(
       *module, "Derivatives",
@@ -36,6 +48,10 @@ void BindDynamicsResults(py::module_* module) {
   AddView("dv", &RneaDerivatives::dtau_dv, "(nv, nv) By v.", &derivatives);
   AddView("dvdot", &RneaDerivatives::dtau_dvdot, "(nv, nv) By vdot: M.",
           &derivatives);
+  derivatives.def("__repr__", [](const RneaDerivatives& self) {
+    return "<poise.Derivatives, nv = " + std::to_string(self.dtau_dq.cols()) +
+           ">";
+  });
 }
 
 }  // namespace poise
