@@ -26,7 +26,12 @@ void Keep(const Value& value) {
 // must outlive the calls.
 void AddLieCases(std::vector<TimedCase>* cases);
 void AddDynamicsCases(const Robot& robot, std::vector<TimedCase>* cases);
+void AddConversionCases(const Robot& robot, std::vector<TimedCase>* cases);
 void AddControlCases(const Robot& robot, const Profile& profile,
                      std::vector<TimedCase>* cases);
+// urdf: the file of the robot. stand: a file of a scenario.
+void AddSetupCases(const Robot& robot, const std::string& urdf,
+                   const Profile& profile, const std::string& stand,
+                   std::vector<TimedCase>* cases);
 
 }  // namespace poise

@@ -3,7 +3,7 @@
 // names in one line, and then answers each name on the standard input with the
 // time of a call, us.
 //
-// Usage: time_cpp URDF PROFILE
+// Usage: time_cpp URDF PROFILE SCENARIO
 #include <chrono>
 #include <iostream>
 #include <map>
@@ -39,8 +39,8 @@ long CountRepetitions(const poise::TimedCase& timed) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::cerr << "usage: time_cpp URDF PROFILE\n";
+  if (argc != 4) {
+    std::cerr << "usage: time_cpp URDF PROFILE SCENARIO\n";
     return 2;
   }
   const poise::Profile profile = poise::LoadProfile(argv[2]);
@@ -48,7 +48,9 @@ int main(int argc, char** argv) {
   std::vector<poise::TimedCase> cases;
   poise::AddLieCases(&cases);
   poise::AddDynamicsCases(robot, &cases);
+  poise::AddConversionCases(robot, &cases);
   poise::AddControlCases(robot, profile, &cases);
+  poise::AddSetupCases(robot, argv[1], profile, argv[3], &cases);
   std::map<std::string, const poise::TimedCase*> by_name;
   for (const poise::TimedCase& timed : cases) {
     by_name[timed.name] = &timed;
