@@ -78,6 +78,20 @@ class ExportsTest(unittest.TestCase):
         self.assertGreater(len(values), 7)
         self.assertEqual(set(values) - set(exports.EXTERNALS), set())
 
+    def test_libraries_are_those_that_bazel_finds_and_setup_installs(self):
+        text = (ROOT / "tools/rules/workspace/default.bzl").read_text()
+        rules = {}
+        for body in re.findall(r"system_repository\((.*?)\n    \)", text, re.S):
+            rule = dict(re.findall(r'(\w+) = "([^"]+)"', body))
+            rules[rule["name"]] = rule
+        setup = (ROOT / "tools/setup.sh").read_text()
+        for name, external in exports.EXTERNALS.items():
+            with self.subTest(name=name):
+                self.assertEqual(external.debian, rules[name]["debian_package"])
+                self.assertEqual(external.module,
+                                 rules[name].get("pkg_config", ""))
+                self.assertRegex(setup, rf"\b{re.escape(external.debian)}\b")
+
 
 if __name__ == "__main__":
     unittest.main()
