@@ -22,6 +22,7 @@ struct Vec3 {
 struct Motion3 {
   Vec3 angular, linear;
 };
+/// See Motion3.
 struct Force3 {
   Vec3 angular, linear;
 };

@@ -35,17 +35,22 @@ struct MimicCoupling {
   double offset;
 };
 
+/// A sphere, and below a box and a cylinder: the center is at the origin of the
+/// shape's frame, and sizes are in m.
 struct Sphere {
   double radius;
 };
+/// See Sphere.
 struct Box {
   Eigen::Vector3d size;  ///< Full edge lengths.
 };
+/// See Sphere.
 struct Cylinder {
   double radius;
   double length;  ///< Along z, centered.
 };
 struct TriangleMesh;  // In robot/mesh/triangle_mesh.h.
+/// A surface from a file, in the frame of the file.
 struct Mesh {
   std::string file;  ///< As in the URDF: "package://NAME/foot.stl".
   Eigen::Vector3d scale;

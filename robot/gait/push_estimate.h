@@ -11,6 +11,7 @@ namespace poise {
 /// the center of mass that the controller did not predict.
 class PushEstimate {
  public:
+  /// The thresholds of the estimate.
   struct Settings {
     /// A push is noticed above this acceleration of the center of mass, m/s2.
     double noticed = 1.6;

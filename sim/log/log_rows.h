@@ -15,6 +15,7 @@ enum class LogFormat { kCsv, kBinary };
 /// Returns the name of the log in a run's folder: "log.csv" or "log.bin".
 std::string_view LogFileName(LogFormat format);
 
+/// One column of a log.
 struct LogColumn {
   enum class Kind {
     kTime,    ///< A number; the binary log keeps all digits.
