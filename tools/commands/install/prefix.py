@@ -17,7 +17,8 @@ import tempfile
 
 MANIFEST = "share/poise/install_manifest.txt"
 _HEADER = "# Files of Poise "
-_SPARE = ".poise-"  # Start of the name of the folder inside the prefix.
+_SPARE = ".poise-install-"  # Start of the folder's name inside the prefix.
+_OWNER = "process"  # File in this folder: the number of the process.
 
 
 class PrefixError(Exception):
@@ -146,10 +147,25 @@ def _manifest(version, files, folders):
     return "\n".join([_HEADER + version, *lines, ""])
 
 
+def _is_left(folder):
+    """Returns whether a folder is of this run, or of one that was killed."""
+    try:
+        process = int((folder / _OWNER).read_text(encoding="ascii"))
+    except (OSError, ValueError):
+        return False  # Not made by _make_spare().
+    return process == os.getpid() or not os.path.exists(f"/proc/{process}")
+
+
+def _make_spare(prefix):
+    folder = pathlib.Path(tempfile.mkdtemp(prefix=_SPARE, dir=prefix))
+    (folder / _OWNER).write_text(str(os.getpid()), encoding="ascii")
+    return folder
+
+
 def _remove_left(prefix):
     """Removes this run's folder of replaced files, and those of runs that were
     killed."""
-    for folder in prefix.glob(f"{_SPARE}*"):
+    for folder in filter(_is_left, prefix.glob(f"{_SPARE}*")):
         shutil.rmtree(folder, ignore_errors=True)
 
 
@@ -168,7 +184,7 @@ def install(prefix, entries, version, when_done=lambda: None):
     prefix.mkdir(parents=True, exist_ok=True)
     spare = None
     try:
-        spare = pathlib.Path(tempfile.mkdtemp(prefix=_SPARE, dir=prefix))
+        spare = _make_spare(prefix)
         _install(prefix, entries, version, spare, installed, when_done)
     except UndoError:
         raise

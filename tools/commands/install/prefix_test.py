@@ -159,7 +159,7 @@ class PrefixTest(unittest.TestCase):
         with mock.patch.object(pathlib.Path, "replace", blocked):
             with self.assertRaises(prefixes.UndoError) as caught:
                 prefixes.install(self.prefix, newer, "0.9.1")
-        (spare,) = self.prefix.glob(".poise-*/old")
+        (spare,) = self.prefix.glob(".poise-install-*/old")
         self.assertIn("// so3\n", [f.read_text() for f in spare.iterdir()])
         self.assertIn(str(spare), str(caught.exception))
         prefixes.install(self.prefix, newer, "0.9.1")  # As the message says.
@@ -167,6 +167,23 @@ class PrefixTest(unittest.TestCase):
             {path: "new" for path in ENTRIES},
             {path: text for path, text in tree(self.prefix).items()
              if path != prefixes.MANIFEST})
+
+    def test_folders_of_others_with_such_a_name_stay(self):
+        notes = self.prefix / ".poise-install-notes" / "thesis.txt"
+        notes.parent.mkdir(parents=True)
+        notes.write_text("mine")
+        # The folder of an installation that still runs.
+        running = self.prefix / ".poise-install-running" / "process"
+        running.parent.mkdir()
+        running.write_text(str(os.getppid()))
+        killed = self.prefix / ".poise-install-killed" / "process"
+        killed.parent.mkdir()
+        killed.write_text("4194305")  # Above the largest number of a process.
+        prefixes.install(self.prefix, ENTRIES, "0.9.0")
+        prefixes.uninstall(self.prefix)
+        self.assertEqual(tree(self.prefix), {
+            ".poise-install-notes/thesis.txt": "mine",
+            ".poise-install-running/process": str(os.getppid())})
 
     def test_an_interrupt_in_the_last_step_undoes_all(self):
         def last():
