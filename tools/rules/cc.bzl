@@ -127,14 +127,16 @@ def poise_cc_benchmark(name, srcs = None, copts = [], deps = [], **kwargs):
 # The symbols of pybind11 are hidden, so those that contain them must be too.
 _PYTHON_COPTS = ["-fvisibility=hidden"]
 
-def poise_cc_python_library(name, copts = [], **kwargs):
-    """A part of a Python module, by pybind11. Without precompiled headers."""
+def poise_cc_python_library(name, copts = [], deps = [], **kwargs):
+    """A part of a Python module, by pybind11."""
+    header = _precompiled("python")
     if kwargs.get("hdrs"):
         kwargs["include_prefix"] = "poise"
         kwargs["strip_include_prefix"] = "/"
     native.cc_library(
         name = name,
-        copts = _COPTS + _PYTHON_COPTS + copts,
+        copts = _COPTS + header.copts + _PYTHON_COPTS + copts,
+        deps = deps + header.deps,
         **kwargs
     )
 
