@@ -67,12 +67,15 @@ def arguments():
     }
 
 
-# The arguments of each function that has others than (w), (R), (x) or (X).
-SO3 = {"matrix": "quaternion", "from_rpy": "w",
-       "interpolate": "R, R_inverse, 0.5"}
-SE3 = {"vee": "W", "interpolate": "X, X_inverse, 0.5"}
-OF_MATRIX = ("vee", "log", "project", "quaternion", "rpy", "inverse", "adjoint",
-             "dual_adjoint")
+# The arguments of each function.
+JACOBIANS = ("left_jacobian", "right_jacobian", "inverse_left_jacobian",
+             "inverse_right_jacobian")
+SO3 = {**dict.fromkeys(JACOBIANS + ("hat", "exp", "from_rpy"), "w"),
+       **dict.fromkeys(("vee", "log", "project", "quaternion", "rpy"), "R"),
+       "matrix": "quaternion", "interpolate": "R, R_inverse, 0.5"}
+SE3 = {**dict.fromkeys(JACOBIANS + ("hat", "exp"), "x"),
+       **dict.fromkeys(("log", "inverse", "adjoint", "dual_adjoint"), "X"),
+       "vee": "W", "interpolate": "X, X_inverse, 0.5"}
 TREE_ARGUMENTS = {
     "rnea": "q, v, vdot", "bias": "q, v", "crba": "q", "aba": "q, v, vdot",
     "pose": "q, frame", "jacobian": "q, frame", "jacobian_bias": "q, v, frame",
@@ -86,15 +89,16 @@ TREE_ARGUMENTS = {
     "mass_matrix": "library, q, M", "jacobian_of_library": "library, q, J",
 }
 # Statements of the other classes. Not timed: functions whose time grows from call
-# to call, as Simulation.push() and Scenario.add_push(), and those that C++ lacks,
-# as Solution.explain() and the parameters as a mapping.
+# to call, as Simulation.push() and Scenario.add_push(); those that read or write
+# the files of a run; and those whose work is done in python/ itself, so that C++
+# has no call to compare with, as Solution.explain() and the setters.
 OTHERS = {
     "Solver.solve": "solver.solve(hierarchy)",
     "Controller.update": "state.time += 1e-3; controller.update(state)",
     "Simulation.step": "simulation.step()",
     "Robot.load": "poise.Robot.load()",
     "Robot.doctor": "robot.doctor()",
-    "Hierarchy.add_level":
+    "Hierarchy":
         "hierarchy = poise.Hierarchy(1); "
         "hierarchy.add_level(C=one, upper=limit); "
         "hierarchy.add_level(B=one, b=three)",
@@ -127,12 +131,10 @@ def statements():
     made = {}
     for name in vars(poise.so3):
         if callable(getattr(poise.so3, name)):
-            given = SO3.get(name, "R" if name in OF_MATRIX else "w")
-            made[f"so3.{name}"] = f"so3.{name}({given})"
+            made[f"so3.{name}"] = f"so3.{name}({SO3[name]})"
     for name in vars(poise.se3):
         if callable(getattr(poise.se3, name)):
-            given = SE3.get(name, "X" if name in OF_MATRIX else "x")
-            made[f"se3.{name}"] = f"se3.{name}({given})"
+            made[f"se3.{name}"] = f"se3.{name}({SE3[name]})"
     for name, member in vars(poise.Tree).items():
         if name.startswith("_"):
             continue

@@ -48,7 +48,7 @@ void AddHierarchy(std::vector<TimedCase>* cases) {
     hierarchy->FindSpans();
     return hierarchy;
   };
-  cases->push_back({"Hierarchy.add_level", [make] { Keep(make()); }});
+  cases->push_back({"Hierarchy", [make] { Keep(make()); }});
   const std::shared_ptr<Hierarchy> hierarchy = make();
   cases->push_back({"Solution.conflict",
                     [hierarchy] { Keep(FindConflict(*hierarchy, 1)); }});
