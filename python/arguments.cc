@@ -24,12 +24,22 @@ std::string TypeName(py::handle value) {
 }
 
 double AsNumber(py::handle value, const char* name) {
-  const double number = PyFloat_AsDouble(value.ptr());
-  if (number == -1 && PyErr_Occurred() != nullptr) {
+  // NumPy converts arrays of one number, and complex numbers with a warning.
+  const bool is_simple =
+      PyFloat_Check(value.ptr()) != 0 || PyLong_Check(value.ptr()) != 0;
+  const bool is_real =
+      is_simple || (TypeName(value).rfind("complex", 0) != 0 &&
+                    (!py::hasattr(value, "ndim") ||
+                     py::object(value.attr("ndim")).equal(py::int_(0))));
+  const double number = is_real ? PyFloat_AsDouble(value.ptr()) : -1;
+  if (!is_real || (number == -1 && PyErr_Occurred() != nullptr)) {
+    const bool is_large = PyErr_Occurred() != nullptr &&
+                          PyErr_ExceptionMatches(PyExc_OverflowError) != 0;
     PyErr_Clear();
     throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
                                 " of type " + TypeName(value) +
-                                ", must be a real number");
+                                ", must be a real number" +
+                                (is_large ? " below 1.8e308" : ""));
   }
   return number;
 }
@@ -79,14 +89,26 @@ std::string AsText(py::handle value, const char* name) {
 }
 
 std::vector<std::string> AsTexts(py::handle value, const char* name) {
-  if (!py::isinstance<py::list>(value) && !py::isinstance<py::tuple>(value)) {
+  std::vector<std::string> texts;
+  for (const py::handle text : AsList(value, name, "str")) {
+    texts.push_back(AsText(text, name));
+  }
+  return texts;
+}
+
+py::list AsList(py::handle value, const char* name, const char* of) {
+  const bool is_text =
+      py::isinstance<py::str>(value) || py::isinstance<py::bytes>(value);
+  PyObject* list = is_text || PySequence_Check(value.ptr()) == 0
+                       ? nullptr
+                       : PySequence_List(value.ptr());
+  if (list == nullptr) {  // For example, an array of NumPy without dimensions.
+    PyErr_Clear();
     throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
                                 " of type " + TypeName(value) +
-                                ", must be a list of str");
+                                ", must be a list of " + of);
   }
-  std::vector<std::string> texts;
-  for (const py::handle text : value) texts.push_back(AsText(text, name));
-  return texts;
+  return py::reinterpret_steal<py::list>(list);
 }
 
 }  // namespace poise

@@ -13,6 +13,7 @@
 #include "poise/python/interrupt.h"
 #include "poise/python/python_controller.h"
 #include "poise/python/python_task.h"
+#include "poise/python/text.h"
 #include "poise/robot/control/controller.h"
 #include "poise/robot/control/task_set.h"
 #include "poise/robot/finding.h"
@@ -105,7 +106,7 @@ void BindStateAndCommand(py::module_* module) {
   state.def_property(
       "time", [](const State& self) { return self.time; },
       [](State& self, py::handle time) { self.time = AsNumber(time, "time"); },
-      "s.");
+      "The time of the measurement, s.");
   state.def_property(
       "q", [](const State& self) { return ToArray(self.q); },
       [](State& self, py::handle q) {
@@ -135,7 +136,7 @@ void BindStateAndCommand(py::module_* module) {
       "'ok', 'limit_relaxed', 'truncated' or 'fail_safe'.");
   command.def("__repr__", [](const Command& self) {
     return "<poise.Command, " + NameOf(self.status) + ", " +
-           std::to_string(self.tau.size()) + " torques>";
+           Count(self.tau.size(), "torque") + ">";
   });
 }
 
@@ -192,15 +193,19 @@ void BindController(py::module_* module) {
   AddReference("com_reference", &Reference::p_WG,
                "(3,) The desired center of mass, world, m.", &controller);
   AddReference("com_velocity_reference", &Reference::v_WG,
-               "(3,) Its desired velocity, m/s.", &controller);
+               "(3,) The desired velocity of the center of mass, m/s.",
+               &controller);
   AddReference("com_acceleration_reference", &Reference::a_WG,
-               "(3,) Its desired acceleration, m/s2.", &controller);
+               "(3,) The desired acceleration of the center of mass, m/s2.",
+               &controller);
   AddReference("posture_reference", &Reference::posture,
                "(joints,) The desired joints, rad or m.", &controller);
   controller.def("__repr__", [](const PythonController& self) {
+    if (self.in_use()->is_set())
+      return std::string("<poise.Controller, in use>");
     const Controller& of = self.get();
-    return "<poise.Controller of '" + of.robot().model.name + "', " +
-           std::to_string(of.stack().num_tasks()) + " tasks>";
+    return "<poise.Controller of " + Quoted(of.robot().model.name) + ", " +
+           Count(of.stack().num_tasks(), "task") + ">";
   });
   AddStack(&controller);
   AddReport(&controller);

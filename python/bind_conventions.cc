@@ -102,9 +102,13 @@ void AddOfBias(const char* name, Convert convert, const char* doc,
         const Eigen::MatrixXd inertia =
             MatrixOf(AsArray(M, "M", {of.nv(), of.nv()}));
         const DoubleArray c = AsVector(N, "N", of.nv());
+        const Library other = ToLibrary(library);
+        const auto q_map = VectorOf(a), v_map = VectorOf(b),
+                   N_map = VectorOf(c);
         py::array_t<double> out = NewVector(of.nv());
-        convert(ToLibrary(library), of, VectorOf(a), VectorOf(b), inertia,
-                VectorOf(c), Writable(&out));
+        auto out_map = Writable(&out);
+        const py::gil_scoped_release release;
+        convert(other, of, q_map, v_map, inertia, N_map, out_map);
         return out;
       },
       py::arg("library"), py::arg("q"), py::arg("v"), py::arg("M"),
@@ -124,9 +128,14 @@ void AddOfMatrix(const char* name, const char* argument, py::ssize_t rows,
         const DoubleArray a = AsVector(q, "q", of.nq());
         const DoubleArray b =
             AsArray(value, argument, {rows == kAny ? of.nv() : rows, of.nv()});
+        const Library other = ToLibrary(library);
+        const auto q_map = VectorOf(a);
         const Matrix from = MatrixOf(b);
         Matrix to(from.rows(), from.cols());
-        convert(ToLibrary(library), of, VectorOf(a), from, to);
+        {
+          const py::gil_scoped_release release;
+          convert(other, of, q_map, from, to);
+        }
         return ToArray(to);
       },
       py::arg("library"), py::arg("q"), py::arg(argument), doc);

@@ -8,6 +8,7 @@
 #include "poise/python/arrays.h"
 #include "poise/python/bind.h"
 #include "poise/python/python_robot.h"
+#include "poise/python/text.h"
 #include "poise/robot/finding.h"
 #include "poise/tools/commands/doctor/diagnose.h"
 #include "poise/tools/commands/doctor/diagnosis.h"
@@ -56,8 +57,9 @@ void BindFinding(py::module_* module) {
   finding.def_readonly("line", &Finding::line,
                        "The line in the file, or 0 if unknown.");
   finding.def("__repr__", [](const Finding& self) {
-    return "<" + std::string(SeverityName(self)) + ": " + self.where + ": " +
-           self.what + ", " + self.why + ">";
+    const std::string text = self.where + ": " + self.what + ", " + self.why;
+    return "<poise.Finding, " + std::string(SeverityName(self)) + ": " +
+           Quoted(text) + ">";
   });
 }
 
@@ -66,8 +68,8 @@ void BindSole(py::module_* module) {
   py::class_<Sole> sole(*module, "Sole", "A sole that was found.");
   sole.def_readonly("name", &Sole::name, "'left_foot' or 'right_foot'.");
   sole.def_readonly("link", &Sole::link, "The link that carries the sole.");
-  sole.def_readonly("length", &Sole::length, "m.");
-  sole.def_readonly("width", &Sole::width, "m.");
+  sole.def_readonly("length", &Sole::length, "The size along x, m.");
+  sole.def_readonly("width", &Sole::width, "The size along y, m.");
   sole.def_readonly("depth", &Sole::depth,
                     "The height of the link's origin above the sole, m.");
   sole.def_readonly("source", &Sole::from,
@@ -79,9 +81,9 @@ void BindSole(py::module_* module) {
       "rpy", [](const Sole& self) { return ToArray(self.rpy); },
       "(3,) Its roll, pitch and yaw in the link, rad.");
   sole.def("__repr__", [](const Sole& self) {
-    return "<poise.Sole '" + self.name + "', " + PrintNumber(self.length) +
-           " m long, " + PrintNumber(self.width) + " m wide, from " +
-           self.from + ">";
+    return "<poise.Sole " + Quoted(self.name) + ", " +
+           PrintNumber(self.length) + " m long, " + PrintNumber(self.width) +
+           " m wide, from " + self.from + ">";
   });
 }
 
@@ -128,10 +130,12 @@ void BindDiagnosis(py::module_* module) {
                          "What to do next, one line.");
   diagnosis.def_readonly("profile", &Diagnosis::profile,
                          "The profile that was found, as YAML.");
-  diagnosis.def_readonly("mass", &Diagnosis::mass, "kg.");
+  diagnosis.def_readonly("mass", &Diagnosis::mass,
+                         "The mass of all links, kg.");
   diagnosis.def("__repr__", [](const Diagnosis& self) {
     return "<poise.Diagnosis, " + std::string(VerdictWord(self)) + ", " +
-           std::to_string(self.findings.size()) + " findings>";
+           Count(static_cast<std::ptrdiff_t>(self.findings.size()), "finding") +
+           ">";
   });
   diagnosis.def("__str__",
                 [](const Diagnosis& self) { return WriteTable(self); });

@@ -12,6 +12,7 @@
 #include "poise/python/arrays.h"
 #include "poise/python/bind.h"
 #include "poise/python/python_hierarchy.h"
+#include "poise/python/text.h"
 
 namespace poise {
 namespace {
@@ -78,21 +79,23 @@ void BindLevel(py::module_* module) {
       "The rows of one level of a Hierarchy, which never change. Arrays are "
       "copies.");
   AddMember("B", &PythonLevel::B, "(m, n) Rows B y + b = 0.", &level);
-  AddMember("b", &PythonLevel::b, "(m,)", &level);
+  AddMember("b", &PythonLevel::b, "(m,) The constants of the rows of B.",
+            &level);
   AddMember("weight", &PythonLevel::weight, "(m,) The weight of each row of B.",
             &level);
   AddMember("C", &PythonLevel::C, "(k, n) Rows lower <= C y <= upper.", &level);
   AddMember("lower", &PythonLevel::lower, "(k,) May be -inf.", &level);
   AddMember("upper", &PythonLevel::upper, "(k,) May be inf.", &level);
-  level.def_readonly("name", &PythonLevel::name, "Its name, or ''.");
+  level.def_readonly("name", &PythonLevel::name,
+                     "The name of the level, or ''.");
   level.def_readonly("equality_names", &PythonLevel::equality_names,
                      "The names of the rows of B.");
   level.def_readonly("inequality_names", &PythonLevel::inequality_names,
                      "The names of the rows of C.");
   level.def("__repr__", [](const PythonLevel& self) {
-    return "<poise.Level '" + self.name + "', " +
-           std::to_string(self.B.rows()) + " equalities, " +
-           std::to_string(self.C.rows()) + " inequalities>";
+    return "<poise.Level " + Quoted(self.name) + ", " +
+           Count(self.B.rows(), "equality", "equalities") + ", " +
+           Count(self.C.rows(), "inequality", "inequalities") + ">";
   });
 }
 
@@ -126,8 +129,9 @@ void BindHierarchy(py::module_* module) {
       "levels", [](const PythonHierarchy& self) { return self.levels; },
       "The levels, highest first. The list is a copy.");
   hierarchy.def("__repr__", [](const PythonHierarchy& self) {
-    return "<poise.Hierarchy, " + std::to_string(self.num_variables) +
-           " variables, " + std::to_string(self.levels.size()) + " levels>";
+    return "<poise.Hierarchy, " + Count(self.num_variables, "variable") + ", " +
+           Count(static_cast<std::ptrdiff_t>(self.levels.size()), "level") +
+           ">";
   });
   hierarchy.def(
       "add_level", AddLevel, py::kw_only(), py::arg("B") = py::none(),

@@ -7,7 +7,9 @@
 
 #include "poise/python/arrays.h"
 #include "poise/python/python_controller.h"
+#include "poise/python/text.h"
 #include "poise/robot/control/tick_report.h"
+#include "poise/robot/finding.h"
 #include "poise/sim/log/recorder.h"
 #include "poise/tools/commands/hqp/hqp_file.h"
 
@@ -78,7 +80,8 @@ void BindRow(py::module_* module) {
   row.def_readonly("slack", &PythonRow::slack,
                    "The violation, in the scale of the row.");
   row.def("__repr__", [](const PythonRow& self) {
-    return "<" + self.name + ": " + std::to_string(self.amount) + ">";
+    return "<poise.ReportRow " + Quoted(self.name) + ", amount " +
+           PrintNumber(self.amount) + ">";
   });
 }
 
@@ -102,7 +105,9 @@ void BindTickReport(py::module_* module) {
       "update.");
   report.def("__repr__", [](const PythonReport& self) {
     return "<poise.TickReport, status '" + StatusOf(self.report) + "', " +
-           std::to_string(self.active.size()) + " active rows>";
+           Count(static_cast<std::ptrdiff_t>(self.active.size()),
+                 "active row") +
+           ">";
   });
   report.def_property_readonly(
       "fail_safe_reason",

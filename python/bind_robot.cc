@@ -12,6 +12,7 @@
 #include "poise/python/bind.h"
 #include "poise/python/bind_dynamics.h"
 #include "poise/python/python_robot.h"
+#include "poise/python/text.h"
 #include "poise/robot/control/stand.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/urdf/urdf.h"
@@ -117,7 +118,7 @@ void BindFoot(py::module_* module) {
       },
       "(n, 2) The corners of the sole in C, counterclockwise, m.");
   foot.def("__repr__", [](const Foot& self) {
-    return "<poise.Foot '" + self.name + "', " +
+    return "<poise.Foot " + Quoted(self.name) + ", " +
            PrintNumber(2 * self.half_size.x()) + " m long, " +
            PrintNumber(2 * self.half_size.y()) + " m wide>";
   });
@@ -212,8 +213,8 @@ void BindRobot(py::module_* module) {
   AddDoctor(&robot);
   TreeClass tree = module->attr("Tree");
   robot.def("__repr__", [](const PythonRobot& self) {
-    return "<poise.Robot '" + self.robot->model.name + "', " +
-           std::to_string(self.robot->model.tree.num_joints()) + " joints>";
+    return "<poise.Robot " + Quoted(self.robot->model.name) + ", " +
+           Count(self.robot->model.tree.num_joints(), "joint") + ">";
   });
   tree.def_static("load", LoadTree, py::arg("urdf"),
                   py::arg("locked") = py::dict(),

@@ -10,6 +10,7 @@
 #include "poise/python/bind.h"
 #include "poise/python/make_push.h"
 #include "poise/python/python_robot.h"
+#include "poise/python/text.h"
 #include "poise/robot/finding.h"
 #include "poise/sim/scenario.h"
 
@@ -49,16 +50,19 @@ std::filesystem::path FindScenario(const std::string& name) {
 // Reads a scenario from a dict with the keys of its YAML file. JSON is valid
 // YAML, so that the reader of files is the only one.
 Scenario FromDict(py::handle values, py::handle name) {
-  if (!py::isinstance<py::dict>(values)) {
+  if (!py::hasattr(values, "keys")) {
     throw std::invalid_argument("values is of type " + TypeName(values) +
                                 ", must be a dict");
   }
+  const std::string scenario_name = AsText(name, "name");
   std::string text;
   try {
+    py::dict named(py::reinterpret_borrow<py::object>(values));
+    if (!named.contains("name")) named["name"] = scenario_name;
     const py::object as_list = py::cpp_function(
         [](py::handle value) { return value.attr("tolist")(); });
     text = AsText(py::module_::import("json").attr("dumps")(
-                      values, py::arg("default") = as_list,
+                      named, py::arg("default") = as_list,
                       py::arg("ensure_ascii") = false),
                   "values");
   } catch (py::error_already_set& error) {
@@ -66,7 +70,6 @@ Scenario FromDict(py::handle values, py::handle name) {
         "the scenario must be made of dict, list, str, numbers and bool: " +
         py::cast<std::string>(py::str(error.value())));
   }
-  const std::string scenario_name = AsText(name, "name");
   const py::gil_scoped_release release;
   Scenario scenario = ParseScenario(text, "scenario", scenario_name);
   Validate(scenario);
@@ -86,7 +89,8 @@ using ScenarioClass = py::class_<Scenario>;
 
 void AddFields(ScenarioClass* scenario) {
   scenario->def_property_readonly(
-      "name", [](const Scenario& self) { return self.name; }, "Its name.");
+      "name", [](const Scenario& self) { return self.name; },
+      "The name of the scenario.");
   scenario->def_property(
       "duration", [](const Scenario& self) { return self.duration; },
       [](Scenario& self, py::handle value) {
@@ -137,8 +141,9 @@ void BindScenario(py::module_* module) {
   scenario.def_static(
       "from_dict", FromDict, py::arg("values"), py::arg("name") = "scenario",
       "Makes a scenario from a dict with the keys of its YAML file: "
-      "{'duration': 3, 'pushes': [{'force': [0, 60, 0]}]}. Arrays of NumPy are "
-      "lists.");
+      "{'duration': 3, 'pushes': [{'force': [0, 60, 0]}]}. NumPy arrays are "
+      "read "
+      "as lists. name: used if the dict has no 'name'.");
   scenario.def_static("names", ScenarioNames,
                       "Returns the names of Poise's scenarios.");
   AddFields(&scenario);
@@ -169,10 +174,11 @@ void BindScenario(py::module_* module) {
       "clear_pushes", [](Scenario& self) { self.pushes.clear(); },
       "Removes all pushes.");
   scenario.def("__repr__", [](const Scenario& self) {
-    return "<poise.Scenario '" + self.name + "', " +
+    return "<poise.Scenario " + Quoted(self.name) + ", " +
            PrintNumber(self.duration) + " s, " +
-           std::to_string(self.pushes.size()) +
-           (self.pushes.size() == 1 ? " push>" : " pushes>");
+           Count(static_cast<std::ptrdiff_t>(self.pushes.size()), "push",
+                 "pushes") +
+           ">";
   });
   scenario.def_property_readonly(
       "num_pushes", [](const Scenario& self) { return self.pushes.size(); },

@@ -18,6 +18,7 @@
 #include "poise/python/python_controller.h"
 #include "poise/python/python_robot.h"
 #include "poise/python/python_task.h"
+#include "poise/python/text.h"
 #include "poise/robot/finding.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/experiment.h"
@@ -198,11 +199,12 @@ void BindSimulation(py::module_* module) {
       py::arg("at") = py::none(), py::arg("link") = "",
       py::arg("point") = py::none(), py::arg("moment") = py::none(),
       py::arg("profile") = "box",
-      "Adds a push from now on, or at a time in s. The other arguments are "
+      "Adds a push that starts now, or at a time in s. The other arguments are "
       "those of Scenario.add_push().");
   simulation.def("__repr__", [](const PythonSimulation& self) {
-    return "<poise.Simulation of '" + self.get().robot().model.name +
-           "', time " + PrintNumber(self.get().time()) + " s>";
+    if (self.in_use->is_set()) return std::string("<poise.Simulation, in use>");
+    return "<poise.Simulation of " + Quoted(self.loop.robot().model.name) +
+           ", time " + PrintNumber(self.loop.time()) + " s>";
   });
   AddState(&simulation);
   simulation.def_property_readonly(

@@ -12,6 +12,7 @@
 #include "poise/python/arrays.h"
 #include "poise/python/bind.h"
 #include "poise/python/python_solution.h"
+#include "poise/python/text.h"
 #include "poise/robot/control/conflict.h"
 #include "poise/robot/finding.h"
 #include "poise/tools/commands/hqp/hqp_file.h"
@@ -216,7 +217,7 @@ void BindSolution(py::module_* module) {
       "The active inequalities: (level, row, 'lower' or 'upper').");
   solution.def("__repr__", [](const PythonSolution& self) {
     return "<poise.Solution, " + Name(self.solution.status) + ", " +
-           std::to_string(self.num_levels()) + " levels>";
+           Count(self.num_levels(), "level") + ">";
   });
   solution.def("explain", ExplainSolution,
                py::call_guard<py::gil_scoped_release>(),

@@ -16,6 +16,7 @@
 #include "poise/python/bind.h"
 #include "poise/python/exclusive.h"
 #include "poise/python/python_solution.h"
+#include "poise/python/text.h"
 
 namespace poise {
 
@@ -113,7 +114,7 @@ void BindSolver(py::module_* module) {
   solver.def_property_readonly("n", &PythonSolver::n,
                                "The number of variables.");
   solver.def("__repr__", [](const PythonSolver& self) {
-    return "<poise.Solver, " + std::to_string(self.n()) + " variables>";
+    return "<poise.Solver, " + Count(self.n(), "variable") + ">";
   });
   solver.def_property(
       "max_iterations",

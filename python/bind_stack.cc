@@ -8,6 +8,7 @@
 
 #include "poise/python/arguments.h"
 #include "poise/python/python_controller.h"
+#include "poise/python/text.h"
 #include "poise/robot/control/stack.h"
 #include "poise/robot/control/task_set.h"
 #include "poise/robot/finding.h"
@@ -135,7 +136,7 @@ void AddMapping(py::class_<PythonParameters>* parameters) {
         [name](const PythonParameters& self) {
           return py::object(AllParameters(self).attr(name)());
         },
-        "As of a dict; a copy.");
+        "Returns what the function of a dict with these values returns.");
   }
 }
 
@@ -149,13 +150,19 @@ void BindTask(py::module_* module) {
       ">>> parameters = stack['momentum'].parameters\n"
       ">>> 'kp' in parameters, len(parameters) == len(list(parameters))\n"
       "(True, True)\n");
-  parameters.def("__getitem__", GetParameterOf, py::arg("name"));
+  parameters.def("__getitem__", GetParameterOf, py::arg("name"),
+                 "Returns the value of a parameter.");
   parameters.def("__setitem__", SetParameterOf, py::arg("name"),
-                 py::arg("value"));
+                 py::arg("value"),
+                 "Sets a parameter; the value must be within its range.");
   AddMapping(&parameters);
   parameters.def("as_dict", AllParameters, "Returns all values, a copy.");
   parameters.def("__repr__", [](const PythonParameters& self) {
-    return py::str(AllParameters(self));
+    const std::string values =
+        self.of.owner->in_use()->is_set()
+            ? "in use"
+            : py::cast<std::string>(py::str(AllParameters(self)));
+    return "<poise.Parameters, " + values + ">";
   });
 
   py::class_<PythonTask> task(
@@ -163,7 +170,7 @@ void BindTask(py::module_* module) {
       "A task of a Stack. A change takes effect at the next tick.");
   task.def_property_readonly(
       "name", [](const PythonTask& self) { return self.task().name(); },
-      "Its name.");
+      "The name of the task.");
   task.def_property(
       "enabled", [](const PythonTask& self) { return self.settings().enabled; },
       [](const PythonTask& self, py::handle value) {
@@ -183,7 +190,10 @@ void BindTask(py::module_* module) {
       [](const PythonTask& self) { return PythonParameters{self}; },
       "The Parameters of the task.");
   task.def("__repr__", [](const PythonTask& self) {
-    return "<poise.StackTask '" + self.task().name() + "', " +
+    if (self.owner->in_use()->is_set()) {
+      return std::string("<poise.StackTask, in use>");
+    }
+    return "<poise.StackTask " + Quoted(self.task().name()) + ", " +
            (self.settings().enabled ? "on" : "off") + ", level " +
            std::to_string(self.settings().level) + ", weight " +
            PrintNumber(self.settings().weight) + ">";
@@ -207,8 +217,10 @@ void BindStack(py::module_* module) {
   stack.def("__getitem__", FindTask, py::arg("name"),
             "Returns a StackTask by its name.");
   stack.def("__repr__", [](const PythonStack& self) {
-    return "<poise.Stack, " + std::to_string(self.get().num_tasks()) +
-           " tasks>";
+    if (self.owner->in_use()->is_set()) {
+      return std::string("<poise.Stack, in use>");
+    }
+    return "<poise.Stack, " + Count(self.get().num_tasks(), "task") + ">";
   });
   stack.def("__len__",
             [](const PythonStack& self) { return self.get().num_tasks(); });

@@ -13,6 +13,7 @@
 #include "poise/python/bind.h"
 #include "poise/python/interrupt.h"
 #include "poise/python/python_task.h"
+#include "poise/python/text.h"
 #include "poise/robot/control/task.h"
 #include "poise/robot/finding.h"
 
@@ -217,7 +218,9 @@ void BindTask(py::module_* module) {
   py::class_<PythonTaskBase> task(
       *module, "Task",
       "A task written in Python: derive a class with a method rows(input). "
-      "Slow: rows() runs in each tick, with copies of its input."
+      "Slow: rows() runs in each tick, with copies of its input. A controller "
+      "keeps its tasks. Do not store it in one of them: Python would free "
+      "neither."
       "\n\n"
       ">>> class BaseStill(poise.Task):\n"
       "...     def rows(self, input):\n"
@@ -248,11 +251,12 @@ void BindTask(py::module_* module) {
       "If rows() raises, the tick ends in the fail-safe command with the "
       "reason 'no_answer', and `error` has the message. KeyboardInterrupt and "
       "SystemExit end update(), step() or run() as well.");
-  task.def_readonly("name", &PythonTaskBase::name, "Its name in the stack.");
+  task.def_readonly("name", &PythonTaskBase::name,
+                    "The name of the task in the stack.");
   task.def_readonly("error", &PythonTaskBase::error,
                     "The exception of the last rows(), or ''.");
   task.def("__repr__", [](const PythonTaskBase& self) {
-    return "<poise.Task '" + self.name + "'>";
+    return "<poise.Task " + Quoted(self.name) + ">";
   });
 }
 

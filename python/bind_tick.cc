@@ -11,6 +11,7 @@
 #include "poise/python/arrays.h"
 #include "poise/python/bind.h"
 #include "poise/python/bind_dynamics.h"
+#include "poise/python/text.h"
 
 namespace poise {
 namespace {
@@ -142,7 +143,8 @@ void BindTick(py::module_* module) {
       "A FrameTick for each frame that Tree.tick() was asked for.");
   tick.def("__repr__", [](const Tick& self) {
     return "<poise.Tick, nv = " + std::to_string(self.N.size()) + ", " +
-           std::to_string(self.frames.size()) + " frames>";
+           Count(static_cast<std::ptrdiff_t>(self.frames.size()), "frame") +
+           ">";
   });
 }
 

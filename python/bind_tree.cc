@@ -11,6 +11,7 @@
 #include "poise/python/bind.h"
 #include "poise/python/bind_dynamics.h"
 #include "poise/python/python_tree.h"
+#include "poise/python/text.h"
 #include "poise/robot/finding.h"
 
 namespace poise {
@@ -101,6 +102,7 @@ void AddFacts(TreeClass* tree) {
           throw std::invalid_argument("base is '" + name +
                                       "', must be 'fixed' or 'floating'");
         }
+        const py::gil_scoped_release release;
         return std::make_shared<PythonTree>(
             std::make_shared<const Tree>(self.tree().WithBase(
                 name == "fixed" ? BaseType::kFixed : BaseType::kFloating)));
@@ -111,8 +113,8 @@ void AddFacts(TreeClass* tree) {
       "'floating' base.");
   tree->def("__repr__", [](const PythonTree& self) {
     const Tree& of = self.tree();
-    return "<poise.Tree, " + std::to_string(of.num_joints()) +
-           " joints, base " + (of.is_floating() ? "floating" : "fixed") + ", " +
+    return "<poise.Tree, " + Count(of.num_joints(), "joint") + ", base " +
+           (of.is_floating() ? "floating" : "fixed") + ", " +
            PrintNumber(of.total_mass()) + " kg>";
   });
 }

@@ -42,12 +42,14 @@ void BindDynamicsResults(py::module_* module) {
   py::class_<RneaDerivatives> derivatives(
       *module, "Derivatives",
       "The derivatives of rnea(). Arrays are read-only, without a copy.");
-  AddView("dq", &RneaDerivatives::dtau_dq,
-          "(nv, nv) By a variation of q along v: integrate(q, d, 1).",
-          &derivatives);
-  AddView("dv", &RneaDerivatives::dtau_dv, "(nv, nv) By v.", &derivatives);
-  AddView("dvdot", &RneaDerivatives::dtau_dvdot, "(nv, nv) By vdot: M.",
-          &derivatives);
+  AddView(
+      "dq", &RneaDerivatives::dtau_dq,
+      "(nv, nv) The derivative of tau by d at q = integrate(q, d, 1), d = 0.",
+      &derivatives);
+  AddView("dv", &RneaDerivatives::dtau_dv,
+          "(nv, nv) The derivative of tau by v.", &derivatives);
+  AddView("dvdot", &RneaDerivatives::dtau_dvdot,
+          "(nv, nv) The derivative of tau by vdot, which is M.", &derivatives);
   derivatives.def("__repr__", [](const RneaDerivatives& self) {
     return "<poise.Derivatives, nv = " + std::to_string(self.dtau_dq.cols()) +
            ">";

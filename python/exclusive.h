@@ -24,6 +24,8 @@ class InUse {
              : " is in use by another thread: give each thread its own"));
   }
 
+  bool is_set() const { return is_set_; }
+
  private:
   friend class Exclusive;
   bool is_set_ = false;

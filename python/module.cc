@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "poise/python/bind.h"
+#include "poise/python/refuse_uninitialized.h"
 #include "poise/python/text_signatures.h"
 
 namespace {
@@ -46,5 +47,6 @@ PYBIND11_MODULE(_poise, module) {
   poise::BindScenario(&module);
   poise::BindSimulation(&module);
   poise::BindRun(&module);
+  poise::RefuseUninitialized(module);
   poise::AddTextSignatures(module);
 }

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <string>
 #include <vector>
 
 namespace poise {
@@ -18,18 +19,21 @@ std::vector<std::string> SplitList(const std::string& text, std::size_t begin,
                                    std::size_t* end) {
   std::vector<std::string> parts(1);
   int depth = 0;
-  bool quoted = false;
+  char quote = 0;  // The quotation mark that began a text, or 0 outside.
   *end = std::string::npos;
   for (std::size_t i = begin; i < text.size(); ++i) {
     const char c = text[i];
-    if (c == '\'') quoted = !quoted;
-    if (!quoted && depth == 0 && c == ')') {
+    const bool is_escaped = quote != 0 && text[i - 1] == '\\';
+    if ((c == '\'' || c == '"') && !is_escaped && (quote == 0 || quote == c)) {
+      quote = quote == 0 ? c : '\0';
+    }
+    if (quote == 0 && depth == 0 && c == ')') {
       *end = i;
       break;
     }
-    if (!quoted && std::strchr("([{", c) != nullptr) ++depth;
-    if (!quoted && std::strchr(")]}", c) != nullptr) --depth;
-    if (!quoted && depth == 0 && c == ',') {
+    if (quote == 0 && std::strchr("([{", c) != nullptr) ++depth;
+    if (quote == 0 && std::strchr(")]}", c) != nullptr) --depth;
+    if (quote == 0 && depth == 0 && c == ',') {
       parts.emplace_back();
     } else if (c != ' ' || !parts.back().empty()) {
       parts.back() += c;
@@ -37,6 +41,24 @@ std::vector<std::string> SplitList(const std::string& text, std::size_t begin,
   }
   if (parts.back().empty()) parts.pop_back();
   return parts;
+}
+
+// Returns the parameters of a signature by pybind11 without their types:
+// "f(self: Tree, q: handle, dt: handle = 0.1) -> object" gives
+// "(self, q, dt=0.1)". Returns "" if the text is no signature.
+std::string ParametersOf(const std::string& signature) {
+  const std::size_t open = signature.find('(');
+  if (open == std::string::npos) return "";
+  std::size_t end = 0;
+  std::string parameters;
+  for (const std::string& part : SplitList(signature, open + 1, &end)) {
+    const std::size_t equals = part.find(" = ");
+    if (!parameters.empty()) parameters += ", ";
+    parameters += part.substr(0, part.find(':'));
+    if (equals != std::string::npos)
+      parameters += "=" + part.substr(equals + 3);
+  }
+  return end == std::string::npos ? "" : "(" + parameters + ")";
 }
 
 // Writes "NAME(PARAMETERS)\n--\n\n" in place of the first line of a docstring:
@@ -68,21 +90,6 @@ void RewriteClass(const py::handle& type) {
 }
 
 }  // namespace
-
-std::string ParametersOf(const std::string& signature) {
-  const std::size_t open = signature.find('(');
-  if (open == std::string::npos) return "";
-  std::size_t end = 0;
-  std::string parameters;
-  for (const std::string& part : SplitList(signature, open + 1, &end)) {
-    const std::size_t equals = part.find(" = ");
-    if (!parameters.empty()) parameters += ", ";
-    parameters += part.substr(0, part.find(':'));
-    if (equals != std::string::npos)
-      parameters += "=" + part.substr(equals + 3);
-  }
-  return end == std::string::npos ? "" : "(" + parameters + ")";
-}
 
 void AddTextSignatures(const py::module_& module) {
   for (const auto& [key, value] : py::dict(module.attr("__dict__"))) {

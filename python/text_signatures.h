@@ -3,14 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include <string>
-
 namespace poise {
-
-/// Returns the parameters of a signature by pybind11 without their types:
-/// "f(self: Tree, q: handle, dt: handle = 0.1) -> object" gives
-/// "(self, q, dt=0.1)". Returns "" if the text is no signature.
-std::string ParametersOf(const std::string& signature);
 
 /// Gives the functions and methods of a module, and those of its modules, a
 /// signature that inspect.signature() and help() read. The one of pybind11,

@@ -28,8 +28,8 @@ Classifier: Operating System :: POSIX :: Linux
 Classifier: Programming Language :: Python :: 3.11
 
 Rigid-body dynamics, a certified hierarchical QP solver, and momentum control
-of humanoids. The native module needs the shared libraries of Debian 12:
-libbullet, libmujoco, libtinyxml2, liburdfdom, libyaml-cpp and libssl.
+of humanoids. The native module needs shared libraries of Debian 12; the page
+docs/quickstart/python.md of Poise lists their packages.
 """
 
 WHEEL = """\

@@ -77,12 +77,13 @@ def draw_panel(axis: Any, run: Run, lines: dict[str, str]) -> None:
     for label, name in lines.items():
         columns.append(numbers_of(run, name))
         (line,) = axis.plot(time, columns[-1], label=label)
-        if name in _REFERENCES:
-            axis.plot(time, numbers_of(run, _REFERENCES[name]), "--",
+        reference = _REFERENCES.get(name.split("[")[0])
+        if reference:
+            axis.plot(time, numbers_of(run, reference), "--",
                       color=line.get_color(), linewidth=0.8,
-                      label=label[0] + ", desired")
+                      label=label.split(",")[0] + ", desired")
     limit_height(axis, time, columns)
-    if len(lines) > 1:
+    if len(axis.lines) > 1:
         axis.legend(loc="upper right", frameon=False)
     axis.grid(alpha=0.3)
     axis.spines[["top", "right"]].set_visible(False)

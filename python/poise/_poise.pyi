@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 _Array = NDArray[np.float64]
 _Path = str | os.PathLike[str]
+_Tasks = list[Task] | tuple[Task, ...]
 _Axes = Literal["world", "frame"]
 _Library = Literal["pinocchio", "drake", "mujoco"]
 _PushProfile = Literal["box", "half_sine", "impulse"]
@@ -88,7 +89,7 @@ class Derivatives:
 
 class Tree:
     @staticmethod
-    def load(urdf: _Path, locked: Mapping[str, float] = ...) -> Tree: ...
+    def load(urdf: _Path, locked: Mapping[str, float] = {}) -> Tree: ...
     @property
     def nq(self) -> int: ...
     @property
@@ -163,7 +164,7 @@ class Tree:
         self,
         q: ArrayLike,
         v: ArrayLike,
-        frames: Sequence[str | int] = ...,
+        frames: Sequence[str | int] = (),
         out: Tick | None = None,
     ) -> Tick: ...
     def export_configuration(
@@ -288,7 +289,7 @@ class Robot:
     def load(
         urdf: _Path | None = None,
         profile: _Path | None = None,
-        packages: Sequence[_Path] = ...,
+        packages: Sequence[_Path] = (),
     ) -> Robot: ...
     def doctor(self) -> Diagnosis: ...
     @property
@@ -509,8 +510,8 @@ class Task:
     def __init__(
         self,
         name: str,
-        equalities: Sequence[str] = ...,
-        inequalities: Sequence[str] = ...,
+        equalities: Sequence[str] = (),
+        inequalities: Sequence[str] = (),
         level: int = 4,
         weight: float = 1.0,
     ) -> None: ...
@@ -529,8 +530,8 @@ class Controller:
         dt: float = 1e-3,
         friction: float = 0.5,
         max_iterations: int = 500,
-        frames: Sequence[str] = ...,
-        tasks: Sequence[Task] = ...,
+        frames: Sequence[str] = (),
+        tasks: _Tasks = (),
     ) -> None: ...
     def start(self, state: State) -> None: ...
     def update(self, state: State) -> Command: ...
@@ -590,7 +591,7 @@ class Simulation:
         self,
         robot: Robot,
         scenario: Scenario,
-        tasks: Sequence[Task] = ...,
+        tasks: _Tasks = (),
     ) -> None: ...
     def step(self, n: int = 1) -> None: ...
     def push(
@@ -629,7 +630,7 @@ class Simulation:
 def doctor(
     urdf: _Path,
     profile: _Path | None = None,
-    packages: Sequence[_Path] = ...,
+    packages: Sequence[_Path] = (),
 ) -> Diagnosis: ...
 def _set_data_folder(folder: _Path) -> None: ...
 def _record(
@@ -638,7 +639,7 @@ def _record(
     folder: str,
     binary: bool,
     meshes: bool,
-    tasks: Sequence[Task],
+    tasks: _Tasks,
 ) -> str: ...
 def _read_log(folder: str) -> dict[str, NDArray[np.float64] | list[str]]: ...
 def _explain(folder: str) -> str: ...

@@ -10,7 +10,6 @@ import pathlib
 import shutil
 import tempfile
 import weakref
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from poise import _poise
@@ -28,7 +27,7 @@ def run(scenario: _poise.Scenario | str | os.PathLike[str],
         robot: _poise.Robot | None = None,
         out: str | os.PathLike[str] | None = None,
         *, binary: bool = False, meshes: bool = True,
-        tasks: Sequence[_poise.Task] = ()) -> Run:
+        tasks: list[_poise.Task] | tuple[_poise.Task, ...] = ()) -> Run:
     """Runs a scenario to its end, or until the robot is down.
 
     The run equals the one of `bazel run //tools:push` to the bit. Other threads
@@ -63,6 +62,8 @@ def run(scenario: _poise.Scenario | str | os.PathLike[str],
     if not isinstance(out, (str, os.PathLike, type(None))):
         raise _poise.InputError(
             f"out is {out!r} of type {type(out).__name__}, must be a folder")
+    if out == "":
+        raise _poise.InputError("out is '', must be a folder")
     parent = tempfile.mkdtemp(prefix="poise-") if out is None else None
     folder = pathlib.Path(parent or "", out or scenario.name)
     try:
@@ -93,6 +94,10 @@ class Run:
             folder: The folder.
             table: The text that str() returns.
         """
+        if not isinstance(folder, (str, os.PathLike)):
+            raise _poise.InputError(
+                f"folder is {folder!r} of type {type(folder).__name__}, must be "
+                "the folder of a run")
         self.folder = pathlib.Path(folder)
         self._table = table
         self._is_temporary = False
@@ -135,8 +140,11 @@ class Run:
     def summary(self) -> dict[str, Any]:
         """The contents of summary.json: outcome, peaks and times."""
         if self._summary is None:
-            text = (self.folder / "summary.json").read_text(encoding="utf-8")
-            self._summary = json.loads(text)
+            file = self.folder / "summary.json"
+            if not file.is_file():
+                raise _poise.InputError(
+                    f"{file} does not exist, must be the summary of a run")
+            self._summary = json.loads(file.read_text(encoding="utf-8"))
         return self._summary
 
     @property
@@ -211,7 +219,11 @@ class Run:
         return self._table or self.explain()
 
     def __repr__(self) -> str:
-        return f"<poise.Run {self.folder.name!r}, recovered: {self.recovered}>"
+        try:
+            return (f"<poise.Run {self.folder.name!r}, recovered: "
+                    f"{self.recovered}>")
+        except _poise.InputError:
+            return f"<poise.Run {self.folder.name!r}, without a summary>"
 
     def _repr_html_(self) -> str:
         # A notebook must not overwrite report.html in a folder of the user.

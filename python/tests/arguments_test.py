@@ -5,10 +5,12 @@ Each call returns a result or raises InputError or TypeError; no call aborts.
 POISE_SEED=N in the environment draws other arguments.
 """
 
+import collections
 import faulthandler
 import inspect
 import os
 import tempfile
+import types
 import unittest
 
 import numpy as np
@@ -251,6 +253,44 @@ class ArgumentsTest(unittest.TestCase):
                      np.pad(X, 2)[2:-2, 2:-2]):
             np.testing.assert_array_equal(poise.se3.log(same),
                                           poise.se3.log(X))
+
+    def test_members_before_init_raise_an_error(self):
+        for name in poise.__all__:
+            kind = getattr(poise, name)
+            if not isinstance(kind, type) or kind in (poise.InputError,
+                                                      poise.Run):
+                continue
+            for member, value in vars(kind).items():
+                if isinstance(value, property):
+                    with self.subTest(name=f"{name}.{member}"):
+                        with self.assertRaises((poise.InputError,
+                                                RuntimeError)):
+                            getattr(kind.__new__(kind), member)
+            with self.assertRaises((poise.InputError, RuntimeError)):
+                repr(kind.__new__(kind))
+
+    def test_numbers_are_real_and_single(self):
+        for number in (1 + 2j, np.complex128(1), np.complex64(1), "1",
+                       np.array([1.0]), [1.0], None):
+            with self.subTest(number=number):
+                with self.assertRaisesRegex(poise.InputError, "real number"):
+                    poise.State(ROBOT.posture, np.zeros(TREE.nv), number)
+        with self.assertRaisesRegex(poise.InputError, "below 1.8e308"):
+            poise.State(ROBOT.posture, np.zeros(TREE.nv), 10**400)
+        for number in (2, True, np.float32(2), np.int8(2), np.array(2.0)):
+            state = poise.State(ROBOT.posture, np.zeros(TREE.nv), number)
+            self.assertEqual(state.time, number)
+
+    def test_mappings_and_sequences_are_dicts_and_lists(self):
+        values = types.MappingProxyType({"duration": 3})
+        self.assertEqual(poise.Scenario.from_dict(values).duration, 3)
+        with self.assertRaisesRegex(poise.InputError, "'name' is '..'"):
+            poise.Scenario.from_dict({}, name="..")
+        names = collections.deque(["a"])
+        self.assertEqual(poise.Task("t", names).name, "t")
+        for names in ("ab", b"ab", range(1)):
+            with self.assertRaises(poise.InputError):
+                poise.Task("t", names)
 
     def test_flags_and_mappings_are_named(self):
         stack = poise.Controller(ROBOT).stack

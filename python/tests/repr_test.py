@@ -1,6 +1,7 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 """Checks the texts that Python shows for the objects of each class."""
 
+import re
 import unittest
 
 import numpy as np
@@ -68,7 +69,7 @@ class ReprTest(unittest.TestCase):
         hierarchy = poise.Hierarchy(3)
         hierarchy.add_level(name="limits", C=np.eye(3), upper=[1, 1, 1])
         self.assertEqual(repr(hierarchy),
-                         "<poise.Hierarchy, 3 variables, 1 levels>")
+                         "<poise.Hierarchy, 3 variables, 1 level>")
         self.assertEqual(repr(hierarchy.levels[0]),
                          "<poise.Level 'limits', 0 equalities, 3 inequalities>")
         posture = poise.Controller(ROBOT).stack["posture"]
@@ -76,11 +77,38 @@ class ReprTest(unittest.TestCase):
         self.assertEqual(
             repr(posture), "<poise.StackTask 'posture', off, level "
             f"{posture.level}, weight 2>")
-        x, y, z = tree.com(ROBOT.posture).p
-        text = repr(tree.com(ROBOT.posture))
-        self.assertTrue(text.startswith("<poise.CenterOfMass at ("))
-        for number, shown in zip((x, y, z), text[25:-4].split(", ")):
-            self.assertAlmostEqual(number, float(shown), places=4)
+        com = tree.com(tree.integrate(ROBOT.posture, np.ones(tree.nv), 0.3))
+        shown = re.fullmatch(r"<poise.CenterOfMass at \((.*), (.*), (.*)\) m>",
+                             repr(com))
+        np.testing.assert_allclose(np.array(shown.groups(), float), com.p,
+                                   rtol=1e-4)
+
+    def test_names_with_new_lines_and_quotes_stay_in_one_line(self):
+        for name in ("a\nb", "it's", '"', "a\\"):
+            self.assertEqual(repr(poise.Task(name, ["x"])),
+                             f"<poise.Task {name!r}>")
+
+    def test_an_object_in_use_says_so(self):
+        texts = []
+
+        class Watch(poise.Task):
+            def rows(self, input):
+                for thing in (controller, controller_stack, posture,
+                              parameters):
+                    texts.append(repr(thing))
+                return np.eye(1, ROBOT.tree.nv + 12), np.zeros(1)
+
+        controller = poise.Controller(ROBOT, tasks=[Watch("watch", ["x"])])
+        controller_stack = controller.stack
+        posture = controller_stack["posture"]
+        parameters = posture.parameters
+        state = poise.State(ROBOT.posture, np.zeros(ROBOT.tree.nv))
+        controller.start(state)
+        state.time = 1e-3
+        controller.update(state)
+        self.assertEqual(texts[-4:], [
+            f"<poise.{name}, in use>" for name in
+            ("Controller", "Stack", "StackTask", "Parameters")])
 
 
 if __name__ == "__main__":

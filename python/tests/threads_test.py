@@ -87,6 +87,11 @@ def long_calls():
     yield "add_push", lambda: (
         scenario.add_push(force), scenario.clear_pushes())
     yield "push", lambda: simulation.push(force, at=1e3)
+    M = TREE.crba(Q)
+    yield "with_base", lambda: TREE.with_base("fixed")
+    yield "export_mass_matrix", lambda: TREE.export_mass_matrix("drake", Q, M)
+    yield "export_jacobian", lambda: TREE.export_jacobian("drake", Q, M[:6])
+    yield "export_bias", lambda: TREE.export_bias("drake", Q, V, M, V)
     yield "aba", lambda: TREE.aba(Q, V, V)
     yield "derivatives", lambda: TREE.derivatives(Q, V, V)
     yield "regressor", lambda: TREE.regressor(Q, V, V)
