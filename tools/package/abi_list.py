@@ -4,7 +4,9 @@
 The list has the functions and objects that the shared libraries export, and the
 layout of each public class: its size, its members with offset and type, its
 virtual functions. A program that was compiled with one installation works with
-another one if both agree in what the program uses.
+another one if both agree in what the program uses. One exception: the name of an
+exported function does not contain the type that it returns, so a change of that
+type is not noticed.
 
 The layouts come from libabigail's abidw, which reads the debug information of a
 small library. That library is compiled here from the public headers alone, so
