@@ -23,25 +23,43 @@ std::string TypeName(py::handle value) {
   return py::cast<std::string>(py::type::handle_of(value).attr("__name__"));
 }
 
-double AsNumber(py::handle value, const char* name) {
-  // NumPy converts arrays of one number, and complex numbers with a warning.
-  const bool is_simple =
-      PyFloat_Check(value.ptr()) != 0 || PyLong_Check(value.ptr()) != 0;
-  const bool is_real =
-      is_simple || (TypeName(value).rfind("complex", 0) != 0 &&
-                    (!py::hasattr(value, "ndim") ||
-                     py::object(value.attr("ndim")).equal(py::int_(0))));
-  const double number = is_real ? PyFloat_AsDouble(value.ptr()) : -1;
-  if (!is_real || (number == -1 && PyErr_Occurred() != nullptr)) {
-    const bool is_large = PyErr_Occurred() != nullptr &&
-                          PyErr_ExceptionMatches(PyExc_OverflowError) != 0;
-    PyErr_Clear();
-    throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
-                                " of type " + TypeName(value) +
-                                ", must be a real number" +
-                                (is_large ? " below 1.8e308" : ""));
+namespace {
+
+// Forgets an exception of Python, for which the caller throws another one. Ctrl-C
+// and the like are thrown instead.
+void ForgetError() {
+  if (PyErr_Occurred() == nullptr) return;
+  if (PyErr_ExceptionMatches(PyExc_Exception) == 0) {
+    throw py::error_already_set();
   }
-  return number;
+  PyErr_Clear();
+}
+
+// Returns whether a value of NumPy is one real number.
+bool IsRealScalar(py::handle value) {
+  const std::string kind =
+      py::str(py::getattr(value.attr("dtype"), "kind", py::str("?")));
+  const std::string ndim = py::str(py::getattr(value, "ndim", py::str("?")));
+  return ndim == "0" && kind.size() == 1 &&
+         kind.find_first_of("biuf") != std::string::npos;
+}
+
+}  // namespace
+
+double AsNumber(py::handle value, const char* name) {
+  // NumPy converts arrays of one number, texts of one, and complex numbers.
+  const bool is_number = PyFloat_Check(value.ptr()) != 0 ||
+                         PyLong_Check(value.ptr()) != 0 ||
+                         !py::hasattr(value, "dtype") || IsRealScalar(value);
+  const double number = is_number ? PyFloat_AsDouble(value.ptr()) : -1;
+  if (is_number && (number != -1 || PyErr_Occurred() == nullptr)) return number;
+  const bool is_large = PyErr_Occurred() != nullptr &&
+                        PyErr_ExceptionMatches(PyExc_OverflowError) != 0;
+  ForgetError();
+  throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
+                              " of type " + TypeName(value) +
+                              ", must be a real number" +
+                              (is_large ? " of magnitude below 1.8e308" : ""));
 }
 
 int AsInteger(py::handle value, const char* name, int lower, int upper) {
@@ -73,7 +91,7 @@ std::string AsText(py::handle value, const char* name) {
   }
   const auto text = py::reinterpret_steal<py::object>(PyOS_FSPath(value.ptr()));
   if (!text || !py::isinstance<py::str>(text)) {  // For example, bytes.
-    PyErr_Clear();
+    ForgetError();
     throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
                                 " of type " + TypeName(value) +
                                 ", must be a str or a path that is one");
@@ -81,7 +99,7 @@ std::string AsText(py::handle value, const char* name) {
   Py_ssize_t size = 0;
   const char* utf8 = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
   if (utf8 == nullptr) {  // Half of a surrogate pair.
-    PyErr_Clear();
+    ForgetError();
     throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
                                 ", must be valid Unicode");
   }
@@ -103,7 +121,7 @@ py::list AsList(py::handle value, const char* name, const char* of) {
                        ? nullptr
                        : PySequence_List(value.ptr());
   if (list == nullptr) {  // For example, an array of NumPy without dimensions.
-    PyErr_Clear();
+    ForgetError();
     throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
                                 " of type " + TypeName(value) +
                                 ", must be a list of " + of);

@@ -1,4 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -107,7 +108,8 @@ void AddOfBias(const char* name, Convert convert, const char* doc,
                    N_map = VectorOf(c);
         py::array_t<double> out = NewVector(of.nv());
         auto out_map = Writable(&out);
-        const py::gil_scoped_release release;
+        std::optional<py::gil_scoped_release> release;
+        if (self.IsLong<Recursion>()) release.emplace();
         convert(other, of, q_map, v_map, inertia, N_map, out_map);
         return out;
       },
@@ -133,7 +135,8 @@ void AddOfMatrix(const char* name, const char* argument, py::ssize_t rows,
         const Matrix from = MatrixOf(b);
         Matrix to(from.rows(), from.cols());
         {
-          const py::gil_scoped_release release;
+          std::optional<py::gil_scoped_release> release;
+          if (self.IsLong<Recursion>()) release.emplace();
           convert(other, of, q_map, from, to);
         }
         return ToArray(to);

@@ -57,7 +57,8 @@ Scenario FromDict(py::handle values, py::handle name) {
   const std::string scenario_name = AsText(name, "name");
   std::string text;
   try {
-    py::dict named(py::reinterpret_borrow<py::object>(values));
+    py::dict named;
+    named.attr("update")(values);
     if (!named.contains("name")) named["name"] = scenario_name;
     const py::object as_list = py::cpp_function(
         [](py::handle value) { return value.attr("tolist")(); });

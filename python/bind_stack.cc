@@ -136,7 +136,7 @@ void AddMapping(py::class_<PythonParameters>* parameters) {
         [name](const PythonParameters& self) {
           return py::object(AllParameters(self).attr(name)());
         },
-        "Returns what the function of a dict with these values returns.");
+        "Like the method of a dict with the same name; a copy.");
   }
 }
 

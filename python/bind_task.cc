@@ -219,8 +219,8 @@ void BindTask(py::module_* module) {
       *module, "Task",
       "A task written in Python: derive a class with a method rows(input). "
       "Slow: rows() runs in each tick, with copies of its input. A controller "
-      "keeps its tasks. Do not store it in one of them: Python would free "
-      "neither."
+      "keeps its tasks alive. Do not store the controller in one of its tasks: "
+      "Python could then free none of them."
       "\n\n"
       ">>> class BaseStill(poise.Task):\n"
       "...     def rows(self, input):\n"

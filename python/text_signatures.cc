@@ -23,8 +23,11 @@ std::vector<std::string> SplitList(const std::string& text, std::size_t begin,
   *end = std::string::npos;
   for (std::size_t i = begin; i < text.size(); ++i) {
     const char c = text[i];
-    const bool is_escaped = quote != 0 && text[i - 1] == '\\';
-    if ((c == '\'' || c == '"') && !is_escaped && (quote == 0 || quote == c)) {
+    if (quote != 0 && c == '\\') {
+      parts.back() += text.substr(i++, 2);
+      continue;
+    }
+    if ((c == '\'' || c == '"') && (quote == 0 || quote == c)) {
       quote = quote == 0 ? c : '\0';
     }
     if (quote == 0 && depth == 0 && c == ')') {
@@ -70,7 +73,7 @@ void Rewrite(PyObject* function) {
   const std::string doc = def->ml_doc;
   const std::size_t line = doc.find('\n');
   const std::string parameters = ParametersOf(doc.substr(0, line));
-  if (parameters.empty()) return;
+  if (parameters.empty() || doc.find("\n--\n\n") != std::string::npos) return;
   const std::size_t text = doc.find_first_not_of('\n', line);
   const std::string made = def->ml_name + parameters + "\n--\n\n" +
                            (text == std::string::npos ? "" : doc.substr(text));

@@ -35,8 +35,8 @@ struct MimicCoupling {
   double offset;
 };
 
-/// A sphere, and below a box and a cylinder: the center is at the origin of the
-/// shape's frame, and sizes are in m.
+/// A sphere. As for Box and Cylinder, its center is the origin of the shape's
+/// frame. Sizes are in m.
 struct Sphere {
   double radius;
 };

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 _Array = NDArray[np.float64]
 _Path = str | os.PathLike[str]
-_Tasks = list[Task] | tuple[Task, ...]
+_Tasks = list[Any] | tuple[Task, ...]  # Of Task; list is invariant.
 _Axes = Literal["world", "frame"]
 _Library = Literal["pinocchio", "drake", "mujoco"]
 _PushProfile = Literal["box", "half_sine", "impulse"]

@@ -27,7 +27,7 @@ def run(scenario: _poise.Scenario | str | os.PathLike[str],
         robot: _poise.Robot | None = None,
         out: str | os.PathLike[str] | None = None,
         *, binary: bool = False, meshes: bool = True,
-        tasks: list[_poise.Task] | tuple[_poise.Task, ...] = ()) -> Run:
+        tasks: list[Any] | tuple[_poise.Task, ...] = ()) -> Run:
     """Runs a scenario to its end, or until the robot is down.
 
     The run equals the one of `bazel run //tools:push` to the bit. Other threads
@@ -94,7 +94,7 @@ class Run:
             folder: The folder.
             table: The text that str() returns.
         """
-        if not isinstance(folder, (str, os.PathLike)):
+        if folder == "" or not isinstance(folder, (str, os.PathLike)):
             raise _poise.InputError(
                 f"folder is {folder!r} of type {type(folder).__name__}, must be "
                 "the folder of a run")
@@ -144,7 +144,12 @@ class Run:
             if not file.is_file():
                 raise _poise.InputError(
                     f"{file} does not exist, must be the summary of a run")
-            self._summary = json.loads(file.read_text(encoding="utf-8"))
+            try:
+                self._summary = dict(json.loads(file.read_text("utf-8")))
+            except (OSError, ValueError, TypeError) as error:
+                raise _poise.InputError(
+                    f"{file} cannot be read, must be the summary of a run: "
+                    f"{error}") from error
         return self._summary
 
     @property
@@ -222,7 +227,7 @@ class Run:
         try:
             return (f"<poise.Run {self.folder.name!r}, recovered: "
                     f"{self.recovered}>")
-        except _poise.InputError:
+        except (_poise.InputError, KeyError):
             return f"<poise.Run {self.folder.name!r}, without a summary>"
 
     def _repr_html_(self) -> str:

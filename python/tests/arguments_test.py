@@ -271,11 +271,11 @@ class ArgumentsTest(unittest.TestCase):
 
     def test_numbers_are_real_and_single(self):
         for number in (1 + 2j, np.complex128(1), np.complex64(1), "1",
-                       np.array([1.0]), [1.0], None):
+                       np.array("1"), np.array([1.0]), [1.0], None):
             with self.subTest(number=number):
                 with self.assertRaisesRegex(poise.InputError, "real number"):
                     poise.State(ROBOT.posture, np.zeros(TREE.nv), number)
-        with self.assertRaisesRegex(poise.InputError, "below 1.8e308"):
+        with self.assertRaisesRegex(poise.InputError, "of magnitude below 1.8e308"):
             poise.State(ROBOT.posture, np.zeros(TREE.nv), 10**400)
         for number in (2, True, np.float32(2), np.int8(2), np.array(2.0)):
             state = poise.State(ROBOT.posture, np.zeros(TREE.nv), number)
@@ -284,6 +284,10 @@ class ArgumentsTest(unittest.TestCase):
     def test_mappings_and_sequences_are_dicts_and_lists(self):
         values = types.MappingProxyType({"duration": 3})
         self.assertEqual(poise.Scenario.from_dict(values).duration, 3)
+        values = {"duration": 3}
+        poise.Scenario.from_dict(values)
+        self.assertIn("'b'", repr(poise.Scenario.from_dict(values, name="b")))
+        self.assertEqual(values, {"duration": 3})
         with self.assertRaisesRegex(poise.InputError, "'name' is '..'"):
             poise.Scenario.from_dict({}, name="..")
         names = collections.deque(["a"])

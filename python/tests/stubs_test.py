@@ -66,6 +66,10 @@ def parameters_of_function(function):
 
 def functions_of_stub():
     """Yields (module or class, definition) of each function and method."""
+    for name in ("so3", "se3"):
+        for item in ast.parse((FOLDER / f"{name}.pyi").read_text()).body:
+            if isinstance(item, ast.FunctionDef):
+                yield getattr(_poise, name), item
     for item in ast.parse((FOLDER / "_poise.pyi").read_text()).body:
         if isinstance(item, ast.FunctionDef):
             yield _poise, item
@@ -93,7 +97,8 @@ class StubsTest(unittest.TestCase):
     def test_help_shows_no_type_of_cpp(self):
         self.assertEqual(str(inspect.signature(poise.Tree.rnea)),
                          "(self, q, v, vdot, forces=None)")
-        text = pydoc.render_doc(_poise, renderer=pydoc.plaintext)
+        text = "".join(pydoc.render_doc(module, renderer=pydoc.plaintext)
+                       for module in (_poise, _poise.so3, _poise.se3))
         self.assertIn(" rnea(self, q, v, vdot, forces=None)", text)
         for word in ("handle", "std::", "poise::", "arg0"):
             self.assertNotIn(word, text)

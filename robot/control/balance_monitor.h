@@ -35,7 +35,7 @@ struct Balance {
   double left = 0;   ///< Share of the left side.
   double right = 0;  ///< Share of the right side.
 
-  /// The request of the balance to a foot.
+  /// The monitor's request to a foot.
   struct FootVerdict {
     bool is_released = false;  ///< The foot should be released if it is down.
     bool comes_back = false;   ///< The foot should be put down if released.

@@ -23,7 +23,7 @@ class StepRegion {
   static constexpr int kSides = 12;
   static constexpr int kSinks = 6;
 
-  /// The margins to what a leg can do.
+  /// Limits of the region.
   struct Settings {
     double max_sink = 0.1;      ///< Bound of max_sink(), m.
     double limit_margin = 0.1;  ///< Distance to the joint limits, rad.

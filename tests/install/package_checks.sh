@@ -144,7 +144,7 @@ step_wheel() {
   needs=$(sed -n 's/^sudo apt install \([^.]*[0-9].*\)/\1/p' \
     "$source_tree/docs/quickstart/python.md")
   # shellcheck disable=SC2086
-  timed "installed NumPy and libraries" apt_install python3-venv \
+  timed "installed NumPy and libraries" apt_install \
     "${plotting[@]}" $needs || return 1
   cp "$built"/*.whl "$root/trial"
   timed "installed the wheel" inside sh -c \

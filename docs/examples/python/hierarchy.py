@@ -2,7 +2,8 @@
 """A hierarchy of three levels, and the explanation of its answer.
 
 A hand at y = (x, z) must stay below the ceiling z = 1, is to reach the point
-(2, 3), and shall stay near the line x = z.
+(2, 3), and shall stay near the line x = z. A level has the rows B y + b = 0, so b is
+minus the point.
 """
 
 # %%

@@ -17,8 +17,8 @@ import tempfile
 
 MANIFEST = "share/poise/install_manifest.txt"
 _HEADER = "# Files of Poise "
-_SPARE = ".poise-install-"  # Start of the folder's name inside the prefix.
-_OWNER = "process"  # File in this folder: the number of the process.
+# Start of the name of the folder inside the prefix. The process's number follows.
+_SPARE = ".poise-install-"
 
 
 class PrefixError(Exception):
@@ -149,17 +149,9 @@ def _manifest(version, files, folders):
 
 def _is_left(folder):
     """Returns whether a folder is of this run, or of one that was killed."""
-    try:
-        process = int((folder / _OWNER).read_text(encoding="ascii"))
-    except (OSError, ValueError):
-        return False  # Not made by _make_spare().
-    return process == os.getpid() or not os.path.exists(f"/proc/{process}")
-
-
-def _make_spare(prefix):
-    folder = pathlib.Path(tempfile.mkdtemp(prefix=_SPARE, dir=prefix))
-    (folder / _OWNER).write_text(str(os.getpid()), encoding="ascii")
-    return folder
+    match = re.fullmatch(rf"{re.escape(_SPARE)}(\d+)-\w+", folder.name)
+    return match is not None and (int(match[1]) == os.getpid() or
+                                  not os.path.exists(f"/proc/{match[1]}"))
 
 
 def _remove_left(prefix):
@@ -184,7 +176,8 @@ def install(prefix, entries, version, when_done=lambda: None):
     prefix.mkdir(parents=True, exist_ok=True)
     spare = None
     try:
-        spare = _make_spare(prefix)
+        spare = pathlib.Path(tempfile.mkdtemp(
+            prefix=f"{_SPARE}{os.getpid()}-", dir=prefix))
         _install(prefix, entries, version, spare, installed, when_done)
     except UndoError:
         raise

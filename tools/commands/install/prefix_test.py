@@ -172,18 +172,17 @@ class PrefixTest(unittest.TestCase):
         notes = self.prefix / ".poise-install-notes" / "thesis.txt"
         notes.parent.mkdir(parents=True)
         notes.write_text("mine")
-        # The folder of an installation that still runs.
-        running = self.prefix / ".poise-install-running" / "process"
-        running.parent.mkdir()
-        running.write_text(str(os.getppid()))
-        killed = self.prefix / ".poise-install-killed" / "process"
-        killed.parent.mkdir()
-        killed.write_text("4194305")  # Above the largest number of a process.
+        # The folder of an installation that still runs, and of one that was
+        # killed: 4194305 is above the largest number of a process.
+        for process in (os.getppid(), 4194305):
+            file = self.prefix / f".poise-install-{process}-ab_1" / "old"
+            file.parent.mkdir()
+            file.write_text("kept")
         prefixes.install(self.prefix, ENTRIES, "0.9.0")
         prefixes.uninstall(self.prefix)
         self.assertEqual(tree(self.prefix), {
             ".poise-install-notes/thesis.txt": "mine",
-            ".poise-install-running/process": str(os.getppid())})
+            f".poise-install-{os.getppid()}-ab_1/old": "kept"})
 
     def test_an_interrupt_in_the_last_step_undoes_all(self):
         def last():

@@ -4,7 +4,8 @@ A fifth of a cold build was GCC reading Eigen and GoogleTest, file after file.
 //tools/rules:cc.bzl has them included by -include PACKAGE/NAME.h, an empty file, for
 which GCC takes the precompiled one beside it. Only where .bazelrc wants that by
 --define=precompiled=1. The sanitizers do not: there a file gets what it includes
-and nothing else, which shows where an #include is missing.
+and nothing else, which shows where an #include is missing. For the Python module, the
+wheel with --config=opt shows it.
 """
 
 load("@bazel_tools//tools/cpp:toolchain_utils.bzl", "find_cpp_toolchain")
