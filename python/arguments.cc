@@ -107,26 +107,21 @@ std::string AsText(py::handle value, const char* name) {
 }
 
 std::vector<std::string> AsTexts(py::handle value, const char* name) {
-  std::vector<std::string> texts;
-  for (const py::handle text : AsList(value, name, "str")) {
-    texts.push_back(AsText(text, name));
-  }
-  return texts;
-}
-
-py::list AsList(py::handle value, const char* name, const char* of) {
   const bool is_text =
       py::isinstance<py::str>(value) || py::isinstance<py::bytes>(value);
-  PyObject* list = is_text || PySequence_Check(value.ptr()) == 0
-                       ? nullptr
-                       : PySequence_List(value.ptr());
-  if (list == nullptr) {  // For example, an array of NumPy without dimensions.
+  const auto list = py::reinterpret_steal<py::object>(
+      is_text || PySequence_Check(value.ptr()) == 0
+          ? nullptr
+          : PySequence_List(value.ptr()));
+  if (!list) {  // For example, an array of NumPy without dimensions.
     ForgetError();
     throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
                                 " of type " + TypeName(value) +
-                                ", must be a list of " + of);
+                                ", must be a list of str");
   }
-  return py::reinterpret_steal<py::list>(list);
+  std::vector<std::string> texts;
+  for (const py::handle text : list) texts.push_back(AsText(text, name));
+  return texts;
 }
 
 }  // namespace poise

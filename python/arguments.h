@@ -28,11 +28,6 @@ std::string AsText(pybind11::handle value, const char* name);
 /// AsNumber().
 std::vector<std::string> AsTexts(pybind11::handle value, const char* name);
 
-/// Returns an argument that is a list or another sequence, but no text, as a
-/// new list. Throws as AsNumber().
-/// @param of  the type of the entries, for the message.
-pybind11::list AsList(pybind11::handle value, const char* name, const char* of);
-
 /// Returns a value for a message: at most 60 characters of its repr().
 std::string Shown(pybind11::handle value);
 

@@ -204,7 +204,7 @@ void BindController(py::module_* module) {
     if (self.in_use()->is_set())
       return std::string("<poise.Controller, in use>");
     const Controller& of = self.get();
-    return "<poise.Controller of " + Quoted(of.robot().model.name) + ", " +
+    return "<poise.Controller of " + Repr(of.robot().model.name) + ", " +
            Count(of.stack().num_tasks(), "task") + ">";
   });
   AddStack(&controller);

@@ -59,7 +59,7 @@ void BindFinding(py::module_* module) {
   finding.def("__repr__", [](const Finding& self) {
     const std::string text = self.where + ": " + self.what + ", " + self.why;
     return "<poise.Finding, " + std::string(SeverityName(self)) + ": " +
-           Quoted(text) + ">";
+           Repr(text) + ">";
   });
 }
 
@@ -81,9 +81,9 @@ void BindSole(py::module_* module) {
       "rpy", [](const Sole& self) { return ToArray(self.rpy); },
       "(3,) Its roll, pitch and yaw in the link, rad.");
   sole.def("__repr__", [](const Sole& self) {
-    return "<poise.Sole " + Quoted(self.name) + ", " +
-           PrintNumber(self.length) + " m long, " + PrintNumber(self.width) +
-           " m wide, from " + self.from + ">";
+    return "<poise.Sole " + Repr(self.name) + ", " + PrintNumber(self.length) +
+           " m long, " + PrintNumber(self.width) + " m wide, from " +
+           self.from + ">";
   });
 }
 

@@ -93,7 +93,7 @@ void BindLevel(py::module_* module) {
   level.def_readonly("inequality_names", &PythonLevel::inequality_names,
                      "The names of the rows of C.");
   level.def("__repr__", [](const PythonLevel& self) {
-    return "<poise.Level " + Quoted(self.name) + ", " +
+    return "<poise.Level " + Repr(self.name) + ", " +
            Count(self.B.rows(), "equality", "equalities") + ", " +
            Count(self.C.rows(), "inequality", "inequalities") + ">";
   });

@@ -80,7 +80,7 @@ void BindRow(py::module_* module) {
   row.def_readonly("slack", &PythonRow::slack,
                    "The violation, in the scale of the row.");
   row.def("__repr__", [](const PythonRow& self) {
-    return "<poise.ReportRow " + Quoted(self.name) + ", amount " +
+    return "<poise.ReportRow " + Repr(self.name) + ", amount " +
            PrintNumber(self.amount) + ">";
   });
 }

@@ -118,7 +118,7 @@ void BindFoot(py::module_* module) {
       },
       "(n, 2) The corners of the sole in C, counterclockwise, m.");
   foot.def("__repr__", [](const Foot& self) {
-    return "<poise.Foot " + Quoted(self.name) + ", " +
+    return "<poise.Foot " + Repr(self.name) + ", " +
            PrintNumber(2 * self.half_size.x()) + " m long, " +
            PrintNumber(2 * self.half_size.y()) + " m wide>";
   });
@@ -213,7 +213,7 @@ void BindRobot(py::module_* module) {
   AddDoctor(&robot);
   TreeClass tree = module->attr("Tree");
   robot.def("__repr__", [](const PythonRobot& self) {
-    return "<poise.Robot " + Quoted(self.robot->model.name) + ", " +
+    return "<poise.Robot " + Repr(self.robot->model.name) + ", " +
            Count(self.robot->model.tree.num_joints(), "joint") + ">";
   });
   tree.def_static("load", LoadTree, py::arg("urdf"),

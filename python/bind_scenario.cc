@@ -143,8 +143,7 @@ void BindScenario(py::module_* module) {
       "from_dict", FromDict, py::arg("values"), py::arg("name") = "scenario",
       "Makes a scenario from a dict with the keys of its YAML file: "
       "{'duration': 3, 'pushes': [{'force': [0, 60, 0]}]}. NumPy arrays are "
-      "read "
-      "as lists. name: used if the dict has no 'name'.");
+      "read as lists. name: used if the dict has no 'name'.");
   scenario.def_static("names", ScenarioNames,
                       "Returns the names of Poise's scenarios.");
   AddFields(&scenario);
@@ -175,7 +174,7 @@ void BindScenario(py::module_* module) {
       "clear_pushes", [](Scenario& self) { self.pushes.clear(); },
       "Removes all pushes.");
   scenario.def("__repr__", [](const Scenario& self) {
-    return "<poise.Scenario " + Quoted(self.name) + ", " +
+    return "<poise.Scenario " + Repr(self.name) + ", " +
            PrintNumber(self.duration) + " s, " +
            Count(static_cast<std::ptrdiff_t>(self.pushes.size()), "push",
                  "pushes") +

@@ -203,7 +203,7 @@ void BindSimulation(py::module_* module) {
       "those of Scenario.add_push().");
   simulation.def("__repr__", [](const PythonSimulation& self) {
     if (self.in_use->is_set()) return std::string("<poise.Simulation, in use>");
-    return "<poise.Simulation of " + Quoted(self.loop.robot().model.name) +
+    return "<poise.Simulation of " + Repr(self.loop.robot().model.name) +
            ", time " + PrintNumber(self.loop.time()) + " s>";
   });
   AddState(&simulation);

@@ -193,7 +193,7 @@ void BindTask(py::module_* module) {
     if (self.owner->in_use()->is_set()) {
       return std::string("<poise.StackTask, in use>");
     }
-    return "<poise.StackTask " + Quoted(self.task().name()) + ", " +
+    return "<poise.StackTask " + Repr(self.task().name()) + ", " +
            (self.settings().enabled ? "on" : "off") + ", level " +
            std::to_string(self.settings().level) + ", weight " +
            PrintNumber(self.settings().weight) + ">";

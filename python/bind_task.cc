@@ -256,7 +256,7 @@ void BindTask(py::module_* module) {
   task.def_readonly("error", &PythonTaskBase::error,
                     "The exception of the last rows(), or ''.");
   task.def("__repr__", [](const PythonTaskBase& self) {
-    return "<poise.Task " + Quoted(self.name) + ">";
+    return "<poise.Task " + Repr(self.name) + ">";
   });
 }
 

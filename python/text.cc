@@ -13,7 +13,7 @@ std::string Count(std::ptrdiff_t number, const std::string& singular,
   return std::to_string(number) + " " + (number == 1 ? singular : many);
 }
 
-std::string Quoted(const std::string& text) {
+std::string Repr(const std::string& text) {
   return py::cast<std::string>(py::repr(py::str(text)));
 }
 

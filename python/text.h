@@ -12,6 +12,6 @@ std::string Count(std::ptrdiff_t number, const std::string& singular,
                   const std::string& plural = "");
 
 /// Returns a text as Python's repr() writes it, in one line: 'a\nb'.
-std::string Quoted(const std::string& text);
+std::string Repr(const std::string& text);
 
 }  // namespace poise
