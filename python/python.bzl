@@ -1,8 +1,9 @@
-"""poise_py_test(): a test in Python that imports poise."""
+"""Tests in Python that import poise, and the suite of a package's tests."""
 
-def poise_py_test(name, src = None, data = [], size = "small", args = [], slow = False):
+def poise_py_test(name, src = None, data = [], size = "small", args = []):
     """Runs a script with `import poise`. Debian's Bazel cannot run a py_test.
 
+    Only //python:tests runs it, not //...: the module takes two minutes to compile.
     A sanitizer's runtime would have to be loaded before Python, so sanitized
     builds skip these tests.
 
@@ -12,8 +13,6 @@ def poise_py_test(name, src = None, data = [], size = "small", args = [], slow =
       data: Files that the script needs, besides the package.
       size: As of any test.
       args: More arguments of the script.
-      slow: Whether the default run leaves the test out. .ci/run then runs it
-        as part of //python:slow_tests, which must list it.
     """
     src = src or name + ".py"
     native.sh_test(
@@ -26,7 +25,21 @@ def poise_py_test(name, src = None, data = [], size = "small", args = [], slow =
             "//python:poise",
         ],
         tags = [
+            "manual",
             "no-sanitizers",
             "python",
-        ] + (["manual"] if slow else []),
+        ],
+    )
+
+def poise_py_suite():
+    """Declares :tests with the package's tests so far, for //python:tests."""
+    native.test_suite(
+        name = "tests",
+        tags = ["manual"],
+        tests = [
+            name
+            for name, rule in native.existing_rules().items()
+            if "python" in rule["tags"]
+        ],
+        visibility = ["//python:__pkg__"],
     )

@@ -50,6 +50,7 @@ NOT_RUN = {
     "bazel run //tools:robustness -- --robots DIR":
         ".ci/run runs it, if it has robots",
     "bazel test //hqp/...": "a part of bazel test //...",
+    "bazel test //python:tests": ".ci/run runs it",
 }
 
 # Commands that build with --config=opt, or need what those build.
