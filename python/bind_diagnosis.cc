@@ -36,7 +36,8 @@ Diagnosis DiagnoseFiles(const std::string& urdf, const std::string& profile,
   Diagnosis diagnosis =
       Diagnose(urdf, profile.empty() ? Profile{} : LoadProfile(profile),
                {packages.begin(), packages.end()});
-  diagnosis.next_step = NextStep(diagnosis, {urdf, profile, packages});
+  diagnosis.next_step =
+      NextStep(diagnosis, {urdf, profile, packages, Caller::kPython});
   return diagnosis;
 }
 

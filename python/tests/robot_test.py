@@ -1,6 +1,7 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 """Tests poise.Robot and poise.doctor."""
 
+import ast
 import os
 import pathlib
 import tempfile
@@ -56,8 +57,12 @@ class DoctorTest(unittest.TestCase):
         self.assertEqual(diagnosis.verdict, "ok")
         self.assertEqual(len(diagnosis.soles), 2)
         self.assertGreater(diagnosis.soles[0].length, 0.1)
-        self.assertTrue(diagnosis.next_step)
+        self.assertRegex(diagnosis.next_step,
+                         r"^poise\.run\('stand', poise\.Robot\.load\('.*'\)\)$")
+        ast.parse(diagnosis.next_step)
         self.assertIn("stands", str(diagnosis))
+        self.assertNotIn("bazel run", str(diagnosis))
+        self.assertNotIn(" --", str(diagnosis))
 
     def test_lists_findings_of_a_bad_file(self):
         text = pathlib.Path(ROBOT.urdf).read_text()
@@ -66,7 +71,9 @@ class DoctorTest(unittest.TestCase):
             file = pathlib.Path(folder) / "bad.urdf"
             file.write_text(text.replace("</robot>", ""))
             diagnosis = poise.doctor(file)
+            again = eval(diagnosis.next_step)  # A call of poise.doctor().
         self.assertEqual(diagnosis.verdict, "reject")
+        self.assertEqual(str(again), str(diagnosis))
         self.assertEqual(diagnosis.findings[0].severity, "reject")
         self.assertIsNone(diagnosis.stands)
 

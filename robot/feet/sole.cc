@@ -191,7 +191,8 @@ std::string WhyEstimated(const Outline& outline) {
   if (!outline.mesh_refusal.empty()) {
     return "because " + outline.mesh_refusal +
            (outline.mesh_is_missing
-                ? ": give --package-path DIR, or the sole in a profile"
+                ? ": give --package-path DIR, in Python packages=[DIR], or "
+                  "the sole in a profile"
                 : "; correct the mesh, or give the sole in a profile");
   }
   const std::string remedy = ": give the sole in a profile";

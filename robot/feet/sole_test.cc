@@ -236,8 +236,8 @@ TEST(MakeOutlines, SaysWhyAMeshGivesNoPoints) {
             "because mesh package://p/foot.stl: is missing or no regular file, "
             "was searched in " +
                 folder +
-                " and above: give --package-path DIR, or the sole in a "
-                "profile");
+                " and above: give --package-path DIR, in Python "
+                "packages=[DIR], or the sole in a profile");
   TestFile("broken.stl", "solid\nnonsense");
   EXPECT_EQ(WhyEstimated(OutlineOf(Leg(Collision("broken.stl")))),
             "because mesh " + folder +

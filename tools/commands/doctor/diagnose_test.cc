@@ -608,6 +608,26 @@ TEST(NextStep, SaysHowToExpandXacroInAFileWithAnotherError) {
             "expanded.urdf");
 }
 
+TEST(NextStep, CallsTheFunctionsOfPythonThatDoTheSame) {
+  Diagnosis diagnosis;
+  diagnosis.stands = diagnosis.was_tested = true;
+  diagnosis.soles.resize(2);
+  const Arguments arguments = {
+      "it's.urdf", "mine.yaml", {"a", "b"}, Caller::kPython};
+  EXPECT_EQ(NextStep(diagnosis, arguments),
+            "poise.run('stand', poise.Robot.load('it\\'s.urdf', "
+            "profile='mine.yaml', packages=['a', 'b']))");
+  diagnosis.soles[0].from = "guess";
+  EXPECT_EQ(NextStep(diagnosis, {"a.urdf", "", {}, Caller::kPython}),
+            "open('a.yaml', 'w').write(poise.doctor('a.urdf').profile)  # then "
+            "measure the soles and correct them in 'a.yaml'");
+  diagnosis.is_xacro = true;
+  diagnosis.findings = {{Severity::kReject, "link 'a'", "is odd", "must", 0}};
+  EXPECT_EQ(NextStep(diagnosis, {"a.xacro", "", {}, Caller::kPython}),
+            "poise.doctor('a.urdf')  # after this command in a shell: xacro "
+            "a.xacro > a.urdf");
+}
+
 TEST(NextStep, OffersTheDynamicsOfARobotWithoutLegs) {
   const Diagnosis diagnosis =
       Examine(std::string("<robot name='r'><link name='base'>") + kInertial +

@@ -14,7 +14,7 @@ namespace poise {
 namespace {
 
 // Returns a word of a shell command, in quotes if it needs them.
-std::string Word(const std::string& text) {
+std::string ShellWord(const std::string& text) {
   const bool is_plain = std::all_of(text.begin(), text.end(), [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) ||
            std::string("_./-+").find(c) != std::string::npos;
@@ -27,17 +27,81 @@ std::string Word(const std::string& text) {
   return word + "'";
 }
 
-std::string Packages(const Arguments& arguments) {
-  std::string text;
-  for (const std::string& folder : arguments.packages) {
-    text += " --package-path " + Word(folder);
+// Returns a string literal of Python.
+std::string PythonText(const std::string& text) {
+  std::string literal = "'";
+  for (const char c : OneLine(text)) {
+    if (c == '\'' || c == '\\') literal += '\\';
+    literal += c;
   }
-  return text;
+  return literal + "'";
 }
+
+// Writes the commands of the shell, or the calls of Python that do the same.
+class Commands {
+ public:
+  explicit Commands(const Arguments& arguments) : arguments_(arguments) {}
+
+  std::string Name(const std::string& file) const {
+    return is_python() ? PythonText(file) : ShellWord(file);
+  }
+  std::string Doctor(const std::string& file) const {
+    return is_python() ? "poise.doctor(" + Name(file) + ")"
+                       : "bazel run //tools:doctor -- " + Name(file);
+  }
+  // With the folders of packages, and a profile if there is one.
+  std::string DoctorAgain(const std::string& profile) const {
+    return is_python() ? "poise.doctor(" + PythonInputs(profile) + ")"
+                       : Doctor(arguments_.file) + ShellInputs(profile);
+  }
+  std::string SaveProfile(const std::string& profile) const {
+    return is_python() ? "open(" + Name(profile) + ", 'w').write(" +
+                             DoctorAgain(arguments_.profile) + ".profile)"
+                       : DoctorAgain(arguments_.profile) + " --save-profile " +
+                             Name(profile);
+  }
+  std::string ExpandXacro(const std::string& to) const {
+    return "xacro " + ShellWord(arguments_.file) + " > " + ShellWord(to);
+  }
+  std::string Dynamics() const {
+    return is_python() ? "poise.Tree.load(" + Name(arguments_.file) + ")"
+                       : "bazel run //tools:dynamics -- --urdf " +
+                             Name(arguments_.file) + " --states STATES.json";
+  }
+  std::string Stand() const {
+    const std::string& profile = arguments_.profile;
+    return is_python() ? "poise.run('stand', poise.Robot.load(" +
+                             PythonInputs(profile) + "))"
+                       : "bazel run //tools:push -- --scenario stand --robot " +
+                             Name(arguments_.file) + ShellInputs(profile);
+  }
+  bool is_python() const { return arguments_.caller == Caller::kPython; }
+
+ private:
+  std::string ShellInputs(const std::string& profile) const {
+    std::string text = profile.empty() ? "" : " --profile " + Name(profile);
+    for (const std::string& folder : arguments_.packages) {
+      text += " --package-path " + Name(folder);
+    }
+    return text;
+  }
+  std::string PythonInputs(const std::string& profile) const {
+    std::string text = Name(arguments_.file);
+    if (!profile.empty()) text += ", profile=" + Name(profile);
+    if (arguments_.packages.empty()) return text;
+    text += ", packages=[";
+    for (const std::string& folder : arguments_.packages) {
+      text += (text.back() == '[' ? "" : ", ") + Name(folder);
+    }
+    return text + "]";
+  }
+
+  const Arguments& arguments_;
+};
 
 bool IsGuess(const Diagnosis::Sole& sole) { return sole.from == "guess"; }
 
-// Returns a command with a comment of the shell, so that the line can be pasted.
+// Returns a command with a comment, so that the line can be pasted.
 std::string WithComment(const std::string& command,
                         const std::string& comment) {
   return command + "  # " + comment;
@@ -71,81 +135,87 @@ std::string SoleLine(const Diagnosis::Sole& sole) {
          (IsGuess(sole) ? ", from: guess}" : "}");
 }
 
+// Returns what to do with a file that was rejected.
+std::string AfterRejection(const Diagnosis& diagnosis,
+                           const Arguments& arguments) {
+  const Commands commands(arguments);
+  if (diagnosis.is_xacro) {
+    std::filesystem::path urdf = arguments.file;
+    if (urdf.extension() == ".xacro") urdf.replace_extension();
+    if (urdf.extension() != ".urdf") urdf += ".urdf";
+    const std::string expanded =
+        urdf == arguments.file ? "expanded.urdf" : urdf.string();
+    const std::string expand = commands.ExpandXacro(expanded);
+    const std::string doctor = commands.Doctor(expanded);
+    return commands.is_python()
+               ? WithComment(doctor, "after this command in a shell: " + expand)
+               : expand + " && " + doctor;
+  }
+  const std::string reason =
+      diagnosis.findings[0].what + " " + diagnosis.findings[0].why;
+  const auto has = [&](const char* text) {
+    return reason.find(text) != std::string::npos;
+  };
+  if (has("must be URDF")) {
+    return WithComment(commands.Doctor("ROBOT.urdf"),
+                       "after you have exported the robot as URDF");
+  }
+  return WithComment(commands.DoctorAgain(arguments.profile),
+                     has("loop")
+                         ? "after you have removed one joint of the loop, or "
+                           "given it <mimic>"
+                         : "after you have corrected the reason above");
+}
+
 }  // namespace
 
 std::string NextStep(const Diagnosis& diagnosis, const Arguments& arguments) {
-  const std::string file = Word(arguments.file);
-  const std::string doctor = "bazel run //tools:doctor -- " + file;
-  const std::string rest = Packages(arguments);
-  const std::string profile =
-      arguments.profile.empty() ? "" : " --profile " + Word(arguments.profile);
-  const std::string again = doctor + profile + rest;
   if (diagnosis.worst() == Severity::kReject) {
-    if (diagnosis.is_xacro) {
-      std::filesystem::path urdf = arguments.file;
-      if (urdf.extension() == ".xacro") urdf.replace_extension();
-      if (urdf.extension() != ".urdf") urdf += ".urdf";
-      const std::string expanded =
-          urdf == arguments.file ? "expanded.urdf" : urdf.string();
-      return "xacro " + file + " > " + Word(expanded) +
-             " && bazel run //tools:doctor -- " + Word(expanded);
-    }
-    const std::string reason =
-        diagnosis.findings[0].what + " " + diagnosis.findings[0].why;
-    const auto has = [&](const char* text) {
-      return reason.find(text) != std::string::npos;
-    };
-    if (has("must be URDF")) {
-      return WithComment("bazel run //tools:doctor -- ROBOT.urdf",
-                         "after you have exported the robot as URDF");
-    }
-    if (has("loop")) {
-      return WithComment(again,
-                         "after you have removed one joint of the loop, or "
-                         "given it <mimic>");
-    }
-    return WithComment(again, "after you have corrected the reason above");
+    return AfterRejection(diagnosis, arguments);
   }
+  const Commands commands(arguments);
+  const std::string again = commands.DoctorAgain(arguments.profile);
   const std::string mine =
-      Word(std::filesystem::path(arguments.file).stem().string() + ".yaml");
-  const std::string with_mine = doctor + " --profile " + mine + rest;
+      std::filesystem::path(arguments.file).stem().string() + ".yaml";
+  const std::string with_mine = commands.DoctorAgain(mine);
   const bool has_guess =
       std::any_of(diagnosis.soles.begin(), diagnosis.soles.end(), IsGuess);
   if (diagnosis.has_many_legs) {
-    return WithComment("bazel run //tools:doctor -- ROBOT.urdf",
+    return WithComment(commands.Doctor("ROBOT.urdf"),
                        "with a robot that has two legs");
   }
   if (!diagnosis.was_tested && diagnosis.soles.empty()) {
-    return WithComment(with_mine, "after you have locked joints in " + mine +
+    return WithComment(with_mine, "after you have locked joints in " +
+                                      commands.Name(mine) +
                                       " (locked: {JOINT: 0})");
   }
   if (!diagnosis.remedy.empty()) {
     return WithComment(again, "after you have corrected " + diagnosis.remedy);
   }
   if (diagnosis.soles.empty() && diagnosis.guessed_feet.size() < 2) {
-    return WithComment("bazel run //tools:dynamics -- --urdf " + file +
-                           " --states STATES.json",
+    return WithComment(commands.Dynamics(),
                        "the dynamics alone: balance needs two legs");
   }
   if (diagnosis.soles.empty()) {
-    return WithComment(with_mine,
-                       "after you have written the feet into " + mine);
+    return WithComment(with_mine, "after you have written the feet into " +
+                                      commands.Name(mine));
   }
   if (has_guess && !arguments.profile.empty()) {
-    return WithComment(
-        again, "after you have measured the soles, corrected them in " +
-                   Word(arguments.profile) + ", and removed `from: guess`");
+    return WithComment(again,
+                       "after you have measured the soles, corrected them in " +
+                           commands.Name(arguments.profile) +
+                           ", and removed `from: guess`");
   }
   if (has_guess) {
-    return WithComment(again + " --save-profile " + mine,
-                       "then measure the soles and correct them in " + mine);
+    return WithComment(
+        commands.SaveProfile(mine),
+        "then measure the soles and correct them in " + commands.Name(mine));
   }
   if (!diagnosis.stands && diagnosis.was_tested) {
     return WithComment(again,
                        "after you have corrected the file or its profile");
   }
-  return "bazel run //tools:push -- --scenario stand --robot " + file +
-         profile + rest;
+  return commands.Stand();
 }
 
 std::vector<std::string> ProfileStub(const Diagnosis& diagnosis) {

@@ -8,14 +8,18 @@
 
 namespace poise {
 
+/// Where the user asks, and so which commands the answer may have.
+enum class Caller { kShell, kPython };
+
 /// The arguments of the command as the user typed them.
 struct Arguments {
   std::string file;
   std::string profile;                ///< Empty: none.
   std::vector<std::string> packages;  ///< Values of --package-path.
+  Caller caller = Caller::kShell;
 };
 
-/// Returns what to do next, in one line that has the exact command.
+/// Returns what to do next, in one line that has the exact command or call.
 std::string NextStep(const Diagnosis& diagnosis, const Arguments& arguments);
 
 /// Returns the lines of the profile that the user must correct, with the guess
