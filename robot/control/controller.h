@@ -54,9 +54,9 @@ struct ControllerOptions {
 /// with hierarchical inverse dynamics.
 ///
 ///     Controller controller(robot);
-///     controller.Start(state);
-///     for (;;) {
-///       controller.reference().p_WG = ...;  // To move the robot.
+///     controller.Start(states[0]);
+///     for (const State& state : states) {
+///       controller.reference().p_WG.z() -= 1e-5;  // To move the robot.
 ///       controller.Update(state, &command);
 ///     }
 ///

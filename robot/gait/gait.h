@@ -30,8 +30,8 @@ enum class GaitPhase {
 /// the controller's last tick and writes its reference and its Stance:
 ///
 ///     Gait gait(robot, settings);
-///     gait.Start(controller);
-///     for (;;) {
+///     gait.Start();
+///     for (const State& state : states) {
 ///       gait.Update(&controller);
 ///       controller.Update(state, &command);
 ///     }
