@@ -46,13 +46,17 @@ def check_tools():
                                f"package {package} by tools/setup.sh --package")
 
 
-def check_version(debian, version):
-    """Stops if the changelog of the packages says another version."""
-    said = re.match(r"poise \((.*)-\d+\)", (debian / "changelog").read_text())
-    if said is None or said[1] != version:
-        found = said[1] if said else "not of the form poise (VERSION-NUMBER)"
+def check_version(debian, version, debian_version):
+    """Stops if VERSION, the changelog and the names of the packages disagree."""
+    said = re.match(r"poise \((.*-\d+)\)", (debian / "changelog").read_text())
+    found = said[1] if said else "not of the form poise (VERSION-NUMBER)"
+    if found != debian_version:
         raise PackageError(f"{debian / 'changelog'}: the first version is "
-                           f"{found}, must be {version}, as in VERSION")
+                           f"{found}, must be {debian_version}, as "
+                           "_DEBIAN_VERSION of tools/package/BUILD")
+    if found.rsplit("-", 1)[0] != version:
+        raise PackageError(f"{debian / 'changelog'}: the first version is "
+                           f"{found}, must be {version}-NUMBER, as in VERSION")
 
 
 def strip(root):
@@ -95,7 +99,7 @@ def make(options, work):
     """Makes the packages in a temporary folder; returns their paths."""
     version = options.version_file.read_text().strip()
     debian = pathlib.Path(__file__).resolve().parent / "debian"
-    check_version(debian, version)
+    check_version(debian, version, options.debian_version)
     folder = work / "debian"
     folder.mkdir()
     for name in ("changelog", "control"):
@@ -132,6 +136,8 @@ def parse_arguments(arguments):
     parser.add_argument("files", type=path, nargs="+", metavar="FILE",
                         help="a file of the built layers; those named "
                         "NAME.layer.json describe a layer")
+    parser.add_argument("--debian-version", required=True,
+                        help="the version in the names of the packages")
     parser.add_argument("--root", default=".",
                         help="the folder that the paths in it begin at")
     for name in ("wheel", "version-file", "changelog", "out"):

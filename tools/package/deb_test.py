@@ -106,9 +106,15 @@ class StageTest(unittest.TestCase):
 
 class DebTest(unittest.TestCase):
     def test_the_changelog_has_the_present_version(self):
-        deb.check_version(DEBIAN, VERSION)
-        with self.assertRaisesRegex(deb.PackageError, f"{VERSION}, must be 9"):
-            deb.check_version(DEBIAN, "9")
+        found = re.match(r"poise \((.*)\)",
+                         (DEBIAN / "changelog").read_text())[1]
+        deb.check_version(DEBIAN, VERSION, found)
+        with self.assertRaisesRegex(
+                deb.PackageError, f"{found}, must be 9-NUMBER, as in VERSION"):
+            deb.check_version(DEBIAN, "9", found)
+        with self.assertRaisesRegex(
+                deb.PackageError, f"{found}, must be {VERSION}-99, as _DEBIAN"):
+            deb.check_version(DEBIAN, VERSION, f"{VERSION}-99")
 
     def test_the_headers_package_needs_each_library_of_the_headers(self):
         control = (DEBIAN / "control").read_text()
