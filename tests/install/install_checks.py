@@ -19,6 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = pathlib.Path(os.environ["POISE_WORK"])
 PREFIX = WORK / "prefix"
 HAS_ALL_LAYERS = "POISE_LAYERS" not in os.environ
+LAYERS = os.environ.get("POISE_LAYERS", "").split(",")
 EXAMPLE = ROOT / "docs/examples/cmake"
 REACH = ROOT / "docs/examples/arm_reach"
 LIBRARIES = sorted(PREFIX.glob("lib/libpoise_*.so.0"))
@@ -214,6 +215,14 @@ class ConsumerTest(Checks):
     def test_quadruped(self):
         build = self.cmake(ROOT / "docs/examples/quadruped", "quadruped", FIND)
         self.assertIn("weight 147.150 N", self.succeed(build / "quadruped"))
+
+    @unittest.skipUnless(HAS_ALL_LAYERS or "control" in LAYERS, "has no control")
+    def test_controller_of_a_biped(self):
+        build = self.cmake(ROOT / "tests/embedding", "balance", FIND)
+        printed = self.succeed(build / "balance",
+                               ROOT / "robot/models/humanoid.urdf",
+                               ROOT / "robot/profiles/humanoid.yaml")
+        self.assertRegex(printed, r"torque of the left knee: -?\d+\.\d+ N m")
 
     def test_programs_with_march_native(self):
         self.run_examples("native", "-DCMAKE_CXX_FLAGS=-march=native")
