@@ -46,8 +46,8 @@ class PythonTree {
   int FindFrame(pybind11::handle frame) const;
 
   /// Returns whether an algorithm may take more than 10 us with this tree, so
-  /// that it should release the lock. For 50 joints, ABA takes 7 us on a quiet
-  /// machine and 12 us on a busy one, the others at most 6 us.
+  /// that it should release the lock. For 50 joints, ABA takes 7 to 12 us, by
+  /// the machine, the others at most 6 us.
   /// @tparam Scratch  the memory of the algorithm.
   template <typename Scratch>
   bool IsLong() const {

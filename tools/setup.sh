@@ -3,7 +3,7 @@
 # Installs the packages that Poise needs on Debian 12, if they are missing.
 #   --layers LAYERS  of the default packages, only those to install these layers for
 #     CMake projects: of math, dynamics, hqp, robot, control, gait, sim, separated by
-#     commas, as for bazel run //tools:install; and CMake
+#     commas, as for bazel run //tools:install; or python, for its wheel
 #   --baselines  also packages that some tests and benchmarks compare with
 #   --browser  also packages to rebuild the viewer and to run its browser test
 #   --docs  also Doxygen, for bazel build //docs:api
@@ -16,27 +16,32 @@ set -euo pipefail
 # To build layers.
 build=(
   bazel-bootstrap bazel-rules-java bazel-rules-proto g++ git pkg-config python3
+  # To use them from CMake.
+  cmake make
 )
 kernels=(libeigen3-dev)
 robot=(libtinyxml2-dev liburdfdom-dev libyaml-cpp-dev)
 sim=(libbullet-dev libmujoco-dev libssl-dev nlohmann-json3-dev)
 # Everything else by default.
+python=(
+  libcli11-dev pybind11-dev python3-dev python3-matplotlib python3-numpy python3-venv
+)
 others=(
   # Sanitizers, fuzzers and the format of the sources.
   clang clang-format libclang-rt-14-dev
-  # Command lines and pictures.
-  libcairo2-dev libcli11-dev
-  # The Python package: its binding, and NumPy.
-  pybind11-dev python3-dev python3-numpy
+  # Pictures.
+  libcairo2-dev
   # The command that converts meshes of other formats than STL and OBJ.
   assimp-utils
   # Packages that only tests use.
   libbenchmark-dev libceres-dev libfcl-dev libgmock-dev libgmp-dev libgtest-dev
   libmpfrc++-dev liborocos-kdl-dev librapidcheck-dev mypy python3-ipykernel
-  python3-matplotlib python3-nbclient python3-nbformat python3-pandas
-  python3-pytest python3-scipy python3-venv
+  python3-nbclient python3-nbformat python3-pandas
+  python3-pytest python3-scipy
 )
-packages=("${build[@]}" "${kernels[@]}" "${robot[@]}" "${sim[@]}" "${others[@]}")
+packages=(
+  "${build[@]}" "${kernels[@]}" "${robot[@]}" "${sim[@]}" "${python[@]}" "${others[@]}"
+)
 additional=()
 
 fail() {
@@ -47,15 +52,16 @@ fail() {
 # Usage: choose_layers LAYERS: replaces the packages by those of the layers.
 choose_layers() {
   local layers layer
-  packages=("${build[@]}" "${kernels[@]}" cmake make)
+  packages=("${build[@]}" "${kernels[@]}")
   IFS=, read -ra layers <<< "${1:-,}"
   for layer in "${layers[@]}"; do
     case $layer in
       math | dynamics | hqp) ;;
       robot | control | gait) packages+=("${robot[@]}") ;;
       sim) packages+=("${robot[@]}" "${sim[@]}") ;;
+      python) packages+=("${robot[@]}" "${sim[@]}" "${python[@]}") ;;
       *)
-        echo "tools/setup.sh: --layers has '$layer', must be of math, dynamics, hqp, robot, control, gait, sim, separated by commas" >&2
+        echo "tools/setup.sh: --layers has '$layer', must be of math, dynamics, hqp, robot, control, gait, sim, python, separated by commas" >&2
         exit 2
         ;;
     esac
@@ -82,8 +88,7 @@ while [ $# -gt 0 ]; do
       additional+=(doxygen)
       ;;
     --package)
-      additional+=(abigail-tools binutils chrpath cmake dpkg-dev lintian make)
-      additional+=(mmdebstrap)
+      additional+=(abigail-tools binutils chrpath dpkg-dev lintian mmdebstrap)
       ;;
     -h | --help)
       sed -n '2,13s/^# \?//p' "$0"

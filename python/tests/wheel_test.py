@@ -68,10 +68,13 @@ class WheelTest(unittest.TestCase):
                             "--system-site-packages", place], check=True)
             environment = {key: value for key, value in os.environ.items()
                            if key != "PYTHONPATH"}
-            subprocess.run([place / "bin/pip", "install", "--quiet",
-                            "--no-index", "--no-deps", WHEEL],
-                           env=environment, check=True)
+            install = [place / "bin/pip", "install", "--quiet", "--no-index",
+                       "--no-deps", "--force-reinstall", WHEEL]
+            subprocess.run(install, env=environment, check=True)
+            # A wheel of the same version takes the place of the old one.
             (module,) = place.rglob("_poise.so")
+            module.write_bytes(b"of an older state")
+            subprocess.run(install, env=environment, check=True)
             used = subprocess.run(
                 [place / "bin/python", "-c", USE], cwd=folder,
                 env=environment, check=True, capture_output=True, text=True)
