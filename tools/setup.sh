@@ -22,10 +22,11 @@ build=(
 kernels=(libeigen3-dev)
 robot=(libtinyxml2-dev liburdfdom-dev libyaml-cpp-dev)
 sim=(libbullet-dev libmujoco-dev libssl-dev nlohmann-json3-dev)
-# Everything else by default.
+# The Python package.
 python=(
   libcli11-dev pybind11-dev python3-dev python3-matplotlib python3-numpy python3-venv
 )
+# Everything else by default.
 others=(
   # Sanitizers, fuzzers and the format of the sources.
   clang clang-format libclang-rt-14-dev
@@ -36,8 +37,7 @@ others=(
   # Packages that only tests use.
   libbenchmark-dev libceres-dev libfcl-dev libgmock-dev libgmp-dev libgtest-dev
   libmpfrc++-dev liborocos-kdl-dev librapidcheck-dev mypy python3-ipykernel
-  python3-nbclient python3-nbformat python3-pandas
-  python3-pytest python3-scipy
+  python3-nbclient python3-nbformat python3-pandas python3-pytest python3-scipy
 )
 packages=(
   "${build[@]}" "${kernels[@]}" "${robot[@]}" "${sim[@]}" "${python[@]}" "${others[@]}"

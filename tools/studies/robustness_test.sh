@@ -48,8 +48,8 @@ grep -q '^| box | | refused: box.urdf:1: .* | yes |$' <<< "$out" || fail "box is
 grep -q "^1 of 1 robots as expected$" <<< "$out" || fail "no count: $out"
 [ -z "$err" ] || fail "there is a warning: $err"
 
-# EXPECTED.json says what a robot must do. The robot that stands is simulated for half
-# a minute, so the page and the document are of one run.
+# EXPECTED.json says what a robot must do. To try a robot that stands is slow, so the
+# page and the document are of one run.
 cat > "$robots/EXPECTED.json" << 'END'
 {"mine": {"stands": true, "left_foot_link": "r_foot", "forward": "-x"},
  "box": {"stands": true}}

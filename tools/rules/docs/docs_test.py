@@ -96,16 +96,16 @@ class CodeTest(unittest.TestCase):
                 for path in paths), 5)
 
     def test_each_block_of_code_in_a_docstring_is_part_of_a_built_file(self):
-        blocks = {}
+        blocks = []
         for layer in ("math", "dynamics", "hqp", "robot", "sim"):
             for path in sorted((ROOT / layer).rglob("*.h")):
                 for block in re.findall(r"(?:^ *///     .*\n)+",
                                         path.read_text(), re.M):
                     if ");\n" in block:  # A call; else it is an equation.
-                        blocks[path] = pages.unindented(
-                            re.sub(r"^ *///", "", block, flags=re.M))
-        self.assertEqual([str(path) for path, block in blocks.items()
-                          if block not in self.built], [])
+                        code = re.sub(r"^ *///", "", block, flags=re.M)
+                        blocks.append((str(path), pages.unindented(code)))
+        self.assertEqual([path for path, code in blocks
+                          if code not in self.built], [])
         self.assertGreater(len(blocks), 1)
 
     def test_the_quickstart_of_bazel_is_the_example_that_a_test_builds(self):
