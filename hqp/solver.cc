@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/fast/active_set_search.h"
@@ -42,7 +41,7 @@ class Solver::Impl {
                Solution* solution);
   void Forget();
   /// Work of the last solve.
-  std::int64_t multiply_adds() const { return problem_.multiply_adds(); }
+  Work work() const { return problem_.work(); }
 
  private:
   void StartOver(const Hierarchy& hierarchy);
@@ -91,6 +90,7 @@ void Solver::Impl::Forget() {
     std::fill(side.begin(), side.end(), Side::kNone);
   }
   search_.Forget();
+  problem_.Forget();
   num_cut_off_ = 0;
 }
 
@@ -319,8 +319,7 @@ Status Solver::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
   Budget budget({max_iterations, max_modelled_seconds, max_seconds}, &now);
   const Status status =
       impl_->Solve(hierarchy, finds_nullity, &budget, solution);
-  modelled_seconds_ =
-      ModelledSeconds(impl_->multiply_adds(), budget.iterations());
+  modelled_seconds_ = ModelledSeconds(impl_->work(), budget.iterations());
   return status;
 }
 

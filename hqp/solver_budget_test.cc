@@ -228,7 +228,7 @@ LostLimits CountLostLimits(int max_iterations, double max_modelled_seconds) {
 // if all levels are searched at once, for as long or longer.
 TEST(SolverBudget, LosesTheLastLeadingLevelFirst) {
   // Enough for the limits in most ticks, but not for the task.
-  const LostLimits limited = CountLostLimits(500, 300e-6);
+  const LostLimits limited = CountLostLimits(500, 400e-6);
   LostLimits at_once;
   for (int iterations = 5; at_once.modelled_seconds < limited.modelled_seconds;
        ++iterations) {
@@ -338,7 +338,7 @@ TEST(SolverBudget, StopsAtItsModelledTime) {
     Solver solver(n, drawn.capacity), again(n, drawn.capacity);
     Solution solution(n, drawn.capacity), replay(n, drawn.capacity);
     int before = 0;
-    for (const double seconds : {1e-9, 50e-6, 100e-6, 1.0}) {
+    for (const double seconds : {1e-9, 25e-6, 50e-6, 1.0}) {
       solver.Forget();
       solver.max_modelled_seconds = again.max_modelled_seconds = seconds;
       const Status status = solver.Solve(drawn.hierarchy, &solution);

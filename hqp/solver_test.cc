@@ -384,6 +384,32 @@ TEST(Solver, ForgetsTheRowsOfTheLastSolve) {
 // The row is 2 y0 <= 2, and y1 is 1e8. The rounding of y1 hides violations
 // below 1e-3 from the search. Refinement finds such a violation and adds the
 // row, unless the violation is rounding of 2 |y0| + 2.
+// After Forget(), a solver does not know which levels another problem has met. The
+// equality of one variable would else be factored first.
+TEST(Solver, RepeatsBitForBitAfterForget) {
+  RandomHierarchyOptions options;
+  options.scaled = 0;
+  options.degenerate = 60;
+  options.bounds = 60;
+  for (int seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    const HierarchyCase drawn =
+        WithRoomToChange(MakeRandomHierarchy(seed, options));
+    HierarchyCase changed = drawn;
+    ChangeHierarchy(seed, &changed);
+    const int n = drawn.hierarchy.num_variables();
+    Solver living(n, drawn.capacity), fresh(n, drawn.capacity);
+    Solution first(n, drawn.capacity), again(n, drawn.capacity);
+    (void)living.Solve(drawn.hierarchy, &first);
+    (void)living.Solve(changed.hierarchy, &first);
+    living.Forget();
+    (void)living.Solve(drawn.hierarchy, &again);
+    (void)fresh.Solve(drawn.hierarchy, &first);
+    EXPECT_EQ(again.y, first.y);
+    EXPECT_EQ(living.modelled_seconds(), fresh.modelled_seconds());
+  }
+}
+
 TEST(Solver, AddsRowsThatOnlyRefinementFindsViolated) {
   const std::vector<LevelCapacity> capacity{{0, 3}, {0, 3}, {2, 0}};
   const double rounding = 100 * std::numeric_limits<double>::epsilon() * 4;

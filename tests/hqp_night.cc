@@ -117,6 +117,8 @@ int Main(int argc, char** argv) {
   app.add_option(
       "--columns", night.options.columns,
       "Percentage of hierarchies with variables in units from 1e-3 to 1e6");
+  app.add_option("--bounds", night.options.bounds,
+                 "Percentage of inequalities that bound one variable");
   app.add_option(
       "--ticks", night.ticks,
       "Number of ticks that one solver solves while its hierarchy changes");

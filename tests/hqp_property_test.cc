@@ -36,6 +36,7 @@ HierarchyCase DrawHierarchy(bool with_inequalities = true, int weighted = 0) {
   options.degenerate_vertex = *rc::gen::inRange(0, 31);
   options.integer = *rc::gen::inRange(0, 31);
   options.weighted = weighted;
+  options.bounds = *rc::gen::inRange(0, 101);
   return MakeRandomHierarchy(*rc::gen::inRange(0, 1 << 30), options);
 }
 

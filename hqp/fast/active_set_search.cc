@@ -45,10 +45,10 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
                                 Budget* budget, WorkingSetProblem* problem,
                                 std::vector<std::vector<Side>>* side) {
   const int levels = hierarchy.num_levels();
-  if (!budget->Take(limit, problem->multiply_adds())) return false;
+  if (!budget->Take(limit, problem->work())) return false;
   remove_together_ = true;
   problem->Plan(hierarchy, levels);
-  problem->Solve(hierarchy, *side);
+  problem->Start(hierarchy, *side, &y_);
   if (!InitializeAllLevels(hierarchy, problem, side)) return true;
   // The leading levels come first, because their steps are cheaper. With a limit
   // of time, all of them but the last are searched alone before. If these need no
@@ -58,7 +58,7 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
   for (bool is_free = false; used <= leading; ++used) {
     int iterations = 0;
     do {
-      if (!is_free && !budget->Take(limit, problem->multiply_adds())) {
+      if (!is_free && !budget->Take(limit, problem->work())) {
         return false;
       }
       is_free = false;
@@ -71,7 +71,7 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
   }
   problem->SolveDiagonal();
   while (Iterate(hierarchy, levels, problem, side)) {
-    if (!budget->Take(limit, problem->multiply_adds())) return false;
+    if (!budget->Take(limit, problem->work())) return false;
     problem->Solve(hierarchy, *side);
   }
   return true;
@@ -94,7 +94,7 @@ int ActiveSetSearch::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
     if (level < levels) InitializeWorkingSet(hierarchy, level, side);
     bool has_changed = true;
     while (has_changed) {
-      if (!budget->Take(problem->multiply_adds())) {
+      if (!budget->Take(problem->work())) {
         RestoreWorkingSet(side);
         return level;
       }
@@ -131,7 +131,6 @@ bool ActiveSetSearch::InitializeAllLevels(
           IsFixed(hierarchy, level, i) ? kFrozen : kMaxRemovals;
     }
   }
-  problem->MoveToFirstLevels(hierarchy, &y_);
   const bool goes_on = std::exchange(goes_on_, false);
   const int violated_at_optimum =
       FindViolated(hierarchy, *problem, problem->y(), *side);

@@ -13,19 +13,30 @@ struct BudgetLimits {
   double seconds = 0;           ///< By now(); 0: no limit.
 };
 
+/// Work of a solve.
+struct Work {
+  /// Multiply-adds of factorisations, updates, substitutions and products with Q, and
+  /// kernels::kRowOverhead more for each row. Substitutions of the diagonal levels
+  /// are not counted.
+  std::int64_t multiply_adds = 0;
+  int num_entries =
+      0;  ///< Entries of all rows of the hierarchy, within their spans.
+};
+
 /// Modelled time [s] of a solve. It depends on the problem alone, so that a
-/// replay with such a limit is exact. The three times are a fit to 1193 solves
-/// on a slow machine: 98 % of the predictions were between 0.78 and 1.12 of the
-/// measured time. All three are then multiplied by 0.73, the speed of a quiet
-/// machine. Since the fit, products with zeros are skipped, and a multiply-add that
-/// remains takes 1.08 times as long (docs/notebook/2026-11-27-limits-first.md). The
-/// time of a solve covers the check of the input, refinement, multipliers and the
-/// certificate.
-inline double ModelledSeconds(std::int64_t multiply_adds, int iterations) {
-  constexpr double kPerMultiplyAdd = 0.178e-9;
-  constexpr double kPerIteration = 4.6e-6, kPerSolve = 25e-6;
-  return kPerSolve + kPerIteration * iterations +
-         kPerMultiplyAdd * static_cast<double>(multiply_adds);
+/// replay with such a limit is exact. The times are a fit to 19200 solves of 24
+/// sequences on a quiet machine. Of the solves that took more than 250 us, 98 % took
+/// between 0.76 and 1.18 of the modelled time
+/// (docs/notebook/2026-11-27-fixed-variables.md). The time of a solve covers the
+/// check of the input, refinement, multipliers and the certificate.
+inline double ModelledSeconds(const Work& work, int iterations) {
+  constexpr double kPerSolve = 16e-6, kPerEntry = 5.1e-9;
+  constexpr double kPerIteration = 3.1e-6, kPerIterationAndEntry = 0.76e-9;
+  constexpr double kPerMultiplyAdd = 0.129e-9;
+  return kPerSolve + kPerEntry * work.num_entries +
+         (kPerIteration + kPerIterationAndEntry * work.num_entries) *
+             iterations +
+         kPerMultiplyAdd * static_cast<double>(work.multiply_adds);
 }
 
 /// The budget of one solve.
@@ -36,21 +47,20 @@ class Budget {
         now_(limits.seconds > 0 && *now ? now : nullptr),
         start_(now_ != nullptr ? (*now_)() : 0) {}
 
-  /// Uses one factorisation, after `multiply_adds` in this solve. Returns false
+  /// Uses one iteration, which factors or updates the levels, after this work in this
+  /// solve. Returns false
   /// if the budget is spent, or if `limit` factorisations have been used. Limits
   /// of time allow two factorisations: the first finds the start, and the second
   /// the direction of a step.
-  bool Take(int limit, std::int64_t multiply_adds) {
+  bool Take(int limit, const Work& work) {
     if (iterations_ >= limit) return false;
     is_spent_ = is_spent_ || iterations_ >= limits_.iterations ||
-                (iterations_ > 1 && IsLate(multiply_adds));
+                (iterations_ > 1 && IsLate(work));
     if (is_spent_) return false;
     ++iterations_;
     return true;
   }
-  bool Take(std::int64_t multiply_adds) {
-    return Take(limits_.iterations + 1, multiply_adds);
-  }
+  bool Take(const Work& work) { return Take(limits_.iterations + 1, work); }
 
   /// Returns whether Take() has failed for another reason than `limit`.
   bool is_spent() const { return is_spent_; }
@@ -62,10 +72,9 @@ class Budget {
   int max_iterations() const { return limits_.iterations; }
 
  private:
-  bool IsLate(std::int64_t multiply_adds) const {
+  bool IsLate(const Work& work) const {
     return (limits_.modelled_seconds > 0 &&
-            ModelledSeconds(multiply_adds, iterations_) >
-                limits_.modelled_seconds) ||
+            ModelledSeconds(work, iterations_) > limits_.modelled_seconds) ||
            (now_ != nullptr && (*now_)() - start_ > limits_.seconds);
   }
 

@@ -12,10 +12,10 @@ TEST(Budget, EndsAfterItsIterations) {
   Budget budget({3, 0, 1}, &no_clock);
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(budget.iterations(), i);
-    EXPECT_TRUE(budget.Take(0));
+    EXPECT_TRUE(budget.Take({}));
     EXPECT_FALSE(budget.is_spent());
   }
-  EXPECT_FALSE(budget.Take(0));
+  EXPECT_FALSE(budget.Take({}));
   EXPECT_TRUE(budget.is_spent());
   EXPECT_EQ(budget.iterations(), 3);
 }
@@ -23,20 +23,20 @@ TEST(Budget, EndsAfterItsIterations) {
 // A limit ends one search; the rest of the budget remains.
 TEST(Budget, StopsAtALimit) {
   Budget budget({3}, &no_clock);
-  EXPECT_TRUE(budget.Take(1, 0));
-  EXPECT_FALSE(budget.Take(1, 0));
+  EXPECT_TRUE(budget.Take(1, {}));
+  EXPECT_FALSE(budget.Take(1, {}));
   EXPECT_FALSE(budget.is_spent());
-  EXPECT_TRUE(budget.Take(4, 0));
-  EXPECT_TRUE(budget.Take(4, 0));
-  EXPECT_FALSE(budget.Take(4, 0));
+  EXPECT_TRUE(budget.Take(4, {}));
+  EXPECT_TRUE(budget.Take(4, {}));
+  EXPECT_FALSE(budget.Take(4, {}));
   EXPECT_TRUE(budget.is_spent());
   EXPECT_EQ(budget.iterations(), 3);
 }
 
 // Takes the two iterations that a limit of time allows in any case.
 void TakeFree(Budget* budget) {
-  EXPECT_TRUE(budget->Take(0));
-  EXPECT_TRUE(budget->Take(0));
+  EXPECT_TRUE(budget->Take({}));
+  EXPECT_TRUE(budget->Take({}));
 }
 
 // The time is measured from the construction of the budget, and only if
@@ -48,28 +48,28 @@ TEST(Budget, StopsAtItsTimeLimit) {
   TakeFree(&budget);
   TakeFree(&endless);
   time = 102;
-  EXPECT_TRUE(budget.Take(0));
+  EXPECT_TRUE(budget.Take({}));
   time = 102.5;
-  EXPECT_FALSE(budget.Take(0));
+  EXPECT_FALSE(budget.Take({}));
   EXPECT_TRUE(budget.is_spent());
-  EXPECT_TRUE(endless.Take(0));
+  EXPECT_TRUE(endless.Take({}));
   Budget short_one({9, 0, 0.5}, &now);
   time = 103.25;
   TakeFree(&short_one);
-  EXPECT_FALSE(short_one.Take(0));
+  EXPECT_FALSE(short_one.Take({}));
 }
 
 // A budget is spent as soon as the model says so, whatever the clock says.
 TEST(Budget, StopsAtItsModelledTime) {
   constexpr std::int64_t kWork = 1000000;
-  Budget budget({9, ModelledSeconds(kWork, 2)}, &no_clock);
+  Budget budget({9, ModelledSeconds({kWork, 7}, 2)}, &no_clock);
   Budget endless({9}, &no_clock);
   TakeFree(&budget);
   TakeFree(&endless);
-  EXPECT_TRUE(budget.Take(kWork));  // Exactly the limit.
-  EXPECT_FALSE(budget.Take(kWork + 1));
+  EXPECT_TRUE(budget.Take({kWork, 7}));  // Exactly the limit.
+  EXPECT_FALSE(budget.Take({kWork + 1, 7}));
   EXPECT_TRUE(budget.is_spent());
-  EXPECT_TRUE(endless.Take(1000 * kWork));
+  EXPECT_TRUE(endless.Take({1000 * kWork, 7}));
 }
 
 // A limit of iterations does not limit the time. Neither do seconds without a
@@ -83,9 +83,17 @@ TEST(Budget, KnowsWhetherItsTimeIsLimited) {
 }
 
 TEST(ModelledSeconds, GrowsWithTheWork) {
-  EXPECT_GT(ModelledSeconds(0, 0), 0);
-  EXPECT_GT(ModelledSeconds(0, 1), ModelledSeconds(0, 0));
-  EXPECT_GT(ModelledSeconds(1, 0), ModelledSeconds(0, 0));
+  EXPECT_GT(ModelledSeconds({}, 0), 0);
+  EXPECT_GT(ModelledSeconds({}, 1), ModelledSeconds({}, 0));
+  EXPECT_GT(ModelledSeconds({1, 0}, 0), ModelledSeconds({}, 0));
+  EXPECT_GT(ModelledSeconds({0, 1}, 0), ModelledSeconds({}, 0));
+}
+
+// Each iteration multiplies all rows.
+TEST(ModelledSeconds, AddsMoreForAnIterationWithMoreEntries) {
+  const double few = ModelledSeconds({0, 10}, 2) - ModelledSeconds({0, 10}, 1);
+  const double many = ModelledSeconds({0, 20}, 2) - ModelledSeconds({0, 20}, 1);
+  EXPECT_GT(many, few);
 }
 
 }  // namespace

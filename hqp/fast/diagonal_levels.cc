@@ -19,7 +19,9 @@ using kernels::SquaredNorm;
 }  // namespace
 
 DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
-    : n_(num_variables), stride_((num_variables + 3) / 4 * 4) {
+    : n_(num_variables),
+      stride_((num_variables + 3) / 4 * 4),
+      none_(num_variables) {
   const size_t square = static_cast<size_t>(n_) * stride_;
   level_of_.resize(n_);
   order_.resize(n_);
@@ -29,7 +31,7 @@ DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
   }
   for (std::vector<double>* vector :
        {&weight_, &target_, &start_, &step_, &ideal_, &scale_, &x_, &magnitude_,
-        &z_, &nu_, &scratch_, &factor_}) {
+        &gradient_, &z_, &nu_, &scratch_, &factor_}) {
     vector->resize(stride_);
   }
   Clear();
@@ -65,11 +67,17 @@ void DiagonalLevels::Finish(const double* targets) {
   for (int j = 0; j < n_; ++j) {
     largest_target_ = std::max(largest_target_, std::abs(target_[j]));
   }
-  const double usual = UsualWeight();
+}
+
+// Gives the free variables their positions, level by level from the last, and then
+// the fixed ones.
+void DiagonalLevels::Arrange(const FixedVariables& variables) {
+  const double usual = UsualWeight(variables);
   int position = 0;
   const auto add = [&](int level, bool is_usual) {
     for (int j = 0; j < n_; ++j) {
-      if (level_of_[j] == level && (weight_[j] == usual) == is_usual) {
+      if (level_of_[j] == level && (weight_[j] == usual) == is_usual &&
+          !variables.is_fixed(j)) {
         order_[position++] = j;
       }
     }
@@ -81,17 +89,21 @@ void DiagonalLevels::Finish(const double* targets) {
     add(level, true);
     blocks_[level].end = position;
   }
+  num_free_ = position;
+  for (int e = 0; e < variables.size(); ++e) {
+    order_[position++] = variables.fixed_variable(e);
+  }
   for (int p = 0; p < n_; ++p) scale_[p] = std::sqrt(weight_[order_[p]]);
 }
 
-// Returns the weight that more than half of the first level's variables have,
+// Returns the weight that more than half of the first level's free variables have,
 // by a majority vote. If no weight has a majority, it returns one of the
 // weights.
-double DiagonalLevels::UsualWeight() const {
+double DiagonalLevels::UsualWeight(const FixedVariables& variables) const {
   double weight = 0;
   int lead = 0;
   for (int j = 0; j < n_; ++j) {
-    if (level_of_[j] != 0) continue;
+    if (level_of_[j] != 0 || variables.is_fixed(j)) continue;
     if (lead == 0) weight = weight_[j];
     lead += weight_[j] == weight ? 1 : -1;
   }
@@ -99,12 +111,14 @@ double DiagonalLevels::UsualWeight() const {
 }
 
 void DiagonalLevels::Tie(const LexicographicFactorization& leading) {
-  Gather(leading.basis(), leading.stride(), leading.rank());
-  EliminateAll(n_);
+  const FixedVariables& variables = leading.variables();
+  Gather(leading.free_basis(), leading.stride(),
+         leading.rank() - variables.size(), variables);
+  EliminateAll(num_free_);
 }
 
 void DiagonalLevels::TieRows(const double* rows, int stride, int count) {
-  Gather(rows, stride, count);
+  Gather(rows, stride, count, none_);
   // The first level gets the remaining rows, so its columns are not needed.
   EliminateAll(blocks_[0].begin);
 }
@@ -127,55 +141,78 @@ void DiagonalLevels::Solve(const LexicographicFactorization& leading,
   Tie(leading);
   Separate();
   Start(leading, leading.z());
-  for (int p = 0; p < n_; ++p) {
+  for (int p = 0; p < num_free_; ++p) {
     const double target = target_[order_[p]];
     ideal_[p] = target - start_[p];
     magnitude_[p] = std::abs(start_[p]) + std::abs(target);
+  }
+  for (int p = num_free_; p < n_; ++p) {
+    y[order_[p]] = leading.z()[p - num_free_];
+    FindGradient(p, y);
   }
   for (int level = 0; level < num_levels_; ++level) {
     FactorLevel(level);
     SolveLevel(level);
     FindMultipliers(level);
   }
-  for (int p = 0; p < n_; ++p) y[order_[p]] = start_[p] + step_[p];
+  for (int p = 0; p < num_free_; ++p) y[order_[p]] = start_[p] + step_[p];
 }
 
 void DiagonalLevels::Correct(const LexicographicFactorization& leading,
                              const double* change, bool to_minimum, double* y) {
   Start(leading, change);
-  for (int p = 0; p < n_; ++p) {
+  for (int p = 0; p < num_free_; ++p) {
     const int j = order_[p];
     ideal_[p] = (to_minimum ? target_[j] - y[j] : 0) - start_[p];
     magnitude_[p] = std::abs(y[j]) + std::abs(target_[j]);
+  }
+  for (int p = num_free_; p < n_; ++p) {
+    y[order_[p]] += change[p - num_free_];
+    if (to_minimum) FindGradient(p, y);
   }
   for (int level = 0; level < num_levels_; ++level) {
     SolveLevel(level);
     if (to_minimum) FindMultipliers(level);
   }
-  for (int p = 0; p < n_; ++p) y[order_[p]] += start_[p] + step_[p];
+  for (int p = 0; p < num_free_; ++p) y[order_[p]] += start_[p] + step_[p];
 }
 
-void DiagonalLevels::Gather(const double* rows, int stride, int count) {
+// Computes the entry of a fixed variable in the gradient of its level.
+void DiagonalLevels::FindGradient(int position, const double* y) {
+  const int j = order_[position];
+  gradient_[position] = weight_[j] * (y[j] - target_[j]);
+  magnitude_[position] = std::abs(y[j]) + std::abs(target_[j]);
+}
+
+void DiagonalLevels::Gather(const double* rows, int stride, int count,
+                            const FixedVariables& variables) {
+  Arrange(variables);
   rank_ = count;
-  for (int p = 0; p < n_;) {
-    // Consecutive variables are copied together.
+  for (int p = 0; p < num_free_;) {
+    // Consecutive columns are copied together.
+    const int first = variables.column(order_[p]);
     int run = 1;
-    while (p + run < n_ && order_[p + run] == order_[p] + run) ++run;
-    const double* from = rows + order_[p];
+    while (p + run < num_free_ &&
+           variables.column(order_[p + run]) == first + run) {
+      ++run;
+    }
     for (int i = 0; i < rank_; ++i) {
-      std::copy_n(from + static_cast<size_t>(i) * stride, run,
+      std::copy_n(rows + static_cast<size_t>(i) * stride + first, run,
                   &t_[static_cast<size_t>(i) * stride_ + p]);
     }
     p += run;
   }
 }
 
-// Computes start = Q' z, by position.
+// Computes start = Q' z, by position, for the free variables.
 void DiagonalLevels::Start(const LexicographicFactorization& leading,
                            const double* z) {
-  std::fill(scratch_.begin(), scratch_.end(), 0);
-  AddRows(leading.basis(), leading.stride(), rank_, z, n_, scratch_.data());
-  for (int p = 0; p < n_; ++p) start_[p] = scratch_[order_[p]];
+  std::fill_n(scratch_.begin(), num_free_, 0);
+  AddRows(leading.free_basis(), leading.stride(), rank_, z + num_fixed(),
+          num_free_, scratch_.data());
+  for (int p = 0; p < num_free_; ++p) {
+    start_[p] = scratch_[leading.variables().column(order_[p])];
+  }
 }
 
 // Reflects the rows until as few rows as possible contain the level's
@@ -207,7 +244,7 @@ void DiagonalLevels::Separate() {
                                     block.begin, usual_begin_, &squared);
     if (squared <= tolerances::kZeroEntry * tolerances::kZeroEntry) return;
     Reflect(block.row_begin, usual_row_end_, usual_row_end_ - 1, pivot,
-            block.begin, n_);
+            block.begin, num_free_);
     --usual_row_end_;
   }
 }
@@ -227,7 +264,7 @@ int DiagonalLevels::LargestColumn(int row_begin, int row_end, int begin,
                                   int end, double* squared) {
   if (row_begin >= row_end) return begin;
   double* squares = scratch_.data();
-  std::fill_n(squares, n_, 0);
+  std::fill_n(squares, num_free_, 0);
   for (int i = row_begin; i < row_end; ++i) {
     const double* t = &t_[static_cast<size_t>(i) * stride_];
     for (int p = begin; p < end; ++p) squares[p] += t[p] * t[p];
@@ -267,9 +304,10 @@ void DiagonalLevels::Reflect(int row_begin, int row_end, int target, int pivot,
   Count(2 * rows, columns);
 }
 
-// Counts multiply-adds: one for each entry of `rows` rows.
+// Counts multiply-adds: one for each entry of `rows` rows, and kRowOverhead a row.
 void DiagonalLevels::Count(int rows, int columns) {
-  multiply_adds_ += static_cast<std::int64_t>(rows) * columns;
+  multiply_adds_ +=
+      static_cast<std::int64_t>(rows) * (columns + kernels::kRowOverhead);
 }
 
 // Factors T/d = L Q by Gram-Schmidt. A dependent row, which only rounding can
@@ -324,7 +362,7 @@ void DiagonalLevels::FactorLevel(int level) {
 // (T/d) x = -T ideal - (T of the earlier levels) (their step).
 void DiagonalLevels::SolveLevel(int level) {
   const Block& block = blocks_[level];
-  const int columns = block.end - block.begin, rest = n_ - block.end;
+  const int columns = block.end - block.begin, rest = num_free_ - block.end;
   const int rows = block.row_end - block.row_begin;
   const size_t first = static_cast<size_t>(block.row_begin) * stride_;
   double* z = &z_[block.row_begin];
@@ -355,6 +393,15 @@ void DiagonalLevels::FindMultipliers(int level) {
   for (int p = block.begin; p < block.end; ++p) {
     squared += magnitude_[p] * magnitude_[p];
   }
+  double weight = 0;  // Largest weight of a fixed variable.
+  for (int p = num_free_; p < n_; ++p) {
+    const int j = order_[p];
+    if (level_of_[j] != level) continue;
+    squared += magnitude_[p] * magnitude_[p];
+    weight = std::max(weight, weight_[j]);
+    largest = std::max(largest, std::abs(gradient_[p]));
+  }
+  size = std::sqrt(squared) * weight;
   double* z = &z_[block.row_begin];
   for (int i = block.row_end - block.row_begin - 1; i >= 0; --i) {
     const double* l = &l_[static_cast<size_t>(block.row_begin + i) * stride_];
@@ -373,6 +420,12 @@ double DiagonalLevels::Dual(int level, double* on_leading, double* left) {
   const Block& block = blocks_[level];
   if (block.size == 0) return 0;
   const int rows = block.row_end - block.row_begin;
+  for (int p = num_free_; p < n_; ++p) {
+    const int j = order_[p];
+    on_leading[p - num_free_] = level_of_[j] == level ? -gradient_[p] : 0;
+    if (level_of_[j] < level) left[j] = 0;
+  }
+  on_leading += num_fixed();
   std::fill_n(on_leading, rank_, 0);
   std::copy_n(&nu_[block.row_begin], rows, on_leading + block.row_begin);
   for (int k = num_reflections_ - 1; k >= 0; --k) {
@@ -384,33 +437,34 @@ double DiagonalLevels::Dual(int level, double* on_leading, double* left) {
   }
   std::fill(scratch_.begin(), scratch_.end(), 0);
   AddRows(&t_[static_cast<size_t>(block.row_begin) * stride_] + block.end,
-          stride_, rows, &nu_[block.row_begin], n_ - block.end,
+          stride_, rows, &nu_[block.row_begin], num_free_ - block.end,
           &scratch_[block.end]);
-  for (int p = block.end; p < n_; ++p) left[order_[p]] = scratch_[p];
+  for (int p = block.end; p < num_free_; ++p) left[order_[p]] = scratch_[p];
   return block.size;
 }
 
 bool DiagonalLevels::IsMet(int level, const double* y) const {
-  const Block& block = blocks_[level];
-  return std::all_of(order_.begin() + block.begin, order_.begin() + block.end,
-                     [this, y](int j) { return y[j] == target_[j]; });
+  for (int j = 0; j < n_; ++j) {
+    if (level_of_[j] == level && y[j] != target_[j]) return false;
+  }
+  return true;
 }
 
 void DiagonalLevels::AddGradient(int level, const double* y, const double* left,
                                  double* sum) const {
-  const Block& block = blocks_[level];
-  for (int p = block.begin; p < block.end; ++p) {
-    const int j = order_[p];
-    sum[j] += weight_[j] * (y[j] - target_[j]);
+  for (int j = 0; j < n_; ++j) {
+    if (level_of_[j] == level) {
+      sum[j] += weight_[j] * (y[j] - target_[j]);
+    } else if (level_of_[j] < level) {
+      sum[j] -= left[j];
+    }
   }
-  for (int p = block.end; p < n_; ++p) sum[order_[p]] -= left[order_[p]];
 }
 
 void DiagonalLevels::ZeroRounding(int level, const double* y,
                                   double* sum) const {
-  const Block& block = blocks_[level];
-  for (int p = block.begin; p < block.end; ++p) {
-    const int j = order_[p];
+  for (int j = 0; j < n_; ++j) {
+    if (level_of_[j] != level) continue;
     const double size = weight_[j] * (std::abs(y[j]) + std::abs(target_[j]));
     if (std::abs(sum[j]) <= tolerances::kZeroGradient * size) sum[j] = 0;
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "poise/hqp/fast/fixed_variables.h"
 #include "poise/hqp/fast/lexicographic_factorization.h"
 
 namespace poise {
@@ -13,7 +14,7 @@ namespace poise {
 /// 1/2 sum_j d_j^2 (y_j - t_j)^2 over its variables, subject to the leading
 /// levels, Q y = z, and to the optimum of the diagonal levels before c.
 ///
-/// The first level that has a variable fixes it. So levels are not projected
+/// The first level that has a variable determines it. So levels are not projected
 /// one by one. Instead, reflections combine the rows of Q, and eliminate the
 /// variables of the last level first:
 ///     U' Q = [T_tt ... T_t1 T_t0]      (variables of level t, ..., 1, 0)
@@ -21,7 +22,7 @@ namespace poise {
 ///            [              T_00]
 /// From the bottom up, each level is then a weighted minimum-norm problem with
 /// as many rows as T_cc. These rows are few, however many variables the level
-/// has.
+/// has. Variables that the leading levels fix have no column there.
 class DiagonalLevels {
  public:
   DiagonalLevels(int num_variables, int max_levels);
@@ -31,7 +32,7 @@ class DiagonalLevels {
   /// Begins the next level. Add() adds its variables.
   void AddLevel() { ++num_levels_; }
   /// Adds weight/2 (y_variable - target)^2 to the last level. Ignored if an
-  /// earlier level has fixed the variable.
+  /// earlier level has the variable.
   void Add(int variable, double weight, double target);
   /// Adds a last level of all other variables, with these targets by variable,
   /// or with target 0 if `targets` is null.
@@ -43,7 +44,7 @@ class DiagonalLevels {
   /// Number of levels, including the one that Finish() adds.
   int num_levels() const { return num_levels_; }
 
-  /// Level that fixes a variable.
+  /// Level that determines a variable.
   int level(int variable) const { return level_of_[variable]; }
   /// Target of a variable on that level.
   double target(int variable) const { return target_[variable]; }
@@ -93,11 +94,14 @@ class DiagonalLevels {
 
  private:
   struct Block {
-    int begin, end;          ///< Positions of its variables.
+    int begin, end;          ///< Positions of its free variables.
     int row_begin, row_end;  ///< Rows of its T_cc in U' Q.
     double size;             ///< Magnitude of the gradient's terms.
   };
-  double UsualWeight() const;
+  double UsualWeight(const FixedVariables& variables) const;
+  void Arrange(const FixedVariables& variables);
+  int num_fixed() const { return n_ - num_free_; }
+  void FindGradient(int position, const double* y);
   void Separate();
   bool RoundsUsual() const;
   int LargestColumn(int row_begin, int row_end, int begin, int end,
@@ -105,7 +109,8 @@ class DiagonalLevels {
   void Reflect(int row_begin, int row_end, int target, int pivot, int begin,
                int end);
   void Count(int rows, int columns);
-  void Gather(const double* rows, int stride, int count);
+  void Gather(const double* rows, int stride, int count,
+              const FixedVariables& variables);
   void EliminateAll(int end);
   void Start(const LexicographicFactorization& leading, const double* z);
   void Eliminate(int level, int end);
@@ -113,11 +118,15 @@ class DiagonalLevels {
   void SolveLevel(int level);
   void FindMultipliers(int level);
 
-  int n_, stride_, num_levels_ = 0, rank_ = 0, num_reflections_ = 0;
-  std::vector<int> level_of_;            ///< By variable; -1: not fixed yet.
+  int n_, stride_, num_levels_ = 0, num_reflections_ = 0;
+  int num_free_ = 0;                     ///< Number of positions.
+  int rank_ = 0;                         ///< Rows of Q that fix no variable.
+  std::vector<int> level_of_;            ///< By variable; -1: none yet.
   std::vector<double> weight_, target_;  ///< By variable.
   double largest_target_ = 0;
-  std::vector<int> order_;     ///< Variable by position.
+  /// Variable by position: the free ones by level, then the fixed ones.
+  std::vector<int> order_;
+  FixedVariables none_;        ///< No variable is fixed.
   int usual_begin_ = 0;        ///< Level 0: first position of the usual weight.
   int usual_row_end_ = 0;      ///< Earlier rows have only these variables.
   std::vector<Block> blocks_;  ///< By level.
@@ -125,8 +134,9 @@ class DiagonalLevels {
   std::vector<double> reflection_;                    ///< n x stride.
   std::vector<double> start_, step_, ideal_, scale_;  ///< By position.
   std::vector<double> x_, magnitude_;                 ///< By position.
-  std::vector<double> z_, nu_;                        ///< By row of U' Q.
-  std::vector<double> q_, l_;  ///< T_cc/d = L Q, by level.
+  std::vector<double> gradient_;  ///< Gradient on fixed variables, by position.
+  std::vector<double> z_, nu_;    ///< By row of U' Q.
+  std::vector<double> q_, l_;     ///< T_cc/d = L Q, by level.
   std::vector<double> scratch_, factor_;
   std::int64_t multiply_adds_ = 0;
 };

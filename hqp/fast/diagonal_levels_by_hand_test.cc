@@ -146,13 +146,13 @@ TEST_F(DiagonalLevelsTest, FindsAMultiplierToRoundingOfItsTerms) {
         diagonal.Solve(leading, &y);
         if (start != 1) {
           y = start;
-          const double change = (1 + off - start) * leading.basis()[0];
+          const double change = (1 + off - start) * leading.free_basis()[0];
           diagonal.Correct(leading, &change, true, &y);
         }
         EXPECT_NEAR(y, 1 + off, Rounding(size, 1));
         const double terms = diagonal.Dual(0, &on_leading, &left);
         EXPECT_EQ(left, 5);
-        EXPECT_NEAR(on_leading * leading.basis()[0], -weight * off,
+        EXPECT_NEAR(on_leading * leading.free_basis()[0], -weight * off,
                     1e-12 * weight * size);
         EXPECT_NEAR(terms, part <= 1e-15 ? 0 : weight * size,
                     1e-12 * weight * size + weight * off);

@@ -3,18 +3,20 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
+#include <Eigen/SVD>
 #include <cmath>
 #include <random>
 
 #include "poise/tests/util/lexicographic.h"
+#include "poise/tests/util/stacked_rows.h"
 #include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {
 
 constexpr int kSeeds = 300;
-constexpr int kMaxRows = 24, kMaxLeadingLevels = 4;  // As MakeRandomLevels().
+// As MakeRandomLevels(), and for each variable a row that fixes it.
+constexpr int kMaxRows = 24 + 9, kMaxLeadingLevels = 4;
 constexpr int kMaxDiagonalLevels = 3;
 
 // One row of a diagonal level.
@@ -61,12 +63,9 @@ std::vector<std::vector<Selection>> MakeSelections(int seed, int n) {
 class RandomDiagonalLevelsTest : public testing::TestWithParam<int> {
  protected:
   void SetUp() override {
-    for (const LeastSquares& level : levels_) {
-      for (int i = 0; i < level.A.rows(); ++i) {
-        const int a = leading_.AddRow(level.b[i], std::sqrt(level.weight[i]));
-        Eigen::VectorXd::Map(leading_.row(a), n_) = level.A.row(i);
-      }
-      leading_.FactorLevel();
+    const bool fixes = GetParam() % 2 == 1 && FactorFixed();
+    for (int l = fixes ? 1 : 0; l < num_leading_levels_; ++l) {
+      AddLevel(levels_[l], &leading_);
     }
     for (const std::vector<Selection>& level : selections_) {
       diagonal_.AddLevel();
@@ -83,12 +82,30 @@ class RandomDiagonalLevelsTest : public testing::TestWithParam<int> {
     optimum_ = SolveLexicographically(n_, levels_);
     diagonal_.Solve(leading_, y_.data());
   }
-  Eigen::MatrixXd Basis() const {
-    return Eigen::MatrixXd::Map(leading_.basis(), leading_.stride(),
-                                leading_.rank())
-        .topRows(n_)
-        .transpose();
+  // Fixes some variables on the first level. Returns false if its rows depend on
+  // them.
+  bool FactorFixed() {
+    LeastSquares first = levels_[0];
+    for (int j = GetParam() % 3; j < n_; j += 2 + GetParam() % 5) {
+      leading_.AddFixedVariable(j, j % 2 == 0 ? 1 : -1, j - 3, 1);
+      AppendRow((j % 2 == 0 ? 1 : -1) * Eigen::VectorXd::Unit(n_, j), j - 3,
+                &first);
+    }
+    for (int i = 0; i < levels_[0].A.rows(); ++i) {
+      AddRow(levels_[0], i, &leading_);
+    }
+    if (!leading_.FactorMerged(1)) {
+      // The least singular value is at most the independent part of any row.
+      EXPECT_TRUE(first.A.rows() > n_ ||
+                  Eigen::JacobiSVD<Eigen::MatrixXd>(first.A)
+                          .singularValues()
+                          .minCoeff() < 1e-3);
+      return false;
+    }
+    levels_[0] = first;
+    return true;
   }
+  Eigen::MatrixXd Basis() const { return poise::Basis(leading_, n_); }
   void Fill(DiagonalLevels* diagonal) const {
     for (size_t l = 0; l + 1 < selections_.size(); ++l) {
       diagonal->AddLevel();

@@ -9,6 +9,9 @@
 /// for the processor.
 namespace poise::kernels {
 
+/// A row takes about as much time as this many more multiply-adds.
+constexpr int kRowOverhead = 40;
+
 /// out_i = row_i . x, for i < count.
 void Dots(const double* rows, int stride, int count, const double* x, int n,
           double* out);

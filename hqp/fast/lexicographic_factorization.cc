@@ -27,6 +27,7 @@ LexicographicFactorization::LexicographicFactorization(int num_variables,
                                                        int max_kept_rows)
     : n_(num_variables),
       stride_((num_variables + 7) / 4 * 4),
+      variables_(num_variables),
       kept_(num_variables, max_rows, max_kept_rows) {
   const auto rows = [&](int count) {
     return static_cast<size_t>(count) * stride_;
@@ -36,7 +37,6 @@ LexicographicFactorization::LexicographicFactorization(int num_variables,
   l_.resize(rows(max_rows));
   q_.resize(rows(n_));
   effective_.resize(rows(n_));
-  effective_target_.resize(n_);
   z_.resize(n_);
   target_.resize(max_rows);
   metric_.resize(max_rows);
@@ -49,10 +49,10 @@ LexicographicFactorization::LexicographicFactorization(int num_variables,
   scratch_.resize(std::max(max_rows, stride_));
   cosine_.resize(n_);
   sine_.resize(n_);
+  packed_.resize(n_);
   chosen_.resize(max_rows);
   open_.resize(max_rows);
   nonzero_.resize(max_rows);
-  reduced_target_.resize(max_rows);
   key_.resize(max_rows);
   is_recalled_.resize(max_rows);
 }
@@ -62,6 +62,7 @@ void LexicographicFactorization::Truncate(int level) {
   num_rows_ = levels_.empty() ? 0 : levels_.back().end_row;
   rank_ = levels_.empty() ? 0 : levels_.back().rank_end;
   if (level == 0 || rank_ < kept_.rank()) kept_.Clear(rank_);
+  if (level == 0 || rank_ < variables_.size()) variables_.Clear();
 }
 
 int LexicographicFactorization::AddRow(double target, double metric) {
@@ -69,6 +70,13 @@ int LexicographicFactorization::AddRow(double target, double metric) {
   metric_[num_rows_] = metric;
   key_[num_rows_] = kNoKey;
   return num_rows_++;
+}
+
+void LexicographicFactorization::SetRow(int a, const double* from, int first,
+                                        int end, double norm) {
+  double* to = row(a);
+  std::fill_n(to, n_, 0);
+  for (int j = first; j < end; ++j) to[variables_.column(j)] = from[j] / norm;
 }
 
 bool LexicographicFactorization::Recall(int a, int key) {
@@ -85,7 +93,7 @@ bool LexicographicFactorization::is_deficient(int level) const {
 bool LexicographicFactorization::is_well_conditioned() const {
   if (rank_ < num_rows_) return false;
   for (int e = 0; e < rank_; ++e) {
-    if (effective_[static_cast<size_t>(e) * (stride_ + 1)] <
+    if (std::abs(effective_[static_cast<size_t>(e) * (stride_ + 1)]) <
         tolerances::kIndependentPart) {
       return false;
     }
@@ -98,7 +106,7 @@ void LexicographicFactorization::FactorLevel() {
   level.first_row = levels_.empty() ? 0 : levels_.back().end_row;
   level.end_row = num_rows_;
   level.rank_begin = level.rank_end = rank_;
-  for (int a = level.first_row; a < level.end_row; ++a) Project(a);
+  for (int a = level.first_row; a < level.end_row; ++a) ProjectRow(a);
   PivotRows(&level);
   const int rows = level.end_row - level.first_row;
   level.deficient = level.rank_end - level.rank_begin < rows;
@@ -106,136 +114,76 @@ void LexicographicFactorization::FactorLevel() {
   if (level.deficient) {
     Reduce(&level);
   } else {
-    for (int e = level.rank_begin; e < level.rank_end; ++e) {
-      std::copy_n(&l_[static_cast<size_t>(carrier_[e]) * stride_], e + 1,
-                  &effective_[static_cast<size_t>(e) * stride_]);
-      effective_target_[e] = target_[carrier_[e]];
-    }
+    CopyEffective(level);
   }
   SolveLevel(level);
   levels_.push_back(level);
 }
 
-void LexicographicFactorization::Merge(int level) {
-  Truncate(level);
-  Renumber(level);
-  if (kept_.size() == 0) kept_.Clear(rank_);
-  Count(2 * kept_.size() * (rank_ - kept_.rank()), n_);
-  for (int e = kept_.rank(); e < rank_; ++e) {
-    kept_.Extend(&q_[static_cast<size_t>(e) * stride_]);
+// Each row of a level that is not deficient is an effective row.
+void LexicographicFactorization::CopyEffective(const Level& level) {
+  for (int e = level.rank_begin; e < level.rank_end; ++e) {
+    std::copy_n(&l_[static_cast<size_t>(carrier_[e]) * stride_], e + 1,
+                effective(e));
   }
-}
-
-// Gives all rows to the level before `level`.
-void LexicographicFactorization::Renumber(int level) {
-  levels_.assign(level, {0, 0, 0, 0, false});
-  if (level > 0) levels_.back() = {0, num_rows_, 0, rank_, false};
-}
-
-void LexicographicFactorization::RemoveRow(int a) {
-  Level& level = levels_.back();
-  const auto l = [&](int e) {
-    return &effective_[static_cast<size_t>(e) * stride_];
-  };
-  const auto q = [&](int e) { return &q_[static_cast<size_t>(e) * stride_]; };
-  const int last = --num_rows_;
-  int removed = 0;
-  while (carrier_[removed] != a) ++removed;
-  for (int e = removed; e + 1 < rank_; ++e) {
-    // The next row of L moves up and has one entry too many. A rotation of its
-    // last two columns, and of the two rows of Q, eliminates that entry.
-    double* row = l(e);
-    std::copy_n(l(e + 1), e + 2, row);
-    for (int k = removed; k < e; ++k) {
-      const double x = row[k], y = row[k + 1];
-      row[k] = cosine_[k] * x + sine_[k] * y;
-      row[k + 1] = cosine_[k] * y - sine_[k] * x;
-    }
-    const double length = std::hypot(row[e], row[e + 1]);
-    cosine_[e] = row[e] / length;
-    sine_[e] = row[e + 1] / length;
-    row[e] = length;
-    kernels::Rotate(cosine_[e], sine_[e], n_, q(e), q(e + 1));
-    kept_.Rotate(e, cosine_[e], sine_[e]);
-    Count(4, n_ + kept_.size());
-    carrier_[e] = carrier_[e + 1];
-    effective_target_[e] = effective_target_[e + 1];
-  }
-  kept_.RemoveLast(q(--rank_));
-  Count(kept_.size(), n_);
-  for (int e = 0; e < rank_; ++e) {
-    if (carrier_[e] == last) carrier_[e] = a;
-  }
-  target_[a] = target_[last];
-  metric_[a] = metric_[last];
-  level.end_row = num_rows_;
-  level.rank_end = rank_;
-}
-
-bool LexicographicFactorization::AppendRow() {
-  const int a = num_rows_ - 1;
-  Project(a);
-  if (rest_[a] < tolerances::kReorthogonalize * tolerances::kReorthogonalize) {
-    TakeOut(0, rank_, row(a), &l_[static_cast<size_t>(a) * stride_]);
-  }
-  const double norm = std::sqrt(rest_[a]);
-  if (rank_ == n_ || norm < tolerances::kIndependentPart) {
-    --num_rows_;
-    return false;
-  }
-  double* l = &effective_[static_cast<size_t>(rank_) * stride_];
-  std::copy_n(&l_[static_cast<size_t>(a) * stride_], rank_, l);
-  l[rank_] = norm;
-  double* q = &q_[static_cast<size_t>(rank_) * stride_];
-  for (int j = 0; j < n_; ++j) q[j] = row(a)[j] / norm;
-  kept_.Extend(q);
-  Count(2 * kept_.size(), n_);
-  carrier_[rank_] = a;
-  effective_target_[rank_] = target_[a];
-  levels_.back().end_row = num_rows_;
-  levels_.back().rank_end = ++rank_;
-  return true;
 }
 
 // Projects row a once onto the complement of the levels before.
-void LexicographicFactorization::Project(int a) {
+void LexicographicFactorization::ProjectRow(int a) {
   double* l = &l_[static_cast<size_t>(a) * stride_];
-  if (key_[a] != kNoKey && !is_recalled_[a]) ProjectKept(a);
-  const int begin = key_[a] == kNoKey ? 0 : kept_.rank();
+  int begin = kept_.rank();
+  if (key_[a] == kNoKey) {
+    begin = variables_.size();
+    TakeOutFixed(row(a), l);
+  } else if (!is_recalled_[a]) {
+    ProjectKept(a);
+  }
   std::fill(l + begin, l + rank_, 0);
   TakeOut(begin, rank_, row(a), l);
-  rest_[a] = SquaredNorm(row(a), n_);
+  rest_[a] = SquaredNorm(row(a), variables_.num_free());
 }
 
 // Projects row a onto the complement of the merged levels, and keeps that.
 void LexicographicFactorization::ProjectKept(int a) {
   double* l = &l_[static_cast<size_t>(a) * stride_];
-  std::fill_n(l, kept_.rank(), 0);
-  TakeOut(0, kept_.rank(), row(a), l);
-  if (SquaredNorm(row(a), n_) <
+  const int begin = variables_.size();
+  TakeOutFixed(row(a), l);
+  std::fill(l + begin, l + kept_.rank(), 0);
+  TakeOut(begin, kept_.rank(), row(a), l);
+  if (SquaredNorm(row(a), variables_.num_free()) <
       tolerances::kReorthogonalize * tolerances::kReorthogonalize) {
-    TakeOut(0, kept_.rank(), row(a), l);
+    TakeOut(begin, kept_.rank(), row(a), l);
   }
   (void)kept_.Add(key_[a], l, row(a));
 }
 
+// Moves the entries of x in the columns of the fixed variables to l.
+void LexicographicFactorization::TakeOutFixed(double* x, double* l) {
+  for (int e = 0; e < variables_.size(); ++e) {
+    l[e] = x[variables_.fixed_column(e)];
+    x[variables_.fixed_column(e)] = 0;
+  }
+}
+
 // Subtracts the projection on the rows of Q from `begin` to `end` from x, and
-// adds its coefficients to l.
+// adds its coefficients to l. None of these rows fixes a variable.
 void LexicographicFactorization::TakeOut(int begin, int end, double* x,
                                          double* l) {
-  const double* q = &q_[static_cast<size_t>(begin) * stride_];
-  Dots(q, stride_, end - begin, x, n_, scratch_.data());
+  if (begin >= end) return;
+  const int columns = variables_.num_free();
+  Dots(q(begin), stride_, end - begin, x, columns, scratch_.data());
   for (int e = begin; e < end; ++e) {
     l[e] += scratch_[e - begin];
     scratch_[e - begin] = -scratch_[e - begin];
   }
-  AddRows(q, stride_, end - begin, scratch_.data(), n_, x);
-  Count(2 * (end - begin), n_);
+  AddRows(q(begin), stride_, end - begin, scratch_.data(), columns, x);
+  Count(2 * (end - begin), columns);
 }
 
-// Counts multiply-adds: one for each entry of `rows` rows.
+// Counts multiply-adds: one for each entry of `rows` rows, and kRowOverhead a row.
 void LexicographicFactorization::Count(int rows, int columns) {
-  multiply_adds_ += static_cast<std::int64_t>(rows) * columns;
+  multiply_adds_ +=
+      static_cast<std::int64_t>(rows) * (columns + kernels::kRowOverhead);
 }
 
 // Orthogonalises the remainders of the level's rows, the largest weighted one
@@ -243,6 +191,7 @@ void LexicographicFactorization::Count(int rows, int columns) {
 // depends on them exactly. Otherwise the rounding of its remainder, times an
 // unattainable residual, could outweigh a small-weight row.
 void LexicographicFactorization::PivotRows(Level* level) {
+  const int columns = variables_.num_free();
   int open = 0;  // Rows that are neither orthogonalised nor zero.
   for (int a = level->first_row; a < level->end_row; ++a) {
     open_[open++] = a;
@@ -252,9 +201,9 @@ void LexicographicFactorization::PivotRows(Level* level) {
     const int pivot = TakePivot(&open);
     if (pivot < 0) break;
     const int e = level->rank_end;
-    double* q = &q_[static_cast<size_t>(e) * stride_];
+    double* q = this->q(e);
     double* l = &l_[static_cast<size_t>(pivot) * stride_];
-    std::copy_n(row(pivot), n_, q);
+    std::copy_n(row(pivot), columns, q);
     if (rest_[pivot] <
         tolerances::kReorthogonalize * tolerances::kReorthogonalize) {
       // A kept remainder is orthogonal to the merged levels already, but its
@@ -262,9 +211,9 @@ void LexicographicFactorization::PivotRows(Level* level) {
       const bool is_clean = key_[pivot] != kNoKey &&
                             rest_[pivot] >= tolerances::kCleanRemainder *
                                                 tolerances::kCleanRemainder;
-      TakeOut(is_clean ? kept_.rank() : 0, e, q, l);
+      TakeOut(is_clean ? kept_.rank() : variables_.size(), e, q, l);
     }
-    const double norm = std::sqrt(SquaredNorm(q, n_));
+    const double norm = std::sqrt(SquaredNorm(q, columns));
     l[e] = 0;
     if (norm <= kRankTolerance) {
       // The remainder was rounding of other rows. The row is dependent.
@@ -272,27 +221,27 @@ void LexicographicFactorization::PivotRows(Level* level) {
       continue;
     }
     l[e] = norm;
-    for (int i = 0; i < n_; ++i) q[i] /= norm;
+    for (int i = 0; i < columns; ++i) q[i] /= norm;
     carrier_[e] = pivot;
     ++level->rank_end;
     // Update the other rows: coefficient, remainder, and squared norm.
     for (int a = level->first_row; a < level->end_row; ++a) {
       if (a != pivot) l_[static_cast<size_t>(a) * stride_ + e] = 0;
     }
-    Dots(row(0), stride_, open_.data(), open, q, n_, factor_.data());
+    Dots(row(0), stride_, open_.data(), open, q, columns, factor_.data());
     for (int i = 0; i < open; ++i) {
       const int a = open_[i];
       l_[static_cast<size_t>(a) * stride_ + e] = factor_[i];
       rest_[a] -= factor_[i] * factor_[i];
       factor_[i] = -factor_[i];
     }
-    AddToRows(row(0), stride_, open_.data(), open, factor_.data(), q, n_);
-    Count(2 * open + 1, n_);
+    AddToRows(row(0), stride_, open_.data(), open, factor_.data(), q, columns);
+    Count(2 * open + 1, columns);
     for (int i = 0; i < open; ++i) {
       const int a = open_[i];
       // The difference of squares has lost its digits: compute the norm again.
       if (rest_[a] < tolerances::kDowndate * fresh_[a]) {
-        rest_[a] = SquaredNorm(row(a), n_);
+        rest_[a] = SquaredNorm(row(a), columns);
         fresh_[a] = rest_[a];
       }
     }
@@ -316,20 +265,20 @@ int LexicographicFactorization::TakePivot(int* open) {
   return pivot;
 }
 
-// Reduces the rows d_a l_a, d_a t_a of a deficient level by reflections H, from
-// the last column to the first. The result is lower triangular:
-//     H [D L, D t] = [effective rows; zeros, residual].
-// These rows replace the remainders, which are not needed any more.
+// Reduces the rows d_a l_a of a deficient level by reflections H, in the level's own
+// columns, from the last one to the first. The result is lower triangular:
+//     H D L = [effective rows; zeros].
+// These rows replace the remainders, which are not needed any more. The columns
+// before are not reflected: SolveRows() and SolveDual() take them from L.
 void LexicographicFactorization::Reduce(Level* level) {
   const int first = level->first_row, rows = level->end_row - first;
   const int begin = level->rank_begin, end = level->rank_end;
   for (int i = 0; i < rows; ++i) {
     const int a = first + i;
     double* to = row(a);
-    for (int e = 0; e < end; ++e) {
+    for (int e = begin; e < end; ++e) {
       to[e] = metric_[a] * l_[static_cast<size_t>(a) * stride_ + e];
     }
-    reduced_target_[i] = metric_[a] * target_[a];
     chosen_[a] = false;
   }
   for (int e = end - 1; e >= begin; --e) {
@@ -354,39 +303,29 @@ void LexicographicFactorization::Reduce(Level* level) {
     v[pivot] -= alpha;
     if (length > 0) {
       const double root = std::sqrt(length);  // So that H = I - v v'.
-      double target = 0;
+      const int columns = e + 1 - begin;
       for (int k = 0; k < count; ++k) {
         const int i = nonzero_[k];
         v[i] /= root;
         factor_[k] = v[i];
-        target += v[i] * reduced_target_[i];
       }
-      std::fill_n(scratch_.data(), e + 1, 0);
-      AddRows(row(first), stride_, nonzero_.data(), count, factor_.data(),
-              e + 1, scratch_.data());
-      for (int k = 0; k < count; ++k) {
-        factor_[k] = -factor_[k];
-        reduced_target_[nonzero_[k]] += factor_[k] * target;
-      }
-      AddToRows(row(first), stride_, nonzero_.data(), count, factor_.data(),
-                scratch_.data(), e + 1);
-      Count(2 * count, e + 1);
+      std::fill_n(scratch_.data(), columns, 0);
+      AddRows(row(first) + begin, stride_, nonzero_.data(), count,
+              factor_.data(), columns, scratch_.data());
+      for (int k = 0; k < count; ++k) factor_[k] = -factor_[k];
+      AddToRows(row(first) + begin, stride_, nonzero_.data(), count,
+                factor_.data(), scratch_.data(), columns);
+      Count(2 * count, columns);
     }
     chosen_[first + pivot] = true;
     carrier_[e] = first + pivot;
-    const double* from = row(first + pivot);
-    std::copy_n(from, e + 1, &effective_[static_cast<size_t>(e) * stride_]);
-    effective_target_[e] = reduced_target_[pivot];
+    std::copy(row(first + pivot) + begin, row(first + pivot) + e + 1,
+              effective(e) + begin);
   }
 }
 
 void LexicographicFactorization::SolveLevel(const Level& level) {
-  for (int e = level.rank_begin; e < level.rank_end; ++e) {
-    const double* l = &effective_[static_cast<size_t>(e) * stride_];
-    double value;
-    Dots(l, 0, 1, z_.data(), e, &value);
-    z_[e] = (effective_target_[e] - value) / l[e];
-  }
+  SolveRows(level, target_.data() + level.first_row, z_.data());
   // Rounding of z is relative to the targets of all rows of the level.
   double size = 0;
   for (int a = level.first_row; a < level.end_row; ++a) {
@@ -402,6 +341,35 @@ void LexicographicFactorization::SolveLevel(const Level& level) {
     residual_[a] = value - target_[a];
   }
   KeepUnattainableResiduals(size, level);
+}
+
+// Solves the rows of a level for its entries of z. Those of the levels before are
+// given, and `target` is by row of the level.
+void LexicographicFactorization::SolveRows(const Level& level,
+                                           const double* target, double* z) {
+  const int first = level.first_row, rows = level.end_row - first;
+  if (level.deficient) {
+    // H D (t - L z), where z is known.
+    double* right = factor_.data();
+    Dots(&l_[static_cast<size_t>(first) * stride_], stride_, rows, z,
+         level.rank_begin, right);
+    for (int i = 0; i < rows; ++i) {
+      right[i] = metric_[first + i] * (target[i] - right[i]);
+    }
+    for (int e = level.rank_end - 1; e >= level.rank_begin; --e) {
+      Reflect(e, rows, right);
+    }
+    target = right;
+  }
+  const int begin = level.deficient ? level.rank_begin : 0;
+  CountTriangle(level, begin);
+  for (int e = level.rank_begin; e < level.rank_end; ++e) {
+    const double* l = effective(e);
+    double value = 0;
+    if (e >= variables_.size())
+      Dots(l + begin, 0, 1, z + begin, e - begin, &value);
+    z[e] = (target[carrier_[e] - first] - value) / l[e];
+  }
 }
 
 void LexicographicFactorization::SetResiduals(int level, const double* residual,
@@ -453,22 +421,17 @@ void LexicographicFactorization::KeepUnattainableResiduals(double size,
 void LexicographicFactorization::Correct(const double* residual,
                                          double* change) {
   for (const Level& level : levels_) {
-    const int first = level.first_row, rows = level.end_row - first;
-    double* right = scratch_.data();
-    std::copy_n(residual + first, rows, right);
-    if (level.deficient) {
-      for (int i = 0; i < rows; ++i) right[i] *= metric_[first + i];
-      for (int e = level.rank_end - 1; e >= level.rank_begin; --e) {
-        Reflect(e, rows, right);
-      }
-    }
-    for (int e = level.rank_begin; e < level.rank_end; ++e) {
-      const double* l = &effective_[static_cast<size_t>(e) * stride_];
-      double value;
-      Dots(l, 0, 1, change, e, &value);
-      change[e] = (right[carrier_[e] - first] - value) / l[e];
-    }
+    SolveRows(level, residual + level.first_row, change);
   }
+}
+
+// Counts the multiply-adds of a substitution with the effective rows of a level, from
+// column `begin` on, and for a deficient level also those with its given rows.
+void LexicographicFactorization::CountTriangle(const Level& level, int begin) {
+  const int first = std::max(level.rank_begin, variables_.size());
+  const int rank = std::max(level.rank_end - first, 0);
+  Count(rank, (first + level.rank_end) / 2 - begin);
+  if (level.deficient) Count(level.end_row - level.first_row, 2 * rank + begin);
 }
 
 // Applies the reflection of column e to a vector over the rows of its level.
@@ -479,6 +442,28 @@ void LexicographicFactorization::Reflect(int e, int rows, double* x) const {
   Dots(v, 0, 1, x, rows, &dot);
   dot = -dot;
   AddRows(v, 0, 1, &dot, rows, x);
+}
+
+void LexicographicFactorization::Project(const double* y, int rank,
+                                         double* on_basis) {
+  const int fixed = std::min(rank, variables_.size());
+  const int columns = variables_.num_free();
+  for (int e = 0; e < fixed; ++e) on_basis[e] = y[variables_.fixed_variable(e)];
+  for (int c = 0; c < columns; ++c) packed_[c] = y[variables_.variable(c)];
+  Dots(q(fixed), stride_, rank - fixed, packed_.data(), columns,
+       on_basis + fixed);
+  Count(rank - fixed, columns);
+}
+
+void LexicographicFactorization::AddCombination(const double* z, int rank,
+                                                double* y) {
+  const int fixed = std::min(rank, variables_.size());
+  const int columns = variables_.num_free();
+  for (int e = 0; e < fixed; ++e) y[variables_.fixed_variable(e)] += z[e];
+  std::fill_n(packed_.begin(), columns, 0);
+  AddRows(q(fixed), stride_, rank - fixed, z + fixed, columns, packed_.data());
+  for (int c = 0; c < columns; ++c) y[variables_.variable(c)] += packed_[c];
+  Count(rank - fixed, columns);
 }
 
 double LexicographicFactorization::norm_z() const {
@@ -505,20 +490,29 @@ double LexicographicFactorization::Gradient(int level, double* gradient) const {
 void LexicographicFactorization::SolveDual(int level, double* rhs, double* nu) {
   for (int above = level - 1; above >= 0; --above) {
     const Level& from = levels_[above];
-    const int rows = from.end_row - from.first_row;
-    std::fill_n(nu + from.first_row, rows, 0);
+    const int first = from.first_row, rows = from.end_row - first;
+    const int begin = from.deficient ? from.rank_begin : 0;
+    CountTriangle(from, begin);
+    std::fill_n(nu + first, rows, 0);
     for (int e = from.rank_end - 1; e >= from.rank_begin; --e) {
-      const double* l = &effective_[static_cast<size_t>(e) * stride_];
+      const double* l = effective(e);
       const double value = rhs[e] / l[e], minus = -value;
-      AddRows(l, 0, 1, &minus, e, rhs);
+      if (e >= variables_.size()) {
+        AddRows(l + begin, 0, 1, &minus, e - begin, rhs + begin);
+      }
       nu[carrier_[e]] = value;
     }
     if (!from.deficient) continue;
     // The reflections map the multipliers of effective rows back to the rows.
     for (int e = from.rank_begin; e < from.rank_end; ++e) {
-      Reflect(e, rows, nu + from.first_row);
+      Reflect(e, rows, nu + first);
     }
-    for (int a = from.first_row; a < from.end_row; ++a) nu[a] *= metric_[a];
+    for (int i = 0; i < rows; ++i) {
+      nu[first + i] *= metric_[first + i];
+      factor_[i] = -nu[first + i];
+    }
+    AddRows(&l_[static_cast<size_t>(first) * stride_], stride_, rows,
+            factor_.data(), begin, rhs);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "poise/hqp/fast/fixed_variables.h"
 #include "poise/hqp/fast/projected_rows.h"
 
 namespace poise {
@@ -25,8 +26,10 @@ namespace poise {
 ///
 /// Levels can be removed from the end and added again. Levels before the first
 /// deficient one are all met, so their order does not matter: they can be
-/// merged into one, to which single rows are added and removed. Nothing
-/// allocates after construction.
+/// merged into one, to which single rows are added and removed. There, the rows of
+/// one variable come first. Such a row is one of Q, up to its sign, and all other
+/// rows of Q are zero in its column: the variable is fixed, and the arithmetic is
+/// that of the free variables only. Nothing allocates after construction.
 class LexicographicFactorization {
  public:
   /// @param max_kept_rows  room for projections, see Recall().
@@ -39,13 +42,24 @@ class LexicographicFactorization {
   /// The key of a row whose projection is not kept, see Recall().
   static constexpr int kNoKey = -1;
 
-  /// Removes `level` and all later levels.
+  /// Removes `level` and all later levels. If the merged level is removed, all
+  /// variables become free.
   void Truncate(int level);
 
   /// Adds a row to the level that is factored next, and returns its number a.
-  /// The caller fills row(a) with num_variables numbers, not all zero.
+  /// The caller fills row(a) with num_variables numbers, not all zero, in the
+  /// order of variables().column(), or calls SetRow().
   int AddRow(double target, double metric);
   double* row(int a) { return &work_[static_cast<std::size_t>(a) * stride_]; }
+
+  /// Fills row(a) with from[j] / norm, for `first` <= j < `end`.
+  void SetRow(int a, const double* from, int first, int end, double norm);
+
+  /// Adds the row entry * y_variable, with entry = 1 or -1, to the merged level that
+  /// FactorMerged() factors next, and returns its number. The variable must be free.
+  /// pre: there are only such rows.
+  int AddFixedVariable(int variable, double entry, double target,
+                       double metric);
 
   /// Gives the row a that was added last a key. The row's projection on the
   /// merged levels is then kept under this key, and follows RemoveRow(),
@@ -64,19 +78,30 @@ class LexicographicFactorization {
   /// Removes `level` and all later levels.
   void Merge(int level);
 
+  /// Factors all rows, those of AddFixedVariable() and of AddRow(), as the levels
+  /// before `level`, merged. Returns false and removes all rows if the independent
+  /// part of one is below kIndependentPart.
+  /// pre: no level has been factored.
+  [[nodiscard]] bool FactorMerged(int level);
+
   /// Gives the merged level the number `level` - 1, after the rows of `level`
   /// and of later levels have been removed from it.
   void Unmerge(int level) { Renumber(level); }
 
   /// Removes row a from the last level, which must not be deficient. The last
-  /// row gets the number a. If row a was the e-th, this takes rank() - e
-  /// rotations.
+  /// row gets the number a. If row a was the e-th, this takes rank() - e rotations.
+  /// If it fixed a variable, this takes one for each row that fixes none, and the
+  /// variable becomes free.
   void RemoveRow(int a);
 
   /// Factors one row added to the last level, which must not be deficient.
   /// Returns false, without adding the row, if its independent part is below
   /// kIndependentPart.
   [[nodiscard]] bool AppendRow();
+
+  /// AppendRow() for the row entry * y_variable, with entry = 1 or -1. Fixes the
+  /// variable, with one rotation for each row that fixes none.
+  [[nodiscard]] bool AppendFixedVariable(int variable, double entry);
 
   /// Solves the last level again, after all RemoveRow() and AppendRow().
   void SolveLast() { SolveLevel(levels_.back()); }
@@ -110,10 +135,20 @@ class LexicographicFactorization {
   /// Weight d_a^2 of row a.
   double weight(int a) const { return metric_[a] * metric_[a]; }
 
-  /// Q is rank x num_variables, with rows `stride` apart, and y = Q' z.
-  const double* basis() const { return q_.data(); }
+  /// The order of the columns of Q. Rows of Q before variables().size() are unit
+  /// vectors: row e has a one in column variables().fixed_column(e).
+  const FixedVariables& variables() const { return variables_; }
+  /// The other rows of Q. Each has variables().num_free() entries and is zero in the
+  /// other columns, which are not stored. Rows lie `stride` apart; y = Q' z.
+  const double* free_basis() const { return q(variables_.size()); }
   int stride() const { return stride_; }
   const double* z() const { return z_.data(); }
+
+  /// Computes the first `rank` entries of Q y.
+  void Project(const double* y, int rank, double* on_basis);
+
+  /// y += Q' z, with the first `rank` rows of Q.
+  void AddCombination(const double* z, int rank, double* y);
 
   /// Computes the first rank(level - 1) entries of the level's gradient in z,
   /// sum_a d_a^2 residual_a (row a of L). Returns the magnitude of its terms,
@@ -126,7 +161,8 @@ class LexicographicFactorization {
 
   double norm_z() const;
 
-  /// Multiply-adds of all factorisations and updates since construction.
+  /// Multiply-adds of factorisations, updates, substitutions and products with Q since
+  /// construction, and kernels::kRowOverhead more for each row.
   std::int64_t multiply_adds() const { return multiply_adds_; }
 
  private:
@@ -134,31 +170,46 @@ class LexicographicFactorization {
     int first_row, end_row, rank_begin, rank_end;
     bool deficient;  ///< rank_end - rank_begin < end_row - first_row.
   };
+  const double* q(int e) const {
+    return q_.data() + static_cast<std::size_t>(e) * stride_;
+  }
+  double* q(int e) { return q_.data() + static_cast<std::size_t>(e) * stride_; }
+  double* effective(int e) {
+    return effective_.data() + static_cast<std::size_t>(e) * stride_;
+  }
   void Renumber(int level);
-  void Project(int a);
+  void CopyEffective(const Level& level);
+  int Release(int e);
+  void FixLast(int variable, double entry);
+  void ProjectRow(int a);
   void ProjectKept(int a);
+  void TakeOutFixed(double* x, double* l);
   void Count(int rows, int columns);
   void TakeOut(int begin, int end, double* x, double* l);
   void PivotRows(Level* level);
   int TakePivot(int* open);
   void Reduce(Level* level);
   void SolveLevel(const Level& level);
+  void CountTriangle(const Level& level, int begin);
+  void SolveRows(const Level& level, const double* target, double* z);
   void KeepUnattainableResiduals(double size, const Level& level);
   void Reflect(int e, int rows, double* x) const;
 
   int n_, stride_, num_rows_ = 0, rank_ = 0;
+  FixedVariables variables_;
   std::vector<Level> levels_;
   /// max_rows x stride: rows, then remainders, then the rows of Reduce().
   std::vector<double> work_;
-  std::vector<double> l_;          ///< max_rows x stride: rows of L.
-  std::vector<double> q_;          ///< n x stride.
-  std::vector<double> effective_;  ///< n x stride: effective rows of L.
-  std::vector<double> effective_target_, z_;
+  std::vector<double> l_;  ///< max_rows x stride: rows of L.
+  std::vector<double> q_;  ///< n x stride; see variables().
+  /// n x stride: effective rows of L. Those of a deficient level hold its own
+  /// columns only.
+  std::vector<double> effective_;
+  std::vector<double> z_;
   std::vector<double> target_, metric_, residual_, rest_, fresh_;
-  std::vector<double> reduced_target_;  ///< By row of the level.
-  std::vector<int> carrier_;            ///< Row that an effective row replaces.
-  std::vector<double> reflection_;      ///< n x max_rows.
-  std::vector<double> factor_, scratch_, cosine_, sine_;
+  std::vector<int> carrier_;        ///< Row that an effective row replaces.
+  std::vector<double> reflection_;  ///< n x max_rows.
+  std::vector<double> factor_, scratch_, cosine_, sine_, packed_;
   std::vector<bool> chosen_;
   std::vector<int> open_;     ///< Rows that PivotRows() has not finished.
   std::vector<int> nonzero_;  ///< Rows of the level that Reduce() reflects.

@@ -46,7 +46,7 @@ TEST_F(LexicographicFactorizationTest, SolvesByHand) {
   EXPECT_EQ(stack_.residual(3), 0);
   double gradient[1];
   EXPECT_NEAR(stack_.Gradient(1, gradient), 5, Rounding(5, 2));
-  EXPECT_NEAR(gradient[0] * stack_.basis()[0], -5, Rounding(5, 2));
+  EXPECT_NEAR(gradient[0] * stack_.free_basis()[0], -5, Rounding(5, 2));
 }
 
 TEST_F(LexicographicFactorizationTest, MeetsIndependentRowsOfAnyMetric) {
@@ -287,8 +287,8 @@ TEST_F(LexicographicFactorizationTest, TreatsRoundingGradientAsZero) {
       continue;
     }
     EXPECT_NEAR(size, 4 * (1 + part), Rounding(4, 2));
-    EXPECT_NEAR(gradient[0] * stack.basis()[1] +
-                    gradient[1] * stack.basis()[stack.stride() + 1],
+    EXPECT_NEAR(gradient[0] * stack.free_basis()[1] +
+                    gradient[1] * stack.free_basis()[stack.stride() + 1],
                 -4 * part, Rounding(4, 2));
   }
 }
@@ -302,7 +302,7 @@ TEST_F(LexicographicFactorizationTest, ComputesTheGradientFromGivenResiduals) {
   EXPECT_EQ(stack_.residual(3), 0);  // This row is met.
   double gradient[1];
   EXPECT_NEAR(stack_.Gradient(1, gradient), 20, Rounding(20, 2));
-  EXPECT_NEAR(gradient[0] * stack_.basis()[0], 20, Rounding(20, 2));
+  EXPECT_NEAR(gradient[0] * stack_.free_basis()[0], 20, Rounding(20, 2));
 }
 
 // The rows y = 0, and y = 1 with 1e-12 of the weight. At the optimum the

@@ -62,20 +62,39 @@ void ProjectedRows::KeepUsed() {
   std::fill_n(is_used_.begin(), size_, false);
 }
 
-void ProjectedRows::Extend(const double* q) {
+void ProjectedRows::Extend(const double* q, int columns) {
   double* l = coefficients(rank_++);
-  kernels::Dots(remainder_.data(), stride_, size_, q, n_, l);
+  kernels::Dots(remainder_.data(), stride_, size_, q, columns, l);
   for (int slot = 0; slot < size_; ++slot) factor_[slot] = -l[slot];
-  kernels::AddToRows(remainder_.data(), stride_, size_, factor_.data(), q, n_);
+  kernels::AddToRows(remainder_.data(), stride_, size_, factor_.data(), q,
+                     columns);
 }
 
 void ProjectedRows::Rotate(int e, double c, double s) {
   kernels::Rotate(c, s, size_, coefficients(e), coefficients(e + 1));
 }
 
-void ProjectedRows::RemoveLast(const double* q) {
+void ProjectedRows::RemoveLast(const double* q, int columns) {
   kernels::AddToRows(remainder_.data(), stride_, size_, coefficients(--rank_),
-                     q, n_);
+                     q, columns);
+}
+
+void ProjectedRows::Swap(int e, int f) {
+  std::swap_ranges(coefficients(e), coefficients(e) + size_, coefficients(f));
+}
+
+void ProjectedRows::Negate(int e) {
+  double* l = coefficients(e);
+  for (int slot = 0; slot < size_; ++slot) l[slot] = -l[slot];
+}
+
+void ProjectedRows::MoveColumn(int from, int to) {
+  for (int slot = 0; slot < size_; ++slot)
+    remainder(slot)[to] = remainder(slot)[from];
+}
+
+void ProjectedRows::SetZero(int column) {
+  for (int slot = 0; slot < size_; ++slot) remainder(slot)[column] = 0;
 }
 
 }  // namespace poise

@@ -31,14 +31,26 @@ class ProjectedRows {
   /// are marked.
   void KeepUsed();
 
-  /// Q gets a last row q.
-  void Extend(const double* q);
+  /// Q gets a last row q, which has `columns` entries and is zero behind them.
+  void Extend(const double* q, int columns);
 
   /// The rotation of kernels::Rotate() is applied to rows e and e + 1 of Q.
   void Rotate(int e, double c, double s);
 
-  /// The last row q of Q is removed.
-  void RemoveLast(const double* q);
+  /// The last row q of Q, which is zero behind its `columns` entries, is removed.
+  void RemoveLast(const double* q, int columns);
+
+  /// Rows e and f of Q are swapped.
+  void Swap(int e, int f);
+
+  /// Row e of Q is negated.
+  void Negate(int e);
+
+  /// Column `from` of the remainders replaces column `to`, and stays as it is.
+  void MoveColumn(int from, int to);
+
+  /// Sets a column of the remainders to zero.
+  void SetZero(int column);
 
   int rank() const { return rank_; }
   int size() const { return size_; }

@@ -47,12 +47,23 @@ class ProjectedRowsTest : public testing::Test {
     EXPECT_EQ(projected_.Add(key, l.data(), rest.data()), has_room);
     if (has_room) keys_.insert(key);
   }
-  void Extend() { projected_.Extend(q_.row(rank_++).data()); }
-  void RemoveLast() { projected_.RemoveLast(q_.row(--rank_).data()); }
+  void Extend() { projected_.Extend(q_.row(rank_++).data(), kVariables); }
+  void RemoveLast() {
+    projected_.RemoveLast(q_.row(--rank_).data(), kVariables);
+  }
   void Rotate(int e, double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
     kernels::Rotate(c, s, kVariables, q_.row(e).data(), q_.row(e + 1).data());
     projected_.Rotate(e, c, s);
+  }
+
+  void Swap(int e, int f) {
+    q_.row(e).swap(q_.row(f));
+    projected_.Swap(e, f);
+  }
+  void Negate(int e) {
+    q_.row(e) *= -1;
+    projected_.Negate(e);
   }
 
   // Each change adds a few eps to entries of at most 1.
@@ -78,18 +89,41 @@ class ProjectedRowsTest : public testing::Test {
 
 TEST_F(ProjectedRowsTest, FollowsRandomChangesOfTheBasis) {
   for (int change = 0; change < 2000; ++change) {
-    const int kind = static_cast<int>(random_() % 4);
+    const int kind = static_cast<int>(random_() % 6);
     if (kind == 0 && rank_ < kVariables) Extend();
     if (kind == 1 && rank_ > 0) RemoveLast();
     if (kind == 2 && rank_ > 1) {
       Rotate(static_cast<int>(random_() % (rank_ - 1)), 0.1 * change);
     }
+    if (kind == 4 && rank_ > 1) Swap(rank_ - 1, change % (rank_ - 1));
+    if (kind == 5 && rank_ > 0) Negate(change % rank_);
     const int key = static_cast<int>(random_() % kKeys);
     if (kind == 3 && keys_.count(key) == 0) Add(key);
     ExpectSplits(change);
     if (HasFatalFailure()) return;
   }
   EXPECT_EQ(keys_.size(), kMaxRows);
+}
+
+// A row of Q that is zero behind its first columns leaves the rest of a remainder
+// alone.
+TEST_F(ProjectedRowsTest, SubtractsFromTheFirstColumnsOnly) {
+  for (const int key : {1, 2}) Add(key);
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(kVariables);
+  q.head(3) << 0.6, 0, -0.8;
+  q.tail(kVariables - 3).setConstant(1000);  // Not read.
+  projected_.Extend(q.data(), 3);
+  projected_.RemoveLast(q.data(), 3);
+  ExpectSplits(2);
+}
+
+TEST_F(ProjectedRowsTest, ChangesColumnsOfTheRemainders) {
+  for (const int key : {5, 7}) Add(key);
+  projected_.MoveColumn(6, 2);
+  projected_.SetZero(4);
+  rows_.col(2) = Eigen::VectorXd(rows_.col(6));
+  rows_.col(4).setZero();
+  ExpectSplits(0);
 }
 
 TEST_F(ProjectedRowsTest, KeepsOnlyUsedRows) {

@@ -36,7 +36,7 @@ double WorkingSetProblem::ComputeRowResiduals(const Hierarchy& hierarchy) {
       const Row& row = rows_[a];
       double value, size;
       const int first = row.span.first;
-      kernels::DotWithSize(Original(hierarchy, a) + first, y_.data() + first,
+      kernels::DotWithSize(Original(hierarchy, row) + first, y_.data() + first,
                            row.span.size, &value, &size);
       row_residual_[a] = (row.bound - value) / row.norm;
       size_[a] = (std::abs(row.bound) + size) / row.norm;
@@ -129,7 +129,7 @@ void WorkingSetProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
     ComputeRowResiduals(hierarchy);
     for (int a = 0; a < leading_.num_rows(); ++a) {
       if (RelativeResidual(a) > tolerances::kRefined)
-        ZeroRoundingEntries(hierarchy, Original(hierarchy, a));
+        ZeroRoundingEntries(hierarchy, Original(hierarchy, rows_[a]));
     }
   }
   UpdateDeficientResiduals(hierarchy);

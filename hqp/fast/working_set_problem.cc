@@ -97,6 +97,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   *failed_level = 0;
   before_ = leading_.multiply_adds() + diagonal_.multiply_adds();
+  num_entries_ = 0;
   if (hierarchy.num_variables() != n_) return Status::kBadInput;
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     *failed_level = level;
@@ -109,6 +110,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     for (int i = 0; i < B.rows(); ++i) {
       double& norm = B_norm_[level][i];
       norm = AbsoluteSum(B.data() + i * n_, hierarchy.B_span(level)[i]);
+      num_entries_ += hierarchy.B_span(level)[i].size;
       zero += (norm + b[i] + weight[i]) * 0;
       in_order &= !(weight[i] < 0);
       if (weight[i] > 0 && norm * norm * weight[i] < tolerances::kZeroRow)
@@ -117,6 +119,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     for (int i = 0; i < C.rows(); ++i) {
       double& norm = norm_[level][i];
       norm = AbsoluteSum(C.data() + i * n_, hierarchy.C_span(level)[i]);
+      num_entries_ += hierarchy.C_span(level)[i].size;
       zero += norm * 0;
       if (norm * norm < tolerances::kZeroRow) norm = 0;
       if (!(lower[i] < kInfinity && upper[i] > -kInfinity)) {
@@ -137,6 +140,7 @@ void WorkingSetProblem::Plan(const Hierarchy& hierarchy, int num_levels,
   num_levels_ = num_levels;
   num_leading_ = num_levels;
   is_factored_ = false;
+  is_planned_ = true;
   diagonal_.Clear();
   // Diagonal levels are the last levels without inequalities whose rows have
   // one variable each.
@@ -177,19 +181,18 @@ void WorkingSetProblem::AddRow(const Row& row, const double* from,
   const int a = leading_.AddRow(row.bound / row.norm, metric * row.norm);
   rows_[a] = row;
   if (key != kNoKey && leading_.Recall(a, key)) return;
-  double* to = leading_.row(a);
-  std::fill_n(to, n_, 0);
-  const int end = row.span.first + row.span.size;
-  for (int j = row.span.first; j < end; ++j) to[j] = from[j] / row.norm;
+  leading_.SetRow(a, from, row.span.first, row.span.first + row.span.size,
+                  row.norm);
 }
 
-void WorkingSetProblem::AddInequality(const Hierarchy& hierarchy, int level,
-                                      int i, Side side, int key) {
+WorkingSetProblem::Row WorkingSetProblem::Inequality(const Hierarchy& hierarchy,
+                                                     int level, int i,
+                                                     Side side) const {
   const double* row = hierarchy.C(level).data() + i * n_;
   const double bound = side == Side::kUpper ? hierarchy.upper(level)[i]
                                             : hierarchy.lower(level)[i];
   const Span span = hierarchy.C_span(level)[i];
-  AddRow({level, i, true, span, Norm(row, span), bound}, row, 1, key);
+  return {level, i, true, span, Norm(row, span), bound};
 }
 
 // Factors the levels from `from_level` on. If `keeps`, the rows' projections on
@@ -210,9 +213,20 @@ void WorkingSetProblem::FactorFrom(const Hierarchy& hierarchy,
 void WorkingSetProblem::FactorLevel(const Hierarchy& hierarchy,
                                     const std::vector<Side>& side, int level,
                                     int first_key) {
-  const auto key = [&](int i) {
-    return first_key == kNoKey ? kNoKey : first_key + i;
-  };
+  ForEachRow(hierarchy, side, level, [&](const Row& row, double metric, int i) {
+    AddRow(row, Original(hierarchy, row), metric,
+           first_key == kNoKey ? kNoKey : first_key + i);
+  });
+  leading_.FactorLevel();
+  factored_[level] = side;
+}
+
+// Calls use(row, metric, number) for the rows of a level that are not zero: for the
+// equalities, and then for the inequalities in the working set.
+template <typename Use>
+void WorkingSetProblem::ForEachRow(const Hierarchy& hierarchy,
+                                   const std::vector<Side>& side, int level,
+                                   const Use& use) const {
   const int equalities = hierarchy.num_equalities(level);
   for (int i = 0; i < equalities; ++i) {
     const double weight = hierarchy.weight(level)[i];
@@ -220,15 +234,55 @@ void WorkingSetProblem::FactorLevel(const Hierarchy& hierarchy,
     const double* row = hierarchy.B(level).data() + i * n_;
     const Span span = hierarchy.B_span(level)[i];
     const double target = -hierarchy.b(level)[i];
-    AddRow({level, i, false, span, Norm(row, span), target}, row,
-           std::sqrt(weight), key(i));
+    use(Row{level, i, false, span, Norm(row, span), target}, std::sqrt(weight),
+        i);
   }
   for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
     if (side[i] == Side::kNone || norm_[level][i] == 0) continue;
-    AddInequality(hierarchy, level, i, side[i], key(equalities + i));
+    use(Inequality(hierarchy, level, i, side[i]), 1, equalities + i);
   }
-  leading_.FactorLevel();
-  factored_[level] = side;
+}
+
+// Factors the first `met` levels, merged, and then the others. Returns false, without
+// a level that is factored, if no row of the first ones fixes a variable, or if one of
+// their rows depends on others.
+bool WorkingSetProblem::FactorMerged(const Hierarchy& hierarchy,
+                                     const std::vector<std::vector<Side>>& side,
+                                     int met) {
+  leading_.Truncate(0);
+  for (const bool fixes : {true, false}) {
+    for (int level = 0; level < met; ++level) {
+      bool fits = true;
+      ForEachRow(hierarchy, side[level], level,
+                 [&](const Row& row, double metric, int) {
+                   if ((row.span.size == 1) != fixes || !fits) return;
+                   if (!fixes) {
+                     AddRow(row, Original(hierarchy, row), metric, kNoKey);
+                   } else {
+                     fits = AddFixedVariable(hierarchy, row, metric);
+                   }
+                 });
+      if (!fits) return false;
+    }
+    if (leading_.num_rows() == 0) return false;
+  }
+  if (!leading_.FactorMerged(met)) return false;
+  for (int level = 0; level < met; ++level) factored_[level] = side[level];
+  FactorFrom(hierarchy, side, met, true);
+  leading_.ForgetUnused();
+  return true;
+}
+
+// Returns false if another row fixes the variable.
+bool WorkingSetProblem::AddFixedVariable(const Hierarchy& hierarchy,
+                                         const Row& row, double metric) {
+  const int variable = row.span.first;
+  if (leading_.variables().is_fixed(variable)) return false;
+  const double entry = Original(hierarchy, row)[variable] / row.norm;
+  const int a = leading_.AddFixedVariable(variable, entry, row.bound / row.norm,
+                                          metric * row.norm);
+  rows_[a] = row;
+  return true;
 }
 
 // Factors the levels from the first one that has changed. If this is before the
@@ -238,14 +292,16 @@ void WorkingSetProblem::FactorLevel(const Hierarchy& hierarchy,
 bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
                                const std::vector<std::vector<Side>>& side) {
   const int factored = leading_.num_levels();
-  int met = 0, same = 0;
-  while (met < factored && !leading_.is_deficient(met)) ++met;
+  int met = NumMet(), same = 0;
   while (same < factored && side[same] == factored_[same]) ++same;
   if (same > met) {
     if (same < num_leading_) FactorFrom(hierarchy, side, same, met > 0);
     return true;
   }
   if (met == 0) return false;
+  // More updates than this take longer than another factorisation.
+  const int most = (leading_.rank(met - 1) - leading_.variables().size()) / 2;
+  if (NumChanges(side, met) > most) return false;
   leading_.Merge(met);
   for (int a = leading_.num_rows() - 1; a >= 0; --a) {
     const Row& row = rows_[a];
@@ -266,6 +322,20 @@ bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
   return true;
 }
 
+// Returns the number of rows of the first `met` levels that must be removed or appended.
+int WorkingSetProblem::NumChanges(const std::vector<std::vector<Side>>& side,
+                                  int met) const {
+  int changes = 0;
+  for (int level = 0; level < met; ++level) {
+    for (size_t i = 0; i < side[level].size(); ++i) {
+      const Side before = factored_[level][i], after = side[level][i];
+      if (before == after) continue;
+      changes += (before != Side::kNone) + (after != Side::kNone);
+    }
+  }
+  return changes;
+}
+
 // Appends the new rows of a level to the first `met` levels, which are merged.
 // If a row depends on others, removes the later levels, and sets `met`. Returns
 // false if it depends on this level and those above. This level is then removed
@@ -277,12 +347,10 @@ bool WorkingSetProblem::AppendRows(const Hierarchy& hierarchy,
     if (side[level][i] == factored_[level][i] || norm_[level][i] == 0) {
       continue;
     }
-    AddInequality(hierarchy, level, i, side[level][i], kNoKey);
-    if (!leading_.AppendRow()) {
+    if (!AppendInequality(hierarchy, level, i, side[level][i])) {
       RemoveLevels(level + 1);
       *met = level + 1;
-      AddInequality(hierarchy, level, i, side[level][i], kNoKey);
-      if (!leading_.AppendRow()) {
+      if (!AppendInequality(hierarchy, level, i, side[level][i])) {
         RemoveLevels(level);
         return false;
       }
@@ -290,6 +358,19 @@ bool WorkingSetProblem::AppendRows(const Hierarchy& hierarchy,
     factored_[level][i] = side[level][i];
   }
   return true;
+}
+
+bool WorkingSetProblem::AppendInequality(const Hierarchy& hierarchy, int level,
+                                         int i, Side side) {
+  const Row row = Inequality(hierarchy, level, i, side);
+  const double* from = Original(hierarchy, row);
+  if (row.span.size > 1) {
+    AddRow(row, from, 1, kNoKey);
+    return leading_.AppendRow();
+  }
+  rows_[leading_.AddRow(row.bound / row.norm, row.norm)] = row;
+  const int variable = row.span.first;
+  return leading_.AppendFixedVariable(variable, from[variable] / row.norm);
 }
 
 // Removes the rows of `level` and of later levels from the merged levels.
@@ -308,10 +389,52 @@ void WorkingSetProblem::RemoveRow(int a) {
 void WorkingSetProblem::SolveLeading(
     const Hierarchy& hierarchy, const std::vector<std::vector<Side>>& side) {
   if (!is_factored_ || !Update(hierarchy, side)) {
-    FactorFrom(hierarchy, side, 0, false);
+    // If a level depends on those before, these may still be merged.
+    int met = std::min(num_met_, num_leading_);
+    while (met > 0 && !FactorMerged(hierarchy, side, met)) --met;
+    if (met == 0) FactorFrom(hierarchy, side, 0, false);
   }
+  num_met_ = is_planned_ ? NumMet() : std::max(num_met_, NumMet());
+  is_planned_ = false;
   is_factored_ = true;
   is_diagonal_solved_ = false;
+}
+
+// Returns the number of factored levels before the first deficient one.
+int WorkingSetProblem::NumMet() const {
+  int met = 0;
+  while (met < leading_.num_levels() && !leading_.is_deficient(met)) ++met;
+  return met;
+}
+
+void WorkingSetProblem::Start(const Hierarchy& hierarchy,
+                              const std::vector<std::vector<Side>>& side,
+                              std::vector<double>* y) {
+  const int num_leading = num_leading_, met = num_met_;
+  const bool merges = FixesVariables(hierarchy, side);
+  if (merges) {
+    UseLeading(NumFirstLevels(hierarchy));
+    SolveLeading(hierarchy, side);
+    MoveToFirstLevels(hierarchy, y);
+    is_factored_ = false;
+    is_planned_ = true;
+    num_met_ = met;
+    UseLeading(num_leading);
+  }
+  Solve(hierarchy, side);
+  if (!merges) MoveToFirstLevels(hierarchy, y);
+}
+
+// Returns whether FactorMerged() can fix a variable.
+bool WorkingSetProblem::FixesVariables(
+    const Hierarchy& hierarchy,
+    const std::vector<std::vector<Side>>& side) const {
+  bool any = false;
+  for (int level = 0; level < std::min(num_met_, num_leading_); ++level) {
+    ForEachRow(hierarchy, side[level], level,
+               [&](const Row& row, double, int) { any |= row.span.size == 1; });
+  }
+  return any;
 }
 
 void WorkingSetProblem::Approach(const std::vector<double>& y) {
@@ -335,11 +458,9 @@ void WorkingSetProblem::MoveToFirstLevels(const Hierarchy& hierarchy,
 
 // Adds Q' (z - Q y) to y, with the first `rank` rows of Q.
 void WorkingSetProblem::MoveTo(int rank, std::vector<double>* y) {
-  kernels::Dots(leading_.basis(), leading_.stride(), rank, y->data(), n_,
-                change_.data());
+  leading_.Project(y->data(), rank, change_.data());
   for (int e = 0; e < rank; ++e) change_[e] = leading_.z()[e] - change_[e];
-  kernels::AddRows(leading_.basis(), leading_.stride(), rank, change_.data(),
-                   n_, y->data());
+  leading_.AddCombination(change_.data(), rank, y->data());
 }
 
 void WorkingSetProblem::FindMultipliers(int end) {
@@ -400,8 +521,7 @@ void WorkingSetProblem::RefineMultipliers(const Hierarchy& hierarchy) {
     if (!is_leading) {
       diagonal_.ZeroRounding(level - num_leading_, y_.data(), left.data());
     }
-    kernels::Dots(leading_.basis(), leading_.stride(), rank, left.data(), n_,
-                  gradient_.data());
+    leading_.Project(left.data(), rank, gradient_.data());
     for (int e = 0; e < rank; ++e) gradient_[e] = -gradient_[e];
     leading_.SolveDual(levels, gradient_.data(), nu_.data());
     for (int a = 0; a < rows; ++a) of.nu[a] += nu_[a];
@@ -414,13 +534,12 @@ void WorkingSetProblem::AddToSum(const Hierarchy& hierarchy, int a,
   if (factor == 0) return;
   factor /= rows_[a].norm;
   const Span span = rows_[a].span;
-  kernels::AddRows(Original(hierarchy, a) + span.first, 0, 1, &factor,
+  kernels::AddRows(Original(hierarchy, rows_[a]) + span.first, 0, 1, &factor,
                    span.size, sum + span.first);
 }
 
 const double* WorkingSetProblem::Original(const Hierarchy& hierarchy,
-                                          int a) const {
-  const Row& row = rows_[a];
+                                          const Row& row) const {
   return row.is_inequality ? hierarchy.C(row.level).data() + row.index * n_
                            : hierarchy.B(row.level).data() + row.index * n_;
 }

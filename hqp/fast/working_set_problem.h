@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "poise/hqp/fast/budget.h"
 #include "poise/hqp/fast/diagonal_levels.h"
 #include "poise/hqp/fast/lexicographic_factorization.h"
 #include "poise/hqp/hierarchy.h"
@@ -55,6 +56,9 @@ class WorkingSetProblem {
   /// such level.
   Status Read(const Hierarchy& hierarchy, int* failed_level);
 
+  /// Forgets which levels were met.
+  void Forget() { num_met_ = 0; }
+
   /// Uses the first num_levels levels only. In the nullspace that they leave, y
   /// is the point closest to `center`, or to zero.
   void Plan(const Hierarchy& hierarchy, int num_levels,
@@ -70,14 +74,21 @@ class WorkingSetProblem {
   /// next Plan().
   void LeaveOutUnsolved();
 
-  /// Solves for the working set `side`, by level. After the first time, updates
-  /// the last factorisation where that is accurate. The factored rows are then
-  /// not in the order of their levels.
+  /// Solves for the working set `side`, by level. The first time after Plan(), the
+  /// levels that were met last time may be merged. After that, the last factorisation
+  /// is updated where that is accurate. The factored rows are then not in the order of
+  /// their levels.
   void Solve(const Hierarchy& hierarchy,
              const std::vector<std::vector<Side>>& side) {
     SolveLeading(hierarchy, side);
     SolveDiagonal();
   }
+
+  /// Solve() after Plan(), and MoveToFirstLevels() for y, which is the start of a
+  /// search.
+  void Start(const Hierarchy& hierarchy,
+             const std::vector<std::vector<Side>>& side,
+             std::vector<double>* y);
 
   /// Solve() in two steps: the factorisation of the leading levels, and then y.
   void SolveLeading(const Hierarchy& hierarchy,
@@ -96,7 +107,8 @@ class WorkingSetProblem {
   int NumFirstLevels(const Hierarchy& hierarchy) const;
 
   /// Moves y to the closest optimum of these first levels.
-  /// pre: Solve() has factored the levels in their order, without an update.
+  /// pre: Solve() has factored them in their order, neither updated nor merged with
+  /// later levels; Start() sees to it.
   void MoveToFirstLevels(const Hierarchy& hierarchy, std::vector<double>* y);
 
   /// Iterative refinement: reduces the residuals of the rows as given, until
@@ -137,10 +149,11 @@ class WorkingSetProblem {
   /// below tolerance, relative. On the row's own level it is the violation.
   double Multiplier(int row, int level, Side side, double tolerance) const;
 
-  /// Multiply-adds of the factorisations since Read(). Those of products with
-  /// all rows are not counted: they are the same in each iteration.
-  std::int64_t multiply_adds() const {
-    return leading_.multiply_adds() + diagonal_.multiply_adds() - before_;
+  /// Work since Read(). Products with all rows are not in its multiply-adds: they
+  /// are the same in each iteration.
+  Work work() const {
+    return {leading_.multiply_adds() + diagonal_.multiply_adds() - before_,
+            num_entries_};
   }
 
   int num_levels() const { return num_levels_; }
@@ -172,8 +185,19 @@ class WorkingSetProblem {
 
  private:
   void AddRow(const Row& row, const double* from, double metric, int key);
-  void AddInequality(const Hierarchy& hierarchy, int level, int i, Side side,
-                     int key);
+  Row Inequality(const Hierarchy& hierarchy, int level, int i, Side side) const;
+  template <typename Use>
+  void ForEachRow(const Hierarchy& hierarchy, const std::vector<Side>& side,
+                  int level, const Use& use) const;
+  int NumMet() const;
+  bool FixesVariables(const Hierarchy& hierarchy,
+                      const std::vector<std::vector<Side>>& side) const;
+  bool FactorMerged(const Hierarchy& hierarchy,
+                    const std::vector<std::vector<Side>>& side, int met);
+  bool AddFixedVariable(const Hierarchy& hierarchy, const Row& row,
+                        double metric);
+  bool AppendInequality(const Hierarchy& hierarchy, int level, int i,
+                        Side side);
   void FactorFrom(const Hierarchy& hierarchy,
                   const std::vector<std::vector<Side>>& side, int from_level,
                   bool keeps);
@@ -181,6 +205,7 @@ class WorkingSetProblem {
                    int level, int first_key);
   bool Update(const Hierarchy& hierarchy,
               const std::vector<std::vector<Side>>& side);
+  int NumChanges(const std::vector<std::vector<Side>>& side, int met) const;
   bool AppendRows(const Hierarchy& hierarchy,
                   const std::vector<std::vector<Side>>& side, int level,
                   int* met);
@@ -189,7 +214,7 @@ class WorkingSetProblem {
   void RemoveRow(int a);
   void AddToSum(const Hierarchy& hierarchy, int a, double factor,
                 double* sum) const;
-  const double* Original(const Hierarchy& hierarchy, int a) const;
+  const double* Original(const Hierarchy& hierarchy, const Row& row) const;
   double ComputeRowResiduals(const Hierarchy& hierarchy);
   bool Fits(const Hierarchy& hierarchy, int level) const;
   bool LeadingLevelsFit(const Hierarchy& hierarchy);
@@ -203,9 +228,14 @@ class WorkingSetProblem {
 
   int n_;
   int num_levels_ = 0, num_leading_ = 0;
+  /// Most leading levels before the first deficient one in any solution since Plan(),
+  /// or, if there is none yet, since the Plan() before.
+  int num_met_ = 0;
+  bool is_planned_ = false;  ///< No solution since Plan().
   bool is_factored_ = false;
-  bool is_diagonal_solved_ = false;          ///< Since the last SolveLeading().
-  std::int64_t before_ = 0;                  ///< Multiply-adds before Read().
+  bool is_diagonal_solved_ = false;  ///< Since the last SolveLeading().
+  int num_entries_ = 0;      ///< Entries of all rows, within their spans.
+  std::int64_t before_ = 0;  ///< Multiply-adds before Read().
   std::vector<std::vector<Side>> factored_;  ///< Factored working set.
   LexicographicFactorization leading_;
   DiagonalLevels diagonal_;

@@ -429,6 +429,61 @@ TEST_P(RandomWorkingSetProblemTest, LeavesOutWhatIsNotSolved) {
   }
 }
 
+// Most inequalities bound one variable. A problem that was solved before factors
+// the levels that it has met at once, with fixed variables. It then finds the
+// optimum of a new problem, and the same step to the first levels.
+TEST(FixedVariablesOfAWorkingSet, GiveTheOptimumOfANewProblem) {
+  int num_fixed = 0, num_moved = 0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomHierarchyOptions options;
+    options.max_equalities = 3;
+    options.max_inequalities = 3 + seed % 2;
+    options.degenerate = 5;
+    options.scaled = 0;
+    options.bounds = 80;
+    const HierarchyCase drawn = MakeRandomHierarchy(seed, options);
+    const Hierarchy& hierarchy = drawn.hierarchy;
+    const int n = hierarchy.num_variables(), levels = hierarchy.num_levels();
+    WorkingSetProblem problem(n, drawn.capacity);
+    int failed_level;
+    ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+    for (int salt = 0; salt < 4; ++salt) {
+      Sides sides;
+      for (int k = 0; k < levels; ++k) {
+        sides.emplace_back(drawn.capacity[k].inequalities, Side::kNone);
+        for (int i = 0; i < hierarchy.num_inequalities(k); ++i) {
+          if ((i + k + salt) % 3 == 0) continue;
+          sides[k][i] = std::isfinite(hierarchy.upper(k)[i]) ? Side::kUpper
+                                                             : Side::kLower;
+        }
+      }
+      problem.Plan(hierarchy, levels);
+      std::vector<double> moved(n, 1), expected(n, 1);
+      problem.Start(hierarchy, sides, &moved);
+      const int fixed = problem.leading().variables().size();
+      num_fixed += fixed;
+      num_moved += fixed > 0 && moved != std::vector<double>(n, 1);
+      WorkingSetProblem alone(n, drawn.capacity);
+      ASSERT_EQ(alone.Read(hierarchy, &failed_level), Status::kOptimal);
+      alone.Plan(hierarchy, levels);
+      alone.Solve(hierarchy, sides);
+      EXPECT_EQ(alone.leading().variables().size(), 0);
+      alone.MoveToFirstLevels(hierarchy, &expected);
+      problem.Refine(hierarchy);
+      alone.Refine(hierarchy);
+      for (int j = 0; j < n; ++j) {
+        // Rounding, multiplied by the condition of rows that an update accepts.
+        const double tolerance = 1e-9 * (1 + std::abs(alone.y()[j]));
+        EXPECT_NEAR(problem.y()[j], alone.y()[j], tolerance) << salt;
+        EXPECT_NEAR(moved[j], expected[j], tolerance) << salt;
+      }
+    }
+  }
+  EXPECT_GT(num_fixed, kSeeds);
+  EXPECT_GT(num_moved, 10);
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomWorkingSetProblemTest,
                          testing::Range(0, kSeeds));
 

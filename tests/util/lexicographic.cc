@@ -16,6 +16,17 @@ constexpr double kRankThreshold = 1e-9;
 
 }  // namespace
 
+void AppendRow(const Eigen::RowVectorXd& row, double target,
+               LeastSquares* level) {
+  const auto end = level->A.rows();
+  level->A.conservativeResize(end + 1, row.size());
+  level->b.conservativeResize(end + 1);
+  level->weight.conservativeResize(end + 1);
+  level->A.row(end) = row;
+  level->b[end] = target;
+  level->weight[end] = 1;
+}
+
 LexicographicOptimum SolveLexicographically(
     int num_variables, const std::vector<LeastSquares>& levels) {
   LexicographicOptimum optimum;

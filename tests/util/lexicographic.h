@@ -14,6 +14,10 @@ struct LeastSquares {
   Eigen::VectorXd weight;
 };
 
+/// Adds a row of weight 1 to a level.
+void AppendRow(const Eigen::RowVectorXd& row, double target,
+               LeastSquares* level);
+
 /// The minimum-norm y that minimises the levels in order of priority.
 struct LexicographicOptimum {
   Eigen::VectorXd y;

@@ -62,6 +62,7 @@ class Drawing {
   }
 
   Eigen::VectorXd Row();
+  Eigen::VectorXd SingleEntryRow();
 
   Source source_;
   RandomHierarchyOptions options_;
@@ -121,6 +122,7 @@ HierarchyCase Drawing::Draw() {
     }
     inequalities.C *= columns_.asDiagonal();
   }
+  if (options_.bounds > 0) drawn.hierarchy.FindSpans();
   return drawn;
 }
 
@@ -149,7 +151,8 @@ void Drawing::DrawWeight(int chance, double* weight) {
 }
 
 void Drawing::DrawInequality(int i, InequalityBlock* block) {
-  const Eigen::VectorXd row = Row();
+  const bool is_bound = options_.bounds > 0 && source_.Chance(options_.bounds);
+  const Eigen::VectorXd row = is_bound ? SingleEntryRow() : Row();
   block->C.row(i) = row;
   double bound = Meets() ? row.dot(planted_) : Scale(row) * Wish();
   if (degenerate_vertex_) bound = 0;
@@ -202,6 +205,14 @@ Eigen::VectorXd Drawing::Row() {
   return row;
 }
 
+Eigen::VectorXd Drawing::SingleEntryRow() {
+  const int n = static_cast<int>(planted_.size());
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
+  row[source_.Between(0, n - 1)] = source_.Chance(50) ? 1 : -2;
+  rows_.push_back(row);
+  return row;
+}
+
 // The rows of one level, which can be changed.
 struct LevelRows {
   RowMajorMatrix B, C;
@@ -234,6 +245,7 @@ void Put(const std::vector<LevelRows>& levels, Hierarchy* hierarchy) {
     inequalities.lower = from.lower;
     inequalities.upper = from.upper;
   }
+  hierarchy->FindSpans();
 }
 
 // Changes one entry of a row, or makes the row a copy of another row, exactly

@@ -54,6 +54,9 @@ struct RandomHierarchyOptions {
   /// Chance that about half of the columns are scaled by 1e-3, as those of
   /// joints of small mass are.
   int small_columns = 0;
+
+  /// Chance that an inequality bounds one variable, as a limit of a joint does.
+  int bounds = 0;
 };
 
 /// A hierarchy and the capacity of the solver that solves it.
@@ -64,14 +67,14 @@ struct HierarchyCase {
 
 /// Draws a hierarchy. The same seed gives the same hierarchy on every platform.
 /// Numbers are multiples of 0.01, so that files are short. The options
-/// `weighted`, `degenerate_vertex`, `integer`, `columns` and `small_columns`
-/// consume no random number if they are 0: hierarchies of known seeds do not
-/// change.
+/// `weighted`, `degenerate_vertex`, `integer`, `columns`, `small_columns` and
+/// `bounds` consume no random number if they are 0: hierarchies of known seeds do
+/// not change. Spans are found if there are `bounds`.
 HierarchyCase MakeRandomHierarchy(std::uint64_t seed,
                                   const RandomHierarchyOptions& options = {});
 
 /// Returns the same hierarchy with capacity for the changes of
-/// ChangeHierarchy().
+/// ChangeHierarchy(), and finds its spans.
 HierarchyCase WithRoomToChange(const HierarchyCase& drawn);
 
 /// Changes a hierarchy as the next tick may change it. It must have room, see

@@ -8,6 +8,9 @@
 
 namespace poise {
 
+/// Adds row i of a level to a stack, and returns its number there.
+int AddRow(const LeastSquares& level, int i, LexicographicFactorization* stack);
+
 /// Adds the rows of a level to a stack and factors them.
 void AddLevel(const LeastSquares& level, LexicographicFactorization* stack);
 
