@@ -50,10 +50,10 @@ class Solver {
   double modelled_seconds() const noexcept { return modelled_seconds_; }
 
   /// Largest number of iterations in the search of one solve. Each factors the levels
-  /// or updates them; the first may factor them three times.
-  /// Solution::iterations is the number used. One more factorisation may follow, to write the answer of a search that did not finish. In that case
-  /// the levels above failed_level are optimal, and y is the best found for
-  /// failed_level.
+  /// or updates them; the first may factor them several times.
+  /// Solution::iterations is the number used. One more factorisation may follow, to
+  /// write the answer of a search that did not finish. In that case the levels above
+  /// failed_level are optimal, and y is the best found for failed_level.
   int max_iterations = 500;
 
   /// Whether to find LevelSolution::nullity, which takes another factorisation

@@ -19,8 +19,8 @@ struct Work {
   /// kernels::kRowOverhead more for each row. Substitutions of the diagonal levels
   /// are not counted.
   std::int64_t multiply_adds = 0;
-  int num_entries =
-      0;  ///< Entries of all rows of the hierarchy, within their spans.
+  /// Entries of all rows of the hierarchy, within their spans.
+  int num_entries = 0;
 };
 
 /// Modelled time [s] of a solve. It depends on the problem alone, so that a
@@ -48,10 +48,9 @@ class Budget {
         start_(now_ != nullptr ? (*now_)() : 0) {}
 
   /// Uses one iteration, which factors or updates the levels, after this work in this
-  /// solve. Returns false
-  /// if the budget is spent, or if `limit` factorisations have been used. Limits
-  /// of time allow two factorisations: the first finds the start, and the second
-  /// the direction of a step.
+  /// solve. Returns false if the budget is spent, or if `limit` iterations have been
+  /// used. Limits of time allow two iterations: the first finds the start, and the
+  /// second the direction of a step.
   bool Take(int limit, const Work& work) {
     if (iterations_ >= limit) return false;
     is_spent_ = is_spent_ || iterations_ >= limits_.iterations ||

@@ -95,7 +95,8 @@ class RandomDiagonalLevelsTest : public testing::TestWithParam<int> {
       AddRow(levels_[0], i, &leading_);
     }
     if (!leading_.FactorMerged(1)) {
-      // The least singular value is at most the independent part of any row.
+      // The least singular value is at most the independent part of any row, and
+      // FactorMerged() refuses parts below 1e-3.
       EXPECT_TRUE(first.A.rows() > n_ ||
                   Eigen::JacobiSVD<Eigen::MatrixXd>(first.A)
                           .singularValues()

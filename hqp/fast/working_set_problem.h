@@ -228,8 +228,8 @@ class WorkingSetProblem {
 
   int n_;
   int num_levels_ = 0, num_leading_ = 0;
-  /// Most leading levels before the first deficient one in any solution since Plan(),
-  /// or, if there is none yet, since the Plan() before.
+  /// Largest number of leading levels before the first deficient one, of all solutions
+  /// since Plan(). Until the first solution it is that of the last plan.
   int num_met_ = 0;
   bool is_planned_ = false;  ///< No solution since Plan().
   bool is_factored_ = false;
