@@ -9,6 +9,7 @@
 #include "poise/hqp/fast/budget.h"
 #include "poise/hqp/fast/kernels.h"
 #include "poise/hqp/fast/multipliers.h"
+#include "poise/hqp/fast/parametric_search.h"
 #include "poise/hqp/fast/tolerances.h"
 #include "poise/hqp/fast/working_set_problem.h"
 
@@ -27,9 +28,9 @@ constexpr int kMinIterationsAtOnce = 250;
 
 // After this number of solves in a row that the budget ended, a search starts from
 // an empty working set: the optimum may be easy to find from there, but far from
-// the last y. With 4, such starts interrupt searches that are about to end
-// (docs/notebook/2026-11-26-budget.md).
-constexpr int kMaxCutOff = 8;
+// the last y. Paths of robots that stay up take up to 13 solves of 300 us; with 8,
+// such starts interrupt them (docs/notebook/2026-11-27-paths.md).
+constexpr int kMaxCutOff = 24;
 
 }  // namespace
 
@@ -47,7 +48,6 @@ class Solver::Impl {
   void StartOver(const Hierarchy& hierarchy);
   void RememberSearch();
   void RecallSearch();
-  void Prepare(const Hierarchy& hierarchy);
   bool SearchAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget);
   void SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
                      Solution* solution);
@@ -108,7 +108,8 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
     return solution->status;
   }
   solution->Reset(hierarchy);
-  Prepare(hierarchy);
+  search_.Resume(&side_);
+  FitToBounds(hierarchy, &side_);
   const int at_once =
       std::max(kMinIterationsAtOnce, budget->max_iterations() / 2);
   const int num_cut_off = num_cut_off_;
@@ -153,7 +154,7 @@ void Solver::Impl::StartOver(const Hierarchy& hierarchy) {
   problem_.SolveLeading(hierarchy, side_);
   problem_.MoveToFirstLevels(hierarchy, &best_y_);
   Forget();
-  Prepare(hierarchy);
+  FitToBounds(hierarchy, &side_);
 }
 
 void Solver::Impl::RememberSearch() {
@@ -166,30 +167,14 @@ void Solver::Impl::RecallSearch() {
   search_.set_y(best_y_);
 }
 
-// Removes rows from the working set whose bound became infinite. Adds rows with
-// equal bounds, which are always in the working set.
-void Solver::Impl::Prepare(const Hierarchy& hierarchy) {
-  for (int level = 0; level < hierarchy.num_levels(); ++level) {
-    const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
-    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-      Side& side = side_[level][i];
-      if (lower[i] == upper[i]) {
-        side = Side::kUpper;
-      } else if ((side == Side::kUpper &&
-                  upper[i] > tolerances::kInfiniteBound) ||
-                 (side == Side::kLower &&
-                  lower[i] < -tolerances::kInfiniteBound)) {
-        side = Side::kNone;
-      }
-    }
-  }
-}
-
 // Searches on all levels at once, from the last working set and y. Returns
-// false if the budget was spent.
+// false if the budget, or `limit` iterations of it, did not suffice.
 bool Solver::Impl::SearchAtOnce(const Hierarchy& hierarchy, int limit,
                                 Budget* budget) {
   for (int pass = 0;; ++pass) {
+    // Refinement has found rows violated in their last digits. A path from the last
+    // optimum would follow this rounding.
+    if (pass > 0) search_.ForgetPath();
     if (!search_.AllAtOnce(hierarchy, limit, budget, &problem_, &side_)) {
       return false;
     }
@@ -206,7 +191,7 @@ void Solver::Impl::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
                                  Solution* solution) {
   const int levels = hierarchy.num_levels();
   Forget();
-  Prepare(hierarchy);
+  FitToBounds(hierarchy, &side_);
   const int solved = search_.LevelByLevel(hierarchy, budget, &problem_, &side_);
   if (solved > levels) {
     solved_side_ = side_;
@@ -233,10 +218,8 @@ void Solver::Impl::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
 }
 
 // Writes the y at which the budget of the search on all levels was spent. The
-// multipliers are those of the rows that were factored last, which may differ
-// from the working set by one change; levels that were not solved have none. The
-// next solve starts from this y and from the rows of the working set that y does
-// not meet strictly.
+// multipliers are those of the rows that were factored last, which may differ from
+// the working set by the last change; levels that were not solved have none.
 void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
   problem_.LeaveOutUnsolved();
   problem_.SetSolution(hierarchy, search_.y());

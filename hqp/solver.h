@@ -10,10 +10,10 @@
 
 namespace poise {
 
-/// The fast solver: a primal active-set method on one factorisation of all
-/// levels. Each solve starts from the working set and the y of the last one. If
-/// that answer is not certified, the levels are solved one after the other. See
-/// docs/hqp.md and hqp/fast/README.md.
+/// The fast solver: active-set methods on one factorisation of all levels. Each
+/// solve follows a path from the optimum of the last one, or, if this path is long,
+/// uses a primal method. If that answer is not certified, the levels are solved one
+/// after the other. See docs/hqp.md and hqp/fast/README.md.
 class Solver {
  public:
   /// Allocates memory for all levels at their capacity, and for speed in

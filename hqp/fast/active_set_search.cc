@@ -20,6 +20,12 @@ constexpr int kFrozen = -1;
 
 constexpr int kNone = -1;
 
+// Longest path, in iterations. After more iterations, steps of the primal method are
+// likely to reach the optimum first: they need not follow each change of the working
+// set between the last optimum and this one. From 12 to 40, the worst ticks change
+// little (docs/notebook/2026-11-27-paths.md).
+constexpr int kLongPath = 20;
+
 // Returns whether the two bounds of a row are equal.
 bool IsFixed(const Hierarchy& hierarchy, int level, int i) {
   return hierarchy.lower(level)[i] == hierarchy.upper(level)[i];
@@ -29,7 +35,10 @@ bool IsFixed(const Hierarchy& hierarchy, int level, int i) {
 
 ActiveSetSearch::ActiveSetSearch(int num_variables,
                                  const std::vector<LevelCapacity>& capacity)
-    : n_(num_variables), y_(num_variables), step_(num_variables) {
+    : n_(num_variables),
+      path_(num_variables, capacity),
+      y_(num_variables),
+      step_(num_variables) {
   int most = 0;
   for (const LevelCapacity& level : capacity) {
     removals_left_.emplace_back(level.inequalities, kMaxRemovals);
@@ -44,11 +53,71 @@ ActiveSetSearch::ActiveSetSearch(int num_variables,
 bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
                                 Budget* budget, WorkingSetProblem* problem,
                                 std::vector<std::vector<Side>>* side) {
-  const int levels = hierarchy.num_levels();
   if (!budget->Take(limit, problem->work())) return false;
+  problem->Plan(hierarchy, hierarchy.num_levels());
+  if (path_.is_known()) {
+    switch (FollowPath(hierarchy, limit, budget, problem, side)) {
+      case PathEnd::kOptimum:
+        return true;
+      case PathEnd::kBudget:
+        return false;
+      case PathEnd::kTooLong:
+        break;
+    }
+    if (!budget->Take(limit, problem->work())) return false;
+    problem->UseAllLeading();
+    problem->Solve(hierarchy, *side);
+  } else {
+    problem->Start(hierarchy, *side, &y_);
+    problem->SolveDiagonal();
+  }
+  if (!SearchFromOptimum(hierarchy, limit, budget, problem, side)) return false;
+  problem->FindMultipliers(hierarchy.num_levels() + 1);
+  path_.Remember(*problem, *side);
+  return true;
+}
+
+// Starts a search on all levels, and follows the path from the last optimum. With a
+// limit of time, all leading levels but the last are met before: an answer that is cut
+// off loses momentum before limits and feet.
+ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
+    const Hierarchy& hierarchy, int limit, Budget* budget,
+    WorkingSetProblem* problem, std::vector<std::vector<Side>>* side) {
+  path_.Begin(y_);
+  problem->Start(hierarchy, *side, &y_, path_.mutable_y());
+  const bool is_met =
+      !budget->has_time_limit() ||
+      path_.MeetLevelsBeforeLast(hierarchy, limit, budget, problem, side);
+  if (is_met) {
+    problem->SolveDiagonal();
+    // With a limit of time, a long path goes on in the next solve.
+    const int longest = budget->has_time_limit()
+                            ? limit
+                            : std::min(limit, budget->iterations() + kLongPath);
+    if (path_.Follow(hierarchy, longest, budget, problem, side)) {
+      y_ = path_.y();
+      goes_on_ = false;
+      path_.Remember(*problem, *side);
+      return PathEnd::kOptimum;
+    }
+    if (budget->is_spent()) path_.Pause(*side);
+  }
+  // A path need not lower the cost at each step.
+  if (IsBetter(hierarchy, path_.y(), y_)) y_ = path_.y();
+  if (budget->is_spent()) return PathEnd::kBudget;
+  path_.Resume(side);
+  path_.Forget();
+  goes_on_ = true;
+  return PathEnd::kTooLong;
+}
+
+// Searches from the optimum of the working set, for which `problem` is solved, or from
+// y, if it violates fewer rows.
+bool ActiveSetSearch::SearchFromOptimum(const Hierarchy& hierarchy, int limit,
+                                        Budget* budget,
+                                        WorkingSetProblem* problem,
+                                        std::vector<std::vector<Side>>* side) {
   remove_together_ = true;
-  problem->Plan(hierarchy, levels);
-  problem->Start(hierarchy, *side, &y_);
   if (!InitializeAllLevels(hierarchy, problem, side)) return true;
   // The leading levels come first, because their steps are cheaper. With a limit
   // of time, all of them but the last are searched alone before. If these need no
@@ -70,7 +139,7 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
     is_free = iterations == 1;
   }
   problem->SolveDiagonal();
-  while (Iterate(hierarchy, levels, problem, side)) {
+  while (Iterate(hierarchy, problem->num_levels(), problem, side)) {
     if (!budget->Take(limit, problem->work())) return false;
     problem->Solve(hierarchy, *side);
   }
@@ -235,6 +304,7 @@ void ActiveSetSearch::Stop(const Hierarchy& hierarchy,
                            const WorkingSetProblem& problem,
                            std::vector<std::vector<Side>>* side) {
   goes_on_ = true;
+  if (path_.is_paused()) return;
   const double largest = kernels::Largest(y_.data(), n_);
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
@@ -389,7 +459,7 @@ void ActiveSetSearch::FreezeViolated(
   for (int a = 0; a < problem.leading().num_rows(); ++a) {
     const WorkingSetProblem::Row& row = problem.row(a);
     if (!row.is_inequality) continue;
-    int& removals_left = removals_left_[row.level][row.index];
+    signed char& removals_left = removals_left_[row.level][row.index];
     if (row.level == level &&
         problem.Multiplier(a, level, side[level][row.index],
                            tolerances::kZeroMultiplier) > 0) {

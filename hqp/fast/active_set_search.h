@@ -5,15 +5,18 @@
 #include <vector>
 
 #include "poise/hqp/fast/budget.h"
+#include "poise/hqp/fast/parametric_search.h"
 #include "poise/hqp/fast/working_set_problem.h"
 #include "poise/hqp/hierarchy.h"
 #include "poise/hqp/solution.h"
 
 namespace poise {
 
-/// A primal active-set method on all levels of a hierarchy. See README.md.
+/// Finds the optimum of a hierarchy: follows a path from the last optimum, see
+/// ParametricSearch, and if there is none, or it is long, uses a primal active-set
+/// method on all levels. See README.md.
 ///
-/// Invariant: outside the working set, y violates no row by more than rounding.
+/// Invariant of the primal method: outside the working set, y violates no row by more than rounding.
 /// A step goes from y towards the optimum of the working set, and the first
 /// blocking constraint is added to the working set. At that optimum, rows
 /// strictly inside their bound are removed. If there is none, the row with the
@@ -24,9 +27,9 @@ class ActiveSetSearch {
                   const std::vector<LevelCapacity>& capacity);
 
   /// Searches on all levels at once, from the working set `side`. Returns false
-  /// if the budget, or `limit` iterations of it, did not suffice. The start is
-  /// the optimum of this working set, or y() if y() violates fewer rows. Rows
-  /// violated there are added to the working set.
+  /// if the budget, or `limit` iterations of it, did not suffice. The primal method
+  /// starts from the optimum of this working set, or from y() if y() violates fewer
+  /// rows. Rows violated there are added to the working set.
   bool AllAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget,
                  WorkingSetProblem* problem,
                  std::vector<std::vector<Side>>* side);
@@ -45,9 +48,10 @@ class ActiveSetSearch {
                    WorkingSetProblem* problem,
                    std::vector<std::vector<Side>>* side);
 
-  /// Ends a search that is not complete: removes the rows from the working set
-  /// that y() meets strictly. The next AllAtOnce() starts from y(), if y() is
-  /// not worse than the optimum of its working set.
+  /// Ends a search that is not complete. If it has followed a path, the next
+  /// AllAtOnce() continues this path, see Resume(). If not, removes the rows from the
+  /// working set that y() meets strictly, and the next AllAtOnce() starts from y(), if
+  /// y() is not worse than the optimum of its working set.
   void Stop(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
             std::vector<std::vector<Side>>* side);
 
@@ -56,11 +60,20 @@ class ActiveSetSearch {
   bool IsBetter(const Hierarchy& hierarchy, const std::vector<double>& y,
                 const std::vector<double>& other);
 
+  /// Forgets the last optimum: the next AllAtOnce() follows no path from it.
+  void ForgetPath() { path_.Forget(); }
   const std::vector<double>& y() const { return y_; }
   void set_y(const std::vector<double>& y) { y_ = y; }
   void Forget() {
     std::fill(y_.begin(), y_.end(), 0);
     goes_on_ = false;
+    path_.Forget();
+  }
+
+  /// Replaces `side` by the working set of a path that the budget has ended. The next
+  /// AllAtOnce() continues this path.
+  void Resume(std::vector<std::vector<Side>>* side) const {
+    path_.Resume(side);
   }
 
  private:
@@ -72,6 +85,13 @@ class ActiveSetSearch {
   };
 
   void RestoreWorkingSet(std::vector<std::vector<Side>>* side) const;
+  enum class PathEnd { kOptimum, kBudget, kTooLong };
+  PathEnd FollowPath(const Hierarchy& hierarchy, int limit, Budget* budget,
+                     WorkingSetProblem* problem,
+                     std::vector<std::vector<Side>>* side);
+  bool SearchFromOptimum(const Hierarchy& hierarchy, int limit, Budget* budget,
+                         WorkingSetProblem* problem,
+                         std::vector<std::vector<Side>>* side);
   bool InitializeAllLevels(const Hierarchy& hierarchy,
                            WorkingSetProblem* problem,
                            std::vector<std::vector<Side>>* side);
@@ -94,10 +114,12 @@ class ActiveSetSearch {
                       const std::vector<std::vector<Side>>& side);
 
   int n_;
+  ParametricSearch path_;
   std::vector<double> y_, step_, value_, slope_;
-  std::vector<std::vector<int>> removals_left_;  ///< Removals allowed per row.
-  bool goes_on_ = false;                         ///< See Stop().
-  bool remove_together_ = false;                 ///< See RemoveConstraints().
+  std::vector<std::vector<signed char>>
+      removals_left_;             ///< Removals allowed per row.
+  bool goes_on_ = false;          ///< See Stop().
+  bool remove_together_ = false;  ///< See RemoveConstraints().
   /// The row removed last, if it was removed alone.
   RowIndex last_removed_ = {-1, -1};
   std::vector<std::vector<Side>> violated_;  ///< kNone: not violated.

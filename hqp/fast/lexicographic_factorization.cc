@@ -61,6 +61,7 @@ void LexicographicFactorization::Truncate(int level) {
   levels_.resize(std::min<size_t>(levels_.size(), level));
   num_rows_ = levels_.empty() ? 0 : levels_.back().end_row;
   rank_ = levels_.empty() ? 0 : levels_.back().rank_end;
+  if (level < num_merged_) num_merged_ = 0;
   if (level == 0 || rank_ < kept_.rank()) kept_.Clear(rank_);
   if (level == 0 || rank_ < variables_.size()) variables_.Clear();
 }

@@ -107,6 +107,8 @@ class LexicographicFactorization {
   void SolveLast() { SolveLevel(levels_.back()); }
 
   int num_levels() const { return static_cast<int>(levels_.size()); }
+  /// Number of levels that are merged. All but the last of them are empty.
+  int num_merged() const { return num_merged_; }
   int num_rows() const { return num_rows_; }
   int rank() const { return rank_; }
   int rank(int level) const { return levels_[level].rank_end; }
@@ -195,7 +197,7 @@ class LexicographicFactorization {
   void KeepUnattainableResiduals(double size, const Level& level);
   void Reflect(int e, int rows, double* x) const;
 
-  int n_, stride_, num_rows_ = 0, rank_ = 0;
+  int n_, stride_, num_rows_ = 0, rank_ = 0, num_merged_ = 0;
   FixedVariables variables_;
   std::vector<Level> levels_;
   /// max_rows x stride: rows, then remainders, then the rows of Reduce().

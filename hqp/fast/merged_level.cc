@@ -50,6 +50,7 @@ void LexicographicFactorization::Merge(int level) {
 
 // Gives all rows to the level before `level`.
 void LexicographicFactorization::Renumber(int level) {
+  num_merged_ = level;
   levels_.assign(level, {0, 0, 0, 0, false});
   if (level > 0) levels_.back() = {0, num_rows_, 0, rank_, false};
 }

@@ -37,9 +37,10 @@ WorkingSetProblem::WorkingSetProblem(int num_variables,
       change_(num_variables),
       nu_(rows_.size()),
       row_residual_(rows_.size()),
-      size_(rows_.size()) {
+      size_(rows_.size()),
+      norm_(rows_.size()) {
   for (const LevelCapacity& level : capacity) {
-    norm_.emplace_back(level.inequalities);
+    norm_begin_.push_back(0);
     factored_.emplace_back(level.inequalities, Side::kNone);
     B_norm_.emplace_back(level.equalities);
     selected_.emplace_back(level.equalities, 0);
@@ -52,11 +53,11 @@ WorkingSetProblem::WorkingSetProblem(int num_variables,
 
 // Returns whether the level fits into its capacity.
 bool WorkingSetProblem::Fits(const Hierarchy& hierarchy, int level) const {
-  return level < static_cast<int>(norm_.size()) &&
+  return level < static_cast<int>(B_norm_.size()) &&
          hierarchy.num_equalities(level) <=
              static_cast<int>(B_norm_[level].size()) &&
          hierarchy.num_inequalities(level) <=
-             static_cast<int>(norm_[level].size());
+             static_cast<int>(factored_[level].size());
 }
 
 // Returns whether the leading levels together fit into the factorisation.
@@ -99,9 +100,13 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
   before_ = leading_.multiply_adds() + diagonal_.multiply_adds();
   num_entries_ = 0;
   if (hierarchy.num_variables() != n_) return Status::kBadInput;
+  int inequalities = 0;  // These are all in leading levels.
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     *failed_level = level;
     if (!Fits(hierarchy, level)) return Status::kBadInput;
+    norm_begin_[level] = inequalities;
+    inequalities += hierarchy.num_inequalities(level);
+    if (inequalities > static_cast<int>(norm_.size())) return Status::kBadInput;
     const auto B = hierarchy.B(level), C = hierarchy.C(level);
     const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
@@ -117,7 +122,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
         norm = 0;
     }
     for (int i = 0; i < C.rows(); ++i) {
-      double& norm = norm_[level][i];
+      double& norm = norm_[norm_begin_[level] + i];
       norm = AbsoluteSum(C.data() + i * n_, hierarchy.C_span(level)[i]);
       num_entries_ += hierarchy.C_span(level)[i].size;
       zero += norm * 0;
@@ -238,7 +243,7 @@ void WorkingSetProblem::ForEachRow(const Hierarchy& hierarchy,
         i);
   }
   for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-    if (side[i] == Side::kNone || norm_[level][i] == 0) continue;
+    if (side[i] == Side::kNone || norm(level, i) == 0) continue;
     use(Inequality(hierarchy, level, i, side[i]), 1, equalities + i);
   }
 }
@@ -344,7 +349,7 @@ bool WorkingSetProblem::AppendRows(const Hierarchy& hierarchy,
                                    const std::vector<std::vector<Side>>& side,
                                    int level, int* met) {
   for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-    if (side[level][i] == factored_[level][i] || norm_[level][i] == 0) {
+    if (side[level][i] == factored_[level][i] || norm(level, i) == 0) {
       continue;
     }
     if (!AppendInequality(hierarchy, level, i, side[level][i])) {
@@ -409,20 +414,25 @@ int WorkingSetProblem::NumMet() const {
 
 void WorkingSetProblem::Start(const Hierarchy& hierarchy,
                               const std::vector<std::vector<Side>>& side,
-                              std::vector<double>* y) {
+                              std::vector<double>* y,
+                              std::vector<double>* other_y) {
+  const auto move = [&] {
+    MoveToFirstLevels(hierarchy, y);
+    if (other_y != nullptr) MoveToFirstLevels(hierarchy, other_y);
+  };
   const int num_leading = num_leading_, met = num_met_;
   const bool merges = FixesVariables(hierarchy, side);
   if (merges) {
     UseLeading(NumFirstLevels(hierarchy));
     SolveLeading(hierarchy, side);
-    MoveToFirstLevels(hierarchy, y);
+    move();
     is_factored_ = false;
     is_planned_ = true;
     num_met_ = met;
     UseLeading(num_leading);
   }
-  Solve(hierarchy, side);
-  if (!merges) MoveToFirstLevels(hierarchy, y);
+  SolveLeading(hierarchy, side);
+  if (!merges) move();
 }
 
 // Returns whether FactorMerged() can fix a variable.
@@ -437,9 +447,10 @@ bool WorkingSetProblem::FixesVariables(
   return any;
 }
 
-void WorkingSetProblem::Approach(const std::vector<double>& y) {
+void WorkingSetProblem::Approach(const std::vector<double>& y, int num_levels) {
   y_ = y;
-  MoveTo(leading_.rank(), &y_);
+  const int levels = std::max(num_levels, leading_.num_merged());
+  if (levels > 0) MoveTo(leading_.rank(levels - 1), &y_);
 }
 
 int WorkingSetProblem::NumFirstLevels(const Hierarchy& hierarchy) const {
@@ -484,6 +495,23 @@ void WorkingSetProblem::FindMultipliers(int end) {
     for (int a = 0; a < rows; ++a) {
       out.size = std::max(out.size, std::abs(out.nu[a]));
     }
+  }
+}
+
+void WorkingSetProblem::FindMultipliersOfApproach(
+    const std::vector<double>& y) {
+  FindMultipliers(num_leading_);
+  Multipliers& out = multipliers_[num_leading_];
+  for (int j = 0; j < n_; ++j) change_[j] = y[j] - y_[j];
+  leading_.Project(change_.data(), leading_.rank(), gradient_.data());
+  leading_.SolveDual(num_leading_, gradient_.data(), out.nu.data());
+  // A step that is rounding has no multipliers.
+  const double largest = kernels::Largest(change_.data(), n_);
+  out.any = largest > tolerances::kSolutionRounding *
+                          (kernels::Largest(y.data(), n_) + Size());
+  out.size = 0;
+  for (int a = 0; a < leading_.num_rows(); ++a) {
+    out.size = std::max(out.size, std::abs(out.nu[a]));
   }
 }
 

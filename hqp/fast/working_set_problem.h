@@ -69,6 +69,7 @@ class WorkingSetProblem {
   /// SolveLeading() and Approach() next: SolveDiagonal() needs all leading
   /// levels.
   void UseLeading(int num_leading);
+  void UseAllLeading() { UseLeading(num_levels_ - diagonal_.num_levels() + 1); }
 
   /// Leaves out the levels that the last SolveLeading() has not solved, until the
   /// next Plan().
@@ -84,11 +85,11 @@ class WorkingSetProblem {
     SolveDiagonal();
   }
 
-  /// Solve() after Plan(), and MoveToFirstLevels() for y, which is the start of a
-  /// search.
+  /// SolveLeading() after Plan(), and MoveToFirstLevels() for y, which is the start of
+  /// a search, and for `other_y`, if there is one.
   void Start(const Hierarchy& hierarchy,
-             const std::vector<std::vector<Side>>& side,
-             std::vector<double>* y);
+             const std::vector<std::vector<Side>>& side, std::vector<double>* y,
+             std::vector<double>* other_y = nullptr);
 
   /// Solve() in two steps: the factorisation of the leading levels, and then y.
   void SolveLeading(const Hierarchy& hierarchy,
@@ -100,7 +101,13 @@ class WorkingSetProblem {
 
   /// Replaces SolveDiagonal(): takes the optimum of the leading levels closest
   /// to y, and ignores the diagonal levels.
-  void Approach(const std::vector<double>& y);
+  void Approach(const std::vector<double>& y) {
+    Approach(y, leading_.num_levels());
+  }
+
+  /// Approach() for the first `num_levels` leading levels. If they are merged with
+  /// later ones, y is the optimum of all merged levels.
+  void Approach(const std::vector<double>& y, int num_levels);
 
   /// Returns the number of first levels, all leading, without inequalities. No
   /// search can change these levels.
@@ -132,6 +139,10 @@ class WorkingSetProblem {
   /// Computes the multipliers of the levels before `end` at the last solve. The
   /// norm of y is level num_levels().
   void FindMultipliers(int end);
+
+  /// Computes the multipliers of the leading levels after Approach(y), and those of
+  /// the distance to y as level num_leading().
+  void FindMultipliersOfApproach(const std::vector<double>& y);
 
   /// Computes the multipliers of all levels, and of the norm of y. If levels are
   /// left out, those of the others.
@@ -179,7 +190,7 @@ class WorkingSetProblem {
   double Size() const;
 
   /// Sum of absolute entries of row i of C.
-  double norm(int level, int i) const { return norm_[level][i]; }
+  double norm(int level, int i) const { return norm_[norm_begin_[level] + i]; }
   /// Variable of row i of B in a diagonal level.
   int selected(int level, int i) const { return selected_[level][i]; }
 
@@ -243,7 +254,9 @@ class WorkingSetProblem {
   std::vector<Multipliers> multipliers_;
   std::vector<double> y_, gradient_, change_, nu_;
   std::vector<double> row_residual_, size_;  ///< By leading row.
-  std::vector<std::vector<double>> norm_, B_norm_;
+  std::vector<double> norm_;                 ///< By inequality of all levels.
+  std::vector<int> norm_begin_;  ///< First entry of norm_, by level.
+  std::vector<std::vector<double>> B_norm_;
   std::vector<std::vector<int>> selected_;
 };
 

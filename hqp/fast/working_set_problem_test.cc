@@ -342,6 +342,52 @@ TEST_P(RandomWorkingSetProblemTest, ApproachesTheOptimumOfTheLeadingLevels) {
   EXPECT_LE((step - Q.transpose() * (Q * step)).norm(), tolerance);
 }
 
+// The first leading levels alone are approached as if there were no others, or, if
+// they are merged with later ones, together with these.
+TEST_P(RandomWorkingSetProblemTest, ApproachesTheFirstLeadingLevels) {
+  const Sides sides = MakeSides(3);
+  problem_.Plan(hierarchy_, num_levels_);
+  problem_.Solve(hierarchy_, MakeSides(0));
+  problem_.Solve(hierarchy_, sides);  // An update often merges levels.
+  const Eigen::VectorXd from = Eigen::VectorXd::LinSpaced(n_, 1, 3);
+  const std::vector<double> start(from.data(), from.data() + n_);
+  for (int first = 1; first <= problem_.num_leading(); ++first) {
+    SCOPED_TRACE(first);
+    problem_.Approach(start, first);
+    const int levels = std::max(first, problem_.leading().num_merged());
+    const LexicographicOptimum nearest =
+        SolveLexicographically(n_, Levels(sides, levels, from));
+    EXPECT_LE(
+        (y() - nearest.y).norm(),
+        Rounding(kLargest, kMaxRows, nearest.condition * nearest.condition));
+  }
+}
+
+// The multipliers of the distance to `from` satisfy sum_a nu_a r_a = from - y.
+TEST_P(RandomWorkingSetProblemTest, FindsTheMultipliersOfAnApproach) {
+  const Sides sides = MakeSides(2);
+  problem_.Plan(hierarchy_, num_levels_);
+  problem_.Solve(hierarchy_, sides);
+  const int leading = problem_.num_leading();
+  if (leading == 0) return;
+  const std::vector<double> from(n_, 1);
+  problem_.Approach(from);
+  problem_.FindMultipliersOfApproach(from);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n_);
+  double size = 0;
+  for (int a = 0; a < problem_.leading().num_rows(); ++a) {
+    const WorkingSetProblem::Row& row = problem_.row(a);
+    const double nu = problem_.multipliers(leading).nu[a] / row.norm;
+    const Eigen::VectorXd given = row.is_inequality
+                                      ? hierarchy_.C(row.level).row(row.index)
+                                      : hierarchy_.B(row.level).row(row.index);
+    sum += nu * given;
+    size += std::abs(nu) * given.norm();
+  }
+  EXPECT_LE((sum - (Eigen::VectorXd::Ones(n_) - y())).norm(),
+            Rounding(size + y().norm() + n_, kMaxRows));
+}
+
 // The levels before the first inequality are met by the smallest step.
 TEST_P(RandomWorkingSetProblemTest, MovesToTheLevelsBeforeTheFirstInequality) {
   const Sides sides = MakeSides(1);
@@ -460,7 +506,10 @@ TEST(FixedVariablesOfAWorkingSet, GiveTheOptimumOfANewProblem) {
       }
       problem.Plan(hierarchy, levels);
       std::vector<double> moved(n, 1), expected(n, 1);
-      problem.Start(hierarchy, sides, &moved);
+      std::vector<double> other = moved;
+      problem.Start(hierarchy, sides, &moved, &other);
+      EXPECT_EQ(other, moved);
+      problem.SolveDiagonal();
       const int fixed = problem.leading().variables().size();
       num_fixed += fixed;
       num_moved += fixed > 0 && moved != std::vector<double>(n, 1);

@@ -1,0 +1,325 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/hqp/fast/parametric_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "poise/hqp/fast/infinitesimals.h"
+#include "poise/hqp/fast/kernels.h"
+#include "poise/hqp/fast/tolerances.h"
+
+namespace poise {
+namespace {
+
+// Removals of one row on a path. Paths need fewer; the limit ends cycles that
+// rounding causes.
+constexpr int kMaxRemovals = 10;
+
+}  // namespace
+
+ParametricSearch::ParametricSearch(int num_variables,
+                                   const std::vector<LevelCapacity>& capacity)
+    : n_(num_variables),
+      y_(num_variables),
+      start_(capacity, num_variables, static_cast<int>(capacity.size()) + 1),
+      center_(num_variables) {
+  int most = 0;
+  for (const LevelCapacity& level : capacity) {
+    side_.emplace_back(level.inequalities, Side::kNone);
+    removals_left_.emplace_back(level.inequalities, kMaxRemovals);
+    most = std::max(most, level.inequalities);
+  }
+  near_side_ = side_;
+  end_value_.resize(most);
+  for (std::vector<double>* number :
+       {&end_, &time_, &scratch_, &removal_time_}) {
+    number->resize(capacity.size() + 1);
+  }
+}
+
+void ParametricSearch::Remember(const WorkingSetProblem& problem,
+                                const Sides& side) {
+  side_ = side;
+  is_known_ = true;
+  is_paused_ = is_near_known_ = skips_near_ = false;
+  start_.Clear();
+  const int size = problem.num_levels() + 1;
+  for (int a = 0; a < problem.leading().num_rows(); ++a) {
+    const WorkingSetProblem::Row& row = problem.row(a);
+    if (!row.is_inequality) continue;
+    std::copy_n(EndMultiplier(problem, size, side, a), size,
+                start_.At(row.level, row.index));
+  }
+}
+
+void ParametricSearch::Pause(const Sides& side) {
+  side_ = side;
+  is_paused_ = true;
+}
+
+bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
+                              Budget* budget, WorkingSetProblem* problem,
+                              Sides* side) {
+  AllowChanges(hierarchy);
+  skips_near_ = false;
+  const int num_levels = problem->num_levels(), size = num_levels + 1;
+  // Rows that were added to the working set since have no multiplier.
+  for (int level = 0; level < num_levels; ++level) {
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+      if ((*side)[level][i] != side_[level][i]) start_.Remove(level, i);
+    }
+  }
+  for (Change last;;) {
+    problem->FindMultipliers(size);
+    const Blocking blocking =
+        FindBlocking(hierarchy, *problem, num_levels, last, *side);
+    const RowIndex removed = FindRemoval(*problem, size, last, *side);
+    if (blocking.side == Side::kNone && removed.level < 0) {
+      y_ = problem->y();
+      return true;
+    }
+    std::fill(time_.begin(), time_.end(), 0);
+    time_[0] = blocking.time;
+    const bool removes =
+        removed.level >= 0 &&
+        (blocking.side == Side::kNone ||
+         !infinitesimals::IsLess(time_.data(), removal_time_.data(), size));
+    if (removes) time_ = removal_time_;
+    Advance(*problem, size, *side);
+    if (removes) start_.Remove(removed.level, removed.row);
+    last = removes ? Remove(removed, side) : Add(blocking, side);
+    if (!budget->Take(limit, problem->work())) {
+      side_ = *side;
+      return false;
+    }
+    problem->Solve(hierarchy, *side);
+  }
+}
+
+bool ParametricSearch::MeetLevelsBeforeLast(const Hierarchy& hierarchy,
+                                            int limit, Budget* budget,
+                                            WorkingSetProblem* problem,
+                                            Sides* side) {
+  const int leading = problem->num_leading();
+  // The last solve spent its budget here. The path must advance as well.
+  if (leading < 2 || skips_near_) return true;
+  AllowChanges(hierarchy);
+  problem->Approach(y_, leading - 1);
+  if (FindBlocking(hierarchy, *problem, leading - 1, {}, *side).side ==
+      Side::kNone) {
+    y_ = problem->y();
+    return true;
+  }
+  skips_near_ = true;
+  center_ = y_;
+  const int known = is_near_known_ ? leading - 1 : 0;
+  std::copy(side->begin() + known, side->end(), near_side_.begin() + known);
+  FitToBounds(hierarchy, &near_side_);
+  is_near_known_ = true;
+  problem->UseLeading(leading - 1);
+  if (!FindNearest(hierarchy, limit, budget, problem, &near_side_) ||
+      !budget->Take(limit, problem->work())) {
+    Pause(*side);
+    *side = near_side_;
+    return false;
+  }
+  problem->UseLeading(leading);
+  problem->SolveLeading(hierarchy, *side);
+  return true;
+}
+
+// Moves y to the optimum of the leading levels that is closest to center_. There, few
+// rows have a positive multiplier, so that rows with a negative one are removed
+// together.
+bool ParametricSearch::FindNearest(const Hierarchy& hierarchy, int limit,
+                                   Budget* budget, WorkingSetProblem* problem,
+                                   Sides* side) {
+  const int num_levels = problem->num_leading();
+  for (Change last;;) {
+    if (!budget->Take(limit, problem->work())) return false;
+    problem->SolveLeading(hierarchy, *side);
+    problem->Approach(center_);
+    problem->FindMultipliersOfApproach(center_);
+    if (RemoveNegative(*problem, num_levels + 1, last, side)) {
+      last = {};
+      continue;
+    }
+    const Blocking blocking =
+        FindBlocking(hierarchy, *problem, num_levels, last, *side);
+    StepTo(problem->y(), blocking.time);
+    if (blocking.side == Side::kNone) return true;
+    last = Add(blocking, side);
+  }
+}
+
+// Allows all rows to change, but those whose bounds are equal.
+void ParametricSearch::AllowChanges(const Hierarchy& hierarchy) {
+  for (int level = 0; level < hierarchy.num_levels(); ++level) {
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+      const bool is_equality =
+          hierarchy.lower(level)[i] == hierarchy.upper(level)[i];
+      removals_left_[level][i] = is_equality ? 0 : kMaxRemovals;
+    }
+  }
+}
+
+// Removes all rows with a negative multiplier. Returns whether there was one.
+bool ParametricSearch::RemoveNegative(const WorkingSetProblem& problem,
+                                      int size, const Change& last,
+                                      Sides* side) {
+  bool any = false;
+  for (int a = 0; a < problem.leading().num_rows(); ++a) {
+    if (!MayRemove(problem, size, last, *side, a)) continue;
+    (void)Remove({problem.row(a).level, problem.row(a).index}, side);
+    any = true;
+  }
+  return any;
+}
+
+// Finds the first blocking constraint outside the working set. A bound that y violates
+// at the start and at the end of the path blocks at once. Among bounds at equal time,
+// the end violates the returned one most.
+ParametricSearch::Blocking ParametricSearch::FindBlocking(
+    const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+    int num_levels, const Change& last, const Sides& side) {
+  const std::vector<double>& end = problem.y();
+  double largest = 0;
+  for (int j = 0; j < n_; ++j) {
+    largest = std::max(largest, std::abs(end[j] - y_[j]));
+  }
+  const double noise = tolerances::kZeroSlope * largest +
+                       tolerances::kSolutionRounding *
+                           (kernels::Largest(y_.data(), n_) + problem.Size());
+  Blocking first;
+  double most = 0;
+  for (int level = 0; level < num_levels; ++level) {
+    const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
+    const int rows = hierarchy.num_inequalities(level);
+    const double* C = hierarchy.C(level).data();
+    const Span* spans = hierarchy.C_span(level);
+    kernels::SpanDots(C, n_, spans, rows, end.data(), end_value_.data());
+    for (int i = 0; i < rows; ++i) {
+      const double above = end_value_[i] - upper[i];
+      const double below = lower[i] - end_value_[i];
+      const double beyond = std::max(above, below);
+      if (beyond <= 0 || side[level][i] != Side::kNone) continue;
+      const Side at = above > 0 ? Side::kUpper : Side::kLower;
+      const double bound = above > 0 ? upper[i] : lower[i];
+      const double norm = problem.norm(level, i);
+      const RowIndex row = {level, i};
+      if (removals_left_[level][i] == 0 || norm == 0 ||
+          (row == last.removed && at == last.removed_side) ||
+          beyond <= noise * norm + tolerances::kZeroSlope * std::abs(bound)) {
+        continue;
+      }
+      double value;
+      kernels::SpanDots(C + i * n_, n_, spans + i, 1, y_.data(), &value);
+      const double left = above > 0 ? bound - value : value - bound;
+      const double time = left > 0 ? left / (left + beyond) : 0;
+      if (time < first.time || (time == first.time && beyond / norm > most)) {
+        first = {row, at, time};
+        most = beyond / norm;
+      }
+    }
+  }
+  return first;
+}
+
+// Finds the row whose multiplier becomes negative first, and the time at which this
+// multiplier is zero: 0 if it is not positive at the start.
+ParametricSearch::RowIndex ParametricSearch::FindRemoval(
+    const WorkingSetProblem& problem, int size, const Change& last,
+    const Sides& side) {
+  RowIndex removed;
+  for (int a = 0; a < problem.leading().num_rows(); ++a) {
+    if (!MayRemove(problem, size, last, side, a)) continue;
+    const RowIndex row = {problem.row(a).level, problem.row(a).index};
+    const double* start = start_.At(row.level, row.row);
+    if (infinitesimals::Sign(start, size) > 0) {
+      infinitesimals::FindZero(start, end_.data(), size, scratch_.data(),
+                               time_.data());
+    } else {
+      std::fill(time_.begin(), time_.end(), 0);
+    }
+    if (removed.level < 0 ||
+        infinitesimals::IsLess(time_.data(), removal_time_.data(), size)) {
+      removed = row;
+      removal_time_ = time_;
+    }
+  }
+  return removed;
+}
+
+// Returns whether row a may be removed, and its multiplier at the end of the path is
+// negative. That multiplier is then in end_. The row that was added last stays: only
+// rounding can make its multiplier negative.
+bool ParametricSearch::MayRemove(const WorkingSetProblem& problem, int size,
+                                 const Change& last, const Sides& side, int a) {
+  const WorkingSetProblem::Row& row = problem.row(a);
+  return row.is_inequality && removals_left_[row.level][row.index] > 0 &&
+         !(RowIndex{row.level, row.index} == last.added) &&
+         infinitesimals::Sign(EndMultiplier(problem, size, side, a), size) < 0;
+}
+
+// Computes the multiplier of row a at the end of the path, with `size` coefficients.
+// On its own level, it is the weighted residual.
+const double* ParametricSearch::EndMultiplier(const WorkingSetProblem& problem,
+                                              int size, const Sides& side,
+                                              int a) {
+  const WorkingSetProblem::Row& row = problem.row(a);
+  std::fill_n(end_.begin(), row.level, 0);
+  for (int level = row.level; level < size; ++level) {
+    end_[level] = problem.Multiplier(a, level, side[row.level][row.index],
+                                     tolerances::kZeroMultiplier);
+  }
+  end_[row.level] *= problem.leading().weight(a);
+  return end_.data();
+}
+
+// Moves y and the multipliers of the working set to time_.
+void ParametricSearch::Advance(const WorkingSetProblem& problem, int size,
+                               const Sides& side) {
+  StepTo(problem.y(), time_[0]);
+  for (int a = 0; a < problem.leading().num_rows(); ++a) {
+    const WorkingSetProblem::Row& row = problem.row(a);
+    if (!row.is_inequality) continue;
+    infinitesimals::Approach(time_.data(),
+                             EndMultiplier(problem, size, side, a), size,
+                             start_.At(row.level, row.index));
+  }
+}
+
+void ParametricSearch::StepTo(const std::vector<double>& y, double time) {
+  for (int j = 0; j < n_; ++j) y_[j] += time * (y[j] - y_[j]);
+}
+
+ParametricSearch::Change ParametricSearch::Remove(RowIndex row, Sides* side) {
+  --removals_left_[row.level][row.row];
+  return {{}, row, std::exchange((*side)[row.level][row.row], Side::kNone)};
+}
+
+ParametricSearch::Change ParametricSearch::Add(const Blocking& blocking,
+                                               Sides* side) {
+  (*side)[blocking.row.level][blocking.row.row] = blocking.side;
+  return {blocking.row, {}, Side::kNone};
+}
+
+void FitToBounds(const Hierarchy& hierarchy, ParametricSearch::Sides* side) {
+  for (int level = 0; level < hierarchy.num_levels(); ++level) {
+    const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+      Side& at = (*side)[level][i];
+      if (lower[i] == upper[i]) {
+        at = Side::kUpper;
+      } else if ((at == Side::kUpper &&
+                  upper[i] > tolerances::kInfiniteBound) ||
+                 (at == Side::kLower &&
+                  lower[i] < -tolerances::kInfiniteBound)) {
+        at = Side::kNone;
+      }
+    }
+  }
+}
+
+}  // namespace poise

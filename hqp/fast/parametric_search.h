@@ -1,0 +1,138 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <vector>
+
+#include "poise/hqp/fast/budget.h"
+#include "poise/hqp/fast/row_numbers.h"
+#include "poise/hqp/fast/working_set_problem.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/solution.h"
+
+namespace poise {
+
+/// Follows the optimum from the data of the last solve to the data of this solve: a
+/// parametric active-set method (Ferreau, Bock, Diehl, An online active set strategy
+/// to overcome the limitations of explicit MPC, 2008) for a hierarchy.
+///
+/// At the start of the path, time 0, targets and bounds are shifted, so that the
+/// last y, working set and multipliers are optimal. The shift decreases linearly and
+/// is zero at time 1. Until the working set changes, y and all multipliers are linear
+/// in time, and their end is the optimum of the working set without a shift. A row is
+/// added to the working set when y reaches its bound, and removed when its multiplier
+/// becomes negative. The multipliers of a row on all levels are one number, see
+/// infinitesimals.h. If the optimum changes little, so does the working set.
+///
+/// Nothing allocates after construction.
+class ParametricSearch {
+ public:
+  using Sides = std::vector<std::vector<Side>>;
+
+  ParametricSearch(int num_variables,
+                   const std::vector<LevelCapacity>& capacity);
+
+  /// Takes the multipliers of a solution, for the start of the next path.
+  void Remember(const WorkingSetProblem& problem, const Sides& side);
+
+  /// Forgets the last solution. There is no path without one.
+  void Forget() { is_known_ = is_paused_ = false; }
+  bool is_known() const { return is_known_; }
+
+  /// Begins a path at y, or continues the last one if it was paused.
+  void Begin(const std::vector<double>& y) {
+    if (!is_paused_) y_ = y;
+    is_paused_ = false;
+  }
+  /// Ends a path before its end, with this working set. Until Begin(), Resume()
+  /// replaces a working set by it.
+  void Pause(const Sides& side);
+  bool is_paused() const { return is_paused_; }
+  void Resume(Sides* side) const {
+    if (is_paused_) *side = side_;
+  }
+
+  /// The point of the path that has been reached.
+  const std::vector<double>& y() const { return y_; }
+  std::vector<double>* mutable_y() { return &y_; }
+
+  /// Follows the path, from the working set `side`, for which `problem` is solved.
+  /// Returns whether the optimum has been reached: it is y(), and the solution of
+  /// `problem`. If not, because the budget, or `limit` iterations of it, did not
+  /// suffice, `problem` is not solved for the last change of `side`.
+  /// pre: is_known().
+  [[nodiscard]] bool Follow(const Hierarchy& hierarchy, int limit,
+                            Budget* budget, WorkingSetProblem* problem,
+                            Sides* side);
+
+  /// Moves y() to a point that meets all leading levels but the last: to the closest
+  /// optimum of the working set `side`, for which the leading levels of `problem` are
+  /// solved, or, if that violates a bound, to the closest optimum of these levels.
+  /// Returns true if the point has been reached, or if the last call spent its budget.
+  /// The leading levels of `problem` are then solved for `side`. Returns false if the
+  /// budget, or `limit` iterations of it, did not suffice. Then the path is paused, and
+  /// `side` is the working set of these levels.
+  [[nodiscard]] bool MeetLevelsBeforeLast(const Hierarchy& hierarchy, int limit,
+                                          Budget* budget,
+                                          WorkingSetProblem* problem,
+                                          Sides* side);
+
+ private:
+  struct RowIndex {
+    int level = -1, row = -1;
+    bool operator==(const RowIndex& other) const {
+      return level == other.level && row == other.row;
+    }
+  };
+  struct Blocking {
+    RowIndex row;
+    Side side = Side::kNone;  ///< kNone: no row blocks.
+    double time = 1;
+  };
+  /// The last change of the working set.
+  struct Change {
+    RowIndex added;  ///< No row if a row was removed.
+    RowIndex removed;
+    Side removed_side = Side::kNone;
+  };
+
+  void AllowChanges(const Hierarchy& hierarchy);
+  bool FindNearest(const Hierarchy& hierarchy, int limit, Budget* budget,
+                   WorkingSetProblem* problem, Sides* side);
+  bool RemoveNegative(const WorkingSetProblem& problem, int size,
+                      const Change& last, Sides* side);
+  Blocking FindBlocking(const Hierarchy& hierarchy,
+                        const WorkingSetProblem& problem, int num_levels,
+                        const Change& last, const Sides& side);
+  RowIndex FindRemoval(const WorkingSetProblem& problem, int size,
+                       const Change& last, const Sides& side);
+  bool MayRemove(const WorkingSetProblem& problem, int size, const Change& last,
+                 const Sides& side, int a);
+  const double* EndMultiplier(const WorkingSetProblem& problem, int size,
+                              const Sides& side, int a);
+  void Advance(const WorkingSetProblem& problem, int size, const Sides& side);
+  void StepTo(const std::vector<double>& y, double time);
+  Change Remove(RowIndex row, Sides* side);
+  Change Add(const Blocking& blocking, Sides* side);
+
+  int n_;
+  bool is_known_ = false, is_paused_ = false;
+  std::vector<double> y_;
+  RowNumbers start_;  ///< Multipliers at the time that has been reached.
+  Sides side_;        ///< Working set of start_.
+  /// The working set of MeetLevelsBeforeLast(), if it has been called since the last
+  /// optimum.
+  Sides near_side_;
+  bool is_near_known_ = false;
+  /// The last solve spent its budget in MeetLevelsBeforeLast().
+  bool skips_near_ = false;
+  std::vector<double> center_;
+  std::vector<double> end_, time_, removal_time_;  ///< Infinitesimals.
+  std::vector<double> scratch_, end_value_;
+  std::vector<std::vector<signed char>> removals_left_;  ///< By level and row.
+};
+
+/// Removes rows from a working set whose bound is infinite. Adds rows with equal
+/// bounds, which are always in the working set.
+void FitToBounds(const Hierarchy& hierarchy, ParametricSearch::Sides* side);
+
+}  // namespace poise

@@ -1,0 +1,449 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/hqp/fast/parametric_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/fast/active_set_search.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/random_hierarchy.h"
+#include "poise/tests/util/tolerance.h"
+
+namespace poise {
+namespace {
+
+using Sides = ParametricSearch::Sides;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTolerance = 1e-13;  // A few operations on numbers near 1.
+constexpr int kEnough = 1000;         // Iterations.
+
+Sides NoSides(const std::vector<LevelCapacity>& capacity) {
+  Sides side;
+  for (const LevelCapacity& level : capacity) {
+    side.emplace_back(level.inequalities, Side::kNone);
+  }
+  return side;
+}
+
+// A path between two hierarchies of the same rows.
+class Search {
+ public:
+  Search(int n, const std::vector<LevelCapacity>& capacity)
+      : n_(n),
+        problem_(n, capacity),
+        search_(n, capacity),
+        path_(n, capacity),
+        side_(NoSides(capacity)) {}
+
+  // Finds the optimum without a path, and remembers it.
+  void Begin(const Hierarchy& hierarchy) {
+    Budget budget({kEnough}, &no_clock_);
+    Read(hierarchy);
+    // Rows with equal bounds are always in the working set.
+    for (int k = 0; k < hierarchy.num_levels(); ++k) {
+      for (int i = 0; i < hierarchy.num_inequalities(k); ++i) {
+        if (hierarchy.lower(k)[i] != hierarchy.upper(k)[i]) continue;
+        side_[k][i] = Side::kUpper;
+      }
+    }
+    ASSERT_TRUE(
+        search_.AllAtOnce(hierarchy, kEnough, &budget, &problem_, &side_));
+    *path_.mutable_y() = search_.y();
+    path_.Remember(problem_, side_);
+  }
+  bool Follow(const Hierarchy& hierarchy, int limit = kEnough) {
+    Start(hierarchy);
+    return FollowFromHere(hierarchy, limit);
+  }
+  // Follows the path if the leading levels are solved already.
+  bool FollowFromHere(const Hierarchy& hierarchy, int limit = kEnough) {
+    Budget budget({limit}, &no_clock_);
+    problem_.SolveDiagonal();
+    const CountMalloc count;
+    const bool is_optimal =
+        path_.Follow(hierarchy, limit, &budget, &problem_, &side_);
+    EXPECT_EQ(count.allocations(), 0);
+    iterations_ = budget.iterations();
+    if (is_optimal) *path_.mutable_y() = problem_.y();
+    return is_optimal;
+  }
+  bool MeetLevelsBeforeLast(const Hierarchy& hierarchy, int limit = kEnough) {
+    Budget budget({limit}, &no_clock_);
+    Start(hierarchy);
+    const CountMalloc count;
+    const bool is_met = path_.MeetLevelsBeforeLast(hierarchy, limit, &budget,
+                                                   &problem_, &side_);
+    EXPECT_EQ(count.allocations(), 0);
+    return is_met;
+  }
+  void Read(const Hierarchy& hierarchy) {
+    int failed_level;
+    ASSERT_EQ(problem_.Read(hierarchy, &failed_level), Status::kOptimal);
+  }
+  void Start(const Hierarchy& hierarchy) {
+    Read(hierarchy);
+    problem_.Plan(hierarchy, hierarchy.num_levels());
+    problem_.Start(hierarchy, side_, path_.mutable_y());
+  }
+
+  Eigen::VectorXd y() const {
+    return Eigen::VectorXd::Map(path_.y().data(), n_);
+  }
+  ParametricSearch& path() { return path_; }
+  const WorkingSetProblem& problem() const { return problem_; }
+  Sides& side() { return side_; }
+  int iterations() const { return iterations_; }
+
+ private:
+  int n_, iterations_ = 0;
+  const std::function<double()> no_clock_;
+  WorkingSetProblem problem_;
+  ActiveSetSearch search_;
+  ParametricSearch path_;
+  Sides side_;
+};
+
+// Two variables with y_0 <= 1 and y_1 <= 1, and below a target for both, with weight
+// 1. Its rows are not unit vectors, so that the level is a leading one.
+class ParametricSearchTest : public testing::Test {
+ protected:
+  Hierarchy At(double target_0, double target_1, double bound_0 = 1) const {
+    Hierarchy hierarchy(2, capacity_);
+    InequalityBlock bounds = hierarchy.AddInequalities(0, 2);
+    bounds.C.setIdentity();
+    bounds.lower.setConstant(-kInfinity);
+    bounds.upper << bound_0, 1;
+    EqualityBlock task = hierarchy.AddEqualities(1, 2);
+    task.B << 1, 1, 1, -1;
+    task.b << -target_0 - target_1, target_1 - target_0;
+    return hierarchy;
+  }
+  Side side(int i) { return search_.side()[0][i]; }
+
+  const std::vector<LevelCapacity> capacity_{{0, 2}, {2, 0}};
+  Search search_{2, capacity_};
+};
+
+// The target moves from (0, 0) to (4, 0), and reaches the bound at a quarter.
+TEST_F(ParametricSearchTest, AddsARowWhereThePathReachesItsBound) {
+  search_.Begin(At(0, 0));
+  const Hierarchy end = At(4, 0);
+  EXPECT_FALSE(search_.Follow(end, 0));
+  EXPECT_EQ(side(0), Side::kUpper);
+  EXPECT_NEAR(search_.y()[0], 1, kTolerance);
+  EXPECT_NEAR(search_.y()[1], 0, kTolerance);
+}
+
+// The bound holds y_0 = 1 with the multiplier target - 1, which goes from 2 to -2. It
+// is zero in the middle, and so is y_1, which is free.
+TEST_F(ParametricSearchTest, RemovesARowWhereItsMultiplierIsZero) {
+  search_.Begin(At(3, 0));
+  ASSERT_EQ(side(0), Side::kUpper);
+  const Hierarchy end = At(-1, 0.5);
+  EXPECT_FALSE(search_.Follow(end, 0));
+  EXPECT_EQ(side(0), Side::kNone);
+  EXPECT_NEAR(search_.y()[0], 1, kTolerance);
+  EXPECT_NEAR(search_.y()[1], 0.25, kTolerance);
+}
+
+// The bound on y_0 is removed at a quarter, when y_1 has come from 0 to 0.4, or y_1
+// reaches its bound before, at a fifth.
+TEST_F(ParametricSearchTest, MakesTheEarlierChangeFirst) {
+  for (const double target : {1.6, 5.0}) {
+    Search search(2, capacity_);
+    search.Begin(At(2, 0));
+    const bool is_removed = target < 2;
+    EXPECT_FALSE(search.Follow(At(-2, target), 0));
+    EXPECT_EQ(search.side()[0][0], is_removed ? Side::kNone : Side::kUpper);
+    EXPECT_EQ(search.side()[0][1], is_removed ? Side::kNone : Side::kUpper);
+    EXPECT_NEAR(search.y()[1], is_removed ? 0.4 : 1, kTolerance);
+  }
+}
+
+// Both rows are removed, at a half and at a quarter, in either order.
+TEST_F(ParametricSearchTest, RemovesTheRowWhoseMultiplierVanishesFirst) {
+  for (const int first : {0, 1}) {
+    Search search(2, capacity_);
+    search.Begin(first == 0 ? At(2, 3) : At(3, 2));
+    EXPECT_FALSE(search.Follow(first == 0 ? At(-2, -1) : At(-1, -2), 0));
+    EXPECT_EQ(search.side()[0][first], Side::kNone);
+    EXPECT_EQ(search.side()[0][1 - first], Side::kUpper);
+  }
+}
+
+// The bound 0 is violated by y_0 = 0.5 from the start, and the target is 0.7.
+TEST_F(ParametricSearchTest, AddsAViolatedBoundAtOnce) {
+  search_.Begin(At(0.5, 0));
+  const Hierarchy end = At(0.7, 1, 0);
+  EXPECT_FALSE(search_.Follow(end, 0));
+  EXPECT_EQ(side(0), Side::kUpper);
+  EXPECT_NEAR(search_.y()[0], 0.5, kTolerance);
+  EXPECT_NEAR(search_.y()[1], 0, kTolerance);
+}
+
+// Only the start violates this bound.
+TEST_F(ParametricSearchTest, DoesNotAddABoundThatTheEndMeets) {
+  search_.Begin(At(0.5, 0));
+  EXPECT_TRUE(search_.Follow(At(-1, 0, 0)));
+  EXPECT_EQ(side(0), Side::kNone);
+  EXPECT_EQ(search_.iterations(), 0);
+}
+
+TEST_F(ParametricSearchTest, TakesNoIterationIfNothingChanges) {
+  const Hierarchy hierarchy = At(3, 0.5);
+  search_.Begin(hierarchy);
+  EXPECT_TRUE(search_.Follow(hierarchy));
+  EXPECT_EQ(search_.iterations(), 0);
+  EXPECT_NEAR(search_.y()[0], 1, kTolerance);
+  EXPECT_NEAR(search_.y()[1], 0.5, kTolerance);
+}
+
+TEST_F(ParametricSearchTest, GoesOnAfterAPause) {
+  search_.Begin(At(0, 3));
+  const Hierarchy end = At(3, 0);
+  EXPECT_FALSE(search_.Follow(end, 0));
+  search_.path().Pause(search_.side());
+  EXPECT_TRUE(search_.path().is_paused());
+  Sides resumed = NoSides(capacity_);
+  search_.path().Resume(&resumed);
+  EXPECT_EQ(resumed, search_.side());
+  EXPECT_FALSE(search_.Follow(end, 0));  // The other row changes.
+  EXPECT_TRUE(search_.Follow(end));
+  EXPECT_NEAR(search_.y()[0], 1, kTolerance);
+  EXPECT_NEAR(search_.y()[1], 0, kTolerance);
+  EXPECT_EQ(side(0), Side::kUpper);
+  EXPECT_EQ(side(1), Side::kNone);
+}
+
+TEST_F(ParametricSearchTest, ForgetsThePath) {
+  search_.Begin(At(0, 0));
+  EXPECT_TRUE(search_.path().is_known());
+  search_.path().Pause(search_.side());
+  search_.path().Forget();
+  EXPECT_FALSE(search_.path().is_known());
+  EXPECT_FALSE(search_.path().is_paused());
+}
+
+// Changes targets and bounds, some of them enough to change the working set.
+HierarchyCase Perturb(const HierarchyCase& from, std::mt19937* numbers) {
+  HierarchyCase to = from;
+  std::uniform_real_distribution<double> change(-1, 1);
+  Hierarchy changed(from.hierarchy.num_variables(), from.capacity);
+  for (int k = 0; k < from.hierarchy.num_levels(); ++k) {
+    EqualityBlock rows =
+        changed.AddEqualities(k, from.hierarchy.num_equalities(k));
+    rows.B = from.hierarchy.B(k);
+    rows.b = from.hierarchy.b(k);
+    rows.weight = from.hierarchy.weight(k);
+    for (double& b : rows.b) b += change(*numbers);
+    InequalityBlock limits =
+        changed.AddInequalities(k, from.hierarchy.num_inequalities(k));
+    limits.C = from.hierarchy.C(k);
+    limits.lower = from.hierarchy.lower(k);
+    limits.upper = from.hierarchy.upper(k);
+    for (int i = 0; i < limits.C.rows(); ++i) {
+      const double shift = change(*numbers);
+      limits.lower[i] += shift;
+      limits.upper[i] += shift;
+    }
+  }
+  to.hierarchy = changed;
+  return to;
+}
+
+// Paths of three ticks. Nearly all arrive; those that do are optimal.
+TEST(ParametricSearch, ArrivesAtTheOptimumOfTheCascade) {
+  RandomHierarchyOptions options;
+  options.scaled = 0;
+  int paths = 0, arrived = 0, changes = 0;
+  for (int seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 numbers(seed);
+    HierarchyCase drawn = MakeRandomHierarchy(seed, options);
+    const int n = drawn.hierarchy.num_variables();
+    Search search(n, drawn.capacity);
+    search.Begin(drawn.hierarchy);
+    for (int tick = 0; tick < 3; ++tick) {
+      drawn = Perturb(drawn, &numbers);
+      const Hierarchy& hierarchy = drawn.hierarchy;
+      ++paths;
+      const Sides before = search.side();
+      if (!search.Follow(hierarchy)) break;
+      ++arrived;
+      changes += search.side() != before;
+      search.path().Remember(search.problem(), search.side());
+      Cascade cascade(n, drawn.capacity);
+      Solution reference(n, drawn.capacity), found(n, drawn.capacity);
+      ASSERT_EQ(cascade.Solve(hierarchy, &reference), Status::kOptimal);
+      found.y = search.y();
+      for (int level = 0; level < hierarchy.num_levels(); ++level) {
+        EvaluateLevel(hierarchy, level, &found);
+        EXPECT_NEAR(
+            found.levels[level].cost, reference.levels[level].cost,
+            Certifier::kCertified * CostSize(hierarchy, level, reference))
+            << tick << ", " << level;
+      }
+    }
+  }
+  EXPECT_EQ(arrived, paths);
+  EXPECT_GT(changes, paths / 4);
+}
+
+// Level 0 has equalities, level 1 limits, level 2 a task, level 3 chooses. All
+// numbers are drawn.
+class FirstLevels {
+ public:
+  explicit FirstLevels(int seed) : numbers_(seed) {
+    for (RowMajorMatrix* matrix : {&B_, &C_, &T_}) {
+      *matrix = RowMajorMatrix::NullaryExpr(matrix == &C_ ? 16 : 3, kVariables,
+                                            [&] { return normal_(numbers_); });
+    }
+  }
+  // The first `open` limits are infinite.
+  Hierarchy Draw(int open = 0) {
+    Hierarchy hierarchy(kVariables, capacity());
+    EqualityBlock first = hierarchy.AddEqualities(0, 3);
+    first.B = B_;
+    for (double& b : first.b) b = normal_(numbers_);
+    InequalityBlock limits = hierarchy.AddInequalities(1, 16);
+    limits.C = C_;
+    limits.lower.setConstant(-2);
+    limits.upper.setConstant(2);
+    limits.lower.head(open).setConstant(-kInfinity);
+    limits.upper.head(open).setConstant(kInfinity);
+    EqualityBlock task = hierarchy.AddEqualities(2, 3);
+    task.B = T_;
+    for (double& b : task.b) b = 5 * normal_(numbers_);
+    hierarchy.AddEqualities(3, kVariables).B.setIdentity();
+    return hierarchy;
+  }
+  static std::vector<LevelCapacity> capacity() {
+    return {{3, 0}, {0, 16}, {3, 0}, {kVariables, 0}};
+  }
+  static constexpr int kVariables = 12;
+
+ private:
+  std::mt19937 numbers_;
+  std::normal_distribution<double> normal_;
+  RowMajorMatrix B_{3, kVariables}, C_{16, kVariables}, T_{3, kVariables};
+};
+
+// Violation of the equalities and limits, the largest one.
+double Violation(const Hierarchy& hierarchy, const Eigen::VectorXd& y) {
+  const Eigen::VectorXd value = hierarchy.C(1) * y;
+  return std::max((hierarchy.B(0) * y + hierarchy.b(0)).cwiseAbs().maxCoeff(),
+                  (value - hierarchy.upper(1))
+                      .cwiseMax(hierarchy.lower(1) - value)
+                      .maxCoeff());
+}
+
+// Returns the point closest to `from` that meets levels 0 and 1, found in another way:
+// by the cascade, with `from` as the target of the last level.
+Eigen::VectorXd FindNearest(const Hierarchy& hierarchy,
+                            const Eigen::VectorXd& from) {
+  const int n = FirstLevels::kVariables;
+  const std::vector<LevelCapacity> capacity{{3, 0}, {0, 16}, {n, 0}};
+  Hierarchy nearest(n, capacity);
+  EqualityBlock first = nearest.AddEqualities(0, 3);
+  first.B = hierarchy.B(0);
+  first.b = hierarchy.b(0);
+  InequalityBlock limits = nearest.AddInequalities(1, 16);
+  limits.C = hierarchy.C(1);
+  limits.lower = hierarchy.lower(1);
+  limits.upper = hierarchy.upper(1);
+  EqualityBlock last = nearest.AddEqualities(2, n);
+  last.B.setIdentity();
+  last.b = -from;
+  Cascade cascade(n, capacity);
+  Solution solution(n, capacity);
+  EXPECT_EQ(cascade.Solve(nearest, &solution), Status::kOptimal);
+  return solution.y;
+}
+
+// The point is the closest one, unless the optimum of the working set violates no
+// bound: then no path is needed, and it may be farther away.
+TEST(ParametricSearch, MeetsLevelsAtTheClosestPoint) {
+  int closest = 0;
+  for (int seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    FirstLevels draw(seed);
+    Search search(FirstLevels::kVariables, FirstLevels::capacity());
+    search.Begin(draw.Draw());
+    const Hierarchy hierarchy = draw.Draw();
+    search.Start(hierarchy);
+    const Eigen::VectorXd from = search.y();
+    const Sides side = search.side();
+    ASSERT_TRUE(search.MeetLevelsBeforeLast(hierarchy));
+    EXPECT_EQ(search.side(), side);
+    // The condition of such rows is below 1e4, and enters squared.
+    const double tolerance = 1e-7 * (1 + from.norm());
+    EXPECT_LE(Violation(hierarchy, search.y()), tolerance);
+    const double distance = (search.y() - from).norm();
+    const double least = (FindNearest(hierarchy, from) - from).norm();
+    EXPECT_GE(distance, least - tolerance);
+    closest += distance <= least + tolerance;
+    // The path itself goes on, for the same working set.
+    EXPECT_TRUE(search.FollowFromHere(hierarchy));
+    EXPECT_LE(Violation(hierarchy, search.y()), tolerance);
+  }
+  EXPECT_GT(closest, 80);
+}
+
+// Bounds that become infinite while the budget ends do not stay in the working set.
+TEST(ParametricSearch, MeetsLevelsAfterBoundsBecomeInfinite) {
+  int spent = 0;
+  for (int seed = 0; seed < 50; ++seed) {
+    SCOPED_TRACE(seed);
+    FirstLevels draw(seed);
+    Search search(FirstLevels::kVariables, FirstLevels::capacity());
+    search.Begin(draw.Draw());
+    Hierarchy hierarchy = draw.Draw();
+    if (search.MeetLevelsBeforeLast(hierarchy, 2)) continue;
+    search.path().Resume(&search.side());
+    if (search.Follow(hierarchy, 0)) continue;
+    ++spent;
+    FitToBounds(hierarchy, &search.side());
+    Hierarchy open = draw.Draw(/*open=*/seed % 16);
+    FitToBounds(open, &search.side());
+    ASSERT_TRUE(search.MeetLevelsBeforeLast(open));
+    EXPECT_LE(Violation(open, search.y()), 1e-7 * (1 + search.y().norm()));
+  }
+  EXPECT_GT(spent, 20);
+}
+
+// A solve that spends its budget on the first levels is followed by one that does not,
+// so that the path goes on.
+TEST(ParametricSearch, AdvancesThePathAfterMeetingLevels) {
+  int spent = 0, spent_again = 0;
+  for (int seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    FirstLevels draw(seed);
+    Search search(FirstLevels::kVariables, FirstLevels::capacity());
+    search.Begin(draw.Draw());
+    const Hierarchy hierarchy = draw.Draw();
+    const Sides side = search.side();
+    if (search.MeetLevelsBeforeLast(hierarchy, 1)) continue;
+    ++spent;
+    EXPECT_TRUE(search.path().is_paused());
+    search.path().Resume(&search.side());
+    EXPECT_EQ(search.side(), side);
+    EXPECT_TRUE(search.MeetLevelsBeforeLast(hierarchy, 1));
+    // Once the path has advanced, the levels are met again first.
+    if (!search.Follow(hierarchy, 0)) {
+      spent_again += !search.MeetLevelsBeforeLast(hierarchy, 0);
+    }
+  }
+  EXPECT_GT(spent, 50);
+  EXPECT_GT(spent_again, 25);
+}
+
+}  // namespace
+}  // namespace poise
