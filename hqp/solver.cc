@@ -22,8 +22,8 @@ constexpr int kMaxRefinementPasses = 5;
 
 // A search on all levels at once that takes half of the budget is likely to
 // cycle by rounding, and the rest is for a search level by level. But with fewer
-// iterations than this, the second search would not end either. Of 2800 recorded
-// ticks, six take more, all with 5 % of the torque.
+// iterations than this, the second search would not end either. Of 27800 recorded
+// ticks, only some with 5 % of the torque take more.
 constexpr int kMinIterationsAtOnce = 250;
 
 // After this number of solves in a row that the budget ended, a search starts from

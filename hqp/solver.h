@@ -11,9 +11,10 @@
 namespace poise {
 
 /// The fast solver: active-set methods on one factorisation of all levels. Each
-/// solve follows a path from the optimum of the last one, or, if this path is long,
-/// uses a primal method. If that answer is not certified, the levels are solved one
-/// after the other. See docs/hqp.md and hqp/fast/README.md.
+/// solve follows a path from the last optimum. A primal method is used if there is
+/// no last optimum, or if the path is long and the time is not limited. If that
+/// answer is not certified, the levels are solved one after the other. See
+/// docs/hqp.md and hqp/fast/README.md.
 class Solver {
  public:
   /// Allocates memory for all levels at their capacity, and for speed in

@@ -126,7 +126,7 @@ TEST(SolverBudget, GoesOnAlongAPath) {
       solver.max_modelled_seconds = is_time ? limit : 0;
       std::optional<Solution> before;
       Status status = Status::kIterationLimit;
-      // Each solve advances by a row, and no row changes more than ten times.
+      // Each solve advances by a row. No row is removed more than ten times in a solve.
       for (int solve = 0; solve < 100 && status != Status::kOptimal; ++solve) {
         const CountMalloc count;
         status = solver.Solve(changed.hierarchy, &now);

@@ -12,11 +12,12 @@
 
 namespace poise {
 
-/// Finds the optimum of a hierarchy: follows a path from the last optimum, see
-/// ParametricSearch, and if there is none, or it is long, uses a primal active-set
-/// method on all levels. See README.md.
+/// Finds the optimum of a hierarchy. AllAtOnce() follows a path from the last optimum,
+/// see ParametricSearch. A primal active-set method follows if there is no such
+/// optimum, or if the path is too long. See README.md.
 ///
-/// Invariant of the primal method: outside the working set, y violates no row by more than rounding.
+/// Invariant of the primal method: outside the working set, y violates no row by
+/// more than rounding.
 /// A step goes from y towards the optimum of the working set, and the first
 /// blocking constraint is added to the working set. At that optimum, rows
 /// strictly inside their bound are removed. If there is none, the row with the
@@ -48,7 +49,7 @@ class ActiveSetSearch {
                    WorkingSetProblem* problem,
                    std::vector<std::vector<Side>>* side);
 
-  /// Ends a search that is not complete. If it has followed a path, the next
+  /// Ends a search that is not complete. If the search has followed a path, the next
   /// AllAtOnce() continues this path, see Resume(). If not, removes the rows from the
   /// working set that y() meets strictly, and the next AllAtOnce() starts from y(), if
   /// y() is not worse than the optimum of its working set.

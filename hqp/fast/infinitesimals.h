@@ -4,17 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
-/// Numbers m_0 + m_1 e + m_2 e^2 + ... with an infinitesimal e > 0, stored as their
-/// first `size` coefficients. A hierarchy is the limit of one least-squares problem
-/// in which level k has the weight e^k. So the multipliers of a row on all levels
-/// are the coefficients of one such number.
+/// These functions compute with numbers m_0 + m_1 e + m_2 e^2 + ..., where e > 0 is
+/// infinitesimal. The first `size` coefficients are stored. A hierarchy is the limit of
+/// one least-squares problem in which level k has the weight e^k. So the multipliers of
+/// a row on all levels are the coefficients of one such number.
 namespace poise::infinitesimals {
 
 /// A sum below this is zero, relative to its largest term: the rounding of a division
 /// and of ten additions, times ten.
 constexpr double kRounding = 1e-14;
 
-/// The sign of the first coefficient that is not zero, or 0.
+/// Returns the sign of the first coefficient that is not zero, or 0.
 inline int Sign(const double* m, int size) {
   for (int k = 0; k < size; ++k) {
     if (m[k] != 0) return m[k] > 0 ? 1 : -1;

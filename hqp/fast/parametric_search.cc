@@ -12,8 +12,8 @@
 namespace poise {
 namespace {
 
-// Removals of one row on a path. Paths need fewer; the limit ends cycles that
-// rounding causes.
+// Removals of one row in one solve. Paths need fewer; the limit ends cycles that
+// rounding causes. A cycle over several solves ends when the solver starts over.
 constexpr int kMaxRemovals = 10;
 
 }  // namespace

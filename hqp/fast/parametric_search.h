@@ -34,7 +34,7 @@ class ParametricSearch {
   /// Takes the multipliers of a solution, for the start of the next path.
   void Remember(const WorkingSetProblem& problem, const Sides& side);
 
-  /// Forgets the last solution. There is no path without one.
+  /// Forgets the last solution. Until the next Remember(), there is no path.
   void Forget() { is_known_ = is_paused_ = false; }
   bool is_known() const { return is_known_; }
 
@@ -43,15 +43,15 @@ class ParametricSearch {
     if (!is_paused_) y_ = y;
     is_paused_ = false;
   }
-  /// Ends a path before its end, with this working set. Until Begin(), Resume()
-  /// replaces a working set by it.
+  /// Ends a path before its end. Until Begin(), Resume() replaces a working set by
+  /// `side`.
   void Pause(const Sides& side);
   bool is_paused() const { return is_paused_; }
   void Resume(Sides* side) const {
     if (is_paused_) *side = side_;
   }
 
-  /// The point of the path that has been reached.
+  /// Returns the point that the path has reached.
   const std::vector<double>& y() const { return y_; }
   std::vector<double>* mutable_y() { return &y_; }
 
@@ -66,8 +66,10 @@ class ParametricSearch {
 
   /// Moves y() to a point that meets all leading levels but the last: to the closest
   /// optimum of the working set `side`, for which the leading levels of `problem` are
-  /// solved, or, if that violates a bound, to the closest optimum of these levels.
-  /// Returns true if the point has been reached, or if the last call spent its budget.
+  /// solved, or, if that violates a bound, to the closest optimum of these levels. The
+  /// multipliers of `side` are not checked. Returns true if the point has been reached.
+  /// Returns true without a move if there are fewer than two leading levels, or if the
+  /// last call spent its budget.
   /// The leading levels of `problem` are then solved for `side`. Returns false if the
   /// budget, or `limit` iterations of it, did not suffice. Then the path is paused, and
   /// `side` is the working set of these levels.
@@ -117,13 +119,16 @@ class ParametricSearch {
   int n_;
   bool is_known_ = false, is_paused_ = false;
   std::vector<double> y_;
-  RowNumbers start_;  ///< Multipliers at the time that has been reached.
-  Sides side_;        ///< Working set of start_.
+  /// Multipliers at the time that has been reached. Rows beyond num_variables count
+  /// with the multiplier 0.
+  RowNumbers start_;
+  Sides side_;  ///< Working set of start_.
   /// The working set of MeetLevelsBeforeLast(), if it has been called since the last
   /// optimum.
   Sides near_side_;
   bool is_near_known_ = false;
-  /// The last solve spent its budget in MeetLevelsBeforeLast().
+  /// The next MeetLevelsBeforeLast() makes no move. Each search for the nearest point
+  /// sets this, and Follow() clears it.
   bool skips_near_ = false;
   std::vector<double> center_;
   std::vector<double> end_, time_, removal_time_;  ///< Infinitesimals.

@@ -142,8 +142,8 @@ TEST_F(ParametricSearchTest, AddsARowWhereThePathReachesItsBound) {
   EXPECT_NEAR(search_.y()[1], 0, kTolerance);
 }
 
-// The bound holds y_0 = 1 with the multiplier target - 1, which goes from 2 to -2. It
-// is zero in the middle, and so is y_1, which is free.
+// The bound holds y_0 = 1 with the multiplier target - 1, which goes from 2 to -2. The
+// multiplier is zero at half of the path. There y_1, which is free, is 0.25.
 TEST_F(ParametricSearchTest, RemovesARowWhereItsMultiplierIsZero) {
   search_.Begin(At(3, 0));
   ASSERT_EQ(side(0), Side::kUpper);
@@ -259,7 +259,7 @@ HierarchyCase Perturb(const HierarchyCase& from, std::mt19937* numbers) {
   return to;
 }
 
-// Paths of three ticks. Nearly all arrive; those that do are optimal.
+// Each path has three ticks. All paths reach the optimum.
 TEST(ParametricSearch, ArrivesAtTheOptimumOfTheCascade) {
   RandomHierarchyOptions options;
   options.scaled = 0;

@@ -11,7 +11,7 @@
 
 namespace poise {
 
-/// A number of `size` coefficients for each of some inequality rows. A working set has
+/// Stores a number of `size` coefficients for some of the inequality rows. A working set has
 /// far fewer rows than all levels have room for, so a row gets its memory when it is
 /// first used. Nothing allocates after construction.
 class RowNumbers {
@@ -38,7 +38,7 @@ class RowNumbers {
     num_free_ = static_cast<int>(free_.size());
   }
 
-  /// The number of a row; zero if it had none.
+  /// Returns the number of a row, which is zero if the row had none.
   double* At(int level, int row) {
     std::int16_t& place = place_[level][row];
     if (place == kNoPlace) {

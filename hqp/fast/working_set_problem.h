@@ -69,6 +69,7 @@ class WorkingSetProblem {
   /// SolveLeading() and Approach() next: SolveDiagonal() needs all leading
   /// levels.
   void UseLeading(int num_leading);
+  /// UseLeading() for all leading levels of the last Plan().
   void UseAllLeading() { UseLeading(num_levels_ - diagonal_.num_levels() + 1); }
 
   /// Leaves out the levels that the last SolveLeading() has not solved, until the
