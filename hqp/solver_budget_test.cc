@@ -56,6 +56,39 @@ bool IsNoWorse(const Hierarchy& hierarchy, const Solution& solution,
   return true;
 }
 
+// Numbers of iterations, and times [s]. The times allow 2 and 5 iterations beside the
+// modelled time of a solve.
+constexpr double kBudgets[] = {2, 3, 5, 8, 36e-6, 50e-6};
+
+void SetLimit(double limit, Solver* solver) {
+  const bool is_time = limit < 1;
+  solver->max_iterations = is_time ? 500 : static_cast<int>(limit);
+  solver->max_modelled_seconds = is_time ? limit : 0;
+}
+
+// Solves one hierarchy again and again. Expects that no answer is worse than the one
+// before, and that the optimum is found. Returns the number of solves that were stopped.
+int SolveInSteps(const Hierarchy& hierarchy, const Solution& optimum,
+                 int max_solves, Solver* solver) {
+  int stopped = 0;
+  Solution now = optimum;
+  std::optional<Solution> before;
+  Status status = Status::kIterationLimit;
+  for (int solve = 0; solve < max_solves && status != Status::kOptimal;
+       ++solve) {
+    const CountMalloc count;
+    status = solver->Solve(hierarchy, &now);
+    EXPECT_EQ(count.allocations(), 0);
+    EXPECT_LE(now.iterations, solver->max_iterations);
+    EXPECT_TRUE(!before || IsNoWorse(hierarchy, now, *before)) << solve;
+    before = now;
+    stopped += status != Status::kOptimal;
+  }
+  EXPECT_EQ(status, Status::kOptimal);
+  EXPECT_TRUE(IsNoWorse(hierarchy, now, optimum));
+  return stopped;
+}
+
 // A solver that is stopped too early in each solve goes on from where it was:
 // its answers never get worse, and it arrives at the optimum.
 TEST(SolverBudget, GoesOnFromWhereItWasStopped) {
@@ -68,31 +101,15 @@ TEST(SolverBudget, GoesOnFromWhereItWasStopped) {
     const Hierarchy& hierarchy = drawn.hierarchy;
     const int n = hierarchy.num_variables();
     Solver solver(n, drawn.capacity);
-    Solution optimum(n, drawn.capacity), now(n, drawn.capacity);
+    Solution optimum(n, drawn.capacity);
     ASSERT_EQ(solver.Solve(hierarchy, &optimum), Status::kOptimal);
     // Each solve needs one factorisation to know its start.
-    const int needed = optimum.iterations;
-    // Numbers of iterations, and times. The times allow 2 and 5 iterations beside
-    // the modelled time of a solve.
-    for (const double limit : {2.0, 3.0, 5.0, 8.0, 36e-6, 50e-6}) {
+    const int most = 2 * optimum.iterations + 1;
+    for (const double limit : kBudgets) {
+      SCOPED_TRACE(limit);
       solver.Forget();
-      const bool is_time = limit < 1;
-      solver.max_iterations = is_time ? 500 : static_cast<int>(limit);
-      solver.max_modelled_seconds = is_time ? limit : 0;
-      Status status = Status::kIterationLimit;
-      std::optional<Solution> before;
-      for (int solve = 0; solve <= 2 * needed; ++solve) {
-        const CountMalloc count;
-        status = solver.Solve(hierarchy, &now);
-        EXPECT_EQ(count.allocations(), 0);
-        EXPECT_LE(now.iterations, solver.max_iterations);
-        EXPECT_TRUE(!before || IsNoWorse(hierarchy, now, *before)) << solve;
-        before = now;
-        if (status == Status::kOptimal) break;
-        ++stopped;
-      }
-      EXPECT_EQ(status, Status::kOptimal);
-      EXPECT_TRUE(IsNoWorse(hierarchy, now, optimum));
+      SetLimit(limit, &solver);
+      stopped += SolveInSteps(hierarchy, optimum, most, &solver);
     }
   }
   EXPECT_GT(stopped, 200);
@@ -115,29 +132,15 @@ TEST(SolverBudget, GoesOnAlongAPath) {
     Solver solver(n, drawn.capacity), cold(n, drawn.capacity);
     Solution optimum(n, drawn.capacity), now(n, drawn.capacity);
     ASSERT_EQ(cold.Solve(changed.hierarchy, &optimum), Status::kOptimal);
-    for (const double limit : {2.0, 3.0, 5.0, 36e-6, 50e-6}) {
+    for (const double limit : kBudgets) {
       SCOPED_TRACE(limit);
       solver.Forget();
-      solver.max_iterations = 500;
-      solver.max_modelled_seconds = 0;
+      SetLimit(500, &solver);
       ASSERT_EQ(solver.Solve(drawn.hierarchy, &now), Status::kOptimal);
-      const bool is_time = limit < 1;
-      solver.max_iterations = is_time ? 500 : static_cast<int>(limit);
-      solver.max_modelled_seconds = is_time ? limit : 0;
-      std::optional<Solution> before;
-      Status status = Status::kIterationLimit;
-      // Each solve advances by a row. No row is removed more than ten times in a solve.
-      for (int solve = 0; solve < 100 && status != Status::kOptimal; ++solve) {
-        const CountMalloc count;
-        status = solver.Solve(changed.hierarchy, &now);
-        EXPECT_EQ(count.allocations(), 0);
-        EXPECT_TRUE(!before || IsNoWorse(changed.hierarchy, now, *before))
-            << solve;
-        before = now;
-        stopped += status != Status::kOptimal;
-      }
-      EXPECT_EQ(status, Status::kOptimal);
-      EXPECT_TRUE(IsNoWorse(changed.hierarchy, now, optimum));
+      SetLimit(limit, &solver);
+      // Each solve advances by a row. No row is removed more than ten times in a
+      // solve.
+      stopped += SolveInSteps(changed.hierarchy, optimum, 100, &solver);
     }
   }
   EXPECT_GT(stopped, 200);
@@ -158,6 +161,7 @@ TEST(SolverBudget, RecoversFromSolvesThatAreCutOff) {
     Solver solver(n, drawn.capacity), fresh(n, drawn.capacity);
     Solution now(n, drawn.capacity), expected(n, drawn.capacity);
     ASSERT_EQ(solver.Solve(drawn.hierarchy, &now), Status::kOptimal);
+    // 40 us allow about three iterations.
     for (const double seconds : {0.0, 40e-6}) {
       SCOPED_TRACE(seconds);
       solver.max_modelled_seconds = seconds;

@@ -381,9 +381,6 @@ TEST(Solver, ForgetsTheRowsOfTheLastSolve) {
   }
 }
 
-// The row is 2 y0 <= 2, and y1 is 1e8. The rounding of y1 hides violations
-// below 1e-3 from the search. Refinement finds such a violation and adds the
-// row, unless the violation is rounding of 2 |y0| + 2.
 // After Forget(), a solver does not know which levels another problem has met. The
 // equality of one variable would else be factored first.
 TEST(Solver, RepeatsBitForBitAfterForget) {
@@ -410,6 +407,9 @@ TEST(Solver, RepeatsBitForBitAfterForget) {
   }
 }
 
+// The row is 2 y0 <= 2, and y1 is 1e8. The rounding of y1 hides violations
+// below 1e-3 from the search. Refinement finds such a violation and adds the
+// row, unless the violation is rounding of 2 |y0| + 2.
 TEST(Solver, AddsRowsThatOnlyRefinementFindsViolated) {
   const std::vector<LevelCapacity> capacity{{0, 3}, {0, 3}, {2, 0}};
   const double rounding = 100 * std::numeric_limits<double>::epsilon() * 4;

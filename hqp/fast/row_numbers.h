@@ -11,9 +11,9 @@
 
 namespace poise {
 
-/// Stores a number of `size` coefficients for some of the inequality rows. A working set has
-/// far fewer rows than all levels have room for, so a row gets its memory when it is
-/// first used. Nothing allocates after construction.
+/// Stores a number of `size` coefficients for some of the inequality rows. A working
+/// set has far fewer rows than all levels have room for, so a row gets its memory when
+/// it is first used. Nothing allocates after construction.
 class RowNumbers {
  public:
   /// @param max_rows  largest number of rows with a number at the same time. The
