@@ -26,9 +26,10 @@ DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
   level_of_.resize(n_);
   order_.resize(n_);
   blocks_.resize(max_levels + 1);
-  for (std::vector<double>* matrix : {&t_, &reflection_, &q_, &l_}) {
+  for (std::vector<double>* matrix : {&t_, &reflection_, &q_}) {
     matrix->resize(square);
   }
+  l_.resize(static_cast<size_t>(n_) * (n_ + 1) / 2);
   for (std::vector<double>* vector :
        {&weight_, &target_, &start_, &step_, &ideal_, &scale_, &x_, &magnitude_,
         &gradient_, &z_, &nu_, &scratch_, &factor_}) {
@@ -139,7 +140,7 @@ void DiagonalLevels::EliminateAll(int end) {
 void DiagonalLevels::Solve(const LexicographicFactorization& leading,
                            double* y) {
   Tie(leading);
-  Separate();
+  if (!IsSquare()) Separate();
   Start(leading, leading.z());
   for (int p = 0; p < num_free_; ++p) {
     const double target = target_[order_[p]];
@@ -313,6 +314,7 @@ void DiagonalLevels::Count(int rows, int columns) {
 // Factors T/d = L Q by Gram-Schmidt. A dependent row, which only rounding can
 // cause, is set to zero.
 void DiagonalLevels::FactorLevel(int level) {
+  if (level == 0 && IsSquare()) return;
   const Block& block = blocks_[level];
   const int columns = block.end - block.begin;
   const int rows = block.row_end - block.row_begin;
@@ -321,7 +323,7 @@ void DiagonalLevels::FactorLevel(int level) {
   double* first = &q_[static_cast<size_t>(block.row_begin + from) * stride_];
   for (int i = 0; i < rows; ++i) {
     const size_t at = static_cast<size_t>(block.row_begin + i) * stride_;
-    double *q = &q_[at], *l = &l_[at];
+    double *q = &q_[at], *l = L(block.row_begin + i);
     const double* t = &t_[at] + block.begin;
     std::fill_n(l, i + 1, 0);
     if (i < usual) {
@@ -366,18 +368,27 @@ void DiagonalLevels::SolveLevel(int level) {
   const int rows = block.row_end - block.row_begin;
   const size_t first = static_cast<size_t>(block.row_begin) * stride_;
   double* z = &z_[block.row_begin];
+  double* x = &x_[block.begin];
   Dots(&t_[first] + block.begin, stride_, rows, &ideal_[block.begin], columns,
        z);
+  std::fill_n(x, columns, 0);
+  if (level == 0 && IsSquare()) {
+    for (int i = 0; i < rows; ++i) z[i] = -z[i];
+    AddRows(&t_[first] + block.begin, stride_, rows, z, columns, x);
+    for (int p = block.begin; p < block.end; ++p) {
+      step_[p] = ideal_[p] + x_[p];
+      x_[p] *= scale_[p];
+    }
+    return;
+  }
   Dots(&t_[first] + block.end, stride_, rows, &step_[block.end], rest,
        scratch_.data());
   for (int i = 0; i < rows; ++i) {
-    const double* l = &l_[first + static_cast<size_t>(i) * stride_];
+    const double* l = L(block.row_begin + i);
     double value;
     Dots(l, 0, 1, z, i, &value);
     z[i] = l[i] == 0 ? 0 : (-z[i] - scratch_[i] - value) / l[i];
   }
-  double* x = &x_[block.begin];
-  std::fill_n(x, columns, 0);
   AddRows(&q_[first], stride_, rows, z, columns, x);
   for (int p = block.begin; p < block.end; ++p) {
     step_[p] = ideal_[p] + x_[p] / scale_[p];
@@ -386,14 +397,14 @@ void DiagonalLevels::SolveLevel(int level) {
 
 // Solves L' nu = -z. Rounding of a row's target appears in nu divided by the
 // squared diagonal of L. So a row that small-weight variables can meet has a
-// small threshold.
+// small threshold. If the rows leave no freedom, T' nu = -d x instead.
 void DiagonalLevels::FindMultipliers(int level) {
   Block& block = blocks_[level];
-  double largest = 0, squared = 0, size = 0;
+  double squared = 0;
   for (int p = block.begin; p < block.end; ++p) {
     squared += magnitude_[p] * magnitude_[p];
   }
-  double weight = 0;  // Largest weight of a fixed variable.
+  double largest = 0, weight = 0;  // The fixed variables come first.
   for (int p = num_free_; p < n_; ++p) {
     const int j = order_[p];
     if (level_of_[j] != level) continue;
@@ -401,16 +412,26 @@ void DiagonalLevels::FindMultipliers(int level) {
     weight = std::max(weight, weight_[j]);
     largest = std::max(largest, std::abs(gradient_[p]));
   }
-  size = std::sqrt(squared) * weight;
-  double* z = &z_[block.row_begin];
-  for (int i = block.row_end - block.row_begin - 1; i >= 0; --i) {
-    const double* l = &l_[static_cast<size_t>(block.row_begin + i) * stride_];
-    const double minus = l[i] == 0 ? 0 : -z[i] / l[i];
-    AddRows(l, 0, 1, &minus, i, z);
-    nu_[block.row_begin + i] = minus;
-    largest = std::max(largest, std::abs(minus));
-    if (l[i] > 0) size = std::max(size, std::sqrt(squared) / (l[i] * l[i]));
+  const int rows = block.row_end - block.row_begin;
+  double *z = &z_[block.row_begin], *nu = &nu_[block.row_begin];
+  if (level == 0 && IsSquare()) {
+    for (int p = block.begin; p < block.end; ++p) {
+      scratch_[p - block.begin] = -scale_[p] * x_[p];
+      weight = std::max(weight, weight_[order_[p]]);
+    }
+    Dots(&t_[static_cast<size_t>(block.row_begin) * stride_] + block.begin,
+         stride_, rows, scratch_.data(), rows, nu);
+    Count(rows, rows);
+  } else {
+    for (int i = rows - 1; i >= 0; --i) {
+      const double* l = L(block.row_begin + i);
+      nu[i] = l[i] == 0 ? 0 : -z[i] / l[i];
+      AddRows(l, 0, 1, &nu[i], i, z);
+      if (l[i] > 0) weight = std::max(weight, 1 / (l[i] * l[i]));
+    }
   }
+  largest = std::max(largest, kernels::Largest(nu, rows));
+  const double size = std::sqrt(squared) * weight;
   // The steps of earlier levels are in nu, but not in the threshold.
   block.size =
       largest > tolerances::kZeroGradient * size ? std::max(size, largest) : 0;

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -101,7 +102,17 @@ class DiagonalLevels {
   double UsualWeight(const FixedVariables& variables) const;
   void Arrange(const FixedVariables& variables);
   int num_fixed() const { return n_ - num_free_; }
+  /// Row of L. It has row + 1 entries at most, because L is lower triangular.
+  double* L(int row) {
+    return &l_[static_cast<std::size_t>(row) * (row + 1) / 2];
+  }
   void FindGradient(int position, const double* y);
+  /// Whether the rows leave the first level's variables no freedom. Its rows, which
+  /// are orthonormal and have no other variables, are then an orthogonal matrix.
+  bool IsSquare() const {
+    const Block& first = blocks_[0];
+    return first.row_end - first.row_begin == first.end - first.begin;
+  }
   void Separate();
   bool RoundsUsual() const;
   int LargestColumn(int row_begin, int row_end, int begin, int end,
@@ -136,7 +147,7 @@ class DiagonalLevels {
   std::vector<double> x_, magnitude_;                 ///< By position.
   std::vector<double> gradient_;  ///< Gradient on fixed variables, by position.
   std::vector<double> z_, nu_;    ///< By row of U' Q.
-  std::vector<double> q_, l_;     ///< T_cc/d = L Q, by level.
+  std::vector<double> q_, l_;     ///< T_cc/d = L Q, by level; see L().
   std::vector<double> scratch_, factor_;
   std::int64_t multiply_adds_ = 0;
 };
