@@ -12,6 +12,7 @@
 namespace poise {
 namespace {
 
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double Ratio(double error, double size) {
@@ -21,33 +22,6 @@ double Ratio(double error, double size) {
 // Returns the larger one, or infinity if either is NaN.
 double Worse(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? kInfinity : std::max(a, b);
-}
-
-// Sums over the entries of a row and y, of the columns of the row's span.
-struct RowSums {
-  double product;           // row . y.
-  double product_size;      // sum_j |row_j y_j|.
-  double squared_row_norm;  // |row|^2.
-};
-
-RowSums Sum(const double* row, const double* y, int n) {
-  using Four = Eigen::Array4d;
-  Four product = Four::Zero(), size = Four::Zero(), squares = Four::Zero();
-  int j = 0;
-  for (; j + 4 <= n; j += 4) {
-    const Four r = Four::Map(row + j);
-    const Four term = r * Four::Map(y + j);
-    product += term;
-    size += term.abs();
-    squares += r * r;
-  }
-  for (; j < n; ++j) {
-    const double term = row[j] * y[j];
-    product[0] += term;
-    size[0] += std::abs(term);
-    squares[0] += row[j] * row[j];
-  }
-  return {product.sum(), size.sum(), squares.sum()};
 }
 
 // Returns whether all entries are zero, of either sign.
@@ -79,11 +53,20 @@ Certifier::Certifier(int num_variables,
                      const std::vector<LevelCapacity>& capacity)
     : cost_(capacity.size()),
       cost_size_(capacity.size()),
+      cost_rounding_(capacity.size()),
+      slack_rounding_(capacity.size()),
+      error_(capacity.size()),
       gap_(capacity.size()),
+      exact_gap_(capacity.size()),
+      undercut_(capacity.size()),
+      change_(capacity.size()),
+      is_sharp_(capacity.size()),
       gradient_(num_variables),
-      gradient_size_(num_variables) {
+      gradient_size_(num_variables),
+      precise_gradient_(num_variables) {
   for (const LevelCapacity& level : capacity) {
     LevelRows rows;
+    rows.residual.resize(level.equalities);
     rows.violation.resize(level.inequalities);
     rows.size.resize(level.inequalities);
     rows.value.resize(level.inequalities);
@@ -92,6 +75,28 @@ Certifier::Certifier(int num_variables,
     rows_.push_back(std::move(rows));
   }
 }
+
+Certifier::RowSums Certifier::Sum(const double* row, const double* y, int n) {
+  using Four = Eigen::Array4d;
+  Four product = Four::Zero(), size = Four::Zero(), squares = Four::Zero();
+  int j = 0;
+  for (; j + 4 <= n; j += 4) {
+    const Four r = Four::Map(row + j);
+    const Four term = r * Four::Map(y + j);
+    product += term;
+    size += term.abs();
+    squares += r * r;
+  }
+  for (; j < n; ++j) {
+    const double term = row[j] * y[j];
+    product[0] += term;
+    size[0] += std::abs(term);
+    squares[0] += row[j] * row[j];
+  }
+  return {product.sum(), size.sum(), squares.sum()};
+}
+
+double Certifier::SumRounding(int n) { return (n / 4 + 8) * kEpsilon / 2; }
 
 Certificate Certifier::Certify(const Hierarchy& hierarchy,
                                const Solution& solution) noexcept {
@@ -124,7 +129,7 @@ void Certifier::Truncate(const Hierarchy& hierarchy,
       continue;
     }
     // Multipliers that are not certified bound nothing.
-    gap_[level] = cost_[level] + CostRounding(level);
+    gap_[level] = cost_[level] + cost_rounding_[level];
     solution->certificate.relative_gap =
         Worse(certificate.relative_gap, RelativeGap(level));
     solution->status = Status::kIterationLimit;
@@ -133,16 +138,11 @@ void Certifier::Truncate(const Hierarchy& hierarchy,
   }
 }
 
-double Certifier::RelativeGap(int level) const {
-  return Ratio(gap_[level],
-               cost_[level] + tolerances::kZeroCost * cost_size_[level]);
-}
-
 void Certifier::JudgeLevel(const Hierarchy& hierarchy, int level,
                            const Solution& solution, Certificate* certificate) {
   JudgeRows(hierarchy, level, solution, certificate);
   JudgeMultipliers(hierarchy, level, solution, certificate);
-  gap_[level] = Gap(hierarchy, level, solution);
+  FindGap(hierarchy, level, solution);
   certificate->relative_gap =
       Worse(certificate->relative_gap, RelativeGap(level));
 }
@@ -153,6 +153,7 @@ void Certifier::AddToGradient(const double* row, Span span, double factor,
                               double size) {
   double* gradient = gradient_.data() + span.first;
   double* gradient_size = gradient_size_.data() + span.first;
+  ++num_terms_;
   for (int j = 0; j < span.size; ++j) {
     gradient[j] += factor * row[j];
     gradient_size[j] += size * std::abs(row[j]);
@@ -169,7 +170,9 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
   const double norm_y = solution.y.norm();
   gradient_.setZero();
   gradient_size_.setZero();
-  double cost = 0, cost_size = 0, feasibility = certificate->feasibility;
+  num_terms_ = 0;
+  double cost = 0, cost_size = 0, cost_rounding = 0, slack_rounding = 0;
+  double feasibility = certificate->feasibility;
   const int n = hierarchy.num_variables();
   bool has_right_spans = true;
   for (int i = 0; i < B.rows(); ++i) {
@@ -179,6 +182,7 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     const RowSums sums = Sum(row, solution.y.data() + span.first, span.size);
     const double residual = sums.product + b[i];
     const double size = sums.product_size + std::abs(b[i]);
+    rows.residual[i] = residual;
     if (weight[i] > 0 && sums.squared_row_norm > 0) {
       farthest_ = std::max(farthest_,
                            std::abs(b[i]) / std::sqrt(sums.squared_row_norm));
@@ -187,6 +191,9 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
         Worse(feasibility, Ratio(residual - answer.equality_residual[i], size));
     cost += weight[i] * residual * residual / 2;
     cost_size += weight[i] * size * size / 2;
+    const double rounding = SumRounding(span.size) * size;
+    cost_rounding += weight[i] * (std::abs(residual) + rounding / 2) * rounding;
+    slack_rounding += weight[i] * rounding * rounding;
     AddToGradient(row, span, weight[i] * residual, weight[i] * size);
   }
   for (int i = 0; i < C.rows(); ++i) {
@@ -210,6 +217,9 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     feasibility = Worse(feasibility, Ratio(slack - answer.slack[i], size));
     cost += slack * slack / 2;
     cost_size += size * size / 2;
+    const double rounding = SumRounding(span.size) * size;
+    cost_rounding += (slack + rounding / 2) * rounding;
+    slack_rounding += rounding * rounding;
     if (violation > 0) {
       if (rows.norm[i] > 0) {
         farthest_ = std::max(farthest_, std::abs(bound) / rows.norm[i]);
@@ -217,8 +227,12 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
       AddToGradient(row, span, at_upper ? violation : -violation, size);
     }
   }
+  slack_rounding_[level] = std::sqrt(slack_rounding);
   cost_[level] = cost;
   cost_size_[level] = cost_size;
+  const int num_rows =
+      hierarchy.num_equalities(level) + hierarchy.num_inequalities(level);
+  cost_rounding_[level] = cost_rounding + (num_rows + 2) * kEpsilon * cost;
   certificate->feasibility = has_right_spans ? feasibility : kInfinity;
   certificate->priority = Worse(
       certificate->priority,
@@ -275,59 +289,6 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
       Worse(certificate->stationarity, Ratio(gradient, size));
   certificate->complementarity =
       Worse(certificate->complementarity, Ratio(worst, size));
-}
-
-// Largest mu C_i d of row i of a level above, but for the change of its slack.
-double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int i,
-                             double mu, double radius) const {
-  const LevelRows& rows = rows_[level];
-  // A row with a slack at the optimum as well changes with this slack only.
-  if (rows.violation[i] >
-      tolerances::kAtBound * rows.size[i] + 2 * std::sqrt(gap_[level])) {
-    return 0;
-  }
-  const double distance = mu > 0 ? hierarchy.upper(level)[i] - rows.value[i]
-                                 : rows.value[i] - hierarchy.lower(level)[i];
-  return std::abs(mu) *
-         std::min(std::max(distance, 0.0), rows.norm[i] * radius);
-}
-
-// Rounding of a sum over the variables, relative to its terms.
-double Certifier::SumRounding() const {
-  return std::numeric_limits<double>::epsilon() *
-         static_cast<double>(gradient_.size());
-}
-
-double Certifier::CostRounding(int level) const {
-  const double rounding = SumRounding();
-  return rounding * (2 * std::sqrt(cost_[level] * cost_size_[level]) +
-                     rounding * cost_size_[level]);
-}
-
-// See gap(). gradient_ is that of the level.
-double Certifier::Gap(const Hierarchy& hierarchy, int level,
-                      const Solution& solution) const {
-  const double radius = 2 * (solution.y.norm() + farthest_);
-  double gap =
-      (gradient_.norm() + SumRounding() * gradient_size_.norm()) * radius;
-  for (int above = 0; above < level; ++above) {
-    const LevelMultipliers& multipliers =
-        solution.levels[level].multipliers[above];
-    double squares = 0;
-    for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
-      const double lambda = multipliers.equality[i];
-      if (lambda != 0) squares += lambda * lambda / hierarchy.weight(above)[i];
-    }
-    for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
-      const double mu = multipliers.inequality[i];
-      if (mu == 0) continue;
-      squares += mu * mu;
-      gap += FreeChange(hierarchy, above, i, mu, radius);
-    }
-    if (squares > 0) gap += 2 * std::sqrt(gap_[above] * squares);
-  }
-  const double cost = cost_[level];
-  return (std::isnan(gap) ? cost : std::min(gap, cost)) + CostRounding(level);
 }
 
 }  // namespace poise

@@ -17,24 +17,18 @@ class Certifier {
 
   /// Certifies all levels, or those above solution.failed_level if there is
   /// one. Does not read solution.certificate. Cost: about 4 n flops per row,
-  /// and 4 n per nonzero multiplier. Does not allocate.
+  /// and 4 n per nonzero multiplier; about twice as much if a level cannot be met, and
+  /// three times if its multipliers cancel. Does not allocate.
   Certificate Certify(const Hierarchy& hierarchy,
                       const Solution& solution) noexcept;
 
   /// After Certify() or Truncate(): how far the cost of a level may be above its
-  /// optimum, given the levels above. This is the whole cost for the first level
-  /// that is not certified, and infinite below it.
-  ///
-  /// With d = y' - y for any y' that is optimal on the levels above and no
-  /// farther from y than R = 2 (|y| + largest distance of a row from y = 0),
-  /// convexity gives
-  ///     cost_k(y) - cost_k(y') <= |g_k| R + sum_{j<k} (lambda_kj' B_j d
-  ///                                                    + mu_kj' C_j d).
-  /// An inactive bound allows C_i d up to its distance. A row with a residual or
-  /// a slack changes by 2 sqrt(gap_j) at most, because cost_j is quadratic in
-  /// it. The gap contains the rounding of g_k and of the cost, n eps times the
-  /// magnitudes of their terms. But for this rounding, it never exceeds the
-  /// cost.
+  /// optimum, given the levels above. This is the whole cost for the first level that
+  /// is not certified, and infinite below it. It holds for all optima of the levels
+  /// above that are no farther from y than 2 (|y| + largest distance of a row from
+  /// y = 0), if y meets these levels but for rounding: multipliers at y stand for those
+  /// at the optimum. It contains the rounding of the cost and of the gradient, and but
+  /// for this rounding, it never exceeds the cost. docs/hqp-gap.md derives it.
   double gap(int level) const { return gap_[static_cast<size_t>(level)]; }
 
   /// Upper limit of Certificate::worst() for an answer with status kOptimal.
@@ -46,7 +40,20 @@ class Certifier {
   void Truncate(const Hierarchy& hierarchy, Solution* solution) noexcept;
 
  private:
+  /// Sums over the entries of a row and y, of the columns of the row's span.
+  struct RowSums {
+    double product;           ///< row . y.
+    double product_size;      ///< sum_j |row_j y_j|.
+    double squared_row_norm;  ///< |row|^2.
+  };
+  static RowSums Sum(const double* row, const double* y, int n);
+  /// Largest rounding of Sum() and one more addition, relative to the magnitudes of the
+  /// terms: one for the product, n / 4 + 3 for the sum of one of four lanes, two for
+  /// the sum of the lanes, and two more for the addition and for higher orders.
+  static double SumRounding(int n);
+
   struct LevelRows {
+    Eigen::VectorXd residual;  ///< B y + b.
     /// Violation of the nearer bound; negative if met.
     Eigen::VectorXd violation;
     Eigen::VectorXd size;    ///< |C_i| |y| + |bound|.
@@ -61,18 +68,53 @@ class Certifier {
                         const Solution& solution, Certificate* certificate);
   void JudgeLevel(const Hierarchy& hierarchy, int level,
                   const Solution& solution, Certificate* certificate);
-  double FreeChange(const Hierarchy& hierarchy, int level, int i, double mu,
-                    double radius) const;
-  double Gap(const Hierarchy& hierarchy, int level,
-             const Solution& solution) const;
-  double SumRounding() const;
-  double CostRounding(int level) const;
+  // The gap, in gap.cc.
+  double CostScale(int level) const;
   double RelativeGap(int level) const;
+  void FindGap(const Hierarchy& hierarchy, int level, const Solution& solution);
+  double PreciseGradientNorm(const Hierarchy& hierarchy, int level,
+                             const Solution& solution);
+  double LargestGain(const Hierarchy& hierarchy, int level, int above,
+                     double radius, const Solution& solution);
+  void FindChange(const Hierarchy& hierarchy, int level,
+                  const Solution& solution);
+  void SharpenChanges(const Hierarchy& hierarchy, int level,
+                      const Solution& solution);
+  double NormOfMultipliers(const Hierarchy& hierarchy, int level, int above,
+                           const Solution& solution) const;
+  double FreeChange(const Hierarchy& hierarchy, int level, int above, int i,
+                    double mu, double radius, const Solution& solution) const;
+  template <typename Use>
+  void ForEachSlack(const Hierarchy& hierarchy, int level, int above,
+                    const double* p, const Solution& solution,
+                    const Use& use) const;
+  double GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
+                      const Solution& solution) const;
+  double LargestStep(const Hierarchy& hierarchy, int level,
+                     const Eigen::VectorXd& p, const Solution& solution,
+                     double* slope) const;
 
   std::vector<LevelRows> rows_;
-  std::vector<double> cost_, cost_size_, gap_;  ///< By level.
+  /// By level. The magnitude of the terms of a cost, and its rounding.
+  std::vector<double> cost_, cost_size_, cost_rounding_;
+  /// By level: norm of the rounding of all residuals and slacks, each times the root of
+  /// its weight.
+  std::vector<double> slack_rounding_;
+  std::vector<double> error_;  ///< By level: largest norm of the gradient.
+  std::vector<double> gap_;    ///< By level.
+  /// By level: gap of the cost in exact arithmetic, without the rounding of the cost.
+  std::vector<double> exact_gap_;
+  /// By level: how far the cost may be below its optimum, because y misses the levels
+  /// above.
+  std::vector<double> undercut_;
+  /// By level: largest change of all residuals and slacks from y to an optimum, each
+  /// times the root of its weight.
+  std::vector<double> change_;
+  std::vector<bool> is_sharp_;  ///< See SharpenChanges().
   double farthest_ = 0;  ///< Largest distance of a row of any level from y = 0.
   Eigen::VectorXd gradient_, gradient_size_;
+  int num_terms_ = 0;  ///< Rows that have been added to gradient_.
+  std::vector<long double> precise_gradient_;
 };
 
 }  // namespace poise

@@ -24,6 +24,7 @@ Solution::Solution(int num_variables,
     level.equality_residual.resize(rows.equalities);
     level.slack.resize(rows.inequalities);
     level.active.resize(rows.inequalities);
+    level.trade_off.resize(num_variables);
     for (size_t above = 0; above < levels.size(); ++above) {
       level.multipliers.push_back(
           {Eigen::VectorXd(capacity[above].equalities),
@@ -46,6 +47,7 @@ void Solution::Reset() noexcept {
     level.slack.setZero();
     std::fill(level.active.begin(), level.active.end(), Side::kNone);
     level.nullity = static_cast<int>(y.size());
+    level.traded_level = -1;
     for (LevelMultipliers& multipliers : level.multipliers) {
       multipliers.equality.setZero();
       multipliers.inequality.setZero();
@@ -68,6 +70,7 @@ void Solution::Reset(const Hierarchy& hierarchy) noexcept {
     level.slack.head(inequalities).setZero();
     std::fill_n(level.active.begin(), inequalities, Side::kNone);
     level.nullity = static_cast<int>(y.size());
+    level.traded_level = -1;
     for (int below = k + 1; below < hierarchy.num_levels(); ++below) {
       LevelMultipliers& multipliers = levels[below].multipliers[k];
       multipliers.equality.head(equalities).setZero();

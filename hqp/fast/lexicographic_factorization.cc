@@ -419,10 +419,10 @@ void LexicographicFactorization::KeepUnattainableResiduals(double size,
   }
 }
 
-void LexicographicFactorization::Correct(const double* residual,
+void LexicographicFactorization::Correct(const double* residual, int num_levels,
                                          double* change) {
-  for (const Level& level : levels_) {
-    SolveRows(level, residual + level.first_row, change);
+  for (int k = 0; k < num_levels; ++k) {
+    SolveRows(levels_[k], residual + levels_[k].first_row, change);
   }
 }
 

@@ -128,7 +128,11 @@ class LexicographicFactorization {
 
   /// Refinement of a solution y: computes the correction of Q y, of rank()
   /// entries, from the residuals t_a - r_a y of the rows as given.
-  void Correct(const double* residual, double* change);
+  void Correct(const double* residual, double* change) {
+    Correct(residual, num_levels(), change);
+  }
+  /// Correct() for the first num_levels levels, of rank(num_levels - 1) entries.
+  void Correct(const double* residual, int num_levels, double* change);
 
   /// Replaces the residuals of a deficient level, and removes their rounding
   /// with KeepUnattainableResiduals(). `size` is the magnitude of their terms.

@@ -42,6 +42,10 @@ void MultiplierWriter::Write(const Hierarchy& hierarchy,
        ++level) {
     WriteDiagonalMultipliers(hierarchy, level, *problem, solution);
   }
+  for (int level = 1; level < problem->num_levels(); ++level) {
+    LevelSolution& of = solution->levels[level];
+    of.traded_level = problem->FindTradeOff(level, of.trade_off.data());
+  }
   MakeNonnegative(hierarchy, tolerance, *problem, solution);
   if (finds_nullity) {
     WriteNullity(hierarchy, problem, solution);

@@ -556,6 +556,27 @@ void WorkingSetProblem::RefineMultipliers(const Hierarchy& hierarchy) {
   }
 }
 
+int WorkingSetProblem::FindTradeOff(int level, double* trade_off) {
+  const Multipliers& of = multipliers_[level];
+  if (!of.any) return -1;
+  for (int above = std::min(level, num_leading_) - 1; above >= 0; --above) {
+    if (!leading_.is_deficient(above)) continue;
+    // Along p, row a changes by nu_a / d_a^2, and the rows above do not change.
+    bool any = false;
+    std::fill_n(nu_.begin(), leading_.num_rows(), 0);
+    for (int a = leading_.first_row(above); a < leading_.end_row(above); ++a) {
+      nu_[a] = of.nu[a] / leading_.weight(a);
+      any |= nu_[a] != 0;
+    }
+    if (!any) continue;
+    leading_.Correct(nu_.data(), above + 1, change_.data());
+    std::fill_n(trade_off, n_, 0);
+    leading_.AddCombination(change_.data(), leading_.rank(above), trade_off);
+    return above;
+  }
+  return -1;
+}
+
 // Adds factor times row a, scaled to unit length, to `sum`.
 void WorkingSetProblem::AddToSum(const Hierarchy& hierarchy, int a,
                                  double factor, double* sum) const {

@@ -156,6 +156,11 @@ class WorkingSetProblem {
   /// its own rows, d_a^2 (r_a y - t_a), corrected for rounding.
   void RefineMultipliers(const Hierarchy& hierarchy);
 
+  /// Finds LevelSolution::trade_off for a level, and the last deficient level above
+  /// that the multipliers of this level concern. Returns -1 if there is none.
+  /// pre: FindMultipliers().
+  int FindTradeOff(int level, double* trade_off);
+
   /// Multiplier of an inequality row in a level's optimality condition.
   /// Positive: binding. Negative: removing the row lowers the cost. Zero if
   /// below tolerance, relative. On the row's own level it is the violation.

@@ -388,6 +388,41 @@ TEST_P(RandomWorkingSetProblemTest, FindsTheMultipliersOfAnApproach) {
             Rounding(size + y().norm() + n_, kMaxRows));
 }
 
+// Along a trade-off p, the rows of the traded level change by W^-1 lambda, and those of
+// the levels above do not change.
+TEST_P(RandomWorkingSetProblemTest, FindsDirectionsThatTrade) {
+  const Sides sides = MakeSides(1);
+  problem_.Plan(hierarchy_, num_levels_);
+  problem_.Solve(hierarchy_, sides);
+  problem_.FindMultipliers(num_levels_);
+  const double condition =
+      SolveLexicographically(n_, Levels(sides, num_levels_, zero_)).condition;
+  for (int level = 0; level < num_levels_; ++level) {
+    SCOPED_TRACE(level);
+    Eigen::VectorXd p(n_);
+    const int traded = problem_.FindTradeOff(level, p.data());
+    const WorkingSetProblem::Multipliers& of = problem_.multipliers(level);
+    for (int a = 0; a < problem_.leading().num_rows(); ++a) {
+      const WorkingSetProblem::Row& row = problem_.row(a);
+      const int last = std::min(level, problem_.num_leading()) - 1;
+      if (traded < row.level && row.level <= last) {
+        // No level between is traded: it is met, or its multipliers are zero.
+        if (of.any && problem_.leading().is_deficient(row.level)) {
+          EXPECT_EQ(of.nu[a], 0);
+        }
+        continue;
+      }
+      if (traded < 0 || row.level > traded) continue;
+      const double weight = problem_.leading().weight(a);
+      const double change = weight * Original(row).dot(p) / row.norm;
+      const double wanted = row.level == traded ? of.nu[a] : 0;
+      EXPECT_NEAR(change, wanted,
+                  Rounding(weight * p.norm() + of.size, kMaxRows,
+                           condition * condition));
+    }
+  }
+}
+
 // The levels before the first inequality are met by the smallest step.
 TEST_P(RandomWorkingSetProblemTest, MovesToTheLevelsBeforeTheFirstInequality) {
   const Sides sides = MakeSides(1);

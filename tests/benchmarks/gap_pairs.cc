@@ -12,6 +12,7 @@
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/reference/cascade.h"
 #include "poise/hqp/solver.h"
+#include "poise/tests/exact/lexicographic_qp.h"
 #include "poise/tests/util/random_hierarchy.h"
 #include "poise/tests/util/shrink_hierarchy.h"
 #include "poise/tools/commands/hqp/hqp_file.h"
@@ -75,10 +76,12 @@ enum class Reason {
   kAbove,  ///< The other one costs more on a level above than the gap there.
   kFar,    ///< The other one is beyond the radius of the gap.
   kNotFinite,  ///< An answer is not finite.
+  kBelow,      ///< The other one costs less than the exact optimum.
 };
-constexpr int kReasons = 4;
+constexpr int kReasons = 5;
 constexpr const char* kReasonNames[] = {"gap too small", "worse above",
-                                        "beyond the radius", "not finite"};
+                                        "beyond the radius", "not finite",
+                                        "below the exact optimum"};
 
 // The first level of a pair whose costs differ by more than the gaps allow.
 struct Excess {
@@ -118,8 +121,11 @@ Reason FindReason(const Hierarchy& hierarchy, int level, const Answer& a,
       return Reason::kAbove;
     }
   }
-  return (other - y).norm() > Radius(hierarchy, level, y) ? Reason::kFar
-                                                          : Reason::kNone;
+  if ((other - y).norm() > Radius(hierarchy, level, y)) return Reason::kFar;
+  const double optimal = SolveExactly(hierarchy).levels[level].cost.get_d();
+  return TrueCost(hierarchy, level, y) - optimal <= a.gap[level]
+             ? Reason::kBelow
+             : Reason::kNone;
 }
 
 std::optional<Excess> FindExcess(const Hierarchy& hierarchy, const Answer& a,

@@ -1,0 +1,339 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Certifier, second part: the gap. Derivation: docs/hqp-gap.md.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "poise/hqp/certificate.h"
+#include "poise/hqp/tolerances.h"
+
+namespace poise {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Terms of the gap below this part of the cost need no sharper bound, which takes
+// longer: a hundredth of the gap of 1e-6 that a robot needs in every tick.
+constexpr double kSharpEnough = 1e-8;
+
+long double PreciseProduct(const double* row, Span span,
+                           const Eigen::VectorXd& y) {
+  long double sum = 0;
+  for (int j = span.first; j < span.first + span.size; ++j) {
+    sum += static_cast<long double>(row[j]) * y[j];
+  }
+  return sum;
+}
+
+// Rounding of a sum of n terms in long double, and of some more operations.
+double PreciseRounding(Eigen::Index n) {
+  return static_cast<double>(std::numeric_limits<long double>::epsilon()) *
+         static_cast<double>(n + 10);
+}
+
+// Computes the residuals and slacks of a level in long double, and calls
+// add(row, span, gradient of the cost in row . y). Returns the cost.
+template <typename Add>
+long double VisitPreciseSlacks(const Hierarchy& hierarchy, int level,
+                               const Eigen::VectorXd& y, const Add& add) {
+  long double cost = 0;
+  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+    const double* row = hierarchy.B(level).row(i).data();
+    const Span span = hierarchy.B_span(level)[i];
+    const long double residual =
+        PreciseProduct(row, span, y) + hierarchy.b(level)[i];
+    const long double force = hierarchy.weight(level)[i] * residual;
+    cost += force * residual / 2;
+    add(row, span, force);
+  }
+  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    const double* row = hierarchy.C(level).row(i).data();
+    const Span span = hierarchy.C_span(level)[i];
+    const long double value = PreciseProduct(row, span, y);
+    const long double above = value - hierarchy.upper(level)[i];
+    const long double below = value - hierarchy.lower(level)[i];
+    const long double slack = above > 0 ? above : below < 0 ? below : 0;
+    cost += slack * slack / 2;
+    add(row, span, slack);
+  }
+  return cost;
+}
+
+}  // namespace
+
+double Certifier::CostScale(int level) const {
+  return cost_[level] + tolerances::kZeroCost * cost_size_[level];
+}
+
+double Certifier::RelativeGap(int level) const {
+  return gap_[level] == 0 ? 0 : gap_[level] / CostScale(level);
+}
+
+// See gap(). gradient_ is that of the level.
+void Certifier::FindGap(const Hierarchy& hierarchy, int level,
+                        const Solution& solution) {
+  const double radius = 2 * (solution.y.norm() + farthest_);
+  // One rounding for each term of an entry, and those of the residual in a term.
+  const auto n = static_cast<int>(gradient_.size());
+  const double size = gradient_size_.norm();
+  const double rounding = (num_terms_ + n / 4 + 10) * kEpsilon / 2 * size;
+  const double cost = cost_[level];
+  error_[level] = gradient_.norm() + rounding;
+  double gap = cost;
+  if (cost > kSharpEnough * CostScale(level)) {
+    if (rounding * radius > kSharpEnough * CostScale(level)) {
+      error_[level] = PreciseGradientNorm(hierarchy, level, solution) +
+                      PreciseRounding(num_terms_ + n) * size;
+    }
+    gap = error_[level] * radius;
+    for (int above = 0; above < level; ++above) {
+      gap += LargestGain(hierarchy, level, above, radius, solution);
+    }
+    gap = std::isnan(gap) ? cost : std::min(gap, cost);
+  }
+  gap_[level] = exact_gap_[level] = gap + cost_rounding_[level];
+  is_sharp_[level] = false;
+  FindChange(hierarchy, level, solution);
+}
+
+// Finds undercut_ and change_ of a level from those of the levels above. Half the
+// squared change is at most the gap and the undercut together.
+void Certifier::FindChange(const Hierarchy& hierarchy, int level,
+                           const Solution& solution) {
+  undercut_[level] = 0;
+  for (int above = 0; above < level; ++above) {
+    undercut_[level] +=
+        NormOfMultipliers(hierarchy, level, above, solution) * change_[above];
+  }
+  change_[level] = std::sqrt(2 * (exact_gap_[level] + undercut_[level]));
+}
+
+// Computes the norm of the gradient of the level's Lagrangian in long double. Large
+// multipliers cancel there.
+double Certifier::PreciseGradientNorm(const Hierarchy& hierarchy, int level,
+                                      const Solution& solution) {
+  std::fill(precise_gradient_.begin(), precise_gradient_.end(), 0);
+  const auto add = [&](const double* row, Span span, long double factor) {
+    if (factor == 0) return;
+    for (int j = span.first; j < span.first + span.size; ++j) {
+      precise_gradient_[j] += factor * row[j];
+    }
+  };
+  (void)VisitPreciseSlacks(hierarchy, level, solution.y, add);
+  for (int above = 0; above < level; ++above) {
+    const LevelMultipliers& of = solution.levels[level].multipliers[above];
+    for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
+      add(hierarchy.B(above).row(i).data(), hierarchy.B_span(above)[i],
+          of.equality[i]);
+    }
+    for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
+      add(hierarchy.C(above).row(i).data(), hierarchy.C_span(above)[i],
+          of.inequality[i]);
+    }
+  }
+  long double squares = 0;
+  for (const long double entry : precise_gradient_) squares += entry * entry;
+  return static_cast<double>(std::sqrt(squares));
+}
+
+// Sharpens change_ of the levels up to `level`: computes their costs in long double,
+// and limits exact_gap_ to them. The cost of a level that is met is mostly rounding in
+// double.
+void Certifier::SharpenChanges(const Hierarchy& hierarchy, int level,
+                               const Solution& solution) {
+  const double rounding = PreciseRounding(solution.y.size());
+  for (int k = 0; k <= level; ++k) {
+    if (is_sharp_[k]) continue;
+    is_sharp_[k] = true;
+    const auto cost = static_cast<double>(VisitPreciseSlacks(
+        hierarchy, k, solution.y, [](const double*, Span, long double) {}));
+    const double root = std::sqrt(cost) + rounding * std::sqrt(cost_size_[k]);
+    exact_gap_[k] = std::min(exact_gap_[k], root * root * (1 + kEpsilon));
+    FindChange(hierarchy, k, solution);
+  }
+}
+
+// Norm of the multipliers that `level` puts on the rows of a level above, each divided
+// by the root of the row's weight.
+double Certifier::NormOfMultipliers(const Hierarchy& hierarchy, int level,
+                                    int above, const Solution& solution) const {
+  const LevelMultipliers& of = solution.levels[level].multipliers[above];
+  double squares = 0;
+  for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
+    const double lambda = of.equality[i];
+    if (lambda != 0) squares += lambda * lambda / hierarchy.weight(above)[i];
+  }
+  for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
+    squares += of.inequality[i] * of.inequality[i];
+  }
+  return std::sqrt(squares);
+}
+
+// Largest lambda' B d + mu' C d of the rows of a level above.
+double Certifier::LargestGain(const Hierarchy& hierarchy, int level, int above,
+                              double radius, const Solution& solution) {
+  const double norm = NormOfMultipliers(hierarchy, level, above, solution);
+  if (norm == 0) return 0;
+  double gain = 0;
+  for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
+    const double mu = solution.levels[level].multipliers[above].inequality[i];
+    if (mu != 0)
+      gain += FreeChange(hierarchy, level, above, i, mu, radius, solution);
+  }
+  double of_slacks = norm * change_[above];
+  if (of_slacks > kSharpEnough * CostScale(level) && !std::isinf(norm)) {
+    SharpenChanges(hierarchy, above, solution);
+    of_slacks = std::min(norm * change_[above],
+                         GainOfSlacks(hierarchy, level, above, solution));
+  }
+  return gain + of_slacks;
+}
+
+// Largest mu C_i d of row i of a level `above`, but for the change of its slack.
+double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int above,
+                             int i, double mu, double radius,
+                             const Solution& solution) const {
+  const LevelRows& rows = rows_[above];
+  // A row with a slack at the optimum as well changes with this slack only.
+  if (rows.violation[i] >
+      tolerances::kAtBound * rows.size[i] + change_[above]) {
+    return 0;
+  }
+  const Span span = hierarchy.C_span(above)[i];
+  const double bound =
+      mu > 0 ? hierarchy.upper(above)[i] : hierarchy.lower(above)[i];
+  const double side = mu > 0 ? 1 : -1;
+  const double size = rows.norm[i] * solution.y.norm() +
+                      (std::isinf(bound) ? 0 : std::abs(bound));
+  double distance = side * (bound - rows.value[i]);
+  double rounding = SumRounding(span.size) * size;
+  if (std::abs(mu) * rounding > kSharpEnough * CostScale(level)) {
+    const long double value =
+        PreciseProduct(hierarchy.C(above).row(i).data(), span, solution.y);
+    distance = static_cast<double>(side * (bound - value));
+    rounding = PreciseRounding(span.size) * size;
+  }
+  return std::abs(mu) *
+         std::min(std::max(distance, 0.0) + rounding, rows.norm[i] * radius);
+}
+
+// Calls use(m, s, change, distance) for the rows of a level: the multiplier m that
+// `level` puts on the row, its residual or slack s, both scaled by the root of the
+// weight, the change of s along p, and the distance of an inactive row from its
+// bounds, else 0.
+template <typename Use>
+void Certifier::ForEachSlack(const Hierarchy& hierarchy, int level, int above,
+                             const double* p, const Solution& solution,
+                             const Use& use) const {
+  const auto change = [p](const double* row, Span span) {
+    return p == nullptr
+               ? 0
+               : Sum(row + span.first, p + span.first, span.size).product;
+  };
+  const LevelMultipliers& multipliers =
+      solution.levels[level].multipliers[above];
+  const LevelRows& rows = rows_[above];
+  const auto B = hierarchy.B(above), C = hierarchy.C(above);
+  for (int i = 0; i < B.rows(); ++i) {
+    const double root = std::sqrt(hierarchy.weight(above)[i]);
+    if (root == 0) continue;
+    use(multipliers.equality[i] / root, root * rows.residual[i],
+        root * change(B.row(i).data(), hierarchy.B_span(above)[i]), 0);
+  }
+  for (int i = 0; i < C.rows(); ++i) {
+    const double slack = std::max(rows.violation[i], 0.0);
+    const double mu = multipliers.inequality[i];
+    const bool is_inactive = slack == 0 && mu == 0;
+    use(mu, rows.side[i] == Side::kUpper ? slack : -slack,
+        change(C.row(i).data(), hierarchy.C_span(above)[i]),
+        is_inactive ? -rows.violation[i] : 0);
+  }
+}
+
+// Largest sum of m_i times the change of s_i, the residuals and slacks of a level
+// above, with m = J p + f s + rest, see ForEachSlack().
+double Certifier::GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
+                               const Solution& solution) const {
+  const LevelSolution& of = solution.levels[level];
+  const double* p = nullptr;
+  double slope = 0, longest = kInfinity;
+  if (of.traded_level == above) {
+    longest = LargestStep(hierarchy, above, of.trade_off, solution, &slope);
+    if (longest > 0) p = of.trade_off.data();
+  }
+  double along = 0, squares = 0;
+  ForEachSlack(hierarchy, level, above, p, solution,
+               [&](double m, double s, double change, double) {
+                 along += (m - change) * s;
+                 squares += s * s;
+               });
+  const double gap = exact_gap_[above], undercut = undercut_[above];
+  const auto gain = [&](double f) {
+    double step = longest, rest_squares = 0;
+    ForEachSlack(hierarchy, level, above, p, solution,
+                 [&](double m, double s, double change, double distance) {
+                   const double rest = std::abs(m - change - f * s);
+                   if (distance > 0) {
+                     step = std::min(step, distance / rest);
+                   } else {
+                     rest_squares += rest * rest;
+                   }
+                 });
+    // The slope is counted twice: once for the cost, and once for what y - t p misses
+    // above, because its rows change along p by rounding.
+    const double of_p = p == nullptr ? 0 : (gap + undercut) / step + 2 * slope;
+    const double of_s = f > 0 ? f * undercut : -f * (2 * gap + undercut);
+    const double rounding = std::abs(f) * slack_rounding_[above];
+    return of_p + of_s + (std::sqrt(rest_squares) + rounding) * change_[above];
+  };
+  // If the level is met, s is rounding.
+  const double without_s = gain(0);
+  return squares > 0 ? std::min(without_s, gain(along / squares)) : without_s;
+}
+
+// Returns the largest t for which y - t p keeps the levels above `level` as they are,
+// 0 if there is none. Adds to `slope` how much the cost of `level` can change along p.
+double Certifier::LargestStep(const Hierarchy& hierarchy, int level,
+                              const Eigen::VectorXd& p,
+                              const Solution& solution, double* slope) const {
+  const double norm_p = p.norm();
+  double step = kInfinity;
+  *slope = error_[level] * norm_p;
+  for (int above = 0; above < level; ++above) {
+    const LevelMultipliers& of = solution.levels[level].multipliers[above];
+    const auto change = [&](const double* row, Span span, double multiplier) {
+      const RowSums sums =
+          Sum(row + span.first, p.data() + span.first, span.size);
+      *slope +=
+          std::abs(multiplier) *
+          (std::abs(sums.product) + SumRounding(span.size) * sums.product_size);
+      const double rounding =
+          tolerances::kAtBound * std::sqrt(sums.squared_row_norm) * norm_p;
+      return std::abs(sums.product) <= rounding ? 0 : sums.product;
+    };
+    for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
+      if (hierarchy.weight(above)[i] == 0) continue;
+      if (change(hierarchy.B(above).row(i).data(), hierarchy.B_span(above)[i],
+                 of.equality[i]) != 0) {
+        return 0;
+      }
+    }
+    const LevelRows& rows = rows_[above];
+    for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
+      const double along_p =
+          change(hierarchy.C(above).row(i).data(), hierarchy.C_span(above)[i],
+                 of.inequality[i]);
+      if (along_p == 0) continue;
+      const double distance = along_p < 0
+                                  ? hierarchy.upper(above)[i] - rows.value[i]
+                                  : rows.value[i] - hierarchy.lower(above)[i];
+      const double margin = tolerances::kAtBound * rows.size[i];
+      if (distance <= 0 || rows.violation[i] > margin) return 0;
+      step = std::min(step, distance / std::abs(along_p));
+    }
+  }
+  return step;
+}
+
+}  // namespace poise
