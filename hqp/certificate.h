@@ -86,23 +86,24 @@ class Certifier {
                     double mu, double radius, const Solution& solution) const;
   template <typename Use>
   void ForEachSlack(const Hierarchy& hierarchy, int level, int above,
-                    const double* p, const Solution& solution,
+                    const Eigen::VectorXd* p, const Solution& solution,
                     const Use& use) const;
   double GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
-                      const Solution& solution) const;
+                      const Eigen::VectorXd* p, const Solution& solution) const;
   double LargestStep(const Hierarchy& hierarchy, int level,
                      const Eigen::VectorXd& p, const Solution& solution,
                      double* slope) const;
 
   std::vector<LevelRows> rows_;
-  /// By level. The magnitude of the terms of a cost, and its rounding.
+  /// By level: the cost, the cost of the magnitudes of its terms, and its rounding.
   std::vector<double> cost_, cost_size_, cost_rounding_;
   /// By level: norm of the rounding of all residuals and slacks, each times the root of
   /// its weight.
   std::vector<double> slack_rounding_;
-  std::vector<double> error_;  ///< By level: largest norm of the gradient.
-  std::vector<double> gap_;    ///< By level.
-  /// By level: gap of the cost in exact arithmetic, without the rounding of the cost.
+  /// By level: norm of the gradient of its Lagrangian, and its rounding.
+  std::vector<double> error_;
+  std::vector<double> gap_;  ///< By level.
+  /// By level: gap_, or the cost in exact arithmetic if that is smaller and known.
   std::vector<double> exact_gap_;
   /// By level: how far the cost may be below its optimum, because y misses the levels
   /// above.

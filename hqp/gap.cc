@@ -26,7 +26,8 @@ long double PreciseProduct(const double* row, Span span,
   return sum;
 }
 
-// Rounding of a sum of n terms in long double, and of some more operations.
+// Rounding of a sum of n terms in long double: one for each addition, one for each
+// product, and some for what follows, rounded up to 10.
 double PreciseRounding(Eigen::Index n) {
   return static_cast<double>(std::numeric_limits<long double>::epsilon()) *
          static_cast<double>(n + 10);
@@ -142,14 +143,16 @@ double Certifier::PreciseGradientNorm(const Hierarchy& hierarchy, int level,
 // double.
 void Certifier::SharpenChanges(const Hierarchy& hierarchy, int level,
                                const Solution& solution) {
-  const double rounding = PreciseRounding(solution.y.size());
   for (int k = 0; k <= level; ++k) {
     if (is_sharp_[k]) continue;
     is_sharp_[k] = true;
+    const double rounding =
+        PreciseRounding(solution.y.size() + hierarchy.num_equalities(k) +
+                        hierarchy.num_inequalities(k));
     const auto cost = static_cast<double>(VisitPreciseSlacks(
         hierarchy, k, solution.y, [](const double*, Span, long double) {}));
     const double root = std::sqrt(cost) + rounding * std::sqrt(cost_size_[k]);
-    exact_gap_[k] = std::min(exact_gap_[k], root * root * (1 + kEpsilon));
+    exact_gap_[k] = std::min(exact_gap_[k], root * root * (1 + 4 * kEpsilon));
     FindChange(hierarchy, k, solution);
   }
 }
@@ -184,8 +187,14 @@ double Certifier::LargestGain(const Hierarchy& hierarchy, int level, int above,
   double of_slacks = norm * change_[above];
   if (of_slacks > kSharpEnough * CostScale(level) && !std::isinf(norm)) {
     SharpenChanges(hierarchy, above, solution);
-    of_slacks = std::min(norm * change_[above],
-                         GainOfSlacks(hierarchy, level, above, solution));
+    of_slacks =
+        std::min(norm * change_[above],
+                 GainOfSlacks(hierarchy, level, above, nullptr, solution));
+    const LevelSolution& of = solution.levels[level];
+    if (of.traded_level == above) {
+      of_slacks = std::min(of_slacks, GainOfSlacks(hierarchy, level, above,
+                                                   &of.trade_off, solution));
+    }
   }
   return gain + of_slacks;
 }
@@ -218,18 +227,17 @@ double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int above,
          std::min(std::max(distance, 0.0) + rounding, rows.norm[i] * radius);
 }
 
-// Calls use(m, s, change, distance) for the rows of a level: the multiplier m that
-// `level` puts on the row, its residual or slack s, both scaled by the root of the
-// weight, the change of s along p, and the distance of an inactive row from its
-// bounds, else 0.
+// Calls use(m, s, change, rounding, distance) for the rows of level `above`: the
+// multiplier m that `level` puts on the row, divided by the root of the row's weight; its
+// residual or slack s and the change of s along p, with the rounding of the latter, times
+// the root; and the distance of an inactive row from its bounds, else 0.
 template <typename Use>
 void Certifier::ForEachSlack(const Hierarchy& hierarchy, int level, int above,
-                             const double* p, const Solution& solution,
+                             const Eigen::VectorXd* p, const Solution& solution,
                              const Use& use) const {
-  const auto change = [p](const double* row, Span span) {
-    return p == nullptr
-               ? 0
-               : Sum(row + span.first, p + span.first, span.size).product;
+  const auto along_p = [p](const double* row, Span span) {
+    if (p == nullptr) return RowSums{};
+    return Sum(row + span.first, p->data() + span.first, span.size);
   };
   const LevelMultipliers& multipliers =
       solution.levels[level].multipliers[above];
@@ -238,33 +246,38 @@ void Certifier::ForEachSlack(const Hierarchy& hierarchy, int level, int above,
   for (int i = 0; i < B.rows(); ++i) {
     const double root = std::sqrt(hierarchy.weight(above)[i]);
     if (root == 0) continue;
+    const Span span = hierarchy.B_span(above)[i];
+    const RowSums sums = along_p(B.row(i).data(), span);
     use(multipliers.equality[i] / root, root * rows.residual[i],
-        root * change(B.row(i).data(), hierarchy.B_span(above)[i]), 0);
+        root * sums.product, root * SumRounding(span.size) * sums.product_size,
+        0);
   }
   for (int i = 0; i < C.rows(); ++i) {
     const double slack = std::max(rows.violation[i], 0.0);
     const double mu = multipliers.inequality[i];
     const bool is_inactive = slack == 0 && mu == 0;
-    use(mu, rows.side[i] == Side::kUpper ? slack : -slack,
-        change(C.row(i).data(), hierarchy.C_span(above)[i]),
+    const Span span = hierarchy.C_span(above)[i];
+    const RowSums sums = along_p(C.row(i).data(), span);
+    use(mu, rows.side[i] == Side::kUpper ? slack : -slack, sums.product,
+        SumRounding(span.size) * sums.product_size,
         is_inactive ? -rows.violation[i] : 0);
   }
 }
 
 // Largest sum of m_i times the change of s_i, the residuals and slacks of a level
-// above, with m = J p + f s + rest, see ForEachSlack().
+// above, with m = J p + f s + rest, see ForEachSlack(). Without p, J p is zero. Infinite
+// if the levels above do not allow a step along p.
 double Certifier::GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
+                               const Eigen::VectorXd* p,
                                const Solution& solution) const {
-  const LevelSolution& of = solution.levels[level];
-  const double* p = nullptr;
   double slope = 0, longest = kInfinity;
-  if (of.traded_level == above) {
-    longest = LargestStep(hierarchy, above, of.trade_off, solution, &slope);
-    if (longest > 0) p = of.trade_off.data();
+  if (p != nullptr) {
+    longest = LargestStep(hierarchy, above, *p, solution, &slope);
+    if (longest == 0) return kInfinity;
   }
   double along = 0, squares = 0;
   ForEachSlack(hierarchy, level, above, p, solution,
-               [&](double m, double s, double change, double) {
+               [&](double m, double s, double change, double, double) {
                  along += (m - change) * s;
                  squares += s * s;
                });
@@ -272,8 +285,11 @@ double Certifier::GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
   const auto gain = [&](double f) {
     double step = longest, rest_squares = 0;
     ForEachSlack(hierarchy, level, above, p, solution,
-                 [&](double m, double s, double change, double distance) {
-                   const double rest = std::abs(m - change - f * s);
+                 [&](double m, double s, double change, double rounding,
+                     double distance) {
+                   const double rest =
+                       std::abs(m - change - f * s) + rounding +
+                       kEpsilon * (std::abs(m) + std::abs(change));
                    if (distance > 0) {
                      step = std::min(step, distance / rest);
                    } else {
@@ -293,7 +309,8 @@ double Certifier::GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
 }
 
 // Returns the largest t for which y - t p keeps the levels above `level` as they are,
-// 0 if there is none. Adds to `slope` how much the cost of `level` can change along p.
+// 0 if there is none. Sets `slope` to an upper bound of |g . p|, with the gradient g of
+// the cost of `level`.
 double Certifier::LargestStep(const Hierarchy& hierarchy, int level,
                               const Eigen::VectorXd& p,
                               const Solution& solution, double* slope) const {
@@ -308,27 +325,32 @@ double Certifier::LargestStep(const Hierarchy& hierarchy, int level,
       *slope +=
           std::abs(multiplier) *
           (std::abs(sums.product) + SumRounding(span.size) * sums.product_size);
-      const double rounding =
-          tolerances::kAtBound * std::sqrt(sums.squared_row_norm) * norm_p;
-      return std::abs(sums.product) <= rounding ? 0 : sums.product;
+      return sums.product;
+    };
+    // A row that must not change may change by rounding of the solver.
+    const auto changes = [&](double along_p, double norm) {
+      return std::abs(along_p) > tolerances::kAtBound * norm * norm_p;
     };
     for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
       if (hierarchy.weight(above)[i] == 0) continue;
-      if (change(hierarchy.B(above).row(i).data(), hierarchy.B_span(above)[i],
-                 of.equality[i]) != 0) {
-        return 0;
-      }
+      const auto row = hierarchy.B(above).row(i);
+      const double along_p =
+          change(row.data(), hierarchy.B_span(above)[i], of.equality[i]);
+      if (changes(along_p, row.norm())) return 0;
     }
     const LevelRows& rows = rows_[above];
     for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
       const double along_p =
           change(hierarchy.C(above).row(i).data(), hierarchy.C_span(above)[i],
                  of.inequality[i]);
-      if (along_p == 0) continue;
+      const double margin = tolerances::kAtBound * rows.size[i];
+      const bool is_inside = rows.violation[i] < -margin;
+      if (along_p == 0 || (!is_inside && !changes(along_p, rows.norm[i]))) {
+        continue;
+      }
       const double distance = along_p < 0
                                   ? hierarchy.upper(above)[i] - rows.value[i]
                                   : rows.value[i] - hierarchy.lower(above)[i];
-      const double margin = tolerances::kAtBound * rows.size[i];
       if (distance <= 0 || rows.violation[i] > margin) return 0;
       step = std::min(step, distance / std::abs(along_p));
     }

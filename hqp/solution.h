@@ -38,10 +38,10 @@ struct LevelSolution {
   /// this level and the levels above; -1 if the solver did not look for it.
   int nullity;
   std::vector<LevelMultipliers> multipliers;  ///< By level above this one.
-  /// The direction in which this level would move y if `traded_level`, above it, were
-  /// relaxed: W B p = lambda, and C p = mu where a row has a slack, on the rows of that
-  /// level, up to a multiple of its residuals and slacks, and zero on the rows above it.
-  /// It sharpens Certifier::gap().
+  /// The direction p in which this level would move y if `traded_level`, above it, were
+  /// relaxed. On the rows of that level, W B p = lambda, and C p = mu for rows with a
+  /// slack, up to a multiple of the residuals and slacks. On active rows above that
+  /// level, B p = 0 and C p = 0. p sharpens Certifier::gap().
   Eigen::VectorXd trade_off;
   int traded_level;  ///< -1: the solver knows none.
 };

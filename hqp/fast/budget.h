@@ -17,7 +17,7 @@ struct BudgetLimits {
 struct Work {
   /// Multiply-adds of factorisations, updates, substitutions and products with Q, and
   /// kernels::kRowOverhead more for each row. Substitutions of the diagonal levels
-  /// are not counted.
+  /// with triangles are not counted.
   std::int64_t multiply_adds = 0;
   /// Entries of all rows of the hierarchy, within their spans.
   int num_entries = 0;

@@ -361,7 +361,8 @@ void DiagonalLevels::FactorLevel(int level) {
 }
 
 // Minimises |x|^2, with x = d (step - ideal), subject to
-// (T/d) x = -T ideal - (T of the earlier levels) (their step).
+// (T/d) x = -T ideal - (T of the earlier levels) (their step). If T is orthogonal, x/d
+// is -T' T ideal.
 void DiagonalLevels::SolveLevel(int level) {
   const Block& block = blocks_[level];
   const int columns = block.end - block.begin, rest = num_free_ - block.end;
@@ -404,7 +405,9 @@ void DiagonalLevels::FindMultipliers(int level) {
   for (int p = block.begin; p < block.end; ++p) {
     squared += magnitude_[p] * magnitude_[p];
   }
-  double largest = 0, weight = 0;  // The fixed variables come first.
+  double largest = 0;
+  // Largest factor from rounding of y to rounding of a multiplier.
+  double weight = 0;
   for (int p = num_free_; p < n_; ++p) {
     const int j = order_[p];
     if (level_of_[j] != level) continue;

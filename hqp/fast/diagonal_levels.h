@@ -90,7 +90,8 @@ class DiagonalLevels {
   /// `level`.
   int Nullity(int level) const;
 
-  /// Multiply-adds of Tie() and Solve() since construction.
+  /// Multiply-adds of Tie(), Solve() and Correct() since construction, but for
+  /// substitutions with triangles.
   std::int64_t multiply_adds() const { return multiply_adds_; }
 
  private:
@@ -107,8 +108,9 @@ class DiagonalLevels {
     return &l_[static_cast<std::size_t>(row) * (row + 1) / 2];
   }
   void FindGradient(int position, const double* y);
-  /// Whether the rows leave the first level's variables no freedom. Its rows, which
-  /// are orthonormal and have no other variables, are then an orthogonal matrix.
+  /// After Tie(): whether the rows leave the first level's variables no freedom. The
+  /// other levels are eliminated from its rows, which are orthonormal. So T_00 is then an
+  /// orthogonal matrix.
   bool IsSquare() const {
     const Block& first = blocks_[0];
     return first.row_end - first.row_begin == first.end - first.begin;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <utility>
 
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/reference/cascade.h"
@@ -141,7 +142,7 @@ class Trade {
                                           C.transpose() * on_rows.inequality;
     for (LevelSolution* level : {&levels[1], &levels[2]}) {
       LevelMultipliers& of = level->multipliers[0];
-      if (is_fixed_) std::swap(of.equality[0], of.inequality[0]);
+      if (is_fixed_) of.equality[0] = std::exchange(of.inequality[0], 0);
     }
     levels[2].traded_level = 1;
     levels[2].trade_off = p;
@@ -181,6 +182,7 @@ TEST(Gap, CoversAnswersWithAnyMultipliers) {
           }
           if (off > 1e-4 || rest > 0) continue;
           ++answers;
+          // Linear in `off`, with a factor for the condition of the rows.
           sharp += certifier.gap(2) <= 1e2 * off * solution.levels[2].cost;
         }
       }
