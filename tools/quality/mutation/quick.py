@@ -167,11 +167,13 @@ class HeaderBuild(_Build):
             if f"-l{mangled}_Slib{name}" in linked and self._reads_header(command[0]):
                 self._libraries.append(self._make_unit(source, command))
         self._originals = self._compile()
-        self.works = None not in self._originals and self._link()
+        self.works = (
+            len(self._originals) > 0 and None not in self._originals and self._link()
+        )
 
     def build(self, text):
         """Returns True for different code, False for equal code, None for an error."""
-        place = self._folder / self._header
+        place = self._folder / "poise" / self._header
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_text(text)
         codes = self._compile(["-iquote", str(self._folder)])
@@ -190,7 +192,11 @@ class HeaderBuild(_Build):
         ]
 
     def _reads_header(self, an_object):
-        return self._header in self._dependencies(an_object)
+        # Bazel offers the header under poise/, in a folder of its target's.
+        return any(
+            path.endswith(f"/poise/{self._header}")
+            for path in self._dependencies(an_object)
+        )
 
     def _make_unit(self, source, command):
         """On what its own files take from elsewhere: no slip is in that."""
