@@ -17,8 +17,9 @@ class Certifier {
 
   /// Certifies all levels, or those above solution.failed_level if there is
   /// one. Does not read solution.certificate. Cost: about 4 n flops per row,
-  /// and 4 n per nonzero multiplier; about twice as much if a level cannot be met, and
-  /// three times if its multipliers cancel. Does not allocate.
+  /// and 4 n per nonzero multiplier. A level that cannot be met takes up to four
+  /// more products of y or a direction with its rows, and with those above. Does not
+  /// allocate.
   Certificate Certify(const Hierarchy& hierarchy,
                       const Solution& solution) noexcept;
 

@@ -158,6 +158,43 @@ TEST(GapByHand, CoversATradeAgainstARowAbove) {
   EXPECT_GE(BoundedTrade(0, true).gap(), 600 - 8);
 }
 
+// Level 0 has the target y_1 = 0 and the bound y_0 <= 8 + 1e-5. Level 1 minimises
+// |B y + b|^2 / 2 with B as above. y_1 = 1e-6 misses level 0, and y_0 = 8 is best for it.
+// At the optimum, y_1 = 0 has its best y_0 600e-6 higher, of which the bound
+// allows 10e-6. Level 2 has the gradient (1, 600), and costs 590e-6 less there.
+TEST(GapByHand, CoversATradeAtAYThatMissesALevelAbove) {
+  const double off = 1e-6, distance = 10 * off, weight = 16;
+  const std::vector<LevelCapacity> capacity{{1, 1}, {2, 0}, {2, 0}};
+  Hierarchy hierarchy(2, capacity);
+  hierarchy.Clear(3);
+  hierarchy.AddEqualities(0, 1).SetSingle(0, 1, 1);
+  InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+  bound.C << 1, 0;
+  bound.lower << -INFINITY;
+  bound.upper << 8 + distance;
+  EqualityBlock rows = hierarchy.AddEqualities(1, 2);
+  rows.B << 1, 600, 0, 800;
+  rows.b << -8 - 600 * off, -0.75;
+  EqualityBlock below = hierarchy.AddEqualities(2, 2);
+  below.B.setIdentity();
+  below.b << 1 / weight - 8, 600 / weight - off;
+  below.weight << weight, weight;
+  Solution solution(2, capacity);
+  solution.y << 8, off;
+  for (int level = 0; level < 3; ++level) {
+    EvaluateLevel(hierarchy, level, &solution);
+  }
+  solution.levels[1].multipliers[0].equality << 600 - 640000 * off;
+  solution.levels[2].multipliers[1].equality << -1, 0;
+  solution.levels[2].traded_level = 1;
+  solution.levels[2].trade_off << -1, 0;
+  Certifier certifier(2, capacity);
+  (void)certifier.Certify(hierarchy, solution);
+  const double d[] = {distance, -off};
+  EXPECT_GE(certifier.gap(2),
+            -d[0] - 600 * d[1] - weight / 2 * (d[0] * d[0] + d[1] * d[1]));
+}
+
 // Level 0 has the target y_0 = 0, level 1 y_0 = 1. y_0 = off misses level 0, so that level 1
 // costs less than its optimum. Level 2 has the target off + 1000 (off - 1), and its
 // multiplier on level 1 is 1000 times the residual there. With y_0 = 0, level 2 costs

@@ -24,7 +24,7 @@ Solution::Solution(int num_variables,
     level.equality_residual.resize(rows.equalities);
     level.slack.resize(rows.inequalities);
     level.active.resize(rows.inequalities);
-    level.trade_off.resize(num_variables);
+    level.trade_off.setZero(num_variables);
     for (size_t above = 0; above < levels.size(); ++above) {
       level.multipliers.push_back(
           {Eigen::VectorXd(capacity[above].equalities),
