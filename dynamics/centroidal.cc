@@ -5,6 +5,7 @@
 
 #include "poise/dynamics/simd/sweeps.h"
 #include "poise/math/so3.h"
+#include "poise/math/target_clones.h"
 
 namespace poise {
 namespace {
@@ -16,6 +17,7 @@ Vec3 BaseFromCenterOfMass(const Tree& tree, const Recursion& r) {
 }
 
 // Fills H_G from the composite inertia and the momenta of the subtrees.
+POISE_TARGET_CLONES("avx2")
 void FillMomentumMatrix(const Tree& tree, const Recursion& r, const Vec3& p_GO,
                         Matrix6Xd* H_G) {
   assert(H_G->cols() == tree.nv());

@@ -5,9 +5,11 @@
 
 #include "poise/dynamics/simd/sweeps.h"
 #include "poise/math/so3.h"
+#include "poise/math/target_clones.h"
 
 namespace poise {
 
+POISE_TARGET_CLONES("avx2")
 void FillMassMatrix(const Tree& tree, const Recursion& r,
                     Eigen::Ref<Eigen::MatrixXd> M) noexcept {
   assert(M.rows() == tree.nv() && M.cols() == tree.nv());

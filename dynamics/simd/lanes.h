@@ -9,27 +9,30 @@
 /// POISE_LANES tells the compiler that the iterations of the next loop are
 /// independent: no iteration reads what another one writes. The compiler then
 /// computes one iteration in each lane of a vector register. A lane is the
-/// place of one double; SSE2 has two lanes, AVX four, AVX-512 eight. Lanes do
+/// place of one double; SSE2 has two lanes, AVX2 four, AVX-512 eight. Lanes do
 /// not change a result: each iteration computes the same sums in the same
 /// order.
 ///
 /// The lanes are worth the following factors, the time of a call with scalar
 /// loops divided by its time with lanes:
 ///
-/// | size | function | --config=opt, SSE2 | --config=native |
-/// | 50 joints | ComputeRnea | 1.60 | 2.13 |
-/// | 50 joints | ComputeBias | 1.58 | 2.12 |
-/// | 50 joints | ComputeCrba | 1.38 | 1.71 |
-/// | 50 joints | ComputeTick, two feet | 1.36 | 1.59 |
-/// | 50 joints | ComputeRneaDerivatives | 1.23 | 1.37 |
-/// | 50 joints | ComputeAba | 1.12 | 1.16 |
-/// | 10 joints | ComputeRnea | 1.57 | 1.68 |
-/// | 100 joints | ComputeRnea | 1.57 | 2.16 |
-/// | 1000 joints | ComputeRnea | 1.62 | 2.09 |
+/// | size | function | --config=opt, AVX2 | --config=native, AVX-512 |
+/// | 50 joints | ComputeRnea | 2.02 | 1.61 |
+/// | 50 joints | ComputeBias | 2.02 | 1.58 |
+/// | 50 joints | ComputeCrba | 1.63 | 1.46 |
+/// | 50 joints | ComputeCentroidalMomentumMatrix | 1.86 | 1.55 |
+/// | 50 joints | ComputeTick, two feet | 1.59 | 1.39 |
+/// | 50 joints | ComputeRneaDerivatives | 1.24 | 1.26 |
+/// | 50 joints | ComputeAba | 1.14 | 1.08 |
+/// | 10 joints | ComputeRnea | 1.65 | 1.31 |
+/// | 100 joints | ComputeRnea | 2.04 | 1.69 |
+/// | 1000 joints | ComputeRnea | 2.13 | 1.82 |
 ///
-/// Measured on one core of an AMD EPYC with AVX-512, by GCC 12.2: the fastest
-/// of
-/// 36 repetitions, in four runs. 50 joints are the humanoid of robot/models; the
+/// The sweeps have a version with AVX2, see math/target_clones.h. It does not fuse a
+/// product with a sum, so that a result is the same on each processor.
+///
+/// Measured on one core of an AMD EPYC with AVX-512, by GCC 12.2: the fastest of
+/// 15 repetitions, in three runs. 50 joints are the humanoid of robot/models; the
 /// other trees are random. Scalar loops are those of
 ///     bazel run --config=opt
 ///         --per_file_copt='^dynamics/.*@-fno-tree-loop-vectorize'

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "poise/dynamics/simd/lanes.h"
+#include "poise/math/target_clones.h"
 
 namespace poise {
 namespace {
@@ -23,6 +24,7 @@ constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
 
 }  // namespace
 
+POISE_TARGET_CLONES("avx2")
 void SinCos(const double* x, int n, double* sine, double* cosine) noexcept {
   POISE_LANES
   for (int i = 0; i < n; ++i) {

@@ -6,6 +6,7 @@
 
 #include "poise/dynamics/simd/sin_cos.h"
 #include "poise/math/quaternion.h"
+#include "poise/math/target_clones.h"
 
 namespace poise {
 namespace {
@@ -17,6 +18,7 @@ bool IsNext(int parent, int b) { return parent == b - 1; }
 
 }  // namespace
 
+POISE_TARGET_CLONES("avx2")
 void SweepPoses(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
                 Recursion* recursion) noexcept {
   assert(q.size() == tree.nq());
@@ -71,6 +73,7 @@ void SweepPoses(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
   }
 }
 
+POISE_TARGET_CLONES("avx2")
 void SweepAccelerations(const Tree& tree,
                         const Eigen::Ref<const Eigen::VectorXd>& v,
                         const Eigen::Ref<const Eigen::VectorXd>& vdot,
@@ -139,6 +142,7 @@ void SweepAccelerations(const Tree& tree,
   }
 }
 
+POISE_TARGET_CLONES("avx2")
 void SweepInertias(const Tree& tree, Recursion* recursion) noexcept {
   const MassMomentsArray& M_B = tree.mass_moments();
   const int num_bodies = tree.num_bodies();
@@ -150,6 +154,7 @@ void SweepInertias(const Tree& tree, Recursion* recursion) noexcept {
   }
 }
 
+POISE_TARGET_CLONES("avx2")
 void SweepForces(const Tree& tree, Recursion* recursion) noexcept {
   const int num_bodies = tree.num_bodies();
   Recursion& r = *recursion;
@@ -163,6 +168,7 @@ void SweepForces(const Tree& tree, Recursion* recursion) noexcept {
   }
 }
 
+POISE_TARGET_CLONES("avx2")
 void SumInertias(const Tree& tree, Recursion* recursion) noexcept {
   const std::vector<int>& parent = tree.joint_maps().parent;
   MassMomentsArray& M_W = recursion->M_W;
@@ -175,6 +181,7 @@ void SumInertias(const Tree& tree, Recursion* recursion) noexcept {
   }
 }
 
+POISE_TARGET_CLONES("avx2")
 void SumForces(const Tree& tree, Recursion* recursion) noexcept {
   const std::vector<int>& parent = tree.joint_maps().parent;
   Force3Array& F_W = recursion->F_W;
@@ -187,6 +194,7 @@ void SumForces(const Tree& tree, Recursion* recursion) noexcept {
   }
 }
 
+POISE_TARGET_CLONES("avx2")
 void SweepMomenta(const Tree& tree, Recursion* recursion) noexcept {
   const int num_bodies = tree.num_bodies();
   Recursion& r = *recursion;
@@ -197,6 +205,7 @@ void SweepMomenta(const Tree& tree, Recursion* recursion) noexcept {
   }
 }
 
+POISE_TARGET_CLONES("avx2")
 void ProjectForces(const Tree& tree, const Recursion& r,
                    Eigen::Ref<Eigen::VectorXd> tau) noexcept {
   assert(tau.size() == tree.nv());

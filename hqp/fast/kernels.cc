@@ -4,16 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-// The binary has one version with fused multiply-add and one without, and the
-// loader selects one. A sanitizer is not yet initialised at that time, so a
-// build with a sanitizer has one version only.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__FMA__)
-#define POISE_CLONES __attribute__((target_clones("fma", "default")))
-#else
-#define POISE_CLONES
-#endif
+#include "poise/math/target_clones.h"
 
 // Inlined, so that it is compiled for the processor of its caller.
 #define POISE_INLINE inline __attribute__((always_inline))
@@ -149,19 +140,19 @@ POISE_INLINE void AddToRowsOf(Row row, int count, const double* factor,
 
 }  // namespace
 
-POISE_CLONES
+POISE_TARGET_CLONES("fma")
 void Dots(const double* rows, int stride, int count, const double* x, int n,
           double* out) {
   DotsOf(Apart<const double>{rows, stride}, count, x, n, out);
 }
 
-POISE_CLONES
+POISE_TARGET_CLONES("fma")
 void Dots(const double* rows, int stride, const int* index, int count,
           const double* x, int n, double* out) {
   DotsOf(Chosen<const double>{{rows, stride}, index}, count, x, n, out);
 }
 
-POISE_CLONES
+POISE_TARGET_CLONES("fma")
 void SpanDots(const double* rows, int stride, const Span* spans, int count,
               const double* x, double* out) {
   for (int i = 0; i < count; ++i) {
@@ -178,31 +169,31 @@ void SpanDots(const double* rows, int stride, const Span* spans, int count,
   }
 }
 
-POISE_CLONES
+POISE_TARGET_CLONES("fma")
 void AddRows(const double* rows, int stride, int count, const double* factor,
              int n, double* x) {
   AddRowsOf(Apart<const double>{rows, stride}, count, factor, n, x);
 }
 
-POISE_CLONES
+POISE_TARGET_CLONES("fma")
 void AddRows(const double* rows, int stride, const int* index, int count,
              const double* factor, int n, double* x) {
   AddRowsOf(Chosen<const double>{{rows, stride}, index}, count, factor, n, x);
 }
 
-POISE_CLONES
+POISE_TARGET_CLONES("fma")
 void AddToRows(double* rows, int stride, int count, const double* factor,
                const double* x, int n) {
   AddToRowsOf(Apart<double>{rows, stride}, count, factor, x, n);
 }
 
-POISE_CLONES
+POISE_TARGET_CLONES("fma")
 void AddToRows(double* rows, int stride, const int* index, int count,
                const double* factor, const double* x, int n) {
   AddToRowsOf(Chosen<double>{{rows, stride}, index}, count, factor, x, n);
 }
 
-POISE_CLONES
+POISE_TARGET_CLONES("fma")
 void Rotate(double c, double s, int n, double* x, double* y) {
   int j = 0;
   for (; j + 4 <= n; j += 4) {
@@ -217,7 +208,7 @@ void Rotate(double c, double s, int n, double* x, double* y) {
   }
 }
 
-POISE_CLONES
+POISE_TARGET_CLONES("fma")
 void DotWithSize(const double* row, const double* x, int n, double* dot,
                  double* size) {
   const int whole = n & ~3;
@@ -236,7 +227,7 @@ void DotWithSize(const double* row, const double* x, int n, double* dot,
   }
 }
 
-POISE_CLONES
+POISE_TARGET_CLONES("fma")
 double AbsoluteSum(const double* x, int n) {
   const int whole = n & ~3;
   Four sum = {};
