@@ -11,13 +11,6 @@
 namespace poise {
 namespace {
 
-// Limit of removals of one row on a level, or in AllAtOnce(). Searches need
-// fewer; the limit ends cycles that rounding causes.
-constexpr int kMaxRemovals = 10;
-
-// Replaces the number of removals left: the row is an equality from now on.
-constexpr int kFrozen = -1;
-
 constexpr int kNone = -1;
 
 // Longest path, in iterations. After more iterations, steps of the primal method are
@@ -26,11 +19,6 @@ constexpr int kNone = -1;
 // little (docs/notebook/2026-11-27-paths.md).
 constexpr int kLongPath = 20;
 
-// Returns whether the two bounds of a row are equal.
-bool IsFixed(const Hierarchy& hierarchy, int level, int i) {
-  return hierarchy.lower(level)[i] == hierarchy.upper(level)[i];
-}
-
 }  // namespace
 
 ActiveSetSearch::ActiveSetSearch(int num_variables,
@@ -38,10 +26,10 @@ ActiveSetSearch::ActiveSetSearch(int num_variables,
     : n_(num_variables),
       path_(num_variables, capacity),
       y_(num_variables),
-      step_(num_variables) {
+      step_(num_variables),
+      removals_(capacity) {
   int most = 0;
   for (const LevelCapacity& level : capacity) {
-    removals_left_.emplace_back(level.inequalities, kMaxRemovals);
     violated_.emplace_back(level.inequalities, Side::kNone);
     completed_.emplace_back(level.inequalities, Side::kNone);
     most = std::max({most, level.equalities, level.inequalities});
@@ -194,12 +182,7 @@ bool ActiveSetSearch::InitializeAllLevels(
     const Hierarchy& hierarchy, WorkingSetProblem* problem,
     std::vector<std::vector<Side>>* side) {
   const int levels = hierarchy.num_levels();
-  for (int level = 0; level < levels; ++level) {
-    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-      removals_left_[level][i] =
-          IsFixed(hierarchy, level, i) ? kFrozen : kMaxRemovals;
-    }
-  }
+  removals_.Reset(hierarchy);
   const bool goes_on = std::exchange(goes_on_, false);
   const int violated_at_optimum =
       FindViolated(hierarchy, *problem, problem->y(), *side);
@@ -281,7 +264,7 @@ int ActiveSetSearch::FindViolated(const Hierarchy& hierarchy,
     for (int i = 0; i < rows; ++i) {
       violated_[level][i] = Side::kNone;
       const double above = value_[i] - upper[i], below = lower[i] - value_[i];
-      if ((above <= 0 && below <= 0) || removals_left_[level][i] == kFrozen ||
+      if ((above <= 0 && below <= 0) || removals_.IsFrozen({level, i}) ||
           problem.norm(level, i) == 0) {
         continue;
       }
@@ -327,13 +310,12 @@ void ActiveSetSearch::Stop(const Hierarchy& hierarchy,
 void ActiveSetSearch::InitializeWorkingSet(
     const Hierarchy& hierarchy, int level,
     std::vector<std::vector<Side>>* side) {
+  removals_.Reset(hierarchy, level);
   const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
   const int rows = hierarchy.num_inequalities(level);
   kernels::SpanDots(hierarchy.C(level).data(), n_, hierarchy.C_span(level),
                     rows, y_.data(), value_.data());
   for (int i = 0; i < rows; ++i) {
-    removals_left_[level][i] =
-        IsFixed(hierarchy, level, i) ? kFrozen : kMaxRemovals;
     (*side)[level][i] = value_[i] > upper[i] || lower[i] == upper[i]
                             ? Side::kUpper
                         : value_[i] < lower[i] ? Side::kLower
@@ -363,7 +345,7 @@ bool ActiveSetSearch::StepToBlockingConstraint(
                           (kernels::Largest(y_.data(), n_) + problem.Size());
   const double noise = tolerances::kZeroSlope * largest + rounding;
   double length = 1, steepest = 0;
-  RowIndex blocking = {kNone, kNone};
+  RowIndex blocking;
   Side at = Side::kNone;
   for (int level = 0; level < problem.num_levels(); ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
@@ -375,7 +357,7 @@ bool ActiveSetSearch::StepToBlockingConstraint(
     for (int i = 0; i < rows; ++i) {
       const double slope = slope_[i], norm = problem.norm(level, i);
       const Side towards = slope > 0 ? Side::kUpper : Side::kLower;
-      if ((*side)[level][i] == towards || removals_left_[level][i] <= 0 ||
+      if ((*side)[level][i] == towards || !removals_.MayChange({level, i}) ||
           std::abs(slope) <= noise * norm) {
         continue;
       }
@@ -399,11 +381,10 @@ bool ActiveSetSearch::StepToBlockingConstraint(
   }
   for (int j = 0; j < n_; ++j) y_[j] += length * step_[j];
   (*side)[blocking.level][blocking.row] = at;
-  if (!has_moved && blocking.level == last_removed_.level &&
-      blocking.row == last_removed_.row) {
+  if (!has_moved && blocking == last_removed_) {
     // A removed row moves away from its bound. This one did not: rounding had
     // made its multiplier negative.
-    removals_left_[blocking.level][blocking.row] = 0;
+    removals_.Exhaust(blocking);
   }
   return true;
 }
@@ -418,12 +399,11 @@ bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
   int removed = kNone;
   double worst = 0;
   bool has_multipliers = false, any = false;
-  last_removed_ = {kNone, kNone};
+  last_removed_ = {};
   for (int a = 0; a < problem->leading().num_rows(); ++a) {
     const WorkingSetProblem::Row& row = problem->row(a);
-    if (!row.is_inequality || removals_left_[row.level][row.index] <= 0) {
-      continue;
-    }
+    const RowIndex index = {row.level, row.index};
+    if (!row.is_inequality || !removals_.MayChange(index)) continue;
     if (!has_multipliers) problem->FindMultipliers(level + 1);
     has_multipliers = true;
     Side& at = (*side)[row.level][row.index];
@@ -435,7 +415,7 @@ bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
     if (l == row.level + 1 ||
         (remove_together_ && l > problem->num_leading())) {
       at = Side::kNone;
-      --removals_left_[row.level][row.index];
+      removals_.Count(index);
       any = true;
     } else if (multiplier < worst) {
       removed = a;
@@ -447,7 +427,7 @@ bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
   const WorkingSetProblem::Row& row = problem->row(removed);
   last_removed_ = {row.level, row.index};
   (*side)[row.level][row.index] = Side::kNone;
-  --removals_left_[row.level][row.index];
+  removals_.Count(last_removed_);
   return true;
 }
 
@@ -459,13 +439,13 @@ void ActiveSetSearch::FreezeViolated(
   for (int a = 0; a < problem.leading().num_rows(); ++a) {
     const WorkingSetProblem::Row& row = problem.row(a);
     if (!row.is_inequality) continue;
-    signed char& removals_left = removals_left_[row.level][row.index];
+    const RowIndex index = {row.level, row.index};
     if (row.level == level &&
         problem.Multiplier(a, level, side[level][row.index],
                            tolerances::kZeroMultiplier) > 0) {
-      removals_left = kFrozen;
+      removals_.Freeze(index);
     }
-    if (removals_left != kFrozen) removals_left = kMaxRemovals;
+    removals_.Renew(index);
   }
 }
 

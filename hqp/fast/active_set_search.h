@@ -6,6 +6,7 @@
 
 #include "poise/hqp/fast/budget.h"
 #include "poise/hqp/fast/parametric_search.h"
+#include "poise/hqp/fast/removal_limits.h"
 #include "poise/hqp/fast/working_set_problem.h"
 #include "poise/hqp/hierarchy.h"
 #include "poise/hqp/solution.h"
@@ -78,9 +79,6 @@ class ActiveSetSearch {
   }
 
  private:
-  struct RowIndex {
-    int level, row;
-  };
   struct Cost {
     double cost, size;  ///< Twice the cost of a level; squares of its terms.
   };
@@ -117,12 +115,11 @@ class ActiveSetSearch {
   int n_;
   ParametricSearch path_;
   std::vector<double> y_, step_, value_, slope_;
-  std::vector<std::vector<signed char>>
-      removals_left_;             ///< Removals allowed per row.
+  RemovalLimits removals_;
   bool goes_on_ = false;          ///< See Stop().
   bool remove_together_ = false;  ///< See RemoveConstraints().
   /// The row removed last, if it was removed alone.
-  RowIndex last_removed_ = {-1, -1};
+  RowIndex last_removed_;
   std::vector<std::vector<Side>> violated_;  ///< kNone: not violated.
   std::vector<std::vector<Side>>
       completed_;  ///< Working set of the last solved level.

@@ -10,24 +10,16 @@
 #include "poise/hqp/fast/tolerances.h"
 
 namespace poise {
-namespace {
-
-// Removals of one row in one solve. Paths need fewer; the limit ends cycles that
-// rounding causes. A cycle over several solves ends when the solver starts over.
-constexpr int kMaxRemovals = 10;
-
-}  // namespace
-
 ParametricSearch::ParametricSearch(int num_variables,
                                    const std::vector<LevelCapacity>& capacity)
     : n_(num_variables),
       y_(num_variables),
       start_(capacity, num_variables, static_cast<int>(capacity.size()) + 1),
-      center_(num_variables) {
+      center_(num_variables),
+      removals_(capacity) {
   int most = 0;
   for (const LevelCapacity& level : capacity) {
     side_.emplace_back(level.inequalities, Side::kNone);
-    removals_left_.emplace_back(level.inequalities, kMaxRemovals);
     most = std::max(most, level.inequalities);
   }
   near_side_ = side_;
@@ -54,22 +46,30 @@ void ParametricSearch::Remember(const WorkingSetProblem& problem,
 }
 
 void ParametricSearch::Pause(const Sides& side) {
-  side_ = side;
+  ForgetChanged(side);
   is_paused_ = true;
+}
+
+// Takes the working set `side`. Rows that were added to it or removed from it since have
+// no multiplier.
+void ParametricSearch::ForgetChanged(const Sides& side) {
+  for (size_t level = 0; level < side.size(); ++level) {
+    for (size_t i = 0; i < side[level].size(); ++i) {
+      if (side[level][i] == side_[level][i]) continue;
+      start_.Remove(static_cast<int>(level), static_cast<int>(i));
+    }
+  }
+  side_ = side;
 }
 
 bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
                               Budget* budget, WorkingSetProblem* problem,
                               Sides* side) {
-  AllowChanges(hierarchy);
+  // A cycle over several solves ends when the solver starts over.
+  removals_.Reset(hierarchy);
   skips_near_ = false;
   const int num_levels = problem->num_levels(), size = num_levels + 1;
-  // Rows that were added to the working set since have no multiplier.
-  for (int level = 0; level < num_levels; ++level) {
-    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-      if ((*side)[level][i] != side_[level][i]) start_.Remove(level, i);
-    }
-  }
+  ForgetChanged(*side);
   for (Change last;;) {
     problem->FindMultipliers(size);
     const Blocking blocking =
@@ -104,7 +104,7 @@ bool ParametricSearch::MeetLevelsBeforeLast(const Hierarchy& hierarchy,
   const int leading = problem->num_leading();
   // The last solve spent its budget here. The path must advance as well.
   if (leading < 2 || skips_near_) return true;
-  AllowChanges(hierarchy);
+  removals_.Reset(hierarchy);
   problem->Approach(y_, leading - 1);
   if (FindBlocking(hierarchy, *problem, leading - 1, {}, *side).side ==
       Side::kNone) {
@@ -153,17 +153,6 @@ bool ParametricSearch::FindNearest(const Hierarchy& hierarchy, int limit,
   }
 }
 
-// Allows all rows to change, but those whose bounds are equal.
-void ParametricSearch::AllowChanges(const Hierarchy& hierarchy) {
-  for (int level = 0; level < hierarchy.num_levels(); ++level) {
-    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-      const bool is_equality =
-          hierarchy.lower(level)[i] == hierarchy.upper(level)[i];
-      removals_left_[level][i] = is_equality ? 0 : kMaxRemovals;
-    }
-  }
-}
-
 // Removes all rows with a negative multiplier. Returns whether there was one.
 bool ParametricSearch::RemoveNegative(const WorkingSetProblem& problem,
                                       int size, const Change& last,
@@ -208,7 +197,7 @@ ParametricSearch::Blocking ParametricSearch::FindBlocking(
       const double bound = above > 0 ? upper[i] : lower[i];
       const double norm = problem.norm(level, i);
       const RowIndex row = {level, i};
-      if (removals_left_[level][i] == 0 || norm == 0 ||
+      if (!removals_.MayChange(row) || norm == 0 ||
           (row == last.removed && at == last.removed_side) ||
           beyond <= noise * norm + tolerances::kZeroSlope * std::abs(bound)) {
         continue;
@@ -228,9 +217,9 @@ ParametricSearch::Blocking ParametricSearch::FindBlocking(
 
 // Finds the row whose multiplier becomes negative first, and the time at which this
 // multiplier is zero: 0 if it is not positive at the start.
-ParametricSearch::RowIndex ParametricSearch::FindRemoval(
-    const WorkingSetProblem& problem, int size, const Change& last,
-    const Sides& side) {
+RowIndex ParametricSearch::FindRemoval(const WorkingSetProblem& problem,
+                                       int size, const Change& last,
+                                       const Sides& side) {
   RowIndex removed;
   for (int a = 0; a < problem.leading().num_rows(); ++a) {
     if (!MayRemove(problem, size, last, side, a)) continue;
@@ -257,8 +246,9 @@ ParametricSearch::RowIndex ParametricSearch::FindRemoval(
 bool ParametricSearch::MayRemove(const WorkingSetProblem& problem, int size,
                                  const Change& last, const Sides& side, int a) {
   const WorkingSetProblem::Row& row = problem.row(a);
-  return row.is_inequality && removals_left_[row.level][row.index] > 0 &&
-         !(RowIndex{row.level, row.index} == last.added) &&
+  const RowIndex index = {row.level, row.index};
+  return row.is_inequality && removals_.MayChange(index) &&
+         !(index == last.added) &&
          infinitesimals::Sign(EndMultiplier(problem, size, side, a), size) < 0;
 }
 
@@ -295,7 +285,7 @@ void ParametricSearch::StepTo(const std::vector<double>& y, double time) {
 }
 
 ParametricSearch::Change ParametricSearch::Remove(RowIndex row, Sides* side) {
-  --removals_left_[row.level][row.row];
+  removals_.Count(row);
   return {{}, row, std::exchange((*side)[row.level][row.row], Side::kNone)};
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "poise/hqp/fast/budget.h"
+#include "poise/hqp/fast/removal_limits.h"
 #include "poise/hqp/fast/row_numbers.h"
 #include "poise/hqp/fast/working_set_problem.h"
 #include "poise/hqp/hierarchy.h"
@@ -79,12 +80,6 @@ class ParametricSearch {
                                           Sides* side);
 
  private:
-  struct RowIndex {
-    int level = -1, row = -1;
-    bool operator==(const RowIndex& other) const {
-      return level == other.level && row == other.row;
-    }
-  };
   struct Blocking {
     RowIndex row;
     Side side = Side::kNone;  ///< kNone: no row blocks.
@@ -97,7 +92,7 @@ class ParametricSearch {
     Side removed_side = Side::kNone;
   };
 
-  void AllowChanges(const Hierarchy& hierarchy);
+  void ForgetChanged(const Sides& side);
   bool FindNearest(const Hierarchy& hierarchy, int limit, Budget* budget,
                    WorkingSetProblem* problem, Sides* side);
   bool RemoveNegative(const WorkingSetProblem& problem, int size,
@@ -133,7 +128,7 @@ class ParametricSearch {
   std::vector<double> center_;
   std::vector<double> end_, time_, removal_time_;  ///< Infinitesimals.
   std::vector<double> scratch_, end_value_;
-  std::vector<std::vector<signed char>> removals_left_;  ///< By level and row.
+  RemovalLimits removals_;
 };
 
 /// Removes rows from a working set whose bound is infinite. Adds rows with equal

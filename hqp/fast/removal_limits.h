@@ -1,0 +1,67 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <vector>
+
+#include "poise/hqp/hierarchy.h"
+
+namespace poise {
+
+/// An inequality row of a hierarchy.
+struct RowIndex {
+  int level = -1, row = -1;
+  bool operator==(const RowIndex& other) const {
+    return level == other.level && row == other.row;
+  }
+};
+
+/// Limits how often a search may remove a row from the working set. Searches need fewer
+/// removals; the limit ends cycles that rounding causes. A frozen row is an equality and
+/// does not change at all. Nothing allocates after construction.
+class RemovalLimits {
+ public:
+  static constexpr int kMaxRemovals = 10;
+
+  explicit RemovalLimits(const std::vector<LevelCapacity>& capacity) {
+    for (const LevelCapacity& level : capacity) {
+      left_.emplace_back(level.inequalities, kMaxRemovals);
+    }
+  }
+
+  /// Allows kMaxRemovals removals of each row of a level, but freezes rows whose bounds
+  /// are equal.
+  void Reset(const Hierarchy& hierarchy, int level) {
+    const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+      left_[level][i] = lower[i] == upper[i] ? kFrozen : kMaxRemovals;
+    }
+  }
+  void Reset(const Hierarchy& hierarchy) {
+    for (int level = 0; level < hierarchy.num_levels(); ++level) {
+      Reset(hierarchy, level);
+    }
+  }
+
+  bool IsFrozen(RowIndex row) const { return At(row) == kFrozen; }
+  /// Returns whether the row is not frozen and has removals left.
+  bool MayChange(RowIndex row) const { return At(row) > 0; }
+
+  /// Counts a removal.
+  /// pre: MayChange(row).
+  void Count(RowIndex row) { --left_[row.level][row.row]; }
+  /// Allows no more removals of a row that is not frozen.
+  void Exhaust(RowIndex row) { left_[row.level][row.row] = 0; }
+  /// Allows kMaxRemovals removals again, unless the row is frozen.
+  void Renew(RowIndex row) {
+    if (!IsFrozen(row)) left_[row.level][row.row] = kMaxRemovals;
+  }
+  void Freeze(RowIndex row) { left_[row.level][row.row] = kFrozen; }
+
+ private:
+  static constexpr signed char kFrozen = -1;
+  signed char At(RowIndex row) const { return left_[row.level][row.row]; }
+
+  std::vector<std::vector<signed char>> left_;  ///< By level and row.
+};
+
+}  // namespace poise
