@@ -203,6 +203,41 @@ TEST_F(ParametricSearchTest, TakesNoIterationIfNothingChanges) {
   EXPECT_NEAR(search_.y()[1], 0.5, kTolerance);
 }
 
+// The bound on y_0 leaves the working set, and the path is paused. On the rest of the
+// path, the multiplier of this bound is zero at the start, although it was 1.6 before.
+// With the cost 5/8 (y_0 - t_0)^2 - 3/4 (y_0 - t_0) (y_1 - t_1) + 5/8 (y_1 - t_1)^2:
+// 1. y_0 = 1 violates its bound at the end, so that the bound is added at time 0. Its
+//    multiplier would be 2/5 at the end, with y_1 = 2.7.
+// 2. y_1 goes from -1.2 to its bound 1, which is added. There, y_2 is the time.
+// 3. The multiplier of y_0 goes on to -7/8. Where it is zero, its bound is removed.
+TEST(ParametricSearch, ForgetsTheMultiplierOfARowThatIsRemovedBeforeAPause) {
+  const std::vector<LevelCapacity> capacity{{0, 2}, {3, 0}};
+  const auto at = [&](const Eigen::Vector3d& target) {
+    Hierarchy hierarchy(3, capacity);
+    InequalityBlock bounds = hierarchy.AddInequalities(0, 2);
+    bounds.C.setIdentity();
+    bounds.lower.setConstant(-kInfinity);
+    bounds.upper.setConstant(1);
+    EqualityBlock task = hierarchy.AddEqualities(1, 3);
+    task.B << 0.5, 0.5, 0, 1, -1, 0, 0, 0, 1;
+    task.b = -task.B * target;
+    return hierarchy;
+  };
+  Search search(3, capacity);
+  search.Begin(at({3, 0, 0}));
+  ASSERT_EQ(search.side()[0][0], Side::kUpper);
+  ASSERT_NEAR(search.y()[1], -1.2, kTolerance);
+  search.side()[0][0] = Side::kNone;
+  search.path().Pause(search.side());
+  EXPECT_FALSE(search.Follow(at({1.5, 3, 1}), 2));
+  EXPECT_EQ(search.side()[0][0], Side::kNone);
+  EXPECT_EQ(search.side()[0][1], Side::kUpper);
+  const double time = (1 + 1.2) / (2.7 + 1.2);
+  const double multiplier = time * 2 / 5;
+  const double removal = multiplier / (multiplier + 7.0 / 8);
+  EXPECT_NEAR(search.y()[2], time + removal * (1 - time), kTolerance);
+}
+
 TEST_F(ParametricSearchTest, GoesOnAfterAPause) {
   search_.Begin(At(0, 3));
   const Hierarchy end = At(3, 0);
