@@ -16,8 +16,9 @@ import re
 import subprocess
 import sys
 
-# Types that nm prints for symbols with one definition: code, data, constants.
-_STRONG = "TDBRGS"
+# Types that nm prints for symbols with one definition: code, data, constants, and
+# functions of several versions, see math/target_clones.h.
+_STRONG = "TDBRGSi"
 
 
 def parse_arguments(arguments):

@@ -2,6 +2,10 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 """Tests which symbols a library exports."""
 
+import pathlib
+import platform
+import subprocess
+import tempfile
 import unittest
 
 import link_layer
@@ -39,6 +43,25 @@ class DeclaredTest(unittest.TestCase):
     def test_script_exports_nothing_else(self):
         self.assertEqual(link_layer.version_script(["f"]),
                          "{\nglobal:\n  f;\nlocal:\n  *;\n};\n")
+
+
+class SymbolsTest(unittest.TestCase):
+    @unittest.skipUnless(platform.machine() == "x86_64", "AVX2 is for x86-64")
+    def test_exports_functions_of_several_versions(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source = pathlib.Path(folder, "sum.cc")
+            source.write_text(
+                '__attribute__((target_clones("avx2", "default")))\n'
+                "double Sum(double a, double b) { return a + b; }\n"
+                "double Helper(double a) { return Sum(a, a); }\n")
+            header = pathlib.Path(folder, "sum.h")
+            header.write_text("double Sum(double a, double b);\n")
+            subprocess.run(["g++", "-c", "-O1", source.name], check=True,
+                           cwd=folder)
+            self.assertEqual(
+                link_layer.exported_symbols(
+                    "nm", [str(source.with_suffix(".o"))], [str(header)]),
+                ["_Z3Sumdd"])
 
 
 if __name__ == "__main__":
