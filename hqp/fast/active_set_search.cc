@@ -11,8 +11,6 @@
 namespace poise {
 namespace {
 
-constexpr int kNone = -1;
-
 // Longest path, in iterations. After more iterations, steps of the primal method are
 // likely to reach the optimum first: they need not follow each change of the working
 // set between the last optimum and this one. From 12 to 40, the worst ticks change
@@ -375,7 +373,7 @@ bool ActiveSetSearch::StepToBlockingConstraint(
     }
   }
   const bool has_moved = length * largest > rounding;
-  if (blocking.level == kNone) {
+  if (at == Side::kNone) {
     y_ = problem.y();
     return false;
   }
@@ -396,7 +394,7 @@ bool ActiveSetSearch::StepToBlockingConstraint(
 // whether a constraint was removed.
 bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
                                         std::vector<std::vector<Side>>* side) {
-  int removed = kNone;
+  int removed = -1;
   double worst = 0;
   bool has_multipliers = false, any = false;
   last_removed_ = {};
@@ -415,7 +413,7 @@ bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
     if (l == row.level + 1 ||
         (remove_together_ && l > problem->num_leading())) {
       at = Side::kNone;
-      removals_.Count(index);
+      removals_.CountRemoval(index);
       any = true;
     } else if (multiplier < worst) {
       removed = a;
@@ -423,11 +421,11 @@ bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
     }
   }
   if (any) remove_together_ = false;
-  if (any || removed == kNone) return any;
+  if (any || removed < 0) return any;
   const WorkingSetProblem::Row& row = problem->row(removed);
   last_removed_ = {row.level, row.index};
   (*side)[row.level][row.index] = Side::kNone;
-  removals_.Count(last_removed_);
+  removals_.CountRemoval(last_removed_);
   return true;
 }
 

@@ -16,9 +16,11 @@ using kernels::AddToRows;
 using kernels::Dots;
 using kernels::SquaredNorm;
 
-// Separate() reflects s of r rows, each to all c columns. This takes about
-// 1.3 (2 r s - s^2) c multiply-adds, and Gram-Schmidt in FactorLevel() then takes s^2 c
-// of r^2 c. So it saves time if s < 0.4 r.
+// Largest number s of reflections in Separate(), relative to the number of rows r. The
+// reflections and their pivots take about as long as 1.3 (2 r s - s^2) rows of all
+// columns. After them, Gram-Schmidt in FactorLevel() takes s^2 of r^2 rows. So they save
+// time if s < 0.4 r. If RoundsUsual(), Gram-Schmidt takes 2 r s - s^2 rows, and they
+// save time if s < 0.25 r only; such weights are rare.
 constexpr double kMaxSeparated = 0.4;
 
 }  // namespace
@@ -238,7 +240,8 @@ void DiagonalLevels::Eliminate(int level, int end) {
 
 // Reflects the first level's variables of unusual weight into its last rows.
 // The rows before have variables of the usual weight only. They are orthonormal
-// and orthogonal to the last rows, and stay so when divided by d.
+// and orthogonal to the last rows, and stay so when divided by d. If that may take
+// longer than it saves, no row is separated.
 void DiagonalLevels::Separate() {
   const Block& block = blocks_[0];
   usual_row_end_ = block.row_end;

@@ -10,6 +10,7 @@
 #include "poise/hqp/fast/tolerances.h"
 
 namespace poise {
+
 ParametricSearch::ParametricSearch(int num_variables,
                                    const std::vector<LevelCapacity>& capacity)
     : n_(num_variables),
@@ -46,13 +47,12 @@ void ParametricSearch::Remember(const WorkingSetProblem& problem,
 }
 
 void ParametricSearch::Pause(const Sides& side) {
-  ForgetChanged(side);
+  TakeWorkingSet(side);
   is_paused_ = true;
 }
 
-// Takes the working set `side`. Rows that were added to it or removed from it since have
-// no multiplier.
-void ParametricSearch::ForgetChanged(const Sides& side) {
+// Replaces side_ by `side`. Rows that are in one of the two only have no multiplier.
+void ParametricSearch::TakeWorkingSet(const Sides& side) {
   for (size_t level = 0; level < side.size(); ++level) {
     for (size_t i = 0; i < side[level].size(); ++i) {
       if (side[level][i] == side_[level][i]) continue;
@@ -65,11 +65,12 @@ void ParametricSearch::ForgetChanged(const Sides& side) {
 bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
                               Budget* budget, WorkingSetProblem* problem,
                               Sides* side) {
-  // A cycle over several solves ends when the solver starts over.
+  // The limits hold for one solve. A cycle over several solves ends when the solver
+  // starts over.
   removals_.Reset(hierarchy);
   skips_near_ = false;
   const int num_levels = problem->num_levels(), size = num_levels + 1;
-  ForgetChanged(*side);
+  TakeWorkingSet(*side);
   for (Change last;;) {
     problem->FindMultipliers(size);
     const Blocking blocking =
@@ -285,7 +286,7 @@ void ParametricSearch::StepTo(const std::vector<double>& y, double time) {
 }
 
 ParametricSearch::Change ParametricSearch::Remove(RowIndex row, Sides* side) {
-  removals_.Count(row);
+  removals_.CountRemoval(row);
   return {{}, row, std::exchange((*side)[row.level][row.row], Side::kNone)};
 }
 

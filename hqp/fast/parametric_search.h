@@ -45,7 +45,7 @@ class ParametricSearch {
     is_paused_ = false;
   }
   /// Ends a path before its end. Until Begin(), Resume() replaces a working set by
-  /// `side`.
+  /// `side`. Rows that have been added or removed have no multiplier there.
   void Pause(const Sides& side);
   bool is_paused() const { return is_paused_; }
   void Resume(Sides* side) const {
@@ -92,7 +92,7 @@ class ParametricSearch {
     Side removed_side = Side::kNone;
   };
 
-  void ForgetChanged(const Sides& side);
+  void TakeWorkingSet(const Sides& side);
   bool FindNearest(const Hierarchy& hierarchy, int limit, Budget* budget,
                    WorkingSetProblem* problem, Sides* side);
   bool RemoveNegative(const WorkingSetProblem& problem, int size,

@@ -203,13 +203,15 @@ TEST_F(ParametricSearchTest, TakesNoIterationIfNothingChanges) {
   EXPECT_NEAR(search_.y()[1], 0.5, kTolerance);
 }
 
-// The bound on y_0 leaves the working set, and the path is paused. On the rest of the
-// path, the multiplier of this bound is zero at the start, although it was 1.6 before.
-// With the cost 5/8 (y_0 - t_0)^2 - 3/4 (y_0 - t_0) (y_1 - t_1) + 5/8 (y_1 - t_1)^2:
-// 1. y_0 = 1 violates its bound at the end, so that the bound is added at time 0. Its
-//    multiplier would be 2/5 at the end, with y_1 = 2.7.
+// The bound on y_0 is removed from the working set, and the path is paused. On the rest
+// of the path, the multiplier of this bound is zero at the start, although it was 1.6
+// before. With the cost
+//     5/8 (y_0 - t_0)^2 - 3/4 (y_0 - t_0) (y_1 - t_1) + 5/8 (y_1 - t_1)^2:
+// 1. The target of y_0 violates its bound. y_0 is at this bound, so that the bound is
+//    added at time 0. Its multiplier would be 2/5 at the end, with y_1 = 2.7.
 // 2. y_1 goes from -1.2 to its bound 1, which is added. There, y_2 is the time.
-// 3. The multiplier of y_0 goes on to -7/8. Where it is zero, its bound is removed.
+// 3. From then on, the multiplier of the bound on y_0 decreases towards -7/8. Where it is
+//    zero, the bound is removed.
 TEST(ParametricSearch, ForgetsTheMultiplierOfARowThatIsRemovedBeforeAPause) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {3, 0}};
   const auto at = [&](const Eigen::Vector3d& target) {

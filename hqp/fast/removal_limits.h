@@ -1,13 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cassert>
 #include <vector>
 
 #include "poise/hqp/hierarchy.h"
 
 namespace poise {
 
-/// An inequality row of a hierarchy.
+/// An inequality row of a hierarchy; no row if `level` is negative.
 struct RowIndex {
   int level = -1, row = -1;
   bool operator==(const RowIndex& other) const {
@@ -16,8 +17,9 @@ struct RowIndex {
 };
 
 /// Limits how often a search may remove a row from the working set. Searches need fewer
-/// removals; the limit ends cycles that rounding causes. A frozen row is an equality and
-/// does not change at all. Nothing allocates after construction.
+/// removals; the limit ends cycles that rounding causes. A row without removals left is
+/// neither removed nor added. A frozen row is an equality and stays in the working set.
+/// Nothing allocates after construction.
 class RemovalLimits {
  public:
   static constexpr int kMaxRemovals = 10;
@@ -46,11 +48,17 @@ class RemovalLimits {
   /// Returns whether the row is not frozen and has removals left.
   bool MayChange(RowIndex row) const { return At(row) > 0; }
 
-  /// Counts a removal.
   /// pre: MayChange(row).
-  void Count(RowIndex row) { --left_[row.level][row.row]; }
-  /// Allows no more removals of a row that is not frozen.
-  void Exhaust(RowIndex row) { left_[row.level][row.row] = 0; }
+  void CountRemoval(RowIndex row) {
+    assert(MayChange(row));
+    --left_[row.level][row.row];
+  }
+  /// Leaves the row no removals.
+  /// pre: !IsFrozen(row).
+  void Exhaust(RowIndex row) {
+    assert(!IsFrozen(row));
+    left_[row.level][row.row] = 0;
+  }
   /// Allows kMaxRemovals removals again, unless the row is frozen.
   void Renew(RowIndex row) {
     if (!IsFrozen(row)) left_[row.level][row.row] = kMaxRemovals;

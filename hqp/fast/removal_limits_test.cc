@@ -26,7 +26,7 @@ Hierarchy TwoLevels() {
   return hierarchy;
 }
 
-// A std::map of the removals that are left says the same, after any calls.
+// RemovalLimits agree with a std::map of the removals that are left, after any calls.
 TEST(RemovalLimits, AgreeWithAMap) {
   const Hierarchy hierarchy = TwoLevels();
   RemovalLimits limits({{0, kRows}, {0, kRows}});
@@ -62,7 +62,7 @@ TEST(RemovalLimits, AgreeWithAMap) {
       limits.Exhaust(row);
       left[key] = 0;
     } else if (limits.MayChange(row)) {
-      limits.Count(row);
+      limits.CountRemoval(row);
       --left[key];
     }
   }

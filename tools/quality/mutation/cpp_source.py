@@ -199,6 +199,11 @@ class Source:
     def _declare(self, first, body, last, scope, is_local, is_public):
         """Adds tokens [first, last) if they declare or define a function."""
         tokens = self.tokens
+        # A macro before the function, such as an attribute with arguments.
+        while tokens[first].text.isupper() and tokens[first + 1].text == "(" and (
+            self.partner.get(first + 1, body) + 1 < body
+        ):
+            first = self.partner[first + 1] + 1
         i = first
         while i < body:
             text = tokens[i].text

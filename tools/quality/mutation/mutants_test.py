@@ -52,6 +52,16 @@ class MutantsTest(unittest.TestCase):
             [("Half", True), ("Thing::Thing", False), ("Thing::Count", False)],
         )
 
+    def test_finds_functions_after_a_macro_with_arguments(self):
+        source = Source(
+            'CLONES("avx2")\nvoid Sweep(int n) noexcept { Use(n); }\n'
+            'CLONES("avx2")\ndouble Sum(double a) { return a; }\n'
+            "Tree::Tree(int n) noexcept : n_(n) {}\n"
+        )
+        self.assertEqual(
+            [f.name for f in source.functions], ["Sweep", "Sum", "Tree::Tree"]
+        )
+
     def test_finds_what_a_header_declares(self):
         header = Source(
             "class Tree final : public Base {\n public:\n  explicit Tree(int n);\n"

@@ -43,6 +43,7 @@ PUBLIC_HEADERS = [
     "math/so3_jacobian.h",
     "math/spatial.h",
     "math/stumpff.h",
+    "math/target_clones.h",
     "math/vector6.h",
     "robot/collision/body_capsules.h",
     "robot/collision/capsule.h",
