@@ -16,13 +16,6 @@ using kernels::AddToRows;
 using kernels::Dots;
 using kernels::SquaredNorm;
 
-// Largest number s of reflections in Separate(), relative to the number of rows r. The
-// reflections and their pivots take about as long as 1.3 (2 r s - s^2) rows of all
-// columns. After them, Gram-Schmidt in FactorLevel() takes s^2 of r^2 rows. So they save
-// time if s < 0.4 r. If RoundsUsual(), Gram-Schmidt takes 2 r s - s^2 rows, and they
-// save time if s < 0.25 r only; such weights are rare.
-constexpr double kMaxSeparated = 0.4;
-
 }  // namespace
 
 DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
@@ -240,14 +233,12 @@ void DiagonalLevels::Eliminate(int level, int end) {
 
 // Reflects the first level's variables of unusual weight into its last rows.
 // The rows before have variables of the usual weight only. They are orthonormal
-// and orthogonal to the last rows, and stay so when divided by d. If that may take
-// longer than it saves, no row is separated.
+// and orthogonal to the last rows, and stay so when divided by d.
 void DiagonalLevels::Separate() {
   const Block& block = blocks_[0];
   usual_row_end_ = block.row_end;
   const int others = usual_begin_ - block.begin;
-  const int rows = block.row_end - block.row_begin;
-  if (others > kMaxSeparated * rows) usual_row_end_ = block.row_begin;
+  if (2 * others > block.end - block.begin) usual_row_end_ = block.row_begin;
   for (int steps = others; steps > 0; --steps) {
     double squared = 0;
     const int pivot = LargestColumn(block.row_begin, usual_row_end_,
