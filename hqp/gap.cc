@@ -309,9 +309,9 @@ double Certifier::GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
   return squares > 0 ? std::min(without_s, gain(along / squares)) : without_s;
 }
 
-// Returns the largest t for which y - t p keeps the levels above `level` as they are.
-// Returns 0 if there is none. Sets `slope` to an upper bound of |g . p|. g is the gradient
-// of the cost of `level`.
+// Returns the largest t for which y - t p keeps the levels above `level` as they are,
+// or 0 if no step does. Sets `slope` to an upper bound of |g . p|, where g is the
+// gradient of the cost of `level`.
 double Certifier::LargestStep(const Hierarchy& hierarchy, int level,
                               const Eigen::VectorXd& p,
                               const Solution& solution, double* slope) const {

@@ -162,6 +162,7 @@ TEST(GapByHand, CoversATradeAgainstARowAbove) {
 // |B y + b|^2 / 2 with B as above. y_1 = 1e-6 misses level 0, and y_0 = 8 is best for it.
 // At the optimum, y_1 = 0 has its best y_0 600e-6 higher, of which the bound
 // allows 10e-6. Level 2 has the gradient (1, 600), and costs 590e-6 less there.
+// The numbers 1e-6 and 1e-5 are no tolerances but data, far larger than rounding.
 TEST(GapByHand, CoversATradeAtAYThatMissesALevelAbove) {
   const double off = 1e-6, distance = 10 * off, weight = 16;
   const std::vector<LevelCapacity> capacity{{1, 1}, {2, 0}, {2, 0}};

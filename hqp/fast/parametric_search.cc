@@ -51,7 +51,7 @@ void ParametricSearch::Pause(const Sides& side) {
   is_paused_ = true;
 }
 
-// Replaces side_ by `side`. Rows that are in one of the two only have no multiplier.
+// Replaces side_ by `side`. A row whose side differs has no multiplier from then on.
 void ParametricSearch::TakeWorkingSet(const Sides& side) {
   for (size_t level = 0; level < side.size(); ++level) {
     for (size_t i = 0; i < side[level].size(); ++i) {

@@ -45,7 +45,7 @@ class ParametricSearch {
     is_paused_ = false;
   }
   /// Ends a path before its end. Until Begin(), Resume() replaces a working set by
-  /// `side`. Rows that have been added or removed have no multiplier there.
+  /// `side`. A row that has been added or removed has no multiplier then.
   void Pause(const Sides& side);
   bool is_paused() const { return is_paused_; }
   void Resume(Sides* side) const {

@@ -156,8 +156,9 @@ class WorkingSetProblem {
   /// its own rows, d_a^2 (r_a y - t_a), corrected for rounding.
   void RefineMultipliers(const Hierarchy& hierarchy);
 
-  /// Finds LevelSolution::trade_off for a level, with the last deficient level above on
-  /// which it has multipliers. Returns the latter, or -1 if there is none.
+  /// Finds LevelSolution::trade_off for a level.
+  /// @return  the last deficient level above on which this level has multipliers, or -1
+  ///          if there is none.
   /// pre: FindMultipliers().
   int FindTradeOff(int level, double* trade_off);
 
