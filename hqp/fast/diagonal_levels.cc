@@ -25,14 +25,15 @@ DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
   const size_t square = static_cast<size_t>(n_) * stride_;
   level_of_.resize(n_);
   order_.resize(n_);
+  pivot_.resize(n_);
   blocks_.resize(max_levels + 1);
-  for (std::vector<double>* matrix : {&t_, &reflection_, &q_}) {
-    matrix->resize(square);
-  }
+  t_.resize(square);
+  q_.resize(square);
   l_.resize(static_cast<size_t>(n_) * (n_ + 1) / 2);
   for (std::vector<double>* vector :
        {&weight_, &target_, &start_, &step_, &ideal_, &scale_, &x_, &magnitude_,
-        &gradient_, &z_, &nu_, &scratch_, &factor_}) {
+        &gradient_, &z_, &nu_, &scratch_, &factor_, &reflection_,
+        &direction_}) {
     vector->resize(stride_);
   }
   Clear();
@@ -40,6 +41,7 @@ DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
 
 void DiagonalLevels::Clear() {
   num_levels_ = 0;
+  is_factored_ = false;
   std::fill(level_of_.begin(), level_of_.end(), -1);
 }
 
@@ -127,7 +129,6 @@ void DiagonalLevels::TieRows(const double* rows, int stride, int count) {
 // Eliminates the levels from the last to the first, in the columns before
 // `end`.
 void DiagonalLevels::EliminateAll(int end) {
-  num_reflections_ = 0;
   int row = 0;
   for (int level = num_levels_ - 1; level >= 0; --level) {
     blocks_[level].row_begin = row;
@@ -139,8 +140,7 @@ void DiagonalLevels::EliminateAll(int end) {
 
 void DiagonalLevels::Solve(const LexicographicFactorization& leading,
                            double* y) {
-  Tie(leading);
-  if (!IsSquare()) Separate();
+  if (!is_factored_ || !HasRowSpaceOf(leading)) Factor(leading);
   Start(leading, leading.z());
   for (int p = 0; p < num_free_; ++p) {
     const double target = target_[order_[p]];
@@ -148,15 +148,21 @@ void DiagonalLevels::Solve(const LexicographicFactorization& leading,
     magnitude_[p] = std::abs(start_[p]) + std::abs(target);
   }
   for (int p = num_free_; p < n_; ++p) {
-    y[order_[p]] = leading.z()[p - num_free_];
+    y[order_[p]] = start_[p];
     FindGradient(p, y);
   }
   for (int level = 0; level < num_levels_; ++level) {
-    FactorLevel(level);
     SolveLevel(level);
     FindMultipliers(level);
   }
   for (int p = 0; p < num_free_; ++p) y[order_[p]] = start_[p] + step_[p];
+}
+
+void DiagonalLevels::Factor(const LexicographicFactorization& leading) {
+  Tie(leading);
+  if (!IsSquare()) Separate();
+  for (int level = 0; level < num_levels_; ++level) FactorLevel(level);
+  is_factored_ = true;
 }
 
 void DiagonalLevels::Correct(const LexicographicFactorization& leading,
@@ -168,7 +174,7 @@ void DiagonalLevels::Correct(const LexicographicFactorization& leading,
     magnitude_[p] = std::abs(y[j]) + std::abs(target_[j]);
   }
   for (int p = num_free_; p < n_; ++p) {
-    y[order_[p]] += change[p - num_free_];
+    y[order_[p]] += start_[p];
     if (to_minimum) FindGradient(p, y);
   }
   for (int level = 0; level < num_levels_; ++level) {
@@ -189,6 +195,7 @@ void DiagonalLevels::Gather(const double* rows, int stride, int count,
                             const FixedVariables& variables) {
   Arrange(variables);
   rank_ = count;
+  is_factored_ = false;
   for (int p = 0; p < num_free_;) {
     // Consecutive columns are copied together.
     const int first = variables.column(order_[p]);
@@ -205,15 +212,32 @@ void DiagonalLevels::Gather(const double* rows, int stride, int count,
   }
 }
 
-// Computes start = Q' z, by position, for the free variables.
+// Computes start = Q' z, by position.
 void DiagonalLevels::Start(const LexicographicFactorization& leading,
                            const double* z) {
-  std::fill_n(scratch_.begin(), num_free_, 0);
-  AddRows(leading.free_basis(), leading.stride(), rank_, z + num_fixed(),
-          num_free_, scratch_.data());
-  for (int p = 0; p < num_free_; ++p) {
-    start_[p] = scratch_[leading.variables().column(order_[p])];
+  const FixedVariables& variables = leading.variables();
+  const int fixed = variables.size(), free = variables.num_free();
+  std::fill_n(scratch_.begin(), free, 0);
+  AddRows(leading.free_basis(), leading.stride(), leading.rank() - fixed,
+          z + fixed, free, scratch_.data());
+  for (int p = 0; p < n_; ++p) {
+    const int column = variables.column(order_[p]);
+    start_[p] = column < free ? scratch_[column] : z[n_ - 1 - column];
   }
+}
+
+// Computes Q x, for x by position.
+void DiagonalLevels::Project(const LexicographicFactorization& leading,
+                             const double* x, double* on_leading) {
+  const FixedVariables& variables = leading.variables();
+  const int fixed = variables.size(), free = variables.num_free();
+  for (int p = 0; p < n_; ++p) {
+    const int column = variables.column(order_[p]);
+    (column < free ? scratch_[column] : on_leading[n_ - 1 - column]) = x[p];
+  }
+  Dots(leading.free_basis(), leading.stride(), leading.rank() - fixed,
+       scratch_.data(), free, on_leading + fixed);
+  Count(leading.rank() - fixed, free);
 }
 
 // Reflects the rows until as few rows as possible contain the level's
@@ -227,6 +251,7 @@ void DiagonalLevels::Eliminate(int level, int end) {
         LargestColumn(row, rank_, block.begin, block.end, &squared);
     if (squared <= kRankTolerance * kRankTolerance) return;
     Reflect(row, rank_, row, pivot, block.begin, end);
+    pivot_[row] = pivot;
     ++block.row_end;
   }
 }
@@ -267,7 +292,7 @@ int DiagonalLevels::LargestColumn(int row_begin, int row_end, int begin,
   double* squares = scratch_.data();
   std::fill_n(squares, num_free_, 0);
   for (int i = row_begin; i < row_end; ++i) {
-    const double* t = &t_[static_cast<size_t>(i) * stride_];
+    const double* t = &t_[Index(i)];
     for (int p = begin; p < end; ++p) squares[p] += t[p] * t[p];
   }
   Count(row_end - row_begin, end - begin);
@@ -280,10 +305,9 @@ int DiagonalLevels::LargestColumn(int row_begin, int row_end, int begin,
 // except in row `target`. The rows are zero in the columns before `begin`.
 void DiagonalLevels::Reflect(int row_begin, int row_end, int target, int pivot,
                              int begin, int end) {
-  double* first = &t_[static_cast<size_t>(row_begin) * stride_];
-  double* v = &reflection_[static_cast<size_t>(num_reflections_) * stride_];
+  double* first = &t_[Index(row_begin)];
+  double* v = reflection_.data();
   const int rows = row_end - row_begin;
-  std::fill_n(v, rank_, 0);
   for (int i = 0; i < rows; ++i) {
     v[row_begin + i] = first[static_cast<size_t>(i) * stride_ + pivot];
   }
@@ -301,7 +325,6 @@ void DiagonalLevels::Reflect(int row_begin, int row_end, int target, int pivot,
           scratch_.data());
   AddToRows(first + begin, stride_, rows, factor_.data() + row_begin,
             scratch_.data(), columns);
-  ++num_reflections_;
   Count(2 * rows, columns);
 }
 
@@ -311,53 +334,60 @@ void DiagonalLevels::Count(int rows, int columns) {
       static_cast<std::int64_t>(rows) * (columns + kernels::kRowOverhead);
 }
 
-// Factors T/d = L Q by Gram-Schmidt. A dependent row, which only rounding can
-// cause, is set to zero.
+// Factors T/d = L Q by Gram-Schmidt.
 void DiagonalLevels::FactorLevel(int level) {
   if (level == 0 && IsSquare()) return;
   const Block& block = blocks_[level];
+  for (int row = block.row_begin; row < block.row_end; ++row) {
+    (void)FactorRow(level, row);
+  }
+}
+
+// Factors a row of T/d. Returns the part of its length that is independent of the
+// rows before it. A dependent row, which only rounding can cause, is set to zero.
+double DiagonalLevels::FactorRow(int level, int row) {
+  const Block& block = blocks_[level];
   const int columns = block.end - block.begin;
-  const int rows = block.row_end - block.row_begin;
+  const int i = row - block.row_begin;
   const int usual = level == 0 ? usual_row_end_ - block.row_begin : 0;
   const int from = level == 0 && RoundsUsual() ? 0 : usual;
-  double* first = &q_[static_cast<size_t>(block.row_begin + from) * stride_];
-  for (int i = 0; i < rows; ++i) {
-    const size_t at = static_cast<size_t>(block.row_begin + i) * stride_;
-    double *q = &q_[at], *l = L(block.row_begin + i);
-    const double* t = &t_[at] + block.begin;
-    std::fill_n(l, i + 1, 0);
-    if (i < usual) {
-      const int others = usual_begin_ - block.begin;
-      std::fill_n(q, others, 0);
-      std::copy_n(t + others, columns - others, q + others);
-      l[i] = 1 / scale_[usual_begin_];
-      continue;
-    }
-    for (int p = 0; p < columns; ++p) {
-      const bool is_rounding = std::abs(t[p]) < tolerances::kZeroEntry;
-      q[p] = is_rounding ? 0 : t[p] / scale_[block.begin + p];
-    }
-    const double before = SquaredNorm(q, columns);
-    double after = before;
-    const int above = i - from;
-    for (int pass = 0; pass < 2 && above > 0; ++pass) {
-      Dots(first, stride_, above, q, columns, scratch_.data());
-      for (int k = 0; k < above; ++k) {
-        l[from + k] += scratch_[k];
-        scratch_[k] = -scratch_[k];
-      }
-      AddRows(first, stride_, above, scratch_.data(), columns, q);
-      after = SquaredNorm(q, columns);
-      Count(2 * above + 1, columns);
-      if (after > before / 4) break;
-    }
-    if (after <= kRankTolerance * kRankTolerance * before) {
-      std::fill_n(q, columns, 0);
-      continue;
-    }
-    l[i] = std::sqrt(after);
-    for (int p = 0; p < columns; ++p) q[p] /= l[i];
+  double* first = &q_[Index(block.row_begin + from)];
+  const size_t at = static_cast<size_t>(row) * stride_;
+  double *q = &q_[at], *l = L(row);
+  const double* t = &t_[at] + block.begin;
+  std::fill_n(l, i + 1, 0);
+  if (i < usual) {
+    const int others = usual_begin_ - block.begin;
+    std::fill_n(q, others, 0);
+    std::copy_n(t + others, columns - others, q + others);
+    l[i] = 1 / scale_[usual_begin_];
+    return 1;
   }
+  for (int p = 0; p < columns; ++p) {
+    const bool is_rounding = std::abs(t[p]) < tolerances::kZeroEntry;
+    q[p] = is_rounding ? 0 : t[p] / scale_[block.begin + p];
+  }
+  const double before = SquaredNorm(q, columns);
+  double after = before;
+  const int above = i - from;
+  for (int pass = 0; pass < 2 && above > 0; ++pass) {
+    Dots(first, stride_, above, q, columns, scratch_.data());
+    for (int k = 0; k < above; ++k) {
+      l[from + k] += scratch_[k];
+      scratch_[k] = -scratch_[k];
+    }
+    AddRows(first, stride_, above, scratch_.data(), columns, q);
+    after = SquaredNorm(q, columns);
+    Count(2 * above + 1, columns);
+    if (after > before / 4) break;
+  }
+  if (after <= kRankTolerance * kRankTolerance * before) {
+    std::fill_n(q, columns, 0);
+    return 0;
+  }
+  l[i] = std::sqrt(after);
+  for (int p = 0; p < columns; ++p) q[p] /= l[i];
+  return std::sqrt(after / before);
 }
 
 // Minimises |x|^2, with x = d (step - ideal), subject to
@@ -422,8 +452,8 @@ void DiagonalLevels::FindMultipliers(int level) {
       scratch_[p - block.begin] = -scale_[p] * x_[p];
       weight = std::max(weight, weight_[order_[p]]);
     }
-    Dots(&t_[static_cast<size_t>(block.row_begin) * stride_] + block.begin,
-         stride_, rows, scratch_.data(), rows, nu);
+    Dots(&t_[Index(block.row_begin)] + block.begin, stride_, rows,
+         scratch_.data(), rows, nu);
     Count(rows, rows);
   } else {
     for (int i = rows - 1; i >= 0; --i) {
@@ -440,30 +470,23 @@ void DiagonalLevels::FindMultipliers(int level) {
       largest > tolerances::kZeroGradient * size ? std::max(size, largest) : 0;
 }
 
-double DiagonalLevels::Dual(int level, double* on_leading, double* left) {
+double DiagonalLevels::Dual(const LexicographicFactorization& leading,
+                            int level, double* on_leading, double* left) {
   const Block& block = blocks_[level];
   if (block.size == 0) return 0;
   const int rows = block.row_end - block.row_begin;
+  double* sum =
+      direction_.data();  // T' nu, and the gradient on fixed variables.
+  std::fill_n(sum, n_, 0);
+  AddRows(&t_[Index(block.row_begin)] + block.begin, stride_, rows,
+          &nu_[block.row_begin], num_free_ - block.begin, sum + block.begin);
   for (int p = num_free_; p < n_; ++p) {
-    const int j = order_[p];
-    on_leading[p - num_free_] = level_of_[j] == level ? -gradient_[p] : 0;
-    if (level_of_[j] < level) left[j] = 0;
+    if (level_of_[order_[p]] == level) sum[p] = -gradient_[p];
   }
-  on_leading += num_fixed();
-  std::fill_n(on_leading, rank_, 0);
-  std::copy_n(&nu_[block.row_begin], rows, on_leading + block.row_begin);
-  for (int k = num_reflections_ - 1; k >= 0; --k) {
-    const double* v = &reflection_[static_cast<size_t>(k) * stride_];
-    double dot;
-    Dots(v, 0, 1, on_leading, rank_, &dot);
-    dot = -dot;
-    AddRows(v, 0, 1, &dot, rank_, on_leading);
+  for (int p = block.end; p < n_; ++p) {
+    if (level_of_[order_[p]] < level) left[order_[p]] = sum[p];
   }
-  std::fill(scratch_.begin(), scratch_.end(), 0);
-  AddRows(&t_[static_cast<size_t>(block.row_begin) * stride_] + block.end,
-          stride_, rows, &nu_[block.row_begin], num_free_ - block.end,
-          &scratch_[block.end]);
-  for (int p = block.end; p < num_free_; ++p) left[order_[p]] = scratch_[p];
+  Project(leading, sum, on_leading);
   return block.size;
 }
 

@@ -7,6 +7,7 @@
 
 #include "poise/hqp/fast/fixed_variables.h"
 #include "poise/hqp/fast/lexicographic_factorization.h"
+#include "poise/hqp/hierarchy.h"
 
 namespace poise {
 
@@ -58,8 +59,19 @@ class DiagonalLevels {
   /// Only Nullity() is valid afterwards.
   void TieRows(const double* rows, int stride, int count);
 
-  /// Computes the y that minimises the levels in order, subject to Q y = z.
+  /// Computes the y that minimises the levels in order, subject to Q y = z. Factors
+  /// the levels first, unless factors are kept from the last time: `leading` may only
+  /// have changed by the row of Update() since then.
   void Solve(const LexicographicFactorization& leading, double* y);
+
+  /// Updates the factors after one row was added to the leading levels, or removed
+  /// from them: row[j] / norm, zero outside its span. Takes a fifth to a third of the
+  /// work, but is not always possible; the factors are then not kept.
+  void Update(const LexicographicFactorization& leading, const double* row,
+              Span span, double norm, bool is_added);
+
+  /// Does not keep the factors.
+  void DropFactors() { is_factored_ = false; }
 
   /// Refines y by a correction dy with Q dy = `change`. If `to_minimum`, y + dy
   /// minimises the levels; else dy has minimum weighted norm, level by level.
@@ -72,7 +84,8 @@ class DiagonalLevels {
   /// the rest of the sum on the variables of earlier levels. Returns the
   /// magnitude of the gradient's terms. If the gradient is zero, returns 0 and
   /// writes nothing.
-  double Dual(int level, double* on_leading, double* left);
+  double Dual(const LexicographicFactorization& leading, int level,
+              double* on_leading, double* left);
 
   /// Returns whether all variables of a level are exactly at their targets.
   bool IsMet(int level, const double* y) const;
@@ -103,6 +116,10 @@ class DiagonalLevels {
   double UsualWeight(const FixedVariables& variables) const;
   void Arrange(const FixedVariables& variables);
   int num_fixed() const { return n_ - num_free_; }
+  /// Index of the first entry of a row of T, and of the Q of its level.
+  std::size_t Index(int row) const {
+    return static_cast<std::size_t>(row) * stride_;
+  }
   /// Row of L. It has row + 1 entries at most, because L is lower triangular.
   double* L(int row) {
     return &l_[static_cast<std::size_t>(row) * (row + 1) / 2];
@@ -125,13 +142,32 @@ class DiagonalLevels {
   void Gather(const double* rows, int stride, int count,
               const FixedVariables& variables);
   void EliminateAll(int end);
+  void Factor(const LexicographicFactorization& leading);
   void Start(const LexicographicFactorization& leading, const double* z);
+  void Project(const LexicographicFactorization& leading, const double* x,
+               double* on_leading);
   void Eliminate(int level, int end);
   void FactorLevel(int level);
+  double FactorRow(int level, int row);
+  bool Follow(const LexicographicFactorization& leading, bool is_added);
+  bool HasRowSpaceOf(const LexicographicFactorization& leading);
+  bool Release(int p);
+  void InsertUnit(int first, int added, int column, int end, double* rows);
+  bool HasSquareLaterLevels() const;
+  double Normalize();
+  void FindOnTied();
+  void FindOnLeading(const LexicographicFactorization& leading);
+  double ProjectOnTied();
+  double ProjectOnLeading(const LexicographicFactorization& leading);
+  double TakeOutTied();
+  double TakeOutLeading(const LexicographicFactorization& leading);
+  bool AppendDirection();
+  bool RemoveDirection();
+  void RotateFactor(int row, double c, double s);
   void SolveLevel(int level);
   void FindMultipliers(int level);
 
-  int n_, stride_, num_levels_ = 0, num_reflections_ = 0;
+  int n_, stride_, num_levels_ = 0;
   int num_free_ = 0;                     ///< Number of positions.
   int rank_ = 0;                         ///< Rows of Q that fix no variable.
   std::vector<int> level_of_;            ///< By variable; -1: none yet.
@@ -144,13 +180,16 @@ class DiagonalLevels {
   int usual_row_end_ = 0;      ///< Earlier rows have only these variables.
   std::vector<Block> blocks_;  ///< By level.
   std::vector<double> t_;      ///< U' Q, by position, n x stride.
-  std::vector<double> reflection_;                    ///< n x stride.
+  std::vector<double> reflection_;                    ///< By row of U' Q.
   std::vector<double> start_, step_, ideal_, scale_;  ///< By position.
   std::vector<double> x_, magnitude_;                 ///< By position.
   std::vector<double> gradient_;  ///< Gradient on fixed variables, by position.
   std::vector<double> z_, nu_;    ///< By row of U' Q.
   std::vector<double> q_, l_;     ///< T_cc/d = L Q, by level; see L().
   std::vector<double> scratch_, factor_;
+  std::vector<double> direction_;  ///< By position; see Follow().
+  std::vector<int> pivot_;  ///< By row of a later level: position of its pivot.
+  bool is_factored_ = false;  ///< Whether Solve() has factored these levels.
   std::int64_t multiply_adds_ = 0;
 };
 

@@ -45,11 +45,11 @@ TEST_F(DiagonalLevelsTest, SolvesByHand) {
   // The norm of |start| + |target|, divided by the squared entry of L, 1/2 +
   // 1/6.
   const double size = std::hypot(std::sqrt(0.5) + 3, std::sqrt(0.5) + 5);
-  EXPECT_NEAR(diagonal_.Dual(0, on_leading, left), 1.5 * size,
+  EXPECT_NEAR(diagonal_.Dual(leading_, 0, on_leading, left), 1.5 * size,
               Rounding(size, 3));
   EXPECT_NEAR(std::abs(on_leading[0]), 0.75 * residual * std::sqrt(2),
               Rounding(20, 3));
-  EXPECT_EQ(diagonal_.Dual(1, on_leading, left), 0);
+  EXPECT_EQ(diagonal_.Dual(leading_, 1, on_leading, left), 0);
   EXPECT_EQ(diagonal_.Nullity(0), 1);
   EXPECT_EQ(diagonal_.Nullity(1), 0);
 }
@@ -65,7 +65,7 @@ TEST_F(DiagonalLevelsTest, ScalesAMultiplierByTheSmallestWeightOfItsRow) {
   diagonal_.Solve(leading_, y_);
   double on_leading[1], left[3];
   const double size = std::hypot(std::sqrt(0.5) + 3, std::sqrt(0.5) + 5);
-  EXPECT_NEAR(diagonal_.Dual(0, on_leading, left), 2 * size,
+  EXPECT_NEAR(diagonal_.Dual(leading_, 0, on_leading, left), 2 * size,
               1e-10);  // The large weight adds 1e-12.
 }
 
@@ -150,7 +150,7 @@ TEST_F(DiagonalLevelsTest, FindsAMultiplierToRoundingOfItsTerms) {
           diagonal.Correct(leading, &change, true, &y);
         }
         EXPECT_NEAR(y, 1 + off, Rounding(size, 1));
-        const double terms = diagonal.Dual(0, &on_leading, &left);
+        const double terms = diagonal.Dual(leading, 0, &on_leading, &left);
         EXPECT_EQ(left, 5);
         EXPECT_NEAR(on_leading * leading.free_basis()[0], -weight * off,
                     1e-12 * weight * size);
@@ -203,7 +203,7 @@ TEST_F(DiagonalLevelsTest, DoesNotAllocate) {
   diagonal_.Clear();
   AddOnce();
   diagonal_.Solve(leading_, y_);
-  diagonal_.Dual(0, on_leading, left);
+  diagonal_.Dual(leading_, 0, on_leading, left);
   EXPECT_EQ(count.allocations(), 0);
 }
 

@@ -164,7 +164,7 @@ TEST_P(RandomDiagonalLevelsTest, MultipliersCancelTheGradient) {
     const double tolerance = Tolerance() * (1 + size.sum());
     Eigen::VectorXd on_leading = Eigen::VectorXd::Constant(leading_.rank(), 5);
     Eigen::VectorXd left = Eigen::VectorXd::Constant(n_, 5);
-    if (diagonal_.Dual(l, on_leading.data(), left.data()) == 0) {
+    if (diagonal_.Dual(leading_, l, on_leading.data(), left.data()) == 0) {
       EXPECT_LE(gradient.norm(), tolerance) << l;
       continue;
     }
@@ -185,7 +185,8 @@ TEST_P(RandomDiagonalLevelsTest, SplitsTheGradientIntoLeadingRowsAndTheRest) {
   for (int l = 0; l < diagonal_.num_levels(); ++l) {
     Eigen::VectorXd on_leading(leading_.rank()),
         left = Eigen::VectorXd::Zero(n_);
-    if (diagonal_.Dual(l, on_leading.data(), left.data()) == 0) continue;
+    if (diagonal_.Dual(leading_, l, on_leading.data(), left.data()) == 0)
+      continue;
     Eigen::VectorXd sum = Eigen::VectorXd::Constant(n_, 1);
     diagonal_.AddGradient(l, y_.data(), left.data(), sum.data());
     sum.array() -= 1;
@@ -287,7 +288,7 @@ TEST_P(RandomDiagonalLevelsTest, DoesNotDependOnTheLastSolve) {
       on_leading[k].setZero(leading_.rank());
       left[k].setZero(n_);
       (k == 0 ? diagonal_ : diagonal)
-          .Dual(l, on_leading[k].data(), left[k].data());
+          .Dual(leading_, l, on_leading[k].data(), left[k].data());
     }
     EXPECT_EQ(on_leading[0], on_leading[1]) << l;
     EXPECT_EQ(left[0], left[1]) << l;

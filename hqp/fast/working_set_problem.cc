@@ -42,6 +42,7 @@ WorkingSetProblem::WorkingSetProblem(int num_variables,
   for (const LevelCapacity& level : capacity) {
     norm_begin_.push_back(0);
     factored_.emplace_back(level.inequalities, Side::kNone);
+    tied_.emplace_back(level.inequalities, Side::kNone);
     B_norm_.emplace_back(level.equalities);
     selected_.emplace_back(level.equalities, 0);
   }
@@ -447,6 +448,35 @@ bool WorkingSetProblem::FixesVariables(
   return any;
 }
 
+void WorkingSetProblem::SolveDiagonal(const Hierarchy& hierarchy) {
+  UpdateDiagonal(hierarchy);
+  diagonal_.Solve(leading_, y_.data());
+  is_diagonal_solved_ = true;
+}
+
+// Updates the factors of the diagonal levels if one row was added to the working set
+// or removed from it since the last time.
+void WorkingSetProblem::UpdateDiagonal(const Hierarchy& hierarchy) {
+  int changes = 0, changed_level = 0, changed_row = 0;
+  for (int level = 0; level < num_leading_; ++level) {
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+      const bool is_in = factored_[level][i] != Side::kNone;
+      const bool was_in = tied_[level][i] != Side::kNone;
+      if (is_in == was_in || norm(level, i) == 0) continue;
+      ++changes;
+      changed_level = level;
+      changed_row = i;
+    }
+    tied_[level] = factored_[level];
+  }
+  if (changes > 1) diagonal_.DropFactors();
+  if (changes != 1) return;
+  const Side side = factored_[changed_level][changed_row];
+  const Row row = Inequality(hierarchy, changed_level, changed_row, side);
+  diagonal_.Update(leading_, Original(hierarchy, row), row.span, row.norm,
+                   side != Side::kNone);
+}
+
 void WorkingSetProblem::Approach(const std::vector<double>& y, int num_levels) {
   y_ = y;
   const int levels = std::max(num_levels, leading_.num_merged());
@@ -486,8 +516,8 @@ void WorkingSetProblem::FindMultipliers(int end) {
       for (double& entry : gradient_) entry = -entry;
       leading_.SolveDual(level, gradient_.data(), out.nu.data());
     } else {
-      out.size = diagonal_.Dual(level - num_leading_, gradient_.data(),
-                                out.left.data());
+      out.size = diagonal_.Dual(leading_, level - num_leading_,
+                                gradient_.data(), out.left.data());
       out.any = out.size > 0;
       if (!out.any) continue;
       leading_.SolveDual(num_leading_, gradient_.data(), out.nu.data());

@@ -232,7 +232,8 @@ void RandomWorkingSetProblemTest::CheckSize(int level) {
   std::vector<double> gradient(n_ + rows), left(n_);
   double largest =
       is_leading ? problem_.leading().Gradient(level, gradient.data())
-                 : problem_.diagonal().Dual(level - problem_.num_leading(),
+                 : problem_.diagonal().Dual(problem_.leading(),
+                                            level - problem_.num_leading(),
                                             gradient.data(), left.data());
   for (int a = 0; a < rows; ++a) {
     if (is_leading && a >= problem_.leading().first_row(level)) continue;
@@ -544,7 +545,7 @@ TEST(FixedVariablesOfAWorkingSet, GiveTheOptimumOfANewProblem) {
       std::vector<double> other = moved;
       problem.Start(hierarchy, sides, &moved, &other);
       EXPECT_EQ(other, moved);
-      problem.SolveDiagonal();
+      problem.SolveDiagonal(hierarchy);
       const int fixed = problem.leading().variables().size();
       num_fixed += fixed;
       num_moved += fixed > 0 && moved != std::vector<double>(n, 1);

@@ -1,0 +1,272 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+
+// The part of DiagonalLevels that updates its factors when one row of the leading
+// levels has changed.
+
+#include <algorithm>
+#include <cmath>
+
+#include "poise/hqp/fast/diagonal_levels.h"
+#include "poise/hqp/fast/kernels.h"
+#include "poise/hqp/fast/tolerances.h"
+
+namespace poise {
+namespace {
+
+using kernels::AddRows;
+using kernels::Dots;
+using kernels::Rotate;
+using kernels::SquaredNorm;
+
+}  // namespace
+
+void DiagonalLevels::Update(const LexicographicFactorization& leading,
+                            const double* row, Span span, double norm,
+                            bool is_added) {
+  is_factored_ = is_factored_ && HasSquareLaterLevels();
+  for (int p = num_free_; is_factored_ && p < n_; ++p) {
+    if (!leading.variables().is_fixed(order_[p])) is_factored_ = Release(p);
+  }
+  if (!is_factored_) return;
+  std::fill_n(direction_.begin(), n_, 0);
+  for (int p = 0; p < num_free_; ++p) {
+    const int j = order_[p] - span.first;
+    if (j >= 0 && j < span.size) direction_[p] = row[order_[p]] / norm;
+  }
+  is_factored_ = Follow(leading, is_added);
+}
+
+// The row spaces of T and Q now differ in one direction at most on either side. The
+// remainder of the row, in direction_, leads to these directions. The shorter it is,
+// the more digits it has lost. So if the row nearly depends on others, direction_ is
+// projected on both spaces.
+bool DiagonalLevels::Follow(const LexicographicFactorization& leading,
+                            bool is_added) {
+  const int growth = leading.rank() - num_fixed() - rank_;
+  const double remainder = is_added ? TakeOutTied() : TakeOutLeading(leading);
+  if (remainder == 0) return growth == 0;
+  const bool is_exact = growth != 0 && remainder > tolerances::kIndependentPart;
+  if (growth >= 0) {
+    if (!is_added) ProjectOnTied();
+    if (!is_exact) {
+      ProjectOnLeading(leading);
+      if (TakeOutTied() == 0) return growth == 0;
+    }
+    if (TakeOutTied() == 0 || !AppendDirection()) return false;
+  }
+  if (growth <= 0) {
+    if (!is_exact) {
+      TakeOutLeading(leading);
+      ProjectOnTied();
+    }
+    if (TakeOutLeading(leading) == 0 || !RemoveDirection()) return false;
+  }
+  return true;
+}
+
+// Returns whether the row spaces of T and Q are the same to rounding. The sum of the
+// rows of T, with factors between 1 and 2 that are all different, shows it: if one row
+// is not in the row space of Q, then neither is the sum, except by chance.
+bool DiagonalLevels::HasRowSpaceOf(const LexicographicFactorization& leading) {
+  constexpr double kGoldenRatio = 1.618033988749895;
+  if (rank_ + num_fixed() != leading.rank()) return false;
+  for (int i = 0; i < rank_; ++i) z_[i] = 1 + std::fmod(i * kGoldenRatio, 1);
+  std::fill_n(direction_.begin(), n_, 0);
+  AddRows(t_.data(), stride_, rank_, z_.data(), num_free_, direction_.data());
+  Count(rank_, num_free_);
+  Normalize();
+  return TakeOutLeading(leading) == 0;
+}
+
+// Gives a variable that was fixed a column, and a row of its own. The row is removed
+// afterwards, if it is not a row of Q any more. In the first level, whose columns come
+// last, one column of the usual weight moves at most.
+bool DiagonalLevels::Release(int p) {
+  Block& first = blocks_[0];
+  const int variable = order_[p];
+  if (level_of_[variable] != 0) return false;
+  const int end = num_free_++, row = rank_++;
+  const bool is_unusual =
+      usual_begin_ < end && weight_[variable] != weight_[order_[usual_begin_]];
+  const int position = is_unusual ? usual_begin_++ : end;
+  order_[p] = order_[end];
+  order_[end] = order_[position];
+  order_[position] = variable;
+  for (const int at : {p, end, position}) {
+    scale_[at] = std::sqrt(weight_[order_[at]]);
+  }
+  InsertUnit(0, row, position, end, t_.data());
+  if (!IsSquare()) {
+    InsertUnit(first.row_begin, row, position - first.begin, end - first.begin,
+               q_.data());
+    std::fill_n(L(row), row - first.row_begin, 0);
+    L(row)[row - first.row_begin] = 1 / scale_[position];
+  }
+  ++first.end;
+  ++first.row_end;
+  return true;
+}
+
+// Moves a column of the rows from `first` on to `end`. The row `added` gets its only
+// entry in the column that is now zero.
+void DiagonalLevels::InsertUnit(int first, int added, int column, int end,
+                                double* rows) {
+  for (int i = first; i < added; ++i) {
+    double* entries = rows + Index(i);
+    entries[end] = entries[column];
+    entries[column] = 0;
+  }
+  std::fill_n(rows + Index(added), end + 1, 0);
+  rows[Index(added) + column] = 1;
+}
+
+// Returns whether T_cc is square for all levels but the first.
+bool DiagonalLevels::HasSquareLaterLevels() const {
+  for (int level = 1; level < num_levels_; ++level) {
+    const Block& block = blocks_[level];
+    if (block.row_end - block.row_begin != block.end - block.begin) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Divides direction_ by its length, and returns the length, or 0 if it is rounding.
+double DiagonalLevels::Normalize() {
+  const double length = std::sqrt(SquaredNorm(direction_.data(), num_free_));
+  if (length <= tolerances::kSameRowSpace) return 0;
+  for (int p = 0; p < num_free_; ++p) direction_[p] /= length;
+  return length;
+}
+
+// Computes start = T' T direction.
+void DiagonalLevels::FindOnTied() {
+  Dots(t_.data(), stride_, rank_, direction_.data(), num_free_, z_.data());
+  std::fill_n(start_.begin(), num_free_, 0);
+  AddRows(t_.data(), stride_, rank_, z_.data(), num_free_, start_.data());
+  Count(2 * rank_, num_free_);
+}
+
+// Computes start = Q' Q direction.
+void DiagonalLevels::FindOnLeading(const LexicographicFactorization& leading) {
+  Project(leading, direction_.data(), z_.data());
+  Start(leading, z_.data());
+}
+
+double DiagonalLevels::ProjectOnTied() {
+  FindOnTied();
+  std::copy_n(start_.begin(), num_free_, direction_.begin());
+  return Normalize();
+}
+
+double DiagonalLevels::ProjectOnLeading(
+    const LexicographicFactorization& leading) {
+  FindOnLeading(leading);
+  std::copy_n(start_.begin(), num_free_, direction_.begin());
+  return Normalize();
+}
+
+double DiagonalLevels::TakeOutTied() {
+  FindOnTied();
+  for (int p = 0; p < num_free_; ++p) direction_[p] -= start_[p];
+  return Normalize();
+}
+
+double DiagonalLevels::TakeOutLeading(
+    const LexicographicFactorization& leading) {
+  FindOnLeading(leading);
+  for (int p = 0; p < num_free_; ++p) direction_[p] -= start_[p];
+  return Normalize();
+}
+
+// Appends direction_, which is orthogonal to the rows of T. The rows of the later
+// levels eliminate its columns of these levels. The rest is a row of T_00.
+bool DiagonalLevels::AppendDirection() {
+  if (rank_ == num_free_) return false;
+  Block& first = blocks_[0];
+  double* added = &t_[Index(rank_)];
+  std::copy_n(direction_.data(), num_free_, added);
+  for (int i = 0; i < first.row_begin; ++i) {
+    double* row = &t_[Index(i)];
+    const int pivot = pivot_[i];
+    const double length = std::hypot(row[pivot], added[pivot]);
+    Rotate(row[pivot] / length, added[pivot] / length, num_free_, row, added);
+    added[pivot] = 0;
+  }
+  Count(4 * first.row_begin, num_free_);
+  std::fill_n(added, first.begin, 0);
+  ++rank_;
+  ++first.row_end;
+  for (int level = 1; level < num_levels_; ++level) FactorLevel(level);
+  return IsSquare() || FactorRow(0, rank_ - 1) >= tolerances::kIndependentPart;
+}
+
+// Removes direction_, which is in the row space of T. With u = T direction, rotations
+// move all entries of u on T_00 into its last row. This row takes the place of the last
+// one of the later levels, and so on, until only direction_ is left.
+bool DiagonalLevels::RemoveDirection() {
+  Block& first = blocks_[0];
+  if (first.row_begin == first.row_end) return false;
+  double* u = z_.data();
+  Dots(t_.data(), stride_, rank_, direction_.data(), num_free_, u);
+  Count(rank_, num_free_);
+  const bool was_square = IsSquare();
+  for (int row = first.row_begin; row + 1 < rank_; ++row) {
+    const double length = std::hypot(u[row], u[row + 1]);
+    if (length == 0) continue;
+    const double c = u[row + 1] / length, s = u[row] / length;
+    u[row + 1] = length;
+    double* t = &t_[Index(row)] + first.begin;
+    Rotate(c, s, first.end - first.begin, t + stride_, t);
+    Count(4, first.end - first.begin);
+    if (!was_square) RotateFactor(row, c, s);
+  }
+  --rank_;
+  --first.row_end;
+  double* moved = &t_[Index(rank_)];
+  double on_moved = u[rank_];
+  for (int i = first.row_begin - 1; i >= 0; --i) {
+    double* row = &t_[Index(i)];
+    const double length = std::hypot(u[i], on_moved);
+    const double c = length > 0 ? u[i] / length : 0;
+    const double s = length > 0 ? on_moved / length : 1;
+    Rotate(c, s, num_free_, row, moved);
+    std::swap_ranges(row, row + num_free_, moved);
+    on_moved = length;
+    if (std::abs(row[pivot_[i]]) < tolerances::kIndependentPart) return false;
+  }
+  Count(5 * first.row_begin, num_free_);
+  usual_row_end_ = std::max(first.row_begin, usual_row_end_ - 1);
+  if (was_square) Separate();
+  for (int level = was_square ? 0 : 1; level < num_levels_; ++level) {
+    FactorLevel(level);
+  }
+  return true;
+}
+
+// Rotates the rows `row` and row + 1 of L: (next, this) = (c next + s this, c this - s
+// next). Row `row` then has one entry too many. A rotation of two columns of L, and of
+// two rows of its Q, eliminates it.
+void DiagonalLevels::RotateFactor(int row, double c, double s) {
+  const Block& first = blocks_[0];
+  const int i = row - first.row_begin, columns = first.end - first.begin;
+  double *l = L(row), *next = L(row + 1);
+  Rotate(c, s, i + 1, next, l);
+  const double beyond = -s * next[i + 1];
+  next[i + 1] *= c;
+  const double diagonal = std::hypot(l[i], beyond);
+  if (diagonal == 0) return;
+  const double cosine = l[i] / diagonal, sine = beyond / diagonal;
+  l[i] = diagonal;
+  for (int k = row + 1; k < first.row_end; ++k) {
+    double* entry = L(k) + i;
+    const double x = entry[0], y = entry[1];
+    entry[0] = cosine * x + sine * y;
+    entry[1] = cosine * y - sine * x;
+  }
+  double* q = &q_[Index(row)];
+  Rotate(cosine, sine, columns, q, q + stride_);
+  Count(4, columns);
+}
+
+}  // namespace poise
