@@ -253,7 +253,7 @@ class WorkingSetProblem {
   int num_entries_ = 0;      ///< Entries of all rows, within their spans.
   std::int64_t before_ = 0;  ///< Multiply-adds before Read().
   std::vector<std::vector<Side>> factored_;  ///< Factored working set.
-  std::vector<std::vector<Side>> tied_;      ///< The same at SolveDiagonal().
+  std::vector<std::vector<Side>> tied_;      ///< factored_ at SolveDiagonal().
   LexicographicFactorization leading_;
   DiagonalLevels diagonal_;
   std::vector<Row> rows_;
