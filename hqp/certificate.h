@@ -26,9 +26,9 @@ class Certifier {
   /// After Certify() or Truncate(): how far the cost of a level may be above its
   /// optimum, given the levels above. This is the whole cost for the first level that
   /// is not certified, and infinite below it. It holds for all optima of the levels
-  /// above that are no farther from y than 2 (|y| + largest distance of a row from
-  /// y = 0), if y meets these levels but for rounding: multipliers at y stand for those
-  /// at the optimum. It contains the rounding of the cost and of the gradient, and but
+  /// above that are no farther from y than 2 (|y| + largest distance from y = 0 of an
+  /// equality or violated row, up to this level), if y meets these levels but for
+  /// rounding: multipliers at y stand for those at the optimum. It contains the rounding of the cost and of the gradient, and but
   /// for this rounding, it never exceeds the cost. docs/hqp-gap.md derives it.
   double gap(int level) const { return gap_[static_cast<size_t>(level)]; }
 

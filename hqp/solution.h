@@ -43,7 +43,7 @@ struct LevelSolution {
   /// slack, up to a multiple of the residuals and slacks. On active rows above that
   /// level, B p = 0 and C p = 0. p sharpens Certifier::gap().
   Eigen::VectorXd trade_off;
-  int traded_level;  ///< -1: the solver knows none.
+  int traded_level;  ///< -1: there is no trade_off.
 };
 
 /// The optimality error of an answer: the worst residual of each kind over all

@@ -33,7 +33,8 @@ class Solver {
   ~Solver();
 
   /// Solves the hierarchy. Does not allocate or throw. The time is that of one
-  /// factorisation, and of about one more for each change of the working set.
+  /// factorisation, and of one update for each change of the working set. Where an
+  /// update is not accurate, the levels are factored again.
   ///
   /// Returns kOptimal if solution->certificate is at most 1e-9. Returns
   /// kNotFinite or kBadInput if the hierarchy is invalid or exceeds the
@@ -64,7 +65,8 @@ class Solver {
   /// Limit of the modelled time of the search [s]; 0: no limit. Each iteration
   /// has the time that was measured for it on the reference machine, so that a
   /// replay is exact (hqp/fast/budget.h). A limit of time, even a large one,
-  /// changes the order of the search: lower levels are lost first.
+  /// changes the order of the search: the last of the levels that have inequalities or
+  /// rows of several variables is searched after the others.
   double max_modelled_seconds = 0;
 
   /// Time limit [s], measured by now(). 0, or no now(): no limit. A time limit

@@ -46,9 +46,13 @@ Scenario Pushes() {
 }
 
 void Print(const char* what, std::vector<double> us) {
-  std::printf("%s: median %.1f us, p99 %.1f, p99.9 %.1f, max %.1f\n", what,
-              Quantile(&us, 0.5), Quantile(&us, 0.99), Quantile(&us, 0.999),
-              Quantile(&us, 1));
+  const double median = Quantile(&us, 0.5), largest = Quantile(&us, 1);
+  const double p999 = Quantile(&us, 0.999);
+  std::printf(
+      "%s: median %.1f us, p99 %.1f, p99.9 %.1f, max %.1f; "
+      "p99.9 / median %.1f, max / median %.1f\n",
+      what, median, Quantile(&us, 0.99), p999, largest, p999 / median,
+      largest / median);
 }
 
 TEST(MillionTicks, DoNotAllocate) {

@@ -55,7 +55,7 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
     problem->Solve(hierarchy, *side);
   } else {
     problem->Start(hierarchy, *side, &y_);
-    problem->SolveDiagonal(hierarchy);
+    problem->SolveDiagonal();
   }
   if (!SearchFromOptimum(hierarchy, limit, budget, problem, side)) return false;
   problem->FindMultipliers(hierarchy.num_levels() + 1);
@@ -75,7 +75,7 @@ ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
       !budget->has_time_limit() ||
       path_.MeetLevelsBeforeLast(hierarchy, limit, budget, problem, side);
   if (is_met) {
-    problem->SolveDiagonal(hierarchy);
+    problem->SolveDiagonal();
     // With a limit of time, a long path goes on in the next solve.
     const int longest = budget->has_time_limit()
                             ? limit
@@ -124,7 +124,7 @@ bool ActiveSetSearch::SearchFromOptimum(const Hierarchy& hierarchy, int limit,
     } while (Iterate(hierarchy, used - 1, problem, side));
     is_free = iterations == 1;
   }
-  problem->SolveDiagonal(hierarchy);
+  problem->SolveDiagonal();
   while (Iterate(hierarchy, problem->num_levels(), problem, side)) {
     if (!budget->Take(limit, problem->work())) return false;
     problem->Solve(hierarchy, *side);

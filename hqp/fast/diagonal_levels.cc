@@ -32,9 +32,13 @@ DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
   l_.resize(static_cast<size_t>(n_) * (n_ + 1) / 2);
   for (std::vector<double>* vector :
        {&weight_, &target_, &start_, &step_, &ideal_, &scale_, &x_, &magnitude_,
-        &gradient_, &z_, &nu_, &scratch_, &factor_, &reflection_,
-        &direction_}) {
+        &gradient_, &z_, &nu_, &scratch_, &factor_, &reflection_, &direction_,
+        &probe_}) {
     vector->resize(stride_);
+  }
+  // Numbers from 1 to 2: multiples of the golden ratio, modulo 1.
+  for (int i = 0; i < n_; ++i) {
+    probe_[i] = 1 + std::fmod(i * 1.618033988749895, 1);
   }
   Clear();
 }
@@ -140,7 +144,7 @@ void DiagonalLevels::EliminateAll(int end) {
 
 void DiagonalLevels::Solve(const LexicographicFactorization& leading,
                            double* y) {
-  if (!is_factored_ || !HasRowSpaceOf(leading)) Factor(leading);
+  if (!is_factored_ || !Follow(leading)) Factor(leading);
   Start(leading, leading.z());
   for (int p = 0; p < num_free_; ++p) {
     const double target = target_[order_[p]];

@@ -7,7 +7,6 @@
 
 #include "poise/hqp/fast/fixed_variables.h"
 #include "poise/hqp/fast/lexicographic_factorization.h"
-#include "poise/hqp/hierarchy.h"
 
 namespace poise {
 
@@ -59,19 +58,10 @@ class DiagonalLevels {
   /// Only Nullity() is valid afterwards.
   void TieRows(const double* rows, int stride, int count);
 
-  /// Computes the y that minimises the levels in order, subject to Q y = z. Factors
-  /// the levels first, unless factors are kept from the last time: `leading` may only
-  /// have changed by the row of Update() since then.
+  /// Computes the y that minimises the levels in order, subject to Q y = z. The levels
+  /// are factored, or if their factors are known from the last time, and one row of the
+  /// leading levels was added or removed since then, updated.
   void Solve(const LexicographicFactorization& leading, double* y);
-
-  /// Updates the factors after one row was added to the leading levels, or removed
-  /// from them: row[j] / norm, zero outside its span. Takes a fifth to a third of the
-  /// work, but is not always possible; the factors are then not kept.
-  void Update(const LexicographicFactorization& leading, const double* row,
-              Span span, double norm, bool is_added);
-
-  /// Does not keep the factors.
-  void DropFactors() { is_factored_ = false; }
 
   /// Refines y by a correction dy with Q dy = `change`. If `to_minimum`, y + dy
   /// minimises the levels; else dy has minimum weighted norm, level by level.
@@ -149,18 +139,15 @@ class DiagonalLevels {
   void Eliminate(int level, int end);
   void FactorLevel(int level);
   double FactorRow(int level, int row);
-  bool Follow(const LexicographicFactorization& leading, bool is_added);
-  bool HasRowSpaceOf(const LexicographicFactorization& leading);
+  bool Follow(const LexicographicFactorization& leading);
+  bool FindAdded(const LexicographicFactorization& leading);
+  bool FindRemoved(const LexicographicFactorization& leading);
+  bool TakeOutTied();
+  bool TakeOutLeading(const LexicographicFactorization& leading);
+  bool Normalize();
   bool Release(int p);
   void InsertUnit(int first, int added, int column, int end, double* rows);
   bool HasSquareLaterLevels() const;
-  double Normalize();
-  void FindOnTied();
-  void FindOnLeading(const LexicographicFactorization& leading);
-  double ProjectOnTied();
-  double ProjectOnLeading(const LexicographicFactorization& leading);
-  double TakeOutTied();
-  double TakeOutLeading(const LexicographicFactorization& leading);
   bool AppendDirection();
   bool RemoveDirection();
   void RotateFactor(int row, double c, double s);
@@ -187,7 +174,8 @@ class DiagonalLevels {
   std::vector<double> z_, nu_;    ///< By row of U' Q.
   std::vector<double> q_, l_;     ///< T_cc/d = L Q, by level; see L().
   std::vector<double> scratch_, factor_;
-  std::vector<double> direction_;  ///< By position; see Follow().
+  std::vector<double> direction_;  ///< By position; see FindAdded().
+  std::vector<double> probe_;      ///< Factors of the rows in FindAdded().
   std::vector<int> pivot_;  ///< By row of a later level: position of its pivot.
   bool is_factored_ = false;  ///< Whether Solve() has factored these levels.
   std::int64_t multiply_adds_ = 0;

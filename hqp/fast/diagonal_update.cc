@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 
-// The part of DiagonalLevels that updates its factors when one row of the leading
-// levels has changed.
+// The part of DiagonalLevels that updates its factors when a row of the leading levels
+// was added or removed.
 
 #include <algorithm>
 #include <cmath>
@@ -20,62 +20,64 @@ using kernels::SquaredNorm;
 
 }  // namespace
 
-void DiagonalLevels::Update(const LexicographicFactorization& leading,
-                            const double* row, Span span, double norm,
-                            bool is_added) {
-  is_factored_ = is_factored_ && HasSquareLaterLevels();
-  for (int p = num_free_; is_factored_ && p < n_; ++p) {
-    if (!leading.variables().is_fixed(order_[p])) is_factored_ = Release(p);
+// Makes the row spaces of T and Q the same, if they differ in one direction at most on
+// either side. Returns false if that is not possible.
+bool DiagonalLevels::Follow(const LexicographicFactorization& leading) {
+  for (int p = num_free_; p < n_; ++p) {
+    if (!leading.variables().is_fixed(order_[p]) && !Release(p)) return false;
   }
-  if (!is_factored_) return;
-  std::fill_n(direction_.begin(), n_, 0);
-  for (int p = 0; p < num_free_; ++p) {
-    const int j = order_[p] - span.first;
-    if (j >= 0 && j < span.size) direction_[p] = row[order_[p]] / norm;
-  }
-  is_factored_ = Follow(leading, is_added);
-}
-
-// The row spaces of T and Q now differ in one direction at most on either side. The
-// remainder of the row, in direction_, leads to these directions. The shorter it is,
-// the more digits it has lost. So if the row nearly depends on others, direction_ is
-// projected on both spaces.
-bool DiagonalLevels::Follow(const LexicographicFactorization& leading,
-                            bool is_added) {
   const int growth = leading.rank() - num_fixed() - rank_;
-  const double remainder = is_added ? TakeOutTied() : TakeOutLeading(leading);
-  if (remainder == 0) return growth == 0;
-  const bool is_exact = growth != 0 && remainder > tolerances::kIndependentPart;
-  if (growth >= 0) {
-    if (!is_added) ProjectOnTied();
-    if (!is_exact) {
-      ProjectOnLeading(leading);
-      if (TakeOutTied() == 0) return growth == 0;
-    }
-    if (TakeOutTied() == 0 || !AppendDirection()) return false;
-  }
-  if (growth <= 0) {
-    if (!is_exact) {
-      TakeOutLeading(leading);
-      ProjectOnTied();
-    }
-    if (TakeOutLeading(leading) == 0 || !RemoveDirection()) return false;
-  }
-  return true;
+  if (growth == 0 && !FindRemoved(leading)) return true;
+  if (std::abs(growth) > 1 || !HasSquareLaterLevels()) return false;
+  if (growth >= 0 && !(FindAdded(leading) && AppendDirection())) return false;
+  if (growth <= 0 && !(FindRemoved(leading) && RemoveDirection())) return false;
+  return !FindRemoved(leading);
 }
 
-// Returns whether the row spaces of T and Q are the same to rounding. The sum of the
-// rows of T, with factors between 1 and 2 that are all different, shows it: if one row
-// is not in the row space of Q, then neither is the sum, except by chance.
-bool DiagonalLevels::HasRowSpaceOf(const LexicographicFactorization& leading) {
-  constexpr double kGoldenRatio = 1.618033988749895;
-  if (rank_ + num_fixed() != leading.rank()) return false;
-  for (int i = 0; i < rank_; ++i) z_[i] = 1 + std::fmod(i * kGoldenRatio, 1);
-  std::fill_n(direction_.begin(), n_, 0);
+// Finds direction_, a unit vector in the row space of Q and orthogonal to that of T.
+// Returns false if there is none. A sum of all rows of Q, with factors that are all
+// different, is only by chance in the row space of T if one of them is not.
+bool DiagonalLevels::FindAdded(const LexicographicFactorization& leading) {
+  Start(leading, probe_.data());
+  std::copy_n(start_.begin(), num_free_, direction_.begin());
+  std::fill(direction_.begin() + num_free_, direction_.end(), 0);
+  return Normalize() && TakeOutTied() && TakeOutTied();
+}
+
+// FindAdded() with T and Q exchanged. AppendDirection() has made the sum of the rows of
+// Q a vector of both row spaces. T may contain almost the same rows, so that a sum with
+// the same factors would show nothing. Here their signs alternate.
+bool DiagonalLevels::FindRemoved(const LexicographicFactorization& leading) {
+  for (int i = 0; i < rank_; ++i) z_[i] = i % 2 == 0 ? probe_[i] : -probe_[i];
+  std::fill(direction_.begin(), direction_.end(), 0);
   AddRows(t_.data(), stride_, rank_, z_.data(), num_free_, direction_.data());
   Count(rank_, num_free_);
-  Normalize();
-  return TakeOutLeading(leading) == 0;
+  return Normalize() && TakeOutLeading(leading) && TakeOutLeading(leading);
+}
+
+// Subtracts the projection on the rows of T from direction_.
+bool DiagonalLevels::TakeOutTied() {
+  Dots(t_.data(), stride_, rank_, direction_.data(), num_free_, z_.data());
+  for (int i = 0; i < rank_; ++i) z_[i] = -z_[i];
+  AddRows(t_.data(), stride_, rank_, z_.data(), num_free_, direction_.data());
+  Count(2 * rank_, num_free_);
+  return Normalize();
+}
+
+// Subtracts the projection on the rows of Q from direction_.
+bool DiagonalLevels::TakeOutLeading(const LexicographicFactorization& leading) {
+  Project(leading, direction_.data(), z_.data());
+  Start(leading, z_.data());
+  for (int p = 0; p < num_free_; ++p) direction_[p] -= start_[p];
+  return Normalize();
+}
+
+// Divides direction_ by its length. Returns false if it is rounding.
+bool DiagonalLevels::Normalize() {
+  const double length = std::sqrt(SquaredNorm(direction_.data(), num_free_));
+  if (length <= tolerances::kSameRowSpace) return false;
+  for (int p = 0; p < num_free_; ++p) direction_[p] /= length;
+  return true;
 }
 
 // Gives a variable that was fixed a column, and a row of its own. The row is removed
@@ -129,54 +131,6 @@ bool DiagonalLevels::HasSquareLaterLevels() const {
     }
   }
   return true;
-}
-
-// Divides direction_ by its length, and returns the length, or 0 if it is rounding.
-double DiagonalLevels::Normalize() {
-  const double length = std::sqrt(SquaredNorm(direction_.data(), num_free_));
-  if (length <= tolerances::kSameRowSpace) return 0;
-  for (int p = 0; p < num_free_; ++p) direction_[p] /= length;
-  return length;
-}
-
-// Computes start = T' T direction.
-void DiagonalLevels::FindOnTied() {
-  Dots(t_.data(), stride_, rank_, direction_.data(), num_free_, z_.data());
-  std::fill_n(start_.begin(), num_free_, 0);
-  AddRows(t_.data(), stride_, rank_, z_.data(), num_free_, start_.data());
-  Count(2 * rank_, num_free_);
-}
-
-// Computes start = Q' Q direction.
-void DiagonalLevels::FindOnLeading(const LexicographicFactorization& leading) {
-  Project(leading, direction_.data(), z_.data());
-  Start(leading, z_.data());
-}
-
-double DiagonalLevels::ProjectOnTied() {
-  FindOnTied();
-  std::copy_n(start_.begin(), num_free_, direction_.begin());
-  return Normalize();
-}
-
-double DiagonalLevels::ProjectOnLeading(
-    const LexicographicFactorization& leading) {
-  FindOnLeading(leading);
-  std::copy_n(start_.begin(), num_free_, direction_.begin());
-  return Normalize();
-}
-
-double DiagonalLevels::TakeOutTied() {
-  FindOnTied();
-  for (int p = 0; p < num_free_; ++p) direction_[p] -= start_[p];
-  return Normalize();
-}
-
-double DiagonalLevels::TakeOutLeading(
-    const LexicographicFactorization& leading) {
-  FindOnLeading(leading);
-  for (int p = 0; p < num_free_; ++p) direction_[p] -= start_[p];
-  return Normalize();
 }
 
 // Appends direction_, which is orthogonal to the rows of T. The rows of the later

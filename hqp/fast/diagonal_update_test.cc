@@ -208,14 +208,13 @@ TEST_P(DiagonalUpdateTest, AgreesWithNewFactors) {
     LeadingRow& row = rows_[Below(2 * n_)];
     row.is_used = !row.is_used;
     Factor(rows_, &leading_);
-    kept.Update(leading_, row.r.data(), {0, n_}, 1, row.is_used);
     ExpectNewFactors(&kept);
     if (HasFailure()) FAIL() << change;
   }
 }
 
-// Solve() finds out that the factors are those of other rows.
-TEST_P(DiagonalUpdateTest, IsSafeIfTheRowIsWrong) {
+// Solve() finds out that several rows have changed.
+TEST_P(DiagonalUpdateTest, FactorsAgainIfSeveralRowsHaveChanged) {
   DiagonalLevels kept(n_, kMaxDiagonalLevels);
   Fill(&kept);
   for (int change = 0; change < kChanges; ++change) {
@@ -224,8 +223,6 @@ TEST_P(DiagonalUpdateTest, IsSafeIfTheRowIsWrong) {
       row.is_used = !row.is_used;
     }
     Factor(rows_, &leading_);
-    kept.Update(leading_, rows_[Below(2 * n_)].r.data(), {0, n_}, 1,
-                change % 2 == 0);
     ExpectNewFactors(&kept);
     if (HasFailure()) FAIL() << change;
   }
@@ -260,8 +257,8 @@ class LargeDiagonalUpdateTest : public testing::Test {
     row.r.normalize();
     return row;
   }
-  // Adds a row to those of kept_, or removes it from them. Solve() then agrees with new
-  // factors, and takes less work: the factors have been kept.
+  // Adds a row and removes it again, or the other way round. Solve() then agrees with new
+  // factors, and takes less work: the factors have been updated.
   void ExpectUpdate(int changed) {
     Eigen::VectorXd y(kNumVariables), expected(kNumVariables);
     LeadingRow& row = rows_[changed];
@@ -275,7 +272,6 @@ class LargeDiagonalUpdateTest : public testing::Test {
       Fill(&fresh);
       fresh.Solve(leading_, expected.data());
       const std::int64_t before = kept_.multiply_adds();
-      kept_.Update(leading_, row.r.data(), {0, kNumVariables}, 1, row.is_used);
       kept_.Solve(leading_, y.data());
       EXPECT_LT(kept_.multiply_adds() - before, fresh.multiply_adds())
           << row.is_used;
@@ -344,27 +340,6 @@ TEST_F(LargeDiagonalUpdateTest, FollowsTheLastFreedom) {
   ExpectUpdate(3);
 }
 
-// Only the entries in the row's span count, and they are divided by its norm.
-TEST_F(LargeDiagonalUpdateTest, ReadsTheSpanOfARow) {
-  for (int i = 0; i < kNumRows; ++i) rows_.push_back(Random());
-  LeadingRow row = Random();
-  row.r.head(20).setZero();
-  row.r.tail(30).setZero();
-  row.r.normalize();
-  Eigen::VectorXd y(kNumVariables), given = 3 * row.r;
-  given.head(20).setConstant(7);
-  given.tail(30).setConstant(7);
-  Fill(&kept_);
-  Factor(rows_, &leading_);
-  kept_.Solve(leading_, y.data());
-  rows_.push_back(row);
-  Factor(rows_, &leading_);
-  const std::int64_t before = kept_.multiply_adds();
-  kept_.Update(leading_, given.data(), {20, kNumVariables - 50}, 3, true);
-  kept_.Solve(leading_, y.data());
-  EXPECT_LT(kept_.multiply_adds() - before, before);
-}
-
 TEST_F(LargeDiagonalUpdateTest, DoesNotAllocate) {
   Eigen::VectorXd y(kNumVariables);
   for (int i = 0; i < kNumRows; ++i) rows_.push_back(Random());
@@ -375,26 +350,28 @@ TEST_F(LargeDiagonalUpdateTest, DoesNotAllocate) {
     rows_[0].is_used = is_added;
     Factor(rows_, &leading_);
     const CountMalloc count;
-    kept_.Update(leading_, rows_[0].r.data(), {0, kNumVariables}, 1, is_added);
     kept_.Solve(leading_, y.data());
     EXPECT_EQ(count.allocations(), 0);
   }
 }
 
-// Without Update(), the factors are kept if the leading levels are the same.
-TEST_F(LargeDiagonalUpdateTest, DropsFactors) {
+// Each change of the diagonal levels, and Tie(), discard the factors.
+TEST_F(LargeDiagonalUpdateTest, KeepsFactorsOfTheSameLevelsOnly) {
   Eigen::VectorXd y(kNumVariables);
   for (int i = 0; i < kNumRows; ++i) rows_.push_back(Random());
+  const auto work = [&] {
+    const std::int64_t before = kept_.multiply_adds();
+    kept_.Solve(leading_, y.data());
+    return kept_.multiply_adds() - before;
+  };
   Fill(&kept_);
   Factor(rows_, &leading_);
-  kept_.Solve(leading_, y.data());
-  const std::int64_t first = kept_.multiply_adds();
-  kept_.Solve(leading_, y.data());
-  const std::int64_t second = kept_.multiply_adds();
-  EXPECT_LT(second - first, first);
-  kept_.DropFactors();
-  kept_.Solve(leading_, y.data());
-  EXPECT_EQ(kept_.multiply_adds() - second, first);
+  const std::int64_t first = work();
+  EXPECT_LT(work(), first);
+  kept_.Tie(leading_);
+  EXPECT_EQ(work(), first);
+  Fill(&kept_);
+  EXPECT_EQ(work(), first);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, DiagonalUpdateTest, testing::Range(0, kSeeds));

@@ -44,7 +44,7 @@ class ParametricSearch {
     if (!is_paused_) y_ = y;
     is_paused_ = false;
   }
-  /// Ends a path before its end. Until Begin(), Resume() replaces a working set by
+  /// Interrupts a path. Until Begin(), Resume() replaces a working set by
   /// `side`. A row that has been added or removed has no multiplier then.
   void Pause(const Sides& side);
   bool is_paused() const { return is_paused_; }

@@ -64,7 +64,7 @@ class Search {
   // Follows the path if the leading levels are solved already.
   bool FollowFromHere(const Hierarchy& hierarchy, int limit = kEnough) {
     Budget budget({limit}, &no_clock_);
-    problem_.SolveDiagonal(hierarchy);
+    problem_.SolveDiagonal();
     const CountMalloc count;
     const bool is_optimal =
         path_.Follow(hierarchy, limit, &budget, &problem_, &side_);

@@ -83,9 +83,9 @@ constexpr double kZeroEntry = 1e-15;
 /// sum of a hundred terms. Ten times smaller, one of 3000 hierarchies changes.
 constexpr double kZeroGradient = 1e-13;
 
-/// Diagonal levels: a row of unit length with a remainder below this does not change
-/// the row space. Five times the rounding of a sum of a hundred terms.
-constexpr double kSameRowSpace = 1e-13;
+/// Diagonal levels: a unit vector whose remainder is below this lies in a row space. The
+/// value is the rounding of a sum of a hundred terms.
+constexpr double kSameRowSpace = 2e-14;
 
 /// Diagonal levels: squared weights of one level that differ by more than this
 /// are orthogonalised together. Rounding of the large-weight variables is

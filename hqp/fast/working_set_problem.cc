@@ -42,7 +42,6 @@ WorkingSetProblem::WorkingSetProblem(int num_variables,
   for (const LevelCapacity& level : capacity) {
     norm_begin_.push_back(0);
     factored_.emplace_back(level.inequalities, Side::kNone);
-    tied_.emplace_back(level.inequalities, Side::kNone);
     B_norm_.emplace_back(level.equalities);
     selected_.emplace_back(level.equalities, 0);
   }
@@ -446,35 +445,6 @@ bool WorkingSetProblem::FixesVariables(
                [&](const Row& row, double, int) { any |= row.span.size == 1; });
   }
   return any;
-}
-
-void WorkingSetProblem::SolveDiagonal(const Hierarchy& hierarchy) {
-  UpdateDiagonal(hierarchy);
-  diagonal_.Solve(leading_, y_.data());
-  is_diagonal_solved_ = true;
-}
-
-// Updates the factors of the diagonal levels if one row was added to the working set
-// or removed from it since the last time.
-void WorkingSetProblem::UpdateDiagonal(const Hierarchy& hierarchy) {
-  int changes = 0, changed_level = 0, changed_row = 0;
-  for (int level = 0; level < num_leading_; ++level) {
-    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-      const bool is_in = factored_[level][i] != Side::kNone;
-      const bool was_in = tied_[level][i] != Side::kNone;
-      if (is_in == was_in || norm(level, i) == 0) continue;
-      ++changes;
-      changed_level = level;
-      changed_row = i;
-    }
-    tied_[level] = factored_[level];
-  }
-  if (changes > 1) diagonal_.DropFactors();
-  if (changes != 1) return;
-  const Side side = factored_[changed_level][changed_row];
-  const Row row = Inequality(hierarchy, changed_level, changed_row, side);
-  diagonal_.Update(leading_, Original(hierarchy, row), row.span, row.norm,
-                   side != Side::kNone);
 }
 
 void WorkingSetProblem::Approach(const std::vector<double>& y, int num_levels) {

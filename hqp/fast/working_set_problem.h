@@ -83,7 +83,7 @@ class WorkingSetProblem {
   void Solve(const Hierarchy& hierarchy,
              const std::vector<std::vector<Side>>& side) {
     SolveLeading(hierarchy, side);
-    SolveDiagonal(hierarchy);
+    SolveDiagonal();
   }
 
   /// SolveLeading() after Plan(), and MoveToFirstLevels() for y, which is the start of
@@ -95,7 +95,10 @@ class WorkingSetProblem {
   /// Solve() in two steps: the factorisation of the leading levels, and then y.
   void SolveLeading(const Hierarchy& hierarchy,
                     const std::vector<std::vector<Side>>& side);
-  void SolveDiagonal(const Hierarchy& hierarchy);
+  void SolveDiagonal() {
+    diagonal_.Solve(leading_, y_.data());
+    is_diagonal_solved_ = true;
+  }
 
   /// Replaces SolveDiagonal(): takes the optimum of the leading levels closest
   /// to y, and ignores the diagonal levels.
@@ -204,7 +207,6 @@ class WorkingSetProblem {
   template <typename Use>
   void ForEachRow(const Hierarchy& hierarchy, const std::vector<Side>& side,
                   int level, const Use& use) const;
-  void UpdateDiagonal(const Hierarchy& hierarchy);
   int NumMet() const;
   bool FixesVariables(const Hierarchy& hierarchy,
                       const std::vector<std::vector<Side>>& side) const;
@@ -253,7 +255,6 @@ class WorkingSetProblem {
   int num_entries_ = 0;      ///< Entries of all rows, within their spans.
   std::int64_t before_ = 0;  ///< Multiply-adds before Read().
   std::vector<std::vector<Side>> factored_;  ///< Factored working set.
-  std::vector<std::vector<Side>> tied_;      ///< factored_ at SolveDiagonal().
   LexicographicFactorization leading_;
   DiagonalLevels diagonal_;
   std::vector<Row> rows_;

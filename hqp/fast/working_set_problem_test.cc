@@ -545,7 +545,7 @@ TEST(FixedVariablesOfAWorkingSet, GiveTheOptimumOfANewProblem) {
       std::vector<double> other = moved;
       problem.Start(hierarchy, sides, &moved, &other);
       EXPECT_EQ(other, moved);
-      problem.SolveDiagonal(hierarchy);
+      problem.SolveDiagonal();
       const int fixed = problem.leading().variables().size();
       num_fixed += fixed;
       num_moved += fixed > 0 && moved != std::vector<double>(n, 1);
