@@ -51,6 +51,25 @@ TEST(Run, SameSeedGivesTheSameBytesInAnyOrderAndInParallel) {
   EXPECT_NE(poise::Run(Humanoid(), scenario, Folder("other")).log_sha256, once);
 }
 
+// A budget in modelled time ends many ticks of a push early. The run is still the same
+// each time, and the robot stays up, since the next tick continues the search.
+TEST(Run, IsTheSameEachTimeWithABudget) {
+  Scenario scenario = Ours("strong_push", 1.3);
+  scenario.control.budget_us = 100;
+  const RunResult once = poise::Run(Humanoid(), scenario, Folder("budget"));
+  EXPECT_GT(once.failures, 0);
+  EXPECT_LT(once.failures, once.ticks / 2);
+  EXPECT_FALSE(once.verdict.fell_at.has_value());
+  EXPECT_EQ(once.torque_limit_violation_peak, 0);
+  EXPECT_EQ(poise::Run(Humanoid(), scenario, Folder("budget_again")).log_sha256,
+            once.log_sha256);
+  // Without the budget, each tick is solved, and the log is another one.
+  scenario.control.budget_us = 0;
+  const RunResult whole = poise::Run(Humanoid(), scenario, Folder("whole"));
+  EXPECT_EQ(whole.failures, 0);
+  EXPECT_NE(whole.log_sha256, once.log_sha256);
+}
+
 TEST(Run, WritesOneRowPerTickAndStopsOnRequest) {
   Scenario scenario = Ours("weak_push", 2);
   const RunResult result = poise::Run(Humanoid(), scenario, Folder("stopped"),

@@ -36,10 +36,10 @@ DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
         &probe_}) {
     vector->resize(stride_);
   }
-  // Numbers from 1 to 2: multiples of the golden ratio, modulo 1.
-  for (int i = 0; i < n_; ++i) {
-    probe_[i] = 1 + std::fmod(i * 1.618033988749895, 1);
-  }
+  // Factors from 1 to 2. No two are equal, so that two rows that are exchanged change a
+  // sum of rows.
+  constexpr double kGoldenRatio = 1.618033988749895;
+  for (int i = 0; i < n_; ++i) probe_[i] = 1 + std::fmod(i * kGoldenRatio, 1);
   Clear();
 }
 
@@ -144,7 +144,7 @@ void DiagonalLevels::EliminateAll(int end) {
 
 void DiagonalLevels::Solve(const LexicographicFactorization& leading,
                            double* y) {
-  if (!is_factored_ || !Follow(leading)) Factor(leading);
+  if (!is_factored_ || !UpdateFactors(leading)) Factor(leading);
   Start(leading, leading.z());
   for (int p = 0; p < num_free_; ++p) {
     const double target = target_[order_[p]];
@@ -224,6 +224,7 @@ void DiagonalLevels::Start(const LexicographicFactorization& leading,
   std::fill_n(scratch_.begin(), free, 0);
   AddRows(leading.free_basis(), leading.stride(), leading.rank() - fixed,
           z + fixed, free, scratch_.data());
+  Count(leading.rank() - fixed, free);
   for (int p = 0; p < n_; ++p) {
     const int column = variables.column(order_[p]);
     start_[p] = column < free ? scratch_[column] : z[n_ - 1 - column];
@@ -343,7 +344,7 @@ void DiagonalLevels::FactorLevel(int level) {
   if (level == 0 && IsSquare()) return;
   const Block& block = blocks_[level];
   for (int row = block.row_begin; row < block.row_end; ++row) {
-    (void)FactorRow(level, row);
+    FactorRow(level, row);
   }
 }
 

@@ -50,7 +50,7 @@ class DiagonalLevels {
   /// Target of a variable on that level.
   double target(int variable) const { return target_[variable]; }
 
-  /// Eliminates variables with the rows of the leading levels. Nullity() needs
+  /// Eliminates variables with the rows of the leading levels. Discards the factors. Nullity() needs
   /// only this step.
   void Tie(const LexicographicFactorization& leading);
 
@@ -58,9 +58,10 @@ class DiagonalLevels {
   /// Only Nullity() is valid afterwards.
   void TieRows(const double* rows, int stride, int count);
 
-  /// Computes the y that minimises the levels in order, subject to Q y = z. The levels
-  /// are factored, or if their factors are known from the last time, and one row of the
-  /// leading levels was added or removed since then, updated.
+  /// Computes the y that minimises the levels in order, subject to Q y = z. The first
+  /// call after Clear(), Tie() or TieRows() factors the levels. Later calls update the
+  /// factors if the row space of Q has changed in one direction at most on either side,
+  /// which takes a fifth to half of the work. Otherwise they factor again.
   void Solve(const LexicographicFactorization& leading, double* y);
 
   /// Refines y by a correction dy with Q dy = `change`. If `to_minimum`, y + dy
@@ -93,8 +94,8 @@ class DiagonalLevels {
   /// `level`.
   int Nullity(int level) const;
 
-  /// Multiply-adds of Tie(), Solve() and Correct() since construction, but for
-  /// substitutions with triangles.
+  /// Multiply-adds of Tie(), Solve(), Correct() and Dual() since construction, but for
+  /// the solution of the factored levels.
   std::int64_t multiply_adds() const { return multiply_adds_; }
 
  private:
@@ -139,11 +140,13 @@ class DiagonalLevels {
   void Eliminate(int level, int end);
   void FactorLevel(int level);
   double FactorRow(int level, int row);
-  bool Follow(const LexicographicFactorization& leading);
+  bool UpdateFactors(const LexicographicFactorization& leading);
+  bool HasRowSpaceOf(const LexicographicFactorization& leading);
   bool FindAdded(const LexicographicFactorization& leading);
   bool FindRemoved(const LexicographicFactorization& leading);
-  bool TakeOutTied();
-  bool TakeOutLeading(const LexicographicFactorization& leading);
+  void FindSumOfT(bool is_reversed);
+  bool SubtractProjectionOnT();
+  bool SubtractProjectionOnQ(const LexicographicFactorization& leading);
   bool Normalize();
   bool Release(int p);
   void InsertUnit(int first, int added, int column, int end, double* rows);
@@ -174,10 +177,12 @@ class DiagonalLevels {
   std::vector<double> z_, nu_;    ///< By row of U' Q.
   std::vector<double> q_, l_;     ///< T_cc/d = L Q, by level; see L().
   std::vector<double> scratch_, factor_;
-  std::vector<double> direction_;  ///< By position; see FindAdded().
-  std::vector<double> probe_;      ///< Factors of the rows in FindAdded().
+  /// By position: a direction by which the row spaces of T and Q differ, or in Dual()
+  /// the sum T' nu.
+  std::vector<double> direction_;
+  std::vector<double> probe_;  ///< By row: factors of sums of rows.
   std::vector<int> pivot_;  ///< By row of a later level: position of its pivot.
-  bool is_factored_ = false;  ///< Whether Solve() has factored these levels.
+  bool is_factored_ = false;  ///< Whether T, L and Q are those of Solve().
   std::int64_t multiply_adds_ = 0;
 };
 

@@ -22,41 +22,62 @@ using kernels::SquaredNorm;
 
 // Makes the row spaces of T and Q the same, if they differ in one direction at most on
 // either side. Returns false if that is not possible.
-bool DiagonalLevels::Follow(const LexicographicFactorization& leading) {
+bool DiagonalLevels::UpdateFactors(const LexicographicFactorization& leading) {
   for (int p = num_free_; p < n_; ++p) {
     if (!leading.variables().is_fixed(order_[p]) && !Release(p)) return false;
   }
   const int growth = leading.rank() - num_fixed() - rank_;
-  if (growth == 0 && !FindRemoved(leading)) return true;
+  if (growth == 0 && HasRowSpaceOf(leading)) return true;
   if (std::abs(growth) > 1 || !HasSquareLaterLevels()) return false;
   if (growth >= 0 && !(FindAdded(leading) && AppendDirection())) return false;
   if (growth <= 0 && !(FindRemoved(leading) && RemoveDirection())) return false;
-  return !FindRemoved(leading);
+  return HasRowSpaceOf(leading);
+}
+
+// Returns whether two sums of the rows of T, with the factors of probe_ and in reverse
+// order, are in the row space of Q. Of a difference by an angle a, one such sum shows
+// nothing with a probability of kSameRowSpace / a.
+bool DiagonalLevels::HasRowSpaceOf(const LexicographicFactorization& leading) {
+  for (const bool is_reversed : {false, true}) {
+    FindSumOfT(is_reversed);
+    if (SubtractProjectionOnQ(leading)) return false;
+  }
+  return true;
 }
 
 // Finds direction_, a unit vector in the row space of Q and orthogonal to that of T.
-// Returns false if there is none. A sum of all rows of Q, with factors that are all
-// different, is only by chance in the row space of T if one of them is not.
+// Returns false if there is none. If a row of Q is not in the row space of T, then
+// neither is the sum of all rows with factors that are all different, except by chance.
 bool DiagonalLevels::FindAdded(const LexicographicFactorization& leading) {
   Start(leading, probe_.data());
   std::copy_n(start_.begin(), num_free_, direction_.begin());
-  std::fill(direction_.begin() + num_free_, direction_.end(), 0);
-  return Normalize() && TakeOutTied() && TakeOutTied();
+  return Normalize() && SubtractProjectionOnT() && SubtractProjectionOnT();
 }
 
-// FindAdded() with T and Q exchanged. AppendDirection() has made the sum of the rows of
-// Q a vector of both row spaces. T may contain almost the same rows, so that a sum with
-// the same factors would show nothing. Here their signs alternate.
+// Finds direction_, a unit vector in the row space of T and orthogonal to that of Q.
+// Returns false if there is none.
 bool DiagonalLevels::FindRemoved(const LexicographicFactorization& leading) {
-  for (int i = 0; i < rank_; ++i) z_[i] = i % 2 == 0 ? probe_[i] : -probe_[i];
+  FindSumOfT(false);
+  return SubtractProjectionOnQ(leading) && SubtractProjectionOnQ(leading);
+}
+
+// Computes direction_ as a sum of the rows of T, of unit length. The signs of the factors
+// alternate: T may have rows of Q, and FindAdded() has put the sum of the rows of Q into
+// both row spaces.
+void DiagonalLevels::FindSumOfT(bool is_reversed) {
+  for (int i = 0; i < rank_; ++i) {
+    const double factor = probe_[is_reversed ? n_ - 1 - i : i];
+    z_[i] = i % 2 == 0 ? factor : -factor;
+  }
   std::fill(direction_.begin(), direction_.end(), 0);
   AddRows(t_.data(), stride_, rank_, z_.data(), num_free_, direction_.data());
   Count(rank_, num_free_);
-  return Normalize() && TakeOutLeading(leading) && TakeOutLeading(leading);
+  Normalize();
 }
 
-// Subtracts the projection on the rows of T from direction_.
-bool DiagonalLevels::TakeOutTied() {
+// Subtracts the projection on the rows of T from direction_, and divides it by its
+// length. Returns false if this is rounding.
+bool DiagonalLevels::SubtractProjectionOnT() {
   Dots(t_.data(), stride_, rank_, direction_.data(), num_free_, z_.data());
   for (int i = 0; i < rank_; ++i) z_[i] = -z_[i];
   AddRows(t_.data(), stride_, rank_, z_.data(), num_free_, direction_.data());
@@ -64,8 +85,9 @@ bool DiagonalLevels::TakeOutTied() {
   return Normalize();
 }
 
-// Subtracts the projection on the rows of Q from direction_.
-bool DiagonalLevels::TakeOutLeading(const LexicographicFactorization& leading) {
+// The same for the rows of Q.
+bool DiagonalLevels::SubtractProjectionOnQ(
+    const LexicographicFactorization& leading) {
   Project(leading, direction_.data(), z_.data());
   Start(leading, z_.data());
   for (int p = 0; p < num_free_; ++p) direction_[p] -= start_[p];
@@ -80,9 +102,11 @@ bool DiagonalLevels::Normalize() {
   return true;
 }
 
-// Gives a variable that was fixed a column, and a row of its own. The row is removed
-// afterwards, if it is not a row of Q any more. In the first level, whose columns come
-// last, one column of the usual weight moves at most.
+// Adds a column and a unit row for a variable that is no longer fixed. If its unit
+// vector is not in the row space of Q, UpdateFactors() removes a direction afterwards.
+// Returns false if the variable is not of the first level, whose columns come last. A
+// variable of unusual weight takes the place of the first one of the usual weight, which
+// moves to the end.
 bool DiagonalLevels::Release(int p) {
   Block& first = blocks_[0];
   const int variable = order_[p];
@@ -155,16 +179,17 @@ bool DiagonalLevels::AppendDirection() {
   return IsSquare() || FactorRow(0, rank_ - 1) >= tolerances::kIndependentPart;
 }
 
-// Removes direction_, which is in the row space of T. With u = T direction, rotations
-// move all entries of u on T_00 into its last row. This row takes the place of the last
-// one of the later levels, and so on, until only direction_ is left.
+// Removes direction_, which is in the row space of T. With u = T direction, rotations of
+// neighbouring rows of T_00 make u zero but in the last of these rows. Rotations with the
+// rows of the later levels, from the last to the first, then make this row direction_
+// itself, and it is dropped.
 bool DiagonalLevels::RemoveDirection() {
   Block& first = blocks_[0];
-  if (first.row_begin == first.row_end) return false;
+  // Without freedom, T_00 has no factors that could be updated.
+  if (first.row_begin == first.row_end || IsSquare()) return false;
   double* u = z_.data();
   Dots(t_.data(), stride_, rank_, direction_.data(), num_free_, u);
   Count(rank_, num_free_);
-  const bool was_square = IsSquare();
   for (int row = first.row_begin; row + 1 < rank_; ++row) {
     const double length = std::hypot(u[row], u[row + 1]);
     if (length == 0) continue;
@@ -173,7 +198,7 @@ bool DiagonalLevels::RemoveDirection() {
     double* t = &t_[Index(row)] + first.begin;
     Rotate(c, s, first.end - first.begin, t + stride_, t);
     Count(4, first.end - first.begin);
-    if (!was_square) RotateFactor(row, c, s);
+    RotateFactor(row, c, s);
   }
   --rank_;
   --first.row_end;
@@ -191,10 +216,7 @@ bool DiagonalLevels::RemoveDirection() {
   }
   Count(5 * first.row_begin, num_free_);
   usual_row_end_ = std::max(first.row_begin, usual_row_end_ - 1);
-  if (was_square) Separate();
-  for (int level = was_square ? 0 : 1; level < num_levels_; ++level) {
-    FactorLevel(level);
-  }
+  for (int level = 1; level < num_levels_; ++level) FactorLevel(level);
   return true;
 }
 

@@ -48,8 +48,9 @@ constexpr double kReorthogonalize = 0.5;
 
 /// Factorisation: least part of a new row that is independent of the others, if
 /// the row is to be appended by an update. An update then loses at most three
-/// digits; below that the level is factored anew. Chosen: ten times larger or
-/// smaller changes one count of 3000 by one, and the time.
+/// digits; below that the level is factored anew. Also for the diagonal levels: least
+/// part of a new row of T/d, and least pivot of T_cc after a row was removed. Chosen:
+/// ten times larger or smaller changes one count of 3000 by one, and the time.
 constexpr double kIndependentPart = 1e-3;
 
 /// Factorisation: a kept remainder above this is orthogonal to the merged
@@ -83,8 +84,9 @@ constexpr double kZeroEntry = 1e-15;
 /// sum of a hundred terms. Ten times smaller, one of 3000 hierarchies changes.
 constexpr double kZeroGradient = 1e-13;
 
-/// Diagonal levels: a unit vector whose remainder is below this lies in a row space. The
-/// value is the rounding of a sum of a hundred terms.
+/// Diagonal levels: a sum of rows, of unit length, whose remainder is below this lies in
+/// a row space. The value is the rounding of a sum of a hundred terms. One of 24 rows may
+/// then be outside by 1.5e-13. TRIAL
 constexpr double kSameRowSpace = 2e-14;
 
 /// Diagonal levels: squared weights of one level that differ by more than this
