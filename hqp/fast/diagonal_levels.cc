@@ -224,7 +224,6 @@ void DiagonalLevels::Start(const LexicographicFactorization& leading,
   std::fill_n(scratch_.begin(), free, 0);
   AddRows(leading.free_basis(), leading.stride(), leading.rank() - fixed,
           z + fixed, free, scratch_.data());
-  Count(leading.rank() - fixed, free);
   for (int p = 0; p < n_; ++p) {
     const int column = variables.column(order_[p]);
     start_[p] = column < free ? scratch_[column] : z[n_ - 1 - column];

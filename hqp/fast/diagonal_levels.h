@@ -95,7 +95,8 @@ class DiagonalLevels {
   int Nullity(int level) const;
 
   /// Multiply-adds of Tie(), Solve(), Correct() and Dual() since construction, but for
-  /// the solution of the factored levels.
+  /// what Solve() and Correct() do with known factors: that is part of the time of an
+  /// iteration (budget.h).
   std::int64_t multiply_adds() const { return multiply_adds_; }
 
  private:

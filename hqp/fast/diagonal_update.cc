@@ -50,6 +50,7 @@ bool DiagonalLevels::HasRowSpaceOf(const LexicographicFactorization& leading) {
 // neither is the sum of all rows with factors that are all different, except by chance.
 bool DiagonalLevels::FindAdded(const LexicographicFactorization& leading) {
   Start(leading, probe_.data());
+  Count(leading.rank(), num_free_);
   std::copy_n(start_.begin(), num_free_, direction_.begin());
   return Normalize() && SubtractProjectionOnT() && SubtractProjectionOnT();
 }
@@ -90,6 +91,7 @@ bool DiagonalLevels::SubtractProjectionOnQ(
     const LexicographicFactorization& leading) {
   Project(leading, direction_.data(), z_.data());
   Start(leading, z_.data());
+  Count(leading.rank(), num_free_);
   for (int p = 0; p < num_free_; ++p) direction_[p] -= start_[p];
   return Normalize();
 }
