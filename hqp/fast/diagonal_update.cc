@@ -35,9 +35,10 @@ bool DiagonalLevels::UpdateFactors(const LexicographicFactorization& leading) {
 }
 
 // Returns whether two sums of the rows of T, with the factors of probe_ and in reverse
-// order, are in the row space of Q. Of a difference by an angle a, one such sum shows
-// nothing with a probability of kSameRowSpace / a.
+// order, are in the row space of Q, which has the same rank. Of a difference by an angle
+// a, one such sum shows nothing with a probability of kSameRowSpace / a.
 bool DiagonalLevels::HasRowSpaceOf(const LexicographicFactorization& leading) {
+  if (rank_ == num_free_) return true;  // Both are the whole space.
   for (const bool is_reversed : {false, true}) {
     FindSumOfT(is_reversed);
     if (SubtractProjectionOnQ(leading)) return false;
@@ -86,7 +87,7 @@ bool DiagonalLevels::SubtractProjectionOnT() {
   return Normalize();
 }
 
-// The same for the rows of Q.
+// SubtractProjectionOnT() for the rows of Q.
 bool DiagonalLevels::SubtractProjectionOnQ(
     const LexicographicFactorization& leading) {
   Project(leading, direction_.data(), z_.data());
