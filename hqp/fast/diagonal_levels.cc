@@ -479,8 +479,8 @@ double DiagonalLevels::Dual(const LexicographicFactorization& leading,
   const Block& block = blocks_[level];
   if (block.size == 0) return 0;
   const int rows = block.row_end - block.row_begin;
-  double* sum =
-      direction_.data();  // T' nu, and the gradient on fixed variables.
+  // T' nu, and the gradient on fixed variables.
+  double* sum = direction_.data();
   std::fill_n(sum, n_, 0);
   AddRows(&t_[Index(block.row_begin)] + block.begin, stride_, rows,
           &nu_[block.row_begin], num_free_ - block.begin, sum + block.begin);

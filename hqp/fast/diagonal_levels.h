@@ -50,8 +50,8 @@ class DiagonalLevels {
   /// Target of a variable on that level.
   double target(int variable) const { return target_[variable]; }
 
-  /// Eliminates variables with the rows of the leading levels. Discards the factors. Nullity() needs
-  /// only this step.
+  /// Eliminates variables with the rows of the leading levels. Nullity() needs
+  /// only this step. Discards the factors.
   void Tie(const LexicographicFactorization& leading);
 
   /// Tie() for independent rows, `stride` apart, that need not be orthogonal.
@@ -66,6 +66,7 @@ class DiagonalLevels {
 
   /// Refines y by a correction dy with Q dy = `change`. If `to_minimum`, y + dy
   /// minimises the levels; else dy has minimum weighted norm, level by level.
+  /// pre: `leading` is as in the last Solve(). This holds for Dual() as well.
   void Correct(const LexicographicFactorization& leading, const double* change,
                bool to_minimum, double* y);
 
