@@ -28,8 +28,9 @@ class Certifier {
   /// is not certified, and infinite below it. It holds for all optima of the levels
   /// above that are no farther from y than 2 (|y| + largest distance from y = 0 of an
   /// equality or violated row, up to this level), if y meets these levels but for
-  /// rounding: multipliers at y stand for those at the optimum. It contains the rounding of the cost and of the gradient, and but
-  /// for this rounding, it never exceeds the cost. docs/hqp-gap.md derives it.
+  /// rounding: multipliers at y stand for those at the optimum. It contains the rounding
+  /// of the cost and of the gradient, and but for this rounding, it never exceeds the
+  /// cost. docs/hqp-gap.md derives it.
   double gap(int level) const { return gap_[static_cast<size_t>(level)]; }
 
   /// Upper limit of Certificate::worst() for an answer with status kOptimal.

@@ -356,7 +356,7 @@ double DiagonalLevels::FactorRow(int level, int row) {
   const int usual = level == 0 ? usual_row_end_ - block.row_begin : 0;
   const int from = level == 0 && RoundsUsual() ? 0 : usual;
   double* first = &q_[Index(block.row_begin + from)];
-  const size_t at = static_cast<size_t>(row) * stride_;
+  const size_t at = Index(row);
   double *q = &q_[at], *l = L(row);
   const double* t = &t_[at] + block.begin;
   std::fill_n(l, i + 1, 0);

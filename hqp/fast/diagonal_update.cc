@@ -46,9 +46,9 @@ bool DiagonalLevels::HasRowSpaceOf(const LexicographicFactorization& leading) {
   return true;
 }
 
-// Finds direction_, a unit vector in the row space of Q and orthogonal to that of T.
-// Returns false if there is none. If a row of Q is not in the row space of T, then
-// neither is the sum of all rows with factors that are all different, except by chance.
+// Finds direction_, a unit vector in the row space of Q and orthogonal to that of T, or
+// returns false if there is none. If a row of Q is not in the row space of T, neither is
+// the sum of all rows with factors that are all different, except by chance.
 bool DiagonalLevels::FindAdded(const LexicographicFactorization& leading) {
   Start(leading, probe_.data());
   Count(leading.rank(), num_free_);
@@ -56,8 +56,8 @@ bool DiagonalLevels::FindAdded(const LexicographicFactorization& leading) {
   return Normalize() && SubtractProjectionOnT() && SubtractProjectionOnT();
 }
 
-// Finds direction_, a unit vector in the row space of T and orthogonal to that of Q.
-// Returns false if there is none.
+// Finds direction_, a unit vector in the row space of T and orthogonal to that of Q, or
+// returns false if there is none.
 bool DiagonalLevels::FindRemoved(const LexicographicFactorization& leading) {
   FindSumOfT(false);
   return SubtractProjectionOnQ(leading) && SubtractProjectionOnQ(leading);

@@ -70,7 +70,7 @@ void Factor(const std::vector<LeadingRow>& rows,
 }
 
 // Returns random rows: rows of one variable, of all, and rows that depend on others,
-// exactly or nearly. A third of them is in use.
+// exactly or but for 1e-8, as rows of the two feet do. A third of them is in use.
 std::vector<LeadingRow> MakeRows(int n, int count, std::mt19937* random) {
   const auto below = [&](int bound) {
     return static_cast<int>((*random)() % static_cast<unsigned>(bound));
@@ -300,6 +300,7 @@ TEST_F(LargeDiagonalUpdateTest, FollowsAnIndependentRow) {
 
 TEST_F(LargeDiagonalUpdateTest, FollowsARowThatNearlyDependsOnOthers) {
   for (int i = 0; i < kNumRows; ++i) rows_.push_back(Random());
+  // Rows of the two feet are independent by 1e-8; the other part lies between.
   for (const double part : {1e-4, 1e-8}) {
     rows_.push_back(NearlyDependent(part));
     ExpectUpdate(kNumRows);
@@ -311,7 +312,6 @@ TEST_F(LargeDiagonalUpdateTest, FollowsARowThatNearlyDependsOnOthers) {
 TEST_F(LargeDiagonalUpdateTest, FollowsARowThatReplacesAnother) {
   for (int i = 0; i < kNumRows; ++i) rows_.push_back(Random());
   rows_.push_back(NearlyDependent(1e-8, 1));
-  const Eigen::VectorXd part = rows_.back().r;
   rows_.push_back(rows_.back());
   rows_.back().level = 0;
   // A remainder of 1e-12 counts as rounding: the rows are taken as dependent. But the
